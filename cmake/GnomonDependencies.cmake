@@ -1,0 +1,31 @@
+# Every package that Gnomon stands on, found in one place.
+find_package(VTK 9.1 REQUIRED COMPONENTS
+  CommonColor
+  CommonCore
+  CommonDataModel
+  CommonExecutionModel
+  CommonMath
+  CommonTransforms
+  FiltersCore
+  FiltersGeneral
+  FiltersModeling
+  FiltersSources
+  IOGeometry
+  IOImage
+  IOImport
+  IOPLY
+  IOXML
+  ImagingCore
+  InteractionStyle
+  RenderingCore
+  RenderingOpenGL2
+  ChartsCore
+  RenderingContext2D
+  RenderingContextOpenGL2
+  RenderingFreeType
+  ViewsContext2D
+  glew)
+find_package(glm REQUIRED)
+find_package(embree 3 REQUIRED)
+find_package(TBB REQUIRED)
+find_package(OpenGL REQUIRED COMPONENTS OpenGL EGL)

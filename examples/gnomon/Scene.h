@@ -1,0 +1,93 @@
+#ifndef gnomon_examples_gnomon_Scene_h
+#define gnomon_examples_gnomon_Scene_h
+
+#include <vtkPolyData.h>
+#include <vtkProperty.h>
+#include <vtkRenderer.h>
+#include <vtkSmartPointer.h>
+#include <vtkTexture.h>
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace gnomon::tool
+{
+
+using Vec3 = std::array<double, 3>;
+
+/// One surface of a scene.
+struct SceneModel
+{
+  std::string name;
+  vtkSmartPointer<vtkPolyData> surface;
+  /// World from model, row-major.
+  std::array<double, 16> matrix{ { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1 } };
+  vtkSmartPointer<vtkProperty> property; ///< how it looks; never null after loading
+  vtkSmartPointer<vtkTexture> texture;   ///< its colour, or null
+  bool casts = true;
+  bool receives = true;
+  bool oneSided = false;
+};
+
+/// One light of a scene, in world coordinates.
+struct SceneLight
+{
+  enum class Type
+  {
+    Directional,
+    Spot
+  };
+  Type type = Type::Directional;
+  Vec3 position{ { 0, 0, 1 } };
+  Vec3 target{ { 0, 0, 0 } }; ///< directional: target - position is the way the light travels
+  Vec3 color{ { 1, 1, 1 } };
+  double intensity = 1.0;
+  double coneAngleDegrees = 30.0; ///< half the cone of a spot light
+  std::string technique;          ///< empty: the pass decides
+  int mapSizeTexels = 0;          ///< 0: the pass decides
+};
+
+struct SceneCamera
+{
+  Vec3 position{ { 0, 0, 1 } };
+  Vec3 target{ { 0, 0, 0 } };
+  Vec3 up{ { 0, 1, 0 } };
+  double fovDegrees = 30.0; ///< full vertical angle
+};
+
+/// A scene as data: what a scene file, a model file or a built-in name leads to.
+struct Scene
+{
+  std::string name;
+  std::vector<SceneModel> models;
+  std::vector<SceneLight> lights;
+  SceneCamera camera;
+  Vec3 background{ { 1, 1, 1 } };
+};
+
+/// Reads a built-in scene's name, a scene file (.json) or a model file (.obj .ply .stl .vtp .3ds .glb
+/// .gltf). A model gets a camera and a light where its file has none.
+/// @throws BadInput
+Scene loadScene(const std::string& nameOrPath);
+
+/// Names and one-line summaries of the built-in scenes.
+struct BuiltinScene
+{
+  std::string name;
+  std::string summary;
+};
+std::vector<BuiltinScene> builtinScenes();
+
+/// Replaces a scene's lights or camera by what the command line says (SceneSpecs.cpp has the forms).
+/// @throws BadInput
+SceneLight parseLight(const std::string& spec);
+SceneCamera parseCamera(const std::string& spec, const SceneCamera& defaults);
+
+/// A renderer with the scene's actors, lights, camera (clipping range set) and background. Surfaces
+/// are shared with the scene and with other renderers made from it, mappers and actors are its own.
+vtkSmartPointer<vtkRenderer> makeRenderer(const Scene& scene);
+
+} // namespace gnomon::tool
+
+#endif

@@ -1,0 +1,53 @@
+#ifndef gnomon_lights_Bounds_h
+#define gnomon_lights_Bounds_h
+
+#include <glm/glm.hpp>
+
+#include <array>
+#include <limits>
+
+namespace gnomon
+{
+
+/// An axis-aligned box. It is empty until a point is added; an empty box has lower > upper.
+struct Bounds
+{
+  glm::dvec3 lower{ std::numeric_limits<double>::infinity() };
+  glm::dvec3 upper{ -std::numeric_limits<double>::infinity() };
+
+  bool empty() const
+  {
+    return !(this->lower.x <= this->upper.x && this->lower.y <= this->upper.y &&
+      this->lower.z <= this->upper.z);
+  }
+  void add(const glm::dvec3& point)
+  {
+    this->lower = glm::min(this->lower, point);
+    this->upper = glm::max(this->upper, point);
+  }
+  void add(const Bounds& other)
+  {
+    this->lower = glm::min(this->lower, other.lower);
+    this->upper = glm::max(this->upper, other.upper);
+  }
+  glm::dvec3 centre() const { return 0.5 * (this->lower + this->upper); }
+  /// Half the diagonal: the radius of the sphere around the box. 0 for an empty box.
+  double radius() const
+  {
+    return this->empty() ? 0.0 : 0.5 * glm::length(this->upper - this->lower);
+  }
+  std::array<glm::dvec3, 8> corners() const
+  {
+    std::array<glm::dvec3, 8> result;
+    for (int i = 0; i < 8; ++i)
+    {
+      result[static_cast<std::size_t>(i)] = { (i & 1) ? this->upper.x : this->lower.x,
+        (i & 2) ? this->upper.y : this->lower.y, (i & 4) ? this->upper.z : this->lower.z };
+    }
+    return result;
+  }
+};
+
+} // namespace gnomon
+
+#endif

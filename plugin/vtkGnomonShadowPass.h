@@ -1,0 +1,165 @@
+/**
+ * @class   vtkGnomonShadowPass
+ * @brief   draws a renderer's scene with shadows, by a choice of techniques
+ *
+ * @code
+ * vtkNew<vtkGnomonShadowPass> shadows;
+ * renderer->SetPass(shadows);
+ * @endcode
+ *
+ * The pass multiplies each light's colour by its visibility, a number in [0, 1] per point, while VTK
+ * shades; materials, ambient light and everything else stay VTK's. A frame is: lights, occluders,
+ * receivers, maps, visibility, shading (docs/architecture.md).
+ *
+ * Lights are the renderer's vtkLights. What one of them asks for is said with vtkGnomonLightKeys,
+ * what one prop does (casts, receives, one-sided) with vtkGnomonPropKeys. Opaque surfaces of
+ * vtkPolyDataMapper, vtkCompositePolyDataMapper2 and assemblies of them cast and receive;
+ * translucent, volumetric and overlay props are drawn as VTK draws them.
+ *
+ * The pass steps aside for hardware selection, and draws the scene as plain VTK does, without a map
+ * or a ray, when no light casts. It leaves the OpenGL state as it found it. OpenGL below 4.3 is an
+ * error (vtkErrorMacro), and the scene is drawn without shadows.
+ */
+
+#ifndef vtkGnomonShadowPass_h
+#define vtkGnomonShadowPass_h
+
+#include "GnomonPluginModule.h" // For export macro
+#include "vtkOpenGLRenderPass.h"
+
+#include <memory> // For std::unique_ptr
+
+namespace gnomon
+{
+struct FrameReport;
+struct VisibilityImages;
+}
+
+class GNOMONPLUGIN_EXPORT vtkGnomonShadowPass : public vtkOpenGLRenderPass
+{
+public:
+  static vtkGnomonShadowPass* New();
+  vtkTypeMacro(vtkGnomonShadowPass, vtkOpenGLRenderPass);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /**
+   * Draw the renderer's props with shadows into the current framebuffer.
+   */
+  void Render(const vtkRenderState* s) override;
+
+  ///@{
+  /**
+   * The technique of lights that name none: "nsm", "raytraced" (see GetTechniqueNames). An unknown
+   * name is an error and changes nothing. Default: GetDefaultTechnique().
+   */
+  virtual void SetTechnique(const char* name);
+  const char* GetTechnique() const;
+  ///@}
+
+  /**
+   * The technique that a new pass starts with.
+   */
+  static const char* GetDefaultTechnique();
+
+  ///@{
+  /**
+   * All techniques, by number in [0, GetNumberOfTechniques()).
+   */
+  static int GetNumberOfTechniques();
+  static const char* GetTechniqueName(int index);
+  static const char* GetTechniqueSummary(int index);
+  ///@}
+
+  ///@{
+  /**
+   * Side of the maps of lights that name none, in texels; clamped to [16, 16384]. Default 1024.
+   */
+  vtkSetClampMacro(MapSize, int, 16, 16384);
+  vtkGetMacro(MapSize, int);
+  ///@}
+
+  /**
+   * How visibility reaches the shader. INLINE: VTK's fragment shader computes it; only pointwise
+   * techniques can. IMAGE: it is computed for all pixels beforehand, from a prepass. AUTO: the
+   * cheaper one that every light's technique can.
+   */
+  enum RouteType
+  {
+    ROUTE_AUTO = 0,
+    ROUTE_INLINE = 1,
+    ROUTE_IMAGE = 2
+  };
+
+  ///@{
+  /**
+   * The route to take. Asking for INLINE with a technique that works on the screen is an error; the
+   * frame then takes the image route. Default ROUTE_AUTO.
+   */
+  vtkSetClampMacro(Route, int, ROUTE_AUTO, ROUTE_IMAGE);
+  vtkGetMacro(Route, int);
+  ///@}
+
+  ///@{
+  /**
+   * Measure the stages of a frame: each then ends with glFinish, so that its time is its own; that
+   * makes frames slower. Default off.
+   */
+  vtkSetMacro(MeasureStages, bool);
+  vtkGetMacro(MeasureStages, bool);
+  vtkBooleanMacro(MeasureStages, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Keep the visibility of every light and the receivers of the next frames for GetVisibility(). It
+   * takes the image route and reads images back. Default off.
+   */
+  vtkSetMacro(KeepVisibility, bool);
+  vtkGetMacro(KeepVisibility, bool);
+  vtkBooleanMacro(KeepVisibility, bool);
+  ///@}
+
+  /**
+   * What the last frame did: lights and reasons, route, counters, times, memory (FrameReport.h).
+   */
+  const gnomon::FrameReport& GetReport() const;
+
+  /**
+   * The last frame's visibility and receivers (VisibilityImages.h); empty unless KeepVisibility was
+   * on while it was drawn.
+   */
+  const gnomon::VisibilityImages& GetVisibility() const;
+
+  void ReleaseGraphicsResources(vtkWindow* window) override;
+
+  ///@{
+  /**
+   * The hook into VTK's shaders; called by mappers.
+   */
+  bool PreReplaceShaderValues(std::string& vertexShader, std::string& geometryShader,
+    std::string& fragmentShader, vtkAbstractMapper* mapper, vtkProp* prop) override;
+  bool PostReplaceShaderValues(std::string& vertexShader, std::string& geometryShader,
+    std::string& fragmentShader, vtkAbstractMapper* mapper, vtkProp* prop) override;
+  bool SetShaderParameters(vtkShaderProgram* program, vtkAbstractMapper* mapper, vtkProp* prop,
+    vtkOpenGLVertexArrayObject* vao = nullptr) override;
+  vtkMTimeType GetShaderStageMTime() override;
+  ///@}
+
+protected:
+  vtkGnomonShadowPass();
+  ~vtkGnomonShadowPass() override;
+
+  int MapSize;
+  int Route;
+  bool MeasureStages;
+  bool KeepVisibility;
+
+private:
+  vtkGnomonShadowPass(const vtkGnomonShadowPass&) = delete;
+  void operator=(const vtkGnomonShadowPass&) = delete;
+
+  struct Internals;
+  std::unique_ptr<Internals> Internal;
+};
+
+#endif

@@ -1,0 +1,16 @@
+#ifndef gnomon_shadowtech_base_EmbeddedShaders_h
+#define gnomon_shadowtech_base_EmbeddedShaders_h
+
+#include <map>
+#include <string>
+
+namespace gnomon
+{
+
+/// The project's .glsl files as they were when it was built, by path from the project's root, e.g.
+/// "shadowtech/nsm/nsm_visibility.glsl". The definition is generated (cmake/GnomonEmbedGlsl.cmake).
+const std::map<std::string, std::string>& embeddedShaders();
+
+} // namespace gnomon
+
+#endif

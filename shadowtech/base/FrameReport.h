@@ -1,0 +1,62 @@
+#ifndef gnomon_shadowtech_base_FrameReport_h
+#define gnomon_shadowtech_base_FrameReport_h
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace gnomon
+{
+
+/// The time that one stage of a frame took.
+struct StageTime
+{
+  std::string name; ///< lights, occluders, receivers, maps, visibility, shading, or "stage: part"
+  double milliseconds = 0.0;
+};
+
+/// What became of one light.
+struct LightReport
+{
+  int sceneIndex = 0;     ///< place in the renderer's light collection
+  bool casts = false;     ///< false: skipped, and `reason` says why
+  std::string reason;     ///< why it was skipped; empty when it casts
+  std::string technique;  ///< the technique that shades it
+  int mapSizeTexels = 0;  ///< side of its map; 0 when it needs none
+  std::int64_t tracedPixels = 0; ///< pixels decided by a ray
+};
+
+/// What one frame did, for people and for tests. Counters count this frame only.
+struct FrameReport
+{
+  std::string route;       ///< "inline", "image" or "none" (no light casts: plain VTK)
+  std::string routeReason; ///< why this route, as a clause
+  std::vector<LightReport> lights;
+  std::vector<std::string> notes; ///< limits that this frame ran into, each a sentence
+
+  /// Filled when stages are measured; each stage then ends with glFinish, which costs time of its
+  /// own. Without it `stages` is empty and only wallMilliseconds counts.
+  std::vector<StageTime> stages;
+  double wallMilliseconds = 0.0; ///< the whole pass, as seen by the caller
+
+  int mapBakes = 0;             ///< maps drawn
+  int programCompiles = 0;      ///< shader programs compiled, VTK's with the hook included
+  int bvhBuilds = 0;            ///< acceleration structures built
+  int bvhRefits = 0;            ///< acceleration structures refitted
+  int surfacesExtracted = 0;    ///< mapper inputs read into the snapshot
+  int surfacesRetransformed = 0;///< surfaces whose world positions were computed again
+
+  std::size_t triangles = 0;          ///< in the snapshot
+  std::size_t droppedNonFinite = 0;   ///< triangles left out: a vertex is not finite
+  std::size_t droppedZeroArea = 0;    ///< triangles left out: no area
+
+  std::size_t bytesOccluders = 0; ///< snapshot on the CPU and the GPU
+  std::size_t bytesBvh = 0;       ///< as Embree reports it
+  std::size_t bytesMaps = 0;
+  std::size_t bytesImages = 0;    ///< receivers and visibility
+};
+
+} // namespace gnomon
+
+#endif

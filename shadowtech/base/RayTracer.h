@@ -1,0 +1,56 @@
+#ifndef gnomon_shadowtech_base_RayTracer_h
+#define gnomon_shadowtech_base_RayTracer_h
+
+#include "lights/ShadowLight.h"
+#include "shadowtech/base/Occluders.h"
+#include "shadowtech/base/Receivers.h"
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+namespace gnomon
+{
+
+/// Shadow rays against the casting surfaces, by Embree in robust mode: the truth, and the one entry
+/// point for whoever traces.
+class RayTracer
+{
+public:
+  RayTracer();
+  ~RayTracer();
+  RayTracer(const RayTracer&) = delete;
+  RayTracer& operator=(const RayTracer&) = delete;
+
+  /// What an update did.
+  struct Update
+  {
+    int builds = 0; ///< surfaces whose structure was built
+    int refits = 0; ///< surfaces whose structure was refitted to moved vertices
+  };
+
+  /// Brings the acceleration structure up to date with the snapshot; does nothing when neither
+  /// topologyVersion nor positionsVersion changed. The snapshot's vertex and index arrays are shared,
+  /// not copied: they must stay where they are until the next update.
+  Update update(const Occluders& occluders);
+
+  /// Visibility of the light from every receiver, by the shadow ray of ShadowRay.h: 1 lit, 0 shadowed,
+  /// turned away from the light (N.L <= 0) or outside a spot light's cone. Pixels that are not
+  /// covered, or whose surface does not receive, get 1.
+  ///
+  /// @param visibility resized to the receivers' size, in their order
+  /// @return the number of rays traced
+  std::size_t trace(const ShadowLight& light, const Occluders& occluders,
+    const ReceiverPixels& receivers, std::vector<float>& visibility) const;
+
+  /// Memory that Embree holds for this tracer.
+  std::size_t bytes() const;
+
+private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+} // namespace gnomon
+
+#endif

@@ -1,0 +1,95 @@
+#ifndef gnomon_shadowtech_base_Receivers_h
+#define gnomon_shadowtech_base_Receivers_h
+
+#include <glm/glm.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace gnomon
+{
+
+struct Occluders;
+
+/// The points that a camera sees, one per pixel, on the CPU and ready for shadow rays.
+///
+/// Row 0 is the *bottom* row, as in OpenGL; pixel (x, y) is at y * width + x. One array per number,
+/// so that sixteen neighbours load as one vector.
+struct ReceiverPixels
+{
+  int width = 0;
+  int height = 0;
+
+  /// The receiver, centred (relative to Occluders::centreWorld) and projected onto the plane of its
+  /// triangle.
+  std::vector<float> positionX, positionY, positionZ;
+  /// The triangle's geometric normal, unit length, on the side that the camera sees.
+  std::vector<float> normalX, normalY, normalZ;
+  /// How far the shadow ray starts off the surface, along the normal (ShadowRay.h); 0 where nothing
+  /// is covered.
+  std::vector<float> offset;
+  /// Occluders::surfaces index; `notCovered` where the camera sees no surface of the snapshot.
+  std::vector<std::uint32_t> surface;
+
+  static constexpr std::uint32_t notCovered = 0xffffffffu;
+
+  std::size_t size() const
+  {
+    return static_cast<std::size_t>(this->width) * static_cast<std::size_t>(this->height);
+  }
+  void resize(int newWidth, int newHeight)
+  {
+    this->width = newWidth;
+    this->height = newHeight;
+    for (std::vector<float>* plane : { &this->positionX, &this->positionY, &this->positionZ,
+           &this->normalX, &this->normalY, &this->normalZ, &this->offset })
+    {
+      plane->resize(this->size());
+    }
+    this->surface.resize(this->size());
+  }
+};
+
+/// What the receivers stage reads back from its attachments: the raw form of ReceiverPixels, as VTK
+/// drew it.
+struct ReceiverImages
+{
+  int width = 0;
+  int height = 0;
+  /// xyz: view coordinates of the fragment; w: VTK's primitive number, as the drawn surface counts
+  /// them (the collector resolves it to a triangle).
+  std::vector<glm::vec4> positionView;
+  /// xyz: geometric normal in view coordinates, facing the camera; w: drawn surface + 1, 0 where
+  /// nothing was drawn.
+  std::vector<glm::vec4> normalView;
+  /// View to centred coordinates (rigid).
+  glm::dmat4 centredFromView{ 1.0 };
+  /// A pixel's side at unit distance (perspective), or everywhere (parallel projection).
+  double pixelSize = 0.0;
+  bool parallelProjection = false;
+};
+
+/// How the fragments of one drawn surface find the snapshot. VTK draws a surface per mapper (or mapper
+/// helper) and prop; composite helpers draw several blocks with one program and number the primitives
+/// through them.
+struct DrawnSurface
+{
+  struct Block
+  {
+    std::uint32_t firstPrimitive = 0; ///< VTK's number of the block's first triangle
+    std::uint32_t primitiveCount = 0;
+    std::uint32_t surface = 0; ///< Occluders::surfaces index
+  };
+  std::vector<Block> blocks; ///< in order of firstPrimitive
+};
+
+/// Turns what the receivers stage read back into receivers: centred, projected onto the planes of
+/// their triangles, with geometric normals and shadow ray offsets. Pixels whose triangle cannot be
+/// found count as not covered.
+void projectReceivers(const ReceiverImages& images, const std::vector<DrawnSurface>& drawnSurfaces,
+  const Occluders& occluders, ReceiverPixels& receivers);
+
+} // namespace gnomon
+
+#endif

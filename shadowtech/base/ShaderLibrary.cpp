@@ -1,0 +1,181 @@
+#include "shadowtech/base/ShaderLibrary.h"
+
+#include "shadowtech/base/EmbeddedShaders.h"
+
+#include <glm/gtc/type_ptr.hpp>
+
+#include <regex>
+#include <sstream>
+
+namespace gnomon
+{
+namespace
+{
+
+void appendWithIncludes(const std::string& path, std::set<std::string>& seen, std::string& text)
+{
+  if (!seen.insert(path).second)
+  {
+    return;
+  }
+  const auto found = embeddedShaders().find(path);
+  if (found == embeddedShaders().end())
+  {
+    throw ShaderError("no such shader source: " + path);
+  }
+  static const std::regex include("^\\s*#include\\s+\"([^\"]+)\"\\s*$");
+  std::istringstream lines(found->second);
+  for (std::string line; std::getline(lines, line);)
+  {
+    std::smatch match;
+    if (std::regex_match(line, match, include))
+    {
+      appendWithIncludes(match[1], seen, text);
+    }
+    else
+    {
+      text += line + '\n';
+    }
+  }
+}
+
+std::string infoLog(GLuint object, bool isProgram)
+{
+  GLint length = 0;
+  isProgram ? glGetProgramiv(object, GL_INFO_LOG_LENGTH, &length)
+            : glGetShaderiv(object, GL_INFO_LOG_LENGTH, &length);
+  std::string log(static_cast<std::size_t>(length > 0 ? length : 0), '\0');
+  if (length > 0)
+  {
+    isProgram ? glGetProgramInfoLog(object, length, nullptr, log.data())
+              : glGetShaderInfoLog(object, length, nullptr, log.data());
+  }
+  return log;
+}
+
+/// A compiled shader; deleted when it goes out of scope, which is after linking.
+class Shader
+{
+public:
+  Shader(GLenum type, const std::string& source)
+    : name(glCreateShader(type))
+  {
+    const char* text = source.c_str();
+    glShaderSource(this->name, 1, &text, nullptr);
+    glCompileShader(this->name);
+    GLint compiled = 0;
+    glGetShaderiv(this->name, GL_COMPILE_STATUS, &compiled);
+    if (!compiled)
+    {
+      const std::string log = infoLog(this->name, false);
+      glDeleteShader(this->name);
+      throw ShaderError("a shader does not compile:\n" + log + "\n" + source);
+    }
+  }
+  Shader(const Shader&) = delete;
+  Shader& operator=(const Shader&) = delete;
+  ~Shader() { glDeleteShader(this->name); }
+
+  const GLuint name;
+};
+
+} // namespace
+
+//------------------------------------------------------------------------------
+std::string ShaderLibrary::source(const std::string& path)
+{
+  std::set<std::string> seen;
+  std::string text;
+  appendWithIncludes(path, seen, text);
+  return text;
+}
+
+//------------------------------------------------------------------------------
+std::string ShaderLibrary::sourceForLight(const std::string& path, int light)
+{
+  return numberedForLight(source(path), light);
+}
+
+//------------------------------------------------------------------------------
+std::string numberedForLight(const std::string& text, int light)
+{
+  static const std::regex suffix("_LIGHT\\b");
+  return std::regex_replace(text, suffix, "_" + std::to_string(light));
+}
+
+//------------------------------------------------------------------------------
+GLuint ShaderLibrary::program(
+  const std::vector<Stage>& stages, const std::vector<std::string>& defines)
+{
+  std::string header = "#version 430 core\n";
+  for (const std::string& define : defines)
+  {
+    header += "#define " + define + "\n";
+  }
+  std::string key = header;
+  for (const Stage& stage : stages)
+  {
+    key += std::to_string(stage.type) + "\n" + stage.source;
+  }
+  GlProgram& program = this->programs_[key];
+  if (program)
+  {
+    return program.name();
+  }
+
+  GlProgram built;
+  built.create();
+  std::vector<std::unique_ptr<Shader>> shaders;
+  for (const Stage& stage : stages)
+  {
+    shaders.push_back(std::make_unique<Shader>(stage.type, header + stage.source));
+    glAttachShader(built.name(), shaders.back()->name);
+  }
+  glLinkProgram(built.name());
+  for (const auto& shader : shaders)
+  {
+    glDetachShader(built.name(), shader->name);
+  }
+  GLint linked = 0;
+  glGetProgramiv(built.name(), GL_LINK_STATUS, &linked);
+  if (!linked)
+  {
+    throw ShaderError("a program does not link:\n" + infoLog(built.name(), true));
+  }
+  ++this->compiles_;
+  program = std::move(built);
+  return program.name();
+}
+
+//------------------------------------------------------------------------------
+void ShaderLibrary::setUniform(GLuint program, const Uniform& uniform, int& nextUnit)
+{
+  const GLint location = glGetUniformLocation(program, uniform.name.c_str());
+  if (location < 0)
+  {
+    return;
+  }
+  struct Setter
+  {
+    GLint location;
+    int& nextUnit;
+    void operator()(int v) const { glUniform1i(location, v); }
+    void operator()(float v) const { glUniform1f(location, v); }
+    void operator()(const glm::vec2& v) const { glUniform2fv(location, 1, glm::value_ptr(v)); }
+    void operator()(const glm::vec3& v) const { glUniform3fv(location, 1, glm::value_ptr(v)); }
+    void operator()(const glm::vec4& v) const { glUniform4fv(location, 1, glm::value_ptr(v)); }
+    void operator()(const glm::mat4& v) const
+    {
+      glUniformMatrix4fv(location, 1, GL_FALSE, glm::value_ptr(v));
+    }
+    void operator()(const TextureBinding& v) const
+    {
+      glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(nextUnit));
+      glBindTexture(v.target, v.texture);
+      glUniform1i(location, nextUnit++);
+    }
+  };
+  std::visit(Setter{ location, nextUnit }, uniform.value);
+}
+
+} // namespace gnomon

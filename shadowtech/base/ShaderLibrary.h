@@ -1,0 +1,63 @@
+#ifndef gnomon_shadowtech_base_ShaderLibrary_h
+#define gnomon_shadowtech_base_ShaderLibrary_h
+
+#include "shadowtech/base/Gl.h"
+#include "shadowtech/base/Technique.h"
+
+#include <map>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace gnomon
+{
+
+/// A shader that does not compile, does not link, or is not there. The message names it.
+class ShaderError : public std::runtime_error
+{
+public:
+  using std::runtime_error::runtime_error;
+};
+
+/// GLSL sources by name, their includes and variants, and the programs built from them.
+class ShaderLibrary
+{
+public:
+  /// The text of an embedded file with its `#include "path"` lines (paths from the project's root)
+  /// replaced by the files they name, each at most once.
+  /// @throws ShaderError for a file that is not embedded
+  static std::string source(const std::string& path);
+
+  /// The same text with every identifier that ends in _LIGHT numbered: `map_LIGHT` becomes `map_3`.
+  static std::string sourceForLight(const std::string& path, int light);
+
+  /// What a program is made of.
+  struct Stage
+  {
+    GLenum type;        ///< GL_VERTEX_SHADER, ...
+    std::string source; ///< complete but for `#version` and the defines
+  };
+
+  /// The program of these stages and defines ("NAME" or "NAME value"), compiled on first use.
+  /// @throws ShaderError with the compiler's log
+  GLuint program(const std::vector<Stage>& stages, const std::vector<std::string>& defines = {});
+
+  /// Sets a uniform of the program in use; texture units count up from `nextUnit`. Names that the
+  /// program does not use are ignored.
+  static void setUniform(GLuint program, const Uniform& uniform, int& nextUnit);
+
+  /// Programs compiled so far.
+  int compiles() const { return this->compiles_; }
+
+private:
+  std::map<std::string, GlProgram> programs_;
+  int compiles_ = 0;
+};
+
+/// `name_LIGHT` with the light's number in place of LIGHT.
+std::string numberedForLight(const std::string& text, int light);
+
+} // namespace gnomon
+
+#endif

@@ -1,0 +1,99 @@
+#ifndef gnomon_shadowtech_base_Technique_h
+#define gnomon_shadowtech_base_Technique_h
+
+#include "lights/LightView.h"
+#include "lights/ShadowLight.h"
+#include "shadowtech/base/FrameReport.h"
+#include "shadowtech/base/Gl.h"
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace gnomon
+{
+
+struct Occluders;
+struct ReceiverPixels;
+class OccluderBuffers;
+class RayTracer;
+class ShaderLibrary;
+
+/// What a technique is, before any instance of it exists: one line of the registry.
+struct TechniqueInfo
+{
+  std::string name;
+  std::string summary;      ///< one line for people
+  bool pointwise = false;   ///< visibility is a function of the point: serves both routes
+  bool exact = false;       ///< equals the ray-traced visibility bit for bit
+  bool needsMap = false;    ///< bakes something from the light
+};
+
+/// A texture for a shader's sampler.
+struct TextureBinding
+{
+  GLenum target = 0;
+  GLuint texture = 0;
+};
+
+/// A uniform's name (as in the GLSL file, with its _LIGHT suffix) and value.
+struct Uniform
+{
+  std::string name;
+  std::variant<int, float, glm::vec2, glm::vec3, glm::vec4, glm::mat4, TextureBinding> value;
+};
+
+/// What a technique gets to draw its maps from.
+struct MapInput
+{
+  const ShadowLight& light;
+  const LightView& view;
+  const Occluders& occluders;
+  OccluderBuffers& buffers;
+  ShaderLibrary& shaders;
+};
+
+/// What a screen technique gets to compute one light's visibility image from.
+struct ScreenInput
+{
+  const ShadowLight& light;
+  const Occluders& occluders;
+  const ReceiverPixels& receivers;
+  RayTracer& tracer; ///< its structure is up to date with the occluders
+};
+
+/// One way to compute visibility, for one light. The render manager makes one per casting light from
+/// the registry and keeps it while the light keeps its technique.
+///
+/// A *pointwise* technique gives GLSL: a file that defines
+///     float visibility_LIGHT(vec3 positionCentred, vec3 normalCentred)
+/// in GLSL 1.50 and its uniforms. Every identifier that ends in _LIGHT is numbered per light. Both
+/// routes call that function: VTK's own shaders (inline) or a full-screen pass (image).
+///
+/// A *screen* technique works on the receivers of all pixels at once, on the CPU.
+class Technique
+{
+public:
+  virtual ~Technique() = default;
+
+  /// Draws the light's maps. Called only when they are stale.
+  virtual void bake(const MapInput&) {}
+  /// Memory that the baked maps take on the GPU.
+  virtual std::size_t bytesOfMaps() const { return 0; }
+
+  /// Path of the GLSL file of a pointwise technique; empty for a screen technique.
+  virtual std::string visibilityGlsl() const { return {}; }
+  /// The uniforms of that file, as of the last bake.
+  virtual std::vector<Uniform> uniforms() const { return {}; }
+
+  /// Computes a screen technique's visibility, one float in [0, 1] per pixel of the receivers.
+  virtual void computeVisibility(const ScreenInput&, std::vector<float>&, LightReport&) {}
+};
+
+} // namespace gnomon
+
+#endif

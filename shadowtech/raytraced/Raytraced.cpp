@@ -1,0 +1,26 @@
+#include "shadowtech/raytraced/Raytraced.h"
+
+#include "shadowtech/base/RayTracer.h"
+
+namespace gnomon
+{
+
+//------------------------------------------------------------------------------
+TechniqueInfo Raytraced::info()
+{
+  TechniqueInfo info;
+  info.name = "raytraced";
+  info.summary = "hard, exact: one shadow ray per pixel; the truth";
+  info.exact = true;
+  return info;
+}
+
+//------------------------------------------------------------------------------
+void Raytraced::computeVisibility(
+  const ScreenInput& input, std::vector<float>& visibility, LightReport& report)
+{
+  report.tracedPixels = static_cast<std::int64_t>(
+    input.tracer.trace(input.light, input.occluders, input.receivers, visibility));
+}
+
+} // namespace gnomon

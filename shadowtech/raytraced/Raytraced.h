@@ -1,0 +1,20 @@
+#ifndef gnomon_shadowtech_raytraced_Raytraced_h
+#define gnomon_shadowtech_raytraced_Raytraced_h
+
+#include "shadowtech/base/Technique.h"
+
+namespace gnomon
+{
+
+/// `raytraced`: every pixel by one shadow ray. The truth that the other techniques are measured by.
+class Raytraced : public Technique
+{
+public:
+  static TechniqueInfo info();
+  void computeVisibility(
+    const ScreenInput& input, std::vector<float>& visibility, LightReport& report) override;
+};
+
+} // namespace gnomon
+
+#endif
