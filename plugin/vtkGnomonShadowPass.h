@@ -29,6 +29,8 @@
 
 #include <memory> // For std::unique_ptr
 
+class vtkRenderer;
+
 namespace gnomon
 {
 struct FrameReport;
@@ -155,6 +157,10 @@ protected:
   bool KeepVisibility;
 
 private:
+  void RenderPlain(const vtkRenderState* s, const char* reason);
+  void DrawOpaqueProps(const vtkRenderState* s);
+  bool PrepareContext(vtkRenderer* renderer);
+
   vtkGnomonShadowPass(const vtkGnomonShadowPass&) = delete;
   void operator=(const vtkGnomonShadowPass&) = delete;
 

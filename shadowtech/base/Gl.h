@@ -9,8 +9,20 @@
 namespace gnomon
 {
 
-/// Owns one GL name. Destroy it, or reset() it, while its context is current; when the context is
-/// already gone, release() forgets the name instead.
+/// While one of these is alive, GL names that go out of scope are forgotten instead of deleted: their
+/// context is gone, and the names may mean something else in the one that is current.
+class GlContextLost
+{
+public:
+  GlContextLost() { lost = true; }
+  ~GlContextLost() { lost = false; }
+  GlContextLost(const GlContextLost&) = delete;
+  GlContextLost& operator=(const GlContextLost&) = delete;
+
+  inline static thread_local bool lost = false;
+};
+
+/// Owns one GL name. Its context must be current when the name is created and when it is given back.
 template <typename Kind>
 class GlHandle
 {
@@ -46,10 +58,10 @@ public:
   explicit operator bool() const { return this->name_ != 0; }
   void reset()
   {
-    if (this->name_)
+    const GLuint name = this->release();
+    if (name && !GlContextLost::lost)
     {
-      Kind::destroy(this->name_);
-      this->name_ = 0;
+      Kind::destroy(name);
     }
   }
   GLuint release() { return std::exchange(this->name_, 0u); }

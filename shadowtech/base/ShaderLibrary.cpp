@@ -4,7 +4,9 @@
 
 #include <glm/gtc/type_ptr.hpp>
 
+#include <memory>
 #include <regex>
+#include <set>
 #include <sstream>
 
 namespace gnomon
@@ -148,7 +150,7 @@ GLuint ShaderLibrary::program(
 }
 
 //------------------------------------------------------------------------------
-void ShaderLibrary::setUniform(GLuint program, const Uniform& uniform, int& nextUnit)
+void ShaderLibrary::setUniform(GLuint program, const Uniform& uniform)
 {
   const GLint location = glGetUniformLocation(program, uniform.name.c_str());
   if (location < 0)
@@ -158,24 +160,40 @@ void ShaderLibrary::setUniform(GLuint program, const Uniform& uniform, int& next
   struct Setter
   {
     GLint location;
-    int& nextUnit;
     void operator()(int v) const { glUniform1i(location, v); }
     void operator()(float v) const { glUniform1f(location, v); }
-    void operator()(const glm::vec2& v) const { glUniform2fv(location, 1, glm::value_ptr(v)); }
+    void operator()(const glm::ivec2& v) const { glUniform2iv(location, 1, glm::value_ptr(v)); }
     void operator()(const glm::vec3& v) const { glUniform3fv(location, 1, glm::value_ptr(v)); }
     void operator()(const glm::vec4& v) const { glUniform4fv(location, 1, glm::value_ptr(v)); }
     void operator()(const glm::mat4& v) const
     {
       glUniformMatrix4fv(location, 1, GL_FALSE, glm::value_ptr(v));
     }
-    void operator()(const TextureBinding& v) const
+    void operator()(const TextureBinding&) const
     {
-      glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(nextUnit));
-      glBindTexture(v.target, v.texture);
-      glUniform1i(location, nextUnit++);
+      throw ShaderError("a texture was set as a uniform without a unit");
     }
   };
-  std::visit(Setter{ location, nextUnit }, uniform.value);
+  std::visit(Setter{ location }, uniform.value);
+}
+
+//------------------------------------------------------------------------------
+int ShaderLibrary::setUniforms(
+  GLuint program, const std::vector<Uniform>& uniforms, int light, int firstUnit)
+{
+  int unit = firstUnit;
+  for (Uniform uniform : uniforms)
+  {
+    uniform.name = numberedForLight(uniform.name, light);
+    if (const auto* texture = std::get_if<TextureBinding>(&uniform.value))
+    {
+      glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+      glBindTexture(texture->target, texture->texture);
+      uniform.value = unit++;
+    }
+    setUniform(program, uniform);
+  }
+  return unit;
 }
 
 } // namespace gnomon

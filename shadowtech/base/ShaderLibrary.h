@@ -5,7 +5,6 @@
 #include "shadowtech/base/Technique.h"
 
 #include <map>
-#include <set>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -36,16 +35,22 @@ public:
   struct Stage
   {
     GLenum type;        ///< GL_VERTEX_SHADER, ...
-    std::string source; ///< complete but for `#version` and the defines
+    std::string source; ///< complete but for the #version line and the defines
   };
 
   /// The program of these stages and defines ("NAME" or "NAME value"), compiled on first use.
   /// @throws ShaderError with the compiler's log
   GLuint program(const std::vector<Stage>& stages, const std::vector<std::string>& defines = {});
 
-  /// Sets a uniform of the program in use; texture units count up from `nextUnit`. Names that the
-  /// program does not use are ignored.
-  static void setUniform(GLuint program, const Uniform& uniform, int& nextUnit);
+  /// Sets a uniform of the program in use; names that it does not use are ignored. Textures are bound
+  /// to units by whoever owns those, and set as an int.
+  static void setUniform(GLuint program, const Uniform& uniform);
+
+  /// Binds the textures among `uniforms` to units from `firstUnit` on and sets them all; in their
+  /// names, _LIGHT stands for `light`.
+  /// @return the first unit that is still free
+  static int setUniforms(
+    GLuint program, const std::vector<Uniform>& uniforms, int light, int firstUnit);
 
   /// Programs compiled so far.
   int compiles() const { return this->compiles_; }

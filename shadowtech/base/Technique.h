@@ -44,7 +44,7 @@ struct TextureBinding
 struct Uniform
 {
   std::string name;
-  std::variant<int, float, glm::vec2, glm::vec3, glm::vec4, glm::mat4, TextureBinding> value;
+  std::variant<int, float, glm::ivec2, glm::vec3, glm::vec4, glm::mat4, TextureBinding> value;
 };
 
 /// What a technique gets to draw its maps from.
@@ -70,9 +70,10 @@ struct ScreenInput
 /// the registry and keeps it while the light keeps its technique.
 ///
 /// A *pointwise* technique gives GLSL: a file that defines
-///     float visibility_LIGHT(vec3 positionCentred, vec3 normalCentred)
-/// in GLSL 1.50 and its uniforms. Every identifier that ends in _LIGHT is numbered per light. Both
-/// routes call that function: VTK's own shaders (inline) or a full-screen pass (image).
+///     float visibility_LIGHT(vec3 positionView, vec3 normalView)
+/// in GLSL 1.50 and its uniforms. The normal is the geometric one on the camera's side, of any length.
+/// Every identifier that ends in _LIGHT is numbered per light. Both routes call that function: VTK's
+/// own shaders (inline) or a full-screen pass (image).
 ///
 /// A *screen* technique works on the receivers of all pixels at once, on the CPU.
 class Technique
@@ -87,8 +88,13 @@ public:
 
   /// Path of the GLSL file of a pointwise technique; empty for a screen technique.
   virtual std::string visibilityGlsl() const { return {}; }
-  /// The uniforms of that file, as of the last bake.
-  virtual std::vector<Uniform> uniforms() const { return {}; }
+  /// The uniforms of that file, as of the last bake, for receivers in the view coordinates of a camera.
+  /// @param centredFromView the camera's rigid transformation from view to centred coordinates
+  virtual std::vector<Uniform> uniforms(const glm::dmat4& centredFromView) const
+  {
+    static_cast<void>(centredFromView);
+    return {};
+  }
 
   /// Computes a screen technique's visibility, one float in [0, 1] per pixel of the receivers.
   virtual void computeVisibility(const ScreenInput&, std::vector<float>&, LightReport&) {}

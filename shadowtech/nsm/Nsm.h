@@ -6,7 +6,14 @@
 namespace gnomon
 {
 
-/// `nsm`: the plain shadow map. Uniform projection, one depth map, one comparison.
+/// `nsm`: the plain shadow map. Uniform projection, one map of linear depth, one comparison at the
+/// nearest texel.
+///
+/// No bias is tuned. The comparison follows the receiver's plane to the texel's centre
+/// (nsm_visibility.glsl), which frees planes and convex surfaces from shadowing themselves. What is
+/// left are concave corners: there the texel's centre may lie on a neighbour that rises towards the
+/// light. Up to the texel's border the neighbour's depth differs by at most half a texel of its own
+/// slope in either direction, so the map is pushed back by that much.
 class Nsm : public Technique
 {
 public:
@@ -15,15 +22,16 @@ public:
   void bake(const MapInput& input) override;
   std::size_t bytesOfMaps() const override;
   std::string visibilityGlsl() const override;
-  std::vector<Uniform> uniforms() const override;
+  std::vector<Uniform> uniforms(const glm::dmat4& centredFromView) const override;
 
 private:
+  void allocate(int sizeTexels);
+
   GlTexture map_;
   GlFramebuffer framebuffer_;
   int sizeTexels_ = 0;
-  LightView view_;
-  ShadowLight light_;
-  glm::dvec3 centreWorld_{ 0.0 };
+  ShadowLight light_; ///< as baked
+  LightView view_;    ///< as baked
 };
 
 } // namespace gnomon

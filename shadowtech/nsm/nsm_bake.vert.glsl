@@ -1,1 +1,19 @@
-// bake
+// Draws the casters into the map's depth buffer, as the light sees them.
+
+layout(location = 0) in vec3 positionCentred;
+
+uniform mat4 clipFromCentred;
+
+#ifdef PERSPECTIVE
+// Row of light space's z, scaled to the map's linear depth in [0, 1].
+uniform vec4 depthFromCentred;
+out float depthLinear;
+#endif
+
+void main()
+{
+  gl_Position = clipFromCentred * vec4(positionCentred, 1.0);
+#ifdef PERSPECTIVE
+  depthLinear = dot(depthFromCentred, vec4(positionCentred, 1.0));
+#endif
+}

@@ -1,0 +1,415 @@
+#include "plugin/RenderManager.h"
+
+#include "plugin/vtkGnomonPropKeys.h"
+#include "plugin/vtkGnomonShadowPass.h"
+#include "shadowtech/Registry.h"
+
+#include <vtkCamera.h>
+#include <vtkMath.h>
+#include <vtkMatrix4x4.h>
+#include <vtkOpenGLRenderWindow.h>
+#include <vtkOpenGLState.h>
+#include <vtkProp.h>
+#include <vtkRenderer.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace gnomon
+{
+namespace
+{
+
+using Clock = std::chrono::steady_clock;
+
+double millisecondsSince(Clock::time_point start)
+{
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+glm::dmat4 fromVtk(vtkMatrix4x4* matrix)
+{
+  glm::dmat4 result;
+  for (int row = 0; row < 4; ++row)
+  {
+    for (int column = 0; column < 4; ++column)
+    {
+      result[column][row] = matrix->GetElement(row, column);
+    }
+  }
+  return result;
+}
+
+template <typename Value>
+std::vector<Value> topRowFirst(const std::vector<Value>& image, int width, int height)
+{
+  std::vector<Value> flipped(image.size());
+  for (int y = 0; y < height; ++y)
+  {
+    const auto row = image.begin() + static_cast<std::ptrdiff_t>(y) * width;
+    std::copy(row, row + width,
+      flipped.begin() + static_cast<std::ptrdiff_t>(height - 1 - y) * width);
+  }
+  return flipped;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+void RenderManager::beginFrame(bool measureStages)
+{
+  this->report_ = FrameReport{};
+  this->visibility_ = VisibilityImages{};
+  this->measureStages_ = measureStages;
+  if (measureStages)
+  {
+    glFinish(); // what was pending before the frame is not the frame's
+  }
+  this->frameStart_ = this->stageStart_ = Clock::now();
+  this->compilesBefore_ = this->library_.compiles() + this->shaders_.rebuilds();
+}
+
+//------------------------------------------------------------------------------
+void RenderManager::endStageClock(const std::string& name)
+{
+  if (this->measureStages_)
+  {
+    glFinish();
+    this->report_.stages.push_back({ name, millisecondsSince(this->stageStart_) });
+    this->stageStart_ = Clock::now();
+  }
+}
+
+//------------------------------------------------------------------------------
+bool RenderManager::collectLights(vtkRenderer* renderer, const LightDefaults& defaults)
+{
+  const LightSet set = LightManager::collect(renderer, defaults);
+  for (const SkippedLight& skipped : set.skipped)
+  {
+    LightReport light;
+    light.sceneIndex = skipped.sceneIndex;
+    light.reason = skipped.reason;
+    this->report_.lights.push_back(light);
+  }
+
+  this->casting_.clear();
+  std::map<int, LightSlot> slots;
+  for (const ShadowLight& light : set.casting)
+  {
+    const RegistryEntry* entry = findTechnique(light.technique);
+    if (!entry)
+    {
+      throw FrameError("light " + std::to_string(light.sceneIndex) + " asks for the technique '" +
+        light.technique + "'; there are: " + techniqueNames());
+    }
+    LightSlot slot;
+    const auto kept = this->slots_.find(light.sceneIndex);
+    if (kept != this->slots_.end() && kept->second.techniqueName == light.technique)
+    {
+      slot = std::move(kept->second);
+    }
+    else
+    {
+      slot.techniqueName = light.technique;
+      slot.technique = entry->create();
+    }
+    slot.light = light;
+    slots[light.sceneIndex] = std::move(slot);
+
+    LightReport report;
+    report.sceneIndex = light.sceneIndex;
+    report.casts = true;
+    report.technique = light.technique;
+    report.mapSizeTexels = entry->info.needsMap ? light.mapSizeTexels : 0;
+    this->report_.lights.push_back(report);
+  }
+  this->slots_ = std::move(slots);
+  for (auto& [sceneIndex, slot] : this->slots_)
+  {
+    this->casting_.push_back(&slot);
+  }
+  std::sort(this->report_.lights.begin(), this->report_.lights.end(),
+    [](const LightReport& a, const LightReport& b) { return a.sceneIndex < b.sceneIndex; });
+  this->endStageClock("lights");
+  if (this->casting_.empty())
+  {
+    this->report_.route = "none";
+    this->report_.routeReason = "no light casts a shadow";
+  }
+  return !this->casting_.empty();
+}
+
+//------------------------------------------------------------------------------
+void RenderManager::collectOccluders(vtkRenderer* renderer)
+{
+  const OccluderCollector::Change change = this->collector_.collect(renderer);
+  const Occluders& occluders = this->collector_.occluders();
+  this->report_.surfacesExtracted = change.extracted;
+  this->report_.surfacesRetransformed = change.retransformed;
+  this->report_.triangles = occluders.triangles.size();
+  this->report_.droppedNonFinite = occluders.droppedNonFinite;
+  this->report_.droppedZeroArea = occluders.droppedZeroArea;
+  this->endStageClock("occluders");
+}
+
+//------------------------------------------------------------------------------
+void RenderManager::chooseRoute(int wished, bool keepVisibility)
+{
+  std::string screenTechnique;
+  for (const LightSlot* slot : this->casting_)
+  {
+    if (!findTechnique(slot->techniqueName)->info.pointwise)
+    {
+      screenTechnique = slot->techniqueName;
+    }
+  }
+  if (wished == vtkGnomonShadowPass::ROUTE_INLINE && !screenTechnique.empty())
+  {
+    throw FrameError("the inline route cannot serve '" + screenTechnique +
+      "', which works on the whole screen; ask for the image route or leave the choice");
+  }
+
+  this->route_ = Route::Image;
+  if (!screenTechnique.empty())
+  {
+    this->report_.routeReason = "'" + screenTechnique + "' works on the whole screen";
+  }
+  else if (wished == vtkGnomonShadowPass::ROUTE_IMAGE)
+  {
+    this->report_.routeReason = "asked for";
+  }
+  else if (keepVisibility)
+  {
+    this->report_.routeReason = "the visibility is kept";
+  }
+  else
+  {
+    this->route_ = Route::Inline;
+    this->report_.routeReason = wished == vtkGnomonShadowPass::ROUTE_INLINE
+      ? "asked for"
+      : "all techniques are functions of the point, so that no prepass is needed";
+  }
+  this->report_.route = this->route_ == Route::Image ? "image" : "inline";
+
+  std::vector<ShadedLight> lights;
+  for (const LightSlot* slot : this->casting_)
+  {
+    lights.push_back({ slot->light, slot->technique.get() });
+  }
+  this->shaders_.configure(this->route_, lights);
+}
+
+//------------------------------------------------------------------------------
+glm::dmat4 RenderManager::centredFromView(vtkRenderer* renderer) const
+{
+  // The camera's rigid inverse, moved by the centre before anything becomes float.
+  glm::dmat4 matrix =
+    glm::inverse(fromVtk(renderer->GetActiveCamera()->GetModelViewTransformMatrix()));
+  matrix[3] -= glm::dvec4(this->collector_.occluders().centreWorld, 0.0);
+  return matrix;
+}
+
+//------------------------------------------------------------------------------
+void RenderManager::beginReceivers(vtkRenderer* renderer)
+{
+  int width = 0;
+  int height = 0;
+  int left = 0;
+  int bottom = 0;
+  renderer->GetTiledSizeAndOrigin(&width, &height, &left, &bottom);
+  width = std::max(width, 1);
+  height = std::max(height, 1);
+
+  vtkCamera* camera = renderer->GetActiveCamera();
+  this->receiverImages_.centredFromView = this->centredFromView(renderer);
+  this->receiverImages_.parallelProjection = camera->GetParallelProjection() != 0;
+  const double halfHeight = this->receiverImages_.parallelProjection
+    ? camera->GetParallelScale()
+    : std::tan(0.5 * vtkMath::RadiansFromDegrees(camera->GetViewAngle()));
+  this->receiverImages_.pixelSize = 2.0 * halfHeight / height;
+
+  this->layers_.resize(width, height, static_cast<int>(this->casting_.size()));
+  this->stageValues_.originPixels = { left, bottom };
+  this->stageValues_.layers = { GL_TEXTURE_2D_ARRAY, this->layers_.texture() };
+  this->stageValues_.centredFromView = this->receiverImages_.centredFromView;
+  this->stageValues_.receiversStage = true;
+  this->receiverTarget_.begin(width, height);
+  this->shaders_.beginStage(
+    vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow()), this->stageValues_);
+}
+
+//------------------------------------------------------------------------------
+void RenderManager::endReceivers()
+{
+  this->shaders_.endStage();
+  this->endStageClock("receivers");
+}
+
+//------------------------------------------------------------------------------
+void RenderManager::bakeMaps()
+{
+  const Occluders& occluders = this->collector_.occluders();
+  for (LightSlot* slot : this->casting_)
+  {
+    if (!findTechnique(slot->techniqueName)->info.needsMap)
+    {
+      continue;
+    }
+    const LightView view = fitUniform(
+      slot->light, occluders.centreWorld, occluders.castersCentred, slot->light.mapSizeTexels);
+    const bool fresh = slot->bakedOnce && slot->view == view &&
+      slot->bakedSizeTexels == slot->light.mapSizeTexels &&
+      slot->bakedTopology == occluders.topologyVersion &&
+      slot->bakedPositions == occluders.positionsVersion;
+    if (!fresh)
+    {
+      this->buffers_.update(occluders);
+      slot->technique->bake(
+        { slot->light, view, occluders, this->buffers_, this->library_ });
+      slot->view = view;
+      slot->bakedSizeTexels = slot->light.mapSizeTexels;
+      slot->bakedTopology = occluders.topologyVersion;
+      slot->bakedPositions = occluders.positionsVersion;
+      slot->bakedOnce = true;
+      ++this->report_.mapBakes;
+    }
+    this->report_.bytesMaps += slot->technique->bytesOfMaps();
+  }
+  this->endStageClock("maps");
+}
+
+//------------------------------------------------------------------------------
+void RenderManager::resolveReceivers()
+{
+  this->receiverTarget_.read(this->receiverImages_);
+  projectReceivers(this->receiverImages_, this->collector_.drawnSurfaces(),
+    this->collector_.occluders(), this->receivers_);
+}
+
+//------------------------------------------------------------------------------
+void RenderManager::computeVisibility(bool keep)
+{
+  const Occluders& occluders = this->collector_.occluders();
+  const bool onScreen = std::any_of(this->casting_.begin(), this->casting_.end(),
+    [](const LightSlot* slot) { return !findTechnique(slot->techniqueName)->info.pointwise; });
+  if (onScreen || keep)
+  {
+    this->resolveReceivers();
+    this->endStageClock("visibility: read receivers");
+  }
+  if (onScreen)
+  {
+    const RayTracer::Update update = this->tracer_.update(occluders);
+    this->report_.bvhBuilds = update.builds;
+    this->report_.bvhRefits = update.refits;
+    this->endStageClock("visibility: build");
+  }
+
+  std::vector<float> visibility;
+  for (std::size_t i = 0; i < this->casting_.size(); ++i)
+  {
+    LightSlot& slot = *this->casting_[i];
+    const int layer = static_cast<int>(i);
+    if (findTechnique(slot.techniqueName)->info.pointwise)
+    {
+      this->layers_.estimate(layer, *slot.technique, this->receiverTarget_,
+        this->stageValues_.centredFromView, this->library_);
+      this->endStageClock("visibility: estimate");
+    }
+    else
+    {
+      const auto report = std::find_if(this->report_.lights.begin(), this->report_.lights.end(),
+        [&](const LightReport& light) { return light.sceneIndex == slot.light.sceneIndex; });
+      slot.technique->computeVisibility(
+        { slot.light, occluders, this->receivers_, this->tracer_ }, visibility, *report);
+      this->endStageClock("visibility: trace");
+      this->layers_.upload(layer, visibility);
+      this->endStageClock("visibility: upload");
+    }
+  }
+  if (keep)
+  {
+    this->keepVisibility();
+  }
+}
+
+//------------------------------------------------------------------------------
+void RenderManager::keepVisibility()
+{
+  VisibilityImages& kept = this->visibility_;
+  const ReceiverPixels& receivers = this->receivers_;
+  kept.width = receivers.width;
+  kept.height = receivers.height;
+  const glm::dvec3 centre = this->collector_.occluders().centreWorld;
+  kept.origin = { { centre.x, centre.y, centre.z } };
+  for (std::size_t i = 0; i < this->casting_.size(); ++i)
+  {
+    std::vector<float> layer;
+    this->layers_.read(static_cast<int>(i), layer);
+    kept.visibility.push_back(topRowFirst(layer, kept.width, kept.height));
+    kept.sceneIndices.push_back(this->casting_[i]->light.sceneIndex);
+  }
+  const auto flip = [&](const std::vector<float>& plane) {
+    return topRowFirst(plane, kept.width, kept.height);
+  };
+  kept.positionX = flip(receivers.positionX);
+  kept.positionY = flip(receivers.positionY);
+  kept.positionZ = flip(receivers.positionZ);
+  kept.normalX = flip(receivers.normalX);
+  kept.normalY = flip(receivers.normalY);
+  kept.normalZ = flip(receivers.normalZ);
+  std::vector<float> coverage(receivers.size());
+  std::transform(receivers.surface.begin(), receivers.surface.end(), coverage.begin(),
+    [](std::uint32_t surface) { return surface == ReceiverPixels::notCovered ? 0.0f : 1.0f; });
+  kept.coverage = flip(coverage);
+}
+
+//------------------------------------------------------------------------------
+void RenderManager::beginShading(vtkRenderer* renderer)
+{
+  this->stageValues_.receiversStage = false;
+  this->stageValues_.centredFromView = this->centredFromView(renderer);
+  this->shaders_.beginStage(
+    vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow()), this->stageValues_);
+}
+
+//------------------------------------------------------------------------------
+void RenderManager::endShading()
+{
+  this->shaders_.endStage();
+  this->endStageClock("shading");
+}
+
+//------------------------------------------------------------------------------
+void RenderManager::endFrame()
+{
+  FrameReport& report = this->report_;
+  report.programCompiles =
+    this->library_.compiles() + this->shaders_.rebuilds() - this->compilesBefore_;
+  const Occluders& occluders = this->collector_.occluders();
+  report.bytesOccluders = occluders.positionsCentred.capacity() * sizeof(glm::vec3) +
+    occluders.triangles.capacity() * sizeof(glm::uvec3) + this->buffers_.bytes();
+  report.bytesBvh = this->tracer_.bytes();
+  if (this->route_ == Route::Image)
+  {
+    report.bytesImages = this->receiverTarget_.bytes() + this->layers_.bytes();
+  }
+  report.wallMilliseconds = millisecondsSince(this->frameStart_);
+}
+
+//------------------------------------------------------------------------------
+void RenderManager::setShaderParameters(
+  vtkShaderProgram* program, vtkAbstractMapper* mapper, vtkProp* prop)
+{
+  if (this->route_ == Route::Inline)
+  {
+    this->shaders_.setParameters(program, -1, vtkGnomonPropKeys::GetReceives(prop));
+    return;
+  }
+  // The layers belong to the opaque surfaces that the receivers stage drew.
+  const OccluderCollector::Drawn drawn = this->collector_.drawn(mapper, prop);
+  const bool translucent = prop->IsRenderingTranslucentPolygonalGeometry();
+  this->shaders_.setParameters(program, drawn.index, drawn.receives && !translucent);
+}
+
+} // namespace gnomon

@@ -1,0 +1,127 @@
+#ifndef gnomon_plugin_RenderManager_h
+#define gnomon_plugin_RenderManager_h
+
+#include "lights/LightManager.h"
+#include "plugin/OccluderCollector.h"
+#include "plugin/ShaderManager.h"
+#include "plugin/VisibilityImages.h"
+#include "shadowtech/base/FrameReport.h"
+#include "shadowtech/base/OccluderBuffers.h"
+#include "shadowtech/base/RayTracer.h"
+#include "shadowtech/base/ReceiverTarget.h"
+#include "shadowtech/base/Receivers.h"
+#include "shadowtech/base/ShaderLibrary.h"
+#include "shadowtech/base/Technique.h"
+#include "shadowtech/base/VisibilityLayers.h"
+
+#include <chrono>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+class vtkRenderer;
+
+namespace gnomon
+{
+
+/// A setting that cannot be served. The frame goes on without shadows, with this as its error.
+class FrameError : public std::runtime_error
+{
+public:
+  using std::runtime_error::runtime_error;
+};
+
+/// The stages of a frame, what each of them keeps from frame to frame, and when that is stale. The
+/// pass calls the stages in the order in which they stand here.
+class RenderManager
+{
+public:
+  /// Starts a frame's report and clock.
+  void beginFrame(bool measureStages);
+
+  /// lights: which of the renderer's lights cast, with which technique.
+  /// @return false when none does
+  /// @throws FrameError for a technique that does not exist
+  bool collectLights(vtkRenderer* renderer, const LightDefaults& defaults);
+
+  /// occluders: brings the snapshot up to date with the renderer's props.
+  void collectOccluders(vtkRenderer* renderer);
+
+  /// Chooses how visibility reaches the shader, and states it in the report.
+  /// @param wished a vtkGnomonShadowPass::RouteType
+  /// @throws FrameError when the inline route is asked of a technique that works on the screen
+  void chooseRoute(int wished, bool keepVisibility);
+  Route route() const { return this->route_; }
+
+  /// receivers (image route): between the two calls the pass has VTK draw the opaque props.
+  void beginReceivers(vtkRenderer* renderer);
+  void endReceivers();
+
+  /// maps: bakes what is stale.
+  void bakeMaps();
+
+  /// visibility (image route): fills one layer per light, and keeps a copy if asked to.
+  void computeVisibility(bool keep);
+
+  /// shading: between the two calls VTK draws its props with the hook in place.
+  void beginShading(vtkRenderer* renderer);
+  void endShading();
+
+  /// Completes the report.
+  void endFrame();
+
+  /// For the hook: sets a program's parameters for the prop that is about to be drawn.
+  void setShaderParameters(vtkShaderProgram* program, vtkAbstractMapper* mapper, vtkProp* prop);
+  ShaderManager& shaders() { return this->shaders_; }
+
+  const FrameReport& report() const { return this->report_; }
+  const VisibilityImages& visibility() const { return this->visibility_; }
+
+private:
+  /// A casting light's technique, and what its maps were baked from.
+  struct LightSlot
+  {
+    std::string techniqueName;
+    std::unique_ptr<Technique> technique;
+    ShadowLight light;
+    LightView view;
+    int bakedSizeTexels = 0;
+    std::uint64_t bakedTopology = 0;
+    std::uint64_t bakedPositions = 0;
+    bool bakedOnce = false;
+  };
+
+  void endStageClock(const std::string& name);
+  void resolveReceivers();
+  void keepVisibility();
+  glm::dmat4 centredFromView(vtkRenderer* renderer) const;
+
+  FrameReport report_;
+  bool measureStages_ = false;
+  std::chrono::steady_clock::time_point frameStart_;
+  std::chrono::steady_clock::time_point stageStart_;
+  int compilesBefore_ = 0;
+
+  std::map<int, LightSlot> slots_; ///< by the light's place in the scene
+  std::vector<LightSlot*> casting_;
+
+  OccluderCollector collector_;
+  OccluderBuffers buffers_;
+  RayTracer tracer_;
+  Route route_ = Route::Inline;
+  ReceiverTarget receiverTarget_;
+  ReceiverImages receiverImages_;
+  ReceiverPixels receivers_;
+  VisibilityLayers layers_;
+  ShaderLibrary library_;
+  ShaderManager shaders_;
+  ShaderManager::StageValues stageValues_;
+  VisibilityImages visibility_;
+};
+
+} // namespace gnomon
+
+#endif

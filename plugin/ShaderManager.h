@@ -1,0 +1,95 @@
+#ifndef gnomon_plugin_ShaderManager_h
+#define gnomon_plugin_ShaderManager_h
+
+#include "lights/ShadowLight.h"
+#include "shadowtech/base/Technique.h"
+
+#include <vtkTimeStamp.h>
+
+#include <set>
+#include <string>
+#include <vector>
+
+class vtkOpenGLRenderWindow;
+class vtkShaderProgram;
+
+namespace gnomon
+{
+
+/// How visibility reaches the shader.
+enum class Route
+{
+  Inline, ///< VTK's fragment shader computes it
+  Image   ///< it is computed for all pixels beforehand, and fetched
+};
+
+/// One casting light, as the shader hook needs it.
+struct ShadedLight
+{
+  ShadowLight light;
+  const Technique* technique = nullptr;
+};
+
+/// The hook into VTK's lighting. In front of VTK's light loop it puts, per casting light N,
+///     vec3 lightColorN = lightColorN * (visibility of light N);
+/// The local variable hides VTK's uniform of the same name, so that the loop, of whatever shading
+/// model and kind of light, works with the shadowed colour. Only the uniforms' names are relied on.
+///
+/// On the image route the same programs also serve the receivers stage: a uniform chooses, so that
+/// VTK need not rebuild any shader between the stages.
+class ShaderManager
+{
+public:
+  /// States what the frame's shaders must do. When it differs from the last frame's, VTK's mappers
+  /// rebuild their shaders (stageTime() changes).
+  void configure(Route route, const std::vector<ShadedLight>& lights);
+  vtkMTimeType stageTime() const { return this->stageTime_.GetMTime(); }
+
+  /// First and second half of the hook, around VTK's own replacements.
+  /// @param receiversStage whether this prop's shader must be able to draw the receivers stage
+  void markShader(std::string& fragmentShader) const;
+  void fillShader(std::string& fragmentShader, bool receiversStage);
+
+  /// The values that stay the same for all props of a stage.
+  struct StageValues
+  {
+    bool receiversStage = false;
+    glm::dmat4 centredFromView{ 1.0 };
+    glm::ivec2 originPixels{ 0 };
+    TextureBinding layers; ///< image route: the visibility layers
+  };
+  /// Between beginStage and endStage VTK draws: textures are bound to units of their own.
+  void beginStage(vtkOpenGLRenderWindow* window, const StageValues& values);
+  void endStage();
+
+  /// Sets the hook's uniforms of a program that is about to draw.
+  /// @param drawn number of the drawn surface, -1 for none
+  void setParameters(vtkShaderProgram* program, int drawn, bool receives);
+
+  /// Shaders rebuilt by VTK since the start.
+  int rebuilds() const { return this->rebuilds_; }
+
+private:
+  int bindTexture(const TextureBinding& texture);
+
+  Route route_ = Route::Inline;
+  std::string declarations_;
+  std::string multiplications_;
+  vtkTimeStamp stageTime_;
+  int rebuilds_ = 0;
+
+  std::vector<ShadedLight> lights_;
+  vtkOpenGLRenderWindow* window_ = nullptr;
+  std::vector<Uniform> stageUniforms_; ///< with units in place of textures
+  struct BoundTexture
+  {
+    int unit;
+    GLenum target;
+  };
+  std::vector<BoundTexture> bound_;
+  std::set<vtkShaderProgram*> upToDate_; ///< programs that have the stage's uniforms
+};
+
+} // namespace gnomon
+
+#endif

@@ -1,0 +1,16 @@
+// What the pass adds to the declarations of VTK's fragment shaders (GLSL 1.50). The lights' own
+// functions, gnomonVisibilityN, follow; the image route fetches, the inline route computes.
+
+uniform int gnomonReceives; // 0: this prop shows no shadows
+
+// The geometric normal of the triangle under this fragment, on the side that the camera sees. Must be
+// called in uniform control flow. Where the position does not change over the quad (a triangle seen
+// exactly edge-on) there is no plane; the direction to the camera stands in.
+vec3 gnomonFaceNormal(vec3 positionView, bool parallelProjection)
+{
+  vec3 toCamera = parallelProjection ? vec3(0.0, 0.0, 1.0) : -positionView;
+  vec3 normal = cross(dFdx(positionView), dFdy(positionView));
+  float lengthSquared = dot(normal, normal);
+  normal = lengthSquared > 0.0 ? normal * inversesqrt(lengthSquared) : normalize(toCamera);
+  return dot(normal, toCamera) < 0.0 ? -normal : normal;
+}

@@ -1,0 +1,11 @@
+// The image route's declarations: one visibility layer per casting light.
+
+uniform sampler2DArray gnomonLayers;
+uniform ivec2 gnomonOrigin; // the window pixel that the layers' first pixel belongs to
+uniform int gnomonStage;    // 1: this is the receivers stage
+uniform int gnomonDrawn;    // the drawn surface's number, -1 if the snapshot does not hold it
+
+float gnomonLayer(int layer)
+{
+  return texelFetch(gnomonLayers, ivec3(ivec2(gl_FragCoord.xy) - gnomonOrigin, layer), 0).r;
+}

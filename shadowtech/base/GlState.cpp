@@ -1,0 +1,98 @@
+#include "shadowtech/base/GlState.h"
+
+#include <cstddef>
+
+namespace gnomon
+{
+namespace
+{
+
+void setEnabled(GLenum name, GLboolean enabled)
+{
+  enabled ? glEnable(name) : glDisable(name);
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+GlStateGuard::GlStateGuard()
+{
+  for (std::size_t i = 0; i < switches_.size(); ++i)
+  {
+    this->enabled_[i] = glIsEnabled(switches_[i]);
+  }
+  for (std::size_t i = 0; i < this->blend_.size(); ++i)
+  {
+    this->blend_[i] = glIsEnabledi(GL_BLEND, static_cast<GLuint>(i));
+  }
+  glGetIntegerv(GL_CURRENT_PROGRAM, &this->program_);
+  glGetIntegerv(GL_VERTEX_ARRAY_BINDING, &this->vertexArray_);
+  glGetIntegerv(GL_ARRAY_BUFFER_BINDING, &this->arrayBuffer_);
+  glGetIntegerv(GL_PIXEL_PACK_BUFFER_BINDING, &this->packBuffer_);
+  glGetIntegerv(GL_PIXEL_UNPACK_BUFFER_BINDING, &this->unpackBuffer_);
+  glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &this->drawFramebuffer_);
+  glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &this->readFramebuffer_);
+  glGetIntegerv(GL_VIEWPORT, this->viewport_);
+  glGetIntegerv(GL_SCISSOR_BOX, this->scissor_);
+  glGetIntegerv(GL_DEPTH_FUNC, &this->depthFunction_);
+  glGetIntegerv(GL_CULL_FACE_MODE, &this->cullFace_);
+  glGetIntegerv(GL_FRONT_FACE, &this->frontFace_);
+  glGetIntegerv(GL_POLYGON_MODE, this->polygonMode_);
+  glGetIntegerv(GL_PACK_ALIGNMENT, &this->packAlignment_);
+  glGetIntegerv(GL_UNPACK_ALIGNMENT, &this->unpackAlignment_);
+  glGetFloatv(GL_POLYGON_OFFSET_FACTOR, &this->offsetFactor_);
+  glGetFloatv(GL_POLYGON_OFFSET_UNITS, &this->offsetUnits_);
+  glGetBooleanv(GL_DEPTH_WRITEMASK, &this->depthMask_);
+  glGetBooleanv(GL_COLOR_WRITEMASK, this->colorMask_);
+  glGetIntegerv(GL_ACTIVE_TEXTURE, &this->activeTexture_);
+  for (int unit = 0; unit < textureUnits; ++unit)
+  {
+    glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+    glGetIntegerv(GL_TEXTURE_BINDING_2D, &this->texture2D_[static_cast<std::size_t>(unit)]);
+    glGetIntegerv(
+      GL_TEXTURE_BINDING_2D_ARRAY, &this->texture2DArray_[static_cast<std::size_t>(unit)]);
+  }
+}
+
+//------------------------------------------------------------------------------
+GlStateGuard::~GlStateGuard()
+{
+  for (int unit = 0; unit < textureUnits; ++unit)
+  {
+    glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+    glBindTexture(
+      GL_TEXTURE_2D, static_cast<GLuint>(this->texture2D_[static_cast<std::size_t>(unit)]));
+    glBindTexture(GL_TEXTURE_2D_ARRAY,
+      static_cast<GLuint>(this->texture2DArray_[static_cast<std::size_t>(unit)]));
+  }
+  glActiveTexture(static_cast<GLenum>(this->activeTexture_));
+  glColorMask(this->colorMask_[0], this->colorMask_[1], this->colorMask_[2], this->colorMask_[3]);
+  glDepthMask(this->depthMask_);
+  glPolygonOffset(this->offsetFactor_, this->offsetUnits_);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, this->unpackAlignment_);
+  glPixelStorei(GL_PACK_ALIGNMENT, this->packAlignment_);
+  glPolygonMode(GL_FRONT_AND_BACK, static_cast<GLenum>(this->polygonMode_[0]));
+  glFrontFace(static_cast<GLenum>(this->frontFace_));
+  glCullFace(static_cast<GLenum>(this->cullFace_));
+  glDepthFunc(static_cast<GLenum>(this->depthFunction_));
+  glScissor(this->scissor_[0], this->scissor_[1], this->scissor_[2], this->scissor_[3]);
+  glViewport(this->viewport_[0], this->viewport_[1], this->viewport_[2], this->viewport_[3]);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(this->readFramebuffer_));
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, static_cast<GLuint>(this->drawFramebuffer_));
+  glBindBuffer(GL_PIXEL_UNPACK_BUFFER, static_cast<GLuint>(this->unpackBuffer_));
+  glBindBuffer(GL_PIXEL_PACK_BUFFER, static_cast<GLuint>(this->packBuffer_));
+  glBindVertexArray(static_cast<GLuint>(this->vertexArray_));
+  glBindBuffer(GL_ARRAY_BUFFER, static_cast<GLuint>(this->arrayBuffer_));
+  glUseProgram(static_cast<GLuint>(this->program_));
+  for (std::size_t i = 0; i < this->blend_.size(); ++i)
+  {
+    this->blend_[i] ? glEnablei(GL_BLEND, static_cast<GLuint>(i))
+                    : glDisablei(GL_BLEND, static_cast<GLuint>(i));
+  }
+  for (std::size_t i = 0; i < switches_.size(); ++i)
+  {
+    setEnabled(switches_[i], this->enabled_[i]);
+  }
+}
+
+} // namespace gnomon

@@ -1,0 +1,43 @@
+#ifndef gnomon_shadowtech_base_GlState_h
+#define gnomon_shadowtech_base_GlState_h
+
+#include "shadowtech/base/Gl.h"
+
+#include <array>
+
+namespace gnomon
+{
+
+/// Remembers the OpenGL state that Gnomon's own drawing touches and puts it back at the end of its
+/// scope. VTK keeps a copy of most of that state (vtkOpenGLState); since what it knows is true again
+/// afterwards, it need not be told.
+class GlStateGuard
+{
+public:
+  GlStateGuard();
+  ~GlStateGuard();
+  GlStateGuard(const GlStateGuard&) = delete;
+  GlStateGuard& operator=(const GlStateGuard&) = delete;
+
+  /// Texture units whose 2D and 2D array bindings are put back.
+  static constexpr int textureUnits = 6;
+
+private:
+  static constexpr std::array<GLenum, 9> switches_ = { GL_DEPTH_TEST, GL_SCISSOR_TEST, GL_CULL_FACE,
+    GL_POLYGON_OFFSET_FILL, GL_DEPTH_CLAMP, GL_STENCIL_TEST, GL_MULTISAMPLE,
+    GL_SAMPLE_ALPHA_TO_COVERAGE, GL_FRAMEBUFFER_SRGB };
+  std::array<GLboolean, switches_.size()> enabled_;
+  std::array<GLboolean, 3> blend_;
+  GLint program_, vertexArray_, arrayBuffer_, packBuffer_, unpackBuffer_, activeTexture_;
+  GLint drawFramebuffer_, readFramebuffer_;
+  GLint viewport_[4], scissor_[4];
+  GLint depthFunction_, cullFace_, frontFace_, polygonMode_[2];
+  GLint packAlignment_, unpackAlignment_;
+  GLfloat offsetFactor_, offsetUnits_;
+  GLboolean depthMask_, colorMask_[4];
+  std::array<GLint, textureUnits> texture2D_, texture2DArray_;
+};
+
+} // namespace gnomon
+
+#endif

@@ -1,0 +1,77 @@
+#include "shadowtech/base/ReceiverTarget.h"
+
+namespace gnomon
+{
+namespace
+{
+
+void allocate(GlTexture& texture, GLenum internalFormat, GLenum format, int width, int height)
+{
+  glBindTexture(GL_TEXTURE_2D, texture.create());
+  glTexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(internalFormat), width, height, 0, format,
+    GL_FLOAT, nullptr);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+void ReceiverTarget::begin(int width, int height)
+{
+  glBindFramebuffer(GL_FRAMEBUFFER, this->framebuffer_.create());
+  if (width != this->width_ || height != this->height_)
+  {
+    allocate(this->positions_, GL_RGBA32F, GL_RGBA, width, height);
+    allocate(this->normals_, GL_RGBA32F, GL_RGBA, width, height);
+    allocate(this->depth_, GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, width, height);
+    glFramebufferTexture2D(
+      GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, this->positions_.name(), 0);
+    glFramebufferTexture2D(
+      GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT1, GL_TEXTURE_2D, this->normals_.name(), 0);
+    glFramebufferTexture2D(
+      GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, this->depth_.name(), 0);
+    const GLenum outputs[3] = { GL_NONE, GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1 };
+    glDrawBuffers(3, outputs);
+    this->width_ = width;
+    this->height_ = height;
+  }
+  glViewport(0, 0, width, height);
+  glDisable(GL_SCISSOR_TEST);
+  glDepthMask(GL_TRUE);
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  const float nothing[4] = { 0.0f, 0.0f, 0.0f, 0.0f };
+  const float farthest = 1.0f;
+  glClearBufferfv(GL_COLOR, 1, nothing);
+  glClearBufferfv(GL_COLOR, 2, nothing);
+  glClearBufferfv(GL_DEPTH, 0, &farthest);
+}
+
+//------------------------------------------------------------------------------
+void ReceiverTarget::read(ReceiverImages& images) const
+{
+  images.width = this->width_;
+  images.height = this->height_;
+  const std::size_t pixels =
+    static_cast<std::size_t>(this->width_) * static_cast<std::size_t>(this->height_);
+  images.positionView.resize(pixels);
+  images.normalView.resize(pixels);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, this->framebuffer_.name());
+  glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+  glPixelStorei(GL_PACK_ALIGNMENT, 4);
+  glReadBuffer(GL_COLOR_ATTACHMENT0);
+  glReadPixels(
+    0, 0, this->width_, this->height_, GL_RGBA, GL_FLOAT, images.positionView.data());
+  glReadBuffer(GL_COLOR_ATTACHMENT1);
+  glReadPixels(0, 0, this->width_, this->height_, GL_RGBA, GL_FLOAT, images.normalView.data());
+}
+
+//------------------------------------------------------------------------------
+std::size_t ReceiverTarget::bytes() const
+{
+  // Two images of four floats, and a depth of one.
+  return static_cast<std::size_t>(this->width_) * static_cast<std::size_t>(this->height_) * 9 *
+    sizeof(float);
+}
+
+} // namespace gnomon

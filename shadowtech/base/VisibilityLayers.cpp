@@ -1,0 +1,95 @@
+#include "shadowtech/base/VisibilityLayers.h"
+
+#include "shadowtech/base/GlState.h"
+#include "shadowtech/base/ReceiverTarget.h"
+#include "shadowtech/base/ShaderLibrary.h"
+
+namespace gnomon
+{
+
+//------------------------------------------------------------------------------
+void VisibilityLayers::resize(int width, int height, int layers)
+{
+  if (width == this->width_ && height == this->height_ && layers == this->layers_)
+  {
+    return;
+  }
+  const GlStateGuard guard;
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D_ARRAY, this->texture_.create());
+  glTexImage3D(
+    GL_TEXTURE_2D_ARRAY, 0, GL_R32F, width, height, layers, 0, GL_RED, GL_FLOAT, nullptr);
+  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  this->width_ = width;
+  this->height_ = height;
+  this->layers_ = layers;
+}
+
+//------------------------------------------------------------------------------
+void VisibilityLayers::estimate(int layer, const Technique& technique,
+  const ReceiverTarget& receivers, const glm::dmat4& centredFromView, ShaderLibrary& shaders)
+{
+  const GlStateGuard guard;
+  const GLuint program = shaders.program(
+    { { GL_VERTEX_SHADER, ShaderLibrary::source("shadowtech/base/screen_visibility.vert.glsl") },
+      { GL_FRAGMENT_SHADER,
+        ShaderLibrary::sourceForLight(technique.visibilityGlsl(), 0) +
+          ShaderLibrary::source("shadowtech/base/screen_visibility.frag.glsl") } });
+  glUseProgram(program);
+  const int freeUnit = ShaderLibrary::setUniforms(program,
+    { { "receiverPositions", TextureBinding{ GL_TEXTURE_2D, receivers.positions() } },
+      { "receiverNormals", TextureBinding{ GL_TEXTURE_2D, receivers.normals() } } },
+    0, 0);
+  ShaderLibrary::setUniforms(program, technique.uniforms(centredFromView), 0, freeUnit);
+
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, this->framebuffer_.create());
+  glFramebufferTextureLayer(
+    GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, this->texture_.name(), 0, layer);
+  glViewport(0, 0, this->width_, this->height_);
+  glDisable(GL_SCISSOR_TEST);
+  glDisable(GL_DEPTH_TEST);
+  glDisable(GL_STENCIL_TEST);
+  glDisable(GL_CULL_FACE);
+  glDisablei(GL_BLEND, 0);
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+  glBindVertexArray(this->noAttributes_.create());
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+//------------------------------------------------------------------------------
+void VisibilityLayers::upload(int layer, const std::vector<float>& visibility)
+{
+  const GlStateGuard guard;
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D_ARRAY, this->texture_.name());
+  glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+  glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, layer, this->width_, this->height_, 1, GL_RED,
+    GL_FLOAT, visibility.data());
+}
+
+//------------------------------------------------------------------------------
+void VisibilityLayers::read(int layer, std::vector<float>& visibility) const
+{
+  const GlStateGuard guard;
+  visibility.resize(static_cast<std::size_t>(this->width_) * static_cast<std::size_t>(this->height_));
+  GlFramebuffer framebuffer;
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer.create());
+  glFramebufferTextureLayer(
+    GL_READ_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, this->texture_.name(), 0, layer);
+  glReadBuffer(GL_COLOR_ATTACHMENT0);
+  glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+  glPixelStorei(GL_PACK_ALIGNMENT, 4);
+  glReadPixels(0, 0, this->width_, this->height_, GL_RED, GL_FLOAT, visibility.data());
+}
+
+//------------------------------------------------------------------------------
+std::size_t VisibilityLayers::bytes() const
+{
+  return static_cast<std::size_t>(this->width_) * static_cast<std::size_t>(this->height_) *
+    static_cast<std::size_t>(this->layers_) * sizeof(float);
+}
+
+} // namespace gnomon

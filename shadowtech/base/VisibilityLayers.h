@@ -1,0 +1,48 @@
+#ifndef gnomon_shadowtech_base_VisibilityLayers_h
+#define gnomon_shadowtech_base_VisibilityLayers_h
+
+#include "shadowtech/base/Gl.h"
+#include "shadowtech/base/Technique.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace gnomon
+{
+
+class ReceiverTarget;
+class ShaderLibrary;
+
+/// The visibility images of the image route, one 32-bit float layer per casting light. Row 0 is the
+/// bottom row.
+class VisibilityLayers
+{
+public:
+  /// Makes room for `layers` images of this size.
+  void resize(int width, int height, int layers);
+
+  /// Fills a layer by a pointwise technique's GLSL, called for the receivers of all pixels.
+  void estimate(int layer, const Technique& technique, const ReceiverTarget& receivers,
+    const glm::dmat4& centredFromView, ShaderLibrary& shaders);
+
+  /// Fills a layer with a screen technique's result.
+  void upload(int layer, const std::vector<float>& visibility);
+
+  /// Reads a layer back.
+  void read(int layer, std::vector<float>& visibility) const;
+
+  GLuint texture() const { return this->texture_.name(); }
+  std::size_t bytes() const;
+
+private:
+  GlTexture texture_;
+  GlFramebuffer framebuffer_;
+  GlVertexArray noAttributes_;
+  int width_ = 0;
+  int height_ = 0;
+  int layers_ = 0;
+};
+
+} // namespace gnomon
+
+#endif
