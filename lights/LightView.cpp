@@ -10,8 +10,8 @@ namespace gnomon
 namespace
 {
 
-/// A rigid rotation whose z axis is the light's axis. The other two are chosen against the world axis
-/// that is least aligned with it, so that no direction is degenerate.
+/// A rigid rotation whose z axis is the light's axis. The other two are chosen against the world
+/// axis that is least aligned with it, so that no direction is degenerate.
 glm::dmat3 lightFromWorldRotation(const glm::dvec3& axis)
 {
   const glm::dvec3 magnitude = glm::abs(axis);
@@ -65,13 +65,14 @@ LightView fitDirectional(const Bounds& castersLight, const glm::dmat4& rotation,
   const glm::dvec3 upper = castersLight.upper + widening;
 
   LightView view;
-  view.lightFromCentred = glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, 0.0, -lower.z)) * rotation;
+  view.lightFromCentred =
+    glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, 0.0, -lower.z)) * rotation;
   const double depth = upper.z - lower.z;
   const Axis x = fitAxis(lower.x, upper.x, mapSizeTexels);
   const Axis y = fitAxis(lower.y, upper.y, mapSizeTexels);
-  view.clipFromLight = glm::dmat4(glm::dvec4(x.scale, 0.0, 0.0, 0.0),
-    glm::dvec4(0.0, y.scale, 0.0, 0.0), glm::dvec4(0.0, 0.0, 2.0 / depth, 0.0),
-    glm::dvec4(x.offset, y.offset, -1.0, 1.0));
+  view.clipFromLight =
+    glm::dmat4(glm::dvec4(x.scale, 0.0, 0.0, 0.0), glm::dvec4(0.0, y.scale, 0.0, 0.0),
+      glm::dvec4(0.0, 0.0, 2.0 / depth, 0.0), glm::dvec4(x.offset, y.offset, -1.0, 1.0));
   view.perspective = false;
   view.depthScale = 1.0 / depth;
   view.depthOffset = 0.0;
@@ -91,12 +92,13 @@ LightView fitSpot(const ShadowLight& light, const Bounds& castersLight,
   {
     return view; // all casters lie behind the light
   }
-  // A caster may touch the light: near stays positive, but well below anything that can be told apart
-  // at the far end. Linear depth does not suffer from a small near plane as z/w does.
+  // A caster may touch the light: near stays positive, but well below anything that can be told
+  // apart at the far end. Linear depth does not suffer from a small near plane as z/w does.
   const double nearest = std::max(castersLight.lower.z, 1e-5 * farthest);
   const double slopeCone = std::tan(glm::radians(light.coneAngleDegrees));
 
-  // The casters' slopes x/z and y/z, where the whole box lies in front of the light; else the cone's.
+  // The casters' slopes x/z and y/z, where the whole box lies in front of the light; else the
+  // cone's.
   glm::dvec2 lower(-slopeCone);
   glm::dvec2 upper(slopeCone);
   if (castersLight.lower.z > 1e-5 * farthest)
@@ -116,8 +118,8 @@ LightView fitSpot(const ShadowLight& light, const Bounds& castersLight,
   const double smallest = 1e-6 * slopeCone;
   const Axis x = fitAxis(lower.x - smallest, upper.x + smallest, mapSizeTexels);
   const Axis y = fitAxis(lower.y - smallest, upper.y + smallest, mapSizeTexels);
-  // clip = (x.scale X + x.offset Z, ..., a Z + b, Z) with z/w = -1 at near and 1 at far; widened by a
-  // thousandth so that rounding clips no caster.
+  // clip = (x.scale X + x.offset Z, ..., a Z + b, Z) with z/w = -1 at near and 1 at far; widened by
+  // a thousandth so that rounding clips no caster.
   const double n = nearest * 0.999;
   const double f = farthest * 1.001;
   view.clipFromLight = glm::dmat4(glm::dvec4(x.scale, 0.0, 0.0, 0.0),
@@ -146,8 +148,8 @@ LightView fitUniform(const ShadowLight& light, const glm::dvec3& centreWorld,
   }
   const glm::dmat4 lightFromCentred =
     glm::translate(rotation, -(light.positionWorld - centreWorld));
-  return fitSpot(light, transformed(castersCentred, lightFromCentred), lightFromCentred,
-    mapSizeTexels);
+  return fitSpot(
+    light, transformed(castersCentred, lightFromCentred), lightFromCentred, mapSizeTexels);
 }
 
 } // namespace gnomon

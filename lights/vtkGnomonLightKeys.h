@@ -41,8 +41,8 @@ public:
 
   ///@{
   /**
-   * Set a key on a light. An empty technique or a map size of 0 or less takes the key away again, so
-   * that the pass's own setting counts.
+   * Set a key on a light. An empty technique or a map size of 0 or less takes the key away again,
+   * so that the pass's own setting counts.
    */
   static void SetCasts(vtkLight* light, bool casts);
   static void SetTechnique(vtkLight* light, const char* technique);

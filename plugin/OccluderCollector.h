@@ -14,8 +14,8 @@ class vtkRenderer;
 namespace gnomon
 {
 
-/// Fills the snapshot from a renderer's visible props, in view or not, and keeps it up to date at the
-/// price of what changed.
+/// Fills the snapshot from a renderer's visible props, in view or not, and keeps it up to date at
+/// the price of what changed.
 class OccluderCollector
 {
 public:
@@ -29,8 +29,8 @@ public:
     int retransformed = 0; ///< surfaces whose centred positions were computed again
   };
 
-  /// Brings the snapshot up to date with the renderer's props. Updates the mappers' inputs first, as
-  /// VTK would when drawing.
+  /// Brings the snapshot up to date with the renderer's props. Updates the mappers' inputs first,
+  /// as VTK would when drawing.
   Change collect(vtkRenderer* renderer);
 
   const Occluders& occluders() const;
@@ -41,12 +41,12 @@ public:
     int index = -1; ///< into drawnSurfaces(); -1 when the snapshot does not hold it
     bool receives = false;
   };
-  /// Finds the surface that `mapper` (a mapper, or a composite mapper's helper) draws for `prop`, with
-  /// the matrix that the prop has at this moment. Called while VTK draws.
+  /// Finds the surface that `mapper` (a mapper, or a composite mapper's helper) draws for `prop`,
+  /// with the matrix that the prop has at this moment. Called while VTK draws.
   Drawn drawn(vtkAbstractMapper* mapper, vtkProp* prop);
 
-  /// How primitive numbers of drawn surfaces lead to the snapshot (see projectReceivers). Entries are
-  /// added by drawn(), and stay until surfaces change.
+  /// How primitive numbers of drawn surfaces lead to the snapshot (see projectReceivers). Entries
+  /// are added by drawn(), and stay until surfaces change.
   const std::vector<DrawnSurface>& drawnSurfaces() const;
 
 private:

@@ -47,8 +47,8 @@ std::vector<Value> topRowFirst(const std::vector<Value>& image, int width, int h
   for (int y = 0; y < height; ++y)
   {
     const auto row = image.begin() + static_cast<std::ptrdiff_t>(y) * width;
-    std::copy(row, row + width,
-      flipped.begin() + static_cast<std::ptrdiff_t>(height - 1 - y) * width);
+    std::copy(
+      row, row + width, flipped.begin() + static_cast<std::ptrdiff_t>(height - 1 - y) * width);
   }
   return flipped;
 }
@@ -264,8 +264,7 @@ void RenderManager::bakeMaps()
     if (!fresh)
     {
       this->buffers_.update(occluders);
-      slot->technique->bake(
-        { slot->light, view, occluders, this->buffers_, this->library_ });
+      slot->technique->bake({ slot->light, view, occluders, this->buffers_, this->library_ });
       slot->view = view;
       slot->bakedSizeTexels = slot->light.mapSizeTexels;
       slot->bakedTopology = occluders.topologyVersion;
@@ -349,9 +348,8 @@ void RenderManager::keepVisibility()
     kept.visibility.push_back(topRowFirst(layer, kept.width, kept.height));
     kept.sceneIndices.push_back(this->casting_[i]->light.sceneIndex);
   }
-  const auto flip = [&](const std::vector<float>& plane) {
-    return topRowFirst(plane, kept.width, kept.height);
-  };
+  const auto flip = [&](const std::vector<float>& plane)
+  { return topRowFirst(plane, kept.width, kept.height); };
   kept.positionX = flip(receivers.positionX);
   kept.positionY = flip(receivers.positionY);
   kept.positionZ = flip(receivers.positionZ);

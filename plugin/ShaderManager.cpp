@@ -57,9 +57,9 @@ void ShaderManager::configure(Route route, const std::vector<ShadedLight>& light
     declarations += declare(route, lights[i], static_cast<int>(i));
     declarations += "uniform float gnomonStrength" + number + ";\n";
     const std::string colour = "lightColor" + std::to_string(lights[i].light.shaderIndex);
-    multiplications += "  vec3 " + colour + " = " + colour + " * (gnomonReceives == 0 ? 1.0 : mix(1.0, " +
-      "gnomonVisibility" + number + "(vertexVC.xyz, gnomonNormal), gnomonStrength" + number +
-      "));\n";
+    multiplications += "  vec3 " + colour + " = " + colour +
+      " * (gnomonReceives == 0 ? 1.0 : mix(1.0, " + "gnomonVisibility" + number +
+      "(vertexVC.xyz, gnomonNormal), gnomonStrength" + number + "));\n";
   }
   if (declarations != this->declarations_ || multiplications != this->multiplications_ ||
     route != this->route_)
@@ -76,10 +76,10 @@ void ShaderManager::configure(Route route, const std::vector<ShadedLight>& light
 void ShaderManager::markShader(std::string& fragmentShader) const
 {
   replace(fragmentShader, "//VTK::Light::Dec", "//VTK::Light::Dec\n" + declarationMarker);
-  replace(fragmentShader, "//VTK::UniformFlow::Impl",
-    normalMarker + "\n  //VTK::UniformFlow::Impl");
-  replace(fragmentShader, "//VTK::Light::Impl",
-    beginMarker + "\n  //VTK::Light::Impl\n  " + endMarker);
+  replace(
+    fragmentShader, "//VTK::UniformFlow::Impl", normalMarker + "\n  //VTK::UniformFlow::Impl");
+  replace(
+    fragmentShader, "//VTK::Light::Impl", beginMarker + "\n  //VTK::Light::Impl\n  " + endMarker);
 }
 
 //------------------------------------------------------------------------------
@@ -110,8 +110,8 @@ void ShaderManager::fillShader(std::string& fragmentShader, bool receiversStage)
     {
       declarations = "uniform int gnomonStage;\n";
     }
-    begin = "if (gnomonStage == 1)\n  {\n    gl_FragData[0] = vec4(0.0, 0.0, 0.0, opacity);\n" + write +
-      "  }\n  else\n  {\n" + begin;
+    begin = "if (gnomonStage == 1)\n  {\n    gl_FragData[0] = vec4(0.0, 0.0, 0.0, opacity);\n" +
+      write + "  }\n  else\n  {\n" + begin;
     end = "  }\n";
   }
   replace(fragmentShader, declarationMarker, declarations);

@@ -16,8 +16,8 @@ struct VisibilityImages
   std::array<double, 3> origin{ { 0.0, 0.0, 0.0 } };
 
   /// visibility[k] belongs to the light with number sceneIndices[k] in the renderer's light
-  /// collection: 1 lit, 0 in shadow, turned away or outside the cone. Lights that do not cast are not
-  /// listed.
+  /// collection: 1 lit, 0 in shadow, turned away or outside the cone. Lights that do not cast are
+  /// not listed.
   std::vector<std::vector<float>> visibility;
   std::vector<int> sceneIndices;
 

@@ -36,7 +36,8 @@ void vtkGnomonEGLRenderWindow::Initialize()
   {
     return;
   }
-  this->EGL->display = eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
+  this->EGL->display =
+    eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
   EGLint major, minor;
   eglInitialize(this->EGL->display, &major, &minor);
   eglBindAPI(EGL_OPENGL_API);

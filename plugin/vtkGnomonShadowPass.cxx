@@ -218,8 +218,8 @@ void vtkGnomonShadowPass::SetTechnique(const char* name)
   const std::string technique = name ? name : "";
   if (!gnomon::findTechnique(technique))
   {
-    vtkErrorMacro("There is no technique '" << technique << "'. There are: "
-                                            << gnomon::techniqueNames() << ".");
+    vtkErrorMacro("There is no technique '" << technique
+                                            << "'. There are: " << gnomon::techniqueNames() << ".");
     return;
   }
   if (this->Internal->technique != technique)
@@ -266,8 +266,7 @@ const char* vtkGnomonShadowPass::GetTechniqueSummary(int index)
 //------------------------------------------------------------------------------
 const gnomon::FrameReport& vtkGnomonShadowPass::GetReport() const
 {
-  return this->Internal->shadowed ? this->Internal->manager->report()
-                                  : this->Internal->plainReport;
+  return this->Internal->shadowed ? this->Internal->manager->report() : this->Internal->plainReport;
 }
 
 //------------------------------------------------------------------------------

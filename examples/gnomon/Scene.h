@@ -66,8 +66,8 @@ struct Scene
   Vec3 background{ { 1, 1, 1 } };
 };
 
-/// Reads a built-in scene's name, a scene file (.json) or a model file (.obj .ply .stl .vtp .3ds .glb
-/// .gltf). A model gets a camera and a light where its file has none.
+/// Reads a built-in scene's name, a scene file (.json) or a model file (.obj .ply .stl .vtp .3ds
+/// .glb .gltf). A model gets a camera and a light where its file has none.
 /// @throws BadInput
 Scene loadScene(const std::string& nameOrPath);
 
@@ -79,7 +79,8 @@ struct BuiltinScene
 };
 std::vector<BuiltinScene> builtinScenes();
 
-/// Replaces a scene's lights or camera by what the command line says (SceneSpecs.cpp has the forms).
+/// Replaces a scene's lights or camera by what the command line says (SceneSpecs.cpp has the
+/// forms).
 /// @throws BadInput
 SceneLight parseLight(const std::string& spec);
 SceneCamera parseCamera(const std::string& spec, const SceneCamera& defaults);

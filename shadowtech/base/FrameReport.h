@@ -19,11 +19,11 @@ struct StageTime
 /// What became of one light.
 struct LightReport
 {
-  int sceneIndex = 0;     ///< place in the renderer's light collection
-  bool casts = false;     ///< false: skipped, and `reason` says why
-  std::string reason;     ///< why it was skipped; empty when it casts
-  std::string technique;  ///< the technique that shades it
-  int mapSizeTexels = 0;  ///< side of its map; 0 when it needs none
+  int sceneIndex = 0;            ///< place in the renderer's light collection
+  bool casts = false;            ///< false: skipped, and `reason` says why
+  std::string reason;            ///< why it was skipped; empty when it casts
+  std::string technique;         ///< the technique that shades it
+  int mapSizeTexels = 0;         ///< side of its map; 0 when it needs none
   std::int64_t tracedPixels = 0; ///< pixels decided by a ray
 };
 
@@ -40,21 +40,21 @@ struct FrameReport
   std::vector<StageTime> stages;
   double wallMilliseconds = 0.0; ///< the whole pass, as seen by the caller
 
-  int mapBakes = 0;             ///< maps drawn
-  int programCompiles = 0;      ///< shader programs compiled, VTK's with the hook included
-  int bvhBuilds = 0;            ///< acceleration structures built
-  int bvhRefits = 0;            ///< acceleration structures refitted
-  int surfacesExtracted = 0;    ///< mapper inputs read into the snapshot
-  int surfacesRetransformed = 0;///< surfaces whose world positions were computed again
+  int mapBakes = 0;              ///< maps drawn
+  int programCompiles = 0;       ///< shader programs compiled, VTK's with the hook included
+  int bvhBuilds = 0;             ///< acceleration structures built
+  int bvhRefits = 0;             ///< acceleration structures refitted
+  int surfacesExtracted = 0;     ///< mapper inputs read into the snapshot
+  int surfacesRetransformed = 0; ///< surfaces whose world positions were computed again
 
-  std::size_t triangles = 0;          ///< in the snapshot
-  std::size_t droppedNonFinite = 0;   ///< triangles left out: a vertex is not finite
-  std::size_t droppedZeroArea = 0;    ///< triangles left out: no area
+  std::size_t triangles = 0;        ///< in the snapshot
+  std::size_t droppedNonFinite = 0; ///< triangles left out: a vertex is not finite
+  std::size_t droppedZeroArea = 0;  ///< triangles left out: no area
 
   std::size_t bytesOccluders = 0; ///< snapshot on the CPU and the GPU
   std::size_t bytesBvh = 0;       ///< as Embree reports it
   std::size_t bytesMaps = 0;
-  std::size_t bytesImages = 0;    ///< receivers and visibility
+  std::size_t bytesImages = 0; ///< receivers and visibility
 };
 
 } // namespace gnomon

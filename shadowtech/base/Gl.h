@@ -9,8 +9,8 @@
 namespace gnomon
 {
 
-/// While one of these is alive, GL names that go out of scope are forgotten instead of deleted: their
-/// context is gone, and the names may mean something else in the one that is current.
+/// While one of these is alive, GL names that go out of scope are forgotten instead of deleted:
+/// their context is gone, and the names may mean something else in the one that is current.
 class GlContextLost
 {
 public:
@@ -22,7 +22,8 @@ public:
   inline static thread_local bool lost = false;
 };
 
-/// Owns one GL name. Its context must be current when the name is created and when it is given back.
+/// Owns one GL name. Its context must be current when the name is created and when it is given
+/// back.
 template <typename Kind>
 class GlHandle
 {

@@ -9,8 +9,8 @@ namespace gnomon
 {
 
 /// Remembers the OpenGL state that Gnomon's own drawing touches and puts it back at the end of its
-/// scope. VTK keeps a copy of most of that state (vtkOpenGLState); since what it knows is true again
-/// afterwards, it need not be told.
+/// scope. VTK keeps a copy of most of that state (vtkOpenGLState); since what it knows is true
+/// again afterwards, it need not be told.
 class GlStateGuard
 {
 public:

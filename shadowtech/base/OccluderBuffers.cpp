@@ -26,7 +26,8 @@ void OccluderBuffers::update(const Occluders& occluders)
   {
     std::vector<glm::uvec3> triangles;
     triangles.reserve(occluders.triangles.size());
-    const auto append = [&](bool oneSided) {
+    const auto append = [&](bool oneSided)
+    {
       for (const Surface& surface : occluders.surfaces)
       {
         if (surface.casts && surface.oneSided == oneSided)
@@ -61,8 +62,8 @@ void OccluderBuffers::draw() const
     glCullFace(GL_BACK);
     glFrontFace(GL_CCW);
     const std::size_t offset = static_cast<std::size_t>(this->twoSidedCount_) * sizeof(GLuint);
-    glDrawElements(GL_TRIANGLES, this->oneSidedCount_, GL_UNSIGNED_INT,
-      reinterpret_cast<const void*>(offset));
+    glDrawElements(
+      GL_TRIANGLES, this->oneSidedCount_, GL_UNSIGNED_INT, reinterpret_cast<const void*>(offset));
     glDisable(GL_CULL_FACE);
   }
 }

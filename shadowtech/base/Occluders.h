@@ -12,8 +12,9 @@
 namespace gnomon
 {
 
-/// One surface as VTK draws it: the triangles of one polydata under one prop (a block of a composite
-/// data set, a leaf of an assembly). Its vertices and triangles are contiguous in the snapshot.
+/// One surface as VTK draws it: the triangles of one polydata under one prop (a block of a
+/// composite data set, a leaf of an assembly). Its vertices and triangles are contiguous in the
+/// snapshot.
 struct Surface
 {
   std::uint32_t firstVertex = 0;
@@ -21,18 +22,19 @@ struct Surface
   std::uint32_t firstTriangle = 0;
   std::uint32_t triangleCount = 0;
 
-  bool casts = true;     ///< its triangles block light
-  bool receives = true;  ///< its pixels are shadowed; else their visibility is 1
-  bool oneSided = false; ///< only triangles whose front (counter-clockwise side) faces the light cast
+  bool casts = true;    ///< its triangles block light
+  bool receives = true; ///< its pixels are shadowed; else their visibility is 1
+  bool oneSided =
+    false; ///< only triangles whose front (counter-clockwise side) faces the light cast
 
   /// Changes when the triangles of this surface change (its mapper's input, its representation).
   std::uint64_t topologyVersion = 0;
   /// Changes when its centred positions change: with the topology, or because the prop moved.
   std::uint64_t positionsVersion = 0;
 
-  /// For the n-th triangle that VTK draws of this surface, the triangle in the snapshot, counted from
-  /// firstTriangle; `noTriangle` for one that was dropped. Empty when none was dropped: then the n-th
-  /// drawn triangle is the n-th of the surface.
+  /// For the n-th triangle that VTK draws of this surface, the triangle in the snapshot, counted
+  /// from firstTriangle; `noTriangle` for one that was dropped. Empty when none was dropped: then
+  /// the n-th drawn triangle is the n-th of the surface.
   std::vector<std::uint32_t> triangleOfDrawn;
 
   static constexpr std::uint32_t noTriangle = 0xffffffffu;
@@ -40,8 +42,8 @@ struct Surface
 
 /// The snapshot: every surface triangle that VTK draws, cast or only receive, in one list.
 ///
-/// Positions are *centred*: world coordinates less centreWorld, computed in double precision and then
-/// rounded to float, so that scenes far from the origin keep their precision.
+/// Positions are *centred*: world coordinates less centreWorld, computed in double precision and
+/// then rounded to float, so that scenes far from the origin keep their precision.
 struct Occluders
 {
   glm::dvec3 centreWorld{ 0.0 };

@@ -30,13 +30,13 @@ public:
   };
 
   /// Brings the acceleration structure up to date with the snapshot; does nothing when neither
-  /// topologyVersion nor positionsVersion changed. The snapshot's vertex and index arrays are shared,
-  /// not copied: they must stay where they are until the next update.
+  /// topologyVersion nor positionsVersion changed. The snapshot's vertex and index arrays are
+  /// shared, not copied: they must stay where they are until the next update.
   Update update(const Occluders& occluders);
 
-  /// Visibility of the light from every receiver, by the shadow ray of ShadowRay.h: 1 lit, 0 shadowed,
-  /// turned away from the light (N.L <= 0) or outside a spot light's cone. Pixels that are not
-  /// covered, or whose surface does not receive, get 1.
+  /// Visibility of the light from every receiver, by the shadow ray of ShadowRay.h: 1 lit, 0
+  /// shadowed, turned away from the light (N.L <= 0) or outside a spot light's cone. Pixels that
+  /// are not covered, or whose surface does not receive, get 1.
   ///
   /// @param visibility resized to the receivers' size, in their order
   /// @return the number of rays traced

@@ -60,8 +60,7 @@ void ReceiverTarget::read(ReceiverImages& images) const
   glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
   glPixelStorei(GL_PACK_ALIGNMENT, 4);
   glReadBuffer(GL_COLOR_ATTACHMENT0);
-  glReadPixels(
-    0, 0, this->width_, this->height_, GL_RGBA, GL_FLOAT, images.positionView.data());
+  glReadPixels(0, 0, this->width_, this->height_, GL_RGBA, GL_FLOAT, images.positionView.data());
   glReadBuffer(GL_COLOR_ATTACHMENT1);
   glReadPixels(0, 0, this->width_, this->height_, GL_RGBA, GL_FLOAT, images.normalView.data());
 }

@@ -9,14 +9,14 @@
 namespace gnomon
 {
 
-/// The framebuffer that the receivers stage draws into: a position and a normal image in 32-bit float
-/// (ReceiverImages), and a depth buffer of its own.
+/// The framebuffer that the receivers stage draws into: a position and a normal image in 32-bit
+/// float (ReceiverImages), and a depth buffer of its own.
 class ReceiverTarget
 {
 public:
-  /// Binds the framebuffer for drawing with the given size, cleared, its whole area as viewport. The
-  /// fragment shader's output 1 goes to the position image, output 2 to the normal image, output 0
-  /// nowhere.
+  /// Binds the framebuffer for drawing with the given size, cleared, its whole area as viewport.
+  /// The fragment shader's output 1 goes to the position image, output 2 to the normal image,
+  /// output 0 nowhere.
   void begin(int width, int height);
 
   /// Reads both images back.

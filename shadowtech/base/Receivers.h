@@ -70,9 +70,9 @@ struct ReceiverImages
   bool parallelProjection = false;
 };
 
-/// How the fragments of one drawn surface find the snapshot. VTK draws a surface per mapper (or mapper
-/// helper) and prop; composite helpers draw several blocks with one program and number the primitives
-/// through them.
+/// How the fragments of one drawn surface find the snapshot. VTK draws a surface per mapper (or
+/// mapper helper) and prop; composite helpers draw several blocks with one program and number the
+/// primitives through them.
 struct DrawnSurface
 {
   struct Block

@@ -42,8 +42,8 @@ public:
   /// @throws ShaderError with the compiler's log
   GLuint program(const std::vector<Stage>& stages, const std::vector<std::string>& defines = {});
 
-  /// Sets a uniform of the program in use; names that it does not use are ignored. Textures are bound
-  /// to units by whoever owns those, and set as an int.
+  /// Sets a uniform of the program in use; names that it does not use are ignored. Textures are
+  /// bound to units by whoever owns those, and set as an int.
   static void setUniform(GLuint program, const Uniform& uniform);
 
   /// Binds the textures among `uniforms` to units from `firstUnit` on and sets them all; in their

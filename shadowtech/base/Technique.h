@@ -27,10 +27,10 @@ class ShaderLibrary;
 struct TechniqueInfo
 {
   std::string name;
-  std::string summary;      ///< one line for people
-  bool pointwise = false;   ///< visibility is a function of the point: serves both routes
-  bool exact = false;       ///< equals the ray-traced visibility bit for bit
-  bool needsMap = false;    ///< bakes something from the light
+  std::string summary;    ///< one line for people
+  bool pointwise = false; ///< visibility is a function of the point: serves both routes
+  bool exact = false;     ///< equals the ray-traced visibility bit for bit
+  bool needsMap = false;  ///< bakes something from the light
 };
 
 /// A texture for a shader's sampler.
@@ -66,14 +66,14 @@ struct ScreenInput
   RayTracer& tracer; ///< its structure is up to date with the occluders
 };
 
-/// One way to compute visibility, for one light. The render manager makes one per casting light from
-/// the registry and keeps it while the light keeps its technique.
+/// One way to compute visibility, for one light. The render manager makes one per casting light
+/// from the registry and keeps it while the light keeps its technique.
 ///
 /// A *pointwise* technique gives GLSL: a file that defines
 ///     float visibility_LIGHT(vec3 positionView, vec3 normalView)
-/// in GLSL 1.50 and its uniforms. The normal is the geometric one on the camera's side, of any length.
-/// Every identifier that ends in _LIGHT is numbered per light. Both routes call that function: VTK's
-/// own shaders (inline) or a full-screen pass (image).
+/// in GLSL 1.50 and its uniforms. The normal is the geometric one on the camera's side, of any
+/// length. Every identifier that ends in _LIGHT is numbered per light. Both routes call that
+/// function: VTK's own shaders (inline) or a full-screen pass (image).
 ///
 /// A *screen* technique works on the receivers of all pixels at once, on the CPU.
 class Technique
@@ -88,7 +88,8 @@ public:
 
   /// Path of the GLSL file of a pointwise technique; empty for a screen technique.
   virtual std::string visibilityGlsl() const { return {}; }
-  /// The uniforms of that file, as of the last bake, for receivers in the view coordinates of a camera.
+  /// The uniforms of that file, as of the last bake, for receivers in the view coordinates of a
+  /// camera.
   /// @param centredFromView the camera's rigid transformation from view to centred coordinates
   virtual std::vector<Uniform> uniforms(const glm::dmat4& centredFromView) const
   {

@@ -74,7 +74,8 @@ void VisibilityLayers::upload(int layer, const std::vector<float>& visibility)
 void VisibilityLayers::read(int layer, std::vector<float>& visibility) const
 {
   const GlStateGuard guard;
-  visibility.resize(static_cast<std::size_t>(this->width_) * static_cast<std::size_t>(this->height_));
+  visibility.resize(
+    static_cast<std::size_t>(this->width_) * static_cast<std::size_t>(this->height_));
   GlFramebuffer framebuffer;
   glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer.create());
   glFramebufferTextureLayer(

@@ -7,15 +7,15 @@
 #include <glm/gtc/matrix_access.hpp>
 
 #include <cmath>
-#include <cstdlib>
 
 namespace gnomon
 {
 namespace
 {
 
-/// How far the map is pushed back, in the larger of a caster's two depth slopes per texel.
-const float slopePush = std::getenv("PUSH") ? std::atof(std::getenv("PUSH")) : 1.0f;
+/// How far the map is pushed back, in the larger of a caster's two depth slopes per texel. Nsm.h
+/// asks for half of their sum, which this is never less than.
+constexpr float slopePush = 1.0f;
 
 /// Depths are compared with this slack, as a share of the map's depth range: four roundings of a
 /// float (2^-24) in the transformations on either side, and as much again for the rasteriser.
@@ -25,13 +25,13 @@ constexpr float roundingSlack = 1.0f / (1 << 20);
 std::vector<Uniform> describe(const ShadowLight& light, const LightView& view, int sizeTexels,
   const TextureBinding& map, const glm::dmat4& centredFromView)
 {
-  // texel = (clip / w * 0.5 + 0.5) * size; both projections scale x and y apart. The offset stands in
-  // the last column of an affine projection and in the third, over w = z, of a perspective one.
+  // texel = (clip / w * 0.5 + 0.5) * size; both projections scale x and y apart. The offset stands
+  // in the last column of an affine projection and in the third, over w = z, of a perspective one.
   const double half = 0.5 * sizeTexels;
   const glm::dmat4& clip = view.clipFromLight;
   const glm::dvec2 offset = view.perspective ? glm::dvec2(clip[2]) : glm::dvec2(clip[3]);
-  const glm::dvec4 texels(half * clip[0][0], half * clip[1][1], half * (offset.x + 1.0),
-    half * (offset.y + 1.0));
+  const glm::dvec4 texels(
+    half * clip[0][0], half * clip[1][1], half * (offset.x + 1.0), half * (offset.y + 1.0));
   const bool spot = light.kind == LightKind::Spot;
   return { { "nsmMap_LIGHT", map },
     { "nsmLightFromView_LIGHT", glm::mat4(view.lightFromCentred * centredFromView) },
@@ -69,8 +69,7 @@ void Nsm::allocate(int sizeTexels)
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_NONE);
   glBindFramebuffer(GL_FRAMEBUFFER, this->framebuffer_.create());
-  glFramebufferTexture2D(
-    GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, this->map_.name(), 0);
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, this->map_.name(), 0);
   glDrawBuffer(GL_NONE);
   glReadBuffer(GL_NONE);
   this->sizeTexels_ = sizeTexels;

@@ -12,8 +12,9 @@ namespace gnomon
 /// No bias is tuned. The comparison follows the receiver's plane to the texel's centre
 /// (nsm_visibility.glsl), which frees planes and convex surfaces from shadowing themselves. What is
 /// left are concave corners: there the texel's centre may lie on a neighbour that rises towards the
-/// light. Up to the texel's border the neighbour's depth differs by at most half a texel of its own
-/// slope in either direction, so the map is pushed back by that much.
+/// light. Between the centre and the crease, which is no further than the texel's border, its depth
+/// grows by at most half the sum of its slopes per texel in x and y, so the map is pushed back by
+/// that.
 class Nsm : public Technique
 {
 public:
