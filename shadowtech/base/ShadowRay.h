@@ -1,0 +1,127 @@
+#ifndef gnomon_shadowtech_base_ShadowRay_h
+#define gnomon_shadowtech_base_ShadowRay_h
+
+#include "lights/ShadowLight.h"
+
+#include <glm/glm.hpp>
+
+#include <cmath>
+#include <limits>
+
+namespace gnomon
+{
+
+/// @file
+/// The one shadow ray of the project: where it starts, where it goes, and when none is needed.
+/// shadow_ray.glsl is its twin.
+///
+/// How far off the surface it starts. Let u = 2^-24 be the unit roundoff of float, N a triangle's
+/// unit normal, M its largest coordinates by magnitude along x, y and z (centred), X, Y, Z the
+/// extent of its box and A twice its area. The receiver was projected onto the triangle's plane in
+/// double precision. What is left:
+///
+/// - Storage. Rounding the receiver to float moves it by at most u |M_i| along axis i, so off the
+/// plane
+///   by u sum |N_i| M_i. Adding the offset and rounding the ray's origin costs the same again:
+///   together 2u sum |N_i| M_i. Exact, and zero for a plane through an axis of the centred frame.
+/// - Intersection. The ray is tested by the sign of T = dot(v0 - O, (v1 - v0) x (v2 - v0)), in
+/// float.
+///   Vertices relative to O are rounded to u per axis, which moves their plane by u sum |N_i| X_i,
+///   at most 3u XYZ/A as |N_i| A <= X_j X_k. Each edge is rounded once more, each component of the
+///   cross product is two products of two edges and a subtraction, 7u X_j X_k; times v0, summed
+///   over three axes, 21u XYZ; the dot product's own rounding adds at most 9u XYZ. Together 33u
+///   XYZ/A, Embree's robust test as a forward error bound. Of slivers A is small, so theirs is
+///   large, as it must be.
+///
+/// Both are bounds, not estimates; planeNoise() returns their sum, with 32u for 33u, which no
+/// rounding reaches. The offset is twice that, so that the truth holds with half of it.
+///
+/// - Footprint. A rasteriser snaps vertices to 1/256 pixel, so a fragment near an edge may lie past
+///   it by that much, behind the next triangle of a concave surface. The offset grows by 1/256 of
+///   the pixel's side, which also is as far as a shadow can move without being seen.
+
+/// How far from its plane the points of a triangle may seem to lie, in the unit of the coordinates.
+///
+/// @param normal unit normal of the triangle
+/// @param largest largest magnitude of the vertices' centred coordinates, by axis
+/// @param extent size of the triangle's box
+/// @param doubleArea twice the triangle's area; > 0
+inline float planeNoise(
+  const glm::vec3& normal, const glm::vec3& largest, const glm::vec3& extent, float doubleArea)
+{
+  const float storage = std::abs(normal.x) * largest.x + std::abs(normal.y) * largest.y +
+    std::abs(normal.z) * largest.z;
+  const float intersection = extent.x * (extent.y * extent.z / doubleArea);
+  return 1.1920929e-7f * storage + 1.9073486e-6f * intersection; // 2^-23 and 2^-19
+}
+
+/// How far off the surface, along the normal, the shadow ray starts.
+///
+/// @param noise planeNoise() of the receiver's triangle
+/// @param footprint the pixel's side at the receiver's distance
+inline float shadowRayOffset(float noise, float footprint)
+{
+  return 2.0f * noise + 0.00390625f * footprint; // 1/256
+}
+
+/// The surface faces the light where N.L exceeds this. Below, the sign of N.L is a matter of
+/// rounding (its error is 4u at most), so that faces along the light would turn noisy.
+inline constexpr float facingCosine = 9.5367432e-7f; // 2^-20
+
+/// Where along its direction the shadow ray starts to count, and ends: for a spot light, whose ray
+/// is not normalised, at the light itself.
+inline constexpr float shadowRayNear = 0.0f;
+inline constexpr float shadowRayFarSpot = 1.0f;
+inline constexpr float shadowRayFarDirectional = std::numeric_limits<float>::infinity();
+
+/// A light as shadow rays see it: in centred coordinates, in float.
+struct ShadowRayLight
+{
+  LightKind kind = LightKind::Directional;
+  glm::vec3 position{ 0.0f };  ///< of a spot light
+  glm::vec3 toLight{ 0.0f };   ///< unit vector against the light's direction
+  float tangentSquared = 0.0f; ///< of half a spot light's cone
+
+  ShadowRayLight(const ShadowLight& light, const glm::dvec3& centreWorld)
+    : kind(light.kind)
+    , position(light.positionWorld - centreWorld)
+    , toLight(-glm::normalize(light.directionWorld))
+  {
+    const double tangent = std::tan(glm::radians(light.coneAngleDegrees));
+    this->tangentSquared = static_cast<float>(tangent * tangent);
+  }
+};
+
+/// A shadow ray. `traced` is false where visibility is 0 without it: the surface is turned away, or
+/// lies outside the cone.
+struct ShadowRay
+{
+  glm::vec3 origin;
+  glm::vec3 direction;
+  bool traced;
+};
+
+inline ShadowRay shadowRayDirectional(
+  const ShadowRayLight& light, const glm::vec3& position, const glm::vec3& normal, float offset)
+{
+  return { position + offset * normal, light.toLight,
+    glm::dot(normal, light.toLight) > facingCosine };
+}
+
+/// The cone's test compares tangents, which stay precise for narrow cones where cosines do not.
+inline ShadowRay shadowRaySpot(
+  const ShadowRayLight& light, const glm::vec3& position, const glm::vec3& normal, float offset)
+{
+  const glm::vec3 toLight = light.position - position;
+  const float along = glm::dot(toLight, light.toLight);
+  const glm::vec3 across = toLight - along * light.toLight;
+  const bool inCone =
+    along > 0.0f && glm::dot(across, across) <= light.tangentSquared * along * along;
+  const bool facing = glm::dot(normal, toLight) > facingCosine * glm::length(toLight);
+  const glm::vec3 origin = position + offset * normal;
+  return { origin, light.position - origin, inCone && facing };
+}
+
+} // namespace gnomon
+
+#endif

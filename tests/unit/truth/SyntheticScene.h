@@ -1,0 +1,97 @@
+#ifndef gnomon_tests_SyntheticScene_h
+#define gnomon_tests_SyntheticScene_h
+
+#include "lights/ShadowLight.h"
+#include "shadowtech/base/Occluders.h"
+#include "shadowtech/base/Receivers.h"
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+/// @file
+/// Scenes and camera views made on the CPU, without VTK and OpenGL, in the form in which the plugin
+/// hands them to the techniques.
+
+namespace gnomon::test
+{
+
+/// A mesh in its own coordinates, counter-clockwise seen from outside.
+struct Mesh
+{
+  std::vector<glm::dvec3> points;
+  std::vector<glm::uvec3> triangles;
+};
+
+/// A square in the plane z = 0, facing +z, of cells x cells quads.
+Mesh makePlane(double side, int cells = 1);
+Mesh makeBox(const glm::dvec3& lower, const glm::dvec3& upper);
+/// A unit sphere around the origin; `bumps` displaces it along its normals.
+Mesh makeSphere(int rings, int segments, double bumps = 0.0);
+/// Triangles of all shapes and sizes in the unit cube, slivers among them.
+Mesh makeTriangleSoup(int count, unsigned int seed);
+/// The mesh of a Wavefront file; polygons are fanned.
+Mesh readObj(const std::string& path);
+
+/// One prop: a mesh and where it stands.
+struct Prop
+{
+  Mesh mesh;
+  glm::dmat4 worldFromMesh{ 1.0 };
+  bool casts = true;
+  bool receives = true;
+  bool oneSided = false;
+};
+
+/// The snapshot of these props, as the collector makes it: doubles less the centre, then floats.
+Occluders makeOccluders(const std::vector<Prop>& props);
+
+/// Moves one surface of a snapshot, as a moved prop does, and marks what changed.
+void moveSurface(Occluders& occluders, std::size_t surface, const glm::dvec3& by);
+
+/// A camera in world coordinates.
+struct Camera
+{
+  glm::dvec3 position{ 0.0 };
+  glm::dvec3 target{ 0.0 };
+  glm::dvec3 up{ 0.0, 0.0, 1.0 };
+  double fovDegrees = 40.0;    ///< full vertical angle
+  double parallelHeight = 0.0; ///< of a parallel projection; 0 for perspective
+  int width = 256;
+  int height = 256;
+};
+
+/// What the camera sees, as a rasteriser gives it: vertices go to view coordinates in float, and
+/// fragments interpolate them at a point that is off the pixel's centre by up to 1/512 pixel.
+struct View
+{
+  ReceiverImages images;
+  std::vector<DrawnSurface> drawnSurfaces; ///< one per surface of the snapshot
+};
+View makeView(const Occluders& occluders, const Camera& camera);
+
+/// makeView() and projectReceivers().
+ReceiverPixels makeReceivers(const Occluders& occluders, const Camera& camera);
+
+ShadowLight directionalLight(const glm::dvec3& direction);
+ShadowLight spotLight(
+  const glm::dvec3& position, const glm::dvec3& target, double coneAngleDegrees);
+
+/// Visibility by every triangle against every ray, in double precision.
+std::vector<float> traceBruteForce(
+  const ShadowLight& light, const Occluders& occluders, const ReceiverPixels& receivers);
+
+/// The smallest distance between a pixel's shadow ray and an edge of a casting triangle, over the
+/// largest coordinate of the scene.
+double edgeDistance(const ShadowLight& light, const Occluders& occluders,
+  const ReceiverPixels& receivers, std::size_t pixel);
+
+/// Pixels whose visibilities differ.
+std::size_t countDifferent(const std::vector<float>& a, const std::vector<float>& b);
+std::size_t countCovered(const ReceiverPixels& receivers);
+
+} // namespace gnomon::test
+
+#endif
