@@ -1,108 +1,294 @@
 #include "vtkGnomonEGLRenderWindow.h"
 
+#include "plugin/EglContext.h"
+
 #include "vtkObjectFactory.h"
-#include "vtkOpenGLState.h"
+#include "vtkOpenGLFramebufferObject.h"
+#include "vtkRenderer.h"
+#include "vtkRendererCollection.h"
 
 #include <vtk_glew.h>
 
-#include <EGL/egl.h>
-#include <EGL/eglext.h>
+#include <cstdlib>
+#include <stdexcept>
+#include <string>
 
 vtkStandardNewMacro(vtkGnomonEGLRenderWindow);
 
-struct vtkGnomonEGLRenderWindow::Context
-{
-  EGLDisplay display = EGL_NO_DISPLAY;
-  EGLContext context = EGL_NO_CONTEXT;
-};
-
+//------------------------------------------------------------------------------
 vtkGnomonEGLRenderWindow::vtkGnomonEGLRenderWindow()
-  : EGL(new Context)
+  : ContextVersion{ 4, 5 }
 {
-  this->SetOffScreenRendering(1);
+  this->DeviceIndex = -1;
+  if (const char* text = std::getenv("VTK_DEFAULT_EGL_DEVICE_INDEX"))
+  {
+    char* end = nullptr;
+    const long index = std::strtol(text, &end, 10);
+    if (end == text || *end != '\0' || index < -1 || index > VTK_INT_MAX)
+    {
+      vtkErrorMacro("VTK_DEFAULT_EGL_DEVICE_INDEX is \""
+        << text << "\"; expected the number of an EGL device, or -1. It is ignored.");
+    }
+    else
+    {
+      this->DeviceIndex = static_cast<int>(index);
+    }
+  }
   this->SetMultiSamples(0);
-  this->SetReadyForRendering(true);
-  this->SetFrameBlitModeToNoBlit();
+  this->SetOffScreenRendering(1);
+  this->SetFrameBlitModeToNoBlit(); // there is nothing to show the picture on
 }
 
+//------------------------------------------------------------------------------
 vtkGnomonEGLRenderWindow::~vtkGnomonEGLRenderWindow()
 {
   this->Finalize();
+
+  vtkCollectionSimpleIterator iterator;
+  this->Renderers->InitTraversal(iterator);
+  while (vtkRenderer* renderer = this->Renderers->GetNextRenderer(iterator))
+  {
+    renderer->SetRenderWindow(nullptr);
+  }
 }
 
+//------------------------------------------------------------------------------
+int vtkGnomonEGLRenderWindow::GetNumberOfDevices()
+{
+  return gnomon::EglContext::numberOfDevices();
+}
+
+//------------------------------------------------------------------------------
 void vtkGnomonEGLRenderWindow::Initialize()
 {
-  if (this->EGL->context != EGL_NO_CONTEXT)
+  if (this->Initialized)
   {
     return;
   }
-  this->EGL->display =
-    eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
-  EGLint major, minor;
-  eglInitialize(this->EGL->display, &major, &minor);
-  eglBindAPI(EGL_OPENGL_API);
-  const EGLint configAttributes[] = { EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE,
-    EGL_OPENGL_BIT, EGL_NONE };
-  EGLConfig config;
-  EGLint count = 0;
-  eglChooseConfig(this->EGL->display, configAttributes, &config, 1, &count);
-  const EGLint attributes[] = { EGL_CONTEXT_MAJOR_VERSION, 4, EGL_CONTEXT_MINOR_VERSION, 5,
-    EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE };
-  this->EGL->context = eglCreateContext(this->EGL->display, config, EGL_NO_CONTEXT, attributes);
-  this->MakeCurrent();
-  this->OpenGLInit();
+  this->CreateAWindow();
+  if (this->Context)
+  {
+    this->OpenGLInit();
+  }
 }
 
+//------------------------------------------------------------------------------
+void vtkGnomonEGLRenderWindow::CreateAWindow()
+{
+  try
+  {
+    gnomon::EglRequest request;
+    request.majorVersion = this->ContextVersion[0];
+    request.minorVersion = this->ContextVersion[1];
+    request.deviceIndex = this->DeviceIndex;
+    this->Context = std::make_unique<gnomon::EglContext>(request);
+  }
+  catch (const std::runtime_error& error)
+  {
+    vtkErrorMacro("No OpenGL context without a display could be made. " << error.what() << ".");
+  }
+}
+
+//------------------------------------------------------------------------------
 void vtkGnomonEGLRenderWindow::Finalize()
 {
-  if (this->EGL->context == EGL_NO_CONTEXT)
-  {
-    return;
-  }
-  this->MakeCurrent();
-  this->Superclass::Finalize();
-  eglMakeCurrent(this->EGL->display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
-  eglDestroyContext(this->EGL->display, this->EGL->context);
-  this->EGL->context = EGL_NO_CONTEXT;
+  this->DestroyWindow();
 }
 
+//------------------------------------------------------------------------------
+void vtkGnomonEGLRenderWindow::DestroyWindow()
+{
+  this->ReleaseGraphicsResources(this);
+  this->Context.reset();
+}
+
+//------------------------------------------------------------------------------
+void vtkGnomonEGLRenderWindow::WindowRemap()
+{
+  this->Finalize();
+  this->Initialize();
+}
+
+//------------------------------------------------------------------------------
+void vtkGnomonEGLRenderWindow::Start()
+{
+  this->Initialize();
+  if (this->Initialized)
+  {
+    this->Superclass::Start();
+  }
+}
+
+//------------------------------------------------------------------------------
 void vtkGnomonEGLRenderWindow::Render()
 {
   this->Initialize();
-  this->Superclass::Render();
-}
-
-void vtkGnomonEGLRenderWindow::MakeCurrent()
-{
-  if (this->EGL->context != EGL_NO_CONTEXT)
+  if (this->Initialized)
   {
-    eglMakeCurrent(this->EGL->display, EGL_NO_SURFACE, EGL_NO_SURFACE, this->EGL->context);
+    this->Superclass::Render();
   }
 }
 
+//------------------------------------------------------------------------------
+void vtkGnomonEGLRenderWindow::MakeCurrent()
+{
+  if (this->Context && !this->Context->makeCurrent())
+  {
+    vtkErrorMacro(
+      "The context cannot be made current (" << gnomon::EglContext::lastError() << ").");
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkGnomonEGLRenderWindow::ReleaseCurrent()
+{
+  if (this->IsCurrent())
+  {
+    eglMakeCurrent(this->Context->display(), EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+  }
+}
+
+//------------------------------------------------------------------------------
 bool vtkGnomonEGLRenderWindow::IsCurrent()
 {
-  return this->EGL->context != EGL_NO_CONTEXT && eglGetCurrentContext() == this->EGL->context;
+  return this->Context && this->Context->isCurrent();
 }
 
-int vtkGnomonEGLRenderWindow::SupportsOpenGL()
+//------------------------------------------------------------------------------
+void vtkGnomonEGLRenderWindow::PushContext()
 {
-  return 1;
+  this->ContextStack.push_back(std::make_unique<gnomon::EglCurrentContext>());
+  this->MakeCurrent();
 }
 
+//------------------------------------------------------------------------------
+void vtkGnomonEGLRenderWindow::PopContext()
+{
+  this->ContextStack.pop_back();
+}
+
+//------------------------------------------------------------------------------
 void vtkGnomonEGLRenderWindow::OpenGLInitContext()
 {
   this->ContextCreationTime.Modified();
-  if (!this->Initialized)
+  if (this->Initialized)
   {
-    glewExperimental = GL_TRUE;
-    const GLenum result = glewInit();
-    this->GlewInitValid = result == GLEW_OK || result == GLEW_ERROR_NO_GLX_DISPLAY;
-    this->Initialized = this->GlewInitValid;
+    return;
   }
+  const GLenum result = glewInit();
+  this->GlewInitValid = result == GLEW_OK || result == GLEW_ERROR_NO_GLX_DISPLAY;
+  if (!this->GlewInitValid)
+  {
+    vtkErrorMacro("OpenGL's functions could not be loaded: "
+      << reinterpret_cast<const char*>(glewGetErrorString(result)) << ".");
+    return;
+  }
+  if (!GLEW_VERSION_3_2)
+  {
+    vtkErrorMacro("VTK needs OpenGL 3.2; " << this->Context->platform() << " gives "
+                                           << reinterpret_cast<const char*>(glGetString(GL_VERSION))
+                                           << ".");
+    return;
+  }
+  this->Initialized = true;
+
+  GLfloat lineWidths[2] = { 1.0f, 1.0f };
+  glGetFloatv(
+    this->LineSmoothing ? GL_SMOOTH_LINE_WIDTH_RANGE : GL_ALIASED_LINE_WIDTH_RANGE, lineWidths);
+  this->MaximumHardwareLineWidth = lineWidths[1];
 }
 
+//------------------------------------------------------------------------------
+const char* vtkGnomonEGLRenderWindow::ReportCapabilities()
+{
+  this->Initialize();
+  return this->Initialized ? this->Superclass::ReportCapabilities() : "";
+}
+
+//------------------------------------------------------------------------------
+void* vtkGnomonEGLRenderWindow::GetGenericDisplayId()
+{
+  return this->Context ? this->Context->display() : nullptr;
+}
+
+//------------------------------------------------------------------------------
+void* vtkGnomonEGLRenderWindow::GetGenericContext()
+{
+  return this->Context ? this->Context->context() : nullptr;
+}
+
+//------------------------------------------------------------------------------
+int* vtkGnomonEGLRenderWindow::GetScreenSize()
+{
+  // A screen of the window's own size.
+  this->ScreenSize[0] = this->Size[0];
+  this->ScreenSize[1] = this->Size[1];
+  return this->ScreenSize;
+}
+
+//------------------------------------------------------------------------------
+bool vtkGnomonEGLRenderWindow::HasFrame()
+{
+  if (!this->Initialized || !this->RenderFramebuffer->GetFBOIndex())
+  {
+    vtkErrorMacro("There are no pixels to read or write before the first Render().");
+    return false;
+  }
+  return true;
+}
+
+//------------------------------------------------------------------------------
+int vtkGnomonEGLRenderWindow::ReadPixels(
+  const vtkRecti& rect, int front, int glFormat, int glType, void* data, int right)
+{
+  return this->HasFrame() ? this->Superclass::ReadPixels(rect, front, glFormat, glType, data, right)
+                          : VTK_ERROR;
+}
+
+//------------------------------------------------------------------------------
+int vtkGnomonEGLRenderWindow::GetZbufferData(int x1, int y1, int x2, int y2, float* z)
+{
+  return this->HasFrame() ? this->Superclass::GetZbufferData(x1, y1, x2, y2, z) : VTK_ERROR;
+}
+
+//------------------------------------------------------------------------------
+int vtkGnomonEGLRenderWindow::SetZbufferData(int x1, int y1, int x2, int y2, float* buffer)
+{
+  return this->HasFrame() ? this->Superclass::SetZbufferData(x1, y1, x2, y2, buffer) : VTK_ERROR;
+}
+
+//------------------------------------------------------------------------------
+int vtkGnomonEGLRenderWindow::SetPixelData(
+  int x1, int y1, int x2, int y2, unsigned char* data, int front, int right)
+{
+  return this->HasFrame() ? this->Superclass::SetPixelData(x1, y1, x2, y2, data, front, right)
+                          : VTK_ERROR;
+}
+
+//------------------------------------------------------------------------------
+int vtkGnomonEGLRenderWindow::SetRGBAPixelData(
+  int x1, int y1, int x2, int y2, float* data, int front, int blend, int right)
+{
+  return this->HasFrame()
+    ? this->Superclass::SetRGBAPixelData(x1, y1, x2, y2, data, front, blend, right)
+    : VTK_ERROR;
+}
+
+//------------------------------------------------------------------------------
+int vtkGnomonEGLRenderWindow::SetRGBACharPixelData(
+  int x1, int y1, int x2, int y2, unsigned char* data, int front, int blend, int right)
+{
+  return this->HasFrame()
+    ? this->Superclass::SetRGBACharPixelData(x1, y1, x2, y2, data, front, blend, right)
+    : VTK_ERROR;
+}
+
+//------------------------------------------------------------------------------
 void vtkGnomonEGLRenderWindow::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  os << indent << "ContextVersion: " << this->ContextVersion[0] << "." << this->ContextVersion[1]
+     << "\n";
+  os << indent << "DeviceIndex: " << this->DeviceIndex << "\n";
+  os << indent << "Context: " << (this->Context ? this->Context->platform() : "(none)") << "\n";
 }

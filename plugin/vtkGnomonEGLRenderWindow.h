@@ -2,9 +2,9 @@
  * @class   vtkGnomonEGLRenderWindow
  * @brief   a window without a display: OpenGL through EGL, with no X server
  *
- * For VTK builds that have only GLX windows, such as Debian's. The context is surfaceless where EGL
- * allows it, so that it needs no display at all; VTK draws into its own framebuffers, and pictures
- * are read with vtkWindowToImageFilter or GetPixelData as from any window.
+ * For VTK builds that have only GLX windows, such as Debian's. The window draws into VTK's own
+ * framebuffers and shows nothing; pictures are read with vtkWindowToImageFilter or GetPixelData as
+ * from any window.
  *
  * @code
  * vtkNew<vtkGnomonEGLRenderWindow> window;
@@ -12,41 +12,144 @@
  * window->AddRenderer(renderer);
  * window->Render();
  * @endcode
+ *
+ * SetDeviceIndex, or VTK_DEFAULT_EGL_DEVICE_INDEX in the environment, picks one of EGL's devices
+ * (graphics cards, and Mesa's software renderer). Without them the window takes the first that
+ * works of: hardware devices, the surfaceless platform, software devices, the default display.
+ *
+ * Multisampling is off by default (SetMultiSamples). If no context can be made, Initialize() and
+ * everything that needs one is an error (vtkErrorMacro) that says what was tried, and nothing is
+ * drawn. The window's calls belong on one thread; on a thread where another window system's context
+ * (GLX) is current, release that one first.
  */
 
 #ifndef vtkGnomonEGLRenderWindow_h
 #define vtkGnomonEGLRenderWindow_h
 
 #include "GnomonPluginModule.h" // For export macro
-#include "vtkGenericOpenGLRenderWindow.h"
+#include "vtkOpenGLRenderWindow.h"
 
 #include <memory> // For std::unique_ptr
+#include <vector> // For std::vector
 
-class GNOMONPLUGIN_EXPORT vtkGnomonEGLRenderWindow : public vtkGenericOpenGLRenderWindow
+namespace gnomon
+{
+class EglContext;
+class EglCurrentContext;
+}
+
+class GNOMONPLUGIN_EXPORT vtkGnomonEGLRenderWindow : public vtkOpenGLRenderWindow
 {
 public:
   static vtkGnomonEGLRenderWindow* New();
-  vtkTypeMacro(vtkGnomonEGLRenderWindow, vtkGenericOpenGLRenderWindow);
+  vtkTypeMacro(vtkGnomonEGLRenderWindow, vtkOpenGLRenderWindow);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
+  ///@{
+  /**
+   * The OpenGL core version to ask for, when the context is made. Lower versions down to 3.2 are
+   * tried after it; the driver may give a higher one that is compatible (GetOpenGLVersion tells).
+   * Default 4.5.
+   */
+  vtkSetVector2Macro(ContextVersion, int);
+  vtkGetVector2Macro(ContextVersion, int);
+  ///@}
+
+  /**
+   * How many devices EGL lists; 0 where it cannot list them. SetDeviceIndex takes one of
+   * [0, GetNumberOfDevices()), or -1 (the default) for the best that works.
+   */
+  int GetNumberOfDevices() override;
+
+  ///@{
+  /**
+   * Make the context, or let it go with all that lives in it. Both may be called again, in any
+   * order; drawing makes the context by itself.
+   */
   void Initialize() override;
   void Finalize() override;
+  ///@}
+
+  void Start() override;
   void Render() override;
+
+  ///@{
+  /**
+   * The context, as current on this thread.
+   */
   void MakeCurrent() override;
+  void ReleaseCurrent() override;
   bool IsCurrent() override;
-  int SupportsOpenGL() override;
+  void PushContext() override;
+  void PopContext() override;
+  ///@}
+
+  /**
+   * Load OpenGL's functions. GLEW built for GLX loads them too, and only then complains that there
+   * is no X display; that complaint is not an error here.
+   */
   void OpenGLInitContext() override;
+
+  /**
+   * Text about the driver; empty when no context can be made.
+   */
+  const char* ReportCapabilities() override;
+
+  ///@{
+  /**
+   * EGL's display and context; null before Initialize().
+   */
+  void* GetGenericDisplayId() override;
+  void* GetGenericContext() override;
+  ///@}
+
+  ///@{
+  /**
+   * Read and write pixels. An error before the first Render().
+   */
+  using vtkOpenGLRenderWindow::GetZbufferData;
+  using vtkOpenGLRenderWindow::SetPixelData;
+  using vtkOpenGLRenderWindow::SetRGBACharPixelData;
+  using vtkOpenGLRenderWindow::SetRGBAPixelData;
+  using vtkOpenGLRenderWindow::SetZbufferData;
+  int GetZbufferData(int x1, int y1, int x2, int y2, float* z) override;
+  int SetZbufferData(int x1, int y1, int x2, int y2, float* buffer) override;
+  int SetPixelData(
+    int x1, int y1, int x2, int y2, unsigned char* data, int front, int right = 0) override;
+  int SetRGBAPixelData(
+    int x1, int y1, int x2, int y2, float* data, int front, int blend = 0, int right = 0) override;
+  int SetRGBACharPixelData(int x1, int y1, int x2, int y2, unsigned char* data, int front,
+    int blend = 0, int right = 0) override;
+  ///@}
+
+  ///@{
+  /**
+   * What a window without a screen answers.
+   */
+  int* GetScreenSize() override;
+  vtkTypeBool IsDirect() override { return 1; }
+  void WindowRemap() override;
+  ///@}
 
 protected:
   vtkGnomonEGLRenderWindow();
   ~vtkGnomonEGLRenderWindow() override;
 
+  int ReadPixels(
+    const vtkRecti& rect, int front, int glFormat, int glType, void* data, int right = 0) override;
+  void CreateAWindow() override;
+  void DestroyWindow() override;
+
+  int ContextVersion[2];
+
 private:
   vtkGnomonEGLRenderWindow(const vtkGnomonEGLRenderWindow&) = delete;
   void operator=(const vtkGnomonEGLRenderWindow&) = delete;
 
-  struct Context;
-  std::unique_ptr<Context> EGL;
+  bool HasFrame();
+
+  std::unique_ptr<gnomon::EglContext> Context;
+  std::vector<std::unique_ptr<gnomon::EglCurrentContext>> ContextStack;
 };
 
 #endif

@@ -1,0 +1,366 @@
+#include "vtkGnomonEGLRenderWindow.h"
+
+#include "WindowScene.h"
+
+#include <vtkFloatArray.h>
+#include <vtkImageData.h>
+#include <vtkLogger.h>
+#include <vtkObjectFactory.h>
+#include <vtkOutputWindow.h>
+#include <vtkRendererCollection.h>
+#include <vtkWindowToImageFilter.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <set>
+#include <sstream>
+#include <string>
+#include <utility>
+
+using gnomon::test::makeSphereScene;
+using gnomon::test::readPicture;
+using testing::HasSubstr;
+
+namespace
+{
+
+/// Collects what VTK would print, while it lives.
+class CapturedOutput : public vtkOutputWindow
+{
+public:
+  static CapturedOutput* New();
+  vtkTypeMacro(CapturedOutput, vtkOutputWindow);
+  void DisplayText(const char* text) override { this->Text += text; }
+
+  std::string Text;
+};
+vtkStandardNewMacro(CapturedOutput);
+
+/// Every test sees all that reaches standard error, directly or through VTK.
+class EGLRenderWindow : public testing::Test
+{
+protected:
+  void SetUp() override
+  {
+    // VTK says everything twice, to its log and to its output window; the window is enough.
+    vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
+    vtkOutputWindow::SetInstance(this->output);
+    testing::internal::CaptureStderr();
+  }
+  void TearDown() override
+  {
+    vtkOutputWindow::SetInstance(nullptr);
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+    EXPECT_EQ(this->output->Text, "");
+  }
+  /// What VTK said so far, and forgets it, so that the rest must be silent.
+  std::string takeErrors() { return std::exchange(this->output->Text, std::string()); }
+
+  vtkNew<CapturedOutput> output;
+};
+
+vtkSmartPointer<vtkGnomonEGLRenderWindow> makeWindow(int width, int height)
+{
+  auto window = vtkSmartPointer<vtkGnomonEGLRenderWindow>::New();
+  window->SetSize(width, height);
+  window->AddRenderer(makeSphereScene());
+  return window;
+}
+
+std::size_t countColours(const std::vector<unsigned char>& picture)
+{
+  std::set<std::array<unsigned char, 3>> colours;
+  for (std::size_t i = 0; i + 2 < picture.size(); i += 3)
+  {
+    colours.insert({ picture[i], picture[i + 1], picture[i + 2] });
+  }
+  return colours.size();
+}
+
+std::array<int, 3> pixelAt(const std::vector<unsigned char>& picture, int width, int x, int y)
+{
+  const std::size_t first = 3 *
+    (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x));
+  return { picture[first], picture[first + 1], picture[first + 2] };
+}
+
+const std::array<int, 3> background{ 51, 102, 153 };
+
+} // namespace
+
+//------------------------------------------------------------------------------
+TEST_F(EGLRenderWindow, drawsWithoutADisplayAndWithoutAWord)
+{
+  ASSERT_EQ(std::getenv("DISPLAY"), nullptr);
+  const auto window = makeWindow(160, 120);
+  window->Render();
+  const auto picture = readPicture(window);
+  ASSERT_EQ(picture.size(), 3u * 160 * 120);
+  EXPECT_EQ(pixelAt(picture, 160, 2, 117), background);
+  const auto sphere = pixelAt(picture, 160, 80, 60);
+  EXPECT_GT(sphere[0], sphere[1] + 40);   // the sphere is red
+  EXPECT_GT(countColours(picture), 100u); // and shaded
+}
+
+//------------------------------------------------------------------------------
+TEST_F(EGLRenderWindow, asksForOpenGL45AndTellsWhatItGot)
+{
+  vtkNew<vtkGnomonEGLRenderWindow> window;
+  EXPECT_EQ(window->GetContextVersion()[0], 4);
+  EXPECT_EQ(window->GetContextVersion()[1], 5);
+  window->Initialize();
+  int major = 0;
+  int minor = 0;
+  window->GetOpenGLVersion(major, minor);
+  EXPECT_GE(10 * major + minor, 45);
+  EXPECT_THAT(window->ReportCapabilities(), HasSubstr("OpenGL version string:"));
+  EXPECT_GT(window->GetMaximumHardwareLineWidth(), 0.0f);
+  EXPECT_EQ(window->SupportsOpenGL(), 1);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(EGLRenderWindow, twoWindowsAlternate)
+{
+  const auto first = makeWindow(64, 48);
+  const auto second = makeWindow(80, 60);
+  first->Render();
+  const auto firstPicture = readPicture(first);
+  second->Render();
+  EXPECT_TRUE(second->IsCurrent());
+  EXPECT_FALSE(first->IsCurrent());
+  const auto secondPicture = readPicture(second);
+  EXPECT_EQ(readPicture(first), firstPicture); // reading makes the right context current
+  for (int i = 0; i < 3; ++i)
+  {
+    first->Render();
+    second->Render();
+  }
+  EXPECT_EQ(readPicture(first), firstPicture);
+  EXPECT_EQ(readPicture(second), secondPicture);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(EGLRenderWindow, oneWindowGoesAndTheOtherDrawsOn)
+{
+  const auto staying = makeWindow(64, 48);
+  staying->Render();
+  const auto picture = readPicture(staying);
+  {
+    const auto going = makeWindow(64, 48);
+    going->Render();
+    staying->MakeCurrent();
+  }
+  EXPECT_TRUE(staying->IsCurrent()); // the one that went took nothing away
+  staying->Render();
+  EXPECT_EQ(readPicture(staying), picture);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(EGLRenderWindow, followsItsSize)
+{
+  const auto window = makeWindow(100, 100);
+  window->Render();
+  window->SetSize(200, 50);
+  window->Render();
+  const auto wide = readPicture(window);
+  ASSERT_EQ(wide.size(), 3u * 200 * 50);
+  window->SetSize(100, 100);
+  window->Render();
+
+  const auto fresh = makeWindow(200, 50);
+  fresh->Render();
+  EXPECT_EQ(wide, readPicture(fresh));
+}
+
+//------------------------------------------------------------------------------
+TEST_F(EGLRenderWindow, multisamplingIsOffUntilAskedFor)
+{
+  const auto window = makeWindow(100, 100);
+  EXPECT_EQ(window->GetMultiSamples(), 0);
+  window->Render();
+  const auto aliased = readPicture(window);
+  window->SetMultiSamples(4);
+  window->Render();
+  const auto smooth = readPicture(window);
+  EXPECT_NE(smooth, aliased);
+  EXPECT_GT(countColours(smooth), countColours(aliased)); // edges mix colours
+}
+
+//------------------------------------------------------------------------------
+TEST_F(EGLRenderWindow, windowToImageFilterReadsTheSamePixels)
+{
+  const auto window = makeWindow(90, 70);
+  window->Render();
+  const auto picture = readPicture(window);
+  vtkNew<vtkWindowToImageFilter> filter;
+  filter->SetInput(window);
+  filter->Update();
+  vtkImageData* image = filter->GetOutput();
+  ASSERT_EQ(image->GetDimensions()[0], 90);
+  ASSERT_EQ(image->GetDimensions()[1], 70);
+  const auto* pixels = static_cast<unsigned char*>(image->GetScalarPointer());
+  EXPECT_TRUE(std::equal(picture.begin(), picture.end(), pixels));
+}
+
+//------------------------------------------------------------------------------
+TEST_F(EGLRenderWindow, depthIsReadable)
+{
+  const auto window = makeWindow(90, 70);
+  window->Render();
+  vtkNew<vtkFloatArray> depth;
+  window->GetZbufferData(0, 0, 89, 69, depth);
+  EXPECT_EQ(depth->GetValue(69 * 90), 1.0f);      // background
+  EXPECT_LT(depth->GetValue(35 * 90 + 45), 1.0f); // sphere
+}
+
+//------------------------------------------------------------------------------
+TEST_F(EGLRenderWindow, startsAgainAfterFinalize)
+{
+  const auto window = makeWindow(64, 48);
+  window->Finalize(); // before there is anything
+  window->Render();
+  const auto picture = readPicture(window);
+  window->Finalize();
+  window->Finalize();
+  EXPECT_FALSE(window->IsCurrent());
+  EXPECT_EQ(window->GetGenericContext(), nullptr);
+  window->Render();
+  EXPECT_EQ(readPicture(window), picture);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(EGLRenderWindow, aRendererOutlivesItsWindow)
+{
+  const auto renderer = makeSphereScene();
+  std::vector<unsigned char> picture;
+  for (int i = 0; i < 2; ++i)
+  {
+    vtkNew<vtkGnomonEGLRenderWindow> window;
+    window->SetSize(64, 48);
+    window->AddRenderer(renderer);
+    window->Render();
+    if (i == 0)
+    {
+      picture = readPicture(window);
+    }
+    EXPECT_EQ(readPicture(window), picture);
+  }
+  EXPECT_EQ(renderer->GetRenderWindow(), nullptr);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(EGLRenderWindow, everyListedDeviceCanBeAskedFor)
+{
+  const auto reference = makeWindow(64, 48);
+  reference->Render();
+  vtkNew<vtkGnomonEGLRenderWindow> window;
+  EXPECT_EQ(window->GetDeviceIndex(), -1);
+  ASSERT_GE(window->GetNumberOfDevices(), 1);
+  for (int i = 0; i < window->GetNumberOfDevices(); ++i)
+  {
+    const auto onDevice = makeWindow(64, 48);
+    onDevice->SetDeviceIndex(i);
+    onDevice->Render();
+    EXPECT_EQ(readPicture(onDevice).size(), readPicture(reference).size());
+    EXPECT_GT(countColours(readPicture(onDevice)), 50u);
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(EGLRenderWindow, aDeviceThatIsNotThereIsAnErrorAndNoCrash)
+{
+  const auto window = makeWindow(64, 48);
+  window->SetDeviceIndex(99);
+  window->Render();
+  EXPECT_THAT(this->takeErrors(), HasSubstr("EGL device 99 was asked for, but EGL lists"));
+  EXPECT_STREQ(window->ReportCapabilities(), "");
+  this->takeErrors();
+  readPicture(window);
+  EXPECT_THAT(this->takeErrors(), HasSubstr("before the first Render()"));
+  window->Finalize();
+
+  window->SetDeviceIndex(-1); // and the window is none the worse for it
+  window->Render();
+  EXPECT_GT(countColours(readPicture(window)), 50u);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(EGLRenderWindow, pixelsBeforeTheFirstFrameAreAnError)
+{
+  const auto window = makeWindow(8, 8);
+  window->Initialize();
+  std::vector<unsigned char> bytes(3 * 8 * 8);
+  std::vector<float> floats(4 * 8 * 8);
+  const auto expectError = [&](int result)
+  {
+    EXPECT_EQ(result, VTK_ERROR);
+    EXPECT_THAT(this->takeErrors(), HasSubstr("before the first Render()"));
+  };
+  expectError(window->SetPixelData(0, 0, 7, 7, bytes.data(), 1));
+  expectError(window->SetRGBAPixelData(0, 0, 7, 7, floats.data(), 1));
+  expectError(window->GetZbufferData(0, 0, 7, 7, floats.data()));
+  expectError(window->SetZbufferData(0, 0, 7, 7, floats.data()));
+}
+
+//------------------------------------------------------------------------------
+TEST_F(EGLRenderWindow, printsWhatItStandsOn)
+{
+  vtkNew<vtkGnomonEGLRenderWindow> window;
+  window->Initialize();
+  std::ostringstream text;
+  window->Print(text);
+  EXPECT_THAT(text.str(), HasSubstr("ContextVersion: 4.5"));
+  EXPECT_THAT(text.str(), HasSubstr("DeviceIndex: -1"));
+  EXPECT_THAT(text.str(), HasSubstr("Context: EGL "));
+}
+
+//------------------------------------------------------------------------------
+// The tests below need an environment of their own, which their registration with CTest sets.
+
+using EGLRenderWindowWithoutEgl = EGLRenderWindow;
+TEST_F(EGLRenderWindowWithoutEgl, saysWhatWasTriedAndDrawsNothing)
+{
+  const auto window = makeWindow(64, 48);
+  window->Render();
+  const std::string errors = this->takeErrors();
+  EXPECT_THAT(errors, HasSubstr("No OpenGL context without a display could be made"));
+  EXPECT_THAT(errors, HasSubstr("EGL default display"));
+  EXPECT_EQ(window->SupportsOpenGL(), 0);
+}
+
+using EGLRenderWindowOnOldOpenGL = EGLRenderWindow;
+TEST_F(EGLRenderWindowOnOldOpenGL, fallsBackToTheVersionThatIsThere)
+{
+  const auto window = makeWindow(64, 48);
+  window->GetRenderers()->GetFirstRenderer()->SetPass(nullptr); // shadows need 4.3, the window 3.2
+  window->Render();
+  int major = 0;
+  int minor = 0;
+  window->GetOpenGLVersion(major, minor);
+  EXPECT_EQ(major, 3);
+  EXPECT_EQ(minor, 3);
+  EXPECT_GT(countColours(readPicture(window)), 50u);
+}
+
+using EGLRenderWindowDeviceVariable = EGLRenderWindow;
+TEST_F(EGLRenderWindowDeviceVariable, picksTheDevice)
+{
+  vtkNew<vtkGnomonEGLRenderWindow> window;
+  EXPECT_EQ(window->GetDeviceIndex(), 0);
+  window->Initialize();
+  std::ostringstream text;
+  window->Print(text);
+  EXPECT_THAT(text.str(), HasSubstr("Context: EGL device 0"));
+}
+
+using EGLRenderWindowBadDeviceVariable = EGLRenderWindow;
+TEST_F(EGLRenderWindowBadDeviceVariable, isNamedAndIgnored)
+{
+  vtkNew<vtkGnomonEGLRenderWindow> window;
+  EXPECT_THAT(this->takeErrors(), HasSubstr("VTK_DEFAULT_EGL_DEVICE_INDEX is \"first\""));
+  EXPECT_EQ(window->GetDeviceIndex(), -1);
+}
