@@ -12,8 +12,9 @@
 namespace gnomon
 {
 
-/// One surface as VTK draws it: the triangles of one polydata under one prop (a block of a composite
-/// data set, a leaf of an assembly). Its vertices and triangles are contiguous in the snapshot.
+/// One surface as VTK draws it: the polygons, or the strips, of one polydata under one prop (a block of
+/// a composite data set, a leaf of an assembly). Its vertices and triangles are contiguous in the
+/// snapshot. It has no triangles if all that it draws were dropped.
 struct Surface
 {
   std::uint32_t firstVertex = 0;
@@ -25,7 +26,9 @@ struct Surface
   bool receives = true;  ///< its pixels are shadowed; else their visibility is 1
   bool oneSided = false; ///< only triangles whose front (counter-clockwise side) faces the light cast
 
-  /// Changes when the triangles of this surface change (its mapper's input, its representation).
+  /// Changes when the triangles of this surface change (its mapper's input), not when it only gets
+  /// another place in the list. Versions are never given twice within a snapshot, so that a surface
+  /// can be found again by this one.
   std::uint64_t topologyVersion = 0;
   /// Changes when its centred positions change: with the topology, or because the prop moved.
   std::uint64_t positionsVersion = 0;
@@ -45,6 +48,8 @@ struct Surface
 struct Occluders
 {
   glm::dvec3 centreWorld{ 0.0 };
+  /// The memory goes on for at least 4 bytes behind the last position, so that every position can be
+  /// read as 16 bytes (Embree does).
   std::vector<glm::vec3> positionsCentred;
   std::vector<glm::uvec3> triangles; ///< indices into positionsCentred
   std::vector<Surface> surfaces;     ///< in order of their triangles
