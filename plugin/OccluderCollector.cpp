@@ -112,8 +112,8 @@ struct WantedSurface
   SurfaceKey key;
   vtkPolyData* data;
   const DrawnProp* prop;
-  std::size_t old = none;                 ///< its number in the snapshot so far
-  std::optional<FreshSurface> fresh = {}; ///< set while it waits to be put into the snapshot
+  std::size_t old = none;              ///< its number in the snapshot so far
+  std::unique_ptr<FreshSurface> fresh; ///< set while it waits to be put into the snapshot
 
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
 };
@@ -289,7 +289,7 @@ OccluderCollector::Change OccluderCollector::Impl::collect(vtkRenderer* renderer
     const vtkMTimeType time = shapeTime(surface.data, surface.key.cells);
     if (!record || record->shapeTime != time)
     {
-      surface.fresh = readSurface(surface, time);
+      surface.fresh = std::make_unique<FreshSurface>(readSurface(surface, time));
       ++change.extracted;
     }
     moved = moved || !record || record->worldFromModel != surface.prop->worldFromModel;
@@ -330,6 +330,7 @@ OccluderCollector::Change OccluderCollector::Impl::collect(vtkRenderer* renderer
 std::vector<WantedSurface> OccluderCollector::Impl::wantedSurfaces(const DrawnProps& drawn) const
 {
   std::vector<WantedSurface> wanted;
+  wanted.reserve(std::max(drawn.blocks.size(), this->records_.size()));
   for (const DrawnProp& prop : drawn.props)
   {
     for (std::size_t block = 0; block < prop.blockCount; ++block)
@@ -339,7 +340,8 @@ std::vector<WantedSurface> OccluderCollector::Impl::wantedSurfaces(const DrawnPr
       {
         if (cellCount(data, cells) > 0)
         {
-          wanted.push_back({ { prop.viewProp, prop.path, data, cells }, data, &prop });
+          wanted.push_back({ { prop.viewProp, prop.path, data, cells }, data, &prop,
+            WantedSurface::none, nullptr });
         }
       }
     }
@@ -413,7 +415,7 @@ OccluderCollector::Impl::Outcome OccluderCollector::Impl::updateSurface(
     {
       return Outcome::Moved;
     }
-    wanted.fresh = readSurface(wanted, record.shapeTime);
+    wanted.fresh = std::make_unique<FreshSurface>(readSurface(wanted, record.shapeTime));
     ++change.extracted;
   }
   placeSurface(*wanted.fresh, wanted, this->occluders.centreWorld);
@@ -621,7 +623,8 @@ OccluderCollector::Drawn OccluderCollector::Impl::drawn(vtkAbstractMapper* mappe
 {
   vtkMatrix4x4* matrix = prop->GetMatrix();
   const std::optional<SurfaceCells> cells = cellsAboutToBeDrawn(mapper);
-  if (!matrix || !cells)
+  // In the translucent pass, a composite mapper draws its other blocks.
+  if (!matrix || !cells || prop->IsRenderingTranslucentPolygonalGeometry())
   {
     return {};
   }
@@ -644,7 +647,7 @@ OccluderCollector::Drawn OccluderCollector::Impl::drawn(vtkAbstractMapper* mappe
     const auto place = std::lower_bound(held.begin(), held.end(), wanted);
     if (place == held.end() || wanted < *place)
     {
-      continue; // an invisible or translucent block, or one without such cells
+      continue; // a hidden or translucent block, or one without such cells
     }
     const Surface& surface = this->occluders.surfaces[place->surface];
     const auto drawnCount = surface.triangleOfDrawn.empty()

@@ -54,8 +54,8 @@ public:
   };
   /// Finds the surface that `mapper` (a mapper, or a composite mapper's helper) draws for `prop`,
   /// with the matrix that the prop has at this moment. Called while VTK draws, from
-  /// vtkOpenGLRenderPass::SetShaderParameters. Lines and points of a surface's mapper count as not
-  /// held.
+  /// vtkOpenGLRenderPass::SetShaderParameters. The lines and points of its mapper are not held, nor
+  /// is anything in the translucent pass.
   Drawn drawn(vtkAbstractMapper* mapper, vtkProp* prop);
 
   /// How primitive numbers of drawn surfaces lead to the snapshot (see projectReceivers). Entries
