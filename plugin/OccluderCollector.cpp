@@ -1,37 +1,706 @@
 #include "plugin/OccluderCollector.h"
-#include <vtkActor.h>
-#include <vtkActorCollection.h>
-#include <vtkMapper.h>
-#include <vtkPolyData.h>
-#include <vtkRenderer.h>
-#include <vtkMatrix4x4.h>
-#include <vtkCellArray.h>
-#include <vtkCellArrayIterator.h>
-#include <map>
+
+#include "plugin/DrawnProps.h"
+#include "plugin/MapperInternals.h"
+#include "plugin/SurfaceExtraction.h"
+
+#include "vtkActor.h"
+#include "vtkMatrix4x4.h"
+#include "vtkPolyData.h"
+
+#include <algorithm>
+#include <functional>
+#include <optional>
+#include <unordered_map>
+#include <utility>
+
 namespace gnomon
 {
+namespace
+{
+
+template <typename Value>
+void hashCombine(std::size_t& seed, const Value& value)
+{
+  seed ^= std::hash<Value>()(value) + 0x9e3779b97f4a7c15ull + (seed << 6) + (seed >> 2);
+}
+
+/// What a surface is, from one frame to the next. The pointers name; they are not followed.
+struct SurfaceKey
+{
+  const vtkProp* viewProp;
+  std::size_t path;
+  const vtkPolyData* data;
+  SurfaceCells cells;
+
+  bool operator==(const SurfaceKey& other) const
+  {
+    return this->viewProp == other.viewProp && this->path == other.path &&
+      this->data == other.data && this->cells == other.cells;
+  }
+};
+
+struct SurfaceKeyHash
+{
+  std::size_t operator()(const SurfaceKey& key) const
+  {
+    std::size_t seed = 0;
+    hashCombine(seed, key.viewProp);
+    hashCombine(seed, key.path);
+    hashCombine(seed, key.data);
+    hashCombine(seed, static_cast<int>(key.cells));
+    return seed;
+  }
+};
+
+/// A prop as VTK draws it: an actor that hangs in an assembly several times is drawn with another
+/// matrix each time.
+struct PlacedProp
+{
+  const vtkProp* prop;
+  glm::dmat4 worldFromModel;
+
+  bool operator==(const PlacedProp& other) const
+  {
+    return this->prop == other.prop && this->worldFromModel == other.worldFromModel;
+  }
+};
+
+struct PlacedPropHash
+{
+  std::size_t operator()(const PlacedProp& placed) const
+  {
+    std::size_t seed = 0;
+    hashCombine(seed, placed.prop);
+    for (int column = 0; column < 4; ++column)
+    {
+      for (int row = 0; row < 4; ++row)
+      {
+        // std::hash gives 0.0 and -0.0, which are equal, the same value.
+        hashCombine(seed, placed.worldFromModel[column][row]);
+      }
+    }
+    return seed;
+  }
+};
+
+/// What is remembered of a surface beside its place in the snapshot.
+struct SurfaceRecord
+{
+  SurfaceKey key;
+  vtkMTimeType shapeTime = 0;
+  glm::dmat4 worldFromModel{ 1.0 };
+  std::vector<std::uint32_t> pointOfVertex; ///< as in DrawnTriangles
+  std::vector<DroppedTriangle> dropped;
+  Bounds boundsModel;
+  Bounds boundsCentred;
+};
+
+/// A surface that was read from its polydata, and is not in the snapshot yet. Vertices count from
+/// the surface's first.
+struct FreshSurface
+{
+  SurfaceRecord record;
+  std::vector<glm::vec3> positionsCentred;
+  std::vector<glm::uvec3> triangles;
+  std::vector<std::uint32_t> triangleOfDrawn;
+};
+
+/// One surface that the snapshot shall hold after this frame.
+struct WantedSurface
+{
+  SurfaceKey key;
+  vtkPolyData* data;
+  const DrawnProp* prop;
+  std::size_t old = none;              ///< its number in the snapshot so far
+  std::unique_ptr<FreshSurface> fresh; ///< set while it waits to be put into the snapshot
+
+  static constexpr std::size_t none = static_cast<std::size_t>(-1);
+};
+
+FreshSurface readSurface(const WantedSurface& wanted, vtkMTimeType shapeTime)
+{
+  DrawnTriangles drawn = triangulate(wanted.data, wanted.key.cells);
+  FreshSurface fresh;
+  fresh.record.key = wanted.key;
+  fresh.record.shapeTime = shapeTime;
+  fresh.record.pointOfVertex = std::move(drawn.pointOfVertex);
+  fresh.record.boundsModel = drawn.boundsModel;
+  fresh.positionsCentred.resize(drawn.vertexCount);
+  fresh.triangles = std::move(drawn.triangles);
+  return fresh;
+}
+
+/// Computes a fresh surface's positions, and drops the triangles that have a defect there.
+void placeSurface(FreshSurface& fresh, const WantedSurface& wanted, const glm::dvec3& centreWorld)
+{
+  SurfaceRecord& record = fresh.record;
+  record.worldFromModel = wanted.prop->worldFromModel;
+  glm::vec3* positions = fresh.positionsCentred.data();
+  placeVertices(wanted.data, record.pointOfVertex, fresh.positionsCentred.size(),
+    record.worldFromModel, centreWorld, positions);
+
+  const std::size_t drawnCount = fresh.triangles.size();
+  std::uint32_t keptCount = 0;
+  for (std::size_t drawn = 0; drawn < drawnCount; ++drawn)
+  {
+    const glm::uvec3 triangle = fresh.triangles[drawn];
+    const Defect defect = defectOf(triangle, positions);
+    if (defect != Defect::None && fresh.triangleOfDrawn.empty())
+    {
+      fresh.triangleOfDrawn.resize(drawnCount);
+      for (std::size_t before = 0; before < drawn; ++before)
+      {
+        fresh.triangleOfDrawn[before] = static_cast<std::uint32_t>(before);
+      }
+    }
+    if (!fresh.triangleOfDrawn.empty())
+    {
+      fresh.triangleOfDrawn[drawn] = defect == Defect::None ? keptCount : Surface::noTriangle;
+    }
+    if (defect != Defect::None)
+    {
+      record.dropped.push_back({ triangle, defect });
+      continue;
+    }
+    fresh.triangles[keptCount++] = triangle;
+    for (int corner = 0; corner < 3; ++corner)
+    {
+      record.boundsCentred.add(positions[triangle[corner]]);
+    }
+  }
+  fresh.triangles.resize(keptCount);
+  clearNonFinite(positions, fresh.positionsCentred.size());
+}
+
+/// The box around a transformed box.
+Bounds transformed(const Bounds& box, const glm::dmat4& matrix)
+{
+  Bounds result;
+  if (!box.empty())
+  {
+    for (const glm::dvec3& corner : box.corners())
+    {
+      const glm::dvec4 image = matrix * glm::dvec4(corner, 1.0);
+      result.add(glm::dvec3(image) / image.w);
+    }
+  }
+  return result;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
 struct OccluderCollector::Impl
 {
+public:
+  Change collect(vtkRenderer* renderer);
+  Drawn drawn(vtkAbstractMapper* mapper, vtkProp* prop);
+
   Occluders occluders;
-  std::vector<DrawnSurface> drawn;
-  std::map<vtkAbstractMapper*, int> index;
+  std::vector<DrawnSurface> drawnSurfaces;
+  std::vector<std::string> notes;
+
+private:
+  /// What became of a surface since the last frame.
+  enum class Outcome
+  {
+    Same,
+    Moved,         ///< the same triangles at other positions, already written to the snapshot
+    OtherTriangles ///< waits in WantedSurface::fresh
+  };
+
+  std::vector<WantedSurface> wantedSurfaces(const DrawnProps& drawn) const;
+  bool chooseCentre(const std::vector<WantedSurface>& wanted);
+  Outcome updateSurface(WantedSurface& wanted, bool recentred, Change& change);
+  bool transformAgain(const WantedSurface& wanted);
+  Outcome overwrite(WantedSurface& wanted);
+  void rebuild(std::vector<WantedSurface>& wanted);
+  bool updateFlags(const std::vector<WantedSurface>& wanted);
+  void summarise();
+  void indexProps(const std::vector<WantedSurface>& wanted);
+
+  std::uint64_t newVersion() { return ++this->lastVersion_; }
+
+  std::uint64_t lastVersion_ = 0;
+  std::vector<SurfaceRecord> records_; ///< one for each of occluders.surfaces
+
+  /// A surface of the snapshot as part of a prop.
+  struct HeldSurface
+  {
+    const vtkPolyData* data;
+    SurfaceCells cells;
+    std::uint32_t surface;
+
+    bool operator<(const HeldSurface& other) const
+    {
+      return std::less<const vtkPolyData*>()(this->data, other.data) ||
+        (this->data == other.data && this->cells < other.cells);
+    }
+  };
+  using HeldSurfaces = std::vector<HeldSurface>; ///< sorted
+  std::unordered_map<PlacedProp, HeldSurfaces, PlacedPropHash> surfacesOfProp_;
+
+  /// What drawn() was asked for since the last collect().
+  struct Question
+  {
+    const HeldSurfaces* held;
+    const vtkAbstractMapper* mapper;
+    SurfaceCells cells;
+
+    bool operator==(const Question& other) const
+    {
+      return this->held == other.held && this->mapper == other.mapper && this->cells == other.cells;
+    }
+  };
+  struct QuestionHash
+  {
+    std::size_t operator()(const Question& question) const
+    {
+      std::size_t seed = 0;
+      hashCombine(seed, question.held);
+      hashCombine(seed, question.mapper);
+      hashCombine(seed, static_cast<int>(question.cells));
+      return seed;
+    }
+  };
+  std::unordered_map<Question, Drawn, QuestionHash> answers_;
 };
-OccluderCollector::OccluderCollector() : impl_(new Impl) {}
-OccluderCollector::~OccluderCollector() = default;
-OccluderCollector::Change OccluderCollector::collect(vtkRenderer* ren) {
-  auto& o = impl_->occluders; if (o.topologyVersion) return {};
-  auto* ac = ren->GetActors(); ac->InitTraversal();
-  while (auto* a = ac->GetNextActor()) {
-    auto* pd = vtkPolyData::SafeDownCast(a->GetMapper()->GetInputDataObject(0,0));
-    Surface s; s.firstVertex=o.positionsCentred.size(); s.firstTriangle=o.triangles.size(); s.topologyVersion=s.positionsVersion=1;
-    for (vtkIdType i=0;i<pd->GetNumberOfPoints();i++){ double p[4]; pd->GetPoint(i,p); p[3]=1; a->GetMatrix()->MultiplyPoint(p,p); glm::vec3 q(p[0],p[1],p[2]); o.positionsCentred.push_back(q); o.castersCentred.add(glm::dvec3(q)); }
-    auto it=vtk::TakeSmartPointer(pd->GetPolys()->NewIterator()); for(it->GoToFirstCell();!it->IsDoneWithTraversal();it->GoToNextCell()){ vtkIdType n; const vtkIdType* c; it->GetCurrentCell(n,c); for(int k=1;k+1<n;k++) o.triangles.push_back({s.firstVertex+c[0],s.firstVertex+c[k],s.firstVertex+c[k+1]}); }
-    s.vertexCount=o.positionsCentred.size()-s.firstVertex; s.triangleCount=o.triangles.size()-s.firstTriangle; 
-    impl_->index[a->GetMapper()]=impl_->drawn.size(); impl_->drawn.push_back({{{0,s.triangleCount,(uint32_t)o.surfaces.size()}}}); o.surfaces.push_back(s);
+
+//------------------------------------------------------------------------------
+OccluderCollector::Change OccluderCollector::Impl::collect(vtkRenderer* renderer)
+{
+  this->drawnSurfaces.clear();
+  this->answers_.clear();
+
+  DrawnProps drawn = findDrawnProps(renderer);
+  this->notes = std::move(drawn.notes);
+  std::vector<WantedSurface> wanted = this->wantedSurfaces(drawn);
+
+  Change change;
+  bool otherList = wanted.size() != this->records_.size();
+  bool moved = false;
+  for (std::size_t i = 0; i < wanted.size(); ++i)
+  {
+    WantedSurface& surface = wanted[i];
+    otherList = otherList || surface.old != i;
+    const SurfaceRecord* record =
+      surface.old != WantedSurface::none ? &this->records_[surface.old] : nullptr;
+    const vtkMTimeType time = shapeTime(surface.data, surface.key.cells);
+    if (!record || record->shapeTime != time)
+    {
+      surface.fresh = std::make_unique<FreshSurface>(readSurface(surface, time));
+      ++change.extracted;
+    }
+    moved = moved || !record || record->worldFromModel != surface.prop->worldFromModel;
   }
-  o.positionsCentred.reserve(o.positionsCentred.size()+1);
-  o.allCentred=o.castersCentred; o.topologyVersion=o.positionsVersion=1; return {}; }
-const Occluders& OccluderCollector::occluders() const { return impl_->occluders; }
-OccluderCollector::Drawn OccluderCollector::drawn(vtkAbstractMapper* m, vtkProp*) { auto i=impl_->index.find(m); return i==impl_->index.end()?Drawn{}:Drawn{i->second,true}; }
-const std::vector<DrawnSurface>& OccluderCollector::drawnSurfaces() const { return impl_->drawn; }
+
+  bool positionsChanged = false;
+  bool trianglesChanged = otherList;
+  if (otherList || moved || change.extracted > 0)
+  {
+    const bool recentred = this->chooseCentre(wanted);
+    for (WantedSurface& surface : wanted)
+    {
+      const Outcome outcome = this->updateSurface(surface, recentred, change);
+      positionsChanged = positionsChanged || outcome == Outcome::Moved;
+      trianglesChanged = trianglesChanged || outcome == Outcome::OtherTriangles;
+    }
+    if (trianglesChanged)
+    {
+      this->rebuild(wanted);
+    }
+    this->indexProps(wanted);
+  }
+
+  const bool flagsChanged = this->updateFlags(wanted);
+  if (trianglesChanged || flagsChanged)
+  {
+    this->occluders.topologyVersion = this->newVersion();
+  }
+  if (trianglesChanged || flagsChanged || positionsChanged)
+  {
+    this->occluders.positionsVersion = this->newVersion();
+    this->summarise();
+  }
+  return change;
 }
+
+//------------------------------------------------------------------------------
+std::vector<WantedSurface> OccluderCollector::Impl::wantedSurfaces(const DrawnProps& drawn) const
+{
+  std::vector<WantedSurface> wanted;
+  wanted.reserve(std::max(drawn.blocks.size(), this->records_.size()));
+  for (const DrawnProp& prop : drawn.props)
+  {
+    for (std::size_t block = 0; block < prop.blockCount; ++block)
+    {
+      vtkPolyData* data = drawn.blocks[prop.firstBlock + block];
+      for (const SurfaceCells cells : { SurfaceCells::Polygons, SurfaceCells::Strips })
+      {
+        if (cellCount(data, cells) > 0)
+        {
+          wanted.push_back({ { prop.viewProp, prop.path, data, cells }, data, &prop,
+            WantedSurface::none, nullptr });
+        }
+      }
+    }
+  }
+
+  // Most frames list the same surfaces again; only if not, look up what each one was.
+  std::unordered_map<SurfaceKey, std::size_t, SurfaceKeyHash> oldOfKey;
+  for (std::size_t i = 0; i < wanted.size(); ++i)
+  {
+    if (oldOfKey.empty() && i < this->records_.size() && this->records_[i].key == wanted[i].key)
+    {
+      wanted[i].old = i;
+      continue;
+    }
+    if (oldOfKey.empty())
+    {
+      for (std::size_t old = i; old < this->records_.size(); ++old)
+      {
+        oldOfKey.emplace(this->records_[old].key, old);
+      }
+    }
+    const auto found = oldOfKey.find(wanted[i].key);
+    if (found != oldOfKey.end())
+    {
+      wanted[i].old = found->second;
+    }
+  }
+  return wanted;
+}
+
+//------------------------------------------------------------------------------
+/// Chooses the centre for a new scene, and anew once the scene has left it; true if it moved. Far
+/// from the centre, in the scene's own measure, float positions would lose precision.
+bool OccluderCollector::Impl::chooseCentre(const std::vector<WantedSurface>& wanted)
+{
+  Bounds boundsWorld;
+  for (const WantedSurface& surface : wanted)
+  {
+    const SurfaceRecord& record =
+      surface.fresh ? surface.fresh->record : this->records_[surface.old];
+    boundsWorld.add(transformed(record.boundsModel, surface.prop->worldFromModel));
+  }
+  const double radius = boundsWorld.radius();
+  const glm::dvec3 centre = boundsWorld.centre();
+  constexpr double largestDistance = 16.0; // in radii
+  const double distance = glm::distance(centre, this->occluders.centreWorld);
+  // Not a number for an empty box, and then not to be followed.
+  const bool left = distance > largestDistance * radius;
+  const bool isFirst = this->records_.empty() && distance > 0.0;
+  if (!left && !isFirst)
+  {
+    return false;
+  }
+  this->occluders.centreWorld = centre;
+  return true;
+}
+
+//------------------------------------------------------------------------------
+OccluderCollector::Impl::Outcome OccluderCollector::Impl::updateSurface(
+  WantedSurface& wanted, bool recentred, Change& change)
+{
+  if (!wanted.fresh)
+  {
+    const SurfaceRecord& record = this->records_[wanted.old];
+    if (!recentred && record.worldFromModel == wanted.prop->worldFromModel)
+    {
+      return Outcome::Same;
+    }
+    ++change.retransformed;
+    if (this->transformAgain(wanted))
+    {
+      return Outcome::Moved;
+    }
+    wanted.fresh = std::make_unique<FreshSurface>(readSurface(wanted, record.shapeTime));
+    ++change.extracted;
+  }
+  placeSurface(*wanted.fresh, wanted, this->occluders.centreWorld);
+  return wanted.old == WantedSurface::none ? Outcome::OtherTriangles : this->overwrite(wanted);
+}
+
+//------------------------------------------------------------------------------
+/// Computes a surface's positions again where they are. False if another set of triangles would
+/// have to be dropped than before: then the surface must be read again.
+bool OccluderCollector::Impl::transformAgain(const WantedSurface& wanted)
+{
+  Surface& surface = this->occluders.surfaces[wanted.old];
+  SurfaceRecord& record = this->records_[wanted.old];
+  glm::vec3* all = this->occluders.positionsCentred.data();
+  glm::vec3* own = all + surface.firstVertex;
+  record.worldFromModel = wanted.prop->worldFromModel;
+  placeVertices(wanted.data, record.pointOfVertex, surface.vertexCount, record.worldFromModel,
+    this->occluders.centreWorld, own);
+
+  record.boundsCentred = Bounds();
+  for (std::uint32_t i = 0; i < surface.triangleCount; ++i)
+  {
+    const glm::uvec3& triangle = this->occluders.triangles[surface.firstTriangle + i];
+    if (defectOf(triangle, all) != Defect::None)
+    {
+      return false;
+    }
+    for (int corner = 0; corner < 3; ++corner)
+    {
+      record.boundsCentred.add(all[triangle[corner]]);
+    }
+  }
+  for (const DroppedTriangle& dropped : record.dropped)
+  {
+    if (defectOf(dropped.vertices, own) != dropped.defect)
+    {
+      return false;
+    }
+  }
+  clearNonFinite(own, surface.vertexCount);
+  surface.positionsVersion = this->newVersion();
+  return true;
+}
+
+//------------------------------------------------------------------------------
+/// Writes a fresh surface over its old self if the triangles are the same.
+OccluderCollector::Impl::Outcome OccluderCollector::Impl::overwrite(WantedSurface& wanted)
+{
+  Surface& surface = this->occluders.surfaces[wanted.old];
+  FreshSurface& fresh = *wanted.fresh;
+  const bool sameTriangles = surface.vertexCount == fresh.positionsCentred.size() &&
+    surface.triangleOfDrawn == fresh.triangleOfDrawn &&
+    surface.triangleCount == fresh.triangles.size() &&
+    std::equal(fresh.triangles.begin(), fresh.triangles.end(),
+      this->occluders.triangles.begin() + surface.firstTriangle,
+      [&surface](const glm::uvec3& own, const glm::uvec3& old)
+      { return own + surface.firstVertex == old; });
+  if (!sameTriangles)
+  {
+    return Outcome::OtherTriangles;
+  }
+
+  const auto positions = this->occluders.positionsCentred.begin() + surface.firstVertex;
+  const bool moved =
+    !std::equal(fresh.positionsCentred.begin(), fresh.positionsCentred.end(), positions);
+  if (moved)
+  {
+    std::copy(fresh.positionsCentred.begin(), fresh.positionsCentred.end(), positions);
+    surface.positionsVersion = this->newVersion();
+  }
+  this->records_[wanted.old] = std::move(fresh.record);
+  wanted.fresh.reset();
+  return moved ? Outcome::Moved : Outcome::Same;
+}
+
+//------------------------------------------------------------------------------
+/// Lists the surfaces anew: fresh ones as they were read, the others copied.
+void OccluderCollector::Impl::rebuild(std::vector<WantedSurface>& wanted)
+{
+  const Occluders& old = this->occluders;
+  std::size_t vertexCount = 0;
+  std::size_t triangleCount = 0;
+  for (const WantedSurface& surface : wanted)
+  {
+    vertexCount += surface.fresh ? surface.fresh->positionsCentred.size()
+                                 : old.surfaces[surface.old].vertexCount;
+    triangleCount +=
+      surface.fresh ? surface.fresh->triangles.size() : old.surfaces[surface.old].triangleCount;
+  }
+
+  std::vector<glm::vec3> positions;
+  std::vector<glm::uvec3> triangles;
+  std::vector<Surface> surfaces;
+  std::vector<SurfaceRecord> records;
+  positions.reserve(vertexCount + 1); // the slack that Occluders promises
+  triangles.reserve(triangleCount);
+  surfaces.reserve(wanted.size());
+  records.reserve(wanted.size());
+  for (WantedSurface& surface : wanted)
+  {
+    Surface entry;
+    const auto firstVertex = static_cast<std::uint32_t>(positions.size());
+    const auto firstTriangle = static_cast<std::uint32_t>(triangles.size());
+    if (surface.fresh)
+    {
+      FreshSurface& fresh = *surface.fresh;
+      positions.insert(
+        positions.end(), fresh.positionsCentred.begin(), fresh.positionsCentred.end());
+      for (const glm::uvec3& triangle : fresh.triangles)
+      {
+        triangles.push_back(triangle + firstVertex);
+      }
+      entry.vertexCount = static_cast<std::uint32_t>(fresh.positionsCentred.size());
+      entry.triangleCount = static_cast<std::uint32_t>(fresh.triangles.size());
+      entry.triangleOfDrawn = std::move(fresh.triangleOfDrawn);
+      entry.topologyVersion = this->newVersion();
+      entry.positionsVersion = this->newVersion();
+      records.push_back(std::move(fresh.record));
+      surface.fresh.reset(); // its memory is not needed twice
+    }
+    else
+    {
+      entry = std::move(this->occluders.surfaces[surface.old]);
+      const auto oldPositions = old.positionsCentred.begin() + entry.firstVertex;
+      positions.insert(positions.end(), oldPositions, oldPositions + entry.vertexCount);
+      const std::uint32_t shift = firstVertex - entry.firstVertex; // modulo 2^32
+      for (std::uint32_t i = 0; i < entry.triangleCount; ++i)
+      {
+        triangles.push_back(old.triangles[entry.firstTriangle + i] + shift);
+      }
+      records.push_back(std::move(this->records_[surface.old]));
+    }
+    entry.firstVertex = firstVertex;
+    entry.firstTriangle = firstTriangle;
+    surfaces.push_back(std::move(entry));
+  }
+  this->occluders.positionsCentred = std::move(positions);
+  this->occluders.triangles = std::move(triangles);
+  this->occluders.surfaces = std::move(surfaces);
+  this->records_ = std::move(records);
+}
+
+//------------------------------------------------------------------------------
+/// Takes over the props' flags; true if one changed.
+bool OccluderCollector::Impl::updateFlags(const std::vector<WantedSurface>& wanted)
+{
+  bool changed = false;
+  for (std::size_t i = 0; i < wanted.size(); ++i)
+  {
+    Surface& surface = this->occluders.surfaces[i];
+    const DrawnProp& prop = *wanted[i].prop;
+    changed = changed || surface.casts != prop.casts || surface.receives != prop.receives ||
+      surface.oneSided != prop.oneSided;
+    surface.casts = prop.casts;
+    surface.receives = prop.receives;
+    surface.oneSided = prop.oneSided;
+  }
+  return changed;
+}
+
+//------------------------------------------------------------------------------
+/// Boxes and counts over all surfaces.
+void OccluderCollector::Impl::summarise()
+{
+  this->occluders.castersCentred = Bounds();
+  this->occluders.allCentred = Bounds();
+  this->occluders.droppedNonFinite = 0;
+  this->occluders.droppedZeroArea = 0;
+  for (std::size_t i = 0; i < this->records_.size(); ++i)
+  {
+    const SurfaceRecord& record = this->records_[i];
+    this->occluders.allCentred.add(record.boundsCentred);
+    if (this->occluders.surfaces[i].casts)
+    {
+      this->occluders.castersCentred.add(record.boundsCentred);
+    }
+    for (const DroppedTriangle& dropped : record.dropped)
+    {
+      (dropped.defect == Defect::NonFinite ? this->occluders.droppedNonFinite
+                                           : this->occluders.droppedZeroArea) += 1;
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+/// Makes the snapshot's surfaces findable by prop and matrix.
+void OccluderCollector::Impl::indexProps(const std::vector<WantedSurface>& wanted)
+{
+  this->surfacesOfProp_.clear();
+  for (std::size_t i = 0; i < wanted.size();)
+  {
+    const DrawnProp* prop = wanted[i].prop;
+    HeldSurfaces held;
+    for (; i < wanted.size() && wanted[i].prop == prop; ++i)
+    {
+      held.push_back({ wanted[i].key.data, wanted[i].key.cells, static_cast<std::uint32_t>(i) });
+    }
+    std::sort(held.begin(), held.end());
+    this->surfacesOfProp_.emplace(PlacedProp{ prop->actor, prop->worldFromModel }, std::move(held));
+  }
+}
+
+//------------------------------------------------------------------------------
+OccluderCollector::Drawn OccluderCollector::Impl::drawn(vtkAbstractMapper* mapper, vtkProp* prop)
+{
+  vtkMatrix4x4* matrix = prop->GetMatrix();
+  const std::optional<SurfaceCells> cells = cellsAboutToBeDrawn(mapper);
+  // In the translucent pass, a composite mapper draws its other blocks.
+  if (!matrix || !cells || prop->IsRenderingTranslucentPolygonalGeometry())
+  {
+    return {};
+  }
+  const auto found = this->surfacesOfProp_.find({ prop, toGlm(matrix) });
+  if (found == this->surfacesOfProp_.end())
+  {
+    return {};
+  }
+  const HeldSurfaces& held = found->second;
+  const auto [answer, isNew] = this->answers_.emplace(Question{ &held, mapper, *cells }, Drawn());
+  if (!isNew)
+  {
+    return answer->second;
+  }
+
+  DrawnSurface drawnSurface;
+  for (const DrawCall& call : drawCalls(mapper, *cells))
+  {
+    const HeldSurface wanted{ call.data, *cells, 0 };
+    const auto place = std::lower_bound(held.begin(), held.end(), wanted);
+    if (place == held.end() || wanted < *place)
+    {
+      continue; // a hidden or translucent block, or one without such cells
+    }
+    const Surface& surface = this->occluders.surfaces[place->surface];
+    const auto drawnCount = surface.triangleOfDrawn.empty()
+      ? surface.triangleCount
+      : static_cast<std::uint32_t>(surface.triangleOfDrawn.size());
+    drawnSurface.blocks.push_back({ call.firstPrimitive, drawnCount, place->surface });
+    answer->second.receives = surface.receives;
+  }
+  if (!drawnSurface.blocks.empty())
+  {
+    answer->second.index = static_cast<int>(this->drawnSurfaces.size());
+    this->drawnSurfaces.push_back(std::move(drawnSurface));
+  }
+  return answer->second;
+}
+
+//------------------------------------------------------------------------------
+OccluderCollector::OccluderCollector()
+  : impl_(std::make_unique<Impl>())
+{
+}
+
+//------------------------------------------------------------------------------
+OccluderCollector::~OccluderCollector() = default;
+
+//------------------------------------------------------------------------------
+OccluderCollector::Change OccluderCollector::collect(vtkRenderer* renderer)
+{
+  return this->impl_->collect(renderer);
+}
+
+//------------------------------------------------------------------------------
+const Occluders& OccluderCollector::occluders() const
+{
+  return this->impl_->occluders;
+}
+
+//------------------------------------------------------------------------------
+const std::vector<std::string>& OccluderCollector::notes() const
+{
+  return this->impl_->notes;
+}
+
+//------------------------------------------------------------------------------
+OccluderCollector::Drawn OccluderCollector::drawn(vtkAbstractMapper* mapper, vtkProp* prop)
+{
+  return this->impl_->drawn(mapper, prop);
+}
+
+//------------------------------------------------------------------------------
+const std::vector<DrawnSurface>& OccluderCollector::drawnSurfaces() const
+{
+  return this->impl_->drawnSurfaces;
+}
+
+} // namespace gnomon

@@ -1,0 +1,639 @@
+// Draws scenes with VTK, and checks at every pixel that the snapshot's triangle, found through
+// drawnSurfaces(), is the one that the pixel's ray hits.
+
+#include "plugin/OccluderCollector.h"
+
+#include "TestData.h"
+
+#include "plugin/vtkGnomonEGLRenderWindow.h"
+
+#include "vtkAssembly.h"
+#include "vtkCamera.h"
+#include "vtkCellData.h"
+#include "vtkCompositeDataDisplayAttributes.h"
+#include "vtkCompositePolyDataMapper2.h"
+#include "vtkCullerCollection.h"
+#include "vtkFloatArray.h"
+#include "vtkInformation.h"
+#include "vtkMatrix4x4.h"
+#include "vtkMultiBlockDataSet.h"
+#include "vtkObjectFactory.h"
+#include "vtkOpenGLRenderPass.h"
+#include "vtkPointData.h"
+#include "vtkPolyDataNormals.h"
+#include "vtkProperty.h"
+#include "vtkRenderState.h"
+#include "vtkRenderer.h"
+#include "vtkShaderProgram.h"
+#include "vtkSphereSource.h"
+#include "vtkStripper.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <random>
+
+using namespace gnomon;
+using namespace gnomon::test;
+
+namespace
+{
+
+/// Draws the scene with numbers for colours: the primitive numbers, or the drawn surfaces and
+/// sides.
+class NumberPass : public vtkOpenGLRenderPass
+{
+public:
+  static NumberPass* New();
+  vtkTypeMacro(NumberPass, vtkOpenGLRenderPass);
+
+  OccluderCollector collector;
+  bool drawPrimitives = false;
+
+  void Render(const vtkRenderState* s) override
+  {
+    vtkRenderer* renderer = s->GetRenderer();
+    this->collector.collect(renderer);
+    this->PreRender(s);
+    this->UpdateCamera(renderer);
+    this->UpdateLightGeometry(renderer);
+    this->UpdateLights(renderer);
+    this->UpdateGeometry(renderer, s->GetFrameBuffer());
+    this->PostRender(s);
+  }
+
+  bool PreReplaceShaderValues(
+    std::string&, std::string&, std::string& fragmentShader, vtkAbstractMapper*, vtkProp*) override
+  {
+    vtkShaderProgram::Substitute(fragmentShader, "//VTK::Color::Dec",
+      "uniform int drawnSurface;\nuniform int drawPrimitives;\n//VTK::Color::Dec");
+    vtkShaderProgram::Substitute(fragmentShader, "//VTK::DepthPeeling::Impl",
+      "int number = drawPrimitives != 0 ? gl_PrimitiveID + PrimitiveIDOffset\n"
+      "  : drawnSurface * 2 + (gl_FrontFacing ? 1 : 0);\n"
+      "gl_FragData[0] = vec4(float(number & 255), float((number >> 8) & 255),\n"
+      "  float((number >> 16) & 255), 255.0) / 255.0;\n"
+      "//VTK::DepthPeeling::Impl");
+    return true;
+  }
+
+  bool SetShaderParameters(vtkShaderProgram* program, vtkAbstractMapper* mapper, vtkProp* prop,
+    vtkOpenGLVertexArrayObject*) override
+  {
+    program->SetUniformi("drawPrimitives", this->drawPrimitives ? 1 : 0);
+    program->SetUniformi("drawnSurface", this->collector.drawn(mapper, prop).index + 2);
+    return true;
+  }
+};
+vtkStandardNewMacro(NumberPass);
+
+struct Hit
+{
+  double t = std::numeric_limits<double>::infinity();
+  double outside = 0.0; ///< how far outside the triangle, in barycentric units
+};
+
+/// Where a ray meets a triangle's plane.
+Hit intersect(
+  const glm::dvec3& origin, const glm::dvec3& direction, const std::array<glm::dvec3, 3>& corners)
+{
+  const glm::dvec3 ab = corners[1] - corners[0];
+  const glm::dvec3 ac = corners[2] - corners[0];
+  const glm::dvec3 p = glm::cross(direction, ac);
+  const double determinant = glm::dot(ab, p);
+  if (determinant == 0.0)
+  {
+    return { std::numeric_limits<double>::infinity(), 1.0 };
+  }
+  const glm::dvec3 s = origin - corners[0];
+  const double u = glm::dot(s, p) / determinant;
+  const glm::dvec3 q = glm::cross(s, ab);
+  const double v = glm::dot(direction, q) / determinant;
+  return { glm::dot(ac, q) / determinant, std::max({ 0.0, -u, -v, u + v - 1.0 }) };
+}
+
+class DrawnSurfaces : public testing::Test
+{
+protected:
+  static constexpr int width = 200;
+  static constexpr int height = 150;
+
+  DrawnSurfaces()
+  {
+    this->window->SetSize(width, height);
+    this->window->AddRenderer(this->renderer);
+    this->renderer->SetPass(this->pass);
+    this->renderer->SetBackground(0, 0, 0);
+  }
+
+  const OccluderCollector& collector() const { return this->pass->collector; }
+
+  /// Turns the camera to the whole snapshot, a little from the side.
+  void lookAtScene()
+  {
+    this->pass->collector.collect(this->renderer);
+    const Occluders& occluders = this->collector().occluders();
+    const glm::dvec3 lower = occluders.allCentred.lower + occluders.centreWorld;
+    const glm::dvec3 upper = occluders.allCentred.upper + occluders.centreWorld;
+    double bounds[6] = { lower.x, upper.x, lower.y, upper.y, lower.z, upper.z };
+    vtkCamera* camera = this->renderer->GetActiveCamera();
+    camera->SetPosition(0.2, 0.3, 1.0);
+    camera->SetFocalPoint(0, 0, 0);
+    this->renderer->ResetCamera(bounds);
+    camera->Zoom(1.3);
+    this->renderer->ResetCameraClippingRange(bounds);
+  }
+
+  std::vector<std::uint32_t> drawNumbers(bool primitives)
+  {
+    this->pass->drawPrimitives = primitives;
+    this->window->Render();
+    vtkNew<vtkUnsignedCharArray> pixels;
+    this->window->GetRGBACharPixelData(0, 0, width - 1, height - 1, 0, pixels);
+    std::vector<std::uint32_t> numbers(width * height);
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+    {
+      const unsigned char* p = pixels->GetPointer(static_cast<vtkIdType>(4 * i));
+      numbers[i] = static_cast<std::uint32_t>(p[0] | (p[1] << 8) | (p[2] << 16));
+    }
+    return numbers;
+  }
+
+  std::array<glm::dvec3, 3> cornersWorld(std::uint32_t triangle) const
+  {
+    const Occluders& occluders = this->collector().occluders();
+    std::array<glm::dvec3, 3> corners;
+    for (int i = 0; i < 3; ++i)
+    {
+      corners[static_cast<std::size_t>(i)] =
+        glm::dvec3(occluders.positionsCentred.at(occluders.triangles.at(triangle)[i])) +
+        occluders.centreWorld;
+    }
+    return corners;
+  }
+
+  struct Count
+  {
+    int covered = 0; ///< pixels that found a triangle
+    int lost = 0;    ///< pixels of a held surface whose triangle was not found
+    int wrong = 0;   ///< pixels whose triangle is not the nearest along the ray
+    int sides = 0;   ///< pixels with the triangle's other side to the camera
+    int missed = 0;  ///< background pixels where the snapshot has a triangle
+    int notHeld = 0; ///< pixels of surfaces, lines and points that the snapshot does not hold
+    std::vector<int> pixelsOfSurface;
+  };
+
+  /// Draws twice and looks up every pixel.
+  ///
+  /// @param tolerance how far outside its triangle a pixel may be, in barycentric units: VTK
+  /// transforms in float, so that at an edge it may show the neighbour
+  Count check(double tolerance = 1e-3)
+  {
+    this->lookAtScene();
+    const std::vector<std::uint32_t> drawn = this->drawNumbers(false);
+    const std::vector<std::uint32_t> primitives = this->drawNumbers(true);
+    const Occluders& occluders = this->collector().occluders();
+
+    vtkNew<vtkMatrix4x4> worldFromNdc;
+    worldFromNdc->DeepCopy(this->renderer->GetActiveCamera()->GetCompositeProjectionTransformMatrix(
+      this->renderer->GetTiledAspectRatio(), -1, 1));
+    worldFromNdc->Invert();
+    const auto unproject = [&worldFromNdc](double x, double y, double z)
+    {
+      const double ndc[4] = { x, y, z, 1.0 };
+      double world[4];
+      worldFromNdc->MultiplyPoint(ndc, world);
+      return glm::dvec3(world[0], world[1], world[2]) / world[3];
+    };
+
+    Count count;
+    count.pixelsOfSurface.resize(occluders.surfaces.size());
+    for (int y = 0; y < height; ++y)
+    {
+      for (int x = 0; x < width; ++x)
+      {
+        const std::size_t pixel = static_cast<std::size_t>(y * width + x);
+        const double ndcX = 2.0 * (x + 0.5) / width - 1.0;
+        const double ndcY = 2.0 * (y + 0.5) / height - 1.0;
+        const glm::dvec3 origin = unproject(ndcX, ndcY, -1.0);
+        const glm::dvec3 direction = unproject(ndcX, ndcY, 1.0) - origin;
+
+        double nearest = std::numeric_limits<double>::infinity();
+        for (std::uint32_t i = 0; i < occluders.triangles.size(); ++i)
+        {
+          const Hit hit = intersect(origin, direction, this->cornersWorld(i));
+          if (hit.outside == 0.0 && hit.t > 0.0)
+          {
+            nearest = std::min(nearest, hit.t);
+          }
+        }
+
+        const int surfaceDrawn = static_cast<int>(drawn[pixel] / 2) - 2;
+        if (drawn[pixel] == 0)
+        {
+          count.missed += std::isfinite(nearest) ? 1 : 0;
+          continue;
+        }
+        if (surfaceDrawn < 0)
+        {
+          ++count.notHeld;
+          continue;
+        }
+        const std::uint32_t triangle =
+          this->find(static_cast<std::size_t>(surfaceDrawn), primitives[pixel]);
+        if (triangle == Surface::noTriangle)
+        {
+          ++count.lost;
+          continue;
+        }
+        ++count.covered;
+        ++count.pixelsOfSurface[this->surfaceOf(triangle)];
+        const std::array<glm::dvec3, 3> corners = this->cornersWorld(triangle);
+        const Hit hit = intersect(origin, direction, corners);
+        if (hit.outside > tolerance || hit.t > nearest + tolerance)
+        {
+          ++count.wrong;
+        }
+        const glm::dvec3 front = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+        const bool frontSeen = glm::dot(front, direction) < 0.0;
+        count.sides += frontSeen != ((drawn[pixel] & 1u) != 0) ? 1 : 0;
+      }
+    }
+    return count;
+  }
+
+  /// Every pixel must be right, but for a few on edges.
+  void expectRight(const Count& count, int leastCovered = 2000)
+  {
+    EXPECT_GE(count.covered, leastCovered);
+    EXPECT_EQ(count.lost, 0);
+    EXPECT_LE(count.wrong, 2);
+    EXPECT_LE(count.sides, 2);
+    EXPECT_LE(count.missed, 2);
+    for (std::size_t i = 0; i < count.pixelsOfSurface.size(); ++i)
+    {
+      EXPECT_GT(count.pixelsOfSurface[i], 0) << "surface " << i << " was not seen";
+    }
+  }
+
+  vtkNew<vtkGnomonEGLRenderWindow> window;
+  vtkNew<vtkRenderer> renderer;
+  vtkNew<NumberPass> pass;
+
+private:
+  /// The snapshot's triangle for a drawn primitive, as projectReceivers is told to find it.
+  std::uint32_t find(std::size_t drawnSurface, std::uint32_t primitive) const
+  {
+    for (const DrawnSurface::Block& block :
+      this->collector().drawnSurfaces().at(drawnSurface).blocks)
+    {
+      if (primitive >= block.firstPrimitive &&
+        primitive - block.firstPrimitive < block.primitiveCount)
+      {
+        const Surface& surface = this->collector().occluders().surfaces.at(block.surface);
+        const std::uint32_t number = primitive - block.firstPrimitive;
+        const std::uint32_t triangle =
+          surface.triangleOfDrawn.empty() ? number : surface.triangleOfDrawn.at(number);
+        return triangle == Surface::noTriangle ? triangle : surface.firstTriangle + triangle;
+      }
+    }
+    return Surface::noTriangle;
+  }
+
+  std::size_t surfaceOf(std::uint32_t triangle) const
+  {
+    const std::vector<Surface>& surfaces = this->collector().occluders().surfaces;
+    std::size_t i = 0;
+    while (triangle >= surfaces[i].firstTriangle + surfaces[i].triangleCount)
+    {
+      ++i;
+    }
+    return i;
+  }
+};
+
+/// A bumpy grid of n x n quads over the unit square.
+vtkSmartPointer<vtkPolyData> makeBumps(int n, unsigned int seed)
+{
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> heightOf(0.0, 0.15);
+  std::vector<glm::dvec3> points;
+  Cells quads;
+  for (int j = 0; j <= n; ++j)
+  {
+    for (int i = 0; i <= n; ++i)
+    {
+      points.emplace_back(double(i) / n, double(j) / n, heightOf(random));
+      if (i < n && j < n)
+      {
+        const vtkIdType corner = j * (n + 1) + i;
+        // Starting corners vary, so that the diagonals do.
+        const std::array<vtkIdType, 4> loop = { corner, corner + 1, corner + n + 2,
+          corner + n + 1 };
+        const std::size_t first = random() % 4;
+        quads.push_back(
+          { loop[first], loop[(first + 1) % 4], loop[(first + 2) % 4], loop[(first + 3) % 4] });
+      }
+    }
+  }
+  return makePolyData(points, quads);
+}
+
+/// Polygons, of which many have coincident vertices and are skipped in part, then strips, lines and
+/// vertices.
+vtkSmartPointer<vtkPolyData> makeMixed()
+{
+  const auto data = makeBumps(6, 7);
+  vtkPoints* points = data->GetPoints();
+  for (vtkIdType i = 3; i + 1 < points->GetNumberOfPoints(); i += 5)
+  {
+    points->SetPoint(i, points->GetPoint(i + 1));
+  }
+  const vtkIdType first = points->GetNumberOfPoints();
+  for (int i = 0; i < 8; ++i)
+  {
+    points->InsertNextPoint(1.1 + 0.05 * (i % 2) + 0.1 * (i / 4), 0.15 * i, 0.02 * (i % 3));
+  }
+  data->SetStrips(makeCells({ { first, first + 1, first + 2, first + 3, first + 4 },
+    { first + 4, first + 5, first + 6, first + 7 } }));
+  data->SetLines(makeCells({ { 0, 8, 16, 24 }, { 3, 30 } }));
+  data->SetVerts(makeCells({ { 1 }, { 2, 5, 9 } }));
+  return data;
+}
+
+void addPointScalars(vtkPolyData* data)
+{
+  vtkNew<vtkFloatArray> scalars;
+  scalars->SetNumberOfTuples(data->GetNumberOfPoints());
+  scalars->Fill(0.5);
+  data->GetPointData()->SetScalars(scalars);
+}
+
+void addCellScalars(vtkPolyData* data)
+{
+  vtkNew<vtkFloatArray> scalars;
+  scalars->SetNumberOfTuples(data->GetNumberOfCells());
+  scalars->Fill(0.5);
+  data->GetCellData()->SetScalars(scalars);
+}
+
+void addNormals(vtkDataSetAttributes* attributes, vtkIdType count)
+{
+  vtkNew<vtkFloatArray> normals;
+  normals->SetNumberOfComponents(3);
+  normals->SetNumberOfTuples(count);
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    normals->SetTuple3(i, 0, 0, 1);
+  }
+  attributes->SetNormals(normals);
+}
+
+vtkSmartPointer<vtkPolyData> moved(vtkPolyData* data, double x, double y)
+{
+  for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
+  {
+    double p[3];
+    data->GetPoint(i, p);
+    data->GetPoints()->SetPoint(i, p[0] + x, p[1] + y, p[2]);
+  }
+  return data;
+}
+
+} // namespace
+
+TEST_F(DrawnSurfaces, Quads)
+{
+  this->renderer->AddActor(makeActor(makeBumps(8, 1)));
+  this->expectRight(this->check());
+}
+
+TEST_F(DrawnSurfaces, ConcavePolygons)
+{
+  this->renderer->AddActor(makeActor(makePolyData(
+    { { 0, 0, 0 }, { 2, 0, 0 }, { 2, 2, 0 }, { 1, 0.4, 0 }, { 0, 2, 0 }, { -1, 1, 0 } },
+    { { 1, 2, 3, 4, 5, 0 } })));
+  this->expectRight(this->check());
+}
+
+TEST_F(DrawnSurfaces, Strips)
+{
+  vtkNew<vtkSphereSource> sphere;
+  vtkNew<vtkStripper> stripper;
+  stripper->SetInputConnection(sphere->GetOutputPort());
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputConnection(stripper->GetOutputPort());
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  this->renderer->AddActor(actor);
+  const Count count = this->check();
+  this->expectRight(count);
+  EXPECT_EQ(count.notHeld, 0);
+}
+
+TEST_F(DrawnSurfaces, MixedCells)
+{
+  const auto actor = makeActor(makeMixed());
+  actor->GetProperty()->SetPointSize(4);
+  actor->GetProperty()->SetLineWidth(3);
+  this->renderer->AddActor(actor);
+  const Count count = this->check();
+  ASSERT_EQ(this->collector().occluders().surfaces.size(), 2u);
+  this->expectRight(count);
+  EXPECT_GT(count.notHeld, 0); // lines and points
+}
+
+TEST_F(DrawnSurfaces, MixedCellsThatAreCountedExactly)
+{
+  // Cell colours make VTK count skipped triangles out, which shifts the strips' numbers.
+  const auto data = makeMixed();
+  addCellScalars(data);
+  this->renderer->AddActor(makeActor(data));
+  this->expectRight(this->check());
+}
+
+TEST_F(DrawnSurfaces, StripsBehindPolygonsThatAreAllSkipped)
+{
+  const auto data =
+    makePolyData({ { 0, 0, 0 }, { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 1, 1, 0.2 }, { 0, 2, 0 } },
+      { { 0, 1, 0, 1, 0 } });
+  data->SetStrips(makeCells({ { 0, 2, 3, 4, 5 } }));
+  this->renderer->AddActor(makeActor(data));
+  const Count count = this->check();
+  EXPECT_EQ(count.lost + count.wrong, 0);
+  EXPECT_GT(count.covered, 2000);
+}
+
+TEST_F(DrawnSurfaces, EdgesAndVerticesDrawnToo)
+{
+  const auto actor = makeActor(makeMixed());
+  actor->GetProperty()->EdgeVisibilityOn();
+  actor->GetProperty()->VertexVisibilityOn();
+  actor->GetProperty()->SetPointSize(4);
+  this->renderer->AddActor(actor);
+  // To draw edges, VTK grows every triangle by half a line's width on the screen.
+  this->expectRight(this->check(0.3));
+}
+
+TEST_F(DrawnSurfaces, CellNormalsAndFlatShading)
+{
+  const auto data = makeMixed();
+  addNormals(data->GetCellData(), data->GetNumberOfCells());
+  const auto actor = makeActor(data);
+  actor->GetProperty()->SetInterpolationToFlat();
+  this->renderer->AddActor(actor);
+  this->expectRight(this->check());
+}
+
+TEST_F(DrawnSurfaces, DroppedTriangles)
+{
+  const auto data = makeBumps(6, 3);
+  vtkPoints* points = data->GetPoints();
+  points->SetPoint(10, std::nan(""), 0, 0);
+  for (vtkIdType i = 21; i < 35; ++i)
+  {
+    points->SetPoint(i, (i % 7) / 6.0 + i / 1000.0, 0.5, 0.0); // a row of cells becomes a line
+  }
+  this->renderer->AddActor(makeActor(data));
+  this->renderer->GetCullers()->RemoveAllItems(); // they take NaN bounds for out of view
+  const Count count = this->check();
+  EXPECT_GT(this->collector().occluders().droppedZeroArea, 0u);
+  EXPECT_GT(this->collector().occluders().droppedNonFinite, 0u);
+  EXPECT_FALSE(this->collector().occluders().surfaces[0].triangleOfDrawn.empty());
+  EXPECT_GT(count.covered, 2000);
+  EXPECT_LE(count.wrong, 2);
+}
+
+TEST_F(DrawnSurfaces, BlocksOfSeveralHelpers)
+{
+  // Twelve blocks with and without colours, normals and strips, some hidden or translucent.
+  vtkNew<vtkMultiBlockDataSet> root;
+  std::vector<vtkSmartPointer<vtkPolyData>> blocks;
+  for (unsigned int i = 0; i < 12; ++i)
+  {
+    const auto block =
+      moved(i % 3 == 0 ? makeMixed() : makeBumps(3 + int(i % 2), i), 1.4 * (i % 4), 1.2 * (i / 4));
+    if (i % 2 == 0)
+    {
+      addPointScalars(block);
+    }
+    if (i % 4 >= 2)
+    {
+      addNormals(block->GetPointData(), block->GetNumberOfPoints());
+    }
+    blocks.push_back(block);
+    root->SetBlock(2 * i, block); // every other one is null
+  }
+  vtkNew<vtkCompositePolyDataMapper2> mapper;
+  mapper->SetInputDataObject(root);
+  vtkNew<vtkCompositeDataDisplayAttributes> attributes;
+  mapper->SetCompositeDataDisplayAttributes(attributes);
+  attributes->SetBlockVisibility(blocks[5], false);
+  attributes->SetBlockOpacity(blocks[7], 0.5);
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  this->renderer->AddActor(actor);
+
+  const Count count = this->check();
+  EXPECT_EQ(this->collector().occluders().surfaces.size(), 14u); // four with strips
+  this->expectRight(count);
+  EXPECT_GE(this->collector().drawnSurfaces().size(), 6u); // four helpers, two of them with strips
+
+  // The tree changes under the mapper.
+  root->SetBlock(2, nullptr);
+  blocks[3]->SetPolys(makeCells({ { 0, 1, 8, 7 } }));
+  attributes->SetBlockVisibility(blocks[5], true);
+  this->expectRight(this->check());
+}
+
+TEST_F(DrawnSurfaces, BlocksWithCellColours)
+{
+  vtkNew<vtkMultiBlockDataSet> root;
+  for (unsigned int i = 0; i < 6; ++i)
+  {
+    const auto block = moved(makeMixed(), 1.4 * (i % 3), 1.2 * (i / 3));
+    addCellScalars(block);
+    root->SetBlock(i, block);
+  }
+  vtkNew<vtkCompositePolyDataMapper2> mapper;
+  mapper->SetInputDataObject(root);
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  this->renderer->AddActor(actor);
+  this->expectRight(this->check());
+}
+
+TEST_F(DrawnSurfaces, AssembliesTellTheirCopiesApart)
+{
+  const auto leaf = makeActor(makeBumps(4, 5));
+  leaf->RotateZ(20);
+  vtkNew<vtkAssembly> inner;
+  inner->AddPart(leaf);
+  inner->AddPart(makeActor(moved(makeBumps(3, 9), 0, 1.3)));
+  inner->RotateX(15);
+  vtkNew<vtkAssembly> copy;
+  copy->AddPart(leaf);
+  copy->SetPosition(1.5, 0.3, 0.2);
+  copy->SetScale(0.7, 1.2, 2.0);
+  vtkNew<vtkAssembly> outer;
+  outer->AddPart(inner);
+  outer->AddPart(copy);
+  outer->RotateY(10);
+  this->renderer->AddViewProp(outer);
+  const Count count = this->check();
+  ASSERT_EQ(this->collector().occluders().surfaces.size(), 3u);
+  EXPECT_EQ(this->collector().drawnSurfaces().size(), 3u);
+  this->expectRight(count);
+}
+
+TEST_F(DrawnSurfaces, ASharedMapperServesSeveralActors)
+{
+  const auto first = makeActor(makeMixed());
+  vtkNew<vtkActor> second;
+  second->SetMapper(first->GetMapper());
+  second->SetPosition(1.5, 0.2, 0);
+  second->RotateZ(40);
+  this->renderer->AddActor(first);
+  this->renderer->AddActor(second);
+  this->expectRight(this->check());
+}
+
+TEST_F(DrawnSurfaces, MirroredMatricesSwapTheSidesAsInOpenGL)
+{
+  const auto mirrored = makeActor(makeMixed());
+  mirrored->SetScale(-1, 1, 1);
+  this->renderer->AddActor(mirrored);
+  const auto plain = makeActor(makeMixed());
+  plain->SetPosition(0.2, 0, 0);
+  this->renderer->AddActor(plain);
+  this->expectRight(this->check());
+}
+
+TEST_F(DrawnSurfaces, FarFromTheOrigin)
+{
+  const auto data = makeMixed();
+  const auto actor = makeActor(data);
+  actor->SetPosition(4e6, 4e6, -4e6);
+  this->renderer->AddActor(actor);
+  const Count count = this->check();
+  // VTK's own float transform moves its picture by a pixel or two here.
+  EXPECT_GT(count.covered, 2000);
+  EXPECT_EQ(count.lost, 0);
+  EXPECT_LE(count.wrong, count.covered / 20);
+}
+
+TEST_F(DrawnSurfaces, TheSecondFrameIsRightWhenPartsMoved)
+{
+  const auto still = makeActor(makeBumps(4, 5));
+  const auto mover = makeActor(makeMixed());
+  mover->SetPosition(0, 0, 1);
+  this->renderer->AddActor(still);
+  this->renderer->AddActor(mover);
+  this->expectRight(this->check());
+  mover->SetPosition(0.5, 0.4, 0.3);
+  mover->RotateX(20);
+  this->expectRight(this->check());
+}

@@ -1,0 +1,732 @@
+#include "plugin/OccluderCollector.h"
+
+#include "TestData.h"
+
+#include "plugin/vtkGnomonPropKeys.h"
+
+#include "vtkAssembly.h"
+#include "vtkCompositeDataDisplayAttributes.h"
+#include "vtkCompositePolyDataMapper2.h"
+#include "vtkDataArray.h"
+#include "vtkFloatArray.h"
+#include "vtkGlyph3DMapper.h"
+#include "vtkMatrix4x4.h"
+#include "vtkMultiBlockDataSet.h"
+#include "vtkPlaneSource.h"
+#include "vtkPointData.h"
+#include "vtkPropAssembly.h"
+#include "vtkProperty.h"
+#include "vtkRenderer.h"
+#include "vtkSOADataArrayTemplate.h"
+#include "vtkSphereSource.h"
+#include "vtkTransform.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+using namespace gnomon;
+using namespace gnomon::test;
+
+namespace
+{
+
+constexpr double notANumber = std::numeric_limits<double>::quiet_NaN();
+
+/// A renderer and the collector that follows it.
+struct Scene
+{
+  vtkNew<vtkRenderer> renderer;
+  OccluderCollector collector;
+
+  OccluderCollector::Change collect() { return this->collector.collect(this->renderer); }
+  const Occluders& occluders() const { return this->collector.occluders(); }
+  const Surface& surface(std::size_t i) const { return this->occluders().surfaces.at(i); }
+  std::size_t surfaceCount() const { return this->occluders().surfaces.size(); }
+
+  /// Triangle of a surface, vertices counted from the surface's first.
+  glm::uvec3 triangle(std::size_t surface, std::uint32_t number) const
+  {
+    const Surface& s = this->surface(surface);
+    return this->occluders().triangles.at(s.firstTriangle + number) - s.firstVertex;
+  }
+  glm::dvec3 positionWorld(std::size_t surface, std::uint32_t vertex) const
+  {
+    const Surface& s = this->surface(surface);
+    return glm::dvec3(this->occluders().positionsCentred.at(s.firstVertex + vertex)) +
+      this->occluders().centreWorld;
+  }
+};
+
+void expectNear(const glm::dvec3& a, const glm::dvec3& b, double tolerance = 1e-6)
+{
+  EXPECT_LE(glm::distance(a, b), tolerance) << "(" << a.x << ", " << a.y << ", " << a.z << ") and ("
+                                            << b.x << ", " << b.y << ", " << b.z << ")";
+}
+
+void expectNothingDone(Scene& scene)
+{
+  const std::uint64_t topology = scene.occluders().topologyVersion;
+  const std::uint64_t positions = scene.occluders().positionsVersion;
+  const OccluderCollector::Change change = scene.collect();
+  EXPECT_EQ(change.extracted, 0);
+  EXPECT_EQ(change.retransformed, 0);
+  EXPECT_EQ(scene.occluders().topologyVersion, topology);
+  EXPECT_EQ(scene.occluders().positionsVersion, positions);
+}
+
+vtkSmartPointer<vtkActor> makeCompositeActor(vtkMultiBlockDataSet* tree)
+{
+  vtkNew<vtkCompositePolyDataMapper2> mapper;
+  mapper->SetInputDataObject(tree);
+  vtkNew<vtkCompositeDataDisplayAttributes> attributes;
+  mapper->SetCompositeDataDisplayAttributes(attributes);
+  const auto actor = vtkSmartPointer<vtkActor>::New();
+  actor->SetMapper(mapper);
+  return actor;
+}
+
+vtkCompositeDataDisplayAttributes* attributesOf(vtkActor* actor)
+{
+  return vtkCompositePolyDataMapper2::SafeDownCast(actor->GetMapper())
+    ->GetCompositeDataDisplayAttributes();
+}
+
+} // namespace
+
+// ---- triangles -------------------------------------------------------------
+
+TEST(OccluderTriangles, PolygonsAreFannedFromTheirFirstVertex)
+{
+  Scene scene;
+  scene.renderer->AddActor(makeActor(makePolyData(
+    { { 0, 0, 0 }, { 1, 0, 0 }, { 2, 1, 0 }, { 1, 2, 0 }, { 0, 1, 0 } }, { { 2, 3, 4, 0, 1 } })));
+  scene.collect();
+  ASSERT_EQ(scene.surface(0).triangleCount, 3u);
+  EXPECT_EQ(scene.triangle(0, 0), glm::uvec3(2, 3, 4));
+  EXPECT_EQ(scene.triangle(0, 1), glm::uvec3(2, 4, 0));
+  EXPECT_EQ(scene.triangle(0, 2), glm::uvec3(2, 0, 1));
+  EXPECT_TRUE(scene.surface(0).triangleOfDrawn.empty());
+}
+
+TEST(OccluderTriangles, StripsTurnEveryOtherTriangle)
+{
+  Scene scene;
+  const auto data =
+    makePolyData({ { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 1, 1, 0 }, { 0, 2, 0 } }, {});
+  data->SetStrips(makeCells({ { 0, 1, 2, 3, 4 } }));
+  scene.renderer->AddActor(makeActor(data));
+  scene.collect();
+  ASSERT_EQ(scene.surfaceCount(), 1u);
+  ASSERT_EQ(scene.surface(0).triangleCount, 3u);
+  EXPECT_EQ(scene.triangle(0, 0), glm::uvec3(0, 1, 2));
+  EXPECT_EQ(scene.triangle(0, 1), glm::uvec3(1, 3, 2));
+  EXPECT_EQ(scene.triangle(0, 2), glm::uvec3(2, 3, 4));
+}
+
+TEST(OccluderTriangles, PolygonsAndStripsAreSurfacesOfTheirOwn)
+{
+  Scene scene;
+  const auto data = makeSquare();
+  data->SetStrips(makeCells({ { 0, 1, 3, 2 } }));
+  scene.renderer->AddActor(makeActor(data));
+  scene.collect();
+  ASSERT_EQ(scene.surfaceCount(), 2u);
+  EXPECT_EQ(scene.surface(0).triangleCount, 2u);
+  EXPECT_EQ(scene.surface(1).triangleCount, 2u);
+  EXPECT_EQ(scene.surface(1).firstTriangle, 2u);
+}
+
+TEST(OccluderTriangles, EqualVerticesAreNeverDrawnAndTakeNoNumber)
+{
+  // The second point equals the third: VTK draws one triangle of the quad, which is no drop.
+  Scene scene;
+  scene.renderer->AddActor(makeActor(
+    makePolyData({ { 0, 0, 0 }, { 1, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } }, { { 0, 1, 2, 3 } })));
+  scene.collect();
+  ASSERT_EQ(scene.surface(0).triangleCount, 1u);
+  EXPECT_TRUE(scene.surface(0).triangleOfDrawn.empty());
+  EXPECT_EQ(scene.occluders().droppedZeroArea, 0u);
+  EXPECT_EQ(scene.occluders().droppedNonFinite, 0u);
+}
+
+TEST(OccluderTriangles, DropsWhatHasNoAreaOrIsNotFinite)
+{
+  Scene scene;
+  scene.renderer->AddActor(makeActor(
+    makePolyData({ { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 2, 0, 0 }, { notANumber, 0, 0 } },
+      { { 0, 1, 2 }, { 0, 1, 3 }, { 0, 1, 4 }, { 1, 3, 2 } })));
+  scene.collect();
+  EXPECT_EQ(scene.occluders().droppedZeroArea, 1u);
+  EXPECT_EQ(scene.occluders().droppedNonFinite, 1u);
+  const std::vector<std::uint32_t> table = { 0, Surface::noTriangle, Surface::noTriangle, 1 };
+  EXPECT_EQ(scene.surface(0).triangleOfDrawn, table);
+  ASSERT_EQ(scene.surface(0).triangleCount, 2u);
+  expectNear(scene.positionWorld(0, scene.triangle(0, 1).y), { 2, 0, 0 });
+  for (const glm::vec3& position : scene.occluders().positionsCentred)
+  {
+    EXPECT_TRUE(
+      std::isfinite(position.x) && std::isfinite(position.y) && std::isfinite(position.z));
+  }
+}
+
+TEST(OccluderTriangles, DropsWhatAMatrixFlattensOrBlowsUp)
+{
+  Scene scene;
+  const auto actor = makeActor(makeSquare());
+  actor->SetScale(1.0, 1e-80, 1.0);
+  scene.renderer->AddActor(actor);
+  scene.collect();
+  EXPECT_EQ(scene.occluders().droppedZeroArea, 2u);
+  EXPECT_EQ(scene.surface(0).triangleCount, 0u);
+
+  actor->SetScale(1.0, 1e80, 1.0); // too large for a float
+  scene.collect();
+  EXPECT_EQ(scene.occluders().droppedNonFinite, 2u);
+
+  actor->SetScale(1.0, 1.0, 1.0); // and back: nothing stays dropped
+  scene.collect();
+  EXPECT_EQ(scene.occluders().droppedZeroArea + scene.occluders().droppedNonFinite, 0u);
+  EXPECT_EQ(scene.surface(0).triangleCount, 2u);
+  EXPECT_TRUE(scene.surface(0).triangleOfDrawn.empty());
+}
+
+TEST(OccluderTriangles, DropsTrianglesOfPointsThatAreNotThere)
+{
+  Scene scene;
+  scene.renderer->AddActor(makeActor(
+    makePolyData({ { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } }, { { 0, 1, 2 }, { 0, 1, 7 } })));
+  scene.collect();
+  EXPECT_EQ(scene.surface(0).triangleCount, 1u);
+  EXPECT_EQ(scene.occluders().droppedNonFinite, 1u);
+}
+
+TEST(OccluderTriangles, PointsInAnyArrayAreRead)
+{
+  Scene scene;
+  const auto square = makeSquare();
+  vtkNew<vtkSOADataArrayTemplate<double>> columns;
+  columns->SetNumberOfComponents(3);
+  columns->SetNumberOfTuples(4);
+  vtkNew<vtkIntArray> integers;
+  integers->SetNumberOfComponents(3);
+  integers->SetNumberOfTuples(4);
+  for (vtkIdType i = 0; i < 4; ++i)
+  {
+    columns->SetTuple(i, square->GetPoint(i));
+    integers->SetTuple(i, square->GetPoint(i));
+  }
+  for (vtkDataArray* array : std::initializer_list<vtkDataArray*>{ columns, integers })
+  {
+    const auto data = makeSquare();
+    data->GetPoints()->SetData(array);
+    scene.renderer->AddActor(makeActor(data));
+  }
+  scene.renderer->AddActor(makeActor(makeSquare(VTK_DOUBLE)));
+  scene.collect();
+  ASSERT_EQ(scene.surfaceCount(), 3u);
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    expectNear(scene.positionWorld(i, scene.triangle(i, 1).y), { 1, 1, 0 });
+  }
+}
+
+TEST(OccluderTriangles, OnlyUsedPointsBecomeVertices)
+{
+  Scene scene;
+  scene.renderer->AddActor(makeActor(
+    makePolyData({ { 1e9, 0, 0 }, { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { notANumber, 0, 0 } },
+      { { 1, 2, 3 } })));
+  scene.collect();
+  EXPECT_EQ(scene.surface(0).vertexCount, 3u);
+  EXPECT_NEAR(scene.occluders().allCentred.radius(), std::sqrt(0.5), 1e-6);
+}
+
+TEST(OccluderTriangles, ThereIsRoomToReadTheLastPositionAs16Bytes)
+{
+  Scene scene;
+  scene.renderer->AddActor(makeActor(makeSquare()));
+  scene.collect();
+  EXPECT_GT(
+    scene.occluders().positionsCentred.capacity(), scene.occluders().positionsCentred.size());
+}
+
+// ---- props -----------------------------------------------------------------
+
+TEST(OccluderProps, WhatIsNotAnOpaqueSurfaceIsLeftOut)
+{
+  Scene scene;
+  for (int i = 0; i < 5; ++i)
+  {
+    scene.renderer->AddActor(makeActor(makeSquare()));
+  }
+  vtkPropCollection* props = scene.renderer->GetViewProps();
+  const auto actor = [props](int i) { return vtkActor::SafeDownCast(props->GetItemAsObject(i)); };
+  actor(0)->SetVisibility(false);
+  actor(1)->GetProperty()->SetRepresentationToWireframe();
+  actor(2)->GetProperty()->SetRepresentationToPoints();
+  actor(3)->GetProperty()->SetOpacity(0.5);
+  scene.collect();
+  ASSERT_EQ(scene.surfaceCount(), 1u);
+
+  actor(3)->ForceOpaqueOn();
+  actor(4)->ForceTranslucentOn();
+  scene.collect();
+  EXPECT_EQ(scene.surfaceCount(), 1u);
+  actor(4)->ForceTranslucentOff();
+  scene.collect();
+  EXPECT_EQ(scene.surfaceCount(), 2u);
+}
+
+TEST(OccluderProps, TranslucentColoursMakeAPropTranslucent)
+{
+  Scene scene;
+  const auto square = makeSquare();
+  vtkNew<vtkUnsignedCharArray> colours;
+  colours->SetNumberOfComponents(4);
+  for (int i = 0; i < 4; ++i)
+  {
+    colours->InsertNextTuple4(255, 0, 0, 128);
+  }
+  square->GetPointData()->SetScalars(colours);
+  scene.renderer->AddActor(makeActor(square));
+  scene.collect();
+  EXPECT_EQ(scene.surfaceCount(), 0u);
+}
+
+TEST(OccluderProps, UnservedMappersAreNoted)
+{
+  Scene scene;
+  vtkNew<vtkGlyph3DMapper> mapper;
+  mapper->SetInputData(makeSquare());
+  mapper->SetSourceData(makeSquare());
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  scene.renderer->AddActor(actor);
+  scene.collect();
+  EXPECT_EQ(scene.surfaceCount(), 0u);
+  ASSERT_EQ(scene.collector.notes().size(), 1u);
+  EXPECT_NE(scene.collector.notes()[0].find("Glyph3DMapper"), std::string::npos);
+}
+
+TEST(OccluderProps, AMapperWithoutInputIsNoSurface)
+{
+  Scene scene;
+  vtkNew<vtkPolyDataMapper> mapper;
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  scene.renderer->AddActor(actor);
+  scene.renderer->AddActor(vtkSmartPointer<vtkActor>::New());
+  scene.renderer->AddActor(makeActor(vtkSmartPointer<vtkPolyData>::New()));
+  scene.collect();
+  EXPECT_EQ(scene.surfaceCount(), 0u);
+  EXPECT_TRUE(scene.occluders().allCentred.empty());
+}
+
+TEST(OccluderProps, AssembliesMultiplyTheMatricesOfAllTheirLevels)
+{
+  Scene scene;
+  const auto leaf = makeActor(makeSquare());
+  leaf->SetPosition(1, 0, 0);
+  leaf->RotateZ(30);
+  vtkNew<vtkMatrix4x4> user;
+  user->SetElement(0, 0, 2.0);
+  user->SetElement(1, 2, 0.5);
+  leaf->SetUserMatrix(user);
+  vtkNew<vtkAssembly> inner;
+  inner->AddPart(leaf);
+  inner->RotateX(50);
+  inner->SetScale(2, 3, 4);
+  vtkNew<vtkAssembly> outer;
+  outer->AddPart(inner);
+  outer->SetPosition(0, 5, 0);
+  vtkNew<vtkTransform> turn;
+  turn->RotateY(70);
+  outer->SetUserTransform(turn);
+  scene.renderer->AddViewProp(outer);
+  scene.collect();
+
+  vtkNew<vtkTransform> expected;
+  expected->Concatenate(outer->GetMatrix());
+  expected->Concatenate(inner->GetMatrix());
+  expected->Concatenate(leaf->GetMatrix());
+  ASSERT_EQ(scene.surfaceCount(), 1u);
+  for (vtkIdType i = 0; i < 4; ++i)
+  {
+    const double* p = expected->TransformDoublePoint(makeSquare()->GetPoint(i));
+    expectNear(scene.positionWorld(0, static_cast<std::uint32_t>(i)), { p[0], p[1], p[2] }, 1e-5);
+  }
+
+  inner->RotateX(10); // a part that turns inside is noticed
+  EXPECT_EQ(scene.collect().retransformed, 1);
+  expected->Identity();
+  expected->Concatenate(outer->GetMatrix());
+  expected->Concatenate(inner->GetMatrix());
+  expected->Concatenate(leaf->GetMatrix());
+  const double* p = expected->TransformDoublePoint(1, 1, 0);
+  expectNear(scene.positionWorld(0, 2), { p[0], p[1], p[2] }, 1e-5);
+}
+
+TEST(OccluderProps, OnePartMayHangInSeveralPlaces)
+{
+  Scene scene;
+  const auto leaf = makeActor(makeSquare());
+  vtkNew<vtkAssembly> left;
+  left->AddPart(leaf);
+  left->SetPosition(-10, 0, 0);
+  vtkNew<vtkAssembly> right;
+  right->AddPart(leaf);
+  right->SetPosition(10, 0, 0);
+  vtkNew<vtkPropAssembly> both;
+  both->AddPart(left);
+  both->AddPart(right);
+  scene.renderer->AddViewProp(both);
+  scene.collect();
+  ASSERT_EQ(scene.surfaceCount(), 2u);
+  expectNear(scene.positionWorld(0, 2), { -9, 1, 0 });
+  expectNear(scene.positionWorld(1, 2), { 11, 1, 0 });
+}
+
+TEST(OccluderProps, TheViewPropsKeysCountForItsParts)
+{
+  Scene scene;
+  const auto plain = makeActor(makeSquare());
+  vtkGnomonPropKeys::SetOneSided(plain, true);
+  const auto part = makeActor(makeSquare());
+  vtkGnomonPropKeys::SetCasts(part, false); // overwritten by the assembly's when drawn
+  vtkNew<vtkAssembly> assembly;
+  assembly->AddPart(part);
+  assembly->SetPosition(5, 0, 0);
+  vtkGnomonPropKeys::SetReceives(assembly, false);
+  scene.renderer->AddActor(plain);
+  scene.renderer->AddViewProp(assembly);
+  scene.collect();
+  ASSERT_EQ(scene.surfaceCount(), 2u);
+  EXPECT_TRUE(scene.surface(0).oneSided);
+  EXPECT_TRUE(scene.surface(0).casts && scene.surface(0).receives);
+  EXPECT_TRUE(scene.surface(1).casts);
+  EXPECT_FALSE(scene.surface(1).receives);
+}
+
+TEST(OccluderProps, CastersBoxLeavesOutWhatOnlyReceives)
+{
+  Scene scene;
+  const auto caster = makeActor(makeSquare());
+  const auto receiver = makeActor(makeSquare());
+  receiver->SetPosition(3, 0, 0);
+  vtkGnomonPropKeys::SetCasts(receiver, false);
+  scene.renderer->AddActor(caster);
+  scene.renderer->AddActor(receiver);
+  scene.collect();
+  const glm::dvec3 centre = scene.occluders().centreWorld;
+  expectNear(scene.occluders().castersCentred.upper + centre, { 1, 1, 0 });
+  expectNear(scene.occluders().allCentred.upper + centre, { 4, 1, 0 });
+}
+
+// ---- composite data --------------------------------------------------------
+
+TEST(OccluderBlocks, FollowVisibilityAndOpacityAsDrawn)
+{
+  // root { a, none, branch { b, c }, a again }
+  Scene scene;
+  const auto a = makeSquare();
+  const auto b = makeSquare();
+  const auto c = makeSquare();
+  vtkNew<vtkMultiBlockDataSet> branch;
+  branch->SetBlock(0, b);
+  branch->SetBlock(1, c);
+  vtkNew<vtkMultiBlockDataSet> root;
+  root->SetBlock(0, a);
+  root->SetBlock(1, nullptr);
+  root->SetBlock(2, branch);
+  root->SetBlock(3, a);
+  const auto actor = makeCompositeActor(root);
+  scene.renderer->AddActor(actor);
+  scene.collect();
+  EXPECT_EQ(scene.surfaceCount(), 3u); // a is drawn once
+
+  // A visible block below a hidden one is drawn.
+  attributesOf(actor)->SetBlockVisibility(branch, false);
+  attributesOf(actor)->SetBlockVisibility(c, true);
+  scene.collect();
+  EXPECT_EQ(scene.surfaceCount(), 2u);
+
+  attributesOf(actor)->SetBlockOpacity(c, 0.5);
+  scene.collect();
+  EXPECT_EQ(scene.surfaceCount(), 1u);
+
+  attributesOf(actor)->RemoveBlockVisibilities();
+  attributesOf(actor)->RemoveBlockOpacities();
+  actor->GetProperty()->SetOpacity(0.5); // not drawn in the opaque pass, whatever its blocks say
+  attributesOf(actor)->SetBlockOpacity(a, 1.0);
+  scene.collect();
+  EXPECT_EQ(scene.surfaceCount(), 0u);
+}
+
+TEST(OccluderBlocks, AnEditedBlockIsReadAlone)
+{
+  Scene scene;
+  vtkNew<vtkMultiBlockDataSet> root;
+  const auto a = makeSquare();
+  root->SetBlock(0, a);
+  root->SetBlock(1, makeSquare());
+  scene.renderer->AddActor(makeCompositeActor(root));
+  EXPECT_EQ(scene.collect().extracted, 2);
+  a->GetPoints()->SetPoint(2, 5, 5, 0);
+  a->GetPoints()->Modified();
+  EXPECT_EQ(scene.collect().extracted, 1);
+  root->SetBlock(2, makeSquare());
+  EXPECT_EQ(scene.collect().extracted, 1);
+  EXPECT_EQ(scene.surfaceCount(), 3u);
+}
+
+TEST(OccluderBlocks, PlainPolyDataMayFeedACompositeMapper)
+{
+  Scene scene;
+  vtkNew<vtkCompositePolyDataMapper2> mapper;
+  mapper->SetInputDataObject(makeSquare());
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  scene.renderer->AddActor(actor);
+  scene.collect();
+  EXPECT_EQ(scene.surfaceCount(), 1u);
+}
+
+// ---- what changes, and what it costs -----------------------------------------
+
+TEST(OccluderChanges, NothingChangedNothingDone)
+{
+  Scene scene;
+  vtkNew<vtkSphereSource> sphere;
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputConnection(sphere->GetOutputPort());
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  scene.renderer->AddActor(actor);
+  vtkNew<vtkAssembly> assembly;
+  assembly->AddPart(makeActor(makeSquare()));
+  scene.renderer->AddViewProp(assembly);
+  EXPECT_EQ(scene.collect().extracted, 2);
+  expectNothingDone(scene);
+  expectNothingDone(scene);
+}
+
+TEST(OccluderChanges, AMovedPropOnlyMovesItsVertices)
+{
+  Scene scene;
+  scene.renderer->AddActor(makeActor(makeSquare()));
+  const auto mover = makeActor(makeSquare());
+  scene.renderer->AddActor(mover);
+  scene.collect();
+  const Occluders before = scene.occluders();
+  mover->SetPosition(0, 0, 2);
+  const OccluderCollector::Change change = scene.collect();
+  EXPECT_EQ(change.extracted, 0);
+  EXPECT_EQ(change.retransformed, 1);
+  EXPECT_EQ(scene.occluders().topologyVersion, before.topologyVersion);
+  EXPECT_NE(scene.occluders().positionsVersion, before.positionsVersion);
+  EXPECT_EQ(scene.surface(0).positionsVersion, before.surfaces[0].positionsVersion);
+  EXPECT_NE(scene.surface(1).positionsVersion, before.surfaces[1].positionsVersion);
+  EXPECT_EQ(scene.surface(1).topologyVersion, before.surfaces[1].topologyVersion);
+  expectNear(scene.positionWorld(1, 2), { 1, 1, 2 });
+  expectNear(scene.occluders().allCentred.upper + scene.occluders().centreWorld, { 1, 1, 2 });
+  expectNothingDone(scene);
+}
+
+TEST(OccluderChanges, EditedPointsAreNoticedHoweverTheyAreReported)
+{
+  Scene scene;
+  const auto square = makeSquare();
+  scene.renderer->AddActor(makeActor(square));
+  scene.collect();
+  const auto edit = [&](double x) { square->GetPoints()->GetData()->SetComponent(2, 0, x); };
+  const std::uint64_t topology = scene.occluders().topologyVersion;
+
+  edit(2);
+  square->GetPoints()->Modified();
+  EXPECT_EQ(scene.collect().extracted, 1);
+  expectNear(scene.positionWorld(0, 2), { 2, 1, 0 });
+  edit(3);
+  square->Modified();
+  scene.collect();
+  expectNear(scene.positionWorld(0, 2), { 3, 1, 0 });
+  edit(4);
+  square->GetPoints()->GetData()->Modified();
+  scene.collect();
+  expectNear(scene.positionWorld(0, 2), { 4, 1, 0 });
+
+  // The same triangles throughout: structures built on them need a refit only.
+  EXPECT_EQ(scene.occluders().topologyVersion, topology);
+  square->SetPolys(makeCells({ { 0, 1, 2 } }));
+  scene.collect();
+  EXPECT_NE(scene.occluders().topologyVersion, topology);
+  EXPECT_EQ(scene.surface(0).triangleCount, 1u);
+}
+
+TEST(OccluderChanges, ModifiedWithoutAChangeChangesNoVersion)
+{
+  Scene scene;
+  const auto square = makeSquare();
+  scene.renderer->AddActor(makeActor(square));
+  scene.collect();
+  const std::uint64_t positions = scene.occluders().positionsVersion;
+  square->Modified();
+  EXPECT_EQ(scene.collect().extracted, 1);
+  EXPECT_EQ(scene.occluders().positionsVersion, positions);
+}
+
+TEST(OccluderChanges, NewColoursAreNoNewShape)
+{
+  Scene scene;
+  const auto square = makeSquare();
+  scene.renderer->AddActor(makeActor(square));
+  scene.collect();
+  vtkNew<vtkFloatArray> scalars;
+  scalars->SetNumberOfTuples(4);
+  scalars->Fill(1.0);
+  square->GetPointData()->SetScalars(scalars);
+  expectNothingDone(scene);
+}
+
+TEST(OccluderChanges, UpstreamFiltersAndSwappedInputsAreNoticed)
+{
+  Scene scene;
+  vtkNew<vtkPlaneSource> plane;
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputConnection(plane->GetOutputPort());
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  scene.renderer->AddActor(actor);
+  scene.collect();
+  EXPECT_EQ(scene.surface(0).triangleCount, 2u);
+  plane->SetResolution(4, 4);
+  EXPECT_EQ(scene.collect().extracted, 1);
+  EXPECT_EQ(scene.surface(0).triangleCount, 32u);
+  mapper->SetInputData(makeSquare());
+  EXPECT_EQ(scene.collect().extracted, 1);
+  EXPECT_EQ(scene.surface(0).triangleCount, 2u);
+}
+
+TEST(OccluderChanges, FlagsOnlyChangeFlags)
+{
+  Scene scene;
+  const auto actor = makeActor(makeSquare());
+  scene.renderer->AddActor(actor);
+  scene.collect();
+  const Occluders before = scene.occluders();
+  vtkGnomonPropKeys::SetCasts(actor, false);
+  const OccluderCollector::Change change = scene.collect();
+  EXPECT_EQ(change.extracted + change.retransformed, 0);
+  EXPECT_FALSE(scene.surface(0).casts);
+  EXPECT_NE(scene.occluders().topologyVersion, before.topologyVersion);
+  EXPECT_EQ(scene.surface(0).topologyVersion, before.surfaces[0].topologyVersion);
+  EXPECT_EQ(scene.surface(0).positionsVersion, before.surfaces[0].positionsVersion);
+  EXPECT_TRUE(scene.occluders().castersCentred.empty());
+  EXPECT_FALSE(scene.occluders().allCentred.empty());
+}
+
+TEST(OccluderChanges, TheOthersStayWhenSurfacesComeAndGo)
+{
+  Scene scene;
+  const auto first = makeActor(makeSquare());
+  const auto second = makeActor(makeSquare());
+  second->SetPosition(2, 0, 0);
+  scene.renderer->AddActor(first);
+  scene.renderer->AddActor(second);
+  scene.collect();
+  const Surface before = scene.surface(1);
+
+  scene.renderer->RemoveActor(first);
+  EXPECT_EQ(scene.collect().extracted, 0);
+  ASSERT_EQ(scene.surfaceCount(), 1u);
+  EXPECT_EQ(scene.surface(0).topologyVersion, before.topologyVersion);
+  EXPECT_EQ(scene.surface(0).positionsVersion, before.positionsVersion);
+  EXPECT_EQ(scene.surface(0).firstVertex, 0u);
+  EXPECT_EQ(scene.triangle(0, 1), glm::uvec3(0, 2, 3));
+  expectNear(scene.positionWorld(0, 2), { 3, 1, 0 });
+  expectNothingDone(scene);
+
+  scene.renderer->AddActor(first); // now behind the other one
+  EXPECT_EQ(scene.collect().extracted, 1);
+  expectNear(scene.positionWorld(0, 2), { 3, 1, 0 });
+  expectNear(scene.positionWorld(1, 2), { 1, 1, 0 });
+  expectNothingDone(scene);
+}
+
+TEST(OccluderChanges, ManyPropsAndBlocksStayFollowed)
+{
+  // Guards against work that grows with the square: 10,000 props would take minutes.
+  Scene scene;
+  const auto square = makeSquare();
+  for (int i = 0; i < 10000; ++i)
+  {
+    const auto actor = makeActor(square);
+    actor->SetPosition(i % 100, i / 100, 0);
+    scene.renderer->GetViewProps()->AddItem(actor); // AddActor searches the list each time
+  }
+  vtkNew<vtkMultiBlockDataSet> root;
+  for (unsigned int i = 0; i < 1000; ++i)
+  {
+    root->SetBlock(i, makeSquare());
+  }
+  scene.renderer->AddActor(makeCompositeActor(root));
+  EXPECT_EQ(scene.collect().extracted, 11000);
+  expectNothingDone(scene);
+  scene.renderer->GetViewProps()->RemoveItem(0);
+  EXPECT_EQ(scene.collect().extracted, 0);
+  EXPECT_EQ(scene.surfaceCount(), 10999u);
+}
+
+// ---- the centre --------------------------------------------------------------
+
+TEST(OccluderCentre, FarScenesKeepTheirPrecision)
+{
+  Scene scene;
+  const glm::dvec3 far(4e6, -4e6, 4e6);
+  const auto byMatrix = makeActor(makeSquare());
+  byMatrix->SetPosition(far.x, far.y, far.z);
+  scene.renderer->AddActor(byMatrix);
+  scene.renderer->AddActor(makeActor(makePolyData(
+    { far + glm::dvec3(1.001, 0, 0), far + glm::dvec3(2, 0, 0), far + glm::dvec3(1, 1, 0) },
+    { { 0, 1, 2 } }, VTK_DOUBLE)));
+  scene.collect();
+  expectNear(scene.positionWorld(0, 2), far + glm::dvec3(1, 1, 0), 1e-6);
+  expectNear(scene.positionWorld(1, 0), far + glm::dvec3(1.001, 0, 0), 1e-6);
+}
+
+TEST(OccluderCentre, StaysUntilTheSceneLeavesIt)
+{
+  Scene scene;
+  const auto actor = makeActor(makeSquare());
+  scene.renderer->AddActor(actor);
+  scene.collect();
+  const glm::dvec3 centre = scene.occluders().centreWorld;
+  expectNear(centre, { 0.5, 0.5, 0 });
+  actor->SetPosition(11, 0, 0); // radius 0.707: 16 radii are 11.3
+  scene.collect();
+  EXPECT_EQ(scene.occluders().centreWorld, centre);
+  actor->SetPosition(12, 0, 0);
+  scene.collect();
+  expectNear(scene.occluders().centreWorld, { 12.5, 0.5, 0 });
+  expectNear(scene.positionWorld(0, 2), { 13, 1, 0 });
+}
+
+TEST(OccluderCentre, MovesEverySurfaceWithIt)
+{
+  Scene scene;
+  const auto near = makeActor(makeSquare());
+  const auto far = makeActor(makeSquare());
+  far->SetPosition(1000, 0, 0);
+  scene.renderer->AddActor(near);
+  scene.renderer->AddActor(far);
+  scene.collect();
+  near->SetVisibility(false);
+  const OccluderCollector::Change change = scene.collect();
+  EXPECT_EQ(change.extracted, 0);
+  EXPECT_EQ(change.retransformed, 1);
+  expectNear(scene.occluders().centreWorld, { 1000.5, 0.5, 0 });
+  expectNear(scene.positionWorld(0, 2), { 1001, 1, 0 });
+}
