@@ -131,13 +131,13 @@ int main(int argc, char* argv[])
   vtkNew<vtkLight> sun; // in the west, 20 degrees above the horizon
   sun->SetFocalPoint(0, 0, 0);
   sun->SetPosition(-0.94, 0.10, 0.34);
-  sun->SetIntensity(0.85);
+  sun->SetIntensity(1.0);
   renderer->AddLight(sun);
   vtkNew<vtkLight> sky; // keeps shadows readable, and throws none itself
   sky->SetFocalPoint(0, 0, 0);
   sky->SetPosition(0.2, -0.3, 1);
   sky->SetColor(0.85, 0.92, 1.0);
-  sky->SetIntensity(0.35);
+  sky->SetIntensity(0.5);
   vtkGnomonLightKeys::SetCasts(sky, false);
   renderer->AddLight(sky);
 

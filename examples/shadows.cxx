@@ -12,6 +12,7 @@
 #include <vtkPNGWriter.h>
 #include <vtkPlaneSource.h>
 #include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
 #include <vtkRenderer.h>
 #include <vtkSphereSource.h>
 #include <vtkWindowToImageFilter.h>
@@ -28,6 +29,8 @@ void addSurface(vtkRenderer* renderer, vtkAlgorithm* source)
   mapper->SetInputConnection(source->GetOutputPort());
   vtkNew<vtkActor> actor;
   actor->SetMapper(mapper);
+  actor->GetProperty()->SetAmbient(0.2); // ambient light is never shadowed
+  actor->GetProperty()->SetDiffuse(0.8);
   renderer->AddActor(actor);
 }
 
