@@ -17,6 +17,7 @@ find_package(VTK 9.1 REQUIRED COMPONENTS
   IOXML
   ImagingCore
   InteractionStyle
+  RenderingAnnotation
   RenderingCore
   RenderingOpenGL2
   ChartsCore

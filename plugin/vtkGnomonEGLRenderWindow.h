@@ -70,8 +70,13 @@ public:
   void Finalize() override;
   ///@}
 
+  ///@{
+  /**
+   * Draw the renderers into the window's framebuffers. Without a context nothing is drawn.
+   */
   void Start() override;
   void Render() override;
+  ///@}
 
   ///@{
   /**
@@ -103,15 +108,15 @@ public:
   void* GetGenericContext() override;
   ///@}
 
-  ///@{
-  /**
-   * Read and write pixels. An error before the first Render().
-   */
   using vtkOpenGLRenderWindow::GetZbufferData;
   using vtkOpenGLRenderWindow::SetPixelData;
   using vtkOpenGLRenderWindow::SetRGBACharPixelData;
   using vtkOpenGLRenderWindow::SetRGBAPixelData;
   using vtkOpenGLRenderWindow::SetZbufferData;
+  ///@{
+  /**
+   * Read and write pixels. An error before the first Render().
+   */
   int GetZbufferData(int x1, int y1, int x2, int y2, float* z) override;
   int SetZbufferData(int x1, int y1, int x2, int y2, float* buffer) override;
   int SetPixelData(

@@ -13,7 +13,7 @@ namespace gnomon
 struct StageTime
 {
   std::string name; ///< lights, occluders, receivers, maps, visibility, shading, or "stage: part"
-  double milliseconds = 0.0;
+  double milliseconds = 0.0; ///< wall clock
 };
 
 /// What became of one light.
@@ -30,10 +30,10 @@ struct LightReport
 /// What one frame did, for people and for tests. Counters count this frame only.
 struct FrameReport
 {
-  std::string route;       ///< "inline", "image" or "none" (no light casts: plain VTK)
-  std::string routeReason; ///< why this route, as a clause
-  std::vector<LightReport> lights;
-  std::vector<std::string> notes; ///< limits that this frame ran into, each a sentence
+  std::string route;               ///< "inline", "image" or "none" (no light casts: plain VTK)
+  std::string routeReason;         ///< why this route, as a clause
+  std::vector<LightReport> lights; ///< every light of the renderer
+  std::vector<std::string> notes;  ///< limits that this frame ran into, each a sentence
 
   /// Filled when stages are measured; each stage then ends with glFinish, which costs time of its
   /// own. Without it `stages` is empty and only wallMilliseconds counts.
@@ -53,8 +53,8 @@ struct FrameReport
 
   std::size_t bytesOccluders = 0; ///< snapshot on the CPU and the GPU
   std::size_t bytesBvh = 0;       ///< as Embree reports it
-  std::size_t bytesMaps = 0;
-  std::size_t bytesImages = 0; ///< receivers and visibility
+  std::size_t bytesMaps = 0;      ///< what the techniques baked
+  std::size_t bytesImages = 0;    ///< receivers and visibility
 };
 
 } // namespace gnomon

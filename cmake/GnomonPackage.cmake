@@ -1,0 +1,23 @@
+# What makes find_package(Gnomon) work; the libraries' own export comes from vtk_module_build.
+include(CMakePackageConfigHelpers)
+
+set(gnomon_cmake_destination "${CMAKE_INSTALL_LIBDIR}/cmake/Gnomon")
+configure_package_config_file(
+  "${PROJECT_SOURCE_DIR}/cmake/GnomonConfig.cmake.in"
+  "${PROJECT_BINARY_DIR}/GnomonConfig.cmake"
+  INSTALL_DESTINATION "${gnomon_cmake_destination}")
+write_basic_package_version_file(
+  "${PROJECT_BINARY_DIR}/GnomonConfigVersion.cmake"
+  COMPATIBILITY SameMinorVersion) # before 1.0 a minor version may change what is public
+
+install(FILES
+  "${PROJECT_BINARY_DIR}/GnomonConfig.cmake"
+  "${PROJECT_BINARY_DIR}/GnomonConfigVersion.cmake"
+  DESTINATION "${gnomon_cmake_destination}")
+install(FILES "${PROJECT_SOURCE_DIR}/cmake/GnomonImageTest.cmake"
+  DESTINATION "${gnomon_cmake_destination}" OPTIONAL)
+install(FILES "${PROJECT_SOURCE_DIR}/LICENSE"
+  DESTINATION "${CMAKE_INSTALL_DATAROOTDIR}/licenses/Gnomon")
+if(TARGET gnomon)
+  install(TARGETS gnomon EXPORT Gnomon RUNTIME)
+endif()

@@ -1,0 +1,51 @@
+# Installs Gnomon into an empty prefix, looks at what lies there, and builds and runs a project that
+# uses it.
+#
+#   cmake -D BUILD_DIR=... -D CONSUMER_DIR=... -D README=... -D WORK_DIR=... -D CXX=... -D CC=... -P
+cmake_minimum_required(VERSION 3.25)
+
+function(run)
+  execute_process(COMMAND ${ARGN} COMMAND_ERROR_IS_FATAL ANY OUTPUT_QUIET)
+endfunction()
+
+file(REMOVE_RECURSE "${WORK_DIR}")
+run("${CMAKE_COMMAND}" --install "${BUILD_DIR}" --prefix "${WORK_DIR}/prefix")
+
+# Public headers only, all of them flat under include/gnomon.
+file(GLOB_RECURSE headers RELATIVE "${WORK_DIR}/prefix/include" "${WORK_DIR}/prefix/include/*")
+list(SORT headers)
+set(expected
+  gnomon/FrameReport.h
+  gnomon/GnomonLightsModule.h
+  gnomon/GnomonPluginModule.h
+  gnomon/GnomonShadowTechModule.h
+  gnomon/VisibilityImages.h
+  gnomon/vtkGnomonEGLRenderWindow.h
+  gnomon/vtkGnomonLightKeys.h
+  gnomon/vtkGnomonPropKeys.h
+  gnomon/vtkGnomonShadowPass.h)
+if(NOT headers STREQUAL expected)
+  list(JOIN headers "\n  " headers)
+  list(JOIN expected "\n  " expected)
+  message(FATAL_ERROR "Installed headers:\n  ${headers}\nExpected:\n  ${expected}")
+endif()
+
+# README.md shows the program's own lines.
+file(READ "${README}" readme)
+string(REGEX MATCH "```cpp\n([^`]*)```" block "${readme}")
+string(REGEX REPLACE "([^\n]+\n)" "  \\1" lines "${CMAKE_MATCH_1}") # indented as in main()
+file(READ "${CONSUMER_DIR}/../../examples/shadows.cxx" program)
+string(FIND "${program}" "${lines}" place)
+if(block STREQUAL "" OR place EQUAL -1)
+  message(FATAL_ERROR "README.md's first C++ block is not in examples/shadows.cxx:\n${lines}")
+endif()
+
+run("${CMAKE_COMMAND}" -S "${CONSUMER_DIR}" -B "${WORK_DIR}/build" -G Ninja
+  "-DCMAKE_PREFIX_PATH=${WORK_DIR}/prefix" -DCMAKE_BUILD_TYPE=Release
+  "-DCMAKE_C_COMPILER=${CC}" "-DCMAKE_CXX_COMPILER=${CXX}")
+run("${CMAKE_COMMAND}" --build "${WORK_DIR}/build")
+run("${CMAKE_COMMAND}" -E env --unset=DISPLAY "${WORK_DIR}/build/consumer" "${WORK_DIR}/picture.png")
+file(SIZE "${WORK_DIR}/picture.png" bytes)
+if(bytes LESS 1000)
+  message(FATAL_ERROR "The consumer's picture has only ${bytes} bytes.")
+endif()

@@ -1,0 +1,7 @@
+// Every public header stands on its own and on what is installed with it.
+#include <FrameReport.h>
+#include <VisibilityImages.h>
+#include <vtkGnomonEGLRenderWindow.h>
+#include <vtkGnomonLightKeys.h>
+#include <vtkGnomonPropKeys.h>
+#include <vtkGnomonShadowPass.h>
