@@ -28,6 +28,7 @@ struct SceneModel
   bool casts = true;
   bool receives = true;
   bool oneSided = false;
+  bool translucent = false; ///< drawn as translucent although its opacity is 1 (glTF's BLEND, MASK)
 };
 
 /// One light of a scene, in world coordinates.
@@ -64,12 +65,21 @@ struct Scene
   std::vector<SceneLight> lights;
   SceneCamera camera;
   Vec3 background{ { 1, 1, 1 } };
+  /// What reading left out or replaced, for people; each a sentence that names the file.
+  std::vector<std::string> notes;
+};
+
+/// What becomes of a scene's own lights.
+enum class FileLights
+{
+  Use,   ///< lights of kinds that Gnomon does not have yet are refused
+  Ignore ///< the caller brings lights of its own: no light is loaded, none is refused for its kind
 };
 
 /// Reads a built-in scene's name, a scene file (.json) or a model file (.obj .ply .stl .vtp .3ds
 /// .glb .gltf). A model gets a camera and a light where its file has none.
 /// @throws BadInput
-Scene loadScene(const std::string& nameOrPath);
+Scene loadScene(const std::string& nameOrPath, FileLights fileLights = FileLights::Use);
 
 /// Names and one-line summaries of the built-in scenes.
 struct BuiltinScene
@@ -79,10 +89,17 @@ struct BuiltinScene
 };
 std::vector<BuiltinScene> builtinScenes();
 
-/// Replaces a scene's lights or camera by what the command line says (SceneSpecs.cpp has the
-/// forms).
+/// Reads the argument of --light, `type:key=value;key=value...`, with a scene file's types and
+/// keys:
+///     directional:direction=-1,-2,-1;color=1,1,1;intensity=1;technique=nsm;map_size=1024
+///     spot:position=3,4,5;target=0,0,0;cone_angle=30
 /// @throws BadInput
 SceneLight parseLight(const std::string& spec);
+
+/// Reads the argument of --camera, `key=value;key=value...`, with a scene file's keys. What it
+/// leaves out comes from `defaults`:
+///     position=0,1,5;target=0,0,0;up=0,1,0;fov=45
+/// @throws BadInput
 SceneCamera parseCamera(const std::string& spec, const SceneCamera& defaults);
 
 /// A renderer with the scene's actors, lights, camera (clipping range set) and background. Surfaces

@@ -1,0 +1,77 @@
+#include "BuiltinParts.h"
+#include "BuiltinScenes.h"
+#include "Errors.h"
+#include "ModelFile.h"
+#include "SceneFraming.h"
+#include "Vec3.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+
+namespace gnomon::tool
+{
+
+namespace
+{
+
+Model readPackagedModel(const std::string& file)
+{
+  const char* folder = std::getenv("GNOMON_MODELS");
+  const std::filesystem::path path =
+    std::filesystem::path(folder && *folder ? folder : "/usr/share/glmark2/models") / file;
+  std::error_code error;
+  if (!std::filesystem::exists(path, error))
+  {
+    throw BadInput(path.string() +
+      ": no such file; it comes with the Debian package glmark2-data, or the environment variable "
+      "GNOMON_MODELS names its folder");
+  }
+  return readModelFile(path.string());
+}
+
+/// The model on its plane, which lies at the model's lowest point.
+Scene makeModelOnPlane(const std::string& name, const std::string& file, const Vec3& color)
+{
+  Scene scene;
+  scene.name = name;
+  for (const SceneModel& part : readPackagedModel(file).surfaces)
+  {
+    scene.models.push_back(makeModel(part.name, part.surface, color));
+  }
+  const std::array<double, 6> bounds = boundsWorld(scene);
+  const double extent = std::max(bounds[1] - bounds[0], bounds[5] - bounds[4]);
+  const double height = bounds[3] - bounds[2];
+  const Vec3 foot{ { 0.5 * (bounds[0] + bounds[1]), bounds[2], 0.5 * (bounds[4] + bounds[5]) } };
+  scene.models.push_back(makePlane(foot, 4.0 * extent));
+
+  // Model and shadow, which falls to the right and a little back, side by side.
+  const double size = std::max(extent, height);
+  const Vec3 target = foot + Vec3{ { 0.18 * size, 0.3 * height, -0.1 * size } };
+  scene.camera =
+    makeCamera(target + (2.4 * size) * normalized(Vec3{ { 0.1, 0.75, 1.0 } }), target, 45.0);
+  scene.lights = { makeSun({ { 0.8, -1.0, -0.3 } }) };
+  return scene;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+Scene makeBunnyScene()
+{
+  return makeModelOnPlane("bunny", "bunny.obj", { { 0.8, 0.7, 0.55 } });
+}
+
+//------------------------------------------------------------------------------
+Scene makeHorseScene()
+{
+  return makeModelOnPlane("horse", "horse.3ds", { { 0.62, 0.45, 0.32 } });
+}
+
+//------------------------------------------------------------------------------
+Scene makeCatScene()
+{
+  return makeModelOnPlane("cat", "cat.3ds", { { 0.55, 0.57, 0.62 } });
+}
+
+} // namespace gnomon::tool

@@ -1,0 +1,167 @@
+#include "BuiltinParts.h"
+#include "BuiltinScenes.h"
+#include "MeshBuilder.h"
+#include "Vec3.h"
+
+#include <vtkMath.h>
+
+#include <cmath>
+
+namespace gnomon::tool
+{
+
+namespace
+{
+
+const Vec3 blue{ { 0.35, 0.5, 0.7 } };
+const Vec3 green{ { 0.45, 0.65, 0.4 } };
+const Vec3 red{ { 0.75, 0.4, 0.35 } };
+const Vec3 ochre{ { 0.8, 0.65, 0.35 } };
+const Vec3 origin{ { 0.0, 0.0, 0.0 } };
+
+SceneModel makePyramid(const Vec3& base, double side, double height)
+{
+  const double h = 0.5 * side;
+  const Vec3 a = base + Vec3{ { -h, 0.0, h } };
+  const Vec3 b = base + Vec3{ { h, 0.0, h } };
+  const Vec3 c = base + Vec3{ { h, 0.0, -h } };
+  const Vec3 d = base + Vec3{ { -h, 0.0, -h } };
+  const Vec3 top = base + Vec3{ { 0.0, height, 0.0 } };
+  MeshBuilder mesh;
+  mesh.addPolygon({ a, b, top });
+  mesh.addPolygon({ b, c, top });
+  mesh.addPolygon({ c, d, top });
+  mesh.addPolygon({ d, a, top });
+  mesh.addPolygon({ d, c, b, a });
+  return makeModel("pyramid", mesh.build(), ochre);
+}
+
+/// A torus that lies around a vertical axis.
+SceneModel makeTorus(const Vec3& center, double ringRadius, double tubeRadius)
+{
+  MeshBuilder mesh;
+  mesh.addPatch(48, 32,
+    [&](double u, double v)
+    {
+      // The last step closes each circle exactly.
+      const double along = u == 1.0 ? 0.0 : 2.0 * vtkMath::Pi() * u;
+      const double around = v == 1.0 ? 0.0 : 2.0 * vtkMath::Pi() * v;
+      const Vec3 outward{ { std::cos(along), 0.0, -std::sin(along) } };
+      const Vec3 normal = std::cos(around) * outward + Vec3{ { 0.0, std::sin(around), 0.0 } };
+      return SurfacePoint{ center + ringRadius * outward + tubeRadius * normal, normal };
+    });
+  return makeModel("torus", mesh.build(), red);
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+Scene makeCubeScene()
+{
+  Scene scene;
+  scene.name = "cube";
+  MeshBuilder cube;
+  cube.addBox({ { -1.0, 0.0, -1.0 } }, { { 1.0, 2.0, 1.0 } });
+  scene.models = { makeModel("cube", cube.build(), blue), makePlane(origin, 10.0) };
+  scene.camera = makeCamera({ { 2.5, 5.5, 7.0 } }, { { 0.7, 0.6, -0.3 } }, 40.0);
+  scene.lights = { makeSun({ { 0.7, -1.0, -0.45 } }) };
+  return scene;
+}
+
+//------------------------------------------------------------------------------
+Scene makePrimitivesScene()
+{
+  Scene scene;
+  scene.name = "primitives";
+  MeshBuilder cylinder;
+  cylinder.addCone({ { -11.0, 0.0, 6.0 } }, 12.0, 3.0, 3.0, 32);
+  MeshBuilder sphere;
+  sphere.addSphere({ { 8.0, 5.0, -9.0 } }, 5.0, 28, 32);
+  scene.models = { makePlane(origin, 90.0), makePyramid({ { 10.0, 0.0, 8.0 } }, 9.0, 9.0),
+    makeModel("cylinder", cylinder.build(), green), makeTorus({ { -7.0, 2.0, -10.0 } }, 6.0, 2.0),
+    makeModel("sphere", sphere.build(), blue) };
+  // The side view and the light of Moderno's scene of the same name.
+  const Vec3 eye{ { 35.0, 50.0, -43.0 } };
+  scene.camera = makeCamera(eye, eye + 41.0 * Vec3{ { -1.0, -1.2, 1.0 } }, 60.0);
+  scene.lights = { makeSun({ { 0.528542, -0.376004, 0.761095 } }) };
+  return scene;
+}
+
+//------------------------------------------------------------------------------
+Scene makePostsScene()
+{
+  Scene scene;
+  scene.name = "posts";
+
+  // Posts from 2 cm to 12 cm across, in two rows.
+  MeshBuilder posts;
+  for (int i = 0; i < 6; ++i)
+  {
+    const double width = 0.02 * (i + 1);
+    const double x = -5.0 + 2.0 * i;
+    posts.addCone({ { x, 0.0, 1.5 } }, 2.5, 0.5 * width, 0.5 * width, 12);
+    posts.addBox({ { x - 0.5 * width, 0.0, 3.0 } }, { { x + 0.5 * width, 2.0, 3.0 + width } });
+  }
+
+  // The fence: thick posts, three rails, and pickets 2 cm thin.
+  MeshBuilder fence;
+  for (int i = 0; i <= 4; ++i)
+  {
+    const double x = -6.0 + 3.0 * i;
+    fence.addBox({ { x - 0.06, 0.0, -2.06 } }, { { x + 0.06, 1.6, -1.94 } });
+  }
+  for (const double y : { 0.3, 0.8, 1.3 })
+  {
+    fence.addBox({ { -6.3, y, -1.94 } }, { { 6.3, y + 0.06, -1.9 } });
+  }
+  for (int i = 0; i <= 48; ++i)
+  {
+    const double x = -6.0 + 0.25 * i;
+    fence.addBox({ { x - 0.03, 0.1, -1.9 } }, { { x + 0.03, 1.5, -1.88 } });
+  }
+
+  scene.models = { makeModel("posts", posts.build(), red), makeModel("fence", fence.build(), ochre),
+    makePlane(origin, 24.0) };
+  scene.camera = makeCamera({ { 2.0, 7.5, 12.0 } }, { { 0.2, 0.0, 0.0 } }, 45.0);
+  scene.lights = { makeSun({ { -0.7, -0.75, -0.4 } }) };
+  return scene;
+}
+
+//------------------------------------------------------------------------------
+Scene makePlatesScene()
+{
+  Scene scene;
+  scene.name = "plates";
+  MeshBuilder plates;
+
+  // A pile that touches: every plate lies on the one below it.
+  double y = 0.0;
+  for (int i = 0; i < 5; ++i)
+  {
+    const double h = 1.8 - 0.25 * i;
+    plates.addBox({ { -3.0 - h, y, -h } }, { { -3.0 + h, y + 0.1, h } });
+    y += 0.1;
+  }
+
+  // A pile with gaps that grow tenfold from plate to plate, the last one on a post.
+  y = 0.0;
+  for (const double gap : { 0.0, 0.001, 0.01, 0.1, 1.0 })
+  {
+    y += gap;
+    plates.addBox({ { 1.4 + gap, y, -1.5 } }, { { 4.4 + gap, y + 0.05, 1.5 } });
+    y += 0.05;
+  }
+  plates.addBox({ { 3.6, y - 1.05, -0.05 } }, { { 3.7, y - 0.05, 0.05 } });
+
+  // Plates that lean: one edge on the plane, the other on a bar.
+  plates.addBox({ { -1.5, 0.0, 3.0 } }, { { 1.5, 0.4, 3.2 } });
+  plates.addPolygon({ { { -1.4, 0.0, 4.6 } }, { { 1.4, 0.0, 4.6 } }, { { 1.4, 0.4, 3.2 } },
+    { { -1.4, 0.4, 3.2 } } });
+
+  scene.models = { makeModel("plates", plates.build(), green), makePlane(origin, 18.0) };
+  scene.camera = makeCamera({ { 3.0, 8.0, 11.5 } }, { { 0.6, 0.3, 0.6 } }, 45.0);
+  scene.lights = { makeSun({ { 0.6, -0.9, -0.5 } }) };
+  return scene;
+}
+
+} // namespace gnomon::tool

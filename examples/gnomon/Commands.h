@@ -1,0 +1,29 @@
+#ifndef gnomon_examples_gnomon_Commands_h
+#define gnomon_examples_gnomon_Commands_h
+
+#include <CLI/CLI.hpp>
+
+namespace gnomon::tool
+{
+
+///@{
+/// Each adds one subcommand. Its work runs while the command line is parsed, in the subcommand's
+/// callback, and throws BadInput or Failure.
+void addRenderCommand(CLI::App& app);
+void addTechniquesCommand(CLI::App& app);
+void addScenesCommand(CLI::App& app);
+///@}
+
+/// A window's size as the command line says it: WIDTHxHEIGHT, each from 1 to 16384.
+struct PictureSize
+{
+  int width = 1024;
+  int height = 1024;
+};
+
+/// @throws BadInput
+PictureSize parseSize(const std::string& text);
+
+} // namespace gnomon::tool
+
+#endif

@@ -1,0 +1,65 @@
+#ifndef gnomon_examples_gnomon_MeshBuilder_h
+#define gnomon_examples_gnomon_MeshBuilder_h
+
+#include "Scene.h"
+
+#include <vtkCellArray.h>
+#include <vtkFloatArray.h>
+#include <vtkNew.h>
+#include <vtkPoints.h>
+
+#include <functional>
+
+namespace gnomon::tool
+{
+
+/// A point of a surface.
+struct SurfacePoint
+{
+  Vec3 position;
+  Vec3 normal; ///< unit
+};
+
+/// Builds triangle meshes for the built-in scenes: float vertices with normals, shared along smooth
+/// surfaces and duplicated along sharp edges. Fronts are counter-clockwise.
+class MeshBuilder
+{
+public:
+  MeshBuilder();
+
+  /// A convex planar polygon, counter-clockwise, as a fan with its own flat normal.
+  void addPolygon(const std::vector<Vec3>& corners);
+
+  /// A box between two corners.
+  void addBox(const Vec3& low, const Vec3& high);
+
+  /// A smooth patch of columns x rows cells over u, v in [0, 1], two triangles each. The front
+  /// looks along cross(dP/du, dP/dv). Triangles that collapse to a line (the poles of a sphere) are
+  /// left out.
+  void addPatch(
+    int columns, int rows, const std::function<SurfacePoint(double u, double v)>& surface);
+
+  /// A cone, cut at its top unless `topRadius` is 0, around a vertical axis; `base` is the centre
+  /// of its bottom. Its ends are fans around their centres.
+  void addCone(
+    const Vec3& base, double height, double bottomRadius, double topRadius, int segments);
+
+  /// A sphere with `stacks` rings from pole to pole and `slices` cells around the vertical axis.
+  void addSphere(const Vec3& center, double radius, int slices, int stacks);
+
+  /// The mesh built so far.
+  vtkSmartPointer<vtkPolyData> build() const;
+
+private:
+  vtkIdType addVertex(const SurfacePoint& point);
+  void addTriangle(vtkIdType a, vtkIdType b, vtkIdType c);
+  void addDisc(const Vec3& center, double radius, int segments, bool facesUp);
+
+  vtkNew<vtkPoints> points_;
+  vtkNew<vtkFloatArray> normals_;
+  vtkNew<vtkCellArray> triangles_;
+};
+
+} // namespace gnomon::tool
+
+#endif

@@ -1,0 +1,292 @@
+#include "Commands.h"
+#include "Errors.h"
+#include "Files.h"
+#include "ImageFile.h"
+#include "Scene.h"
+#include "VtkMessages.h"
+
+#include "plugin/VisibilityImages.h"
+#include "plugin/vtkGnomonEGLRenderWindow.h"
+#include "plugin/vtkGnomonShadowPass.h"
+#include "shadowtech/Registry.h"
+#include "shadowtech/base/FrameReport.h"
+
+#include <nlohmann/json.hpp>
+#include <vtkNew.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <set>
+
+namespace gnomon::tool
+{
+
+namespace
+{
+
+constexpr int largestSidePixels = 16384;
+
+/// What the command line says.
+struct RenderOptions
+{
+  std::string scene;
+  std::string picture;
+  std::string size = "1024x1024";
+  std::string technique;
+  int mapSizeTexels = 0; ///< 0: not given
+  std::string route = "auto";
+  std::vector<std::string> lights;
+  std::string camera;
+  std::string visibility;
+  std::string stats;
+};
+
+/// Refuses what can be refused before anything is loaded.
+void check(const RenderOptions& options)
+{
+  requireWritableFile(options.picture, "--output", { ".png", ".exr" });
+  std::set<std::filesystem::path> outputs{ std::filesystem::weakly_canonical(options.picture) };
+  if (!options.visibility.empty())
+  {
+    requireWritableFile(options.visibility, "--visibility", { ".exr" });
+    if (!outputs.insert(std::filesystem::weakly_canonical(options.visibility)).second)
+    {
+      throw BadInput("--visibility: " + options.visibility + ": is the picture's file, too");
+    }
+  }
+  if (!options.stats.empty())
+  {
+    requireWritableFile(options.stats, "--stats", { ".json" });
+    if (options.stats == options.scene)
+    {
+      throw BadInput("--stats: " + options.stats + ": is the scene's file, too");
+    }
+  }
+  const RegistryEntry* technique = nullptr;
+  if (!options.technique.empty())
+  {
+    technique = findTechnique(options.technique);
+    if (!technique)
+    {
+      throw BadInput(
+        "--technique: found \"" + options.technique + "\", expected one of: " + techniqueNames());
+    }
+  }
+  if (technique && options.route == "inline" && !technique->info.pointwise)
+  {
+    throw BadInput("--route inline: technique " + options.technique +
+      " works on the screen, expected --route image or auto");
+  }
+}
+
+Scene loadWithOptions(const RenderOptions& options)
+{
+  Scene scene =
+    loadScene(options.scene, options.lights.empty() ? FileLights::Use : FileLights::Ignore);
+  if (!options.lights.empty())
+  {
+    scene.lights.clear();
+    for (const std::string& spec : options.lights)
+    {
+      scene.lights.push_back(parseLight(spec));
+    }
+  }
+  if (!options.camera.empty())
+  {
+    scene.camera = parseCamera(options.camera, scene.camera);
+  }
+  for (SceneLight& light : scene.lights)
+  {
+    if (!options.technique.empty())
+    {
+      light.technique = options.technique;
+    }
+    if (options.mapSizeTexels > 0)
+    {
+      light.mapSizeTexels = options.mapSizeTexels;
+    }
+  }
+  return scene;
+}
+
+nlohmann::ordered_json toJson(const FrameReport& report)
+{
+  nlohmann::ordered_json json;
+  json["route"] = report.route;
+  json["route_reason"] = report.routeReason;
+  json["lights"] = nlohmann::ordered_json::array();
+  for (const LightReport& light : report.lights)
+  {
+    json["lights"].push_back({ { "scene_index", light.sceneIndex }, { "casts", light.casts },
+      { "reason", light.reason }, { "technique", light.technique },
+      { "map_size_texels", light.mapSizeTexels }, { "traced_pixels", light.tracedPixels } });
+  }
+  json["notes"] = report.notes;
+  json["stages"] = nlohmann::ordered_json::array();
+  for (const StageTime& stage : report.stages)
+  {
+    json["stages"].push_back({ { "name", stage.name }, { "milliseconds", stage.milliseconds } });
+  }
+  json["wall_milliseconds"] = report.wallMilliseconds;
+  json["map_bakes"] = report.mapBakes;
+  json["program_compiles"] = report.programCompiles;
+  json["bvh_builds"] = report.bvhBuilds;
+  json["bvh_refits"] = report.bvhRefits;
+  json["surfaces_extracted"] = report.surfacesExtracted;
+  json["surfaces_retransformed"] = report.surfacesRetransformed;
+  json["triangles"] = report.triangles;
+  json["dropped_non_finite"] = report.droppedNonFinite;
+  json["dropped_zero_area"] = report.droppedZeroArea;
+  json["bytes_occluders"] = report.bytesOccluders;
+  json["bytes_bvh"] = report.bytesBvh;
+  json["bytes_maps"] = report.bytesMaps;
+  json["bytes_images"] = report.bytesImages;
+  return json;
+}
+
+void writeStats(const FrameReport& report, const std::string& path)
+{
+  std::ofstream file(path);
+  file << toJson(report).dump(2) << "\n";
+  file.close();
+  if (!file)
+  {
+    throw Failure(path + ": cannot be written");
+  }
+}
+
+/// Settings and timings, for the header of the visibility file.
+std::map<std::string, std::string> makeHeader(
+  const RenderOptions& options, const FrameReport& report)
+{
+  std::map<std::string, std::string> header;
+  header["scene"] = options.scene;
+  header["route"] = report.route;
+  header["wall_milliseconds"] = std::to_string(report.wallMilliseconds);
+  for (const StageTime& stage : report.stages)
+  {
+    header["milliseconds." + stage.name] = std::to_string(stage.milliseconds);
+  }
+  for (const LightReport& light : report.lights)
+  {
+    const std::string prefix = "light." + std::to_string(light.sceneIndex);
+    header[prefix + ".technique"] = light.casts ? light.technique : "none: " + light.reason;
+    header[prefix + ".map_size_texels"] = std::to_string(light.mapSizeTexels);
+  }
+  return header;
+}
+
+void render(const RenderOptions& options)
+{
+  check(options);
+  const PictureSize size = parseSize(options.size);
+  const Scene scene = loadWithOptions(options);
+  for (const std::string& note : scene.notes)
+  {
+    std::cerr << "gnomon: note: " << note << "\n";
+  }
+
+  VtkMessages messages;
+  vtkNew<vtkGnomonEGLRenderWindow> window;
+  window->SetSize(size.width, size.height);
+  const vtkSmartPointer<vtkRenderer> renderer = makeRenderer(scene);
+  vtkNew<vtkGnomonShadowPass> shadows;
+  shadows->SetRoute(options.route == "inline" ? vtkGnomonShadowPass::ROUTE_INLINE
+      : options.route == "image"              ? vtkGnomonShadowPass::ROUTE_IMAGE
+                                              : vtkGnomonShadowPass::ROUTE_AUTO);
+  shadows->SetMeasureStages(!options.stats.empty() || !options.visibility.empty());
+  shadows->SetKeepVisibility(!options.visibility.empty());
+  renderer->SetPass(shadows);
+  window->AddRenderer(renderer);
+  window->Render();
+
+  for (const std::string& warning : messages.warnings())
+  {
+    std::cerr << "gnomon: warning: " << warning << "\n";
+  }
+  if (!messages.errors().empty())
+  {
+    throw Failure("rendering: " + messages.errors().front());
+  }
+  writePicture(capture(window), options.picture);
+  if (!options.visibility.empty())
+  {
+    writeVisibility(
+      shadows->GetVisibility(), options.visibility, makeHeader(options, shadows->GetReport()));
+  }
+  if (!options.stats.empty())
+  {
+    writeStats(shadows->GetReport(), options.stats);
+  }
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+PictureSize parseSize(const std::string& text)
+{
+  const auto fail = [&]
+  {
+    throw BadInput("--size: found \"" + text + "\", expected WIDTHxHEIGHT, each from 1 to " +
+      std::to_string(largestSidePixels) + ", for example 1024x768");
+  };
+  const std::size_t cross = text.find('x');
+  if (cross == std::string::npos)
+  {
+    fail();
+  }
+  const auto side = [&](const std::string& digits)
+  {
+    const bool plain = !digits.empty() && digits.size() <= 5 &&
+      digits.find_first_not_of("0123456789") == std::string::npos;
+    const int pixels = plain ? std::stoi(digits) : 0;
+    if (pixels < 1 || pixels > largestSidePixels)
+    {
+      fail();
+    }
+    return pixels;
+  };
+  return { side(text.substr(0, cross)), side(text.substr(cross + 1)) };
+}
+
+//------------------------------------------------------------------------------
+void addRenderCommand(CLI::App& app)
+{
+  auto options = std::make_shared<RenderOptions>();
+  CLI::App* command = app.add_subcommand("render", "Render a scene with shadows");
+  command
+    ->add_option("scene", options->scene,
+      "A built-in scene's name, a scene file (.json) or a model file (.obj .ply .stl .vtp .3ds "
+      ".glb .gltf)")
+    ->required();
+  command->add_option("-o,--output", options->picture, "The picture to write, .png or .exr")
+    ->required();
+  command->add_option("--size", options->size, "Size of the picture in pixels, WIDTHxHEIGHT")
+    ->capture_default_str();
+  command->add_option(
+    "--technique", options->technique, "Shadow technique of all lights (see: gnomon techniques)");
+  command->add_option("--map-size", options->mapSizeTexels, "Side of the lights' maps in texels")
+    ->check(CLI::Range(16, 16384));
+  command
+    ->add_option(
+      "--route", options->route, "How visibility reaches the shader: inline, image, auto")
+    ->check(CLI::IsMember({ "inline", "image", "auto" }))
+    ->capture_default_str();
+  command
+    ->add_option("--light", options->lights,
+      "A light in place of the scene's own; may be given several times, for example "
+      "directional:direction=-1,-2,-1;color=1,1,1;intensity=1;technique=nsm;map_size=1024 or "
+      "spot:position=3,4,5;target=0,0,0;cone_angle=30")
+    ->allow_extra_args(false);
+  command->add_option("--camera", options->camera,
+    "What differs from the scene's camera, for example "
+    "position=0,1,5;target=0,0,0;up=0,1,0;fov=45");
+  command->add_option("--visibility", options->visibility,
+    "Also write every light's visibility and the receivers, .exr");
+  command->add_option("--stats", options->stats, "Also write what the frame did, .json");
+  command->callback([options] { render(*options); });
+}
+
+} // namespace gnomon::tool

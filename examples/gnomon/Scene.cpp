@@ -1,0 +1,164 @@
+#include "Scene.h"
+
+#include "BuiltinScenes.h"
+#include "Errors.h"
+#include "Files.h"
+#include "ModelFile.h"
+#include "SceneFile.h"
+#include "SceneFraming.h"
+
+#include "lights/vtkGnomonLightKeys.h"
+#include "plugin/vtkGnomonPropKeys.h"
+
+#include <vtkActor.h>
+#include <vtkCamera.h>
+#include <vtkLight.h>
+#include <vtkMatrix4x4.h>
+#include <vtkNew.h>
+#include <vtkPolyDataMapper.h>
+
+#include <filesystem>
+
+namespace gnomon::tool
+{
+
+namespace
+{
+
+/// A bare model as a scene.
+Scene makeModelScene(const std::string& path, FileLights fileLights)
+{
+  Model model = readModelFile(path);
+  if (fileLights == FileLights::Use && !model.unsupportedLights.empty())
+  {
+    throw BadInput(path + ": " + model.unsupportedLights.front());
+  }
+  Scene scene;
+  scene.name = std::filesystem::path(path).stem().string();
+  scene.models = std::move(model.surfaces);
+  scene.notes = std::move(model.notes);
+  scene.camera = model.camera ? *model.camera : framingCamera(scene);
+  scene.lights = std::move(model.lights);
+  if (scene.lights.empty())
+  {
+    scene.lights = { defaultLight() };
+  }
+  return scene;
+}
+
+std::string builtinSceneNames()
+{
+  std::string names;
+  for (const BuiltinScene& scene : builtinScenes())
+  {
+    names += (names.empty() ? "" : ", ") + scene.name;
+  }
+  return names;
+}
+
+vtkSmartPointer<vtkActor> makeActor(const SceneModel& model)
+{
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(model.surface);
+  // Readers leave scalars only where they are colours.
+  mapper->SetColorModeToDirectScalars();
+
+  auto actor = vtkSmartPointer<vtkActor>::New();
+  actor->SetMapper(mapper);
+  actor->SetProperty(model.property);
+  actor->SetTexture(model.texture);
+  if (model.translucent)
+  {
+    actor->ForceTranslucentOn();
+  }
+  vtkNew<vtkMatrix4x4> matrix;
+  matrix->DeepCopy(model.matrix.data());
+  actor->SetUserMatrix(matrix);
+  vtkGnomonPropKeys::SetCasts(actor, model.casts);
+  vtkGnomonPropKeys::SetReceives(actor, model.receives);
+  vtkGnomonPropKeys::SetOneSided(actor, model.oneSided);
+  return actor;
+}
+
+vtkSmartPointer<vtkLight> makeLight(const SceneLight& source)
+{
+  auto light = vtkSmartPointer<vtkLight>::New();
+  light->SetLightTypeToSceneLight();
+  light->SetPosition(source.position.data());
+  light->SetFocalPoint(source.target.data());
+  light->SetColor(source.color.data());
+  light->SetIntensity(source.intensity);
+  light->SetPositional(source.type == SceneLight::Type::Spot);
+  if (source.type == SceneLight::Type::Spot)
+  {
+    light->SetConeAngle(source.coneAngleDegrees);
+  }
+  vtkGnomonLightKeys::SetTechnique(light, source.technique.c_str());
+  vtkGnomonLightKeys::SetMapSize(light, source.mapSizeTexels);
+  return light;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+Scene loadScene(const std::string& nameOrPath, FileLights fileLights)
+{
+  for (const BuiltinSceneEntry& entry : builtinSceneEntries())
+  {
+    if (entry.line.name == nameOrPath)
+    {
+      return entry.make();
+    }
+  }
+  const std::string extension = lowerExtension(nameOrPath);
+  if (extension == ".json")
+  {
+    return readSceneFile(nameOrPath, fileLights);
+  }
+  if (isModelFile(nameOrPath))
+  {
+    return makeModelScene(nameOrPath, fileLights);
+  }
+  std::error_code error;
+  if (!std::filesystem::exists(nameOrPath, error))
+  {
+    throw BadInput(nameOrPath +
+      ": no such file, and no built-in scene has this name; there are: " + builtinSceneNames());
+  }
+  throw BadInput(nameOrPath + ": the file type is \"" + extension +
+    "\", expected .json (a scene file) or one of: " + modelFileTypes());
+}
+
+//------------------------------------------------------------------------------
+vtkSmartPointer<vtkRenderer> makeRenderer(const Scene& scene)
+{
+  auto renderer = vtkSmartPointer<vtkRenderer>::New();
+  renderer->SetBackground(scene.background[0], scene.background[1], scene.background[2]);
+  for (const SceneModel& model : scene.models)
+  {
+    renderer->AddActor(makeActor(model));
+  }
+  renderer->AutomaticLightCreationOff();
+  for (const SceneLight& light : scene.lights)
+  {
+    renderer->AddLight(makeLight(light));
+  }
+
+  vtkNew<vtkCamera> camera;
+  camera->SetPosition(scene.camera.position.data());
+  camera->SetFocalPoint(scene.camera.target.data());
+  camera->SetViewUp(scene.camera.up.data());
+  camera->SetViewAngle(scene.camera.fovDegrees);
+  renderer->SetActiveCamera(camera);
+
+  // VTK's own margins: the range widened by half its length, and a near plane at a hundredth of the
+  // far one. The first wastes depth precision; the second cuts the ground away in front of an eye
+  // that stands on it.
+  renderer->SetClippingRangeExpansion(0.05);
+  renderer->SetNearClippingPlaneTolerance(1e-4);
+  const std::array<double, 6> bounds = boundsWorld(scene);
+  renderer->ResetCameraClippingRange(bounds.data());
+  return renderer;
+}
+
+} // namespace gnomon::tool

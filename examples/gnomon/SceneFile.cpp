@@ -1,0 +1,157 @@
+#include "SceneFile.h"
+
+#include "Errors.h"
+#include "ModelFile.h"
+#include "SceneFraming.h"
+#include "SceneJson.h"
+
+#include <vtkMatrix4x4.h>
+
+#include <cmath>
+#include <filesystem>
+#include <map>
+
+namespace gnomon::tool
+{
+
+namespace
+{
+
+constexpr NumberRange colorChannel{ 0.0, 1.0 };
+
+/// World from model: affine and invertible.
+std::array<double, 16> readMatrix(const JsonValue& value)
+{
+  const std::array<double, 16> matrix = value.numbers<16>(anyCoordinate);
+  if (matrix[12] != 0.0 || matrix[13] != 0.0 || matrix[14] != 0.0 || matrix[15] != 1.0)
+  {
+    value.fail("a row-major matrix with the last row 0, 0, 0, 1");
+  }
+  // The determinant says whether the matrix is singular once the sizes of its rows are taken out.
+  double scale = 1.0;
+  for (std::size_t row = 0; row < 3; ++row)
+  {
+    scale *= std::hypot(matrix[4 * row], matrix[4 * row + 1], matrix[4 * row + 2]);
+  }
+  const double determinant = vtkMatrix4x4::Determinant(matrix.data());
+  constexpr double smallestVolume = 1e-9;
+  if (!(std::abs(determinant) > smallestVolume * scale))
+  {
+    value.fail("a matrix that can be inverted");
+  }
+  return matrix;
+}
+
+/// One entry of "models": the surfaces of its file.
+std::vector<SceneModel> readModel(const JsonValue& value, const std::filesystem::path& folder,
+  std::map<std::string, Model>& loaded, std::vector<std::string>& notes)
+{
+  value.requireObject({ "file", "matrix", "color", "casts", "receives", "one_sided" });
+  const std::string path = (folder / value.member("file").text()).string();
+  auto place = loaded.find(path);
+  if (place == loaded.end())
+  {
+    try
+    {
+      place = loaded.emplace(path, readModelFile(path)).first;
+    }
+    catch (const BadInput& error)
+    {
+      value.member("file").refuse(error.what());
+    }
+    const Model& model = place->second;
+    notes.insert(notes.end(), model.notes.begin(), model.notes.end());
+  }
+
+  std::vector<SceneModel> surfaces = place->second.surfaces;
+  for (SceneModel& surface : surfaces)
+  {
+    if (const JsonValue matrix = value.member("matrix"); matrix.present())
+    {
+      const std::array<double, 16> worldFromFile = readMatrix(matrix);
+      const std::array<double, 16> fileFromSurface = surface.matrix;
+      vtkMatrix4x4::Multiply4x4(
+        worldFromFile.data(), fileFromSurface.data(), surface.matrix.data());
+    }
+    if (const JsonValue color = value.member("color"); color.present())
+    {
+      paint(surface, color.numbers<3>(colorChannel));
+    }
+    if (const JsonValue casts = value.member("casts"); casts.present())
+    {
+      surface.casts = casts.boolean();
+    }
+    if (const JsonValue receives = value.member("receives"); receives.present())
+    {
+      surface.receives = receives.boolean();
+    }
+    if (const JsonValue oneSided = value.member("one_sided"); oneSided.present())
+    {
+      surface.oneSided = oneSided.boolean();
+    }
+  }
+  return surfaces;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+Scene readSceneFile(const std::string& path, FileLights fileLights)
+{
+  const nlohmann::json document = readJsonFile(path);
+  const JsonValue root(path, document);
+  root.requireObject({ "camera", "models", "lights", "background" });
+
+  Scene scene;
+  scene.name = std::filesystem::path(path).stem().string();
+
+  // The cheap parts first: a typing error should not wait for the models.
+  const JsonValue camera = root.member("camera");
+  if (camera.present())
+  {
+    scene.camera = readCamera(camera, std::nullopt);
+  }
+  const JsonValue lights = root.member("lights");
+  if (lights.present())
+  {
+    for (const JsonValue& value : lights.elements())
+    {
+      if (const std::optional<SceneLight> light = readLight(value, fileLights))
+      {
+        scene.lights.push_back(*light);
+      }
+    }
+  }
+  if (const JsonValue background = root.member("background"); background.present())
+  {
+    scene.background = background.numbers<3>(colorChannel);
+  }
+
+  const JsonValue models = root.member("models");
+  const std::vector<JsonValue> entries = models.elements();
+  if (entries.empty())
+  {
+    models.fail("at least one model");
+  }
+  std::map<std::string, Model> loaded;
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  for (const JsonValue& entry : entries)
+  {
+    for (SceneModel& surface : readModel(entry, folder, loaded, scene.notes))
+    {
+      scene.models.push_back(std::move(surface));
+    }
+  }
+
+  if (!camera.present())
+  {
+    scene.camera = framingCamera(scene);
+  }
+  if (!lights.present())
+  {
+    scene.lights = { defaultLight() };
+  }
+  return scene;
+}
+
+} // namespace gnomon::tool

@@ -1,0 +1,31 @@
+#ifndef gnomon_examples_gnomon_SceneFile_h
+#define gnomon_examples_gnomon_SceneFile_h
+
+#include "Scene.h"
+
+namespace gnomon::tool
+{
+
+/// Reads a scene file:
+///
+///     {"camera": {"position": [x,y,z], "target": [x,y,z], "up": [0,1,0], "fov": 45},
+///      "models": [{"file": "bunny.obj", "matrix": [16 numbers, row-major], "color": [r,g,b],
+///                  "casts": true, "receives": true, "one_sided": false}],
+///      "lights": [{"type": "directional", "direction": [x,y,z], "color": [1,1,1], "intensity": 1,
+///                  "technique": "nsm", "map_size": 1024},
+///                 {"type": "point", "position": [x,y,z]},
+///                 {"type": "spot", "position": [...], "target": [...], "cone_angle": 30},
+///                 {"type": "area", "position": [...], "target": [...], "up": [0,1,0], "width": 1,
+///                  "height": 1, "shape": "rectangle"}],
+///      "background": [r,g,b]}
+///
+/// `direction` is the way the light travels, `fov` the full vertical angle in degrees, `cone_angle`
+/// half the cone; model paths are relative to the scene file. Of a model only `file` must be given;
+/// its `color` replaces the colours and textures of the file, and lights and cameras of the model
+/// file are not used. A scene without "camera" or "lights" gets those of a bare model.
+/// @throws BadInput
+Scene readSceneFile(const std::string& path, FileLights fileLights);
+
+} // namespace gnomon::tool
+
+#endif

@@ -1,0 +1,29 @@
+#ifndef gnomon_examples_gnomon_SceneFraming_h
+#define gnomon_examples_gnomon_SceneFraming_h
+
+#include "Scene.h"
+
+namespace gnomon::tool
+{
+
+/// The box around the finite vertices of a scene's triangles, in world coordinates: x, y, z,
+/// smallest and largest in turn. {0, 0, 0, 0, 0, 0} where there are none.
+std::array<double, 6> boundsWorld(const Scene& scene);
+
+/// A camera that shows the whole scene in a square picture, from the front and slightly above (y
+/// up).
+SceneCamera framingCamera(const Scene& scene);
+
+/// The light of models that bring none: directional, from the upper left in front.
+SceneLight defaultLight();
+
+/// The look of surfaces that bring none: light grey and matt, with some ambient light.
+vtkSmartPointer<vtkProperty> defaultProperty();
+
+/// Gives a surface one colour in place of its own colours and textures. What it shares with other
+/// surfaces stays as it is.
+void paint(SceneModel& model, const Vec3& color);
+
+} // namespace gnomon::tool
+
+#endif

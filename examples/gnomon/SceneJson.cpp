@@ -1,0 +1,208 @@
+#include "SceneJson.h"
+
+#include "Vec3.h"
+#include "shadowtech/Registry.h"
+
+namespace gnomon::tool
+{
+
+namespace
+{
+
+constexpr NumberRange colorChannel{ 0.0, 1.0 };
+constexpr NumberRange lightIntensity{ 0.0, 1e6 };
+constexpr NumberRange coneAngleDegrees{ 0.01, 89.9 };
+constexpr NumberRange fieldOfViewDegrees{ 0.01, 179.0 };
+constexpr NumberRange areaExtent{ 1e-6, 1e12 };
+constexpr int smallestMapTexels = 16;
+constexpr int largestMapTexels = 16384;
+
+Vec3 readPoint(const JsonValue& value)
+{
+  return value.numbers<3>(anyCoordinate);
+}
+
+Vec3 readDirection(const JsonValue& value)
+{
+  const Vec3 direction = value.numbers<3>(anyCoordinate);
+  if (length(direction) == 0.0)
+  {
+    value.fail("a direction that is not zero");
+  }
+  return direction;
+}
+
+/// The way from a position to the target at `value`, which must lie elsewhere.
+Vec3 readTarget(const JsonValue& value, const Vec3& position)
+{
+  const Vec3 target = readPoint(value);
+  if (length(target - position) == 0.0)
+  {
+    value.fail("a target that is not the position");
+  }
+  return target;
+}
+
+/// An up direction, y by default, which must not be parallel to the way from position to target.
+Vec3 readUp(const JsonValue& value, const Vec3& defaultUp, const Vec3& forward)
+{
+  const Vec3 up = value.present() ? readDirection(value) : defaultUp;
+  constexpr double smallestSine = 1e-6;
+  if (length(cross(normalized(forward), normalized(up))) < smallestSine)
+  {
+    if (value.present())
+    {
+      value.fail("an up direction that is not parallel to the view");
+    }
+    value.refuse("missing, and the default [0, 1, 0] is parallel to the view, expected another "
+                 "up direction");
+  }
+  return up;
+}
+
+/// What all kinds of light share.
+void readCommon(const JsonValue& value, SceneLight& light)
+{
+  if (const JsonValue color = value.member("color"); color.present())
+  {
+    light.color = color.numbers<3>(colorChannel);
+  }
+  if (const JsonValue intensity = value.member("intensity"); intensity.present())
+  {
+    light.intensity = intensity.number(lightIntensity);
+  }
+  if (const JsonValue technique = value.member("technique"); technique.present())
+  {
+    light.technique = technique.text();
+    if (!findTechnique(light.technique))
+    {
+      technique.fail("one of: " + techniqueNames());
+    }
+  }
+  if (const JsonValue size = value.member("map_size"); size.present())
+  {
+    light.mapSizeTexels = size.integer(smallestMapTexels, largestMapTexels);
+  }
+}
+
+SceneLight readDirectional(const JsonValue& value)
+{
+  value.requireObject({ "type", "direction", "color", "intensity", "technique", "map_size" });
+  SceneLight light;
+  light.type = SceneLight::Type::Directional;
+  light.target = Vec3{ { 0.0, 0.0, 0.0 } };
+  light.position = -normalized(readDirection(value.member("direction")));
+  readCommon(value, light);
+  return light;
+}
+
+SceneLight readSpot(const JsonValue& value)
+{
+  value.requireObject(
+    { "type", "position", "target", "cone_angle", "color", "intensity", "technique", "map_size" });
+  SceneLight light;
+  light.type = SceneLight::Type::Spot;
+  light.position = readPoint(value.member("position"));
+  light.target = readTarget(value.member("target"), light.position);
+  if (const JsonValue angle = value.member("cone_angle"); angle.present())
+  {
+    light.coneAngleDegrees = angle.number(coneAngleDegrees);
+  }
+  readCommon(value, light);
+  return light;
+}
+
+/// Checks a point light, so that its faults show before the kind itself arrives.
+void checkPoint(const JsonValue& value)
+{
+  value.requireObject({ "type", "position", "color", "intensity", "technique", "map_size" });
+  SceneLight light;
+  readPoint(value.member("position"));
+  readCommon(value, light);
+}
+
+/// Checks an area light. It lies along x = normalize(cross(target - position, up)) and cross(x,
+/// target - position), so up must not be parallel to its axis.
+void checkArea(const JsonValue& value)
+{
+  value.requireObject({ "type", "position", "target", "up", "width", "height", "shape", "color",
+    "intensity", "technique", "map_size" });
+  SceneLight light;
+  light.position = readPoint(value.member("position"));
+  light.target = readTarget(value.member("target"), light.position);
+  readUp(value.member("up"), Vec3{ { 0.0, 1.0, 0.0 } }, light.target - light.position);
+  value.member("width").number(areaExtent);
+  value.member("height").number(areaExtent);
+  if (const JsonValue shape = value.member("shape"); shape.present())
+  {
+    const std::string name = shape.text();
+    if (name != "rectangle" && name != "ellipse")
+    {
+      shape.fail("one of: rectangle, ellipse");
+    }
+  }
+  readCommon(value, light);
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+std::optional<SceneLight> readLight(const JsonValue& value, FileLights fileLights)
+{
+  const JsonValue kind = value.member("type");
+  const std::string type = kind.text();
+  if (type == "directional")
+  {
+    return readDirectional(value);
+  }
+  if (type == "spot")
+  {
+    return readSpot(value);
+  }
+  if (type == "point")
+  {
+    checkPoint(value);
+  }
+  else if (type == "area")
+  {
+    checkArea(value);
+  }
+  else
+  {
+    kind.fail("one of: directional, spot, point, area");
+  }
+  if (fileLights == FileLights::Use)
+  {
+    kind.refuse(type + " lights are not supported yet, expected one of: directional, spot");
+  }
+  return std::nullopt;
+}
+
+//------------------------------------------------------------------------------
+SceneCamera readCamera(const JsonValue& value, const std::optional<SceneCamera>& defaults)
+{
+  value.requireObject({ "position", "target", "up", "fov" });
+  SceneCamera camera = defaults.value_or(SceneCamera{});
+  const JsonValue position = value.member("position");
+  const JsonValue target = value.member("target");
+  if (position.present() || !defaults)
+  {
+    camera.position = readPoint(position);
+  }
+  if (target.present() || !defaults)
+  {
+    camera.target = readTarget(target, camera.position);
+  }
+  else if (length(camera.target - camera.position) == 0.0)
+  {
+    position.fail("a position that is not the scene's target");
+  }
+  camera.up = readUp(value.member("up"), camera.up, camera.target - camera.position);
+  if (const JsonValue fov = value.member("fov"); fov.present())
+  {
+    camera.fovDegrees = fov.number(fieldOfViewDegrees);
+  }
+  return camera;
+}
+
+} // namespace gnomon::tool

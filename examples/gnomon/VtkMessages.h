@@ -1,0 +1,36 @@
+#ifndef gnomon_examples_gnomon_VtkMessages_h
+#define gnomon_examples_gnomon_VtkMessages_h
+
+#include <vtkSmartPointer.h>
+
+#include <string>
+#include <vector>
+
+class vtkOutputWindow;
+
+namespace gnomon::tool
+{
+
+/// Catches what VTK would print, from construction to destruction: VTK reports errors as text and
+/// goes on. Nest them; the innermost one catches.
+class VtkMessages
+{
+public:
+  VtkMessages();
+  ~VtkMessages();
+  VtkMessages(const VtkMessages&) = delete;
+  VtkMessages& operator=(const VtkMessages&) = delete;
+
+  /// The texts so far, each on one line and without the source file that VTK puts in front.
+  const std::vector<std::string>& errors() const;
+  const std::vector<std::string>& warnings() const;
+
+private:
+  class Window;
+  vtkSmartPointer<Window> window_;
+  vtkSmartPointer<vtkOutputWindow> previous_;
+};
+
+} // namespace gnomon::tool
+
+#endif

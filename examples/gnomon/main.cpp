@@ -1,0 +1,48 @@
+#include "Commands.h"
+#include "Errors.h"
+#include "Files.h"
+
+#include <exception>
+#include <iostream>
+
+namespace
+{
+
+constexpr int failed = 1;
+constexpr int badInput = 2;
+
+int report(const char* what, int exitCode)
+{
+  std::cerr << "gnomon: error: " << gnomon::tool::oneLine(what) << "\n";
+  return exitCode;
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+  CLI::App app{ "Shadows for VTK scenes, from fast to exact", "gnomon" };
+  app.require_subcommand(1);
+  gnomon::tool::addRenderCommand(app);
+  gnomon::tool::addTechniquesCommand(app);
+  gnomon::tool::addScenesCommand(app);
+
+  try
+  {
+    app.parse(argc, argv);
+    return 0;
+  }
+  catch (const CLI::ParseError& error)
+  {
+    const bool help = error.get_exit_code() == 0;
+    return help ? app.exit(error) : report(error.what(), badInput);
+  }
+  catch (const gnomon::tool::BadInput& error)
+  {
+    return report(error.what(), badInput);
+  }
+  catch (const std::exception& error)
+  {
+    return report(error.what(), failed);
+  }
+}
