@@ -10,6 +10,7 @@
 #include <vtkOpenGLRenderWindow.h>
 #include <vtkOpenGLState.h>
 #include <vtkProp.h>
+#include <vtkRenderState.h>
 #include <vtkRenderer.h>
 
 #include <algorithm>
@@ -210,8 +211,9 @@ glm::dmat4 RenderManager::centredFromView(vtkRenderer* renderer) const
 }
 
 //------------------------------------------------------------------------------
-void RenderManager::beginReceivers(vtkRenderer* renderer)
+void RenderManager::drawReceivers(const vtkRenderState* s)
 {
+  vtkRenderer* renderer = s->GetRenderer();
   int width = 0;
   int height = 0;
   int left = 0;
@@ -233,15 +235,32 @@ void RenderManager::beginReceivers(vtkRenderer* renderer)
   this->stageValues_.layers = { GL_TEXTURE_2D_ARRAY, this->layers_.texture() };
   this->stageValues_.centredFromView = this->receiverImages_.centredFromView;
   this->stageValues_.receiversStage = true;
-  this->receiverTarget_.begin(width, height);
-  this->shaders_.beginStage(
-    vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow()), this->stageValues_);
-}
 
-//------------------------------------------------------------------------------
-void RenderManager::endReceivers()
-{
+  // VTK draws here and keeps its own record of the state, so the state is changed through that
+  // record.
+  auto* window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
+  vtkOpenGLState* state = window->GetState();
+  const vtkOpenGLState::ScopedglViewport viewport(state);
+  const vtkOpenGLState::ScopedglScissor scissor(state);
+  const vtkOpenGLState::ScopedglDepthMask depthMask(state);
+  const vtkOpenGLState::ScopedglColorMask colorMask(state);
+  const vtkOpenGLState::ScopedglDepthFunc depthFunction(state);
+  const vtkOpenGLState::ScopedglEnableDisable depthTest(state, GL_DEPTH_TEST);
+  state->vtkglViewport(0, 0, width, height);
+  state->vtkglScissor(0, 0, width, height);
+  state->vtkglDepthMask(GL_TRUE);
+  state->vtkglColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  state->vtkglDepthFunc(GL_LEQUAL);
+  state->vtkglEnable(GL_DEPTH_TEST);
+
+  this->receiverTarget_.begin(width, height);
+  this->shaders_.beginStage(window, this->stageValues_);
+  for (int i = 0; i < s->GetPropArrayCount(); ++i)
+  {
+    s->GetPropArray()[i]->RenderOpaqueGeometry(renderer);
+  }
   this->shaders_.endStage();
+  this->receiverTarget_.end(state->GetEnumState(GL_BLEND));
   this->endStageClock("receivers");
 }
 

@@ -22,6 +22,7 @@
 #include <string>
 #include <vector>
 
+class vtkRenderState;
 class vtkRenderer;
 
 namespace gnomon
@@ -56,9 +57,8 @@ public:
   void chooseRoute(int wished, bool keepVisibility);
   Route route() const { return this->route_; }
 
-  /// receivers (image route): between the two calls the pass has VTK draw the opaque props.
-  void beginReceivers(vtkRenderer* renderer);
-  void endReceivers();
+  /// receivers (image route): has VTK draw the opaque props' positions, normals and ids.
+  void drawReceivers(const vtkRenderState* s);
 
   /// maps: bakes what is stale.
   void bakeMaps();

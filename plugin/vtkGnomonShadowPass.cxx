@@ -4,7 +4,6 @@
 #include "plugin/VisibilityImages.h"
 #include "shadowtech/Registry.h"
 #include "shadowtech/base/FrameReport.h"
-#include "shadowtech/base/GlState.h"
 
 #include "vtkInformation.h"
 #include "vtkInformationObjectBaseVectorKey.h"
@@ -91,10 +90,7 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
       // receivers
       if (manager.route() == gnomon::Route::Image)
       {
-        const gnomon::GlStateGuard guard;
-        manager.beginReceivers(renderer);
-        this->DrawOpaqueProps(s);
-        manager.endReceivers();
+        manager.drawReceivers(s);
       }
 
       // maps
@@ -147,20 +143,6 @@ void vtkGnomonShadowPass::RenderPlain(const vtkRenderState* s, const char* reaso
   this->UpdateLights(renderer);
   this->UpdateGeometry(renderer, s->GetFrameBuffer());
   this->NumberOfRenderedProps = renderer->GetNumberOfPropsRendered();
-}
-
-//------------------------------------------------------------------------------
-void vtkGnomonShadowPass::DrawOpaqueProps(const vtkRenderState* s)
-{
-  // VTK leaves blending on; the images hold numbers, not colours.
-  glDisablei(GL_BLEND, 1);
-  glDisablei(GL_BLEND, 2);
-  glEnable(GL_DEPTH_TEST);
-  glDepthFunc(GL_LEQUAL);
-  for (int i = 0; i < s->GetPropArrayCount(); ++i)
-  {
-    s->GetPropArray()[i]->RenderOpaqueGeometry(s->GetRenderer());
-  }
 }
 
 //------------------------------------------------------------------------------

@@ -158,7 +158,6 @@ protected:
 
 private:
   void RenderPlain(const vtkRenderState* s, const char* reason);
-  void DrawOpaqueProps(const vtkRenderState* s);
   bool PrepareContext(vtkRenderer* renderer);
 
   vtkGnomonShadowPass(const vtkGnomonShadowPass&) = delete;

@@ -12,9 +12,9 @@
 namespace gnomon
 {
 
-/// One surface as VTK draws it: the polygons, or the strips, of one polydata under one prop (a block of
-/// a composite data set, a leaf of an assembly). Its vertices and triangles are contiguous in the
-/// snapshot. It has no triangles if all that it draws were dropped.
+/// One surface as VTK draws it: the polygons, or the strips, of one polydata under one prop (a
+/// block of a composite data set, a leaf of an assembly). Its vertices and triangles are contiguous
+/// in the snapshot. It has no triangles if all that it draws were dropped.
 struct Surface
 {
   std::uint32_t firstVertex = 0;
@@ -22,9 +22,10 @@ struct Surface
   std::uint32_t firstTriangle = 0;
   std::uint32_t triangleCount = 0;
 
-  bool casts = true;     ///< its triangles block light
-  bool receives = true;  ///< its pixels are shadowed; else their visibility is 1
-  bool oneSided = false; ///< only triangles whose front (counter-clockwise side) faces the light cast
+  bool casts = true;    ///< its triangles block light
+  bool receives = true; ///< its pixels are shadowed; else their visibility is 1
+  bool oneSided =
+    false; ///< only triangles whose front (counter-clockwise side) faces the light cast
 
   /// Changes when the triangles of this surface change (its mapper's input), not when it only gets
   /// another place in the list. Versions are never given twice within a snapshot, so that a surface
@@ -33,9 +34,9 @@ struct Surface
   /// Changes when its centred positions change: with the topology, or because the prop moved.
   std::uint64_t positionsVersion = 0;
 
-  /// For the n-th triangle that VTK draws of this surface, the triangle in the snapshot, counted from
-  /// firstTriangle; `noTriangle` for one that was dropped. Empty when none was dropped: then the n-th
-  /// drawn triangle is the n-th of the surface.
+  /// For the n-th triangle that VTK draws of this surface, the triangle in the snapshot, counted
+  /// from firstTriangle; `noTriangle` for one that was dropped. Empty when none was dropped: then
+  /// the n-th drawn triangle is the n-th of the surface.
   std::vector<std::uint32_t> triangleOfDrawn;
 
   static constexpr std::uint32_t noTriangle = 0xffffffffu;
@@ -43,13 +44,13 @@ struct Surface
 
 /// The snapshot: every surface triangle that VTK draws, cast or only receive, in one list.
 ///
-/// Positions are *centred*: world coordinates less centreWorld, computed in double precision and then
-/// rounded to float, so that scenes far from the origin keep their precision.
+/// Positions are *centred*: world coordinates less centreWorld, computed in double precision and
+/// then rounded to float, so that scenes far from the origin keep their precision.
 struct Occluders
 {
   glm::dvec3 centreWorld{ 0.0 };
-  /// The memory goes on for at least 4 bytes behind the last position, so that every position can be
-  /// read as 16 bytes (Embree does).
+  /// The memory goes on for at least 4 bytes behind the last position, so that every position can
+  /// be read as 16 bytes (Embree does).
   std::vector<glm::vec3> positionsCentred;
   std::vector<glm::uvec3> triangles; ///< indices into positionsCentred
   std::vector<Surface> surfaces;     ///< in order of their triangles

@@ -1,5 +1,7 @@
 #include "shadowtech/base/ReceiverTarget.h"
 
+#include "shadowtech/base/GlState.h"
+
 namespace gnomon
 {
 namespace
@@ -19,9 +21,12 @@ void allocate(GlTexture& texture, GLenum internalFormat, GLenum format, int widt
 //------------------------------------------------------------------------------
 void ReceiverTarget::begin(int width, int height)
 {
+  glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &this->outerDrawFramebuffer_);
+  glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &this->outerReadFramebuffer_);
   glBindFramebuffer(GL_FRAMEBUFFER, this->framebuffer_.create());
   if (width != this->width_ || height != this->height_)
   {
+    const GlStateGuard guard;
     allocate(this->positions_, GL_RGBA32F, GL_RGBA, width, height);
     allocate(this->normals_, GL_RGBA32F, GL_RGBA, width, height);
     allocate(this->depth_, GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, width, height);
@@ -36,15 +41,26 @@ void ReceiverTarget::begin(int width, int height)
     this->width_ = width;
     this->height_ = height;
   }
-  glViewport(0, 0, width, height);
-  glDisable(GL_SCISSOR_TEST);
-  glDepthMask(GL_TRUE);
-  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  // Numbers, not colours: they must not be blended.
+  glDisablei(GL_BLEND, 1);
+  glDisablei(GL_BLEND, 2);
   const float nothing[4] = { 0.0f, 0.0f, 0.0f, 0.0f };
   const float farthest = 1.0f;
   glClearBufferfv(GL_COLOR, 1, nothing);
   glClearBufferfv(GL_COLOR, 2, nothing);
   glClearBufferfv(GL_DEPTH, 0, &farthest);
+}
+
+//------------------------------------------------------------------------------
+void ReceiverTarget::end(bool blending)
+{
+  if (blending)
+  {
+    glEnablei(GL_BLEND, 1);
+    glEnablei(GL_BLEND, 2);
+  }
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, static_cast<GLuint>(this->outerDrawFramebuffer_));
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(this->outerReadFramebuffer_));
 }
 
 //------------------------------------------------------------------------------
@@ -56,6 +72,7 @@ void ReceiverTarget::read(ReceiverImages& images) const
     static_cast<std::size_t>(this->width_) * static_cast<std::size_t>(this->height_);
   images.positionView.resize(pixels);
   images.normalView.resize(pixels);
+  const GlStateGuard guard;
   glBindFramebuffer(GL_READ_FRAMEBUFFER, this->framebuffer_.name());
   glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
   glPixelStorei(GL_PACK_ALIGNMENT, 4);

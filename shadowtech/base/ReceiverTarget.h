@@ -14,10 +14,14 @@ namespace gnomon
 class ReceiverTarget
 {
 public:
-  /// Binds the framebuffer for drawing with the given size, cleared, its whole area as viewport.
-  /// The fragment shader's output 1 goes to the position image, output 2 to the normal image,
-  /// output 0 nowhere.
+  /// Binds the framebuffer for drawing, with the given size and cleared. The fragment shader's
+  /// output 1 goes to the position image, output 2 to the normal image, output 0 nowhere. The
+  /// caller has opened the viewport, the scissor box and the write masks.
   void begin(int width, int height);
+
+  /// Binds what was bound before.
+  /// @param blending whether blending is switched on outside
+  void end(bool blending);
 
   /// Reads both images back.
   void read(ReceiverImages& images) const;
@@ -33,6 +37,8 @@ private:
   GlTexture positions_;
   GlTexture normals_;
   GlTexture depth_;
+  GLint outerDrawFramebuffer_ = 0;
+  GLint outerReadFramebuffer_ = 0;
   int width_ = 0;
   int height_ = 0;
 };

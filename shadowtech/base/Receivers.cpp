@@ -150,7 +150,8 @@ void projectReceivers(const ReceiverImages& images, const std::vector<DrawnSurfa
 
   const auto receiverOf = [&](const glm::vec4& view, const glm::vec4& normalView, PlaneCache& cache)
   {
-    const TriangleOfFragment found = findTriangle(std::abs(normalView.w), view.w, drawnSurfaces, occluders);
+    const TriangleOfFragment found =
+      findTriangle(std::abs(normalView.w), view.w, drawnSurfaces, occluders);
     if (found.triangle == none)
     {
       return Receiver();
