@@ -18,6 +18,3 @@ install(FILES "${PROJECT_SOURCE_DIR}/cmake/GnomonImageTest.cmake"
   DESTINATION "${gnomon_cmake_destination}" OPTIONAL)
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE"
   DESTINATION "${CMAKE_INSTALL_DATAROOTDIR}/licenses/Gnomon")
-if(TARGET gnomon)
-  install(TARGETS gnomon EXPORT Gnomon RUNTIME)
-endif()
