@@ -15,6 +15,7 @@ find_package(VTK 9.1 REQUIRED COMPONENTS
   IOImport
   IOPLY
   IOXML
+  IOXMLParser
   ImagingCore
   InteractionStyle
   RenderingAnnotation
@@ -33,4 +34,6 @@ find_package(OpenGL REQUIRED COMPONENTS OpenGL EGL)
 if(GNOMON_BUILD_EXAMPLES)
   find_package(CLI11 REQUIRED)
   find_package(nlohmann_json REQUIRED)
+  find_package(OpenEXR 3 REQUIRED)
+  find_package(PNG REQUIRED)
 endif()

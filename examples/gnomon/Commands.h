@@ -9,6 +9,8 @@ namespace gnomon::tool
 ///@{
 /// Each adds one subcommand. Its work runs while the command line is parsed, in the subcommand's
 /// callback, and throws BadInput or Failure.
+void addCompareCommand(CLI::App& app);
+void addDiffCommand(CLI::App& app);
 void addRenderCommand(CLI::App& app);
 void addTechniquesCommand(CLI::App& app);
 void addScenesCommand(CLI::App& app);

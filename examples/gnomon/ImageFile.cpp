@@ -1,65 +1,336 @@
 #include "ImageFile.h"
 
 #include "Errors.h"
-#include "VtkMessages.h"
+#include "Files.h"
 
-#include <vtkImageData.h>
+#include <ImfChannelList.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfInputFile.h>
+#include <ImfOutputFile.h>
+#include <ImfStringAttribute.h>
+#include <ImfVecAttribute.h>
+
+#include <png.h>
 #include <vtkNew.h>
-#include <vtkPNGWriter.h>
 #include <vtkRenderWindow.h>
 #include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <exception>
+#include <fstream>
+#include <stdexcept>
 
 namespace gnomon::tool
 {
+namespace
+{
+
+/// A damaged header must not make the program ask for all of the memory there is.
+void requireReasonableSize(
+  const std::string& path, std::int64_t width, std::int64_t height, std::int64_t channelCount)
+{
+  constexpr std::int64_t largestSide = 65536;
+  constexpr std::int64_t mostValues = std::int64_t(1) << 29;
+  if (width > largestSide || height > largestSide || width * height * channelCount > mostValues)
+  {
+    throw BadInput(path + ": is unreasonably large: " + std::to_string(width) + " x " +
+      std::to_string(height) + " pixels with " + std::to_string(channelCount) + " channels");
+  }
+}
+
+/// libpng's description of an image, with what it holds given back at the end.
+///
+/// libpng itself and not vtkPNGReader: that one ends the whole program on a truncated file.
+struct PngImage : png_image
+{
+  PngImage()
+    : png_image{}
+  {
+    this->version = PNG_IMAGE_VERSION;
+  }
+  ~PngImage() { png_image_free(this); }
+  PngImage(const PngImage&) = delete;
+  PngImage& operator=(const PngImage&) = delete;
+};
+
+Picture readPng(const std::string& path)
+{
+  requireReadableFile(path);
+  PngImage image;
+  const auto refuse = [&path, &image]
+  { throw BadInput(path + ": is not a readable PNG file: " + image.message); };
+  if (!png_image_begin_read_from_file(&image, path.c_str()))
+  {
+    refuse();
+  }
+  if (image.format & PNG_FORMAT_FLAG_LINEAR)
+  {
+    throw BadInput(path + ": has 16 bits per channel, expected 8");
+  }
+  requireReasonableSize(path, image.width, image.height, 4);
+  image.format = PNG_FORMAT_RGBA;
+  std::vector<unsigned char> rgba(PNG_IMAGE_SIZE(image));
+  if (!png_image_finish_read(&image, nullptr, rgba.data(), 0, nullptr))
+  {
+    refuse();
+  }
+  Picture picture;
+  picture.width = static_cast<int>(image.width);
+  picture.height = static_cast<int>(image.height);
+  picture.rgb.reserve(3 * picture.pixelCount());
+  for (std::size_t i = 0; i < picture.pixelCount(); ++i)
+  {
+    const unsigned char* const pixel = &rgba[4 * i];
+    if (pixel[3] != 255)
+    {
+      throw BadInput(path + ": is transparent at pixel (" + std::to_string(i % image.width) + ", " +
+        std::to_string(i / image.width) + "), expected an opaque picture");
+    }
+    picture.rgb.insert(picture.rgb.end(), pixel, pixel + 3);
+  }
+  return picture;
+}
+
+/// Writes planes of floats as 32-bit channels, row 0 on top as in memory.
+void writeExr(const std::string& path, int width, int height, Imf::Header& header,
+  const std::map<std::string, const std::vector<float>*>& planes)
+{
+  const std::size_t pixelCount = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  Imf::FrameBuffer frame;
+  for (const auto& [name, plane] : planes)
+  {
+    if (plane->size() != pixelCount)
+    {
+      throw std::invalid_argument("channel " + name + " does not have one value per pixel");
+    }
+    header.channels().insert(name, Imf::Channel(Imf::FLOAT));
+    // The library's interface is not const, but it only reads from here.
+    auto* const base = reinterpret_cast<char*>(const_cast<float*>(plane->data()));
+    frame.insert(name,
+      Imf::Slice(Imf::FLOAT, base, sizeof(float), sizeof(float) * static_cast<std::size_t>(width)));
+  }
+  try
+  {
+    Imf::OutputFile file(path.c_str(), header);
+    file.setFrameBuffer(frame);
+    file.writePixels(height);
+  }
+  catch (const std::exception& error)
+  {
+    throw Failure(path + ": writing failed: " + error.what());
+  }
+}
+
+} // namespace
 
 //------------------------------------------------------------------------------
 Picture capture(vtkRenderWindow* window)
 {
+  const int* const size = window->GetSize();
   Picture picture;
-  picture.width = window->GetSize()[0];
-  picture.height = window->GetSize()[1];
+  picture.width = size[0];
+  picture.height = size[1];
   vtkNew<vtkUnsignedCharArray> pixels;
-  window->GetPixelData(0, 0, picture.width - 1, picture.height - 1, 1, pixels);
-  const std::size_t row = 3 * static_cast<std::size_t>(picture.width);
-  for (int y = picture.height - 1; y >= 0; --y)
+  window->GetPixelData(0, 0, picture.width - 1, picture.height - 1, /*front=*/0, pixels);
+  picture.rgb.resize(3 * picture.pixelCount());
+  if (static_cast<std::size_t>(pixels->GetNumberOfValues()) != picture.rgb.size())
   {
-    const unsigned char* begin = pixels->GetPointer(0) + row * static_cast<std::size_t>(y);
-    picture.rgb.insert(picture.rgb.end(), begin, begin + row);
+    throw Failure("the window's picture cannot be read");
+  }
+  const std::size_t rowBytes = 3 * static_cast<std::size_t>(picture.width);
+  for (int y = 0; y < picture.height; ++y)
+  {
+    std::memcpy(picture.rgb.data() + static_cast<std::size_t>(y) * rowBytes,
+      pixels->GetPointer(0) + static_cast<std::size_t>(picture.height - 1 - y) * rowBytes,
+      rowBytes);
   }
   return picture;
 }
 
 //------------------------------------------------------------------------------
+std::vector<unsigned char> encodePng(const Picture& picture)
+{
+  PngImage image;
+  image.width = static_cast<png_uint_32>(picture.width);
+  image.height = static_cast<png_uint_32>(picture.height);
+  image.format = PNG_FORMAT_RGB;
+  png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(image);
+  std::vector<unsigned char> bytes(size);
+  if (!png_image_write_to_memory(&image, bytes.data(), &size, 0, picture.rgb.data(), 0, nullptr))
+  {
+    throw Failure("a picture of " + std::to_string(picture.width) + " x " +
+      std::to_string(picture.height) + " pixels cannot be encoded as PNG: " + image.message);
+  }
+  bytes.resize(size);
+  return bytes;
+}
+
+//------------------------------------------------------------------------------
 void writePicture(const Picture& picture, const std::string& path)
 {
-  vtkNew<vtkImageData> image;
-  image->SetDimensions(picture.width, picture.height, 1);
-  image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
-  const std::size_t row = 3 * static_cast<std::size_t>(picture.width);
-  auto* target = static_cast<unsigned char*>(image->GetScalarPointer());
-  for (int y = 0; y < picture.height; ++y)
+  requireWritableFile(path, "picture", { ".png", ".exr" });
+  if (lowerExtension(path) == ".png")
   {
-    std::copy_n(picture.rgb.data() + row * static_cast<std::size_t>(y), row,
-      target + row * static_cast<std::size_t>(picture.height - 1 - y));
+    const std::vector<unsigned char> bytes = encodePng(picture);
+    std::ofstream file(path, std::ios::binary | std::ios::trunc);
+    file.write(
+      reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    file.close();
+    if (!file)
+    {
+      throw Failure(path + ": writing failed: " + std::strerror(errno));
+    }
   }
-  VtkMessages messages;
-  vtkNew<vtkPNGWriter> writer;
-  writer->SetInputData(image);
-  writer->SetFileName(path.c_str());
-  writer->Write();
-  if (!messages.errors().empty())
+  else
   {
-    throw Failure(path + ": cannot be written: " + messages.errors().front());
+    std::array<std::vector<float>, 3> planes;
+    for (std::size_t channel = 0; channel < 3; ++channel)
+    {
+      planes[channel].resize(picture.pixelCount());
+      for (std::size_t i = 0; i < planes[channel].size(); ++i)
+      {
+        planes[channel][i] = static_cast<float>(picture.rgb[3 * i + channel]) / 255.0f;
+      }
+    }
+    Imf::Header header(picture.width, picture.height);
+    writeExr(path, picture.width, picture.height, header,
+      { { "R", &planes[0] }, { "G", &planes[1] }, { "B", &planes[2] } });
   }
 }
 
 //------------------------------------------------------------------------------
-void writeVisibility(const gnomon::VisibilityImages&, const std::string& path,
-  const std::map<std::string, std::string>&)
+Picture readPicture(const std::string& path)
 {
-  throw Failure(path + ": this build cannot write EXR files");
+  const std::string extension = lowerExtension(path);
+  if (extension == ".png")
+  {
+    return readPng(path);
+  }
+  if (extension != ".exr")
+  {
+    throw BadInput(
+      path + ": the file type is \"" + extension + "\", expected a name that ends in .png or .exr");
+  }
+  const ChannelImage image = readChannels(path);
+  Picture picture;
+  picture.width = image.width;
+  picture.height = image.height;
+  picture.rgb.resize(3 * picture.pixelCount());
+  static constexpr const char* names[] = { "R", "G", "B" };
+  for (std::size_t channel = 0; channel < 3; ++channel)
+  {
+    const auto found = image.channels.find(names[channel]);
+    if (found == image.channels.end())
+    {
+      throw BadInput(path + ": has no channel " + names[channel] + ", expected R, G and B");
+    }
+    for (std::size_t i = 0; i < found->second.size(); ++i)
+    {
+      const float value = found->second[i];
+      // NaN becomes black.
+      picture.rgb[3 * i + channel] =
+        static_cast<unsigned char>(value > 0.0f ? std::lround(255.0f * std::min(value, 1.0f)) : 0);
+    }
+  }
+  return picture;
+}
+
+//------------------------------------------------------------------------------
+ChannelImage readChannels(const std::string& path)
+{
+  requireReadableFile(path);
+  try
+  {
+    Imf::InputFile file(path.c_str());
+    if (!file.isComplete())
+    {
+      throw BadInput(path + ": is incomplete: rows are missing");
+    }
+    const Imf::Header& header = file.header();
+    const Imath::Box2i window = header.dataWindow();
+    const std::int64_t width = std::int64_t(window.max.x) - window.min.x + 1;
+    const std::int64_t height = std::int64_t(window.max.y) - window.min.y + 1;
+    std::int64_t channelCount = 0;
+    for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel)
+    {
+      ++channelCount;
+      if (channel.channel().xSampling != 1 || channel.channel().ySampling != 1)
+      {
+        throw BadInput(
+          path + ": channel " + channel.name() + " is subsampled, expected one value per pixel");
+      }
+    }
+    requireReasonableSize(path, width, height, channelCount);
+
+    ChannelImage image;
+    image.width = static_cast<int>(width);
+    image.height = static_cast<int>(height);
+    Imf::FrameBuffer frame;
+    for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel)
+    {
+      std::vector<float>& plane = image.channels[channel.name()];
+      plane.resize(static_cast<std::size_t>(width * height));
+      frame.insert(channel.name(),
+        Imf::Slice::Make(Imf::FLOAT, plane.data(), window, sizeof(float),
+          sizeof(float) * static_cast<std::size_t>(width)));
+    }
+    file.setFrameBuffer(frame);
+    file.readPixels(window.min.y, window.max.y);
+
+    for (auto attribute = header.begin(); attribute != header.end(); ++attribute)
+    {
+      if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&attribute.attribute()))
+      {
+        image.header[attribute.name()] = text->value();
+      }
+    }
+    if (const auto* origin = header.findTypedAttribute<Imf::V3dAttribute>("origin"))
+    {
+      image.origin = { { origin->value().x, origin->value().y, origin->value().z } };
+    }
+    return image;
+  }
+  catch (const BadInput&)
+  {
+    throw;
+  }
+  catch (const std::exception& error)
+  {
+    throw BadInput(path + ": is not a readable EXR file: " + error.what());
+  }
+}
+
+//------------------------------------------------------------------------------
+void writeVisibility(const VisibilityImages& images, const std::string& path,
+  const std::map<std::string, std::string>& attributes)
+{
+  requireWritableFile(path, "visibility", { ".exr" });
+  std::map<std::string, const std::vector<float>*> planes = {
+    { "position.X", &images.positionX },
+    { "position.Y", &images.positionY },
+    { "position.Z", &images.positionZ },
+    { "normal.X", &images.normalX },
+    { "normal.Y", &images.normalY },
+    { "normal.Z", &images.normalZ },
+    { "coverage", &images.coverage },
+  };
+  for (std::size_t k = 0; k < images.visibility.size(); ++k)
+  {
+    planes["visibility." + std::to_string(images.sceneIndices.at(k))] = &images.visibility[k];
+  }
+  Imf::Header header(images.width, images.height);
+  for (const auto& [name, text] : attributes)
+  {
+    header.insert(name, Imf::StringAttribute(text));
+  }
+  header.insert(
+    "origin", Imf::V3dAttribute(Imath::V3d(images.origin[0], images.origin[1], images.origin[2])));
+  writeExr(path, images.width, images.height, header, planes);
 }
 
 } // namespace gnomon::tool

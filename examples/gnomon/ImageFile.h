@@ -3,6 +3,8 @@
 
 #include "plugin/VisibilityImages.h"
 
+#include <array>
+#include <cstddef>
 #include <map>
 #include <string>
 #include <vector>
@@ -12,26 +14,62 @@ class vtkRenderWindow;
 namespace gnomon::tool
 {
 
-/// A picture as people see it: 8 bits per channel, row 0 on top, pixels from left to right.
+/// A picture for people: display values, red, green and blue in turn. Row 0 is the *top* row; pixel
+/// (x, y) starts at 3 * (y * width + x).
 struct Picture
 {
   int width = 0;
   int height = 0;
   std::vector<unsigned char> rgb;
+
+  std::size_t pixelCount() const
+  {
+    return static_cast<std::size_t>(this->width) * static_cast<std::size_t>(this->height);
+  }
 };
 
-/// The picture that the window shows.
+/// An image as data: named channels of one size. Row 0 is the *top* row; pixel (x, y) is at
+/// y * width + x.
+struct ChannelImage
+{
+  int width = 0;
+  int height = 0;
+  std::map<std::string, std::vector<float>> channels;
+  /// The header's text attributes.
+  std::map<std::string, std::string> header;
+  /// Where positions are counted from, in world coordinates: the header attribute `origin`. Zero
+  /// where the file has none.
+  std::array<double, 3> origin{ { 0.0, 0.0, 0.0 } };
+};
+
+/// What the window shows after its last Render().
 Picture capture(vtkRenderWindow* window);
 
-/// Writes a .png or .exr file, by the path's extension.
-/// @throws Failure when it cannot be written
+/// Writes a .png, or an .exr with the channels R, G and B as floats in [0, 1] (the display values
+/// as they are, with no change of gamma).
+/// @throws BadInput for another ending or a path that cannot be written, Failure when writing fails
 void writePicture(const Picture& picture, const std::string& path);
 
-/// Writes visibility and receivers as 32-bit float channels of an .exr file: visibility.0 ...,
-/// position.X/Y/Z, normal.X/Y/Z, coverage. The header gets `origin`, a V3d, and the attributes
-/// given.
-/// @throws Failure when it cannot be written
-void writeVisibility(const gnomon::VisibilityImages& images, const std::string& path,
+/// A picture in the form in which it is written into a .png, for embedding.
+std::vector<unsigned char> encodePng(const Picture& picture);
+
+/// Reads a .png with 8 bits per channel and no transparency (grey becomes RGB), or the channels R,
+/// G and B of an .exr, clamped to [0, 1].
+/// @throws BadInput
+Picture readPicture(const std::string& path);
+
+/// Reads every channel of an .exr, whatever its pixel type, as float.
+/// @throws BadInput for a file that is missing, broken, incomplete, subsampled or unreasonably
+/// large
+ChannelImage readChannels(const std::string& path);
+
+/// Writes a visibility file: 32-bit float channels `visibility.N` (N counts the renderer's lights),
+/// `position.X/Y/Z` (world coordinates less the header attribute `origin`, a V3d), `normal.X/Y/Z`
+/// and `coverage`. `header` becomes text attributes; its keys must differ from the names of EXR's
+/// own attributes.
+/// @throws BadInput for a path that cannot be written or does not end in .exr, Failure when writing
+/// fails
+void writeVisibility(const VisibilityImages& images, const std::string& path,
   const std::map<std::string, std::string>& header);
 
 } // namespace gnomon::tool

@@ -24,6 +24,8 @@ int main(int argc, char** argv)
   CLI::App app{ "Shadows for VTK scenes, from fast to exact", "gnomon" };
   app.require_subcommand(1);
   gnomon::tool::addRenderCommand(app);
+  gnomon::tool::addCompareCommand(app);
+  gnomon::tool::addDiffCommand(app);
   gnomon::tool::addTechniquesCommand(app);
   gnomon::tool::addScenesCommand(app);
 

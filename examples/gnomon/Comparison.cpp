@@ -1,0 +1,214 @@
+#include "Comparison.h"
+
+#include <glm/glm.hpp>
+
+#include <cmath>
+#include <stdexcept>
+
+namespace gnomon::tool
+{
+namespace
+{
+
+glm::dvec3 toGlm(const Vec3& v)
+{
+  return { v[0], v[1], v[2] };
+}
+
+/// A unit vector, or zero where the input has no length.
+glm::dvec3 unitOrZero(const glm::dvec3& v)
+{
+  const double length = glm::length(v);
+  return length > 0.0 ? v / length : glm::dvec3(0.0);
+}
+
+void requireSameImages(const VisibilityImages& technique, const VisibilityImages& truth)
+{
+  const std::size_t pixelCount =
+    static_cast<std::size_t>(truth.width) * static_cast<std::size_t>(truth.height);
+  if (technique.width != truth.width || technique.height != truth.height)
+  {
+    throw std::invalid_argument("visibility images of different sizes cannot be compared");
+  }
+  if (technique.sceneIndices != truth.sceneIndices)
+  {
+    throw std::invalid_argument("visibility images of different lights cannot be compared");
+  }
+  for (const VisibilityImages* images : { &technique, &truth })
+  {
+    if (images->visibility.size() != images->sceneIndices.size())
+    {
+      throw std::invalid_argument("visibility images do not have one image per light");
+    }
+    for (const std::vector<float>& plane : images->visibility)
+    {
+      if (plane.size() != pixelCount)
+      {
+        throw std::invalid_argument("visibility images do not have one value per pixel");
+      }
+    }
+  }
+}
+
+PixelVerdict worse(PixelVerdict a, PixelVerdict b)
+{
+  const auto rank = [](PixelVerdict verdict)
+  {
+    switch (verdict)
+    {
+      case PixelVerdict::FalseLight:
+        return 3;
+      case PixelVerdict::FalseShadow:
+        return 2;
+      case PixelVerdict::Right:
+        return 1;
+      case PixelVerdict::NotCounted:
+        break;
+    }
+    return 0;
+  };
+  return rank(a) >= rank(b) ? a : b;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+std::vector<unsigned char> facingPixels(const VisibilityImages& images, const SceneLight& light)
+{
+  const glm::dvec3 lightPosition =
+    toGlm(light.position) - glm::dvec3(images.origin[0], images.origin[1], images.origin[2]);
+  const glm::dvec3 axis = unitOrZero(toGlm(light.target) - toGlm(light.position));
+  const bool spot = light.type == SceneLight::Type::Spot;
+  const double cosineOfCone = std::cos(glm::radians(light.coneAngleDegrees));
+
+  std::vector<unsigned char> facing(images.coverage.size(), 0);
+  for (std::size_t i = 0; i < facing.size(); ++i)
+  {
+    if (images.coverage[i] != 1.0f)
+    {
+      continue;
+    }
+    const glm::dvec3 position(images.positionX[i], images.positionY[i], images.positionZ[i]);
+    const glm::dvec3 normal(images.normalX[i], images.normalY[i], images.normalZ[i]);
+    const glm::dvec3 toLight = spot ? unitOrZero(lightPosition - position) : -axis;
+    const bool inCone = !spot || glm::dot(-toLight, axis) >= cosineOfCone;
+    facing[i] = inCone && glm::dot(normal, toLight) > 0.0;
+  }
+  return facing;
+}
+
+//------------------------------------------------------------------------------
+VisibilityError measureError(const VisibilityImages& technique, const VisibilityImages& truth,
+  const std::vector<SceneLight>& lights, std::vector<PixelVerdict>* verdicts)
+{
+  requireSameImages(technique, truth);
+  if (verdicts)
+  {
+    verdicts->assign(truth.coverage.size(), PixelVerdict::NotCounted);
+  }
+  VisibilityError error;
+  double sumOfAbsolutes = 0.0;
+  double sumOfSquares = 0.0;
+  for (std::size_t k = 0; k < truth.visibility.size(); ++k)
+  {
+    const std::vector<unsigned char> facing =
+      facingPixels(truth, lights.at(static_cast<std::size_t>(truth.sceneIndices[k])));
+    for (std::size_t i = 0; i < facing.size(); ++i)
+    {
+      if (!facing[i])
+      {
+        continue;
+      }
+      const float value = technique.visibility[k][i];
+      // What is not a number has failed as much as it can: it counts as a full error.
+      const float difference = std::isnan(value) ? -1.0f : value - truth.visibility[k][i];
+      PixelVerdict verdict = PixelVerdict::Right;
+      ++error.facingPixels;
+      if (difference > 0.5f)
+      {
+        ++error.falseLight;
+        verdict = PixelVerdict::FalseLight;
+      }
+      else if (difference < -0.5f)
+      {
+        ++error.falseShadow;
+        verdict = PixelVerdict::FalseShadow;
+      }
+      error.betweenPixels +=
+        value > VisibilityError::darkBelow && value < VisibilityError::litAbove;
+      sumOfAbsolutes += std::fabs(difference);
+      sumOfSquares += static_cast<double>(difference) * difference;
+      if (verdicts)
+      {
+        (*verdicts)[i] = worse((*verdicts)[i], verdict);
+      }
+    }
+  }
+  if (error.facingPixels > 0)
+  {
+    const auto count = static_cast<double>(error.facingPixels);
+    error.meanAbsolute = sumOfAbsolutes / count;
+    error.rootMeanSquare = std::sqrt(sumOfSquares / count);
+  }
+  return error;
+}
+
+//------------------------------------------------------------------------------
+Picture errorPicture(const Picture& picture, const std::vector<PixelVerdict>& verdicts,
+  const std::vector<unsigned char>* traced)
+{
+  if (verdicts.size() != picture.pixelCount() || (traced && traced->size() != verdicts.size()))
+  {
+    throw std::invalid_argument("a picture and its errors have different sizes");
+  }
+  Picture result = picture;
+  for (std::size_t i = 0; i < verdicts.size(); ++i)
+  {
+    unsigned char* const pixel = &result.rgb[3 * i];
+    const auto paint = [pixel](unsigned char red, unsigned char green, unsigned char blue)
+    {
+      pixel[0] = red;
+      pixel[1] = green;
+      pixel[2] = blue;
+    };
+    // Dimmed to grey, so that the colours of errors are the only colours.
+    const auto grey =
+      static_cast<unsigned char>((pixel[0] * 54 + pixel[1] * 183 + pixel[2] * 19) / 256 * 2 / 5);
+    if (verdicts[i] == PixelVerdict::FalseLight)
+    {
+      paint(64, 128, 255);
+    }
+    else if (verdicts[i] == PixelVerdict::FalseShadow)
+    {
+      paint(255, 48, 48);
+    }
+    else if (traced && (*traced)[i])
+    {
+      // The picture shines through, since whole regions may be traced.
+      paint(static_cast<unsigned char>(grey / 2 + 78), static_cast<unsigned char>(grey / 2 + 10),
+        static_cast<unsigned char>(grey / 2 + 105));
+    }
+    else
+    {
+      paint(grey, grey, grey);
+    }
+  }
+  return result;
+}
+
+//------------------------------------------------------------------------------
+const char* motionName(Motion motion)
+{
+  switch (motion)
+  {
+    case Motion::Camera:
+      return "camera moving";
+    case Motion::Light:
+      return "light moving";
+    case Motion::Static:
+      break;
+  }
+  return "static";
+}
+
+} // namespace gnomon::tool

@@ -1,0 +1,624 @@
+#include "ComparisonRun.h"
+
+#include "Errors.h"
+#include "Machine.h"
+#include "PictureVisibility.h"
+
+#include "plugin/vtkGnomonEGLRenderWindow.h"
+#include "plugin/vtkGnomonShadowPass.h"
+#include "shadowtech/Registry.h"
+#include "shadowtech/base/FrameReport.h"
+
+#include <vtkCamera.h>
+#include <vtkCameraPass.h>
+#include <vtkLight.h>
+#include <vtkLightCollection.h>
+#include <vtkNew.h>
+#include <vtkRenderPassCollection.h>
+#include <vtkRenderer.h>
+#include <vtkSequencePass.h>
+#include <vtkShadowMapBakerPass.h>
+#include <vtkShadowMapPass.h>
+#include <vtkSmartPointer.h>
+#include <vtkVersion.h>
+
+#include <glm/glm.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <map>
+#include <memory>
+
+namespace gnomon::tool
+{
+namespace
+{
+
+/// How far camera and lights turn per frame.
+constexpr double stepDegrees = 0.05;
+/// Frames that are drawn and not counted when the motion changes.
+constexpr int warmUpFrames = 3;
+
+double median(std::vector<double> values)
+{
+  if (values.empty())
+  {
+    return 0.0;
+  }
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// What a variant is, before it is drawn.
+struct VariantSpec
+{
+  std::string technique;
+  int mapSizeTexels = 0;
+  int route = vtkGnomonShadowPass::ROUTE_AUTO;
+  bool pointwise = false;
+
+  bool isGnomon() const
+  {
+    return this->technique != plainTechnique && this->technique != shadowMapPassTechnique;
+  }
+  std::string routeName() const
+  {
+    return !this->pointwise                              ? ""
+      : this->route == vtkGnomonShadowPass::ROUTE_INLINE ? "inline"
+                                                         : "image";
+  }
+  std::string name() const
+  {
+    std::string text = this->technique;
+    text += this->mapSizeTexels > 0 ? " " + std::to_string(this->mapSizeTexels) : "";
+    text += this->pointwise ? " " + this->routeName() : "";
+    return text;
+  }
+};
+
+std::vector<VariantSpec> listVariants(const ComparisonPlan& plan)
+{
+  std::vector<VariantSpec> specs;
+  specs.push_back({ plainTechnique });
+  for (int size : plan.mapSizesTexels)
+  {
+    specs.push_back({ shadowMapPassTechnique, size });
+  }
+  std::vector<std::string> techniques = plan.techniques;
+  if (std::find(techniques.begin(), techniques.end(), truthTechnique) == techniques.end())
+  {
+    techniques.push_back(truthTechnique);
+  }
+  for (const std::string& name : techniques)
+  {
+    const RegistryEntry* const entry = findTechnique(name);
+    if (!entry)
+    {
+      throw BadInput(
+        "technique '" + name + "' does not exist, expected one of " + techniqueNames());
+    }
+    const TechniqueInfo& info = entry->info;
+    for (int size : info.needsMap ? plan.mapSizesTexels : std::vector<int>{ 0 })
+    {
+      if (info.pointwise && plan.inlineRoute)
+      {
+        specs.push_back({ name, size, vtkGnomonShadowPass::ROUTE_INLINE, true });
+      }
+      if (!info.pointwise || plan.imageRoute)
+      {
+        specs.push_back({ name, size, vtkGnomonShadowPass::ROUTE_IMAGE, info.pointwise });
+      }
+    }
+  }
+  return specs;
+}
+
+/// VTK's own shadows, in the chain that its documentation shows.
+vtkSmartPointer<vtkRenderPass> makeShadowMapPass(int mapSizeTexels)
+{
+  vtkNew<vtkShadowMapPass> shadows;
+  shadows->GetShadowMapBakerPass()->SetResolution(static_cast<unsigned int>(mapSizeTexels));
+  vtkNew<vtkRenderPassCollection> steps;
+  steps->AddItem(shadows->GetShadowMapBakerPass());
+  steps->AddItem(shadows);
+  vtkNew<vtkSequencePass> sequence;
+  sequence->SetPasses(steps);
+  vtkNew<vtkCameraPass> camera;
+  camera->SetDelegatePass(sequence);
+  return camera;
+}
+
+vtkSmartPointer<vtkGnomonShadowPass> makeGnomonPass(const VariantSpec& spec)
+{
+  auto pass = vtkSmartPointer<vtkGnomonShadowPass>::New();
+  pass->SetTechnique(spec.technique.c_str());
+  pass->SetRoute(spec.route);
+  if (spec.mapSizeTexels > 0)
+  {
+    pass->SetMapSize(spec.mapSizeTexels);
+  }
+  return pass;
+}
+
+/// Turns a renderer's camera or lights a little, from the places that they had when this was made.
+class Mover
+{
+public:
+  Mover(vtkRenderer* renderer, const Scene& scene)
+    : renderer_(renderer)
+    , scene_(scene)
+  {
+    this->camera_->DeepCopy(renderer->GetActiveCamera());
+  }
+
+  void apply(Motion motion, int step)
+  {
+    this->turnCamera(motion == Motion::Camera ? step * stepDegrees : 0.0);
+    this->turnLights(motion == Motion::Light ? step * stepDegrees : 0.0);
+  }
+
+private:
+  void turnCamera(double degrees)
+  {
+    if (degrees == this->cameraDegrees_)
+    {
+      return;
+    }
+    this->cameraDegrees_ = degrees;
+    vtkCamera* const camera = this->renderer_->GetActiveCamera();
+    camera->SetPosition(this->camera_->GetPosition());
+    camera->SetFocalPoint(this->camera_->GetFocalPoint());
+    camera->SetViewUp(this->camera_->GetViewUp());
+    camera->SetClippingRange(this->camera_->GetClippingRange());
+    if (degrees != 0.0)
+    {
+      camera->Azimuth(degrees);
+      camera->OrthogonalizeViewUp();
+      this->renderer_->ResetCameraClippingRange();
+    }
+  }
+
+  /// Each light turns around its target, about an axis across its direction, so that the direction
+  /// always changes.
+  void turnLights(double degrees)
+  {
+    if (degrees == this->lightDegrees_)
+    {
+      return;
+    }
+    this->lightDegrees_ = degrees;
+    for (std::size_t i = 0; i < this->scene_.lights.size(); ++i)
+    {
+      const SceneLight& base = this->scene_.lights[i];
+      const glm::dvec3 target(base.target[0], base.target[1], base.target[2]);
+      const glm::dvec3 arm =
+        glm::dvec3(base.position[0], base.position[1], base.position[2]) - target;
+      const glm::dvec3 across = std::abs(arm.x) < 0.5 * glm::length(arm)
+        ? glm::dvec3(1.0, 0.0, 0.0)
+        : glm::dvec3(0.0, 1.0, 0.0);
+      const glm::dmat4 turn =
+        glm::rotate(glm::dmat4(1.0), glm::radians(degrees), glm::cross(arm, across));
+      const glm::dvec3 position = target + glm::dvec3(turn * glm::dvec4(arm, 0.0));
+      vtkLight* const light =
+        vtkLight::SafeDownCast(this->renderer_->GetLights()->GetItemAsObject(static_cast<int>(i)));
+      light->SetPosition(position.x, position.y, position.z);
+    }
+  }
+
+  vtkRenderer* renderer_;
+  const Scene& scene_;
+  vtkNew<vtkCamera> camera_;
+  double cameraDegrees_ = 0.0;
+  double lightDegrees_ = 0.0;
+};
+
+/// One variant with a window, a renderer and a pass of its own.
+class Variant
+{
+public:
+  Variant(const VariantSpec& spec, const Scene& scene, const ComparisonPlan& plan)
+    : spec_(spec)
+    , renderer_(makeRenderer(scene))
+    , mover_(renderer_, scene)
+  {
+    this->result.name = spec.name();
+    this->result.technique = spec.technique;
+    this->result.route = spec.routeName();
+    this->result.mapSizeTexels = spec.mapSizeTexels;
+    if (spec.isGnomon())
+    {
+      this->pass_ = makeGnomonPass(spec);
+      this->renderer_->SetPass(this->pass_);
+    }
+    else if (spec.technique == shadowMapPassTechnique)
+    {
+      this->renderer_->SetPass(makeShadowMapPass(spec.mapSizeTexels));
+    }
+    this->window_->SetSize(plan.width, plan.height);
+    this->window_->AddRenderer(this->renderer_);
+  }
+
+  VariantResult result;
+
+  const VariantSpec& spec() const { return this->spec_; }
+  vtkGnomonShadowPass* pass() const { return this->pass_; }
+  vtkRenderWindow* window() const { return this->window_; }
+
+  /// Draws one frame to its end and returns its wall clock time in milliseconds.
+  double drawFrame(Motion motion, int step)
+  {
+    this->mover_.apply(motion, step);
+    this->window_->MakeCurrent();
+    const auto start = std::chrono::steady_clock::now();
+    this->window_->Render();
+    this->window_->WaitForCompletion();
+    const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
+    return time.count();
+  }
+
+private:
+  VariantSpec spec_;
+  vtkSmartPointer<vtkRenderer> renderer_;
+  vtkSmartPointer<vtkGnomonShadowPass> pass_; // null for the peers
+  vtkNew<vtkGnomonEGLRenderWindow> window_;
+  Mover mover_;
+};
+
+using Variants = std::vector<std::unique_ptr<Variant>>;
+
+/// Sum of a frame's stages. A part ("stage: part") counts where its stage is not listed itself.
+double sumOfStages(const std::vector<StageTime>& stages)
+{
+  double sum = 0.0;
+  for (const StageTime& stage : stages)
+  {
+    const std::size_t colon = stage.name.find(": ");
+    const bool included = colon != std::string::npos &&
+      std::any_of(stages.begin(), stages.end(),
+        [&stage, colon](const StageTime& other)
+        { return other.name == stage.name.substr(0, colon); });
+    sum += included ? 0.0 : stage.milliseconds;
+  }
+  return sum;
+}
+
+/// Collects the stages of measured frames.
+class StageSamples
+{
+public:
+  void add(const std::vector<StageTime>& stages, double wallMilliseconds)
+  {
+    for (const StageTime& stage : stages)
+    {
+      if (this->samples_.find(stage.name) == this->samples_.end())
+      {
+        this->order_.push_back(stage.name);
+      }
+      this->samples_[stage.name].push_back(stage.milliseconds);
+    }
+    if (!stages.empty())
+    {
+      this->shares_.push_back(sumOfStages(stages) / wallMilliseconds);
+    }
+  }
+
+  void store(MotionTiming& timing) const
+  {
+    for (const std::string& name : this->order_)
+    {
+      std::vector<double> times = this->samples_.at(name);
+      times.resize(this->shares_.size(), 0.0); // a frame without the stage spent no time on it
+      timing.stages.emplace_back(name, median(times));
+    }
+    timing.stageShare = median(this->shares_);
+  }
+
+private:
+  std::vector<std::string> order_;
+  std::map<std::string, std::vector<double>> samples_;
+  std::vector<double> shares_;
+};
+
+/// Counts steps of work that take about as long as each other.
+class StepCounter
+{
+public:
+  StepCounter(std::size_t total, const ProgressFunction& progress)
+    : total_(total)
+    , progress_(progress)
+  {
+  }
+  void advance()
+  {
+    ++this->done_;
+    if (this->progress_)
+    {
+      this->progress_(static_cast<double>(this->done_) / static_cast<double>(this->total_));
+    }
+  }
+
+private:
+  std::size_t total_;
+  std::size_t done_ = 0;
+  const ProgressFunction& progress_;
+};
+
+int measuredFrames(const ComparisonPlan& plan)
+{
+  return std::clamp(plan.frames / 3, 1, 9);
+}
+
+void timeFrames(Variants& variants, Motion motion, const ComparisonPlan& plan, StepCounter& steps)
+{
+  std::vector<std::vector<double>> times(variants.size());
+  for (int frame = -warmUpFrames; frame < plan.frames; ++frame)
+  {
+    for (std::size_t i = 0; i < variants.size(); ++i)
+    {
+      const double milliseconds = variants[i]->drawFrame(motion, frame + warmUpFrames + 1);
+      if (frame >= 0)
+      {
+        times[i].push_back(milliseconds);
+      }
+    }
+    steps.advance();
+  }
+  for (std::size_t i = 0; i < variants.size(); ++i)
+  {
+    variants[i]->result.timings[static_cast<std::size_t>(motion)].milliseconds = median(times[i]);
+  }
+}
+
+void timeStages(Variants& variants, Motion motion, const ComparisonPlan& plan, StepCounter& steps)
+{
+  std::vector<StageSamples> samples(variants.size());
+  const int firstStep = warmUpFrames + plan.frames + 1;
+  for (int frame = 0; frame < measuredFrames(plan); ++frame)
+  {
+    for (std::size_t i = 0; i < variants.size(); ++i)
+    {
+      if (vtkGnomonShadowPass* const pass = variants[i]->pass())
+      {
+        pass->MeasureStagesOn();
+        const double milliseconds = variants[i]->drawFrame(motion, firstStep + frame);
+        samples[i].add(pass->GetReport().stages, milliseconds);
+        pass->MeasureStagesOff();
+      }
+    }
+    steps.advance();
+  }
+  for (std::size_t i = 0; i < variants.size(); ++i)
+  {
+    samples[i].store(variants[i]->result.timings[static_cast<std::size_t>(motion)]);
+  }
+}
+
+/// The first frames: compiles, builds, and shows by how much the program grows.
+void warmUp(Variant& variant)
+{
+  const std::int64_t before = residentBytes();
+  for (int frame = 0; frame < warmUpFrames; ++frame)
+  {
+    variant.drawFrame(Motion::Static, 0);
+  }
+  VariantResult& result = variant.result;
+  result.memory.residentGrowth = residentBytes() - before;
+  if (variant.pass())
+  {
+    const FrameReport& report = variant.pass()->GetReport();
+    result.memory.occluders = report.bytesOccluders;
+    result.memory.bvh = report.bytesBvh;
+    result.memory.maps = report.bytesMaps;
+    result.memory.images = report.bytesImages;
+    result.notes = report.notes;
+  }
+}
+
+/// The visibility that a variant hands out for the scene as it stands.
+VisibilityImages keptVisibility(Variant& variant)
+{
+  variant.pass()->KeepVisibilityOn();
+  variant.drawFrame(Motion::Static, 0);
+  VisibilityImages images = variant.pass()->GetVisibility();
+  variant.pass()->KeepVisibilityOff();
+  return images;
+}
+
+VisibilityImages withoutShadows(const VisibilityImages& truth)
+{
+  VisibilityImages images = truth;
+  for (std::vector<float>& plane : images.visibility)
+  {
+    std::fill(plane.begin(), plane.end(), 1.0f);
+  }
+  return images;
+}
+
+VisibilityImages visibilityOf(Variant& variant, const Scene& scene, const VisibilityImages& truth)
+{
+  const VariantSpec& spec = variant.spec();
+  const char* const fromPictures =
+    "Read off pictures of what it drew: the scene with white surfaces, without ambient light and "
+    "gloss, under one light, once with and once without shadows; the quotient of the two is the "
+    "visibility. Four exposures keep faintly lit surfaces above 8 bits of brightness.";
+  if (spec.technique == plainTechnique)
+  {
+    variant.result.errorSource = "By definition: it lights everything, so its visibility is 1.";
+    return withoutShadows(truth);
+  }
+  if (spec.technique == shadowMapPassTechnique)
+  {
+    variant.result.errorSource = fromPictures;
+    return measureVisibility(scene, truth,
+      [&spec](vtkRenderer* renderer) { renderer->SetPass(makeShadowMapPass(spec.mapSizeTexels)); });
+  }
+  if (spec.route == vtkGnomonShadowPass::ROUTE_INLINE)
+  {
+    variant.result.errorSource = fromPictures;
+    return measureVisibility(
+      scene, truth, [&spec](vtkRenderer* renderer) { renderer->SetPass(makeGnomonPass(spec)); });
+  }
+  variant.result.errorSource = spec.technique == truthTechnique
+    ? "It is the truth."
+    : "From its visibility image, one number per pixel and light.";
+  return keptVisibility(variant);
+}
+
+/// 1 where a technique that knows nothing but rays had to trace: everywhere it counts.
+std::vector<unsigned char> tracedMask(
+  const VisibilityImages& truth, const std::vector<SceneLight>& lights)
+{
+  std::vector<unsigned char> traced(truth.coverage.size(), 0);
+  for (int index : truth.sceneIndices)
+  {
+    const std::vector<unsigned char> facing =
+      facingPixels(truth, lights.at(static_cast<std::size_t>(index)));
+    std::transform(facing.begin(), facing.end(), traced.begin(), traced.begin(),
+      [](unsigned char a, unsigned char b) { return a | b; });
+  }
+  return traced;
+}
+
+void measureErrors(
+  Variants& variants, const Scene& scene, const VisibilityImages& truth, StepCounter& steps)
+{
+  for (const std::unique_ptr<Variant>& variant : variants)
+  {
+    VariantResult& result = variant->result;
+    variant->drawFrame(Motion::Static, 0);
+    result.picture = capture(variant->window());
+    const VisibilityImages visibility = visibilityOf(*variant, scene, truth);
+    std::vector<PixelVerdict> verdicts;
+    result.error = measureError(visibility, truth, scene.lights, &verdicts);
+    std::vector<unsigned char> traced(verdicts.size(), 0);
+    if (variant->pass())
+    {
+      for (const LightReport& light : variant->pass()->GetReport().lights)
+      {
+        result.tracedPixels += light.tracedPixels;
+      }
+      const TechniqueInfo& info = findTechnique(result.technique)->info;
+      if (!info.pointwise && !info.needsMap)
+      {
+        traced = tracedMask(truth, scene.lights);
+      }
+    }
+    result.errors = errorPicture(result.picture, verdicts, &traced);
+    steps.advance();
+  }
+}
+
+void requireCastingLights(const Scene& scene, const FrameReport& report)
+{
+  std::string reasons;
+  for (const LightReport& light : report.lights)
+  {
+    if (light.casts)
+    {
+      return;
+    }
+    reasons += "; light " + std::to_string(light.sceneIndex) + ": " + light.reason;
+  }
+  throw BadInput(
+    scene.name + ": no light casts a shadow, expected at least one to compare" + reasons);
+}
+
+void describeScene(ComparisonResults& results, const Scene& scene, const FrameReport& report)
+{
+  results.triangles = report.triangles;
+  for (const LightReport& light : report.lights)
+  {
+    results.lights += light.casts;
+    if (!light.casts)
+    {
+      results.notes.push_back(
+        "Light " + std::to_string(light.sceneIndex) + " casts no shadow: " + light.reason + ".");
+    }
+  }
+  if (std::any_of(scene.models.begin(), scene.models.end(),
+        [](const SceneModel& model) { return !model.casts || !model.receives || model.oneSided; }))
+  {
+    results.notes.push_back(
+      "Some models of the scene do not cast, do not receive or are one-sided. "
+      "vtkShadowMapPass has no such settings and shadows them all alike.");
+  }
+}
+
+std::vector<std::pair<std::string, std::string>> listSettings(
+  const ComparisonPlan& plan, vtkRenderWindow* window)
+{
+  return {
+    { "Window",
+      std::to_string(plan.width) + " x " + std::to_string(plan.height) +
+        " pixels, one sample per pixel" },
+    { "Timed frames",
+      std::to_string(plan.frames) + " per variant and motion, after " +
+        std::to_string(warmUpFrames) + " for warming up" },
+    { "Frames measured by stage", std::to_string(measuredFrames(plan)) + " per motion" },
+    { "Motion", "camera and lights turn by 0.05 degrees per frame" },
+    { "Gnomon", GNOMON_VERSION },
+    { "VTK", vtkVersion::GetVTKVersion() },
+    { "OpenGL", openGlName(window) },
+    { "Processor", processorName() },
+    { "Resident set at the end", std::to_string(residentBytes() / (1024 * 1024)) + " MB" },
+  };
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+ComparisonResults runComparison(
+  const Scene& original, const ComparisonPlan& plan, const ProgressFunction& progress)
+{
+  Scene scene = original;
+  for (SceneLight& light : scene.lights)
+  {
+    light.technique.clear();
+    light.mapSizeTexels = 0;
+  }
+
+  const std::vector<VariantSpec> specs = listVariants(plan);
+  const std::size_t framesPerMotion =
+    static_cast<std::size_t>(warmUpFrames + plan.frames + measuredFrames(plan));
+  StepCounter steps(2 * specs.size() + allMotions.size() * framesPerMotion, progress);
+
+  Variants variants;
+  Variant* truthVariant = nullptr;
+  for (const VariantSpec& spec : specs)
+  {
+    variants.push_back(std::make_unique<Variant>(spec, scene, plan));
+    warmUp(*variants.back());
+    if (spec.technique == truthTechnique)
+    {
+      truthVariant = variants.back().get();
+    }
+    steps.advance();
+  }
+  ComparisonResults results;
+  requireCastingLights(scene, truthVariant->pass()->GetReport());
+  describeScene(results, scene, truthVariant->pass()->GetReport());
+
+  for (Motion motion : allMotions)
+  {
+    timeFrames(variants, motion, plan, steps);
+    timeStages(variants, motion, plan, steps);
+  }
+  const VisibilityImages truth = keptVisibility(*truthVariant);
+  measureErrors(variants, scene, truth, steps);
+
+  results.scene = scene.name;
+  results.width = plan.width;
+  results.height = plan.height;
+  results.frames = plan.frames;
+  results.truth = truthVariant->result.name;
+  results.settings = listSettings(plan, truthVariant->window());
+  for (const std::unique_ptr<Variant>& variant : variants)
+  {
+    results.variants.push_back(std::move(variant->result));
+  }
+  return results;
+}
+
+} // namespace gnomon::tool

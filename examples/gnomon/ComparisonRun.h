@@ -1,0 +1,41 @@
+#ifndef gnomon_examples_gnomon_ComparisonRun_h
+#define gnomon_examples_gnomon_ComparisonRun_h
+
+#include "Comparison.h"
+#include "Scene.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace gnomon::tool
+{
+
+/// What to compare.
+struct ComparisonPlan
+{
+  std::vector<std::string> techniques; ///< names of the registry; the truth is added when missing
+  std::vector<int> mapSizesTexels;     ///< for every variant that has a map
+  bool inlineRoute = true;             ///< for pointwise techniques
+  bool imageRoute = true;              ///< for pointwise techniques
+  int width = 1024;
+  int height = 1024;
+  int frames = 21; ///< timed frames per variant and motion
+};
+
+/// The technique whose visibility is the truth.
+inline constexpr const char* truthTechnique = "raytraced";
+
+/// Is told what share of the work, in [0, 1], is done.
+using ProgressFunction = std::function<void(double)>;
+
+/// Draws the scene with every variant of the plan and with the peers (plain VTK, vtkShadowMapPass)
+/// and measures errors, times and memory. Frames of all variants are interleaved. What the scene's
+/// lights ask for themselves (technique, map size) is set aside: the plan decides.
+/// @throws BadInput when no light of the scene casts a shadow, Failure when drawing fails
+ComparisonResults runComparison(
+  const Scene& scene, const ComparisonPlan& plan, const ProgressFunction& progress);
+
+} // namespace gnomon::tool
+
+#endif

@@ -1,0 +1,23 @@
+#ifndef gnomon_examples_gnomon_Machine_h
+#define gnomon_examples_gnomon_Machine_h
+
+#include <cstdint>
+#include <string>
+
+class vtkRenderWindow;
+
+namespace gnomon::tool
+{
+
+/// The memory of this process that is in RAM at this moment, in bytes; 0 where it cannot be told.
+std::int64_t residentBytes();
+
+/// The processor's model and the number of its hardware threads.
+std::string processorName();
+
+/// Renderer and version of a window's OpenGL.
+std::string openGlName(vtkRenderWindow* window);
+
+} // namespace gnomon::tool
+
+#endif

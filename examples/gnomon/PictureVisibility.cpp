@@ -1,0 +1,116 @@
+#include "PictureVisibility.h"
+
+#include "plugin/vtkGnomonEGLRenderWindow.h"
+
+#include <vtkLight.h>
+#include <vtkLightCollection.h>
+#include <vtkNew.h>
+#include <vtkProperty.h>
+#include <vtkRenderPass.h>
+#include <vtkRenderer.h>
+
+#include <algorithm>
+#include <array>
+
+namespace gnomon::tool
+{
+namespace
+{
+
+/// Each exposure begins where the one before has 16 of its 256 steps left.
+constexpr std::array<double, 4> exposureFactors = { 1.0, 16.0, 256.0, 4096.0 };
+
+/// The scene with white, flat surfaces that only reflect diffusely, and one white light.
+Scene whiteScene(const Scene& scene, std::size_t light)
+{
+  Scene white = scene;
+  white.background = { { 0.0, 0.0, 0.0 } };
+  white.lights = { scene.lights.at(light) };
+  white.lights[0].color = { { 1.0, 1.0, 1.0 } };
+  white.lights[0].intensity = 1.0;
+  white.models.erase(std::remove_if(white.models.begin(), white.models.end(),
+                       [](const SceneModel& model) { return model.property->GetOpacity() < 1.0; }),
+    white.models.end());
+  for (SceneModel& model : white.models)
+  {
+    const bool cullsBack = model.property->GetBackfaceCulling();
+    const bool cullsFront = model.property->GetFrontfaceCulling();
+    model.texture = nullptr;
+    model.property = vtkSmartPointer<vtkProperty>::New();
+    model.property->SetInterpolationToFlat();
+    model.property->SetColor(1.0, 1.0, 1.0);
+    model.property->SetAmbient(0.0);
+    model.property->SetDiffuse(1.0);
+    model.property->SetSpecular(0.0);
+    model.property->SetBackfaceCulling(cullsBack);
+    model.property->SetFrontfaceCulling(cullsFront);
+  }
+  return white;
+}
+
+/// One picture per exposure.
+std::vector<Picture> expose(vtkRenderer* renderer, int width, int height)
+{
+  vtkNew<vtkGnomonEGLRenderWindow> window;
+  window->SetSize(width, height);
+  window->AddRenderer(renderer);
+  vtkLight* const light = vtkLight::SafeDownCast(renderer->GetLights()->GetItemAsObject(0));
+  std::vector<Picture> pictures;
+  for (double factor : exposureFactors)
+  {
+    light->SetIntensity(factor);
+    window->Render();
+    pictures.push_back(capture(window));
+  }
+  window->RemoveRenderer(renderer);
+  return pictures;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+std::vector<float> visibilityFromPictures(const std::vector<ExposedPair>& exposures)
+{
+  std::vector<float> visibility(exposures.empty() ? 0 : exposures.front().lit.pixelCount(), 0.0f);
+  for (std::size_t i = 0; i < visibility.size(); ++i)
+  {
+    for (const ExposedPair& pair : exposures)
+    {
+      const int lit = pair.lit.rgb[3 * i];
+      if (lit == 255)
+      {
+        break;
+      }
+      if (lit > 0)
+      {
+        visibility[i] =
+          std::min(1.0f, static_cast<float>(pair.shadowed.rgb[3 * i]) / static_cast<float>(lit));
+      }
+    }
+  }
+  return visibility;
+}
+
+//------------------------------------------------------------------------------
+VisibilityImages measureVisibility(const Scene& scene, const VisibilityImages& truth,
+  const std::function<void(vtkRenderer*)>& addShadows)
+{
+  VisibilityImages result = truth;
+  for (std::size_t k = 0; k < truth.sceneIndices.size(); ++k)
+  {
+    const Scene white = whiteScene(scene, static_cast<std::size_t>(truth.sceneIndices[k]));
+    const std::vector<Picture> lit = expose(makeRenderer(white), truth.width, truth.height);
+    const vtkSmartPointer<vtkRenderer> renderer = makeRenderer(white);
+    addShadows(renderer);
+    const std::vector<Picture> shadowed = expose(renderer, truth.width, truth.height);
+    std::vector<ExposedPair> exposures;
+    for (std::size_t i = 0; i < lit.size(); ++i)
+    {
+      exposures.push_back({ lit[i], shadowed[i] });
+    }
+    result.visibility[k] = visibilityFromPictures(exposures);
+  }
+  return result;
+}
+
+} // namespace gnomon::tool

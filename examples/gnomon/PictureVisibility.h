@@ -1,0 +1,44 @@
+#ifndef gnomon_examples_gnomon_PictureVisibility_h
+#define gnomon_examples_gnomon_PictureVisibility_h
+
+#include "ImageFile.h"
+#include "Scene.h"
+
+#include "plugin/VisibilityImages.h"
+
+#include <functional>
+#include <vector>
+
+class vtkRenderer;
+
+namespace gnomon::tool
+{
+
+/// Two pictures of the same white, unspecular, flat surfaces under one light of `exposure` times
+/// the plain brightness: without and with shadows.
+struct ExposedPair
+{
+  Picture lit;
+  Picture shadowed;
+};
+
+/// Visibility as the quotient of two pictures: what the shadows leave of the light.
+///
+/// A picture has only 8 bits and ends at white, so several exposures are taken, from dark to
+/// bright, and each pixel uses the brightest one that is not white without shadows. Where even that
+/// one is black, no light arrives and the visibility is 0. Values above 1 (some passes brighten)
+/// count as 1.
+std::vector<float> visibilityFromPictures(const std::vector<ExposedPair>& exposures);
+
+/// The visibility that `addShadows` gives a scene, read off pictures: for renderers that shade with
+/// visibility but do not hand it out. For each light of the truth, the scene is drawn with white
+/// surfaces and this light alone. Translucent models are left out.
+///
+/// @param addShadows gives a new renderer its shadows; called once per light
+/// @return the truth's positions, normals and coverage with the visibility found
+VisibilityImages measureVisibility(const Scene& scene, const VisibilityImages& truth,
+  const std::function<void(vtkRenderer*)>& addShadows);
+
+} // namespace gnomon::tool
+
+#endif

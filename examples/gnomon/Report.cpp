@@ -1,0 +1,84 @@
+#include "Report.h"
+
+#include "Errors.h"
+#include "ReportChart.h"
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <system_error>
+
+namespace gnomon::tool
+{
+namespace
+{
+
+void writeText(const std::filesystem::path& path, const std::string& text)
+{
+  errno = 0;
+  std::ofstream file(path, std::ios::binary | std::ios::trunc);
+  file << text;
+  file.close();
+  if (!file)
+  {
+    throw Failure(path.string() + ": writing failed: " + std::strerror(errno));
+  }
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+std::string fileStem(const std::string& variantName)
+{
+  std::string stem;
+  for (char letter : variantName)
+  {
+    const bool plain = (letter >= 'a' && letter <= 'z') || (letter >= 'A' && letter <= 'Z') ||
+      (letter >= '0' && letter <= '9') || letter == '_' || letter == '-';
+    stem += plain ? letter : '-';
+  }
+  return stem;
+}
+
+//------------------------------------------------------------------------------
+void prepareReportFolder(const std::string& folder)
+{
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error)
+  {
+    throw BadInput(folder + ": the folder cannot be made: " + error.message());
+  }
+  if (!std::filesystem::is_directory(folder, error))
+  {
+    throw BadInput(folder + ": is not a folder, expected one for the report");
+  }
+  const std::filesystem::path probe = std::filesystem::path(folder) / "report.html";
+  errno = 0;
+  const std::ofstream file(probe, std::ios::app);
+  if (!file)
+  {
+    throw BadInput(probe.string() + ": cannot be written: " + std::strerror(errno));
+  }
+}
+
+//------------------------------------------------------------------------------
+void writeReport(const ComparisonResults& results, const std::string& folder)
+{
+  prepareReportFolder(folder);
+  const std::filesystem::path base(folder);
+  for (const VariantResult& variant : results.variants)
+  {
+    const std::string stem = fileStem(variant.name);
+    writePicture(variant.picture, (base / (stem + ".png")).string());
+    writePicture(variant.errors, (base / (stem + "-errors.png")).string());
+  }
+  const Picture chart = drawChart(results);
+  writePicture(chart, (base / "chart.png").string());
+  writeText(base / "results.csv", toCsv(results));
+  writeText(base / "results.json", toJson(results));
+  writeText(base / "report.html", toHtml(results, chart));
+}
+
+} // namespace gnomon::tool

@@ -1,0 +1,360 @@
+#include "ReportChart.h"
+
+#include "plugin/vtkGnomonEGLRenderWindow.h"
+
+#include <vtkAxis.h>
+#include <vtkBrush.h>
+#include <vtkChartXY.h>
+#include <vtkContext2D.h>
+#include <vtkContextActor.h>
+#include <vtkContextItem.h>
+#include <vtkContextScene.h>
+#include <vtkDoubleArray.h>
+#include <vtkNew.h>
+#include <vtkObjectFactory.h>
+#include <vtkPen.h>
+#include <vtkPlotLine.h>
+#include <vtkPlotPoints.h>
+#include <vtkRenderer.h>
+#include <vtkStringArray.h>
+#include <vtkTable.h>
+#include <vtkTextProperty.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <sstream>
+
+namespace gnomon::tool
+{
+namespace
+{
+
+constexpr int chartWidth = 1100;
+constexpr int chartHeight = 640;
+
+using Colour = std::array<unsigned char, 3>;
+
+/// Ten colours that differ from each other and from a white ground.
+Colour variantColour(std::size_t index)
+{
+  static constexpr std::array<Colour, 10> palette = { { { { 31, 119, 180 } }, { { 214, 39, 40 } },
+    { { 44, 160, 44 } }, { { 148, 103, 189 } }, { { 255, 127, 14 } }, { { 23, 190, 207 } },
+    { { 140, 86, 75 } }, { { 227, 119, 194 } }, { { 127, 127, 127 } }, { { 188, 189, 34 } } } };
+  return palette[index % palette.size()];
+}
+
+int motionMarker(Motion motion)
+{
+  switch (motion)
+  {
+    case Motion::Camera:
+      return vtkPlotPoints::DIAMOND;
+    case Motion::Light:
+      return vtkPlotPoints::SQUARE;
+    case Motion::Static:
+      break;
+  }
+  return vtkPlotPoints::CIRCLE;
+}
+
+/// The largest (direction < 0) or smallest (direction > 0) of ..., 0.1, 0.2, 0.5, 1, 2, 5, 10, ...
+/// that is not inside the value.
+double roundToStep(double value, int direction)
+{
+  const double decade = std::pow(10.0, std::floor(std::log10(value)));
+  static constexpr double steps[] = { 1.0, 2.0, 5.0, 10.0 };
+  double result = steps[direction < 0 ? 0 : 3] * decade;
+  for (double step : steps)
+  {
+    if (direction < 0 && step * decade <= value)
+    {
+      result = std::max(result, step * decade);
+    }
+    if (direction > 0 && step * decade >= value)
+    {
+      result = std::min(result, step * decade);
+    }
+  }
+  return result;
+}
+
+std::string shortNumber(double value)
+{
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text << value;
+  return text.str();
+}
+
+/// Writes the variants' names beside their points, moved where they would cover each other.
+class PointLabels : public vtkContextItem
+{
+public:
+  static PointLabels* New();
+  vtkTypeMacro(PointLabels, vtkContextItem);
+
+  struct Label
+  {
+    std::string text;
+    Colour colour;
+    double x; ///< axis coordinates of the point
+    double y;
+  };
+  std::vector<Label> labels;
+  /// Further points that labels keep clear of, in axis coordinates.
+  std::vector<std::array<double, 2>> points;
+  vtkAxis* xAxis = nullptr;
+  vtkAxis* yAxis = nullptr;
+
+  bool Paint(vtkContext2D* painter) override
+  {
+    std::vector<Box> taken;
+    for (const std::array<double, 2>& point : this->points)
+    {
+      const float x = pixel(this->xAxis, point[0], 0);
+      const float y = pixel(this->yAxis, point[1], 1);
+      taken.push_back({ x - 8.0f, y - 8.0f, x + 8.0f, y + 8.0f });
+    }
+    painter->GetTextProp()->SetFontSize(14);
+    painter->GetTextProp()->SetJustificationToLeft();
+    painter->GetTextProp()->SetVerticalJustificationToBottom();
+    for (const Label& label : this->labels)
+    {
+      float bounds[4] = { 0.0f, 0.0f, 0.0f, 0.0f };
+      painter->ComputeStringBounds(label.text, bounds);
+      const float x = pixel(this->xAxis, label.x, 0);
+      const float y = pixel(this->yAxis, label.y, 1);
+      const Box box = this->place(x, y, bounds[2], bounds[3], taken);
+      taken.push_back(box);
+      painter->GetPen()->SetColor(label.colour[0], label.colour[1], label.colour[2], 110);
+      painter->GetPen()->SetWidth(1.0f);
+      painter->DrawLine(x, y, std::clamp(x, box.left, box.right), std::clamp(y, box.low, box.high));
+      painter->GetTextProp()->SetColor(
+        label.colour[0] / 255.0, label.colour[1] / 255.0, label.colour[2] / 255.0);
+      painter->DrawString(box.left + 2.0f, box.low + 2.0f, label.text);
+    }
+    return true;
+  }
+
+private:
+  struct Box
+  {
+    float left, low, right, high;
+    bool overlaps(const Box& other) const
+    {
+      return this->left < other.right && other.left < this->right && this->low < other.high &&
+        other.low < this->high;
+    }
+  };
+
+  static float pixel(vtkAxis* axis, double value, int component)
+  {
+    const double share = (value - axis->GetMinimum()) / (axis->GetMaximum() - axis->GetMinimum());
+    const float first = axis->GetPosition1()[component];
+    const float last = axis->GetPosition2()[component];
+    return first + static_cast<float>(share) * (last - first);
+  }
+
+  /// The nearest free place for a text of this size: right of the point, above it or below it,
+  /// further away step by step. The last try stands when everything is taken.
+  Box place(float x, float y, float width, float height, const std::vector<Box>& taken) const
+  {
+    const float boxWidth = width + 4.0f;
+    const float boxHeight = height + 4.0f;
+    const float leftmost = this->xAxis->GetPosition1().GetX();
+    const float rightmost = this->xAxis->GetPosition2().GetX() - boxWidth;
+    const float lowest = this->yAxis->GetPosition1().GetY();
+    const float highest = this->yAxis->GetPosition2().GetY() - boxHeight;
+    Box box{ 0.0f, 0.0f, 0.0f, 0.0f };
+    for (int ring = 0; ring < 12; ++ring)
+    {
+      const float away = 12.0f + 18.0f * static_cast<float>(ring);
+      const std::array<std::array<float, 2>, 5> candidates = {
+        { { { x + away, y - boxHeight / 2 } }, { { x - boxWidth / 2, y + away } },
+          { { x - boxWidth / 2, y - away - boxHeight } }, { { x + 12.0f, y + away } },
+          { { x + 12.0f, y - away - boxHeight } } }
+      };
+      for (const std::array<float, 2>& candidate : candidates)
+      {
+        const float left = std::clamp(candidate[0], leftmost, std::max(leftmost, rightmost));
+        const float low = std::clamp(candidate[1], lowest, std::max(lowest, highest));
+        box = { left, low, left + boxWidth, low + boxHeight };
+        if (std::none_of(
+              taken.begin(), taken.end(), [&box](const Box& other) { return box.overlaps(other); }))
+        {
+          return box;
+        }
+      }
+    }
+    return box;
+  }
+};
+vtkStandardNewMacro(PointLabels);
+
+vtkSmartPointer<vtkTable> pointTable(const std::vector<std::array<double, 2>>& points)
+{
+  auto table = vtkSmartPointer<vtkTable>::New();
+  for (int column = 0; column < 2; ++column)
+  {
+    vtkNew<vtkDoubleArray> values;
+    values->SetName(column == 0 ? "x" : "y");
+    for (const std::array<double, 2>& point : points)
+    {
+      values->InsertNextValue(point[static_cast<std::size_t>(column)]);
+    }
+    table->AddColumn(values);
+  }
+  return table;
+}
+
+void setUpAxis(vtkAxis* axis, const LogScale& scale, const char* title)
+{
+  vtkNew<vtkDoubleArray> positions;
+  vtkNew<vtkStringArray> labels;
+  for (const LogTick& tick : scale.ticks())
+  {
+    positions->InsertNextValue(tick.position);
+    labels->InsertNextValue(tick.label);
+  }
+  axis->SetTitle(title);
+  axis->SetBehavior(vtkAxis::FIXED);
+  axis->SetRange(scale.lower(), scale.upper());
+  axis->SetCustomTickPositions(positions, labels);
+  axis->GetTitleProperties()->SetFontSize(15);
+  axis->GetTitleProperties()->BoldOff();
+  axis->GetLabelProperties()->SetFontSize(13);
+  axis->GetGridPen()->SetColor(225, 225, 225);
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+LogScale::LogScale(const std::vector<double>& values, const std::string& unit)
+{
+  double smallest = 0.0; // of the positive ones
+  double largest = 0.0;
+  bool hasZero = false;
+  for (double value : values)
+  {
+    hasZero = hasZero || value == 0.0;
+    if (value > 0.0)
+    {
+      smallest = smallest > 0.0 ? std::min(smallest, value) : value;
+      largest = std::max(largest, value);
+    }
+  }
+  if (smallest == 0.0) // only zeros: an axis is needed all the same
+  {
+    smallest = 0.1;
+    largest = 1.0;
+  }
+  const double first = roundToStep(smallest, -1);
+  double last = roundToStep(largest, +1);
+  last = last > first ? last : 10.0 * first;
+  this->lower_ = std::log10(first);
+  this->upper_ = std::log10(last);
+
+  const bool wide = this->upper_ - this->lower_ > 2.5;
+  for (double decade = std::pow(10.0, std::floor(this->lower_)); decade <= last * 1.001;
+       decade *= 10.0)
+  {
+    for (double step : { 1.0, 2.0, 5.0 })
+    {
+      const double value = step * decade;
+      if (value >= first * 0.999 && value <= last * 1.001 && (step == 1.0 || !wide))
+      {
+        this->ticks_.push_back({ std::log10(value), shortNumber(value) + unit });
+      }
+    }
+  }
+  const double margin = 0.04 * (this->upper_ - this->lower_);
+  this->zero_ = this->lower_ - std::min(1.0, 0.15 * (this->upper_ - this->lower_));
+  if (hasZero)
+  {
+    this->ticks_.insert(this->ticks_.begin(), { this->zero_, "0" });
+    this->lower_ = this->zero_;
+  }
+  this->lower_ -= margin;
+  this->upper_ += margin;
+}
+
+//------------------------------------------------------------------------------
+double LogScale::position(double value) const
+{
+  return value > 0.0 ? std::log10(value) : this->zero_;
+}
+
+//------------------------------------------------------------------------------
+Picture drawChart(const ComparisonResults& results)
+{
+  std::vector<double> times;
+  std::vector<double> errors;
+  const auto errorPercent = [](const VariantResult& variant)
+  { return 100.0 * variant.error.share(variant.error.wrongPixels()); };
+  for (const VariantResult& variant : results.variants)
+  {
+    errors.push_back(errorPercent(variant));
+    for (const MotionTiming& timing : variant.timings)
+    {
+      times.push_back(timing.milliseconds);
+    }
+  }
+  const LogScale timeScale(times, " ms");
+  const LogScale errorScale(errors, " %");
+
+  vtkNew<vtkChartXY> chart;
+  chart->SetTitle("Wrong pixels against time per frame\n"
+                  "circle: static, diamond: camera moving, square: light moving");
+  chart->GetTitleProperties()->SetFontSize(16);
+  chart->SetShowLegend(false);
+  setUpAxis(chart->GetAxis(vtkAxis::BOTTOM), timeScale, "time per frame");
+  setUpAxis(chart->GetAxis(vtkAxis::LEFT), errorScale, "wrong pixels");
+
+  vtkNew<PointLabels> labels;
+  labels->xAxis = chart->GetAxis(vtkAxis::BOTTOM);
+  labels->yAxis = chart->GetAxis(vtkAxis::LEFT);
+  for (std::size_t i = 0; i < results.variants.size(); ++i)
+  {
+    const VariantResult& variant = results.variants[i];
+    const Colour colour = variantColour(i);
+    const double y = errorScale.position(errorPercent(variant));
+    std::vector<std::array<double, 2>> points;
+    for (const MotionTiming& timing : variant.timings)
+    {
+      points.push_back({ { timeScale.position(timing.milliseconds), y } });
+    }
+    std::vector<std::array<double, 2>> inOrder = points;
+    std::sort(inOrder.begin(), inOrder.end());
+
+    vtkPlot* const line = chart->AddPlot(vtkChart::LINE);
+    line->SetInputData(pointTable(inOrder), 0, 1);
+    line->SetColor(colour[0], colour[1], colour[2], 130);
+    line->SetWidth(1.5f);
+    for (Motion motion : allMotions)
+    {
+      auto* const marker = vtkPlotPoints::SafeDownCast(chart->AddPlot(vtkChart::POINTS));
+      marker->SetInputData(pointTable({ points[static_cast<std::size_t>(motion)] }), 0, 1);
+      marker->SetMarkerStyle(motionMarker(motion));
+      marker->SetMarkerSize(11.0f);
+      marker->SetColor(colour[0], colour[1], colour[2], 255);
+    }
+    labels->points.insert(labels->points.end(), points.begin(), points.end());
+    labels->labels.push_back({ variant.name, colour, inOrder.back()[0], y });
+  }
+
+  vtkNew<vtkContextActor> actor;
+  vtkNew<vtkRenderer> renderer;
+  renderer->SetBackground(1.0, 1.0, 1.0);
+  renderer->AddActor(actor);
+  actor->GetScene()->SetRenderer(renderer);
+  actor->GetScene()->AddItem(chart);
+  actor->GetScene()->AddItem(labels);
+  vtkNew<vtkGnomonEGLRenderWindow> window;
+  window->SetSize(chartWidth, chartHeight);
+  window->AddRenderer(renderer);
+  window->Render();
+  return capture(window);
+}
+
+} // namespace gnomon::tool

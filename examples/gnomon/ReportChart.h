@@ -1,0 +1,48 @@
+#ifndef gnomon_examples_gnomon_ReportChart_h
+#define gnomon_examples_gnomon_ReportChart_h
+
+#include "Comparison.h"
+
+#include <string>
+#include <vector>
+
+namespace gnomon::tool
+{
+
+/// A tick of an axis whose coordinate is the decimal logarithm of the value.
+struct LogTick
+{
+  double position = 0.0;
+  std::string label;
+};
+
+/// The range and ticks of a logarithmic axis for values of 0 or more. Zero has no logarithm: it
+/// gets a place of its own, one decade below the smallest decade, with the label "0".
+class LogScale
+{
+public:
+  /// @param values what the axis has to show; at least one
+  /// @param unit appended to every label but zero's, e.g. " %"
+  LogScale(const std::vector<double>& values, const std::string& unit);
+
+  /// The axis coordinate of a value.
+  double position(double value) const;
+  double lower() const { return this->lower_; }
+  double upper() const { return this->upper_; }
+  const std::vector<LogTick>& ticks() const { return this->ticks_; }
+
+private:
+  double lower_ = 0.0;
+  double upper_ = 1.0;
+  double zero_ = 0.0;
+  std::vector<LogTick> ticks_;
+};
+
+/// Error against time, both logarithmic: every variant has a colour, a label and one point per
+/// motion, joined by a line. Drawn with VTK's charts in a window without a display.
+/// @throws Failure when no OpenGL context can be made
+Picture drawChart(const ComparisonResults& results);
+
+} // namespace gnomon::tool
+
+#endif

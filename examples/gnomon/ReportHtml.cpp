@@ -1,0 +1,302 @@
+#include "Report.h"
+
+#include "ReportTemplate.h" // generated from ReportTemplate.html
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace gnomon::tool
+{
+namespace
+{
+
+/// Text as HTML and XML show it. Bytes that no XML may hold become '?'.
+std::string escape(const std::string& text)
+{
+  std::string result;
+  for (char letter : text)
+  {
+    switch (letter)
+    {
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      default:
+        result += static_cast<unsigned char>(letter) < 0x20 ? '?' : letter;
+    }
+  }
+  return result;
+}
+
+std::string base64(const std::vector<unsigned char>& bytes)
+{
+  static constexpr char letters[] =
+    "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3)
+  {
+    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
+    unsigned int group = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      group = group << 8 | (k < count ? bytes[i + k] : 0u);
+    }
+    for (std::size_t k = 0; k < 4; ++k)
+    {
+      text += k <= count ? letters[group >> (18 - 6 * k) & 63u] : '=';
+    }
+  }
+  return text;
+}
+
+std::string dataUri(const Picture& picture)
+{
+  return "data:image/png;base64," + base64(encodePng(picture));
+}
+
+/// A number with so many digits after the point.
+std::string fixed(double value, int digits)
+{
+  char text[64];
+  std::snprintf(text, sizeof(text), "%.*f", digits, value);
+  return text;
+}
+
+/// Three significant digits, without an exponent.
+std::string threeDigits(double value)
+{
+  if (value == 0.0 || !std::isfinite(value))
+  {
+    return value == 0.0 ? "0" : "-";
+  }
+  const int magnitude = static_cast<int>(std::floor(std::log10(std::fabs(value))));
+  return fixed(value, std::clamp(2 - magnitude, 0, 9));
+}
+
+std::string percent(double share)
+{
+  return threeDigits(100.0 * share) + " %";
+}
+
+std::string megabytes(double bytes)
+{
+  return fixed(bytes / (1024.0 * 1024.0), 1) + " MB";
+}
+
+std::string cell(const std::string& value, const std::string& detail = {})
+{
+  return "<td>" + escape(value) +
+    (detail.empty() ? std::string() : "<small>" + escape(detail) + "</small>") + "</td>";
+}
+
+std::string heading(const std::vector<std::string>& names)
+{
+  std::string row = "<thead><tr>";
+  for (const std::string& name : names)
+  {
+    row += "<th>" + escape(name) + "</th>";
+  }
+  return row + "</tr></thead>\n";
+}
+
+/// A share of the pixels that count, with the number of pixels below.
+std::string pixelCell(const VisibilityError& error, std::int64_t pixels)
+{
+  return cell(percent(error.share(pixels)), std::to_string(pixels));
+}
+
+std::string errorTable(const ComparisonResults& results)
+{
+  const auto plain = std::find_if(results.variants.begin(), results.variants.end(),
+    [](const VariantResult& variant) { return variant.technique == plainTechnique; });
+  std::string html = "<table>\n" +
+    heading({ "Variant", "Wrong pixels", "False light", "False shadow", "Mean error", "RMS error",
+      "Neither lit nor dark", "Traced", "Frame, static", "Frame, camera moving",
+      "Frame, light moving", "Memory" }) +
+    "<tbody>\n";
+  for (const VariantResult& variant : results.variants)
+  {
+    const VisibilityError& error = variant.error;
+    html += "<tr>" + cell(variant.name) + pixelCell(error, error.wrongPixels()) +
+      pixelCell(error, error.falseLight) + pixelCell(error, error.falseShadow) +
+      cell(threeDigits(error.meanAbsolute)) + cell(threeDigits(error.rootMeanSquare)) +
+      pixelCell(error, error.betweenPixels) + pixelCell(error, variant.tracedPixels);
+    for (std::size_t motion = 0; motion < allMotions.size(); ++motion)
+    {
+      const double milliseconds = variant.timings[motion].milliseconds;
+      const double reference =
+        plain != results.variants.end() ? plain->timings[motion].milliseconds : 0.0;
+      html += cell(fixed(milliseconds, 1) + " ms",
+        reference > 0.0 ? fixed(milliseconds / reference, 2) + " x plain" : std::string());
+    }
+    const VariantMemory& memory = variant.memory;
+    html +=
+      cell(
+        megabytes(static_cast<double>(memory.occluders + memory.bvh + memory.maps + memory.images)),
+        "grew by " + megabytes(static_cast<double>(memory.residentGrowth))) +
+      "</tr>\n";
+  }
+  return html + "</tbody>\n</table>";
+}
+
+std::string stageTable(const ComparisonResults& results)
+{
+  std::vector<std::string> names;
+  for (const VariantResult& variant : results.variants)
+  {
+    for (const MotionTiming& timing : variant.timings)
+    {
+      for (const auto& [name, milliseconds] : timing.stages)
+      {
+        if (std::find(names.begin(), names.end(), name) == names.end())
+        {
+          names.push_back(name);
+        }
+      }
+    }
+  }
+  if (names.empty())
+  {
+    return "<p>No variant has stages.</p>";
+  }
+  std::vector<std::string> columns = { "Variant", "Motion" };
+  columns.insert(columns.end(), names.begin(), names.end());
+  columns.push_back("Explained");
+  std::string html = "<table>\n" + heading(columns) + "<tbody>\n";
+  for (const VariantResult& variant : results.variants)
+  {
+    for (Motion motion : allMotions)
+    {
+      const MotionTiming& timing = variant.timings[static_cast<std::size_t>(motion)];
+      if (timing.stages.empty())
+      {
+        continue;
+      }
+      html += "<tr>" + cell(variant.name) + cell(motionName(motion));
+      for (const std::string& name : names)
+      {
+        const auto stage = std::find_if(timing.stages.begin(), timing.stages.end(),
+          [&name](const auto& candidate) { return candidate.first == name; });
+        html += cell(stage != timing.stages.end() ? fixed(stage->second, 2) : std::string());
+      }
+      html += cell(fixed(100.0 * timing.stageShare, 0) + " %") + "</tr>\n";
+    }
+  }
+  return html + "</tbody>\n</table>";
+}
+
+std::string sourceTable(const ComparisonResults& results)
+{
+  std::string html = "<table class=\"text\">\n<tbody>\n";
+  for (const VariantResult& variant : results.variants)
+  {
+    html += "<tr>" + cell(variant.name) + cell(variant.errorSource) + "</tr>\n";
+  }
+  return html + "</tbody>\n</table>";
+}
+
+std::string settingsTable(const ComparisonResults& results)
+{
+  std::string html = "<table class=\"text\">\n<tbody>\n";
+  for (const auto& [name, value] : results.settings)
+  {
+    html += "<tr>" + cell(name) + cell(value) + "</tr>\n";
+  }
+  return html + "</tbody>\n</table>";
+}
+
+std::string noteList(const ComparisonResults& results)
+{
+  std::string items;
+  for (const std::string& note : results.notes)
+  {
+    items += "<li>" + escape(note) + "</li>\n";
+  }
+  for (const VariantResult& variant : results.variants)
+  {
+    for (const std::string& note : variant.notes)
+    {
+      items += "<li><b>" + escape(variant.name) + "</b>: " + escape(note) + "</li>\n";
+    }
+  }
+  return items.empty() ? std::string() : "<ul>\n" + items + "</ul>\n";
+}
+
+std::string pictureGrid(const ComparisonResults& results)
+{
+  std::string html;
+  for (const VariantResult& variant : results.variants)
+  {
+    const std::string name = escape(variant.name);
+    const std::string wrong = percent(variant.error.share(variant.error.wrongPixels()));
+    html += "<div class=\"pair\">\n<h3>" + name + "</h3>\n<figure><img alt=\"" + name +
+      "\" src=\"" + dataUri(variant.picture) + "\" /></figure>\n<figure><img alt=\"" + name +
+      ": errors\" src=\"" + dataUri(variant.errors) + "\" /><figcaption>" + wrong +
+      " wrong pixels</figcaption></figure>\n</div>\n";
+  }
+  return html;
+}
+
+std::string summary(const ComparisonResults& results)
+{
+  return std::to_string(results.triangles) + " triangles, " + std::to_string(results.lights) +
+    (results.lights == 1 ? " light that casts shadows, " : " lights that cast shadows, ") +
+    std::to_string(results.width) + " x " + std::to_string(results.height) + " pixels, " +
+    std::to_string(results.variants.size()) + " variants.";
+}
+
+/// Replaces every {{name}} of the template by its value.
+std::string fill(const std::string& text, const std::map<std::string, std::string>& values)
+{
+  std::string result;
+  std::size_t position = 0;
+  for (std::size_t open = text.find("{{"); open != std::string::npos;
+       open = text.find("{{", position))
+  {
+    const std::size_t close = text.find("}}", open);
+    result.append(text, position, open - position);
+    result += values.at(text.substr(open + 2, close - open - 2));
+    position = close + 2;
+  }
+  return result.append(text, position);
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+std::string toHtml(const ComparisonResults& results, const Picture& chart)
+{
+  return fill(ReportTemplate,
+    {
+      { "scene", escape(results.scene) },
+      { "summary", escape(summary(results)) },
+      { "truth", escape(results.truth) },
+      { "table", errorTable(results) },
+      { "notes", noteList(results) },
+      { "dark", fixed(static_cast<double>(VisibilityError::darkBelow), 1) },
+      { "lit", fixed(static_cast<double>(VisibilityError::litAbove), 1) },
+      { "frames", std::to_string(results.frames) },
+      { "chart", dataUri(chart) },
+      { "pictures", pictureGrid(results) },
+      { "stages", stageTable(results) },
+      { "sources", sourceTable(results) },
+      { "settings", settingsTable(results) },
+    });
+}
+
+} // namespace gnomon::tool

@@ -1,0 +1,266 @@
+#include "Report.h"
+
+#include "Errors.h"
+#include "ReportChart.h"
+#include "SyntheticResults.h"
+#include "TestFiles.h"
+
+#include <vtkNew.h>
+#include <vtkXMLDataElement.h>
+#include <vtkXMLDataParser.h>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <regex>
+#include <sstream>
+
+namespace gnomon::tool
+{
+namespace
+{
+
+/// One line of a CSV file as its cells.
+std::vector<std::string> cells(const std::string& line)
+{
+  std::vector<std::string> result(1);
+  bool quoted = false;
+  for (std::size_t i = 0; i < line.size(); ++i)
+  {
+    if (line[i] == '"')
+    {
+      if (quoted && i + 1 < line.size() && line[i + 1] == '"')
+      {
+        result.back() += '"';
+        ++i;
+      }
+      else
+      {
+        quoted = !quoted;
+      }
+    }
+    else if (line[i] == ',' && !quoted)
+    {
+      result.emplace_back();
+    }
+    else
+    {
+      result.back() += line[i];
+    }
+  }
+  return result;
+}
+
+std::vector<std::vector<std::string>> table(const std::string& csv)
+{
+  std::vector<std::vector<std::string>> rows;
+  std::istringstream text(csv);
+  for (std::string line; std::getline(text, line);)
+  {
+    EXPECT_EQ(line.back(), '\r');
+    line.pop_back();
+    rows.push_back(cells(line));
+  }
+  return rows;
+}
+
+std::size_t column(const std::vector<std::vector<std::string>>& rows, const std::string& name)
+{
+  const auto found = std::find(rows[0].begin(), rows[0].end(), name);
+  EXPECT_NE(found, rows[0].end()) << name;
+  return static_cast<std::size_t>(found - rows[0].begin());
+}
+
+TEST(Report, CsvSaysAHundredWrongPixels)
+{
+  const auto rows = table(toCsv(syntheticResults()));
+  ASSERT_EQ(rows.size(), 4u);
+  for (const std::vector<std::string>& row : rows)
+  {
+    EXPECT_EQ(row.size(), rows[0].size());
+  }
+  EXPECT_EQ(rows[2][column(rows, "variant")], "nsm 1024 inline");
+  EXPECT_EQ(rows[2][column(rows, "wrong_pixels")], "100");
+  EXPECT_EQ(rows[2][column(rows, "wrong_share")], "0.1");
+  EXPECT_EQ(rows[2][column(rows, "false_light_pixels")], "60");
+  EXPECT_EQ(rows[2][column(rows, "false_shadow_pixels")], "40");
+  EXPECT_EQ(rows[2][column(rows, "map_size")], "1024");
+  EXPECT_EQ(rows[2][column(rows, "camera_moving_maps_ms")], "8.25");
+  EXPECT_EQ(rows[3][column(rows, "wrong_pixels")], "0");
+  EXPECT_EQ(rows[3][column(rows, "map_size")], "");
+  EXPECT_EQ(rows[3][column(rows, "camera_moving_maps_ms")], "");
+  EXPECT_EQ(rows[3][column(rows, "traced_pixels")], "1000");
+  EXPECT_EQ(rows[3][column(rows, "light_moving_ms")], "180");
+}
+
+TEST(Report, CsvQuotesWhatNeedsIt)
+{
+  ComparisonResults results = syntheticResults();
+  results.variants[1].name = "a, \"b\"";
+  const auto rows = table(toCsv(results));
+  EXPECT_EQ(rows[2][0], "a, \"b\"");
+  EXPECT_EQ(rows[2].size(), rows[0].size());
+}
+
+TEST(Report, JsonSaysAHundredWrongPixels)
+{
+  const nlohmann::json json = nlohmann::json::parse(toJson(syntheticResults()));
+  EXPECT_EQ(json.at("scene"), "floor & <half> shadow");
+  EXPECT_EQ(json.at("triangles"), 12345);
+  EXPECT_EQ(json.at("settings").at("VTK"), "9.1");
+  const nlohmann::json& nsm = json.at("variants").at(1);
+  EXPECT_EQ(nsm.at("name"), "nsm 1024 inline");
+  EXPECT_EQ(nsm.at("error").at("wrong_pixels"), 100);
+  EXPECT_EQ(nsm.at("error").at("false_light_pixels"), 60);
+  EXPECT_EQ(nsm.at("error").at("false_shadow_pixels"), 40);
+  EXPECT_EQ(nsm.at("error").at("facing_pixels"), 1000);
+  EXPECT_EQ(nsm.at("times").at("light_moving").at("frame_ms"), 108.0);
+  EXPECT_EQ(nsm.at("times").at("static").at("stages_ms").at("maps"), 8.25);
+  EXPECT_EQ(json.at("variants").at(2).at("error").at("wrong_pixels"), 0);
+}
+
+/// The report with a small stand-in for the chart.
+std::string syntheticHtml()
+{
+  return toHtml(syntheticResults(), greyPicture(4, 4));
+}
+
+TEST(Report, HtmlSaysAHundredWrongPixels)
+{
+  const std::string html = syntheticHtml();
+  EXPECT_NE(html.find("<tr><td>nsm 1024 inline</td><td>10.0 %<small>100</small></td>"
+                      "<td>6.00 %<small>60</small></td><td>4.00 %<small>40</small></td>"),
+    std::string::npos);
+  EXPECT_NE(html.find("<tr><td>raytraced</td><td>0 %<small>0</small></td>"), std::string::npos);
+  EXPECT_NE(html.find("floor &amp; &lt;half&gt; shadow"), std::string::npos);
+  EXPECT_NE(html.find("36.0 ms<small>1.20 x plain</small>"), std::string::npos);
+  EXPECT_NE(html.find("A limit, of &quot;some&quot; kind."), std::string::npos);
+  EXPECT_EQ(html.find("{{"), std::string::npos);
+}
+
+TEST(Report, HtmlNeedsNoOtherFileAndNoNetwork)
+{
+  const std::string html = syntheticHtml();
+  EXPECT_EQ(html.find("http"), std::string::npos);
+  EXPECT_EQ(html.find("url("), std::string::npos);
+  EXPECT_EQ(html.find("@import"), std::string::npos);
+  EXPECT_EQ(html.find("<script"), std::string::npos);
+  EXPECT_EQ(html.find("<link"), std::string::npos);
+  EXPECT_EQ(html.find("href="), std::string::npos);
+  const std::regex source("src=\"([^\"]{0,22})");
+  int images = 0;
+  for (std::sregex_iterator match(html.begin(), html.end(), source), end; match != end; ++match)
+  {
+    EXPECT_EQ((*match)[1], "data:image/png;base64,");
+    ++images;
+  }
+  EXPECT_EQ(images, 7); // the chart, and two pictures for each of three variants
+}
+
+TEST(Report, HtmlIsWellFormed)
+{
+  std::istringstream html(syntheticHtml());
+  vtkNew<vtkXMLDataParser> parser;
+  parser->SetStream(&html);
+  ASSERT_EQ(parser->Parse(), 1);
+  EXPECT_STREQ(parser->GetRootElement()->GetName(), "html");
+}
+
+TEST(Report, HtmlHoldsThePicturesThemselves)
+{
+  // The base64 of a known PNG begins with that of its signature and ends with that of its end mark.
+  const std::string html = syntheticHtml();
+  EXPECT_NE(html.find("base64,iVBORw0KGgo"), std::string::npos);
+  EXPECT_NE(html.find("ErkJggg==\""), std::string::npos);
+}
+
+TEST(Report, WritesEveryFile)
+{
+  const TestFolder folder;
+  const std::string target = folder / "new/report";
+  writeReport(syntheticResults(), target);
+  for (const char* name : { "results.csv", "results.json", "report.html", "chart.png",
+         "plain-VTK.png", "plain-VTK-errors.png", "nsm-1024-inline.png",
+         "nsm-1024-inline-errors.png", "raytraced.png", "raytraced-errors.png" })
+  {
+    EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(target) / name)) << name;
+  }
+  const Picture errors = readPicture(target + "/nsm-1024-inline-errors.png");
+  int red = 0;
+  int blue = 0;
+  for (std::size_t i = 0; i < errors.pixelCount(); ++i)
+  {
+    red += errors.rgb[3 * i] == 255;
+    blue += errors.rgb[3 * i + 2] == 255;
+  }
+  EXPECT_EQ(blue, 60);
+  EXPECT_EQ(red, 40);
+}
+
+TEST(Report, AFolderThatCannotBeMadeIsBadInput)
+{
+  const TestFolder folder;
+  writeBytes(folder / "file", "text");
+  EXPECT_THROW(prepareReportFolder(folder / "file"), BadInput);
+  EXPECT_THROW(prepareReportFolder(folder / "file/below"), BadInput);
+}
+
+TEST(ReportChart, ScaleHoldsItsValuesAndZero)
+{
+  const LogScale scale({ 0.0, 0.034, 1.7, 28.0 }, " %");
+  EXPECT_DOUBLE_EQ(scale.position(1.0), 0.0);
+  EXPECT_DOUBLE_EQ(scale.position(10.0), 1.0);
+  EXPECT_LT(scale.position(0.0), scale.position(0.034));
+  EXPECT_LT(scale.lower(), scale.position(0.0));
+  EXPECT_GT(scale.upper(), scale.position(28.0));
+  EXPECT_EQ(scale.ticks().front().label, "0");
+  EXPECT_EQ(scale.ticks()[1].label, "0.1 %");
+  EXPECT_EQ(scale.ticks().back().label, "10 %");
+}
+
+TEST(ReportChart, ScaleOfEqualOrNoValuesIsStillAnAxis)
+{
+  for (const std::vector<double>& values :
+    { std::vector<double>{ 10.0, 10.0 }, std::vector<double>{ 0.0 }, std::vector<double>{} })
+  {
+    const LogScale scale(values, "");
+    EXPECT_GT(scale.upper(), scale.lower());
+    EXPECT_GE(scale.ticks().size(), 2u);
+    for (double value : values)
+    {
+      EXPECT_GT(scale.position(value), scale.lower());
+      EXPECT_LT(scale.position(value), scale.upper());
+    }
+  }
+}
+
+/// Pixels of a chart that have a variant's colour.
+std::size_t pixelsOf(const Picture& chart, int red, int green, int blue)
+{
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < chart.pixelCount(); ++i)
+  {
+    count +=
+      chart.rgb[3 * i] == red && chart.rgb[3 * i + 1] == green && chart.rgb[3 * i + 2] == blue;
+  }
+  return count;
+}
+
+TEST(ReportChart, DrawsThePointsOfEveryVariant)
+{
+  const TestFolder folder;
+  const char* const keep = std::getenv("GNOMON_KEEP_CHART"); // a path, for looking at it
+  const std::string path = keep ? keep : folder / "chart.png";
+  writePicture(drawChart(syntheticResults()), path);
+  const Picture chart = readPicture(path);
+  // Three markers of some 60 pixels each, and a label.
+  EXPECT_GT(pixelsOf(chart, 31, 119, 180), 150u);
+  EXPECT_GT(pixelsOf(chart, 214, 39, 40), 150u);
+  EXPECT_GT(pixelsOf(chart, 44, 160, 44), 150u);
+  EXPECT_EQ(pixelsOf(chart, 148, 103, 189), 0u); // there is no fourth variant
+  EXPECT_GT(pixelsOf(chart, 255, 255, 255), chart.pixelCount() / 2);
+}
+
+} // namespace
+} // namespace gnomon::tool
