@@ -13,6 +13,8 @@
 #include "vtkDataObjectTreeRange.h"
 #include "vtkInformation.h"
 #include "vtkMatrix4x4.h"
+#include "vtkPlane.h"
+#include "vtkPlaneCollection.h"
 #include "vtkPolyData.h"
 #include "vtkPolyDataMapper.h"
 #include "vtkPropAssembly.h"
@@ -23,14 +25,33 @@
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkTexture.h"
 
+#include <glm/gtc/type_ptr.hpp>
+
+#include <algorithm>
 #include <map>
 #include <unordered_map>
 #include <unordered_set>
+#include <utility>
 
 namespace gnomon
 {
 namespace
 {
+
+/// A mapper's clipping planes, as many as VTK applies.
+std::vector<glm::dvec4> clipPlanesOf(vtkMapper* mapper)
+{
+  constexpr int mostPlanes = 6;
+  std::vector<glm::dvec4> planes;
+  const int count = std::min<int>(mapper->GetNumberOfClippingPlanes(), mostPlanes);
+  for (int i = 0; i < count; ++i)
+  {
+    vtkPlane* plane = mapper->GetClippingPlanes()->GetItem(i);
+    const glm::dvec3 normal = glm::make_vec3(plane->GetNormal());
+    planes.emplace_back(normal, -glm::dot(normal, glm::make_vec3(plane->GetOrigin())));
+  }
+  return planes;
+}
 
 /// Mappers that are polydata mappers by type, but draw something else in place of the polygons.
 bool drawsImpostors(vtkMapper* mapper)
@@ -228,6 +249,7 @@ void Finder::addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatr
   prop.path = path;
   prop.actor = actor;
   prop.worldFromModel = toGlm(matrix ? matrix : actor->GetMatrix());
+  prop.clipPlanes = clipPlanesOf(mapper);
   // Assemblies replace the property keys of their parts by their own when they draw.
   prop.casts = vtkGnomonPropKeys::GetCasts(viewProp);
   prop.receives = vtkGnomonPropKeys::GetReceives(viewProp);
@@ -235,7 +257,7 @@ void Finder::addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatr
   prop.firstBlock = this->drawn_.blocks.size();
   this->addBlocks(actor, mapper);
   prop.blockCount = this->drawn_.blocks.size() - prop.firstBlock;
-  this->drawn_.props.push_back(prop);
+  this->drawn_.props.push_back(std::move(prop));
 }
 
 //------------------------------------------------------------------------------

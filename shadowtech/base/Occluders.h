@@ -35,8 +35,9 @@ struct Surface
   std::uint64_t positionsVersion = 0;
 
   /// For the n-th triangle that VTK draws of this surface, the triangle in the snapshot, counted
-  /// from firstTriangle; `noTriangle` for one that was dropped. Empty when none was dropped: then
-  /// the n-th drawn triangle is the n-th of the surface.
+  /// from firstTriangle; `noTriangle` for one that was dropped. Empty when the n-th drawn triangle
+  /// is the n-th of the surface. A triangle that a clipping plane cuts leads to its first piece,
+  /// which lies in the same plane.
   std::vector<std::uint32_t> triangleOfDrawn;
 
   static constexpr std::uint32_t noTriangle = 0xffffffffu;

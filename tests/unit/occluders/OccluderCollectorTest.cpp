@@ -12,6 +12,7 @@
 #include "vtkGlyph3DMapper.h"
 #include "vtkMatrix4x4.h"
 #include "vtkMultiBlockDataSet.h"
+#include "vtkPlane.h"
 #include "vtkPlaneSource.h"
 #include "vtkPointData.h"
 #include "vtkPropAssembly.h"
@@ -424,6 +425,49 @@ TEST(OccluderProps, CastersBoxLeavesOutWhatOnlyReceives)
   const glm::dvec3 centre = scene.occluders().centreWorld;
   expectNear(scene.occluders().castersCentred.upper + centre, { 1, 1, 0 });
   expectNear(scene.occluders().allCentred.upper + centre, { 4, 1, 0 });
+}
+
+TEST(OccluderProps, ClippingPlanesCutTheirSurfaces)
+{
+  Scene scene;
+  const auto actor = makeActor(makeSquare());
+  vtkNew<vtkPlane> plane;
+  plane->SetOrigin(0.5, 0, 0);
+  plane->SetNormal(1, 0, 0);
+  actor->GetMapper()->AddClippingPlane(plane);
+  scene.renderer->AddActor(actor);
+  scene.collect();
+  const auto area = [&scene]
+  {
+    double sum = 0.0;
+    for (std::uint32_t i = 0; i < scene.surface(0).triangleCount; ++i)
+    {
+      const glm::uvec3 triangle = scene.triangle(0, i);
+      const glm::dvec3 a = scene.positionWorld(0, triangle.x);
+      const glm::dvec3 cross =
+        glm::cross(scene.positionWorld(0, triangle.y) - a, scene.positionWorld(0, triangle.z) - a);
+      sum += 0.5 * cross.z; // signed: the pieces keep their orientation
+    }
+    return sum;
+  };
+  EXPECT_NEAR(area(), 0.5, 1e-6);
+  ASSERT_EQ(scene.surface(0).triangleOfDrawn.size(), 2u);
+  expectNear(scene.occluders().allCentred.lower + scene.occluders().centreWorld, { 0.5, 0, 0 });
+  expectNothingDone(scene);
+
+  actor->SetPosition(0.25, 0, 0); // the plane stays where it is in the world
+  scene.collect();
+  EXPECT_NEAR(area(), 0.75, 1e-6);
+  plane->SetOrigin(1, 0, 0);
+  scene.collect();
+  EXPECT_NEAR(area(), 0.25, 1e-6);
+  plane->SetOrigin(2, 0, 0);
+  scene.collect();
+  EXPECT_EQ(scene.surface(0).triangleCount, 0u);
+  EXPECT_EQ(scene.occluders().droppedZeroArea + scene.occluders().droppedNonFinite, 0u);
+  actor->GetMapper()->RemoveAllClippingPlanes();
+  scene.collect();
+  EXPECT_NEAR(area(), 1.0, 1e-6);
 }
 
 // ---- composite data --------------------------------------------------------
