@@ -28,6 +28,7 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include <algorithm>
+#include <cstring>
 #include <map>
 #include <unordered_map>
 #include <unordered_set>
@@ -56,6 +57,10 @@ std::vector<glm::dvec4> clipPlanesOf(vtkMapper* mapper)
 /// Mappers that are polydata mappers by type, but draw something else in place of the polygons.
 bool drawsImpostors(vtkMapper* mapper)
 {
+  if (std::strcmp(mapper->GetClassName(), "vtkOpenGLPolyDataMapper") == 0)
+  {
+    return false; // nearly every mapper, and IsA() compares with all base classes
+  }
   return mapper->IsA("vtkPointGaussianMapper") || mapper->IsA("vtkOpenGLSphereMapper") ||
     mapper->IsA("vtkOpenGLStickMapper");
 }
@@ -63,6 +68,10 @@ bool drawsImpostors(vtkMapper* mapper)
 /// Actors that hand a mapper, theirs or another one, to an actor of their own to draw.
 bool drawsThroughAnother(vtkActor* actor)
 {
+  if (std::strcmp(actor->GetClassName(), "vtkOpenGLActor") == 0)
+  {
+    return false; // nearly every actor, and IsA() compares with all base classes
+  }
   return actor->IsA("vtkFollower") || actor->IsA("vtkLODActor") ||
     actor->IsA("vtkQuadricLODActor") || actor->IsA("vtkSkybox");
 }
@@ -316,7 +325,7 @@ glm::dmat4 toGlm(vtkMatrix4x4* matrix)
   {
     for (int column = 0; column < 4; ++column)
     {
-      result[column][row] = matrix->GetElement(row, column);
+      result[column][row] = matrix->Element[row][column];
     }
   }
   return result;

@@ -24,8 +24,7 @@ struct Surface
 
   bool casts = true;    ///< its triangles block light
   bool receives = true; ///< its pixels are shadowed; else their visibility is 1
-  bool oneSided =
-    false; ///< only triangles whose front (counter-clockwise side) faces the light cast
+  bool oneSided = false; ///< only triangles whose front (counter-clockwise) faces the light cast
 
   /// Changes when the triangles of this surface change (its mapper's input), not when it only gets
   /// another place in the list. Versions are never given twice within a snapshot, so that a surface

@@ -9,6 +9,7 @@
 #include "vtkCompositePolyDataMapper2.h"
 #include "vtkDataArray.h"
 #include "vtkFloatArray.h"
+#include "vtkFollower.h"
 #include "vtkGlyph3DMapper.h"
 #include "vtkMatrix4x4.h"
 #include "vtkMultiBlockDataSet.h"
@@ -193,6 +194,12 @@ TEST(OccluderTriangles, DropsWhatAMatrixFlattensOrBlowsUp)
   EXPECT_EQ(scene.occluders().droppedZeroArea + scene.occluders().droppedNonFinite, 0u);
   EXPECT_EQ(scene.surface(0).triangleCount, 2u);
   EXPECT_TRUE(scene.surface(0).triangleOfDrawn.empty());
+
+  actor->SetScale(1e-80, 1.0, 1.0); // a move may drop what was kept
+  scene.collect();
+  EXPECT_EQ(scene.occluders().droppedZeroArea, 2u);
+  EXPECT_EQ(scene.surface(0).triangleCount, 0u);
+  expectNothingDone(scene);
 }
 
 TEST(OccluderTriangles, DropsTrianglesOfPointsThatAreNotThere)
@@ -311,6 +318,42 @@ TEST(OccluderProps, UnservedMappersAreNoted)
   EXPECT_EQ(scene.surfaceCount(), 0u);
   ASSERT_EQ(scene.collector.notes().size(), 1u);
   EXPECT_NE(scene.collector.notes()[0].find("Glyph3DMapper"), std::string::npos);
+}
+
+TEST(OccluderProps, ActorsThatDrawThroughAnotherAreNoted)
+{
+  Scene scene;
+  for (int i = 0; i < 2; ++i)
+  {
+    vtkNew<vtkFollower> follower;
+    follower->SetMapper(makeActor(makeSquare())->GetMapper());
+    scene.renderer->AddActor(follower);
+  }
+  scene.collect();
+  EXPECT_EQ(scene.surfaceCount(), 0u);
+  ASSERT_EQ(scene.collector.notes().size(), 1u);
+  EXPECT_NE(scene.collector.notes()[0].find("Follower"), std::string::npos);
+  EXPECT_NE(scene.collector.notes()[0].find("2 props"), std::string::npos);
+}
+
+TEST(OccluderProps, AMappersPieceIsAskedFor)
+{
+  Scene scene;
+  vtkNew<vtkSphereSource> sphere;
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputConnection(sphere->GetOutputPort());
+  mapper->SetNumberOfPieces(2);
+  mapper->SetPiece(1);
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  scene.renderer->AddActor(actor);
+  scene.collect();
+  const std::uint32_t half = scene.surface(0).triangleCount;
+  EXPECT_GT(half, 0u);
+  mapper->SetPiece(0);
+  mapper->SetNumberOfPieces(1);
+  scene.collect();
+  EXPECT_EQ(scene.surface(0).triangleCount, 2 * half);
 }
 
 TEST(OccluderProps, AMapperWithoutInputIsNoSurface)
