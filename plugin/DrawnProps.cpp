@@ -13,6 +13,8 @@
 #include "vtkDataObjectTreeRange.h"
 #include "vtkInformation.h"
 #include "vtkMatrix4x4.h"
+#include "vtkPlane.h"
+#include "vtkPlaneCollection.h"
 #include "vtkPolyData.h"
 #include "vtkPolyDataMapper.h"
 #include "vtkPropAssembly.h"
@@ -23,18 +25,42 @@
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkTexture.h"
 
+#include <glm/gtc/type_ptr.hpp>
+
+#include <algorithm>
+#include <cstring>
 #include <map>
 #include <unordered_map>
 #include <unordered_set>
+#include <utility>
 
 namespace gnomon
 {
 namespace
 {
 
+/// A mapper's clipping planes, as many as VTK applies.
+std::vector<glm::dvec4> clipPlanesOf(vtkMapper* mapper)
+{
+  constexpr int mostPlanes = 6;
+  std::vector<glm::dvec4> planes;
+  const int count = std::min<int>(mapper->GetNumberOfClippingPlanes(), mostPlanes);
+  for (int i = 0; i < count; ++i)
+  {
+    vtkPlane* plane = mapper->GetClippingPlanes()->GetItem(i);
+    const glm::dvec3 normal = glm::make_vec3(plane->GetNormal());
+    planes.emplace_back(normal, -glm::dot(normal, glm::make_vec3(plane->GetOrigin())));
+  }
+  return planes;
+}
+
 /// Mappers that are polydata mappers by type, but draw something else in place of the polygons.
 bool drawsImpostors(vtkMapper* mapper)
 {
+  if (std::strcmp(mapper->GetClassName(), "vtkOpenGLPolyDataMapper") == 0)
+  {
+    return false; // nearly every mapper, and IsA() compares with all base classes
+  }
   return mapper->IsA("vtkPointGaussianMapper") || mapper->IsA("vtkOpenGLSphereMapper") ||
     mapper->IsA("vtkOpenGLStickMapper");
 }
@@ -42,6 +68,10 @@ bool drawsImpostors(vtkMapper* mapper)
 /// Actors that hand a mapper, theirs or another one, to an actor of their own to draw.
 bool drawsThroughAnother(vtkActor* actor)
 {
+  if (std::strcmp(actor->GetClassName(), "vtkOpenGLActor") == 0)
+  {
+    return false; // nearly every actor, and IsA() compares with all base classes
+  }
   return actor->IsA("vtkFollower") || actor->IsA("vtkLODActor") ||
     actor->IsA("vtkQuadricLODActor") || actor->IsA("vtkSkybox");
 }
@@ -228,6 +258,7 @@ void Finder::addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatr
   prop.path = path;
   prop.actor = actor;
   prop.worldFromModel = toGlm(matrix ? matrix : actor->GetMatrix());
+  prop.clipPlanes = clipPlanesOf(mapper);
   // Assemblies replace the property keys of their parts by their own when they draw.
   prop.casts = vtkGnomonPropKeys::GetCasts(viewProp);
   prop.receives = vtkGnomonPropKeys::GetReceives(viewProp);
@@ -235,7 +266,7 @@ void Finder::addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatr
   prop.firstBlock = this->drawn_.blocks.size();
   this->addBlocks(actor, mapper);
   prop.blockCount = this->drawn_.blocks.size() - prop.firstBlock;
-  this->drawn_.props.push_back(prop);
+  this->drawn_.props.push_back(std::move(prop));
 }
 
 //------------------------------------------------------------------------------
@@ -294,7 +325,7 @@ glm::dmat4 toGlm(vtkMatrix4x4* matrix)
   {
     for (int column = 0; column < 4; ++column)
     {
-      result[column][row] = matrix->GetElement(row, column);
+      result[column][row] = matrix->Element[row][column];
     }
   }
   return result;

@@ -27,6 +27,8 @@ struct DrawnProp
   std::size_t path = 0;        ///< the path's number among the view prop's paths
   vtkActor* actor = nullptr;
   glm::dmat4 worldFromModel{ 1.0 };
+  /// The mapper's clipping planes in world coordinates: (n, d), n.x + d >= 0 where it draws.
+  std::vector<glm::dvec4> clipPlanes;
 
   bool casts = true;
   bool receives = true;

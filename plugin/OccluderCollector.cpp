@@ -2,6 +2,7 @@
 
 #include "plugin/DrawnProps.h"
 #include "plugin/MapperInternals.h"
+#include "plugin/SurfaceClipping.h"
 #include "plugin/SurfaceExtraction.h"
 
 #include "vtkActor.h"
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <numeric>
 #include <optional>
 #include <unordered_map>
 #include <utility>
@@ -90,6 +92,7 @@ struct SurfaceRecord
   SurfaceKey key;
   vtkMTimeType shapeTime = 0;
   glm::dmat4 worldFromModel{ 1.0 };
+  std::vector<glm::dvec4> clipPlanes;
   std::vector<std::uint32_t> pointOfVertex; ///< as in DrawnTriangles
   std::vector<DroppedTriangle> dropped;
   Bounds boundsModel;
@@ -118,59 +121,71 @@ struct WantedSurface
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
 };
 
-FreshSurface readSurface(const WantedSurface& wanted, vtkMTimeType shapeTime)
+/// The box around the vertices that triangles use.
+template <typename Triangle>
+Bounds boundsOf(Triangle first, Triangle last, const glm::vec3* positions)
 {
-  DrawnTriangles drawn = triangulate(wanted.data, wanted.key.cells);
-  FreshSurface fresh;
-  fresh.record.key = wanted.key;
-  fresh.record.shapeTime = shapeTime;
-  fresh.record.pointOfVertex = std::move(drawn.pointOfVertex);
-  fresh.record.boundsModel = drawn.boundsModel;
-  fresh.positionsCentred.resize(drawn.vertexCount);
-  fresh.triangles = std::move(drawn.triangles);
-  return fresh;
+  Bounds bounds;
+  for (; first != last; ++first)
+  {
+    for (int corner = 0; corner < 3; ++corner)
+    {
+      bounds.add(positions[(*first)[corner]]);
+    }
+  }
+  return bounds;
 }
 
-/// Computes a fresh surface's positions, and drops the triangles that have a defect there.
-void placeSurface(FreshSurface& fresh, const WantedSurface& wanted, const glm::dvec3& centreWorld)
+/// Takes the triangles that have a defect out of a fresh surface.
+void dropDefects(FreshSurface& fresh)
 {
-  SurfaceRecord& record = fresh.record;
-  record.worldFromModel = wanted.prop->worldFromModel;
-  glm::vec3* positions = fresh.positionsCentred.data();
-  placeVertices(wanted.data, record.pointOfVertex, fresh.positionsCentred.size(),
-    record.worldFromModel, centreWorld, positions);
-
   const std::size_t drawnCount = fresh.triangles.size();
   std::uint32_t keptCount = 0;
   for (std::size_t drawn = 0; drawn < drawnCount; ++drawn)
   {
     const glm::uvec3 triangle = fresh.triangles[drawn];
-    const Defect defect = defectOf(triangle, positions);
-    if (defect != Defect::None && fresh.triangleOfDrawn.empty())
+    const Defect defect = defectOf(triangle, fresh.positionsCentred.data());
+    if (defect != Defect::None)
     {
-      fresh.triangleOfDrawn.resize(drawnCount);
-      for (std::size_t before = 0; before < drawn; ++before)
+      if (fresh.triangleOfDrawn.empty())
       {
-        fresh.triangleOfDrawn[before] = static_cast<std::uint32_t>(before);
+        fresh.triangleOfDrawn.resize(drawnCount);
+        std::iota(fresh.triangleOfDrawn.begin(), fresh.triangleOfDrawn.end(), 0u);
       }
+      fresh.triangleOfDrawn[drawn] = Surface::noTriangle;
+      fresh.record.dropped.push_back({ triangle, defect });
+      continue;
     }
     if (!fresh.triangleOfDrawn.empty())
     {
-      fresh.triangleOfDrawn[drawn] = defect == Defect::None ? keptCount : Surface::noTriangle;
-    }
-    if (defect != Defect::None)
-    {
-      record.dropped.push_back({ triangle, defect });
-      continue;
+      fresh.triangleOfDrawn[drawn] = keptCount;
     }
     fresh.triangles[keptCount++] = triangle;
-    for (int corner = 0; corner < 3; ++corner)
-    {
-      record.boundsCentred.add(positions[triangle[corner]]);
-    }
   }
   fresh.triangles.resize(keptCount);
-  clearNonFinite(positions, fresh.positionsCentred.size());
+}
+
+/// Computes a fresh surface's positions, and leaves out what the snapshot does not hold.
+void placeSurface(FreshSurface& fresh, const WantedSurface& wanted, const glm::dvec3& centreWorld)
+{
+  SurfaceRecord& record = fresh.record;
+  record.worldFromModel = wanted.prop->worldFromModel;
+  record.clipPlanes = wanted.prop->clipPlanes;
+  std::vector<glm::vec3>& positions = fresh.positionsCentred;
+  placeVertices(wanted.data, record.pointOfVertex, positions.size(), record.worldFromModel,
+    centreWorld, positions.data());
+  dropDefects(fresh);
+  clearNonFinite(positions.data(), positions.size());
+  if (!record.clipPlanes.empty())
+  {
+    std::vector<glm::dvec4> planesCentred = record.clipPlanes;
+    for (glm::dvec4& plane : planesCentred)
+    {
+      plane.w += glm::dot(glm::dvec3(plane), centreWorld);
+    }
+    clipTriangles(planesCentred, positions, fresh.triangles, fresh.triangleOfDrawn);
+  }
+  record.boundsCentred = boundsOf(fresh.triangles.begin(), fresh.triangles.end(), positions.data());
 }
 
 /// The box around a transformed box.
@@ -212,6 +227,7 @@ private:
 
   std::vector<WantedSurface> wantedSurfaces(const DrawnProps& drawn) const;
   bool chooseCentre(const std::vector<WantedSurface>& wanted);
+  void read(WantedSurface& wanted, vtkMTimeType time);
   Outcome updateSurface(WantedSurface& wanted, bool recentred, Change& change);
   bool transformAgain(const WantedSurface& wanted);
   Outcome overwrite(WantedSurface& wanted);
@@ -223,7 +239,8 @@ private:
   std::uint64_t newVersion() { return ++this->lastVersion_; }
 
   std::uint64_t lastVersion_ = 0;
-  std::vector<SurfaceRecord> records_; ///< one for each of occluders.surfaces
+  std::vector<SurfaceRecord> records_;       ///< one for each of occluders.surfaces
+  std::vector<std::uint32_t> vertexOfPoint_; ///< scratch memory for triangulate()
 
   /// A surface of the snapshot as part of a prop.
   struct HeldSurface
@@ -287,9 +304,9 @@ OccluderCollector::Change OccluderCollector::Impl::collect(vtkRenderer* renderer
     const SurfaceRecord* record =
       surface.old != WantedSurface::none ? &this->records_[surface.old] : nullptr;
     const vtkMTimeType time = shapeTime(surface.data, surface.key.cells);
-    if (!record || record->shapeTime != time)
+    if (!record || record->shapeTime != time || record->clipPlanes != surface.prop->clipPlanes)
     {
-      surface.fresh = std::make_unique<FreshSurface>(readSurface(surface, time));
+      this->read(surface, time);
       ++change.extracted;
     }
     moved = moved || !record || record->worldFromModel != surface.prop->worldFromModel;
@@ -400,9 +417,24 @@ bool OccluderCollector::Impl::chooseCentre(const std::vector<WantedSurface>& wan
 }
 
 //------------------------------------------------------------------------------
+/// Reads a surface from its polydata.
+void OccluderCollector::Impl::read(WantedSurface& wanted, vtkMTimeType time)
+{
+  DrawnTriangles drawn = triangulate(wanted.data, wanted.key.cells, this->vertexOfPoint_);
+  wanted.fresh = std::make_unique<FreshSurface>();
+  wanted.fresh->record.key = wanted.key;
+  wanted.fresh->record.shapeTime = time;
+  wanted.fresh->record.pointOfVertex = std::move(drawn.pointOfVertex);
+  wanted.fresh->record.boundsModel = drawn.boundsModel;
+  wanted.fresh->positionsCentred.resize(drawn.vertexCount);
+  wanted.fresh->triangles = std::move(drawn.triangles);
+}
+
+//------------------------------------------------------------------------------
 OccluderCollector::Impl::Outcome OccluderCollector::Impl::updateSurface(
   WantedSurface& wanted, bool recentred, Change& change)
 {
+  bool maybeSame = wanted.old != WantedSurface::none; // the same triangles
   if (!wanted.fresh)
   {
     const SurfaceRecord& record = this->records_[wanted.old];
@@ -410,16 +442,20 @@ OccluderCollector::Impl::Outcome OccluderCollector::Impl::updateSurface(
     {
       return Outcome::Same;
     }
-    ++change.retransformed;
-    if (this->transformAgain(wanted))
+    if (record.clipPlanes.empty()) // what is cut at planes has other triangles once it moves
     {
-      return Outcome::Moved;
+      ++change.retransformed;
+      if (this->transformAgain(wanted))
+      {
+        return Outcome::Moved;
+      }
     }
-    wanted.fresh = std::make_unique<FreshSurface>(readSurface(wanted, record.shapeTime));
+    this->read(wanted, record.shapeTime);
     ++change.extracted;
+    maybeSame = false;
   }
   placeSurface(*wanted.fresh, wanted, this->occluders.centreWorld);
-  return wanted.old == WantedSurface::none ? Outcome::OtherTriangles : this->overwrite(wanted);
+  return maybeSame ? this->overwrite(wanted) : Outcome::OtherTriangles;
 }
 
 //------------------------------------------------------------------------------
@@ -435,26 +471,18 @@ bool OccluderCollector::Impl::transformAgain(const WantedSurface& wanted)
   placeVertices(wanted.data, record.pointOfVertex, surface.vertexCount, record.worldFromModel,
     this->occluders.centreWorld, own);
 
-  record.boundsCentred = Bounds();
-  for (std::uint32_t i = 0; i < surface.triangleCount; ++i)
+  const auto first = this->occluders.triangles.begin() + surface.firstTriangle;
+  const auto last = first + surface.triangleCount;
+  const bool keptStay = std::all_of(first, last,
+    [all](const glm::uvec3& triangle) { return defectOf(triangle, all) == Defect::None; });
+  const bool droppedStay = std::all_of(record.dropped.begin(), record.dropped.end(),
+    [own](const DroppedTriangle& dropped)
+    { return defectOf(dropped.vertices, own) == dropped.defect; });
+  if (!keptStay || !droppedStay)
   {
-    const glm::uvec3& triangle = this->occluders.triangles[surface.firstTriangle + i];
-    if (defectOf(triangle, all) != Defect::None)
-    {
-      return false;
-    }
-    for (int corner = 0; corner < 3; ++corner)
-    {
-      record.boundsCentred.add(all[triangle[corner]]);
-    }
+    return false;
   }
-  for (const DroppedTriangle& dropped : record.dropped)
-  {
-    if (defectOf(dropped.vertices, own) != dropped.defect)
-    {
-      return false;
-    }
-  }
+  record.boundsCentred = boundsOf(first, last, all);
   clearNonFinite(own, surface.vertexCount);
   surface.positionsVersion = this->newVersion();
   return true;

@@ -119,12 +119,11 @@ void readVertices(vtkPolyData* data, const std::vector<std::uint32_t>& pointOfVe
   withPoints(data->GetPoints()->GetData(), reader);
 }
 
-/// Renumbers triangles from points to the vertices that they use.
-void compact(DrawnTriangles& drawn, std::size_t pointCount)
+/// Renumbers triangles from points to the vertices that they use. Between calls, all of
+/// vertexOfPoint is missingVertex; only the entries in use are set and reset.
+void compact(
+  DrawnTriangles& drawn, std::size_t pointCount, std::vector<std::uint32_t>& vertexOfPoint)
 {
-  // Blocks of one data set may share a large point array, so a block must not pay for all of it
-  // each time: the scratch array stays, and only the entries in use are reset.
-  thread_local std::vector<std::uint32_t> vertexOfPoint;
   if (vertexOfPoint.size() < pointCount)
   {
     vertexOfPoint.resize(pointCount, DrawnTriangles::missingVertex);
@@ -187,7 +186,8 @@ vtkMTimeType shapeTime(vtkPolyData* data, SurfaceCells cells)
 }
 
 //------------------------------------------------------------------------------
-DrawnTriangles triangulate(vtkPolyData* data, SurfaceCells cells)
+DrawnTriangles triangulate(
+  vtkPolyData* data, SurfaceCells cells, std::vector<std::uint32_t>& vertexOfPoint)
 {
   DrawnTriangles drawn;
   vtkCellArray* array = cellArray(data, cells);
@@ -196,7 +196,7 @@ DrawnTriangles triangulate(vtkPolyData* data, SurfaceCells cells)
   Triangulator triangulator{ array, cells, drawn.triangles };
   withPoints(data->GetPoints()->GetData(), triangulator);
 
-  compact(drawn, static_cast<std::size_t>(data->GetNumberOfPoints()));
+  compact(drawn, static_cast<std::size_t>(data->GetNumberOfPoints()), vertexOfPoint);
   readVertices(data, drawn.pointOfVertex, drawn.vertexCount,
     [&drawn](std::size_t, const glm::dvec3& position)
     {

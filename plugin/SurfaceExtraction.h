@@ -46,7 +46,11 @@ struct DrawnTriangles
 
   static constexpr std::uint32_t missingVertex = 0xffffffffu;
 };
-DrawnTriangles triangulate(vtkPolyData* data, SurfaceCells cells);
+
+/// @param vertexOfPoint scratch memory, the same for many calls: blocks of one data set may share a
+/// large point array, and none of them has to pay for all of it
+DrawnTriangles triangulate(
+  vtkPolyData* data, SurfaceCells cells, std::vector<std::uint32_t>& vertexOfPoint);
 
 /// Why a drawn triangle has no place in the snapshot.
 enum class Defect : std::uint8_t

@@ -24,8 +24,7 @@ struct Surface
 
   bool casts = true;    ///< its triangles block light
   bool receives = true; ///< its pixels are shadowed; else their visibility is 1
-  bool oneSided =
-    false; ///< only triangles whose front (counter-clockwise side) faces the light cast
+  bool oneSided = false; ///< only triangles whose front (counter-clockwise) faces the light cast
 
   /// Changes when the triangles of this surface change (its mapper's input), not when it only gets
   /// another place in the list. Versions are never given twice within a snapshot, so that a surface
@@ -35,8 +34,9 @@ struct Surface
   std::uint64_t positionsVersion = 0;
 
   /// For the n-th triangle that VTK draws of this surface, the triangle in the snapshot, counted
-  /// from firstTriangle; `noTriangle` for one that was dropped. Empty when none was dropped: then
-  /// the n-th drawn triangle is the n-th of the surface.
+  /// from firstTriangle; `noTriangle` for one that was dropped. Empty when the n-th drawn triangle
+  /// is the n-th of the surface. A triangle that a clipping plane cuts leads to its first piece,
+  /// which lies in the same plane.
   std::vector<std::uint32_t> triangleOfDrawn;
 
   static constexpr std::uint32_t noTriangle = 0xffffffffu;

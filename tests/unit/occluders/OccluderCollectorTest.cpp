@@ -9,9 +9,11 @@
 #include "vtkCompositePolyDataMapper2.h"
 #include "vtkDataArray.h"
 #include "vtkFloatArray.h"
+#include "vtkFollower.h"
 #include "vtkGlyph3DMapper.h"
 #include "vtkMatrix4x4.h"
 #include "vtkMultiBlockDataSet.h"
+#include "vtkPlane.h"
 #include "vtkPlaneSource.h"
 #include "vtkPointData.h"
 #include "vtkPropAssembly.h"
@@ -192,6 +194,12 @@ TEST(OccluderTriangles, DropsWhatAMatrixFlattensOrBlowsUp)
   EXPECT_EQ(scene.occluders().droppedZeroArea + scene.occluders().droppedNonFinite, 0u);
   EXPECT_EQ(scene.surface(0).triangleCount, 2u);
   EXPECT_TRUE(scene.surface(0).triangleOfDrawn.empty());
+
+  actor->SetScale(1e-80, 1.0, 1.0); // a move may drop what was kept
+  scene.collect();
+  EXPECT_EQ(scene.occluders().droppedZeroArea, 2u);
+  EXPECT_EQ(scene.surface(0).triangleCount, 0u);
+  expectNothingDone(scene);
 }
 
 TEST(OccluderTriangles, DropsTrianglesOfPointsThatAreNotThere)
@@ -312,6 +320,42 @@ TEST(OccluderProps, UnservedMappersAreNoted)
   EXPECT_NE(scene.collector.notes()[0].find("Glyph3DMapper"), std::string::npos);
 }
 
+TEST(OccluderProps, ActorsThatDrawThroughAnotherAreNoted)
+{
+  Scene scene;
+  for (int i = 0; i < 2; ++i)
+  {
+    vtkNew<vtkFollower> follower;
+    follower->SetMapper(makeActor(makeSquare())->GetMapper());
+    scene.renderer->AddActor(follower);
+  }
+  scene.collect();
+  EXPECT_EQ(scene.surfaceCount(), 0u);
+  ASSERT_EQ(scene.collector.notes().size(), 1u);
+  EXPECT_NE(scene.collector.notes()[0].find("Follower"), std::string::npos);
+  EXPECT_NE(scene.collector.notes()[0].find("2 props"), std::string::npos);
+}
+
+TEST(OccluderProps, AMappersPieceIsAskedFor)
+{
+  Scene scene;
+  vtkNew<vtkSphereSource> sphere;
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputConnection(sphere->GetOutputPort());
+  mapper->SetNumberOfPieces(2);
+  mapper->SetPiece(1);
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  scene.renderer->AddActor(actor);
+  scene.collect();
+  const std::uint32_t half = scene.surface(0).triangleCount;
+  EXPECT_GT(half, 0u);
+  mapper->SetPiece(0);
+  mapper->SetNumberOfPieces(1);
+  scene.collect();
+  EXPECT_EQ(scene.surface(0).triangleCount, 2 * half);
+}
+
 TEST(OccluderProps, AMapperWithoutInputIsNoSurface)
 {
   Scene scene;
@@ -424,6 +468,49 @@ TEST(OccluderProps, CastersBoxLeavesOutWhatOnlyReceives)
   const glm::dvec3 centre = scene.occluders().centreWorld;
   expectNear(scene.occluders().castersCentred.upper + centre, { 1, 1, 0 });
   expectNear(scene.occluders().allCentred.upper + centre, { 4, 1, 0 });
+}
+
+TEST(OccluderProps, ClippingPlanesCutTheirSurfaces)
+{
+  Scene scene;
+  const auto actor = makeActor(makeSquare());
+  vtkNew<vtkPlane> plane;
+  plane->SetOrigin(0.5, 0, 0);
+  plane->SetNormal(1, 0, 0);
+  actor->GetMapper()->AddClippingPlane(plane);
+  scene.renderer->AddActor(actor);
+  scene.collect();
+  const auto area = [&scene]
+  {
+    double sum = 0.0;
+    for (std::uint32_t i = 0; i < scene.surface(0).triangleCount; ++i)
+    {
+      const glm::uvec3 triangle = scene.triangle(0, i);
+      const glm::dvec3 a = scene.positionWorld(0, triangle.x);
+      const glm::dvec3 cross =
+        glm::cross(scene.positionWorld(0, triangle.y) - a, scene.positionWorld(0, triangle.z) - a);
+      sum += 0.5 * cross.z; // signed: the pieces keep their orientation
+    }
+    return sum;
+  };
+  EXPECT_NEAR(area(), 0.5, 1e-6);
+  ASSERT_EQ(scene.surface(0).triangleOfDrawn.size(), 2u);
+  expectNear(scene.occluders().allCentred.lower + scene.occluders().centreWorld, { 0.5, 0, 0 });
+  expectNothingDone(scene);
+
+  actor->SetPosition(0.25, 0, 0); // the plane stays where it is in the world
+  scene.collect();
+  EXPECT_NEAR(area(), 0.75, 1e-6);
+  plane->SetOrigin(1, 0, 0);
+  scene.collect();
+  EXPECT_NEAR(area(), 0.25, 1e-6);
+  plane->SetOrigin(2, 0, 0);
+  scene.collect();
+  EXPECT_EQ(scene.surface(0).triangleCount, 0u);
+  EXPECT_EQ(scene.occluders().droppedZeroArea + scene.occluders().droppedNonFinite, 0u);
+  actor->GetMapper()->RemoveAllClippingPlanes();
+  scene.collect();
+  EXPECT_NEAR(area(), 1.0, 1e-6);
 }
 
 // ---- composite data --------------------------------------------------------
