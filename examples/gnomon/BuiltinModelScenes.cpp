@@ -45,12 +45,11 @@ Scene makeModelOnPlane(const std::string& name, const std::string& file, const V
   const Vec3 foot{ { 0.5 * (bounds[0] + bounds[1]), bounds[2], 0.5 * (bounds[4] + bounds[5]) } };
   scene.models.push_back(makePlane(foot, 4.0 * extent));
 
-  // Model and shadow, which falls to the right and a little back, side by side.
+  // The whole model with its whole shadow, which falls to the left and back, from the front.
   const double size = std::max(extent, height);
-  const Vec3 target = foot + Vec3{ { 0.18 * size, 0.3 * height, -0.1 * size } };
-  scene.camera =
-    makeCamera(target + (2.4 * size) * normalized(Vec3{ { 0.1, 0.75, 1.0 } }), target, 45.0);
-  scene.lights = { makeSun({ { 0.8, -1.0, -0.3 } }) };
+  const Vec3 target = foot + Vec3{ { 0.0, 0.5 * height, 0.0 } };
+  scene.camera = makeCamera(target + size * Vec3{ { -1.2, 1.6, 2.4 } }, target, 40.0);
+  scene.lights = { makeSun({ { -1.0, -1.6, -1.0 } }) };
   return scene;
 }
 
