@@ -83,7 +83,8 @@ void ShaderManager::markShader(std::string& fragmentShader) const
 }
 
 //------------------------------------------------------------------------------
-void ShaderManager::fillShader(std::string& fragmentShader, bool receiversStage)
+void ShaderManager::fillShader(std::string& vertexShader, const std::string& geometryShader,
+  std::string& fragmentShader, bool receiversStage)
 {
   ++this->rebuilds_;
   // Unlit surfaces have no view coordinates and no lights to shadow; they only hide what is behind.
@@ -95,6 +96,13 @@ void ShaderManager::fillShader(std::string& fragmentShader, bool receiversStage)
   if (lit)
   {
     declarations = this->declarations_;
+    if (geometryShader.empty())
+    {
+      // With several samples per pixel a fragment's centre may lie off its triangle, and the position
+      // there behind a neighbour's surface. The centroid of the covered samples does not.
+      replace(vertexShader, "out vec4 vertexVCVSOutput;", "centroid out vec4 vertexVCVSOutput;");
+      replace(fragmentShader, "in vec4 vertexVCVSOutput;", "centroid in vec4 vertexVCVSOutput;");
+    }
     normal = "vec3 gnomonNormal = gnomonFaceNormal(vertexVC.xyz, cameraParallel == 1);\n";
     begin = this->multiplications_;
   }

@@ -48,7 +48,8 @@ public:
   /// First and second half of the hook, around VTK's own replacements.
   /// @param receiversStage whether this prop's shader must be able to draw the receivers stage
   void markShader(std::string& fragmentShader) const;
-  void fillShader(std::string& fragmentShader, bool receiversStage);
+  void fillShader(std::string& vertexShader, const std::string& geometryShader,
+    std::string& fragmentShader, bool receiversStage);
 
   /// The values that stay the same for all props of a stage.
   struct StageValues

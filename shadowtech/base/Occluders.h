@@ -22,8 +22,8 @@ struct Surface
   std::uint32_t firstTriangle = 0;
   std::uint32_t triangleCount = 0;
 
-  bool casts = true;    ///< its triangles block light
-  bool receives = true; ///< its pixels are shadowed; else their visibility is 1
+  bool casts = true;     ///< its triangles block light
+  bool receives = true;  ///< its pixels are shadowed; else their visibility is 1
   bool oneSided = false; ///< only triangles whose front (counter-clockwise) faces the light cast
 
   /// Changes when the triangles of this surface change (its mapper's input), not when it only gets
