@@ -115,11 +115,13 @@ inline ShadowRay shadowRaySpot(
   const glm::vec3 toLight = light.position - position;
   const float along = glm::dot(toLight, light.toLight);
   const glm::vec3 across = toLight - along * light.toLight;
-  const bool inCone =
-    along > 0.0f && glm::dot(across, across) <= light.tangentSquared * along * along;
-  const bool facing = glm::dot(normal, toLight) > facingCosine * glm::length(toLight);
+  bool traced = along > 0.0f;
+  traced &= glm::dot(across, across) <= light.tangentSquared * along * along;
+  const float cosine = glm::dot(normal, toLight);
+  traced &= cosine > 0.0f;
+  traced &= cosine * cosine > facingCosine * facingCosine * glm::dot(toLight, toLight);
   const glm::vec3 origin = position + offset * normal;
-  return { origin, light.position - origin, inCone && facing };
+  return { origin, light.position - origin, traced };
 }
 
 } // namespace gnomon
