@@ -11,8 +11,10 @@
 #include <atomic>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <unordered_map>
 #include <utility>
 
@@ -87,69 +89,217 @@ struct Caster
   const glm::uvec3* triangles = nullptr;
 };
 
-constexpr int tileSide = 16;
-constexpr int packetSize = 16;
-constexpr int tilePixels = tileSide * tileSide;
+constexpr std::size_t tileColumns = 64;
+constexpr std::size_t tileRows = 4;
+constexpr std::size_t tilePixels = tileColumns * tileRows;
 
-/// Numbers of a tile's pixels or rays, one array each. A packet may read past the last ray.
-using TileFloats = std::array<float, tilePixels + packetSize>;
-struct alignas(64) TileRays
+/// One number for each pixel of a tile, row by row, or for each of its rays.
+template <typename Number>
+using TileArray = std::array<Number, tilePixels>;
+
+/// The rays of all pixels of a tile, wanted or not.
+struct alignas(64) TilePixels
 {
-  TileFloats originX, originY, originZ;
-  TileFloats directionX, directionY, directionZ;
-  std::array<std::size_t, tilePixels + packetSize> pixel;
-  int count = 0;
-
-  void append(const ShadowRay& ray, std::size_t at)
-  {
-    const auto i = static_cast<std::size_t>(this->count);
-    this->originX[i] = ray.origin.x;
-    this->originY[i] = ray.origin.y;
-    this->originZ[i] = ray.origin.z;
-    this->directionX[i] = ray.direction.x;
-    this->directionY[i] = ray.direction.y;
-    this->directionZ[i] = ray.direction.z;
-    this->pixel[i] = at;
-    this->count += ray.traced ? 1 : 0;
-  }
+  TileArray<float> originX, originY, originZ;
+  TileArray<float> directionX, directionY, directionZ;
+  TileArray<int> traced; ///< Embree's mask: -1 where the ray is needed, else 0
 };
 
-/// Traces a tile's rays and writes 0 where they hit.
-void traceTile(RTCScene scene, const TileRays& rays, float rayFar, float* visibility)
+void occluded(const int* valid, RTCScene scene, RTCIntersectContext* context, RTCRay16* rays)
 {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  for (int first = 0; first < rays.count; first += packetSize)
+  rtcOccluded16(valid, scene, context, rays);
+}
+void occluded(const int* valid, RTCScene scene, RTCIntersectContext* context, RTCRay8* rays)
+{
+  rtcOccluded8(valid, scene, context, rays);
+}
+
+/// Traces a tile's rays in squares of 4 x 4 pixels, whose rays stay closer together than those of a
+/// row. Squares where none is needed are left out.
+template <typename Packet>
+class TileTracer
+{
+public:
+  explicit TileTracer(float rayFar)
+    : rayFar_(rayFar)
   {
-    RTCRay16 packet = {};
-    alignas(64) int valid[packetSize];
-    const auto at = static_cast<std::size_t>(first);
-    std::copy_n(&rays.originX[at], packetSize, packet.org_x);
-    std::copy_n(&rays.originY[at], packetSize, packet.org_y);
-    std::copy_n(&rays.originZ[at], packetSize, packet.org_z);
-    std::copy_n(&rays.directionX[at], packetSize, packet.dir_x);
-    std::copy_n(&rays.directionY[at], packetSize, packet.dir_y);
-    std::copy_n(&rays.directionZ[at], packetSize, packet.dir_z);
-    for (int i = 0; i < packetSize; ++i)
+    rtcInitIntersectContext(&this->context_);
+    this->context_.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    for (std::size_t lane = 0; lane < lanes; ++lane)
     {
-      // Where processors have no 16 lanes Embree goes by the interval, not by the mask.
-      const bool used = first + i < rays.count;
-      valid[i] = used ? -1 : 0;
-      packet.tnear[i] = shadowRayNear;
-      packet.tfar[i] = used ? rayFar : -std::numeric_limits<float>::infinity();
-      packet.mask[i] = 0xffffffffu;
+      this->packet_.tnear[lane] = shadowRayNear;
+      this->packet_.time[lane] = 0.0f;
+      this->packet_.mask[lane] = 0xffffffffu;
+      this->packet_.id[lane] = 0;
+      this->packet_.flags[lane] = 0;
     }
-    rtcOccluded16(valid, scene, &context, &packet);
-    const int used = std::min(packetSize, rays.count - first);
-    for (int i = 0; i < used; ++i)
+  }
+
+  /// Clears the visibility of pixels whose ray is blocked.
+  void trace(RTCScene scene, const TilePixels& pixels, TileArray<float>& visibility)
+  {
+    for (std::size_t y = 0; y < tileRows; y += rowsOfPacket)
     {
-      if (packet.tfar[i] < 0.0f)
+      for (std::size_t x = 0; x < tileColumns; x += side)
       {
-        visibility[rays.pixel[at + static_cast<std::size_t>(i)]] = 0.0f;
+        this->tracePacket(scene, pixels, y * tileColumns + x, visibility);
       }
     }
   }
+
+private:
+  static constexpr std::size_t lanes = std::extent_v<decltype(Packet::tfar)>;
+  static constexpr std::size_t side = 4;
+  static constexpr std::size_t rowsOfPacket = lanes / side;
+
+  void tracePacket(
+    RTCScene scene, const TilePixels& pixels, std::size_t corner, TileArray<float>& visibility)
+  {
+    const auto load = [corner](auto* to, const auto& from)
+    {
+      for (std::size_t row = 0; row < rowsOfPacket; ++row)
+      {
+        std::copy_n(&from[corner + row * tileColumns], side, to + row * side);
+      }
+    };
+    alignas(64) std::array<int, lanes> valid;
+    load(valid.data(), pixels.traced);
+    if (std::none_of(valid.begin(), valid.end(), [](int traced) { return traced != 0; }))
+    {
+      return;
+    }
+    load(this->packet_.org_x, pixels.originX);
+    load(this->packet_.org_y, pixels.originY);
+    load(this->packet_.org_z, pixels.originZ);
+    load(this->packet_.dir_x, pixels.directionX);
+    load(this->packet_.dir_y, pixels.directionY);
+    load(this->packet_.dir_z, pixels.directionZ);
+    for (std::size_t lane = 0; lane < lanes; ++lane)
+    {
+      // Where a processor lacks the lanes Embree goes by the interval instead of the mask.
+      this->packet_.tfar[lane] =
+        valid[lane] ? this->rayFar_ : -std::numeric_limits<float>::infinity();
+    }
+    occluded(valid.data(), scene, &this->context_, &this->packet_);
+    for (std::size_t row = 0; row < rowsOfPacket; ++row)
+    {
+      float* lit = &visibility[corner + row * tileColumns];
+      for (std::size_t column = 0; column < side; ++column)
+      {
+        const std::size_t lane = row * side + column;
+        // Embree sets the far end of a ray that hits to minus infinity.
+        const bool blocked = this->packet_.tfar[lane] < 0.0f;
+        lit[column] = valid[lane] && blocked ? 0.0f : lit[column];
+      }
+    }
+  }
+
+  Packet packet_;
+  RTCIntersectContext context_;
+  float rayFar_;
+};
+
+/// The receivers of one row of a tile.
+struct ReceiverRow
+{
+  const float *positionX, *positionY, *positionZ;
+  const float *normalX, *normalY, *normalZ;
+  const float* offset;
+  const std::uint32_t* surface;
+
+  ReceiverRow(const ReceiverPixels& receivers, std::size_t first)
+    : positionX(&receivers.positionX[first])
+    , positionY(&receivers.positionY[first])
+    , positionZ(&receivers.positionZ[first])
+    , normalX(&receivers.normalX[first])
+    , normalY(&receivers.normalY[first])
+    , normalZ(&receivers.normalZ[first])
+    , offset(&receivers.offset[first])
+    , surface(&receivers.surface[first])
+  {
+  }
+};
+
+/// The rays of one row of a tile from its receivers, and what is known of their visibility without:
+/// 1 for pixels that receive no shadow, 0 for those that the light does not reach in any case.
+/// @param columns a number, or a constant so that the loops become vector code
+/// @param receives by surface + 1, so that `notCovered` + 1 = 0 is the first: 1 or 0
+template <typename Columns, typename MakeRay>
+void makeRays(const ReceiverRow& row, Columns columns, const std::uint8_t* receives,
+  const MakeRay& makeRay, std::size_t first, TilePixels& pixels, TileArray<float>& visibility)
+{
+  const std::size_t count = columns;
+#pragma GCC ivdep
+  for (std::size_t x = 0; x < count; ++x)
+  {
+    const ShadowRay ray = makeRay(glm::vec3(row.positionX[x], row.positionY[x], row.positionZ[x]),
+      glm::vec3(row.normalX[x], row.normalY[x], row.normalZ[x]), row.offset[x]);
+    pixels.originX[first + x] = ray.origin.x;
+    pixels.originY[first + x] = ray.origin.y;
+    pixels.originZ[first + x] = ray.origin.z;
+    pixels.directionX[first + x] = ray.direction.x;
+    pixels.directionY[first + x] = ray.direction.y;
+    pixels.directionZ[first + x] = ray.direction.z;
+    pixels.traced[first + x] = ray.traced ? -1 : 0;
+  }
+  for (std::size_t x = 0; x < columns; ++x)
+  {
+    const int receiving = receives[row.surface[x] + 1u];
+    visibility[first + x] = receiving > -pixels.traced[first + x] ? 0.0f : 1.0f;
+    pixels.traced[first + x] &= -receiving;
+  }
+}
+
+/// The whole image, tile by tile.
+/// @param scene null where nothing casts
+/// @return the number of rays traced
+template <typename Packet, typename MakeRay>
+std::size_t traceImage(RTCScene scene, const ReceiverPixels& receivers,
+  const std::vector<std::uint8_t>& receives, const MakeRay& makeRay, float rayFar,
+  std::vector<float>& visibility)
+{
+  const auto width = static_cast<std::size_t>(receivers.width);
+  const auto height = static_cast<std::size_t>(receivers.height);
+  const std::size_t tilesX = (width + tileColumns - 1) / tileColumns;
+  const std::size_t tilesY = (height + tileRows - 1) / tileRows;
+  std::atomic<int> traced{ 0 };
+  const auto traceTiles = [&](const tbb::blocked_range<std::size_t>& tiles)
+  {
+    TilePixels pixels;
+    TileTracer<Packet> tracer(rayFar);
+    TileArray<float> tileVisibility;
+    for (std::size_t tile = tiles.begin(); tile != tiles.end(); ++tile)
+    {
+      const std::size_t x0 = tile % tilesX * tileColumns;
+      const std::size_t y0 = tile / tilesX * tileRows;
+      const std::size_t columns = std::min(tileColumns, width - x0);
+      const std::size_t rows = std::min(tileRows, height - y0);
+      if (columns < tileColumns || rows < tileRows)
+      {
+        pixels.traced.fill(0);
+      }
+      for (std::size_t y = 0; y < rows; ++y)
+      {
+        const ReceiverRow row(receivers, (y0 + y) * width + x0);
+        const auto make = [&](auto count) {
+          makeRays(row, count, receives.data(), makeRay, y * tileColumns, pixels, tileVisibility);
+        };
+        columns == tileColumns ? make(std::integral_constant<std::size_t, tileColumns>())
+                               : make(columns);
+      }
+      if (scene)
+      {
+        tracer.trace(scene, pixels, tileVisibility);
+        traced -= std::accumulate(pixels.traced.begin(), pixels.traced.end(), 0);
+      }
+      for (std::size_t y = 0; y < rows; ++y)
+      {
+        std::copy_n(&tileVisibility[y * tileColumns], columns, &visibility[(y0 + y) * width + x0]);
+      }
+    }
+  };
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tilesX * tilesY, 16), traceTiles);
+  return static_cast<std::size_t>(traced);
 }
 
 } // namespace
@@ -166,6 +316,7 @@ struct RayTracer::Impl
   std::atomic<std::ptrdiff_t> bytes{ 0 }; // outlives the device, which counts into it
   Device device;
   Scene scene;
+  bool lanes16 = false; ///< packets of 16; else of 8, whose answers are the same
   std::unordered_map<std::uint64_t, Caster> casters; ///< by the surface's topologyVersion
   /// Embree reads 16 bytes per vertex, so 4 past the last one: a copy for snapshots without room.
   std::vector<glm::vec3> padded;
@@ -189,6 +340,8 @@ RayTracer::Impl::Impl()
       return true;
     },
     &this->bytes);
+  this->lanes16 =
+    rtcGetDeviceProperty(this->device.get(), RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0;
   this->scene = Scene(rtcNewScene(this->device.get()));
   rtcSetSceneFlags(
     this->scene.get(), static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_DYNAMIC));
@@ -315,60 +468,29 @@ RayTracer::Update RayTracer::update(const Occluders& occluders)
 std::size_t RayTracer::trace(const ShadowLight& light, const Occluders& occluders,
   const ReceiverPixels& receivers, std::vector<float>& visibility) const
 {
-  const ShadowRayLight rayLight(light, occluders.centreWorld);
-  const bool spot = light.kind == LightKind::Spot;
-  const float rayFar = spot ? shadowRayFarSpot : shadowRayFarDirectional;
-  const bool anyCaster = !this->impl_->casters.empty();
   visibility.resize(receivers.size());
-
-  std::atomic<std::size_t> traced{ 0 };
-  const auto tilesOf = [](int pixels) { return (pixels + tileSide - 1) / tileSide; };
-  const int tilesX = tilesOf(receivers.width);
-  tbb::parallel_for(tbb::blocked_range<int>(0, tilesX * tilesOf(receivers.height)),
-    [&](const tbb::blocked_range<int>& tiles)
-    {
-      TileRays rays;
-      std::size_t tracedHere = 0;
-      for (int tile = tiles.begin(); tile != tiles.end(); ++tile)
-      {
-        const int x0 = tile % tilesX * tileSide;
-        const int y0 = tile / tilesX * tileSide;
-        const int x1 = std::min(x0 + tileSide, receivers.width);
-        const int y1 = std::min(y0 + tileSide, receivers.height);
-        rays.count = 0;
-        for (int y = y0; y < y1; ++y)
-        {
-          for (int x = x0; x < x1; ++x)
-          {
-            const std::size_t i =
-              static_cast<std::size_t>(y) * static_cast<std::size_t>(receivers.width) +
-              static_cast<std::size_t>(x);
-            const std::uint32_t surface = receivers.surface[i];
-            if (surface == ReceiverPixels::notCovered || !occluders.surfaces[surface].receives)
-            {
-              visibility[i] = 1.0f;
-              continue;
-            }
-            const glm::vec3 position(
-              receivers.positionX[i], receivers.positionY[i], receivers.positionZ[i]);
-            const glm::vec3 normal(
-              receivers.normalX[i], receivers.normalY[i], receivers.normalZ[i]);
-            const ShadowRay ray = spot
-              ? shadowRaySpot(rayLight, position, normal, receivers.offset[i])
-              : shadowRayDirectional(rayLight, position, normal, receivers.offset[i]);
-            visibility[i] = ray.traced ? 1.0f : 0.0f;
-            rays.append(ray, i);
-          }
-        }
-        if (anyCaster)
-        {
-          traceTile(this->impl_->scene.get(), rays, rayFar, visibility.data());
-          tracedHere += static_cast<std::size_t>(rays.count);
-        }
-      }
-      traced += tracedHere;
-    });
-  return traced;
+  std::vector<std::uint8_t> receives{ 0 };
+  for (const Surface& surface : occluders.surfaces)
+  {
+    receives.push_back(surface.receives ? 1 : 0);
+  }
+  const ShadowRayLight rayLight(light, occluders.centreWorld);
+  RTCScene scene = this->impl_->casters.empty() ? nullptr : this->impl_->scene.get();
+  const auto traceRays = [&](const auto& makeRay, float rayFar)
+  {
+    return this->impl_->lanes16
+      ? traceImage<RTCRay16>(scene, receivers, receives, makeRay, rayFar, visibility)
+      : traceImage<RTCRay8>(scene, receivers, receives, makeRay, rayFar, visibility);
+  };
+  if (light.kind == LightKind::Spot)
+  {
+    const auto makeRay = [&](const glm::vec3& position, const glm::vec3& normal, float offset)
+    { return shadowRaySpot(rayLight, position, normal, offset); };
+    return traceRays(makeRay, shadowRayFarSpot);
+  }
+  const auto makeRay = [&](const glm::vec3& position, const glm::vec3& normal, float offset)
+  { return shadowRayDirectional(rayLight, position, normal, offset); };
+  return traceRays(makeRay, shadowRayFarDirectional);
 }
 
 //------------------------------------------------------------------------------

@@ -27,8 +27,10 @@ struct TriangleOfFragment
 /// What the receivers of one triangle have in common.
 struct Plane
 {
-  glm::dvec3 point{ 0.0 };
-  glm::dvec3 normal{ 0.0 }; ///< unit, on the camera's side; zero for a triangle without one
+  /// From view coordinates to the triangle's plane, in centred coordinates: x, y, z and
+  /// translation.
+  std::array<glm::dvec3, 4> planeFromView;
+  glm::vec3 normal{ 0.0f }; ///< unit, on the camera's side; zero for a triangle without one
   float noise = 0.0f;       ///< planeNoise()
 };
 
@@ -83,32 +85,54 @@ TriangleOfFragment findTriangle(float drawnPlusOne, float primitive,
   return { block.surface, surface.firstTriangle + triangle };
 }
 
-/// @param camera the camera's centred position, or (parallel projection) a vector towards it
-Plane planeOf(const Occluders& occluders, std::uint32_t triangle, const glm::dvec3& camera,
-  bool parallelProjection)
+/// The view's part in planeOf().
+struct ViewFrame
+{
+  explicit ViewFrame(const ReceiverImages& images)
+    : rotation(images.centredFromView)
+    , position(images.centredFromView[3])
+    , backward(images.centredFromView[2])
+    , parallelProjection(images.parallelProjection)
+  {
+  }
+
+  glm::dmat3 rotation;
+  glm::dvec3 position; ///< the camera's, centred
+  glm::dvec3 backward; ///< towards the camera
+  bool parallelProjection;
+};
+
+Plane planeOf(const Occluders& occluders, std::uint32_t triangle, const ViewFrame& view)
 {
   const glm::uvec3 corners = occluders.triangles[triangle];
   const glm::vec3 a = occluders.positionsCentred[corners.x];
   const glm::vec3 b = occluders.positionsCentred[corners.y];
   const glm::vec3 c = occluders.positionsCentred[corners.z];
-
-  Plane plane;
-  plane.point = a;
-  const glm::dvec3 areaVector =
-    glm::cross(glm::dvec3(b) - plane.point, glm::dvec3(c) - plane.point);
-  const double doubleArea = glm::length(areaVector);
-  glm::dvec3 normal = areaVector / doubleArea;
-  const double side = glm::dot(normal, parallelProjection ? camera : camera - plane.point);
-  // No area, not finite, or seen along its plane: the image knows better.
-  if (!(std::abs(side) > 0.0 && std::isfinite(side)))
-  {
-    return plane;
-  }
-  plane.normal = side > 0.0 ? normal : -normal;
   const glm::vec3 largest = glm::max(glm::abs(a), glm::max(glm::abs(b), glm::abs(c)));
   const glm::vec3 extent = glm::max(a, glm::max(b, c)) - glm::min(a, glm::min(b, c));
-  plane.noise =
-    planeNoise(glm::vec3(plane.normal), largest, extent, static_cast<float>(doubleArea));
+
+  Plane plane;
+  const glm::dvec3 point(a);
+  const glm::dvec3 areaVector = glm::cross(glm::dvec3(b) - point, glm::dvec3(c) - point);
+  const double doubleArea = glm::length(areaVector);
+  glm::dvec3 normal = areaVector / doubleArea;
+  const double side =
+    glm::dot(normal, view.parallelProjection ? view.backward : view.position - point);
+  if (!(std::abs(side) > 0.0 && std::isfinite(side)))
+  {
+    // No area, not finite, or seen along its plane: the image knows the normal better, and the
+    // position stays as it is.
+    plane.planeFromView = { view.rotation[0], view.rotation[1], view.rotation[2], view.position };
+    plane.noise = planeNoise(glm::vec3(1.0f), largest, glm::vec3(0.0f), 1.0f);
+    return plane;
+  }
+  normal = side > 0.0 ? normal : -normal;
+  const auto projected = [&](const glm::dvec3& vector)
+  { return vector - glm::dot(vector, normal) * normal; };
+  plane.planeFromView = { projected(view.rotation[0]), projected(view.rotation[1]),
+    projected(view.rotation[2]), point + projected(view.position - point) };
+  plane.normal = normal;
+  plane.noise = planeNoise(plane.normal, largest, extent, static_cast<float>(doubleArea));
   return plane;
 }
 
@@ -143,40 +167,25 @@ void projectReceivers(const ReceiverImages& images, const std::vector<DrawnSurfa
   const Occluders& occluders, ReceiverPixels& receivers)
 {
   receivers.resize(images.width, images.height);
-  const glm::dmat4& centredFromView = images.centredFromView;
-  const glm::dmat3 rotation(centredFromView);
-  const glm::dvec3 camera =
-    images.parallelProjection ? glm::dvec3(centredFromView[2]) : glm::dvec3(centredFromView[3]);
+  const ViewFrame frame(images);
+  const auto pixelSize = static_cast<float>(images.pixelSize);
 
-  const auto receiverOf = [&](const glm::vec4& view, const glm::vec4& normalView, PlaneCache& cache)
+  const auto receiverOf = [&](const glm::vec4& view, const glm::vec4& normalView,
+                            std::uint32_t surface, const Plane& plane)
   {
-    const TriangleOfFragment found =
-      findTriangle(std::abs(normalView.w), view.w, drawnSurfaces, occluders);
-    if (found.triangle == none)
-    {
-      return Receiver();
-    }
-    const Plane& plane = cache.find(found.triangle,
-      [&] { return planeOf(occluders, found.triangle, camera, images.parallelProjection); });
-
-    glm::dvec3 position(centredFromView * glm::dvec4(glm::dvec3(view), 1.0));
+    const auto& columns = plane.planeFromView;
     Receiver receiver;
-    float noise = plane.noise;
-    if (plane.normal == glm::dvec3(0.0))
+    receiver.position = columns[0] * static_cast<double>(view.x) +
+      columns[1] * static_cast<double>(view.y) + columns[2] * static_cast<double>(view.z) +
+      columns[3];
+    receiver.normal = plane.normal;
+    if (plane.normal == glm::vec3(0.0f))
     {
-      receiver.normal = glm::normalize(rotation * glm::dvec3(normalView));
-      noise = planeNoise(receiver.normal, glm::abs(glm::vec3(position)), glm::vec3(0.0f), 1.0f);
+      receiver.normal = glm::normalize(frame.rotation * glm::dvec3(normalView));
     }
-    else
-    {
-      position -= glm::dot(position - plane.point, plane.normal) * plane.normal;
-      receiver.normal = plane.normal;
-    }
-    const double footprint =
-      images.pixelSize * (images.parallelProjection ? 1.0 : std::abs(static_cast<double>(view.z)));
-    receiver.position = position;
-    receiver.offset = shadowRayOffset(noise, static_cast<float>(footprint));
-    receiver.surface = found.surface;
+    const float footprint = frame.parallelProjection ? pixelSize : pixelSize * std::abs(view.z);
+    receiver.offset = shadowRayOffset(plane.noise, footprint);
+    receiver.surface = surface;
     const float sum = receiver.position.x + receiver.position.y + receiver.position.z +
       receiver.normal.x + receiver.normal.y + receiver.normal.z + receiver.offset;
     return std::isfinite(sum) ? receiver : Receiver(); // VTK draws broken numbers, too
@@ -191,6 +200,32 @@ void projectReceivers(const ReceiverImages& images, const std::vector<DrawnSurfa
     receivers.normalZ[i] = receiver.normal.z;
     receivers.offset[i] = receiver.offset;
     receivers.surface[i] = receiver.surface;
+  };
+  /// Neighbours mostly share their triangle, and so what was looked up for it.
+  const auto projectRow = [&](std::size_t first, std::size_t last, PlaneCache& cache)
+  {
+    float drawnPlusOne = 0.0f;
+    float primitive = 0.0f;
+    TriangleOfFragment found;
+    const Plane* plane = nullptr;
+    for (std::size_t i = first; i < last; ++i)
+    {
+      const glm::vec4& view = images.positionView[i];
+      const glm::vec4& normalView = images.normalView[i];
+      if (normalView.w != drawnPlusOne || view.w != primitive)
+      {
+        drawnPlusOne = normalView.w;
+        primitive = view.w;
+        found = findTriangle(std::abs(drawnPlusOne), primitive, drawnSurfaces, occluders);
+        if (found.triangle != none)
+        {
+          plane =
+            &cache.find(found.triangle, [&] { return planeOf(occluders, found.triangle, frame); });
+        }
+      }
+      store(i,
+        found.triangle == none ? Receiver() : receiverOf(view, normalView, found.surface, *plane));
+    }
   };
 
   constexpr std::size_t tileRows = 16;
@@ -209,11 +244,7 @@ void projectReceivers(const ReceiverImages& images, const std::vector<DrawnSurfa
           const std::size_t lastColumn = std::min(column + tileColumns, width);
           for (std::size_t y = band * tileRows; y < lastRow; ++y)
           {
-            for (std::size_t x = column; x < lastColumn; ++x)
-            {
-              const std::size_t i = y * width + x;
-              store(i, receiverOf(images.positionView[i], images.normalView[i], cache));
-            }
+            projectRow(y * width + column, y * width + lastColumn, cache);
           }
         }
       }

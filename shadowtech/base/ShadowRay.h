@@ -64,15 +64,39 @@ inline float shadowRayOffset(float noise, float footprint)
   return 2.0f * noise + 0.00390625f * footprint; // 1/256
 }
 
-/// The surface faces the light where N.L exceeds this. Below, the sign of N.L is a matter of
-/// rounding (its error is 4u at most), so that faces along the light would turn noisy.
-inline constexpr float facingCosine = 9.5367432e-7f; // 2^-20
-
-/// Where along its direction the shadow ray starts to count, and ends: for a spot light, whose ray
-/// is not normalised, at the light itself.
+/// Where along its direction the shadow ray starts to count, and where it ends: a spot light's,
+/// which is not normalised, at the light itself.
 inline constexpr float shadowRayNear = 0.0f;
 inline constexpr float shadowRayFarSpot = 1.0f;
 inline constexpr float shadowRayFarDirectional = std::numeric_limits<float>::infinity();
+
+/// Whether a surface faces the light: N.L > 2^-20. Below that the sign of N.L, which rounding moves
+/// by up to 2^-22, says nothing, and faces along the light would turn noisy.
+///
+/// @param normal unit normal
+/// @param toLight towards the light, of any length
+inline bool facesLight(const glm::vec3& normal, const glm::vec3& toLight)
+{
+  const float cosine = glm::dot(normal, toLight);
+  bool faces = cosine > 0.0f;
+  faces &= cosine * cosine > 9.094947e-13f * glm::dot(toLight, toLight); // 2^-40
+  return faces;
+}
+
+/// Whether a point lies inside a spot light's cone. Tangents stay precise for narrow cones, where
+/// cosines do not.
+///
+/// @param toLight from the point to the light
+/// @param axis unit vector against the light's direction
+/// @param tangentSquared of half the cone's angle
+inline bool insideCone(const glm::vec3& toLight, const glm::vec3& axis, float tangentSquared)
+{
+  const float along = glm::dot(toLight, axis);
+  const glm::vec3 across = toLight - along * axis;
+  bool inside = along > 0.0f;
+  inside &= glm::dot(across, across) <= tangentSquared * (along * along);
+  return inside;
+}
 
 /// A light as shadow rays see it: in centred coordinates, in float.
 struct ShadowRayLight
@@ -92,8 +116,8 @@ struct ShadowRayLight
   }
 };
 
-/// A shadow ray. `traced` is false where visibility is 0 without it: the surface is turned away, or
-/// lies outside the cone.
+/// A shadow ray. `traced` is false where visibility is 0 without it: the surface is turned away
+/// from the light, or lies outside its cone.
 struct ShadowRay
 {
   glm::vec3 origin;
@@ -104,22 +128,17 @@ struct ShadowRay
 inline ShadowRay shadowRayDirectional(
   const ShadowRayLight& light, const glm::vec3& position, const glm::vec3& normal, float offset)
 {
-  return { position + offset * normal, light.toLight,
-    glm::dot(normal, light.toLight) > facingCosine };
+  return { position + offset * normal, light.toLight, facesLight(normal, light.toLight) };
 }
 
-/// The cone's test compares tangents, which stay precise for narrow cones where cosines do not.
 inline ShadowRay shadowRaySpot(
   const ShadowRayLight& light, const glm::vec3& position, const glm::vec3& normal, float offset)
 {
   const glm::vec3 toLight = light.position - position;
-  const float along = glm::dot(toLight, light.toLight);
-  const glm::vec3 across = toLight - along * light.toLight;
-  const bool inCone =
-    along > 0.0f && glm::dot(across, across) <= light.tangentSquared * along * along;
-  const bool facing = glm::dot(normal, toLight) > facingCosine * glm::length(toLight);
   const glm::vec3 origin = position + offset * normal;
-  return { origin, light.position - origin, inCone && facing };
+  bool traced = facesLight(normal, toLight);
+  traced &= insideCone(toLight, light.toLight, light.tangentSquared);
+  return { origin, light.position - origin, traced };
 }
 
 } // namespace gnomon

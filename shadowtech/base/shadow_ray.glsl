@@ -1,0 +1,27 @@
+// The shadow ray's numbers: the twin of ShadowRay.h, which says what they mean and why.
+
+float planeNoise(vec3 normal, vec3 largest, vec3 extent, float doubleArea)
+{
+  float storage =
+    abs(normal.x) * largest.x + abs(normal.y) * largest.y + abs(normal.z) * largest.z;
+  float intersection = extent.x * (extent.y * extent.z / doubleArea);
+  return 1.1920929e-7 * storage + 1.9073486e-6 * intersection; // 2^-23 and 2^-19
+}
+
+float shadowRayOffset(float noise, float footprint)
+{
+  return 2.0 * noise + 0.00390625 * footprint; // 1/256
+}
+
+bool facesLight(vec3 normal, vec3 toLight)
+{
+  float cosine = dot(normal, toLight);
+  return cosine > 0.0 && cosine * cosine > 9.094947e-13 * dot(toLight, toLight); // 2^-40
+}
+
+bool insideCone(vec3 toLight, vec3 axis, float tangentSquared)
+{
+  float along = dot(toLight, axis);
+  vec3 across = toLight - along * axis;
+  return along > 0.0 && dot(across, across) <= tangentSquared * (along * along);
+}
