@@ -2,20 +2,15 @@
 
 #include "ByteReader.h"
 #include "Files.h"
+#include "ImageCheck.h"
 #include "JsonValue.h"
 #include "ModelChecks.h"
 #include "Text.h"
 #include "Vec3.h"
-#include "VtkMessages.h"
 
 #include <vtkBase64Utilities.h>
-#include <vtkImageData.h>
-#include <vtkJPEGReader.h>
 #include <vtkMath.h>
 #include <vtkMatrix4x4.h>
-#include <vtkNew.h>
-#include <vtkPNGReader.h>
-#include <vtkPointData.h>
 
 #include <cstdint>
 #include <filesystem>
@@ -169,38 +164,16 @@ std::optional<DataUri> readDataUri(const JsonValue& uri)
 }
 
 //------------------------------------------------------------------------------
-/// Refuses images that VTK's readers cannot decode: the importer goes on with no pixels.
+/// Refuses images that VTK's readers cannot decode. Without a type given, any of the two will do.
 void requireImage(const JsonValue& place, const std::string& bytes, const std::string& mimeType)
 {
-  const std::string pngSignature = "\x89PNG\r\n\x1a\n";
-  const std::string jpegSignature = "\xff\xd8\xff";
-  const bool png = bytes.compare(0, pngSignature.size(), pngSignature) == 0;
-  const bool jpeg = bytes.compare(0, jpegSignature.size(), jpegSignature) == 0;
-  if (!(mimeType == "image/png" ? png : mimeType == "image/jpeg" ? jpeg : png || jpeg))
+  const std::string type = imageType(bytes);
+  if (type.empty() || (!mimeType.empty() && type != mimeType))
   {
-    place.refuse("not " + (mimeType.empty() ? "a PNG or JPEG image" : "of type " + mimeType) +
-      ", expected a PNG or JPEG image and its type");
+    place.refuse("found bytes of " + (type.empty() ? "another type" : "type " + type) +
+      ", expected " + (mimeType.empty() ? "a PNG or JPEG image" : mimeType));
   }
-  // The libraries read a truncated image's end from somewhere else.
-  const bool whole =
-    png ? bytes.find("IEND") != std::string::npos : bytes.rfind("\xff\xd9") != std::string::npos;
-  VtkMessages messages;
-  vtkSmartPointer<vtkImageReader2> reader;
-  if (png)
-  {
-    reader = vtkSmartPointer<vtkPNGReader>::New();
-  }
-  else
-  {
-    reader = vtkSmartPointer<vtkJPEGReader>::New();
-  }
-  if (whole)
-  {
-    reader->SetMemoryBufferLength(static_cast<vtkIdType>(bytes.size()));
-    reader->SetMemoryBuffer(bytes.data());
-    reader->Update();
-  }
-  if (!whole || !messages.errors().empty() || !reader->GetOutput()->GetPointData()->GetScalars())
+  if (!isWholeImage(bytes))
   {
     place.refuse("the image cannot be decoded, it is truncated or damaged");
   }

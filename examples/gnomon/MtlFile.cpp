@@ -2,16 +2,14 @@
 
 #include "Errors.h"
 #include "Files.h"
+#include "ImageCheck.h"
 #include "ModelChecks.h"
 #include "SceneFraming.h"
 #include "Text.h"
-#include "VtkMessages.h"
 
 #include <vtkImageData.h>
-#include <vtkImageReader2.h>
-#include <vtkImageReader2Factory.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
+#include <vtkJPEGReader.h>
+#include <vtkPNGReader.h>
 
 #include <filesystem>
 
@@ -76,26 +74,30 @@ struct Statement
 
 vtkSmartPointer<vtkTexture> readTexture(const std::string& path, const std::string& place)
 {
-  VtkMessages messages;
+  std::string bytes;
   try
   {
-    requireReadableFile(path);
+    bytes = readWholeFile(path, largestModelBytes);
   }
   catch (const BadInput& error)
   {
     throw BadInput(place + error.what());
   }
-  const auto reader = vtkSmartPointer<vtkImageReader2>::Take(
-    vtkImageReader2Factory::CreateImageReader2(path.c_str()));
-  if (reader)
+  if (!isWholeImage(bytes))
   {
-    reader->SetFileName(path.c_str());
-    reader->Update();
+    throw BadInput(place + path + ": not a PNG or JPEG image, or a damaged one");
   }
-  if (!reader || !messages.errors().empty() || !reader->GetOutput()->GetPointData()->GetScalars())
+  vtkSmartPointer<vtkImageReader2> reader;
+  if (imageType(bytes) == "image/png")
   {
-    throw BadInput(place + path + ": not an image that VTK can read, or a damaged one");
+    reader = vtkSmartPointer<vtkPNGReader>::New();
   }
+  else
+  {
+    reader = vtkSmartPointer<vtkJPEGReader>::New();
+  }
+  reader->SetFileName(path.c_str());
+  reader->Update();
   auto texture = vtkSmartPointer<vtkTexture>::New();
   texture->SetInputData(reader->GetOutput());
   texture->InterpolateOn();
