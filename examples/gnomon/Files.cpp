@@ -111,13 +111,4 @@ std::string lowerExtension(const std::string& path)
   return extension;
 }
 
-//------------------------------------------------------------------------------
-std::string oneLine(const std::string& text)
-{
-  std::string line = text;
-  std::replace_if(
-    line.begin(), line.end(), [](unsigned char c) { return std::iscntrl(c) != 0; }, ' ');
-  return line;
-}
-
 } // namespace gnomon::tool

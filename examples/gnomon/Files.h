@@ -26,9 +26,6 @@ void requireWritableFile(
 /// The extension of a path with its dot, in lower case.
 std::string lowerExtension(const std::string& path);
 
-/// Text that fits on one line of a terminal: control characters become spaces.
-std::string oneLine(const std::string& text);
-
 } // namespace gnomon::tool
 
 #endif

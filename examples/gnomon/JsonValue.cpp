@@ -3,6 +3,7 @@
 #include "Errors.h"
 #include "Files.h"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <sstream>
@@ -88,37 +89,53 @@ JsonValue JsonValue::member(const std::string& key) const
 }
 
 //------------------------------------------------------------------------------
-void JsonValue::requireObject(std::initializer_list<const char*> keys) const
+std::vector<std::string> JsonValue::keys() const
 {
   if (!this->value_ || !this->value_->is_object())
   {
     this->fail("an object");
   }
-  const std::set<std::string> known(keys.begin(), keys.end());
+  std::vector<std::string> result;
   for (const auto& item : this->value_->items())
   {
-    if (known.count(item.key()) == 0)
+    result.push_back(item.key());
+  }
+  return result;
+}
+
+//------------------------------------------------------------------------------
+void JsonValue::requireObject(std::initializer_list<const char*> known) const
+{
+  for (const std::string& key : this->keys())
+  {
+    if (std::find(known.begin(), known.end(), key) == known.end())
     {
       std::string list;
-      for (const char* key : keys)
+      for (const char* name : known)
       {
-        list += (list.empty() ? "" : ", ") + std::string(key);
+        list += (list.empty() ? "" : ", ") + std::string(name);
       }
-      this->refuse("unknown key " + describe(item.key()) + ", expected one of: " + list);
+      this->refuse("unknown key " + describe(key) + ", expected one of: " + list);
     }
   }
 }
 
 //------------------------------------------------------------------------------
-std::vector<JsonValue> JsonValue::elements() const
+std::size_t JsonValue::size() const
 {
   if (!this->value_ || !this->value_->is_array())
   {
     this->fail("an array");
   }
+  return this->value_->size();
+}
+
+//------------------------------------------------------------------------------
+std::vector<JsonValue> JsonValue::elements() const
+{
   std::vector<JsonValue> result;
-  result.reserve(this->value_->size());
-  for (std::size_t i = 0; i < this->value_->size(); ++i)
+  result.reserve(this->size());
+  for (std::size_t i = 0; i < this->size(); ++i)
   {
     result.push_back(
       JsonValue(this->source_, this->path_ + "[" + std::to_string(i) + "]", &(*this->value_)[i]));

@@ -37,9 +37,12 @@ public:
 
   /// The place of that key in an object; empty where the object lacks it.
   JsonValue member(const std::string& key) const;
+  /// The keys of an object.
+  std::vector<std::string> keys() const;
   /// Refuses everything but an object with no other keys than these.
-  void requireObject(std::initializer_list<const char*> keys) const;
-  /// The elements of an array.
+  void requireObject(std::initializer_list<const char*> known) const;
+  /// The number of elements of an array, and the elements.
+  std::size_t size() const;
   std::vector<JsonValue> elements() const;
 
   double number(const NumberRange& range) const;

@@ -2,7 +2,12 @@
 
 #include "Errors.h"
 #include "Files.h"
+#include "GltfFile.h"
+#include "JsonValue.h"
+#include "ModelChecks.h"
+#include "MtlFile.h"
 #include "SceneFraming.h"
+#include "Vec3.h"
 #include "VtkMessages.h"
 
 #include "plugin/vtkGnomonEGLRenderWindow.h"
@@ -10,21 +15,27 @@
 #include <vtk3DSImporter.h>
 #include <vtkActor.h>
 #include <vtkActorCollection.h>
+#include <vtkCellArray.h>
+#include <vtkCellArrayIterator.h>
 #include <vtkCellData.h>
+#include <vtkFloatArray.h>
 #include <vtkGLTFImporter.h>
 #include <vtkMapper.h>
 #include <vtkMatrix4x4.h>
 #include <vtkNew.h>
-#include <vtkOBJImporter.h>
+#include <vtkOBJReader.h>
 #include <vtkPLYReader.h>
 #include <vtkPointData.h>
 #include <vtkPolyDataNormals.h>
+#include <vtkRenderer.h>
 #include <vtkSTLReader.h>
-#include <vtkTriangleFilter.h>
+#include <vtkStringArray.h>
 #include <vtkXMLPolyDataReader.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <new>
 
 namespace gnomon::tool
 {
@@ -32,26 +43,318 @@ namespace gnomon::tool
 namespace
 {
 
+std::string nameOf(const std::string& path)
+{
+  return std::filesystem::path(path).stem().string();
+}
+
+//------------------------------------------------------------------------------
+// Checks of what a reader gave.
+
+/// Refuses cells that name vertices which are not there.
+void checkCells(vtkCellArray* cells, vtkIdType points)
+{
+  if (!cells->IsValid())
+  {
+    throw BadInput("the cells' offsets are damaged");
+  }
+  const auto iterator = vtk::TakeSmartPointer(cells->NewIterator());
+  for (iterator->GoToFirstCell(); !iterator->IsDoneWithTraversal(); iterator->GoToNextCell())
+  {
+    vtkIdType size = 0;
+    const vtkIdType* ids = nullptr;
+    iterator->GetCurrentCell(size, ids);
+    for (vtkIdType i = 0; i < size; ++i)
+    {
+      if (ids[i] < 0 || ids[i] >= points)
+      {
+        throw BadInput("found a cell with vertex number " + std::to_string(ids[i]) +
+          ", expected 0 to " + std::to_string(points - 1));
+      }
+    }
+  }
+}
+
+/// The number of triangles that VTK draws for a surface: fans of polygons and strips.
+vtkIdType countTriangles(vtkPolyData* surface)
+{
+  vtkIdType triangles = 0;
+  for (vtkCellArray* cells : { surface->GetPolys(), surface->GetStrips() })
+  {
+    for (vtkIdType i = 0; i < cells->GetNumberOfCells(); ++i)
+    {
+      triangles += std::max<vtkIdType>(0, cells->GetCellSize(i) - 2);
+    }
+  }
+  return triangles;
+}
+
+/// Counts the vertices that are not finite, and refuses those beyond all reason: VTK draws in
+/// float.
+vtkIdType countNonFinite(vtkPolyData* surface)
+{
+  vtkIdType count = 0;
+  for (vtkIdType i = 0; i < surface->GetNumberOfPoints(); ++i)
+  {
+    Vec3 point;
+    surface->GetPoint(i, point.data());
+    const double largest = std::max({ std::abs(point[0]), std::abs(point[1]), std::abs(point[2]) });
+    if (!std::isfinite(point[0] + point[1] + point[2]))
+    {
+      ++count;
+    }
+    else if (largest > anyCoordinate.high)
+    {
+      std::ostringstream found;
+      found << "found vertex " << i << " at " << point[0] << ", " << point[1] << ", " << point[2]
+            << ", expected coordinates between " << anyCoordinate.low << " and "
+            << anyCoordinate.high;
+      throw BadInput(found.str());
+    }
+  }
+  return count;
+}
+
+/// Whether an array holds colours that VTK shows as they are.
+bool isColor(vtkDataArray* scalars)
+{
+  return scalars && scalars->GetNumberOfComponents() >= 3 &&
+    scalars->GetNumberOfComponents() <= 4 &&
+    (scalars->GetDataType() == VTK_UNSIGNED_CHAR || scalars->GetDataType() == VTK_FLOAT);
+}
+
+/// Gives a surface smooth normals, with its sharp edges split.
+vtkSmartPointer<vtkPolyData> withNormals(vtkPolyData* surface)
+{
+  constexpr double sharpEdgeDegrees = 60.0;
+  vtkNew<vtkPolyDataNormals> normals;
+  normals->SetInputData(surface);
+  normals->SetFeatureAngle(sharpEdgeDegrees);
+  normals->ConsistencyOff();
+  normals->Update();
+  return normals->GetOutput();
+}
+
+/// A reader's surface as the scene takes it: triangles and polygons only, with normals, and with
+/// scalars only where they are colours. Null when it has no triangle.
+vtkSmartPointer<vtkPolyData> prepared(
+  vtkPolyData* source, const std::string& path, std::vector<std::string>& notes)
+{
+  if (!source || !source->GetPoints())
+  {
+    return nullptr;
+  }
+  auto surface = vtkSmartPointer<vtkPolyData>::New();
+  surface->ShallowCopy(source);
+  for (vtkCellArray* cells :
+    { surface->GetVerts(), surface->GetLines(), surface->GetPolys(), surface->GetStrips() })
+  {
+    checkCells(cells, surface->GetNumberOfPoints());
+  }
+  const vtkIdType left = surface->GetNumberOfVerts() + surface->GetNumberOfLines();
+  if (left > 0)
+  {
+    // Cell data counts vertices and lines first, so it goes with them.
+    surface->SetVerts(nullptr);
+    surface->SetLines(nullptr);
+    surface->GetCellData()->Initialize();
+    notes.push_back(
+      path + ": " + std::to_string(left) + " points and lines are left out, surfaces only");
+  }
+  if (countTriangles(surface) == 0)
+  {
+    return nullptr;
+  }
+
+  const vtkIdType nonFinite = countNonFinite(surface);
+  if (nonFinite == surface->GetNumberOfPoints())
+  {
+    throw BadInput("none of the " + std::to_string(nonFinite) + " vertices is finite");
+  }
+  if (nonFinite > 0)
+  {
+    notes.push_back(path + ": " + std::to_string(nonFinite) +
+      " vertices are not finite; triangles with them are left out");
+  }
+
+  vtkPointData* pointData = surface->GetPointData();
+  for (int i = pointData->GetNumberOfArrays() - 1; i >= 0; --i)
+  {
+    if (pointData->GetAbstractArray(i)->GetNumberOfTuples() != surface->GetNumberOfPoints())
+    {
+      throw BadInput("found " +
+        std::to_string(pointData->GetAbstractArray(i)->GetNumberOfTuples()) +
+        " values of a point array, expected " + std::to_string(surface->GetNumberOfPoints()));
+    }
+  }
+  if (!isColor(pointData->GetScalars()))
+  {
+    pointData->SetActiveScalars(nullptr);
+  }
+  vtkCellData* cellData = surface->GetCellData();
+  if (!isColor(cellData->GetScalars()) ||
+    cellData->GetScalars()->GetNumberOfTuples() != surface->GetNumberOfCells())
+  {
+    cellData->SetActiveScalars(nullptr);
+  }
+  // A vertex that is not finite would spoil the normals of its neighbours.
+  return pointData->GetNormals() || nonFinite > 0 ? surface : withNormals(surface);
+}
+
 //------------------------------------------------------------------------------
 // Readers give one surface.
-template <class Reader>
-void readWithReader(const std::string& path, Model& model)
+
+void addSurface(vtkPolyData* surface, const std::string& path, Model& model)
 {
-  vtkNew<Reader> reader;
+  SceneModel part;
+  part.name = nameOf(path);
+  part.surface = prepared(surface, path, model.notes);
+  part.property = defaultProperty();
+  if (part.surface)
+  {
+    model.surfaces.push_back(std::move(part));
+  }
+}
+
+void readPly(const std::string& path, Model& model)
+{
+  checkPlyFile(path);
+  vtkNew<vtkPLYReader> reader;
   reader->SetFileName(path.c_str());
   reader->Update();
-  SceneModel surface;
-  surface.name = std::filesystem::path(path).stem().string();
-  surface.surface = reader->GetOutput();
-  surface.property = defaultProperty();
-  model.surfaces.push_back(std::move(surface));
+  addSurface(reader->GetOutput(), path, model);
+}
+
+void readStl(const std::string& path, Model& model)
+{
+  checkStlFile(path);
+  vtkNew<vtkSTLReader> reader;
+  reader->SetFileName(path.c_str());
+  // vtkMergePoints sorts vertices into a grid over their bounds, which must be finite.
+  reader->MergingOff();
+  reader->Update();
+  reader->SetMerging(countNonFinite(reader->GetOutput()) == 0);
+  reader->Update();
+  addSurface(reader->GetOutput(), path, model);
+}
+
+void readVtp(const std::string& path, Model& model)
+{
+  vtkNew<vtkXMLPolyDataReader> reader;
+  if (!reader->CanReadFile(path.c_str()))
+  {
+    throw BadInput("not a VTK XML file with poly data, or a damaged one");
+  }
+  reader->SetFileName(path.c_str());
+  reader->Update();
+  addSurface(reader->GetOutput(), path, model);
+}
+
+//------------------------------------------------------------------------------
+// OBJ: one surface per material.
+
+/// The polygons of one material, with the vertices that they use.
+vtkSmartPointer<vtkPolyData> extractMaterial(vtkPolyData* source, vtkDataArray* materialIds, int id)
+{
+  auto part = vtkSmartPointer<vtkPolyData>::New();
+  vtkNew<vtkPoints> points;
+  points->SetDataType(source->GetPoints()->GetDataType());
+  vtkNew<vtkCellArray> polygons;
+  part->GetPointData()->CopyAllocate(source->GetPointData());
+  std::vector<vtkIdType> newIds(static_cast<std::size_t>(source->GetNumberOfPoints()), -1);
+  std::vector<vtkIdType> corners;
+  for (vtkIdType cell = 0; cell < source->GetNumberOfPolys(); ++cell)
+  {
+    if (materialIds->GetTuple1(cell) != id)
+    {
+      continue;
+    }
+    vtkIdType size = 0;
+    const vtkIdType* ids = nullptr;
+    source->GetPolys()->GetCellAtId(cell, size, ids);
+    corners.clear();
+    for (vtkIdType i = 0; i < size; ++i)
+    {
+      vtkIdType& newId = newIds[static_cast<std::size_t>(ids[i])];
+      if (newId < 0)
+      {
+        newId = points->InsertNextPoint(source->GetPoint(ids[i]));
+        part->GetPointData()->CopyData(source->GetPointData(), ids[i], newId);
+      }
+      corners.push_back(newId);
+    }
+    polygons->InsertNextCell(size, corners.data());
+  }
+  part->SetPoints(points);
+  part->SetPolys(polygons);
+  return part;
+}
+
+/// The materials of all libraries that an OBJ file names; a missing library becomes a note.
+std::map<std::string, Material> readLibraries(
+  vtkAbstractArray* libraries, const std::string& path, std::vector<std::string>& notes)
+{
+  std::map<std::string, Material> materials;
+  auto* names = vtkStringArray::SafeDownCast(libraries);
+  for (vtkIdType i = 0; names && i < names->GetNumberOfValues(); ++i)
+  {
+    const std::filesystem::path library =
+      std::filesystem::path(path).parent_path() / std::string(names->GetValue(i));
+    std::error_code error;
+    if (std::filesystem::exists(library, error))
+    {
+      materials.merge(readMaterials(library.string()));
+    }
+    else
+    {
+      notes.push_back(path + ": its material library " + library.string() + " is missing");
+    }
+  }
+  return materials;
+}
+
+void readObj(const std::string& path, Model& model)
+{
+  checkObjFile(path);
+  vtkNew<vtkOBJReader> reader;
+  reader->SetFileName(path.c_str());
+  reader->Update();
+  vtkPolyData* whole = reader->GetOutput();
+  vtkDataArray* ids = whole->GetCellData()->GetArray("MaterialIds");
+  auto* names =
+    vtkStringArray::SafeDownCast(whole->GetFieldData()->GetAbstractArray("MaterialNames"));
+  if (!ids || !names)
+  {
+    addSurface(whole, path, model);
+    return;
+  }
+
+  std::map<std::string, Material> materials =
+    readLibraries(whole->GetFieldData()->GetAbstractArray("MaterialLibraries"), path, model.notes);
+  for (int id = 0; id < static_cast<int>(names->GetNumberOfValues()); ++id)
+  {
+    const std::string name = names->GetValue(id);
+    const vtkSmartPointer<vtkPolyData> part = extractMaterial(whole, ids, id);
+    // vtkOBJReader keeps texture coordinates per material, in an array of its name.
+    part->GetPointData()->SetActiveTCoords(name.c_str());
+    const std::size_t before = model.surfaces.size();
+    addSurface(part, path, model);
+    const auto material = materials.find(name);
+    if (model.surfaces.size() > before && material != materials.end())
+    {
+      model.surfaces.back().name += ":" + name;
+      model.surfaces.back().property = material->second.property;
+      model.surfaces.back().texture = material->second.texture;
+    }
+  }
 }
 
 //------------------------------------------------------------------------------
 // Importers give actors.
-void readWithImporter(vtkImporter* importer, const std::string& path, Model& model)
+
+void importActors(vtkImporter* importer, const std::string& path, Model& model)
 {
-  // Importers want a window; nothing is drawn in this one, so it opens no display.
+  // Importers want a window. Nothing is drawn in this one, so it opens no display.
   vtkNew<vtkGnomonEGLRenderWindow> window;
   vtkNew<vtkRenderer> renderer;
   window->AddRenderer(renderer);
@@ -64,23 +367,89 @@ void readWithImporter(vtkImporter* importer, const std::string& path, Model& mod
   while (vtkActor* actor = actors->GetNextActor(iterator))
   {
     actor->GetMapper()->Update();
-    SceneModel surface;
-    surface.name = std::filesystem::path(path).stem().string();
-    surface.surface = vtkPolyData::SafeDownCast(actor->GetMapper()->GetInput());
-    surface.property = actor->GetProperty();
-    surface.texture = actor->GetTexture();
-    surface.translucent = actor->GetForceTranslucent();
-    std::copy_n(actor->GetMatrix()->GetData(), 16, surface.matrix.begin());
-    model.surfaces.push_back(std::move(surface));
+    SceneModel part;
+    part.name = nameOf(path);
+    part.surface =
+      prepared(vtkPolyData::SafeDownCast(actor->GetMapper()->GetInput()), path, model.notes);
+    part.property = actor->GetProperty();
+    part.texture = actor->GetTexture();
+    part.translucent = actor->GetForceTranslucent();
+    std::copy_n(actor->GetMatrix()->GetData(), 16, part.matrix.begin());
+    if (part.surface)
+    {
+      model.surfaces.push_back(std::move(part));
+    }
   }
 }
 
-template <class Importer>
-void readWithImporter(const std::string& path, Model& model)
+/// Lights and cameras of .3ds files are not used.
+void read3ds(const std::string& path, Model& model)
 {
-  vtkNew<Importer> importer;
+  check3dsFile(path);
+  vtkNew<vtk3DSImporter> importer;
   importer->SetFileName(path.c_str());
-  readWithImporter(importer, path, model);
+  importActors(importer, path, model);
+}
+
+/// glTF counts texture rows from the top, VTK from the bottom. vtkGLTFImporter says so with a key
+/// of its actors; here the coordinates themselves are turned over.
+void flipTextureCoordinates(vtkPolyData* surface)
+{
+  vtkDataArray* source = surface->GetPointData()->GetTCoords();
+  if (!source)
+  {
+    return;
+  }
+  vtkNew<vtkFloatArray> flipped;
+  flipped->DeepCopy(source);
+  for (vtkIdType i = 0; i < flipped->GetNumberOfTuples(); ++i)
+  {
+    flipped->SetComponent(i, 1, 1.0 - flipped->GetComponent(i, 1));
+  }
+  surface->GetPointData()->SetTCoords(flipped);
+}
+
+void readGltf(const std::string& path, Model& model)
+{
+  const GltfView view = readGltfView(path);
+  vtkNew<vtkGLTFImporter> importer;
+  importer->SetFileName(path.c_str());
+  importActors(importer, path, model);
+  for (SceneModel& surface : model.surfaces)
+  {
+    flipTextureCoordinates(surface.surface);
+  }
+  model.notes.insert(model.notes.end(), view.notes.begin(), view.notes.end());
+
+  Scene scene;
+  scene.models = model.surfaces;
+  const std::array<double, 6> bounds = boundsWorld(scene);
+  const Vec3 middle{ { 0.5 * (bounds[0] + bounds[1]), 0.5 * (bounds[2] + bounds[3]),
+    0.5 * (bounds[4] + bounds[5]) } };
+  model.camera = view.camera;
+  if (model.camera)
+  {
+    // The target lies as far ahead as the scene's middle, so that turning around it makes sense.
+    const Vec3 forward = model.camera->target - model.camera->position;
+    const double ahead = dot(middle - model.camera->position, forward);
+    model.camera->target = model.camera->position + (ahead > 0.0 ? ahead : 1.0) * forward;
+  }
+  for (const GltfLight& source : view.lights)
+  {
+    if (!source.unsupported.empty())
+    {
+      model.unsupportedLights.push_back(source.unsupported);
+      continue;
+    }
+    SceneLight light = source.light;
+    if (light.type == SceneLight::Type::Spot)
+    {
+      // VTK's lights do not fall off with distance: take what arrives in the scene's middle.
+      const double distance = length(middle - light.position);
+      light.intensity /= distance > 0.0 ? distance * distance : 1.0;
+    }
+    model.lights.push_back(light);
+  }
 }
 
 struct FileType
@@ -90,13 +459,13 @@ struct FileType
 };
 
 const FileType fileTypes[] = {
-  { ".obj", readWithImporter<vtkOBJImporter> },
-  { ".ply", readWithReader<vtkPLYReader> },
-  { ".stl", readWithReader<vtkSTLReader> },
-  { ".vtp", readWithReader<vtkXMLPolyDataReader> },
-  { ".3ds", readWithImporter<vtk3DSImporter> },
-  { ".glb", readWithImporter<vtkGLTFImporter> },
-  { ".gltf", readWithImporter<vtkGLTFImporter> },
+  { ".obj", readObj },
+  { ".ply", readPly },
+  { ".stl", readStl },
+  { ".vtp", readVtp },
+  { ".3ds", read3ds },
+  { ".glb", readGltf },
+  { ".gltf", readGltf },
 };
 
 const FileType* findFileType(const std::string& path)
@@ -107,19 +476,11 @@ const FileType* findFileType(const std::string& path)
   return place == std::end(fileTypes) ? nullptr : place;
 }
 
-vtkSmartPointer<vtkPolyData> withNormals(vtkPolyData* surface)
+/// An error's text with the file's name in front, once.
+[[noreturn]] void refuseFile(const std::string& path, const std::string& message)
 {
-  if (surface->GetPointData()->GetNormals())
-  {
-    return surface;
-  }
-  constexpr double sharpEdgeDegrees = 60.0;
-  vtkNew<vtkPolyDataNormals> normals;
-  normals->SetInputData(surface);
-  normals->SetFeatureAngle(sharpEdgeDegrees);
-  normals->ConsistencyOff();
-  normals->Update();
-  return normals->GetOutput();
+  const bool named = message.compare(0, path.size(), path) == 0;
+  throw BadInput(named ? message : path + ": " + message);
 }
 
 } // namespace
@@ -130,20 +491,35 @@ Model readModelFile(const std::string& path)
   const FileType* type = findFileType(path);
   if (!type)
   {
-    throw BadInput(path + ": the file type is \"" + lowerExtension(path) +
-      "\", expected one of: " + modelFileTypes());
+    refuseFile(path,
+      "the file type is \"" + lowerExtension(path) + "\", expected one of: " + modelFileTypes());
   }
   requireReadableFile(path);
   Model model;
   VtkMessages messages;
-  type->read(path, model);
+  try
+  {
+    type->read(path, model);
+  }
+  catch (const std::bad_alloc&)
+  {
+    refuseFile(path, "the file announces more data than there is memory for");
+  }
+  catch (const std::exception& error)
+  {
+    refuseFile(path, error.what());
+  }
   if (!messages.errors().empty())
   {
-    throw BadInput(path + ": " + messages.errors().front());
+    refuseFile(path, messages.errors().front());
   }
-  for (SceneModel& surface : model.surfaces)
+  for (const std::string& warning : messages.warnings())
   {
-    surface.surface = withNormals(surface.surface);
+    model.notes.push_back(path + ": " + warning);
+  }
+  if (model.surfaces.empty())
+  {
+    refuseFile(path, "found no triangles, expected a surface");
   }
   return model;
 }

@@ -100,11 +100,8 @@ vtkSmartPointer<vtkProperty> defaultProperty()
 //------------------------------------------------------------------------------
 void paint(SceneModel& model, const Vec3& color)
 {
-  auto property = vtkSmartPointer<vtkProperty>::New();
-  property->DeepCopy(model.property);
-  property->RemoveAllTextures();
-  property->SetColor(color[0], color[1], color[2]);
-  model.property = property;
+  model.property = defaultProperty();
+  model.property->SetColor(color[0], color[1], color[2]);
   model.texture = nullptr;
 
   auto surface = vtkSmartPointer<vtkPolyData>::New();

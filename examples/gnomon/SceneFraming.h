@@ -20,8 +20,8 @@ SceneLight defaultLight();
 /// The look of surfaces that bring none: light grey and matt, with some ambient light.
 vtkSmartPointer<vtkProperty> defaultProperty();
 
-/// Gives a surface one colour in place of its own colours and textures. What it shares with other
-/// surfaces stays as it is.
+/// Gives a surface the default look in that colour, in place of its own colours and textures. What
+/// it shares with other surfaces stays as it is.
 void paint(SceneModel& model, const Vec3& color);
 
 } // namespace gnomon::tool

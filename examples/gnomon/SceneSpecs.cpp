@@ -1,7 +1,7 @@
 #include "Errors.h"
 #include "SceneJson.h"
+#include "Text.h"
 
-#include <charconv>
 #include <optional>
 
 namespace gnomon::tool
@@ -10,35 +10,16 @@ namespace gnomon::tool
 namespace
 {
 
-std::vector<std::string> split(const std::string& text, char separator)
-{
-  std::vector<std::string> parts;
-  std::size_t begin = 0;
-  for (std::size_t end = text.find(separator); end != std::string::npos;
-       end = text.find(separator, begin))
-  {
-    parts.push_back(text.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  parts.push_back(text.substr(begin));
-  return parts;
-}
-
 /// A whole number, a number, or text.
 nlohmann::json parseScalar(const std::string& text)
 {
-  const char* end = text.data() + text.size();
-  long long whole = 0;
-  if (const auto result = std::from_chars(text.data(), end, whole);
-      result.ec == std::errc() && result.ptr == end)
+  if (const std::optional<long long> whole = parseNumber<long long>(text))
   {
-    return whole;
+    return *whole;
   }
-  double number = 0.0;
-  if (const auto result = std::from_chars(text.data(), end, number);
-      result.ec == std::errc() && result.ptr == end)
+  if (const std::optional<double> number = parseNumber<double>(text))
   {
-    return number;
+    return *number;
   }
   return text;
 }

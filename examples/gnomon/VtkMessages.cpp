@@ -1,6 +1,6 @@
 #include "VtkMessages.h"
 
-#include "Files.h"
+#include "Text.h"
 
 #include <vtkObjectFactory.h>
 #include <vtkOutputWindow.h>
@@ -56,7 +56,10 @@ vtkStandardNewMacro(VtkMessages::Window);
 VtkMessages::VtkMessages()
   : window_(vtkSmartPointer<Window>::New())
   , previous_(vtkOutputWindow::GetInstance())
+  , previousVerbosity_(vtkLogger::GetCurrentVerbosityCutoff())
 {
+  // VTK says everything twice: to its window and to its log.
+  vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
   vtkOutputWindow::SetInstance(this->window_);
 }
 
@@ -64,6 +67,7 @@ VtkMessages::VtkMessages()
 VtkMessages::~VtkMessages()
 {
   vtkOutputWindow::SetInstance(this->previous_);
+  vtkLogger::SetStderrVerbosity(this->previousVerbosity_);
 }
 
 //------------------------------------------------------------------------------

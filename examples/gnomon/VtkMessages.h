@@ -1,6 +1,7 @@
 #ifndef gnomon_examples_gnomon_VtkMessages_h
 #define gnomon_examples_gnomon_VtkMessages_h
 
+#include <vtkLogger.h>
 #include <vtkSmartPointer.h>
 
 #include <string>
@@ -29,6 +30,7 @@ private:
   class Window;
   vtkSmartPointer<Window> window_;
   vtkSmartPointer<vtkOutputWindow> previous_;
+  vtkLogger::Verbosity previousVerbosity_;
 };
 
 } // namespace gnomon::tool

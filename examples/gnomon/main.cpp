@@ -1,6 +1,6 @@
 #include "Commands.h"
 #include "Errors.h"
-#include "Files.h"
+#include "Text.h"
 
 #include <exception>
 #include <iostream>

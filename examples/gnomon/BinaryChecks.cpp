@@ -1,0 +1,238 @@
+#include "ModelChecks.h"
+
+#include "ByteReader.h"
+#include "Files.h"
+
+#include <cstdint>
+#include <set>
+#include <vector>
+
+namespace gnomon::tool
+{
+
+//------------------------------------------------------------------------------
+void checkStlFile(const std::string& path)
+{
+  const std::string bytes = readWholeFile(path, largestModelBytes);
+  constexpr std::size_t headerBytes = 80;
+  constexpr std::size_t triangleBytes = 50;
+  std::uint32_t triangles = 0;
+  if (bytes.size() >= headerBytes + sizeof(triangles))
+  {
+    ByteReader reader(path, bytes);
+    reader.skip(headerBytes, "the header");
+    triangles = reader.read<std::uint32_t>("the number of triangles");
+    if (triangles > 0 && bytes.size() == reader.position() + triangles * triangleBytes)
+    {
+      return;
+    }
+  }
+  // vtkSTLReader checks text itself; of binary files it takes what there is.
+  const std::size_t first = bytes.find_first_not_of(" \t\r\n");
+  if (first == std::string::npos || bytes.compare(first, 5, "solid") != 0)
+  {
+    throw BadInput(path + ": found " + std::to_string(bytes.size()) +
+      " bytes of a binary STL file whose header announces " + std::to_string(triangles) +
+      " triangles, expected " +
+      std::to_string(headerBytes + sizeof(triangles) + triangles * triangleBytes) +
+      " bytes, or text that starts with \"solid\"; it is truncated, empty or of another type");
+  }
+}
+
+namespace
+{
+
+/// Walks through the chunks of a .3ds file as vtk3DSImporter does.
+class ThreeDsChecker
+{
+public:
+  ThreeDsChecker(const std::string& path, const std::string& bytes)
+    : reader_(path, bytes)
+  {
+  }
+
+  void check()
+  {
+    const Chunk main = this->readChunk(this->reader_.size());
+    if (main.tag != 0x4D4D)
+    {
+      this->reader_.seek(0);
+      this->reader_.fail("not a .3ds file, expected it to start with the main chunk 4D4D");
+    }
+    this->forEachChunk(main.end,
+      [this](const Chunk& chunk)
+      {
+        if (chunk.tag == 0x3D3D)
+        {
+          this->checkEditor(chunk);
+        }
+      });
+    for (const std::string& name : this->usedMaterials_)
+    {
+      if (this->materials_.count(name) == 0)
+      {
+        this->reader_.fail("no material has the name \"" + name + "\" that a mesh uses");
+      }
+    }
+  }
+
+private:
+  struct Chunk
+  {
+    unsigned tag;
+    std::size_t end;
+  };
+
+  Chunk readChunk(std::size_t parentEnd)
+  {
+    const std::size_t begin = this->reader_.position();
+    const unsigned tag = this->reader_.read<std::uint16_t>("a chunk");
+    const std::size_t bytes = this->reader_.read<std::uint32_t>("a chunk's length");
+    constexpr std::size_t chunkHeaderBytes = 6;
+    if (bytes < chunkHeaderBytes || bytes > parentEnd - begin)
+    {
+      this->reader_.seek(begin);
+      this->reader_.fail("found a chunk of " + std::to_string(bytes) + " bytes, expected " +
+        std::to_string(chunkHeaderBytes) + " to " + std::to_string(parentEnd - begin) +
+        "; the file is truncated or damaged");
+    }
+    return { tag, begin + bytes };
+  }
+
+  template <class Visit>
+  void forEachChunk(std::size_t end, const Visit& visit)
+  {
+    while (this->reader_.position() < end)
+    {
+      const Chunk chunk = this->readChunk(end);
+      visit(chunk);
+      this->reader_.seek(chunk.end);
+    }
+  }
+
+  void checkEditor(const Chunk& editor)
+  {
+    this->forEachChunk(editor.end,
+      [this](const Chunk& chunk)
+      {
+        if (chunk.tag == 0xAFFF)
+        {
+          this->checkMaterial(chunk);
+        }
+        else if (chunk.tag == 0x4000)
+        {
+          this->readName("an object");
+          this->forEachChunk(chunk.end,
+            [this](const Chunk& part)
+            {
+              if (part.tag == 0x4100)
+              {
+                this->checkMesh(part);
+              }
+            });
+        }
+      });
+  }
+
+  void checkMaterial(const Chunk& material)
+  {
+    this->forEachChunk(material.end,
+      [this](const Chunk& chunk)
+      {
+        if (chunk.tag == 0xA000)
+        {
+          this->materials_.insert(this->readName("a material"));
+        }
+        else if (chunk.tag == 0xA200 || chunk.tag == 0xA230)
+        {
+          this->forEachChunk(chunk.end,
+            [this](const Chunk& part)
+            {
+              if (part.tag == 0xA300)
+              {
+                this->readName("a texture");
+              }
+            });
+        }
+      });
+  }
+
+  void checkMesh(const Chunk& mesh)
+  {
+    std::size_t vertices = 0;
+    std::size_t highest = 0;
+    std::size_t faces = 0;
+    this->forEachChunk(mesh.end,
+      [&](const Chunk& chunk)
+      {
+        if (chunk.tag == 0x4110)
+        {
+          vertices = this->reader_.read<std::uint16_t>("the number of vertices");
+          this->reader_.skip(vertices * 3 * sizeof(float), "vertices");
+        }
+        else if (chunk.tag == 0x4120)
+        {
+          faces = this->reader_.read<std::uint16_t>("the number of faces");
+          for (std::size_t i = 0; i < faces; ++i)
+          {
+            for (int corner = 0; corner < 3; ++corner)
+            {
+              const std::size_t index = this->reader_.read<std::uint16_t>("a face");
+              highest = std::max(highest, index);
+            }
+            this->reader_.skip(sizeof(std::uint16_t), "a face");
+          }
+          this->forEachChunk(chunk.end,
+            [&](const Chunk& group)
+            {
+              if (group.tag == 0x4130)
+              {
+                this->checkMaterialGroup(faces);
+              }
+            });
+        }
+      });
+    if (faces > 0 && highest >= vertices)
+    {
+      this->reader_.fail("found a face with vertex number " + std::to_string(highest) +
+        ", but the mesh has " + std::to_string(vertices) + " vertices");
+    }
+  }
+
+  void checkMaterialGroup(std::size_t faces)
+  {
+    this->usedMaterials_.insert(this->readName("a material"));
+    const std::size_t count = this->reader_.read<std::uint16_t>("the number of faces");
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      const std::size_t face = this->reader_.read<std::uint16_t>("a face's number");
+      if (face >= faces)
+      {
+        this->reader_.fail("found face number " + std::to_string(face) + " in a material's list, " +
+          "but the mesh has " + std::to_string(faces) + " faces");
+      }
+    }
+  }
+
+  std::string readName(const std::string& what)
+  {
+    // vtk3DSImporter has 80 bytes for a name, and may put a letter in front of it.
+    constexpr std::size_t longestName = 78;
+    return this->reader_.readName(longestName, what);
+  }
+
+  ByteReader reader_;
+  std::set<std::string> materials_;
+  std::set<std::string> usedMaterials_;
+};
+
+} // namespace
+
+//------------------------------------------------------------------------------
+void check3dsFile(const std::string& path)
+{
+  const std::string bytes = readWholeFile(path, largestModelBytes);
+  ThreeDsChecker(path, bytes).check();
+}
+
+} // namespace gnomon::tool

@@ -1,0 +1,35 @@
+#ifndef gnomon_examples_gnomon_GltfFile_h
+#define gnomon_examples_gnomon_GltfFile_h
+
+#include "Scene.h"
+
+#include <optional>
+
+namespace gnomon::tool
+{
+
+/// A light of a glTF file, before what depends on the scene's size is known.
+struct GltfLight
+{
+  SceneLight light; ///< a spot light's intensity is in candela
+  /// For kinds that Gnomon does not have yet: the sentence that refuses it. Else empty.
+  std::string unsupported;
+};
+
+/// What a glTF file holds besides surfaces.
+struct GltfView
+{
+  std::vector<GltfLight> lights;     ///< of KHR_lights_punctual, in the order of the nodes
+  std::optional<SceneCamera> camera; ///< the first perspective camera of the default scene
+  std::vector<std::string> notes;    ///< see Scene::notes
+};
+
+/// Checks a .glb or .gltf file as far as vtkGLTFImporter trusts it (every index, every range of
+/// bytes, images included), and reads lights and camera. VTK 9.1 imports both, but puts spot lights
+/// a unit away from their nodes.
+/// @throws BadInput
+GltfView readGltfView(const std::string& path);
+
+} // namespace gnomon::tool
+
+#endif

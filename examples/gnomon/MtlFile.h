@@ -1,0 +1,28 @@
+#ifndef gnomon_examples_gnomon_MtlFile_h
+#define gnomon_examples_gnomon_MtlFile_h
+
+#include <vtkProperty.h>
+#include <vtkSmartPointer.h>
+#include <vtkTexture.h>
+
+#include <map>
+#include <string>
+
+namespace gnomon::tool
+{
+
+/// A material of an .mtl file.
+struct Material
+{
+  vtkSmartPointer<vtkProperty> property;
+  vtkSmartPointer<vtkTexture> texture; ///< or null
+};
+
+/// Reads diffuse and specular colour, opacity and diffuse texture (Kd, Ks, Ns, d, Tr, map_Kd) of a
+/// material library; other statements have no counterpart and are skipped.
+/// @throws BadInput
+std::map<std::string, Material> readMaterials(const std::string& path);
+
+} // namespace gnomon::tool
+
+#endif

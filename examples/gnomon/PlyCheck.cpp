@@ -1,0 +1,394 @@
+#include "ModelChecks.h"
+
+#include "ByteReader.h"
+#include "Files.h"
+#include "Text.h"
+
+#include <cstdint>
+#include <set>
+
+namespace gnomon::tool
+{
+
+namespace
+{
+
+/// The longest line that vtkPLYReader takes, with room for what it adds.
+constexpr std::size_t longestLine = 4000;
+/// vtkPLYReader counts a face's corners in a byte.
+constexpr long mostCorners = 255;
+
+struct Property
+{
+  std::string name;
+  std::string type;
+  std::string countType; ///< empty unless it is a list
+  bool isList() const { return !this->countType.empty(); }
+};
+
+struct Element
+{
+  std::string name;
+  long count = 0;
+  std::vector<Property> properties;
+
+  const Property* find(const std::string& property) const
+  {
+    for (const Property& candidate : this->properties)
+    {
+      if (candidate.name == property)
+      {
+        return &candidate;
+      }
+    }
+    return nullptr;
+  }
+};
+
+enum class Encoding
+{
+  Ascii,
+  LittleEndian,
+  BigEndian
+};
+
+bool isType(const std::string& name)
+{
+  static const std::set<std::string> types = { "char", "short", "int", "int8", "int16", "int32",
+    "uchar", "ushort", "uint", "uint8", "uint16", "uint32", "float", "float32", "double",
+    "float64" };
+  return types.count(name) > 0;
+}
+
+bool isCornerList(const std::string& property)
+{
+  return property == "vertex_indices" || property == "vertex_index";
+}
+
+class PlyChecker
+{
+public:
+  PlyChecker(const std::string& path, const std::string& text)
+    : path_(path)
+    , text_(text)
+  {
+  }
+
+  void check()
+  {
+    this->readHeader();
+    this->checkElements();
+    if (this->encoding_ == Encoding::Ascii)
+    {
+      this->checkAsciiBody();
+    }
+    else
+    {
+      this->checkBinaryBody();
+    }
+  }
+
+private:
+  [[noreturn]] void fail(const std::string& message) const
+  {
+    throw BadInput(this->path_ + ": " + message);
+  }
+
+  [[noreturn]] void failAtLine(const std::string& message) const
+  {
+    this->fail("line " + std::to_string(this->line_) + ": " + message);
+  }
+
+  /// The next line's words; without a line end it is no line to vtkPLYReader.
+  std::vector<std::string> nextLine(const std::string& expected)
+  {
+    ++this->line_;
+    const std::size_t end = this->text_.find('\n', this->position_);
+    if (end == std::string::npos)
+    {
+      this->failAtLine(
+        "the file ends here, expected " + expected + " and a line end; it may be truncated");
+    }
+    if (end - this->position_ > longestLine)
+    {
+      this->failAtLine("found a line of " + std::to_string(end - this->position_) +
+        " characters, expected at most " + std::to_string(longestLine));
+    }
+    const std::string line = this->text_.substr(this->position_, end - this->position_);
+    this->position_ = end + 1;
+    return splitWords(line);
+  }
+
+  void readHeader()
+  {
+    if (this->text_.compare(0, 3, "ply") != 0 || this->nextLine("ply").size() != 1)
+    {
+      this->fail("not a PLY file, expected \"ply\" in its first line");
+    }
+    bool formatSeen = false;
+    for (;;)
+    {
+      const std::vector<std::string> words = this->nextLine("end_header");
+      // An empty line ends the header for vtkPLYReader.
+      const std::string keyword = words.empty() ? "" : words[0];
+      if (keyword == "end_header")
+      {
+        break;
+      }
+      if (keyword == "format")
+      {
+        this->readFormat(words);
+        formatSeen = true;
+      }
+      else if (keyword == "element")
+      {
+        this->readElement(words);
+      }
+      else if (keyword == "property")
+      {
+        this->readProperty(words);
+      }
+      else if (keyword != "comment" && keyword != "obj_info")
+      {
+        this->failAtLine("found " + quoted(keyword) +
+          ", expected format, element, property, comment or end_header");
+      }
+    }
+    if (!formatSeen)
+    {
+      this->fail("no format line, expected for example \"format ascii 1.0\"");
+    }
+  }
+
+  void readFormat(const std::vector<std::string>& words)
+  {
+    const std::string name = words.size() == 3 ? words[1] : "";
+    if (name == "ascii")
+    {
+      this->encoding_ = Encoding::Ascii;
+    }
+    else if (name == "binary_little_endian")
+    {
+      this->encoding_ = Encoding::LittleEndian;
+    }
+    else if (name == "binary_big_endian")
+    {
+      this->encoding_ = Encoding::BigEndian;
+    }
+    else
+    {
+      this->failAtLine("found " + quoted(name) +
+        ", expected format ascii, binary_little_endian or binary_big_endian, and 1.0");
+    }
+  }
+
+  void readElement(const std::vector<std::string>& words)
+  {
+    const std::optional<int> count =
+      words.size() == 3 ? parseNumber<int>(words[2]) : std::optional<int>();
+    if (!count || *count < 0)
+    {
+      this->failAtLine("expected element, a name and a count from 0 to 2147483647");
+    }
+    this->elements_.push_back({ words[1], *count, {} });
+  }
+
+  void readProperty(const std::vector<std::string>& words)
+  {
+    const bool list =
+      words.size() == 5 && words[1] == "list" && isType(words[2]) && isType(words[3]);
+    const bool scalar = words.size() == 3 && isType(words[1]);
+    if (this->elements_.empty() || !(list || scalar))
+    {
+      this->failAtLine(
+        "expected, after an element: property TYPE NAME, or property list COUNT-TYPE "
+        "TYPE NAME");
+    }
+    this->elements_.back().properties.push_back(
+      list ? Property{ words[4], words[3], words[2] } : Property{ words[2], words[1], "" });
+  }
+
+  /// vtkPLYReader reads vertices, then faces, whatever stands in between.
+  void checkElements() const
+  {
+    if (this->elements_.size() < 2 || this->elements_[0].name != "vertex" ||
+      this->elements_[1].name != "face")
+    {
+      this->fail("expected the elements vertex and face first, in this order");
+    }
+    const Element& vertex = this->elements_[0];
+    const Element& face = this->elements_[1];
+    for (const char* axis : { "x", "y", "z" })
+    {
+      if (!vertex.find(axis))
+      {
+        this->fail("element vertex has no property " + std::string(axis));
+      }
+    }
+    const Property* corners =
+      face.find("vertex_indices") ? face.find("vertex_indices") : face.find("vertex_index");
+    if (!corners)
+    {
+      this->fail("element face has no property vertex_indices");
+    }
+    if (vertex.count == 0 || face.count == 0)
+    {
+      this->fail("found " + std::to_string(vertex.count) + " vertices and " +
+        std::to_string(face.count) + " faces, expected at least one of each");
+    }
+    for (const Property& property : vertex.properties)
+    {
+      if (property.isList())
+      {
+        this->fail("property " + property.name + " of element vertex is a list, expected a number");
+      }
+    }
+    for (const Property& property : face.properties)
+    {
+      if (property.isList() != (isCornerList(property.name) || property.name == "texcoord"))
+      {
+        this->fail("property " + property.name + " of element face: expected " +
+          (property.isList() ? "a number" : "a list"));
+      }
+    }
+  }
+
+  void checkCorner(double index) const
+  {
+    const double count = static_cast<double>(this->elements_[0].count);
+    if (!(index >= 0.0 && index < count))
+    {
+      this->fail("found a face with vertex number " + std::to_string(static_cast<long>(index)) +
+        ", expected 0 to " + std::to_string(this->elements_[0].count - 1));
+    }
+  }
+
+  void checkCount(const Property& property, double count) const
+  {
+    const double least = isCornerList(property.name) ? 3.0 : 0.0;
+    if (!(count >= least && count <= mostCorners))
+    {
+      this->fail("found a face with " + std::to_string(static_cast<long>(count)) + " values of " +
+        property.name + ", expected " + std::to_string(static_cast<long>(least)) + " to " +
+        std::to_string(mostCorners));
+    }
+  }
+
+  void checkAsciiBody()
+  {
+    for (std::size_t e = 0; e < 2; ++e)
+    {
+      const Element& element = this->elements_[e];
+      for (long i = 0; i < element.count; ++i)
+      {
+        const std::string what = element.name + " " + std::to_string(i);
+        const std::vector<std::string> words = this->nextLine(what);
+        std::size_t word = 0;
+        const auto next = [&]
+        {
+          const std::optional<double> number =
+            word < words.size() ? parseNumber<double>(words[word]) : std::optional<double>();
+          if (!number)
+          {
+            this->failAtLine("found " +
+              (word < words.size() ? quoted(words[word]) : std::string("the line's end")) +
+              ", expected a number of " + what);
+          }
+          ++word;
+          return *number;
+        };
+        this->checkProperties(element, [&](const std::string&) { return next(); });
+      }
+    }
+  }
+
+  void checkBinaryBody()
+  {
+    ByteReader reader(this->path_, this->text_, this->encoding_ == Encoding::BigEndian);
+    reader.seek(this->position_);
+    for (std::size_t e = 0; e < 2; ++e)
+    {
+      const Element& element = this->elements_[e];
+      for (long i = 0; i < element.count; ++i)
+      {
+        this->checkProperties(element,
+          [&](const std::string& type) { return readBinary(reader, type, element.name.c_str()); });
+      }
+    }
+  }
+
+  /// Reads one element through `next`, which takes a type and gives the value.
+  template <class Next>
+  void checkProperties(const Element& element, const Next& next) const
+  {
+    for (const Property& property : element.properties)
+    {
+      if (!property.isList())
+      {
+        next(property.type);
+        continue;
+      }
+      const double count = next(property.countType);
+      this->checkCount(property, count);
+      for (long k = 0; k < static_cast<long>(count); ++k)
+      {
+        const double value = next(property.type);
+        if (isCornerList(property.name))
+        {
+          this->checkCorner(value);
+        }
+      }
+    }
+  }
+
+  static double readBinary(ByteReader& reader, const std::string& type, const char* what)
+  {
+    if (type == "char" || type == "int8")
+    {
+      return reader.read<std::int8_t>(what);
+    }
+    if (type == "uchar" || type == "uint8")
+    {
+      return reader.read<std::uint8_t>(what);
+    }
+    if (type == "short" || type == "int16")
+    {
+      return reader.read<std::int16_t>(what);
+    }
+    if (type == "ushort" || type == "uint16")
+    {
+      return reader.read<std::uint16_t>(what);
+    }
+    if (type == "int" || type == "int32")
+    {
+      return reader.read<std::int32_t>(what);
+    }
+    if (type == "uint" || type == "uint32")
+    {
+      return reader.read<std::uint32_t>(what);
+    }
+    if (type == "float" || type == "float32")
+    {
+      return static_cast<double>(reader.read<float>(what));
+    }
+    return reader.read<double>(what);
+  }
+
+  const std::string& path_;
+  const std::string& text_;
+  std::size_t position_ = 0;
+  std::size_t line_ = 0;
+  Encoding encoding_ = Encoding::Ascii;
+  std::vector<Element> elements_;
+};
+
+} // namespace
+
+//------------------------------------------------------------------------------
+void checkPlyFile(const std::string& path)
+{
+  const std::string text = readWholeFile(path, largestModelBytes);
+  PlyChecker(path, text).check();
+}
+
+} // namespace gnomon::tool
