@@ -96,8 +96,7 @@ std::vector<VariantSpec> listVariants(const ComparisonPlan& plan)
     const RegistryEntry* const entry = findTechnique(name);
     if (!entry)
     {
-      throw BadInput(
-        "technique '" + name + "' does not exist, expected one of " + techniqueNames());
+      throw BadInput("--techniques: found \"" + name + "\", expected some of: " + techniqueNames());
     }
     const TechniqueInfo& info = entry->info;
     for (int size : info.needsMap ? plan.mapSizesTexels : std::vector<int>{ 0 })
@@ -543,6 +542,7 @@ void requireCastingLights(const Scene& scene, const FrameReport& report)
 void describeScene(ComparisonResults& results, const Scene& scene, const FrameReport& report)
 {
   results.triangles = report.triangles;
+  results.notes = scene.notes;
   for (const LightReport& light : report.lights)
   {
     results.lights += light.casts;

@@ -57,6 +57,18 @@ TEST(Comparison, HalfAVisibilityIsBlurAndNotWrong)
   EXPECT_DOUBLE_EQ(error.rootMeanSquare, 0.5);
 }
 
+TEST(Comparison, MoreThanHalfIsWrong)
+{
+  VisibilityImages blurred = floorTruth();
+  blurred.visibility[0][0] = 0.51f; // in the shadow
+  blurred.visibility[0][1] = 0.49f;
+  blurred.visibility[0][20] = 0.49f; // in the light
+  blurred.visibility[0][21] = 0.51f;
+  const VisibilityError error = measureError(blurred, floorTruth(), { lightFromAbove() });
+  EXPECT_EQ(error.falseLight, 1);
+  EXPECT_EQ(error.falseShadow, 1);
+}
+
 TEST(Comparison, NotANumberIsAFalseShadow)
 {
   VisibilityImages broken = floorTruth();
