@@ -2,6 +2,7 @@
 #include "ComparisonRun.h"
 #include "Errors.h"
 #include "Report.h"
+#include "VtkMessages.h"
 
 #include "shadowtech/Registry.h"
 
@@ -59,12 +60,19 @@ private:
 ComparisonResults measure(const CompareOptions& options, const ComparisonPlan& plan)
 {
   const Scene scene = loadScene(options.scene);
-  if (!options.progress && !isatty(STDERR_FILENO))
-  {
-    return runComparison(scene, plan, {});
-  }
+  ProgressFunction progress;
   ProgressBar bar;
-  return runComparison(scene, plan, [&bar](double share) { bar(share); });
+  if (options.progress || isatty(STDERR_FILENO))
+  {
+    progress = [&bar](double share) { bar(share); };
+  }
+  const VtkMessages messages;
+  ComparisonResults results = runComparison(scene, plan, progress);
+  if (!messages.errors().empty())
+  {
+    throw Failure("drawing " + scene.name + ": " + messages.errors().front());
+  }
+  return results;
 }
 
 void compare(const CompareOptions& options)

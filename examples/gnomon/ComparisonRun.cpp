@@ -96,8 +96,7 @@ std::vector<VariantSpec> listVariants(const ComparisonPlan& plan)
     const RegistryEntry* const entry = findTechnique(name);
     if (!entry)
     {
-      throw BadInput(
-        "technique '" + name + "' does not exist, expected one of " + techniqueNames());
+      throw BadInput("--techniques: found \"" + name + "\", expected some of: " + techniqueNames());
     }
     const TechniqueInfo& info = entry->info;
     for (int size : info.needsMap ? plan.mapSizesTexels : std::vector<int>{ 0 })
@@ -436,29 +435,44 @@ VisibilityImages withoutShadows(const VisibilityImages& truth)
   return images;
 }
 
+/// The visibility of a variant that shades with it but does not hand it out.
+VisibilityImages visibilityFromItsPictures(
+  Variant& variant, const Scene& scene, const VisibilityImages& truth)
+{
+  const VariantSpec& spec = variant.spec();
+  PictureVisibility found = measureVisibility(scene, truth,
+    [&spec](vtkRenderer* renderer)
+    {
+      if (spec.isGnomon())
+      {
+        renderer->SetPass(makeGnomonPass(spec));
+      }
+      else
+      {
+        renderer->SetPass(makeShadowMapPass(spec.mapSizeTexels));
+      }
+    });
+  variant.result.errorSource =
+    "Read off pictures of what it drew: the scene with white surfaces, without ambient light and "
+    "gloss, under one light at a time, once with and once without shadows; the quotient of the two "
+    "is "
+    "the visibility. Four exposures keep faintly lit surfaces above the steps of 8 bits. " +
+    std::to_string(found.unreadable) +
+    " pixels that graze the light are black even so; they count as right.";
+  return std::move(found.images);
+}
+
 VisibilityImages visibilityOf(Variant& variant, const Scene& scene, const VisibilityImages& truth)
 {
   const VariantSpec& spec = variant.spec();
-  const char* const fromPictures =
-    "Read off pictures of what it drew: the scene with white surfaces, without ambient light and "
-    "gloss, under one light, once with and once without shadows; the quotient of the two is the "
-    "visibility. Four exposures keep faintly lit surfaces above 8 bits of brightness.";
   if (spec.technique == plainTechnique)
   {
     variant.result.errorSource = "By definition: it lights everything, so its visibility is 1.";
     return withoutShadows(truth);
   }
-  if (spec.technique == shadowMapPassTechnique)
+  if (!spec.isGnomon() || spec.route == vtkGnomonShadowPass::ROUTE_INLINE)
   {
-    variant.result.errorSource = fromPictures;
-    return measureVisibility(scene, truth,
-      [&spec](vtkRenderer* renderer) { renderer->SetPass(makeShadowMapPass(spec.mapSizeTexels)); });
-  }
-  if (spec.route == vtkGnomonShadowPass::ROUTE_INLINE)
-  {
-    variant.result.errorSource = fromPictures;
-    return measureVisibility(
-      scene, truth, [&spec](vtkRenderer* renderer) { renderer->SetPass(makeGnomonPass(spec)); });
+    return visibilityFromItsPictures(variant, scene, truth);
   }
   variant.result.errorSource = spec.technique == truthTechnique
     ? "It is the truth."
@@ -528,6 +542,7 @@ void requireCastingLights(const Scene& scene, const FrameReport& report)
 void describeScene(ComparisonResults& results, const Scene& scene, const FrameReport& report)
 {
   results.triangles = report.triangles;
+  results.notes = scene.notes;
   for (const LightReport& light : report.lights)
   {
     results.lights += light.casts;

@@ -1,5 +1,7 @@
 #include "PictureVisibility.h"
 
+#include "Comparison.h"
+
 #include "plugin/vtkGnomonEGLRenderWindow.h"
 
 #include <vtkLight.h>
@@ -11,6 +13,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 
 namespace gnomon::tool
 {
@@ -71,7 +75,8 @@ std::vector<Picture> expose(vtkRenderer* renderer, int width, int height)
 //------------------------------------------------------------------------------
 std::vector<float> visibilityFromPictures(const std::vector<ExposedPair>& exposures)
 {
-  std::vector<float> visibility(exposures.empty() ? 0 : exposures.front().lit.pixelCount(), 0.0f);
+  std::vector<float> visibility(exposures.empty() ? 0 : exposures.front().lit.pixelCount(),
+    std::numeric_limits<float>::quiet_NaN());
   for (std::size_t i = 0; i < visibility.size(); ++i)
   {
     for (const ExposedPair& pair : exposures)
@@ -92,10 +97,11 @@ std::vector<float> visibilityFromPictures(const std::vector<ExposedPair>& exposu
 }
 
 //------------------------------------------------------------------------------
-VisibilityImages measureVisibility(const Scene& scene, const VisibilityImages& truth,
+PictureVisibility measureVisibility(const Scene& scene, const VisibilityImages& truth,
   const std::function<void(vtkRenderer*)>& addShadows)
 {
-  VisibilityImages result = truth;
+  PictureVisibility result;
+  result.images = truth;
   for (std::size_t k = 0; k < truth.sceneIndices.size(); ++k)
   {
     const Scene white = whiteScene(scene, static_cast<std::size_t>(truth.sceneIndices[k]));
@@ -108,7 +114,19 @@ VisibilityImages measureVisibility(const Scene& scene, const VisibilityImages& t
     {
       exposures.push_back({ lit[i], shadowed[i] });
     }
-    result.visibility[k] = visibilityFromPictures(exposures);
+    const std::vector<float> found = visibilityFromPictures(exposures);
+    const std::vector<unsigned char> facing = facingPixels(truth, white.lights[0]);
+    for (std::size_t i = 0; i < found.size(); ++i)
+    {
+      if (!std::isnan(found[i]))
+      {
+        result.images.visibility[k][i] = found[i];
+      }
+      else
+      {
+        result.unreadable += facing[i];
+      }
+    }
   }
   return result;
 }

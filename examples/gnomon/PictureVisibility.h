@@ -6,6 +6,7 @@
 
 #include "plugin/VisibilityImages.h"
 
+#include <cstdint>
 #include <functional>
 #include <vector>
 
@@ -30,13 +31,23 @@ struct ExposedPair
 /// count as 1.
 std::vector<float> visibilityFromPictures(const std::vector<ExposedPair>& exposures);
 
+/// What measureVisibility finds.
+struct PictureVisibility
+{
+  VisibilityImages
+    images; ///< the truth's positions, normals and coverage with the visibility found
+  std::int64_t unreadable = 0; ///< pixels that count but could not be read
+};
+
 /// The visibility that `addShadows` gives a scene, read off pictures: for renderers that shade with
 /// visibility but do not hand it out. For each light of the truth, the scene is drawn with white
 /// surfaces and this light alone. Translucent models are left out.
 ///
+/// Pixels that facingPixels() counts although VTK shades them black (they graze the light so
+/// closely that the two disagree on the side) cannot be read; they get the truth's visibility.
+///
 /// @param addShadows gives a new renderer its shadows; called once per light
-/// @return the truth's positions, normals and coverage with the visibility found
-VisibilityImages measureVisibility(const Scene& scene, const VisibilityImages& truth,
+PictureVisibility measureVisibility(const Scene& scene, const VisibilityImages& truth,
   const std::function<void(vtkRenderer*)>& addShadows);
 
 } // namespace gnomon::tool

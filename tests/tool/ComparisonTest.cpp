@@ -57,6 +57,18 @@ TEST(Comparison, HalfAVisibilityIsBlurAndNotWrong)
   EXPECT_DOUBLE_EQ(error.rootMeanSquare, 0.5);
 }
 
+TEST(Comparison, MoreThanHalfIsWrong)
+{
+  VisibilityImages blurred = floorTruth();
+  blurred.visibility[0][0] = 0.51f; // in the shadow
+  blurred.visibility[0][1] = 0.49f;
+  blurred.visibility[0][20] = 0.49f; // in the light
+  blurred.visibility[0][21] = 0.51f;
+  const VisibilityError error = measureError(blurred, floorTruth(), { lightFromAbove() });
+  EXPECT_EQ(error.falseLight, 1);
+  EXPECT_EQ(error.falseShadow, 1);
+}
+
 TEST(Comparison, NotANumberIsAFalseShadow)
 {
   VisibilityImages broken = floorTruth();
@@ -164,8 +176,12 @@ TEST(PictureVisibility, IsTheQuotientOfTheBrightestUsefulExposure)
     { grey({ 200, 200, 1, 0, 100 }), grey({ 200, 100, 1, 0, 120 }) },
     { grey({ 255, 255, 20, 0, 255 }), grey({ 255, 255, 10, 0, 255 }) },
   };
+  std::vector<float> found = visibilityFromPictures(exposures);
+  ASSERT_EQ(found.size(), 5u);
+  EXPECT_TRUE(std::isnan(found[3]));
+  found[3] = 0.0f;
   const std::vector<float> expected = { 1.0f, 0.5f, 0.5f, 0.0f, 1.0f };
-  EXPECT_EQ(visibilityFromPictures(exposures), expected);
+  EXPECT_EQ(found, expected);
 }
 
 } // namespace

@@ -1,0 +1,179 @@
+#include "ComparisonRun.h"
+
+#include "Commands.h"
+#include "Errors.h"
+#include "PictureVisibility.h"
+#include "TestFiles.h"
+
+#include <CLI/CLI.hpp>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace gnomon::tool
+{
+namespace
+{
+
+const VariantResult& variant(const ComparisonResults& results, const std::string& name)
+{
+  const auto found = std::find_if(results.variants.begin(), results.variants.end(),
+    [&name](const VariantResult& candidate) { return candidate.name == name; });
+  if (found == results.variants.end())
+  {
+    throw std::runtime_error("no variant " + name);
+  }
+  return *found;
+}
+
+/// One small comparison for all tests of this file.
+const ComparisonResults& cubeResults()
+{
+  static const ComparisonResults results = []
+  {
+    ComparisonPlan plan;
+    plan.techniques = { "nsm" };
+    plan.mapSizesTexels = { 256 };
+    plan.width = 140; // a square: vtkShadowMapPass is wrong in all other windows
+    plan.height = 140;
+    plan.frames = 2;
+    return runComparison(loadScene("cube"), plan, {});
+  }();
+  return results;
+}
+
+TEST(ComparisonRun, ListsPeersRoutesAndTheTruth)
+{
+  std::vector<std::string> names;
+  for (const VariantResult& result : cubeResults().variants)
+  {
+    names.push_back(result.name);
+  }
+  const std::vector<std::string> expected = { "plain VTK", "vtkShadowMapPass 256", "nsm 256 inline",
+    "nsm 256 image", "raytraced" };
+  EXPECT_EQ(names, expected);
+  EXPECT_EQ(cubeResults().truth, "raytraced");
+  EXPECT_EQ(cubeResults().lights, 1);
+  EXPECT_GE(cubeResults().triangles, 14u); // a cube on a plane
+}
+
+TEST(ComparisonRun, MeasuresErrorsAgainstTheTruth)
+{
+  const VisibilityError truth = variant(cubeResults(), "raytraced").error;
+  EXPECT_GT(truth.facingPixels, 3000);
+  EXPECT_EQ(truth.wrongPixels(), 0);
+  EXPECT_EQ(truth.meanAbsolute, 0.0);
+
+  // Without shadows, exactly the pixels in shadow are wrong, and nothing else.
+  const VisibilityError plain = variant(cubeResults(), "plain VTK").error;
+  EXPECT_EQ(plain.facingPixels, truth.facingPixels);
+  EXPECT_GT(plain.share(plain.falseLight), 0.02);
+  EXPECT_EQ(plain.falseShadow, 0);
+  EXPECT_DOUBLE_EQ(plain.meanAbsolute, plain.share(plain.falseLight));
+
+  for (const char* name : { "vtkShadowMapPass 256", "nsm 256 inline", "nsm 256 image" })
+  {
+    const VisibilityError error = variant(cubeResults(), name).error;
+    EXPECT_EQ(error.facingPixels, truth.facingPixels) << name;
+    EXPECT_LT(error.wrongPixels(), plain.wrongPixels() / 2) << name;
+  }
+}
+
+TEST(ComparisonRun, VisibilityReadOffPicturesAgreesWithTheImage)
+{
+  // The same technique by both routes: one image is handed out, the other read off pictures.
+  const VisibilityError image = variant(cubeResults(), "nsm 256 image").error;
+  const VisibilityError pictures = variant(cubeResults(), "nsm 256 inline").error;
+  EXPECT_NEAR(static_cast<double>(image.falseLight), static_cast<double>(pictures.falseLight), 3.0);
+  EXPECT_NEAR(
+    static_cast<double>(image.falseShadow), static_cast<double>(pictures.falseShadow), 3.0);
+}
+
+TEST(ComparisonRun, MeasuresTimesStagesAndMemory)
+{
+  for (const VariantResult& result : cubeResults().variants)
+  {
+    for (const MotionTiming& timing : result.timings)
+    {
+      EXPECT_GT(timing.milliseconds, 0.0) << result.name;
+    }
+  }
+  const VariantResult& image = variant(cubeResults(), "nsm 256 image");
+  for (const MotionTiming& timing : image.timings)
+  {
+    EXPECT_GT(timing.stageShare, 0.5); // a frame this small is mostly overhead
+    EXPECT_LE(timing.stageShare, 1.01);
+  }
+  EXPECT_GE(image.memory.maps, 256u * 256u * 4u);
+  EXPECT_GT(image.memory.images, 0u);
+  EXPECT_TRUE(variant(cubeResults(), "plain VTK").timings[0].stages.empty());
+}
+
+TEST(ComparisonRun, TakesPictures)
+{
+  for (const VariantResult& result : cubeResults().variants)
+  {
+    EXPECT_EQ(result.picture.width, 140);
+    EXPECT_EQ(result.picture.height, 140);
+    EXPECT_EQ(result.errors.rgb.size(), result.picture.rgb.size());
+  }
+  EXPECT_NE(variant(cubeResults(), "plain VTK").picture.rgb,
+    variant(cubeResults(), "raytraced").picture.rgb);
+  EXPECT_GT(variant(cubeResults(), "raytraced").tracedPixels, 0);
+}
+
+TEST(ComparisonRun, ASceneWithoutCastingLightsIsBadInput)
+{
+  Scene scene = loadScene("cube");
+  for (SceneLight& light : scene.lights)
+  {
+    light.intensity = 0.0;
+  }
+  ComparisonPlan plan;
+  plan.width = 32;
+  plan.height = 32;
+  plan.frames = 1;
+  const std::string message = messageOf<BadInput>([&] { runComparison(scene, plan, {}); });
+  EXPECT_NE(message.find("no light casts a shadow"), std::string::npos) << message;
+}
+
+/// `gnomon compare` with these arguments.
+void compare(std::vector<std::string> arguments)
+{
+  CLI::App app("gnomon");
+  addCompareCommand(app);
+  arguments.insert(arguments.begin(), "compare");
+  std::reverse(arguments.begin(), arguments.end()); // as CLI11 takes vectors
+  app.parse(arguments);
+}
+
+TEST(CompareCommand, RefusesBadInputBeforeDrawing)
+{
+  const TestFolder folder;
+  writeBytes(folder / "file", "text");
+  const std::string report = folder / "report";
+  EXPECT_THROW(compare({ "cube", "-o", folder / "file" }), BadInput);
+  EXPECT_THROW(compare({ "no-such-scene", "-o", report }), BadInput);
+  EXPECT_THROW(compare({ "cube", "-o", report, "--size", "0x10" }), BadInput);
+  EXPECT_THROW(compare({ "cube", "-o", report, "--techniques", "nsm,magic" }), BadInput);
+  EXPECT_THROW(compare({ "cube", "-o", report, "--map-sizes", "7" }), CLI::ParseError);
+  EXPECT_THROW(compare({ "cube", "-o", report, "--frames", "0" }), CLI::ParseError);
+  EXPECT_THROW(compare({ "cube", "-o", report, "--route", "scenic" }), CLI::ParseError);
+  EXPECT_THROW(compare({ "cube" }), CLI::ParseError);
+}
+
+TEST(CompareCommand, WritesAReport)
+{
+  const TestFolder folder;
+  compare({ "cube", "-o", folder / "report", "--techniques", "nsm", "--map-sizes", "64,128",
+    "--size", "64x48", "--frames", "1", "--route", "image" });
+  for (const char* name : { "report/report.html", "report/results.csv", "report/results.json",
+         "report/chart.png", "report/nsm-64-image.png", "report/nsm-128-image-errors.png",
+         "report/vtkShadowMapPass-128.png", "report/raytraced.png" })
+  {
+    EXPECT_TRUE(std::filesystem::exists(folder / name)) << name;
+  }
+}
+
+} // namespace
+} // namespace gnomon::tool
