@@ -1,0 +1,276 @@
+#include "PassScene.h"
+
+#include <vtkCameraPass.h>
+#include <vtkCubeSource.h>
+#include <vtkPlaneSource.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+#include <vtkRenderPassCollection.h>
+#include <vtkSequencePass.h>
+#include <vtkShadowMapBakerPass.h>
+#include <vtkShadowMapPass.h>
+#include <vtkSphereSource.h>
+#include <vtkTrivialProducer.h>
+#include <vtkUnsignedCharArray.h>
+#include <vtk_glew.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace gnomon::test
+{
+
+//------------------------------------------------------------------------------
+glm::ivec3 Picture::at(int x, int y) const
+{
+  const std::size_t first = 3 *
+    (static_cast<std::size_t>(y) * static_cast<std::size_t>(this->width) +
+      static_cast<std::size_t>(x));
+  return { this->rgb.at(first), this->rgb.at(first + 1), this->rgb.at(first + 2) };
+}
+
+//------------------------------------------------------------------------------
+Picture readPicture(vtkRenderWindow* window)
+{
+  vtkNew<vtkUnsignedCharArray> values;
+  const int* size = window->GetSize();
+  window->GetPixelData(0, 0, size[0] - 1, size[1] - 1, 1, values);
+  const unsigned char* first = values->GetPointer(0);
+  return { size[0], size[1], { first, first + values->GetNumberOfValues() } };
+}
+
+//------------------------------------------------------------------------------
+std::size_t differingPixels(const Picture& a, const Picture& b, int tolerance)
+{
+  if (a.rgb.size() != b.rgb.size())
+  {
+    ADD_FAILURE() << "pictures of different sizes";
+    return std::max(a.pixels(), b.pixels());
+  }
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < a.rgb.size(); i += 3)
+  {
+    const auto differs = [&](std::size_t k) { return std::abs(a.rgb[k] - b.rgb[k]) > tolerance; };
+    count += differs(i) || differs(i + 1) || differs(i + 2) ? 1 : 0;
+  }
+  return count;
+}
+
+//------------------------------------------------------------------------------
+PassScene::PassScene(int width, int height)
+{
+  this->window->SetSize(width, height);
+  this->window->AddRenderer(this->renderer);
+  this->renderer->AutomaticLightCreationOff();
+  this->useGnomon();
+}
+
+//------------------------------------------------------------------------------
+vtkActor* PassScene::add(vtkAlgorithm* source)
+{
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputConnection(source->GetOutputPort());
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  this->renderer->AddActor(actor);
+  return actor;
+}
+
+//------------------------------------------------------------------------------
+vtkActor* PassScene::add(vtkPolyData* data)
+{
+  vtkNew<vtkTrivialProducer> producer;
+  producer->SetOutput(data);
+  return this->add(producer);
+}
+
+//------------------------------------------------------------------------------
+vtkActor* PassScene::addBox(const glm::dvec3& lower, const glm::dvec3& upper)
+{
+  vtkNew<vtkCubeSource> box;
+  box->SetBounds(lower.x, upper.x, lower.y, upper.y, lower.z, upper.z);
+  return this->add(box);
+}
+
+//------------------------------------------------------------------------------
+vtkActor* PassScene::addFloor(double extent, double z)
+{
+  vtkNew<vtkPlaneSource> plane;
+  plane->SetOrigin(-extent, -extent, z);
+  plane->SetPoint1(extent, -extent, z);
+  plane->SetPoint2(-extent, extent, z);
+  return this->add(plane);
+}
+
+//------------------------------------------------------------------------------
+vtkActor* PassScene::addSphere(const glm::dvec3& centre, double radius)
+{
+  vtkNew<vtkSphereSource> sphere;
+  sphere->SetCenter(centre.x, centre.y, centre.z);
+  sphere->SetRadius(radius);
+  sphere->SetThetaResolution(48);
+  sphere->SetPhiResolution(24);
+  return this->add(sphere);
+}
+
+//------------------------------------------------------------------------------
+vtkLight* PassScene::addSun(const glm::dvec3& direction)
+{
+  vtkNew<vtkLight> light;
+  light->SetLightTypeToSceneLight();
+  light->SetPosition(-direction.x, -direction.y, -direction.z);
+  light->SetFocalPoint(0.0, 0.0, 0.0);
+  this->renderer->AddLight(light);
+  return light;
+}
+
+//------------------------------------------------------------------------------
+vtkLight* PassScene::addSpot(
+  const glm::dvec3& position, const glm::dvec3& target, double coneAngleDegrees)
+{
+  vtkNew<vtkLight> light;
+  light->SetLightTypeToSceneLight();
+  light->SetPosition(position.x, position.y, position.z);
+  light->SetFocalPoint(target.x, target.y, target.z);
+  light->SetPositional(true);
+  light->SetConeAngle(coneAngleDegrees);
+  light->SetExponent(0.0); // no fall-off inside the cone
+  this->renderer->AddLight(light);
+  return light;
+}
+
+//------------------------------------------------------------------------------
+void PassScene::lookDown(double halfHeight, double x, double y)
+{
+  vtkCamera* camera = this->renderer->GetActiveCamera();
+  camera->ParallelProjectionOn();
+  camera->SetParallelScale(halfHeight);
+  camera->SetPosition(x, y, 20.0);
+  camera->SetFocalPoint(x, y, 0.0);
+  camera->SetViewUp(0.0, 1.0, 0.0);
+  camera->SetClippingRange(1.0, 30.0);
+  this->down_ = { x, y, halfHeight };
+}
+
+//------------------------------------------------------------------------------
+glm::dvec2 PassScene::floorAt(int x, int y) const
+{
+  const int* size = const_cast<vtkGnomonEGLRenderWindow*>(this->window.Get())->GetSize();
+  const double pixel = 2.0 * this->down_.z / size[1];
+  return { this->down_.x + (x + 0.5 - 0.5 * size[0]) * pixel,
+    this->down_.y + (y + 0.5 - 0.5 * size[1]) * pixel };
+}
+
+//------------------------------------------------------------------------------
+void PassScene::lookFrom(const glm::dvec3& position, const glm::dvec3& target)
+{
+  vtkCamera* camera = this->renderer->GetActiveCamera();
+  camera->ParallelProjectionOff();
+  camera->SetPosition(position.x, position.y, position.z);
+  camera->SetFocalPoint(target.x, target.y, target.z);
+  camera->SetViewUp(0.0, 0.0, 1.0);
+  this->renderer->ResetCameraClippingRange();
+}
+
+//------------------------------------------------------------------------------
+Picture PassScene::render()
+{
+  this->window->Render();
+  EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
+  return readPicture(this->window);
+}
+
+//------------------------------------------------------------------------------
+void PassScene::useVtkShadows(int mapSize)
+{
+  vtkNew<vtkShadowMapPass> shadows;
+  shadows->GetShadowMapBakerPass()->SetResolution(static_cast<unsigned int>(mapSize));
+  vtkNew<vtkRenderPassCollection> passes;
+  passes->AddItem(shadows->GetShadowMapBakerPass());
+  passes->AddItem(shadows);
+  vtkNew<vtkSequencePass> sequence;
+  sequence->SetPasses(passes);
+  vtkNew<vtkCameraPass> camera;
+  camera->SetDelegatePass(sequence);
+  if (this->renderer->GetPass())
+  {
+    this->renderer->GetPass()->ReleaseGraphicsResources(this->window);
+  }
+  this->renderer->SetPass(camera);
+  this->vtkShadows = shadows;
+}
+
+//------------------------------------------------------------------------------
+FloorCheck checkFloor(
+  const PassScene& scene, const Picture& picture, const ExactFloor& exact, double band)
+{
+  FloorCheck check;
+  constexpr double tolerance = 64.0;
+  for (int y = 0; y < picture.height; ++y)
+  {
+    for (int x = 0; x < picture.width; ++x)
+    {
+      const glm::dvec2 floor = scene.floorAt(x, y);
+      const double value = exact(floor);
+      bool nearEdge = value < 0.0;
+      for (const glm::dvec2& step : { glm::dvec2(band, 0.0), glm::dvec2(-band, 0.0),
+             glm::dvec2(0.0, band), glm::dvec2(0.0, -band) })
+      {
+        nearEdge = nearEdge || exact(floor + step) != value;
+      }
+      if (nearEdge)
+      {
+        continue;
+      }
+      ++check.counted;
+      check.falseLight += picture.red(x, y) > value + tolerance ? 1 : 0;
+      check.falseShadow += picture.red(x, y) < value - tolerance ? 1 : 0;
+    }
+  }
+  return check;
+}
+
+//------------------------------------------------------------------------------
+bool hitsBox(const glm::dvec2& floor, const glm::dvec3& toLight, const glm::dvec3& lower,
+  const glm::dvec3& upper)
+{
+  const glm::dvec3 origin(floor, 0.0);
+  double first = 0.0;
+  double last = 1e300;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    if (toLight[axis] == 0.0)
+    {
+      if (origin[axis] < lower[axis] || origin[axis] > upper[axis])
+      {
+        return false;
+      }
+      continue;
+    }
+    const double a = (lower[axis] - origin[axis]) / toLight[axis];
+    const double b = (upper[axis] - origin[axis]) / toLight[axis];
+    first = std::max(first, std::min(a, b));
+    last = std::min(last, std::max(a, b));
+  }
+  return first <= last;
+}
+
+//------------------------------------------------------------------------------
+void PassTest::TearDown()
+{
+  EXPECT_EQ(this->takeErrors(), "");
+}
+
+//------------------------------------------------------------------------------
+std::string PassTest::takeErrors()
+{
+  std::string text;
+  const std::vector<std::string>& errors = this->messages_.errors();
+  for (; this->errorsTaken_ < errors.size(); ++this->errorsTaken_)
+  {
+    text += errors[this->errorsTaken_] + "\n";
+  }
+  return text;
+}
+
+} // namespace gnomon::test

@@ -1,0 +1,136 @@
+#ifndef gnomon_tests_unit_plugin_PassScene_h
+#define gnomon_tests_unit_plugin_PassScene_h
+
+#include "VtkMessages.h"
+
+#include "plugin/VisibilityImages.h"
+#include "plugin/vtkGnomonEGLRenderWindow.h"
+#include "plugin/vtkGnomonShadowPass.h"
+#include "shadowtech/base/FrameReport.h"
+
+#include <vtkActor.h>
+#include <vtkAlgorithm.h>
+#include <vtkCamera.h>
+#include <vtkLight.h>
+#include <vtkNew.h>
+#include <vtkPolyData.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+#include <vtkSmartPointer.h>
+
+#include <glm/glm.hpp>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace gnomon::test
+{
+
+/// A window's picture; row 0 is the bottom row.
+struct Picture
+{
+  int width = 0;
+  int height = 0;
+  std::vector<unsigned char> rgb;
+
+  std::size_t pixels() const { return this->rgb.size() / 3; }
+  glm::ivec3 at(int x, int y) const;
+  int red(int x, int y) const { return this->at(x, y).r; }
+  bool operator==(const Picture& other) const
+  {
+    return this->width == other.width && this->height == other.height && this->rgb == other.rgb;
+  }
+};
+
+/// Reads the whole window.
+Picture readPicture(vtkRenderWindow* window);
+
+/// Pixels in which some channel differs by more than `tolerance` of 255.
+std::size_t differingPixels(const Picture& a, const Picture& b, int tolerance = 0);
+
+/// A renderer in a window of its own, with the pass in place. Surfaces are white and matt, without
+/// ambient light, so that a pixel's value is the light's cosine times its visibility.
+class PassScene
+{
+public:
+  PassScene(int width, int height);
+
+  vtkActor* add(vtkAlgorithm* source);
+  vtkActor* add(vtkPolyData* data);
+  vtkActor* addBox(const glm::dvec3& lower, const glm::dvec3& upper);
+  /// The square of half side `extent` around the origin, at height z.
+  vtkActor* addFloor(double extent, double z = 0.0);
+  vtkActor* addSphere(const glm::dvec3& centre, double radius);
+  vtkLight* addSun(const glm::dvec3& direction);
+  vtkLight* addSpot(const glm::dvec3& position, const glm::dvec3& target, double coneAngleDegrees);
+
+  /// A parallel camera that looks straight down with +y up and sees `halfHeight` of the floor above
+  /// and below its middle (x, y).
+  void lookDown(double halfHeight, double x = 0.0, double y = 0.0);
+  /// The floor point that lookDown shows at the middle of a pixel.
+  glm::dvec2 floorAt(int x, int y) const;
+  void lookFrom(const glm::dvec3& position, const glm::dvec3& target = glm::dvec3(0.0));
+
+  /// Draws a frame, which must raise no OpenGL error.
+  Picture render();
+
+  ///@{
+  /// Who draws the scene: Gnomon's pass, VTK's own shadow pass, or no pass at all.
+  void useGnomon() { this->renderer->SetPass(this->pass); }
+  void useVtkShadows(int mapSize = 1024);
+  void usePlain() { this->renderer->SetPass(nullptr); }
+  ///@}
+
+  const FrameReport& report() const { return this->pass->GetReport(); }
+
+  vtkNew<vtkGnomonEGLRenderWindow> window;
+  vtkNew<vtkRenderer> renderer;
+  vtkNew<vtkGnomonShadowPass> pass;
+  vtkSmartPointer<vtkObject> vtkShadows; ///< the vtkShadowMapPass of useVtkShadows()
+
+private:
+  glm::dvec3 down_{ 0.0 }; ///< the middle and the half height of lookDown()
+};
+
+/// What a picture of a floor from straight above shows, against shadows known exactly.
+struct FloorCheck
+{
+  std::size_t counted = 0;     ///< floor pixels away from the shadows' edges
+  std::size_t falseLight = 0;  ///< brighter than they must be
+  std::size_t falseShadow = 0; ///< darker than they must be
+  std::size_t wrong() const { return this->falseLight + this->falseShadow; }
+};
+
+/// The exact answer at a floor point: the value that the pixel must have (0 to 255), or a negative
+/// one where the floor is not seen.
+using ExactFloor = std::function<double(const glm::dvec2&)>;
+
+/// Compares each pixel with the exact answer, with a tolerance of a quarter of white. Pixels with
+/// an edge of the exact answer nearer than `band` (floor units) are left out.
+FloorCheck checkFloor(
+  const PassScene& scene, const Picture& picture, const ExactFloor& exact, double band);
+
+/// Whether the ray from a floor point towards the light, p + t * toLight for t > 0, meets the box.
+bool hitsBox(const glm::dvec2& floor, const glm::dvec3& toLight, const glm::dvec3& lower,
+  const glm::dvec3& upper);
+
+/// Every test must leave VTK with nothing to complain about, but for the errors that it takes.
+class PassTest : public testing::Test
+{
+protected:
+  void TearDown() override;
+  /// The errors since the last call, as one text; they no longer count.
+  std::string takeErrors();
+
+  tool::VtkMessages messages_;
+  std::size_t errorsTaken_ = 0;
+};
+
+} // namespace gnomon::test
+
+#endif
