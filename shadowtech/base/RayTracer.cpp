@@ -318,9 +318,6 @@ struct RayTracer::Impl
   Scene scene;
   bool lanes16 = false; ///< packets of 16; else of 8, whose answers are the same
   std::unordered_map<std::uint64_t, Caster> casters; ///< by the surface's topologyVersion
-  /// Embree reads 16 bytes per vertex, so 4 past the last one: a copy for snapshots without room.
-  std::vector<glm::vec3> padded;
-  const glm::vec3* positions = nullptr;
   std::uint64_t topologyVersion = 0;
   std::uint64_t positionsVersion = 0;
 };
@@ -370,12 +367,13 @@ void RayTracer::Impl::setBuffers(
       triangles, 0, sizeof(glm::uvec3), surface.triangleCount);
     caster.triangles = triangles;
   }
+  const glm::vec3* positions = occluders.positionsCentred.data();
   const std::size_t count = occluders.positionsCentred.size();
-  if (caster.positions != this->positions || caster.positionCount != count)
+  if (caster.positions != positions || caster.positionCount != count)
   {
     rtcSetSharedGeometryBuffer(caster.geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-      this->positions, 0, sizeof(glm::vec3), count);
-    caster.positions = this->positions;
+      positions, 0, sizeof(glm::vec3), count);
+    caster.positions = positions;
     caster.positionCount = count;
   }
 }
@@ -413,19 +411,6 @@ RayTracer::Update RayTracer::update(const Occluders& occluders)
   {
     return {};
   }
-  const std::vector<glm::vec3>& positions = occluders.positionsCentred;
-  if (positions.capacity() > positions.size())
-  {
-    impl.padded.clear();
-    impl.positions = positions.data();
-  }
-  else
-  {
-    impl.padded.reserve(positions.size() + 1);
-    impl.padded.assign(positions.begin(), positions.end());
-    impl.positions = impl.padded.data();
-  }
-
   Update update;
   std::unordered_map<std::uint64_t, Caster> casters;
   for (const Surface& surface : occluders.surfaces)
@@ -496,8 +481,7 @@ std::size_t RayTracer::trace(const ShadowLight& light, const Occluders& occluder
 //------------------------------------------------------------------------------
 std::size_t RayTracer::bytes() const
 {
-  return static_cast<std::size_t>(std::max<std::ptrdiff_t>(this->impl_->bytes, 0)) +
-    this->impl_->padded.capacity() * sizeof(glm::vec3);
+  return static_cast<std::size_t>(std::max<std::ptrdiff_t>(this->impl_->bytes, 0));
 }
 
 } // namespace gnomon

@@ -1,5 +1,6 @@
 #include "SyntheticScene.h"
 
+#include "shadowtech/base/RayTracer.h"
 #include "shadowtech/base/ShadowRay.h"
 
 #include <embree3/rtcore.h>
@@ -38,6 +39,21 @@ Mesh makePlane(double side, int cells)
       mesh.triangles.emplace_back(i, i + 1, i + row + 1);
       mesh.triangles.emplace_back(i, i + row + 1, i + row);
     }
+  }
+  return mesh;
+}
+
+//------------------------------------------------------------------------------
+Mesh makeTerrain(double side, int cells, double height)
+{
+  Mesh mesh = makePlane(side, cells);
+  for (glm::dvec3& point : mesh.points)
+  {
+    const double x = 40.0 * point.x / side;
+    const double y = 40.0 * point.y / side;
+    point.z = height *
+      (0.6 * std::sin(0.31 * x + 0.8) * std::cos(0.27 * y) + 0.3 * std::sin(0.9 * x + 1.3 * y) +
+        0.1 * std::sin(3.1 * x) * std::sin(2.7 * y));
   }
   return mesh;
 }
@@ -522,6 +538,34 @@ double edgeDistance(const ShadowLight& light, const Occluders& occluders,
       distanceBetween(segment, { triangle.c, triangle.a }) });
   }
   return closest / occluders.allCentred.radius();
+}
+
+//------------------------------------------------------------------------------
+std::vector<float> trace(
+  const ShadowLight& light, const Occluders& occluders, const ReceiverPixels& receivers)
+{
+  RayTracer tracer;
+  tracer.update(occluders);
+  std::vector<float> visibility;
+  tracer.trace(light, occluders, receivers, visibility);
+  return visibility;
+}
+
+//------------------------------------------------------------------------------
+ReceiverPixels withOffset(const ReceiverPixels& receivers, float factor)
+{
+  ReceiverPixels result = receivers;
+  for (float& offset : result.offset)
+  {
+    offset *= factor;
+  }
+  return result;
+}
+
+//------------------------------------------------------------------------------
+glm::dmat4 at(const glm::dvec3& position, double scale)
+{
+  return glm::scale(glm::translate(glm::dmat4(1.0), position), glm::dvec3(scale));
 }
 
 //------------------------------------------------------------------------------

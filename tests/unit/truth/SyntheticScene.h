@@ -27,6 +27,8 @@ struct Mesh
 
 /// A square in the plane z = 0, facing +z, of cells x cells quads.
 Mesh makePlane(double side, int cells = 1);
+/// The same with hills of this height.
+Mesh makeTerrain(double side, int cells, double height);
 Mesh makeBox(const glm::dvec3& lower, const glm::dvec3& upper);
 /// A unit sphere around the origin; `bumps` displaces it along its normals.
 Mesh makeSphere(int rings, int segments, double bumps = 0.0);
@@ -48,7 +50,7 @@ struct Prop
 /// The snapshot of these props, as the collector makes it: doubles less the centre, then floats.
 Occluders makeOccluders(const std::vector<Prop>& props);
 
-/// Moves one surface of a snapshot, as a moved prop does, and marks what changed.
+/// Moves one surface of a snapshot, as a moved prop does, and marks what changed. Bounds stay.
 void moveSurface(Occluders& occluders, std::size_t surface, const glm::dvec3& by);
 
 /// A camera in world coordinates.
@@ -87,6 +89,16 @@ std::vector<float> traceBruteForce(
 /// largest coordinate of the scene.
 double edgeDistance(const ShadowLight& light, const Occluders& occluders,
   const ReceiverPixels& receivers, std::size_t pixel);
+
+/// Visibility by a RayTracer made for it.
+std::vector<float> trace(
+  const ShadowLight& light, const Occluders& occluders, const ReceiverPixels& receivers);
+
+/// The same receivers with the offset of their shadow rays multiplied.
+ReceiverPixels withOffset(const ReceiverPixels& receivers, float factor);
+
+/// A place and a size.
+glm::dmat4 at(const glm::dvec3& position, double scale = 1.0);
 
 /// Pixels whose visibilities differ.
 std::size_t countDifferent(const std::vector<float>& a, const std::vector<float>& b);

@@ -1,0 +1,226 @@
+#include "shadowtech/base/ShadowRay.h"
+
+#include "shadowtech/base/Gl.h"
+#include "shadowtech/base/ShaderLibrary.h"
+
+#include "vtkGnomonEGLRenderWindow.h"
+
+#include <gtest/gtest.h>
+#include <vtkNew.h>
+
+#include <cmath>
+#include <random>
+
+namespace gnomon::test
+{
+namespace
+{
+
+/// What planeNoise() asks of a triangle.
+struct TriangleNumbers
+{
+  glm::vec3 normal;
+  glm::vec3 largest;
+  glm::vec3 extent;
+  float doubleArea;
+
+  float noise() const
+  {
+    return planeNoise(this->normal, this->largest, this->extent, this->doubleArea);
+  }
+};
+TriangleNumbers numbersOf(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c)
+{
+  const glm::dvec3 areaVector =
+    glm::cross(glm::dvec3(b) - glm::dvec3(a), glm::dvec3(c) - glm::dvec3(a));
+  return { glm::vec3(glm::normalize(areaVector)),
+    glm::max(glm::abs(a), glm::max(glm::abs(b), glm::abs(c))),
+    glm::max(a, glm::max(b, c)) - glm::min(a, glm::min(b, c)),
+    static_cast<float>(glm::length(areaVector)) };
+}
+
+class RandomTriangles
+{
+public:
+  glm::vec3 vector()
+  {
+    const float x = this->uniform_(this->random_);
+    const float y = this->uniform_(this->random_);
+    return { x, y, this->uniform_(this->random_) };
+  }
+  float uniform() { return this->uniform_(this->random_); }
+
+private:
+  std::mt19937 random_{ 5 };
+  std::uniform_real_distribution<float> uniform_{ -1.0f, 1.0f };
+};
+
+TEST(PlaneNoise, ScalesWithTheScene)
+{
+  RandomTriangles random;
+  for (int i = 0; i < 1000; ++i)
+  {
+    const glm::vec3 a = random.vector();
+    const glm::vec3 b = random.vector();
+    const glm::vec3 c = random.vector();
+    const float noise = numbersOf(a, b, c).noise();
+    for (const float scale : { 1e-10f, 1e-4f, 1e4f, 1e10f })
+    {
+      EXPECT_NEAR(numbersOf(scale * a, scale * b, scale * c).noise() / scale, noise, 1e-4f * noise);
+    }
+  }
+}
+
+TEST(PlaneNoise, IsZeroWhereFloatsAreExact)
+{
+  EXPECT_EQ(numbersOf({ -2, -2, 0 }, { 2, -2, 0 }, { 2, 2, 0 }).noise(), 0.0f);
+  EXPECT_GT(numbersOf({ -2, -2, 1 }, { 2, -2, 1 }, { 2, 2, 1 }).noise(), 0.0f);
+}
+
+/// The sign of Embree's depth, in float, at points that rounding left off their plane: right
+/// wherever the origin lies as far off as planeNoise() says.
+TEST(PlaneNoise, BoundsWhatRoundingDoes)
+{
+  RandomTriangles random;
+  double worst = 0.0;
+  for (int i = 0; i < 300000; ++i)
+  {
+    const float thinness = std::pow(10.0f, 2.0f * random.uniform() - 2.0f);
+    const float size = std::pow(10.0f, 2.0f * random.uniform());
+    const glm::vec3 a = random.vector();
+    const glm::vec3 b = a + size * random.vector();
+    const glm::vec3 c = 0.5f * (a + b) + thinness * size * random.vector();
+    const TriangleNumbers numbers = numbersOf(a, b, c);
+    const double u = 0.5 + 0.5 * static_cast<double>(random.uniform());
+    const double v = (0.5 + 0.5 * static_cast<double>(random.uniform())) * (1.0 - u);
+    const glm::vec3 stored((1.0 - u - v) * glm::dvec3(a) + u * glm::dvec3(b) + v * glm::dvec3(c));
+    const float noise = numbers.noise();
+    const glm::vec3 origin = stored + noise * numbers.normal;
+
+    const glm::vec3 v0 = a - origin;
+    const glm::vec3 v1 = b - origin;
+    const glm::vec3 v2 = c - origin;
+    const float depth = glm::dot(v0, glm::cross(v2 - v0, v0 - v1));
+    // Below the plane's front: the origin is seen on the side it is meant to be on.
+    ASSERT_LT(depth, 0.0f) << i;
+    worst = std::max(
+      worst, 1.0 + static_cast<double>(depth) / (static_cast<double>(numbers.doubleArea) * noise));
+  }
+  // The bound is no more than ten times what happens.
+}
+
+TEST(ShadowRay, FacingIsAMatterOfMoreThanRounding)
+{
+  const glm::vec3 normal(0.0f, 0.0f, 1.0f);
+  for (const float length : { 1e-6f, 1.0f, 1e6f })
+  {
+    EXPECT_TRUE(facesLight(normal, length * glm::vec3(1.0f, 0.0f, 2e-6f)));
+    EXPECT_FALSE(facesLight(normal, length * glm::vec3(1.0f, 0.0f, 5e-7f)));
+    EXPECT_FALSE(facesLight(normal, length * glm::vec3(1.0f, 0.0f, 0.0f)));
+    EXPECT_FALSE(facesLight(normal, length * glm::vec3(1.0f, 0.0f, -1.0f)));
+  }
+  EXPECT_FALSE(facesLight(normal, glm::vec3(0.0f))) << "at the light itself";
+}
+
+TEST(ShadowRay, ConesAreSharpAtAnyAngle)
+{
+  const glm::vec3 axis(0.0f, 0.0f, 1.0f);
+  for (const double degrees : { 0.001, 1.0, 45.0, 89.0 })
+  {
+    const double angle = glm::radians(degrees);
+    const double tangent = std::tan(angle);
+    const auto at = [&](double factor)
+    { return glm::vec3(std::sin(factor * angle), 0.0, std::cos(factor * angle)); };
+    const auto squared = static_cast<float>(tangent * tangent);
+    EXPECT_TRUE(insideCone(at(0.0), axis, squared));
+    EXPECT_TRUE(insideCone(at(0.99999), axis, squared)) << degrees;
+    EXPECT_FALSE(insideCone(at(1.00001), axis, squared)) << degrees;
+    EXPECT_FALSE(insideCone(-at(0.0), axis, squared));
+  }
+}
+
+/// Runs shadow_ray.glsl on `inputs`, eight vec4 apart, and returns four floats each.
+std::vector<glm::vec4> runGlsl(const std::vector<glm::vec4>& inputs)
+{
+  ShaderLibrary library;
+  const std::string source = ShaderLibrary::source("shadowtech/base/shadow_ray.glsl") +
+    R"(
+layout(local_size_x = 64) in;
+layout(std430, binding = 0) readonly buffer Inputs { vec4 inputs[]; };
+layout(std430, binding = 1) writeonly buffer Outputs { vec4 outputs[]; };
+void main()
+{
+  uint i = gl_GlobalInvocationID.x;
+  vec4 normal = inputs[4u * i];
+  vec4 largest = inputs[4u * i + 1u];
+  vec4 extent = inputs[4u * i + 2u];
+  vec4 toLight = inputs[4u * i + 3u];
+  float noise = planeNoise(normal.xyz, largest.xyz, extent.xyz, extent.w);
+  outputs[i] = vec4(noise, shadowRayOffset(noise, largest.w),
+    facesLight(normal.xyz, toLight.xyz) ? 1.0 : 0.0,
+    insideCone(toLight.xyz, normal.xyz, toLight.w) ? 1.0 : 0.0);
+}
+)";
+  const GLuint program = library.program({ { GL_COMPUTE_SHADER, source } });
+  GlBuffer buffers[2];
+  const std::size_t count = inputs.size() / 4;
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, buffers[0].create());
+  glBufferData(GL_SHADER_STORAGE_BUFFER, static_cast<GLsizeiptr>(inputs.size() * sizeof(glm::vec4)),
+    inputs.data(), GL_STATIC_DRAW);
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, buffers[1].create());
+  glBufferData(GL_SHADER_STORAGE_BUFFER, static_cast<GLsizeiptr>(count * sizeof(glm::vec4)),
+    nullptr, GL_DYNAMIC_READ);
+  glUseProgram(program);
+  glDispatchCompute(static_cast<GLuint>(count / 64), 1, 1);
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  std::vector<glm::vec4> outputs(count);
+  glGetBufferSubData(GL_SHADER_STORAGE_BUFFER, 0,
+    static_cast<GLsizeiptr>(count * sizeof(glm::vec4)), outputs.data());
+  glUseProgram(0);
+  return outputs;
+}
+
+TEST(ShadowRay, GlslAgrees)
+{
+  vtkNew<vtkGnomonEGLRenderWindow> window;
+  window->Initialize();
+  window->MakeCurrent();
+
+  RandomTriangles random;
+  std::vector<TriangleNumbers> triangles;
+  std::vector<glm::vec4> inputs;
+  for (int i = 0; i < 6400; ++i)
+  {
+    const float size = std::pow(10.0f, 4.0f * random.uniform());
+    triangles.push_back(
+      numbersOf(size * random.vector(), size * random.vector(), size * random.vector()));
+    const TriangleNumbers& numbers = triangles.back();
+    const float footprint = 1e-3f * size;
+    const float tangentSquared = 1.0f + random.uniform();
+    inputs.emplace_back(numbers.normal, 0.0f);
+    inputs.emplace_back(numbers.largest, footprint);
+    inputs.emplace_back(numbers.extent, numbers.doubleArea);
+    inputs.emplace_back(random.vector(), tangentSquared);
+  }
+  const std::vector<glm::vec4> outputs = runGlsl(inputs);
+  ASSERT_EQ(outputs.size(), triangles.size());
+  const auto ulps = [](float value, float expected)
+  {
+    return std::abs(value - expected) /
+      (std::nextafter(std::abs(expected), std::numeric_limits<float>::infinity()) -
+        std::abs(expected));
+  };
+  for (std::size_t i = 0; i < outputs.size(); ++i)
+  {
+    const float noise = triangles[i].noise();
+    const glm::vec3 normal(inputs[4 * i]);
+    const glm::vec3 toLight(inputs[4 * i + 3]);
+    EXPECT_LE(ulps(outputs[i].x, noise), 1.0f);
+    EXPECT_LE(ulps(outputs[i].y, shadowRayOffset(noise, inputs[4 * i + 1].w)), 1.0f);
+    EXPECT_EQ(outputs[i].z != 0.0f, facesLight(normal, toLight));
+    EXPECT_EQ(outputs[i].w != 0.0f, insideCone(toLight, normal, inputs[4 * i + 3].w));
+  }
+}
+
+} // namespace
+} // namespace gnomon::test
