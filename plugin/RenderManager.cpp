@@ -1,6 +1,5 @@
 #include "plugin/RenderManager.h"
 
-#include "plugin/vtkGnomonPropKeys.h"
 #include "plugin/vtkGnomonShadowPass.h"
 #include "shadowtech/Registry.h"
 
@@ -147,6 +146,7 @@ void RenderManager::collectOccluders(vtkRenderer* renderer)
   const Occluders& occluders = this->collector_.occluders();
   this->report_.surfacesExtracted = change.extracted;
   this->report_.surfacesRetransformed = change.retransformed;
+  this->report_.notes = this->collector_.notes();
   this->report_.triangles = occluders.triangles.size();
   this->report_.droppedNonFinite = occluders.droppedNonFinite;
   this->report_.droppedZeroArea = occluders.droppedZeroArea;
@@ -154,7 +154,7 @@ void RenderManager::collectOccluders(vtkRenderer* renderer)
 }
 
 //------------------------------------------------------------------------------
-void RenderManager::chooseRoute(int wished, bool keepVisibility)
+bool RenderManager::chooseRoute(int wished, bool keepVisibility)
 {
   std::string screenTechnique;
   for (const LightSlot* slot : this->casting_)
@@ -164,12 +164,6 @@ void RenderManager::chooseRoute(int wished, bool keepVisibility)
       screenTechnique = slot->techniqueName;
     }
   }
-  if (wished == vtkGnomonShadowPass::ROUTE_INLINE && !screenTechnique.empty())
-  {
-    throw FrameError("the inline route cannot serve '" + screenTechnique +
-      "', which works on the whole screen; ask for the image route or leave the choice");
-  }
-
   this->route_ = Route::Image;
   if (!screenTechnique.empty())
   {
@@ -198,6 +192,7 @@ void RenderManager::chooseRoute(int wished, bool keepVisibility)
     lights.push_back({ slot->light, slot->technique.get() });
   }
   this->shaders_.configure(this->route_, lights);
+  return wished != vtkGnomonShadowPass::ROUTE_INLINE || screenTechnique.empty();
 }
 
 //------------------------------------------------------------------------------
@@ -253,14 +248,14 @@ void RenderManager::drawReceivers(const vtkRenderState* s)
   state->vtkglDepthFunc(GL_LEQUAL);
   state->vtkglEnable(GL_DEPTH_TEST);
 
-  this->receiverTarget_.begin(width, height);
   this->shaders_.beginStage(window, this->stageValues_);
+  this->receiverTarget_.begin(width, height);
   for (int i = 0; i < s->GetPropArrayCount(); ++i)
   {
     s->GetPropArray()[i]->RenderOpaqueGeometry(renderer);
   }
-  this->shaders_.endStage();
   this->receiverTarget_.end(state->GetEnumState(GL_BLEND));
+  this->shaders_.endStage();
   this->endStageClock("receivers");
 }
 
@@ -415,15 +410,17 @@ void RenderManager::endFrame()
 }
 
 //------------------------------------------------------------------------------
+void RenderManager::abandonFrame()
+{
+  this->shaders_.endStage();
+}
+
+//------------------------------------------------------------------------------
 void RenderManager::setShaderParameters(
   vtkShaderProgram* program, vtkAbstractMapper* mapper, vtkProp* prop)
 {
-  if (this->route_ == Route::Inline)
-  {
-    this->shaders_.setParameters(program, -1, vtkGnomonPropKeys::GetReceives(prop));
-    return;
-  }
-  // The layers belong to the opaque surfaces that the receivers stage drew.
+  // Opaque surfaces of the snapshot receive, on either route: the image route's layers know no
+  // others.
   const OccluderCollector::Drawn drawn = this->collector_.drawn(mapper, prop);
   const bool translucent = prop->IsRenderingTranslucentPolygonalGeometry();
   this->shaders_.setParameters(program, drawn.index, drawn.receives && !translucent);

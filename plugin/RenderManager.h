@@ -53,8 +53,9 @@ public:
 
   /// Chooses how visibility reaches the shader, and states it in the report.
   /// @param wished a vtkGnomonShadowPass::RouteType
-  /// @throws FrameError when the inline route is asked of a technique that works on the screen
-  void chooseRoute(int wished, bool keepVisibility);
+  /// @return false when the inline route is asked of a technique that works on the screen; it is
+  /// the image route then, for the reason in the report
+  bool chooseRoute(int wished, bool keepVisibility);
   Route route() const { return this->route_; }
 
   /// receivers (image route): has VTK draw the opaque props' positions, normals and ids.
@@ -72,6 +73,9 @@ public:
 
   /// Completes the report.
   void endFrame();
+
+  /// Gives back what a stage holds that an error has ended early.
+  void abandonFrame();
 
   /// For the hook: sets a program's parameters for the prop that is about to be drawn.
   void setShaderParameters(vtkShaderProgram* program, vtkAbstractMapper* mapper, vtkProp* prop);

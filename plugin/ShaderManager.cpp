@@ -27,6 +27,12 @@ void replace(std::string& source, const std::string& search, const std::string& 
   vtkShaderProgram::Substitute(source, search, text, false);
 }
 
+/// What glGet calls the binding of a texture target.
+GLenum bindingOf(GLenum target)
+{
+  return target == GL_TEXTURE_2D_ARRAY ? GL_TEXTURE_BINDING_2D_ARRAY : GL_TEXTURE_BINDING_2D;
+}
+
 /// The declarations of one light's visibility function, gnomonVisibilityN(position, normal).
 std::string declare(Route route, const ShadedLight& shaded, int layer)
 {
@@ -137,8 +143,10 @@ int ShaderManager::bindTexture(const TextureBinding& texture)
     throw ShaderError("no texture unit is left for a shadow map");
   }
   this->window_->GetState()->vtkglActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+  GLint previous = 0;
+  glGetIntegerv(bindingOf(texture.target), &previous);
   glBindTexture(texture.target, texture.texture);
-  this->bound_.push_back({ unit, texture.target });
+  this->bound_.push_back({ unit, texture.target, static_cast<GLuint>(previous) });
   return unit;
 }
 
@@ -180,15 +188,21 @@ void ShaderManager::beginStage(vtkOpenGLRenderWindow* window, const StageValues&
 //------------------------------------------------------------------------------
 void ShaderManager::endStage()
 {
+  if (!this->window_)
+  {
+    return;
+  }
   for (const BoundTexture& texture : this->bound_)
   {
     this->window_->GetState()->vtkglActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(texture.unit));
-    glBindTexture(texture.target, 0);
+    // VTK may have deleted what a free unit still had bound.
+    glBindTexture(texture.target, glIsTexture(texture.previous) ? texture.previous : 0);
     this->window_->GetState()->GetTextureUnitManager()->Free(texture.unit);
   }
   this->window_->GetState()->vtkglActiveTexture(GL_TEXTURE0);
   this->bound_.clear();
   this->upToDate_.clear();
+  this->window_ = nullptr;
 }
 
 //------------------------------------------------------------------------------

@@ -59,7 +59,8 @@ public:
     glm::ivec2 originPixels{ 0 };
     TextureBinding layers; ///< image route: the visibility layers
   };
-  /// Between beginStage and endStage VTK draws: textures are bound to units of their own.
+  /// Between beginStage and endStage VTK draws: textures are bound to units of their own. endStage
+  /// also ends a stage that has failed half way, and does nothing where there is none.
   void beginStage(vtkOpenGLRenderWindow* window, const StageValues& values);
   void endStage();
 
@@ -86,6 +87,7 @@ private:
   {
     int unit;
     GLenum target;
+    GLuint previous; ///< what was bound there before
   };
   std::vector<BoundTexture> bound_;
   std::set<vtkShaderProgram*> upToDate_; ///< programs that have the stage's uniforms

@@ -83,7 +83,11 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
       manager.collectOccluders(renderer);
 
       // From here on, mappers call the hook.
-      manager.chooseRoute(this->Route, this->KeepVisibility);
+      if (!manager.chooseRoute(this->Route, this->KeepVisibility))
+      {
+        vtkErrorMacro("The inline route was asked for, but "
+          << manager.report().routeReason << "; this frame takes the image route.");
+      }
       this->PreRender(s);
       marked = true;
 
@@ -117,6 +121,7 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
   catch (const std::exception& error)
   {
     vtkErrorMacro("The scene is drawn without shadows: " << error.what());
+    manager.abandonFrame();
   }
   if (marked)
   {
@@ -160,7 +165,6 @@ bool vtkGnomonShadowPass::PrepareContext(vtkRenderer* renderer)
     window->GetContextCreationTime() > internal.contextChecked.GetMTime())
   {
     this->ReleaseGraphicsResources(internal.window);
-    window->MakeCurrent();
     internal.window = window;
     internal.contextChecked.Modified();
     int major = 0;
@@ -183,8 +187,11 @@ void vtkGnomonShadowPass::ReleaseGraphicsResources(vtkWindow* window)
   Internals& internal = *this->Internal;
   if (internal.window)
   {
-    internal.window->MakeCurrent();
+    // Mappers may hold the last reference to a pass that they were drawn with, and drop it while
+    // another window is being drawn.
+    internal.window->PushContext();
     internal.manager = std::make_unique<gnomon::RenderManager>();
+    internal.window->PopContext();
   }
   else
   {

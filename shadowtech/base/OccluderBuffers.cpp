@@ -1,5 +1,7 @@
 #include "shadowtech/base/OccluderBuffers.h"
 
+#include "shadowtech/base/GlState.h"
+
 #include <vector>
 
 namespace gnomon
@@ -13,6 +15,7 @@ void OccluderBuffers::update(const Occluders& occluders)
   {
     return;
   }
+  const GlStateGuard guard; // an index buffer that others bind must not land in this vertex array
   glBindVertexArray(this->vertexArray_.create());
   glBindBuffer(GL_ARRAY_BUFFER, this->positions_.create());
   const std::size_t positionBytes = occluders.positionsCentred.size() * sizeof(glm::vec3);

@@ -123,7 +123,8 @@ TEST_F(VtkShadowsDefects, casterOutsideTheView)
   const ExactFloor exact = floorUnderSun(standing, 100.0);
   const double band = texels * 200.0 / 4096.0;
 
-  // The point (2.2, 0) of the umbra, seen with the caster in view, and as the first thing without it.
+  // The point (2.2, 0) of the umbra, seen with the caster in view, and as the first thing without
+  // it.
   const auto withCaster = [&]
   {
     scene.lookDown(1.0, 1.5);

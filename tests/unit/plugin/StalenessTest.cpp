@@ -1,0 +1,365 @@
+// What a frame does again: only what has changed since the last one.
+
+#include "PassScene.h"
+
+#include "lights/vtkGnomonLightKeys.h"
+#include "plugin/vtkGnomonPropKeys.h"
+
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkProperty.h>
+#include <vtkSphereSource.h>
+
+#include <ostream>
+
+using namespace gnomon::test;
+
+namespace gnomon
+{
+
+/// A report's counters, so that a test states all of them at once.
+struct Work
+{
+  int bakes = 0;
+  int compiles = 0;
+  int builds = 0;
+  int refits = 0;
+  int extracted = 0;
+  int retransformed = 0;
+
+  bool operator==(const Work& other) const
+  {
+    return this->bakes == other.bakes && this->compiles == other.compiles &&
+      this->builds == other.builds && this->refits == other.refits &&
+      this->extracted == other.extracted && this->retransformed == other.retransformed;
+  }
+};
+
+std::ostream& operator<<(std::ostream& stream, const Work& work)
+{
+  return stream << work.bakes << " bakes, " << work.compiles << " compiles, " << work.builds
+                << " builds, " << work.refits << " refits, " << work.extracted << " extracted, "
+                << work.retransformed << " retransformed";
+}
+
+} // namespace gnomon
+
+using gnomon::Work;
+
+namespace
+{
+
+struct Way
+{
+  const char* technique;
+  int route;
+};
+
+/// A sphere over a floor, drawn several ways.
+class Staleness
+  : public PassTest
+  , public testing::WithParamInterface<Way>
+{
+protected:
+  Staleness()
+  {
+    this->scene.addFloor(4.0);
+    vtkNew<vtkSphereSource> source;
+    source->SetCenter(0.0, 0.0, 1.5);
+    source->SetThetaResolution(24);
+    source->SetPhiResolution(12);
+    source->Update();
+    this->sphereData->DeepCopy(source->GetOutput());
+    this->sphere = this->scene.add(this->sphereData);
+    this->sun = this->scene.addSun({ 1.0, 0.3, -1.5 });
+    this->scene.lookFrom({ 0.0, -9.0, 7.0 });
+    this->scene.pass->SetTechnique(GetParam().technique);
+    this->scene.pass->SetRoute(GetParam().route);
+  }
+
+  bool traced() const { return std::string(GetParam().technique) == "raytraced"; }
+  Work work() const
+  {
+    const gnomon::FrameReport& report = this->scene.report();
+    return { report.mapBakes, report.programCompiles, report.bvhBuilds, report.bvhRefits,
+      report.surfacesExtracted, report.surfacesRetransformed };
+  }
+  Work render()
+  {
+    this->scene.render();
+    return this->work();
+  }
+  /// The first frames, after which all is there.
+  void settle()
+  {
+    this->scene.render();
+    this->scene.render();
+  }
+
+  PassScene scene{ 200, 150 };
+  vtkNew<vtkPolyData> sphereData;
+  vtkActor* sphere;
+  vtkLight* sun;
+};
+
+INSTANTIATE_TEST_SUITE_P(Ways, Staleness,
+  testing::Values(Way{ "nsm", vtkGnomonShadowPass::ROUTE_INLINE },
+    Way{ "nsm", vtkGnomonShadowPass::ROUTE_IMAGE },
+    Way{ "raytraced", vtkGnomonShadowPass::ROUTE_IMAGE }),
+  [](const testing::TestParamInfo<Way>& way)
+  {
+    return std::string(way.param.technique) +
+      (way.param.route == vtkGnomonShadowPass::ROUTE_INLINE ? "Inline" : "Image");
+  });
+
+} // namespace
+
+//------------------------------------------------------------------------------
+TEST_P(Staleness, secondFrameOfAStaticSceneDoesNothingAgain)
+{
+  const Work first = this->render();
+  EXPECT_EQ(first.extracted, 2);
+  EXPECT_EQ(first.bakes, this->traced() ? 0 : 1);
+  EXPECT_GE(first.builds, this->traced() ? 1 : 0);
+  EXPECT_GT(first.compiles, 0);
+  const Picture picture = readPicture(this->scene.window);
+  for (int frame = 2; frame < 5; ++frame)
+  {
+    EXPECT_EQ(this->render(), Work{}) << "frame " << frame;
+    EXPECT_EQ(differingPixels(picture, readPicture(this->scene.window)), 0u) << "frame " << frame;
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Staleness, movedCameraDoesNothingAgain)
+{
+  this->settle();
+  this->scene.renderer->GetActiveCamera()->Azimuth(20.0);
+  this->scene.renderer->ResetCameraClippingRange();
+  EXPECT_EQ(this->render(), Work{});
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Staleness, resizedWindowDoesNothingAgain)
+{
+  this->settle();
+  this->scene.window->SetSize(150, 220);
+  EXPECT_EQ(this->render(), Work{});
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Staleness, movedLightBakesItsMapAndNothingElse)
+{
+  vtkLight* second = this->scene.addSun({ -1.0, 0.2, -1.0 });
+  this->settle();
+  second->SetPosition(1.5, -0.2, 1.0);
+  Work expected;
+  expected.bakes = this->traced() ? 0 : 1;
+  EXPECT_EQ(this->render(), expected);
+  this->sun->SetIntensity(0.7);
+  EXPECT_EQ(this->render(), Work{}) << "another intensity casts the same shadow";
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Staleness, movedPropIsRetransformedAndNothingElse)
+{
+  this->settle();
+  this->sphere->SetPosition(0.5, 0.0, 0.0);
+  Work expected;
+  expected.bakes = this->traced() ? 0 : 1;
+  expected.refits = this->traced() ? 1 : 0;
+  expected.retransformed = 1;
+  const Work moved = this->render();
+  EXPECT_EQ(moved.bakes, expected.bakes);
+  EXPECT_EQ(moved.compiles, 0);
+  EXPECT_EQ(moved.builds, 0);
+  EXPECT_EQ(moved.extracted, 0);
+  EXPECT_EQ(moved.retransformed, 1);
+  // The floor's structure stays; those that refit are the sphere's own and the one above all.
+  EXPECT_GE(moved.refits, expected.refits);
+  EXPECT_LE(moved.refits, 2 * expected.refits);
+  EXPECT_EQ(this->render(), Work{});
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Staleness, verticesEditedInPlaceAreReadAgain)
+{
+  this->settle();
+  vtkPoints* points = this->sphereData->GetPoints();
+  for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
+  {
+    double point[3];
+    points->GetPoint(i, point);
+    points->SetPoint(i, point[0] + 0.7, point[1], point[2]);
+  }
+  points->Modified();
+  this->sphereData->Modified();
+  const Work edited = this->render();
+  EXPECT_EQ(edited.extracted, 1);
+  EXPECT_EQ(edited.retransformed, 0);
+  EXPECT_EQ(edited.bakes, this->traced() ? 0 : 1);
+  EXPECT_EQ(edited.compiles, 0);
+  EXPECT_EQ(this->render(), Work{});
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Staleness, anAddedAndARemovedPropLeaveTheOthersAlone)
+{
+  this->settle();
+  vtkActor* box = this->scene.addBox({ 1.5, -1.0, 0.0 }, { 2.0, 1.0, 1.0 });
+  const Work added = this->render();
+  EXPECT_EQ(added.extracted, 1);
+  EXPECT_EQ(added.retransformed, 0);
+  EXPECT_EQ(this->render(), Work{});
+  this->scene.renderer->RemoveActor(box);
+  const Work removed = this->render();
+  EXPECT_EQ(removed.extracted, 0);
+  EXPECT_EQ(removed.retransformed, 0);
+  EXPECT_EQ(removed.compiles, 0);
+  EXPECT_EQ(this->render(), Work{});
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Staleness, aPropThatStopsCastingIsNotReadAgain)
+{
+  this->settle();
+  vtkGnomonPropKeys::SetCasts(this->sphere, false);
+  const Work changed = this->render();
+  EXPECT_EQ(changed.extracted, 0);
+  EXPECT_EQ(changed.retransformed, 0);
+  EXPECT_EQ(changed.bakes, this->traced() ? 0 : 1);
+  EXPECT_EQ(changed.compiles, 0);
+  EXPECT_EQ(this->render(), Work{});
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Staleness, anotherMapSizeBakesOnce)
+{
+  this->settle();
+  this->scene.pass->SetMapSize(512);
+  Work expected;
+  expected.bakes = this->traced() ? 0 : 1;
+  EXPECT_EQ(this->render(), expected);
+  EXPECT_EQ(this->render(), Work{});
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Staleness, anotherColourOfAPropIsNoWorkForShadows)
+{
+  this->settle();
+  this->sphere->GetProperty()->SetColor(1.0, 0.0, 0.0);
+  Work expected;
+  expected.compiles = 1; // VTK puts that prop's shader together anew
+  EXPECT_EQ(this->render(), expected);
+  EXPECT_EQ(this->render(), Work{});
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Staleness, anotherTechniqueAndBackKeepsTheSnapshot)
+{
+  this->settle();
+  const Picture before = readPicture(this->scene.window);
+  this->scene.pass->SetRoute(vtkGnomonShadowPass::ROUTE_AUTO);
+  this->scene.pass->SetTechnique(this->traced() ? "nsm" : "raytraced");
+  const Work other = this->render();
+  EXPECT_EQ(other.extracted, 0);
+  EXPECT_EQ(other.retransformed, 0);
+  EXPECT_EQ(this->render(), Work{});
+  this->scene.pass->SetTechnique(GetParam().technique);
+  this->scene.pass->SetRoute(GetParam().route);
+  const Work back = this->render();
+  EXPECT_EQ(back.extracted, 0);
+  EXPECT_EQ(back.builds, 0);
+  EXPECT_EQ(differingPixels(before, readPicture(this->scene.window)), 0u);
+}
+
+namespace
+{
+
+class NoCastingLight : public PassTest
+{
+protected:
+  NoCastingLight()
+  {
+    this->scene.addFloor(4.0);
+    this->scene.addSphere({ 0.0, 0.0, 1.5 }, 0.7);
+    this->sun = this->scene.addSun({ 1.0, 0.3, -1.5 });
+    this->scene.lookFrom({ 0.0, -9.0, 7.0 });
+  }
+
+  /// Expects the very bytes of plain VTK, and nothing done for shadows.
+  void expectPlain(const std::string& reason)
+  {
+    for (const char* technique : { "nsm", "raytraced" })
+    {
+      this->scene.pass->SetTechnique(technique);
+      this->scene.useGnomon();
+      const Picture gnomon = this->scene.render();
+      const gnomon::FrameReport& report = this->scene.report();
+      EXPECT_EQ(report.route, "none");
+      EXPECT_EQ(report.routeReason, "no light casts a shadow");
+      ASSERT_EQ(report.lights.size(), 1u);
+      EXPECT_FALSE(report.lights[0].casts);
+      EXPECT_EQ(report.lights[0].reason, reason);
+      EXPECT_EQ(report.mapBakes + report.bvhBuilds + report.surfacesExtracted, 0);
+      EXPECT_EQ(report.bytesMaps + report.bytesBvh + report.bytesImages, 0u);
+      EXPECT_EQ(report.bytesOccluders, 0u);
+      this->scene.usePlain();
+      EXPECT_EQ(differingPixels(gnomon, this->scene.render()), 0u);
+    }
+  }
+
+  PassScene scene{ 200, 150 };
+  vtkLight* sun;
+};
+
+} // namespace
+
+//------------------------------------------------------------------------------
+TEST_F(NoCastingLight, switchedOff)
+{
+  this->sun->SwitchOff();
+  this->expectPlain("switched off");
+}
+
+//------------------------------------------------------------------------------
+TEST_F(NoCastingLight, markedAsNotCasting)
+{
+  vtkGnomonLightKeys::SetCasts(this->sun, false);
+  this->expectPlain("marked as not casting");
+}
+
+//------------------------------------------------------------------------------
+TEST_F(NoCastingLight, shadowsWithoutStrength)
+{
+  this->sun->SetShadowAttenuation(0.0f);
+  this->expectPlain("its shadow attenuation is 0");
+}
+
+//------------------------------------------------------------------------------
+TEST_F(NoCastingLight, pointLight)
+{
+  this->sun->SetPosition(-2.0, -2.0, 5.0);
+  this->sun->PositionalOn();
+  this->sun->SetConeAngle(180.0);
+  this->expectPlain("point lights are not supported yet");
+}
+
+//------------------------------------------------------------------------------
+TEST_F(NoCastingLight, noLightWithoutIntensity)
+{
+  this->sun->SetIntensity(0.0);
+  this->expectPlain("gives no light");
+}
+
+//------------------------------------------------------------------------------
+TEST_F(NoCastingLight, lightThatStopsCastingLeavesNoTrace)
+{
+  this->scene.render();
+  EXPECT_EQ(this->scene.report().mapBakes, 1);
+  vtkGnomonLightKeys::SetCasts(this->sun, false);
+  const Picture gnomon = this->scene.render();
+  EXPECT_EQ(this->scene.report().route, "none");
+  this->scene.usePlain();
+  EXPECT_EQ(differingPixels(gnomon, this->scene.render()), 0u);
+}
