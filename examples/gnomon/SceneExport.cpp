@@ -1,0 +1,107 @@
+#include "SceneExport.h"
+
+#include "Errors.h"
+#include "Files.h"
+#include "Vec3.h"
+
+#include <nlohmann/json.hpp>
+#include <vtkNew.h>
+#include <vtkXMLPolyDataWriter.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+namespace gnomon::tool
+{
+
+namespace
+{
+
+using Json = nlohmann::ordered_json;
+
+Json toJson(const SceneLight& light)
+{
+  Json json;
+  if (light.type == SceneLight::Type::Spot)
+  {
+    json = { { "type", "spot" }, { "position", light.position }, { "target", light.target },
+      { "cone_angle", light.coneAngleDegrees } };
+  }
+  else
+  {
+    json = { { "type", "directional" }, { "direction", light.target - light.position } };
+  }
+  json["color"] = light.color;
+  json["intensity"] = light.intensity;
+  if (!light.technique.empty())
+  {
+    json["technique"] = light.technique;
+  }
+  if (light.mapSizeTexels > 0)
+  {
+    json["map_size"] = light.mapSizeTexels;
+  }
+  return json;
+}
+
+Json toJson(const SceneModel& model, const std::string& file)
+{
+  Vec3 color;
+  model.property->GetColor(color.data());
+  return { { "file", file }, { "matrix", model.matrix }, { "color", color },
+    { "casts", model.casts }, { "receives", model.receives }, { "one_sided", model.oneSided } };
+}
+
+void writeSurface(vtkPolyData* surface, const std::string& path)
+{
+  vtkNew<vtkXMLPolyDataWriter> writer;
+  writer->SetFileName(path.c_str());
+  writer->SetInputData(surface);
+  if (!writer->Write())
+  {
+    throw Failure(path + ": cannot be written");
+  }
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+std::string exportScene(const Scene& scene, const std::string& folder)
+{
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error)
+  {
+    throw BadInput("--export: " + folder + ": cannot be made: " + error.message());
+  }
+  const std::string path = (std::filesystem::path(folder) / (scene.name + ".json")).string();
+  requireWritableFile(path, "--export", { ".json" });
+  Json json;
+  json["camera"] = { { "position", scene.camera.position }, { "target", scene.camera.target },
+    { "up", scene.camera.up }, { "fov", scene.camera.fovDegrees } };
+  json["models"] = Json::array();
+  for (const SceneModel& model : scene.models)
+  {
+    const std::string file = scene.name + "-" + std::to_string(json["models"].size()) + ".vtp";
+    writeSurface(model.surface, (std::filesystem::path(folder) / file).string());
+    json["models"].push_back(toJson(model, file));
+  }
+  json["lights"] = Json::array();
+  for (const SceneLight& light : scene.lights)
+  {
+    json["lights"].push_back(toJson(light));
+  }
+  json["background"] = scene.background;
+
+  std::ofstream file(path);
+  file << json.dump(2) << "\n";
+  file.close();
+  if (!file)
+  {
+    throw Failure(path + ": cannot be written");
+  }
+  return path;
+}
+
+} // namespace gnomon::tool

@@ -1,0 +1,430 @@
+#include "Check.h"
+
+#include "Tracer.h"
+
+#include <nlohmann/json.hpp>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+#include <optional>
+#include <sstream>
+
+namespace gnomon::check
+{
+
+namespace
+{
+
+constexpr double pi = 3.14159265358979323846;
+
+/// Rasterisers place corners to 1/256 of a pixel. Twice that is how far off a pixel's centre they
+/// may look.
+constexpr double lookingPixels = 1.0 / 128.0;
+
+/// Unit normals further apart (about 0.1 degrees) belong to different surfaces.
+constexpr double sameNormalDistance = 0.002;
+
+/// Rays through the points of a picture.
+class CameraRays
+{
+public:
+  CameraRays(const Camera& camera, int width, int height)
+    : position_(camera.position)
+    , forward_((camera.target - camera.position).normalized())
+    , width_(width)
+    , height_(height)
+  {
+    const double tangent = std::tan(camera.fovDegrees * pi / 360.0);
+    const Vec3 right = this->forward_.cross(camera.up).normalized();
+    this->right_ = tangent * width / height * right;
+    this->up_ = tangent * right.cross(this->forward_);
+  }
+
+  /// @param x,y in pixels from the upper left corner
+  Ray through(double x, double y) const
+  {
+    const double across = 2.0 * x / this->width_ - 1.0;
+    const double upward = 1.0 - 2.0 * y / this->height_;
+    return { this->position_,
+      (this->forward_ + across * this->right_ + upward * this->up_).normalized() };
+  }
+
+  /// What a pixel in the middle of the picture covers, in radians.
+  double pixelAngle() const { return 2.0 * this->up_.length() / this->height_; }
+
+private:
+  Vec3 position_;
+  Vec3 forward_;
+  Vec3 right_; ///< to the right border
+  Vec3 up_;    ///< to the upper border
+  int width_;
+  int height_;
+};
+
+/// The unit normal on the side from which the corners are counter-clockwise.
+Vec3 frontOf(const Triangle& triangle)
+{
+  return (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]).normalized();
+}
+
+/// A visible point and the normal on the camera's side.
+struct Point
+{
+  Hit hit;
+  Vec3 normal; ///< unit
+};
+
+/// How far the light is decided without a ray.
+enum class Lighting
+{
+  Unlit, ///< turned away, or outside of the cone
+  Open   ///< a ray decides
+};
+
+struct ShadowRay
+{
+  Lighting lighting = Lighting::Unlit;
+  Ray ray;
+};
+
+/// The shadow ray starts this far off the surface: what double precision costs, and much less than
+/// a pixel.
+double offsetOf(const Point& point)
+{
+  return 1e-13 * point.hit.position.length() + 1e-10 * point.hit.distance;
+}
+
+ShadowRay shadowRay(const Light& light, const Point& point)
+{
+  const Vec3 origin = point.hit.position + offsetOf(point) * point.normal;
+  ShadowRay result;
+  result.ray = { origin, -light.direction };
+  if (light.isSpot)
+  {
+    const Vec3 toLight = light.position - origin;
+    result.ray.direction = toLight.normalized();
+    result.ray.length = toLight.length();
+    const double cosine = -result.ray.direction.dot(light.direction);
+    if (cosine < std::cos(light.coneAngleDegrees * pi / 180.0))
+    {
+      return result;
+    }
+  }
+  if (point.normal.dot(result.ray.direction) > 0.0)
+  {
+    result.lighting = Lighting::Open;
+  }
+  return result;
+}
+
+/// What is to be said about one pixel.
+struct PixelResult
+{
+  bool coverageDiffers = false;
+  bool covered = false; ///< in the file and in truth
+  double positionError = 0.0;
+  bool aside = false;
+  bool normalDiffers = false;
+  enum class Light : unsigned char
+  {
+    Right,
+    FalseLight,
+    FalseShadow,
+    Unlit,
+    UnlitWrong
+  };
+  std::vector<Light> lights;
+};
+
+/// Compares pixel after pixel.
+class Comparison
+{
+public:
+  Comparison(const Scene& scene, const VisibilityFile& file)
+    : scene_(scene)
+    , file_(file)
+    , coverage_(file.channel("coverage"))
+    , tracer_(scene)
+    , camera_(scene.camera, file.width, file.height)
+  {
+    for (std::size_t light = 0; light < scene.lights.size(); ++light)
+    {
+      this->visibility_.push_back(&file.channel("visibility." + std::to_string(light)));
+    }
+  }
+
+  PixelResult compare(std::size_t pixel) const
+  {
+    const auto width = static_cast<std::size_t>(this->file_.width);
+    const double x = static_cast<double>(pixel % width) + 0.5;
+    const double y = static_cast<double>(pixel / width) + 0.5;
+    const std::optional<Point> truth = this->look(x, y);
+    const bool coveredInFile = this->coverage_[pixel] > 0.5f;
+    PixelResult result;
+    result.coverageDiffers = coveredInFile != truth.has_value();
+    result.covered = coveredInFile && truth;
+    if (result.covered)
+    {
+      this->compareSurface(pixel, x, y, *truth, result);
+      for (std::size_t light = 0; light < this->scene_.lights.size(); ++light)
+      {
+        result.lights.push_back(this->compareLight(light, pixel, *truth));
+      }
+    }
+    return result;
+  }
+
+private:
+  std::optional<Point> look(double x, double y) const
+  {
+    const Ray ray = this->camera_.through(x, y);
+    const std::optional<Hit> hit = this->tracer_.nearest(ray);
+    if (!hit)
+    {
+      return std::nullopt;
+    }
+    const Triangle& triangle = this->scene_.surfaces[hit->surface].triangles[hit->triangle];
+    const Vec3 normal = frontOf(triangle);
+    return Point{ *hit, normal.dot(ray.direction) > 0.0 ? -normal : normal };
+  }
+
+  /// Of a stored position, as a share of its distance from the camera; infinite for NaN.
+  static double positionError(const Vec3& position, const Point& truth)
+  {
+    const double error = (position - truth.hit.position).length() / truth.hit.distance;
+    return std::isfinite(error) ? error : std::numeric_limits<double>::infinity();
+  }
+
+  static bool sameNormal(const Vec3& a, const Vec3& b)
+  {
+    return (a - b).length() <= sameNormalDistance; // false for NaN
+  }
+
+  /// Position and normal. Where they are not those at the pixel's centre, they may be those of
+  /// another triangle that a rasteriser finds there.
+  void compareSurface(
+    std::size_t pixel, double x, double y, const Point& truth, PixelResult& result) const
+  {
+    const Vec3 position = this->file_.origin + this->file_.vector("position", pixel);
+    const Vec3 normal = this->file_.vector("normal", pixel);
+    result.positionError = positionError(position, truth);
+    const Vec3 view = position - this->scene_.camera.position;
+    const double nearby = tolerance::positionError * view.length();
+    if (result.positionError > tolerance::positionError && std::isfinite(result.positionError))
+    {
+      const double offRay = view.cross(this->camera_.through(x, y).direction).length();
+      const double looking = lookingPixels * this->camera_.pixelAngle() * view.length();
+      result.aside = offRay <= std::min(looking, nearby) &&
+        this->tracer_.touches(position, nearby, [](const Triangle&) { return true; });
+    }
+    result.normalDiffers = !sameNormal(normal, truth.normal);
+    if (result.normalDiffers && normal.dot(view) <= 0.0)
+    {
+      result.normalDiffers = !this->tracer_.touches(position, nearby,
+        [&](const Triangle& triangle)
+        {
+          const Vec3 front = frontOf(triangle);
+          return sameNormal(normal, front) || sameNormal(normal, -front);
+        });
+    }
+  }
+
+  PixelResult::Light compareLight(std::size_t light, std::size_t pixel, const Point& truth) const
+  {
+    const double value = static_cast<double>((*this->visibility_[light])[pixel]);
+    const auto isWrong = [value](double expected)
+    { return !(std::abs(value - expected) <= tolerance::visibilityDifference); };
+    const ShadowRay shadow = shadowRay(this->scene_.lights[light], truth);
+    const bool receives = this->scene_.surfaces[truth.hit.surface].receives;
+    if (shadow.lighting == Lighting::Unlit)
+    {
+      return receives && isWrong(0.0) ? PixelResult::Light::UnlitWrong : PixelResult::Light::Unlit;
+    }
+    const bool lit = !receives || !this->tracer_.blocked(shadow.ray);
+    if (!isWrong(lit ? 1.0 : 0.0))
+    {
+      return PixelResult::Light::Right;
+    }
+    return lit ? PixelResult::Light::FalseShadow : PixelResult::Light::FalseLight;
+  }
+
+  const Scene& scene_;
+  const VisibilityFile& file_;
+  const std::vector<float>& coverage_;
+  std::vector<const std::vector<float>*> visibility_;
+  Tracer tracer_;
+  CameraRays camera_;
+};
+
+void add(Result& result, std::size_t pixel, const PixelResult& found)
+{
+  if (found.coverageDiffers)
+  {
+    result.coverage.push_back(pixel);
+  }
+  if (!found.covered)
+  {
+    return;
+  }
+  ++result.covered;
+  if (found.aside)
+  {
+    result.aside.push_back(pixel);
+  }
+  else
+  {
+    if (found.positionError > tolerance::positionError)
+    {
+      result.position.push_back(pixel);
+    }
+    if (found.positionError > result.positionError)
+    {
+      result.positionError = found.positionError;
+      result.positionErrorAt = pixel;
+    }
+  }
+  if (found.normalDiffers)
+  {
+    result.normal.push_back(pixel);
+  }
+  for (std::size_t i = 0; i < found.lights.size(); ++i)
+  {
+    LightResult& light = result.lights[i];
+    switch (found.lights[i])
+    {
+      case PixelResult::Light::Right:
+        ++light.counted;
+        break;
+      case PixelResult::Light::FalseLight:
+        ++light.counted;
+        light.falseLight.push_back(pixel);
+        break;
+      case PixelResult::Light::FalseShadow:
+        ++light.counted;
+        light.falseShadow.push_back(pixel);
+        break;
+      case PixelResult::Light::Unlit:
+        break;
+      case PixelResult::Light::UnlitWrong:
+        light.unlit.push_back(pixel);
+        break;
+    }
+  }
+}
+
+double share(std::size_t part, std::size_t whole)
+{
+  return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
+}
+
+nlohmann::ordered_json toJson(const Pixels& pixels, std::size_t width)
+{
+  constexpr std::size_t mostListed = 100;
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (std::size_t i = 0; i < std::min(pixels.size(), mostListed); ++i)
+  {
+    list.push_back({ pixels[i] % width, pixels[i] / width });
+  }
+  return { { "count", pixels.size() }, { "first", list } };
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+double LightResult::wrongShare() const
+{
+  return share(this->falseLight.size() + this->falseShadow.size(), this->counted);
+}
+
+//------------------------------------------------------------------------------
+std::vector<std::string> Result::failures() const
+{
+  std::vector<std::string> sentences;
+  const auto require = [&](const std::string& what, double value, double limit)
+  {
+    if (!(value <= limit))
+    {
+      std::ostringstream sentence;
+      sentence << what << ": " << value << ", expected at most " << limit;
+      sentences.push_back(sentence.str());
+    }
+  };
+  if (this->covered == 0)
+  {
+    sentences.emplace_back("no pixel is covered in the file and in truth");
+  }
+  require("share of pixels whose coverage differs", share(this->coverage.size(), this->pixels),
+    tolerance::coverageShare);
+  require("largest position error as a share of the distance", this->positionError,
+    tolerance::positionError);
+  require("share of pixels with a position aside", share(this->aside.size(), this->covered),
+    tolerance::asideShare);
+  require("share of pixels with a wrong normal", share(this->normal.size(), this->covered),
+    tolerance::normalShare);
+  for (std::size_t i = 0; i < this->lights.size(); ++i)
+  {
+    const LightResult& light = this->lights[i];
+    const std::string name = "visibility." + std::to_string(i);
+    require(name + ": share of wrong pixels", light.wrongShare(), tolerance::visibilityShare);
+    require(name + ": share of pixels that cannot be lit but are",
+      share(light.unlit.size(), this->covered), tolerance::visibilityShare);
+  }
+  return sentences;
+}
+
+//------------------------------------------------------------------------------
+Result compare(const Scene& scene, const VisibilityFile& file)
+{
+  const Comparison comparison(scene, file);
+  const auto width = static_cast<std::size_t>(file.width);
+  const auto height = static_cast<std::size_t>(file.height);
+  std::vector<PixelResult> found(width * height);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, height),
+    [&](const tbb::blocked_range<std::size_t>& rows)
+    {
+      for (std::size_t pixel = rows.begin() * width; pixel < rows.end() * width; ++pixel)
+      {
+        found[pixel] = comparison.compare(pixel);
+      }
+    });
+  Result result;
+  result.pixels = found.size();
+  result.lights.resize(scene.lights.size());
+  for (std::size_t pixel = 0; pixel < found.size(); ++pixel)
+  {
+    add(result, pixel, found[pixel]);
+  }
+  return result;
+}
+
+//------------------------------------------------------------------------------
+std::string toJson(const Result& result, int width)
+{
+  const auto columns = static_cast<std::size_t>(width);
+  nlohmann::ordered_json json;
+  json["pixels"] = result.pixels;
+  json["covered"] = result.covered;
+  json["coverage_share"] = share(result.coverage.size(), result.pixels);
+  json["coverage"] = toJson(result.coverage, columns);
+  json["position_error"] = result.positionError;
+  json["position_error_at"] = { result.positionErrorAt % columns,
+    result.positionErrorAt / columns };
+  json["position"] = toJson(result.position, columns);
+  json["aside"] = toJson(result.aside, columns);
+  json["normal"] = toJson(result.normal, columns);
+  json["lights"] = nlohmann::ordered_json::array();
+  for (const LightResult& light : result.lights)
+  {
+    json["lights"].push_back({ { "counted", light.counted }, { "wrong_share", light.wrongShare() },
+      { "false_light", toJson(light.falseLight, columns) },
+      { "false_shadow", toJson(light.falseShadow, columns) },
+      { "unlit", toJson(light.unlit, columns) } });
+  }
+  json["failures"] = result.failures();
+  return json.dump(2);
+}
+
+} // namespace gnomon::check

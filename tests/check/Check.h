@@ -1,0 +1,68 @@
+#ifndef gnomon_tests_check_Check_h
+#define gnomon_tests_check_Check_h
+
+#include "Scene.h"
+#include "VisibilityFile.h"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace gnomon::check
+{
+
+/// What a visibility file may differ in.
+namespace tolerance
+{
+constexpr double coverageShare = 5e-4;       ///< of all pixels
+constexpr double positionError = 1e-4;       ///< of the distance from the camera
+constexpr double asideShare = 5e-4;          ///< of the pixels covered in both
+constexpr double normalShare = 5e-4;         ///< of the pixels covered in both
+constexpr double visibilityShare = 1e-4;     ///< of the pixels that face the light
+constexpr double visibilityDifference = 0.5; ///< more than this makes a pixel wrong
+} // namespace tolerance
+
+/// Pixels, as y * width + x, row 0 on top; ascending.
+using Pixels = std::vector<std::size_t>;
+
+/// How one light's visibility compares.
+struct LightResult
+{
+  std::size_t counted = 0; ///< pixels covered in both, facing the light, in its cone
+  Pixels falseLight;       ///< of these, lit in the file and shadowed in truth
+  Pixels falseShadow;      ///< of these, shadowed in the file and lit in truth; also NaN
+  Pixels unlit;            ///< turned away or outside of the cone, but not dark in the file
+
+  double wrongShare() const;
+};
+
+/// How a file compares with the scene it was made from.
+struct Result
+{
+  std::size_t pixels = 0;
+  std::size_t covered = 0;    ///< in the file and in truth
+  Pixels coverage;            ///< covered in one of them only
+  double positionError = 0.0; ///< largest, as a share of the distance from the camera
+  std::size_t positionErrorAt = 0;
+  Pixels position; ///< where the error exceeds the tolerance
+  /// Positions that are not counted as errors: on the pixel's ray and on a surface, but not where
+  /// the ray meets the first surface. So it is at edges, on surfaces that are seen edge-on, and
+  /// where two depths are nearly the same.
+  Pixels aside;
+  Pixels normal; ///< normals of no triangle at the position, or not on the camera's side
+  std::vector<LightResult> lights;
+
+  /// One sentence per tolerance that is not kept.
+  std::vector<std::string> failures() const;
+};
+
+/// Renders the scene with rays of its own and compares.
+/// @throws std::runtime_error when the file lacks a channel
+Result compare(const Scene& scene, const VisibilityFile& file);
+
+/// The result as JSON, with the first pixels of each kind.
+std::string toJson(const Result& result, int width);
+
+} // namespace gnomon::check
+
+#endif

@@ -1,0 +1,333 @@
+// The check itself is checked: files that are true by construction pass, and what is put wrong in
+// them is found, pixel by pixel.
+
+#include "Check.h"
+
+#include <ImfChannelList.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfOutputFile.h>
+#include <ImfVecAttribute.h>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+
+namespace gnomon::check
+{
+
+namespace
+{
+
+constexpr int sidePixels = 100;
+constexpr double cameraHeight = 10.0;
+constexpr double halfGround = 9.0;
+constexpr double plateHeight = 2.0;
+
+/// The files of one test, gone at its end.
+class Folder
+{
+public:
+  Folder()
+    : path_(std::filesystem::temp_directory_path() /
+        ("gnomon_check_" +
+          std::string(testing::UnitTest::GetInstance()->current_test_info()->name())))
+  {
+    std::filesystem::create_directories(this->path_);
+  }
+  ~Folder() { std::filesystem::remove_all(this->path_); }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+
+  std::string operator/(const std::string& name) const { return (this->path_ / name).string(); }
+
+private:
+  std::filesystem::path path_;
+};
+
+/// A picture from above onto a square ground at y = 0 and a square plate of side 2 over its middle.
+/// With 90 degrees and the camera at 10, the border of the picture is at 10 on the ground. All is
+/// so placed that no pixel's centre lies on an edge.
+nlohmann::json makeScene()
+{
+  const nlohmann::json light = { { "type", "directional" }, { "direction", { 1, -1, 0 } } };
+  const nlohmann::json ground = { { "file", "square.obj" },
+    { "matrix", { halfGround, 0, 0, 0, 0, halfGround, 0, 0, 0, 0, halfGround, 0, 0, 0, 0, 1 } } };
+  const nlohmann::json plate = { { "file", "square.obj" },
+    { "matrix", { 1, 0, 0, 0, 0, 1, 0, plateHeight, 0, 0, 1, 0, 0, 0, 0, 1 } } };
+  return { { "camera",
+             { { "position", { 0, cameraHeight, 0 } }, { "target", { 0, 0, 0 } },
+               { "up", { 0, 0, -1 } }, { "fov", 90 } } },
+    { "lights", { light } }, { "models", { ground, plate } } };
+}
+
+/// The file that is true for the scene, by hand.
+struct TrueFile
+{
+  VisibilityFile file;
+
+  TrueFile()
+  {
+    this->file.width = sidePixels;
+    this->file.height = sidePixels;
+    this->file.origin = { 1.0, 2.0, 3.0 };
+    for (const char* name : { "coverage", "visibility.0", "position.X", "position.Y", "position.Z",
+           "normal.X", "normal.Y", "normal.Z" })
+    {
+      this->file.channels[name].resize(sidePixels * sidePixels);
+    }
+    for (int y = 0; y < sidePixels; ++y)
+    {
+      for (int x = 0; x < sidePixels; ++x)
+      {
+        this->fill(x, y);
+      }
+    }
+  }
+
+  static bool onPlate(double x, double z) { return std::abs(x) < 1.0 && std::abs(z) < 1.0; }
+  /// The light moves the plate's shadow to the right by the plate's height.
+  static bool inShadow(double x, double z) { return onPlate(x - plateHeight, z); }
+
+  float& at(const std::string& channel, int x, int y)
+  {
+    return this->file.channels.at(channel)[static_cast<std::size_t>(y * sidePixels + x)];
+  }
+
+  void fill(int x, int y)
+  {
+    // Where the ray meets the ground and the plate.
+    const double groundX = cameraHeight * (2.0 * (x + 0.5) / sidePixels - 1.0);
+    const double groundZ = cameraHeight * (2.0 * (y + 0.5) / sidePixels - 1.0);
+    const double nearer = (cameraHeight - plateHeight) / cameraHeight;
+    const bool plate = onPlate(nearer * groundX, nearer * groundZ);
+    if (!plate && std::max(std::abs(groundX), std::abs(groundZ)) > halfGround)
+    {
+      return;
+    }
+    const Vec3 position =
+      plate ? Vec3(nearer * groundX, plateHeight, nearer * groundZ) : Vec3(groundX, 0.0, groundZ);
+    this->setPosition(x, y, position);
+    this->at("coverage", x, y) = 1.0f;
+    this->at("normal.Y", x, y) = 1.0f;
+    this->at("visibility.0", x, y) = !plate && inShadow(groundX, groundZ) ? 0.0f : 1.0f;
+  }
+
+  Vec3 position(int x, int y)
+  {
+    return this->file.origin +
+      this->file.vector("position", static_cast<std::size_t>(y * sidePixels + x));
+  }
+  void setPosition(int x, int y, const Vec3& position)
+  {
+    const Vec3 stored = position - this->file.origin;
+    this->at("position.X", x, y) = static_cast<float>(stored.x);
+    this->at("position.Y", x, y) = static_cast<float>(stored.y);
+    this->at("position.Z", x, y) = static_cast<float>(stored.z);
+  }
+};
+
+void write(const VisibilityFile& file, const std::string& path)
+{
+  Imf::Header header(file.width, file.height);
+  header.insert("origin", Imf::V3dAttribute(file.origin));
+  Imf::FrameBuffer frame;
+  for (const auto& [name, plane] : file.channels)
+  {
+    header.channels().insert(name, Imf::Channel(Imf::FLOAT));
+    auto* const base = reinterpret_cast<char*>(const_cast<float*>(plane.data()));
+    frame.insert(name,
+      Imf::Slice(
+        Imf::FLOAT, base, sizeof(float), sizeof(float) * static_cast<std::size_t>(file.width)));
+  }
+  Imf::OutputFile output(path.c_str(), header);
+  output.setFrameBuffer(frame);
+  output.writePixels(file.height);
+}
+
+/// Checks a file against a scene, both through the disk.
+Result check(const nlohmann::json& scene, const VisibilityFile& file)
+{
+  const Folder folder;
+  std::ofstream(folder / "square.obj") << "v -1 0 1\nv 1 0 1\nv 1 0 -1\nv -1 0 -1\nf 1 2 3 4\n";
+  std::ofstream(folder / "scene.json") << scene;
+  write(file, folder / "file.exr");
+  return compare(readScene(folder / "scene.json"), readVisibilityFile(folder / "file.exr"));
+}
+
+Pixels pixels(const std::vector<std::array<int, 2>>& places)
+{
+  Pixels result;
+  for (const auto& [x, y] : places)
+  {
+    result.push_back(static_cast<std::size_t>(y * sidePixels + x));
+  }
+  return result;
+}
+
+/// Pixels where the file is lit by the first light.
+std::size_t countLit(TrueFile& image)
+{
+  const std::vector<float>& plane = image.file.channels.at("visibility.0");
+  return static_cast<std::size_t>(std::count(plane.begin(), plane.end(), 1.0f));
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+TEST(Check, FindsNothingInATrueFile)
+{
+  const TrueFile image;
+  const Result result = check(makeScene(), image.file);
+  EXPECT_EQ(result.failures(), std::vector<std::string>());
+  EXPECT_EQ(result.pixels, 10000u);
+  EXPECT_EQ(result.covered, 8100u); // halfGround of 10, squared
+  EXPECT_EQ(result.coverage, Pixels());
+  EXPECT_EQ(result.position, Pixels());
+  EXPECT_EQ(result.aside, Pixels());
+  EXPECT_EQ(result.normal, Pixels());
+  ASSERT_EQ(result.lights.size(), 1u);
+  EXPECT_EQ(result.lights[0].counted, 8100u);
+  EXPECT_EQ(result.lights[0].falseLight, Pixels());
+  EXPECT_EQ(result.lights[0].falseShadow, Pixels());
+  EXPECT_EQ(result.lights[0].unlit, Pixels());
+}
+
+//------------------------------------------------------------------------------
+TEST(Check, FindsTheFlippedPixelsAndNoOthers)
+{
+  TrueFile image;
+  // Row 52 crosses the plate (columns 44 to 55) and the shadow that shows beside it (to 64).
+  ASSERT_EQ(image.at("visibility.0", 60, 52), 0.0f);
+  ASSERT_EQ(image.at("visibility.0", 50, 52), 1.0f);
+  image.at("visibility.0", 58, 50) = 1.0f;
+  image.at("visibility.0", 60, 52) = 0.6f;
+  image.at("visibility.0", 61, 52) = 0.4f; // on the right side
+  image.at("visibility.0", 20, 30) = 0.0f;
+  image.at("visibility.0", 50, 52) = std::numeric_limits<float>::quiet_NaN();
+  image.at("coverage", 1, 1) = 1.0f;
+  image.at("coverage", 70, 80) = 0.0f;
+  const Result result = check(makeScene(), image.file);
+  EXPECT_EQ(result.lights[0].falseLight, pixels({ { 58, 50 }, { 60, 52 } }));
+  EXPECT_EQ(result.lights[0].falseShadow, pixels({ { 20, 30 }, { 50, 52 } }));
+  EXPECT_EQ(result.lights[0].counted, 8099u);
+  EXPECT_EQ(result.coverage, pixels({ { 1, 1 }, { 70, 80 } }));
+  EXPECT_EQ(result.position, Pixels());
+  EXPECT_EQ(result.failures().size(), 1u); // 2 of 10,000 pixels is still a coverage
+}
+
+//------------------------------------------------------------------------------
+TEST(Check, FindsWrongPositionsAndNormals)
+{
+  TrueFile image;
+  const Vec3 aside(0.0, 1.0, 0.0);
+  image.setPosition(30, 30, image.position(30, 30) + 0.0005 * aside); // 0.00004 of the distance
+  image.setPosition(31, 30, image.position(31, 30) + 0.0020 * aside);
+  image.setPosition(32, 30, image.position(33, 30)); // the neighbour's
+  image.at("position.X", 33, 31) = std::numeric_limits<float>::infinity();
+  image.at("normal.Y", 34, 32) = -1.0f;
+  image.at("normal.X", 35, 32) = 0.01f;
+  image.at("normal.X", 36, 32) = std::numeric_limits<float>::quiet_NaN();
+  const Result result = check(makeScene(), image.file);
+  EXPECT_EQ(result.position, pixels({ { 31, 30 }, { 32, 30 }, { 33, 31 } }));
+  EXPECT_EQ(result.positionErrorAt, pixels({ { 33, 31 } }).front());
+  EXPECT_EQ(result.normal, pixels({ { 34, 32 }, { 35, 32 }, { 36, 32 } }));
+  EXPECT_EQ(result.failures().size(), 1u); // 3 of 8,100 normals are within the tolerance
+}
+
+//------------------------------------------------------------------------------
+TEST(Check, FindsAPictureThatIsUpsideDown)
+{
+  nlohmann::json scene = makeScene();
+  scene["models"][1]["matrix"][11] = 3.0; // the plate is off the middle now
+  const Result result = check(scene, TrueFile().file);
+  EXPECT_FALSE(result.failures().empty());
+  EXPECT_FALSE(result.position.empty());
+}
+
+//------------------------------------------------------------------------------
+TEST(Check, NeitherShadowNorCasterWhereTheSceneSaysSo)
+{
+  TrueFile image;
+  const std::size_t shadowed = 8100 - countLit(image);
+  ASSERT_GT(shadowed, 0u);
+  const auto falseShadow = [&](int model, const char* key, bool value)
+  {
+    nlohmann::json scene = makeScene();
+    scene["models"][model][key] = value;
+    const Result result = check(scene, image.file);
+    EXPECT_EQ(result.lights[0].falseLight, Pixels());
+    return result.lights[0].falseShadow.size();
+  };
+  EXPECT_EQ(falseShadow(1, "casts", false), shadowed);
+  EXPECT_EQ(falseShadow(0, "casts", false), 0u);
+  EXPECT_EQ(falseShadow(0, "receives", false), shadowed);
+  EXPECT_EQ(falseShadow(1, "receives", false), 0u);
+  EXPECT_EQ(falseShadow(1, "one_sided", true), 0u); // its front is towards the light
+}
+
+//------------------------------------------------------------------------------
+TEST(Check, OneSidedTrianglesCastWithTheirFront)
+{
+  TrueFile image;
+  nlohmann::json scene = makeScene();
+  // Half a turn around x: the front looks down.
+  scene["models"][1]["matrix"] = { 1, 0, 0, 0, 0, -1, 0, plateHeight, 0, 0, -1, 0, 0, 0, 0, 1 };
+  EXPECT_EQ(check(scene, image.file).failures(), std::vector<std::string>());
+  scene["models"][1]["one_sided"] = true;
+  EXPECT_EQ(check(scene, image.file).lights[0].falseShadow.size(), 8100 - countLit(image));
+}
+
+//------------------------------------------------------------------------------
+TEST(Check, SpotLightsShineInTheirConeOnly)
+{
+  // Beside the camera at (3, 10, 0), straight down, 45 degrees: on the ground the cone is a circle
+  // of radius 10; the plate's shadow goes from x = -2 to 0.5 and 1.25 to both sides.
+  nlohmann::json scene = makeScene();
+  scene["lights"] = { { { "type", "spot" }, { "position", { 3, 10, 0 } }, { "target", { 3, 0, 0 } },
+    { "cone_angle", 45 } } };
+  TrueFile image;
+  std::size_t inCone = 0;
+  for (int y = 0; y < sidePixels; ++y)
+  {
+    for (int x = 0; x < sidePixels; ++x)
+    {
+      if (image.at("coverage", x, y) == 0.0f)
+      {
+        continue;
+      }
+      const Vec3 p = image.position(x, y);
+      const bool lit = std::hypot(p.x - 3.0, p.z) < cameraHeight - p.y;
+      const bool shadowed = p.y < 1.0 && p.x > -2.0 && p.x < 0.5 && std::abs(p.z) < 1.25;
+      image.at("visibility.0", x, y) = lit && !shadowed ? 1.0f : 0.0f;
+      inCone += lit;
+    }
+  }
+  Result result = check(scene, image.file);
+  EXPECT_EQ(result.failures(), std::vector<std::string>());
+  EXPECT_EQ(result.lights[0].counted, inCone);
+
+  image.at("visibility.0", 8, 8) = 1.0f; // outside of the cone
+  result = check(scene, image.file);
+  EXPECT_EQ(result.lights[0].unlit, pixels({ { 8, 8 } }));
+}
+
+//------------------------------------------------------------------------------
+TEST(Check, RefusesFilesThatLackSomething)
+{
+  TrueFile image;
+  image.file.channels.erase("visibility.0");
+  EXPECT_THROW(check(makeScene(), image.file), std::runtime_error);
+  nlohmann::json scene = makeScene();
+  scene.erase("camera");
+  EXPECT_THROW(check(scene, TrueFile().file), std::runtime_error);
+  scene = makeScene();
+  scene["models"][0]["file"] = "missing.obj";
+  EXPECT_THROW(check(scene, TrueFile().file), std::runtime_error);
+}
+
+} // namespace gnomon::check

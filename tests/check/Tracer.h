@@ -1,0 +1,60 @@
+#ifndef gnomon_tests_check_Tracer_h
+#define gnomon_tests_check_Tracer_h
+
+#include "Scene.h"
+
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <optional>
+
+namespace gnomon::check
+{
+
+/// A ray in world coordinates.
+struct Ray
+{
+  Vec3 origin;
+  Vec3 direction; ///< unit
+  double length = std::numeric_limits<double>::infinity();
+};
+
+/// What a camera ray meets first.
+struct Hit
+{
+  Vec3 position; ///< world coordinates
+  double distance = 0.0;
+  std::size_t surface = 0;
+  std::size_t triangle = 0; ///< within its surface
+};
+
+/// Rays against a scene. Embree finds the triangles whose boxes a ray passes; whether and where it
+/// meets them is computed in double precision, so that nothing but the input is rounded to float.
+class Tracer
+{
+public:
+  /// The scene must outlive the tracer.
+  explicit Tracer(const Scene& scene);
+  ~Tracer();
+  Tracer(const Tracer&) = delete;
+  Tracer& operator=(const Tracer&) = delete;
+
+  /// The nearest of all surfaces. A ray through an edge meets at least one of its triangles.
+  std::optional<Hit> nearest(const Ray& ray) const;
+
+  /// Whether a surface that casts is in the way.
+  bool blocked(const Ray& ray) const;
+
+  /// Whether a triangle of any surface that `accepts` comes as near to a point as that.
+  bool touches(
+    const Vec3& point, double distance, const std::function<bool(const Triangle&)>& accepts) const;
+
+private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+} // namespace gnomon::check
+
+#endif
