@@ -249,7 +249,9 @@ void RenderManager::drawReceivers(const vtkRenderState* s)
   state->vtkglEnable(GL_DEPTH_TEST);
 
   this->shaders_.beginStage(window, this->stageValues_);
-  this->receiverTarget_.begin(width, height);
+  const bool withNormals = std::any_of(this->casting_.begin(), this->casting_.end(),
+    [](const LightSlot* slot) { return findTechnique(slot->techniqueName)->info.pointwise; });
+  this->receiverTarget_.begin(width, height, withNormals);
   for (int i = 0; i < s->GetPropArrayCount(); ++i)
   {
     s->GetPropArray()[i]->RenderOpaqueGeometry(renderer);

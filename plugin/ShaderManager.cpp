@@ -117,7 +117,7 @@ void ShaderManager::fillShader(std::string& vertexShader, const std::string& geo
     const std::string write = lit
       ? "    float drawn = float(gnomonDrawn + 1) * (gnomonReceives == 1 ? 1.0 : -1.0);\n"
         "    gl_FragData[1] = vec4(vertexVC.xyz, float(gl_PrimitiveID + PrimitiveIDOffset));\n"
-        "    gl_FragData[2] = vec4(gnomonNormal, drawn);\n"
+        "    gl_FragData[2] = vec4(drawn, gnomonNormal);\n"
       : "    gl_FragData[1] = vec4(0.0);\n"
         "    gl_FragData[2] = vec4(0.0);\n";
     if (!lit)

@@ -120,8 +120,8 @@ Plane planeOf(const Occluders& occluders, std::uint32_t triangle, const ViewFram
     glm::dot(normal, view.parallelProjection ? view.backward : view.position - point);
   if (!(std::abs(side) > 0.0 && std::isfinite(side)))
   {
-    // No area, not finite, or seen along its plane: the image knows the normal better, and the
-    // position stays as it is.
+    // No area, not finite, or seen along its plane: the direction to the camera stands in for the
+    // normal, and the position stays as it is.
     plane.planeFromView = { view.rotation[0], view.rotation[1], view.rotation[2], view.position };
     plane.noise = planeNoise(glm::vec3(1.0f), largest, glm::vec3(0.0f), 1.0f);
     return plane;
@@ -170,8 +170,7 @@ void projectReceivers(const ReceiverImages& images, const std::vector<DrawnSurfa
   const ViewFrame frame(images);
   const auto pixelSize = static_cast<float>(images.pixelSize);
 
-  const auto receiverOf = [&](const glm::vec4& view, const glm::vec4& normalView,
-                            std::uint32_t surface, const Plane& plane)
+  const auto receiverOf = [&](const glm::vec4& view, std::uint32_t surface, const Plane& plane)
   {
     const auto& columns = plane.planeFromView;
     Receiver receiver;
@@ -181,7 +180,8 @@ void projectReceivers(const ReceiverImages& images, const std::vector<DrawnSurfa
     receiver.normal = plane.normal;
     if (plane.normal == glm::vec3(0.0f))
     {
-      receiver.normal = glm::normalize(frame.rotation * glm::dvec3(normalView));
+      receiver.normal = glm::normalize(
+        frame.parallelProjection ? frame.backward : frame.rotation * -glm::dvec3(view));
     }
     const float footprint = frame.parallelProjection ? pixelSize : pixelSize * std::abs(view.z);
     receiver.offset = shadowRayOffset(plane.noise, footprint);
@@ -211,10 +211,9 @@ void projectReceivers(const ReceiverImages& images, const std::vector<DrawnSurfa
     for (std::size_t i = first; i < last; ++i)
     {
       const glm::vec4& view = images.positionView[i];
-      const glm::vec4& normalView = images.normalView[i];
-      if (normalView.w != drawnPlusOne || view.w != primitive)
+      if (images.drawn[i] != drawnPlusOne || view.w != primitive)
       {
-        drawnPlusOne = normalView.w;
+        drawnPlusOne = images.drawn[i];
         primitive = view.w;
         found = findTriangle(std::abs(drawnPlusOne), primitive, drawnSurfaces, occluders);
         if (found.triangle != none)
@@ -223,8 +222,7 @@ void projectReceivers(const ReceiverImages& images, const std::vector<DrawnSurfa
             &cache.find(found.triangle, [&] { return planeOf(occluders, found.triangle, frame); });
         }
       }
-      store(i,
-        found.triangle == none ? Receiver() : receiverOf(view, normalView, found.surface, *plane));
+      store(i, found.triangle == none ? Receiver() : receiverOf(view, found.surface, *plane));
     }
   };
 

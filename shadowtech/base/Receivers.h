@@ -60,9 +60,8 @@ struct ReceiverImages
   /// xyz: view coordinates of the fragment; w: VTK's primitive number, as the drawn surface counts
   /// them (the collector resolves it to a triangle).
   std::vector<glm::vec4> positionView;
-  /// xyz: geometric normal in view coordinates, facing the camera; w: drawn surface + 1, negative
-  /// where the prop does not receive, 0 where nothing was drawn.
-  std::vector<glm::vec4> normalView;
+  /// The drawn surface + 1, negative where the prop does not receive; 0 where nothing was drawn.
+  std::vector<float> drawn;
   /// View to centred coordinates (rigid).
   glm::dmat4 centredFromView{ 1.0 };
   /// A pixel's side at unit distance (perspective), or everywhere (parallel projection).

@@ -39,7 +39,7 @@ void VisibilityLayers::estimate(int layer, const Technique& technique,
   glUseProgram(program);
   const int freeUnit = ShaderLibrary::setUniforms(program,
     { { "receiverPositions", TextureBinding{ GL_TEXTURE_2D, receivers.positions() } },
-      { "receiverNormals", TextureBinding{ GL_TEXTURE_2D, receivers.normals() } } },
+      { "receiverSurfaces", TextureBinding{ GL_TEXTURE_2D, receivers.surfaces() } } },
     0, 0);
   ShaderLibrary::setUniforms(program, technique.uniforms(centredFromView), 0, freeUnit);
 

@@ -322,7 +322,7 @@ View makeView(const Occluders& occluders, const Camera& camera)
   const auto pixels =
     static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height);
   images.positionView.assign(pixels, glm::vec4(0.0f));
-  images.normalView.assign(pixels, glm::vec4(0.0f));
+  images.drawn.assign(pixels, 0.0f);
   for (std::uint32_t i = 0; i < occluders.surfaces.size(); ++i)
   {
     view.drawnSurfaces.push_back({ { { 0, occluders.surfaces[i].triangleCount, i } } });
@@ -361,11 +361,8 @@ View makeView(const Occluders& occluders, const Camera& camera)
         }
         const glm::vec3 position =
           (1.0f - hit.u - hit.v) * corner[0] + hit.u * corner[1] + hit.v * corner[2];
-        glm::vec3 normal = glm::normalize(glm::cross(corner[1] - corner[0], corner[2] - corner[0]));
-        const glm::vec3 sight = images.parallelProjection ? glm::vec3(0.0f, 0.0f, -1.0f) : position;
-        normal = glm::dot(normal, sight) > 0.0f ? -normal : normal;
         images.positionView[i] = glm::vec4(position, static_cast<float>(hit.primID));
-        images.normalView[i] = glm::vec4(normal, static_cast<float>(hit.geomID + 1));
+        images.drawn[i] = static_cast<float>(hit.geomID + 1);
       }
     });
   return view;
