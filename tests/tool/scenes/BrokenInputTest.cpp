@@ -259,7 +259,7 @@ std::vector<BrokenInput> brokenInputs()
     scene("scene_zero_bytes", "scene.json", std::string(100, '\0')),
     scene("scene_deep_nesting", "scene.json", std::string(200000, '[')),
     scene("scene_huge_number", "scene.json", "{\"camera\": {\"fov\": 1e999}}"),
-    scene("scene_duplicate_key", "models", "{\"models\": 1, \"models\": 2}"),
+    scene("scene_duplicate_key", "\"models\" stands twice", "{\"models\": 1, \"models\": 2}"),
     scene("scene_too_large", "scene.json", std::string(17 * 1024 * 1024, ' ')),
     sceneWith("scene_unknown_key", "shadows", "/shadows", true),
     sceneWith("scene_fov_zero", "camera.fov", "/camera/fov", 0),
