@@ -16,6 +16,7 @@ namespace gnomon::tool
 void checkObjFile(const std::string& path);
 void checkPlyFile(const std::string& path);
 void checkStlFile(const std::string& path);
+void checkVtpFile(const std::string& path);
 void check3dsFile(const std::string& path);
 ///@}
 

@@ -240,6 +240,7 @@ void readStl(const std::string& path, Model& model)
 
 void readVtp(const std::string& path, Model& model)
 {
+  checkVtpFile(path);
   vtkNew<vtkXMLPolyDataReader> reader;
   if (!reader->CanReadFile(path.c_str()))
   {

@@ -18,7 +18,6 @@
 #include <fstream>
 #include <iostream>
 #include <memory>
-#include <set>
 
 namespace gnomon::tool
 {
@@ -43,15 +42,21 @@ struct RenderOptions
   std::string stats;
 };
 
+/// One name for every way to write a path.
+std::filesystem::path fullPath(const std::string& path)
+{
+  std::error_code ignored; // then the path is as it is
+  return std::filesystem::weakly_canonical(std::filesystem::absolute(path, ignored), ignored);
+}
+
 /// Refuses what can be refused before anything is loaded.
 void check(const RenderOptions& options)
 {
   requireWritableFile(options.picture, "--output", { ".png", ".exr" });
-  std::set<std::filesystem::path> outputs{ std::filesystem::weakly_canonical(options.picture) };
   if (!options.visibility.empty())
   {
     requireWritableFile(options.visibility, "--visibility", { ".exr" });
-    if (!outputs.insert(std::filesystem::weakly_canonical(options.visibility)).second)
+    if (fullPath(options.visibility) == fullPath(options.picture))
     {
       throw BadInput("--visibility: " + options.visibility + ": is the picture's file, too");
     }
@@ -59,7 +64,7 @@ void check(const RenderOptions& options)
   if (!options.stats.empty())
   {
     requireWritableFile(options.stats, "--stats", { ".json" });
-    if (options.stats == options.scene)
+    if (fullPath(options.stats) == fullPath(options.scene))
     {
       throw BadInput("--stats: " + options.stats + ": is the scene's file, too");
     }

@@ -6,6 +6,7 @@
 #include "ModelFile.h"
 #include "SceneFile.h"
 #include "SceneFraming.h"
+#include "Vec3.h"
 
 #include "lights/vtkGnomonLightKeys.h"
 #include "plugin/vtkGnomonPropKeys.h"
@@ -17,6 +18,7 @@
 #include <vtkNew.h>
 #include <vtkPolyDataMapper.h>
 
+#include <algorithm>
 #include <filesystem>
 
 namespace gnomon::tool
@@ -98,6 +100,30 @@ vtkSmartPointer<vtkLight> makeLight(const SceneLight& source)
   return light;
 }
 
+/// Lets the camera's clipping planes enclose the scene.
+void setClippingRange(vtkRenderer* renderer, const Scene& scene)
+{
+  const std::array<double, 6> bounds = boundsWorld(scene);
+  const Vec3 forward = scene.camera.target - scene.camera.position;
+  double farthest = 0.0;
+  for (std::size_t corner = 0; corner < 8; ++corner)
+  {
+    const Vec3 point{ { bounds[corner & 1], bounds[2 + (corner >> 1 & 1)],
+      bounds[4 + (corner >> 2 & 1)] } };
+    farthest = std::max(farthest, dot(point - scene.camera.position, forward));
+  }
+  if (farthest == 0.0)
+  {
+    return; // All of it is behind the camera. VTK would put both planes into the eye.
+  }
+  // VTK's own margins: the range widened by half its length, and a near plane at a hundredth of the
+  // far one. The first wastes depth precision; the second cuts the ground away in front of an eye
+  // that stands on it.
+  renderer->SetClippingRangeExpansion(0.05);
+  renderer->SetNearClippingPlaneTolerance(1e-4);
+  renderer->ResetCameraClippingRange(bounds.data());
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -151,13 +177,7 @@ vtkSmartPointer<vtkRenderer> makeRenderer(const Scene& scene)
   camera->SetViewAngle(scene.camera.fovDegrees);
   renderer->SetActiveCamera(camera);
 
-  // VTK's own margins: the range widened by half its length, and a near plane at a hundredth of the
-  // far one. The first wastes depth precision; the second cuts the ground away in front of an eye
-  // that stands on it.
-  renderer->SetClippingRangeExpansion(0.05);
-  renderer->SetNearClippingPlaneTolerance(1e-4);
-  const std::array<double, 6> bounds = boundsWorld(scene);
-  renderer->ResetCameraClippingRange(bounds.data());
+  setClippingRange(renderer, scene);
   return renderer;
 }
 

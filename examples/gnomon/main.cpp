@@ -22,7 +22,7 @@ int report(const char* what, int exitCode)
 int main(int argc, char** argv)
 {
   CLI::App app{ "Shadows for VTK scenes, from fast to exact", "gnomon" };
-  app.require_subcommand(1);
+  app.require_subcommand(0, 1);
   gnomon::tool::addRenderCommand(app);
   gnomon::tool::addCompareCommand(app);
   gnomon::tool::addDiffCommand(app);
@@ -32,6 +32,10 @@ int main(int argc, char** argv)
   try
   {
     app.parse(argc, argv);
+    if (app.get_subcommands().empty())
+    {
+      throw gnomon::tool::BadInput("no subcommand, expected one; gnomon --help lists them");
+    }
     return 0;
   }
   catch (const CLI::ParseError& error)

@@ -1,0 +1,429 @@
+// Runs the program itself on broken inputs: each must end with exit code 2 and one line that names
+// the file or option, and none may crash.
+
+#include "../TestFiles.h"
+#include "SampleFiles.h"
+
+#include <gtest/gtest.h>
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <functional>
+
+extern char** environ;
+
+namespace gnomon::tool
+{
+namespace
+{
+
+struct Outcome
+{
+  bool exited = false; ///< false: a signal ended it
+  int code = 0;        ///< exit code, or the signal
+  std::string errors;  ///< what it wrote to stderr
+};
+
+/// Runs the program with these arguments in that folder.
+Outcome run(const TestFolder& folder, const std::vector<std::string>& arguments)
+{
+  std::vector<std::string> words = { GNOMON_PROGRAM };
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<char*> argv;
+  for (std::string& word : words)
+  {
+    argv.push_back(word.data());
+  }
+  argv.push_back(nullptr);
+
+  const std::string output = folder / "stderr.txt";
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addchdir_np(&actions, folder.path().c_str());
+  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+  posix_spawn_file_actions_addopen(
+    &actions, STDERR_FILENO, output.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  pid_t process = 0;
+  const int failure =
+    posix_spawn(&process, GNOMON_PROGRAM, &actions, nullptr, argv.data(), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  if (failure != 0)
+  {
+    throw std::runtime_error("the program cannot be started");
+  }
+  int status = 0;
+  waitpid(process, &status, 0);
+  return { WIFEXITED(status), WIFEXITED(status) ? WEXITSTATUS(status) : WTERMSIG(status),
+    readBytes(output) };
+}
+
+/// One broken input.
+struct BrokenInput
+{
+  std::string name;                   ///< of the test
+  std::string names;                  ///< what the error must name: a file, a key, an option
+  std::vector<std::string> arguments; ///< of the program
+  std::function<void(const TestFolder&)> prepare; ///< writes its files
+};
+
+void PrintTo(const BrokenInput& input, std::ostream* stream)
+{
+  *stream << input.name;
+}
+
+/// `gnomon render FILE -o out.png`, with that file written first.
+BrokenInput file(const std::string& name, const std::string& fileName, const std::string& bytes)
+{
+  return { name, fileName, { "render", fileName, "-o", "out.png" },
+    [=](const TestFolder& folder) { writeBytes(folder / fileName, bytes); } };
+}
+
+/// `gnomon render scene.json -o out.png`, with model.obj next to it.
+BrokenInput scene(const std::string& name, const std::string& path, const std::string& text)
+{
+  return { name, path, { "render", "scene.json", "-o", "out.png" },
+    [=](const TestFolder& folder)
+    {
+      writeBytes(folder / "scene.json", text);
+      writeBytes(folder / "model.obj", sampleObj());
+    } };
+}
+
+/// A good scene with another value at that JSON pointer.
+BrokenInput sceneWith(const std::string& name, const std::string& path, const std::string& pointer,
+  const nlohmann::json& value)
+{
+  nlohmann::json document = sampleScene();
+  document[nlohmann::json::json_pointer(pointer)] = value;
+  return scene(name, path, document.dump());
+}
+
+/// A good glTF document with another value at that JSON pointer.
+BrokenInput gltfWith(const std::string& name, const std::string& path, const std::string& pointer,
+  const nlohmann::json& value)
+{
+  nlohmann::json document = sampleGltfWithBuffer();
+  document[nlohmann::json::json_pointer(pointer)] = value;
+  BrokenInput input = file(name, "m.gltf", document.dump());
+  input.names = path;
+  return input;
+}
+
+/// The program with these arguments after `render cube`, or without a scene of its own.
+BrokenInput option(
+  const std::string& name, const std::string& names, const std::vector<std::string>& arguments)
+{
+  return { name, names, arguments, [](const TestFolder&) {} };
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to)
+{
+  return text.replace(text.find(from), from.size(), to);
+}
+
+std::string withBytes(std::string bytes, std::size_t position, const std::string& value)
+{
+  return bytes.replace(position, value.size(), value);
+}
+
+std::string half(const std::string& bytes)
+{
+  return bytes.substr(0, bytes.size() / 2);
+}
+
+std::string garbage(std::size_t bytes)
+{
+  std::string text;
+  std::uint32_t state = 1;
+  for (std::size_t i = 0; i < bytes; ++i)
+  {
+    state = state * 1664525u + 1013904223u;
+    text += static_cast<char>(state >> 24);
+  }
+  return text;
+}
+
+/// A binary STL file whose vertices are all not a number.
+std::string allNanStl()
+{
+  std::string bytes = sampleBinaryStl();
+  const float nan = std::nanf("");
+  for (std::size_t triangle = 84; triangle + 50 <= bytes.size(); triangle += 50)
+  {
+    for (std::size_t i = 12; i < 48; i += sizeof(nan))
+    {
+      std::memcpy(bytes.data() + triangle + i, &nan, sizeof(nan));
+    }
+  }
+  return bytes;
+}
+
+std::vector<BrokenInput> brokenInputs()
+{
+  const std::string glb = makeGlb(sampleGltf(), sampleGltfBuffer());
+  const std::string maximum = "\xff\xff\xff\xff";
+  std::vector<BrokenInput> inputs;
+
+  // Every type of model: cut in half, empty, garbage.
+  for (const auto& [name, bytes] : sampleModels())
+  {
+    const std::string test = replaced(name, ".", "_");
+    const bool lines = name == "model.obj";
+    inputs.push_back(file("truncated_" + test, name, lines ? "v 0 0 0\nf 1 2 3\n" : half(bytes)));
+    inputs.push_back(file("empty_" + test, name, ""));
+    inputs.push_back(file("garbage_" + test, name, garbage(3000)));
+  }
+
+  const std::vector<BrokenInput> others = {
+    // Models
+    file("obj_nan", "m.obj", replaced(sampleObj(), "v 0 2 0", "v 0 nan 0")),
+    file("obj_huge_number", "m.obj", replaced(sampleObj(), "v 0 2 0", "v 0 1e99 0")),
+    file("obj_far_away", "m.obj", replaced(sampleObj(), "v 0 2 0", "v 0 1e30 0")),
+    file("obj_short_vertex", "m.obj", replaced(sampleObj(), "v 0 2 0", "v 0 2")),
+    file("obj_index_zero", "m.obj", replaced(sampleObj(), "f 1 2 3", "f 0 2 3")),
+    file("obj_index_too_large", "m.obj", replaced(sampleObj(), "f 1 2 3", "f 1 2 3000000000")),
+    file("obj_index_before_the_first", "m.obj", replaced(sampleObj(), "f 1 2 3", "f -9 2 3")),
+    file("obj_missing_texture_index", "m.obj", replaced(sampleObj(), "f 1 2 3", "f 1/9 2/9 3/9")),
+    file("obj_two_corners", "m.obj", replaced(sampleObj(), "f 1 2 3", "f 1 2")),
+    file("obj_without_faces", "m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n"),
+    file("obj_long_material_name", "m.obj", "usemtl " + std::string(500, 'x') + "\n" + sampleObj()),
+    file("ply_no_end_of_header", "m.ply", replaced(sampleAsciiPly(), "end_header\n", "")),
+    file("ply_huge_count", "m.ply", replaced(sampleAsciiPly(), "vertex 5", "vertex 2000000000")),
+    file("ply_negative_count", "m.ply", replaced(sampleAsciiPly(), "vertex 5", "vertex -5")),
+    file("ply_no_faces", "m.ply", replaced(sampleAsciiPly(), "face 6", "face 0")),
+    file("ply_no_corner_list", "m.ply", replaced(sampleAsciiPly(), "vertex_indices", "corners")),
+    file("ply_unknown_type", "m.ply", replaced(sampleAsciiPly(), "float x", "quaternion x")),
+    file("ply_index_too_large", "m.ply", replaced(sampleAsciiPly(), "3 0 1 2", "3 0 1 99")),
+    file("ply_long_line", "m.ply", replaced(sampleAsciiPly(), "3 0 1 2", std::string(9000, ' '))),
+    file("ply_binary_index", "m.ply",
+      withBytes(sampleBinaryPly(false), sampleBinaryPly(false).size() - 4, maximum)),
+    file("stl_wrong_count", "m.stl", withBytes(sampleBinaryStl(), 80, maximum)),
+    file("stl_all_nan", "m.stl", allNanStl()),
+    file("stl_text_without_end", "m.stl", replaced(sampleAsciiStl(), "endsolid pyramid\n", "")),
+    file("stl_text_bad_vertex", "m.stl", replaced(sampleAsciiStl(), "vertex -1", "vertex x")),
+    file("vtp_index_too_large", "m.vtp", replaced(sampleVtp(), "0 1 2", "0 1 200")),
+    file("vtp_negative_index", "m.vtp", replaced(sampleVtp(), "0 1 2", "0 1 -2")),
+    file("vtp_bad_offsets", "m.vtp", replaced(sampleVtp(), "3 6 9", "3 900 9")),
+    file("vtp_too_many_points", "m.vtp",
+      replaced(sampleVtp(), "NumberOfPoints=\"5\"", "NumberOfPoints=\"999999999999\"")),
+    file("vtp_of_another_kind", "m.vtp", replaced(sampleVtp(), "\"PolyData\"", "\"ImageData\"")),
+    file("3ds_chunk_too_long", "m.3ds", withBytes(sample3ds(), 8, maximum)),
+    file("3ds_chunk_of_no_length", "m.3ds", withBytes(sample3ds(), 8, std::string(4, '\0'))),
+    file("3ds_index_too_large", "m.3ds", withBytes(sample3ds(), sample3ds().size() - 4, maximum)),
+    file("glb_length", "m.glb", withBytes(glb, 8, maximum)),
+    file("glb_version", "m.glb", withBytes(glb, 4, "\1")),
+    file("glb_chunk_length", "m.glb", withBytes(glb, 12, maximum)),
+    file("glb_damaged_image", "m.glb",
+      makeGlb(sampleGltf(), withBytes(sampleGltfBuffer(), sampleGltfBuffer().size() - 30, "XXXX"))),
+    file("gltf_syntax", "m.gltf", "{\"asset\": "),
+    gltfWith("gltf_version", "asset.version", "/asset/version", "1.0"),
+    gltfWith("gltf_required_extension", "extensionsRequired[0]", "/extensionsRequired",
+      { "KHR_draco_mesh_compression" }),
+    gltfWith("gltf_scene", "scene", "/scene", 7),
+    gltfWith("gltf_no_scenes", "scenes", "/scenes", nlohmann::json::array()),
+    gltfWith("gltf_node_cycle", "nodes[3].children[0]", "/nodes/3/children", { 3 }),
+    gltfWith("gltf_node", "scenes[0].nodes[0]", "/scenes/0/nodes/0", -1),
+    gltfWith("gltf_mesh", "nodes[0].mesh", "/nodes/0/mesh", 4),
+    gltfWith("gltf_accessor", "meshes[0].primitives[0].attributes.POSITION",
+      "/meshes/0/primitives/0/attributes/POSITION", 99),
+    gltfWith("gltf_accessor_count", "accessors[0]", "/accessors/0/count", 2000000000),
+    gltfWith("gltf_indices", "accessors[1]", "/accessors/1/count", 19),
+    gltfWith(
+      "gltf_index_value", "meshes[0].primitives[0].indices", "/bufferViews/1/byteOffset", 61),
+    gltfWith("gltf_buffer_view", "bufferViews[0]", "/bufferViews/0/byteLength", 100000),
+    gltfWith("gltf_buffer", "buffers[0]", "/buffers/0/byteLength", 100000),
+    gltfWith("gltf_missing_buffer", "buffers[0].uri", "/buffers/0/uri", "gone.bin"),
+    gltfWith("gltf_image", "images[0]", "/images/0/bufferView", 0),
+    gltfWith("gltf_texture", "textures[0].source", "/textures/0/source", 3),
+    gltfWith("gltf_material", "primitives[0].material", "/meshes/0/primitives/0/material", 3),
+    gltfWith("gltf_light", "nodes[2].extensions.KHR_lights_punctual.light",
+      "/nodes/2/extensions/KHR_lights_punctual/light", 5),
+    gltfWith("gltf_point_light", "m.gltf", "/extensions/KHR_lights_punctual/lights/0",
+      { { "type", "point" } }),
+    gltfWith("gltf_singular_camera", "cameras[0]", "/nodes/1/scale", { 0, 0, 0 }),
+
+    // Scene files
+    scene("scene_syntax", "line 1", "{,}"),
+    scene("scene_empty_array", "scene.json", "[]"),
+    scene("scene_empty_object", "models", "{}"),
+    scene("scene_number", "scene.json", "12"),
+    scene("scene_cut_off", "scene.json", half(sampleScene().dump())),
+    scene("scene_garbage", "scene.json", garbage(500)),
+    scene("scene_zero_bytes", "scene.json", std::string(100, '\0')),
+    scene("scene_deep_nesting", "scene.json", std::string(200000, '[')),
+    scene("scene_huge_number", "scene.json", "{\"camera\": {\"fov\": 1e999}}"),
+    scene("scene_duplicate_key", "\"models\" stands twice", "{\"models\": 1, \"models\": 2}"),
+    scene("scene_too_large", "scene.json", std::string(17 * 1024 * 1024, ' ')),
+    sceneWith("scene_unknown_key", "shadows", "/shadows", true),
+    sceneWith("scene_fov_zero", "camera.fov", "/camera/fov", 0),
+    sceneWith("scene_camera_in_its_target", "camera.target", "/camera/target", { 3, 4, 5 }),
+    sceneWith("scene_up_along_the_view", "camera.up", "/camera/up", { 3, 3, 5 }),
+    sceneWith("scene_singular_matrix", "models[0].matrix", "/models/0/matrix/10", 0),
+    sceneWith("scene_missing_model", "models[0].file", "/models/0/file", "gone.ply"),
+    sceneWith("scene_model_is_itself", "models[0].file", "/models/0/file", "scene.json"),
+    sceneWith("scene_model_is_a_folder", "models[0].file", "/models/0/file", "."),
+    sceneWith(
+      "scene_model_with_zero_byte", "models[0].file", "/models/0/file", std::string("a\0b.obj", 7)),
+    sceneWith("scene_cone_angle", "lights[1].cone_angle", "/lights/1/cone_angle", 90),
+    sceneWith("scene_area_light", "lights[0].type", "/lights/0",
+      { { "type", "area" }, { "position", { 0, 5, 0 } }, { "target", { 0, 0, 1 } }, { "width", 1 },
+        { "height", 1 } }),
+    sceneWith("scene_technique", "lights[0].technique", "/lights/0/technique", "nms"),
+
+    // Options
+    option("no_command", "subcommand", {}),
+    option("unknown_command", "rendre", { "rendre", "cube" }),
+    option("no_scene", "scene", { "render", "-o", "out.png" }),
+    option("no_output", "--output", { "render", "cube" }),
+    option("unknown_option", "--shiny", { "render", "cube", "-o", "out.png", "--shiny" }),
+    option("unknown_scene", "kube", { "render", "kube", "-o", "out.png" }),
+    option("scene_is_a_folder", ".", { "render", ".", "-o", "out.png" }),
+    option("scene_is_a_device", "zero.obj", { "render", "zero.obj", "-o", "out.png" }),
+    option("output_type", "out.gif", { "render", "cube", "-o", "out.gif" }),
+    option("output_folder_missing", "gone/out.png", { "render", "cube", "-o", "gone/out.png" }),
+    option("output_is_a_folder", "folder.png", { "render", "cube", "-o", "folder.png" }),
+    option("output_unwritable", "/proc/out.png", { "render", "cube", "-o", "/proc/out.png" }),
+    option("visibility_unwritable", "--visibility",
+      { "render", "cube", "-o", "out.png", "--visibility", "gone/v.exr" }),
+    option("visibility_type", "--visibility",
+      { "render", "cube", "-o", "out.png", "--visibility", "v.png" }),
+    option("visibility_is_the_picture", "--visibility",
+      { "render", "cube", "-o", "out.exr", "--visibility", "./out.exr" }),
+    option("stats_unwritable", "--stats",
+      { "render", "cube", "-o", "out.png", "--stats", "/proc/s.json" }),
+    option("size_zero", "--size", { "render", "cube", "-o", "out.png", "--size", "0x100" }),
+    option("size_negative", "--size", { "render", "cube", "-o", "out.png", "--size", "100x-1" }),
+    option("size_huge", "--size", { "render", "cube", "-o", "out.png", "--size", "99999x99999" }),
+    option("size_overflow", "--size",
+      { "render", "cube", "-o", "out.png", "--size", "99999999999999999999x1" }),
+    option("size_text", "--size", { "render", "cube", "-o", "out.png", "--size", "big" }),
+    option("map_size_zero", "--map-size", { "render", "cube", "-o", "out.png", "--map-size", "0" }),
+    option("map_size_huge", "--map-size",
+      { "render", "cube", "-o", "out.png", "--map-size", "1000000" }),
+    option(
+      "technique", "--technique", { "render", "cube", "-o", "out.png", "--technique", "magic" }),
+    option("route", "--route", { "render", "cube", "-o", "out.png", "--route", "sideways" }),
+    option("route_of_the_technique", "--route",
+      { "render", "cube", "-o", "out.png", "--technique", "raytraced", "--route", "inline" }),
+    option("light_type", "--light", { "render", "cube", "-o", "out.png", "--light", "laser:a=1" }),
+    option(
+      "light_without_type", "--light", { "render", "cube", "-o", "out.png", "--light", "a=1" }),
+    option("light_point", "--light",
+      { "render", "cube", "-o", "out.png", "--light", "point:position=1,2,3" }),
+    option("light_direction", "direction",
+      { "render", "cube", "-o", "out.png", "--light", "directional:direction=0,0,0" }),
+    option("light_numbers", "direction",
+      { "render", "cube", "-o", "out.png", "--light", "directional:direction=1,nan,inf" }),
+    option("light_key_twice", "cone_angle",
+      { "render", "cube", "-o", "out.png", "--light",
+        "spot:position=1,2,3;target=0,0,0;cone_angle=3;cone_angle=4" }),
+    option("camera_key", "zoom", { "render", "cube", "-o", "out.png", "--camera", "zoom=2" }),
+    option("camera_up", "up",
+      { "render", "cube", "-o", "out.png", "--camera", "position=0,5,0;target=0,0,0" }),
+    option("camera_empty", "--camera", { "render", "cube", "-o", "out.png", "--camera", "=" }),
+  };
+  inputs.insert(inputs.end(), others.begin(), others.end());
+  return inputs;
+}
+
+class BrokenInputs : public ::testing::TestWithParam<BrokenInput>
+{
+};
+
+//------------------------------------------------------------------------------
+TEST_P(BrokenInputs, AreRefusedWithOneClearLine)
+{
+  const BrokenInput& input = GetParam();
+  TestFolder folder;
+  mkdir((folder / "folder.png").c_str(), 0700);
+  (void)!symlink("/dev/zero", (folder / "zero.obj").c_str());
+  input.prepare(folder);
+
+  const Outcome outcome = run(folder, input.arguments);
+  ASSERT_TRUE(outcome.exited) << "signal " << outcome.code << "\n" << outcome.errors;
+  EXPECT_EQ(outcome.code, 2) << outcome.errors;
+  const std::string prefix = "gnomon: error: ";
+  EXPECT_EQ(outcome.errors.compare(0, prefix.size(), prefix), 0) << outcome.errors;
+  EXPECT_EQ(std::count(outcome.errors.begin(), outcome.errors.end(), '\n'), 1) << outcome.errors;
+  EXPECT_NE(outcome.errors.find(input.names), std::string::npos) << outcome.errors;
+  EXPECT_LT(outcome.errors.size(), 700u) << outcome.errors;
+  EXPECT_FALSE(std::filesystem::exists(folder / "out.png"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Tool, BrokenInputs, ::testing::ValuesIn(brokenInputs()),
+  [](const ::testing::TestParamInfo<BrokenInput>& input) { return input.param.name; });
+
+//------------------------------------------------------------------------------
+TEST(Program, RendersEveryTypeOfModel)
+{
+  TestFolder folder;
+  for (const auto& [name, bytes] : sampleModels())
+  {
+    SCOPED_TRACE(name);
+    writeBytes(folder / name, bytes);
+    const std::string picture = name + ".png";
+    const Outcome outcome = run(folder, { "render", name, "-o", picture, "--size", "64x48" });
+    EXPECT_TRUE(outcome.exited && outcome.code == 0) << outcome.errors;
+    EXPECT_EQ(outcome.errors, "");
+    EXPECT_EQ(readBytes(folder / picture).compare(1, 3, "PNG"), 0);
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST(Program, RendersASceneFileAndWritesStatistics)
+{
+  TestFolder folder;
+  writeBytes(folder / "scene.json", sampleScene().dump());
+  writeBytes(folder / "model.obj", sampleObj());
+  const Outcome outcome = run(folder,
+    { "render", "scene.json", "-o", "out.png", "--size", "64x64", "--stats", "stats.json",
+      "--light", "directional:direction=-1,-2,-1", "--technique", "nsm", "--map-size", "64" });
+  EXPECT_TRUE(outcome.exited && outcome.code == 0) << outcome.errors;
+  const nlohmann::json stats = nlohmann::json::parse(readBytes(folder / "stats.json"));
+  EXPECT_TRUE(stats.contains("stages"));
+  EXPECT_TRUE(stats.contains("lights"));
+}
+
+//------------------------------------------------------------------------------
+TEST(Program, RefusesWithoutTouchingAnOlderPicture)
+{
+  TestFolder folder;
+  writeBytes(folder / "out.png", "older");
+  EXPECT_EQ(run(folder, { "render", "kube", "-o", "out.png" }).code, 2);
+  EXPECT_EQ(readBytes(folder / "out.png"), "older");
+}
+
+//------------------------------------------------------------------------------
+TEST(Program, FailsWithCodeOneWhenTheDiskIsFull)
+{
+  TestFolder folder;
+  (void)!symlink("/dev/full", (folder / "stats.json").c_str());
+  const Outcome outcome =
+    run(folder, { "render", "cube", "-o", "out.png", "--size", "8x8", "--stats", "stats.json" });
+  EXPECT_TRUE(outcome.exited);
+  EXPECT_EQ(outcome.code, 1) << outcome.errors;
+  EXPECT_NE(outcome.errors.find("stats.json"), std::string::npos) << outcome.errors;
+}
+
+//------------------------------------------------------------------------------
+TEST(Program, HelpsAndLists)
+{
+  TestFolder folder;
+  for (const std::vector<std::string>& arguments : { std::vector<std::string>{ "--help" },
+         { "render", "--help" }, { "scenes" }, { "techniques" } })
+  {
+    const Outcome outcome = run(folder, arguments);
+    EXPECT_TRUE(outcome.exited && outcome.code == 0) << arguments[0];
+    EXPECT_EQ(outcome.errors, "");
+  }
+}
+
+} // namespace
+} // namespace gnomon::tool

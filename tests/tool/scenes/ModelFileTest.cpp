@@ -1,0 +1,259 @@
+#include "ModelFile.h"
+
+#include "../TestFiles.h"
+#include "Errors.h"
+#include "SampleFiles.h"
+#include "SceneFraming.h"
+#include "Vec3.h"
+
+#include <gtest/gtest.h>
+#include <vtkCellArray.h>
+#include <vtkImageData.h>
+#include <vtkPointData.h>
+
+#include <cmath>
+#include <cstring>
+
+namespace gnomon::tool
+{
+namespace
+{
+
+vtkIdType countTriangles(const Model& model)
+{
+  vtkIdType count = 0;
+  for (const SceneModel& surface : model.surfaces)
+  {
+    count += surface.surface->GetNumberOfPolys();
+  }
+  return count;
+}
+
+Scene sceneOf(const Model& model)
+{
+  Scene scene;
+  scene.models = model.surfaces;
+  return scene;
+}
+
+Model readBytes(const TestFolder& folder, const std::string& name, const std::string& bytes)
+{
+  writeBytes(folder / name, bytes);
+  return readModelFile(folder / name);
+}
+
+//------------------------------------------------------------------------------
+TEST(ModelFile, ReadsTheSamePyramidFromEveryType)
+{
+  TestFolder folder;
+  for (const auto& [name, bytes] : sampleModels())
+  {
+    SCOPED_TRACE(name);
+    const Model model = readBytes(folder, name, bytes);
+    EXPECT_EQ(countTriangles(model), 6);
+    // The glTF document moves its mesh by a unit.
+    const double shift = name.find("model.gl") == 0 ? 1.0 : 0.0;
+    const std::array<double, 6> bounds = boundsWorld(sceneOf(model));
+    const std::array<double, 6> expected{ { -1.0, 1.0, 0.0, 2.0, -1.0 + shift, 1.0 + shift } };
+    for (std::size_t i = 0; i < 6; ++i)
+    {
+      EXPECT_FLOAT_EQ(static_cast<float>(bounds[i]), static_cast<float>(expected[i]));
+    }
+    for (const SceneModel& surface : model.surfaces)
+    {
+      EXPECT_TRUE(surface.surface->GetPointData()->GetNormals());
+      EXPECT_TRUE(surface.property);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST(ModelFile, ExtensionsInCapitalsCount)
+{
+  TestFolder folder;
+  EXPECT_EQ(countTriangles(readBytes(folder, "MODEL.OBJ", sampleObj())), 6);
+}
+
+//------------------------------------------------------------------------------
+TEST(ModelFile, ObjMaterialsBecomeSurfacesWithColourAndTexture)
+{
+  TestFolder folder;
+  writeBytes(folder / "t.png", samplePng());
+  writeBytes(folder / "m.mtl",
+    "newmtl red\nKd 1 0.25 0\nmap_Kd t.png\n\nnewmtl glass\nKd 0 0 1\nKs 0.5 0.5 0.5\nNs 20\nd "
+    "0.5");
+  const Model model = readBytes(folder, "m.obj",
+    "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvt 0 0\nvt 1 0\nvt 0 1\n"
+    "usemtl red\nf 1/1 2/2 3/3\nusemtl glass\nf -4/-3 -2/-2 -1/-1\nf 1/1 2/2 4/3\n");
+  ASSERT_EQ(model.surfaces.size(), 2u);
+  const SceneModel& red = model.surfaces[0];
+  const SceneModel& glass = model.surfaces[1];
+  EXPECT_EQ(red.name, "m:red");
+  EXPECT_EQ(red.surface->GetNumberOfPolys(), 1);
+  EXPECT_DOUBLE_EQ(red.property->GetDiffuseColor()[1], 0.25);
+  ASSERT_TRUE(red.texture);
+  EXPECT_EQ(red.texture->GetInput()->GetDimensions()[0], 8);
+  ASSERT_TRUE(red.surface->GetPointData()->GetTCoords());
+  EXPECT_EQ(glass.surface->GetNumberOfPolys(), 2);
+  EXPECT_DOUBLE_EQ(glass.property->GetOpacity(), 0.5);
+  EXPECT_DOUBLE_EQ(glass.property->GetSpecularPower(), 20.0);
+  EXPECT_FALSE(glass.texture);
+  EXPECT_TRUE(model.notes.empty());
+}
+
+//------------------------------------------------------------------------------
+TEST(ModelFile, AMissingMaterialLibraryIsNoted)
+{
+  TestFolder folder;
+  const Model model =
+    readBytes(folder, "m.obj", "mtllib gone.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\n");
+  ASSERT_EQ(model.notes.size(), 1u);
+  EXPECT_NE(model.notes[0].find("gone.mtl"), std::string::npos);
+}
+
+//------------------------------------------------------------------------------
+TEST(ModelFile, GltfMaterialAndTextureAreKept)
+{
+  TestFolder folder;
+  const Model model = readBytes(folder, "m.glb", makeGlb(sampleGltf(), sampleGltfBuffer()));
+  ASSERT_EQ(model.surfaces.size(), 1u);
+  vtkProperty* property = model.surfaces[0].property;
+  EXPECT_EQ(property->GetInterpolation(), VTK_PBR);
+  EXPECT_DOUBLE_EQ(property->GetMetallic(), 0.125);
+  EXPECT_DOUBLE_EQ(property->GetRoughness(), 0.75);
+  EXPECT_DOUBLE_EQ(property->GetDiffuseColor()[2], 0.25);
+  EXPECT_TRUE(property->GetTexture("albedoTex"));
+  // Vertex 2 lies at (1, 0, 1) with texture row 0.5 from the top.
+  EXPECT_FLOAT_EQ(
+    static_cast<float>(model.surfaces[0].surface->GetPointData()->GetTCoords()->GetTuple2(2)[1]),
+    0.5f);
+  // Vertex 0 lies at the first row from the top, which is VTK's last.
+  EXPECT_FLOAT_EQ(
+    static_cast<float>(model.surfaces[0].surface->GetPointData()->GetTCoords()->GetTuple2(0)[1]),
+    1.0f);
+}
+
+//------------------------------------------------------------------------------
+TEST(ModelFile, GltfCameraAndLightsStandWhereTheirNodesAre)
+{
+  TestFolder folder;
+  const Model model = readBytes(folder, "m.gltf", sampleGltfWithBuffer().dump());
+  ASSERT_TRUE(model.camera);
+  EXPECT_LT(length(model.camera->position - Vec3{ { 0, 1, 9 } }), 1e-9);
+  // The target lies as far away as the middle of the pyramid, (0, 1, 1).
+  EXPECT_LT(length(model.camera->target - Vec3{ { 0, 1, 1 } }), 1e-9);
+  EXPECT_NEAR(model.camera->fovDegrees, 40.107, 1e-3);
+
+  ASSERT_EQ(model.lights.size(), 2u);
+  const SceneLight& spot = model.lights[0];
+  EXPECT_EQ(spot.type, SceneLight::Type::Spot);
+  EXPECT_LT(length(spot.position - Vec3{ { 0, 7, 1 } }), 1e-9);
+  EXPECT_LT(length(spot.target - Vec3{ { 0, 6, 1 } }), 1e-6); // straight down
+  EXPECT_NEAR(spot.coneAngleDegrees, 28.648, 1e-3);
+  EXPECT_NEAR(spot.intensity, 72.0 / 36.0, 1e-9); // 6 units above the middle
+  const SceneLight& sun = model.lights[1];
+  EXPECT_EQ(sun.type, SceneLight::Type::Directional);
+  EXPECT_LT(length(sun.target - sun.position - Vec3{ { 0, -1, 0 } }), 1e-6);
+  EXPECT_EQ(sun.color, (Vec3{ { 1, 0.5, 0.25 } }));
+  EXPECT_DOUBLE_EQ(sun.intensity, 2.0);
+}
+
+//------------------------------------------------------------------------------
+TEST(ModelFile, GltfNodesPassTheirTransformsOn)
+{
+  TestFolder folder;
+  nlohmann::json document = sampleGltfWithBuffer();
+  document["nodes"][1] = { { "scale", { 2, 2, 2 } }, { "translation", { 10, 0, 0 } },
+    { "children", { 4 } } };
+  document["nodes"].push_back({ { "camera", 0 }, { "translation", { 1, 2, 3 } } });
+  const Model model = readBytes(folder, "m.gltf", document.dump());
+  ASSERT_TRUE(model.camera);
+  EXPECT_LT(length(model.camera->position - Vec3{ { 12, 4, 6 } }), 1e-9);
+}
+
+//------------------------------------------------------------------------------
+TEST(ModelFile, ABareModelGetsACameraAndALight)
+{
+  TestFolder folder;
+  writeBytes(folder / "m.obj", sampleObj());
+  const Scene scene = loadScene(folder / "m.obj");
+  ASSERT_EQ(scene.lights.size(), 1u);
+  EXPECT_EQ(scene.lights[0].type, SceneLight::Type::Directional);
+  const Vec3 travel = scene.lights[0].target - scene.lights[0].position;
+  EXPECT_GT(travel[0], 0.0); // from the left,
+  EXPECT_LT(travel[1], 0.0); // from above,
+  EXPECT_LT(travel[2], 0.0); // from the front
+  EXPECT_LT(length(scene.camera.target - Vec3{ { 0, 1, 0 } }), 1e-6);
+}
+
+//------------------------------------------------------------------------------
+TEST(ModelFile, SomeVerticesThatAreNotFiniteAreNoted)
+{
+  TestFolder folder;
+  std::string bytes = sampleBinaryPly(false);
+  const float nan = std::nanf("");
+  // The last vertex's last coordinate, in front of 6 faces of 13 bytes.
+  std::memcpy(bytes.data() + bytes.size() - 6 * 13 - sizeof(nan), &nan, sizeof(nan));
+  const Model model = readBytes(folder, "m.ply", bytes);
+  ASSERT_EQ(model.notes.size(), 1u);
+  EXPECT_NE(model.notes[0].find("1 vertices are not finite"), std::string::npos);
+  const std::array<double, 6> bounds = boundsWorld(sceneOf(model));
+  EXPECT_DOUBLE_EQ(bounds[3], 0.0); // the tip, at height 2, does not count
+}
+
+//------------------------------------------------------------------------------
+TEST(ModelFile, StlVerticesThatAreNotFiniteAreNoted)
+{
+  TestFolder folder;
+  std::string bytes = sampleBinaryStl();
+  const float nan = std::nanf("");
+  std::memcpy(bytes.data() + 84 + 12, &nan, sizeof(nan));
+  EXPECT_EQ(readBytes(folder, "m.stl", bytes).notes.size(), 1u);
+}
+
+//------------------------------------------------------------------------------
+TEST(ModelFile, LinesAndPointsAreLeftOutWithANote)
+{
+  TestFolder folder;
+  const Model model = readBytes(folder, "m.obj", sampleObj() + "l 1 2 3\np 1\n");
+  EXPECT_EQ(countTriangles(model), 6);
+  EXPECT_EQ(model.surfaces[0].surface->GetNumberOfLines(), 0);
+  EXPECT_EQ(model.notes.size(), 1u);
+}
+
+//------------------------------------------------------------------------------
+TEST(ModelFile, PointLightsOfGltfAreRefusedUnlessTheCallerBringsLights)
+{
+  TestFolder folder;
+  nlohmann::json document = sampleGltfWithBuffer();
+  document["extensions"]["KHR_lights_punctual"]["lights"][0] = { { "type", "point" } };
+  writeBytes(folder / "m.gltf", document.dump());
+  const std::string message = messageOf<BadInput>([&] { loadScene(folder / "m.gltf"); });
+  EXPECT_NE(message.find("point lights are not supported yet"), std::string::npos) << message;
+  EXPECT_EQ(loadScene(folder / "m.gltf", FileLights::Ignore).lights.size(), 1u);
+}
+
+//------------------------------------------------------------------------------
+// Every prefix of every model is refused or read, but never crashes, and some must be refused.
+TEST(ModelFile, TruncatedFilesAreRefused)
+{
+  TestFolder folder;
+  for (const auto& [name, bytes] : sampleModels())
+  {
+    SCOPED_TRACE(name);
+    for (int part = 0; part < 20; ++part)
+    {
+      const std::string start = bytes.substr(0, bytes.size() * static_cast<std::size_t>(part) / 20);
+      const std::string message =
+        messageOf<BadInput>([&] { readBytes(folder, "cut_" + name, start); });
+      // A shorter .obj file may be a whole one with fewer faces.
+      if (name != "model.obj")
+      {
+        EXPECT_NE(message.find("cut_" + name), std::string::npos) << part << ": " << message;
+      }
+    }
+  }
+}
+
+} // namespace
+} // namespace gnomon::tool

@@ -1,0 +1,263 @@
+#include "../TestFiles.h"
+#include "Errors.h"
+#include "SampleFiles.h"
+#include "Scene.h"
+#include "Vec3.h"
+
+#include "lights/vtkGnomonLightKeys.h"
+#include "plugin/vtkGnomonPropKeys.h"
+
+#include <gtest/gtest.h>
+#include <vtkActor.h>
+#include <vtkActorCollection.h>
+#include <vtkCamera.h>
+#include <vtkInformation.h>
+#include <vtkInformationIntegerKey.h>
+#include <vtkInformationStringKey.h>
+#include <vtkLight.h>
+#include <vtkLightCollection.h>
+
+namespace gnomon::tool
+{
+namespace
+{
+
+class SceneFile : public ::testing::Test
+{
+protected:
+  SceneFile() { writeBytes(this->folder / "model.obj", sampleObj()); }
+
+  Scene load(const nlohmann::json& document, FileLights fileLights = FileLights::Use)
+  {
+    writeBytes(this->folder / "scene.json", document.dump());
+    return loadScene(this->folder / "scene.json", fileLights);
+  }
+
+  TestFolder folder;
+};
+
+//------------------------------------------------------------------------------
+TEST_F(SceneFile, IsReadInFull)
+{
+  const Scene scene = this->load(sampleScene());
+  EXPECT_EQ(scene.name, "scene");
+  EXPECT_EQ(scene.camera.position, (Vec3{ { 3, 4, 5 } }));
+  EXPECT_EQ(scene.camera.target, (Vec3{ { 0, 1, 0 } }));
+  EXPECT_DOUBLE_EQ(scene.camera.fovDegrees, 45.0);
+  EXPECT_EQ(scene.background, (Vec3{ { 0.25, 0.5, 0.75 } }));
+
+  ASSERT_EQ(scene.models.size(), 1u);
+  const SceneModel& model = scene.models[0];
+  EXPECT_DOUBLE_EQ(model.matrix[0], 2.0);
+  EXPECT_DOUBLE_EQ(model.matrix[7], 20.0);
+  EXPECT_DOUBLE_EQ(model.property->GetDiffuseColor()[1], 0.5);
+  EXPECT_FALSE(model.casts);
+  EXPECT_FALSE(model.receives);
+  EXPECT_TRUE(model.oneSided);
+
+  ASSERT_EQ(scene.lights.size(), 2u);
+  const SceneLight& sun = scene.lights[0];
+  EXPECT_EQ(sun.type, SceneLight::Type::Directional);
+  EXPECT_LT(length(sun.target - sun.position - (1.0 / 3.0) * Vec3{ { 1, -2, 2 } }), 1e-12);
+  EXPECT_EQ(sun.color, (Vec3{ { 1, 0.5, 0 } }));
+  EXPECT_DOUBLE_EQ(sun.intensity, 2.0);
+  EXPECT_EQ(sun.technique, "raytraced");
+  EXPECT_EQ(sun.mapSizeTexels, 512);
+  const SceneLight& spot = scene.lights[1];
+  EXPECT_EQ(spot.type, SceneLight::Type::Spot);
+  EXPECT_EQ(spot.position, (Vec3{ { 1, 2, 3 } }));
+  EXPECT_DOUBLE_EQ(spot.coneAngleDegrees, 25.0);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(SceneFile, BecomesARenderer)
+{
+  const vtkSmartPointer<vtkRenderer> renderer = makeRenderer(this->load(sampleScene()));
+  EXPECT_FALSE(renderer->GetAutomaticLightCreation());
+  ASSERT_EQ(renderer->GetActors()->GetNumberOfItems(), 1);
+  vtkActor* actor = renderer->GetActors()->GetLastActor();
+  EXPECT_FALSE(vtkGnomonPropKeys::GetCasts(actor));
+  EXPECT_FALSE(vtkGnomonPropKeys::GetReceives(actor));
+  EXPECT_TRUE(vtkGnomonPropKeys::GetOneSided(actor));
+  EXPECT_DOUBLE_EQ(actor->GetBounds()[0], 8.0);
+  EXPECT_DOUBLE_EQ(actor->GetBounds()[3], 24.0);
+
+  vtkLightCollection* lights = renderer->GetLights();
+  ASSERT_EQ(lights->GetNumberOfItems(), 2);
+  auto* sun = vtkLight::SafeDownCast(lights->GetItemAsObject(0));
+  EXPECT_TRUE(sun->LightTypeIsSceneLight());
+  EXPECT_FALSE(sun->GetPositional());
+  EXPECT_DOUBLE_EQ(sun->GetIntensity(), 2.0);
+  EXPECT_STREQ(sun->GetInformation()->Get(vtkGnomonLightKeys::TECHNIQUE()), "raytraced");
+  EXPECT_EQ(sun->GetInformation()->Get(vtkGnomonLightKeys::MAP_SIZE()), 512);
+  auto* spot = vtkLight::SafeDownCast(lights->GetItemAsObject(1));
+  EXPECT_TRUE(spot->GetPositional());
+  EXPECT_DOUBLE_EQ(spot->GetConeAngle(), 25.0);
+  EXPECT_FALSE(spot->GetInformation()->Has(vtkGnomonLightKeys::TECHNIQUE()));
+
+  EXPECT_DOUBLE_EQ(renderer->GetActiveCamera()->GetViewAngle(), 45.0);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(SceneFile, ClippingPlanesEncloseWhatIsInFrontOfTheCamera)
+{
+  nlohmann::json document = sampleScene();
+  document["models"][0].erase("matrix");
+  const Scene scene = this->load(document);
+  const double* range = makeRenderer(scene)->GetActiveCamera()->GetClippingRange();
+  const double distance = length(scene.camera.target - scene.camera.position);
+  EXPECT_GT(range[0], 0.5 * distance);
+  EXPECT_LT(range[0], distance - 1.0);
+  EXPECT_GT(range[1], distance + 1.0);
+  EXPECT_LT(range[1], 2.0 * distance);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(SceneFile, ClippingPlanesAreSoundWhenAllIsBehindTheCamera)
+{
+  nlohmann::json document = sampleScene();
+  document["camera"]["target"] = { 6, 8, 10 };
+  document["models"][0].erase("matrix");
+  const double* range = makeRenderer(this->load(document))->GetActiveCamera()->GetClippingRange();
+  EXPECT_GT(range[0], 1e-3);
+  EXPECT_GT(range[1], 10.0 * range[0]);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(SceneFile, SaysWhatIsWrongAndWhere)
+{
+  struct Case
+  {
+    const char* place;       // a JSON pointer
+    nlohmann::json value;    // what stands there instead; null takes it away
+    const char* path;        // what the message must name
+    const char* expectation; // and what it must say
+  };
+  const nlohmann::json null;
+  const std::vector<Case> cases = {
+    { "/camra", 1, "", "unknown key \"camra\"" },
+    { "/camera/fov", 180, "camera.fov", "found 180, expected a number between" },
+    { "/camera/fov", "45", "camera.fov", "found \"45\", expected a number" },
+    { "/camera/up", { 0, 0, 0 }, "camera.up", "not zero" },
+    { "/camera/up", { -3, -3, -5 }, "camera.up", "not parallel" },
+    { "/camera/target", { 3, 4, 5 }, "camera.target", "not the position" },
+    { "/camera/target", null, "camera.target", "missing, expected an array of 3 numbers" },
+    { "/camera/position", { 1, 2 }, "camera.position", "expected an array of 3 numbers" },
+    { "/camera/position", { 1, 2, 1e13 }, "camera.position", "between -1e+12 and 1e+12" },
+    { "/models", nlohmann::json::array(), "models", "at least one model" },
+    { "/models", null, "models", "missing, expected an array" },
+    { "/models/0", 7, "models[0]", "expected an object" },
+    { "/models/0/file", "gone.obj", "models[0].file", "no such file" },
+    { "/models/0/file", "model.xyz", "models[0].file", "expected one of: .obj" },
+    { "/models/0/matrix/0", 0, "models[0].matrix", "can be inverted" },
+    { "/models/0/matrix/15", 2, "models[0].matrix", "last row" },
+    { "/models/0/matrix", { 1, 2, 3 }, "models[0].matrix", "array of 16 numbers" },
+    { "/models/0/color", { 1, 2, 1 }, "models[0].color", "between 0 and 1" },
+    { "/models/0/casts", "yes", "models[0].casts", "true or false" },
+    { "/lights", 3, "lights", "expected an array" },
+    { "/lights/0/type", "laser", "lights[0].type", "one of: directional, spot" },
+    { "/lights/0/type", null, "lights[0].type", "missing" },
+    { "/lights/0/direction", { 0, 0, 0 }, "lights[0].direction", "not zero" },
+    { "/lights/0/technique", "magic", "lights[0].technique", "one of: nsm, raytraced" },
+    { "/lights/0/map_size", 8, "lights[0].map_size", "whole number between 16 and 16384" },
+    { "/lights/0/map_size", 512.5, "lights[0].map_size", "whole number" },
+    { "/lights/0/intensity", -1, "lights[0].intensity", "between 0" },
+    { "/lights/1/cone_angle", 95, "lights[1].cone_angle", "found 95, expected a number" },
+    { "/lights/1/direction", { 0, 0, 1 }, "lights[1]", "unknown key \"direction\"" },
+    { "/background", { 0.5 }, "background", "array of 3 numbers" },
+  };
+  for (const Case& wrong : cases)
+  {
+    nlohmann::json document = sampleScene();
+    const nlohmann::json::json_pointer place(wrong.place);
+    if (wrong.value.is_null())
+    {
+      document.at(place.parent_pointer()).erase(place.back());
+    }
+    else
+    {
+      document[place] = wrong.value;
+    }
+    const std::string message = messageOf<BadInput>([&] { this->load(document); });
+    const std::string path = *wrong.path ? std::string(wrong.path) + ": " : "";
+    EXPECT_NE(message.find("scene.json: " + path), std::string::npos) << message;
+    EXPECT_NE(message.find(wrong.expectation), std::string::npos) << message;
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(SceneFile, PointAndAreaLightsAreCheckedThenRefused)
+{
+  nlohmann::json document = sampleScene();
+  document["lights"][0] = { { "type", "point" }, { "position", { 1, 2, 3 } } };
+  EXPECT_NE(messageOf<BadInput>([&] { this->load(document); })
+              .find("lights[0].type: point lights are not supported yet"),
+    std::string::npos);
+  EXPECT_EQ(this->load(document, FileLights::Ignore).lights.size(), 1u);
+
+  document["lights"][0] = { { "type", "area" }, { "position", { 1, 2, 3 } },
+    { "target", { 0, 0, 0 } }, { "width", 1 }, { "height", 2 } };
+  EXPECT_NE(messageOf<BadInput>([&] { this->load(document); })
+              .find("lights[0].type: area lights are not supported yet"),
+    std::string::npos);
+
+  document["lights"][0]["width"] = 0;
+  EXPECT_NE(messageOf<BadInput>([&] { this->load(document); }).find("lights[0].width: found 0"),
+    std::string::npos);
+  document["lights"][0]["width"] = 1;
+  document["lights"][0]["up"] = { 1, 2, 3 };
+  EXPECT_NE(
+    messageOf<BadInput>([&] { this->load(document); }).find("lights[0].up: "), std::string::npos);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(SceneFile, SyntaxErrorsNameTheLine)
+{
+  writeBytes(this->folder / "scene.json", "{\n  \"models\": [,]\n}");
+  const std::string message = messageOf<BadInput>([&] { loadScene(this->folder / "scene.json"); });
+  EXPECT_NE(message.find("line 2, column 14"), std::string::npos) << message;
+}
+
+//------------------------------------------------------------------------------
+TEST_F(SceneFile, WithoutCameraAndLightsIsFramedAndLit)
+{
+  nlohmann::json document = sampleScene();
+  document.erase("camera");
+  document.erase("lights");
+  const Scene scene = this->load(document);
+  EXPECT_EQ(scene.lights.size(), 1u);
+  EXPECT_LT(length(scene.camera.target - Vec3{ { 10, 22, 30 } }), 1e-6);
+  document["lights"] = nlohmann::json::array();
+  EXPECT_TRUE(this->load(document).lights.empty());
+}
+
+//------------------------------------------------------------------------------
+TEST(SceneSpecs, LightsHaveASceneFilesKeys)
+{
+  const SceneLight sun =
+    parseLight("directional:direction=0,-2,0;color=1,0.5,0;intensity=3;technique=nsm;map_size=64");
+  EXPECT_EQ(sun.type, SceneLight::Type::Directional);
+  EXPECT_EQ(sun.target - sun.position, (Vec3{ { 0, -1, 0 } }));
+  EXPECT_DOUBLE_EQ(sun.intensity, 3.0);
+  EXPECT_EQ(sun.technique, "nsm");
+  EXPECT_EQ(sun.mapSizeTexels, 64);
+  const SceneLight spot = parseLight("spot:position=1,2,3;target=0,0,0;cone_angle=12.5");
+  EXPECT_EQ(spot.type, SceneLight::Type::Spot);
+  EXPECT_DOUBLE_EQ(spot.coneAngleDegrees, 12.5);
+}
+
+//------------------------------------------------------------------------------
+TEST(SceneSpecs, CamerasTakeTheRestFromTheScene)
+{
+  SceneCamera defaults;
+  defaults.position = { { 0, 0, 9 } };
+  defaults.fovDegrees = 50.0;
+  const SceneCamera camera = parseCamera("target=1,0,0;up=1,0,0", defaults);
+  EXPECT_EQ(camera.position, defaults.position);
+  EXPECT_EQ(camera.target, (Vec3{ { 1, 0, 0 } }));
+  EXPECT_EQ(camera.up, (Vec3{ { 1, 0, 0 } }));
+  EXPECT_DOUBLE_EQ(camera.fovDegrees, 50.0);
+}
+
+} // namespace
+} // namespace gnomon::tool
