@@ -11,6 +11,8 @@
 #include <vtkMath.h>
 #include <vtkRenderer.h>
 
+#include <algorithm>
+
 namespace gnomon
 {
 namespace
@@ -18,6 +20,12 @@ namespace
 
 /// Half angles up to which one perspective map serves a spot light.
 constexpr double largestMapConeAngleDegrees = 89.0;
+
+///@{
+/// The sides that a map can have, in texels: those that vtkGnomonShadowPass::SetMapSize takes.
+constexpr int smallestMapSizeTexels = 16;
+constexpr int largestMapSizeTexels = 16384;
+///@}
 
 /// Why this light can show no shadow; empty when it can.
 std::string reasonToSkip(vtkLight* light)
@@ -90,6 +98,8 @@ ShadowLight readLight(vtkLight* light, const LightDefaults& defaults)
   result.mapSizeTexels = keys->Has(vtkGnomonLightKeys::MAP_SIZE())
     ? keys->Get(vtkGnomonLightKeys::MAP_SIZE())
     : defaults.mapSizeTexels;
+  result.mapSizeTexels =
+    std::clamp(result.mapSizeTexels, smallestMapSizeTexels, largestMapSizeTexels);
   return result;
 }
 

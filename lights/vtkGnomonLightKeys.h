@@ -32,7 +32,7 @@ public:
   /**
    * The keys themselves, for code that fills information objects. CASTS is 0 or 1 (default 1),
    * TECHNIQUE one of vtkGnomonShadowPass's technique names, MAP_SIZE the side of the light's map in
-   * texels.
+   * texels, clamped to [16, 16384].
    */
   static vtkInformationIntegerKey* CASTS();
   static vtkInformationStringKey* TECHNIQUE();

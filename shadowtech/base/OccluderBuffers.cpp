@@ -63,7 +63,8 @@ void OccluderBuffers::draw() const
   {
     glEnable(GL_CULL_FACE);
     glCullFace(GL_BACK);
-    glFrontFace(GL_CCW);
+    // A light looks along +z of its right-handed space, so that its picture is mirrored.
+    glFrontFace(GL_CW);
     const std::size_t offset = static_cast<std::size_t>(this->twoSidedCount_) * sizeof(GLuint);
     glDrawElements(
       GL_TRIANGLES, this->oneSidedCount_, GL_UNSIGNED_INT, reinterpret_cast<const void*>(offset));

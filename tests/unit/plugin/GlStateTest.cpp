@@ -175,33 +175,15 @@ void fill(PassScene& scene)
   scene.lookFrom({ 0.0, -9.0, 7.0 });
 }
 
-struct Way
-{
-  const char* technique;
-  int route;
-};
-
 class GlStateOfWay
   : public PassTest
   , public testing::WithParamInterface<Way>
 {
 protected:
-  void choose(PassScene& scene) const
-  {
-    scene.pass->SetTechnique(GetParam().technique);
-    scene.pass->SetRoute(GetParam().route);
-  }
+  void choose(PassScene& scene) const { scene.choose(GetParam()); }
 };
 
-INSTANTIATE_TEST_SUITE_P(Ways, GlStateOfWay,
-  testing::Values(Way{ "nsm", vtkGnomonShadowPass::ROUTE_INLINE },
-    Way{ "nsm", vtkGnomonShadowPass::ROUTE_IMAGE },
-    Way{ "raytraced", vtkGnomonShadowPass::ROUTE_IMAGE }),
-  [](const testing::TestParamInfo<Way>& way)
-  {
-    return std::string(way.param.technique) +
-      (way.param.route == vtkGnomonShadowPass::ROUTE_INLINE ? "Inline" : "Image");
-  });
+INSTANTIATE_TEST_SUITE_P(Ways, GlStateOfWay, allWays, nameOf);
 
 class GlState : public PassTest
 {

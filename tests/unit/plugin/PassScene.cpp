@@ -57,6 +57,19 @@ std::size_t differingPixels(const Picture& a, const Picture& b, int tolerance)
 }
 
 //------------------------------------------------------------------------------
+std::string nameOf(const testing::TestParamInfo<Way>& way)
+{
+  return std::string(way.param.technique) +
+    (way.param.route == vtkGnomonShadowPass::ROUTE_INLINE ? "Inline" : "Image");
+}
+
+//------------------------------------------------------------------------------
+std::ostream& operator<<(std::ostream& stream, const Way& way)
+{
+  return stream << way.technique << ", route " << way.route;
+}
+
+//------------------------------------------------------------------------------
 PassScene::PassScene(int width, int height)
 {
   this->window->SetSize(width, height);
@@ -162,6 +175,14 @@ glm::dvec2 PassScene::floorAt(int x, int y) const
 }
 
 //------------------------------------------------------------------------------
+int PassScene::redAt(const Picture& picture, double x, double y) const
+{
+  const double pixel = 2.0 * this->down_.z / picture.height;
+  return picture.red(static_cast<int>((x - this->down_.x) / pixel + 0.5 * picture.width),
+    static_cast<int>((y - this->down_.y) / pixel + 0.5 * picture.height));
+}
+
+//------------------------------------------------------------------------------
 void PassScene::lookFrom(const glm::dvec3& position, const glm::dvec3& target)
 {
   vtkCamera* camera = this->renderer->GetActiveCamera();
@@ -178,6 +199,13 @@ Picture PassScene::render()
   this->window->Render();
   EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
   return readPicture(this->window);
+}
+
+//------------------------------------------------------------------------------
+void PassScene::choose(const Way& way)
+{
+  this->pass->SetTechnique(way.technique);
+  this->pass->SetRoute(way.route);
 }
 
 //------------------------------------------------------------------------------
@@ -253,6 +281,27 @@ bool hitsBox(const glm::dvec2& floor, const glm::dvec3& toLight, const glm::dvec
     last = std::min(last, std::max(a, b));
   }
   return first <= last;
+}
+
+//------------------------------------------------------------------------------
+Agreement compareVisibility(const VisibilityImages& a, const VisibilityImages& b, std::size_t light)
+{
+  Agreement result;
+  if (light >= a.visibility.size() || light >= b.visibility.size() || a.width != b.width ||
+    a.height != b.height)
+  {
+    ADD_FAILURE() << "frames without a common light or size";
+    return result;
+  }
+  for (std::size_t i = 0; i < a.coverage.size(); ++i)
+  {
+    const bool covered = a.coverage[i] > 0.0f && b.coverage[i] > 0.0f;
+    result.covered += covered ? 1 : 0;
+    result.coverage += a.coverage[i] != b.coverage[i] ? 1 : 0;
+    result.wrong +=
+      covered && std::abs(a.visibility[light][i] - b.visibility[light][i]) > 0.5f ? 1 : 0;
+  }
+  return result;
 }
 
 //------------------------------------------------------------------------------

@@ -24,7 +24,7 @@
 #include <array>
 #include <cstddef>
 #include <functional>
-#include <memory>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -53,6 +53,18 @@ Picture readPicture(vtkRenderWindow* window);
 /// Pixels in which some channel differs by more than `tolerance` of 255.
 std::size_t differingPixels(const Picture& a, const Picture& b, int tolerance = 0);
 
+/// The techniques and the routes to the shader that they can take.
+struct Way
+{
+  const char* technique;
+  int route;
+};
+std::string nameOf(const testing::TestParamInfo<Way>& way);
+inline const auto allWays = testing::Values(Way{ "nsm", vtkGnomonShadowPass::ROUTE_INLINE },
+  Way{ "nsm", vtkGnomonShadowPass::ROUTE_IMAGE },
+  Way{ "raytraced", vtkGnomonShadowPass::ROUTE_IMAGE });
+std::ostream& operator<<(std::ostream& stream, const Way& way);
+
 /// A renderer in a window of its own, with the pass in place. Surfaces are white and matt, without
 /// ambient light, so that a pixel's value is the light's cosine times its visibility.
 class PassScene
@@ -74,6 +86,8 @@ public:
   void lookDown(double halfHeight, double x = 0.0, double y = 0.0);
   /// The floor point that lookDown shows at the middle of a pixel.
   glm::dvec2 floorAt(int x, int y) const;
+  /// The red value of the pixel that lookDown shows a floor point at.
+  int redAt(const Picture& picture, double x, double y) const;
   void lookFrom(const glm::dvec3& position, const glm::dvec3& target = glm::dvec3(0.0));
 
   /// Draws a frame, which must raise no OpenGL error.
@@ -85,6 +99,8 @@ public:
   void useVtkShadows(int mapSize = 1024);
   void usePlain() { this->renderer->SetPass(nullptr); }
   ///@}
+
+  void choose(const Way& way);
 
   const FrameReport& report() const { return this->pass->GetReport(); }
 
@@ -118,6 +134,21 @@ FloorCheck checkFloor(
 /// Whether the ray from a floor point towards the light, p + t * toLight for t > 0, meets the box.
 bool hitsBox(const glm::dvec2& floor, const glm::dvec3& toLight, const glm::dvec3& lower,
   const glm::dvec3& upper);
+
+/// How two frames' visibility of one light compare.
+struct Agreement
+{
+  std::size_t covered = 0;  ///< pixels that both frames cover
+  std::size_t coverage = 0; ///< pixels that only one of them covers
+  std::size_t wrong = 0;    ///< covered ones with visibilities more than 0.5 apart
+  double agreeing() const
+  {
+    return this->covered ? 1.0 - static_cast<double>(this->wrong + this->coverage) / this->covered
+                         : 0.0;
+  }
+};
+Agreement compareVisibility(
+  const VisibilityImages& a, const VisibilityImages& b, std::size_t light = 0);
 
 /// Every test must leave VTK with nothing to complain about, but for the errors that it takes.
 class PassTest : public testing::Test

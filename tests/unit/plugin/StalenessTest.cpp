@@ -49,12 +49,6 @@ using gnomon::Work;
 namespace
 {
 
-struct Way
-{
-  const char* technique;
-  int route;
-};
-
 /// A sphere over a floor, drawn several ways.
 class Staleness
   : public PassTest
@@ -102,15 +96,7 @@ protected:
   vtkLight* sun;
 };
 
-INSTANTIATE_TEST_SUITE_P(Ways, Staleness,
-  testing::Values(Way{ "nsm", vtkGnomonShadowPass::ROUTE_INLINE },
-    Way{ "nsm", vtkGnomonShadowPass::ROUTE_IMAGE },
-    Way{ "raytraced", vtkGnomonShadowPass::ROUTE_IMAGE }),
-  [](const testing::TestParamInfo<Way>& way)
-  {
-    return std::string(way.param.technique) +
-      (way.param.route == vtkGnomonShadowPass::ROUTE_INLINE ? "Inline" : "Image");
-  });
+INSTANTIATE_TEST_SUITE_P(Ways, Staleness, allWays, nameOf);
 
 } // namespace
 

@@ -1,0 +1,359 @@
+// Every kind of vtkLight, and what each of them can ask for.
+
+#include "PassScene.h"
+
+#include "lights/vtkGnomonLightKeys.h"
+
+#include <vtkMatrix4x4.h>
+#include <vtkProperty.h>
+#include <vtkTransform.h>
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+using namespace gnomon::test;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+namespace
+{
+
+/// A box and a sphere over a floor, seen at an angle.
+class Lights
+  : public PassTest
+  , public testing::WithParamInterface<Way>
+{
+protected:
+  static void fill(PassScene& scene)
+  {
+    scene.addFloor(4.0);
+    scene.addBox({ -2.0, -1.0, 0.0 }, { -1.0, 0.0, 1.5 });
+    scene.addSphere({ 0.7, 0.3, 1.5 }, 0.7);
+    scene.choose(GetParam());
+  }
+  static void look(PassScene& scene) { scene.lookFrom({ 1.0, -9.0, 7.0 }); }
+};
+
+INSTANTIATE_TEST_SUITE_P(Ways, Lights, allWays, nameOf);
+
+/// Each pixel must be what plain VTK draws with all lights, or without the one that casts: nothing
+/// but that light may ever be taken away. Returns how many pixels had it taken away.
+std::size_t shadowedPixels(
+  const Picture& picture, const Picture& allLights, const Picture& withoutTheLight)
+{
+  std::size_t shadowed = 0;
+  std::size_t neither = 0;
+  for (int y = 0; y < picture.height; ++y)
+  {
+    for (int x = 0; x < picture.width; ++x)
+    {
+      const auto differs = [&](const Picture& other)
+      {
+        const glm::ivec3 distance = glm::abs(picture.at(x, y) - other.at(x, y));
+        return distance.r > 1 || distance.g > 1 || distance.b > 1;
+      };
+      const bool isLit = !differs(allLights);
+      const bool isShadow = !differs(withoutTheLight);
+      shadowed += isShadow && !isLit ? 1 : 0;
+      neither += !isShadow && !isLit ? 1 : 0;
+    }
+  }
+  EXPECT_EQ(neither, 0u);
+  return shadowed;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+TEST_P(Lights, onlyTheCastingLightIsEverTakenAway)
+{
+  PassScene scene(240, 180);
+  fill(scene);
+  look(scene);
+  vtkActorCollection* actors = scene.renderer->GetActors();
+  actors->InitTraversal();
+  while (vtkActor* actor = actors->GetNextActor())
+  {
+    actor->GetProperty()->SetColor(0.9, 0.7, 0.5);
+    actor->GetProperty()->SetAmbient(0.2);
+    actor->GetProperty()->SetDiffuse(0.6);
+    actor->GetProperty()->SetSpecular(0.3);
+    actor->GetProperty()->SetSpecularPower(20.0);
+  }
+  scene.renderer->SetBackground(0.1, 0.2, 0.3);
+  // Each of the others is skipped for another reason, and all but the first give light.
+  scene.addSun({ 1.0, 0.0, -1.0 })->SwitchOff();
+  vtkLight* mute = scene.addSun({ 0.0, 1.0, -1.0 });
+  mute->SetColor(1.0, 0.2, 0.2);
+  mute->SetIntensity(0.3);
+  vtkGnomonLightKeys::SetCasts(mute, false);
+  vtkLight* sun = scene.addSun({ 1.0, 0.4, -1.5 });
+  sun->SetColor(0.3, 1.0, 0.6);
+  sun->SetIntensity(0.7);
+  vtkLight* point = scene.addSpot({ -3.0, -3.0, 4.0 }, glm::dvec3(0.0), 180.0);
+  point->SetIntensity(0.2);
+  vtkLight* weak = scene.addSun({ -1.0, 0.0, -1.0 });
+  weak->SetShadowAttenuation(0.0f);
+  weak->SetIntensity(0.1);
+  scene.addSun({ 1.0, 1.0, -1.0 })->SetIntensity(0.0);
+
+  const Picture picture = scene.render();
+  const std::vector<gnomon::LightReport> lights = scene.report().lights;
+  ASSERT_EQ(lights.size(), 6u);
+  const char* const reasons[] = { "switched off", "marked as not casting", "",
+    "point lights are not supported yet", "its shadow attenuation is 0", "gives no light" };
+  for (std::size_t i = 0; i < lights.size(); ++i)
+  {
+    EXPECT_EQ(lights[i].sceneIndex, static_cast<int>(i));
+    EXPECT_EQ(lights[i].casts, i == 2);
+    EXPECT_EQ(lights[i].reason, reasons[i]);
+  }
+
+  scene.usePlain();
+  const Picture all = scene.render();
+  sun->SetIntensity(0.0);
+  const Picture without = scene.render();
+  const std::size_t shadowed = shadowedPixels(picture, all, without);
+  EXPECT_GT(shadowed, 1000u);
+  EXPECT_LT(shadowed, 12000u);
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Lights, strengthOfOneHalfTakesHalfOfTheLight)
+{
+  PassScene scene(240, 180);
+  fill(scene);
+  look(scene);
+  vtkLight* sun = scene.addSun({ 1.0, 0.4, -1.5 });
+  const Picture full = scene.render();
+  scene.usePlain();
+  const Picture lit = scene.render();
+  scene.useGnomon();
+  sun->SetShadowAttenuation(0.5f);
+  const Picture half = scene.render();
+  std::size_t shadowed = 0;
+  for (int y = 0; y < full.height; ++y)
+  {
+    for (int x = 0; x < full.width; ++x)
+    {
+      const bool shadow = full.red(x, y) == 0 && lit.red(x, y) > 0;
+      shadowed += shadow ? 1 : 0;
+      const double expected = shadow ? 0.5 * lit.red(x, y) : lit.red(x, y);
+      ASSERT_NEAR(half.red(x, y), expected, 1.0) << x << ", " << y;
+    }
+  }
+  EXPECT_GT(shadowed, 1000u);
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Lights, headLightIsALightAtTheCamera)
+{
+  PassScene scene(240, 180);
+  fill(scene);
+  look(scene);
+  vtkNew<vtkLight> light;
+  light->SetLightTypeToHeadlight();
+  scene.renderer->AddLight(light);
+  scene.render();
+  scene.renderer->GetActiveCamera()->Azimuth(30.0);
+  scene.renderer->ResetCameraClippingRange();
+  const Picture head = scene.render();
+
+  vtkCamera* camera = scene.renderer->GetActiveCamera();
+  light->SetLightTypeToSceneLight();
+  light->SetTransformMatrix(nullptr);
+  light->SetPosition(camera->GetPosition());
+  light->SetFocalPoint(camera->GetFocalPoint());
+  EXPECT_LE(differingPixels(head, scene.render(), 2), 4u);
+  scene.usePlain();
+  EXPECT_GT(differingPixels(head, scene.render(), 64), 100u) << "it casts no shadow at all";
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Lights, cameraLightFollowsTheCamera)
+{
+  PassScene scene(240, 180);
+  fill(scene);
+  look(scene);
+  vtkNew<vtkLight> light;
+  light->SetLightTypeToCameraLight();
+  light->SetPosition(-0.8, 0.5, 0.3);
+  light->SetFocalPoint(0.0, 0.0, 0.0);
+  scene.renderer->AddLight(light);
+  scene.render();
+  scene.renderer->GetActiveCamera()->Azimuth(30.0);
+  scene.renderer->ResetCameraClippingRange();
+  const Picture follows = scene.render();
+  double position[3];
+  double focalPoint[3];
+  light->GetTransformedPosition(position);
+  light->GetTransformedFocalPoint(focalPoint);
+
+  vtkNew<vtkLight> fixed;
+  fixed->SetLightTypeToSceneLight();
+  fixed->SetPosition(position);
+  fixed->SetFocalPoint(focalPoint);
+  scene.renderer->RemoveAllLights();
+  scene.renderer->AddLight(fixed);
+  EXPECT_LE(differingPixels(follows, scene.render(), 2), 4u);
+  scene.usePlain();
+  EXPECT_GT(differingPixels(follows, scene.render(), 64), 300u);
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Lights, transformMatrixOfASceneLightCounts)
+{
+  for (const bool spot : { false, true })
+  {
+    PassScene scene(240, 180);
+    fill(scene);
+    look(scene);
+    vtkLight* light = spot ? scene.addSpot({ -3.0, -1.0, 4.0 }, { 0.0, 0.0, 0.0 }, 40.0)
+                           : scene.addSun({ 1.0, 0.4, -1.5 });
+    const Picture before = scene.render();
+    vtkNew<vtkTransform> turn;
+    turn->RotateZ(60.0);
+    turn->Translate(0.2, 0.1, 0.3);
+    light->SetTransformMatrix(turn->GetMatrix());
+    const Picture turned = scene.render();
+    EXPECT_GT(differingPixels(before, turned, 64), 300u);
+
+    double position[3];
+    double focalPoint[3];
+    light->GetTransformedPosition(position);
+    light->GetTransformedFocalPoint(focalPoint);
+    light->SetTransformMatrix(nullptr);
+    light->SetPosition(position);
+    light->SetFocalPoint(focalPoint);
+    EXPECT_LE(differingPixels(turned, scene.render(), 2), 4u) << "spot: " << spot;
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Lights, spotLightCastsWithinItsCone)
+{
+  PassScene scene(300, 300);
+  const glm::dvec3 lower(-0.5, -0.5, 1.0);
+  const glm::dvec3 upper(0.5, 0.5, 1.5);
+  scene.addFloor(5.0);
+  scene.addBox(lower, upper);
+  scene.choose(GetParam());
+  const glm::dvec3 position(-2.0, 0.0, 6.0);
+  const glm::dvec3 target(0.5, 0.0, 0.0);
+  const double coneAngle = 25.0;
+  scene.addSpot(position, target, coneAngle);
+  scene.lookDown(4.0);
+  const ExactFloor exact = [&](const glm::dvec2& floor)
+  {
+    if (std::abs(floor.x) < 0.55 && std::abs(floor.y) < 0.55)
+    {
+      return -1.0; // the box
+    }
+    const glm::dvec3 toLight = position - glm::dvec3(floor, 0.0);
+    const double along = glm::dot(glm::normalize(-toLight), glm::normalize(target - position));
+    const bool inCone = along >= std::cos(glm::radians(coneAngle));
+    const bool lit = inCone && !hitsBox(floor, toLight, lower, upper);
+    // A whole number, so that it stays the same over a few pixels.
+    return lit ? std::floor(255.0 * toLight.z / glm::length(toLight) / 40.0) * 40.0 + 20.0 : 0.0;
+  };
+  const FloorCheck check = checkFloor(scene, scene.render(), exact, 0.06);
+  EXPECT_GT(check.counted, 50000u);
+  EXPECT_EQ(check.wrong(), 0u);
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Lights, eachLightHasItsOwnTechniqueInOneFrame)
+{
+  PassScene scene(240, 180);
+  fill(scene);
+  look(scene);
+  scene.pass->KeepVisibilityOn();
+  scene.pass->SetRoute(vtkGnomonShadowPass::ROUTE_AUTO);
+  vtkLight* first = scene.addSun({ 1.0, 0.4, -1.5 });
+  vtkLight* second = scene.addSun({ -1.0, 0.4, -1.5 });
+  scene.pass->SetTechnique("raytraced");
+  scene.render();
+  const gnomon::VisibilityImages traced = scene.pass->GetVisibility();
+  scene.pass->SetTechnique("nsm");
+  scene.render();
+  const gnomon::VisibilityImages mapped = scene.pass->GetVisibility();
+
+  vtkGnomonLightKeys::SetTechnique(first, "nsm");
+  vtkGnomonLightKeys::SetTechnique(second, "raytraced");
+  vtkGnomonLightKeys::SetMapSize(first, 256);
+  scene.render();
+  const gnomon::FrameReport& report = scene.report();
+  EXPECT_EQ(report.route, "image");
+  EXPECT_THAT(report.routeReason, HasSubstr("raytraced"));
+  EXPECT_EQ(report.lights[0].technique, "nsm");
+  EXPECT_EQ(report.lights[0].mapSizeTexels, 256);
+  EXPECT_EQ(report.lights[0].tracedPixels, 0);
+  EXPECT_EQ(report.lights[1].technique, "raytraced");
+  EXPECT_EQ(report.lights[1].mapSizeTexels, 0);
+  EXPECT_GT(report.lights[1].tracedPixels, 10000);
+  EXPECT_EQ(report.bytesMaps, 256u * 256u * 4u);
+  const gnomon::VisibilityImages mixed = scene.pass->GetVisibility();
+  EXPECT_THAT(mixed.sceneIndices, ElementsAre(0, 1));
+  EXPECT_EQ(mixed.visibility[1], traced.visibility[1]);
+  vtkGnomonLightKeys::SetMapSize(first, 0); // the pass's own size again
+  scene.render();
+  EXPECT_EQ(scene.pass->GetVisibility().visibility[0], mapped.visibility[0]);
+  EXPECT_NE(mixed.visibility[0], mapped.visibility[0]);
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Lights, unknownTechniqueOfALightIsAnErrorAndNoShadow)
+{
+  PassScene scene(120, 90);
+  fill(scene);
+  look(scene);
+  scene.usePlain();
+  vtkLight* sun = scene.addSun({ 1.0, 0.4, -1.5 });
+  const Picture plain = scene.render();
+  scene.useGnomon();
+  vtkGnomonLightKeys::SetTechnique(sun, "magic");
+  EXPECT_EQ(differingPixels(plain, scene.render()), 0u);
+  const std::string errors = this->takeErrors();
+  EXPECT_THAT(errors, HasSubstr("light 0"));
+  EXPECT_THAT(errors, HasSubstr("'magic'"));
+  EXPECT_THAT(errors, HasSubstr("nsm"));
+  EXPECT_EQ(scene.report().route, "none");
+  vtkGnomonLightKeys::SetTechnique(sun, "");
+  EXPECT_GT(differingPixels(plain, scene.render()), 100u);
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Lights, absurdMapSizesAreClamped)
+{
+  PassScene scene(120, 90);
+  fill(scene);
+  look(scene);
+  vtkGnomonLightKeys::SetMapSize(scene.addSun({ 1.0, 0.4, -1.5 }), 1);
+  scene.render();
+  EXPECT_EQ(
+    scene.report().lights[0].mapSizeTexels, std::string(GetParam().technique) == "nsm" ? 16 : 0);
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Lights, removedAndAddedLightsKeepTheirPlaces)
+{
+  PassScene scene(240, 180);
+  fill(scene);
+  look(scene);
+  vtkLight* first = scene.addSun({ 1.0, 0.4, -1.5 });
+  first->SetIntensity(0.5);
+  vtkSmartPointer<vtkLight> second = scene.addSun({ -1.0, 0.4, -1.5 });
+  second->SetIntensity(0.5);
+  const Picture both = scene.render();
+  scene.renderer->RemoveLight(second);
+  const Picture one = scene.render();
+  EXPECT_GT(differingPixels(both, one, 64), 300u);
+  scene.renderer->AddLight(second);
+  EXPECT_EQ(differingPixels(both, scene.render()), 0u);
+  first->SwitchOff();
+  scene.render();
+  EXPECT_EQ(scene.report().lights[1].casts, true);
+  first->SwitchOn();
+  EXPECT_EQ(differingPixels(both, scene.render()), 0u);
+}

@@ -1,0 +1,292 @@
+// Which props cast and receive, and where their triangles are.
+
+#include "PassScene.h"
+
+#include "plugin/vtkGnomonPropKeys.h"
+
+#include <vtkAssembly.h>
+#include <vtkCellArray.h>
+#include <vtkCompositeDataDisplayAttributes.h>
+#include <vtkCompositePolyDataMapper2.h>
+#include <vtkCubeSource.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkPlaneSource.h>
+#include <vtkPoints.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+#include <vtkTransform.h>
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <limits>
+
+using namespace gnomon::test;
+
+namespace
+{
+
+/// A floor from straight above, under a sun at 45 degrees that travels along +x: what is at height
+/// z shades the floor z further along x.
+class Props
+  : public PassTest
+  , public testing::WithParamInterface<Way>
+{
+protected:
+  Props()
+  {
+    this->floor = this->scene.addFloor(8.0);
+    this->sun = this->scene.addSun({ 1.0, 0.0, -1.0 });
+    this->scene.choose(GetParam());
+    this->scene.lookDown(6.0);
+  }
+
+  /// A square of side 2 at height 2 over (x, y), its front up or down; shades (x + 2, y).
+  vtkActor* addSquare(bool frontUp, double x = 0.0, double y = 0.0)
+  {
+    vtkNew<vtkPlaneSource> square;
+    const double side = frontUp ? 1.0 : -1.0;
+    square->SetOrigin(-side, -1.0, 2.0);
+    square->SetPoint1(side, -1.0, 2.0);
+    square->SetPoint2(-side, 1.0, 2.0);
+    vtkActor* actor = this->scene.add(square);
+    actor->SetPosition(x, y, 0.0);
+    return actor;
+  }
+  /// Draws the scene, and tells whether a floor point is dark; it must be dark or lit.
+  bool dark(double x, double y)
+  {
+    const int value = this->scene.redAt(this->scene.render(), x, y);
+    EXPECT_TRUE(value == 0 || std::abs(value - 180) <= 1) << value;
+    return value == 0;
+  }
+
+  PassScene scene{ 120, 120 };
+  vtkActor* floor;
+  vtkLight* sun;
+};
+
+INSTANTIATE_TEST_SUITE_P(Ways, Props, allWays, nameOf);
+
+} // namespace
+
+//------------------------------------------------------------------------------
+TEST_P(Props, castUnlessToldOtherwise)
+{
+  vtkActor* square = this->addSquare(true);
+  EXPECT_TRUE(this->dark(2.5, 0.0));
+  EXPECT_FALSE(this->dark(3.5, 0.0));
+  vtkGnomonPropKeys::SetCasts(square, false);
+  EXPECT_FALSE(this->dark(2.5, 0.0));
+  vtkGnomonPropKeys::SetCasts(square, true);
+  EXPECT_TRUE(this->dark(2.5, 0.0));
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Props, receiveUnlessToldOtherwise)
+{
+  this->addSquare(true);
+  vtkGnomonPropKeys::SetReceives(this->floor, false);
+  EXPECT_FALSE(this->dark(2.5, 0.0));
+  vtkGnomonPropKeys::SetReceives(this->floor, true);
+  EXPECT_TRUE(this->dark(2.5, 0.0));
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Props, oneThatDoesNotReceiveStillCastsOnOthers)
+{
+  vtkActor* square = this->addSquare(true);
+  this->scene.addBox({ -1.5, -0.2, 3.0 }, { -0.5, 0.2, 3.2 }); // shades the square at x = 0
+  EXPECT_TRUE(this->dark(0.0, 0.0));
+  vtkGnomonPropKeys::SetReceives(square, false);
+  EXPECT_FALSE(this->dark(0.0, 0.0));
+  EXPECT_TRUE(this->dark(2.5, 0.8));
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Props, oneSidedOnesCastFromTheirFront)
+{
+  vtkActor* up = this->addSquare(true, 0.0, 2.0);
+  vtkActor* down = this->addSquare(false, 0.0, -2.0);
+  EXPECT_TRUE(this->dark(2.5, 2.0));
+  EXPECT_TRUE(this->dark(2.5, -2.0)) << "both sides cast";
+  vtkGnomonPropKeys::SetOneSided(up, true);
+  vtkGnomonPropKeys::SetOneSided(down, true);
+  EXPECT_TRUE(this->dark(2.5, 2.0));
+  EXPECT_FALSE(this->dark(2.5, -2.0)) << "its back is towards the light";
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Props, mirroringSwapsTheSides)
+{
+  for (vtkActor* actor : { this->addSquare(true, 0.0, 2.0), this->addSquare(false, 0.0, -2.0) })
+  {
+    actor->SetScale(-1.0, 1.0, 1.0);
+    vtkGnomonPropKeys::SetOneSided(actor, true);
+  }
+  EXPECT_FALSE(this->dark(2.5, 2.0));
+  EXPECT_TRUE(this->dark(2.5, -2.0));
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Props, mirroredSolidsCastAndReceiveAsOthersDo)
+{
+  vtkActor* box = this->scene.addBox({ 1.0, -1.0, 1.0 }, { 2.0, 1.0, 2.0 });
+  box->SetScale(-1.0, 1.0, 1.0);     // x in [-2, -1]
+  EXPECT_TRUE(this->dark(0.5, 0.0)); // -2 + 1 .. -1 + 2
+  EXPECT_FALSE(this->dark(1.5, 0.0));
+  const int top = this->scene.redAt(this->scene.render(), -1.5, 0.0);
+  this->scene.usePlain();
+  EXPECT_EQ(top, this->scene.redAt(this->scene.render(), -1.5, 0.0));
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Props, userMatricesAreFollowed)
+{
+  vtkActor* square = this->addSquare(true);
+  vtkNew<vtkTransform> transform;
+  transform->Translate(-1.0, 3.0, 0.0);
+  transform->RotateZ(45.0);
+  transform->Scale(1.0, 0.1, 1.0);
+  square->SetUserMatrix(transform->GetMatrix());
+  EXPECT_TRUE(this->dark(1.0 + 0.6, 3.0 + 0.6));
+  EXPECT_FALSE(this->dark(1.0 + 0.6, 3.0 - 0.6));
+  EXPECT_FALSE(this->dark(2.5, 0.0));
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Props, partsOfAssembliesCastWhereTheyStandAndAsTheAssemblySays)
+{
+  vtkActor* part = this->addSquare(true);
+  this->scene.renderer->RemoveActor(part); // the window keeps it no longer; the assembly does
+  vtkNew<vtkPlaneSource> source;
+  source->SetOrigin(-0.5, -0.5, 0.0);
+  source->SetPoint1(0.5, -0.5, 0.0);
+  source->SetPoint2(-0.5, 0.5, 0.0);
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputConnection(source->GetOutputPort());
+  vtkNew<vtkActor> square;
+  square->SetMapper(mapper);
+  square->SetPosition(0.0, 2.0, 2.0);
+  vtkNew<vtkAssembly> inner;
+  inner->AddPart(square);
+  inner->RotateZ(90.0); // the square at (-2, 0)
+  vtkNew<vtkAssembly> outer;
+  outer->AddPart(inner);
+  outer->SetPosition(0.0, 3.0, 0.0); // at (-2, 3), and its shadow at (0, 3)
+  this->scene.renderer->AddActor(outer);
+  EXPECT_TRUE(this->dark(0.3, 3.0));
+  EXPECT_FALSE(this->dark(2.0, 2.0));
+  vtkGnomonPropKeys::SetCasts(outer, false);
+  EXPECT_FALSE(this->dark(0.3, 3.0));
+  vtkGnomonPropKeys::SetCasts(outer, true);
+  outer->SetPosition(0.0, -3.0, 0.0);
+  EXPECT_TRUE(this->dark(0.3, -3.0));
+  EXPECT_EQ(this->scene.report().surfacesRetransformed, 1);
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Props, blocksOfACompositeCastAndReceiveUnlessHidden)
+{
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  const auto setBlock = [&](unsigned int number, double y)
+  {
+    vtkNew<vtkCubeSource> box;
+    box->SetBounds(-0.5, 0.5, y - 0.5, y + 0.5, 1.5, 2.5);
+    box->Update();
+    blocks->SetBlock(number, box->GetOutput());
+  };
+  setBlock(0, -3.0);
+  setBlock(1, 0.0);
+  setBlock(2, 3.0);
+  vtkNew<vtkCompositePolyDataMapper2> mapper;
+  mapper->SetInputDataObject(blocks);
+  vtkNew<vtkCompositeDataDisplayAttributes> attributes;
+  mapper->SetCompositeDataDisplayAttributes(attributes);
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  this->scene.renderer->AddActor(actor);
+  for (const double y : { -3.0, 0.0, 3.0 })
+  {
+    EXPECT_TRUE(this->dark(2.0, y)) << y;
+  }
+  EXPECT_EQ(this->scene.report().surfacesExtracted, 0); // in the last of the three frames
+  mapper->SetBlockVisibility(2, false); // by flat index: the tree is 0, its children 1, 2, 3
+  EXPECT_TRUE(this->dark(2.0, -3.0));
+  EXPECT_FALSE(this->dark(2.0, 0.0));
+  EXPECT_TRUE(this->dark(2.0, 3.0));
+
+  // A block that is shaded by something else.
+  this->scene.addBox(
+    { -1.8, -3.3, 3.4 }, { -1.2, -2.7, 3.6 }); // shades z = 2.5 at x = -0.9 .. -0.1
+  const Picture picture = this->scene.render();
+  EXPECT_EQ(this->scene.redAt(picture, -0.3, -3.0), 0);
+  EXPECT_NEAR(this->scene.redAt(picture, 0.3, -3.0), 180, 1);
+  EXPECT_NEAR(this->scene.redAt(picture, -0.3, 3.0), 180, 1);
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Props, castersOutsideTheViewCast)
+{
+  this->addSquare(true);
+  this->scene.lookDown(0.4, 2.45);
+  EXPECT_TRUE(this->dark(2.5, 0.0));
+  this->scene.renderer->GetActiveCamera()->SetClippingRange(19.0, 21.0); // behind the near plane
+  EXPECT_TRUE(this->dark(2.5, 0.0));
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Props, hiddenAndTranslucentOnesDoNotCast)
+{
+  vtkActor* square = this->addSquare(true);
+  square->VisibilityOff();
+  EXPECT_FALSE(this->dark(2.5, 0.0));
+  square->VisibilityOn();
+  EXPECT_TRUE(this->dark(2.5, 0.0));
+  square->GetProperty()->SetOpacity(0.99);
+  EXPECT_FALSE(this->dark(2.5, 0.0));
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Props, brokenTrianglesAreLeftOutAndCounted)
+{
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double infinity = std::numeric_limits<double>::infinity();
+  vtkNew<vtkPoints> points;
+  for (const glm::dvec3& point : { glm::dvec3(-1.0, -1.0, 2.0), glm::dvec3(1.0, -1.0, 2.0),
+         glm::dvec3(1.0, 1.0, 2.0), glm::dvec3(-1.0, 1.0, 2.0), glm::dvec3(nan, 0.0, 2.0),
+         glm::dvec3(0.0, infinity, 2.0), glm::dvec3(0.0, 0.0, 2.0) })
+  {
+    points->InsertNextPoint(point.x, point.y, point.z);
+  }
+  vtkNew<vtkCellArray> triangles;
+  for (const std::array<vtkIdType, 3>& triangle : { std::array<vtkIdType, 3>{ { 0, 1, 4 } },
+         { { 0, 1, 2 } }, { { 1, 2, 5 } }, { { 0, 6, 2 } }, { { 0, 2, 3 } }, { { 0, 4, 5 } } })
+  {
+    triangles->InsertNextCell(3, triangle.data());
+  }
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(points);
+  data->SetPolys(triangles);
+  this->scene.add(data);
+  EXPECT_TRUE(this->dark(2.5, 0.5));
+  EXPECT_TRUE(this->dark(1.5, -0.5));
+  EXPECT_FALSE(this->dark(3.5, 0.0));
+  const gnomon::FrameReport& report = this->scene.report();
+  EXPECT_EQ(report.droppedNonFinite, 3u);
+  EXPECT_EQ(report.droppedZeroArea, 1u); // the corners 0, 6 and 2 stand in line
+  EXPECT_EQ(report.triangles, 4u);       // two of these, and the floor's two
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Props, whatIsNotServedIsSaid)
+{
+  vtkActor* square = this->addSquare(true);
+  square->GetProperty()->SetRepresentationToWireframe();
+  EXPECT_FALSE(this->dark(2.5, 0.0));
+  vtkNew<vtkPolyDataMapper> empty;
+  vtkNew<vtkActor> actor;
+  this->scene.renderer->AddActor(actor); // without a mapper
+  EXPECT_FALSE(this->dark(2.5, 0.0));
+  EXPECT_THAT(this->scene.report().notes, testing::IsEmpty());
+}
