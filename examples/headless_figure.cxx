@@ -154,7 +154,6 @@ int main(int argc, char* argv[])
 
   vtkNew<vtkGnomonEGLRenderWindow> window;
   window->SetSize(1200, 800);
-  window->SetMultiSamples(8);
   window->AddRenderer(renderer);
   window->Render();
 

@@ -33,6 +33,23 @@ GLenum bindingOf(GLenum target)
   return target == GL_TEXTURE_2D_ARRAY ? GL_TEXTURE_BINDING_2D_ARRAY : GL_TEXTURE_BINDING_2D;
 }
 
+/// Has a vertex shader pass the view coordinates on once more, to be interpolated at the centroid of
+/// the covered samples. Where a pixel has several samples, its centre may lie off the triangle, and
+/// the position there behind a neighbour's surface.
+/// @return false for a shader without view coordinates
+bool passCentroid(std::string& vertexShader)
+{
+  const std::string declaration = "out vec4 vertexVCVSOutput;";
+  const std::size_t endOfMain = vertexShader.rfind('}');
+  if (endOfMain == std::string::npos || vertexShader.find(declaration) == std::string::npos)
+  {
+    return false;
+  }
+  vertexShader.insert(endOfMain, "  gnomonCentroidView = vertexVCVSOutput;\n");
+  replace(vertexShader, declaration, declaration + "\ncentroid out vec4 gnomonCentroidView;");
+  return true;
+}
+
 /// The declarations of one light's visibility function, gnomonVisibilityN(position, normal).
 std::string declare(Route route, const ShadedLight& shaded, int layer)
 {
@@ -65,7 +82,7 @@ void ShaderManager::configure(Route route, const std::vector<ShadedLight>& light
     const std::string colour = "lightColor" + std::to_string(lights[i].light.shaderIndex);
     multiplications += "  vec3 " + colour + " = " + colour +
       " * (gnomonReceives == 0 ? 1.0 : mix(1.0, " + "gnomonVisibility" + number +
-      "(vertexVC.xyz, gnomonNormal), gnomonStrength" + number + "));\n";
+      "(gnomonCentroidView.xyz, gnomonNormal), gnomonStrength" + number + "));\n";
   }
   if (declarations != this->declarations_ || multiplications != this->multiplications_ ||
     route != this->route_)
@@ -102,13 +119,9 @@ void ShaderManager::fillShader(std::string& vertexShader, const std::string& geo
   if (lit)
   {
     declarations = this->declarations_;
-    if (geometryShader.empty())
-    {
-      // With several samples per pixel a fragment's centre may lie off its triangle, and the position
-      // there behind a neighbour's surface. The centroid of the covered samples does not.
-      replace(vertexShader, "out vec4 vertexVCVSOutput;", "centroid out vec4 vertexVCVSOutput;");
-      replace(fragmentShader, "in vec4 vertexVCVSOutput;", "centroid in vec4 vertexVCVSOutput;");
-    }
+    const bool atCentroid = geometryShader.empty() && passCentroid(vertexShader);
+    declarations += atCentroid ? "centroid in vec4 gnomonCentroidView;\n"
+                               : "#define gnomonCentroidView vertexVC\n";
     normal = "vec3 gnomonNormal = gnomonFaceNormal(vertexVC.xyz, cameraParallel == 1);\n";
     begin = this->multiplications_;
   }
