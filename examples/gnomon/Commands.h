@@ -21,6 +21,8 @@ struct PictureSize
 {
   int width = 1024;
   int height = 1024;
+
+  double aspect() const { return static_cast<double>(this->width) / this->height; }
 };
 
 /// @throws BadInput

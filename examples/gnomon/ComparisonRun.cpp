@@ -219,7 +219,7 @@ class Variant
 public:
   Variant(const VariantSpec& spec, const Scene& scene, const ComparisonPlan& plan)
     : spec_(spec)
-    , renderer_(makeRenderer(scene))
+    , renderer_(makeRenderer(scene, static_cast<double>(plan.width) / plan.height))
     , mover_(renderer_, scene)
   {
     this->result.name = spec.name();

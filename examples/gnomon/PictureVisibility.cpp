@@ -102,11 +102,12 @@ PictureVisibility measureVisibility(const Scene& scene, const VisibilityImages& 
 {
   PictureVisibility result;
   result.images = truth;
+  const double aspect = static_cast<double>(truth.width) / truth.height;
   for (std::size_t k = 0; k < truth.sceneIndices.size(); ++k)
   {
     const Scene white = whiteScene(scene, static_cast<std::size_t>(truth.sceneIndices[k]));
-    const std::vector<Picture> lit = expose(makeRenderer(white), truth.width, truth.height);
-    const vtkSmartPointer<vtkRenderer> renderer = makeRenderer(white);
+    const std::vector<Picture> lit = expose(makeRenderer(white, aspect), truth.width, truth.height);
+    const vtkSmartPointer<vtkRenderer> renderer = makeRenderer(white, aspect);
     addShadows(renderer);
     const std::vector<Picture> shadowed = expose(renderer, truth.width, truth.height);
     std::vector<ExposedPair> exposures;

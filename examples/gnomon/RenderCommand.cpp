@@ -196,7 +196,7 @@ void render(const RenderOptions& options)
   VtkMessages messages;
   vtkNew<vtkGnomonEGLRenderWindow> window;
   window->SetSize(size.width, size.height);
-  const vtkSmartPointer<vtkRenderer> renderer = makeRenderer(scene);
+  const vtkSmartPointer<vtkRenderer> renderer = makeRenderer(scene, size.aspect());
   vtkNew<vtkGnomonShadowPass> shadows;
   shadows->SetRoute(options.route == "inline" ? vtkGnomonShadowPass::ROUTE_INLINE
       : options.route == "image"              ? vtkGnomonShadowPass::ROUTE_IMAGE

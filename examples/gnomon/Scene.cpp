@@ -100,28 +100,28 @@ vtkSmartPointer<vtkLight> makeLight(const SceneLight& source)
   return light;
 }
 
-/// Lets the camera's clipping planes enclose the scene.
-void setClippingRange(vtkRenderer* renderer, const Scene& scene)
+/// Lets the camera's clipping planes enclose what the picture shows.
+void setClippingRange(vtkRenderer* renderer, const Scene& scene, double aspect)
 {
-  const std::array<double, 6> bounds = boundsWorld(scene);
-  const Vec3 forward = scene.camera.target - scene.camera.position;
-  double farthest = 0.0;
-  for (std::size_t corner = 0; corner < 8; ++corner)
-  {
-    const Vec3 point{ { bounds[corner & 1], bounds[2 + (corner >> 1 & 1)],
-      bounds[4 + (corner >> 2 & 1)] } };
-    farthest = std::max(farthest, dot(point - scene.camera.position, forward));
-  }
-  if (farthest == 0.0)
-  {
-    return; // All of it is behind the camera. VTK would put both planes into the eye.
-  }
-  // VTK's own margins: the range widened by half its length, and a near plane at a hundredth of the
-  // far one. The first wastes depth precision; the second cuts the ground away in front of an eye
-  // that stands on it.
+  // For when the camera moves on. VTK's own margins: the range widened by half its length, and a
+  // near plane at a hundredth of the far one where the scene's box is not clear of the eye. The
+  // first wastes depth precision; the second cuts the ground away in front of an eye that stands on
+  // it.
+  constexpr double smallestNearShare = 1e-4;
   renderer->SetClippingRangeExpansion(0.05);
-  renderer->SetNearClippingPlaneTolerance(1e-4);
-  renderer->ResetCameraClippingRange(bounds.data());
+  renderer->SetNearClippingPlaneTolerance(smallestNearShare);
+
+  // The nearer the near plane, the coarser the depths behind it, and surfaces that meet show
+  // through each other along their edges. So it stands as far off as the scene allows.
+  constexpr double margin = 0.01;
+  const DepthRange depths = visibleDepths(scene, aspect);
+  if (depths.farthest < depths.nearest || depths.farthest == 0.0)
+  {
+    return; // Nothing is seen.
+  }
+  const double farPlane = (1.0 + margin) * depths.farthest;
+  renderer->GetActiveCamera()->SetClippingRange(
+    std::max((1.0 - margin) * depths.nearest, smallestNearShare * farPlane), farPlane);
 }
 
 } // namespace
@@ -156,7 +156,7 @@ Scene loadScene(const std::string& nameOrPath, FileLights fileLights)
 }
 
 //------------------------------------------------------------------------------
-vtkSmartPointer<vtkRenderer> makeRenderer(const Scene& scene)
+vtkSmartPointer<vtkRenderer> makeRenderer(const Scene& scene, double aspect)
 {
   auto renderer = vtkSmartPointer<vtkRenderer>::New();
   renderer->SetBackground(scene.background[0], scene.background[1], scene.background[2]);
@@ -177,7 +177,7 @@ vtkSmartPointer<vtkRenderer> makeRenderer(const Scene& scene)
   camera->SetViewAngle(scene.camera.fovDegrees);
   renderer->SetActiveCamera(camera);
 
-  setClippingRange(renderer, scene);
+  setClippingRange(renderer, scene, aspect);
   return renderer;
 }
 

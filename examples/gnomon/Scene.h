@@ -104,7 +104,8 @@ SceneCamera parseCamera(const std::string& spec, const SceneCamera& defaults);
 
 /// A renderer with the scene's actors, lights, camera (clipping range set) and background. Surfaces
 /// are shared with the scene and with other renderers made from it, mappers and actors are its own.
-vtkSmartPointer<vtkRenderer> makeRenderer(const Scene& scene);
+/// @param aspect the picture's width over its height
+vtkSmartPointer<vtkRenderer> makeRenderer(const Scene& scene, double aspect);
 
 } // namespace gnomon::tool
 

@@ -2,12 +2,15 @@
 
 #include "Vec3.h"
 
+#include <vtkCellArray.h>
+#include <vtkCellArrayIterator.h>
 #include <vtkCellData.h>
 #include <vtkMath.h>
 #include <vtkPointData.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace gnomon::tool
 {
@@ -29,6 +32,50 @@ Vec3 transformed(const std::array<double, 16>& matrix, const Vec3& point)
 bool isFinite(const Vec3& point)
 {
   return std::isfinite(point[0]) && std::isfinite(point[1]) && std::isfinite(point[2]);
+}
+
+/// The part of a polygon on the inner side of a plane through the origin.
+std::vector<Vec3> clipped(const std::vector<Vec3>& polygon, const Vec3& inward)
+{
+  std::vector<Vec3> result;
+  for (std::size_t i = 0; i < polygon.size(); ++i)
+  {
+    const Vec3& from = polygon[i];
+    const Vec3& to = polygon[(i + 1) % polygon.size()];
+    const double start = dot(inward, from);
+    const double end = dot(inward, to);
+    if (start >= 0.0)
+    {
+      result.push_back(from);
+    }
+    if ((start < 0.0) != (end < 0.0))
+    {
+      result.push_back(from + (start / (start - end)) * (to - from)); // of opposite signs
+    }
+  }
+  return result;
+}
+
+/// Calls `visit` with the points of every cell; of strips, of every triangle.
+template <class Visit>
+void visitCells(vtkPolyData* surface, const Visit& visit)
+{
+  for (vtkCellArray* cells :
+    { surface->GetVerts(), surface->GetLines(), surface->GetPolys(), surface->GetStrips() })
+  {
+    const auto cell = vtk::TakeSmartPointer(cells->NewIterator());
+    for (cell->GoToFirstCell(); !cell->IsDoneWithTraversal(); cell->GoToNextCell())
+    {
+      vtkIdType size = 0;
+      const vtkIdType* points = nullptr;
+      cell->GetCurrentCell(size, points);
+      const vtkIdType window = cells == surface->GetStrips() ? 3 : size;
+      for (vtkIdType first = 0; first + window <= size; ++first)
+      {
+        visit(points + first, window);
+      }
+    }
+  }
 }
 
 } // namespace
@@ -77,6 +124,53 @@ SceneCamera framingCamera(const Scene& scene)
     1.05 * radius / std::sin(0.5 * vtkMath::RadiansFromDegrees(camera.fovDegrees));
   camera.position = camera.target + distance * normalized(Vec3{ { 0.3, 0.35, 1.0 } });
   return camera;
+}
+
+//------------------------------------------------------------------------------
+DepthRange visibleDepths(const Scene& scene, double aspect)
+{
+  const Vec3& eye = scene.camera.position;
+  const Vec3 forward = normalized(scene.camera.target - eye);
+  const Vec3 right = normalized(cross(forward, scene.camera.up));
+  const Vec3 up = cross(right, forward);
+  const double tangent = std::tan(0.5 * vtkMath::RadiansFromDegrees(scene.camera.fovDegrees));
+  const Vec3 sides[] = { tangent * forward - up, tangent * forward + up,
+    aspect * tangent * forward - right, aspect * tangent * forward + right };
+
+  DepthRange range{ std::numeric_limits<double>::infinity(), 0.0 };
+  std::vector<Vec3> points;
+  for (const SceneModel& model : scene.models)
+  {
+    points.resize(static_cast<std::size_t>(model.surface->GetNumberOfPoints()));
+    for (std::size_t i = 0; i < points.size(); ++i)
+    {
+      model.surface->GetPoint(static_cast<vtkIdType>(i), points[i].data());
+      points[i] = transformed(model.matrix, points[i]) - eye;
+    }
+    visitCells(model.surface,
+      [&](const vtkIdType* ids, vtkIdType size)
+      {
+        std::vector<Vec3> polygon;
+        for (vtkIdType i = 0; i < size; ++i)
+        {
+          polygon.push_back(points[static_cast<std::size_t>(ids[i])]);
+        }
+        for (const Vec3& side : sides)
+        {
+          polygon = clipped(polygon, side);
+        }
+        for (const Vec3& point : polygon)
+        {
+          const double depth = dot(point, forward);
+          if (std::isfinite(depth))
+          {
+            range.nearest = std::min(range.nearest, depth);
+            range.farthest = std::max(range.farthest, depth);
+          }
+        }
+      });
+  }
+  return range;
 }
 
 //------------------------------------------------------------------------------

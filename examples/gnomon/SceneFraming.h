@@ -14,6 +14,18 @@ std::array<double, 6> boundsWorld(const Scene& scene);
 /// up).
 SceneCamera framingCamera(const Scene& scene);
 
+/// Depths along the scene camera's view, in front of the eye.
+struct DepthRange
+{
+  double nearest = 0.0;
+  double farthest = 0.0; ///< less than `nearest` where there is nothing
+};
+
+/// Nearest and farthest point of the scene in the picture. Unlike the corners of a box around the
+/// scene, these points are there: near planes that must not cut anything away can be set to them.
+/// @param aspect the picture's width over its height
+DepthRange visibleDepths(const Scene& scene, double aspect);
+
 /// The light of models that bring none: directional, from the upper left in front.
 SceneLight defaultLight();
 

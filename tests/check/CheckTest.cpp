@@ -2,6 +2,7 @@
 // them is found, pixel by pixel.
 
 #include "Check.h"
+#include "TestFiles.h"
 
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
@@ -12,8 +13,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <limits>
 
@@ -27,27 +28,6 @@ constexpr int sidePixels = 100;
 constexpr double cameraHeight = 10.0;
 constexpr double halfGround = 9.0;
 constexpr double plateHeight = 2.0;
-
-/// The files of one test, gone at its end.
-class Folder
-{
-public:
-  Folder()
-    : path_(std::filesystem::temp_directory_path() /
-        ("gnomon_check_" +
-          std::string(testing::UnitTest::GetInstance()->current_test_info()->name())))
-  {
-    std::filesystem::create_directories(this->path_);
-  }
-  ~Folder() { std::filesystem::remove_all(this->path_); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-
-  std::string operator/(const std::string& name) const { return (this->path_ / name).string(); }
-
-private:
-  std::filesystem::path path_;
-};
 
 /// A picture from above onto a square ground at y = 0 and a square plate of side 2 over its middle.
 /// With 90 degrees and the camera at 10, the border of the picture is at 10 on the ground. All is
@@ -152,7 +132,7 @@ void write(const VisibilityFile& file, const std::string& path)
 /// Checks a file against a scene, both through the disk.
 Result check(const nlohmann::json& scene, const VisibilityFile& file)
 {
-  const Folder folder;
+  const tool::TestFolder folder;
   std::ofstream(folder / "square.obj") << "v -1 0 1\nv 1 0 1\nv 1 0 -1\nv -1 0 -1\nf 1 2 3 4\n";
   std::ofstream(folder / "scene.json") << scene;
   write(file, folder / "file.exr");

@@ -1,0 +1,77 @@
+#include "SceneExport.h"
+#include "BuiltinParts.h"
+#include "Errors.h"
+#include "SceneFraming.h"
+#include "TestFiles.h"
+
+#include <gtest/gtest.h>
+
+namespace gnomon::tool
+{
+
+//------------------------------------------------------------------------------
+TEST(SceneExport, IsReadBackAsTheSameScene)
+{
+  Scene scene;
+  scene.name = "exported";
+  scene.models = { makePlane({ { 0.1, 0.2, 0.3 } }, 4.0), makePlane({ { 0.0, 1.0, 0.0 } }, 1.0) };
+  scene.models[1].matrix[3] = 1.0 / 3.0;
+  scene.models[1].casts = false;
+  scene.models[1].receives = false;
+  scene.models[1].oneSided = true;
+  scene.camera = makeCamera({ { 1.0, 2.0, 0.1 } }, { { 0.0, 0.5, 0.0 } }, 35.5);
+  scene.camera.up = { { 0.1, 1.0, 0.0 } };
+  scene.lights = { makeSun({ { 0.0, -1.0, 0.0 } }), SceneLight() };
+  scene.lights[0].technique = "raytraced";
+  scene.lights[0].mapSizeTexels = 512;
+  scene.lights[1].type = SceneLight::Type::Spot;
+  scene.lights[1].position = { { 0.3, 4.0, 0.0 } };
+  scene.lights[1].color = { { 1.0, 0.5, 0.25 } };
+  scene.lights[1].intensity = 0.7;
+  scene.lights[1].coneAngleDegrees = 12.5;
+  scene.background = { { 0.1, 0.2, 0.3 } };
+
+  const TestFolder folder;
+  const Scene read = loadScene(exportScene(scene, folder / "made"));
+  EXPECT_EQ(read.name, scene.name);
+  EXPECT_EQ(read.background, scene.background);
+  EXPECT_EQ(read.camera.position, scene.camera.position);
+  EXPECT_EQ(read.camera.target, scene.camera.target);
+  EXPECT_EQ(read.camera.up, scene.camera.up);
+  EXPECT_EQ(read.camera.fovDegrees, scene.camera.fovDegrees);
+  EXPECT_EQ(boundsWorld(read), boundsWorld(scene));
+  ASSERT_EQ(read.models.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i)
+  {
+    EXPECT_EQ(read.models[i].matrix, scene.models[i].matrix);
+    EXPECT_EQ(read.models[i].casts, scene.models[i].casts);
+    EXPECT_EQ(read.models[i].receives, scene.models[i].receives);
+    EXPECT_EQ(read.models[i].oneSided, scene.models[i].oneSided);
+  }
+  ASSERT_EQ(read.lights.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i)
+  {
+    EXPECT_EQ(read.lights[i].type, scene.lights[i].type);
+    EXPECT_EQ(read.lights[i].position, scene.lights[i].position);
+    EXPECT_EQ(read.lights[i].target, scene.lights[i].target);
+    EXPECT_EQ(read.lights[i].color, scene.lights[i].color);
+    EXPECT_EQ(read.lights[i].intensity, scene.lights[i].intensity);
+    EXPECT_EQ(read.lights[i].technique, scene.lights[i].technique);
+    EXPECT_EQ(read.lights[i].mapSizeTexels, scene.lights[i].mapSizeTexels);
+  }
+  EXPECT_EQ(read.lights[1].coneAngleDegrees, scene.lights[1].coneAngleDegrees);
+}
+
+//------------------------------------------------------------------------------
+TEST(SceneExport, RefusesAFolderThatCannotBeMade)
+{
+  Scene scene;
+  scene.name = "exported";
+  scene.models = { makePlane({ { 0.0, 0.0, 0.0 } }, 1.0) };
+  const TestFolder folder;
+  writeBytes(folder / "file", "x");
+  EXPECT_NE(messageOf<BadInput>([&] { exportScene(scene, folder / "file"); }).find("--export"),
+    std::string::npos);
+}
+
+} // namespace gnomon::tool
