@@ -155,7 +155,7 @@ public:
   }
 
 private:
-  static constexpr std::size_t size = 256;
+  static constexpr std::size_t size = 512;
   std::array<std::uint32_t, size> triangles_;
   std::array<Plane, size> planes_;
 };
@@ -226,8 +226,8 @@ void projectReceivers(const ReceiverImages& images, const std::vector<DrawnSurfa
     }
   };
 
-  constexpr std::size_t tileRows = 16;
-  constexpr std::size_t tileColumns = 64;
+  constexpr std::size_t tileRows = 8;
+  constexpr std::size_t tileColumns = 256;
   const auto width = static_cast<std::size_t>(images.width);
   const auto height = static_cast<std::size_t>(images.height);
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, (height + tileRows - 1) / tileRows),

@@ -5,6 +5,7 @@
 
 #include <glm/glm.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -15,30 +16,29 @@ namespace gnomon
 /// The one shadow ray of the project: where it starts, where it goes, and when none is needed.
 /// shadow_ray.glsl is its twin.
 ///
-/// How far off the surface it starts. Let u = 2^-24 be the unit roundoff of float, N a triangle's
-/// unit normal, M its largest coordinates by magnitude along x, y and z (centred), X, Y, Z the
-/// extent of its box and A twice its area. The receiver was projected onto the triangle's plane in
-/// double precision. What is left:
+/// How far off the surface it starts follows from what may go wrong. Let u = 2^-24 be the unit
+/// roundoff of float, N a triangle's unit normal, M its largest centred coordinates by magnitude
+/// along each axis, X, Y, Z the extent of its box and A twice its area. The receiver was projected
+/// onto the triangle's plane in double precision. What is left:
 ///
-/// - Storage. Rounding the receiver to float moves it by at most u |M_i| along axis i, so off the
-/// plane
-///   by u sum |N_i| M_i. Adding the offset and rounding the ray's origin costs the same again:
-///   together 2u sum |N_i| M_i. Exact, and zero for a plane through an axis of the centred frame.
-/// - Intersection. The ray is tested by the sign of T = dot(v0 - O, (v1 - v0) x (v2 - v0)), in
-/// float.
-///   Vertices relative to O are rounded to u per axis, which moves their plane by u sum |N_i| X_i,
-///   at most 3u XYZ/A as |N_i| A <= X_j X_k. Each edge is rounded once more, each component of the
-///   cross product is two products of two edges and a subtraction, 7u X_j X_k; times v0, summed
-///   over three axes, 21u XYZ; the dot product's own rounding adds at most 9u XYZ. Together 33u
-///   XYZ/A, Embree's robust test as a forward error bound. Of slivers A is small, so theirs is
-///   large, as it must be.
+/// - Storage. Rounding the receiver to float moves it by at most u M_i along axis i, so off the
+///   plane by u sum |N_i| M_i. Adding the offset and rounding the ray's origin costs the same
+///   again: together 2u sum |N_i| M_i. It is zero for the centred frame's own planes.
+/// - Intersection. The ray O + t D is tested by the sign of T = (v0 - O) . (v1 - v0) x (v2 - v0).
+///   Rounding the vertices relative to O to u per axis moves their plane by u sum |N_i| X_i, at
+///   most 3u XYZ/A as |N_i| A <= X_j X_k. Each edge is rounded once more, and a component of the
+///   cross product is two products of two edges and a subtraction: 7u X_j X_k; times v0, summed
+///   over three axes, 21u XYZ. The dot product's own rounding adds at most 9u XYZ. Together 33u
+///   XYZ/A: a forward error bound of Embree's robust test. A sliver's A is small, so its bound is
+///   large, as it must be; but where it exceeds 1/1024 of the length, at about a thousand times as
+///   long as wide, rays would start somewhere else altogether, and it ends there.
 ///
-/// Both are bounds, not estimates; planeNoise() returns their sum, with 32u for 33u, which no
-/// rounding reaches. The offset is twice that, so that the truth holds with half of it.
+/// planeNoise() is the sum of both, with 32u for 33u, which no rounding reaches: random triangles
+/// come to 0.7 of it. The offset is twice that, so that half of it still holds.
 ///
 /// - Footprint. A rasteriser snaps vertices to 1/256 pixel, so a fragment near an edge may lie past
-///   it by that much, behind the next triangle of a concave surface. The offset grows by 1/256 of
-///   the pixel's side, which also is as far as a shadow can move without being seen.
+///   it by as much, behind the next triangle of a concave surface. The offset grows by 1/256 of the
+///   pixel's side; moving a shadow by so little cannot be seen.
 
 /// How far from its plane the points of a triangle may seem to lie, in the unit of the coordinates.
 ///
@@ -51,8 +51,10 @@ inline float planeNoise(
 {
   const float storage = std::abs(normal.x) * largest.x + std::abs(normal.y) * largest.y +
     std::abs(normal.z) * largest.z;
+  const float longest = std::max(extent.x, std::max(extent.y, extent.z));
   const float intersection = extent.x * (extent.y * extent.z / doubleArea);
-  return 1.1920929e-7f * storage + 1.9073486e-6f * intersection; // 2^-23 and 2^-19
+  return 1.1920929e-7f * storage +                                  // 2^-23
+    std::min(1.9073486e-6f * intersection, 9.765625e-4f * longest); // 2^-19, 2^-10
 }
 
 /// How far off the surface, along the normal, the shadow ray starts.

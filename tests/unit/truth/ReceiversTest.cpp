@@ -10,18 +10,24 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace gnomon::test
 {
 namespace
 {
 
-/// A plane and a cube beside the world's origin, none of them along an axis.
+/// A plane and a cube far from the world's origin, none of them along an axis. The cube is inside
+/// out, so that the camera sees the back of its triangles.
 Occluders turnedScene()
 {
   const glm::dmat4 turn = glm::rotate(at({ 1e5, -2e5, 3e5 }), 0.5, { 1.0, 0.4, 0.2 });
-  return makeOccluders(
-    { { makePlane(6.0, 3), turn }, { makeBox(glm::dvec3(-0.5), glm::dvec3(0.5)), turn } });
+  Mesh box = makeBox(glm::dvec3(-0.5), glm::dvec3(0.5));
+  for (glm::uvec3& triangle : box.triangles)
+  {
+    std::swap(triangle.y, triangle.z);
+  }
+  return makeOccluders({ { makePlane(6.0, 3), turn }, { box, turn } });
 }
 Camera turnedCamera()
 {
