@@ -25,6 +25,8 @@ find_package(VTK 9.1 REQUIRED COMPONENTS
   RenderingContext2D
   RenderingContextOpenGL2
   RenderingFreeType
+  RenderingVolume
+  RenderingVolumeOpenGL2
   ViewsContext2D
   glew)
 find_package(glm REQUIRED)

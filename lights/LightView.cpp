@@ -57,17 +57,24 @@ Axis fitAxis(double lower, double upper, int mapSizeTexels)
   return { scale, -scale * 0.5 * (upper + lower) };
 }
 
+/// The far plane lies this share of the depth range behind the last caster: what a technique writes
+/// for it, pushed back as that may be, stays apart from the depth 1 of texels without a caster.
+constexpr double roomBehindCasters = 0.125;
+
 LightView fitDirectional(const Bounds& castersLight, const glm::dmat4& rotation, int mapSizeTexels)
 {
   const double smallest = 1e-6 * std::max(castersLight.radius(), 1e-300);
   const glm::dvec3 widening(smallest);
   const glm::dvec3 lower = castersLight.lower - widening;
   const glm::dvec3 upper = castersLight.upper + widening;
+  // Positions are rounded relative to the box's size, and depths are compared relative to this
+  // range: flat boxes get a deeper one.
+  const double depth =
+    std::max((1.0 + roomBehindCasters) * (upper.z - lower.z), castersLight.radius());
 
   LightView view;
   view.lightFromCentred =
     glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, 0.0, -lower.z)) * rotation;
-  const double depth = upper.z - lower.z;
   const Axis x = fitAxis(lower.x, upper.x, mapSizeTexels);
   const Axis y = fitAxis(lower.y, upper.y, mapSizeTexels);
   view.clipFromLight =
@@ -118,10 +125,10 @@ LightView fitSpot(const ShadowLight& light, const Bounds& castersLight,
   const double smallest = 1e-6 * slopeCone;
   const Axis x = fitAxis(lower.x - smallest, upper.x + smallest, mapSizeTexels);
   const Axis y = fitAxis(lower.y - smallest, upper.y + smallest, mapSizeTexels);
-  // clip = (x.scale X + x.offset Z, ..., a Z + b, Z) with z/w = -1 at near and 1 at far; widened by
-  // a thousandth so that rounding clips no caster.
+  // clip = (x.scale X + x.offset Z, ..., a Z + b, Z) with z/w = -1 at near and 1 at far; near is
+  // moved by a thousandth so that rounding clips no caster.
   const double n = nearest * 0.999;
-  const double f = farthest * 1.001;
+  const double f = farthest * (1.0 + roomBehindCasters);
   view.clipFromLight = glm::dmat4(glm::dvec4(x.scale, 0.0, 0.0, 0.0),
     glm::dvec4(0.0, y.scale, 0.0, 0.0), glm::dvec4(x.offset, y.offset, (f + n) / (f - n), 1.0),
     glm::dvec4(0.0, 0.0, -2.0 * f * n / (f - n), 0.0));

@@ -19,7 +19,7 @@ namespace gnomon
 /// - clip space: OpenGL's, which the map is drawn with. Directional: affine. Spot: perspective.
 ///
 /// The map stores linear depth z, scaled to [0, 1] by depthScale and depthOffset:
-/// depth = z * depthScale + depthOffset.
+/// depth = z * depthScale + depthOffset. Casters end well before 1, the depth of empty texels.
 struct LightView
 {
   glm::dmat4 lightFromCentred{ 1.0 }; ///< rigid: centred world to light space

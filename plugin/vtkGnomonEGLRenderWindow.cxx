@@ -4,6 +4,7 @@
 
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLFramebufferObject.h"
+#include "vtkOpenGLState.h"
 #include "vtkRenderer.h"
 #include "vtkRendererCollection.h"
 
@@ -235,6 +236,21 @@ bool vtkGnomonEGLRenderWindow::HasFrame()
     return false;
   }
   return true;
+}
+
+//------------------------------------------------------------------------------
+int vtkGnomonEGLRenderWindow::GetColorBufferSizes(int* rgba)
+{
+  if (!this->Initialized || !this->RenderFramebuffer->GetFBOIndex())
+  {
+    return this->Superclass::GetColorBufferSizes(rgba);
+  }
+  this->MakeCurrent();
+  this->GetState()->PushFramebufferBindings();
+  this->RenderFramebuffer->Bind();
+  const int sum = this->Superclass::GetColorBufferSizes(rgba);
+  this->GetState()->PopFramebufferBindings();
+  return sum;
 }
 
 //------------------------------------------------------------------------------

@@ -127,6 +127,12 @@ public:
     int blend = 0, int right = 0) override;
   ///@}
 
+  /**
+   * Bits per channel of the framebuffer that the renderers draw into: there is no other. Hardware
+   * selection asks for them.
+   */
+  int GetColorBufferSizes(int* rgba) override;
+
   ///@{
   /**
    * What a window without a screen answers.

@@ -48,5 +48,11 @@ float visibility_LIGHT(vec3 positionView, vec3 normalView)
 
   float depthReceiver = nsmDepth_LIGHT.x * z + nsmDepth_LIGHT.y;
   float depthCaster = texelFetch(nsmMap_LIGHT, ivec2(texel), 0).r;
-  return depthReceiver <= depthCaster + nsmDepth_LIGHT.z ? 1.0 : 0.0;
+  if (depthCaster >= 1.0)
+  {
+    return 1.0; // no caster here; receivers that do not cast may lie beyond the map's depths
+  }
+  // The position is rounded relative to its distance from the camera: eight roundings of a float.
+  float slack = nsmDepth_LIGHT.z + nsmDepth_LIGHT.x * length(positionView) / 2097152.0;
+  return depthReceiver <= depthCaster + slack ? 1.0 : 0.0;
 }

@@ -1,0 +1,318 @@
+// What stands beside shadows in a VTK application must not notice the pass: picking, translucent,
+// volumetric and overlay props, and the renderer's own settings.
+
+#include "PassScene.h"
+
+#include <vtkActor2D.h>
+#include <vtkColorTransferFunction.h>
+#include <vtkDataObject.h>
+#include <vtkFixedPointVolumeRayCastMapper.h>
+#include <vtkHardwareSelector.h>
+#include <vtkIdTypeArray.h>
+#include <vtkImageData.h>
+#include <vtkInformation.h>
+#include <vtkPiecewiseFunction.h>
+#include <vtkPlaneSource.h>
+#include <vtkPolyDataMapper2D.h>
+#include <vtkProperty.h>
+#include <vtkProperty2D.h>
+#include <vtkSelection.h>
+#include <vtkSelectionNode.h>
+#include <vtkTextActor.h>
+#include <vtkTextProperty.h>
+#include <vtkVolume.h>
+#include <vtkVolumeProperty.h>
+#include <vtkWorldPointPicker.h>
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string>
+
+using namespace gnomon::test;
+
+namespace
+{
+
+class Neighbours
+  : public PassTest
+  , public testing::WithParamInterface<Way>
+{
+protected:
+  Neighbours()
+  {
+    this->scene.choose(GetParam());
+    this->scene.renderer->SetBackground(0.1, 0.2, 0.3);
+    this->floor = this->scene.addFloor(4.0);
+    this->sphere = this->scene.addSphere({ 0.0, 0.0, 1.5 }, 0.7);
+    this->sun = this->scene.addSun({ 1.0, 0.3, -1.5 });
+    this->scene.lookFrom({ 0.0, -9.0, 7.0 });
+  }
+
+  /// Draws with casting and with idle light. Away from the shadows, which must be there, both must
+  /// be the same picture; inside `kept`, too.
+  template <typename IsKept>
+  void expectKept(IsKept kept)
+  {
+    this->scene.useGnomon();
+    const Picture shadowed = this->scene.render();
+    EXPECT_NE(this->scene.report().route, "none");
+    this->sun->SetShadowAttenuation(0.0f);
+    const Picture idle = this->scene.render();
+    EXPECT_EQ(this->scene.report().route, "none");
+    this->sun->SetShadowAttenuation(1.0f);
+    std::size_t keptPixels = 0;
+    std::size_t changedInside = 0;
+    std::size_t changedOutside = 0;
+    for (int y = 0; y < idle.height; ++y)
+    {
+      for (int x = 0; x < idle.width; ++x)
+      {
+        const bool changed = shadowed.at(x, y) != idle.at(x, y);
+        keptPixels += kept(idle, x, y) ? 1 : 0;
+        (kept(idle, x, y) ? changedInside : changedOutside) += changed ? 1 : 0;
+      }
+    }
+    EXPECT_GT(keptPixels, 100u);
+    EXPECT_EQ(changedInside, 0u);
+    EXPECT_GT(changedOutside, 100u) << "no shadow";
+  }
+
+  PassScene scene{ 200, 150 };
+  vtkActor* floor;
+  vtkActor* sphere;
+  vtkLight* sun;
+};
+
+INSTANTIATE_TEST_SUITE_P(Ways, Neighbours, allWays, nameOf);
+
+/// Props and ids that a rectangle selects, a line for each prop.
+std::set<std::string> selectedIds(
+  vtkRenderer* renderer, int association, const std::array<unsigned, 4>& box)
+{
+  vtkNew<vtkHardwareSelector> selector;
+  selector->SetRenderer(renderer);
+  selector->SetArea(box[0], box[1], box[2], box[3]);
+  selector->SetFieldAssociation(association);
+  const auto selection = vtkSmartPointer<vtkSelection>::Take(selector->Select());
+  std::set<std::string> lines;
+  for (unsigned int i = 0; selection && i < selection->GetNumberOfNodes(); ++i)
+  {
+    vtkSelectionNode* node = selection->GetNode(i);
+    std::string line =
+      "prop " + std::to_string(node->GetProperties()->Get(vtkSelectionNode::PROP_ID()));
+    auto* ids = vtkIdTypeArray::SafeDownCast(node->GetSelectionList());
+    for (vtkIdType id = 0; ids && id < ids->GetNumberOfValues(); ++id)
+    {
+      line += " " + std::to_string(ids->GetValue(id));
+    }
+    lines.insert(line);
+  }
+  return lines;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+TEST_P(Neighbours, hardwareSelectionGivesTheSameAnswers)
+{
+  const std::array<std::array<unsigned, 4>, 4> boxes = { { { { 100, 100, 100, 100 } },
+    { { 0, 0, 199, 149 } }, { { 90, 90, 120, 110 } }, { { 2, 147, 3, 148 } } } };
+  for (const int association :
+    { vtkDataObject::FIELD_ASSOCIATION_CELLS, vtkDataObject::FIELD_ASSOCIATION_POINTS })
+  {
+    for (const std::array<unsigned, 4>& box : boxes)
+    {
+      this->scene.usePlain();
+      this->scene.render();
+      const std::set<std::string> plain = selectedIds(this->scene.renderer, association, box);
+      this->scene.useGnomon();
+      const Picture before = this->scene.render();
+      EXPECT_EQ(selectedIds(this->scene.renderer, association, box), plain);
+      EXPECT_EQ(differingPixels(before, this->scene.render()), 0u) << "the frame after";
+      EXPECT_EQ(plain.empty(), &box == &boxes[3]);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Neighbours, worldPointPickerGivesTheSamePoints)
+{
+  vtkNew<vtkWorldPointPicker> picker;
+  const auto pick = [&](double x, double y)
+  {
+    this->scene.render();
+    picker->Pick(x, y, 0.0, this->scene.renderer);
+    const double* point = picker->GetPickPosition();
+    return glm::dvec3(point[0], point[1], point[2]);
+  };
+  for (const glm::ivec2& pixel :
+    { glm::ivec2(100, 105), { 100, 40 }, { 30, 60 }, { 150, 80 }, { 125, 75 }, { 1, 148 } })
+  {
+    this->scene.usePlain();
+    const glm::dvec3 plain = pick(pixel.x, pixel.y);
+    this->scene.useGnomon();
+    const glm::dvec3 gnomon = pick(pixel.x, pixel.y);
+    EXPECT_EQ(plain, gnomon) << pixel.x << ", " << pixel.y;
+  }
+  EXPECT_NEAR(pick(100, 40).z, 0.0, 0.05) << "the floor";
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Neighbours, translucentPropsAreDrawnAsVtkDrawsThem)
+{
+  // In the sphere's shadow, in front of lit floor alone: what it shows must not change.
+  vtkNew<vtkPlaneSource> pane;
+  pane->SetOrigin(0.6, -1.0, 0.6);
+  pane->SetPoint1(1.6, -1.0, 0.6);
+  pane->SetPoint2(0.6, 1.0, 0.6);
+  vtkActor* actor = this->scene.add(pane);
+  actor->GetProperty()->SetColor(1.0, 0.0, 0.0);
+  actor->GetProperty()->SetOpacity(0.5);
+  for (const bool peeling : { false, true })
+  {
+    this->scene.renderer->SetUseDepthPeeling(peeling);
+    // The pane's own share: the picture less the floor behind it, which is the same without it.
+    const auto share = [&](float attenuation)
+    {
+      this->sun->SetShadowAttenuation(attenuation);
+      actor->VisibilityOn();
+      const Picture with = this->scene.render();
+      actor->VisibilityOff();
+      const Picture without = this->scene.render();
+      actor->VisibilityOn();
+      std::vector<int> values;
+      for (std::size_t i = 0; i < with.rgb.size(); ++i)
+      {
+        values.push_back(with.rgb[i] - without.rgb[i] / 2);
+      }
+      return std::make_pair(values, differingPixels(with, without));
+    };
+    const auto shadowed = share(1.0f);
+    const auto idle = share(0.0f);
+    EXPECT_GT(shadowed.second, 500u);
+    std::size_t different = 0;
+    for (std::size_t i = 0; i < shadowed.first.size(); ++i)
+    {
+      // Where the pane is not, the share is half of the picture, which shadows may change.
+      const bool isPane = i % 3 == 0 && idle.first[i] > 115;
+      different += isPane && std::abs(shadowed.first[i] - idle.first[i]) > 2 ? 1 : 0;
+    }
+    EXPECT_EQ(different, 0u) << "depth peeling: " << peeling;
+  }
+  this->sun->SetShadowAttenuation(1.0f);
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Neighbours, overlaysAreDrawnAsVtkDrawsThem)
+{
+  vtkNew<vtkTextActor> text;
+  text->SetInput("shadows");
+  text->GetTextProperty()->SetFontSize(30);
+  text->GetTextProperty()->SetColor(1.0, 1.0, 0.0);
+  text->SetPosition(5.0, 5.0);
+  this->scene.renderer->AddViewProp(text);
+  vtkNew<vtkPlaneSource> square;
+  square->SetOrigin(105.0, 60.0, 0.0);
+  square->SetPoint1(135.0, 60.0, 0.0);
+  square->SetPoint2(105.0, 85.0, 0.0);
+  vtkNew<vtkPolyDataMapper2D> mapper;
+  mapper->SetInputConnection(square->GetOutputPort());
+  vtkNew<vtkActor2D> overlay;
+  overlay->SetMapper(mapper);
+  overlay->GetProperty()->SetColor(0.0, 1.0, 0.0);
+  this->scene.renderer->AddViewProp(overlay);
+  this->expectKept(
+    [](const Picture& picture, int x, int y)
+    {
+      const glm::ivec3 colour = picture.at(x, y);
+      const bool isText = colour.r > 200 && colour.b < 60;
+      const bool isSquare = colour == glm::ivec3(0, 255, 0);
+      return isText || isSquare;
+    });
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Neighbours, volumesAreDrawnAsVtkDrawsThem)
+{
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(16, 16, 16);
+  image->SetSpacing(0.1, 0.1, 0.1);
+  image->SetOrigin(-3.0, -2.0, 0.5);
+  image->AllocateScalars(VTK_UNSIGNED_CHAR, 1);
+  auto* values = static_cast<unsigned char*>(image->GetScalarPointer());
+  std::fill_n(values, 16 * 16 * 16, static_cast<unsigned char>(200));
+  vtkNew<vtkFixedPointVolumeRayCastMapper> mapper;
+  mapper->SetInputData(image);
+  mapper->AutoAdjustSampleDistancesOff(); // the same picture on a busy machine
+  vtkNew<vtkPiecewiseFunction> opacity;
+  opacity->AddPoint(0.0, 0.0);
+  opacity->AddPoint(255.0, 1.0);
+  vtkNew<vtkColorTransferFunction> colour;
+  colour->AddRGBPoint(0.0, 0.0, 0.0, 1.0);
+  colour->AddRGBPoint(200.0, 0.0, 0.0, 1.0);
+  vtkNew<vtkVolume> volume;
+  volume->SetMapper(mapper);
+  volume->GetProperty()->SetScalarOpacity(opacity);
+  volume->GetProperty()->SetColor(colour);
+  volume->GetProperty()->SetScalarOpacityUnitDistance(0.02); // opaque
+  this->scene.renderer->AddViewProp(volume);
+  this->expectKept([](const Picture& picture, int x, int y)
+    { return picture.at(x, y).b > 200 && picture.at(x, y).r < 10; });
+  this->scene.render();
+  EXPECT_THAT(this->scene.report().notes, testing::ElementsAre(testing::HasSubstr("vtkVolume")));
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Neighbours, fxaaIsHonoured)
+{
+  const Picture without = this->scene.render();
+  this->scene.renderer->UseFXAAOn();
+  const Picture with = this->scene.render();
+  EXPECT_GT(differingPixels(without, with), 50u);
+  // Inside a shadow the colour stays black.
+  EXPECT_EQ(with.red(100, 3), without.red(100, 3));
+  this->sun->SetShadowAttenuation(0.0f);
+  const Picture idle = this->scene.render();
+  this->scene.usePlain();
+  EXPECT_EQ(differingPixels(idle, this->scene.render()), 0u);
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Neighbours, depthPeelingIsHonoured)
+{
+  // Two panes that pierce each other: only peeling sorts them.
+  for (const double slope : { 1.0, -1.0 })
+  {
+    vtkNew<vtkPlaneSource> pane;
+    pane->SetOrigin(-1.5, -1.5, 1.0 - slope);
+    pane->SetPoint1(1.5, -1.5, 1.0 + slope);
+    pane->SetPoint2(-1.5, 1.5, 1.0 - slope);
+    vtkActor* actor = this->scene.add(pane);
+    actor->GetProperty()->SetOpacity(0.6);
+    actor->GetProperty()->SetColor(slope > 0.0 ? 1.0 : 0.0, 0.0, slope > 0.0 ? 0.0 : 1.0);
+  }
+  const Picture unsorted = this->scene.render();
+  this->scene.renderer->UseDepthPeelingOn();
+  const Picture peeled = this->scene.render();
+  EXPECT_GT(differingPixels(unsorted, peeled, 20), 500u);
+  EXPECT_TRUE(this->scene.renderer->GetLastRenderingUsedDepthPeeling());
+  this->sun->SetShadowAttenuation(0.0f);
+  const Picture idle = this->scene.render();
+  this->scene.usePlain();
+  EXPECT_EQ(differingPixels(idle, this->scene.render()), 0u);
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Neighbours, renderedPropsAreCounted)
+{
+  this->scene.usePlain();
+  this->scene.render();
+  const int plain = this->scene.renderer->GetNumberOfPropsRendered();
+  this->scene.useGnomon();
+  this->scene.render();
+  EXPECT_EQ(this->scene.renderer->GetNumberOfPropsRendered(), plain);
+  EXPECT_EQ(this->scene.pass->GetNumberOfRenderedProps(), plain);
+}

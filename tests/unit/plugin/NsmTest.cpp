@@ -1,0 +1,333 @@
+// The quality of the plain shadow map, with its default settings: no acne, no detached shadows, and
+// no view that breaks it.
+
+#include "PassScene.h"
+
+#include "plugin/VisibilityImages.h"
+#include "plugin/vtkGnomonPropKeys.h"
+
+#include <vtkCellArray.h>
+#include <vtkPoints.h>
+
+#include <cmath>
+
+using namespace gnomon::test;
+using gnomon::VisibilityImages;
+
+namespace
+{
+
+class Nsm : public PassTest
+{
+protected:
+  /// Draws a frame, and checks that its numbers are numbers.
+  static const VisibilityImages& draw(PassScene& scene)
+  {
+    scene.pass->KeepVisibilityOn();
+    scene.render();
+    const VisibilityImages& kept = scene.pass->GetVisibility();
+    std::size_t broken = 0;
+    for (const std::vector<float>& light : kept.visibility)
+    {
+      for (const float value : light)
+      {
+        broken += value >= 0.0f && value <= 1.0f ? 0 : 1;
+      }
+    }
+    for (const std::vector<float>* plane : { &kept.positionX, &kept.positionY, &kept.positionZ,
+           &kept.normalX, &kept.normalY, &kept.normalZ })
+    {
+      for (const float value : *plane)
+      {
+        broken += std::isfinite(value) ? 0 : 1;
+      }
+    }
+    EXPECT_EQ(broken, 0u);
+    return kept;
+  }
+};
+
+/// Of the pixels that face the light by at least this cosine, those that are not lit.
+struct Acne
+{
+  std::size_t facing = 0;
+  std::size_t dark = 0;
+};
+Acne countAcne(const VisibilityImages& kept, const glm::dvec3& toLight, double leastCosine)
+{
+  Acne acne;
+  const glm::dvec3 direction = glm::normalize(toLight);
+  for (std::size_t i = 0; i < kept.coverage.size(); ++i)
+  {
+    const glm::dvec3 normal(kept.normalX[i], kept.normalY[i], kept.normalZ[i]);
+    if (kept.coverage[i] > 0.0f && glm::dot(normal, direction) > leastCosine)
+    {
+      ++acne.facing;
+      acne.dark += kept.visibility[0][i] < 1.0f ? 1 : 0;
+    }
+  }
+  return acne;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+TEST_F(Nsm, litPlaneHasNoAcneAtAnyAngle)
+{
+  for (const int mapSize : { 64, 1024 })
+  {
+    PassScene scene(200, 200);
+    scene.addFloor(4.0);
+    vtkLight* sun = scene.addSun({ 0.0, 0.0, -1.0 });
+    scene.pass->SetMapSize(mapSize);
+    scene.lookFrom({ 1.0, -7.0, 6.0 });
+    for (const double degrees : { 0.0, 5.0, 30.0, 45.0, 60.0, 75.0, 85.0, 88.0, 89.0 })
+    {
+      const double angle = glm::radians(degrees);
+      // Turned off the axes, so that texels and edges do not agree.
+      const glm::dvec3 toLight(0.8 * std::sin(angle), 0.6 * std::sin(angle), std::cos(angle));
+      sun->SetPosition(toLight.x, toLight.y, toLight.z);
+      const Acne acne = countAcne(draw(scene), toLight, 0.0);
+      EXPECT_GT(acne.facing, 10000u);
+      EXPECT_EQ(acne.dark, 0u) << degrees << " degrees, map " << mapSize;
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Nsm, litPlaneHasNoAcneUnderASpotLight)
+{
+  PassScene scene(200, 200);
+  scene.addFloor(4.0);
+  scene.lookFrom({ 1.0, -7.0, 6.0 });
+  vtkLight* spot = scene.addSpot({ 0.0, 0.0, 3.0 }, glm::dvec3(0.0), 80.0);
+  for (const double height : { 3.0, 1.0, 0.3, 0.1 })
+  {
+    spot->SetPosition(-3.0, -2.0, height);
+    const VisibilityImages& kept = draw(scene);
+    std::size_t inside = 0;
+    std::size_t dark = 0;
+    for (std::size_t i = 0; i < kept.coverage.size(); ++i)
+    {
+      const glm::dvec3 position(kept.origin[0] + kept.positionX[i],
+        kept.origin[1] + kept.positionY[i], kept.origin[2] + kept.positionZ[i]);
+      const glm::dvec3 toPoint = position - glm::dvec3(-3.0, -2.0, height);
+      const glm::dvec3 axis = glm::normalize(glm::dvec3(3.0, 2.0, -height));
+      const bool inCone = kept.coverage[i] > 0.0f &&
+        glm::dot(glm::normalize(toPoint), axis) > std::cos(glm::radians(79.5));
+      inside += inCone ? 1 : 0;
+      dark += inCone && kept.visibility[0][i] < 1.0f ? 1 : 0;
+    }
+    EXPECT_GT(inside, 5000u);
+    EXPECT_EQ(dark, 0u) << "height " << height;
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Nsm, sphereHasNoAcne)
+{
+  PassScene scene(300, 300);
+  scene.addSphere(glm::dvec3(0.0), 1.0);
+  scene.addSun({ 1.0, 0.4, -1.5 });
+  scene.lookFrom({ -2.0, -2.0, 3.0 });
+  for (const int mapSize : { 64, 256, 1024 })
+  {
+    scene.pass->SetMapSize(mapSize);
+    // The sphere is convex: all that faces the light is lit. Within a texel of the terminator, the
+    // map cannot tell.
+    const Acne acne = countAcne(draw(scene), { -1.0, -0.4, 1.5 }, 4.0 / mapSize + 0.05);
+    EXPECT_GT(acne.facing, 20000u);
+    EXPECT_EQ(acne.dark, 0u) << "map " << mapSize;
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Nsm, shadowsTouchTheirCasters)
+{
+  // A wall on a floor, seen from above; its shadow begins at x = 0.1 and must do so within a texel.
+  PassScene scene(400, 400);
+  scene.addFloor(4.0);
+  scene.addBox({ -0.1, -3.0, 0.0 }, { 0.1, 3.0, 1.0 });
+  scene.addSun({ 1.0, 0.0, -1.0 });
+  for (const int mapSize : { 256, 1024 })
+  {
+    scene.pass->SetMapSize(mapSize);
+    scene.lookDown(0.2, 0.2);
+    const Picture picture = scene.render();
+    // The floor's extent across the light, and how long a texel's footprint on the floor is.
+    const double texel = (8.0 + 1.0) / mapSize * std::sqrt(2.0);
+    for (const int y : { 100, 200, 300 })
+    {
+      int firstDark = -1;
+      for (int x = picture.width - 1; x >= 0; --x)
+      {
+        const double floorX = scene.floorAt(x, y).x;
+        if (floorX > 0.1 && picture.red(x, y) == 0)
+        {
+          firstDark = x;
+        }
+      }
+      ASSERT_GE(firstDark, 0);
+      EXPECT_LE(scene.floorAt(firstDark, y).x - 0.1, texel + 0.002) << "map " << mapSize;
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Nsm, thinPostsCastWhereverTheyCoverTexelCentres)
+{
+  PassScene scene(300, 300);
+  scene.addFloor(4.0);
+  for (int i = -3; i <= 3; ++i)
+  {
+    scene.addBox({ i - 0.01, -0.01, 0.0 }, { i + 0.01, 0.01, 1.0 });
+  }
+  scene.addSun({ 0.3, 1.0, -1.0 });
+  scene.lookFrom({ 0.0, -6.0, 6.0 });
+  scene.pass->SetMapSize(2048); // 0.02 is 5 texels
+  const VisibilityImages mapped = draw(scene);
+  scene.pass->SetTechnique("raytraced");
+  const VisibilityImages traced = draw(scene);
+  const Agreement agreement = compareVisibility(mapped, traced);
+  std::size_t shadow = 0;
+  for (std::size_t i = 0; i < traced.coverage.size(); ++i)
+  {
+    shadow +=
+      traced.coverage[i] > 0.0f && traced.normalZ[i] > 0.9f && traced.visibility[0][i] == 0.0f ? 1
+                                                                                               : 0;
+  }
+  EXPECT_GT(shadow, 150u);
+  EXPECT_LE(agreement.wrong, shadow / 2);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Nsm, receiversThatDoNotCastMayLieBehindAllCasters)
+{
+  for (const bool spot : { false, true })
+  {
+    PassScene scene(300, 300);
+    vtkGnomonPropKeys::SetCasts(scene.addFloor(4.0), false);
+    scene.addSphere({ -1.0, 0.0, 2.5 }, 0.7);
+    spot ? scene.addSpot({ -2.0, 0.0, 5.0 }, glm::dvec3(0.0), 50.0)
+         : scene.addSun({ 1.0, 0.4, -1.5 });
+    scene.lookFrom({ 0.0, -9.0, 7.0 });
+    const VisibilityImages mapped = draw(scene);
+    scene.pass->SetTechnique("raytraced");
+    const Agreement agreement = compareVisibility(mapped, draw(scene));
+    EXPECT_GT(agreement.covered, 20000u);
+    EXPECT_LE(agreement.wrong, 40u) << "spot: " << spot; // the map's square has empty corners
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Nsm, litPlaneHasNoAcneFromFarAway)
+{
+  PassScene scene(200, 200);
+  scene.addFloor(4.0);
+  scene.addSun({ 0.0, 0.0, -1.0 });
+  for (const double distance : { 10.0, 100.0, 1000.0 })
+  {
+    scene.lookFrom({ 0.1 * distance, -0.5 * distance, distance });
+    scene.renderer->GetActiveCamera()->SetViewAngle(2.0 * glm::degrees(std::atan(5.0 / distance)));
+    const Acne acne = countAcne(draw(scene), { 0.0, 0.0, 1.0 }, 0.0);
+    EXPECT_GT(acne.facing, 10000u);
+    EXPECT_EQ(acne.dark, 0u) << "from " << distance;
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Nsm, degenerateViewsStayFinite)
+{
+  const auto drawBothWays = [](PassScene& scene)
+  {
+    for (const char* technique : { "nsm", "raytraced" })
+    {
+      scene.pass->SetTechnique(technique);
+      draw(scene);
+    }
+    scene.pass->SetTechnique("nsm");
+    scene.pass->KeepVisibilityOff();
+    scene.render();
+    EXPECT_EQ(scene.report().route, "inline");
+  };
+  // Straight along every axis.
+  for (const glm::dvec3& direction : { glm::dvec3(0.0, -1.0, 0.0), { 0.0, 1.0, 0.0 },
+         { 1.0, 0.0, 0.0 }, { 0.0, 0.0, 1.0 }, { 0.0, 0.0, -1.0 } })
+  {
+    PassScene scene(64, 48);
+    scene.addFloor(4.0);
+    scene.addSphere({ 0.0, 0.0, 1.5 }, 0.7);
+    scene.addSun(direction);
+    scene.lookFrom({ 0.0, -9.0, 7.0 });
+    drawBothWays(scene);
+  }
+  // Spot lights inside, behind and on the casters, and with the narrowest and widest of cones.
+  for (const glm::dvec3& position : { glm::dvec3(0.0, 0.0, 1.5), { 0.0, 0.0, -1.0 },
+         { 0.0, 0.0, 0.0 }, { 0.7, 0.0, 1.5 }, { 0.0, 0.0, 50.0 } })
+  {
+    for (const double cone : { 1.0, 45.0, 89.0 })
+    {
+      PassScene scene(64, 48);
+      scene.addFloor(4.0);
+      scene.addSphere({ 0.0, 0.0, 1.5 }, 0.7);
+      scene.addSpot(position, { 0.1, 0.2, -3.0 }, cone);
+      scene.lookFrom({ 0.0, -9.0, 7.0 });
+      drawBothWays(scene);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Nsm, sceneWithoutPropsOrCastersIsLit)
+{
+  PassScene scene(64, 48);
+  scene.addSun({ 1.0, 0.4, -1.5 });
+  scene.lookFrom({ 0.0, -9.0, 7.0 });
+  EXPECT_EQ(differingPixels(scene.render(), scene.render()), 0u);
+  scene.pass->SetTechnique("raytraced");
+  scene.render();
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Nsm, singleTriangleAndFlatSceneAreLit)
+{
+  vtkNew<vtkPoints> points;
+  points->InsertNextPoint(-1.0, -1.0, 0.0);
+  points->InsertNextPoint(1.0, -1.0, 0.0);
+  points->InsertNextPoint(0.0, 1.0, 0.0);
+  vtkNew<vtkCellArray> cells;
+  const vtkIdType corners[3] = { 0, 1, 2 };
+  cells->InsertNextCell(3, corners);
+  vtkNew<vtkPolyData> triangle;
+  triangle->SetPoints(points);
+  triangle->SetPolys(cells);
+  for (const int mapSize : { 16, 1024 })
+  {
+    for (const glm::dvec3& direction :
+      { glm::dvec3(0.0, 0.0, -1.0), { 1.0, 0.4, -1.5 }, { 1.0, 0.0, -0.02 } })
+    {
+      PassScene scene(200, 150);
+      scene.add(triangle);
+      scene.addSun(direction);
+      scene.pass->SetMapSize(mapSize);
+      scene.lookFrom({ 0.0, -4.0, 4.0 });
+      const Acne acne = countAcne(draw(scene), -direction, 0.0);
+      EXPECT_GT(acne.facing, 1000u);
+      EXPECT_EQ(acne.dark, 0u) << "map " << mapSize << ", towards " << direction.x;
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Nsm, smallestMapStillShadows)
+{
+  PassScene scene(200, 200);
+  scene.addFloor(4.0);
+  scene.addBox({ -1.0, -1.0, 1.0 }, { 1.0, 1.0, 3.0 });
+  scene.addSun({ 1.0, 0.0, -1.0 });
+  scene.pass->SetMapSize(16);
+  scene.lookDown(4.0);
+  const Picture picture = scene.render();
+  EXPECT_EQ(scene.redAt(picture, 2.5, 0.0), 0);
+  EXPECT_NEAR(scene.redAt(picture, -3.0, 0.0), 180, 1);
+}

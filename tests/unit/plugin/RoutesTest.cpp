@@ -1,0 +1,193 @@
+// Both routes of `nsm` on the built-in scenes, and scenes far away and of other sizes.
+
+#include "PassScene.h"
+
+#include "Scene.h"
+
+#include "plugin/VisibilityImages.h"
+
+#include <vtkActorCollection.h>
+#include <vtkLightCollection.h>
+#include <vtkTransform.h>
+
+#include <cmath>
+
+using namespace gnomon::test;
+using gnomon::VisibilityImages;
+
+namespace
+{
+
+class Routes
+  : public PassTest
+  , public testing::WithParamInterface<const char*>
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Routes,
+  testing::Values("bunny", "cube", "primitives", "posts", "plates", "terrain"),
+  [](const testing::TestParamInfo<const char*>& scene) { return std::string(scene.param); });
+
+/// A built-in scene's renderer with the pass, in a window.
+struct ToolScene
+{
+  explicit ToolScene(const std::string& name, int size)
+    : renderer(gnomon::tool::makeRenderer(gnomon::tool::loadScene(name)))
+  {
+    this->window->SetSize(size, size);
+    this->window->AddRenderer(this->renderer);
+    this->renderer->SetPass(this->pass);
+  }
+  Picture render()
+  {
+    this->window->Render();
+    return readPicture(this->window);
+  }
+
+  vtkNew<vtkGnomonEGLRenderWindow> window;
+  vtkSmartPointer<vtkRenderer> renderer;
+  vtkNew<vtkGnomonShadowPass> pass;
+};
+
+struct Placing
+{
+  const char* name;
+  const char* technique;
+  double distance; ///< along all axes
+  double scale;
+};
+
+class PlacedScenes
+  : public PassTest
+  , public testing::WithParamInterface<Placing>
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(Placings, PlacedScenes,
+  testing::Values(Placing{ "far", "nsm", 4e6, 1.0 }, Placing{ "far", "raytraced", 4e6, 1.0 },
+    Placing{ "small", "nsm", 0.0, 1e-4 }, Placing{ "small", "raytraced", 0.0, 1e-4 },
+    Placing{ "large", "nsm", 0.0, 1e4 }, Placing{ "large", "raytraced", 0.0, 1e4 }),
+  [](const testing::TestParamInfo<Placing>& placing)
+  { return std::string(placing.param.name) + "_" + placing.param.technique; });
+
+/// Moves a whole scene, camera and lights with it: props by matrices.
+void place(vtkRenderer* renderer, const Placing& placing)
+{
+  vtkNew<vtkTransform> transform;
+  transform->Translate(placing.distance, placing.distance, placing.distance);
+  transform->Scale(placing.scale, placing.scale, placing.scale);
+  vtkActorCollection* actors = renderer->GetActors();
+  actors->InitTraversal();
+  while (vtkActor* actor = actors->GetNextActor())
+  {
+    vtkNew<vtkTransform> placed;
+    placed->SetMatrix(transform->GetMatrix());
+    placed->Concatenate(actor->GetUserMatrix());
+    actor->SetUserMatrix(placed->GetMatrix());
+  }
+  vtkLightCollection* lights = renderer->GetLights();
+  lights->InitTraversal();
+  while (vtkLight* light = lights->GetNextItem())
+  {
+    light->SetPosition(transform->TransformDoublePoint(light->GetPosition()));
+    light->SetFocalPoint(transform->TransformDoublePoint(light->GetFocalPoint()));
+  }
+  vtkCamera* camera = renderer->GetActiveCamera();
+  const double* range = camera->GetClippingRange();
+  const double nearest = range[0] * placing.scale;
+  const double farthest = range[1] * placing.scale;
+  camera->SetPosition(transform->TransformDoublePoint(camera->GetPosition()));
+  camera->SetFocalPoint(transform->TransformDoublePoint(camera->GetFocalPoint()));
+  camera->SetClippingRange(nearest, farthest);
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+TEST_P(Routes, ofNsmDifferOnAtMostOnePixelInAHundredThousand)
+{
+  ToolScene scene(GetParam(), 512);
+  scene.pass->SetTechnique("nsm");
+  scene.pass->SetRoute(vtkGnomonShadowPass::ROUTE_INLINE);
+  const Picture direct = scene.render();
+  EXPECT_EQ(scene.pass->GetReport().route, "inline");
+  scene.pass->SetRoute(vtkGnomonShadowPass::ROUTE_IMAGE);
+  const Picture image = scene.render();
+  EXPECT_EQ(scene.pass->GetReport().route, "image");
+  const std::size_t different = differingPixels(direct, image, 1);
+  RecordProperty("differentPixels", static_cast<int>(different));
+  EXPECT_LE(different, direct.pixels() / 100000);
+  scene.renderer->SetPass(nullptr);
+  EXPECT_GT(differingPixels(direct, scene.render(), 32), 500u) << "no shadow";
+}
+
+//------------------------------------------------------------------------------
+TEST_P(PlacedScenes, haveTheSameVisibility)
+{
+  const Placing& placing = GetParam();
+  ToolScene near("primitives", 320);
+  near.pass->SetTechnique(placing.technique);
+  near.pass->KeepVisibilityOn();
+  near.render();
+  ToolScene placed("primitives", 320);
+  placed.pass->SetTechnique(placing.technique);
+  placed.pass->KeepVisibilityOn();
+  place(placed.renderer, placing);
+  placed.render();
+  const Agreement agreement =
+    compareVisibility(near.pass->GetVisibility(), placed.pass->GetVisibility());
+  RecordProperty("wrongPixels", static_cast<int>(agreement.wrong));
+  EXPECT_GT(agreement.covered, 50000u);
+  EXPECT_GE(agreement.agreeing(), 0.9999) << agreement.wrong << " wrong, " << agreement.coverage
+                                          << " covered otherwise, of " << agreement.covered;
+}
+
+//------------------------------------------------------------------------------
+TEST_F(PassTest, visibilityIsZeroTurnedAwayAndOutsideTheCone)
+{
+  for (const char* technique : { "nsm", "raytraced" })
+  {
+    PassScene scene(200, 150);
+    scene.addFloor(4.0);
+    scene.addSphere({ 0.0, 0.0, 1.5 }, 0.7);
+    const glm::dvec3 light(-2.0, -2.0, 4.0);
+    const glm::dvec3 target(0.3, 0.0, 1.0);
+    scene.addSpot(light, target, 20.0);
+    scene.lookFrom({ 0.0, -9.0, 7.0 });
+    scene.pass->SetTechnique(technique);
+    scene.pass->KeepVisibilityOn();
+    scene.render();
+    const VisibilityImages& kept = scene.pass->GetVisibility();
+    std::size_t turned = 0;
+    std::size_t outside = 0;
+    std::size_t lit = 0;
+    for (std::size_t i = 0; i < kept.coverage.size(); ++i)
+    {
+      if (kept.coverage[i] == 0.0f)
+      {
+        continue;
+      }
+      const glm::dvec3 position = glm::dvec3(kept.origin[0], kept.origin[1], kept.origin[2]) +
+        glm::dvec3(kept.positionX[i], kept.positionY[i], kept.positionZ[i]);
+      const glm::dvec3 normal(kept.normalX[i], kept.normalY[i], kept.normalZ[i]);
+      const glm::dvec3 toLight = glm::normalize(light - position);
+      const double cosine = glm::dot(-toLight, glm::normalize(target - light));
+      const float visibility = kept.visibility[0][i];
+      EXPECT_TRUE(visibility == 0.0f || visibility == 1.0f);
+      if (glm::dot(normal, toLight) < -1e-4)
+      {
+        ++turned;
+        EXPECT_EQ(visibility, 0.0f);
+      }
+      else if (cosine < std::cos(glm::radians(20.0)) - 1e-4)
+      {
+        ++outside;
+        EXPECT_EQ(visibility, 0.0f);
+      }
+      lit += visibility == 1.0f ? 1 : 0;
+    }
+    EXPECT_GT(turned, 50u);
+    EXPECT_GT(outside, 1000u);
+    EXPECT_GT(lit, 1000u);
+  }
+}

@@ -1,0 +1,299 @@
+// The pass's own settings, windows of any shape, and viewports that do not fill them.
+
+#include "PassScene.h"
+
+#include "plugin/VisibilityImages.h"
+
+#include <vtkLightCollection.h>
+
+#include <gmock/gmock.h>
+
+#include <sstream>
+
+using namespace gnomon::test;
+using testing::HasSubstr;
+
+namespace
+{
+
+class Settings : public PassTest
+{
+};
+
+class SettingsOfWay
+  : public PassTest
+  , public testing::WithParamInterface<Way>
+{
+};
+INSTANTIATE_TEST_SUITE_P(Ways, SettingsOfWay, allWays, nameOf);
+
+void fill(PassScene& scene)
+{
+  scene.addFloor(4.0);
+  scene.addSphere({ 0.0, 0.0, 1.5 }, 0.7);
+  scene.addSun({ 1.0, 0.3, -1.5 });
+  scene.lookFrom({ 0.0, -9.0, 7.0 });
+}
+
+/// Draws two scenes' renderers in the halves of one window, several times, and expects what their
+/// own windows show.
+void expectSideBySide(
+  PassScene& left, const Picture& leftAlone, PassScene& right, const Picture& rightAlone)
+{
+  const int width = leftAlone.width;
+  vtkNew<vtkGnomonEGLRenderWindow> window;
+  window->SetSize(2 * width, leftAlone.height);
+  left.window->RemoveRenderer(left.renderer);
+  right.window->RemoveRenderer(right.renderer);
+  left.renderer->SetViewport(0.0, 0.0, 0.5, 1.0);
+  right.renderer->SetViewport(0.5, 0.0, 1.0, 1.0);
+  window->AddRenderer(left.renderer);
+  window->AddRenderer(right.renderer);
+  for (int frame = 0; frame < 3; ++frame)
+  {
+    // The two renderers share VTK's programs. Without this, VTK 9.1 leaves one renderer's lights in
+    // them for the other, with or without the pass.
+    vtkLight::SafeDownCast(left.renderer->GetLights()->GetItemAsObject(0))->Modified();
+    vtkLight::SafeDownCast(right.renderer->GetLights()->GetItemAsObject(0))->Modified();
+    window->Render();
+    const Picture both = readPicture(window);
+    std::size_t different = 0;
+    for (int y = 0; y < both.height; ++y)
+    {
+      for (int x = 0; x < width; ++x)
+      {
+        different += both.at(x, y) != leftAlone.at(x, y) ? 1 : 0;
+        different += both.at(x + width, y) != rightAlone.at(x, y) ? 1 : 0;
+      }
+    }
+    EXPECT_EQ(different, 0u) << "frame " << frame;
+  }
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+TEST_F(Settings, unknownTechniqueIsAnErrorAndChangesNothing)
+{
+  vtkNew<vtkGnomonShadowPass> pass;
+  EXPECT_STREQ(pass->GetTechnique(), vtkGnomonShadowPass::GetDefaultTechnique());
+  pass->SetTechnique("raytraced");
+  const vtkMTimeType time = pass->GetMTime();
+  for (const char* name : { "magic", "", "NSM", static_cast<const char*>(nullptr) })
+  {
+    pass->SetTechnique(name);
+    EXPECT_THAT(this->takeErrors(), HasSubstr("There is no technique"));
+    EXPECT_STREQ(pass->GetTechnique(), "raytraced");
+    EXPECT_EQ(pass->GetMTime(), time);
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Settings, techniquesAreListed)
+{
+  ASSERT_GE(vtkGnomonShadowPass::GetNumberOfTechniques(), 2);
+  vtkNew<vtkGnomonShadowPass> pass;
+  for (int i = 0; i < vtkGnomonShadowPass::GetNumberOfTechniques(); ++i)
+  {
+    pass->SetTechnique(vtkGnomonShadowPass::GetTechniqueName(i));
+    EXPECT_STREQ(pass->GetTechnique(), vtkGnomonShadowPass::GetTechniqueName(i));
+    EXPECT_STRNE(vtkGnomonShadowPass::GetTechniqueSummary(i), "");
+  }
+  EXPECT_EQ(vtkGnomonShadowPass::GetTechniqueName(-1), nullptr);
+  EXPECT_EQ(
+    vtkGnomonShadowPass::GetTechniqueName(vtkGnomonShadowPass::GetNumberOfTechniques()), nullptr);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Settings, numbersAreClamped)
+{
+  vtkNew<vtkGnomonShadowPass> pass;
+  EXPECT_EQ(pass->GetMapSize(), 1024);
+  pass->SetMapSize(0);
+  EXPECT_EQ(pass->GetMapSize(), 16);
+  pass->SetMapSize(1 << 20);
+  EXPECT_EQ(pass->GetMapSize(), 16384);
+  pass->SetRoute(7);
+  EXPECT_EQ(pass->GetRoute(), static_cast<int>(vtkGnomonShadowPass::ROUTE_IMAGE));
+  std::ostringstream text;
+  pass->Print(text);
+  EXPECT_THAT(text.str(), HasSubstr("MapSize: 16384"));
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Settings, inlineRouteAskedOfAScreenTechniqueIsAnErrorAndTheImageRoute)
+{
+  PassScene scene(200, 150);
+  fill(scene);
+  scene.pass->SetTechnique("raytraced");
+  const Picture image = scene.render();
+  scene.pass->SetRoute(vtkGnomonShadowPass::ROUTE_INLINE);
+  EXPECT_EQ(differingPixels(image, scene.render()), 0u);
+  EXPECT_EQ(scene.report().route, "image");
+  const std::string errors = this->takeErrors();
+  EXPECT_THAT(errors, HasSubstr("inline"));
+  EXPECT_THAT(errors, HasSubstr("raytraced"));
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Settings, inlineRouteWithKeptVisibilityIsTheImageRoute)
+{
+  PassScene scene(200, 150);
+  fill(scene);
+  scene.pass->SetRoute(vtkGnomonShadowPass::ROUTE_INLINE);
+  scene.pass->KeepVisibilityOn();
+  scene.render();
+  EXPECT_EQ(scene.report().route, "image");
+  EXPECT_THAT(scene.report().routeReason, HasSubstr("kept"));
+  EXPECT_EQ(scene.pass->GetVisibility().visibility.size(), 1u);
+  scene.pass->KeepVisibilityOff();
+  scene.render();
+  EXPECT_EQ(scene.report().route, "inline");
+  EXPECT_TRUE(scene.pass->GetVisibility().visibility.empty());
+}
+
+//------------------------------------------------------------------------------
+TEST_P(SettingsOfWay, measuredStagesSumToTheFrame)
+{
+  PassScene scene(200, 150);
+  fill(scene);
+  scene.choose(GetParam());
+  scene.render();
+  EXPECT_TRUE(scene.report().stages.empty());
+  EXPECT_GT(scene.report().wallMilliseconds, 0.0);
+  scene.pass->MeasureStagesOn();
+  scene.render();
+  scene.render();
+  double sum = 0.0;
+  for (const gnomon::StageTime& stage : scene.report().stages)
+  {
+    EXPECT_GE(stage.milliseconds, 0.0) << stage.name;
+    sum += stage.milliseconds;
+  }
+  EXPECT_GE(sum, 0.9 * scene.report().wallMilliseconds);
+  EXPECT_LE(sum, scene.report().wallMilliseconds);
+}
+
+//------------------------------------------------------------------------------
+TEST_P(SettingsOfWay, windowsOfOnePixel)
+{
+  for (const std::array<int, 2>& size :
+    { std::array<int, 2>{ { 1, 1 } }, { { 1, 40 } }, { { 40, 1 } } })
+  {
+    PassScene scene(size[0], size[1]);
+    fill(scene);
+    scene.choose(GetParam());
+    scene.pass->KeepVisibilityOn();
+    EXPECT_EQ(scene.render().pixels(), static_cast<std::size_t>(size[0] * size[1]));
+    EXPECT_EQ(scene.pass->GetVisibility().width, size[0]);
+    EXPECT_EQ(scene.pass->GetVisibility().height, size[1]);
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_P(SettingsOfWay, viewportThatDoesNotFillTheWindow)
+{
+  PassScene whole(120, 80);
+  fill(whole);
+  whole.choose(GetParam());
+  whole.pass->KeepVisibilityOn();
+  const Picture expected = whole.render();
+
+  PassScene part(300, 200);
+  fill(part);
+  part.choose(GetParam());
+  part.pass->KeepVisibilityOn();
+  part.renderer->SetViewport(0.5, 0.25, 0.9, 0.65); // 120 x 80 pixels at (150, 50)
+  const Picture picture = part.render();
+  std::size_t different = 0;
+  for (int y = 0; y < picture.height; ++y)
+  {
+    for (int x = 0; x < picture.width; ++x)
+    {
+      const bool inside = x >= 150 && x < 270 && y >= 50 && y < 130;
+      const glm::ivec3 exact = inside ? expected.at(x - 150, y - 50) : glm::ivec3(0);
+      different += picture.at(x, y) != exact ? 1 : 0;
+    }
+  }
+  EXPECT_EQ(different, 0u);
+  EXPECT_EQ(whole.pass->GetVisibility().width, part.pass->GetVisibility().width);
+  EXPECT_EQ(whole.pass->GetVisibility().visibility, part.pass->GetVisibility().visibility);
+}
+
+//------------------------------------------------------------------------------
+TEST_P(SettingsOfWay, renderersSideBySide)
+{
+  // Left with a pass of its own, right with another one, as in two windows.
+  PassScene left(100, 80);
+  fill(left);
+  left.choose(GetParam());
+  PassScene right(100, 80);
+  fill(right);
+  right.choose(GetParam());
+  right.renderer->GetActiveCamera()->Azimuth(40.0);
+  right.renderer->ResetCameraClippingRange();
+  const Picture expectedLeft = left.render();
+  const Picture expectedRight = right.render();
+
+  expectSideBySide(left, expectedLeft, right, expectedRight);
+}
+
+//------------------------------------------------------------------------------
+TEST_P(SettingsOfWay, onePassForTwoRenderersSideBySide)
+{
+  PassScene left(100, 80);
+  fill(left);
+  left.choose(GetParam());
+  PassScene right(100, 80);
+  right.addFloor(4.0);
+  right.addBox({ -1.0, -1.0, 0.0 }, { 0.0, 0.0, 2.0 });
+  right.addSun({ -1.0, 0.3, -1.5 });
+  right.lookFrom({ 0.0, -9.0, 7.0 });
+  right.choose(GetParam());
+  const Picture expectedLeft = left.render();
+  const Picture expectedRight = right.render();
+
+  right.renderer->SetPass(left.pass);
+  expectSideBySide(left, expectedLeft, right, expectedRight);
+}
+
+namespace
+{
+
+/// Runs with a Mesa that claims OpenGL 3.3 (tests/unit/plugin/CMakeLists.txt).
+class OldOpenGL : public PassTest
+{
+};
+
+} // namespace
+
+//------------------------------------------------------------------------------
+TEST_F(OldOpenGL, isOneClearErrorAndThePictureOfPlainVtk)
+{
+  PassScene scene(200, 150);
+  scene.window->SetContextVersion(3, 3);
+  fill(scene);
+  scene.usePlain();
+  const Picture plain = scene.render();
+  scene.window->MakeCurrent();
+  int major = 0;
+  int minor = 0;
+  scene.window->GetOpenGLVersion(major, minor);
+  if (10 * major + minor >= 43)
+  {
+    GTEST_SKIP() << "this driver gives OpenGL " << major << "." << minor
+                 << " when 3.3 is asked for";
+  }
+  scene.useGnomon();
+  EXPECT_EQ(differingPixels(plain, scene.render()), 0u);
+  const std::string errors = this->takeErrors();
+  EXPECT_THAT(errors, HasSubstr("OpenGL 4.3"));
+  EXPECT_THAT(errors, HasSubstr("3.3"));
+  EXPECT_THAT(errors, HasSubstr("without shadows"));
+  EXPECT_EQ(std::count(errors.begin(), errors.end(), '\n'), 1) << "one error";
+  EXPECT_EQ(scene.report().route, "none");
+  EXPECT_THAT(scene.report().routeReason, HasSubstr("OpenGL 4.3"));
+  scene.pass->SetTechnique("raytraced");
+  EXPECT_EQ(differingPixels(plain, scene.render()), 0u);
+  EXPECT_EQ(this->takeErrors(), "") << "said once";
+}
