@@ -17,6 +17,8 @@
 #include <vtkLight.h>
 #include <vtkLightCollection.h>
 
+#include <algorithm>
+
 namespace gnomon::tool
 {
 namespace
@@ -72,7 +74,7 @@ TEST_F(SceneFile, IsReadInFull)
 //------------------------------------------------------------------------------
 TEST_F(SceneFile, BecomesARenderer)
 {
-  const vtkSmartPointer<vtkRenderer> renderer = makeRenderer(this->load(sampleScene()));
+  const vtkSmartPointer<vtkRenderer> renderer = makeRenderer(this->load(sampleScene()), 1.0);
   EXPECT_FALSE(renderer->GetAutomaticLightCreation());
   ASSERT_EQ(renderer->GetActors()->GetNumberOfItems(), 1);
   vtkActor* actor = renderer->GetActors()->GetLastActor();
@@ -104,12 +106,23 @@ TEST_F(SceneFile, ClippingPlanesEncloseWhatIsInFrontOfTheCamera)
   nlohmann::json document = sampleScene();
   document["models"][0].erase("matrix");
   const Scene scene = this->load(document);
-  const double* range = makeRenderer(scene)->GetActiveCamera()->GetClippingRange();
-  const double distance = length(scene.camera.target - scene.camera.position);
-  EXPECT_GT(range[0], 0.5 * distance);
-  EXPECT_LT(range[0], distance - 1.0);
-  EXPECT_GT(range[1], distance + 1.0);
-  EXPECT_LT(range[1], 2.0 * distance);
+  const vtkSmartPointer<vtkRenderer> renderer = makeRenderer(scene, 1.0);
+  const double* range = renderer->GetActiveCamera()->GetClippingRange();
+  const Vec3 forward = normalized(scene.camera.target - scene.camera.position);
+  double nearest = 1e9;
+  double farthest = 0.0;
+  for (vtkIdType i = 0; i < scene.models[0].surface->GetNumberOfPoints(); ++i)
+  {
+    Vec3 point;
+    scene.models[0].surface->GetPoint(i, point.data());
+    const double depth = dot(point - scene.camera.position, forward);
+    nearest = std::min(nearest, depth);
+    farthest = std::max(farthest, depth);
+  }
+  EXPECT_LT(range[0], nearest);
+  EXPECT_GT(range[0], 0.9 * nearest);
+  EXPECT_GT(range[1], farthest);
+  EXPECT_LT(range[1], 1.1 * farthest);
 }
 
 //------------------------------------------------------------------------------
@@ -118,7 +131,8 @@ TEST_F(SceneFile, ClippingPlanesAreSoundWhenAllIsBehindTheCamera)
   nlohmann::json document = sampleScene();
   document["camera"]["target"] = { 6, 8, 10 };
   document["models"][0].erase("matrix");
-  const double* range = makeRenderer(this->load(document))->GetActiveCamera()->GetClippingRange();
+  const vtkSmartPointer<vtkRenderer> renderer = makeRenderer(this->load(document), 1.0);
+  const double* range = renderer->GetActiveCamera()->GetClippingRange();
   EXPECT_GT(range[0], 1e-3);
   EXPECT_GT(range[1], 10.0 * range[0]);
 }
