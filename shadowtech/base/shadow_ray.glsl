@@ -1,4 +1,8 @@
-// The shadow ray's numbers: the twin of ShadowRay.h, which says what they mean and why.
+// The shadow ray's numbers: the twin of ShadowRay.h, which says what they mean and why. Several
+// lights' sources may include it into one shader.
+
+#ifndef GNOMON_SHADOW_RAY
+#define GNOMON_SHADOW_RAY
 
 float planeNoise(vec3 normal, vec3 largest, vec3 extent, float doubleArea)
 {
@@ -27,3 +31,5 @@ bool insideCone(vec3 toLight, vec3 axis, float tangentSquared)
   vec3 across = toLight - along * axis;
   return along > 0.0 && dot(across, across) <= tangentSquared * (along * along);
 }
+
+#endif

@@ -33,13 +33,13 @@ std::vector<Uniform> describe(const ShadowLight& light, const LightView& view, i
   const glm::dvec4 texels(
     half * clip[0][0], half * clip[1][1], half * (offset.x + 1.0), half * (offset.y + 1.0));
   const bool spot = light.kind == LightKind::Spot;
+  const double tangent = std::tan(glm::radians(light.coneAngleDegrees));
   return { { "nsmMap_LIGHT", map },
     { "nsmLightFromView_LIGHT", glm::mat4(view.lightFromCentred * centredFromView) },
     { "nsmTexels_LIGHT", glm::vec4(texels) },
     { "nsmDepth_LIGHT",
       glm::vec4(view.depthScale, view.depthOffset, roundingSlack, view.valid ? sizeTexels : 0) },
-    { "nsmConeCosine_LIGHT",
-      spot ? static_cast<float>(std::cos(glm::radians(light.coneAngleDegrees))) : -2.0f } };
+    { "nsmCone_LIGHT", spot ? static_cast<float>(tangent * tangent) : -1.0f } };
 }
 
 } // namespace

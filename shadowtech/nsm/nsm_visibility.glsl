@@ -6,21 +6,23 @@
 // is needed for it. Where another surface covers the centre, the nearer of the plane's depth and the
 // point's own depth counts: the plane is right on convex surfaces, the point in concave corners.
 
+#include "shadowtech/base/shadow_ray.glsl"
+
 uniform sampler2D nsmMap_LIGHT;         // linear depth in [0, 1]
 uniform mat4 nsmLightFromView_LIGHT;    // rigid; z runs along the light
 uniform vec4 nsmTexels_LIGHT;           // texel = xy * (x, y or their slopes) + zw
 uniform vec4 nsmDepth_LIGHT;            // depth = x * z + y; z: rounding slack; w: map size in texels
-uniform float nsmConeCosine_LIGHT;      // spot lights; -2 for directional lights
+uniform float nsmCone_LIGHT;            // spot lights: squared tangent of half the cone; else -1
 
 float visibility_LIGHT(vec3 positionView, vec3 normalView)
 {
   vec3 p = (nsmLightFromView_LIGHT * vec4(positionView, 1.0)).xyz;
   vec3 n = mat3(nsmLightFromView_LIGHT) * normalView;
-  bool spot = nsmConeCosine_LIGHT > -1.5;
+  bool spot = nsmCone_LIGHT >= 0.0;
 
-  // Turned away from the light, or outside the cone.
-  float facing = spot ? -dot(n, p) : -n.z;
-  if (facing <= 0.0 || (spot && p.z < nsmConeCosine_LIGHT * length(p)))
+  const vec3 againstLight = vec3(0.0, 0.0, -1.0);
+  vec3 toLight = spot ? -p : againstLight;
+  if (!facesLight(n, toLight) || (spot && !insideCone(toLight, againstLight, nsmCone_LIGHT)))
   {
     return 0.0;
   }

@@ -32,7 +32,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Routes,
 struct ToolScene
 {
   explicit ToolScene(const std::string& name, int size)
-    : renderer(gnomon::tool::makeRenderer(gnomon::tool::loadScene(name)))
+    : renderer(gnomon::tool::makeRenderer(gnomon::tool::loadScene(name), 1.0))
   {
     this->window->SetSize(size, size);
     this->window->AddRenderer(this->renderer);
