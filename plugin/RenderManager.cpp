@@ -424,8 +424,7 @@ void RenderManager::setShaderParameters(
   // Opaque surfaces of the snapshot receive, on either route: the image route's layers know no
   // others.
   const OccluderCollector::Drawn drawn = this->collector_.drawn(mapper, prop);
-  const bool translucent = prop->IsRenderingTranslucentPolygonalGeometry();
-  this->shaders_.setParameters(program, drawn.index, drawn.receives && !translucent);
+  this->shaders_.setParameters(program, drawn.index, drawn.receives);
 }
 
 } // namespace gnomon

@@ -122,6 +122,37 @@ TEST_P(Routes, ofNsmDifferOnAtMostOnePixelInAHundredThousand)
 }
 
 //------------------------------------------------------------------------------
+TEST_F(PassTest, nsmOfTheBunnyIsWrongOnAtMostThreeInAThousandPixels)
+{
+  ToolScene scene("bunny", 512);
+  scene.pass->KeepVisibilityOn();
+  scene.pass->SetTechnique("nsm");
+  scene.render();
+  const VisibilityImages mapped = scene.pass->GetVisibility();
+  scene.pass->SetTechnique("raytraced");
+  scene.render();
+  const VisibilityImages& traced = scene.pass->GetVisibility();
+  vtkLight* light = vtkLight::SafeDownCast(scene.renderer->GetLights()->GetItemAsObject(0));
+  const double* from = light->GetPosition();
+  const double* to = light->GetFocalPoint();
+  std::size_t facing = 0;
+  std::size_t wrong = 0;
+  for (std::size_t i = 0; i < traced.coverage.size(); ++i)
+  {
+    const double cosine = traced.normalX[i] * (from[0] - to[0]) +
+      traced.normalY[i] * (from[1] - to[1]) + traced.normalZ[i] * (from[2] - to[2]);
+    if (traced.coverage[i] > 0.0f && cosine > 0.0)
+    {
+      ++facing;
+      wrong += mapped.visibility[0][i] != traced.visibility[0][i] ? 1 : 0;
+    }
+  }
+  RecordProperty("wrongPixels", static_cast<int>(wrong));
+  EXPECT_GT(facing, 100000u);
+  EXPECT_LE(wrong, 0.003 * facing);
+}
+
+//------------------------------------------------------------------------------
 TEST_P(PlacedScenes, haveTheSameVisibility)
 {
   const Placing& placing = GetParam();
