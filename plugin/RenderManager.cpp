@@ -327,7 +327,7 @@ void RenderManager::computeVisibility(bool keep)
     const int layer = static_cast<int>(i);
     if (findTechnique(slot.techniqueName)->info.pointwise)
     {
-      this->layers_.estimate(layer, *slot.technique, this->receiverTarget_,
+      this->layers_.estimate(layer, *slot.technique, slot.light, this->receiverTarget_,
         this->stageValues_.centredFromView, this->library_);
       this->endStageClock("visibility: estimate");
     }

@@ -59,7 +59,7 @@ std::string declare(Route route, const ShadedLight& shaded, int layer)
   {
     return head + "  return gnomonLayer(" + number + ");\n}\n";
   }
-  return ShaderLibrary::sourceForLight(shaded.technique->visibilityGlsl(), layer) + head +
+  return numberedForLight(shaded.technique->visibilityGlsl(shaded.light), layer) + head +
     "  return visibility_" + number + "(position, normal);\n}\n";
 }
 

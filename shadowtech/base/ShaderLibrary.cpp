@@ -93,12 +93,6 @@ std::string ShaderLibrary::source(const std::string& path)
 }
 
 //------------------------------------------------------------------------------
-std::string ShaderLibrary::sourceForLight(const std::string& path, int light)
-{
-  return numberedForLight(source(path), light);
-}
-
-//------------------------------------------------------------------------------
 std::string numberedForLight(const std::string& text, int light)
 {
   static const std::regex suffix("_LIGHT\\b");

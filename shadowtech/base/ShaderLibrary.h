@@ -28,9 +28,6 @@ public:
   /// @throws ShaderError for a file that is not embedded
   static std::string source(const std::string& path);
 
-  /// The same text with every identifier that ends in _LIGHT numbered: `map_LIGHT` becomes `map_3`.
-  static std::string sourceForLight(const std::string& path, int light);
-
   /// What a program is made of.
   struct Stage
   {
@@ -60,7 +57,7 @@ private:
   int compiles_ = 0;
 };
 
-/// `name_LIGHT` with the light's number in place of LIGHT.
+/// The text with every identifier that ends in _LIGHT numbered: `map_LIGHT` becomes `map_3`.
 std::string numberedForLight(const std::string& text, int light);
 
 } // namespace gnomon

@@ -86,9 +86,9 @@ public:
   /// Memory that the baked maps take on the GPU.
   virtual std::size_t bytesOfMaps() const { return 0; }
 
-  /// Path of the GLSL file of a pointwise technique; empty for a screen technique.
-  virtual std::string visibilityGlsl() const { return {}; }
-  /// The uniforms of that file, as of the last bake, for receivers in the view coordinates of a
+  /// The GLSL source of a pointwise technique, for a light of this kind; empty for a screen technique.
+  virtual std::string visibilityGlsl(const ShadowLight&) const { return {}; }
+  /// The uniforms of that source, as of the last bake, for receivers in the view coordinates of a
   /// camera.
   /// @param centredFromView the camera's rigid transformation from view to centred coordinates
   virtual std::vector<Uniform> uniforms(const glm::dmat4& centredFromView) const

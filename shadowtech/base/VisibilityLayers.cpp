@@ -27,14 +27,14 @@ void VisibilityLayers::resize(int width, int height, int layers)
 }
 
 //------------------------------------------------------------------------------
-void VisibilityLayers::estimate(int layer, const Technique& technique,
+void VisibilityLayers::estimate(int layer, const Technique& technique, const ShadowLight& light,
   const ReceiverTarget& receivers, const glm::dmat4& centredFromView, ShaderLibrary& shaders)
 {
   const GlStateGuard guard;
   const GLuint program = shaders.program(
     { { GL_VERTEX_SHADER, ShaderLibrary::source("shadowtech/base/screen_visibility.vert.glsl") },
       { GL_FRAGMENT_SHADER,
-        ShaderLibrary::sourceForLight(technique.visibilityGlsl(), 0) +
+        numberedForLight(technique.visibilityGlsl(light), 0) +
           ShaderLibrary::source("shadowtech/base/screen_visibility.frag.glsl") } });
   glUseProgram(program);
   const int freeUnit = ShaderLibrary::setUniforms(program,

@@ -22,8 +22,8 @@ public:
   void resize(int width, int height, int layers);
 
   /// Fills a layer by a pointwise technique's GLSL, called for the receivers of all pixels.
-  void estimate(int layer, const Technique& technique, const ReceiverTarget& receivers,
-    const glm::dmat4& centredFromView, ShaderLibrary& shaders);
+  void estimate(int layer, const Technique& technique, const ShadowLight& light,
+    const ReceiverTarget& receivers, const glm::dmat4& centredFromView, ShaderLibrary& shaders);
 
   /// Fills a layer with a screen technique's result.
   void upload(int layer, const std::vector<float>& visibility);

@@ -32,14 +32,17 @@ std::vector<Uniform> describe(const ShadowLight& light, const LightView& view, i
   const glm::dvec2 offset = view.perspective ? glm::dvec2(clip[2]) : glm::dvec2(clip[3]);
   const glm::dvec4 texels(
     half * clip[0][0], half * clip[1][1], half * (offset.x + 1.0), half * (offset.y + 1.0));
-  const bool spot = light.kind == LightKind::Spot;
-  const double tangent = std::tan(glm::radians(light.coneAngleDegrees));
-  return { { "nsmMap_LIGHT", map },
+  std::vector<Uniform> uniforms = { { "nsmMap_LIGHT", map },
     { "nsmLightFromView_LIGHT", glm::mat4(view.lightFromCentred * centredFromView) },
     { "nsmTexels_LIGHT", glm::vec4(texels) },
     { "nsmDepth_LIGHT",
-      glm::vec4(view.depthScale, view.depthOffset, roundingSlack, view.valid ? sizeTexels : 0) },
-    { "nsmCone_LIGHT", spot ? static_cast<float>(tangent * tangent) : -1.0f } };
+      glm::vec4(view.depthScale, view.depthOffset, roundingSlack, view.valid ? sizeTexels : 0) } };
+  if (light.kind == LightKind::Spot)
+  {
+    const double tangent = std::tan(glm::radians(light.coneAngleDegrees));
+    uniforms.push_back({ "nsmCone_LIGHT", static_cast<float>(tangent * tangent) });
+  }
+  return uniforms;
 }
 
 } // namespace
@@ -136,9 +139,11 @@ std::size_t Nsm::bytesOfMaps() const
 }
 
 //------------------------------------------------------------------------------
-std::string Nsm::visibilityGlsl() const
+std::string Nsm::visibilityGlsl(const ShadowLight& light) const
 {
-  return "shadowtech/nsm/nsm_visibility.glsl";
+  const std::string define =
+    light.kind == LightKind::Spot ? "#define NSM_SPOT_LIGHT 1\n" : "#define NSM_SPOT_LIGHT 0\n";
+  return define + ShaderLibrary::source("shadowtech/nsm/nsm_visibility.glsl");
 }
 
 //------------------------------------------------------------------------------

@@ -22,7 +22,7 @@ public:
 
   void bake(const MapInput& input) override;
   std::size_t bytesOfMaps() const override;
-  std::string visibilityGlsl() const override;
+  std::string visibilityGlsl(const ShadowLight& light) const override;
   std::vector<Uniform> uniforms(const glm::dmat4& centredFromView) const override;
 
 private:
