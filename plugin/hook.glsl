@@ -10,7 +10,7 @@ vec3 gnomonFaceNormal(vec3 positionView, bool parallelProjection)
 {
   vec3 toCamera = parallelProjection ? vec3(0.0, 0.0, 1.0) : -positionView;
   vec3 normal = cross(dFdx(positionView), dFdy(positionView));
-  float lengthSquared = dot(normal, normal);
-  normal = lengthSquared > 0.0 ? normal * inversesqrt(lengthSquared) : normalize(toCamera);
+  normal = dot(normal, normal) > 0.0 ? normal : toCamera;
+  normal *= inversesqrt(dot(normal, normal));
   return dot(normal, toCamera) < 0.0 ? -normal : normal;
 }
