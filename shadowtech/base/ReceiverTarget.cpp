@@ -48,8 +48,7 @@ void ReceiverTarget::begin(int width, int height, bool withNormals)
   glDisablei(GL_BLEND, 2);
   const float nothing[4] = { 0.0f, 0.0f, 0.0f, 0.0f };
   const float farthest = 1.0f;
-  glClearBufferfv(GL_COLOR, 1, nothing);
-  glClearBufferfv(GL_COLOR, 2, nothing);
+  glClearBufferfv(GL_COLOR, 2, nothing); // says that the positions, left as they are, mean nothing
   glClearBufferfv(GL_DEPTH, 0, &farthest);
 }
 
