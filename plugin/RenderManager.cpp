@@ -4,7 +4,6 @@
 #include "shadowtech/Registry.h"
 
 #include <vtkCamera.h>
-#include <vtkMath.h>
 #include <vtkMatrix4x4.h>
 #include <vtkOpenGLRenderWindow.h>
 #include <vtkOpenGLState.h>
@@ -13,7 +12,6 @@
 #include <vtkRenderer.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace gnomon
 {
@@ -191,8 +189,15 @@ bool RenderManager::chooseRoute(int wished, bool keepVisibility)
   {
     lights.push_back({ slot->light, slot->technique.get() });
   }
-  this->shaders_.configure(this->route_, lights);
+  this->shaders_.configure(this->route_, this->anyPointwise(), lights);
   return wished != vtkGnomonShadowPass::ROUTE_INLINE || screenTechnique.empty();
+}
+
+//------------------------------------------------------------------------------
+bool RenderManager::anyPointwise() const
+{
+  return std::any_of(this->casting_.begin(), this->casting_.end(),
+    [](const LightSlot* slot) { return findTechnique(slot->techniqueName)->info.pointwise; });
 }
 
 //------------------------------------------------------------------------------
@@ -218,17 +223,15 @@ void RenderManager::drawReceivers(const vtkRenderState* s)
   height = std::max(height, 1);
 
   vtkCamera* camera = renderer->GetActiveCamera();
-  this->receiverImages_.centredFromView = this->centredFromView(renderer);
-  this->receiverImages_.parallelProjection = camera->GetParallelProjection() != 0;
-  const double halfHeight = this->receiverImages_.parallelProjection
-    ? camera->GetParallelScale()
-    : std::tan(0.5 * vtkMath::RadiansFromDegrees(camera->GetViewAngle()));
-  this->receiverImages_.pixelSize = 2.0 * halfHeight / height;
+  const glm::dmat4 centredFromView = this->centredFromView(renderer);
+  const glm::dmat4 clipFromView =
+    fromVtk(camera->GetProjectionTransformMatrix(renderer->GetTiledAspectRatio(), -1.0, 1.0));
+  this->receiverImages_.rays = pixelRays(clipFromView, centredFromView, width, height);
 
   this->layers_.resize(width, height, static_cast<int>(this->casting_.size()));
   this->stageValues_.originPixels = { left, bottom };
   this->stageValues_.layers = { GL_TEXTURE_2D_ARRAY, this->layers_.texture() };
-  this->stageValues_.centredFromView = this->receiverImages_.centredFromView;
+  this->stageValues_.centredFromView = centredFromView;
   this->stageValues_.receiversStage = true;
 
   // VTK draws here and keeps its own record of the state, so the state is changed through that
@@ -249,9 +252,7 @@ void RenderManager::drawReceivers(const vtkRenderState* s)
   state->vtkglEnable(GL_DEPTH_TEST);
 
   this->shaders_.beginStage(window, this->stageValues_);
-  const bool withNormals = std::any_of(this->casting_.begin(), this->casting_.end(),
-    [](const LightSlot* slot) { return findTechnique(slot->techniqueName)->info.pointwise; });
-  this->receiverTarget_.begin(width, height, withNormals);
+  this->receiverTarget_.begin(width, height, this->anyPointwise());
   for (int i = 0; i < s->GetPropArrayCount(); ++i)
   {
     s->GetPropArray()[i]->RenderOpaqueGeometry(renderer);

@@ -58,7 +58,7 @@ public:
   bool chooseRoute(int wished, bool keepVisibility);
   Route route() const { return this->route_; }
 
-  /// receivers (image route): has VTK draw the opaque props' positions, normals and ids.
+  /// receivers (image route): has VTK draw the opaque props' triangle numbers, and points for pointwise techniques.
   void drawReceivers(const vtkRenderState* s);
 
   /// maps: bakes what is stale.
@@ -101,6 +101,7 @@ private:
   void endStageClock(const std::string& name);
   void resolveReceivers();
   void keepVisibility();
+  bool anyPointwise() const;
   glm::dmat4 centredFromView(vtkRenderer* renderer) const;
 
   FrameReport report_;

@@ -50,23 +50,19 @@ bool passCentroid(std::string& vertexShader)
   return true;
 }
 
-/// The declarations of one light's visibility function, gnomonVisibilityN(position, normal).
-std::string declare(Route route, const ShadedLight& shaded, int layer)
+/// The expression of one light's visibility.
+std::string visibilityOf(Route route, int light)
 {
-  const std::string number = std::to_string(layer);
-  const std::string head = "float gnomonVisibility" + number + "(vec3 position, vec3 normal)\n{\n";
-  if (route == Route::Image)
-  {
-    return head + "  return gnomonLayer(" + number + ");\n}\n";
-  }
-  return numberedForLight(shaded.technique->visibilityGlsl(shaded.light), layer) + head +
-    "  return visibility_" + number + "(position, normal);\n}\n";
+  const std::string number = std::to_string(light);
+  return route == Route::Image ? "gnomonLayer(" + number + ")"
+                               : "visibility_" + number + "(gnomonCentroidView.xyz, gnomonNormal)";
 }
 
 } // namespace
 
 //------------------------------------------------------------------------------
-void ShaderManager::configure(Route route, const std::vector<ShadedLight>& lights)
+void ShaderManager::configure(
+  Route route, bool receiverPoints, const std::vector<ShadedLight>& lights)
 {
   std::string declarations = hookShaders().at("plugin/hook.glsl");
   if (route == Route::Image)
@@ -76,20 +72,26 @@ void ShaderManager::configure(Route route, const std::vector<ShadedLight>& light
   std::string multiplications;
   for (std::size_t i = 0; i < lights.size(); ++i)
   {
-    const std::string number = std::to_string(i);
-    declarations += declare(route, lights[i], static_cast<int>(i));
-    declarations += "uniform float gnomonStrength" + number + ";\n";
-    const std::string colour = "lightColor" + std::to_string(lights[i].light.shaderIndex);
+    const ShadedLight& shaded = lights[i];
+    const int number = static_cast<int>(i);
+    if (route == Route::Inline)
+    {
+      declarations += numberedForLight(shaded.technique->visibilityGlsl(shaded.light), number);
+    }
+    const std::string strength = "gnomonStrength" + std::to_string(i);
+    declarations += "uniform float " + strength + ";\n";
+    const std::string colour = "lightColor" + std::to_string(shaded.light.shaderIndex);
     multiplications += "  vec3 " + colour + " = " + colour +
-      " * (gnomonReceives == 0 ? 1.0 : mix(1.0, " + "gnomonVisibility" + number +
-      "(gnomonCentroidView.xyz, gnomonNormal), gnomonStrength" + number + "));\n";
+      " * (gnomonReceives == 0 ? 1.0 : mix(1.0, " + visibilityOf(route, number) + ", " + strength +
+      "));\n";
   }
   if (declarations != this->declarations_ || multiplications != this->multiplications_ ||
-    route != this->route_)
+    route != this->route_ || receiverPoints != this->receiverPoints_)
   {
     this->declarations_ = declarations;
     this->multiplications_ = multiplications;
     this->route_ = route;
+    this->receiverPoints_ = receiverPoints;
     this->stageTime_.Modified();
   }
   this->lights_ = lights;
@@ -119,32 +121,50 @@ void ShaderManager::fillShader(std::string& vertexShader, const std::string& geo
   if (lit)
   {
     declarations = this->declarations_;
-    const bool atCentroid = geometryShader.empty() && passCentroid(vertexShader);
-    declarations += atCentroid ? "centroid in vec4 gnomonCentroidView;\n"
-                               : "#define gnomonCentroidView vertexVC\n";
-    normal = "vec3 gnomonNormal = gnomonFaceNormal(vertexVC.xyz, cameraParallel == 1);\n";
     begin = this->multiplications_;
+    if (this->route_ == Route::Inline)
+    {
+      const bool atCentroid = geometryShader.empty() && passCentroid(vertexShader);
+      declarations += atCentroid ? "centroid in vec4 gnomonCentroidView;\n"
+                                 : "#define gnomonCentroidView vertexVC\n";
+    }
+    if (this->route_ == Route::Inline || this->receiverPoints_)
+    {
+      normal = "vec3 gnomonNormal = gnomonFaceNormal(vertexVC.xyz, cameraParallel == 1);\n";
+    }
   }
   if (this->route_ == Route::Image && receiversStage)
   {
-    const std::string write = lit
-      ? "    float drawn = float(gnomonDrawn + 1) * (gnomonReceives == 1 ? 1.0 : -1.0);\n"
-        "    gl_FragData[1] = vec4(vertexVC.xyz, float(gl_PrimitiveID + PrimitiveIDOffset));\n"
-        "    gl_FragData[2] = vec4(drawn, gnomonNormal);\n"
-      : "    gl_FragData[1] = vec4(0.0);\n"
-        "    gl_FragData[2] = vec4(0.0);\n";
     if (!lit)
     {
       declarations = "uniform int gnomonStage;\n";
     }
     begin = "if (gnomonStage == 1)\n  {\n    gl_FragData[0] = vec4(0.0, 0.0, 0.0, opacity);\n" +
-      write + "  }\n  else\n  {\n" + begin;
+      this->writeReceiver(lit) + "  }\n  else\n  {\n" + begin;
     end = "  }\n";
   }
   replace(fragmentShader, declarationMarker, declarations);
   replace(fragmentShader, normalMarker, normal);
   replace(fragmentShader, beginMarker, begin);
   replace(fragmentShader, endMarker, end);
+}
+
+//------------------------------------------------------------------------------
+std::string ShaderManager::writeReceiver(bool lit) const
+{
+  const std::string fragment =
+    "vec2(gnomonDrawnSurface(), float(gl_PrimitiveID + PrimitiveIDOffset))";
+  if (!lit)
+  {
+    return "    gl_FragData[1] = vec4(0.0);\n"
+           "    gl_FragData[2] = vec4(0.0);\n";
+  }
+  if (!this->receiverPoints_)
+  {
+    return "    gl_FragData[1] = vec4(" + fragment + ", 0.0, 0.0);\n";
+  }
+  return "    gl_FragData[1] = vec4(" + fragment + ", gnomonNormal.xy);\n" +
+    "    gl_FragData[2] = vec4(vertexVC.xyz, gnomonNormal.z);\n";
 }
 
 //------------------------------------------------------------------------------

@@ -42,7 +42,8 @@ class ShaderManager
 public:
   /// States what the frame's shaders must do. When it differs from the last frame's, VTK's mappers
   /// rebuild their shaders (stageTime() changes).
-  void configure(Route route, const std::vector<ShadedLight>& lights);
+  /// @param receiverPoints image route: whether the receivers stage draws points and normals, too
+  void configure(Route route, bool receiverPoints, const std::vector<ShadedLight>& lights);
   vtkMTimeType stageTime() const { return this->stageTime_.GetMTime(); }
 
   /// First and second half of the hook, around VTK's own replacements.
@@ -72,9 +73,11 @@ public:
   int rebuilds() const { return this->rebuilds_; }
 
 private:
+  std::string writeReceiver(bool lit) const;
   int bindTexture(const TextureBinding& texture);
 
   Route route_ = Route::Inline;
+  bool receiverPoints_ = false;
   std::string declarations_;
   std::string multiplications_;
   vtkTimeStamp stageTime_;

@@ -1,5 +1,5 @@
-// What the pass adds to the declarations of VTK's fragment shaders (GLSL 1.50). The lights' own
-// functions, gnomonVisibilityN, follow; the image route fetches, the inline route computes.
+// What the pass adds to the declarations of VTK's fragment shaders (GLSL 1.50). On the inline route
+// the lights' techniques follow, with their functions visibility_N; on the image route hook_image.glsl.
 
 uniform int gnomonReceives; // 0: this prop shows no shadows
 

@@ -9,3 +9,9 @@ float gnomonLayer(int layer)
 {
   return texelFetch(gnomonLayers, ivec3(ivec2(gl_FragCoord.xy) - gnomonOrigin, layer), 0).r;
 }
+
+// What the receivers stage says of the surface: its number + 1, negative if it shows no shadows.
+float gnomonDrawnSurface()
+{
+  return float(gnomonDrawn + 1) * (gnomonReceives == 1 ? 1.0 : -1.0);
+}

@@ -19,36 +19,40 @@ void allocate(GlTexture& texture, GLenum internalFormat, GLenum format, int widt
 } // namespace
 
 //------------------------------------------------------------------------------
-void ReceiverTarget::begin(int width, int height, bool withNormals)
+void ReceiverTarget::begin(int width, int height, bool withPoints)
 {
   glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &this->outerDrawFramebuffer_);
   glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &this->outerReadFramebuffer_);
   glBindFramebuffer(GL_FRAMEBUFFER, this->framebuffer_.create());
-  if (width != this->width_ || height != this->height_ || withNormals != this->withNormals_)
+  if (width != this->width_ || height != this->height_ || withPoints != this->withPoints_)
   {
     const GlStateGuard guard;
-    allocate(this->positions_, GL_RGBA32F, GL_RGBA, width, height);
-    allocate(this->surfaces_, withNormals ? GL_RGBA32F : GL_R32F, withNormals ? GL_RGBA : GL_RED,
+    const auto attach = [](GLenum attachment, const GlTexture& texture)
+    { glFramebufferTexture2D(GL_FRAMEBUFFER, attachment, GL_TEXTURE_2D, texture.name(), 0); };
+    allocate(this->fragments_, withPoints ? GL_RGBA32F : GL_RG32F, withPoints ? GL_RGBA : GL_RG,
       width, height);
     allocate(this->depth_, GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, width, height);
-    glFramebufferTexture2D(
-      GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, this->positions_.name(), 0);
-    glFramebufferTexture2D(
-      GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT1, GL_TEXTURE_2D, this->surfaces_.name(), 0);
-    glFramebufferTexture2D(
-      GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, this->depth_.name(), 0);
-    const GLenum outputs[3] = { GL_NONE, GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1 };
+    attach(GL_COLOR_ATTACHMENT0, this->fragments_);
+    attach(GL_DEPTH_ATTACHMENT, this->depth_);
+    this->points_.reset();
+    if (withPoints)
+    {
+      allocate(this->points_, GL_RGBA32F, GL_RGBA, width, height);
+      attach(GL_COLOR_ATTACHMENT1, this->points_);
+    }
+    const GLenum outputs[3] = { GL_NONE, GL_COLOR_ATTACHMENT0,
+      withPoints ? GLenum(GL_COLOR_ATTACHMENT1) : GLenum(GL_NONE) };
     glDrawBuffers(3, outputs);
     this->width_ = width;
     this->height_ = height;
-    this->withNormals_ = withNormals;
+    this->withPoints_ = withPoints;
   }
   // Numbers, not colours: they must not be blended.
   glDisablei(GL_BLEND, 1);
   glDisablei(GL_BLEND, 2);
   const float nothing[4] = { 0.0f, 0.0f, 0.0f, 0.0f };
   const float farthest = 1.0f;
-  glClearBufferfv(GL_COLOR, 2, nothing); // says that the positions, left as they are, mean nothing
+  glClearBufferfv(GL_COLOR, 1, nothing); // says that the points, left as they are, mean nothing
   glClearBufferfv(GL_DEPTH, 0, &farthest);
 }
 
@@ -71,23 +75,20 @@ void ReceiverTarget::read(ReceiverImages& images) const
   images.height = this->height_;
   const std::size_t pixels =
     static_cast<std::size_t>(this->width_) * static_cast<std::size_t>(this->height_);
-  images.positionView.resize(pixels);
-  images.drawn.resize(pixels);
+  images.fragments.resize(pixels);
   const GlStateGuard guard;
   glBindFramebuffer(GL_READ_FRAMEBUFFER, this->framebuffer_.name());
   glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
   glPixelStorei(GL_PACK_ALIGNMENT, 4);
   glReadBuffer(GL_COLOR_ATTACHMENT0);
-  glReadPixels(0, 0, this->width_, this->height_, GL_RGBA, GL_FLOAT, images.positionView.data());
-  glReadBuffer(GL_COLOR_ATTACHMENT1);
-  glReadPixels(0, 0, this->width_, this->height_, GL_RED, GL_FLOAT, images.drawn.data());
+  glReadPixels(0, 0, this->width_, this->height_, GL_RG, GL_FLOAT, images.fragments.data());
 }
 
 //------------------------------------------------------------------------------
 std::size_t ReceiverTarget::bytes() const
 {
-  // Positions of four floats, surfaces of four or one, and a depth.
-  const std::size_t floats = this->withNormals_ ? 9 : 6;
+  // Fragments of two floats and a depth; with points, two normal components and a point of four.
+  const std::size_t floats = this->withPoints_ ? 9 : 3;
   return static_cast<std::size_t>(this->width_) * static_cast<std::size_t>(this->height_) * floats *
     sizeof(float);
 }

@@ -10,42 +10,42 @@ namespace gnomon
 {
 
 /// The framebuffer that the receivers stage draws into: images in 32-bit float, and a depth buffer of
-/// its own.
+/// its own. Which triangle a pixel shows is always written; the point and its normal only where
+/// estimators will read them on the GPU.
 class ReceiverTarget
 {
 public:
   /// Binds the framebuffer for drawing, with the given size and cleared. The caller has opened the
   /// viewport, the scissor box and the write masks. The fragment shader's outputs go
   /// - 0: nowhere;
-  /// - 1: to positions(), xyz in view coordinates, w VTK's primitive number;
-  /// - 2: to surfaces(), x the drawn surface (ReceiverImages::drawn), and yzw, where they are asked
-  ///   for, the geometric normal in view coordinates, on the camera's side.
-  /// @param withNormals whether a shader will read the normals; without them less is written
-  void begin(int width, int height, bool withNormals);
+  /// - 1: to fragments(), xy as in ReceiverImages, and with points zw: the normal's x and y;
+  /// - 2: with points to points(), xyz: the position, w: the normal's z. Both in view coordinates,
+  ///   the normal geometric, unit, on the camera's side.
+  void begin(int width, int height, bool withPoints);
 
   /// Binds what was bound before.
   /// @param blending whether blending is switched on outside
   void end(bool blending);
 
-  /// Reads positions, primitive numbers and surfaces back.
+  /// Reads the fragments back.
   void read(ReceiverImages& images) const;
 
-  GLuint positions() const { return this->positions_.name(); }
-  GLuint surfaces() const { return this->surfaces_.name(); }
+  GLuint fragments() const { return this->fragments_.name(); }
+  GLuint points() const { return this->points_.name(); }
   int width() const { return this->width_; }
   int height() const { return this->height_; }
   std::size_t bytes() const;
 
 private:
   GlFramebuffer framebuffer_;
-  GlTexture positions_;
-  GlTexture surfaces_;
+  GlTexture fragments_;
+  GlTexture points_;
   GlTexture depth_;
   GLint outerDrawFramebuffer_ = 0;
   GLint outerReadFramebuffer_ = 0;
   int width_ = 0;
   int height_ = 0;
-  bool withNormals_ = false;
+  bool withPoints_ = false;
 };
 
 } // namespace gnomon

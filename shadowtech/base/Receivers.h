@@ -1,6 +1,8 @@
 #ifndef gnomon_shadowtech_base_Receivers_h
 #define gnomon_shadowtech_base_Receivers_h
 
+#include "shadowtech/base/PixelRays.h"
+
 #include <glm/glm.hpp>
 
 #include <cstddef>
@@ -21,8 +23,7 @@ struct ReceiverPixels
   int width = 0;
   int height = 0;
 
-  /// The receiver, centred (relative to Occluders::centreWorld) and projected onto the plane of its
-  /// triangle.
+  /// The receiver, on its triangle, centred (relative to Occluders::centreWorld).
   std::vector<float> positionX, positionY, positionZ;
   /// The triangle's geometric normal, unit length, on the side that the camera sees.
   std::vector<float> normalX, normalY, normalZ;
@@ -51,22 +52,16 @@ struct ReceiverPixels
   }
 };
 
-/// What the receivers stage reads back from its attachments: the raw form of ReceiverPixels, as VTK
-/// drew it.
+/// What the receivers stage reads back: which triangle VTK drew in each pixel. Where on the triangle
+/// follows from the pixel's ray, more precisely than anything interpolated in float.
 struct ReceiverImages
 {
   int width = 0;
   int height = 0;
-  /// xyz: view coordinates of the fragment; w: VTK's primitive number, as the drawn surface counts
-  /// them (the collector resolves it to a triangle).
-  std::vector<glm::vec4> positionView;
-  /// The drawn surface + 1, negative where the prop does not receive; 0 where nothing was drawn.
-  std::vector<float> drawn;
-  /// View to centred coordinates (rigid).
-  glm::dmat4 centredFromView{ 1.0 };
-  /// A pixel's side at unit distance (perspective), or everywhere (parallel projection).
-  double pixelSize = 0.0;
-  bool parallelProjection = false;
+  /// x: the drawn surface + 1, negative where the prop does not receive, 0 where nothing was drawn;
+  /// y: VTK's primitive number, as the drawn surface counts them (DrawnSurface).
+  std::vector<glm::vec2> fragments;
+  PixelRays rays;
 };
 
 /// How the fragments of one drawn surface find the snapshot. VTK draws a surface per mapper (or
@@ -83,9 +78,12 @@ struct DrawnSurface
   std::vector<Block> blocks; ///< in order of firstPrimitive
 };
 
-/// Turns what the receivers stage read back into receivers: centred, projected onto the planes of
-/// their triangles, with geometric normals and shadow ray offsets. Pixels whose triangle cannot be
-/// found count as not covered.
+/// Turns what the receivers stage read back into receivers: the points where the pixels' rays meet
+/// the triangles that were drawn there, with geometric normals and shadow ray offsets.
+///
+/// Rasterisers move corners by up to 1/256 pixel, and so draw triangles in pixels whose rays pass
+/// them by. The receiver is then the point of the triangle that is closest to the ray as the camera
+/// sees it. Pixels whose triangle cannot be found count as not covered.
 void projectReceivers(const ReceiverImages& images, const std::vector<DrawnSurface>& drawnSurfaces,
   const Occluders& occluders, ReceiverPixels& receivers);
 

@@ -38,8 +38,8 @@ void VisibilityLayers::estimate(int layer, const Technique& technique, const Sha
           ShaderLibrary::source("shadowtech/base/screen_visibility.frag.glsl") } });
   glUseProgram(program);
   const int freeUnit = ShaderLibrary::setUniforms(program,
-    { { "receiverPositions", TextureBinding{ GL_TEXTURE_2D, receivers.positions() } },
-      { "receiverSurfaces", TextureBinding{ GL_TEXTURE_2D, receivers.surfaces() } } },
+    { { "receiverFragments", TextureBinding{ GL_TEXTURE_2D, receivers.fragments() } },
+      { "receiverPoints", TextureBinding{ GL_TEXTURE_2D, receivers.points() } } },
     0, 0);
   ShaderLibrary::setUniforms(program, technique.uniforms(centredFromView), 0, freeUnit);
 

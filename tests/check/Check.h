@@ -14,9 +14,8 @@ namespace gnomon::check
 /// What a visibility file may differ in.
 namespace tolerance
 {
-constexpr double coverageShare = 5e-4;       ///< of all pixels
+constexpr double coverageShare = 5e-4;       ///< of all pixels; also for `otherSurface`
 constexpr double positionError = 1e-4;       ///< of the distance from the camera
-constexpr double asideShare = 5e-4;          ///< of the pixels covered in both
 constexpr double normalShare = 5e-4;         ///< of the pixels covered in both
 constexpr double visibilityShare = 1e-4;     ///< of the pixels that face the light
 constexpr double visibilityDifference = 0.5; ///< more than this makes a pixel wrong
@@ -45,10 +44,9 @@ struct Result
   double positionError = 0.0; ///< largest, as a share of the distance from the camera
   std::size_t positionErrorAt = 0;
   Pixels position; ///< where the error exceeds the tolerance
-  /// Positions that are not counted as errors: on the pixel's ray and on a surface, but not where
-  /// the ray meets the first surface. So it is at edges, on surfaces that are seen edge-on, and
-  /// where two depths are nearly the same.
-  Pixels aside;
+  /// Covered in both, but by different triangles, at an edge that the pixel's ray passes more closely
+  /// than a rasteriser can tell: a difference in coverage, not in position.
+  Pixels otherSurface;
   Pixels normal; ///< normals of no triangle at the position, or not on the camera's side
   std::vector<LightResult> lights;
 

@@ -168,7 +168,7 @@ TEST(Check, FindsNothingInATrueFile)
   EXPECT_EQ(result.covered, 8100u); // halfGround of 10, squared
   EXPECT_EQ(result.coverage, Pixels());
   EXPECT_EQ(result.position, Pixels());
-  EXPECT_EQ(result.aside, Pixels());
+  EXPECT_EQ(result.otherSurface, Pixels());
   EXPECT_EQ(result.normal, Pixels());
   ASSERT_EQ(result.lights.size(), 1u);
   EXPECT_EQ(result.lights[0].counted, 8100u);
@@ -217,6 +217,38 @@ TEST(Check, FindsWrongPositionsAndNormals)
   EXPECT_EQ(result.positionErrorAt, pixels({ { 33, 31 } }).front());
   EXPECT_EQ(result.normal, pixels({ { 34, 32 }, { 35, 32 }, { 36, 32 } }));
   EXPECT_EQ(result.failures().size(), 1u); // 3 of 8,100 normals are within the tolerance
+}
+
+//------------------------------------------------------------------------------
+/// A rasteriser may draw the plate's edge in a pixel whose ray passes it by to the ground.
+TEST(Check, AnotherSurfaceAtItsEdgeIsADifferenceInCoverage)
+{
+  // The plate's right edge looks at 8 of 10 times the border's tangent; the first pixel's ray beside
+  // it passes at the given distance, in pixels.
+  const auto compareWith = [](double pixels, double along)
+  {
+    TrueFile image;
+    nlohmann::json scene = makeScene();
+    const int column = 56;
+    const double tangent = 2.0 * (column + 0.5 - pixels) / sidePixels - 1.0;
+    const double edge = (cameraHeight - plateHeight) * tangent;
+    scene["models"][1]["matrix"][0] = edge;
+    const double z = (cameraHeight - plateHeight) * (2.0 * 50.5 / sidePixels - 1.0);
+    image.setPosition(column, 50, Vec3(edge - along, plateHeight, z));
+    return check(scene, image.file);
+  };
+  const Result closely = compareWith(1.0 / 256.0, 0.0);
+  EXPECT_EQ(closely.otherSurface, pixels({ { 56, 50 } }));
+  EXPECT_EQ(closely.position, Pixels());
+  // Too far beside the ray for a rasteriser, and not where the ray comes closest.
+  EXPECT_EQ(compareWith(1.0 / 16.0, 0.0).otherSurface, Pixels());
+  EXPECT_EQ(compareWith(1.0 / 16.0, 0.0).position, pixels({ { 56, 50 } }));
+  EXPECT_EQ(compareWith(1.0 / 256.0, 0.05).position, pixels({ { 56, 50 } }));
+  // The rays meet the plate, where the file shows the ground: so it may be closely inside the edge.
+  EXPECT_EQ(compareWith(-1.0 / 256.0, 0.0).position, Pixels());
+  EXPECT_GT(compareWith(-1.0 / 256.0, 0.0).otherSurface.size(), 20u);
+  EXPECT_EQ(compareWith(-1.0 / 16.0, 0.0).otherSurface, Pixels());
+  EXPECT_GT(compareWith(-1.0 / 16.0, 0.0).position.size(), 20u);
 }
 
 //------------------------------------------------------------------------------

@@ -57,32 +57,6 @@ void computeBounds(const RTCBoundsFunctionArguments* arguments)
   }
 }
 
-/// Distance along a ray to a triangle. The ray passes inside when it turns the same way round all
-/// three edges; two triangles get an edge's number with opposite signs, bit for bit, so no ray
-/// slips between them.
-std::optional<double> intersect(const Ray& ray, const Triangle& triangle)
-{
-  const Vec3 a = triangle[0] - ray.origin;
-  const Vec3 b = triangle[1] - ray.origin;
-  const Vec3 c = triangle[2] - ray.origin;
-  const double u = ray.direction.dot(b.cross(c));
-  const double v = ray.direction.dot(c.cross(a));
-  const double w = ray.direction.dot(a.cross(b));
-  const bool inside = (u >= 0.0 && v >= 0.0 && w >= 0.0) || (u <= 0.0 && v <= 0.0 && w <= 0.0);
-  if (!inside)
-  {
-    return std::nullopt;
-  }
-  const Vec3 normal = (b - a).cross(c - a);
-  const double along = ray.direction.dot(normal);
-  if (along == 0.0) // the ray lies in the triangle's plane
-  {
-    return std::nullopt;
-  }
-  const double distance = a.dot(normal) / along;
-  return distance > 0.0 && distance < ray.length ? std::optional(distance) : std::nullopt;
-}
-
 void intersectNearest(const RTCIntersectFunctionNArguments* arguments)
 {
   const auto& geometry = *static_cast<const Geometry*>(arguments->geometryUserPtr);
@@ -161,6 +135,30 @@ bool testNearby(RTCPointQueryFunctionArguments* arguments)
 }
 
 } // namespace
+
+//------------------------------------------------------------------------------
+std::optional<double> intersect(const Ray& ray, const Triangle& triangle)
+{
+  const Vec3 a = triangle[0] - ray.origin;
+  const Vec3 b = triangle[1] - ray.origin;
+  const Vec3 c = triangle[2] - ray.origin;
+  const double u = ray.direction.dot(b.cross(c));
+  const double v = ray.direction.dot(c.cross(a));
+  const double w = ray.direction.dot(a.cross(b));
+  const bool inside = (u >= 0.0 && v >= 0.0 && w >= 0.0) || (u <= 0.0 && v <= 0.0 && w <= 0.0);
+  if (!inside)
+  {
+    return std::nullopt;
+  }
+  const Vec3 normal = (b - a).cross(c - a);
+  const double along = ray.direction.dot(normal);
+  if (along == 0.0) // the ray lies in the triangle's plane
+  {
+    return std::nullopt;
+  }
+  const double distance = a.dot(normal) / along;
+  return distance > 0.0 && distance < ray.length ? std::optional(distance) : std::nullopt;
+}
 
 //------------------------------------------------------------------------------
 struct Tracer::Impl

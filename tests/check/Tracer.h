@@ -29,6 +29,11 @@ struct Hit
   std::size_t triangle = 0; ///< within its surface
 };
 
+/// Distance along a ray to a triangle. The ray passes inside when it turns the same way round all
+/// three edges; two triangles get an edge's number with opposite signs, bit for bit, so no ray
+/// slips between them.
+std::optional<double> intersect(const Ray& ray, const Triangle& triangle);
+
 /// Rays against a scene. Embree finds the triangles whose boxes a ray passes; whether and where it
 /// meets them is computed in double precision, so that nothing but the input is rounded to float.
 class Tracer

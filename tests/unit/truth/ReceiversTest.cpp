@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -37,6 +38,12 @@ Camera turnedCamera()
   return camera;
 }
 
+/// A pixel's side at distance 1.
+double pixelSizeOf(const Camera& camera)
+{
+  return 2.0 * std::tan(0.5 * glm::radians(camera.fovDegrees)) / camera.height;
+}
+
 ReceiverPixels project(const View& view, const Occluders& occluders)
 {
   ReceiverPixels receivers;
@@ -56,7 +63,55 @@ void expectNotCovered(const ReceiverPixels& receivers, std::size_t i)
   }
 }
 
-TEST(Receivers, LieOnTheirTriangles)
+/// The corners of the triangle that was drawn in a pixel.
+std::array<glm::dvec3, 3> drawnCorners(
+  const View& view, const Occluders& occluders, std::size_t pixel)
+{
+  const glm::vec2 fragment = view.images.fragments[pixel];
+  const Surface& surface = occluders.surfaces[static_cast<std::size_t>(fragment.x) - 1];
+  const glm::uvec3 corners =
+    occluders.triangles[surface.firstTriangle + static_cast<std::uint32_t>(fragment.y)];
+  return { glm::dvec3(occluders.positionsCentred[corners.x]),
+    glm::dvec3(occluders.positionsCentred[corners.y]),
+    glm::dvec3(occluders.positionsCentred[corners.z]) };
+}
+glm::dvec3 positionOf(const ReceiverPixels& receivers, std::size_t i)
+{
+  return { receivers.positionX[i], receivers.positionY[i], receivers.positionZ[i] };
+}
+glm::dvec3 normalOf(const ReceiverPixels& receivers, std::size_t i)
+{
+  return { receivers.normalX[i], receivers.normalY[i], receivers.normalZ[i] };
+}
+
+/// How far a point lies outside of a triangle, in the triangle's plane; 0 inside.
+double outside(const std::array<glm::dvec3, 3>& corners, const glm::dvec3& point)
+{
+  const glm::dvec3 normal =
+    glm::normalize(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
+  double most = 0.0;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    const glm::dvec3 edge = glm::normalize(corners[(k + 1) % 3] - corners[k]);
+    most = std::max(most, -glm::dot(glm::cross(normal, edge), point - corners[k]));
+  }
+  return most;
+}
+
+/// How far a point lies off a pixel's ray, in pixels.
+double offRay(const View& view, std::size_t pixel, const glm::dvec3& point)
+{
+  const PixelRays& rays = view.images.rays;
+  const auto x = static_cast<double>(pixel % static_cast<std::size_t>(view.images.width));
+  const auto y = static_cast<double>(pixel / static_cast<std::size_t>(view.images.width));
+  const glm::dvec3 direction = rays.direction(x, y);
+  const glm::dvec3 from = point - rays.origin(x, y);
+  const double t = glm::dot(from, direction) / glm::dot(direction, direction);
+  return glm::length(from - t * direction) /
+    glm::length(rays.originPerRow + t * rays.directionPerRow);
+}
+
+TEST(Receivers, AreWhereThePixelsRaysMeetTheirTriangles)
 {
   const Occluders occluders = turnedScene();
   for (const double parallelHeight : { 0.0, 8.0 })
@@ -65,45 +120,138 @@ TEST(Receivers, LieOnTheirTriangles)
     camera.parallelHeight = parallelHeight;
     const View view = makeView(occluders, camera);
     const ReceiverPixels receivers = project(view, occluders);
-    const glm::dvec3 eye(view.images.centredFromView[3]);
-    const glm::dvec3 backward(view.images.centredFromView[2]);
     ASSERT_GT(countCovered(receivers), 20000u);
+    std::size_t clamped = 0;
     for (std::size_t i = 0; i < receivers.size(); ++i)
     {
-      const auto drawn = static_cast<std::uint32_t>(view.images.drawn[i]);
-      if (drawn == 0)
+      if (view.images.fragments[i].x == 0.0f)
       {
         expectNotCovered(receivers, i);
         continue;
       }
-      ASSERT_EQ(receivers.surface[i], drawn - 1);
-      const Surface& surface = occluders.surfaces[drawn - 1];
-      const glm::uvec3 corners = occluders.triangles[surface.firstTriangle +
-        static_cast<std::uint32_t>(view.images.positionView[i].w)];
-      const glm::dvec3 a(occluders.positionsCentred[corners.x]);
-      const glm::dvec3 b(occluders.positionsCentred[corners.y]);
-      const glm::dvec3 c(occluders.positionsCentred[corners.z]);
-      const glm::dvec3 normal = glm::normalize(glm::cross(b - a, c - a));
-      const glm::dvec3 position(
-        receivers.positionX[i], receivers.positionY[i], receivers.positionZ[i]);
-      const glm::dvec3 facing(receivers.normalX[i], receivers.normalY[i], receivers.normalZ[i]);
+      ASSERT_EQ(receivers.surface[i], static_cast<std::uint32_t>(view.images.fragments[i].x) - 1);
+      const std::array<glm::dvec3, 3> corners = drawnCorners(view, occluders, i);
+      const glm::dvec3 normal =
+        glm::normalize(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
+      const glm::dvec3 position = positionOf(receivers, i);
 
-      // Off the plane by no more than rounding the position explains.
-      const double rounding = std::ldexp(1.0, -24) * glm::dot(glm::abs(normal), glm::abs(position));
-      ASSERT_LE(std::abs(glm::dot(position - a, normal)), 1.001 * rounding);
-      // The pixel's own point, but for what the rasteriser made of it.
-      const glm::dvec3 seen(
-        view.images.centredFromView * glm::dvec4(glm::dvec3(view.images.positionView[i]), 1.0));
-      ASSERT_LT(glm::length(seen - position), 1e-5);
+      // On the triangle, by no more than rounding the position explains.
+      const glm::dvec3 rounding = std::ldexp(1.0, -24) * glm::abs(position);
+      ASSERT_LE(std::abs(glm::dot(position - corners[0], normal)),
+        1.001 * glm::dot(glm::abs(normal), rounding));
+      ASSERT_LE(outside(corners, position), glm::length(rounding));
+      // On the ray, but where the ray passes the triangle by: the view's jitter.
+      const double off = offRay(view, i, position);
+      ASSERT_LT(off, 0.5 / 256.0 * std::sqrt(2.0));
+      clamped += off > 1e-4 ? 1 : 0;
 
+      const glm::dvec3 facing = normalOf(receivers, i);
       ASSERT_NEAR(std::abs(glm::dot(facing, normal)), 1.0, 1e-6);
       ASSERT_NEAR(glm::length(facing), 1.0, 1e-6);
-      ASSERT_GT(glm::dot(facing, parallelHeight > 0.0 ? backward : eye - position), 0.0);
+      const PixelRays& rays = view.images.rays;
+      const glm::dvec3 direction =
+        rays.direction(static_cast<double>(i % 256), static_cast<double>(i / 256));
+      ASSERT_LT(glm::dot(facing, direction), 0.0);
 
+      const double depth =
+        glm::dot(position - rays.firstOrigin, glm::normalize(rays.direction(127.5, 127.5)));
       const auto footprint = static_cast<float>(
-        view.images.pixelSize * (parallelHeight > 0.0 ? 1.0 : -view.images.positionView[i].z));
-      ASSERT_GT(receivers.offset[i], shadowRayOffset(0.0f, footprint));
+        parallelHeight > 0.0 ? parallelHeight / 256.0 : pixelSizeOf(camera) * depth);
+      ASSERT_GT(receivers.offset[i], shadowRayOffset(0.0f, 0.999f * footprint));
       ASSERT_LT(receivers.offset[i], shadowRayOffset(0.0f, footprint) + 1e-4f);
+    }
+    EXPECT_GT(clamped, 0u); // the test has met such pixels
+  }
+}
+
+/// Whatever the rasteriser says is in a pixel: the receiver is a point of that triangle, and the
+/// closest to the pixel's ray.
+TEST(Receivers, OfTrianglesThatTheRayPassesByAreTheClosestPoints)
+{
+  const Occluders occluders = turnedScene();
+  for (const double parallelHeight : { 0.0, 8.0 })
+  {
+    Camera camera = turnedCamera();
+    camera.parallelHeight = parallelHeight;
+    View view = makeView(occluders, camera);
+    // The triangle of the pixel 1 further right and 2 further up.
+    const std::vector<glm::vec2> fragments = view.images.fragments;
+    constexpr std::size_t step = 2 * 256 + 1;
+    std::size_t passedBy = 0;
+    std::copy(fragments.begin() + step, fragments.end(), view.images.fragments.begin());
+    const ReceiverPixels receivers = project(view, occluders);
+    for (std::size_t i = 0; i + step < receivers.size(); ++i)
+    {
+      if (view.images.fragments[i].x == 0.0f || i % 256 == 255)
+      {
+        continue;
+      }
+      const std::array<glm::dvec3, 3> corners = drawnCorners(view, occluders, i);
+      const glm::dvec3 position = positionOf(receivers, i);
+      ASSERT_LE(outside(corners, position), std::ldexp(1.0, -24) * glm::length(position));
+      const double off = offRay(view, i, position);
+      ASSERT_LT(off, std::sqrt(5.0) + 0.01);
+      if (off < 0.01)
+      {
+        continue;
+      }
+      ++passedBy;
+      for (std::size_t k = 0; k < 3; ++k)
+      {
+        for (int part = 0; part < 50; ++part)
+        {
+          const glm::dvec3 point = glm::mix(corners[k], corners[(k + 1) % 3], part / 50.0);
+          ASSERT_GE(offRay(view, i, point), 0.9999 * off - 1e-4);
+        }
+      }
+    }
+    EXPECT_GT(passedBy, 500u);
+  }
+}
+
+TEST(Receivers, OnATriangleThatReachesBehindTheCamera)
+{
+  // The camera stands 2 above a ground of 20,000, so that corners lie behind it.
+  const Occluders occluders = makeOccluders({ { makePlane(20000.0), at({ 0.0, 0.0, 0.0 }) } });
+  Camera camera;
+  camera.position = { 10.0, 20.0, 2.0 };
+  camera.target = { 1000.0, 30.0, -60.0 };
+  const View view = makeView(occluders, camera);
+  const ReceiverPixels receivers = project(view, occluders);
+  ASSERT_GT(countCovered(receivers), 30000u);
+  for (std::size_t i = 0; i < receivers.size(); ++i)
+  {
+    if (view.images.fragments[i].x != 0.0f)
+    {
+      ASSERT_NEAR(receivers.positionZ[i], 0.0f, 1e-12f);
+      ASSERT_LT(
+        offRay(view, i, positionOf(receivers, i)), 0.6); // a float's spacing near the camera
+    }
+  }
+}
+
+TEST(Receivers, SeenEdgeOnStayOnTheirTriangle)
+{
+  // A plane seen exactly along itself: no ray meets it. A rasteriser may draw it all the same.
+  const Occluders occluders = makeOccluders({ { makePlane(2.0), glm::dmat4(1.0) } });
+  Camera camera;
+  camera.position = { 0.0, -5.0, 0.0 };
+  for (const double parallelHeight : { 0.0, 4.0 })
+  {
+    camera.parallelHeight = parallelHeight;
+    View view = makeView(occluders, camera);
+    for (std::size_t column = 100; column < 150; ++column)
+    {
+      view.images.fragments[128 * 256 + column] = { 1.0f, 0.0f };
+    }
+    const ReceiverPixels receivers = project(view, occluders);
+    for (std::size_t column = 100; column < 150; ++column)
+    {
+      const std::size_t i = 128 * 256 + column;
+      ASSERT_EQ(receivers.surface[i], 0u);
+      EXPECT_LT(outside(drawnCorners(view, occluders, i), positionOf(receivers, i)), 1e-6);
+      EXPECT_LT(offRay(view, i, positionOf(receivers, i)), 0.51);
+      EXPECT_NEAR(receivers.normalY[i], -1.0f, 0.1f);
     }
   }
 }
@@ -118,11 +266,10 @@ TEST(Receivers, FindTheirTrianglesThroughTables)
   View shared = view;
   const std::uint32_t planeTriangles = plain.surfaces[0].triangleCount;
   shared.drawnSurfaces = { { { { 3, 12, 1 }, { 20, planeTriangles, 0 } } } };
-  for (std::size_t i = 0; i < shared.images.drawn.size(); ++i)
+  for (glm::vec2& fragment : shared.images.fragments)
   {
-    float& drawn = shared.images.drawn[i];
-    shared.images.positionView[i].w += drawn == 1.0f ? 20.0f : 3.0f;
-    drawn = drawn > 0.0f ? 1.0f : 0.0f;
+    fragment.y += fragment.x == 1.0f ? 20.0f : 3.0f;
+    fragment.x = fragment.x > 0.0f ? 1.0f : 0.0f;
   }
   EXPECT_EQ(project(shared, plain).surface, expected.surface);
   EXPECT_EQ(project(shared, plain).positionX, expected.positionX);
@@ -131,8 +278,7 @@ TEST(Receivers, FindTheirTrianglesThroughTables)
   for (const float primitive : { 2.0f, 15.0f, 19.0f, 20.0f + planeTriangles, -1.0f, 1e30f })
   {
     View astray = shared;
-    astray.images.positionView[0].w = primitive;
-    astray.images.drawn[0] = 1.0f;
+    astray.images.fragments[0] = { 1.0f, primitive };
     expectNotCovered(project(astray, plain), 0);
   }
 
@@ -145,13 +291,12 @@ TEST(Receivers, FindTheirTrianglesThroughTables)
   }
   View later = view;
   later.drawnSurfaces[0].blocks[0].primitiveCount = planeTriangles + 1;
-  for (std::size_t i = 0; i < later.images.drawn.size(); ++i)
+  for (glm::vec2& fragment : later.images.fragments)
   {
-    later.images.positionView[i].w += later.images.drawn[i] == 1.0f ? 1.0f : 0.0f;
+    fragment.y += fragment.x == 1.0f ? 1.0f : 0.0f;
   }
   EXPECT_EQ(project(later, dropped).surface, expected.surface);
-  later.images.drawn[0] = 1.0f;
-  later.images.positionView[0].w = 0.0f;
+  later.images.fragments[0] = { 1.0f, 0.0f };
   expectNotCovered(project(later, dropped), 0);
 }
 
@@ -160,9 +305,9 @@ TEST(Receivers, OfPropsThatDoNotReceiveAreCoveredAllTheSame)
   const Occluders occluders = turnedScene();
   View view = makeView(occluders, turnedCamera());
   const ReceiverPixels expected = project(view, occluders);
-  for (float& drawn : view.images.drawn)
+  for (glm::vec2& fragment : view.images.fragments)
   {
-    drawn = -drawn;
+    fragment.x = -fragment.x;
   }
   EXPECT_EQ(project(view, occluders).surface, expected.surface);
 }
@@ -176,20 +321,20 @@ TEST(Receivers, BrokenFragmentsAreNotCovered)
   for (const float broken : { std::numeric_limits<float>::quiet_NaN(),
          std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity() })
   {
-    for (int component = 0; component < 4; ++component)
+    for (int component = 0; component < 2; ++component)
     {
       View astray = view;
-      astray.images.positionView[middle][component] = broken;
+      astray.images.fragments[middle][component] = broken;
       expectNotCovered(project(astray, occluders), middle);
     }
     View astray = view;
-    astray.images.drawn[middle] = broken;
-    expectNotCovered(project(astray, occluders), middle);
+    astray.images.rays.firstOrigin.y = static_cast<double>(broken);
+    EXPECT_EQ(countCovered(project(astray, occluders)), 0u);
   }
   View astray = view;
   for (const float drawn : { 3.0f, 1e20f, 0.5f })
   {
-    astray.images.drawn[middle] = drawn;
+    astray.images.fragments[middle].x = drawn;
     expectNotCovered(project(astray, occluders), middle);
   }
 }
@@ -199,9 +344,8 @@ TEST(Receivers, TrianglesWithoutAreaFaceTheCamera)
 {
   Occluders occluders = turnedScene();
   const View view = makeView(occluders, turnedCamera());
-  const ReceiverPixels expected = project(view, occluders);
   const auto middle = static_cast<std::size_t>(128 * 256 + 128);
-  ASSERT_EQ(expected.surface[middle], 1u);
+  ASSERT_EQ(project(view, occluders).surface[middle], 1u);
   for (std::uint32_t k = 0; k < 12; ++k)
   {
     glm::uvec3& triangle = occluders.triangles[occluders.surfaces[1].firstTriangle + k];
@@ -209,14 +353,16 @@ TEST(Receivers, TrianglesWithoutAreaFaceTheCamera)
   }
   const ReceiverPixels receivers = project(view, occluders);
   EXPECT_EQ(receivers.surface[middle], 1u);
-  const glm::dvec3 eye(view.images.centredFromView[3]);
-  const glm::dvec3 toCamera = glm::normalize(eye -
-    glm::dvec3(expected.positionX[middle], expected.positionY[middle], expected.positionZ[middle]));
-  EXPECT_NEAR(receivers.normalX[middle], toCamera.x, 1e-5);
-  EXPECT_NEAR(receivers.normalY[middle], toCamera.y, 1e-5);
-  EXPECT_NEAR(receivers.normalZ[middle], toCamera.z, 1e-5);
-  EXPECT_NEAR(receivers.positionX[middle], expected.positionX[middle], 1e-5);
+  const glm::dvec3 toCamera = -glm::normalize(view.images.rays.direction(128.0, 128.0));
+  EXPECT_LT(glm::length(normalOf(receivers, middle) - toCamera), 1e-6);
   EXPECT_GT(receivers.offset[middle], 0.0f);
+  // Of what is left of the triangle, a line, the closest point.
+  const std::array<glm::dvec3, 3> corners = drawnCorners(view, occluders, middle);
+  const double off = offRay(view, middle, positionOf(receivers, middle));
+  for (int step = 0; step <= 100; ++step)
+  {
+    EXPECT_GE(offRay(view, middle, glm::mix(corners[0], corners[1], step / 100.0)), off - 1e-4);
+  }
 }
 
 TEST(Receivers, EmptyInputs)

@@ -311,24 +311,25 @@ View makeView(const Occluders& occluders, const Camera& camera)
   ReceiverImages& images = view.images;
   images.width = camera.width;
   images.height = camera.height;
-  images.parallelProjection = camera.parallelHeight > 0.0;
-  const double halfHeight = images.parallelProjection
-    ? 0.5 * camera.parallelHeight
-    : std::tan(0.5 * glm::radians(camera.fovDegrees));
-  images.pixelSize = 2.0 * halfHeight / camera.height;
+  const bool parallel = camera.parallelHeight > 0.0;
+  const double halfHeight =
+    parallel ? 0.5 * camera.parallelHeight : std::tan(0.5 * glm::radians(camera.fovDegrees));
+  const double halfWidth = halfHeight * camera.width / camera.height;
+  const glm::dmat4 clipFromView = parallel
+    ? glm::ortho(-halfWidth, halfWidth, -halfHeight, halfHeight, 0.1, 1e3)
+    : glm::frustum(
+        -0.1 * halfWidth, 0.1 * halfWidth, -0.1 * halfHeight, 0.1 * halfHeight, 0.1, 1e3);
   const glm::dmat4 viewFromCentred = glm::lookAt(camera.position, camera.target, camera.up) *
     glm::translate(glm::dmat4(1.0), occluders.centreWorld);
-  images.centredFromView = glm::inverse(viewFromCentred);
+  images.rays = pixelRays(clipFromView, glm::inverse(viewFromCentred), camera.width, camera.height);
   const auto pixels =
     static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height);
-  images.positionView.assign(pixels, glm::vec4(0.0f));
-  images.drawn.assign(pixels, 0.0f);
+  images.fragments.assign(pixels, glm::vec2(0.0f));
   for (std::uint32_t i = 0; i < occluders.surfaces.size(); ++i)
   {
     view.drawnSurfaces.push_back({ { { 0, occluders.surfaces[i].triangleCount, i } } });
   }
 
-  const glm::mat4 viewFromCentredFloat(viewFromCentred);
   const Caster caster(occluders);
   tbb::parallel_for(0, camera.height,
     [&](int y)
@@ -337,32 +338,15 @@ View makeView(const Occluders& occluders, const Camera& camera)
       {
         const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(camera.width) +
           static_cast<std::size_t>(x);
-        const double across = images.pixelSize *
-          (x + 0.5 - 0.5 * camera.width + jitter(static_cast<std::uint32_t>(2 * i)) / 512.0);
-        const double upwards = images.pixelSize *
-          (y + 0.5 - 0.5 * camera.height + jitter(static_cast<std::uint32_t>(2 * i + 1)) / 512.0);
-        const glm::dvec4 from = images.parallelProjection ? glm::dvec4(across, upwards, 0.0, 1.0)
-                                                          : glm::dvec4(0.0, 0.0, 0.0, 1.0);
-        const glm::dvec4 along = images.parallelProjection ? glm::dvec4(0.0, 0.0, -1.0, 0.0)
-                                                           : glm::dvec4(across, upwards, -1.0, 0.0);
-        const RTCHit hit = caster.nearest(glm::dvec3(images.centredFromView * from),
-          glm::normalize(glm::dvec3(images.centredFromView * along)));
-        if (hit.geomID == RTC_INVALID_GEOMETRY_ID)
+        const double column = x + jitter(static_cast<std::uint32_t>(2 * i)) / 512.0;
+        const double row = y + jitter(static_cast<std::uint32_t>(2 * i + 1)) / 512.0;
+        const RTCHit hit = caster.nearest(
+          images.rays.origin(column, row), glm::normalize(images.rays.direction(column, row)));
+        if (hit.geomID != RTC_INVALID_GEOMETRY_ID)
         {
-          continue;
+          images.fragments[i] = { static_cast<float>(hit.geomID + 1),
+            static_cast<float>(hit.primID) };
         }
-        const glm::uvec3 corners =
-          occluders.triangles[occluders.surfaces[hit.geomID].firstTriangle + hit.primID];
-        glm::vec3 corner[3];
-        for (int k = 0; k < 3; ++k)
-        {
-          corner[k] = glm::vec3(
-            viewFromCentredFloat * glm::vec4(occluders.positionsCentred[corners[k]], 1.0f));
-        }
-        const glm::vec3 position =
-          (1.0f - hit.u - hit.v) * corner[0] + hit.u * corner[1] + hit.v * corner[2];
-        images.positionView[i] = glm::vec4(position, static_cast<float>(hit.primID));
-        images.drawn[i] = static_cast<float>(hit.geomID + 1);
       }
     });
   return view;

@@ -65,8 +65,8 @@ struct Camera
   int height = 256;
 };
 
-/// What the camera sees, as a rasteriser gives it: vertices go to view coordinates in float, and
-/// fragments interpolate them at a point that is off the pixel's centre by up to 1/512 pixel.
+/// What the camera sees, as a rasteriser gives it: the triangle of each pixel is the one at a point
+/// that is off the pixel's centre by up to 1/512 pixel.
 struct View
 {
   ReceiverImages images;
