@@ -25,6 +25,15 @@ struct TriangleOfFragment
   std::uint32_t triangle = none;
 };
 
+/// A number that is affine over a row of pixels.
+struct AffineOverRow
+{
+  double first;
+  double perColumn;
+
+  double at(double x) const { return this->first + x * this->perColumn; }
+};
+
 /// A number that is affine over the picture.
 struct AffineOverPixels
 {
@@ -32,10 +41,7 @@ struct AffineOverPixels
   double perColumn = 0.0;
   double perRow = 0.0;
 
-  double at(double x, double y) const
-  {
-    return this->first + x * this->perColumn + y * this->perRow;
-  }
+  AffineOverRow row(double y) const { return { this->first + y * this->perRow, this->perColumn }; }
 };
 
 /// A triangle as the pixels' rays meet it.
@@ -52,15 +58,8 @@ struct SeenTriangle
   std::array<glm::dvec3, 3> corners;          ///< centred
   glm::vec3 normal{ 0.0f }; ///< unit, on the camera's side; zero for a triangle without one
   float noise = 0.0f;       ///< planeNoise()
-};
-
-/// One pixel of ReceiverPixels; not covered unless said otherwise.
-struct Receiver
-{
-  glm::vec3 position{ 0.0f };
-  glm::vec3 normal{ 0.0f };
-  float offset = 0.0f;
-  std::uint32_t surface = ReceiverPixels::notCovered;
+  std::uint32_t surface = none;
+  bool finite = false;
 };
 
 /// The largest primitive number that the images can hold exactly.
@@ -105,9 +104,14 @@ TriangleOfFragment findTriangle(float drawnPlusOne, float primitive,
   return { block.surface, surface.firstTriangle + triangle };
 }
 
-SeenTriangle see(const Occluders& occluders, std::uint32_t triangle, const PixelRays& rays)
+bool isFinite(const glm::dvec3& vector)
 {
-  const glm::uvec3 corners = occluders.triangles[triangle];
+  return std::isfinite(vector.x + vector.y + vector.z);
+}
+
+SeenTriangle see(const Occluders& occluders, const TriangleOfFragment& found, const PixelRays& rays)
+{
+  const glm::uvec3 corners = occluders.triangles[found.triangle];
   const glm::vec3 a = occluders.positionsCentred[corners.x];
   const glm::vec3 b = occluders.positionsCentred[corners.y];
   const glm::vec3 c = occluders.positionsCentred[corners.z];
@@ -115,7 +119,9 @@ SeenTriangle see(const Occluders& occluders, std::uint32_t triangle, const Pixel
   const glm::vec3 extent = glm::max(a, glm::max(b, c)) - glm::min(a, glm::min(b, c));
 
   SeenTriangle seen;
+  seen.surface = found.surface;
   seen.corners = { a, b, c };
+  seen.finite = isFinite(seen.corners[0] + seen.corners[1] + seen.corners[2]);
   glm::dvec3 areaVector =
     glm::cross(seen.corners[1] - seen.corners[0], seen.corners[2] - seen.corners[0]);
   const auto planeDistance = [&](const glm::dvec3& areaVectorSeen)
@@ -227,34 +233,110 @@ private:
   std::array<SeenTriangle, size> seen_;
 };
 
-Receiver meet(const SeenTriangle& seen, const PixelRays& rays, double x, double y)
+/// Neighbours in a row that show the same triangle.
+struct Span
 {
-  const glm::dvec3 origin = rays.origin(x, y);
-  const glm::dvec3 direction = rays.direction(x, y);
-  const double alongNormal = seen.alongNormal.at(x, y);
-  double t = seen.planeDistance.at(x, y) / alongNormal;
-  Receiver receiver;
-  // Written so that NaN fails.
-  const bool inside = seen.insideEdge[0].at(x, y) >= 0.0 && seen.insideEdge[1].at(x, y) >= 0.0 &&
-    seen.insideEdge[2].at(x, y) >= 0.0 && alongNormal > 0.0;
-  if (inside)
+  std::size_t y, firstColumn, lastColumn;
+  std::size_t firstPixel; ///< of the row
+};
+
+/// Where the rays meet the triangle; of those that pass it by, inside is 0.
+[[gnu::target_clones("avx2", "default")]] void meetSpan(const SeenTriangle& seen,
+  const PixelRays& rays, const Span& span, ReceiverPixels& receivers, std::uint8_t* inside)
+{
+  const auto y = static_cast<double>(span.y);
+  const auto component = [&](const glm::dvec3& first, const glm::dvec3& perColumn,
+                           const glm::dvec3& perRow, int axis) {
+    return AffineOverRow{ first[axis] + y * perRow[axis], perColumn[axis] };
+  };
+  const auto origin = [&](int axis)
+  { return component(rays.firstOrigin, rays.originPerColumn, rays.originPerRow, axis); };
+  const auto direction = [&](int axis)
+  { return component(rays.firstDirection, rays.directionPerColumn, rays.directionPerRow, axis); };
+  const AffineOverRow originX = origin(0), originY = origin(1), originZ = origin(2);
+  const AffineOverRow directionX = direction(0), directionY = direction(1),
+                      directionZ = direction(2);
+  const AffineOverRow planeDistance = seen.planeDistance.row(y);
+  const AffineOverRow alongNormal = seen.alongNormal.row(y);
+  const AffineOverRow edge0 = seen.insideEdge[0].row(y);
+  const AffineOverRow edge1 = seen.insideEdge[1].row(y);
+  const AffineOverRow edge2 = seen.insideEdge[2].row(y);
+  // A pixel's side is one of these times 1 or t; the other is 0.
+  const double sideParallel = glm::length(rays.originPerRow);
+  const double sidePerDepth = glm::length(rays.directionPerRow);
+
+  float* const positionX = &receivers.positionX[span.firstPixel];
+  float* const positionY = &receivers.positionY[span.firstPixel];
+  float* const positionZ = &receivers.positionZ[span.firstPixel];
+  float* const offset = &receivers.offset[span.firstPixel];
+  const auto lastColumn = static_cast<int>(span.lastColumn);
+  const float noise = seen.noise;
+#pragma GCC ivdep
+  for (auto column = static_cast<int>(span.firstColumn); column < lastColumn; ++column)
   {
-    receiver.position = origin + t * direction;
+    const double x = column;
+    const double along = alongNormal.at(x);
+    const double t = planeDistance.at(x) / along;
+    positionX[column] = static_cast<float>(originX.at(x) + t * directionX.at(x));
+    positionY[column] = static_cast<float>(originY.at(x) + t * directionY.at(x));
+    positionZ[column] = static_cast<float>(originZ.at(x) + t * directionZ.at(x));
+    offset[column] = shadowRayOffset(noise, static_cast<float>(sideParallel + t * sidePerDepth));
+    // Written so that NaN fails.
+    inside[column] =
+      (edge0.at(x) >= 0.0) & (edge1.at(x) >= 0.0) & (edge2.at(x) >= 0.0) & (along > 0.0);
   }
-  else
+}
+
+/// The receivers of a span.
+void projectSpan(const SeenTriangle& seen, const PixelRays& rays, const Span& span,
+  ReceiverPixels& receivers, std::vector<std::uint8_t>& inside)
+{
+  meetSpan(seen, rays, span, receivers, inside.data());
+  const std::size_t first = span.firstPixel + span.firstColumn;
+  const std::size_t count = span.lastColumn - span.firstColumn;
+  std::fill_n(&receivers.normalX[first], count, seen.normal.x);
+  std::fill_n(&receivers.normalY[first], count, seen.normal.y);
+  std::fill_n(&receivers.normalZ[first], count, seen.normal.z);
+  std::fill_n(&receivers.surface[first], count, seen.surface);
+  for (std::size_t column = span.firstColumn; column < span.lastColumn; ++column)
   {
+    if (inside[column])
+    {
+      continue;
+    }
+    const auto x = static_cast<double>(column);
+    const auto y = static_cast<double>(span.y);
+    const glm::dvec3 origin = rays.origin(x, y);
+    const glm::dvec3 direction = rays.direction(x, y);
     const glm::dvec3 position = closestToRay(seen.corners, origin, direction, rays.parallel());
-    receiver.position = position;
-    t = glm::dot(position - origin, direction) / glm::dot(direction, direction);
+    const double t = glm::dot(position - origin, direction) / glm::dot(direction, direction);
+    const std::size_t i = span.firstPixel + column;
+    receivers.positionX[i] = static_cast<float>(position.x);
+    receivers.positionY[i] = static_cast<float>(position.y);
+    receivers.positionZ[i] = static_cast<float>(position.z);
+    receivers.offset[i] = shadowRayOffset(
+      seen.noise, static_cast<float>(glm::length(rays.originPerRow + t * rays.directionPerRow)));
+    if (seen.normal == glm::vec3(0.0f))
+    {
+      const glm::vec3 toCamera = -glm::normalize(direction);
+      receivers.normalX[i] = toCamera.x;
+      receivers.normalY[i] = toCamera.y;
+      receivers.normalZ[i] = toCamera.z;
+    }
   }
-  receiver.normal = seen.normal;
-  if (seen.normal == glm::vec3(0.0f))
+}
+
+void leaveUncovered(const Span& span, ReceiverPixels& receivers)
+{
+  const std::size_t first = span.firstPixel + span.firstColumn;
+  const std::size_t count = span.lastColumn - span.firstColumn;
+  for (std::vector<float>* numbers :
+    { &receivers.positionX, &receivers.positionY, &receivers.positionZ, &receivers.normalX,
+      &receivers.normalY, &receivers.normalZ, &receivers.offset })
   {
-    receiver.normal = -glm::normalize(direction);
+    std::fill_n(&(*numbers)[first], count, 0.0f);
   }
-  receiver.offset = shadowRayOffset(
-    seen.noise, static_cast<float>(glm::length(rays.originPerRow + t * rays.directionPerRow)));
-  return receiver;
+  std::fill_n(&receivers.surface[first], count, ReceiverPixels::notCovered);
 }
 
 } // namespace
@@ -264,50 +346,40 @@ void projectReceivers(const ReceiverImages& images, const std::vector<DrawnSurfa
   const Occluders& occluders, ReceiverPixels& receivers)
 {
   receivers.resize(images.width, images.height);
-
-  const auto receiverOf =
-    [&](const TriangleOfFragment& found, const SeenTriangle& seen, std::size_t x, std::size_t y)
-  {
-    Receiver receiver = meet(seen, images.rays, static_cast<double>(x), static_cast<double>(y));
-    receiver.surface = found.surface;
-    const float sum = receiver.position.x + receiver.position.y + receiver.position.z +
-      receiver.normal.x + receiver.normal.y + receiver.normal.z + receiver.offset;
-    return std::isfinite(sum) ? receiver : Receiver(); // VTK draws broken numbers, too
-  };
-  const auto store = [&](std::size_t i, const Receiver& receiver)
-  {
-    receivers.positionX[i] = receiver.position.x;
-    receivers.positionY[i] = receiver.position.y;
-    receivers.positionZ[i] = receiver.position.z;
-    receivers.normalX[i] = receiver.normal.x;
-    receivers.normalY[i] = receiver.normal.y;
-    receivers.normalZ[i] = receiver.normal.z;
-    receivers.offset[i] = receiver.offset;
-    receivers.surface[i] = receiver.surface;
-  };
+  const PixelRays& rays = images.rays;
+  const bool raysFinite = isFinite(rays.firstOrigin) && isFinite(rays.originPerColumn) &&
+    isFinite(rays.originPerRow) && isFinite(rays.firstDirection) &&
+    isFinite(rays.directionPerColumn) && isFinite(rays.directionPerRow);
   const auto width = static_cast<std::size_t>(images.width);
   const auto height = static_cast<std::size_t>(images.height);
-  /// Neighbours mostly share their triangle, and so what was looked up for it.
-  const auto projectRow =
-    [&](std::size_t y, std::size_t firstColumn, std::size_t lastColumn, SeenTriangles& cache)
+
+  const auto projectRow = [&](std::size_t y, std::size_t firstColumn, std::size_t lastColumn,
+                            SeenTriangles& cache, std::vector<std::uint8_t>& inside)
   {
-    glm::vec2 fragment(0.0f);
-    TriangleOfFragment found;
-    const SeenTriangle* seen = nullptr;
-    for (std::size_t x = firstColumn; x < lastColumn; ++x)
+    const glm::vec2* const fragments = images.fragments.data() + y * width;
+    Span span{ y, firstColumn, firstColumn, y * width };
+    while (span.lastColumn < lastColumn)
     {
-      const std::size_t i = y * width + x;
-      if (images.fragments[i] != fragment)
+      // Neighbours mostly share their triangle, and so what was looked up for it.
+      const glm::vec2 fragment = fragments[span.firstColumn];
+      do
       {
-        fragment = images.fragments[i];
-        found = findTriangle(std::abs(fragment.x), fragment.y, drawnSurfaces, occluders);
-        if (found.triangle != none)
-        {
-          seen = &cache.find(
-            found.triangle, [&] { return see(occluders, found.triangle, images.rays); });
-        }
+        ++span.lastColumn;
+      } while (span.lastColumn < lastColumn && fragments[span.lastColumn] == fragment);
+      const TriangleOfFragment found =
+        findTriangle(std::abs(fragment.x), fragment.y, drawnSurfaces, occluders);
+      const SeenTriangle* seen = found.triangle == none || !raysFinite
+        ? nullptr
+        : &cache.find(found.triangle, [&] { return see(occluders, found, rays); });
+      if (seen && seen->finite)
+      {
+        projectSpan(*seen, rays, span, receivers, inside);
       }
-      store(i, found.triangle == none ? Receiver() : receiverOf(found, *seen, x, y));
+      else
+      {
+        leaveUncovered(span, receivers);
+      }
+      span.firstColumn = span.lastColumn;
     }
   };
 
@@ -317,6 +389,7 @@ void projectReceivers(const ReceiverImages& images, const std::vector<DrawnSurfa
     [&](const tbb::blocked_range<std::size_t>& bands)
     {
       SeenTriangles cache;
+      std::vector<std::uint8_t> inside(width);
       for (std::size_t band = bands.begin(); band != bands.end(); ++band)
       {
         const std::size_t lastRow = std::min((band + 1) * tileRows, height);
@@ -325,7 +398,7 @@ void projectReceivers(const ReceiverImages& images, const std::vector<DrawnSurfa
           const std::size_t lastColumn = std::min(column + tileColumns, width);
           for (std::size_t y = band * tileRows; y < lastRow; ++y)
           {
-            projectRow(y, column, lastColumn, cache);
+            projectRow(y, column, lastColumn, cache, inside);
           }
         }
       }
