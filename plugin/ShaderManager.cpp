@@ -33,23 +33,6 @@ GLenum bindingOf(GLenum target)
   return target == GL_TEXTURE_2D_ARRAY ? GL_TEXTURE_BINDING_2D_ARRAY : GL_TEXTURE_BINDING_2D;
 }
 
-/// Has a vertex shader pass the view coordinates on once more, to be interpolated at the centroid of
-/// the covered samples. Where a pixel has several samples, its centre may lie off the triangle, and
-/// the position there behind a neighbour's surface.
-/// @return false for a shader without view coordinates
-bool passCentroid(std::string& vertexShader)
-{
-  const std::string declaration = "out vec4 vertexVCVSOutput;";
-  const std::size_t endOfMain = vertexShader.rfind('}');
-  if (endOfMain == std::string::npos || vertexShader.find(declaration) == std::string::npos)
-  {
-    return false;
-  }
-  vertexShader.insert(endOfMain, "  gnomonCentroidView = vertexVCVSOutput;\n");
-  replace(vertexShader, declaration, declaration + "\ncentroid out vec4 gnomonCentroidView;");
-  return true;
-}
-
 /// The declarations of one light's visibility function, gnomonVisibilityN(position, normal).
 std::string declare(Route route, const ShadedLight& shaded, int layer)
 {
@@ -66,14 +49,23 @@ std::string declare(Route route, const ShadedLight& shaded, int layer)
 } // namespace
 
 //------------------------------------------------------------------------------
-void ShaderManager::configure(Route route, const std::vector<ShadedLight>& lights)
+void ShaderManager::configure(
+  Route route, bool multisampled, const std::vector<ShadedLight>& lights)
 {
   std::string declarations = hookShaders().at("plugin/hook.glsl");
+  std::string position = "vertexVC.xyz";
+  std::string extensions;
   if (route == Route::Image)
   {
     declarations += hookShaders().at("plugin/hook_image.glsl");
   }
-  std::string multiplications;
+  else if (multisampled)
+  {
+    declarations += hookShaders().at("plugin/hook_multisample.glsl");
+    position = "gnomonCentroid(vertexVC.xyz, gnomonNormal, cameraParallel == 1)";
+    extensions = "#extension GL_ARB_gpu_shader5 : require\n"; // for interpolateAtCentroid
+  }
+  std::string multiplications = "  vec3 gnomonPosition = " + position + ";\n";
   for (std::size_t i = 0; i < lights.size(); ++i)
   {
     const std::string number = std::to_string(i);
@@ -82,7 +74,7 @@ void ShaderManager::configure(Route route, const std::vector<ShadedLight>& light
     const std::string colour = "lightColor" + std::to_string(lights[i].light.shaderIndex);
     multiplications += "  vec3 " + colour + " = " + colour +
       " * (gnomonReceives == 0 ? 1.0 : mix(1.0, " + "gnomonVisibility" + number +
-      "(gnomonCentroidView.xyz, gnomonNormal), gnomonStrength" + number + "));\n";
+      "(gnomonPosition, gnomonNormal), gnomonStrength" + number + "));\n";
   }
   if (declarations != this->declarations_ || multiplications != this->multiplications_ ||
     route != this->route_)
@@ -90,6 +82,7 @@ void ShaderManager::configure(Route route, const std::vector<ShadedLight>& light
     this->declarations_ = declarations;
     this->multiplications_ = multiplications;
     this->route_ = route;
+    this->extensions_ = extensions;
     this->stageTime_.Modified();
   }
   this->lights_ = lights;
@@ -106,8 +99,7 @@ void ShaderManager::markShader(std::string& fragmentShader) const
 }
 
 //------------------------------------------------------------------------------
-void ShaderManager::fillShader(std::string& vertexShader, const std::string& geometryShader,
-  std::string& fragmentShader, bool receiversStage)
+void ShaderManager::fillShader(std::string& fragmentShader, bool receiversStage)
 {
   ++this->rebuilds_;
   // Unlit surfaces have no view coordinates and no lights to shadow; they only hide what is behind.
@@ -119,9 +111,6 @@ void ShaderManager::fillShader(std::string& vertexShader, const std::string& geo
   if (lit)
   {
     declarations = this->declarations_;
-    const bool atCentroid = geometryShader.empty() && passCentroid(vertexShader);
-    declarations += atCentroid ? "centroid in vec4 gnomonCentroidView;\n"
-                               : "#define gnomonCentroidView vertexVC\n";
     normal = "vec3 gnomonNormal = gnomonFaceNormal(vertexVC.xyz, cameraParallel == 1);\n";
     begin = this->multiplications_;
   }
@@ -141,6 +130,8 @@ void ShaderManager::fillShader(std::string& vertexShader, const std::string& geo
       write + "  }\n  else\n  {\n" + begin;
     end = "  }\n";
   }
+  // VTK will put its #version line at this mark, which extensions must follow.
+  replace(fragmentShader, "//VTK::System::Dec", "//VTK::System::Dec\n" + this->extensions_);
   replace(fragmentShader, declarationMarker, declarations);
   replace(fragmentShader, normalMarker, normal);
   replace(fragmentShader, beginMarker, begin);

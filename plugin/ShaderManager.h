@@ -42,14 +42,15 @@ class ShaderManager
 public:
   /// States what the frame's shaders must do. When it differs from the last frame's, VTK's mappers
   /// rebuild their shaders (stageTime() changes).
-  void configure(Route route, const std::vector<ShadedLight>& lights);
+  /// @param multisampled whether pixels have several samples; the inline route then takes the
+  /// position at their centroid
+  void configure(Route route, bool multisampled, const std::vector<ShadedLight>& lights);
   vtkMTimeType stageTime() const { return this->stageTime_.GetMTime(); }
 
   /// First and second half of the hook, around VTK's own replacements.
   /// @param receiversStage whether this prop's shader must be able to draw the receivers stage
   void markShader(std::string& fragmentShader) const;
-  void fillShader(std::string& vertexShader, const std::string& geometryShader,
-    std::string& fragmentShader, bool receiversStage);
+  void fillShader(std::string& fragmentShader, bool receiversStage);
 
   /// The values that stay the same for all props of a stage.
   struct StageValues
@@ -75,6 +76,7 @@ private:
   int bindTexture(const TextureBinding& texture);
 
   Route route_ = Route::Inline;
+  std::string extensions_;
   std::string declarations_;
   std::string multiplications_;
   vtkTimeStamp stageTime_;
