@@ -6,7 +6,6 @@
 #include "FrameTiming.h"
 #include "FrameVariant.h"
 #include "Machine.h"
-#include "Text.h"
 #include "VtkMessages.h"
 
 #include "lights/vtkGnomonLightKeys.h"
@@ -21,6 +20,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <exception>
 #include <fstream>
 #include <iomanip>
 #include <iostream>
@@ -173,19 +173,14 @@ void writeJson(const Options& options, const Benchmark& benchmark)
   }
 }
 
-} // namespace
-} // namespace gnomon::tool
-
-int main(int argc, char** argv)
+int run(int argc, char** argv)
 {
-  using namespace gnomon::tool;
   CLI::App app{ "Times whole frames, the variants taking turns", "gnomon_benchmark_frames" };
   Options options;
   app.add_option("SCENE", options.scene, "Scene, as for gnomon")->capture_default_str();
   app
     .add_option("--size", options.size,
-      "Window in pixels, WIDTHxHEIGHT; vtkShadowMapPass is only "
-      "right in a square one")
+      "Window in pixels, WIDTHxHEIGHT; vtkShadowMapPass is right in square ones only")
     ->capture_default_str();
   app.add_option("--map-size", options.mapSizeTexels, "Side of the shadow maps in texels")
     ->check(CLI::Range(16, 16384))
@@ -195,20 +190,29 @@ int main(int argc, char** argv)
     ->capture_default_str();
   app.add_option("--json", options.jsonFile, "File for the figures");
   CLI11_PARSE(app, argc, argv);
+
+  Benchmark benchmark(options);
+  benchmark.run(options.frames);
+  printTable(benchmark.rows());
+  if (!options.jsonFile.empty())
+  {
+    writeJson(options, benchmark);
+  }
+  return 0;
+}
+
+} // namespace
+} // namespace gnomon::tool
+
+int main(int argc, char** argv)
+{
   try
   {
-    Benchmark benchmark(options);
-    benchmark.run(options.frames);
-    printTable(benchmark.rows());
-    if (!options.jsonFile.empty())
-    {
-      writeJson(options, benchmark);
-    }
-    return 0;
+    return gnomon::tool::run(argc, argv);
   }
   catch (const std::exception& error)
   {
-    std::cerr << "gnomon_benchmark_frames: error: " << oneLine(error.what()) << "\n";
+    std::cerr << "gnomon_benchmark_frames: error: " << error.what() << "\n";
     return 1;
   }
 }

@@ -47,12 +47,7 @@ public:
       for (int column = x * this->finer_ - margin; column < (x + 1) * this->finer_ + margin;
            ++column)
       {
-        const bool inside =
-          row >= 0 && row < this->truth_.height && column >= 0 && column < this->truth_.width;
-        const std::size_t i =
-          static_cast<std::size_t>((this->truth_.height - 1 - row) * this->truth_.width + column);
-        if (!inside || this->truth_.coverage[i] == 0.0f ||
-          this->truth_.visibility[0][i] != visibility)
+        if (!this->shows(visibility, column, row))
         {
           return false;
         }
@@ -62,6 +57,18 @@ public:
   }
 
 private:
+  bool shows(float visibility, int column, int row) const
+  {
+    if (row < 0 || row >= this->truth_.height || column < 0 || column >= this->truth_.width)
+    {
+      return false;
+    }
+    const auto fromTop = static_cast<std::size_t>(this->truth_.height - 1 - row);
+    const std::size_t i =
+      fromTop * static_cast<std::size_t>(this->truth_.width) + static_cast<std::size_t>(column);
+    return this->truth_.coverage[i] > 0.0f && this->truth_.visibility[0][i] == visibility;
+  }
+
   const VisibilityImages& truth_;
   int finer_;
 };
