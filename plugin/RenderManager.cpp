@@ -38,6 +38,14 @@ glm::dmat4 fromVtk(vtkMatrix4x4* matrix)
   return result;
 }
 
+/// How many samples a pixel has where VTK draws now.
+int samplesPerPixel()
+{
+  GLint samples = 0;
+  glGetIntegerv(GL_SAMPLES, &samples);
+  return std::max(samples, 1);
+}
+
 template <typename Value>
 std::vector<Value> topRowFirst(const std::vector<Value>& image, int width, int height)
 {
@@ -184,12 +192,20 @@ bool RenderManager::chooseRoute(int wished, bool keepVisibility)
   }
   this->report_.route = this->route_ == Route::Image ? "image" : "inline";
 
+  const int samples = samplesPerPixel();
+  if (this->route_ == Route::Image && samples > 1)
+  {
+    this->report_.notes.push_back("The window has " + std::to_string(samples) +
+      " samples per pixel, and the image route one visibility, that of the surface at the pixel's "
+      "centre: where another surface covers the rest of the pixel it is shaded with it, too.");
+  }
+
   std::vector<ShadedLight> lights;
   for (const LightSlot* slot : this->casting_)
   {
     lights.push_back({ slot->light, slot->technique.get() });
   }
-  this->shaders_.configure(this->route_, this->anyPointwise(), lights);
+  this->shaders_.configure({ this->route_, this->anyPointwise(), samples > 1 }, lights);
   return wished != vtkGnomonShadowPass::ROUTE_INLINE || screenTechnique.empty();
 }
 

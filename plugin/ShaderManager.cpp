@@ -33,48 +33,42 @@ GLenum bindingOf(GLenum target)
   return target == GL_TEXTURE_2D_ARRAY ? GL_TEXTURE_BINDING_2D_ARRAY : GL_TEXTURE_BINDING_2D;
 }
 
-/// Has a vertex shader pass the view coordinates on once more, to be interpolated at the centroid of
-/// the covered samples. Where a pixel has several samples, its centre may lie off the triangle, and
-/// the position there behind a neighbour's surface.
-/// @return false for a shader without view coordinates
-bool passCentroid(std::string& vertexShader)
-{
-  const std::string declaration = "out vec4 vertexVCVSOutput;";
-  const std::size_t endOfMain = vertexShader.rfind('}');
-  if (endOfMain == std::string::npos || vertexShader.find(declaration) == std::string::npos)
-  {
-    return false;
-  }
-  vertexShader.insert(endOfMain, "  gnomonCentroidView = vertexVCVSOutput;\n");
-  replace(vertexShader, declaration, declaration + "\ncentroid out vec4 gnomonCentroidView;");
-  return true;
-}
-
 /// The expression of one light's visibility.
 std::string visibilityOf(Route route, int light)
 {
   const std::string number = std::to_string(light);
   return route == Route::Image ? "gnomonLayer(" + number + ")"
-                               : "visibility_" + number + "(gnomonCentroidView.xyz, gnomonNormal)";
+                               : "visibility_" + number + "(gnomonPosition, gnomonNormal)";
 }
 
 } // namespace
 
 //------------------------------------------------------------------------------
-void ShaderManager::configure(
-  Route route, bool receiverPoints, const std::vector<ShadedLight>& lights)
+void ShaderManager::configure(const HookVariant& variant, const std::vector<ShadedLight>& lights)
 {
   std::string declarations = hookShaders().at("plugin/hook.glsl");
-  if (route == Route::Image)
+  std::string position = "vertexVC.xyz";
+  std::string extensions;
+  if (variant.route == Route::Image)
   {
     declarations += hookShaders().at("plugin/hook_image.glsl");
   }
+  else if (variant.multisampled)
+  {
+    declarations += hookShaders().at("plugin/hook_multisample.glsl");
+    position = "gnomonCentroid(vertexVC.xyz, gnomonNormal, cameraParallel == 1)";
+    extensions = "#extension GL_ARB_gpu_shader5 : require\n"; // for interpolateAtCentroid
+  }
   std::string multiplications;
+  if (variant.route == Route::Inline)
+  {
+    multiplications = "  vec3 gnomonPosition = " + position + ";\n";
+  }
   for (std::size_t i = 0; i < lights.size(); ++i)
   {
     const ShadedLight& shaded = lights[i];
     const int number = static_cast<int>(i);
-    if (route == Route::Inline)
+    if (variant.route == Route::Inline)
     {
       declarations += numberedForLight(shaded.technique->visibilityGlsl(shaded.light), number);
     }
@@ -82,16 +76,17 @@ void ShaderManager::configure(
     declarations += "uniform float " + strength + ";\n";
     const std::string colour = "lightColor" + std::to_string(shaded.light.shaderIndex);
     multiplications += "  vec3 " + colour + " = " + colour +
-      " * (gnomonReceives == 0 ? 1.0 : mix(1.0, " + visibilityOf(route, number) + ", " + strength +
-      "));\n";
+      " * (gnomonReceives == 0 ? 1.0 : mix(1.0, " + visibilityOf(variant.route, number) + ", " +
+      strength + "));\n";
   }
   if (declarations != this->declarations_ || multiplications != this->multiplications_ ||
-    route != this->route_ || receiverPoints != this->receiverPoints_)
+    variant.route != this->variant_.route ||
+    variant.receiverPoints != this->variant_.receiverPoints)
   {
     this->declarations_ = declarations;
     this->multiplications_ = multiplications;
-    this->route_ = route;
-    this->receiverPoints_ = receiverPoints;
+    this->variant_ = variant;
+    this->extensions_ = extensions;
     this->stageTime_.Modified();
   }
   this->lights_ = lights;
@@ -108,8 +103,7 @@ void ShaderManager::markShader(std::string& fragmentShader) const
 }
 
 //------------------------------------------------------------------------------
-void ShaderManager::fillShader(std::string& vertexShader, const std::string& geometryShader,
-  std::string& fragmentShader, bool receiversStage)
+void ShaderManager::fillShader(std::string& fragmentShader, bool receiversStage)
 {
   ++this->rebuilds_;
   // Unlit surfaces have no view coordinates and no lights to shadow; they only hide what is behind.
@@ -122,18 +116,12 @@ void ShaderManager::fillShader(std::string& vertexShader, const std::string& geo
   {
     declarations = this->declarations_;
     begin = this->multiplications_;
-    if (this->route_ == Route::Inline)
-    {
-      const bool atCentroid = geometryShader.empty() && passCentroid(vertexShader);
-      declarations += atCentroid ? "centroid in vec4 gnomonCentroidView;\n"
-                                 : "#define gnomonCentroidView vertexVC\n";
-    }
-    if (this->route_ == Route::Inline || this->receiverPoints_)
+    if (this->variant_.route == Route::Inline || this->variant_.receiverPoints)
     {
       normal = "vec3 gnomonNormal = gnomonFaceNormal(vertexVC.xyz, cameraParallel == 1);\n";
     }
   }
-  if (this->route_ == Route::Image && receiversStage)
+  if (this->variant_.route == Route::Image && receiversStage)
   {
     if (!lit)
     {
@@ -143,6 +131,8 @@ void ShaderManager::fillShader(std::string& vertexShader, const std::string& geo
       this->writeReceiver(lit) + "  }\n  else\n  {\n" + begin;
     end = "  }\n";
   }
+  // VTK will put its #version line at this mark, which extensions must follow.
+  replace(fragmentShader, "//VTK::System::Dec", "//VTK::System::Dec\n" + this->extensions_);
   replace(fragmentShader, declarationMarker, declarations);
   replace(fragmentShader, normalMarker, normal);
   replace(fragmentShader, beginMarker, begin);
@@ -159,7 +149,7 @@ std::string ShaderManager::writeReceiver(bool lit) const
     return "    gl_FragData[1] = vec4(0.0);\n"
            "    gl_FragData[2] = vec4(0.0);\n";
   }
-  if (!this->receiverPoints_)
+  if (!this->variant_.receiverPoints)
   {
     return "    gl_FragData[1] = vec4(" + fragment + ", 0.0, 0.0);\n";
   }
@@ -192,7 +182,7 @@ void ShaderManager::beginStage(vtkOpenGLRenderWindow* window, const StageValues&
   const auto add = [this](std::string name, const auto& value) {
     this->stageUniforms_.push_back({ std::move(name), value });
   };
-  if (this->route_ == Route::Image)
+  if (this->variant_.route == Route::Image)
   {
     add("gnomonStage", values.receiversStage ? 1 : 0);
     add("gnomonOrigin", values.originPixels);
@@ -203,7 +193,7 @@ void ShaderManager::beginStage(vtkOpenGLRenderWindow* window, const StageValues&
   {
     const int light = static_cast<int>(i);
     add("gnomonStrength" + std::to_string(i), static_cast<float>(this->lights_[i].light.strength));
-    if (this->route_ == Route::Inline)
+    if (this->variant_.route == Route::Inline)
     {
       for (Uniform uniform : this->lights_[i].technique->uniforms(values.centredFromView))
       {

@@ -23,6 +23,14 @@ enum class Route
   Image   ///< it is computed for all pixels beforehand, and fetched
 };
 
+/// What the shaders of a frame have to do, besides their lights.
+struct HookVariant
+{
+  Route route = Route::Inline;
+  bool receiverPoints = false; ///< image route: the receivers stage draws points and normals, too
+  bool multisampled = false; ///< inline route: pixels have several samples; asks at their centroid
+};
+
 /// One casting light, as the shader hook needs it.
 struct ShadedLight
 {
@@ -42,15 +50,13 @@ class ShaderManager
 public:
   /// States what the frame's shaders must do. When it differs from the last frame's, VTK's mappers
   /// rebuild their shaders (stageTime() changes).
-  /// @param receiverPoints image route: whether the receivers stage draws points and normals, too
-  void configure(Route route, bool receiverPoints, const std::vector<ShadedLight>& lights);
+  void configure(const HookVariant& variant, const std::vector<ShadedLight>& lights);
   vtkMTimeType stageTime() const { return this->stageTime_.GetMTime(); }
 
   /// First and second half of the hook, around VTK's own replacements.
   /// @param receiversStage whether this prop's shader must be able to draw the receivers stage
   void markShader(std::string& fragmentShader) const;
-  void fillShader(std::string& vertexShader, const std::string& geometryShader,
-    std::string& fragmentShader, bool receiversStage);
+  void fillShader(std::string& fragmentShader, bool receiversStage);
 
   /// The values that stay the same for all props of a stage.
   struct StageValues
@@ -76,8 +82,8 @@ private:
   std::string writeReceiver(bool lit) const;
   int bindTexture(const TextureBinding& texture);
 
-  Route route_ = Route::Inline;
-  bool receiverPoints_ = false;
+  HookVariant variant_;
+  std::string extensions_;
   std::string declarations_;
   std::string multiplications_;
   vtkTimeStamp stageTime_;

@@ -274,14 +274,13 @@ bool vtkGnomonShadowPass::PreReplaceShaderValues(std::string& vtkNotUsed(vertexS
 }
 
 //------------------------------------------------------------------------------
-bool vtkGnomonShadowPass::PostReplaceShaderValues(std::string& vertexShader,
-  std::string& geometryShader, std::string& fragmentShader, vtkAbstractMapper* vtkNotUsed(mapper),
-  vtkProp* prop)
+bool vtkGnomonShadowPass::PostReplaceShaderValues(std::string& vtkNotUsed(vertexShader),
+  std::string& vtkNotUsed(geometryShader), std::string& fragmentShader,
+  vtkAbstractMapper* vtkNotUsed(mapper), vtkProp* prop)
 {
   // Where other passes write outputs of their own, this is not the receivers stage.
   const bool alone = prop->GetPropertyKeys()->Length(vtkOpenGLRenderPass::RenderPasses()) == 1;
-  this->Internal->manager->shaders().fillShader(
-    vertexShader, geometryShader, fragmentShader, alone);
+  this->Internal->manager->shaders().fillShader(fragmentShader, alone);
   return true;
 }
 

@@ -211,4 +211,19 @@ const char* motionName(Motion motion)
   return "static";
 }
 
+//------------------------------------------------------------------------------
+const char* motionKey(Motion motion)
+{
+  switch (motion)
+  {
+    case Motion::Camera:
+      return "camera_moving";
+    case Motion::Light:
+      return "light_moving";
+    case Motion::Static:
+      break;
+  }
+  return "static";
+}
+
 } // namespace gnomon::tool

@@ -78,6 +78,8 @@ inline constexpr std::array<Motion, 3> allMotions = { Motion::Static, Motion::Ca
   Motion::Light };
 /// "static", "camera moving", "light moving".
 const char* motionName(Motion motion);
+/// The same as a key of tables: "static", "camera_moving", "light_moving".
+const char* motionKey(Motion motion);
 
 /// Times of one variant under one motion.
 struct MotionTiming

@@ -1,32 +1,18 @@
 #include "ComparisonRun.h"
 
 #include "Errors.h"
+#include "FrameTiming.h"
+#include "FrameVariant.h"
 #include "Machine.h"
 #include "PictureVisibility.h"
 
-#include "plugin/vtkGnomonEGLRenderWindow.h"
-#include "plugin/vtkGnomonShadowPass.h"
 #include "shadowtech/Registry.h"
 #include "shadowtech/base/FrameReport.h"
 
-#include <vtkCamera.h>
-#include <vtkCameraPass.h>
-#include <vtkLight.h>
-#include <vtkLightCollection.h>
-#include <vtkNew.h>
-#include <vtkRenderPassCollection.h>
-#include <vtkRenderer.h>
-#include <vtkSequencePass.h>
-#include <vtkShadowMapBakerPass.h>
-#include <vtkShadowMapPass.h>
-#include <vtkSmartPointer.h>
 #include <vtkVersion.h>
 
-#include <glm/glm.hpp>
-#include <glm/gtc/matrix_transform.hpp>
-
 #include <algorithm>
-#include <chrono>
+#include <iterator>
 #include <map>
 #include <memory>
 
@@ -34,49 +20,6 @@ namespace gnomon::tool
 {
 namespace
 {
-
-/// How far camera and lights turn per frame.
-constexpr double stepDegrees = 0.05;
-/// Frames that are drawn and not counted when the motion changes.
-constexpr int warmUpFrames = 3;
-
-double median(std::vector<double> values)
-{
-  if (values.empty())
-  {
-    return 0.0;
-  }
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-/// What a variant is, before it is drawn.
-struct VariantSpec
-{
-  std::string technique;
-  int mapSizeTexels = 0;
-  int route = vtkGnomonShadowPass::ROUTE_AUTO;
-  bool pointwise = false;
-
-  bool isGnomon() const
-  {
-    return this->technique != plainTechnique && this->technique != shadowMapPassTechnique;
-  }
-  std::string routeName() const
-  {
-    return !this->pointwise                              ? ""
-      : this->route == vtkGnomonShadowPass::ROUTE_INLINE ? "inline"
-                                                         : "image";
-  }
-  std::string name() const
-  {
-    std::string text = this->technique;
-    text += this->mapSizeTexels > 0 ? " " + std::to_string(this->mapSizeTexels) : "";
-    text += this->pointwise ? " " + this->routeName() : "";
-    return text;
-  }
-};
 
 std::vector<VariantSpec> listVariants(const ComparisonPlan& plan)
 {
@@ -114,155 +57,19 @@ std::vector<VariantSpec> listVariants(const ComparisonPlan& plan)
   return specs;
 }
 
-/// VTK's own shadows, in the chain that its documentation shows.
-vtkSmartPointer<vtkRenderPass> makeShadowMapPass(int mapSizeTexels)
+/// A variant and what is found out about it.
+struct Variant : FrameVariant
 {
-  vtkNew<vtkShadowMapPass> shadows;
-  shadows->GetShadowMapBakerPass()->SetResolution(static_cast<unsigned int>(mapSizeTexels));
-  vtkNew<vtkRenderPassCollection> steps;
-  steps->AddItem(shadows->GetShadowMapBakerPass());
-  steps->AddItem(shadows);
-  vtkNew<vtkSequencePass> sequence;
-  sequence->SetPasses(steps);
-  vtkNew<vtkCameraPass> camera;
-  camera->SetDelegatePass(sequence);
-  return camera;
-}
-
-vtkSmartPointer<vtkGnomonShadowPass> makeGnomonPass(const VariantSpec& spec)
-{
-  auto pass = vtkSmartPointer<vtkGnomonShadowPass>::New();
-  pass->SetTechnique(spec.technique.c_str());
-  pass->SetRoute(spec.route);
-  if (spec.mapSizeTexels > 0)
-  {
-    pass->SetMapSize(spec.mapSizeTexels);
-  }
-  return pass;
-}
-
-/// Turns a renderer's camera or lights a little, from the places that they had when this was made.
-class Mover
-{
-public:
-  Mover(vtkRenderer* renderer, const Scene& scene)
-    : renderer_(renderer)
-    , scene_(scene)
-  {
-    this->camera_->DeepCopy(renderer->GetActiveCamera());
-  }
-
-  void apply(Motion motion, int step)
-  {
-    this->turnCamera(motion == Motion::Camera ? step * stepDegrees : 0.0);
-    this->turnLights(motion == Motion::Light ? step * stepDegrees : 0.0);
-  }
-
-private:
-  void turnCamera(double degrees)
-  {
-    if (degrees == this->cameraDegrees_)
-    {
-      return;
-    }
-    this->cameraDegrees_ = degrees;
-    vtkCamera* const camera = this->renderer_->GetActiveCamera();
-    camera->SetPosition(this->camera_->GetPosition());
-    camera->SetFocalPoint(this->camera_->GetFocalPoint());
-    camera->SetViewUp(this->camera_->GetViewUp());
-    camera->SetClippingRange(this->camera_->GetClippingRange());
-    if (degrees != 0.0)
-    {
-      camera->Azimuth(degrees);
-      camera->OrthogonalizeViewUp();
-      this->renderer_->ResetCameraClippingRange();
-    }
-  }
-
-  /// Each light turns around its target, about an axis across its direction, so that the direction
-  /// always changes.
-  void turnLights(double degrees)
-  {
-    if (degrees == this->lightDegrees_)
-    {
-      return;
-    }
-    this->lightDegrees_ = degrees;
-    for (std::size_t i = 0; i < this->scene_.lights.size(); ++i)
-    {
-      const SceneLight& base = this->scene_.lights[i];
-      const glm::dvec3 target(base.target[0], base.target[1], base.target[2]);
-      const glm::dvec3 arm =
-        glm::dvec3(base.position[0], base.position[1], base.position[2]) - target;
-      const glm::dvec3 across = std::abs(arm.x) < 0.5 * glm::length(arm)
-        ? glm::dvec3(1.0, 0.0, 0.0)
-        : glm::dvec3(0.0, 1.0, 0.0);
-      const glm::dmat4 turn =
-        glm::rotate(glm::dmat4(1.0), glm::radians(degrees), glm::cross(arm, across));
-      const glm::dvec3 position = target + glm::dvec3(turn * glm::dvec4(arm, 0.0));
-      vtkLight* const light =
-        vtkLight::SafeDownCast(this->renderer_->GetLights()->GetItemAsObject(static_cast<int>(i)));
-      light->SetPosition(position.x, position.y, position.z);
-    }
-  }
-
-  vtkRenderer* renderer_;
-  const Scene& scene_;
-  vtkNew<vtkCamera> camera_;
-  double cameraDegrees_ = 0.0;
-  double lightDegrees_ = 0.0;
-};
-
-/// One variant with a window, a renderer and a pass of its own.
-class Variant
-{
-public:
   Variant(const VariantSpec& spec, const Scene& scene, const ComparisonPlan& plan)
-    : spec_(spec)
-    , renderer_(makeRenderer(scene, static_cast<double>(plan.width) / plan.height))
-    , mover_(renderer_, scene)
+    : FrameVariant(spec, scene, plan.width, plan.height)
   {
     this->result.name = spec.name();
     this->result.technique = spec.technique;
     this->result.route = spec.routeName();
     this->result.mapSizeTexels = spec.mapSizeTexels;
-    if (spec.isGnomon())
-    {
-      this->pass_ = makeGnomonPass(spec);
-      this->renderer_->SetPass(this->pass_);
-    }
-    else if (spec.technique == shadowMapPassTechnique)
-    {
-      this->renderer_->SetPass(makeShadowMapPass(spec.mapSizeTexels));
-    }
-    this->window_->SetSize(plan.width, plan.height);
-    this->window_->AddRenderer(this->renderer_);
   }
 
   VariantResult result;
-
-  const VariantSpec& spec() const { return this->spec_; }
-  vtkGnomonShadowPass* pass() const { return this->pass_; }
-  vtkRenderWindow* window() const { return this->window_; }
-
-  /// Draws one frame to its end and returns its wall clock time in milliseconds.
-  double drawFrame(Motion motion, int step)
-  {
-    this->mover_.apply(motion, step);
-    this->window_->MakeCurrent();
-    const auto start = std::chrono::steady_clock::now();
-    this->window_->Render();
-    this->window_->WaitForCompletion();
-    const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
-    return time.count();
-  }
-
-private:
-  VariantSpec spec_;
-  vtkSmartPointer<vtkRenderer> renderer_;
-  vtkSmartPointer<vtkGnomonShadowPass> pass_; // null for the peers
-  vtkNew<vtkGnomonEGLRenderWindow> window_;
-  Mover mover_;
 };
 
 using Variants = std::vector<std::unique_ptr<Variant>>;
@@ -349,24 +156,17 @@ int measuredFrames(const ComparisonPlan& plan)
   return std::clamp(plan.frames / 3, 1, 9);
 }
 
-void timeFrames(Variants& variants, Motion motion, const ComparisonPlan& plan, StepCounter& steps)
+void timeWholeFrames(
+  Variants& variants, Motion motion, const ComparisonPlan& plan, StepCounter& steps)
 {
-  std::vector<std::vector<double>> times(variants.size());
-  for (int frame = -warmUpFrames; frame < plan.frames; ++frame)
-  {
-    for (std::size_t i = 0; i < variants.size(); ++i)
-    {
-      const double milliseconds = variants[i]->drawFrame(motion, frame + warmUpFrames + 1);
-      if (frame >= 0)
-      {
-        times[i].push_back(milliseconds);
-      }
-    }
-    steps.advance();
-  }
+  std::vector<FrameVariant*> drawn;
+  std::transform(variants.begin(), variants.end(), std::back_inserter(drawn),
+    [](const std::unique_ptr<Variant>& variant) { return variant.get(); });
+  const std::vector<double> medians =
+    timeFrames(drawn, motion, plan.frames, [&steps] { steps.advance(); });
   for (std::size_t i = 0; i < variants.size(); ++i)
   {
-    variants[i]->result.timings[static_cast<std::size_t>(motion)].milliseconds = median(times[i]);
+    variants[i]->result.timings[static_cast<std::size_t>(motion)].milliseconds = medians[i];
   }
 }
 
@@ -440,18 +240,8 @@ VisibilityImages visibilityFromItsPictures(
   Variant& variant, const Scene& scene, const VisibilityImages& truth)
 {
   const VariantSpec& spec = variant.spec();
-  PictureVisibility found = measureVisibility(scene, truth,
-    [&spec](vtkRenderer* renderer)
-    {
-      if (spec.isGnomon())
-      {
-        renderer->SetPass(makeGnomonPass(spec));
-      }
-      else
-      {
-        renderer->SetPass(makeShadowMapPass(spec.mapSizeTexels));
-      }
-    });
+  PictureVisibility found = measureVisibility(
+    scene, truth, [&spec](vtkRenderer* renderer) { renderer->SetPass(makePass(spec)); });
   variant.result.errorSource =
     "Read off pictures of what it drew: the scene with white surfaces, without ambient light and "
     "gloss, under one light at a time, once with and once without shadows; the quotient of the two "
@@ -587,13 +377,7 @@ std::vector<std::pair<std::string, std::string>> listSettings(
 ComparisonResults runComparison(
   const Scene& original, const ComparisonPlan& plan, const ProgressFunction& progress)
 {
-  Scene scene = original;
-  for (SceneLight& light : scene.lights)
-  {
-    light.technique.clear();
-    light.mapSizeTexels = 0;
-  }
-
+  const Scene scene = withoutLightSettings(original);
   const std::vector<VariantSpec> specs = listVariants(plan);
   const std::size_t framesPerMotion =
     static_cast<std::size_t>(warmUpFrames + plan.frames + measuredFrames(plan));
@@ -617,7 +401,7 @@ ComparisonResults runComparison(
 
   for (Motion motion : allMotions)
   {
-    timeFrames(variants, motion, plan, steps);
+    timeWholeFrames(variants, motion, plan, steps);
     timeStages(variants, motion, plan, steps);
   }
   const VisibilityImages truth = keptVisibility(*truthVariant);

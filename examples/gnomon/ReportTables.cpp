@@ -14,21 +14,6 @@ namespace gnomon::tool
 namespace
 {
 
-/// Keys of the motions in tables.
-const char* motionKey(Motion motion)
-{
-  switch (motion)
-  {
-    case Motion::Camera:
-      return "camera_moving";
-    case Motion::Light:
-      return "light_moving";
-    case Motion::Static:
-      break;
-  }
-  return "static";
-}
-
 const MotionTiming& timing(const VariantResult& variant, Motion motion)
 {
   return variant.timings[static_cast<std::size_t>(motion)];

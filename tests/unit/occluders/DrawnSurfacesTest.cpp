@@ -265,7 +265,9 @@ protected:
     return count;
   }
 
-  /// Every pixel must be right, but for a few on edges.
+  /// Every pixel must be right, but for a few on edges: VTK transforms in float and the rasteriser
+  /// snaps vertices to 1/256 pixel, so that an edge may lie off by half of that. Silhouettes here are
+  /// some 500 pixels long, and 500/512 of their pixels have a centre so near.
   void expectRight(const Count& count, int leastCovered = 2000)
   {
     EXPECT_GE(count.covered, leastCovered);
@@ -504,9 +506,8 @@ TEST_F(DrawnSurfaces, DroppedTriangles)
   EXPECT_GT(this->collector().occluders().droppedZeroArea, 0u);
   EXPECT_GT(this->collector().occluders().droppedNonFinite, 0u);
   EXPECT_FALSE(this->collector().occluders().surfaces[0].triangleOfDrawn.empty());
-  EXPECT_GT(count.covered, 2000);
-  EXPECT_LE(count.outside, 2);
-  EXPECT_LE(count.wrong, 2);
+  // What was dropped is drawn nowhere, and the numbers of what follows it are right.
+  this->expectRight(count);
 }
 
 TEST_F(DrawnSurfaces, ClippingPlanes)
@@ -640,11 +641,9 @@ TEST_F(DrawnSurfaces, FarFromTheOrigin)
   const auto actor = makeActor(data);
   actor->SetPosition(4e6, 4e6, -4e6);
   this->renderer->AddActor(actor);
-  const Count count = this->check();
-  // VTK's own float transform moves its picture by a pixel or two here.
-  EXPECT_GT(count.covered, 2000);
-  EXPECT_EQ(count.lost, 0);
-  EXPECT_LE(count.wrong, count.covered / 20);
+  // VTK multiplies the actor's matrix with the camera's in double, where the distance cancels before
+  // anything becomes float: far away is as good as near.
+  this->expectRight(this->check());
 }
 
 TEST_F(DrawnSurfaces, TheSecondFrameIsRightWhenPartsMoved)

@@ -11,6 +11,7 @@
 #include <vtkIdTypeArray.h>
 #include <vtkImageData.h>
 #include <vtkInformation.h>
+#include <vtkOpenGLGPUVolumeRayCastMapper.h>
 #include <vtkPiecewiseFunction.h>
 #include <vtkPlaneSource.h>
 #include <vtkPolyDataMapper2D.h>
@@ -21,6 +22,7 @@
 #include <vtkTextActor.h>
 #include <vtkTextProperty.h>
 #include <vtkVolume.h>
+#include <vtkVolumeMapper.h>
 #include <vtkVolumeProperty.h>
 #include <vtkWorldPointPicker.h>
 
@@ -78,6 +80,46 @@ protected:
     EXPECT_GT(keptPixels, 100u);
     EXPECT_EQ(changedInside, 0u);
     EXPECT_GT(changedOutside, 100u) << "no shadow";
+  }
+
+  /// Adds an opaque blue volume in the shadows' way. It must look as without shadows, and everything
+  /// as without the pass when no light casts.
+  void expectVolumeKept(vtkVolumeMapper* mapper)
+  {
+    vtkNew<vtkImageData> image;
+    image->SetDimensions(16, 16, 16);
+    image->SetSpacing(0.1, 0.1, 0.1);
+    image->SetOrigin(-3.0, -2.0, 0.5);
+    image->AllocateScalars(VTK_UNSIGNED_CHAR, 1);
+    auto* values = static_cast<unsigned char*>(image->GetScalarPointer());
+    for (int i = 0; i < 16 * 16 * 16; ++i)
+    {
+      values[i] = static_cast<unsigned char>(120 + 5 * (i % 16)); // a slope to be shaded
+    }
+    mapper->SetInputDataObject(image);
+    vtkNew<vtkPiecewiseFunction> opacity;
+    opacity->AddPoint(0.0, 0.0);
+    opacity->AddPoint(255.0, 1.0);
+    vtkNew<vtkColorTransferFunction> colour;
+    colour->AddRGBPoint(0.0, 0.0, 0.0, 1.0);
+    colour->AddRGBPoint(255.0, 0.0, 0.0, 1.0);
+    vtkNew<vtkVolume> volume;
+    volume->SetMapper(mapper);
+    volume->GetProperty()->SetScalarOpacity(opacity);
+    volume->GetProperty()->SetColor(colour);
+    volume->GetProperty()->SetScalarOpacityUnitDistance(0.02); // opaque
+    volume->GetProperty()->ShadeOn();
+    volume->GetProperty()->SetAmbient(0.4);
+    this->scene.renderer->AddViewProp(volume);
+    this->expectKept([](const Picture& picture, int x, int y)
+      { return picture.at(x, y).b > 60 && picture.at(x, y).g < 10; });
+    this->scene.render();
+    EXPECT_THAT(this->scene.report().notes, testing::ElementsAre(testing::HasSubstr("vtkVolume")));
+
+    this->sun->SetShadowAttenuation(0.0f);
+    const Picture idle = this->scene.render();
+    this->scene.usePlain();
+    EXPECT_EQ(differingPixels(idle, this->scene.render()), 0u);
   }
 
   PassScene scene{ 200, 150 };
@@ -243,32 +285,17 @@ TEST_P(Neighbours, overlaysAreDrawnAsVtkDrawsThem)
 //------------------------------------------------------------------------------
 TEST_P(Neighbours, volumesAreDrawnAsVtkDrawsThem)
 {
-  vtkNew<vtkImageData> image;
-  image->SetDimensions(16, 16, 16);
-  image->SetSpacing(0.1, 0.1, 0.1);
-  image->SetOrigin(-3.0, -2.0, 0.5);
-  image->AllocateScalars(VTK_UNSIGNED_CHAR, 1);
-  auto* values = static_cast<unsigned char*>(image->GetScalarPointer());
-  std::fill_n(values, 16 * 16 * 16, static_cast<unsigned char>(200));
   vtkNew<vtkFixedPointVolumeRayCastMapper> mapper;
-  mapper->SetInputData(image);
   mapper->AutoAdjustSampleDistancesOff(); // the same picture on a busy machine
-  vtkNew<vtkPiecewiseFunction> opacity;
-  opacity->AddPoint(0.0, 0.0);
-  opacity->AddPoint(255.0, 1.0);
-  vtkNew<vtkColorTransferFunction> colour;
-  colour->AddRGBPoint(0.0, 0.0, 0.0, 1.0);
-  colour->AddRGBPoint(200.0, 0.0, 0.0, 1.0);
-  vtkNew<vtkVolume> volume;
-  volume->SetMapper(mapper);
-  volume->GetProperty()->SetScalarOpacity(opacity);
-  volume->GetProperty()->SetColor(colour);
-  volume->GetProperty()->SetScalarOpacityUnitDistance(0.02); // opaque
-  this->scene.renderer->AddViewProp(volume);
-  this->expectKept([](const Picture& picture, int x, int y)
-    { return picture.at(x, y).b > 200 && picture.at(x, y).r < 10; });
-  this->scene.render();
-  EXPECT_THAT(this->scene.report().notes, testing::ElementsAre(testing::HasSubstr("vtkVolume")));
+  this->expectVolumeKept(mapper);
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Neighbours, volumesOnTheGpuAreDrawnAsVtkDrawsThem)
+{
+  vtkNew<vtkOpenGLGPUVolumeRayCastMapper> mapper;
+  mapper->AutoAdjustSampleDistancesOff();
+  this->expectVolumeKept(mapper);
 }
 
 //------------------------------------------------------------------------------

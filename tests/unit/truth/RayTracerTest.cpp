@@ -2,6 +2,8 @@
 
 #include "SyntheticScene.h"
 
+#include "shadowtech/base/ShadowRay.h"
+
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
@@ -154,13 +156,38 @@ TEST(RayTracer, MovedAndScaledScenesGiveTheSameVisibility)
   }
 }
 
-Occluders withoutCasters(Occluders occluders)
+/// How many of a surface's pixels face the light, and how many of these are not lit.
+struct FacingPixels
 {
-  for (Surface& surface : occluders.surfaces)
+  int facing = 0;
+  int dark = 0;
+};
+
+/// Pixels count whose triangle faces the light by more than the rounding that facesLight() allows
+/// for, and that lie inside the cone, by more than a float tells apart.
+FacingPixels countFacing(const ShadowLight& light, const Occluders& occluders,
+  const ReceiverPixels& receivers, std::uint32_t surface)
+{
+  const std::vector<float> visibility = trace(light, occluders, receivers);
+  const glm::dvec3 lightCentred = light.positionWorld - occluders.centreWorld;
+  const double cosineOfCone = std::cos(glm::radians(light.coneAngleDegrees));
+  FacingPixels count;
+  for (std::size_t i = 0; i < receivers.size(); ++i)
   {
-    surface.casts = false;
+    const glm::dvec3 normal(receivers.normalX[i], receivers.normalY[i], receivers.normalZ[i]);
+    const glm::dvec3 position(
+      receivers.positionX[i], receivers.positionY[i], receivers.positionZ[i]);
+    const bool spot = light.kind == LightKind::Spot;
+    const glm::dvec3 toLight =
+      spot ? glm::normalize(lightCentred - position) : -light.directionWorld;
+    const bool inCone = !spot || glm::dot(-toLight, light.directionWorld) > cosineOfCone + 1e-6;
+    if (receivers.surface[i] == surface && inCone && glm::dot(normal, toLight) > 2e-6)
+    {
+      ++count.facing;
+      count.dark += visibility[i] != 1.0f ? 1 : 0;
+    }
   }
-  return occluders;
+  return count;
 }
 
 /// A lit plane does not shadow itself, wherever it lies, however large, however low the light.
@@ -174,29 +201,31 @@ TEST(RayTracer, LitPlanesHaveNoAcne)
     {
       for (const int cells : { 1, 9 })
       {
-        // Something far off moves the centred frame's origin away from the plane.
+        // Something far off, below, moves the centred frame's origin away from the plane.
         const Occluders occluders = makeOccluders({ { makePlane(side, cells), turn },
           { makeBox(glm::dvec3(-0.01), glm::dvec3(0.01)),
-            at({ 3.0 * side, side, -2.0 * side }) } });
-        const Occluders nothing = withoutCasters(occluders);
+            turn * at({ 3.0 * side, side, -2.0 * side }) } });
         Camera camera;
         camera.position = glm::dvec3(turn * glm::dvec4(0.1, -3.0, 2.0, 1.0));
         camera.target = glm::dvec3(turn * glm::dvec4(0.0, 0.0, 0.0, 1.0));
         camera.up = glm::dvec3(turn * glm::dvec4(0.0, 0.0, 1.0, 0.0));
         const ReceiverPixels receivers = withOffset(makeReceivers(occluders, camera), 0.5f);
-        for (const double degrees : { 0.0, 45.0, 80.0, 89.0, 89.9 })
+        const auto ofPlane =
+          static_cast<int>(std::count(receivers.surface.begin(), receivers.surface.end(), 0u));
+        EXPECT_GT(ofPlane, 20000);
+        for (const double degrees : { 0.0, 15.0, 45.0, 80.0, 89.0, 89.9 })
         {
           const double angle = glm::radians(degrees);
           const glm::dvec3 toLight(
             turn * glm::dvec4(std::sin(angle) * 0.6, std::sin(angle) * 0.8, std::cos(angle), 0.0));
-          for (const ShadowLight& light :
-            { directionalLight(-toLight), spotLight(0.4 * side * toLight, glm::dvec3(0.0), 89.0) })
-          {
-            const std::vector<float> lit = trace(light, nothing, receivers);
-            EXPECT_EQ(countDifferent(trace(light, occluders, receivers), lit), 0u)
-              << degrees << " degrees, side " << side << ", tilt " << tilt;
-            EXPECT_GT(std::count(lit.begin(), lit.end(), 1.0f), 20000);
-          }
+          const FacingPixels sun = countFacing(directionalLight(-toLight), occluders, receivers, 0);
+          EXPECT_EQ(sun.dark, 0) << degrees << " degrees, side " << side << ", tilt " << tilt;
+          EXPECT_EQ(sun.facing, ofPlane);
+          // Its cone ends inside the plane where it grazes.
+          const FacingPixels spot = countFacing(
+            spotLight(0.4 * side * toLight, glm::dvec3(0.0), 89.0), occluders, receivers, 0);
+          EXPECT_EQ(spot.dark, 0) << degrees << " degrees, side " << side << ", tilt " << tilt;
+          EXPECT_GT(spot.facing, 20000);
         }
       }
     }
@@ -213,14 +242,15 @@ TEST(RayTracer, LitSidesOfConvexSurfacesHaveNoAcne)
     const Occluders occluders =
       makeOccluders({ { mesh, glm::rotate(at({ 0.1, 0.2, 0.3 }), 0.7, { 1.0, 2.0, 3.0 }) } });
     const ReceiverPixels receivers = makeReceivers(occluders, camera);
-    const Occluders nothing = withoutCasters(occluders);
+    int facing = 0;
     for (const double angle : { 0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0 })
     {
       const ShadowLight light = directionalLight({ std::cos(angle), std::sin(angle), -0.4 });
-      EXPECT_EQ(
-        countDifferent(trace(light, occluders, receivers), trace(light, nothing, receivers)), 0u)
-        << "angle " << angle;
+      const FacingPixels count = countFacing(light, occluders, receivers, 0);
+      EXPECT_EQ(count.dark, 0) << "angle " << angle;
+      facing += count.facing;
     }
+    EXPECT_GT(facing, 30000);
   }
 }
 
@@ -304,43 +334,111 @@ TEST(RayTracer, SpotLightsReachTheirConeAndNoFurtherThanThemselves)
   EXPECT_EQ(visibility(spotLight({ 0.1, 0.2, 0.9 }, { 0.1, 0.2, 2.0 }, 89.0)), 0.0f);
 }
 
-/// Rays through the inner edges of a surface find no crack. (Through corners, closer than 1e-8, a
-/// ray in a thousand does: there the edges' rounding does not have to agree.)
+/// A wavy surface to shoot through, its inner corners, and parallel rays from chosen origins.
+struct Sheet
+{
+  static constexpr unsigned int cells = 40;
+
+  static bool isInner(unsigned int vertex)
+  {
+    const unsigned int column = vertex % (cells + 1);
+    const unsigned int row = vertex / (cells + 1);
+    return column % cells > 0 && row % cells > 0;
+  }
+
+  /// The receivers whose shadow rays start exactly there.
+  ReceiverPixels receiversAt(const std::vector<glm::vec3>& origins) const
+  {
+    ReceiverPixels receivers;
+    receivers.resize(static_cast<int>(origins.size()), 1);
+    for (std::size_t i = 0; i < origins.size(); ++i)
+    {
+      receivers.positionX[i] = origins[i].x;
+      receivers.positionY[i] = origins[i].y;
+      receivers.positionZ[i] = origins[i].z;
+      receivers.normalX[i] = receivers.normalY[i] = receivers.offset[i] = 0.0f;
+      receivers.normalZ[i] = 1.0f;
+      receivers.surface[i] = 0;
+    }
+    return receivers;
+  }
+
+  Occluders occluders = makeOccluders({ { makeTerrain(2.0, static_cast<int>(cells), 0.3),
+    glm::rotate(glm::dmat4(1.0), 0.3, { 1.0, 0.7, 0.2 }) } });
+  glm::dvec3 toLight = glm::normalize(glm::dvec3(0.2, -0.3, 1.0));
+  ShadowLight light = directionalLight(-this->toLight);
+};
+
+/// Rays through the inner edges of a surface find no crack.
 TEST(RayTracer, SurfacesAreWatertight)
 {
-  const int cells = 40;
-  const Occluders occluders = makeOccluders(
-    { { makeTerrain(2.0, cells, 0.3), glm::rotate(glm::dmat4(1.0), 0.3, { 1.0, 0.7, 0.2 }) } });
-  const glm::dvec3 toLight = glm::normalize(glm::dvec3(0.2, -0.3, 1.0));
+  const Sheet sheet;
   std::vector<glm::vec3> origins;
-  for (const glm::uvec3& triangle : occluders.triangles)
+  for (const glm::uvec3& triangle : sheet.occluders.triangles)
   {
-    const glm::dvec3 a(occluders.positionsCentred[triangle.x]);
+    const glm::dvec3 a(sheet.occluders.positionsCentred[triangle.x]);
     // Along the quad's diagonal, but for the quads on the border.
-    const glm::dvec3 b(occluders.positionsCentred[triangle.y]);
-    const glm::dvec3 c(occluders.positionsCentred[triangle.z]);
-    const auto column = triangle.x % (cells + 1);
-    const auto row = triangle.x / (cells + 1);
+    const glm::dvec3 b(sheet.occluders.positionsCentred[triangle.y]);
+    const glm::dvec3 c(sheet.occluders.positionsCentred[triangle.z]);
+    const auto column = triangle.x % (Sheet::cells + 1);
+    const auto row = triangle.x / (Sheet::cells + 1);
     for (int step = 1; column > 0 && row > 0 && step < 50; ++step)
     {
       const glm::dvec3 other = triangle.y == triangle.x + 1 ? c : b;
-      origins.emplace_back(a + (other - a) * (step / 50.0) - (1.0 + 0.01 * step) * toLight);
+      origins.emplace_back(a + (other - a) * (step / 50.0) - (1.0 + 0.01 * step) * sheet.toLight);
     }
   }
-  ReceiverPixels receivers;
-  receivers.resize(static_cast<int>(origins.size()), 1);
+  ASSERT_GT(origins.size(), 100000u);
+  const std::vector<float> visibility =
+    trace(sheet.light, sheet.occluders, sheet.receiversAt(origins));
+  EXPECT_EQ(std::count(visibility.begin(), visibility.end(), 1.0f), 0);
+}
+
+/// At a corner Embree's robust mode has cracks, of a rounding's width. Two triangles compute their
+/// common edge's sign alike, so none slips through at an edge; but a ray near a corner passes all
+/// triangles around it when the signs of all its edges, six here, come out the same, which rounding
+/// can bring about. By chance that is 2 in 64 of the rays so near that every sign is rounding's.
+///
+/// How near: an edge's sign is that of (e x s) . D with e = b - a, s = a + b, a and b less the ray's
+/// origin. In units of u |e| |s| |D|, u = 2^-24, the roundings of a and b cost 2 in e's and s's
+/// direction each, those of e and s 1 each, the cross product 3, the dot product 3: less than 12.
+/// The volume is |e| |D| times twice the distance from the edge, so rounding decides within 12 u L,
+/// where L is the distance from the ray's origin to the corner; where edges meet at less than a
+/// right angle, somewhat farther.
+TEST(RayTracer, RaysAtCornersSlipThroughOnlyByARounding)
+{
+  const Sheet sheet;
+  std::vector<glm::vec3> origins;
+  std::vector<glm::dvec3> corners;
+  for (unsigned int vertex = 0; vertex < sheet.occluders.positionsCentred.size(); ++vertex)
+  {
+    for (int step = 0; Sheet::isInner(vertex) && step < 100; ++step)
+    {
+      corners.emplace_back(sheet.occluders.positionsCentred[vertex]);
+      origins.emplace_back(corners.back() - (1.0 + 0.01 * step) * sheet.toLight);
+    }
+  }
+  ASSERT_EQ(origins.size(), 152100u);
+  const std::vector<float> visibility =
+    trace(sheet.light, sheet.occluders, sheet.receiversAt(origins));
+  const glm::dvec3 direction(ShadowRayLight(sheet.light, sheet.occluders.centreWorld).toLight);
+  std::vector<glm::vec3> slipped;
   for (std::size_t i = 0; i < origins.size(); ++i)
   {
-    receivers.positionX[i] = origins[i].x;
-    receivers.positionY[i] = origins[i].y;
-    receivers.positionZ[i] = origins[i].z;
-    receivers.normalX[i] = receivers.normalY[i] = receivers.offset[i] = 0.0f;
-    receivers.normalZ[i] = 1.0f;
-    receivers.surface[i] = 0;
+    if (visibility[i] != 0.0f)
+    {
+      slipped.push_back(origins[i]);
+      const glm::dvec3 toCorner = corners[i] - glm::dvec3(origins[i]);
+      const double distance = glm::length(glm::cross(toCorner, direction)) / glm::length(direction);
+      EXPECT_LT(distance, std::ldexp(12.0, -24) * glm::length(toCorner)) << "ray " << i;
+    }
   }
-  ASSERT_GT(origins.size(), 100000u);
-  const std::vector<float> visibility = trace(directionalLight(-toLight), occluders, receivers);
-  EXPECT_EQ(std::count(visibility.begin(), visibility.end(), 1.0f), 0);
+  RecordProperty("slipped", static_cast<int>(slipped.size()));
+  EXPECT_LT(slipped.size(), origins.size() / 32);
+  // The very rays do meet the surface: it is no gap between its float vertices.
+  const std::vector<float> exact =
+    traceBruteForce(sheet.light, sheet.occluders, sheet.receiversAt(slipped));
+  EXPECT_EQ(std::count(exact.begin(), exact.end(), 1.0f), 0);
 }
 
 TEST(RayTracer, ConeOnAPlaneIsADisc)

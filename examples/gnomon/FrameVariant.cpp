@@ -1,0 +1,175 @@
+#include "FrameVariant.h"
+
+#include <vtkCameraPass.h>
+#include <vtkLight.h>
+#include <vtkLightCollection.h>
+#include <vtkRenderPassCollection.h>
+#include <vtkSequencePass.h>
+#include <vtkShadowMapBakerPass.h>
+#include <vtkShadowMapPass.h>
+
+#include <glm/glm.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <chrono>
+#include <cstddef>
+
+namespace gnomon::tool
+{
+namespace
+{
+
+/// VTK's own shadows, in the chain that its documentation shows.
+vtkSmartPointer<vtkRenderPass> makeShadowMapPass(int mapSizeTexels)
+{
+  vtkNew<vtkShadowMapPass> shadows;
+  shadows->GetShadowMapBakerPass()->SetResolution(static_cast<unsigned int>(mapSizeTexels));
+  vtkNew<vtkRenderPassCollection> steps;
+  steps->AddItem(shadows->GetShadowMapBakerPass());
+  steps->AddItem(shadows);
+  vtkNew<vtkSequencePass> sequence;
+  sequence->SetPasses(steps);
+  vtkNew<vtkCameraPass> camera;
+  camera->SetDelegatePass(sequence);
+  return camera;
+}
+
+vtkSmartPointer<vtkRenderPass> makeGnomonPass(const VariantSpec& spec)
+{
+  auto pass = vtkSmartPointer<vtkGnomonShadowPass>::New();
+  pass->SetTechnique(spec.technique.c_str());
+  pass->SetRoute(spec.route);
+  if (spec.mapSizeTexels > 0)
+  {
+    pass->SetMapSize(spec.mapSizeTexels);
+  }
+  return pass;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+std::string VariantSpec::routeName() const
+{
+  return !this->pointwise                              ? ""
+    : this->route == vtkGnomonShadowPass::ROUTE_INLINE ? "inline"
+                                                       : "image";
+}
+
+//------------------------------------------------------------------------------
+std::string VariantSpec::name() const
+{
+  std::string text = this->technique;
+  text += this->mapSizeTexels > 0 ? " " + std::to_string(this->mapSizeTexels) : "";
+  text += this->pointwise ? " " + this->routeName() : "";
+  return text;
+}
+
+//------------------------------------------------------------------------------
+vtkSmartPointer<vtkRenderPass> makePass(const VariantSpec& spec)
+{
+  if (spec.isGnomon())
+  {
+    return makeGnomonPass(spec);
+  }
+  return spec.technique == shadowMapPassTechnique ? makeShadowMapPass(spec.mapSizeTexels) : nullptr;
+}
+
+//------------------------------------------------------------------------------
+Scene withoutLightSettings(Scene scene)
+{
+  for (SceneLight& light : scene.lights)
+  {
+    light.technique.clear();
+    light.mapSizeTexels = 0;
+  }
+  return scene;
+}
+
+//------------------------------------------------------------------------------
+Mover::Mover(vtkRenderer* renderer, const Scene& scene)
+  : renderer_(renderer)
+  , scene_(scene)
+{
+  this->camera_->DeepCopy(renderer->GetActiveCamera());
+}
+
+//------------------------------------------------------------------------------
+void Mover::apply(Motion motion, int step)
+{
+  this->turnCamera(motion == Motion::Camera ? step * stepDegrees : 0.0);
+  this->turnLights(motion == Motion::Light ? step * stepDegrees : 0.0);
+}
+
+//------------------------------------------------------------------------------
+void Mover::turnCamera(double degrees)
+{
+  if (degrees == this->cameraDegrees_)
+  {
+    return;
+  }
+  this->cameraDegrees_ = degrees;
+  vtkCamera* const camera = this->renderer_->GetActiveCamera();
+  camera->SetPosition(this->camera_->GetPosition());
+  camera->SetFocalPoint(this->camera_->GetFocalPoint());
+  camera->SetViewUp(this->camera_->GetViewUp());
+  camera->SetClippingRange(this->camera_->GetClippingRange());
+  if (degrees != 0.0)
+  {
+    camera->Azimuth(degrees);
+    camera->OrthogonalizeViewUp();
+    this->renderer_->ResetCameraClippingRange();
+  }
+}
+
+//------------------------------------------------------------------------------
+// Each light turns around its target, about an axis across its direction, so that the direction
+// always changes.
+void Mover::turnLights(double degrees)
+{
+  if (degrees == this->lightDegrees_)
+  {
+    return;
+  }
+  this->lightDegrees_ = degrees;
+  for (std::size_t i = 0; i < this->scene_.lights.size(); ++i)
+  {
+    const SceneLight& base = this->scene_.lights[i];
+    const glm::dvec3 target(base.target[0], base.target[1], base.target[2]);
+    const glm::dvec3 arm =
+      glm::dvec3(base.position[0], base.position[1], base.position[2]) - target;
+    const glm::dvec3 across = std::abs(arm.x) < 0.5 * glm::length(arm) ? glm::dvec3(1.0, 0.0, 0.0)
+                                                                       : glm::dvec3(0.0, 1.0, 0.0);
+    const glm::dmat4 turn =
+      glm::rotate(glm::dmat4(1.0), glm::radians(degrees), glm::cross(arm, across));
+    const glm::dvec3 position = target + glm::dvec3(turn * glm::dvec4(arm, 0.0));
+    vtkLight* const light =
+      vtkLight::SafeDownCast(this->renderer_->GetLights()->GetItemAsObject(static_cast<int>(i)));
+    light->SetPosition(position.x, position.y, position.z);
+  }
+}
+
+//------------------------------------------------------------------------------
+FrameVariant::FrameVariant(const VariantSpec& spec, const Scene& scene, int width, int height)
+  : spec_(spec)
+  , renderer_(makeRenderer(scene, static_cast<double>(width) / height))
+  , mover_(renderer_, scene)
+{
+  this->renderer_->SetPass(makePass(spec));
+  this->window_->SetSize(width, height);
+  this->window_->AddRenderer(this->renderer_);
+}
+
+//------------------------------------------------------------------------------
+double FrameVariant::drawFrame(Motion motion, int step)
+{
+  this->mover_.apply(motion, step);
+  this->window_->MakeCurrent();
+  const auto start = std::chrono::steady_clock::now();
+  this->window_->Render();
+  this->window_->WaitForCompletion();
+  const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
+  return time.count();
+}
+
+} // namespace gnomon::tool

@@ -1,0 +1,95 @@
+#ifndef gnomon_examples_gnomon_FrameVariant_h
+#define gnomon_examples_gnomon_FrameVariant_h
+
+#include "Comparison.h"
+#include "Scene.h"
+
+#include "plugin/vtkGnomonEGLRenderWindow.h"
+#include "plugin/vtkGnomonShadowPass.h"
+
+#include <vtkCamera.h>
+#include <vtkNew.h>
+#include <vtkRenderPass.h>
+#include <vtkRenderer.h>
+#include <vtkSmartPointer.h>
+
+#include <string>
+
+namespace gnomon::tool
+{
+
+/// One way to draw a scene.
+struct VariantSpec
+{
+  std::string technique; ///< of the registry, or one of the peers' names
+  int mapSizeTexels = 0; ///< 0: no map
+  int route = vtkGnomonShadowPass::ROUTE_AUTO;
+  bool pointwise = false; ///< whether the technique has two routes
+
+  bool isGnomon() const
+  {
+    return this->technique != plainTechnique && this->technique != shadowMapPassTechnique;
+  }
+  /// "inline", "image", or "" where routes mean nothing.
+  std::string routeName() const;
+  /// For people: "nsm 1024 inline".
+  std::string name() const;
+};
+
+/// What draws this variant, for vtkRenderer::SetPass; null for plain VTK.
+vtkSmartPointer<vtkRenderPass> makePass(const VariantSpec& spec);
+
+/// The scene with lights that leave technique and map size to the pass, hence to the variant.
+Scene withoutLightSettings(Scene scene);
+
+/// Turns a renderer's camera or lights a little, from the places that they had when this was made.
+class Mover
+{
+public:
+  /// How far camera and lights turn per step.
+  static constexpr double stepDegrees = 0.05;
+
+  /// @param renderer made from the scene, which must outlive this
+  Mover(vtkRenderer* renderer, const Scene& scene);
+  void apply(Motion motion, int step);
+
+private:
+  void turnCamera(double degrees);
+  void turnLights(double degrees);
+
+  vtkRenderer* renderer_;
+  const Scene& scene_;
+  vtkNew<vtkCamera> camera_;
+  double cameraDegrees_ = 0.0;
+  double lightDegrees_ = 0.0;
+};
+
+/// A variant with a window, a renderer and a pass of its own.
+class FrameVariant
+{
+public:
+  /// @param scene must outlive this
+  FrameVariant(const VariantSpec& spec, const Scene& scene, int width, int height);
+
+  const VariantSpec& spec() const { return this->spec_; }
+  /// Null for the peers.
+  vtkGnomonShadowPass* pass() const
+  {
+    return vtkGnomonShadowPass::SafeDownCast(this->renderer_->GetPass());
+  }
+  vtkRenderer* renderer() const { return this->renderer_; }
+  vtkRenderWindow* window() const { return this->window_; }
+
+  /// Draws one frame to its end and returns its wall clock time in milliseconds.
+  double drawFrame(Motion motion, int step);
+
+private:
+  VariantSpec spec_;
+  vtkSmartPointer<vtkRenderer> renderer_;
+  vtkNew<vtkGnomonEGLRenderWindow> window_;
+  Mover mover_;
+};
+
+} // namespace gnomon::tool
+
+#endif

@@ -1,0 +1,280 @@
+// Windows with several samples per pixel, which is what VTK's own windows have by default.
+
+#include "PassScene.h"
+
+#include "Scene.h"
+
+#include <vtkActor.h>
+#include <vtkActorCollection.h>
+#include <vtkCellArray.h>
+#include <vtkCollectionRange.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkProperty.h>
+#include <vtkSphereSource.h>
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <memory>
+#include <string>
+
+using namespace gnomon::test;
+using gnomon::VisibilityImages;
+
+namespace
+{
+
+constexpr int samples = 8; ///< llvmpipe makes 4 of them
+
+/// Pixels whose surroundings are all lit, or all in shadow, of one frame or of a finer one.
+class Surroundings
+{
+public:
+  /// @param truth one-sample visibility of the first light, `finer` times as wide and high as the
+  /// pictures
+  Surroundings(const VisibilityImages& truth, int finer)
+    : truth_(truth)
+    , finer_(finer)
+  {
+  }
+  /// Whether the pixel and half a pixel or more on all sides show this visibility.
+  bool are(float visibility, int x, int y) const
+  {
+    const int margin = (this->finer_ + 1) / 2;
+    for (int row = y * this->finer_ - margin; row < (y + 1) * this->finer_ + margin; ++row)
+    {
+      for (int column = x * this->finer_ - margin; column < (x + 1) * this->finer_ + margin;
+           ++column)
+      {
+        if (!this->shows(visibility, column, row))
+        {
+          return false;
+        }
+      }
+    }
+    return true;
+  }
+
+private:
+  bool shows(float visibility, int column, int row) const
+  {
+    if (row < 0 || row >= this->truth_.height || column < 0 || column >= this->truth_.width)
+    {
+      return false;
+    }
+    const auto fromTop = static_cast<std::size_t>(this->truth_.height - 1 - row);
+    const std::size_t i =
+      fromTop * static_cast<std::size_t>(this->truth_.width) + static_cast<std::size_t>(column);
+    return this->truth_.coverage[i] > 0.0f && this->truth_.visibility[0][i] == visibility;
+  }
+
+  const VisibilityImages& truth_;
+  int finer_;
+};
+
+/// What a picture with shadows shows where the truth leaves no doubt.
+struct Specks
+{
+  std::size_t lit = 0;   ///< pixels within light
+  std::size_t dark = 0;  ///< of these, those not as bright as without shadows
+  std::size_t shade = 0; ///< pixels within shadow
+  std::size_t leaks = 0; ///< of these, those not black
+};
+
+Specks countSpecks(const Picture& shadowed, const Picture& plain, const VisibilityImages& truth)
+{
+  const Surroundings surroundings(truth, truth.width / plain.width);
+  Specks specks;
+  for (int y = 0; y < plain.height; ++y)
+  {
+    for (int x = 0; x < plain.width; ++x)
+    {
+      if (surroundings.are(1.0f, x, y))
+      {
+        ++specks.lit;
+        specks.dark += std::abs(shadowed.red(x, y) - plain.red(x, y)) > 1 ? 1 : 0;
+      }
+      else if (surroundings.are(0.0f, x, y))
+      {
+        ++specks.shade;
+        specks.leaks += shadowed.red(x, y) > 1 ? 1 : 0;
+      }
+    }
+  }
+  return specks;
+}
+
+/// The visibility of a scene by rays, one sample per pixel.
+template <typename MakeScene>
+VisibilityImages traced(const MakeScene& makeScene)
+{
+  const auto scene = makeScene();
+  scene->pass->SetTechnique("raytraced");
+  scene->pass->KeepVisibilityOn();
+  scene->render();
+  return scene->pass->GetVisibility();
+}
+
+/// Four flaps around a hollow, each ending where the next begins.
+vtkSmartPointer<vtkPolyData> makeHollow()
+{
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkCellArray> quads;
+  for (int i = 0; i < 5; ++i)
+  {
+    points->InsertNextPoint(0.4 * i - 0.8, -0.9, 0.3 * std::abs(i - 2));
+    points->InsertNextPoint(0.4 * i - 0.8, 0.9, 0.3 * std::abs(i - 2) + 0.1);
+  }
+  for (vtkIdType i = 0; i < 8; i += 2)
+  {
+    const vtkIdType corners[4] = { i, i + 2, i + 3, i + 1 };
+    quads->InsertNextCell(4, corners);
+  }
+  auto hollow = vtkSmartPointer<vtkPolyData>::New();
+  hollow->SetPoints(points);
+  hollow->SetPolys(quads);
+  return hollow;
+}
+
+/// A ball and a hollow above a floor. Nothing stands on anything: of a floor on which a box stands, a
+/// pixel's only fragment may have its centre inside the box.
+std::unique_ptr<PassScene> makeSurfaces(bool parallel)
+{
+  auto scene = std::make_unique<PassScene>(400, 300);
+  scene->addFloor(4.0);
+  vtkNew<vtkSphereSource> ball;
+  ball->SetCenter(0.0, 0.0, 1.2);
+  ball->SetRadius(1.0);
+  ball->SetThetaResolution(120);
+  ball->SetPhiResolution(60);
+  scene->add(ball);
+  vtkActor* hollow = scene->add(makeHollow());
+  hollow->RotateZ(25.0);
+  hollow->SetPosition(-2.2, 0.0, 0.5);
+  scene->addSun({ 1.0, 0.3, -1.5 });
+  scene->lookFrom({ 0.3, -7.0, 4.0 }, { -0.7, 0.0, 0.8 });
+  vtkCamera* camera = scene->renderer->GetActiveCamera();
+  camera->SetParallelScale(2.2);
+  camera->SetParallelProjection(parallel);
+  scene->renderer->ResetCameraClippingRange();
+  scene->pass->SetTechnique("nsm");
+  return scene;
+}
+
+class Multisample
+  : public PassTest
+  , public testing::WithParamInterface<bool>
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(Projections, Multisample, testing::Bool(),
+  [](const testing::TestParamInfo<bool>& parallel)
+  { return parallel.param ? "parallel" : "perspective"; });
+
+} // namespace
+
+//------------------------------------------------------------------------------
+TEST_P(Multisample, surfacesHaveNoSpecks)
+{
+  const VisibilityImages truth = traced([] { return makeSurfaces(GetParam()); });
+  const auto scene = makeSurfaces(GetParam());
+  scene->window->SetMultiSamples(samples);
+  const Picture shadowed = scene->render();
+  EXPECT_EQ(scene->report().route, "inline");
+  EXPECT_GT(scene->window->GetMultiSamples(), 1);
+  EXPECT_THAT(scene->report().notes, testing::IsEmpty());
+  scene->usePlain();
+  const Specks specks = countSpecks(shadowed, scene->render(), truth);
+  EXPECT_GT(specks.lit, 50000u);
+  EXPECT_EQ(specks.dark, 0u);
+  EXPECT_GT(specks.shade, 5000u);
+  EXPECT_EQ(specks.leaks, 0u);
+}
+
+//------------------------------------------------------------------------------
+/// A fine mesh, most of whose pixels have an edge in them, with contacts at which nsm itself is wrong
+/// within a texel.
+TEST_F(PassTest, multisamplingGivesTheBunnyNoSpecks)
+{
+  constexpr int size = 256;
+  constexpr int finer = 4;
+  const auto draw = [](const char* technique, int pixels, int multiSamples, VisibilityImages* kept)
+  {
+    const auto renderer = gnomon::tool::makeRenderer(gnomon::tool::loadScene("bunny"), 1.0);
+    renderer->SetBackground(0.0, 0.0, 0.0);
+    for (vtkActor* actor : vtk::Range(renderer->GetActors()))
+    {
+      actor->GetProperty()->SetAmbient(0.0);
+      actor->GetProperty()->SetSpecular(0.0);
+    }
+    vtkNew<vtkGnomonEGLRenderWindow> window;
+    window->SetSize(pixels, pixels);
+    window->SetMultiSamples(multiSamples);
+    window->AddRenderer(renderer);
+    vtkNew<vtkGnomonShadowPass> pass;
+    if (technique)
+    {
+      pass->SetTechnique(technique);
+      pass->SetKeepVisibility(kept != nullptr);
+      renderer->SetPass(pass);
+    }
+    window->Render();
+    if (kept)
+    {
+      *kept = pass->GetVisibility();
+    }
+    return readPicture(window);
+  };
+  VisibilityImages truth;
+  draw("raytraced", finer * size, 0, &truth);
+  const Specks specks =
+    countSpecks(draw("nsm", size, samples, nullptr), draw(nullptr, size, samples, nullptr), truth);
+  RecordProperty("dark", static_cast<int>(specks.dark));
+  EXPECT_GT(specks.lit, 30000u);
+  EXPECT_LE(specks.dark, specks.lit / 10000);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(PassTest, theNumberOfSamplesMayChange)
+{
+  const auto scene = makeSurfaces(false);
+  const Picture single = scene->render();
+  scene->window->SetMultiSamples(samples);
+  const Picture multiple = scene->render();
+  const auto fresh = makeSurfaces(false);
+  fresh->window->SetMultiSamples(samples);
+  EXPECT_EQ(differingPixels(multiple, fresh->render()), 0u);
+  scene->window->SetMultiSamples(0);
+  EXPECT_EQ(differingPixels(scene->render(), single), 0u);
+  scene->render();
+  EXPECT_EQ(scene->report().programCompiles, 0);
+}
+
+//------------------------------------------------------------------------------
+/// Edges are drawn by a geometry shader, which renames what the fragment shader reads.
+TEST_F(PassTest, drawnEdgesAreShadowedWithSeveralSamples)
+{
+  const auto scene = makeSurfaces(false);
+  for (vtkActor* actor : vtk::Range(scene->renderer->GetActors()))
+  {
+    actor->GetProperty()->EdgeVisibilityOn();
+  }
+  scene->window->SetMultiSamples(samples);
+  const Picture shadowed = scene->render();
+  scene->usePlain();
+  EXPECT_GT(differingPixels(shadowed, scene->render(), 32), 5000u);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(PassTest, theImageRouteSaysWhatItCannotShowWithSeveralSamples)
+{
+  const auto scene = makeSurfaces(false);
+  scene->pass->SetTechnique("raytraced");
+  scene->render();
+  EXPECT_THAT(scene->report().notes, testing::IsEmpty());
+  scene->window->SetMultiSamples(samples);
+  scene->render();
+  EXPECT_EQ(scene->report().route, "image");
+  EXPECT_THAT(scene->report().notes, testing::ElementsAre(testing::HasSubstr("samples per pixel")));
+}
