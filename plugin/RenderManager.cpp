@@ -4,12 +4,17 @@
 #include "shadowtech/Registry.h"
 
 #include <vtkCamera.h>
+#include <vtkFrameBufferObjectBase.h>
+#include <vtkInformation.h>
+#include <vtkInformationObjectBaseVectorKey.h>
 #include <vtkMatrix4x4.h>
+#include <vtkOpenGLRenderPass.h>
 #include <vtkOpenGLRenderWindow.h>
 #include <vtkOpenGLState.h>
 #include <vtkProp.h>
 #include <vtkRenderState.h>
 #include <vtkRenderer.h>
+#include <vtkSmartPointer.h>
 
 #include <algorithm>
 
@@ -45,6 +50,55 @@ int samplesPerPixel()
   glGetIntegerv(GL_SAMPLES, &samples);
   return std::max(samples, 1);
 }
+
+/// The picture that a render state asks for, in pixels: the renderer's part of the window, or the
+/// whole framebuffer that an outer pass hands in.
+glm::ivec2 sizeOf(const vtkRenderState* s)
+{
+  glm::ivec2 size(0);
+  if (auto* framebuffer = s->GetFrameBuffer())
+  {
+    framebuffer->GetLastSize(size.x, size.y);
+  }
+  else
+  {
+    int left = 0;
+    int bottom = 0;
+    s->GetRenderer()->GetTiledSizeAndOrigin(&size.x, &size.y, &left, &bottom);
+  }
+  return glm::max(size, 1);
+}
+
+/// Hides from a prop's shaders all render passes but one, for as long as it lives: other passes may
+/// write outputs of their own.
+class WithoutOtherPasses
+{
+public:
+  WithoutOtherPasses(vtkProp* prop, vtkObjectBase* pass)
+    : keys_(prop->GetPropertyKeys())
+  {
+    if (this->keys_ && this->keys_->Length(vtkOpenGLRenderPass::RenderPasses()) > 1)
+    {
+      this->hidden_ = vtkSmartPointer<vtkInformation>::New();
+      this->hidden_->CopyEntry(this->keys_, vtkOpenGLRenderPass::RenderPasses());
+      this->keys_->Remove(vtkOpenGLRenderPass::RenderPasses());
+      this->keys_->Append(vtkOpenGLRenderPass::RenderPasses(), pass);
+    }
+  }
+  ~WithoutOtherPasses()
+  {
+    if (this->hidden_)
+    {
+      this->keys_->CopyEntry(this->hidden_, vtkOpenGLRenderPass::RenderPasses());
+    }
+  }
+  WithoutOtherPasses(const WithoutOtherPasses&) = delete;
+  WithoutOtherPasses& operator=(const WithoutOtherPasses&) = delete;
+
+private:
+  vtkInformation* keys_;
+  vtkSmartPointer<vtkInformation> hidden_;
+};
 
 template <typename Value>
 std::vector<Value> topRowFirst(const std::vector<Value>& image, int width, int height)
@@ -227,16 +281,12 @@ glm::dmat4 RenderManager::centredFromView(vtkRenderer* renderer) const
 }
 
 //------------------------------------------------------------------------------
-void RenderManager::drawReceivers(const vtkRenderState* s)
+void RenderManager::drawReceivers(const vtkRenderState* s, vtkGnomonShadowPass* pass)
 {
   vtkRenderer* renderer = s->GetRenderer();
-  int width = 0;
-  int height = 0;
-  int left = 0;
-  int bottom = 0;
-  renderer->GetTiledSizeAndOrigin(&width, &height, &left, &bottom);
-  width = std::max(width, 1);
-  height = std::max(height, 1);
+  const glm::ivec2 size = sizeOf(s);
+  const int width = size.x;
+  const int height = size.y;
 
   vtkCamera* camera = renderer->GetActiveCamera();
   const glm::dmat4 centredFromView = this->centredFromView(renderer);
@@ -245,8 +295,8 @@ void RenderManager::drawReceivers(const vtkRenderState* s)
   this->receiverImages_.rays = pixelRays(clipFromView, centredFromView, width, height);
 
   this->layers_.resize(width, height, static_cast<int>(this->casting_.size()));
-  this->stageValues_.originPixels = { left, bottom };
   this->stageValues_.layers = { GL_TEXTURE_2D_ARRAY, this->layers_.texture() };
+  this->stageValues_.layersSize = size;
   this->stageValues_.centredFromView = centredFromView;
   this->stageValues_.receiversStage = true;
 
@@ -271,6 +321,7 @@ void RenderManager::drawReceivers(const vtkRenderState* s)
   this->receiverTarget_.begin(width, height, this->anyPointwise());
   for (int i = 0; i < s->GetPropArrayCount(); ++i)
   {
+    const WithoutOtherPasses alone(s->GetPropArray()[i], pass);
     s->GetPropArray()[i]->RenderOpaqueGeometry(renderer);
   }
   this->receiverTarget_.end(state->GetEnumState(GL_BLEND));
@@ -405,10 +456,11 @@ void RenderManager::beginShading(vtkRenderer* renderer)
 }
 
 //------------------------------------------------------------------------------
-void RenderManager::endShading()
+bool RenderManager::endShading()
 {
-  this->shaders_.endStage();
+  const bool fitted = this->shaders_.endStage();
   this->endStageClock("shading");
+  return fitted;
 }
 
 //------------------------------------------------------------------------------

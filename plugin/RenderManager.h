@@ -22,6 +22,7 @@
 #include <string>
 #include <vector>
 
+class vtkGnomonShadowPass;
 class vtkRenderState;
 class vtkRenderer;
 
@@ -59,7 +60,8 @@ public:
   Route route() const { return this->route_; }
 
   /// receivers (image route): has VTK draw the opaque props' triangle numbers, and points for pointwise techniques.
-  void drawReceivers(const vtkRenderState* s);
+  /// @param pass whose hook the props' shaders have
+  void drawReceivers(const vtkRenderState* s, vtkGnomonShadowPass* pass);
 
   /// maps: bakes what is stale.
   void bakeMaps();
@@ -69,7 +71,9 @@ public:
 
   /// shading: between the two calls VTK draws its props with the hook in place.
   void beginShading(vtkRenderer* renderer);
-  void endShading();
+  /// @return false if props were drawn at another resolution than the visibility layers have; they
+  /// show no shadows then
+  bool endShading();
 
   /// Completes the report.
   void endFrame();

@@ -177,6 +177,8 @@ int ShaderManager::bindTexture(const TextureBinding& texture)
 void ShaderManager::beginStage(vtkOpenGLRenderWindow* window, const StageValues& values)
 {
   this->window_ = window;
+  this->layersSize_ = values.layersSize;
+  this->layersFit_ = true;
   this->upToDate_.clear();
   this->stageUniforms_.clear();
   const auto add = [this](std::string name, const auto& value) {
@@ -185,7 +187,6 @@ void ShaderManager::beginStage(vtkOpenGLRenderWindow* window, const StageValues&
   if (this->variant_.route == Route::Image)
   {
     add("gnomonStage", values.receiversStage ? 1 : 0);
-    add("gnomonOrigin", values.originPixels);
     // The receivers stage does not read the layers, but a sampler needs a unit of its own kind.
     add("gnomonLayers", this->bindTexture(values.layers));
   }
@@ -209,11 +210,11 @@ void ShaderManager::beginStage(vtkOpenGLRenderWindow* window, const StageValues&
 }
 
 //------------------------------------------------------------------------------
-void ShaderManager::endStage()
+bool ShaderManager::endStage()
 {
   if (!this->window_)
   {
-    return;
+    return true;
   }
   for (const BoundTexture& texture : this->bound_)
   {
@@ -226,6 +227,19 @@ void ShaderManager::endStage()
   this->bound_.clear();
   this->upToDate_.clear();
   this->window_ = nullptr;
+  return this->layersFit_;
+}
+
+//------------------------------------------------------------------------------
+bool ShaderManager::setLayersOrigin(GLuint program)
+{
+  // Where VTK draws now: passes between this one and the props may have a framebuffer of their own.
+  GLint viewport[4];
+  this->window_->GetState()->vtkglGetIntegerv(GL_VIEWPORT, viewport);
+  ShaderLibrary::setUniform(program, { "gnomonOrigin", glm::ivec2(viewport[0], viewport[1]) });
+  const bool fits = viewport[2] == this->layersSize_.x && viewport[3] == this->layersSize_.y;
+  this->layersFit_ = this->layersFit_ && fits;
+  return fits;
 }
 
 //------------------------------------------------------------------------------
@@ -238,6 +252,10 @@ void ShaderManager::setParameters(vtkShaderProgram* program, int drawn, bool rec
     {
       ShaderLibrary::setUniform(handle, uniform);
     }
+  }
+  if (this->variant_.route == Route::Image)
+  {
+    receives = this->setLayersOrigin(handle) && receives;
   }
   ShaderLibrary::setUniform(handle, { "gnomonReceives", receives ? 1 : 0 });
   ShaderLibrary::setUniform(handle, { "gnomonDrawn", drawn });

@@ -63,13 +63,14 @@ public:
   {
     bool receiversStage = false;
     glm::dmat4 centredFromView{ 1.0 };
-    glm::ivec2 originPixels{ 0 };
-    TextureBinding layers; ///< image route: the visibility layers
+    TextureBinding layers;      ///< image route: the visibility layers
+    glm::ivec2 layersSize{ 0 }; ///< and their size in pixels
   };
   /// Between beginStage and endStage VTK draws: textures are bound to units of their own. endStage
   /// also ends a stage that has failed half way, and does nothing where there is none.
+  /// @return endStage: false if something was drawn at another size than the layers have
   void beginStage(vtkOpenGLRenderWindow* window, const StageValues& values);
-  void endStage();
+  bool endStage();
 
   /// Sets the hook's uniforms of a program that is about to draw.
   /// @param drawn number of the drawn surface, -1 for none
@@ -81,6 +82,7 @@ public:
 private:
   std::string writeReceiver(bool lit) const;
   int bindTexture(const TextureBinding& texture);
+  bool setLayersOrigin(GLuint program);
 
   HookVariant variant_;
   std::string extensions_;
@@ -91,6 +93,8 @@ private:
 
   std::vector<ShadedLight> lights_;
   vtkOpenGLRenderWindow* window_ = nullptr;
+  glm::ivec2 layersSize_{ 0 };
+  bool layersFit_ = true;
   std::vector<Uniform> stageUniforms_; ///< with units in place of textures
   struct BoundTexture
   {

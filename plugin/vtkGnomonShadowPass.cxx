@@ -7,11 +7,14 @@
 
 #include "vtkInformation.h"
 #include "vtkInformationObjectBaseVectorKey.h"
+#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLError.h"
+#include "vtkOpenGLFramebufferObject.h"
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkProp.h"
 #include "vtkRenderState.h"
+#include "vtkRenderStepsPass.h"
 #include "vtkRenderer.h"
 #include "vtkWeakPointer.h"
 
@@ -19,13 +22,33 @@
 
 vtkStandardNewMacro(vtkGnomonShadowPass);
 
+namespace
+{
+
+/// Whether an outer pass has the scene drawn into a framebuffer of its own. Not all of them say so in
+/// the render state.
+bool drawsIntoOuterPass(const vtkRenderState* s)
+{
+  auto* window = vtkOpenGLRenderWindow::SafeDownCast(s->GetRenderer()->GetRenderWindow());
+  if (!window)
+  {
+    return false;
+  }
+  GLint framebuffer = 0;
+  glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &framebuffer);
+  return static_cast<GLuint>(framebuffer) != window->GetRenderFramebuffer()->GetFBOIndex();
+}
+
+} // namespace
+
 //------------------------------------------------------------------------------
 struct vtkGnomonShadowPass::Internals
 {
   std::string technique = gnomon::defaultTechnique;
   std::unique_ptr<gnomon::RenderManager> manager = std::make_unique<gnomon::RenderManager>();
-  gnomon::FrameReport plainReport; ///< of frames that were drawn without the manager
-  bool shadowed = false;           ///< whether the last frame was the manager's
+  vtkNew<vtkRenderStepsPass> steps; ///< draws into the framebuffers of outer passes
+  gnomon::FrameReport plainReport;  ///< of frames that were drawn without the manager
+  bool shadowed = false;            ///< whether the last frame was the manager's
 
   vtkWeakPointer<vtkOpenGLRenderWindow> window; ///< whose context holds the manager's GL objects
   vtkTimeStamp contextChecked;
@@ -38,6 +61,7 @@ vtkGnomonShadowPass::vtkGnomonShadowPass()
   , Route(ROUTE_AUTO)
   , MeasureStages(false)
   , KeepVisibility(false)
+  , DelegatePass(nullptr)
   , Internal(new Internals)
 {
 }
@@ -46,7 +70,11 @@ vtkGnomonShadowPass::vtkGnomonShadowPass()
 vtkGnomonShadowPass::~vtkGnomonShadowPass()
 {
   this->ReleaseGraphicsResources(this->Internal->window);
+  this->SetDelegatePass(nullptr);
 }
+
+//------------------------------------------------------------------------------
+vtkCxxSetObjectMacro(vtkGnomonShadowPass, DelegatePass, vtkRenderPass);
 
 //------------------------------------------------------------------------------
 void vtkGnomonShadowPass::Render(const vtkRenderState* s)
@@ -71,10 +99,8 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
   {
     manager.beginFrame(this->MeasureStages);
 
-    // lights. The camera first: it sets the viewport, clears, and head lights follow it.
-    this->UpdateCamera(renderer);
-    this->UpdateLightGeometry(renderer);
-    this->UpdateLights(renderer);
+    // lights
+    this->BeginView(s);
     const bool casting =
       manager.collectLights(renderer, { this->Internal->technique, this->MapSize });
     if (casting)
@@ -94,7 +120,7 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
       // receivers
       if (manager.route() == gnomon::Route::Image)
       {
-        manager.drawReceivers(s);
+        manager.drawReceivers(s, this);
       }
 
       // maps
@@ -110,10 +136,13 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
       manager.beginShading(renderer);
     }
     drawn = true;
-    this->UpdateGeometry(renderer, s->GetFrameBuffer());
-    if (casting)
+    this->DrawScene(s);
+    if (casting && !manager.endShading())
     {
-      manager.endShading();
+      vtkErrorMacro("Props were drawn without shadows: the delegate "
+        << this->FindDelegate(s)->GetClassName()
+        << " shades at another resolution than the renderer's, and " << manager.report().routeReason
+        << ". Let it have this pass as its delegate instead.");
     }
     manager.endFrame();
     this->Internal->shadowed = true;
@@ -131,7 +160,49 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
   {
     this->RenderPlain(s, "an error was met");
   }
-  this->NumberOfRenderedProps = renderer->GetNumberOfPropsRendered();
+}
+
+//------------------------------------------------------------------------------
+vtkRenderPass* vtkGnomonShadowPass::FindDelegate(const vtkRenderState* s)
+{
+  if (s->GetRenderer()->GetSelector())
+  {
+    return nullptr;
+  }
+  if (!this->DelegatePass && drawsIntoOuterPass(s))
+  {
+    // What the renderer draws by itself copies depths between framebuffers of its own formats.
+    return this->Internal->steps;
+  }
+  return this->DelegatePass;
+}
+
+//------------------------------------------------------------------------------
+void vtkGnomonShadowPass::BeginView(const vtkRenderState* s)
+{
+  vtkRenderer* renderer = s->GetRenderer();
+  if (!this->FindDelegate(s))
+  {
+    this->UpdateCamera(renderer); // sets the viewport and clears
+  }
+  this->UpdateLightGeometry(renderer); // head lights follow the camera
+  this->UpdateLights(renderer);
+}
+
+//------------------------------------------------------------------------------
+void vtkGnomonShadowPass::DrawScene(const vtkRenderState* s)
+{
+  vtkRenderer* renderer = s->GetRenderer();
+  if (vtkRenderPass* delegate = this->FindDelegate(s))
+  {
+    delegate->Render(s);
+    this->NumberOfRenderedProps = delegate->GetNumberOfRenderedProps();
+  }
+  else
+  {
+    this->UpdateGeometry(renderer, s->GetFrameBuffer());
+    this->NumberOfRenderedProps = renderer->GetNumberOfPropsRendered();
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -142,12 +213,8 @@ void vtkGnomonShadowPass::RenderPlain(const vtkRenderState* s, const char* reaso
   this->Internal->plainReport.route = "none";
   this->Internal->plainReport.routeReason = reason;
 
-  vtkRenderer* renderer = s->GetRenderer();
-  this->UpdateCamera(renderer);
-  this->UpdateLightGeometry(renderer);
-  this->UpdateLights(renderer);
-  this->UpdateGeometry(renderer, s->GetFrameBuffer());
-  this->NumberOfRenderedProps = renderer->GetNumberOfPropsRendered();
+  this->BeginView(s);
+  this->DrawScene(s);
 }
 
 //------------------------------------------------------------------------------
@@ -190,6 +257,11 @@ void vtkGnomonShadowPass::ReleaseGraphicsResources(vtkWindow* window)
     // Mappers may hold the last reference to a pass that they were drawn with, and drop it while
     // another window is being drawn.
     internal.window->PushContext();
+    if (this->DelegatePass)
+    {
+      this->DelegatePass->ReleaseGraphicsResources(internal.window);
+    }
+    internal.steps->ReleaseGraphicsResources(internal.window);
     internal.manager = std::make_unique<gnomon::RenderManager>();
     internal.window->PopContext();
   }
@@ -308,5 +380,8 @@ void vtkGnomonShadowPass::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Route: " << routes[this->Route] << "\n";
   os << indent << "MeasureStages: " << (this->MeasureStages ? "on" : "off") << "\n";
   os << indent << "KeepVisibility: " << (this->KeepVisibility ? "on" : "off") << "\n";
+  os << indent
+     << "DelegatePass: " << (this->DelegatePass ? this->DelegatePass->GetClassName() : "(none)")
+     << "\n";
   os << indent << "Last frame's route: " << this->GetReport().route << "\n";
 }

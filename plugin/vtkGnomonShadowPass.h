@@ -16,6 +16,8 @@
  * vtkPolyDataMapper, vtkCompositePolyDataMapper2 and assemblies of them cast and receive;
  * translucent, volumetric and overlay props are drawn as VTK draws them.
  *
+ * Other passes may stand around it, or inside it as its delegate (docs/pass_chains.md).
+ *
  * The pass steps aside for hardware selection, and draws the scene as plain VTK does, without a map
  * or a ray, when no light casts. It leaves the OpenGL state as it found it. OpenGL below 4.3 is an
  * error (vtkErrorMacro), and the scene is drawn without shadows.
@@ -121,6 +123,22 @@ public:
   vtkBooleanMacro(KeepVisibility, bool);
   ///@}
 
+  ///@{
+  /**
+   * The pass that draws the scene while shadows are in place: vtkRenderStepsPass, or a chain of
+   * passes that ends in it. It moves the camera, clears and draws; lights and shadows are prepared
+   * before. Without one, which is the default, the pass draws what the renderer draws by itself, with
+   * the renderer's own depth peeling, ambient occlusion and FXAA; where another pass is around this
+   * one and hands in a framebuffer, it draws by a vtkRenderStepsPass, and those are that pass's business.
+   *
+   * Techniques that work on the screen have one visibility per pixel of the renderer, so their
+   * delegate must shade at the renderer's resolution. Where it does not (vtkSSAAPass) that is an
+   * error, and the props are drawn without shadows; let such a pass have this one as its delegate.
+   */
+  virtual void SetDelegatePass(vtkRenderPass* pass);
+  vtkGetObjectMacro(DelegatePass, vtkRenderPass);
+  ///@}
+
   /**
    * What the last frame did: lights and reasons, route, counters, times, memory (FrameReport.h).
    */
@@ -155,8 +173,12 @@ protected:
   int Route;
   bool MeasureStages;
   bool KeepVisibility;
+  vtkRenderPass* DelegatePass;
 
 private:
+  vtkRenderPass* FindDelegate(const vtkRenderState* s);
+  void BeginView(const vtkRenderState* s);
+  void DrawScene(const vtkRenderState* s);
   void RenderPlain(const vtkRenderState* s, const char* reason);
   bool PrepareContext(vtkRenderer* renderer);
 
