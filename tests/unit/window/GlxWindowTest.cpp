@@ -2,6 +2,10 @@
 
 #include "WindowScene.h"
 
+#include <vtkCallbackCommand.h>
+#include <vtkCommand.h>
+#include <vtkGenericOpenGLRenderWindow.h>
+
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -14,7 +18,6 @@ namespace
 
 std::vector<unsigned char> draw(vtkRenderWindow* window)
 {
-  window->SetOffScreenRendering(1);
   window->SetMultiSamples(0);
   window->SetSize(320, 240);
   window->AddRenderer(makeSphereScene());
@@ -31,9 +34,32 @@ TEST(GlxWindow, showsTheSameBytesAsTheWindowWithoutADisplay)
   ASSERT_NE(std::getenv("DISPLAY"), nullptr) << "run under xvfb-run";
   vtkNew<vtkRenderWindow> onDisplay;
   ASSERT_STREQ(onDisplay->GetClassName(), "vtkXOpenGLRenderWindow");
+  onDisplay->SetOffScreenRendering(1);
   const auto expected = draw(onDisplay);
   onDisplay->Finalize(); // one thread holds a GLX or an EGL context, not both
 
   vtkNew<vtkGnomonEGLRenderWindow> withoutDisplay;
   EXPECT_TRUE(draw(withoutDisplay) == expected);
+}
+
+//------------------------------------------------------------------------------
+// On the screen, and then through the window that QVTKOpenGLNativeWidget and other toolkits' widgets
+// draw through: one without a context of its own, here that of the window on the screen.
+TEST(GlxWindow, showsTheSameBytesOnTheScreenAndInAnotherToolkitsContext)
+{
+  vtkNew<vtkRenderWindow> onDisplay;
+  const auto expected = draw(onDisplay);
+  EXPECT_EQ(onDisplay->GetOffScreenRendering(), 0);
+
+  onDisplay->MakeCurrent();
+  vtkNew<vtkGenericOpenGLRenderWindow> generic;
+  vtkNew<vtkCallbackCommand> yes;
+  yes->SetCallback(
+    [](vtkObject*, unsigned long, void*, void* answer) { *static_cast<int*>(answer) = 1; });
+  generic->AddObserver(vtkCommand::WindowIsCurrentEvent, yes);
+  generic->AddObserver(vtkCommand::WindowSupportsOpenGLEvent, yes);
+  generic->SetOwnContext(0);
+  generic->SetReadyForRendering(true);
+  EXPECT_TRUE(draw(generic) == expected);
+  generic->Finalize();
 }
