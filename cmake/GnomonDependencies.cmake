@@ -20,6 +20,7 @@ find_package(VTK 9.1 REQUIRED COMPONENTS
   InteractionStyle
   RenderingAnnotation
   RenderingCore
+  RenderingLOD
   RenderingOpenGL2
   ChartsCore
   RenderingContext2D

@@ -1,12 +1,15 @@
 #include "plugin/OccluderCollector.h"
 
 #include "plugin/DrawnProps.h"
-#include "plugin/MapperInternals.h"
+#include "plugin/GlyphInstances.h"
+#include "plugin/Hash.h"
 #include "plugin/SurfaceClipping.h"
 #include "plugin/SurfaceExtraction.h"
 
 #include "vtkActor.h"
-#include "vtkMatrix4x4.h"
+#include "vtkCompositeDataDisplayAttributes.h"
+#include "vtkDataSet.h"
+#include "vtkGlyph3DMapper.h"
 #include "vtkPolyData.h"
 
 #include <algorithm>
@@ -21,24 +24,21 @@ namespace gnomon
 namespace
 {
 
-template <typename Value>
-void hashCombine(std::size_t& seed, const Value& value)
-{
-  seed ^= std::hash<Value>()(value) + 0x9e3779b97f4a7c15ull + (seed << 6) + (seed >> 2);
-}
-
 /// What a surface is, from one frame to the next. The pointers name; they are not followed.
 struct SurfaceKey
 {
   const vtkProp* viewProp;
   std::size_t path;
   const vtkPolyData* data;
+  const vtkDataSet* glyphPoints;
+  int glyphSource;
   SurfaceCells cells;
 
   bool operator==(const SurfaceKey& other) const
   {
     return this->viewProp == other.viewProp && this->path == other.path &&
-      this->data == other.data && this->cells == other.cells;
+      this->data == other.data && this->glyphPoints == other.glyphPoints &&
+      this->glyphSource == other.glyphSource && this->cells == other.cells;
   }
 };
 
@@ -50,38 +50,9 @@ struct SurfaceKeyHash
     hashCombine(seed, key.viewProp);
     hashCombine(seed, key.path);
     hashCombine(seed, key.data);
+    hashCombine(seed, key.glyphPoints);
+    hashCombine(seed, key.glyphSource);
     hashCombine(seed, static_cast<int>(key.cells));
-    return seed;
-  }
-};
-
-/// A prop as VTK draws it: an actor that hangs in an assembly several times is drawn with another
-/// matrix each time.
-struct PlacedProp
-{
-  const vtkProp* prop;
-  glm::dmat4 worldFromModel;
-
-  bool operator==(const PlacedProp& other) const
-  {
-    return this->prop == other.prop && this->worldFromModel == other.worldFromModel;
-  }
-};
-
-struct PlacedPropHash
-{
-  std::size_t operator()(const PlacedProp& placed) const
-  {
-    std::size_t seed = 0;
-    hashCombine(seed, placed.prop);
-    for (int column = 0; column < 4; ++column)
-    {
-      for (int row = 0; row < 4; ++row)
-      {
-        // std::hash gives 0.0 and -0.0, which are equal, the same value.
-        hashCombine(seed, placed.worldFromModel[column][row]);
-      }
-    }
     return seed;
   }
 };
@@ -93,7 +64,11 @@ struct SurfaceRecord
   vtkMTimeType shapeTime = 0;
   glm::dmat4 worldFromModel{ 1.0 };
   std::vector<glm::dvec4> clipPlanes;
-  std::vector<std::uint32_t> pointOfVertex; ///< as in DrawnTriangles
+  std::vector<std::uint32_t> pointOfVertex; ///< as in DrawnTriangles, of one instance
+  /// Where the polydata is drawn in its prop's model coordinates: once as it is, or as a glyph at
+  /// any number of places.
+  std::vector<glm::mat4> modelFromInstance{ glm::mat4(1.0f) };
+  bool tooManyTriangles = false; ///< more than mostGlyphTriangles, so that it has none
   std::vector<DroppedTriangle> dropped;
   Bounds boundsModel;
   Bounds boundsCentred;
@@ -113,7 +88,7 @@ struct FreshSurface
 struct WantedSurface
 {
   SurfaceKey key;
-  vtkPolyData* data;
+  DrawnBlock block;
   const DrawnProp* prop;
   std::size_t old = none;              ///< its number in the snapshot so far
   std::unique_ptr<FreshSurface> fresh; ///< set while it waits to be put into the snapshot
@@ -134,6 +109,53 @@ Bounds boundsOf(Triangle first, Triangle last, const glm::vec3* positions)
     }
   }
   return bounds;
+}
+
+/// When the shape of a surface last changed, and the instances that it is drawn as.
+vtkMTimeType changeTime(const WantedSurface& wanted)
+{
+  vtkMTimeType time = shapeTime(wanted.block.data, wanted.key.cells);
+  if (wanted.block.glyphPoints)
+  {
+    // When VTK computes the instances again.
+    auto* mapper = static_cast<vtkGlyph3DMapper*>(wanted.prop->mapper);
+    vtkObject* attributes = mapper->GetBlockAttributes();
+    time = std::max({ time, mapper->GetMTime(), wanted.block.glyphPoints->GetMTime(),
+      attributes ? attributes->GetMTime() : 0 });
+  }
+  return time;
+}
+
+/// Repeats a glyph's triangles for each of its instances, each with vertices of its own.
+void repeatTriangles(std::vector<glm::uvec3>& triangles, std::uint32_t vertexCount, std::size_t n)
+{
+  const std::size_t count = triangles.size();
+  triangles.reserve(count * n);
+  for (std::size_t instance = 1; instance < n; ++instance)
+  {
+    const auto shift = static_cast<std::uint32_t>(instance * vertexCount);
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      const glm::uvec3 triangle = triangles[i];
+      const bool missing = triangle.x == DrawnTriangles::missingVertex;
+      triangles.push_back(missing ? triangle : triangle + shift);
+    }
+  }
+  triangles.resize(count * n);
+}
+
+/// Computes the centred positions of all instances.
+void placeInstances(const WantedSurface& wanted, const SurfaceRecord& record,
+  std::size_t vertexCount, const glm::dvec3& centreWorld, glm::vec3* positionsCentred)
+{
+  const std::size_t instances = record.modelFromInstance.size();
+  const std::size_t step = instances > 0 ? vertexCount / instances : 0;
+  for (std::size_t i = 0; i < instances; ++i)
+  {
+    placeVertices(wanted.block.data, record.pointOfVertex, step,
+      record.worldFromModel * glm::dmat4(record.modelFromInstance[i]), centreWorld,
+      positionsCentred + i * step);
+  }
 }
 
 /// Takes the triangles that have a defect out of a fresh surface.
@@ -172,8 +194,7 @@ void placeSurface(FreshSurface& fresh, const WantedSurface& wanted, const glm::d
   record.worldFromModel = wanted.prop->worldFromModel;
   record.clipPlanes = wanted.prop->clipPlanes;
   std::vector<glm::vec3>& positions = fresh.positionsCentred;
-  placeVertices(wanted.data, record.pointOfVertex, positions.size(), record.worldFromModel,
-    centreWorld, positions.data());
+  placeInstances(wanted, record, positions.size(), centreWorld, positions.data());
   dropDefects(fresh);
   clearNonFinite(positions.data(), positions.size());
   if (!record.clipPlanes.empty())
@@ -210,10 +231,10 @@ struct OccluderCollector::Impl
 {
 public:
   Change collect(vtkRenderer* renderer);
-  Drawn drawn(vtkAbstractMapper* mapper, vtkProp* prop);
 
   Occluders occluders;
-  std::vector<DrawnSurface> drawnSurfaces;
+  DrawnLookup lookup;
+  int translucentReceivers = 0;
   std::vector<std::string> notes;
 
 private:
@@ -232,6 +253,7 @@ private:
   bool transformAgain(const WantedSurface& wanted);
   Outcome overwrite(WantedSurface& wanted);
   void rebuild(std::vector<WantedSurface>& wanted);
+  void noteWhatIsTooLarge(const std::vector<WantedSurface>& wanted);
   bool updateFlags(const std::vector<WantedSurface>& wanted);
   void summarise();
   void indexProps(const std::vector<WantedSurface>& wanted);
@@ -241,57 +263,16 @@ private:
   std::uint64_t lastVersion_ = 0;
   std::vector<SurfaceRecord> records_;       ///< one for each of occluders.surfaces
   std::vector<std::uint32_t> vertexOfPoint_; ///< scratch memory for triangulate()
-
-  /// A surface of the snapshot as part of a prop.
-  struct HeldSurface
-  {
-    const vtkPolyData* data;
-    SurfaceCells cells;
-    std::uint32_t surface;
-
-    bool operator<(const HeldSurface& other) const
-    {
-      return std::less<const vtkPolyData*>()(this->data, other.data) ||
-        (this->data == other.data && this->cells < other.cells);
-    }
-  };
-  using HeldSurfaces = std::vector<HeldSurface>; ///< sorted
-  std::unordered_map<PlacedProp, HeldSurfaces, PlacedPropHash> surfacesOfProp_;
-
-  /// What drawn() was asked for since the last collect().
-  struct Question
-  {
-    const HeldSurfaces* held;
-    const vtkAbstractMapper* mapper;
-    SurfaceCells cells;
-
-    bool operator==(const Question& other) const
-    {
-      return this->held == other.held && this->mapper == other.mapper && this->cells == other.cells;
-    }
-  };
-  struct QuestionHash
-  {
-    std::size_t operator()(const Question& question) const
-    {
-      std::size_t seed = 0;
-      hashCombine(seed, question.held);
-      hashCombine(seed, question.mapper);
-      hashCombine(seed, static_cast<int>(question.cells));
-      return seed;
-    }
-  };
-  std::unordered_map<Question, Drawn, QuestionHash> answers_;
 };
 
 //------------------------------------------------------------------------------
 OccluderCollector::Change OccluderCollector::Impl::collect(vtkRenderer* renderer)
 {
-  this->drawnSurfaces.clear();
-  this->answers_.clear();
+  this->lookup.beginFrame();
 
   DrawnProps drawn = findDrawnProps(renderer);
   this->notes = std::move(drawn.notes);
+  this->translucentReceivers = drawn.translucentReceivers;
   std::vector<WantedSurface> wanted = this->wantedSurfaces(drawn);
 
   Change change;
@@ -303,7 +284,7 @@ OccluderCollector::Change OccluderCollector::Impl::collect(vtkRenderer* renderer
     otherList = otherList || surface.old != i;
     const SurfaceRecord* record =
       surface.old != WantedSurface::none ? &this->records_[surface.old] : nullptr;
-    const vtkMTimeType time = shapeTime(surface.data, surface.key.cells);
+    const vtkMTimeType time = changeTime(surface);
     if (!record || record->shapeTime != time || record->clipPlanes != surface.prop->clipPlanes)
     {
       this->read(surface, time);
@@ -330,6 +311,7 @@ OccluderCollector::Change OccluderCollector::Impl::collect(vtkRenderer* renderer
     this->indexProps(wanted);
   }
 
+  this->noteWhatIsTooLarge(wanted);
   const bool flagsChanged = this->updateFlags(wanted);
   if (trianglesChanged || flagsChanged)
   {
@@ -352,13 +334,14 @@ std::vector<WantedSurface> OccluderCollector::Impl::wantedSurfaces(const DrawnPr
   {
     for (std::size_t block = 0; block < prop.blockCount; ++block)
     {
-      vtkPolyData* data = drawn.blocks[prop.firstBlock + block];
+      const DrawnBlock& drawnBlock = drawn.blocks[prop.firstBlock + block];
       for (const SurfaceCells cells : { SurfaceCells::Polygons, SurfaceCells::Strips })
       {
-        if (cellCount(data, cells) > 0)
+        if (cellCount(drawnBlock.data, cells) > 0)
         {
-          wanted.push_back({ { prop.viewProp, prop.path, data, cells }, data, &prop,
-            WantedSurface::none, nullptr });
+          wanted.push_back({ { prop.viewProp, prop.path, drawnBlock.data, drawnBlock.glyphPoints,
+                               drawnBlock.glyphSource, cells },
+            drawnBlock, &prop, WantedSurface::none, nullptr });
         }
       }
     }
@@ -420,13 +403,32 @@ bool OccluderCollector::Impl::chooseCentre(const std::vector<WantedSurface>& wan
 /// Reads a surface from its polydata.
 void OccluderCollector::Impl::read(WantedSurface& wanted, vtkMTimeType time)
 {
-  DrawnTriangles drawn = triangulate(wanted.data, wanted.key.cells, this->vertexOfPoint_);
+  DrawnTriangles drawn = triangulate(wanted.block.data, wanted.key.cells, this->vertexOfPoint_);
   wanted.fresh = std::make_unique<FreshSurface>();
-  wanted.fresh->record.key = wanted.key;
-  wanted.fresh->record.shapeTime = time;
-  wanted.fresh->record.pointOfVertex = std::move(drawn.pointOfVertex);
-  wanted.fresh->record.boundsModel = drawn.boundsModel;
-  wanted.fresh->positionsCentred.resize(drawn.vertexCount);
+  SurfaceRecord& record = wanted.fresh->record;
+  record.key = wanted.key;
+  record.shapeTime = time;
+  record.pointOfVertex = std::move(drawn.pointOfVertex);
+  record.boundsModel = drawn.boundsModel;
+  if (wanted.block.glyphPoints)
+  {
+    record.modelFromInstance = glyphInstances(static_cast<vtkGlyph3DMapper*>(wanted.prop->mapper),
+      wanted.block.glyphPoints, wanted.block.glyphSource);
+    record.boundsModel = Bounds();
+    for (const glm::mat4& instance : record.modelFromInstance)
+    {
+      record.boundsModel.add(transformed(drawn.boundsModel, glm::dmat4(instance)));
+    }
+    record.tooManyTriangles =
+      drawn.triangles.size() * record.modelFromInstance.size() > mostGlyphTriangles;
+    if (record.tooManyTriangles)
+    {
+      drawn.triangles.clear();
+      drawn.vertexCount = 0;
+    }
+    repeatTriangles(drawn.triangles, drawn.vertexCount, record.modelFromInstance.size());
+  }
+  wanted.fresh->positionsCentred.resize(drawn.vertexCount * record.modelFromInstance.size());
   wanted.fresh->triangles = std::move(drawn.triangles);
 }
 
@@ -468,8 +470,7 @@ bool OccluderCollector::Impl::transformAgain(const WantedSurface& wanted)
   glm::vec3* all = this->occluders.positionsCentred.data();
   glm::vec3* own = all + surface.firstVertex;
   record.worldFromModel = wanted.prop->worldFromModel;
-  placeVertices(wanted.data, record.pointOfVertex, surface.vertexCount, record.worldFromModel,
-    this->occluders.centreWorld, own);
+  placeInstances(wanted, record, surface.vertexCount, this->occluders.centreWorld, own);
 
   const auto first = this->occluders.triangles.begin() + surface.firstTriangle;
   const auto last = first + surface.triangleCount;
@@ -587,6 +588,20 @@ void OccluderCollector::Impl::rebuild(std::vector<WantedSurface>& wanted)
 }
 
 //------------------------------------------------------------------------------
+void OccluderCollector::Impl::noteWhatIsTooLarge(const std::vector<WantedSurface>& wanted)
+{
+  for (std::size_t i = 0; i < wanted.size(); ++i)
+  {
+    if (this->records_[i].tooManyTriangles)
+    {
+      this->notes.push_back(std::string(wanted[i].prop->mapper->GetClassName()) + ": " +
+        std::to_string(this->records_[i].modelFromInstance.size()) + " glyphs have more than " +
+        std::to_string(mostGlyphTriangles) + " triangles (they neither cast nor receive)");
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
 /// Takes over the props' flags; true if one changed.
 bool OccluderCollector::Impl::updateFlags(const std::vector<WantedSurface>& wanted)
 {
@@ -632,64 +647,22 @@ void OccluderCollector::Impl::summarise()
 /// Makes the snapshot's surfaces findable by prop and matrix.
 void OccluderCollector::Impl::indexProps(const std::vector<WantedSurface>& wanted)
 {
-  this->surfacesOfProp_.clear();
+  this->lookup.clear();
   for (std::size_t i = 0; i < wanted.size();)
   {
-    const DrawnProp* prop = wanted[i].prop;
-    HeldSurfaces held;
-    for (; i < wanted.size() && wanted[i].prop == prop; ++i)
+    const DrawnProp& prop = *wanted[i].prop;
+    std::vector<DrawnLookup::HeldSurface> held;
+    for (; i < wanted.size() && wanted[i].prop == &prop; ++i)
     {
-      held.push_back({ wanted[i].key.data, wanted[i].key.cells, static_cast<std::uint32_t>(i) });
+      held.push_back({ wanted[i].block.data, wanted[i].key.cells, static_cast<std::uint32_t>(i),
+        wanted[i].block.glyphPoints != nullptr,
+        static_cast<std::uint32_t>(this->records_[i].modelFromInstance.size()) });
     }
-    std::sort(held.begin(), held.end());
-    this->surfacesOfProp_.emplace(PlacedProp{ prop->actor, prop->worldFromModel }, std::move(held));
-  }
-}
-
-//------------------------------------------------------------------------------
-OccluderCollector::Drawn OccluderCollector::Impl::drawn(vtkAbstractMapper* mapper, vtkProp* prop)
-{
-  vtkMatrix4x4* matrix = prop->GetMatrix();
-  const std::optional<SurfaceCells> cells = cellsAboutToBeDrawn(mapper);
-  // In the translucent pass, a composite mapper draws its other blocks.
-  if (!matrix || !cells || prop->IsRenderingTranslucentPolygonalGeometry())
-  {
-    return {};
-  }
-  const auto found = this->surfacesOfProp_.find({ prop, toGlm(matrix) });
-  if (found == this->surfacesOfProp_.end())
-  {
-    return {};
-  }
-  const HeldSurfaces& held = found->second;
-  const auto [answer, isNew] = this->answers_.emplace(Question{ &held, mapper, *cells }, Drawn());
-  if (!isNew)
-  {
-    return answer->second;
-  }
-
-  DrawnSurface drawnSurface;
-  for (const DrawCall& call : drawCalls(mapper, *cells))
-  {
-    const HeldSurface wanted{ call.data, *cells, 0 };
-    const auto place = std::lower_bound(held.begin(), held.end(), wanted);
-    if (place == held.end() || wanted < *place)
+    if (!prop.translucent)
     {
-      continue; // a hidden or translucent block, or one without such cells
+      this->lookup.add(prop.actor, prop.mapper, prop.worldFromModel, std::move(held));
     }
-    const Surface& surface = this->occluders.surfaces[place->surface];
-    const auto drawnCount = surface.triangleOfDrawn.empty()
-      ? surface.triangleCount
-      : static_cast<std::uint32_t>(surface.triangleOfDrawn.size());
-    drawnSurface.blocks.push_back({ call.firstPrimitive, drawnCount, place->surface });
-    answer->second.receives = surface.receives;
   }
-  if (!drawnSurface.blocks.empty())
-  {
-    answer->second.index = static_cast<int>(this->drawnSurfaces.size());
-    this->drawnSurfaces.push_back(std::move(drawnSurface));
-  }
-  return answer->second;
 }
 
 //------------------------------------------------------------------------------
@@ -720,15 +693,21 @@ const std::vector<std::string>& OccluderCollector::notes() const
 }
 
 //------------------------------------------------------------------------------
-OccluderCollector::Drawn OccluderCollector::drawn(vtkAbstractMapper* mapper, vtkProp* prop)
+int OccluderCollector::translucentReceivers() const
 {
-  return this->impl_->drawn(mapper, prop);
+  return this->impl_->translucentReceivers;
+}
+
+//------------------------------------------------------------------------------
+Drawn OccluderCollector::drawn(vtkAbstractMapper* mapper, vtkProp* prop)
+{
+  return this->impl_->lookup.find(mapper, prop, this->impl_->occluders);
 }
 
 //------------------------------------------------------------------------------
 const std::vector<DrawnSurface>& OccluderCollector::drawnSurfaces() const
 {
-  return this->impl_->drawnSurfaces;
+  return this->impl_->lookup.drawnSurfaces();
 }
 
 } // namespace gnomon

@@ -185,6 +185,12 @@ bool RenderManager::chooseRoute(int wished, bool keepVisibility)
       : "all techniques are functions of the point, so that no prepass is needed";
   }
   this->report_.route = this->route_ == Route::Image ? "image" : "inline";
+  const int translucent = this->collector_.translucentReceivers();
+  if (this->route_ == Route::Image && translucent > 0)
+  {
+    this->report_.notes.push_back("translucent surfaces show no shadows on the image route (" +
+      std::to_string(translucent) + (translucent == 1 ? " prop)" : " props)"));
+  }
 
   std::vector<ShadedLight> lights;
   for (const LightSlot* slot : this->casting_)
@@ -421,10 +427,10 @@ void RenderManager::abandonFrame()
 void RenderManager::setShaderParameters(
   vtkShaderProgram* program, vtkAbstractMapper* mapper, vtkProp* prop)
 {
-  // Opaque surfaces of the snapshot receive, on either route: the image route's layers know no
-  // others.
-  const OccluderCollector::Drawn drawn = this->collector_.drawn(mapper, prop);
-  this->shaders_.setParameters(program, drawn.index, drawn.receives);
+  // On the image route a pixel's layers belong to the opaque surface there.
+  const Drawn drawn = this->collector_.drawn(mapper, prop);
+  const bool receives = drawn.receives && (this->route_ == Route::Inline || !drawn.translucent);
+  this->shaders_.setParameters(program, drawn, receives);
 }
 
 } // namespace gnomon

@@ -96,8 +96,34 @@ void ShaderManager::configure(Route route, const std::vector<ShadedLight>& light
 }
 
 //------------------------------------------------------------------------------
-void ShaderManager::markShader(std::string& fragmentShader) const
+bool passInstance(std::string& vertexShader, std::string& geometryShader)
 {
+  const std::string declaration = "//VTK::Glyph::Dec";
+  const std::string body = "//VTK::Glyph::Impl";
+  if (vertexShader.find(body) == std::string::npos)
+  {
+    return false;
+  }
+  replace(vertexShader, declaration, "flat out int gnomonInstanceVSOutput;\n" + declaration);
+  replace(vertexShader, body, "gnomonInstanceVSOutput = gl_InstanceID;\n  " + body);
+  // Where there is a geometry shader, VTK has the fragment shader read its outputs instead.
+  replace(geometryShader, "//VTK::PrimID::Dec",
+    "flat in int gnomonInstanceVSOutput[];\nflat out int gnomonInstanceGSOutput;\n"
+    "//VTK::PrimID::Dec");
+  replace(geometryShader, "//VTK::PrimID::Impl",
+    "gnomonInstanceGSOutput = gnomonInstanceVSOutput[i];\n    //VTK::PrimID::Impl");
+  return true;
+}
+
+//------------------------------------------------------------------------------
+void ShaderManager::markShader(
+  std::string& vertexShader, std::string& geometryShader, std::string& fragmentShader) const
+{
+  if (passInstance(vertexShader, geometryShader))
+  {
+    replace(fragmentShader, "//VTK::PrimID::Dec",
+      "flat in int gnomonInstanceVSOutput;\n//VTK::PrimID::Dec");
+  }
   replace(fragmentShader, "//VTK::Light::Dec", "//VTK::Light::Dec\n" + declarationMarker);
   replace(
     fragmentShader, "//VTK::UniformFlow::Impl", normalMarker + "\n  //VTK::UniformFlow::Impl");
@@ -127,9 +153,14 @@ void ShaderManager::fillShader(std::string& vertexShader, const std::string& geo
   }
   if (this->route_ == Route::Image && receiversStage)
   {
+    const bool instanced = fragmentShader.find("gnomonInstanceVSOutput") != std::string::npos;
+    const std::string primitive = std::string("gl_PrimitiveID + PrimitiveIDOffset") +
+      (instanced ? " + gnomonInstanceVSOutput * gnomonPrimitivesPerInstance" : "");
     const std::string write = lit
       ? "    float drawn = float(gnomonDrawn + 1) * (gnomonReceives == 1 ? 1.0 : -1.0);\n"
-        "    gl_FragData[1] = vec4(vertexVC.xyz, float(gl_PrimitiveID + PrimitiveIDOffset));\n"
+        "    gl_FragData[1] = vec4(vertexVC.xyz, float(" +
+        primitive +
+        "));\n"
         "    gl_FragData[2] = vec4(drawn, gnomonNormal);\n"
       : "    gl_FragData[1] = vec4(0.0);\n"
         "    gl_FragData[2] = vec4(0.0);\n";
@@ -219,7 +250,7 @@ void ShaderManager::endStage()
 }
 
 //------------------------------------------------------------------------------
-void ShaderManager::setParameters(vtkShaderProgram* program, int drawn, bool receives)
+void ShaderManager::setParameters(vtkShaderProgram* program, const Drawn& drawn, bool receives)
 {
   const auto handle = static_cast<GLuint>(program->GetHandle());
   if (this->upToDate_.insert(program).second)
@@ -230,7 +261,9 @@ void ShaderManager::setParameters(vtkShaderProgram* program, int drawn, bool rec
     }
   }
   ShaderLibrary::setUniform(handle, { "gnomonReceives", receives ? 1 : 0 });
-  ShaderLibrary::setUniform(handle, { "gnomonDrawn", drawn });
+  ShaderLibrary::setUniform(handle, { "gnomonDrawn", drawn.index });
+  ShaderLibrary::setUniform(
+    handle, { "gnomonPrimitivesPerInstance", static_cast<int>(drawn.primitivesPerInstance) });
 }
 
 } // namespace gnomon

@@ -2,6 +2,7 @@
 #define gnomon_plugin_ShaderManager_h
 
 #include "lights/ShadowLight.h"
+#include "plugin/DrawnLookup.h"
 #include "shadowtech/base/Technique.h"
 
 #include <vtkTimeStamp.h>
@@ -30,6 +31,12 @@ struct ShadedLight
   const Technique* technique = nullptr;
 };
 
+/// Has the shaders of VTK's glyphs pass the number of the instance on, as the fragment shader's
+/// `flat in int gnomonInstanceVSOutput`: gl_PrimitiveID counts within an instance. Called before
+/// VTK's replacements.
+/// @return false where nothing is drawn as instances
+bool passInstance(std::string& vertexShader, std::string& geometryShader);
+
 /// The hook into VTK's lighting. In front of VTK's light loop it puts, per casting light N,
 ///     vec3 lightColorN = lightColorN * (visibility of light N);
 /// The local variable hides VTK's uniform of the same name, so that the loop, of whatever shading
@@ -47,7 +54,8 @@ public:
 
   /// First and second half of the hook, around VTK's own replacements.
   /// @param receiversStage whether this prop's shader must be able to draw the receivers stage
-  void markShader(std::string& fragmentShader) const;
+  void markShader(
+    std::string& vertexShader, std::string& geometryShader, std::string& fragmentShader) const;
   void fillShader(std::string& vertexShader, const std::string& geometryShader,
     std::string& fragmentShader, bool receiversStage);
 
@@ -65,8 +73,8 @@ public:
   void endStage();
 
   /// Sets the hook's uniforms of a program that is about to draw.
-  /// @param drawn number of the drawn surface, -1 for none
-  void setParameters(vtkShaderProgram* program, int drawn, bool receives);
+  /// @param receives whether the surface shows shadows on this route
+  void setParameters(vtkShaderProgram* program, const Drawn& drawn, bool receives);
 
   /// Shaders rebuilt by VTK since the start.
   int rebuilds() const { return this->rebuilds_; }
