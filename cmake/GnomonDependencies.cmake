@@ -10,6 +10,7 @@ find_package(VTK 9.1 REQUIRED COMPONENTS
   FiltersGeneral
   FiltersModeling
   FiltersSources
+  FiltersTexture
   IOGeometry
   IOImage
   IOImport

@@ -3,7 +3,6 @@
 #include "plugin/DrawnProps.h"
 #include "plugin/Hash.h"
 #include "plugin/MapperInternals.h"
-#include "plugin/vtkGnomonPropKeys.h"
 
 #include "shadowtech/base/Occluders.h"
 
@@ -67,7 +66,8 @@ void DrawnLookup::clear()
 {
   this->held_.clear();
   this->heldAt_.clear();
-  this->beginFrame();
+  this->answers_.clear();
+  this->taken_.clear();
 }
 
 //------------------------------------------------------------------------------
@@ -88,11 +88,13 @@ void DrawnLookup::add(const vtkProp* actor, const vtkMapper* mapper,
 }
 
 //------------------------------------------------------------------------------
-void DrawnLookup::beginFrame()
+void DrawnLookup::beginFrame(const std::vector<const vtkProp*>& translucentReceivers)
 {
   this->answers_.clear();
   this->taken_.clear();
   this->drawnSurfaces_.clear();
+  this->translucentReceivers_.clear();
+  this->translucentReceivers_.insert(translucentReceivers.begin(), translucentReceivers.end());
 }
 
 //------------------------------------------------------------------------------
@@ -151,8 +153,7 @@ Drawn DrawnLookup::find(vtkAbstractMapper* mapper, vtkProp* prop, const Occluder
   if (prop->IsRenderingTranslucentPolygonalGeometry())
   {
     Drawn drawn;
-    // VTK hands the view prop's keys down to whom it draws.
-    drawn.receives = vtkGnomonPropKeys::GetReceives(prop);
+    drawn.receives = this->translucentReceivers_.count(prop) > 0;
     drawn.translucent = true;
     return drawn;
   }

@@ -56,9 +56,10 @@ public:
     std::vector<HeldSurface> held);
 
   /// Empties the list of drawn surfaces.
-  void beginFrame();
+  /// @param translucentReceivers as in DrawnProps
+  void beginFrame(const std::vector<const vtkProp*>& translucentReceivers);
   /// What VTK is about to draw. The lines and points of a mapper are not held; the surfaces of the
-  /// translucent pass are not looked for.
+  /// translucent pass are not looked for in the snapshot.
   Drawn find(vtkAbstractMapper* mapper, vtkProp* prop, const Occluders& occluders);
   const std::vector<DrawnSurface>& drawnSurfaces() const { return this->drawnSurfaces_; }
 
@@ -103,6 +104,7 @@ private:
   std::vector<HeldSurfaces> held_;
   std::unordered_map<Place, std::size_t, PlaceHash> heldAt_; ///< numbers in held_
   std::unordered_map<Question, Drawn, QuestionHash> answers_;
+  std::unordered_set<const vtkProp*> translucentReceivers_;
   std::unordered_set<const HeldSurface*> taken_; ///< glyphs whose helper is known
   std::vector<DrawnSurface> drawnSurfaces_;
 };

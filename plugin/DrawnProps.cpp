@@ -195,7 +195,10 @@ void Finder::addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatr
   }
   if (actor->HasTranslucentPolygonalGeometry())
   {
-    this->drawn_.translucentReceivers += prop.receives ? 1 : 0;
+    if (prop.receives)
+    {
+      this->drawn_.translucentReceivers.push_back(prop.actor);
+    }
     if (askedToCast(viewProp))
     {
       add(true);

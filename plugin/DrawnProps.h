@@ -56,8 +56,8 @@ struct DrawnProps
   /// What the props draw: one for vtkPolyDataMapper, any number for vtkCompositePolyDataMapper2,
   /// where each polydata is there once, and for vtkGlyph3DMapper.
   std::vector<DrawnBlock> blocks;
-  /// Visible props with translucent surfaces that receive.
-  int translucentReceivers = 0;
+  /// Actors whose translucent surfaces receive: whom VTK hands to a render pass.
+  std::vector<const vtkProp*> translucentReceivers;
   /// What was left out although it may be opaque and visible, and why.
   std::vector<std::string> notes;
 };

@@ -234,7 +234,7 @@ public:
 
   Occluders occluders;
   DrawnLookup lookup;
-  int translucentReceivers = 0;
+  std::size_t translucentReceivers = 0;
   std::vector<std::string> notes;
 
 private:
@@ -268,11 +268,10 @@ private:
 //------------------------------------------------------------------------------
 OccluderCollector::Change OccluderCollector::Impl::collect(vtkRenderer* renderer)
 {
-  this->lookup.beginFrame();
-
   DrawnProps drawn = findDrawnProps(renderer);
+  this->lookup.beginFrame(drawn.translucentReceivers);
   this->notes = std::move(drawn.notes);
-  this->translucentReceivers = drawn.translucentReceivers;
+  this->translucentReceivers = drawn.translucentReceivers.size();
   std::vector<WantedSurface> wanted = this->wantedSurfaces(drawn);
 
   Change change;
@@ -693,7 +692,7 @@ const std::vector<std::string>& OccluderCollector::notes() const
 }
 
 //------------------------------------------------------------------------------
-int OccluderCollector::translucentReceivers() const
+std::size_t OccluderCollector::translucentReceivers() const
 {
   return this->impl_->translucentReceivers;
 }

@@ -55,7 +55,7 @@ public:
   const std::vector<std::string>& notes() const;
 
   /// The number of visible props with translucent surfaces that receive, as of the last collect().
-  int translucentReceivers() const;
+  std::size_t translucentReceivers() const;
 
   /// Finds the surface that `mapper` (a mapper, or its helper) draws for `prop`, with the matrix that
   /// the prop has at this moment. Called while VTK draws, from

@@ -185,7 +185,7 @@ bool RenderManager::chooseRoute(int wished, bool keepVisibility)
       : "all techniques are functions of the point, so that no prepass is needed";
   }
   this->report_.route = this->route_ == Route::Image ? "image" : "inline";
-  const int translucent = this->collector_.translucentReceivers();
+  const std::size_t translucent = this->collector_.translucentReceivers();
   if (this->route_ == Route::Image && translucent > 0)
   {
     this->report_.notes.push_back("translucent surfaces show no shadows on the image route (" +

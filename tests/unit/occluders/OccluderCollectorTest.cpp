@@ -357,14 +357,14 @@ TEST(OccluderProps, TranslucentOnesAreHeldIfAskedToCast)
   scene.renderer->AddActor(pane);
   scene.collect();
   EXPECT_EQ(scene.surfaceCount(), 0u);
-  EXPECT_EQ(scene.collector.translucentReceivers(), 1);
+  EXPECT_EQ(scene.collector.translucentReceivers(), 1u);
   vtkGnomonPropKeys::SetCasts(pane, true);
   scene.collect();
   ASSERT_EQ(scene.surfaceCount(), 1u);
   EXPECT_TRUE(scene.occluders().surfaces[0].casts);
   vtkGnomonPropKeys::SetReceives(pane, false);
   scene.collect();
-  EXPECT_EQ(scene.collector.translucentReceivers(), 0);
+  EXPECT_EQ(scene.collector.translucentReceivers(), 0u);
   vtkGnomonPropKeys::SetCasts(pane, false);
   scene.collect();
   EXPECT_EQ(scene.surfaceCount(), 0u);
