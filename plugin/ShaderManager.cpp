@@ -55,11 +55,14 @@ std::string declare(Route route, const ShadedLight& shaded, int layer)
 {
   const std::string number = std::to_string(layer);
   const std::string head = "float gnomonVisibility" + number + "(vec3 position, vec3 normal)\n{\n";
-  if (route == Route::Image)
+  if (!shaded.pointwise)
   {
     return head + "  return gnomonLayer(" + number + ");\n}\n";
   }
-  return numberedForLight(shaded.technique->visibilityGlsl(shaded.light), layer) + head +
+  const std::string fetch = route == Route::Image
+    ? "  if (gnomonTranslucent == 0)\n  {\n    return gnomonLayer(" + number + ");\n  }\n"
+    : "";
+  return numberedForLight(shaded.pointwise->visibilityGlsl(shaded.light), layer) + head + fetch +
     "  return visibility_" + number + "(position, normal);\n}\n";
 }
 
@@ -214,9 +217,9 @@ void ShaderManager::beginStage(vtkOpenGLRenderWindow* window, const StageValues&
   {
     const int light = static_cast<int>(i);
     add("gnomonStrength" + std::to_string(i), static_cast<float>(this->lights_[i].light.strength));
-    if (this->route_ == Route::Inline)
+    if (this->lights_[i].pointwise)
     {
-      for (Uniform uniform : this->lights_[i].technique->uniforms(values.centredFromView))
+      for (Uniform uniform : this->lights_[i].pointwise->uniforms(values.centredFromView))
       {
         uniform.name = numberedForLight(uniform.name, light);
         if (const auto* texture = std::get_if<TextureBinding>(&uniform.value))
@@ -250,7 +253,7 @@ void ShaderManager::endStage()
 }
 
 //------------------------------------------------------------------------------
-void ShaderManager::setParameters(vtkShaderProgram* program, const Drawn& drawn, bool receives)
+void ShaderManager::setParameters(vtkShaderProgram* program, const Drawn& drawn)
 {
   const auto handle = static_cast<GLuint>(program->GetHandle());
   if (this->upToDate_.insert(program).second)
@@ -260,8 +263,9 @@ void ShaderManager::setParameters(vtkShaderProgram* program, const Drawn& drawn,
       ShaderLibrary::setUniform(handle, uniform);
     }
   }
-  ShaderLibrary::setUniform(handle, { "gnomonReceives", receives ? 1 : 0 });
+  ShaderLibrary::setUniform(handle, { "gnomonReceives", drawn.receives ? 1 : 0 });
   ShaderLibrary::setUniform(handle, { "gnomonDrawn", drawn.index });
+  ShaderLibrary::setUniform(handle, { "gnomonTranslucent", drawn.translucent ? 1 : 0 });
   ShaderLibrary::setUniform(
     handle, { "gnomonPrimitivesPerInstance", static_cast<int>(drawn.primitivesPerInstance) });
 }

@@ -28,7 +28,9 @@ enum class Route
 struct ShadedLight
 {
   ShadowLight light;
-  const Technique* technique = nullptr;
+  /// What the shader computes visibility with: on the inline route for all surfaces, on the image
+  /// route for translucent ones, since the layers show what is opaque. Null where nothing needs it.
+  const Technique* pointwise = nullptr;
 };
 
 /// Has the shaders of VTK's glyphs pass the number of the instance on, as the fragment shader's
@@ -73,8 +75,7 @@ public:
   void endStage();
 
   /// Sets the hook's uniforms of a program that is about to draw.
-  /// @param receives whether the surface shows shadows on this route
-  void setParameters(vtkShaderProgram* program, const Drawn& drawn, bool receives);
+  void setParameters(vtkShaderProgram* program, const Drawn& drawn);
 
   /// Shaders rebuilt by VTK since the start.
   int rebuilds() const { return this->rebuilds_; }
