@@ -12,12 +12,14 @@
 #include "vtkAssemblyPath.h"
 #include "vtkCompositePolyDataMapper2.h"
 #include "vtkGlyph3DMapper.h"
+#include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationIntegerKey.h"
 #include "vtkLODProp3D.h"
 #include "vtkMatrix4x4.h"
 #include "vtkPlane.h"
 #include "vtkPlaneCollection.h"
+#include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkPolyDataMapper.h"
 #include "vtkProp3DFollower.h"
@@ -26,6 +28,7 @@
 #include "vtkProperty.h"
 #include "vtkRenderer.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkTexture.h"
 
 #include <glm/gtc/type_ptr.hpp>
 
@@ -66,11 +69,35 @@ bool drawsImpostors(vtkMapper* mapper)
     mapper->IsA("vtkOpenGLStickMapper");
 }
 
+/// Nearly every prop is one; IsA() and casts compare with all base classes.
+bool isPlainActor(vtkProp* prop)
+{
+  return std::strcmp(prop->GetClassName(), "vtkOpenGLActor") == 0;
+}
+
 /// Whether a prop was told to cast: a translucent one does so only then.
 bool askedToCast(vtkProp* viewProp)
 {
   vtkInformation* keys = viewProp->GetPropertyKeys();
   return keys && keys->Has(vtkGnomonPropKeys::CASTS()) && vtkGnomonPropKeys::GetCasts(viewProp);
+}
+
+/// Whether VTK draws nothing at some texels: where their alpha is 0.
+bool hasHoles(vtkTexture* texture)
+{
+  vtkImageData* image = texture ? texture->GetInput() : nullptr;
+  vtkDataArray* texels = image ? image->GetPointData()->GetScalars() : nullptr;
+  const int components = texels ? texels->GetNumberOfComponents() : 0;
+  return components % 2 == 0 && components > 0 && texels->GetRange(components - 1)[0] <= 0.0;
+}
+
+/// Whether VTK cuts holes into an actor's surface. It may well take that for opaque: as long as no
+/// texel is half transparent, and whatever the alpha of an albedo texture.
+bool drawnWithHoles(vtkActor* actor)
+{
+  vtkProperty* property = actor->GetProperty();
+  return hasHoles(actor->GetTexture()) ||
+    (property->GetInterpolation() == VTK_PBR && hasHoles(property->GetTexture("albedoTex")));
 }
 
 class Finder
@@ -94,6 +121,7 @@ private:
   DrawnProps drawn_;
   std::unordered_set<vtkMapper*> updated_;
   std::map<std::string, int> skipped_; ///< what was left out, and how often
+  int withHoles_ = 0;                  ///< props that cast as if their textures had no holes
 };
 
 //------------------------------------------------------------------------------
@@ -101,6 +129,11 @@ void Finder::addViewProp(vtkProp* viewProp)
 {
   if (!viewProp->GetVisibility())
   {
+    return;
+  }
+  if (isPlainActor(viewProp))
+  {
+    this->addLeaf(viewProp, 0, viewProp, viewProp->GetMatrix());
     return;
   }
   auto* follower = vtkProp3DFollower::SafeDownCast(viewProp);
@@ -130,25 +163,24 @@ void Finder::addViewProp(vtkProp* viewProp)
 //------------------------------------------------------------------------------
 void Finder::addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatrix4x4* matrix)
 {
-  if (auto* levels = vtkLODProp3D::SafeDownCast(leaf))
-  {
-    if (vtkProp3D* level = selectedLevel(levels))
-    {
-      this->addLeaf(viewProp, path, level, matrix); // it is drawn where its owner is
-    }
-    return;
-  }
   auto* actor = vtkActor::SafeDownCast(leaf);
   if (!actor)
   {
-    if (leaf->IsA("vtkProp3D") && !leaf->IsA("vtkAssembly"))
+    if (auto* levels = vtkLODProp3D::SafeDownCast(leaf))
+    {
+      if (vtkProp3D* level = selectedLevel(levels))
+      {
+        this->addLeaf(viewProp, path, level, matrix); // it is drawn where its owner is
+      }
+    }
+    else if (leaf->IsA("vtkProp3D") && !leaf->IsA("vtkAssembly"))
     {
       this->skip(std::string(leaf->GetClassName()) + ": not an actor");
     }
     return;
   }
   if (!actor->GetMapper() || actor->GetProperty()->GetRepresentation() != VTK_SURFACE ||
-    actor->IsA("vtkSkybox"))
+    (!isPlainActor(actor) && actor->IsA("vtkSkybox")))
   {
     return;
   }
@@ -189,6 +221,7 @@ void Finder::addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatr
     this->drawn_.blocks.insert(this->drawn_.blocks.end(), blocks.begin(), blocks.end());
     this->drawn_.props.push_back(prop);
   };
+  const std::size_t before = this->drawn_.props.size();
   if (actor->HasOpaqueGeometry())
   {
     add(false);
@@ -204,34 +237,35 @@ void Finder::addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatr
       add(true);
     }
   }
+  const bool held = this->drawn_.props.size() > before;
+  this->withHoles_ += held && prop.casts && drawnWithHoles(actor) ? 1 : 0;
 }
 
 //------------------------------------------------------------------------------
 /// Whether the snapshot can hold what a mapper draws; if not, it is noted.
 bool Finder::serves(vtkMapper* mapper)
 {
-  const std::string name = mapper->GetClassName();
-  if (auto* glyphMapper = vtkGlyph3DMapper::SafeDownCast(mapper))
+  const char* reason = nullptr;
+  if (auto* polyDataMapper = vtkPolyDataMapper::SafeDownCast(mapper))
   {
-    if (glyphMapper->GetCullingAndLOD())
-    {
-      this->skip(name + ": glyphs are culled and simplified on the GPU");
-      return false;
-    }
-    return true;
+    reason = drawsImpostors(mapper)                ? "mapper not served"
+      : polyDataMapper->GetNumberOfSubPieces() > 1 ? "input drawn in several pieces"
+                                                   : nullptr;
   }
-  auto* polyDataMapper = vtkPolyDataMapper::SafeDownCast(mapper);
-  if (!polyDataMapper || drawsImpostors(mapper))
+  else if (auto* glyphMapper = vtkGlyph3DMapper::SafeDownCast(mapper))
   {
-    this->skip(name + ": mapper not served");
-    return false;
+    reason =
+      glyphMapper->GetCullingAndLOD() ? "glyphs are culled and simplified on the GPU" : nullptr;
   }
-  if (polyDataMapper->GetNumberOfSubPieces() > 1)
+  else
   {
-    this->skip(name + ": input drawn in several pieces");
-    return false;
+    reason = "mapper not served";
   }
-  return true;
+  if (reason)
+  {
+    this->skip(std::string(mapper->GetClassName()) + ": " + reason);
+  }
+  return !reason;
 }
 
 //------------------------------------------------------------------------------
@@ -246,16 +280,19 @@ std::vector<DrawnBlock> Finder::blocksOf(vtkActor* actor, vtkMapper* mapper, boo
       blocks.push_back({ data });
     }
   }
+  else if (auto* polyDataMapper = vtkPolyDataMapper::SafeDownCast(mapper))
+  {
+    if (vtkPolyData* data = polyDataMapper->GetInput())
+    {
+      blocks.push_back({ data });
+    }
+  }
   else if (auto* glyphMapper = vtkGlyph3DMapper::SafeDownCast(mapper))
   {
     for (const Glyph& glyph : drawnGlyphs(glyphMapper))
     {
       blocks.push_back({ glyph.data, glyph.points, glyph.source });
     }
-  }
-  else if (auto* data = vtkPolyData::SafeDownCast(mapper->GetInputDataObject(0, 0)))
-  {
-    blocks.push_back({ data });
   }
   return blocks;
 }
@@ -267,9 +304,10 @@ void Finder::updateInput(vtkMapper* mapper)
   {
     return;
   }
-  if (mapper->IsA("vtkGlyph3DMapper"))
+  auto* polyDataMapper = vtkPolyDataMapper::SafeDownCast(mapper);
+  if (!polyDataMapper)
   {
-    mapper->Update(); // its points and its sources
+    mapper->Update(); // of glyphs: the points and the sources
     return;
   }
   // A trivial producer stands for data that was set by hand: there is nothing to run.
@@ -282,11 +320,10 @@ void Finder::updateInput(vtkMapper* mapper)
   {
     input->UpdateInformation();
     vtkInformation* information = mapper->GetInputInformation();
-    auto* pieces = static_cast<vtkPolyDataMapper*>(mapper);
     using Pipeline = vtkStreamingDemandDrivenPipeline;
-    information->Set(Pipeline::UPDATE_PIECE_NUMBER(), pieces->GetPiece());
-    information->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), pieces->GetNumberOfPieces());
-    information->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), pieces->GetGhostLevel());
+    information->Set(Pipeline::UPDATE_PIECE_NUMBER(), polyDataMapper->GetPiece());
+    information->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), polyDataMapper->GetNumberOfPieces());
+    information->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), polyDataMapper->GetGhostLevel());
   }
   input->Update();
 }
@@ -298,6 +335,12 @@ DrawnProps Finder::take()
   {
     this->drawn_.notes.push_back(what + " (" + std::to_string(count) +
       (count == 1 ? " prop neither casts nor receives)" : " props neither cast nor receive)"));
+  }
+  if (this->withHoles_ > 0)
+  {
+    this->drawn_.notes.push_back("holes in textures are not cut out of shadows (" +
+      std::to_string(this->withHoles_) +
+      (this->withHoles_ == 1 ? " prop casts as a whole)" : " props cast as a whole)"));
   }
   return std::move(this->drawn_);
 }

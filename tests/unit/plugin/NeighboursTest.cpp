@@ -186,6 +186,10 @@ TEST_P(Neighbours, translucentPropsKeepTheirColoursAndShowShadows)
     };
     const auto [behind, both] = draw(1.0f);
     const auto [behindIdle, bothIdle] = draw(0.0f);
+    // The plain map, computed where the pane is: what every way must show.
+    this->scene.choose({ "nsm", vtkGnomonShadowPass::ROUTE_INLINE });
+    const auto [behindInline, bothInline] = draw(1.0f);
+    this->scene.choose(GetParam());
     std::size_t panePixels = 0;
     std::size_t overShadow = 0;
     std::size_t dark = 0;
@@ -199,7 +203,9 @@ TEST_P(Neighbours, translucentPropsKeepTheirColoursAndShowShadows)
         {
           const double own = both.red(x, y) - 0.5 * behind.red(x, y);
           const double ownIdle = bothIdle.red(x, y) - 0.5 * behindIdle.red(x, y);
+          const double ownInline = bothInline.red(x, y) - 0.5 * behindInline.red(x, y);
           ++panePixels;
+          different += std::abs(own - ownInline) > 2.0 ? 1 : 0;
           overShadow += behind.red(x, y) != behindIdle.red(x, y) ? 1 : 0;
           dark += std::abs(own) <= 2.0 ? 1 : 0;
           different += std::abs(own) > 2.0 && std::abs(own - ownIdle) > 2.0 ? 1 : 0;

@@ -11,6 +11,7 @@
 #include <vtkCubeSource.h>
 #include <vtkFollower.h>
 #include <vtkGlyph3DMapper.h>
+#include <vtkImageData.h>
 #include <vtkLODActor.h>
 #include <vtkLODProp3D.h>
 #include <vtkMultiBlockDataSet.h>
@@ -24,6 +25,7 @@
 #include <vtkQuadricLODActor.h>
 #include <vtkRenderWindowInteractor.h>
 #include <vtkSphereSource.h>
+#include <vtkTexture.h>
 #include <vtkTransform.h>
 
 #include <gmock/gmock.h>
@@ -261,7 +263,7 @@ TEST_P(Props, glyphsCastAndReceive)
 {
   vtkNew<vtkPoints> places;
   places->InsertNextPoint(-1.0, -3.0, 1.0);
-  places->InsertNextPoint(-1.0, 3.0, 1.0);
+  places->InsertNextPoint(-1.0, 3.0, 2.0);
   vtkNew<vtkPolyData> points;
   points->SetPoints(places);
   vtkNew<vtkCubeSource> box; // 1 x 1 x 1 around each point
@@ -271,16 +273,18 @@ TEST_P(Props, glyphsCastAndReceive)
   vtkNew<vtkActor> actor;
   actor->SetMapper(mapper);
   this->scene.renderer->AddActor(actor);
+  EXPECT_TRUE(this->dark(0.6, -3.0)); // x from -1.5 + 0.5 to -0.5 + 1.5
+  EXPECT_FALSE(this->dark(1.2, -3.0));
+  EXPECT_TRUE(this->dark(1.8, 3.0)); // x from -1.5 + 1.5 to -0.5 + 2.5
+  EXPECT_FALSE(this->dark(2.2, 3.0));
   for (const double y : { -3.0, 3.0 })
   {
-    EXPECT_TRUE(this->dark(0.6, y)) << y; // x from -1.5 + 0.5 to -0.5 + 1.5
-    EXPECT_FALSE(this->dark(1.2, y)) << y;
-    EXPECT_FALSE(this->dark(-0.8, y)) << y; // the glyph's own top
+    EXPECT_FALSE(this->dark(-0.8, y)) << "the glyph's own top, at " << y;
   }
   EXPECT_EQ(this->scene.report().surfacesExtracted, 0); // in the last of the frames
   EXPECT_THAT(this->scene.report().notes, testing::IsEmpty());
 
-  this->scene.addBox({ -1.8, 2.7, 2.0 }, { -1.5, 3.3, 2.3 }); // shades z = 1.5 at x = -1.3 .. -0.7
+  this->scene.addBox({ -1.8, 2.7, 3.0 }, { -1.5, 3.3, 3.3 }); // shades z = 2.5 at x = -1.3 .. -0.7
   EXPECT_TRUE(this->dark(-1.0, 3.0));
   EXPECT_FALSE(this->dark(-1.0, -3.0));
   places->SetPoint(0, -1.0, -1.0, 1.0);
@@ -416,6 +420,41 @@ TEST_P(Props, translucentOnesCastIfAsked)
   EXPECT_FALSE(this->dark(3.5, 0.0));
   vtkGnomonPropKeys::SetCasts(square, false);
   EXPECT_FALSE(this->dark(2.5, 0.0));
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Props, holesInTexturesAreDrawnAndSaid)
+{
+  // A square whose right half has no alpha: VTK draws only the left one, as opaque.
+  vtkActor* square = this->addSquare(true);
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(2, 1, 1);
+  image->AllocateScalars(VTK_UNSIGNED_CHAR, 4);
+  for (int i = 0; i < 8; ++i)
+  {
+    static_cast<unsigned char*>(image->GetScalarPointer())[i] = i == 7 ? 0 : 255;
+  }
+  vtkNew<vtkTexture> texture;
+  texture->SetInputData(image);
+  square->SetTexture(texture);
+  this->scene.addBox({ -2.2, -0.2, 3.0 }, { -1.2, 0.2, 3.2 }); // shades the square at x < 0
+  const Picture picture = this->scene.render();
+  EXPECT_TRUE(square->HasOpaqueGeometry());
+  EXPECT_EQ(this->scene.redAt(picture, -0.5, 0.0), 0) << "the square in the box's shadow";
+  EXPECT_NEAR(this->scene.redAt(picture, 0.5, 0.5), 180, 1) << "the floor behind the hole";
+  EXPECT_EQ(this->scene.redAt(picture, 1.5, 0.5), 0) << "the square's shadow";
+  EXPECT_THAT(this->scene.report().notes, testing::ElementsAre(testing::HasSubstr("holes")));
+  vtkGnomonPropKeys::SetCasts(square, false);
+  EXPECT_FALSE(this->dark(1.5, 0.5));
+  EXPECT_THAT(this->scene.report().notes, testing::IsEmpty());
+
+  vtkGnomonPropKeys::SetCasts(square, true);
+  square->SetTexture(nullptr);
+  square->GetProperty()->SetInterpolationToPBR();
+  texture->UseSRGBColorSpaceOn();
+  square->GetProperty()->SetBaseColorTexture(texture);
+  this->scene.render();
+  EXPECT_THAT(this->scene.report().notes, testing::ElementsAre(testing::HasSubstr("holes")));
 }
 
 //------------------------------------------------------------------------------
