@@ -1,21 +1,13 @@
 #include "plugin/OccluderCollector.h"
 
 #include "plugin/DrawnProps.h"
-#include "plugin/GlyphInstances.h"
-#include "plugin/Hash.h"
-#include "plugin/SurfaceClipping.h"
-#include "plugin/SurfaceExtraction.h"
+#include "plugin/SurfaceRecord.h"
 
 #include "vtkActor.h"
-#include "vtkCompositeDataDisplayAttributes.h"
-#include "vtkDataSet.h"
-#include "vtkGlyph3DMapper.h"
+#include "vtkMapper.h"
 #include "vtkPolyData.h"
 
 #include <algorithm>
-#include <functional>
-#include <numeric>
-#include <optional>
 #include <unordered_map>
 #include <utility>
 
@@ -23,66 +15,6 @@ namespace gnomon
 {
 namespace
 {
-
-/// What a surface is, from one frame to the next. The pointers name; they are not followed.
-struct SurfaceKey
-{
-  const vtkProp* viewProp;
-  std::size_t path;
-  const vtkPolyData* data;
-  const vtkDataSet* glyphPoints;
-  int glyphSource;
-  SurfaceCells cells;
-
-  bool operator==(const SurfaceKey& other) const
-  {
-    return this->viewProp == other.viewProp && this->path == other.path &&
-      this->data == other.data && this->glyphPoints == other.glyphPoints &&
-      this->glyphSource == other.glyphSource && this->cells == other.cells;
-  }
-};
-
-struct SurfaceKeyHash
-{
-  std::size_t operator()(const SurfaceKey& key) const
-  {
-    std::size_t seed = 0;
-    hashCombine(seed, key.viewProp);
-    hashCombine(seed, key.path);
-    hashCombine(seed, key.data);
-    hashCombine(seed, key.glyphPoints);
-    hashCombine(seed, key.glyphSource);
-    hashCombine(seed, static_cast<int>(key.cells));
-    return seed;
-  }
-};
-
-/// What is remembered of a surface beside its place in the snapshot.
-struct SurfaceRecord
-{
-  SurfaceKey key;
-  vtkMTimeType shapeTime = 0;
-  glm::dmat4 worldFromModel{ 1.0 };
-  std::vector<glm::dvec4> clipPlanes;
-  std::vector<std::uint32_t> pointOfVertex; ///< as in DrawnTriangles, of one instance
-  /// Where the polydata is drawn in its prop's model coordinates: once as it is, or as a glyph at
-  /// any number of places.
-  std::vector<glm::mat4> modelFromInstance{ glm::mat4(1.0f) };
-  bool tooManyTriangles = false; ///< more than mostGlyphTriangles, so that it has none
-  std::vector<DroppedTriangle> dropped;
-  Bounds boundsModel;
-  Bounds boundsCentred;
-};
-
-/// A surface that was read from its polydata, and is not in the snapshot yet. Vertices count from
-/// the surface's first.
-struct FreshSurface
-{
-  SurfaceRecord record;
-  std::vector<glm::vec3> positionsCentred;
-  std::vector<glm::uvec3> triangles;
-  std::vector<std::uint32_t> triangleOfDrawn;
-};
 
 /// One surface that the snapshot shall hold after this frame.
 struct WantedSurface
@@ -95,134 +27,6 @@ struct WantedSurface
 
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
 };
-
-/// The box around the vertices that triangles use.
-template <typename Triangle>
-Bounds boundsOf(Triangle first, Triangle last, const glm::vec3* positions)
-{
-  Bounds bounds;
-  for (; first != last; ++first)
-  {
-    for (int corner = 0; corner < 3; ++corner)
-    {
-      bounds.add(positions[(*first)[corner]]);
-    }
-  }
-  return bounds;
-}
-
-/// When the shape of a surface last changed, and the instances that it is drawn as.
-vtkMTimeType changeTime(const WantedSurface& wanted)
-{
-  vtkMTimeType time = shapeTime(wanted.block.data, wanted.key.cells);
-  if (wanted.block.glyphPoints)
-  {
-    // When VTK computes the instances again.
-    auto* mapper = static_cast<vtkGlyph3DMapper*>(wanted.prop->mapper);
-    vtkObject* attributes = mapper->GetBlockAttributes();
-    time = std::max({ time, mapper->GetMTime(), wanted.block.glyphPoints->GetMTime(),
-      attributes ? attributes->GetMTime() : 0 });
-  }
-  return time;
-}
-
-/// Repeats a glyph's triangles for each of its instances, each with vertices of its own.
-void repeatTriangles(std::vector<glm::uvec3>& triangles, std::uint32_t vertexCount, std::size_t n)
-{
-  const std::size_t count = triangles.size();
-  triangles.reserve(count * n);
-  for (std::size_t instance = 1; instance < n; ++instance)
-  {
-    const auto shift = static_cast<std::uint32_t>(instance * vertexCount);
-    for (std::size_t i = 0; i < count; ++i)
-    {
-      const glm::uvec3 triangle = triangles[i];
-      const bool missing = triangle.x == DrawnTriangles::missingVertex;
-      triangles.push_back(missing ? triangle : triangle + shift);
-    }
-  }
-  triangles.resize(count * n);
-}
-
-/// Computes the centred positions of all instances.
-void placeInstances(const WantedSurface& wanted, const SurfaceRecord& record,
-  std::size_t vertexCount, const glm::dvec3& centreWorld, glm::vec3* positionsCentred)
-{
-  const std::size_t instances = record.modelFromInstance.size();
-  const std::size_t step = instances > 0 ? vertexCount / instances : 0;
-  for (std::size_t i = 0; i < instances; ++i)
-  {
-    placeVertices(wanted.block.data, record.pointOfVertex, step,
-      record.worldFromModel * glm::dmat4(record.modelFromInstance[i]), centreWorld,
-      positionsCentred + i * step);
-  }
-}
-
-/// Takes the triangles that have a defect out of a fresh surface.
-void dropDefects(FreshSurface& fresh)
-{
-  const std::size_t drawnCount = fresh.triangles.size();
-  std::uint32_t keptCount = 0;
-  for (std::size_t drawn = 0; drawn < drawnCount; ++drawn)
-  {
-    const glm::uvec3 triangle = fresh.triangles[drawn];
-    const Defect defect = defectOf(triangle, fresh.positionsCentred.data());
-    if (defect != Defect::None)
-    {
-      if (fresh.triangleOfDrawn.empty())
-      {
-        fresh.triangleOfDrawn.resize(drawnCount);
-        std::iota(fresh.triangleOfDrawn.begin(), fresh.triangleOfDrawn.end(), 0u);
-      }
-      fresh.triangleOfDrawn[drawn] = Surface::noTriangle;
-      fresh.record.dropped.push_back({ triangle, defect });
-      continue;
-    }
-    if (!fresh.triangleOfDrawn.empty())
-    {
-      fresh.triangleOfDrawn[drawn] = keptCount;
-    }
-    fresh.triangles[keptCount++] = triangle;
-  }
-  fresh.triangles.resize(keptCount);
-}
-
-/// Computes a fresh surface's positions, and leaves out what the snapshot does not hold.
-void placeSurface(FreshSurface& fresh, const WantedSurface& wanted, const glm::dvec3& centreWorld)
-{
-  SurfaceRecord& record = fresh.record;
-  record.worldFromModel = wanted.prop->worldFromModel;
-  record.clipPlanes = wanted.prop->clipPlanes;
-  std::vector<glm::vec3>& positions = fresh.positionsCentred;
-  placeInstances(wanted, record, positions.size(), centreWorld, positions.data());
-  dropDefects(fresh);
-  clearNonFinite(positions.data(), positions.size());
-  if (!record.clipPlanes.empty())
-  {
-    std::vector<glm::dvec4> planesCentred = record.clipPlanes;
-    for (glm::dvec4& plane : planesCentred)
-    {
-      plane.w += glm::dot(glm::dvec3(plane), centreWorld);
-    }
-    clipTriangles(planesCentred, positions, fresh.triangles, fresh.triangleOfDrawn);
-  }
-  record.boundsCentred = boundsOf(fresh.triangles.begin(), fresh.triangles.end(), positions.data());
-}
-
-/// The box around a transformed box.
-Bounds transformed(const Bounds& box, const glm::dmat4& matrix)
-{
-  Bounds result;
-  if (!box.empty())
-  {
-    for (const glm::dvec3& corner : box.corners())
-    {
-      const glm::dvec4 image = matrix * glm::dvec4(corner, 1.0);
-      result.add(glm::dvec3(image) / image.w);
-    }
-  }
-  return result;
-}
 
 } // namespace
 
@@ -283,7 +87,7 @@ OccluderCollector::Change OccluderCollector::Impl::collect(vtkRenderer* renderer
     otherList = otherList || surface.old != i;
     const SurfaceRecord* record =
       surface.old != WantedSurface::none ? &this->records_[surface.old] : nullptr;
-    const vtkMTimeType time = changeTime(surface);
+    const vtkMTimeType time = changeTime(*surface.prop, surface.block, surface.key.cells);
     if (!record || record->shapeTime != time || record->clipPlanes != surface.prop->clipPlanes)
     {
       this->read(surface, time);
@@ -338,9 +142,10 @@ std::vector<WantedSurface> OccluderCollector::Impl::wantedSurfaces(const DrawnPr
       {
         if (cellCount(drawnBlock.data, cells) > 0)
         {
-          wanted.push_back({ { prop.viewProp, prop.path, drawnBlock.data, drawnBlock.glyphPoints,
-                               drawnBlock.glyphSource, cells },
-            drawnBlock, &prop, WantedSurface::none, nullptr });
+          wanted.push_back(
+            { { prop.viewProp, prop.path, prop.actor, prop.translucent, drawnBlock.data,
+                drawnBlock.glyphPoints, drawnBlock.glyphSource, cells },
+              drawnBlock, &prop, WantedSurface::none, nullptr });
         }
       }
     }
@@ -399,36 +204,12 @@ bool OccluderCollector::Impl::chooseCentre(const std::vector<WantedSurface>& wan
 }
 
 //------------------------------------------------------------------------------
-/// Reads a surface from its polydata.
 void OccluderCollector::Impl::read(WantedSurface& wanted, vtkMTimeType time)
 {
-  DrawnTriangles drawn = triangulate(wanted.block.data, wanted.key.cells, this->vertexOfPoint_);
-  wanted.fresh = std::make_unique<FreshSurface>();
-  SurfaceRecord& record = wanted.fresh->record;
-  record.key = wanted.key;
-  record.shapeTime = time;
-  record.pointOfVertex = std::move(drawn.pointOfVertex);
-  record.boundsModel = drawn.boundsModel;
-  if (wanted.block.glyphPoints)
-  {
-    record.modelFromInstance = glyphInstances(static_cast<vtkGlyph3DMapper*>(wanted.prop->mapper),
-      wanted.block.glyphPoints, wanted.block.glyphSource);
-    record.boundsModel = Bounds();
-    for (const glm::mat4& instance : record.modelFromInstance)
-    {
-      record.boundsModel.add(transformed(drawn.boundsModel, glm::dmat4(instance)));
-    }
-    record.tooManyTriangles =
-      drawn.triangles.size() * record.modelFromInstance.size() > mostGlyphTriangles;
-    if (record.tooManyTriangles)
-    {
-      drawn.triangles.clear();
-      drawn.vertexCount = 0;
-    }
-    repeatTriangles(drawn.triangles, drawn.vertexCount, record.modelFromInstance.size());
-  }
-  wanted.fresh->positionsCentred.resize(drawn.vertexCount * record.modelFromInstance.size());
-  wanted.fresh->triangles = std::move(drawn.triangles);
+  wanted.fresh = std::make_unique<FreshSurface>(readSurface(
+    *wanted.prop, wanted.block, wanted.key.cells, mostGlyphTriangles, this->vertexOfPoint_));
+  wanted.fresh->record.key = wanted.key;
+  wanted.fresh->record.shapeTime = time;
 }
 
 //------------------------------------------------------------------------------
@@ -455,7 +236,7 @@ OccluderCollector::Impl::Outcome OccluderCollector::Impl::updateSurface(
     ++change.extracted;
     maybeSame = false;
   }
-  placeSurface(*wanted.fresh, wanted, this->occluders.centreWorld);
+  placeSurface(*wanted.fresh, *wanted.prop, wanted.block, this->occluders.centreWorld);
   return maybeSame ? this->overwrite(wanted) : Outcome::OtherTriangles;
 }
 
@@ -469,7 +250,7 @@ bool OccluderCollector::Impl::transformAgain(const WantedSurface& wanted)
   glm::vec3* all = this->occluders.positionsCentred.data();
   glm::vec3* own = all + surface.firstVertex;
   record.worldFromModel = wanted.prop->worldFromModel;
-  placeInstances(wanted, record, surface.vertexCount, this->occluders.centreWorld, own);
+  placeInstances(wanted.block, record, surface.vertexCount, this->occluders.centreWorld, own);
 
   const auto first = this->occluders.triangles.begin() + surface.firstTriangle;
   const auto last = first + surface.triangleCount;

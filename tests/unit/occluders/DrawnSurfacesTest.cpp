@@ -831,6 +831,23 @@ TEST_F(DrawnSurfaces, GlyphsOnTheBlocksOfATree)
   EXPECT_EQ(this->collector().occluders().surfaces.size(), 2u * 3u);
 }
 
+TEST_F(DrawnSurfaces, GlyphsAsWireframeAreNotHeldEvenOverTheirSurface)
+{
+  const Glyphs glyphs;
+  this->renderer->AddActor(glyphs.actor);
+  vtkNew<vtkActor> wireframe;
+  wireframe->ShallowCopy(glyphs.actor);
+  vtkNew<vtkProperty> lines;
+  lines->SetRepresentationToWireframe();
+  lines->SetLineWidth(3);
+  wireframe->SetProperty(lines);
+  this->renderer->AddActor(wireframe);
+  const Count count = this->check();
+  EXPECT_GT(count.covered, 500);
+  EXPECT_EQ(count.lost, 0);
+  EXPECT_GT(count.notHeld, 500);
+}
+
 TEST_F(DrawnSurfaces, GlyphsClippedAndWithEdges)
 {
   const Glyphs glyphs;

@@ -420,6 +420,37 @@ TEST_P(Props, translucentOnesCastIfAsked)
   EXPECT_FALSE(this->dark(3.5, 0.0));
   vtkGnomonPropKeys::SetCasts(square, false);
   EXPECT_FALSE(this->dark(2.5, 0.0));
+
+  // Once opaque, it receives as all opaque ones do.
+  vtkGnomonPropKeys::SetCasts(square, true);
+  this->scene.addBox({ -1.5, -0.2, 3.0 }, { -0.5, 0.2, 3.2 }); // shades the square at x = 0
+  EXPECT_TRUE(this->dark(2.5, 0.5));
+  square->GetProperty()->SetOpacity(1.0);
+  EXPECT_TRUE(this->dark(0.0, 0.0));
+  EXPECT_FALSE(this->dark(0.0, 0.5));
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Props, levelsOfDetailMayShareAMapper)
+{
+  vtkNew<vtkCubeSource> box;
+  box->SetBounds(-2.5, -1.5, -0.5, 0.5, 1.5, 2.5);
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputConnection(box->GetOutputPort());
+  vtkNew<vtkLODProp3D> prop;
+  prop->AutomaticLODSelectionOff();
+  vtkNew<vtkProperty> white;
+  vtkNew<vtkProperty> whiteToo;
+  const int one = prop->AddLOD(mapper, white, 0.0);
+  const int other = prop->AddLOD(mapper, whiteToo, 0.0);
+  this->scene.renderer->AddViewProp(prop);
+  this->scene.addBox({ -3.3, -0.2, 3.4 }, { -2.9, 0.2, 3.6 }); // shades the top at x = -2.4 .. -1.8
+  for (const int level : { one, other, one })
+  {
+    prop->SetSelectedLODID(level);
+    EXPECT_TRUE(this->dark(-2.1, 0.0)) << level;
+    EXPECT_FALSE(this->dark(-1.6, 0.0)) << level;
+  }
 }
 
 //------------------------------------------------------------------------------
