@@ -10,6 +10,7 @@ find_package(VTK 9.1 REQUIRED COMPONENTS
   FiltersGeneral
   FiltersModeling
   FiltersSources
+  FiltersTexture
   IOGeometry
   IOImage
   IOImport
@@ -20,6 +21,7 @@ find_package(VTK 9.1 REQUIRED COMPONENTS
   InteractionStyle
   RenderingAnnotation
   RenderingCore
+  RenderingLOD
   RenderingOpenGL2
   ChartsCore
   RenderingContext2D

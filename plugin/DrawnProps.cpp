@@ -1,5 +1,8 @@
 #include "plugin/DrawnProps.h"
 
+#include "plugin/ActorInternals.h"
+#include "plugin/CompositeBlocks.h"
+#include "plugin/GlyphInstances.h"
 #include "plugin/vtkGnomonPropKeys.h"
 
 #include "vtkActor.h"
@@ -7,21 +10,23 @@
 #include "vtkAssembly.h"
 #include "vtkAssemblyNode.h"
 #include "vtkAssemblyPath.h"
-#include "vtkCompositeDataDisplayAttributes.h"
 #include "vtkCompositePolyDataMapper2.h"
-#include "vtkDataObjectTree.h"
-#include "vtkDataObjectTreeRange.h"
+#include "vtkGlyph3DMapper.h"
+#include "vtkImageData.h"
 #include "vtkInformation.h"
+#include "vtkInformationIntegerKey.h"
+#include "vtkLODProp3D.h"
 #include "vtkMatrix4x4.h"
 #include "vtkPlane.h"
 #include "vtkPlaneCollection.h"
+#include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkPolyDataMapper.h"
+#include "vtkProp3DFollower.h"
 #include "vtkPropAssembly.h"
 #include "vtkPropCollection.h"
 #include "vtkProperty.h"
 #include "vtkRenderer.h"
-#include "vtkScalarsToColors.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkTexture.h"
 
@@ -30,7 +35,6 @@
 #include <algorithm>
 #include <cstring>
 #include <map>
-#include <unordered_map>
 #include <unordered_set>
 #include <utility>
 
@@ -65,124 +69,59 @@ bool drawsImpostors(vtkMapper* mapper)
     mapper->IsA("vtkOpenGLStickMapper");
 }
 
-/// Actors that hand a mapper, theirs or another one, to an actor of their own to draw.
-bool drawsThroughAnother(vtkActor* actor)
+/// Nearly every prop is one; IsA() and casts compare with all base classes.
+bool isPlainActor(vtkProp* prop)
 {
-  if (std::strcmp(actor->GetClassName(), "vtkOpenGLActor") == 0)
-  {
-    return false; // nearly every actor, and IsA() compares with all base classes
-  }
-  return actor->IsA("vtkFollower") || actor->IsA("vtkLODActor") ||
-    actor->IsA("vtkQuadricLODActor") || actor->IsA("vtkSkybox");
+  return std::strcmp(prop->GetClassName(), "vtkOpenGLActor") == 0;
+}
+
+/// Whether a prop was told to cast: a translucent one does so only then.
+bool askedToCast(vtkProp* viewProp)
+{
+  vtkInformation* keys = viewProp->GetPropertyKeys();
+  return keys && keys->Has(vtkGnomonPropKeys::CASTS()) && vtkGnomonPropKeys::GetCasts(viewProp);
+}
+
+/// Whether VTK draws nothing at some texels: where their alpha is 0.
+bool hasHoles(vtkTexture* texture)
+{
+  vtkImageData* image = texture ? texture->GetInput() : nullptr;
+  vtkDataArray* texels = image ? image->GetPointData()->GetScalars() : nullptr;
+  const int components = texels ? texels->GetNumberOfComponents() : 0;
+  return components % 2 == 0 && components > 0 && texels->GetRange(components - 1)[0] <= 0.0;
+}
+
+/// Whether VTK cuts holes into an actor's surface. It may well take that for opaque: as long as no
+/// texel is half transparent, and whatever the alpha of an albedo texture.
+bool drawnWithHoles(vtkActor* actor)
+{
+  vtkProperty* property = actor->GetProperty();
+  return hasHoles(actor->GetTexture()) ||
+    (property->GetInterpolation() == VTK_PBR && hasHoles(property->GetTexture("albedoTex")));
 }
 
 class Finder
 {
 public:
+  explicit Finder(vtkRenderer* renderer)
+    : renderer_(renderer)
+  {
+  }
   void addViewProp(vtkProp* viewProp);
   DrawnProps take();
 
 private:
   void addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatrix4x4* matrix);
-  void addBlocks(vtkActor* actor, vtkPolyDataMapper* mapper);
-  void updateInput(vtkPolyDataMapper* mapper);
+  bool serves(vtkMapper* mapper);
+  std::vector<DrawnBlock> blocksOf(vtkActor* actor, vtkMapper* mapper, bool translucent) const;
+  void updateInput(vtkMapper* mapper);
   void skip(const std::string& what) { ++this->skipped_[what]; }
 
+  vtkRenderer* renderer_;
   DrawnProps drawn_;
   std::unordered_set<vtkMapper*> updated_;
   std::map<std::string, int> skipped_; ///< what was left out, and how often
-};
-
-/// Walks a composite data set as vtkCompositePolyDataMapper2::BuildRenderValues does: the innermost
-/// setting on the way to a block counts, so that a visible block may hang below a hidden one. A
-/// block that appears twice is drawn once, with the settings of its last place.
-class BlockWalk
-{
-public:
-  BlockWalk(vtkActor* actor, vtkCompositePolyDataMapper2* mapper)
-    : mapper_(mapper)
-    , attributes_(mapper->GetCompositeDataDisplayAttributes())
-    , colors_(mapper->GetScalarVisibility() ? mapper->GetLookupTable() : nullptr)
-    , forceOpaque_(actor->GetForceOpaque())
-    , textureOpaque_(!actor->GetTexture() || !actor->GetTexture()->IsTranslucent())
-  {
-    if (this->colors_)
-    {
-      this->colors_->Build();
-    }
-    this->walk(mapper->GetInputDataObject(0, 0), true, actor->GetProperty()->GetOpacity());
-  }
-
-  /// Appends the polydata that the opaque pass draws, in the order of the tree.
-  void appendDrawn(std::vector<vtkPolyData*>& blocks) const
-  {
-    for (const Block& block : this->blocks_)
-    {
-      if (block.drawn)
-      {
-        blocks.push_back(block.data);
-      }
-    }
-  }
-
-private:
-  struct Block
-  {
-    vtkPolyData* data;
-    bool drawn;
-  };
-
-  void walk(vtkDataObject* object, bool visible, double opacity)
-  {
-    if (this->attributes_ && this->attributes_->HasBlockVisibility(object))
-    {
-      visible = this->attributes_->GetBlockVisibility(object);
-    }
-    if (this->attributes_ && this->attributes_->HasBlockOpacity(object))
-    {
-      opacity = this->attributes_->GetBlockOpacity(object);
-    }
-    if (auto* tree = vtkDataObjectTree::SafeDownCast(object))
-    {
-      for (vtkDataObject* child : vtk::Range(tree, vtk::DataObjectTreeOptions::SkipEmptyNodes))
-      {
-        this->walk(child, visible, opacity);
-      }
-    }
-    else if (auto* data = vtkPolyData::SafeDownCast(object))
-    {
-      const bool drawn = visible &&
-        (this->forceOpaque_ || (opacity >= 1.0 && this->textureOpaque_ && this->opaque(data)));
-      const auto [place, isNew] = this->placeOf_.emplace(data, this->blocks_.size());
-      if (isNew)
-      {
-        this->blocks_.push_back({ data, drawn });
-      }
-      this->blocks_[place->second].drawn = drawn;
-    }
-  }
-
-  bool opaque(vtkPolyData* data) const
-  {
-    if (!this->colors_)
-    {
-      return true;
-    }
-    int cellFlag = 0;
-    vtkDataArray* scalars = vtkAbstractMapper::GetScalars(data, this->mapper_->GetScalarMode(),
-      this->mapper_->GetArrayAccessMode(), this->mapper_->GetArrayId(),
-      this->mapper_->GetArrayName(), cellFlag);
-    return this->colors_->IsOpaque(
-      scalars, this->mapper_->GetColorMode(), this->mapper_->GetArrayComponent());
-  }
-
-  vtkCompositePolyDataMapper2* mapper_;
-  vtkCompositeDataDisplayAttributes* attributes_;
-  vtkScalarsToColors* colors_;
-  bool forceOpaque_;
-  bool textureOpaque_;
-  std::vector<Block> blocks_;
-  std::unordered_map<vtkPolyData*, std::size_t> placeOf_;
+  int withHoles_ = 0;                  ///< props that cast as if their textures had no holes
 };
 
 //------------------------------------------------------------------------------
@@ -192,7 +131,17 @@ void Finder::addViewProp(vtkProp* viewProp)
   {
     return;
   }
-  if (!viewProp->IsA("vtkAssembly") && !viewProp->IsA("vtkPropAssembly"))
+  if (isPlainActor(viewProp))
+  {
+    this->addLeaf(viewProp, 0, viewProp, viewProp->GetMatrix());
+    return;
+  }
+  auto* follower = vtkProp3DFollower::SafeDownCast(viewProp);
+  if (follower)
+  {
+    follower->GetBounds(); // has it place its prop, as before it is drawn
+  }
+  if (!follower && !viewProp->IsA("vtkAssembly") && !viewProp->IsA("vtkPropAssembly"))
   {
     this->addLeaf(viewProp, 0, viewProp, viewProp->GetMatrix());
     return;
@@ -217,38 +166,37 @@ void Finder::addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatr
   auto* actor = vtkActor::SafeDownCast(leaf);
   if (!actor)
   {
-    if (leaf->IsA("vtkProp3D") && !leaf->IsA("vtkAssembly"))
+    if (auto* levels = vtkLODProp3D::SafeDownCast(leaf))
+    {
+      if (vtkProp3D* level = selectedLevel(levels))
+      {
+        this->addLeaf(viewProp, path, level, matrix); // it is drawn where its owner is
+      }
+    }
+    else if (leaf->IsA("vtkProp3D") && !leaf->IsA("vtkAssembly"))
     {
       this->skip(std::string(leaf->GetClassName()) + ": not an actor");
     }
     return;
   }
-  if (!actor->GetMapper() || actor->GetProperty()->GetRepresentation() != VTK_SURFACE)
+  if (!actor->GetMapper() || actor->GetProperty()->GetRepresentation() != VTK_SURFACE ||
+    (!isPlainActor(actor) && actor->IsA("vtkSkybox")))
   {
     return;
   }
-  auto* mapper = vtkPolyDataMapper::SafeDownCast(actor->GetMapper());
-  if (drawsThroughAnother(actor))
+  const ActorDrawing drawing =
+    actorDrawing(actor, matrix ? matrix : actor->GetMatrix(), this->renderer_);
+  if (!drawing.actor)
   {
     this->skip(std::string(actor->GetClassName()) + ": draws through an actor of its own");
     return;
   }
-  if (!mapper || drawsImpostors(mapper))
+  if (!this->serves(drawing.mapper) || drawing.mapper->GetNumberOfInputConnections(0) == 0)
   {
-    this->skip(std::string(actor->GetMapper()->GetClassName()) + ": mapper not served");
-    return;
+    return; // VTK complains of a mapper without input itself
   }
-  if (mapper->GetNumberOfSubPieces() > 1)
-  {
-    this->skip(std::string(mapper->GetClassName()) + ": input drawn in several pieces");
-    return;
-  }
-  if (mapper->GetNumberOfInputConnections(0) == 0)
-  {
-    return; // VTK says so when it draws
-  }
-  this->updateInput(mapper);
-  if (!mapper->GetInputDataObject(0, 0) || !actor->HasOpaqueGeometry())
+  this->updateInput(drawing.mapper);
+  if (!drawing.mapper->GetInputDataObject(0, 0))
   {
     return;
   }
@@ -256,39 +204,115 @@ void Finder::addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatr
   DrawnProp prop;
   prop.viewProp = viewProp;
   prop.path = path;
-  prop.actor = actor;
-  prop.worldFromModel = toGlm(matrix ? matrix : actor->GetMatrix());
-  prop.clipPlanes = clipPlanesOf(mapper);
+  prop.actor = drawing.actor;
+  prop.mapper = drawing.mapper;
+  prop.worldFromModel = toGlm(drawing.matrix);
+  prop.clipPlanes = clipPlanesOf(drawing.mapper);
   // Assemblies replace the property keys of their parts by their own when they draw.
   prop.casts = vtkGnomonPropKeys::GetCasts(viewProp);
   prop.receives = vtkGnomonPropKeys::GetReceives(viewProp);
   prop.oneSided = vtkGnomonPropKeys::GetOneSided(viewProp);
-  prop.firstBlock = this->drawn_.blocks.size();
-  this->addBlocks(actor, mapper);
-  prop.blockCount = this->drawn_.blocks.size() - prop.firstBlock;
-  this->drawn_.props.push_back(std::move(prop));
+  const auto add = [&](bool translucent)
+  {
+    const std::vector<DrawnBlock> blocks = this->blocksOf(actor, drawing.mapper, translucent);
+    prop.translucent = translucent;
+    prop.firstBlock = this->drawn_.blocks.size();
+    prop.blockCount = blocks.size();
+    this->drawn_.blocks.insert(this->drawn_.blocks.end(), blocks.begin(), blocks.end());
+    this->drawn_.props.push_back(prop);
+  };
+  const std::size_t before = this->drawn_.props.size();
+  if (actor->HasOpaqueGeometry())
+  {
+    add(false);
+  }
+  if (actor->HasTranslucentPolygonalGeometry())
+  {
+    if (prop.receives)
+    {
+      this->drawn_.translucentReceivers.push_back(prop.actor);
+    }
+    if (askedToCast(viewProp))
+    {
+      add(true);
+    }
+  }
+  const bool held = this->drawn_.props.size() > before;
+  this->withHoles_ += held && prop.casts && drawnWithHoles(actor) ? 1 : 0;
 }
 
 //------------------------------------------------------------------------------
-void Finder::addBlocks(vtkActor* actor, vtkPolyDataMapper* mapper)
+/// Whether the snapshot can hold what a mapper draws; if not, it is noted.
+bool Finder::serves(vtkMapper* mapper)
 {
+  const char* reason = nullptr;
+  if (auto* polyDataMapper = vtkPolyDataMapper::SafeDownCast(mapper))
+  {
+    reason = drawsImpostors(mapper)                ? "mapper not served"
+      : polyDataMapper->GetNumberOfSubPieces() > 1 ? "input drawn in several pieces"
+                                                   : nullptr;
+  }
+  else if (auto* glyphMapper = vtkGlyph3DMapper::SafeDownCast(mapper))
+  {
+    reason =
+      glyphMapper->GetCullingAndLOD() ? "glyphs are culled and simplified on the GPU" : nullptr;
+  }
+  else
+  {
+    reason = "mapper not served";
+  }
+  if (reason)
+  {
+    this->skip(std::string(mapper->GetClassName()) + ": " + reason);
+  }
+  return !reason;
+}
+
+//------------------------------------------------------------------------------
+/// What a mapper draws for an actor in one of the two passes.
+std::vector<DrawnBlock> Finder::blocksOf(vtkActor* actor, vtkMapper* mapper, bool translucent) const
+{
+  std::vector<DrawnBlock> blocks;
   if (auto* composite = vtkCompositePolyDataMapper2::SafeDownCast(mapper))
   {
-    BlockWalk(actor, composite).appendDrawn(this->drawn_.blocks);
+    for (vtkPolyData* data : drawnBlocks(actor, composite, translucent))
+    {
+      blocks.push_back({ data });
+    }
   }
-  else if (vtkPolyData* data = mapper->GetInput())
+  else if (auto* polyDataMapper = vtkPolyDataMapper::SafeDownCast(mapper))
   {
-    this->drawn_.blocks.push_back(data);
+    if (vtkPolyData* data = polyDataMapper->GetInput())
+    {
+      blocks.push_back({ data });
+    }
   }
+  else if (auto* glyphMapper = vtkGlyph3DMapper::SafeDownCast(mapper))
+  {
+    for (const Glyph& glyph : drawnGlyphs(glyphMapper))
+    {
+      blocks.push_back({ glyph.data, glyph.points, glyph.source });
+    }
+  }
+  return blocks;
 }
 
 //------------------------------------------------------------------------------
-void Finder::updateInput(vtkPolyDataMapper* mapper)
+void Finder::updateInput(vtkMapper* mapper)
 {
+  if (mapper->GetStatic() || !this->updated_.insert(mapper).second)
+  {
+    return;
+  }
+  auto* polyDataMapper = vtkPolyDataMapper::SafeDownCast(mapper);
+  if (!polyDataMapper)
+  {
+    mapper->Update(); // of glyphs: the points and the sources
+    return;
+  }
   // A trivial producer stands for data that was set by hand: there is nothing to run.
   vtkAlgorithm* input = mapper->GetInputAlgorithm();
-  if (mapper->GetStatic() || input->IsA("vtkTrivialProducer") ||
-    !this->updated_.insert(mapper).second)
+  if (input->IsA("vtkTrivialProducer"))
   {
     return;
   }
@@ -297,9 +321,9 @@ void Finder::updateInput(vtkPolyDataMapper* mapper)
     input->UpdateInformation();
     vtkInformation* information = mapper->GetInputInformation();
     using Pipeline = vtkStreamingDemandDrivenPipeline;
-    information->Set(Pipeline::UPDATE_PIECE_NUMBER(), mapper->GetPiece());
-    information->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), mapper->GetNumberOfPieces());
-    information->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), mapper->GetGhostLevel());
+    information->Set(Pipeline::UPDATE_PIECE_NUMBER(), polyDataMapper->GetPiece());
+    information->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), polyDataMapper->GetNumberOfPieces());
+    information->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), polyDataMapper->GetGhostLevel());
   }
   input->Update();
 }
@@ -311,6 +335,12 @@ DrawnProps Finder::take()
   {
     this->drawn_.notes.push_back(what + " (" + std::to_string(count) +
       (count == 1 ? " prop neither casts nor receives)" : " props neither cast nor receive)"));
+  }
+  if (this->withHoles_ > 0)
+  {
+    this->drawn_.notes.push_back("holes in textures are not cut out of shadows (" +
+      std::to_string(this->withHoles_) +
+      (this->withHoles_ == 1 ? " prop casts as a whole)" : " props cast as a whole)"));
   }
   return std::move(this->drawn_);
 }
@@ -334,7 +364,7 @@ glm::dmat4 toGlm(vtkMatrix4x4* matrix)
 //------------------------------------------------------------------------------
 DrawnProps findDrawnProps(vtkRenderer* renderer)
 {
-  Finder finder;
+  Finder finder(renderer);
   vtkPropCollection* viewProps = renderer->GetViewProps();
   vtkCollectionSimpleIterator cookie;
   viewProps->InitTraversal(cookie);

@@ -79,8 +79,9 @@ std::vector<DrawCall> drawCalls(vtkAbstractMapper* mapper, SurfaceCells cells)
   }
   else if (auto* openGl = vtkOpenGLPolyDataMapper::SafeDownCast(mapper))
   {
+    // The current input, since a glyph mapper's helper has no other.
     calls.push_back(
-      { openGl->GetInput(), static_cast<std::uint32_t>(MapperAccess::primitiveOffset(openGl)) });
+      { openGl->CurrentInput, static_cast<std::uint32_t>(MapperAccess::primitiveOffset(openGl)) });
   }
   return calls;
 }

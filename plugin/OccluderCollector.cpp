@@ -1,18 +1,13 @@
 #include "plugin/OccluderCollector.h"
 
 #include "plugin/DrawnProps.h"
-#include "plugin/MapperInternals.h"
-#include "plugin/SurfaceClipping.h"
-#include "plugin/SurfaceExtraction.h"
+#include "plugin/SurfaceRecord.h"
 
 #include "vtkActor.h"
-#include "vtkMatrix4x4.h"
+#include "vtkMapper.h"
 #include "vtkPolyData.h"
 
 #include <algorithm>
-#include <functional>
-#include <numeric>
-#include <optional>
 #include <unordered_map>
 #include <utility>
 
@@ -21,187 +16,17 @@ namespace gnomon
 namespace
 {
 
-template <typename Value>
-void hashCombine(std::size_t& seed, const Value& value)
-{
-  seed ^= std::hash<Value>()(value) + 0x9e3779b97f4a7c15ull + (seed << 6) + (seed >> 2);
-}
-
-/// What a surface is, from one frame to the next. The pointers name; they are not followed.
-struct SurfaceKey
-{
-  const vtkProp* viewProp;
-  std::size_t path;
-  const vtkPolyData* data;
-  SurfaceCells cells;
-
-  bool operator==(const SurfaceKey& other) const
-  {
-    return this->viewProp == other.viewProp && this->path == other.path &&
-      this->data == other.data && this->cells == other.cells;
-  }
-};
-
-struct SurfaceKeyHash
-{
-  std::size_t operator()(const SurfaceKey& key) const
-  {
-    std::size_t seed = 0;
-    hashCombine(seed, key.viewProp);
-    hashCombine(seed, key.path);
-    hashCombine(seed, key.data);
-    hashCombine(seed, static_cast<int>(key.cells));
-    return seed;
-  }
-};
-
-/// A prop as VTK draws it: an actor that hangs in an assembly several times is drawn with another
-/// matrix each time.
-struct PlacedProp
-{
-  const vtkProp* prop;
-  glm::dmat4 worldFromModel;
-
-  bool operator==(const PlacedProp& other) const
-  {
-    return this->prop == other.prop && this->worldFromModel == other.worldFromModel;
-  }
-};
-
-struct PlacedPropHash
-{
-  std::size_t operator()(const PlacedProp& placed) const
-  {
-    std::size_t seed = 0;
-    hashCombine(seed, placed.prop);
-    for (int column = 0; column < 4; ++column)
-    {
-      for (int row = 0; row < 4; ++row)
-      {
-        // std::hash gives 0.0 and -0.0, which are equal, the same value.
-        hashCombine(seed, placed.worldFromModel[column][row]);
-      }
-    }
-    return seed;
-  }
-};
-
-/// What is remembered of a surface beside its place in the snapshot.
-struct SurfaceRecord
-{
-  SurfaceKey key;
-  vtkMTimeType shapeTime = 0;
-  glm::dmat4 worldFromModel{ 1.0 };
-  std::vector<glm::dvec4> clipPlanes;
-  std::vector<std::uint32_t> pointOfVertex; ///< as in DrawnTriangles
-  std::vector<DroppedTriangle> dropped;
-  Bounds boundsModel;
-  Bounds boundsCentred;
-};
-
-/// A surface that was read from its polydata, and is not in the snapshot yet. Vertices count from
-/// the surface's first.
-struct FreshSurface
-{
-  SurfaceRecord record;
-  std::vector<glm::vec3> positionsCentred;
-  std::vector<glm::uvec3> triangles;
-  std::vector<std::uint32_t> triangleOfDrawn;
-};
-
 /// One surface that the snapshot shall hold after this frame.
 struct WantedSurface
 {
   SurfaceKey key;
-  vtkPolyData* data;
+  DrawnBlock block;
   const DrawnProp* prop;
   std::size_t old = none;              ///< its number in the snapshot so far
   std::unique_ptr<FreshSurface> fresh; ///< set while it waits to be put into the snapshot
 
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
 };
-
-/// The box around the vertices that triangles use.
-template <typename Triangle>
-Bounds boundsOf(Triangle first, Triangle last, const glm::vec3* positions)
-{
-  Bounds bounds;
-  for (; first != last; ++first)
-  {
-    for (int corner = 0; corner < 3; ++corner)
-    {
-      bounds.add(positions[(*first)[corner]]);
-    }
-  }
-  return bounds;
-}
-
-/// Takes the triangles that have a defect out of a fresh surface.
-void dropDefects(FreshSurface& fresh)
-{
-  const std::size_t drawnCount = fresh.triangles.size();
-  std::uint32_t keptCount = 0;
-  for (std::size_t drawn = 0; drawn < drawnCount; ++drawn)
-  {
-    const glm::uvec3 triangle = fresh.triangles[drawn];
-    const Defect defect = defectOf(triangle, fresh.positionsCentred.data());
-    if (defect != Defect::None)
-    {
-      if (fresh.triangleOfDrawn.empty())
-      {
-        fresh.triangleOfDrawn.resize(drawnCount);
-        std::iota(fresh.triangleOfDrawn.begin(), fresh.triangleOfDrawn.end(), 0u);
-      }
-      fresh.triangleOfDrawn[drawn] = Surface::noTriangle;
-      fresh.record.dropped.push_back({ triangle, defect });
-      continue;
-    }
-    if (!fresh.triangleOfDrawn.empty())
-    {
-      fresh.triangleOfDrawn[drawn] = keptCount;
-    }
-    fresh.triangles[keptCount++] = triangle;
-  }
-  fresh.triangles.resize(keptCount);
-}
-
-/// Computes a fresh surface's positions, and leaves out what the snapshot does not hold.
-void placeSurface(FreshSurface& fresh, const WantedSurface& wanted, const glm::dvec3& centreWorld)
-{
-  SurfaceRecord& record = fresh.record;
-  record.worldFromModel = wanted.prop->worldFromModel;
-  record.clipPlanes = wanted.prop->clipPlanes;
-  std::vector<glm::vec3>& positions = fresh.positionsCentred;
-  placeVertices(wanted.data, record.pointOfVertex, positions.size(), record.worldFromModel,
-    centreWorld, positions.data());
-  dropDefects(fresh);
-  clearNonFinite(positions.data(), positions.size());
-  if (!record.clipPlanes.empty())
-  {
-    std::vector<glm::dvec4> planesCentred = record.clipPlanes;
-    for (glm::dvec4& plane : planesCentred)
-    {
-      plane.w += glm::dot(glm::dvec3(plane), centreWorld);
-    }
-    clipTriangles(planesCentred, positions, fresh.triangles, fresh.triangleOfDrawn);
-  }
-  record.boundsCentred = boundsOf(fresh.triangles.begin(), fresh.triangles.end(), positions.data());
-}
-
-/// The box around a transformed box.
-Bounds transformed(const Bounds& box, const glm::dmat4& matrix)
-{
-  Bounds result;
-  if (!box.empty())
-  {
-    for (const glm::dvec3& corner : box.corners())
-    {
-      const glm::dvec4 image = matrix * glm::dvec4(corner, 1.0);
-      result.add(glm::dvec3(image) / image.w);
-    }
-  }
-  return result;
-}
 
 } // namespace
 
@@ -210,10 +35,10 @@ struct OccluderCollector::Impl
 {
 public:
   Change collect(vtkRenderer* renderer);
-  Drawn drawn(vtkAbstractMapper* mapper, vtkProp* prop);
 
   Occluders occluders;
-  std::vector<DrawnSurface> drawnSurfaces;
+  DrawnLookup lookup;
+  std::size_t translucentReceivers = 0;
   std::vector<std::string> notes;
 
 private:
@@ -232,6 +57,7 @@ private:
   bool transformAgain(const WantedSurface& wanted);
   Outcome overwrite(WantedSurface& wanted);
   void rebuild(std::vector<WantedSurface>& wanted);
+  void noteWhatIsTooLarge(const std::vector<WantedSurface>& wanted);
   bool updateFlags(const std::vector<WantedSurface>& wanted);
   void summarise();
   void indexProps(const std::vector<WantedSurface>& wanted);
@@ -241,57 +67,15 @@ private:
   std::uint64_t lastVersion_ = 0;
   std::vector<SurfaceRecord> records_;       ///< one for each of occluders.surfaces
   std::vector<std::uint32_t> vertexOfPoint_; ///< scratch memory for triangulate()
-
-  /// A surface of the snapshot as part of a prop.
-  struct HeldSurface
-  {
-    const vtkPolyData* data;
-    SurfaceCells cells;
-    std::uint32_t surface;
-
-    bool operator<(const HeldSurface& other) const
-    {
-      return std::less<const vtkPolyData*>()(this->data, other.data) ||
-        (this->data == other.data && this->cells < other.cells);
-    }
-  };
-  using HeldSurfaces = std::vector<HeldSurface>; ///< sorted
-  std::unordered_map<PlacedProp, HeldSurfaces, PlacedPropHash> surfacesOfProp_;
-
-  /// What drawn() was asked for since the last collect().
-  struct Question
-  {
-    const HeldSurfaces* held;
-    const vtkAbstractMapper* mapper;
-    SurfaceCells cells;
-
-    bool operator==(const Question& other) const
-    {
-      return this->held == other.held && this->mapper == other.mapper && this->cells == other.cells;
-    }
-  };
-  struct QuestionHash
-  {
-    std::size_t operator()(const Question& question) const
-    {
-      std::size_t seed = 0;
-      hashCombine(seed, question.held);
-      hashCombine(seed, question.mapper);
-      hashCombine(seed, static_cast<int>(question.cells));
-      return seed;
-    }
-  };
-  std::unordered_map<Question, Drawn, QuestionHash> answers_;
 };
 
 //------------------------------------------------------------------------------
 OccluderCollector::Change OccluderCollector::Impl::collect(vtkRenderer* renderer)
 {
-  this->drawnSurfaces.clear();
-  this->answers_.clear();
-
   DrawnProps drawn = findDrawnProps(renderer);
+  this->lookup.beginFrame(drawn.translucentReceivers);
   this->notes = std::move(drawn.notes);
+  this->translucentReceivers = drawn.translucentReceivers.size();
   std::vector<WantedSurface> wanted = this->wantedSurfaces(drawn);
 
   Change change;
@@ -303,7 +87,7 @@ OccluderCollector::Change OccluderCollector::Impl::collect(vtkRenderer* renderer
     otherList = otherList || surface.old != i;
     const SurfaceRecord* record =
       surface.old != WantedSurface::none ? &this->records_[surface.old] : nullptr;
-    const vtkMTimeType time = shapeTime(surface.data, surface.key.cells);
+    const vtkMTimeType time = changeTime(*surface.prop, surface.block, surface.key.cells);
     if (!record || record->shapeTime != time || record->clipPlanes != surface.prop->clipPlanes)
     {
       this->read(surface, time);
@@ -330,6 +114,7 @@ OccluderCollector::Change OccluderCollector::Impl::collect(vtkRenderer* renderer
     this->indexProps(wanted);
   }
 
+  this->noteWhatIsTooLarge(wanted);
   const bool flagsChanged = this->updateFlags(wanted);
   if (trianglesChanged || flagsChanged)
   {
@@ -352,13 +137,15 @@ std::vector<WantedSurface> OccluderCollector::Impl::wantedSurfaces(const DrawnPr
   {
     for (std::size_t block = 0; block < prop.blockCount; ++block)
     {
-      vtkPolyData* data = drawn.blocks[prop.firstBlock + block];
+      const DrawnBlock& drawnBlock = drawn.blocks[prop.firstBlock + block];
       for (const SurfaceCells cells : { SurfaceCells::Polygons, SurfaceCells::Strips })
       {
-        if (cellCount(data, cells) > 0)
+        if (cellCount(drawnBlock.data, cells) > 0)
         {
-          wanted.push_back({ { prop.viewProp, prop.path, data, cells }, data, &prop,
-            WantedSurface::none, nullptr });
+          wanted.push_back(
+            { { prop.viewProp, prop.path, prop.actor, prop.translucent, drawnBlock.data,
+                drawnBlock.glyphPoints, drawnBlock.glyphSource, cells },
+              drawnBlock, &prop, WantedSurface::none, nullptr });
         }
       }
     }
@@ -417,17 +204,12 @@ bool OccluderCollector::Impl::chooseCentre(const std::vector<WantedSurface>& wan
 }
 
 //------------------------------------------------------------------------------
-/// Reads a surface from its polydata.
 void OccluderCollector::Impl::read(WantedSurface& wanted, vtkMTimeType time)
 {
-  DrawnTriangles drawn = triangulate(wanted.data, wanted.key.cells, this->vertexOfPoint_);
-  wanted.fresh = std::make_unique<FreshSurface>();
+  wanted.fresh = std::make_unique<FreshSurface>(readSurface(
+    *wanted.prop, wanted.block, wanted.key.cells, mostGlyphTriangles, this->vertexOfPoint_));
   wanted.fresh->record.key = wanted.key;
   wanted.fresh->record.shapeTime = time;
-  wanted.fresh->record.pointOfVertex = std::move(drawn.pointOfVertex);
-  wanted.fresh->record.boundsModel = drawn.boundsModel;
-  wanted.fresh->positionsCentred.resize(drawn.vertexCount);
-  wanted.fresh->triangles = std::move(drawn.triangles);
 }
 
 //------------------------------------------------------------------------------
@@ -454,7 +236,7 @@ OccluderCollector::Impl::Outcome OccluderCollector::Impl::updateSurface(
     ++change.extracted;
     maybeSame = false;
   }
-  placeSurface(*wanted.fresh, wanted, this->occluders.centreWorld);
+  placeSurface(*wanted.fresh, *wanted.prop, wanted.block, this->occluders.centreWorld);
   return maybeSame ? this->overwrite(wanted) : Outcome::OtherTriangles;
 }
 
@@ -468,8 +250,7 @@ bool OccluderCollector::Impl::transformAgain(const WantedSurface& wanted)
   glm::vec3* all = this->occluders.positionsCentred.data();
   glm::vec3* own = all + surface.firstVertex;
   record.worldFromModel = wanted.prop->worldFromModel;
-  placeVertices(wanted.data, record.pointOfVertex, surface.vertexCount, record.worldFromModel,
-    this->occluders.centreWorld, own);
+  placeInstances(wanted.block, record, surface.vertexCount, this->occluders.centreWorld, own);
 
   const auto first = this->occluders.triangles.begin() + surface.firstTriangle;
   const auto last = first + surface.triangleCount;
@@ -587,6 +368,20 @@ void OccluderCollector::Impl::rebuild(std::vector<WantedSurface>& wanted)
 }
 
 //------------------------------------------------------------------------------
+void OccluderCollector::Impl::noteWhatIsTooLarge(const std::vector<WantedSurface>& wanted)
+{
+  for (std::size_t i = 0; i < wanted.size(); ++i)
+  {
+    if (this->records_[i].tooManyTriangles)
+    {
+      this->notes.push_back(std::string(wanted[i].prop->mapper->GetClassName()) + ": " +
+        std::to_string(this->records_[i].modelFromInstance.size()) + " glyphs have more than " +
+        std::to_string(mostGlyphTriangles) + " triangles (they neither cast nor receive)");
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
 /// Takes over the props' flags; true if one changed.
 bool OccluderCollector::Impl::updateFlags(const std::vector<WantedSurface>& wanted)
 {
@@ -632,64 +427,22 @@ void OccluderCollector::Impl::summarise()
 /// Makes the snapshot's surfaces findable by prop and matrix.
 void OccluderCollector::Impl::indexProps(const std::vector<WantedSurface>& wanted)
 {
-  this->surfacesOfProp_.clear();
+  this->lookup.clear();
   for (std::size_t i = 0; i < wanted.size();)
   {
-    const DrawnProp* prop = wanted[i].prop;
-    HeldSurfaces held;
-    for (; i < wanted.size() && wanted[i].prop == prop; ++i)
+    const DrawnProp& prop = *wanted[i].prop;
+    std::vector<DrawnLookup::HeldSurface> held;
+    for (; i < wanted.size() && wanted[i].prop == &prop; ++i)
     {
-      held.push_back({ wanted[i].key.data, wanted[i].key.cells, static_cast<std::uint32_t>(i) });
+      held.push_back({ wanted[i].block.data, wanted[i].key.cells, static_cast<std::uint32_t>(i),
+        wanted[i].block.glyphPoints != nullptr,
+        static_cast<std::uint32_t>(this->records_[i].modelFromInstance.size()) });
     }
-    std::sort(held.begin(), held.end());
-    this->surfacesOfProp_.emplace(PlacedProp{ prop->actor, prop->worldFromModel }, std::move(held));
-  }
-}
-
-//------------------------------------------------------------------------------
-OccluderCollector::Drawn OccluderCollector::Impl::drawn(vtkAbstractMapper* mapper, vtkProp* prop)
-{
-  vtkMatrix4x4* matrix = prop->GetMatrix();
-  const std::optional<SurfaceCells> cells = cellsAboutToBeDrawn(mapper);
-  // In the translucent pass, a composite mapper draws its other blocks.
-  if (!matrix || !cells || prop->IsRenderingTranslucentPolygonalGeometry())
-  {
-    return {};
-  }
-  const auto found = this->surfacesOfProp_.find({ prop, toGlm(matrix) });
-  if (found == this->surfacesOfProp_.end())
-  {
-    return {};
-  }
-  const HeldSurfaces& held = found->second;
-  const auto [answer, isNew] = this->answers_.emplace(Question{ &held, mapper, *cells }, Drawn());
-  if (!isNew)
-  {
-    return answer->second;
-  }
-
-  DrawnSurface drawnSurface;
-  for (const DrawCall& call : drawCalls(mapper, *cells))
-  {
-    const HeldSurface wanted{ call.data, *cells, 0 };
-    const auto place = std::lower_bound(held.begin(), held.end(), wanted);
-    if (place == held.end() || wanted < *place)
+    if (!prop.translucent)
     {
-      continue; // a hidden or translucent block, or one without such cells
+      this->lookup.add(prop.actor, prop.mapper, prop.worldFromModel, std::move(held));
     }
-    const Surface& surface = this->occluders.surfaces[place->surface];
-    const auto drawnCount = surface.triangleOfDrawn.empty()
-      ? surface.triangleCount
-      : static_cast<std::uint32_t>(surface.triangleOfDrawn.size());
-    drawnSurface.blocks.push_back({ call.firstPrimitive, drawnCount, place->surface });
-    answer->second.receives = surface.receives;
   }
-  if (!drawnSurface.blocks.empty())
-  {
-    answer->second.index = static_cast<int>(this->drawnSurfaces.size());
-    this->drawnSurfaces.push_back(std::move(drawnSurface));
-  }
-  return answer->second;
 }
 
 //------------------------------------------------------------------------------
@@ -720,15 +473,21 @@ const std::vector<std::string>& OccluderCollector::notes() const
 }
 
 //------------------------------------------------------------------------------
-OccluderCollector::Drawn OccluderCollector::drawn(vtkAbstractMapper* mapper, vtkProp* prop)
+std::size_t OccluderCollector::translucentReceivers() const
 {
-  return this->impl_->drawn(mapper, prop);
+  return this->impl_->translucentReceivers;
+}
+
+//------------------------------------------------------------------------------
+Drawn OccluderCollector::drawn(vtkAbstractMapper* mapper, vtkProp* prop)
+{
+  return this->impl_->lookup.find(mapper, prop, this->impl_->occluders);
 }
 
 //------------------------------------------------------------------------------
 const std::vector<DrawnSurface>& OccluderCollector::drawnSurfaces() const
 {
-  return this->impl_->drawnSurfaces;
+  return this->impl_->lookup.drawnSurfaces();
 }
 
 } // namespace gnomon

@@ -1,9 +1,12 @@
 #ifndef gnomon_plugin_OccluderCollector_h
 #define gnomon_plugin_OccluderCollector_h
 
+#include "plugin/DrawnLookup.h"
+
 #include "shadowtech/base/Occluders.h"
 #include "shadowtech/base/Receivers.h"
 
+#include <cstddef>
 #include <memory>
 #include <string>
 #include <vector>
@@ -19,13 +22,18 @@ namespace gnomon
 /// the price of what changed.
 ///
 /// It holds what VTK draws as triangles in its opaque pass: surfaces of vtkActors, alone or in
-/// assemblies, whose mapper is a vtkPolyDataMapper or a vtkCompositePolyDataMapper2. A polydata
-/// with polygons and strips makes two surfaces. Front and back are OpenGL's: a triangle's front is
+/// assemblies, as followers or as levels of detail, whose mapper is a vtkPolyDataMapper, a
+/// vtkCompositePolyDataMapper2 or a vtkGlyph3DMapper; and translucent ones that are asked to cast.
+/// A polydata with polygons and strips makes two surfaces; a glyph makes one surface with the
+/// triangles of all its instances, as long as these are no more than mostGlyphTriangles. Front and back are OpenGL's: a triangle's front is
 /// the side that shows its corners counter-clockwise after the prop's matrix, so that a mirroring
 /// matrix swaps the sides just as it does for gl_FrontFacing and VTK's face culling.
 class OccluderCollector
 {
 public:
+  /// So that the number of a triangle among all instances fits a 32-bit float.
+  static constexpr std::size_t mostGlyphTriangles = 1u << 24;
+
   OccluderCollector();
   ~OccluderCollector();
 
@@ -46,16 +54,12 @@ public:
   /// served), and what it could not do for a surface, in words.
   const std::vector<std::string>& notes() const;
 
-  /// What the hook needs to know of a surface that VTK is about to draw.
-  struct Drawn
-  {
-    int index = -1; ///< into drawnSurfaces(); -1 when the snapshot does not hold it
-    bool receives = false;
-  };
-  /// Finds the surface that `mapper` (a mapper, or a composite mapper's helper) draws for `prop`,
-  /// with the matrix that the prop has at this moment. Called while VTK draws, from
-  /// vtkOpenGLRenderPass::SetShaderParameters. The lines and points of its mapper are not held, nor
-  /// is anything in the translucent pass.
+  /// The number of visible props with translucent surfaces that receive, as of the last collect().
+  std::size_t translucentReceivers() const;
+
+  /// Finds the surface that `mapper` (a mapper, or its helper) draws for `prop`, with the matrix that
+  /// the prop has at this moment. Called while VTK draws, from
+  /// vtkOpenGLRenderPass::SetShaderParameters.
   Drawn drawn(vtkAbstractMapper* mapper, vtkProp* prop);
 
   /// How primitive numbers of drawn surfaces lead to the snapshot (see projectReceivers). Entries

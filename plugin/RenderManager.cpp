@@ -245,6 +245,11 @@ bool RenderManager::chooseRoute(int wished, bool keepVisibility)
       : "all techniques are functions of the point, so that no prepass is needed";
   }
   this->report_.route = this->route_ == Route::Image ? "image" : "inline";
+  if (!screenTechnique.empty() && this->collector_.translucentReceivers() > 0)
+  {
+    this->report_.notes.push_back("translucent surfaces show the plain shadow map ('" +
+      std::string(plainTechnique) + "') of lights with '" + screenTechnique + "'");
+  }
 
   const int samples = samplesPerPixel();
   if (this->route_ == Route::Image && samples > 1)
@@ -255,9 +260,9 @@ bool RenderManager::chooseRoute(int wished, bool keepVisibility)
   }
 
   std::vector<ShadedLight> lights;
-  for (const LightSlot* slot : this->casting_)
+  for (LightSlot* slot : this->casting_)
   {
-    lights.push_back({ slot->light, slot->technique.get() });
+    lights.push_back({ slot->light, this->pointwiseFor(*slot) });
   }
   this->shaders_.configure({ this->route_, this->anyPointwise(), samples > 1 }, lights);
   return wished != vtkGnomonShadowPass::ROUTE_INLINE || screenTechnique.empty();
@@ -268,6 +273,26 @@ bool RenderManager::anyPointwise() const
 {
   return std::any_of(this->casting_.begin(), this->casting_.end(),
     [](const LightSlot* slot) { return findTechnique(slot->techniqueName)->info.pointwise; });
+}
+
+//------------------------------------------------------------------------------
+/// What the shader computes a light's visibility with on the route taken; null if it only fetches.
+const Technique* RenderManager::pointwiseFor(LightSlot& slot) const
+{
+  const bool translucent = this->collector_.translucentReceivers() > 0;
+  const bool pointwise = findTechnique(slot.techniqueName)->info.pointwise;
+  if (pointwise || !translucent)
+  {
+    slot.plain.reset();
+    return pointwise && (translucent || this->route_ == Route::Inline) ? slot.technique.get()
+                                                                       : nullptr;
+  }
+  if (!slot.plain)
+  {
+    slot.plain = findTechnique(plainTechnique)->create();
+    slot.plainBake = Bake();
+  }
+  return slot.plain.get();
 }
 
 //------------------------------------------------------------------------------
@@ -332,33 +357,38 @@ void RenderManager::drawReceivers(const vtkRenderState* s, vtkGnomonShadowPass* 
 //------------------------------------------------------------------------------
 void RenderManager::bakeMaps()
 {
-  const Occluders& occluders = this->collector_.occluders();
   for (LightSlot* slot : this->casting_)
   {
-    if (!findTechnique(slot->techniqueName)->info.needsMap)
+    if (findTechnique(slot->techniqueName)->info.needsMap)
     {
-      continue;
+      this->bakeMaps(slot->light, *slot->technique, slot->bake);
     }
-    const LightView view = fitUniform(
-      slot->light, occluders.centreWorld, occluders.castersCentred, slot->light.mapSizeTexels);
-    const bool fresh = slot->bakedOnce && slot->view == view &&
-      slot->bakedSizeTexels == slot->light.mapSizeTexels &&
-      slot->bakedTopology == occluders.topologyVersion &&
-      slot->bakedPositions == occluders.positionsVersion;
-    if (!fresh)
+    if (slot->plain)
     {
-      this->buffers_.update(occluders);
-      slot->technique->bake({ slot->light, view, occluders, this->buffers_, this->library_ });
-      slot->view = view;
-      slot->bakedSizeTexels = slot->light.mapSizeTexels;
-      slot->bakedTopology = occluders.topologyVersion;
-      slot->bakedPositions = occluders.positionsVersion;
-      slot->bakedOnce = true;
-      ++this->report_.mapBakes;
+      this->bakeMaps(slot->light, *slot->plain, slot->plainBake);
     }
-    this->report_.bytesMaps += slot->technique->bytesOfMaps();
   }
   this->endStageClock("maps");
+}
+
+//------------------------------------------------------------------------------
+/// Bakes a light's maps if they are stale.
+void RenderManager::bakeMaps(const ShadowLight& light, Technique& technique, Bake& bake)
+{
+  const Occluders& occluders = this->collector_.occluders();
+  const LightView view =
+    fitUniform(light, occluders.centreWorld, occluders.castersCentred, light.mapSizeTexels);
+  const bool fresh = bake.once && bake.view == view && bake.sizeTexels == light.mapSizeTexels &&
+    bake.topology == occluders.topologyVersion && bake.positions == occluders.positionsVersion;
+  if (!fresh)
+  {
+    this->buffers_.update(occluders);
+    technique.bake({ light, view, occluders, this->buffers_, this->library_ });
+    bake = { view, light.mapSizeTexels, occluders.topologyVersion, occluders.positionsVersion,
+      true };
+    ++this->report_.mapBakes;
+  }
+  this->report_.bytesMaps += technique.bytesOfMaps();
 }
 
 //------------------------------------------------------------------------------
@@ -490,10 +520,7 @@ void RenderManager::abandonFrame()
 void RenderManager::setShaderParameters(
   vtkShaderProgram* program, vtkAbstractMapper* mapper, vtkProp* prop)
 {
-  // Opaque surfaces of the snapshot receive, on either route: the image route's layers know no
-  // others.
-  const OccluderCollector::Drawn drawn = this->collector_.drawn(mapper, prop);
-  this->shaders_.setParameters(program, drawn.index, drawn.receives);
+  this->shaders_.setParameters(program, this->collector_.drawn(mapper, prop));
 }
 
 } // namespace gnomon

@@ -89,20 +89,30 @@ public:
   const VisibilityImages& visibility() const { return this->visibility_; }
 
 private:
-  /// A casting light's technique, and what its maps were baked from.
+  /// What a technique's maps were baked from.
+  struct Bake
+  {
+    LightView view;
+    int sizeTexels = 0;
+    std::uint64_t topology = 0;
+    std::uint64_t positions = 0;
+    bool once = false;
+  };
+  /// A casting light and its technique.
   struct LightSlot
   {
     std::string techniqueName;
     std::unique_ptr<Technique> technique;
+    Bake bake;
+    /// Shades translucent surfaces where the technique works on the screen; null without such.
+    std::unique_ptr<Technique> plain;
+    Bake plainBake;
     ShadowLight light;
-    LightView view;
-    int bakedSizeTexels = 0;
-    std::uint64_t bakedTopology = 0;
-    std::uint64_t bakedPositions = 0;
-    bool bakedOnce = false;
   };
 
   void endStageClock(const std::string& name);
+  const Technique* pointwiseFor(LightSlot& slot) const;
+  void bakeMaps(const ShadowLight& light, Technique& technique, Bake& bake);
   void resolveReceivers();
   void keepVisibility();
   bool anyPointwise() const;

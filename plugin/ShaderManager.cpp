@@ -7,6 +7,7 @@
 #include <vtkShaderProgram.h>
 #include <vtkTextureUnitManager.h>
 
+#include <algorithm>
 #include <map>
 
 namespace gnomon
@@ -33,12 +34,19 @@ GLenum bindingOf(GLenum target)
   return target == GL_TEXTURE_2D_ARRAY ? GL_TEXTURE_BINDING_2D_ARRAY : GL_TEXTURE_BINDING_2D;
 }
 
-/// The expression of one light's visibility.
-std::string visibilityOf(Route route, int light)
+/// The expression of one light's visibility. On the image route, translucent surfaces compute theirs:
+/// the layers do not know them.
+std::string visibilityOf(Route route, const ShadedLight& shaded, int light)
 {
   const std::string number = std::to_string(light);
-  return route == Route::Image ? "gnomonLayer(" + number + ")"
-                               : "visibility_" + number + "(gnomonPosition, gnomonNormal)";
+  const std::string fetched = "gnomonLayer(" + number + ")";
+  const std::string computed = "visibility_" + number + "(gnomonPosition, gnomonNormal)";
+  if (route == Route::Inline)
+  {
+    return computed;
+  }
+  return shaded.pointwise ? "(gnomonTranslucent == 0 ? " + fetched + " : " + computed + ")"
+                          : fetched;
 }
 
 } // namespace
@@ -46,6 +54,8 @@ std::string visibilityOf(Route route, int light)
 //------------------------------------------------------------------------------
 void ShaderManager::configure(const HookVariant& variant, const std::vector<ShadedLight>& lights)
 {
+  const bool asksAtPoints = std::any_of(lights.begin(), lights.end(),
+    [](const ShadedLight& shaded) { return shaded.pointwise != nullptr; });
   std::string declarations = hookShaders().at("plugin/hook.glsl");
   std::string position = "vertexVC.xyz";
   std::string extensions;
@@ -53,31 +63,27 @@ void ShaderManager::configure(const HookVariant& variant, const std::vector<Shad
   {
     declarations += hookShaders().at("plugin/hook_image.glsl");
   }
-  else if (variant.multisampled)
+  if (asksAtPoints && variant.multisampled)
   {
     declarations += hookShaders().at("plugin/hook_multisample.glsl");
     position = "gnomonCentroid(vertexVC.xyz, gnomonNormal, cameraParallel == 1)";
     extensions = "#extension GL_ARB_gpu_shader5 : require\n"; // for interpolateAtCentroid
   }
-  std::string multiplications;
-  if (variant.route == Route::Inline)
-  {
-    multiplications = "  vec3 gnomonPosition = " + position + ";\n";
-  }
+  std::string multiplications = asksAtPoints ? "  vec3 gnomonPosition = " + position + ";\n" : "";
   for (std::size_t i = 0; i < lights.size(); ++i)
   {
     const ShadedLight& shaded = lights[i];
     const int number = static_cast<int>(i);
-    if (variant.route == Route::Inline)
+    if (shaded.pointwise)
     {
-      declarations += numberedForLight(shaded.technique->visibilityGlsl(shaded.light), number);
+      declarations += numberedForLight(shaded.pointwise->visibilityGlsl(shaded.light), number);
     }
     const std::string strength = "gnomonStrength" + std::to_string(i);
     declarations += "uniform float " + strength + ";\n";
     const std::string colour = "lightColor" + std::to_string(shaded.light.shaderIndex);
     multiplications += "  vec3 " + colour + " = " + colour +
-      " * (gnomonReceives == 0 ? 1.0 : mix(1.0, " + visibilityOf(variant.route, number) + ", " +
-      strength + "));\n";
+      " * (gnomonReceives == 0 ? 1.0 : mix(1.0, " + visibilityOf(variant.route, shaded, number) +
+      ", " + strength + "));\n";
   }
   if (declarations != this->declarations_ || multiplications != this->multiplications_ ||
     variant.route != this->variant_.route ||
@@ -87,14 +93,41 @@ void ShaderManager::configure(const HookVariant& variant, const std::vector<Shad
     this->multiplications_ = multiplications;
     this->variant_ = variant;
     this->extensions_ = extensions;
+    this->needsNormal_ = asksAtPoints || variant.receiverPoints;
     this->stageTime_.Modified();
   }
   this->lights_ = lights;
 }
 
 //------------------------------------------------------------------------------
-void ShaderManager::markShader(std::string& fragmentShader) const
+bool passInstance(std::string& vertexShader, std::string& geometryShader)
 {
+  const std::string declaration = "//VTK::Glyph::Dec";
+  const std::string body = "//VTK::Glyph::Impl";
+  if (vertexShader.find(body) == std::string::npos)
+  {
+    return false;
+  }
+  replace(vertexShader, declaration, "flat out int gnomonInstanceVSOutput;\n" + declaration);
+  replace(vertexShader, body, "gnomonInstanceVSOutput = gl_InstanceID;\n  " + body);
+  // Where there is a geometry shader, VTK has the fragment shader read its outputs instead.
+  replace(geometryShader, "//VTK::PrimID::Dec",
+    "flat in int gnomonInstanceVSOutput[];\nflat out int gnomonInstanceGSOutput;\n"
+    "//VTK::PrimID::Dec");
+  replace(geometryShader, "//VTK::PrimID::Impl",
+    "gnomonInstanceGSOutput = gnomonInstanceVSOutput[i];\n    //VTK::PrimID::Impl");
+  return true;
+}
+
+//------------------------------------------------------------------------------
+void ShaderManager::markShader(
+  std::string& vertexShader, std::string& geometryShader, std::string& fragmentShader) const
+{
+  if (passInstance(vertexShader, geometryShader))
+  {
+    replace(fragmentShader, "//VTK::PrimID::Dec",
+      "flat in int gnomonInstanceVSOutput;\n//VTK::PrimID::Dec");
+  }
   replace(fragmentShader, "//VTK::Light::Dec", "//VTK::Light::Dec\n" + declarationMarker);
   replace(
     fragmentShader, "//VTK::UniformFlow::Impl", normalMarker + "\n  //VTK::UniformFlow::Impl");
@@ -116,19 +149,20 @@ void ShaderManager::fillShader(std::string& fragmentShader, bool receiversStage)
   {
     declarations = this->declarations_;
     begin = this->multiplications_;
-    if (this->variant_.route == Route::Inline || this->variant_.receiverPoints)
+    if (this->needsNormal_)
     {
       normal = "vec3 gnomonNormal = gnomonFaceNormal(vertexVC.xyz, cameraParallel == 1);\n";
     }
   }
   if (this->variant_.route == Route::Image && receiversStage)
   {
+    const bool instanced = fragmentShader.find("gnomonInstanceVSOutput") != std::string::npos;
     if (!lit)
     {
       declarations = "uniform int gnomonStage;\n";
     }
     begin = "if (gnomonStage == 1)\n  {\n    gl_FragData[0] = vec4(0.0, 0.0, 0.0, opacity);\n" +
-      this->writeReceiver(lit) + "  }\n  else\n  {\n" + begin;
+      this->writeReceiver(lit, instanced) + "  }\n  else\n  {\n" + begin;
     end = "  }\n";
   }
   // VTK will put its #version line at this mark, which extensions must follow.
@@ -140,10 +174,12 @@ void ShaderManager::fillShader(std::string& fragmentShader, bool receiversStage)
 }
 
 //------------------------------------------------------------------------------
-std::string ShaderManager::writeReceiver(bool lit) const
+std::string ShaderManager::writeReceiver(bool lit, bool instanced) const
 {
+  const std::string instance =
+    instanced ? " + gnomonInstanceVSOutput * gnomonPrimitivesPerInstance" : "";
   const std::string fragment =
-    "vec2(gnomonDrawnSurface(), float(gl_PrimitiveID + PrimitiveIDOffset))";
+    "vec2(gnomonDrawnSurface(), float(gl_PrimitiveID + PrimitiveIDOffset" + instance + "))";
   if (!lit)
   {
     return "    gl_FragData[1] = vec4(0.0);\n"
@@ -194,9 +230,9 @@ void ShaderManager::beginStage(vtkOpenGLRenderWindow* window, const StageValues&
   {
     const int light = static_cast<int>(i);
     add("gnomonStrength" + std::to_string(i), static_cast<float>(this->lights_[i].light.strength));
-    if (this->variant_.route == Route::Inline)
+    if (this->lights_[i].pointwise)
     {
-      for (Uniform uniform : this->lights_[i].technique->uniforms(values.centredFromView))
+      for (Uniform uniform : this->lights_[i].pointwise->uniforms(values.centredFromView))
       {
         uniform.name = numberedForLight(uniform.name, light);
         if (const auto* texture = std::get_if<TextureBinding>(&uniform.value))
@@ -243,7 +279,7 @@ bool ShaderManager::setLayersOrigin(GLuint program)
 }
 
 //------------------------------------------------------------------------------
-void ShaderManager::setParameters(vtkShaderProgram* program, int drawn, bool receives)
+void ShaderManager::setParameters(vtkShaderProgram* program, const Drawn& drawn)
 {
   const auto handle = static_cast<GLuint>(program->GetHandle());
   if (this->upToDate_.insert(program).second)
@@ -253,12 +289,16 @@ void ShaderManager::setParameters(vtkShaderProgram* program, int drawn, bool rec
       ShaderLibrary::setUniform(handle, uniform);
     }
   }
+  bool receives = drawn.receives;
   if (this->variant_.route == Route::Image)
   {
     receives = this->setLayersOrigin(handle) && receives;
   }
   ShaderLibrary::setUniform(handle, { "gnomonReceives", receives ? 1 : 0 });
-  ShaderLibrary::setUniform(handle, { "gnomonDrawn", drawn });
+  ShaderLibrary::setUniform(handle, { "gnomonDrawn", drawn.index });
+  ShaderLibrary::setUniform(handle, { "gnomonTranslucent", drawn.translucent ? 1 : 0 });
+  ShaderLibrary::setUniform(
+    handle, { "gnomonPrimitivesPerInstance", static_cast<int>(drawn.primitivesPerInstance) });
 }
 
 } // namespace gnomon

@@ -2,6 +2,7 @@
 #define gnomon_plugin_ShaderManager_h
 
 #include "lights/ShadowLight.h"
+#include "plugin/DrawnLookup.h"
 #include "shadowtech/base/Technique.h"
 
 #include <vtkTimeStamp.h>
@@ -28,15 +29,23 @@ struct HookVariant
 {
   Route route = Route::Inline;
   bool receiverPoints = false; ///< image route: the receivers stage draws points and normals, too
-  bool multisampled = false; ///< inline route: pixels have several samples; asks at their centroid
+  bool multisampled = false;   ///< pixels have several samples; points are their centroids
 };
 
 /// One casting light, as the shader hook needs it.
 struct ShadedLight
 {
   ShadowLight light;
-  const Technique* technique = nullptr;
+  /// What the shader computes visibility with: on the inline route for all surfaces, on the image
+  /// route for translucent ones, since the layers show what is opaque. Null where nothing needs it.
+  const Technique* pointwise = nullptr;
 };
+
+/// Has the shaders of VTK's glyphs pass the number of the instance on, as the fragment shader's
+/// `flat in int gnomonInstanceVSOutput`: gl_PrimitiveID counts within an instance. Called before
+/// VTK's replacements.
+/// @return false where nothing is drawn as instances
+bool passInstance(std::string& vertexShader, std::string& geometryShader);
 
 /// The hook into VTK's lighting. In front of VTK's light loop it puts, per casting light N,
 ///     vec3 lightColorN = lightColorN * (visibility of light N);
@@ -55,7 +64,8 @@ public:
 
   /// First and second half of the hook, around VTK's own replacements.
   /// @param receiversStage whether this prop's shader must be able to draw the receivers stage
-  void markShader(std::string& fragmentShader) const;
+  void markShader(
+    std::string& vertexShader, std::string& geometryShader, std::string& fragmentShader) const;
   void fillShader(std::string& fragmentShader, bool receiversStage);
 
   /// The values that stay the same for all props of a stage.
@@ -73,18 +83,18 @@ public:
   bool endStage();
 
   /// Sets the hook's uniforms of a program that is about to draw.
-  /// @param drawn number of the drawn surface, -1 for none
-  void setParameters(vtkShaderProgram* program, int drawn, bool receives);
+  void setParameters(vtkShaderProgram* program, const Drawn& drawn);
 
   /// Shaders rebuilt by VTK since the start.
   int rebuilds() const { return this->rebuilds_; }
 
 private:
-  std::string writeReceiver(bool lit) const;
+  std::string writeReceiver(bool lit, bool instanced) const;
   int bindTexture(const TextureBinding& texture);
   bool setLayersOrigin(GLuint program);
 
   HookVariant variant_;
+  bool needsNormal_ = false;
   std::string extensions_;
   std::string declarations_;
   std::string multiplications_;

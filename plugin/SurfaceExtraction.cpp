@@ -177,6 +177,12 @@ vtkIdType cellCount(vtkPolyData* data, SurfaceCells cells)
 }
 
 //------------------------------------------------------------------------------
+bool sameCells(vtkPolyData* a, vtkPolyData* b, SurfaceCells cells)
+{
+  return a->GetPoints() == b->GetPoints() && cellArray(a, cells) == cellArray(b, cells);
+}
+
+//------------------------------------------------------------------------------
 vtkMTimeType shapeTime(vtkPolyData* data, SurfaceCells cells)
 {
   // The object's own time, which Modified() and every Set method raise; the override adds point and

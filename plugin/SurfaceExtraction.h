@@ -27,6 +27,9 @@ enum class SurfaceCells
 /// The number of cells of a kind.
 vtkIdType cellCount(vtkPolyData* data, SurfaceCells cells);
 
+/// Whether two polydata have the very same points and cells of a kind, as shallow copies do.
+bool sameCells(vtkPolyData* a, vtkPolyData* b, SurfaceCells cells);
+
 /// When the points or the cells last changed. Unlike vtkPolyData::GetMTime() it leaves out the
 /// point and cell data: new colours are no new shape.
 vtkMTimeType shapeTime(vtkPolyData* data, SurfaceCells cells);

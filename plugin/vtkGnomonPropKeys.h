@@ -28,9 +28,10 @@ public:
 
   ///@{
   /**
-   * The keys themselves. CASTS: the prop blocks light (0 or 1, default 1). RECEIVES: it shows
-   * shadows (default 1). ONE_SIDED: it blocks light only with triangles whose front side, the one
-   * that they show counter-clockwise, faces the light (default 0: both sides block).
+   * The keys themselves. CASTS: the prop blocks light (0 or 1, default 1 for what is opaque and 0
+   * for what is translucent, which blocks all light if asked to). RECEIVES: it shows shadows
+   * (default 1). ONE_SIDED: it blocks light only with triangles whose front side, the one that they
+   * show counter-clockwise, faces the light (default 0: both sides block).
    */
   static vtkInformationIntegerKey* CASTS();
   static vtkInformationIntegerKey* RECEIVES();
@@ -48,7 +49,7 @@ public:
 
   ///@{
   /**
-   * Read a key, or its default where the prop does not have it.
+   * Read a key, or where the prop does not have it, its default for opaque props.
    */
   static bool GetCasts(vtkProp* prop);
   static bool GetReceives(vtkProp* prop);

@@ -337,11 +337,11 @@ const gnomon::VisibilityImages& vtkGnomonShadowPass::GetVisibility() const
 }
 
 //------------------------------------------------------------------------------
-bool vtkGnomonShadowPass::PreReplaceShaderValues(std::string& vtkNotUsed(vertexShader),
-  std::string& vtkNotUsed(geometryShader), std::string& fragmentShader,
-  vtkAbstractMapper* vtkNotUsed(mapper), vtkProp* vtkNotUsed(prop))
+bool vtkGnomonShadowPass::PreReplaceShaderValues(std::string& vertexShader,
+  std::string& geometryShader, std::string& fragmentShader, vtkAbstractMapper* vtkNotUsed(mapper),
+  vtkProp* vtkNotUsed(prop))
 {
-  this->Internal->manager->shaders().markShader(fragmentShader);
+  this->Internal->manager->shaders().markShader(vertexShader, geometryShader, fragmentShader);
   return true;
 }
 

@@ -13,8 +13,10 @@
  *
  * Lights are the renderer's vtkLights. What one of them asks for is said with vtkGnomonLightKeys,
  * what one prop does (casts, receives, one-sided) with vtkGnomonPropKeys. Opaque surfaces of
- * vtkPolyDataMapper, vtkCompositePolyDataMapper2 and assemblies of them cast and receive;
- * translucent, volumetric and overlay props are drawn as VTK draws them.
+ * vtkPolyDataMapper, vtkCompositePolyDataMapper2 and vtkGlyph3DMapper cast and receive, under
+ * actors, assemblies, followers and props with levels of detail. Translucent surfaces receive, and
+ * cast only if asked. Everything else is drawn as VTK draws it; what was left out although it may
+ * be opaque is in the report's notes.
  *
  * Other passes may stand around it, or inside it as its delegate (docs/pass_chains.md).
  *

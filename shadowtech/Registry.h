@@ -29,6 +29,10 @@ std::string techniqueNames();
 /// The technique of lights and passes that name none. Stated here and nowhere else.
 inline constexpr const char* defaultTechnique = "nsm";
 
+/// What shades translucent surfaces where a light's own technique works on the screen, which shows
+/// only the opaque ones: a pointwise technique.
+inline constexpr const char* plainTechnique = "nsm";
+
 } // namespace gnomon
 
 #endif

@@ -97,6 +97,20 @@ vtkCompositeDataDisplayAttributes* attributesOf(vtkActor* actor)
     ->GetCompositeDataDisplayAttributes();
 }
 
+/// One source at every point of a polydata.
+struct Glyphs
+{
+  Glyphs(vtkPolyData* points, vtkPolyData* source)
+  {
+    this->mapper->SetInputData(points);
+    this->mapper->SetSourceData(source);
+    this->actor->SetMapper(this->mapper);
+  }
+
+  vtkNew<vtkGlyph3DMapper> mapper;
+  vtkNew<vtkActor> actor;
+};
+
 } // namespace
 
 // ---- triangles -------------------------------------------------------------
@@ -308,32 +322,140 @@ TEST(OccluderProps, TranslucentColoursMakeAPropTranslucent)
 TEST(OccluderProps, UnservedMappersAreNoted)
 {
   Scene scene;
-  vtkNew<vtkGlyph3DMapper> mapper;
-  mapper->SetInputData(makeSquare());
-  mapper->SetSourceData(makeSquare());
-  vtkNew<vtkActor> actor;
-  actor->SetMapper(mapper);
-  scene.renderer->AddActor(actor);
+  const Glyphs glyphs(makeSquare(), makeSquare());
+  glyphs.mapper->SetCullingAndLOD(true);
+  scene.renderer->AddActor(glyphs.actor);
   scene.collect();
   EXPECT_EQ(scene.surfaceCount(), 0u);
   ASSERT_EQ(scene.collector.notes().size(), 1u);
   EXPECT_NE(scene.collector.notes()[0].find("Glyph3DMapper"), std::string::npos);
 }
 
-TEST(OccluderProps, ActorsThatDrawThroughAnotherAreNoted)
+TEST(OccluderProps, ActorsWhoseMatrixIsNotKnownAreNoted)
 {
   Scene scene;
+  vtkNew<vtkAssembly> assembly;
   for (int i = 0; i < 2; ++i)
   {
     vtkNew<vtkFollower> follower;
     follower->SetMapper(makeActor(makeSquare())->GetMapper());
-    scene.renderer->AddActor(follower);
+    assembly->AddPart(follower);
   }
+  scene.renderer->AddActor(assembly);
   scene.collect();
   EXPECT_EQ(scene.surfaceCount(), 0u);
   ASSERT_EQ(scene.collector.notes().size(), 1u);
   EXPECT_NE(scene.collector.notes()[0].find("Follower"), std::string::npos);
   EXPECT_NE(scene.collector.notes()[0].find("2 props"), std::string::npos);
+}
+
+TEST(OccluderProps, TranslucentOnesAreHeldIfAskedToCast)
+{
+  Scene scene;
+  const auto pane = makeActor(makeSquare());
+  pane->GetProperty()->SetOpacity(0.5);
+  scene.renderer->AddActor(pane);
+  scene.collect();
+  EXPECT_EQ(scene.surfaceCount(), 0u);
+  EXPECT_EQ(scene.collector.translucentReceivers(), 1u);
+  vtkGnomonPropKeys::SetCasts(pane, true);
+  scene.collect();
+  ASSERT_EQ(scene.surfaceCount(), 1u);
+  EXPECT_TRUE(scene.occluders().surfaces[0].casts);
+  vtkGnomonPropKeys::SetReceives(pane, false);
+  scene.collect();
+  EXPECT_EQ(scene.collector.translucentReceivers(), 0u);
+  vtkGnomonPropKeys::SetCasts(pane, false);
+  scene.collect();
+  EXPECT_EQ(scene.surfaceCount(), 0u);
+}
+
+// ---- glyphs ------------------------------------------------------------------
+
+TEST(OccluderGlyphs, AreReadAgainOnlyWhenTheyChange)
+{
+  Scene scene;
+  const auto points = makeSquare();
+  const auto source = makeSquare();
+  const Glyphs glyphs(points, source);
+  scene.renderer->AddActor(glyphs.actor);
+  scene.collect();
+  EXPECT_EQ(scene.occluders().triangles.size(), 4u * 2u);
+  EXPECT_EQ(scene.collect().extracted, 0);
+
+  glyphs.actor->SetPosition(1, 2, 3);
+  OccluderCollector::Change change = scene.collect();
+  EXPECT_EQ(change.extracted, 0);
+  EXPECT_EQ(change.retransformed, 1);
+  expectNear(scene.positionWorld(0, 5), glm::dvec3(3, 2, 3)); // the second glyph's second corner
+
+  points->GetPoints()->SetPoint(1, 5, 0, 0);
+  points->GetPoints()->Modified();
+  EXPECT_EQ(scene.collect().extracted, 1);
+  expectNear(scene.positionWorld(0, 5), glm::dvec3(7, 2, 3));
+
+  glyphs.mapper->SetScaleFactor(2.0);
+  EXPECT_EQ(scene.collect().extracted, 1);
+  expectNear(scene.positionWorld(0, 5), glm::dvec3(8, 2, 3));
+
+  source->GetPoints()->SetPoint(1, 3, 0, 0);
+  source->GetPoints()->Modified();
+  EXPECT_EQ(scene.collect().extracted, 1);
+  expectNear(scene.positionWorld(0, 5), glm::dvec3(12, 2, 3));
+  EXPECT_EQ(scene.collect().extracted, 0);
+}
+
+TEST(OccluderGlyphs, WhatVtkDoesNotDrawIsLeftOut)
+{
+  Scene scene;
+  const Glyphs glyphs(makeSquare(), makeSquare());
+  scene.renderer->AddActor(glyphs.actor);
+  vtkNew<vtkFloatArray> pairs;
+  pairs->SetName("pairs");
+  pairs->SetNumberOfComponents(2);
+  pairs->SetNumberOfTuples(4);
+  pairs->Fill(1.0);
+  vtkPolyData::SafeDownCast(glyphs.mapper->GetInput())->GetPointData()->AddArray(pairs);
+  glyphs.mapper->SetOrientationArray("pairs"); // not three components
+  scene.collect();
+  EXPECT_EQ(scene.occluders().triangles.size(), 0u);
+  glyphs.mapper->OrientOff();
+  scene.collect();
+  EXPECT_EQ(scene.occluders().triangles.size(), 8u);
+  glyphs.mapper->UseSourceTableTreeOn(); // without a tree
+  scene.collect();
+  EXPECT_EQ(scene.surfaceCount(), 0u);
+  glyphs.mapper->UseSourceTableTreeOff();
+  glyphs.mapper->RemoveAllInputConnections(1);
+  scene.collect();
+  EXPECT_EQ(scene.surfaceCount(), 0u);
+}
+
+TEST(OccluderGlyphs, MoreTrianglesThanTheBoundAreLeftOutAndNoted)
+{
+  Scene scene;
+  const auto points = vtkSmartPointer<vtkPolyData>::New();
+  points->SetPoints(vtkNew<vtkPoints>());
+  const auto most = static_cast<vtkIdType>(OccluderCollector::mostGlyphTriangles / 512);
+  points->GetPoints()->SetNumberOfPoints(most + 1);
+  points->GetPoints()->GetData()->Fill(0.0);
+  std::vector<glm::dvec3> corners;
+  Cells triangles;
+  for (vtkIdType i = 0; i < 512; ++i)
+  {
+    corners.insert(corners.end(), { { 0, 0, i }, { 1, 0, i }, { 0, 1, i } });
+    triangles.push_back({ 3 * i, 3 * i + 1, 3 * i + 2 });
+  }
+  const Glyphs glyphs(points, makePolyData(corners, triangles));
+  scene.renderer->AddActor(glyphs.actor);
+  scene.renderer->AddActor(makeActor(makeSquare()));
+  for (int frame = 0; frame < 2; ++frame)
+  {
+    scene.collect();
+    EXPECT_EQ(scene.occluders().triangles.size(), 2u);
+    ASSERT_EQ(scene.collector.notes().size(), 1u);
+    EXPECT_NE(scene.collector.notes()[0].find("32769 glyphs"), std::string::npos);
+  }
 }
 
 TEST(OccluderProps, AMappersPieceIsAskedFor)

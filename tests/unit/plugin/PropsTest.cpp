@@ -9,11 +9,23 @@
 #include <vtkCompositeDataDisplayAttributes.h>
 #include <vtkCompositePolyDataMapper2.h>
 #include <vtkCubeSource.h>
+#include <vtkFollower.h>
+#include <vtkGlyph3DMapper.h>
+#include <vtkImageData.h>
+#include <vtkLODActor.h>
+#include <vtkLODProp3D.h>
 #include <vtkMultiBlockDataSet.h>
+#include <vtkObjectFactory.h>
+#include <vtkOpenGLPolyDataMapper.h>
 #include <vtkPlaneSource.h>
 #include <vtkPoints.h>
 #include <vtkPolyDataMapper.h>
+#include <vtkProp3DFollower.h>
 #include <vtkProperty.h>
+#include <vtkQuadricLODActor.h>
+#include <vtkRenderWindowInteractor.h>
+#include <vtkSphereSource.h>
+#include <vtkTexture.h>
 #include <vtkTransform.h>
 
 #include <gmock/gmock.h>
@@ -67,6 +79,27 @@ protected:
 };
 
 INSTANTIATE_TEST_SUITE_P(Ways, Props, allWays, nameOf);
+
+/// A mapper that always takes the same time.
+class TimedMapper : public vtkOpenGLPolyDataMapper
+{
+public:
+  static TimedMapper* New();
+  vtkTypeMacro(TimedMapper, vtkOpenGLPolyDataMapper);
+  double GetTimeToDraw() override { return this->Seconds; }
+  double Seconds = 1.0;
+};
+vtkStandardNewMacro(TimedMapper);
+
+/// An interactor that asks no window system for anything.
+class QuietInteractor : public vtkRenderWindowInteractor
+{
+public:
+  static QuietInteractor* New();
+  vtkTypeMacro(QuietInteractor, vtkRenderWindowInteractor);
+  void Initialize() override { this->Initialized = 1; }
+};
+vtkStandardNewMacro(QuietInteractor);
 
 } // namespace
 
@@ -223,6 +256,236 @@ TEST_P(Props, blocksOfACompositeCastAndReceiveUnlessHidden)
   EXPECT_EQ(this->scene.redAt(picture, -0.3, -3.0), 0);
   EXPECT_NEAR(this->scene.redAt(picture, 0.3, -3.0), 180, 1);
   EXPECT_NEAR(this->scene.redAt(picture, -0.3, 3.0), 180, 1);
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Props, glyphsCastAndReceive)
+{
+  vtkNew<vtkPoints> places;
+  places->InsertNextPoint(-1.0, -3.0, 1.0);
+  places->InsertNextPoint(-1.0, 3.0, 2.0);
+  vtkNew<vtkPolyData> points;
+  points->SetPoints(places);
+  vtkNew<vtkCubeSource> box; // 1 x 1 x 1 around each point
+  vtkNew<vtkGlyph3DMapper> mapper;
+  mapper->SetInputData(points);
+  mapper->SetSourceConnection(box->GetOutputPort());
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  this->scene.renderer->AddActor(actor);
+  EXPECT_TRUE(this->dark(0.6, -3.0)); // x from -1.5 + 0.5 to -0.5 + 1.5
+  EXPECT_FALSE(this->dark(1.2, -3.0));
+  EXPECT_TRUE(this->dark(1.8, 3.0)); // x from -1.5 + 1.5 to -0.5 + 2.5
+  EXPECT_FALSE(this->dark(2.2, 3.0));
+  for (const double y : { -3.0, 3.0 })
+  {
+    EXPECT_FALSE(this->dark(-0.8, y)) << "the glyph's own top, at " << y;
+  }
+  EXPECT_EQ(this->scene.report().surfacesExtracted, 0); // in the last of the frames
+  EXPECT_THAT(this->scene.report().notes, testing::IsEmpty());
+
+  this->scene.addBox({ -1.8, 2.7, 3.0 }, { -1.5, 3.3, 3.3 }); // shades z = 2.5 at x = -1.3 .. -0.7
+  EXPECT_TRUE(this->dark(-1.0, 3.0));
+  EXPECT_FALSE(this->dark(-1.0, -3.0));
+  places->SetPoint(0, -1.0, -1.0, 1.0);
+  places->Modified();
+  EXPECT_FALSE(this->dark(0.6, -3.0));
+  EXPECT_TRUE(this->dark(0.6, -1.0));
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Props, followersCastAsTheyFaceTheCamera)
+{
+  // A sign that faces the camera, and so lies flat under one that looks straight down.
+  const auto sign = vtkSmartPointer<vtkPlaneSource>::New();
+  sign->SetOrigin(-0.5, -0.5, 0.0);
+  sign->SetPoint1(0.5, -0.5, 0.0);
+  sign->SetPoint2(-0.5, 0.5, 0.0);
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputConnection(sign->GetOutputPort());
+  vtkCamera* camera = this->scene.renderer->GetActiveCamera();
+
+  vtkNew<vtkFollower> follower;
+  follower->SetMapper(mapper);
+  follower->SetPosition(0.0, 3.0, 2.0);
+  follower->SetCamera(camera);
+  this->scene.renderer->AddActor(follower);
+
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  vtkNew<vtkProp3DFollower> propFollower;
+  propFollower->SetProp3D(actor);
+  propFollower->SetPosition(0.0, -3.0, 2.0);
+  propFollower->SetCamera(camera);
+  this->scene.renderer->AddViewProp(propFollower);
+
+  for (const double y : { -3.0, 3.0 })
+  {
+    EXPECT_TRUE(this->dark(2.3, y + 0.3)) << y;
+    EXPECT_FALSE(this->dark(2.7, y + 0.3)) << y;
+  }
+  this->scene.addBox({ -1.2, -3.2, 3.0 }, { -0.8, -2.8, 3.2 }); // shades z = 2 at x = 0.2
+  this->scene.addBox({ -1.2, 2.8, 3.0 }, { -0.8, 3.2, 3.2 });
+  for (const double y : { -3.0, 3.0 })
+  {
+    EXPECT_TRUE(this->dark(0.1, y)) << y;
+    EXPECT_FALSE(this->dark(-0.3, y)) << y;
+  }
+  EXPECT_THAT(this->scene.report().notes, testing::IsEmpty());
+
+  camera->Roll(45.0); // and with it the signs, whose corners now lie on the axes
+  const Picture rolled = this->scene.render();
+  camera->Roll(-45.0);
+  const Picture straight = this->scene.render();
+  EXPECT_GT(differingPixels(rolled, straight, 100), 50u);
+  EXPECT_TRUE(this->dark(2.3, 3.3));
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Props, levelsOfDetailCastAsDrawn)
+{
+  const auto levelAt = [](double x, double seconds)
+  {
+    const auto box = vtkSmartPointer<vtkCubeSource>::New();
+    box->SetBounds(x - 0.5, x + 0.5, -0.5, 0.5, 1.5, 2.5);
+    const auto mapper = vtkSmartPointer<TimedMapper>::New();
+    mapper->Seconds = seconds;
+    mapper->SetInputConnection(box->GetOutputPort());
+    return mapper;
+  };
+  vtkNew<vtkLODProp3D> prop;
+  prop->AutomaticLODSelectionOff();
+  const int fine = prop->AddLOD(levelAt(-2.0, 1.0), 0.0);
+  const int coarse = prop->AddLOD(levelAt(0.0, 0.001), 0.0);
+  prop->SetPosition(0.0, 3.0, 0.0);
+  this->scene.renderer->AddViewProp(prop);
+
+  vtkNew<vtkLODActor> actor;
+  actor->SetMapper(levelAt(-2.0, 1.0));
+  actor->AddLODMapper(levelAt(0.0, 0.001));
+  actor->SetPosition(0.0, -3.0, 0.0);
+  this->scene.renderer->AddActor(actor);
+
+  prop->SetSelectedLODID(fine);
+  this->scene.window->SetDesiredUpdateRate(1e-6); // all the time there is
+  EXPECT_TRUE(this->dark(0.0, 3.0));
+  EXPECT_TRUE(this->dark(0.0, -3.0));
+  EXPECT_FALSE(this->dark(2.0, 3.0));
+  EXPECT_FALSE(this->dark(2.0, -3.0));
+  EXPECT_FALSE(this->dark(-2.0, 3.0)) << "its top is lit";
+
+  prop->SetSelectedLODID(coarse);
+  this->scene.window->SetDesiredUpdateRate(1e9); // none
+  EXPECT_FALSE(this->dark(-0.8, 3.0));
+  EXPECT_FALSE(this->dark(-0.8, -3.0));
+  EXPECT_TRUE(this->dark(2.0, 3.0));
+  EXPECT_TRUE(this->dark(2.0, -3.0));
+  EXPECT_FALSE(this->dark(0.0, -3.0)) << "its top is lit";
+  EXPECT_THAT(this->scene.report().notes, testing::IsEmpty());
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Props, quadricLevelsOfDetailCastAsDrawn)
+{
+  vtkNew<QuietInteractor> interactor;
+  interactor->SetRenderWindow(this->scene.window);
+  vtkNew<vtkSphereSource> sphere;
+  sphere->SetRadius(1.0);
+  sphere->SetThetaResolution(120);
+  sphere->SetPhiResolution(60);
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputConnection(sphere->GetOutputPort());
+  vtkNew<vtkQuadricLODActor> actor;
+  actor->SetMapper(mapper);
+  actor->SetPosition(0.0, 0.0, 2.0);
+  this->scene.renderer->AddActor(actor);
+  this->scene.window->SetDesiredUpdateRate(1e-6);
+  EXPECT_TRUE(this->dark(2.0, 0.0));
+  const std::size_t full = this->scene.report().triangles;
+  this->scene.window->SetDesiredUpdateRate(1e9);
+  this->scene.render(); // VTK makes the coarse level
+  EXPECT_TRUE(this->dark(2.0, 0.0));
+  EXPECT_LT(this->scene.report().triangles, full - 1000u);
+  EXPECT_THAT(this->scene.report().notes, testing::IsEmpty());
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Props, translucentOnesCastIfAsked)
+{
+  vtkActor* square = this->addSquare(true);
+  square->GetProperty()->SetOpacity(0.5);
+  EXPECT_FALSE(this->dark(2.5, 0.0));
+  vtkGnomonPropKeys::SetCasts(square, true);
+  EXPECT_TRUE(this->dark(2.5, 0.0));
+  EXPECT_FALSE(this->dark(3.5, 0.0));
+  vtkGnomonPropKeys::SetCasts(square, false);
+  EXPECT_FALSE(this->dark(2.5, 0.0));
+
+  // Once opaque, it receives as all opaque ones do.
+  vtkGnomonPropKeys::SetCasts(square, true);
+  this->scene.addBox({ -1.5, -0.2, 3.0 }, { -0.5, 0.2, 3.2 }); // shades the square at x = 0
+  EXPECT_TRUE(this->dark(2.5, 0.5));
+  square->GetProperty()->SetOpacity(1.0);
+  EXPECT_TRUE(this->dark(0.0, 0.0));
+  EXPECT_FALSE(this->dark(0.0, 0.5));
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Props, levelsOfDetailMayShareAMapper)
+{
+  vtkNew<vtkCubeSource> box;
+  box->SetBounds(-2.5, -1.5, -0.5, 0.5, 1.5, 2.5);
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputConnection(box->GetOutputPort());
+  vtkNew<vtkLODProp3D> prop;
+  prop->AutomaticLODSelectionOff();
+  vtkNew<vtkProperty> white;
+  vtkNew<vtkProperty> whiteToo;
+  const int one = prop->AddLOD(mapper, white, 0.0);
+  const int other = prop->AddLOD(mapper, whiteToo, 0.0);
+  this->scene.renderer->AddViewProp(prop);
+  this->scene.addBox({ -3.3, -0.2, 3.4 }, { -2.9, 0.2, 3.6 }); // shades the top at x = -2.4 .. -1.8
+  for (const int level : { one, other, one })
+  {
+    prop->SetSelectedLODID(level);
+    EXPECT_TRUE(this->dark(-2.1, 0.0)) << level;
+    EXPECT_FALSE(this->dark(-1.6, 0.0)) << level;
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Props, holesInTexturesAreDrawnAndSaid)
+{
+  // A square whose right half has no alpha: VTK draws only the left one, as opaque.
+  vtkActor* square = this->addSquare(true);
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(2, 1, 1);
+  image->AllocateScalars(VTK_UNSIGNED_CHAR, 4);
+  for (int i = 0; i < 8; ++i)
+  {
+    static_cast<unsigned char*>(image->GetScalarPointer())[i] = i == 7 ? 0 : 255;
+  }
+  vtkNew<vtkTexture> texture;
+  texture->SetInputData(image);
+  square->SetTexture(texture);
+  this->scene.addBox({ -2.2, -0.2, 3.0 }, { -1.2, 0.2, 3.2 }); // shades the square at x < 0
+  const Picture picture = this->scene.render();
+  EXPECT_TRUE(square->HasOpaqueGeometry());
+  EXPECT_EQ(this->scene.redAt(picture, -0.5, 0.0), 0) << "the square in the box's shadow";
+  EXPECT_NEAR(this->scene.redAt(picture, 0.5, 0.5), 180, 1) << "the floor behind the hole";
+  EXPECT_EQ(this->scene.redAt(picture, 1.5, 0.5), 0) << "the square's shadow";
+  EXPECT_THAT(this->scene.report().notes, testing::ElementsAre(testing::HasSubstr("holes")));
+  vtkGnomonPropKeys::SetCasts(square, false);
+  EXPECT_FALSE(this->dark(1.5, 0.5));
+  EXPECT_THAT(this->scene.report().notes, testing::IsEmpty());
+
+  vtkGnomonPropKeys::SetCasts(square, true);
+  square->SetTexture(nullptr);
+  square->GetProperty()->SetInterpolationToPBR();
+  texture->UseSRGBColorSpaceOn();
+  square->GetProperty()->SetBaseColorTexture(texture);
+  this->scene.render();
+  EXPECT_THAT(this->scene.report().notes, testing::ElementsAre(testing::HasSubstr("holes")));
 }
 
 //------------------------------------------------------------------------------
