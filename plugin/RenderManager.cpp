@@ -271,17 +271,17 @@ void RenderManager::bakeMaps()
     {
       continue;
     }
-    const LightView view = fitUniform(
+    LightViews views = fitLightViews(
       slot->light, occluders.centreWorld, occluders.castersCentred, slot->light.mapSizeTexels);
-    const bool fresh = slot->bakedOnce && slot->view == view &&
+    const bool fresh = slot->bakedOnce && slot->views == views &&
       slot->bakedSizeTexels == slot->light.mapSizeTexels &&
       slot->bakedTopology == occluders.topologyVersion &&
       slot->bakedPositions == occluders.positionsVersion;
     if (!fresh)
     {
       this->buffers_.update(occluders);
-      slot->technique->bake({ slot->light, view, occluders, this->buffers_, this->library_ });
-      slot->view = view;
+      slot->technique->bake({ slot->light, views, occluders, this->buffers_, this->library_ });
+      slot->views = std::move(views);
       slot->bakedSizeTexels = slot->light.mapSizeTexels;
       slot->bakedTopology = occluders.topologyVersion;
       slot->bakedPositions = occluders.positionsVersion;

@@ -91,7 +91,7 @@ private:
     std::string techniqueName;
     std::unique_ptr<Technique> technique;
     ShadowLight light;
-    LightView view;
+    LightViews views;
     int bakedSizeTexels = 0;
     std::uint64_t bakedTopology = 0;
     std::uint64_t bakedPositions = 0;
