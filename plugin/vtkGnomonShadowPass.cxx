@@ -32,12 +32,48 @@ struct vtkGnomonShadowPass::Internals
   bool contextServes = false;
 };
 
+namespace
+{
+
+struct RendererAccess : vtkRenderer
+{
+  static vtkTypeBool& useShadows(vtkRenderer* renderer)
+  {
+    return renderer->*(&RendererAccess::UseShadows);
+  }
+};
+
+/// Switches a renderer's UseShadows off for as long as this lives: vtkOpenGLRenderer's
+/// UpdateGeometry would draw the props with vtkShadowMapPass, within our own frame. Naming the
+/// member through a subclass gives access to it; the renderer's own function would tell all
+/// observers that the renderer was modified.
+class WithoutVtkShadows
+{
+public:
+  explicit WithoutVtkShadows(vtkRenderer* renderer)
+    : useShadows_(RendererAccess::useShadows(renderer))
+    , before_(this->useShadows_)
+  {
+    this->useShadows_ = 0;
+  }
+  ~WithoutVtkShadows() { this->useShadows_ = this->before_; }
+  WithoutVtkShadows(const WithoutVtkShadows&) = delete;
+  WithoutVtkShadows& operator=(const WithoutVtkShadows&) = delete;
+
+private:
+  vtkTypeBool& useShadows_;
+  vtkTypeBool before_;
+};
+
+} // namespace
+
 //------------------------------------------------------------------------------
 vtkGnomonShadowPass::vtkGnomonShadowPass()
   : MapSize(1024)
   , Route(ROUTE_AUTO)
   , MeasureStages(false)
   , KeepVisibility(false)
+  , ObeyUseShadows(false)
   , Internal(new Internals)
 {
 }
@@ -56,6 +92,11 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
   if (renderer->GetSelector())
   {
     this->RenderPlain(s, "a selection is drawn");
+    return;
+  }
+  if (this->ObeyUseShadows && !renderer->GetUseShadows())
+  {
+    this->RenderPlain(s, "the renderer's UseShadows is off");
     return;
   }
   if (!this->PrepareContext(renderer))
@@ -110,7 +151,7 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
       manager.beginShading(renderer);
     }
     drawn = true;
-    this->UpdateGeometry(renderer, s->GetFrameBuffer());
+    this->DrawProps(s);
     if (casting)
     {
       manager.endShading();
@@ -146,8 +187,16 @@ void vtkGnomonShadowPass::RenderPlain(const vtkRenderState* s, const char* reaso
   this->UpdateCamera(renderer);
   this->UpdateLightGeometry(renderer);
   this->UpdateLights(renderer);
-  this->UpdateGeometry(renderer, s->GetFrameBuffer());
+  this->DrawProps(s);
   this->NumberOfRenderedProps = renderer->GetNumberOfPropsRendered();
+}
+
+//------------------------------------------------------------------------------
+void vtkGnomonShadowPass::DrawProps(const vtkRenderState* s)
+{
+  vtkRenderer* renderer = s->GetRenderer();
+  const WithoutVtkShadows withoutVtkShadows(renderer);
+  this->UpdateGeometry(renderer, s->GetFrameBuffer());
 }
 
 //------------------------------------------------------------------------------
@@ -309,5 +358,6 @@ void vtkGnomonShadowPass::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Route: " << routes[this->Route] << "\n";
   os << indent << "MeasureStages: " << (this->MeasureStages ? "on" : "off") << "\n";
   os << indent << "KeepVisibility: " << (this->KeepVisibility ? "on" : "off") << "\n";
+  os << indent << "ObeyUseShadows: " << (this->ObeyUseShadows ? "on" : "off") << "\n";
   os << indent << "Last frame's route: " << this->GetReport().route << "\n";
 }

@@ -396,6 +396,25 @@ ShadowLight spotLight(const glm::dvec3& position, const glm::dvec3& target, doub
   return light;
 }
 
+//------------------------------------------------------------------------------
+ShadowLight pointLight(const glm::dvec3& position)
+{
+  ShadowLight light;
+  light.kind = LightKind::Point;
+  light.positionWorld = position;
+  return light;
+}
+
+//------------------------------------------------------------------------------
+ShadowLight boxLight(
+  const glm::dvec3& direction, const glm::dvec3& position, const glm::dvec3& size)
+{
+  ShadowLight light = directionalLight(direction);
+  light.positionWorld = position;
+  light.box = LightBox{ size.x, size.y, size.z, { 0.0, 0.0, 1.0 } };
+  return light;
+}
+
 namespace
 {
 
