@@ -275,8 +275,10 @@ TEST_F(PositionalLights, aPointLightIsAConeThatIsNotThere)
   for (const char* technique : { "nsm", "raytraced" })
   {
     light->SetConeAngle(90.0);
-    light->SetFocalPoint(0.1, 0.2, 0.0);
+    light->SetFocalPoint(0.1, 0.2, 5.0); // up: a cone would leave the floor dark
     const VisibilityImages point = draw(scene, technique);
+    EXPECT_GT(countAcne(point, { 0.1, 0.2, 1.6 }).facing, 10000u);
+    EXPECT_LT(countAcne(point, { 0.1, 0.2, 1.6 }).dark, 6000u);
     light->SetFocalPoint(light->GetPosition()); // a direction is not needed
     light->SetConeAngle(180.0);
     const VisibilityImages same = draw(scene, technique);
@@ -290,11 +292,11 @@ TEST_F(PositionalLights, aChangedConeIsSeenAlthoughTheCastersStayTheSame)
 {
   PassScene scene(200, 200);
   scene.addFloor(1.0);
-  vtkLight* spot = scene.addSpot({ 0.0, 0.0, 4.0 }, glm::dvec3(0.0), 40.0);
+  vtkLight* spot = scene.addSpot({ 0.0, 0.0, 1.0 }, glm::dvec3(0.0), 80.0);
   vtkGnomonPropKeys::SetCasts(scene.addFloor(6.0, -0.5), false);
   scene.lookFrom({ 0.0, -9.0, 9.0 });
   const VisibilityImages wide = draw(scene);
-  spot->SetConeAngle(30.0);
+  spot->SetConeAngle(65.0);
   const VisibilityImages narrow = draw(scene);
   const VisibilityImages truth = draw(scene, "raytraced");
   EXPECT_GT(compareVisibility(wide, narrow).wrong, 500u);
