@@ -4,28 +4,57 @@
 
 #include <vtkCollection.h>
 #include <vtkInformation.h>
+#include <vtkInformationDoubleVectorKey.h>
 #include <vtkInformationIntegerKey.h>
 #include <vtkInformationStringKey.h>
 #include <vtkLight.h>
 #include <vtkLightCollection.h>
-#include <vtkMath.h>
 #include <vtkRenderer.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace gnomon
 {
 namespace
 {
 
-/// Half angles up to which one perspective map serves a spot light.
-constexpr double largestMapConeAngleDegrees = 89.0;
-
 ///@{
 /// The sides that a map can have, in texels: those that vtkGnomonShadowPass::SetMapSize takes.
 constexpr int smallestMapSizeTexels = 16;
 constexpr int largestMapSizeTexels = 16384;
 ///@}
+
+/// VTK takes the cone of a positional light for a spot's below 90 degrees only.
+LightKind kindOf(vtkLight* light)
+{
+  if (!light->GetPositional())
+  {
+    return LightKind::Directional;
+  }
+  return light->GetConeAngle() < 90.0 ? LightKind::Spot : LightKind::Point;
+}
+
+bool isFinite(const glm::dvec3& point)
+{
+  return std::isfinite(point.x) && std::isfinite(point.y) && std::isfinite(point.z);
+}
+
+/// The box of a directional light, if it has one. Its up direction turns with the light.
+std::optional<LightBox> readBox(vtkLight* light)
+{
+  vtkInformation* keys = light->GetInformation();
+  vtkInformationDoubleVectorKey* key = vtkGnomonLightKeys::BOX();
+  if (light->GetPositional() || keys->Length(key) != 6)
+  {
+    return std::nullopt;
+  }
+  const double* numbers = keys->Get(key);
+  LightBox box{ numbers[0], numbers[1], numbers[2], { numbers[3], numbers[4], numbers[5] } };
+  glm::dvec3 up = box.upWorld;
+  light->TransformVector(&up.x, &box.upWorld.x);
+  return box;
+}
 
 /// Why this light can show no shadow; empty when it can.
 std::string reasonToSkip(vtkLight* light)
@@ -51,29 +80,37 @@ std::string reasonToSkip(vtkLight* light)
   {
     return "its shadow attenuation is 0";
   }
-  if (light->GetPositional())
+  if (light->GetPositional() && !(light->GetConeAngle() > 0.0))
   {
-    if (light->GetConeAngle() >= 90.0)
-    {
-      return "point lights are not supported yet";
-    }
-    if (light->GetConeAngle() > largestMapConeAngleDegrees)
-    {
-      return "its cone is wider than 89 degrees";
-    }
-    if (light->GetConeAngle() <= 0.0)
-    {
-      return "its cone is empty";
-    }
+    return "its cone is empty";
   }
-  double position[3];
-  double focalPoint[3];
-  light->GetTransformedPosition(position);
-  light->GetTransformedFocalPoint(focalPoint);
-  const double distance2 = vtkMath::Distance2BetweenPoints(position, focalPoint);
-  if (!(distance2 > 0.0) || !vtkMath::IsFinite(distance2))
+  glm::dvec3 position;
+  glm::dvec3 focalPoint;
+  light->GetTransformedPosition(&position.x);
+  light->GetTransformedFocalPoint(&focalPoint.x);
+  if (kindOf(light) == LightKind::Point)
+  {
+    return isFinite(position) ? "" : "its position is not finite";
+  }
+  const glm::dvec3 travel = focalPoint - position;
+  const double distance2 = glm::dot(travel, travel);
+  if (!(distance2 > 0.0) || !std::isfinite(distance2))
   {
     return "its position and focal point give no direction";
+  }
+  if (const std::optional<LightBox> box = readBox(light))
+  {
+    const glm::dvec3 size(box->width, box->height, box->depth);
+    if (!isFinite(size) || !glm::all(glm::greaterThan(size, glm::dvec3(0.0))))
+    {
+      return "its box is empty";
+    }
+    // A millionth of the right angle is where rounding begins to turn the box.
+    const glm::dvec3 across = glm::cross(box->upWorld, travel);
+    if (!(glm::length(across) > 1e-6 * glm::length(box->upWorld) * std::sqrt(distance2)))
+    {
+      return "its box has its up direction along the light";
+    }
   }
   return {};
 }
@@ -81,14 +118,18 @@ std::string reasonToSkip(vtkLight* light)
 ShadowLight readLight(vtkLight* light, const LightDefaults& defaults)
 {
   ShadowLight result;
-  result.kind = light->GetPositional() ? LightKind::Spot : LightKind::Directional;
+  result.kind = kindOf(light);
   glm::dvec3 position;
   glm::dvec3 focalPoint;
   light->GetTransformedPosition(&position.x);
   light->GetTransformedFocalPoint(&focalPoint.x);
   result.positionWorld = position;
-  result.directionWorld = glm::normalize(focalPoint - position);
-  result.coneAngleDegrees = light->GetPositional() ? light->GetConeAngle() : 0.0;
+  if (result.kind != LightKind::Point) // which need not have one
+  {
+    result.directionWorld = glm::normalize(focalPoint - position);
+  }
+  result.coneAngleDegrees = result.kind == LightKind::Spot ? light->GetConeAngle() : 0.0;
+  result.box = readBox(light);
   result.strength = glm::clamp(static_cast<double>(light->GetShadowAttenuation()), 0.0, 1.0);
 
   vtkInformation* keys = light->GetInformation();

@@ -38,7 +38,7 @@ struct LightDefaults
 /// Head and camera lights are taken through their transform, which the renderer's
 /// UpdateLightsGeometryToFollowCamera() must have set for this frame. Lights that cannot show a
 /// shadow are left out with a reason: switched off, black, no intensity, marked as not casting,
-/// strength 0, and kinds of light that no technique serves yet (point lights).
+/// strength 0, and those whose numbers give no light (a cone without angle, an empty box).
 class LightManager
 {
 public:

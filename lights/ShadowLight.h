@@ -3,6 +3,7 @@
 
 #include <glm/glm.hpp>
 
+#include <optional>
 #include <string>
 
 namespace gnomon
@@ -11,7 +12,19 @@ namespace gnomon
 enum class LightKind
 {
   Directional, ///< parallel rays along directionWorld
-  Spot         ///< a cone of half angle coneAngleDegrees around directionWorld, from positionWorld
+  Spot,        ///< a cone of half angle coneAngleDegrees around directionWorld, from positionWorld
+  Point        ///< all directions, from positionWorld
+};
+
+/// The box that a directional light fills. Its near face is centred on the light's positionWorld and
+/// stands across directionWorld; the light enters there and travels `depth` far.
+struct LightBox
+{
+  double width = 0.0;  ///< across the light and across `up`
+  double height = 0.0; ///< across the light and along `up`
+  double depth = 0.0;  ///< along the light
+  /// Which way is up in the near face; not along the light, of any length.
+  glm::dvec3 upWorld{ 0.0, 1.0, 0.0 };
 };
 
 /// One light that casts shadows in this frame, in world coordinates and double precision.
@@ -19,12 +32,15 @@ struct ShadowLight
 {
   LightKind kind = LightKind::Directional;
 
-  /// Position of a spot light; unused by directional lights.
+  /// Position of a spot or point light, middle of the near face of a box; else unused.
   glm::dvec3 positionWorld{ 0.0 };
-  /// Unit vector along which the light travels (the axis of a spot light's cone).
+  /// Unit vector along which the light travels (the axis of a spot light's cone); of no meaning for
+  /// a point light.
   glm::dvec3 directionWorld{ 0.0, 0.0, -1.0 };
   /// Half the opening angle of a spot light's cone, in degrees, in (0, 90).
   double coneAngleDegrees = 0.0;
+  /// The box of a directional light that does not fill the whole scene.
+  std::optional<LightBox> box;
 
   /// Place in the renderer's light collection, counted over all lights.
   int sceneIndex = 0;
@@ -35,13 +51,6 @@ struct ShadowLight
   int mapSizeTexels = 1024;
   /// How much of the light a full shadow takes away, in [0, 1]: shading uses mix(1, v, strength).
   double strength = 1.0;
-
-  /// The unit vector from a point to the light.
-  glm::dvec3 directionToLight(const glm::dvec3& pointWorld) const
-  {
-    return this->kind == LightKind::Directional ? -this->directionWorld
-                                                : glm::normalize(this->positionWorld - pointWorld);
-  }
 };
 
 } // namespace gnomon

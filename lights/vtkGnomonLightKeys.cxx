@@ -1,15 +1,19 @@
 #include "vtkGnomonLightKeys.h"
 
 #include "vtkInformation.h"
+#include "vtkInformationDoubleVectorKey.h"
 #include "vtkInformationIntegerKey.h"
 #include "vtkInformationStringKey.h"
 #include "vtkLight.h"
 #include "vtkObjectFactory.h"
 
+#include <cmath>
+
 vtkStandardNewMacro(vtkGnomonLightKeys);
 vtkInformationKeyMacro(vtkGnomonLightKeys, CASTS, Integer);
 vtkInformationKeyMacro(vtkGnomonLightKeys, TECHNIQUE, String);
 vtkInformationKeyMacro(vtkGnomonLightKeys, MAP_SIZE, Integer);
+vtkInformationKeyMacro(vtkGnomonLightKeys, BOX, DoubleVector);
 
 //------------------------------------------------------------------------------
 void vtkGnomonLightKeys::SetCasts(vtkLight* light, bool casts)
@@ -41,6 +45,35 @@ void vtkGnomonLightKeys::SetMapSize(vtkLight* light, int mapSizeTexels)
   {
     light->GetInformation()->Remove(MAP_SIZE());
   }
+}
+
+//------------------------------------------------------------------------------
+void vtkGnomonLightKeys::SetBox(
+  vtkLight* light, double width, double height, double depth, const double up[3])
+{
+  const auto isSize = [](double size) { return size > 0.0 && std::isfinite(size); };
+  if (!isSize(width) || !isSize(height) || !isSize(depth))
+  {
+    vtkErrorWithObjectMacro(light,
+      "A light's box of " << width << " x " << height << " x " << depth
+                          << " was asked for; its sizes must be positive.");
+    return;
+  }
+  if (!isSize(std::hypot(up[0], up[1], up[2])))
+  {
+    vtkErrorWithObjectMacro(light,
+      "A light's box was asked for with the up direction " << up[0] << ", " << up[1] << ", "
+                                                           << up[2] << ", which is none.");
+    return;
+  }
+  const double numbers[6] = { width, height, depth, up[0], up[1], up[2] };
+  light->GetInformation()->Set(BOX(), numbers, 6);
+}
+
+//------------------------------------------------------------------------------
+void vtkGnomonLightKeys::RemoveBox(vtkLight* light)
+{
+  light->GetInformation()->Remove(BOX());
 }
 
 //------------------------------------------------------------------------------

@@ -9,6 +9,15 @@
  * vtkGnomonLightKeys::SetTechnique(light, "raytraced");
  * vtkGnomonLightKeys::SetCasts(fillLight, false);
  * @endcode
+ *
+ * <b>A directional light's box.</b> A directional light may be limited to a box, as the sun is that
+ * comes in through a window: it begins at the box's near face, which stands across it with the
+ * light's Position in its middle, and goes on for the box's depth. What lies outside gets nothing of
+ * this light, whether or not it receives shadows from others, and what lies outside casts nothing
+ * into the box; a caster that is partly inside casts with that part. The map then holds the box
+ * alone, and is the finer for it. The limit is part of the visibility, so that a light without
+ * shadows (CASTS 0, ShadowAttenuation 0) has none, and a ShadowAttenuation between leaves its share
+ * outside. Receivers that do not receive shadows (vtkGnomonPropKeys) are lit everywhere.
  */
 
 #ifndef vtkGnomonLightKeys_h
@@ -17,6 +26,7 @@
 #include "GnomonLightsModule.h" // For export macro
 #include "vtkObject.h"
 
+class vtkInformationDoubleVectorKey;
 class vtkInformationIntegerKey;
 class vtkInformationStringKey;
 class vtkLight;
@@ -32,11 +42,15 @@ public:
   /**
    * The keys themselves, for code that fills information objects. CASTS is 0 or 1 (default 1),
    * TECHNIQUE one of vtkGnomonShadowPass's technique names, MAP_SIZE the side of the light's map in
-   * texels, clamped to [16, 16384].
+   * texels (of each layer, where a light has several), clamped to [16, 16384]. BOX limits a
+   * directional light to a box, see above: width, height and depth, each > 0, then the direction x,
+   * y, z that is up in the near face, not along the light. The up direction is in the light's own
+   * coordinates, as its Position is. Other kinds of light ignore it.
    */
   static vtkInformationIntegerKey* CASTS();
   static vtkInformationStringKey* TECHNIQUE();
   static vtkInformationIntegerKey* MAP_SIZE();
+  static vtkInformationDoubleVectorKey* BOX();
   ///@}
 
   ///@{
@@ -47,6 +61,17 @@ public:
   static void SetCasts(vtkLight* light, bool casts);
   static void SetTechnique(vtkLight* light, const char* technique);
   static void SetMapSize(vtkLight* light, int mapSizeTexels);
+  ///@}
+
+  ///@{
+  /**
+   * Limit a directional light to a box, and lift that limit again. Sizes that are not positive and
+   * finite, and an up direction of no length, are an error and change nothing; an up direction
+   * along the light makes the light cast no shadow, which the frame's report says.
+   */
+  static void SetBox(
+    vtkLight* light, double width, double height, double depth, const double up[3]);
+  static void RemoveBox(vtkLight* light);
   ///@}
 
 protected:

@@ -376,16 +376,16 @@ void RenderManager::bakeMaps()
 void RenderManager::bakeMaps(const ShadowLight& light, Technique& technique, Bake& bake)
 {
   const Occluders& occluders = this->collector_.occluders();
-  const LightView view =
-    fitUniform(light, occluders.centreWorld, occluders.castersCentred, light.mapSizeTexels);
-  const bool fresh = bake.once && bake.view == view && bake.sizeTexels == light.mapSizeTexels &&
+  LightViews views =
+    fitLightViews(light, occluders.centreWorld, occluders.castersCentred, light.mapSizeTexels);
+  const bool fresh = bake.once && bake.views == views && bake.sizeTexels == light.mapSizeTexels &&
     bake.topology == occluders.topologyVersion && bake.positions == occluders.positionsVersion;
   if (!fresh)
   {
     this->buffers_.update(occluders);
-    technique.bake({ light, view, occluders, this->buffers_, this->library_ });
-    bake = { view, light.mapSizeTexels, occluders.topologyVersion, occluders.positionsVersion,
-      true };
+    technique.bake({ light, views, occluders, this->buffers_, this->library_ });
+    bake = { std::move(views), light.mapSizeTexels, occluders.topologyVersion,
+      occluders.positionsVersion, true };
     ++this->report_.mapBakes;
   }
   this->report_.bytesMaps += technique.bytesOfMaps();

@@ -92,7 +92,7 @@ private:
   /// What a technique's maps were baked from.
   struct Bake
   {
-    LightView view;
+    LightViews views;
     int sizeTexels = 0;
     std::uint64_t topology = 0;
     std::uint64_t positions = 0;

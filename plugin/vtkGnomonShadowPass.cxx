@@ -55,6 +55,41 @@ struct vtkGnomonShadowPass::Internals
   bool contextServes = false;
 };
 
+namespace
+{
+
+struct RendererAccess : vtkRenderer
+{
+  static vtkTypeBool& useShadows(vtkRenderer* renderer)
+  {
+    return renderer->*(&RendererAccess::UseShadows);
+  }
+};
+
+/// Switches a renderer's UseShadows off for as long as this lives: vtkOpenGLRenderer's
+/// UpdateGeometry would draw the props with vtkShadowMapPass, within our own frame. Naming the
+/// member through a subclass gives access to it; the renderer's own function would tell all
+/// observers that the renderer was modified.
+class WithoutVtkShadows
+{
+public:
+  explicit WithoutVtkShadows(vtkRenderer* renderer)
+    : useShadows_(RendererAccess::useShadows(renderer))
+    , before_(this->useShadows_)
+  {
+    this->useShadows_ = 0;
+  }
+  ~WithoutVtkShadows() { this->useShadows_ = this->before_; }
+  WithoutVtkShadows(const WithoutVtkShadows&) = delete;
+  WithoutVtkShadows& operator=(const WithoutVtkShadows&) = delete;
+
+private:
+  vtkTypeBool& useShadows_;
+  vtkTypeBool before_;
+};
+
+} // namespace
+
 //------------------------------------------------------------------------------
 vtkGnomonShadowPass::vtkGnomonShadowPass()
   : MapSize(1024)
@@ -62,6 +97,7 @@ vtkGnomonShadowPass::vtkGnomonShadowPass()
   , MeasureStages(false)
   , KeepVisibility(false)
   , DelegatePass(nullptr)
+  , ObeyUseShadows(false)
   , Internal(new Internals)
 {
 }
@@ -84,6 +120,11 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
   if (renderer->GetSelector())
   {
     this->RenderPlain(s, "a selection is drawn");
+    return;
+  }
+  if (this->ObeyUseShadows && !renderer->GetUseShadows())
+  {
+    this->RenderPlain(s, "the renderer's UseShadows is off");
     return;
   }
   if (!this->PrepareContext(renderer))
@@ -193,6 +234,7 @@ void vtkGnomonShadowPass::BeginView(const vtkRenderState* s)
 void vtkGnomonShadowPass::DrawScene(const vtkRenderState* s)
 {
   vtkRenderer* renderer = s->GetRenderer();
+  const WithoutVtkShadows withoutVtkShadows(renderer);
   if (vtkRenderPass* delegate = this->FindDelegate(s))
   {
     delegate->Render(s);
@@ -383,5 +425,6 @@ void vtkGnomonShadowPass::PrintSelf(ostream& os, vtkIndent indent)
   os << indent
      << "DelegatePass: " << (this->DelegatePass ? this->DelegatePass->GetClassName() : "(none)")
      << "\n";
+  os << indent << "ObeyUseShadows: " << (this->ObeyUseShadows ? "on" : "off") << "\n";
   os << indent << "Last frame's route: " << this->GetReport().route << "\n";
 }

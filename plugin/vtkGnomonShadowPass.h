@@ -141,6 +141,22 @@ public:
   vtkGetObjectMacro(DelegatePass, vtkRenderPass);
   ///@}
 
+  ///@{
+  /**
+   * Whether the renderer's UseShadows is the switch for this pass's shadows: on, a renderer with
+   * UseShadows off is drawn without them, as OSPRay's pass does it; off, UseShadows says nothing.
+   * Default off: UseShadows is off in a new renderer, and nobody can tell that from one in which it
+   * was switched off, so that who sets this pass would see no shadows and not know why. Switch it on
+   * in programs whose own shadow switch is UseShadows.
+   *
+   * In either case VTK's own shadow maps, which UseShadows brings into the frame, are left out, so
+   * that no shadow falls twice.
+   */
+  vtkSetMacro(ObeyUseShadows, bool);
+  vtkGetMacro(ObeyUseShadows, bool);
+  vtkBooleanMacro(ObeyUseShadows, bool);
+  ///@}
+
   /**
    * What the last frame did: lights and reasons, route, counters, times, memory (FrameReport.h).
    */
@@ -176,6 +192,7 @@ protected:
   bool MeasureStages;
   bool KeepVisibility;
   vtkRenderPass* DelegatePass;
+  bool ObeyUseShadows;
 
 private:
   vtkRenderPass* FindDelegate(const vtkRenderState* s);

@@ -39,6 +39,16 @@ SceneLight makeSun(const Vec3& travel)
 }
 
 //------------------------------------------------------------------------------
+SceneLight makeLamp(const Vec3& position)
+{
+  SceneLight light;
+  light.type = SceneLight::Type::Point;
+  light.position = position;
+  light.target = position + Vec3{ { 0.0, -1.0, 0.0 } };
+  return light;
+}
+
+//------------------------------------------------------------------------------
 SceneCamera makeCamera(const Vec3& position, const Vec3& target, double fovDegrees)
 {
   SceneCamera camera;

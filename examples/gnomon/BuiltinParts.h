@@ -16,6 +16,9 @@ SceneModel makePlane(const Vec3& center, double side);
 /// A white directional light that travels that way.
 SceneLight makeSun(const Vec3& travel);
 
+/// A white light that shines from a point into all directions.
+SceneLight makeLamp(const Vec3& position);
+
 SceneCamera makeCamera(const Vec3& position, const Vec3& target, double fovDegrees);
 
 } // namespace gnomon::tool

@@ -16,6 +16,8 @@ const std::vector<BuiltinSceneEntry>& builtinSceneEntries()
       makePrimitivesScene },
     { { "posts", "thin posts and a fence" }, makePostsScene },
     { { "plates", "plates that rest on each other, or nearly" }, makePlatesScene },
+    { { "room", "a furnished room with all six walls, lit by a point light inside" },
+      makeRoomScene },
     { { "terrain", "a square kilometre of rolling terrain seen from 2 m above it, low sun" },
       makeTerrainScene },
   };

@@ -33,6 +33,8 @@ Scene makePrimitivesScene();
 Scene makePostsScene();
 /// Plates that rest on each other, or nearly: contact shadows and small gaps.
 Scene makePlatesScene();
+/// A furnished room with all six walls and a lamp in it, seen from a corner.
+Scene makeRoomScene();
 /// A square kilometre of rolling terrain with trees, rocks and posts, seen from 2 m above it, under
 /// a low sun.
 Scene makeTerrainScene();

@@ -53,6 +53,44 @@ SceneModel makeTorus(const Vec3& center, double ringRadius, double tubeRadius)
   return makeModel("torus", mesh.build(), red);
 }
 
+/// A board on four legs, between two corners.
+void addTable(
+  MeshBuilder& mesh, const Vec3& low, const Vec3& high, double legWidth, double boardHeight)
+{
+  const double board = high[1] - boardHeight;
+  mesh.addBox({ { low[0], board, low[2] } }, high);
+  for (const double x : { low[0], high[0] - legWidth })
+  {
+    for (const double z : { low[2], high[2] - legWidth })
+    {
+      mesh.addBox({ { x, low[1], z } }, { { x + legWidth, board, z + legWidth } });
+    }
+  }
+}
+
+/// Six walls whose fronts look inwards.
+vtkSmartPointer<vtkPolyData> makeHall(const Vec3& low, const Vec3& high)
+{
+  const auto corner = [&](bool x, bool y, bool z) {
+    return Vec3{ { x ? high[0] : low[0], y ? high[1] : low[1], z ? high[2] : low[2] } };
+  };
+  MeshBuilder mesh;
+  for (const bool end : { false, true })
+  {
+    // Counter-clockwise seen along the axis: the front of the lower wall; turned, of the upper one.
+    const auto add = [&](Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
+      end ? mesh.addPolygon({ d, c, b, a }) : mesh.addPolygon({ a, b, c, d });
+    };
+    add(corner(end, false, false), corner(end, true, false), corner(end, true, true),
+      corner(end, false, true));
+    add(corner(false, end, false), corner(false, end, true), corner(true, end, true),
+      corner(true, end, false));
+    add(corner(false, false, end), corner(true, false, end), corner(true, true, end),
+      corner(false, true, end));
+  }
+  return mesh.build();
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -161,6 +199,52 @@ Scene makePlatesScene()
   scene.models = { makeModel("plates", plates.build(), green), makePlane(origin, 18.0) };
   scene.camera = makeCamera({ { 3.0, 8.0, 11.5 } }, { { 0.6, 0.3, 0.6 } }, 45.0);
   scene.lights = { makeSun({ { 0.6, -0.9, -0.5 } }) };
+  return scene;
+}
+
+//------------------------------------------------------------------------------
+Scene makeRoomScene()
+{
+  Scene scene;
+  scene.name = "room";
+  const Vec3 low{ { -3.0, 0.0, -2.5 } };
+  const Vec3 high{ { 3.0, 2.8, 2.5 } };
+
+  MeshBuilder table;
+  addTable(table, { { -0.9, 0.0, -0.7 } }, { { 0.9, 0.75, 0.3 } }, 0.07, 0.04);
+  // On the table: a box, and books that lie on each other.
+  table.addBox({ { 0.35, 0.75, -0.45 } }, { { 0.65, 0.95, -0.25 } });
+  table.addBox({ { -0.6, 0.75, -0.4 } }, { { -0.3, 0.78, -0.2 } });
+  table.addBox({ { -0.57, 0.78, -0.38 } }, { { -0.31, 0.82, -0.19 } });
+
+  MeshBuilder chairs;
+  for (const double side : { -1.0, 1.0 })
+  {
+    const double x = 1.5 * side - 0.25;
+    addTable(chairs, { { x, 0.0, -0.4 } }, { { x + 0.5, 0.45, 0.1 } }, 0.05, 0.03);
+    const double back = side < 0.0 ? x : x + 0.45;
+    chairs.addBox({ { back, 0.45, -0.4 } }, { { back + 0.05, 0.95, 0.1 } });
+  }
+
+  // Open shelves along a wall, and a chest in the corner, a little off the walls.
+  MeshBuilder cupboard;
+  for (const double x : { -2.2, -1.4, -0.6 })
+  {
+    cupboard.addBox({ { x - 0.02, 0.0, -2.48 } }, { { x + 0.02, 2.0, -2.1 } });
+  }
+  for (int i = 0; i <= 4; ++i)
+  {
+    const double y = 0.1 + 0.47 * i;
+    cupboard.addBox({ { -2.18, y, -2.48 } }, { { -1.42, y + 0.03, -2.1 } });
+    cupboard.addBox({ { -1.38, y, -2.48 } }, { { -0.62, y + 0.03, -2.1 } });
+  }
+  cupboard.addBox({ { 1.6, 0.0, -2.4 } }, { { 2.8, 0.6, -1.8 } });
+
+  scene.models = { makeModel("walls", makeHall(low, high), { { 0.8, 0.78, 0.72 } }),
+    makeModel("table", table.build(), ochre), makeModel("chairs", chairs.build(), red),
+    makeModel("cupboard", cupboard.build(), blue) };
+  scene.camera = makeCamera({ { 2.7, 2.3, 2.2 } }, { { -0.7, 0.7, -1.0 } }, 70.0);
+  scene.lights = { makeLamp({ { 0.5, 1.9, 0.4 } }) };
   return scene;
 }
 

@@ -70,6 +70,21 @@ PixelVerdict worse(PixelVerdict a, PixelVerdict b)
   return rank(a) >= rank(b) ? a : b;
 }
 
+/// Whether a point lies in the box of a light, if that has one.
+/// @param fromLight the point, less the light's position
+bool inBox(const SceneLight& light, const glm::dvec3& axis, const glm::dvec3& fromLight)
+{
+  if (!light.box)
+  {
+    return true;
+  }
+  const glm::dvec3 right = unitOrZero(glm::cross(toGlm(light.box->up), axis));
+  const double depth = glm::dot(fromLight, axis);
+  return 2.0 * std::abs(glm::dot(fromLight, right)) <= light.box->width &&
+    2.0 * std::abs(glm::dot(fromLight, glm::cross(axis, right))) <= light.box->height &&
+    depth >= 0.0 && depth <= light.box->depth;
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -78,7 +93,7 @@ std::vector<unsigned char> facingPixels(const VisibilityImages& images, const Sc
   const glm::dvec3 lightPosition =
     toGlm(light.position) - glm::dvec3(images.origin[0], images.origin[1], images.origin[2]);
   const glm::dvec3 axis = unitOrZero(toGlm(light.target) - toGlm(light.position));
-  const bool spot = light.type == SceneLight::Type::Spot;
+  const bool directional = light.type == SceneLight::Type::Directional;
   const double cosineOfCone = std::cos(glm::radians(light.coneAngleDegrees));
 
   std::vector<unsigned char> facing(images.coverage.size(), 0);
@@ -90,9 +105,11 @@ std::vector<unsigned char> facingPixels(const VisibilityImages& images, const Sc
     }
     const glm::dvec3 position(images.positionX[i], images.positionY[i], images.positionZ[i]);
     const glm::dvec3 normal(images.normalX[i], images.normalY[i], images.normalZ[i]);
-    const glm::dvec3 toLight = spot ? unitOrZero(lightPosition - position) : -axis;
-    const bool inCone = !spot || glm::dot(-toLight, axis) >= cosineOfCone;
-    facing[i] = inCone && glm::dot(normal, toLight) > 0.0;
+    const glm::dvec3 toLight = directional ? -axis : unitOrZero(lightPosition - position);
+    const bool reached =
+      light.type != SceneLight::Type::Spot || glm::dot(-toLight, axis) >= cosineOfCone;
+    facing[i] =
+      reached && inBox(light, axis, position - lightPosition) && glm::dot(normal, toLight) > 0.0;
   }
   return facing;
 }

@@ -17,8 +17,8 @@ namespace gnomon::tool
 {
 
 /// How far a technique's visibility is from the truth, over the pixels that count: covered, facing
-/// the light (N.L > 0) and, for a spot light, inside its cone. Of several lights, every pair of a
-/// pixel and a light counts once.
+/// the light (N.L > 0) and, where it has one, inside its cone or box. Of several lights, every pair
+/// of a pixel and a light counts once.
 struct VisibilityError
 {
   std::int64_t facingPixels = 0;  ///< pixels that count
@@ -51,7 +51,7 @@ enum class PixelVerdict : unsigned char
   FalseShadow
 };
 
-/// 1 per pixel that counts for this light: covered, facing it, inside its cone.
+/// 1 per pixel that counts for this light: covered, facing it, inside its cone or box.
 std::vector<unsigned char> facingPixels(const VisibilityImages& images, const SceneLight& light);
 
 /// A technique's error against the truth, over all lights that the truth lists.

@@ -806,8 +806,7 @@ private:
 
   void readLight(const JsonValue& value, const Matrix& worldFromNode)
   {
-    GltfLight result;
-    SceneLight& light = result.light;
+    SceneLight light;
     const JsonValue kind = value.member("type");
     const std::string type = kind.text();
     light.position = transformed(worldFromNode, { { 0.0, 0.0, 0.0 } }, 1.0);
@@ -831,15 +830,13 @@ private:
     }
     else if (type == "point")
     {
-      result.unsupported =
-        "point lights are not supported yet, expected directional or spot lights "
-        "in extension KHR_lights_punctual";
+      light.type = SceneLight::Type::Point;
     }
     else if (type != "directional")
     {
       kind.fail("directional, spot or point");
     }
-    this->view_.lights.push_back(result);
+    this->view_.lights.push_back(light);
   }
 
   const Document& document_;

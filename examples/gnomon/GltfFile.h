@@ -8,18 +8,12 @@
 namespace gnomon::tool
 {
 
-/// A light of a glTF file, before what depends on the scene's size is known.
-struct GltfLight
-{
-  SceneLight light; ///< a spot light's intensity is in candela
-  /// For kinds that Gnomon does not have yet: the sentence that refuses it. Else empty.
-  std::string unsupported;
-};
-
 /// What a glTF file holds besides surfaces.
 struct GltfView
 {
-  std::vector<GltfLight> lights;     ///< of KHR_lights_punctual, in the order of the nodes
+  /// Of KHR_lights_punctual, in the order of the nodes; the intensity of those that have a position
+  /// is in candela.
+  std::vector<SceneLight> lights;
   std::optional<SceneCamera> camera; ///< the first perspective camera of the default scene
   std::vector<std::string> notes;    ///< see Scene::notes
 };

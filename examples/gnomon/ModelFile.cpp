@@ -435,15 +435,9 @@ void readGltf(const std::string& path, Model& model)
     const double ahead = dot(middle - model.camera->position, forward);
     model.camera->target = model.camera->position + (ahead > 0.0 ? ahead : 1.0) * forward;
   }
-  for (const GltfLight& source : view.lights)
+  for (SceneLight light : view.lights)
   {
-    if (!source.unsupported.empty())
-    {
-      model.unsupportedLights.push_back(source.unsupported);
-      continue;
-    }
-    SceneLight light = source.light;
-    if (light.type == SceneLight::Type::Spot)
+    if (light.type != SceneLight::Type::Directional)
     {
       // VTK's lights do not fall off with distance: take what arrives in the scene's middle.
       const double distance = length(middle - light.position);

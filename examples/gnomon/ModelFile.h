@@ -14,9 +14,7 @@ struct Model
   std::vector<SceneModel> surfaces;  ///< at least one, with at least one triangle
   std::vector<SceneLight> lights;    ///< glTF only
   std::optional<SceneCamera> camera; ///< glTF only: its first perspective camera
-  /// Lights of kinds that Gnomon does not have yet, each with the sentence that refuses it.
-  std::vector<std::string> unsupportedLights;
-  std::vector<std::string> notes; ///< see Scene::notes
+  std::vector<std::string> notes;    ///< see Scene::notes
 };
 
 /// Reads a model with VTK's reader for its file type: .obj .ply .stl .vtp .3ds .glb .gltf. Surfaces

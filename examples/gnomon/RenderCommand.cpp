@@ -283,7 +283,7 @@ void addRenderCommand(CLI::App& app)
     ->add_option("--light", options->lights,
       "A light in place of the scene's own; may be given several times, for example "
       "directional:direction=-1,-2,-1;color=1,1,1;intensity=1;technique=nsm;map_size=1024 or "
-      "spot:position=3,4,5;target=0,0,0;cone_angle=30")
+      "spot:position=3,4,5;target=0,0,0;cone_angle=30 or point:position=3,4,5")
     ->allow_extra_args(false);
   command->add_option("--camera", options->camera,
     "What differs from the scene's camera, for example "

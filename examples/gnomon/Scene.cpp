@@ -28,13 +28,9 @@ namespace
 {
 
 /// A bare model as a scene.
-Scene makeModelScene(const std::string& path, FileLights fileLights)
+Scene makeModelScene(const std::string& path)
 {
   Model model = readModelFile(path);
-  if (fileLights == FileLights::Use && !model.unsupportedLights.empty())
-  {
-    throw BadInput(path + ": " + model.unsupportedLights.front());
-  }
   Scene scene;
   scene.name = std::filesystem::path(path).stem().string();
   scene.models = std::move(model.surfaces);
@@ -90,10 +86,18 @@ vtkSmartPointer<vtkLight> makeLight(const SceneLight& source)
   light->SetFocalPoint(source.target.data());
   light->SetColor(source.color.data());
   light->SetIntensity(source.intensity);
-  light->SetPositional(source.type == SceneLight::Type::Spot);
-  if (source.type == SceneLight::Type::Spot)
+  light->SetPositional(source.type != SceneLight::Type::Directional);
+  if (source.type != SceneLight::Type::Directional)
   {
-    light->SetConeAngle(source.coneAngleDegrees);
+    // VTK's spots have their cone below 90 degrees.
+    constexpr double allDirections = 180.0;
+    light->SetConeAngle(
+      source.type == SceneLight::Type::Spot ? source.coneAngleDegrees : allDirections);
+  }
+  if (source.box)
+  {
+    vtkGnomonLightKeys::SetBox(
+      light, source.box->width, source.box->height, source.box->depth, source.box->up.data());
   }
   vtkGnomonLightKeys::SetTechnique(light, source.technique.c_str());
   vtkGnomonLightKeys::SetMapSize(light, source.mapSizeTexels);
@@ -143,7 +147,7 @@ Scene loadScene(const std::string& nameOrPath, FileLights fileLights)
   }
   if (isModelFile(nameOrPath))
   {
-    return makeModelScene(nameOrPath, fileLights);
+    return makeModelScene(nameOrPath);
   }
   std::error_code error;
   if (!std::filesystem::exists(nameOrPath, error))

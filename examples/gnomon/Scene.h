@@ -8,6 +8,7 @@
 #include <vtkTexture.h>
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,11 +38,22 @@ struct SceneLight
   enum class Type
   {
     Directional,
-    Spot
+    Spot,
+    Point
+  };
+  /// What a directional light is limited to: see vtkGnomonLightKeys. The middle of its near face is
+  /// the light's position.
+  struct Box
+  {
+    double width = 0.0;
+    double height = 0.0;
+    double depth = 0.0;
+    Vec3 up{ { 0, 1, 0 } };
   };
   Type type = Type::Directional;
   Vec3 position{ { 0, 0, 1 } };
   Vec3 target{ { 0, 0, 0 } }; ///< directional: target - position is the way the light travels
+  std::optional<Box> box;     ///< directional only
   Vec3 color{ { 1, 1, 1 } };
   double intensity = 1.0;
   double coneAngleDegrees = 30.0; ///< half the cone of a spot light
@@ -93,6 +105,7 @@ std::vector<BuiltinScene> builtinScenes();
 /// keys:
 ///     directional:direction=-1,-2,-1;color=1,1,1;intensity=1;technique=nsm;map_size=1024
 ///     spot:position=3,4,5;target=0,0,0;cone_angle=30
+///     point:position=3,4,5
 /// @throws BadInput
 SceneLight parseLight(const std::string& spec);
 

@@ -28,9 +28,19 @@ Json toJson(const SceneLight& light)
     json = { { "type", "spot" }, { "position", light.position }, { "target", light.target },
       { "cone_angle", light.coneAngleDegrees } };
   }
+  else if (light.type == SceneLight::Type::Point)
+  {
+    json = { { "type", "point" }, { "position", light.position } };
+  }
   else
   {
     json = { { "type", "directional" }, { "direction", light.target - light.position } };
+  }
+  if (light.box)
+  {
+    json["box"] = { { "position", light.position }, { "up", light.box->up },
+      { "width", light.box->width }, { "height", light.box->height },
+      { "depth", light.box->depth } };
   }
   json["color"] = light.color;
   json["intensity"] = light.intensity;

@@ -13,7 +13,7 @@ constexpr NumberRange colorChannel{ 0.0, 1.0 };
 constexpr NumberRange lightIntensity{ 0.0, 1e6 };
 constexpr NumberRange coneAngleDegrees{ 0.01, 89.9 };
 constexpr NumberRange fieldOfViewDegrees{ 0.01, 179.0 };
-constexpr NumberRange areaExtent{ 1e-6, 1e12 };
+constexpr NumberRange extent{ 1e-6, 1e12 };
 constexpr int smallestMapTexels = 16;
 constexpr int largestMapTexels = 16384;
 
@@ -85,13 +85,32 @@ void readCommon(const JsonValue& value, SceneLight& light)
   }
 }
 
+SceneLight::Box readBox(const JsonValue& value, const Vec3& travel)
+{
+  value.requireObject({ "position", "up", "width", "height", "depth" });
+  SceneLight::Box box;
+  box.width = value.member("width").number(extent);
+  box.height = value.member("height").number(extent);
+  box.depth = value.member("depth").number(extent);
+  box.up = readUp(value.member("up"), box.up, travel);
+  return box;
+}
+
 SceneLight readDirectional(const JsonValue& value)
 {
-  value.requireObject({ "type", "direction", "color", "intensity", "technique", "map_size" });
+  value.requireObject(
+    { "type", "direction", "box", "color", "intensity", "technique", "map_size" });
   SceneLight light;
   light.type = SceneLight::Type::Directional;
   light.target = Vec3{ { 0.0, 0.0, 0.0 } };
-  light.position = -normalized(readDirection(value.member("direction")));
+  const Vec3 travel = normalized(readDirection(value.member("direction")));
+  light.position = -travel;
+  if (const JsonValue box = value.member("box"); box.present())
+  {
+    light.box = readBox(box, travel);
+    light.position = readPoint(box.member("position"));
+    light.target = light.position + travel;
+  }
   readCommon(value, light);
   return light;
 }
@@ -112,13 +131,15 @@ SceneLight readSpot(const JsonValue& value)
   return light;
 }
 
-/// Checks a point light, so that its faults show before the kind itself arrives.
-void checkPoint(const JsonValue& value)
+SceneLight readPointLight(const JsonValue& value)
 {
   value.requireObject({ "type", "position", "color", "intensity", "technique", "map_size" });
   SceneLight light;
-  readPoint(value.member("position"));
+  light.type = SceneLight::Type::Point;
+  light.position = readPoint(value.member("position"));
+  light.target = light.position + Vec3{ { 0.0, -1.0, 0.0 } }; // of no meaning
   readCommon(value, light);
+  return light;
 }
 
 /// Checks an area light. It lies along x = normalize(cross(target - position, up)) and cross(x,
@@ -131,8 +152,8 @@ void checkArea(const JsonValue& value)
   light.position = readPoint(value.member("position"));
   light.target = readTarget(value.member("target"), light.position);
   readUp(value.member("up"), Vec3{ { 0.0, 1.0, 0.0 } }, light.target - light.position);
-  value.member("width").number(areaExtent);
-  value.member("height").number(areaExtent);
+  value.member("width").number(extent);
+  value.member("height").number(extent);
   if (const JsonValue shape = value.member("shape"); shape.present())
   {
     const std::string name = shape.text();
@@ -161,19 +182,16 @@ std::optional<SceneLight> readLight(const JsonValue& value, FileLights fileLight
   }
   if (type == "point")
   {
-    checkPoint(value);
+    return readPointLight(value);
   }
-  else if (type == "area")
-  {
-    checkArea(value);
-  }
-  else
+  if (type != "area")
   {
     kind.fail("one of: directional, spot, point, area");
   }
+  checkArea(value);
   if (fileLights == FileLights::Use)
   {
-    kind.refuse(type + " lights are not supported yet, expected one of: directional, spot");
+    kind.refuse(type + " lights are not supported yet, expected one of: directional, spot, point");
   }
   return std::nullopt;
 }

@@ -9,8 +9,8 @@
 namespace gnomon::tool
 {
 
-/// A light of a scene file or of --light, checked in full. Empty for the kinds that come with a
-/// later version (point, area) when `fileLights` is Ignore.
+/// A light of a scene file or of --light, checked in full. Empty for the kind that comes with a
+/// later version (area) when `fileLights` is Ignore.
 /// @throws BadInput
 std::optional<SceneLight> readLight(const JsonValue& value, FileLights fileLights);
 

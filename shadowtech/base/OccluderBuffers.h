@@ -1,11 +1,13 @@
 #ifndef gnomon_shadowtech_base_OccluderBuffers_h
 #define gnomon_shadowtech_base_OccluderBuffers_h
 
+#include "lights/LightView.h"
 #include "shadowtech/base/Gl.h"
 #include "shadowtech/base/Occluders.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 namespace gnomon
 {
@@ -17,19 +19,29 @@ public:
   /// Brings the buffers up to date; only what changed is sent.
   void update(const Occluders& occluders);
 
-  /// Draws all casting triangles with the program in use; the position is attribute 0, a vec3.
+  /// Draws the casting triangles with the program in use; the position is attribute 0, a vec3.
+  /// Surfaces that a perspective view cannot see are left out; an affine one is taken to see all.
   /// One-sided surfaces are drawn with their back faces culled, "front" being what the current view
   /// sees counter-clockwise.
-  void draw() const;
+  void draw(const LightView& view) const;
 
   std::size_t bytes() const { return this->bytes_; }
 
 private:
+  /// One surface's indices, and the box around what they lead to.
+  struct Part
+  {
+    GLsizei first;
+    GLsizei count;
+    Bounds boundsCentred;
+  };
+  void drawParts(const std::vector<Part>& parts, const LightView& view) const;
+
   GlVertexArray vertexArray_;
   GlBuffer positions_;
   GlBuffer indices_;
-  GLsizei twoSidedCount_ = 0;
-  GLsizei oneSidedCount_ = 0;
+  std::vector<Part> twoSided_;
+  std::vector<Part> oneSided_;
   std::size_t bytes_ = 0;
   std::uint64_t topologyVersion_ = 0;
   std::uint64_t positionsVersion_ = 0;

@@ -464,21 +464,13 @@ std::size_t RayTracer::trace(const ShadowLight& light, const Occluders& occluder
   }
   const ShadowRayLight rayLight(light, occluders.centreWorld);
   RTCScene scene = this->impl_->casters.empty() ? nullptr : this->impl_->scene.get();
-  const auto traceRays = [&](const auto& makeRay, float rayFar)
-  {
-    return this->impl_->lanes16
-      ? traceImage<RTCRay16>(scene, receivers, receives, makeRay, rayFar, visibility)
-      : traceImage<RTCRay8>(scene, receivers, receives, makeRay, rayFar, visibility);
-  };
-  if (light.kind == LightKind::Spot)
-  {
-    const auto makeRay = [&](const glm::vec3& position, const glm::vec3& normal, float offset)
-    { return shadowRaySpot(rayLight, position, normal, offset); };
-    return traceRays(makeRay, shadowRayFarSpot);
-  }
-  const auto makeRay = [&](const glm::vec3& position, const glm::vec3& normal, float offset)
-  { return shadowRayDirectional(rayLight, position, normal, offset); };
-  return traceRays(makeRay, shadowRayFarDirectional);
+  return visitShadowRays(rayLight,
+    [&](const auto& makeRay, float rayFar)
+    {
+      return this->impl_->lanes16
+        ? traceImage<RTCRay16>(scene, receivers, receives, makeRay, rayFar, visibility)
+        : traceImage<RTCRay8>(scene, receivers, receives, makeRay, rayFar, visibility);
+    });
 }
 
 //------------------------------------------------------------------------------

@@ -35,8 +35,8 @@ public:
   Update update(const Occluders& occluders);
 
   /// Visibility of the light from every receiver, by the shadow ray of ShadowRay.h: 1 lit, 0
-  /// shadowed, turned away from the light (facesLight()) or outside a spot light's cone. Pixels
-  /// that are not covered, or whose surface does not receive, get 1.
+  /// shadowed, turned away from the light (facesLight()) or outside its cone or box. Pixels that
+  /// are not covered, or whose surface does not receive, get 1.
   ///
   /// @param visibility resized to the receivers' size, in their order
   /// @return the number of rays traced

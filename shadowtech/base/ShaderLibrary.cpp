@@ -157,6 +157,7 @@ void ShaderLibrary::setUniform(GLuint program, const Uniform& uniform)
     void operator()(int v) const { glUniform1i(location, v); }
     void operator()(float v) const { glUniform1f(location, v); }
     void operator()(const glm::ivec2& v) const { glUniform2iv(location, 1, glm::value_ptr(v)); }
+    void operator()(const glm::vec2& v) const { glUniform2fv(location, 1, glm::value_ptr(v)); }
     void operator()(const glm::vec3& v) const { glUniform3fv(location, 1, glm::value_ptr(v)); }
     void operator()(const glm::vec4& v) const { glUniform4fv(location, 1, glm::value_ptr(v)); }
     void operator()(const glm::mat4& v) const

@@ -1,6 +1,7 @@
 #ifndef gnomon_shadowtech_base_ShadowRay_h
 #define gnomon_shadowtech_base_ShadowRay_h
 
+#include "lights/LightSpace.h"
 #include "lights/ShadowLight.h"
 
 #include <glm/glm.hpp>
@@ -66,10 +67,10 @@ inline float shadowRayOffset(float noise, float footprint)
   return 2.0f * noise + 0.00390625f * footprint; // 1/256
 }
 
-/// Where along its direction the shadow ray starts to count, and where it ends: a spot light's,
-/// which is not normalised, at the light itself.
+/// Where along its direction the shadow ray starts to count, and where it ends: one that goes to a
+/// light's position or to the near face of its box, and whose direction is not normalised, there.
 inline constexpr float shadowRayNear = 0.0f;
-inline constexpr float shadowRayFarSpot = 1.0f;
+inline constexpr float shadowRayFarAtLight = 1.0f;
 inline constexpr float shadowRayFarDirectional = std::numeric_limits<float>::infinity();
 
 /// Whether a surface faces the light: N.L > 2^-20. Below that the sign of N.L, which rounding moves
@@ -100,26 +101,48 @@ inline bool insideCone(const glm::vec3& toLight, const glm::vec3& axis, float ta
   return inside;
 }
 
+/// Whether a point lies inside the box of a directional light.
+///
+/// @param positionLight in the light's own space (LightSpace.h)
+/// @param box half the width, half the height, and the depth
+inline bool insideBox(const glm::vec3& positionLight, const glm::vec3& box)
+{
+  bool inside = std::abs(positionLight.x) <= box.x;
+  inside &= std::abs(positionLight.y) <= box.y;
+  inside &= positionLight.z >= 0.0f;
+  inside &= positionLight.z <= box.z;
+  return inside;
+}
+
 /// A light as shadow rays see it: in centred coordinates, in float.
 struct ShadowRayLight
 {
   LightKind kind = LightKind::Directional;
-  glm::vec3 position{ 0.0f };  ///< of a spot light
+  glm::vec3 position{ 0.0f };  ///< of a positional light, or the middle of a box's near face
   glm::vec3 toLight{ 0.0f };   ///< unit vector against the light's direction
   float tangentSquared = 0.0f; ///< of half a spot light's cone
+  bool hasBox = false;
+  glm::mat3 lightFromCentred{ 1.0f }; ///< a box's rotation
+  glm::vec3 box{ 0.0f };              ///< see insideBox()
 
   ShadowRayLight(const ShadowLight& light, const glm::dvec3& centreWorld)
     : kind(light.kind)
     , position(light.positionWorld - centreWorld)
     , toLight(-glm::normalize(light.directionWorld))
+    , hasBox(light.box)
   {
     const double tangent = std::tan(glm::radians(light.coneAngleDegrees));
     this->tangentSquared = static_cast<float>(tangent * tangent);
+    if (light.box)
+    {
+      this->lightFromCentred = glm::mat3(gnomon::lightFromCentred(light, centreWorld));
+      this->box = glm::dvec3(0.5 * light.box->width, 0.5 * light.box->height, light.box->depth);
+    }
   }
 };
 
 /// A shadow ray. `traced` is false where visibility is 0 without it: the surface is turned away
-/// from the light, or lies outside its cone.
+/// from the light, or lies outside its cone or box.
 struct ShadowRay
 {
   glm::vec3 origin;
@@ -133,14 +156,58 @@ inline ShadowRay shadowRayDirectional(
   return { position + offset * normal, light.toLight, facesLight(normal, light.toLight) };
 }
 
+/// Of a directional light with a box. It ends at the box's near face, where the light begins; that
+/// of a receiver in that very face has the offset's length, so that it has a direction.
+inline ShadowRay shadowRayBox(
+  const ShadowRayLight& light, const glm::vec3& position, const glm::vec3& normal, float offset)
+{
+  const glm::vec3 positionLight = light.lightFromCentred * (position - light.position);
+  const glm::vec3 origin = position + offset * normal;
+  const float length = std::max(glm::dot(light.position - origin, light.toLight), offset);
+  bool traced = facesLight(normal, light.toLight);
+  traced &= insideBox(positionLight, light.box);
+  return { origin, length * light.toLight, traced };
+}
+
+inline ShadowRay shadowRayPoint(
+  const ShadowRayLight& light, const glm::vec3& position, const glm::vec3& normal, float offset)
+{
+  const glm::vec3 origin = position + offset * normal;
+  return { origin, light.position - origin, facesLight(normal, light.position - position) };
+}
+
 inline ShadowRay shadowRaySpot(
   const ShadowRayLight& light, const glm::vec3& position, const glm::vec3& normal, float offset)
 {
-  const glm::vec3 toLight = light.position - position;
-  const glm::vec3 origin = position + offset * normal;
-  bool traced = facesLight(normal, toLight);
-  traced &= insideCone(toLight, light.toLight, light.tangentSquared);
-  return { origin, light.position - origin, traced };
+  ShadowRay ray = shadowRayPoint(light, position, normal, offset);
+  ray.traced &= insideCone(light.position - position, light.toLight, light.tangentSquared);
+  return ray;
+}
+
+/// Calls `visit` with the function that makes this light's shadow rays from position, normal and
+/// offset, and with where they end.
+template <typename Visit>
+auto visitShadowRays(const ShadowRayLight& light, const Visit& visit)
+{
+  const auto with = [&](auto make, float rayFar)
+  {
+    return visit([&light, make](const glm::vec3& position, const glm::vec3& normal, float offset)
+      { return make(light, position, normal, offset); },
+      rayFar);
+  };
+  // Lambdas, since calls through function pointers would not be inlined.
+  switch (light.kind)
+  {
+    case LightKind::Spot:
+      return with([](const auto&... of) { return shadowRaySpot(of...); }, shadowRayFarAtLight);
+    case LightKind::Point:
+      return with([](const auto&... of) { return shadowRayPoint(of...); }, shadowRayFarAtLight);
+    case LightKind::Directional:
+      break;
+  }
+  return light.hasBox
+    ? with([](const auto&... of) { return shadowRayBox(of...); }, shadowRayFarAtLight)
+    : with([](const auto&... of) { return shadowRayDirectional(of...); }, shadowRayFarDirectional);
 }
 
 } // namespace gnomon

@@ -1,7 +1,7 @@
 #ifndef gnomon_shadowtech_base_Technique_h
 #define gnomon_shadowtech_base_Technique_h
 
-#include "lights/LightView.h"
+#include "lights/LightViews.h"
 #include "lights/ShadowLight.h"
 #include "shadowtech/base/FrameReport.h"
 #include "shadowtech/base/Gl.h"
@@ -40,18 +40,20 @@ struct TextureBinding
   GLuint texture = 0;
 };
 
-/// A uniform's name (as in the GLSL file, with its _LIGHT suffix) and value.
+/// A uniform's name (as in the GLSL file, with its _LIGHT suffix; of an array, one element's) and
+/// value.
 struct Uniform
 {
   std::string name;
-  std::variant<int, float, glm::ivec2, glm::vec3, glm::vec4, glm::mat4, TextureBinding> value;
+  std::variant<int, float, glm::ivec2, glm::vec2, glm::vec3, glm::vec4, glm::mat4, TextureBinding>
+    value;
 };
 
 /// What a technique gets to draw its maps from.
 struct MapInput
 {
   const ShadowLight& light;
-  const LightView& view;
+  const LightViews& views;
   const Occluders& occluders;
   OccluderBuffers& buffers;
   ShaderLibrary& shaders;

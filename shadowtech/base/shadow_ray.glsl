@@ -32,4 +32,10 @@ bool insideCone(vec3 toLight, vec3 axis, float tangentSquared)
   return along > 0.0 && dot(across, across) <= tangentSquared * (along * along);
 }
 
+bool insideBox(vec3 positionLight, vec3 box)
+{
+  return abs(positionLight.x) <= box.x && abs(positionLight.y) <= box.y && positionLight.z >= 0.0 &&
+    positionLight.z <= box.z;
+}
+
 #endif

@@ -1,12 +1,13 @@
 #include "shadowtech/nsm/Nsm.h"
 
 #include "shadowtech/base/GlState.h"
+#include "shadowtech/base/LightViewsGlsl.h"
 #include "shadowtech/base/OccluderBuffers.h"
 #include "shadowtech/base/ShaderLibrary.h"
 
 #include <glm/gtc/matrix_access.hpp>
 
-#include <cmath>
+#include <algorithm>
 
 namespace gnomon
 {
@@ -21,28 +22,38 @@ constexpr float slopePush = 1.0f;
 /// float (2^-24) in the transformations on either side, and as much again for the rasteriser.
 constexpr float roundingSlack = 1.0f / (1 << 20);
 
-/// What the estimator needs to know of the light's view (nsm_visibility.glsl).
-std::vector<Uniform> describe(const ShadowLight& light, const LightView& view, int sizeTexels,
-  const TextureBinding& map, const glm::dmat4& centredFromView)
+/// Draws the casters into the bound framebuffer's depth, as one view sees them.
+void drawView(const LightView& view, const MapInput& input)
 {
-  // texel = (clip / w * 0.5 + 0.5) * size; both projections scale x and y apart. The offset stands
-  // in the last column of an affine projection and in the third, over w = z, of a perspective one.
-  const double half = 0.5 * sizeTexels;
-  const glm::dmat4& clip = view.clipFromLight;
-  const glm::dvec2 offset = view.perspective ? glm::dvec2(clip[2]) : glm::dvec2(clip[3]);
-  const glm::dvec4 texels(
-    half * clip[0][0], half * clip[1][1], half * (offset.x + 1.0), half * (offset.y + 1.0));
-  std::vector<Uniform> uniforms = { { "nsmMap_LIGHT", map },
-    { "nsmLightFromView_LIGHT", glm::mat4(view.lightFromCentred * centredFromView) },
-    { "nsmTexels_LIGHT", glm::vec4(texels) },
-    { "nsmDepth_LIGHT",
-      glm::vec4(view.depthScale, view.depthOffset, roundingSlack, view.valid ? sizeTexels : 0) } };
-  if (light.kind == LightKind::Spot)
+  const float farthest = 1.0f;
+  glClearBufferfv(GL_DEPTH, 0, &farthest);
+
+  std::vector<std::string> defines;
+  if (view.perspective)
   {
-    const double tangent = std::tan(glm::radians(light.coneAngleDegrees));
-    uniforms.push_back({ "nsmCone_LIGHT", static_cast<float>(tangent * tangent) });
+    defines = { "PERSPECTIVE", "SLOPE_PUSH " + std::to_string(slopePush) };
+    glDisable(GL_POLYGON_OFFSET_FILL);
   }
-  return uniforms;
+  else
+  {
+    glEnable(GL_POLYGON_OFFSET_FILL);
+    glPolygonOffset(slopePush, 0.0f);
+    // Where no caster can be nearer than the bounds, rounding may still push one over the edge.
+    view.beginsAtNear ? glDisable(GL_DEPTH_CLAMP) : glEnable(GL_DEPTH_CLAMP);
+  }
+  const GLuint program = input.shaders.program(
+    { { GL_VERTEX_SHADER, ShaderLibrary::source("shadowtech/nsm/nsm_bake.vert.glsl") },
+      { GL_FRAGMENT_SHADER, ShaderLibrary::source("shadowtech/nsm/nsm_bake.frag.glsl") } },
+    defines);
+  glUseProgram(program);
+  ShaderLibrary::setUniform(program, { "clipFromCentred", glm::mat4(view.clipFromCentred()) });
+  if (view.perspective)
+  {
+    glm::dvec4 depth = view.depthScale * glm::row(view.viewFromCentred, 2);
+    depth.w += view.depthOffset;
+    ShaderLibrary::setUniform(program, { "depthFromCentred", glm::vec4(depth) });
+  }
+  input.buffers.draw(view);
 }
 
 } // namespace
@@ -59,37 +70,33 @@ TechniqueInfo Nsm::info()
 }
 
 //------------------------------------------------------------------------------
-void Nsm::allocate(int sizeTexels)
+void Nsm::allocate(int sizeTexels, int layers)
 {
-  if (this->sizeTexels_ == sizeTexels)
+  if (this->sizeTexels_ == sizeTexels && this->layers_ == layers)
   {
     return;
   }
-  glBindTexture(GL_TEXTURE_2D, this->map_.create());
-  glTexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT32F, sizeTexels, sizeTexels, 0,
+  glBindTexture(GL_TEXTURE_2D_ARRAY, this->map_.create());
+  glTexImage3D(GL_TEXTURE_2D_ARRAY, 0, GL_DEPTH_COMPONENT32F, sizeTexels, sizeTexels, layers, 0,
     GL_DEPTH_COMPONENT, GL_FLOAT, nullptr);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_NONE);
+  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_COMPARE_MODE, GL_NONE);
   glBindFramebuffer(GL_FRAMEBUFFER, this->framebuffer_.create());
-  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, this->map_.name(), 0);
   glDrawBuffer(GL_NONE);
   glReadBuffer(GL_NONE);
   this->sizeTexels_ = sizeTexels;
+  this->layers_ = layers;
 }
 
 //------------------------------------------------------------------------------
 void Nsm::bake(const MapInput& input)
 {
   const GlStateGuard guard;
-  const LightView& view = input.view;
-  this->allocate(input.light.mapSizeTexels);
-  this->light_ = input.light;
-  this->view_ = view;
-  if (!view.valid)
-  {
-    return;
-  }
+  const std::vector<LightView>& views = input.views.views;
+  // A light without a view still needs a texture to bind.
+  this->allocate(input.light.mapSizeTexels, std::max(static_cast<int>(views.size()), 1));
+  this->views_ = input.views;
 
   glBindFramebuffer(GL_FRAMEBUFFER, this->framebuffer_.name());
   glViewport(0, 0, this->sizeTexels_, this->sizeTexels_);
@@ -100,57 +107,35 @@ void Nsm::bake(const MapInput& input)
   glDepthFunc(GL_LESS);
   glDepthMask(GL_TRUE);
   glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
-  const float farthest = 1.0f;
-  glClearBufferfv(GL_DEPTH, 0, &farthest);
-
-  std::vector<std::string> defines;
-  if (view.perspective)
+  for (std::size_t i = 0; i < views.size(); ++i)
   {
-    defines = { "PERSPECTIVE", "SLOPE_PUSH " + std::to_string(slopePush) };
-    glDisable(GL_POLYGON_OFFSET_FILL);
+    glFramebufferTextureLayer(
+      GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, this->map_.name(), 0, static_cast<GLint>(i));
+    drawView(views[i], input);
   }
-  else
-  {
-    // Casters nearer than the bounds cannot be, but rounding may push one over the edge.
-    glEnable(GL_DEPTH_CLAMP);
-    glEnable(GL_POLYGON_OFFSET_FILL);
-    glPolygonOffset(slopePush, 0.0f);
-  }
-  const GLuint program = input.shaders.program(
-    { { GL_VERTEX_SHADER, ShaderLibrary::source("shadowtech/nsm/nsm_bake.vert.glsl") },
-      { GL_FRAGMENT_SHADER, ShaderLibrary::source("shadowtech/nsm/nsm_bake.frag.glsl") } },
-    defines);
-  glUseProgram(program);
-  ShaderLibrary::setUniform(program, { "clipFromCentred", glm::mat4(view.clipFromCentred()) });
-  if (view.perspective)
-  {
-    glm::dvec4 depth = view.depthScale * glm::row(view.lightFromCentred, 2);
-    depth.w += view.depthOffset;
-    ShaderLibrary::setUniform(program, { "depthFromCentred", glm::vec4(depth) });
-  }
-  input.buffers.draw();
 }
 
 //------------------------------------------------------------------------------
 std::size_t Nsm::bytesOfMaps() const
 {
-  return static_cast<std::size_t>(this->sizeTexels_) * static_cast<std::size_t>(this->sizeTexels_) *
-    sizeof(float);
+  return static_cast<std::size_t>(this->layers_) * static_cast<std::size_t>(this->sizeTexels_) *
+    static_cast<std::size_t>(this->sizeTexels_) * sizeof(float);
 }
 
 //------------------------------------------------------------------------------
 std::string Nsm::visibilityGlsl(const ShadowLight& light) const
 {
-  const std::string define =
-    light.kind == LightKind::Spot ? "#define NSM_SPOT_LIGHT 1\n" : "#define NSM_SPOT_LIGHT 0\n";
-  return define + ShaderLibrary::source("shadowtech/nsm/nsm_visibility.glsl");
+  return lightViewsDefines(light) + ShaderLibrary::source("shadowtech/nsm/nsm_visibility.glsl");
 }
 
 //------------------------------------------------------------------------------
 std::vector<Uniform> Nsm::uniforms(const glm::dmat4& centredFromView) const
 {
-  return describe(this->light_, this->view_, this->sizeTexels_,
-    { GL_TEXTURE_2D, this->map_.name() }, centredFromView);
+  std::vector<Uniform> uniforms =
+    lightViewsUniforms(this->views_, this->sizeTexels_, centredFromView);
+  uniforms.push_back({ "nsmMap_LIGHT", TextureBinding{ GL_TEXTURE_2D_ARRAY, this->map_.name() } });
+  uniforms.push_back({ "nsmSlack_LIGHT", roundingSlack });
+  return uniforms;
 }
 
 } // namespace gnomon

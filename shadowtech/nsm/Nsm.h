@@ -6,8 +6,8 @@
 namespace gnomon
 {
 
-/// `nsm`: the plain shadow map. Uniform projection, one map of linear depth, one comparison at the
-/// nearest texel.
+/// `nsm`: the plain shadow map. Uniform projections, one layer of linear depth for each of the
+/// light's views, one comparison at the nearest texel.
 ///
 /// No bias is tuned. The comparison follows the receiver's plane to the texel's centre
 /// (nsm_visibility.glsl), which frees planes and convex surfaces from shadowing themselves. What is
@@ -26,13 +26,13 @@ public:
   std::vector<Uniform> uniforms(const glm::dmat4& centredFromView) const override;
 
 private:
-  void allocate(int sizeTexels);
+  void allocate(int sizeTexels, int layers);
 
   GlTexture map_;
   GlFramebuffer framebuffer_;
   int sizeTexels_ = 0;
-  ShadowLight light_; ///< as baked
-  LightView view_;    ///< as baked
+  int layers_ = 0;
+  LightViews views_; ///< as baked
 };
 
 } // namespace gnomon

@@ -83,7 +83,7 @@ struct Point
 /// How far the light is decided without a ray.
 enum class Lighting
 {
-  Unlit, ///< turned away, or outside of the cone
+  Unlit, ///< turned away, or outside of the cone or box
   Open   ///< a ray decides
 };
 
@@ -105,13 +105,25 @@ ShadowRay shadowRay(const Light& light, const Point& point)
   const Vec3 origin = point.hit.position + offsetOf(point) * point.normal;
   ShadowRay result;
   result.ray = { origin, -light.direction };
-  if (light.isSpot)
+  const Vec3 toLight = light.position - origin;
+  if (light.kind != Light::Kind::Directional)
   {
-    const Vec3 toLight = light.position - origin;
     result.ray.direction = toLight.normalized();
     result.ray.length = toLight.length();
-    const double cosine = -result.ray.direction.dot(light.direction);
-    if (cosine < std::cos(light.coneAngleDegrees * pi / 180.0))
+  }
+  if (light.kind == Light::Kind::Spot &&
+    -result.ray.direction.dot(light.direction) < std::cos(light.coneAngleDegrees * pi / 180.0))
+  {
+    return result;
+  }
+  if (light.box)
+  {
+    const Vec3 right = light.box->up.cross(light.direction).normalized();
+    const Vec3 up = light.direction.cross(right);
+    result.ray.length = -toLight.dot(light.direction); // to the near face, where the light begins
+    if (std::abs(toLight.dot(right)) > 0.5 * light.box->width ||
+      std::abs(toLight.dot(up)) > 0.5 * light.box->height || result.ray.length < 0.0 ||
+      result.ray.length > light.box->depth)
     {
       return result;
     }

@@ -329,6 +329,71 @@ TEST(Check, SpotLightsShineInTheirConeOnly)
 }
 
 //------------------------------------------------------------------------------
+TEST(Check, PointLightsShineEverywhere)
+{
+  // Beside the camera, so that what the light sees of the plate is the cone's of the spot light.
+  nlohmann::json scene = makeScene();
+  scene["lights"] = { { { "type", "point" }, { "position", { 3, 10, 0 } } } };
+  TrueFile image;
+  for (int y = 0; y < sidePixels; ++y)
+  {
+    for (int x = 0; x < sidePixels; ++x)
+    {
+      const Vec3 p = image.position(x, y);
+      const bool shadowed = p.y < 1.0 && p.x > -2.0 && p.x < 0.5 && std::abs(p.z) < 1.25;
+      image.at("visibility.0", x, y) = shadowed ? 0.0f : 1.0f;
+    }
+  }
+  const Result result = check(scene, image.file);
+  EXPECT_EQ(result.failures(), std::vector<std::string>());
+  EXPECT_EQ(result.lights[0].counted, 8100u);
+  EXPECT_EQ(result.lights[0].falseShadow, Pixels());
+
+  scene["lights"][0]["position"] = { 3, -10, 0 }; // below the ground
+  EXPECT_EQ(check(scene, image.file).lights[0].counted, 0u);
+}
+
+//------------------------------------------------------------------------------
+TEST(Check, ABoxEndsTheLightAndBeginsIt)
+{
+  // Straight down from 5, over x in [-3, 5] and z in [-2, 4].
+  nlohmann::json scene = makeScene();
+  const auto boxFrom = [&](double y)
+  {
+    return nlohmann::json({ { "position", { 1, y, 1 } }, { "up", { 0, 0, 1 } }, { "width", 8 },
+      { "height", 6 }, { "depth", 7 } });
+  };
+  scene["lights"] = { { { "type", "directional" }, { "direction", { 0, -1, 0 } },
+    { "box", boxFrom(5.0) } } };
+  TrueFile image;
+  std::size_t inBox = 0;
+  for (int y = 0; y < sidePixels; ++y)
+  {
+    for (int x = 0; x < sidePixels; ++x)
+    {
+      const Vec3 p = image.position(x, y);
+      const bool reached = std::abs(p.x - 1.0) <= 4.0 && std::abs(p.z - 1.0) <= 3.0;
+      const bool shadowed = p.y < 1.0 && std::abs(p.x) < 1.0 && std::abs(p.z) < 1.0;
+      image.at("visibility.0", x, y) = reached && !shadowed ? 1.0f : 0.0f;
+      inBox += reached && image.at("coverage", x, y) > 0.0f ? 1 : 0;
+    }
+  }
+  Result result = check(scene, image.file);
+  EXPECT_EQ(result.failures(), std::vector<std::string>());
+  EXPECT_EQ(result.lights[0].counted, inBox);
+  EXPECT_EQ(result.lights[0].falseLight, Pixels());
+
+  // From under the plate, that does neither cast nor get light.
+  scene["lights"][0]["box"] = boxFrom(1.5);
+  result = check(scene, image.file);
+  EXPECT_LT(result.lights[0].counted, inBox);
+  EXPECT_GT(result.lights[0].unlit.size(), 0u);
+
+  scene["lights"][0]["box"]["depth"] = 1.0; // ends above the ground
+  EXPECT_EQ(check(scene, image.file).lights[0].counted, 0u);
+}
+
+//------------------------------------------------------------------------------
 TEST(Check, RefusesFilesThatLackSomething)
 {
   TrueFile image;

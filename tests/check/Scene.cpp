@@ -40,13 +40,28 @@ Light readLight(const Json& value)
   if (type == "directional")
   {
     light.direction = readVector(value.at("direction")).normalized();
+    if (value.contains("box"))
+    {
+      const Json& box = value.at("box");
+      light.position = readVector(box.at("position"));
+      light.box.emplace();
+      light.box->width = box.at("width");
+      light.box->height = box.at("height");
+      light.box->depth = box.at("depth");
+      light.box->up = box.contains("up") ? readVector(box.at("up")) : Vec3(0.0, 1.0, 0.0);
+    }
   }
   else if (type == "spot")
   {
-    light.isSpot = true;
+    light.kind = Light::Kind::Spot;
     light.position = readVector(value.at("position"));
     light.direction = (readVector(value.at("target")) - light.position).normalized();
     light.coneAngleDegrees = value.value("cone_angle", 30.0);
+  }
+  else if (type == "point")
+  {
+    light.kind = Light::Kind::Point;
+    light.position = readVector(value.at("position"));
   }
   else
   {

@@ -4,6 +4,7 @@
 #include <ImathVec.h>
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,12 +24,28 @@ struct Surface
   bool oneSided = false; ///< casts only with triangles that are counter-clockwise for the light
 };
 
+/// A box that a directional light is limited to: nothing outside is lit or casts.
+struct Box
+{
+  Vec3 up{ 0.0, 1.0, 0.0 };
+  double width = 0.0;
+  double height = 0.0;
+  double depth = 0.0;
+};
+
 struct Light
 {
-  bool isSpot = false;
-  Vec3 position{ 0.0 };          ///< of a spot light
-  Vec3 direction{ 0.0 };         ///< the way the light travels; unit
+  enum class Kind
+  {
+    Directional,
+    Spot,
+    Point
+  };
+  Kind kind = Kind::Directional;
+  Vec3 position{ 0.0 };          ///< of a spot or point light, or the middle of a box's near face
+  Vec3 direction{ 0.0 };         ///< the way the light travels; unit; none of a point light
   double coneAngleDegrees = 0.0; ///< half the cone of a spot light
+  std::optional<Box> box;        ///< of a directional light
 };
 
 struct Camera

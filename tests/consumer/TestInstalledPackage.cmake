@@ -23,6 +23,7 @@ set(expected
   gnomon/VisibilityImages.h
   gnomon/vtkGnomonEGLRenderWindow.h
   gnomon/vtkGnomonLightKeys.h
+  gnomon/vtkGnomonLightPlacement.h
   gnomon/vtkGnomonPropKeys.h
   gnomon/vtkGnomonShadowPass.h)
 if(NOT headers STREQUAL expected)

@@ -3,5 +3,6 @@
 #include <VisibilityImages.h>
 #include <vtkGnomonEGLRenderWindow.h>
 #include <vtkGnomonLightKeys.h>
+#include <vtkGnomonLightPlacement.h>
 #include <vtkGnomonPropKeys.h>
 #include <vtkGnomonShadowPass.h>

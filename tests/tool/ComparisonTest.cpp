@@ -112,6 +112,37 @@ TEST(Comparison, PixelsOutsideASpotLightsConeDoNotCount)
   }
 }
 
+TEST(Comparison, PixelsOutsideALightsBoxDoNotCount)
+{
+  const VisibilityImages truth = floorTruth();
+  SceneLight sun = lightFromAbove();
+  sun.position = { { 1e6 + 20.0, 2e6 + 5.0, 3e6 + 10.0 } };
+  sun.target = { { 1e6 + 20.0, 2e6, 3e6 + 10.0 } };
+  sun.box = SceneLight::Box{ 9.0, 5.0, 6.0, { { 0.0, 0.0, 1.0 } } };
+  const std::vector<unsigned char> facing = facingPixels(truth, sun);
+  for (int y = 0; y < truth.height; ++y)
+  {
+    for (int x = 0; x < truth.width; ++x)
+    {
+      const bool inside = std::abs(x - 20.0) <= 4.5 && std::abs(y - 10.0) <= 2.5;
+      EXPECT_EQ(facing[static_cast<std::size_t>(y * truth.width + x)], inside) << x << ", " << y;
+    }
+  }
+  sun.box->depth = 4.0;
+  EXPECT_EQ(measureError(truth, truth, { sun }).facingPixels, 0);
+}
+
+TEST(Comparison, PointLightsAreFacedFromAllSides)
+{
+  const VisibilityImages truth = floorTruth();
+  SceneLight lamp;
+  lamp.type = SceneLight::Type::Point;
+  lamp.position = { { 1e6 + 20.0, 2e6 + 1.0, 3e6 + 10.0 } };
+  EXPECT_EQ(measureError(truth, truth, { lamp }).facingPixels, coveredPixels);
+  lamp.position[1] = 2e6 - 1.0;
+  EXPECT_EQ(measureError(truth, truth, { lamp }).facingPixels, 0);
+}
+
 TEST(Comparison, EveryLightCountsOnItsOwn)
 {
   VisibilityImages truth = floorTruth();

@@ -21,7 +21,8 @@ TEST(SceneExport, IsReadBackAsTheSameScene)
   scene.models[1].oneSided = true;
   scene.camera = makeCamera({ { 1.0, 2.0, 0.1 } }, { { 0.0, 0.5, 0.0 } }, 35.5);
   scene.camera.up = { { 0.1, 1.0, 0.0 } };
-  scene.lights = { makeSun({ { 0.0, -1.0, 0.0 } }), SceneLight() };
+  scene.lights = { makeSun({ { 0.0, -1.0, 0.0 } }), SceneLight(), makeLamp({ { 1.0, 2.0, 0.1 } }),
+    makeSun({ { 0.0, -1.0, 0.0 } }) };
   scene.lights[0].technique = "raytraced";
   scene.lights[0].mapSizeTexels = 512;
   scene.lights[1].type = SceneLight::Type::Spot;
@@ -29,6 +30,9 @@ TEST(SceneExport, IsReadBackAsTheSameScene)
   scene.lights[1].color = { { 1.0, 0.5, 0.25 } };
   scene.lights[1].intensity = 0.7;
   scene.lights[1].coneAngleDegrees = 12.5;
+  scene.lights[3].position = { { 0.5, 3.0, 0.5 } };
+  scene.lights[3].target = { { 0.5, 2.0, 0.5 } };
+  scene.lights[3].box = SceneLight::Box{ 1.5, 2.5, 3.5, { { 1.0, 0.1, 0.0 } } };
   scene.background = { { 0.1, 0.2, 0.3 } };
 
   const TestFolder folder;
@@ -48,8 +52,8 @@ TEST(SceneExport, IsReadBackAsTheSameScene)
     EXPECT_EQ(read.models[i].receives, scene.models[i].receives);
     EXPECT_EQ(read.models[i].oneSided, scene.models[i].oneSided);
   }
-  ASSERT_EQ(read.lights.size(), 2u);
-  for (std::size_t i = 0; i < 2; ++i)
+  ASSERT_EQ(read.lights.size(), 4u);
+  for (std::size_t i = 0; i < 4; ++i)
   {
     EXPECT_EQ(read.lights[i].type, scene.lights[i].type);
     EXPECT_EQ(read.lights[i].position, scene.lights[i].position);
@@ -60,6 +64,12 @@ TEST(SceneExport, IsReadBackAsTheSameScene)
     EXPECT_EQ(read.lights[i].mapSizeTexels, scene.lights[i].mapSizeTexels);
   }
   EXPECT_EQ(read.lights[1].coneAngleDegrees, scene.lights[1].coneAngleDegrees);
+  EXPECT_FALSE(read.lights[0].box);
+  ASSERT_TRUE(read.lights[3].box);
+  EXPECT_EQ(read.lights[3].box->width, 1.5);
+  EXPECT_EQ(read.lights[3].box->height, 2.5);
+  EXPECT_EQ(read.lights[3].box->depth, 3.5);
+  EXPECT_EQ(read.lights[3].box->up, scene.lights[3].box->up);
 }
 
 //------------------------------------------------------------------------------

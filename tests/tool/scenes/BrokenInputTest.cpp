@@ -245,8 +245,8 @@ std::vector<BrokenInput> brokenInputs()
     gltfWith("gltf_material", "primitives[0].material", "/meshes/0/primitives/0/material", 3),
     gltfWith("gltf_light", "nodes[2].extensions.KHR_lights_punctual.light",
       "/nodes/2/extensions/KHR_lights_punctual/light", 5),
-    gltfWith("gltf_point_light", "m.gltf", "/extensions/KHR_lights_punctual/lights/0",
-      { { "type", "point" } }),
+    gltfWith(
+      "gltf_light_type", "lights[0].type", "/extensions/KHR_lights_punctual/lights/0/type", "tube"),
     gltfWith("gltf_singular_camera", "cameras[0]", "/nodes/1/scale", { 0, 0, 0 }),
 
     // Scene files
@@ -275,6 +275,13 @@ std::vector<BrokenInput> brokenInputs()
     sceneWith("scene_area_light", "lights[0].type", "/lights/0",
       { { "type", "area" }, { "position", { 0, 5, 0 } }, { "target", { 0, 0, 1 } }, { "width", 1 },
         { "height", 1 } }),
+    sceneWith("scene_point_light", "lights[0].position", "/lights/0",
+      { { "type", "point" }, { "position", { 0, 5 } } }),
+    sceneWith("scene_light_box", "lights[0].box.depth", "/lights/0",
+      { { "type", "directional" }, { "direction", { 0, -1, 0 } },
+        { "box",
+          { { "position", { 0, 5, 0 } }, { "up", { 1, 0, 0 } }, { "width", 1 }, { "height", 1 },
+            { "depth", 0 } } } }),
     sceneWith("scene_technique", "lights[0].technique", "/lights/0/technique", "nms"),
 
     // Options
@@ -315,8 +322,9 @@ std::vector<BrokenInput> brokenInputs()
     option("light_type", "--light", { "render", "cube", "-o", "out.png", "--light", "laser:a=1" }),
     option(
       "light_without_type", "--light", { "render", "cube", "-o", "out.png", "--light", "a=1" }),
-    option("light_point", "--light",
-      { "render", "cube", "-o", "out.png", "--light", "point:position=1,2,3" }),
+    option("light_area", "--light",
+      { "render", "cube", "-o", "out.png", "--light",
+        "area:position=1,2,3;target=0,0,0;width=1;height=1" }),
     option("light_direction", "direction",
       { "render", "cube", "-o", "out.png", "--light", "directional:direction=0,0,0" }),
     option("light_numbers", "direction",

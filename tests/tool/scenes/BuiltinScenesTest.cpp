@@ -52,7 +52,7 @@ Vec3 pointOf(vtkDataArray* array, vtkIdType i)
 //------------------------------------------------------------------------------
 TEST(BuiltinScenes, AreListedAndLoadable)
 {
-  EXPECT_EQ(builtinScenes().size(), 8u);
+  EXPECT_EQ(builtinScenes().size(), 9u);
   for (const BuiltinScene& line : builtinScenes())
   {
     SCOPED_TRACE(line.name);
@@ -136,7 +136,7 @@ TEST(BuiltinScenes, AreTheSameEveryTime)
 // triangle is without area.
 TEST(BuiltinScenes, TrianglesFaceTheWayOfTheirNormals)
 {
-  for (const char* name : { "cube", "primitives", "posts", "plates", "terrain" })
+  for (const char* name : { "cube", "primitives", "posts", "plates", "room", "terrain" })
   {
     SCOPED_TRACE(name);
     for (const SceneModel& model : loadScene(name).models)

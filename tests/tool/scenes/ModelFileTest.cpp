@@ -222,15 +222,19 @@ TEST(ModelFile, LinesAndPointsAreLeftOutWithANote)
 }
 
 //------------------------------------------------------------------------------
-TEST(ModelFile, PointLightsOfGltfAreRefusedUnlessTheCallerBringsLights)
+TEST(ModelFile, PointLightsOfGltfGiveWhatArrivesInTheMiddle)
 {
   TestFolder folder;
   nlohmann::json document = sampleGltfWithBuffer();
-  document["extensions"]["KHR_lights_punctual"]["lights"][0] = { { "type", "point" } };
-  writeBytes(folder / "m.gltf", document.dump());
-  const std::string message = messageOf<BadInput>([&] { loadScene(folder / "m.gltf"); });
-  EXPECT_NE(message.find("point lights are not supported yet"), std::string::npos) << message;
-  EXPECT_EQ(loadScene(folder / "m.gltf", FileLights::Ignore).lights.size(), 1u);
+  document["extensions"]["KHR_lights_punctual"]["lights"][0] = { { "type", "point" },
+    { "intensity", 72 }, { "color", { 1, 0.5, 0.25 } } };
+  const Model model = readBytes(folder, "m.gltf", document.dump());
+  ASSERT_EQ(model.lights.size(), 2u);
+  const SceneLight& lamp = model.lights[0];
+  EXPECT_EQ(lamp.type, SceneLight::Type::Point);
+  EXPECT_LT(length(lamp.position - Vec3{ { 0, 7, 1 } }), 1e-9);
+  EXPECT_NEAR(lamp.intensity, 72.0 / 36.0, 1e-9); // 6 units above the middle
+  EXPECT_EQ(lamp.color, (Vec3{ { 1, 0.5, 0.25 } }));
 }
 
 //------------------------------------------------------------------------------

@@ -12,6 +12,7 @@
 #include <vtkActorCollection.h>
 #include <vtkCamera.h>
 #include <vtkInformation.h>
+#include <vtkInformationDoubleVectorKey.h>
 #include <vtkInformationIntegerKey.h>
 #include <vtkInformationStringKey.h>
 #include <vtkLight.h>
@@ -200,20 +201,72 @@ TEST_F(SceneFile, SaysWhatIsWrongAndWhere)
 }
 
 //------------------------------------------------------------------------------
-TEST_F(SceneFile, PointAndAreaLightsAreCheckedThenRefused)
+TEST_F(SceneFile, PointLightsAreRead)
 {
   nlohmann::json document = sampleScene();
-  document["lights"][0] = { { "type", "point" }, { "position", { 1, 2, 3 } } };
-  EXPECT_NE(messageOf<BadInput>([&] { this->load(document); })
-              .find("lights[0].type: point lights are not supported yet"),
-    std::string::npos);
-  EXPECT_EQ(this->load(document, FileLights::Ignore).lights.size(), 1u);
+  document["lights"][0] = { { "type", "point" }, { "position", { 1, 2, 3 } }, { "intensity", 3 } };
+  const Scene scene = this->load(document);
+  ASSERT_EQ(scene.lights.size(), 2u);
+  EXPECT_EQ(scene.lights[0].type, SceneLight::Type::Point);
+  EXPECT_EQ(scene.lights[0].position, (Vec3{ { 1, 2, 3 } }));
+  EXPECT_DOUBLE_EQ(scene.lights[0].intensity, 3.0);
+  const vtkSmartPointer<vtkRenderer> renderer = makeRenderer(scene, 1.0);
+  auto* lamp = vtkLight::SafeDownCast(renderer->GetLights()->GetItemAsObject(0));
+  EXPECT_TRUE(lamp->GetPositional());
+  EXPECT_GE(lamp->GetConeAngle(), 90.0);
 
+  document["lights"][0]["target"] = { 0, 0, 0 };
+  EXPECT_NE(messageOf<BadInput>([&] { this->load(document); }).find("unknown key \"target\""),
+    std::string::npos);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(SceneFile, BoxesOfDirectionalLightsAreRead)
+{
+  nlohmann::json document = sampleScene();
+  document["lights"][0] = { { "type", "directional" }, { "direction", { 0, -2, 1 } },
+    { "box",
+      { { "position", { 1, 2, 3 } }, { "up", { 1, 0, 0 } }, { "width", 4 }, { "height", 5 },
+        { "depth", 6 } } } };
+  const Scene scene = this->load(document);
+  const SceneLight& sun = scene.lights[0];
+  EXPECT_EQ(sun.position, (Vec3{ { 1, 2, 3 } }));
+  EXPECT_LT(
+    length(normalized(sun.target - sun.position) - normalized(Vec3{ { 0, -2, 1 } })), 1e-12);
+  const vtkSmartPointer<vtkRenderer> renderer = makeRenderer(scene, 1.0);
+  auto* light = vtkLight::SafeDownCast(renderer->GetLights()->GetItemAsObject(0));
+  EXPECT_EQ(light->GetInformation()->Length(vtkGnomonLightKeys::BOX()), 6);
+  const double* numbers = light->GetInformation()->Get(vtkGnomonLightKeys::BOX());
+  EXPECT_EQ(std::vector<double>(numbers, numbers + 6), std::vector<double>({ 4, 5, 6, 1, 0, 0 }));
+  EXPECT_DOUBLE_EQ(light->GetPosition()[1], 2.0);
+
+  const auto messageWithout = [&](const char* key)
+  {
+    nlohmann::json broken = document;
+    broken["lights"][0]["box"].erase(key);
+    return messageOf<BadInput>([&] { this->load(broken); });
+  };
+  for (const char* key : { "position", "width", "height", "depth" })
+  {
+    EXPECT_NE(messageWithout(key).find(std::string("lights[0].box.") + key + ": missing"),
+      std::string::npos)
+      << messageWithout(key);
+  }
+  document["lights"][0]["box"]["up"] = { 0, 4, -2 };
+  EXPECT_NE(messageOf<BadInput>([&] { this->load(document); }).find("lights[0].box.up: "),
+    std::string::npos);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(SceneFile, AreaLightsAreCheckedThenRefused)
+{
+  nlohmann::json document = sampleScene();
   document["lights"][0] = { { "type", "area" }, { "position", { 1, 2, 3 } },
     { "target", { 0, 0, 0 } }, { "width", 1 }, { "height", 2 } };
   EXPECT_NE(messageOf<BadInput>([&] { this->load(document); })
               .find("lights[0].type: area lights are not supported yet"),
     std::string::npos);
+  EXPECT_EQ(this->load(document, FileLights::Ignore).lights.size(), 1u);
 
   document["lights"][0]["width"] = 0;
   EXPECT_NE(messageOf<BadInput>([&] { this->load(document); }).find("lights[0].width: found 0"),
@@ -258,6 +311,9 @@ TEST(SceneSpecs, LightsHaveASceneFilesKeys)
   const SceneLight spot = parseLight("spot:position=1,2,3;target=0,0,0;cone_angle=12.5");
   EXPECT_EQ(spot.type, SceneLight::Type::Spot);
   EXPECT_DOUBLE_EQ(spot.coneAngleDegrees, 12.5);
+  const SceneLight lamp = parseLight("point:position=1,2,3;color=1,0.5,0");
+  EXPECT_EQ(lamp.type, SceneLight::Type::Point);
+  EXPECT_EQ(lamp.position, (Vec3{ { 1, 2, 3 } }));
 }
 
 //------------------------------------------------------------------------------

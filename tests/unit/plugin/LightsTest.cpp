@@ -91,8 +91,8 @@ TEST_P(Lights, onlyTheCastingLightIsEverTakenAway)
   vtkLight* sun = scene.addSun({ 1.0, 0.4, -1.5 });
   sun->SetColor(0.3, 1.0, 0.6);
   sun->SetIntensity(0.7);
-  vtkLight* point = scene.addSpot({ -3.0, -3.0, 4.0 }, glm::dvec3(0.0), 180.0);
-  point->SetIntensity(0.2);
+  vtkLight* empty = scene.addSpot({ -3.0, -3.0, 4.0 }, glm::dvec3(0.0), 0.0);
+  empty->SetIntensity(0.2);
   vtkLight* weak = scene.addSun({ -1.0, 0.0, -1.0 });
   weak->SetShadowAttenuation(0.0f);
   weak->SetIntensity(0.1);
@@ -101,8 +101,8 @@ TEST_P(Lights, onlyTheCastingLightIsEverTakenAway)
   const Picture picture = scene.render();
   const std::vector<gnomon::LightReport> lights = scene.report().lights;
   ASSERT_EQ(lights.size(), 6u);
-  const char* const reasons[] = { "switched off", "marked as not casting", "",
-    "point lights are not supported yet", "its shadow attenuation is 0", "gives no light" };
+  const char* const reasons[] = { "switched off", "marked as not casting", "", "its cone is empty",
+    "its shadow attenuation is 0", "gives no light" };
   for (std::size_t i = 0; i < lights.size(); ++i)
   {
     EXPECT_EQ(lights[i].sceneIndex, static_cast<int>(i));

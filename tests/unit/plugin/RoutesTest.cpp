@@ -25,7 +25,7 @@ class Routes
 };
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Routes,
-  testing::Values("bunny", "cube", "primitives", "posts", "plates", "terrain"),
+  testing::Values("bunny", "cube", "primitives", "posts", "plates", "room", "terrain"),
   [](const testing::TestParamInfo<const char*>& scene) { return std::string(scene.param); });
 
 /// A built-in scene's renderer with the pass, in a window.

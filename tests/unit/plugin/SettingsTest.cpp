@@ -2,6 +2,8 @@
 
 #include "PassScene.h"
 
+#include "lights/vtkGnomonLightKeys.h"
+
 #include "plugin/VisibilityImages.h"
 
 #include <vtkLightCollection.h>
@@ -172,6 +174,46 @@ TEST_P(SettingsOfWay, measuredStagesSumToTheFrame)
   }
   EXPECT_GE(sum, 0.9 * scene.report().wallMilliseconds);
   EXPECT_LE(sum, scene.report().wallMilliseconds);
+}
+
+//------------------------------------------------------------------------------
+TEST_P(SettingsOfWay, useShadowsIsTheSwitchWhereItIsObeyed)
+{
+  PassScene scene(200, 150);
+  fill(scene);
+  scene.choose(GetParam());
+  EXPECT_FALSE(scene.pass->GetObeyUseShadows());
+  const Picture shadowed = scene.render();
+  scene.pass->ObeyUseShadowsOn();
+  const Picture unshadowed = scene.render();
+  EXPECT_EQ(scene.report().route, "none");
+  EXPECT_THAT(scene.report().routeReason, HasSubstr("UseShadows"));
+  scene.renderer->UseShadowsOn();
+  EXPECT_EQ(differingPixels(shadowed, scene.render()), 0u);
+  scene.renderer->UseShadowsOff();
+  EXPECT_EQ(differingPixels(unshadowed, scene.render()), 0u);
+  scene.usePlain();
+  EXPECT_EQ(differingPixels(unshadowed, scene.render()), 0u);
+  EXPECT_GT(differingPixels(shadowed, unshadowed), 300u);
+}
+
+//------------------------------------------------------------------------------
+TEST_P(SettingsOfWay, useShadowsDoesNotBringVtksOwn)
+{
+  PassScene scene(200, 150);
+  fill(scene);
+  scene.choose(GetParam());
+  const Picture own = scene.render();
+  scene.renderer->UseShadowsOn();
+  const vtkMTimeType time = scene.renderer->GetMTime();
+  EXPECT_EQ(differingPixels(own, scene.render()), 0u);
+  EXPECT_EQ(scene.renderer->GetUseShadows(), 1);
+  EXPECT_EQ(scene.renderer->GetMTime(), time);
+  vtkGnomonLightKeys::SetCasts(
+    vtkLight::SafeDownCast(scene.renderer->GetLights()->GetItemAsObject(0)), false);
+  const Picture unshadowed = scene.render();
+  scene.renderer->UseShadowsOff();
+  EXPECT_EQ(differingPixels(unshadowed, scene.render()), 0u);
 }
 
 //------------------------------------------------------------------------------

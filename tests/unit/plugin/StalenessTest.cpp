@@ -5,11 +5,13 @@
 #include "lights/vtkGnomonLightKeys.h"
 #include "plugin/vtkGnomonPropKeys.h"
 
+#include <vtkInformation.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkProperty.h>
 #include <vtkSphereSource.h>
 
+#include <limits>
 #include <ostream>
 
 using namespace gnomon::test;
@@ -323,12 +325,21 @@ TEST_F(NoCastingLight, shadowsWithoutStrength)
 }
 
 //------------------------------------------------------------------------------
-TEST_F(NoCastingLight, pointLight)
+TEST_F(NoCastingLight, numbersThatGiveNoLight)
 {
-  this->sun->SetPosition(-2.0, -2.0, 5.0);
+  const double along[3] = { 1.0, 0.3, -1.5 }; // the sun's own direction
+  vtkGnomonLightKeys::SetBox(this->sun, 1.0, 1.0, 1.0, along);
+  this->expectPlain("its box has its up direction along the light");
+  const double empty[6] = { 1.0, 0.0, 1.0, 0.0, 1.0, 0.0 };
+  this->sun->GetInformation()->Set(vtkGnomonLightKeys::BOX(), empty, 6);
+  this->expectPlain("its box is empty");
+  vtkGnomonLightKeys::RemoveBox(this->sun);
   this->sun->PositionalOn();
+  this->sun->SetConeAngle(-1.0);
+  this->expectPlain("its cone is empty");
   this->sun->SetConeAngle(180.0);
-  this->expectPlain("point lights are not supported yet");
+  this->sun->SetPosition(0.0, std::numeric_limits<double>::quiet_NaN(), 0.0);
+  this->expectPlain("its position is not finite");
 }
 
 //------------------------------------------------------------------------------

@@ -44,7 +44,8 @@ std::vector<TestScene> smallScenes()
 std::vector<ShadowLight> lights()
 {
   return { directionalLight({ -1.0, 0.5, -1.5 }), directionalLight({ 0.0, 0.0, -1.0 }),
-    spotLight({ 2.0, 1.0, 5.0 }, { 0.0, 0.0, 0.0 }, 25.0) };
+    spotLight({ 2.0, 1.0, 5.0 }, { 0.0, 0.0, 0.0 }, 25.0), pointLight({ -1.5, 0.7, 2.2 }),
+    boxLight({ -1.0, 0.5, -1.5 }, { 0.9, -0.6, 1.1 }, { 1.7, 2.3, 3.1 }) };
 }
 
 /// Those whose pictures show what rounding does.
@@ -135,6 +136,13 @@ std::size_t differentWhenMoved(
   move(moved.camera.target);
   ShadowLight movedLight = light;
   move(movedLight.positionWorld);
+  if (movedLight.box)
+  {
+    const double scale = std::cbrt(glm::determinant(glm::dmat3(matrix)));
+    movedLight.box->width *= scale;
+    movedLight.box->height *= scale;
+    movedLight.box->depth *= scale;
+  }
   const Occluders movedOccluders = makeOccluders(moved.props);
   return countDifferent(
     visibility, trace(movedLight, movedOccluders, makeReceivers(movedOccluders, moved.camera)));

@@ -380,6 +380,25 @@ ShadowLight spotLight(const glm::dvec3& position, const glm::dvec3& target, doub
   return light;
 }
 
+//------------------------------------------------------------------------------
+ShadowLight pointLight(const glm::dvec3& position)
+{
+  ShadowLight light;
+  light.kind = LightKind::Point;
+  light.positionWorld = position;
+  return light;
+}
+
+//------------------------------------------------------------------------------
+ShadowLight boxLight(
+  const glm::dvec3& direction, const glm::dvec3& position, const glm::dvec3& size)
+{
+  ShadowLight light = directionalLight(direction);
+  light.positionWorld = position;
+  light.box = LightBox{ size.x, size.y, size.z, { 0.0, 0.0, 1.0 } };
+  return light;
+}
+
 namespace
 {
 
@@ -419,9 +438,8 @@ ShadowRay rayOf(const ShadowRayLight& light, const Occluders& occluders,
   }
   const glm::vec3 position(receivers.positionX[i], receivers.positionY[i], receivers.positionZ[i]);
   const glm::vec3 normal(receivers.normalX[i], receivers.normalY[i], receivers.normalZ[i]);
-  return light.kind == LightKind::Spot
-    ? shadowRaySpot(light, position, normal, receivers.offset[i])
-    : shadowRayDirectional(light, position, normal, receivers.offset[i]);
+  return visitShadowRays(light,
+    [&](const auto& makeRay, float) { return makeRay(position, normal, receivers.offset[i]); });
 }
 
 /// A triangle that casts.
@@ -475,8 +493,8 @@ std::vector<float> traceBruteForce(
   const ShadowLight& light, const Occluders& occluders, const ReceiverPixels& receivers)
 {
   const ShadowRayLight rayLight(light, occluders.centreWorld);
-  const double rayFar = light.kind == LightKind::Spot ? static_cast<double>(shadowRayFarSpot)
-                                                      : std::numeric_limits<double>::infinity();
+  const double rayFar =
+    visitShadowRays(rayLight, [](const auto&, float end) { return static_cast<double>(end); });
   const std::vector<CastingTriangle> triangles = castingTriangles(occluders);
   std::vector<float> visibility(receivers.size(), 1.0f);
   tbb::parallel_for(std::size_t(0), receivers.size(),
@@ -501,15 +519,17 @@ std::vector<float> traceBruteForce(
 double edgeDistance(const ShadowLight& light, const Occluders& occluders,
   const ReceiverPixels& receivers, std::size_t pixel)
 {
-  const ShadowRay ray =
-    rayOf(ShadowRayLight(light, occluders.centreWorld), occluders, receivers, pixel);
+  const ShadowRayLight rayLight(light, occluders.centreWorld);
+  const ShadowRay ray = rayOf(rayLight, occluders, receivers, pixel);
   if (!ray.traced)
   {
     return 1.0;
   }
   const glm::dvec3 origin(ray.origin);
   // A directional light's ray ends where it has left the scene for certain.
-  const double length = light.kind == LightKind::Spot ? 1.0 : 4.0 * occluders.allCentred.radius();
+  const double rayFar =
+    visitShadowRays(rayLight, [](const auto&, float end) { return static_cast<double>(end); });
+  const double length = std::min(rayFar, 4.0 * occluders.allCentred.radius());
   const Segment segment{ origin, origin + length * glm::dvec3(ray.direction) };
   double closest = std::numeric_limits<double>::infinity();
   for (const CastingTriangle& triangle : castingTriangles(occluders))

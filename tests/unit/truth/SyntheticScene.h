@@ -80,6 +80,10 @@ ReceiverPixels makeReceivers(const Occluders& occluders, const Camera& camera);
 ShadowLight directionalLight(const glm::dvec3& direction);
 ShadowLight spotLight(
   const glm::dvec3& position, const glm::dvec3& target, double coneAngleDegrees);
+ShadowLight pointLight(const glm::dvec3& position);
+/// A directional light that begins at `position`, in a box of this width, height and depth.
+ShadowLight boxLight(
+  const glm::dvec3& direction, const glm::dvec3& position, const glm::dvec3& size);
 
 /// Visibility by every triangle against every ray, in double precision.
 std::vector<float> traceBruteForce(

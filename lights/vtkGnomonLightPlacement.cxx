@@ -1,0 +1,141 @@
+#include "vtkGnomonLightPlacement.h"
+
+#include "lights/Bounds.h"
+
+#include "vtkLight.h"
+#include "vtkObjectFactory.h"
+#include "vtkPoints.h"
+
+#include <glm/glm.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+vtkStandardNewMacro(vtkGnomonLightPlacement);
+
+namespace
+{
+
+glm::dvec3 toGlm(const double point[3])
+{
+  return { point[0], point[1], point[2] };
+}
+
+bool isFinite(const glm::dvec3& point)
+{
+  return std::isfinite(point.x) && std::isfinite(point.y) && std::isfinite(point.z);
+}
+
+/// The way that a light shines, or nothing, with an error, where it has none.
+std::optional<glm::dvec3> travelOf(vtkLight* light)
+{
+  const glm::dvec3 arm = toGlm(light->GetFocalPoint()) - toGlm(light->GetPosition());
+  const double length = glm::length(arm);
+  if (!(length > 0.0) || !std::isfinite(length))
+  {
+    vtkErrorWithObjectMacro(
+      light, "The light cannot be placed: its position and focal point give no direction.");
+    return std::nullopt;
+  }
+  return arm / length;
+}
+
+void place(vtkLight* light, const glm::dvec3& position, const glm::dvec3& focalPoint)
+{
+  light->SetPosition(position.x, position.y, position.z);
+  light->SetFocalPoint(focalPoint.x, focalPoint.y, focalPoint.z);
+}
+
+void shineOnSphere(vtkLight* light, const glm::dvec3& centre, double radius)
+{
+  if (!isFinite(centre) || !(radius > 0.0) || !std::isfinite(radius))
+  {
+    vtkErrorWithObjectMacro(light,
+      "The light cannot be placed: a sphere of radius " << radius << " around " << centre.x << ", "
+                                                        << centre.y << ", " << centre.z
+                                                        << " is nothing to shine on.");
+    return;
+  }
+  const std::optional<glm::dvec3> travel = travelOf(light);
+  if (!travel)
+  {
+    return;
+  }
+  const double cone = light->GetConeAngle();
+  const bool spot = light->GetPositional() && cone > 0.0 && cone < 90.0;
+  const double distance = spot ? radius / std::sin(glm::radians(cone)) : radius;
+  place(light, centre - distance * *travel, centre);
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+void vtkGnomonLightPlacement::ShineOnSphere(vtkLight* light, const double center[3], double radius)
+{
+  shineOnSphere(light, toGlm(center), radius);
+}
+
+//------------------------------------------------------------------------------
+void vtkGnomonLightPlacement::ShineOnBox(vtkLight* light, const double bounds[6])
+{
+  const gnomon::Bounds box{ { bounds[0], bounds[2], bounds[4] },
+    { bounds[1], bounds[3], bounds[5] } };
+  shineOnSphere(light, box.centre(), box.radius()); // of radius 0 where the box is empty
+}
+
+//------------------------------------------------------------------------------
+void vtkGnomonLightPlacement::ShineOnPoints(vtkLight* light, vtkPoints* points)
+{
+  const vtkIdType count = points ? points->GetNumberOfPoints() : 0;
+  gnomon::Bounds box;
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    const glm::dvec3 point = toGlm(points->GetPoint(i));
+    if (!isFinite(point))
+    {
+      vtkErrorWithObjectMacro(
+        light, "The light cannot be placed: point " << i << " is not finite.");
+      return;
+    }
+    box.add(point);
+  }
+  const glm::dvec3 centre = box.centre();
+  double radius = 0.0; // and an error, of no points
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    radius = std::max(radius, glm::length(toGlm(points->GetPoint(i)) - centre));
+  }
+  shineOnSphere(light, centre, radius);
+}
+
+//------------------------------------------------------------------------------
+void vtkGnomonLightPlacement::SetPitchAndYaw(
+  vtkLight* light, double pitchDegrees, double yawDegrees)
+{
+  if (!std::isfinite(pitchDegrees) || !std::isfinite(yawDegrees))
+  {
+    vtkErrorWithObjectMacro(light,
+      "The light cannot be turned to pitch " << pitchDegrees << " and yaw " << yawDegrees << ".");
+    return;
+  }
+  if (!travelOf(light))
+  {
+    return;
+  }
+  const double pitch = glm::radians(pitchDegrees);
+  const double yaw = glm::radians(yawDegrees);
+  const glm::dvec3 travel(
+    -std::cos(pitch) * std::sin(yaw), std::sin(pitch), -std::cos(pitch) * std::cos(yaw));
+  const glm::dvec3 position = toGlm(light->GetPosition());
+  const glm::dvec3 focalPoint = toGlm(light->GetFocalPoint());
+  const glm::dvec3 arm = glm::length(focalPoint - position) * travel;
+  light->GetPositional() ? place(light, position, position + arm)
+                         : place(light, focalPoint - arm, focalPoint);
+}
+
+//------------------------------------------------------------------------------
+void vtkGnomonLightPlacement::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+}

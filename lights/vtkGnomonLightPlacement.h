@@ -1,0 +1,76 @@
+/**
+ * @class   vtkGnomonLightPlacement
+ * @brief   places a vtkLight by what it is to shine on, and turns it by pitch and yaw
+ *
+ * @code
+ * vtkNew<vtkLight> sun;
+ * vtkGnomonLightPlacement::SetPitchAndYaw(sun, -40.0, 30.0);
+ * vtkGnomonLightPlacement::ShineOnBox(sun, renderer->ComputeVisiblePropBounds());
+ * @endcode
+ *
+ * Shadows do not need it: the maps are fitted to the casters wherever a directional light's position
+ * is. It gives spot lights a place from which they light all of something, and directional lights a
+ * position and focal point that mean something, for light widgets and for boxes
+ * (vtkGnomonLightKeys::SetBox). All numbers are in the light's own coordinates, which are the
+ * world's unless it has a transform matrix or is a head or camera light.
+ *
+ * What cannot be done (a number that is not finite, a radius that is not positive, a light whose
+ * position is its focal point) is an error of the light (vtkErrorMacro), and the light stays as it
+ * was.
+ */
+
+#ifndef vtkGnomonLightPlacement_h
+#define vtkGnomonLightPlacement_h
+
+#include "GnomonLightsModule.h" // For export macro
+#include "vtkObject.h"
+
+class vtkLight;
+class vtkPoints;
+
+class GNOMONLIGHTS_EXPORT vtkGnomonLightPlacement : public vtkObject
+{
+public:
+  static vtkGnomonLightPlacement* New();
+  vtkTypeMacro(vtkGnomonLightPlacement, vtkObject);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /**
+   * Make a light shine on a sphere, in the direction that it has. Its focal point becomes the
+   * centre. A spot light moves to where its cone just holds the sphere, other lights to the point
+   * of the sphere that the light comes from; so a directional light's box of width, height and depth
+   * 2 * radius holds the sphere.
+   */
+  static void ShineOnSphere(vtkLight* light, const double center[3], double radius);
+
+  /**
+   * The same for the sphere around a box, given as xmin, xmax, ymin, ymax, zmin, zmax (vtkProp's
+   * GetBounds, vtkRenderer's ComputeVisiblePropBounds).
+   */
+  static void ShineOnBox(vtkLight* light, const double bounds[6]);
+
+  /**
+   * The same for points: for the sphere around them whose centre is the middle of their bounds. It
+   * is at most as large as the one around those bounds.
+   */
+  static void ShineOnPoints(vtkLight* light, vtkPoints* points);
+
+  /**
+   * Turn a light into a direction, in degrees. Pitch and yaw 0 is the way along -z. Yaw turns to the
+   * left, around +y; pitch then raises it, so that -90 shines straight down. A positional light
+   * turns about its position, a directional one about its focal point, as far from it as before.
+   * (vtkLight's SetDirectionAngle takes -pitch and yaw, but puts the focal point into the origin
+   * and makes the light directional.)
+   */
+  static void SetPitchAndYaw(vtkLight* light, double pitchDegrees, double yawDegrees);
+
+protected:
+  vtkGnomonLightPlacement() = default;
+  ~vtkGnomonLightPlacement() override = default;
+
+private:
+  vtkGnomonLightPlacement(const vtkGnomonLightPlacement&) = delete;
+  void operator=(const vtkGnomonLightPlacement&) = delete;
+};
+
+#endif

@@ -1,0 +1,26 @@
+#ifndef gnomon_shadowtech_base_LightViewsGlsl_h
+#define gnomon_shadowtech_base_LightViewsGlsl_h
+
+#include "lights/LightViews.h"
+#include "shadowtech/base/Technique.h"
+
+#include <glm/glm.hpp>
+
+#include <string>
+#include <vector>
+
+namespace gnomon
+{
+
+/// The definitions that light_views.glsl, included by a technique's source, needs in front of it.
+std::string lightViewsDefines(const ShadowLight& light);
+
+/// The uniforms of light_views.glsl, also those that only other kinds of light use.
+/// @param sizeTexels the side of the map's layers
+/// @param centredFromView the camera's rigid transformation from view to centred coordinates
+std::vector<Uniform> lightViewsUniforms(
+  const LightViews& views, int sizeTexels, const glm::dmat4& centredFromView);
+
+} // namespace gnomon
+
+#endif

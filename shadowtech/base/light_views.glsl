@@ -1,0 +1,127 @@
+// A point as a light sees it: whether the light reaches it, which of the light's views sees it, and
+// where on that view's layer of the map (lights/LightViews.h, LightViewsGlsl.h). Every technique with
+// a map starts here; what it does with the map is its own.
+//
+// What kind of light it is, is known when the shader is built: VIEWS_SPOT_LIGHT, VIEWS_BOX_LIGHT,
+// VIEWS_PERSPECTIVE_LIGHT and VIEWS_CUBE_LIGHT are 0 or 1, and VIEWS_LIGHT is how many views there can
+// be.
+
+#include "shadowtech/base/shadow_ray.glsl"
+
+uniform mat4 lightFromView_LIGHT;           // rigid: the camera's space to the light's
+uniform vec4 viewTexels_LIGHT[VIEWS_LIGHT]; // texel = xy * (x, y or their slopes) + zw
+uniform vec2 viewDepths_LIGHT[VIEWS_LIGHT]; // depth = x * z + y
+uniform float viewSize_LIGHT;               // the map's side in texels; 0 if there is no view
+#if VIEWS_SPOT_LIGHT
+uniform float lightCone_LIGHT; // squared tangent of half the cone
+#endif
+#if VIEWS_BOX_LIGHT
+uniform vec3 lightBox_LIGHT; // half width, half height, depth
+#endif
+#if VIEWS_CUBE_LIGHT
+uniform int viewOfFace_LIGHT[6]; // -1: no caster is seen through it
+#endif
+
+#ifndef GNOMON_LIGHT_VIEWS
+#define GNOMON_LIGHT_VIEWS
+
+// A point in the space of the view that sees it.
+struct ViewPoint
+{
+  vec3 position;
+  vec3 normal;
+  int view;   // the layer of the map
+  vec2 texel; // its place there
+};
+
+// The face of the cube around a light that sees a point: the twin of cubeFaceOf().
+int cubeFaceOf(vec3 p)
+{
+  vec3 a = abs(p);
+  if (a.x >= a.y && a.x >= a.z)
+  {
+    return p.x >= 0.0 ? 0 : 1;
+  }
+  if (a.y >= a.z)
+  {
+    return p.y >= 0.0 ? 2 : 3;
+  }
+  return p.z >= 0.0 ? 4 : 5;
+}
+
+// A vector of light space in a face's space: the twin of cubeFaceFromLight().
+vec3 cubeFaceFromLight(int face, vec3 v)
+{
+  vec3 along = face < 2 ? v.yzx : face < 4 ? v.zxy : v;
+  vec3 against = face < 2 ? vec3(v.zy, -v.x) : face < 4 ? vec3(v.xz, -v.y) : vec3(v.yx, -v.z);
+  return (face & 1) == 0 ? along : against;
+}
+
+#endif
+
+// Whether the light shines on a surface at all: it faces the light and lies in its cone or box.
+bool lightReaches_LIGHT(vec3 positionLight, vec3 normalLight)
+{
+#if VIEWS_PERSPECTIVE_LIGHT
+  bool reaches = facesLight(normalLight, -positionLight);
+#else
+  bool reaches = facesLight(normalLight, vec3(0.0, 0.0, -1.0));
+#endif
+#if VIEWS_SPOT_LIGHT
+  reaches = reaches && insideCone(-positionLight, vec3(0.0, 0.0, -1.0), lightCone_LIGHT);
+#endif
+#if VIEWS_BOX_LIGHT
+  reaches = reaches && insideBox(positionLight, lightBox_LIGHT);
+#endif
+  return reaches;
+}
+
+// Finds the view of a point that the light reaches.
+// Returns false where no view sees it: the views hold all casters, so that nothing can shadow it.
+bool findView_LIGHT(vec3 positionLight, vec3 normalLight, out ViewPoint point)
+{
+  point = ViewPoint(positionLight, normalLight, 0, vec2(0.0));
+#if VIEWS_CUBE_LIGHT
+  int face = cubeFaceOf(positionLight);
+  point.view = viewOfFace_LIGHT[face];
+  if (point.view < 0)
+  {
+    return false;
+  }
+  point.position = cubeFaceFromLight(face, positionLight);
+  point.normal = cubeFaceFromLight(face, normalLight);
+#endif
+#if VIEWS_PERSPECTIVE_LIGHT
+  vec2 across = point.position.xy / point.position.z; // z > 0: the light reaches it
+#else
+  vec2 across = point.position.xy;
+#endif
+  vec4 texels = viewTexels_LIGHT[point.view];
+  point.texel = texels.xy * across + texels.zw;
+  return all(greaterThanEqual(point.texel, vec2(0.0))) &&
+    all(lessThan(point.texel, vec2(viewSize_LIGHT)));
+}
+
+// How far from the light the receiver's plane is on the ray through a texel's centre, but no farther
+// than the point itself. Where the plane runs past that ray or away from it, only the point's own
+// distance is left.
+float planeDistance_LIGHT(ViewPoint point, vec2 texelCentre)
+{
+  vec4 texels = viewTexels_LIGHT[point.view];
+  vec2 centre = (texelCentre - texels.zw) / texels.xy;
+  vec3 p = point.position;
+  vec3 n = point.normal;
+#if VIEWS_PERSPECTIVE_LIGHT
+  float along = dot(n, vec3(centre, 1.0));
+  return along < 0.0 ? min(dot(n, p) / along, p.z) : p.z;
+#else
+  return min(p.z - dot(n.xy, centre - p.xy) / n.z, p.z); // n.z < 0: the surface faces the light
+#endif
+}
+
+// A distance from the light as the map's depth.
+float viewDepth_LIGHT(ViewPoint point, float distanceLight)
+{
+  vec2 depth = viewDepths_LIGHT[point.view];
+  return depth.x * distanceLight + depth.y;
+}

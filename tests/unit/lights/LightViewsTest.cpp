@@ -1,0 +1,309 @@
+#include "lights/LightViews.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <random>
+
+namespace gnomon::test
+{
+namespace
+{
+
+constexpr int mapSize = 64;
+const glm::dvec3 centre(100.0, -50.0, 7.0);
+
+Bounds box(const glm::dvec3& lower, const glm::dvec3& upper)
+{
+  return { lower, upper };
+}
+
+ShadowLight lightOf(LightKind kind, const glm::dvec3& positionCentred,
+  const glm::dvec3& direction = { 0.0, 0.0, -1.0 }, double coneAngleDegrees = 0.0)
+{
+  ShadowLight light;
+  light.kind = kind;
+  light.positionWorld = centre + positionCentred;
+  light.directionWorld = glm::normalize(direction);
+  light.coneAngleDegrees = coneAngleDegrees;
+  return light;
+}
+
+LightViews fit(const ShadowLight& light, const Bounds& casters)
+{
+  return fitLightViews(light, centre, casters, mapSize);
+}
+
+/// Points in the box, its corners and more.
+std::vector<glm::dvec3> pointsIn(const Bounds& bounds)
+{
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  const std::array<glm::dvec3, 8> corners = bounds.corners();
+  std::vector<glm::dvec3> points(corners.begin(), corners.end());
+  for (int i = 0; i < 400; ++i)
+  {
+    const glm::dvec3 share(uniform(random), uniform(random), uniform(random));
+    points.push_back(bounds.lower + share * (bounds.upper - bounds.lower));
+  }
+  return points;
+}
+
+/// The view that sees a point, as shaders find it; null for none.
+const LightView* viewOf(const LightViews& views, const glm::dvec3& centred)
+{
+  std::size_t index = 0;
+  if (views.layout == ViewLayout::Cube)
+  {
+    const glm::dvec3 light(views.lightFromCentred * glm::dvec4(centred, 1.0));
+    const int view = views.viewOfFace[static_cast<std::size_t>(cubeFaceOf(light))];
+    if (view == LightViews::noView)
+    {
+      return nullptr;
+    }
+    index = static_cast<std::size_t>(view);
+  }
+  return index < views.views.size() ? &views.views[index] : nullptr;
+}
+
+/// Expects a point within a view, a texel away from its border and at a depth well below 1.
+void expectSeen(const LightView* view, const glm::dvec3& point)
+{
+  ASSERT_TRUE(view) << point.x << ", " << point.y << ", " << point.z;
+  const glm::dvec4 clip = view->clipFromCentred() * glm::dvec4(point, 1.0);
+  const double inner = 1.0 - 2.0 / mapSize + 1e-9;
+  EXPECT_LE(std::abs(clip.x), inner * clip.w);
+  EXPECT_LE(std::abs(clip.y), inner * clip.w);
+  EXPECT_LE(std::abs(clip.z), clip.w * (1.0 + 1e-12));
+  const double z = (view->viewFromCentred * glm::dvec4(point, 1.0)).z;
+  const double depth = view->depthScale * z + view->depthOffset;
+  EXPECT_GE(depth, -1e-12);
+  EXPECT_LE(depth, 0.95);
+}
+
+void expectAllSeen(const ShadowLight& light, const Bounds& casters)
+{
+  const LightViews views = fit(light, casters);
+  for (const glm::dvec3& point : pointsIn(casters))
+  {
+    expectSeen(viewOf(views, point), point);
+  }
+}
+
+std::vector<int> facesOf(const LightViews& views)
+{
+  std::vector<int> faces;
+  for (int face = 0; face < cubeFaces; ++face)
+  {
+    if (views.viewOfFace[static_cast<std::size_t>(face)] != LightViews::noView)
+    {
+      faces.push_back(face);
+    }
+  }
+  return faces;
+}
+
+TEST(LightViews, LayoutFollowsFromTheLightAlone)
+{
+  EXPECT_EQ(viewLayout(lightOf(LightKind::Directional, {})), ViewLayout::Single);
+  EXPECT_EQ(viewLayout(lightOf(LightKind::Spot, {}, { 0, 0, 1 }, 60.0)), ViewLayout::Single);
+  EXPECT_EQ(viewLayout(lightOf(LightKind::Spot, {}, { 0, 0, 1 }, 60.1)), ViewLayout::Cube);
+  EXPECT_EQ(viewLayout(lightOf(LightKind::Point, {})), ViewLayout::Cube);
+}
+
+TEST(LightViews, SeeAllCasters)
+{
+  const Bounds casters = box({ -1.0, -2.0, -0.5 }, { 3.0, 1.0, 2.0 });
+  for (const glm::dvec3& direction :
+    { glm::dvec3(0, 0, -1), { 0, 1, 0 }, { -1, 0, 0 }, { 0.3, -0.5, -0.7 } })
+  {
+    expectAllSeen(lightOf(LightKind::Directional, {}, direction), casters);
+  }
+  expectAllSeen(lightOf(LightKind::Spot, { 1.0, 0.0, 9.0 }, { 0, 0, -1 }, 50.0), casters);
+  for (const glm::dvec3& position :
+    { glm::dvec3(1.0, 0.0, 9.0), { 6.0, 7.0, 8.0 }, { -20.0, 0.1, 0.2 }, { 1e6, 1e6, 0.0 } })
+  {
+    expectAllSeen(lightOf(LightKind::Point, position), casters);
+  }
+}
+
+TEST(LightViews, FlatCastersAreSeen)
+{
+  const Bounds floor = box({ -3.0, -3.0, 0.0 }, { 3.0, 3.0, 0.0 });
+  for (const LightKind kind : { LightKind::Directional, LightKind::Point })
+  {
+    expectAllSeen(lightOf(kind, { 0.5, 0.2, 2.0 }), floor);
+    expectAllSeen(lightOf(kind, { 9.0, 0.2, 0.0 }, { -1.0, 0.0, 0.0 }), floor);
+  }
+}
+
+TEST(LightViews, FromAmongTheCastersAPointLightLooksEverywhere)
+{
+  const Bounds room = box({ -3.0, -2.0, -1.5 }, { 3.0, 2.0, 1.5 });
+  const LightViews views = fit(lightOf(LightKind::Point, { 0.4, 0.2, 0.9 }), room);
+  EXPECT_EQ(views.views.size(), 6u);
+  std::size_t seen = 0;
+  for (const glm::dvec3& point : pointsIn(room))
+  {
+    // Those nearer than the near plane excepted.
+    if (glm::length(point - glm::dvec3(0.4, 0.2, 0.9)) > 0.01)
+    {
+      expectSeen(viewOf(views, point), point);
+      ++seen;
+    }
+  }
+  EXPECT_GT(seen, 400u);
+}
+
+TEST(LightViews, FacesMeetAtTheirBorders)
+{
+  const Bounds room = box(glm::dvec3(-3.0), glm::dvec3(3.0));
+  const LightViews views = fit(lightOf(LightKind::Point, glm::dvec3(0.0)), room);
+  ASSERT_EQ(views.views.size(), 6u);
+  // On the border of two faces, and on a corner of three, each of them could answer.
+  for (const glm::dvec3& point :
+    { glm::dvec3(2.0, 2.0, 0.3), { -2.0, 0.1, 2.0 }, { 0.5, -2.0, -2.0 }, { 2.0, -2.0, 2.0 } })
+  {
+    const double longest = std::max({ std::abs(point.x), std::abs(point.y), std::abs(point.z) });
+    int faces = 0;
+    for (int face = 0; face < cubeFaces; ++face)
+    {
+      if ((cubeFaceFromLight(face) * point).z == longest)
+      {
+        expectSeen(&views.views[static_cast<std::size_t>(views.viewOfFace[face])], point);
+        ++faces;
+      }
+    }
+    EXPECT_GE(faces, 2);
+  }
+}
+
+TEST(LightViews, FacesWithoutCastersAreLeftOut)
+{
+  const Bounds below = box({ -0.5, -0.5, -3.0 }, { 0.5, 0.5, -2.0 });
+  EXPECT_EQ(facesOf(fit(lightOf(LightKind::Point, {}), below)), std::vector<int>({ 5 }));
+  const Bounds beside = box({ 1.0, -5.0, -0.5 }, { 2.0, 0.5, 0.5 });
+  EXPECT_EQ(facesOf(fit(lightOf(LightKind::Point, {}), beside)), std::vector<int>({ 0, 3 }));
+}
+
+TEST(LightViews, WideSpotsDoNotLookBehindThemselves)
+{
+  const Bounds room = box(glm::dvec3(-3.0), glm::dvec3(3.0));
+  const LightViews views = fit(lightOf(LightKind::Spot, {}, { 0.0, 0.0, -1.0 }, 75.0), room);
+  EXPECT_EQ(facesOf(views), std::vector<int>({ 0, 1, 2, 3, 4 }));
+  EXPECT_NEAR(views.coneTangentSquared, std::pow(std::tan(glm::radians(75.0)), 2.0), 1e-12);
+  for (const glm::dvec3& point : pointsIn(box(glm::dvec3(-3.0), { 3.0, 3.0, 0.0 })))
+  {
+    if (glm::length(point) > 0.01)
+    {
+      expectSeen(viewOf(views, point), point);
+    }
+  }
+}
+
+TEST(LightViews, MapsAreFittedToTheCasters)
+{
+  // Over the whole of both sides, but for the border of a texel.
+  const auto extentOf = [](const LightViews& views, const Bounds& casters)
+  {
+    glm::dvec2 lower(1.0);
+    glm::dvec2 upper(-1.0);
+    for (const glm::dvec3& corner : casters.corners())
+    {
+      const glm::dvec4 clip = views.views.at(0).clipFromCentred() * glm::dvec4(corner, 1.0);
+      lower = glm::min(lower, glm::dvec2(clip) / clip.w);
+      upper = glm::max(upper, glm::dvec2(clip) / clip.w);
+    }
+    return upper - lower;
+  };
+  const Bounds casters = box({ -1.0, -2.0, -9.5 }, { 3.0, 1.0, -8.0 });
+  const double inner = 2.0 * (1.0 - 2.0 / mapSize);
+  for (const ShadowLight& light : { lightOf(LightKind::Directional, {}),
+         lightOf(LightKind::Spot, {}, { 0, 0, -1 }, 50.0), lightOf(LightKind::Point, {}) })
+  {
+    const glm::dvec2 extent = extentOf(fit(light, casters), casters);
+    EXPECT_NEAR(extent.x, inner, 1e-4);
+    EXPECT_NEAR(extent.y, inner, 1e-4);
+  }
+}
+
+TEST(LightViews, ThereAreNoneWithoutCastersToShineOn)
+{
+  EXPECT_TRUE(fit(lightOf(LightKind::Directional, {}), Bounds()).views.empty());
+  EXPECT_TRUE(fit(lightOf(LightKind::Point, {}), Bounds()).views.empty());
+  const Bounds behind = box({ -1.0, -1.0, 1.0 }, { 1.0, 1.0, 2.0 });
+  for (const double cone : { 20.0, 60.0, 89.0 })
+  {
+    EXPECT_TRUE(fit(lightOf(LightKind::Spot, {}, { 0, 0, -1 }, cone), behind).views.empty());
+  }
+  const Bounds aside = box({ 5.0, -1.0, -2.0 }, { 6.0, 1.0, -1.0 });
+  EXPECT_TRUE(fit(lightOf(LightKind::Spot, {}, { 0, 0, -1 }, 30.0), aside).views.empty());
+}
+
+TEST(LightViews, OfABoxHoldWhatIsInIt)
+{
+  ShadowLight light = lightOf(LightKind::Directional, { 0.0, 0.0, 5.0 });
+  light.box = LightBox{ 2.0, 4.0, 4.0 };
+  // Across the near face at z = 5 and past the far one at z = 1, and over its sides.
+  const LightViews views = fit(light, box({ -9.0, -0.5, 0.0 }, { 9.0, 9.0, 8.0 }));
+  ASSERT_EQ(views.views.size(), 1u);
+  EXPECT_TRUE(views.views[0].beginsAtNear);
+  EXPECT_EQ(views.box, glm::dvec3(1.0, 2.0, 4.0));
+  for (const glm::dvec3& point : pointsIn(box({ -1.0, -0.5, 1.0 }, { 1.0, 2.0, 5.0 })))
+  {
+    expectSeen(&views.views[0], point);
+  }
+  const glm::dvec4 before = views.views[0].clipFromCentred() * glm::dvec4(0.0, 0.0, 5.001, 1.0);
+  EXPECT_LT(before.z, -1.0);
+
+  EXPECT_FALSE(fit(light, box({ -9.0, -0.5, 0.0 }, { 9.0, 9.0, 4.9 })).views[0].beginsAtNear);
+  EXPECT_TRUE(fit(light, box({ -9.0, -0.5, 5.1 }, { 9.0, 9.0, 8.0 })).views.empty());
+  EXPECT_TRUE(fit(light, box({ 1.1, -0.5, 0.0 }, { 9.0, 9.0, 8.0 })).views.empty());
+}
+
+TEST(LightViews, ABoxThatTouchesCastersInAPointStaysFinite)
+{
+  ShadowLight light = lightOf(LightKind::Directional, { 0.0, 0.0, 5.0 });
+  light.box = LightBox{ 2.0, 2.0, 4.0 };
+  const LightViews views = fit(light, box({ 1.0, 1.0, -3.0 }, { 2.0, 2.0, 1.0 }));
+  ASSERT_EQ(views.views.size(), 1u);
+  const glm::mat4 matrix(views.views[0].clipFromCentred());
+  for (int i = 0; i < 16; ++i)
+  {
+    EXPECT_TRUE(std::isfinite(matrix[i / 4][i % 4]));
+  }
+}
+
+TEST(LightView, LeavesOutOnlyWhatItCannotSee)
+{
+  const Bounds room = box(glm::dvec3(-3.0), glm::dvec3(3.0));
+  const LightViews views = fit(lightOf(LightKind::Point, glm::dvec3(0.0)), room);
+  const auto seenBy = [&](const Bounds& part)
+  {
+    return std::count_if(views.views.begin(), views.views.end(),
+      [&](const LightView& view) { return view.maySee(part); });
+  };
+  EXPECT_EQ(seenBy(box({ 2.0, -0.5, -0.5 }, { 2.5, 0.5, 0.5 })), 1);
+  EXPECT_EQ(seenBy(box({ 2.0, 1.5, -0.5 }, { 2.5, 2.5, 0.5 })), 2);
+  EXPECT_EQ(seenBy(box({ 2.0, 2.0, 2.0 }, { 2.5, 2.5, 2.5 })), 3);
+  EXPECT_EQ(seenBy(room), 6);
+  EXPECT_EQ(seenBy(Bounds()), 0);
+  // Whatever a view sees a point of, it draws.
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform(-3.0, 3.0);
+  for (int i = 0; i < 1000; ++i)
+  {
+    Bounds part;
+    part.add(glm::dvec3(uniform(random), uniform(random), uniform(random)));
+    part.add(part.lower + 0.5 * glm::dvec3(uniform(random), uniform(random), uniform(random)));
+    for (const glm::dvec3& corner : part.corners())
+    {
+      EXPECT_TRUE(viewOf(views, corner)->maySee(part));
+    }
+  }
+}
+
+} // namespace
+} // namespace gnomon::test

@@ -1,0 +1,185 @@
+// Directional lights that are limited to a box.
+
+#include "PassScene.h"
+
+#include "lights/vtkGnomonLightKeys.h"
+#include "plugin/vtkGnomonPropKeys.h"
+
+#include <vtkInformation.h>
+#include <vtkInformationDoubleVectorKey.h>
+#include <vtkTransform.h>
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+using namespace gnomon::test;
+using testing::HasSubstr;
+
+namespace
+{
+
+struct Caster
+{
+  glm::dvec3 lower;
+  glm::dvec3 upper;
+};
+
+/// A light at 45 degrees along +x over a floor, whose box begins around (-3, 0, 3).
+class LightBox
+  : public PassTest
+  , public testing::WithParamInterface<Way>
+{
+protected:
+  static constexpr double width = 3.0;
+  static constexpr double height = 4.0;
+  const glm::dvec3 start{ -3.0, 0.0, 3.0 };
+  const glm::dvec3 travel = glm::normalize(glm::dvec3(1.0, 0.0, -1.0));
+  const double up[3] = { 0.0, 2.0, 0.0 };
+
+  LightBox()
+  {
+    this->scene.addFloor(5.0);
+    this->scene.choose(GetParam());
+    this->scene.lookDown(4.5);
+    this->light = this->scene.addSun(this->travel);
+    this->light->SetPosition(this->start.x, this->start.y, this->start.z);
+    this->light->SetFocalPoint(0.0, 0.0, 0.0);
+  }
+
+  void addCaster(const Caster& caster)
+  {
+    this->scene.addBox(caster.lower, caster.upper);
+    this->casters.push_back(caster);
+  }
+
+  /// What the floor must show, with the light's box this deep.
+  ExactFloor exact(double depth) const
+  {
+    return [this, depth](const glm::dvec2& floor)
+    {
+      for (const Caster& caster : this->casters)
+      {
+        const glm::dvec2 middle = 0.5 * (glm::dvec2(caster.lower) + glm::dvec2(caster.upper));
+        const glm::dvec2 reach = glm::dvec2(caster.upper) - middle + 0.05;
+        if (std::abs(floor.x - middle.x) < reach.x && std::abs(floor.y - middle.y) < reach.y)
+        {
+          return -1.0;
+        }
+      }
+      const glm::dvec3 fromStart = glm::dvec3(floor, 0.0) - this->start;
+      const double along = glm::dot(fromStart, this->travel);
+      const double across = glm::dot(fromStart, glm::normalize(glm::dvec3(1.0, 0.0, 1.0)));
+      const bool inBox =
+        along <= depth && std::abs(across) <= 0.5 * width && std::abs(floor.y) <= 0.5 * height;
+      const bool shadow = std::any_of(this->casters.begin(), this->casters.end(),
+        [&](const Caster& caster) { return this->blocks(caster, floor, along); });
+      return inBox && !shadow ? 180.0 : 0.0; // 255 at 45 degrees
+    };
+  }
+
+  /// Whether the way from the floor to the near face, `length` long, meets a caster.
+  bool blocks(const Caster& caster, const glm::dvec2& floor, double length) const
+  {
+    double first = 0.0;
+    double last = length;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const double origin = glm::dvec3(floor, 0.0)[axis];
+      const double slope = -this->travel[axis];
+      if (slope == 0.0)
+      {
+        first = origin < caster.lower[axis] || origin > caster.upper[axis] ? 1e9 : first;
+        continue;
+      }
+      const double a = (caster.lower[axis] - origin) / slope;
+      const double b = (caster.upper[axis] - origin) / slope;
+      first = std::max(first, std::min(a, b));
+      last = std::min(last, std::max(a, b));
+    }
+    return first <= last;
+  }
+
+  PassScene scene{ 300, 300 };
+  vtkLight* light;
+  std::vector<Caster> casters;
+};
+
+INSTANTIATE_TEST_SUITE_P(Ways, LightBox, allWays, nameOf);
+
+} // namespace
+
+//------------------------------------------------------------------------------
+TEST_P(LightBox, lightsAndCastsWithinOnly)
+{
+  this->addCaster({ { -0.5, -0.5, 0.5 }, { 0.5, 0.5, 1.0 } });   // inside
+  this->addCaster({ { -4.5, -1.5, 4.0 }, { -4.0, -1.0, 4.5 } }); // before the near face
+  this->addCaster({ { -3.3, 1.0, 2.7 }, { -2.7, 1.3, 3.3 } });   // across it
+  this->addCaster({ { -0.2, 1.9, 0.3 }, { 0.2, 2.5, 0.6 } });    // across a side
+  this->addCaster({ { 2.4, 0.2, 0.3 }, { 2.8, 0.6, 0.9 } });     // beside
+  for (const double depth : { 9.0, 4.5 }) // past the floor, and over a part of it
+  {
+    vtkGnomonLightKeys::SetBox(this->light, width, height, depth, this->up);
+    const FloorCheck check =
+      checkFloor(this->scene, this->scene.render(), this->exact(depth), 0.06);
+    EXPECT_GT(check.counted, 50000u);
+    EXPECT_EQ(check.falseLight, 0u) << depth;
+    EXPECT_EQ(check.falseShadow, 0u) << depth;
+  }
+  // Without the box the casters outside cast, and all of the floor is reached.
+  vtkGnomonLightKeys::RemoveBox(this->light);
+  const FloorCheck check = checkFloor(this->scene, this->scene.render(), this->exact(9.0), 0.06);
+  EXPECT_GT(check.falseLight, 10000u);
+  EXPECT_GT(check.falseShadow, 100u);
+}
+
+//------------------------------------------------------------------------------
+TEST_P(LightBox, withoutCastersStillEnds)
+{
+  vtkGnomonLightKeys::SetBox(this->light, width, height, 9.0, this->up);
+  vtkGnomonPropKeys::SetCasts(this->scene.renderer->GetActors()->GetLastActor(), false);
+  const FloorCheck check = checkFloor(this->scene, this->scene.render(), this->exact(9.0), 0.06);
+  EXPECT_EQ(check.wrong(), 0u);
+  vtkGnomonLightKeys::SetBox(this->light, width, height, 2.0, this->up); // ends above the floor
+  EXPECT_EQ(this->scene.redAt(this->scene.render(), 0.0, 0.0), 0);
+}
+
+//------------------------------------------------------------------------------
+TEST_P(LightBox, turnsWithItsLight)
+{
+  this->addCaster({ { -0.5, -0.5, 0.5 }, { 0.5, 0.5, 1.0 } });
+  const double askew[3] = { 0.2, 1.0, 0.7 };
+  vtkGnomonLightKeys::SetBox(this->light, width, height, 9.0, askew);
+  vtkNew<vtkTransform> turn;
+  turn->RotateZ(50.0);
+  turn->RotateX(20.0);
+  this->light->SetTransformMatrix(turn->GetMatrix());
+  const Picture turned = this->scene.render();
+  double position[3];
+  double focalPoint[3];
+  this->light->GetTransformedPosition(position);
+  this->light->GetTransformedFocalPoint(focalPoint);
+  this->light->SetTransformMatrix(nullptr);
+  this->light->SetPosition(position);
+  this->light->SetFocalPoint(focalPoint);
+  vtkGnomonLightKeys::SetBox(this->light, width, height, 9.0, turn->TransformDoubleVector(askew));
+  EXPECT_LE(differingPixels(turned, this->scene.render(), 2), 4u);
+}
+
+//------------------------------------------------------------------------------
+TEST_P(LightBox, sizesThatAreNoneAreAnError)
+{
+  const double inf = std::numeric_limits<double>::infinity();
+  const double none[3] = { 0.0, 0.0, 0.0 };
+  for (const glm::dvec3& size :
+    { glm::dvec3(0.0, 1.0, 1.0), { 1.0, -1.0, 1.0 }, { 1.0, 1.0, inf } })
+  {
+    vtkGnomonLightKeys::SetBox(this->light, size.x, size.y, size.z, this->up);
+    EXPECT_THAT(this->takeErrors(), HasSubstr("sizes must be positive"));
+  }
+  vtkGnomonLightKeys::SetBox(this->light, 1.0, 1.0, 1.0, none);
+  EXPECT_THAT(this->takeErrors(), HasSubstr("up direction"));
+  EXPECT_FALSE(this->light->GetInformation()->Has(vtkGnomonLightKeys::BOX()));
+}

@@ -1,0 +1,427 @@
+// Point lights and wide spot lights, whose maps have a layer for each face of a cube.
+
+#include "PassScene.h"
+
+#include "Scene.h"
+
+#include "lights/LightSpace.h"
+#include "lights/vtkGnomonLightKeys.h"
+#include "plugin/OccluderCollector.h"
+#include "plugin/VisibilityImages.h"
+#include "plugin/vtkGnomonPropKeys.h"
+#include "shadowtech/base/RayTracer.h"
+
+#include <vtkTransform.h>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace gnomon::test;
+using gnomon::VisibilityImages;
+
+namespace
+{
+
+class PositionalLights : public PassTest
+{
+protected:
+  static const VisibilityImages& draw(PassScene& scene, const char* technique = "nsm")
+  {
+    scene.pass->SetTechnique(technique);
+    scene.pass->KeepVisibilityOn();
+    scene.render();
+    const VisibilityImages& kept = scene.pass->GetVisibility();
+    std::size_t broken = 0;
+    for (const std::vector<float>& light : kept.visibility)
+    {
+      for (const float value : light)
+      {
+        broken += value == 0.0f || value == 1.0f ? 0 : 1;
+      }
+    }
+    EXPECT_EQ(broken, 0u);
+    return kept;
+  }
+};
+
+constexpr double allDirections = 180.0;
+
+glm::dvec3 positionOf(const VisibilityImages& kept, std::size_t i)
+{
+  return { kept.origin[0] + kept.positionX[i], kept.origin[1] + kept.positionY[i],
+    kept.origin[2] + kept.positionZ[i] };
+}
+
+/// Of the covered pixels that face a point by more than this cosine, those that are dark.
+struct Acne
+{
+  std::size_t facing = 0;
+  std::size_t dark = 0;
+};
+Acne countAcne(const VisibilityImages& kept, const glm::dvec3& light, double leastCosine = 0.0)
+{
+  Acne acne;
+  for (std::size_t i = 0; i < kept.coverage.size(); ++i)
+  {
+    const glm::dvec3 normal(kept.normalX[i], kept.normalY[i], kept.normalZ[i]);
+    const glm::dvec3 toLight = light - positionOf(kept, i);
+    if (kept.coverage[i] > 0.0f && glm::dot(normal, toLight) > leastCosine * glm::length(toLight))
+    {
+      ++acne.facing;
+      acne.dark += kept.visibility[0][i] < 1.0f ? 1 : 0;
+    }
+  }
+  return acne;
+}
+
+/// Whether an edge of a shadow is near a point, by rays of its own: in what the light sees within so
+/// many texels of the point, on the point's plane, not all is lit or dark. (The edge need not be in
+/// the picture: it may lie behind something, or be thinner than a pixel.)
+class EdgeFinder
+{
+public:
+  EdgeFinder(vtkRenderer* renderer, const glm::dvec3& lightWorld)
+  {
+    this->collector_.collect(renderer);
+    this->tracer_.update(this->collector_.occluders());
+    this->light_.kind = gnomon::LightKind::Point;
+    this->light_.positionWorld = lightWorld;
+  }
+
+  bool isNear(const glm::dvec3& point, const glm::dvec3& normal, double texels, double mapSize)
+  {
+    constexpr int steps = 8;
+    const double reach = texels * 2.0 / mapSize; // a face's slopes go from -1 to 1
+    const glm::dvec3& light = this->light_.positionWorld;
+    const glm::dmat3 faceFromLight = gnomon::cubeFaceFromLight(gnomon::cubeFaceOf(point - light));
+    const glm::dvec3 inFace = faceFromLight * (point - light);
+    gnomon::ReceiverPixels pixels;
+    for (int y = -steps; y <= steps; ++y)
+    {
+      for (int x = -steps; x <= steps; ++x)
+      {
+        const glm::dvec3 slopes(
+          inFace.x / inFace.z + reach * x / steps, inFace.y / inFace.z + reach * y / steps, 1.0);
+        const glm::dvec3 way = glm::transpose(faceFromLight) * slopes;
+        const double along = glm::dot(normal, point - light) / glm::dot(normal, way);
+        add(pixels, light + along * way - this->collector_.occluders().centreWorld, normal);
+      }
+    }
+    std::vector<float> visibility;
+    this->tracer_.trace(this->light_, this->collector_.occluders(), pixels, visibility);
+    return *std::min_element(visibility.begin(), visibility.end()) <
+      *std::max_element(visibility.begin(), visibility.end());
+  }
+
+private:
+  static void add(
+    gnomon::ReceiverPixels& pixels, const glm::dvec3& centred, const glm::dvec3& normal)
+  {
+    const glm::vec3 position(centred);
+    const glm::vec3 direction(normal);
+    pixels.positionX.push_back(position.x);
+    pixels.positionY.push_back(position.y);
+    pixels.positionZ.push_back(position.z);
+    pixels.normalX.push_back(direction.x);
+    pixels.normalY.push_back(direction.y);
+    pixels.normalZ.push_back(direction.z);
+    pixels.offset.push_back(1e-5f);
+    pixels.surface.push_back(0);
+    pixels.width = static_cast<int>(pixels.surface.size());
+    pixels.height = 1;
+  }
+
+  gnomon::OccluderCollector collector_;
+  gnomon::RayTracer tracer_;
+  gnomon::ShadowLight light_;
+};
+
+} // namespace
+
+//------------------------------------------------------------------------------
+TEST_F(PositionalLights, theRoomHasNoSeams)
+{
+  const gnomon::tool::Scene room = gnomon::tool::loadScene("room");
+  const vtkSmartPointer<vtkRenderer> renderer = gnomon::tool::makeRenderer(room, 1.0);
+  vtkNew<vtkGnomonEGLRenderWindow> window;
+  window->SetSize(320, 320);
+  window->AddRenderer(renderer);
+  vtkNew<vtkGnomonShadowPass> pass;
+  renderer->SetPass(pass);
+  pass->KeepVisibilityOn();
+  const auto drawWith = [&](const char* technique)
+  {
+    pass->SetTechnique(technique);
+    window->Render();
+    return pass->GetVisibility();
+  };
+  const VisibilityImages traced = drawWith("raytraced");
+  const auto& at = room.lights[0].position;
+  EdgeFinder edges(renderer, { at[0], at[1], at[2] });
+  for (const int mapSize : { 128, 320 })
+  {
+    pass->SetMapSize(mapSize);
+    const VisibilityImages mapped = drawWith("nsm");
+    std::size_t wrong = 0;
+    for (std::size_t i = 0; i < traced.coverage.size(); ++i)
+    {
+      if (mapped.visibility[0][i] != traced.visibility[0][i])
+      {
+        ++wrong;
+        const glm::dvec3 normal(traced.normalX[i], traced.normalY[i], traced.normalZ[i]);
+        EXPECT_TRUE(edges.isNear(positionOf(traced, i), normal, 2.0, mapSize))
+          << "map " << mapSize << ", pixel " << i % 320 << ", " << i / 320;
+      }
+    }
+    EXPECT_EQ(pass->GetReport().bytesMaps, 6u * 4u * static_cast<unsigned>(mapSize * mapSize));
+    EXPECT_GT(wrong, 0u) << "a map has its texels";
+    EXPECT_LE(wrong, (mapSize == 128 ? 0.01 : 0.005) * 320.0 * 320.0) << "map " << mapSize;
+    RecordProperty("wrongPixels" + std::to_string(mapSize), static_cast<int>(wrong));
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(PositionalLights, litPlaneHasNoAcneAtAnyAngle)
+{
+  // At a corner of the floor the light stands at 89.3 degrees when it is lowest. Tilted, the plane
+  // is askew to the faces of the cube.
+  for (const double tilt : { 0.0, 35.0 })
+  {
+    for (const int mapSize : { 64, 1024 })
+    {
+      PassScene scene(200, 200);
+      vtkActor* floor = scene.addFloor(4.0);
+      scene.addBox({ -0.1, -0.1, 9.0 }, { 0.1, 0.1, 9.1 }); // so that there is more than a plane
+      vtkNew<vtkTransform> turn;
+      turn->RotateWXYZ(tilt, 1.0, 0.6, 0.2);
+      floor->SetUserTransform(turn);
+      vtkLight* lamp = scene.addSpot({ 0.0, 0.0, 1.0 }, glm::dvec3(0.0), allDirections);
+      scene.pass->SetMapSize(mapSize);
+      scene.lookFrom({ 1.0, -7.0, 12.0 });
+      for (const double height : { 8.0, 3.0, 1.0, 0.3, 0.07 })
+      {
+        const double along[3] = { 0.1, 0.2, height };
+        const double* point = turn->TransformDoublePoint(along);
+        const glm::dvec3 light(point[0], point[1], point[2]);
+        lamp->SetPosition(light.x, light.y, light.z);
+        const Acne acne = countAcne(draw(scene), light);
+        EXPECT_GT(acne.facing, 5000u);
+        EXPECT_EQ(acne.dark, 0u) << "height " << height << ", map " << mapSize << ", " << tilt;
+      }
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(PositionalLights, insideAClosedBoxAllIsLit)
+{
+  // From its middle the borders of the faces run along the box's own edges.
+  for (const glm::dvec3& light : { glm::dvec3(0.0), { 0.7, -0.4, 0.9 }, { -1.9, 1.9, -1.9 } })
+  {
+    for (const int mapSize : { 32, 256 })
+    {
+      PassScene scene(200, 200);
+      scene.addBox(glm::dvec3(-2.0), glm::dvec3(2.0));
+      scene.addSpot(light, light - glm::dvec3(0.0, 0.0, 1.0), allDirections);
+      scene.pass->SetMapSize(mapSize);
+      for (const glm::dvec3& eye : { glm::dvec3(1.9, 1.8, 1.9), { -1.9, -1.8, -1.9 } })
+      {
+        scene.lookFrom(eye);
+        scene.renderer->GetActiveCamera()->SetViewAngle(100.0);
+        scene.renderer->GetActiveCamera()->SetClippingRange(0.01, 10.0);
+        const Acne acne = countAcne(draw(scene), light);
+        EXPECT_EQ(acne.facing, 40000u);
+        EXPECT_EQ(acne.dark, 0u) << "map " << mapSize;
+      }
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(PositionalLights, wideConesAgreeWithTheTruth)
+{
+  for (const double cone : { 55.0, 61.0, 75.0, 89.0, 89.9 })
+  {
+    for (const bool oneSided : { false, true })
+    {
+      PassScene scene(200, 200);
+      vtkGnomonPropKeys::SetOneSided(scene.addFloor(4.0), oneSided);
+      vtkGnomonPropKeys::SetOneSided(scene.addSphere({ 1.5, 0.5, 0.9 }, 0.6), oneSided);
+      vtkGnomonPropKeys::SetOneSided(
+        scene.addBox({ -2.0, -1.5, 0.0 }, { -1.0, 0.5, 1.2 }), oneSided);
+      scene.addSpot({ 0.1, 0.2, 1.6 }, { 0.4, 0.1, 0.0 }, cone);
+      scene.pass->SetMapSize(512);
+      scene.lookFrom({ 1.0, -7.0, 6.0 });
+      const VisibilityImages mapped = draw(scene);
+      const VisibilityImages traced = draw(scene, "raytraced");
+      const Agreement agreement = compareVisibility(mapped, traced);
+      EXPECT_GT(agreement.covered, 20000u);
+      EXPECT_LE(agreement.wrong, 0.005 * agreement.covered) << cone << ", " << oneSided;
+      const auto lit = std::count(traced.visibility[0].begin(), traced.visibility[0].end(), 1.0f);
+      EXPECT_GT(lit, 3000);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(PositionalLights, aPointLightIsAConeThatIsNotThere)
+{
+  // VTK takes cones of 90 degrees and more for none.
+  PassScene scene(200, 200);
+  scene.addFloor(4.0);
+  scene.addSphere({ 1.5, 0.5, 0.9 }, 0.6);
+  vtkLight* light = scene.addSpot({ 0.1, 0.2, 1.6 }, { 0.1, 0.2, 0.0 }, 90.0);
+  scene.lookFrom({ 1.0, -7.0, 6.0 });
+  for (const char* technique : { "nsm", "raytraced" })
+  {
+    light->SetConeAngle(90.0);
+    light->SetFocalPoint(0.1, 0.2, 5.0); // up: a cone would leave the floor dark
+    const VisibilityImages point = draw(scene, technique);
+    EXPECT_GT(countAcne(point, { 0.1, 0.2, 1.6 }).facing, 10000u);
+    EXPECT_LT(countAcne(point, { 0.1, 0.2, 1.6 }).dark, 6000u);
+    light->SetFocalPoint(light->GetPosition()); // a direction is not needed
+    light->SetConeAngle(180.0);
+    const VisibilityImages same = draw(scene, technique);
+    ASSERT_EQ(same.visibility.size(), 1u);
+    EXPECT_EQ(same.visibility[0], point.visibility[0]);
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(PositionalLights, aChangedConeIsSeenAlthoughTheCastersStayTheSame)
+{
+  PassScene scene(200, 200);
+  scene.addFloor(1.0);
+  vtkLight* spot = scene.addSpot({ 0.0, 0.0, 1.0 }, glm::dvec3(0.0), 80.0);
+  vtkGnomonPropKeys::SetCasts(scene.addFloor(6.0, -0.5), false);
+  scene.lookFrom({ 0.0, -9.0, 9.0 });
+  const VisibilityImages wide = draw(scene);
+  spot->SetConeAngle(65.0);
+  const VisibilityImages narrow = draw(scene);
+  const VisibilityImages truth = draw(scene, "raytraced");
+  EXPECT_GT(compareVisibility(wide, narrow).wrong, 500u);
+  EXPECT_LE(compareVisibility(truth, narrow).wrong, 5u);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(PositionalLights, mapsHaveLayersOnlyForFacesWithCasters)
+{
+  PassScene scene(100, 100);
+  scene.addFloor(1.0);
+  vtkLight* lamp = scene.addSpot({ 0.0, 0.0, 3.0 }, glm::dvec3(0.0), allDirections);
+  scene.pass->SetMapSize(64);
+  scene.lookFrom({ 0.0, -3.0, 3.0 });
+  draw(scene);
+  EXPECT_EQ(scene.report().bytesMaps, 64u * 64u * 4u);
+  lamp->SetPosition(0.0, 0.0, 0.5); // below, and to the four sides
+  draw(scene);
+  EXPECT_EQ(scene.report().bytesMaps, 5u * 64u * 64u * 4u);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(PositionalLights, degeneratePlacesStayFinite)
+{
+  const glm::dvec3 eye(0.0, -9.0, 7.0);
+  // Inside a caster; on surfaces and on a corner; at the camera; far away; where there is nothing.
+  for (const glm::dvec3& position :
+    { glm::dvec3(0.0, 0.0, 1.5), { 0.0, 0.0, 0.0 }, { 0.7, 0.0, 1.5 }, { 4.0, 4.0, 0.0 }, eye,
+      { 1e6, 1e6, 1e6 }, { 1e6, 0.0, 1e6 }, { 0.0, 0.0, -50.0 } })
+  {
+    for (const double cone : { 75.0, allDirections })
+    {
+      PassScene scene(64, 48);
+      scene.addFloor(4.0);
+      scene.addSphere({ 0.0, 0.0, 1.5 }, 0.7);
+      scene.addSpot(position, position + glm::dvec3(0.1, 0.2, -3.0), cone);
+      scene.lookFrom(eye);
+      draw(scene, "raytraced");
+      draw(scene, "nsm");
+      scene.pass->KeepVisibilityOff();
+      scene.render();
+      EXPECT_EQ(scene.report().route, "inline");
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(PositionalLights, whatIsShutInStaysDarkOutside)
+{
+  PassScene scene(200, 150);
+  scene.addFloor(4.0);
+  scene.addSphere({ 0.0, 0.0, 1.5 }, 0.7);
+  scene.addSpot({ 0.1, 0.0, 1.6 }, { 0.0, 0.0, 0.0 }, allDirections);
+  scene.lookFrom({ 0.0, -9.0, 7.0 });
+  for (const char* technique : { "nsm", "raytraced" })
+  {
+    const VisibilityImages& kept = draw(scene, technique);
+    std::size_t covered = 0;
+    std::size_t lit = 0;
+    for (std::size_t i = 0; i < kept.coverage.size(); ++i)
+    {
+      covered += kept.coverage[i] > 0.0f ? 1 : 0;
+      lit += kept.coverage[i] > 0.0f && kept.visibility[0][i] > 0.0f ? 1 : 0;
+    }
+    EXPECT_GT(covered, 8000u);
+    EXPECT_EQ(lit, 0u) << technique;
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(PositionalLights, atTheCameraNoShadowIsSeen)
+{
+  PassScene scene(200, 150);
+  scene.addFloor(4.0);
+  scene.addSphere({ 0.0, 0.0, 1.5 }, 0.7);
+  const glm::dvec3 eye(0.0, -9.0, 7.0);
+  scene.addSpot(eye, glm::dvec3(0.0), allDirections);
+  scene.lookFrom(eye);
+  for (const char* technique : { "nsm", "raytraced" })
+  {
+    const Acne acne = countAcne(draw(scene, technique), eye, 0.2);
+    EXPECT_GT(acne.facing, 8000u);
+    // Behind the sphere's outline, where a texel holds both.
+    EXPECT_LE(acne.dark, 30u) << technique;
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(PositionalLights, withoutCastersAllIsLit)
+{
+  PassScene scene(100, 100);
+  vtkGnomonPropKeys::SetCasts(scene.addFloor(4.0), false);
+  scene.addSpot({ 0.0, 0.0, 1.0 }, glm::dvec3(0.0), allDirections);
+  scene.lookFrom({ 1.0, -7.0, 6.0 });
+  for (const char* technique : { "nsm", "raytraced" })
+  {
+    const Acne acne = countAcne(draw(scene, technique), { 0.0, 0.0, 1.0 });
+    EXPECT_GT(acne.facing, 1000u);
+    EXPECT_EQ(acne.dark, 0u) << technique;
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(PositionalLights, lightsOfAllKindsShareAShader)
+{
+  PassScene scene(240, 180);
+  scene.addFloor(4.0);
+  scene.addSphere({ 0.7, 0.3, 1.5 }, 0.7);
+  scene.addBox({ -2.0, -1.0, 0.0 }, { -1.0, 0.0, 1.5 });
+  scene.lookFrom({ 1.0, -9.0, 7.0 });
+  const double up[3] = { 0.0, 1.0, 0.0 };
+  scene.addSpot({ 0.0, 2.0, 3.0 }, glm::dvec3(0.0), allDirections)->SetIntensity(0.25);
+  scene.addSun({ 1.0, 0.4, -1.5 })->SetIntensity(0.2);
+  scene.addSpot({ -3.0, -1.0, 4.0 }, glm::dvec3(0.0), 30.0)->SetIntensity(0.2);
+  vtkLight* beam = scene.addSun({ -1.0, 0.4, -1.5 });
+  beam->SetPosition(2.0, -0.8, 3.0);
+  beam->SetIntensity(0.2);
+  vtkGnomonLightKeys::SetBox(beam, 3.0, 4.0, 6.0, up);
+  scene.addSpot({ -1.0, -3.0, 2.0 }, glm::dvec3(0.0), 70.0)->SetIntensity(0.2);
+  const Picture direct = scene.render();
+  EXPECT_EQ(scene.report().route, "inline");
+  scene.pass->SetRoute(vtkGnomonShadowPass::ROUTE_IMAGE);
+  EXPECT_EQ(differingPixels(direct, scene.render(), 1), 0u);
+  scene.pass->SetTechnique("raytraced");
+  EXPECT_LE(differingPixels(direct, scene.render(), 8), 800u);
+  scene.usePlain();
+  EXPECT_GT(differingPixels(direct, scene.render(), 8), 10000u);
+}
