@@ -28,11 +28,6 @@ using namespace gnomon::test;
 namespace
 {
 
-const glm::dvec3 boxLower(-1.0, -1.0, 1.0);
-const glm::dvec3 boxUpper(1.0, 1.0, 3.0);
-const glm::dvec3 sunDirection(1.0, 0.0, -1.0);
-const double sunValue = 255.0 * std::sqrt(0.5);
-
 using Pass = vtkSmartPointer<vtkRenderPass>;
 
 template <typename OuterPass>
@@ -121,8 +116,8 @@ protected:
   ChainedScene()
   {
     this->scene.addFloor(10.0);
-    this->scene.addBox(boxLower, boxUpper);
-    this->scene.addSun(sunDirection);
+    this->scene.addBox(hangingBox.lower, hangingBox.upper);
+    this->scene.addSun(slantingSun);
     this->scene.lookDown(10.0);
   }
 
@@ -136,17 +131,9 @@ protected:
   /// Floor pixels that are not as the sun and the box say.
   FloorCheck check(const Picture& picture) const
   {
-    const ExactFloor exact = [](const glm::dvec2& floor)
-    {
-      const bool hidden = std::abs(floor.x) < 1.0 && std::abs(floor.y) < 1.0;
-      if (hidden || std::abs(floor.x) > 10.0 || std::abs(floor.y) > 10.0)
-      {
-        return -1.0;
-      }
-      return hitsBox(floor, -sunDirection, boxLower, boxUpper) ? 0.0 : sunValue;
-    };
     // Three texels, and what filters over pixels reach.
-    return checkFloor(this->scene, picture, exact, 3.0 * 24.0 / 1024.0 + 3.0 * 20.0 / 300.0);
+    return checkFloor(this->scene, picture, floorUnderSun(hangingBox, 10.0),
+      3.0 * 24.0 / 1024.0 + 3.0 * 20.0 / 300.0);
   }
 
   PassScene scene{ 300, 300 };

@@ -15,6 +15,7 @@
 #include <vtk_glew.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 
 namespace gnomon::test
@@ -226,6 +227,29 @@ void PassScene::useVtkShadows(int mapSize)
   }
   this->renderer->SetPass(camera);
   this->vtkShadows = shadows;
+}
+
+//------------------------------------------------------------------------------
+const double slantingSunValue = 255.0 * std::sqrt(0.5);
+
+//------------------------------------------------------------------------------
+bool isUnder(const glm::dvec2& floor, const Box& box)
+{
+  return floor.x >= box.lower.x && floor.x <= box.upper.x && floor.y >= box.lower.y &&
+    floor.y <= box.upper.y;
+}
+
+//------------------------------------------------------------------------------
+ExactFloor floorUnderSun(const Box& box, double extent, const glm::dvec3& direction, double value)
+{
+  return [=](const glm::dvec2& floor)
+  {
+    if (isUnder(floor, box) || std::abs(floor.x) > extent || std::abs(floor.y) > extent)
+    {
+      return -1.0;
+    }
+    return hitsBox(floor, -direction, box.lower, box.upper) ? 0.0 : value;
+  };
 }
 
 //------------------------------------------------------------------------------

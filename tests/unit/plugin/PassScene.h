@@ -126,6 +126,25 @@ struct FloorCheck
 /// one where the floor is not seen.
 using ExactFloor = std::function<double(const glm::dvec2&)>;
 
+/// The scene that most exact answers are known for: a box over a floor, under one sun at 45 degrees.
+struct Box
+{
+  glm::dvec3 lower;
+  glm::dvec3 upper;
+};
+/// Hangs over the floor, so that its shadow from the sun is x in [0, 4], of which it hides [0, 1].
+inline const Box hangingBox{ { -1.0, -1.0, 1.0 }, { 1.0, 1.0, 3.0 } };
+inline const glm::dvec3 slantingSun(1.0, 0.0, -1.0);
+extern const double slantingSunValue; ///< a lit floor pixel's
+
+/// Whether a box hides a floor point from straight above.
+bool isUnder(const glm::dvec2& floor, const Box& box);
+
+/// The floor of half side `extent` under one sun; nothing is asked of the box itself, nor beyond the
+/// floor.
+ExactFloor floorUnderSun(const Box& box, double extent, const glm::dvec3& direction = slantingSun,
+  double value = slantingSunValue);
+
 /// Compares each pixel with the exact answer, with a tolerance of a quarter of white. Pixels with
 /// an edge of the exact answer nearer than `band` (floor units) are left out.
 FloorCheck checkFloor(

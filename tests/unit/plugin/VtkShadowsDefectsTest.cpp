@@ -23,38 +23,8 @@ class VtkShadowsDefects : public PassTest
 {
 };
 
-const glm::dvec3 sunDirection(1.0, 0.0, -1.0); ///< at 45 degrees
-const double sunValue = 255.0 * std::sqrt(0.5);
-
-struct Box
-{
-  glm::dvec3 lower;
-  glm::dvec3 upper;
-};
-/// Hangs over the floor, so that its shadow from the sun is x in [0, 4], of which it hides [0, 1].
-const Box hanging{ { -1.0, -1.0, 1.0 }, { 1.0, 1.0, 3.0 } };
 /// Stands on the floor; its shadow is x in [1, 3].
 const Box standing{ { -1.0, -1.0, 0.0 }, { 1.0, 1.0, 2.0 } };
-
-bool under(const glm::dvec2& floor, const Box& box)
-{
-  return floor.x >= box.lower.x && floor.x <= box.upper.x && floor.y >= box.lower.y &&
-    floor.y <= box.upper.y;
-}
-
-/// The floor under one sun; nothing is asked of the box itself, nor beyond the floor.
-ExactFloor floorUnderSun(const Box& box, double extent, const glm::dvec3& direction = sunDirection,
-  double value = sunValue)
-{
-  return [=](const glm::dvec2& floor)
-  {
-    if (under(floor, box) || std::abs(floor.x) > extent || std::abs(floor.y) > extent)
-    {
-      return -1.0;
-    }
-    return hitsBox(floor, -direction, box.lower, box.upper) ? 0.0 : value;
-  };
-}
 
 constexpr double texels = 3.0; ///< left out beside the shadow's edge
 
@@ -65,10 +35,10 @@ TEST_F(VtkShadowsDefects, bothAreRightInASquareWindow)
 {
   PassScene scene(300, 300);
   scene.addFloor(10.0);
-  scene.addBox(hanging.lower, hanging.upper);
-  scene.addSun(sunDirection);
+  scene.addBox(hangingBox.lower, hangingBox.upper);
+  scene.addSun(slantingSun);
   scene.lookDown(10.0);
-  const ExactFloor exact = floorUnderSun(hanging, 10.0);
+  const ExactFloor exact = floorUnderSun(hangingBox, 10.0);
   const double band = texels * 24.0 / 1024.0 + 20.0 / 300.0;
 
   const FloorCheck nsm = checkFloor(scene, scene.render(), exact, band);
@@ -83,10 +53,10 @@ TEST_F(VtkShadowsDefects, windowThatIsNotSquare)
 {
   PassScene scene(450, 225);
   scene.addFloor(10.0);
-  scene.addBox(hanging.lower, hanging.upper);
-  scene.addSun(sunDirection);
+  scene.addBox(hangingBox.lower, hangingBox.upper);
+  scene.addSun(slantingSun);
   scene.lookDown(5.0);
-  const ExactFloor exact = floorUnderSun(hanging, 10.0);
+  const ExactFloor exact = floorUnderSun(hangingBox, 10.0);
   const double band = texels * 24.0 / 1024.0 + 10.0 / 225.0;
 
   EXPECT_EQ(checkFloor(scene, scene.render(), exact, band).wrong(), 0u);
@@ -101,7 +71,7 @@ TEST_F(VtkShadowsDefects, contactOnABigFloor)
   PassScene scene(300, 300);
   scene.addFloor(100.0);
   scene.addBox(standing.lower, standing.upper);
-  scene.addSun(sunDirection);
+  scene.addSun(slantingSun);
   scene.lookDown(4.0);
   const ExactFloor exact = floorUnderSun(standing, 100.0);
   const double band = texels * 200.0 / 4096.0;
@@ -119,7 +89,7 @@ TEST_F(VtkShadowsDefects, casterOutsideTheView)
   PassScene scene(300, 300);
   scene.addFloor(100.0);
   scene.addBox(standing.lower, standing.upper);
-  scene.addSun(sunDirection);
+  scene.addSun(slantingSun);
   const ExactFloor exact = floorUnderSun(standing, 100.0);
   const double band = texels * 200.0 / 4096.0;
 
@@ -150,11 +120,11 @@ TEST_F(VtkShadowsDefects, lightThatIsSwitchedOffBeforeTheCastingOne)
 {
   PassScene scene(300, 300);
   scene.addFloor(10.0);
-  scene.addBox(hanging.lower, hanging.upper);
+  scene.addBox(hangingBox.lower, hangingBox.upper);
   scene.addSun({ 0.0, 1.0, -1.0 })->SwitchOff();
-  scene.addSun(sunDirection);
+  scene.addSun(slantingSun);
   scene.lookDown(10.0);
-  const ExactFloor exact = floorUnderSun(hanging, 10.0);
+  const ExactFloor exact = floorUnderSun(hangingBox, 10.0);
 
   EXPECT_EQ(checkFloor(scene, scene.render(), exact, 0.14).wrong(), 0u);
   scene.useVtkShadows();
@@ -172,7 +142,7 @@ TEST_F(VtkShadowsDefects, verticesEditedInPlace)
   vtkNew<vtkPolyData> box;
   box->DeepCopy(source->GetOutput());
   scene.add(box);
-  scene.addSun(sunDirection);
+  scene.addSun(slantingSun);
   scene.lookDown(10.0);
   const auto moveBy = [&](double x)
   {
@@ -185,9 +155,9 @@ TEST_F(VtkShadowsDefects, verticesEditedInPlace)
     box->GetPoints()->Modified();
     box->Modified();
   };
-  const Box moved{ hanging.lower - glm::dvec3(3.0, 0.0, 0.0),
-    hanging.upper - glm::dvec3(3.0, 0.0, 0.0) };
-  const ExactFloor exact = floorUnderSun(hanging, 10.0);
+  const Box moved{ hangingBox.lower - glm::dvec3(3.0, 0.0, 0.0),
+    hangingBox.upper - glm::dvec3(3.0, 0.0, 0.0) };
+  const ExactFloor exact = floorUnderSun(hangingBox, 10.0);
   const ExactFloor exactMoved = floorUnderSun(moved, 10.0);
 
   EXPECT_EQ(checkFloor(scene, scene.render(), exact, 0.14).wrong(), 0u);
@@ -208,7 +178,7 @@ TEST_F(VtkShadowsDefects, mapSizeChangedAlone)
 {
   PassScene scene(300, 300);
   scene.addFloor(10.0);
-  scene.addBox(hanging.lower, hanging.upper);
+  scene.addBox(hangingBox.lower, hangingBox.upper);
   scene.addSun({ 1.0, 0.3, -1.0 }); // oblique to the texels, so that edges show them
   scene.lookDown(10.0);
 
@@ -281,7 +251,7 @@ TEST_F(VtkShadowsDefects, severalLightsWithOneSwitchedOffBetweenThem)
   scene.lookDown(5.0);
   const ExactFloor exact = [&](const glm::dvec2& floor)
   {
-    double value = under(floor, standing) ? -1.0 : 0.0;
+    double value = isUnder(floor, standing) ? -1.0 : 0.0;
     for (const glm::dvec3& direction : directions)
     {
       const bool lit = !hitsBox(floor, -direction, standing.lower, standing.upper);

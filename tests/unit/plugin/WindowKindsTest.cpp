@@ -16,10 +16,6 @@ using namespace gnomon::test;
 namespace
 {
 
-const glm::dvec3 boxLower(-1.0, -1.0, 1.0);
-const glm::dvec3 boxUpper(1.0, 1.0, 3.0);
-const glm::dvec3 sunDirection(1.0, 0.0, -1.0);
-const double sunValue = 255.0 * std::sqrt(0.5);
 constexpr double extent = 10.0;
 
 /// A box over a floor, whose shadow is x in [0, 4], y in [-1, 1].
@@ -31,25 +27,17 @@ protected:
   WindowKinds()
   {
     this->scene.addFloor(extent);
-    this->box = this->scene.addBox(boxLower, boxUpper);
-    this->scene.addSun(sunDirection);
+    this->box = this->scene.addBox(hangingBox.lower, hangingBox.upper);
+    this->scene.addSun(slantingSun);
     this->scene.lookDown(5.0);
     this->scene.choose(GetParam());
   }
 
   void expectRight(const Picture& picture) const
   {
-    const ExactFloor exact = [](const glm::dvec2& floor)
-    {
-      const bool hidden = std::abs(floor.x) < 1.0 && std::abs(floor.y) < 1.0;
-      if (hidden || std::abs(floor.x) > extent || std::abs(floor.y) > extent)
-      {
-        return -1.0;
-      }
-      return hitsBox(floor, -sunDirection, boxLower, boxUpper) ? 0.0 : sunValue;
-    };
     const double band = 3.0 * 24.0 / 1024.0 + 10.0 / picture.height; // texels and a pixel
-    const FloorCheck found = checkFloor(this->scene, picture, exact, band);
+    const FloorCheck found =
+      checkFloor(this->scene, picture, floorUnderSun(hangingBox, extent), band);
     EXPECT_GT(found.counted, picture.pixels() / 3);
     EXPECT_EQ(found.falseLight, 0u);
     EXPECT_EQ(found.falseShadow, 0u);
@@ -65,7 +53,7 @@ INSTANTIATE_TEST_SUITE_P(Ways, WindowKinds, allWays, nameOf);
 int shadowEnd(const Picture& picture)
 {
   int x = picture.width - 1;
-  while (x > 0 && picture.red(x, picture.height / 2) > 0.5 * sunValue)
+  while (x > 0 && picture.red(x, picture.height / 2) > 0.5 * slantingSunValue)
   {
     --x;
   }
