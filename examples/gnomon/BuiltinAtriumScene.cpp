@@ -342,7 +342,7 @@ void addPots(Scene& scene, const std::vector<Bay>& bays)
         { 27.0, 28.0 }, { 30.0, 42.0 }, { 26.0, 52.0 }, { 25.0, 56.0 }, { 31.0, 60.0 },
         { 32.0, 63.0 } },
       24);
-    for (int leaf = 0; leaf < 70; ++leaf)
+    for (int leaf = 0; leaf < 106; ++leaf)
     {
       const double turn = 2.4 * leaf;
       const double lean = random.between(0.1, 1.2);
@@ -380,7 +380,11 @@ Scene makeAtriumScene()
   addPots(scene, bays);
   const Vec3 eye{ { -83.72924, 222.06694, -2.89993 } };
   scene.camera = makeCamera(eye, eye + 500.0 * Vec3{ { 0.810612, -0.273794, 0.517634 } }, 60.0);
-  scene.lights = { makeSun({ { -0.001881, -0.968051, 0.250748 } }) };
+  SceneLight sun = makeSun({ { -0.001881, -0.968051, 0.250748 } });
+  sun.color = { { 1.0, 0.96, 0.86 } };
+  sun.intensity = 1.2;
+  scene.lights = { sun };
+  setAmbient(scene, 0.4);
   scene.background = { { 0.6, 0.75, 0.92 } };
   return scene;
 }

@@ -18,8 +18,8 @@ namespace gnomon::tool
 namespace
 {
 
-constexpr int blocksPerSide = 24;
-constexpr int blocksPerDistrict = 4; ///< along a side; a district is one model per colour
+constexpr int blocksPerSide = 18;
+constexpr int blocksPerDistrict = 3; ///< along a side; a district is one model per colour
 constexpr double blockSide = 60.0;   ///< between the kerbs
 constexpr double streetWidth = 22.0;
 constexpr double pitch = blockSide + streetWidth;
@@ -65,6 +65,8 @@ public:
 
   vtkSmartPointer<vtkPolyData> build() const
   {
+    this->points_->Squeeze();
+    this->triangles_->Squeeze();
     auto mesh = vtkSmartPointer<vtkPolyData>::New();
     mesh->SetPoints(this->points_);
     mesh->SetPolys(this->triangles_);
@@ -219,7 +221,7 @@ double skyline(double x, double z)
     const double dz = (z - cz) / radius;
     return std::exp(-dx * dx - dz * dz);
   };
-  return 24.0 + 150.0 * bell(0.0, -100.0, 420.0) + 80.0 * bell(-600.0, 500.0, 260.0);
+  return 22.0 + 102.5 * bell(0.0, -60.0, 330.0) + 46.0 * bell(-450.0, 400.0, 200.0);
 }
 
 /// Four towers on a block, some taller than others; one block in eleven is a park.
@@ -275,10 +277,12 @@ Scene makeCityScene()
     }
   }
   scene.models.push_back(makeModel("pavement", pavement.build(), { { 0.6, 0.6, 0.58 } }));
-  scene.camera = makeCamera({ { 330.0, 330.0, 820.0 } }, { { -20.0, 40.0, -60.0 } }, 45.0);
+  scene.camera = makeCamera({ { 245.0, 175.0, 640.0 } }, { { -10.0, 50.0, -60.0 } }, 45.0);
   SceneLight sun = makeSun({ { 0.75, -0.62, -0.4 } });
   sun.color = { { 1.0, 0.95, 0.86 } };
+  sun.intensity = 1.4;
   scene.lights = { sun };
+  setAmbient(scene, 0.3);
   scene.background = { { 0.72, 0.82, 0.93 } };
   return scene;
 }

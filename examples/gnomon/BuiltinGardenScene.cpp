@@ -465,8 +465,8 @@ Scene makeGarden()
   Scene scene;
   const Vec3 lampFoot{ { -7.5, 0.0, -6.5 } };
   // One tree shades the bench and a part of the flowers, the other falls on the open lawn.
-  const std::vector<Tree> trees = { { { { -58.0, 0.0, -34.0 } }, 46.0, 14.0, 2.2, 1 },
-    { { { 21.0, 0.0, -23.0 } }, 42.0, 20.0, 3.2, 2 } };
+  const std::vector<Tree> trees = { { { { -50.0, 0.0, -42.0 } }, 46.0, 14.0, 1.7, 1 },
+    { { { -2.0, 0.0, -44.0 } }, 60.0, 27.0, 3.4, 2 } };
 
   scene.models = { makeLawn(true), makeLawn(false), makePaving(),
     placed(makeBenchSlats(), { { 0.5, 0.12, 0.5 } }, 12.0),
@@ -527,7 +527,11 @@ Scene makeGardenScene(const GardenView& view)
   Scene scene = makeGarden();
   scene.name = view.line.name;
   scene.camera = makeCamera(view.position, view.position + 40.0 * view.direction, 60.0);
-  scene.lights = { makeSun({ { 0.744, -0.408, 0.527 } }) };
+  SceneLight sun = makeSun({ { 0.744, -0.408, 0.527 } });
+  sun.color = { { 1.0, 0.96, 0.88 } };
+  sun.intensity = 2.2; // low as it stands
+  scene.lights = { sun };
+  setAmbient(scene, 0.35);
   scene.background = { { 0.75, 0.85, 0.95 } };
   return scene;
 }

@@ -247,7 +247,7 @@ Scene makeOfficeScene()
   addShelf(scene);
   addThingsOnTheDesk(scene);
   addLamp(scene);
-  scene.camera = makeCamera({ { -1.9, 1.75, 1.6 } }, { { 0.45, 0.95, -1.1 } }, 50.0);
+  scene.camera = makeCamera({ { -1.7, 1.6, 1.5 } }, { { 0.4, 1.12, -1.1 } }, 58.0);
 
   // Both cones are wider than the shade's openings, so that its rims bound the light.
   SceneLight down;
@@ -255,11 +255,13 @@ Scene makeOfficeScene()
   down.position = bulb;
   down.target = bulb - up;
   down.coneAngleDegrees = 59.0;
+  down.intensity = 1.4;
   down.color = { { 1.0, 0.93, 0.8 } };
   SceneLight upwards = down;
   upwards.target = bulb + up;
   upwards.coneAngleDegrees = 45.0;
   scene.lights = { down, upwards };
+  setAmbient(scene, 0.3);
   scene.background = { { 0.04, 0.05, 0.09 } };
   return scene;
 }

@@ -44,6 +44,15 @@ SceneModel placed(SceneModel model, const Vec3& position, double degrees)
 }
 
 //------------------------------------------------------------------------------
+void setAmbient(Scene& scene, double share)
+{
+  for (SceneModel& model : scene.models)
+  {
+    model.property->SetAmbient(share);
+  }
+}
+
+//------------------------------------------------------------------------------
 SceneLight makeSun(const Vec3& travel)
 {
   SceneLight light;

@@ -138,7 +138,7 @@ Scene makeCupsScene()
   scene.models = { makeModel("standing cups", standing.build(), { { 0.4, 0.58, 0.7 } }),
     makeModel("hovering cups", hovering.build(), { { 0.82, 0.55, 0.38 } }),
     makePlane(origin, 16.0) };
-  scene.camera = makeCamera({ { 1.5, 8.5, 10.0 } }, { { 0.4, 0.3, 0.0 } }, 40.0);
+  scene.camera = makeCamera({ { 1.4, 10.0, 11.5 } }, { { -0.1, 0.4, -0.7 } }, 40.0);
   scene.lights = { makeSun({ { 0.55, -1.0, -0.35 } }) };
   return scene;
 }

@@ -73,7 +73,7 @@ Scene makeStackScene()
   scene.models = { makeModel("cube", cube.build(), { { 0.75, 0.4, 0.35 } }),
     makeModel("sphere", sphere.build(), { { 0.8, 0.72, 0.5 } }), makePlane(origin, 12.0) };
   scene.camera = makeCamera({ { 3.4, 5.0, 9.0 } }, { { 0.25, 1.9, 0.0 } }, 40.0);
-  scene.lights = { makeSun({ { 0.22, -1.0, -0.12 } }) };
+  scene.lights = { makeSun({ { 0.3, -1.0, -0.3 } }) };
   return scene;
 }
 
@@ -89,7 +89,7 @@ Scene makeLongCubeScene()
   scene.models = { makeModel("cube", cube.build(), { { 0.5, 0.62, 0.45 } }),
     makePlane(origin, 14.0) };
   scene.camera = makeCamera({ { 4.5, 5.5, 10.5 } }, { { 0.5, 2.4, 0.0 } }, 40.0);
-  scene.lights = { makeSun({ { 0.25, -1.0, -0.15 } }) };
+  scene.lights = { makeSun({ { 0.25, -1.0, -0.3 } }) };
   return scene;
 }
 
