@@ -221,7 +221,7 @@ double skyline(double x, double z)
     const double dz = (z - cz) / radius;
     return std::exp(-dx * dx - dz * dz);
   };
-  return 22.0 + 102.5 * bell(0.0, -60.0, 330.0) + 46.0 * bell(-450.0, 400.0, 200.0);
+  return 22.0 + 97.0 * bell(0.0, -60.0, 330.0) + 44.0 * bell(-450.0, 400.0, 200.0);
 }
 
 /// Four towers on a block, some taller than others; one block in eleven is a park.
