@@ -72,19 +72,40 @@ void addLeaf(MeshBuilder& mesh, const Vec3& foot, const Vec3& along, const Vec3&
 //------------------------------------------------------------------------------
 // Ground
 
+// As far as the views see, in pictures of 16:9 too.
+constexpr double lawnWest = -74.0;
+constexpr double lawnNorth = -112.0;
+constexpr double lawnSouth = 144.0;
+constexpr double stripeWidth = 8.0; ///< as the mower goes, north and south
+constexpr int stripes = 27;
+
 SceneModel makeLawn(bool light)
 {
-  // Mown in stripes, which are slabs side by side. As wide as the views see it, in wide pictures
-  // too.
-  constexpr double stripe = 8.0;
+  // In squares: a rasteriser that cuts one long triangle at the near plane, and its neighbour
+  // elsewhere, may leave a pixel between them open.
   MeshBuilder mesh;
-  for (int i = light ? 0 : 1; i < 44; i += 2)
+  for (int i = light ? 0 : 1; i < stripes; i += 2)
   {
-    const double x = -132.0 + stripe * i;
-    mesh.addBox({ { x, -2.0, -154.0 } }, { { x + stripe, 0.0, 198.0 } });
+    const double west = lawnWest + stripeWidth * i;
+    const double east = west + stripeWidth;
+    for (double north = lawnNorth; north < lawnSouth; north += stripeWidth)
+    {
+      const double south = north + stripeWidth;
+      mesh.addPolygon({ { { west, 0.0, south } }, { { east, 0.0, south } },
+        { { east, 0.0, north } }, { { west, 0.0, north } } });
+    }
   }
   return light ? makeModel("lawn, light stripes", mesh.build(), { { 0.46, 0.6, 0.32 } })
                : makeModel("lawn, dark stripes", mesh.build(), { { 0.41, 0.55, 0.29 } });
+}
+
+/// What the lawn grows on.
+SceneModel makeEarth()
+{
+  MeshBuilder mesh;
+  mesh.addBox(
+    { { lawnWest, -2.0, lawnNorth } }, { { lawnWest + stripes * stripeWidth, -0.2, lawnSouth } });
+  return makeModel("earth", mesh.build(), { { 0.4, 0.3, 0.22 } });
 }
 
 /// Stepping stones and the terrace below the bench.
@@ -468,7 +489,7 @@ Scene makeGarden()
   const std::vector<Tree> trees = { { { { -50.0, 0.0, -42.0 } }, 46.0, 14.0, 1.7, 1 },
     { { { -2.0, 0.0, -44.0 } }, 60.0, 27.0, 3.4, 2 } };
 
-  scene.models = { makeLawn(true), makeLawn(false), makePaving(),
+  scene.models = { makeLawn(true), makeLawn(false), makeEarth(), makePaving(),
     placed(makeBenchSlats(), { { 0.5, 0.12, 0.5 } }, 12.0),
     placed(makeBenchFrame(), { { 0.5, 0.12, 0.5 } }, 12.0), makeLampPole(lampFoot),
     makeLampHead(lampFoot), makeLampHood(lampFoot), makeFlowerBox(), makeSoil() };
