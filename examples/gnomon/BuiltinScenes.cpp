@@ -39,7 +39,7 @@ std::vector<BuiltinSceneEntry> makeEntries()
     { { "atrium", "two storeys of arcades around a court with open cloth, 260,000 triangles" },
       makeAtriumScene });
   entries.push_back(
-    { { "city", "streets and towers of 10 million triangles; needs about 4 GB of memory" },
+    { { "city", "streets and towers of 10 million triangles; ray traced in 2 GB of memory" },
       makeCityScene });
   return entries;
 }
