@@ -4,6 +4,10 @@
 #include "SceneFraming.h"
 #include "Vec3.h"
 
+#include <vtkMath.h>
+
+#include <cmath>
+
 namespace gnomon::tool
 {
 
@@ -27,6 +31,25 @@ SceneModel makePlane(const Vec3& center, double side)
   mesh.addPolygon({ center + Vec3{ { -h, 0.0, h } }, center + Vec3{ { h, 0.0, h } },
     center + Vec3{ { h, 0.0, -h } }, center + Vec3{ { -h, 0.0, -h } } });
   return makeModel("plane", mesh.build(), { { 0.75, 0.75, 0.72 } });
+}
+
+//------------------------------------------------------------------------------
+SceneModel placed(SceneModel model, const Vec3& position, double degrees)
+{
+  const double c = std::cos(vtkMath::RadiansFromDegrees(degrees));
+  const double s = std::sin(vtkMath::RadiansFromDegrees(degrees));
+  model.matrix = { { c, 0.0, s, position[0], 0.0, 1.0, 0.0, position[1], -s, 0.0, c, position[2],
+    0.0, 0.0, 0.0, 1.0 } };
+  return model;
+}
+
+//------------------------------------------------------------------------------
+void setAmbient(Scene& scene, double share)
+{
+  for (SceneModel& model : scene.models)
+  {
+    model.property->SetAmbient(share);
+  }
 }
 
 //------------------------------------------------------------------------------

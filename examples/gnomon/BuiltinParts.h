@@ -13,6 +13,13 @@ SceneModel makeModel(
 /// A horizontal square of two triangles around a point, its front up.
 SceneModel makePlane(const Vec3& center, double side);
 
+/// The model turned around the vertical axis, counter-clockwise seen from above, then moved.
+SceneModel placed(SceneModel model, const Vec3& position, double degrees);
+
+/// Every surface with that share of its colour where no light falls, for scenes under a bright sky
+/// or with bright walls.
+void setAmbient(Scene& scene, double share);
+
 /// A white directional light that travels that way.
 SceneLight makeSun(const Vec3& travel);
 

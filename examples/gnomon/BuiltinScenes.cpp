@@ -3,10 +3,12 @@
 namespace gnomon::tool
 {
 
-//------------------------------------------------------------------------------
-const std::vector<BuiltinSceneEntry>& builtinSceneEntries()
+namespace
 {
-  static const std::vector<BuiltinSceneEntry> entries = {
+
+std::vector<BuiltinSceneEntry> makeEntries()
+{
+  std::vector<BuiltinSceneEntry> entries = {
     { { "bunny", "the Stanford bunny on a plane (needs the package glmark2-data)" },
       makeBunnyScene },
     { { "horse", "a horse on a plane (needs the package glmark2-data)" }, makeHorseScene },
@@ -16,11 +18,40 @@ const std::vector<BuiltinSceneEntry>& builtinSceneEntries()
       makePrimitivesScene },
     { { "posts", "thin posts and a fence" }, makePostsScene },
     { { "plates", "plates that rest on each other, or nearly" }, makePlatesScene },
+    { { "half-plane", "a half plane over a plane, its shadow's edge is known" },
+      makeHalfPlaneScene },
+    { { "panels", "three planes above each other and three panels, open sheets" },
+      makePanelsScene },
+    { { "pole", "one tall, thin pole" }, makePoleScene },
+    { { "stack", "a cube above a sphere above a plane" }, makeStackScene },
+    { { "long-cube", "a hovering cube, long in the direction of the light" }, makeLongCubeScene },
+    { { "letter", "a concave letter C" }, makeLetterScene },
+    { { "cups", "twelve open cups of thin sheets" }, makeCupsScene },
+    { { "office", "a desk lamp of two spot lights in an office of a building" }, makeOfficeScene },
     { { "room", "a furnished room with all six walls, lit by a point light inside" },
       makeRoomScene },
     { { "terrain", "a square kilometre of rolling terrain seen from 2 m above it, low sun" },
       makeTerrainScene },
   };
+  for (const GardenView& view : gardenViews())
+  {
+    entries.push_back({ view.line, [view] { return makeGardenScene(view); } });
+  }
+  entries.push_back(
+    { { "atrium", "two storeys of arcades around a court with open cloth, 260,000 triangles" },
+      makeAtriumScene });
+  entries.push_back(
+    { { "city", "streets and towers of 10 million triangles; ray traced in 2 GB of memory" },
+      makeCityScene });
+  return entries;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+const std::vector<BuiltinSceneEntry>& builtinSceneEntries()
+{
+  static const std::vector<BuiltinSceneEntry> entries = makeEntries();
   return entries;
 }
 

@@ -1,9 +1,9 @@
 #include "BuiltinParts.h"
 #include "BuiltinScenes.h"
 #include "MeshBuilder.h"
+#include "Noise.h"
 #include "Vec3.h"
 
-#include <cmath>
 #include <cstdint>
 
 namespace gnomon::tool
@@ -14,30 +14,6 @@ namespace
 
 constexpr double sideMetres = 1000.0;
 constexpr int cells = 256;
-
-/// A number in [0, 1) that depends on nothing but three integers: the same on every machine.
-double hash(int x, int y, std::uint32_t seed)
-{
-  std::uint32_t bits = static_cast<std::uint32_t>(x) * 0x9e3779b1u +
-    static_cast<std::uint32_t>(y) * 0x85ebca77u + seed * 0xc2b2ae3du;
-  bits = (bits ^ (bits >> 16)) * 0x7feb352du;
-  bits = (bits ^ (bits >> 15)) * 0x846ca68bu;
-  bits ^= bits >> 16;
-  return bits / 4294967296.0;
-}
-
-/// Value noise: hashed numbers at whole coordinates, smooth in between.
-double noise(double x, double y, std::uint32_t seed)
-{
-  const auto smooth = [](double t) { return t * t * t * (t * (6.0 * t - 15.0) + 10.0); };
-  const int column = static_cast<int>(std::floor(x));
-  const int row = static_cast<int>(std::floor(y));
-  const double u = smooth(x - column);
-  const double v = smooth(y - row);
-  const double low = hash(column, row, seed) * (1.0 - u) + hash(column + 1, row, seed) * u;
-  const double high = hash(column, row + 1, seed) * (1.0 - u) + hash(column + 1, row + 1, seed) * u;
-  return low * (1.0 - v) + high * v;
-}
 
 /// The ground's height: hills of 250 m and less, each octave half as wide and 0.4 times as high.
 double groundHeight(double x, double z)
@@ -80,7 +56,7 @@ SceneModel makeGround()
 Vec3 scattered(int i, std::uint32_t kind)
 {
   const double range = 0.96 * sideMetres;
-  return onGround((hash(i, 0, kind) - 0.5) * range, (hash(i, 1, kind) - 0.5) * range);
+  return onGround((hashed(i, 0, kind) - 0.5) * range, (hashed(i, 1, kind) - 0.5) * range);
 }
 
 SceneModel makeTrees()
@@ -91,7 +67,7 @@ SceneModel makeTrees()
   for (int i = 0; i < 400; ++i)
   {
     const Vec3 foot = scattered(i, kind);
-    const double height = 6.0 + 8.0 * hash(i, 2, kind);
+    const double height = 6.0 + 8.0 * hashed(i, 2, kind);
     // The trunk starts below the ground, which falls away on slopes.
     mesh.addCone(foot - 0.5 * up, 0.3 * height + 0.5, 0.02 * height, 0.02 * height, 8);
     mesh.addCone(foot + (0.25 * height) * up, 0.45 * height, 0.22 * height, 0.0, 10);
@@ -106,7 +82,7 @@ SceneModel makeRocks()
   MeshBuilder mesh;
   for (int i = 0; i < 200; ++i)
   {
-    mesh.addSphere(scattered(i, kind), 0.4 + 1.6 * hash(i, 2, kind), 10, 6);
+    mesh.addSphere(scattered(i, kind), 0.4 + 1.6 * hashed(i, 2, kind), 10, 6);
   }
   return makeModel("rocks", mesh.build(), { { 0.55, 0.53, 0.5 } });
 }

@@ -5,6 +5,7 @@
 #include <vtkMath.h>
 #include <vtkPointData.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace gnomon::tool
@@ -118,6 +119,48 @@ void MeshBuilder::addPatch(
         this->addTriangle(a, c, d);
       }
     }
+  }
+}
+
+//------------------------------------------------------------------------------
+void MeshBuilder::addSheet(
+  int columns, int rows, const std::function<Vec3(double u, double v)>& place)
+{
+  this->addPatch(columns, rows,
+    [&](double u, double v)
+    {
+      // Slopes are taken off the edges, where a sheet that ends in a point has none.
+      constexpr double step = 1e-3;
+      constexpr double margin = 0.02;
+      const double s = std::clamp(u, margin, 1.0 - margin);
+      const double t = std::clamp(v, margin, 1.0 - margin);
+      const Vec3 alongU = place(s + step, t) - place(s - step, t);
+      const Vec3 alongV = place(s, t + step) - place(s, t - step);
+      return SurfacePoint{ place(u, v), normalized(cross(alongU, alongV)) };
+    });
+}
+
+//------------------------------------------------------------------------------
+void MeshBuilder::addLathe(const Axis& axis, const std::vector<ProfilePoint>& profile, int segments)
+{
+  // Any two directions square to the axis do; the helper must not be parallel to it.
+  const Vec3& up = axis.direction;
+  const Vec3 helper = std::abs(up[0]) < 0.9 ? Vec3{ { 1.0, 0.0, 0.0 } } : Vec3{ { 0.0, 0.0, 1.0 } };
+  const Vec3 right = normalized(cross(helper, up));
+  const Vec3 back = cross(right, up);
+  for (std::size_t i = 0; i + 1 < profile.size(); ++i)
+  {
+    const ProfilePoint& from = profile[i];
+    const ProfilePoint& to = profile[i + 1];
+    this->addPatch(segments, 1,
+      [&](double u, double v)
+      {
+        const Vec3 turn = around(u);
+        const Vec3 outward = turn[0] * right + turn[2] * back;
+        const ProfilePoint& here = v == 0.0 ? from : to;
+        return SurfacePoint{ axis.origin + here.radius * outward + here.height * up,
+          normalized((to.height - from.height) * outward + (from.radius - to.radius) * up) };
+      });
   }
 }
 

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 namespace gnomon::tool
@@ -138,36 +139,55 @@ DepthRange visibleDepths(const Scene& scene, double aspect)
     aspect * tangent * forward - right, aspect * tangent * forward + right };
 
   DepthRange range{ std::numeric_limits<double>::infinity(), 0.0 };
+  const auto include = [&](const Vec3& point)
+  {
+    const double depth = dot(point, forward);
+    if (std::isfinite(depth))
+    {
+      range.nearest = std::min(range.nearest, depth);
+      range.farthest = std::max(range.farthest, depth);
+    }
+  };
   std::vector<Vec3> points;
+  std::vector<unsigned> outsides; // a bit per side; NaN is outside
   for (const SceneModel& model : scene.models)
   {
     points.resize(static_cast<std::size_t>(model.surface->GetNumberOfPoints()));
+    outsides.assign(points.size(), 0u);
     for (std::size_t i = 0; i < points.size(); ++i)
     {
       model.surface->GetPoint(static_cast<vtkIdType>(i), points[i].data());
       points[i] = transformed(model.matrix, points[i]) - eye;
+      for (std::size_t side = 0; side < std::size(sides); ++side)
+      {
+        outsides[i] |= dot(sides[side], points[i]) >= 0.0 ? 0u : 1u << side;
+      }
     }
     visitCells(model.surface,
       [&](const vtkIdType* ids, vtkIdType size)
       {
+        unsigned everywhere = ~0u;
+        unsigned anywhere = 0u;
+        for (vtkIdType i = 0; i < size; ++i)
+        {
+          everywhere &= outsides[static_cast<std::size_t>(ids[i])];
+          anywhere |= outsides[static_cast<std::size_t>(ids[i])];
+        }
+        if (everywhere != 0u)
+        {
+          return; // Of a side, all of it is on the outer side.
+        }
         std::vector<Vec3> polygon;
         for (vtkIdType i = 0; i < size; ++i)
         {
-          polygon.push_back(points[static_cast<std::size_t>(ids[i])]);
+          const Vec3& point = points[static_cast<std::size_t>(ids[i])];
+          anywhere == 0u ? include(point) : polygon.push_back(point);
         }
-        for (const Vec3& side : sides)
+        for (std::size_t side = 0; side < std::size(sides) && !polygon.empty(); ++side)
         {
-          polygon = clipped(polygon, side);
+          polygon = clipped(polygon, sides[side]);
         }
-        for (const Vec3& point : polygon)
-        {
-          const double depth = dot(point, forward);
-          if (std::isfinite(depth))
-          {
-            range.nearest = std::min(range.nearest, depth);
-            range.farthest = std::max(range.farthest, depth);
-          }
-        }
+        std::for_each(polygon.begin(), polygon.end(), include);
       });
   }
   return range;

@@ -280,7 +280,8 @@ struct Span
     positionX[column] = static_cast<float>(originX.at(x) + t * directionX.at(x));
     positionY[column] = static_cast<float>(originY.at(x) + t * directionY.at(x));
     positionZ[column] = static_cast<float>(originZ.at(x) + t * directionZ.at(x));
-    offset[column] = shadowRayOffset(noise, static_cast<float>(sideParallel + t * sidePerDepth));
+    offset[column] =
+      shadowRayOffsetInside(noise, static_cast<float>(sideParallel + t * sidePerDepth));
     // Written so that NaN fails.
     inside[column] =
       (edge0.at(x) >= 0.0) & (edge1.at(x) >= 0.0) & (edge2.at(x) >= 0.0) & (along > 0.0);

@@ -38,8 +38,11 @@ namespace gnomon
 /// come to 0.7 of it. The offset is twice that, so that half of it still holds.
 ///
 /// - Footprint. A rasteriser snaps vertices to 1/256 pixel, so a fragment near an edge may lie past
-///   it by as much, behind the next triangle of a concave surface. The offset grows by 1/256 of the
-///   pixel's side; moving a shadow by so little cannot be seen.
+///   it by as much, behind the next triangle of a concave surface. There the offset grows by 1/256
+///   of the pixel's side. It moves a shadow's edge by as much times the cotangent of the light's
+///   elevation, which cannot be seen, but can be counted where edges are dense. So a receiver that is
+///   known to lie inside its triangle gets a sixteenth of it, which only has to be more than nothing,
+///   as the noise of the centred frame's own planes is.
 
 /// How far from its plane the points of a triangle may seem to lie, in the unit of the coordinates.
 ///
@@ -65,6 +68,12 @@ inline float planeNoise(
 inline float shadowRayOffset(float noise, float footprint)
 {
   return 2.0f * noise + 0.00390625f * footprint; // 1/256
+}
+
+/// The same of a receiver that lies where the pixel's ray meets the inside of its triangle.
+inline float shadowRayOffsetInside(float noise, float footprint)
+{
+  return shadowRayOffset(noise, 0.0625f * footprint);
 }
 
 /// Where along its direction the shadow ray starts to count, and where it ends: one that goes to a

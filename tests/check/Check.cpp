@@ -226,11 +226,13 @@ private:
       return false;
     }
     const Triangle* const truthTriangle = &this->triangleOf(truth.hit);
-    constexpr int around = 16; // on two circles
+    // Dense enough for triangles seen edge-on, which are thin strips there.
+    constexpr int around = 64;
+    constexpr int circles = 4;
     for (int i = 0; i < around; ++i)
     {
       const double angle = 2.0 * pi * i / around;
-      const double radius = i % 2 == 0 ? lookingPixels : 0.5 * lookingPixels;
+      const double radius = lookingPixels * (i % circles + 1) / circles;
       const std::optional<Hit> hit = this->tracer_.nearest(
         this->camera_.through(x + radius * std::cos(angle), y + radius * std::sin(angle)));
       const Triangle* const other = hit ? &this->triangleOf(*hit) : truthTriangle;

@@ -1,0 +1,146 @@
+#include "BuiltinParts.h"
+#include "BuiltinScenes.h"
+#include "MeshBuilder.h"
+#include "Vec3.h"
+
+#include <vtkMath.h>
+
+#include <cmath>
+
+// Scenes of sheets without thickness and of things that are thin.
+
+namespace gnomon::tool
+{
+
+namespace
+{
+
+const Vec3 up{ { 0.0, 1.0, 0.0 } };
+const Vec3 origin{ { 0.0, 0.0, 0.0 } };
+
+/// A bowl around an axis that leaves its origin upwards: a sphere below a fifth of its radius above
+/// its centre, which is one radius along the axis.
+void addCup(MeshBuilder& mesh, const Axis& axis, double radius)
+{
+  const Vec3 helper{ { 0.0, 0.0, 1.0 } };
+  const Vec3 right = normalized(cross(axis.direction, helper));
+  const Vec3 back = cross(right, axis.direction);
+  const double rim = std::asin(0.2);
+  mesh.addPatch(32, 12,
+    [&](double u, double v)
+    {
+      // The last step closes the circle, and the pole is one point, exactly.
+      const double along = u == 1.0 ? 0.0 : 2.0 * vtkMath::Pi() * u;
+      const double latitude = (1.0 - v) * -0.5 * vtkMath::Pi() + v * rim;
+      const double ring = v == 0.0 ? 0.0 : std::cos(latitude);
+      const Vec3 outward = std::cos(along) * right - std::sin(along) * back;
+      const Vec3 normal = ring * outward + (v == 0.0 ? -1.0 : std::sin(latitude)) * axis.direction;
+      return SurfacePoint{ axis.origin + radius * (axis.direction + normal), normal };
+    });
+}
+
+/// An open sheet that stands on a horizontal edge.
+SceneModel makePanel(const Vec3& middle, const Vec3& along, double width, double height)
+{
+  const Vec3 half = (0.5 * width) * along;
+  MeshBuilder mesh;
+  mesh.addPolygon(
+    { middle - half, middle + half, middle + half + height * up, middle - half + height * up });
+  return makeModel("panel", mesh.build(), { { 0.12, 0.12, 0.13 } });
+}
+
+SceneModel withColor(SceneModel model, const std::string& name, const Vec3& color)
+{
+  model.name = name;
+  model.property->SetColor(color[0], color[1], color[2]);
+  return model;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+Scene makeHalfPlaneScene()
+{
+  constexpr double height = 2.5;
+  constexpr double reach = 40.0; // beyond what the camera sees of it and of its shadow
+  Scene scene;
+  scene.name = "half-plane";
+  MeshBuilder half;
+  half.addPolygon({ { { -reach, height, reach } }, { { 0.0, height, reach } },
+    { { 0.0, height, -reach } }, { { -reach, height, -reach } } });
+  scene.models = { makeModel("half plane", half.build(), { { 0.5, 0.62, 0.75 } }),
+    makePlane(origin, 2.0 * reach) };
+  scene.camera = makeCamera({ { 6.5, 4.2, 5.5 } }, { { 0.6, 0.4, 0.0 } }, 40.0);
+  // Along x the light goes half as far as it falls; across, it leans a little, which moves nothing.
+  scene.lights = { makeSun({ { halfPlaneShadowEdge / height, -1.0, -0.3 } }) };
+  return scene;
+}
+
+//------------------------------------------------------------------------------
+Scene makePanelsScene()
+{
+  // Apelles' figures 5.5 and 5.7.
+  Scene scene;
+  scene.name = "panels";
+  scene.models = { withColor(makePlane({ { 0.0, 2.6, 0.0 } }, 2.0), "top", { { 0.85, 0.5, 0.4 } }),
+    withColor(makePlane({ { 0.0, 1.3, 0.0 } }, 4.0), "middle", { { 0.5, 0.68, 0.48 } }),
+    withColor(makePlane(origin, 11.0), "bottom", { { 0.75, 0.75, 0.72 } }) };
+  // Their fronts look along the light, so that it falls on their backs.
+  const Vec3 travel{ { 0.45, -1.0, 0.35 } };
+  const Vec3 along = normalized(cross(up, { { travel[0], 0.0, travel[2] } }));
+  for (const double offset : { -1.0, 0.0, 1.0 })
+  {
+    const Vec3 middle = Vec3{ { 2.3, 0.0, 2.3 } } + (2.0 * offset) * along;
+    scene.models.push_back(makePanel(middle, along, 1.3, 1.2));
+  }
+  scene.camera = makeCamera({ { 3.6, 6.2, 9.5 } }, { { 0.5, 0.7, 0.6 } }, 40.0);
+  scene.lights = { makeSun(travel) };
+  return scene;
+}
+
+//------------------------------------------------------------------------------
+Scene makePoleScene()
+{
+  Scene scene;
+  scene.name = "pole";
+  MeshBuilder pole;
+  pole.addCone(origin, 18.0, 0.08, 0.08, 24);
+  scene.models = { makeModel("pole", pole.build(), { { 0.7, 0.3, 0.28 } }),
+    makePlane({ { 14.0, 0.0, -6.0 } }, 80.0) };
+  scene.camera = makeCamera({ { 14.0, 20.0, 34.0 } }, { { 11.0, 4.5, -4.0 } }, 40.0);
+  scene.lights = { makeSun({ { 1.0, -0.7, -0.4 } }) };
+  return scene;
+}
+
+//------------------------------------------------------------------------------
+Scene makeCupsScene()
+{
+  Scene scene;
+  scene.name = "cups";
+  MeshBuilder standing;
+  MeshBuilder hovering;
+  for (int i = 0; i < 12; ++i)
+  {
+    // Four columns and three rows; every other cup is up in the air and tips over.
+    const double radius = 0.55 + 0.1 * (i % 3);
+    const Vec3 foot{ { 2.3 * (i % 4) - 3.6, 0.0, 2.4 * (i / 4) - 2.4 } };
+    if ((i + i / 4) % 2 == 0)
+    {
+      addCup(standing, { foot, up }, radius);
+      continue;
+    }
+    const double turn = 2.4 * i;
+    const double lean = 0.35 + 0.15 * i;
+    const Vec3 direction{ { std::sin(lean) * std::cos(turn), std::cos(lean),
+      std::sin(lean) * std::sin(turn) } };
+    addCup(hovering, { foot + (1.3 + 0.08 * i) * up, direction }, radius);
+  }
+  scene.models = { makeModel("standing cups", standing.build(), { { 0.4, 0.58, 0.7 } }),
+    makeModel("hovering cups", hovering.build(), { { 0.82, 0.55, 0.38 } }),
+    makePlane(origin, 16.0) };
+  scene.camera = makeCamera({ { 1.4, 10.0, 11.5 } }, { { -0.1, 0.4, -0.7 } }, 40.0);
+  scene.lights = { makeSun({ { 0.55, -1.0, -0.35 } }) };
+  return scene;
+}
+
+} // namespace gnomon::tool
