@@ -180,10 +180,12 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
     this->DrawScene(s);
     if (casting && !manager.endShading())
     {
-      vtkErrorMacro("Props were drawn without shadows: the delegate "
-        << this->FindDelegate(s)->GetClassName()
-        << " shades at another resolution than the renderer's, and " << manager.report().routeReason
-        << ". Let it have this pass as its delegate instead.");
+      const vtkRenderPass* delegate = this->FindDelegate(s);
+      vtkErrorMacro("Props were drawn without shadows: "
+        << (delegate ? delegate->GetClassName() : "the renderer")
+        << " shades at another resolution than the receivers were drawn, and "
+        << manager.report().routeReason
+        << ". Let such a pass have this one as its delegate instead.");
     }
     manager.endFrame();
     this->Internal->shadowed = true;
