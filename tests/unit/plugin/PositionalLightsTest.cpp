@@ -209,9 +209,9 @@ TEST_F(PositionalLights, filtersHaveNoSeams)
     std::size_t smoothed = 0;
     for (std::size_t i = 0; i < traced.coverage.size(); ++i)
     {
-      // Far from edges the whole kernel is lit or dark. The bilinear one reaches 4 texels along the
+      // Far from edges the whole kernel is lit or dark (but for a texel of a face that the light only grazes, which is pushed far back). The bilinear one reaches 4 texels along the
       // axes, and the edge may itself be a texel away from where the map has it.
-      if (std::abs(filtered.visibility[0][i] - traced.visibility[0][i]) > 1e-6f)
+      if (std::abs(filtered.visibility[0][i] - traced.visibility[0][i]) > 0.05f)
       {
         ++smoothed;
         const glm::dvec3 normal(traced.normalX[i], traced.normalY[i], traced.normalZ[i]);
