@@ -2,7 +2,7 @@
 #
 # Turns GLSL files into one C++ source that defines
 #     const std::map<std::string, std::string>& gnomon::<function>()
-# from each file's path relative to the project's root, e.g. "shadowtech/nsm/nsm_visibility.glsl", to
+# from each file's path relative to the project's root, e.g. "shadowtech/nsm/nsm_estimator.glsl", to
 # its text. The variable receives the generated source's path.
 function(gnomon_embed_glsl output function)
   string(CONCAT body

@@ -141,6 +141,15 @@ ShadowLight readLight(vtkLight* light, const LightDefaults& defaults)
     : defaults.mapSizeTexels;
   result.mapSizeTexels =
     std::clamp(result.mapSizeTexels, smallestMapSizeTexels, largestMapSizeTexels);
+  if (keys->Has(vtkGnomonLightKeys::KERNEL()))
+  {
+    result.kernel = keys->Get(vtkGnomonLightKeys::KERNEL());
+  }
+  if (keys->Has(vtkGnomonLightKeys::KERNEL_SIZE()))
+  {
+    result.kernelTexels = std::clamp(
+      keys->Get(vtkGnomonLightKeys::KERNEL_SIZE()), smallestKernelTexels, largestKernelTexels);
+  }
   return result;
 }
 

@@ -27,28 +27,29 @@ struct Interval
   double upper;
 };
 
-/// Maps an interval to [-1, 1] less a border of one texel on either side.
+/// The share of a view's side between its borders, of which the casters get at least a half.
+double shareInside(int mapSizeTexels, int borderTexels)
+{
+  return std::max(1.0 - 2.0 * borderTexels / mapSizeTexels, 0.5);
+}
+
+/// Maps an interval to [-1, 1] less the borders on either side.
 struct Axis
 {
   double scale;
   double offset;
 };
-Axis fitAxis(const Interval& interval, int mapSizeTexels)
+Axis fitAxis(const Interval& interval, double inside)
 {
-  const double inner = std::max(1.0 - 2.0 / mapSizeTexels, 0.5);
   const double half = 0.5 * (interval.upper - interval.lower);
-  const double scale = inner / half;
+  const double scale = inside / half;
   return { scale, -scale * 0.5 * (interval.upper + interval.lower) };
 }
-
-/// The far plane lies this share of the depth range behind the last caster: what a technique writes
-/// for it, pushed back as that may be, stays apart from the depth 1 of texels without a caster.
-constexpr double roomBehindCasters = 0.125;
 
 /// @param castersView what to cover; not empty
 /// @param radius of all casters: what their positions are rounded in proportion to
 LightView fitParallel(
-  const Bounds& castersView, double radius, const glm::dmat4& viewFromCentred, int mapSizeTexels)
+  const Bounds& castersView, double radius, const glm::dmat4& viewFromCentred, double inside)
 {
   const double smallest = 1e-6 * std::max(radius, 1e-300);
   const glm::dvec3 widening(smallest);
@@ -61,8 +62,8 @@ LightView fitParallel(
   view.viewFromCentred = viewFromCentred;
   view.depthScale = 1.0 / depth;
   view.depthOffset = -lower.z / depth;
-  const Axis x = fitAxis({ lower.x, upper.x }, mapSizeTexels);
-  const Axis y = fitAxis({ lower.y, upper.y }, mapSizeTexels);
+  const Axis x = fitAxis({ lower.x, upper.x }, inside);
+  const Axis y = fitAxis({ lower.y, upper.y }, inside);
   view.clipFromView = glm::dmat4(glm::dvec4(x.scale, 0.0, 0.0, 0.0),
     glm::dvec4(0.0, y.scale, 0.0, 0.0), glm::dvec4(0.0, 0.0, 2.0 * view.depthScale, 0.0),
     glm::dvec4(x.offset, y.offset, 2.0 * view.depthOffset - 1.0, 1.0));
@@ -80,8 +81,8 @@ Interval slopesOf(const Interval& across, const Interval& along, double limit)
 
 /// @param slopeLimit the largest |x/z| and |y/z| of what the light reaches
 /// @return nothing where no caster can be seen
-std::optional<LightView> fitPerspective(const Bounds& castersView,
-  const glm::dmat4& viewFromCentred, double slopeLimit, int mapSizeTexels)
+std::optional<LightView> fitPerspective(
+  const Bounds& castersView, const glm::dmat4& viewFromCentred, double slopeLimit, double inside)
 {
   const double farthest = castersView.upper.z;
   if (!(farthest > 0.0))
@@ -100,8 +101,8 @@ std::optional<LightView> fitPerspective(const Bounds& castersView,
     return std::nullopt; // the light misses all casters
   }
   const double smallest = 1e-6 * slopeLimit;
-  const Axis x = fitAxis({ slopesX.lower - smallest, slopesX.upper + smallest }, mapSizeTexels);
-  const Axis y = fitAxis({ slopesY.lower - smallest, slopesY.upper + smallest }, mapSizeTexels);
+  const Axis x = fitAxis({ slopesX.lower - smallest, slopesX.upper + smallest }, inside);
+  const Axis y = fitAxis({ slopesY.lower - smallest, slopesY.upper + smallest }, inside);
   // clip = (x.scale X + x.offset Z, ..., a Z + b, Z) with z/w = -1 at near and 1 at far; near is
   // moved by a thousandth so that rounding clips no caster.
   const double n = nearest * 0.999;
@@ -117,7 +118,7 @@ std::optional<LightView> fitPerspective(const Bounds& castersView,
 }
 
 /// Directional lights: the casters, and of a box only what lies in it.
-void fitDirectional(Bounds castersLight, bool hasBox, int mapSizeTexels, LightViews& result)
+void fitDirectional(Bounds castersLight, bool hasBox, double inside, LightViews& result)
 {
   const double radius = castersLight.radius();
   if (!hasBox)
@@ -128,7 +129,7 @@ void fitDirectional(Bounds castersLight, bool hasBox, int mapSizeTexels, LightVi
       result.lightFromCentred;
     castersLight.upper.z -= castersLight.lower.z;
     castersLight.lower.z = 0.0;
-    result.views = { fitParallel(castersLight, radius, result.lightFromCentred, mapSizeTexels) };
+    result.views = { fitParallel(castersLight, radius, result.lightFromCentred, inside) };
     return;
   }
   const glm::dvec3& box = result.box;
@@ -137,18 +138,18 @@ void fitDirectional(Bounds castersLight, bool hasBox, int mapSizeTexels, LightVi
   castersLight.upper = glm::min(castersLight.upper, box);
   if (!castersLight.empty())
   {
-    result.views = { fitParallel(castersLight, radius, result.lightFromCentred, mapSizeTexels) };
+    result.views = { fitParallel(castersLight, radius, result.lightFromCentred, inside) };
     result.views.front().beginsAtNear = beginsAtNear;
   }
 }
 
-void fitCube(const Bounds& castersLight, int mapSizeTexels, LightViews& result)
+void fitCube(const Bounds& castersLight, double inside, LightViews& result)
 {
   for (int face = 0; face < cubeFaces; ++face)
   {
     const glm::dmat4 faceFromLight(cubeFaceFromLight(face));
     if (const auto view = fitPerspective(transformed(castersLight, faceFromLight),
-          faceFromLight * result.lightFromCentred, 1.0, mapSizeTexels))
+          faceFromLight * result.lightFromCentred, 1.0, inside))
     {
       result.viewOfFace[static_cast<std::size_t>(face)] = static_cast<int>(result.views.size());
       result.views.push_back(*view);
@@ -168,8 +169,9 @@ ViewLayout viewLayout(const ShadowLight& light)
 
 //------------------------------------------------------------------------------
 LightViews fitLightViews(const ShadowLight& light, const glm::dvec3& centreWorld,
-  const Bounds& castersCentred, int mapSizeTexels)
+  const Bounds& castersCentred, int mapSizeTexels, int borderTexels)
 {
+  const double inside = shareInside(mapSizeTexels, borderTexels);
   LightViews result;
   result.layout = viewLayout(light);
   result.lightFromCentred = lightFromCentred(light, centreWorld);
@@ -189,12 +191,12 @@ LightViews fitLightViews(const ShadowLight& light, const glm::dvec3& centreWorld
   Bounds castersLight = transformed(castersCentred, result.lightFromCentred);
   if (light.kind == LightKind::Directional)
   {
-    fitDirectional(castersLight, light.box.has_value(), mapSizeTexels, result);
+    fitDirectional(castersLight, light.box.has_value(), inside, result);
   }
   else if (result.layout == ViewLayout::Single)
   {
     if (const auto view =
-          fitPerspective(castersLight, result.lightFromCentred, coneTangent, mapSizeTexels))
+          fitPerspective(castersLight, result.lightFromCentred, coneTangent, inside))
     {
       result.views = { *view };
     }
@@ -207,7 +209,7 @@ LightViews fitLightViews(const ShadowLight& light, const glm::dvec3& centreWorld
     }
     if (!castersLight.empty())
     {
-      fitCube(castersLight, mapSizeTexels, result);
+      fitCube(castersLight, inside, result);
     }
   }
   return result;

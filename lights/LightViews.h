@@ -52,24 +52,29 @@ struct LightViews
 /// texels at the border stretched by 1 / cos^2: 4 times at 60 degrees, 3 at the corners of a cube.
 constexpr double largestSingleViewConeDegrees = 60.0;
 
+/// The far plane lies this share of the depth range behind the last caster: what a technique writes
+/// for it, pushed back as that may be, stays apart from the depth 1 of texels without a caster.
+constexpr double roomBehindCasters = 0.125;
+
 /// Directional and narrow spot lights have a single view, point and wide spot lights a cube's. It is
 /// known from the light alone, so that shaders can be built before the casters are known.
 ViewLayout viewLayout(const ShadowLight& light);
 
 /// The uniform projections, fitted to the casters' bounds as the light sees them. A view covers the
-/// casters and no more than the light reaches, and keeps a border of one texel on every side, so
-/// that a texel's neighbours lie in the same layer. The faces of a cube see 90 degrees between
-/// those borders, less where there are no casters.
+/// casters and no more than the light reaches, and keeps a border on every side, so that what a
+/// technique reads around a receiver lies in the same layer. The faces of a cube see 90 degrees
+/// between those borders, less where there are no casters.
 ///
 /// @param centreWorld the origin of centred coordinates, in world coordinates
 /// @param castersCentred the box around all casters, in centred coordinates
 /// @param mapSizeTexels the side of each layer
+/// @param borderTexels the border's width; no more than a quarter of the side is kept
 ///
 /// Degenerate cases: no casters, or none that the light shines on, give no view; bounds without
 /// extent along an axis are widened relative to the box's own size. Casters nearer to a positional
 /// light than 1e-5 of the farthest one are not seen.
 LightViews fitLightViews(const ShadowLight& light, const glm::dvec3& centreWorld,
-  const Bounds& castersCentred, int mapSizeTexels);
+  const Bounds& castersCentred, int mapSizeTexels, int borderTexels = 1);
 
 } // namespace gnomon
 

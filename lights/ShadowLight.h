@@ -1,6 +1,8 @@
 #ifndef gnomon_lights_ShadowLight_h
 #define gnomon_lights_ShadowLight_h
 
+#include "lights/FilterKernel.h"
+
 #include <glm/glm.hpp>
 
 #include <optional>
@@ -49,6 +51,9 @@ struct ShadowLight
 
   std::string technique;
   int mapSizeTexels = 1024;
+  /// The name of the kernel (findKernel), and its width in texels, of techniques that filter.
+  std::string kernel = defaultKernel;
+  int kernelTexels = defaultKernelTexels;
   /// How much of the light a full shadow takes away, in [0, 1]: shading uses mix(1, v, strength).
   double strength = 1.0;
 };

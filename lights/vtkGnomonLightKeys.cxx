@@ -1,5 +1,7 @@
 #include "vtkGnomonLightKeys.h"
 
+#include "lights/FilterKernel.h"
+
 #include "vtkInformation.h"
 #include "vtkInformationDoubleVectorKey.h"
 #include "vtkInformationIntegerKey.h"
@@ -13,6 +15,8 @@ vtkStandardNewMacro(vtkGnomonLightKeys);
 vtkInformationKeyMacro(vtkGnomonLightKeys, CASTS, Integer);
 vtkInformationKeyMacro(vtkGnomonLightKeys, TECHNIQUE, String);
 vtkInformationKeyMacro(vtkGnomonLightKeys, MAP_SIZE, Integer);
+vtkInformationKeyMacro(vtkGnomonLightKeys, KERNEL, String);
+vtkInformationKeyMacro(vtkGnomonLightKeys, KERNEL_SIZE, Integer);
 vtkInformationKeyMacro(vtkGnomonLightKeys, BOX, DoubleVector);
 
 //------------------------------------------------------------------------------
@@ -44,6 +48,37 @@ void vtkGnomonLightKeys::SetMapSize(vtkLight* light, int mapSizeTexels)
   else
   {
     light->GetInformation()->Remove(MAP_SIZE());
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkGnomonLightKeys::SetKernel(vtkLight* light, const char* kernel)
+{
+  if (!kernel || !*kernel)
+  {
+    light->GetInformation()->Remove(KERNEL());
+  }
+  else if (gnomon::findKernel(kernel))
+  {
+    light->GetInformation()->Set(KERNEL(), kernel);
+  }
+  else
+  {
+    vtkErrorWithObjectMacro(
+      light, "There is no kernel '" << kernel << "'. There are: " << gnomon::kernelNames() << ".");
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkGnomonLightKeys::SetKernelSize(vtkLight* light, int kernelSizeTexels)
+{
+  if (kernelSizeTexels > 0)
+  {
+    light->GetInformation()->Set(KERNEL_SIZE(), kernelSizeTexels);
+  }
+  else
+  {
+    light->GetInformation()->Remove(KERNEL_SIZE());
   }
 }
 

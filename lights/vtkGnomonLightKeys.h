@@ -10,6 +10,14 @@
  * vtkGnomonLightKeys::SetCasts(fillLight, false);
  * @endcode
  *
+ * <b>Filter kernels.</b> Techniques that filter ("pcf") average over a kernel of the map's texels:
+ * - "bilinear": a square around the point, whose texels count by how far it covers them. Edges are
+ *   smooth. Of size 1 it is the usual bilinear filter of 2 x 2 texels. The default, of size 3.
+ * - "box": the nearest texels, as many in a row as the size says, with equal weights. The cheapest;
+ *   edges show steps.
+ * - "poisson": 16 texels of a disc with the size as diameter, turned at random from place to place.
+ *   The cheapest for wide edges, which show noise instead of steps.
+ *
  * <b>A directional light's box.</b> A directional light may be limited to a box, as the sun is that
  * comes in through a window: it begins at the box's near face, which stands across it with the
  * light's Position in its middle, and goes on for the box's depth. What lies outside gets nothing of
@@ -42,7 +50,9 @@ public:
   /**
    * The keys themselves, for code that fills information objects. CASTS is 0 or 1 (default 1),
    * TECHNIQUE one of vtkGnomonShadowPass's technique names, MAP_SIZE the side of the light's map in
-   * texels (of each layer, where a light has several), clamped to [16, 16384]. BOX limits a
+   * texels (of each layer, where a light has several), clamped to [16, 16384]. KERNEL is the name of
+   * a filter kernel (default "bilinear"), see above, and KERNEL_SIZE its width in texels, clamped to
+   * [1, 32] (default 3). BOX limits a
    * directional light to a box, see above: width, height and depth, each > 0, then the direction x,
    * y, z that is up in the near face, not along the light. The up direction is in the light's own
    * coordinates, as its Position is. Other kinds of light ignore it.
@@ -50,17 +60,22 @@ public:
   static vtkInformationIntegerKey* CASTS();
   static vtkInformationStringKey* TECHNIQUE();
   static vtkInformationIntegerKey* MAP_SIZE();
+  static vtkInformationStringKey* KERNEL();
+  static vtkInformationIntegerKey* KERNEL_SIZE();
   static vtkInformationDoubleVectorKey* BOX();
   ///@}
 
   ///@{
   /**
    * Set a key on a light. An empty technique or a map size of 0 or less takes the key away again,
-   * so that the pass's own setting counts.
+   * so that the pass's own setting counts; an empty kernel or a kernel size of 0 or less does the
+   * same, so that the default counts. A kernel that does not exist is an error and changes nothing.
    */
   static void SetCasts(vtkLight* light, bool casts);
   static void SetTechnique(vtkLight* light, const char* technique);
   static void SetMapSize(vtkLight* light, int mapSizeTexels);
+  static void SetKernel(vtkLight* light, const char* kernel);
+  static void SetKernelSize(vtkLight* light, int kernelSizeTexels);
   ///@}
 
   ///@{

@@ -162,6 +162,11 @@ bool RenderManager::collectLights(vtkRenderer* renderer, const LightDefaults& de
       throw FrameError("light " + std::to_string(light.sceneIndex) + " asks for the technique '" +
         light.technique + "'; there are: " + techniqueNames());
     }
+    if (!findKernel(light.kernel))
+    {
+      throw FrameError("light " + std::to_string(light.sceneIndex) + " asks for the kernel '" +
+        light.kernel + "'; there are: " + kernelNames());
+    }
     LightSlot slot;
     const auto kept = this->slots_.find(light.sceneIndex);
     if (kept != this->slots_.end() && kept->second.techniqueName == light.technique)
@@ -181,6 +186,8 @@ bool RenderManager::collectLights(vtkRenderer* renderer, const LightDefaults& de
     report.casts = true;
     report.technique = light.technique;
     report.mapSizeTexels = entry->info.needsMap ? light.mapSizeTexels : 0;
+    report.kernel = entry->info.filters ? light.kernel : "";
+    report.kernelTexels = entry->info.filters ? light.kernelTexels : 0;
     this->report_.lights.push_back(report);
   }
   this->slots_ = std::move(slots);
@@ -376,15 +383,17 @@ void RenderManager::bakeMaps()
 void RenderManager::bakeMaps(const ShadowLight& light, Technique& technique, Bake& bake)
 {
   const Occluders& occluders = this->collector_.occluders();
-  LightViews views =
-    fitLightViews(light, occluders.centreWorld, occluders.castersCentred, light.mapSizeTexels);
+  const MapReach reach = technique.mapReach(light);
+  LightViews views = fitLightViews(light, occluders.centreWorld, occluders.castersCentred,
+    light.mapSizeTexels, reach.borderTexels());
   const bool fresh = bake.once && bake.views == views && bake.sizeTexels == light.mapSizeTexels &&
-    bake.topology == occluders.topologyVersion && bake.positions == occluders.positionsVersion;
+    bake.reach == reach && bake.topology == occluders.topologyVersion &&
+    bake.positions == occluders.positionsVersion;
   if (!fresh)
   {
     this->buffers_.update(occluders);
     technique.bake({ light, views, occluders, this->buffers_, this->library_ });
-    bake = { std::move(views), light.mapSizeTexels, occluders.topologyVersion,
+    bake = { std::move(views), reach, light.mapSizeTexels, occluders.topologyVersion,
       occluders.positionsVersion, true };
     ++this->report_.mapBakes;
   }

@@ -93,6 +93,7 @@ private:
   struct Bake
   {
     LightViews views;
+    MapReach reach;
     int sizeTexels = 0;
     std::uint64_t topology = 0;
     std::uint64_t positions = 0;

@@ -55,7 +55,7 @@ public:
 
   ///@{
   /**
-   * The technique of lights that name none: "nsm", "raytraced" (see GetTechniqueNames). An unknown
+   * The technique of lights that name none: "nsm", "pcf", "raytraced" (see GetTechniqueName). An unknown
    * name is an error and changes nothing. Default: GetDefaultTechnique().
    */
   virtual void SetTechnique(const char* name);

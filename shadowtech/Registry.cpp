@@ -1,6 +1,7 @@
 #include "shadowtech/Registry.h"
 
 #include "shadowtech/nsm/Nsm.h"
+#include "shadowtech/pcf/Pcf.h"
 #include "shadowtech/raytraced/Raytraced.h"
 
 namespace gnomon
@@ -11,6 +12,7 @@ const std::vector<RegistryEntry>& registry()
 {
   static const std::vector<RegistryEntry> entries = {
     { Nsm::info(), [] { return std::unique_ptr<Technique>(new Nsm); } },
+    { Pcf::info(), [] { return std::unique_ptr<Technique>(new Pcf); } },
     { Raytraced::info(), [] { return std::unique_ptr<Technique>(new Raytraced); } },
   };
   return entries;

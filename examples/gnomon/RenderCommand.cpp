@@ -5,6 +5,7 @@
 #include "Scene.h"
 #include "VtkMessages.h"
 
+#include "lights/FilterKernel.h"
 #include "plugin/VisibilityImages.h"
 #include "plugin/vtkGnomonEGLRenderWindow.h"
 #include "plugin/vtkGnomonShadowPass.h"
@@ -35,6 +36,8 @@ struct RenderOptions
   std::string size = "1024x1024";
   std::string technique;
   int mapSizeTexels = 0; ///< 0: not given
+  std::string kernel;
+  int kernelTexels = 0; ///< 0: not given
   std::string route = "auto";
   std::vector<std::string> lights;
   std::string camera;
@@ -112,6 +115,14 @@ Scene loadWithOptions(const RenderOptions& options)
     {
       light.mapSizeTexels = options.mapSizeTexels;
     }
+    if (!options.kernel.empty())
+    {
+      light.kernel = options.kernel;
+    }
+    if (options.kernelTexels > 0)
+    {
+      light.kernelTexels = options.kernelTexels;
+    }
   }
   return scene;
 }
@@ -126,7 +137,8 @@ nlohmann::ordered_json toJson(const FrameReport& report)
   {
     json["lights"].push_back({ { "scene_index", light.sceneIndex }, { "casts", light.casts },
       { "reason", light.reason }, { "technique", light.technique },
-      { "map_size_texels", light.mapSizeTexels }, { "traced_pixels", light.tracedPixels } });
+      { "map_size_texels", light.mapSizeTexels }, { "kernel", light.kernel },
+      { "kernel_size_texels", light.kernelTexels }, { "traced_pixels", light.tracedPixels } });
   }
   json["notes"] = report.notes;
   json["stages"] = nlohmann::ordered_json::array();
@@ -179,6 +191,11 @@ std::map<std::string, std::string> makeHeader(
     const std::string prefix = "light." + std::to_string(light.sceneIndex);
     header[prefix + ".technique"] = light.casts ? light.technique : "none: " + light.reason;
     header[prefix + ".map_size_texels"] = std::to_string(light.mapSizeTexels);
+    if (!light.kernel.empty())
+    {
+      header[prefix + ".kernel"] = light.kernel;
+      header[prefix + ".kernel_size_texels"] = std::to_string(light.kernelTexels);
+    }
   }
   return header;
 }
@@ -274,6 +291,12 @@ void addRenderCommand(CLI::App& app)
     "--technique", options->technique, "Shadow technique of all lights (see: gnomon techniques)");
   command->add_option("--map-size", options->mapSizeTexels, "Side of the lights' maps in texels")
     ->check(CLI::Range(16, 16384));
+  command
+    ->add_option("--kernel", options->kernel,
+      "What techniques that filter (pcf) average over: bilinear, box, poisson")
+    ->check(CLI::IsMember({ "bilinear", "box", "poisson" }));
+  command->add_option("--kernel-size", options->kernelTexels, "The kernel's width in texels")
+    ->check(CLI::Range(smallestKernelTexels, largestKernelTexels));
   command
     ->add_option(
       "--route", options->route, "How visibility reaches the shader: inline, image, auto")

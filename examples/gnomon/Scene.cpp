@@ -101,6 +101,8 @@ vtkSmartPointer<vtkLight> makeLight(const SceneLight& source)
   }
   vtkGnomonLightKeys::SetTechnique(light, source.technique.c_str());
   vtkGnomonLightKeys::SetMapSize(light, source.mapSizeTexels);
+  vtkGnomonLightKeys::SetKernel(light, source.kernel.c_str());
+  vtkGnomonLightKeys::SetKernelSize(light, source.kernelTexels);
   return light;
 }
 

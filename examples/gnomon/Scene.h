@@ -59,6 +59,8 @@ struct SceneLight
   double coneAngleDegrees = 30.0; ///< half the cone of a spot light
   std::string technique;          ///< empty: the pass decides
   int mapSizeTexels = 0;          ///< 0: the pass decides
+  std::string kernel;             ///< empty: Gnomon's default
+  int kernelTexels = 0;           ///< 0: Gnomon's default
 };
 
 struct SceneCamera
@@ -104,7 +106,7 @@ std::vector<BuiltinScene> builtinScenes();
 /// Reads the argument of --light, `type:key=value;key=value...`, with a scene file's types and
 /// keys:
 ///     directional:direction=-1,-2,-1;color=1,1,1;intensity=1;technique=nsm;map_size=1024
-///     spot:position=3,4,5;target=0,0,0;cone_angle=30
+///     spot:position=3,4,5;target=0,0,0;cone_angle=30;technique=pcf;kernel=box;kernel_size=5
 ///     point:position=3,4,5
 /// @throws BadInput
 SceneLight parseLight(const std::string& spec);

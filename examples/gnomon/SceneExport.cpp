@@ -52,6 +52,14 @@ Json toJson(const SceneLight& light)
   {
     json["map_size"] = light.mapSizeTexels;
   }
+  if (!light.kernel.empty())
+  {
+    json["kernel"] = light.kernel;
+  }
+  if (light.kernelTexels > 0)
+  {
+    json["kernel_size"] = light.kernelTexels;
+  }
   return json;
 }
 

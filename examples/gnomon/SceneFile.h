@@ -12,7 +12,7 @@ namespace gnomon::tool
 ///      "models": [{"file": "bunny.obj", "matrix": [16 numbers, row-major], "color": [r,g,b],
 ///                  "casts": true, "receives": true, "one_sided": false}],
 ///      "lights": [{"type": "directional", "direction": [x,y,z], "color": [1,1,1], "intensity": 1,
-///                  "technique": "nsm", "map_size": 1024},
+///                  "technique": "pcf", "map_size": 1024, "kernel": "bilinear", "kernel_size": 3},
 ///                 {"type": "directional", "direction": [x,y,z], "box": {"position": [x,y,z],
 ///                  "up": [0,1,0], "width": 2, "height": 2, "depth": 5}},
 ///                 {"type": "point", "position": [x,y,z]},
@@ -24,7 +24,8 @@ namespace gnomon::tool
 /// `direction` is the way the light travels, `fov` the full vertical angle in degrees, `cone_angle`
 /// half the cone. A directional light with a `box` begins at the box's near face, which stands
 /// across it around `position`, and reaches `depth` far; nothing else is lit by it or casts into it
-/// (vtkGnomonLightKeys). Model paths are relative to the scene file. Of a model only `file` must be given;
+/// (vtkGnomonLightKeys). `technique`, `map_size`, `kernel` and `kernel_size` are what vtkGnomonLightKeys
+/// takes; lights of all types have them. Model paths are relative to the scene file. Of a model only `file` must be given;
 /// its `color` replaces the colours and textures of the file, and lights and cameras of the model
 /// file are not used. A scene without "camera" or "lights" gets those of a bare model.
 /// @throws BadInput

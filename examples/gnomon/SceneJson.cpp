@@ -1,6 +1,7 @@
 #include "SceneJson.h"
 
 #include "Vec3.h"
+#include "lights/FilterKernel.h"
 #include "shadowtech/Registry.h"
 
 namespace gnomon::tool
@@ -83,6 +84,18 @@ void readCommon(const JsonValue& value, SceneLight& light)
   {
     light.mapSizeTexels = size.integer(smallestMapTexels, largestMapTexels);
   }
+  if (const JsonValue kernel = value.member("kernel"); kernel.present())
+  {
+    light.kernel = kernel.text();
+    if (!findKernel(light.kernel))
+    {
+      kernel.fail("one of: " + kernelNames());
+    }
+  }
+  if (const JsonValue size = value.member("kernel_size"); size.present())
+  {
+    light.kernelTexels = size.integer(smallestKernelTexels, largestKernelTexels);
+  }
 }
 
 SceneLight::Box readBox(const JsonValue& value, const Vec3& travel)
@@ -98,8 +111,8 @@ SceneLight::Box readBox(const JsonValue& value, const Vec3& travel)
 
 SceneLight readDirectional(const JsonValue& value)
 {
-  value.requireObject(
-    { "type", "direction", "box", "color", "intensity", "technique", "map_size" });
+  value.requireObject({ "type", "direction", "box", "color", "intensity", "technique", "map_size",
+    "kernel", "kernel_size" });
   SceneLight light;
   light.type = SceneLight::Type::Directional;
   light.target = Vec3{ { 0.0, 0.0, 0.0 } };
@@ -117,8 +130,8 @@ SceneLight readDirectional(const JsonValue& value)
 
 SceneLight readSpot(const JsonValue& value)
 {
-  value.requireObject(
-    { "type", "position", "target", "cone_angle", "color", "intensity", "technique", "map_size" });
+  value.requireObject({ "type", "position", "target", "cone_angle", "color", "intensity",
+    "technique", "map_size", "kernel", "kernel_size" });
   SceneLight light;
   light.type = SceneLight::Type::Spot;
   light.position = readPoint(value.member("position"));
@@ -133,7 +146,8 @@ SceneLight readSpot(const JsonValue& value)
 
 SceneLight readPointLight(const JsonValue& value)
 {
-  value.requireObject({ "type", "position", "color", "intensity", "technique", "map_size" });
+  value.requireObject(
+    { "type", "position", "color", "intensity", "technique", "map_size", "kernel", "kernel_size" });
   SceneLight light;
   light.type = SceneLight::Type::Point;
   light.position = readPoint(value.member("position"));
@@ -147,7 +161,7 @@ SceneLight readPointLight(const JsonValue& value)
 void checkArea(const JsonValue& value)
 {
   value.requireObject({ "type", "position", "target", "up", "width", "height", "shape", "color",
-    "intensity", "technique", "map_size" });
+    "intensity", "technique", "map_size", "kernel", "kernel_size" });
   SceneLight light;
   light.position = readPoint(value.member("position"));
   light.target = readTarget(value.member("target"), light.position);

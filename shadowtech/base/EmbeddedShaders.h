@@ -8,7 +8,7 @@ namespace gnomon
 {
 
 /// The project's .glsl files as they were when it was built, by path from the project's root, e.g.
-/// "shadowtech/nsm/nsm_visibility.glsl". The definition is generated (cmake/GnomonEmbedGlsl.cmake).
+/// "shadowtech/nsm/nsm_estimator.glsl". The definition is generated (cmake/GnomonEmbedGlsl.cmake).
 const std::map<std::string, std::string>& embeddedShaders();
 
 } // namespace gnomon

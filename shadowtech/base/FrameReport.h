@@ -24,6 +24,8 @@ struct LightReport
   std::string reason;            ///< why it was skipped; empty when it casts
   std::string technique;         ///< the technique that shades it
   int mapSizeTexels = 0;         ///< side of its map; 0 when it needs none
+  std::string kernel;            ///< what filters it; empty when nothing does
+  int kernelTexels = 0;          ///< and how wide that is
   std::int64_t tracedPixels = 0; ///< pixels decided by a ray
 };
 

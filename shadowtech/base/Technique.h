@@ -2,6 +2,7 @@
 #define gnomon_shadowtech_base_Technique_h
 
 #include "lights/LightViews.h"
+#include "lights/MapReach.h"
 #include "lights/ShadowLight.h"
 #include "shadowtech/base/FrameReport.h"
 #include "shadowtech/base/Gl.h"
@@ -31,6 +32,7 @@ struct TechniqueInfo
   bool pointwise = false; ///< visibility is a function of the point: serves both routes
   bool exact = false;     ///< equals the ray-traced visibility bit for bit
   bool needsMap = false;  ///< bakes something from the light
+  bool filters = false;   ///< reads the map with the light's filter kernel
 };
 
 /// A texture for a shader's sampler.
@@ -83,6 +85,9 @@ class Technique
 public:
   virtual ~Technique() = default;
 
+  /// How far around a receiver's place on the map the technique reads. Views are fitted for it, and
+  /// the maps are stale when it changes.
+  virtual MapReach mapReach(const ShadowLight&) const { return {}; }
   /// Draws the light's maps. Called only when they are stale.
   virtual void bake(const MapInput&) {}
   /// Memory that the baked maps take on the GPU.

@@ -311,6 +311,9 @@ std::vector<BrokenInput> brokenInputs()
     option("size_overflow", "--size",
       { "render", "cube", "-o", "out.png", "--size", "99999999999999999999x1" }),
     option("size_text", "--size", { "render", "cube", "-o", "out.png", "--size", "big" }),
+    option("kernel", "--kernel", { "render", "cube", "-o", "out.png", "--kernel", "magic" }),
+    option(
+      "kernel_size", "--kernel-size", { "render", "cube", "-o", "out.png", "--kernel-size", "33" }),
     option("map_size_zero", "--map-size", { "render", "cube", "-o", "out.png", "--map-size", "0" }),
     option("map_size_huge", "--map-size",
       { "render", "cube", "-o", "out.png", "--map-size", "1000000" }),

@@ -173,9 +173,11 @@ TEST_F(SceneFile, SaysWhatIsWrongAndWhere)
     { "/lights/0/type", "laser", "lights[0].type", "one of: directional, spot" },
     { "/lights/0/type", null, "lights[0].type", "missing" },
     { "/lights/0/direction", { 0, 0, 0 }, "lights[0].direction", "not zero" },
-    { "/lights/0/technique", "magic", "lights[0].technique", "one of: nsm, raytraced" },
+    { "/lights/0/technique", "magic", "lights[0].technique", "one of: nsm, pcf, raytraced" },
     { "/lights/0/map_size", 8, "lights[0].map_size", "whole number between 16 and 16384" },
     { "/lights/0/map_size", 512.5, "lights[0].map_size", "whole number" },
+    { "/lights/0/kernel", "magic", "lights[0].kernel", "one of: bilinear, box, poisson" },
+    { "/lights/0/kernel_size", 0, "lights[0].kernel_size", "whole number between 1 and 32" },
     { "/lights/0/intensity", -1, "lights[0].intensity", "between 0" },
     { "/lights/1/cone_angle", 95, "lights[1].cone_angle", "found 95, expected a number" },
     { "/lights/1/direction", { 0, 0, 1 }, "lights[1]", "unknown key \"direction\"" },
@@ -308,7 +310,12 @@ TEST(SceneSpecs, LightsHaveASceneFilesKeys)
   EXPECT_DOUBLE_EQ(sun.intensity, 3.0);
   EXPECT_EQ(sun.technique, "nsm");
   EXPECT_EQ(sun.mapSizeTexels, 64);
-  const SceneLight spot = parseLight("spot:position=1,2,3;target=0,0,0;cone_angle=12.5");
+  EXPECT_EQ(sun.kernel, "");
+  EXPECT_EQ(sun.kernelTexels, 0);
+  const SceneLight spot = parseLight(
+    "spot:position=1,2,3;target=0,0,0;cone_angle=12.5;technique=pcf;kernel=box;kernel_size=5");
+  EXPECT_EQ(spot.kernel, "box");
+  EXPECT_EQ(spot.kernelTexels, 5);
   EXPECT_EQ(spot.type, SceneLight::Type::Spot);
   EXPECT_DOUBLE_EQ(spot.coneAngleDegrees, 12.5);
   const SceneLight lamp = parseLight("point:position=1,2,3;color=1,0.5,0");

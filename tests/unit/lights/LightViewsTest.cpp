@@ -129,6 +129,33 @@ TEST(LightViews, SeeAllCasters)
   }
 }
 
+TEST(LightViews, KeepTheBorderThatTheyAreAskedFor)
+{
+  const Bounds casters = box({ -1.0, -1.0, -1.0 }, { 1.0, 1.0, 1.0 });
+  // No more than a quarter of the side.
+  for (const auto& [asked, kept] : { std::pair(1, 1), { 5, 5 }, { 1000, mapSize / 4 } })
+  {
+    const auto texelOf = [](const LightView& view, const glm::dvec3& point)
+    {
+      const glm::dvec4 clip = view.clipFromCentred() * glm::dvec4(point, 1.0);
+      return (glm::dvec2(clip) / clip.w * 0.5 + 0.5) * static_cast<double>(mapSize);
+    };
+    // The border of a cube's face lies at 45 degrees, that of a sun's view around the casters.
+    const LightViews faces =
+      fitLightViews(lightOf(LightKind::Point, {}), centre, casters, mapSize, asked);
+    ASSERT_EQ(faces.views.size(), 6u);
+    const LightViews suns = fitLightViews(
+      lightOf(LightKind::Directional, {}, { 0, 0, -1 }), centre, casters, mapSize, asked);
+    for (const LightView* view : { &faces.views[5], &suns.views[0] })
+    {
+      const glm::dvec2 corner = texelOf(*view, { 1.0, 1.0, -1.0 });
+      const glm::dvec2 fromBorder = glm::min(corner, static_cast<double>(mapSize) - corner);
+      EXPECT_NEAR(fromBorder.x, kept, 1e-3) << asked;
+      EXPECT_NEAR(fromBorder.y, kept, 1e-3) << asked;
+    }
+  }
+}
+
 TEST(LightViews, FlatCastersAreSeen)
 {
   const Bounds floor = box({ -3.0, -3.0, 0.0 }, { 3.0, 3.0, 0.0 });

@@ -4,6 +4,7 @@
 
 #include "Scene.h"
 
+#include "lights/vtkGnomonLightKeys.h"
 #include "plugin/VisibilityImages.h"
 
 #include <vtkActorCollection.h>
@@ -119,6 +120,31 @@ TEST_P(Routes, ofNsmDifferOnAtMostOnePixelInAHundredThousand)
   EXPECT_LE(different, direct.pixels() / 100000);
   scene.renderer->SetPass(nullptr);
   EXPECT_GT(differingPixels(direct, scene.render(), 32), 500u) << "no shadow";
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Routes, ofPcfDifferOnAtMostOnePixelInAHundredThousand)
+{
+  ToolScene scene(GetParam(), 512);
+  scene.pass->SetTechnique("pcf");
+  for (const char* kernel : { "bilinear", "box", "poisson" })
+  {
+    for (int i = 0; i < scene.renderer->GetLights()->GetNumberOfItems(); ++i)
+    {
+      auto* light = vtkLight::SafeDownCast(scene.renderer->GetLights()->GetItemAsObject(i));
+      vtkGnomonLightKeys::SetKernel(light, kernel);
+      vtkGnomonLightKeys::SetKernelSize(light, 5);
+    }
+    scene.pass->SetRoute(vtkGnomonShadowPass::ROUTE_INLINE);
+    const Picture direct = scene.render();
+    EXPECT_EQ(scene.pass->GetReport().route, "inline");
+    scene.pass->SetRoute(vtkGnomonShadowPass::ROUTE_IMAGE);
+    const Picture image = scene.render();
+    EXPECT_EQ(scene.pass->GetReport().route, "image");
+    const std::size_t different = differingPixels(direct, image, 1);
+    RecordProperty(std::string("differentPixels_") + kernel, static_cast<int>(different));
+    EXPECT_LE(different, direct.pixels() / 100000) << kernel;
+  }
 }
 
 //------------------------------------------------------------------------------

@@ -4,7 +4,7 @@ layout(location = 0) in vec3 positionCentred;
 
 uniform mat4 clipFromCentred;
 
-#ifdef PERSPECTIVE
+#ifdef PUSH
 // Row of light space's z, scaled to the map's linear depth in [0, 1].
 uniform vec4 depthFromCentred;
 out float depthLinear;
@@ -13,7 +13,7 @@ out float depthLinear;
 void main()
 {
   gl_Position = clipFromCentred * vec4(positionCentred, 1.0);
-#ifdef PERSPECTIVE
+#ifdef PUSH
   depthLinear = dot(depthFromCentred, vec4(positionCentred, 1.0));
 #endif
 }

@@ -1,0 +1,152 @@
+#include "shadowtech/depth_map/DepthMapTechnique.h"
+
+#include "shadowtech/base/GlState.h"
+#include "shadowtech/base/LightViewsGlsl.h"
+#include "shadowtech/base/OccluderBuffers.h"
+#include "shadowtech/base/ShaderLibrary.h"
+
+#include <glm/gtc/matrix_access.hpp>
+
+#include <algorithm>
+
+namespace gnomon
+{
+namespace
+{
+
+/// Depths are compared with this slack, as a share of the map's depth range: four roundings of a
+/// float (2^-24) in the transformations on either side, and as much again for the rasteriser.
+constexpr float roundingSlack = 1.0f / (1 << 20);
+
+/// And with this, as a share of the distance to the camera, which positions are rounded in proportion
+/// to: eight roundings. So is the receiver's plane, in proportion to how far it is followed.
+constexpr double distanceSlack = 1.0 / (1 << 21);
+
+/// Where depths end that are pushed back: in the middle of the room behind the casters.
+constexpr double deepestPushed = 1.0 / (1.0 + 0.5 * roomBehindCasters);
+
+/// Half the sum of a caster's slopes is never more than the larger one, which is what polygon offset
+/// pushes by. That is twice what is asked for in the worst case, and costs nothing.
+bool polygonOffsetServes(const LightView& view, const MapReach& reach)
+{
+  return !view.perspective && reach == MapReach{};
+}
+
+std::string define(const char* name, double value)
+{
+  return std::string(name) + " " + std::to_string(value);
+}
+
+/// Draws the casters into the bound framebuffer's depth, as one view sees them.
+void drawView(const LightView& view, const MapReach& reach, const MapInput& input)
+{
+  const float farthest = 1.0f;
+  glClearBufferfv(GL_DEPTH, 0, &farthest);
+
+  std::vector<std::string> defines;
+  if (polygonOffsetServes(view, reach))
+  {
+    glEnable(GL_POLYGON_OFFSET_FILL);
+    glPolygonOffset(1.0f, 0.0f);
+  }
+  else
+  {
+    defines = { "PUSH", define("REACH_SQUARE", reach.squareTexels),
+      define("REACH_DISC", reach.discTexels), define("DEEPEST", deepestPushed) };
+    glDisable(GL_POLYGON_OFFSET_FILL);
+  }
+  if (view.perspective)
+  {
+    defines.emplace_back("PERSPECTIVE");
+  }
+  // Where no parallel view's caster can be nearer than the bounds, rounding may still push one over
+  // the edge.
+  view.perspective || view.beginsAtNear ? glDisable(GL_DEPTH_CLAMP) : glEnable(GL_DEPTH_CLAMP);
+  const GLuint program = input.shaders.program(
+    { { GL_VERTEX_SHADER, ShaderLibrary::source("shadowtech/depth_map/depth_map_bake.vert.glsl") },
+      { GL_FRAGMENT_SHADER,
+        ShaderLibrary::source("shadowtech/depth_map/depth_map_bake.frag.glsl") } },
+    defines);
+  glUseProgram(program);
+  ShaderLibrary::setUniform(program, { "clipFromCentred", glm::mat4(view.clipFromCentred()) });
+  glm::dvec4 depth = view.depthScale * glm::row(view.viewFromCentred, 2);
+  depth.w += view.depthOffset;
+  ShaderLibrary::setUniform(program, { "depthFromCentred", glm::vec4(depth) });
+  input.buffers.draw(view);
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+void DepthMapTechnique::allocate(int sizeTexels, int layers)
+{
+  if (this->sizeTexels_ == sizeTexels && this->layers_ == layers)
+  {
+    return;
+  }
+  glBindTexture(GL_TEXTURE_2D_ARRAY, this->map_.create());
+  glTexImage3D(GL_TEXTURE_2D_ARRAY, 0, GL_DEPTH_COMPONENT32F, sizeTexels, sizeTexels, layers, 0,
+    GL_DEPTH_COMPONENT, GL_FLOAT, nullptr);
+  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_COMPARE_MODE, GL_NONE);
+  glBindFramebuffer(GL_FRAMEBUFFER, this->framebuffer_.create());
+  glDrawBuffer(GL_NONE);
+  glReadBuffer(GL_NONE);
+  this->sizeTexels_ = sizeTexels;
+  this->layers_ = layers;
+}
+
+//------------------------------------------------------------------------------
+void DepthMapTechnique::bake(const MapInput& input)
+{
+  const GlStateGuard guard;
+  const std::vector<LightView>& views = input.views.views;
+  // A light without a view still needs a texture to bind.
+  this->allocate(input.light.mapSizeTexels, std::max(static_cast<int>(views.size()), 1));
+  this->views_ = input.views;
+  this->reach_ = this->mapReach(input.light);
+
+  glBindFramebuffer(GL_FRAMEBUFFER, this->framebuffer_.name());
+  glViewport(0, 0, this->sizeTexels_, this->sizeTexels_);
+  glDisable(GL_SCISSOR_TEST);
+  glDisable(GL_STENCIL_TEST);
+  glDisable(GL_MULTISAMPLE);
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_LESS);
+  glDepthMask(GL_TRUE);
+  glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+  for (std::size_t i = 0; i < views.size(); ++i)
+  {
+    glFramebufferTextureLayer(
+      GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, this->map_.name(), 0, static_cast<GLint>(i));
+    drawView(views[i], this->reach_, input);
+  }
+}
+
+//------------------------------------------------------------------------------
+std::size_t DepthMapTechnique::bytesOfMaps() const
+{
+  return static_cast<std::size_t>(this->layers_) * static_cast<std::size_t>(this->sizeTexels_) *
+    static_cast<std::size_t>(this->sizeTexels_) * sizeof(float);
+}
+
+//------------------------------------------------------------------------------
+std::string DepthMapTechnique::visibilityGlsl(const ShadowLight& light) const
+{
+  return lightViewsDefines(light) + this->estimatorGlsl(light);
+}
+
+//------------------------------------------------------------------------------
+std::vector<Uniform> DepthMapTechnique::uniforms(const glm::dmat4& centredFromView) const
+{
+  std::vector<Uniform> uniforms =
+    lightViewsUniforms(this->views_, this->sizeTexels_, centredFromView);
+  uniforms.push_back(
+    { "depthMap_LIGHT", TextureBinding{ GL_TEXTURE_2D_ARRAY, this->map_.name() } });
+  const double followed = this->reach_.largestTexels() / MapReach{}.largestTexels();
+  uniforms.push_back({ "depthSlacks_LIGHT", glm::vec2(roundingSlack, followed * distanceSlack) });
+  return uniforms;
+}
+
+} // namespace gnomon

@@ -1,0 +1,75 @@
+#include "shadowtech/pcf/Pcf.h"
+
+#include "shadowtech/base/ShaderLibrary.h"
+#include "shadowtech/pcf/PoissonDisc.h"
+
+namespace gnomon
+{
+namespace
+{
+
+/// Whoever gives lights to techniques has refused names that are none.
+FilterKernel kernelOf(const ShadowLight& light)
+{
+  return findKernel(light.kernel).value_or(FilterKernel::Bilinear);
+}
+
+std::string define(const std::string& name, int value)
+{
+  return "#define " + name + " " + std::to_string(value) + "\n";
+}
+
+std::string poissonDiscGlsl()
+{
+  std::string points;
+  for (const glm::dvec2& point : poissonDisc())
+  {
+    points += points.empty() ? "" : ", ";
+    points += "vec2(" + std::to_string(point.x) + ", " + std::to_string(point.y) + ")";
+  }
+  return "const vec2 poissonDisc_LIGHT[" + std::to_string(poissonPoints) + "] = vec2[](" + points +
+    ");\n";
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+TechniqueInfo Pcf::info()
+{
+  TechniqueInfo info;
+  info.name = "pcf";
+  info.summary = "hard, smoothed: the plain shadow map with percentage closer filtering";
+  info.pointwise = true;
+  info.needsMap = true;
+  info.filters = true;
+  return info;
+}
+
+//------------------------------------------------------------------------------
+MapReach Pcf::mapReach(const ShadowLight& light) const
+{
+  const double width = light.kernelTexels;
+  switch (kernelOf(light))
+  {
+    case FilterKernel::Bilinear:
+      return { 0.5 * (width + 1.0), 0.0 };
+    case FilterKernel::Box:
+      return { 0.5 * width, 0.0 };
+    case FilterKernel::Poisson:
+      return { 0.5, 0.5 * width };
+  }
+  return {};
+}
+
+//------------------------------------------------------------------------------
+std::string Pcf::estimatorGlsl(const ShadowLight& light) const
+{
+  const FilterKernel kernel = kernelOf(light);
+  const bool poisson = kernel == FilterKernel::Poisson;
+  return define("PCF_TEXELS_LIGHT", light.kernelTexels) +
+    define("PCF_BILINEAR_LIGHT", kernel == FilterKernel::Bilinear) +
+    define("PCF_POISSON_LIGHT", poisson) + define("PCF_POINTS_LIGHT", poissonPoints) +
+    (poisson ? poissonDiscGlsl() : "") + ShaderLibrary::source("shadowtech/pcf/pcf_estimator.glsl");
+}
+
+} // namespace gnomon

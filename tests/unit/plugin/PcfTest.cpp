@@ -1,0 +1,477 @@
+// Percentage closer filtering with every kernel: no acne, shadows as far from contacts as the kernel
+// reaches and no farther, and no setting or view that breaks it.
+
+#include "PassScene.h"
+
+#include "lights/LightViews.h"
+#include "lights/vtkGnomonLightKeys.h"
+#include "plugin/VisibilityImages.h"
+#include "plugin/vtkGnomonPropKeys.h"
+#include "shadowtech/pcf/Pcf.h"
+
+#include <vtkInformation.h>
+#include <vtkInformationStringKey.h>
+#include <vtkTransform.h>
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <ostream>
+
+using namespace gnomon::test;
+using gnomon::VisibilityImages;
+using testing::HasSubstr;
+
+namespace
+{
+
+struct Kernel
+{
+  const char* name;
+  int texels;
+};
+
+std::ostream& operator<<(std::ostream& stream, const Kernel& kernel)
+{
+  return stream << kernel.name << " " << kernel.texels;
+}
+
+class Pcf
+  : public PassTest
+  , public testing::WithParamInterface<Kernel>
+{
+protected:
+  /// Gives a light the test's kernel, and the pass the technique.
+  static void choose(PassScene& scene, vtkLight* light)
+  {
+    scene.pass->SetTechnique("pcf");
+    vtkGnomonLightKeys::SetKernel(light, GetParam().name);
+    vtkGnomonLightKeys::SetKernelSize(light, GetParam().texels);
+  }
+
+  static gnomon::MapReach reach()
+  {
+    gnomon::ShadowLight light;
+    light.kernel = GetParam().name;
+    light.kernelTexels = GetParam().texels;
+    return gnomon::Pcf().mapReach(light);
+  }
+
+  /// Draws a frame, and checks that its numbers are visibilities.
+  static const VisibilityImages& draw(PassScene& scene)
+  {
+    scene.pass->KeepVisibilityOn();
+    scene.render();
+    const VisibilityImages& kept = scene.pass->GetVisibility();
+    std::size_t broken = 0;
+    for (const std::vector<float>& light : kept.visibility)
+    {
+      for (const float value : light)
+      {
+        broken += value >= 0.0f && value <= 1.0f ? 0 : 1;
+      }
+    }
+    EXPECT_EQ(broken, 0u);
+    return kept;
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(Kernels, Pcf,
+  testing::Values(Kernel{ "bilinear", 1 }, Kernel{ "bilinear", 3 }, Kernel{ "bilinear", 8 },
+    Kernel{ "box", 1 }, Kernel{ "box", 4 }, Kernel{ "box", 9 }, Kernel{ "poisson", 6 },
+    Kernel{ "poisson", 32 }),
+  [](const testing::TestParamInfo<Kernel>& kernel)
+  { return kernel.param.name + std::to_string(kernel.param.texels); });
+
+constexpr double allDirections = 180.0;
+
+glm::dvec3 positionOf(const VisibilityImages& kept, std::size_t i)
+{
+  return { kept.origin[0] + kept.positionX[i], kept.origin[1] + kept.positionY[i],
+    kept.origin[2] + kept.positionZ[i] };
+}
+
+/// Of the pixels that face the light, those that are not fully lit.
+struct Acne
+{
+  std::size_t facing = 0;
+  std::size_t dark = 0;
+};
+template <typename ToLight>
+Acne countAcne(const VisibilityImages& kept, const ToLight& toLight)
+{
+  Acne acne;
+  for (std::size_t i = 0; i < kept.coverage.size(); ++i)
+  {
+    const glm::dvec3 normal(kept.normalX[i], kept.normalY[i], kept.normalZ[i]);
+    if (kept.coverage[i] > 0.0f && glm::dot(normal, toLight(positionOf(kept, i))) > 0.0)
+    {
+      ++acne.facing;
+      acne.dark += kept.visibility[0][i] < 1.0f ? 1 : 0;
+    }
+  }
+  return acne;
+}
+
+Acne countAcneOfSun(const VisibilityImages& kept, const glm::dvec3& direction)
+{
+  return countAcne(kept, [&](const glm::dvec3&) { return -direction; });
+}
+
+Acne countAcneOfLamp(const VisibilityImages& kept, const glm::dvec3& light)
+{
+  return countAcne(kept, [&](const glm::dvec3& point) { return light - point; });
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+TEST_P(Pcf, litPlaneHasNoAcneUnderTheSun)
+{
+  for (const int mapSize : { 64, 1024 })
+  {
+    PassScene scene(200, 200);
+    scene.addFloor(4.0);
+    vtkLight* sun = scene.addSun({ 0.0, 0.0, -1.0 });
+    choose(scene, sun);
+    scene.pass->SetMapSize(mapSize);
+    scene.lookFrom({ 1.0, -7.0, 6.0 });
+    for (const double degrees : { 0.0, 0.01, 5.0, 45.0, 75.0, 85.0, 88.0, 89.0 })
+    {
+      const double angle = glm::radians(degrees);
+      const glm::dvec3 toLight(0.8 * std::sin(angle), 0.6 * std::sin(angle), std::cos(angle));
+      sun->SetPosition(toLight.x, toLight.y, toLight.z);
+      const Acne acne = countAcneOfSun(draw(scene), -toLight);
+      EXPECT_GT(acne.facing, 10000u);
+      EXPECT_EQ(acne.dark, 0u) << degrees << " degrees, map " << mapSize;
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Pcf, litPlaneHasNoAcneUnderASpotLight)
+{
+  PassScene scene(200, 200);
+  scene.addFloor(4.0);
+  scene.lookFrom({ 1.0, -7.0, 6.0 });
+  // Cones that have one view, and those that have a cube's.
+  for (const double cone : { 50.0, 80.0 })
+  {
+    vtkLight* spot = scene.addSpot({ 0.0, 0.0, 3.0 }, glm::dvec3(0.0), cone);
+    choose(scene, spot);
+    for (const double height : { 3.0, 1.0, 0.3, 0.1 })
+    {
+      const glm::dvec3 light(-3.0, -2.0, height);
+      spot->SetPosition(light.x, light.y, light.z);
+      const VisibilityImages& kept = draw(scene);
+      const glm::dvec3 axis = glm::normalize(-light);
+      const Acne acne = countAcne(kept,
+        [&](const glm::dvec3& point)
+        {
+          const glm::dvec3 toPoint = glm::normalize(point - light);
+          const bool inCone = glm::dot(toPoint, axis) > std::cos(glm::radians(cone - 0.5));
+          return inCone ? -toPoint : glm::dvec3(0.0);
+        });
+      EXPECT_GT(acne.facing, 5000u);
+      EXPECT_EQ(acne.dark, 0u) << "cone " << cone << ", height " << height;
+    }
+    scene.renderer->RemoveAllLights();
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Pcf, litPlaneHasNoAcneUnderAPointLight)
+{
+  for (const int mapSize : { 64, 512 })
+  {
+    PassScene scene(200, 200);
+    vtkActor* floor = scene.addFloor(4.0);
+    vtkNew<vtkTransform> turn;
+    turn->RotateWXYZ(35.0, 1.0, 0.6, 0.2);
+    floor->SetUserTransform(turn);
+    vtkLight* lamp = scene.addSpot({ 0.0, 0.0, 1.0 }, glm::dvec3(0.0), allDirections);
+    choose(scene, lamp);
+    scene.pass->SetMapSize(mapSize);
+    scene.lookFrom({ 1.0, -7.0, 12.0 });
+    for (const double height : { 8.0, 1.0, 0.3, 0.07 })
+    {
+      const double along[3] = { 0.1, 0.2, height };
+      const double* point = turn->TransformDoublePoint(along);
+      const glm::dvec3 light(point[0], point[1], point[2]);
+      lamp->SetPosition(light.x, light.y, light.z);
+      const Acne acne = countAcneOfLamp(draw(scene), light);
+      EXPECT_GT(acne.facing, 5000u);
+      EXPECT_EQ(acne.dark, 0u) << "height " << height << ", map " << mapSize;
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Pcf, concaveCornersAreLit)
+{
+  // Under a lamp the inside of a box, whose edges the borders of the map's faces run along from its
+  // middle; under the sun what it lights of the same box.
+  for (const int mapSize : { 64, 256 })
+  {
+    for (const glm::dvec3& lamp : { glm::dvec3(0.0), { 0.7, -0.4, 0.9 }, { -1.9, 1.9, -1.9 } })
+    {
+      PassScene scene(200, 200);
+      scene.addBox(glm::dvec3(-2.0), glm::dvec3(2.0));
+      choose(scene, scene.addSpot(lamp, lamp - glm::dvec3(0.0, 0.0, 1.0), allDirections));
+      scene.pass->SetMapSize(mapSize);
+      scene.lookFrom({ 1.9, 1.8, 1.9 });
+      scene.renderer->GetActiveCamera()->SetViewAngle(100.0);
+      scene.renderer->GetActiveCamera()->SetClippingRange(0.01, 10.0);
+      const Acne acne = countAcneOfLamp(draw(scene), lamp);
+      EXPECT_EQ(acne.facing, 40000u);
+      EXPECT_EQ(acne.dark, 0u) << "map " << mapSize << ", lamp at " << lamp.x;
+    }
+    // A trough of a floor and two walls without thickness, which the sun sees from within.
+    for (const glm::dvec3& direction :
+      { glm::dvec3(-1.0, -0.8, -1.0), { -0.3, -1.0, -0.1 }, { -0.1, -0.1, -1.0 } })
+    {
+      PassScene scene(200, 200);
+      scene.addFloor(2.0);
+      const auto addWall = [&](double x, double y)
+      {
+        vtkNew<vtkTransform> stand;
+        stand->Translate(2.0 * x, 2.0 * y, 2.0);
+        stand->RotateWXYZ(90.0, y, -x, 0.0);
+        scene.addFloor(2.0)->SetUserTransform(stand);
+      };
+      addWall(-1.0, 0.0);
+      addWall(0.0, -1.0);
+      choose(scene, scene.addSun(direction));
+      scene.pass->SetMapSize(mapSize);
+      scene.lookFrom({ 8.0, 9.0, 7.0 });
+      const Acne acne = countAcneOfSun(draw(scene), direction);
+      EXPECT_GT(acne.facing, 8000u);
+      EXPECT_EQ(acne.dark, 0u) << "map " << mapSize << ", sun along " << direction.x;
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Pcf, shadowsBeginWithinTheKernelsReachOfTheirCasters)
+{
+  // A wall on a floor, thinner than a texel, so that it casts with the face that is pushed back; its
+  // shadow begins at x = 0.1.
+  constexpr int mapSize = 512;
+  const glm::dvec3 lower(0.099, -3.0, 0.0);
+  const glm::dvec3 upper(0.1, 3.0, 2.0);
+  for (const glm::dvec3& direction :
+    { glm::dvec3(1.0, 0.0, -1.0), { 0.4, 0.0, -1.0 }, { 3.0, 0.0, -1.0 } })
+  {
+    PassScene scene(500, 500);
+    scene.addFloor(4.0);
+    scene.addBox(lower, upper);
+    choose(scene, scene.addSun(direction));
+    scene.pass->SetMapSize(mapSize);
+    scene.lookDown(0.4, 0.4);
+    const VisibilityImages& kept = draw(scene);
+
+    gnomon::ShadowLight sun;
+    sun.directionWorld = glm::normalize(direction);
+    gnomon::Bounds casters{ { -4.0, -4.0, 0.0 }, { 4.0, 4.0, 2.0 } };
+    const gnomon::LightViews views =
+      gnomon::fitLightViews(sun, glm::dvec3(0.0), casters, mapSize, reach().borderTexels());
+    const auto texelOf = [&](double x)
+    {
+      const glm::dvec4 clip = views.views[0].clipFromCentred() * glm::dvec4(x, 0.0, 0.0, 1.0);
+      return glm::dvec2(clip) * (0.5 * mapSize);
+    };
+    double farthest = 0.0;
+    for (int y = 100; y <= 400; y += 7)
+    {
+      double begin = std::numeric_limits<double>::infinity();
+      for (int x = 0; x < 500; ++x)
+      {
+        const std::size_t i = static_cast<std::size_t>(y) * 500 + static_cast<std::size_t>(x);
+        const glm::dvec3 point = positionOf(kept, i);
+        if (kept.normalZ[i] > 0.9f && point.x > 0.1001 && kept.visibility[0][i] < 0.5f)
+        {
+          begin = std::min(begin, point.x);
+        }
+      }
+      ASSERT_LT(begin, 0.8) << "row " << y;
+      farthest = std::max(farthest, glm::distance(texelOf(begin), texelOf(0.1)));
+    }
+    RecordProperty("detachmentTexels" + std::to_string(direction.x), std::to_string(farthest));
+    EXPECT_LE(farthest, 0.5 * GetParam().texels + 1.0) << "sun along " << direction.x;
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Pcf, wideShadowsAreDarkInside)
+{
+  PassScene scene(300, 300);
+  scene.addFloor(4.0);
+  scene.addBox({ -1.5, -1.5, 1.0 }, { 1.5, 1.5, 1.5 });
+  choose(scene, scene.addSun({ 0.5, 0.2, -1.0 }));
+  scene.lookDown(4.0);
+  const Picture picture = scene.render();
+  EXPECT_EQ(scene.redAt(picture, 1.65, 0.4), 0);
+  EXPECT_GT(scene.redAt(picture, -3.0, 0.0), 200);
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Pcf, edgesAreAsSmoothWhereTheMapEnds)
+{
+  // The box alone casts, so that the map ends where the shadow does, but for the border.
+  constexpr int mapSize = 256;
+  PassScene scene(400, 400);
+  vtkGnomonPropKeys::SetCasts(scene.addFloor(4.0), false);
+  scene.addBox({ -1.0, -1.0, 2.0 }, { 1.0, 1.0, 2.1 });
+  choose(scene, scene.addSun({ 0.0, 0.0, -1.0 }));
+  scene.pass->SetMapSize(mapSize);
+  scene.lookDown(1.0, 1.0); // half of the picture is floor
+  const VisibilityImages& kept = draw(scene);
+  const double pixelTexels = 2.0 / 400 / (2.0 / mapSize);
+  const auto lit = [&](int x) { return static_cast<double>(kept.visibility[0][200 * 400 + x]); };
+  double largestStep = 0.0;
+  for (int x = 1; x < 400; ++x)
+  {
+    const std::size_t i = 200 * 400 + static_cast<std::size_t>(x);
+    if (kept.positionZ[i] + kept.origin[2] < 1.0 && kept.positionZ[i - 1] + kept.origin[2] < 1.0)
+    {
+      largestStep = std::max(largestStep, std::abs(lit(x) - lit(x - 1)));
+    }
+  }
+  EXPECT_LT(pixelTexels, 1.0);
+  EXPECT_EQ(lit(399), 1.0);
+  // A texel's column at a time; of a disc, the points in it, which differ from place to place.
+  const std::string name = GetParam().name;
+  const double column = name == "poisson" ? 0.35 : 1.0 / GetParam().texels + 1e-6;
+  EXPECT_LE(largestStep, column);
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Pcf, degenerateViewsStayFinite)
+{
+  // Along the axes and in the floor's plane; lamps inside, below, on and far from the casters; maps
+  // that are smaller than the kernel.
+  for (const int mapSize : { 16, 256 })
+  {
+    const auto drawBothRoutes = [&](PassScene& scene, vtkLight* light)
+    {
+      scene.addFloor(4.0);
+      scene.addSphere({ 0.0, 0.0, 1.5 }, 0.7);
+      choose(scene, light);
+      scene.pass->SetMapSize(mapSize);
+      scene.lookFrom({ 0.0, -9.0, 7.0 });
+      draw(scene);
+      scene.pass->KeepVisibilityOff();
+      scene.render();
+      EXPECT_EQ(scene.report().route, "inline");
+    };
+    for (const glm::dvec3& direction :
+      { glm::dvec3(0.0, -1.0, 0.0), { 1.0, 0.0, 0.0 }, { 0.0, 0.0, 1.0 }, { 0.0, 0.0, -1.0 } })
+    {
+      PassScene scene(64, 48);
+      drawBothRoutes(scene, scene.addSun(direction));
+    }
+    for (const glm::dvec3& position : { glm::dvec3(0.0, 0.0, 1.5), { 0.0, 0.0, -1.0 },
+           { 0.0, 0.0, 0.0 }, { 0.7, 0.0, 1.5 }, { 0.0, 0.0, 50.0 } })
+    {
+      for (const double cone : { 1.0, 45.0, allDirections })
+      {
+        PassScene scene(64, 48);
+        drawBothRoutes(scene, scene.addSpot(position, { 0.1, 0.2, -3.0 }, cone));
+      }
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Pcf, steepCastersStayCastersForWhatLiesBehindAllOfThem)
+{
+  // A sheet that stands steeply in the light, and nothing else that casts: pushed back far beyond the
+  // end of the map's depths, it still hides the floor.
+  for (const bool lamp : { false, true })
+  {
+    PassScene scene(300, 300);
+    vtkNew<vtkTransform> stand;
+    stand->Translate(0.0, 0.0, 3.0);
+    stand->RotateY(85.0);
+    scene.addFloor(1.0)->SetUserTransform(stand);
+    vtkGnomonPropKeys::SetCasts(scene.addFloor(6.0), false);
+    choose(scene,
+      lamp ? scene.addSpot({ 0.0, 0.0, 12.0 }, glm::dvec3(0.0), 30.0)
+           : scene.addSun({ 0.0, 0.0, -1.0 }));
+    scene.pass->SetMapSize(64);
+    // Below the middle of its lower half.
+    const double x = 0.5 * std::cos(glm::radians(85.0)) * (lamp ? 12.0 / 9.5 : 1.0);
+    scene.lookFrom({ 4.0, -6.0, 5.0 }, { x, 0.0, 0.0 });
+    scene.renderer->GetActiveCamera()->SetViewAngle(1.0);
+    const VisibilityImages& kept = draw(scene);
+    double darkest = 1.0;
+    std::size_t points = 0;
+    for (std::size_t i = 0; i < kept.coverage.size(); ++i)
+    {
+      const glm::dvec3 point = positionOf(kept, i);
+      if (kept.coverage[i] > 0.0f && std::abs(point.z) < 0.001 &&
+        glm::distance(point, glm::dvec3(x, 0.0, 0.0)) < 0.005)
+      {
+        ++points;
+        darkest = std::min(darkest, static_cast<double>(kept.visibility[0][i]));
+      }
+    }
+    EXPECT_GT(points, 10u);
+    EXPECT_LT(darkest, 0.5) << "lamp: " << lamp;
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(PassTest, anotherKernelIsBakedOnceAndReported)
+{
+  PassScene scene(100, 80);
+  scene.addFloor(4.0);
+  scene.addSphere({ 0.0, 0.0, 1.5 }, 0.7);
+  vtkLight* sun = scene.addSun({ 1.0, 0.4, -1.5 });
+  scene.pass->SetTechnique("pcf");
+  scene.lookFrom({ 0.0, -9.0, 7.0 });
+  scene.render();
+  EXPECT_EQ(scene.report().lights[0].kernel, "bilinear");
+  EXPECT_EQ(scene.report().lights[0].kernelTexels, 3);
+  // The same border, but not the same reach.
+  vtkGnomonLightKeys::SetKernel(sun, "poisson");
+  scene.render();
+  EXPECT_EQ(scene.report().mapBakes, 1);
+  EXPECT_EQ(scene.report().lights[0].kernel, "poisson");
+  scene.render();
+  EXPECT_EQ(scene.report().mapBakes, 0);
+  EXPECT_EQ(scene.report().programCompiles, 0);
+  vtkGnomonLightKeys::SetKernelSize(sun, 1000);
+  scene.render();
+  EXPECT_EQ(scene.report().mapBakes, 1);
+  EXPECT_EQ(scene.report().lights[0].kernelTexels, 32);
+  vtkGnomonLightKeys::SetKernelSize(sun, 0);
+  vtkGnomonLightKeys::SetKernel(sun, nullptr);
+  scene.render();
+  EXPECT_EQ(scene.report().lights[0].kernel, "bilinear");
+  EXPECT_EQ(scene.report().lights[0].kernelTexels, 3);
+  scene.pass->SetTechnique("nsm");
+  scene.render();
+  EXPECT_EQ(scene.report().lights[0].kernel, "");
+}
+
+//------------------------------------------------------------------------------
+TEST_F(PassTest, unknownKernelIsAnErrorThatNamesTheOthers)
+{
+  PassScene scene(100, 80);
+  scene.addFloor(4.0);
+  vtkLight* sun = scene.addSun({ 1.0, 0.4, -1.5 });
+  scene.lookFrom({ 0.0, -9.0, 7.0 });
+  vtkGnomonLightKeys::SetKernel(sun, "magic");
+  EXPECT_THAT(this->takeErrors(), HasSubstr("'magic'. There are: bilinear, box, poisson"));
+  scene.render();
+  EXPECT_EQ(this->takeErrors(), "");
+  sun->GetInformation()->Set(vtkGnomonLightKeys::KERNEL(), "magic");
+  scene.render();
+  const std::string errors = this->takeErrors();
+  EXPECT_THAT(errors, HasSubstr("light 0"));
+  EXPECT_THAT(errors, HasSubstr("'magic'; there are: bilinear"));
+  EXPECT_EQ(scene.report().route, "none");
+}
