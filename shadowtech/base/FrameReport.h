@@ -51,10 +51,12 @@ struct FrameReport
   std::size_t droppedNonFinite = 0; ///< triangles left out: a vertex is not finite
   std::size_t droppedZeroArea = 0;  ///< triangles left out: no area
 
-  std::size_t bytesOccluders = 0; ///< snapshot on the CPU and the GPU
-  std::size_t bytesBvh = 0;       ///< as Embree reports it
-  std::size_t bytesMaps = 0;      ///< what the techniques baked
-  std::size_t bytesImages = 0;    ///< receivers and visibility
+  /// The snapshot on the CPU and the GPU, with all that is remembered of its surfaces: no more than
+  /// 120 bytes a triangle and 1,500 a surface. Embree's own memory is apart.
+  std::size_t bytesOccluders = 0;
+  std::size_t bytesBvh = 0;    ///< as Embree reports it
+  std::size_t bytesMaps = 0;   ///< what the techniques baked
+  std::size_t bytesImages = 0; ///< receivers and visibility, on the CPU and the GPU
 };
 
 } // namespace gnomon
