@@ -3,6 +3,7 @@
 #include "plugin/vtkGnomonShadowPass.h"
 #include "shadowtech/Registry.h"
 #include "shadowtech/base/Bytes.h"
+#include "shadowtech/base/TextureMemory.h"
 
 #include <vtkCamera.h>
 #include <vtkFrameBufferObjectBase.h>
@@ -384,7 +385,15 @@ void RenderManager::bakeMaps(const ShadowLight& light, Technique& technique, Bak
   if (!fresh)
   {
     this->buffers_.update(occluders);
-    technique.bake({ light, views, occluders, this->buffers_, this->library_ });
+    bake.once = false; // in case that there is no memory
+    try
+    {
+      technique.bake({ light, views, occluders, this->buffers_, this->library_ });
+    }
+    catch (const TextureMemoryError& error)
+    {
+      throw TextureMemoryError("light " + std::to_string(light.sceneIndex) + ": " + error.what());
+    }
     bake = { std::move(views), light.mapSizeTexels, occluders.topologyVersion,
       occluders.positionsVersion, true };
     ++this->report_.mapBakes;

@@ -30,8 +30,11 @@ struct LightReport
 /// What one frame did, for people and for tests. Counters count this frame only.
 struct FrameReport
 {
-  std::string route;               ///< "inline", "image" or "none" (no light casts: plain VTK)
-  std::string routeReason;         ///< why this route, as a clause
+  std::string route;       ///< "inline", "image" or "none" (no light casts: plain VTK)
+  std::string routeReason; ///< why this route, as a clause
+  /// Whether the frame was drawn without shadows because a map or an image is too large for the
+  /// texture memory.
+  bool outOfTextureMemory = false;
   std::vector<LightReport> lights; ///< every light of the renderer
   std::vector<std::string> notes;  ///< limits that this frame ran into, each a sentence
 

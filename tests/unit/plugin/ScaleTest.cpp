@@ -141,15 +141,15 @@ TEST_P(Scale, movedPropsShowTheSameAsInANewPass)
     actors.push_back(scene.addBox(
       { i % perSide, i / perSide, 0.0 }, { i % perSide + 0.4, i / perSide + 0.4, 0.5 }));
   }
-  scene.addSpot({ 3.0, 4.0, 12.0 }, { 5.0, 5.0, 0.0 }, 50.0);
-  scene.lookDown(perSide);
+  scene.addSpot({ 3.0, 4.0, 12.0 }, { 5.0, 5.0, 0.0 }, 20.0);
+  scene.lookDown(6.0, 5.0, 5.0);
   scene.choose(GetParam());
   const Picture before = scene.render();
   for (const std::size_t i : { 7u, 8u, 42u, 99u })
   {
     actors[i]->SetPosition(-0.3, 0.2, 1.0);
   }
-  actors[20]->SetPosition(-9.0, 0.0, 0.0); // to where no caster was
+  actors[90]->SetPosition(4.0, -5.0, 2.0); // from outside the light's cone
   const Picture after = scene.render();
   EXPECT_EQ(scene.report().surfacesRetransformed, 5);
   EXPECT_GT(differingPixels(before, after), 100u);
