@@ -19,8 +19,10 @@ std::size_t bytesOf(const std::vector<Value>& vector)
 template <typename Table>
 std::size_t bytesOfTable(const Table& table)
 {
+  const std::size_t buckets =
+    table.bucket_count() > 1 ? table.bucket_count() : 0; // one is built in
   return table.size() * (sizeof(typename Table::value_type) + 2 * sizeof(void*)) +
-    table.bucket_count() * sizeof(void*);
+    buckets * sizeof(void*);
 }
 
 } // namespace gnomon
