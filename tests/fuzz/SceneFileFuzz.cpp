@@ -1,5 +1,5 @@
 // libFuzzer's target for scene files: whatever the bytes are, reading them ends in a scene or in
-// BadInput, and a scene can be written and read again. How to run it: tests/fuzz/run.sh.
+// BadInput. How to run it: tests/fuzz/run.sh.
 
 #include "Errors.h"
 #include "Scene.h"
