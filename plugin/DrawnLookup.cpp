@@ -4,6 +4,7 @@
 #include "plugin/Hash.h"
 #include "plugin/MapperInternals.h"
 
+#include "shadowtech/base/Bytes.h"
 #include "shadowtech/base/Occluders.h"
 
 #include "vtkActor.h"
@@ -95,6 +96,23 @@ void DrawnLookup::beginFrame(const std::vector<const vtkProp*>& translucentRecei
   this->drawnSurfaces_.clear();
   this->translucentReceivers_.clear();
   this->translucentReceivers_.insert(translucentReceivers.begin(), translucentReceivers.end());
+}
+
+//------------------------------------------------------------------------------
+std::size_t DrawnLookup::bytes() const
+{
+  std::size_t bytes = bytesOf(this->held_) + bytesOfTable(this->heldAt_) +
+    bytesOfTable(this->answers_) + bytesOfTable(this->translucentReceivers_) +
+    bytesOfTable(this->taken_) + bytesOf(this->drawnSurfaces_);
+  for (const HeldSurfaces& held : this->held_)
+  {
+    bytes += bytesOf(held);
+  }
+  for (const DrawnSurface& drawn : this->drawnSurfaces_)
+  {
+    bytes += bytesOf(drawn.blocks);
+  }
+  return bytes;
 }
 
 //------------------------------------------------------------------------------

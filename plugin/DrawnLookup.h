@@ -63,6 +63,9 @@ public:
   Drawn find(vtkAbstractMapper* mapper, vtkProp* prop, const Occluders& occluders);
   const std::vector<DrawnSurface>& drawnSurfaces() const { return this->drawnSurfaces_; }
 
+  /// Memory that this holds.
+  std::size_t bytes() const;
+
 private:
   /// Who draws, and where: an actor, or for actors that VTK makes as it draws, their mapper.
   struct Place

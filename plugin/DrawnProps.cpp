@@ -58,15 +58,35 @@ std::vector<glm::dvec4> clipPlanesOf(vtkMapper* mapper)
   return planes;
 }
 
-/// Mappers that are polydata mappers by type, but draw something else in place of the polygons.
-bool drawsImpostors(vtkMapper* mapper)
+/// How a mapper says what it draws.
+enum class MapperKind
+{
+  PlainPolyData, ///< vtkOpenGLPolyDataMapper itself: nearly every mapper
+  PolyData,      ///< a class derived from it
+  Composite,
+  Glyphs,
+  Impostors, ///< a polydata mapper by type, which draws something else in place of the polygons
+  Other
+};
+
+/// Asked once for each prop: IsA() and casts compare with all base classes.
+MapperKind kindOf(vtkMapper* mapper)
 {
   if (std::strcmp(mapper->GetClassName(), "vtkOpenGLPolyDataMapper") == 0)
   {
-    return false; // nearly every mapper, and IsA() compares with all base classes
+    return MapperKind::PlainPolyData;
   }
-  return mapper->IsA("vtkPointGaussianMapper") || mapper->IsA("vtkOpenGLSphereMapper") ||
-    mapper->IsA("vtkOpenGLStickMapper");
+  if (mapper->IsA("vtkCompositePolyDataMapper2"))
+  {
+    return MapperKind::Composite;
+  }
+  if (mapper->IsA("vtkPolyDataMapper"))
+  {
+    const bool impostors = mapper->IsA("vtkPointGaussianMapper") ||
+      mapper->IsA("vtkOpenGLSphereMapper") || mapper->IsA("vtkOpenGLStickMapper");
+    return impostors ? MapperKind::Impostors : MapperKind::PolyData;
+  }
+  return mapper->IsA("vtkGlyph3DMapper") ? MapperKind::Glyphs : MapperKind::Other;
 }
 
 /// Nearly every prop is one; IsA() and casts compare with all base classes.
@@ -112,9 +132,9 @@ public:
 
 private:
   void addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatrix4x4* matrix);
-  bool serves(vtkMapper* mapper);
-  std::vector<DrawnBlock> blocksOf(vtkActor* actor, vtkMapper* mapper, bool translucent) const;
-  void updateInput(vtkMapper* mapper);
+  bool serves(vtkMapper* mapper, MapperKind kind);
+  void addBlocks(vtkActor* actor, vtkMapper* mapper, MapperKind kind, bool translucent);
+  void updateInput(vtkMapper* mapper, MapperKind kind);
   void skip(const std::string& what) { ++this->skipped_[what]; }
 
   vtkRenderer* renderer_;
@@ -163,7 +183,8 @@ void Finder::addViewProp(vtkProp* viewProp)
 //------------------------------------------------------------------------------
 void Finder::addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatrix4x4* matrix)
 {
-  auto* actor = vtkActor::SafeDownCast(leaf);
+  const bool isPlain = isPlainActor(leaf);
+  auto* actor = isPlain ? static_cast<vtkActor*>(leaf) : vtkActor::SafeDownCast(leaf);
   if (!actor)
   {
     if (auto* levels = vtkLODProp3D::SafeDownCast(leaf))
@@ -180,7 +201,7 @@ void Finder::addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatr
     return;
   }
   if (!actor->GetMapper() || actor->GetProperty()->GetRepresentation() != VTK_SURFACE ||
-    (!isPlainActor(actor) && actor->IsA("vtkSkybox")))
+    (!isPlain && actor->IsA("vtkSkybox")))
   {
     return;
   }
@@ -191,11 +212,12 @@ void Finder::addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatr
     this->skip(std::string(actor->GetClassName()) + ": draws through an actor of its own");
     return;
   }
-  if (!this->serves(drawing.mapper) || drawing.mapper->GetNumberOfInputConnections(0) == 0)
+  const MapperKind kind = kindOf(drawing.mapper);
+  if (!this->serves(drawing.mapper, kind) || drawing.mapper->GetNumberOfInputConnections(0) == 0)
   {
     return; // VTK complains of a mapper without input itself
   }
-  this->updateInput(drawing.mapper);
+  this->updateInput(drawing.mapper, kind);
   if (!drawing.mapper->GetInputDataObject(0, 0))
   {
     return;
@@ -214,19 +236,22 @@ void Finder::addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatr
   prop.oneSided = vtkGnomonPropKeys::GetOneSided(viewProp);
   const auto add = [&](bool translucent)
   {
-    const std::vector<DrawnBlock> blocks = this->blocksOf(actor, drawing.mapper, translucent);
     prop.translucent = translucent;
     prop.firstBlock = this->drawn_.blocks.size();
-    prop.blockCount = blocks.size();
-    this->drawn_.blocks.insert(this->drawn_.blocks.end(), blocks.begin(), blocks.end());
+    this->addBlocks(actor, drawing.mapper, kind, translucent);
+    prop.blockCount = this->drawn_.blocks.size() - prop.firstBlock;
     this->drawn_.props.push_back(prop);
   };
   const std::size_t before = this->drawn_.props.size();
-  if (actor->HasOpaqueGeometry())
+  const bool opaque = actor->HasOpaqueGeometry();
+  // A plain prop is one or the other, and VTK takes as long to answer either.
+  const bool eitherOr = isPlain && kind == MapperKind::PlainPolyData;
+  const bool translucent = eitherOr ? !opaque : actor->HasTranslucentPolygonalGeometry() != 0;
+  if (opaque)
   {
     add(false);
   }
-  if (actor->HasTranslucentPolygonalGeometry())
+  if (translucent)
   {
     if (prop.receives)
     {
@@ -243,23 +268,22 @@ void Finder::addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatr
 
 //------------------------------------------------------------------------------
 /// Whether the snapshot can hold what a mapper draws; if not, it is noted.
-bool Finder::serves(vtkMapper* mapper)
+bool Finder::serves(vtkMapper* mapper, MapperKind kind)
 {
   const char* reason = nullptr;
-  if (auto* polyDataMapper = vtkPolyDataMapper::SafeDownCast(mapper))
-  {
-    reason = drawsImpostors(mapper)                ? "mapper not served"
-      : polyDataMapper->GetNumberOfSubPieces() > 1 ? "input drawn in several pieces"
-                                                   : nullptr;
-  }
-  else if (auto* glyphMapper = vtkGlyph3DMapper::SafeDownCast(mapper))
-  {
-    reason =
-      glyphMapper->GetCullingAndLOD() ? "glyphs are culled and simplified on the GPU" : nullptr;
-  }
-  else
+  if (kind == MapperKind::Other || kind == MapperKind::Impostors)
   {
     reason = "mapper not served";
+  }
+  else if (kind == MapperKind::Glyphs)
+  {
+    reason = static_cast<vtkGlyph3DMapper*>(mapper)->GetCullingAndLOD()
+      ? "glyphs are culled and simplified on the GPU"
+      : nullptr;
+  }
+  else if (static_cast<vtkPolyDataMapper*>(mapper)->GetNumberOfSubPieces() > 1)
+  {
+    reason = "input drawn in several pieces";
   }
   if (reason)
   {
@@ -269,45 +293,41 @@ bool Finder::serves(vtkMapper* mapper)
 }
 
 //------------------------------------------------------------------------------
-/// What a mapper draws for an actor in one of the two passes.
-std::vector<DrawnBlock> Finder::blocksOf(vtkActor* actor, vtkMapper* mapper, bool translucent) const
+/// Lists what a mapper draws for an actor in one of the two passes.
+void Finder::addBlocks(vtkActor* actor, vtkMapper* mapper, MapperKind kind, bool translucent)
 {
-  std::vector<DrawnBlock> blocks;
-  if (auto* composite = vtkCompositePolyDataMapper2::SafeDownCast(mapper))
+  std::vector<DrawnBlock>& blocks = this->drawn_.blocks;
+  if (kind == MapperKind::Composite)
   {
+    auto* composite = static_cast<vtkCompositePolyDataMapper2*>(mapper);
     for (vtkPolyData* data : drawnBlocks(actor, composite, translucent))
     {
       blocks.push_back({ data });
     }
   }
-  else if (auto* polyDataMapper = vtkPolyDataMapper::SafeDownCast(mapper))
+  else if (kind == MapperKind::Glyphs)
   {
-    if (vtkPolyData* data = polyDataMapper->GetInput())
-    {
-      blocks.push_back({ data });
-    }
-  }
-  else if (auto* glyphMapper = vtkGlyph3DMapper::SafeDownCast(mapper))
-  {
-    for (const Glyph& glyph : drawnGlyphs(glyphMapper))
+    for (const Glyph& glyph : drawnGlyphs(static_cast<vtkGlyph3DMapper*>(mapper)))
     {
       blocks.push_back({ glyph.data, glyph.points, glyph.source });
     }
   }
-  return blocks;
+  else if (vtkPolyData* data = static_cast<vtkPolyDataMapper*>(mapper)->GetInput())
+  {
+    blocks.push_back({ data });
+  }
 }
 
 //------------------------------------------------------------------------------
-void Finder::updateInput(vtkMapper* mapper)
+void Finder::updateInput(vtkMapper* mapper, MapperKind kind)
 {
   if (mapper->GetStatic() || !this->updated_.insert(mapper).second)
   {
     return;
   }
-  auto* polyDataMapper = vtkPolyDataMapper::SafeDownCast(mapper);
-  if (!polyDataMapper)
+  if (kind == MapperKind::Glyphs)
   {
-    mapper->Update(); // of glyphs: the points and the sources
+    mapper->Update(); // the points and the sources
     return;
   }
   // A trivial producer stands for data that was set by hand: there is nothing to run.
@@ -316,8 +336,9 @@ void Finder::updateInput(vtkMapper* mapper)
   {
     return;
   }
-  if (!mapper->IsA("vtkCompositePolyDataMapper2"))
+  if (kind != MapperKind::Composite)
   {
+    auto* polyDataMapper = static_cast<vtkPolyDataMapper*>(mapper);
     input->UpdateInformation();
     vtkInformation* information = mapper->GetInputInformation();
     using Pipeline = vtkStreamingDemandDrivenPipeline;

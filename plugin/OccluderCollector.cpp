@@ -3,6 +3,8 @@
 #include "plugin/DrawnProps.h"
 #include "plugin/SurfaceRecord.h"
 
+#include "shadowtech/base/Bytes.h"
+
 #include "vtkActor.h"
 #include "vtkMapper.h"
 #include "vtkPolyData.h"
@@ -35,6 +37,7 @@ struct OccluderCollector::Impl
 {
 public:
   Change collect(vtkRenderer* renderer);
+  std::size_t bytes() const;
 
   Occluders occluders;
   DrawnLookup lookup;
@@ -112,6 +115,8 @@ OccluderCollector::Change OccluderCollector::Impl::collect(vtkRenderer* renderer
       this->rebuild(wanted);
     }
     this->indexProps(wanted);
+    this->vertexOfPoint_.clear();
+    this->vertexOfPoint_.shrink_to_fit(); // as large as the largest input
   }
 
   this->noteWhatIsTooLarge(wanted);
@@ -424,6 +429,24 @@ void OccluderCollector::Impl::summarise()
 }
 
 //------------------------------------------------------------------------------
+std::size_t OccluderCollector::Impl::bytes() const
+{
+  std::size_t bytes = bytesOf(this->occluders.positionsCentred) +
+    bytesOf(this->occluders.triangles) + bytesOf(this->occluders.surfaces) +
+    bytesOf(this->records_) + bytesOf(this->vertexOfPoint_) + this->lookup.bytes();
+  for (const Surface& surface : this->occluders.surfaces)
+  {
+    bytes += bytesOf(surface.triangleOfDrawn);
+  }
+  for (const SurfaceRecord& record : this->records_)
+  {
+    bytes += bytesOf(record.clipPlanes) + bytesOf(record.pointOfVertex) +
+      bytesOf(record.modelFromInstance) + bytesOf(record.dropped);
+  }
+  return bytes;
+}
+
+//------------------------------------------------------------------------------
 /// Makes the snapshot's surfaces findable by prop and matrix.
 void OccluderCollector::Impl::indexProps(const std::vector<WantedSurface>& wanted)
 {
@@ -476,6 +499,12 @@ const std::vector<std::string>& OccluderCollector::notes() const
 std::size_t OccluderCollector::translucentReceivers() const
 {
   return this->impl_->translucentReceivers;
+}
+
+//------------------------------------------------------------------------------
+std::size_t OccluderCollector::bytes() const
+{
+  return this->impl_->bytes();
 }
 
 //------------------------------------------------------------------------------

@@ -57,6 +57,9 @@ public:
   /// The number of visible props with translucent surfaces that receive, as of the last collect().
   std::size_t translucentReceivers() const;
 
+  /// Memory that all this holds: the snapshot, and what is remembered of each surface and prop.
+  std::size_t bytes() const;
+
   /// Finds the surface that `mapper` (a mapper, or its helper) draws for `prop`, with the matrix that
   /// the prop has at this moment. Called while VTK draws, from
   /// vtkOpenGLRenderPass::SetShaderParameters.

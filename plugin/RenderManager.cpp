@@ -2,6 +2,8 @@
 
 #include "plugin/vtkGnomonShadowPass.h"
 #include "shadowtech/Registry.h"
+#include "shadowtech/base/Bytes.h"
+#include "shadowtech/base/TextureMemory.h"
 
 #include <vtkCamera.h>
 #include <vtkFrameBufferObjectBase.h>
@@ -392,7 +394,15 @@ void RenderManager::bakeMaps(const ShadowLight& light, Technique& technique, Bak
   if (!fresh)
   {
     this->buffers_.update(occluders);
-    technique.bake({ light, views, occluders, this->buffers_, this->library_ });
+    bake.once = false; // in case that there is no memory
+    try
+    {
+      technique.bake({ light, views, occluders, this->buffers_, this->library_ });
+    }
+    catch (const TextureMemoryError& error)
+    {
+      throw TextureMemoryError("light " + std::to_string(light.sceneIndex) + ": " + error.what());
+    }
     bake = { std::move(views), reach, light.mapSizeTexels, occluders.topologyVersion,
       occluders.positionsVersion, true };
     ++this->report_.mapBakes;
@@ -508,13 +518,13 @@ void RenderManager::endFrame()
   FrameReport& report = this->report_;
   report.programCompiles =
     this->library_.compiles() + this->shaders_.rebuilds() - this->compilesBefore_;
-  const Occluders& occluders = this->collector_.occluders();
-  report.bytesOccluders = occluders.positionsCentred.capacity() * sizeof(glm::vec3) +
-    occluders.triangles.capacity() * sizeof(glm::uvec3) + this->buffers_.bytes();
+  report.bytesOccluders =
+    this->collector_.bytes() + this->buffers_.bytes() + this->tracer_.bytesOfTable();
   report.bytesBvh = this->tracer_.bytes();
   if (this->route_ == Route::Image)
   {
-    report.bytesImages = this->receiverTarget_.bytes() + this->layers_.bytes();
+    report.bytesImages = this->receiverTarget_.bytes() + this->layers_.bytes() +
+      bytesOf(this->receiverImages_.fragments) + this->receivers_.bytes();
   }
   report.wallMilliseconds = millisecondsSince(this->frameStart_);
 }

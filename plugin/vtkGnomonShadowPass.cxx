@@ -4,6 +4,7 @@
 #include "plugin/VisibilityImages.h"
 #include "shadowtech/Registry.h"
 #include "shadowtech/base/FrameReport.h"
+#include "shadowtech/base/TextureMemory.h"
 
 #include "vtkInformation.h"
 #include "vtkInformationObjectBaseVectorKey.h"
@@ -136,6 +137,7 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
   gnomon::RenderManager& manager = *this->Internal->manager;
   bool marked = false;
   bool drawn = false;
+  bool outOfTextureMemory = false;
   try
   {
     manager.beginFrame(this->MeasureStages);
@@ -194,6 +196,7 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
   {
     vtkErrorMacro("The scene is drawn without shadows: " << error.what());
     manager.abandonFrame();
+    outOfTextureMemory = dynamic_cast<const gnomon::TextureMemoryError*>(&error) != nullptr;
   }
   if (marked)
   {
@@ -202,6 +205,7 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
   if (!drawn)
   {
     this->RenderPlain(s, "an error was met");
+    this->Internal->plainReport.outOfTextureMemory = outOfTextureMemory;
   }
 }
 

@@ -28,6 +28,10 @@ struct PictureSize
 /// @throws BadInput
 PictureSize parseSize(const std::string& text);
 
+/// Refuses pictures that are larger than an OpenGL context's limits.
+/// @throws BadInput
+void requireDrawable(const PictureSize& size, int mostTexels, int mostColumns, int mostRows);
+
 } // namespace gnomon::tool
 
 #endif

@@ -14,7 +14,10 @@
 
 #include <nlohmann/json.hpp>
 #include <vtkNew.h>
+#include <vtkOpenGLState.h>
+#include <vtk_glew.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -127,6 +130,17 @@ Scene loadWithOptions(const RenderOptions& options)
   return scene;
 }
 
+/// Refuses pictures that are larger than the window's OpenGL draws.
+void requireDrawable(const PictureSize& size, vtkOpenGLRenderWindow* window)
+{
+  window->Render(); // makes the context
+  GLint side = 0;
+  GLint viewport[2] = { 0, 0 };
+  window->GetState()->vtkglGetIntegerv(GL_MAX_TEXTURE_SIZE, &side);
+  window->GetState()->vtkglGetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport);
+  requireDrawable(size, side, viewport[0], viewport[1]);
+}
+
 nlohmann::ordered_json toJson(const FrameReport& report)
 {
   nlohmann::ordered_json json;
@@ -212,6 +226,8 @@ void render(const RenderOptions& options)
 
   VtkMessages messages;
   vtkNew<vtkGnomonEGLRenderWindow> window;
+  window->SetSize(1, 1);
+  requireDrawable(size, window);
   window->SetSize(size.width, size.height);
   const vtkSmartPointer<vtkRenderer> renderer = makeRenderer(scene, size.aspect());
   vtkNew<vtkGnomonShadowPass> shadows;
@@ -227,6 +243,10 @@ void render(const RenderOptions& options)
   for (const std::string& warning : messages.warnings())
   {
     std::cerr << "gnomon: warning: " << warning << "\n";
+  }
+  if (shadows->GetReport().outOfTextureMemory)
+  {
+    throw BadInput("rendering: " + messages.errors().front());
   }
   if (!messages.errors().empty())
   {
@@ -271,6 +291,21 @@ PictureSize parseSize(const std::string& text)
     return pixels;
   };
   return { side(text.substr(0, cross)), side(text.substr(cross + 1)) };
+}
+
+//------------------------------------------------------------------------------
+void requireDrawable(const PictureSize& size, int mostTexels, int mostColumns, int mostRows)
+{
+  const int columns = std::min(mostTexels, mostColumns);
+  const int rows = std::min(mostTexels, mostRows);
+  if (size.width > columns || size.height > rows)
+  {
+    throw BadInput("--size: found " + std::to_string(size.width) + "x" +
+      std::to_string(size.height) + ", and OpenGL draws no more than " + std::to_string(columns) +
+      "x" + std::to_string(rows) + " here (GL_MAX_TEXTURE_SIZE " + std::to_string(mostTexels) +
+      ", GL_MAX_VIEWPORT_DIMS " + std::to_string(mostColumns) + " x " + std::to_string(mostRows) +
+      ")");
+  }
 }
 
 //------------------------------------------------------------------------------

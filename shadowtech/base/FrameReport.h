@@ -32,8 +32,11 @@ struct LightReport
 /// What one frame did, for people and for tests. Counters count this frame only.
 struct FrameReport
 {
-  std::string route;               ///< "inline", "image" or "none" (no light casts: plain VTK)
-  std::string routeReason;         ///< why this route, as a clause
+  std::string route;       ///< "inline", "image" or "none" (no light casts: plain VTK)
+  std::string routeReason; ///< why this route, as a clause
+  /// Whether the frame was drawn without shadows because a map or an image is too large for the
+  /// texture memory.
+  bool outOfTextureMemory = false;
   std::vector<LightReport> lights; ///< every light of the renderer
   std::vector<std::string> notes;  ///< limits that this frame ran into, each a sentence
 
@@ -53,10 +56,12 @@ struct FrameReport
   std::size_t droppedNonFinite = 0; ///< triangles left out: a vertex is not finite
   std::size_t droppedZeroArea = 0;  ///< triangles left out: no area
 
-  std::size_t bytesOccluders = 0; ///< snapshot on the CPU and the GPU
-  std::size_t bytesBvh = 0;       ///< as Embree reports it
-  std::size_t bytesMaps = 0;      ///< what the techniques baked
-  std::size_t bytesImages = 0;    ///< receivers and visibility
+  /// The snapshot on the CPU and the GPU, with all that is remembered of its surfaces: no more than
+  /// 120 bytes a triangle and 1,500 a surface. Embree's own memory is apart.
+  std::size_t bytesOccluders = 0;
+  std::size_t bytesBvh = 0;    ///< as Embree reports it
+  std::size_t bytesMaps = 0;   ///< what the techniques baked
+  std::size_t bytesImages = 0; ///< receivers and visibility, on the CPU and the GPU
 };
 
 } // namespace gnomon

@@ -1,64 +1,133 @@
 #include "shadowtech/base/OccluderBuffers.h"
 
+#include "shadowtech/base/Bytes.h"
 #include "shadowtech/base/GlState.h"
 
 namespace gnomon
 {
+namespace
+{
+
+bool isDrawn(const Surface& surface)
+{
+  return surface.casts && surface.triangleCount > 0;
+}
+
+Bounds verticesBounds(const Surface& surface, const Occluders& occluders)
+{
+  Bounds bounds;
+  const glm::vec3* positions = occluders.positionsCentred.data() + surface.firstVertex;
+  for (std::uint32_t i = 0; i < surface.vertexCount; ++i)
+  {
+    bounds.add(glm::dvec3(positions[i]));
+  }
+  return bounds;
+}
+
+/// Sends some elements of an array to the same place in the bound buffer.
+template <typename Element>
+void send(GLenum target, const std::vector<Element>& elements, std::size_t first, std::size_t count,
+  std::size_t place)
+{
+  glBufferSubData(target, static_cast<GLintptr>(place * sizeof(Element)),
+    static_cast<GLsizeiptr>(count * sizeof(Element)), elements.data() + first);
+}
+
+} // namespace
 
 //------------------------------------------------------------------------------
 void OccluderBuffers::update(const Occluders& occluders)
 {
-  if (this->vertexArray_ && this->topologyVersion_ == occluders.topologyVersion &&
-    this->positionsVersion_ == occluders.positionsVersion)
+  const bool sameTopology =
+    this->vertexArray_ && this->topologyVersion_ == occluders.topologyVersion;
+  if (sameTopology && this->positionsVersion_ == occluders.positionsVersion)
   {
     return;
   }
   const GlStateGuard guard; // an index buffer that others bind must not land in this vertex array
   glBindVertexArray(this->vertexArray_.create());
   glBindBuffer(GL_ARRAY_BUFFER, this->positions_.create());
+  sameTopology ? this->sendMoved(occluders) : this->sendAll(occluders);
+  this->topologyVersion_ = occluders.topologyVersion;
+  this->positionsVersion_ = occluders.positionsVersion;
+}
+
+//------------------------------------------------------------------------------
+void OccluderBuffers::sendAll(const Occluders& occluders)
+{
+  this->twoSided_.clear();
+  this->oneSided_.clear();
+  std::size_t triangles = 0;
+  for (const Surface& surface : occluders.surfaces)
+  {
+    if (isDrawn(surface))
+    {
+      this->partsOf(surface).push_back(
+        { static_cast<GLsizei>(3 * triangles), static_cast<GLsizei>(3 * surface.triangleCount),
+          surface.positionsVersion, verticesBounds(surface, occluders) });
+      triangles += surface.triangleCount;
+    }
+  }
+
   const std::size_t positionBytes = occluders.positionsCentred.size() * sizeof(glm::vec3);
   glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(positionBytes),
     occluders.positionsCentred.data(), GL_STATIC_DRAW);
   glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(glm::vec3), nullptr);
   glEnableVertexAttribArray(0);
-  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, this->indices_.create());
 
-  if (this->topologyVersion_ != occluders.topologyVersion)
+  const std::size_t triangleBytes = triangles * sizeof(glm::uvec3);
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, this->indices_.create());
+  glBufferData(
+    GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(triangleBytes), nullptr, GL_STATIC_DRAW);
+  std::size_t place = 0;
+  for (auto first = occluders.surfaces.begin(); first != occluders.surfaces.end();)
   {
-    std::vector<glm::uvec3> triangles;
-    triangles.reserve(occluders.triangles.size());
-    for (const Surface& surface : occluders.surfaces)
+    // Neighbours go at once.
+    std::size_t count = 0;
+    auto last = first;
+    for (; last != occluders.surfaces.end() && last->casts; ++last)
     {
-      if (surface.casts && surface.triangleCount > 0)
-      {
-        const auto first = occluders.triangles.begin() + surface.firstTriangle;
-        triangles.insert(triangles.end(), first, first + surface.triangleCount);
-      }
+      count += last->triangleCount;
     }
-    glBufferData(GL_ELEMENT_ARRAY_BUFFER,
-      static_cast<GLsizeiptr>(triangles.size() * sizeof(glm::uvec3)), triangles.data(),
-      GL_STATIC_DRAW);
-    this->bytes_ = positionBytes + triangles.size() * sizeof(glm::uvec3);
+    send(GL_ELEMENT_ARRAY_BUFFER, occluders.triangles, first->firstTriangle, count, place);
+    place += count;
+    first = last == occluders.surfaces.end() ? last : last + 1;
   }
-  this->twoSided_.clear();
-  this->oneSided_.clear();
-  GLsizei first = 0;
+  this->bytesOnGpu_ = positionBytes + triangleBytes;
+}
+
+//------------------------------------------------------------------------------
+void OccluderBuffers::sendMoved(const Occluders& occluders)
+{
+  auto twoSided = this->twoSided_.begin();
+  auto oneSided = this->oneSided_.begin();
   for (const Surface& surface : occluders.surfaces)
   {
-    if (surface.casts && surface.triangleCount > 0)
+    if (!isDrawn(surface))
     {
-      Part part{ first, static_cast<GLsizei>(3 * surface.triangleCount), {} };
-      const glm::vec3* positions = occluders.positionsCentred.data() + surface.firstVertex;
-      for (std::uint32_t i = 0; i < surface.vertexCount; ++i)
-      {
-        part.boundsCentred.add(glm::dvec3(positions[i]));
-      }
-      first += part.count;
-      (surface.oneSided ? this->oneSided_ : this->twoSided_).push_back(part);
+      continue;
+    }
+    Part& part = surface.oneSided ? *oneSided++ : *twoSided++;
+    if (part.positionsVersion != surface.positionsVersion)
+    {
+      part.positionsVersion = surface.positionsVersion;
+      part.boundsCentred = verticesBounds(surface, occluders);
+      send(GL_ARRAY_BUFFER, occluders.positionsCentred, surface.firstVertex, surface.vertexCount,
+        surface.firstVertex);
     }
   }
-  this->topologyVersion_ = occluders.topologyVersion;
-  this->positionsVersion_ = occluders.positionsVersion;
+}
+
+//------------------------------------------------------------------------------
+std::vector<OccluderBuffers::Part>& OccluderBuffers::partsOf(const Surface& surface)
+{
+  return surface.oneSided ? this->oneSided_ : this->twoSided_;
+}
+
+//------------------------------------------------------------------------------
+std::size_t OccluderBuffers::bytes() const
+{
+  return this->bytesOnGpu_ + bytesOf(this->twoSided_) + bytesOf(this->oneSided_);
 }
 
 //------------------------------------------------------------------------------

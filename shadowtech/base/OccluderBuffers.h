@@ -25,7 +25,8 @@ public:
   /// sees counter-clockwise.
   void draw(const LightView& view) const;
 
-  std::size_t bytes() const { return this->bytes_; }
+  /// On the GPU, and what is remembered of each surface.
+  std::size_t bytes() const;
 
 private:
   /// One surface's indices, and the box around what they lead to.
@@ -33,8 +34,12 @@ private:
   {
     GLsizei first;
     GLsizei count;
+    std::uint64_t positionsVersion; ///< as sent
     Bounds boundsCentred;
   };
+  void sendAll(const Occluders& occluders);
+  void sendMoved(const Occluders& occluders);
+  std::vector<Part>& partsOf(const Surface& surface);
   void drawParts(const std::vector<Part>& parts, const LightView& view) const;
 
   GlVertexArray vertexArray_;
@@ -42,7 +47,7 @@ private:
   GlBuffer indices_;
   std::vector<Part> twoSided_;
   std::vector<Part> oneSided_;
-  std::size_t bytes_ = 0;
+  std::size_t bytesOnGpu_ = 0;
   std::uint64_t topologyVersion_ = 0;
   std::uint64_t positionsVersion_ = 0;
 };

@@ -1,5 +1,6 @@
 #include "shadowtech/base/RayTracer.h"
 
+#include "shadowtech/base/Bytes.h"
 #include "shadowtech/base/ShadowRay.h"
 
 #include <embree3/rtcore.h>
@@ -477,6 +478,12 @@ std::size_t RayTracer::trace(const ShadowLight& light, const Occluders& occluder
 std::size_t RayTracer::bytes() const
 {
   return static_cast<std::size_t>(std::max<std::ptrdiff_t>(this->impl_->bytes, 0));
+}
+
+//------------------------------------------------------------------------------
+std::size_t RayTracer::bytesOfTable() const
+{
+  return gnomon::bytesOfTable(this->impl_->casters);
 }
 
 } // namespace gnomon

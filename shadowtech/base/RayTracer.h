@@ -45,6 +45,8 @@ public:
 
   /// Memory that Embree holds for this tracer.
   std::size_t bytes() const;
+  /// Memory that this tracer holds itself, to find each surface's structure again.
+  std::size_t bytesOfTable() const;
 
 private:
   struct Impl;

@@ -1,52 +1,20 @@
 #include "shadowtech/base/ReceiverTarget.h"
 
 #include "shadowtech/base/GlState.h"
+#include "shadowtech/base/TextureMemory.h"
 
 namespace gnomon
 {
-namespace
-{
-
-void allocate(GlTexture& texture, GLenum internalFormat, GLenum format, int width, int height)
-{
-  glBindTexture(GL_TEXTURE_2D, texture.create());
-  glTexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(internalFormat), width, height, 0, format,
-    GL_FLOAT, nullptr);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-}
-
-} // namespace
-
 //------------------------------------------------------------------------------
 void ReceiverTarget::begin(int width, int height, bool withPoints)
 {
   glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &this->outerDrawFramebuffer_);
   glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &this->outerReadFramebuffer_);
-  glBindFramebuffer(GL_FRAMEBUFFER, this->framebuffer_.create());
   if (width != this->width_ || height != this->height_ || withPoints != this->withPoints_)
   {
-    const GlStateGuard guard;
-    const auto attach = [](GLenum attachment, const GlTexture& texture)
-    { glFramebufferTexture2D(GL_FRAMEBUFFER, attachment, GL_TEXTURE_2D, texture.name(), 0); };
-    allocate(this->fragments_, withPoints ? GL_RGBA32F : GL_RG32F, withPoints ? GL_RGBA : GL_RG,
-      width, height);
-    allocate(this->depth_, GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, width, height);
-    attach(GL_COLOR_ATTACHMENT0, this->fragments_);
-    attach(GL_DEPTH_ATTACHMENT, this->depth_);
-    this->points_.reset();
-    if (withPoints)
-    {
-      allocate(this->points_, GL_RGBA32F, GL_RGBA, width, height);
-      attach(GL_COLOR_ATTACHMENT1, this->points_);
-    }
-    const GLenum outputs[3] = { GL_NONE, GL_COLOR_ATTACHMENT0,
-      withPoints ? GLenum(GL_COLOR_ATTACHMENT1) : GLenum(GL_NONE) };
-    glDrawBuffers(3, outputs);
-    this->width_ = width;
-    this->height_ = height;
-    this->withPoints_ = withPoints;
+    this->allocate(width, height, withPoints);
   }
+  glBindFramebuffer(GL_FRAMEBUFFER, this->framebuffer_.name());
   // Numbers, not colours: they must not be blended.
   glDisablei(GL_BLEND, 1);
   glDisablei(GL_BLEND, 2);
@@ -54,6 +22,36 @@ void ReceiverTarget::begin(int width, int height, bool withPoints)
   const float farthest = 1.0f;
   glClearBufferfv(GL_COLOR, 1, nothing); // says that the points, left as they are, mean nothing
   glClearBufferfv(GL_DEPTH, 0, &farthest);
+}
+
+//------------------------------------------------------------------------------
+void ReceiverTarget::allocate(int width, int height, bool withPoints)
+{
+  const GlStateGuard guard;
+  this->width_ = 0; // in case that there is no memory
+  const auto allocate = [&](GlTexture& texture, const FloatFormat& format)
+  { allocateTexture(texture, format, width, height, 0, "the receivers' image"); };
+  allocate(this->fragments_,
+    withPoints ? FloatFormat{ GL_RGBA32F, GL_RGBA, 4 } : FloatFormat{ GL_RG32F, GL_RG, 2 });
+  allocate(this->depth_, { GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, 1 });
+  this->points_.reset();
+  if (withPoints)
+  {
+    allocate(this->points_, { GL_RGBA32F, GL_RGBA, 4 });
+  }
+
+  glBindFramebuffer(GL_FRAMEBUFFER, this->framebuffer_.create());
+  const auto attach = [](GLenum attachment, const GlTexture& texture)
+  { glFramebufferTexture2D(GL_FRAMEBUFFER, attachment, GL_TEXTURE_2D, texture.name(), 0); };
+  attach(GL_COLOR_ATTACHMENT0, this->fragments_);
+  attach(GL_DEPTH_ATTACHMENT, this->depth_);
+  attach(GL_COLOR_ATTACHMENT1, this->points_); // nothing, without points
+  const GLenum outputs[3] = { GL_NONE, GL_COLOR_ATTACHMENT0,
+    withPoints ? GLenum(GL_COLOR_ATTACHMENT1) : GLenum(GL_NONE) };
+  glDrawBuffers(3, outputs);
+  this->width_ = width;
+  this->height_ = height;
+  this->withPoints_ = withPoints;
 }
 
 //------------------------------------------------------------------------------

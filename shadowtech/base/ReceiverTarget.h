@@ -21,6 +21,7 @@ public:
   /// - 1: to fragments(), xy as in ReceiverImages, and with points zw: the normal's x and y;
   /// - 2: with points to points(), xyz: the position, w: the normal's z. Both in view coordinates,
   ///   the normal geometric, unit, on the camera's side.
+  /// @throws TextureMemoryError before anything is bound
   void begin(int width, int height, bool withPoints);
 
   /// Binds what was bound before.
@@ -37,6 +38,8 @@ public:
   std::size_t bytes() const;
 
 private:
+  void allocate(int width, int height, bool withPoints);
+
   GlFramebuffer framebuffer_;
   GlTexture fragments_;
   GlTexture points_;

@@ -1,6 +1,7 @@
 #ifndef gnomon_shadowtech_base_Receivers_h
 #define gnomon_shadowtech_base_Receivers_h
 
+#include "shadowtech/base/Bytes.h"
 #include "shadowtech/base/PixelRays.h"
 
 #include <glm/glm.hpp>
@@ -50,6 +51,8 @@ struct ReceiverPixels
     }
     this->surface.resize(this->size());
   }
+  /// Memory that this holds: all eight arrays have the same type size, and grow alike.
+  std::size_t bytes() const { return 8 * bytesOf(this->positionX); }
 };
 
 /// What the receivers stage reads back: which triangle VTK drew in each pixel. Where on the triangle

@@ -3,6 +3,7 @@
 #include "shadowtech/base/GlState.h"
 #include "shadowtech/base/ReceiverTarget.h"
 #include "shadowtech/base/ShaderLibrary.h"
+#include "shadowtech/base/TextureMemory.h"
 
 namespace gnomon
 {
@@ -16,11 +17,9 @@ void VisibilityLayers::resize(int width, int height, int layers)
   }
   const GlStateGuard guard;
   glActiveTexture(GL_TEXTURE0);
-  glBindTexture(GL_TEXTURE_2D_ARRAY, this->texture_.create());
-  glTexImage3D(
-    GL_TEXTURE_2D_ARRAY, 0, GL_R32F, width, height, layers, 0, GL_RED, GL_FLOAT, nullptr);
-  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  this->width_ = 0; // in case that there is no memory
+  allocateTexture(
+    this->texture_, { GL_R32F, GL_RED, 1 }, width, height, layers, "the lights' visibility");
   this->width_ = width;
   this->height_ = height;
   this->layers_ = layers;

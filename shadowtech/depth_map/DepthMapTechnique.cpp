@@ -4,6 +4,7 @@
 #include "shadowtech/base/LightViewsGlsl.h"
 #include "shadowtech/base/OccluderBuffers.h"
 #include "shadowtech/base/ShaderLibrary.h"
+#include "shadowtech/base/TextureMemory.h"
 
 #include <glm/gtc/matrix_access.hpp>
 
@@ -84,11 +85,9 @@ void DepthMapTechnique::allocate(int sizeTexels, int layers)
   {
     return;
   }
-  glBindTexture(GL_TEXTURE_2D_ARRAY, this->map_.create());
-  glTexImage3D(GL_TEXTURE_2D_ARRAY, 0, GL_DEPTH_COMPONENT32F, sizeTexels, sizeTexels, layers, 0,
-    GL_DEPTH_COMPONENT, GL_FLOAT, nullptr);
-  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  this->sizeTexels_ = 0; // in case that there is no memory
+  this->layers_ = 0;
+  allocateMap(this->map_, { GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, 1 }, sizeTexels, layers);
   glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_COMPARE_MODE, GL_NONE);
   glBindFramebuffer(GL_FRAMEBUFFER, this->framebuffer_.create());
   glDrawBuffer(GL_NONE);

@@ -147,6 +147,24 @@ void compare(std::vector<std::string> arguments)
   app.parse(arguments);
 }
 
+TEST(PictureSize, BeyondTheLimitsOfOpenGlNamesThem)
+{
+  EXPECT_NO_THROW(requireDrawable({ 4096, 2048 }, 4096, 4096, 2048));
+  EXPECT_THROW(requireDrawable({ 4097, 16 }, 4096, 8192, 8192), BadInput);
+  EXPECT_THROW(requireDrawable({ 16, 2049 }, 4096, 4096, 2048), BadInput);
+  try
+  {
+    requireDrawable({ 5000, 16 }, 4096, 8192, 2048);
+    FAIL();
+  }
+  catch (const BadInput& error)
+  {
+    EXPECT_STREQ(error.what(),
+      "--size: found 5000x16, and OpenGL draws no more than 4096x2048 here (GL_MAX_TEXTURE_SIZE "
+      "4096, GL_MAX_VIEWPORT_DIMS 8192 x 2048)");
+  }
+}
+
 TEST(CompareCommand, RefusesBadInputBeforeDrawing)
 {
   const TestFolder folder;

@@ -1,6 +1,7 @@
 // What the pass does to OpenGL: it leaves the state as a plain VTK frame does, gives back every
 // texture unit, and neither leaks nor loses objects.
 
+#include "LiveObjects.h"
 #include "PassScene.h"
 
 #include <vtkObjectFactory.h>
@@ -13,8 +14,6 @@
 #include <gmock/gmock.h>
 
 #include <map>
-#include <optional>
-#include <ostream>
 #include <set>
 
 using namespace gnomon::test;
@@ -188,60 +187,6 @@ INSTANTIATE_TEST_SUITE_P(Ways, GlStateOfWay, allWays, nameOf);
 class GlState : public PassTest
 {
 };
-
-/// Objects that are alive in the current context.
-struct LiveObjects
-{
-  int textures = 0;
-  int buffers = 0;
-  int framebuffers = 0;
-  int renderbuffers = 0;
-  int vertexArrays = 0;
-  int programs = 0;
-  int shaders = 0;
-
-  bool operator==(const LiveObjects& other) const
-  {
-    return this->sameButPrograms(other) && this->programs == other.programs &&
-      this->shaders == other.shaders;
-  }
-  bool sameButPrograms(const LiveObjects& other) const
-  {
-    return this->textures == other.textures && this->buffers == other.buffers &&
-      this->framebuffers == other.framebuffers && this->renderbuffers == other.renderbuffers &&
-      this->vertexArrays == other.vertexArrays;
-  }
-};
-
-std::ostream& operator<<(std::ostream& stream, const LiveObjects& live)
-{
-  return stream << live.textures << " textures, " << live.buffers << " buffers, "
-                << live.framebuffers << " framebuffers, " << live.renderbuffers
-                << " renderbuffers, " << live.vertexArrays << " vertex arrays, " << live.programs
-                << " programs, " << live.shaders << " shaders";
-}
-
-LiveObjects countLiveObjects()
-{
-  LiveObjects live;
-  for (GLuint name = 1; name < 4096; ++name)
-  {
-    live.textures += glIsTexture(name);
-    live.buffers += glIsBuffer(name);
-    live.framebuffers += glIsFramebuffer(name);
-    live.renderbuffers += glIsRenderbuffer(name);
-    live.vertexArrays += glIsVertexArray(name);
-    live.programs += glIsProgram(name);
-    live.shaders += glIsShader(name);
-  }
-  return live;
-}
-
-LiveObjects countLiveObjects(vtkRenderWindow* window)
-{
-  window->MakeCurrent();
-  return countLiveObjects();
-}
 
 /// Texture units that VTK's manager can still give.
 int freeTextureUnits(vtkOpenGLRenderWindow* window)

@@ -1,0 +1,146 @@
+#include "shadowtech/base/TextureMemory.h"
+
+#include <fstream>
+#include <limits>
+#include <string>
+
+namespace gnomon
+{
+namespace
+{
+
+struct Shape
+{
+  FloatFormat format;
+  int width;
+  int height;
+  int layers; ///< 0: no array
+
+  double bytes() const
+  {
+    return static_cast<double>(sizeof(float)) * this->format.channels * this->width * this->height *
+      (this->layers > 0 ? this->layers : 1);
+  }
+};
+
+/// What the kernel could give to programs now, in bytes; no bound where it does not say.
+double availableBytes()
+{
+  std::ifstream file("/proc/meminfo");
+  std::string name;
+  for (double kilobytes = 0.0; file >> name >> kilobytes; std::getline(file, name))
+  {
+    if (name == "MemAvailable:")
+    {
+      return 1024.0 * kilobytes;
+    }
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
+void define(const Shape& shape, GLenum target)
+{
+  const auto internalFormat = static_cast<GLint>(shape.format.internalFormat);
+  if (shape.layers > 0)
+  {
+    glTexImage3D(target, 0, internalFormat, shape.width, shape.height, shape.layers, 0,
+      shape.format.format, GL_FLOAT, nullptr);
+  }
+  else
+  {
+    glTexImage2D(target, 0, internalFormat, shape.width, shape.height, 0, shape.format.format,
+      GL_FLOAT, nullptr);
+  }
+}
+
+/// Whether OpenGL and the machine say that there is room, before anything is taken.
+bool fits(const Shape& shape)
+{
+  if (shape.bytes() > largestTextureShare * availableBytes())
+  {
+    return false;
+  }
+  const GLenum proxy = shape.layers > 0 ? GL_PROXY_TEXTURE_2D_ARRAY : GL_PROXY_TEXTURE_2D;
+  define(shape, proxy);
+  GLint width = 0; // stays 0 for a texture that cannot be
+  glGetTexLevelParameteriv(proxy, 0, GL_TEXTURE_WIDTH, &width);
+  return width == shape.width;
+}
+
+void clearErrors()
+{
+  // Not without end: a context that is lost reports an error each time.
+  for (int i = 0; i < 16 && glGetError() != GL_NO_ERROR; ++i)
+  {
+  }
+}
+
+bool allocate(GlTexture& texture, const Shape& shape)
+{
+  texture.reset(); // what it had makes room
+  clearErrors();
+  const bool room = fits(shape);
+  clearErrors(); // some drivers raise one for a proxy
+  if (!room)
+  {
+    return false;
+  }
+  const GLenum target = shape.layers > 0 ? GL_TEXTURE_2D_ARRAY : GL_TEXTURE_2D;
+  glBindTexture(target, texture.create());
+  define(shape, target);
+  if (glGetError() != GL_NO_ERROR)
+  {
+    texture.reset();
+    return false;
+  }
+  glTexParameteri(target, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  glTexParameteri(target, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  return true;
+}
+
+std::string describe(const Shape& shape, const std::string& what)
+{
+  const std::string layers =
+    shape.layers > 1 ? " in " + std::to_string(shape.layers) + " layers" : "";
+  return what + " of " + std::to_string(shape.width) + " x " + std::to_string(shape.height) +
+    layers + " asks for " + std::to_string(static_cast<long>(shape.bytes() / 1e6)) +
+    " MB of texture memory, which cannot be had";
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+void allocateTexture(GlTexture& texture, const FloatFormat& format, int width, int height,
+  int layers, const char* what)
+{
+  const Shape shape{ format, width, height, layers };
+  if (!allocate(texture, shape))
+  {
+    throw TextureMemoryError(describe(shape, what));
+  }
+}
+
+//------------------------------------------------------------------------------
+void allocateMap(GlTexture& texture, const FloatFormat& format, int sizeTexels, int layers)
+{
+  const Shape shape{ format, sizeTexels, sizeTexels, layers };
+  if (allocate(texture, shape))
+  {
+    return;
+  }
+  constexpr int smallest = 16;
+  int side = smallest;
+  while (2 * side < sizeTexels)
+  {
+    side *= 2;
+  }
+  while (side > smallest && !fits({ format, side, side, layers }))
+  {
+    side /= 2;
+  }
+  clearErrors();
+  throw TextureMemoryError(describe(shape, "a map") + "; one of " + std::to_string(side) + " x " +
+    std::to_string(side) + " can");
+}
+
+} // namespace gnomon

@@ -1,0 +1,44 @@
+#ifndef gnomon_shadowtech_base_TextureMemory_h
+#define gnomon_shadowtech_base_TextureMemory_h
+
+#include "shadowtech/base/Gl.h"
+
+#include <cstddef>
+#include <stdexcept>
+
+namespace gnomon
+{
+
+/// A texture that is too large for OpenGL or for the machine. The message says how much was asked
+/// for, and for maps which size would fit.
+class TextureMemoryError : public std::runtime_error
+{
+public:
+  using std::runtime_error::runtime_error;
+};
+
+/// The kind of a texture of 32-bit floats.
+struct FloatFormat
+{
+  GLenum internalFormat; ///< GL_R32F, GL_DEPTH_COMPONENT32F, ...
+  GLenum format;         ///< GL_RED, GL_DEPTH_COMPONENT, ...
+  int channels;
+};
+
+/// No texture may take a larger share of the memory that the machine has available when it is made:
+/// drivers that draw by software promise more than there is, and the system then ends the program.
+constexpr double largestTextureShare = 0.5;
+
+/// Gives a texture its memory, and nearest filtering; its target is bound afterwards.
+/// @param layers 0 for a GL_TEXTURE_2D, else those of a GL_TEXTURE_2D_ARRAY
+/// @param what names it in the error
+/// @throws TextureMemoryError; the texture is then without memory
+void allocateTexture(GlTexture& texture, const FloatFormat& format, int width, int height,
+  int layers, const char* what);
+
+/// The same for a light's map. The error offers the largest power of two that fits as its side.
+void allocateMap(GlTexture& texture, const FloatFormat& format, int sizeTexels, int layers);
+
+} // namespace gnomon
+
+#endif

@@ -1,0 +1,177 @@
+// What hundreds of changes leave behind: nothing. Live OpenGL objects stay the same in number, and
+// resident memory within 5 MB, which is what a thousand leaks of 5 kB would be.
+
+#include "LiveObjects.h"
+#include "PassScene.h"
+
+#include <vtkLightCollection.h>
+
+#include <unistd.h>
+
+#include <fstream>
+#include <functional>
+
+using namespace gnomon::test;
+
+namespace
+{
+
+constexpr int warmUp = 50;
+constexpr double mostGrowthMegabytes = 5.0;
+
+/// Memory of this process that is in use and not swapped out, in megabytes.
+double residentMegabytes()
+{
+  std::ifstream file("/proc/self/statm");
+  long all = 0;
+  long resident = 0;
+  file >> all >> resident;
+  return static_cast<double>(resident) * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1e6;
+}
+
+void fill(PassScene& scene)
+{
+  scene.addFloor(4.0);
+  scene.addSphere({ 0.0, 0.0, 1.5 }, 0.7);
+  scene.addSun({ 1.0, 0.3, -1.5 });
+  scene.addSpot({ -3.0, 0.0, 5.0 }, glm::dvec3(0.0), 30.0)->SetIntensity(0.5);
+  scene.lookFrom({ 0.0, -9.0, 7.0 });
+  scene.pass->SetMapSize(128);
+}
+
+/// What many repetitions of something leave behind.
+struct LeftBehind
+{
+  LiveObjects before;
+  LiveObjects after;
+  double growthMegabytes = 0.0;
+};
+
+/// Repeats something, and compares the end with the state after the first few times.
+LeftBehind repeat(vtkRenderWindow* window, int times, const std::function<void(int)>& action)
+{
+  for (int time = 0; time < warmUp; ++time)
+  {
+    action(time);
+  }
+  LeftBehind left;
+  left.before = countLiveObjects(window);
+  const double before = residentMegabytes();
+  for (int time = 0; time < times; ++time)
+  {
+    action(time);
+  }
+  left.growthMegabytes = residentMegabytes() - before;
+  left.after = countLiveObjects(window);
+  testing::Test::RecordProperty("growthKilobytes", static_cast<int>(1000.0 * left.growthMegabytes));
+  return left;
+}
+
+void expectNothingLeftBehind(const LeftBehind& left)
+{
+  EXPECT_GT(left.before.textures, 0);
+  EXPECT_EQ(left.after, left.before);
+  EXPECT_LT(left.growthMegabytes, mostGrowthMegabytes);
+}
+
+class LifeCycle
+  : public PassTest
+  , public testing::WithParamInterface<Way>
+{
+protected:
+  LifeCycle()
+    : scene_(40, 30)
+  {
+    fill(this->scene_);
+    this->scene_.choose(GetParam());
+  }
+  void draw() { this->scene_.window->Render(); }
+
+  PassScene scene_;
+};
+
+INSTANTIATE_TEST_SUITE_P(Ways, LifeCycle, allWays, nameOf);
+
+} // namespace
+
+//------------------------------------------------------------------------------
+TEST_P(LifeCycle, passSwitchedOffAndOnThousandTimes)
+{
+  expectNothingLeftBehind(repeat(this->scene_.window, 1000,
+    [this](int)
+    {
+      this->scene_.usePlain();
+      this->draw();
+      this->scene_.useGnomon();
+      this->draw();
+    }));
+  EXPECT_EQ(this->scene_.report().lights.size(), 2u);
+}
+
+//------------------------------------------------------------------------------
+TEST_P(LifeCycle, lightsSwitchedOffAndOnThousandTimes)
+{
+  auto* sun = vtkLight::SafeDownCast(this->scene_.renderer->GetLights()->GetItemAsObject(0));
+  auto* spot = vtkLight::SafeDownCast(this->scene_.renderer->GetLights()->GetItemAsObject(1));
+  expectNothingLeftBehind(repeat(this->scene_.window, 500,
+    [&](int time)
+    {
+      const bool on = time % 2 == 1;
+      sun->SetSwitch(on);
+      this->draw();
+      spot->SetShadowAttenuation(on ? 1.0f : 0.0f); // 0: its shadows take nothing away
+      this->draw();
+    }));
+}
+
+//------------------------------------------------------------------------------
+TEST_P(LifeCycle, windowResizedThousandTimes)
+{
+  expectNothingLeftBehind(repeat(this->scene_.window, 1000,
+    [this](int time)
+    {
+      this->scene_.window->SetSize(20 + 7 * time % 41, 20 + 11 * time % 31);
+      this->draw();
+    }));
+}
+
+//------------------------------------------------------------------------------
+TEST_P(LifeCycle, mapsResizedThousandTimes)
+{
+  expectNothingLeftBehind(repeat(this->scene_.window, 1000,
+    [this](int time)
+    {
+      this->scene_.pass->SetMapSize(16 + 8 * (time % 10));
+      this->draw();
+    }));
+}
+
+//------------------------------------------------------------------------------
+TEST_P(LifeCycle, resourcesReleasedHundredTimes)
+{
+  expectNothingLeftBehind(repeat(this->scene_.window, 100,
+    [this](int)
+    {
+      this->scene_.pass->ReleaseGraphicsResources(this->scene_.window);
+      this->draw();
+    }));
+}
+
+//------------------------------------------------------------------------------
+TEST_P(LifeCycle, passMovedToAnotherWindowAndBackHundredTimes)
+{
+  PassScene other(40, 30);
+  fill(other);
+  const Picture picture = this->scene_.render();
+  expectNothingLeftBehind(repeat(this->scene_.window, 100,
+    [&](int)
+    {
+      this->scene_.usePlain();
+      other.renderer->SetPass(this->scene_.pass);
+      other.window->Render();
+      other.usePlain();
+      this->scene_.useGnomon();
+      this->draw();
+    }));
+  EXPECT_EQ(differingPixels(picture, this->scene_.render()), 0u);
+}

@@ -1,0 +1,196 @@
+// Large scenes: what stays in memory, and that a change costs what changed.
+
+#include "PassScene.h"
+
+#include <vtkCellArray.h>
+#include <vtkCompositePolyDataMapper2.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkPoints.h>
+#include <vtkPolyDataMapper.h>
+
+#include <cmath>
+
+using namespace gnomon::test;
+
+namespace
+{
+
+constexpr double mostBytesOfTriangle = 120.0;
+
+/// A hilly square of side 1 from (x, y) on, of 2 * cells * cells triangles, which share their
+/// corners or have each their own.
+vtkSmartPointer<vtkPolyData> makeTerrain(
+  int cells, double x, double y, double side, bool shared = true)
+{
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkCellArray> polygons;
+  const auto addPoint = [&](int column, int row)
+  {
+    const double px = x + side * column / cells;
+    const double py = y + side * row / cells;
+    return points->InsertNextPoint(px, py, 0.03 * std::sin(40.0 * px) * std::cos(31.0 * py));
+  };
+  if (shared)
+  {
+    for (int i = 0; i < (cells + 1) * (cells + 1); ++i)
+    {
+      addPoint(i % (cells + 1), i / (cells + 1));
+    }
+  }
+  const auto corner = [&](int column, int row)
+  { return shared ? vtkIdType(row) * (cells + 1) + column : addPoint(column, row); };
+  for (int row = 0; row < cells; ++row)
+  {
+    for (int column = 0; column < cells; ++column)
+    {
+      polygons->InsertNextCell(
+        { corner(column, row), corner(column + 1, row), corner(column + 1, row + 1) });
+      polygons->InsertNextCell(
+        { corner(column, row), corner(column + 1, row + 1), corner(column, row + 1) });
+    }
+  }
+  const auto data = vtkSmartPointer<vtkPolyData>::New();
+  data->SetPoints(points);
+  data->SetPolys(polygons);
+  return data;
+}
+
+/// The camera sees little, so that VTK draws little; but everything casts.
+void lookAtCorner(PassScene& scene)
+{
+  scene.addSun({ 1.0, 0.3, -1.5 });
+  scene.lookDown(0.05);
+}
+
+class Scale
+  : public PassTest
+  , public testing::WithParamInterface<Way>
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(Ways, Scale, allWays, nameOf);
+
+} // namespace
+
+//------------------------------------------------------------------------------
+TEST_P(Scale, millionTrianglesTakeLessThanTheBound)
+{
+  for (const bool shared : { true, false })
+  {
+    PassScene scene(64, 64);
+    scene.add(makeTerrain(708, 0.0, 0.0, 1.0, shared));
+    lookAtCorner(scene);
+    scene.choose(GetParam());
+    scene.render();
+    const gnomon::FrameReport& report = scene.report();
+    ASSERT_GE(report.triangles, 1000000u);
+    const double each =
+      static_cast<double>(report.bytesOccluders) / static_cast<double>(report.triangles);
+    RecordProperty(
+      shared ? "bytesOfTriangle" : "bytesOfTriangleOfItsOwnCorners", std::to_string(each));
+    EXPECT_LT(each, mostBytesOfTriangle) << shared;
+    EXPECT_GT(each, shared ? 18.0 : 48.0) << "positions and indices alone take that";
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Scale, oneMovedPropOfTenThousandCostsItsOwnTriangles)
+{
+  constexpr int perSide = 100;
+  PassScene scene(16, 16);
+  vtkActor* moved = nullptr;
+  for (int i = 0; i < perSide * perSide; ++i)
+  {
+    moved = scene.add(makeTerrain(1, i % perSide, i / perSide, 0.8));
+  }
+  lookAtCorner(scene);
+  scene.choose(GetParam());
+  const bool traced = std::string(GetParam().technique) == "raytraced";
+  const bool mapped = !traced;
+
+  scene.render();
+  EXPECT_EQ(scene.report().surfacesExtracted, perSide * perSide);
+  EXPECT_EQ(scene.report().bvhBuilds, traced ? perSide * perSide : 0);
+  EXPECT_LT(scene.report().bytesOccluders,
+    mostBytesOfTriangle * static_cast<double>(scene.report().triangles) +
+      1500.0 * perSide * perSide);
+
+  scene.render();
+  EXPECT_EQ(scene.report().surfacesExtracted, 0);
+  EXPECT_EQ(scene.report().surfacesRetransformed, 0);
+  EXPECT_EQ(scene.report().bvhBuilds + scene.report().bvhRefits + scene.report().mapBakes, 0);
+
+  moved->SetPosition(-0.5, -0.5, 0.1);
+  scene.render();
+  EXPECT_EQ(scene.report().surfacesExtracted, 0);
+  EXPECT_EQ(scene.report().surfacesRetransformed, 1);
+  EXPECT_EQ(scene.report().bvhBuilds, 0);
+  EXPECT_EQ(scene.report().bvhRefits, traced ? 1 : 0);
+  EXPECT_EQ(scene.report().mapBakes, mapped ? 1 : 0);
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Scale, movedPropsShowTheSameAsInANewPass)
+{
+  constexpr int perSide = 10;
+  PassScene scene(200, 200);
+  scene.addFloor(perSide);
+  std::vector<vtkActor*> actors;
+  for (int i = 0; i < perSide * perSide; ++i)
+  {
+    actors.push_back(scene.addBox(
+      { i % perSide, i / perSide, 0.0 }, { i % perSide + 0.4, i / perSide + 0.4, 0.5 }));
+  }
+  scene.addSpot({ 3.0, 4.0, 12.0 }, { 5.0, 5.0, 0.0 }, 20.0);
+  scene.lookDown(6.0, 5.0, 5.0);
+  scene.choose(GetParam());
+  const Picture before = scene.render();
+  for (const std::size_t i : { 7u, 8u, 42u, 99u })
+  {
+    actors[i]->SetPosition(-0.3, 0.2, 1.0);
+  }
+  actors[90]->SetPosition(4.0, -5.0, 2.0); // from outside the light's cone
+  const Picture after = scene.render();
+  EXPECT_EQ(scene.report().surfacesRetransformed, 5);
+  EXPECT_GT(differingPixels(before, after), 100u);
+  scene.pass->ReleaseGraphicsResources(scene.window);
+  EXPECT_EQ(differingPixels(after, scene.render()), 0u);
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Scale, oneChangedBlockOfThousandIsReadAlone)
+{
+  constexpr int blocks = 1000;
+  vtkNew<vtkMultiBlockDataSet> data;
+  std::vector<vtkSmartPointer<vtkPolyData>> parts;
+  for (int i = 0; i < blocks; ++i)
+  {
+    parts.push_back(makeTerrain(2, i % 40, i / 40, 0.8));
+    data->SetBlock(static_cast<unsigned int>(i), parts.back());
+  }
+  vtkNew<vtkCompositePolyDataMapper2> mapper;
+  mapper->SetInputDataObject(data);
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  PassScene scene(64, 64);
+  scene.renderer->AddActor(actor);
+  lookAtCorner(scene);
+  scene.choose(GetParam());
+  const bool traced = std::string(GetParam().technique) == "raytraced";
+
+  scene.render();
+  EXPECT_EQ(scene.report().surfacesExtracted, blocks);
+  EXPECT_EQ(scene.report().triangles, 8u * blocks);
+  scene.render();
+  EXPECT_EQ(scene.report().surfacesExtracted, 0);
+
+  vtkPoints* points = parts[500]->GetPoints();
+  points->SetPoint(4, points->GetPoint(4)[0], points->GetPoint(4)[1], 0.2);
+  points->Modified();
+  data->Modified();
+  scene.render();
+  EXPECT_EQ(scene.report().surfacesExtracted, 1);
+  EXPECT_EQ(scene.report().surfacesRetransformed, 0);
+  EXPECT_EQ(scene.report().bvhBuilds, 0);
+  EXPECT_EQ(scene.report().bvhRefits, traced ? 1 : 0);
+}
