@@ -241,7 +241,10 @@ struct Span
 };
 
 /// Where the rays meet the triangle; of those that pass it by, inside is 0.
-[[gnu::target_clones("avx2", "default")]] void meetSpan(const SeenTriangle& seen,
+#ifdef __x86_64__
+[[gnu::target_clones("avx2", "default")]]
+#endif
+void meetSpan(const SeenTriangle& seen,
   const PixelRays& rays, const Span& span, ReceiverPixels& receivers, std::uint8_t* inside)
 {
   const auto y = static_cast<double>(span.y);

@@ -19,8 +19,8 @@ namespace gnomon
 ///
 /// How far off the surface it starts follows from what may go wrong. Let u = 2^-24 be the unit
 /// roundoff of float, N a triangle's unit normal, M its largest centred coordinates by magnitude
-/// along each axis, X, Y, Z the extent of its box and A twice its area. The receiver was projected
-/// onto the triangle's plane in double precision. What is left:
+/// along each axis, X, Y, Z the extent of its box and A twice its area. The receiver was found
+/// on the triangle in double precision. What is left:
 ///
 /// - Storage. Rounding the receiver to float moves it by at most u M_i along axis i, so off the
 ///   plane by u sum |N_i| M_i. Adding the offset and rounding the ray's origin costs the same

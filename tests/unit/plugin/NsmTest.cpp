@@ -19,55 +19,7 @@ namespace
 
 class Nsm : public PassTest
 {
-protected:
-  /// Draws a frame, and checks that its numbers are numbers.
-  static const VisibilityImages& draw(PassScene& scene)
-  {
-    scene.pass->KeepVisibilityOn();
-    scene.render();
-    const VisibilityImages& kept = scene.pass->GetVisibility();
-    std::size_t broken = 0;
-    for (const std::vector<float>& light : kept.visibility)
-    {
-      for (const float value : light)
-      {
-        broken += value >= 0.0f && value <= 1.0f ? 0 : 1;
-      }
-    }
-    for (const std::vector<float>* plane : { &kept.positionX, &kept.positionY, &kept.positionZ,
-           &kept.normalX, &kept.normalY, &kept.normalZ })
-    {
-      for (const float value : *plane)
-      {
-        broken += std::isfinite(value) ? 0 : 1;
-      }
-    }
-    EXPECT_EQ(broken, 0u);
-    return kept;
-  }
 };
-
-/// Of the pixels that face the light by at least this cosine, those that are not lit.
-struct Acne
-{
-  std::size_t facing = 0;
-  std::size_t dark = 0;
-};
-Acne countAcne(const VisibilityImages& kept, const glm::dvec3& toLight, double leastCosine)
-{
-  Acne acne;
-  const glm::dvec3 direction = glm::normalize(toLight);
-  for (std::size_t i = 0; i < kept.coverage.size(); ++i)
-  {
-    const glm::dvec3 normal(kept.normalX[i], kept.normalY[i], kept.normalZ[i]);
-    if (kept.coverage[i] > 0.0f && glm::dot(normal, direction) > leastCosine)
-    {
-      ++acne.facing;
-      acne.dark += kept.visibility[0][i] < 1.0f ? 1 : 0;
-    }
-  }
-  return acne;
-}
 
 } // namespace
 
@@ -87,7 +39,7 @@ TEST_F(Nsm, litPlaneHasNoAcneAtAnyAngle)
       // Turned off the axes, so that texels and edges do not agree.
       const glm::dvec3 toLight(0.8 * std::sin(angle), 0.6 * std::sin(angle), std::cos(angle));
       sun->SetPosition(toLight.x, toLight.y, toLight.z);
-      const Acne acne = countAcne(draw(scene), toLight, 0.0);
+      const Acne acne = countAcneOfSun(drawKept(scene), toLight);
       EXPECT_GT(acne.facing, 10000u);
       EXPECT_EQ(acne.dark, 0u) << degrees << " degrees, map " << mapSize;
     }
@@ -104,7 +56,7 @@ TEST_F(Nsm, litPlaneHasNoAcneUnderASpotLight)
   for (const double height : { 3.0, 1.0, 0.3, 0.1 })
   {
     spot->SetPosition(-3.0, -2.0, height);
-    const VisibilityImages& kept = draw(scene);
+    const VisibilityImages& kept = drawKept(scene);
     std::size_t inside = 0;
     std::size_t dark = 0;
     for (std::size_t i = 0; i < kept.coverage.size(); ++i)
@@ -135,7 +87,7 @@ TEST_F(Nsm, sphereHasNoAcne)
     scene.pass->SetMapSize(mapSize);
     // The sphere is convex: all that faces the light is lit. Within a texel of the terminator, the
     // map cannot tell.
-    const Acne acne = countAcne(draw(scene), { -1.0, -0.4, 1.5 }, 4.0 / mapSize + 0.05);
+    const Acne acne = countAcneOfSun(drawKept(scene), { -1.0, -0.4, 1.5 }, 4.0 / mapSize + 0.05);
     EXPECT_GT(acne.facing, 20000u);
     EXPECT_EQ(acne.dark, 0u) << "map " << mapSize;
   }
@@ -185,9 +137,9 @@ TEST_F(Nsm, thinPostsCastWhereverTheyCoverTexelCentres)
   scene.addSun({ 0.3, 1.0, -1.0 });
   scene.lookFrom({ 0.0, -6.0, 6.0 });
   scene.pass->SetMapSize(2048); // 0.02 is 5 texels
-  const VisibilityImages mapped = draw(scene);
+  const VisibilityImages mapped = drawKept(scene);
   scene.pass->SetTechnique("raytraced");
-  const VisibilityImages traced = draw(scene);
+  const VisibilityImages traced = drawKept(scene);
   const Agreement agreement = compareVisibility(mapped, traced);
   std::size_t shadow = 0;
   for (std::size_t i = 0; i < traced.coverage.size(); ++i)
@@ -211,9 +163,9 @@ TEST_F(Nsm, receiversThatDoNotCastMayLieBehindAllCasters)
     spot ? scene.addSpot({ -2.0, 0.0, 5.0 }, glm::dvec3(0.0), 50.0)
          : scene.addSun({ 1.0, 0.4, -1.5 });
     scene.lookFrom({ 0.0, -9.0, 7.0 });
-    const VisibilityImages mapped = draw(scene);
+    const VisibilityImages mapped = drawKept(scene);
     scene.pass->SetTechnique("raytraced");
-    const Agreement agreement = compareVisibility(mapped, draw(scene));
+    const Agreement agreement = compareVisibility(mapped, drawKept(scene));
     EXPECT_GT(agreement.covered, 20000u);
     EXPECT_LE(agreement.wrong, 40u) << "spot: " << spot; // the map's square has empty corners
   }
@@ -229,7 +181,7 @@ TEST_F(Nsm, litPlaneHasNoAcneFromFarAway)
   {
     scene.lookFrom({ 0.1 * distance, -0.5 * distance, distance });
     scene.renderer->GetActiveCamera()->SetViewAngle(2.0 * glm::degrees(std::atan(5.0 / distance)));
-    const Acne acne = countAcne(draw(scene), { 0.0, 0.0, 1.0 }, 0.0);
+    const Acne acne = countAcneOfSun(drawKept(scene), { 0.0, 0.0, 1.0 });
     EXPECT_GT(acne.facing, 10000u);
     EXPECT_EQ(acne.dark, 0u) << "from " << distance;
   }
@@ -243,7 +195,7 @@ TEST_F(Nsm, degenerateViewsStayFinite)
     for (const char* technique : { "nsm", "raytraced" })
     {
       scene.pass->SetTechnique(technique);
-      draw(scene);
+      drawKept(scene);
     }
     scene.pass->SetTechnique("nsm");
     scene.pass->KeepVisibilityOff();
@@ -311,7 +263,7 @@ TEST_F(Nsm, singleTriangleAndFlatSceneAreLit)
       scene.addSun(direction);
       scene.pass->SetMapSize(mapSize);
       scene.lookFrom({ 0.0, -4.0, 4.0 });
-      const Acne acne = countAcne(draw(scene), -direction, 0.0);
+      const Acne acne = countAcneOfSun(drawKept(scene), -direction);
       EXPECT_GT(acne.facing, 1000u);
       EXPECT_EQ(acne.dark, 0u) << "map " << mapSize << ", towards " << direction.x;
     }

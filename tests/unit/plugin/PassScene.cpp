@@ -308,6 +308,67 @@ bool hitsBox(const glm::dvec2& floor, const glm::dvec3& toLight, const glm::dvec
 }
 
 //------------------------------------------------------------------------------
+const VisibilityImages& drawKept(PassScene& scene)
+{
+  scene.pass->KeepVisibilityOn();
+  scene.render();
+  const VisibilityImages& kept = scene.pass->GetVisibility();
+  std::ptrdiff_t broken = 0;
+  for (const std::vector<float>& light : kept.visibility)
+  {
+    broken += std::count_if(
+      light.begin(), light.end(), [](float value) { return !(value >= 0.0f && value <= 1.0f); });
+  }
+  for (const std::vector<float>* plane : { &kept.positionX, &kept.positionY, &kept.positionZ,
+         &kept.normalX, &kept.normalY, &kept.normalZ })
+  {
+    broken += std::count_if(
+      plane->begin(), plane->end(), [](float value) { return !std::isfinite(value); });
+  }
+  EXPECT_EQ(broken, 0);
+  return kept;
+}
+
+//------------------------------------------------------------------------------
+glm::dvec3 positionOf(const VisibilityImages& kept, std::size_t pixel)
+{
+  return { kept.origin[0] + kept.positionX[pixel], kept.origin[1] + kept.positionY[pixel],
+    kept.origin[2] + kept.positionZ[pixel] };
+}
+
+//------------------------------------------------------------------------------
+Acne countAcne(const VisibilityImages& kept,
+  const std::function<glm::dvec3(const glm::dvec3&)>& toLight, double leastCosine)
+{
+  Acne acne;
+  for (std::size_t i = 0; i < kept.coverage.size(); ++i)
+  {
+    const glm::dvec3 normal(kept.normalX[i], kept.normalY[i], kept.normalZ[i]);
+    const glm::dvec3 way = toLight(positionOf(kept, i));
+    if (kept.coverage[i] > 0.0f && glm::dot(normal, way) > leastCosine * glm::length(way))
+    {
+      ++acne.facing;
+      acne.dark += kept.visibility[0][i] < 1.0f ? 1 : 0;
+    }
+  }
+  return acne;
+}
+
+//------------------------------------------------------------------------------
+Acne countAcneOfSun(const VisibilityImages& kept, const glm::dvec3& toLight, double leastCosine)
+{
+  return countAcne(
+    kept, [&](const glm::dvec3&) { return toLight; }, leastCosine);
+}
+
+//------------------------------------------------------------------------------
+Acne countAcneOfLamp(const VisibilityImages& kept, const glm::dvec3& lightWorld, double leastCosine)
+{
+  return countAcne(
+    kept, [&](const glm::dvec3& position) { return lightWorld - position; }, leastCosine);
+}
+
+//------------------------------------------------------------------------------
 Agreement compareVisibility(const VisibilityImages& a, const VisibilityImages& b, std::size_t light)
 {
   Agreement result;

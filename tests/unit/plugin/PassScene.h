@@ -154,6 +154,29 @@ FloorCheck checkFloor(
 bool hitsBox(const glm::dvec2& floor, const glm::dvec3& toLight, const glm::dvec3& lower,
   const glm::dvec3& upper);
 
+/// The cone angle of a light that shines everywhere.
+inline constexpr double allDirections = 180.0;
+
+/// Draws a frame, keeps its visibility, and checks that its numbers are visibilities, and finite.
+const VisibilityImages& drawKept(PassScene& scene);
+
+/// Where a pixel's receiver is in the world.
+glm::dvec3 positionOf(const VisibilityImages& kept, std::size_t pixel);
+
+/// Of the pixels that face the first light by more than a cosine, those that are not fully lit.
+struct Acne
+{
+  std::size_t facing = 0;
+  std::size_t dark = 0;
+};
+/// @param toLight from a receiver's position towards the light, of any length
+Acne countAcne(const VisibilityImages& kept,
+  const std::function<glm::dvec3(const glm::dvec3&)>& toLight, double leastCosine = 0.0);
+Acne countAcneOfSun(
+  const VisibilityImages& kept, const glm::dvec3& toLight, double leastCosine = 0.0);
+Acne countAcneOfLamp(
+  const VisibilityImages& kept, const glm::dvec3& lightWorld, double leastCosine = 0.0);
+
 /// How two frames' visibility of one light compare.
 struct Agreement
 {
