@@ -6,7 +6,6 @@
 #include <vtkInformation.h>
 #include <vtkInformationDoubleVectorKey.h>
 #include <vtkInformationIntegerKey.h>
-#include <vtkInformationStringKey.h>
 #include <vtkLight.h>
 #include <vtkLightCollection.h>
 #include <vtkRenderer.h>
@@ -18,12 +17,6 @@ namespace gnomon
 {
 namespace
 {
-
-///@{
-/// The sides that a map can have, in texels: those that vtkGnomonShadowPass::SetMapSize takes.
-constexpr int smallestMapSizeTexels = 16;
-constexpr int largestMapSizeTexels = 16384;
-///@}
 
 /// VTK takes the cone of a positional light for a spot's below 90 degrees only.
 LightKind kindOf(vtkLight* light)
@@ -54,6 +47,24 @@ std::optional<LightBox> readBox(vtkLight* light)
   glm::dvec3 up = box.upWorld;
   light->TransformVector(&up.x, &box.upWorld.x);
   return box;
+}
+
+/// What is asked of a light's shadows.
+/// @param reason to skip the light; filled, if it is empty, where a setting does not take its value,
+/// which SetSetting would have refused
+ShadowSettings readSettings(vtkLight* light, const ShadowSettings& defaults, std::string& reason)
+{
+  ShadowSettings settings = defaults;
+  for (const Setting& setting : shadowSettings())
+  {
+    const char* const text = vtkGnomonLightKeys::GetSetting(light, setting.name.c_str());
+    if (text && !setting.set(settings, text) && reason.empty())
+    {
+      reason =
+        "its setting '" + setting.name + "' is '" + text + "', expected " + setting.expected();
+    }
+  }
+  return settings;
 }
 
 /// Why this light can show no shadow; empty when it can.
@@ -115,9 +126,10 @@ std::string reasonToSkip(vtkLight* light)
   return {};
 }
 
-ShadowLight readLight(vtkLight* light, const LightDefaults& defaults)
+ShadowLight readLight(vtkLight* light, const ShadowSettings& settings)
 {
   ShadowLight result;
+  static_cast<ShadowSettings&>(result) = settings;
   result.kind = kindOf(light);
   glm::dvec3 position;
   glm::dvec3 focalPoint;
@@ -132,31 +144,13 @@ ShadowLight readLight(vtkLight* light, const LightDefaults& defaults)
   result.box = readBox(light);
   result.strength = glm::clamp(static_cast<double>(light->GetShadowAttenuation()), 0.0, 1.0);
 
-  vtkInformation* keys = light->GetInformation();
-  result.technique = keys->Has(vtkGnomonLightKeys::TECHNIQUE())
-    ? keys->Get(vtkGnomonLightKeys::TECHNIQUE())
-    : defaults.technique;
-  result.mapSizeTexels = keys->Has(vtkGnomonLightKeys::MAP_SIZE())
-    ? keys->Get(vtkGnomonLightKeys::MAP_SIZE())
-    : defaults.mapSizeTexels;
-  result.mapSizeTexels =
-    std::clamp(result.mapSizeTexels, smallestMapSizeTexels, largestMapSizeTexels);
-  if (keys->Has(vtkGnomonLightKeys::KERNEL()))
-  {
-    result.kernel = keys->Get(vtkGnomonLightKeys::KERNEL());
-  }
-  if (keys->Has(vtkGnomonLightKeys::KERNEL_SIZE()))
-  {
-    result.kernelTexels = std::clamp(
-      keys->Get(vtkGnomonLightKeys::KERNEL_SIZE()), smallestKernelTexels, largestKernelTexels);
-  }
   return result;
 }
 
 } // namespace
 
 //------------------------------------------------------------------------------
-LightSet LightManager::collect(vtkRenderer* renderer, const LightDefaults& defaults)
+LightSet LightManager::collect(vtkRenderer* renderer, const ShadowSettings& defaults)
 {
   LightSet set;
   int sceneIndex = 0;
@@ -166,10 +160,11 @@ LightSet LightManager::collect(vtkRenderer* renderer, const LightDefaults& defau
   lights->InitTraversal(iterator);
   while (vtkLight* light = lights->GetNextLight(iterator))
   {
-    const std::string reason = reasonToSkip(light);
+    std::string reason = reasonToSkip(light);
+    const ShadowSettings settings = readSettings(light, defaults, reason);
     if (reason.empty())
     {
-      set.casting.push_back(readLight(light, defaults));
+      set.casting.push_back(readLight(light, settings));
       set.casting.back().sceneIndex = sceneIndex;
       set.casting.back().shaderIndex = shaderIndex;
     }

@@ -26,13 +26,6 @@ struct LightSet
   std::vector<SkippedLight> skipped;
 };
 
-/// What lights fall back on where they name nothing themselves (vtkGnomonLightKeys).
-struct LightDefaults
-{
-  std::string technique;
-  int mapSizeTexels = 1024;
-};
-
 /// Reads the renderer's vtkLights as they are at this moment.
 ///
 /// Head and camera lights are taken through their transform, which the renderer's
@@ -42,7 +35,8 @@ struct LightDefaults
 class LightManager
 {
 public:
-  static LightSet collect(vtkRenderer* renderer, const LightDefaults& defaults);
+  /// @param defaults what lights fall back on where they say nothing themselves (vtkGnomonLightKeys)
+  static LightSet collect(vtkRenderer* renderer, const ShadowSettings& defaults);
 };
 
 } // namespace gnomon

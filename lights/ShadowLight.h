@@ -1,12 +1,11 @@
 #ifndef gnomon_lights_ShadowLight_h
 #define gnomon_lights_ShadowLight_h
 
-#include "lights/FilterKernel.h"
+#include "lights/ShadowSettings.h"
 
 #include <glm/glm.hpp>
 
 #include <optional>
-#include <string>
 
 namespace gnomon
 {
@@ -29,8 +28,9 @@ struct LightBox
   glm::dvec3 upWorld{ 0.0, 1.0, 0.0 };
 };
 
-/// One light that casts shadows in this frame, in world coordinates and double precision.
-struct ShadowLight
+/// One light that casts shadows in this frame, in world coordinates and double precision, and what
+/// is asked of its shadows.
+struct ShadowLight : ShadowSettings
 {
   LightKind kind = LightKind::Directional;
 
@@ -49,11 +49,6 @@ struct ShadowLight
   /// Place among the lights that are switched on: the N of VTK's shader uniform lightColorN.
   int shaderIndex = 0;
 
-  std::string technique;
-  int mapSizeTexels = 1024;
-  /// The name of the kernel (findKernel), and its width in texels, of techniques that filter.
-  std::string kernel = defaultKernel;
-  int kernelTexels = defaultKernelTexels;
   /// How much of the light a full shadow takes away, in [0, 1]: shading uses mix(1, v, strength).
   double strength = 1.0;
 };

@@ -1,23 +1,37 @@
 #include "vtkGnomonLightKeys.h"
 
-#include "lights/FilterKernel.h"
+#include "lights/ShadowSettings.h"
 
 #include "vtkInformation.h"
 #include "vtkInformationDoubleVectorKey.h"
 #include "vtkInformationIntegerKey.h"
-#include "vtkInformationStringKey.h"
+#include "vtkInformationStringVectorKey.h"
 #include "vtkLight.h"
 #include "vtkObjectFactory.h"
 
+#include <algorithm>
 #include <cmath>
+#include <string>
+#include <variant>
 
 vtkStandardNewMacro(vtkGnomonLightKeys);
 vtkInformationKeyMacro(vtkGnomonLightKeys, CASTS, Integer);
-vtkInformationKeyMacro(vtkGnomonLightKeys, TECHNIQUE, String);
-vtkInformationKeyMacro(vtkGnomonLightKeys, MAP_SIZE, Integer);
-vtkInformationKeyMacro(vtkGnomonLightKeys, KERNEL, String);
-vtkInformationKeyMacro(vtkGnomonLightKeys, KERNEL_SIZE, Integer);
+vtkInformationKeyMacro(vtkGnomonLightKeys, SETTINGS, StringVector);
 vtkInformationKeyMacro(vtkGnomonLightKeys, BOX, DoubleVector);
+
+namespace
+{
+
+/// Sets an integer, clamped to what the setting takes; takes it away where the size is none.
+void SetSize(vtkLight* light, const char* name, int size)
+{
+  const auto& range = std::get<gnomon::IntegerSetting>(gnomon::findSetting(name)->values);
+  const std::string text =
+    size > 0 ? std::to_string(std::clamp(size, range.smallest, range.largest)) : "";
+  vtkGnomonLightKeys::SetSetting(light, name, text.c_str());
+}
+
+} // namespace
 
 //------------------------------------------------------------------------------
 void vtkGnomonLightKeys::SetCasts(vtkLight* light, bool casts)
@@ -26,60 +40,82 @@ void vtkGnomonLightKeys::SetCasts(vtkLight* light, bool casts)
 }
 
 //------------------------------------------------------------------------------
+void vtkGnomonLightKeys::SetSetting(vtkLight* light, const char* name, const char* value)
+{
+  const gnomon::Setting* setting = gnomon::findSetting(name ? name : "");
+  if (!setting)
+  {
+    vtkErrorWithObjectMacro(light,
+      "Lights have no setting '" << (name ? name : "") << "'. There are: " << gnomon::settingNames()
+                                 << ".");
+    return;
+  }
+  const std::string text = value ? value : "";
+  gnomon::ShadowSettings scratch;
+  if (!text.empty() && !setting->set(scratch, text))
+  {
+    vtkErrorWithObjectMacro(light,
+      "The setting '" << name << "' of a light was to be '" << text << "', expected "
+                      << setting->expected() << ".");
+    return;
+  }
+  vtkInformation* keys = light->GetInformation();
+  std::vector<std::string> pairs;
+  for (int i = 0; i + 1 < keys->Length(SETTINGS()); i += 2)
+  {
+    const std::string other = keys->Get(SETTINGS(), i);
+    if (other != name)
+    {
+      pairs.insert(pairs.end(), { other, keys->Get(SETTINGS(), i + 1) });
+    }
+  }
+  if (!text.empty())
+  {
+    pairs.insert(pairs.end(), { name, text });
+  }
+  keys->Remove(SETTINGS());
+  for (const std::string& part : pairs)
+  {
+    keys->Append(SETTINGS(), part.c_str());
+  }
+}
+
+//------------------------------------------------------------------------------
+const char* vtkGnomonLightKeys::GetSetting(vtkLight* light, const char* name)
+{
+  vtkInformation* keys = light->GetInformation();
+  for (int i = 0; i + 1 < keys->Length(SETTINGS()); i += 2)
+  {
+    if (std::string(keys->Get(SETTINGS(), i)) == (name ? name : ""))
+    {
+      return keys->Get(SETTINGS(), i + 1);
+    }
+  }
+  return nullptr;
+}
+
+//------------------------------------------------------------------------------
 void vtkGnomonLightKeys::SetTechnique(vtkLight* light, const char* technique)
 {
-  if (technique && *technique)
-  {
-    light->GetInformation()->Set(TECHNIQUE(), technique);
-  }
-  else
-  {
-    light->GetInformation()->Remove(TECHNIQUE());
-  }
+  SetSetting(light, "technique", technique);
 }
 
 //------------------------------------------------------------------------------
 void vtkGnomonLightKeys::SetMapSize(vtkLight* light, int mapSizeTexels)
 {
-  if (mapSizeTexels > 0)
-  {
-    light->GetInformation()->Set(MAP_SIZE(), mapSizeTexels);
-  }
-  else
-  {
-    light->GetInformation()->Remove(MAP_SIZE());
-  }
+  SetSize(light, "map_size", mapSizeTexels);
 }
 
 //------------------------------------------------------------------------------
 void vtkGnomonLightKeys::SetKernel(vtkLight* light, const char* kernel)
 {
-  if (!kernel || !*kernel)
-  {
-    light->GetInformation()->Remove(KERNEL());
-  }
-  else if (gnomon::findKernel(kernel))
-  {
-    light->GetInformation()->Set(KERNEL(), kernel);
-  }
-  else
-  {
-    vtkErrorWithObjectMacro(
-      light, "There is no kernel '" << kernel << "'. There are: " << gnomon::kernelNames() << ".");
-  }
+  SetSetting(light, "kernel", kernel);
 }
 
 //------------------------------------------------------------------------------
 void vtkGnomonLightKeys::SetKernelSize(vtkLight* light, int kernelSizeTexels)
 {
-  if (kernelSizeTexels > 0)
-  {
-    light->GetInformation()->Set(KERNEL_SIZE(), kernelSizeTexels);
-  }
-  else
-  {
-    light->GetInformation()->Remove(KERNEL_SIZE());
-  }
+  SetSize(light, "kernel_size", kernelSizeTexels);
 }
 
 //------------------------------------------------------------------------------

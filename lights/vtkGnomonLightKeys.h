@@ -7,8 +7,17 @@
  *
  * @code
  * vtkGnomonLightKeys::SetTechnique(light, "raytraced");
+ * vtkGnomonLightKeys::SetSetting(light, "kernel", "box");
  * vtkGnomonLightKeys::SetCasts(fillLight, false);
  * @endcode
+ *
+ * <b>Settings.</b> What is asked of a light's shadows is a list of names with values, the same ones
+ * that scene files and the program gnomon take:
+ * - "technique": one of vtkGnomonShadowPass's technique names;
+ * - "map_size": the side of the light's map in texels (of each layer, where it has several), 16 to
+ *   16384;
+ * - "kernel": the name of a filter kernel, see below (default "bilinear");
+ * - "kernel_size": its width in texels, 1 to 32 (default 3).
  *
  * <b>Filter kernels.</b> Techniques that filter ("pcf") average over a kernel of the map's texels:
  * - "bilinear": a square around the point, whose texels count by how far it covers them. Edges are
@@ -36,7 +45,7 @@
 
 class vtkInformationDoubleVectorKey;
 class vtkInformationIntegerKey;
-class vtkInformationStringKey;
+class vtkInformationStringVectorKey;
 class vtkLight;
 
 class GNOMONLIGHTS_EXPORT vtkGnomonLightKeys : public vtkObject
@@ -48,30 +57,37 @@ public:
 
   ///@{
   /**
-   * The keys themselves, for code that fills information objects. CASTS is 0 or 1 (default 1),
-   * TECHNIQUE one of vtkGnomonShadowPass's technique names, MAP_SIZE the side of the light's map in
-   * texels (of each layer, where a light has several), clamped to [16, 16384]. KERNEL is the name of
-   * a filter kernel (default "bilinear"), see above, and KERNEL_SIZE its width in texels, clamped to
-   * [1, 32] (default 3). BOX limits a
+   * The keys themselves, for code that fills information objects. CASTS is 0 or 1 (default 1). SETTINGS
+   * holds what SetSetting sets, names and values in turn. BOX limits a
    * directional light to a box, see above: width, height and depth, each > 0, then the direction x,
    * y, z that is up in the near face, not along the light. The up direction is in the light's own
    * coordinates, as its Position is. Other kinds of light ignore it.
    */
   static vtkInformationIntegerKey* CASTS();
-  static vtkInformationStringKey* TECHNIQUE();
-  static vtkInformationIntegerKey* MAP_SIZE();
-  static vtkInformationStringKey* KERNEL();
-  static vtkInformationIntegerKey* KERNEL_SIZE();
+  static vtkInformationStringVectorKey* SETTINGS();
   static vtkInformationDoubleVectorKey* BOX();
   ///@}
 
   ///@{
   /**
-   * Set a key on a light. An empty technique or a map size of 0 or less takes the key away again,
-   * so that the pass's own setting counts; an empty kernel or a kernel size of 0 or less does the
-   * same, so that the default counts. A kernel that does not exist is an error and changes nothing.
+   * Set what is asked of a light's shadows, by name, see above. A null or empty value takes the setting
+   * away again, so that the pass's own counts. A setting that does not exist, and a value that it does
+   * not take, are an error and change nothing. A technique's name is looked up when a frame is drawn.
+   * GetSetting returns null where the light says nothing.
+   */
+  static void SetSetting(vtkLight* light, const char* name, const char* value);
+  static const char* GetSetting(vtkLight* light, const char* name);
+  ///@}
+
+  /**
+   * Whether the light casts shadows at all.
    */
   static void SetCasts(vtkLight* light, bool casts);
+
+  ///@{
+  /**
+   * Set one of the settings. Sizes are clamped to what the setting takes; 0 or less takes it away.
+   */
   static void SetTechnique(vtkLight* light, const char* technique);
   static void SetMapSize(vtkLight* light, int mapSizeTexels);
   static void SetKernel(vtkLight* light, const char* kernel);

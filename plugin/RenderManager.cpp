@@ -143,7 +143,7 @@ void RenderManager::endStageClock(const std::string& name)
 }
 
 //------------------------------------------------------------------------------
-bool RenderManager::collectLights(vtkRenderer* renderer, const LightDefaults& defaults)
+bool RenderManager::collectLights(vtkRenderer* renderer, const ShadowSettings& defaults)
 {
   const LightSet set = LightManager::collect(renderer, defaults);
   for (const SkippedLight& skipped : set.skipped)
@@ -164,11 +164,6 @@ bool RenderManager::collectLights(vtkRenderer* renderer, const LightDefaults& de
       throw FrameError("light " + std::to_string(light.sceneIndex) + " asks for the technique '" +
         light.technique + "'; there are: " + techniqueNames());
     }
-    if (!findKernel(light.kernel))
-    {
-      throw FrameError("light " + std::to_string(light.sceneIndex) + " asks for the kernel '" +
-        light.kernel + "'; there are: " + kernelNames());
-    }
     LightSlot slot;
     const auto kept = this->slots_.find(light.sceneIndex);
     if (kept != this->slots_.end() && kept->second.techniqueName == light.technique)
@@ -188,7 +183,7 @@ bool RenderManager::collectLights(vtkRenderer* renderer, const LightDefaults& de
     report.casts = true;
     report.technique = light.technique;
     report.mapSizeTexels = entry->info.needsMap ? light.mapSizeTexels : 0;
-    report.kernel = entry->info.filters ? light.kernel : "";
+    report.kernel = entry->info.filters ? findSetting("kernel")->get(light) : "";
     report.kernelTexels = entry->info.filters ? light.kernelTexels : 0;
     this->report_.lights.push_back(report);
   }

@@ -47,7 +47,7 @@ public:
   /// lights: which of the renderer's lights cast, with which technique.
   /// @return false when none does
   /// @throws FrameError for a technique that does not exist
-  bool collectLights(vtkRenderer* renderer, const LightDefaults& defaults);
+  bool collectLights(vtkRenderer* renderer, const ShadowSettings& defaults);
 
   /// occluders: brings the snapshot up to date with the renderer's props.
   void collectOccluders(vtkRenderer* renderer);

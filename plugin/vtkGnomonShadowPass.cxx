@@ -45,7 +45,7 @@ bool drawsIntoOuterPass(const vtkRenderState* s)
 //------------------------------------------------------------------------------
 struct vtkGnomonShadowPass::Internals
 {
-  std::string technique = gnomon::defaultTechnique;
+  gnomon::ShadowSettings settings; ///< of lights that say nothing
   std::unique_ptr<gnomon::RenderManager> manager = std::make_unique<gnomon::RenderManager>();
   vtkNew<vtkRenderStepsPass> steps; ///< draws into the framebuffers of outer passes
   gnomon::FrameReport plainReport;  ///< of frames that were drawn without the manager
@@ -93,14 +93,14 @@ private:
 
 //------------------------------------------------------------------------------
 vtkGnomonShadowPass::vtkGnomonShadowPass()
-  : MapSize(1024)
-  , Route(ROUTE_AUTO)
+  : Route(ROUTE_AUTO)
   , MeasureStages(false)
   , KeepVisibility(false)
   , DelegatePass(nullptr)
   , ObeyUseShadows(false)
   , Internal(new Internals)
 {
+  this->Internal->settings.technique = gnomon::defaultTechnique;
 }
 
 //------------------------------------------------------------------------------
@@ -144,8 +144,7 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
 
     // lights
     this->BeginView(s);
-    const bool casting =
-      manager.collectLights(renderer, { this->Internal->technique, this->MapSize });
+    const bool casting = manager.collectLights(renderer, this->Internal->settings);
     if (casting)
     {
       // occluders
@@ -322,26 +321,66 @@ void vtkGnomonShadowPass::ReleaseGraphicsResources(vtkWindow* window)
 }
 
 //------------------------------------------------------------------------------
-void vtkGnomonShadowPass::SetTechnique(const char* name)
+void vtkGnomonShadowPass::SetSetting(const char* name, const char* value)
 {
-  const std::string technique = name ? name : "";
-  if (!gnomon::findTechnique(technique))
+  const gnomon::Setting* setting = gnomon::findSetting(name ? name : "");
+  if (!setting)
   {
-    vtkErrorMacro("There is no technique '" << technique
-                                            << "'. There are: " << gnomon::techniqueNames() << ".");
+    vtkErrorMacro("There is no setting '" << (name ? name : "")
+                                          << "'. There are: " << gnomon::settingNames() << ".");
     return;
   }
-  if (this->Internal->technique != technique)
+  const std::string text = value ? value : "";
+  if (setting->name == "technique" && !gnomon::findTechnique(text))
   {
-    this->Internal->technique = technique;
+    vtkErrorMacro(
+      "There is no technique '" << text << "'. There are: " << gnomon::techniqueNames() << ".");
+    return;
+  }
+  const std::string before = setting->get(this->Internal->settings);
+  if (!setting->set(this->Internal->settings, text))
+  {
+    vtkErrorMacro("The setting '" << name << "' was to be '" << text << "', expected "
+                                  << setting->expected() << ".");
+    return;
+  }
+  if (setting->get(this->Internal->settings) != before)
+  {
     this->Modified();
   }
 }
 
 //------------------------------------------------------------------------------
+std::string vtkGnomonShadowPass::GetSetting(const char* name) const
+{
+  const gnomon::Setting* setting = gnomon::findSetting(name ? name : "");
+  return setting ? setting->get(this->Internal->settings) : std::string();
+}
+
+//------------------------------------------------------------------------------
+void vtkGnomonShadowPass::SetMapSize(int mapSizeTexels)
+{
+  const auto& range = std::get<gnomon::IntegerSetting>(gnomon::findSetting("map_size")->values);
+  const int size = std::clamp(mapSizeTexels, range.smallest, range.largest);
+  this->SetSetting("map_size", std::to_string(size).c_str());
+}
+
+//------------------------------------------------------------------------------
+int vtkGnomonShadowPass::GetMapSize() const
+{
+  return this->Internal->settings.mapSizeTexels;
+}
+
+//------------------------------------------------------------------------------
+void vtkGnomonShadowPass::SetTechnique(const char* name)
+{
+  this->SetSetting("technique", name);
+}
+
+//------------------------------------------------------------------------------
 const char* vtkGnomonShadowPass::GetTechnique() const
 {
-  return this->Internal->technique.c_str();
+  return this->Internal->settings.technique.c_str();
 }
 
 //------------------------------------------------------------------------------
@@ -423,8 +462,11 @@ void vtkGnomonShadowPass::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   const char* const routes[] = { "auto", "inline", "image" };
-  os << indent << "Technique: " << this->GetTechnique() << "\n";
-  os << indent << "MapSize: " << this->MapSize << "\n";
+  for (const gnomon::Setting& setting : gnomon::shadowSettings())
+  {
+    os << indent << "Setting " << setting.name << ": " << setting.get(this->Internal->settings)
+       << "\n";
+  }
   os << indent << "Route: " << routes[this->Route] << "\n";
   os << indent << "MeasureStages: " << (this->MeasureStages ? "on" : "off") << "\n";
   os << indent << "KeepVisibility: " << (this->KeepVisibility ? "on" : "off") << "\n";

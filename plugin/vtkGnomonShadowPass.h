@@ -80,8 +80,18 @@ public:
   /**
    * Side of the maps of lights that name none, in texels; clamped to [16, 16384]. Default 1024.
    */
-  vtkSetClampMacro(MapSize, int, 16, 16384);
-  vtkGetMacro(MapSize, int);
+  virtual void SetMapSize(int mapSizeTexels);
+  int GetMapSize() const;
+  ///@}
+
+  ///@{
+  /**
+   * What lights fall back on that do not say it themselves: any of vtkGnomonLightKeys's settings, by
+   * name, technique and map size included. A setting that does not exist, and a value that it does not
+   * take, are an error and change nothing. GetSetting returns an empty string for what does not exist.
+   */
+  virtual void SetSetting(const char* name, const char* value);
+  std::string GetSetting(const char* name) const;
   ///@}
 
   /**
@@ -187,7 +197,6 @@ protected:
   vtkGnomonShadowPass();
   ~vtkGnomonShadowPass() override;
 
-  int MapSize;
   int Route;
   bool MeasureStages;
   bool KeepVisibility;

@@ -80,8 +80,7 @@ Scene withoutLightSettings(Scene scene)
 {
   for (SceneLight& light : scene.lights)
   {
-    light.technique.clear();
-    light.mapSizeTexels = 0;
+    light.settings.clear();
   }
   return scene;
 }

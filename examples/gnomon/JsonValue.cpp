@@ -104,16 +104,16 @@ std::vector<std::string> JsonValue::keys() const
 }
 
 //------------------------------------------------------------------------------
-void JsonValue::requireObject(std::initializer_list<const char*> known) const
+void JsonValue::requireObject(const std::vector<std::string>& known) const
 {
   for (const std::string& key : this->keys())
   {
     if (std::find(known.begin(), known.end(), key) == known.end())
     {
       std::string list;
-      for (const char* name : known)
+      for (const std::string& name : known)
       {
-        list += (list.empty() ? "" : ", ") + std::string(name);
+        list += (list.empty() ? "" : ", ") + name;
       }
       this->refuse("unknown key " + describe(key) + ", expected one of: " + list);
     }

@@ -40,7 +40,7 @@ public:
   /// The keys of an object.
   std::vector<std::string> keys() const;
   /// Refuses everything but an object with no other keys than these.
-  void requireObject(std::initializer_list<const char*> known) const;
+  void requireObject(const std::vector<std::string>& known) const;
   /// The number of elements of an array, and the elements.
   std::size_t size() const;
   std::vector<JsonValue> elements() const;

@@ -3,9 +3,9 @@
 #include "Files.h"
 #include "ImageFile.h"
 #include "Scene.h"
+#include "SettingOptions.h"
 #include "VtkMessages.h"
 
-#include "lights/FilterKernel.h"
 #include "plugin/VisibilityImages.h"
 #include "plugin/vtkGnomonEGLRenderWindow.h"
 #include "plugin/vtkGnomonShadowPass.h"
@@ -37,10 +37,7 @@ struct RenderOptions
   std::string scene;
   std::string picture;
   std::string size = "1024x1024";
-  std::string technique;
-  int mapSizeTexels = 0; ///< 0: not given
-  std::string kernel;
-  int kernelTexels = 0; ///< 0: not given
+  std::map<std::string, std::string> settings; ///< of all lights, by name; empty: not given
   std::string route = "auto";
   std::vector<std::string> lights;
   std::string camera;
@@ -76,18 +73,13 @@ void check(const RenderOptions& options)
     }
   }
   const RegistryEntry* technique = nullptr;
-  if (!options.technique.empty())
+  if (const std::string& name = options.settings.at("technique"); !name.empty())
   {
-    technique = findTechnique(options.technique);
-    if (!technique)
-    {
-      throw BadInput(
-        "--technique: found \"" + options.technique + "\", expected one of: " + techniqueNames());
-    }
+    technique = findTechnique(name); // the option has refused what there is not
   }
   if (technique && options.route == "inline" && !technique->info.pointwise)
   {
-    throw BadInput("--route inline: technique " + options.technique +
+    throw BadInput("--route inline: technique " + technique->info.name +
       " works on the screen, expected --route image or auto");
   }
 }
@@ -110,21 +102,12 @@ Scene loadWithOptions(const RenderOptions& options)
   }
   for (SceneLight& light : scene.lights)
   {
-    if (!options.technique.empty())
+    for (const auto& [name, value] : options.settings)
     {
-      light.technique = options.technique;
-    }
-    if (options.mapSizeTexels > 0)
-    {
-      light.mapSizeTexels = options.mapSizeTexels;
-    }
-    if (!options.kernel.empty())
-    {
-      light.kernel = options.kernel;
-    }
-    if (options.kernelTexels > 0)
-    {
-      light.kernelTexels = options.kernelTexels;
+      if (!value.empty())
+      {
+        light.settings[name] = value;
+      }
     }
   }
   return scene;
@@ -322,16 +305,7 @@ void addRenderCommand(CLI::App& app)
     ->required();
   command->add_option("--size", options->size, "Size of the picture in pixels, WIDTHxHEIGHT")
     ->capture_default_str();
-  command->add_option(
-    "--technique", options->technique, "Shadow technique of all lights (see: gnomon techniques)");
-  command->add_option("--map-size", options->mapSizeTexels, "Side of the lights' maps in texels")
-    ->check(CLI::Range(16, 16384));
-  command
-    ->add_option("--kernel", options->kernel,
-      "What techniques that filter (pcf) average over: bilinear, box, poisson")
-    ->check(CLI::IsMember({ "bilinear", "box", "poisson" }));
-  command->add_option("--kernel-size", options->kernelTexels, "The kernel's width in texels")
-    ->check(CLI::Range(smallestKernelTexels, largestKernelTexels));
+  addSettingOptions(*command, options->settings);
   command
     ->add_option(
       "--route", options->route, "How visibility reaches the shader: inline, image, auto")

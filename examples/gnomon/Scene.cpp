@@ -99,10 +99,10 @@ vtkSmartPointer<vtkLight> makeLight(const SceneLight& source)
     vtkGnomonLightKeys::SetBox(
       light, source.box->width, source.box->height, source.box->depth, source.box->up.data());
   }
-  vtkGnomonLightKeys::SetTechnique(light, source.technique.c_str());
-  vtkGnomonLightKeys::SetMapSize(light, source.mapSizeTexels);
-  vtkGnomonLightKeys::SetKernel(light, source.kernel.c_str());
-  vtkGnomonLightKeys::SetKernelSize(light, source.kernelTexels);
+  for (const auto& [name, value] : source.settings)
+  {
+    vtkGnomonLightKeys::SetSetting(light, name.c_str(), value.c_str());
+  }
   return light;
 }
 

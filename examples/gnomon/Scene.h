@@ -57,10 +57,8 @@ struct SceneLight
   Vec3 color{ { 1, 1, 1 } };
   double intensity = 1.0;
   double coneAngleDegrees = 30.0; ///< half the cone of a spot light
-  std::string technique;          ///< empty: the pass decides
-  int mapSizeTexels = 0;          ///< 0: the pass decides
-  std::string kernel;             ///< empty: Gnomon's default
-  int kernelTexels = 0;           ///< 0: Gnomon's default
+  /// What is asked of its shadows, by name (lights/ShadowSettings.h); the pass decides the rest.
+  std::map<std::string, std::string> settings;
 };
 
 struct SceneCamera

@@ -3,6 +3,7 @@
 #include "Errors.h"
 #include "Files.h"
 #include "Vec3.h"
+#include "lights/ShadowSettings.h"
 
 #include <nlohmann/json.hpp>
 #include <vtkNew.h>
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <variant>
 
 namespace gnomon::tool
 {
@@ -44,21 +46,10 @@ Json toJson(const SceneLight& light)
   }
   json["color"] = light.color;
   json["intensity"] = light.intensity;
-  if (!light.technique.empty())
+  for (const auto& [name, value] : light.settings)
   {
-    json["technique"] = light.technique;
-  }
-  if (light.mapSizeTexels > 0)
-  {
-    json["map_size"] = light.mapSizeTexels;
-  }
-  if (!light.kernel.empty())
-  {
-    json["kernel"] = light.kernel;
-  }
-  if (light.kernelTexels > 0)
-  {
-    json["kernel_size"] = light.kernelTexels;
+    const bool number = std::holds_alternative<IntegerSetting>(findSetting(name)->values);
+    json[name] = number ? Json::parse(value) : Json(value);
   }
   return json;
 }

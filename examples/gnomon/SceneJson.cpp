@@ -1,7 +1,7 @@
 #include "SceneJson.h"
 
 #include "Vec3.h"
-#include "lights/FilterKernel.h"
+#include "lights/ShadowSettings.h"
 #include "shadowtech/Registry.h"
 
 namespace gnomon::tool
@@ -61,6 +61,37 @@ Vec3 readUp(const JsonValue& value, const Vec3& defaultUp, const Vec3& forward)
   return up;
 }
 
+/// A setting of a light's shadows, as text.
+std::string readSetting(const JsonValue& value, const Setting& setting)
+{
+  if (const auto* range = std::get_if<IntegerSetting>(&setting.values))
+  {
+    return std::to_string(value.integer(range->smallest, range->largest));
+  }
+  const std::string text = value.text();
+  ShadowSettings scratch;
+  if (setting.name == "technique" && !findTechnique(text))
+  {
+    value.fail("one of: " + techniqueNames());
+  }
+  if (!setting.set(scratch, text))
+  {
+    value.fail(setting.expected());
+  }
+  return text;
+}
+
+/// Refuses keys that a light of this kind does not have.
+void requireLight(const JsonValue& value, std::vector<std::string> known)
+{
+  known.insert(known.end(), { "type", "color", "intensity" });
+  for (const Setting& setting : shadowSettings())
+  {
+    known.push_back(setting.name);
+  }
+  value.requireObject(known);
+}
+
 /// What all kinds of light share.
 void readCommon(const JsonValue& value, SceneLight& light)
 {
@@ -72,29 +103,12 @@ void readCommon(const JsonValue& value, SceneLight& light)
   {
     light.intensity = intensity.number(lightIntensity);
   }
-  if (const JsonValue technique = value.member("technique"); technique.present())
+  for (const Setting& setting : shadowSettings())
   {
-    light.technique = technique.text();
-    if (!findTechnique(light.technique))
+    if (const JsonValue wished = value.member(setting.name); wished.present())
     {
-      technique.fail("one of: " + techniqueNames());
+      light.settings[setting.name] = readSetting(wished, setting);
     }
-  }
-  if (const JsonValue size = value.member("map_size"); size.present())
-  {
-    light.mapSizeTexels = size.integer(smallestMapTexels, largestMapTexels);
-  }
-  if (const JsonValue kernel = value.member("kernel"); kernel.present())
-  {
-    light.kernel = kernel.text();
-    if (!findKernel(light.kernel))
-    {
-      kernel.fail("one of: " + kernelNames());
-    }
-  }
-  if (const JsonValue size = value.member("kernel_size"); size.present())
-  {
-    light.kernelTexels = size.integer(smallestKernelTexels, largestKernelTexels);
   }
 }
 
@@ -111,8 +125,7 @@ SceneLight::Box readBox(const JsonValue& value, const Vec3& travel)
 
 SceneLight readDirectional(const JsonValue& value)
 {
-  value.requireObject({ "type", "direction", "box", "color", "intensity", "technique", "map_size",
-    "kernel", "kernel_size" });
+  requireLight(value, { "direction", "box" });
   SceneLight light;
   light.type = SceneLight::Type::Directional;
   light.target = Vec3{ { 0.0, 0.0, 0.0 } };
@@ -130,8 +143,7 @@ SceneLight readDirectional(const JsonValue& value)
 
 SceneLight readSpot(const JsonValue& value)
 {
-  value.requireObject({ "type", "position", "target", "cone_angle", "color", "intensity",
-    "technique", "map_size", "kernel", "kernel_size" });
+  requireLight(value, { "position", "target", "cone_angle" });
   SceneLight light;
   light.type = SceneLight::Type::Spot;
   light.position = readPoint(value.member("position"));
@@ -146,8 +158,7 @@ SceneLight readSpot(const JsonValue& value)
 
 SceneLight readPointLight(const JsonValue& value)
 {
-  value.requireObject(
-    { "type", "position", "color", "intensity", "technique", "map_size", "kernel", "kernel_size" });
+  requireLight(value, { "position" });
   SceneLight light;
   light.type = SceneLight::Type::Point;
   light.position = readPoint(value.member("position"));
@@ -160,8 +171,7 @@ SceneLight readPointLight(const JsonValue& value)
 /// target - position), so up must not be parallel to its axis.
 void checkArea(const JsonValue& value)
 {
-  value.requireObject({ "type", "position", "target", "up", "width", "height", "shape", "color",
-    "intensity", "technique", "map_size", "kernel", "kernel_size" });
+  requireLight(value, { "position", "target", "up", "width", "height", "shape" });
   SceneLight light;
   light.position = readPoint(value.member("position"));
   light.target = readTarget(value.member("target"), light.position);

@@ -8,12 +8,6 @@ namespace gnomon
 namespace
 {
 
-/// Whoever gives lights to techniques has refused names that are none.
-FilterKernel kernelOf(const ShadowLight& light)
-{
-  return findKernel(light.kernel).value_or(FilterKernel::Bilinear);
-}
-
 std::string define(const std::string& name, int value)
 {
   return "#define " + name + " " + std::to_string(value) + "\n";
@@ -49,7 +43,7 @@ TechniqueInfo Pcf::info()
 MapReach Pcf::mapReach(const ShadowLight& light) const
 {
   const double width = light.kernelTexels;
-  switch (kernelOf(light))
+  switch (light.kernel)
   {
     case FilterKernel::Bilinear:
       return { 0.5 * (width + 1.0), 0.0 };
@@ -64,10 +58,9 @@ MapReach Pcf::mapReach(const ShadowLight& light) const
 //------------------------------------------------------------------------------
 std::string Pcf::estimatorGlsl(const ShadowLight& light) const
 {
-  const FilterKernel kernel = kernelOf(light);
-  const bool poisson = kernel == FilterKernel::Poisson;
+  const bool poisson = light.kernel == FilterKernel::Poisson;
   return define("PCF_TEXELS_LIGHT", light.kernelTexels) +
-    define("PCF_BILINEAR_LIGHT", kernel == FilterKernel::Bilinear) +
+    define("PCF_BILINEAR_LIGHT", light.kernel == FilterKernel::Bilinear) +
     define("PCF_POISSON_LIGHT", poisson) + define("PCF_POINTS_LIGHT", poissonPoints) +
     (poisson ? poissonDiscGlsl() : "") + ShaderLibrary::source("shadowtech/pcf/pcf_estimator.glsl");
 }

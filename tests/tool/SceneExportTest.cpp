@@ -23,8 +23,9 @@ TEST(SceneExport, IsReadBackAsTheSameScene)
   scene.camera.up = { { 0.1, 1.0, 0.0 } };
   scene.lights = { makeSun({ { 0.0, -1.0, 0.0 } }), SceneLight(), makeLamp({ { 1.0, 2.0, 0.1 } }),
     makeSun({ { 0.0, -1.0, 0.0 } }) };
-  scene.lights[0].technique = "raytraced";
-  scene.lights[0].mapSizeTexels = 512;
+  scene.lights[0].settings = { { "technique", "raytraced" }, { "map_size", "512" } };
+  scene.lights[1].settings = { { "technique", "pcf" }, { "kernel", "box" },
+    { "kernel_size", "5" } };
   scene.lights[1].type = SceneLight::Type::Spot;
   scene.lights[1].position = { { 0.3, 4.0, 0.0 } };
   scene.lights[1].color = { { 1.0, 0.5, 0.25 } };
@@ -60,8 +61,7 @@ TEST(SceneExport, IsReadBackAsTheSameScene)
     EXPECT_EQ(read.lights[i].target, scene.lights[i].target);
     EXPECT_EQ(read.lights[i].color, scene.lights[i].color);
     EXPECT_EQ(read.lights[i].intensity, scene.lights[i].intensity);
-    EXPECT_EQ(read.lights[i].technique, scene.lights[i].technique);
-    EXPECT_EQ(read.lights[i].mapSizeTexels, scene.lights[i].mapSizeTexels);
+    EXPECT_EQ(read.lights[i].settings, scene.lights[i].settings);
   }
   EXPECT_EQ(read.lights[1].coneAngleDegrees, scene.lights[1].coneAngleDegrees);
   EXPECT_FALSE(read.lights[0].box);

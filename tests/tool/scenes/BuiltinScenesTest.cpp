@@ -384,7 +384,7 @@ TEST(BuiltinScenes, OnlyTheLawnStandsInTheViewsOfTheTrees)
 TEST(BuiltinScenes, TheHalfPlanesShadowEndsAtTheKnownLine)
 {
   Scene scene = loadScene("half-plane");
-  scene.lights[0].technique = "raytraced";
+  scene.lights[0].settings["technique"] = "raytraced";
   vtkNew<vtkGnomonEGLRenderWindow> window;
   window->SetSize(300, 300);
   const vtkSmartPointer<vtkRenderer> renderer = makeRenderer(scene, 1.0);

@@ -14,16 +14,18 @@
 #include <vtkInformation.h>
 #include <vtkInformationDoubleVectorKey.h>
 #include <vtkInformationIntegerKey.h>
-#include <vtkInformationStringKey.h>
 #include <vtkLight.h>
 #include <vtkLightCollection.h>
 
 #include <algorithm>
+#include <map>
 
 namespace gnomon::tool
 {
 namespace
 {
+
+using Settings = std::map<std::string, std::string>;
 
 class SceneFile : public ::testing::Test
 {
@@ -64,8 +66,7 @@ TEST_F(SceneFile, IsReadInFull)
   EXPECT_LT(length(sun.target - sun.position - (1.0 / 3.0) * Vec3{ { 1, -2, 2 } }), 1e-12);
   EXPECT_EQ(sun.color, (Vec3{ { 1, 0.5, 0 } }));
   EXPECT_DOUBLE_EQ(sun.intensity, 2.0);
-  EXPECT_EQ(sun.technique, "raytraced");
-  EXPECT_EQ(sun.mapSizeTexels, 512);
+  EXPECT_EQ(sun.settings, (Settings{ { "map_size", "512" }, { "technique", "raytraced" } }));
   const SceneLight& spot = scene.lights[1];
   EXPECT_EQ(spot.type, SceneLight::Type::Spot);
   EXPECT_EQ(spot.position, (Vec3{ { 1, 2, 3 } }));
@@ -91,12 +92,12 @@ TEST_F(SceneFile, BecomesARenderer)
   EXPECT_TRUE(sun->LightTypeIsSceneLight());
   EXPECT_FALSE(sun->GetPositional());
   EXPECT_DOUBLE_EQ(sun->GetIntensity(), 2.0);
-  EXPECT_STREQ(sun->GetInformation()->Get(vtkGnomonLightKeys::TECHNIQUE()), "raytraced");
-  EXPECT_EQ(sun->GetInformation()->Get(vtkGnomonLightKeys::MAP_SIZE()), 512);
+  EXPECT_STREQ(vtkGnomonLightKeys::GetSetting(sun, "technique"), "raytraced");
+  EXPECT_STREQ(vtkGnomonLightKeys::GetSetting(sun, "map_size"), "512");
   auto* spot = vtkLight::SafeDownCast(lights->GetItemAsObject(1));
   EXPECT_TRUE(spot->GetPositional());
   EXPECT_DOUBLE_EQ(spot->GetConeAngle(), 25.0);
-  EXPECT_FALSE(spot->GetInformation()->Has(vtkGnomonLightKeys::TECHNIQUE()));
+  EXPECT_EQ(vtkGnomonLightKeys::GetSetting(spot, "technique"), nullptr);
 
   EXPECT_DOUBLE_EQ(renderer->GetActiveCamera()->GetViewAngle(), 45.0);
 }
@@ -308,14 +309,11 @@ TEST(SceneSpecs, LightsHaveASceneFilesKeys)
   EXPECT_EQ(sun.type, SceneLight::Type::Directional);
   EXPECT_EQ(sun.target - sun.position, (Vec3{ { 0, -1, 0 } }));
   EXPECT_DOUBLE_EQ(sun.intensity, 3.0);
-  EXPECT_EQ(sun.technique, "nsm");
-  EXPECT_EQ(sun.mapSizeTexels, 64);
-  EXPECT_EQ(sun.kernel, "");
-  EXPECT_EQ(sun.kernelTexels, 0);
+  EXPECT_EQ(sun.settings, (Settings{ { "map_size", "64" }, { "technique", "nsm" } }));
   const SceneLight spot = parseLight(
     "spot:position=1,2,3;target=0,0,0;cone_angle=12.5;technique=pcf;kernel=box;kernel_size=5");
-  EXPECT_EQ(spot.kernel, "box");
-  EXPECT_EQ(spot.kernelTexels, 5);
+  EXPECT_EQ(spot.settings,
+    (Settings{ { "kernel", "box" }, { "kernel_size", "5" }, { "technique", "pcf" } }));
   EXPECT_EQ(spot.type, SceneLight::Type::Spot);
   EXPECT_DOUBLE_EQ(spot.coneAngleDegrees, 12.5);
   const SceneLight lamp = parseLight("point:position=1,2,3;color=1,0.5,0");

@@ -119,7 +119,7 @@ TEST_F(Settings, numbersAreClamped)
   EXPECT_EQ(pass->GetRoute(), static_cast<int>(vtkGnomonShadowPass::ROUTE_IMAGE));
   std::ostringstream text;
   pass->Print(text);
-  EXPECT_THAT(text.str(), HasSubstr("MapSize: 16384"));
+  EXPECT_THAT(text.str(), HasSubstr("Setting map_size: 16384"));
 }
 
 //------------------------------------------------------------------------------

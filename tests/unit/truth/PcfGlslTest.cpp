@@ -1,6 +1,6 @@
 // pcf_estimator.glsl against a twin: which texels each kernel reads, with which weights.
 
-#include "lights/FilterKernel.h"
+#include "lights/ShadowSettings.h"
 #include "shadowtech/base/Gl.h"
 #include "shadowtech/base/LightViewsGlsl.h"
 #include "shadowtech/base/ShaderLibrary.h"
@@ -99,7 +99,7 @@ ShadowLight filteredSun(const char* kernel, int texels)
 {
   ShadowLight light;
   light.directionWorld = { 0.0, 0.0, -1.0 };
-  light.kernel = kernel;
+  findSetting("kernel")->set(light, kernel);
   light.kernelTexels = texels;
   return light;
 }
@@ -261,7 +261,7 @@ TEST_F(PcfGlsl, theMapsEndIsReadAgainWhereAKernelIsWider)
   const std::vector<glm::dvec2> places = { { 0.5, 0.5 }, { 63.9, 0.1 }, { 63.5, 63.5 } };
   for (const char* kernel : { "bilinear", "box", "poisson" })
   {
-    const ShadowLight light = filteredSun(kernel, largestKernelTexels);
+    const ShadowLight light = filteredSun(kernel, 32);
     EXPECT_EQ(runGlsl(light, everywhere, places), std::vector<float>(3, 0.0f)) << kernel;
     EXPECT_EQ(runGlsl(light, nowhere, places), std::vector<float>(3, 1.0f)) << kernel;
   }

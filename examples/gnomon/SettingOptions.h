@@ -1,0 +1,22 @@
+#ifndef gnomon_examples_gnomon_SettingOptions_h
+#define gnomon_examples_gnomon_SettingOptions_h
+
+#include <CLI/CLI.hpp>
+
+#include <map>
+#include <string>
+
+namespace gnomon::tool
+{
+
+/// Gives a command an option for every setting of a light's shadows ("--kernel-size" for
+/// "kernel_size"), which refuses what the setting does not take.
+/// @param values by the settings' names; empty where the command line says nothing. Must outlive the
+/// command
+/// @param without settings that the command has its own options for
+void addSettingOptions(CLI::App& command, std::map<std::string, std::string>& values,
+  const std::vector<std::string>& without = {});
+
+} // namespace gnomon::tool
+
+#endif

@@ -1,0 +1,157 @@
+#include "lights/ShadowSettings.h"
+
+#include <algorithm>
+#include <charconv>
+
+namespace gnomon
+{
+namespace
+{
+
+std::string listOf(const std::vector<std::string>& names)
+{
+  std::string list;
+  for (const std::string& name : names)
+  {
+    list += (list.empty() ? "" : ", ") + name;
+  }
+  return list;
+}
+
+/// A choice among an enumeration's values, named in their order.
+template <typename Choice, Choice ShadowSettings::*Member>
+ChoiceSetting choice(std::vector<std::string> names)
+{
+  return { std::move(names),
+    [](const ShadowSettings& settings) { return static_cast<int>(settings.*Member); },
+    [](ShadowSettings& settings, int number) { settings.*Member = static_cast<Choice>(number); } };
+}
+
+/// The whole text as a number; nothing where it is none.
+template <typename Number>
+std::optional<Number> parse(const std::string& text)
+{
+  Number number{};
+  const char* const end = text.data() + text.size();
+  const std::from_chars_result result = std::from_chars(text.data(), end, number);
+  return result.ec == std::errc() && result.ptr == end ? std::optional<Number>(number)
+                                                       : std::nullopt;
+}
+
+struct SetFromText
+{
+  ShadowSettings& settings;
+  const std::string& text;
+
+  bool operator()(const TextSetting& values) const
+  {
+    this->settings.*values.member = this->text;
+    return true;
+  }
+  bool operator()(const IntegerSetting& values) const
+  {
+    const std::optional<int> number = parse<int>(this->text);
+    if (!number || *number < values.smallest || *number > values.largest)
+    {
+      return false;
+    }
+    this->settings.*values.member = *number;
+    return true;
+  }
+  bool operator()(const ChoiceSetting& values) const
+  {
+    const auto found = std::find(values.names.begin(), values.names.end(), this->text);
+    if (found == values.names.end())
+    {
+      return false;
+    }
+    values.set(this->settings, static_cast<int>(found - values.names.begin()));
+    return true;
+  }
+};
+
+struct GetText
+{
+  const ShadowSettings& settings;
+
+  std::string operator()(const TextSetting& values) const { return this->settings.*values.member; }
+  std::string operator()(const IntegerSetting& values) const
+  {
+    return std::to_string(this->settings.*values.member);
+  }
+  std::string operator()(const ChoiceSetting& values) const
+  {
+    return values.names[static_cast<std::size_t>(values.get(this->settings))];
+  }
+};
+
+struct Expected
+{
+  std::string operator()(const TextSetting&) const { return "a name"; }
+  std::string operator()(const IntegerSetting& values) const
+  {
+    return "an integer in [" + std::to_string(values.smallest) + ", " +
+      std::to_string(values.largest) + "]";
+  }
+  std::string operator()(const ChoiceSetting& values) const
+  {
+    return "one of: " + listOf(values.names);
+  }
+};
+
+} // namespace
+
+//------------------------------------------------------------------------------
+const std::vector<Setting>& shadowSettings()
+{
+  using S = ShadowSettings;
+  static const std::vector<Setting> settings = {
+    { "technique", "the shadow technique (see: gnomon techniques)", TextSetting{ &S::technique } },
+    { "map_size", "the side of a light's map, in texels",
+      IntegerSetting{ &S::mapSizeTexels, 16, 16384 } },
+    { "kernel", "what techniques that filter (pcf) average over",
+      choice<FilterKernel, &S::kernel>({ "bilinear", "box", "poisson" }) },
+    { "kernel_size", "the kernel's width in texels", IntegerSetting{ &S::kernelTexels, 1, 32 } },
+  };
+  return settings;
+}
+
+//------------------------------------------------------------------------------
+const Setting* findSetting(const std::string& name)
+{
+  const std::vector<Setting>& settings = shadowSettings();
+  const auto found = std::find_if(
+    settings.begin(), settings.end(), [&](const Setting& setting) { return setting.name == name; });
+  return found == settings.end() ? nullptr : &*found;
+}
+
+//------------------------------------------------------------------------------
+std::string settingNames()
+{
+  std::vector<std::string> names;
+  for (const Setting& setting : shadowSettings())
+  {
+    names.push_back(setting.name);
+  }
+  return listOf(names);
+}
+
+//------------------------------------------------------------------------------
+bool Setting::set(ShadowSettings& settings, const std::string& text) const
+{
+  return std::visit(SetFromText{ settings, text }, this->values);
+}
+
+//------------------------------------------------------------------------------
+std::string Setting::get(const ShadowSettings& settings) const
+{
+  return std::visit(GetText{ settings }, this->values);
+}
+
+//------------------------------------------------------------------------------
+std::string Setting::expected() const
+{
+  return std::visit(Expected{}, this->values);
+}
+
+} // namespace gnomon

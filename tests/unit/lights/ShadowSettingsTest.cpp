@@ -1,0 +1,71 @@
+#include "lights/ShadowSettings.h"
+
+#include "vtkGnomonLightKeys.h"
+
+#include <gtest/gtest.h>
+#include <vtkLight.h>
+#include <vtkNew.h>
+#include <vtkObject.h>
+
+namespace gnomon::test
+{
+namespace
+{
+
+TEST(ShadowSettings, takeWhatTheyGive)
+{
+  for (const Setting& setting : shadowSettings())
+  {
+    ShadowSettings settings;
+    const std::string text = setting.get(settings);
+    EXPECT_TRUE(setting.set(settings, text)) << setting.name;
+    EXPECT_EQ(setting.get(settings), text) << setting.name;
+    EXPECT_EQ(findSetting(setting.name), &setting);
+    EXPECT_FALSE(setting.help.empty()) << setting.name;
+  }
+  EXPECT_EQ(findSetting("magic"), nullptr);
+}
+
+TEST(ShadowSettings, refuseWhatTheyDoNotTakeAndStayAsTheyAre)
+{
+  ShadowSettings settings;
+  for (const char* text : { "", "15", "16385", "64.5", "64 ", " 64", "0x40", "99999999999", "nan" })
+  {
+    EXPECT_FALSE(findSetting("map_size")->set(settings, text)) << text;
+    EXPECT_EQ(settings.mapSizeTexels, 1024);
+  }
+  EXPECT_EQ(findSetting("map_size")->expected(), "an integer in [16, 16384]");
+  for (const char* text : { "", "Box", "box ", "1" })
+  {
+    EXPECT_FALSE(findSetting("kernel")->set(settings, text)) << text;
+    EXPECT_EQ(settings.kernel, FilterKernel::Bilinear);
+  }
+  EXPECT_TRUE(findSetting("kernel")->set(settings, "poisson"));
+  EXPECT_EQ(settings.kernel, FilterKernel::Poisson);
+}
+
+TEST(ShadowSettings, areALightsOwn)
+{
+  vtkNew<vtkLight> light;
+  EXPECT_EQ(vtkGnomonLightKeys::GetSetting(light, "kernel"), nullptr);
+  vtkGnomonLightKeys::SetSetting(light, "kernel", "box");
+  vtkGnomonLightKeys::SetMapSize(light, 512);
+  vtkGnomonLightKeys::SetSetting(light, "kernel", "poisson");
+  EXPECT_STREQ(vtkGnomonLightKeys::GetSetting(light, "kernel"), "poisson");
+  EXPECT_STREQ(vtkGnomonLightKeys::GetSetting(light, "map_size"), "512");
+
+  vtkObject::GlobalWarningDisplayOff();
+  vtkGnomonLightKeys::SetSetting(light, "kernel", "magic");
+  vtkGnomonLightKeys::SetSetting(light, "magic", "1");
+  vtkGnomonLightKeys::SetSetting(light, nullptr, nullptr);
+  vtkObject::GlobalWarningDisplayOn();
+  EXPECT_STREQ(vtkGnomonLightKeys::GetSetting(light, "kernel"), "poisson");
+  EXPECT_EQ(vtkGnomonLightKeys::GetSetting(light, "magic"), nullptr);
+
+  vtkGnomonLightKeys::SetSetting(light, "kernel", "");
+  EXPECT_EQ(vtkGnomonLightKeys::GetSetting(light, "kernel"), nullptr);
+  EXPECT_STREQ(vtkGnomonLightKeys::GetSetting(light, "map_size"), "512");
+}
+
+} // namespace
+} // namespace gnomon::test
