@@ -32,8 +32,11 @@ constexpr Rectangle wholeMap{ glm::dvec2(-1.0), glm::dvec2(1.0) };
 /// The images of points under a homography, all of which it must see with w > 0.
 Rectangle rangeOf(const glm::dmat3& mapFromAcross, const std::vector<glm::dvec2>& across);
 
-/// The uniform projection: takes the points' rectangle to [-1, 1]^2 by scale and offset alone. An
-/// extent of 0 is widened, relative to the points' own size. The identity without points.
+/// Takes a rectangle to [-1, 1]^2. An extent of 0 is widened, relative to its coordinates. The
+/// identity of an empty one.
+glm::dmat3 uniformFromRange(const Rectangle& range);
+
+/// The uniform projection of points: that of their rectangle, by scale and offset alone.
 glm::dmat3 uniformFromAcross(const std::vector<glm::dvec2>& across);
 
 /// F: a scale and an offset per axis of a map's normalised device coordinates.
@@ -61,11 +64,15 @@ struct MapTexels
   double inside() const;
 };
 
+/// The least part of what is to be covered that a map is fitted to. At a side of 1024, the texels of a
+/// smaller one would be narrower than the spacing of floats there.
+constexpr double leastVisibleShare = 1e-4;
+
 /// Fits what is visible into the map: [lower, upper] to [-1, 1] less the border, s = 2 / (max - min),
 /// o = -s (max + min) / 2. (Selected Real-Time Shadow Techniques, eqs 3.9 and 3.10.)
 ///
-/// What is visible is cut to what is to be covered: the fit never looks beyond it. An extent of 0,
-/// or below a millionth of what is to be covered, is widened to that.
+/// What is visible is cut to what is to be covered: the fit never looks beyond it. Less than
+/// leastVisibleShare of what is to be covered, or none at all, is widened to that.
 ///
 /// @param visible in the device coordinates of the projection before the fit
 /// @param covered the same: of all that can be there

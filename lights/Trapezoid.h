@@ -11,7 +11,7 @@
 namespace gnomon
 {
 
-/// Where on the map the focus region ends, from the far side: Martin and Tan's 80 % line.
+/// The share of the map's height that the focus region gets: Martin and Tan's 80 % line.
 constexpr double trapezoidFocusLine = 0.8;
 /// The share of the visible depth that the focus region takes from its near end.
 constexpr double trapezoidFocusShare = 0.2;
