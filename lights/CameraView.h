@@ -1,0 +1,77 @@
+#ifndef gnomon_lights_CameraView_h
+#define gnomon_lights_CameraView_h
+
+#include <glm/glm.hpp>
+
+#include <array>
+#include <limits>
+
+namespace gnomon
+{
+
+/// The camera that the light's maps are fitted to, in centred coordinates (LightView.h) and OpenGL's
+/// conventions: it looks along -z of its view space, and clip space is [-1, 1]^3 after division.
+struct CameraView
+{
+  glm::dmat4 viewFromCentred{ 1.0 }; ///< rigid
+  glm::dmat4 clipFromView{ 1.0 };    ///< perspective or parallel; invertible
+
+  glm::dmat4 clipFromCentred() const { return this->clipFromView * this->viewFromCentred; }
+
+  /// The eye of a perspective; of a parallel projection the origin of its view space.
+  glm::dvec3 eyeCentred() const
+  {
+    // The inverse of a rigid transformation.
+    return -(
+      glm::transpose(glm::dmat3(this->viewFromCentred)) * glm::dvec3(this->viewFromCentred[3]));
+  }
+  /// Unit vector along which the camera looks.
+  glm::dvec3 directionCentred() const
+  {
+    return -glm::dvec3(
+      this->viewFromCentred[0][2], this->viewFromCentred[1][2], this->viewFromCentred[2][2]);
+  }
+  /// Whether w does not depend on the distance, so that nothing looks smaller far away.
+  bool isParallel() const { return this->clipFromView[2][3] == 0.0; }
+
+  /// The distance of a point along the direction of view, from the eye's plane.
+  double distanceOf(const glm::dvec3& centred) const
+  {
+    return -(this->viewFromCentred * glm::dvec4(centred, 1.0)).z;
+  }
+
+  /// The frustum's corners; bits 0, 1 and 2 of the index choose right, top and far. Those of a far
+  /// plane at infinity are not finite: what has to hold for all cameras uses the planes.
+  std::array<glm::dvec3, 8> cornersCentred() const
+  {
+    const glm::dmat4 centredFromClip = glm::inverse(this->clipFromCentred());
+    std::array<glm::dvec3, 8> result;
+    for (int i = 0; i < 8; ++i)
+    {
+      const glm::dvec4 corner = centredFromClip *
+        glm::dvec4((i & 1) ? 1.0 : -1.0, (i & 2) ? 1.0 : -1.0, (i & 4) ? 1.0 : -1.0, 1.0);
+      result[static_cast<std::size_t>(i)] = glm::dvec3(corner) / corner.w;
+    }
+    return result;
+  }
+  /// The distances of the clipping planes; far is infinite where the projection has none.
+  double nearDistance() const { return this->distanceAtDepth(-1.0); }
+  double farDistance() const { return this->distanceAtDepth(1.0); }
+
+private:
+  /// Where z/w has this value on the axis: a z + b = depth (c z + e), z = -distance.
+  double distanceAtDepth(double depth) const
+  {
+    const double a = this->clipFromView[2][2];
+    const double b = this->clipFromView[3][2];
+    const double c = this->clipFromView[2][3];
+    const double e = this->clipFromView[3][3];
+    const double denominator = a - depth * c;
+    return denominator == 0.0 ? std::numeric_limits<double>::infinity()
+                              : (b - depth * e) / denominator;
+  }
+};
+
+} // namespace gnomon
+
+#endif

@@ -1,0 +1,49 @@
+#ifndef gnomon_lights_LightRays_h
+#define gnomon_lights_LightRays_h
+
+#include <glm/glm.hpp>
+
+#include <vector>
+
+namespace gnomon
+{
+
+/// A light's rays as the plane of its map sees them: every ray is one point there, its *across*
+/// coordinates. They are (x, y) of the light's view space (LightView.h) for parallel rays, and the
+/// slopes (x/z, y/z) for those from a position.
+///
+/// Every projection of a map is a homography of that plane, `mapFromAcross`: it takes (across, 1)
+/// to homogeneous coordinates whose quotients lie in [-1, 1]^2 on the map. It touches no depth, and
+/// it moves no shadow: what lies on one ray stays on one point of the map.
+struct LightRays
+{
+  glm::dmat4 viewFromCentred{ 1.0 }; ///< rigid; z grows away from the light
+  bool positional = false;
+
+  /// @param view a point in the light's view space; of a positional light z must be positive
+  glm::dvec2 across(const glm::dvec3& view) const
+  {
+    return this->positional ? glm::dvec2(view) / view.z : glm::dvec2(view);
+  }
+  std::vector<glm::dvec2> across(const std::vector<glm::dvec3>& view) const
+  {
+    std::vector<glm::dvec2> result;
+    result.reserve(view.size());
+    for (const glm::dvec3& point : view)
+    {
+      result.push_back(this->across(point));
+    }
+    return result;
+  }
+};
+
+/// The image of a point under a homography; its w must not be 0.
+inline glm::dvec2 mapped(const glm::dmat3& homography, const glm::dvec2& point)
+{
+  const glm::dvec3 image = homography * glm::dvec3(point, 1.0);
+  return glm::dvec2(image) / image.z;
+}
+
+} // namespace gnomon
+
+#endif

@@ -1,0 +1,129 @@
+#include "lights/MapWarp.h"
+
+#include "lights/MapFit.h"
+#include "lights/VisibleBody.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gnomon
+{
+namespace
+{
+
+/// Sines below this are taken as 0: light along the view, or on the camera's axis.
+constexpr double leastSine = 1e-6;
+
+glm::dvec2 meanOf(const std::vector<glm::dvec2>& points)
+{
+  glm::dvec2 result(0.0);
+  for (const glm::dvec2& point : points)
+  {
+    result += point / static_cast<double>(points.size());
+  }
+  return result;
+}
+
+/// The image of the camera's axis on the plane of the light's rays.
+struct AxisImage
+{
+  glm::dvec2 along; ///< unit vector, growing with the distance from the camera
+  double offset;    ///< of the line along (along.y, -along.x)
+};
+
+/// @param eye, direction of the camera in the light's view space
+/// @return nothing where the image is a point
+std::optional<AxisImage> imageOfAxis(
+  const glm::dvec3& eye, const glm::dvec3& direction, bool positional)
+{
+  if (!positional)
+  {
+    const double length = glm::length(glm::dvec2(direction));
+    if (!(length > leastSine))
+    {
+      return std::nullopt;
+    }
+    const glm::dvec2 along = glm::dvec2(direction) / length;
+    return AxisImage{ along, along.y * eye.x - along.x * eye.y };
+  }
+  // The plane through the light and the axis, dot(plane, (across, 1)) = 0. Along the axis the slopes
+  // change by (plane.y, -plane.x) / z^2, so that they grow that way on all of it.
+  const glm::dvec3 plane = glm::cross(eye, direction);
+  const double length = glm::length(glm::dvec2(plane));
+  if (!(length > leastSine * glm::length(eye)))
+  {
+    return std::nullopt;
+  }
+  return AxisImage{ { plane.y / length, -plane.x / length }, plane.z / length };
+}
+
+/// Half the field of view in the plane of the direction of view and `aside`, which is across it.
+/// @param asideCamera unit vector in the camera's view space
+double halfFieldOfViewDegrees(const CameraView& camera, const glm::dvec3& asideCamera)
+{
+  const double tangent = std::abs(asideCamera.x / camera.clipFromView[0][0]) +
+    std::abs(asideCamera.y / camera.clipFromView[1][1]);
+  return glm::degrees(std::atan(tangent));
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+std::optional<WarpFrame> warpFrame(
+  const std::vector<glm::dvec3>& bodyView, const CameraView& camera, const LightRays& rays)
+{
+  if (bodyView.empty() || camera.isParallel())
+  {
+    return std::nullopt;
+  }
+  const glm::dvec3 eye(rays.viewFromCentred * glm::dvec4(camera.eyeCentred(), 1.0));
+  const glm::dvec3 direction = glm::dmat3(rays.viewFromCentred) * camera.directionCentred();
+  const auto axis = imageOfAxis(eye, direction, rays.positional);
+  const std::vector<glm::dvec2> across = rays.across(bodyView);
+  const glm::dvec3 ray =
+    rays.positional ? glm::normalize(glm::dvec3(meanOf(across), 1.0)) : glm::dvec3(0.0, 0.0, 1.0);
+  const double cosine = std::clamp(glm::dot(ray, direction), -1.0, 1.0);
+  const glm::dvec3 aside = ray - cosine * direction;
+  const double sine = glm::length(aside);
+  const DistanceRange distances = distancesOf(bodyView, camera, rays);
+  if (!axis || !(sine > leastSine) || !(distances.lower > 0.0) ||
+    !(distances.upper > distances.lower * (1.0 + leastSine)))
+  {
+    return std::nullopt;
+  }
+
+  const glm::dmat3 rotation = glm::transpose(glm::dmat3(
+    axis->along.y, -axis->along.x, 0.0, axis->along.x, axis->along.y, 0.0, 0.0, 0.0, 1.0));
+  const Rectangle range = rangeOf(rotation, across);
+  WarpFrame frame;
+  frame.depth = range.upper.y - range.lower.y;
+  if (!(frame.depth > leastSine * (range.upper.x - range.lower.x)))
+  {
+    return std::nullopt;
+  }
+  const glm::dvec2 origin(std::clamp(axis->offset, range.lower.x, range.upper.x), range.lower.y);
+  frame.frameFromAcross =
+    glm::dmat3(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, -origin.x, -origin.y, 1.0) * rotation;
+  frame.nearest = distances.lower;
+  frame.farthest = distances.upper;
+  frame.gammaDegrees = glm::degrees(std::atan2(sine, cosine));
+  const glm::dvec3 asideCamera = glm::dmat3(camera.viewFromCentred) *
+    (glm::transpose(glm::dmat3(rays.viewFromCentred)) * (aside / sine));
+  frame.thetaDegrees = halfFieldOfViewDegrees(camera, asideCamera);
+  return frame;
+}
+
+//------------------------------------------------------------------------------
+glm::dmat3 warpedFromAcross(
+  const WarpFrame& frame, double nearWarp, const std::vector<glm::dvec2>& across)
+{
+  const double n = nearWarp;
+  const double f = n + frame.depth;
+  // Columns; the offset by n is in the last one.
+  const glm::dmat3 perspective(1.0, 0.0, 0.0, 0.0, (f + n) / frame.depth, 1.0, 0.0,
+    (f + n) / frame.depth * n - 2.0 * f * n / frame.depth, n);
+  const glm::dmat3 warped = perspective * frame.frameFromAcross;
+  return uniformFromRange(rangeOf(warped, across)) * warped;
+}
+
+} // namespace gnomon
