@@ -35,6 +35,11 @@ struct LightRays
     }
     return result;
   }
+
+  bool operator==(const LightRays& other) const
+  {
+    return this->viewFromCentred == other.viewFromCentred && this->positional == other.positional;
+  }
 };
 
 /// The image of a point under a homography; its w must not be 0.

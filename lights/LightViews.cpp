@@ -1,9 +1,15 @@
 #include "lights/LightViews.h"
 
+#include "lights/Lispsm.h"
+#include "lights/Splits.h"
+#include "lights/Trapezoid.h"
+#include "lights/VisibleBody.h"
+
 #include <glm/gtc/matrix_transform.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 namespace gnomon
@@ -27,29 +33,18 @@ struct Interval
   double upper;
 };
 
-/// The share of a view's side between its borders, of which the casters get at least a half.
-double shareInside(int mapSizeTexels, int borderTexels)
+LightRays raysOf(const glm::dmat4& viewFromCentred, bool positional)
 {
-  return std::max(1.0 - 2.0 * borderTexels / mapSizeTexels, 0.5);
+  LightRays rays;
+  rays.viewFromCentred = viewFromCentred;
+  rays.positional = positional;
+  return rays;
 }
 
-/// Maps an interval to [-1, 1] less the borders on either side.
-struct Axis
-{
-  double scale;
-  double offset;
-};
-Axis fitAxis(const Interval& interval, double inside)
-{
-  const double half = 0.5 * (interval.upper - interval.lower);
-  const double scale = inside / half;
-  return { scale, -scale * 0.5 * (interval.upper + interval.lower) };
-}
-
+/// A view around the casters, without a border.
 /// @param castersView what to cover; not empty
 /// @param radius of all casters: what their positions are rounded in proportion to
-LightView fitParallel(
-  const Bounds& castersView, double radius, const glm::dmat4& viewFromCentred, double inside)
+LightView parallelView(const Bounds& castersView, double radius, const glm::dmat4& viewFromCentred)
 {
   const double smallest = 1e-6 * std::max(radius, 1e-300);
   const glm::dvec3 widening(smallest);
@@ -59,14 +54,10 @@ LightView fitParallel(
   const double depth = std::max((1.0 + roomBehindCasters) * (upper.z - lower.z), radius);
 
   LightView view;
-  view.viewFromCentred = viewFromCentred;
+  view.rays = raysOf(viewFromCentred, false);
   view.depthScale = 1.0 / depth;
   view.depthOffset = -lower.z / depth;
-  const Axis x = fitAxis({ lower.x, upper.x }, inside);
-  const Axis y = fitAxis({ lower.y, upper.y }, inside);
-  view.clipFromView = glm::dmat4(glm::dvec4(x.scale, 0.0, 0.0, 0.0),
-    glm::dvec4(0.0, y.scale, 0.0, 0.0), glm::dvec4(0.0, 0.0, 2.0 * view.depthScale, 0.0),
-    glm::dvec4(x.offset, y.offset, 2.0 * view.depthOffset - 1.0, 1.0));
+  view.mapFromAcross = uniformFromRange({ lower, upper });
   return view;
 }
 
@@ -79,10 +70,11 @@ Interval slopesOf(const Interval& across, const Interval& along, double limit)
   return { std::max(lower, -limit), std::min(upper, limit) };
 }
 
+/// The same for the rays of a positional light.
 /// @param slopeLimit the largest |x/z| and |y/z| of what the light reaches
 /// @return nothing where no caster can be seen
-std::optional<LightView> fitPerspective(
-  const Bounds& castersView, const glm::dmat4& viewFromCentred, double slopeLimit, double inside)
+std::optional<LightView> perspectiveView(
+  const Bounds& castersView, const glm::dmat4& viewFromCentred, double slopeLimit)
 {
   const double farthest = castersView.upper.z;
   if (!(farthest > 0.0))
@@ -91,37 +83,144 @@ std::optional<LightView> fitPerspective(
   }
   // A caster may touch the light: near stays positive, but well below anything that can be told
   // apart at the far end. Linear depth does not suffer from a small near plane as z/w does.
-  const double nearest = std::max(castersView.lower.z, 1e-5 * farthest);
+  const double nearest = std::max(castersView.lower.z, nearestShare * farthest);
   const glm::dvec3& lower = castersView.lower;
   const glm::dvec3& upper = castersView.upper;
-  Interval slopesX = slopesOf({ lower.x, upper.x }, { nearest, farthest }, slopeLimit);
-  Interval slopesY = slopesOf({ lower.y, upper.y }, { nearest, farthest }, slopeLimit);
+  const Interval slopesX = slopesOf({ lower.x, upper.x }, { nearest, farthest }, slopeLimit);
+  const Interval slopesY = slopesOf({ lower.y, upper.y }, { nearest, farthest }, slopeLimit);
   if (!(slopesX.lower <= slopesX.upper && slopesY.lower <= slopesY.upper))
   {
     return std::nullopt; // the light misses all casters
   }
-  const double smallest = 1e-6 * slopeLimit;
-  const Axis x = fitAxis({ slopesX.lower - smallest, slopesX.upper + smallest }, inside);
-  const Axis y = fitAxis({ slopesY.lower - smallest, slopesY.upper + smallest }, inside);
-  // clip = (x.scale X + x.offset Z, ..., a Z + b, Z) with z/w = -1 at near and 1 at far; near is
-  // moved by a thousandth so that rounding clips no caster.
-  const double n = nearest * 0.999;
-  const double f = farthest * (1.0 + roomBehindCasters);
+  const glm::dvec2 smallest(1e-6 * slopeLimit);
   LightView view;
-  view.viewFromCentred = viewFromCentred;
-  view.perspective = true;
-  view.clipFromView = glm::dmat4(glm::dvec4(x.scale, 0.0, 0.0, 0.0),
-    glm::dvec4(0.0, y.scale, 0.0, 0.0), glm::dvec4(x.offset, y.offset, (f + n) / (f - n), 1.0),
-    glm::dvec4(0.0, 0.0, -2.0 * f * n / (f - n), 0.0));
-  view.depthScale = 1.0 / f;
+  view.rays = raysOf(viewFromCentred, true);
+  view.mapFromAcross = uniformFromRange({ glm::dvec2(slopesX.lower, slopesY.lower) - smallest,
+    glm::dvec2(slopesX.upper, slopesY.upper) + smallest });
+  view.depthScale = 1.0 / (farthest * (1.0 + roomBehindCasters));
+  view.beginsAt = nearest * 0.999; // so that rounding cuts no caster off
   return view;
 }
 
+glm::dmat3 scaling(double factor)
+{
+  MapFit fit;
+  fit.scale = glm::dvec2(factor);
+  return fit.matrix();
+}
+
+/// The half spaces of what a view's map holds, with as much around it as its border takes.
+std::vector<HalfSpace> mapHalfSpaces(const LightView& view, const MapTexels& texels)
+{
+  const glm::dmat3 rows = glm::transpose(scaling(texels.inside()) * view.mapFromAcross);
+  std::vector<HalfSpace> result;
+  for (int axis = 0; axis < 2; ++axis)
+  {
+    for (const double side : { -1.0, 1.0 })
+    {
+      const glm::dvec3 plane = rows[2] + side * rows[axis];
+      result.emplace_back(plane.x, plane.y, view.rays.positional ? plane.z : 0.0,
+        view.rays.positional ? 0.0 : plane.z);
+    }
+  }
+  return result;
+}
+
+/// The view's map, fitted to what is visible; nothing where nothing is.
+std::optional<LightView> fitted(
+  LightView view, const std::vector<glm::dvec3>& visibleView, const MapTexels& texels, bool snap)
+{
+  const Rectangle visible = rangeOf(view.mapFromAcross, view.rays.across(visibleView));
+  // A view is wider than its casters by as much as its border takes.
+  Rectangle covered = wholeMap;
+  covered.lower /= texels.inside();
+  covered.upper /= texels.inside();
+  const std::optional<MapFit> fit =
+    snap ? fitSnappedTo(visible, texels, covered) : fitTo(visible, texels, covered);
+  if (!fit)
+  {
+    return std::nullopt;
+  }
+  view.mapFromAcross = fit->matrix() * view.mapFromAcross;
+  return view;
+}
+
+/// Lays out the views of casters that one view would hold, as the light's projection has it.
+/// @param view around the casters, without a border
+/// @param reach what the light shines on through this view, as half spaces of its space
+std::vector<LightView> layViews(const ShadowLight& light, const ViewFitting& fitting,
+  LightView view, std::vector<HalfSpace> reach)
+{
+  if (!fitting.camera)
+  {
+    view.mapFromAcross = scaling(fitting.texels.inside()) * view.mapFromAcross;
+    return { view };
+  }
+  const std::vector<HalfSpace> map = mapHalfSpaces(view, fitting.texels);
+  reach.insert(reach.end(), map.begin(), map.end());
+  const CameraView& camera = *fitting.camera;
+  const ConvexBody body = visibleBody(camera, fitting.receiversCentred, view.rays, reach);
+  const std::vector<glm::dvec3> visible = body.vertices();
+  if (visible.empty())
+  {
+    return {};
+  }
+  std::vector<LightView> views;
+  const auto add = [&](const std::vector<glm::dvec3>& points)
+  {
+    if (const auto fit = fitted(view, points, fitting.texels, light.snap))
+    {
+      views.push_back(*fit);
+    }
+  };
+  if (light.projection == Projection::Lispsm || light.projection == Projection::Trapezoid)
+  {
+    const glm::dmat3 warp = light.projection == Projection::Lispsm
+      ? lispsmFromAcross(visible, camera, view.rays)
+      : trapezoidFromAcross(visible, camera, view.rays);
+    view.mapFromAcross = scaling(fitting.texels.inside()) * warp;
+    views.push_back(view);
+  }
+  else if (light.projection == Projection::Splits)
+  {
+    const DistanceRange range = distancesOf(visible, camera, view.rays);
+    const std::vector<double> distances =
+      splitDistances({ range.lower, range.upper }, light.splits, light.splitLambda);
+    for (std::size_t i = 0; i + 1 < distances.size(); ++i)
+    {
+      add(sliced(body, camera, view.rays, distances[i], distances[i + 1]).vertices());
+    }
+  }
+  else
+  {
+    add(visible);
+  }
+  return views;
+}
+
 /// Directional lights: the casters, and of a box only what lies in it.
-void fitDirectional(Bounds castersLight, bool hasBox, double inside, LightViews& result)
+void fitDirectional(
+  Bounds castersLight, const ShadowLight& light, const ViewFitting& fitting, LightViews& result)
 {
   const double radius = castersLight.radius();
-  if (!hasBox)
+  std::vector<HalfSpace> reach;
+  double beginsAt = -std::numeric_limits<double>::infinity();
+  if (light.box)
+  {
+    const glm::dvec3& box = result.box;
+    if (castersLight.lower.z < 0.0)
+    {
+      beginsAt = 0.0;
+    }
+    castersLight.lower = glm::max(castersLight.lower, glm::dvec3(-box.x, -box.y, 0.0));
+    castersLight.upper = glm::min(castersLight.upper, box);
+    reach = boxHalfSpaces(box);
+    if (castersLight.empty())
+    {
+      return;
+    }
+  }
+  else
   {
     // Depths are told apart best where they are small.
     result.lightFromCentred =
@@ -129,30 +228,44 @@ void fitDirectional(Bounds castersLight, bool hasBox, double inside, LightViews&
       result.lightFromCentred;
     castersLight.upper.z -= castersLight.lower.z;
     castersLight.lower.z = 0.0;
-    result.views = { fitParallel(castersLight, radius, result.lightFromCentred, inside) };
-    return;
   }
-  const glm::dvec3& box = result.box;
-  const bool beginsAtNear = castersLight.lower.z < 0.0;
-  castersLight.lower = glm::max(castersLight.lower, glm::dvec3(-box.x, -box.y, 0.0));
-  castersLight.upper = glm::min(castersLight.upper, box);
-  if (!castersLight.empty())
+  LightView view = parallelView(castersLight, radius, result.lightFromCentred);
+  view.beginsAt = beginsAt;
+  result.views = layViews(light, fitting, view, reach);
+}
+
+void fitSpot(const Bounds& castersLight, const ShadowLight& light, const ViewFitting& fitting,
+  LightViews& result)
+{
+  const double tangent = std::sqrt(result.coneTangentSquared);
+  if (const auto view = perspectiveView(castersLight, result.lightFromCentred, tangent))
   {
-    result.views = { fitParallel(castersLight, radius, result.lightFromCentred, inside) };
-    result.views.front().beginsAtNear = beginsAtNear;
+    const double nearest = nearestOf(fitting.receiversCentred, view->rays);
+    result.views = layViews(light, fitting, *view, coneHalfSpaces(tangent, nearest));
   }
 }
 
-void fitCube(const Bounds& castersLight, double inside, LightViews& result)
+void fitCube(
+  Bounds castersLight, const ShadowLight& light, const ViewFitting& fitting, LightViews& result)
 {
-  for (int face = 0; face < cubeFaces; ++face)
+  if (light.kind == LightKind::Spot)
+  {
+    castersLight.lower.z = std::max(castersLight.lower.z, 0.0); // no cone reaches behind itself
+  }
+  for (int face = 0; face < cubeFaces && !castersLight.empty(); ++face)
   {
     const glm::dmat4 faceFromLight(cubeFaceFromLight(face));
-    if (const auto view = fitPerspective(transformed(castersLight, faceFromLight),
-          faceFromLight * result.lightFromCentred, 1.0, inside))
+    const auto view = perspectiveView(
+      transformed(castersLight, faceFromLight), faceFromLight * result.lightFromCentred, 1.0);
+    if (!view)
+    {
+      continue;
+    }
+    const double nearest = nearestOf(fitting.receiversCentred, view->rays);
+    for (const LightView& laid : layViews(light, fitting, *view, cubeFaceHalfSpaces(nearest)))
     {
       result.viewOfFace[static_cast<std::size_t>(face)] = static_cast<int>(result.views.size());
-      result.views.push_back(*view);
+      result.views.push_back(laid);
     }
   }
 }
@@ -164,17 +277,64 @@ ViewLayout viewLayout(const ShadowLight& light)
 {
   const bool wide =
     light.kind == LightKind::Spot && light.coneAngleDegrees > largestSingleViewConeDegrees;
-  return wide || light.kind == LightKind::Point ? ViewLayout::Cube : ViewLayout::Single;
+  if (wide || light.kind == LightKind::Point || light.projection == Projection::Cube)
+  {
+    return ViewLayout::Cube;
+  }
+  return light.projection == Projection::Splits ? ViewLayout::Splits : ViewLayout::Single;
 }
 
 //------------------------------------------------------------------------------
-LightViews fitLightViews(const ShadowLight& light, const glm::dvec3& centreWorld,
-  const Bounds& castersCentred, int mapSizeTexels, int borderTexels)
+bool isFittedToCamera(const ShadowLight& light)
 {
-  const double inside = shareInside(mapSizeTexels, borderTexels);
+  const bool forACamera = light.projection == Projection::Lispsm ||
+    light.projection == Projection::Trapezoid || light.projection == Projection::Splits;
+  return forACamera || light.fit != ViewFit::Off;
+}
+
+//------------------------------------------------------------------------------
+int mostViews(const ShadowLight& light)
+{
+  switch (viewLayout(light))
+  {
+    case ViewLayout::Cube:
+      return cubeFaces;
+    case ViewLayout::Splits:
+      return light.splits;
+    case ViewLayout::Single:
+      break;
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+std::string refusedProjection(const ShadowLight& light)
+{
+  const std::string name = findSetting("projection")->get(light);
+  if (light.projection == Projection::Cube && light.kind == LightKind::Directional)
+  {
+    return "the projection '" + name +
+      "' stands around a light, and a directional one has no place";
+  }
+  const bool single =
+    light.projection != Projection::Cube && light.projection != Projection::Uniform;
+  if (single && viewLayout(light) == ViewLayout::Cube)
+  {
+    return "the projection '" + name +
+      "' divides or warps a single view, and a point light, or a spot light of more than " +
+      std::to_string(static_cast<int>(largestSingleViewConeDegrees)) +
+      " degrees half angle, has the faces of a cube";
+  }
+  return {};
+}
+
+//------------------------------------------------------------------------------
+LightViews fitLightViews(const ShadowLight& light, const ViewFitting& fitting)
+{
   LightViews result;
   result.layout = viewLayout(light);
-  result.lightFromCentred = lightFromCentred(light, centreWorld);
+  result.borderTexels = fitting.texels.border;
+  result.lightFromCentred = lightFromCentred(light, fitting.centreWorld);
   const double coneTangent = std::tan(glm::radians(light.coneAngleDegrees));
   if (light.kind == LightKind::Spot)
   {
@@ -184,35 +344,35 @@ LightViews fitLightViews(const ShadowLight& light, const glm::dvec3& centreWorld
   {
     result.box = { 0.5 * light.box->width, 0.5 * light.box->height, light.box->depth };
   }
-  if (castersCentred.empty())
+  if (fitting.castersCentred.empty())
   {
     return result;
   }
-  Bounds castersLight = transformed(castersCentred, result.lightFromCentred);
+  const Bounds castersLight = transformed(fitting.castersCentred, result.lightFromCentred);
   if (light.kind == LightKind::Directional)
   {
-    fitDirectional(castersLight, light.box.has_value(), inside, result);
+    fitDirectional(castersLight, light, fitting, result);
   }
-  else if (result.layout == ViewLayout::Single)
+  else if (result.layout == ViewLayout::Cube)
   {
-    if (const auto view =
-          fitPerspective(castersLight, result.lightFromCentred, coneTangent, inside))
-    {
-      result.views = { *view };
-    }
+    fitCube(castersLight, light, fitting, result);
   }
   else
   {
-    if (light.kind == LightKind::Spot)
-    {
-      castersLight.lower.z = std::max(castersLight.lower.z, 0.0); // no cone reaches behind itself
-    }
-    if (!castersLight.empty())
-    {
-      fitCube(castersLight, inside, result);
-    }
+    fitSpot(castersLight, light, fitting, result);
   }
   return result;
+}
+
+//------------------------------------------------------------------------------
+LightViews fitLightViews(const ShadowLight& light, const glm::dvec3& centreWorld,
+  const Bounds& castersCentred, int mapSizeTexels, int borderTexels)
+{
+  ViewFitting fitting;
+  fitting.centreWorld = centreWorld;
+  fitting.castersCentred = castersCentred;
+  fitting.texels = { mapSizeTexels, borderTexels };
+  return fitLightViews(light, fitting);
 }
 
 } // namespace gnomon

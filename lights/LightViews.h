@@ -1,13 +1,17 @@
 #ifndef gnomon_lights_LightViews_h
 #define gnomon_lights_LightViews_h
 
+#include "lights/CameraView.h"
 #include "lights/LightSpace.h"
 #include "lights/LightView.h"
+#include "lights/MapFit.h"
 #include "lights/ShadowLight.h"
 
 #include <glm/glm.hpp>
 
 #include <array>
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace gnomon
@@ -17,7 +21,8 @@ namespace gnomon
 enum class ViewLayout
 {
   Single, ///< there is one at most
-  Cube    ///< by the point's longest coordinate in light space: cubeFaceOf()
+  Cube,   ///< by the point's longest coordinate in light space: cubeFaceOf()
+  Splits  ///< the first that holds the point and the border around it; they grow from near to far
 };
 
 /// Everything that a light sees: one view per layer of its map.
@@ -34,6 +39,9 @@ struct LightViews
 
   static constexpr int noView = -1;
 
+  /// Texels around a point that are read with it, which a split's view has to hold, too.
+  int borderTexels = 1;
+
   /// What the light shines on: the squared tangent of half a spot light's cone; half the width, half
   /// the height and the depth of a box. 0 of lights without.
   double coneTangentSquared = 0.0;
@@ -43,6 +51,7 @@ struct LightViews
   {
     return this->layout == other.layout && this->lightFromCentred == other.lightFromCentred &&
       this->views == other.views && this->viewOfFace == other.viewOfFace &&
+      this->borderTexels == other.borderTexels &&
       this->coneTangentSquared == other.coneTangentSquared && this->box == other.box;
   }
   bool operator!=(const LightViews& other) const { return !(*this == other); }
@@ -56,23 +65,49 @@ constexpr double largestSingleViewConeDegrees = 60.0;
 /// for it, pushed back as that may be, stays apart from the depth 1 of texels without a caster.
 constexpr double roomBehindCasters = 0.125;
 
-/// Directional and narrow spot lights have a single view, point and wide spot lights a cube's. It is
-/// known from the light alone, so that shaders can be built before the casters are known.
+/// Point and wide spot lights have a cube's views, others a single one or splits. It is known from the
+/// light alone, so that shaders can be built before the casters are known.
 ViewLayout viewLayout(const ShadowLight& light);
 
-/// The uniform projections, fitted to the casters' bounds as the light sees them. A view covers the
-/// casters and no more than the light reaches, and keeps a border on every side, so that what a
-/// technique reads around a receiver lies in the same layer. The faces of a cube see 90 degrees
-/// between those borders, less where there are no casters.
+/// Whether the light's views are made for what a camera sees, rather than for all of the scene.
+bool isFittedToCamera(const ShadowLight& light);
+
+/// How many views there can be.
+int mostViews(const ShadowLight& light);
+
+/// Why the light's projection makes no sense for a light of its kind; empty where it does.
+std::string refusedProjection(const ShadowLight& light);
+
+/// What views are fitted to, in centred coordinates.
+struct ViewFitting
+{
+  glm::dvec3 centreWorld{ 0.0 }; ///< the origin of centred coordinates, in world coordinates
+  Bounds castersCentred;         ///< the box around all casters
+  Bounds receiversCentred;       ///< the box around all that receives, casters with it
+  MapTexels texels;              ///< of each layer
+  /// Whose picture the views are for; none: for all of the scene.
+  std::optional<CameraView> camera;
+};
+
+/// Fits a light's views.
 ///
-/// @param centreWorld the origin of centred coordinates, in world coordinates
-/// @param castersCentred the box around all casters, in centred coordinates
-/// @param mapSizeTexels the side of each layer
-/// @param borderTexels the border's width; no more than a quarter of the side is kept
+/// Without a camera a view covers the casters, and no more than the light reaches; projections are
+/// uniform. With one, it covers what the camera can see of that (VisibleBody.h): uniform views by
+/// scale and offset (MapFit.h), snapped to texels if the light asks for it; warped ones by their own
+/// mathematics (Lispsm.h, Trapezoid.h); splits each a part of the distance from the camera
+/// (Splits.h). Depths always cover all casters, so that those between the light and what is visible
+/// are kept.
 ///
-/// Degenerate cases: no casters, or none that the light shines on, give no view; bounds without
-/// extent along an axis are widened relative to the box's own size. Casters nearer to a positional
-/// light than 1e-5 of the farthest one are not seen.
+/// A view keeps a border on every side, so that what a technique reads around a receiver lies in the
+/// same layer. The faces of a cube see 90 degrees between those borders, less where there are no
+/// casters.
+///
+/// Degenerate cases: no casters, or none that the light shines on, or nothing visible below them, give
+/// no view; bounds without extent along an axis are widened relative to the box's own size. Casters
+/// nearer to a positional light than nearestShare of the farthest one are not seen.
+LightViews fitLightViews(const ShadowLight& light, const ViewFitting& fitting);
+
+/// The same for all of the scene.
 LightViews fitLightViews(const ShadowLight& light, const glm::dvec3& centreWorld,
   const Bounds& castersCentred, int mapSizeTexels, int borderTexels = 1);
 

@@ -1,6 +1,9 @@
 #include "lights/ShadowSettings.h"
 
+#include "lights/Splits.h"
+
 #include <algorithm>
+#include <array>
 #include <charconv>
 
 namespace gnomon
@@ -38,6 +41,14 @@ std::optional<Number> parse(const std::string& text)
                                                        : std::nullopt;
 }
 
+/// The shortest text that reads as that number.
+std::string shortest(double number)
+{
+  std::array<char, 32> text{};
+  const std::to_chars_result result = std::to_chars(text.data(), text.data() + text.size(), number);
+  return { text.data(), result.ptr };
+}
+
 struct SetFromText
 {
   ShadowSettings& settings;
@@ -54,6 +65,16 @@ struct SetFromText
     if (!number || *number < values.smallest || *number > values.largest)
     {
       return false;
+    }
+    this->settings.*values.member = *number;
+    return true;
+  }
+  bool operator()(const RealSetting& values) const
+  {
+    const std::optional<double> number = parse<double>(this->text);
+    if (!number || !(*number >= values.smallest && *number <= values.largest))
+    {
+      return false; // also what is not a number
     }
     this->settings.*values.member = *number;
     return true;
@@ -79,6 +100,10 @@ struct GetText
   {
     return std::to_string(this->settings.*values.member);
   }
+  std::string operator()(const RealSetting& values) const
+  {
+    return shortest(this->settings.*values.member);
+  }
   std::string operator()(const ChoiceSetting& values) const
   {
     return values.names[static_cast<std::size_t>(values.get(this->settings))];
@@ -92,6 +117,10 @@ struct Expected
   {
     return "an integer in [" + std::to_string(values.smallest) + ", " +
       std::to_string(values.largest) + "]";
+  }
+  std::string operator()(const RealSetting& values) const
+  {
+    return "a number in [" + shortest(values.smallest) + ", " + shortest(values.largest) + "]";
   }
   std::string operator()(const ChoiceSetting& values) const
   {
@@ -107,6 +136,20 @@ const std::vector<Setting>& shadowSettings()
   using S = ShadowSettings;
   static const std::vector<Setting> settings = {
     { "technique", "the shadow technique (see: gnomon techniques)", TextSetting{ &S::technique } },
+    { "estimator", "what decides a point, in place of the technique's own estimator",
+      TextSetting{ &S::estimator } },
+    { "projection", "how the light's view is laid onto its map",
+      choice<Projection, &S::projection>(
+        { "technique", "uniform", "lispsm", "tsm", "pssm", "cube" }) },
+    { "fit",
+      "what uniform views are fitted to: all casters, or what the camera sees, once or in every "
+      "frame",
+      choice<ViewFit, &S::fit>({ "off", "once", "frame" }) },
+    { "snap", "whether fitted views move by whole texels",
+      choice<bool, &S::snap>({ "off", "on" }) },
+    { "splits", "the number of pssm's views", IntegerSetting{ &S::splits, 1, mostSplits } },
+    { "split_lambda", "where pssm splits: 0 uniform, 1 logarithmic",
+      RealSetting{ &S::splitLambda, 0.0, 1.0 } },
     { "map_size", "the side of a light's map, in texels",
       IntegerSetting{ &S::mapSizeTexels, 16, 16384 } },
     { "kernel", "what techniques that filter (pcf) average over",

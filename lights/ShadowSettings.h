@@ -17,12 +17,43 @@ enum class FilterKernel
   Poisson   ///< a few texels of equal weight, scattered over a disc that turns from place to place
 };
 
+/// How a light's view is laid onto its map.
+enum class Projection
+{
+  OfTechnique, ///< as the technique's name says
+  Uniform,     ///< all texels are of one size across the light
+  Lispsm,      ///< a perspective towards the camera (Lispsm.h)
+  Trapezoid,   ///< another one (Trapezoid.h)
+  Splits,      ///< uniform layers for parts of the distance from the camera (Splits.h)
+  Cube         ///< the faces of a cube around a positional light
+};
+
+/// What uniform views are fitted to. Warped ones and splits are made for a camera, and take `Frame`
+/// where they are not fitted once.
+enum class ViewFit
+{
+  Off,  ///< the casters: maps stay as they are when the camera moves
+  Once, ///< what the camera saw when the light got these settings
+  Frame ///< what the camera sees in this frame
+};
+
 /// What a user can ask of a light's shadows. A light says what it wants by name
 /// (vtkGnomonLightKeys), the pass says the rest, and these are the defaults of both.
 struct ShadowSettings
 {
   /// A name of the registry of techniques (shadowtech/Registry.h); empty: the registry's default.
   std::string technique;
+
+  /// A name of the registry of estimators; empty: the technique's.
+  std::string estimator;
+  Projection projection = Projection::OfTechnique;
+
+  ViewFit fit = ViewFit::Off;
+  /// Whether fitted uniform views move by whole texels and change their size by steps, so that edges
+  /// do not swim when the camera moves.
+  bool snap = true;
+  int splits = 4;
+  double splitLambda = 0.5; ///< 0: uniform splits, 1: logarithmic ones
 
   /// The side of the light's map, of each layer where it has several.
   int mapSizeTexels = 1024;
@@ -45,6 +76,12 @@ struct IntegerSetting
   int smallest;
   int largest;
 };
+struct RealSetting
+{
+  double ShadowSettings::*member;
+  double smallest;
+  double largest;
+};
 struct ChoiceSetting
 {
   std::vector<std::string> names; ///< by the number of the choice
@@ -58,7 +95,7 @@ struct Setting
 {
   std::string name; ///< as in scene files, "kernel_size"; on the command line "--kernel-size"
   std::string help; ///< one line for people
-  std::variant<TextSetting, IntegerSetting, ChoiceSetting> values;
+  std::variant<TextSetting, IntegerSetting, RealSetting, ChoiceSetting> values;
 
   /// Sets it from text.
   /// @return false for what it does not take; nothing changes then

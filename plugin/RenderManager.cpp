@@ -156,24 +156,28 @@ bool RenderManager::collectLights(vtkRenderer* renderer, const ShadowSettings& d
 
   this->casting_.clear();
   std::map<int, LightSlot> slots;
-  for (const ShadowLight& light : set.casting)
+  for (ShadowLight light : set.casting)
   {
-    const RegistryEntry* entry = findTechnique(light.technique);
-    if (!entry)
+    const EstimatorEntry* estimator = nullptr;
+    try
     {
-      throw FrameError("light " + std::to_string(light.sceneIndex) + " asks for the technique '" +
-        light.technique + "'; there are: " + techniqueNames());
+      estimator = &compose(light);
     }
+    catch (const CompositionError& error)
+    {
+      throw FrameError("light " + std::to_string(light.sceneIndex) + ": " + error.what());
+    }
+    const TechniqueInfo& info = estimator->info;
     LightSlot slot;
     const auto kept = this->slots_.find(light.sceneIndex);
-    if (kept != this->slots_.end() && kept->second.techniqueName == light.technique)
+    if (kept != this->slots_.end() && kept->second.estimator == estimator)
     {
       slot = std::move(kept->second);
     }
     else
     {
-      slot.techniqueName = light.technique;
-      slot.technique = entry->create();
+      slot.estimator = estimator;
+      slot.technique = estimator->create();
     }
     slot.light = light;
     slots[light.sceneIndex] = std::move(slot);
@@ -182,9 +186,11 @@ bool RenderManager::collectLights(vtkRenderer* renderer, const ShadowSettings& d
     report.sceneIndex = light.sceneIndex;
     report.casts = true;
     report.technique = light.technique;
-    report.mapSizeTexels = entry->info.needsMap ? light.mapSizeTexels : 0;
-    report.kernel = entry->info.filters ? findSetting("kernel")->get(light) : "";
-    report.kernelTexels = entry->info.filters ? light.kernelTexels : 0;
+    report.estimator = light.estimator;
+    report.projection = info.needsMap ? findSetting("projection")->get(light) : "";
+    report.mapSizeTexels = info.needsMap ? light.mapSizeTexels : 0;
+    report.kernel = info.filters ? findSetting("kernel")->get(light) : "";
+    report.kernelTexels = info.filters ? light.kernelTexels : 0;
     this->report_.lights.push_back(report);
   }
   this->slots_ = std::move(slots);
@@ -223,9 +229,9 @@ bool RenderManager::chooseRoute(int wished, bool keepVisibility)
   std::string screenTechnique;
   for (const LightSlot* slot : this->casting_)
   {
-    if (!findTechnique(slot->techniqueName)->info.pointwise)
+    if (!slot->estimator->info.pointwise)
     {
-      screenTechnique = slot->techniqueName;
+      screenTechnique = slot->light.technique;
     }
   }
   this->route_ = Route::Image;
@@ -276,7 +282,7 @@ bool RenderManager::chooseRoute(int wished, bool keepVisibility)
 bool RenderManager::anyPointwise() const
 {
   return std::any_of(this->casting_.begin(), this->casting_.end(),
-    [](const LightSlot* slot) { return findTechnique(slot->techniqueName)->info.pointwise; });
+    [](const LightSlot* slot) { return slot->estimator->info.pointwise; });
 }
 
 //------------------------------------------------------------------------------
@@ -284,7 +290,7 @@ bool RenderManager::anyPointwise() const
 const Technique* RenderManager::pointwiseFor(LightSlot& slot) const
 {
   const bool translucent = this->collector_.translucentReceivers() > 0;
-  const bool pointwise = findTechnique(slot.techniqueName)->info.pointwise;
+  const bool pointwise = slot.estimator->info.pointwise;
   if (pointwise || !translucent)
   {
     slot.plain.reset();
@@ -293,7 +299,7 @@ const Technique* RenderManager::pointwiseFor(LightSlot& slot) const
   }
   if (!slot.plain)
   {
-    slot.plain = findTechnique(plainTechnique)->create();
+    slot.plain = findTechnique(plainTechnique)->estimator->create();
     slot.plainBake = Bake();
   }
   return slot.plain.get();
@@ -310,6 +316,17 @@ glm::dmat4 RenderManager::centredFromView(vtkRenderer* renderer) const
 }
 
 //------------------------------------------------------------------------------
+CameraView RenderManager::camera(vtkRenderer* renderer) const
+{
+  vtkCamera* camera = renderer->GetActiveCamera();
+  CameraView view;
+  view.viewFromCentred = glm::inverse(this->centredFromView(renderer));
+  view.clipFromView =
+    fromVtk(camera->GetProjectionTransformMatrix(renderer->GetTiledAspectRatio(), -1.0, 1.0));
+  return view;
+}
+
+//------------------------------------------------------------------------------
 void RenderManager::drawReceivers(const vtkRenderState* s, vtkGnomonShadowPass* pass)
 {
   vtkRenderer* renderer = s->GetRenderer();
@@ -317,11 +334,9 @@ void RenderManager::drawReceivers(const vtkRenderState* s, vtkGnomonShadowPass* 
   const int width = size.x;
   const int height = size.y;
 
-  vtkCamera* camera = renderer->GetActiveCamera();
   const glm::dmat4 centredFromView = this->centredFromView(renderer);
-  const glm::dmat4 clipFromView =
-    fromVtk(camera->GetProjectionTransformMatrix(renderer->GetTiledAspectRatio(), -1.0, 1.0));
-  this->receiverImages_.rays = pixelRays(clipFromView, centredFromView, width, height);
+  this->receiverImages_.rays =
+    pixelRays(this->camera(renderer).clipFromView, centredFromView, width, height);
 
   this->layers_.resize(width, height, static_cast<int>(this->casting_.size()));
   this->stageValues_.layers = { GL_TEXTURE_2D_ARRAY, this->layers_.texture() };
@@ -359,17 +374,18 @@ void RenderManager::drawReceivers(const vtkRenderState* s, vtkGnomonShadowPass* 
 }
 
 //------------------------------------------------------------------------------
-void RenderManager::bakeMaps()
+void RenderManager::bakeMaps(vtkRenderer* renderer)
 {
+  const CameraView camera = this->camera(renderer);
   for (LightSlot* slot : this->casting_)
   {
-    if (findTechnique(slot->techniqueName)->info.needsMap)
+    if (slot->estimator->info.needsMap)
     {
-      this->bakeMaps(slot->light, *slot->technique, slot->bake);
+      this->bakeMaps(slot->light, camera, *slot->technique, slot->bake);
     }
     if (slot->plain)
     {
-      this->bakeMaps(slot->light, *slot->plain, slot->plainBake);
+      this->bakeMaps(slot->light, camera, *slot->plain, slot->plainBake);
     }
   }
   this->endStageClock("maps");
@@ -377,12 +393,21 @@ void RenderManager::bakeMaps()
 
 //------------------------------------------------------------------------------
 /// Bakes a light's maps if they are stale.
-void RenderManager::bakeMaps(const ShadowLight& light, Technique& technique, Bake& bake)
+void RenderManager::bakeMaps(
+  const ShadowLight& light, const CameraView& camera, Technique& technique, Bake& bake)
 {
   const Occluders& occluders = this->collector_.occluders();
   const MapReach reach = technique.mapReach(light);
-  LightViews views = fitLightViews(light, occluders.centreWorld, occluders.castersCentred,
-    light.mapSizeTexels, reach.borderTexels());
+  ViewFitting fitting;
+  fitting.centreWorld = occluders.centreWorld;
+  fitting.castersCentred = occluders.castersCentred;
+  fitting.receiversCentred = occluders.allCentred;
+  fitting.texels = { light.mapSizeTexels, reach.borderTexels() };
+  if (isFittedToCamera(light))
+  {
+    fitting.camera = light.fit == ViewFit::Once && bake.camera ? bake.camera : camera;
+  }
+  LightViews views = fitLightViews(light, fitting);
   const bool fresh = bake.once && bake.views == views && bake.sizeTexels == light.mapSizeTexels &&
     bake.reach == reach && bake.topology == occluders.topologyVersion &&
     bake.positions == occluders.positionsVersion;
@@ -398,8 +423,8 @@ void RenderManager::bakeMaps(const ShadowLight& light, Technique& technique, Bak
     {
       throw TextureMemoryError("light " + std::to_string(light.sceneIndex) + ": " + error.what());
     }
-    bake = { std::move(views), reach, light.mapSizeTexels, occluders.topologyVersion,
-      occluders.positionsVersion, true };
+    bake = { std::move(views), fitting.camera, reach, light.mapSizeTexels,
+      occluders.topologyVersion, occluders.positionsVersion, true };
     ++this->report_.mapBakes;
   }
   this->report_.bytesMaps += technique.bytesOfMaps();
@@ -418,7 +443,7 @@ void RenderManager::computeVisibility(bool keep)
 {
   const Occluders& occluders = this->collector_.occluders();
   const bool onScreen = std::any_of(this->casting_.begin(), this->casting_.end(),
-    [](const LightSlot* slot) { return !findTechnique(slot->techniqueName)->info.pointwise; });
+    [](const LightSlot* slot) { return !slot->estimator->info.pointwise; });
   if (onScreen || keep)
   {
     this->resolveReceivers();
@@ -437,7 +462,7 @@ void RenderManager::computeVisibility(bool keep)
   {
     LightSlot& slot = *this->casting_[i];
     const int layer = static_cast<int>(i);
-    if (findTechnique(slot.techniqueName)->info.pointwise)
+    if (slot.estimator->info.pointwise)
     {
       this->layers_.estimate(layer, *slot.technique, slot.light, this->receiverTarget_,
         this->stageValues_.centredFromView, this->library_);

@@ -5,6 +5,7 @@
 #include "plugin/OccluderCollector.h"
 #include "plugin/ShaderManager.h"
 #include "plugin/VisibilityImages.h"
+#include "shadowtech/Registry.h"
 #include "shadowtech/base/FrameReport.h"
 #include "shadowtech/base/OccluderBuffers.h"
 #include "shadowtech/base/RayTracer.h"
@@ -46,7 +47,7 @@ public:
 
   /// lights: which of the renderer's lights cast, with which technique.
   /// @return false when none does
-  /// @throws FrameError for a technique that does not exist
+  /// @throws FrameError for techniques that do not exist or make no sense
   bool collectLights(vtkRenderer* renderer, const ShadowSettings& defaults);
 
   /// occluders: brings the snapshot up to date with the renderer's props.
@@ -64,7 +65,7 @@ public:
   void drawReceivers(const vtkRenderState* s, vtkGnomonShadowPass* pass);
 
   /// maps: bakes what is stale.
-  void bakeMaps();
+  void bakeMaps(vtkRenderer* renderer);
 
   /// visibility (image route): fills one layer per light, and keeps a copy if asked to.
   void computeVisibility(bool keep);
@@ -93,6 +94,7 @@ private:
   struct Bake
   {
     LightViews views;
+    std::optional<CameraView> camera; ///< that the views were fitted to
     MapReach reach;
     int sizeTexels = 0;
     std::uint64_t topology = 0;
@@ -102,7 +104,7 @@ private:
   /// A casting light and its technique.
   struct LightSlot
   {
-    std::string techniqueName;
+    const EstimatorEntry* estimator = nullptr;
     std::unique_ptr<Technique> technique;
     Bake bake;
     /// Shades translucent surfaces where the technique works on the screen; null without such.
@@ -113,10 +115,12 @@ private:
 
   void endStageClock(const std::string& name);
   const Technique* pointwiseFor(LightSlot& slot) const;
-  void bakeMaps(const ShadowLight& light, Technique& technique, Bake& bake);
+  void bakeMaps(
+    const ShadowLight& light, const CameraView& camera, Technique& technique, Bake& bake);
   void resolveReceivers();
   void keepVisibility();
   bool anyPointwise() const;
+  CameraView camera(vtkRenderer* renderer) const;
   glm::dmat4 centredFromView(vtkRenderer* renderer) const;
 
   FrameReport report_;

@@ -166,7 +166,7 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
       }
 
       // maps
-      manager.bakeMaps();
+      manager.bakeMaps(renderer);
 
       // visibility
       if (manager.route() == gnomon::Route::Image)
@@ -331,19 +331,14 @@ void vtkGnomonShadowPass::SetSetting(const char* name, const char* value)
     return;
   }
   const std::string text = value ? value : "";
-  if (setting->name == "technique" && !gnomon::findTechnique(text))
+  if (!gnomon::takes(*setting, text))
   {
-    vtkErrorMacro(
-      "There is no technique '" << text << "'. There are: " << gnomon::techniqueNames() << ".");
+    vtkErrorMacro("The setting '" << name << "' was to be '" << text << "', expected "
+                                  << gnomon::expectedBy(*setting) << ".");
     return;
   }
   const std::string before = setting->get(this->Internal->settings);
-  if (!setting->set(this->Internal->settings, text))
-  {
-    vtkErrorMacro("The setting '" << name << "' was to be '" << text << "', expected "
-                                  << setting->expected() << ".");
-    return;
-  }
+  setting->set(this->Internal->settings, text);
   if (setting->get(this->Internal->settings) != before)
   {
     this->Modified();
@@ -399,7 +394,7 @@ int vtkGnomonShadowPass::GetNumberOfTechniques()
 const char* vtkGnomonShadowPass::GetTechniqueName(int index)
 {
   return index >= 0 && index < GetNumberOfTechniques()
-    ? gnomon::registry()[static_cast<std::size_t>(index)].info.name.c_str()
+    ? gnomon::registry()[static_cast<std::size_t>(index)].name.c_str()
     : nullptr;
 }
 
@@ -407,7 +402,7 @@ const char* vtkGnomonShadowPass::GetTechniqueName(int index)
 const char* vtkGnomonShadowPass::GetTechniqueSummary(int index)
 {
   return index >= 0 && index < GetNumberOfTechniques()
-    ? gnomon::registry()[static_cast<std::size_t>(index)].info.summary.c_str()
+    ? gnomon::registry()[static_cast<std::size_t>(index)].summary.c_str()
     : nullptr;
 }
 

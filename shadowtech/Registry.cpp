@@ -1,45 +1,158 @@
 #include "shadowtech/Registry.h"
 
-#include "shadowtech/nsm/Nsm.h"
+#include "lights/LightViews.h"
+#include "shadowtech/compare/Compare.h"
 #include "shadowtech/pcf/Pcf.h"
 #include "shadowtech/raytraced/Raytraced.h"
 
+#include <algorithm>
+
 namespace gnomon
 {
+namespace
+{
+
+template <typename Estimator>
+EstimatorEntry entry()
+{
+  return { Estimator::info(), [] { return std::unique_ptr<Technique>(new Estimator); } };
+}
+
+const std::string& nameOf(const EstimatorEntry& entry)
+{
+  return entry.info.name;
+}
+
+const std::string& nameOf(const TechniqueEntry& entry)
+{
+  return entry.name;
+}
+
+template <typename Entry>
+const Entry* find(const std::vector<Entry>& entries, const std::string& name)
+{
+  const auto found = std::find_if(
+    entries.begin(), entries.end(), [&](const Entry& entry) { return nameOf(entry) == name; });
+  return found == entries.end() ? nullptr : &*found;
+}
+
+template <typename Entry>
+std::string namesOf(const std::vector<Entry>& entries)
+{
+  std::string names;
+  for (const Entry& entry : entries)
+  {
+    names += (names.empty() ? "" : ", ") + nameOf(entry);
+  }
+  return names;
+}
+
+} // namespace
 
 //------------------------------------------------------------------------------
-const std::vector<RegistryEntry>& registry()
+const std::vector<EstimatorEntry>& estimators()
 {
-  static const std::vector<RegistryEntry> entries = {
-    { Nsm::info(), [] { return std::unique_ptr<Technique>(new Nsm); } },
-    { Pcf::info(), [] { return std::unique_ptr<Technique>(new Pcf); } },
-    { Raytraced::info(), [] { return std::unique_ptr<Technique>(new Raytraced); } },
+  static const std::vector<EstimatorEntry> entries = {
+    entry<Compare>(),
+    entry<Pcf>(),
+    entry<Raytraced>(),
   };
   return entries;
 }
 
 //------------------------------------------------------------------------------
-const RegistryEntry* findTechnique(const std::string& name)
+const std::vector<TechniqueEntry>& registry()
 {
-  for (const RegistryEntry& entry : registry())
-  {
-    if (entry.info.name == name)
-    {
-      return &entry;
-    }
-  }
-  return nullptr;
+  static const std::vector<TechniqueEntry> entries = {
+    { "nsm", "hard: the plain shadow map, free of acne without a bias to tune",
+      findEstimator("compare"), Projection::Uniform },
+    { "pcf", "hard, smoothed: the plain shadow map with percentage closer filtering",
+      findEstimator("pcf"), Projection::Uniform },
+    { "lispsm", "hard: light space perspective shadow map, finer near the camera",
+      findEstimator("compare"), Projection::Lispsm },
+    { "tsm", "hard: trapezoidal shadow map, finer near the camera", findEstimator("compare"),
+      Projection::Trapezoid },
+    { "pssm", "hard: parallel-split shadow maps, one for each range of distances",
+      findEstimator("compare"), Projection::Splits },
+    { "raytraced", "hard, exact: a shadow ray for every pixel; the truth",
+      findEstimator("raytraced"), Projection::Uniform },
+  };
+  return entries;
+}
+
+//------------------------------------------------------------------------------
+const EstimatorEntry* findEstimator(const std::string& name)
+{
+  return find(estimators(), name);
+}
+
+//------------------------------------------------------------------------------
+std::string estimatorNames()
+{
+  return namesOf(estimators());
+}
+
+//------------------------------------------------------------------------------
+const TechniqueEntry* findTechnique(const std::string& name)
+{
+  return find(registry(), name);
 }
 
 //------------------------------------------------------------------------------
 std::string techniqueNames()
 {
-  std::string names;
-  for (const RegistryEntry& entry : registry())
+  return namesOf(registry());
+}
+
+//------------------------------------------------------------------------------
+bool takes(const Setting& setting, const std::string& text)
+{
+  ShadowSettings scratch;
+  return setting.set(scratch, text) && (setting.name != "technique" || findTechnique(text)) &&
+    (setting.name != "estimator" || findEstimator(text));
+}
+
+//------------------------------------------------------------------------------
+std::string expectedBy(const Setting& setting)
+{
+  return setting.name == "technique" ? "one of: " + techniqueNames()
+    : setting.name == "estimator"    ? "one of: " + estimatorNames()
+                                     : setting.expected();
+}
+
+//------------------------------------------------------------------------------
+const EstimatorEntry& compose(ShadowLight& light)
+{
+  light.technique = light.technique.empty() ? defaultTechnique : light.technique;
+  const TechniqueEntry* technique = findTechnique(light.technique);
+  if (!technique)
   {
-    names += (names.empty() ? "" : ", ") + entry.info.name;
+    throw CompositionError(
+      "the technique '" + light.technique + "' is asked for; there are: " + techniqueNames());
   }
-  return names;
+  const EstimatorEntry* estimator =
+    light.estimator.empty() ? technique->estimator : findEstimator(light.estimator);
+  if (!estimator)
+  {
+    throw CompositionError(
+      "the estimator '" + light.estimator + "' is asked for; there are: " + estimatorNames());
+  }
+  light.estimator = estimator->info.name;
+  if (light.projection == Projection::OfTechnique)
+  {
+    light.projection = estimator->info.needsMap ? technique->projection : Projection::Uniform;
+  }
+  else if (!estimator->info.needsMap)
+  {
+    throw CompositionError(
+      "'" + light.estimator + "' reads no map that a projection could lay out");
+  }
+  const std::string refused = refusedProjection(light);
+  if (!refused.empty())
+  {
+    throw CompositionError(refused);
+  }
+  return *estimator;
 }
 
 } // namespace gnomon

@@ -1,29 +1,50 @@
 #ifndef gnomon_shadowtech_Registry_h
 #define gnomon_shadowtech_Registry_h
 
+#include "lights/ShadowLight.h"
 #include "shadowtech/base/Technique.h"
 
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 namespace gnomon
 {
 
-/// A technique's line in the registry.
-struct RegistryEntry
+/// An estimator's line in the registry: what decides the visibility of a point, with the map that it
+/// reads.
+struct EstimatorEntry
 {
   TechniqueInfo info;
   std::unique_ptr<Technique> (*create)();
 };
 
+/// All estimators.
+const std::vector<EstimatorEntry>& estimators();
+
+/// The estimator of that name; nullptr when there is none.
+const EstimatorEntry* findEstimator(const std::string& name);
+
+/// "compare, pcf, ...": for error messages.
+std::string estimatorNames();
+
+/// A technique's line: a name for an estimator and a projection.
+struct TechniqueEntry
+{
+  std::string name;
+  std::string summary; ///< one line for people
+  const EstimatorEntry* estimator;
+  Projection projection; ///< of no meaning where the estimator reads no map
+};
+
 /// All techniques, in the order in which they are listed to people.
-const std::vector<RegistryEntry>& registry();
+const std::vector<TechniqueEntry>& registry();
 
-/// The entry of that name; nullptr when there is none.
-const RegistryEntry* findTechnique(const std::string& name);
+/// The technique of that name; nullptr when there is none.
+const TechniqueEntry* findTechnique(const std::string& name);
 
-/// "nsm, raytraced, ...": for error messages.
+/// "nsm, pcf, ...": for error messages.
 std::string techniqueNames();
 
 /// The technique of lights and passes that name none. Stated here and nowhere else.
@@ -32,6 +53,25 @@ inline constexpr const char* defaultTechnique = "nsm";
 /// What shades translucent surfaces where a light's own technique works on the screen, which shows
 /// only the opaque ones: a pointwise technique.
 inline constexpr const char* plainTechnique = "nsm";
+
+///@{
+/// Whether a setting takes a value, and what it takes, for error messages. The settings' own functions
+/// do not know the names in this registry.
+bool takes(const Setting& setting, const std::string& text);
+std::string expectedBy(const Setting& setting);
+///@}
+
+/// A light's settings ask for what there is not, or for what makes no sense.
+class CompositionError : public std::runtime_error
+{
+public:
+  using std::runtime_error::runtime_error;
+};
+
+/// The estimator that a light's settings lead to. Completes the light: its technique, its estimator
+/// and its projection say what they are.
+/// @throws CompositionError with the reason
+const EstimatorEntry& compose(ShadowLight& light);
 
 } // namespace gnomon
 

@@ -93,9 +93,9 @@ void compare(const CompareOptions& options)
 std::vector<std::string> allTechniques()
 {
   std::vector<std::string> names;
-  for (const RegistryEntry& entry : registry())
+  for (const TechniqueEntry& entry : registry())
   {
-    names.push_back(entry.info.name);
+    names.push_back(entry.name);
   }
   return names;
 }

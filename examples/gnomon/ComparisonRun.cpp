@@ -36,12 +36,12 @@ std::vector<VariantSpec> listVariants(const ComparisonPlan& plan)
   }
   for (const std::string& name : techniques)
   {
-    const RegistryEntry* const entry = findTechnique(name);
+    const TechniqueEntry* const entry = findTechnique(name);
     if (!entry)
     {
       throw BadInput("--techniques: found \"" + name + "\", expected some of: " + techniqueNames());
     }
-    const TechniqueInfo& info = entry->info;
+    const TechniqueInfo& info = entry->estimator->info;
     for (int size : info.needsMap ? plan.mapSizesTexels : std::vector<int>{ 0 })
     {
       if (info.pointwise && plan.inlineRoute)
@@ -303,7 +303,7 @@ void measureErrors(
       {
         result.tracedPixels += light.tracedPixels;
       }
-      const TechniqueInfo& info = findTechnique(result.technique)->info;
+      const TechniqueInfo& info = findTechnique(result.technique)->estimator->info;
       if (!info.pointwise && !info.needsMap)
       {
         traced = tracedMask(truth, scene.lights);

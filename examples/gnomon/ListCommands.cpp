@@ -44,9 +44,9 @@ void addTechniquesCommand(CLI::App& app)
     ->callback(
       []
       {
-        for (const RegistryEntry& entry : registry())
+        for (const TechniqueEntry& entry : registry())
         {
-          printLine(entry.info.name, entry.info.summary);
+          printLine(entry.name, entry.summary);
         }
       });
 }

@@ -72,14 +72,11 @@ void check(const RenderOptions& options)
       throw BadInput("--stats: " + options.stats + ": is the scene's file, too");
     }
   }
-  const RegistryEntry* technique = nullptr;
-  if (const std::string& name = options.settings.at("technique"); !name.empty())
+  // The option has refused what there is not.
+  const TechniqueEntry* technique = findTechnique(options.settings.at("technique"));
+  if (technique && options.route == "inline" && !technique->estimator->info.pointwise)
   {
-    technique = findTechnique(name); // the option has refused what there is not
-  }
-  if (technique && options.route == "inline" && !technique->info.pointwise)
-  {
-    throw BadInput("--route inline: technique " + technique->info.name +
+    throw BadInput("--route inline: technique " + technique->name +
       " works on the screen, expected --route image or auto");
   }
 }
@@ -134,6 +131,7 @@ nlohmann::ordered_json toJson(const FrameReport& report)
   {
     json["lights"].push_back({ { "scene_index", light.sceneIndex }, { "casts", light.casts },
       { "reason", light.reason }, { "technique", light.technique },
+      { "estimator", light.estimator }, { "projection", light.projection },
       { "map_size_texels", light.mapSizeTexels }, { "kernel", light.kernel },
       { "kernel_size_texels", light.kernelTexels }, { "traced_pixels", light.tracedPixels } });
   }

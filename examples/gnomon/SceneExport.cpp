@@ -48,7 +48,9 @@ Json toJson(const SceneLight& light)
   json["intensity"] = light.intensity;
   for (const auto& [name, value] : light.settings)
   {
-    const bool number = std::holds_alternative<IntegerSetting>(findSetting(name)->values);
+    const auto& values = findSetting(name)->values;
+    const bool number =
+      std::holds_alternative<IntegerSetting>(values) || std::holds_alternative<RealSetting>(values);
     json[name] = number ? Json::parse(value) : Json(value);
   }
   return json;

@@ -68,15 +68,16 @@ std::string readSetting(const JsonValue& value, const Setting& setting)
   {
     return std::to_string(value.integer(range->smallest, range->largest));
   }
-  const std::string text = value.text();
-  ShadowSettings scratch;
-  if (setting.name == "technique" && !findTechnique(text))
+  if (const auto* reals = std::get_if<RealSetting>(&setting.values))
   {
-    value.fail("one of: " + techniqueNames());
+    ShadowSettings scratch;
+    scratch.*reals->member = value.number({ reals->smallest, reals->largest });
+    return setting.get(scratch);
   }
-  if (!setting.set(scratch, text))
+  const std::string text = value.text();
+  if (!takes(setting, text))
   {
-    value.fail(setting.expected());
+    value.fail(expectedBy(setting));
   }
   return text;
 }

@@ -13,16 +13,7 @@ namespace
 /// What is wrong with a setting's value; empty if nothing is.
 std::string refuse(const Setting& setting, const std::string& text)
 {
-  ShadowSettings scratch;
-  if (!setting.set(scratch, text))
-  {
-    return "found \"" + text + "\", expected " + setting.expected();
-  }
-  if (setting.name == "technique" && !findTechnique(text))
-  {
-    return "found \"" + text + "\", expected one of: " + techniqueNames();
-  }
-  return {};
+  return takes(setting, text) ? "" : "found \"" + text + "\", expected " + expectedBy(setting);
 }
 
 } // namespace
@@ -39,7 +30,7 @@ void addSettingOptions(CLI::App& command, std::map<std::string, std::string>& va
     }
     std::string option = "--" + setting.name;
     std::replace(option.begin(), option.end(), '_', '-');
-    command.add_option(option, values[setting.name], setting.help + ": " + setting.expected())
+    command.add_option(option, values[setting.name], setting.help + ": " + expectedBy(setting))
       ->check([&setting](const std::string& text) { return refuse(setting, text); })
       ->option_text(" ");
   }

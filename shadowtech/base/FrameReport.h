@@ -23,6 +23,8 @@ struct LightReport
   bool casts = false;            ///< false: skipped, and `reason` says why
   std::string reason;            ///< why it was skipped; empty when it casts
   std::string technique;         ///< the technique that shades it
+  std::string estimator;         ///< what it decides points by
+  std::string projection;        ///< how its map is laid out; empty when it needs none
   int mapSizeTexels = 0;         ///< side of its map; 0 when it needs none
   std::string kernel;            ///< what filters it; empty when nothing does
   int kernelTexels = 0;          ///< and how wide that is

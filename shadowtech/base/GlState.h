@@ -23,9 +23,9 @@ public:
   static constexpr int textureUnits = 6;
 
 private:
-  static constexpr std::array<GLenum, 9> switches_ = { GL_DEPTH_TEST, GL_SCISSOR_TEST, GL_CULL_FACE,
-    GL_POLYGON_OFFSET_FILL, GL_DEPTH_CLAMP, GL_STENCIL_TEST, GL_MULTISAMPLE,
-    GL_SAMPLE_ALPHA_TO_COVERAGE, GL_FRAMEBUFFER_SRGB };
+  static constexpr std::array<GLenum, 10> switches_ = { GL_DEPTH_TEST, GL_CLIP_DISTANCE0,
+    GL_SCISSOR_TEST, GL_CULL_FACE, GL_POLYGON_OFFSET_FILL, GL_DEPTH_CLAMP, GL_STENCIL_TEST,
+    GL_MULTISAMPLE, GL_SAMPLE_ALPHA_TO_COVERAGE, GL_FRAMEBUFFER_SRGB };
   std::array<GLboolean, switches_.size()> enabled_;
   std::array<GLboolean, 3> blend_;
   GLint program_, vertexArray_, arrayBuffer_, packBuffer_, unpackBuffer_, activeTexture_;

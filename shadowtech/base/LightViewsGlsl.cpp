@@ -15,14 +15,15 @@ std::string element(const std::string& name, std::size_t index)
   return name + "[" + std::to_string(index) + "]";
 }
 
-/// texel = (clip / w * 0.5 + 0.5) * size; all projections scale x and y apart. The offset stands in
-/// the last column of an affine projection and in the third, over w = z, of a perspective one.
-glm::dvec4 texelsOf(const LightView& view, int sizeTexels)
+/// Of uniform views, whose map is a scale and an offset: texel = xy * across + zw.
+glm::vec4 scaleAndOffset(const glm::dmat3& texelFromAcross)
 {
-  const double half = 0.5 * sizeTexels;
-  const glm::dmat4& clip = view.clipFromView;
-  const glm::dvec2 offset = view.perspective ? glm::dvec2(clip[2]) : glm::dvec2(clip[3]);
-  return { half * clip[0][0], half * clip[1][1], half * (offset.x + 1.0), half * (offset.y + 1.0) };
+  return { texelFromAcross[0].x, texelFromAcross[1].y, texelFromAcross[2].x, texelFromAcross[2].y };
+}
+
+bool isWarped(const ShadowLight& light)
+{
+  return light.projection == Projection::Lispsm || light.projection == Projection::Trapezoid;
 }
 
 } // namespace
@@ -30,11 +31,13 @@ glm::dvec4 texelsOf(const LightView& view, int sizeTexels)
 //------------------------------------------------------------------------------
 std::string lightViewsDefines(const ShadowLight& light)
 {
-  const bool cube = viewLayout(light) == ViewLayout::Cube;
+  const ViewLayout layout = viewLayout(light);
   return define("VIEWS_SPOT_LIGHT", light.kind == LightKind::Spot) +
     define("VIEWS_BOX_LIGHT", light.box.has_value()) +
     define("VIEWS_PERSPECTIVE_LIGHT", light.kind != LightKind::Directional) +
-    define("VIEWS_CUBE_LIGHT", cube) + define("VIEWS_LIGHT", cube ? cubeFaces : 1);
+    define("VIEWS_CUBE_LIGHT", layout == ViewLayout::Cube) +
+    define("VIEWS_SPLITS_LIGHT", layout == ViewLayout::Splits) +
+    define("VIEWS_WARPED_LIGHT", isWarped(light)) + define("VIEWS_LIGHT", mostViews(light));
 }
 
 //------------------------------------------------------------------------------
@@ -44,12 +47,17 @@ std::vector<Uniform> lightViewsUniforms(
   std::vector<Uniform> uniforms = { { "lightFromView_LIGHT",
                                       glm::mat4(views.lightFromCentred * centredFromView) },
     { "viewSize_LIGHT", static_cast<float>(views.views.empty() ? 0 : sizeTexels) },
+    { "viewCount_LIGHT", static_cast<int>(views.views.size()) },
+    { "viewBorder_LIGHT", static_cast<float>(views.borderTexels) },
     { "lightCone_LIGHT", static_cast<float>(views.coneTangentSquared) },
     { "lightBox_LIGHT", glm::vec3(views.box) } };
   for (std::size_t i = 0; i < views.views.size(); ++i)
   {
     const LightView& view = views.views[i];
-    uniforms.push_back({ element("viewTexels_LIGHT", i), glm::vec4(texelsOf(view, sizeTexels)) });
+    const glm::dmat3 texels = texelFromAcross(view, sizeTexels);
+    uniforms.push_back({ element("viewTexels_LIGHT", i), scaleAndOffset(texels) });
+    uniforms.push_back({ element("texelFromAcross_LIGHT", i), glm::mat3(texels) });
+    uniforms.push_back({ element("acrossFromTexel_LIGHT", i), glm::mat3(glm::inverse(texels)) });
     uniforms.push_back(
       { element("viewDepths_LIGHT", i), glm::vec2(view.depthScale, view.depthOffset) });
   }

@@ -138,7 +138,7 @@ void OccluderBuffers::drawParts(const std::vector<Part>& parts, const LightView&
   GLsizei end = -1; // of the run of neighbours that is being extended
   for (const Part& part : parts)
   {
-    if (view.perspective && !view.maySee(part.boundsCentred))
+    if (!view.maySee(part.boundsCentred))
     {
       continue;
     }

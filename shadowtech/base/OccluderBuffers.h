@@ -20,7 +20,7 @@ public:
   void update(const Occluders& occluders);
 
   /// Draws the casting triangles with the program in use; the position is attribute 0, a vec3.
-  /// Surfaces that a perspective view cannot see are left out; an affine one is taken to see all.
+  /// Surfaces that the view cannot see are left out.
   /// One-sided surfaces are drawn with their back faces culled, "front" being what the current view
   /// sees counter-clockwise.
   void draw(const LightView& view) const;

@@ -160,6 +160,10 @@ void ShaderLibrary::setUniform(GLuint program, const Uniform& uniform)
     void operator()(const glm::vec2& v) const { glUniform2fv(location, 1, glm::value_ptr(v)); }
     void operator()(const glm::vec3& v) const { glUniform3fv(location, 1, glm::value_ptr(v)); }
     void operator()(const glm::vec4& v) const { glUniform4fv(location, 1, glm::value_ptr(v)); }
+    void operator()(const glm::mat3& v) const
+    {
+      glUniformMatrix3fv(location, 1, GL_FALSE, glm::value_ptr(v));
+    }
     void operator()(const glm::mat4& v) const
     {
       glUniformMatrix4fv(location, 1, GL_FALSE, glm::value_ptr(v));

@@ -24,11 +24,10 @@ class OccluderBuffers;
 class RayTracer;
 class ShaderLibrary;
 
-/// What a technique is, before any instance of it exists: one line of the registry.
+/// What an estimator is, before any instance of it exists: one line of the registry.
 struct TechniqueInfo
 {
   std::string name;
-  std::string summary;    ///< one line for people
   bool pointwise = false; ///< visibility is a function of the point: serves both routes
   bool exact = false;     ///< equals the ray-traced visibility bit for bit
   bool needsMap = false;  ///< bakes something from the light
@@ -47,7 +46,8 @@ struct TextureBinding
 struct Uniform
 {
   std::string name;
-  std::variant<int, float, glm::ivec2, glm::vec2, glm::vec3, glm::vec4, glm::mat4, TextureBinding>
+  std::variant<int, float, glm::ivec2, glm::vec2, glm::vec3, glm::vec4, glm::mat3, glm::mat4,
+    TextureBinding>
     value;
 };
 

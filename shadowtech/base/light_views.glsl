@@ -2,14 +2,26 @@
 // where on that view's layer of the map (lights/LightViews.h, LightViewsGlsl.h). Every technique with
 // a map starts here; what it does with the map is its own.
 //
-// What kind of light it is, is known when the shader is built: VIEWS_SPOT_LIGHT, VIEWS_BOX_LIGHT,
-// VIEWS_PERSPECTIVE_LIGHT and VIEWS_CUBE_LIGHT are 0 or 1, and VIEWS_LIGHT is how many views there can
-// be.
+// What kind of light it is, is known when the shader is built: VIEWS_SPOT_LIGHT, VIEWS_BOX_LIGHT and
+// VIEWS_PERSPECTIVE_LIGHT are 0 or 1; and so is how its views lie: VIEWS_CUBE_LIGHT, VIEWS_SPLITS_LIGHT
+// (neither: a single one), VIEWS_WARPED_LIGHT. VIEWS_LIGHT is how many views there can be.
+//
+// A view's map is a homography of the plane of the light's rays, whose points are across coordinates:
+// x and y of parallel rays, their slopes of those from a position (lights/LightRays.h).
 
 #include "shadowtech/base/shadow_ray.glsl"
 
 uniform mat4 lightFromView_LIGHT;           // rigid: the camera's space to the light's
-uniform vec4 viewTexels_LIGHT[VIEWS_LIGHT]; // texel = xy * (x, y or their slopes) + zw
+#if VIEWS_WARPED_LIGHT
+uniform mat3 texelFromAcross_LIGHT[VIEWS_LIGHT];
+uniform mat3 acrossFromTexel_LIGHT[VIEWS_LIGHT];
+#else
+uniform vec4 viewTexels_LIGHT[VIEWS_LIGHT]; // texel = xy * across + zw
+#endif
+#if VIEWS_SPLITS_LIGHT
+uniform int viewCount_LIGHT;
+uniform float viewBorder_LIGHT; // texels that a split has to hold around a point
+#endif
 uniform vec2 viewDepths_LIGHT[VIEWS_LIGHT]; // depth = x * z + y
 uniform float viewSize_LIGHT;               // the map's side in texels; 0 if there is no view
 #if VIEWS_SPOT_LIGHT
@@ -76,6 +88,36 @@ bool lightReaches_LIGHT(vec3 positionLight, vec3 normalLight)
   return reaches;
 }
 
+// Where a ray is on a view's layer, and the other way round.
+vec2 texelOf_LIGHT(int view, vec2 across)
+{
+#if VIEWS_WARPED_LIGHT
+  vec3 texel = texelFromAcross_LIGHT[view] * vec3(across, 1.0);
+  // What is visible has w > 0; behind the warp's eye nothing is seen.
+  return texel.z > 0.0 ? texel.xy / texel.z : vec2(-1.0);
+#else
+  vec4 texels = viewTexels_LIGHT[view];
+  return texels.xy * across + texels.zw;
+#endif
+}
+vec2 acrossOf_LIGHT(int view, vec2 texel)
+{
+#if VIEWS_WARPED_LIGHT
+  vec3 across = acrossFromTexel_LIGHT[view] * vec3(texel, 1.0);
+  return across.xy / across.z; // not 0 on the map
+#else
+  vec4 texels = viewTexels_LIGHT[view];
+  return (texel - texels.zw) / texels.xy;
+#endif
+}
+
+// Whether a view's layer holds a place and all within a border around it.
+bool holds_LIGHT(vec2 texel, float border)
+{
+  return all(greaterThanEqual(texel, vec2(border))) &&
+    all(lessThan(texel, vec2(viewSize_LIGHT - border)));
+}
+
 // Finds the view of a point that the light reaches.
 // Returns false where no view sees it: the views hold all casters, so that nothing can shadow it.
 bool findView_LIGHT(vec3 positionLight, vec3 normalLight, out ViewPoint point)
@@ -96,10 +138,20 @@ bool findView_LIGHT(vec3 positionLight, vec3 normalLight, out ViewPoint point)
 #else
   vec2 across = point.position.xy;
 #endif
-  vec4 texels = viewTexels_LIGHT[point.view];
-  point.texel = texels.xy * across + texels.zw;
-  return all(greaterThanEqual(point.texel, vec2(0.0))) &&
-    all(lessThan(point.texel, vec2(viewSize_LIGHT)));
+#if VIEWS_SPLITS_LIGHT
+  for (int view = 0; view < viewCount_LIGHT - 1; ++view)
+  {
+    point.view = view;
+    point.texel = texelOf_LIGHT(view, across);
+    if (holds_LIGHT(point.texel, viewBorder_LIGHT))
+    {
+      return true;
+    }
+  }
+  point.view = max(viewCount_LIGHT - 1, 0);
+#endif
+  point.texel = texelOf_LIGHT(point.view, across);
+  return holds_LIGHT(point.texel, 0.0);
 }
 
 // How far from the light the receiver's plane is on the ray through a texel's centre, but no farther
@@ -107,8 +159,7 @@ bool findView_LIGHT(vec3 positionLight, vec3 normalLight, out ViewPoint point)
 // distance is left.
 float planeDistance_LIGHT(ViewPoint point, vec2 texelCentre)
 {
-  vec4 texels = viewTexels_LIGHT[point.view];
-  vec2 centre = (texelCentre - texels.zw) / texels.xy;
+  vec2 centre = acrossOf_LIGHT(point.view, texelCentre);
   vec3 p = point.position;
   vec3 n = point.normal;
 #if VIEWS_PERSPECTIVE_LIGHT

@@ -9,6 +9,7 @@
 #include <glm/gtc/matrix_access.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 namespace gnomon
 {
@@ -30,7 +31,7 @@ constexpr double deepestPushed = 1.0 / (1.0 + 0.5 * roomBehindCasters);
 /// pushes by. That is twice what is asked for in the worst case, and costs nothing.
 bool polygonOffsetServes(const LightView& view, const MapReach& reach)
 {
-  return !view.perspective && reach == MapReach{};
+  return view.depthIsAffine() && reach == MapReach{};
 }
 
 std::string define(const char* name, double value)
@@ -56,13 +57,22 @@ void drawView(const LightView& view, const MapReach& reach, const MapInput& inpu
       define("REACH_DISC", reach.discTexels), define("DEEPEST", deepestPushed) };
     glDisable(GL_POLYGON_OFFSET_FILL);
   }
-  if (view.perspective)
+  if (view.rays.positional)
   {
     defines.emplace_back("PERSPECTIVE");
   }
-  // Where no parallel view's caster can be nearer than the bounds, rounding may still push one over
-  // the edge.
-  view.perspective || view.beginsAtNear ? glDisable(GL_DEPTH_CLAMP) : glEnable(GL_DEPTH_CLAMP);
+  if (view.warped())
+  {
+    defines.emplace_back("WARPED");
+  }
+  const bool begins = std::isfinite(view.beginsAt);
+  if (begins)
+  {
+    defines.emplace_back("BEGINS");
+  }
+  begins ? glEnable(GL_CLIP_DISTANCE0) : glDisable(GL_CLIP_DISTANCE0);
+  // Rounding may push a caster over the edge of the depths, which bound all of them.
+  glEnable(GL_DEPTH_CLAMP);
   const GLuint program = input.shaders.program(
     { { GL_VERTEX_SHADER, ShaderLibrary::source("shadowtech/depth_map/depth_map_bake.vert.glsl") },
       { GL_FRAGMENT_SHADER,
@@ -70,9 +80,21 @@ void drawView(const LightView& view, const MapReach& reach, const MapInput& inpu
     defines);
   glUseProgram(program);
   ShaderLibrary::setUniform(program, { "clipFromCentred", glm::mat4(view.clipFromCentred()) });
-  glm::dvec4 depth = view.depthScale * glm::row(view.viewFromCentred, 2);
+  const glm::dvec4 distance = glm::row(view.rays.viewFromCentred, 2);
+  glm::dvec4 depth = view.depthScale * distance;
   depth.w += view.depthOffset;
   ShaderLibrary::setUniform(program, { "depthFromCentred", glm::vec4(depth) });
+  if (begins)
+  {
+    const glm::dvec4 behind = distance - glm::dvec4(0.0, 0.0, 0.0, view.beginsAt);
+    ShaderLibrary::setUniform(program, { "beginFromCentred", glm::vec4(behind) });
+  }
+  if (view.warped())
+  {
+    const glm::dmat3 acrossFromTexel =
+      glm::inverse(texelFromAcross(view, input.light.mapSizeTexels));
+    ShaderLibrary::setUniform(program, { "texelScale", glm::vec3(glm::row(acrossFromTexel, 2)) });
+  }
   input.buffers.draw(view);
 }
 

@@ -12,19 +12,43 @@ float push(vec2 slope)
   return REACH_SQUARE * (abs(slope.x) + abs(slope.y)) + REACH_DISC * length(slope);
 }
 
+#ifdef WARPED
+
+uniform vec3 texelScale; // a texel's size across the light is this, times (texel, 1), squared
+
+// How much larger a texel within the reach can be than this one, at most: the slope's own texel of
+// difference is within the reach, too.
+float warp()
+{
+  float scale = dot(texelScale, vec3(gl_FragCoord.xy, 1.0));
+  float change = push(texelScale.xy) + abs(texelScale.x) + abs(texelScale.y);
+  float left = max(1.0 - change / scale, 0.5);
+  return 1.0 / (left * left);
+}
+
+#else
+
+float warp()
+{
+  return 1.0;
+}
+
+#endif
+
 #endif
 
 void main()
 {
 #ifdef PUSH
 #ifdef PERSPECTIVE
-  // Not the depth is affine on the map, but its inverse. Where it reaches 0, the plane runs past the
-  // rays.
-  float inverse = 1.0 / depthLinear; // in front of the near plane there are no fragments
-  float pushed = inverse - push(vec2(dFdx(inverse), dFdy(inverse)));
+  // Not the depth is affine across the light, but its inverse. Where it reaches 0, the plane runs past
+  // the rays.
+  float inverse = 1.0 / depthLinear; // where the light begins, depth is positive
+  float pushed = inverse - warp() * push(vec2(dFdx(inverse), dFdy(inverse)));
   gl_FragDepth = pushed * DEEPEST > 1.0 ? 1.0 / pushed : DEEPEST;
 #else
-  gl_FragDepth = min(depthLinear + push(vec2(dFdx(depthLinear), dFdy(depthLinear))), DEEPEST);
+  gl_FragDepth =
+    min(depthLinear + warp() * push(vec2(dFdx(depthLinear), dFdy(depthLinear))), DEEPEST);
 #endif
 #endif
 }

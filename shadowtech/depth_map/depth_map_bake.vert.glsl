@@ -9,11 +9,17 @@ uniform mat4 clipFromCentred;
 uniform vec4 depthFromCentred;
 out float depthLinear;
 #endif
+#ifdef BEGINS
+uniform vec4 beginFromCentred; // how far behind the place where the light begins
+#endif
 
 void main()
 {
   gl_Position = clipFromCentred * vec4(positionCentred, 1.0);
 #ifdef PUSH
   depthLinear = dot(depthFromCentred, vec4(positionCentred, 1.0));
+#endif
+#ifdef BEGINS
+  gl_ClipDistance[0] = dot(beginFromCentred, vec4(positionCentred, 1.0));
 #endif
 }

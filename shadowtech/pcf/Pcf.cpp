@@ -32,7 +32,6 @@ TechniqueInfo Pcf::info()
 {
   TechniqueInfo info;
   info.name = "pcf";
-  info.summary = "hard, smoothed: the plain shadow map with percentage closer filtering";
   info.pointwise = true;
   info.needsMap = true;
   info.filters = true;

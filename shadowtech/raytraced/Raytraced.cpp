@@ -10,7 +10,6 @@ TechniqueInfo Raytraced::info()
 {
   TechniqueInfo info;
   info.name = "raytraced";
-  info.summary = "hard, exact: one shadow ray per pixel; the truth";
   info.exact = true;
   return info;
 }

@@ -1,13 +1,13 @@
-#ifndef gnomon_shadowtech_nsm_Nsm_h
-#define gnomon_shadowtech_nsm_Nsm_h
+#ifndef gnomon_shadowtech_compare_Compare_h
+#define gnomon_shadowtech_compare_Compare_h
 
 #include "shadowtech/depth_map/DepthMapTechnique.h"
 
 namespace gnomon
 {
 
-/// `nsm`: the plain shadow map. Uniform projections, depth, one comparison at the nearest texel.
-class Nsm : public DepthMapTechnique
+/// `compare`: one comparison with the map, at the nearest texel (Williams 1978).
+class Compare : public DepthMapTechnique
 {
 public:
   static TechniqueInfo info();

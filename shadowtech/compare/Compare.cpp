@@ -1,4 +1,4 @@
-#include "shadowtech/nsm/Nsm.h"
+#include "shadowtech/compare/Compare.h"
 
 #include "shadowtech/base/ShaderLibrary.h"
 
@@ -6,20 +6,19 @@ namespace gnomon
 {
 
 //------------------------------------------------------------------------------
-TechniqueInfo Nsm::info()
+TechniqueInfo Compare::info()
 {
   TechniqueInfo info;
-  info.name = "nsm";
-  info.summary = "hard: the plain shadow map, free of acne without a bias to tune";
+  info.name = "compare";
   info.pointwise = true;
   info.needsMap = true;
   return info;
 }
 
 //------------------------------------------------------------------------------
-std::string Nsm::estimatorGlsl(const ShadowLight&) const
+std::string Compare::estimatorGlsl(const ShadowLight&) const
 {
-  return ShaderLibrary::source("shadowtech/nsm/nsm_estimator.glsl");
+  return ShaderLibrary::source("shadowtech/compare/compare_estimator.glsl");
 }
 
 } // namespace gnomon

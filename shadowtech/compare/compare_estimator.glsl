@@ -1,4 +1,4 @@
-// The plain shadow map's estimator: one comparison at the nearest texel (Williams 1978).
+// One comparison at the nearest texel (Williams 1978).
 
 #include "shadowtech/depth_map/depth_map.glsl"
 
