@@ -66,6 +66,22 @@ TEST(MapAliasing, OfASurfaceAcrossViewAndLightIsOneOverTheDistance)
   }
 }
 
+TEST(MapAliasing, OfAPositionalLightStandsAcrossItsRay)
+{
+  // The ray at 45 degrees along x: a step of the slope x / z moves half askew to it.
+  const LightRays rays{ glm::dmat4(1.0), true };
+  const CameraView camera =
+    perspectiveCamera({ 2.0, -5.0, 2.0 }, { 2.0, 0.0, 2.0 }, 60.0, 1.0, 9.0);
+  const auto aliasing = [&](const glm::dmat3& map) {
+    return perspectiveAliasing({ { 2.0, 0.0, 2.0 } }, camera, rays, map);
+  };
+  const double root = std::sqrt(0.5);
+  EXPECT_NEAR(aliasing(glm::dmat3(1.0)).side, 2.0 / 5.0, 1e-12); // along y
+  EXPECT_NEAR(aliasing(glm::dmat3(1.0)).area, root * 4.0 / 25.0, 1e-12);
+  const glm::dmat3 fineAlongY(1.0, 0.0, 0.0, 0.0, 100.0, 0.0, 0.0, 0.0, 1.0);
+  EXPECT_NEAR(aliasing(fineAlongY).side, root * 2.0 / 5.0, 1e-12);
+}
+
 TEST(MapAliasing, HasNoMeaningEdgeOnOrOutOfView)
 {
   const Setting setting = terrain(directionalRays({ 0.0, 0.0, -1.0 }));
