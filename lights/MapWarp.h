@@ -74,9 +74,10 @@ double leastAliasingNear(const WarpFrame& frame, const std::vector<glm::dvec3>& 
   const CameraView& camera, const LightRays& rays);
 
 /// The area of the worst texel under a perspective, as a share of that under the uniform projection, up
-/// to which the perspective is worth it. Some of the gain in area is lost again along the worse of a
-/// texel's sides, on surfaces askew to the map's axes: from here down, the worst side on a plain
-/// gains for all light directions, too. And the texels of a perspective move with the camera.
+/// to which the perspective is worth it: its texels move with the camera, and some of the gain in area
+/// is lost again along the worse of a texel's sides, on surfaces askew to the map's axes. Measured on
+/// a plain under light from all directions, up to here the worst side is at most 0.84 of the uniform
+/// one's under LiSPSM, 1.23 under trapezoids; without a limit 1.8 and 2.5.
 constexpr double largestAreaShare = 0.3;
 
 /// The perspective with this near distance, in units of the frame's depth; the uniform projection

@@ -69,7 +69,7 @@ TEST(Trapezoid, IsUniformForAParallelCamera)
 
 TEST(Trapezoid, IsHardlyWorseThanUniformForAnyLight)
 {
-  expectHardlyWorseThanUniform(trapezoidFromAcross);
+  expectHardlyWorseThanUniform(trapezoidFromAcross, 1.25);
 }
 
 TEST(Trapezoid, SpreadsTheTexelsOverATerrain)
