@@ -57,7 +57,7 @@ struct MapFit
 /// than a quarter of the side is kept on either side (fitLightViews).
 struct MapTexels
 {
-  int side = 1024;
+  int side = 1024; ///< at least 4
   int border = 0;
 
   /// The share of [-1, 1] that lies inside of the border.
@@ -84,9 +84,10 @@ std::optional<MapFit> fitTo(
 /// a whole number of texels, so that the texels stay where they are in the projection before the
 /// fit. This must not depend on the camera (uniformFromAcross() of the whole scene does not).
 ///
-/// The series: the scale that fits `covered`, times 2^(k/4), k = 0, 1, 2, ... A step of 2^(1/4) costs
-/// 9 % of the resolution on average and 16 % at most, and a camera has to change what it sees by 19 %
-/// before the texels change. Half a texel is kept free on either side for the offset's rounding.
+/// The series: the scale that fits `covered`, times 2^(k/4), k = 0, 1, 2, ... Steps of 2^(1/4) cost 8 %
+/// of the resolution on average and 16 % at most, and lie so far apart that what the camera sees has
+/// to change by 19 % from one to the next. Half a texel is kept free on either side for the
+/// offset's rounding.
 std::optional<MapFit> fitSnappedTo(
   const Rectangle& visible, const MapTexels& texels, const Rectangle& covered = wholeMap);
 

@@ -1,10 +1,12 @@
 #include "lights/MapWarp.h"
 
+#include "lights/MapAliasing.h"
 #include "lights/MapFit.h"
 #include "lights/VisibleBody.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace gnomon
 {
@@ -13,6 +15,12 @@ namespace
 
 /// Sines below this are taken as 0: light along the view, or on the camera's axis.
 constexpr double leastSine = 1e-6;
+/// The same of ratios of lengths: without depth, or infinitely deep.
+constexpr double leastDepth = 1e-6;
+constexpr double leastNearest = 1e-9;
+
+/// From this near distance on, in units of the depth, a perspective is taken as uniform.
+constexpr double largestNearWarp = 1e6;
 
 glm::dvec2 meanOf(const std::vector<glm::dvec2>& points)
 {
@@ -86,8 +94,8 @@ std::optional<WarpFrame> warpFrame(
   const glm::dvec3 aside = ray - cosine * direction;
   const double sine = glm::length(aside);
   const DistanceRange distances = distancesOf(bodyView, camera, rays);
-  if (!axis || !(sine > leastSine) || !(distances.lower > 0.0) ||
-    !(distances.upper > distances.lower * (1.0 + leastSine)))
+  if (!axis || !(sine > leastSine) || !(distances.lower > leastNearest * distances.upper) ||
+    !(distances.upper > distances.lower * (1.0 + leastDepth)))
   {
     return std::nullopt;
   }
@@ -97,7 +105,7 @@ std::optional<WarpFrame> warpFrame(
   const Rectangle range = rangeOf(rotation, across);
   WarpFrame frame;
   frame.depth = range.upper.y - range.lower.y;
-  if (!(frame.depth > leastSine * (range.upper.x - range.lower.x)))
+  if (!(frame.depth > leastDepth * (range.upper.x - range.lower.x)))
   {
     return std::nullopt;
   }
@@ -124,6 +132,99 @@ glm::dmat3 warpedFromAcross(
     (f + n) / frame.depth * n - 2.0 * f * n / frame.depth, n);
   const glm::dmat3 warped = perspective * frame.frameFromAcross;
   return uniformFromRange(rangeOf(warped, across)) * warped;
+}
+
+//------------------------------------------------------------------------------
+double warpEta(double gammaDegrees, double thetaDegrees)
+{
+  const double gamma = std::min(gammaDegrees, 180.0 - gammaDegrees);
+  const double gammaA = thetaDegrees / 3.0;
+  const double gammaB = thetaDegrees;
+  const double gammaC = thetaDegrees + 0.3 * (90.0 - thetaDegrees);
+  constexpr double etaB = -0.2;
+  constexpr double etaC = 0.0;
+  // Without a field of view, or with one of 180 degrees, an interval is empty and not entered.
+  if (gamma <= gammaA)
+  {
+    return -1.0;
+  }
+  if (gamma < gammaB)
+  {
+    const double angle = glm::radians(90.0 * (gamma - gammaA) / (gammaB - gammaA));
+    return -1.0 + (etaB + 1.0) * (1.0 - std::cos(angle));
+  }
+  if (gamma < gammaC)
+  {
+    const double angle = glm::radians(90.0 * (gamma - gammaB) / (gammaC - gammaB));
+    return etaB + (etaC - etaB) * std::sin(angle);
+  }
+  return etaC;
+}
+
+//------------------------------------------------------------------------------
+double fallOff(const WarpFrame& frame, double nearWarp)
+{
+  const double eta = warpEta(frame.gammaDegrees, frame.thetaDegrees);
+  return eta > -1.0 ? (nearWarp - eta) / (1.0 + eta) : std::numeric_limits<double>::infinity();
+}
+
+//------------------------------------------------------------------------------
+double leastAliasingNear(const WarpFrame& frame, const std::vector<glm::dvec3>& bodyView,
+  const CameraView& camera, const LightRays& rays)
+{
+  const std::vector<glm::dvec2> across = rays.across(bodyView);
+  const auto aliasing = [&](double logarithm)
+  {
+    const double nearWarp = std::exp(logarithm) * frame.depth;
+    return perspectiveAliasing(bodyView, camera, rays, warpedFromAcross(frame, nearWarp, across))
+      .side;
+  };
+  // Golden sections: the aliasing at the near end grows with the near distance, that at the far end
+  // shrinks, so that the larger of both has one minimum.
+  const double section = 0.5 * (std::sqrt(5.0) - 1.0);
+  double lower = std::log(1e-4);
+  double upper = std::log(1e4);
+  double a = upper - section * (upper - lower);
+  double b = lower + section * (upper - lower);
+  double aliasingA = aliasing(a);
+  double aliasingB = aliasing(b);
+  while (upper - lower > 1e-4)
+  {
+    if (aliasingA <= aliasingB)
+    {
+      upper = b;
+      b = a;
+      aliasingB = aliasingA;
+      a = upper - section * (upper - lower);
+      aliasingA = aliasing(a);
+    }
+    else
+    {
+      lower = a;
+      a = b;
+      aliasingA = aliasingB;
+      b = lower + section * (upper - lower);
+      aliasingB = aliasing(b);
+    }
+  }
+  return std::exp(0.5 * (lower + upper));
+}
+
+//------------------------------------------------------------------------------
+glm::dmat3 warpedOrUniform(const WarpFrame& frame, double nearWarp,
+  const std::vector<glm::dvec3>& bodyView, const CameraView& camera, const LightRays& rays)
+{
+  const std::vector<glm::dvec2> across = rays.across(bodyView);
+  const glm::dmat3 uniform = uniformFromAcross(across);
+  if (!(nearWarp < largestNearWarp))
+  {
+    return uniform;
+  }
+  const glm::dmat3 warped = warpedFromAcross(frame, nearWarp * frame.depth, across);
+  return perspectiveAliasing(bodyView, camera, rays, warped).area <
+      largestAreaShare * perspectiveAliasing(bodyView, camera, rays, uniform).area
+    ? warped
+    : uniform;
 }
 
 } // namespace gnomon

@@ -1,6 +1,5 @@
 #include "lights/Trapezoid.h"
 
-#include "lights/Lispsm.h"
 #include "lights/MapFit.h"
 #include "lights/MapWarp.h"
 
@@ -19,7 +18,8 @@ constexpr double leastFocus = 1e-3;
 /// How far the focus region reaches in the frame's y, as a share of its depth: delta' / lambda.
 double focusOf(const WarpFrame& frame, const CameraView& camera, const LightRays& rays)
 {
-  const double distance = frame.nearest + trapezoidFocusShare * (frame.farthest - frame.nearest);
+  const double distance =
+    frame.nearest * std::pow(frame.farthest / frame.nearest, trapezoidFocusLine);
   const glm::dvec3 centred = camera.eyeCentred() + distance * camera.directionCentred();
   const glm::dvec3 view(rays.viewFromCentred * glm::dvec4(centred, 1.0));
   if (rays.positional && !(view.z > 0.0))
@@ -38,11 +38,10 @@ double focusOf(const WarpFrame& frame, const CameraView& camera, const LightRays
 glm::dmat3 trapezoidFromAcross(
   const std::vector<glm::dvec3>& bodyView, const CameraView& camera, const LightRays& rays)
 {
-  const std::vector<glm::dvec2> across = rays.across(bodyView);
   const auto frame = warpFrame(bodyView, camera, rays);
   if (!frame)
   {
-    return uniformFromAcross(across);
+    return uniformFromAcross(rays.across(bodyView));
   }
   // The distance of the centre of projection from the near side: the focus region ends on the 80 %
   // line where eta = lambda delta' (1 + xi) / (lambda - 2 delta' - lambda xi), xi = 1 - 2 * 80 %. A
@@ -51,16 +50,9 @@ glm::dmat3 trapezoidFromAcross(
     std::clamp(focusOf(*frame, camera, rays), leastFocus, trapezoidFocusLine - leastFocus);
   const double xi = 1.0 - 2.0 * trapezoidFocusLine;
   const double eta = focus * (1.0 + xi) / (1.0 - 2.0 * focus - xi);
-  // The published method has no fall-off and is worse than uniform where one end of the frustum
-  // hides the other; that of LiSPSM serves: from all of the perspective down to none.
-  const double used =
-    std::min((lispsmEta(frame->gammaDegrees, frame->thetaDegrees) + 1.0) / 0.8, 1.0);
-  const double nearWarp = eta / used;
-  if (!(nearWarp < largestNearWarp))
-  {
-    return uniformFromAcross(across);
-  }
-  return warpedFromAcross(*frame, nearWarp * frame->depth, across);
+  // The published method has no fall-off, and is worse than uniform where one end of the frustum hides
+  // the other; that of LiSPSM serves.
+  return warpedOrUniform(*frame, fallOff(*frame, eta), bodyView, camera, rays);
 }
 
 } // namespace gnomon

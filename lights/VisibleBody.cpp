@@ -152,6 +152,10 @@ ConvexBody ConvexBody::clipped(const HalfSpace& halfSpace) const
   {
     return result;
   }
+  if (glm::dvec3(halfSpace) == glm::dvec3(0.0))
+  {
+    return halfSpace.w >= 0.0 ? *this : result; // all or nothing, such as a far plane at infinity
+  }
   std::vector<glm::dvec3> cut;
   for (const Polygon& polygon : this->polygons_)
   {

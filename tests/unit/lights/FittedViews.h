@@ -1,0 +1,328 @@
+#ifndef gnomon_tests_unit_lights_FittedViews_h
+#define gnomon_tests_unit_lights_FittedViews_h
+
+#include "lights/LightSpace.h"
+#include "lights/MapAliasing.h"
+#include "lights/MapFit.h"
+#include "lights/VisibleBody.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace gnomon::test
+{
+
+using Points = std::vector<glm::dvec3>;
+
+inline CameraView perspectiveCamera(const glm::dvec3& eye, const glm::dvec3& focus,
+  double fieldOfViewDegrees, double nearDistance, double farDistance)
+{
+  const glm::dvec3 direction = glm::normalize(focus - eye);
+  const glm::dvec3 up =
+    std::abs(direction.z) < 0.9 ? glm::dvec3(0.0, 0.0, 1.0) : glm::dvec3(0.0, 1.0, 0.0);
+  return { glm::lookAt(eye, focus, up),
+    glm::perspective(glm::radians(fieldOfViewDegrees), 1.0, nearDistance, farDistance) };
+}
+
+inline LightRays directionalRays(const glm::dvec3& direction)
+{
+  ShadowLight light;
+  light.kind = LightKind::Directional;
+  light.directionWorld = glm::normalize(direction);
+  return { lightFromCentred(light, glm::dvec3(0.0)), false };
+}
+
+inline LightRays spotRays(const glm::dvec3& position, const glm::dvec3& direction)
+{
+  ShadowLight light;
+  light.kind = LightKind::Spot;
+  light.positionWorld = position;
+  light.directionWorld = glm::normalize(direction);
+  return { lightFromCentred(light, glm::dvec3(0.0)), true };
+}
+
+inline glm::dvec3 inView(const LightRays& rays, const glm::dvec3& centred)
+{
+  return glm::dvec3(rays.viewFromCentred * glm::dvec4(centred, 1.0));
+}
+
+/// A camera and a light over a scene.
+struct Setting
+{
+  std::string name;
+  CameraView camera;
+  LightRays rays;
+  std::vector<HalfSpace> reach;
+  Bounds scene;
+
+  ConvexBody body() const
+  {
+    return visibleBody(this->camera, this->scene, this->rays, this->reach);
+  }
+
+  bool sees(const glm::dvec3& centred) const
+  {
+    const glm::dvec4 clip = this->camera.clipFromCentred() * glm::dvec4(centred, 1.0);
+    bool result = glm::all(glm::lessThanEqual(glm::abs(glm::dvec3(clip)), glm::dvec3(clip.w))) &&
+      glm::all(glm::lessThanEqual(this->scene.lower, centred)) &&
+      glm::all(glm::lessThanEqual(centred, this->scene.upper));
+    for (const HalfSpace& halfSpace : this->reach)
+    {
+      result = result && glm::dot(halfSpace, glm::dvec4(inView(this->rays, centred), 1.0)) >= 0.0;
+    }
+    return result;
+  }
+
+  /// Random points that the camera and the light see, in centred coordinates: found without the
+  /// body, from the scene's box and from the camera's frustum.
+  Points visiblePoints(std::mt19937& random, int attempts) const
+  {
+    std::uniform_real_distribution<double> unit(0.0, 1.0);
+    const glm::dmat4 centredFromClip = glm::inverse(this->camera.clipFromCentred());
+    Points result;
+    for (int i = 0; i < attempts; ++i)
+    {
+      const glm::dvec3 share(unit(random), unit(random), unit(random));
+      glm::dvec3 point = glm::mix(this->scene.lower, this->scene.upper, share);
+      if (i % 2 == 0)
+      {
+        const glm::dvec4 corner = centredFromClip * glm::dvec4(2.0 * share - 1.0, 1.0);
+        point = glm::dvec3(corner) / corner.w;
+      }
+      if (this->sees(point))
+      {
+        result.push_back(point);
+      }
+    }
+    return result;
+  }
+};
+
+/// Cameras and lights of all kinds around a scene of any size, many of them awkward: light along the
+/// view, either way, along the axes, from the eye; cameras in the scene; flat scenes; parallel
+/// projections.
+inline Setting randomSetting(std::mt19937& random)
+{
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  const auto vector = [&] { return glm::dvec3(uniform(random), uniform(random), uniform(random)); };
+  const auto chance = [&](double probability) { return unit(random) < probability; };
+  const double size = std::pow(10.0, 4.5 * uniform(random) + 1.5); // 1e-3 to 1e6
+
+  Setting setting;
+  setting.scene.add(size * vector());
+  setting.scene.add(size * vector());
+  if (chance(0.3))
+  {
+    setting.scene.upper.y = setting.scene.lower.y;
+  }
+  const double distance = chance(0.5) ? 1.0 : 4.0; // within the scene, or outside
+  const glm::dvec3 eye = size * distance * vector();
+  const double nearDistance = size * std::pow(10.0, -4.0 * unit(random));
+  setting.camera = perspectiveCamera(eye, size * vector(), 1.0 + 119.0 * unit(random), nearDistance,
+    nearDistance + size * 10.0 * unit(random));
+  if (chance(0.1))
+  {
+    setting.camera.clipFromView = glm::ortho(-size, size, -size, size, 0.0, 8.0 * size);
+  }
+
+  glm::dvec3 direction = vector();
+  glm::dvec3 position = size * 2.0 * vector();
+  if (chance(0.15))
+  {
+    direction = (chance(0.5) ? 1.0 : -1.0) * setting.camera.directionCentred();
+    position = chance(0.5) ? setting.camera.eyeCentred()
+                           : setting.camera.eyeCentred() - size * 3.0 * direction;
+  }
+  else if (chance(0.1))
+  {
+    direction = glm::dvec3(0.0, chance(0.5) ? 1.0 : -1.0, 0.0);
+  }
+  if (chance(0.5))
+  {
+    setting.name = "directional";
+    setting.rays = directionalRays(direction);
+    if (chance(0.2))
+    {
+      setting.name = "box";
+      setting.reach = boxHalfSpaces(size * (0.1 + unit(random)) * glm::dvec3(1.0, 0.7, 2.0));
+    }
+    return setting;
+  }
+  setting.rays = spotRays(position, direction);
+  const double nearest = nearestOf(setting.scene, setting.rays);
+  if (chance(0.3))
+  {
+    setting.name = "cube face";
+    setting.reach = cubeFaceHalfSpaces(nearest);
+    return setting;
+  }
+  setting.name = "spot";
+  setting.reach = coneHalfSpaces(std::tan(glm::radians(0.1 + 59.9 * unit(random))), nearest);
+  return setting;
+}
+
+/// The points of the plane z = 0 that the camera sees in the scene, a grid of its pixels.
+inline std::vector<SurfacePoint> groundSeen(const Setting& setting)
+{
+  const glm::dmat4 centredFromClip = glm::inverse(setting.camera.clipFromCentred());
+  const auto unprojected = [&](double x, double y, double z)
+  {
+    const glm::dvec4 point = centredFromClip * glm::dvec4(x, y, z, 1.0);
+    return glm::dvec3(point) / point.w;
+  };
+  std::vector<SurfacePoint> result;
+  constexpr int side = 64;
+  for (int i = 0; i < side * side; ++i)
+  {
+    const double x = 2.0 * (i % side + 0.5) / side - 1.0;
+    const double y = 2.0 * (i / side + 0.5) / side - 1.0;
+    const glm::dvec3 from = unprojected(x, y, -1.0);
+    const glm::dvec3 to = unprojected(x, y, 1.0);
+    const glm::dvec3 point = glm::mix(from, to, from.z / (from.z - to.z));
+    if (setting.sees({ point.x, point.y, 0.0 }))
+    {
+      result.push_back({ { point.x, point.y, 0.0 }, { 0.0, 0.0, 1.0 } });
+    }
+  }
+  return result;
+}
+
+/// The largest side of a texel on these points, in pixels, for a map and a picture of 1024 x 1024.
+inline double worstTexel(
+  const std::vector<SurfacePoint>& points, const Setting& setting, const glm::dmat3& mapFromAcross)
+{
+  double result = 0.0;
+  for (const SurfacePoint& point : points)
+  {
+    if (const auto texel =
+          texelPixels(point, setting.camera, glm::dvec2(1024.0), setting.rays, mapFromAcross, 1024))
+    {
+      result = std::max({ result, texel->x, texel->y });
+    }
+  }
+  return result;
+}
+
+/// A wide plain, seen from a low eye above it, as far as its end.
+inline Setting terrain(const LightRays& rays)
+{
+  Setting setting;
+  setting.name = "terrain";
+  setting.scene = { { -1000.0, -1000.0, -1.0 }, { 1000.0, 1000.0, 30.0 } };
+  setting.camera = perspectiveCamera({ 0.0, -900.0, 10.0 }, { 0.0, 0.0, 0.0 }, 40.0, 1.0, 3000.0);
+  setting.rays = rays;
+  return setting;
+}
+
+/// What every projection of a visible body has to be, in many settings: finite, without a horizon or a
+/// flip over the body, and all that is visible on the map.
+/// @param project from the body's vertices, the camera and the rays to mapFromAcross
+template <typename Project>
+void expectSoundProjections(const Project& project, unsigned seed)
+{
+  std::mt19937 random(seed);
+  int bodies = 0;
+  for (int i = 0; i < 2000; ++i)
+  {
+    const Setting setting = randomSetting(random);
+    SCOPED_TRACE(setting.name + ", number " + std::to_string(i));
+    const Points body = setting.body().vertices();
+    const glm::dmat3 mapFromAcross = project(body, setting.camera, setting.rays);
+    for (int column = 0; column < 3; ++column)
+    {
+      ASSERT_TRUE(glm::all(glm::lessThan(glm::abs(mapFromAcross[column]), glm::dvec3(1e300))));
+    }
+    ASSERT_GT(glm::determinant(mapFromAcross), 0.0);
+    if (body.empty())
+    {
+      continue;
+    }
+    ++bodies;
+    Points points = body;
+    for (const glm::dvec3& centred : setting.visiblePoints(random, 100))
+    {
+      points.push_back(inView(setting.rays, centred));
+    }
+    for (const glm::dvec3& view : points)
+    {
+      const glm::dvec3 map = mapFromAcross * glm::dvec3(setting.rays.across(view), 1.0);
+      ASSERT_GT(map.z, 0.0);
+      ASSERT_LE(std::abs(map.x / map.z), 1.0 + 1e-7);
+      ASSERT_LE(std::abs(map.y / map.z), 1.0 + 1e-7);
+    }
+  }
+  EXPECT_GT(bodies, 500); // enough of them see something
+}
+
+/// The area of the worst texel is never more than that of the uniform projection's.
+/// @param project from the body's vertices, the camera and the rays to mapFromAcross
+template <typename Project>
+void expectNoLargerTexels(const Project& project, unsigned seed)
+{
+  std::mt19937 random(seed);
+  for (int i = 0; i < 1000; ++i)
+  {
+    const Setting setting = randomSetting(random);
+    const Points body = setting.body().vertices();
+    const auto area = [&](const glm::dmat3& map)
+    { return perspectiveAliasing(body, setting.camera, setting.rays, map).area; };
+    EXPECT_LE(area(project(body, setting.camera, setting.rays)),
+      area(uniformFromAcross(setting.rays.across(body))));
+  }
+}
+
+/// A projection's worst texel on the ground, over that of the uniform one, for light from all
+/// directions that reaches the ground at more than three degrees.
+/// @param project from the body's vertices, the camera and the rays to mapFromAcross
+template <typename Project>
+void expectHardlyWorseThanUniform(const Project& project, double largestRatio)
+{
+  for (const double height : { 10.0, 100.0, 300.0 })
+  {
+    Setting setting = terrain({});
+    setting.camera =
+      perspectiveCamera({ 0.0, -900.0, height }, { 0.0, 0.0, 0.0 }, 40.0, 1.0, 3000.0);
+    const auto ground = groundSeen(setting);
+    const glm::dvec3 view = setting.camera.directionCentred();
+    const glm::dvec3 right(1.0, 0.0, 0.0);
+    const glm::dvec3 up = glm::cross(right, view);
+    for (const double gamma : { 0.0, 1e-6, 0.5, 2.0, 5.0, 7.0, 8.5, 10.0, 12.5, 15.0, 17.5, 20.0,
+           22.5, 25.0, 30.0, 37.5, 45.0, 60.0, 75.0, 90.0 })
+    {
+      for (int around = 0; around < 16; ++around)
+      {
+        const double azimuth = glm::radians(22.5 * around);
+        const double angle = glm::radians(gamma);
+        const glm::dvec3 light = std::cos(angle) * view +
+          std::sin(angle) * (std::cos(azimuth) * right + std::sin(azimuth) * up);
+        if (std::abs(light.z) < std::sin(glm::radians(3.0)))
+        {
+          continue;
+        }
+        for (const double sign : { 1.0, -1.0 })
+        {
+          setting.rays = directionalRays(sign * light);
+          const Points body = setting.body().vertices();
+          const double uniform =
+            worstTexel(ground, setting, uniformFromAcross(setting.rays.across(body)));
+          const double worst =
+            worstTexel(ground, setting, project(body, setting.camera, setting.rays));
+          EXPECT_LE(worst, largestRatio * uniform)
+            << "height " << height << ", gamma " << gamma << ", azimuth " << 22.5 * around;
+        }
+      }
+    }
+  }
+}
+
+} // namespace gnomon::test
+
+#endif

@@ -1,0 +1,154 @@
+#include "FittedViews.h"
+
+namespace gnomon::test
+{
+namespace
+{
+
+Rectangle rectangle(const glm::dvec2& lower, const glm::dvec2& upper)
+{
+  return { lower, upper };
+}
+
+TEST(MapFit, IsThePublishedScaleAndOffset)
+{
+  const auto fit = fitTo(rectangle({ -0.25, -1.0 }, { 0.5, 1.0 }), { 1024, 0 });
+  ASSERT_TRUE(fit);
+  EXPECT_NEAR(fit->scale.x, 2.6667, 1e-4);
+  EXPECT_NEAR(fit->offset.x, -0.3333, 1e-4);
+  EXPECT_DOUBLE_EQ(fit->scale.y, 1.0);
+  EXPECT_DOUBLE_EQ(fit->offset.y, 0.0);
+}
+
+TEST(MapFit, TakesWhatIsVisibleToTheBorder)
+{
+  const Rectangle visible = rectangle({ -0.25, 0.1 }, { 0.5, 0.3 });
+  const auto fit = fitTo(visible, { 64, 3 });
+  ASSERT_TRUE(fit);
+  const glm::dvec2 lower = mapped(fit->matrix(), visible.lower);
+  const glm::dvec2 upper = mapped(fit->matrix(), visible.upper);
+  const double inside = 1.0 - 2.0 * 3 / 64;
+  EXPECT_LT(glm::length(lower + inside), 1e-12);
+  EXPECT_LT(glm::length(upper - inside), 1e-12);
+  // No more than a quarter of the side is kept on either side.
+  EXPECT_DOUBLE_EQ((MapTexels{ 8, 7 }).inside(), 0.5);
+}
+
+TEST(MapFit, NeverLooksBeyondWhatIsToBeCovered)
+{
+  const auto fit = fitTo(rectangle({ -5.0, 0.5 }, { 5.0, 7.0 }), { 64, 0 });
+  ASSERT_TRUE(fit);
+  EXPECT_DOUBLE_EQ(fit->scale.x, 1.0);
+  EXPECT_DOUBLE_EQ(fit->offset.x, 0.0);
+  EXPECT_DOUBLE_EQ(fit->scale.y, 4.0);
+  EXPECT_DOUBLE_EQ(fit->offset.y, -3.0);
+}
+
+TEST(MapFit, IsNothingWhereNothingIsVisible)
+{
+  EXPECT_FALSE(fitTo(Rectangle(), { 64, 0 }));
+  EXPECT_FALSE(fitTo(rectangle({ 1.5, 0.0 }, { 2.0, 1.0 }), { 64, 0 }));
+  EXPECT_FALSE(fitTo(rectangle({ 0.0, -3.0 }, { 1.0, -1.5 }), { 64, 0 }));
+  EXPECT_FALSE(fitSnappedTo(Rectangle(), { 64, 0 }));
+  EXPECT_FALSE(fitTo(rectangle({ std::nan(""), 0.0 }, { 1.0, 1.0 }), { 64, 0 }));
+}
+
+TEST(MapFit, WidensWhatHasNoExtent)
+{
+  for (const double at : { -1.0, 0.3, 1.0 })
+  {
+    const Rectangle point = rectangle(glm::dvec2(at), glm::dvec2(at));
+    for (const auto& fit : { fitTo(point, { 64, 1 }), fitSnappedTo(point, { 64, 1 }) })
+    {
+      ASSERT_TRUE(fit);
+      EXPECT_LE(fit->scale.x, 1.0 / leastVisibleShare);
+      EXPECT_LE(std::abs(mapped(fit->matrix(), point.lower).x), 1.0 - 2.0 / 64 + 1e-9);
+    }
+  }
+}
+
+TEST(MapFit, UniformTakesPointsToTheWholeMap)
+{
+  const glm::dmat3 uniform = uniformFromAcross({ { 1.0, 5.0 }, { 3.0, 2.0 }, { 2.0, 8.0 } });
+  EXPECT_LT(glm::length(mapped(uniform, { 1.0, 2.0 }) + 1.0), 1e-12);
+  EXPECT_LT(glm::length(mapped(uniform, { 3.0, 8.0 }) - 1.0), 1e-12);
+  EXPECT_EQ(uniformFromAcross({}), glm::dmat3(1.0));
+  for (const glm::dvec2& point : { glm::dvec2(0.0), glm::dvec2(7.0, 0.0), glm::dvec2(-1e9, 3.0) })
+  {
+    EXPECT_LT(glm::length(mapped(uniformFromAcross({ point }), point)), 1e-6);
+  }
+}
+
+TEST(MapFit, SnappedCoversWhatIsVisibleAtAStepOfTheSeries)
+{
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  for (int i = 0; i < 1000; ++i)
+  {
+    Rectangle visible;
+    visible.add({ uniform(random), uniform(random) });
+    visible.add({ uniform(random), uniform(random) });
+    const MapTexels texels{ i % 2 == 0 ? 64 : 1024, i % 4 };
+    const auto snapped = fitSnappedTo(visible, texels);
+    const auto tight = fitTo(visible, texels);
+    ASSERT_TRUE(snapped && tight);
+    for (const glm::dvec2& corner : { visible.lower, visible.upper })
+    {
+      ASSERT_LE(std::abs(mapped(snapped->matrix(), corner).x), texels.inside() + 1e-9);
+      ASSERT_LE(std::abs(mapped(snapped->matrix(), corner).y), texels.inside() + 1e-9);
+    }
+    const double whole = texels.inside() - 1.0 / texels.side;
+    for (int axis = 0; axis < 2; ++axis)
+    {
+      const double step = 4.0 * std::log2(snapped->scale[axis] / whole);
+      ASSERT_NEAR(step, std::round(step), 1e-9);
+      ASSERT_GE(step, -1e-9);
+      const double offset = snapped->offset[axis] * texels.side / 2.0;
+      ASSERT_NEAR(offset, std::round(offset), 1e-6);
+      // Not much coarser than without.
+      ASSERT_GE(
+        snapped->scale[axis], tight->scale[axis] * std::exp2(-0.25) * (1.0 - 4.0 / texels.side));
+    }
+  }
+}
+
+/// Survey, row 13: the camera moves by a tenth of a texel, 50 times.
+TEST(MapFit, SnappedKeepsItsTexelsWhileTheCameraMoves)
+{
+  const Bounds scene{ { -1000.0, -1000.0, 0.0 }, { 1000.0, 1000.0, 50.0 } };
+  const LightRays rays = directionalRays({ 0.4, 0.3, -1.0 });
+  const glm::dmat3 whole =
+    uniformFromAcross(rays.across(ConvexBody(scene, rays.viewFromCentred).vertices()));
+  const MapTexels texels{ 1024, 2 };
+  const glm::dvec2 point = rays.across(inView(rays, { 10.0, -600.0, 3.0 }));
+  std::optional<glm::dvec2> firstPlace;
+  int steadyWithout = 0;
+  for (int frame = 0; frame < 50; ++frame)
+  {
+    Setting setting;
+    setting.scene = scene;
+    setting.rays = rays;
+    const double moved = 0.1 * frame * 0.4; // a texel is about 0.4 wide
+    setting.camera = perspectiveCamera(
+      { moved, -700.0 + 0.7 * moved, 100.0 }, { moved, 0.7 * moved, 0.0 }, 30.0, 1.0, 300.0);
+    const Rectangle visible = rangeOf(whole, rays.across(setting.body().vertices()));
+    const auto placeOf = [&](const MapFit& fit)
+    {
+      const glm::dvec2 texel = mapped(fit.matrix() * whole, point) * (0.5 * texels.side);
+      return texel - glm::floor(texel);
+    };
+    const auto snapped = fitSnappedTo(visible, texels);
+    const auto free = fitTo(visible, texels);
+    ASSERT_TRUE(snapped && free);
+    if (!firstPlace)
+    {
+      firstPlace = placeOf(*snapped);
+    }
+    EXPECT_LT(glm::length(placeOf(*snapped) - *firstPlace), 1e-6) << frame;
+    steadyWithout += glm::length(placeOf(*free) - *firstPlace) < 1e-3 ? 1 : 0;
+  }
+  EXPECT_LT(steadyWithout, 5); // the camera does move the unsnapped fit
+}
+
+} // namespace
+} // namespace gnomon::test
