@@ -86,6 +86,10 @@ void compare(const CompareOptions& options)
   prepareReportFolder(options.folder);
   const ComparisonResults results = measure(options, plan);
   writeReport(results, options.folder);
+  for (const std::string& note : results.notes)
+  {
+    std::cout << note << "\n";
+  }
   std::cout << results.variants.size() << " variants of " << results.scene
             << " compared: " << options.folder << "/report.html" << std::endl;
 }
@@ -116,7 +120,10 @@ void addCompareCommand(CLI::App& app)
     ->add_option("SCENE", options->scene, "Scene: a built-in name, a scene file or a model file")
     ->required();
   command->add_option("-o,--output", options->folder, "Folder for the report")->required();
-  command->add_option("--techniques", options->plan.techniques, "Techniques, separated by commas")
+  command
+    ->add_option("--techniques", options->plan.techniques,
+      "Techniques, separated by commas; each may have settings, for example "
+      "nsm:fit=frame,pcf:kernel=box:projection=lispsm")
     ->delimiter(',')
     ->capture_default_str();
   command

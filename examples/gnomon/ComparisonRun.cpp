@@ -6,6 +6,7 @@
 #include "Machine.h"
 #include "PictureVisibility.h"
 
+#include "lights/LightManager.h"
 #include "shadowtech/Registry.h"
 #include "shadowtech/base/FrameReport.h"
 
@@ -15,13 +16,68 @@
 #include <iterator>
 #include <map>
 #include <memory>
+#include <sstream>
 
 namespace gnomon::tool
 {
 namespace
 {
 
-std::vector<VariantSpec> listVariants(const ComparisonPlan& plan)
+/// "pcf:kernel=box:projection=lispsm" as a variant without map size and route.
+VariantSpec parseTechnique(const std::string& text)
+{
+  std::istringstream parts(text);
+  VariantSpec spec;
+  std::getline(parts, spec.technique, ':');
+  if (!findTechnique(spec.technique))
+  {
+    throw BadInput(
+      "--techniques: found \"" + spec.technique + "\", expected some of: " + techniqueNames());
+  }
+  for (std::string part; std::getline(parts, part, ':');)
+  {
+    const std::size_t equals = part.find('=');
+    const std::string name = part.substr(0, equals);
+    const std::string value = equals == std::string::npos ? "" : part.substr(equals + 1);
+    const Setting* const setting = findSetting(name);
+    if (!setting || name == "technique" || name == "map_size")
+    {
+      throw BadInput("--techniques: " + text + ": found the setting \"" + name +
+        "\", expected one of: " + settingNames() + " (but technique and map_size)");
+    }
+    if (!takes(*setting, value))
+    {
+      throw BadInput("--techniques: " + text + ": " + name + ": found \"" + value +
+        "\", expected " + expectedBy(*setting));
+    }
+    spec.settings[name] = value;
+  }
+  return spec;
+}
+
+/// The estimator that a variant's settings lead to for each of the scene's lights.
+/// @throws CompositionError where one of them refuses
+const TechniqueInfo& composeFor(const VariantSpec& spec, vtkRenderer* renderer)
+{
+  ShadowSettings settings;
+  settings.technique = spec.technique;
+  for (const auto& [name, value] : spec.settings)
+  {
+    findSetting(name)->set(settings, value);
+  }
+  for (ShadowLight light : LightManager::collect(renderer, settings).casting)
+  {
+    compose(light);
+  }
+  ShadowLight any;
+  static_cast<ShadowSettings&>(any) = settings;
+  any.projection = Projection::OfTechnique;
+  return compose(any).info;
+}
+
+/// @param leftOut filled with the reason for each technique that a light refuses
+std::vector<VariantSpec> listVariants(
+  const ComparisonPlan& plan, const Scene& scene, std::vector<std::string>& leftOut)
 {
   std::vector<VariantSpec> specs;
   specs.push_back({ plainTechnique });
@@ -34,23 +90,34 @@ std::vector<VariantSpec> listVariants(const ComparisonPlan& plan)
   {
     techniques.push_back(truthTechnique);
   }
-  for (const std::string& name : techniques)
+  const vtkSmartPointer<vtkRenderer> renderer =
+    makeRenderer(scene, static_cast<double>(plan.width) / plan.height);
+  for (const std::string& text : techniques)
   {
-    const TechniqueEntry* const entry = findTechnique(name);
-    if (!entry)
+    VariantSpec spec = parseTechnique(text);
+    const TechniqueInfo* info = nullptr;
+    try
     {
-      throw BadInput("--techniques: found \"" + name + "\", expected some of: " + techniqueNames());
+      info = &composeFor(spec, renderer);
     }
-    const TechniqueInfo& info = entry->estimator->info;
-    for (int size : info.needsMap ? plan.mapSizesTexels : std::vector<int>{ 0 })
+    catch (const CompositionError& error)
     {
-      if (info.pointwise && plan.inlineRoute)
+      leftOut.push_back(text + " is left out: " + error.what() + ".");
+      continue;
+    }
+    spec.pointwise = info->pointwise;
+    for (int size : info->needsMap ? plan.mapSizesTexels : std::vector<int>{ 0 })
+    {
+      spec.mapSizeTexels = size;
+      if (info->pointwise && plan.inlineRoute)
       {
-        specs.push_back({ name, size, vtkGnomonShadowPass::ROUTE_INLINE, true });
+        spec.route = vtkGnomonShadowPass::ROUTE_INLINE;
+        specs.push_back(spec);
       }
-      if (!info.pointwise || plan.imageRoute)
+      if (!info->pointwise || plan.imageRoute)
       {
-        specs.push_back({ name, size, vtkGnomonShadowPass::ROUTE_IMAGE, info.pointwise });
+        spec.route = vtkGnomonShadowPass::ROUTE_IMAGE;
+        specs.push_back(spec);
       }
     }
   }
@@ -303,8 +370,7 @@ void measureErrors(
       {
         result.tracedPixels += light.tracedPixels;
       }
-      const TechniqueInfo& info = findTechnique(result.technique)->estimator->info;
-      if (!info.pointwise && !info.needsMap)
+      if (result.technique == truthTechnique)
       {
         traced = tracedMask(truth, scene.lights);
       }
@@ -378,7 +444,8 @@ ComparisonResults runComparison(
   const Scene& original, const ComparisonPlan& plan, const ProgressFunction& progress)
 {
   const Scene scene = withoutLightSettings(original);
-  const std::vector<VariantSpec> specs = listVariants(plan);
+  std::vector<std::string> leftOut;
+  const std::vector<VariantSpec> specs = listVariants(plan, scene, leftOut);
   const std::size_t framesPerMotion =
     static_cast<std::size_t>(warmUpFrames + plan.frames + measuredFrames(plan));
   StepCounter steps(2 * specs.size() + allMotions.size() * framesPerMotion, progress);
@@ -398,6 +465,7 @@ ComparisonResults runComparison(
   ComparisonResults results;
   requireCastingLights(scene, truthVariant->pass()->GetReport());
   describeScene(results, scene, truthVariant->pass()->GetReport());
+  results.notes.insert(results.notes.end(), leftOut.begin(), leftOut.end());
 
   for (Motion motion : allMotions)
   {

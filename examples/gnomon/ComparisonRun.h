@@ -14,10 +14,12 @@ namespace gnomon::tool
 /// What to compare.
 struct ComparisonPlan
 {
-  std::vector<std::string> techniques; ///< names of the registry; the truth is added when missing
-  std::vector<int> mapSizesTexels;     ///< for every variant that has a map
-  bool inlineRoute = true;             ///< for pointwise techniques
-  bool imageRoute = true;              ///< for pointwise techniques
+  /// Names of the registry, with settings if wished: "nsm", "pcf:kernel=box:projection=lispsm". The
+  /// truth is added when missing.
+  std::vector<std::string> techniques;
+  std::vector<int> mapSizesTexels; ///< for every variant that has a map
+  bool inlineRoute = true;         ///< for pointwise techniques
+  bool imageRoute = true;          ///< for pointwise techniques
   int width = 1024;
   int height = 1024;
   int frames = 21; ///< timed frames per variant and motion
@@ -32,6 +34,7 @@ using ProgressFunction = std::function<void(double)>;
 /// Draws the scene with every variant of the plan and with the peers (plain VTK, vtkShadowMapPass)
 /// and measures errors, times and memory. Frames of all variants are interleaved. What the scene's
 /// lights ask for themselves (technique, map size) is set aside: the plan decides.
+/// A technique whose settings make no sense for one of the lights is left out, which a note says.
 /// @throws BadInput when no light of the scene casts a shadow, Failure when drawing fails
 ComparisonResults runComparison(
   const Scene& scene, const ComparisonPlan& plan, const ProgressFunction& progress);

@@ -43,6 +43,10 @@ vtkSmartPointer<vtkRenderPass> makeGnomonPass(const VariantSpec& spec)
   {
     pass->SetMapSize(spec.mapSizeTexels);
   }
+  for (const auto& [name, value] : spec.settings)
+  {
+    pass->SetSetting(name.c_str(), value.c_str());
+  }
   return pass;
 }
 
@@ -60,6 +64,10 @@ std::string VariantSpec::routeName() const
 std::string VariantSpec::name() const
 {
   std::string text = this->technique;
+  for (const auto& [name, value] : this->settings)
+  {
+    text += " " + name + "=" + value;
+  }
   text += this->mapSizeTexels > 0 ? " " + std::to_string(this->mapSizeTexels) : "";
   text += this->pointwise ? " " + this->routeName() : "";
   return text;

@@ -13,6 +13,7 @@
 #include <vtkRenderer.h>
 #include <vtkSmartPointer.h>
 
+#include <map>
 #include <string>
 
 namespace gnomon::tool
@@ -25,6 +26,8 @@ struct VariantSpec
   int mapSizeTexels = 0; ///< 0: no map
   int route = vtkGnomonShadowPass::ROUTE_AUTO;
   bool pointwise = false; ///< whether the technique has two routes
+  /// What else is asked of the lights' shadows, by name (lights/ShadowSettings.h).
+  std::map<std::string, std::string> settings = {};
 
   bool isGnomon() const
   {
@@ -32,7 +35,7 @@ struct VariantSpec
   }
   /// "inline", "image", or "" where routes mean nothing.
   std::string routeName() const;
-  /// For people: "nsm 1024 inline".
+  /// For people: "nsm fit=frame 1024 inline".
   std::string name() const;
 };
 

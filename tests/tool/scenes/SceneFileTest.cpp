@@ -174,7 +174,7 @@ TEST_F(SceneFile, SaysWhatIsWrongAndWhere)
     { "/lights/0/type", "laser", "lights[0].type", "one of: directional, spot" },
     { "/lights/0/type", null, "lights[0].type", "missing" },
     { "/lights/0/direction", { 0, 0, 0 }, "lights[0].direction", "not zero" },
-    { "/lights/0/technique", "magic", "lights[0].technique", "one of: nsm, pcf, raytraced" },
+    { "/lights/0/technique", "magic", "lights[0].technique", "one of: nsm, pcf, lispsm, tsm, pssm, raytraced" },
     { "/lights/0/map_size", 8, "lights[0].map_size", "whole number between 16 and 16384" },
     { "/lights/0/map_size", 512.5, "lights[0].map_size", "whole number" },
     { "/lights/0/kernel", "magic", "lights[0].kernel", "one of: bilinear, box, poisson" },

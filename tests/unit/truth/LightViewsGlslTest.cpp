@@ -13,6 +13,9 @@
 #include <gtest/gtest.h>
 #include <vtkNew.h>
 
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <array>
 #include <random>
 
 namespace gnomon::test
@@ -124,6 +127,111 @@ TEST(LightViewsGlsl, FindsTheViewsThatTheMathematicsMade)
   }
   EXPECT_GT(found, 500u);
   EXPECT_LT(found, 5000u);
+}
+
+/// A sun over a floor that a camera looks along.
+LightViews fittedViews(ShadowLight& light, Projection projection, int size)
+{
+  light = ShadowLight();
+  light.directionWorld = { 0.0, -1.0, 0.0 };
+  light.projection = projection;
+  ViewFitting fitting;
+  fitting.castersCentred = { glm::dvec3(-1.0, -0.2, -1.0), glm::dvec3(1.0, 0.1, 1.0) };
+  fitting.receiversCentred = fitting.castersCentred;
+  fitting.texels = { size, 2 };
+  CameraView camera;
+  camera.viewFromCentred =
+    glm::lookAt(glm::dvec3(0.3, 0.3, 1.2), glm::dvec3(0.0, 0.0, 0.0), glm::dvec3(0.0, 1.0, 0.0));
+  camera.clipFromView = glm::perspective(glm::radians(60.0), 1.3, 0.05, 50.0);
+  fitting.camera = camera;
+  return fitLightViews(light, fitting);
+}
+
+TEST(LightViewsGlsl, FindsTheFirstSplitThatHoldsAPointAndItsBorder)
+{
+  vtkNew<vtkGnomonEGLRenderWindow> window;
+  window->Initialize();
+  window->MakeCurrent();
+
+  constexpr int size = 64;
+  ShadowLight light;
+  const LightViews views = fittedViews(light, Projection::Splits, size);
+  ASSERT_EQ(views.views.size(), 4u);
+  const std::vector<glm::vec4> points = randomPoints();
+  const std::vector<glm::vec4> outputs = runGlsl(light, views, size, points);
+  std::array<int, 5> found{};
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    int expected = -1;
+    glm::dvec2 texel(-1.0);
+    bool close = false; // to a border, where float may see it on either side
+    for (int view = 0; view < 4 && expected < 0; ++view)
+    {
+      const glm::dmat3 matrix = texelFromAcross(views.views[static_cast<std::size_t>(view)], size);
+      texel = mapped(matrix, glm::dvec2(points[i]));
+      const double border = view < 3 ? views.borderTexels : 0.0;
+      const glm::dvec2 inside = glm::min(texel, static_cast<double>(size) - texel) - border;
+      const double least = std::min(inside.x, inside.y);
+      close = close || std::abs(least) < 1e-3;
+      expected = least >= 0.0 ? view : -1;
+    }
+    if (close)
+    {
+      continue;
+    }
+    EXPECT_EQ(outputs[2 * i + 1].z, static_cast<float>(expected));
+    if (expected >= 0)
+    {
+      EXPECT_NEAR(outputs[2 * i + 1].x, texel.x, 1e-3);
+      EXPECT_NEAR(outputs[2 * i + 1].y, texel.y, 1e-3);
+    }
+    ++found[static_cast<std::size_t>(expected + 1)];
+  }
+  for (const int count : found)
+  {
+    EXPECT_GT(count, 20);
+  }
+}
+
+TEST(LightViewsGlsl, FindsTexelsOfAWarpedView)
+{
+  vtkNew<vtkGnomonEGLRenderWindow> window;
+  window->Initialize();
+  window->MakeCurrent();
+
+  constexpr int size = 64;
+  for (const Projection projection : { Projection::Lispsm, Projection::Trapezoid })
+  {
+    ShadowLight light;
+    const LightViews views = fittedViews(light, projection, size);
+    ASSERT_EQ(views.views.size(), 1u);
+    ASSERT_TRUE(views.views[0].warped());
+    const glm::dmat3 matrix = texelFromAcross(views.views[0], size);
+    const std::vector<glm::vec4> points = randomPoints();
+    const std::vector<glm::vec4> outputs = runGlsl(light, views, size, points);
+    std::size_t found = 0;
+    for (std::size_t i = 0; i < points.size(); ++i)
+    {
+      const glm::dvec3 image = matrix * glm::dvec3(glm::dvec2(points[i]), 1.0);
+      const glm::dvec2 texel = glm::dvec2(image) / image.z;
+      const glm::dvec2 inside = glm::min(texel, static_cast<double>(size) - texel);
+      const double least = std::min(inside.x, inside.y);
+      if (std::abs(least) < 1e-3 || std::abs(image.z) < 1e-3)
+      {
+        continue;
+      }
+      const bool seen = image.z > 0.0 && least > 0.0;
+      EXPECT_EQ(outputs[2 * i + 1].z, seen ? 0.0f : -1.0f);
+      if (seen)
+      {
+        EXPECT_NEAR(outputs[2 * i + 1].x, texel.x, 1e-3);
+        EXPECT_NEAR(outputs[2 * i + 1].y, texel.y, 1e-3);
+        ++found;
+      }
+    }
+    EXPECT_GT(found, 500u);
+    EXPECT_LT(found, 6000u);
+  }
 }
 
 TEST(LightViewsGlsl, AgreesOnWhatLiesInABox)

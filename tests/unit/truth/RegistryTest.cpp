@@ -1,0 +1,139 @@
+// Which compositions there are, and which are refused: the whole table.
+
+#include "shadowtech/Registry.h"
+
+#include "lights/ShadowLight.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace gnomon::test
+{
+namespace
+{
+
+ShadowLight lightOf(LightKind kind, double coneAngleDegrees = 0.0)
+{
+  ShadowLight light;
+  light.kind = kind;
+  light.coneAngleDegrees = coneAngleDegrees;
+  return light;
+}
+
+/// "" if the light takes it, else a word of the reason.
+struct Verdicts
+{
+  const char* sun;
+  const char* spot;
+  const char* wideSpot;
+  const char* point;
+};
+
+void expectVerdict(ShadowLight light, const std::string& word, const std::string& what)
+{
+  try
+  {
+    compose(light);
+    EXPECT_EQ(word, "") << what << " is taken";
+  }
+  catch (const CompositionError& error)
+  {
+    EXPECT_NE(word, "") << what << ": " << error.what();
+    EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
+  }
+}
+
+void expectVerdicts(
+  const ShadowSettings& settings, const Verdicts& verdicts, const std::string& what)
+{
+  const auto check = [&](ShadowLight light, const char* word)
+  {
+    static_cast<ShadowSettings&>(light) = settings;
+    expectVerdict(light, word, what);
+  };
+  check(lightOf(LightKind::Directional), verdicts.sun);
+  check(lightOf(LightKind::Spot, 30.0), verdicts.spot);
+  check(lightOf(LightKind::Spot, 70.0), verdicts.wideSpot);
+  check(lightOf(LightKind::Point), verdicts.point);
+}
+
+TEST(Registry, hasEveryTechniqueOnceAndItsEstimator)
+{
+  for (const TechniqueEntry& technique : registry())
+  {
+    EXPECT_EQ(findTechnique(technique.name), &technique);
+    ASSERT_TRUE(technique.estimator) << technique.name;
+    EXPECT_FALSE(technique.summary.empty());
+    EXPECT_TRUE(technique.estimator->create());
+  }
+  for (const EstimatorEntry& estimator : estimators())
+  {
+    EXPECT_EQ(findEstimator(estimator.info.name), &estimator);
+  }
+  EXPECT_EQ(findTechnique("magic"), nullptr);
+  EXPECT_TRUE(findTechnique(defaultTechnique));
+  EXPECT_TRUE(findTechnique(plainTechnique)->estimator->info.pointwise);
+}
+
+TEST(Registry, takesOrRefusesEveryComposition)
+{
+  const Verdicts all{ "", "", "", "" };
+  const Verdicts single{ "", "", "faces of a cube", "faces of a cube" };
+  const Verdicts cube{ "directional", "", "", "" };
+  const Verdicts noMap{ "no map", "no map", "no map", "no map" };
+  for (const TechniqueEntry& technique : registry())
+  {
+    ShadowSettings settings;
+    settings.technique = technique.name;
+    const bool warps =
+      technique.estimator->info.needsMap && technique.projection != Projection::Uniform;
+    expectVerdicts(settings, warps ? single : all, technique.name);
+
+    for (const EstimatorEntry& estimator : estimators())
+    {
+      settings.estimator = estimator.info.name;
+      const bool map = estimator.info.needsMap;
+      const std::string what = technique.name + " with " + settings.estimator;
+      const auto expectOf = [&](Projection projection, const Verdicts& verdicts)
+      {
+        settings.projection = projection;
+        expectVerdicts(settings, map ? verdicts : noMap,
+          what + ", projection " + findSetting("projection")->get(settings));
+      };
+      expectOf(Projection::Uniform, all);
+      expectOf(Projection::Lispsm, single);
+      expectOf(Projection::Trapezoid, single);
+      expectOf(Projection::Splits, single);
+      expectOf(Projection::Cube, cube);
+    }
+  }
+}
+
+TEST(Registry, completesTheLight)
+{
+  ShadowLight light = lightOf(LightKind::Directional);
+  EXPECT_EQ(&compose(light), findEstimator("compare"));
+  EXPECT_EQ(light.technique, "nsm");
+  EXPECT_EQ(light.estimator, "compare");
+  EXPECT_EQ(light.projection, Projection::Uniform);
+
+  light = lightOf(LightKind::Directional);
+  light.technique = "lispsm";
+  light.estimator = "pcf";
+  EXPECT_EQ(&compose(light), findEstimator("pcf"));
+  EXPECT_EQ(light.projection, Projection::Lispsm);
+}
+
+TEST(Registry, namesWhatThereIs)
+{
+  ShadowLight light = lightOf(LightKind::Directional);
+  light.technique = "magic";
+  expectVerdict(light, techniqueNames(), "magic");
+  light.technique = "nsm";
+  light.estimator = "magic";
+  expectVerdict(light, estimatorNames(), "magic");
+}
+
+} // namespace
+} // namespace gnomon::test
