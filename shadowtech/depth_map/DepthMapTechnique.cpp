@@ -38,6 +38,23 @@ std::string define(const char* name, double value)
   return std::string(name) + " " + std::to_string(value);
 }
 
+/// Puts the program that draws casters into use, for one view.
+void useBakeProgram(
+  const LightView& view, const std::vector<std::string>& defines, ShaderLibrary& shaders)
+{
+  const GLuint program = shaders.program(
+    { { GL_VERTEX_SHADER, ShaderLibrary::source("shadowtech/depth_map/depth_map_bake.vert.glsl") },
+      { GL_FRAGMENT_SHADER,
+        ShaderLibrary::source("shadowtech/depth_map/depth_map_bake.frag.glsl") } },
+    defines);
+  glUseProgram(program);
+  ShaderLibrary::setUniform(program, { "clipFromCentred", glm::mat4(view.clipFromCentred()) });
+  glm::dvec4 depth = view.depthScale * glm::row(view.viewFromCentred, 2);
+  depth.w += view.depthOffset;
+  ShaderLibrary::setUniform(program, { "depthFromCentred", glm::vec4(depth) });
+  ShaderLibrary::setUniform(program, { "cutoutMask", 0 });
+}
+
 /// Draws the casters into the bound framebuffer's depth, as one view sees them.
 void drawView(const LightView& view, const MapReach& reach, const MapInput& input)
 {
@@ -63,17 +80,15 @@ void drawView(const LightView& view, const MapReach& reach, const MapInput& inpu
   // Where no parallel view's caster can be nearer than the bounds, rounding may still push one over
   // the edge.
   view.perspective || view.beginsAtNear ? glDisable(GL_DEPTH_CLAMP) : glEnable(GL_DEPTH_CLAMP);
-  const GLuint program = input.shaders.program(
-    { { GL_VERTEX_SHADER, ShaderLibrary::source("shadowtech/depth_map/depth_map_bake.vert.glsl") },
-      { GL_FRAGMENT_SHADER,
-        ShaderLibrary::source("shadowtech/depth_map/depth_map_bake.frag.glsl") } },
-    defines);
-  glUseProgram(program);
-  ShaderLibrary::setUniform(program, { "clipFromCentred", glm::mat4(view.clipFromCentred()) });
-  glm::dvec4 depth = view.depthScale * glm::row(view.viewFromCentred, 2);
-  depth.w += view.depthOffset;
-  ShaderLibrary::setUniform(program, { "depthFromCentred", glm::vec4(depth) });
+  useBakeProgram(view, defines, input.shaders);
   input.buffers.draw(view);
+  if (input.buffers.hasCutouts())
+  {
+    defines.emplace_back("CUTOUT");
+    useBakeProgram(view, defines, input.shaders);
+    glActiveTexture(GL_TEXTURE0);
+    input.buffers.drawCutouts(view);
+  }
 }
 
 } // namespace

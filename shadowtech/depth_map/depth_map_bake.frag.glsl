@@ -14,6 +14,12 @@ float push(vec2 slope)
 
 #endif
 
+#ifdef CUTOUT
+in vec2 cutoutCoordinates;
+
+uniform sampler2D cutoutMask; // 0 where the caster has a hole, as the alpha that VTK looks at
+#endif
+
 void main()
 {
 #ifdef PUSH
@@ -26,5 +32,12 @@ void main()
 #else
   gl_FragDepth = min(depthLinear + push(vec2(dFdx(depthLinear), dFdy(depthLinear))), DEEPEST);
 #endif
+#endif
+#ifdef CUTOUT
+  // At the end, since what comes before takes derivatives.
+  if (texture(cutoutMask, cutoutCoordinates).r <= 0.0)
+  {
+    discard;
+  }
 #endif
 }

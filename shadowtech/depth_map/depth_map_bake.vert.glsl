@@ -10,8 +10,16 @@ uniform vec4 depthFromCentred;
 out float depthLinear;
 #endif
 
+#ifdef CUTOUT
+layout(location = 1) in vec2 textureCoordinates;
+out vec2 cutoutCoordinates;
+#endif
+
 void main()
 {
+#ifdef CUTOUT
+  cutoutCoordinates = textureCoordinates;
+#endif
   gl_Position = clipFromCentred * vec4(positionCentred, 1.0);
 #ifdef PUSH
   depthLinear = dot(depthFromCentred, vec4(positionCentred, 1.0));
