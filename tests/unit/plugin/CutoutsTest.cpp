@@ -483,6 +483,19 @@ TEST_P(Cutouts, ofAlbedoTexturesCountForPhysicalMaterials)
   square->GetProperty()->SetInterpolationToPBR();
   this->expectPattern(letter, { vtkTexture::Repeat, true });
   EXPECT_TRUE(square->HasOpaqueGeometry());
+  // What is behind the holes shows its own visibility: the square itself is in this box's shadow.
+  vtkActor* box = this->scene.addBox({ -5.5, -2.5, 8.0 }, { -0.9, 2.5, 8.1 });
+  this->scene.lookDown(2.6);
+  const Picture picture = this->scene.render();
+  for (const glm::dvec2& share : { glm::dvec2(0.8, 0.3), glm::dvec2(0.6, 0.67) })
+  {
+    ASSERT_FALSE(isDrawn(letter, { vtkTexture::Repeat, true }, share));
+    EXPECT_NEAR(
+      this->scene.redAt(picture, 4.0 * share.x - 2.0, 4.0 * share.y - 2.0), slantingSunValue, 1.0);
+  }
+  EXPECT_LT(this->scene.redAt(picture, 0.0, -1.33), 30) << "a texel of the square";
+  this->scene.renderer->RemoveActor(box);
+  this->scene.lookDown(2.6, 5.0);
   square->GetProperty()->SetBaseColorTexture(nullptr);
   square->GetProperty()->RemoveTexture("albedoTex");
   square->SetTexture(makeTexture(letter));
