@@ -3,6 +3,7 @@
 #include "plugin/ActorInternals.h"
 #include "plugin/CompositeBlocks.h"
 #include "plugin/GlyphInstances.h"
+#include "plugin/TextureCutouts.h"
 #include "plugin/vtkGnomonPropKeys.h"
 
 #include "vtkActor.h"
@@ -12,14 +13,12 @@
 #include "vtkAssemblyPath.h"
 #include "vtkCompositePolyDataMapper2.h"
 #include "vtkGlyph3DMapper.h"
-#include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationIntegerKey.h"
 #include "vtkLODProp3D.h"
 #include "vtkMatrix4x4.h"
 #include "vtkPlane.h"
 #include "vtkPlaneCollection.h"
-#include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkPolyDataMapper.h"
 #include "vtkProp3DFollower.h"
@@ -28,7 +27,6 @@
 #include "vtkProperty.h"
 #include "vtkRenderer.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
-#include "vtkTexture.h"
 
 #include <glm/gtc/type_ptr.hpp>
 
@@ -102,29 +100,12 @@ bool askedToCast(vtkProp* viewProp)
   return keys && keys->Has(vtkGnomonPropKeys::CASTS()) && vtkGnomonPropKeys::GetCasts(viewProp);
 }
 
-/// Whether VTK draws nothing at some texels: where their alpha is 0.
-bool hasHoles(vtkTexture* texture)
-{
-  vtkImageData* image = texture ? texture->GetInput() : nullptr;
-  vtkDataArray* texels = image ? image->GetPointData()->GetScalars() : nullptr;
-  const int components = texels ? texels->GetNumberOfComponents() : 0;
-  return components % 2 == 0 && components > 0 && texels->GetRange(components - 1)[0] <= 0.0;
-}
-
-/// Whether VTK cuts holes into an actor's surface. It may well take that for opaque: as long as no
-/// texel is half transparent, and whatever the alpha of an albedo texture.
-bool drawnWithHoles(vtkActor* actor)
-{
-  vtkProperty* property = actor->GetProperty();
-  return hasHoles(actor->GetTexture()) ||
-    (property->GetInterpolation() == VTK_PBR && hasHoles(property->GetTexture("albedoTex")));
-}
-
 class Finder
 {
 public:
-  explicit Finder(vtkRenderer* renderer)
+  Finder(vtkRenderer* renderer, TextureCutouts& cutouts)
     : renderer_(renderer)
+    , cutouts_(cutouts)
   {
   }
   void addViewProp(vtkProp* viewProp);
@@ -138,10 +119,11 @@ private:
   void skip(const std::string& what) { ++this->skipped_[what]; }
 
   vtkRenderer* renderer_;
+  TextureCutouts& cutouts_;
   DrawnProps drawn_;
   std::unordered_set<vtkMapper*> updated_;
   std::map<std::string, int> skipped_; ///< what was left out, and how often
-  int withHoles_ = 0;                  ///< props that cast as if their textures had no holes
+  std::map<std::string, int> uncut_;   ///< why props cast as if textures had no holes, how often
 };
 
 //------------------------------------------------------------------------------
@@ -234,12 +216,22 @@ void Finder::addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatr
   prop.casts = vtkGnomonPropKeys::GetCasts(viewProp);
   prop.receives = vtkGnomonPropKeys::GetReceives(viewProp);
   prop.oneSided = vtkGnomonPropKeys::GetOneSided(viewProp);
+  const char* uncutReason = nullptr;
+  const TextureCutout cutout =
+    this->cutouts_.find(actor, drawing.mapper, viewProp->GetPropertyKeys(), uncutReason);
+  prop.cutout = cutout.mask;
+  prop.textureTransform = cutout.transform;
   const auto add = [&](bool translucent)
   {
     prop.translucent = translucent;
     prop.firstBlock = this->drawn_.blocks.size();
     this->addBlocks(actor, drawing.mapper, kind, translucent);
     prop.blockCount = this->drawn_.blocks.size() - prop.firstBlock;
+    for (std::size_t i = prop.firstBlock; prop.cutout && i < this->drawn_.blocks.size(); ++i)
+    {
+      DrawnBlock& block = this->drawn_.blocks[i];
+      block.textureCoordinates = textureCoordinates(drawing.mapper, cutout.texture, block.data);
+    }
     this->drawn_.props.push_back(prop);
   };
   const std::size_t before = this->drawn_.props.size();
@@ -262,8 +254,10 @@ void Finder::addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatr
       add(true);
     }
   }
-  const bool held = this->drawn_.props.size() > before;
-  this->withHoles_ += held && prop.casts && drawnWithHoles(actor) ? 1 : 0;
+  if (uncutReason && prop.casts && this->drawn_.props.size() > before)
+  {
+    ++this->uncut_[uncutReason];
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -357,11 +351,10 @@ DrawnProps Finder::take()
     this->drawn_.notes.push_back(what + " (" + std::to_string(count) +
       (count == 1 ? " prop neither casts nor receives)" : " props neither cast nor receive)"));
   }
-  if (this->withHoles_ > 0)
+  for (const auto& [why, count] : this->uncut_)
   {
-    this->drawn_.notes.push_back("holes in textures are not cut out of shadows (" +
-      std::to_string(this->withHoles_) +
-      (this->withHoles_ == 1 ? " prop casts as a whole)" : " props cast as a whole)"));
+    this->drawn_.notes.push_back("holes in textures are not cut out of shadows: " + why + " (" +
+      std::to_string(count) + (count == 1 ? " prop casts as a whole)" : " props cast as a whole)"));
   }
   return std::move(this->drawn_);
 }
@@ -383,9 +376,10 @@ glm::dmat4 toGlm(vtkMatrix4x4* matrix)
 }
 
 //------------------------------------------------------------------------------
-DrawnProps findDrawnProps(vtkRenderer* renderer)
+DrawnProps findDrawnProps(vtkRenderer* renderer, TextureCutouts& cutouts)
 {
-  Finder finder(renderer);
+  cutouts.beginFrame();
+  Finder finder(renderer, cutouts);
   vtkPropCollection* viewProps = renderer->GetViewProps();
   vtkCollectionSimpleIterator cookie;
   viewProps->InitTraversal(cookie);

@@ -4,10 +4,12 @@
 #include <glm/glm.hpp>
 
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <vector>
 
 class vtkActor;
+class vtkDataArray;
 class vtkDataSet;
 class vtkMapper;
 class vtkMatrix4x4;
@@ -18,6 +20,9 @@ class vtkRenderer;
 namespace gnomon
 {
 
+class TextureCutouts;
+struct CutoutMask;
+
 /// A VTK matrix as GLM's: the same transformation.
 glm::dmat4 toGlm(vtkMatrix4x4* matrix);
 
@@ -27,6 +32,8 @@ struct DrawnBlock
   vtkPolyData* data = nullptr;
   vtkDataSet* glyphPoints = nullptr; ///< for a glyph: the points that it is drawn at
   int glyphSource = 0;               ///< and its place in the mapper's table of sources
+  /// Of the texture that cuts holes into it; null where none does.
+  vtkDataArray* textureCoordinates = nullptr;
 };
 
 /// One leaf prop on one path of a view prop, with the surfaces that VTK draws of it in the opaque
@@ -45,6 +52,9 @@ struct DrawnProp
   bool receives = true;
   bool oneSided = false;
   bool translucent = false; ///< it is here because it was asked to cast
+
+  std::shared_ptr<const CutoutMask> cutout; ///< what a texture leaves of its blocks; null for all
+  glm::mat4 textureTransform{ 1.0f };       ///< of the cut-out's coordinates (s, t, 0, 1)
 
   std::size_t firstBlock = 0; ///< into DrawnProps::blocks
   std::size_t blockCount = 0;
@@ -65,7 +75,9 @@ struct DrawnProps
 /// Lists what a renderer's opaque pass draws as surfaces, and the translucent surfaces that are
 /// asked to cast, in the camera's view or not. Brings the inputs of mappers up to date first, as
 /// VTK does when it draws.
-DrawnProps findDrawnProps(vtkRenderer* renderer);
+///
+/// @param cutouts reads their textures, and keeps what it read from frame to frame
+DrawnProps findDrawnProps(vtkRenderer* renderer, TextureCutouts& cutouts);
 
 } // namespace gnomon
 

@@ -9,6 +9,7 @@
 #include "vtkOpenGLHelper.h"
 #include "vtkOpenGLPolyDataMapper.h"
 
+#include <algorithm>
 #include <map>
 
 namespace gnomon
@@ -40,6 +41,13 @@ struct MapperAccess : vtkOpenGLPolyDataMapper
   static int primitiveOffset(vtkOpenGLPolyDataMapper* mapper)
   {
     return mapper->*(&MapperAccess::PrimitiveIDOffset);
+  }
+  static const char* coordinatesArray(vtkOpenGLPolyDataMapper* mapper, const std::string& texture)
+  {
+    const auto& attributes = mapper->*(&MapperAccess::ExtraAttributes);
+    const auto found = std::find_if(attributes.begin(), attributes.end(),
+      [&](const auto& attribute) { return attribute.second.TextureName == texture; });
+    return found != attributes.end() ? found->second.DataArrayName.c_str() : nullptr;
   }
 };
 
@@ -84,6 +92,16 @@ std::vector<DrawCall> drawCalls(vtkAbstractMapper* mapper, SurfaceCells cells)
       { openGl->CurrentInput, static_cast<std::uint32_t>(MapperAccess::primitiveOffset(openGl)) });
   }
   return calls;
+}
+
+//------------------------------------------------------------------------------
+const char* coordinatesArray(vtkAbstractMapper* mapper, const std::string& texture)
+{
+  // The helpers of composite mappers are not told of such arrays.
+  auto* openGl = vtkOpenGLPolyDataMapper::SafeDownCast(mapper);
+  return openGl && !openGl->IsA("vtkCompositePolyDataMapper2")
+    ? MapperAccess::coordinatesArray(openGl, texture)
+    : nullptr;
 }
 
 } // namespace gnomon

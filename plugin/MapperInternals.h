@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 class vtkAbstractMapper;
@@ -29,6 +30,10 @@ std::optional<SurfaceCells> cellsAboutToBeDrawn(vtkAbstractMapper* mapper);
 
 /// The draw calls for these cells, in order of firstPrimitive.
 std::vector<DrawCall> drawCalls(vtkAbstractMapper* mapper, SurfaceCells cells);
+
+/// The point array that a mapper was told to read a texture's coordinates from
+/// (vtkPolyDataMapper::MapDataArrayToMultiTextureAttribute); null for the data's own.
+const char* coordinatesArray(vtkAbstractMapper* mapper, const std::string& texture);
 
 } // namespace gnomon
 

@@ -2,6 +2,7 @@
 
 #include "plugin/DrawnProps.h"
 #include "plugin/SurfaceRecord.h"
+#include "plugin/TextureCutouts.h"
 
 #include "shadowtech/base/Bytes.h"
 
@@ -68,6 +69,7 @@ private:
   std::uint64_t newVersion() { return ++this->lastVersion_; }
 
   std::uint64_t lastVersion_ = 0;
+  TextureCutouts cutouts_;
   std::vector<SurfaceRecord> records_;       ///< one for each of occluders.surfaces
   std::vector<std::uint32_t> vertexOfPoint_; ///< scratch memory for triangulate()
 };
@@ -75,7 +77,7 @@ private:
 //------------------------------------------------------------------------------
 OccluderCollector::Change OccluderCollector::Impl::collect(vtkRenderer* renderer)
 {
-  DrawnProps drawn = findDrawnProps(renderer);
+  DrawnProps drawn = findDrawnProps(renderer, this->cutouts_);
   this->lookup.beginFrame(drawn.translucentReceivers);
   this->notes = std::move(drawn.notes);
   this->translucentReceivers = drawn.translucentReceivers.size();
@@ -91,7 +93,8 @@ OccluderCollector::Change OccluderCollector::Impl::collect(vtkRenderer* renderer
     const SurfaceRecord* record =
       surface.old != WantedSurface::none ? &this->records_[surface.old] : nullptr;
     const vtkMTimeType time = changeTime(*surface.prop, surface.block, surface.key.cells);
-    if (!record || record->shapeTime != time || record->clipPlanes != surface.prop->clipPlanes)
+    if (!record || record->shapeTime != time || record->clipPlanes != surface.prop->clipPlanes ||
+      !(record->coordinates == coordinatesSource(*surface.prop, surface.block)))
     {
       this->read(surface, time);
       ++change.extracted;
@@ -282,6 +285,7 @@ OccluderCollector::Impl::Outcome OccluderCollector::Impl::overwrite(WantedSurfac
   FreshSurface& fresh = *wanted.fresh;
   const bool sameTriangles = surface.vertexCount == fresh.positionsCentred.size() &&
     surface.triangleOfDrawn == fresh.triangleOfDrawn &&
+    surface.textureCoordinates == fresh.textureCoordinates &&
     surface.triangleCount == fresh.triangles.size() &&
     std::equal(fresh.triangles.begin(), fresh.triangles.end(),
       this->occluders.triangles.begin() + surface.firstTriangle,
@@ -345,6 +349,7 @@ void OccluderCollector::Impl::rebuild(std::vector<WantedSurface>& wanted)
       entry.vertexCount = static_cast<std::uint32_t>(fresh.positionsCentred.size());
       entry.triangleCount = static_cast<std::uint32_t>(fresh.triangles.size());
       entry.triangleOfDrawn = std::move(fresh.triangleOfDrawn);
+      entry.textureCoordinates = std::move(fresh.textureCoordinates);
       entry.topologyVersion = this->newVersion();
       entry.positionsVersion = this->newVersion();
       records.push_back(std::move(fresh.record));
@@ -387,7 +392,7 @@ void OccluderCollector::Impl::noteWhatIsTooLarge(const std::vector<WantedSurface
 }
 
 //------------------------------------------------------------------------------
-/// Takes over the props' flags; true if one changed.
+/// Takes over the props' flags and what their textures cut out; true if one changed.
 bool OccluderCollector::Impl::updateFlags(const std::vector<WantedSurface>& wanted)
 {
   bool changed = false;
@@ -395,11 +400,13 @@ bool OccluderCollector::Impl::updateFlags(const std::vector<WantedSurface>& want
   {
     Surface& surface = this->occluders.surfaces[i];
     const DrawnProp& prop = *wanted[i].prop;
+    const auto cutout = wanted[i].block.textureCoordinates ? prop.cutout : nullptr;
     changed = changed || surface.casts != prop.casts || surface.receives != prop.receives ||
-      surface.oneSided != prop.oneSided;
+      surface.oneSided != prop.oneSided || surface.cutout != cutout;
     surface.casts = prop.casts;
     surface.receives = prop.receives;
     surface.oneSided = prop.oneSided;
+    surface.cutout = cutout;
   }
   return changed;
 }
@@ -433,10 +440,11 @@ std::size_t OccluderCollector::Impl::bytes() const
 {
   std::size_t bytes = bytesOf(this->occluders.positionsCentred) +
     bytesOf(this->occluders.triangles) + bytesOf(this->occluders.surfaces) +
-    bytesOf(this->records_) + bytesOf(this->vertexOfPoint_) + this->lookup.bytes();
+    bytesOf(this->records_) + bytesOf(this->vertexOfPoint_) + this->lookup.bytes() +
+    this->cutouts_.bytes();
   for (const Surface& surface : this->occluders.surfaces)
   {
-    bytes += bytesOf(surface.triangleOfDrawn);
+    bytes += bytesOf(surface.triangleOfDrawn) + bytesOf(surface.textureCoordinates);
   }
   for (const SurfaceRecord& record : this->records_)
   {

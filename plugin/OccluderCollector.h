@@ -24,6 +24,7 @@ namespace gnomon
 /// It holds what VTK draws as triangles in its opaque pass: surfaces of vtkActors, alone or in
 /// assemblies, as followers or as levels of detail, whose mapper is a vtkPolyDataMapper, a
 /// vtkCompositePolyDataMapper2 or a vtkGlyph3DMapper; and translucent ones that are asked to cast.
+/// With them goes what a texture cuts out of them (TextureCutouts).
 /// A polydata with polygons and strips makes two surfaces; a glyph makes one surface with the
 /// triangles of all its instances, as long as these are no more than mostGlyphTriangles. Front and back are OpenGL's: a triangle's front is
 /// the side that shows its corners counter-clockwise after the prop's matrix, so that a mirroring

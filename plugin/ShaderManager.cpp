@@ -161,8 +161,12 @@ void ShaderManager::fillShader(std::string& fragmentShader, bool receiversStage)
     {
       declarations = "uniform int gnomonStage;\n";
     }
-    begin = "if (gnomonStage == 1)\n  {\n    gl_FragData[0] = vec4(0.0, 0.0, 0.0, opacity);\n" +
-      this->writeReceiver(lit, instanced) + "  }\n  else\n  {\n" + begin;
+    // Of physically based materials alpha is the albedo texture's, which VTK reads while it lights.
+    const std::string albedo = "texture(albedoTex, tcoordVCVSOutput)";
+    const std::string alpha =
+      fragmentShader.find(albedo) != std::string::npos ? albedo + ".a" : "opacity";
+    begin = "if (gnomonStage == 1)\n  {\n    gl_FragData[0] = vec4(0.0, 0.0, 0.0, " + alpha +
+      ");\n" + this->writeReceiver(lit, instanced) + "  }\n  else\n  {\n" + begin;
     end = "  }\n";
   }
   // VTK will put its #version line at this mark, which extensions must follow.

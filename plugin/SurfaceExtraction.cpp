@@ -3,6 +3,7 @@
 #include "vtkArrayDispatch.h"
 #include "vtkCellArray.h"
 #include "vtkCellArrayIterator.h"
+#include "vtkDataArray.h"
 #include "vtkDataArrayRange.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
@@ -226,6 +227,30 @@ void placeVertices(vtkPolyData* data, const std::vector<std::uint32_t>& pointOfV
       const glm::dvec4 world = worldFromModel * glm::dvec4(position, 1.0);
       positionsCentred[vertex] = glm::vec3(glm::dvec3(world) / world.w - centreWorld);
     });
+}
+
+//------------------------------------------------------------------------------
+std::vector<glm::vec2> readTextureCoordinates(vtkDataArray* array, const glm::mat4& transform,
+  const std::vector<std::uint32_t>& pointOfVertex, std::size_t vertexCount)
+{
+  std::vector<glm::vec2> coordinates(vertexCount, glm::vec2(0.0f));
+  const bool two = array->GetNumberOfComponents() > 1;
+  for (std::size_t vertex = 0; vertex < vertexCount; ++vertex)
+  {
+    const auto point =
+      static_cast<vtkIdType>(pointOfVertex.empty() ? vertex : pointOfVertex[vertex]);
+    if (point < array->GetNumberOfTuples())
+    {
+      const auto s = static_cast<float>(array->GetComponent(point, 0));
+      const auto t = static_cast<float>(two ? array->GetComponent(point, 1) : 0.0);
+      const glm::vec4 transformed = transform * glm::vec4(s, t, 0.0f, 1.0f);
+      const glm::vec2 result = glm::vec2(transformed) / transformed.w;
+      // With a single component VTK keeps to it after the transformation, too.
+      const glm::vec2 kept(result.x, two ? result.y : 0.0f);
+      coordinates[vertex] = std::isfinite(kept.x) && std::isfinite(kept.y) ? kept : glm::vec2(0.0f);
+    }
+  }
+  return coordinates;
 }
 
 //------------------------------------------------------------------------------

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <vector>
 
+class vtkDataArray;
 class vtkPolyData;
 
 namespace gnomon
@@ -80,6 +81,12 @@ struct DroppedTriangle
 void placeVertices(vtkPolyData* data, const std::vector<std::uint32_t>& pointOfVertex,
   std::size_t vertexCount, const glm::dmat4& worldFromModel, const glm::dvec3& centreWorld,
   glm::vec3* positionsCentred);
+
+/// A surface's texture coordinates, one for each of its vertices, as VTK's vertex shader makes them of
+/// an array with one or two components: transform * (s, t, 0, 1) over its last component, in float.
+/// What is not finite, or not in the array, becomes 0.
+std::vector<glm::vec2> readTextureCoordinates(vtkDataArray* array, const glm::mat4& transform,
+  const std::vector<std::uint32_t>& pointOfVertex, std::size_t vertexCount);
 
 /// What is wrong with a triangle at these positions.
 Defect defectOf(const glm::uvec3& triangle, const glm::vec3* positionsCentred);

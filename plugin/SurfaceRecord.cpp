@@ -6,6 +6,7 @@
 #include "shadowtech/base/Occluders.h"
 
 #include "vtkCompositeDataDisplayAttributes.h"
+#include "vtkDataArray.h"
 #include "vtkDataSet.h"
 #include "vtkGlyph3DMapper.h"
 #include "vtkPolyData.h"
@@ -99,6 +100,14 @@ vtkMTimeType changeTime(const DrawnProp& prop, const DrawnBlock& block, SurfaceC
 }
 
 //------------------------------------------------------------------------------
+CoordinatesSource coordinatesSource(const DrawnProp& prop, const DrawnBlock& block)
+{
+  vtkDataArray* array = block.textureCoordinates;
+  return array ? CoordinatesSource{ array, array->GetMTime(), prop.textureTransform }
+               : CoordinatesSource{};
+}
+
+//------------------------------------------------------------------------------
 FreshSurface readSurface(const DrawnProp& prop, const DrawnBlock& block, SurfaceCells cells,
   std::size_t mostGlyphTriangles, std::vector<std::uint32_t>& vertexOfPoint)
 {
@@ -124,6 +133,16 @@ FreshSurface readSurface(const DrawnProp& prop, const DrawnBlock& block, Surface
       drawn.vertexCount = 0;
     }
     repeatTriangles(drawn.triangles, drawn.vertexCount, instances);
+  }
+  record.coordinates = coordinatesSource(prop, block);
+  if (record.coordinates.array)
+  {
+    const std::vector<glm::vec2> one = readTextureCoordinates(
+      block.textureCoordinates, prop.textureTransform, record.pointOfVertex, drawn.vertexCount);
+    for (std::size_t i = 0; i < record.modelFromInstance.size(); ++i)
+    {
+      fresh.textureCoordinates.insert(fresh.textureCoordinates.end(), one.begin(), one.end());
+    }
   }
   fresh.positionsCentred.resize(drawn.vertexCount * record.modelFromInstance.size());
   fresh.triangles = std::move(drawn.triangles);
@@ -162,7 +181,8 @@ void placeSurface(FreshSurface& fresh, const DrawnProp& prop, const DrawnBlock& 
     {
       plane.w += glm::dot(glm::dvec3(plane), centreWorld);
     }
-    clipTriangles(planesCentred, positions, fresh.triangles, fresh.triangleOfDrawn);
+    clipTriangles(
+      planesCentred, positions, fresh.textureCoordinates, fresh.triangles, fresh.triangleOfDrawn);
   }
   record.boundsCentred = boundsOf(fresh.triangles.begin(), fresh.triangles.end(), positions.data());
 }

@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <vector>
 
+class vtkDataArray;
 class vtkDataSet;
 class vtkPolyData;
 class vtkProp;
@@ -58,6 +59,21 @@ struct SurfaceKeyHash
   }
 };
 
+/// What a surface's texture coordinates were read from. The array only names.
+struct CoordinatesSource
+{
+  const vtkDataArray* array = nullptr; ///< null without a cut-out
+  vtkMTimeType time = 0;
+  glm::mat4 transform{ 1.0f };
+
+  bool operator==(const CoordinatesSource& other) const
+  {
+    return this->array == other.array && this->time == other.time &&
+      this->transform == other.transform;
+  }
+};
+CoordinatesSource coordinatesSource(const DrawnProp& prop, const DrawnBlock& block);
+
 /// What is remembered of a surface beside its place in the snapshot.
 struct SurfaceRecord
 {
@@ -65,6 +81,7 @@ struct SurfaceRecord
   vtkMTimeType shapeTime = 0;
   glm::dmat4 worldFromModel{ 1.0 };
   std::vector<glm::dvec4> clipPlanes;
+  CoordinatesSource coordinates;
   std::vector<std::uint32_t> pointOfVertex; ///< as in DrawnTriangles, of one instance
   /// Where the polydata is drawn in its prop's model coordinates: once as it is, or as a glyph at
   /// any number of places.
@@ -81,6 +98,7 @@ struct FreshSurface
 {
   SurfaceRecord record;
   std::vector<glm::vec3> positionsCentred;
+  std::vector<glm::vec2> textureCoordinates; ///< as in Surface
   std::vector<glm::uvec3> triangles;
   std::vector<std::uint32_t> triangleOfDrawn;
 };

@@ -22,6 +22,8 @@ std::vector<BuiltinSceneEntry> makeEntries()
       makeHalfPlaneScene },
     { { "panels", "three planes above each other and three panels, open sheets" },
       makePanelsScene },
+    { { "screens", "a lattice and a bent sheet, whose holes are cut out by textures" },
+      makeScreensScene },
     { { "pole", "one tall, thin pole" }, makePoleScene },
     { { "stack", "a cube above a sphere above a plane" }, makeStackScene },
     { { "long-cube", "a hovering cube, long in the direction of the light" }, makeLongCubeScene },

@@ -48,6 +48,8 @@ Scene makeCupsScene();
 /// Three planes above each other that grow downwards, and three panels that stand on the lowest;
 /// all are open sheets, and the panels' fronts look away from the light.
 Scene makePanelsScene();
+/// A lattice and a bent sheet with round holes above a plane. The holes are those of textures.
+Scene makeScreensScene();
 /// One tall, thin, round pole.
 Scene makePoleScene();
 

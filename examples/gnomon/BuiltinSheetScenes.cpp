@@ -3,9 +3,14 @@
 #include "MeshBuilder.h"
 #include "Vec3.h"
 
+#include <vtkFloatArray.h>
+#include <vtkImageData.h>
 #include <vtkMath.h>
+#include <vtkPointData.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 
 // Scenes of sheets without thickness and of things that are thin.
 
@@ -56,6 +61,50 @@ SceneModel withColor(SceneModel model, const std::string& name, const Vec3& colo
   return model;
 }
 
+/// A texture of texels x texels in white, without alpha where there is a hole.
+vtkSmartPointer<vtkTexture> makeHoles(
+  int texels, const std::function<bool(double u, double v)>& isHole)
+{
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(texels, texels, 1);
+  image->AllocateScalars(VTK_UNSIGNED_CHAR, 4);
+  auto* texel = static_cast<unsigned char*>(image->GetScalarPointer());
+  for (int y = 0; y < texels; ++y)
+  {
+    for (int x = 0; x < texels; ++x)
+    {
+      texel = std::fill_n(texel, 3, static_cast<unsigned char>(255));
+      *texel++ = isHole((x + 0.5) / texels, (y + 0.5) / texels) ? 0 : 255;
+    }
+  }
+  auto texture = vtkSmartPointer<vtkTexture>::New();
+  texture->SetInputData(image);
+  return texture;
+}
+
+/// A sheet of columns x rows cells that shows a texture `across` and `upward` times.
+SceneModel makeTexturedSheet(const std::string& name, int columns, int rows,
+  const std::function<Vec3(double u, double v)>& place, vtkSmartPointer<vtkTexture> texture,
+  double across, double upward)
+{
+  MeshBuilder mesh;
+  mesh.addSheet(columns, rows, place);
+  SceneModel model = makeModel(name, mesh.build(), { { 0.62, 0.5, 0.36 } });
+  vtkNew<vtkFloatArray> coordinates;
+  coordinates->SetName("TextureCoordinates");
+  coordinates->SetNumberOfComponents(2);
+  for (int row = 0; row <= rows; ++row)
+  {
+    for (int column = 0; column <= columns; ++column)
+    {
+      coordinates->InsertNextTuple2(across * column / columns, upward * row / rows);
+    }
+  }
+  model.surface->GetPointData()->SetTCoords(coordinates);
+  model.texture = std::move(texture);
+  return model;
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -95,6 +144,38 @@ Scene makePanelsScene()
   }
   scene.camera = makeCamera({ { 3.6, 6.2, 9.5 } }, { { 0.5, 0.7, 0.6 } }, 40.0);
   scene.lights = { makeSun(travel) };
+  return scene;
+}
+
+//------------------------------------------------------------------------------
+Scene makeScreensScene()
+{
+  Scene scene;
+  scene.name = "screens";
+  const auto lattice = makeHoles(
+    16, [](double u, double v) { return std::abs(u - 0.5) < 0.36 && std::abs(v - 0.5) < 0.36; });
+  const auto discs =
+    makeHoles(64, [](double u, double v) { return std::hypot(u - 0.5, v - 0.5) < 0.37; });
+  scene.models = {
+    makeTexturedSheet(
+      "lattice", 1, 1,
+      [](double u, double v) {
+        return Vec3{ { -3.2 + 3.4 * u, 2.4 * v, 0.9 - 0.5 * v } };
+      },
+      lattice, 8.0, 6.0),
+    makeTexturedSheet(
+      "bent sheet", 24, 4,
+      [](double u, double v)
+      {
+        const double angle = vtkMath::Pi() * (1.15 - 1.1 * u);
+        return Vec3{ { 1.7 + 1.2 * std::cos(angle), 0.15 + 2.3 * v,
+          -0.6 + 1.2 * std::sin(angle) } };
+      },
+      discs, 12.0, 7.0),
+    makePlane(origin, 14.0),
+  };
+  scene.camera = makeCamera({ { 2.6, 5.2, 8.4 } }, { { 0.0, 0.6, 0.6 } }, 42.0);
+  scene.lights = { makeSun({ { 0.35, -1.0, 0.8 } }) };
   return scene;
 }
 

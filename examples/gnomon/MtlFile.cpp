@@ -2,14 +2,10 @@
 
 #include "Errors.h"
 #include "Files.h"
-#include "ImageCheck.h"
 #include "ModelChecks.h"
 #include "SceneFraming.h"
 #include "Text.h"
-
-#include <vtkImageData.h>
-#include <vtkJPEGReader.h>
-#include <vtkPNGReader.h>
+#include "TextureFile.h"
 
 #include <filesystem>
 
@@ -72,38 +68,6 @@ struct Statement
   }
 };
 
-vtkSmartPointer<vtkTexture> readTexture(const std::string& path, const std::string& place)
-{
-  std::string bytes;
-  try
-  {
-    bytes = readWholeFile(path, largestModelBytes);
-  }
-  catch (const BadInput& error)
-  {
-    throw BadInput(place + error.what());
-  }
-  if (!isWholeImage(bytes))
-  {
-    throw BadInput(place + path + ": not a PNG or JPEG image, or a damaged one");
-  }
-  vtkSmartPointer<vtkImageReader2> reader;
-  if (imageType(bytes) == "image/png")
-  {
-    reader = vtkSmartPointer<vtkPNGReader>::New();
-  }
-  else
-  {
-    reader = vtkSmartPointer<vtkJPEGReader>::New();
-  }
-  reader->SetFileName(path.c_str());
-  reader->Update();
-  auto texture = vtkSmartPointer<vtkTexture>::New();
-  texture->SetInputData(reader->GetOutput());
-  texture->InterpolateOn();
-  return texture;
-}
-
 void apply(const Statement& statement, const std::filesystem::path& folder, Material& material)
 {
   const std::string& keyword = statement.words[0];
@@ -133,7 +97,15 @@ void apply(const Statement& statement, const std::filesystem::path& folder, Mate
   }
   else if (keyword == "map_Kd")
   {
-    material.texture = readTexture((folder / statement.fileName()).string(), statement.place);
+    try
+    {
+      material.texture = readTexture((folder / statement.fileName()).string());
+    }
+    catch (const BadInput& error)
+    {
+      throw BadInput(statement.place + error.what());
+    }
+    material.texture->InterpolateOn();
   }
 }
 

@@ -4,9 +4,12 @@
 
 #include "plugin/vtkGnomonEGLRenderWindow.h"
 
+#include <vtkDataArray.h>
+#include <vtkImageData.h>
 #include <vtkLight.h>
 #include <vtkLightCollection.h>
 #include <vtkNew.h>
+#include <vtkPointData.h>
 #include <vtkProperty.h>
 #include <vtkRenderPass.h>
 #include <vtkRenderer.h>
@@ -24,6 +27,28 @@ namespace
 /// Each exposure begins where the one before has 16 of its 256 steps left.
 constexpr std::array<double, 4> exposureFactors = { 1.0, 16.0, 256.0, 4096.0 };
 
+/// A texture's holes in white; null without a texture, and where it is all white without.
+vtkSmartPointer<vtkTexture> whiteTexture(vtkTexture* source)
+{
+  vtkImageData* image = source ? source->GetInput() : nullptr;
+  const int components = image ? image->GetNumberOfScalarComponents() : 0;
+  if (components % 2 != 0 || components == 0)
+  {
+    return nullptr; // no alpha
+  }
+  vtkNew<vtkImageData> white;
+  white->DeepCopy(image);
+  for (int i = 0; i + 1 < components; ++i)
+  {
+    white->GetPointData()->GetScalars()->FillComponent(i, image->GetScalarTypeMax());
+  }
+  auto texture = vtkSmartPointer<vtkTexture>::New();
+  texture->SetInputData(white);
+  texture->SetInterpolate(source->GetInterpolate());
+  texture->SetWrap(source->GetWrap());
+  return texture;
+}
+
 /// The scene with white, flat surfaces that only reflect diffusely, and one white light.
 Scene whiteScene(const Scene& scene, std::size_t light)
 {
@@ -39,7 +64,7 @@ Scene whiteScene(const Scene& scene, std::size_t light)
   {
     const bool cullsBack = model.property->GetBackfaceCulling();
     const bool cullsFront = model.property->GetFrontfaceCulling();
-    model.texture = nullptr;
+    model.texture = whiteTexture(model.texture);
     model.property = vtkSmartPointer<vtkProperty>::New();
     model.property->SetInterpolationToFlat();
     model.property->SetColor(1.0, 1.0, 1.0);

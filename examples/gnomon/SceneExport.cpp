@@ -6,7 +6,9 @@
 #include "lights/ShadowSettings.h"
 
 #include <nlohmann/json.hpp>
+#include <vtkImageData.h>
 #include <vtkNew.h>
+#include <vtkPNGWriter.h>
 #include <vtkXMLPolyDataWriter.h>
 
 #include <algorithm>
@@ -56,12 +58,30 @@ Json toJson(const SceneLight& light)
   return json;
 }
 
-Json toJson(const SceneModel& model, const std::string& file)
+/// @param texture the file of its texture; empty if it has none
+Json toJson(const SceneModel& model, const std::string& file, const std::string& texture)
 {
   Vec3 color;
   model.property->GetColor(color.data());
-  return { { "file", file }, { "matrix", model.matrix }, { "color", color },
+  Json json = { { "file", file }, { "matrix", model.matrix }, { "color", color },
     { "casts", model.casts }, { "receives", model.receives }, { "one_sided", model.oneSided } };
+  if (!texture.empty())
+  {
+    json["texture"] = texture;
+  }
+  return json;
+}
+
+void writeImage(vtkImageData* image, const std::string& path)
+{
+  vtkNew<vtkPNGWriter> writer;
+  writer->SetFileName(path.c_str());
+  writer->SetInputData(image);
+  writer->Write();
+  if (writer->GetErrorCode() != 0)
+  {
+    throw Failure(path + ": cannot be written");
+  }
 }
 
 void writeSurface(vtkPolyData* surface, const std::string& path)
@@ -94,9 +114,15 @@ std::string exportScene(const Scene& scene, const std::string& folder)
   json["models"] = Json::array();
   for (const SceneModel& model : scene.models)
   {
-    const std::string file = scene.name + "-" + std::to_string(json["models"].size()) + ".vtp";
+    const std::string name = scene.name + "-" + std::to_string(json["models"].size());
+    const std::string file = name + ".vtp";
     writeSurface(model.surface, (std::filesystem::path(folder) / file).string());
-    json["models"].push_back(toJson(model, file));
+    const std::string texture = model.texture ? name + ".png" : "";
+    if (model.texture)
+    {
+      writeImage(model.texture->GetInput(), (std::filesystem::path(folder) / texture).string());
+    }
+    json["models"].push_back(toJson(model, file, texture));
   }
   json["lights"] = Json::array();
   for (const SceneLight& light : scene.lights)

@@ -4,8 +4,10 @@
 #include "ModelFile.h"
 #include "SceneFraming.h"
 #include "SceneJson.h"
+#include "TextureFile.h"
 
 #include <vtkMatrix4x4.h>
+#include <vtkPointData.h>
 
 #include <cmath>
 #include <filesystem>
@@ -46,7 +48,7 @@ std::array<double, 16> readMatrix(const JsonValue& value)
 std::vector<SceneModel> readModel(const JsonValue& value, const std::filesystem::path& folder,
   std::map<std::string, Model>& loaded, std::vector<std::string>& notes)
 {
-  value.requireObject({ "file", "matrix", "color", "casts", "receives", "one_sided" });
+  value.requireObject({ "file", "matrix", "color", "texture", "casts", "receives", "one_sided" });
   const std::string path = (folder / value.member("file").text()).string();
   auto place = loaded.find(path);
   if (place == loaded.end())
@@ -63,6 +65,19 @@ std::vector<SceneModel> readModel(const JsonValue& value, const std::filesystem:
     notes.insert(notes.end(), model.notes.begin(), model.notes.end());
   }
 
+  vtkSmartPointer<vtkTexture> texture;
+  if (const JsonValue image = value.member("texture"); image.present())
+  {
+    try
+    {
+      texture = readTexture((folder / image.text()).string());
+    }
+    catch (const BadInput& error)
+    {
+      image.refuse(error.what());
+    }
+  }
+
   std::vector<SceneModel> surfaces = place->second.surfaces;
   for (SceneModel& surface : surfaces)
   {
@@ -76,6 +91,14 @@ std::vector<SceneModel> readModel(const JsonValue& value, const std::filesystem:
     if (const JsonValue color = value.member("color"); color.present())
     {
       paint(surface, color.numbers<3>(colorChannel));
+    }
+    if (texture)
+    {
+      if (!surface.surface->GetPointData()->GetTCoords())
+      {
+        value.member("texture").refuse(path + ": has no texture coordinates");
+      }
+      surface.texture = texture;
     }
     if (const JsonValue casts = value.member("casts"); casts.present())
     {

@@ -10,7 +10,7 @@ namespace gnomon::tool
 ///
 ///     {"camera": {"position": [x,y,z], "target": [x,y,z], "up": [0,1,0], "fov": 45},
 ///      "models": [{"file": "bunny.obj", "matrix": [16 numbers, row-major], "color": [r,g,b],
-///                  "casts": true, "receives": true, "one_sided": false}],
+///                  "texture": "screen.png", "casts": true, "receives": true, "one_sided": false}],
 ///      "lights": [{"type": "directional", "direction": [x,y,z], "color": [1,1,1], "intensity": 1,
 ///                  "technique": "pcf", "map_size": 1024, "kernel": "bilinear", "kernel_size": 3},
 ///                 {"type": "directional", "direction": [x,y,z], "box": {"position": [x,y,z],
@@ -26,7 +26,8 @@ namespace gnomon::tool
 /// across it around `position`, and reaches `depth` far; nothing else is lit by it or casts into it
 /// (vtkGnomonLightKeys). `technique`, `map_size`, `kernel` and `kernel_size` are what vtkGnomonLightKeys
 /// takes; lights of all types have them. Model paths are relative to the scene file. Of a model only `file` must be given;
-/// its `color` replaces the colours and textures of the file, and lights and cameras of the model
+/// its `color` replaces the colours and textures of the file, its `texture` (an image of the nearest
+/// texel, repeated; where its alpha is 0 the model has holes) the file's texture, and lights and cameras of the model
 /// file are not used. A scene without "camera" or "lights" gets those of a bare model.
 /// @throws BadInput
 Scene readSceneFile(const std::string& path, FileLights fileLights);

@@ -3,6 +3,9 @@
 #include "shadowtech/base/Bytes.h"
 #include "shadowtech/base/GlState.h"
 
+#include <optional>
+#include <utility>
+
 namespace gnomon
 {
 namespace
@@ -33,6 +36,64 @@ void send(GLenum target, const std::vector<Element>& elements, std::size_t first
     static_cast<GLsizeiptr>(count * sizeof(Element)), elements.data() + first);
 }
 
+GLint wrapOf(TextureWrap wrap)
+{
+  switch (wrap)
+  {
+    case TextureWrap::ClampToEdge:
+      return GL_CLAMP_TO_EDGE;
+    case TextureWrap::MirroredRepeat:
+      return GL_MIRRORED_REPEAT;
+    case TextureWrap::ClampToBorder:
+      return GL_CLAMP_TO_BORDER;
+    case TextureWrap::Repeat:
+      break;
+  }
+  return GL_REPEAT;
+}
+
+/// A mask as the red channel of a texture that is read as VTK reads its own.
+GlTexture makeTexture(const CutoutMask& mask)
+{
+  GlTexture texture;
+  glBindTexture(GL_TEXTURE_2D, texture.create());
+  glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_R8, mask.width, mask.height, 0, GL_RED, GL_UNSIGNED_BYTE,
+    mask.texels.data());
+  const GLint filter = mask.interpolated ? GL_LINEAR : GL_NEAREST;
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, wrapOf(mask.wrap));
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, wrapOf(mask.wrap));
+  const GLfloat border[4] = { mask.borderDrawn ? 1.0f : 0.0f, 0.0f, 0.0f, 0.0f };
+  glTexParameterfv(GL_TEXTURE_2D, GL_TEXTURE_BORDER_COLOR, border);
+  return texture;
+}
+
+/// Where an element of the bound buffer lies, in the form that OpenGL takes.
+template <typename Element>
+const void* placeOf(std::size_t number)
+{
+  return reinterpret_cast<const void*>(number * sizeof(Element));
+}
+
+/// Culls the back faces of one-sided surfaces, as long as it lives.
+class BackFaceCulling
+{
+public:
+  BackFaceCulling()
+  {
+    glEnable(GL_CULL_FACE);
+    glCullFace(GL_BACK);
+    // A light looks along +z of its right-handed space, so that its picture is mirrored.
+    glFrontFace(GL_CW);
+  }
+  ~BackFaceCulling() { glDisable(GL_CULL_FACE); }
+  BackFaceCulling(const BackFaceCulling&) = delete;
+  BackFaceCulling& operator=(const BackFaceCulling&) = delete;
+};
+
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -57,12 +118,13 @@ void OccluderBuffers::sendAll(const Occluders& occluders)
 {
   this->twoSided_.clear();
   this->oneSided_.clear();
+  this->cutouts_.clear();
   std::size_t triangles = 0;
   for (const Surface& surface : occluders.surfaces)
   {
     if (isDrawn(surface))
     {
-      this->partsOf(surface).push_back(
+      this->addPart(surface,
         { static_cast<GLsizei>(3 * triangles), static_cast<GLsizei>(3 * surface.triangleCount),
           surface.positionsVersion, verticesBounds(surface, occluders) });
       triangles += surface.triangleCount;
@@ -94,6 +156,47 @@ void OccluderBuffers::sendAll(const Occluders& occluders)
     first = last == occluders.surfaces.end() ? last : last + 1;
   }
   this->bytesOnGpu_ = positionBytes + triangleBytes;
+  this->sendCutouts(occluders);
+}
+
+//------------------------------------------------------------------------------
+/// Gives the surfaces with a cut-out their texture coordinates and masks. Masks that are still in use
+/// are not sent again.
+void OccluderBuffers::sendCutouts(const Occluders& occluders)
+{
+  std::map<std::shared_ptr<const CutoutMask>, GlTexture> masks;
+  glActiveTexture(GL_TEXTURE0);
+  auto cutout = this->cutouts_.begin();
+  for (const Surface& surface : occluders.surfaces)
+  {
+    if (!isDrawn(surface) || !surface.cutout)
+    {
+      continue;
+    }
+    CutoutPart& part = *cutout++;
+    glBindVertexArray(part.vertexArray.create());
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, this->indices_.name());
+    glBindBuffer(GL_ARRAY_BUFFER, this->positions_.name());
+    glVertexAttribPointer(
+      0, 3, GL_FLOAT, GL_FALSE, sizeof(glm::vec3), placeOf<glm::vec3>(surface.firstVertex));
+    glEnableVertexAttribArray(0);
+    glBindBuffer(GL_ARRAY_BUFFER, part.textureCoordinates.create());
+    const std::size_t bytes = surface.textureCoordinates.size() * sizeof(glm::vec2);
+    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(bytes), surface.textureCoordinates.data(),
+      GL_STATIC_DRAW);
+    glVertexAttribPointer(1, 2, GL_FLOAT, GL_FALSE, sizeof(glm::vec2), nullptr);
+    glEnableVertexAttribArray(1);
+    this->bytesOnGpu_ += bytes;
+
+    GlTexture& texture = masks[part.mask];
+    if (!texture)
+    {
+      const auto sent = this->masks_.find(part.mask);
+      texture = sent != this->masks_.end() ? std::move(sent->second) : makeTexture(*part.mask);
+      this->bytesOnGpu_ += part.mask->texels.size();
+    }
+  }
+  this->masks_ = std::move(masks);
 }
 
 //------------------------------------------------------------------------------
@@ -101,13 +204,14 @@ void OccluderBuffers::sendMoved(const Occluders& occluders)
 {
   auto twoSided = this->twoSided_.begin();
   auto oneSided = this->oneSided_.begin();
+  auto cutout = this->cutouts_.begin();
   for (const Surface& surface : occluders.surfaces)
   {
     if (!isDrawn(surface))
     {
       continue;
     }
-    Part& part = surface.oneSided ? *oneSided++ : *twoSided++;
+    Part& part = surface.cutout ? (cutout++)->part : surface.oneSided ? *oneSided++ : *twoSided++;
     if (part.positionsVersion != surface.positionsVersion)
     {
       part.positionsVersion = surface.positionsVersion;
@@ -119,15 +223,24 @@ void OccluderBuffers::sendMoved(const Occluders& occluders)
 }
 
 //------------------------------------------------------------------------------
-std::vector<OccluderBuffers::Part>& OccluderBuffers::partsOf(const Surface& surface)
+void OccluderBuffers::addPart(const Surface& surface, const Part& part)
 {
-  return surface.oneSided ? this->oneSided_ : this->twoSided_;
+  if (surface.cutout)
+  {
+    this->cutouts_.push_back(
+      { part, surface.oneSided, surface.cutout, -static_cast<GLint>(surface.firstVertex), {}, {} });
+  }
+  else
+  {
+    (surface.oneSided ? this->oneSided_ : this->twoSided_).push_back(part);
+  }
 }
 
 //------------------------------------------------------------------------------
 std::size_t OccluderBuffers::bytes() const
 {
-  return this->bytesOnGpu_ + bytesOf(this->twoSided_) + bytesOf(this->oneSided_);
+  return this->bytesOnGpu_ + bytesOf(this->twoSided_) + bytesOf(this->oneSided_) +
+    bytesOf(this->cutouts_);
 }
 
 //------------------------------------------------------------------------------
@@ -149,8 +262,7 @@ void OccluderBuffers::drawParts(const std::vector<Part>& parts, const LightView&
     else
     {
       counts.push_back(part.count);
-      const std::size_t offset = static_cast<std::size_t>(part.first) * sizeof(GLuint);
-      offsets.push_back(reinterpret_cast<const void*>(offset));
+      offsets.push_back(placeOf<GLuint>(static_cast<std::size_t>(part.first)));
     }
     end = part.first + part.count;
   }
@@ -169,12 +281,31 @@ void OccluderBuffers::draw(const LightView& view) const
   this->drawParts(this->twoSided_, view);
   if (!this->oneSided_.empty())
   {
-    glEnable(GL_CULL_FACE);
-    glCullFace(GL_BACK);
-    // A light looks along +z of its right-handed space, so that its picture is mirrored.
-    glFrontFace(GL_CW);
+    const BackFaceCulling culling;
     this->drawParts(this->oneSided_, view);
-    glDisable(GL_CULL_FACE);
+  }
+}
+
+//------------------------------------------------------------------------------
+void OccluderBuffers::drawCutouts(const LightView& view) const
+{
+  glDisable(GL_CULL_FACE);
+  for (const CutoutPart& cutout : this->cutouts_)
+  {
+    const Part& part = cutout.part;
+    if (!view.maySee(part.boundsCentred))
+    {
+      continue;
+    }
+    std::optional<BackFaceCulling> culling;
+    if (cutout.oneSided)
+    {
+      culling.emplace();
+    }
+    glBindVertexArray(cutout.vertexArray.name());
+    glBindTexture(GL_TEXTURE_2D, this->masks_.at(cutout.mask).name());
+    glDrawElementsBaseVertex(GL_TRIANGLES, part.count, GL_UNSIGNED_INT,
+      placeOf<GLuint>(static_cast<std::size_t>(part.first)), cutout.baseVertex);
   }
 }
 

@@ -7,6 +7,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
+#include <memory>
 #include <vector>
 
 namespace gnomon
@@ -20,10 +22,19 @@ public:
   void update(const Occluders& occluders);
 
   /// Draws the casting triangles with the program in use; the position is attribute 0, a vec3.
-  /// Surfaces that the view cannot see are left out.
+  /// Surfaces that the view cannot see are left out, and those with a cut-out are left to
+  /// drawCutouts().
   /// One-sided surfaces are drawn with their back faces culled, "front" being what the current view
   /// sees counter-clockwise.
   void draw(const LightView& view) const;
+
+  /// Whether there are surfaces with a cut-out.
+  bool hasCutouts() const { return !this->cutouts_.empty(); }
+
+  /// Draws the casting triangles of surfaces with a cut-out, otherwise like draw(). Texture coordinates
+  /// are attribute 1, a vec2; the 2D texture of the active unit is, surface by surface, its mask, which
+  /// is 0 exactly where the surface has a hole, filtered and repeated as VTK's texture is.
+  void drawCutouts(const LightView& view) const;
 
   /// On the GPU, and what is remembered of each surface.
   std::size_t bytes() const;
@@ -37,9 +48,20 @@ private:
     std::uint64_t positionsVersion; ///< as sent
     Bounds boundsCentred;
   };
+  /// A surface with a cut-out.
+  struct CutoutPart
+  {
+    Part part;
+    bool oneSided;
+    std::shared_ptr<const CutoutMask> mask;
+    GLint baseVertex; ///< brings its indices to its first vertex, where both attributes begin
+    GlBuffer textureCoordinates;
+    GlVertexArray vertexArray;
+  };
   void sendAll(const Occluders& occluders);
   void sendMoved(const Occluders& occluders);
-  std::vector<Part>& partsOf(const Surface& surface);
+  void sendCutouts(const Occluders& occluders);
+  void addPart(const Surface& surface, const Part& part);
   void drawParts(const std::vector<Part>& parts, const LightView& view) const;
 
   GlVertexArray vertexArray_;
@@ -47,6 +69,8 @@ private:
   GlBuffer indices_;
   std::vector<Part> twoSided_;
   std::vector<Part> oneSided_;
+  std::vector<CutoutPart> cutouts_;
+  std::map<std::shared_ptr<const CutoutMask>, GlTexture> masks_; ///< of cutouts_
   std::size_t bytesOnGpu_ = 0;
   std::uint64_t topologyVersion_ = 0;
   std::uint64_t positionsVersion_ = 0;

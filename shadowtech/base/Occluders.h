@@ -2,11 +2,13 @@
 #define gnomon_shadowtech_base_Occluders_h
 
 #include "lights/Bounds.h"
+#include "shadowtech/base/CutoutMask.h"
 
 #include <glm/glm.hpp>
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace gnomon
@@ -26,8 +28,13 @@ struct Surface
   bool receives = true;  ///< its pixels are shadowed; else their visibility is 1
   bool oneSided = false; ///< only triangles whose front (counter-clockwise) faces the light cast
 
-  /// Changes when the triangles of this surface change (its mapper's input), not when it only gets
-  /// another place in the list. Versions are never given twice within a snapshot, so that a surface
+  /// What its texture leaves of it; null, as nearly always, for all of it.
+  std::shared_ptr<const CutoutMask> cutout;
+  /// Of a surface with a cut-out, one for each of its vertices. A triangle's are affine on it.
+  std::vector<glm::vec2> textureCoordinates;
+
+  /// Changes when the triangles of this surface change (its mapper's input) or their texture
+  /// coordinates, not when it only gets another place in the list. Versions are never given twice within a snapshot, so that a surface
   /// can be found again by this one.
   std::uint64_t topologyVersion = 0;
   /// Changes when its centred positions change: with the topology, or because the prop moved.
@@ -61,7 +68,7 @@ struct Occluders
   std::size_t droppedNonFinite = 0;
   std::size_t droppedZeroArea = 0;
 
-  /// Changes when surfaces come, go, change their triangles or their flags.
+  /// Changes when surfaces come, go, change their triangles, their flags or their cut-outs.
   std::uint64_t topologyVersion = 0;
   /// Changes when any centred position changes (and with topologyVersion).
   std::uint64_t positionsVersion = 0;

@@ -12,6 +12,7 @@
 #include <atomic>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <numeric>
 #include <stdexcept>
 #include <string>
@@ -77,12 +78,63 @@ void rejectBackFaces(const RTCFilterFunctionNArguments* arguments)
   }
 }
 
+/// Where a hit on a surface with a cut-out finds its texture coordinates.
+struct CutoutSurface
+{
+  std::shared_ptr<const CutoutMask> mask;
+  const glm::vec2* textureCoordinates = nullptr; ///< of its vertices
+  const glm::uvec3* triangles = nullptr;         ///< its own, indices into all positions
+  std::uint32_t firstVertex = 0;
+};
+
+/// Rejects hits in the holes of a surface, so that the ray goes on behind it.
+void rejectHoles(const RTCFilterFunctionNArguments* arguments)
+{
+  const auto& surface = *static_cast<const CutoutSurface*>(arguments->geometryUserPtr);
+  const unsigned int count = arguments->N;
+  for (unsigned int i = 0; i < count; ++i)
+  {
+    if (!arguments->valid[i])
+    {
+      continue; // no hit; its numbers mean nothing
+    }
+    const glm::uvec3 corners =
+      surface.triangles[RTCHitN_primID(arguments->hit, count, i)] - surface.firstVertex;
+    const glm::vec2 a = surface.textureCoordinates[corners.x];
+    const glm::vec2 b = surface.textureCoordinates[corners.y];
+    const glm::vec2 c = surface.textureCoordinates[corners.z];
+    const float u = RTCHitN_u(arguments->hit, count, i);
+    const float v = RTCHitN_v(arguments->hit, count, i);
+    if (!surface.mask->isDrawn(a + u * (b - a) + v * (c - a)))
+    {
+      arguments->valid[i] = 0;
+    }
+  }
+}
+
+void rejectBackFacesAndHoles(const RTCFilterFunctionNArguments* arguments)
+{
+  rejectBackFaces(arguments);
+  rejectHoles(arguments);
+}
+
+/// What has to agree to a hit on a surface; null where every hit counts.
+RTCFilterFunctionN filterOf(const Surface& surface)
+{
+  if (surface.cutout)
+  {
+    return surface.oneSided ? rejectBackFacesAndHoles : rejectHoles;
+  }
+  return surface.oneSided ? rejectBackFaces : nullptr;
+}
+
 /// One casting surface in the scene.
 struct Caster
 {
   Geometry geometry;
   unsigned int id = 0;
-  bool oneSided = false;
+  RTCFilterFunctionN filter = nullptr;
+  std::unique_ptr<CutoutSurface> cutout; ///< stays where it is, since Embree is told
   std::uint64_t positionsVersion = 0;
   /// Where Embree was told to look.
   const glm::vec3* positions = nullptr;
@@ -380,18 +432,28 @@ void RayTracer::Impl::setBuffers(
     caster.positions = positions;
     caster.positionCount = count;
   }
+  if (caster.cutout)
+  {
+    *caster.cutout = { surface.cutout, surface.textureCoordinates.data(), triangles,
+      surface.firstVertex };
+  }
 }
 
 Caster RayTracer::Impl::makeCaster(const Surface& surface, const Occluders& occluders) const
 {
   Caster caster;
   caster.geometry = Geometry(rtcNewGeometry(this->device.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
-  caster.oneSided = surface.oneSided;
+  caster.filter = filterOf(surface);
   caster.positionsVersion = surface.positionsVersion;
   rtcSetGeometryBuildQuality(caster.geometry.get(), RTC_BUILD_QUALITY_REFIT);
-  if (surface.oneSided)
+  if (caster.filter)
   {
-    rtcSetGeometryOccludedFilterFunction(caster.geometry.get(), rejectBackFaces);
+    rtcSetGeometryOccludedFilterFunction(caster.geometry.get(), caster.filter);
+  }
+  if (surface.cutout)
+  {
+    caster.cutout = std::make_unique<CutoutSurface>();
+    rtcSetGeometryUserData(caster.geometry.get(), caster.cutout.get());
   }
   this->setBuffers(caster, surface, occluders);
   rtcCommitGeometry(caster.geometry.get());
@@ -424,7 +486,7 @@ RayTracer::Update RayTracer::update(const Occluders& occluders)
       continue;
     }
     const auto found = impl.casters.find(surface.topologyVersion);
-    if (found == impl.casters.end() || found->second.oneSided != surface.oneSided)
+    if (found == impl.casters.end() || found->second.filter != filterOf(surface))
     {
       casters[surface.topologyVersion] = impl.makeCaster(surface, occluders);
       ++update.builds;
@@ -483,7 +545,11 @@ std::size_t RayTracer::bytes() const
 //------------------------------------------------------------------------------
 std::size_t RayTracer::bytesOfTable() const
 {
-  return gnomon::bytesOfTable(this->impl_->casters);
+  const auto& casters = this->impl_->casters;
+  const auto withHoles = std::count_if(casters.begin(), casters.end(),
+    [](const auto& entry) { return entry.second.cutout != nullptr; });
+  return gnomon::bytesOfTable(casters) +
+    static_cast<std::size_t>(withHoles) * sizeof(CutoutSurface);
 }
 
 } // namespace gnomon

@@ -30,8 +30,8 @@ public:
   };
 
   /// Brings the acceleration structure up to date with the snapshot; does nothing when neither
-  /// topologyVersion nor positionsVersion changed. The snapshot's vertex and index arrays are
-  /// shared, not copied: they must stay where they are until the next update.
+  /// topologyVersion nor positionsVersion changed. The snapshot's vertex and index arrays and texture
+  /// coordinates are shared, not copied: they must stay where they are until the next update.
   Update update(const Occluders& occluders);
 
   /// Visibility of the light from every receiver, by the shadow ray of ShadowRay.h: 1 lit, 0

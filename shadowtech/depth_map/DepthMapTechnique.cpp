@@ -39,6 +39,41 @@ std::string define(const char* name, double value)
   return std::string(name) + " " + std::to_string(value);
 }
 
+/// Whether casters may lie before the light's beginning.
+bool begins(const LightView& view)
+{
+  return std::isfinite(view.beginsAt);
+}
+
+/// Puts the program that draws casters into use, for one view.
+void useBakeProgram(
+  const LightView& view, const std::vector<std::string>& defines, const MapInput& input)
+{
+  const GLuint program = input.shaders.program(
+    { { GL_VERTEX_SHADER, ShaderLibrary::source("shadowtech/depth_map/depth_map_bake.vert.glsl") },
+      { GL_FRAGMENT_SHADER,
+        ShaderLibrary::source("shadowtech/depth_map/depth_map_bake.frag.glsl") } },
+    defines);
+  glUseProgram(program);
+  ShaderLibrary::setUniform(program, { "clipFromCentred", glm::mat4(view.clipFromCentred()) });
+  const glm::dvec4 distance = glm::row(view.rays.viewFromCentred, 2);
+  glm::dvec4 depth = view.depthScale * distance;
+  depth.w += view.depthOffset;
+  ShaderLibrary::setUniform(program, { "depthFromCentred", glm::vec4(depth) });
+  if (begins(view))
+  {
+    const glm::dvec4 behind = distance - glm::dvec4(0.0, 0.0, 0.0, view.beginsAt);
+    ShaderLibrary::setUniform(program, { "beginFromCentred", glm::vec4(behind) });
+  }
+  if (view.warped())
+  {
+    const glm::dmat3 acrossFromTexel =
+      glm::inverse(texelFromAcross(view, input.light.mapSizeTexels));
+    ShaderLibrary::setUniform(program, { "texelScale", glm::vec3(glm::row(acrossFromTexel, 2)) });
+  }
+  ShaderLibrary::setUniform(program, { "cutoutMask", 0 });
+}
+
 /// Draws the casters into the bound framebuffer's depth, as one view sees them.
 void drawView(const LightView& view, const MapReach& reach, const MapInput& input)
 {
@@ -65,37 +100,22 @@ void drawView(const LightView& view, const MapReach& reach, const MapInput& inpu
   {
     defines.emplace_back("WARPED");
   }
-  const bool begins = std::isfinite(view.beginsAt);
-  if (begins)
+  if (begins(view))
   {
     defines.emplace_back("BEGINS");
   }
-  begins ? glEnable(GL_CLIP_DISTANCE0) : glDisable(GL_CLIP_DISTANCE0);
+  begins(view) ? glEnable(GL_CLIP_DISTANCE0) : glDisable(GL_CLIP_DISTANCE0);
   // Rounding may push a caster over the edge of the depths, which bound all of them.
   glEnable(GL_DEPTH_CLAMP);
-  const GLuint program = input.shaders.program(
-    { { GL_VERTEX_SHADER, ShaderLibrary::source("shadowtech/depth_map/depth_map_bake.vert.glsl") },
-      { GL_FRAGMENT_SHADER,
-        ShaderLibrary::source("shadowtech/depth_map/depth_map_bake.frag.glsl") } },
-    defines);
-  glUseProgram(program);
-  ShaderLibrary::setUniform(program, { "clipFromCentred", glm::mat4(view.clipFromCentred()) });
-  const glm::dvec4 distance = glm::row(view.rays.viewFromCentred, 2);
-  glm::dvec4 depth = view.depthScale * distance;
-  depth.w += view.depthOffset;
-  ShaderLibrary::setUniform(program, { "depthFromCentred", glm::vec4(depth) });
-  if (begins)
-  {
-    const glm::dvec4 behind = distance - glm::dvec4(0.0, 0.0, 0.0, view.beginsAt);
-    ShaderLibrary::setUniform(program, { "beginFromCentred", glm::vec4(behind) });
-  }
-  if (view.warped())
-  {
-    const glm::dmat3 acrossFromTexel =
-      glm::inverse(texelFromAcross(view, input.light.mapSizeTexels));
-    ShaderLibrary::setUniform(program, { "texelScale", glm::vec3(glm::row(acrossFromTexel, 2)) });
-  }
+  useBakeProgram(view, defines, input);
   input.buffers.draw(view);
+  if (input.buffers.hasCutouts())
+  {
+    defines.emplace_back("CUTOUT");
+    useBakeProgram(view, defines, input);
+    glActiveTexture(GL_TEXTURE0);
+    input.buffers.drawCutouts(view);
+  }
 }
 
 } // namespace

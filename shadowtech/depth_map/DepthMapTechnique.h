@@ -29,6 +29,11 @@ namespace gnomon
 ///   than at both of them. The bias grows with the kernel as the crease's distance does. A view in
 ///   perspective has the same for 1 / depth, which is what is affine on a plane there: pushed back,
 ///   depth is 1 / (1 / depth - h(gradient of 1 / depth)).
+/// - A warped view is a homography from the plane across the light, on which depth (in perspective its
+///   inverse) is affine, to the map. With k(t), affine on the map, the last coordinate of its inverse,
+///   the way from c to p across the light is the derivative's at c times k(c) / k(p), exactly. So h
+///   is multiplied by the greatest k(c) / k(p) within the reach, and once more since the slope at c is
+///   itself a difference from one texel to the next.
 /// - What is left are neighbours that end within the reach: of a step, the flat top is not pushed back,
 ///   and darkens what lies below and within the reach of it.
 /// - For the same reason a shadow begins at most the reach away from the contact with its caster, if

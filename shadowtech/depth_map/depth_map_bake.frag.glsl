@@ -37,6 +37,12 @@ float warp()
 
 #endif
 
+#ifdef CUTOUT
+in vec2 cutoutCoordinates;
+
+uniform sampler2D cutoutMask; // 0 where the caster has a hole, as the alpha that VTK looks at
+#endif
+
 void main()
 {
 #ifdef PUSH
@@ -50,5 +56,12 @@ void main()
   gl_FragDepth =
     min(depthLinear + warp() * push(vec2(dFdx(depthLinear), dFdy(depthLinear))), DEEPEST);
 #endif
+#endif
+#ifdef CUTOUT
+  // At the end, since what comes before takes derivatives.
+  if (texture(cutoutMask, cutoutCoordinates).r <= 0.0)
+  {
+    discard;
+  }
 #endif
 }

@@ -13,8 +13,16 @@ out float depthLinear;
 uniform vec4 beginFromCentred; // how far behind the place where the light begins
 #endif
 
+#ifdef CUTOUT
+layout(location = 1) in vec2 textureCoordinates;
+out vec2 cutoutCoordinates;
+#endif
+
 void main()
 {
+#ifdef CUTOUT
+  cutoutCoordinates = textureCoordinates;
+#endif
   gl_Position = clipFromCentred * vec4(positionCentred, 1.0);
 #ifdef PUSH
   depthLinear = dot(depthFromCentred, vec4(positionCentred, 1.0));

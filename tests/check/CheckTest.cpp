@@ -12,6 +12,9 @@
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPNGWriter.h>
 
 #include <algorithm>
 #include <cmath>
@@ -129,11 +132,30 @@ void write(const VisibilityFile& file, const std::string& path)
   output.writePixels(file.height);
 }
 
+/// An image of two texels, of which the left one has no alpha.
+void writeHoles(const std::string& path)
+{
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(2, 1, 1);
+  image->AllocateScalars(VTK_UNSIGNED_CHAR, 4);
+  for (int i = 0; i < 8; ++i)
+  {
+    static_cast<unsigned char*>(image->GetScalarPointer())[i] = i == 3 ? 0 : 255;
+  }
+  vtkNew<vtkPNGWriter> writer;
+  writer->SetFileName(path.c_str());
+  writer->SetInputData(image);
+  writer->Write();
+}
+
 /// Checks a file against a scene, both through the disk.
 Result check(const nlohmann::json& scene, const VisibilityFile& file)
 {
   const tool::TestFolder folder;
-  std::ofstream(folder / "square.obj") << "v -1 0 1\nv 1 0 1\nv 1 0 -1\nv -1 0 -1\nf 1 2 3 4\n";
+  std::ofstream(folder / "square.obj")
+    << "v -1 0 1\nv 1 0 1\nv 1 0 -1\nv -1 0 -1\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
+       "f 1/1 2/2 3/3 4/4\n";
+  writeHoles(folder / "left.png");
   std::ofstream(folder / "scene.json") << scene;
   write(file, folder / "file.exr");
   return compare(readScene(folder / "scene.json"), readVisibilityFile(folder / "file.exr"));
@@ -292,6 +314,38 @@ TEST(Check, OneSidedTrianglesCastWithTheirFront)
   EXPECT_EQ(check(scene, image.file).failures(), std::vector<std::string>());
   scene["models"][1]["one_sided"] = true;
   EXPECT_EQ(check(scene, image.file).lights[0].falseShadow.size(), 8100 - countLit(image));
+}
+
+//------------------------------------------------------------------------------
+TEST(Check, HolesAreNeitherSeenNorCast)
+{
+  TrueFile image;
+  nlohmann::json scene = makeScene();
+  scene["models"][1]["texture"] = "left.png";
+  Pixels seen;
+  Pixels cast;
+  for (int y = 0; y < sidePixels; ++y)
+  {
+    for (int x = 0; x < sidePixels; ++x)
+    {
+      const Vec3 position = image.position(x, y);
+      if (position.y > 1.0 && position.x < 0.0)
+      {
+        seen.push_back(pixels({ { x, y } })[0]);
+      }
+      // On the ground below the plate, too, nothing of the shadow's left half is seen.
+      if (image.at("coverage", x, y) > 0.5f && image.at("visibility.0", x, y) == 0.0f &&
+        position.x < plateHeight)
+      {
+        cast.push_back(pixels({ { x, y } })[0]);
+      }
+    }
+  }
+  ASSERT_GT(cast.size(), 10u);
+  const Result result = check(scene, image.file);
+  EXPECT_EQ(result.position, seen);
+  EXPECT_EQ(result.lights[0].falseShadow, cast);
+  EXPECT_EQ(result.lights[0].falseLight, Pixels());
 }
 
 //------------------------------------------------------------------------------

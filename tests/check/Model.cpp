@@ -7,18 +7,23 @@
 #include <vtkCellArrayIterator.h>
 #include <vtkGLTFImporter.h>
 #include <vtkGenericOpenGLRenderWindow.h>
+#include <vtkImageData.h>
 #include <vtkMapper.h>
 #include <vtkMatrix4x4.h>
 #include <vtkNew.h>
 #include <vtkOBJReader.h>
 #include <vtkPLYReader.h>
+#include <vtkPNGReader.h>
+#include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkRenderer.h>
 #include <vtkSTLReader.h>
 #include <vtkXMLPolyDataReader.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <optional>
 #include <stdexcept>
 
 namespace gnomon::check
@@ -27,19 +32,31 @@ namespace gnomon::check
 namespace
 {
 
-/// Takes what has an area. NaN and infinity have none.
-void addTriangle(std::vector<Triangle>& triangles, const Triangle& triangle)
+/// A point of a file.
+struct Corner
 {
-  const double area = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]).length();
+  Vec3 position;
+  std::optional<Vec2> coordinates;
+};
+
+/// Takes what has an area. NaN and infinity have none.
+void addTriangle(Mesh& mesh, const Corner& a, const Corner& b, const Corner& c)
+{
+  const double area = (b.position - a.position).cross(c.position - a.position).length();
   if (std::isfinite(area) && area > 0.0)
   {
-    triangles.push_back(triangle);
+    mesh.triangles.push_back({ a.position, b.position, c.position });
+    if (a.coordinates)
+    {
+      mesh.coordinates.push_back({ *a.coordinates, *b.coordinates, *c.coordinates });
+    }
   }
 }
 
 /// Polygons become fans around their first vertex; every other triangle of a strip is turned round.
-void addSurface(std::vector<Triangle>& triangles, vtkPolyData* data, vtkMatrix4x4* worldFromData)
+void addSurface(Mesh& mesh, vtkPolyData* data, vtkMatrix4x4* worldFromData)
 {
+  vtkDataArray* const coordinates = data->GetPointData()->GetTCoords();
   const auto corner = [&](vtkIdType point)
   {
     double p[4] = { 0.0, 0.0, 0.0, 1.0 };
@@ -48,7 +65,13 @@ void addSurface(std::vector<Triangle>& triangles, vtkPolyData* data, vtkMatrix4x
     {
       worldFromData->MultiplyPoint(p, p);
     }
-    return Vec3(p[0], p[1], p[2]);
+    Corner result{ Vec3(p[0], p[1], p[2]), std::nullopt };
+    if (coordinates)
+    {
+      result.coordinates =
+        Vec2(coordinates->GetComponent(point, 0), coordinates->GetComponent(point, 1));
+    }
+    return result;
   };
   vtkIdType size = 0;
   const vtkIdType* points = nullptr;
@@ -58,7 +81,7 @@ void addSurface(std::vector<Triangle>& triangles, vtkPolyData* data, vtkMatrix4x
     polygons->GetCurrentCell(size, points);
     for (vtkIdType i = 2; i < size; ++i)
     {
-      addTriangle(triangles, { corner(points[0]), corner(points[i - 1]), corner(points[i]) });
+      addTriangle(mesh, corner(points[0]), corner(points[i - 1]), corner(points[i]));
     }
   }
   const auto strips = vtk::TakeSmartPointer(data->GetStrips()->NewIterator());
@@ -69,24 +92,24 @@ void addSurface(std::vector<Triangle>& triangles, vtkPolyData* data, vtkMatrix4x
     {
       const vtkIdType odd = i % 2;
       addTriangle(
-        triangles, { corner(points[i - 2 + odd]), corner(points[i - 1 - odd]), corner(points[i]) });
+        mesh, corner(points[i - 2 + odd]), corner(points[i - 1 - odd]), corner(points[i]));
     }
   }
 }
 
 template <class Reader>
-std::vector<Triangle> readWithReader(const std::string& path)
+Mesh readWithReader(const std::string& path)
 {
   vtkNew<Reader> reader;
   reader->SetFileName(path.c_str());
   reader->Update();
-  std::vector<Triangle> triangles;
-  addSurface(triangles, reader->GetOutput(), nullptr);
-  return triangles;
+  Mesh mesh;
+  addSurface(mesh, reader->GetOutput(), nullptr);
+  return mesh;
 }
 
 template <class Importer>
-std::vector<Triangle> readWithImporter(const std::string& path)
+Mesh readWithImporter(const std::string& path)
 {
   vtkNew<vtkGenericOpenGLRenderWindow> window; // importers ask for one; it draws nothing
   vtkNew<vtkRenderer> renderer;
@@ -95,19 +118,18 @@ std::vector<Triangle> readWithImporter(const std::string& path)
   importer->SetFileName(path.c_str());
   importer->SetRenderWindow(window);
   importer->Update();
-  std::vector<Triangle> triangles;
+  Mesh mesh;
   vtkCollectionSimpleIterator position;
   renderer->GetActors()->InitTraversal(position);
   while (vtkActor* actor = renderer->GetActors()->GetNextActor(position))
   {
     actor->GetMapper()->Update();
-    addSurface(
-      triangles, vtkPolyData::SafeDownCast(actor->GetMapper()->GetInput()), actor->GetMatrix());
+    addSurface(mesh, vtkPolyData::SafeDownCast(actor->GetMapper()->GetInput()), actor->GetMatrix());
   }
-  return triangles;
+  return mesh;
 }
 
-std::vector<Triangle> readByExtension(const std::string& path)
+Mesh readByExtension(const std::string& path)
 {
   const std::string extension = std::filesystem::path(path).extension().string();
   if (extension == ".obj")
@@ -140,18 +162,79 @@ std::vector<Triangle> readByExtension(const std::string& path)
 } // namespace
 
 //------------------------------------------------------------------------------
-std::vector<Triangle> readModel(const std::string& path)
+Mesh readModel(const std::string& path)
 {
   if (!std::filesystem::is_regular_file(path))
   {
     throw std::runtime_error(path + ": no such file");
   }
-  std::vector<Triangle> triangles = readByExtension(path);
-  if (triangles.empty())
+  Mesh mesh = readByExtension(path);
+  if (mesh.triangles.empty())
   {
     throw std::runtime_error(path + ": has no triangles");
   }
-  return triangles;
+  if (mesh.coordinates.size() != mesh.triangles.size())
+  {
+    mesh.coordinates.clear(); // only some of its parts have coordinates
+  }
+  return mesh;
+}
+
+//------------------------------------------------------------------------------
+Holes readHoles(const std::string& path)
+{
+  vtkNew<vtkPNGReader> reader;
+  if (!reader->CanReadFile(path.c_str()))
+  {
+    throw std::runtime_error(path + ": no PNG image");
+  }
+  reader->SetFileName(path.c_str());
+  reader->Update();
+  vtkImageData* const image = reader->GetOutput();
+  const int components = image->GetNumberOfScalarComponents();
+  Holes holes;
+  holes.width = image->GetDimensions()[0];
+  holes.height = image->GetDimensions()[1];
+  for (int y = 0; y < holes.height; ++y)
+  {
+    for (int x = 0; x < holes.width; ++x)
+    {
+      holes.drawn.push_back(
+        components < 4 || image->GetScalarComponentAsDouble(x, y, 0, components - 1) > 0.0);
+    }
+  }
+  return holes;
+}
+
+//------------------------------------------------------------------------------
+bool Holes::isDrawn(const Vec2& coordinates) const
+{
+  const auto texel = [](double coordinate, int size)
+  {
+    const double place = (coordinate - std::floor(coordinate)) * size;
+    return std::min(static_cast<int>(place), size - 1);
+  };
+  const int column = texel(coordinates.x, this->width);
+  const int row = texel(coordinates.y, this->height);
+  return this->drawn[static_cast<std::size_t>(row) * static_cast<std::size_t>(this->width) +
+    static_cast<std::size_t>(column)];
+}
+
+//------------------------------------------------------------------------------
+bool isDrawn(const Surface& surface, std::size_t triangle, const Vec3& point)
+{
+  if (!surface.holes)
+  {
+    return true;
+  }
+  // Areas of the parts opposite the corners, seen along the normal.
+  const auto& [a, b, c] = surface.triangles[triangle];
+  const Vec3 normal = (b - a).cross(c - a);
+  const double inA = (c - b).cross(point - b).dot(normal);
+  const double inB = (a - c).cross(point - c).dot(normal);
+  const double inC = (b - a).cross(point - a).dot(normal);
+  const auto& [ta, tb, tc] = surface.coordinates[triangle];
+  return surface.holes->isDrawn((inA * ta + inB * tb + inC * tc) / (inA + inB + inC));
 }
 
 } // namespace gnomon::check

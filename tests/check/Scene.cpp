@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
+#include <utility>
 
 namespace gnomon::check
 {
@@ -80,7 +81,18 @@ Vec3 transform(const std::array<double, 16>& m, const Vec3& p)
 Surface readSurface(const Json& value, const std::filesystem::path& folder)
 {
   Surface surface;
-  surface.triangles = readModel((folder / value.at("file").get<std::string>()).string());
+  const std::string file = (folder / value.at("file").get<std::string>()).string();
+  Mesh mesh = readModel(file);
+  surface.triangles = std::move(mesh.triangles);
+  if (value.contains("texture"))
+  {
+    if (mesh.coordinates.empty())
+    {
+      throw std::runtime_error(file + ": has no texture coordinates");
+    }
+    surface.holes = readHoles((folder / value.at("texture").get<std::string>()).string());
+    surface.coordinates = std::move(mesh.coordinates);
+  }
   if (value.contains("matrix"))
   {
     const auto matrix = value.at("matrix").get<std::array<double, 16>>();

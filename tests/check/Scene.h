@@ -4,6 +4,7 @@
 #include <ImathVec.h>
 
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,11 +15,33 @@ namespace gnomon::check
 
 using Vec3 = Imath::V3d;
 using Triangle = std::array<Vec3, 3>; ///< corners, world coordinates
+using Vec2 = Imath::V2d;
+
+/// Triangles with their texture coordinates.
+struct Mesh
+{
+  std::vector<Triangle> triangles;
+  /// Corner by corner, one entry for each triangle; empty if the file has none.
+  std::vector<std::array<Vec2, 3>> coordinates;
+};
+
+/// Which texels of a repeated image are drawn: those whose alpha is not 0.
+struct Holes
+{
+  int width = 0;
+  int height = 0;
+  std::vector<bool> drawn; ///< rows from the bottom
+
+  /// Of the texel at texture coordinates.
+  bool isDrawn(const Vec2& coordinates) const;
+};
 
 /// One surface of a scene file.
 struct Surface
 {
   std::vector<Triangle> triangles;
+  std::optional<Holes> holes;                   ///< where its texture leaves nothing of it
+  std::vector<std::array<Vec2, 3>> coordinates; ///< with holes, one entry for each triangle
   bool casts = true;
   bool receives = true;
   bool oneSided = false; ///< casts only with triangles that are counter-clockwise for the light
@@ -67,9 +90,17 @@ struct Scene
 /// @throws std::exception with a message that names the file
 Scene readScene(const std::string& path);
 
-/// Triangles of a model file in the file's own coordinates, without those that have no area.
+/// Triangles of a model file in the file's own coordinates, without those that have no area. Texture
+/// coordinates are those of the file's points where it has an array of them.
 /// @throws std::exception with a message that names the file
-std::vector<Triangle> readModel(const std::string& path);
+Mesh readModel(const std::string& path);
+
+/// The holes of a PNG image.
+/// @throws std::exception with a message that names the file
+Holes readHoles(const std::string& path);
+
+/// Whether a surface has something at a point of one of its triangles.
+bool isDrawn(const Surface& surface, std::size_t triangle, const Vec3& point);
 
 } // namespace gnomon::check
 

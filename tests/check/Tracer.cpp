@@ -41,6 +41,11 @@ struct Query
   std::size_t triangle;
 };
 
+Vec3 pointAt(const Ray& ray, double distance)
+{
+  return ray.origin + distance * ray.direction;
+}
+
 void computeBounds(const RTCBoundsFunctionArguments* arguments)
 {
   const auto& geometry = *static_cast<const Geometry*>(arguments->geometryUserPtr);
@@ -62,7 +67,8 @@ void intersectNearest(const RTCIntersectFunctionNArguments* arguments)
   const auto& geometry = *static_cast<const Geometry*>(arguments->geometryUserPtr);
   auto& query = *reinterpret_cast<Query*>(arguments->context);
   const auto distance = intersect(*query.ray, geometry.surface->triangles[arguments->primID]);
-  if (distance && *distance < query.distance)
+  if (distance && *distance < query.distance &&
+    isDrawn(*geometry.surface, arguments->primID, pointAt(*query.ray, *distance)))
   {
     query.distance = *distance;
     query.surface = geometry.index;
@@ -87,7 +93,8 @@ void intersectAny(const RTCOccludedFunctionNArguments* arguments)
       return;
     }
   }
-  if (intersect(*query.ray, triangle))
+  const auto distance = intersect(*query.ray, triangle);
+  if (distance && isDrawn(*geometry.surface, arguments->primID, pointAt(*query.ray, *distance)))
   {
     reinterpret_cast<RTCRay*>(arguments->ray)->tfar = -std::numeric_limits<float>::infinity();
   }

@@ -5,6 +5,9 @@
 #include "TestFiles.h"
 
 #include <gtest/gtest.h>
+#include <vtkDataArray.h>
+#include <vtkImageData.h>
+#include <vtkPointData.h>
 
 namespace gnomon::tool
 {
@@ -70,6 +73,36 @@ TEST(SceneExport, IsReadBackAsTheSameScene)
   EXPECT_EQ(read.lights[3].box->height, 2.5);
   EXPECT_EQ(read.lights[3].box->depth, 3.5);
   EXPECT_EQ(read.lights[3].box->up, scene.lights[3].box->up);
+}
+
+//------------------------------------------------------------------------------
+TEST(SceneExport, KeepsTheHolesOfTextures)
+{
+  const TestFolder folder;
+  const Scene scene = loadScene("screens");
+  const Scene read = loadScene(exportScene(scene, folder.path()));
+  ASSERT_EQ(read.models.size(), 3u);
+  for (std::size_t i = 0; i < 2; ++i)
+  {
+    ASSERT_TRUE(scene.models[i].texture && read.models[i].texture);
+    vtkImageData* image = scene.models[i].texture->GetInput();
+    vtkImageData* other = read.models[i].texture->GetInput();
+    const int side = image->GetDimensions()[0];
+    ASSERT_EQ(other->GetDimensions()[0], side);
+    int holes = 0;
+    for (int texel = 0; texel < side * side; ++texel)
+    {
+      const double alpha = image->GetScalarComponentAsDouble(texel % side, texel / side, 0, 3);
+      EXPECT_EQ(other->GetScalarComponentAsDouble(texel % side, texel / side, 0, 3), alpha);
+      holes += alpha == 0.0 ? 1 : 0;
+    }
+    EXPECT_GT(holes, side * side / 4);
+    vtkDataArray* coordinates = read.models[i].surface->GetPointData()->GetTCoords();
+    ASSERT_TRUE(coordinates);
+    EXPECT_EQ(coordinates->GetRange(0)[1],
+      scene.models[i].surface->GetPointData()->GetTCoords()->GetRange(0)[1]);
+  }
+  EXPECT_FALSE(read.models[2].texture);
 }
 
 //------------------------------------------------------------------------------

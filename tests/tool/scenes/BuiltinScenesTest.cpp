@@ -112,7 +112,7 @@ TEST(BuiltinScenes, AreListedOnceEach)
     EXPECT_FALSE(line.summary.empty()) << line.name;
     EXPECT_LT(line.summary.size(), 80u) << line.name;
   }
-  EXPECT_EQ(names.size(), 28u);
+  EXPECT_EQ(names.size(), 29u);
 }
 
 //------------------------------------------------------------------------------
@@ -165,6 +165,7 @@ TEST(BuiltinScenes, HaveTheTrianglesThatTheyPromise)
   EXPECT_EQ(countTriangles(loadScene("cube")), 14);
   EXPECT_EQ(countTriangles(loadScene("half-plane")), 4);
   EXPECT_EQ(countTriangles(loadScene("panels")), 12);
+  EXPECT_EQ(countTriangles(loadScene("screens")), 196);
   EXPECT_EQ(countTriangles(loadScene("long-cube")), 14);
   EXPECT_NEAR(static_cast<double>(countTriangles(loadScene("cups"))), 9241.0, 500.0);
   EXPECT_NEAR(static_cast<double>(countTriangles(loadScene("atrium"))), 260000.0, 2000.0);
@@ -312,6 +313,7 @@ TEST(BuiltinScenes, SolidsAreClosedAndSheetsAreOpen)
   }
   const std::map<std::string, std::vector<std::string>> sheets = {
     { "half-plane", { "half plane" } },
+    { "screens", { "lattice", "bent sheet" } },
     { "panels", { "top", "middle", "bottom", "panel" } },
     { "cups", { "standing cups", "hovering cups" } },
     { "flowers-with", { "leaves", "tulip", "daisy", "anemone", "grass", "lamp hood" } },

@@ -11,6 +11,7 @@
 #include <vtkActor.h>
 #include <vtkActorCollection.h>
 #include <vtkCamera.h>
+#include <vtkImageData.h>
 #include <vtkInformation.h>
 #include <vtkInformationDoubleVectorKey.h>
 #include <vtkInformationIntegerKey.h>
@@ -71,6 +72,26 @@ TEST_F(SceneFile, IsReadInFull)
   EXPECT_EQ(spot.type, SceneLight::Type::Spot);
   EXPECT_EQ(spot.position, (Vec3{ { 1, 2, 3 } }));
   EXPECT_DOUBLE_EQ(spot.coneAngleDegrees, 25.0);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(SceneFile, GivesModelsATexture)
+{
+  writeBytes(this->folder / "texture.png", samplePng());
+  nlohmann::json document = sampleScene();
+  document["models"][0]["texture"] = "texture.png";
+  const std::string message = messageOf<BadInput>([&] { this->load(document); });
+  EXPECT_NE(message.find("models[0].texture"), std::string::npos) << message;
+  EXPECT_NE(message.find("model.obj: has no texture coordinates"), std::string::npos) << message;
+
+  writeBytes(this->folder / "model.obj",
+    "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n");
+  const Scene scene = this->load(document);
+  ASSERT_EQ(scene.models.size(), 1u);
+  ASSERT_TRUE(scene.models[0].texture);
+  EXPECT_FALSE(scene.models[0].texture->GetInterpolate());
+  EXPECT_TRUE(scene.models[0].texture->GetRepeat());
+  EXPECT_EQ(scene.models[0].texture->GetInput()->GetDimensions()[0], 8);
 }
 
 //------------------------------------------------------------------------------
@@ -169,6 +190,9 @@ TEST_F(SceneFile, SaysWhatIsWrongAndWhere)
     { "/models/0/matrix/15", 2, "models[0].matrix", "last row" },
     { "/models/0/matrix", { 1, 2, 3 }, "models[0].matrix", "array of 16 numbers" },
     { "/models/0/color", { 1, 2, 1 }, "models[0].color", "between 0 and 1" },
+    { "/models/0/texture", 3, "models[0].texture", "expected a text" },
+    { "/models/0/texture", "gone.png", "models[0].texture", "no such file" },
+    { "/models/0/texture", "model.obj", "models[0].texture", "not a PNG or JPEG image" },
     { "/models/0/casts", "yes", "models[0].casts", "true or false" },
     { "/lights", 3, "lights", "expected an array" },
     { "/lights/0/type", "laser", "lights[0].type", "one of: directional, spot" },

@@ -11,6 +11,7 @@
 #include "vtkFloatArray.h"
 #include "vtkFollower.h"
 #include "vtkGlyph3DMapper.h"
+#include "vtkImageData.h"
 #include "vtkMatrix4x4.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkPlane.h"
@@ -21,6 +22,7 @@
 #include "vtkRenderer.h"
 #include "vtkSOADataArrayTemplate.h"
 #include "vtkSphereSource.h"
+#include "vtkTexture.h"
 #include "vtkTransform.h"
 #include "vtkUnsignedCharArray.h"
 
@@ -938,4 +940,134 @@ TEST(OccluderCentre, MovesEverySurfaceWithIt)
   EXPECT_EQ(change.retransformed, 1);
   expectNear(scene.occluders().centreWorld, { 1000.5, 0.5, 0 });
   expectNear(scene.positionWorld(0, 2), { 1001, 1, 0 });
+}
+
+// ---- holes of textures -------------------------------------------------------
+
+namespace
+{
+
+/// A texture of these alphas, side by side.
+vtkSmartPointer<vtkTexture> makeTexture(const std::vector<int>& alphas)
+{
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(static_cast<int>(alphas.size()), 1, 1);
+  image->AllocateScalars(VTK_UNSIGNED_CHAR, 4);
+  for (std::size_t i = 0; i < alphas.size(); ++i)
+  {
+    image->SetScalarComponentFromDouble(static_cast<int>(i), 0, 0, 3, alphas[i]);
+  }
+  auto texture = vtkSmartPointer<vtkTexture>::New();
+  texture->SetInputData(image);
+  return texture;
+}
+
+/// The unit square, its texture coordinates those of its points.
+vtkSmartPointer<vtkPolyData> makeTexturedSquare()
+{
+  auto square = makeSquare();
+  vtkNew<vtkFloatArray> coordinates;
+  coordinates->SetNumberOfComponents(2);
+  for (vtkIdType i = 0; i < square->GetNumberOfPoints(); ++i)
+  {
+    coordinates->InsertNextTuple2(square->GetPoint(i)[0], square->GetPoint(i)[1]);
+  }
+  square->GetPointData()->SetTCoords(coordinates);
+  return square;
+}
+
+} // namespace
+
+TEST(OccluderCutouts, AreHeldForTexturesWithHolesOnly)
+{
+  Scene scene;
+  const auto actor = makeActor(makeTexturedSquare());
+  scene.renderer->AddActor(actor);
+  scene.renderer->AddActor(makeActor(makeSquare())); // without texture coordinates
+  scene.collect();
+  actor->SetTexture(makeTexture({ 255, 255, 255 }));
+  expectNothingDone(scene);
+  EXPECT_FALSE(scene.surface(0).cutout);
+  EXPECT_TRUE(scene.surface(0).textureCoordinates.empty());
+
+  actor->SetTexture(makeTexture({ 0, 255, 0 }));
+  EXPECT_EQ(scene.collect().extracted, 1);
+  ASSERT_TRUE(scene.surface(0).cutout);
+  EXPECT_EQ(scene.surface(0).cutout->texels, (std::vector<std::uint8_t>{ 0, 255, 0 }));
+  EXPECT_EQ(scene.surface(0).textureCoordinates,
+    (std::vector<glm::vec2>{ { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } }));
+  EXPECT_FALSE(scene.surface(1).cutout);
+  expectNothingDone(scene);
+
+  // Another mask is no other surface.
+  const std::uint64_t topology = scene.occluders().topologyVersion;
+  const std::uint64_t surface = scene.surface(0).topologyVersion;
+  actor->SetTexture(makeTexture({ 255, 0, 0 }));
+  EXPECT_EQ(scene.collect().extracted, 0);
+  EXPECT_GT(scene.occluders().topologyVersion, topology);
+  EXPECT_EQ(scene.surface(0).topologyVersion, surface);
+  EXPECT_EQ(scene.surface(0).cutout->texels, (std::vector<std::uint8_t>{ 255, 0, 0 }));
+
+  // Nor is a surface that moves.
+  actor->SetPosition(1.0, 0.0, 0.0);
+  EXPECT_EQ(scene.collect().retransformed, 1);
+  EXPECT_EQ(scene.surface(0).textureCoordinates.size(), 4u);
+  actor->SetTexture(nullptr);
+  scene.collect();
+  EXPECT_FALSE(scene.surface(0).cutout);
+  EXPECT_TRUE(scene.surface(0).textureCoordinates.empty());
+}
+
+TEST(OccluderCutouts, ShareTheMaskOfATexture)
+{
+  Scene scene;
+  const auto texture = makeTexture({ 0, 255 });
+  for (int i = 0; i < 2; ++i)
+  {
+    const auto actor = makeActor(makeTexturedSquare());
+    actor->SetTexture(texture);
+    scene.renderer->AddActor(actor);
+  }
+  scene.collect();
+  ASSERT_TRUE(scene.surface(0).cutout);
+  EXPECT_EQ(scene.surface(0).cutout, scene.surface(1).cutout);
+}
+
+TEST(OccluderCutouts, HaveCoordinatesAtTheCornersThatClippingMakes)
+{
+  Scene scene;
+  const auto actor = makeActor(makeTexturedSquare());
+  actor->SetTexture(makeTexture({ 0, 255 }));
+  vtkNew<vtkPlane> plane;
+  plane->SetOrigin(0.25, 0.0, 0.0);
+  plane->SetNormal(1.0, 0.5, 0.0);
+  actor->GetMapper()->AddClippingPlane(plane);
+  scene.renderer->AddActor(actor);
+  scene.collect();
+  const Surface& surface = scene.surface(0);
+  ASSERT_GT(surface.vertexCount, 4u);
+  ASSERT_EQ(surface.textureCoordinates.size(), surface.vertexCount);
+  for (std::uint32_t i = 0; i < surface.vertexCount; ++i)
+  {
+    expectNear(
+      glm::dvec3(surface.textureCoordinates[i], 0.0), scene.positionWorld(0, i)); // as everywhere
+  }
+}
+
+TEST(OccluderCutouts, CoordinatesThatAreNotFiniteOrNotThereAreZero)
+{
+  Scene scene;
+  const auto square = makeTexturedSquare();
+  vtkNew<vtkFloatArray> coordinates;
+  coordinates->SetNumberOfComponents(2);
+  coordinates->InsertNextTuple2(notANumber, 0.5);
+  coordinates->InsertNextTuple2(0.5, std::numeric_limits<double>::infinity());
+  coordinates->InsertNextTuple2(0.25, 0.5);
+  square->GetPointData()->SetTCoords(coordinates);
+  const auto actor = makeActor(square);
+  actor->SetTexture(makeTexture({ 0, 255 }));
+  scene.renderer->AddActor(actor);
+  scene.collect();
+  EXPECT_EQ(scene.surface(0).textureCoordinates,
+    (std::vector<glm::vec2>{ { 0, 0 }, { 0, 0 }, { 0.25, 0.5 }, { 0, 0 } }));
 }

@@ -33,11 +33,17 @@ std::vector<TestScene> smallScenes()
   const Prop sphere{ makeSphere(12, 24), at({ 0.0, 0.0, 1.0 }) };
   Prop oneSided{ makePlane(1.5), glm::rotate(at({ 0.0, 0.0, 1.2 }), 0.7, { 1.0, 0.3, 0.0 }) };
   oneSided.oneSided = true;
+  // Rays go through the holes of the upper one to the lower one, which is one-sided.
+  const glm::dmat4 tilted = glm::rotate(at({ 0.0, 0.0, 1.0 }), 0.2, { 1.0, 0.3, 0.0 });
+  const Prop upper = makePerforatedPlane(1.6, 3, glm::translate(tilted, { 0.1, 0.2, 0.3 }));
+  Prop lower = makePerforatedPlane(1.8, 2, tilted);
+  lower.oneSided = true;
   return {
     { "cube", { plane, { makeBox({ -0.5, -0.5, 0.0 }, { 0.5, 0.5, 1.0 }) } }, camera },
     { "sphere", { plane, sphere }, camera },
     { "soup", { plane, { makeTriangleSoup(400, 7), at({ 0.0, 0.0, 1.5 }) } }, camera },
     { "one-sided", { plane, oneSided }, camera },
+    { "perforated", { plane, upper, lower }, camera },
   };
 }
 
@@ -601,6 +607,39 @@ TEST(RayTracer, UpdatesWhatChanged)
   occluders.surfaces[0].casts = occluders.surfaces[1].casts = false;
   occluders.topologyVersion += 1000;
   expectUpdate(0, 0);
+}
+
+TEST(RayTracer, CutoutsComeChangeAndGo)
+{
+  Prop roof = makePerforatedPlane(2.0, 2, at({ 0.0, 0.0, 1.0 }));
+  Occluders occluders = makeOccluders({ { makePlane(6.0) }, roof });
+  Surface& surface = occluders.surfaces[1];
+  Camera camera;
+  camera.position = { 3.0, -5.0, 4.0 };
+  const ReceiverPixels receivers = makeReceivers(occluders, camera);
+  const ShadowLight light = lights()[0];
+  RayTracer tracer;
+  const auto darkAfter = [&](int builds)
+  {
+    occluders.topologyVersion += 1000;
+    EXPECT_EQ(tracer.update(occluders).builds, builds);
+    std::vector<float> visibility;
+    tracer.trace(light, occluders, receivers, visibility);
+    EXPECT_EQ(visibility, traceBruteForce(light, occluders, receivers));
+    return std::count(visibility.begin(), visibility.end(), 0.0f);
+  };
+  const auto perforated = darkAfter(2);
+  CutoutMask mask = *roof.cutout;
+  mask.interpolated = false; // the holes grow
+  surface.cutout = std::make_shared<const CutoutMask>(mask);
+  EXPECT_LT(darkAfter(0), perforated);
+  surface.oneSided = true; // its front, which faces the light
+  EXPECT_LT(darkAfter(1), perforated);
+  surface.cutout = nullptr;
+  EXPECT_GT(darkAfter(1), perforated);
+  surface.oneSided = false;
+  surface.cutout = roof.cutout;
+  EXPECT_EQ(darkAfter(1), perforated);
 }
 
 } // namespace

@@ -9,6 +9,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <memory>
@@ -41,6 +42,23 @@ Mesh makePlane(double side, int cells)
     }
   }
   return mesh;
+}
+
+//------------------------------------------------------------------------------
+Prop makePerforatedPlane(double side, int cells, const glm::dmat4& worldFromMesh)
+{
+  Prop prop{ makePlane(side, cells), worldFromMesh };
+  CutoutMask mask;
+  mask.width = 5;
+  mask.height = 4;
+  mask.interpolated = true;
+  mask.texels = { 255, 0, 0, 0, 255, 0, 0, 0, 255, 0, 0, 0, 0, 0, 0, 255, 255, 0, 0, 0 };
+  prop.cutout = std::make_shared<const CutoutMask>(mask);
+  for (const glm::dvec3& point : prop.mesh.points)
+  {
+    prop.textureCoordinates.emplace_back(2.3 * glm::dvec2(point) / side - glm::dvec2(0.1, 0.2));
+  }
+  return prop;
 }
 
 //------------------------------------------------------------------------------
@@ -197,6 +215,8 @@ Occluders makeOccluders(const std::vector<Prop>& props)
     surface.casts = prop.casts;
     surface.receives = prop.receives;
     surface.oneSided = prop.oneSided;
+    surface.cutout = prop.cutout;
+    surface.textureCoordinates = prop.textureCoordinates;
     surface.topologyVersion = surface.positionsVersion = ++version;
     for (const glm::dvec3& point : prop.mesh.points)
     {
@@ -447,6 +467,8 @@ struct CastingTriangle
 {
   glm::dvec3 a, b, c;
   bool oneSided;
+  const CutoutMask* cutout = nullptr;
+  std::array<glm::dvec2, 3> textureCoordinates = {}; ///< with a cut-out
 };
 std::vector<CastingTriangle> castingTriangles(const Occluders& occluders)
 {
@@ -459,6 +481,15 @@ std::vector<CastingTriangle> castingTriangles(const Occluders& occluders)
       result.push_back({ glm::dvec3(occluders.positionsCentred[corners.x]),
         glm::dvec3(occluders.positionsCentred[corners.y]),
         glm::dvec3(occluders.positionsCentred[corners.z]), surface.oneSided });
+      if (surface.cutout)
+      {
+        result.back().cutout = surface.cutout.get();
+        for (int corner = 0; corner < 3; ++corner)
+        {
+          result.back().textureCoordinates[static_cast<std::size_t>(corner)] =
+            surface.textureCoordinates[corners[corner] - surface.firstVertex];
+        }
+      }
     }
   }
   return result;
@@ -483,7 +514,13 @@ bool hits(const glm::dvec3& origin, const glm::dvec3& direction, double rayFar,
     return false;
   }
   const double t = glm::dot(v0, normal) / cosine;
-  return t >= 0.0 && t <= rayFar;
+  if (t < 0.0 || t > rayFar)
+  {
+    return false;
+  }
+  const auto& [a, b, c] = triangle.textureCoordinates;
+  return !triangle.cutout ||
+    triangle.cutout->isDrawn(glm::vec2((u * a + v * b + w * c) / (u + v + w)));
 }
 
 } // namespace

@@ -8,6 +8,7 @@
 #include <glm/glm.hpp>
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -45,7 +46,12 @@ struct Prop
   bool casts = true;
   bool receives = true;
   bool oneSided = false;
+  std::shared_ptr<const CutoutMask> cutout = nullptr;
+  std::vector<glm::vec2> textureCoordinates = {}; ///< with a cut-out, of the mesh's points
 };
+
+/// makePlane() with holes of all shapes, by an interpolated texture that repeats.
+Prop makePerforatedPlane(double side, int cells, const glm::dmat4& worldFromMesh = glm::dmat4(1.0));
 
 /// The snapshot of these props, as the collector makes it: doubles less the centre, then floats.
 Occluders makeOccluders(const std::vector<Prop>& props);

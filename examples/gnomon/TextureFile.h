@@ -1,0 +1,18 @@
+#ifndef gnomon_examples_gnomon_TextureFile_h
+#define gnomon_examples_gnomon_TextureFile_h
+
+#include <vtkSmartPointer.h>
+#include <vtkTexture.h>
+
+#include <string>
+
+namespace gnomon::tool
+{
+
+/// A PNG or JPEG image as a texture with VTK's settings: repeated, the nearest texel.
+/// @throws BadInput with a message that names the file
+vtkSmartPointer<vtkTexture> readTexture(const std::string& path);
+
+} // namespace gnomon::tool
+
+#endif

@@ -1,0 +1,85 @@
+#include "shadowtech/base/CutoutMask.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gnomon
+{
+namespace
+{
+
+/// A texture coordinate brought to where the texture is, with what lies next to it: into [0, 1], or,
+/// if there is a border, [-1, 2].
+float reduced(float coordinate, TextureWrap wrap)
+{
+  float result = 0.0f;
+  switch (wrap)
+  {
+    case TextureWrap::ClampToEdge:
+      result = std::clamp(coordinate, 0.0f, 1.0f);
+      break;
+    case TextureWrap::Repeat:
+      result = coordinate - std::floor(coordinate);
+      break;
+    case TextureWrap::MirroredRepeat:
+    {
+      const float folded = coordinate - 2.0f * std::floor(0.5f * coordinate);
+      result = std::min(folded, 2.0f - folded);
+      break;
+    }
+    case TextureWrap::ClampToBorder:
+      result = std::clamp(coordinate, -1.0f, 2.0f);
+      break;
+  }
+  return result >= -1.0f && result <= 2.0f ? result : 0.0f; // what is not finite has no place
+}
+
+constexpr int border = -1;
+
+/// The texel at an index that is out of range by no more than the size.
+int texelAt(int index, int size, TextureWrap wrap)
+{
+  if (wrap == TextureWrap::Repeat)
+  {
+    return (index + size) % size;
+  }
+  if (wrap == TextureWrap::ClampToBorder)
+  {
+    return index >= 0 && index < size ? index : border;
+  }
+  return std::clamp(index, 0, size - 1); // of a mirrored texture, the neighbour is the texel itself
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+bool CutoutMask::isDrawn(const glm::vec2& textureCoordinates) const
+{
+  const auto texelDrawn = [this](int x, int y)
+  {
+    const int column = texelAt(x, this->width, this->wrap);
+    const int row = texelAt(y, this->height, this->wrap);
+    return column == border || row == border
+      ? this->borderDrawn
+      : this->texels[static_cast<std::size_t>(row) * static_cast<std::size_t>(this->width) +
+          static_cast<std::size_t>(column)] > 0;
+  };
+  const glm::vec2 place(reduced(textureCoordinates.x, this->wrap) * static_cast<float>(this->width),
+    reduced(textureCoordinates.y, this->wrap) * static_cast<float>(this->height));
+  if (!this->interpolated)
+  {
+    return texelDrawn(static_cast<int>(std::floor(place.x)), static_cast<int>(std::floor(place.y)));
+  }
+  const glm::vec2 fromCentre = place - 0.5f;
+  const glm::vec2 first = glm::floor(fromCentre);
+  const int x = static_cast<int>(first.x);
+  const int y = static_cast<int>(first.y);
+  // A texel counts if its weight is above 0: the first one always has some, the next one only
+  // beyond the first one's centre.
+  const bool nextColumn = fromCentre.x > first.x;
+  const bool nextRow = fromCentre.y > first.y;
+  return texelDrawn(x, y) || (nextColumn && texelDrawn(x + 1, y)) ||
+    (nextRow && texelDrawn(x, y + 1)) || (nextColumn && nextRow && texelDrawn(x + 1, y + 1));
+}
+
+} // namespace gnomon

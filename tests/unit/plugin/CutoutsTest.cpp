@@ -1,0 +1,762 @@
+// Textures with holes: what VTK does not draw of a surface casts no shadow.
+
+#include "PassScene.h"
+
+#include "plugin/vtkGnomonPropKeys.h"
+
+#include <vtkCellArray.h>
+#include <vtkCompositePolyDataMapper2.h>
+#include <vtkFloatArray.h>
+#include <vtkGlyph3DMapper.h>
+#include <vtkImageData.h>
+#include <vtkInformation.h>
+#include <vtkInformationDoubleVectorKey.h>
+#include <vtkLookupTable.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkPlane.h>
+#include <vtkPointData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+#include <vtkTexture.h>
+#include <vtkTransform.h>
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+using namespace gnomon::test;
+
+namespace
+{
+
+/// A texture's texels, row by row from v = 0: '#' is drawn, '.' is a hole.
+using Pattern = std::vector<std::string>;
+
+const Pattern checker = { "#.#.", ".#.#", "#.#.", ".#.#" };
+/// Without a symmetry.
+const Pattern letter = { "###..", "#....", "##..#" };
+const Pattern whole = { "##", "##" };
+
+/// How a pattern is shown.
+struct Sampling
+{
+  int wrap = vtkTexture::Repeat;
+  bool interpolated = false;
+};
+
+/// The alpha at texture coordinates, in [0, 1]: the sum over all texels near there of their alpha times
+/// their weight.
+double alphaAt(const Pattern& pattern, const Sampling& sampling, const glm::dvec2& coordinates)
+{
+  const auto index = [&](int i, int size)
+  {
+    switch (sampling.wrap)
+    {
+      case vtkTexture::ClampToEdge:
+        return std::max(0, std::min(i, size - 1));
+      case vtkTexture::ClampToBorder:
+        return i >= 0 && i < size ? i : -1;
+      case vtkTexture::MirroredRepeat:
+      {
+        const int twice = ((i % (2 * size)) + 2 * size) % (2 * size);
+        return twice < size ? twice : 2 * size - 1 - twice;
+      }
+      default:
+        return ((i % size) + size) % size;
+    }
+  };
+  const auto width = static_cast<int>(pattern.front().size());
+  const auto height = static_cast<int>(pattern.size());
+  const auto alpha = [&](int x, int y)
+  {
+    const int column = index(x, width);
+    const int row = index(y, height);
+    return column >= 0 && row >= 0 &&
+        pattern[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)] == '#'
+      ? 1.0
+      : 0.0;
+  };
+  const glm::dvec2 place = coordinates * glm::dvec2(width, height);
+  const glm::ivec2 texel(glm::floor(place));
+  if (!sampling.interpolated)
+  {
+    return alpha(texel.x, texel.y);
+  }
+  double sum = 0.0;
+  for (int y = texel.y - 1; y <= texel.y + 1; ++y)
+  {
+    for (int x = texel.x - 1; x <= texel.x + 1; ++x)
+    {
+      const glm::dvec2 weight = glm::max(1.0 - glm::abs(place - glm::dvec2(x + 0.5, y + 0.5)), 0.0);
+      sum += alpha(x, y) * weight.x * weight.y;
+    }
+  }
+  return sum;
+}
+
+bool isDrawn(const Pattern& pattern, const Sampling& sampling, const glm::dvec2& coordinates)
+{
+  return alphaAt(pattern, sampling, coordinates) > 0.0;
+}
+
+vtkSmartPointer<vtkImageData> makeImage(const Pattern& pattern, unsigned char red = 255)
+{
+  auto image = vtkSmartPointer<vtkImageData>::New();
+  image->SetDimensions(
+    static_cast<int>(pattern.front().size()), static_cast<int>(pattern.size()), 1);
+  image->AllocateScalars(VTK_UNSIGNED_CHAR, 4);
+  auto* texel = static_cast<unsigned char*>(image->GetScalarPointer());
+  for (const std::string& row : pattern)
+  {
+    for (const char c : row)
+    {
+      *texel++ = red;
+      *texel++ = 255;
+      *texel++ = 255;
+      *texel++ = c == '#' ? 255 : 0;
+    }
+  }
+  return image;
+}
+
+vtkSmartPointer<vtkTexture> makeTexture(const Pattern& pattern, const Sampling& sampling = {})
+{
+  auto texture = vtkSmartPointer<vtkTexture>::New();
+  texture->SetInputData(makeImage(pattern));
+  texture->SetWrap(sampling.wrap);
+  texture->SetInterpolate(sampling.interpolated);
+  return texture;
+}
+
+/// The square of half side 2 around the z axis at height 5, its front up. Its texture coordinates go
+/// from `first` to `last`.
+vtkSmartPointer<vtkPolyData> makeSquare(const glm::dvec2& first = glm::dvec2(0.0),
+  const glm::dvec2& last = glm::dvec2(1.0), const char* array = nullptr)
+{
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkFloatArray> coordinates;
+  coordinates->SetNumberOfComponents(2);
+  for (const glm::dvec2& corner :
+    { glm::dvec2(0, 0), glm::dvec2(1, 0), glm::dvec2(1, 1), glm::dvec2(0, 1) })
+  {
+    points->InsertNextPoint(4.0 * corner.x - 2.0, 4.0 * corner.y - 2.0, 5.0);
+    const glm::dvec2 c = first + corner * (last - first);
+    coordinates->InsertNextTuple2(c.x, c.y);
+  }
+  vtkNew<vtkCellArray> polygons;
+  polygons->InsertNextCell({ 0, 1, 2, 3 });
+  auto square = vtkSmartPointer<vtkPolyData>::New();
+  square->SetPoints(points);
+  square->SetPolys(polygons);
+  if (array)
+  {
+    coordinates->SetName(array);
+    square->GetPointData()->AddArray(coordinates);
+  }
+  else
+  {
+    square->GetPointData()->SetTCoords(coordinates);
+  }
+  return square;
+}
+
+/// The exact answer, or a negative one where it is another within a square of half side `band`: holes
+/// have corners.
+ExactFloor awayFromEdges(const ExactFloor& exact, double band)
+{
+  return [&exact, band](const glm::dvec2& point)
+  {
+    const double value = exact(point);
+    constexpr int steps = 2;
+    for (int y = -steps; y <= steps; ++y)
+    {
+      for (int x = -steps; x <= steps; ++x)
+      {
+        if (exact(point + glm::dvec2(x, y) * (band / steps)) != value)
+        {
+          return -1.0;
+        }
+      }
+    }
+    return value;
+  };
+}
+
+/// Where a floor point's ray to the light meets the square's plane: as a share of its sides.
+using PlaceOnSquare = std::function<glm::dvec2(const glm::dvec2&)>;
+
+/// A square with holes above a floor, under a sun at 45 degrees that moves its shadow by 5 along x, out
+/// of the square's way. The camera sees the shadow from straight above.
+class Cutouts
+  : public PassTest
+  , public testing::WithParamInterface<Way>
+{
+protected:
+  Cutouts()
+  {
+    this->floor = this->scene.addFloor(8.0);
+    this->sun = this->scene.addSun(slantingSun);
+    this->scene.choose(GetParam());
+    this->scene.lookDown(2.6, 5.0);
+  }
+
+  /// The width of the edges that are not looked at: exact answers have none to speak of.
+  static double band()
+  {
+    const std::string technique = GetParam().technique;
+    return technique == "raytraced" ? 1e-4 : technique == "nsm" ? 0.06 : 0.15;
+  }
+
+  /// @param drawn whether the caster has something at a place, as a share of the square's sides
+  void expectShadow(const std::function<bool(const glm::dvec2&)>& drawn, const char* what = "",
+    const PlaceOnSquare& place = underSun)
+  {
+    const Picture picture = this->scene.render();
+    const ExactFloor exact = [&](const glm::dvec2& point)
+    {
+      const glm::dvec2 share = place(point);
+      const bool on = share.x >= 0.0 && share.x <= 1.0 && share.y >= 0.0 && share.y <= 1.0;
+      return on && drawn(share) ? 0.0 : slantingSunValue;
+    };
+    const FloorCheck check = checkFloor(this->scene, picture, awayFromEdges(exact, band()), band());
+    EXPECT_EQ(check.falseLight, 0u) << what << " of " << check.counted;
+    EXPECT_EQ(check.falseShadow, 0u) << what << " of " << check.counted;
+    EXPECT_GT(check.counted, picture.pixels() / 5) << what;
+  }
+  static glm::dvec2 underSun(const glm::dvec2& point)
+  {
+    return (point - glm::dvec2(3.0, -2.0)) / 4.0;
+  }
+  void expectPattern(const Pattern& pattern, const Sampling& sampling = {}, const char* what = "")
+  {
+    this->expectShadow(
+      [&](const glm::dvec2& share) { return isDrawn(pattern, sampling, share); }, what);
+  }
+  void expectNoNotes() { EXPECT_THAT(this->scene.report().notes, testing::IsEmpty()); }
+
+  PassScene scene{ 130, 130 };
+  vtkActor* floor;
+  vtkLight* sun;
+};
+
+INSTANTIATE_TEST_SUITE_P(Ways, Cutouts,
+  testing::Values(Way{ "nsm", vtkGnomonShadowPass::ROUTE_INLINE },
+    Way{ "nsm", vtkGnomonShadowPass::ROUTE_IMAGE }, Way{ "pcf", vtkGnomonShadowPass::ROUTE_INLINE },
+    Way{ "pcf", vtkGnomonShadowPass::ROUTE_IMAGE },
+    Way{ "raytraced", vtkGnomonShadowPass::ROUTE_IMAGE }),
+  nameOf);
+
+} // namespace
+
+//------------------------------------------------------------------------------
+TEST_P(Cutouts, areCutOutOfShadows)
+{
+  vtkActor* square = this->scene.add(makeSquare());
+  square->SetTexture(makeTexture(checker));
+  this->expectPattern(checker);
+  EXPECT_TRUE(square->HasOpaqueGeometry());
+  this->expectNoNotes();
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Cutouts, goByTheTexturesWrapping)
+{
+  for (const int wrap : { vtkTexture::ClampToEdge, vtkTexture::Repeat, vtkTexture::MirroredRepeat,
+         vtkTexture::ClampToBorder })
+  {
+    for (const bool interpolated : { false, true })
+    {
+      const glm::dvec2 first(-1.3, -0.8);
+      const glm::dvec2 last(1.9, 2.1);
+      const Sampling sampling{ wrap, interpolated };
+      vtkActor* square = this->scene.add(makeSquare(first, last));
+      square->SetTexture(makeTexture(letter, sampling));
+      square->ForceOpaqueOn();
+      this->expectShadow([&](const glm::dvec2& share)
+        { return isDrawn(letter, sampling, first + share * (last - first)); },
+        (std::to_string(wrap) + (interpolated ? " interpolated" : " nearest")).c_str());
+      this->scene.renderer->RemoveActor(square);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Cutouts, ofABorderThatIsDrawnGoOn)
+{
+  const glm::dvec2 first(-0.5, -0.5);
+  const glm::dvec2 last(1.5, 1.5);
+  vtkActor* square = this->scene.add(makeSquare(first, last));
+  const auto texture = makeTexture(letter, { vtkTexture::ClampToBorder, false });
+  texture->SetBorderColor(1.0f, 1.0f, 1.0f, 1.0f);
+  square->SetTexture(texture);
+  this->expectShadow(
+    [&](const glm::dvec2& share)
+    {
+      const glm::dvec2 c = first + share * (last - first);
+      const bool beyond = c.x < 0.0 || c.x > 1.0 || c.y < 0.0 || c.y > 1.0;
+      return beyond || isDrawn(letter, {}, c);
+    });
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Cutouts, ofTranslucentSurfacesCountWhereTheseCast)
+{
+  // Between texels without alpha and with it there is some of it: VTK takes the square for
+  // translucent.
+  vtkActor* square = this->scene.add(makeSquare());
+  const Sampling interpolated{ vtkTexture::Repeat, true };
+  square->SetTexture(makeTexture(letter, interpolated));
+  this->expectPattern({ "." }, {}, "not asked to cast");
+  EXPECT_FALSE(square->HasOpaqueGeometry());
+  vtkGnomonPropKeys::SetCasts(square, true);
+  this->expectPattern(letter, interpolated, "asked to cast");
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Cutouts, areCutAtClippingPlanes)
+{
+  vtkActor* square = this->scene.add(makeSquare());
+  square->SetTexture(makeTexture(letter));
+  vtkNew<vtkPlane> plane;
+  plane->SetOrigin(0.3, 0.1, 5.0);
+  plane->SetNormal(1.0, 0.6, 0.0);
+  square->GetMapper()->AddClippingPlane(plane);
+  const auto clipped = [](const glm::dvec2& share)
+  {
+    const glm::dvec2 model = 4.0 * share - 2.0;
+    return glm::dot(model - glm::dvec2(0.3, 0.1), glm::dvec2(1.0, 0.6)) >= 0.0 &&
+      isDrawn(letter, {}, share);
+  };
+  this->expectShadow(clipped);
+  square->SetPosition(0.0, 0.2, 0.0); // the plane stays in the world
+  this->expectShadow(
+    [&](const glm::dvec2& share)
+    {
+      const glm::dvec2 world = 4.0 * share - glm::dvec2(2.0, 1.8);
+      return glm::dot(world - glm::dvec2(0.3, 0.1), glm::dvec2(1.0, 0.6)) >= 0.0 &&
+        isDrawn(letter, {}, share);
+    },
+    "moved", [](const glm::dvec2& point) { return underSun(point - glm::dvec2(0.0, 0.2)); });
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Cutouts, ofOneSidedSurfacesCastFromTheirFront)
+{
+  vtkActor* square = this->scene.add(makeSquare());
+  square->SetTexture(makeTexture(letter));
+  vtkGnomonPropKeys::SetOneSided(square, true);
+  this->expectPattern(letter);
+  square->SetScale(1.0, -1.0, 1.0); // mirrored: its front is below
+  this->expectPattern({ "." }, {}, "from behind");
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Cutouts, moveWithTheirSurface)
+{
+  vtkActor* square = this->scene.add(makeSquare());
+  square->SetTexture(makeTexture(letter));
+  this->expectPattern(letter);
+  square->SetPosition(0.5, -0.25, 0.0);
+  const auto moved = [](const glm::dvec2& point)
+  { return underSun(point - glm::dvec2(0.5, -0.25)); };
+  const auto drawn = [](const glm::dvec2& share) { return isDrawn(letter, {}, share); };
+  this->expectShadow(drawn, "moved", moved);
+  EXPECT_EQ(this->scene.report().surfacesExtracted, 0);
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Cutouts, changeWithTheirTexture)
+{
+  vtkActor* square = this->scene.add(makeSquare());
+  square->SetTexture(makeTexture(checker));
+  this->expectPattern(checker);
+  const auto image = makeImage(checker);
+  square->GetTexture()->SetInputData(image);
+  this->expectPattern(checker, {}, "another image, the same holes");
+  EXPECT_EQ(this->scene.report().mapBakes, 0);
+  EXPECT_EQ(this->scene.report().bvhBuilds, 0);
+  image->DeepCopy(makeImage(letter));
+  this->expectPattern(letter, {}, "other texels");
+  EXPECT_EQ(this->scene.report().surfacesExtracted, 0);
+  EXPECT_EQ(this->scene.report().bvhBuilds, 0);
+  image->DeepCopy(makeImage(whole));
+  this->expectPattern(whole, {}, "no holes");
+  image->DeepCopy(makeImage(letter));
+  this->expectPattern(letter, {}, "holes again");
+  square->SetTexture(makeTexture(checker));
+  this->expectPattern(checker, {}, "another texture");
+  square->SetTexture(nullptr);
+  this->expectPattern(whole, {}, "no texture");
+  square->SetTexture(makeTexture(checker));
+  this->expectPattern(checker, {}, "a texture again");
+  square->GetTexture()->SetWrap(vtkTexture::ClampToBorder);
+  this->expectPattern(checker, { vtkTexture::ClampToBorder, false }, "another wrapping");
+  square->GetTexture()->InterpolateOn();
+  square->ForceOpaqueOn();
+  this->expectPattern(checker, { vtkTexture::ClampToBorder, true }, "interpolated");
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Cutouts, changeWithTheirCoordinates)
+{
+  const auto data = makeSquare();
+  vtkActor* square = this->scene.add(data);
+  square->SetTexture(makeTexture(letter));
+  this->expectPattern(letter);
+  auto* coordinates = data->GetPointData()->GetTCoords();
+  for (vtkIdType i = 0; i < 4; ++i)
+  {
+    coordinates->SetComponent(i, 0, 2.0 * coordinates->GetComponent(i, 0));
+  }
+  coordinates->Modified();
+  this->expectShadow(
+    [](const glm::dvec2& share) { return isDrawn(letter, {}, share * glm::dvec2(2.0, 1.0)); });
+  data->GetPointData()->SetTCoords(nullptr);
+  this->expectPattern(whole, {}, "without coordinates VTK draws without the texture");
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Cutouts, ofATextureThatActorsShare)
+{
+  const auto texture = makeTexture(letter);
+  for (const double x : { -1.0, 1.0 })
+  {
+    vtkActor* square = this->scene.add(makeSquare());
+    square->SetScale(0.5, 1.0, 1.0);
+    square->SetPosition(x, 0.0, 0.0);
+    square->SetTexture(texture);
+  }
+  const auto twice = [](const glm::dvec2& share)
+  { return isDrawn(letter, {}, share * glm::dvec2(2.0, 1.0)); };
+  this->expectShadow(twice);
+  // Its texels are held once, and go with the texture.
+  const std::size_t before = this->scene.report().bytesOccluders;
+  const auto large = makeImage(Pattern(512, std::string(512, '#')));
+  large->SetScalarComponentFromDouble(0, 0, 0, 3, 0.0);
+  texture->SetInputData(large);
+  this->scene.render();
+  const bool hasMap = std::string(GetParam().technique) != "raytraced";
+  const std::size_t texels = (hasMap ? 2 : 1) * 512 * 512;
+  EXPECT_NEAR(
+    static_cast<double>(this->scene.report().bytesOccluders - before), texels, 0.01 * texels);
+  texture->SetInputData(makeImage(letter));
+  this->expectShadow(twice);
+  EXPECT_EQ(this->scene.report().bytesOccluders, before);
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Cutouts, goThroughTextureTransforms)
+{
+  vtkActor* square = this->scene.add(makeSquare());
+  square->SetTexture(makeTexture(letter));
+  vtkNew<vtkTransform> transform;
+  transform->Translate(0.2, 0.1, 0.0);
+  transform->Scale(1.5, -2.0, 1.0);
+  const auto transformed = [](const glm::dvec2& share)
+  { return isDrawn(letter, {}, share * glm::dvec2(1.5, -2.0) + glm::dvec2(0.2, 0.1)); };
+  square->GetTexture()->SetTransform(transform);
+  this->expectShadow(transformed, "the texture's own");
+  transform->Translate(0.5, 0.0, 0.0);
+  this->expectShadow(
+    [&](const glm::dvec2& share) { return transformed(share + glm::dvec2(0.5, 0.0)); }, "changed");
+
+  square->GetTexture()->SetTransform(nullptr);
+  this->expectPattern(letter);
+  vtkNew<vtkInformation> keys;
+  square->SetPropertyKeys(keys);
+  transform->Translate(-0.5, 0.0, 0.0);
+  keys->Set(vtkProp::GeneralTextureTransform(), transform->GetMatrix()->GetData(), 16);
+  this->expectShadow(transformed, "the actor's key");
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Cutouts, ofAlbedoTexturesCountForPhysicalMaterials)
+{
+  vtkActor* square = this->scene.add(makeSquare());
+  const auto texture = makeTexture(letter, { vtkTexture::Repeat, true });
+  texture->UseSRGBColorSpaceOn();
+  square->GetProperty()->SetBaseColorTexture(texture);
+  this->expectPattern(whole, {}, "VTK's other shading does not look at it");
+  square->GetProperty()->SetInterpolationToPBR();
+  this->expectPattern(letter, { vtkTexture::Repeat, true });
+  EXPECT_TRUE(square->HasOpaqueGeometry());
+  // What is behind the holes shows its own visibility: the square itself is in this box's shadow.
+  vtkActor* box = this->scene.addBox({ -5.5, -2.5, 8.0 }, { -0.9, 2.5, 8.1 });
+  this->scene.lookDown(2.6);
+  const Picture picture = this->scene.render();
+  for (const glm::dvec2& share : { glm::dvec2(0.8, 0.3), glm::dvec2(0.6, 0.67) })
+  {
+    ASSERT_FALSE(isDrawn(letter, { vtkTexture::Repeat, true }, share));
+    EXPECT_NEAR(
+      this->scene.redAt(picture, 4.0 * share.x - 2.0, 4.0 * share.y - 2.0), slantingSunValue, 1.0);
+  }
+  EXPECT_LT(this->scene.redAt(picture, 0.0, -1.33), 30) << "a texel of the square";
+  this->scene.renderer->RemoveActor(box);
+  this->scene.lookDown(2.6, 5.0);
+  square->GetProperty()->SetBaseColorTexture(nullptr);
+  square->GetProperty()->RemoveTexture("albedoTex");
+  square->SetTexture(makeTexture(letter));
+  this->expectPattern(whole, {}, "physically based shading does not look at the actor's texture");
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Cutouts, ofAPropertysTextureWithCoordinatesOfItsOwn)
+{
+  const glm::dvec2 last(2.0, 3.0);
+  const auto data = makeSquare(glm::dvec2(0.0), last, "places");
+  vtkActor* square = this->scene.add(data);
+  square->GetProperty()->SetTexture("leaves", makeTexture(letter));
+  square->GetProperty()->SetTexture("normalTex", makeTexture({ "." }));
+  auto* mapper = vtkPolyDataMapper::SafeDownCast(square->GetMapper());
+  mapper->MapDataArrayToMultiTextureAttribute(
+    "leaves", "places", vtkDataObject::FIELD_ASSOCIATION_POINTS);
+  this->expectShadow([&](const glm::dvec2& share) { return isDrawn(letter, {}, share * last); });
+  this->expectNoNotes();
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Cutouts, ofColoursFromALookupTable)
+{
+  vtkActor* square = this->scene.add(makeSquare());
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(2, 1, 1);
+  image->AllocateScalars(VTK_SHORT, 1);
+  image->SetScalarComponentFromDouble(0, 0, 0, 0, 7.0);
+  image->SetScalarComponentFromDouble(1, 0, 0, 0, 8.0);
+  vtkNew<vtkLookupTable> colors;
+  colors->SetNumberOfTableValues(2);
+  colors->SetTableRange(7.0, 8.0);
+  colors->SetTableValue(0, 1.0, 1.0, 1.0, 0.0);
+  colors->SetTableValue(1, 1.0, 1.0, 1.0, 1.0);
+  vtkNew<vtkTexture> texture;
+  texture->SetInputData(image);
+  texture->SetLookupTable(colors);
+  square->SetTexture(texture);
+  this->expectPattern({ ".#" });
+  colors->SetTableValue(0, 1.0, 1.0, 1.0, 1.0);
+  colors->SetTableValue(1, 1.0, 1.0, 1.0, 0.0);
+  this->expectPattern({ "#." });
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Cutouts, ofGreyWithAlphaAndOfNumbers)
+{
+  vtkActor* square = this->scene.add(makeSquare());
+  vtkNew<vtkImageData> grey;
+  grey->SetDimensions(2, 1, 1);
+  grey->AllocateScalars(VTK_UNSIGNED_CHAR, 2);
+  vtkNew<vtkImageData> numbers;
+  numbers->SetDimensions(2, 1, 1);
+  numbers->AllocateScalars(VTK_FLOAT, 4);
+  for (int i = 0; i < 4; ++i)
+  {
+    for (int x = 0; x < 2; ++x)
+    {
+      numbers->SetScalarComponentFromDouble(x, 0, 0, i, i == 3 && x == 0 ? 0.0 : 1.0);
+      if (i < 2)
+      {
+        grey->SetScalarComponentFromDouble(x, 0, 0, i, i == 1 && x == 1 ? 0.0 : 255.0);
+      }
+    }
+  }
+  vtkNew<vtkTexture> texture;
+  texture->SetInputData(grey);
+  square->SetTexture(texture);
+  this->expectPattern({ "#." }, {}, "grey");
+  texture->SetInputData(numbers);
+  texture->SetColorModeToDirectScalars();
+  this->expectPattern({ ".#" }, {}, "numbers");
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Cutouts, ofCompositeBlocksGlyphsAndStrips)
+{
+  const auto data = makeSquare();
+  const auto texture = makeTexture(letter);
+
+  vtkNew<vtkMultiBlockDataSet> tree;
+  tree->SetBlock(0, data);
+  vtkNew<vtkCompositePolyDataMapper2> composite;
+  composite->SetInputDataObject(tree);
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(composite);
+  actor->SetTexture(texture);
+  this->scene.renderer->AddActor(actor);
+  this->expectPattern(letter, {}, "composite");
+
+  vtkNew<vtkPoints> places;
+  places->InsertNextPoint(-1.0, 0.0, 2.5);
+  places->InsertNextPoint(1.0, 0.0, 2.5);
+  vtkNew<vtkPolyData> points;
+  points->SetPoints(places);
+  vtkNew<vtkGlyph3DMapper> glyphs;
+  glyphs->SetInputData(points);
+  glyphs->SetSourceData(data);
+  glyphs->SetScaleFactor(0.5);
+  actor->SetMapper(glyphs);
+  this->expectShadow(
+    [](const glm::dvec2& share)
+    {
+      const double y = 2.0 * share.y - 0.5;
+      return y >= 0.0 && y <= 1.0 && isDrawn(letter, {}, { 2.0 * share.x, y });
+    },
+    "glyphs");
+  this->scene.renderer->RemoveActor(actor);
+
+  data->SetPolys(nullptr);
+  vtkNew<vtkCellArray> strip;
+  strip->InsertNextCell({ 0, 1, 3, 2 });
+  data->SetStrips(strip);
+  this->scene.add(data)->SetTexture(texture);
+  this->expectPattern(letter, {}, "strip");
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Cutouts, underASpotAndALamp)
+{
+  this->scene.add(makeSquare())->SetTexture(makeTexture({ "." }));
+  vtkActor* square = this->scene.add(makeSquare());
+  square->SetTexture(makeTexture(letter));
+  this->scene.renderer->RemoveLight(this->sun);
+  const glm::dvec3 lamp(-5.0, 0.0, 8.0);
+  for (const double cone : { 50.0, allDirections })
+  {
+    vtkLight* light = this->scene.addSpot(lamp, { 2.0, 0.0, 0.0 }, cone);
+    square->SetPosition(-20.0, 0.0, 20.0); // where some views do not see it
+    this->scene.render();
+    square->SetPosition(0.0, 0.0, -2.0);
+    const Picture picture = this->scene.render();
+    const ExactFloor exact = [&](const glm::dvec2& point)
+    {
+      const glm::dvec3 toLamp = lamp - glm::dvec3(point, 0.0);
+      const glm::dvec2 there = point + glm::dvec2(toLamp) * (3.0 / toLamp.z);
+      const glm::dvec2 share = (there + 2.0) / 4.0;
+      const bool under = glm::all(glm::lessThanEqual(glm::abs(point), glm::dvec2(2.0)));
+      const bool on = share.x >= 0.0 && share.x <= 1.0 && share.y >= 0.0 && share.y <= 1.0;
+      return under ? -1.0 : on && isDrawn(letter, {}, share) ? 0.0 : 120.0;
+    };
+    const ExactFloor clear = awayFromEdges(exact, 2.0 * band());
+    std::size_t counted = 0;
+    std::size_t wrong = 0;
+    std::size_t dark = 0;
+    for (int y = 0; y < picture.height; ++y)
+    {
+      for (int x = 0; x < picture.width; ++x)
+      {
+        const double value = clear(this->scene.floorAt(x, y));
+        counted += value >= 0.0 ? 1 : 0;
+        dark += value == 0.0 ? 1 : 0;
+        wrong += value >= 0.0 && (picture.red(x, y) == 0) != (value == 0.0) ? 1 : 0;
+      }
+    }
+    EXPECT_EQ(wrong, 0u) << cone << ": of " << counted;
+    EXPECT_GT(dark, counted / 20) << cone;
+    this->scene.renderer->RemoveLight(light);
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Cutouts, thatAreNotServedCastAsAWholeAndAreNoted)
+{
+  vtkActor* square = this->scene.add(makeSquare());
+  square->SetTexture(makeTexture(letter));
+  const auto expectNote = [&](const char* why)
+  {
+    this->expectPattern(whole, {}, why);
+    EXPECT_THAT(this->scene.report().notes,
+      testing::ElementsAre(testing::AllOf(testing::HasSubstr("holes"), testing::HasSubstr(why))));
+  };
+  square->GetProperty()->ShowTexturesOnBackfaceOff();
+  expectNote("front only");
+  vtkGnomonPropKeys::SetCasts(square, false);
+  this->expectPattern({ "." }, {}, "what does not cast");
+  this->expectNoNotes();
+  vtkGnomonPropKeys::SetCasts(square, true);
+  square->GetProperty()->ShowTexturesOnBackfaceOn();
+  auto* mapper = vtkPolyDataMapper::SafeDownCast(square->GetMapper());
+  mapper->SeamlessUOn();
+  expectNote("seamless");
+  mapper->SeamlessUOff();
+  const auto second = makeTexture(whole);
+  square->GetProperty()->SetTexture("second", second);
+  this->expectPattern(letter, {}, "a second texture that VTK does not blend");
+  this->expectNoNotes();
+  second->SetBlendingMode(vtkTexture::VTK_TEXTURE_BLENDING_MODE_MODULATE);
+  expectNote("blended");
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Cutouts, areLookedThroughAtWhatLiesBehind)
+{
+  vtkActor* upper = this->scene.add(makeSquare());
+  upper->SetTexture(makeTexture({ "#." }));
+  vtkActor* lower = this->scene.add(makeSquare());
+  lower->SetTexture(makeTexture({ "##", ".." }));
+  lower->SetPosition(1.0, 0.0, -1.0); // in the upper one's shadow
+  this->expectPattern({ "##", "#." });
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Cutouts, ofAnImageWithOneColumnCountAsVtkTakesItForARow)
+{
+  this->scene.add(makeSquare())->SetTexture(makeTexture({ "#", "." }));
+  this->expectPattern({ "#." });
+}
+
+//------------------------------------------------------------------------------
+// What VTK draws of a surface is what casts: seen from the sun, the floor behind a hole is lit, and
+// once the surface is out of the camera's sight, the floor is dark where it was drawn.
+TEST_F(PassTest, CutoutsCastWhatVtkDraws)
+{
+  PassScene scene(200, 200);
+  scene.addFloor(8.0);
+  scene.addSun({ 0.0, 0.0, -1.0 });
+  scene.choose({ "raytraced", vtkGnomonShadowPass::ROUTE_IMAGE });
+  scene.lookDown(2.2);
+  vtkCamera* camera = scene.renderer->GetActiveCamera();
+  for (const int wrap : { vtkTexture::ClampToEdge, vtkTexture::Repeat, vtkTexture::MirroredRepeat,
+         vtkTexture::ClampToBorder })
+  {
+    for (const bool interpolated : { false, true })
+    {
+      const glm::dvec2 first(-1.37, -0.81);
+      const glm::dvec2 last(1.93, 2.13);
+      const Sampling sampling{ wrap, interpolated };
+      vtkActor* square = scene.add(makeSquare(first, last));
+      square->SetTexture(makeTexture(letter, sampling));
+      square->ForceOpaqueOn();
+      camera->SetClippingRange(1.0, 30.0);
+      const gnomon::VisibilityImages seen = drawKept(scene);
+      camera->SetClippingRange(16.0, 30.0);
+      const gnomon::VisibilityImages shadow = drawKept(scene);
+      std::size_t drawn = 0;
+      std::size_t litBelow = 0;
+      std::size_t darkInHoles = 0;
+      std::size_t darkBehindHoles = 0;
+      for (std::size_t i = 0; i < seen.coverage.size(); ++i)
+      {
+        const glm::dvec3 position = positionOf(seen, i);
+        const bool hit = position.z > 2.5;
+        // What OpenGL filters it rounds, and VTK may then draw nothing where alpha is below 1/255.
+        const glm::dvec2 share = (glm::dvec2(position) + 2.0) / 4.0;
+        const double alpha = alphaAt(letter, sampling, first + share * (last - first));
+        if (!hit && alpha > 0.0 && alpha < 1.0 / 255.0)
+        {
+          continue;
+        }
+        drawn += hit ? 1 : 0;
+        litBelow += hit && shadow.visibility[0][i] > 0.0f ? 1 : 0;
+        darkInHoles += !hit && shadow.visibility[0][i] < 1.0f ? 1 : 0;
+        darkBehindHoles += !hit && seen.visibility[0][i] < 1.0f ? 1 : 0;
+      }
+      EXPECT_EQ(litBelow, 0u) << wrap << " " << interpolated << " of " << drawn;
+      EXPECT_EQ(darkInHoles, 0u) << wrap << " " << interpolated << " of " << drawn;
+      EXPECT_EQ(darkBehindHoles, 0u) << wrap << " " << interpolated << " of " << drawn;
+      EXPECT_GT(drawn, 1000u);
+      scene.renderer->RemoveActor(square);
+    }
+  }
+}
