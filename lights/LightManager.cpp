@@ -141,15 +141,12 @@ ShadowLight readLight(vtkLight* light, const LightDefaults& defaults)
     : defaults.mapSizeTexels;
   result.mapSizeTexels =
     std::clamp(result.mapSizeTexels, smallestMapSizeTexels, largestMapSizeTexels);
-  if (keys->Has(vtkGnomonLightKeys::KERNEL()))
-  {
-    result.kernel = keys->Get(vtkGnomonLightKeys::KERNEL());
-  }
-  if (keys->Has(vtkGnomonLightKeys::KERNEL_SIZE()))
-  {
-    result.kernelTexels = std::clamp(
-      keys->Get(vtkGnomonLightKeys::KERNEL_SIZE()), smallestKernelTexels, largestKernelTexels);
-  }
+  result.kernel = keys->Has(vtkGnomonLightKeys::KERNEL()) ? keys->Get(vtkGnomonLightKeys::KERNEL())
+                                                          : defaults.kernel;
+  result.kernelTexels = keys->Has(vtkGnomonLightKeys::KERNEL_SIZE())
+    ? keys->Get(vtkGnomonLightKeys::KERNEL_SIZE())
+    : defaults.kernelTexels;
+  result.kernelTexels = std::clamp(result.kernelTexels, smallestKernelTexels, largestKernelTexels);
   return result;
 }
 

@@ -31,6 +31,8 @@ struct LightDefaults
 {
   std::string technique;
   int mapSizeTexels = 1024;
+  std::string kernel = defaultKernel;
+  int kernelTexels = defaultKernelTexels;
 };
 
 /// Reads the renderer's vtkLights as they are at this moment.

@@ -12,7 +12,7 @@
  *
  * <b>Filter kernels.</b> Techniques that filter ("pcf") average over a kernel of the map's texels:
  * - "bilinear": a square around the point, whose texels count by how far it covers them. Edges are
- *   smooth. Of size 1 it is the usual bilinear filter of 2 x 2 texels. The default, of size 3.
+ *   smooth. Of size 1 it is the usual bilinear filter of 2 x 2 texels.
  * - "box": the nearest texels, as many in a row as the size says, with equal weights. The cheapest;
  *   edges show steps.
  * - "poisson": 16 texels of a disc with the size as diameter, turned at random from place to place.
@@ -51,8 +51,7 @@ public:
    * The keys themselves, for code that fills information objects. CASTS is 0 or 1 (default 1),
    * TECHNIQUE one of vtkGnomonShadowPass's technique names, MAP_SIZE the side of the light's map in
    * texels (of each layer, where a light has several), clamped to [16, 16384]. KERNEL is the name of
-   * a filter kernel (default "bilinear"), see above, and KERNEL_SIZE its width in texels, clamped to
-   * [1, 32] (default 3). BOX limits a
+   * a filter kernel, see above, and KERNEL_SIZE its width in texels, clamped to [1, 32]. BOX limits a
    * directional light to a box, see above: width, height and depth, each > 0, then the direction x,
    * y, z that is up in the near face, not along the light. The up direction is in the light's own
    * coordinates, as its Position is. Other kinds of light ignore it.
@@ -67,9 +66,9 @@ public:
 
   ///@{
   /**
-   * Set a key on a light. An empty technique or a map size of 0 or less takes the key away again,
-   * so that the pass's own setting counts; an empty kernel or a kernel size of 0 or less does the
-   * same, so that the default counts. A kernel that does not exist is an error and changes nothing.
+   * Set a key on a light. An empty technique or kernel, or a map or kernel size of 0 or less, takes the
+   * key away again, so that the pass's own setting counts. A kernel that does not exist is an error
+   * and changes nothing.
    */
   static void SetCasts(vtkLight* light, bool casts);
   static void SetTechnique(vtkLight* light, const char* technique);

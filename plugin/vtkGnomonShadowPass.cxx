@@ -1,5 +1,6 @@
 #include "vtkGnomonShadowPass.h"
 
+#include "lights/FilterKernel.h"
 #include "plugin/RenderManager.h"
 #include "plugin/VisibilityImages.h"
 #include "shadowtech/Registry.h"
@@ -46,6 +47,7 @@ bool drawsIntoOuterPass(const vtkRenderState* s)
 struct vtkGnomonShadowPass::Internals
 {
   std::string technique = gnomon::defaultTechnique;
+  std::string kernel = gnomon::defaultKernel;
   std::unique_ptr<gnomon::RenderManager> manager = std::make_unique<gnomon::RenderManager>();
   vtkNew<vtkRenderStepsPass> steps; ///< draws into the framebuffers of outer passes
   gnomon::FrameReport plainReport;  ///< of frames that were drawn without the manager
@@ -94,6 +96,7 @@ private:
 //------------------------------------------------------------------------------
 vtkGnomonShadowPass::vtkGnomonShadowPass()
   : MapSize(1024)
+  , KernelSize(gnomon::defaultKernelTexels)
   , Route(ROUTE_AUTO)
   , MeasureStages(false)
   , KeepVisibility(false)
@@ -144,8 +147,8 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
 
     // lights
     this->BeginView(s);
-    const bool casting =
-      manager.collectLights(renderer, { this->Internal->technique, this->MapSize });
+    const bool casting = manager.collectLights(renderer,
+      { this->Internal->technique, this->MapSize, this->Internal->kernel, this->KernelSize });
     if (casting)
     {
       // occluders
@@ -345,6 +348,29 @@ const char* vtkGnomonShadowPass::GetTechnique() const
 }
 
 //------------------------------------------------------------------------------
+void vtkGnomonShadowPass::SetKernel(const char* name)
+{
+  const std::string kernel = name ? name : "";
+  if (!gnomon::findKernel(kernel))
+  {
+    vtkErrorMacro(
+      "There is no kernel '" << kernel << "'. There are: " << gnomon::kernelNames() << ".");
+    return;
+  }
+  if (this->Internal->kernel != kernel)
+  {
+    this->Internal->kernel = kernel;
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+const char* vtkGnomonShadowPass::GetKernel() const
+{
+  return this->Internal->kernel.c_str();
+}
+
+//------------------------------------------------------------------------------
 const char* vtkGnomonShadowPass::GetDefaultTechnique()
 {
   return gnomon::defaultTechnique;
@@ -425,6 +451,8 @@ void vtkGnomonShadowPass::PrintSelf(ostream& os, vtkIndent indent)
   const char* const routes[] = { "auto", "inline", "image" };
   os << indent << "Technique: " << this->GetTechnique() << "\n";
   os << indent << "MapSize: " << this->MapSize << "\n";
+  os << indent << "Kernel: " << this->GetKernel() << "\n";
+  os << indent << "KernelSize: " << this->KernelSize << "\n";
   os << indent << "Route: " << routes[this->Route] << "\n";
   os << indent << "MeasureStages: " << (this->MeasureStages ? "on" : "off") << "\n";
   os << indent << "KeepVisibility: " << (this->KeepVisibility ? "on" : "off") << "\n";

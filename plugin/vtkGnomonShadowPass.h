@@ -84,6 +84,24 @@ public:
   vtkGetMacro(MapSize, int);
   ///@}
 
+  ///@{
+  /**
+   * The filter kernel of lights that name none, for techniques that filter ("pcf"): "bilinear", "box",
+   * "poisson" (see vtkGnomonLightKeys). An unknown name is an error and changes nothing. Default
+   * "bilinear".
+   */
+  virtual void SetKernel(const char* name);
+  const char* GetKernel() const;
+  ///@}
+
+  ///@{
+  /**
+   * The kernel's width for lights that name none, in texels; clamped to [1, 32]. Default 3.
+   */
+  vtkSetClampMacro(KernelSize, int, 1, 32);
+  vtkGetMacro(KernelSize, int);
+  ///@}
+
   /**
    * How visibility reaches the shader. INLINE: VTK's fragment shader computes it; only pointwise
    * techniques can. IMAGE: it is computed for all pixels beforehand, from a prepass. AUTO: the
@@ -188,6 +206,7 @@ protected:
   ~vtkGnomonShadowPass() override;
 
   int MapSize;
+  int KernelSize;
   int Route;
   bool MeasureStages;
   bool KeepVisibility;

@@ -125,6 +125,14 @@ void addCompareCommand(CLI::App& app)
     ->delimiter(',')
     ->check(CLI::Range(16, 16384))
     ->capture_default_str();
+  command
+    ->add_option("--kernel", options->plan.kernel,
+      "What techniques that filter (pcf) average over: bilinear, box, poisson")
+    ->check(CLI::IsMember({ "bilinear", "box", "poisson" }))
+    ->capture_default_str();
+  command->add_option("--kernel-size", options->plan.kernelTexels, "The kernel's width in texels")
+    ->check(CLI::Range(smallestKernelTexels, largestKernelTexels))
+    ->capture_default_str();
   command->add_option("--size", options->size, "Window size in pixels, WIDTHxHEIGHT")
     ->capture_default_str();
   command->add_option("--frames", options->plan.frames, "Timed frames per variant and motion")

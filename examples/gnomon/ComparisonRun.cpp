@@ -54,6 +54,11 @@ std::vector<VariantSpec> listVariants(const ComparisonPlan& plan)
       }
     }
   }
+  for (VariantSpec& spec : specs)
+  {
+    spec.kernel = plan.kernel;
+    spec.kernelTexels = plan.kernelTexels;
+  }
   return specs;
 }
 
@@ -358,6 +363,8 @@ std::vector<std::pair<std::string, std::string>> listSettings(
     { "Window",
       std::to_string(plan.width) + " x " + std::to_string(plan.height) +
         " pixels, one sample per pixel" },
+    { "Kernel of techniques that filter",
+      plan.kernel + ", " + std::to_string(plan.kernelTexels) + " texels wide" },
     { "Timed frames",
       std::to_string(plan.frames) + " per variant and motion, after " +
         std::to_string(warmUpFrames) + " for warming up" },

@@ -4,6 +4,8 @@
 #include "Comparison.h"
 #include "Scene.h"
 
+#include "lights/FilterKernel.h"
+
 #include <functional>
 #include <string>
 #include <vector>
@@ -16,8 +18,10 @@ struct ComparisonPlan
 {
   std::vector<std::string> techniques; ///< names of the registry; the truth is added when missing
   std::vector<int> mapSizesTexels;     ///< for every variant that has a map
-  bool inlineRoute = true;             ///< for pointwise techniques
-  bool imageRoute = true;              ///< for pointwise techniques
+  std::string kernel = defaultKernel;  ///< for every technique that filters
+  int kernelTexels = defaultKernelTexels;
+  bool inlineRoute = true; ///< for pointwise techniques
+  bool imageRoute = true;  ///< for pointwise techniques
   int width = 1024;
   int height = 1024;
   int frames = 21; ///< timed frames per variant and motion
@@ -31,7 +35,7 @@ using ProgressFunction = std::function<void(double)>;
 
 /// Draws the scene with every variant of the plan and with the peers (plain VTK, vtkShadowMapPass)
 /// and measures errors, times and memory. Frames of all variants are interleaved. What the scene's
-/// lights ask for themselves (technique, map size) is set aside: the plan decides.
+/// lights ask for themselves (technique, map size, kernel) is set aside: the plan decides.
 /// @throws BadInput when no light of the scene casts a shadow, Failure when drawing fails
 ComparisonResults runComparison(
   const Scene& scene, const ComparisonPlan& plan, const ProgressFunction& progress);

@@ -39,6 +39,8 @@ vtkSmartPointer<vtkRenderPass> makeGnomonPass(const VariantSpec& spec)
   auto pass = vtkSmartPointer<vtkGnomonShadowPass>::New();
   pass->SetTechnique(spec.technique.c_str());
   pass->SetRoute(spec.route);
+  pass->SetKernel(spec.kernel.c_str());
+  pass->SetKernelSize(spec.kernelTexels);
   if (spec.mapSizeTexels > 0)
   {
     pass->SetMapSize(spec.mapSizeTexels);
@@ -82,6 +84,8 @@ Scene withoutLightSettings(Scene scene)
   {
     light.technique.clear();
     light.mapSizeTexels = 0;
+    light.kernel.clear();
+    light.kernelTexels = 0;
   }
   return scene;
 }

@@ -4,6 +4,7 @@
 #include "Comparison.h"
 #include "Scene.h"
 
+#include "lights/FilterKernel.h"
 #include "plugin/vtkGnomonEGLRenderWindow.h"
 #include "plugin/vtkGnomonShadowPass.h"
 
@@ -24,7 +25,9 @@ struct VariantSpec
   std::string technique; ///< of the registry, or one of the peers' names
   int mapSizeTexels = 0; ///< 0: no map
   int route = vtkGnomonShadowPass::ROUTE_AUTO;
-  bool pointwise = false; ///< whether the technique has two routes
+  bool pointwise = false;             ///< whether the technique has two routes
+  std::string kernel = defaultKernel; ///< of techniques that filter
+  int kernelTexels = defaultKernelTexels;
 
   bool isGnomon() const
   {
@@ -39,7 +42,7 @@ struct VariantSpec
 /// What draws this variant, for vtkRenderer::SetPass; null for plain VTK.
 vtkSmartPointer<vtkRenderPass> makePass(const VariantSpec& spec);
 
-/// The scene with lights that leave technique and map size to the pass, hence to the variant.
+/// The scene with lights that leave technique, map size and kernel to the pass, hence to the variant.
 Scene withoutLightSettings(Scene scene);
 
 /// Turns a renderer's camera or lights a little, from the places that they had when this was made.

@@ -59,8 +59,8 @@ struct SceneLight
   double coneAngleDegrees = 30.0; ///< half the cone of a spot light
   std::string technique;          ///< empty: the pass decides
   int mapSizeTexels = 0;          ///< 0: the pass decides
-  std::string kernel;             ///< empty: Gnomon's default
-  int kernelTexels = 0;           ///< 0: Gnomon's default
+  std::string kernel;             ///< empty: the pass decides
+  int kernelTexels = 0;           ///< 0: the pass decides
 };
 
 struct SceneCamera

@@ -79,6 +79,27 @@ TEST(ComparisonRun, MeasuresErrorsAgainstTheTruth)
   }
 }
 
+TEST(ComparisonRun, ThePlanSaysTheKernelAndNotTheScene)
+{
+  Scene scene = loadScene("cube");
+  scene.lights.at(0).kernel = "poisson";
+  scene.lights.at(0).kernelTexels = 32;
+  ComparisonPlan plan;
+  plan.techniques = { "pcf" };
+  plan.mapSizesTexels = { 64 };
+  plan.inlineRoute = false;
+  plan.width = 140;
+  plan.height = 140;
+  plan.frames = 1;
+  const auto errorOf = [&](int kernelTexels)
+  {
+    plan.kernel = "box";
+    plan.kernelTexels = kernelTexels;
+    return variant(runComparison(scene, plan, {}), "pcf 64 image").error.meanAbsolute;
+  };
+  EXPECT_LT(1.5 * errorOf(1), errorOf(9));
+}
+
 TEST(ComparisonRun, VisibilityReadOffPicturesAgreesWithTheImage)
 {
   // The same technique by both routes: one image is handed out, the other read off pictures.

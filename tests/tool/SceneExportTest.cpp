@@ -25,6 +25,8 @@ TEST(SceneExport, IsReadBackAsTheSameScene)
     makeSun({ { 0.0, -1.0, 0.0 } }) };
   scene.lights[0].technique = "raytraced";
   scene.lights[0].mapSizeTexels = 512;
+  scene.lights[0].kernel = "poisson";
+  scene.lights[0].kernelTexels = 7;
   scene.lights[1].type = SceneLight::Type::Spot;
   scene.lights[1].position = { { 0.3, 4.0, 0.0 } };
   scene.lights[1].color = { { 1.0, 0.5, 0.25 } };
@@ -62,6 +64,8 @@ TEST(SceneExport, IsReadBackAsTheSameScene)
     EXPECT_EQ(read.lights[i].intensity, scene.lights[i].intensity);
     EXPECT_EQ(read.lights[i].technique, scene.lights[i].technique);
     EXPECT_EQ(read.lights[i].mapSizeTexels, scene.lights[i].mapSizeTexels);
+    EXPECT_EQ(read.lights[i].kernel, scene.lights[i].kernel);
+    EXPECT_EQ(read.lights[i].kernelTexels, scene.lights[i].kernelTexels);
   }
   EXPECT_EQ(read.lights[1].coneAngleDegrees, scene.lights[1].coneAngleDegrees);
   EXPECT_FALSE(read.lights[0].box);

@@ -91,6 +91,22 @@ TEST_F(Settings, unknownTechniqueIsAnErrorAndChangesNothing)
 }
 
 //------------------------------------------------------------------------------
+TEST_F(Settings, unknownKernelIsAnErrorAndChangesNothing)
+{
+  vtkNew<vtkGnomonShadowPass> pass;
+  EXPECT_STREQ(pass->GetKernel(), "bilinear");
+  pass->SetKernel("poisson");
+  const vtkMTimeType time = pass->GetMTime();
+  for (const char* name : { "magic", "", "Box", static_cast<const char*>(nullptr) })
+  {
+    pass->SetKernel(name);
+    EXPECT_THAT(this->takeErrors(), HasSubstr("There are: bilinear, box, poisson"));
+    EXPECT_STREQ(pass->GetKernel(), "poisson");
+    EXPECT_EQ(pass->GetMTime(), time);
+  }
+}
+
+//------------------------------------------------------------------------------
 TEST_F(Settings, techniquesAreListed)
 {
   ASSERT_GE(vtkGnomonShadowPass::GetNumberOfTechniques(), 2);
@@ -115,11 +131,18 @@ TEST_F(Settings, numbersAreClamped)
   EXPECT_EQ(pass->GetMapSize(), 16);
   pass->SetMapSize(1 << 20);
   EXPECT_EQ(pass->GetMapSize(), 16384);
+  EXPECT_EQ(pass->GetKernelSize(), 3);
+  pass->SetKernelSize(0);
+  EXPECT_EQ(pass->GetKernelSize(), 1);
+  pass->SetKernelSize(33);
+  EXPECT_EQ(pass->GetKernelSize(), 32);
   pass->SetRoute(7);
   EXPECT_EQ(pass->GetRoute(), static_cast<int>(vtkGnomonShadowPass::ROUTE_IMAGE));
   std::ostringstream text;
   pass->Print(text);
   EXPECT_THAT(text.str(), HasSubstr("MapSize: 16384"));
+  EXPECT_THAT(text.str(), HasSubstr("Kernel: bilinear"));
+  EXPECT_THAT(text.str(), HasSubstr("KernelSize: 32"));
 }
 
 //------------------------------------------------------------------------------
