@@ -63,7 +63,9 @@ ViewLayout viewLayout(const ShadowLight& light);
 /// The uniform projections, fitted to the casters' bounds as the light sees them. A view covers the
 /// casters and no more than the light reaches, and keeps a border on every side, so that what a
 /// technique reads around a receiver lies in the same layer. The faces of a cube see 90 degrees
-/// between those borders, less where there are no casters.
+/// between those borders, less where there are no casters. A face whose only casters lie beyond its
+/// edge, but no farther than the border, sees them, too; and where casters are near an edge, the texels
+/// of the faces that meet there are not smaller than half of the cube's largest.
 ///
 /// @param centreWorld the origin of centred coordinates, in world coordinates
 /// @param castersCentred the box around all casters, in centred coordinates

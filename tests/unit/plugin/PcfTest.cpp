@@ -323,6 +323,38 @@ TEST_P(Pcf, edgesAreAsSmoothWhereTheMapEnds)
 }
 
 //------------------------------------------------------------------------------
+TEST_F(PassTest, penumbrasGoOnAcrossTheEdgesOfALampsFaces)
+{
+  // A plate whose shadow on the floor ends at x = 3.98, and an edge between faces of the lamp's cube
+  // at x = 4. Nothing else casts, so that the plate is on one face only.
+  PassScene scene(400, 40);
+  vtkGnomonPropKeys::SetCasts(scene.addFloor(10.0), false);
+  scene.addBox({ 1.0, -1.0, 2.0 }, { 1.99, 1.0, 2.001 });
+  vtkLight* lamp = scene.addSpot({ 0.0, 0.0, 4.0 }, glm::dvec3(0.0), allDirections);
+  scene.pass->SetTechnique("pcf");
+  scene.pass->SetMapSize(256);
+  vtkGnomonLightKeys::SetKernelSize(lamp, 32);
+  scene.lookDown(0.1, 4.0);
+  for (const char* kernel : { "bilinear", "box" })
+  {
+    vtkGnomonLightKeys::SetKernel(lamp, kernel);
+    const VisibilityImages& kept = drawKept(scene);
+    const auto lit = [&](int x)
+    { return static_cast<double>(kept.visibility[0][20 * 400 + static_cast<std::size_t>(x)]); };
+    // Seen from x = 3 to 5, with the edge in the middle.
+    double largestStep = 0.0;
+    for (int x = 1; x < 400; ++x)
+    {
+      largestStep = std::max(largestStep, std::abs(lit(x) - lit(x - 1)));
+    }
+    EXPECT_LT(lit(0), 0.01);
+    EXPECT_LT(lit(205), 0.75);
+    EXPECT_GT(lit(399), 0.99);
+    EXPECT_LT(largestStep, 0.1) << kernel;
+  }
+}
+
+//------------------------------------------------------------------------------
 TEST_P(Pcf, degenerateViewsStayFinite)
 {
   // Along the axes and in the floor's plane; lamps inside, below, on and far from the casters; maps
