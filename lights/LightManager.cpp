@@ -18,6 +18,9 @@ namespace gnomon
 namespace
 {
 
+/// The largest coordinate of a lamp: of those beyond, floats do not hold the squares.
+constexpr double farthestPosition = 1e18;
+
 /// VTK takes the cone of a positional light for a spot's below 90 degrees only.
 LightKind kindOf(vtkLight* light)
 {
@@ -87,6 +90,10 @@ std::string reasonToSkip(vtkLight* light)
   {
     return "marked as not casting";
   }
+  if (std::isnan(light->GetShadowAttenuation()))
+  {
+    return "its shadow attenuation is not a number";
+  }
   if (light->GetShadowAttenuation() <= 0.0f)
   {
     return "its shadow attenuation is 0";
@@ -101,7 +108,10 @@ std::string reasonToSkip(vtkLight* light)
   light->GetTransformedFocalPoint(&focalPoint.x);
   if (kindOf(light) == LightKind::Point)
   {
-    return isFinite(position) ? "" : "its position is not finite";
+    return !isFinite(position) ? "its position is not finite"
+      : glm::any(glm::greaterThan(glm::abs(position), glm::dvec3(farthestPosition)))
+      ? "its position is too far away"
+      : "";
   }
   const glm::dvec3 travel = focalPoint - position;
   const double distance2 = glm::dot(travel, travel);
@@ -109,10 +119,19 @@ std::string reasonToSkip(vtkLight* light)
   {
     return "its position and focal point give no direction";
   }
+  const int boxNumbers = keys->Length(vtkGnomonLightKeys::BOX());
+  if (boxNumbers != 0 && boxNumbers != 6 && !light->GetPositional())
+  {
+    return "its box has " + std::to_string(boxNumbers) + " numbers instead of 6";
+  }
   if (const std::optional<LightBox> box = readBox(light))
   {
     const glm::dvec3 size(box->width, box->height, box->depth);
-    if (!isFinite(size) || !glm::all(glm::greaterThan(size, glm::dvec3(0.0))))
+    if (!isFinite(size) || !isFinite(box->upWorld))
+    {
+      return "its box is not finite";
+    }
+    if (!glm::all(glm::greaterThan(size, glm::dvec3(0.0))))
     {
       return "its box is empty";
     }

@@ -1,5 +1,6 @@
 #include "lights/LightViews.h"
 
+#include "lights/CasterViews.h"
 #include "lights/Lispsm.h"
 #include "lights/Splits.h"
 #include "lights/Trapezoid.h"
@@ -25,81 +26,6 @@ Bounds transformed(const Bounds& bounds, const glm::dmat4& matrix)
     result.add(glm::dvec3(matrix * glm::dvec4(corner, 1.0)));
   }
   return result;
-}
-
-struct Interval
-{
-  double lower;
-  double upper;
-};
-
-LightRays raysOf(const glm::dmat4& viewFromCentred, bool positional)
-{
-  LightRays rays;
-  rays.viewFromCentred = viewFromCentred;
-  rays.positional = positional;
-  return rays;
-}
-
-/// A view around the casters, without a border.
-/// @param castersView what to cover; not empty
-/// @param radius of all casters: what their positions are rounded in proportion to
-LightView parallelView(const Bounds& castersView, double radius, const glm::dmat4& viewFromCentred)
-{
-  const double smallest = 1e-6 * std::max(radius, 1e-300);
-  const glm::dvec3 widening(smallest);
-  const glm::dvec3 lower = castersView.lower - widening;
-  const glm::dvec3 upper = castersView.upper + widening;
-  // Depths are compared relative to this range: flat boxes get a deeper one.
-  const double depth = std::max((1.0 + roomBehindCasters) * (upper.z - lower.z), radius);
-
-  LightView view;
-  view.rays = raysOf(viewFromCentred, false);
-  view.depthScale = 1.0 / depth;
-  view.depthOffset = -lower.z / depth;
-  view.mapFromAcross = uniformFromRange({ lower, upper });
-  return view;
-}
-
-/// The slopes x/z of the points with x in `across`, z in `along` (> 0), as far as they lie within
-/// the limit; lower > upper where none does.
-Interval slopesOf(const Interval& across, const Interval& along, double limit)
-{
-  const double lower = across.lower / (across.lower < 0.0 ? along.lower : along.upper);
-  const double upper = across.upper / (across.upper > 0.0 ? along.lower : along.upper);
-  return { std::max(lower, -limit), std::min(upper, limit) };
-}
-
-/// The same for the rays of a positional light.
-/// @param slopeLimit the largest |x/z| and |y/z| of what the light reaches
-/// @return nothing where no caster can be seen
-std::optional<LightView> perspectiveView(
-  const Bounds& castersView, const glm::dmat4& viewFromCentred, double slopeLimit)
-{
-  const double farthest = castersView.upper.z;
-  if (!(farthest > 0.0))
-  {
-    return std::nullopt; // all casters lie behind the light
-  }
-  // A caster may touch the light: near stays positive, but well below anything that can be told
-  // apart at the far end. Linear depth does not suffer from a small near plane as z/w does.
-  const double nearest = std::max(castersView.lower.z, nearestShare * farthest);
-  const glm::dvec3& lower = castersView.lower;
-  const glm::dvec3& upper = castersView.upper;
-  const Interval slopesX = slopesOf({ lower.x, upper.x }, { nearest, farthest }, slopeLimit);
-  const Interval slopesY = slopesOf({ lower.y, upper.y }, { nearest, farthest }, slopeLimit);
-  if (!(slopesX.lower <= slopesX.upper && slopesY.lower <= slopesY.upper))
-  {
-    return std::nullopt; // the light misses all casters
-  }
-  const glm::dvec2 smallest(1e-6 * slopeLimit);
-  LightView view;
-  view.rays = raysOf(viewFromCentred, true);
-  view.mapFromAcross = uniformFromRange({ glm::dvec2(slopesX.lower, slopesY.lower) - smallest,
-    glm::dvec2(slopesX.upper, slopesY.upper) + smallest });
-  view.depthScale = 1.0 / (farthest * (1.0 + roomBehindCasters));
-  view.beginsAt = nearest * 0.999; // so that rounding cuts no caster off
-  return view;
 }
 
 glm::dmat3 scaling(double factor)
@@ -229,7 +155,7 @@ void fitDirectional(
     castersLight.upper.z -= castersLight.lower.z;
     castersLight.lower.z = 0.0;
   }
-  LightView view = parallelView(castersLight, radius, result.lightFromCentred);
+  LightView view = parallelCasterView(castersLight, radius, result.lightFromCentred);
   view.beginsAt = beginsAt;
   result.views = layViews(light, fitting, view, reach);
 }
@@ -238,7 +164,7 @@ void fitSpot(const Bounds& castersLight, const ShadowLight& light, const ViewFit
   LightViews& result)
 {
   const double tangent = std::sqrt(result.coneTangentSquared);
-  if (const auto view = perspectiveView(castersLight, result.lightFromCentred, tangent))
+  if (const auto view = spotCasterView(castersLight, result.lightFromCentred, tangent))
   {
     const double nearest = nearestOf(fitting.receiversCentred, view->rays);
     result.views = layViews(light, fitting, *view, coneHalfSpaces(tangent, nearest));
@@ -252,19 +178,23 @@ void fitCube(
   {
     castersLight.lower.z = std::max(castersLight.lower.z, 0.0); // no cone reaches behind itself
   }
-  for (int face = 0; face < cubeFaces && !castersLight.empty(); ++face)
+  if (castersLight.empty())
   {
-    const glm::dmat4 faceFromLight(cubeFaceFromLight(face));
-    const auto view = perspectiveView(
-      transformed(castersLight, faceFromLight), faceFromLight * result.lightFromCentred, 1.0);
-    if (!view)
+    return;
+  }
+  const auto views =
+    cubeCasterViews(castersLight, result.lightFromCentred, fitting.texels.inside());
+  for (std::size_t face = 0; face < views.size(); ++face)
+  {
+    if (!views[face])
     {
       continue;
     }
-    const double nearest = nearestOf(fitting.receiversCentred, view->rays);
-    for (const LightView& laid : layViews(light, fitting, *view, cubeFaceHalfSpaces(nearest)))
+    const double nearest = nearestOf(fitting.receiversCentred, views[face]->rays);
+    for (const LightView& laid :
+      layViews(light, fitting, *views[face], cubeFaceHalfSpaces(nearest)))
     {
-      result.viewOfFace[static_cast<std::size_t>(face)] = static_cast<int>(result.views.size());
+      result.viewOfFace[face] = static_cast<int>(result.views.size());
       result.views.push_back(laid);
     }
   }

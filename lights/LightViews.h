@@ -61,10 +61,6 @@ struct LightViews
 /// texels at the border stretched by 1 / cos^2: 4 times at 60 degrees, 3 at the corners of a cube.
 constexpr double largestSingleViewConeDegrees = 60.0;
 
-/// The far plane lies this share of the depth range behind the last caster: what a technique writes
-/// for it, pushed back as that may be, stays apart from the depth 1 of texels without a caster.
-constexpr double roomBehindCasters = 0.125;
-
 /// Point and wide spot lights have a cube's views, others a single one or splits. It is known from the
 /// light alone, so that shaders can be built before the casters are known.
 ViewLayout viewLayout(const ShadowLight& light);

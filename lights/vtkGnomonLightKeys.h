@@ -21,7 +21,7 @@
  *
  * <b>Filter kernels.</b> Techniques that filter ("pcf") average over a kernel of the map's texels:
  * - "bilinear": a square around the point, whose texels count by how far it covers them. Edges are
- *   smooth. Of size 1 it is the usual bilinear filter of 2 x 2 texels. The default, of size 3.
+ *   smooth. Of size 1 it is the usual bilinear filter of 2 x 2 texels.
  * - "box": the nearest texels, as many in a row as the size says, with equal weights. The cheapest;
  *   edges show steps.
  * - "poisson": 16 texels of a disc with the size as diameter, turned at random from place to place.

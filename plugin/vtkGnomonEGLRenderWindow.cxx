@@ -254,6 +254,22 @@ int vtkGnomonEGLRenderWindow::GetColorBufferSizes(int* rgba)
 }
 
 //------------------------------------------------------------------------------
+int vtkGnomonEGLRenderWindow::GetDepthBufferSize()
+{
+  constexpr int usual = 24;
+  if (!this->Initialized || !this->RenderFramebuffer->GetFBOIndex())
+  {
+    return usual;
+  }
+  this->MakeCurrent();
+  this->GetState()->PushFramebufferBindings();
+  this->RenderFramebuffer->Bind();
+  const int bits = this->Superclass::GetDepthBufferSize();
+  this->GetState()->PopFramebufferBindings();
+  return bits;
+}
+
+//------------------------------------------------------------------------------
 int vtkGnomonEGLRenderWindow::ReadPixels(
   const vtkRecti& rect, int front, int glFormat, int glType, void* data, int right)
 {

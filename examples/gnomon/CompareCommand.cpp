@@ -2,6 +2,7 @@
 #include "ComparisonRun.h"
 #include "Errors.h"
 #include "Report.h"
+#include "SettingOptions.h"
 #include "VtkMessages.h"
 
 #include "shadowtech/Registry.h"
@@ -132,6 +133,7 @@ void addCompareCommand(CLI::App& app)
     ->delimiter(',')
     ->check(CLI::Range(16, 16384))
     ->capture_default_str();
+  addSettingOptions(*command, options->plan.settings, { "technique", "map_size" });
   command->add_option("--size", options->size, "Window size in pixels, WIDTHxHEIGHT")
     ->capture_default_str();
   command->add_option("--frames", options->plan.frames, "Timed frames per variant and motion")

@@ -95,6 +95,16 @@ std::vector<VariantSpec> listVariants(
   for (const std::string& text : techniques)
   {
     VariantSpec spec = parseTechnique(text);
+    if (findTechnique(spec.technique)->estimator->info.needsMap)
+    {
+      for (const auto& [name, value] : plan.settings)
+      {
+        if (!value.empty())
+        {
+          spec.settings.emplace(name, value);
+        }
+      }
+    }
     const TechniqueInfo* info = nullptr;
     try
     {

@@ -4,6 +4,7 @@
 #include "Comparison.h"
 #include "Scene.h"
 
+
 #include <functional>
 #include <string>
 #include <vector>
@@ -17,6 +18,8 @@ struct ComparisonPlan
   /// Names of the registry, with settings if wished: "nsm", "pcf:kernel=box:projection=lispsm". The
   /// truth is added when missing.
   std::vector<std::string> techniques;
+  /// Settings of all techniques that have a map and do not say it themselves; empty ones are none.
+  std::map<std::string, std::string> settings;
   std::vector<int> mapSizesTexels; ///< for every variant that has a map
   bool inlineRoute = true;         ///< for pointwise techniques
   bool imageRoute = true;          ///< for pointwise techniques

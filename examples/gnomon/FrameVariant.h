@@ -42,7 +42,7 @@ struct VariantSpec
 /// What draws this variant, for vtkRenderer::SetPass; null for plain VTK.
 vtkSmartPointer<vtkRenderPass> makePass(const VariantSpec& spec);
 
-/// The scene with lights that leave technique and map size to the pass, hence to the variant.
+/// The scene with lights that leave technique, map size and kernel to the pass, hence to the variant.
 Scene withoutLightSettings(Scene scene);
 
 /// Turns a renderer's camera or lights a little, from the places that they had when this was made.

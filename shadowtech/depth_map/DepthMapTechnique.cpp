@@ -1,5 +1,6 @@
 #include "shadowtech/depth_map/DepthMapTechnique.h"
 
+#include "lights/CasterViews.h"
 #include "shadowtech/base/GlState.h"
 #include "shadowtech/base/LightViewsGlsl.h"
 #include "shadowtech/base/OccluderBuffers.h"

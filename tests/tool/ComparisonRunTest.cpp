@@ -79,6 +79,27 @@ TEST(ComparisonRun, MeasuresErrorsAgainstTheTruth)
   }
 }
 
+TEST(ComparisonRun, ThePlanSaysTheKernelAndNotTheScene)
+{
+  Scene scene = loadScene("cube");
+  scene.lights.at(0).settings = { { "kernel", "poisson" }, { "kernel_size", "32" } };
+  ComparisonPlan plan;
+  plan.techniques = { "pcf" };
+  plan.mapSizesTexels = { 64 };
+  plan.inlineRoute = false;
+  plan.width = 140;
+  plan.height = 140;
+  plan.frames = 1;
+  const auto errorOf = [&](int kernelTexels)
+  {
+    const std::string size = std::to_string(kernelTexels);
+    plan.settings = { { "kernel", "box" }, { "kernel_size", size } };
+    const std::string name = "pcf kernel=box kernel_size=" + size + " 64 image";
+    return variant(runComparison(scene, plan, {}), name).error.meanAbsolute;
+  };
+  EXPECT_LT(1.5 * errorOf(1), errorOf(9));
+}
+
 TEST(ComparisonRun, VisibilityReadOffPicturesAgreesWithTheImage)
 {
   // The same technique by both routes: one image is handed out, the other read off pictures.

@@ -314,6 +314,7 @@ std::vector<BrokenInput> brokenInputs()
     option("kernel", "--kernel", { "render", "cube", "-o", "out.png", "--kernel", "magic" }),
     option(
       "kernel_size", "--kernel-size", { "render", "cube", "-o", "out.png", "--kernel-size", "33" }),
+    option("compared_kernel", "--kernel", { "compare", "cube", "-o", "out", "--kernel", "magic" }),
     option("map_size_zero", "--map-size", { "render", "cube", "-o", "out.png", "--map-size", "0" }),
     option("map_size_huge", "--map-size",
       { "render", "cube", "-o", "out.png", "--map-size", "1000000" }),

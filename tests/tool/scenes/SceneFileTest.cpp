@@ -171,6 +171,20 @@ TEST_F(SceneFile, SaysWhatIsWrongAndWhere)
     const char* expectation; // and what it must say
   };
   const nlohmann::json null;
+  const auto with = [](nlohmann::json object, const nlohmann::json& changes)
+  {
+    object.update(changes);
+    return object;
+  };
+  const auto box = [&](const nlohmann::json& changes)
+  {
+    return with({ { "position", { 1, 2, 3 } }, { "up", { 0, 1, 0 } }, { "width", 4 },
+                  { "height", 5 }, { "depth", 6 } },
+      changes);
+  };
+  const auto point = [&](const nlohmann::json& changes) {
+    return with({ { "type", "point" }, { "position", { 1, 2, 3 } } }, changes);
+  };
   const std::vector<Case> cases = {
     { "/camra", 1, "", "unknown key \"camra\"" },
     { "/camera/fov", 180, "camera.fov", "found 180, expected a number between" },
@@ -198,12 +212,30 @@ TEST_F(SceneFile, SaysWhatIsWrongAndWhere)
     { "/lights/0/type", "laser", "lights[0].type", "one of: directional, spot" },
     { "/lights/0/type", null, "lights[0].type", "missing" },
     { "/lights/0/direction", { 0, 0, 0 }, "lights[0].direction", "not zero" },
-    { "/lights/0/technique", "magic", "lights[0].technique", "one of: nsm, pcf, lispsm, tsm, pssm, raytraced" },
+    { "/lights/0/technique", "magic", "lights[0].technique",
+      "one of: nsm, pcf, lispsm, tsm, pssm, raytraced" },
     { "/lights/0/map_size", 8, "lights[0].map_size", "whole number between 16 and 16384" },
     { "/lights/0/map_size", 512.5, "lights[0].map_size", "whole number" },
     { "/lights/0/kernel", "magic", "lights[0].kernel", "one of: bilinear, box, poisson" },
     { "/lights/0/kernel_size", 0, "lights[0].kernel_size", "whole number between 1 and 32" },
     { "/lights/0/intensity", -1, "lights[0].intensity", "between 0" },
+    { "/lights/0/box", 7, "lights[0].box", "expected an object" },
+    { "/lights/0/box", box({ { "depth", 0 } }), "lights[0].box.depth", "found 0, expected" },
+    { "/lights/0/box", box({ { "width", -1 } }), "lights[0].box.width", "found -1, expected" },
+    { "/lights/0/box", box({ { "height", "NaN" } }), "lights[0].box.height", "found \"NaN\"" },
+    { "/lights/0/box", box({ { "depth", 1e300 } }), "lights[0].box.depth", "expected a number" },
+    { "/lights/0/box", box({ { "up", { 0, 0, 0 } } }), "lights[0].box.up", "not zero" },
+    { "/lights/0/box", box({ { "position", { 1, 2 } } }), "lights[0].box.position", "3 numbers" },
+    { "/lights/0/box", box({ { "length", 3 } }), "lights[0].box", "unknown key \"length\"" },
+    { "/lights/0", point({ { "position", nullptr } }), "lights[0].position", "3 numbers" },
+    { "/lights/0", point({ { "position", { 1, "inf", 3 } } }), "lights[0].position", "\"inf\"" },
+    { "/lights/0", point({ { "position", { 0, 0, -1e300 } } }), "lights[0].position", "between" },
+    { "/lights/0", point({ { "box", box(nlohmann::json::object()) } }), "lights[0]",
+      "unknown key \"box\"" },
+    { "/lights/0", point({ { "cone_angle", 30 } }), "lights[0]", "unknown key \"cone_angle\"" },
+    { "/lights/0", point({ { "intensity", -1 } }), "lights[0].intensity", "between 0" },
+    { "/lights/0", point({ { "color", { 0, 0, 2 } } }), "lights[0].color", "between 0 and 1" },
+    { "/lights/1/box", box(nlohmann::json::object()), "lights[1]", "unknown key \"box\"" },
     { "/lights/1/cone_angle", 95, "lights[1].cone_angle", "found 95, expected a number" },
     { "/lights/1/direction", { 0, 0, 1 }, "lights[1]", "unknown key \"direction\"" },
     { "/background", { 0.5 }, "background", "array of 3 numbers" },

@@ -215,6 +215,54 @@ TEST(LightViews, FacesWithoutCastersAreLeftOut)
   EXPECT_EQ(facesOf(fit(lightOf(LightKind::Point, {}), beside)), std::vector<int>({ 0, 3 }));
 }
 
+/// What a view's map spans, as slopes in the view's own space.
+std::pair<glm::dvec2, glm::dvec2> slopesOf(const LightView& view)
+{
+  const glm::dvec2 scale(view.mapFromAcross[0].x, view.mapFromAcross[1].y);
+  const glm::dvec2 offset(view.mapFromAcross[2]);
+  return { (-1.0 - offset) / scale, (1.0 - offset) / scale };
+}
+
+TEST(LightViews, FacesSeeCastersThatLieWithinTheBorderBeyondTheirEdge)
+{
+  // Below the light, up to 0.995 of the slope that belongs to the face +x.
+  const Bounds plate = box({ 1.0, -1.0, -2.0 }, { 1.99, 1.0, -2.0 });
+  constexpr int border = 8;
+  const LightViews wide =
+    fitLightViews(lightOf(LightKind::Point, {}), centre, plate, mapSize, border);
+  EXPECT_EQ(facesOf(wide), std::vector<int>({ 0, 5 }));
+  // From the plate beyond the edge to the last point on this side from which it is read.
+  const auto [lower, upper] = slopesOf(wide.views.at(0));
+  const glm::dvec2 texel = (upper - lower) / static_cast<double>(mapSize);
+  const LightView& face = wide.views.at(0);
+  const glm::dvec4 down = face.rays.viewFromCentred * glm::dvec4(0.0, 0.0, -1.0, 0.0);
+  const int axis = std::abs(down.x) > 0.5 ? 0 : 1; // of the edge that the plate is near
+  const double edge = down[axis];
+  EXPECT_GE((edge < 0.0 ? -lower[axis] : upper[axis]), 1.0 + (border - 1e-3) * texel[axis]);
+  EXPECT_LE((edge < 0.0 ? lower[axis] : -upper[axis]), -1.0 + border * texel[axis]);
+  // Out of reach it is left out.
+  EXPECT_EQ(
+    facesOf(fit(lightOf(LightKind::Point, {}), box({ 1.0, -1.0, -2.0 }, { 1.8, 1.0, -2.0 }))),
+    std::vector<int>({ 5 }));
+}
+
+TEST(LightViews, FacesThatShareAnEdgeWithCastersHaveTexelsOfASize)
+{
+  // A floor that the face below sees whole, and the faces beside it in a sliver.
+  const Bounds floor = box({ -2.02, -2.02, -2.0 }, { 2.02, 2.02, -2.0 });
+  const LightViews views = fit(lightOf(LightKind::Point, {}), floor);
+  EXPECT_EQ(facesOf(views), std::vector<int>({ 0, 1, 2, 3, 5 }));
+  double smallest = 1e300;
+  double largest = 0.0;
+  for (const LightView& view : views.views)
+  {
+    const auto [lower, upper] = slopesOf(view);
+    smallest = std::min({ smallest, upper.x - lower.x, upper.y - lower.y });
+    largest = std::max({ largest, upper.x - lower.x, upper.y - lower.y });
+  }
+  EXPECT_LE(largest, 2.001 * smallest);
+}
+
 TEST(LightViews, WideSpotsDoNotLookBehindThemselves)
 {
   const Bounds room = box(glm::dvec3(-3.0), glm::dvec3(3.0));

@@ -61,7 +61,8 @@ struct Way
 };
 std::string nameOf(const testing::TestParamInfo<Way>& way);
 inline const auto allWays = testing::Values(Way{ "nsm", vtkGnomonShadowPass::ROUTE_INLINE },
-  Way{ "nsm", vtkGnomonShadowPass::ROUTE_IMAGE },
+  Way{ "nsm", vtkGnomonShadowPass::ROUTE_IMAGE }, Way{ "pcf", vtkGnomonShadowPass::ROUTE_INLINE },
+  Way{ "pcf", vtkGnomonShadowPass::ROUTE_IMAGE },
   Way{ "raytraced", vtkGnomonShadowPass::ROUTE_IMAGE });
 std::ostream& operator<<(std::ostream& stream, const Way& way);
 

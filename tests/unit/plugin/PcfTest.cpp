@@ -38,6 +38,19 @@ std::ostream& operator<<(std::ostream& stream, const Kernel& kernel)
   return stream << kernel.name << " " << kernel.texels;
 }
 
+/// A floor and two walls without thickness.
+void addTrough(PassScene& scene)
+{
+  scene.addFloor(2.0);
+  for (const glm::dvec2& side : { glm::dvec2(-1.0, 0.0), { 0.0, -1.0 } })
+  {
+    vtkNew<vtkTransform> stand;
+    stand->Translate(2.0 * side.x, 2.0 * side.y, 2.0);
+    stand->RotateWXYZ(90.0, side.y, -side.x, 0.0);
+    scene.addFloor(2.0)->SetUserTransform(stand);
+  }
+}
+
 class Pcf
   : public PassTest
   , public testing::WithParamInterface<Kernel>
@@ -151,6 +164,35 @@ TEST_P(Pcf, litPlaneHasNoAcneUnderAPointLight)
 }
 
 //------------------------------------------------------------------------------
+/// A long lens sees a floor and two walls from so far that positions are rounded by a good part of a
+/// texel, and the receiver's plane is followed to the kernel's end from there.
+TEST_P(Pcf, concaveCornersAreLitThroughALongLens)
+{
+  for (const int mapSize : { 256, 1024 })
+  {
+    for (const double distance : { 1000.0, 10000.0 })
+    {
+      for (const glm::dvec3& direction :
+        { glm::dvec3(-1.0, -0.8, -1.0), { -0.3, -1.0, -0.1 }, { -0.1, -0.1, -1.0 } })
+      {
+        PassScene scene(200, 200);
+        addTrough(scene);
+        choose(scene, scene.addSun(direction));
+        scene.pass->SetMapSize(mapSize);
+        scene.lookFrom(distance * glm::normalize(glm::dvec3(8.0, 9.0, 7.0)));
+        vtkCamera* camera = scene.renderer->GetActiveCamera();
+        camera->SetViewAngle(2.0 * glm::degrees(std::atan(4.0 / distance)));
+        camera->SetClippingRange(distance - 20.0, distance + 20.0);
+        const Acne acne = countAcneOfSun(drawKept(scene), -direction);
+        EXPECT_GT(acne.facing, 5000u);
+        EXPECT_EQ(acne.dark, 0u) << "from " << distance << ", map " << mapSize << ", sun along "
+                                 << direction.x;
+      }
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
 TEST_P(Pcf, concaveCornersAreLit)
 {
   // Under a lamp the inside of a box, whose edges the borders of the map's faces run along from its
@@ -170,21 +212,12 @@ TEST_P(Pcf, concaveCornersAreLit)
       EXPECT_EQ(acne.facing, 40000u);
       EXPECT_EQ(acne.dark, 0u) << "map " << mapSize << ", lamp at " << lamp.x;
     }
-    // A trough of a floor and two walls without thickness, which the sun sees from within.
+    // And a trough.
     for (const glm::dvec3& direction :
       { glm::dvec3(-1.0, -0.8, -1.0), { -0.3, -1.0, -0.1 }, { -0.1, -0.1, -1.0 } })
     {
       PassScene scene(200, 200);
-      scene.addFloor(2.0);
-      const auto addWall = [&](double x, double y)
-      {
-        vtkNew<vtkTransform> stand;
-        stand->Translate(2.0 * x, 2.0 * y, 2.0);
-        stand->RotateWXYZ(90.0, y, -x, 0.0);
-        scene.addFloor(2.0)->SetUserTransform(stand);
-      };
-      addWall(-1.0, 0.0);
-      addWall(0.0, -1.0);
+      addTrough(scene);
       choose(scene, scene.addSun(direction));
       scene.pass->SetMapSize(mapSize);
       scene.lookFrom({ 8.0, 9.0, 7.0 });
@@ -287,6 +320,38 @@ TEST_P(Pcf, edgesAreAsSmoothWhereTheMapEnds)
   const std::string name = GetParam().name;
   const double column = name == "poisson" ? 0.35 : 1.0 / GetParam().texels + 1e-6;
   EXPECT_LE(largestStep, column);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(PassTest, penumbrasGoOnAcrossTheEdgesOfALampsFaces)
+{
+  // A plate whose shadow on the floor ends at x = 3.98, and an edge between faces of the lamp's cube
+  // at x = 4. Nothing else casts, so that the plate is on one face only.
+  PassScene scene(400, 40);
+  vtkGnomonPropKeys::SetCasts(scene.addFloor(10.0), false);
+  scene.addBox({ 1.0, -1.0, 2.0 }, { 1.99, 1.0, 2.001 });
+  vtkLight* lamp = scene.addSpot({ 0.0, 0.0, 4.0 }, glm::dvec3(0.0), allDirections);
+  scene.pass->SetTechnique("pcf");
+  scene.pass->SetMapSize(256);
+  vtkGnomonLightKeys::SetKernelSize(lamp, 32);
+  scene.lookDown(0.1, 4.0);
+  for (const char* kernel : { "bilinear", "box" })
+  {
+    vtkGnomonLightKeys::SetKernel(lamp, kernel);
+    const VisibilityImages& kept = drawKept(scene);
+    const auto lit = [&](int x)
+    { return static_cast<double>(kept.visibility[0][20 * 400 + static_cast<std::size_t>(x)]); };
+    // Seen from x = 3 to 5, with the edge in the middle.
+    double largestStep = 0.0;
+    for (int x = 1; x < 400; ++x)
+    {
+      largestStep = std::max(largestStep, std::abs(lit(x) - lit(x - 1)));
+    }
+    EXPECT_LT(lit(0), 0.01);
+    EXPECT_LT(lit(205), 0.75);
+    EXPECT_GT(lit(399), 0.99);
+    EXPECT_LT(largestStep, 0.1) << kernel;
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -397,6 +462,35 @@ TEST_F(PassTest, anotherKernelIsBakedOnceAndReported)
   scene.pass->SetTechnique("nsm");
   scene.render();
   EXPECT_EQ(scene.report().lights[0].kernel, "");
+}
+
+//------------------------------------------------------------------------------
+TEST_F(PassTest, thePassGivesLightsTheKernelThatTheyDoNotName)
+{
+  PassScene scene(100, 80);
+  scene.addFloor(4.0);
+  scene.addSphere({ 0.0, 0.0, 1.5 }, 0.7);
+  vtkLight* sun = scene.addSun({ 1.0, 0.4, -1.5 });
+  scene.pass->SetTechnique("pcf");
+  scene.lookFrom({ 0.0, -9.0, 7.0 });
+  const Picture narrow = scene.render();
+  scene.pass->SetSetting("kernel", "box");
+  scene.pass->SetSetting("kernel_size", "9");
+  const Picture wide = scene.render();
+  EXPECT_EQ(scene.report().lights[0].kernel, "box");
+  EXPECT_EQ(scene.report().lights[0].kernelTexels, 9);
+  EXPECT_EQ(scene.report().mapBakes, 1);
+  EXPECT_GT(differingPixels(narrow, wide), 20u);
+
+  vtkGnomonLightKeys::SetKernel(sun, "bilinear");
+  scene.render();
+  EXPECT_EQ(scene.report().lights[0].kernel, "bilinear");
+  EXPECT_EQ(scene.report().lights[0].kernelTexels, 9);
+  vtkGnomonLightKeys::SetKernelSize(sun, 3);
+  EXPECT_EQ(differingPixels(narrow, scene.render()), 0u);
+  vtkGnomonLightKeys::SetKernel(sun, nullptr);
+  vtkGnomonLightKeys::SetKernelSize(sun, 0);
+  EXPECT_EQ(differingPixels(wide, scene.render()), 0u);
 }
 
 //------------------------------------------------------------------------------

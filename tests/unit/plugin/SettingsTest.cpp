@@ -84,10 +84,33 @@ TEST_F(Settings, unknownTechniqueIsAnErrorAndChangesNothing)
   for (const char* name : { "magic", "", "NSM", static_cast<const char*>(nullptr) })
   {
     pass->SetTechnique(name);
-    EXPECT_THAT(this->takeErrors(), HasSubstr("There is no technique"));
+    EXPECT_THAT(this->takeErrors(), HasSubstr("expected one of: nsm, "));
     EXPECT_STREQ(pass->GetTechnique(), "raytraced");
     EXPECT_EQ(pass->GetMTime(), time);
   }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Settings, whatASettingDoesNotTakeIsAnErrorAndChangesNothing)
+{
+  vtkNew<vtkGnomonShadowPass> pass;
+  EXPECT_EQ(pass->GetSetting("kernel"), "bilinear");
+  pass->SetSetting("kernel", "poisson");
+  pass->SetSetting("kernel_size", "32");
+  const vtkMTimeType time = pass->GetMTime();
+  for (const char* name : { "magic", "", "Box", static_cast<const char*>(nullptr) })
+  {
+    pass->SetSetting("kernel", name);
+    EXPECT_THAT(this->takeErrors(), HasSubstr("one of: bilinear, box, poisson"));
+    EXPECT_EQ(pass->GetSetting("kernel"), "poisson");
+    pass->SetSetting(name, "1");
+    EXPECT_THAT(this->takeErrors(), HasSubstr("There are: technique, "));
+  }
+  pass->SetSetting("kernel_size", "33");
+  EXPECT_THAT(this->takeErrors(), HasSubstr("an integer in [1, 32]"));
+  EXPECT_EQ(pass->GetSetting("kernel_size"), "32");
+  EXPECT_EQ(pass->GetSetting("magic"), "");
+  EXPECT_EQ(pass->GetMTime(), time);
 }
 
 //------------------------------------------------------------------------------

@@ -10,6 +10,11 @@
 
 #include <gmock/gmock.h>
 
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <fstream>
+
 using namespace gnomon::test;
 using testing::AllOf;
 using testing::HasSubstr;
@@ -41,6 +46,28 @@ void fill(PassScene& scene)
   scene.renderer->AddLight(lamp);
   scene.lookFrom({ 0.0, -9.0, 7.0 });
 }
+
+/// Leaves this process so much address space beside what it has, in bytes, for as long as it lives.
+class AddressSpace
+{
+public:
+  explicit AddressSpace(rlim_t more)
+  {
+    getrlimit(RLIMIT_AS, &this->before_);
+    std::ifstream file("/proc/self/statm");
+    rlim_t pages = 0;
+    file >> pages;
+    rlimit limit = this->before_;
+    limit.rlim_cur = pages * static_cast<rlim_t>(getpagesize()) + more;
+    setrlimit(RLIMIT_AS, &limit);
+  }
+  ~AddressSpace() { setrlimit(RLIMIT_AS, &this->before_); }
+  AddressSpace(const AddressSpace&) = delete;
+  AddressSpace& operator=(const AddressSpace&) = delete;
+
+private:
+  rlimit before_{};
+};
 
 } // namespace
 
@@ -87,4 +114,40 @@ TEST_F(TextureMemory, oneLightOfSeveralIsNamed)
     vtkLight::SafeDownCast(scene.renderer->GetLights()->GetItemAsObject(1)), hugeMap);
   scene.render();
   EXPECT_THAT(this->takeErrors(), HasSubstr("light 1: a map"));
+}
+
+//------------------------------------------------------------------------------
+/// Each of the maps has room alone, and not all of them together.
+TEST_F(TextureMemory, mapsThatHaveNoRoomTogetherAreAnErrorThatNamesTheFirstLightWithout)
+{
+  constexpr int large = 4096; // 67 MB
+  constexpr int lights = 8;
+  PassScene scene(100, 80);
+  scene.addFloor(4.0);
+  scene.addSphere({ 0.0, 0.0, 1.5 }, 0.7);
+  scene.lookFrom({ 0.0, -9.0, 7.0 });
+  for (int i = 0; i < lights; ++i)
+  {
+    scene.addSun({ 0.2 * i - 0.8, 0.3, -1.0 })->SetIntensity(0.1);
+  }
+  scene.usePlain();
+  const Picture plain = scene.render();
+  scene.useGnomon();
+  scene.pass->SetMapSize(64);
+  const Picture coarse = scene.render();
+  EXPECT_GT(differingPixels(plain, coarse), 100u);
+  const LiveObjects live = countLiveObjects(scene.window);
+  {
+    const AddressSpace scarce(300u << 20);
+    scene.pass->SetMapSize(large);
+    EXPECT_EQ(differingPixels(plain, scene.render()), 0u);
+  }
+  const std::string errors = this->takeErrors();
+  EXPECT_THAT(errors, testing::ContainsRegex("light [1-7]: a map of 4096 x 4096 asks for 67 MB"));
+  EXPECT_THAT(errors, HasSubstr("cannot be had; one of "));
+  EXPECT_TRUE(scene.report().outOfTextureMemory);
+
+  scene.pass->SetMapSize(64);
+  EXPECT_EQ(differingPixels(coarse, scene.render()), 0u);
+  EXPECT_EQ(countLiveObjects(scene.window), live);
 }

@@ -9,6 +9,7 @@
 #include <vtkOutputWindow.h>
 #include <vtkRendererCollection.h>
 #include <vtkWindowToImageFilter.h>
+#include <vtk_glew.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -120,6 +121,35 @@ TEST_F(EGLRenderWindow, asksForOpenGL45AndTellsWhatItGot)
   EXPECT_THAT(window->ReportCapabilities(), HasSubstr("OpenGL version string:"));
   EXPECT_GT(window->GetMaximumHardwareLineWidth(), 0.0f);
   EXPECT_EQ(window->SupportsOpenGL(), 1);
+}
+
+//------------------------------------------------------------------------------
+/// A renderer asks for the depths' bits when it first places the clipping planes. VTK's window asks the
+/// default framebuffer, which there is none of here: an error of OpenGL, and 0 bits, for which the
+/// nearer plane was put ten times as far away as it need be.
+TEST_F(EGLRenderWindow, clippingPlanesArePlacedBetweenFramesAsBeforeTheFirst)
+{
+  const auto rangeOf = [](vtkRenderer* renderer)
+  {
+    renderer->ResetCameraClippingRange(-1.0, 1.0, -100.0, 100.0, -1.0, 1.0); // from near to far
+    const double* range = renderer->GetActiveCamera()->GetClippingRange();
+    return std::array<double, 2>{ { range[0], range[1] } };
+  };
+  const auto window = makeWindow(64, 48);
+  vtkNew<vtkRenderer> before;
+  before->SetActiveCamera(window->GetRenderers()->GetFirstRenderer()->GetActiveCamera());
+  window->AddRenderer(before);
+  EXPECT_EQ(window->GetDepthBufferSize(), 24);
+  const auto expected = rangeOf(before);
+  EXPECT_NEAR(expected[0] / expected[1], 0.001, 1e-6);
+
+  window->Render();
+  EXPECT_GE(window->GetDepthBufferSize(), 24);
+  vtkNew<vtkRenderer> after;
+  after->SetActiveCamera(before->GetActiveCamera());
+  window->AddRenderer(after);
+  EXPECT_EQ(rangeOf(after), expected);
+  EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
 }
 
 //------------------------------------------------------------------------------

@@ -1,0 +1,56 @@
+#ifndef gnomon_tests_unit_plugin_MatrixScene_h
+#define gnomon_tests_unit_plugin_MatrixScene_h
+
+#include "PassScene.h"
+
+#include <vtkActor.h>
+#include <vtkLight.h>
+#include <vtkRenderer.h>
+#include <vtkSmartPointer.h>
+
+#include <vector>
+
+namespace gnomon::test
+{
+
+/// A way to bring a ball or a few into the scene.
+struct MatrixKind
+{
+  const char* name;
+  vtkSmartPointer<vtkActor> (*make)(vtkRenderer* renderer);
+  bool served = true;
+};
+const std::vector<MatrixKind>& matrixKinds();
+
+/// A way to colour and shade them.
+struct MatrixLook
+{
+  const char* name;
+  void (*apply)(vtkActor* actor, vtkRenderer* renderer);
+  bool gamma = false; ///< whether VTK's shader ends with a power of 1/2.2, as PBR's does
+};
+const std::vector<MatrixLook>& matrixLooks();
+/// Of the looks, the light of a picture all around. It takes VTK a second or two to prepare.
+std::size_t imageBasedLook();
+
+/// A light that puts a part of the balls in the beam's shadow.
+struct MatrixLight
+{
+  const char* name;
+  vtkLight* (*add)(PassScene& scene);
+};
+const std::vector<MatrixLight>& matrixLights();
+
+/// The balls of a kind with a look on a green floor, half in the shadow of a blue beam.
+class MatrixScene : public PassScene
+{
+public:
+  MatrixScene(const MatrixKind& kind, const MatrixLook& look);
+
+  static constexpr int width = 96;
+  static constexpr int height = 72;
+};
+
+} // namespace gnomon::test
+
+#endif

@@ -1,0 +1,104 @@
+// The pass in Qt's widget, on an X server: the same picture as in the window without a display.
+
+#include "vtkGnomonEGLRenderWindow.h"
+
+#include "WindowScene.h"
+
+#include "shadowtech/base/FrameReport.h"
+
+#include <QVTKOpenGLNativeWidget.h>
+#include <vtkGenericOpenGLRenderWindow.h>
+#include <vtkRendererCollection.h>
+
+#include <QApplication>
+#include <QImage>
+#include <QSurfaceFormat>
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <thread>
+
+using gnomon::test::makeSphereScene;
+using gnomon::test::readPicture;
+
+namespace
+{
+
+constexpr int width = 320;
+constexpr int height = 240;
+
+/// Lets Qt show its windows and draw what is to be drawn.
+void processEvents()
+{
+  for (int i = 0; i < 10; ++i)
+  {
+    QApplication::processEvents();
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+}
+
+/// What a widget shows, three bytes per pixel, bottom row first.
+std::vector<unsigned char> readPicture(QVTKOpenGLNativeWidget& widget)
+{
+  const QImage image = widget.grabFramebuffer().convertToFormat(QImage::Format_RGB888).mirrored();
+  std::vector<unsigned char> picture;
+  for (int y = 0; y < image.height(); ++y)
+  {
+    picture.insert(picture.end(), image.scanLine(y), image.scanLine(y) + 3 * image.width());
+  }
+  return picture;
+}
+
+std::vector<unsigned char> drawWithoutDisplay()
+{
+  vtkNew<vtkGnomonEGLRenderWindow> window;
+  window->SetSize(width, height);
+  window->AddRenderer(makeSphereScene());
+  window->Render();
+  return readPicture(window);
+} // one thread holds an EGL or a GLX context, not both
+
+} // namespace
+
+//------------------------------------------------------------------------------
+TEST(QtWidget, showsTheSameBytesAsTheWindowWithoutADisplay)
+{
+  const auto expected = drawWithoutDisplay();
+
+  QSurfaceFormat format = QVTKOpenGLNativeWidget::defaultFormat();
+  format.setVersion(4, 5); // VTK asks for 3.2
+  format.setSamples(0);
+  QSurfaceFormat::setDefaultFormat(format);
+  int arguments = 1;
+  char name[] = "qt_widget_tests";
+  char* values[] = { name, nullptr };
+  const QApplication application(arguments, values);
+
+  QVTKOpenGLNativeWidget widget;
+  vtkNew<vtkGenericOpenGLRenderWindow> window;
+  window->SetMultiSamples(0);
+  widget.setRenderWindow(window);
+  widget.resize(width, height);
+  const auto renderer = makeSphereScene();
+  window->AddRenderer(renderer);
+  widget.show();
+  processEvents();
+  const auto shadowed = readPicture(widget);
+  const auto* pass = vtkGnomonShadowPass::SafeDownCast(renderer->GetPass());
+  EXPECT_EQ(pass->GetReport().route, "inline") << pass->GetReport().routeReason;
+  EXPECT_EQ(shadowed.size(), expected.size());
+  EXPECT_TRUE(shadowed == expected);
+
+  // Resized, and without the pass: Qt makes another framebuffer.
+  widget.resize(width / 2, height);
+  processEvents();
+  EXPECT_EQ(readPicture(widget).size(), expected.size() / 2);
+  widget.resize(width, height);
+  processEvents();
+  EXPECT_TRUE(readPicture(widget) == expected);
+  renderer->SetPass(nullptr);
+  window->Render();
+  processEvents();
+  EXPECT_FALSE(readPicture(widget) == expected);
+}
