@@ -12,6 +12,12 @@ namespace gnomon
 /// farther away, so that less light bleeds through; the second bounds what the first lets through
 /// where a receiver's own depths differ within the kernel.
 ///
+/// **Slopes.** Of a plane, the mean of the first function, which is convex, lies beyond the function of
+/// the mean depth: on the lit side. The second is concave, and a receiver must be compared nearer to
+/// the light by what that makes of its own plane. Along one axis of the map let its depth change by 2 x
+/// / c over the kernel: the mean is exp(-c d) sinh(x) / x, and the depth with that value is nearer by
+/// ln(sinh(x) / x) / c, which is no more than x^2 / (6 c), nor than x / c.
+///
 /// **No exponent overflows.** With d in [-1, 1] the largest number is the first function's mean
 /// square, exp(2 c) with c = 40, and twice that on slopes: 1e35. A float ends at 3e38, c at 44. Of the
 /// second a smaller c will do: the more it is, the darker are slopes.

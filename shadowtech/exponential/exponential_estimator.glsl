@@ -17,11 +17,22 @@ float warpedBound_LIGHT(vec2 moments, float warped, float exponent)
   return chebyshevBound(mean, max(variance, least), sign(warped));
 }
 
+// How much nearer than the receiver the depth is whose value the second function has in the mean over
+// the receiver's own plane, at most (Exponential.h).
+float concaveBias_LIGHT(ViewPoint point)
+{
+  float exponent = 2.0 * exponentNegative; // of depths in [0, 1]
+  vec2 halfSpan = 0.5 * (float(BLUR_TEXELS_LIGHT) + 1.0) * exponent * planeSlope_LIGHT(point);
+  vec2 bias = min(halfSpan, halfSpan * halfSpan / 6.0) / exponent;
+  return bias.x + bias.y;
+}
+
 float estimate_LIGHT(ViewPoint point, float slack)
 {
   vec4 moments = momentsAt_LIGHT(point);
-  float depth = centredDepth_LIGHT(point, slack);
-  return withoutBleeding_LIGHT(
-    min(warpedBound_LIGHT(moments.xy, exp(exponentPositive * depth), exponentPositive),
-      warpedBound_LIGHT(moments.zw, -exp(-exponentNegative * depth), exponentNegative)));
+  float positive = exp(exponentPositive * centredDepth_LIGHT(point, slack));
+  float negative =
+    -exp(-exponentNegative * centredDepth_LIGHT(point, slack + concaveBias_LIGHT(point)));
+  return withoutBleeding_LIGHT(min(warpedBound_LIGHT(moments.xy, positive, exponentPositive),
+    warpedBound_LIGHT(moments.zw, negative, exponentNegative)));
 }

@@ -17,7 +17,8 @@ namespace gnomon
 /// The depth of moments is the map's linear depth, from [0, 1] to [-1, 1]. Texels without casters
 /// have the moments of depth 1, and so has what lies outside of a layer.
 ///
-/// **No bias is tuned.** A receiver is compared at its own depth. Of a plane, the mean over the
+/// **No bias is tuned.** A receiver is compared at its own depth, and where more than two moments
+/// demand it, at one that follows from its plane (Exponential.h, FourMoments.h). Of a plane, the mean over the
 /// kernel's square is the depth at the square's middle, which is the receiver's: parallel rays make
 /// depth linear on the map; in perspective it is convex along any line on the map, so that its mean
 /// only lies farther away, which is on the lit side; and so it is on convex surfaces. What is left is

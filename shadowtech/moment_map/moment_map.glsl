@@ -17,12 +17,23 @@ vec4 momentsAt_LIGHT(ViewPoint point)
   return textureLod(momentMap_LIGHT, vec3(place / viewSize_LIGHT, float(point.view)), 0.0);
 }
 
-// The receiver's depth, nearer by its rounding, from [0, 1] to [-1, 1] as that of the moments.
-// Receivers that do not cast may lie behind all depths of the map: as far away as empty texels.
-float centredDepth_LIGHT(ViewPoint point, float slack)
+// The receiver's depth, nearer by its rounding and by a bias in depths of [0, 1], from [0, 1] to [-1, 1]
+// as that of the moments. Receivers that do not cast may lie behind all depths of the map: as far away
+// as empty texels.
+float centredDepth_LIGHT(ViewPoint point, float bias)
 {
-  float depth = viewDepth_LIGHT(point, point.position.z) - slack;
-  return 2.0 * clamp(depth, 0.0, 1.0) - 1.0;
+  return 2.0 * clamp(viewDepth_LIGHT(point, point.position.z) - bias, 0.0, 1.0) - 1.0;
+}
+
+// By how much the depth of the receiver's plane changes from texel to texel along both axes.
+vec2 planeSlope_LIGHT(ViewPoint point)
+{
+  vec2 x = vec2(0.5, 0.0);
+  vec2 y = vec2(0.0, 0.5);
+  vec2 nearest = vec2(min(planeDistance_LIGHT(point, point.texel - x),
+                        planeDistance_LIGHT(point, point.texel + x)),
+    min(planeDistance_LIGHT(point, point.texel - y), planeDistance_LIGHT(point, point.texel + y)));
+  return 2.0 * viewDepths_LIGHT[point.view].x * (point.position.z - nearest);
 }
 
 // The bound as a visibility: what bleeds through is cut off, and the rest spread over [0, 1].

@@ -68,8 +68,16 @@ float hamburgerBound(vec4 moments, float depth)
 
 #endif
 
+// The standard deviation of the depths of the receiver's own plane: of the blur's box, of the bilinear
+// filter's two texels, and of the spread that each texel has.
+float planeDeviation_LIGHT(ViewPoint point)
+{
+  float texels = float(BLUR_TEXELS_LIGHT);
+  return length(planeSlope_LIGHT(point)) * sqrt((texels * texels - 1.0) / 12.0 + 0.25 + 0.25);
+}
+
 float estimate_LIGHT(ViewPoint point, float slack)
 {
-  return withoutBleeding_LIGHT(
-    hamburgerBound(momentsAt_LIGHT(point), centredDepth_LIGHT(point, slack)));
+  float depth = centredDepth_LIGHT(point, slack + planeDeviation_LIGHT(point));
+  return withoutBleeding_LIGHT(hamburgerBound(momentsAt_LIGHT(point), depth));
 }
