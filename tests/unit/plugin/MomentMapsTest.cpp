@@ -120,7 +120,7 @@ TEST_P(MomentMaps, planeIsLitAtAnyAngle)
       scene.pass->SetMapSize(mapSize);
       scene.pass->SetSetting("kernel_size", kernelSize);
       scene.lookFrom({ 1.0, -7.0, 6.0 });
-      for (const double degrees : { 0.0, 0.01, 30.0, 60.0, 85.0, 89.0 })
+      for (const double degrees : { 0.0, 0.01, 30.0, 60.0, -60.0, 85.0, 89.0 })
       {
         const double angle = glm::radians(degrees);
         const glm::dvec3 toLight(0.8 * std::sin(angle), 0.6 * std::sin(angle), std::cos(angle));
@@ -209,18 +209,16 @@ TEST_P(MomentMaps, insideOfASphereIsLitAcrossTheFacesOfACube)
 //------------------------------------------------------------------------------
 TEST_P(MomentMaps, shadowsTouchTheirCasters)
 {
-  // A wall on a floor, seen from above; its shadow begins at x = 0.1.
+  // A wall on a floor, thinner than a texel, seen from above; its shadow begins at x = 0.1.
   PassScene scene(400, 400);
   choose(scene);
   scene.addFloor(4.0);
-  scene.addBox({ -0.1, -3.0, 0.0 }, { 0.1, 3.0, 1.0 });
+  scene.addBox({ 0.099, -3.0, 0.0 }, { 0.1, 3.0, 1.0 });
   scene.addSun({ 1.0, 0.0, -1.0 });
   scene.pass->SetMapSize(1024);
   scene.lookDown(0.2, 0.2);
   const VisibilityImages& kept = drawKept(scene);
-  // The kernel's half width, and what the floor of the variance lets through: 0.1 % of the depth range
-  // (of at most twice the scene's extent of 9), which is a height here.
-  const double texel = (8.0 + 1.0) / 1024 * std::sqrt(2.0);
+  const double texel = (8.0 + 1.0) / 1024 * std::sqrt(2.0); // at most, on the floor
   for (const int y : { 100, 200, 300 })
   {
     double begin = 1.0;
@@ -233,8 +231,8 @@ TEST_P(MomentMaps, shadowsTouchTheirCasters)
         begin = std::min(begin, floorX);
       }
     }
-    EXPECT_LE(begin - 0.1, 2.0 * texel + 0.02) << "row " << y;
-    this->RecordProperty("detachment", std::to_string(begin - 0.1));
+    EXPECT_LE(begin - 0.1, 3.0 * texel) << "row " << y;
+    this->RecordProperty("detachmentTexels", std::to_string((begin - 0.1) / texel));
   }
 }
 
