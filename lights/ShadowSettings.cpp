@@ -155,6 +155,11 @@ const std::vector<Setting>& shadowSettings()
     { "kernel", "what techniques that filter (pcf) average over",
       choice<FilterKernel, &S::kernel>({ "bilinear", "box", "poisson" }) },
     { "kernel_size", "the kernel's width in texels", IntegerSetting{ &S::kernelTexels, 1, 32 } },
+    { "bleeding", "of maps of moments (vsm, evsm, msm): up to what visibility points are dark",
+      RealSetting{ &S::bleeding, 0.0, 0.99 } },
+    { "variance_floor",
+      "of vsm and evsm: the least variance of depths, as a share of the map's depth range, squared",
+      RealSetting{ &S::varianceFloor, 1e-9, 1.0 } },
   };
   return settings;
 }

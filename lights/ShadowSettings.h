@@ -62,6 +62,14 @@ struct ShadowSettings
   /// does) and also smooths the steps of an edge that runs across the texels.
   FilterKernel kernel = FilterKernel::Bilinear;
   int kernelTexels = 3; ///< the side of a kernel's square, the diameter of its disc
+
+  ///@{
+  /// Of techniques with a map of moments, which bound the lit share from above. A bound up to
+  /// `bleeding` counts as shadow, and the rest is spread over [0, 1]. No variance counts as less than
+  /// the floor, in squares of the map's depth range (Variance.h).
+  double bleeding = 0.2;
+  double varianceFloor = 1e-6;
+  ///@}
 };
 
 ///@{

@@ -17,7 +17,11 @@
  * - "map_size": the side of the light's map in texels (of each layer, where it has several), 16 to
  *   16384;
  * - "kernel": the name of a filter kernel, see below (default "bilinear");
- * - "kernel_size": its width in texels, 1 to 32 (default 3).
+ * - "kernel_size": its width in texels, 1 to 32 (default 3);
+ * - "bleeding": of maps of moments ("vsm", "evsm", "msm"), up to what visibility points are dark, 0 to
+ *   0.99 (default 0.2);
+ * - "variance_floor": of "vsm" and "evsm", the least variance of depths, as a share of the map's depth
+ *   range, squared (default 1e-6).
  *
  * <b>Filter kernels.</b> Techniques that filter ("pcf") average over a kernel of the map's texels:
  * - "bilinear": a square around the point, whose texels count by how far it covers them. Edges are

@@ -2,8 +2,11 @@
 
 #include "lights/LightViews.h"
 #include "shadowtech/compare/Compare.h"
+#include "shadowtech/exponential/Exponential.h"
+#include "shadowtech/moments/FourMoments.h"
 #include "shadowtech/pcf/Pcf.h"
 #include "shadowtech/raytraced/Raytraced.h"
+#include "shadowtech/variance/Variance.h"
 
 #include <algorithm>
 
@@ -55,6 +58,9 @@ const std::vector<EstimatorEntry>& estimators()
   static const std::vector<EstimatorEntry> entries = {
     entry<Compare>(),
     entry<Pcf>(),
+    entry<Variance>(),
+    entry<Exponential>(),
+    entry<FourMoments>(),
     entry<Raytraced>(),
   };
   return entries;
@@ -68,6 +74,12 @@ const std::vector<TechniqueEntry>& registry()
       findEstimator("compare"), Projection::Uniform },
     { "pcf", "hard, smoothed: the plain shadow map with percentage closer filtering",
       findEstimator("pcf"), Projection::Uniform },
+    { "vsm", "smoothed: variance shadow map, filtered at a cost that does not depend on the width",
+      findEstimator("variance"), Projection::Uniform },
+    { "evsm", "smoothed: exponential variance shadow map, which lets less light bleed through",
+      findEstimator("exponential"), Projection::Uniform },
+    { "msm", "smoothed: moment shadow map of four moments, which lets the least light through",
+      findEstimator("moments"), Projection::Uniform },
     { "lispsm", "hard: light space perspective shadow map, finer near the camera",
       findEstimator("compare"), Projection::Lispsm },
     { "tsm", "hard: trapezoidal shadow map, finer near the camera", findEstimator("compare"),

@@ -1,29 +1,18 @@
 #include "shadowtech/depth_map/DepthMapTechnique.h"
 
 #include "lights/CasterViews.h"
+#include "shadowtech/base/CasterDrawing.h"
 #include "shadowtech/base/GlState.h"
 #include "shadowtech/base/LightViewsGlsl.h"
-#include "shadowtech/base/OccluderBuffers.h"
 #include "shadowtech/base/ShaderLibrary.h"
 #include "shadowtech/base/TextureMemory.h"
 
-#include <glm/gtc/matrix_access.hpp>
-
 #include <algorithm>
-#include <cmath>
 
 namespace gnomon
 {
 namespace
 {
-
-/// Depths are compared with this slack, as a share of the map's depth range: four roundings of a
-/// float (2^-24) in the transformations on either side, and as much again for the rasteriser.
-constexpr float roundingSlack = 1.0f / (1 << 20);
-
-/// And with this, as a share of the distance to the camera, which positions are rounded in proportion
-/// to: eight roundings. So is the receiver's plane, in proportion to how far it is followed.
-constexpr double distanceSlack = 1.0 / (1 << 21);
 
 /// Where depths end that are pushed back: in the middle of the room behind the casters.
 constexpr double deepestPushed = 1.0 / (1.0 + 0.5 * roomBehindCasters);
@@ -40,41 +29,6 @@ std::string define(const char* name, double value)
   return std::string(name) + " " + std::to_string(value);
 }
 
-/// Whether casters may lie before the light's beginning.
-bool begins(const LightView& view)
-{
-  return std::isfinite(view.beginsAt);
-}
-
-/// Puts the program that draws casters into use, for one view.
-void useBakeProgram(
-  const LightView& view, const std::vector<std::string>& defines, const MapInput& input)
-{
-  const GLuint program = input.shaders.program(
-    { { GL_VERTEX_SHADER, ShaderLibrary::source("shadowtech/depth_map/depth_map_bake.vert.glsl") },
-      { GL_FRAGMENT_SHADER,
-        ShaderLibrary::source("shadowtech/depth_map/depth_map_bake.frag.glsl") } },
-    defines);
-  glUseProgram(program);
-  ShaderLibrary::setUniform(program, { "clipFromCentred", glm::mat4(view.clipFromCentred()) });
-  const glm::dvec4 distance = glm::row(view.rays.viewFromCentred, 2);
-  glm::dvec4 depth = view.depthScale * distance;
-  depth.w += view.depthOffset;
-  ShaderLibrary::setUniform(program, { "depthFromCentred", glm::vec4(depth) });
-  if (begins(view))
-  {
-    const glm::dvec4 behind = distance - glm::dvec4(0.0, 0.0, 0.0, view.beginsAt);
-    ShaderLibrary::setUniform(program, { "beginFromCentred", glm::vec4(behind) });
-  }
-  if (view.warped())
-  {
-    const glm::dmat3 acrossFromTexel =
-      glm::inverse(texelFromAcross(view, input.light.mapSizeTexels));
-    ShaderLibrary::setUniform(program, { "texelScale", glm::vec3(glm::row(acrossFromTexel, 2)) });
-  }
-  ShaderLibrary::setUniform(program, { "cutoutMask", 0 });
-}
-
 /// Draws the casters into the bound framebuffer's depth, as one view sees them.
 void drawView(const LightView& view, const MapReach& reach, const MapInput& input)
 {
@@ -89,34 +43,12 @@ void drawView(const LightView& view, const MapReach& reach, const MapInput& inpu
   }
   else
   {
-    defines = { "PUSH", define("REACH_SQUARE", reach.squareTexels),
+    defines = { "DEPTH_LINEAR", "PUSH", define("REACH_SQUARE", reach.squareTexels),
       define("REACH_DISC", reach.discTexels), define("DEEPEST", deepestPushed) };
     glDisable(GL_POLYGON_OFFSET_FILL);
   }
-  if (view.rays.positional)
-  {
-    defines.emplace_back("PERSPECTIVE");
-  }
-  if (view.warped())
-  {
-    defines.emplace_back("WARPED");
-  }
-  if (begins(view))
-  {
-    defines.emplace_back("BEGINS");
-  }
-  begins(view) ? glEnable(GL_CLIP_DISTANCE0) : glDisable(GL_CLIP_DISTANCE0);
-  // Rounding may push a caster over the edge of the depths, which bound all of them.
-  glEnable(GL_DEPTH_CLAMP);
-  useBakeProgram(view, defines, input);
-  input.buffers.draw(view);
-  if (input.buffers.hasCutouts())
-  {
-    defines.emplace_back("CUTOUT");
-    useBakeProgram(view, defines, input);
-    glActiveTexture(GL_TEXTURE0);
-    input.buffers.drawCutouts(view);
-  }
+  drawCasters(
+    view, input, ShaderLibrary::source("shadowtech/depth_map/depth_map_bake.frag.glsl"), defines);
 }
 
 } // namespace
@@ -149,15 +81,7 @@ void DepthMapTechnique::bake(const MapInput& input)
   this->views_ = input.views;
   this->reach_ = this->mapReach(input.light);
 
-  glBindFramebuffer(GL_FRAMEBUFFER, this->framebuffer_.name());
-  glViewport(0, 0, this->sizeTexels_, this->sizeTexels_);
-  glDisable(GL_SCISSOR_TEST);
-  glDisable(GL_STENCIL_TEST);
-  glDisable(GL_MULTISAMPLE);
-  glEnable(GL_DEPTH_TEST);
-  glDepthFunc(GL_LESS);
-  glDepthMask(GL_TRUE);
-  glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+  beginCasters(this->framebuffer_.name(), this->sizeTexels_);
   for (std::size_t i = 0; i < views.size(); ++i)
   {
     glFramebufferTextureLayer(
@@ -187,7 +111,7 @@ std::vector<Uniform> DepthMapTechnique::uniforms(const glm::dmat4& centredFromVi
   uniforms.push_back(
     { "depthMap_LIGHT", TextureBinding{ GL_TEXTURE_2D_ARRAY, this->map_.name() } });
   const double followed = this->reach_.largestTexels() / MapReach{}.largestTexels();
-  uniforms.push_back({ "depthSlacks_LIGHT", glm::vec2(roundingSlack, followed * distanceSlack) });
+  uniforms.push_back(depthSlacks(followed));
   return uniforms;
 }
 

@@ -9,7 +9,7 @@ namespace gnomon
 /// What techniques with a plain shadow map share: one layer of linear depth for each of the light's
 /// views. What is left to them is the estimator: GLSL that defines
 ///     float estimate_LIGHT(ViewPoint point, float slack)
-/// for a point that the light reaches and a view sees (depth_map.glsl), and how far around the point
+/// for a point that the light reaches and a view sees (map_visibility.glsl), and how far around the point
 /// it reads the map (mapReach).
 ///
 /// No bias is tuned. Let p be the receiver and c the centre of a texel that is read, both on the map,

@@ -1,5 +1,5 @@
-// The frame of techniques with a plain shadow map: it finds a point on the map and asks the
-// technique's estimator, which compares with the texels that it chooses.
+// Techniques with a plain shadow map: their estimators (map_visibility.glsl) compare a point with the
+// texels that they choose.
 //
 // The map knows the caster at a texel's centre only. So the receiver's plane is followed to that
 // centre before depths are compared: a surface then never shadows itself, however steep it is and
@@ -7,10 +7,9 @@
 // the point's own depth counts: the plane is right on convex surfaces, the point in concave corners
 // (DepthMapTechnique.h).
 
-#include "shadowtech/base/light_views.glsl"
+#include "shadowtech/base/map_visibility.glsl"
 
 uniform sampler2DArray depthMap_LIGHT; // linear depth in [0, 1], one layer per view
-uniform vec2 depthSlacks_LIGHT; // what rounding does to a depth; and per distance to the camera
 
 // Whether nothing that was drawn at a texel's centre hides the point from the light.
 bool isLitAt_LIGHT(ViewPoint point, ivec2 texel, float slack)
@@ -22,27 +21,4 @@ bool isLitAt_LIGHT(ViewPoint point, ivec2 texel, float slack)
   }
   float depthReceiver = viewDepth_LIGHT(point, planeDistance_LIGHT(point, vec2(texel) + 0.5));
   return depthReceiver <= depthCaster + slack;
-}
-
-// The technique's estimator, for a point that the light reaches and a view sees.
-float estimate_LIGHT(ViewPoint point, float slack);
-
-float visibility_LIGHT(vec3 positionView, vec3 normalView)
-{
-  vec3 p = (lightFromView_LIGHT * vec4(positionView, 1.0)).xyz;
-  vec3 n = mat3(lightFromView_LIGHT) * normalView;
-  if (!lightReaches_LIGHT(p, n))
-  {
-    return 0.0;
-  }
-  ViewPoint point;
-  if (!findView_LIGHT(p, n, point))
-  {
-    return 1.0;
-  }
-  // The position is rounded relative to its distance from the camera, which the sum of its parts is
-  // never less than.
-  float distanceView = dot(abs(positionView), vec3(1.0));
-  float slack = depthSlacks_LIGHT.x + viewDepths_LIGHT[point.view].x * distanceView * depthSlacks_LIGHT.y;
-  return estimate_LIGHT(point, slack);
 }

@@ -2,6 +2,8 @@
 // reach of a look-up (DepthMapTechnique.h tells why). A parallel view's depth is linear as it is, and
 // polygon offset may push it; else both are done here.
 
+#include "shadowtech/base/cutout.glsl"
+
 #ifdef PUSH
 
 in float depthLinear;
@@ -37,12 +39,6 @@ float warp()
 
 #endif
 
-#ifdef CUTOUT
-in vec2 cutoutCoordinates;
-
-uniform sampler2D cutoutMask; // 0 where the caster has a hole, as the alpha that VTK looks at
-#endif
-
 void main()
 {
 #ifdef PUSH
@@ -57,11 +53,5 @@ void main()
     min(depthLinear + warp() * push(vec2(dFdx(depthLinear), dFdy(depthLinear))), DEEPEST);
 #endif
 #endif
-#ifdef CUTOUT
-  // At the end, since what comes before takes derivatives.
-  if (texture(cutoutMask, cutoutCoordinates).r <= 0.0)
-  {
-    discard;
-  }
-#endif
+  discardHoles();
 }

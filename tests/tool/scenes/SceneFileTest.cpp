@@ -6,6 +6,7 @@
 
 #include "lights/vtkGnomonLightKeys.h"
 #include "plugin/vtkGnomonPropKeys.h"
+#include "shadowtech/Registry.h"
 
 #include <gtest/gtest.h>
 #include <vtkActor.h>
@@ -185,6 +186,7 @@ TEST_F(SceneFile, SaysWhatIsWrongAndWhere)
   const auto point = [&](const nlohmann::json& changes) {
     return with({ { "type", "point" }, { "position", { 1, 2, 3 } } }, changes);
   };
+  const std::string techniques = "one of: " + gnomon::techniqueNames();
   const std::vector<Case> cases = {
     { "/camra", 1, "", "unknown key \"camra\"" },
     { "/camera/fov", 180, "camera.fov", "found 180, expected a number between" },
@@ -212,8 +214,7 @@ TEST_F(SceneFile, SaysWhatIsWrongAndWhere)
     { "/lights/0/type", "laser", "lights[0].type", "one of: directional, spot" },
     { "/lights/0/type", null, "lights[0].type", "missing" },
     { "/lights/0/direction", { 0, 0, 0 }, "lights[0].direction", "not zero" },
-    { "/lights/0/technique", "magic", "lights[0].technique",
-      "one of: nsm, pcf, lispsm, tsm, pssm, raytraced" },
+    { "/lights/0/technique", "magic", "lights[0].technique", techniques.c_str() },
     { "/lights/0/map_size", 8, "lights[0].map_size", "whole number between 16 and 16384" },
     { "/lights/0/map_size", 512.5, "lights[0].map_size", "whole number" },
     { "/lights/0/kernel", "magic", "lights[0].kernel", "one of: bilinear, box, poisson" },

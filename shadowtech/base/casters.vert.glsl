@@ -1,10 +1,10 @@
-// Draws the casters into the map's depth buffer, as the light sees them.
+// Draws the casters into a map, as the light sees them (CasterDrawing.h).
 
 layout(location = 0) in vec3 positionCentred;
 
 uniform mat4 clipFromCentred;
 
-#ifdef PUSH
+#ifdef DEPTH_LINEAR
 // Row of light space's z, scaled to the map's linear depth in [0, 1].
 uniform vec4 depthFromCentred;
 out float depthLinear;
@@ -24,7 +24,7 @@ void main()
   cutoutCoordinates = textureCoordinates;
 #endif
   gl_Position = clipFromCentred * vec4(positionCentred, 1.0);
-#ifdef PUSH
+#ifdef DEPTH_LINEAR
   depthLinear = dot(depthFromCentred, vec4(positionCentred, 1.0));
 #endif
 #ifdef BEGINS

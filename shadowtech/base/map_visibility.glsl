@@ -1,0 +1,30 @@
+// The frame of pointwise techniques with a map: it finds a point on the map and asks the technique's
+// estimator.
+
+#include "shadowtech/base/light_views.glsl"
+
+uniform vec2 depthSlacks_LIGHT; // what rounding does to a depth; and per distance to the camera
+
+// The technique's estimator, for a point that the light reaches and a view sees.
+float estimate_LIGHT(ViewPoint point, float slack);
+
+float visibility_LIGHT(vec3 positionView, vec3 normalView)
+{
+  vec3 p = (lightFromView_LIGHT * vec4(positionView, 1.0)).xyz;
+  vec3 n = mat3(lightFromView_LIGHT) * normalView;
+  if (!lightReaches_LIGHT(p, n))
+  {
+    return 0.0;
+  }
+  ViewPoint point;
+  if (!findView_LIGHT(p, n, point))
+  {
+    return 1.0;
+  }
+  // The position is rounded relative to its distance from the camera, which the sum of its parts is
+  // never less than.
+  float distanceView = dot(abs(positionView), vec3(1.0));
+  float slack =
+    depthSlacks_LIGHT.x + viewDepths_LIGHT[point.view].x * distanceView * depthSlacks_LIGHT.y;
+  return estimate_LIGHT(point, slack);
+}

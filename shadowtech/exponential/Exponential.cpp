@@ -1,0 +1,35 @@
+#include "shadowtech/exponential/Exponential.h"
+
+#include "shadowtech/base/ShaderLibrary.h"
+
+#include <cmath>
+
+namespace gnomon
+{
+
+//------------------------------------------------------------------------------
+TechniqueInfo Exponential::info()
+{
+  TechniqueInfo info;
+  info.name = "exponential";
+  info.pointwise = true;
+  info.needsMap = true;
+  return info;
+}
+
+//------------------------------------------------------------------------------
+MomentMapTechnique::Moments Exponential::moments() const
+{
+  const double positive = std::exp(exponentPositive);
+  const double negative = -std::exp(-exponentNegative);
+  return { 4, ShaderLibrary::source("shadowtech/exponential/exponential_moments.glsl"),
+    glm::vec4(positive, positive * positive, negative, negative * negative) };
+}
+
+//------------------------------------------------------------------------------
+std::string Exponential::estimatorGlsl(const ShadowLight&) const
+{
+  return ShaderLibrary::source("shadowtech/exponential/exponential_estimator.glsl");
+}
+
+} // namespace gnomon

@@ -1,0 +1,133 @@
+#include "shadowtech/moment_map/MomentMapTechnique.h"
+
+#include "shadowtech/base/CasterDrawing.h"
+#include "shadowtech/base/GlState.h"
+#include "shadowtech/base/LightViewsGlsl.h"
+#include "shadowtech/base/ShaderLibrary.h"
+#include "shadowtech/base/TextureMemory.h"
+
+#include <glm/gtc/type_ptr.hpp>
+
+#include <algorithm>
+
+namespace gnomon
+{
+namespace
+{
+
+FloatFormat formatOf(int moments)
+{
+  return moments == 2 ? FloatFormat{ GL_RG32F, GL_RG, 2 } : FloatFormat{ GL_RGBA32F, GL_RGBA, 4 };
+}
+
+std::string define(const std::string& name, const std::string& value)
+{
+  return "#define " + name + " " + value + "\n";
+}
+
+/// A real setting of the light as a constant of GLSL.
+std::string constant(const char* setting, const ShadowLight& light)
+{
+  return "float(" + findSetting(setting)->get(light) + ")";
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+MapReach MomentMapTechnique::mapReach(const ShadowLight& light) const
+{
+  return { 0.5 * (light.kernelTexels + 1.0), 0.0 };
+}
+
+//------------------------------------------------------------------------------
+void MomentMapTechnique::allocate(const ShadowLight& light, int layers)
+{
+  const FloatFormat format = formatOf(this->moments().count);
+  const int sizeTexels = light.mapSizeTexels;
+  light.kernelTexels > 1 ? this->blur_.allocate(format, sizeTexels) : this->blur_.release();
+  if (this->sizeTexels_ == sizeTexels && this->layers_ == layers)
+  {
+    return;
+  }
+  this->sizeTexels_ = 0; // in case that there is no memory
+  this->layers_ = 0;
+  allocateMap(this->depth_, { GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, 1 }, sizeTexels, 1);
+  allocateMap(this->map_, format, sizeTexels, layers);
+  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_BORDER);
+  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_BORDER);
+  glTexParameterfv(
+    GL_TEXTURE_2D_ARRAY, GL_TEXTURE_BORDER_COLOR, glm::value_ptr(this->moments().empty));
+  glBindFramebuffer(GL_FRAMEBUFFER, this->framebuffer_.create());
+  glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, this->depth_.name(), 0, 0);
+  this->sizeTexels_ = sizeTexels;
+  this->layers_ = layers;
+}
+
+//------------------------------------------------------------------------------
+void MomentMapTechnique::bake(const MapInput& input)
+{
+  const GlStateGuard guard;
+  const std::vector<LightView>& views = input.views.views;
+  // A light without a view still needs a texture to bind.
+  this->allocate(input.light, std::max(static_cast<int>(views.size()), 1));
+  this->views_ = input.views;
+  const Moments moments = this->moments();
+
+  beginCasters(this->framebuffer_.name(), this->sizeTexels_);
+  glDisable(GL_POLYGON_OFFSET_FILL);
+  glDisablei(GL_BLEND, 0);
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  for (std::size_t i = 0; i < views.size(); ++i)
+  {
+    glFramebufferTextureLayer(
+      GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, this->map_.name(), 0, static_cast<GLint>(i));
+    const float farthest = 1.0f;
+    glClearBufferfv(GL_DEPTH, 0, &farthest);
+    glClearBufferfv(GL_COLOR, 0, glm::value_ptr(moments.empty));
+    std::vector<std::string> defines = { "DEPTH_LINEAR" };
+    if (!views[i].depthIsAffine())
+    {
+      defines.emplace_back("WRITES_DEPTH");
+    }
+    drawCasters(views[i], input,
+      moments.glsl + ShaderLibrary::source("shadowtech/moment_map/moment_map_bake.frag.glsl"),
+      defines);
+  }
+  if (input.light.kernelTexels > 1)
+  {
+    this->blur_.apply(this->map_.name(), static_cast<int>(views.size()), input.light.kernelTexels,
+      moments.empty, input.shaders);
+  }
+}
+
+//------------------------------------------------------------------------------
+std::size_t MomentMapTechnique::bytesOfMaps() const
+{
+  const auto side = static_cast<std::size_t>(this->sizeTexels_);
+  const auto channels = static_cast<std::size_t>(this->layers_ * this->moments().count);
+  return side * side * (channels + (channels > 0 ? 1 : 0)) * sizeof(float) + this->blur_.bytes();
+}
+
+//------------------------------------------------------------------------------
+std::string MomentMapTechnique::visibilityGlsl(const ShadowLight& light) const
+{
+  return lightViewsDefines(light) +
+    define("BLUR_TEXELS_LIGHT", std::to_string(light.kernelTexels)) +
+    define("BLEEDING_LIGHT", constant("bleeding", light)) +
+    define("VARIANCE_FLOOR_LIGHT", constant("variance_floor", light)) + this->estimatorGlsl(light);
+}
+
+//------------------------------------------------------------------------------
+std::vector<Uniform> MomentMapTechnique::uniforms(const glm::dmat4& centredFromView) const
+{
+  std::vector<Uniform> uniforms =
+    lightViewsUniforms(this->views_, this->sizeTexels_, centredFromView);
+  uniforms.push_back(
+    { "momentMap_LIGHT", TextureBinding{ GL_TEXTURE_2D_ARRAY, this->map_.name() } });
+  uniforms.push_back(depthSlacks());
+  return uniforms;
+}
+
+} // namespace gnomon

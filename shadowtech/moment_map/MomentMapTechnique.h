@@ -1,0 +1,74 @@
+#ifndef gnomon_shadowtech_moment_map_MomentMapTechnique_h
+#define gnomon_shadowtech_moment_map_MomentMapTechnique_h
+
+#include "shadowtech/base/Technique.h"
+#include "shadowtech/moment_map/BoxBlur.h"
+
+namespace gnomon
+{
+
+/// What techniques with a map of moments share. Depths may not be averaged, but their moments may:
+/// the means of a few powers (or other functions) of depth over a part of the map say how its depths
+/// are distributed, and from that an estimator bounds the share of them that lies behind a receiver.
+/// So the map is filtered before it is read, like any picture: by a box as wide as the light's kernel,
+/// whose cost does not depend on its width (BoxBlur.h), and by the texture unit's bilinear filter.
+/// Together they are the bilinear kernel of `pcf` (Pcf.h).
+///
+/// The depth of moments is the map's linear depth, from [0, 1] to [-1, 1]. Texels without casters
+/// have the moments of depth 1, and so has what lies outside of a layer.
+///
+/// **No bias is tuned.** A receiver is compared at its own depth, and where more than two moments
+/// demand it, at one that follows from its plane (Exponential.h, FourMoments.h). Of a plane, the mean over the
+/// kernel's square is the depth at the square's middle, which is the receiver's: parallel rays make
+/// depth linear on the map; in perspective it is convex along any line on the map, so that its mean
+/// only lies farther away, which is on the lit side; and so it is on convex surfaces. What is left is
+/// rounding of the positions on the map (the rasteriser's, and of the texture unit's weights, which
+/// may be multiples of 1/256 texel). It moves depth in proportion to the slope, as the square root of
+/// the variance is. A single texel has no variance of its own: its depths are taken to be spread by
+/// half of what they change by to the next texel (Donnelly and Lauritzen 2006, "derivative bias").
+/// Where there is no slope, the estimators have a floor to the variance.
+///
+/// In concave corners the kernel's square holds what rises towards the light, and so darkens them
+/// within its width.
+///
+/// What is left to a technique: how a depth becomes moments, and the estimator.
+class MomentMapTechnique : public Technique
+{
+public:
+  MapReach mapReach(const ShadowLight& light) const override;
+  void bake(const MapInput& input) override;
+  std::size_t bytesOfMaps() const override;
+  std::string visibilityGlsl(const ShadowLight& light) const override;
+  std::vector<Uniform> uniforms(const glm::dmat4& centredFromView) const override;
+
+protected:
+  /// How a depth becomes moments.
+  struct Moments
+  {
+    int count; ///< 2 or 4
+    /// The source of vec4 momentsOf(float depth, float spread): the mean moments of depths around
+    /// `depth`, in [-1, 1], with the standard deviation `spread`, in [0, 1]. Of two moments, the
+    /// others are of no meaning.
+    std::string glsl;
+    glm::vec4 empty; ///< momentsOf(1, 0)
+  };
+  virtual Moments moments() const = 0;
+
+  /// The source of float estimate_LIGHT(ViewPoint point, float slack), which includes moment_map.glsl.
+  virtual std::string estimatorGlsl(const ShadowLight& light) const = 0;
+
+private:
+  void allocate(const ShadowLight& light, int layers);
+
+  GlTexture map_;
+  GlTexture depth_; ///< of the layer that is being drawn
+  GlFramebuffer framebuffer_;
+  BoxBlur blur_;
+  int sizeTexels_ = 0;
+  int layers_ = 0;
+  LightViews views_; ///< as baked
+};
+
+} // namespace gnomon
+
+#endif

@@ -1,0 +1,366 @@
+// The quality of maps of moments of all techniques and projections, with their default settings: lit
+// surfaces are lit, shadows begin where they should, and no view breaks them.
+
+#include "PassScene.h"
+
+#include "plugin/VisibilityImages.h"
+#include "plugin/vtkGnomonPropKeys.h"
+
+#include <vtkTransform.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <string>
+
+using namespace gnomon::test;
+using gnomon::VisibilityImages;
+
+namespace
+{
+
+/// A technique and a way to lay out its map.
+struct Layout
+{
+  const char* technique;
+  const char* projection;
+  const char* fit;
+};
+
+std::ostream& operator<<(std::ostream& stream, const Layout& layout)
+{
+  return stream << layout.technique << " " << layout.projection << " " << layout.fit;
+}
+
+class MomentMaps
+  : public PassTest
+  , public testing::WithParamInterface<Layout>
+{
+protected:
+  static void choose(PassScene& scene)
+  {
+    scene.pass->SetTechnique(GetParam().technique);
+    scene.pass->SetSetting("projection", GetParam().projection);
+    scene.pass->SetSetting("fit", GetParam().fit);
+  }
+  /// The truth.
+  static const VisibilityImages& traced(PassScene& scene)
+  {
+    scene.pass->SetSetting("projection", "technique");
+    scene.pass->SetTechnique("raytraced");
+    return drawKept(scene);
+  }
+  /// Warps and splits are for lights with a single view.
+  static bool takesCubes() { return std::string(GetParam().projection) == "uniform"; }
+};
+
+INSTANTIATE_TEST_SUITE_P(Layouts, MomentMaps,
+  testing::Values(Layout{ "vsm", "uniform", "off" }, Layout{ "vsm", "uniform", "frame" },
+    Layout{ "vsm", "lispsm", "off" }, Layout{ "vsm", "tsm", "off" }, Layout{ "vsm", "pssm", "off" },
+    Layout{ "evsm", "uniform", "off" }, Layout{ "evsm", "lispsm", "off" },
+    Layout{ "evsm", "pssm", "off" }, Layout{ "msm", "uniform", "off" },
+    Layout{ "msm", "lispsm", "off" }, Layout{ "msm", "pssm", "off" }),
+  [](const testing::TestParamInfo<Layout>& layout)
+  {
+    return std::string(layout.param.technique) + "_" + layout.param.projection + "_" +
+      layout.param.fit;
+  });
+
+/// How lit the pixels are that face a light.
+struct Lit
+{
+  std::size_t facing = 0;
+  double mean = 0.0;
+  double least = 1.0;
+};
+
+Lit litOf(const VisibilityImages& kept, const std::function<glm::dvec3(const glm::dvec3&)>& toLight,
+  double leastCosine = 0.0)
+{
+  Lit lit;
+  for (std::size_t i = 0; i < kept.coverage.size(); ++i)
+  {
+    const glm::dvec3 normal(kept.normalX[i], kept.normalY[i], kept.normalZ[i]);
+    const glm::dvec3 direction = toLight(positionOf(kept, i));
+    if (kept.coverage[i] > 0.0f &&
+      glm::dot(normal, direction) > leastCosine * glm::length(direction))
+    {
+      ++lit.facing;
+      lit.mean += kept.visibility[0][i];
+      lit.least = std::min(lit.least, static_cast<double>(kept.visibility[0][i]));
+    }
+  }
+  lit.mean /= std::max<double>(lit.facing, 1.0);
+  return lit;
+}
+
+std::function<glm::dvec3(const glm::dvec3&)> sunAt(const glm::dvec3& toLight)
+{
+  return [toLight](const glm::dvec3&) { return toLight; };
+}
+
+std::function<glm::dvec3(const glm::dvec3&)> lampAt(const glm::dvec3& light)
+{
+  return [light](const glm::dvec3& point) { return light - point; };
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+TEST_P(MomentMaps, planeIsLitAtAnyAngle)
+{
+  for (const int mapSize : { 64, 1024 })
+  {
+    for (const char* kernelSize : { "1", "3", "16" })
+    {
+      PassScene scene(150, 150);
+      choose(scene);
+      scene.addFloor(4.0);
+      vtkLight* sun = scene.addSun({ 0.0, 0.0, -1.0 });
+      scene.pass->SetMapSize(mapSize);
+      scene.pass->SetSetting("kernel_size", kernelSize);
+      scene.lookFrom({ 1.0, -7.0, 6.0 });
+      for (const double degrees : { 0.0, 0.01, 30.0, 60.0, -60.0, 85.0, 89.0 })
+      {
+        const double angle = glm::radians(degrees);
+        const glm::dvec3 toLight(0.8 * std::sin(angle), 0.6 * std::sin(angle), std::cos(angle));
+        sun->SetPosition(toLight.x, toLight.y, toLight.z);
+        const Lit lit = litOf(drawKept(scene), sunAt(toLight));
+        EXPECT_GT(lit.facing, 5000u);
+        EXPECT_GE(lit.mean, 0.999) << degrees << " degrees, map " << mapSize << ", kernel "
+                                   << kernelSize << ", least " << lit.least;
+        EXPECT_GE(lit.least, 0.9) << degrees << " degrees, map " << mapSize << ", kernel "
+                                  << kernelSize;
+      }
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_P(MomentMaps, planeIsLitUnderASpotLight)
+{
+  PassScene scene(150, 150);
+  choose(scene);
+  scene.addFloor(4.0);
+  scene.lookFrom({ 1.0, -7.0, 6.0 });
+  const double cone = takesCubes() ? 80.0 : 50.0;
+  vtkLight* spot = scene.addSpot({ 0.0, 0.0, 3.0 }, glm::dvec3(0.0), cone);
+  for (const double height : { 3.0, 1.0, 0.3, 0.1 })
+  {
+    const glm::dvec3 light(-3.0, -2.0, height);
+    spot->SetPosition(light.x, light.y, light.z);
+    const Lit lit = litOf(drawKept(scene),
+      [&](const glm::dvec3& point)
+      {
+        const double cosine = glm::dot(glm::normalize(point - light), glm::normalize(-light));
+        const bool inCone = cosine > std::cos(glm::radians(cone - 0.5));
+        return inCone ? light - point : glm::dvec3(0.0);
+      });
+    EXPECT_GT(lit.facing, 2000u);
+    EXPECT_GE(lit.mean, 0.99) << "height " << height << ", least " << lit.least;
+    EXPECT_GE(lit.least, 0.7) << "height " << height;
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_P(MomentMaps, sphereIsLit)
+{
+  PassScene scene(300, 300);
+  choose(scene);
+  scene.addSphere(glm::dvec3(0.0), 1.0);
+  scene.addSun({ 1.0, 0.4, -1.5 });
+  scene.lookFrom({ -2.0, -2.0, 3.0 });
+  for (const int mapSize : { 64, 1024 })
+  {
+    scene.pass->SetMapSize(mapSize);
+    // Within some texels of the terminator the map cannot tell.
+    const Lit lit = litOf(drawKept(scene), sunAt({ -1.0, -0.4, 1.5 }), 4.0 / mapSize + 0.05);
+    EXPECT_GT(lit.facing, 20000u);
+    EXPECT_GE(lit.mean, 0.999) << "map " << mapSize << ", least " << lit.least;
+    EXPECT_GE(lit.least, 0.9) << "map " << mapSize;
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_P(MomentMaps, insideOfASphereIsLitAcrossTheFacesOfACube)
+{
+  if (!takesCubes())
+  {
+    return;
+  }
+  for (const glm::dvec3& lamp : { glm::dvec3(0.0), { 0.7, -0.4, 0.9 } })
+  {
+    PassScene scene(300, 300);
+    choose(scene);
+    scene.addSphere(glm::dvec3(0.0), 2.0);
+    scene.addSpot(lamp, lamp - glm::dvec3(0.0, 0.0, 1.0), allDirections);
+    scene.pass->SetMapSize(256);
+    scene.lookFrom({ 1.2, 1.0, 0.9 });
+    scene.renderer->GetActiveCamera()->SetViewAngle(100.0);
+    scene.renderer->GetActiveCamera()->SetClippingRange(0.01, 10.0);
+    const Lit lit = litOf(drawKept(scene), lampAt(lamp));
+    EXPECT_EQ(lit.facing, 90000u);
+    // The creases between its facets are concave.
+    EXPECT_GE(lit.mean, 0.998) << "least " << lit.least;
+    EXPECT_GE(lit.least, 0.6);
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_P(MomentMaps, shadowsTouchTheirCasters)
+{
+  // A wall on a floor, thinner than a texel, seen from above; its shadow begins at x = 0.1.
+  PassScene scene(400, 400);
+  choose(scene);
+  scene.addFloor(4.0);
+  scene.addBox({ 0.099, -3.0, 0.0 }, { 0.1, 3.0, 1.0 });
+  scene.addSun({ 1.0, 0.0, -1.0 });
+  scene.pass->SetMapSize(1024);
+  scene.lookDown(0.2, 0.2);
+  const VisibilityImages& kept = drawKept(scene);
+  const double texel = (8.0 + 1.0) / 1024 * std::sqrt(2.0); // at most, on the floor
+  for (const int y : { 100, 200, 300 })
+  {
+    double begin = 1.0;
+    for (int x = 0; x < 400; ++x)
+    {
+      const std::size_t i = static_cast<std::size_t>(y * 400 + x);
+      const double floorX = positionOf(kept, i).x;
+      if (kept.normalZ[i] > 0.9f && floorX > 0.1001 && kept.visibility[0][i] < 0.5f)
+      {
+        begin = std::min(begin, floorX);
+      }
+    }
+    EXPECT_LE(begin - 0.1, 3.0 * texel) << "row " << y;
+    this->RecordProperty("detachmentTexels", std::to_string((begin - 0.1) / texel));
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_P(MomentMaps, agreeWithTheTruth)
+{
+  for (const bool spot : { false, true })
+  {
+    PassScene scene(300, 300);
+    choose(scene);
+    scene.addFloor(4.0);
+    scene.addSphere({ -1.0, 0.0, 2.5 }, 0.7);
+    scene.addBox({ 0.5, 0.5, 0.0 }, { 1.5, 1.5, 1.5 });
+    spot ? scene.addSpot({ -2.0, 0.0, 6.0 }, glm::dvec3(0.0), 50.0)
+         : scene.addSun({ 1.0, 0.4, -1.5 });
+    scene.lookFrom({ 0.0, -9.0, 7.0 });
+    const VisibilityImages mapped = drawKept(scene);
+    const Agreement agreement = compareVisibility(mapped, traced(scene));
+    EXPECT_GT(agreement.covered, 20000u);
+    EXPECT_LE(agreement.wrong, agreement.covered / 200) << "spot: " << spot;
+    this->RecordProperty(spot ? "wrongSpot" : "wrongSun", static_cast<int>(agreement.wrong));
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_P(MomentMaps, receiversThatDoNotCastMayLieBehindAllCasters)
+{
+  for (const bool spot : { false, true })
+  {
+    PassScene scene(300, 300);
+    choose(scene);
+    vtkGnomonPropKeys::SetCasts(scene.addFloor(4.0), false);
+    scene.addSphere({ -1.0, 0.0, 2.5 }, 0.7);
+    spot ? scene.addSpot({ -2.0, 0.0, 5.0 }, glm::dvec3(0.0), 50.0)
+         : scene.addSun({ 1.0, 0.4, -1.5 });
+    scene.lookFrom({ 0.0, -9.0, 7.0 });
+    const VisibilityImages mapped = drawKept(scene);
+    const Agreement agreement = compareVisibility(mapped, traced(scene));
+    EXPECT_GT(agreement.covered, 20000u);
+    EXPECT_LE(agreement.wrong, 150u) << "spot: " << spot;
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_P(MomentMaps, degenerateViewsStayFinite)
+{
+  const auto drawBothRoutes = [&](PassScene& scene)
+  {
+    scene.addFloor(4.0);
+    scene.addSphere({ 0.0, 0.0, 1.5 }, 0.7);
+    scene.lookFrom({ 0.0, -9.0, 7.0 });
+    drawKept(scene);
+    scene.pass->KeepVisibilityOff();
+    scene.render();
+    EXPECT_EQ(scene.report().route, "inline");
+  };
+  for (const int mapSize : { 16, 256 })
+  {
+    for (const char* kernelSize : { "3", "32" })
+    {
+      for (const glm::dvec3& direction :
+        { glm::dvec3(0.0, -1.0, 0.0), { 1.0, 0.0, 0.0 }, { 0.0, 0.0, 1.0 }, { 0.0, 0.0, -1.0 } })
+      {
+        PassScene scene(64, 48);
+        choose(scene);
+        scene.pass->SetMapSize(mapSize);
+        scene.pass->SetSetting("kernel_size", kernelSize);
+        scene.addSun(direction);
+        drawBothRoutes(scene);
+      }
+    }
+    for (const glm::dvec3& position : { glm::dvec3(0.0, 0.0, 1.5), { 0.0, 0.0, -1.0 },
+           { 0.0, 0.0, 0.0 }, { 0.7, 0.0, 1.5 }, { 0.0, 0.0, 50.0 } })
+    {
+      for (const double cone : { 1.0, 45.0, takesCubes() ? allDirections : 59.0 })
+      {
+        PassScene scene(64, 48);
+        choose(scene);
+        scene.pass->SetMapSize(mapSize);
+        scene.addSpot(position, { 0.1, 0.2, -3.0 }, cone);
+        drawBothRoutes(scene);
+      }
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_P(MomentMaps, sceneWithoutPropsAndSmallestMap)
+{
+  {
+    PassScene scene(64, 48);
+    choose(scene);
+    scene.addSun({ 1.0, 0.4, -1.5 });
+    scene.lookFrom({ 0.0, -9.0, 7.0 });
+    EXPECT_EQ(differingPixels(scene.render(), scene.render()), 0u);
+  }
+  PassScene scene(200, 200);
+  choose(scene);
+  scene.addFloor(4.0);
+  scene.addBox({ -1.0, -1.0, 1.0 }, { 1.0, 1.0, 3.0 });
+  scene.addSun({ 1.0, 0.0, -1.0 });
+  scene.pass->SetMapSize(32);
+  scene.lookDown(4.0);
+  const Picture picture = scene.render();
+  EXPECT_LE(scene.redAt(picture, 2.5, 0.0), 30);
+  EXPECT_NEAR(scene.redAt(picture, -3.0, 0.0), 180, 2);
+}
+
+//------------------------------------------------------------------------------
+TEST_P(MomentMaps, areBakedOnceAndOnlyForWhatTheMapDependsOn)
+{
+  PassScene scene(100, 80);
+  choose(scene);
+  scene.addFloor(4.0);
+  scene.addSphere({ 0.0, 0.0, 1.5 }, 0.7);
+  scene.addSun({ 1.0, 0.4, -1.5 });
+  scene.lookFrom({ 0.0, -9.0, 7.0 });
+  const Picture first = scene.render();
+  EXPECT_EQ(scene.report().mapBakes, 1);
+  const auto bytes = scene.report().bytesMaps;
+  EXPECT_EQ(differingPixels(scene.render(), first), 0u);
+  EXPECT_EQ(scene.report().mapBakes, 0);
+  EXPECT_EQ(scene.report().programCompiles, 0);
+  scene.pass->SetSetting("bleeding", "0.5");
+  EXPECT_GT(differingPixels(scene.render(), first), 0u);
+  EXPECT_EQ(scene.report().mapBakes, 0);
+  scene.pass->SetSetting("kernel_size", "1");
+  scene.render();
+  EXPECT_EQ(scene.report().mapBakes, 1);
+  EXPECT_LT(scene.report().bytesMaps, bytes); // no layer to blur over
+}
