@@ -153,8 +153,26 @@ const std::vector<Setting>& shadowSettings()
     { "map_size", "the side of a light's map, in texels",
       IntegerSetting{ &S::mapSizeTexels, 16, 16384 } },
     { "kernel", "what techniques that filter (pcf) average over",
-      choice<FilterKernel, &S::kernel>({ "bilinear", "box", "poisson" }) },
+      choice<FilterKernel, &S::kernel>({ "bilinear", "box", "poisson", "castano" }) },
     { "kernel_size", "the kernel's width in texels", IntegerSetting{ &S::kernelTexels, 1, 32 } },
+    { "kernel_width",
+      "the kernel's width across the light, in world units (from a position: at distance 1), over "
+      "which as many taps are spread as kernel_size says; 0: kernel_size texels",
+      RealSetting{ &S::kernelWidth, 0.0, 1e12 } },
+    { "disc_grid", "adaptive: a disc's points are the square of this",
+      IntegerSetting{ &S::discGrid, 2, 16 } },
+    { "disc_sets", "adaptive: discs that differ are the square of this",
+      IntegerSetting{ &S::discSets, 1, 32 } },
+    { "early_out", "adaptive: what is asked before the whole disc is read",
+      choice<EarlyOut, &S::earlyOut>({ "none", "ring", "exact" }) },
+    { "depth", "the surface on a ray that a map holds",
+      choice<DepthSurface, &S::depth>({ "first", "second", "midpoint" }) },
+    { "metric", "how a map measures: along the view's axis, or along the ray",
+      choice<DepthMetric, &S::metric>({ "linear", "euclidean" }) },
+    { "bias_constant", "how far a map is pushed back on top, in world units",
+      RealSetting{ &S::biasConstant, 0.0, 1e12 } },
+    { "bias_slope", "the same, times what a caster's depth spans within the filter's reach",
+      RealSetting{ &S::biasSlope, 0.0, 1000.0 } },
   };
   return settings;
 }

@@ -26,6 +26,8 @@
  *   edges show steps.
  * - "poisson": 16 texels of a disc with the size as diameter, turned at random from place to place.
  *   The cheapest for wide edges, which show noise instead of steps.
+ * - "castano": as bilinear, but texels count the less the farther they are from the point (Castano
+ *   2013), so that edges end softly. It has the sizes 3, 5 and 7.
  *
  * <b>A directional light's box.</b> A directional light may be limited to a box, as the sun is that
  * comes in through a window: it begins at the box's near face, which stands across it with the

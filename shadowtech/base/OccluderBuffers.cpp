@@ -162,20 +162,21 @@ void OccluderBuffers::drawParts(const std::vector<Part>& parts, const LightView&
 }
 
 //------------------------------------------------------------------------------
-void OccluderBuffers::draw(const LightView& view) const
+void OccluderBuffers::draw(const LightView& view, bool backOnly) const
 {
   glBindVertexArray(this->vertexArray_.name());
-  glDisable(GL_CULL_FACE);
+  // A light looks along +z of its right-handed space, so that its picture is mirrored.
+  glFrontFace(GL_CW);
+  backOnly ? glEnable(GL_CULL_FACE) : glDisable(GL_CULL_FACE);
+  glCullFace(GL_FRONT);
   this->drawParts(this->twoSided_, view);
   if (!this->oneSided_.empty())
   {
     glEnable(GL_CULL_FACE);
     glCullFace(GL_BACK);
-    // A light looks along +z of its right-handed space, so that its picture is mirrored.
-    glFrontFace(GL_CW);
     this->drawParts(this->oneSided_, view);
-    glDisable(GL_CULL_FACE);
   }
+  glDisable(GL_CULL_FACE);
 }
 
 } // namespace gnomon

@@ -23,7 +23,8 @@ public:
   /// Surfaces that the view cannot see are left out.
   /// One-sided surfaces are drawn with their back faces culled, "front" being what the current view
   /// sees counter-clockwise.
-  void draw(const LightView& view) const;
+  /// @param backOnly of the two-sided surfaces, too: only what faces away from the light
+  void draw(const LightView& view, bool backOnly = false) const;
 
   /// On the GPU, and what is remembered of each surface.
   std::size_t bytes() const;

@@ -4,7 +4,7 @@ layout(location = 0) in vec3 positionCentred;
 
 uniform mat4 clipFromCentred;
 
-#ifdef PUSH
+#ifdef WRITES_DEPTH
 // Row of light space's z, scaled to the map's linear depth in [0, 1].
 uniform vec4 depthFromCentred;
 out float depthLinear;
@@ -16,7 +16,7 @@ uniform vec4 beginFromCentred; // how far behind the place where the light begin
 void main()
 {
   gl_Position = clipFromCentred * vec4(positionCentred, 1.0);
-#ifdef PUSH
+#ifdef WRITES_DEPTH
   depthLinear = dot(depthFromCentred, vec4(positionCentred, 1.0));
 #endif
 #ifdef BEGINS

@@ -14,6 +14,7 @@ namespace gnomon
 /// |---|---|---|
 /// | bilinear | (n + 1) x (n + 1), weighted by how far an n x n square around the point covers them; n = 1 is the usual bilinear filter | square, (n + 1) / 2 |
 /// | box | n x n, nearest to the point | square, n / 2 |
+/// | castano | (n + 1) x (n + 1), weighted by their distance along either axis (Castano 2013, "Shadow Mapping Summary", The Witness); n is 3, 5 or 7 | square, (n + 1) / 2 |
 /// | poisson | 16, nearest to points of a disc of diameter n | square, 1/2, and disc, n / 2 |
 ///
 /// Each comparison is made where its texel was sampled, so that no kernel makes a surface shadow

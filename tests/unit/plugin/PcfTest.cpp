@@ -63,7 +63,7 @@ protected:
 INSTANTIATE_TEST_SUITE_P(Kernels, Pcf,
   testing::Values(Kernel{ "bilinear", 1 }, Kernel{ "bilinear", 3 }, Kernel{ "bilinear", 8 },
     Kernel{ "box", 1 }, Kernel{ "box", 4 }, Kernel{ "box", 9 }, Kernel{ "poisson", 6 },
-    Kernel{ "poisson", 32 }),
+    Kernel{ "poisson", 32 }, Kernel{ "castano", 3 }, Kernel{ "castano", 7 }),
   [](const testing::TestParamInfo<Kernel>& kernel)
   { return kernel.param.name + std::to_string(kernel.param.texels); });
 
@@ -407,7 +407,8 @@ TEST_F(PassTest, unknownKernelIsAnErrorThatNamesTheOthers)
   vtkLight* sun = scene.addSun({ 1.0, 0.4, -1.5 });
   scene.lookFrom({ 0.0, -9.0, 7.0 });
   vtkGnomonLightKeys::SetKernel(sun, "magic");
-  EXPECT_THAT(this->takeErrors(), HasSubstr("'magic', expected one of: bilinear, box, poisson"));
+  EXPECT_THAT(
+    this->takeErrors(), HasSubstr("'magic', expected one of: bilinear, box, poisson, castano"));
   scene.render();
   EXPECT_EQ(this->takeErrors(), "");
   // Past the function that refuses it.
@@ -418,5 +419,20 @@ TEST_F(PassTest, unknownKernelIsAnErrorThatNamesTheOthers)
   scene.render();
   EXPECT_EQ(scene.report().route, "none");
   EXPECT_EQ(scene.report().lights[0].reason,
-    "its setting 'kernel' is 'magic', expected one of: bilinear, box, poisson");
+    "its setting 'kernel' is 'magic', expected one of: bilinear, box, poisson, castano");
+}
+
+//------------------------------------------------------------------------------
+TEST_F(PassTest, castanosKernelOfAnotherSizeIsAnErrorThatNamesItsSizes)
+{
+  PassScene scene(100, 80);
+  scene.addFloor(4.0);
+  vtkLight* sun = scene.addSun({ 1.0, 0.4, -1.5 });
+  scene.pass->SetTechnique("pcf");
+  scene.lookFrom({ 0.0, -9.0, 7.0 });
+  vtkGnomonLightKeys::SetKernel(sun, "castano");
+  vtkGnomonLightKeys::SetKernelSize(sun, 4);
+  scene.render();
+  EXPECT_THAT(
+    this->takeErrors(), HasSubstr("light 0: the kernel 'castano' has the sizes 3, 5 and 7, not 4"));
 }
