@@ -86,25 +86,25 @@ void Adaptive::bakeBounds(const MapInput& input)
 {
   this->bounds_.reset();
   this->bytesOfBounds_ = 0;
-  const int layers = static_cast<int>(input.views.views.size());
-  if (!readsBounds(input.light) || layers == 0)
+  if (!readsBounds(input.light))
   {
     return;
   }
+  // As many as the map has: a light without a view still needs a texture to bind.
+  const int layers = std::max(static_cast<int>(input.views.views.size()), 1);
   // A power of two, so that a block's texels are those of 2 x 2 smaller blocks.
   int side = 1;
   while (2 * side < input.light.mapSizeTexels)
   {
     side *= 2;
   }
-  allocateTexture(
-    this->bounds_, { GL_RG32F, GL_RG, 2 }, side, side, layers, "the depth bounds of a map");
   int levels = 1;
-  for (int blocks = side / 2; blocks >= 1; blocks /= 2, ++levels)
+  while (side >> levels > 0)
   {
-    glTexImage3D(
-      GL_TEXTURE_2D_ARRAY, levels, GL_RG32F, blocks, blocks, layers, 0, GL_RG, GL_FLOAT, nullptr);
+    ++levels;
   }
+  allocateTexture(
+    this->bounds_, { GL_RG32F, GL_RG, 2 }, side, side, layers, "the depth bounds of a map", levels);
   glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_NEAREST_MIPMAP_NEAREST);
   for (int blocks = side; blocks >= 1; blocks /= 2)
   {
@@ -139,17 +139,18 @@ void Adaptive::bakeBounds(const MapInput& input)
     {
       glFramebufferTextureLayer(
         GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, this->bounds_.name(), level, layer);
+      // Only what is finished may be read.
+      glBindTexture(GL_TEXTURE_2D_ARRAY, this->bounds_.name());
+      glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAX_LEVEL, std::max(level - 1, 0));
       ShaderLibrary::setUniforms(program,
         { { "depthMap", TextureBinding{ GL_TEXTURE_2D_ARRAY, this->map().name() } },
           { "bounds", TextureBinding{ GL_TEXTURE_2D_ARRAY, this->bounds_.name() } },
           { "level", level }, { "layer", layer } },
         0, 0);
-      // Only what is finished may be read.
-      glBindTexture(GL_TEXTURE_2D_ARRAY, this->bounds_.name());
-      glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAX_LEVEL, std::max(level - 1, 0));
       glDrawArrays(GL_TRIANGLES, 0, 3);
     }
   }
+  glBindTexture(GL_TEXTURE_2D_ARRAY, this->bounds_.name());
   glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAX_LEVEL, levels - 1);
 }
 

@@ -62,13 +62,12 @@ std::vector<std::string> writingDefines(
   const LightView& view, const MapReach& reach, const Layer& layer, const ShadowLight& light)
 {
   std::vector<std::string> defines = { "WRITES_DEPTH", define("PUSH", layer.push + light.biasSlope),
-    define("BIAS", light.biasConstant * view.depthScale), define("DEEPEST", deepestPushed),
-    define("REACH_SQUARE", reach.squareTexels), define("REACH_DISC", reach.discTexels) };
-  const bool acrossRays = measuresAlongRay(view, light);
-  if (acrossRays)
+    define("DEEPEST", deepestPushed), define("REACH_SQUARE", reach.squareTexels),
+    define("REACH_DISC", reach.discTexels) };
+  const bool alongRay = measuresAlongRay(view, light);
+  if (alongRay)
   {
     defines.emplace_back("EUCLIDEAN");
-    defines.push_back(define("RAY_SCALE", 1.0 / longestRay(view)));
   }
   if (reach.hasKernel())
   {
@@ -79,7 +78,7 @@ std::vector<std::string> writingDefines(
     defines.push_back(define("KERNEL_SQUARE", reach.kernelSquare));
     defines.push_back(define("KERNEL_DISC", reach.kernelDisc));
   }
-  if (reach.hasKernel() || acrossRays || view.warped())
+  if (reach.hasKernel() || alongRay || view.warped())
   {
     defines.emplace_back("PLACED");
   }
@@ -139,6 +138,8 @@ void drawView(std::size_t number, const MapReach& reach, const Layer& layer, con
   std::vector<Uniform> uniforms = { { "clipFromCentred", glm::mat4(view.clipFromCentred()) },
     { "depthFromCentred", glm::vec4(depth) }, { "texelFromAcross", glm::mat3(texelsFromAcross) },
     { "acrossFromTexel", glm::mat3(glm::inverse(texelsFromAcross)) },
+    { "bias", static_cast<float>(light.biasConstant * view.depthScale) },
+    { "rayScale", static_cast<float>(1.0 / longestRay(view)) },
     { "frontLayer", static_cast<int>(number) } };
   if (begins)
   {

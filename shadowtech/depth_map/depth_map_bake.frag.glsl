@@ -2,7 +2,7 @@
 // reach of a look-up (DepthMapTechnique.h tells why). A parallel view's depth is linear as it is, and
 // polygon offset may push it; else both are done here.
 //
-// PUSH is how many times that span it is pushed, BIAS how far on top. EUCLIDEAN measures along the ray.
+// PUSH is how many times that span it is pushed. EUCLIDEAN measures along the ray.
 // BEHIND draws what lies behind another map only.
 
 #ifdef WRITES_DEPTH
@@ -10,6 +10,11 @@
 #include "shadowtech/base/kernel_shape.glsl"
 
 in float depthLinear;
+
+uniform float bias; // on top of what is pushed
+#ifdef EUCLIDEAN
+uniform float rayScale; // 1 / the longest ray to distance 1 from the light
+#endif
 
 #ifdef PLACED
 uniform mat3 acrossFromTexel;
@@ -80,9 +85,9 @@ float pushed()
 void main()
 {
 #ifdef WRITES_DEPTH
-  float depth = min(pushed() + BIAS, DEEPEST);
+  float depth = min(pushed() + bias, DEEPEST);
 #ifdef EUCLIDEAN
-  depth *= RAY_SCALE * length(vec3(across(), 1.0));
+  depth *= rayScale * length(vec3(across(), 1.0));
 #endif
 #ifdef BEHIND
   if (depth <= texelFetch(frontDepths, ivec3(gl_FragCoord.xy, frontLayer), 0).r + BEHIND)
