@@ -74,22 +74,27 @@ float estimate_LIGHT(ViewPoint point, float slack)
 {
   mat2 shape = kernelShape_LIGHT(point); // of determinant 1
   mat2 inverseShape = mat2(shape[1].y, -shape[0].y, -shape[1].x, shape[0].x);
-  vec2 reach = 0.5 * float(PCF_TEXELS_LIGHT + 1) * (abs(shape[0]) + abs(shape[1]));
-  ivec2 first = ivec2(floor(point.texel - reach + 0.5));
-  ivec2 last = ivec2(floor(point.texel + reach - 0.5));
+  float side = 0.5 * float(PCF_TEXELS_LIGHT + 1);
+  vec2 reach = side * (abs(shape[0]) + abs(shape[1]));
+  // How far along a row either pair of the shape's sides is apart: without end where they run along it.
+  vec2 perTexel = inverseShape[0];
+  perTexel = mix(perTexel, vec2(1e-6), lessThan(abs(perTexel), vec2(1e-6)));
+  vec2 extent = side / abs(perTexel);
   float hidden = 0.0;
   float all = 0.0;
-  for (int y = first.y; y <= last.y; ++y)
+  int lastRow = int(floor(point.texel.y + reach.y - 0.5));
+  for (int y = int(ceil(point.texel.y - reach.y - 0.5)); y <= lastRow; ++y)
   {
-    for (int x = first.x; x <= last.x; ++x)
+    vec2 middle = -inverseShape[1] * (float(y) + 0.5 - point.texel.y) / perTexel;
+    float first = max(max(middle.x - extent.x, middle.y - extent.y), -reach.x);
+    float last = min(min(middle.x + extent.x, middle.y + extent.y), reach.x);
+    int lastInRow = int(floor(point.texel.x + max(last, -reach.x) - 0.5));
+    for (int x = int(ceil(point.texel.x + min(first, reach.x) - 0.5)); x <= lastInRow; ++x)
     {
       vec2 away = abs(inverseShape * (vec2(x, y) + 0.5 - point.texel));
       float weight = weight_LIGHT(away.x) * weight_LIGHT(away.y);
-      if (weight > 0.0)
-      {
-        hidden += weight * hidden_LIGHT(point, ivec2(x, y), slack);
-        all += weight;
-      }
+      hidden += weight > 0.0 ? weight * hidden_LIGHT(point, ivec2(x, y), slack) : 0.0;
+      all += weight;
     }
   }
   // The limit of the stretch leaves a circle of the bilinear filter's radius, 1, which holds a texel.
