@@ -202,8 +202,8 @@ TEST_F(DepthMap, pyramidBoundsEveryBlock)
     ShadowLight light = directionalLight({ 0.3, 0.2, -1.0 });
     light.mapSizeTexels = size;
     OpenAdaptive technique;
-    const LightViews views = fitLightViews(light, occluders.centreWorld, occluders.allCentred,
-      size, technique.mapReach(light).borderTexels());
+    const LightViews views = fitLightViews(light, occluders.centreWorld, occluders.allCentred, size,
+      technique.mapReach(light).borderTexels());
     OccluderBuffers buffers;
     buffers.update(occluders);
     ShaderLibrary shaders;
