@@ -1,28 +1,54 @@
 #ifndef gnomon_lights_MapReach_h
 #define gnomon_lights_MapReach_h
 
+#include <algorithm>
 #include <cmath>
 
 namespace gnomon
 {
 
 /// How far around a receiver's place on the map its technique reads: texels whose centres lie within
-/// a square and a disc, one after the other (their Minkowski sum). What a view keeps around its
-/// casters and how far a map is pushed back follow from it. The default is one look-up at the nearest
-/// texel.
+/// a square, a disc and a kernel, one after the other (their Minkowski sum). What a view keeps around
+/// its casters and how far a map is pushed back follow from it. The default is one look-up at the
+/// nearest texel.
+///
+/// The kernel is again a square and a disc, in units that lie on the map as its projection has it at
+/// the point (KernelShape.h).
 struct MapReach
 {
   double squareTexels = 0.5; ///< half the square's side
   double discTexels = 0.0;   ///< the disc's radius
 
+  double kernelSquare = 0.0;   ///< half the side, in kernel units
+  double kernelDisc = 0.0;     ///< the radius, in kernel units
+  double largestStretch = 1.0; ///< of kernel units that keep a texel's area
+  double unitAcross = 0.0; ///< a kernel unit's length across the light; 0: it keeps a texel's area
+
+  bool hasKernel() const { return this->kernelSquare > 0.0 || this->kernelDisc > 0.0; }
+
   /// The farthest along either axis.
-  double largestTexels() const { return this->squareTexels + this->discTexels; }
+  /// @param texelsAcross the most texels to a unit across the light, which kernels of a width across the
+  /// light are measured by
+  double largestTexels(double texelsAcross = 0.0) const
+  {
+    const double unitTexels =
+      this->unitAcross > 0.0 ? this->unitAcross * texelsAcross : this->largestStretch;
+    return this->squareTexels + this->discTexels +
+      unitTexels * (std::sqrt(2.0) * this->kernelSquare + this->kernelDisc);
+  }
+
   /// Texels to keep free around a view, so that all that is read lies on its own layer.
-  int borderTexels() const { return static_cast<int>(std::ceil(this->largestTexels())); }
+  int borderTexels(double texelsAcross = 0.0) const
+  {
+    constexpr double most = 1 << 20; // more than any map has
+    return static_cast<int>(std::ceil(std::min(this->largestTexels(texelsAcross), most)));
+  }
 
   bool operator==(const MapReach& other) const
   {
-    return this->squareTexels == other.squareTexels && this->discTexels == other.discTexels;
+    return this->squareTexels == other.squareTexels && this->discTexels == other.discTexels &&
+      this->kernelSquare == other.kernelSquare && this->kernelDisc == other.kernelDisc &&
+      this->largestStretch == other.largestStretch && this->unitAcross == other.unitAcross;
   }
 };
 

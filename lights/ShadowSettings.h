@@ -14,7 +14,31 @@ enum class FilterKernel
 {
   Bilinear, ///< a square of any place: texels count by how far it covers them
   Box,      ///< n x n texels of equal weight
-  Poisson   ///< a few texels of equal weight, scattered over a disc that turns from place to place
+  Poisson,  ///< a few texels of equal weight, scattered over a disc that turns from place to place
+  Castano   ///< a square of any place whose texels count the less the farther they are
+};
+
+/// What the adaptive filter asks before it reads its whole kernel.
+enum class EarlyOut
+{
+  None, ///< nothing
+  Ring, ///< the outermost points, and believes them where they agree
+  Exact ///< the least and the largest depth around the point, which never errs
+};
+
+/// Which of the surfaces on a light's ray a depth map holds.
+enum class DepthSurface
+{
+  First,   ///< the nearest
+  Second,  ///< the nearest that faces away from the light
+  Midpoint ///< between the nearest two
+};
+
+/// How a depth map measures.
+enum class DepthMetric
+{
+  Linear,   ///< along the view's axis
+  Euclidean ///< along the ray
 };
 
 /// How a light's view is laid onto its map.
@@ -70,6 +94,29 @@ struct ShadowSettings
   double bleeding = 0.2;
   double varianceFloor = 1e-6;
   ///@}
+  /// The kernel's width across the light, in world units, of a positional light at distance 1; 0:
+  /// kernelTexels.
+  double kernelWidth = 0.0;
+
+  /// Of the adaptive filter: the points of its disc are the square of the first, the discs that it has
+  /// the square of the second.
+  int discGrid = 8;
+  int discSets = 16;
+  EarlyOut earlyOut = EarlyOut::Exact;
+
+  DepthSurface depth = DepthSurface::First;
+  DepthMetric metric = DepthMetric::Linear;
+  double biasConstant = 0.0; ///< in world units
+  double biasSlope = 0.0;    ///< times what a caster's depth spans within the filter's reach
+
+  /// Whether another light's map holds the same for the same views and filter.
+  bool storesAs(const ShadowSettings& other) const
+  {
+    return this->discGrid == other.discGrid && this->discSets == other.discSets &&
+      this->earlyOut == other.earlyOut && this->depth == other.depth &&
+      this->metric == other.metric && this->biasConstant == other.biasConstant &&
+      this->biasSlope == other.biasSlope;
+  }
 };
 
 ///@{
@@ -109,7 +156,7 @@ struct Setting
   /// @return false for what it does not take; nothing changes then
   bool set(ShadowSettings& settings, const std::string& text) const;
   std::string get(const ShadowSettings& settings) const;
-  /// What it takes, for error messages: "one of: bilinear, box, poisson", "an integer in [1, 32]".
+  /// What it takes, for error messages: "one of: bilinear, box, poisson, castano", "an integer in [1, 32]".
   std::string expected() const;
 };
 

@@ -17,7 +17,22 @@
  * - "map_size": the side of the light's map in texels (of each layer, where it has several), 16 to
  *   16384;
  * - "kernel": the name of a filter kernel, see below (default "bilinear");
- * - "kernel_size": its width in texels, 1 to 32 (default 3);
+ * - "kernel_size": its width in texels, 1 to 32 (default 3). On a warped map (projections "lispsm",
+ *   "tsm") the kernel is as large, but of a shape that is even across the light;
+ * - "kernel_width": its width across the light in world units, of positional lights at distance 1; the
+ *   kernel's size then says how many taps are spread over it (default 0: the size in texels);
+ * - "disc_grid", "disc_sets", "early_out": of the estimator "adaptive", which averages over a disc of
+ *   "kernel_size" or "kernel_width": its points are the square of "disc_grid" (default 8), discs that
+ *   differ the square of "disc_sets" (default 16); "early_out" is what is asked before all of a disc is
+ *   read: "none", "ring" (its outermost points, which miss small lit gaps), or "exact" (the default);
+ * - "depth": the surface on a ray that a map holds: "first" (the default), "second" (the nearest that
+ *   faces away from the light; only closed surfaces whose front faces are outside cast), or "midpoint"
+ *   (halfway between the first two surfaces; the first one where it is alone);
+ * - "metric": how a map measures: "linear" along the view's axis (the default), or "euclidean" along
+ *   the ray. Of parallel rays both are the same;
+ * - "bias_constant", "bias_slope": how far a map is pushed away from the light beyond what keeps
+ *   surfaces from shadowing themselves: in world units, and times what a caster's depth spans within the
+ *   filter's reach (defaults 0);
  * - "bleeding": of maps of moments ("vsm", "evsm", "msm"), up to what visibility points are dark, 0 to
  *   0.99 (default 0.2);
  * - "variance_floor": of "vsm" and "evsm", the least variance of depths, as a share of the map's depth
@@ -30,6 +45,8 @@
  *   edges show steps.
  * - "poisson": 16 texels of a disc with the size as diameter, turned at random from place to place.
  *   The cheapest for wide edges, which show noise instead of steps.
+ * - "castano": as bilinear, but texels count the less the farther they are from the point (Castano
+ *   2013), so that edges end softly. It has the sizes 3, 5 and 7.
  *
  * <b>A directional light's box.</b> A directional light may be limited to a box, as the sun is that
  * comes in through a window: it begins at the box's near face, which stands across it with the

@@ -1,5 +1,6 @@
 #include "plugin/RenderManager.h"
 
+#include "lights/KernelShape.h"
 #include "plugin/vtkGnomonShadowPass.h"
 #include "shadowtech/Registry.h"
 #include "shadowtech/base/Bytes.h"
@@ -408,9 +409,15 @@ void RenderManager::bakeMaps(
     fitting.camera = light.fit == ViewFit::Once && bake.camera ? bake.camera : camera;
   }
   LightViews views = fitLightViews(light, fitting);
+  if (reach.unitAcross > 0.0)
+  {
+    // How many texels that is, only a view can tell. A wider border makes them fewer.
+    fitting.texels.border = reach.borderTexels(mostTexelsAcross(views, light.mapSizeTexels));
+    views = fitLightViews(light, fitting);
+  }
   const bool fresh = bake.once && bake.views == views && bake.sizeTexels == light.mapSizeTexels &&
-    bake.reach == reach && bake.topology == occluders.topologyVersion &&
-    bake.positions == occluders.positionsVersion;
+    bake.reach == reach && bake.settings.storesAs(light) &&
+    bake.topology == occluders.topologyVersion && bake.positions == occluders.positionsVersion;
   if (!fresh)
   {
     this->buffers_.update(occluders);
@@ -423,7 +430,7 @@ void RenderManager::bakeMaps(
     {
       throw TextureMemoryError("light " + std::to_string(light.sceneIndex) + ": " + error.what());
     }
-    bake = { std::move(views), fitting.camera, reach, light.mapSizeTexels,
+    bake = { std::move(views), fitting.camera, reach, light, light.mapSizeTexels,
       occluders.topologyVersion, occluders.positionsVersion, true };
     ++this->report_.mapBakes;
   }

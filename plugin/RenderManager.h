@@ -96,6 +96,7 @@ private:
     LightViews views;
     std::optional<CameraView> camera; ///< that the views were fitted to
     MapReach reach;
+    ShadowSettings settings;
     int sizeTexels = 0;
     std::uint64_t topology = 0;
     std::uint64_t positions = 0;

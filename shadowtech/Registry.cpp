@@ -1,6 +1,7 @@
 #include "shadowtech/Registry.h"
 
 #include "lights/LightViews.h"
+#include "shadowtech/adaptive/Adaptive.h"
 #include "shadowtech/compare/Compare.h"
 #include "shadowtech/exponential/Exponential.h"
 #include "shadowtech/moments/FourMoments.h"
@@ -56,6 +57,7 @@ std::string namesOf(const std::vector<Entry>& entries)
 const std::vector<EstimatorEntry>& estimators()
 {
   static const std::vector<EstimatorEntry> entries = {
+    entry<Adaptive>(),
     entry<Compare>(),
     entry<Pcf>(),
     entry<Variance>(),
@@ -80,6 +82,9 @@ const std::vector<TechniqueEntry>& registry()
       findEstimator("exponential"), Projection::Uniform },
     { "msm", "smoothed: moment shadow map of four moments, which lets the least light through",
       findEstimator("moments"), Projection::Uniform },
+    { "adaptive",
+      "hard, smoothed: percentage closer filtering over a jittered disc, read where it is needed",
+      findEstimator("adaptive"), Projection::Uniform },
     { "lispsm", "hard: light space perspective shadow map, finer near the camera",
       findEstimator("compare"), Projection::Lispsm },
     { "tsm", "hard: trapezoidal shadow map, finer near the camera", findEstimator("compare"),
@@ -158,6 +163,12 @@ const EstimatorEntry& compose(ShadowLight& light)
   {
     throw CompositionError(
       "'" + light.estimator + "' reads no map that a projection could lay out");
+  }
+  if (estimator->info.filters && light.kernel == FilterKernel::Castano && light.kernelTexels != 3 &&
+    light.kernelTexels != 5 && light.kernelTexels != 7)
+  {
+    throw CompositionError(
+      "the kernel 'castano' has the sizes 3, 5 and 7, not " + std::to_string(light.kernelTexels));
   }
   const std::string refused = refusedProjection(light);
   if (!refused.empty())

@@ -12,13 +12,12 @@ namespace gnomon
 namespace
 {
 
-/// Depths are compared with this slack, as a share of the map's depth range: four roundings of a
-/// float (2^-24) in the transformations on either side, and as much again for the rasteriser.
-constexpr float roundingSlack = 1.0f / (1 << 20);
-
-/// And with this, as a share of the distance to the camera, which positions are rounded in proportion
+/// Depths are compared with this slack, too, as a share of the distance to the camera, which positions are rounded in proportion
 /// to: eight roundings. So is the receiver's plane, in proportion to how far it is followed.
 constexpr double distanceSlack = 1.0 / (1 << 21);
+
+constexpr int cutoutUnit =
+  0; ///< the texture unit of a hole's mask; those behind it are the shader's
 
 /// Whether casters may lie before the light's beginning.
 bool begins(const LightView& view)
@@ -26,31 +25,27 @@ bool begins(const LightView& view)
   return std::isfinite(view.beginsAt);
 }
 
-void useProgram(const LightView& view, const MapInput& input, const std::string& fragmentGlsl,
-  const std::vector<std::string>& defines)
+void useProgram(const LightView& view, const MapInput& input, const CasterShader& shader)
 {
   const GLuint program = input.shaders.program(
     { { GL_VERTEX_SHADER, ShaderLibrary::source("shadowtech/base/casters.vert.glsl") },
-      { GL_FRAGMENT_SHADER, fragmentGlsl } },
-    defines);
+      { GL_FRAGMENT_SHADER, shader.fragmentGlsl } },
+    shader.defines);
   glUseProgram(program);
-  ShaderLibrary::setUniform(program, { "clipFromCentred", glm::mat4(view.clipFromCentred()) });
   const glm::dvec4 distance = glm::row(view.rays.viewFromCentred, 2);
   glm::dvec4 depth = view.depthScale * distance;
   depth.w += view.depthOffset;
-  ShaderLibrary::setUniform(program, { "depthFromCentred", glm::vec4(depth) });
+  const glm::dmat3 texels = texelFromAcross(view, input.light.mapSizeTexels);
+  std::vector<Uniform> uniforms = { { "clipFromCentred", glm::mat4(view.clipFromCentred()) },
+    { "depthFromCentred", glm::vec4(depth) }, { "texelFromAcross", glm::mat3(texels) },
+    { "acrossFromTexel", glm::mat3(glm::inverse(texels)) }, { "cutoutMask", cutoutUnit } };
   if (begins(view))
   {
     const glm::dvec4 behind = distance - glm::dvec4(0.0, 0.0, 0.0, view.beginsAt);
-    ShaderLibrary::setUniform(program, { "beginFromCentred", glm::vec4(behind) });
+    uniforms.push_back({ "beginFromCentred", glm::vec4(behind) });
   }
-  if (view.warped())
-  {
-    const glm::dmat3 acrossFromTexel =
-      glm::inverse(texelFromAcross(view, input.light.mapSizeTexels));
-    ShaderLibrary::setUniform(program, { "texelScale", glm::vec3(glm::row(acrossFromTexel, 2)) });
-  }
-  ShaderLibrary::setUniform(program, { "cutoutMask", 0 });
+  uniforms.insert(uniforms.end(), shader.uniforms.begin(), shader.uniforms.end());
+  ShaderLibrary::setUniforms(program, uniforms, 0, cutoutUnit + 1);
 }
 
 } // namespace
@@ -72,30 +67,29 @@ void beginCasters(GLuint framebuffer, int sizeTexels)
 }
 
 //------------------------------------------------------------------------------
-void drawCasters(const LightView& view, const MapInput& input, const std::string& fragmentGlsl,
-  std::vector<std::string> defines)
+void drawCasters(const LightView& view, const MapInput& input, CasterShader shader)
 {
   if (view.rays.positional)
   {
-    defines.emplace_back("PERSPECTIVE");
+    shader.defines.emplace_back("PERSPECTIVE");
   }
   if (view.warped())
   {
-    defines.emplace_back("WARPED");
+    shader.defines.emplace_back("WARPED");
   }
   if (begins(view))
   {
-    defines.emplace_back("BEGINS");
+    shader.defines.emplace_back("BEGINS");
   }
   begins(view) ? glEnable(GL_CLIP_DISTANCE0) : glDisable(GL_CLIP_DISTANCE0);
-  useProgram(view, input, fragmentGlsl, defines);
-  input.buffers.draw(view);
+  useProgram(view, input, shader);
+  input.buffers.draw(view, shader.backOnly);
   if (input.buffers.hasCutouts())
   {
-    defines.emplace_back("CUTOUT");
-    useProgram(view, input, fragmentGlsl, defines);
-    glActiveTexture(GL_TEXTURE0);
-    input.buffers.drawCutouts(view);
+    shader.defines.emplace_back("CUTOUT");
+    useProgram(view, input, shader);
+    glActiveTexture(GL_TEXTURE0 + cutoutUnit);
+    input.buffers.drawCutouts(view, shader.backOnly);
   }
 }
 

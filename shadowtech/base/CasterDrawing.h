@@ -9,6 +9,19 @@
 namespace gnomon
 {
 
+/// Depths are compared with this slack, as a share of the map's depth range: four roundings of a
+/// float (2^-24) in the transformations on either side, and as much again for the rasteriser.
+constexpr float roundingSlack = 1.0f / (1 << 20);
+
+/// What casters are drawn with.
+struct CasterShader
+{
+  std::string fragmentGlsl; ///< the source
+  std::vector<std::string> defines;
+  std::vector<Uniform> uniforms = {};
+  bool backOnly = false; ///< of two-sided surfaces, only the side that faces away
+};
+
 /// Makes OpenGL ready to draw casters into a framebuffer's layers of this size. A GlStateGuard is the
 /// caller's business.
 void beginCasters(GLuint framebuffer, int sizeTexels);
@@ -18,12 +31,9 @@ void beginCasters(GLuint framebuffer, int sizeTexels);
 /// What a texel holds is the fragment shader's business. It is built with PERSPECTIVE or WARPED for
 /// such views. With DEPTH_LINEAR among its defines it gets the map's linear depth as
 /// `in float depthLinear`; the depth buffer has that by itself only where LightView::depthIsAffine.
-/// Of warped views it may ask for `uniform vec3 texelScale`: a texel's size across the light is
-/// texelScale times (texel, 1), squared.
+/// It may ask for `uniform mat3 texelFromAcross` and `acrossFromTexel` (LightView.h).
 /// Casters with holes are drawn by a shader of their own: main() ends with discardHoles() (cutout.glsl).
-/// @param fragmentGlsl the fragment shader's source
-void drawCasters(const LightView& view, const MapInput& input, const std::string& fragmentGlsl,
-  std::vector<std::string> defines);
+void drawCasters(const LightView& view, const MapInput& input, CasterShader shader);
 
 /// The uniform of map_visibility.glsl that says what rounding does to the depths that are compared.
 /// @param followed how many times farther than to its own texel a receiver's plane is followed

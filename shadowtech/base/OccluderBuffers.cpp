@@ -78,21 +78,22 @@ const void* placeOf(std::size_t number)
   return reinterpret_cast<const void*>(number * sizeof(Element));
 }
 
-/// Culls the back faces of one-sided surfaces, as long as it lives.
-class BackFaceCulling
+/// Draws both sides of triangles, or not the one that is culled. A light looks along +z of its
+/// right-handed space, so that its picture is mirrored.
+void cull(std::optional<GLenum> face)
 {
-public:
-  BackFaceCulling()
-  {
-    glEnable(GL_CULL_FACE);
-    glCullFace(GL_BACK);
-    // A light looks along +z of its right-handed space, so that its picture is mirrored.
-    glFrontFace(GL_CW);
-  }
-  ~BackFaceCulling() { glDisable(GL_CULL_FACE); }
-  BackFaceCulling(const BackFaceCulling&) = delete;
-  BackFaceCulling& operator=(const BackFaceCulling&) = delete;
-};
+  glFrontFace(GL_CW);
+  face ? glEnable(GL_CULL_FACE) : glDisable(GL_CULL_FACE);
+  glCullFace(face.value_or(GL_BACK));
+}
+
+/// What is culled of a surface.
+std::optional<GLenum> culledFace(bool oneSided, bool backOnly)
+{
+  return oneSided ? std::optional<GLenum>(GL_BACK)
+    : backOnly    ? std::optional<GLenum>(GL_FRONT)
+                  : std::nullopt;
+}
 
 } // namespace
 
@@ -274,22 +275,22 @@ void OccluderBuffers::drawParts(const std::vector<Part>& parts, const LightView&
 }
 
 //------------------------------------------------------------------------------
-void OccluderBuffers::draw(const LightView& view) const
+void OccluderBuffers::draw(const LightView& view, bool backOnly) const
 {
   glBindVertexArray(this->vertexArray_.name());
-  glDisable(GL_CULL_FACE);
+  cull(culledFace(false, backOnly));
   this->drawParts(this->twoSided_, view);
   if (!this->oneSided_.empty())
   {
-    const BackFaceCulling culling;
+    cull(culledFace(true, backOnly));
     this->drawParts(this->oneSided_, view);
   }
+  cull(std::nullopt);
 }
 
 //------------------------------------------------------------------------------
-void OccluderBuffers::drawCutouts(const LightView& view) const
+void OccluderBuffers::drawCutouts(const LightView& view, bool backOnly) const
 {
-  glDisable(GL_CULL_FACE);
   for (const CutoutPart& cutout : this->cutouts_)
   {
     const Part& part = cutout.part;
@@ -297,16 +298,13 @@ void OccluderBuffers::drawCutouts(const LightView& view) const
     {
       continue;
     }
-    std::optional<BackFaceCulling> culling;
-    if (cutout.oneSided)
-    {
-      culling.emplace();
-    }
+    cull(culledFace(cutout.oneSided, backOnly));
     glBindVertexArray(cutout.vertexArray.name());
     glBindTexture(GL_TEXTURE_2D, this->masks_.at(cutout.mask).name());
     glDrawElementsBaseVertex(GL_TRIANGLES, part.count, GL_UNSIGNED_INT,
       placeOf<GLuint>(static_cast<std::size_t>(part.first)), cutout.baseVertex);
   }
+  cull(std::nullopt);
 }
 
 } // namespace gnomon

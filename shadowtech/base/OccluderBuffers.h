@@ -26,7 +26,8 @@ public:
   /// drawCutouts().
   /// One-sided surfaces are drawn with their back faces culled, "front" being what the current view
   /// sees counter-clockwise.
-  void draw(const LightView& view) const;
+  /// @param backOnly of the two-sided surfaces, too: only what faces away from the light
+  void draw(const LightView& view, bool backOnly = false) const;
 
   /// Whether there are surfaces with a cut-out.
   bool hasCutouts() const { return !this->cutouts_.empty(); }
@@ -34,7 +35,7 @@ public:
   /// Draws the casting triangles of surfaces with a cut-out, otherwise like draw(). Texture coordinates
   /// are attribute 1, a vec2; the 2D texture of the active unit is, surface by surface, its mask, which
   /// is 0 exactly where the surface has a hole, filtered and repeated as VTK's texture is.
-  void drawCutouts(const LightView& view) const;
+  void drawCutouts(const LightView& view, bool backOnly = false) const;
 
   /// On the GPU, and what is remembered of each surface.
   std::size_t bytes() const;

@@ -15,11 +15,13 @@ struct Shape
   int width;
   int height;
   int layers; ///< 0: no array
+  int levels = 1;
 
   double bytes() const
   {
-    return static_cast<double>(sizeof(float)) * this->format.channels * this->width * this->height *
-      (this->layers > 0 ? this->layers : 1);
+    const double smaller = this->levels > 1 ? 4.0 / 3.0 : 1.0; // 1 + 1/4 + 1/16 + ...
+    return smaller * static_cast<double>(sizeof(float)) * this->format.channels * this->width *
+      this->height * (this->layers > 0 ? this->layers : 1);
   }
 };
 
@@ -41,7 +43,12 @@ double availableBytes()
 void define(const Shape& shape, GLenum target)
 {
   const auto internalFormat = static_cast<GLint>(shape.format.internalFormat);
-  if (shape.layers > 0)
+  if (shape.levels > 1)
+  {
+    glTexStorage3D(
+      target, shape.levels, shape.format.internalFormat, shape.width, shape.height, shape.layers);
+  }
+  else if (shape.layers > 0)
   {
     glTexImage3D(target, 0, internalFormat, shape.width, shape.height, shape.layers, 0,
       shape.format.format, GL_FLOAT, nullptr);
@@ -111,9 +118,9 @@ std::string describe(const Shape& shape, const std::string& what)
 
 //------------------------------------------------------------------------------
 void allocateTexture(GlTexture& texture, const FloatFormat& format, int width, int height,
-  int layers, const char* what)
+  int layers, const char* what, int levels)
 {
-  const Shape shape{ format, width, height, layers };
+  const Shape shape{ format, width, height, layers, levels };
   if (!allocate(texture, shape))
   {
     throw TextureMemoryError(describe(shape, what));

@@ -32,9 +32,10 @@ constexpr double largestTextureShare = 0.5;
 /// Gives a texture its memory, and nearest filtering; its target is bound afterwards.
 /// @param layers 0 for a GL_TEXTURE_2D, else those of a GL_TEXTURE_2D_ARRAY
 /// @param what names it in the error
+/// @param levels of a mip map, of arrays only; each half of the one before
 /// @throws TextureMemoryError; the texture is then without memory
 void allocateTexture(GlTexture& texture, const FloatFormat& format, int width, int height,
-  int layers, const char* what);
+  int layers, const char* what, int levels = 1);
 
 /// The same for a light's map. The error offers the largest power of two that fits as its side.
 void allocateMap(GlTexture& texture, const FloatFormat& format, int sizeTexels, int layers);

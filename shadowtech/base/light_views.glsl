@@ -9,6 +9,7 @@
 // A view's map is a homography of the plane of the light's rays, whose points are across coordinates:
 // x and y of parallel rays, their slopes of those from a position (lights/LightRays.h).
 
+#include "shadowtech/base/kernel_shape.glsl"
 #include "shadowtech/base/shadow_ray.glsl"
 
 uniform mat4 lightFromView_LIGHT;           // rigid: the camera's space to the light's
@@ -111,6 +112,27 @@ vec2 acrossOf_LIGHT(int view, vec2 texel)
 #endif
 }
 
+// Where a point is across the light.
+vec2 acrossOf_LIGHT(vec3 positionLight)
+{
+#if VIEWS_PERSPECTIVE_LIGHT
+  return positionLight.xy / positionLight.z; // z > 0: the light reaches it
+#else
+  return positionLight.xy;
+#endif
+}
+
+// How a view's texels lie there: d texel / d across.
+mat2 texelJacobian_LIGHT(int view, vec2 across)
+{
+#if VIEWS_WARPED_LIGHT
+  return homographyJacobian(texelFromAcross_LIGHT[view], across);
+#else
+  vec4 texels = viewTexels_LIGHT[view];
+  return mat2(texels.x, 0.0, 0.0, texels.y);
+#endif
+}
+
 // Whether a view's layer holds a place and all within a border around it.
 bool holds_LIGHT(vec2 texel, float border)
 {
@@ -133,11 +155,7 @@ bool findView_LIGHT(vec3 positionLight, vec3 normalLight, out ViewPoint point)
   point.position = cubeFaceFromLight(face, positionLight);
   point.normal = cubeFaceFromLight(face, normalLight);
 #endif
-#if VIEWS_PERSPECTIVE_LIGHT
-  vec2 across = point.position.xy / point.position.z; // z > 0: the light reaches it
-#else
-  vec2 across = point.position.xy;
-#endif
+  vec2 across = acrossOf_LIGHT(point.position);
 #if VIEWS_SPLITS_LIGHT
   for (int view = 0; view < viewCount_LIGHT - 1; ++view)
   {

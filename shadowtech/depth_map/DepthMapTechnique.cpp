@@ -1,6 +1,7 @@
 #include "shadowtech/depth_map/DepthMapTechnique.h"
 
 #include "lights/CasterViews.h"
+#include "lights/KernelShape.h"
 #include "shadowtech/base/CasterDrawing.h"
 #include "shadowtech/base/GlState.h"
 #include "shadowtech/base/LightViewsGlsl.h"
@@ -8,6 +9,7 @@
 #include "shadowtech/base/TextureMemory.h"
 
 #include <algorithm>
+#include <sstream>
 
 namespace gnomon
 {
@@ -16,6 +18,14 @@ namespace
 
 /// Where depths end that are pushed back: in the middle of the room behind the casters.
 constexpr double deepestPushed = 1.0 / (1.0 + 0.5 * roomBehindCasters);
+
+/// What one layer of depth is drawn with.
+struct Layer
+{
+  double push = 1.0; ///< times the reach's span
+  bool backOnly = false;
+  GLuint frontDepths = 0; ///< a map of which only what lies behind is drawn; 0: all
+};
 
 /// Half the sum of a caster's slopes is never more than the larger one, which is what polygon offset
 /// pushes by. That is twice what is asked for in the worst case, and costs nothing.
@@ -26,29 +36,94 @@ bool polygonOffsetServes(const LightView& view, const MapReach& reach)
 
 std::string define(const char* name, double value)
 {
-  return std::string(name) + " " + std::to_string(value);
+  std::ostringstream text;
+  text.precision(9);
+  text << std::showpoint << name << " " << value;
+  return text.str();
+}
+
+bool measuresAlongRay(const LightView& view, const ShadowLight& light)
+{
+  return view.rays.positional && light.metric == DepthMetric::Euclidean;
+}
+
+/// The fragment shader's definitions of a layer whose depth it writes.
+std::vector<std::string> writingDefines(
+  const LightView& view, const MapReach& reach, const Layer& layer, const ShadowLight& light)
+{
+  std::vector<std::string> defines = { "DEPTH_LINEAR", "WRITES_DEPTH",
+    define("PUSH", layer.push + light.biasSlope), define("DEEPEST", deepestPushed),
+    define("REACH_SQUARE", reach.squareTexels), define("REACH_DISC", reach.discTexels) };
+  const bool alongRay = measuresAlongRay(view, light);
+  if (alongRay)
+  {
+    defines.emplace_back("EUCLIDEAN");
+  }
+  if (reach.hasKernel())
+  {
+    const bool across = reach.unitAcross > 0.0;
+    defines.emplace_back("KERNEL");
+    defines.emplace_back(across ? "KERNEL_ACROSS" : "KERNEL_EVEN");
+    defines.push_back(define("KERNEL_UNIT", across ? reach.unitAcross : reach.largestStretch));
+    defines.push_back(define("KERNEL_SQUARE", reach.kernelSquare));
+    defines.push_back(define("KERNEL_DISC", reach.kernelDisc));
+  }
+  if (reach.hasKernel() || alongRay || view.warped())
+  {
+    defines.emplace_back("PLACED");
+  }
+  if (layer.frontDepths)
+  {
+    defines.push_back(define("BEHIND", static_cast<double>(roundingSlack)));
+  }
+  return defines;
 }
 
 /// Draws the casters into the bound framebuffer's depth, as one view sees them.
-void drawView(const LightView& view, const MapReach& reach, const MapInput& input)
+void drawView(std::size_t number, const MapReach& reach, const Layer& layer, const MapInput& input)
 {
+  const LightView& view = input.views.views[number];
+  const ShadowLight& light = input.light;
   const float farthest = 1.0f;
   glClearBufferfv(GL_DEPTH, 0, &farthest);
 
+  const bool biased = light.biasConstant > 0.0 || light.biasSlope > 0.0;
   std::vector<std::string> defines;
-  if (polygonOffsetServes(view, reach))
+  glDisable(GL_POLYGON_OFFSET_FILL);
+  if (layer.push == 1.0 && !biased && polygonOffsetServes(view, reach))
   {
     glEnable(GL_POLYGON_OFFSET_FILL);
     glPolygonOffset(1.0f, 0.0f);
   }
   else
   {
-    defines = { "DEPTH_LINEAR", "PUSH", define("REACH_SQUARE", reach.squareTexels),
-      define("REACH_DISC", reach.discTexels), define("DEEPEST", deepestPushed) };
-    glDisable(GL_POLYGON_OFFSET_FILL);
+    defines = writingDefines(view, reach, layer, light);
   }
-  drawCasters(
-    view, input, ShaderLibrary::source("shadowtech/depth_map/depth_map_bake.frag.glsl"), defines);
+  std::vector<Uniform> uniforms = { { "bias",
+                                      static_cast<float>(light.biasConstant * view.depthScale) },
+    { "rayScale", static_cast<float>(1.0 / longestRay(view)) },
+    { "frontLayer", static_cast<int>(number) } };
+  if (layer.frontDepths)
+  {
+    uniforms.push_back({ "frontDepths", TextureBinding{ GL_TEXTURE_2D_ARRAY, layer.frontDepths } });
+  }
+  drawCasters(view, input,
+    { ShaderLibrary::source("shadowtech/depth_map/depth_map_bake.frag.glsl"), defines, uniforms,
+      layer.backOnly });
+}
+
+/// A map of depths, bound afterwards.
+void allocateDepths(GlTexture& texture, int sizeTexels, int layers)
+{
+  allocateMap(texture, { GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, 1 }, sizeTexels, layers);
+  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_COMPARE_MODE, GL_NONE);
+}
+
+/// Makes a layer the bound framebuffer's depth.
+void drawInto(const GlTexture& depths, std::size_t layer)
+{
+  glFramebufferTextureLayer(
+    GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, depths.name(), 0, static_cast<GLint>(layer));
 }
 
 } // namespace
@@ -62,8 +137,7 @@ void DepthMapTechnique::allocate(int sizeTexels, int layers)
   }
   this->sizeTexels_ = 0; // in case that there is no memory
   this->layers_ = 0;
-  allocateMap(this->map_, { GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, 1 }, sizeTexels, layers);
-  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_COMPARE_MODE, GL_NONE);
+  allocateDepths(this->map_, sizeTexels, layers);
   glBindFramebuffer(GL_FRAMEBUFFER, this->framebuffer_.create());
   glDrawBuffer(GL_NONE);
   glReadBuffer(GL_NONE);
@@ -82,11 +156,65 @@ void DepthMapTechnique::bake(const MapInput& input)
   this->reach_ = this->mapReach(input.light);
 
   beginCasters(this->framebuffer_.name(), this->sizeTexels_);
+  if (input.light.depth == DepthSurface::Midpoint)
+  {
+    this->bakeMidpoints(input);
+    return;
+  }
+  Layer layer;
+  if (input.light.depth == DepthSurface::Second)
+  {
+    layer.push = 0.0; // what faces the light cannot shadow itself
+    layer.backOnly = true;
+  }
   for (std::size_t i = 0; i < views.size(); ++i)
   {
-    glFramebufferTextureLayer(
-      GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, this->map_.name(), 0, static_cast<GLint>(i));
-    drawView(views[i], this->reach_, input);
+    drawInto(this->map_, i);
+    drawView(i, this->reach_, layer, input);
+  }
+}
+
+//------------------------------------------------------------------------------
+/// The first surface, the one behind it, and the pushed first one, over which the others' middle is
+/// drawn wherever there are two.
+void DepthMapTechnique::bakeMidpoints(const MapInput& input)
+{
+  GlTexture front;
+  GlTexture back;
+  const int layers = static_cast<int>(input.views.views.size());
+  if (layers == 0)
+  {
+    return;
+  }
+  allocateDepths(front, this->sizeTexels_, layers);
+  allocateDepths(back, this->sizeTexels_, layers);
+  for (std::size_t i = 0; i < input.views.views.size(); ++i)
+  {
+    Layer unpushed;
+    unpushed.push = 0.0;
+    drawInto(front, i);
+    drawView(i, this->reach_, unpushed, input);
+    unpushed.frontDepths = front.name();
+    drawInto(back, i);
+    drawView(i, this->reach_, unpushed, input);
+    drawInto(this->map_, i);
+    drawView(i, this->reach_, {}, input);
+
+    const GLuint program = input.shaders.program(
+      { { GL_VERTEX_SHADER, ShaderLibrary::source("shadowtech/base/screen_visibility.vert.glsl") },
+        { GL_FRAGMENT_SHADER,
+          ShaderLibrary::source("shadowtech/depth_map/depth_map_between.frag.glsl") } });
+    glUseProgram(program);
+    ShaderLibrary::setUniforms(program,
+      { { "frontDepths", TextureBinding{ GL_TEXTURE_2D_ARRAY, front.name() } },
+        { "backDepths", TextureBinding{ GL_TEXTURE_2D_ARRAY, back.name() } },
+        { "layer", static_cast<int>(i) } },
+      0, 0);
+    glDisable(GL_POLYGON_OFFSET_FILL);
+    glDisable(GL_CLIP_DISTANCE0);
+    glDepthFunc(GL_ALWAYS);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    glDepthFunc(GL_LESS);
   }
 }
 
@@ -100,7 +228,10 @@ std::size_t DepthMapTechnique::bytesOfMaps() const
 //------------------------------------------------------------------------------
 std::string DepthMapTechnique::visibilityGlsl(const ShadowLight& light) const
 {
-  return lightViewsDefines(light) + this->estimatorGlsl(light);
+  const bool euclidean =
+    light.kind != LightKind::Directional && light.metric == DepthMetric::Euclidean;
+  return lightViewsDefines(light) + "#define MAP_EUCLIDEAN_LIGHT " + (euclidean ? "1\n" : "0\n") +
+    this->estimatorGlsl(light);
 }
 
 //------------------------------------------------------------------------------
@@ -110,8 +241,18 @@ std::vector<Uniform> DepthMapTechnique::uniforms(const glm::dmat4& centredFromVi
     lightViewsUniforms(this->views_, this->sizeTexels_, centredFromView);
   uniforms.push_back(
     { "depthMap_LIGHT", TextureBinding{ GL_TEXTURE_2D_ARRAY, this->map_.name() } });
-  const double followed = this->reach_.largestTexels() / MapReach{}.largestTexels();
+  const double followed =
+    this->reach_.largestTexels(mostTexelsAcross(this->views_, this->sizeTexels_)) /
+    MapReach{}.largestTexels();
   uniforms.push_back(depthSlacks(followed));
+  for (std::size_t i = 0; i < this->views_.views.size(); ++i)
+  {
+    const double scale = 1.0 / longestRay(this->views_.views[i]);
+    uniforms.push_back({ "rayScale_LIGHT[" + std::to_string(i) + "]", static_cast<float>(scale) });
+  }
+  const bool across = this->reach_.unitAcross > 0.0;
+  uniforms.push_back({ "kernelUnit_LIGHT",
+    static_cast<float>(across ? this->reach_.unitAcross : this->reach_.largestStretch) });
   return uniforms;
 }
 

@@ -51,11 +51,14 @@ public:
   std::vector<Uniform> uniforms(const glm::dmat4& centredFromView) const override;
 
 protected:
+  const GlTexture& map() const { return this->map_; }
+
   /// The estimator's source. It includes depth_map.glsl.
   virtual std::string estimatorGlsl(const ShadowLight& light) const = 0;
 
 private:
   void allocate(int sizeTexels, int layers);
+  void bakeMidpoints(const MapInput& input);
 
   GlTexture map_;
   GlFramebuffer framebuffer_;

@@ -10,6 +10,19 @@
 #include "shadowtech/base/map_visibility.glsl"
 
 uniform sampler2DArray depthMap_LIGHT; // linear depth in [0, 1], one layer per view
+#if MAP_EUCLIDEAN_LIGHT
+uniform float rayScale_LIGHT[VIEWS_LIGHT]; // 1 / the longest ray to distance 1 from the light
+#endif
+
+// Where the receiver's plane is on the ray through a place of the map, as the map measures.
+float planeDepth_LIGHT(ViewPoint point, vec2 texel)
+{
+  float depth = viewDepth_LIGHT(point, planeDistance_LIGHT(point, texel));
+#if MAP_EUCLIDEAN_LIGHT
+  depth *= rayScale_LIGHT[point.view] * length(vec3(acrossOf_LIGHT(point.view, texel), 1.0));
+#endif
+  return depth;
+}
 
 // Whether nothing that was drawn at a texel's centre hides the point from the light.
 bool isLitAt_LIGHT(ViewPoint point, ivec2 texel, float slack)
@@ -19,6 +32,5 @@ bool isLitAt_LIGHT(ViewPoint point, ivec2 texel, float slack)
   {
     return true; // no caster here; receivers that do not cast may lie beyond the map's depths
   }
-  float depthReceiver = viewDepth_LIGHT(point, planeDistance_LIGHT(point, vec2(texel) + 0.5));
-  return depthReceiver <= depthCaster + slack;
+  return planeDepth_LIGHT(point, vec2(texel) + 0.5) <= depthCaster + slack;
 }

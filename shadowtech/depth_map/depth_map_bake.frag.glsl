@@ -1,57 +1,103 @@
 // The map holds linear depth, pushed away from the light by what the caster's slope spans within the
 // reach of a look-up (DepthMapTechnique.h tells why). A parallel view's depth is linear as it is, and
 // polygon offset may push it; else both are done here.
+//
+// PUSH is how many times that span it is pushed. EUCLIDEAN measures along the ray.
+// BEHIND draws what lies behind another map only.
 
 #include "shadowtech/base/cutout.glsl"
 
-#ifdef PUSH
+#ifdef WRITES_DEPTH
+
+#include "shadowtech/base/kernel_shape.glsl"
 
 in float depthLinear;
 
-// The support function of the reach.
-float push(vec2 slope)
+uniform float bias; // on top of what is pushed
+#ifdef EUCLIDEAN
+uniform float rayScale; // 1 / the longest ray to distance 1 from the light
+#endif
+
+#ifdef PLACED
+uniform mat3 acrossFromTexel;
+uniform mat3 texelFromAcross;
+
+vec2 across()
 {
-  return REACH_SQUARE * (abs(slope.x) + abs(slope.y)) + REACH_DISC * length(slope);
+  vec3 place = acrossFromTexel * vec3(gl_FragCoord.xy, 1.0);
+  return place.xy / place.z; // not 0 on the map
 }
+#endif
 
-#ifdef WARPED
+#ifdef BEHIND
+uniform sampler2DArray frontDepths;
+uniform int frontLayer;
+#endif
 
-uniform vec3 texelScale; // a texel's size across the light is this, times (texel, 1), squared
+// The support function of the reach.
+float span(vec2 slope)
+{
+  float texels = REACH_SQUARE * (abs(slope.x) + abs(slope.y)) + REACH_DISC * length(slope);
+#ifdef KERNEL
+  mat2 jacobian = homographyJacobian(texelFromAcross, across());
+#ifdef KERNEL_EVEN
+  vec2 slopeKernel = slope * evenShape(jacobian, KERNEL_UNIT);
+#else
+  vec2 slopeKernel = slope * (KERNEL_UNIT * jacobian);
+#endif
+  texels += KERNEL_SQUARE * (abs(slopeKernel.x) + abs(slopeKernel.y)) +
+    KERNEL_DISC * length(slopeKernel);
+#endif
+  return texels;
+}
 
 // How much larger a texel within the reach can be than this one, at most: the slope's own texel of
-// difference is within the reach, too.
+// difference is within the reach, too. A kernel's shape changes by as much again.
 float warp()
 {
-  float scale = dot(texelScale, vec3(gl_FragCoord.xy, 1.0));
-  float change = push(texelScale.xy) + abs(texelScale.x) + abs(texelScale.y);
+#ifdef WARPED
+  vec3 texelScale = vec3(acrossFromTexel[0].z, acrossFromTexel[1].z, acrossFromTexel[2].z);
+  float scale = dot(texelScale, vec3(gl_FragCoord.xy, 1.0)); // a texel's size across the light, squared
+  float change = span(texelScale.xy) + abs(texelScale.x) + abs(texelScale.y);
   float left = max(1.0 - change / scale, 0.5);
-  return 1.0 / (left * left);
-}
-
-#else
-
-float warp()
-{
-  return 1.0;
-}
-
+#ifdef KERNEL
+  left *= left;
 #endif
+  return 1.0 / (left * left);
+#else
+  return 1.0;
+#endif
+}
+
+float pushed()
+{
+#ifdef PERSPECTIVE
+  // Not the depth is affine across the light, but its inverse. Where it reaches 0, the plane runs past
+  // the rays.
+  float inverse = 1.0 / depthLinear; // where the light begins, depth is positive
+  float left = inverse - PUSH * warp() * span(vec2(dFdx(inverse), dFdy(inverse)));
+  return left * DEEPEST > 1.0 ? 1.0 / left : DEEPEST;
+#else
+  return depthLinear + PUSH * warp() * span(vec2(dFdx(depthLinear), dFdy(depthLinear)));
+#endif
+}
 
 #endif
 
 void main()
 {
-#ifdef PUSH
-#ifdef PERSPECTIVE
-  // Not the depth is affine across the light, but its inverse. Where it reaches 0, the plane runs past
-  // the rays.
-  float inverse = 1.0 / depthLinear; // where the light begins, depth is positive
-  float pushed = inverse - warp() * push(vec2(dFdx(inverse), dFdy(inverse)));
-  gl_FragDepth = pushed * DEEPEST > 1.0 ? 1.0 / pushed : DEEPEST;
-#else
-  gl_FragDepth =
-    min(depthLinear + warp() * push(vec2(dFdx(depthLinear), dFdy(depthLinear))), DEEPEST);
+#ifdef WRITES_DEPTH
+  float depth = min(pushed() + bias, DEEPEST);
+#ifdef EUCLIDEAN
+  depth *= rayScale * length(vec3(across(), 1.0));
 #endif
+#ifdef BEHIND
+  if (depth <= texelFetch(frontDepths, ivec3(gl_FragCoord.xy, frontLayer), 0).r + BEHIND)
+  {
+    discard;
+  }
+#endif
+  gl_FragDepth = depth;
 #endif
   discardHoles();
 }

@@ -92,8 +92,8 @@ void MomentMapTechnique::bake(const MapInput& input)
       defines.emplace_back("WRITES_DEPTH");
     }
     drawCasters(views[i], input,
-      moments.glsl + ShaderLibrary::source("shadowtech/moment_map/moment_map_bake.frag.glsl"),
-      defines);
+      { moments.glsl + ShaderLibrary::source("shadowtech/moment_map/moment_map_bake.frag.glsl"),
+        defines });
   }
   if (input.light.kernelTexels > 1)
   {

@@ -1,6 +1,7 @@
 #include "shadowtech/pcf/Pcf.h"
 
 #include "shadowtech/base/ShaderLibrary.h"
+#include "shadowtech/depth_map/Kernel.h"
 #include "shadowtech/pcf/PoissonDisc.h"
 
 namespace gnomon
@@ -25,6 +26,32 @@ std::string poissonDiscGlsl()
     ");\n";
 }
 
+/// The kernel's weights at 0, 1, 2, ... texels from the point, straight in between, and 0 at the end.
+/// Castano 2013 gives them as the places and weights of bilinear look-ups.
+std::vector<int> castanoWeights(int texels)
+{
+  switch (texels)
+  {
+    case 3:
+      return { 2, 1, 0 };
+    case 5:
+      return { 4, 3, 1, 0 };
+    default:
+      return { 16, 12, 5, 1, 0 };
+  }
+}
+
+std::string castanoGlsl(int texels)
+{
+  std::string weights;
+  for (const int weight : castanoWeights(texels))
+  {
+    weights += (weights.empty() ? "" : ", ") + std::to_string(weight) + ".0";
+  }
+  const std::string count = std::to_string(castanoWeights(texels).size());
+  return "const float castano_LIGHT[" + count + "] = float[](" + weights + ");\n";
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -41,15 +68,18 @@ TechniqueInfo Pcf::info()
 //------------------------------------------------------------------------------
 MapReach Pcf::mapReach(const ShadowLight& light) const
 {
+  const KernelUnits units = kernelUnits(light);
   const double width = light.kernelTexels;
   switch (light.kernel)
   {
     case FilterKernel::Bilinear:
-      return { 0.5 * (width + 1.0), 0.0 };
+    case FilterKernel::Castano:
+      return units == KernelUnits::Across ? kernelReach(light, { 1.0, 0.5 * (width - 1.0), 0.0 })
+                                          : kernelReach(light, { 0.0, 0.5 * (width + 1.0), 0.0 });
     case FilterKernel::Box:
-      return { 0.5 * width, 0.0 };
+      return kernelReach(light, { 0.5, 0.5 * (width - 1.0), 0.0 });
     case FilterKernel::Poisson:
-      return { 0.5, 0.5 * width };
+      return kernelReach(light, { 0.5, 0.0, 0.5 * width });
   }
   return {};
 }
@@ -57,11 +87,19 @@ MapReach Pcf::mapReach(const ShadowLight& light) const
 //------------------------------------------------------------------------------
 std::string Pcf::estimatorGlsl(const ShadowLight& light) const
 {
+  const KernelUnits units = kernelUnits(light);
   const bool poisson = light.kernel == FilterKernel::Poisson;
-  return define("PCF_TEXELS_LIGHT", light.kernelTexels) +
-    define("PCF_BILINEAR_LIGHT", light.kernel == FilterKernel::Bilinear) +
+  const bool castano = light.kernel == FilterKernel::Castano;
+  const bool smooth = castano || light.kernel == FilterKernel::Bilinear;
+  const bool rows = light.kernel == FilterKernel::Bilinear && units == KernelUnits::Texels;
+  const bool weighted = smooth && !rows && units != KernelUnits::Across;
+  return kernelDefines(light) + define("PCF_TEXELS_LIGHT", light.kernelTexels) +
+    define("PCF_ROWS_LIGHT", rows) + define("PCF_WEIGHTED_LIGHT", weighted) +
     define("PCF_POISSON_LIGHT", poisson) + define("PCF_POINTS_LIGHT", poissonPoints) +
-    (poisson ? poissonDiscGlsl() : "") + ShaderLibrary::source("shadowtech/pcf/pcf_estimator.glsl");
+    define("PCF_BOX_LIGHT", light.kernel == FilterKernel::Box) +
+    define("PCF_CASTANO_LIGHT", castano) + (poisson ? poissonDiscGlsl() : "") +
+    (castano ? castanoGlsl(light.kernelTexels) : "") +
+    ShaderLibrary::source("shadowtech/pcf/pcf_estimator.glsl");
 }
 
 } // namespace gnomon

@@ -14,7 +14,13 @@ namespace gnomon
 /// |---|---|---|
 /// | bilinear | (n + 1) x (n + 1), weighted by how far an n x n square around the point covers them; n = 1 is the usual bilinear filter | square, (n + 1) / 2 |
 /// | box | n x n, nearest to the point | square, n / 2 |
+/// | castano | (n + 1) x (n + 1), weighted by their distance along either axis (Castano 2013, "Shadow Mapping Summary", The Witness); n is 3, 5 or 7 | square, (n + 1) / 2 |
 /// | poisson | 16, nearest to points of a disc of diameter n | square, 1/2, and disc, n / 2 |
+///
+/// Those are kernels on uniform maps. On warped ones, and with `kernel_width`, n counts kernel units
+/// (shadowtech/depth_map/Kernel.h): bilinear and castano weigh all texels in the kernel's shape, and with
+/// `kernel_width` n x n bilinear look-ups, a unit apart; box and poisson read the texel at each of their
+/// points.
 ///
 /// Each comparison is made where its texel was sampled, so that no kernel makes a surface shadow
 /// itself (DepthMapTechnique.h). The disc turns by a random angle from each cell of the map to the

@@ -1,20 +1,43 @@
 // Percentage closer filtering (Reeves, Salesin and Cook 1987): the share of the light's kernel that
-// nothing hides. Pcf.h describes the kernels; PCF_TEXELS_LIGHT is their width, PCF_BILINEAR_LIGHT and
-// PCF_POISSON_LIGHT say which it is (neither: a box).
+// nothing hides. Pcf.h describes the kernels; PCF_TEXELS_LIGHT is their width. How the map is read:
+// PCF_ROWS_LIGHT: the bilinear kernel where its units are texels, PCF_WEIGHTED_LIGHT: all texels of a
+// bilinear or Castano's kernel, PCF_POISSON_LIGHT: points of a disc; else taps, of single texels where
+// PCF_BOX_LIGHT says so.
 //
 // What is hidden is added up, not what is lit, so that a lit point's visibility is 1 exactly.
 
-#include "shadowtech/depth_map/depth_map.glsl"
+#include "shadowtech/depth_map/kernel.glsl"
 
-// 1 where the point is hidden at a texel, else 0. The border makes sure that casters lie inside the
-// layer; only kernels that are wider than it read the layer's last texel again.
-float hidden_LIGHT(ViewPoint point, ivec2 texel, float slack)
+#if PCF_CASTANO_LIGHT
+// A place's weight by how far it is along an axis, in kernel units.
+float weight_LIGHT(float away)
 {
-  ivec2 inside = clamp(texel, ivec2(0), ivec2(int(viewSize_LIGHT) - 1));
-  return isLitAt_LIGHT(point, inside, slack) ? 0.0 : 1.0;
+  int before = int(away);
+  return before > PCF_TEXELS_LIGHT / 2
+    ? 0.0
+    : mix(castano_LIGHT[before], castano_LIGHT[before + 1], away - float(before));
+}
+#else
+float weight_LIGHT(float away)
+{
+  return clamp(0.5 * float(PCF_TEXELS_LIGHT + 1) - away, 0.0, 1.0);
+}
+#endif
+
+// The bilinear filter of one texel.
+float hiddenBilinear_LIGHT(ViewPoint point, vec2 place, float slack)
+{
+  vec2 corner = place - 0.5;
+  ivec2 first = ivec2(floor(corner));
+  vec2 share = corner - vec2(first);
+  return mix(mix(hidden_LIGHT(point, first, slack), hidden_LIGHT(point, first + ivec2(1, 0), slack),
+               share.x),
+    mix(hidden_LIGHT(point, first + ivec2(0, 1), slack),
+      hidden_LIGHT(point, first + ivec2(1, 1), slack), share.x),
+    share.y);
 }
 
-#if PCF_BILINEAR_LIGHT
+#if PCF_ROWS_LIGHT
 
 // What a row of the kernel's square covers: all of its texels, but of the first and the last only
 // shares, which make up one texel.
@@ -44,23 +67,47 @@ float estimate_LIGHT(ViewPoint point, float slack)
   return max(1.0 - hidden / float(PCF_TEXELS_LIGHT * PCF_TEXELS_LIGHT), 0.0);
 }
 
-#elif PCF_POISSON_LIGHT
+#elif PCF_WEIGHTED_LIGHT
 
-// A number in [0, 1) for each cell of the map, random to the eye ("lowbias32", Wellons 2018).
-float noise_LIGHT(ivec2 cell)
+// All texels in the kernel's shape, each with its weight there.
+float estimate_LIGHT(ViewPoint point, float slack)
 {
-  uint bits = uint(cell.x) + 65536u * uint(cell.y);
-  bits = (bits ^ (bits >> 16u)) * 0x7feb352du;
-  bits = (bits ^ (bits >> 15u)) * 0x846ca68bu;
-  bits ^= bits >> 16u;
-  return float(bits >> 8u) / 16777216.0;
+  mat2 shape = kernelShape_LIGHT(point); // of determinant 1
+  mat2 inverseShape = mat2(shape[1].y, -shape[0].y, -shape[1].x, shape[0].x);
+  float side = 0.5 * float(PCF_TEXELS_LIGHT + 1);
+  vec2 reach = side * (abs(shape[0]) + abs(shape[1]));
+  // How far along a row either pair of the shape's sides is apart: without end where they run along it.
+  vec2 perTexel = inverseShape[0];
+  perTexel = mix(perTexel, vec2(1e-6), lessThan(abs(perTexel), vec2(1e-6)));
+  vec2 extent = side / abs(perTexel);
+  float hidden = 0.0;
+  float all = 0.0;
+  int lastRow = int(floor(point.texel.y + reach.y - 0.5));
+  for (int y = int(ceil(point.texel.y - reach.y - 0.5)); y <= lastRow; ++y)
+  {
+    vec2 middle = -inverseShape[1] * (float(y) + 0.5 - point.texel.y) / perTexel;
+    float first = max(max(middle.x - extent.x, middle.y - extent.y), -reach.x);
+    float last = min(min(middle.x + extent.x, middle.y + extent.y), reach.x);
+    int lastInRow = int(floor(point.texel.x + max(last, -reach.x) - 0.5));
+    for (int x = int(ceil(point.texel.x + min(first, reach.x) - 0.5)); x <= lastInRow; ++x)
+    {
+      vec2 away = abs(inverseShape * (vec2(x, y) + 0.5 - point.texel));
+      float weight = weight_LIGHT(away.x) * weight_LIGHT(away.y);
+      hidden += weight > 0.0 ? weight * hidden_LIGHT(point, ivec2(x, y), slack) : 0.0;
+      all += weight;
+    }
+  }
+  // The limit of the stretch leaves a circle of the bilinear filter's radius, 1, which holds a texel.
+  return max(1.0 - hidden / all, 0.0);
 }
+
+#elif PCF_POISSON_LIGHT
 
 float estimate_LIGHT(ViewPoint point, float slack)
 {
   float angle = 6.2831853 * noise_LIGHT(ivec2(4.0 * point.texel));
   vec2 axis = 0.5 * float(PCF_TEXELS_LIGHT) * vec2(cos(angle), sin(angle));
-  mat2 turn = mat2(axis, vec2(-axis.y, axis.x));
+  mat2 turn = kernelShape_LIGHT(point) * mat2(axis, vec2(-axis.y, axis.x));
   float hidden = 0.0;
   for (int i = 0; i < PCF_POINTS_LIGHT; ++i)
   {
@@ -72,18 +119,30 @@ float estimate_LIGHT(ViewPoint point, float slack)
 
 #else
 
+// Taps that lie a kernel unit apart.
 float estimate_LIGHT(ViewPoint point, float slack)
 {
-  ivec2 first = ivec2(floor(point.texel - 0.5 * float(PCF_TEXELS_LIGHT - 1)));
+  mat2 shape = kernelShape_LIGHT(point);
+  float middle = 0.5 * float(PCF_TEXELS_LIGHT - 1);
+  vec2 first = point.texel - shape * vec2(middle);
   float hidden = 0.0;
+  float all = 0.0;
   for (int y = 0; y < PCF_TEXELS_LIGHT; ++y)
   {
     for (int x = 0; x < PCF_TEXELS_LIGHT; ++x)
     {
-      hidden += hidden_LIGHT(point, first + ivec2(x, y), slack);
+      vec2 place = first + shape * vec2(x, y);
+#if PCF_BOX_LIGHT
+      hidden += hidden_LIGHT(point, ivec2(floor(place)), slack);
+      all += 1.0;
+#else
+      float weight = weight_LIGHT(abs(float(x) - middle)) * weight_LIGHT(abs(float(y) - middle));
+      hidden += weight * hiddenBilinear_LIGHT(point, place, slack);
+      all += weight;
+#endif
     }
   }
-  return max(1.0 - hidden / float(PCF_TEXELS_LIGHT * PCF_TEXELS_LIGHT), 0.0);
+  return max(1.0 - hidden / all, 0.0);
 }
 
 #endif

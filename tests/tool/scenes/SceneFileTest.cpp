@@ -217,7 +217,7 @@ TEST_F(SceneFile, SaysWhatIsWrongAndWhere)
     { "/lights/0/technique", "magic", "lights[0].technique", techniques.c_str() },
     { "/lights/0/map_size", 8, "lights[0].map_size", "whole number between 16 and 16384" },
     { "/lights/0/map_size", 512.5, "lights[0].map_size", "whole number" },
-    { "/lights/0/kernel", "magic", "lights[0].kernel", "one of: bilinear, box, poisson" },
+    { "/lights/0/kernel", "magic", "lights[0].kernel", "one of: bilinear, box, poisson, castano" },
     { "/lights/0/kernel_size", 0, "lights[0].kernel_size", "whole number between 1 and 32" },
     { "/lights/0/intensity", -1, "lights[0].intensity", "between 0" },
     { "/lights/0/box", 7, "lights[0].box", "expected an object" },

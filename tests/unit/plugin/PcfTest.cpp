@@ -76,7 +76,7 @@ protected:
 INSTANTIATE_TEST_SUITE_P(Kernels, Pcf,
   testing::Values(Kernel{ "bilinear", 1 }, Kernel{ "bilinear", 3 }, Kernel{ "bilinear", 8 },
     Kernel{ "box", 1 }, Kernel{ "box", 4 }, Kernel{ "box", 9 }, Kernel{ "poisson", 6 },
-    Kernel{ "poisson", 32 }),
+    Kernel{ "poisson", 32 }, Kernel{ "castano", 3 }, Kernel{ "castano", 7 }),
   [](const testing::TestParamInfo<Kernel>& kernel)
   { return kernel.param.name + std::to_string(kernel.param.texels); });
 
@@ -316,9 +316,13 @@ TEST_P(Pcf, edgesAreAsSmoothWhereTheMapEnds)
   }
   EXPECT_LT(pixelTexels, 1.0);
   EXPECT_EQ(lit(399), 1.0);
-  // A texel's column at a time; of a disc, the points in it, which differ from place to place.
+  // A texel's column at a time, of Castano's kernel the middle one at most; of a disc, the points in
+  // it, which differ from place to place.
   const std::string name = GetParam().name;
-  const double column = name == "poisson" ? 0.35 : 1.0 / GetParam().texels + 1e-6;
+  const double castano = GetParam().texels == 3 ? 2.0 / 4.0 : 16.0 / 52.0; // of 3 and of 7
+  const double column = name == "poisson" ? 0.35
+    : name == "castano"                   ? castano + 1e-6
+                                          : 1.0 / GetParam().texels + 1e-6;
   EXPECT_LE(largestStep, column);
 }
 
@@ -501,7 +505,8 @@ TEST_F(PassTest, unknownKernelIsAnErrorThatNamesTheOthers)
   vtkLight* sun = scene.addSun({ 1.0, 0.4, -1.5 });
   scene.lookFrom({ 0.0, -9.0, 7.0 });
   vtkGnomonLightKeys::SetKernel(sun, "magic");
-  EXPECT_THAT(this->takeErrors(), HasSubstr("'magic', expected one of: bilinear, box, poisson"));
+  EXPECT_THAT(
+    this->takeErrors(), HasSubstr("'magic', expected one of: bilinear, box, poisson, castano"));
   scene.render();
   EXPECT_EQ(this->takeErrors(), "");
   // Past the function that refuses it.
@@ -512,5 +517,20 @@ TEST_F(PassTest, unknownKernelIsAnErrorThatNamesTheOthers)
   scene.render();
   EXPECT_EQ(scene.report().route, "none");
   EXPECT_EQ(scene.report().lights[0].reason,
-    "its setting 'kernel' is 'magic', expected one of: bilinear, box, poisson");
+    "its setting 'kernel' is 'magic', expected one of: bilinear, box, poisson, castano");
+}
+
+//------------------------------------------------------------------------------
+TEST_F(PassTest, castanosKernelOfAnotherSizeIsAnErrorThatNamesItsSizes)
+{
+  PassScene scene(100, 80);
+  scene.addFloor(4.0);
+  vtkLight* sun = scene.addSun({ 1.0, 0.4, -1.5 });
+  scene.pass->SetTechnique("pcf");
+  scene.lookFrom({ 0.0, -9.0, 7.0 });
+  vtkGnomonLightKeys::SetKernel(sun, "castano");
+  vtkGnomonLightKeys::SetKernelSize(sun, 4);
+  scene.render();
+  EXPECT_THAT(
+    this->takeErrors(), HasSubstr("light 0: the kernel 'castano' has the sizes 3, 5 and 7, not 4"));
 }

@@ -164,7 +164,7 @@ TEST_F(PositionalLights, filtersHaveNoSeams)
   EdgeFinder edges(renderer, { at[0], at[1], at[2] });
   pass->SetTechnique("pcf");
   auto* light = vtkLight::SafeDownCast(renderer->GetLights()->GetItemAsObject(0));
-  for (const char* kernel : { "bilinear", "box", "poisson" })
+  for (const char* kernel : { "bilinear", "box", "poisson", "castano" })
   {
     vtkGnomonLightKeys::SetKernel(light, kernel);
     vtkGnomonLightKeys::SetKernelSize(light, 7);

@@ -127,7 +127,7 @@ TEST_P(Routes, ofPcfDifferOnAtMostOnePixelInAHundredThousand)
 {
   ToolScene scene(GetParam(), 512);
   scene.pass->SetTechnique("pcf");
-  for (const char* kernel : { "bilinear", "box", "poisson" })
+  for (const char* kernel : { "bilinear", "box", "poisson", "castano" })
   {
     for (int i = 0; i < scene.renderer->GetLights()->GetNumberOfItems(); ++i)
     {

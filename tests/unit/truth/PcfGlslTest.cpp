@@ -1,22 +1,14 @@
 // pcf_estimator.glsl against a twin: which texels each kernel reads, with which weights.
 
-#include "lights/ShadowSettings.h"
-#include "shadowtech/base/Gl.h"
-#include "shadowtech/base/LightViewsGlsl.h"
-#include "shadowtech/base/ShaderLibrary.h"
+#include "EstimatorGlsl.h"
+
 #include "shadowtech/pcf/Pcf.h"
 #include "shadowtech/pcf/PoissonDisc.h"
 
-#include "SyntheticScene.h"
-#include "vtkGnomonEGLRenderWindow.h"
-
 #include <gtest/gtest.h>
-#include <vtkNew.h>
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <random>
 #include <set>
 
 namespace gnomon::test
@@ -24,146 +16,14 @@ namespace gnomon::test
 namespace
 {
 
-constexpr int mapSize = 64;
-
-/// Whether a texel holds a caster that hides the points below.
-using Map = std::function<bool(const glm::ivec2&)>;
-
-/// What the shader answers at places of a map of a directional light, on a plane across it.
-std::vector<float> runGlsl(
+/// What the shader answers on a map of a sun above.
+std::vector<float> runPcf(
   const ShadowLight& light, const Map& map, const std::vector<glm::dvec2>& places)
 {
-  const LightViews views =
-    fitLightViews(light, glm::dvec3(0.0), { glm::dvec3(-1.0), glm::dvec3(1.0) }, mapSize);
-  const LightView& view = views.views.front();
-  const glm::dmat4 centredFromClip = glm::inverse(view.clipFromCentred());
-  std::vector<glm::vec4> points;
-  for (const glm::dvec2& place : places)
-  {
-    points.emplace_back(
-      centredFromClip * glm::dvec4(2.0 * place / double(mapSize) - 1.0, 0.5, 1.0));
-  }
-  points.resize((points.size() + 63) / 64 * 64);
-  std::vector<float> depths;
-  for (int y = 0; y < mapSize; ++y)
-  {
-    for (int x = 0; x < mapSize; ++x)
-    {
-      depths.push_back(map({ x, y }) ? 0.25f : 1.0f);
-    }
-  }
-
-  ShaderLibrary library;
-  const std::string source = numberedForLight(Pcf().visibilityGlsl(light) + R"(
-layout(local_size_x = 64) in;
-layout(std430, binding = 0) readonly buffer Inputs { vec4 inputs[]; };
-layout(std430, binding = 1) writeonly buffer Outputs { float outputs[]; };
-uniform vec3 normal;
-void main()
-{
-  uint i = gl_GlobalInvocationID.x;
-  outputs[i] = visibility_LIGHT(inputs[i].xyz, normal);
-}
-)",
-    0);
-  const GLuint program = library.program({ { GL_COMPUTE_SHADER, source } });
-  GlTexture texture;
-  glBindTexture(GL_TEXTURE_2D_ARRAY, texture.create());
-  glTexImage3D(
-    GL_TEXTURE_2D_ARRAY, 0, GL_R32F, mapSize, mapSize, 1, 0, GL_RED, GL_FLOAT, depths.data());
-  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-  GlBuffer buffers[2];
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, buffers[0].create());
-  glBufferData(GL_SHADER_STORAGE_BUFFER, static_cast<GLsizeiptr>(points.size() * sizeof(glm::vec4)),
-    points.data(), GL_STATIC_DRAW);
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, buffers[1].create());
-  std::vector<float> outputs(points.size());
-  const auto bytes = static_cast<GLsizeiptr>(outputs.size() * sizeof(float));
-  glBufferData(GL_SHADER_STORAGE_BUFFER, bytes, nullptr, GL_DYNAMIC_READ);
-  glUseProgram(program);
-  std::vector<Uniform> uniforms = lightViewsUniforms(views, mapSize, glm::dmat4(1.0));
-  uniforms.push_back({ "depthMap_LIGHT", TextureBinding{ GL_TEXTURE_2D_ARRAY, texture.name() } });
-  uniforms.push_back({ "depthSlacks_LIGHT", glm::vec2(1e-6, 0.0) });
-  uniforms.push_back({ "normal", glm::vec3(-light.directionWorld) });
-  ShaderLibrary::setUniforms(program, uniforms, 0, 0);
-  glDispatchCompute(static_cast<GLuint>(points.size() / 64), 1, 1);
-  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-  glGetBufferSubData(GL_SHADER_STORAGE_BUFFER, 0, bytes, outputs.data());
-  glUseProgram(0);
-  outputs.resize(places.size());
-  return outputs;
+  return runGlsl(Pcf(), light, sunViews(light), map, places);
 }
 
-ShadowLight filteredSun(const char* kernel, int texels)
-{
-  ShadowLight light;
-  light.directionWorld = { 0.0, 0.0, -1.0 };
-  findSetting("kernel")->set(light, kernel);
-  light.kernelTexels = texels;
-  return light;
-}
-
-/// Places whose kernels stay inside the map. Exact in float, so that both sides round alike.
-std::vector<glm::dvec2> randomPlaces(int texels)
-{
-  std::mt19937 random(5);
-  const double margin = 0.5 * texels + 2.0;
-  std::vector<glm::dvec2> places;
-  for (int i = 0; i < 2000; ++i)
-  {
-    const auto coordinate = [&]
-    { return margin + (mapSize - 2.0 * margin) * (random() / 4294967296.0); };
-    const double x = coordinate();
-    places.emplace_back(x, coordinate());
-  }
-  return places;
-}
-
-/// A map of which about half is covered, in texels that have nothing to do with their neighbours.
-bool scattered(const glm::ivec2& texel)
-{
-  const auto bits = static_cast<unsigned>(texel.x * 73 + texel.y * 1009);
-  return (bits * 2654435761u) >> 31u != 0u;
-}
-
-/// The part of a texel that a square of side `width` around a place covers.
-double covered(const glm::ivec2& texel, const glm::dvec2& place, double width)
-{
-  const glm::dvec2 lower = glm::max(glm::dvec2(texel), place - 0.5 * width);
-  const glm::dvec2 upper = glm::min(glm::dvec2(texel) + 1.0, place + 0.5 * width);
-  const glm::dvec2 size = glm::max(upper - lower, 0.0);
-  return size.x * size.y;
-}
-
-/// The lit share of a map around a place, with a weight per texel.
-template <typename Weight>
-double litShare(const Map& map, const Weight& weight)
-{
-  double lit = 0.0;
-  double all = 0.0;
-  for (int y = 0; y < mapSize; ++y)
-  {
-    for (int x = 0; x < mapSize; ++x)
-    {
-      const double share = weight(glm::ivec2(x, y));
-      lit += map({ x, y }) ? 0.0 : share;
-      all += share;
-    }
-  }
-  return lit / all;
-}
-
-class PcfGlsl : public testing::Test
-{
-protected:
-  void SetUp() override
-  {
-    this->window_->Initialize();
-    this->window_->MakeCurrent();
-  }
-  vtkNew<vtkGnomonEGLRenderWindow> window_;
-};
+using PcfGlsl = GlslTest;
 
 TEST_F(PcfGlsl, bilinearWeighsTexelsByHowFarASquareCoversThem)
 {
@@ -171,7 +31,7 @@ TEST_F(PcfGlsl, bilinearWeighsTexelsByHowFarASquareCoversThem)
   for (const int texels : { 1, 2, 3, 4, 7 })
   {
     const std::vector<glm::dvec2> places = randomPlaces(texels);
-    const std::vector<float> values = runGlsl(filteredSun("bilinear", texels), scattered, places);
+    const std::vector<float> values = runPcf(filteredSun("bilinear", texels), scattered, places);
     for (std::size_t i = 0; i < places.size(); ++i)
     {
       const double expected = litShare(
@@ -186,7 +46,7 @@ TEST_F(PcfGlsl, boxCountsTheNearestTexels)
   for (const int texels : { 1, 2, 3, 5, 8 })
   {
     const std::vector<glm::dvec2> places = randomPlaces(texels);
-    const std::vector<float> values = runGlsl(filteredSun("box", texels), scattered, places);
+    const std::vector<float> values = runPcf(filteredSun("box", texels), scattered, places);
     std::size_t different = 0;
     for (std::size_t i = 0; i < places.size(); ++i)
     {
@@ -201,6 +61,73 @@ TEST_F(PcfGlsl, boxCountsTheNearestTexels)
     }
     // Of places within rounding of a texel's border, the twin may take the other texel.
     EXPECT_LE(different, 2u) << texels << " texels";
+  }
+}
+
+/// Castano's filters of 3 x 3 and 5 x 5 texels as he gives them: bilinear look-ups in each direction,
+/// by where the point lies between two texels.
+struct Lookup
+{
+  double place; ///< texels from the first of the two texels
+  double weight;
+};
+std::vector<Lookup> castanoLookups(int texels, double s)
+{
+  if (texels == 3)
+  {
+    return { { (2 - s) / (3 - 2 * s) - 1, 3 - 2 * s }, { s / (1 + 2 * s) + 1, 1 + 2 * s } };
+  }
+  if (texels == 5)
+  {
+    return { { (3 - 2 * s) / (4 - 3 * s) - 2, 4 - 3 * s }, { (3 + s) / 7, 7 },
+      { s / (1 + 3 * s) + 2, 1 + 3 * s } };
+  }
+  return { { (5 * s - 6 == 0 ? 0 : (4 * s - 5) / (5 * s - 6)) - 3, 6 - 5 * s },
+    { (4 * s - 16) / (11 * s - 28) - 1, 28 - 11 * s },
+    { (7 * s + 5) / (11 * s + 17) + 1, 11 * s + 17 }, { s / (5 * s + 1) + 3, 5 * s + 1 } };
+}
+
+/// What a texture unit's bilinear filter of comparisons answers.
+double litBilinear(const Map& map, const glm::dvec2& place)
+{
+  return litShare(map, [&](const glm::ivec2& texel) { return covered(texel, place, 1.0); });
+}
+
+TEST_F(PcfGlsl, bilinearOfOneTexelIsTheTextureUnitsFilter)
+{
+  const std::vector<glm::dvec2> places = randomPlaces(1);
+  const std::vector<float> values = runPcf(filteredSun("bilinear", 1), scattered, places);
+  for (std::size_t i = 0; i < places.size(); ++i)
+  {
+    ASSERT_NEAR(values[i], litBilinear(scattered, places[i]), 1.0 / 256) << "place " << i;
+  }
+}
+
+TEST_F(PcfGlsl, castanoIsHisSumOfBilinearLookups)
+{
+  for (const int texels : { 3, 5, 7 })
+  {
+    std::vector<glm::dvec2> places = randomPlaces(texels);
+    places.resize(300);
+    places.emplace_back(20.5, 20.5); // at a texel's centre
+    const std::vector<float> values = runPcf(filteredSun("castano", texels), scattered, places);
+    for (std::size_t i = 0; i < places.size(); ++i)
+    {
+      const glm::dvec2 base = glm::floor(places[i] + 0.5);
+      const glm::dvec2 s = places[i] + 0.5 - base;
+      double lit = 0.0;
+      double all = 0.0;
+      for (const Lookup& y : castanoLookups(texels, s.y))
+      {
+        for (const Lookup& x : castanoLookups(texels, s.x))
+        {
+          lit +=
+            x.weight * y.weight * litBilinear(scattered, base - 0.5 + glm::dvec2(x.place, y.place));
+          all += x.weight * y.weight;
+        }
+      }
+      ASSERT_NEAR(values[i], lit / all, 1e-4) << texels << " texels, place " << i;
+    }
   }
 }
 
@@ -219,7 +146,7 @@ TEST_F(PcfGlsl, poissonReadsATurnedDisc)
   for (const int texels : { 1, 4, 9 })
   {
     const std::vector<glm::dvec2> places = randomPlaces(texels);
-    const std::vector<float> values = runGlsl(filteredSun("poisson", texels), scattered, places);
+    const std::vector<float> values = runPcf(filteredSun("poisson", texels), scattered, places);
     std::size_t different = 0;
     for (std::size_t i = 0; i < places.size(); ++i)
     {
@@ -243,7 +170,7 @@ TEST_F(PcfGlsl, anEdgeHasAsManyLevelsAsTheKernelAllows)
   const auto levels = [&](const char* kernel, int texels)
   {
     const std::vector<float> values =
-      runGlsl(filteredSun(kernel, texels), halfPlane, randomPlaces(texels));
+      runPcf(filteredSun(kernel, texels), halfPlane, randomPlaces(texels));
     return std::set<float>(values.begin(), values.end()).size();
   };
   for (const int texels : { 1, 3, 5, 11 })
@@ -262,8 +189,8 @@ TEST_F(PcfGlsl, theMapsEndIsReadAgainWhereAKernelIsWider)
   for (const char* kernel : { "bilinear", "box", "poisson" })
   {
     const ShadowLight light = filteredSun(kernel, 32);
-    EXPECT_EQ(runGlsl(light, everywhere, places), std::vector<float>(3, 0.0f)) << kernel;
-    EXPECT_EQ(runGlsl(light, nowhere, places), std::vector<float>(3, 1.0f)) << kernel;
+    EXPECT_EQ(runPcf(light, everywhere, places), std::vector<float>(3, 0.0f)) << kernel;
+    EXPECT_EQ(runPcf(light, nowhere, places), std::vector<float>(3, 1.0f)) << kernel;
   }
 }
 
@@ -297,7 +224,7 @@ TEST_F(PcfGlsl, turningTheDiscKeepsTheMean)
       places.emplace_back(mapSize / 2 - 6 + (x + 0.5) / 4.0, 12.0 + (y + 0.5) / 4.0);
     }
   }
-  const std::vector<float> values = runGlsl(filteredSun("poisson", 8), halfPlane, places);
+  const std::vector<float> values = runPcf(filteredSun("poisson", 8), halfPlane, places);
   double mean = 0.0;
   for (const float value : values)
   {

@@ -1,0 +1,53 @@
+#include "shadowtech/depth_map/Kernel.h"
+
+#include "lights/KernelShape.h"
+
+namespace gnomon
+{
+
+//------------------------------------------------------------------------------
+KernelUnits kernelUnits(const ShadowLight& light)
+{
+  if (light.kernelWidth > 0.0)
+  {
+    return KernelUnits::Across;
+  }
+  return light.projection == Projection::Lispsm || light.projection == Projection::Trapezoid
+    ? KernelUnits::Even
+    : KernelUnits::Texels;
+}
+
+//------------------------------------------------------------------------------
+MapReach kernelReach(const ShadowLight& light, const KernelExtent& extent)
+{
+  MapReach reach;
+  reach.squareTexels = extent.squareTexels;
+  switch (kernelUnits(light))
+  {
+    case KernelUnits::Texels:
+      reach.squareTexels += extent.square;
+      reach.discTexels = extent.disc;
+      return reach;
+    case KernelUnits::Even:
+      reach.largestStretch = largestStretch(light.kernelTexels);
+      break;
+    case KernelUnits::Across:
+      reach.unitAcross = light.kernelWidth / light.kernelTexels;
+      break;
+  }
+  reach.kernelSquare = extent.square;
+  reach.kernelDisc = extent.disc;
+  return reach;
+}
+
+//------------------------------------------------------------------------------
+std::string kernelDefines(const ShadowLight& light)
+{
+  const KernelUnits units = kernelUnits(light);
+  const auto define = [](const std::string& name, bool value)
+  { return "#define " + name + (value ? " 1\n" : " 0\n"); };
+  return define("KERNEL_EVEN_LIGHT", units == KernelUnits::Even) +
+    define("KERNEL_ACROSS_LIGHT", units == KernelUnits::Across);
+}
+
+} // namespace gnomon

@@ -1,0 +1,40 @@
+#ifndef gnomon_shadowtech_depth_map_Kernel_h
+#define gnomon_shadowtech_depth_map_Kernel_h
+
+#include "lights/MapReach.h"
+#include "lights/ShadowLight.h"
+
+#include <string>
+
+namespace gnomon
+{
+
+/// What a filter's kernel is measured in (kernel.glsl). One of `kernel_size` units is
+/// - a texel of a uniform projection;
+/// - of a warped one, whose texels are longer across the light one way than the other, as large as a
+///   texel, but of a shape that is even across the light (KernelShape.h);
+/// - the share of `kernel_width` across the light, if that is asked for.
+enum class KernelUnits
+{
+  Texels,
+  Even,
+  Across
+};
+
+KernelUnits kernelUnits(const ShadowLight& light);
+
+/// How far a kernel reaches: the texels around its points, and a square and a disc of its units.
+struct KernelExtent
+{
+  double squareTexels; ///< half the side
+  double square;       ///< half the side, in units
+  double disc;         ///< the radius, in units
+};
+MapReach kernelReach(const ShadowLight& light, const KernelExtent& extent);
+
+/// What kernel.glsl needs in front of it.
+std::string kernelDefines(const ShadowLight& light);
+
+} // namespace gnomon
+
+#endif

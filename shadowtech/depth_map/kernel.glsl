@@ -1,0 +1,41 @@
+// How a filter's kernel lies on the map around a point (lights/KernelShape.h). KERNEL_EVEN_LIGHT: its
+// shape is even across the light, its area counts in texels; KERNEL_ACROSS_LIGHT: its units are a length
+// across the light; neither: its units are texels.
+
+#include "shadowtech/depth_map/depth_map.glsl"
+
+#if KERNEL_EVEN_LIGHT || KERNEL_ACROSS_LIGHT
+uniform float kernelUnit_LIGHT; // the largest stretch; or a unit's length across the light
+#endif
+
+// Texels from kernel units.
+mat2 kernelShape_LIGHT(ViewPoint point)
+{
+#if KERNEL_EVEN_LIGHT
+  vec2 across = acrossOf_LIGHT(point.position);
+  return evenShape(texelJacobian_LIGHT(point.view, across), kernelUnit_LIGHT);
+#elif KERNEL_ACROSS_LIGHT
+  vec2 across = acrossOf_LIGHT(point.position);
+  return kernelUnit_LIGHT * texelJacobian_LIGHT(point.view, across);
+#else
+  return mat2(1.0);
+#endif
+}
+
+// 1 where the point is hidden at a texel, else 0. The border makes sure that casters lie inside the
+// layer; only kernels that are wider than it read the layer's last texel again.
+float hidden_LIGHT(ViewPoint point, ivec2 texel, float slack)
+{
+  ivec2 inside = clamp(texel, ivec2(0), ivec2(int(viewSize_LIGHT) - 1));
+  return isLitAt_LIGHT(point, inside, slack) ? 0.0 : 1.0;
+}
+
+// A number in [0, 1) for each cell of the map, random to the eye ("lowbias32", Wellons 2018).
+float noise_LIGHT(ivec2 cell)
+{
+  uint bits = uint(cell.x) + 65536u * uint(cell.y);
+  bits = (bits ^ (bits >> 16u)) * 0x7feb352du;
+  bits = (bits ^ (bits >> 15u)) * 0x846ca68bu;
+  bits ^= bits >> 16u;
+  return float(bits >> 8u) / 16777216.0;
+}

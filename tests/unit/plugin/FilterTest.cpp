@@ -1,0 +1,375 @@
+// Filters on all kinds of maps: no acne, on warped maps neither, and no kind of depth or early-out that
+// breaks them.
+
+#include "PassScene.h"
+
+#include "plugin/VisibilityImages.h"
+#include "plugin/vtkGnomonPropKeys.h"
+
+#include <vtkTransform.h>
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <map>
+#include <string>
+
+using namespace gnomon::test;
+using gnomon::VisibilityImages;
+
+namespace
+{
+
+using Settings = std::map<std::string, std::string>;
+
+struct Filter
+{
+  const char* name;
+  const char* technique;
+  Settings settings;
+};
+
+std::ostream& operator<<(std::ostream& stream, const Filter& filter)
+{
+  return stream << filter.name;
+}
+
+void choose(PassScene& scene, const char* technique, const Settings& settings)
+{
+  scene.pass->SetTechnique(technique);
+  for (const auto& [name, value] : settings)
+  {
+    scene.pass->SetSetting(name.c_str(), value.c_str());
+  }
+}
+
+class Filters
+  : public PassTest
+  , public testing::WithParamInterface<Filter>
+{
+protected:
+  static void choose(PassScene& scene)
+  {
+    ::choose(scene, GetParam().technique, GetParam().settings);
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(Kinds, Filters,
+  testing::Values(Filter{ "lispsm_bilinear3", "lispsm", { { "estimator", "pcf" } } },
+    Filter{ "lispsm_poisson8", "lispsm",
+      { { "estimator", "pcf" }, { "kernel", "poisson" }, { "kernel_size", "8" } } },
+    Filter{ "tsm_bilinear3", "tsm", { { "estimator", "pcf" } } },
+    Filter{ "tsm_castano7", "tsm",
+      { { "estimator", "pcf" }, { "kernel", "castano" }, { "kernel_size", "7" } } },
+    Filter{
+      "tsm_box9", "tsm", { { "estimator", "pcf" }, { "kernel", "box" }, { "kernel_size", "9" } } },
+    Filter{ "width_bilinear", "pcf", { { "kernel_width", "0.1" } } },
+    Filter{ "width_lispsm_box", "lispsm",
+      { { "estimator", "pcf" }, { "kernel", "box" }, { "kernel_width", "0.1" } } },
+    Filter{ "width_wide_poisson", "pcf", { { "kernel", "poisson" }, { "kernel_width", "1" } } },
+    Filter{ "adaptive3", "adaptive", {} },
+    Filter{ "adaptive10", "adaptive", { { "kernel_size", "10" } } },
+    Filter{ "adaptive10_ring", "adaptive", { { "kernel_size", "10" }, { "early_out", "ring" } } },
+    Filter{ "adaptive_lispsm", "lispsm", { { "estimator", "adaptive" }, { "kernel_size", "6" } } },
+    Filter{ "euclidean", "nsm", { { "metric", "euclidean" } } },
+    Filter{ "euclidean_pcf", "pcf", { { "metric", "euclidean" } } },
+    Filter{ "euclidean_tsm", "tsm", { { "metric", "euclidean" } } },
+    Filter{ "biased", "pcf", { { "bias_constant", "0.01" }, { "bias_slope", "2" } } }),
+  [](const testing::TestParamInfo<Filter>& filter) { return std::string(filter.param.name); });
+
+} // namespace
+
+//------------------------------------------------------------------------------
+TEST_P(Filters, litPlaneHasNoAcneUnderTheSun)
+{
+  for (const int mapSize : { 64, 1024 })
+  {
+    PassScene scene(200, 200);
+    this->choose(scene);
+    scene.addFloor(4.0);
+    vtkLight* sun = scene.addSun({ 0.0, 0.0, -1.0 });
+    scene.pass->SetMapSize(mapSize);
+    scene.lookFrom({ 1.0, -7.0, 6.0 });
+    for (const double degrees : { 0.0, 5.0, 45.0, 75.0, 85.0, 89.0 })
+    {
+      const double angle = glm::radians(degrees);
+      const glm::dvec3 toLight(0.8 * std::sin(angle), 0.6 * std::sin(angle), std::cos(angle));
+      sun->SetPosition(toLight.x, toLight.y, toLight.z);
+      const Acne acne = countAcneOfSun(drawKept(scene), toLight);
+      EXPECT_GT(acne.facing, 10000u);
+      EXPECT_EQ(acne.dark, 0u) << degrees << " degrees, map " << mapSize;
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Filters, litPlaneHasNoAcneUnderASpotLight)
+{
+  PassScene scene(200, 200);
+  this->choose(scene);
+  scene.addFloor(4.0);
+  scene.lookFrom({ 1.0, -7.0, 6.0 });
+  vtkLight* spot = scene.addSpot({ 0.0, 0.0, 3.0 }, glm::dvec3(0.0), 60.0);
+  for (const double height : { 3.0, 1.0, 0.3, 0.1 })
+  {
+    const glm::dvec3 light(-3.0, -2.0, height);
+    spot->SetPosition(light.x, light.y, light.z);
+    const glm::dvec3 axis = glm::normalize(-light);
+    const Acne acne = countAcne(drawKept(scene),
+      [&](const glm::dvec3& point)
+      {
+        const glm::dvec3 toPoint = glm::normalize(point - light);
+        const bool inCone = glm::dot(toPoint, axis) > std::cos(glm::radians(59.5));
+        return inCone ? -toPoint : glm::dvec3(0.0);
+      });
+    EXPECT_GT(acne.facing, 5000u);
+    EXPECT_EQ(acne.dark, 0u) << "height " << height;
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Filters, concaveCornersAreLit)
+{
+  // A trough of a floor and two walls without thickness, which the sun sees from within.
+  for (const int mapSize : { 64, 256 })
+  {
+    for (const glm::dvec3& direction :
+      { glm::dvec3(-1.0, -0.8, -1.0), { -0.3, -1.0, -0.1 }, { -0.1, -0.1, -1.0 } })
+    {
+      PassScene scene(200, 200);
+      this->choose(scene);
+      scene.addFloor(2.0);
+      const auto addWall = [&](double x, double y)
+      {
+        vtkNew<vtkTransform> stand;
+        stand->Translate(2.0 * x, 2.0 * y, 2.0);
+        stand->RotateWXYZ(90.0, y, -x, 0.0);
+        scene.addFloor(2.0)->SetUserTransform(stand);
+      };
+      addWall(-1.0, 0.0);
+      addWall(0.0, -1.0);
+      scene.addSun(direction);
+      scene.pass->SetMapSize(mapSize);
+      scene.lookFrom({ 8.0, 9.0, 7.0 });
+      const Acne acne = countAcneOfSun(drawKept(scene), -direction);
+      EXPECT_GT(acne.facing, 8000u);
+      EXPECT_EQ(acne.dark, 0u) << "map " << mapSize << ", sun along " << direction.x;
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Filters, degenerateViewsStayFinite)
+{
+  for (const int mapSize : { 16, 256 })
+  {
+    const auto drawBothRoutes = [&](PassScene& scene)
+    {
+      this->choose(scene);
+      scene.addFloor(4.0);
+      scene.addSphere({ 0.0, 0.0, 1.5 }, 0.7);
+      scene.pass->SetMapSize(mapSize);
+      scene.lookFrom({ 0.0, -9.0, 7.0 });
+      drawKept(scene);
+      scene.pass->KeepVisibilityOff();
+      scene.render();
+      EXPECT_EQ(scene.report().route, "inline");
+    };
+    for (const glm::dvec3& direction :
+      { glm::dvec3(0.0, -1.0, 0.0), { 1.0, 0.0, 0.0 }, { 0.0, 0.0, 1.0 }, { 0.0, 0.0, -1.0 } })
+    {
+      PassScene scene(64, 48);
+      scene.addSun(direction);
+      drawBothRoutes(scene);
+    }
+    for (const glm::dvec3& position : { glm::dvec3(0.0, 0.0, 1.5), { 0.0, 0.0, -1.0 },
+           { 0.0, 0.0, 0.0 }, { 0.7, 0.0, 1.5 }, { 0.0, 0.0, 50.0 } })
+    {
+      for (const double cone : { 1.0, 45.0 })
+      {
+        PassScene scene(64, 48);
+        scene.addSpot(position, { 0.1, 0.2, -3.0 }, cone);
+        drawBothRoutes(scene);
+      }
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Filters, bothRoutesShowTheSame)
+{
+  PassScene scene(256, 256);
+  this->choose(scene);
+  scene.addFloor(4.0);
+  scene.addSphere({ 0.0, 0.0, 1.5 }, 0.7);
+  scene.addSun({ 1.0, 0.4, -1.5 });
+  scene.lookFrom({ 0.0, -9.0, 7.0 });
+  scene.pass->SetRoute(vtkGnomonShadowPass::ROUTE_INLINE);
+  const Picture direct = scene.render();
+  scene.pass->SetRoute(vtkGnomonShadowPass::ROUTE_IMAGE);
+  const Picture image = scene.render();
+  EXPECT_EQ(scene.report().route, "image");
+  EXPECT_LE(differingPixels(direct, image, 1), 3u);
+}
+
+namespace
+{
+
+/// A closed world of boxes and a sphere on a slab.
+void addClosedWorld(PassScene& scene)
+{
+  scene.addBox({ -4.0, -4.0, -0.5 }, { 4.0, 4.0, 0.0 });
+  scene.addBox({ -1.0, -1.0, 0.8 }, { 0.5, 0.5, 2.0 });
+  scene.addBox({ 1.5, -2.0, 0.0 }, { 2.5, -1.0, 1.5 });
+  scene.addSphere({ -2.0, 1.5, 1.0 }, 0.8);
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+TEST_F(PassTest, theExactEarlyOutIsThatOfTheWholeDisc)
+{
+  const auto compare = [](PassScene& scene, const Settings& more)
+  {
+    for (const int mapSize : { 60, 256, 1000 })
+    {
+      for (const char* size : { "3", "10", "25" })
+      {
+        scene.pass->SetMapSize(mapSize);
+        choose(scene, "adaptive", more);
+        choose(scene, "adaptive", { { "kernel_size", size }, { "early_out", "none" } });
+        const VisibilityImages whole = drawKept(scene);
+        scene.pass->SetSetting("early_out", "exact");
+        const VisibilityImages exact = drawKept(scene);
+        EXPECT_EQ(whole.visibility, exact.visibility) << "map " << mapSize << ", kernel " << size;
+      }
+    }
+  };
+  {
+    PassScene scene(200, 200);
+    addClosedWorld(scene);
+    scene.addSun({ 1.0, 0.4, -1.5 });
+    scene.lookFrom({ 4.0, -7.0, 6.0 });
+    compare(scene, {});
+    compare(scene, { { "projection", "lispsm" } });
+    compare(scene, { { "projection", "uniform" }, { "kernel_width", "0.3" } });
+  }
+  {
+    PassScene scene(200, 200);
+    addClosedWorld(scene);
+    scene.addSpot({ -3.0, -3.0, 5.0 }, glm::dvec3(0.0), 45.0);
+    scene.lookFrom({ 4.0, -7.0, 6.0 });
+    compare(scene, {});
+  }
+  {
+    PassScene scene(200, 200);
+    addClosedWorld(scene);
+    scene.addSpot({ 0.5, 1.0, 3.0 }, glm::dvec3(0.0), allDirections);
+    scene.lookFrom({ 4.0, -7.0, 6.0 });
+    compare(scene, {});
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(PassTest, euclideanMapsShadowAsLinearOnesDo)
+{
+  for (const double cone : { 50.0, allDirections })
+  {
+    PassScene scene(300, 300);
+    addClosedWorld(scene);
+    scene.addSpot({ -1.0, -3.0, 5.0 }, glm::dvec3(0.0), cone);
+    scene.lookFrom({ 4.0, -7.0, 6.0 });
+    choose(scene, "nsm", { { "metric", "linear" } });
+    const VisibilityImages linear = drawKept(scene);
+    choose(scene, "nsm", { { "metric", "euclidean" } });
+    const Agreement agreement = compareVisibility(linear, drawKept(scene));
+    EXPECT_EQ(scene.report().mapBakes, 1);
+    EXPECT_GT(agreement.covered, 20000u);
+    EXPECT_LE(agreement.wrong, agreement.covered / 10000) << cone;
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(PassTest, secondAndMidpointMapsOfClosedCastersHaveNoAcneAndTheSameShadows)
+{
+  for (const char* depth : { "first", "second", "midpoint" })
+  {
+    for (const char* technique : { "nsm", "pcf" })
+    {
+      for (const bool lamp : { false, true })
+      {
+        PassScene scene(300, 300);
+        addClosedWorld(scene);
+        const glm::dvec3 light(-4.0, -3.0, 6.0);
+        lamp ? scene.addSpot(light, glm::dvec3(0.0), 50.0) : scene.addSun(-light);
+        scene.lookFrom({ 4.0, -7.0, 6.0 });
+        choose(scene, technique, { { "depth", depth } });
+        const VisibilityImages mapped = drawKept(scene);
+        scene.pass->SetTechnique("raytraced");
+        const VisibilityImages& traced = drawKept(scene);
+        const Agreement agreement = compareVisibility(mapped, traced);
+        const double wrong = static_cast<double>(agreement.wrong) / agreement.covered;
+        RecordProperty(
+          std::string(depth) + technique + (lamp ? "Lamp" : "Sun"), std::to_string(wrong));
+        EXPECT_LT(wrong, 0.02) << depth << ", " << technique << ", lamp: " << lamp;
+        // The slab's middle and the sphere, where they are lit, far from any shadow.
+        std::size_t dark = 0;
+        std::size_t lit = 0;
+        for (std::size_t i = 0; i < traced.coverage.size(); ++i)
+        {
+          const glm::dvec3 point = positionOf(traced, i);
+          const bool far = point.y < -2.5 && point.z < 0.01;
+          if (traced.coverage[i] > 0.0f && far && traced.visibility[0][i] == 1.0f)
+          {
+            ++lit;
+            dark += mapped.visibility[0][i] < 1.0f ? 1 : 0;
+          }
+        }
+        EXPECT_GT(lit, 1000u);
+        EXPECT_EQ(dark, 0u) << depth << ", " << technique << ", lamp: " << lamp;
+      }
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(PassTest, aSheetCastsNoShadowIntoASecondDepthMap)
+{
+  const auto shadowOf = [](const char* depth)
+  {
+    PassScene scene(300, 300);
+    scene.addFloor(4.0);
+    scene.addFloor(1.0, 2.0);
+    scene.addSun({ 1.0, 0.0, -1.0 });
+    scene.lookDown(4.0);
+    scene.pass->SetTechnique("nsm");
+    scene.pass->SetSetting("depth", depth);
+    return scene.redAt(scene.render(), 2.0, 0.0);
+  };
+  EXPECT_EQ(shadowOf("first"), 0);
+  EXPECT_EQ(shadowOf("midpoint"), 0);
+  EXPECT_NEAR(shadowOf("second"), slantingSunValue, 1.0);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(PassTest, aNewKindOfDepthIsBakedOnce)
+{
+  PassScene scene(100, 80);
+  scene.addFloor(4.0);
+  scene.addSphere({ 0.0, 0.0, 1.5 }, 0.7);
+  scene.addSun({ 1.0, 0.4, -1.5 });
+  scene.lookFrom({ 0.0, -9.0, 7.0 });
+  scene.pass->SetTechnique("adaptive");
+  scene.render();
+  for (const auto& [name, value] : Settings{ { "depth", "midpoint" }, { "early_out", "ring" },
+         { "disc_grid", "5" }, { "disc_sets", "3" }, { "bias_constant", "0.1" },
+         { "bias_slope", "1" }, { "metric", "euclidean" }, { "kernel_width", "0.1" } })
+  {
+    scene.pass->SetSetting(name.c_str(), value.c_str());
+    scene.render();
+    EXPECT_EQ(scene.report().mapBakes, 1) << name;
+    scene.render();
+    EXPECT_EQ(scene.report().mapBakes, 0) << name;
+    EXPECT_EQ(scene.report().programCompiles, 0) << name;
+  }
+}

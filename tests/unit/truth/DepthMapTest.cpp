@@ -1,0 +1,253 @@
+// What a depth map holds, read back: its metrics, biases and surfaces, and the pyramid of its bounds.
+
+#include "EstimatorGlsl.h"
+#include "SyntheticScene.h"
+
+#include "lights/KernelShape.h"
+#include "shadowtech/adaptive/Adaptive.h"
+#include "shadowtech/base/OccluderBuffers.h"
+#include "shadowtech/base/ShaderLibrary.h"
+#include "shadowtech/compare/Compare.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gnomon::test
+{
+namespace
+{
+
+constexpr int side = 128;
+
+std::vector<float> readLayer(GLuint texture, GLenum format, int size, int level, int channels)
+{
+  std::vector<float> values(static_cast<std::size_t>(size) * static_cast<std::size_t>(size) *
+    static_cast<std::size_t>(channels));
+  glBindTexture(GL_TEXTURE_2D_ARRAY, texture);
+  glGetTexImage(GL_TEXTURE_2D_ARRAY, level, format, GL_FLOAT, values.data());
+  return values;
+}
+
+/// The map and its view, baked for a light with a single view.
+template <typename Estimator>
+class Baked : public Estimator
+{
+public:
+  Baked(ShadowLight asked, const std::vector<Prop>& props)
+    : light(std::move(asked))
+  {
+    this->light.mapSizeTexels = side;
+    const Occluders occluders = makeOccluders(props);
+    this->views = fitLightViews(this->light, occluders.centreWorld, occluders.allCentred, side,
+      this->mapReach(this->light).borderTexels());
+    OccluderBuffers buffers;
+    buffers.update(occluders);
+    ShaderLibrary shaders;
+    this->bake({ this->light, this->views, occluders, buffers, shaders });
+    this->centre = occluders.centreWorld;
+    this->depths = readLayer(this->map().name(), GL_DEPTH_COMPONENT, side, 0, 1);
+  }
+
+  const LightView& view() const { return this->views.views.front(); }
+  float at(int x, int y) const { return this->depths[static_cast<std::size_t>(y * side + x)]; }
+  /// The ray through a texel's centre, in the view's space, to distance 1.
+  glm::dvec3 ray(int x, int y) const
+  {
+    const glm::dmat3 acrossFromTexel = glm::inverse(texelFromAcross(this->view(), side));
+    return { mapped(acrossFromTexel, glm::dvec2(x + 0.5, y + 0.5)), 1.0 };
+  }
+
+  ShadowLight light;
+  LightViews views;
+  glm::dvec3 centre{ 0.0 };
+  std::vector<float> depths;
+};
+
+std::vector<Prop> floorAndBox()
+{
+  return { { makePlane(6.0) }, { makeBox({ -0.5, -0.5, 1.0 }, { 0.5, 0.5, 2.0 }) } };
+}
+
+using DepthMap = GlslTest;
+
+TEST_F(DepthMap, euclideanDepthIsTheDistanceWhateverNearAndFarAre)
+{
+  // A sheet across the axis, so that nothing is pushed back in the linear metric; and far casters that
+  // move the far plane.
+  for (const double farther : { 0.0, 10.0, 1000.0 })
+  {
+    for (const DepthSurface surface : { DepthSurface::First, DepthSurface::Second })
+    {
+      std::vector<Prop> props = { { makePlane(3.0) },
+        { makePlane(0.5), at({ 0.0, 0.0, -1.0 - farther }) } };
+      if (surface == DepthSurface::Second)
+      {
+        props = { { makeBox({ -1.5, -1.5, 0.0 }, { 1.5, 1.5, 0.5 }) },
+          { makePlane(0.5), at({ 0.0, 0.0, -1.0 - farther }) } };
+      }
+      ShadowLight light = spotLight({ 0.0, 0.0, 4.0 }, glm::dvec3(0.0), 30.0);
+      light.metric = DepthMetric::Euclidean;
+      light.depth = surface;
+      const Baked<Compare> baked(light, props);
+      int counted = 0;
+      for (int y = 0; y < side; y += 5)
+      {
+        for (int x = 0; x < side; x += 5)
+        {
+          const glm::dvec3 ray = baked.ray(x, y);
+          const glm::dvec2 onSheet = glm::dvec2(ray) * 4.0;
+          if (std::max(std::abs(onSheet.x), std::abs(onSheet.y)) > 1.4)
+          {
+            continue;
+          }
+          ++counted;
+          const double scale = baked.view().depthScale / longestRay(baked.view());
+          EXPECT_NEAR(baked.at(x, y) / scale / (4.0 * glm::length(ray)), 1.0, 1e-5);
+        }
+      }
+      EXPECT_GT(counted, 20);
+    }
+  }
+}
+
+TEST_F(DepthMap, constantBiasIsAddedInWorldUnits)
+{
+  for (const bool lamp : { false, true })
+  {
+    const ShadowLight plain = lamp ? spotLight({ 1.0, 0.5, 6.0 }, glm::dvec3(0.0), 40.0)
+                                   : directionalLight({ 0.3, 0.2, -1.0 });
+    ShadowLight biased = plain;
+    biased.biasConstant = 0.03;
+    const Baked<Compare> without(plain, floorAndBox());
+    const Baked<Compare> with(biased, floorAndBox());
+    // Polygon offset pushes by the larger slope, the shader by half their sum.
+    ShadowLight twice = biased;
+    twice.biasConstant = 0.06;
+    const Baked<Compare> withTwice(twice, floorAndBox());
+    int casters = 0;
+    for (std::size_t i = 0; i < with.depths.size(); ++i)
+    {
+      if (with.depths[i] < 0.85f)
+      {
+        ++casters;
+        EXPECT_NEAR(withTwice.depths[i] - with.depths[i], 0.03 * with.view().depthScale, 2e-6);
+      }
+      if (lamp && with.depths[i] < 0.85f)
+      {
+        EXPECT_NEAR(with.depths[i] - without.depths[i], 0.03 * with.view().depthScale, 2e-6);
+      }
+    }
+    EXPECT_GT(casters, 1000);
+  }
+}
+
+TEST_F(DepthMap, slopeBiasIsAFactorOnWhatASlopeSpans)
+{
+  // Only a floor, whose depth has one slope.
+  const ShadowLight plain = directionalLight({ 0.6, 0.0, -1.0 });
+  const auto pushedBy = [&](double factor)
+  {
+    ShadowLight light = plain;
+    light.biasSlope = factor;
+    light.biasConstant = 1e-9; // so that the shader pushes in all cases
+    const Baked<Compare> baked(light, { { makePlane(6.0) } });
+    return baked.at(side / 2, side / 2);
+  };
+  const double once = pushedBy(1.0) - pushedBy(0.0);
+  EXPECT_GT(once, 1e-4);
+  EXPECT_NEAR(pushedBy(3.0) - pushedBy(0.0), 3.0 * once, 1e-6);
+}
+
+TEST_F(DepthMap, holdsTheSurfaceThatIsAskedFor)
+{
+  // Straight above a box on a floor: its top at z = 2, its bottom at 1, the floor at 0.
+  const auto heightsOf = [](DepthSurface surface, const std::vector<Prop>& props)
+  {
+    ShadowLight light = directionalLight({ 0.0, 0.0, -1.0 });
+    light.depth = surface;
+    const Baked<Compare> baked(light, props);
+    const auto height = [&](int x, int y)
+    {
+      const double depth = baked.at(x, y);
+      return depth >= 1.0 ? -100.0
+                          : 2.0 - (depth - baked.view().depthOffset) / baked.view().depthScale;
+    };
+    return glm::dvec2(height(side / 2, side / 2), height(8, 8));
+  };
+  const std::vector<Prop> props = floorAndBox();
+  EXPECT_NEAR(glm::distance(heightsOf(DepthSurface::First, props), { 2.0, 0.0 }), 0.0, 1e-5);
+  // The floor is open: it faces the light, and nothing of it faces away.
+  EXPECT_NEAR(glm::distance(heightsOf(DepthSurface::Second, props), { 1.0, -100.0 }), 0.0, 1e-5);
+  // Alone it stays where it is.
+  EXPECT_NEAR(glm::distance(heightsOf(DepthSurface::Midpoint, props), { 1.5, 0.0 }), 0.0, 1e-5);
+  // Under the box lies the box's bottom, not the floor; one-sided casters have their front alone.
+  std::vector<Prop> oneSided = props;
+  oneSided[1].oneSided = true;
+  EXPECT_NEAR(heightsOf(DepthSurface::Second, oneSided).x, 2.0, 1e-5);
+  EXPECT_NEAR(heightsOf(DepthSurface::Midpoint, oneSided).x, 1.0, 1e-5);
+}
+
+/// Gives the pyramid away.
+class OpenAdaptive : public Adaptive
+{
+public:
+  using Adaptive::map;
+};
+
+TEST_F(DepthMap, pyramidBoundsEveryBlock)
+{
+  for (const int size : { 16, 64, 100, 127, 129 })
+  {
+    const Occluders occluders = makeOccluders(floorAndBox());
+    ShadowLight light = directionalLight({ 0.3, 0.2, -1.0 });
+    light.mapSizeTexels = size;
+    OpenAdaptive technique;
+    const LightViews views = fitLightViews(light, occluders.centreWorld, occluders.allCentred, size,
+      technique.mapReach(light).borderTexels());
+    OccluderBuffers buffers;
+    buffers.update(occluders);
+    ShaderLibrary shaders;
+    technique.bake({ light, views, occluders, buffers, shaders });
+    const std::vector<float> depths =
+      readLayer(technique.map().name(), GL_DEPTH_COMPONENT, size, 0, 1);
+    GLuint bounds = 0;
+    for (const Uniform& uniform : technique.uniforms(glm::dmat4(1.0)))
+    {
+      if (uniform.name == "depthBounds_LIGHT")
+      {
+        bounds = std::get<TextureBinding>(uniform.value).texture;
+      }
+    }
+    ASSERT_NE(bounds, 0u);
+    int blocks = 1;
+    while (2 * blocks < size)
+    {
+      blocks *= 2;
+    }
+    for (int level = 0; blocks >= 1; blocks /= 2, ++level)
+    {
+      const std::vector<float> ranges = readLayer(bounds, GL_RG, blocks, level, 2);
+      const int extent = 2 << level;
+      for (int block = 0; block < blocks * blocks; ++block)
+      {
+        float least = 1.0f;
+        float largest = 0.0f;
+        for (int texel = 0; texel < extent * extent; ++texel)
+        {
+          const int x = (block % blocks) * extent + texel % extent;
+          const int y = (block / blocks) * extent + texel / extent;
+          const float depth =
+            x < size && y < size ? depths[static_cast<std::size_t>(y * size + x)] : 1.0f;
+          least = std::min(least, depth);
+          largest = std::max(largest, depth);
+        }
+        ASSERT_EQ(ranges[static_cast<std::size_t>(2 * block)], least) << size << ", " << level;
+        ASSERT_EQ(ranges[static_cast<std::size_t>(2 * block + 1)], largest)
+          << size << ", " << level;
+      }
+    }
+  }
+}
+
+} // namespace
+} // namespace gnomon::test

@@ -1,0 +1,109 @@
+#ifndef gnomon_tests_unit_truth_EstimatorGlsl_h
+#define gnomon_tests_unit_truth_EstimatorGlsl_h
+
+// The GLSL of estimators on maps that are given, for comparison with twins.
+
+#include "lights/LightViews.h"
+#include "shadowtech/base/Technique.h"
+
+#include "vtkGnomonEGLRenderWindow.h"
+
+#include <glm/glm.hpp>
+#include <gtest/gtest.h>
+#include <vtkNew.h>
+
+#include <functional>
+#include <random>
+#include <vector>
+
+namespace gnomon::test
+{
+
+constexpr int mapSize = 64;
+
+/// Whether a texel holds a caster that hides the points below.
+using Map = std::function<bool(const glm::ivec2&)>;
+
+/// The views of a sun around the cube [-1, 1]^3.
+LightViews sunViews(const ShadowLight& light);
+
+/// What the shader answers at places of the first view's map, on a plane across the light.
+/// @param more uniforms of the technique, which has baked nothing
+std::vector<float> runGlsl(const Technique& technique, const ShadowLight& light,
+  const LightViews& views, const Map& map, const std::vector<glm::dvec2>& places,
+  const std::vector<Uniform>& more = {});
+
+/// A sun along -z.
+inline ShadowLight filteredSun(const char* kernel, int texels)
+{
+  ShadowLight light;
+  light.directionWorld = { 0.0, 0.0, -1.0 };
+  findSetting("kernel")->set(light, kernel);
+  light.kernelTexels = texels;
+  return light;
+}
+
+/// Places of a map whose kernels stay inside the map. Exact in float, so that both sides round alike.
+inline std::vector<glm::dvec2> randomPlaces(int texels)
+{
+  std::mt19937 random(5);
+  const double margin = 0.5 * texels + 2.0;
+  std::vector<glm::dvec2> places;
+  for (int i = 0; i < 2000; ++i)
+  {
+    const auto coordinate = [&]
+    { return margin + (mapSize - 2.0 * margin) * (random() / 4294967296.0); };
+    const double x = coordinate();
+    places.emplace_back(x, coordinate());
+  }
+  return places;
+}
+
+/// A map of which about half is covered, in texels that have nothing to do with their neighbours.
+inline bool scattered(const glm::ivec2& texel)
+{
+  const auto bits = static_cast<unsigned>(texel.x * 73 + texel.y * 1009);
+  return (bits * 2654435761u) >> 31u != 0u;
+}
+
+/// The part of a texel that a square of side `width` around a place covers.
+inline double covered(const glm::ivec2& texel, const glm::dvec2& place, double width)
+{
+  const glm::dvec2 lower = glm::max(glm::dvec2(texel), place - 0.5 * width);
+  const glm::dvec2 upper = glm::min(glm::dvec2(texel) + 1.0, place + 0.5 * width);
+  const glm::dvec2 size = glm::max(upper - lower, 0.0);
+  return size.x * size.y;
+}
+
+/// The lit share of a map around a place, with a weight per texel.
+template <typename Weight>
+double litShare(const Map& map, const Weight& weight)
+{
+  double lit = 0.0;
+  double all = 0.0;
+  for (int y = 0; y < mapSize; ++y)
+  {
+    for (int x = 0; x < mapSize; ++x)
+    {
+      const double share = weight(glm::ivec2(x, y));
+      lit += map({ x, y }) ? 0.0 : share;
+      all += share;
+    }
+  }
+  return lit / all;
+}
+
+class GlslTest : public testing::Test
+{
+protected:
+  void SetUp() override
+  {
+    this->window_->Initialize();
+    this->window_->MakeCurrent();
+  }
+  vtkNew<vtkGnomonEGLRenderWindow> window_;
+};
+
+} // namespace gnomon::test
+
+#endif

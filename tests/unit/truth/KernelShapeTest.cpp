@@ -1,0 +1,283 @@
+// Kernels on warped maps: their shape is even across the light, on the CPU and in the shader.
+
+#include "EstimatorGlsl.h"
+
+#include "lights/KernelShape.h"
+#include "shadowtech/pcf/Pcf.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gnomon::test
+{
+namespace
+{
+
+/// The views of the sun, warped: the eye is so far before the map's lower side that texels at its
+/// upper side are (1 + 2 / eye)^2 as high, and 1 + 2 / eye as wide, as at the lower one.
+LightViews warpedViews(const ShadowLight& light, double eye)
+{
+  LightViews views = sunViews(light);
+  glm::dmat3& map = views.views.front().mapFromAcross;
+  // y' = a + b / (y + 1 + eye), w = y + 1 + eye.
+  const double n = eye;
+  const double f = eye + 2.0;
+  const glm::dmat3 warp(n, 0.0, 0.0, 0.0, (f + n) / (f - n), 1.0, 0.0,
+    (f + n) / (f - n) * (1.0 + eye) - 2.0 * f * n / (f - n), 1.0 + eye);
+  map = warp * map;
+  return views;
+}
+
+ShadowLight warpedSun(const char* kernel, int texels)
+{
+  ShadowLight light = filteredSun(kernel, texels);
+  light.projection = Projection::Lispsm;
+  return light;
+}
+
+glm::dvec2 singularValues(const glm::dmat2& matrix)
+{
+  const double sum = glm::length(matrix[0]) * glm::length(matrix[0]) +
+    glm::length(matrix[1]) * glm::length(matrix[1]);
+  const double det = glm::determinant(matrix);
+  const double root = std::sqrt(std::max(sum * sum / 4.0 - det * det, 0.0));
+  return { std::sqrt(sum / 2.0 + root), std::sqrt(std::max(sum / 2.0 - root, 0.0)) };
+}
+
+TEST(KernelShape, jacobianIsTheDerivative)
+{
+  const ShadowLight light = warpedSun("bilinear", 3);
+  const glm::dmat3 texels = texelFromAcross(warpedViews(light, 0.3).views.front(), mapSize);
+  for (const glm::dvec2& at : { glm::dvec2(0.0), { 0.7, -0.8 }, { -0.5, 0.9 } })
+  {
+    const glm::dmat2 jacobian = texelJacobian(texels, at);
+    constexpr double step = 1e-6;
+    for (int i = 0; i < 2; ++i)
+    {
+      glm::dvec2 offset(0.0);
+      offset[i] = step;
+      const glm::dvec2 derivative =
+        (mapped(texels, at + offset) - mapped(texels, at - offset)) / (2.0 * step);
+      EXPECT_NEAR(glm::distance(derivative, jacobian[i]), 0.0, 1e-4);
+    }
+  }
+}
+
+TEST(KernelShape, evenShapeIsTheJacobianOfTheSameAreaUpToTheLimit)
+{
+  std::mt19937 random(3);
+  const auto number = [&] { return random() / 2147483648.0 - 1.0; };
+  int limited = 0;
+  for (int i = 0; i < 1000; ++i)
+  {
+    const double a = number();
+    const double b = number();
+    const double c = number();
+    glm::dmat2 jacobian(a, b, c, number());
+    if (glm::determinant(jacobian) < 0.0)
+    {
+      std::swap(jacobian[0], jacobian[1]);
+    }
+    const double limit = 1.0 + 2.0 * std::abs(number());
+    const glm::dmat2 shape = evenShape(jacobian, limit);
+    EXPECT_NEAR(glm::determinant(shape), 1.0, 1e-9);
+    const glm::dmat2 wished = jacobian / std::sqrt(glm::determinant(jacobian));
+    const double stretch = singularValues(wished).x;
+    EXPECT_NEAR(singularValues(shape).x, std::min(stretch, limit), 1e-6);
+    limited += stretch > limit ? 1 : 0;
+    if (stretch <= limit)
+    {
+      EXPECT_NEAR(
+        glm::distance(shape[0], wished[0]) + glm::distance(shape[1], wished[1]), 0.0, 1e-6);
+    }
+    else
+    {
+      // Along the same axes: shape^-1 wished is symmetric in them, and so is wished^T wished.
+      const glm::dmat2 both = glm::transpose(shape) * wished;
+      EXPECT_NEAR(both[0].y, both[1].x, 1e-6 * stretch);
+    }
+  }
+  EXPECT_GT(limited, 100);
+  // Degenerate: all across the light lies on one line of the map.
+  const glm::dmat2 flat = evenShape(glm::dmat2(1.0, 0.0, 0.0, 0.0), 3.0);
+  EXPECT_NEAR(singularValues(flat).x, 3.0, 1e-9);
+}
+
+using KernelShapeGlsl = GlslTest;
+
+TEST_F(KernelShapeGlsl, weighsTexelsInTheKernelsShape)
+{
+  for (const double eye : { 0.2, 1.0 })
+  {
+    for (const int texels : { 1, 3, 6 })
+    {
+      const ShadowLight light = warpedSun("bilinear", texels);
+      const LightViews views = warpedViews(light, eye);
+      const glm::dmat3 texelsFromAcross = texelFromAcross(views.views.front(), mapSize);
+      const std::vector<glm::dvec2> places =
+        randomPlaces(40); // the stretched kernel, too, is on the map
+      const std::vector<float> values = runGlsl(Pcf(), light, views, scattered, places);
+      for (std::size_t i = 0; i < places.size(); ++i)
+      {
+        const glm::dvec2 across = mapped(glm::inverse(texelsFromAcross), places[i]);
+        const glm::dmat2 kernelFromTexel =
+          glm::inverse(evenShape(texelJacobian(texelsFromAcross, across), largestStretch(texels)));
+        const double expected = litShare(scattered,
+          [&](const glm::ivec2& texel)
+          {
+            const glm::dvec2 away = kernelFromTexel * (glm::dvec2(texel) + 0.5 - places[i]);
+            const auto share = [&](double distance)
+            { return glm::clamp(0.5 * (texels + 1) - std::abs(distance), 0.0, 1.0); };
+            return share(away.x) * share(away.y);
+          });
+        ASSERT_NEAR(values[i], expected, 1e-3) << texels << " texels, place " << i;
+      }
+    }
+  }
+}
+
+/// What is seen of an edge across the light, as a mean over where it lies among the texels.
+struct EdgeProfile
+{
+  double step;
+  std::vector<double> lit;
+
+  /// From 10 % to 90 % lit.
+  double width() const
+  {
+    const auto reaches = [&](double value)
+    {
+      const auto found = std::lower_bound(this->lit.begin(), this->lit.end(), value);
+      return this->step * static_cast<double>(found - this->lit.begin());
+    };
+    return reaches(0.9) - reaches(0.1);
+  }
+  /// The width of a box that spreads an edge as much: what counts where taps make stairs.
+  double spread() const
+  {
+    double mean = 0.0;
+    double square = 0.0;
+    for (std::size_t i = 1; i < this->lit.size(); ++i)
+    {
+      const double rise = this->lit[i] - this->lit[i - 1];
+      const double place = this->step * static_cast<double>(i);
+      mean += rise * place;
+      square += rise * place * place;
+    }
+    return std::sqrt(12.0 * (square - mean * mean));
+  }
+};
+
+/// @param axis which the edge stands across, 0 or 1
+/// @param range of what is looked at around the edge
+EdgeProfile edgeAt(const ShadowLight& light, const LightViews& views, const glm::dvec2& across,
+  int axis, double range = 0.5)
+{
+  const glm::dmat3 texels = texelFromAcross(views.views.front(), mapSize);
+  const glm::dmat3 acrossFromTexel = glm::inverse(texels);
+  constexpr int steps = 400;
+  constexpr int phases = 24;
+  std::vector<double> profile(steps, 0.0);
+  for (int phase = 0; phase < phases; ++phase)
+  {
+    const double texel = 1.0 / singularValues(texelJacobian(texels, across)).y;
+    const double edge = across[axis] + texel * (phase + 0.5) / phases;
+    const Map map = [&](const glm::ivec2& place)
+    { return mapped(acrossFromTexel, glm::dvec2(place) + 0.5)[axis] < edge; };
+    std::vector<glm::dvec2> places;
+    for (int i = 0; i < steps; ++i)
+    {
+      glm::dvec2 at = across;
+      at[axis] = edge + range * ((i + 0.5) / steps - 0.5);
+      at[1 - axis] += 0.37 * texel * phase / phases;
+      places.push_back(mapped(texels, at));
+    }
+    const std::vector<float> values = runGlsl(Pcf(), light, views, map, places);
+    for (int i = 0; i < steps; ++i)
+    {
+      profile[static_cast<std::size_t>(i)] += values[static_cast<std::size_t>(i)] / phases;
+    }
+  }
+  return { range / steps, profile };
+}
+
+TEST_F(KernelShapeGlsl, warpedMapsBlurAsEvenlyAsPlainOnes)
+{
+  // Near and far on a map whose texels are 1.6 to 3.5 times as high as wide, or the other way round.
+  const ShadowLight plain = filteredSun("bilinear", 5);
+  const double plainX = edgeAt(plain, sunViews(plain), { 0.0, 0.0 }, 0).width();
+  const double plainY = edgeAt(plain, sunViews(plain), { 0.0, 0.0 }, 1).width();
+  EXPECT_NEAR(plainX / plainY, 1.0, 0.03);
+  for (const char* kernel : { "bilinear", "castano", "box", "poisson" })
+  {
+    const ShadowLight light = warpedSun(kernel, 5);
+    const LightViews views = warpedViews(light, 0.6);
+    const glm::dmat3 texels = texelFromAcross(views.views.front(), mapSize);
+    for (const glm::dvec2& at : { glm::dvec2(0.0, -0.7), { 0.0, 0.3 } })
+    {
+      const glm::dmat2 jacobian = texelJacobian(texels, at);
+      const double aspect = jacobian[0].x / jacobian[1].y;
+      EXPECT_GT(std::max(aspect, 1.0 / aspect), 1.25) << "the test says nothing at " << at.y;
+      const double ratio =
+        edgeAt(light, views, at, 0).width() / edgeAt(light, views, at, 1).width();
+      RecordProperty(std::string(kernel) + std::to_string(at.y),
+        std::to_string(aspect) + " " + std::to_string(ratio));
+      EXPECT_NEAR(ratio, 1.0, 0.15) << kernel << " at " << at.y << ", texels of " << aspect;
+    }
+  }
+}
+
+TEST_F(KernelShapeGlsl, aWidthAcrossTheLightIsTheSameEverywhere)
+{
+  constexpr double width = 0.6;
+  for (const char* kernel : { "bilinear", "castano", "box", "poisson" })
+  {
+    ShadowLight plain = filteredSun(kernel, 5);
+    plain.kernelWidth = width;
+    const double expected = edgeAt(plain, sunViews(plain), { 0.0, 0.0 }, 0, 0.9).spread();
+    EXPECT_GT(expected, 0.3 * width);
+    EXPECT_LT(expected, 1.1 * width);
+    ShadowLight warped = warpedSun(kernel, 5);
+    warped.kernelWidth = width;
+    const LightViews views = warpedViews(warped, 0.6);
+    for (const glm::dvec2& at : { glm::dvec2(0.0, -0.5), { 0.0, 0.3 } })
+    {
+      for (const int axis : { 0, 1 })
+      {
+        EXPECT_NEAR(edgeAt(warped, views, at, axis, 0.9).spread() / expected, 1.0, 0.15)
+          << kernel << " at " << at.y << ", axis " << axis;
+      }
+    }
+  }
+}
+
+TEST_F(KernelShapeGlsl, aBoxOfAnyWidthHasOneLevelMoreThanTaps)
+{
+  // What the survey calls the offset scale: the taps of a box lie farther apart than texels.
+  const Map halfPlane = [](const glm::ivec2& texel) { return texel.x >= mapSize / 2; };
+  for (const int texels : { 1, 3, 5, 11 })
+  {
+    for (const double scale : { 0.5, 1.0, 3.0 })
+    {
+      ShadowLight light = filteredSun("box", texels);
+      const double texelAcross = 1.0 / mostTexelsAcross(sunViews(light), mapSize);
+      light.kernelWidth = scale * texels * texelAcross;
+      std::vector<glm::dvec2> places;
+      for (int i = 0; i < 6400; ++i)
+      {
+        places.emplace_back(0.01 * i, 32.3);
+      }
+      const std::vector<float> values = runGlsl(Pcf(), light, sunViews(light), halfPlane, places);
+      std::vector<float> levels = values;
+      std::sort(levels.begin(), levels.end());
+      levels.erase(std::unique(levels.begin(), levels.end(),
+                     [](float a, float b) { return std::abs(a - b) < 1e-5f; }),
+        levels.end());
+      EXPECT_EQ(levels.size(), static_cast<std::size_t>(texels) + 1)
+        << texels << " taps, " << scale;
+    }
+  }
+}
+
+} // namespace
+} // namespace gnomon::test
