@@ -4,7 +4,6 @@
 #include "Comparison.h"
 #include "Scene.h"
 
-
 #include <functional>
 #include <string>
 #include <vector>
