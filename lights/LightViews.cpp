@@ -99,7 +99,7 @@ std::vector<LightView> layViews(const ShadowLight& light, const ViewFitting& fit
       views.push_back(*fit);
     }
   };
-  if (light.projection == Projection::Lispsm || light.projection == Projection::Trapezoid)
+  if (isWarped(light))
   {
     const glm::dmat3 warp = light.projection == Projection::Lispsm
       ? lispsmFromAcross(visible, camera, view.rays)
@@ -215,11 +215,15 @@ ViewLayout viewLayout(const ShadowLight& light)
 }
 
 //------------------------------------------------------------------------------
+bool isWarped(const ShadowLight& light)
+{
+  return light.projection == Projection::Lispsm || light.projection == Projection::Trapezoid;
+}
+
+//------------------------------------------------------------------------------
 bool isFittedToCamera(const ShadowLight& light)
 {
-  const bool forACamera = light.projection == Projection::Lispsm ||
-    light.projection == Projection::Trapezoid || light.projection == Projection::Splits;
-  return forACamera || light.fit != ViewFit::Off;
+  return isWarped(light) || light.projection == Projection::Splits || light.fit != ViewFit::Off;
 }
 
 //------------------------------------------------------------------------------

@@ -65,6 +65,9 @@ constexpr double largestSingleViewConeDegrees = 60.0;
 /// light alone, so that shaders can be built before the casters are known.
 ViewLayout viewLayout(const ShadowLight& light);
 
+/// Whether the light's view is warped, so that texels are of different sizes across the light.
+bool isWarped(const ShadowLight& light);
+
 /// Whether the light's views are made for what a camera sees, rather than for all of the scene.
 bool isFittedToCamera(const ShadowLight& light);
 

@@ -126,7 +126,7 @@ bool takes(const Setting& setting, const std::string& text)
 {
   ShadowSettings scratch;
   return setting.set(scratch, text) && (setting.name != "technique" || findTechnique(text)) &&
-    (setting.name != "estimator" || findEstimator(text));
+    (setting.name != "estimator" || text.empty() || findEstimator(text));
 }
 
 //------------------------------------------------------------------------------
@@ -138,33 +138,43 @@ std::string expectedBy(const Setting& setting)
 }
 
 //------------------------------------------------------------------------------
-const EstimatorEntry& compose(ShadowLight& light)
+const EstimatorEntry& estimatorOf(const ShadowSettings& settings)
 {
-  light.technique = light.technique.empty() ? defaultTechnique : light.technique;
-  const TechniqueEntry* technique = findTechnique(light.technique);
+  const std::string name = settings.technique.empty() ? defaultTechnique : settings.technique;
+  const TechniqueEntry* technique = findTechnique(name);
   if (!technique)
   {
     throw CompositionError(
-      "the technique '" + light.technique + "' is asked for; there are: " + techniqueNames());
+      "the technique '" + name + "' is asked for; there are: " + techniqueNames());
   }
   const EstimatorEntry* estimator =
-    light.estimator.empty() ? technique->estimator : findEstimator(light.estimator);
+    settings.estimator.empty() ? technique->estimator : findEstimator(settings.estimator);
   if (!estimator)
   {
     throw CompositionError(
-      "the estimator '" + light.estimator + "' is asked for; there are: " + estimatorNames());
+      "the estimator '" + settings.estimator + "' is asked for; there are: " + estimatorNames());
   }
-  light.estimator = estimator->info.name;
+  return *estimator;
+}
+
+//------------------------------------------------------------------------------
+const EstimatorEntry& compose(ShadowLight& light)
+{
+  const EstimatorEntry& estimator = estimatorOf(light);
+  const TechniqueInfo& info = estimator.info;
+  light.technique = light.technique.empty() ? defaultTechnique : light.technique;
+  light.estimator = info.name;
   if (light.projection == Projection::OfTechnique)
   {
-    light.projection = estimator->info.needsMap ? technique->projection : Projection::Uniform;
+    light.projection =
+      info.needsMap ? findTechnique(light.technique)->projection : Projection::Uniform;
   }
-  else if (!estimator->info.needsMap)
+  else if (!info.needsMap)
   {
     throw CompositionError(
       "'" + light.estimator + "' reads no map that a projection could lay out");
   }
-  if (estimator->info.filters && light.kernel == FilterKernel::Castano && light.kernelTexels != 3 &&
+  if (info.filters && light.kernel == FilterKernel::Castano && light.kernelTexels != 3 &&
     light.kernelTexels != 5 && light.kernelTexels != 7)
   {
     throw CompositionError(
@@ -175,7 +185,7 @@ const EstimatorEntry& compose(ShadowLight& light)
   {
     throw CompositionError(refused);
   }
-  return *estimator;
+  return estimator;
 }
 
 } // namespace gnomon

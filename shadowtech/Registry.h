@@ -68,7 +68,11 @@ public:
   using std::runtime_error::runtime_error;
 };
 
-/// The estimator that a light's settings lead to. Completes the light: its technique, its estimator
+/// The estimator that settings lead to, for lights of any kind.
+/// @throws CompositionError for names that do not exist
+const EstimatorEntry& estimatorOf(const ShadowSettings& settings);
+
+/// The same for a light, whose settings must make sense together. Completes the light: its technique, its estimator
 /// and its projection say what they are.
 /// @throws CompositionError with the reason
 const EstimatorEntry& compose(ShadowLight& light);

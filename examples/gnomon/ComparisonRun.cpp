@@ -55,9 +55,7 @@ VariantSpec parseTechnique(const std::string& text)
   return spec;
 }
 
-/// The estimator that a variant's settings lead to for each of the scene's lights.
-/// @throws CompositionError where one of them refuses
-const TechniqueInfo& composeFor(const VariantSpec& spec, vtkRenderer* renderer)
+ShadowSettings settingsOf(const VariantSpec& spec)
 {
   ShadowSettings settings;
   settings.technique = spec.technique;
@@ -65,14 +63,16 @@ const TechniqueInfo& composeFor(const VariantSpec& spec, vtkRenderer* renderer)
   {
     findSetting(name)->set(settings, value);
   }
-  for (ShadowLight light : LightManager::collect(renderer, settings).casting)
+  return settings;
+}
+
+/// @throws CompositionError where one of the scene's lights refuses a variant's settings
+void requireComposition(const VariantSpec& spec, vtkRenderer* renderer)
+{
+  for (ShadowLight light : LightManager::collect(renderer, settingsOf(spec)).casting)
   {
     compose(light);
   }
-  ShadowLight any;
-  static_cast<ShadowSettings&>(any) = settings;
-  any.projection = Projection::OfTechnique;
-  return compose(any).info;
 }
 
 /// @param leftOut filled with the reason for each technique that a light refuses
@@ -95,7 +95,8 @@ std::vector<VariantSpec> listVariants(
   for (const std::string& text : techniques)
   {
     VariantSpec spec = parseTechnique(text);
-    if (findTechnique(spec.technique)->estimator->info.needsMap)
+    const TechniqueInfo& info = estimatorOf(settingsOf(spec)).info;
+    if (info.needsMap)
     {
       for (const auto& [name, value] : plan.settings)
       {
@@ -105,26 +106,25 @@ std::vector<VariantSpec> listVariants(
         }
       }
     }
-    const TechniqueInfo* info = nullptr;
     try
     {
-      info = &composeFor(spec, renderer);
+      requireComposition(spec, renderer);
     }
     catch (const CompositionError& error)
     {
       leftOut.push_back(text + " is left out: " + error.what() + ".");
       continue;
     }
-    spec.pointwise = info->pointwise;
-    for (int size : info->needsMap ? plan.mapSizesTexels : std::vector<int>{ 0 })
+    spec.pointwise = info.pointwise;
+    for (int size : info.needsMap ? plan.mapSizesTexels : std::vector<int>{ 0 })
     {
       spec.mapSizeTexels = size;
-      if (info->pointwise && plan.inlineRoute)
+      if (info.pointwise && plan.inlineRoute)
       {
         spec.route = vtkGnomonShadowPass::ROUTE_INLINE;
         specs.push_back(spec);
       }
-      if (!info->pointwise || plan.imageRoute)
+      if (!info.pointwise || plan.imageRoute)
       {
         spec.route = vtkGnomonShadowPass::ROUTE_IMAGE;
         specs.push_back(spec);

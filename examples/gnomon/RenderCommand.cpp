@@ -72,11 +72,14 @@ void check(const RenderOptions& options)
       throw BadInput("--stats: " + options.stats + ": is the scene's file, too");
     }
   }
-  // The option has refused what there is not.
-  const TechniqueEntry* technique = findTechnique(options.settings.at("technique"));
-  if (technique && options.route == "inline" && !technique->estimator->info.pointwise)
+  // The options have refused what there is not.
+  ShadowSettings settings;
+  settings.technique = options.settings.at("technique");
+  settings.estimator = options.settings.at("estimator");
+  const TechniqueInfo& info = estimatorOf(settings).info;
+  if (options.route == "inline" && !info.pointwise)
   {
-    throw BadInput("--route inline: technique " + technique->name +
+    throw BadInput("--route inline: technique " + info.name +
       " works on the screen, expected --route image or auto");
   }
 }

@@ -21,11 +21,6 @@ glm::vec4 scaleAndOffset(const glm::dmat3& texelFromAcross)
   return { texelFromAcross[0].x, texelFromAcross[1].y, texelFromAcross[2].x, texelFromAcross[2].y };
 }
 
-bool isWarped(const ShadowLight& light)
-{
-  return light.projection == Projection::Lispsm || light.projection == Projection::Trapezoid;
-}
-
 } // namespace
 
 //------------------------------------------------------------------------------

@@ -1,6 +1,7 @@
 #include "shadowtech/depth_map/Kernel.h"
 
 #include "lights/KernelShape.h"
+#include "lights/LightViews.h"
 
 namespace gnomon
 {
@@ -12,9 +13,7 @@ KernelUnits kernelUnits(const ShadowLight& light)
   {
     return KernelUnits::Across;
   }
-  return light.projection == Projection::Lispsm || light.projection == Projection::Trapezoid
-    ? KernelUnits::Even
-    : KernelUnits::Texels;
+  return isWarped(light) ? KernelUnits::Even : KernelUnits::Texels;
 }
 
 //------------------------------------------------------------------------------

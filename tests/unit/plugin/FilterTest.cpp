@@ -1,6 +1,7 @@
 // Filters on all kinds of maps: no acne, on warped maps neither, and no kind of depth or early-out that
 // breaks them.
 
+#include "LitPlane.h"
 #include "PassScene.h"
 
 #include "plugin/VisibilityImages.h"
@@ -82,49 +83,14 @@ INSTANTIATE_TEST_SUITE_P(Kinds, Filters,
 //------------------------------------------------------------------------------
 TEST_P(Filters, litPlaneHasNoAcneUnderTheSun)
 {
-  for (const int mapSize : { 64, 1024 })
-  {
-    PassScene scene(200, 200);
-    this->choose(scene);
-    scene.addFloor(4.0);
-    vtkLight* sun = scene.addSun({ 0.0, 0.0, -1.0 });
-    scene.pass->SetMapSize(mapSize);
-    scene.lookFrom({ 1.0, -7.0, 6.0 });
-    for (const double degrees : { 0.0, 5.0, 45.0, 75.0, 85.0, 89.0 })
-    {
-      const double angle = glm::radians(degrees);
-      const glm::dvec3 toLight(0.8 * std::sin(angle), 0.6 * std::sin(angle), std::cos(angle));
-      sun->SetPosition(toLight.x, toLight.y, toLight.z);
-      const Acne acne = countAcneOfSun(drawKept(scene), toLight);
-      EXPECT_GT(acne.facing, 10000u);
-      EXPECT_EQ(acne.dark, 0u) << degrees << " degrees, map " << mapSize;
-    }
-  }
+  expectNoAcneUnderTheSun(
+    [](PassScene& scene, vtkLight*) { choose(scene); }, { 0.0, 5.0, 45.0, 75.0, 85.0, 89.0 });
 }
 
 //------------------------------------------------------------------------------
 TEST_P(Filters, litPlaneHasNoAcneUnderASpotLight)
 {
-  PassScene scene(200, 200);
-  this->choose(scene);
-  scene.addFloor(4.0);
-  scene.lookFrom({ 1.0, -7.0, 6.0 });
-  vtkLight* spot = scene.addSpot({ 0.0, 0.0, 3.0 }, glm::dvec3(0.0), 60.0);
-  for (const double height : { 3.0, 1.0, 0.3, 0.1 })
-  {
-    const glm::dvec3 light(-3.0, -2.0, height);
-    spot->SetPosition(light.x, light.y, light.z);
-    const glm::dvec3 axis = glm::normalize(-light);
-    const Acne acne = countAcne(drawKept(scene),
-      [&](const glm::dvec3& point)
-      {
-        const glm::dvec3 toPoint = glm::normalize(point - light);
-        const bool inCone = glm::dot(toPoint, axis) > std::cos(glm::radians(59.5));
-        return inCone ? -toPoint : glm::dvec3(0.0);
-      });
-    EXPECT_GT(acne.facing, 5000u);
-    EXPECT_EQ(acne.dark, 0u) << "height " << height;
-  }
+  expectNoAcneUnderASpot([](PassScene& scene, vtkLight*) { choose(scene); }, { 60.0 });
 }
 
 //------------------------------------------------------------------------------

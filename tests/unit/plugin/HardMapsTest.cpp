@@ -1,6 +1,7 @@
 // The quality of hard shadow maps of all projections, with their default settings: no acne, no
 // detached shadows, and no view that breaks them.
 
+#include "LitPlane.h"
 #include "PassScene.h"
 
 #include "plugin/VisibilityImages.h"
@@ -58,56 +59,15 @@ INSTANTIATE_TEST_SUITE_P(Layouts, HardMaps,
 //------------------------------------------------------------------------------
 TEST_P(HardMaps, litPlaneHasNoAcneAtAnyAngle)
 {
-  for (const int mapSize : { 64, 1024 })
-  {
-    PassScene scene(200, 200);
-    this->choose(scene);
-    scene.addFloor(4.0);
-    vtkLight* sun = scene.addSun({ 0.0, 0.0, -1.0 });
-    scene.pass->SetMapSize(mapSize);
-    scene.lookFrom({ 1.0, -7.0, 6.0 });
-    for (const double degrees : { 0.0, 5.0, 30.0, 45.0, 60.0, 75.0, 85.0, 88.0, 89.0 })
-    {
-      const double angle = glm::radians(degrees);
-      // Turned off the axes, so that texels and edges do not agree.
-      const glm::dvec3 toLight(0.8 * std::sin(angle), 0.6 * std::sin(angle), std::cos(angle));
-      sun->SetPosition(toLight.x, toLight.y, toLight.z);
-      const Acne acne = countAcneOfSun(drawKept(scene), toLight);
-      EXPECT_GT(acne.facing, 10000u);
-      EXPECT_EQ(acne.dark, 0u) << degrees << " degrees, map " << mapSize;
-    }
-  }
+  expectNoAcneUnderTheSun([](PassScene& scene, vtkLight*) { choose(scene); },
+    { 0.0, 5.0, 30.0, 45.0, 60.0, 75.0, 85.0, 88.0, 89.0 });
 }
 
 //------------------------------------------------------------------------------
 TEST_P(HardMaps, litPlaneHasNoAcneUnderASpotLight)
 {
-  PassScene scene(200, 200);
-  this->choose(scene);
-  scene.addFloor(4.0);
-  scene.lookFrom({ 1.0, -7.0, 6.0 });
-  vtkLight* spot = scene.addSpot({ 0.0, 0.0, 3.0 }, glm::dvec3(0.0), this->coneUpTo(80.0));
-  for (const double height : { 3.0, 1.0, 0.3, 0.1 })
-  {
-    spot->SetPosition(-3.0, -2.0, height);
-    const VisibilityImages& kept = drawKept(scene);
-    std::size_t inside = 0;
-    std::size_t dark = 0;
-    for (std::size_t i = 0; i < kept.coverage.size(); ++i)
-    {
-      const glm::dvec3 position(kept.origin[0] + kept.positionX[i],
-        kept.origin[1] + kept.positionY[i], kept.origin[2] + kept.positionZ[i]);
-      const glm::dvec3 toPoint = position - glm::dvec3(-3.0, -2.0, height);
-      const glm::dvec3 axis = glm::normalize(glm::dvec3(3.0, 2.0, -height));
-      const bool inCone = kept.coverage[i] > 0.0f &&
-        glm::dot(glm::normalize(toPoint), axis) >
-          std::cos(glm::radians(this->coneUpTo(80.0) - 0.5));
-      inside += inCone ? 1 : 0;
-      dark += inCone && kept.visibility[0][i] < 1.0f ? 1 : 0;
-    }
-    EXPECT_GT(inside, 5000u);
-    EXPECT_EQ(dark, 0u) << "height " << height;
-  }
+  expectNoAcneUnderASpot(
+    [](PassScene& scene, vtkLight*) { choose(scene); }, { this->coneUpTo(80.0) });
 }
 
 //------------------------------------------------------------------------------

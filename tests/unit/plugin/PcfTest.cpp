@@ -1,6 +1,7 @@
 // Percentage closer filtering with every kernel: no acne, shadows as far from contacts as the kernel
 // reaches and no farther, and no setting or view that breaks it.
 
+#include "LitPlane.h"
 #include "PassScene.h"
 
 #include "lights/LightViews.h"
@@ -85,55 +86,14 @@ INSTANTIATE_TEST_SUITE_P(Kernels, Pcf,
 //------------------------------------------------------------------------------
 TEST_P(Pcf, litPlaneHasNoAcneUnderTheSun)
 {
-  for (const int mapSize : { 64, 1024 })
-  {
-    PassScene scene(200, 200);
-    scene.addFloor(4.0);
-    vtkLight* sun = scene.addSun({ 0.0, 0.0, -1.0 });
-    choose(scene, sun);
-    scene.pass->SetMapSize(mapSize);
-    scene.lookFrom({ 1.0, -7.0, 6.0 });
-    for (const double degrees : { 0.0, 0.01, 5.0, 45.0, 75.0, 85.0, 88.0, 89.0 })
-    {
-      const double angle = glm::radians(degrees);
-      const glm::dvec3 toLight(0.8 * std::sin(angle), 0.6 * std::sin(angle), std::cos(angle));
-      sun->SetPosition(toLight.x, toLight.y, toLight.z);
-      const Acne acne = countAcneOfSun(drawKept(scene), toLight);
-      EXPECT_GT(acne.facing, 10000u);
-      EXPECT_EQ(acne.dark, 0u) << degrees << " degrees, map " << mapSize;
-    }
-  }
+  expectNoAcneUnderTheSun(&choose, { 0.0, 0.01, 5.0, 45.0, 75.0, 85.0, 88.0, 89.0 });
 }
 
 //------------------------------------------------------------------------------
 TEST_P(Pcf, litPlaneHasNoAcneUnderASpotLight)
 {
-  PassScene scene(200, 200);
-  scene.addFloor(4.0);
-  scene.lookFrom({ 1.0, -7.0, 6.0 });
   // Cones that have one view, and those that have a cube's.
-  for (const double cone : { 50.0, 80.0 })
-  {
-    vtkLight* spot = scene.addSpot({ 0.0, 0.0, 3.0 }, glm::dvec3(0.0), cone);
-    choose(scene, spot);
-    for (const double height : { 3.0, 1.0, 0.3, 0.1 })
-    {
-      const glm::dvec3 light(-3.0, -2.0, height);
-      spot->SetPosition(light.x, light.y, light.z);
-      const VisibilityImages& kept = drawKept(scene);
-      const glm::dvec3 axis = glm::normalize(-light);
-      const Acne acne = countAcne(kept,
-        [&](const glm::dvec3& point)
-        {
-          const glm::dvec3 toPoint = glm::normalize(point - light);
-          const bool inCone = glm::dot(toPoint, axis) > std::cos(glm::radians(cone - 0.5));
-          return inCone ? -toPoint : glm::dvec3(0.0);
-        });
-      EXPECT_GT(acne.facing, 5000u);
-      EXPECT_EQ(acne.dark, 0u) << "cone " << cone << ", height " << height;
-    }
-    scene.renderer->RemoveAllLights();
-  }
+  expectNoAcneUnderASpot(&choose, { 50.0, 80.0 });
 }
 
 //------------------------------------------------------------------------------

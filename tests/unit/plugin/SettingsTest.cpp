@@ -114,6 +114,21 @@ TEST_F(Settings, whatASettingDoesNotTakeIsAnErrorAndChangesNothing)
 }
 
 //------------------------------------------------------------------------------
+TEST_F(Settings, anEmptyEstimatorIsTheTechniquesOwnAgain)
+{
+  PassScene scene(100, 80);
+  fill(scene);
+  scene.pass->SetSetting("estimator", "pcf");
+  scene.render();
+  EXPECT_EQ(scene.report().lights[0].estimator, "pcf");
+  scene.pass->SetSetting("estimator", "");
+  scene.render();
+  EXPECT_EQ(scene.report().lights[0].estimator, "compare");
+  scene.pass->SetSetting("estimator", "magic");
+  EXPECT_THAT(this->takeErrors(), HasSubstr("one of: adaptive, compare, pcf, "));
+}
+
+//------------------------------------------------------------------------------
 TEST_F(Settings, techniquesAreListed)
 {
   ASSERT_GE(vtkGnomonShadowPass::GetNumberOfTechniques(), 2);

@@ -1,0 +1,64 @@
+#include "LitPlane.h"
+
+#include <cmath>
+
+namespace gnomon::test
+{
+
+//------------------------------------------------------------------------------
+void expectNoAcneUnderTheSun(const Choose& choose, const std::vector<double>& degrees)
+{
+  for (const int mapSize : { 64, 1024 })
+  {
+    PassScene scene(200, 200);
+    scene.addFloor(4.0);
+    vtkLight* sun = scene.addSun({ 0.0, 0.0, -1.0 });
+    choose(scene, sun);
+    scene.pass->SetMapSize(mapSize);
+    scene.lookFrom({ 1.0, -7.0, 6.0 });
+    for (const double degree : degrees)
+    {
+      const double angle = glm::radians(degree);
+      const glm::dvec3 toLight(0.8 * std::sin(angle), 0.6 * std::sin(angle), std::cos(angle));
+      sun->SetPosition(toLight.x, toLight.y, toLight.z);
+      const Acne acne = countAcneOfSun(drawKept(scene), toLight);
+      EXPECT_GT(acne.facing, 10000u);
+      EXPECT_EQ(acne.dark, 0u) << degree << " degrees, map " << mapSize;
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+void expectNoAcneUnderASpot(const Choose& choose, const std::vector<double>& conesDegrees)
+{
+  for (const double cone : conesDegrees)
+  {
+    for (const int mapSize : { 64, 1024 })
+    {
+      PassScene scene(200, 200);
+      scene.addFloor(4.0);
+      scene.lookFrom({ 1.0, -7.0, 6.0 });
+      vtkLight* spot = scene.addSpot({ 0.0, 0.0, 3.0 }, glm::dvec3(0.0), cone);
+      choose(scene, spot);
+      scene.pass->SetMapSize(mapSize);
+      for (const double height : { 3.0, 1.0, 0.3, 0.1 })
+      {
+        const glm::dvec3 light(-3.0, -2.0, height);
+        spot->SetPosition(light.x, light.y, light.z);
+        const glm::dvec3 axis = glm::normalize(-light);
+        const Acne acne = countAcne(drawKept(scene),
+          [&](const glm::dvec3& point)
+          {
+            // Half a degree inside, where rounding does not decide.
+            const glm::dvec3 toPoint = glm::normalize(point - light);
+            const bool inCone = glm::dot(toPoint, axis) > std::cos(glm::radians(cone - 0.5));
+            return inCone ? -toPoint : glm::dvec3(0.0);
+          });
+        EXPECT_GT(acne.facing, 5000u);
+        EXPECT_EQ(acne.dark, 0u) << "cone " << cone << ", height " << height << ", map " << mapSize;
+      }
+    }
+  }
+}
+
+} // namespace gnomon::test

@@ -1,0 +1,28 @@
+#ifndef gnomon_tests_unit_plugin_LitPlane_h
+#define gnomon_tests_unit_plugin_LitPlane_h
+
+#include "PassScene.h"
+
+#include <functional>
+#include <vector>
+
+namespace gnomon::test
+{
+
+/// Gives a scene the technique that is tested, its light, or both.
+using Choose = std::function<void(PassScene&, vtkLight*)>;
+
+///@{
+/// Expects a plane that nothing hides to be fully lit, with maps of 64 and 1024 texels.
+
+/// Under a sun at these angles from the plane's normal, turned off the axes, so that texels and edges do
+/// not agree.
+void expectNoAcneUnderTheSun(const Choose& choose, const std::vector<double>& degrees);
+
+/// Under spot lights of these cones, from above to grazing.
+void expectNoAcneUnderASpot(const Choose& choose, const std::vector<double>& conesDegrees);
+///@}
+
+} // namespace gnomon::test
+
+#endif
