@@ -142,6 +142,7 @@ struct PixelResult
   bool covered = false; ///< in the file and in truth
   double positionError = 0.0;
   bool otherSurface = false;
+  bool otherFace = false;
   bool normalDiffers = false;
   enum class Light : unsigned char
   {
@@ -183,10 +184,10 @@ public:
     result.covered = coveredInFile && truth;
     if (result.covered)
     {
-      this->compareSurface(pixel, x, y, *truth, result);
+      const Point drawn = this->compareSurface(pixel, x, y, *truth, result);
       for (std::size_t light = 0; light < this->scene_.lights.size(); ++light)
       {
-        result.lights.push_back(this->compareLight(light, pixel, *truth));
+        result.lights.push_back(this->compareLight(light, pixel, drawn));
       }
     }
     return result;
@@ -218,10 +219,9 @@ private:
   bool onOtherSurface(const Vec3& position, double x, double y, const Point& truth) const
   {
     const Ray ray = this->camera_.through(x, y);
-    const Vec3 view = position - ray.origin;
-    const double looking = lookingPixels * this->camera_.pixelAngle() * view.length();
-    const double nearby = tolerance::positionError * view.length();
-    if (view.cross(ray.direction).length() > looking + storedPrecision * view.length())
+    const double distance = (position - ray.origin).length();
+    const double nearby = tolerance::positionError * distance;
+    if (!this->looksAt(ray, position))
     {
       return false;
     }
@@ -236,19 +236,55 @@ private:
       const std::optional<Hit> hit = this->tracer_.nearest(
         this->camera_.through(x + radius * std::cos(angle), y + radius * std::sin(angle)));
       const Triangle* const other = hit ? &this->triangleOf(*hit) : truthTriangle;
-      if (other == truthTriangle ||
-        !this->tracer_.touches(
-          position, nearby, [other](const Triangle& triangle) { return &triangle == other; }))
+      if (other == truthTriangle || (position - nearestPoint(position, *other)).length() > nearby)
       {
         continue;
       }
-      const std::optional<double> distance = intersect(ray, *other);
-      if (!distance || std::abs(*distance - view.length()) <= nearby)
+      const std::optional<double> met = intersect(ray, *other);
+      if (!met || std::abs(*met - distance) <= nearby)
       {
         return true;
       }
     }
     return false;
+  }
+
+  /// Whether a camera ray passes a point more closely than a rasteriser can tell.
+  bool looksAt(const Ray& ray, const Vec3& point) const
+  {
+    const Vec3 view = point - ray.origin;
+    const double looking = lookingPixels * this->camera_.pixelAngle() * view.length();
+    return view.cross(ray.direction).length() <= looking + storedPrecision * view.length();
+  }
+
+  /// The point of a triangle that a position and a normal on the camera's side are those of: the nearest
+  /// within the tolerance, if the pixel's ray passes it by more closely than a rasteriser can tell.
+  std::optional<Point> drawn(const Vec3& position, const Vec3& normal, double x, double y) const
+  {
+    const Ray ray = this->camera_.through(x, y);
+    const double distance = (position - ray.origin).length();
+    const std::optional<Hit> hit =
+      this->tracer_.nearestTo(position, tolerance::positionError * distance,
+        [&](const Triangle& triangle)
+        {
+          const Vec3 front = frontOf(triangle);
+          return (sameNormal(normal, front) || sameNormal(normal, -front)) &&
+            this->looksAt(ray, nearestPoint(position, triangle));
+        });
+    if (!hit || normal.dot(position - ray.origin) > 0.0)
+    {
+      return std::nullopt;
+    }
+    // An edge belongs to both of its faces. What is meant lies inside this one, if only by as much as
+    // a position is stored to.
+    const Triangle& triangle = this->triangleOf(*hit);
+    const Vec3 inwards = (triangle[0] + triangle[1] + triangle[2]) / 3.0 - hit->position;
+    const double length = inwards.length();
+    const Vec3 inside =
+      hit->position + std::min(storedPrecision * distance / length, 0.5) * inwards;
+    const Vec3 front = frontOf(triangle);
+    return Point{ { inside, distance, hit->surface, hit->triangle },
+      sameNormal(normal, front) ? front : -front };
   }
 
   const Triangle& triangleOf(const Hit& hit) const
@@ -263,35 +299,33 @@ private:
 
   /// Position and normal. Where they are not those at the pixel's centre, they may be those of
   /// another triangle that a rasteriser finds there.
-  void compareSurface(
+  /// @return the point that the file's visibility is one of
+  Point compareSurface(
     std::size_t pixel, double x, double y, const Point& truth, PixelResult& result) const
   {
     const Vec3 position = this->file_.origin + this->file_.vector("position", pixel);
     const Vec3 normal = this->file_.vector("normal", pixel);
     result.positionError = positionError(position, truth);
-    const Vec3 view = position - this->scene_.camera.position;
-    const double nearby = tolerance::positionError * view.length();
-    result.otherSurface = result.positionError > tolerance::positionError &&
-      std::isfinite(result.positionError) && this->onOtherSurface(position, x, y, truth);
     result.normalDiffers = !sameNormal(normal, truth.normal);
-    if (result.normalDiffers && normal.dot(view) <= 0.0)
+    const bool elsewhere = result.positionError > tolerance::positionError;
+    if ((!elsewhere && !result.normalDiffers) || !std::isfinite(result.positionError))
     {
-      result.normalDiffers = !this->tracer_.touches(position, nearby,
-        [&](const Triangle& triangle)
-        {
-          const Vec3 front = frontOf(triangle);
-          return sameNormal(normal, front) || sameNormal(normal, -front);
-        });
+      return truth;
     }
+    const std::optional<Point> drawn = this->drawn(position, normal, x, y);
+    result.otherSurface = elsewhere && this->onOtherSurface(position, x, y, truth);
+    result.otherFace = !elsewhere && drawn;
+    result.normalDiffers = result.normalDiffers && !drawn;
+    return drawn && (result.otherSurface || result.otherFace) ? *drawn : truth;
   }
 
-  PixelResult::Light compareLight(std::size_t light, std::size_t pixel, const Point& truth) const
+  PixelResult::Light compareLight(std::size_t light, std::size_t pixel, const Point& drawn) const
   {
     const double value = static_cast<double>((*this->visibility_[light])[pixel]);
     const auto isWrong = [value](double expected)
     { return !(std::abs(value - expected) <= tolerance::visibilityDifference); };
-    const ShadowRay shadow = shadowRay(this->scene_.lights[light], truth);
-    const bool receives = this->scene_.surfaces[truth.hit.surface].receives;
+    const ShadowRay shadow = shadowRay(this->scene_.lights[light], drawn);
+    const bool receives = this->scene_.surfaces[drawn.hit.surface].receives;
     if (shadow.lighting == Lighting::Unlit)
     {
       return receives && isWrong(0.0) ? PixelResult::Light::UnlitWrong : PixelResult::Light::Unlit;
@@ -338,6 +372,10 @@ void add(Result& result, std::size_t pixel, const PixelResult& found)
       result.positionError = found.positionError;
       result.positionErrorAt = pixel;
     }
+  }
+  if (found.otherFace)
+  {
+    result.otherFace.push_back(pixel);
   }
   if (found.normalDiffers)
   {
@@ -466,6 +504,7 @@ std::string toJson(const Result& result, int width)
     result.positionErrorAt / columns };
   json["position"] = toJson(result.position, columns);
   json["other_surface"] = toJson(result.otherSurface, columns);
+  json["other_face"] = toJson(result.otherFace, columns);
   json["normal"] = toJson(result.normal, columns);
   json["lights"] = nlohmann::ordered_json::array();
   for (const LightResult& light : result.lights)

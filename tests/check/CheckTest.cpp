@@ -191,6 +191,7 @@ TEST(Check, FindsNothingInATrueFile)
   EXPECT_EQ(result.coverage, Pixels());
   EXPECT_EQ(result.position, Pixels());
   EXPECT_EQ(result.otherSurface, Pixels());
+  EXPECT_EQ(result.otherFace, Pixels());
   EXPECT_EQ(result.normal, Pixels());
   ASSERT_EQ(result.lights.size(), 1u);
   EXPECT_EQ(result.lights[0].counted, 8100u);
@@ -247,7 +248,7 @@ TEST(Check, AnotherSurfaceAtItsEdgeIsADifferenceInCoverage)
 {
   // The plate's right edge looks at 8 of 10 times the border's tangent; the first pixel's ray beside
   // it passes at the given distance, in pixels.
-  const auto compareWith = [](double pixels, double along)
+  const auto compareWith = [](double pixels, double along, float visibility = 1.0f)
   {
     TrueFile image;
     nlohmann::json scene = makeScene();
@@ -257,11 +258,16 @@ TEST(Check, AnotherSurfaceAtItsEdgeIsADifferenceInCoverage)
     scene["models"][1]["matrix"][0] = edge;
     const double z = (cameraHeight - plateHeight) * (2.0 * 50.5 / sidePixels - 1.0);
     image.setPosition(column, 50, Vec3(edge - along, plateHeight, z));
+    image.at("visibility.0", column, 50) = visibility;
     return check(scene, image.file);
   };
   const Result closely = compareWith(1.0 / 256.0, 0.0);
   EXPECT_EQ(closely.otherSurface, pixels({ { 56, 50 } }));
   EXPECT_EQ(closely.position, Pixels());
+  // The plate is lit, where the ground behind it is not: what counts is what the file shows.
+  EXPECT_EQ(closely.lights[0].falseLight, Pixels());
+  EXPECT_EQ(compareWith(1.0 / 256.0, 0.0, 0.0f).lights[0].falseShadow, pixels({ { 56, 50 } }));
+  EXPECT_EQ(compareWith(1.0 / 16.0, 0.0).lights[0].falseLight, pixels({ { 56, 50 } }));
   // Too far beside the ray for a rasteriser, and not where the ray comes closest.
   EXPECT_EQ(compareWith(1.0 / 16.0, 0.0).otherSurface, Pixels());
   EXPECT_EQ(compareWith(1.0 / 16.0, 0.0).position, pixels({ { 56, 50 } }));
@@ -271,6 +277,40 @@ TEST(Check, AnotherSurfaceAtItsEdgeIsADifferenceInCoverage)
   EXPECT_GT(compareWith(-1.0 / 256.0, 0.0).otherSurface.size(), 20u);
   EXPECT_EQ(compareWith(-1.0 / 16.0, 0.0).otherSurface, Pixels());
   EXPECT_GT(compareWith(-1.0 / 16.0, 0.0).position.size(), 20u);
+}
+
+//------------------------------------------------------------------------------
+/// Two faces meet in an edge beside the pixel's ray: their positions there agree, their normals do not.
+TEST(Check, TheOtherFaceAtAnEdgeHasItsOwnLight)
+{
+  // The plate lies upon the ground and is tilted about its left edge, away from the light.
+  const auto compareWith = [](double pixels, float visibility)
+  {
+    TrueFile image;
+    nlohmann::json scene = makeScene();
+    scene["lights"][0]["direction"] = { -1, -0.1, 0 };
+    const int column = 60;
+    const double tangent = 2.0 * (column + 0.5 + pixels) / sidePixels - 1.0;
+    const double edge = cameraHeight * tangent;
+    const double slope = 0.5;
+    scene["models"][1]["matrix"] = { 1, 0, 0, edge + 1.0, slope, 0, 0, slope, 0, 0, 1, 0, 0, 0, 0,
+      1 };
+    const double length = std::hypot(1.0, slope);
+    image.at("normal.X", column, 50) = static_cast<float>(-slope / length);
+    image.at("normal.Y", column, 50) = static_cast<float>(1.0 / length);
+    image.at("visibility.0", column, 50) = visibility;
+    const Result result = check(scene, image.file);
+    const auto is = [&](const Pixels& found)
+    {
+      return std::binary_search(
+        found.begin(), found.end(), static_cast<std::size_t>(50 * sidePixels + column));
+    };
+    return std::array<bool, 4>{ is(result.otherFace), is(result.lights[0].falseLight),
+      is(result.lights[0].falseShadow), is(result.lights[0].unlit) };
+  };
+  EXPECT_EQ(compareWith(1.0 / 256.0, 0.0f), (std::array<bool, 4>{ true, false, false, false }));
+  EXPECT_EQ(compareWith(1.0 / 256.0, 1.0f), (std::array<bool, 4>{ true, false, false, true }));
+  EXPECT_EQ(compareWith(1.0 / 16.0, 1.0f)[0], false);
 }
 
 //------------------------------------------------------------------------------

@@ -100,44 +100,35 @@ void intersectAny(const RTCOccludedFunctionNArguments* arguments)
   }
 }
 
-double distanceToEdge(const Vec3& point, const Vec3& a, const Vec3& b)
+Vec3 nearestPointOfEdge(const Vec3& point, const Vec3& a, const Vec3& b)
 {
   const Vec3 edge = b - a;
   const double along = std::clamp((point - a).dot(edge) / edge.dot(edge), 0.0, 1.0);
-  return (point - a - along * edge).length();
+  return a + along * edge;
 }
 
-double distanceTo(const Vec3& point, const Triangle& triangle)
-{
-  const auto& [a, b, c] = triangle;
-  const Vec3 normal = (b - a).cross(c - a);
-  const auto insideOf = [&](const Vec3& from, const Vec3& to)
-  { return (to - from).cross(point - from).dot(normal) >= 0.0; };
-  if (insideOf(a, b) && insideOf(b, c) && insideOf(c, a))
-  {
-    return std::abs((point - a).dot(normal)) / normal.length();
-  }
-  return std::min(
-    { distanceToEdge(point, a, b), distanceToEdge(point, b, c), distanceToEdge(point, c, a) });
-}
-
-/// A search for triangles near a point, as Embree hands it through to the callback.
+/// A search for the triangle nearest to a point, as Embree hands it through to the callback.
 struct NearbySearch
 {
   const std::vector<Geometry>& geometries;
   const Vec3& point;
-  double distance;
+  double distance; ///< to the nearest accepted so far
   const std::function<bool(const Triangle&)>& accepts;
-  bool found = false;
+  std::optional<Hit> found;
 };
 
 bool testNearby(RTCPointQueryFunctionArguments* arguments)
 {
   auto& search = *static_cast<NearbySearch*>(arguments->userPtr);
-  const Triangle& triangle =
-    search.geometries[arguments->geomID].surface->triangles[arguments->primID];
-  search.found = search.found ||
-    (distanceTo(search.point, triangle) <= search.distance && search.accepts(triangle));
+  const Geometry& geometry = search.geometries[arguments->geomID];
+  const Triangle& triangle = geometry.surface->triangles[arguments->primID];
+  const Vec3 nearest = nearestPoint(search.point, triangle);
+  const double distance = (search.point - nearest).length();
+  if (distance <= search.distance && search.accepts(triangle))
+  {
+    search.distance = distance;
+    search.found = Hit{ nearest, distance, geometry.index, arguments->primID };
+  }
   return false; // the radius stays as it is
 }
 
@@ -165,6 +156,28 @@ std::optional<double> intersect(const Ray& ray, const Triangle& triangle)
   }
   const double distance = a.dot(normal) / along;
   return distance > 0.0 && distance < ray.length ? std::optional(distance) : std::nullopt;
+}
+
+//------------------------------------------------------------------------------
+Vec3 nearestPoint(const Vec3& point, const Triangle& triangle)
+{
+  const auto& [a, b, c] = triangle;
+  const Vec3 normal = (b - a).cross(c - a);
+  const auto insideOf = [&](const Vec3& from, const Vec3& to)
+  { return (to - from).cross(point - from).dot(normal) >= 0.0; };
+  if (insideOf(a, b) && insideOf(b, c) && insideOf(c, a))
+  {
+    return point - (point - a).dot(normal) / normal.dot(normal) * normal;
+  }
+  Vec3 nearest = nearestPointOfEdge(point, a, b);
+  for (const Vec3& other : { nearestPointOfEdge(point, b, c), nearestPointOfEdge(point, c, a) })
+  {
+    if ((other - point).length() < (nearest - point).length())
+    {
+      nearest = other;
+    }
+  }
+  return nearest;
 }
 
 //------------------------------------------------------------------------------
@@ -302,7 +315,7 @@ bool Tracer::blocked(const Ray& ray) const
 }
 
 //------------------------------------------------------------------------------
-bool Tracer::touches(
+std::optional<Hit> Tracer::nearestTo(
   const Vec3& point, double distance, const std::function<bool(const Triangle&)>& accepts) const
 {
   const Vec3 centred = point - this->impl_->centre;
@@ -313,7 +326,7 @@ bool Tracer::touches(
   query.radius = static_cast<float>(distance); // the boxes are padded
   RTCPointQueryContext context;
   rtcInitPointQueryContext(&context);
-  NearbySearch search{ this->impl_->geometries, point, distance, accepts };
+  NearbySearch search{ this->impl_->geometries, point, distance, accepts, std::nullopt };
   rtcPointQuery(this->impl_->all.get(), &query, &context, testNearby, &search);
   return search.found;
 }

@@ -34,6 +34,9 @@ struct Hit
 /// slips between them.
 std::optional<double> intersect(const Ray& ray, const Triangle& triangle);
 
+/// The point of a triangle that is nearest to a point.
+Vec3 nearestPoint(const Vec3& point, const Triangle& triangle);
+
 /// Rays against a scene. Embree finds the triangles whose boxes a ray passes; whether and where it
 /// meets them is computed in double precision, so that nothing but the input is rounded to float.
 class Tracer
@@ -51,8 +54,9 @@ public:
   /// Whether a surface that casts is in the way.
   bool blocked(const Ray& ray) const;
 
-  /// Whether a triangle of any surface that `accepts` comes as near to a point as that.
-  bool touches(
+  /// The point nearest to a point of all triangles that are accepted and as near as `distance`; its
+  /// own distance is that from the point.
+  std::optional<Hit> nearestTo(
     const Vec3& point, double distance, const std::function<bool(const Triangle&)>& accepts) const;
 
 private:
