@@ -209,6 +209,18 @@ glm::dvec3 closestToRay(const std::array<glm::dvec3, 3>& corners, const glm::dve
   return closest;
 }
 
+/// A point on a triangle's edge, moved into the triangle by 1/256 of a pixel's side, which is how far
+/// off a rasteriser looks. On the edge itself it would lie on the neighbour's plane as well, and its
+/// shadow ray would meet the neighbour or not as rounding has it.
+glm::dvec3 inwards(
+  const glm::dvec3& edge, const std::array<glm::dvec3, 3>& corners, double footprint)
+{
+  const glm::dvec3 toMiddle = (corners[0] + corners[1] + corners[2]) / 3.0 - edge;
+  const double length = glm::length(toMiddle);
+  const double step = footprint / 256.0;
+  return length > 2.0 * step ? edge + step / length * toMiddle : edge + 0.5 * toMiddle;
+}
+
 /// Triangles that a tile meets again and again; one entry per number modulo the size.
 class SeenTriangles
 {
@@ -312,14 +324,15 @@ void projectSpan(const SeenTriangle& seen, const PixelRays& rays, const Span& sp
     const auto y = static_cast<double>(span.y);
     const glm::dvec3 origin = rays.origin(x, y);
     const glm::dvec3 direction = rays.direction(x, y);
-    const glm::dvec3 position = closestToRay(seen.corners, origin, direction, rays.parallel());
-    const double t = glm::dot(position - origin, direction) / glm::dot(direction, direction);
+    const glm::dvec3 edge = closestToRay(seen.corners, origin, direction, rays.parallel());
+    const double t = glm::dot(edge - origin, direction) / glm::dot(direction, direction);
+    const double footprint = glm::length(rays.originPerRow + t * rays.directionPerRow);
+    const glm::dvec3 position = inwards(edge, seen.corners, footprint);
     const std::size_t i = span.firstPixel + column;
     receivers.positionX[i] = static_cast<float>(position.x);
     receivers.positionY[i] = static_cast<float>(position.y);
     receivers.positionZ[i] = static_cast<float>(position.z);
-    receivers.offset[i] = shadowRayOffset(
-      seen.noise, static_cast<float>(glm::length(rays.originPerRow + t * rays.directionPerRow)));
+    receivers.offset[i] = shadowRayOffset(seen.noise, static_cast<float>(footprint));
     if (seen.normal == glm::vec3(0.0f))
     {
       const glm::vec3 toCamera = -glm::normalize(direction);

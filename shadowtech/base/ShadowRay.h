@@ -41,8 +41,8 @@ namespace gnomon
 ///   it by as much, behind the next triangle of a concave surface. There the offset grows by 1/256
 ///   of the pixel's side. It moves a shadow's edge by as much times the cotangent of the light's
 ///   elevation, which cannot be seen, but can be counted where edges are dense. So a receiver that is
-///   known to lie inside its triangle gets a sixteenth of it, which only has to be more than nothing,
-///   as the noise of the centred frame's own planes is.
+///   known to lie inside its triangle gets 1/256 of it, which only has to be more than nothing, as the
+///   noise of the centred frame's own planes is.
 
 /// How far from its plane the points of a triangle may seem to lie, in the unit of the coordinates.
 ///
@@ -73,7 +73,7 @@ inline float shadowRayOffset(float noise, float footprint)
 /// The same of a receiver that lies where the pixel's ray meets the inside of its triangle.
 inline float shadowRayOffsetInside(float noise, float footprint)
 {
-  return shadowRayOffset(noise, 0.0625f * footprint);
+  return shadowRayOffset(noise, 0.00390625f * footprint);
 }
 
 /// Where along its direction the shadow ray starts to count, and where it ends: one that goes to a

@@ -98,6 +98,20 @@ double outside(const std::array<glm::dvec3, 3>& corners, const glm::dvec3& point
   return most;
 }
 
+/// How far inside of a triangle a point lies from the nearest edge.
+double inside(const std::array<glm::dvec3, 3>& corners, const glm::dvec3& point)
+{
+  const glm::dvec3 normal =
+    glm::normalize(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    const glm::dvec3 edge = glm::normalize(corners[(k + 1) % 3] - corners[k]);
+    least = std::min(least, glm::dot(glm::cross(normal, edge), point - corners[k]));
+  }
+  return least;
+}
+
 /// How far a point lies off a pixel's ray, in pixels.
 double offRay(const View& view, std::size_t pixel, const glm::dvec3& point)
 {
@@ -141,9 +155,9 @@ TEST(Receivers, AreWhereThePixelsRaysMeetTheirTriangles)
       ASSERT_LE(std::abs(glm::dot(position - corners[0], normal)),
         1.001 * glm::dot(glm::abs(normal), rounding));
       ASSERT_LE(outside(corners, position), glm::length(rounding));
-      // On the ray, but where the ray passes the triangle by: the view's jitter.
+      // On the ray, but where the ray passes the triangle by: the view's jitter, and a step inwards.
       const double off = offRay(view, i, position);
-      ASSERT_LT(off, 0.5 / 256.0 * std::sqrt(2.0));
+      ASSERT_LT(off, (0.5 * std::sqrt(2.0) + 1.0) / 256.0 + 1e-4);
       clamped += off > 1e-4 ? 1 : 0;
 
       const glm::dvec3 facing = normalOf(receivers, i);
@@ -158,7 +172,7 @@ TEST(Receivers, AreWhereThePixelsRaysMeetTheirTriangles)
         glm::dot(position - rays.firstOrigin, glm::normalize(rays.direction(127.5, 127.5)));
       const auto footprint = static_cast<float>(
         parallelHeight > 0.0 ? parallelHeight / 256.0 : pixelSizeOf(camera) * depth);
-      // A rasteriser's footprint where the ray passes the triangle by, else a sixteenth of it.
+      // A rasteriser's footprint where the ray passes the triangle by, else 1/256 of it.
       ASSERT_GT(receivers.offset[i],
         off > 1e-4 ? shadowRayOffset(0.0f, 0.999f * footprint)
                    : shadowRayOffsetInside(0.0f, 0.999f * footprint));
@@ -170,8 +184,9 @@ TEST(Receivers, AreWhereThePixelsRaysMeetTheirTriangles)
   }
 }
 
-/// Whatever the rasteriser says is in a pixel: the receiver is a point of that triangle, and the
-/// closest to the pixel's ray.
+/// Whatever the rasteriser says is in a pixel: the receiver is a point inside of that triangle, and the
+/// closest to the pixel's ray but for a step away from the edge, where it would lie on the neighbour's
+/// plane, too.
 TEST(Receivers, OfTrianglesThatTheRayPassesByAreTheClosestPoints)
 {
   const Occluders occluders = turnedScene();
@@ -202,12 +217,13 @@ TEST(Receivers, OfTrianglesThatTheRayPassesByAreTheClosestPoints)
         continue;
       }
       ++passedBy;
+      ASSERT_GT(inside(corners, position), 4.0 * std::ldexp(1.0, -24) * glm::length(position));
       for (std::size_t k = 0; k < 3; ++k)
       {
         for (int part = 0; part < 50; ++part)
         {
           const glm::dvec3 point = glm::mix(corners[k], corners[(k + 1) % 3], part / 50.0);
-          ASSERT_GE(offRay(view, i, point), 0.9999 * off - 1e-4);
+          ASSERT_GE(offRay(view, i, point), 0.9999 * off - 1.0 / 256.0 - 1e-4);
         }
       }
     }
