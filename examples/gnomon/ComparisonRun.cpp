@@ -23,38 +23,6 @@ namespace gnomon::tool
 namespace
 {
 
-/// "pcf:kernel=box:projection=lispsm" as a variant without map size and route.
-VariantSpec parseTechnique(const std::string& text)
-{
-  std::istringstream parts(text);
-  VariantSpec spec;
-  std::getline(parts, spec.technique, ':');
-  if (!findTechnique(spec.technique))
-  {
-    throw BadInput(
-      "--techniques: found \"" + spec.technique + "\", expected some of: " + techniqueNames());
-  }
-  for (std::string part; std::getline(parts, part, ':');)
-  {
-    const std::size_t equals = part.find('=');
-    const std::string name = part.substr(0, equals);
-    const std::string value = equals == std::string::npos ? "" : part.substr(equals + 1);
-    const Setting* const setting = findSetting(name);
-    if (!setting || name == "technique" || name == "map_size")
-    {
-      throw BadInput("--techniques: " + text + ": found the setting \"" + name +
-        "\", expected one of: " + settingNames() + " (but technique and map_size)");
-    }
-    if (!takes(*setting, value))
-    {
-      throw BadInput("--techniques: " + text + ": " + name + ": found \"" + value +
-        "\", expected " + expectedBy(*setting));
-    }
-    spec.settings[name] = value;
-  }
-  return spec;
-}
-
 ShadowSettings settingsOf(const VariantSpec& spec)
 {
   ShadowSettings settings;

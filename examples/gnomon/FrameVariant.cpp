@@ -1,5 +1,9 @@
 #include "FrameVariant.h"
 
+#include "Errors.h"
+
+#include "shadowtech/Registry.h"
+
 #include <vtkCameraPass.h>
 #include <vtkLight.h>
 #include <vtkLightCollection.h>
@@ -13,6 +17,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <sstream>
 
 namespace gnomon::tool
 {
@@ -71,6 +76,38 @@ std::string VariantSpec::name() const
   text += this->mapSizeTexels > 0 ? " " + std::to_string(this->mapSizeTexels) : "";
   text += this->pointwise ? " " + this->routeName() : "";
   return text;
+}
+
+//------------------------------------------------------------------------------
+VariantSpec parseTechnique(const std::string& text)
+{
+  std::istringstream parts(text);
+  VariantSpec spec;
+  std::getline(parts, spec.technique, ':');
+  if (!findTechnique(spec.technique))
+  {
+    throw BadInput(
+      "--techniques: found \"" + spec.technique + "\", expected some of: " + techniqueNames());
+  }
+  for (std::string part; std::getline(parts, part, ':');)
+  {
+    const std::size_t equals = part.find('=');
+    const std::string name = part.substr(0, equals);
+    const std::string value = equals == std::string::npos ? "" : part.substr(equals + 1);
+    const Setting* const setting = findSetting(name);
+    if (!setting || name == "technique" || name == "map_size")
+    {
+      throw BadInput("--techniques: " + text + ": found the setting \"" + name +
+        "\", expected one of: " + settingNames() + " (but technique and map_size)");
+    }
+    if (!takes(*setting, value))
+    {
+      throw BadInput("--techniques: " + text + ": " + name + ": found \"" + value +
+        "\", expected " + expectedBy(*setting));
+    }
+    spec.settings[name] = value;
+  }
+  return spec;
 }
 
 //------------------------------------------------------------------------------

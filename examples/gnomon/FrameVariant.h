@@ -39,6 +39,10 @@ struct VariantSpec
   std::string name() const;
 };
 
+/// "pcf:kernel=box:projection=lispsm" as a variant without map size and route.
+/// @throws BadInput that names the technique or setting which there is not
+VariantSpec parseTechnique(const std::string& text);
+
 /// What draws this variant, for vtkRenderer::SetPass; null for plain VTK.
 vtkSmartPointer<vtkRenderPass> makePass(const VariantSpec& spec);
 
