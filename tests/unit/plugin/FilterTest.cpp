@@ -7,6 +7,9 @@
 #include "plugin/VisibilityImages.h"
 #include "plugin/vtkGnomonPropKeys.h"
 
+#include <vtkCellArray.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
 #include <vtkTransform.h>
 
 #include <gmock/gmock.h>
@@ -64,6 +67,8 @@ INSTANTIATE_TEST_SUITE_P(Kinds, Filters,
       { { "estimator", "pcf" }, { "kernel", "castano" }, { "kernel_size", "7" } } },
     Filter{
       "tsm_box9", "tsm", { { "estimator", "pcf" }, { "kernel", "box" }, { "kernel_size", "9" } } },
+    Filter{ "lispsm_box17", "lispsm",
+      { { "estimator", "pcf" }, { "kernel", "box" }, { "kernel_size", "17" } } },
     Filter{ "width_bilinear", "pcf", { { "kernel_width", "0.1" } } },
     Filter{ "width_lispsm_box", "lispsm",
       { { "estimator", "pcf" }, { "kernel", "box" }, { "kernel_width", "0.1" } } },
@@ -85,6 +90,13 @@ TEST_P(Filters, litPlaneHasNoAcneUnderTheSun)
 {
   expectNoAcneUnderTheSun(
     [](PassScene& scene, vtkLight*) { choose(scene); }, { 0.0, 5.0, 45.0, 75.0, 85.0, 89.0 });
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Filters, longPlaneHasNoAcneUnderTheSun)
+{
+  expectNoAcneAlongALongPlane(
+    [](PassScene& scene, vtkLight*) { choose(scene); }, { 5.0, 60.0, 85.0 });
 }
 
 //------------------------------------------------------------------------------
@@ -120,6 +132,47 @@ TEST_P(Filters, concaveCornersAreLit)
       const Acne acne = countAcneOfSun(drawKept(scene), -direction);
       EXPECT_GT(acne.facing, 8000u);
       EXPECT_EQ(acne.dark, 0u) << "map " << mapSize << ", sun along " << direction.x;
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+/// A hillside beyond a plain, seen along the plain: what a filter reads beyond the valley has other
+/// texels than the point, where views are warped.
+TEST_P(Filters, valleysAcrossTheViewAreLit)
+{
+  for (const double valley : { -90.0, -60.0, 0.0 })
+  {
+    vtkNew<vtkPoints> points;
+    vtkNew<vtkCellArray> strips;
+    strips->InsertNextCell(6);
+    for (const glm::dvec2& place :
+      { glm::dvec2(-100.0, 0.0), { valley, 0.0 }, { 100.0, 0.3 * (100.0 - valley) } })
+    {
+      for (const double x : { -100.0, 100.0 })
+      {
+        strips->InsertCellPoint(points->InsertNextPoint(x, place.x, place.y));
+      }
+    }
+    vtkNew<vtkPolyData> land;
+    land->SetPoints(points);
+    land->SetStrips(strips);
+    for (const int mapSize : { 64, 256 })
+    {
+      for (const glm::dvec3& direction : { glm::dvec3(0.0, 0.3, -1.0), { 0.0, -1.0, -1.0 },
+             { 1.0, 0.3, -0.5 }, { -1.0, -0.2, -0.6 } })
+      {
+        PassScene scene(150, 150);
+        this->choose(scene);
+        scene.add(land);
+        scene.addSun(direction);
+        scene.pass->SetMapSize(mapSize);
+        scene.lookFrom({ 3.0, -98.0, 2.0 }, { 0.0, 0.0, 10.0 });
+        const Acne acne = countAcneOfSun(drawKept(scene), -direction);
+        EXPECT_GT(acne.facing, 5000u);
+        EXPECT_EQ(acne.dark, 0u) << "valley at " << valley << ", map " << mapSize << ", sun along "
+                                 << direction.x << ", " << direction.y;
+      }
     }
   }
 }

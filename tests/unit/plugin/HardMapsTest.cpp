@@ -64,6 +64,13 @@ TEST_P(HardMaps, litPlaneHasNoAcneAtAnyAngle)
 }
 
 //------------------------------------------------------------------------------
+TEST_P(HardMaps, longPlaneHasNoAcne)
+{
+  expectNoAcneAlongALongPlane(
+    [](PassScene& scene, vtkLight*) { choose(scene); }, { 0.0, 5.0, 60.0, 85.0, 89.0 });
+}
+
+//------------------------------------------------------------------------------
 TEST_P(HardMaps, litPlaneHasNoAcneUnderASpotLight)
 {
   expectNoAcneUnderASpot(

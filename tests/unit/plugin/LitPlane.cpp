@@ -29,6 +29,34 @@ void expectNoAcneUnderTheSun(const Choose& choose, const std::vector<double>& de
 }
 
 //------------------------------------------------------------------------------
+void expectNoAcneAlongALongPlane(const Choose& choose, const std::vector<double>& degrees)
+{
+  for (const int mapSize : { 64, 256 })
+  {
+    PassScene scene(150, 150);
+    scene.addFloor(100.0);
+    vtkLight* sun = scene.addSun({ 0.0, 0.0, -1.0 });
+    choose(scene, sun);
+    scene.pass->SetMapSize(mapSize);
+    scene.lookFrom({ 3.0, -98.0, 2.0 }, { 0.0, 0.0, 0.0 });
+    for (const double degree : degrees)
+    {
+      for (const double turn : { 10.0, 80.0, 190.0, 260.0 })
+      {
+        const double angle = glm::radians(degree);
+        const double around = glm::radians(turn);
+        const glm::dvec3 toLight(
+          std::cos(around) * std::sin(angle), std::sin(around) * std::sin(angle), std::cos(angle));
+        sun->SetPosition(toLight.x, toLight.y, toLight.z);
+        const Acne acne = countAcneOfSun(drawKept(scene), toLight);
+        EXPECT_GT(acne.facing, 5000u);
+        EXPECT_EQ(acne.dark, 0u) << degree << " degrees, turned by " << turn << ", map " << mapSize;
+      }
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
 void expectNoAcneUnderASpot(const Choose& choose, const std::vector<double>& conesDegrees)
 {
   for (const double cone : conesDegrees)

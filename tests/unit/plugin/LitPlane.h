@@ -19,6 +19,9 @@ using Choose = std::function<void(PassScene&, vtkLight*)>;
 /// not agree.
 void expectNoAcneUnderTheSun(const Choose& choose, const std::vector<double>& degrees);
 
+/// The same of a plane that is seen along itself from its near end, where views are warped by much.
+void expectNoAcneAlongALongPlane(const Choose& choose, const std::vector<double>& degrees);
+
 /// Under spot lights of these cones, from above to grazing.
 void expectNoAcneUnderASpot(const Choose& choose, const std::vector<double>& conesDegrees);
 ///@}
