@@ -161,6 +161,19 @@ const std::vector<HardCase>& hardCases()
         scene.lookFrom({ 0.0, -9.0, 7.0 });
         return scene.addSun({ 0.3, 1.0, -1.0 });
       } },
+    { "plainSeenAlongItself", 0.01, 0.012,
+      [](PassScene& scene)
+      {
+        // Warps are strong here.
+        scene.addFloor(100.0);
+        for (const double y : { -94.0, -85.0, -70.0, -40.0, 10.0, 80.0 })
+        {
+          const double size = 0.1 * (y + 104.0);
+          scene.addBox({ -size, y, 0.0 }, { 0.0, y + size, 2.0 * size });
+        }
+        scene.lookFrom({ 3.0, -98.0, 2.0 });
+        return scene.addSun({ 1.0, 0.3, -0.8 });
+      } },
     { "unitsOfAThousandth", 0.002, 0.004, underSun(slanting, 1e-3) },
     { "unitsOfAMillion", 0.002, 0.004, underSun(slanting, 1e6) },
     { "aMillionAway", 0.003, 0.006, underSun(slanting, 1.0, { 1e6, -1e6, 1e6 }) },
