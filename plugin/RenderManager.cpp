@@ -1,5 +1,6 @@
 #include "plugin/RenderManager.h"
 
+#include "plugin/Hash.h"
 #include "plugin/vtkGnomonShadowPass.h"
 #include "shadowtech/Registry.h"
 #include "shadowtech/base/Bytes.h"
@@ -17,6 +18,8 @@
 #include <vtkRenderState.h>
 #include <vtkRenderer.h>
 #include <vtkSmartPointer.h>
+
+#include <glm/gtc/type_ptr.hpp>
 
 #include <algorithm>
 
@@ -101,6 +104,32 @@ private:
   vtkInformation* keys_;
   vtkSmartPointer<vtkInformation> hidden_;
 };
+
+void hashCombine(std::size_t& seed, const glm::dmat4& matrix)
+{
+  for (int i = 0; i < 16; ++i)
+  {
+    gnomon::hashCombine(seed, glm::value_ptr(matrix)[i]);
+  }
+}
+
+/// What a picture of props depends on, beside their places in the snapshot: the same numbers mean the
+/// same picture.
+std::size_t hashOfShown(const vtkRenderState* s, const CameraView& camera, const glm::ivec2& size)
+{
+  std::size_t seed = 0;
+  hashCombine(seed, camera.viewFromCentred);
+  hashCombine(seed, camera.clipFromView);
+  gnomon::hashCombine(seed, size.x);
+  gnomon::hashCombine(seed, size.y);
+  for (int i = 0; i < s->GetPropArrayCount(); ++i)
+  {
+    vtkProp* prop = s->GetPropArray()[i];
+    gnomon::hashCombine(seed, prop);
+    gnomon::hashCombine(seed, prop->GetRedrawMTime());
+  }
+  return seed;
+}
 
 template <typename Value>
 std::vector<Value> topRowFirst(const std::vector<Value>& image, int width, int height)
@@ -269,6 +298,7 @@ bool RenderManager::chooseRoute(int wished, bool keepVisibility)
       "centre: where another surface covers the rest of the pixel it is shaded with it, too.");
   }
 
+  this->chooseFits();
   std::vector<ShadedLight> lights;
   for (LightSlot* slot : this->casting_)
   {
@@ -276,6 +306,34 @@ bool RenderManager::chooseRoute(int wished, bool keepVisibility)
   }
   this->shaders_.configure({ this->route_, this->anyPointwise(), samples > 1 }, lights);
   return wished != vtkGnomonShadowPass::ROUTE_INLINE || screenTechnique.empty();
+}
+
+//------------------------------------------------------------------------------
+/// States what each light's views are fitted to. The receivers that are drawn are the tightest; but they
+/// are only known on the image route, they do not show translucent surfaces, and a fit that is made
+/// once serves for all that will be seen later.
+void RenderManager::chooseFits()
+{
+  for (LightSlot* slot : this->casting_)
+  {
+    const TechniqueInfo& info = slot->estimator->info;
+    ShadowLight& light = slot->light;
+    if (!info.needsMap)
+    {
+      continue;
+    }
+    const bool fitted = isFittedToCamera(light);
+    light.fittedToReceivers = fitted && light.fit != ViewFit::Once && info.pointwise &&
+      this->route_ == Route::Image && this->collector_.translucentReceivers() == 0;
+    this->reportOf(light).fit = light.fittedToReceivers ? "receivers" : fitted ? "frustum" : "off";
+  }
+}
+
+//------------------------------------------------------------------------------
+LightReport& RenderManager::reportOf(const ShadowLight& light)
+{
+  return *std::find_if(this->report_.lights.begin(), this->report_.lights.end(),
+    [&](const LightReport& report) { return report.sceneIndex == light.sceneIndex; });
 }
 
 //------------------------------------------------------------------------------
@@ -335,8 +393,9 @@ void RenderManager::drawReceivers(const vtkRenderState* s, vtkGnomonShadowPass* 
   const int height = size.y;
 
   const glm::dmat4 centredFromView = this->centredFromView(renderer);
-  this->receiverImages_.rays =
-    pixelRays(this->camera(renderer).clipFromView, centredFromView, width, height);
+  const CameraView camera = this->camera(renderer);
+  this->receiverImages_.rays = pixelRays(camera.clipFromView, centredFromView, width, height);
+  this->receiversShown_ = hashOfShown(s, camera, size);
 
   this->layers_.resize(width, height, static_cast<int>(this->casting_.size()));
   this->stageValues_.layers = { GL_TEXTURE_2D_ARRAY, this->layers_.texture() };
@@ -381,11 +440,11 @@ void RenderManager::bakeMaps(vtkRenderer* renderer)
   {
     if (slot->estimator->info.needsMap)
     {
-      this->bakeMaps(slot->light, camera, *slot->technique, slot->bake);
+      this->bakeMaps(*slot, camera, *slot->technique, slot->bake);
     }
     if (slot->plain)
     {
-      this->bakeMaps(slot->light, camera, *slot->plain, slot->plainBake);
+      this->bakeMaps(*slot, camera, *slot->plain, slot->plainBake);
     }
   }
   this->endStageClock("maps");
@@ -394,8 +453,9 @@ void RenderManager::bakeMaps(vtkRenderer* renderer)
 //------------------------------------------------------------------------------
 /// Bakes a light's maps if they are stale.
 void RenderManager::bakeMaps(
-  const ShadowLight& light, const CameraView& camera, Technique& technique, Bake& bake)
+  LightSlot& slot, const CameraView& camera, Technique& technique, Bake& bake)
 {
+  const ShadowLight& light = slot.light;
   const Occluders& occluders = this->collector_.occluders();
   const MapReach reach = technique.mapReach(light);
   ViewFitting fitting;
@@ -408,25 +468,36 @@ void RenderManager::bakeMaps(
     fitting.camera = light.fit == ViewFit::Once && bake.camera ? bake.camera : camera;
   }
   LightViews views = fitLightViews(light, fitting);
+  const std::size_t receivers = light.fittedToReceivers ? this->receiversShown_ : 0;
   const bool fresh = bake.once && bake.views == views && bake.sizeTexels == light.mapSizeTexels &&
     bake.reach == reach && bake.topology == occluders.topologyVersion &&
-    bake.positions == occluders.positionsVersion;
+    bake.positions == occluders.positionsVersion && bake.receivers == receivers;
   if (!fresh)
   {
     this->buffers_.update(occluders);
     bake.once = false; // in case that there is no memory
+    if (light.fittedToReceivers)
+    {
+      slot.receiverFit.compute(light, views,
+        { this->receiverTarget_.fragments(), this->receiverTarget_.points(),
+          this->receiverTarget_.width(), this->receiverTarget_.height() },
+        this->stageValues_.centredFromView, this->library_);
+    }
     try
     {
-      technique.bake({ light, views, occluders, this->buffers_, this->library_ });
+      technique.bake(
+        { light, views, occluders, this->buffers_, this->library_, slot.receiverFit.fits() });
     }
     catch (const TextureMemoryError& error)
     {
       throw TextureMemoryError("light " + std::to_string(light.sceneIndex) + ": " + error.what());
     }
+    const int castersLeftOut = this->buffers_.unseenBy(views.views);
     bake = { std::move(views), fitting.camera, reach, light.mapSizeTexels,
-      occluders.topologyVersion, occluders.positionsVersion, true };
+      occluders.topologyVersion, occluders.positionsVersion, receivers, true, castersLeftOut };
     ++this->report_.mapBakes;
   }
+  this->reportOf(light).castersLeftOut = bake.castersLeftOut;
   this->report_.bytesMaps += technique.bytesOfMaps();
 }
 
@@ -470,10 +541,8 @@ void RenderManager::computeVisibility(bool keep)
     }
     else
     {
-      const auto report = std::find_if(this->report_.lights.begin(), this->report_.lights.end(),
-        [&](const LightReport& light) { return light.sceneIndex == slot.light.sceneIndex; });
-      slot.technique->computeVisibility(
-        { slot.light, occluders, this->receivers_, this->tracer_ }, visibility, *report);
+      slot.technique->computeVisibility({ slot.light, occluders, this->receivers_, this->tracer_ },
+        visibility, this->reportOf(slot.light));
       this->endStageClock("visibility: trace");
       this->layers_.upload(layer, visibility);
       this->endStageClock("visibility: upload");

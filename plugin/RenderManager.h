@@ -14,6 +14,7 @@
 #include "shadowtech/base/ShaderLibrary.h"
 #include "shadowtech/base/Technique.h"
 #include "shadowtech/base/VisibilityLayers.h"
+#include "shadowtech/fitting/ReceiverFit.h"
 
 #include <chrono>
 #include <cstdint>
@@ -99,7 +100,9 @@ private:
     int sizeTexels = 0;
     std::uint64_t topology = 0;
     std::uint64_t positions = 0;
+    std::size_t receivers = 0; ///< receiversShown_ that the views were fitted to; 0 of others
     bool once = false;
+    int castersLeftOut = 0;
   };
   /// A casting light and its technique.
   struct LightSlot
@@ -111,12 +114,14 @@ private:
     std::unique_ptr<Technique> plain;
     Bake plainBake;
     ShadowLight light;
+    ReceiverFit receiverFit;
   };
 
   void endStageClock(const std::string& name);
+  void chooseFits();
   const Technique* pointwiseFor(LightSlot& slot) const;
-  void bakeMaps(
-    const ShadowLight& light, const CameraView& camera, Technique& technique, Bake& bake);
+  void bakeMaps(LightSlot& slot, const CameraView& camera, Technique& technique, Bake& bake);
+  LightReport& reportOf(const ShadowLight& light);
   void resolveReceivers();
   void keepVisibility();
   bool anyPointwise() const;
@@ -137,6 +142,7 @@ private:
   RayTracer tracer_;
   Route route_ = Route::Inline;
   ReceiverTarget receiverTarget_;
+  std::size_t receiversShown_ = 0; ///< a hash of what the receivers' images depend on
   ReceiverImages receiverImages_;
   ReceiverPixels receivers_;
   VisibilityLayers layers_;

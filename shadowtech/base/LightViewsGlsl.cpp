@@ -21,11 +21,6 @@ glm::vec4 scaleAndOffset(const glm::dmat3& texelFromAcross)
   return { texelFromAcross[0].x, texelFromAcross[1].y, texelFromAcross[2].x, texelFromAcross[2].y };
 }
 
-bool isWarped(const ShadowLight& light)
-{
-  return light.projection == Projection::Lispsm || light.projection == Projection::Trapezoid;
-}
-
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -37,7 +32,8 @@ std::string lightViewsDefines(const ShadowLight& light)
     define("VIEWS_PERSPECTIVE_LIGHT", light.kind != LightKind::Directional) +
     define("VIEWS_CUBE_LIGHT", layout == ViewLayout::Cube) +
     define("VIEWS_SPLITS_LIGHT", layout == ViewLayout::Splits) +
-    define("VIEWS_WARPED_LIGHT", isWarped(light)) + define("VIEWS_LIGHT", mostViews(light));
+    define("VIEWS_WARPED_LIGHT", isWarped(light)) +
+    define("VIEWS_FITTED_LIGHT", light.fittedToReceivers) + define("VIEWS_LIGHT", mostViews(light));
 }
 
 //------------------------------------------------------------------------------

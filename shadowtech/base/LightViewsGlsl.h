@@ -16,6 +16,7 @@ namespace gnomon
 std::string lightViewsDefines(const ShadowLight& light);
 
 /// The uniforms of light_views.glsl, also those that only other kinds of light use.
+/// Views that await their fit need its texture, viewFits_LIGHT, besides (ReceiverFit.h).
 /// @param sizeTexels the side of the map's layers
 /// @param centredFromView the camera's rigid transformation from view to centred coordinates
 std::vector<Uniform> lightViewsUniforms(

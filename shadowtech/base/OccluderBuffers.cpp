@@ -3,6 +3,8 @@
 #include "shadowtech/base/Bytes.h"
 #include "shadowtech/base/GlState.h"
 
+#include <algorithm>
+
 namespace gnomon
 {
 namespace
@@ -128,6 +130,18 @@ std::vector<OccluderBuffers::Part>& OccluderBuffers::partsOf(const Surface& surf
 std::size_t OccluderBuffers::bytes() const
 {
   return this->bytesOnGpu_ + bytesOf(this->twoSided_) + bytesOf(this->oneSided_);
+}
+
+//------------------------------------------------------------------------------
+int OccluderBuffers::unseenBy(const std::vector<LightView>& views) const
+{
+  const auto unseen = [&](const Part& part)
+  {
+    return std::none_of(views.begin(), views.end(),
+      [&](const LightView& view) { return view.maySee(part.boundsCentred); });
+  };
+  return static_cast<int>(std::count_if(this->twoSided_.begin(), this->twoSided_.end(), unseen) +
+    std::count_if(this->oneSided_.begin(), this->oneSided_.end(), unseen));
 }
 
 //------------------------------------------------------------------------------

@@ -25,6 +25,9 @@ public:
   /// sees counter-clockwise.
   void draw(const LightView& view) const;
 
+  /// The number of casting surfaces that none of the views can see.
+  int unseenBy(const std::vector<LightView>& views) const;
+
   /// On the GPU, and what is remembered of each surface.
   std::size_t bytes() const;
 

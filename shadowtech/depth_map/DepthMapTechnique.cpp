@@ -40,8 +40,9 @@ std::string define(const char* name, double value)
 }
 
 /// Draws the casters into the bound framebuffer's depth, as one view sees them.
-void drawView(const LightView& view, const MapReach& reach, const MapInput& input)
+void drawView(std::size_t index, const MapReach& reach, const MapInput& input)
 {
+  const LightView& view = input.views.views[index];
   const float farthest = 1.0f;
   glClearBufferfv(GL_DEPTH, 0, &farthest);
 
@@ -70,6 +71,10 @@ void drawView(const LightView& view, const MapReach& reach, const MapInput& inpu
   {
     defines.emplace_back("BEGINS");
   }
+  if (input.views.awaitFit)
+  {
+    defines.emplace_back("FITTED");
+  }
   begins ? glEnable(GL_CLIP_DISTANCE0) : glDisable(GL_CLIP_DISTANCE0);
   // Rounding may push a caster over the edge of the depths, which bound all of them.
   glEnable(GL_DEPTH_CLAMP);
@@ -94,6 +99,11 @@ void drawView(const LightView& view, const MapReach& reach, const MapInput& inpu
     const glm::dmat3 acrossFromTexel =
       glm::inverse(texelFromAcross(view, input.light.mapSizeTexels));
     ShaderLibrary::setUniform(program, { "texelScale", glm::vec3(glm::row(acrossFromTexel, 2)) });
+  }
+  if (input.views.awaitFit)
+  {
+    ShaderLibrary::setUniforms(
+      program, { { "viewFits", input.viewFits }, { "view", static_cast<int>(index) } }, 0, 0);
   }
   input.buffers.draw(view);
 }
@@ -127,6 +137,7 @@ void DepthMapTechnique::bake(const MapInput& input)
   this->allocate(input.light.mapSizeTexels, std::max(static_cast<int>(views.size()), 1));
   this->views_ = input.views;
   this->reach_ = this->mapReach(input.light);
+  this->viewFits_ = input.viewFits;
 
   glBindFramebuffer(GL_FRAMEBUFFER, this->framebuffer_.name());
   glViewport(0, 0, this->sizeTexels_, this->sizeTexels_);
@@ -141,7 +152,7 @@ void DepthMapTechnique::bake(const MapInput& input)
   {
     glFramebufferTextureLayer(
       GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, this->map_.name(), 0, static_cast<GLint>(i));
-    drawView(views[i], this->reach_, input);
+    drawView(i, this->reach_, input);
   }
 }
 
@@ -165,6 +176,10 @@ std::vector<Uniform> DepthMapTechnique::uniforms(const glm::dmat4& centredFromVi
     lightViewsUniforms(this->views_, this->sizeTexels_, centredFromView);
   uniforms.push_back(
     { "depthMap_LIGHT", TextureBinding{ GL_TEXTURE_2D_ARRAY, this->map_.name() } });
+  if (this->views_.awaitFit)
+  {
+    uniforms.push_back({ "viewFits_LIGHT", this->viewFits_ });
+  }
   const double followed = this->reach_.largestTexels() / MapReach{}.largestTexels();
   uniforms.push_back({ "depthSlacks_LIGHT", glm::vec2(roundingSlack, followed * distanceSlack) });
   return uniforms;

@@ -16,12 +16,35 @@ float push(vec2 slope)
 
 uniform vec3 texelScale; // a texel's size across the light is this, times (texel, 1), squared
 
+#ifdef FITTED
+
+uniform sampler2D viewFits; // at (view, 1): texel = xy * texel before the fit + zw
+uniform int view;
+
+// texelScale is for texels before the fit.
+vec3 texelScaleOnMap()
+{
+  vec4 fit = texelFetch(viewFits, ivec2(view, 1), 0);
+  vec2 slope = texelScale.xy / fit.xy; // not 0 where anything is drawn
+  return vec3(slope, texelScale.z - dot(slope, fit.zw));
+}
+
+#else
+
+vec3 texelScaleOnMap()
+{
+  return texelScale;
+}
+
+#endif
+
 // How much larger a texel within the reach can be than this one, at most: the slope's own texel of
 // difference is within the reach, too.
 float warp()
 {
-  float scale = dot(texelScale, vec3(gl_FragCoord.xy, 1.0));
-  float change = push(texelScale.xy) + abs(texelScale.x) + abs(texelScale.y);
+  vec3 onMap = texelScaleOnMap();
+  float scale = dot(onMap, vec3(gl_FragCoord.xy, 1.0));
+  float change = push(onMap.xy) + abs(onMap.x) + abs(onMap.y);
   float left = max(1.0 - change / scale, 0.5);
   return 1.0 / (left * left);
 }
