@@ -105,11 +105,11 @@ private:
   vtkSmartPointer<vtkInformation> hidden_;
 };
 
-void hashCombine(std::size_t& seed, const glm::dmat4& matrix)
+void hashMatrix(std::size_t& seed, const glm::dmat4& matrix)
 {
   for (int i = 0; i < 16; ++i)
   {
-    gnomon::hashCombine(seed, glm::value_ptr(matrix)[i]);
+    hashCombine(seed, glm::value_ptr(matrix)[i]);
   }
 }
 
@@ -118,15 +118,15 @@ void hashCombine(std::size_t& seed, const glm::dmat4& matrix)
 std::size_t hashOfShown(const vtkRenderState* s, const CameraView& camera, const glm::ivec2& size)
 {
   std::size_t seed = 0;
-  hashCombine(seed, camera.viewFromCentred);
-  hashCombine(seed, camera.clipFromView);
-  gnomon::hashCombine(seed, size.x);
-  gnomon::hashCombine(seed, size.y);
+  hashMatrix(seed, camera.viewFromCentred);
+  hashMatrix(seed, camera.clipFromView);
+  hashCombine(seed, size.x);
+  hashCombine(seed, size.y);
   for (int i = 0; i < s->GetPropArrayCount(); ++i)
   {
     vtkProp* prop = s->GetPropArray()[i];
-    gnomon::hashCombine(seed, prop);
-    gnomon::hashCombine(seed, prop->GetRedrawMTime());
+    hashCombine(seed, prop);
+    hashCombine(seed, prop->GetRedrawMTime());
   }
   return seed;
 }
@@ -468,13 +468,20 @@ void RenderManager::bakeMaps(
     fitting.camera = light.fit == ViewFit::Once && bake.camera ? bake.camera : camera;
   }
   LightViews views = fitLightViews(light, fitting);
-  const std::size_t receivers = light.fittedToReceivers ? this->receiversShown_ : 0;
+  std::size_t receivers = 0;
+  if (light.fittedToReceivers)
+  {
+    receivers = this->receiversShown_;
+    hashCombine(receivers, light.snap);
+    hashCombine(receivers, light.splitLambda);
+  }
   const bool fresh = bake.once && bake.views == views && bake.sizeTexels == light.mapSizeTexels &&
     bake.reach == reach && bake.topology == occluders.topologyVersion &&
     bake.positions == occluders.positionsVersion && bake.receivers == receivers;
   if (!fresh)
   {
     this->buffers_.update(occluders);
+    this->buffers_.takeUndrawn();
     bake.once = false; // in case that there is no memory
     if (light.fittedToReceivers)
     {
@@ -492,7 +499,7 @@ void RenderManager::bakeMaps(
     {
       throw TextureMemoryError("light " + std::to_string(light.sceneIndex) + ": " + error.what());
     }
-    const int castersLeftOut = this->buffers_.unseenBy(views.views);
+    const int castersLeftOut = this->buffers_.takeUndrawn();
     bake = { std::move(views), fitting.camera, reach, light.mapSizeTexels,
       occluders.topologyVersion, occluders.positionsVersion, receivers, true, castersLeftOut };
     ++this->report_.mapBakes;

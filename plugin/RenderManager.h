@@ -100,7 +100,7 @@ private:
     int sizeTexels = 0;
     std::uint64_t topology = 0;
     std::uint64_t positions = 0;
-    std::size_t receivers = 0; ///< receiversShown_ that the views were fitted to; 0 of others
+    std::size_t receivers = 0; ///< a hash of what F of MapFit.h was found from on the GPU; else 0
     bool once = false;
     int castersLeftOut = 0;
   };

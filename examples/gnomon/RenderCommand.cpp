@@ -132,7 +132,8 @@ nlohmann::ordered_json toJson(const FrameReport& report)
     json["lights"].push_back({ { "scene_index", light.sceneIndex }, { "casts", light.casts },
       { "reason", light.reason }, { "technique", light.technique },
       { "estimator", light.estimator }, { "projection", light.projection },
-      { "map_size_texels", light.mapSizeTexels }, { "kernel", light.kernel },
+      { "map_size_texels", light.mapSizeTexels }, { "fit", light.fit },
+      { "casters_left_out", light.castersLeftOut }, { "kernel", light.kernel },
       { "kernel_size_texels", light.kernelTexels }, { "traced_pixels", light.tracedPixels } });
   }
   json["notes"] = report.notes;
@@ -186,6 +187,10 @@ std::map<std::string, std::string> makeHeader(
     const std::string prefix = "light." + std::to_string(light.sceneIndex);
     header[prefix + ".technique"] = light.casts ? light.technique : "none: " + light.reason;
     header[prefix + ".map_size_texels"] = std::to_string(light.mapSizeTexels);
+    if (!light.fit.empty())
+    {
+      header[prefix + ".fit"] = light.fit;
+    }
     if (!light.kernel.empty())
     {
       header[prefix + ".kernel"] = light.kernel;

@@ -3,7 +3,7 @@
 #include "shadowtech/base/Bytes.h"
 #include "shadowtech/base/GlState.h"
 
-#include <algorithm>
+#include <utility>
 
 namespace gnomon
 {
@@ -133,29 +133,32 @@ std::size_t OccluderBuffers::bytes() const
 }
 
 //------------------------------------------------------------------------------
-int OccluderBuffers::unseenBy(const std::vector<LightView>& views) const
+int OccluderBuffers::takeUndrawn()
 {
-  const auto unseen = [&](const Part& part)
+  int undrawn = 0;
+  for (std::vector<Part>* parts : { &this->twoSided_, &this->oneSided_ })
   {
-    return std::none_of(views.begin(), views.end(),
-      [&](const LightView& view) { return view.maySee(part.boundsCentred); });
-  };
-  return static_cast<int>(std::count_if(this->twoSided_.begin(), this->twoSided_.end(), unseen) +
-    std::count_if(this->oneSided_.begin(), this->oneSided_.end(), unseen));
+    for (Part& part : *parts)
+    {
+      undrawn += std::exchange(part.drawn, false) ? 0 : 1;
+    }
+  }
+  return undrawn;
 }
 
 //------------------------------------------------------------------------------
-void OccluderBuffers::drawParts(const std::vector<Part>& parts, const LightView& view) const
+void OccluderBuffers::drawParts(std::vector<Part>& parts, const LightView& view)
 {
   std::vector<GLsizei> counts;
   std::vector<const void*> offsets;
   GLsizei end = -1; // of the run of neighbours that is being extended
-  for (const Part& part : parts)
+  for (Part& part : parts)
   {
     if (!view.maySee(part.boundsCentred))
     {
       continue;
     }
+    part.drawn = true;
     if (part.first == end)
     {
       counts.back() += part.count;
@@ -176,7 +179,7 @@ void OccluderBuffers::drawParts(const std::vector<Part>& parts, const LightView&
 }
 
 //------------------------------------------------------------------------------
-void OccluderBuffers::draw(const LightView& view) const
+void OccluderBuffers::draw(const LightView& view)
 {
   glBindVertexArray(this->vertexArray_.name());
   glDisable(GL_CULL_FACE);

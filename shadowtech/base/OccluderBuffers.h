@@ -23,10 +23,10 @@ public:
   /// Surfaces that the view cannot see are left out.
   /// One-sided surfaces are drawn with their back faces culled, "front" being what the current view
   /// sees counter-clockwise.
-  void draw(const LightView& view) const;
+  void draw(const LightView& view);
 
-  /// The number of casting surfaces that none of the views can see.
-  int unseenBy(const std::vector<LightView>& views) const;
+  /// The number of casting surfaces that no draw() has drawn since the last call of this.
+  int takeUndrawn();
 
   /// On the GPU, and what is remembered of each surface.
   std::size_t bytes() const;
@@ -39,11 +39,12 @@ private:
     GLsizei count;
     std::uint64_t positionsVersion; ///< as sent
     Bounds boundsCentred;
+    bool drawn = false; ///< since takeUndrawn()
   };
   void sendAll(const Occluders& occluders);
   void sendMoved(const Occluders& occluders);
   std::vector<Part>& partsOf(const Surface& surface);
-  void drawParts(const std::vector<Part>& parts, const LightView& view) const;
+  static void drawParts(std::vector<Part>& parts, const LightView& view);
 
   GlVertexArray vertexArray_;
   GlBuffer positions_;

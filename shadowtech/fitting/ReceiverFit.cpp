@@ -13,11 +13,11 @@ namespace
 {
 
 constexpr int invocationsPerGroup = 64; // as in receiver_bounds.comp.glsl
-/// Few enough invocations that their atomic operations at the end do not count, and enough to keep a
-/// GPU busy.
+/// Few enough invocations that the atomic operations at their end do not count, and enough to keep a GPU
+/// busy.
 constexpr int rowsPerInvocation = 128;
 constexpr int numbersPerBox = 6;
-constexpr int fitRows = 3;
+constexpr int fitRows = 2;
 
 /// Puts back what computing binds, besides what GlStateGuard does.
 class ComputeBindingsGuard

@@ -43,7 +43,7 @@ public:
   void compute(const ShadowLight& light, const LightViews& views, const ReceiverTextures& receivers,
     const glm::dmat4& centredFromView, ShaderLibrary& shaders);
 
-  /// The fits: a texel per view, in three rows (fit_views.comp.glsl).
+  /// The fits: a texel per view, in two rows (fit_views.comp.glsl).
   TextureBinding fits() const { return { GL_TEXTURE_2D, this->fits_.name() }; }
 
   /// Reads back the bounds of the receivers in each view, as of the last compute(): x and y in

@@ -1,8 +1,7 @@
 // From the receivers' bounds to the last fit of each view: the twin of fitTo() and fitSnappedTo()
 // (lights/MapFit.h), one invocation per view.
 //
-// Row 0 of the result: F, scale and offset in device coordinates. Row 1: the same in texels. Row 2: the
-// least and the greatest distance of the receivers along the view.
+// Row 0 of the result: F, scale and offset in device coordinates. Row 1: the same in texels.
 
 #include "shadowtech/fitting/bounds_buffer.glsl"
 
@@ -53,12 +52,10 @@ void main()
   int view = int(gl_GlobalInvocationID.x);
   // Without receivers everything lies outside of the map: nothing is drawn, and nothing found.
   vec4 fit = vec4(0.0, 0.0, 4.0, 4.0);
-  vec2 distances = vec2(0.0);
   if (!isEmpty(view))
   {
     vec3 lower = lowerOf(view);
     vec3 upper = upperOf(view);
-    distances = vec2(lower.z, upper.z);
     vec2 lowerMap = clamp(lower.xy / (0.5 * side) - 1.0, -covered, covered);
     vec2 upperMap = clamp(upper.xy / (0.5 * side) - 1.0, -covered, covered);
     vec2 x = fitAxis(lowerMap.x, upperMap.x);
@@ -67,5 +64,4 @@ void main()
   }
   imageStore(viewFits, ivec2(view, 0), fit);
   imageStore(viewFits, ivec2(view, 1), vec4(fit.xy, 0.5 * side * (fit.zw + 1.0 - fit.xy)));
-  imageStore(viewFits, ivec2(view, 2), vec4(distances, 0.0, 0.0));
 }
