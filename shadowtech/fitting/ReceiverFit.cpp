@@ -12,10 +12,11 @@ namespace gnomon
 namespace
 {
 
-constexpr int invocationsPerGroup = 64; // as in receiver_bounds.comp.glsl
-/// Few enough invocations that the atomic operations at their end do not count, and enough to keep a GPU
-/// busy.
-constexpr int rowsPerInvocation = 128;
+/// Neighbours that go along a row together, and the rows that they take: eight are as many as software
+/// OpenGL works on at once, and read memory in its order (of 8, 32 and 64 these took the least time, by
+/// half). Few enough groups that the atomic operations at their end do not count.
+constexpr int invocationsPerGroup = 8;
+constexpr int rowsPerGroup = 8;
 constexpr int numbersPerBox = 6;
 constexpr int fitRows = 2;
 
@@ -56,24 +57,20 @@ private:
   GLint image_ = 0, level_ = 0, layered_ = 0, layer_ = 0, access_ = 0, format_ = 0;
 };
 
-GLuint groups(int count, int perGroup)
-{
-  return static_cast<GLuint>((count + perGroup - 1) / perGroup);
-}
-
 /// Adds all receivers to the boxes.
 void reduce(const ShadowLight& light, const std::vector<Uniform>& uniforms,
-  const ReceiverTextures& receivers, ShaderLibrary& shaders,
-  const std::vector<std::string>& defines)
+  const ReceiverTextures& receivers, ShaderLibrary& shaders, std::vector<std::string> defines)
 {
   const std::string source = numberedForLight(lightViewsDefines(light) +
       ShaderLibrary::source("shadowtech/fitting/receiver_bounds.comp.glsl"),
     0);
+  defines.push_back("GROUP " + std::to_string(invocationsPerGroup));
+  defines.push_back("ROWS " + std::to_string(rowsPerGroup));
   const GLuint program = shaders.program({ { GL_COMPUTE_SHADER, source } }, defines);
   glUseProgram(program);
   ShaderLibrary::setUniforms(program, uniforms, 0, 0);
-  glDispatchCompute(
-    groups(receivers.width, invocationsPerGroup), groups(receivers.height, rowsPerInvocation), 1);
+  const int groups = (receivers.height + rowsPerGroup - 1) / rowsPerGroup;
+  glDispatchCompute(static_cast<GLuint>(groups), 1, 1);
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
@@ -121,7 +118,6 @@ void ReceiverFit::compute(const ShadowLight& light, const LightViews& views,
   std::vector<Uniform> uniforms = lightViewsUniforms(views, texels.side, centredFromView);
   uniforms.push_back({ "receiverFragments", TextureBinding{ GL_TEXTURE_2D, receivers.fragments } });
   uniforms.push_back({ "receiverPoints", TextureBinding{ GL_TEXTURE_2D, receivers.points } });
-  uniforms.push_back({ "rowsPerInvocation", rowsPerInvocation });
   uniforms.push_back({ "splitLambda", static_cast<float>(light.splitLambda) });
   uniforms.push_back({ "coveredTexels",
     glm::vec2(0.5 * texels.side * (glm::dvec2(covered.lower.x, covered.upper.x) + 1.0)) });

@@ -2,18 +2,17 @@
 // map before the fit, z the distance along the view. With DISTANCES: the box after them holds the
 // distance from the camera.
 //
-// Each invocation goes down a column of pixels, so that neighbours read neighbours, and adds what it
-// found to the boxes at the end.
+// A group of invocations goes along a few rows of pixels, side by side, so that what is read lies side by
+// side; each adds what it found to the boxes at the end.
 
 #include "shadowtech/base/light_views.glsl"
 #include "shadowtech/fitting/bounds_buffer.glsl"
 #include "shadowtech/fitting/splits.glsl"
 
-layout(local_size_x = 64) in;
+layout(local_size_x = GROUP) in;
 
 uniform sampler2D receiverFragments; // x: > 0 if it receives; zw: the normal's x and y
 uniform sampler2D receiverPoints;    // xyz: position, w: the normal's z; all in view coordinates
-uniform int rowsPerInvocation;
 uniform vec2 coveredTexels; // receivers between these, before the fit, may be shadowed at all
 #if VIEWS_SPLITS_LIGHT
 uniform float splitLambda;
@@ -129,11 +128,7 @@ vec3 valueOf(Counted counted)
 void main()
 {
   ivec2 size = textureSize(receiverFragments, 0);
-  ivec2 pixel = ivec2(gl_GlobalInvocationID.xy) * ivec2(1, rowsPerInvocation);
-  if (pixel.x >= size.x)
-  {
-    return;
-  }
+  int firstRow = int(gl_WorkGroupID.x) * ROWS;
   beginBoxes();
   vec3 lower[boxes];
   vec3 upper[boxes];
@@ -142,15 +137,17 @@ void main()
     lower[box] = vec3(infinity);
     upper[box] = vec3(-infinity);
   }
-  int end = min(pixel.y + rowsPerInvocation, size.y);
-  for (; pixel.y < end; ++pixel.y)
+  for (int y = firstRow; y < min(firstRow + ROWS, size.y); ++y)
   {
-    Counted counted;
-    if (findCounted(pixel, counted))
+    for (int x = int(gl_LocalInvocationID.x); x < size.x; x += GROUP)
     {
-      int box = boxOf(counted);
-      lower[box] = min(lower[box], valueOf(counted));
-      upper[box] = max(upper[box], valueOf(counted));
+      Counted counted;
+      if (findCounted(ivec2(x, y), counted))
+      {
+        int box = boxOf(counted);
+        lower[box] = min(lower[box], valueOf(counted));
+        upper[box] = max(upper[box], valueOf(counted));
+      }
     }
   }
   for (int box = 0; box < boxes; ++box)
