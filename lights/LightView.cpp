@@ -37,10 +37,10 @@ bool LightView::maySee(const Bounds& centred) const
   for (const glm::dvec3& corner : centred.corners())
   {
     const glm::dvec4 clip = matrix * glm::dvec4(corner, 1.0);
-    outside[0] += clip.x < -clip.w ? 1 : 0;
-    outside[1] += clip.x > clip.w ? 1 : 0;
-    outside[2] += clip.y < -clip.w ? 1 : 0;
-    outside[3] += clip.y > clip.w ? 1 : 0;
+    outside[0] += clip.x < this->readable.lower.x * clip.w ? 1 : 0;
+    outside[1] += clip.x > this->readable.upper.x * clip.w ? 1 : 0;
+    outside[2] += clip.y < this->readable.lower.y * clip.w ? 1 : 0;
+    outside[3] += clip.y > this->readable.upper.y * clip.w ? 1 : 0;
     outside[4] += clip.w <= 0.0 ? 1 : 0;
   }
   for (const int corners : outside)

@@ -3,6 +3,7 @@
 
 #include "lights/Bounds.h"
 #include "lights/LightRays.h"
+#include "lights/MapFit.h"
 
 #include <glm/glm.hpp>
 
@@ -34,6 +35,9 @@ struct LightView
   /// The z from which on casters count: where the light begins, or just before the first caster of a
   /// positional one.
   double beginsAt = -std::numeric_limits<double>::infinity();
+  /// The part of the map that can be read. It is smaller than the map only where the last fit is
+  /// still to come (LightViews::awaitFit).
+  Rectangle readable = wholeMap;
 
   /// Whether texels are of different sizes, so that what is linear across the light is not linear
   /// on the map.
@@ -45,14 +49,14 @@ struct LightView
   /// that depth, scaled to [-1, 1]; else z is 0, and depth is the fragment's business.
   glm::dmat4 clipFromCentred() const;
 
-  /// False only if nothing in the box can be seen.
+  /// False only if nothing in the box can be seen in the readable part.
   bool maySee(const Bounds& centred) const;
 
   bool operator==(const LightView& other) const
   {
     return this->rays == other.rays && this->mapFromAcross == other.mapFromAcross &&
       this->depthScale == other.depthScale && this->depthOffset == other.depthOffset &&
-      this->beginsAt == other.beginsAt;
+      this->beginsAt == other.beginsAt && this->readable == other.readable;
   }
   bool operator!=(const LightView& other) const { return !(*this == other); }
 };

@@ -58,9 +58,7 @@ std::optional<LightView> fitted(
 {
   const Rectangle visible = rangeOf(view.mapFromAcross, view.rays.across(visibleView));
   // A view is wider than its casters by as much as its border takes.
-  Rectangle covered = wholeMap;
-  covered.lower /= texels.inside();
-  covered.upper /= texels.inside();
+  const Rectangle covered = texels.covered();
   const std::optional<MapFit> fit =
     snap ? fitSnappedTo(visible, texels, covered) : fitTo(visible, texels, covered);
   if (!fit)
@@ -69,6 +67,26 @@ std::optional<LightView> fitted(
   }
   view.mapFromAcross = fit->matrix() * view.mapFromAcross;
   return view;
+}
+
+/// What will be read of a map that is fitted to some of what is visible: that and its border. A snapped
+/// map is larger by up to 2^(1/4) and a texel, and a fit widens what is too small.
+Rectangle readableOf(const Rectangle& visible, const MapTexels& texels)
+{
+  const glm::dvec2 centre = 0.5 * (visible.lower + visible.upper);
+  const glm::dvec2 half =
+    1.25 / texels.inside() * (0.5 * (visible.upper - visible.lower) + 2.0 * leastVisibleShare);
+  return { centre - half, centre + half };
+}
+
+/// The views that wait for the receivers, of what is visible at most.
+std::vector<LightView> awaitingViews(const ShadowLight& light, const LightView& view,
+  const std::vector<glm::dvec3>& visibleView, const MapTexels& texels)
+{
+  LightView waiting = view;
+  waiting.readable = readableOf(rangeOf(view.mapFromAcross, view.rays.across(visibleView)), texels);
+  const bool splits = light.projection == Projection::Splits;
+  return std::vector<LightView>(splits ? static_cast<std::size_t>(light.splits) : 1, waiting);
 }
 
 /// Lays out the views of casters that one view would hold, as the light's projection has it.
@@ -91,6 +109,17 @@ std::vector<LightView> layViews(const ShadowLight& light, const ViewFitting& fit
   {
     return {};
   }
+  if (isWarped(light))
+  {
+    const glm::dmat3 warp = light.projection == Projection::Lispsm
+      ? lispsmFromAcross(visible, camera, view.rays)
+      : trapezoidFromAcross(visible, camera, view.rays);
+    view.mapFromAcross = scaling(fitting.texels.inside()) * warp;
+  }
+  if (light.fittedToReceivers)
+  {
+    return awaitingViews(light, view, visible, fitting.texels);
+  }
   std::vector<LightView> views;
   const auto add = [&](const std::vector<glm::dvec3>& points)
   {
@@ -101,10 +130,6 @@ std::vector<LightView> layViews(const ShadowLight& light, const ViewFitting& fit
   };
   if (isWarped(light))
   {
-    const glm::dmat3 warp = light.projection == Projection::Lispsm
-      ? lispsmFromAcross(visible, camera, view.rays)
-      : trapezoidFromAcross(visible, camera, view.rays);
-    view.mapFromAcross = scaling(fitting.texels.inside()) * warp;
     views.push_back(view);
   }
   else if (light.projection == Projection::Splits)
@@ -267,6 +292,7 @@ LightViews fitLightViews(const ShadowLight& light, const ViewFitting& fitting)
 {
   LightViews result;
   result.layout = viewLayout(light);
+  result.awaitFit = light.fittedToReceivers;
   result.borderTexels = fitting.texels.border;
   result.lightFromCentred = lightFromCentred(light, fitting.centreWorld);
   const double coneTangent = std::tan(glm::radians(light.coneAngleDegrees));

@@ -39,6 +39,11 @@ struct LightViews
 
   static constexpr int noView = -1;
 
+  /// Whether the views still wait for the last fit, F of MapFit.h, which the receivers that are drawn
+  /// will give (ShadowLight::fittedToReceivers). Their maps are then in device coordinates before F:
+  /// around all casters of a uniform view or split, around what the camera can see of a warped one.
+  bool awaitFit = false;
+
   /// Texels around a point that are read with it, which a split's view has to hold, too.
   int borderTexels = 1;
 
@@ -51,7 +56,7 @@ struct LightViews
   {
     return this->layout == other.layout && this->lightFromCentred == other.lightFromCentred &&
       this->views == other.views && this->viewOfFace == other.viewOfFace &&
-      this->borderTexels == other.borderTexels &&
+      this->awaitFit == other.awaitFit && this->borderTexels == other.borderTexels &&
       this->coneTangentSquared == other.coneTangentSquared && this->box == other.box;
   }
   bool operator!=(const LightViews& other) const { return !(*this == other); }
@@ -70,6 +75,9 @@ bool isWarped(const ShadowLight& light);
 
 /// Whether the light's views are made for what a camera sees, rather than for all of the scene.
 bool isFittedToCamera(const ShadowLight& light);
+
+/// Whether the light's projection is a perspective towards the camera.
+bool isWarped(const ShadowLight& light);
 
 /// How many views there can be.
 int mostViews(const ShadowLight& light);
@@ -96,6 +104,9 @@ struct ViewFitting
 /// mathematics (Lispsm.h, Trapezoid.h); splits each a part of the distance from the camera
 /// (Splits.h). Depths always cover all casters, so that those between the light and what is visible
 /// are kept.
+///
+/// For a light that is fitted to receivers, all of this is done but for the fit itself, and what the
+/// camera can see at most becomes the views' readable part.
 ///
 /// A view keeps a border on every side, so that what a technique reads around a receiver lies in the
 /// same layer. The faces of a cube see 90 degrees between those borders, less where there are no

@@ -99,6 +99,12 @@ double MapTexels::inside() const
 }
 
 //------------------------------------------------------------------------------
+Rectangle MapTexels::covered() const
+{
+  return { wholeMap.lower / this->inside(), wholeMap.upper / this->inside() };
+}
+
+//------------------------------------------------------------------------------
 std::optional<MapFit> fitTo(
   const Rectangle& visible, const MapTexels& texels, const Rectangle& covered)
 {

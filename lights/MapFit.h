@@ -24,6 +24,11 @@ struct Rectangle
     this->lower = glm::min(this->lower, point);
     this->upper = glm::max(this->upper, point);
   }
+
+  bool operator==(const Rectangle& other) const
+  {
+    return this->lower == other.lower && this->upper == other.upper;
+  }
 };
 
 /// A map's whole range in its normalised device coordinates.
@@ -62,6 +67,8 @@ struct MapTexels
 
   /// The share of [-1, 1] that lies inside of the border.
   double inside() const;
+  /// What a map covers whose casters fill [-1, 1]^2 and that keeps its border outside of them.
+  Rectangle covered() const;
 };
 
 /// The least part of what is to be covered that a map is fitted to. At a side of 1024, the texels of a

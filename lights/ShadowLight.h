@@ -51,6 +51,10 @@ struct ShadowLight : ShadowSettings
 
   /// How much of the light a full shadow takes away, in [0, 1]: shading uses mix(1, v, strength).
   double strength = 1.0;
+
+  /// Whether this frame fits the light's views to the receivers that are drawn, on the GPU
+  /// (shadowtech/fitting/), rather than to what the camera's frustum leaves of the scene.
+  bool fittedToReceivers = false;
 };
 
 } // namespace gnomon

@@ -1,6 +1,7 @@
 #include "plugin/RenderManager.h"
 
 #include "lights/KernelShape.h"
+#include "plugin/Hash.h"
 #include "plugin/vtkGnomonShadowPass.h"
 #include "shadowtech/Registry.h"
 #include "shadowtech/base/Bytes.h"
@@ -18,6 +19,8 @@
 #include <vtkRenderState.h>
 #include <vtkRenderer.h>
 #include <vtkSmartPointer.h>
+
+#include <glm/gtc/type_ptr.hpp>
 
 #include <algorithm>
 
@@ -102,6 +105,32 @@ private:
   vtkInformation* keys_;
   vtkSmartPointer<vtkInformation> hidden_;
 };
+
+void hashMatrix(std::size_t& seed, const glm::dmat4& matrix)
+{
+  for (int i = 0; i < 16; ++i)
+  {
+    hashCombine(seed, glm::value_ptr(matrix)[i]);
+  }
+}
+
+/// What a picture of props depends on, beside their places in the snapshot: the same numbers mean the
+/// same picture.
+std::size_t hashOfShown(const vtkRenderState* s, const CameraView& camera, const glm::ivec2& size)
+{
+  std::size_t seed = 0;
+  hashMatrix(seed, camera.viewFromCentred);
+  hashMatrix(seed, camera.clipFromView);
+  hashCombine(seed, size.x);
+  hashCombine(seed, size.y);
+  for (int i = 0; i < s->GetPropArrayCount(); ++i)
+  {
+    vtkProp* prop = s->GetPropArray()[i];
+    hashCombine(seed, prop);
+    hashCombine(seed, prop->GetRedrawMTime());
+  }
+  return seed;
+}
 
 template <typename Value>
 std::vector<Value> topRowFirst(const std::vector<Value>& image, int width, int height)
@@ -270,6 +299,7 @@ bool RenderManager::chooseRoute(int wished, bool keepVisibility)
       "centre: where another surface covers the rest of the pixel it is shaded with it, too.");
   }
 
+  this->chooseFits();
   std::vector<ShadedLight> lights;
   for (LightSlot* slot : this->casting_)
   {
@@ -277,6 +307,60 @@ bool RenderManager::chooseRoute(int wished, bool keepVisibility)
   }
   this->shaders_.configure({ this->route_, this->anyPointwise(), samples > 1 }, lights);
   return wished != vtkGnomonShadowPass::ROUTE_INLINE || screenTechnique.empty();
+}
+
+//------------------------------------------------------------------------------
+/// States what each light's views are fitted to: the receivers that are drawn, which are the tightest,
+/// unless there is a reason not to.
+void RenderManager::chooseFits()
+{
+  for (LightSlot* slot : this->casting_)
+  {
+    if (!slot->estimator->info.needsMap)
+    {
+      continue;
+    }
+    ShadowLight& light = slot->light;
+    LightReport& report = this->reportOf(light);
+    const bool fitted = isFittedToCamera(light);
+    report.fitReason = fitted ? this->reasonAgainstReceivers(*slot) : "";
+    light.fittedToReceivers = fitted && report.fitReason.empty();
+    report.fit = light.fittedToReceivers ? "receivers" : fitted ? "frustum" : "off";
+  }
+}
+
+//------------------------------------------------------------------------------
+/// Why a light's views cannot be fitted to the receivers that are drawn; empty if they can.
+std::string RenderManager::reasonAgainstReceivers(const LightSlot& slot) const
+{
+  if (this->route_ == Route::Inline)
+  {
+    return "the inline route does not draw the receivers first";
+  }
+  if (!slot.estimator->info.pointwise)
+  {
+    return "the technique works on the screen, where the receivers are found after the maps";
+  }
+  if (slot.light.fit == ViewFit::Once)
+  {
+    return "a fit that is made once has to hold what will be seen later";
+  }
+  if (this->collector_.translucentReceivers() > 0)
+  {
+    return "translucent surfaces receive, which are not among the receivers that are drawn first";
+  }
+  if (slot.technique->mapReach(slot.light).unitAcross > 0.0)
+  {
+    return "a kernel of a width in world units needs a border that follows from the fit itself";
+  }
+  return {};
+}
+
+//------------------------------------------------------------------------------
+LightReport& RenderManager::reportOf(const ShadowLight& light)
+{
+  return *std::find_if(this->report_.lights.begin(), this->report_.lights.end(),
+    [&](const LightReport& report) { return report.sceneIndex == light.sceneIndex; });
 }
 
 //------------------------------------------------------------------------------
@@ -336,8 +420,9 @@ void RenderManager::drawReceivers(const vtkRenderState* s, vtkGnomonShadowPass* 
   const int height = size.y;
 
   const glm::dmat4 centredFromView = this->centredFromView(renderer);
-  this->receiverImages_.rays =
-    pixelRays(this->camera(renderer).clipFromView, centredFromView, width, height);
+  const CameraView camera = this->camera(renderer);
+  this->receiverImages_.rays = pixelRays(camera.clipFromView, centredFromView, width, height);
+  this->receiversShown_ = hashOfShown(s, camera, size);
 
   this->layers_.resize(width, height, static_cast<int>(this->casting_.size()));
   this->stageValues_.layers = { GL_TEXTURE_2D_ARRAY, this->layers_.texture() };
@@ -382,11 +467,11 @@ void RenderManager::bakeMaps(vtkRenderer* renderer)
   {
     if (slot->estimator->info.needsMap)
     {
-      this->bakeMaps(slot->light, camera, *slot->technique, slot->bake);
+      this->bakeMaps(*slot, camera, *slot->technique, slot->bake);
     }
     if (slot->plain)
     {
-      this->bakeMaps(slot->light, camera, *slot->plain, slot->plainBake);
+      this->bakeMaps(*slot, camera, *slot->plain, slot->plainBake);
     }
   }
   this->endStageClock("maps");
@@ -395,8 +480,9 @@ void RenderManager::bakeMaps(vtkRenderer* renderer)
 //------------------------------------------------------------------------------
 /// Bakes a light's maps if they are stale.
 void RenderManager::bakeMaps(
-  const ShadowLight& light, const CameraView& camera, Technique& technique, Bake& bake)
+  LightSlot& slot, const CameraView& camera, Technique& technique, Bake& bake)
 {
+  const ShadowLight& light = slot.light;
   const Occluders& occluders = this->collector_.occluders();
   const MapReach reach = technique.mapReach(light);
   ViewFitting fitting;
@@ -415,25 +501,43 @@ void RenderManager::bakeMaps(
     fitting.texels.border = reach.borderTexels(mostTexelsAcross(views, light.mapSizeTexels));
     views = fitLightViews(light, fitting);
   }
+  std::size_t receivers = 0;
+  if (light.fittedToReceivers)
+  {
+    receivers = this->receiversShown_;
+    hashCombine(receivers, light.snap);
+    hashCombine(receivers, light.splitLambda);
+  }
   const bool fresh = bake.once && bake.views == views && bake.sizeTexels == light.mapSizeTexels &&
     bake.reach == reach && bake.settings.storesAs(light) &&
-    bake.topology == occluders.topologyVersion && bake.positions == occluders.positionsVersion;
+    bake.topology == occluders.topologyVersion && bake.positions == occluders.positionsVersion &&
+    bake.receivers == receivers;
   if (!fresh)
   {
     this->buffers_.update(occluders);
     bake.once = false; // in case that there is no memory
+    if (light.fittedToReceivers)
+    {
+      slot.receiverFit.compute(light, views,
+        { this->receiverTarget_.fragments(), this->receiverTarget_.points(),
+          this->receiverTarget_.width(), this->receiverTarget_.height() },
+        this->stageValues_.centredFromView, this->library_);
+    }
     try
     {
-      technique.bake({ light, views, occluders, this->buffers_, this->library_ });
+      technique.bake({ light, views, occluders, this->buffers_, this->library_,
+        light.fittedToReceivers ? slot.receiverFit.fits() : TextureBinding() });
     }
     catch (const TextureMemoryError& error)
     {
       throw TextureMemoryError("light " + std::to_string(light.sceneIndex) + ": " + error.what());
     }
+    const int castersLeftOut = this->buffers_.countUnseen(views.views);
     bake = { std::move(views), fitting.camera, reach, light, light.mapSizeTexels,
-      occluders.topologyVersion, occluders.positionsVersion, true };
+      occluders.topologyVersion, occluders.positionsVersion, receivers, true, castersLeftOut };
     ++this->report_.mapBakes;
   }
+  this->reportOf(light).castersLeftOut = bake.castersLeftOut;
   this->report_.bytesMaps += technique.bytesOfMaps();
 }
 
@@ -477,10 +581,8 @@ void RenderManager::computeVisibility(bool keep)
     }
     else
     {
-      const auto report = std::find_if(this->report_.lights.begin(), this->report_.lights.end(),
-        [&](const LightReport& light) { return light.sceneIndex == slot.light.sceneIndex; });
-      slot.technique->computeVisibility(
-        { slot.light, occluders, this->receivers_, this->tracer_ }, visibility, *report);
+      slot.technique->computeVisibility({ slot.light, occluders, this->receivers_, this->tracer_ },
+        visibility, this->reportOf(slot.light));
       this->endStageClock("visibility: trace");
       this->layers_.upload(layer, visibility);
       this->endStageClock("visibility: upload");

@@ -14,6 +14,7 @@
 #include "shadowtech/base/ShaderLibrary.h"
 #include "shadowtech/base/Technique.h"
 #include "shadowtech/base/VisibilityLayers.h"
+#include "shadowtech/fitting/ReceiverFit.h"
 
 #include <chrono>
 #include <cstdint>
@@ -100,7 +101,9 @@ private:
     int sizeTexels = 0;
     std::uint64_t topology = 0;
     std::uint64_t positions = 0;
+    std::size_t receivers = 0; ///< a hash of what F of MapFit.h was found from on the GPU; else 0
     bool once = false;
+    int castersLeftOut = 0;
   };
   /// A casting light and its technique.
   struct LightSlot
@@ -112,12 +115,15 @@ private:
     std::unique_ptr<Technique> plain;
     Bake plainBake;
     ShadowLight light;
+    ReceiverFit receiverFit;
   };
 
   void endStageClock(const std::string& name);
+  void chooseFits();
+  std::string reasonAgainstReceivers(const LightSlot& slot) const;
   const Technique* pointwiseFor(LightSlot& slot) const;
-  void bakeMaps(
-    const ShadowLight& light, const CameraView& camera, Technique& technique, Bake& bake);
+  void bakeMaps(LightSlot& slot, const CameraView& camera, Technique& technique, Bake& bake);
+  LightReport& reportOf(const ShadowLight& light);
   void resolveReceivers();
   void keepVisibility();
   bool anyPointwise() const;
@@ -138,6 +144,7 @@ private:
   RayTracer tracer_;
   Route route_ = Route::Inline;
   ReceiverTarget receiverTarget_;
+  std::size_t receiversShown_ = 0; ///< a hash of what the receivers' images depend on
   ReceiverImages receiverImages_;
   ReceiverPixels receivers_;
   VisibilityLayers layers_;

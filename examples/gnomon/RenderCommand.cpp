@@ -132,11 +132,13 @@ nlohmann::ordered_json toJson(const FrameReport& report)
   json["lights"] = nlohmann::ordered_json::array();
   for (const LightReport& light : report.lights)
   {
-    json["lights"].push_back({ { "scene_index", light.sceneIndex }, { "casts", light.casts },
-      { "reason", light.reason }, { "technique", light.technique },
-      { "estimator", light.estimator }, { "projection", light.projection },
-      { "map_size_texels", light.mapSizeTexels }, { "kernel", light.kernel },
-      { "kernel_size_texels", light.kernelTexels }, { "traced_pixels", light.tracedPixels } });
+    json["lights"].push_back(
+      { { "scene_index", light.sceneIndex }, { "casts", light.casts }, { "reason", light.reason },
+        { "technique", light.technique }, { "estimator", light.estimator },
+        { "projection", light.projection }, { "map_size_texels", light.mapSizeTexels },
+        { "fit", light.fit }, { "fit_reason", light.fitReason },
+        { "casters_left_out", light.castersLeftOut }, { "kernel", light.kernel },
+        { "kernel_size_texels", light.kernelTexels }, { "traced_pixels", light.tracedPixels } });
   }
   json["notes"] = report.notes;
   json["stages"] = nlohmann::ordered_json::array();
@@ -189,6 +191,10 @@ std::map<std::string, std::string> makeHeader(
     const std::string prefix = "light." + std::to_string(light.sceneIndex);
     header[prefix + ".technique"] = light.casts ? light.technique : "none: " + light.reason;
     header[prefix + ".map_size_texels"] = std::to_string(light.mapSizeTexels);
+    if (!light.fit.empty())
+    {
+      header[prefix + ".fit"] = light.fit;
+    }
     if (!light.kernel.empty())
     {
       header[prefix + ".kernel"] = light.kernel;

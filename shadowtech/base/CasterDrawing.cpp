@@ -26,8 +26,9 @@ bool begins(const LightView& view)
   return std::isfinite(view.beginsAt);
 }
 
-void useProgram(const LightView& view, const MapInput& input, const CasterShader& shader)
+void useProgram(std::size_t number, const MapInput& input, const CasterShader& shader)
 {
+  const LightView& view = input.views.views[number];
   const GLuint program = input.shaders.program(
     { { GL_VERTEX_SHADER, ShaderLibrary::source("shadowtech/base/casters.vert.glsl") },
       { GL_FRAGMENT_SHADER, shader.fragmentGlsl } },
@@ -44,6 +45,11 @@ void useProgram(const LightView& view, const MapInput& input, const CasterShader
   {
     const glm::dvec4 behind = distance - glm::dvec4(0.0, 0.0, 0.0, view.beginsAt);
     uniforms.push_back({ "beginFromCentred", glm::vec4(behind) });
+  }
+  if (input.views.awaitFit)
+  {
+    uniforms.push_back({ "viewFits", input.viewFits });
+    uniforms.push_back({ "view", static_cast<int>(number) });
   }
   uniforms.insert(uniforms.end(), shader.uniforms.begin(), shader.uniforms.end());
   ShaderLibrary::setUniforms(program, uniforms, 0, cutoutUnit + 1);
@@ -68,8 +74,9 @@ void beginCasters(GLuint framebuffer, int sizeTexels)
 }
 
 //------------------------------------------------------------------------------
-void drawCasters(const LightView& view, const MapInput& input, CasterShader shader)
+void drawCasters(std::size_t number, const MapInput& input, CasterShader shader)
 {
+  const LightView& view = input.views.views[number];
   if (view.rays.positional)
   {
     shader.defines.emplace_back("PERSPECTIVE");
@@ -82,13 +89,17 @@ void drawCasters(const LightView& view, const MapInput& input, CasterShader shad
   {
     shader.defines.emplace_back("BEGINS");
   }
+  if (input.views.awaitFit)
+  {
+    shader.defines.emplace_back("FITTED");
+  }
   begins(view) ? glEnable(GL_CLIP_DISTANCE0) : glDisable(GL_CLIP_DISTANCE0);
-  useProgram(view, input, shader);
+  useProgram(number, input, shader);
   input.buffers.draw(view, shader.backOnly);
   if (input.buffers.hasCutouts())
   {
     shader.defines.emplace_back("CUTOUT");
-    useProgram(view, input, shader);
+    useProgram(number, input, shader);
     glActiveTexture(GL_TEXTURE0 + cutoutUnit);
     input.buffers.drawCutouts(view, shader.backOnly);
   }

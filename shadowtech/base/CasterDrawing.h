@@ -3,6 +3,7 @@
 
 #include "shadowtech/base/Technique.h"
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -26,14 +27,15 @@ struct CasterShader
 /// caller's business.
 void beginCasters(GLuint framebuffer, int sizeTexels);
 
-/// Draws the casters, as one view sees them, into what is attached to the framebuffer.
+/// Draws the casters, as the view of this number sees them, into what is attached to the framebuffer.
 ///
 /// What a texel holds is the fragment shader's business. It is built with PERSPECTIVE or WARPED for
 /// such views. With DEPTH_LINEAR among its defines it gets the map's linear depth as
 /// `in float depthLinear`; the depth buffer has that by itself only where LightView::depthIsAffine.
-/// It may ask for `uniform mat3 texelFromAcross` and `acrossFromTexel` (LightView.h).
+/// Where it is across the light, caster_map.glsl tells. The last fit of views that await it
+/// (MapInput::viewFits) is applied here and there.
 /// Casters with holes are drawn by a shader of their own: main() ends with discardHoles() (cutout.glsl).
-void drawCasters(const LightView& view, const MapInput& input, CasterShader shader);
+void drawCasters(std::size_t number, const MapInput& input, CasterShader shader);
 
 /// The uniform of map_visibility.glsl that says what rounding does to the depths that are compared.
 /// @param followed how many times farther than to its own texel a receiver's plane is followed

@@ -19,13 +19,18 @@ struct StageTime
 /// What became of one light.
 struct LightReport
 {
-  int sceneIndex = 0;            ///< place in the renderer's light collection
-  bool casts = false;            ///< false: skipped, and `reason` says why
-  std::string reason;            ///< why it was skipped; empty when it casts
-  std::string technique;         ///< the technique that shades it
-  std::string estimator;         ///< what it decides points by
-  std::string projection;        ///< how its map is laid out; empty when it needs none
-  int mapSizeTexels = 0;         ///< side of its map; 0 when it needs none
+  int sceneIndex = 0;     ///< place in the renderer's light collection
+  bool casts = false;     ///< false: skipped, and `reason` says why
+  std::string reason;     ///< why it was skipped; empty when it casts
+  std::string technique;  ///< the technique that shades it
+  std::string estimator;  ///< what it decides points by
+  std::string projection; ///< how its map is laid out; empty when it needs none
+  int mapSizeTexels = 0;  ///< side of its map; 0 when it needs none
+  /// What its views are fitted to: "off" (all casters), "frustum" (what the camera can see at most) or
+  /// "receivers" (those that are drawn); empty when it needs no map.
+  std::string fit;
+  std::string fitReason;         ///< why it is the frustum; empty when it is not
+  int castersLeftOut = 0;        ///< casting surfaces that none of its views can see
   std::string kernel;            ///< what filters it; empty when nothing does
   int kernelTexels = 0;          ///< and how wide that is
   std::int64_t tracedPixels = 0; ///< pixels decided by a ray

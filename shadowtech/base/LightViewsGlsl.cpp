@@ -32,12 +32,13 @@ std::string lightViewsDefines(const ShadowLight& light)
     define("VIEWS_PERSPECTIVE_LIGHT", light.kind != LightKind::Directional) +
     define("VIEWS_CUBE_LIGHT", layout == ViewLayout::Cube) +
     define("VIEWS_SPLITS_LIGHT", layout == ViewLayout::Splits) +
-    define("VIEWS_WARPED_LIGHT", isWarped(light)) + define("VIEWS_LIGHT", mostViews(light));
+    define("VIEWS_WARPED_LIGHT", isWarped(light)) +
+    define("VIEWS_FITTED_LIGHT", light.fittedToReceivers) + define("VIEWS_LIGHT", mostViews(light));
 }
 
 //------------------------------------------------------------------------------
-std::vector<Uniform> lightViewsUniforms(
-  const LightViews& views, int sizeTexels, const glm::dmat4& centredFromView)
+std::vector<Uniform> lightViewsUniforms(const LightViews& views, int sizeTexels,
+  const glm::dmat4& centredFromView, const TextureBinding& viewFits)
 {
   std::vector<Uniform> uniforms = { { "lightFromView_LIGHT",
                                       glm::mat4(views.lightFromCentred * centredFromView) },
@@ -46,6 +47,10 @@ std::vector<Uniform> lightViewsUniforms(
     { "viewBorder_LIGHT", static_cast<float>(views.borderTexels) },
     { "lightCone_LIGHT", static_cast<float>(views.coneTangentSquared) },
     { "lightBox_LIGHT", glm::vec3(views.box) } };
+  if (viewFits.texture)
+  {
+    uniforms.push_back({ "viewFits_LIGHT", viewFits });
+  }
   for (std::size_t i = 0; i < views.views.size(); ++i)
   {
     const LightView& view = views.views[i];

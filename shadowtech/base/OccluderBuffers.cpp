@@ -3,6 +3,7 @@
 #include "shadowtech/base/Bytes.h"
 #include "shadowtech/base/GlState.h"
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 
@@ -242,6 +243,21 @@ std::size_t OccluderBuffers::bytes() const
 {
   return this->bytesOnGpu_ + bytesOf(this->twoSided_) + bytesOf(this->oneSided_) +
     bytesOf(this->cutouts_);
+}
+
+//------------------------------------------------------------------------------
+int OccluderBuffers::countUnseen(const std::vector<LightView>& views) const
+{
+  const auto isUnseen = [&](const Part& part)
+  {
+    return std::none_of(views.begin(), views.end(),
+      [&](const LightView& view) { return view.maySee(part.boundsCentred); });
+  };
+  const auto count = std::count_if(this->twoSided_.begin(), this->twoSided_.end(), isUnseen) +
+    std::count_if(this->oneSided_.begin(), this->oneSided_.end(), isUnseen) +
+    std::count_if(this->cutouts_.begin(), this->cutouts_.end(),
+      [&](const CutoutPart& cutout) { return isUnseen(cutout.part); });
+  return static_cast<int>(count);
 }
 
 //------------------------------------------------------------------------------

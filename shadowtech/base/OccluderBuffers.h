@@ -37,6 +37,9 @@ public:
   /// is 0 exactly where the surface has a hole, filtered and repeated as VTK's texture is.
   void drawCutouts(const LightView& view, bool backOnly = false) const;
 
+  /// The number of casting surfaces that none of the views can see.
+  int countUnseen(const std::vector<LightView>& views) const;
+
   /// On the GPU, and what is remembered of each surface.
   std::size_t bytes() const;
 

@@ -59,6 +59,8 @@ struct MapInput
   const Occluders& occluders;
   OccluderBuffers& buffers;
   ShaderLibrary& shaders;
+  /// The last fits of views that await them (ReceiverFit.h).
+  TextureBinding viewFits = {};
 };
 
 /// What a screen technique gets to compute one light's visibility image from.

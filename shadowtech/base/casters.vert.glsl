@@ -4,6 +4,11 @@ layout(location = 0) in vec3 positionCentred;
 
 uniform mat4 clipFromCentred;
 
+#ifdef FITTED
+uniform sampler2D viewFits; // at (view, 0): the view's last fit, in device coordinates
+uniform int view;
+#endif
+
 #ifdef DEPTH_LINEAR
 // Row of light space's z, scaled to the map's linear depth in [0, 1].
 uniform vec4 depthFromCentred;
@@ -24,6 +29,10 @@ void main()
   cutoutCoordinates = textureCoordinates;
 #endif
   gl_Position = clipFromCentred * vec4(positionCentred, 1.0);
+#ifdef FITTED
+  vec4 fit = texelFetch(viewFits, ivec2(view, 0), 0);
+  gl_Position.xy = fit.xy * gl_Position.xy + fit.zw * gl_Position.w;
+#endif
 #ifdef DEPTH_LINEAR
   depthLinear = dot(depthFromCentred, vec4(positionCentred, 1.0));
 #endif

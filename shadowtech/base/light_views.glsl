@@ -5,6 +5,8 @@
 // What kind of light it is, is known when the shader is built: VIEWS_SPOT_LIGHT, VIEWS_BOX_LIGHT and
 // VIEWS_PERSPECTIVE_LIGHT are 0 or 1; and so is how its views lie: VIEWS_CUBE_LIGHT, VIEWS_SPLITS_LIGHT
 // (neither: a single one), VIEWS_WARPED_LIGHT. VIEWS_LIGHT is how many views there can be.
+// VIEWS_FITTED_LIGHT: the last fit of the views was found on the GPU, and is read from a texture;
+// texels "before the fit" are those of the map that would show all that there can be.
 //
 // A view's map is a homography of the plane of the light's rays, whose points are across coordinates:
 // x and y of parallel rays, their slopes of those from a position (lights/LightRays.h).
@@ -13,6 +15,9 @@
 #include "shadowtech/base/shadow_ray.glsl"
 
 uniform mat4 lightFromView_LIGHT;           // rigid: the camera's space to the light's
+#if VIEWS_FITTED_LIGHT
+uniform sampler2D viewFits_LIGHT; // at (view, 1): the view's last fit, in texels
+#endif
 #if VIEWS_WARPED_LIGHT
 uniform mat3 texelFromAcross_LIGHT[VIEWS_LIGHT];
 uniform mat3 acrossFromTexel_LIGHT[VIEWS_LIGHT];
@@ -89,19 +94,19 @@ bool lightReaches_LIGHT(vec3 positionLight, vec3 normalLight)
   return reaches;
 }
 
-// Where a ray is on a view's layer, and the other way round.
-vec2 texelOf_LIGHT(int view, vec2 across)
+// Where a ray is on a view's layer before the fit, and the other way round.
+vec2 texelBeforeFit_LIGHT(int view, vec2 across)
 {
 #if VIEWS_WARPED_LIGHT
   vec3 texel = texelFromAcross_LIGHT[view] * vec3(across, 1.0);
-  // What is visible has w > 0; behind the warp's eye nothing is seen.
-  return texel.z > 0.0 ? texel.xy / texel.z : vec2(-1.0);
+  // What is visible has w > 0; behind the warp's eye nothing is seen: that lies off any map.
+  return texel.z > 0.0 ? texel.xy / texel.z : vec2(-1e30);
 #else
   vec4 texels = viewTexels_LIGHT[view];
   return texels.xy * across + texels.zw;
 #endif
 }
-vec2 acrossOf_LIGHT(int view, vec2 texel)
+vec2 acrossBeforeFit_LIGHT(int view, vec2 texel)
 {
 #if VIEWS_WARPED_LIGHT
   vec3 across = acrossFromTexel_LIGHT[view] * vec3(texel, 1.0);
@@ -110,6 +115,28 @@ vec2 acrossOf_LIGHT(int view, vec2 texel)
   vec4 texels = viewTexels_LIGHT[view];
   return (texel - texels.zw) / texels.xy;
 #endif
+}
+
+// The last fit of a view: texel = xy * texel before the fit + zw.
+vec4 fitOf_LIGHT(int view)
+{
+#if VIEWS_FITTED_LIGHT
+  return texelFetch(viewFits_LIGHT, ivec2(view, 1), 0);
+#else
+  return vec4(1.0, 1.0, 0.0, 0.0);
+#endif
+}
+
+// Where a ray is on a view's layer, and the other way round.
+vec2 texelOf_LIGHT(int view, vec2 across)
+{
+  vec4 fit = fitOf_LIGHT(view);
+  return fit.xy * texelBeforeFit_LIGHT(view, across) + fit.zw;
+}
+vec2 acrossOf_LIGHT(int view, vec2 texel)
+{
+  vec4 fit = fitOf_LIGHT(view);
+  return acrossBeforeFit_LIGHT(view, (texel - fit.zw) / fit.xy); // not 0 where anything is on the map
 }
 
 // Where a point is across the light.
@@ -126,11 +153,13 @@ vec2 acrossOf_LIGHT(vec3 positionLight)
 mat2 texelJacobian_LIGHT(int view, vec2 across)
 {
 #if VIEWS_WARPED_LIGHT
-  return homographyJacobian(texelFromAcross_LIGHT[view], across);
+  mat2 beforeFit = homographyJacobian(texelFromAcross_LIGHT[view], across);
 #else
   vec4 texels = viewTexels_LIGHT[view];
-  return mat2(texels.x, 0.0, 0.0, texels.y);
+  mat2 beforeFit = mat2(texels.x, 0.0, 0.0, texels.y);
 #endif
+  vec4 fit = fitOf_LIGHT(view);
+  return mat2(fit.xy * beforeFit[0], fit.xy * beforeFit[1]);
 }
 
 // Whether a view's layer holds a place and all within a border around it.
@@ -140,9 +169,10 @@ bool holds_LIGHT(vec2 texel, float border)
     all(lessThan(texel, vec2(viewSize_LIGHT - border)));
 }
 
-// Finds the view of a point that the light reaches.
-// Returns false where no view sees it: the views hold all casters, so that nothing can shadow it.
-bool findView_LIGHT(vec3 positionLight, vec3 normalLight, out ViewPoint point)
+// Brings a point that the light reaches into the space of the view that may see it; of splits, which
+// have one space, into that.
+// Returns false where there is no view.
+bool enterView_LIGHT(vec3 positionLight, vec3 normalLight, out ViewPoint point)
 {
   point = ViewPoint(positionLight, normalLight, 0, vec2(0.0));
 #if VIEWS_CUBE_LIGHT
@@ -155,6 +185,17 @@ bool findView_LIGHT(vec3 positionLight, vec3 normalLight, out ViewPoint point)
   point.position = cubeFaceFromLight(face, positionLight);
   point.normal = cubeFaceFromLight(face, normalLight);
 #endif
+  return true;
+}
+
+// Finds the view of a point that the light reaches.
+// Returns false where no view sees it: the views hold all casters that could shadow a receiver.
+bool findView_LIGHT(vec3 positionLight, vec3 normalLight, out ViewPoint point)
+{
+  if (!enterView_LIGHT(positionLight, normalLight, point))
+  {
+    return false;
+  }
   vec2 across = acrossOf_LIGHT(point.position);
 #if VIEWS_SPLITS_LIGHT
   for (int view = 0; view < viewCount_LIGHT - 1; ++view)

@@ -68,10 +68,6 @@ std::vector<std::string> writingDefines(
     defines.push_back(define("KERNEL_SQUARE", reach.kernelSquare));
     defines.push_back(define("KERNEL_DISC", reach.kernelDisc));
   }
-  if (reach.hasKernel() || alongRay || view.warped())
-  {
-    defines.emplace_back("PLACED");
-  }
   if (layer.frontDepths)
   {
     defines.push_back(define("BEHIND", static_cast<double>(roundingSlack)));
@@ -107,7 +103,7 @@ void drawView(std::size_t number, const MapReach& reach, const Layer& layer, con
   {
     uniforms.push_back({ "frontDepths", TextureBinding{ GL_TEXTURE_2D_ARRAY, layer.frontDepths } });
   }
-  drawCasters(view, input,
+  drawCasters(number, input,
     { ShaderLibrary::source("shadowtech/depth_map/depth_map_bake.frag.glsl"), defines, uniforms,
       layer.backOnly });
 }
@@ -153,6 +149,7 @@ void DepthMapTechnique::bake(const MapInput& input)
   // A light without a view still needs a texture to bind.
   this->allocate(input.light.mapSizeTexels, std::max(static_cast<int>(views.size()), 1));
   this->views_ = input.views;
+  this->viewFits_ = input.viewFits;
   this->reach_ = this->mapReach(input.light);
 
   beginCasters(this->framebuffer_.name(), this->sizeTexels_);
@@ -238,7 +235,7 @@ std::string DepthMapTechnique::visibilityGlsl(const ShadowLight& light) const
 std::vector<Uniform> DepthMapTechnique::uniforms(const glm::dmat4& centredFromView) const
 {
   std::vector<Uniform> uniforms =
-    lightViewsUniforms(this->views_, this->sizeTexels_, centredFromView);
+    lightViewsUniforms(this->views_, this->sizeTexels_, centredFromView, this->viewFits_);
   uniforms.push_back(
     { "depthMap_LIGHT", TextureBinding{ GL_TEXTURE_2D_ARRAY, this->map_.name() } });
   const double followed =

@@ -64,8 +64,9 @@ private:
   GlFramebuffer framebuffer_;
   int sizeTexels_ = 0;
   int layers_ = 0;
-  LightViews views_; ///< as baked
-  MapReach reach_;   ///< as baked
+  LightViews views_;        ///< as baked
+  MapReach reach_;          ///< as baked
+  TextureBinding viewFits_; ///< as baked
 };
 
 } // namespace gnomon

@@ -9,24 +9,13 @@
 
 #ifdef WRITES_DEPTH
 
-#include "shadowtech/base/kernel_shape.glsl"
+#include "shadowtech/base/caster_map.glsl"
 
 in float depthLinear;
 
 uniform float bias; // on top of what is pushed
 #ifdef EUCLIDEAN
 uniform float rayScale; // 1 / the longest ray to distance 1 from the light
-#endif
-
-#ifdef PLACED
-uniform mat3 acrossFromTexel;
-uniform mat3 texelFromAcross;
-
-vec2 across()
-{
-  vec3 place = acrossFromTexel * vec3(gl_FragCoord.xy, 1.0);
-  return place.xy / place.z; // not 0 on the map
-}
 #endif
 
 #ifdef BEHIND
@@ -39,11 +28,10 @@ float span(vec2 slope)
 {
   float texels = REACH_SQUARE * (abs(slope.x) + abs(slope.y)) + REACH_DISC * length(slope);
 #ifdef KERNEL
-  mat2 jacobian = homographyJacobian(texelFromAcross, across());
 #ifdef KERNEL_EVEN
-  vec2 slopeKernel = slope * evenShape(jacobian, KERNEL_UNIT);
+  vec2 slopeKernel = slope * evenShape(texelJacobian(), KERNEL_UNIT);
 #else
-  vec2 slopeKernel = slope * (KERNEL_UNIT * jacobian);
+  vec2 slopeKernel = slope * (KERNEL_UNIT * texelJacobian());
 #endif
   texels += KERNEL_SQUARE * (abs(slopeKernel.x) + abs(slopeKernel.y)) +
     KERNEL_DISC * length(slopeKernel);
@@ -56,9 +44,9 @@ float span(vec2 slope)
 float warp()
 {
 #ifdef WARPED
-  vec3 texelScale = vec3(acrossFromTexel[0].z, acrossFromTexel[1].z, acrossFromTexel[2].z);
-  float scale = dot(texelScale, vec3(gl_FragCoord.xy, 1.0)); // a texel's size across the light, squared
-  float change = span(texelScale.xy) + abs(texelScale.x) + abs(texelScale.y);
+  vec3 scales = texelScale();
+  float scale = dot(scales, vec3(gl_FragCoord.xy, 1.0));
+  float change = span(scales.xy) + abs(scales.x) + abs(scales.y);
   float left = max(1.0 - change / scale, 0.5);
 #ifdef KERNEL
   left *= left;

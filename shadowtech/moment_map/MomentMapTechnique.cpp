@@ -73,6 +73,7 @@ void MomentMapTechnique::bake(const MapInput& input)
   // A light without a view still needs a texture to bind.
   this->allocate(input.light, std::max(static_cast<int>(views.size()), 1));
   this->views_ = input.views;
+  this->viewFits_ = input.viewFits;
   const Moments moments = this->moments();
 
   beginCasters(this->framebuffer_.name(), this->sizeTexels_);
@@ -91,7 +92,7 @@ void MomentMapTechnique::bake(const MapInput& input)
     {
       defines.emplace_back("WRITES_DEPTH");
     }
-    drawCasters(views[i], input,
+    drawCasters(i, input,
       { moments.glsl + ShaderLibrary::source("shadowtech/moment_map/moment_map_bake.frag.glsl"),
         defines });
   }
@@ -123,7 +124,7 @@ std::string MomentMapTechnique::visibilityGlsl(const ShadowLight& light) const
 std::vector<Uniform> MomentMapTechnique::uniforms(const glm::dmat4& centredFromView) const
 {
   std::vector<Uniform> uniforms =
-    lightViewsUniforms(this->views_, this->sizeTexels_, centredFromView);
+    lightViewsUniforms(this->views_, this->sizeTexels_, centredFromView, this->viewFits_);
   uniforms.push_back(
     { "momentMap_LIGHT", TextureBinding{ GL_TEXTURE_2D_ARRAY, this->map_.name() } });
   uniforms.push_back(depthSlacks());

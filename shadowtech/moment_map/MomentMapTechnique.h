@@ -66,7 +66,8 @@ private:
   BoxBlur blur_;
   int sizeTexels_ = 0;
   int layers_ = 0;
-  LightViews views_; ///< as baked
+  LightViews views_;        ///< as baked
+  TextureBinding viewFits_; ///< as baked
 };
 
 } // namespace gnomon

@@ -1,0 +1,67 @@
+// From the receivers' bounds to the last fit of each view: the twin of fitTo() and fitSnappedTo()
+// (lights/MapFit.h), one invocation per view.
+//
+// Row 0 of the result: F, scale and offset in device coordinates. Row 1: the same in texels.
+
+#include "shadowtech/fitting/bounds_buffer.glsl"
+
+layout(local_size_x = 1) in;
+layout(rgba32f, binding = 0) writeonly uniform image2D viewFits;
+
+uniform float side;    // of the map, in texels
+uniform float inside;  // the share of [-1, 1] that lies inside of the border
+uniform float covered; // +- this, before the fit, is all that there can be
+uniform float leastShare; // leastVisibleShare
+uniform int snapped;
+
+// The series of sizes: 2^(k/4).
+float seriesSize(int k)
+{
+  float[] roots = float[](1.0, 1.18920712, 1.41421356, 1.68179283);
+  return roots[k & 3] * float(1 << (k >> 2));
+}
+
+vec2 fitAxis(float lower, float upper)
+{
+  float all = 2.0 * covered;
+  float least = leastShare * all;
+  if (!(upper - lower >= least))
+  {
+    lower = clamp(0.5 * (lower + upper) - 0.5 * least, -covered, covered - least);
+    upper = lower + least;
+  }
+  float seen = upper - lower;
+  float centre = 0.5 * (lower + upper);
+  if (snapped == 0)
+  {
+    float scale = 2.0 * inside / seen;
+    return vec2(scale, -scale * centre);
+  }
+  float texel = 2.0 / side;
+  int k = 0;
+  while (k < 64 && seriesSize(k + 1) * seen <= all)
+  {
+    ++k;
+  }
+  float scale = 2.0 * (inside - 0.5 * texel) / all * seriesSize(k);
+  return vec2(scale, floor(-scale * centre / texel + 0.5) * texel);
+}
+
+void main()
+{
+  int view = int(gl_GlobalInvocationID.x);
+  // Without receivers everything lies outside of the map: nothing is drawn, and nothing found.
+  vec4 fit = vec4(0.0, 0.0, 4.0, 4.0);
+  if (!isEmpty(view))
+  {
+    vec3 lower = lowerOf(view);
+    vec3 upper = upperOf(view);
+    vec2 lowerMap = clamp(lower.xy / (0.5 * side) - 1.0, -covered, covered);
+    vec2 upperMap = clamp(upper.xy / (0.5 * side) - 1.0, -covered, covered);
+    vec2 x = fitAxis(lowerMap.x, upperMap.x);
+    vec2 y = fitAxis(lowerMap.y, upperMap.y);
+    fit = vec4(x.x, y.x, x.y, y.y);
+  }
+  imageStore(viewFits, ivec2(view, 0), fit);
+  imageStore(viewFits, ivec2(view, 1), vec4(fit.xy, 0.5 * side * (fit.zw + 1.0 - fit.xy)));
+}

@@ -1,0 +1,368 @@
+// Views that are fitted to the receivers that are drawn: what the report says of them, when they are
+// fitted again, and what the picture gains and keeps.
+
+#include "PassScene.h"
+
+#include "lights/vtkGnomonLightKeys.h"
+#include "plugin/VisibilityImages.h"
+
+#include <vtkLineSource.h>
+#include <vtkProperty.h>
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <string>
+
+using namespace gnomon::test;
+using gnomon::VisibilityImages;
+using testing::HasSubstr;
+
+namespace
+{
+
+class Fitting : public PassTest
+{
+protected:
+  /// A wide floor with a box on it and others far from it, of which the camera sees a small part.
+  static void fill(PassScene& scene)
+  {
+    addProps(scene);
+    scene.lookFrom({ 0.0, -4.0, 4.0 });
+  }
+  static void addProps(PassScene& scene)
+  {
+    scene.addFloor(40.0);
+    scene.addBox({ -0.5, -0.5, 0.0 }, { 0.5, 0.5, 1.0 });
+    scene.addBox({ 38.0, 38.0, 0.0 }, { 39.0, 39.0, 3.0 });
+    scene.addBox({ -39.0, -39.0, 0.0 }, { -38.0, -38.0, 3.0 });
+  }
+  static void fit(PassScene& scene, const char* fit, const char* snap = "on")
+  {
+    scene.pass->SetSetting("fit", fit);
+    scene.pass->SetSetting("snap", snap);
+  }
+  /// Wrong pixels of a frame with kept visibility.
+  static std::size_t wrong(PassScene& scene, const char* technique, const VisibilityImages& truth)
+  {
+    scene.pass->SetTechnique(technique);
+    return compareVisibility(drawKept(scene), truth).wrong;
+  }
+  static VisibilityImages truthOf(PassScene& scene)
+  {
+    scene.pass->SetTechnique("raytraced");
+    return drawKept(scene);
+  }
+};
+
+/// One light of each kind over the scene of fill().
+struct Kind
+{
+  const char* name;
+  vtkLight* (*add)(PassScene&);
+};
+class FittingOfKinds
+  : public Fitting
+  , public testing::WithParamInterface<Kind>
+{
+};
+INSTANTIATE_TEST_SUITE_P(Kinds, FittingOfKinds,
+  testing::Values(Kind{ "sun",
+                    [](PassScene& scene) {
+                      return scene.addSun({ 1.0, 0.4, -1.5 });
+                    } },
+    Kind{ "box",
+      [](PassScene& scene)
+      {
+        vtkLight* light = scene.addSun({ 0.0, 0.0, -1.0 });
+        light->SetPosition(-10.0, -4.0, 15.0);
+        const double up[3] = { 0.0, 1.0, 0.0 };
+        vtkGnomonLightKeys::SetBox(light, 60.0, 60.0, 90.0, up);
+        return light;
+      } },
+    Kind{ "spot",
+      [](PassScene& scene) {
+        return scene.addSpot({ -20.0, -8.0, 30.0 }, glm::dvec3(0.0), 50.0);
+      } },
+    Kind{ "wideSpot",
+      [](PassScene& scene) {
+        return scene.addSpot({ -4.0, -1.6, 6.0 }, glm::dvec3(0.0), 80.0);
+      } },
+    Kind{ "point",
+      [](PassScene& scene) {
+        return scene.addSpot({ -4.0, -1.6, 6.0 }, glm::dvec3(0.0), allDirections);
+      } }),
+  [](const testing::TestParamInfo<Kind>& kind) { return std::string(kind.param.name); });
+
+} // namespace
+
+//------------------------------------------------------------------------------
+TEST_F(Fitting, reportSaysWhatViewsAreFittedTo)
+{
+  PassScene scene(64, 48);
+  this->fill(scene);
+  scene.addSun({ 1.0, 0.4, -1.5 });
+  const auto fitOf = [&](const char* technique, const char* fit, int route)
+  {
+    this->fit(scene, fit);
+    scene.choose({ technique, route });
+    scene.render();
+    return scene.report().lights.at(0).fit;
+  };
+  const auto reason = [&] { return scene.report().lights.at(0).fitReason; };
+  const int inlined = vtkGnomonShadowPass::ROUTE_INLINE;
+  const int image = vtkGnomonShadowPass::ROUTE_IMAGE;
+  EXPECT_EQ(fitOf("nsm", "off", image), "off");
+  EXPECT_EQ(reason(), "");
+  EXPECT_EQ(fitOf("nsm", "frame", image), "receivers");
+  EXPECT_EQ(reason(), "");
+  EXPECT_EQ(fitOf("nsm", "once", image), "frustum");
+  EXPECT_THAT(reason(), HasSubstr("made once"));
+  EXPECT_EQ(fitOf("nsm", "frame", inlined), "frustum");
+  EXPECT_THAT(reason(), HasSubstr("inline route"));
+  EXPECT_EQ(fitOf("pssm", "off", image), "receivers");
+  EXPECT_EQ(fitOf("lispsm", "off", image), "receivers");
+  EXPECT_EQ(fitOf("lispsm", "off", inlined), "frustum");
+  EXPECT_EQ(fitOf("raytraced", "frame", image), "");
+  EXPECT_EQ(reason(), "");
+  EXPECT_EQ(fitOf("pcf", "frame", image), "receivers");
+  EXPECT_EQ(fitOf("vsm", "frame", image), "receivers");
+  scene.pass->SetSetting("kernel_width", "0.1");
+  EXPECT_EQ(fitOf("pcf", "frame", image), "frustum");
+  EXPECT_THAT(reason(), HasSubstr("width in world units"));
+  EXPECT_EQ(fitOf("nsm", "frame", image), "receivers");
+  // Translucent surfaces are not among the receivers that are drawn.
+  scene.addBox({ 1.0, 1.0, 1.0 }, { 1.5, 1.5, 1.5 })->GetProperty()->SetOpacity(0.5);
+  EXPECT_EQ(fitOf("nsm", "frame", image), "frustum");
+  EXPECT_THAT(reason(), HasSubstr("translucent"));
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Fitting, isDoneAgainOnlyWhenOtherReceiversMayBeSeen)
+{
+  PassScene scene(64, 48);
+  this->fill(scene);
+  scene.addSun({ 1.0, 0.4, -1.5 });
+  this->fit(scene, "frame");
+  scene.choose({ "nsm", vtkGnomonShadowPass::ROUTE_IMAGE });
+  const auto bakes = [&]
+  {
+    scene.render();
+    return scene.report().mapBakes;
+  };
+  EXPECT_EQ(bakes(), 1);
+  EXPECT_EQ(bakes(), 0);
+  scene.renderer->GetActiveCamera()->Azimuth(1.0);
+  EXPECT_EQ(bakes(), 1);
+  EXPECT_EQ(bakes(), 0);
+  // What is no surface hides receivers, too.
+  vtkNew<vtkLineSource> line;
+  line->SetPoint1(-1.0, -1.0, 1.0);
+  line->SetPoint2(1.0, -1.0, 1.0);
+  vtkActor* actor = scene.add(line);
+  actor->GetProperty()->SetLineWidth(20.0f);
+  EXPECT_EQ(bakes(), 1);
+  EXPECT_EQ(bakes(), 0);
+  actor->VisibilityOff();
+  EXPECT_EQ(bakes(), 1);
+  EXPECT_EQ(bakes(), 0);
+  scene.window->SetSize(48, 64);
+  EXPECT_EQ(bakes(), 1);
+  EXPECT_EQ(bakes(), 0);
+  scene.pass->SetSetting("snap", "off");
+  EXPECT_EQ(bakes(), 1);
+  EXPECT_EQ(bakes(), 0);
+  scene.pass->SetTechnique("pssm");
+  EXPECT_EQ(bakes(), 1);
+  EXPECT_EQ(bakes(), 0);
+  scene.pass->SetSetting("split_lambda", "0.9");
+  EXPECT_EQ(bakes(), 1);
+  EXPECT_EQ(bakes(), 0);
+}
+
+//------------------------------------------------------------------------------
+TEST_P(FittingOfKinds, leavesFewerWrongPixelsThanTheFrustum)
+{
+  PassScene scene(300, 300);
+  this->fill(scene);
+  GetParam().add(scene);
+  scene.pass->SetMapSize(256);
+  const VisibilityImages truth = this->truthOf(scene);
+  this->fit(scene, "off");
+  const std::size_t unfitted = this->wrong(scene, "nsm", truth);
+  this->fit(scene, "once", "off");
+  const std::size_t frustum = this->wrong(scene, "nsm", truth);
+  ASSERT_EQ(scene.report().lights.at(0).fit, "frustum");
+  this->fit(scene, "frame", "off");
+  const std::size_t receivers = this->wrong(scene, "nsm", truth);
+  ASSERT_EQ(scene.report().lights.at(0).fit, "receivers");
+  std::cout << "wrong pixels: unfitted " << unfitted << ", frustum " << frustum << ", receivers "
+            << receivers << "\n";
+  EXPECT_LE(receivers, frustum);
+  EXPECT_LT(2 * receivers, unfitted);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Fitting, bringsEveryEstimatorNearerToTheTruth)
+{
+  PassScene scene(240, 240);
+  this->fill(scene);
+  scene.addSun({ 1.0, 0.4, -1.5 });
+  scene.pass->SetMapSize(256);
+  const VisibilityImages truth = this->truthOf(scene);
+  // Filters blur over texels, so that smaller ones blur less.
+  const auto error = [&](const char* technique, const char* fit)
+  {
+    this->fit(scene, fit, "off");
+    scene.pass->SetTechnique(technique);
+    const VisibilityImages& kept = drawKept(scene);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < kept.coverage.size(); ++i)
+    {
+      sum +=
+        kept.coverage[i] > 0.0f ? std::abs(kept.visibility[0][i] - truth.visibility[0][i]) : 0.0;
+    }
+    return sum;
+  };
+  for (const char* estimator :
+    { "compare", "pcf", "adaptive", "variance", "exponential", "moments" })
+  {
+    scene.pass->SetSetting("estimator", estimator);
+    for (const char* technique : { "nsm", "lispsm", "tsm", "pssm" })
+    {
+      SCOPED_TRACE(std::string(technique) + " with " + estimator);
+      const double frustum = error(technique, "once");
+      ASSERT_EQ(scene.report().lights.at(0).fit, "frustum");
+      const double receivers = error(technique, "frame");
+      ASSERT_EQ(scene.report().lights.at(0).fit, "receivers");
+      std::cout << technique << " with " << estimator << ": error in pixels: frustum " << frustum
+                << ", receivers " << receivers << "\n";
+      EXPECT_LT(receivers, frustum);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_P(FittingOfKinds, leavesOutCastersWithoutChangingThePicture)
+{
+  PassScene scene(200, 200);
+  this->fill(scene);
+  GetParam().add(scene);
+  this->fit(scene, "frame");
+  // All in the box of the scene and its casters, and far from what is seen.
+  std::vector<vtkActor*> others;
+  for (const glm::dvec2& place :
+    { glm::dvec2(25.0, 25.0), { 25.0, -25.0 }, { -25.0, 25.0 }, { -25.0, -25.0 }, { 30.0, 0.0 } })
+  {
+    others.push_back(
+      scene.addBox({ place.x, place.y, 0.0 }, { place.x + 1.0, place.y + 1.0, 2.0 }));
+  }
+  const VisibilityImages all = drawKept(scene);
+  EXPECT_EQ(scene.report().lights.at(0).fit, "receivers");
+  const int leftOut = scene.report().lights.at(0).castersLeftOut;
+  EXPECT_GE(leftOut, 3);
+  scene.render();
+  EXPECT_EQ(scene.report().mapBakes, 0);
+  EXPECT_EQ(scene.report().lights.at(0).castersLeftOut, leftOut);
+  for (vtkActor* other : others)
+  {
+    other->VisibilityOff();
+  }
+  const VisibilityImages few = drawKept(scene);
+  EXPECT_EQ(few.visibility, all.visibility);
+}
+
+//------------------------------------------------------------------------------
+TEST_P(FittingOfKinds, cameraThatLooksAwayAndEmptySceneStayFinite)
+{
+  for (const char* technique : { "nsm", "pcf" })
+  {
+    PassScene scene(64, 48);
+    this->fill(scene);
+    scene.renderer->RemoveAllViewProps();
+    GetParam().add(scene);
+    this->fit(scene, "frame");
+    scene.pass->SetTechnique(technique);
+    drawKept(scene); // nothing at all
+    this->addProps(scene);
+    // At the sky, at the floor's back, which faces no light, and back again.
+    vtkCamera* camera = scene.renderer->GetActiveCamera();
+    camera->SetFocalPoint(0.0, -8.0, 20.0);
+    drawKept(scene);
+    camera->SetFocalPoint(0.0, 0.0, 0.0);
+    camera->SetPosition(0.0, -4.0, -4.0);
+    drawKept(scene);
+    camera->SetPosition(0.0, -4.0, 4.0);
+    const VisibilityImages fitted = drawKept(scene);
+    const VisibilityImages truth = this->truthOf(scene);
+    EXPECT_GT(compareVisibility(fitted, truth).agreeing(), 0.98);
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Fitting, routesAgreeWhereTheFitIsTheSame)
+{
+  // Fitted once, both are fitted to the frustum. In every frame, the image route has other texels.
+  for (const char* technique : { "nsm", "pcf", "lispsm", "tsm", "pssm" })
+  {
+    SCOPED_TRACE(technique);
+    PassScene scene(200, 150);
+    this->fill(scene);
+    scene.addSun({ 1.0, 0.4, -1.5 });
+    this->fit(scene, "once");
+    scene.choose({ technique, vtkGnomonShadowPass::ROUTE_INLINE });
+    const Picture inlined = scene.render();
+    scene.choose({ technique, vtkGnomonShadowPass::ROUTE_IMAGE });
+    EXPECT_LE(differingPixels(scene.render(), inlined, 1), 1u);
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Fitting, snappedEdgesStayWhereTheyAreWhenTheCameraMoves)
+{
+  // The floor from straight above: a pixel is a tenth of a texel or less, and the camera moves by
+  // pixels, so that the same places of the floor can be compared.
+  constexpr int side = 512;
+  constexpr double halfHeight = 3.0;
+  const double pixel = 2.0 * halfHeight / side;
+  PassScene scene(side, side);
+  this->fill(scene);
+  scene.addSun({ 1.0, 0.7, -1.5 });
+  scene.pass->SetMapSize(48);
+  this->fit(scene, "frame", "on");
+  const auto drawAt = [&](int pixels)
+  {
+    scene.lookDown(halfHeight, pixels * pixel, pixels * pixel);
+    return drawKept(scene).visibility.at(0);
+  };
+  const auto at = [](const std::vector<float>& image, int x, int y)
+  { return image[static_cast<std::size_t>(y) * side + static_cast<std::size_t>(x)]; };
+  const std::vector<float> first = drawAt(0);
+  ASSERT_EQ(scene.report().lights.at(0).fit, "receivers");
+  std::size_t edges = 0;
+  for (int y = 60; y < side - 60; ++y)
+  {
+    for (int x = 60; x < side - 60; ++x)
+    {
+      edges += at(first, x, y) != at(first, x + 1, y) || at(first, x, y) != at(first, x, y + 1);
+    }
+  }
+  EXPECT_GT(edges, 300u);
+  std::size_t worst = 0;
+  for (int frame = 1; frame <= 50; ++frame)
+  {
+    const std::vector<float> moved = drawAt(frame);
+    std::size_t changed = 0;
+    for (int y = 60; y < side - 60; ++y)
+    {
+      for (int x = 60; x < side - 60; ++x)
+      {
+        // Row 0 is the top; the camera moves right and up.
+        changed += at(first, x, y) != at(moved, x - frame, y + frame);
+      }
+    }
+    worst = std::max(worst, changed);
+  }
+  std::cout << "changed at most " << worst << " of " << edges << " edge pixels\n";
+  EXPECT_LE(100 * worst, edges);
+}

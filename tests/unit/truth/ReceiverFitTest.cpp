@@ -1,0 +1,483 @@
+// The reduction over the receivers and the fit that follows from it, against their twins on the CPU.
+
+#include "shadowtech/fitting/ReceiverFit.h"
+
+#include "lights/LightSpace.h"
+#include "lights/Splits.h"
+#include "shadowtech/base/Gl.h"
+#include "shadowtech/base/ShaderLibrary.h"
+#include "shadowtech/base/ShadowRay.h"
+
+#include "SyntheticScene.h"
+#include "vtkGnomonEGLRenderWindow.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+#include <gtest/gtest.h>
+#include <vtkNew.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace gnomon::test
+{
+namespace
+{
+
+constexpr float notANumber = std::numeric_limits<float>::quiet_NaN();
+constexpr float infinite = std::numeric_limits<float>::infinity();
+
+/// The receivers' images, as the receivers stage draws them.
+struct Image
+{
+  Image(int w, int h)
+    : width(w)
+    , height(h)
+    , fragments(static_cast<std::size_t>(w) * static_cast<std::size_t>(h), glm::vec4(0.0f))
+    , points(fragments.size(), glm::vec4(0.0f))
+  {
+  }
+  void set(std::size_t pixel, const glm::vec3& position, const glm::vec3& normal)
+  {
+    this->fragments[pixel] = glm::vec4(1.0f, 0.0f, normal.x, normal.y);
+    this->points[pixel] = glm::vec4(position, normal.z);
+  }
+  glm::vec3 normal(std::size_t pixel) const
+  {
+    return { this->fragments[pixel].z, this->fragments[pixel].w, this->points[pixel].w };
+  }
+
+  int width;
+  int height;
+  std::vector<glm::vec4> fragments;
+  std::vector<glm::vec4> points;
+};
+
+/// Whatever a driver may leave in pixels that mean nothing, or that went wrong: none of it may count.
+void addDebris(Image& image, std::mt19937& random)
+{
+  std::uniform_int_distribution<std::size_t> anywhere(0, image.points.size() - 1);
+  for (std::size_t i = 0; i < image.points.size() / 8 + 1 && image.points.size() > 1; ++i)
+  {
+    const std::size_t pixel = anywhere(random);
+    switch (i % 6)
+    {
+      case 0:
+        image.fragments[pixel].x = 0.0f; // background
+        image.points[pixel] = glm::vec4(1e9f);
+        break;
+      case 1:
+        image.fragments[pixel].x = -3.0f; // shows no shadows
+        break;
+      case 2:
+        image.points[pixel][static_cast<int>(i / 6 % 3)] = notANumber;
+        break;
+      case 3:
+        image.points[pixel][static_cast<int>(i / 6 % 3)] = i % 12 < 6 ? infinite : -infinite;
+        break;
+      case 4:
+        image.fragments[pixel].z = i % 12 < 6 ? notANumber : infinite;
+        break;
+      default:
+        image.set(pixel, image.points[pixel], { 0.0f, 0.0f, 1.0f }); // turned away from the light
+        break;
+    }
+  }
+}
+
+/// A window with nothing in it, for its context.
+class ReceiverFitTest : public testing::Test
+{
+protected:
+  ReceiverFitTest()
+  {
+    this->window_->Initialize();
+    this->window_->MakeCurrent();
+  }
+  ~ReceiverFitTest() override { EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR)); }
+
+  void compute(ReceiverFit& fit, const ShadowLight& light, const LightViews& views,
+    const Image& image, const glm::dmat4& centredFromView = glm::dmat4(1.0))
+  {
+    GlTexture fragments;
+    GlTexture points;
+    const glm::ivec2 size(image.width, image.height);
+    allocate(fragments, size, image.fragments.data());
+    allocate(points, size, image.points.data());
+    fit.compute(light, views, { fragments.name(), points.name(), size.x, size.y }, centredFromView,
+      this->library_);
+  }
+
+  /// A texture of four floats, bound.
+  static void allocate(GlTexture& texture, const glm::ivec2& size, const glm::vec4* texels)
+  {
+    glBindTexture(GL_TEXTURE_2D, texture.create());
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, size.x, size.y, 0, GL_RGBA, GL_FLOAT, texels);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  }
+
+  vtkNew<vtkGnomonEGLRenderWindow> window_;
+  ShaderLibrary library_;
+};
+
+/// A sun whose map's texels before the fit are the x and y of view coordinates, exactly: what is
+/// computed from a position is the position itself.
+struct ExactSun
+{
+  static constexpr int side = 1024;
+
+  ExactSun()
+  {
+    this->light.fittedToReceivers = true;
+    this->light.mapSizeTexels = side;
+    this->light.projection = Projection::Uniform;
+    LightView view;
+    view.mapFromAcross = { 2.0 / side, 0.0, 0.0, 0.0, 2.0 / side, 0.0, -1.0, -1.0, 1.0 };
+    this->views.awaitFit = true;
+    this->views.borderTexels = 0;
+    this->views.views = { view };
+  }
+
+  /// Whether the CPU counts a pixel.
+  static bool counts(const Image& image, std::size_t pixel)
+  {
+    const glm::vec3 p = image.points[pixel];
+    const glm::vec3 n = image.normal(pixel);
+    return image.fragments[pixel].x > 0.0f && std::isfinite(p.x + p.y + p.z) &&
+      std::isfinite(n.x + n.y + n.z) && n.z < 0.0f && p.x >= 0.0f && p.x <= side && p.y >= 0.0f &&
+      p.y <= side;
+  }
+  static Bounds bounds(const Image& image)
+  {
+    Bounds result;
+    for (std::size_t i = 0; i < image.points.size(); ++i)
+    {
+      if (counts(image, i))
+      {
+        result.add(glm::dvec3(image.points[i]));
+      }
+    }
+    return result;
+  }
+
+  ShadowLight light = directionalLight({ 0.0, 0.0, 1.0 });
+  LightViews views;
+};
+
+Image randomImage(int width, int height, std::mt19937& random)
+{
+  std::uniform_real_distribution<float> onMap(0.0f, static_cast<float>(ExactSun::side));
+  std::normal_distribution<float> depth(0.0f, 1e6f);
+  Image image(width, height);
+  for (std::size_t i = 0; i < image.points.size(); ++i)
+  {
+    image.set(i, { onMap(random), onMap(random), depth(random) }, { 0.0f, 0.0f, -1.0f });
+  }
+  return image;
+}
+
+void expectBounds(const Bounds& bounds, const Bounds& expected)
+{
+  EXPECT_EQ(bounds.empty(), expected.empty());
+  if (!expected.empty())
+  {
+    EXPECT_EQ(bounds.lower, expected.lower);
+    EXPECT_EQ(bounds.upper, expected.upper);
+  }
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+TEST_F(ReceiverFitTest, boundsAreTheCpusExactlyOnRandomImagesOfAnySize)
+{
+  const ExactSun sun;
+  ReceiverFit fit;
+  std::mt19937 random(41);
+  for (const glm::ivec2& size : { glm::ivec2(1, 1), { 3, 7 }, { 1, 129 }, { 65, 1 }, { 64, 128 },
+         { 640, 480 }, { 1023, 769 }, { 2048, 2048 } })
+  {
+    SCOPED_TRACE(std::to_string(size.x) + " x " + std::to_string(size.y));
+    Image image = randomImage(size.x, size.y, random);
+    this->compute(fit, sun.light, sun.views, image);
+    expectBounds(fit.readBounds().at(0), ExactSun::bounds(image));
+    addDebris(image, random);
+    this->compute(fit, sun.light, sun.views, image);
+    expectBounds(fit.readBounds().at(0), ExactSun::bounds(image));
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(ReceiverFitTest, boundsOfTheLargestImage)
+{
+  // Two images of 1 GiB, which are made on the GPU; few points, in the corners and where pieces of the
+  // work meet.
+  constexpr int side = 8192;
+  const ExactSun sun;
+  std::mt19937 random(42);
+  GlTexture textures[2];
+  GlFramebuffer framebuffer;
+  const float nothing[4] = { 0.0f, 0.0f, 0.0f, 0.0f };
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.create());
+  for (GlTexture& texture : textures)
+  {
+    allocate(texture, glm::ivec2(side), nullptr);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture.name(), 0);
+    glClearBufferfv(GL_COLOR, 0, nothing);
+  }
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  ASSERT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
+  Bounds expected;
+  for (const int x : { 0, 63, 64, 4095, 8127, 8191 })
+  {
+    for (const int y : { 0, 127, 128, 4096, 8191 })
+    {
+      const Image pixel = randomImage(1, 1, random);
+      glBindTexture(GL_TEXTURE_2D, textures[0].name());
+      glTexSubImage2D(GL_TEXTURE_2D, 0, x, y, 1, 1, GL_RGBA, GL_FLOAT, pixel.fragments.data());
+      glBindTexture(GL_TEXTURE_2D, textures[1].name());
+      glTexSubImage2D(GL_TEXTURE_2D, 0, x, y, 1, 1, GL_RGBA, GL_FLOAT, pixel.points.data());
+      expected.add(ExactSun::bounds(pixel));
+    }
+  }
+  ReceiverFit fit;
+  fit.compute(sun.light, sun.views, { textures[0].name(), textures[1].name(), side, side },
+    glm::dmat4(1.0), this->library_);
+  expectBounds(fit.readBounds().at(0), expected);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(ReceiverFitTest, withoutReceiversNothingIsOnTheMap)
+{
+  const ExactSun sun;
+  ReceiverFit fit;
+  std::mt19937 random(43);
+  Image background(37, 21);
+  Image broken = randomImage(37, 21, random);
+  Image away = broken;
+  for (std::size_t i = 0; i < broken.points.size(); ++i)
+  {
+    broken.points[i].y = i % 2 == 0 ? notANumber : infinite;
+    away.points[i].w = 1.0f;
+  }
+  for (const Image* image : { &background, &broken, &away })
+  {
+    this->compute(fit, sun.light, sun.views, *image);
+    EXPECT_TRUE(fit.readBounds().at(0).empty());
+    const MapFit last = fit.readFits().at(0);
+    for (const double map : { -1.0, 0.0, 1.0 })
+    {
+      EXPECT_GT(last.scale.x * map + last.offset.x, 1.0);
+      EXPECT_GT(last.scale.y * map + last.offset.y, 1.0);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(ReceiverFitTest, fitsAreTheCpus)
+{
+  ExactSun sun;
+  ReceiverFit fit;
+  std::mt19937 random(44);
+  std::uniform_real_distribution<float> unit(0.0f, 1.0f);
+  for (int i = 0; i < 200; ++i)
+  {
+    sun.light.snap = i % 2 == 0;
+    sun.views.borderTexels = i % 5;
+    // Some of it beyond the map, some a point or a line.
+    const glm::vec2 corner = (1.2f * glm::vec2(unit(random), unit(random)) - 0.1f) * 1024.0f;
+    const glm::vec2 extent = std::pow(10.0f, -5.0f * unit(random)) * 1024.0f *
+      glm::vec2(i % 7 == 0 ? 0.0f : unit(random), unit(random));
+    Image image(2, 1);
+    image.set(0, glm::vec3(corner, 1.0f), { 0.0f, 0.0f, -1.0f });
+    image.set(1, glm::vec3(corner + extent, 2.0f), { 0.0f, 0.0f, -1.0f });
+    this->compute(fit, sun.light, sun.views, image);
+
+    const MapTexels texels{ ExactSun::side, sun.views.borderTexels };
+    Rectangle seen;
+    for (const glm::vec4& point : image.points)
+    {
+      const glm::dvec2 map = glm::dvec2(point) / (0.5 * ExactSun::side) - 1.0;
+      if (glm::all(glm::lessThanEqual(glm::abs(map), texels.covered().upper)))
+      {
+        seen.add(map);
+      }
+    }
+    const auto expected = sun.light.snap ? fitSnappedTo(seen, texels, texels.covered())
+                                         : fitTo(seen, texels, texels.covered());
+    const MapFit last = fit.readFits().at(0);
+    if (!expected)
+    {
+      EXPECT_EQ(last.scale, glm::dvec2(0.0));
+      continue;
+    }
+    for (int axis = 0; axis < 2; ++axis)
+    {
+      // A centre is rounded to 2^-24 of the map, and the scale with a small extent the more.
+      const double scale = expected->scale[axis];
+      const double tolerance = 1e-6 * (1.0 + scale * (sun.light.snap ? 0.0 : scale));
+      EXPECT_NEAR(
+        last.scale[axis], scale, 1e-6 * scale + (sun.light.snap ? 0.0 : 1e-6 * scale * scale));
+      // Snapping may round the other way, to the next texel.
+      EXPECT_NEAR(last.offset[axis], expected->offset[axis],
+        tolerance + (sun.light.snap ? 2.0 / ExactSun::side + 2e-6 * scale : 0.0));
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(ReceiverFitTest, distancesSplitTheReceivers)
+{
+  ExactSun sun;
+  sun.light.projection = Projection::Splits;
+  sun.views.layout = ViewLayout::Splits;
+  ReceiverFit fit;
+  std::mt19937 random(45);
+  std::uniform_real_distribution<float> onMap(0.0f, 1024.0f);
+  std::uniform_real_distribution<float> logarithm(0.0f, 3.0f);
+  for (const int splits : { 1, 2, 4, 8 })
+  {
+    for (const double lambda : { 0.0, 0.5, 1.0 })
+    {
+      sun.light.splits = splits;
+      sun.light.splitLambda = lambda;
+      sun.views.views.resize(static_cast<std::size_t>(splits), sun.views.views[0]);
+      Image image(317, 201);
+      Bounds all;
+      for (std::size_t i = 0; i < image.points.size(); ++i)
+      {
+        // The camera looks along -z.
+        image.set(i, { onMap(random), onMap(random), -std::pow(10.0f, logarithm(random)) },
+          { 0.0f, 0.0f, -1.0f });
+        all.add(glm::dvec3(image.points[i]));
+      }
+      this->compute(fit, sun.light, sun.views, image);
+      const std::vector<double> distances =
+        splitDistances({ -all.upper.z, -all.lower.z }, splits, lambda);
+      std::vector<Bounds> expected(static_cast<std::size_t>(splits));
+      for (const glm::vec4& point : image.points)
+      {
+        std::size_t split = 0;
+        while (split + 1 < expected.size() && -point.z >= distances[split + 1])
+        {
+          ++split;
+        }
+        expected[split].add(glm::dvec3(point));
+      }
+      const std::vector<Bounds> bounds = fit.readBounds();
+      ASSERT_EQ(bounds.size(), expected.size());
+      EXPECT_EQ(bounds.front().upper.z, all.upper.z);
+      EXPECT_EQ(bounds.back().lower.z, all.lower.z);
+      for (std::size_t i = 0; i < expected.size(); ++i)
+      {
+        // Points next to a split may go to either side.
+        EXPECT_NEAR(bounds[i].lower.x, expected[i].lower.x, 4.0);
+        EXPECT_NEAR(bounds[i].upper.y, expected[i].upper.y, 4.0);
+        EXPECT_NEAR(bounds[i].lower.z, expected[i].lower.z, -2e-3 * expected[i].lower.z);
+        EXPECT_NEAR(bounds[i].upper.z, expected[i].upper.z, -2e-3 * expected[i].upper.z);
+      }
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(ReceiverFitTest, boundsOfAllKindsOfLight)
+{
+  const Bounds scene{ glm::dvec3(-1.0, -0.8, -0.6), glm::dvec3(1.0, 0.9, 0.7) };
+  const glm::dvec3 below(0.1, -0.05, -3.0);
+  std::vector<ShadowLight> lights = { directionalLight({ 1.0, 0.4, -1.5 }),
+    boxLight({ 0.0, 0.1, -1.0 }, { 0.0, 0.0, 0.7 }, { 1.1, 1.3, 2.2 }),
+    spotLight({ 0.3, 0.2, 3.0 }, below, 12.0), spotLight({ 0.1, 0.0, 0.9 }, below, 80.0),
+    pointLight({ 0.1, -0.1, 0.05 }) };
+  std::mt19937 random(46);
+  std::uniform_real_distribution<double> uniform(-1.5, 1.5);
+  CameraView camera; // that sees all of it
+  camera.viewFromCentred =
+    glm::lookAt(glm::dvec3(3.0, -4.0, 2.0), glm::dvec3(0.0), glm::dvec3(0.0, 0.0, 1.0));
+  camera.clipFromView = glm::ortho(-9.0, 9.0, -9.0, 9.0, -9.0, 9.0);
+  const glm::dmat4& viewFromCentred = camera.viewFromCentred;
+  const glm::dmat4 centredFromView = glm::inverse(viewFromCentred);
+  std::size_t viewsSeen = 0;
+  for (ShadowLight& light : lights)
+  {
+    SCOPED_TRACE("light " + std::to_string(&light - lights.data()));
+    light.fittedToReceivers = true;
+    light.projection = Projection::Uniform;
+    light.mapSizeTexels = 512;
+    light.fit = ViewFit::Frame;
+    ViewFitting fitting;
+    fitting.castersCentred = scene;
+    fitting.receiversCentred = { glm::dvec3(-1.5), glm::dvec3(1.5) };
+    fitting.texels = { 512, 1 };
+    fitting.camera = camera;
+    const LightViews views = fitLightViews(light, fitting);
+    ASSERT_FALSE(views.views.empty());
+    Image image(200, 150);
+    for (std::size_t i = 0; i < image.points.size(); ++i)
+    {
+      const glm::dvec3 p(uniform(random), uniform(random), uniform(random));
+      const glm::dvec3 n =
+        glm::normalize(glm::dvec3(uniform(random), uniform(random), uniform(random)));
+      image.set(
+        i, glm::dvec3(viewFromCentred * glm::dvec4(p, 1.0)), glm::dmat3(viewFromCentred) * n);
+    }
+    ReceiverFit fit;
+    this->compute(fit, light, views, image, centredFromView);
+
+    const ShadowRayLight rayLight(light, glm::dvec3(0.0));
+    const MapTexels texels{ 512, views.borderTexels };
+    const double outermost = texels.covered().upper.x;
+    std::vector<Bounds> expected(static_cast<std::size_t>(mostViews(light)));
+    for (std::size_t i = 0; i < image.points.size(); ++i)
+    {
+      const glm::dvec3 p(centredFromView * glm::dvec4(glm::dvec3(image.points[i]), 1.0));
+      const glm::dvec3 n = glm::dmat3(centredFromView) * glm::dvec3(image.normal(i));
+      const bool reached = visitShadowRays(
+        rayLight, [&](const auto& rayFrom, float) { return rayFrom(p, n, 0.0f).traced; });
+      if (!reached)
+      {
+        continue;
+      }
+      int view = 0;
+      if (views.layout == ViewLayout::Cube)
+      {
+        const glm::dvec3 pLight(views.lightFromCentred * glm::dvec4(p, 1.0));
+        view = views.viewOfFace[static_cast<std::size_t>(cubeFaceOf(pLight))];
+      }
+      if (view == LightViews::noView)
+      {
+        continue;
+      }
+      const LightView& seenBy = views.views[static_cast<std::size_t>(view)];
+      const glm::dvec3 pView(seenBy.rays.viewFromCentred * glm::dvec4(p, 1.0));
+      const glm::dvec2 map = mapped(seenBy.mapFromAcross, seenBy.rays.across(pView));
+      if (glm::all(glm::lessThanEqual(glm::abs(map), glm::dvec2(outermost))))
+      {
+        expected[static_cast<std::size_t>(view)].add(glm::dvec3((map + 1.0) * 256.0, pView.z));
+      }
+    }
+    const std::vector<Bounds> bounds = fit.readBounds();
+    ASSERT_EQ(bounds.size(), expected.size());
+    for (std::size_t i = 0; i < expected.size(); ++i)
+    {
+      ASSERT_EQ(bounds[i].empty(), expected[i].empty()) << "view " << i;
+      if (expected[i].empty())
+      {
+        continue;
+      }
+      ++viewsSeen;
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        const double tolerance = axis < 2 ? 512e-4 : 1e-4 * (1.0 + std::abs(expected[i].upper.z));
+        EXPECT_NEAR(bounds[i].lower[axis], expected[i].lower[axis], tolerance) << "view " << i;
+        EXPECT_NEAR(bounds[i].upper[axis], expected[i].upper[axis], tolerance) << "view " << i;
+      }
+    }
+  }
+  EXPECT_GE(viewsSeen, 12u);
+}
+
+} // namespace gnomon::test
