@@ -10,6 +10,7 @@
 #include "vtkPolyData.h"
 
 #include <algorithm>
+#include <optional>
 #include <unordered_map>
 #include <utility>
 
@@ -58,6 +59,7 @@ private:
   void read(WantedSurface& wanted, vtkMTimeType time);
   Outcome updateSurface(WantedSurface& wanted, bool recentred, Change& change);
   bool transformAgain(const WantedSurface& wanted);
+  bool moveInstances(std::size_t index, PlacedInstances& placed);
   Outcome overwrite(WantedSurface& wanted);
   void rebuild(std::vector<WantedSurface>& wanted);
   void noteWhatIsTooLarge(const std::vector<WantedSurface>& wanted);
@@ -211,8 +213,8 @@ bool OccluderCollector::Impl::chooseCentre(const std::vector<WantedSurface>& wan
 //------------------------------------------------------------------------------
 void OccluderCollector::Impl::read(WantedSurface& wanted, vtkMTimeType time)
 {
-  wanted.fresh = std::make_unique<FreshSurface>(readSurface(
-    *wanted.prop, wanted.block, wanted.key.cells, mostGlyphTriangles, this->vertexOfPoint_));
+  wanted.fresh = std::make_unique<FreshSurface>(
+    readSurface(*wanted.prop, wanted.block, wanted.key.cells, this->vertexOfPoint_));
   wanted.fresh->record.key = wanted.key;
   wanted.fresh->record.shapeTime = time;
 }
@@ -252,6 +254,12 @@ bool OccluderCollector::Impl::transformAgain(const WantedSurface& wanted)
 {
   Surface& surface = this->occluders.surfaces[wanted.old];
   SurfaceRecord& record = this->records_[wanted.old];
+  if (record.keptAsInstances)
+  {
+    record.worldFromModel = wanted.prop->worldFromModel;
+    std::optional<PlacedInstances> placed = placeKeptInstances(record, this->occluders.centreWorld);
+    return placed && this->moveInstances(wanted.old, *placed);
+  }
   glm::vec3* all = this->occluders.positionsCentred.data();
   glm::vec3* own = all + surface.firstVertex;
   record.worldFromModel = wanted.prop->worldFromModel;
@@ -275,6 +283,23 @@ bool OccluderCollector::Impl::transformAgain(const WantedSurface& wanted)
 }
 
 //------------------------------------------------------------------------------
+/// Takes over where a surface's instances are now. False, and nothing is taken, if others are left out
+/// than before, or the other side is the front: then the surface counts as another.
+bool OccluderCollector::Impl::moveInstances(std::size_t index, PlacedInstances& placed)
+{
+  Surface& surface = this->occluders.surfaces[index];
+  if (!placed.areMoved(surface))
+  {
+    return false;
+  }
+  recordPlaces(placed, this->occluders.positionsCentred.data() + surface.firstVertex,
+    surface.vertexCount, this->records_[index]);
+  surface.centredFromSource = std::move(placed.centredFromSource);
+  surface.positionsVersion = this->newVersion();
+  return true;
+}
+
+//------------------------------------------------------------------------------
 /// Writes a fresh surface over its old self if the triangles are the same.
 OccluderCollector::Impl::Outcome OccluderCollector::Impl::overwrite(WantedSurface& wanted)
 {
@@ -293,9 +318,17 @@ OccluderCollector::Impl::Outcome OccluderCollector::Impl::overwrite(WantedSurfac
   }
 
   const auto positions = this->occluders.positionsCentred.begin() + surface.firstVertex;
-  const bool moved =
-    !std::equal(fresh.positionsCentred.begin(), fresh.positionsCentred.end(), positions);
-  if (moved)
+  bool moved = !std::equal(fresh.positionsCentred.begin(), fresh.positionsCentred.end(), positions);
+  if (surface.isInstanced() || fresh.record.keptAsInstances)
+  {
+    const bool sameSource = !moved && surface.isInstanced() == fresh.record.keptAsInstances;
+    moved = surface.centredFromSource != fresh.instances.centredFromSource;
+    if (!sameSource || (moved && !this->moveInstances(wanted.old, fresh.instances)))
+    {
+      return Outcome::OtherTriangles;
+    }
+  }
+  else if (moved)
   {
     std::copy(fresh.positionsCentred.begin(), fresh.positionsCentred.end(), positions);
     surface.positionsVersion = this->newVersion();
@@ -345,6 +378,8 @@ void OccluderCollector::Impl::rebuild(std::vector<WantedSurface>& wanted)
       entry.vertexCount = static_cast<std::uint32_t>(fresh.positionsCentred.size());
       entry.triangleCount = static_cast<std::uint32_t>(fresh.triangles.size());
       entry.triangleOfDrawn = std::move(fresh.triangleOfDrawn);
+      entry.centredFromSource = std::move(fresh.instances.centredFromSource);
+      entry.mirrored = fresh.instances.mirrored;
       entry.topologyVersion = this->newVersion();
       entry.positionsVersion = this->newVersion();
       records.push_back(std::move(fresh.record));
@@ -381,7 +416,7 @@ void OccluderCollector::Impl::noteWhatIsTooLarge(const std::vector<WantedSurface
     {
       this->notes.push_back(std::string(wanted[i].prop->mapper->GetClassName()) + ": " +
         std::to_string(this->records_[i].modelFromInstance.size()) + " glyphs have more than " +
-        std::to_string(mostGlyphTriangles) + " triangles (they neither cast nor receive)");
+        std::to_string(mostExpandedTriangles) + " triangles (they neither cast nor receive)");
     }
   }
 }
@@ -420,11 +455,17 @@ void OccluderCollector::Impl::summarise()
     {
       this->occluders.castersCentred.add(record.boundsCentred);
     }
+    const Surface& surface = this->occluders.surfaces[i];
+    const std::size_t leftOut = record.leftOutNonFinite + record.leftOutVanished;
+    const std::size_t times =
+      surface.isInstanced() ? surface.centredFromSource.size() - leftOut : 1;
     for (const DroppedTriangle& dropped : record.dropped)
     {
       (dropped.defect == Defect::NonFinite ? this->occluders.droppedNonFinite
-                                           : this->occluders.droppedZeroArea) += 1;
+                                           : this->occluders.droppedZeroArea) += times;
     }
+    this->occluders.droppedNonFinite += record.leftOutNonFinite * surface.drawnCount();
+    this->occluders.droppedZeroArea += record.leftOutVanished * surface.drawnCount();
   }
 }
 
@@ -436,7 +477,7 @@ std::size_t OccluderCollector::Impl::bytes() const
     bytesOf(this->records_) + bytesOf(this->vertexOfPoint_) + this->lookup.bytes();
   for (const Surface& surface : this->occluders.surfaces)
   {
-    bytes += bytesOf(surface.triangleOfDrawn);
+    bytes += bytesOf(surface.triangleOfDrawn) + bytesOf(surface.centredFromSource);
   }
   for (const SurfaceRecord& record : this->records_)
   {

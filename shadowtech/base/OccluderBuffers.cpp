@@ -2,6 +2,7 @@
 
 #include "shadowtech/base/Bytes.h"
 #include "shadowtech/base/GlState.h"
+#include "shadowtech/base/Instances.h"
 
 namespace gnomon
 {
@@ -15,8 +16,12 @@ bool isDrawn(const Surface& surface)
 
 Bounds verticesBounds(const Surface& surface, const Occluders& occluders)
 {
-  Bounds bounds;
   const glm::vec3* positions = occluders.positionsCentred.data() + surface.firstVertex;
+  if (surface.isInstanced())
+  {
+    return instancesBounds(positions, surface.vertexCount, surface.centredFromSource);
+  }
+  Bounds bounds;
   for (std::uint32_t i = 0; i < surface.vertexCount; ++i)
   {
     bounds.add(glm::dvec3(positions[i]));
@@ -58,14 +63,18 @@ void OccluderBuffers::sendAll(const Occluders& occluders)
   this->twoSided_.clear();
   this->oneSided_.clear();
   std::size_t triangles = 0;
+  std::size_t instances = 1;
   for (const Surface& surface : occluders.surfaces)
   {
     if (isDrawn(surface))
     {
+      const std::size_t own = surface.centredFromSource.size();
       this->partsOf(surface).push_back(
         { static_cast<GLsizei>(3 * triangles), static_cast<GLsizei>(3 * surface.triangleCount),
-          surface.positionsVersion, verticesBounds(surface, occluders) });
+          surface.positionsVersion, verticesBounds(surface, occluders),
+          static_cast<GLuint>(own > 0 ? instances : 0), static_cast<GLsizei>(own) });
       triangles += surface.triangleCount;
+      instances += own;
     }
   }
 
@@ -94,6 +103,34 @@ void OccluderBuffers::sendAll(const Occluders& occluders)
     first = last == occluders.surfaces.end() ? last : last + 1;
   }
   this->bytesOnGpu_ = positionBytes + triangleBytes;
+  this->sendInstances(occluders);
+}
+
+//------------------------------------------------------------------------------
+void OccluderBuffers::sendInstances(const Occluders& occluders)
+{
+  std::vector<glm::mat4x3> instances{ glm::mat4x3(1.0f) };
+  for (const Surface& surface : occluders.surfaces)
+  {
+    if (isDrawn(surface))
+    {
+      instances.insert(
+        instances.end(), surface.centredFromSource.begin(), surface.centredFromSource.end());
+    }
+  }
+  const std::size_t bytes = instances.size() * sizeof(glm::mat4x3);
+  glBindBuffer(GL_ARRAY_BUFFER, this->instances_.create());
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(bytes), instances.data(), GL_STATIC_DRAW);
+  for (GLuint column = 0; column < 4; ++column)
+  {
+    const GLuint attribute = 1 + column;
+    const std::size_t offset = column * sizeof(glm::vec3);
+    glVertexAttribPointer(
+      attribute, 3, GL_FLOAT, GL_FALSE, sizeof(glm::mat4x3), reinterpret_cast<const void*>(offset));
+    glVertexAttribDivisor(attribute, 1);
+    glEnableVertexAttribArray(attribute);
+  }
+  this->bytesOnGpu_ += bytes;
 }
 
 //------------------------------------------------------------------------------
@@ -112,6 +149,14 @@ void OccluderBuffers::sendMoved(const Occluders& occluders)
     {
       part.positionsVersion = surface.positionsVersion;
       part.boundsCentred = verticesBounds(surface, occluders);
+      if (surface.isInstanced()) // whose vertices stay
+      {
+        glBindBuffer(GL_ARRAY_BUFFER, this->instances_.name());
+        send(GL_ARRAY_BUFFER, surface.centredFromSource, 0, surface.centredFromSource.size(),
+          part.firstInstance);
+        continue;
+      }
+      glBindBuffer(GL_ARRAY_BUFFER, this->positions_.name());
       send(GL_ARRAY_BUFFER, occluders.positionsCentred, surface.firstVertex, surface.vertexCount,
         surface.firstVertex);
     }
@@ -142,6 +187,14 @@ void OccluderBuffers::drawParts(const std::vector<Part>& parts, const LightView&
     {
       continue;
     }
+    const std::size_t offset = static_cast<std::size_t>(part.first) * sizeof(GLuint);
+    const void* first = reinterpret_cast<const void*>(offset);
+    if (part.instances > 0)
+    {
+      glDrawElementsInstancedBaseInstance(
+        GL_TRIANGLES, part.count, GL_UNSIGNED_INT, first, part.instances, part.firstInstance);
+      continue;
+    }
     if (part.first == end)
     {
       counts.back() += part.count;
@@ -149,8 +202,7 @@ void OccluderBuffers::drawParts(const std::vector<Part>& parts, const LightView&
     else
     {
       counts.push_back(part.count);
-      const std::size_t offset = static_cast<std::size_t>(part.first) * sizeof(GLuint);
-      offsets.push_back(reinterpret_cast<const void*>(offset));
+      offsets.push_back(first);
     }
     end = part.first + part.count;
   }

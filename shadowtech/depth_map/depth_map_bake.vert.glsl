@@ -1,6 +1,6 @@
 // Draws the casters into the map's depth buffer, as the light sees them.
 
-layout(location = 0) in vec3 positionCentred;
+#include "shadowtech/base/occluder_vertex.glsl"
 
 uniform mat4 clipFromCentred;
 
@@ -12,6 +12,7 @@ out float depthLinear;
 
 void main()
 {
+  vec3 positionCentred = occluderPositionCentred();
   gl_Position = clipFromCentred * vec4(positionCentred, 1.0);
 #ifdef PUSH
   depthLinear = dot(depthFromCentred, vec4(positionCentred, 1.0));
