@@ -53,9 +53,8 @@ bool isVisible(const glm::mat4x3& instance, const glm::dvec3& extentSource)
 //------------------------------------------------------------------------------
 bool areInstancesCheaper(std::size_t trianglesOfSource, std::size_t instances)
 {
-  const std::size_t all = trianglesOfSource * instances;
-  return all > mostExpandedTriangles ||
-    (trianglesOfSource >= fewestTrianglesOfSource && all >= fewestTriangles);
+  return trianglesOfSource >= fewestTrianglesOfSource &&
+    trianglesOfSource * instances >= fewestTriangles;
 }
 
 //------------------------------------------------------------------------------

@@ -18,15 +18,14 @@ struct Surface;
 /// Which glyphs the snapshot keeps as instances (Surface::centredFromSource), and where they are.
 /// The others are kept as the triangles of all of them.
 
-/// The most triangles that instances are expanded to.
-inline constexpr std::size_t mostExpandedTriangles = 1u << 24;
-/// The most triangles that all instances may have: their numbers have to fit a 32-bit float.
-inline constexpr std::size_t mostInstancedTriangles = 1u << 24;
+/// The most triangles that all instances of a glyph may have, kept either way: their numbers have to fit
+/// a 32-bit float.
+inline constexpr std::size_t mostGlyphTriangles = 1u << 24;
 
 /// Whether instances are cheaper than their triangles (docs/measurements.md has the figures). They take
 /// little memory and hardly any time to build. But every ray takes longer, for small sources by half: so
 /// sources have to have 64 triangles, and all of their instances 2^18. Fewer are built in a tenth of a
-/// second and take 40 MB; of more, rays soon take as long either way.
+/// second and take 36 MB; of more, rays soon take as long either way.
 bool areInstancesCheaper(std::size_t trianglesOfSource, std::size_t instances);
 
 /// Where a surface's instances are.

@@ -416,7 +416,7 @@ void OccluderCollector::Impl::noteWhatIsTooLarge(const std::vector<WantedSurface
     {
       this->notes.push_back(std::string(wanted[i].prop->mapper->GetClassName()) + ": " +
         std::to_string(this->records_[i].modelFromInstance.size()) + " glyphs have more than " +
-        std::to_string(mostExpandedTriangles) + " triangles (they neither cast nor receive)");
+        std::to_string(mostGlyphTriangles) + " triangles (they neither cast nor receive)");
     }
   }
 }

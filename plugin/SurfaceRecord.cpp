@@ -28,7 +28,6 @@ void expandInstances(FreshSurface& fresh)
   const std::size_t count = triangles.size();
   const std::size_t instances = fresh.record.modelFromInstance.size();
   fresh.record.keptAsInstances = false;
-  fresh.record.tooManyTriangles = count * instances > mostExpandedTriangles;
   if (fresh.record.tooManyTriangles)
   {
     triangles.clear();
@@ -83,9 +82,7 @@ bool placeSource(FreshSurface& fresh, const DrawnBlock& block, const glm::dvec3&
 {
   SurfaceRecord& record = fresh.record;
   std::optional<PlacedInstances> placed = placeKeptInstances(record, centreWorld);
-  const bool numbered =
-    fresh.triangles.size() * record.modelFromInstance.size() <= mostInstancedTriangles;
-  if (!placed || !numbered)
+  if (!placed)
   {
     return false;
   }
@@ -150,8 +147,10 @@ FreshSurface readSurface(const DrawnProp& prop, const DrawnBlock& block, Surface
     {
       record.boundsModel.add(transformed(drawn.boundsModel, glm::dmat4(instance)));
     }
-    record.keptAsInstances = prop.clipPlanes.empty() && !drawn.boundsModel.empty() &&
-      areInstancesCheaper(drawn.triangles.size(), record.modelFromInstance.size());
+    const std::size_t instances = record.modelFromInstance.size();
+    record.tooManyTriangles = drawn.triangles.size() * instances > mostGlyphTriangles;
+    record.keptAsInstances = !record.tooManyTriangles && prop.clipPlanes.empty() &&
+      !drawn.boundsModel.empty() && areInstancesCheaper(drawn.triangles.size(), instances);
     if (record.keptAsInstances)
     {
       record.sourceCentre = drawn.boundsModel.centre();
