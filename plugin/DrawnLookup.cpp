@@ -198,9 +198,8 @@ Drawn DrawnLookup::find(vtkAbstractMapper* mapper, vtkProp* prop, const Occluder
       continue; // a hidden or translucent block, or one without such cells
     }
     const Surface& surface = occluders.surfaces[found->surface];
-    const auto drawnCount = surface.triangleOfDrawn.empty()
-      ? surface.triangleCount
-      : static_cast<std::uint32_t>(surface.triangleOfDrawn.size());
+    const std::uint32_t drawnCount =
+      surface.drawnCount() * (surface.isInstanced() ? found->instances : 1);
     drawnSurface.blocks.push_back({ call.firstPrimitive, drawnCount, found->surface });
     drawn.primitivesPerInstance = found->isGlyph ? drawnCount / found->instances : 0;
   }

@@ -264,6 +264,7 @@ std::vector<glm::mat4> glyphInstances(vtkGlyph3DMapper* mapper, vtkDataSet* poin
     instance[3] = glm::dvec4(glm::make_vec3(points->GetPoint(point)), 1.0);
     instances.emplace_back(instance);
   }
+  instances.shrink_to_fit();
   return instances;
 }
 

@@ -11,6 +11,7 @@
 #include "vtkPolyData.h"
 
 #include <algorithm>
+#include <optional>
 #include <unordered_map>
 #include <utility>
 
@@ -59,6 +60,7 @@ private:
   void read(WantedSurface& wanted, vtkMTimeType time);
   Outcome updateSurface(WantedSurface& wanted, bool recentred, Change& change);
   bool transformAgain(const WantedSurface& wanted);
+  bool moveInstances(std::size_t index, PlacedInstances& placed);
   Outcome overwrite(WantedSurface& wanted);
   void rebuild(std::vector<WantedSurface>& wanted);
   void noteWhatIsTooLarge(const std::vector<WantedSurface>& wanted);
@@ -214,8 +216,8 @@ bool OccluderCollector::Impl::chooseCentre(const std::vector<WantedSurface>& wan
 //------------------------------------------------------------------------------
 void OccluderCollector::Impl::read(WantedSurface& wanted, vtkMTimeType time)
 {
-  wanted.fresh = std::make_unique<FreshSurface>(readSurface(
-    *wanted.prop, wanted.block, wanted.key.cells, mostGlyphTriangles, this->vertexOfPoint_));
+  wanted.fresh = std::make_unique<FreshSurface>(
+    readSurface(*wanted.prop, wanted.block, wanted.key.cells, this->vertexOfPoint_));
   wanted.fresh->record.key = wanted.key;
   wanted.fresh->record.shapeTime = time;
 }
@@ -255,6 +257,12 @@ bool OccluderCollector::Impl::transformAgain(const WantedSurface& wanted)
 {
   Surface& surface = this->occluders.surfaces[wanted.old];
   SurfaceRecord& record = this->records_[wanted.old];
+  if (record.keptAsInstances)
+  {
+    record.worldFromModel = wanted.prop->worldFromModel;
+    std::optional<PlacedInstances> placed = placeKeptInstances(record, this->occluders.centreWorld);
+    return placed && this->moveInstances(wanted.old, *placed);
+  }
   glm::vec3* all = this->occluders.positionsCentred.data();
   glm::vec3* own = all + surface.firstVertex;
   record.worldFromModel = wanted.prop->worldFromModel;
@@ -273,6 +281,23 @@ bool OccluderCollector::Impl::transformAgain(const WantedSurface& wanted)
   }
   record.boundsCentred = boundsOf(first, last, all);
   clearNonFinite(own, surface.vertexCount);
+  surface.positionsVersion = this->newVersion();
+  return true;
+}
+
+//------------------------------------------------------------------------------
+/// Takes over where a surface's instances are now. False, and nothing is taken, if others are left out
+/// than before, or the other side is the front: then the surface counts as another.
+bool OccluderCollector::Impl::moveInstances(std::size_t index, PlacedInstances& placed)
+{
+  Surface& surface = this->occluders.surfaces[index];
+  if (!placed.areMoved(surface))
+  {
+    return false;
+  }
+  recordPlaces(placed, this->occluders.positionsCentred.data() + surface.firstVertex,
+    surface.vertexCount, this->records_[index]);
+  surface.centredFromSource = std::move(placed.centredFromSource);
   surface.positionsVersion = this->newVersion();
   return true;
 }
@@ -297,9 +322,17 @@ OccluderCollector::Impl::Outcome OccluderCollector::Impl::overwrite(WantedSurfac
   }
 
   const auto positions = this->occluders.positionsCentred.begin() + surface.firstVertex;
-  const bool moved =
-    !std::equal(fresh.positionsCentred.begin(), fresh.positionsCentred.end(), positions);
-  if (moved)
+  bool moved = !std::equal(fresh.positionsCentred.begin(), fresh.positionsCentred.end(), positions);
+  if (surface.isInstanced() || fresh.record.keptAsInstances)
+  {
+    const bool sameSource = !moved && surface.isInstanced() == fresh.record.keptAsInstances;
+    moved = surface.centredFromSource != fresh.instances.centredFromSource;
+    if (!sameSource || (moved && !this->moveInstances(wanted.old, fresh.instances)))
+    {
+      return Outcome::OtherTriangles;
+    }
+  }
+  else if (moved)
   {
     std::copy(fresh.positionsCentred.begin(), fresh.positionsCentred.end(), positions);
     surface.positionsVersion = this->newVersion();
@@ -350,6 +383,8 @@ void OccluderCollector::Impl::rebuild(std::vector<WantedSurface>& wanted)
       entry.triangleCount = static_cast<std::uint32_t>(fresh.triangles.size());
       entry.triangleOfDrawn = std::move(fresh.triangleOfDrawn);
       entry.textureCoordinates = std::move(fresh.textureCoordinates);
+      entry.centredFromSource = std::move(fresh.instances.centredFromSource);
+      entry.mirrored = fresh.instances.mirrored;
       entry.topologyVersion = this->newVersion();
       entry.positionsVersion = this->newVersion();
       records.push_back(std::move(fresh.record));
@@ -427,11 +462,17 @@ void OccluderCollector::Impl::summarise()
     {
       this->occluders.castersCentred.add(record.boundsCentred);
     }
+    const Surface& surface = this->occluders.surfaces[i];
+    const std::size_t leftOut = record.leftOutNonFinite + record.leftOutVanished;
+    const std::size_t times =
+      surface.isInstanced() ? surface.centredFromSource.size() - leftOut : 1;
     for (const DroppedTriangle& dropped : record.dropped)
     {
       (dropped.defect == Defect::NonFinite ? this->occluders.droppedNonFinite
-                                           : this->occluders.droppedZeroArea) += 1;
+                                           : this->occluders.droppedZeroArea) += times;
     }
+    this->occluders.droppedNonFinite += record.leftOutNonFinite * surface.drawnCount();
+    this->occluders.droppedZeroArea += record.leftOutVanished * surface.drawnCount();
   }
 }
 
@@ -444,7 +485,8 @@ std::size_t OccluderCollector::Impl::bytes() const
     this->cutouts_.bytes();
   for (const Surface& surface : this->occluders.surfaces)
   {
-    bytes += bytesOf(surface.triangleOfDrawn) + bytesOf(surface.textureCoordinates);
+    bytes += bytesOf(surface.triangleOfDrawn) + bytesOf(surface.textureCoordinates) +
+      bytesOf(surface.centredFromSource);
   }
   for (const SurfaceRecord& record : this->records_)
   {

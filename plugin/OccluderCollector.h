@@ -25,16 +25,14 @@ namespace gnomon
 /// assemblies, as followers or as levels of detail, whose mapper is a vtkPolyDataMapper, a
 /// vtkCompositePolyDataMapper2 or a vtkGlyph3DMapper; and translucent ones that are asked to cast.
 /// With them goes what a texture cuts out of them (TextureCutouts).
-/// A polydata with polygons and strips makes two surfaces; a glyph makes one surface with the
-/// triangles of all its instances, as long as these are no more than mostGlyphTriangles. Front and back are OpenGL's: a triangle's front is
+/// A polydata with polygons and strips makes two surfaces; a glyph makes one surface, with its
+/// instances or with the triangles of all of them (KeptInstances.h). Front and back are OpenGL's: a
+/// triangle's front is
 /// the side that shows its corners counter-clockwise after the prop's matrix, so that a mirroring
 /// matrix swaps the sides just as it does for gl_FrontFacing and VTK's face culling.
 class OccluderCollector
 {
 public:
-  /// So that the number of a triangle among all instances fits a 32-bit float.
-  static constexpr std::size_t mostGlyphTriangles = 1u << 24;
-
   OccluderCollector();
   ~OccluderCollector();
 

@@ -247,7 +247,12 @@ void RenderManager::collectOccluders(vtkRenderer* renderer)
   this->report_.surfacesExtracted = change.extracted;
   this->report_.surfacesRetransformed = change.retransformed;
   this->report_.notes = this->collector_.notes();
-  this->report_.triangles = occluders.triangles.size();
+  for (const Surface& surface : occluders.surfaces)
+  {
+    const std::size_t instances = surface.centredFromSource.size();
+    this->report_.instances += instances;
+    this->report_.triangles += surface.triangleCount * std::max<std::size_t>(instances, 1);
+  }
   this->report_.droppedNonFinite = occluders.droppedNonFinite;
   this->report_.droppedZeroArea = occluders.droppedZeroArea;
   this->endStageClock("occluders");

@@ -3,6 +3,7 @@
 #include "plugin/GlyphInstances.h"
 #include "plugin/SurfaceClipping.h"
 
+#include "shadowtech/base/Instances.h"
 #include "shadowtech/base/Occluders.h"
 
 #include "vtkCompositeDataDisplayAttributes.h"
@@ -20,14 +21,36 @@ namespace gnomon
 namespace
 {
 
-/// Repeats a glyph's triangles for each of its instances, each with vertices of its own.
-void repeatTriangles(std::vector<glm::uvec3>& triangles, std::uint32_t vertexCount, std::size_t n)
+std::vector<glm::vec2> repeated(const std::vector<glm::vec2>& numbers, std::size_t times)
 {
-  const std::size_t count = triangles.size();
-  triangles.reserve(count * n);
-  for (std::size_t instance = 1; instance < n; ++instance)
+  std::vector<glm::vec2> result;
+  result.reserve(numbers.size() * times);
+  for (std::size_t i = 0; i < times; ++i)
   {
-    const auto shift = static_cast<std::uint32_t>(instance * vertexCount);
+    result.insert(result.end(), numbers.begin(), numbers.end());
+  }
+  return result;
+}
+
+/// Repeats a glyph's triangles for each of its instances, each with vertices and texture coordinates of
+/// its own. None, if that would be too many.
+void expandInstances(FreshSurface& fresh)
+{
+  std::vector<glm::uvec3>& triangles = fresh.triangles;
+  const std::size_t count = triangles.size();
+  const std::size_t instances = fresh.record.modelFromInstance.size();
+  fresh.record.keptAsInstances = false;
+  if (fresh.record.tooManyTriangles)
+  {
+    triangles.clear();
+    fresh.textureCoordinates.clear();
+    fresh.vertexCount = 0;
+    return;
+  }
+  triangles.reserve(count * instances);
+  for (std::size_t instance = 1; instance < instances; ++instance)
+  {
+    const auto shift = static_cast<std::uint32_t>(instance * fresh.vertexCount);
     for (std::size_t i = 0; i < count; ++i)
     {
       const glm::uvec3 triangle = triangles[i];
@@ -35,7 +58,8 @@ void repeatTriangles(std::vector<glm::uvec3>& triangles, std::uint32_t vertexCou
       triangles.push_back(missing ? triangle : triangle + shift);
     }
   }
-  triangles.resize(count * n);
+  triangles.resize(count * instances);
+  fresh.textureCoordinates = repeated(fresh.textureCoordinates, instances);
 }
 
 /// Takes the triangles that have a defect out of a fresh surface.
@@ -65,6 +89,26 @@ void dropDefects(FreshSurface& fresh)
     fresh.triangles[keptCount++] = triangle;
   }
   fresh.triangles.resize(keptCount);
+}
+
+/// Computes what a surface that is kept as instances needs; false if it cannot be.
+bool placeSource(FreshSurface& fresh, const DrawnBlock& block, const glm::dvec3& centreWorld)
+{
+  SurfaceRecord& record = fresh.record;
+  std::optional<PlacedInstances> placed = placeKeptInstances(record, centreWorld);
+  if (!placed)
+  {
+    return false;
+  }
+  fresh.instances = std::move(*placed);
+  fresh.positionsCentred.resize(fresh.vertexCount);
+  glm::vec3* positions = fresh.positionsCentred.data();
+  placeVertices(block.data, record.pointOfVertex, fresh.vertexCount, glm::dmat4(1.0),
+    record.sourceCentre, positions);
+  dropDefects(fresh);
+  clearNonFinite(positions, fresh.vertexCount);
+  recordPlaces(fresh.instances, positions, fresh.vertexCount, record);
+  return true;
 }
 
 } // namespace
@@ -109,7 +153,7 @@ CoordinatesSource coordinatesSource(const DrawnProp& prop, const DrawnBlock& blo
 
 //------------------------------------------------------------------------------
 FreshSurface readSurface(const DrawnProp& prop, const DrawnBlock& block, SurfaceCells cells,
-  std::size_t mostGlyphTriangles, std::vector<std::uint32_t>& vertexOfPoint)
+  std::vector<std::uint32_t>& vertexOfPoint)
 {
   DrawnTriangles drawn = triangulate(block.data, cells, vertexOfPoint);
   FreshSurface fresh;
@@ -120,33 +164,48 @@ FreshSurface readSurface(const DrawnProp& prop, const DrawnBlock& block, Surface
   {
     record.modelFromInstance = glyphInstances(
       static_cast<vtkGlyph3DMapper*>(prop.mapper), block.glyphPoints, block.glyphSource);
-    const std::size_t instances = record.modelFromInstance.size();
     record.boundsModel = Bounds();
     for (const glm::mat4& instance : record.modelFromInstance)
     {
       record.boundsModel.add(transformed(drawn.boundsModel, glm::dmat4(instance)));
     }
+    const std::size_t instances = record.modelFromInstance.size();
     record.tooManyTriangles = drawn.triangles.size() * instances > mostGlyphTriangles;
-    if (record.tooManyTriangles)
+    record.keptAsInstances = !record.tooManyTriangles && prop.clipPlanes.empty() &&
+      !drawn.boundsModel.empty() && areInstancesCheaper(drawn.triangles.size(), instances);
+    if (record.keptAsInstances)
     {
-      drawn.triangles.clear();
-      drawn.vertexCount = 0;
+      record.sourceCentre = drawn.boundsModel.centre();
+      record.boundsSource = { drawn.boundsModel.lower - record.sourceCentre,
+        drawn.boundsModel.upper - record.sourceCentre };
     }
-    repeatTriangles(drawn.triangles, drawn.vertexCount, instances);
   }
   record.coordinates = coordinatesSource(prop, block);
   if (record.coordinates.array)
   {
-    const std::vector<glm::vec2> one = readTextureCoordinates(
+    fresh.textureCoordinates = readTextureCoordinates(
       block.textureCoordinates, prop.textureTransform, record.pointOfVertex, drawn.vertexCount);
-    for (std::size_t i = 0; i < record.modelFromInstance.size(); ++i)
-    {
-      fresh.textureCoordinates.insert(fresh.textureCoordinates.end(), one.begin(), one.end());
-    }
   }
-  fresh.positionsCentred.resize(drawn.vertexCount * record.modelFromInstance.size());
+  fresh.vertexCount = drawn.vertexCount;
   fresh.triangles = std::move(drawn.triangles);
   return fresh;
+}
+
+//------------------------------------------------------------------------------
+std::optional<PlacedInstances> placeKeptInstances(
+  const SurfaceRecord& record, const glm::dvec3& centreWorld)
+{
+  return placeKeptInstances(record.worldFromModel, record.modelFromInstance, record.sourceCentre,
+    record.boundsSource, centreWorld);
+}
+
+//------------------------------------------------------------------------------
+void recordPlaces(const PlacedInstances& placed, const glm::vec3* positionsSource,
+  std::size_t vertexCount, SurfaceRecord& record)
+{
+  record.leftOutNonFinite = placed.leftOutNonFinite;
+  record.leftOutVanished = placed.leftOutVanished;
+  record.boundsCentred = instancesBounds(positionsSource, vertexCount, placed.centredFromSource);
 }
 
 //------------------------------------------------------------------------------
@@ -171,6 +230,15 @@ void placeSurface(FreshSurface& fresh, const DrawnProp& prop, const DrawnBlock& 
   record.worldFromModel = prop.worldFromModel;
   record.clipPlanes = prop.clipPlanes;
   std::vector<glm::vec3>& positions = fresh.positionsCentred;
+  if (record.keptAsInstances && placeSource(fresh, block, centreWorld))
+  {
+    return;
+  }
+  if (block.glyphPoints)
+  {
+    expandInstances(fresh);
+  }
+  positions.resize(fresh.vertexCount * record.modelFromInstance.size());
   placeInstances(block, record, positions.size(), centreWorld, positions.data());
   dropDefects(fresh);
   clearNonFinite(positions.data(), positions.size());

@@ -3,6 +3,7 @@
 
 #include "plugin/DrawnProps.h"
 #include "plugin/Hash.h"
+#include "plugin/KeptInstances.h"
 #include "plugin/SurfaceExtraction.h"
 
 #include "lights/Bounds.h"
@@ -11,6 +12,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 class vtkDataArray;
@@ -87,6 +89,13 @@ struct SurfaceRecord
   /// any number of places.
   std::vector<glm::mat4> modelFromInstance{ glm::mat4(1.0f) };
   bool tooManyTriangles = false; ///< more than the bound, so that it has none
+  /// Whether the snapshot keeps it as instances, of a source whose coordinates have their origin at
+  /// this point of the polydata's.
+  bool keptAsInstances = false;
+  glm::dvec3 sourceCentre{ 0.0 };
+  Bounds boundsSource;              ///< in source coordinates
+  std::size_t leftOutNonFinite = 0; ///< instances, as in PlacedInstances
+  std::size_t leftOutVanished = 0;
   std::vector<DroppedTriangle> dropped;
   Bounds boundsModel;
   Bounds boundsCentred;
@@ -97,8 +106,10 @@ struct SurfaceRecord
 struct FreshSurface
 {
   SurfaceRecord record;
-  std::vector<glm::vec3> positionsCentred;
-  std::vector<glm::vec2> textureCoordinates; ///< as in Surface
+  std::size_t vertexCount = 0;               ///< of one instance
+  std::vector<glm::vec3> positionsCentred;   ///< in source coordinates if it is kept as instances
+  std::vector<glm::vec2> textureCoordinates; ///< as in Surface; of one instance until it is placed
+  PlacedInstances instances;
   std::vector<glm::uvec3> triangles;
   std::vector<std::uint32_t> triangleOfDrawn;
 };
@@ -124,16 +135,28 @@ Bounds transformed(const Bounds& box, const glm::dmat4& matrix);
 /// When the shape of a surface last changed, or the instances that it is drawn as.
 vtkMTimeType changeTime(const DrawnProp& prop, const DrawnBlock& block, SurfaceCells cells);
 
-/// Reads a surface from its polydata, without the positions.
+/// Reads a surface from its polydata, without the positions; of glyphs, the source. These are to be kept
+/// as instances where that is cheaper and no clipping planes cut them.
 ///
-/// @param mostGlyphTriangles the bound for the triangles of all instances
 /// @param vertexOfPoint as for triangulate()
 FreshSurface readSurface(const DrawnProp& prop, const DrawnBlock& block, SurfaceCells cells,
-  std::size_t mostGlyphTriangles, std::vector<std::uint32_t>& vertexOfPoint);
+  std::vector<std::uint32_t>& vertexOfPoint);
 
-/// Computes a fresh surface's positions, and leaves out what the snapshot does not hold.
+/// Computes a fresh surface's positions, and leaves out what the snapshot does not hold. Glyphs that
+/// are not kept as instances, or cannot be, are expanded to the triangles of all of them.
 void placeSurface(FreshSurface& fresh, const DrawnProp& prop, const DrawnBlock& block,
   const glm::dvec3& centreWorld);
+
+/// Computes the matrices of the instances that a surface is kept as, where its record says that its
+/// prop is; nothing as above.
+std::optional<PlacedInstances> placeKeptInstances(
+  const SurfaceRecord& record, const glm::dvec3& centreWorld);
+
+/// Takes over to a record where its instances are.
+///
+/// @param positionsSource the surface's vertices, as many as vertexCount
+void recordPlaces(const PlacedInstances& placed, const glm::vec3* positionsSource,
+  std::size_t vertexCount, SurfaceRecord& record);
 
 /// Computes the centred positions of all instances of a surface, as many as its record has, where
 /// its record says that its prop is.

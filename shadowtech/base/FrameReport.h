@@ -59,12 +59,14 @@ struct FrameReport
   int surfacesExtracted = 0;     ///< mapper inputs read into the snapshot
   int surfacesRetransformed = 0; ///< surfaces whose world positions were computed again
 
-  std::size_t triangles = 0;        ///< in the snapshot
+  std::size_t triangles = 0;        ///< in the snapshot, those of all instances
+  std::size_t instances = 0;        ///< glyphs that the snapshot keeps as such, not as triangles
   std::size_t droppedNonFinite = 0; ///< triangles left out: a vertex is not finite
   std::size_t droppedZeroArea = 0;  ///< triangles left out: no area
 
   /// The snapshot on the CPU and the GPU, with all that is remembered of its surfaces: no more than
-  /// 120 bytes a triangle and 1,500 a surface. Embree's own memory is apart.
+  /// 120 bytes a triangle and 1,500 a surface; of glyphs that are kept as instances 120 a triangle of
+  /// one, and 200 an instance. Embree's own memory is apart.
   std::size_t bytesOccluders = 0;
   std::size_t bytesBvh = 0;    ///< as Embree reports it
   std::size_t bytesMaps = 0;   ///< what the techniques baked

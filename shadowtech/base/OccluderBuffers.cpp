@@ -2,6 +2,7 @@
 
 #include "shadowtech/base/Bytes.h"
 #include "shadowtech/base/GlState.h"
+#include "shadowtech/base/Instances.h"
 
 #include <algorithm>
 #include <optional>
@@ -19,8 +20,12 @@ bool isDrawn(const Surface& surface)
 
 Bounds verticesBounds(const Surface& surface, const Occluders& occluders)
 {
-  Bounds bounds;
   const glm::vec3* positions = occluders.positionsCentred.data() + surface.firstVertex;
+  if (surface.isInstanced())
+  {
+    return instancesBounds(positions, surface.vertexCount, surface.centredFromSource);
+  }
+  Bounds bounds;
   for (std::uint32_t i = 0; i < surface.vertexCount; ++i)
   {
     bounds.add(glm::dvec3(positions[i]));
@@ -79,6 +84,19 @@ const void* placeOf(std::size_t number)
   return reinterpret_cast<const void*>(number * sizeof(Element));
 }
 
+/// Tells the bound vertex array to read a matrix for each instance from the bound buffer.
+void readMatrices()
+{
+  for (GLuint column = 0; column < 4; ++column)
+  {
+    const GLuint attribute = 2 + column;
+    glVertexAttribPointer(
+      attribute, 3, GL_FLOAT, GL_FALSE, sizeof(glm::mat4x3), placeOf<glm::vec3>(column));
+    glVertexAttribDivisor(attribute, 1);
+    glEnableVertexAttribArray(attribute);
+  }
+}
+
 /// Draws both sides of triangles, or not the one that is culled. A light looks along +z of its
 /// right-handed space, so that its picture is mirrored.
 void cull(std::optional<GLenum> face)
@@ -122,14 +140,18 @@ void OccluderBuffers::sendAll(const Occluders& occluders)
   this->oneSided_.clear();
   this->cutouts_.clear();
   std::size_t triangles = 0;
+  std::size_t instances = 1;
   for (const Surface& surface : occluders.surfaces)
   {
     if (isDrawn(surface))
     {
+      const std::size_t own = surface.centredFromSource.size();
       this->addPart(surface,
         { static_cast<GLsizei>(3 * triangles), static_cast<GLsizei>(3 * surface.triangleCount),
-          surface.positionsVersion, verticesBounds(surface, occluders) });
+          surface.positionsVersion, verticesBounds(surface, occluders),
+          static_cast<GLuint>(own > 0 ? instances : 0), static_cast<GLsizei>(own) });
       triangles += surface.triangleCount;
+      instances += own;
     }
   }
 
@@ -158,7 +180,28 @@ void OccluderBuffers::sendAll(const Occluders& occluders)
     first = last == occluders.surfaces.end() ? last : last + 1;
   }
   this->bytesOnGpu_ = positionBytes + triangleBytes;
+  this->sendInstances(occluders);
   this->sendCutouts(occluders);
+}
+
+//------------------------------------------------------------------------------
+/// Sends the matrices of all instances that are drawn, and gives them to the vertex array that is bound.
+void OccluderBuffers::sendInstances(const Occluders& occluders)
+{
+  std::vector<glm::mat4x3> instances{ glm::mat4x3(1.0f) };
+  for (const Surface& surface : occluders.surfaces)
+  {
+    if (isDrawn(surface))
+    {
+      instances.insert(
+        instances.end(), surface.centredFromSource.begin(), surface.centredFromSource.end());
+    }
+  }
+  const std::size_t bytes = instances.size() * sizeof(glm::mat4x3);
+  glBindBuffer(GL_ARRAY_BUFFER, this->instances_.create());
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(bytes), instances.data(), GL_STATIC_DRAW);
+  readMatrices();
+  this->bytesOnGpu_ += bytes;
 }
 
 //------------------------------------------------------------------------------
@@ -182,6 +225,8 @@ void OccluderBuffers::sendCutouts(const Occluders& occluders)
     glVertexAttribPointer(
       0, 3, GL_FLOAT, GL_FALSE, sizeof(glm::vec3), placeOf<glm::vec3>(surface.firstVertex));
     glEnableVertexAttribArray(0);
+    glBindBuffer(GL_ARRAY_BUFFER, this->instances_.name());
+    readMatrices();
     glBindBuffer(GL_ARRAY_BUFFER, part.textureCoordinates.create());
     const std::size_t bytes = surface.textureCoordinates.size() * sizeof(glm::vec2);
     glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(bytes), surface.textureCoordinates.data(),
@@ -218,6 +263,14 @@ void OccluderBuffers::sendMoved(const Occluders& occluders)
     {
       part.positionsVersion = surface.positionsVersion;
       part.boundsCentred = verticesBounds(surface, occluders);
+      if (surface.isInstanced()) // whose vertices stay
+      {
+        glBindBuffer(GL_ARRAY_BUFFER, this->instances_.name());
+        send(GL_ARRAY_BUFFER, surface.centredFromSource, 0, surface.centredFromSource.size(),
+          part.firstInstance);
+        continue;
+      }
+      glBindBuffer(GL_ARRAY_BUFFER, this->positions_.name());
       send(GL_ARRAY_BUFFER, occluders.positionsCentred, surface.firstVertex, surface.vertexCount,
         surface.firstVertex);
     }
@@ -272,6 +325,13 @@ void OccluderBuffers::drawParts(const std::vector<Part>& parts, const LightView&
     {
       continue;
     }
+    const void* first = placeOf<GLuint>(static_cast<std::size_t>(part.first));
+    if (part.instances > 0)
+    {
+      glDrawElementsInstancedBaseInstance(
+        GL_TRIANGLES, part.count, GL_UNSIGNED_INT, first, part.instances, part.firstInstance);
+      continue;
+    }
     if (part.first == end)
     {
       counts.back() += part.count;
@@ -279,7 +339,7 @@ void OccluderBuffers::drawParts(const std::vector<Part>& parts, const LightView&
     else
     {
       counts.push_back(part.count);
-      offsets.push_back(placeOf<GLuint>(static_cast<std::size_t>(part.first)));
+      offsets.push_back(first);
     }
     end = part.first + part.count;
   }
@@ -317,8 +377,9 @@ void OccluderBuffers::drawCutouts(const LightView& view, bool backOnly) const
     cull(culledFace(cutout.oneSided, backOnly));
     glBindVertexArray(cutout.vertexArray.name());
     glBindTexture(GL_TEXTURE_2D, this->masks_.at(cutout.mask).name());
-    glDrawElementsBaseVertex(GL_TRIANGLES, part.count, GL_UNSIGNED_INT,
-      placeOf<GLuint>(static_cast<std::size_t>(part.first)), cutout.baseVertex);
+    glDrawElementsInstancedBaseVertexBaseInstance(GL_TRIANGLES, part.count, GL_UNSIGNED_INT,
+      placeOf<GLuint>(static_cast<std::size_t>(part.first)), std::max(part.instances, 1),
+      cutout.baseVertex, part.firstInstance);
   }
   cull(std::nullopt);
 }

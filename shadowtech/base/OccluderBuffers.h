@@ -21,7 +21,7 @@ public:
   /// Brings the buffers up to date; only what changed is sent.
   void update(const Occluders& occluders);
 
-  /// Draws the casting triangles with the program in use; the position is attribute 0, a vec3.
+  /// Draws the casting triangles with the program in use, whose vertex shader is casters.vert.glsl.
   /// Surfaces that the view cannot see are left out, and those with a cut-out are left to
   /// drawCutouts().
   /// One-sided surfaces are drawn with their back faces culled, "front" being what the current view
@@ -51,6 +51,8 @@ private:
     GLsizei count;
     std::uint64_t positionsVersion; ///< as sent
     Bounds boundsCentred;
+    GLuint firstInstance = 0; ///< in instances_; 0 is the identity, which what is drawn once takes
+    GLsizei instances = 0;    ///< 0: drawn once
   };
   /// A surface with a cut-out.
   struct CutoutPart
@@ -63,6 +65,7 @@ private:
     GlVertexArray vertexArray;
   };
   void sendAll(const Occluders& occluders);
+  void sendInstances(const Occluders& occluders);
   void sendMoved(const Occluders& occluders);
   void sendCutouts(const Occluders& occluders);
   void addPart(const Surface& surface, const Part& part);
@@ -71,6 +74,7 @@ private:
   GlVertexArray vertexArray_;
   GlBuffer positions_;
   GlBuffer indices_;
+  GlBuffer instances_; ///< matrices: the identity, then those of all drawn surfaces with instances
   std::vector<Part> twoSided_;
   std::vector<Part> oneSided_;
   std::vector<CutoutPart> cutouts_;

@@ -47,12 +47,30 @@ struct Surface
   std::vector<std::uint32_t> triangleOfDrawn;
 
   static constexpr std::uint32_t noTriangle = 0xffffffffu;
+
+  /// Of a surface that is drawn many times, as glyphs are: the *instances*, in the order in which VTK
+  /// draws them. Its vertices and triangles are there once, in source coordinates, and each of these
+  /// takes them to centred coordinates; what is drawn is the exact image under the matrix. The zero
+  /// matrix stands for an instance that was left out; all others are regular, and either all or none
+  /// of them mirror. Empty: drawn once, and its vertices are centred.
+  std::vector<glm::mat4x3> centredFromSource;
+  bool mirrored = false; ///< whether they mirror, so that source coordinates show the other side
+
+  bool isInstanced() const { return !this->centredFromSource.empty(); }
+  static bool isLeftOut(const glm::mat4x3& instance) { return instance == glm::mat4x3(0.0f); }
+  /// How many triangles VTK draws of it, or of each of its instances, dropped ones included.
+  std::uint32_t drawnCount() const
+  {
+    return this->triangleOfDrawn.empty() ? this->triangleCount
+                                         : static_cast<std::uint32_t>(this->triangleOfDrawn.size());
+  }
 };
 
 /// The snapshot: every surface triangle that VTK draws, cast or only receive, in one list.
 ///
 /// Positions are *centred*: world coordinates less centreWorld, computed in double precision and
-/// then rounded to float, so that scenes far from the origin keep their precision.
+/// then rounded to float, so that scenes far from the origin keep their precision. Those of a surface
+/// with instances are source coordinates instead (Surface::centredFromSource).
 struct Occluders
 {
   glm::dvec3 centreWorld{ 0.0 };

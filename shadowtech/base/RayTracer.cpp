@@ -61,7 +61,9 @@ using Scene = EmbreeHandle<RTCScene, rtcReleaseScene>;
 using Geometry = EmbreeHandle<RTCGeometry, rtcReleaseGeometry>;
 
 /// Rejects hits on the back of a one-sided surface: those whose front does not face the light.
-/// Embree's geometric normal is that of counter-clockwise winding.
+/// Embree's geometric normal is that of counter-clockwise winding. Of an instance, ray and normal are
+/// in source coordinates, where a mirrored one shows its other side.
+template <bool mirrored>
 void rejectBackFaces(const RTCFilterFunctionNArguments* arguments)
 {
   const unsigned int count = arguments->N;
@@ -71,7 +73,7 @@ void rejectBackFaces(const RTCFilterFunctionNArguments* arguments)
       RTCHitN_Ng_x(arguments->hit, count, i) * RTCRayN_dir_x(arguments->ray, count, i) +
       RTCHitN_Ng_y(arguments->hit, count, i) * RTCRayN_dir_y(arguments->ray, count, i) +
       RTCHitN_Ng_z(arguments->hit, count, i) * RTCRayN_dir_z(arguments->ray, count, i);
-    if (!(cosine > 0.0f))
+    if (!((mirrored ? -cosine : cosine) > 0.0f))
     {
       arguments->valid[i] = 0;
     }
@@ -87,7 +89,8 @@ struct CutoutSurface
   std::uint32_t firstVertex = 0;
 };
 
-/// Rejects hits in the holes of a surface, so that the ray goes on behind it.
+/// Rejects hits in the holes of a surface, so that the ray goes on behind it. Of an instance, the triangle
+/// is the source's, whose place on the texture all instances share.
 void rejectHoles(const RTCFilterFunctionNArguments* arguments)
 {
   const auto& surface = *static_cast<const CutoutSurface*>(arguments->geometryUserPtr);
@@ -112,27 +115,36 @@ void rejectHoles(const RTCFilterFunctionNArguments* arguments)
   }
 }
 
+template <bool mirrored>
 void rejectBackFacesAndHoles(const RTCFilterFunctionNArguments* arguments)
 {
-  rejectBackFaces(arguments);
+  rejectBackFaces<mirrored>(arguments);
   rejectHoles(arguments);
 }
 
 /// What has to agree to a hit on a surface; null where every hit counts.
 RTCFilterFunctionN filterOf(const Surface& surface)
 {
+  if (!surface.oneSided)
+  {
+    return surface.cutout ? rejectHoles : nullptr;
+  }
   if (surface.cutout)
   {
-    return surface.oneSided ? rejectBackFacesAndHoles : rejectHoles;
+    return surface.mirrored ? rejectBackFacesAndHoles<true> : rejectBackFacesAndHoles<false>;
   }
-  return surface.oneSided ? rejectBackFaces : nullptr;
+  return surface.mirrored ? rejectBackFaces<true> : rejectBackFaces<false>;
 }
 
 /// One casting surface in the scene.
 struct Caster
 {
   Geometry geometry;
-  unsigned int id = 0;
+  /// Of a surface with instances, the scene that holds its triangles once.
+  Scene source;
+  /// What is attached to the tracer's scene, by Embree's numbers: the triangles, or those instances of
+  /// the source's scene that are not left out.
+  std::vector<unsigned int> attached;
   RTCFilterFunctionN filter = nullptr;
   std::unique_ptr<CutoutSurface> cutout; ///< stays where it is, since Embree is told
   std::uint64_t positionsVersion = 0;
@@ -173,11 +185,11 @@ template <typename Packet>
 class TileTracer
 {
 public:
-  explicit TileTracer(float rayFar)
+  TileTracer(float rayFar, RTCIntersectContextFlags coherence)
     : rayFar_(rayFar)
   {
     rtcInitIntersectContext(&this->context_);
-    this->context_.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    this->context_.flags = coherence;
     for (std::size_t lane = 0; lane < lanes; ++lane)
     {
       this->packet_.tnear[lane] = shadowRayNear;
@@ -305,11 +317,12 @@ void makeRays(const ReceiverRow& row, Columns columns, const std::uint8_t* recei
 
 /// The whole image, tile by tile.
 /// @param scene null where nothing casts
+/// @param coherence of the rays of a packet
 /// @return the number of rays traced
 template <typename Packet, typename MakeRay>
-std::size_t traceImage(RTCScene scene, const ReceiverPixels& receivers,
-  const std::vector<std::uint8_t>& receives, const MakeRay& makeRay, float rayFar,
-  std::vector<float>& visibility)
+std::size_t traceImage(RTCScene scene, RTCIntersectContextFlags coherence,
+  const ReceiverPixels& receivers, const std::vector<std::uint8_t>& receives,
+  const MakeRay& makeRay, float rayFar, std::vector<float>& visibility)
 {
   const auto width = static_cast<std::size_t>(receivers.width);
   const auto height = static_cast<std::size_t>(receivers.height);
@@ -319,7 +332,7 @@ std::size_t traceImage(RTCScene scene, const ReceiverPixels& receivers,
   const auto traceTiles = [&](const tbb::blocked_range<std::size_t>& tiles)
   {
     TilePixels pixels;
-    TileTracer<Packet> tracer(rayFar);
+    TileTracer<Packet> tracer(rayFar, coherence);
     TileArray<float> tileVisibility;
     for (std::size_t tile = tiles.begin(); tile != tiles.end(); ++tile)
     {
@@ -364,6 +377,8 @@ struct RayTracer::Impl
 
   void setBuffers(Caster& caster, const Surface& surface, const Occluders& occluders) const;
   Caster makeCaster(const Surface& surface, const Occluders& occluders) const;
+  void attachInstances(Caster& caster, const Surface& surface) const;
+  void move(Caster& caster, const Surface& surface) const;
   void check(const char* what) const;
 
   std::atomic<std::ptrdiff_t> bytes{ 0 }; // outlives the device, which counts into it
@@ -445,7 +460,6 @@ Caster RayTracer::Impl::makeCaster(const Surface& surface, const Occluders& occl
   caster.geometry = Geometry(rtcNewGeometry(this->device.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
   caster.filter = filterOf(surface);
   caster.positionsVersion = surface.positionsVersion;
-  rtcSetGeometryBuildQuality(caster.geometry.get(), RTC_BUILD_QUALITY_REFIT);
   if (caster.filter)
   {
     rtcSetGeometryOccludedFilterFunction(caster.geometry.get(), caster.filter);
@@ -456,9 +470,57 @@ Caster RayTracer::Impl::makeCaster(const Surface& surface, const Occluders& occl
     rtcSetGeometryUserData(caster.geometry.get(), caster.cutout.get());
   }
   this->setBuffers(caster, surface, occluders);
+  if (surface.isInstanced())
+  {
+    this->attachInstances(caster, surface);
+    return caster;
+  }
+  rtcSetGeometryBuildQuality(caster.geometry.get(), RTC_BUILD_QUALITY_REFIT);
   rtcCommitGeometry(caster.geometry.get());
-  caster.id = rtcAttachGeometry(this->scene.get(), caster.geometry.get());
+  caster.attached = { rtcAttachGeometry(this->scene.get(), caster.geometry.get()) };
   return caster;
+}
+
+void RayTracer::Impl::attachInstances(Caster& caster, const Surface& surface) const
+{
+  rtcCommitGeometry(caster.geometry.get());
+  caster.attached.reserve(surface.centredFromSource.size());
+  caster.source = Scene(rtcNewScene(this->device.get()));
+  rtcSetSceneFlags(caster.source.get(), RTC_SCENE_FLAG_ROBUST);
+  rtcAttachGeometry(caster.source.get(), caster.geometry.get());
+  rtcCommitScene(caster.source.get());
+  for (const glm::mat4x3& instance : surface.centredFromSource)
+  {
+    if (!Surface::isLeftOut(instance))
+    {
+      const Geometry geometry(rtcNewGeometry(this->device.get(), RTC_GEOMETRY_TYPE_INSTANCE));
+      rtcSetGeometryInstancedScene(geometry.get(), caster.source.get());
+      caster.attached.push_back(rtcAttachGeometry(this->scene.get(), geometry.get()));
+    }
+  }
+  this->move(caster, surface);
+}
+
+/// Refits a surface's structure to its moved vertices, or takes over its instances' matrices: as many
+/// as are attached, in their order.
+void RayTracer::Impl::move(Caster& caster, const Surface& surface) const
+{
+  if (!surface.isInstanced())
+  {
+    rtcUpdateGeometryBuffer(caster.geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0);
+    rtcCommitGeometry(caster.geometry.get());
+    return;
+  }
+  auto attached = caster.attached.begin();
+  for (const glm::mat4x3& instance : surface.centredFromSource)
+  {
+    if (!Surface::isLeftOut(instance))
+    {
+      const RTCGeometry geometry = rtcGetGeometry(this->scene.get(), *attached++);
+      rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, &instance[0][0]);
+      rtcCommitGeometry(geometry);
+    }
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -498,14 +560,16 @@ RayTracer::Update RayTracer::update(const Occluders& occluders)
     if (caster.positionsVersion != surface.positionsVersion)
     {
       caster.positionsVersion = surface.positionsVersion;
-      rtcUpdateGeometryBuffer(caster.geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0);
-      rtcCommitGeometry(caster.geometry.get());
+      impl.move(caster, surface);
       ++update.refits;
     }
   }
   for (const auto& gone : impl.casters)
   {
-    rtcDetachGeometry(impl.scene.get(), gone.second.id);
+    for (const unsigned int attached : gone.second.attached)
+    {
+      rtcDetachGeometry(impl.scene.get(), attached);
+    }
   }
   impl.casters = std::move(casters);
   rtcCommitScene(impl.scene.get());
@@ -526,13 +590,20 @@ std::size_t RayTracer::trace(const ShadowLight& light, const Occluders& occluder
     receives.push_back(surface.receives ? 1 : 0);
   }
   const ShadowRayLight rayLight(light, occluders.centreWorld);
+  // In scenes with instances, Embree 3.13.5 hangs on coherent packets of 16 that hit some: it keeps
+  // numbers in AVX-512 registers that the traversal of an instance overwrites. Without coherence the
+  // answers are the same, and of a million triangles and more the time is, too.
+  const bool instanced = std::any_of(occluders.surfaces.begin(), occluders.surfaces.end(),
+    [](const Surface& surface) { return surface.casts && surface.isInstanced(); });
+  const RTCIntersectContextFlags coherence =
+    instanced ? RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT : RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   RTCScene scene = this->impl_->casters.empty() ? nullptr : this->impl_->scene.get();
   return visitShadowRays(rayLight,
     [&](const auto& makeRay, float rayFar)
     {
       return this->impl_->lanes16
-        ? traceImage<RTCRay16>(scene, receivers, receives, makeRay, rayFar, visibility)
-        : traceImage<RTCRay8>(scene, receivers, receives, makeRay, rayFar, visibility);
+        ? traceImage<RTCRay16>(scene, coherence, receivers, receives, makeRay, rayFar, visibility)
+        : traceImage<RTCRay8>(scene, coherence, receivers, receives, makeRay, rayFar, visibility);
     });
 }
 
@@ -545,11 +616,12 @@ std::size_t RayTracer::bytes() const
 //------------------------------------------------------------------------------
 std::size_t RayTracer::bytesOfTable() const
 {
-  const auto& casters = this->impl_->casters;
-  const auto withHoles = std::count_if(casters.begin(), casters.end(),
-    [](const auto& entry) { return entry.second.cutout != nullptr; });
-  return gnomon::bytesOfTable(casters) +
-    static_cast<std::size_t>(withHoles) * sizeof(CutoutSurface);
+  std::size_t bytes = gnomon::bytesOfTable(this->impl_->casters);
+  for (const auto& entry : this->impl_->casters)
+  {
+    bytes += bytesOf(entry.second.attached) + (entry.second.cutout ? sizeof(CutoutSurface) : 0);
+  }
+  return bytes;
 }
 
 } // namespace gnomon

@@ -26,7 +26,7 @@ public:
   struct Update
   {
     int builds = 0; ///< surfaces whose structure was built
-    int refits = 0; ///< surfaces whose structure was refitted to moved vertices
+    int refits = 0; ///< surfaces whose structure was refitted to moved vertices or instances
   };
 
   /// Brings the acceleration structure up to date with the snapshot; does nothing when neither

@@ -23,6 +23,13 @@ struct TriangleOfFragment
 {
   std::uint32_t surface = none;
   std::uint32_t triangle = none;
+  std::uint32_t instance = 0;
+
+  bool operator==(const TriangleOfFragment& other) const
+  {
+    return this->triangle == other.triangle && this->instance == other.instance &&
+      this->surface == other.surface;
+  }
 };
 
 /// A number that is affine over a row of pixels.
@@ -85,12 +92,24 @@ TriangleOfFragment findTriangle(float drawnPlusOne, float primitive,
     return {};
   }
   const DrawnSurface::Block& block = *(after - 1);
-  const std::uint32_t drawn = number - block.firstPrimitive;
+  std::uint32_t drawn = number - block.firstPrimitive;
   if (drawn >= block.primitiveCount || block.surface >= occluders.surfaces.size())
   {
     return {};
   }
   const Surface& surface = occluders.surfaces[block.surface];
+  std::uint32_t instance = 0;
+  if (surface.isInstanced())
+  {
+    // Blocks without primitives were left above, so that there is a count to divide by.
+    instance = drawn / surface.drawnCount();
+    drawn %= surface.drawnCount();
+    if (instance >= surface.centredFromSource.size() ||
+      Surface::isLeftOut(surface.centredFromSource[instance]))
+    {
+      return {};
+    }
+  }
   std::uint32_t triangle = drawn;
   if (!surface.triangleOfDrawn.empty())
   {
@@ -101,7 +120,7 @@ TriangleOfFragment findTriangle(float drawnPlusOne, float primitive,
   {
     return {};
   }
-  return { block.surface, surface.firstTriangle + triangle };
+  return { block.surface, surface.firstTriangle + triangle, instance };
 }
 
 bool isFinite(const glm::dvec3& vector)
@@ -109,18 +128,50 @@ bool isFinite(const glm::dvec3& vector)
   return std::isfinite(vector.x + vector.y + vector.z);
 }
 
-SeenTriangle see(const Occluders& occluders, const TriangleOfFragment& found, const PixelRays& rays)
+/// A triangle's corners, centred.
+std::array<glm::dvec3, 3> cornersOf(const Occluders& occluders, const TriangleOfFragment& found)
 {
-  const glm::uvec3 corners = occluders.triangles[found.triangle];
-  const glm::vec3 a = occluders.positionsCentred[corners.x];
-  const glm::vec3 b = occluders.positionsCentred[corners.y];
-  const glm::vec3 c = occluders.positionsCentred[corners.z];
+  const Surface& surface = occluders.surfaces[found.surface];
+  const glm::uvec3 vertices = occluders.triangles[found.triangle];
+  std::array<glm::dvec3, 3> corners = { occluders.positionsCentred[vertices.x],
+    occluders.positionsCentred[vertices.y], occluders.positionsCentred[vertices.z] };
+  if (surface.isInstanced())
+  {
+    const glm::dmat4x3 centredFromSource(surface.centredFromSource[found.instance]);
+    for (glm::dvec3& corner : corners)
+    {
+      corner = centredFromSource * glm::dvec4(corner, 1.0);
+    }
+  }
+  return corners;
+}
+
+/// How far from its plane the points of a triangle may seem to lie.
+float noiseOf(const Occluders& occluders, const TriangleOfFragment& found,
+  const std::array<glm::dvec3, 3>& corners, const glm::vec3& normal, double doubleArea)
+{
+  const auto& [a, b, c] = corners;
   const glm::vec3 largest = glm::max(glm::abs(a), glm::max(glm::abs(b), glm::abs(c)));
   const glm::vec3 extent = glm::max(a, glm::max(b, c)) - glm::min(a, glm::min(b, c));
+  const float noise = planeNoise(normal, largest, extent, static_cast<float>(doubleArea));
+  const Surface& surface = occluders.surfaces[found.surface];
+  if (!surface.isInstanced())
+  {
+    return noise;
+  }
+  const glm::uvec3 vertices = occluders.triangles[found.triangle];
+  return noise +
+    instanceNoise(normal, corners,
+      { occluders.positionsCentred[vertices.x], occluders.positionsCentred[vertices.y],
+        occluders.positionsCentred[vertices.z] },
+      surface.centredFromSource[found.instance], doubleArea);
+}
 
+SeenTriangle see(const Occluders& occluders, const TriangleOfFragment& found, const PixelRays& rays)
+{
   SeenTriangle seen;
   seen.surface = found.surface;
-  seen.corners = { a, b, c };
+  seen.corners = cornersOf(occluders, found);
   seen.finite = isFinite(seen.corners[0] + seen.corners[1] + seen.corners[2]);
   glm::dvec3 areaVector =
     glm::cross(seen.corners[1] - seen.corners[0], seen.corners[2] - seen.corners[0]);
@@ -142,8 +193,10 @@ SeenTriangle see(const Occluders& occluders, const TriangleOfFragment& found, co
     rays.parallel() ? alongNormal(areaVector).first : planeDistance(areaVector).first;
   if (!(std::abs(side) > 0.0 && std::isfinite(side)))
   {
-    // No area, not finite, or seen along its plane: alongNormal stays 0, so that no ray meets it.
-    seen.noise = planeNoise(glm::vec3(1.0f), largest, glm::vec3(0.0f), 1.0f);
+    // No area, not finite, or seen along its plane: alongNormal stays 0, so that no ray meets it. No
+    // shadow ray either, as if its area were endless.
+    seen.noise = noiseOf(
+      occluders, found, seen.corners, glm::vec3(1.0f), std::numeric_limits<double>::infinity());
     return seen;
   }
   const double orientation = side > 0.0 ? 1.0 : -1.0;
@@ -162,7 +215,7 @@ SeenTriangle see(const Occluders& occluders, const TriangleOfFragment& found, co
   }
   const double doubleArea = glm::length(areaVector);
   seen.normal = -areaVector / doubleArea;
-  seen.noise = planeNoise(seen.normal, largest, extent, static_cast<float>(doubleArea));
+  seen.noise = noiseOf(occluders, found, seen.corners, seen.normal, doubleArea);
   return seen;
 }
 
@@ -225,13 +278,11 @@ glm::dvec3 inwards(
 class SeenTriangles
 {
 public:
-  SeenTriangles() { this->triangles_.fill(none); }
-
   template <typename Make>
-  const SeenTriangle& find(std::uint32_t triangle, Make make)
+  const SeenTriangle& find(const TriangleOfFragment& triangle, Make make)
   {
-    const std::size_t slot = triangle % size;
-    if (this->triangles_[slot] != triangle)
+    const std::size_t slot = (triangle.triangle + 61u * triangle.instance) % size;
+    if (!(this->triangles_[slot] == triangle))
     {
       this->triangles_[slot] = triangle;
       this->seen_[slot] = make();
@@ -241,7 +292,7 @@ public:
 
 private:
   static constexpr std::size_t size = 256;
-  std::array<std::uint32_t, size> triangles_;
+  std::array<TriangleOfFragment, size> triangles_;
   std::array<SeenTriangle, size> seen_;
 };
 
@@ -387,7 +438,7 @@ void projectReceivers(const ReceiverImages& images, const std::vector<DrawnSurfa
         findTriangle(std::abs(fragment.x), fragment.y, drawnSurfaces, occluders);
       const SeenTriangle* seen = found.triangle == none || !raysFinite
         ? nullptr
-        : &cache.find(found.triangle, [&] { return see(occluders, found, rays); });
+        : &cache.find(found, [&] { return see(occluders, found, rays); });
       if (seen && seen->finite)
       {
         projectSpan(*seen, rays, span, receivers, inside);

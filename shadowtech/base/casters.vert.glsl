@@ -1,6 +1,8 @@
 // Draws the casters into a map, as the light sees them (CasterDrawing.h).
 
-layout(location = 0) in vec3 positionCentred;
+layout(location = 0) in vec3 positionSource;
+// The instance's matrix; the identity, which changes no bit, where a surface is drawn once.
+layout(location = 2) in mat4x3 centredFromSource; // and locations 3, 4, 5
 
 uniform mat4 clipFromCentred;
 
@@ -28,6 +30,7 @@ void main()
 #ifdef CUTOUT
   cutoutCoordinates = textureCoordinates;
 #endif
+  vec3 positionCentred = centredFromSource * vec4(positionSource, 1.0);
   gl_Position = clipFromCentred * vec4(positionCentred, 1.0);
 #ifdef FITTED
   vec4 fit = texelFetch(viewFits, ivec2(view, 0), 0);

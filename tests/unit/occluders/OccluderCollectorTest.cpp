@@ -1,5 +1,7 @@
 #include "plugin/OccluderCollector.h"
 
+#include "plugin/KeptInstances.h"
+
 #include "TestData.h"
 
 #include "plugin/vtkGnomonPropKeys.h"
@@ -438,7 +440,7 @@ TEST(OccluderGlyphs, MoreTrianglesThanTheBoundAreLeftOutAndNoted)
   Scene scene;
   const auto points = vtkSmartPointer<vtkPolyData>::New();
   points->SetPoints(vtkNew<vtkPoints>());
-  const auto most = static_cast<vtkIdType>(OccluderCollector::mostGlyphTriangles / 512);
+  const auto most = static_cast<vtkIdType>(mostGlyphTriangles / 512);
   points->GetPoints()->SetNumberOfPoints(most + 1);
   points->GetPoints()->GetData()->Fill(0.0);
   std::vector<glm::dvec3> corners;
@@ -458,6 +460,114 @@ TEST(OccluderGlyphs, MoreTrianglesThanTheBoundAreLeftOutAndNoted)
     ASSERT_EQ(scene.collector.notes().size(), 1u);
     EXPECT_NE(scene.collector.notes()[0].find("32769 glyphs"), std::string::npos);
   }
+}
+
+TEST(OccluderGlyphs, AreKeptAsInstancesWhereThatIsCheaper)
+{
+  EXPECT_FALSE(areInstancesCheaper(63, 10000));
+  EXPECT_TRUE(areInstancesCheaper(64, 4096));
+  EXPECT_FALSE(areInstancesCheaper(64, 4095));
+  EXPECT_FALSE(areInstancesCheaper(12, 1000000));
+  EXPECT_FALSE(areInstancesCheaper(1000, 0));
+  EXPECT_FALSE(areInstancesCheaper(0, 1000000));
+}
+
+/// Sixty-four squares in a row, one of them without area, at 4,096 points on a line.
+struct RowGlyphs
+{
+  static vtkSmartPointer<vtkPolyData> makePoints()
+  {
+    const auto points = vtkSmartPointer<vtkPolyData>::New();
+    points->SetPoints(vtkNew<vtkPoints>());
+    for (int i = 0; i < 4096; ++i)
+    {
+      points->GetPoints()->InsertNextPoint(0.0, 2.0 * i, 0.0);
+    }
+    return points;
+  }
+  static vtkSmartPointer<vtkPolyData> makeRow()
+  {
+    std::vector<glm::dvec3> corners;
+    Cells triangles;
+    for (vtkIdType i = 0; i < 64; ++i)
+    {
+      const auto x = static_cast<double>(i);
+      corners.insert(
+        corners.end(), { { x, 0, 0 }, { x + 1, 0, 0 }, { x, i == 9 ? 0.0 : 1.0, 1e-9 } });
+      triangles.push_back({ 3 * i, 3 * i + 1, 3 * i + 2 });
+    }
+    corners[3 * 9 + 2] = { 11.0, 0, 0 };
+    return makePolyData(corners, triangles);
+  }
+
+  vtkSmartPointer<vtkPolyData> points = makePoints();
+  Glyphs glyphs{ this->points, makeRow() };
+};
+
+TEST(OccluderGlyphs, KeptAsInstancesAreThereOnce)
+{
+  Scene scene;
+  const RowGlyphs row;
+  row.glyphs.actor->SetPosition(1e6, 0, 5);
+  scene.renderer->AddActor(row.glyphs.actor);
+  scene.collect();
+  ASSERT_EQ(scene.surfaceCount(), 1u);
+  const Surface& surface = scene.surface(0);
+  EXPECT_EQ(surface.triangleCount, 63u);
+  EXPECT_EQ(surface.drawnCount(), 64u);
+  ASSERT_EQ(surface.centredFromSource.size(), 4096u);
+  EXPECT_FALSE(surface.mirrored);
+  EXPECT_EQ(scene.occluders().droppedZeroArea, 4096u);
+  const auto cornerWorld = [&](std::size_t instance, std::uint32_t vertex)
+  {
+    return glm::dvec3(glm::dmat4x3(surface.centredFromSource[instance]) *
+             glm::dvec4(glm::dvec3(scene.occluders().positionsCentred[vertex]), 1.0)) +
+      scene.occluders().centreWorld;
+  };
+  expectNear(cornerWorld(0, 1), { 1e6 + 1, 0, 5 }, 1e-3);
+  expectNear(cornerWorld(4095, 191), { 1e6 + 63, 8191, 5 }, 1e-3);
+  const Bounds& bounds = scene.occluders().castersCentred;
+  expectNear(bounds.lower + scene.occluders().centreWorld, { 1e6, 0, 5 }, 1e-3);
+  expectNear(bounds.upper + scene.occluders().centreWorld, { 1e6 + 64, 8191, 5 }, 1e-3);
+  expectNothingDone(scene);
+
+  row.glyphs.actor->SetPosition(1e6, 3, 5);
+  const OccluderCollector::Change change = scene.collect();
+  EXPECT_EQ(change.extracted, 0);
+  EXPECT_EQ(change.retransformed, 1);
+  expectNear(cornerWorld(4095, 191), { 1e6 + 63, 8194, 5 }, 1e-3);
+  expectNothingDone(scene);
+}
+
+/// VTK makes 1e-10 of a scale of 0; as triangles such glyphs have no area.
+TEST(OccluderGlyphs, InstancesThatCannotBeSeenAreLeftOut)
+{
+  Scene scene;
+  const RowGlyphs row;
+  vtkNew<vtkFloatArray> sizes;
+  sizes->SetName("sizes");
+  sizes->SetNumberOfTuples(4096);
+  sizes->Fill(1.0);
+  sizes->SetTuple1(17, 0.0);
+  row.points->GetPointData()->AddArray(sizes);
+  row.glyphs.mapper->SetScaleArray("sizes");
+  row.glyphs.mapper->SetScaleModeToScaleByMagnitude();
+  row.points->GetPoints()->SetPoint(5, 0.0, notANumber, 0.0);
+  scene.renderer->AddActor(row.glyphs.actor);
+  scene.collect();
+  const std::vector<glm::mat4x3>& instances = scene.surface(0).centredFromSource;
+  ASSERT_EQ(instances.size(), 4096u);
+  for (std::size_t i = 0; i < 4096; ++i)
+  {
+    EXPECT_EQ(Surface::isLeftOut(instances[i]), i == 5 || i == 17) << i;
+  }
+  EXPECT_EQ(scene.occluders().droppedNonFinite, 64u);
+  EXPECT_EQ(scene.occluders().droppedZeroArea, 64u + 4094u);
+
+  row.glyphs.actor->SetScale(0.0, 0.0, 0.0);
+  scene.collect();
+  EXPECT_EQ(scene.occluders().droppedNonFinite + scene.occluders().droppedZeroArea, 64u * 4096u);
+  EXPECT_TRUE(scene.occluders().castersCentred.empty());
 }
 
 TEST(OccluderProps, AMappersPieceIsAskedFor)
