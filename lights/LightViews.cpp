@@ -139,7 +139,8 @@ std::vector<LightView> layViews(const ShadowLight& light, const ViewFitting& fit
       splitDistances({ range.lower, range.upper }, light.splits, light.splitLambda);
     for (std::size_t i = 0; i + 1 < distances.size(); ++i)
     {
-      add(sliced(body, camera, view.rays, distances[i], distances[i + 1]).vertices());
+      const double shared = i == 0 ? 0.0 : light.splitBlend * (distances[i] - distances[i - 1]);
+      add(sliced(body, camera, view.rays, distances[i] - shared, distances[i + 1]).vertices());
     }
   }
   else

@@ -150,6 +150,8 @@ const std::vector<Setting>& shadowSettings()
     { "splits", "the number of pssm's views", IntegerSetting{ &S::splits, 1, mostSplits } },
     { "split_lambda", "where pssm splits: 0 uniform, 1 logarithmic",
       RealSetting{ &S::splitLambda, 0.0, 1.0 } },
+    { "split_blend", "the share of a split in which it is blended into the next",
+      RealSetting{ &S::splitBlend, 0.0, 0.5 } },
     { "map_size", "the side of a light's map, in texels",
       IntegerSetting{ &S::mapSizeTexels, 16, 16384 } },
     { "kernel", "what techniques that filter (pcf) average over",

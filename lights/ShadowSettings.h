@@ -78,6 +78,9 @@ struct ShadowSettings
   bool snap = true;
   int splits = 4;
   double splitLambda = 0.5; ///< 0: uniform splits, 1: logarithmic ones
+  /// The share of a split's length in which it is blended into the next, so that no border shows where
+  /// texels change their size.
+  double splitBlend = 0.0;
 
   /// The side of the light's map, of each layer where it has several.
   int mapSizeTexels = 1024;

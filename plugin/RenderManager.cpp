@@ -346,6 +346,14 @@ std::string RenderManager::reasonAgainstReceivers(const LightSlot& slot) const
   {
     return "the technique works on the screen, where the receivers are found after the maps";
   }
+  if (slot.light.fit == ViewFit::Off)
+  {
+    return "that takes the setting fit=frame";
+  }
+  if (slot.light.projection == Projection::Splits && slot.light.splitBlend > 0.0)
+  {
+    return "splits that are blended overlap, and each receiver is counted to one";
+  }
   if (slot.light.fit == ViewFit::Once)
   {
     return "a fit that is made once has to hold what will be seen later";

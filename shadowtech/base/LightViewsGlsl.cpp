@@ -32,6 +32,8 @@ std::string lightViewsDefines(const ShadowLight& light)
     define("VIEWS_PERSPECTIVE_LIGHT", light.kind != LightKind::Directional) +
     define("VIEWS_CUBE_LIGHT", layout == ViewLayout::Cube) +
     define("VIEWS_SPLITS_LIGHT", layout == ViewLayout::Splits) +
+    define("VIEWS_BLENDED_LIGHT", layout == ViewLayout::Splits && light.splitBlend > 0.0) +
+    "#define SPLIT_BLEND_LIGHT float(" + findSetting("split_blend")->get(light) + ")\n" +
     define("VIEWS_WARPED_LIGHT", isWarped(light)) +
     define("VIEWS_FITTED_LIGHT", light.fittedToReceivers) + define("VIEWS_LIGHT", mostViews(light));
 }

@@ -4,7 +4,8 @@
 //
 // What kind of light it is, is known when the shader is built: VIEWS_SPOT_LIGHT, VIEWS_BOX_LIGHT and
 // VIEWS_PERSPECTIVE_LIGHT are 0 or 1; and so is how its views lie: VIEWS_CUBE_LIGHT, VIEWS_SPLITS_LIGHT
-// (neither: a single one), VIEWS_WARPED_LIGHT. VIEWS_LIGHT is how many views there can be.
+// (neither: a single one), VIEWS_WARPED_LIGHT. VIEWS_LIGHT is how many views there can be. With
+// VIEWS_BLENDED_LIGHT splits overlap.
 // VIEWS_FITTED_LIGHT: the last fit of the views was found on the GPU, and is read from a texture;
 // texels "before the fit" are those of the map that would show all that there can be.
 //
@@ -212,6 +213,29 @@ bool findView_LIGHT(vec3 positionLight, vec3 normalLight, out ViewPoint point)
   point.texel = texelOf_LIGHT(point.view, across);
   return holds_LIGHT(point.texel, 0.0);
 }
+
+#if VIEWS_BLENDED_LIGHT
+// In what share a point that a split's view sees is the next one's, from 0 inside of the layer to 1 at
+// its edge; `next` is the point there. Splits reach as far into the one before as they are blended, so
+// that the next view sees what lies along the edge.
+float blendIntoNext_LIGHT(ViewPoint point, out ViewPoint next)
+{
+  next = point;
+  ++next.view;
+  if (next.view >= viewCount_LIGHT)
+  {
+    return 0.0;
+  }
+  next.texel = texelOf_LIGHT(next.view, acrossOf_LIGHT(point.position));
+  if (!holds_LIGHT(next.texel, viewBorder_LIGHT))
+  {
+    return 0.0;
+  }
+  vec2 inside = min(point.texel, viewSize_LIGHT - point.texel) - viewBorder_LIGHT;
+  float width = SPLIT_BLEND_LIGHT * (viewSize_LIGHT - 2.0 * viewBorder_LIGHT); // the border is less than half
+  return clamp(1.0 - min(inside.x, inside.y) / width, 0.0, 1.0);
+}
+#endif
 
 // How far from the light the receiver's plane is on the ray through a texel's centre, but no farther
 // than the point itself. Where the plane runs past that ray or away from it, only the point's own

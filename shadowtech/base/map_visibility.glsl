@@ -8,6 +8,16 @@ uniform vec2 depthSlacks_LIGHT; // what rounding does to a depth; and per distan
 // The technique's estimator, for a point that the light reaches and a view sees.
 float estimate_LIGHT(ViewPoint point, float slack);
 
+// The same with what rounding does to depths there. The position is rounded relative to its distance
+// from the camera, which the sum of its parts is never less than.
+float estimateAt_LIGHT(ViewPoint point, vec3 positionView)
+{
+  float distanceView = dot(abs(positionView), vec3(1.0));
+  float slack =
+    depthSlacks_LIGHT.x + viewDepths_LIGHT[point.view].x * distanceView * depthSlacks_LIGHT.y;
+  return estimate_LIGHT(point, slack);
+}
+
 float visibility_LIGHT(vec3 positionView, vec3 normalView)
 {
   vec3 p = (lightFromView_LIGHT * vec4(positionView, 1.0)).xyz;
@@ -21,10 +31,14 @@ float visibility_LIGHT(vec3 positionView, vec3 normalView)
   {
     return 1.0;
   }
-  // The position is rounded relative to its distance from the camera, which the sum of its parts is
-  // never less than.
-  float distanceView = dot(abs(positionView), vec3(1.0));
-  float slack =
-    depthSlacks_LIGHT.x + viewDepths_LIGHT[point.view].x * distanceView * depthSlacks_LIGHT.y;
-  return estimate_LIGHT(point, slack);
+  float visibility = estimateAt_LIGHT(point, positionView);
+#if VIEWS_BLENDED_LIGHT
+  ViewPoint next;
+  float share = blendIntoNext_LIGHT(point, next);
+  if (share > 0.0)
+  {
+    visibility = mix(visibility, estimateAt_LIGHT(next, positionView), share);
+  }
+#endif
+  return visibility;
 }

@@ -14,7 +14,9 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iostream>
 #include <map>
 #include <string>
 
@@ -219,8 +221,6 @@ TEST_P(Filters, bothRoutesShowTheSame)
 {
   PassScene scene(256, 256);
   this->choose(scene);
-  // Both to the frustum: only the image route can fit maps to the receivers.
-  scene.pass->SetSetting("fit", "once");
   scene.addFloor(4.0);
   scene.addSphere({ 0.0, 0.0, 1.5 }, 0.7);
   scene.addSun({ 1.0, 0.4, -1.5 });
@@ -246,6 +246,81 @@ void addClosedWorld(PassScene& scene)
 }
 
 } // namespace
+
+//------------------------------------------------------------------------------
+/// Along a shadow's edge that runs away from the camera, the texels of one split end and those of the
+/// next begin. Between them lie values of both.
+TEST_F(PassTest, blendedSplitsFadeIntoEachOther)
+{
+  PassScene scene(200, 200);
+  scene.addFloor(100.0);
+  scene.addBox({ -40.0, -100.0, 3.0 }, { 0.0, 100.0, 4.0 });
+  scene.addSun({ 0.2, 0.13, -1.0 });
+  scene.lookFrom({ 3.0, -98.0, 2.0 });
+  scene.pass->SetTechnique("pssm");
+  scene.pass->SetMapSize(128);
+  const auto countBetween = [&](const char* blend)
+  {
+    scene.pass->SetSetting("split_blend", blend);
+    const VisibilityImages& kept = drawKept(scene);
+    return std::count_if(kept.visibility[0].begin(), kept.visibility[0].end(),
+      [](float visibility) { return visibility > 0.0f && visibility < 1.0f; });
+  };
+  EXPECT_EQ(countBetween("0"), 0);
+  EXPECT_GT(countBetween("0.3"), 20);
+  EXPECT_EQ(scene.report().lights.at(0).fit, "frustum");
+
+  // Both routes, and against the truth.
+  const VisibilityImages blended = drawKept(scene);
+  scene.pass->SetTechnique("raytraced");
+  EXPECT_GT(compareVisibility(blended, drawKept(scene)).agreeing(), 0.97);
+  scene.pass->SetTechnique("pssm");
+  scene.pass->KeepVisibilityOff();
+  scene.pass->SetRoute(vtkGnomonShadowPass::ROUTE_IMAGE);
+  const Picture image = scene.render();
+  scene.pass->SetRoute(vtkGnomonShadowPass::ROUTE_INLINE);
+  EXPECT_EQ(differingPixels(scene.render(), image, 1), 0u);
+}
+
+/// From row to row of pixels along the middle of a shadow's penumbra, with a filter as wide as texels are,
+/// brightness changes by less where splits are blended than where they are not.
+TEST_F(PassTest, blendedSplitsHaveNoBorder)
+{
+  PassScene scene(200, 400);
+  scene.addFloor(100.0);
+  scene.addBox({ -40.0, -100.0, 3.0 }, { 0.0, 100.0, 4.0 });
+  scene.addSun({ 0.2, 0.0, -1.0 });
+  scene.lookFrom({ 3.0, -98.0, 2.0 }, { 3.0, 100.0, -40.0 });
+  scene.pass->SetTechnique("pssm");
+  scene.pass->SetSetting("estimator", "pcf");
+  scene.pass->SetSetting("kernel_size", "9");
+  scene.pass->SetMapSize(128);
+  // The wide kernel of the next split reaches across the edge where the first one's does not any more.
+  const auto largestStep = [&](const char* blend)
+  {
+    scene.pass->SetSetting("split_blend", blend);
+    const VisibilityImages& kept = drawKept(scene);
+    float largest = 0.0f;
+    for (std::size_t y = 0; y + 1 < 400; ++y)
+    {
+      for (std::size_t x = 0; x < 200; ++x)
+      {
+        const std::size_t i = y * 200 + x;
+        if (kept.coverage[i] > 0.5f && kept.coverage[i + 200] > 0.5f && kept.normalZ[i] > 0.9f &&
+          positionOf(kept, i).z < 0.1 && positionOf(kept, i + 200).z < 0.1)
+        {
+          largest =
+            std::max(largest, std::abs(kept.visibility[0][i] - kept.visibility[0][i + 200]));
+        }
+      }
+    }
+    return largest;
+  };
+  const float without = largestStep("0");
+  const float with = largestStep("0.3");
+  std::cout << "largest step between rows: " << without << ", blended " << with << "\n";
+  EXPECT_LT(with, 0.7f * without);
+}
 
 //------------------------------------------------------------------------------
 TEST_F(PassTest, theExactEarlyOutIsThatOfTheWholeDisc)
