@@ -60,7 +60,7 @@ public:
   bool chooseRoute(int wished, bool keepVisibility);
   Route route() const { return this->route_; }
 
-  /// receivers (image route): has VTK draw the opaque props' triangle numbers, and points for pointwise techniques.
+  /// receivers (image route): has VTK draw the opaque props' triangle numbers, and points for techniques that read them on the GPU.
   /// @param pass whose hook the props' shaders have
   void drawReceivers(const vtkRenderState* s, vtkGnomonShadowPass* pass);
 
@@ -120,7 +120,8 @@ private:
     const ShadowLight& light, const CameraView& camera, Technique& technique, Bake& bake);
   void resolveReceivers();
   void keepVisibility();
-  bool anyPointwise() const;
+  bool readsPoints() const;
+  LightReport& reportOf(const LightSlot& slot);
   CameraView camera(vtkRenderer* renderer) const;
   glm::dmat4 centredFromView(vtkRenderer* renderer) const;
 
@@ -137,6 +138,7 @@ private:
   OccluderBuffers buffers_;
   RayTracer tracer_;
   Route route_ = Route::Inline;
+  CameraView camera_; ///< that the receivers were drawn by
   ReceiverTarget receiverTarget_;
   ReceiverImages receiverImages_;
   ReceiverPixels receivers_;

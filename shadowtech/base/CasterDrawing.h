@@ -1,6 +1,7 @@
 #ifndef gnomon_shadowtech_base_CasterDrawing_h
 #define gnomon_shadowtech_base_CasterDrawing_h
 
+#include "shadowtech/base/OccluderBuffers.h"
 #include "shadowtech/base/Technique.h"
 
 #include <string>
@@ -22,9 +23,23 @@ struct CasterShader
   bool backOnly = false; ///< of two-sided surfaces, only the side that faces away
 };
 
+/// How casters become a picture: of what a view of the light sees, or of their shadows.
+struct CasterPicture
+{
+  glm::dmat4 clipFromCentred{ 1.0 };
+  /// Planes (n, d) in centred coordinates: what has n.p + d < 0 is clipped away. At most three.
+  std::vector<glm::dvec4> keptFromCentred;
+  CasterSelection selection;
+};
+
 /// Makes OpenGL ready to draw casters into a framebuffer's layers of this size. A GlStateGuard is the
 /// caller's business.
 void beginCasters(GLuint framebuffer, int sizeTexels);
+
+/// Draws the casters into what is attached to the bound framebuffer. Those with holes are drawn by a
+/// shader of their own: main() ends with discardHoles() (cutout.glsl).
+void drawCasters(const CasterPicture& picture, const OccluderBuffers& buffers,
+  ShaderLibrary& shaders, CasterShader shader);
 
 /// Draws the casters, as one view sees them, into what is attached to the framebuffer.
 ///
@@ -32,7 +47,6 @@ void beginCasters(GLuint framebuffer, int sizeTexels);
 /// such views. With DEPTH_LINEAR among its defines it gets the map's linear depth as
 /// `in float depthLinear`; the depth buffer has that by itself only where LightView::depthIsAffine.
 /// It may ask for `uniform mat3 texelFromAcross` and `acrossFromTexel` (LightView.h).
-/// Casters with holes are drawn by a shader of their own: main() ends with discardHoles() (cutout.glsl).
 void drawCasters(const LightView& view, const MapInput& input, CasterShader shader);
 
 /// The uniform of map_visibility.glsl that says what rounding does to the depths that are compared.
