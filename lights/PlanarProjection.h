@@ -13,7 +13,7 @@ namespace gnomon
 ///
 /// With P turned so that P.L > 0, the image of a point v has w = P.L - (P.v) L.w: positive for what is
 /// nearer to the plane than the light. Where w <= 0 the point lies beside or beyond the light and
-/// casts nothing on the plane; its image would be a shadow of the wrong side. Nor does what has P.v <= 0
+/// casts nothing on the plane; its image would be an anti-shadow. Nor does what has P.v <= 0
 /// cast any. A light in the plane (P.L = 0) has the image of all points in itself.
 ///
 /// @param plane (n, d), of any length

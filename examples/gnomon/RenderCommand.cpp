@@ -136,7 +136,8 @@ nlohmann::ordered_json toJson(const FrameReport& report)
       { "reason", light.reason }, { "technique", light.technique },
       { "estimator", light.estimator }, { "projection", light.projection },
       { "map_size_texels", light.mapSizeTexels }, { "kernel", light.kernel },
-      { "kernel_size_texels", light.kernelTexels }, { "traced_pixels", light.tracedPixels } });
+      { "kernel_size_texels", light.kernelTexels }, { "traced_pixels", light.tracedPixels },
+      { "planes", light.planes }, { "pixels_off_planes", light.pixelsOffPlanes } });
   }
   json["notes"] = report.notes;
   json["stages"] = nlohmann::ordered_json::array();

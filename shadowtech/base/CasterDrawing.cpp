@@ -22,7 +22,7 @@ constexpr double distanceSlack = 1.0 / (1 << 21);
 constexpr int cutoutUnit = 0;
 
 /// The most planes that clip casters (GlStateGuard).
-constexpr GLenum mostClips = 3;
+constexpr GLenum mostClips = 2;
 
 void useProgram(const CasterPicture& picture, ShaderLibrary& shaders, const CasterShader& shader)
 {

@@ -27,7 +27,7 @@ struct CasterShader
 struct CasterPicture
 {
   glm::dmat4 clipFromCentred{ 1.0 };
-  /// Planes (n, d) in centred coordinates: what has n.p + d < 0 is clipped away. At most three.
+  /// Planes (n, d) in centred coordinates: what has n.p + d < 0 is clipped away. At most two.
   std::vector<glm::dvec4> keptFromCentred;
   CasterSelection selection;
 };

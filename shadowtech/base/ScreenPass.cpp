@@ -33,7 +33,7 @@ void ScreenPass::fill(GLuint texture, int layer, int width, int height)
   glDisable(GL_STENCIL_TEST);
   glDisable(GL_CULL_FACE);
   glDisable(GL_COLOR_LOGIC_OP);
-  for (GLenum i = 0; i < 3; ++i) // what casters may be clipped by
+  for (GLenum i = 0; i < 2; ++i) // what casters may be clipped by
   {
     glDisable(GL_CLIP_DISTANCE0 + i);
   }

@@ -69,21 +69,17 @@ void beginShadows(GLuint framebuffer, int width, int height)
   glClearBufferuiv(GL_COLOR, 0, nothing);
 }
 
-/// The planes that bound what can cast onto a plane: it lies above it, nearer to it than the light, and behind the
-/// face where a box's light begins.
+/// The planes that bound what can cast onto a plane: it lies above it, and behind the face where a box's light begins.
+/// What is beyond the light needs none: its images on the plane have w < 0 (planarProjection()), and those
+/// that the camera would see in the plane's own pixels keep that sign, so that OpenGL clips them.
 std::vector<glm::dvec4> castingPart(const ShadowLight& light, const glm::dvec3& centreWorld,
-  const glm::dvec4& plane, double thickness, const glm::dvec4& sample)
+  const glm::dvec4& plane, double thickness)
 {
-  const glm::dvec4 lifted = plane - glm::dvec4(0.0, 0.0, 0.0, thickness);
-  std::vector<glm::dvec4> kept = { lifted };
-  if (sample.w > 0.0)
-  {
-    kept.push_back(glm::dvec4(0.0, 0.0, 0.0, glm::dot(plane, sample)) - plane);
-  }
+  std::vector<glm::dvec4> kept = { plane - glm::dvec4(0.0, 0.0, 0.0, thickness) };
   if (light.box)
   {
-    kept.push_back(
-      { light.directionWorld, -glm::dot(light.directionWorld, light.positionWorld - centreWorld) });
+    kept.emplace_back(
+      light.directionWorld, -glm::dot(light.directionWorld, light.positionWorld - centreWorld));
   }
   return kept;
 }
@@ -249,7 +245,7 @@ void Planar::drawShadows(const LayerInput& input, const Batch& batch)
       CasterPicture picture;
       picture.clipFromCentred = clipFromCentred * planarProjection(plane, sample);
       picture.keptFromCentred =
-        castingPart(input.light, input.occluders.centreWorld, plane, receiver.thickness, sample);
+        castingPart(input.light, input.occluders.centreWorld, plane, receiver.thickness);
       // The camera looks at the same side of the plane as the light.
       picture.selection.mirrored = false;
       picture.selection.maySee = [&](const Bounds& bounds)
