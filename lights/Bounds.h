@@ -3,6 +3,7 @@
 
 #include <glm/glm.hpp>
 
+#include <algorithm>
 #include <array>
 #include <limits>
 
@@ -47,6 +48,28 @@ struct Bounds
     return result;
   }
 };
+
+/// Whether a projection may show something of a box: false only if it shows nothing of it. What lies
+/// before the near plane or behind the far one counts as shown.
+inline bool mayShow(const glm::dmat4& clipFromSpace, const Bounds& bounds)
+{
+  if (bounds.empty())
+  {
+    return false;
+  }
+  // Corners outside of each of the planes that bound clip space.
+  std::array<int, 5> outside{};
+  for (const glm::dvec3& corner : bounds.corners())
+  {
+    const glm::dvec4 clip = clipFromSpace * glm::dvec4(corner, 1.0);
+    outside[0] += clip.x < -clip.w ? 1 : 0;
+    outside[1] += clip.x > clip.w ? 1 : 0;
+    outside[2] += clip.y < -clip.w ? 1 : 0;
+    outside[3] += clip.y > clip.w ? 1 : 0;
+    outside[4] += clip.w <= 0.0 ? 1 : 0;
+  }
+  return std::none_of(outside.begin(), outside.end(), [](int corners) { return corners == 8; });
+}
 
 } // namespace gnomon
 

@@ -1,7 +1,5 @@
 #include "lights/LightView.h"
 
-#include <array>
-
 namespace gnomon
 {
 
@@ -27,30 +25,14 @@ glm::dmat4 LightView::clipFromCentred() const
 //------------------------------------------------------------------------------
 bool LightView::maySee(const Bounds& centred) const
 {
-  if (centred.empty())
-  {
-    return false;
-  }
-  // Corners outside of each of the planes that bound clip space; near is left to the rasteriser.
-  std::array<int, 5> outside{};
-  const glm::dmat4 matrix = this->clipFromCentred();
-  for (const glm::dvec3& corner : centred.corners())
-  {
-    const glm::dvec4 clip = matrix * glm::dvec4(corner, 1.0);
-    outside[0] += clip.x < this->readable.lower.x * clip.w ? 1 : 0;
-    outside[1] += clip.x > this->readable.upper.x * clip.w ? 1 : 0;
-    outside[2] += clip.y < this->readable.lower.y * clip.w ? 1 : 0;
-    outside[3] += clip.y > this->readable.upper.y * clip.w ? 1 : 0;
-    outside[4] += clip.w <= 0.0 ? 1 : 0;
-  }
-  for (const int corners : outside)
-  {
-    if (corners == 8)
-    {
-      return false;
-    }
-  }
-  return true;
+  const glm::dvec2 middle = 0.5 * (this->readable.lower + this->readable.upper);
+  const glm::dvec2 half = 0.5 * (this->readable.upper - this->readable.lower);
+  glm::dmat4 readableFromClip(1.0); // in units of w
+  readableFromClip[0].x = 1.0 / half.x;
+  readableFromClip[1].y = 1.0 / half.y;
+  readableFromClip[3].x = -middle.x / half.x;
+  readableFromClip[3].y = -middle.y / half.y;
+  return mayShow(readableFromClip * this->clipFromCentred(), centred);
 }
 
 //------------------------------------------------------------------------------

@@ -172,6 +172,15 @@ const std::vector<Setting>& shadowSettings()
       IntegerSetting{ &S::discSets, 1, 32 } },
     { "early_out", "adaptive: what is asked before the whole disc is read",
       choice<EarlyOut, &S::earlyOut>({ "none", "ring", "exact" }) },
+    { "planes", "planar: how many planes show shadows, at most: the largest",
+      IntegerSetting{ &S::planes, 1, mostPlanes } },
+    { "light_radius",
+      "soft shadows of planar: the light's radius in world units, of a directional light the "
+      "tangent of half the "
+      "angle that it fills; 0: hard shadows",
+      RealSetting{ &S::lightRadius, 0.0, 1e12 } },
+    { "light_samples", "soft shadows of planar: from how many points of the light",
+      IntegerSetting{ &S::lightSamples, 1, 1024 } },
     { "depth", "the surface on a ray that a map holds",
       choice<DepthSurface, &S::depth>({ "first", "second", "midpoint" }) },
     { "metric", "how a map measures: along the view's axis, or along the ray",

@@ -61,6 +61,9 @@ enum class ViewFit
   Frame ///< what the camera sees in this frame
 };
 
+/// The most planes that planar shadows can be asked for.
+constexpr int mostPlanes = 64;
+
 /// What a user can ask of a light's shadows. A light says what it wants by name
 /// (vtkGnomonLightKeys), the pass says the rest, and these are the defaults of both.
 struct ShadowSettings
@@ -111,6 +114,16 @@ struct ShadowSettings
   DepthMetric metric = DepthMetric::Linear;
   double biasConstant = 0.0; ///< in world units
   double biasSlope = 0.0;    ///< times what a caster's depth spans within the filter's reach
+
+  /// Of planar shadows: how many planes show shadows, at most.
+  int planes = 8;
+
+  ///@{
+  /// Of techniques with soft shadows from many points of the light (LightSamples.h). The radius is in world units,
+  /// of a directional light the tangent of half the angle that the light fills; 0: a hard shadow.
+  double lightRadius = 0.0;
+  int lightSamples = 64;
+  ///@}
 
   /// Whether another light's map holds the same for the same views and filter.
   bool storesAs(const ShadowSettings& other) const

@@ -310,7 +310,7 @@ bool RenderManager::chooseRoute(int wished, bool keepVisibility)
   {
     lights.push_back({ slot->light, this->pointwiseFor(*slot) });
   }
-  this->shaders_.configure({ this->route_, this->anyPointwise(), samples > 1 }, lights);
+  this->shaders_.configure({ this->route_, this->readsPoints(), samples > 1 }, lights);
   return wished != vtkGnomonShadowPass::ROUTE_INLINE || screenTechnique.empty();
 }
 
@@ -377,10 +377,11 @@ LightReport& RenderManager::reportOf(const ShadowLight& light)
 }
 
 //------------------------------------------------------------------------------
-bool RenderManager::anyPointwise() const
+bool RenderManager::readsPoints() const
 {
   return std::any_of(this->casting_.begin(), this->casting_.end(),
-    [](const LightSlot* slot) { return slot->estimator->info.pointwise; });
+    [](const LightSlot* slot)
+    { return slot->estimator->info.pointwise || slot->estimator->info.drawn; });
 }
 
 //------------------------------------------------------------------------------
@@ -433,9 +434,10 @@ void RenderManager::drawReceivers(const vtkRenderState* s, vtkGnomonShadowPass* 
   const int height = size.y;
 
   const glm::dmat4 centredFromView = this->centredFromView(renderer);
-  const CameraView camera = this->camera(renderer);
-  this->receiverImages_.rays = pixelRays(camera.clipFromView, centredFromView, width, height);
-  this->receiversShown_ = hashOfShown(s, camera, size);
+  this->camera_ = this->camera(renderer);
+  this->receiverImages_.rays =
+    pixelRays(this->camera_.clipFromView, centredFromView, width, height);
+  this->receiversShown_ = hashOfShown(s, this->camera_, size);
 
   this->layers_.resize(width, height, static_cast<int>(this->casting_.size()));
   this->stageValues_.layers = { GL_TEXTURE_2D_ARRAY, this->layers_.texture() };
@@ -461,7 +463,7 @@ void RenderManager::drawReceivers(const vtkRenderState* s, vtkGnomonShadowPass* 
   state->vtkglEnable(GL_DEPTH_TEST);
 
   this->shaders_.beginStage(window, this->stageValues_);
-  this->receiverTarget_.begin(width, height, this->anyPointwise());
+  this->receiverTarget_.begin(width, height, this->readsPoints());
   for (int i = 0; i < s->GetPropArrayCount(); ++i)
   {
     const WithoutOtherPasses alone(s->GetPropArray()[i], pass);
@@ -566,14 +568,15 @@ void RenderManager::resolveReceivers()
 void RenderManager::computeVisibility(bool keep)
 {
   const Occluders& occluders = this->collector_.occluders();
-  const bool onScreen = std::any_of(this->casting_.begin(), this->casting_.end(),
-    [](const LightSlot* slot) { return !slot->estimator->info.pointwise; });
-  if (onScreen || keep)
+  const bool onCpu = std::any_of(this->casting_.begin(), this->casting_.end(),
+    [](const LightSlot* slot)
+    { return !slot->estimator->info.pointwise && !slot->estimator->info.drawn; });
+  if (onCpu || keep)
   {
     this->resolveReceivers();
     this->endStageClock("visibility: read receivers");
   }
-  if (onScreen)
+  if (onCpu)
   {
     const RayTracer::Update update = this->tracer_.update(occluders);
     this->report_.bvhBuilds = update.builds;
@@ -591,6 +594,17 @@ void RenderManager::computeVisibility(bool keep)
       this->layers_.estimate(layer, *slot.technique, slot.light, this->receiverTarget_,
         this->stageValues_.centredFromView, this->library_);
       this->endStageClock("visibility: estimate");
+    }
+    else if (slot.estimator->info.drawn)
+    {
+      this->buffers_.update(occluders);
+      slot.technique->drawVisibility(
+        { slot.light, this->camera_, occluders, this->buffers_, this->receiverTarget_,
+          this->collector_.drawnSurfaces(), this->layers_, layer, this->library_,
+          keep || this->measureStages_, this->report_.notes },
+        this->reportOf(slot.light));
+      this->report_.bytesMaps += slot.technique->bytesOfMaps();
+      this->endStageClock("visibility: draw");
     }
     else
     {

@@ -61,7 +61,7 @@ public:
   bool chooseRoute(int wished, bool keepVisibility);
   Route route() const { return this->route_; }
 
-  /// receivers (image route): has VTK draw the opaque props' triangle numbers, and points for pointwise techniques.
+  /// receivers (image route): has VTK draw the opaque props' triangle numbers, and points for techniques that read them on the GPU.
   /// @param pass whose hook the props' shaders have
   void drawReceivers(const vtkRenderState* s, vtkGnomonShadowPass* pass);
 
@@ -126,7 +126,7 @@ private:
   LightReport& reportOf(const ShadowLight& light);
   void resolveReceivers();
   void keepVisibility();
-  bool anyPointwise() const;
+  bool readsPoints() const;
   CameraView camera(vtkRenderer* renderer) const;
   glm::dmat4 centredFromView(vtkRenderer* renderer) const;
 
@@ -143,6 +143,7 @@ private:
   OccluderBuffers buffers_;
   RayTracer tracer_;
   Route route_ = Route::Inline;
+  CameraView camera_; ///< that the receivers were drawn by
   ReceiverTarget receiverTarget_;
   std::size_t receiversShown_ = 0; ///< a hash of what the receivers' images depend on
   ReceiverImages receiverImages_;

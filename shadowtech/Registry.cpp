@@ -6,6 +6,7 @@
 #include "shadowtech/exponential/Exponential.h"
 #include "shadowtech/moments/FourMoments.h"
 #include "shadowtech/pcf/Pcf.h"
+#include "shadowtech/planar/Planar.h"
 #include "shadowtech/raytraced/Raytraced.h"
 #include "shadowtech/variance/Variance.h"
 
@@ -63,6 +64,7 @@ const std::vector<EstimatorEntry>& estimators()
     entry<Variance>(),
     entry<Exponential>(),
     entry<FourMoments>(),
+    entry<Planar>(),
     entry<Raytraced>(),
   };
   return entries;
@@ -91,6 +93,8 @@ const std::vector<TechniqueEntry>& registry()
       Projection::Trapezoid },
     { "pssm", "hard: parallel-split shadow maps, one for each range of distances",
       findEstimator("compare"), Projection::Splits },
+    { "planar", "hard, soft: casters projected onto the flat receivers, with no shadows elsewhere",
+      findEstimator("planar"), Projection::Uniform },
     { "raytraced", "hard, exact: a shadow ray for every pixel; the truth",
       findEstimator("raytraced"), Projection::Uniform },
   };

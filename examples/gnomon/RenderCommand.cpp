@@ -138,7 +138,8 @@ nlohmann::ordered_json toJson(const FrameReport& report)
         { "projection", light.projection }, { "map_size_texels", light.mapSizeTexels },
         { "fit", light.fit }, { "fit_reason", light.fitReason },
         { "casters_left_out", light.castersLeftOut }, { "kernel", light.kernel },
-        { "kernel_size_texels", light.kernelTexels }, { "traced_pixels", light.tracedPixels } });
+        { "kernel_size_texels", light.kernelTexels }, { "traced_pixels", light.tracedPixels },
+        { "planes", light.planes }, { "pixels_off_planes", light.pixelsOffPlanes } });
   }
   json["notes"] = report.notes;
   json["stages"] = nlohmann::ordered_json::array();

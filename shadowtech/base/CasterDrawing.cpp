@@ -6,6 +6,7 @@
 #include <glm/gtc/matrix_access.hpp>
 
 #include <cmath>
+#include <utility>
 
 namespace gnomon
 {
@@ -20,36 +21,22 @@ constexpr double distanceSlack = 1.0 / (1 << 21);
 /// The texture unit of a hole's mask; those behind it are the shader's.
 constexpr int cutoutUnit = 0;
 
-/// Whether casters may lie before the light's beginning.
-bool begins(const LightView& view)
-{
-  return std::isfinite(view.beginsAt);
-}
+/// The most planes that clip casters (GlStateGuard).
+constexpr GLenum mostClips = 2;
 
-void useProgram(std::size_t number, const MapInput& input, const CasterShader& shader)
+void useProgram(const CasterPicture& picture, ShaderLibrary& shaders, const CasterShader& shader)
 {
-  const LightView& view = input.views.views[number];
-  const GLuint program = input.shaders.program(
+  const GLuint program = shaders.program(
     { { GL_VERTEX_SHADER, ShaderLibrary::source("shadowtech/base/casters.vert.glsl") },
       { GL_FRAGMENT_SHADER, shader.fragmentGlsl } },
     shader.defines);
   glUseProgram(program);
-  const glm::dvec4 distance = glm::row(view.rays.viewFromCentred, 2);
-  glm::dvec4 depth = view.depthScale * distance;
-  depth.w += view.depthOffset;
-  const glm::dmat3 texels = texelFromAcross(view, input.light.mapSizeTexels);
-  std::vector<Uniform> uniforms = { { "clipFromCentred", glm::mat4(view.clipFromCentred()) },
-    { "depthFromCentred", glm::vec4(depth) }, { "texelFromAcross", glm::mat3(texels) },
-    { "acrossFromTexel", glm::mat3(glm::inverse(texels)) }, { "cutoutMask", cutoutUnit } };
-  if (begins(view))
+  std::vector<Uniform> uniforms = { { "clipFromCentred", glm::mat4(picture.clipFromCentred) },
+    { "cutoutMask", cutoutUnit } };
+  for (std::size_t i = 0; i < picture.keptFromCentred.size(); ++i)
   {
-    const glm::dvec4 behind = distance - glm::dvec4(0.0, 0.0, 0.0, view.beginsAt);
-    uniforms.push_back({ "beginFromCentred", glm::vec4(behind) });
-  }
-  if (input.views.awaitFit)
-  {
-    uniforms.push_back({ "viewFits", input.viewFits });
-    uniforms.push_back({ "view", static_cast<int>(number) });
+    uniforms.push_back(
+      { "keptFromCentred[" + std::to_string(i) + "]", glm::vec4(picture.keptFromCentred[i]) });
   }
   uniforms.insert(uniforms.end(), shader.uniforms.begin(), shader.uniforms.end());
   ShaderLibrary::setUniforms(program, uniforms, 0, cutoutUnit + 1);
@@ -74,6 +61,30 @@ void beginCasters(GLuint framebuffer, int sizeTexels)
 }
 
 //------------------------------------------------------------------------------
+void drawCasters(const CasterPicture& picture, const OccluderBuffers& buffers,
+  ShaderLibrary& shaders, CasterShader shader)
+{
+  const auto clips = static_cast<GLenum>(picture.keptFromCentred.size());
+  for (GLenum i = 0; i < mostClips; ++i)
+  {
+    i < clips ? glEnable(GL_CLIP_DISTANCE0 + i) : glDisable(GL_CLIP_DISTANCE0 + i);
+  }
+  if (clips > 0)
+  {
+    shader.defines.emplace_back("CLIPS " + std::to_string(clips));
+  }
+  useProgram(picture, shaders, shader);
+  buffers.draw(picture.selection);
+  if (buffers.hasCutouts())
+  {
+    shader.defines.emplace_back("CUTOUT");
+    useProgram(picture, shaders, shader);
+    glActiveTexture(GL_TEXTURE0 + cutoutUnit);
+    buffers.drawCutouts(picture.selection);
+  }
+}
+
+//------------------------------------------------------------------------------
 void drawCasters(std::size_t number, const MapInput& input, CasterShader shader)
 {
   const LightView& view = input.views.views[number];
@@ -85,24 +96,28 @@ void drawCasters(std::size_t number, const MapInput& input, CasterShader shader)
   {
     shader.defines.emplace_back("WARPED");
   }
-  if (begins(view))
+  const glm::dvec4 distance = glm::row(view.rays.viewFromCentred, 2);
+  CasterPicture picture;
+  picture.clipFromCentred = view.clipFromCentred();
+  picture.selection.maySee = [&view](const Bounds& centred) { return view.maySee(centred); };
+  picture.selection.backOnly = shader.backOnly;
+  if (std::isfinite(view.beginsAt)) // casters may lie before the light's beginning
   {
-    shader.defines.emplace_back("BEGINS");
+    picture.keptFromCentred.push_back(distance - glm::dvec4(0.0, 0.0, 0.0, view.beginsAt));
   }
   if (input.views.awaitFit)
   {
     shader.defines.emplace_back("FITTED");
+    shader.uniforms.push_back({ "viewFits", input.viewFits });
+    shader.uniforms.push_back({ "view", static_cast<int>(number) });
   }
-  begins(view) ? glEnable(GL_CLIP_DISTANCE0) : glDisable(GL_CLIP_DISTANCE0);
-  useProgram(number, input, shader);
-  input.buffers.draw(view, shader.backOnly);
-  if (input.buffers.hasCutouts())
-  {
-    shader.defines.emplace_back("CUTOUT");
-    useProgram(number, input, shader);
-    glActiveTexture(GL_TEXTURE0 + cutoutUnit);
-    input.buffers.drawCutouts(view, shader.backOnly);
-  }
+  glm::dvec4 depth = view.depthScale * distance;
+  depth.w += view.depthOffset;
+  const glm::dmat3 texels = texelFromAcross(view, input.light.mapSizeTexels);
+  shader.uniforms.push_back({ "depthFromCentred", glm::vec4(depth) });
+  shader.uniforms.push_back({ "texelFromAcross", glm::mat3(texels) });
+  shader.uniforms.push_back({ "acrossFromTexel", glm::mat3(glm::inverse(texels)) });
+  drawCasters(picture, input.buffers, input.shaders, std::move(shader));
 }
 
 //------------------------------------------------------------------------------

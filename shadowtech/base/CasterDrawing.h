@@ -1,6 +1,7 @@
 #ifndef gnomon_shadowtech_base_CasterDrawing_h
 #define gnomon_shadowtech_base_CasterDrawing_h
 
+#include "shadowtech/base/OccluderBuffers.h"
 #include "shadowtech/base/Technique.h"
 
 #include <cstddef>
@@ -23,9 +24,23 @@ struct CasterShader
   bool backOnly = false; ///< of two-sided surfaces, only the side that faces away
 };
 
+/// How casters become a picture: of what a view of the light sees, or of their shadows.
+struct CasterPicture
+{
+  glm::dmat4 clipFromCentred{ 1.0 };
+  /// Planes (n, d) in centred coordinates: what has n.p + d < 0 is clipped away. At most two.
+  std::vector<glm::dvec4> keptFromCentred;
+  CasterSelection selection;
+};
+
 /// Makes OpenGL ready to draw casters into a framebuffer's layers of this size. A GlStateGuard is the
 /// caller's business.
 void beginCasters(GLuint framebuffer, int sizeTexels);
+
+/// Draws the casters into what is attached to the bound framebuffer. Those with holes are drawn by a
+/// shader of their own: main() ends with discardHoles() (cutout.glsl).
+void drawCasters(const CasterPicture& picture, const OccluderBuffers& buffers,
+  ShaderLibrary& shaders, CasterShader shader);
 
 /// Draws the casters, as the view of this number sees them, into what is attached to the framebuffer.
 ///
@@ -34,7 +49,6 @@ void beginCasters(GLuint framebuffer, int sizeTexels);
 /// `in float depthLinear`; the depth buffer has that by itself only where LightView::depthIsAffine.
 /// Where it is across the light, caster_map.glsl tells. The last fit of views that await it
 /// (MapInput::viewFits) is applied here and there.
-/// Casters with holes are drawn by a shader of their own: main() ends with discardHoles() (cutout.glsl).
 void drawCasters(std::size_t number, const MapInput& input, CasterShader shader);
 
 /// The uniform of map_visibility.glsl that says what rounding does to the depths that are compared.

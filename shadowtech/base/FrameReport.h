@@ -34,6 +34,10 @@ struct LightReport
   std::string kernel;            ///< what filters it; empty when nothing does
   int kernelTexels = 0;          ///< and how wide that is
   std::int64_t tracedPixels = 0; ///< pixels decided by a ray
+  /// Of planar shadows: the planes that show shadows, and the pixels that lie on none of them and show
+  /// no cast shadow; these are counted only where visibility is kept or stages are measured.
+  int planes = 0;
+  std::int64_t pixelsOffPlanes = 0;
 };
 
 /// What one frame did, for people and for tests. Counters count this frame only.

@@ -35,6 +35,7 @@ GlStateGuard::GlStateGuard()
   glGetIntegerv(GL_VIEWPORT, this->viewport_);
   glGetIntegerv(GL_SCISSOR_BOX, this->scissor_);
   glGetIntegerv(GL_DEPTH_FUNC, &this->depthFunction_);
+  glGetIntegerv(GL_LOGIC_OP_MODE, &this->logicOperation_);
   glGetIntegerv(GL_CULL_FACE_MODE, &this->cullFace_);
   glGetIntegerv(GL_FRONT_FACE, &this->frontFace_);
   glGetIntegerv(GL_POLYGON_MODE, this->polygonMode_);
@@ -74,6 +75,7 @@ GlStateGuard::~GlStateGuard()
   glPolygonMode(GL_FRONT_AND_BACK, static_cast<GLenum>(this->polygonMode_[0]));
   glFrontFace(static_cast<GLenum>(this->frontFace_));
   glCullFace(static_cast<GLenum>(this->cullFace_));
+  glLogicOp(static_cast<GLenum>(this->logicOperation_));
   glDepthFunc(static_cast<GLenum>(this->depthFunction_));
   glScissor(this->scissor_[0], this->scissor_[1], this->scissor_[2], this->scissor_[3]);
   glViewport(this->viewport_[0], this->viewport_[1], this->viewport_[2], this->viewport_[3]);

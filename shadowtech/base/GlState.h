@@ -23,15 +23,16 @@ public:
   static constexpr int textureUnits = 6;
 
 private:
-  static constexpr std::array<GLenum, 10> switches_ = { GL_DEPTH_TEST, GL_CLIP_DISTANCE0,
-    GL_SCISSOR_TEST, GL_CULL_FACE, GL_POLYGON_OFFSET_FILL, GL_DEPTH_CLAMP, GL_STENCIL_TEST,
-    GL_MULTISAMPLE, GL_SAMPLE_ALPHA_TO_COVERAGE, GL_FRAMEBUFFER_SRGB };
+  static constexpr std::array<GLenum, 12> switches_ = { GL_DEPTH_TEST, GL_CLIP_DISTANCE0,
+    GL_CLIP_DISTANCE1, GL_COLOR_LOGIC_OP, GL_SCISSOR_TEST, GL_CULL_FACE, GL_POLYGON_OFFSET_FILL,
+    GL_DEPTH_CLAMP, GL_STENCIL_TEST, GL_MULTISAMPLE, GL_SAMPLE_ALPHA_TO_COVERAGE,
+    GL_FRAMEBUFFER_SRGB };
   std::array<GLboolean, switches_.size()> enabled_;
   std::array<GLboolean, 3> blend_;
   GLint program_, vertexArray_, arrayBuffer_, packBuffer_, unpackBuffer_, activeTexture_;
   GLint drawFramebuffer_, readFramebuffer_;
   GLint viewport_[4], scissor_[4];
-  GLint depthFunction_, cullFace_, frontFace_, polygonMode_[2];
+  GLint depthFunction_, logicOperation_, cullFace_, frontFace_, polygonMode_[2];
   GLint packAlignment_, unpackAlignment_;
   GLfloat offsetFactor_, offsetUnits_;
   GLboolean depthMask_, colorMask_[4];

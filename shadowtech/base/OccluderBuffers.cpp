@@ -97,11 +97,10 @@ void readMatrices()
   }
 }
 
-/// Draws both sides of triangles, or not the one that is culled. A light looks along +z of its
-/// right-handed space, so that its picture is mirrored.
-void cull(std::optional<GLenum> face)
+/// Draws both sides of triangles, or not the one that is culled.
+void cull(std::optional<GLenum> face, bool mirrored)
 {
-  glFrontFace(GL_CW);
+  glFrontFace(mirrored ? GL_CW : GL_CCW);
   face ? glEnable(GL_CULL_FACE) : glDisable(GL_CULL_FACE);
   glCullFace(face.value_or(GL_BACK));
 }
@@ -314,14 +313,15 @@ int OccluderBuffers::countUnseen(const std::vector<LightView>& views) const
 }
 
 //------------------------------------------------------------------------------
-void OccluderBuffers::drawParts(const std::vector<Part>& parts, const LightView& view) const
+void OccluderBuffers::drawParts(
+  const std::vector<Part>& parts, const CasterSelection& selection) const
 {
   std::vector<GLsizei> counts;
   std::vector<const void*> offsets;
   GLsizei end = -1; // of the run of neighbours that is being extended
   for (const Part& part : parts)
   {
-    if (!view.maySee(part.boundsCentred))
+    if (!selection.maySee(part.boundsCentred))
     {
       continue;
     }
@@ -351,37 +351,37 @@ void OccluderBuffers::drawParts(const std::vector<Part>& parts, const LightView&
 }
 
 //------------------------------------------------------------------------------
-void OccluderBuffers::draw(const LightView& view, bool backOnly) const
+void OccluderBuffers::draw(const CasterSelection& selection) const
 {
   glBindVertexArray(this->vertexArray_.name());
-  cull(culledFace(false, backOnly));
-  this->drawParts(this->twoSided_, view);
+  cull(culledFace(false, selection.backOnly), selection.mirrored);
+  this->drawParts(this->twoSided_, selection);
   if (!this->oneSided_.empty())
   {
-    cull(culledFace(true, backOnly));
-    this->drawParts(this->oneSided_, view);
+    cull(culledFace(true, selection.backOnly), selection.mirrored);
+    this->drawParts(this->oneSided_, selection);
   }
-  cull(std::nullopt);
+  cull(std::nullopt, selection.mirrored);
 }
 
 //------------------------------------------------------------------------------
-void OccluderBuffers::drawCutouts(const LightView& view, bool backOnly) const
+void OccluderBuffers::drawCutouts(const CasterSelection& selection) const
 {
   for (const CutoutPart& cutout : this->cutouts_)
   {
     const Part& part = cutout.part;
-    if (!view.maySee(part.boundsCentred))
+    if (!selection.maySee(part.boundsCentred))
     {
       continue;
     }
-    cull(culledFace(cutout.oneSided, backOnly));
+    cull(culledFace(cutout.oneSided, selection.backOnly), selection.mirrored);
     glBindVertexArray(cutout.vertexArray.name());
     glBindTexture(GL_TEXTURE_2D, this->masks_.at(cutout.mask).name());
     glDrawElementsInstancedBaseVertexBaseInstance(GL_TRIANGLES, part.count, GL_UNSIGNED_INT,
       placeOf<GLuint>(static_cast<std::size_t>(part.first)), std::max(part.instances, 1),
       cutout.baseVertex, part.firstInstance);
   }
-  cull(std::nullopt);
+  cull(std::nullopt, selection.mirrored);
 }
 
 } // namespace gnomon

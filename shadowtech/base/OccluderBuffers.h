@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <vector>
@@ -14,7 +15,18 @@
 namespace gnomon
 {
 
-/// The snapshot's casting surfaces on the GPU, for drawing maps.
+/// Which casters are drawn, and which of their sides.
+struct CasterSelection
+{
+  /// False only if a box (centred) holds nothing that is to be drawn.
+  std::function<bool(const Bounds&)> maySee;
+  bool backOnly = false; ///< of the two-sided surfaces, too: only what faces away from the light
+  /// Whether the picture is mirrored, so that fronts are clockwise there. Maps are: a light looks
+  /// along +z of its right-handed space.
+  bool mirrored = true;
+};
+
+/// The snapshot's casting surfaces on the GPU, for drawing maps and shadows.
 class OccluderBuffers
 {
 public:
@@ -22,12 +34,10 @@ public:
   void update(const Occluders& occluders);
 
   /// Draws the casting triangles with the program in use, whose vertex shader is casters.vert.glsl.
-  /// Surfaces that the view cannot see are left out, and those with a cut-out are left to
-  /// drawCutouts().
-  /// One-sided surfaces are drawn with their back faces culled, "front" being what the current view
-  /// sees counter-clockwise.
-  /// @param backOnly of the two-sided surfaces, too: only what faces away from the light
-  void draw(const LightView& view, bool backOnly = false) const;
+  /// Surfaces that cannot be seen are left out, and those with a cut-out are left to drawCutouts().
+  /// One-sided surfaces are drawn with their back faces culled, "front" being what the light sees
+  /// counter-clockwise.
+  void draw(const CasterSelection& selection) const;
 
   /// Whether there are surfaces with a cut-out.
   bool hasCutouts() const { return !this->cutouts_.empty(); }
@@ -35,7 +45,7 @@ public:
   /// Draws the casting triangles of surfaces with a cut-out, otherwise like draw(). Texture coordinates
   /// are attribute 1, a vec2; the 2D texture of the active unit is, surface by surface, its mask, which
   /// is 0 exactly where the surface has a hole, filtered and repeated as VTK's texture is.
-  void drawCutouts(const LightView& view, bool backOnly = false) const;
+  void drawCutouts(const CasterSelection& selection) const;
 
   /// The number of casting surfaces that none of the views can see.
   int countUnseen(const std::vector<LightView>& views) const;
@@ -69,7 +79,7 @@ private:
   void sendMoved(const Occluders& occluders);
   void sendCutouts(const Occluders& occluders);
   void addPart(const Surface& surface, const Part& part);
-  void drawParts(const std::vector<Part>& parts, const LightView& view) const;
+  void drawParts(const std::vector<Part>& parts, const CasterSelection& selection) const;
 
   GlVertexArray vertexArray_;
   GlBuffer positions_;

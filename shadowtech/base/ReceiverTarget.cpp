@@ -29,10 +29,10 @@ void ReceiverTarget::allocate(int width, int height, bool withPoints)
 {
   const GlStateGuard guard;
   this->width_ = 0; // in case that there is no memory
-  const auto allocate = [&](GlTexture& texture, const FloatFormat& format)
+  const auto allocate = [&](GlTexture& texture, const TexelFormat& format)
   { allocateTexture(texture, format, width, height, 0, "the receivers' image"); };
   allocate(this->fragments_,
-    withPoints ? FloatFormat{ GL_RGBA32F, GL_RGBA, 4 } : FloatFormat{ GL_RG32F, GL_RG, 2 });
+    withPoints ? TexelFormat{ GL_RGBA32F, GL_RGBA, 4 } : TexelFormat{ GL_RG32F, GL_RG, 2 });
   allocate(this->depth_, { GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, 1 });
   this->points_.reset();
   if (withPoints)

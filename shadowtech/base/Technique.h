@@ -1,6 +1,7 @@
 #ifndef gnomon_shadowtech_base_Technique_h
 #define gnomon_shadowtech_base_Technique_h
 
+#include "lights/CameraView.h"
 #include "lights/LightViews.h"
 #include "lights/MapReach.h"
 #include "lights/ShadowLight.h"
@@ -18,17 +19,21 @@
 namespace gnomon
 {
 
+struct DrawnSurface;
 struct Occluders;
 struct ReceiverPixels;
 class OccluderBuffers;
 class RayTracer;
+class ReceiverTarget;
 class ShaderLibrary;
+class VisibilityLayers;
 
 /// What an estimator is, before any instance of it exists: one line of the registry.
 struct TechniqueInfo
 {
   std::string name;
   bool pointwise = false; ///< visibility is a function of the point: serves both routes
+  bool drawn = false;     ///< a screen technique that draws its image on the GPU
   bool exact = false;     ///< equals the ray-traced visibility bit for bit
   bool needsMap = false;  ///< bakes something from the light
   bool filters = false;   ///< reads the map with the light's filter kernel
@@ -63,7 +68,23 @@ struct MapInput
   TextureBinding viewFits = {};
 };
 
-/// What a screen technique gets to compute one light's visibility image from.
+/// What a screen technique gets to draw one light's visibility image from, on the GPU.
+struct LayerInput
+{
+  const ShadowLight& light;
+  const CameraView& camera;
+  const Occluders& occluders;
+  const OccluderBuffers& buffers;                 ///< up to date with the occluders
+  const ReceiverTarget& receivers;                ///< with points
+  const std::vector<DrawnSurface>& drawnSurfaces; ///< that the receivers' fragments name
+  VisibilityLayers& layers;
+  int layer; ///< of the layers: this light's
+  ShaderLibrary& shaders;
+  bool counting; ///< whether the report is worth reading back what only the GPU knows
+  std::vector<std::string>& notes; ///< FrameReport::notes
+};
+
+/// What a screen technique gets to compute one light's visibility image from, on the CPU.
 struct ScreenInput
 {
   const ShadowLight& light;
@@ -81,7 +102,8 @@ struct ScreenInput
 /// length. Every identifier that ends in _LIGHT is numbered per light. Both routes call that
 /// function: VTK's own shaders (inline) or a full-screen pass (image).
 ///
-/// A *screen* technique works on the receivers of all pixels at once, on the CPU.
+/// A *screen* technique works on the receivers of all pixels at once. One that is *drawn* does so on the
+/// GPU and reads nothing back; the others compute on the CPU, and may trace rays.
 class Technique
 {
 public:
@@ -92,7 +114,7 @@ public:
   virtual MapReach mapReach(const ShadowLight&) const { return {}; }
   /// Draws the light's maps. Called only when they are stale.
   virtual void bake(const MapInput&) {}
-  /// Memory that the baked maps take on the GPU.
+  /// Memory that the baked maps, or what else the technique keeps for the light, take on the GPU.
   virtual std::size_t bytesOfMaps() const { return 0; }
 
   /// The GLSL source of a pointwise technique, for a light of this kind; empty for a screen technique.
@@ -106,7 +128,10 @@ public:
     return {};
   }
 
-  /// Computes a screen technique's visibility, one float in [0, 1] per pixel of the receivers.
+  /// Draws a screen technique's visibility into its layer: in [0, 1] for every pixel.
+  virtual void drawVisibility(const LayerInput&, LightReport&) {}
+
+  /// Computes a screen technique's visibility on the CPU, one float in [0, 1] per pixel of the receivers.
   virtual void computeVisibility(const ScreenInput&, std::vector<float>&, LightReport&) {}
 };
 

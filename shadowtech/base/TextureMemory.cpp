@@ -11,7 +11,7 @@ namespace
 
 struct Shape
 {
-  FloatFormat format;
+  TexelFormat format;
   int width;
   int height;
   int layers; ///< 0: no array
@@ -20,8 +20,9 @@ struct Shape
   double bytes() const
   {
     const double smaller = this->levels > 1 ? 4.0 / 3.0 : 1.0; // 1 + 1/4 + 1/16 + ...
-    return smaller * static_cast<double>(sizeof(float)) * this->format.channels * this->width *
-      this->height * (this->layers > 0 ? this->layers : 1);
+    const double bytesOfChannel = this->format.type == GL_UNSIGNED_BYTE ? 1.0 : 4.0;
+    return smaller * bytesOfChannel * this->format.channels * this->width * this->height *
+      (this->layers > 0 ? this->layers : 1);
   }
 };
 
@@ -51,12 +52,12 @@ void define(const Shape& shape, GLenum target)
   else if (shape.layers > 0)
   {
     glTexImage3D(target, 0, internalFormat, shape.width, shape.height, shape.layers, 0,
-      shape.format.format, GL_FLOAT, nullptr);
+      shape.format.format, shape.format.type, nullptr);
   }
   else
   {
     glTexImage2D(target, 0, internalFormat, shape.width, shape.height, 0, shape.format.format,
-      GL_FLOAT, nullptr);
+      shape.format.type, nullptr);
   }
 }
 
@@ -117,7 +118,7 @@ std::string describe(const Shape& shape, const std::string& what)
 } // namespace
 
 //------------------------------------------------------------------------------
-void allocateTexture(GlTexture& texture, const FloatFormat& format, int width, int height,
+void allocateTexture(GlTexture& texture, const TexelFormat& format, int width, int height,
   int layers, const char* what, int levels)
 {
   const Shape shape{ format, width, height, layers, levels };
@@ -128,7 +129,7 @@ void allocateTexture(GlTexture& texture, const FloatFormat& format, int width, i
 }
 
 //------------------------------------------------------------------------------
-void allocateMap(GlTexture& texture, const FloatFormat& format, int sizeTexels, int layers)
+void allocateMap(GlTexture& texture, const TexelFormat& format, int sizeTexels, int layers)
 {
   const Shape shape{ format, sizeTexels, sizeTexels, layers };
   if (allocate(texture, shape))

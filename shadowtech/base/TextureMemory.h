@@ -17,12 +17,13 @@ public:
   using std::runtime_error::runtime_error;
 };
 
-/// The kind of a texture of 32-bit floats.
-struct FloatFormat
+/// The kind of a texture: of 32-bit floats unless it says otherwise.
+struct TexelFormat
 {
   GLenum internalFormat; ///< GL_R32F, GL_DEPTH_COMPONENT32F, ...
   GLenum format;         ///< GL_RED, GL_DEPTH_COMPONENT, ...
   int channels;
+  GLenum type = GL_FLOAT; ///< of a channel: GL_FLOAT, GL_UNSIGNED_INT, GL_UNSIGNED_BYTE
 };
 
 /// No texture may take a larger share of the memory that the machine has available when it is made:
@@ -34,11 +35,11 @@ constexpr double largestTextureShare = 0.5;
 /// @param what names it in the error
 /// @param levels of a mip map, of arrays only; each half of the one before
 /// @throws TextureMemoryError; the texture is then without memory
-void allocateTexture(GlTexture& texture, const FloatFormat& format, int width, int height,
+void allocateTexture(GlTexture& texture, const TexelFormat& format, int width, int height,
   int layers, const char* what, int levels = 1);
 
 /// The same for a light's map. The error offers the largest power of two that fits as its side.
-void allocateMap(GlTexture& texture, const FloatFormat& format, int sizeTexels, int layers);
+void allocateMap(GlTexture& texture, const TexelFormat& format, int sizeTexels, int layers);
 
 } // namespace gnomon
 

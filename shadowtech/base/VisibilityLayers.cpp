@@ -30,31 +30,21 @@ void VisibilityLayers::estimate(int layer, const Technique& technique, const Sha
   const ReceiverTarget& receivers, const glm::dmat4& centredFromView, ShaderLibrary& shaders)
 {
   const GlStateGuard guard;
-  const GLuint program = shaders.program(
-    { { GL_VERTEX_SHADER, ShaderLibrary::source("shadowtech/base/screen_visibility.vert.glsl") },
-      { GL_FRAGMENT_SHADER,
-        numberedForLight(technique.visibilityGlsl(light), 0) +
-          ShaderLibrary::source("shadowtech/base/screen_visibility.frag.glsl") } });
-  glUseProgram(program);
+  const GLuint program = ScreenPass::use(shaders,
+    numberedForLight(technique.visibilityGlsl(light), 0) +
+      ShaderLibrary::source("shadowtech/base/screen_visibility.frag.glsl"));
   const int freeUnit = ShaderLibrary::setUniforms(program,
     { { "receiverFragments", TextureBinding{ GL_TEXTURE_2D, receivers.fragments() } },
       { "receiverPoints", TextureBinding{ GL_TEXTURE_2D, receivers.points() } } },
     0, 0);
   ShaderLibrary::setUniforms(program, technique.uniforms(centredFromView), 0, freeUnit);
+  this->fill(layer);
+}
 
-  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, this->framebuffer_.create());
-  glFramebufferTextureLayer(
-    GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, this->texture_.name(), 0, layer);
-  glViewport(0, 0, this->width_, this->height_);
-  glDisable(GL_SCISSOR_TEST);
-  glDisable(GL_DEPTH_TEST);
-  glDisable(GL_STENCIL_TEST);
-  glDisable(GL_CULL_FACE);
-  glDisablei(GL_BLEND, 0);
-  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-  glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
-  glBindVertexArray(this->noAttributes_.create());
-  glDrawArrays(GL_TRIANGLES, 0, 3);
+//------------------------------------------------------------------------------
+void VisibilityLayers::fill(int layer)
+{
+  this->screenPass_.fill(this->texture_.name(), layer, this->width_, this->height_);
 }
 
 //------------------------------------------------------------------------------

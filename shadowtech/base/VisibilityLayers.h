@@ -2,6 +2,7 @@
 #define gnomon_shadowtech_base_VisibilityLayers_h
 
 #include "shadowtech/base/Gl.h"
+#include "shadowtech/base/ScreenPass.h"
 #include "shadowtech/base/Technique.h"
 
 #include <cstddef>
@@ -11,7 +12,6 @@ namespace gnomon
 {
 
 class ReceiverTarget;
-class ShaderLibrary;
 
 /// The visibility images of the image route, one 32-bit float layer per casting light. Row 0 is the
 /// bottom row.
@@ -25,7 +25,11 @@ public:
   void estimate(int layer, const Technique& technique, const ShadowLight& light,
     const ReceiverTarget& receivers, const glm::dmat4& centredFromView, ShaderLibrary& shaders);
 
-  /// Fills a layer with a screen technique's result.
+  /// Fills a layer with the output of the program in use, called for every pixel (ScreenPass). A
+  /// GlStateGuard is the caller's business.
+  void fill(int layer);
+
+  /// Fills a layer with what a screen technique has computed on the CPU.
   void upload(int layer, const std::vector<float>& visibility);
 
   /// Reads a layer back.
@@ -36,8 +40,7 @@ public:
 
 private:
   GlTexture texture_;
-  GlFramebuffer framebuffer_;
-  GlVertexArray noAttributes_;
+  ScreenPass screenPass_;
   int width_ = 0;
   int height_ = 0;
   int layers_ = 0;

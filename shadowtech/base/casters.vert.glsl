@@ -1,4 +1,4 @@
-// Draws the casters into a map, as the light sees them (CasterDrawing.h).
+// Draws the casters into a map as the light sees them, or as shadows (CasterDrawing.h).
 
 layout(location = 0) in vec3 positionSource;
 // The instance's matrix; the identity, which changes no bit, where a surface is drawn once.
@@ -16,8 +16,9 @@ uniform int view;
 uniform vec4 depthFromCentred;
 out float depthLinear;
 #endif
-#ifdef BEGINS
-uniform vec4 beginFromCentred; // how far behind the place where the light begins
+#ifdef CLIPS
+uniform vec4 keptFromCentred[CLIPS]; // planes on whose positive side casters count
+out float gl_ClipDistance[CLIPS];
 #endif
 
 #ifdef CUTOUT
@@ -39,7 +40,10 @@ void main()
 #ifdef DEPTH_LINEAR
   depthLinear = dot(depthFromCentred, vec4(positionCentred, 1.0));
 #endif
-#ifdef BEGINS
-  gl_ClipDistance[0] = dot(beginFromCentred, vec4(positionCentred, 1.0));
+#ifdef CLIPS
+  for (int i = 0; i < CLIPS; ++i)
+  {
+    gl_ClipDistance[i] = dot(keptFromCentred[i], vec4(positionCentred, 1.0));
+  }
 #endif
 }

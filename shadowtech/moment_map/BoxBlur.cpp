@@ -19,7 +19,7 @@ GLuint ceilDivide(int dividend, int divisor)
 } // namespace
 
 //------------------------------------------------------------------------------
-void BoxBlur::allocate(const FloatFormat& format, int sizeTexels)
+void BoxBlur::allocate(const TexelFormat& format, int sizeTexels)
 {
   if (this->sizeTexels_ == sizeTexels && this->format_.internalFormat == format.internalFormat)
   {

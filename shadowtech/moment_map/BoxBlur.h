@@ -23,7 +23,7 @@ class BoxBlur
 public:
   /// @param format GL_RG32F or GL_RGBA32F
   /// @throws TextureMemoryError
-  void allocate(const FloatFormat& format, int sizeTexels);
+  void allocate(const TexelFormat& format, int sizeTexels);
   /// Of what allocate() was given; every layer on its own.
   void apply(
     GLuint map, int layers, int widthTexels, const glm::vec4& empty, ShaderLibrary& shaders);
@@ -32,7 +32,7 @@ public:
 
 private:
   GlTexture rows_; ///< a layer whose rows are done
-  FloatFormat format_{};
+  TexelFormat format_{};
   int sizeTexels_ = 0;
 };
 

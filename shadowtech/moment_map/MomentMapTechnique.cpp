@@ -15,9 +15,9 @@ namespace gnomon
 namespace
 {
 
-FloatFormat formatOf(int moments)
+TexelFormat formatOf(int moments)
 {
-  return moments == 2 ? FloatFormat{ GL_RG32F, GL_RG, 2 } : FloatFormat{ GL_RGBA32F, GL_RGBA, 4 };
+  return moments == 2 ? TexelFormat{ GL_RG32F, GL_RG, 2 } : TexelFormat{ GL_RGBA32F, GL_RGBA, 4 };
 }
 
 std::string define(const std::string& name, const std::string& value)
@@ -42,7 +42,7 @@ MapReach MomentMapTechnique::mapReach(const ShadowLight& light) const
 //------------------------------------------------------------------------------
 void MomentMapTechnique::allocate(const ShadowLight& light, int layers)
 {
-  const FloatFormat format = formatOf(this->moments().count);
+  const TexelFormat format = formatOf(this->moments().count);
   const int sizeTexels = light.mapSizeTexels;
   light.kernelTexels > 1 ? this->blur_.allocate(format, sizeTexels) : this->blur_.release();
   if (this->sizeTexels_ == sizeTexels && this->layers_ == layers)

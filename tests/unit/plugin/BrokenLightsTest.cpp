@@ -132,6 +132,7 @@ class BrokenLights
 };
 
 INSTANTIATE_TEST_SUITE_P(Ways, BrokenLights, allWays, nameOf);
+INSTANTIATE_TEST_SUITE_P(OnPlanes, BrokenLights, testing::Values(planarWay), nameOf);
 
 } // namespace
 

@@ -105,6 +105,7 @@ protected:
 };
 
 INSTANTIATE_TEST_SUITE_P(Ways, LifeCycle, allWays, nameOf);
+INSTANTIATE_TEST_SUITE_P(OnPlanes, LifeCycle, testing::Values(planarWay), nameOf);
 
 } // namespace
 

@@ -108,6 +108,7 @@ protected:
 };
 
 INSTANTIATE_TEST_SUITE_P(Ways, LightBox, allWays, nameOf);
+INSTANTIATE_TEST_SUITE_P(OnPlanes, LightBox, testing::Values(planarWay), nameOf);
 
 } // namespace
 

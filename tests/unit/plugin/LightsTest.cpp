@@ -37,6 +37,7 @@ protected:
 };
 
 INSTANTIATE_TEST_SUITE_P(Ways, Lights, allWays, nameOf);
+INSTANTIATE_TEST_SUITE_P(OnPlanes, Lights, testing::Values(planarWay), nameOf);
 
 /// Whether a colour lies on the way from one to another, as half a shadow does.
 bool isBetween(const glm::ivec3& colour, const glm::ivec3& a, const glm::ivec3& b)

@@ -64,6 +64,8 @@ inline const auto allWays = testing::Values(Way{ "nsm", vtkGnomonShadowPass::ROU
   Way{ "nsm", vtkGnomonShadowPass::ROUTE_IMAGE }, Way{ "pcf", vtkGnomonShadowPass::ROUTE_INLINE },
   Way{ "pcf", vtkGnomonShadowPass::ROUTE_IMAGE },
   Way{ "raytraced", vtkGnomonShadowPass::ROUTE_IMAGE });
+/// Of scenes whose receivers are planes.
+inline const Way planarWay{ "planar", vtkGnomonShadowPass::ROUTE_IMAGE };
 std::ostream& operator<<(std::ostream& stream, const Way& way);
 
 /// A renderer in a window of its own, with the pass in place. Surfaces are white and matt, without

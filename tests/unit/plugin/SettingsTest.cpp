@@ -28,6 +28,7 @@ class SettingsOfWay
 {
 };
 INSTANTIATE_TEST_SUITE_P(Ways, SettingsOfWay, allWays, nameOf);
+INSTANTIATE_TEST_SUITE_P(OnPlanes, SettingsOfWay, testing::Values(planarWay), nameOf);
 
 void fill(PassScene& scene)
 {

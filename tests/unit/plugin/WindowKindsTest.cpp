@@ -48,6 +48,7 @@ protected:
 };
 
 INSTANTIATE_TEST_SUITE_P(Ways, WindowKinds, allWays, nameOf);
+INSTANTIATE_TEST_SUITE_P(OnPlanes, WindowKinds, testing::Values(planarWay), nameOf);
 
 /// x of the shadow's far end, which is at 4, on the row through the middle of a picture, in pixels.
 int shadowEnd(const Picture& picture)

@@ -1,0 +1,31 @@
+#ifndef gnomon_shadowtech_base_ScreenPass_h
+#define gnomon_shadowtech_base_ScreenPass_h
+
+#include "shadowtech/base/Gl.h"
+#include "shadowtech/base/ShaderLibrary.h"
+
+#include <string>
+
+namespace gnomon
+{
+
+/// Calls a fragment shader once for every pixel of an image. A GlStateGuard is the caller's business.
+class ScreenPass
+{
+public:
+  /// The program of a fragment shader's source, made the one in use.
+  static GLuint use(ShaderLibrary& shaders, const std::string& fragmentGlsl,
+    const std::vector<std::string>& defines = {});
+
+  /// Fills an image with the output of the program in use.
+  /// @param layer of an array; negative for a texture that is none
+  void fill(GLuint texture, int layer, int width, int height);
+
+private:
+  GlFramebuffer framebuffer_;
+  GlVertexArray noAttributes_;
+};
+
+} // namespace gnomon
+
+#endif

@@ -1,0 +1,59 @@
+#ifndef gnomon_shadowtech_planar_IntegerTable_h
+#define gnomon_shadowtech_planar_IntegerTable_h
+
+#include "shadowtech/base/Gl.h"
+#include "shadowtech/base/TextureMemory.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace gnomon
+{
+
+/// A long table of integers for shaders, as a texture that table.glsl reads.
+class IntegerTable
+{
+public:
+  explicit IntegerTable(const TexelFormat& format)
+    : format_(format)
+  {
+  }
+
+  /// Replaces the table. A GlStateGuard is the caller's business.
+  /// @param entries of as many bytes as the format's texels; grows to whole rows
+  template <typename Entry>
+  void set(std::vector<Entry> entries, const char* what)
+  {
+    const std::size_t rows = std::max((entries.size() + columns - 1) / columns, std::size_t(1));
+    entries.resize(rows * columns);
+    this->bytes_ = entries.size() * sizeof(Entry);
+    glActiveTexture(GL_TEXTURE0);
+    if (static_cast<int>(rows) != this->rows_)
+    {
+      this->rows_ = 0; // in case that there is no memory
+      allocateTexture(this->texture_, this->format_, columns, static_cast<int>(rows), 0, what);
+      this->rows_ = static_cast<int>(rows);
+    }
+    glBindTexture(GL_TEXTURE_2D, this->texture_.name());
+    glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, columns, this->rows_, this->format_.format,
+      this->format_.type, entries.data());
+  }
+
+  GLuint texture() const { return this->texture_.name(); }
+  std::size_t bytes() const { return this->bytes_; }
+
+private:
+  static constexpr int columns = 4096;
+
+  TexelFormat format_;
+  GlTexture texture_;
+  int rows_ = 0;
+  std::size_t bytes_ = 0;
+};
+
+} // namespace gnomon
+
+#endif

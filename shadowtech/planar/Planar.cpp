@@ -1,0 +1,363 @@
+#include "shadowtech/planar/Planar.h"
+
+#include "lights/LightSamples.h"
+#include "lights/LightSpace.h"
+#include "lights/PlanarProjection.h"
+#include "shadowtech/base/CasterDrawing.h"
+#include "shadowtech/base/GlState.h"
+#include "shadowtech/base/Occluders.h"
+#include "shadowtech/base/ReceiverTarget.h"
+#include "shadowtech/base/Receivers.h"
+#include "shadowtech/base/ShaderLibrary.h"
+#include "shadowtech/base/VisibilityLayers.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gnomon
+{
+namespace
+{
+
+/// Samples that are drawn at a time: the bits of a texel.
+constexpr std::size_t samplesPerBatch = 32;
+
+/// What planes_of_pixels.frag.glsl calls pixels that lie on no plane that is served, and on the first one.
+constexpr unsigned int offPlanes = 1;
+constexpr int firstPlane = 2;
+
+/// A plane turned to the side that the camera sees.
+glm::dvec4 turnedTo(const CameraView& camera, const glm::dvec4& plane)
+{
+  const glm::dvec4 eye = camera.isParallel() ? glm::dvec4(-camera.directionCentred(), 0.0)
+                                             : glm::dvec4(camera.eyeCentred(), 1.0);
+  return glm::dot(plane, eye) < 0.0 ? -plane : plane;
+}
+
+/// Whether a light stands before a plane, and not in it as far as rounding can tell. Parallel rays have facesLight()'s
+/// limit.
+bool standsBefore(const glm::dvec4& plane, double thickness, const glm::dvec4& light)
+{
+  return glm::dot(plane, light) > (light.w > 0.0 ? thickness : 9.5367431640625e-7); // 2^-20
+}
+
+/// Where a box ends on the far side of a plane.
+double highestAbove(const glm::dvec4& plane, const Bounds& bounds)
+{
+  const glm::dvec3 farthest =
+    glm::mix(bounds.lower, bounds.upper, glm::greaterThan(glm::dvec3(plane), glm::dvec3(0.0)));
+  return glm::dot(plane, glm::dvec4(farthest, 1.0));
+}
+
+/// Makes OpenGL ready to draw shadows into an image of bits.
+void beginShadows(GLuint framebuffer, int width, int height)
+{
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
+  glViewport(0, 0, width, height);
+  glDisable(GL_SCISSOR_TEST);
+  glDisable(GL_DEPTH_TEST);
+  glDisable(GL_STENCIL_TEST);
+  glDisable(GL_MULTISAMPLE);
+  glDisable(GL_POLYGON_OFFSET_FILL);
+  glDisablei(GL_BLEND, 0);
+  glEnable(GL_COLOR_LOGIC_OP);
+  glLogicOp(GL_OR);
+  glEnable(GL_DEPTH_CLAMP); // the pixel's receiver has been seen, and so is its shadow
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+  const GLuint nothing[4] = { 0, 0, 0, 0 };
+  glClearBufferuiv(GL_COLOR, 0, nothing);
+}
+
+/// The planes that bound what can cast onto a plane: it lies above it, and behind the face where a box's light begins.
+/// What is beyond the light needs none: its images on the plane have w < 0 (planarProjection()), and those
+/// that the camera would see in the plane's own pixels keep that sign, so that OpenGL clips them.
+std::vector<glm::dvec4> castingPart(const ShadowLight& light, const glm::dvec3& centreWorld,
+  const glm::dvec4& plane, double thickness)
+{
+  std::vector<glm::dvec4> kept = { plane - glm::dvec4(0.0, 0.0, 0.0, thickness) };
+  if (light.box)
+  {
+    kept.emplace_back(
+      light.directionWorld, -glm::dot(light.directionWorld, light.positionWorld - centreWorld));
+  }
+  return kept;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+/// The samples that are drawn at a time.
+struct Planar::Batch
+{
+  std::size_t first = 0; ///< of all samples
+  std::size_t count = 0;
+  bool last = false;
+  std::vector<glm::dvec4> planes;    ///< those that are served, turned to the camera
+  std::vector<std::uint32_t> facing; ///< by plane: the bits of the samples that it faces
+};
+
+//------------------------------------------------------------------------------
+TechniqueInfo Planar::info()
+{
+  TechniqueInfo info;
+  info.name = "planar";
+  info.drawn = true;
+  return info;
+}
+
+//------------------------------------------------------------------------------
+void Planar::drawVisibility(const LayerInput& input, LightReport& report)
+{
+  const GlStateGuard guard;
+  this->planes_.update(input.occluders);
+  this->served_ =
+    std::min(this->planes_.planes().size(), static_cast<std::size_t>(input.light.planes));
+  this->samples_ = lightSamples(input.light, input.occluders.centreWorld);
+  this->allocate(
+    input.receivers.width(), input.receivers.height(), this->samples_.size() > samplesPerBatch);
+  this->sendPlanes(input);
+  this->findPlanesOfPixels(input);
+  for (std::size_t first = 0; first < this->samples_.size(); first += samplesPerBatch)
+  {
+    const Batch batch = this->makeBatch(input, first);
+    this->drawShadows(input, batch);
+    this->sumUp(input, batch);
+  }
+  report.planes = static_cast<int>(this->served_);
+  report.pixelsOffPlanes = input.counting ? this->countPixelsOffPlanes() : 0;
+  this->noteWhatIsLeftOut(input);
+}
+
+//------------------------------------------------------------------------------
+void Planar::allocate(int width, int height, bool soft)
+{
+  const bool isSoft = static_cast<bool>(this->lit_[0]);
+  if (this->width_ == width && this->height_ == height && isSoft == soft)
+  {
+    return;
+  }
+  this->width_ = 0; // in case that there is no memory
+  glActiveTexture(GL_TEXTURE0);
+  const TexelFormat integers{ GL_R32UI, GL_RED_INTEGER, 1, GL_UNSIGNED_INT };
+  allocateTexture(this->planesOfPixels_, integers, width, height, 0, "the pixels' planes");
+  allocateTexture(this->shadows_, integers, width, height, 0, "the planes' shadows");
+  for (GlTexture& lit : this->lit_)
+  {
+    lit.reset();
+    if (soft)
+    {
+      allocateTexture(lit, { GL_R32F, GL_RED, 1 }, width, height, 0, "the samples' shadows");
+    }
+  }
+  glBindFramebuffer(GL_FRAMEBUFFER, this->shadowFramebuffer_.create());
+  glFramebufferTexture2D(
+    GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, this->shadows_.name(), 0);
+  this->width_ = width;
+  this->height_ = height;
+}
+
+//------------------------------------------------------------------------------
+/// Brings the tables up to date that lead from what VTK drew to planes.
+void Planar::sendPlanes(const LayerInput& input)
+{
+  if (this->topologyVersion_ != this->planes_.topologyVersion() ||
+    this->positionsVersion_ != this->planes_.positionsVersion())
+  {
+    this->planesOfPrimitives_.set(this->planes_.planeOfDrawn(), "a table of planes");
+    this->topologyVersion_ = this->planes_.topologyVersion();
+    this->positionsVersion_ = this->planes_.positionsVersion();
+  }
+  std::vector<glm::uvec4> blocks;
+  for (std::size_t drawn = 0; drawn < input.drawnSurfaces.size(); ++drawn)
+  {
+    for (const DrawnSurface::Block& block : input.drawnSurfaces[drawn].blocks)
+    {
+      if (!input.occluders.surfaces[block.surface]
+             .isInstanced()) // what has no planes needs no entry
+      {
+        blocks.emplace_back(drawn, block.firstPrimitive, this->planes_.drawnBegin(block.surface),
+          block.primitiveCount);
+      }
+    }
+  }
+  this->blockCount_ = static_cast<int>(blocks.size());
+  this->blocks_.set(std::move(blocks), "a table of surfaces");
+}
+
+//------------------------------------------------------------------------------
+void Planar::findPlanesOfPixels(const LayerInput& input)
+{
+  const GLuint program = ScreenPass::use(
+    input.shaders, ShaderLibrary::source("shadowtech/planar/planes_of_pixels.frag.glsl"));
+  ShaderLibrary::setUniforms(program,
+    { { "receiverFragments", TextureBinding{ GL_TEXTURE_2D, input.receivers.fragments() } },
+      { "blocks", TextureBinding{ GL_TEXTURE_2D, this->blocks_.texture() } },
+      { "blockCount", this->blockCount_ },
+      { "planesOfPrimitives",
+        TextureBinding{ GL_TEXTURE_2D, this->planesOfPrimitives_.texture() } },
+      { "planeCount", static_cast<int>(this->served_) } },
+    0, 0);
+  this->screenPass_.fill(this->planesOfPixels_.name(), -1, this->width_, this->height_);
+}
+
+//------------------------------------------------------------------------------
+Planar::Batch Planar::makeBatch(const LayerInput& input, std::size_t first) const
+{
+  Batch batch;
+  batch.first = first;
+  batch.count = std::min(this->samples_.size() - first, samplesPerBatch);
+  batch.last = first + batch.count == this->samples_.size();
+  for (std::size_t i = 0; i < this->served_; ++i)
+  {
+    const ReceiverPlane& plane = this->planes_.planes()[i];
+    batch.planes.push_back(turnedTo(input.camera, plane.plane));
+    std::uint32_t facing = 0;
+    for (std::size_t bit = 0; bit < batch.count; ++bit)
+    {
+      const bool faces =
+        standsBefore(batch.planes.back(), plane.thickness, this->samples_[first + bit]);
+      facing |= faces ? 1u << bit : 0u;
+    }
+    batch.facing.push_back(facing);
+  }
+  return batch;
+}
+
+//------------------------------------------------------------------------------
+void Planar::drawShadows(const LayerInput& input, const Batch& batch)
+{
+  const std::string fragmentGlsl =
+    ShaderLibrary::source("shadowtech/planar/planar_shadow.frag.glsl");
+  const glm::dmat4 clipFromCentred = input.camera.clipFromCentred();
+  beginShadows(this->shadowFramebuffer_.name(), this->width_, this->height_);
+  for (std::size_t i = 0; i < this->served_; ++i)
+  {
+    const ReceiverPlane& receiver = this->planes_.planes()[i];
+    if (!mayShow(clipFromCentred, receiver.boundsCentred))
+    {
+      continue;
+    }
+    for (std::size_t bit = 0; bit < batch.count; ++bit)
+    {
+      if (!(batch.facing[i] >> bit & 1u))
+      {
+        continue;
+      }
+      const glm::dvec4& plane = batch.planes[i];
+      const glm::dvec4& sample = this->samples_[batch.first + bit];
+      CasterPicture picture;
+      picture.clipFromCentred = clipFromCentred * planarProjection(plane, sample);
+      picture.keptFromCentred =
+        castingPart(input.light, input.occluders.centreWorld, plane, receiver.thickness);
+      // The camera looks at the same side of the plane as the light.
+      picture.selection.mirrored = false;
+      picture.selection.maySee = [&](const Bounds& bounds)
+      { return highestAbove(plane, bounds) > receiver.thickness; };
+      drawCasters(picture, input.buffers, input.shaders,
+        { fragmentGlsl, {},
+          { { "planesOfPixels", TextureBinding{ GL_TEXTURE_2D, this->planesOfPixels_.name() } },
+            { "plane", static_cast<int>(i) + firstPlane },
+            { "sampleBit", static_cast<int>(bit) } } });
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+/// Adds a batch's samples to those before; after the last one, fills the light's layer.
+void Planar::sumUp(const LayerInput& input, const Batch& batch)
+{
+  const ShadowLight& light = input.light;
+  const glm::dmat4& viewFromCentred = input.camera.viewFromCentred;
+  const glm::dmat4 lightFromView =
+    lightFromCentred(light, input.occluders.centreWorld) * glm::inverse(viewFromCentred);
+  const double tangent = std::tan(glm::radians(light.coneAngleDegrees));
+  const LightBox box = light.box.value_or(LightBox());
+  std::vector<std::string> defines = { "PLANES " + std::to_string(mostPlanes) };
+  if (light.kind == LightKind::Spot)
+  {
+    defines.emplace_back("SPOT");
+  }
+  if (light.box)
+  {
+    defines.emplace_back("BOX");
+  }
+  const GLuint program = ScreenPass::use(
+    input.shaders, ShaderLibrary::source("shadowtech/planar/planar_visibility.frag.glsl"), defines);
+  const std::size_t number = batch.first / samplesPerBatch;
+  std::vector<Uniform> uniforms = {
+    { "receiverFragments", TextureBinding{ GL_TEXTURE_2D, input.receivers.fragments() } },
+    { "receiverPoints", TextureBinding{ GL_TEXTURE_2D, input.receivers.points() } },
+    { "planesOfPixels", TextureBinding{ GL_TEXTURE_2D, this->planesOfPixels_.name() } },
+    { "shadows", TextureBinding{ GL_TEXTURE_2D, this->shadows_.name() } },
+    { "litBefore", TextureBinding{ GL_TEXTURE_2D, this->lit_[number % 2].name() } },
+    { "isFirst", number == 0 ? 1 : 0 }, { "sampleCount", static_cast<int>(batch.count) },
+    { "divisor", batch.last ? static_cast<float>(this->samples_.size()) : 1.0f },
+    { "lightFromView", glm::mat4(lightFromView) },
+    { "lightCone", static_cast<float>(tangent * tangent) },
+    { "lightBox", glm::vec3(0.5 * box.width, 0.5 * box.height, box.depth) }
+  };
+  for (std::size_t i = 0; i < batch.count; ++i)
+  {
+    uniforms.push_back({ "samplesView[" + std::to_string(i) + "]",
+      glm::vec4(viewFromCentred * this->samples_[batch.first + i]) });
+  }
+  for (std::size_t i = 0; i < batch.facing.size(); ++i)
+  {
+    uniforms.push_back(
+      { "facingPlane[" + std::to_string(i) + "]", static_cast<int>(batch.facing[i]) });
+  }
+  ShaderLibrary::setUniforms(program, uniforms, 0, 0);
+  if (batch.last)
+  {
+    input.layers.fill(input.layer);
+  }
+  else
+  {
+    this->screenPass_.fill(this->lit_[(number + 1) % 2].name(), -1, this->width_, this->height_);
+  }
+}
+
+//------------------------------------------------------------------------------
+void Planar::noteWhatIsLeftOut(const LayerInput& input) const
+{
+  double served = 0.0;
+  for (std::size_t i = 0; i < this->served_; ++i)
+  {
+    served += this->planes_.planes()[i].area;
+  }
+  // Rounded down, so that 100 % are all.
+  const int percent = static_cast<int>(100.0 * served / std::max(this->planes_.area(), served));
+  if (served < this->planes_.area() * (1.0 - 1e-9))
+  {
+    input.notes.push_back("light " + std::to_string(input.light.sceneIndex) +
+      ": planar shadows fall on " + std::to_string(this->served_) + " planes with " +
+      std::to_string(percent) +
+      " % of the receiving area; the rest shows no cast shadows of this light");
+  }
+}
+
+//------------------------------------------------------------------------------
+std::int64_t Planar::countPixelsOffPlanes() const
+{
+  std::vector<GLuint> planes(
+    static_cast<std::size_t>(this->width_) * static_cast<std::size_t>(this->height_));
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D, this->planesOfPixels_.name());
+  glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+  glPixelStorei(GL_PACK_ALIGNMENT, 4);
+  glGetTexImage(GL_TEXTURE_2D, 0, GL_RED_INTEGER, GL_UNSIGNED_INT, planes.data());
+  return std::count(planes.begin(), planes.end(), offPlanes);
+}
+
+//------------------------------------------------------------------------------
+std::size_t Planar::bytesOfMaps() const
+{
+  const auto pixels =
+    static_cast<std::size_t>(this->width_) * static_cast<std::size_t>(this->height_);
+  const std::size_t images = this->lit_[0] ? 4 : 2;
+  return images * pixels * sizeof(float) + this->planesOfPrimitives_.bytes() +
+    this->blocks_.bytes();
+}
+
+} // namespace gnomon

@@ -1,0 +1,67 @@
+#ifndef gnomon_shadowtech_planar_Planar_h
+#define gnomon_shadowtech_planar_Planar_h
+
+#include "shadowtech/base/ScreenPass.h"
+#include "shadowtech/base/Technique.h"
+#include "shadowtech/planar/IntegerTable.h"
+#include "shadowtech/planar/ReceiverPlanes.h"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace gnomon
+{
+
+/// `planar`: casters are projected from the light onto the planes that receive shadows (Blinn 1988), and drawn
+/// there as the camera sees them. What lies on no such plane shows no cast shadow.
+///
+/// Which plane a pixel's receiver lies on follows from the triangle that VTK drew there. A shadow is drawn into
+/// the pixels of its own plane only, without a depth test: it ends where the receiver ends, and there is
+/// no depth for it to fight with. Casters are clipped to what lies between the plane and the light, so that there are
+/// no shadows of what is behind either (anti-shadows), and planes cast none on themselves.
+///
+/// Soft shadows are the mean of many such pictures from points of the light (LightSamples.h), 32 at a time: each
+/// sets a bit of its own, however many casters it draws over each other.
+class Planar : public Technique
+{
+public:
+  static TechniqueInfo info();
+
+  void drawVisibility(const LayerInput& input, LightReport& report) override;
+  std::size_t bytesOfMaps() const override;
+
+private:
+  struct Batch;
+
+  void allocate(int width, int height, bool soft);
+  void sendPlanes(const LayerInput& input);
+  void findPlanesOfPixels(const LayerInput& input);
+  Batch makeBatch(const LayerInput& input, std::size_t first) const;
+  void drawShadows(const LayerInput& input, const Batch& batch);
+  void sumUp(const LayerInput& input, const Batch& batch);
+  void noteWhatIsLeftOut(const LayerInput& input) const;
+  std::int64_t countPixelsOffPlanes() const;
+
+  ReceiverPlanes planes_;
+  std::size_t served_ = 0;          ///< how many of them
+  std::vector<glm::dvec4> samples_; ///< lightSamples()
+
+  IntegerTable planesOfPrimitives_{ { GL_R8UI, GL_RED_INTEGER, 1, GL_UNSIGNED_BYTE } };
+  IntegerTable blocks_{ { GL_RGBA32UI, GL_RGBA_INTEGER, 4, GL_UNSIGNED_INT } };
+  int blockCount_ = 0;
+  std::uint64_t topologyVersion_ = 0; ///< of planesOfPrimitives_
+  std::uint64_t positionsVersion_ = 0;
+
+  GlTexture planesOfPixels_;
+  GlTexture shadows_;
+  GlTexture lit_[2]; ///< of several batches: the samples that were seen before, and with this one
+  GlFramebuffer shadowFramebuffer_;
+  ScreenPass screenPass_;
+  int width_ = 0;
+  int height_ = 0;
+};
+
+} // namespace gnomon
+
+#endif

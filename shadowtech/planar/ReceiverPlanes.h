@@ -1,0 +1,67 @@
+#ifndef gnomon_shadowtech_planar_ReceiverPlanes_h
+#define gnomon_shadowtech_planar_ReceiverPlanes_h
+
+#include "lights/Bounds.h"
+#include "lights/ShadowSettings.h"
+
+#include <glm/glm.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace gnomon
+{
+
+struct Occluders;
+
+/// A plane on which receiving triangles lie, in centred coordinates.
+struct ReceiverPlane
+{
+  glm::dvec4 plane{ 0.0 }; ///< (n, d), n unit: n.p + d = 0
+  /// From which distance on a point is surely off the plane, in the arithmetic of floats: more than
+  /// its own triangles' corners lie off it, and than float rounds n.p + d by.
+  double thickness = 0.0;
+  double area = 0.0; ///< of its triangles
+  Bounds boundsCentred;
+};
+
+/// The flat parts of what receives shadows: the largest planes on which triangles of the snapshot lie,
+/// wherever they are and whatever surface they belong to.
+///
+/// Triangles lie on one plane if their corners do, to within what rounding to float has moved them by.
+/// A plane counts if its triangles have at least `smallestShare` of all receivers' area. So the planes follow
+/// from the scene alone, and stay the same when the camera moves. What is drawn as instances lies on no
+/// plane: many small shapes have none that are large.
+class ReceiverPlanes
+{
+public:
+  static constexpr double smallestShare = 1.0 / 1024.0;
+
+  /// Finds them again if the snapshot has changed.
+  void update(const Occluders& occluders);
+
+  /// In order of area, no more than mostPlanes.
+  const std::vector<ReceiverPlane>& planes() const { return this->planes_; }
+  /// The area of all receiving triangles.
+  double area() const { return this->area_; }
+
+  /// For every triangle that VTK draws of a surface, from drawnBegin() on: 0, or 1 + the plane that it lies on.
+  const std::vector<std::uint8_t>& planeOfDrawn() const { return this->planeOfDrawn_; }
+  std::size_t drawnBegin(std::size_t surface) const { return this->drawnBegin_[surface]; }
+
+  std::uint64_t topologyVersion() const { return this->topologyVersion_; }
+  std::uint64_t positionsVersion() const { return this->positionsVersion_; }
+
+private:
+  std::vector<ReceiverPlane> planes_;
+  std::vector<std::uint8_t> planeOfDrawn_;
+  std::vector<std::size_t> drawnBegin_;
+  double area_ = 0.0;
+  std::uint64_t topologyVersion_ = 0;
+  std::uint64_t positionsVersion_ = 0;
+};
+
+} // namespace gnomon
+
+#endif

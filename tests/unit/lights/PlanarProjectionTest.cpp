@@ -1,0 +1,120 @@
+#include "lights/PlanarProjection.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace gnomon::test
+{
+namespace
+{
+
+class Numbers
+{
+public:
+  double in(double lower, double upper)
+  {
+    return lower + (upper - lower) * (this->random_() / 4294967296.0);
+  }
+  glm::dvec3 inBox(double half)
+  {
+    const double x = this->in(-half, half);
+    const double y = this->in(-half, half);
+    return { x, y, this->in(-half, half) };
+  }
+
+private:
+  std::mt19937 random_{ 1 };
+};
+
+glm::dvec3 project(const glm::dvec4& plane, const glm::dvec4& light, const glm::dvec3& point)
+{
+  const glm::dvec4 image = planarProjection(plane, light) * glm::dvec4(point, 1.0);
+  return glm::dvec3(image) / image.w;
+}
+
+/// How far a point is off the line through two others, as a share of its distance from the first.
+double offLine(const glm::dvec3& from, const glm::dvec3& direction, const glm::dvec3& point)
+{
+  const glm::dvec3 way = point - from;
+  return glm::length(glm::cross(glm::normalize(direction), way)) / glm::length(way);
+}
+
+// Row 1 of the survey: the ground y = 0, by similar triangles.
+TEST(PlanarProjection, ontoTheGroundIsThatOfSimilarTriangles)
+{
+  const glm::dvec4 ground(0.0, 1.0, 0.0, 0.0);
+  Numbers numbers;
+  for (int i = 0; i < 1000; ++i)
+  {
+    const glm::dvec3 l(numbers.in(-9.0, 9.0), numbers.in(3.0, 9.0), numbers.in(-9.0, 9.0));
+    const glm::dvec3 v(numbers.in(-9.0, 9.0), numbers.in(-1.0, 2.9), numbers.in(-9.0, 9.0));
+    const glm::dmat4 matrix = planarProjection(ground, glm::dvec4(l, 1.0));
+    // Rows (l_y, -l_x, 0, 0), (0, 0, 0, 0), (0, -l_z, l_y, 0), (0, -1, 0, l_y).
+    const glm::dmat4 rows = glm::transpose(matrix);
+    EXPECT_EQ(rows[0], glm::dvec4(l.y, -l.x, 0.0, 0.0));
+    EXPECT_EQ(rows[1], glm::dvec4(0.0));
+    EXPECT_EQ(rows[2], glm::dvec4(0.0, -l.z, l.y, 0.0));
+    EXPECT_EQ(rows[3], glm::dvec4(0.0, -1.0, 0.0, l.y));
+
+    const glm::dvec3 p = project(ground, glm::dvec4(l, 1.0), v);
+    EXPECT_EQ(p.y, 0.0);
+    const double x = (l.y * v.x - l.x * v.y) / (l.y - v.y);
+    const double z = (l.y * v.z - l.z * v.y) / (l.y - v.y);
+    EXPECT_NEAR(p.x, x, 1e-5 * std::abs(x));
+    EXPECT_NEAR(p.z, z, 1e-5 * std::abs(z));
+    EXPECT_LT(offLine(l, v - l, p), 1e-5);
+  }
+}
+
+// Row 2: any plane, and parallel rays.
+TEST(PlanarProjection, liesOnThePlaneAndOnTheRay)
+{
+  Numbers numbers;
+  int between = 0;
+  for (int i = 0; i < 1000; ++i)
+  {
+    const glm::dvec3 normal = glm::normalize(numbers.inBox(1.0));
+    const glm::dvec4 plane(normal, numbers.in(-5.0, 5.0));
+    for (const bool positional : { false, true })
+    {
+      const glm::dvec4 light = positional ? glm::dvec4(numbers.inBox(9.0), 1.0)
+                                          : glm::dvec4(glm::normalize(numbers.inBox(1.0)), 0.0);
+      const glm::dvec3 v = numbers.inBox(9.0);
+      const double w = (planarProjection(plane, light) * glm::dvec4(v, 1.0)).w;
+      if (std::abs(w) < 0.1)
+      {
+        continue; // the ray runs along the plane
+      }
+      const glm::dvec3 p = project(plane, light, v);
+      EXPECT_NEAR(glm::dot(plane, glm::dvec4(p, 1.0)), 0.0, 1e-5);
+      EXPECT_LT(offLine(v, positional ? glm::dvec3(light) - v : glm::dvec3(light), p), 1e-5);
+      // What its w says about the order of plane, point and light.
+      const double lightHeight = glm::dot(plane, light);
+      const double height = glm::dot(plane, glm::dvec4(v, 1.0));
+      if (lightHeight > 0.0 && positional)
+      {
+        EXPECT_EQ(w > 0.0, height < lightHeight);
+        between += height > 0.0 && height < lightHeight ? 1 : 0;
+      }
+      if (!positional)
+      {
+        EXPECT_NEAR(w, lightHeight, 1e-12);
+      }
+    }
+  }
+  EXPECT_GT(between, 50);
+}
+
+TEST(PlanarProjection, leavesPointsOfThePlaneWhereTheyAre)
+{
+  const glm::dvec4 plane(0.6, 0.0, 0.8, -2.0);
+  const glm::dvec3 point(2.0, 7.0, 1.0);
+  ASSERT_NEAR(glm::dot(plane, glm::dvec4(point, 1.0)), 0.0, 1e-15);
+  const glm::dvec3 image = project(plane, { 3.0, 4.0, 9.0, 1.0 }, point);
+  EXPECT_NEAR(glm::distance(image, point), 0.0, 1e-12);
+}
+
+} // namespace
+} // namespace gnomon::test

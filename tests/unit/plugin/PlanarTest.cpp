@@ -1,0 +1,644 @@
+// Planar shadows: on flat receivers they are what rays say, and they are nowhere else.
+
+#include "PassScene.h"
+
+#include "lights/LightSamples.h"
+#include "plugin/VisibilityImages.h"
+#include "plugin/vtkGnomonPropKeys.h"
+
+#include <vtkFloatArray.h>
+#include <vtkImageData.h>
+#include <vtkPlaneSource.h>
+#include <vtkPointData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+#include <vtkSphereSource.h>
+#include <vtkTexture.h>
+#include <vtkTransform.h>
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+using namespace gnomon::test;
+using gnomon::VisibilityImages;
+using testing::HasSubstr;
+
+namespace
+{
+
+/// Planar shadows against the ray-traced ones of the same scene.
+struct Against
+{
+  std::size_t covered = 0;
+  std::size_t shadowed = 0; ///< by the rays, where the surface faces the light
+  std::size_t wrong = 0;
+  /// Wrong pixels all of whose neighbours within two pixels agree with them in the truth.
+  std::size_t speckles = 0;
+};
+
+bool isEdge(const VisibilityImages& truth, int x, int y)
+{
+  const auto at = [&](int column, int row)
+  {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(truth.width) +
+      static_cast<std::size_t>(column);
+  };
+  const std::size_t here = at(x, y);
+  for (int row = std::max(y - 2, 0); row <= std::min(y + 2, truth.height - 1); ++row)
+  {
+    for (int column = std::max(x - 2, 0); column <= std::min(x + 2, truth.width - 1); ++column)
+    {
+      const std::size_t there = at(column, row);
+      if (truth.visibility[0][there] != truth.visibility[0][here] ||
+        truth.coverage[there] != truth.coverage[here] ||
+        std::abs(truth.normalX[there] - truth.normalX[here]) +
+            std::abs(truth.normalY[there] - truth.normalY[here]) +
+            std::abs(truth.normalZ[there] - truth.normalZ[here]) >
+          1e-3f)
+      {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+Against compare(const VisibilityImages& planar, const VisibilityImages& truth)
+{
+  Against result;
+  const Agreement agreement = compareVisibility(planar, truth);
+  result.covered = agreement.covered;
+  result.wrong = agreement.wrong + agreement.coverage;
+  for (int y = 0; y < truth.height; ++y)
+  {
+    for (int x = 0; x < truth.width; ++x)
+    {
+      const std::size_t i = static_cast<std::size_t>(y * truth.width + x);
+      result.shadowed += truth.coverage[i] > 0.0f && truth.visibility[0][i] == 0.0f ? 1 : 0;
+      const bool wrong = std::abs(planar.visibility[0][i] - truth.visibility[0][i]) > 0.5f;
+      result.speckles += wrong && !isEdge(truth, x, y) ? 1 : 0;
+    }
+  }
+  return result;
+}
+
+class Planar : public PassTest
+{
+protected:
+  static Against againstRays(PassScene& scene)
+  {
+    scene.pass->SetTechnique("raytraced");
+    const VisibilityImages truth = drawKept(scene);
+    scene.pass->SetTechnique("planar");
+    return compare(drawKept(scene), truth);
+  }
+
+  /// What rasterisers and rays disagree about at edges: they move corners by up to 1/256 pixel.
+  static void expectLikeRays(PassScene& scene, std::size_t leastShadowed = 1000)
+  {
+    const Against against = againstRays(scene);
+    EXPECT_GE(against.shadowed, leastShadowed);
+    EXPECT_EQ(against.speckles, 0u);
+    EXPECT_LE(against.wrong, against.covered / 5000);
+  }
+};
+
+/// A floor with a box that hangs over it, and one that lies on it and is as high: all planes show shadows.
+constexpr int boxesPlanes = 11;
+void addBoxes(PassScene& scene)
+{
+  scene.pass->SetSetting("planes", "64");
+  scene.addFloor(4.0);
+  scene.addBox({ -1.0, -1.0, 1.0 }, { 0.5, 0.5, 1.5 });
+  scene.addBox({ 1.0, 1.0, 0.0 }, { 2.0, 2.0, 1.0 });
+}
+
+std::size_t visible(const VisibilityImages& kept, float visibility, float normalZ)
+{
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < kept.coverage.size(); ++i)
+  {
+    count +=
+      kept.coverage[i] > 0.0f && kept.normalZ[i] > normalZ && kept.visibility[0][i] == visibility
+      ? 1
+      : 0;
+  }
+  return count;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+TEST_F(Planar, isWhatRaysSayForEveryKindOfLight)
+{
+  for (const int kind : { 0, 1, 2 })
+  {
+    PassScene scene(400, 300);
+    addBoxes(scene);
+    kind == 0     ? scene.addSun({ 1.0, 0.4, -1.0 })
+      : kind == 1 ? scene.addSpot({ -3.0, -2.0, 5.0 }, glm::dvec3(0.0), 35.0)
+                  : scene.addSpot({ -1.0, -2.0, 4.0 }, glm::dvec3(0.0), allDirections);
+    scene.lookFrom({ 2.0, -8.0, 7.0 });
+    SCOPED_TRACE(kind);
+    this->expectLikeRays(scene);
+    EXPECT_EQ(scene.report().route, "image");
+    EXPECT_EQ(scene.report().bvhBuilds + scene.report().mapBakes, 0);
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Planar, ofAParallelCameraIsWhatRaysSay)
+{
+  PassScene scene(400, 400);
+  addBoxes(scene);
+  scene.addSun({ 1.0, 0.4, -1.0 });
+  scene.lookDown(4.5);
+  this->expectLikeRays(scene);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Planar, fromBelowTheFloorIsDark)
+{
+  PassScene scene(400, 300);
+  addBoxes(scene);
+  scene.addSun({ 1.0, 0.4, -1.0 });
+  scene.lookFrom({ 2.0, -8.0, -7.0 });
+  this->expectLikeRays(scene, 20000);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Planar, lightsBelowCastersMakeNoShadowOfThem)
+{
+  // The light is between the box and the floor: projected through it the box would be an anti-shadow.
+  for (const double cone : { allDirections, 80.0 })
+  {
+    PassScene scene(300, 300);
+    scene.addFloor(4.0);
+    scene.addBox({ -1.0, -1.0, 2.0 }, { 1.0, 1.0, 3.0 });
+    scene.addSpot({ 0.2, 0.1, 1.0 }, { 0.2, 0.1, 0.0 }, cone);
+    scene.lookDown(3.5);
+    scene.lookFrom({ 0.0, -9.0, 1.5 });
+    scene.pass->SetTechnique("planar");
+    const VisibilityImages& kept = drawKept(scene);
+    const std::size_t lit = visible(kept, 1.0f, 0.9f);
+    EXPECT_GT(lit, 2000u);
+    if (cone == allDirections)
+    {
+      EXPECT_EQ(visible(kept, 0.0f, 0.9f), 0u) << "on the floor";
+    }
+    this->expectLikeRays(scene, 0);
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Planar, castersOnBothSidesOfTheLightCastWhatLiesBeforeIt)
+{
+  PassScene scene(400, 300);
+  scene.addFloor(4.0);
+  scene.addBox({ -1.0, -1.0, 0.5 }, { -0.6, 1.0, 3.0 }); // the light stands at half its height
+  scene.addBox({ 0.8, -0.5, 1.0 }, { 1.0, 0.5, 2.0 });
+  scene.addSpot({ 0.0, 0.0, 1.5 }, glm::dvec3(0.0), allDirections);
+  scene.lookFrom({ 2.0, -8.0, 7.0 });
+  this->expectLikeRays(scene);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Planar, castersThatStraddleTheFloorCastFromItUp)
+{
+  PassScene scene(400, 300);
+  scene.addFloor(4.0);
+  scene.addBox({ -1.0, -1.0, -2.0 }, { 0.5, 0.5, 1.0 });
+  scene.addSphere({ 1.0, -2.5, 0.0 }, 0.8);
+  scene.addBox({ -3.0, 2.0, -2.0 }, { -2.0, 3.0, -0.5 }); // below it
+  scene.addSun({ 1.0, 0.4, -1.0 });
+  scene.lookFrom({ 2.0, -8.0, 7.0 });
+  scene.pass->SetSetting("planes", "64");
+  const Against against = againstRays(scene);
+  EXPECT_GT(against.shadowed, 3000u);
+  // What the sphere does not show on itself: it is convex, so nothing but its terminator.
+  EXPECT_LE(against.wrong, against.covered / 2000);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Planar, shadowsEndWhereTheirReceiverEnds)
+{
+  // Two floors, one above the other, and a round one: the upper one's shadow must not be seen on them.
+  PassScene scene(400, 400);
+  scene.addFloor(1.0, 0.0);
+  scene.addFloor(4.0, -2.0);
+  scene.addSphere({ 2.5, 2.5, -1.0 }, 1.0);
+  scene.addBox({ -3.0, -0.4, 1.0 }, { 3.0, 0.4, 1.2 });
+  scene.addSun({ 0.2, 0.5, -1.0 });
+  scene.lookFrom({ 1.0, -5.0, 9.0 });
+  scene.pass->SetTechnique("raytraced");
+  const VisibilityImages truth = drawKept(scene);
+  scene.pass->SetTechnique("planar");
+  const VisibilityImages kept = drawKept(scene);
+  std::size_t falseShadow = 0;
+  std::size_t onSphere = 0;
+  for (std::size_t i = 0; i < kept.coverage.size(); ++i)
+  {
+    const glm::dvec3 position = positionOf(kept, i);
+    const bool sphere =
+      kept.coverage[i] > 0.0f && glm::distance(position, { 2.5, 2.5, -1.0 }) < 1.01;
+    const glm::dvec3 normal(kept.normalX[i], kept.normalY[i], kept.normalZ[i]);
+    if (sphere && glm::dot(normal, { -0.2, -0.5, 1.0 }) > 0.05)
+    {
+      ++onSphere;
+      EXPECT_EQ(kept.visibility[0][i], 1.0f);
+    }
+    falseShadow += kept.visibility[0][i] < truth.visibility[0][i] - 0.5f ? 1 : 0;
+  }
+  EXPECT_GT(onSphere, 500u);
+  EXPECT_LE(falseShadow, 20u);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Planar, sunAlongThePlaneLeavesItDark)
+{
+  PassScene scene(300, 200);
+  addBoxes(scene);
+  scene.addSun({ 1.0, 0.0, 0.0 });
+  scene.lookFrom({ -5.0, -8.0, 7.0 });
+  this->expectLikeRays(scene);
+  scene.pass->SetTechnique("planar");
+  EXPECT_EQ(visible(drawKept(scene), 1.0f, 0.9f), 0u);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Planar, lampInThePlaneLeavesItDark)
+{
+  PassScene scene(300, 200);
+  addBoxes(scene);
+  scene.addSpot({ -6.0, -3.0, 0.0 }, { 0.0, 0.0, 0.5 }, allDirections);
+  scene.lookFrom({ -5.0, -8.0, 7.0 });
+  this->expectLikeRays(scene);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Planar, allSixWallsOfARoomShowShadows)
+{
+  PassScene scene(400, 400);
+  scene.addBox({ -4.0, -4.0, -3.0 }, { 4.0, 4.0, 3.0 });
+  scene.addSphere({ 1.5, 0.5, 0.0 }, 0.7);
+  scene.addBox({ -2.0, 1.0, -3.0 }, { -1.0, 2.0, -1.0 });
+  scene.addBox({ -0.2, -0.2, 1.5 }, { 0.2, 0.2, 2.0 });
+  scene.addSpot({ 0.0, 0.0, 0.5 }, glm::dvec3(0.0), allDirections);
+  scene.pass->SetSetting("planes", "64");
+  vtkCamera* camera = scene.renderer->GetActiveCamera();
+  camera->SetViewAngle(90.0);
+  // The boxes' own sides take shadows, too; what the sphere casts on itself is N.L < 0.
+  for (const glm::dvec3& target :
+    { glm::dvec3(3.0, 3.0, 1.0), { -3.0, 3.0, -1.0 }, { 0.5, 0.4, 3.0 }, { 0.5, 0.4, -3.0 } })
+  {
+    scene.lookFrom({ -0.9, -0.8, -0.6 }, target);
+    const Against against = againstRays(scene);
+    EXPECT_GT(against.shadowed, 1000u) << target.x << " " << target.z;
+    EXPECT_LE(against.wrong, against.covered / 2000) << target.x << " " << target.z;
+    EXPECT_GE(scene.report().lights[0].planes, 6);
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Planar, noMorePlanesThanAskedForShowShadows)
+{
+  PassScene scene(300, 300);
+  scene.addFloor(3.0);
+  scene.addFloor(1.0, 0.5);
+  scene.addSphere({ -0.5, 0.0, 1.5 }, 0.4);
+  scene.addSun({ 0.5, 0.2, -1.0 });
+  scene.lookDown(3.5);
+  scene.pass->SetTechnique("planar");
+  drawKept(scene);
+  EXPECT_EQ(scene.report().lights[0].planes, 2);
+  const auto darkOnUpper = [](const VisibilityImages& kept)
+  {
+    std::size_t dark = 0;
+    for (std::size_t i = 0; i < kept.coverage.size(); ++i)
+    {
+      dark += kept.coverage[i] > 0.0f && std::abs(positionOf(kept, i).z - 0.5) < 0.01 &&
+          kept.normalZ[i] > 0.99f && kept.visibility[0][i] == 0.0f
+        ? 1
+        : 0;
+    }
+    return dark;
+  };
+  EXPECT_GT(darkOnUpper(scene.pass->GetVisibility()), 100u);
+  const std::int64_t offBoth = scene.report().lights[0].pixelsOffPlanes;
+  EXPECT_GT(offBoth, 500); // the sphere
+  ASSERT_EQ(scene.report().notes.size(), 1u);
+  EXPECT_THAT(scene.report().notes[0], HasSubstr("2 planes with 9"));
+
+  scene.pass->SetSetting("planes", "1");
+  const VisibilityImages& one = drawKept(scene);
+  EXPECT_EQ(scene.report().lights[0].planes, 1);
+  EXPECT_EQ(darkOnUpper(one), 0u) << "the largest plane is the one that is served";
+  EXPECT_GT(scene.report().lights[0].pixelsOffPlanes, offBoth + 5000);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Planar, planesStayWhenTheCameraMoves)
+{
+  PassScene scene(160, 120);
+  addBoxes(scene);
+  scene.addSun({ 1.0, 0.4, -1.0 });
+  scene.lookFrom({ 2.0, -8.0, 7.0 });
+  scene.pass->SetTechnique("planar");
+  scene.render();
+  for (int step = 0; step < 12; ++step)
+  {
+    scene.renderer->GetActiveCamera()->Azimuth(30.0);
+    this->expectLikeRays(scene, 0);
+    EXPECT_EQ(scene.report().lights[0].planes, boxesPlanes);
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Planar, followsWhatMoves)
+{
+  struct Scene : PassScene
+  {
+    explicit Scene(const char* technique)
+      : PassScene(200, 150)
+    {
+      this->pass->SetTechnique(technique);
+      this->addFloor(4.0);
+      this->box = this->addBox({ -1.0, -1.0, 1.0 }, { 0.5, 0.5, 1.5 });
+      this->table = this->addFloor(1.5);
+      this->table->SetPosition(1.0, 1.0, 0.5);
+      this->sun = this->addSun({ 1.0, 0.4, -1.0 });
+      this->lookFrom({ 2.0, -8.0, 7.0 });
+    }
+    vtkActor* box;
+    vtkActor* table;
+    vtkLight* sun;
+  };
+  Scene planar("planar");
+  Scene traced("raytraced");
+  const std::vector<std::function<void(Scene&)>> steps = { [](Scene&) {},
+    [](Scene& scene) { scene.box->SetPosition(1.0, -0.5, 0.3); },
+    [](Scene& scene) { scene.table->RotateX(20.0); },
+    [](Scene& scene) { scene.table->SetPosition(0.5, 1.0, 0.9); },
+    [](Scene& scene) { scene.sun->SetPosition(-1.0, -2.0, 4.0); },
+    [](Scene& scene) { scene.renderer->RemoveActor(scene.box); } };
+  for (std::size_t step = 0; step < steps.size(); ++step)
+  {
+    steps[step](planar);
+    steps[step](traced);
+    const VisibilityImages truth = drawKept(traced);
+    const Against against = compare(drawKept(planar), truth);
+    EXPECT_GT(against.shadowed, 100u);
+    EXPECT_EQ(against.speckles, 0u) << "step " << step;
+    EXPECT_LE(against.wrong, 5u) << "step " << step;
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Planar, isTheSameFarAwayAndAtEveryScale)
+{
+  for (const double scale : { 1e-3, 1.0, 1e6 })
+  {
+    for (const double distance : { 0.0, 1e6 })
+    {
+      PassScene scene(300, 200);
+      addBoxes(scene);
+      vtkNew<vtkTransform> transform;
+      const glm::dvec3 away = scale * distance * glm::dvec3(1.0, -0.7, 0.4);
+      transform->Translate(away.x, away.y, away.z);
+      transform->RotateWXYZ(30.0, 0.3, 0.5, 1.0); // no plane is parallel to an axis
+      transform->Scale(scale, scale, scale);
+      vtkActorCollection* actors = scene.renderer->GetActors();
+      actors->InitTraversal();
+      while (vtkActor* actor = actors->GetNextActor())
+      {
+        actor->SetUserTransform(transform);
+      }
+      const auto moved = [&](const glm::dvec3& point)
+      {
+        glm::dvec3 result;
+        transform->TransformPoint(&point.x, &result.x);
+        return result;
+      };
+      const glm::dvec3 light = moved({ -1.0, -2.0, 4.0 });
+      scene.addSpot(light, moved(glm::dvec3(0.0)), allDirections);
+      scene.lookFrom(moved({ 2.0, -8.0, 7.0 }), moved(glm::dvec3(0.0)));
+      SCOPED_TRACE(scale);
+      SCOPED_TRACE(distance);
+      this->expectLikeRays(scene);
+      EXPECT_EQ(scene.report().lights[0].planes, boxesPlanes);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Planar, finelyCutFloorsAreOnePlane)
+{
+  PassScene scene(300, 200);
+  vtkNew<vtkPlaneSource> floor;
+  floor->SetOrigin(-4.0, -4.0, 0.0);
+  floor->SetPoint1(4.0, -4.0, 0.0);
+  floor->SetPoint2(-4.0, 4.0, 0.0);
+  floor->SetResolution(150, 150);
+  scene.add(floor)->RotateWXYZ(25.0, 0.3, 0.5, 1.0);
+  vtkActor* box = scene.addBox({ -1.0, -1.0, 1.0 }, { 0.5, 0.5, 1.5 });
+  box->RotateWXYZ(25.0, 0.3, 0.5, 1.0);
+  scene.addSun({ 0.3, 0.4, -1.0 });
+  scene.lookFrom({ 2.0, -8.0, 7.0 });
+  this->expectLikeRays(scene);
+  EXPECT_EQ(scene.report().lights[0].planes, 7) << "the floor and the box";
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Planar, holesOfTexturesCastNoShadow)
+{
+  PassScene scene(400, 300);
+  scene.addFloor(4.0);
+  vtkNew<vtkPlaneSource> sheet;
+  sheet->SetOrigin(-1.5, -1.5, 2.0);
+  sheet->SetPoint1(1.5, -1.5, 2.0);
+  sheet->SetPoint2(-1.5, 1.5, 2.0);
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(4, 4, 1);
+  image->AllocateScalars(VTK_UNSIGNED_CHAR, 4);
+  auto* texel = static_cast<unsigned char*>(image->GetScalarPointer());
+  for (int i = 0; i < 16; ++i, texel += 4)
+  {
+    std::fill_n(texel, 3, static_cast<unsigned char>(255));
+    texel[3] = (i + i / 4) % 2 ? 255 : 0;
+  }
+  vtkNew<vtkTexture> texture;
+  texture->SetInputData(image);
+  texture->InterpolateOff();
+  scene.add(sheet)->SetTexture(texture);
+  scene.addSpot({ -1.0, -2.0, 5.0 }, glm::dvec3(0.0), allDirections);
+  scene.lookFrom({ 2.0, -8.0, 7.0 });
+  this->expectLikeRays(scene);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Planar, oneSidedCastersCastWithTheirFrontsOnly)
+{
+  for (const bool turned : { false, true })
+  {
+    PassScene scene(300, 200);
+    scene.addFloor(4.0);
+    vtkActor* sheet = scene.addFloor(1.0, 0.0);
+    sheet->SetPosition(0.0, 0.0, 1.5);
+    sheet->RotateX(turned ? 180.0 : 0.0);
+    vtkGnomonPropKeys::SetOneSided(sheet, true);
+    scene.addSun({ 0.5, 0.4, -1.0 });
+    scene.lookFrom({ 2.0, -8.0, 7.0 });
+    SCOPED_TRACE(turned);
+    this->expectLikeRays(scene, turned ? 0 : 1000);
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Planar, whatDoesNotReceiveIsLit)
+{
+  PassScene scene(300, 200);
+  vtkGnomonPropKeys::SetReceives(scene.addFloor(4.0), false);
+  scene.addBox({ -1.0, -1.0, 1.0 }, { 0.5, 0.5, 1.5 });
+  scene.addSun({ 1.0, 0.4, -1.0 });
+  scene.lookFrom({ 2.0, -8.0, 7.0 });
+  this->expectLikeRays(scene, 0);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Planar, emptyAndRoundScenesAreLit)
+{
+  PassScene scene(64, 48);
+  scene.pass->SetTechnique("planar");
+  scene.addSun({ 1.0, 0.4, -1.5 });
+  scene.lookFrom({ 0.0, -9.0, 7.0 });
+  scene.render();
+  EXPECT_EQ(scene.report().lights[0].planes, 0);
+  vtkNew<vtkSphereSource> sphere; // whose facets are too small to be planes
+  sphere->SetRadius(2.0);
+  sphere->SetThetaResolution(96);
+  sphere->SetPhiResolution(64);
+  scene.add(sphere);
+  const Acne acne = countAcneOfSun(drawKept(scene), { -1.0, -0.4, 1.5 });
+  EXPECT_GT(acne.facing, 200u);
+  EXPECT_EQ(acne.dark, 0u);
+  EXPECT_EQ(scene.report().lights[0].planes, 0);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Planar, softShadowsAreTheMeanOfTracedSamples)
+{
+  for (const int kind : { 0, 1, 2 })
+  {
+    SCOPED_TRACE(kind);
+    PassScene scene(200, 150);
+    addBoxes(scene);
+    gnomon::ShadowLight light;
+    light.lightRadius = 0.4;
+    light.lightSamples = 48; // two batches
+    light.positionWorld = { -2.0, -2.5, 5.0 };
+    light.directionWorld = glm::normalize(-light.positionWorld);
+    vtkLight* lamp = nullptr;
+    if (kind == 0)
+    {
+      light.kind = gnomon::LightKind::Directional;
+      light.lightRadius = 0.1;
+      lamp = scene.addSun(light.directionWorld);
+    }
+    else
+    {
+      light.kind = kind == 1 ? gnomon::LightKind::Spot : gnomon::LightKind::Point;
+      lamp = scene.addSpot(light.positionWorld, glm::dvec3(0.0), kind == 1 ? 80.0 : allDirections);
+    }
+    scene.lookFrom({ 2.0, -8.0, 7.0 });
+    scene.pass->SetTechnique("planar");
+    scene.pass->SetSetting("planes", "64");
+    scene.pass->SetSetting("light_radius", kind == 0 ? "0.1" : "0.4");
+    scene.pass->SetSetting("light_samples", "48");
+    const VisibilityImages soft = drawKept(scene);
+
+    std::vector<double> mean(soft.coverage.size(), 0.0);
+    scene.pass->SetTechnique("raytraced");
+    const std::vector<glm::dvec4> samples = gnomon::lightSamples(light, glm::dvec3(0.0));
+    for (const glm::dvec4& sample : samples)
+    {
+      const glm::dvec3 target =
+        kind == 0 ? glm::dvec3(0.0) : glm::dvec3(sample) + light.directionWorld;
+      lamp->SetPosition(sample.x, sample.y, sample.z);
+      lamp->SetFocalPoint(target.x, target.y, target.z);
+      const VisibilityImages& traced = drawKept(scene);
+      for (std::size_t i = 0; i < mean.size(); ++i)
+      {
+        mean[i] += traced.visibility[0][i] / static_cast<double>(samples.size());
+      }
+    }
+    double error = 0.0;
+    std::size_t covered = 0;
+    std::size_t penumbra = 0;
+    for (std::size_t i = 0; i < mean.size(); ++i)
+    {
+      if (soft.coverage[i] > 0.0f)
+      {
+        ++covered;
+        error += std::abs(mean[i] - soft.visibility[0][i]);
+        penumbra += mean[i] > 0.05 && mean[i] < 0.95 ? 1 : 0;
+      }
+    }
+    EXPECT_GT(penumbra, 500u);
+    EXPECT_LT(error / static_cast<double>(covered), 2e-4);
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Planar, softShadowsEndExactlyAtDarkAndLit)
+{
+  PassScene scene(120, 90);
+  scene.addFloor(4.0);
+  scene.addBox({ -2.0, -2.0, 0.5 }, { 2.0, 2.0, 1.0 });
+  scene.addSpot({ 0.0, 0.0, 5.0 }, glm::dvec3(0.0), allDirections);
+  scene.lookFrom({ 0.0, -8.0, 3.0 });
+  scene.pass->SetTechnique("planar");
+  scene.pass->SetSetting("light_radius", "0.2");
+  for (const char* count : { "1", "32", "33", "100", "1024" })
+  {
+    scene.pass->SetSetting("light_samples", count);
+    const VisibilityImages& kept = drawKept(scene);
+    EXPECT_GT(visible(kept, 1.0f, 0.9f), 300u) << count;
+    EXPECT_GT(visible(kept, 0.0f, 0.9f), 200u) << count;
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Planar, degenerateViewsStayFinite)
+{
+  for (const glm::dvec3& position : { glm::dvec3(0.0, 0.0, 1.2), { 0.0, 0.0, -1.0 },
+         { 0.0, 0.0, 0.0 }, { 0.5, 0.5, 1.5 }, { 0.0, 0.0, 1e6 } })
+  {
+    for (const double cone : { 0.1, 45.0, 89.0, allDirections })
+    {
+      PassScene scene(64, 48);
+      addBoxes(scene);
+      scene.addSpot(position, { 0.1, 0.2, -3.0 }, cone);
+      scene.pass->SetTechnique("planar");
+      scene.lookFrom({ 0.0, -9.0, 7.0 });
+      drawKept(scene);
+      scene.lookFrom({ 0.0, 0.0, 1.2 }, { 1.0, 1.0, 0.0 }); // inside a caster
+      drawKept(scene);
+      scene.lookFrom({ 0.0, -9.0, 0.0 }); // in the floor's plane
+      drawKept(scene);
+    }
+  }
+  for (const glm::dvec3& direction : { glm::dvec3(0.0, -1.0, 0.0), { 0.0, 1.0, 0.0 },
+         { 1.0, 0.0, 0.0 }, { 0.0, 0.0, 1.0 }, { 0.0, 0.0, -1.0 }, { 1.0, 0.0, -1e-5 } })
+  {
+    PassScene scene(64, 48);
+    addBoxes(scene);
+    scene.addSun(direction);
+    scene.lookFrom({ 0.0, -9.0, 7.0 });
+    this->expectLikeRays(scene, 0);
+  }
+}
