@@ -61,7 +61,8 @@ public:
   bool chooseRoute(int wished, bool keepVisibility);
   Route route() const { return this->route_; }
 
-  /// receivers (image route): has VTK draw the opaque props' triangle numbers, and points for techniques that read them on the GPU.
+  /// receivers (image route): has VTK draw the opaque props' triangle numbers, and points for
+  /// techniques that read them on the GPU.
   /// @param pass whose hook the props' shaders have
   void drawReceivers(const vtkRenderState* s, vtkGnomonShadowPass* pass);
 

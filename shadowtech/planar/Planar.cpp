@@ -22,7 +22,8 @@ namespace
 /// Samples that are drawn at a time: the bits of a texel.
 constexpr std::size_t samplesPerBatch = 32;
 
-/// What planes_of_pixels.frag.glsl calls pixels that lie on no plane that is served, and on the first one.
+/// What planes_of_pixels.frag.glsl calls pixels that lie on no plane that is served, and on the first
+/// one.
 constexpr unsigned int offPlanes = 1;
 constexpr int firstPlane = 2;
 
@@ -34,8 +35,8 @@ glm::dvec4 turnedTo(const CameraView& camera, const glm::dvec4& plane)
   return glm::dot(plane, eye) < 0.0 ? -plane : plane;
 }
 
-/// Whether a light stands before a plane, and not in it as far as rounding can tell. Parallel rays have facesLight()'s
-/// limit.
+/// Whether a light stands before a plane, and not in it as far as rounding can tell. Parallel rays have
+/// facesLight()'s limit.
 bool standsBefore(const glm::dvec4& plane, double thickness, const glm::dvec4& light)
 {
   return glm::dot(plane, light) > (light.w > 0.0 ? thickness : 9.5367431640625e-7); // 2^-20
@@ -69,9 +70,10 @@ void beginShadows(GLuint framebuffer, int width, int height)
   glClearBufferuiv(GL_COLOR, 0, nothing);
 }
 
-/// The planes that bound what can cast onto a plane: it lies above it, and behind the face where a box's light begins.
-/// What is beyond the light needs none: its images on the plane have w < 0 (planarProjection()), and those
-/// that the camera would see in the plane's own pixels keep that sign, so that OpenGL clips them.
+/// The planes that bound what can cast onto a plane: it lies above it, and behind the face where a
+/// box's light begins. What is beyond the light needs none: its images on the plane have w < 0
+/// (planarProjection()), and those that the camera would see in the plane's own pixels keep that sign,
+/// so that OpenGL clips them.
 std::vector<glm::dvec4> castingPart(const ShadowLight& light, const glm::dvec3& centreWorld,
   const glm::dvec4& plane, double thickness)
 {
@@ -110,9 +112,7 @@ TechniqueInfo Planar::info()
 void Planar::drawVisibility(const LayerInput& input, LightReport& report)
 {
   const GlStateGuard guard;
-  this->planes_.update(input.occluders);
-  this->served_ =
-    std::min(this->planes_.planes().size(), static_cast<std::size_t>(input.light.planes));
+  this->planes_.update(input.occluders, static_cast<std::size_t>(input.light.planes));
   this->samples_ = lightSamples(input.light, input.occluders.centreWorld);
   this->allocate(
     input.receivers.width(), input.receivers.height(), this->samples_.size() > samplesPerBatch);
@@ -124,7 +124,7 @@ void Planar::drawVisibility(const LayerInput& input, LightReport& report)
     this->drawShadows(input, batch);
     this->sumUp(input, batch);
   }
-  report.planes = static_cast<int>(this->served_);
+  report.planes = static_cast<int>(this->planes_.planes().size());
   report.pixelsOffPlanes = input.counting ? this->countPixelsOffPlanes() : 0;
   this->noteWhatIsLeftOut(input);
 }
@@ -161,12 +161,10 @@ void Planar::allocate(int width, int height, bool soft)
 /// Brings the tables up to date that lead from what VTK drew to planes.
 void Planar::sendPlanes(const LayerInput& input)
 {
-  if (this->topologyVersion_ != this->planes_.topologyVersion() ||
-    this->positionsVersion_ != this->planes_.positionsVersion())
+  if (this->sentVersion_ != this->planes_.version())
   {
     this->planesOfPrimitives_.set(this->planes_.planeOfDrawn(), "a table of planes");
-    this->topologyVersion_ = this->planes_.topologyVersion();
-    this->positionsVersion_ = this->planes_.positionsVersion();
+    this->sentVersion_ = this->planes_.version();
   }
   std::vector<glm::uvec4> blocks;
   for (std::size_t drawn = 0; drawn < input.drawnSurfaces.size(); ++drawn)
@@ -195,8 +193,7 @@ void Planar::findPlanesOfPixels(const LayerInput& input)
       { "blocks", TextureBinding{ GL_TEXTURE_2D, this->blocks_.texture() } },
       { "blockCount", this->blockCount_ },
       { "planesOfPrimitives",
-        TextureBinding{ GL_TEXTURE_2D, this->planesOfPrimitives_.texture() } },
-      { "planeCount", static_cast<int>(this->served_) } },
+        TextureBinding{ GL_TEXTURE_2D, this->planesOfPrimitives_.texture() } } },
     0, 0);
   this->screenPass_.fill(this->planesOfPixels_.name(), -1, this->width_, this->height_);
 }
@@ -208,9 +205,8 @@ Planar::Batch Planar::makeBatch(const LayerInput& input, std::size_t first) cons
   batch.first = first;
   batch.count = std::min(this->samples_.size() - first, samplesPerBatch);
   batch.last = first + batch.count == this->samples_.size();
-  for (std::size_t i = 0; i < this->served_; ++i)
+  for (const ReceiverPlane& plane : this->planes_.planes())
   {
-    const ReceiverPlane& plane = this->planes_.planes()[i];
     batch.planes.push_back(turnedTo(input.camera, plane.plane));
     std::uint32_t facing = 0;
     for (std::size_t bit = 0; bit < batch.count; ++bit)
@@ -231,7 +227,7 @@ void Planar::drawShadows(const LayerInput& input, const Batch& batch)
     ShaderLibrary::source("shadowtech/planar/planar_shadow.frag.glsl");
   const glm::dmat4 clipFromCentred = input.camera.clipFromCentred();
   beginShadows(this->shadowFramebuffer_.name(), this->width_, this->height_);
-  for (std::size_t i = 0; i < this->served_; ++i)
+  for (std::size_t i = 0; i < this->planes_.planes().size(); ++i)
   {
     const ReceiverPlane& receiver = this->planes_.planes()[i];
     if (!mayShow(clipFromCentred, receiver.boundsCentred))
@@ -322,17 +318,17 @@ void Planar::sumUp(const LayerInput& input, const Batch& batch)
 void Planar::noteWhatIsLeftOut(const LayerInput& input) const
 {
   double served = 0.0;
-  for (std::size_t i = 0; i < this->served_; ++i)
+  for (const ReceiverPlane& plane : this->planes_.planes())
   {
-    served += this->planes_.planes()[i].area;
+    served += plane.area;
   }
   // Rounded down, so that 100 % are all.
   const int percent = static_cast<int>(100.0 * served / std::max(this->planes_.area(), served));
   if (served < this->planes_.area() * (1.0 - 1e-9))
   {
     input.notes.push_back("light " + std::to_string(input.light.sceneIndex) +
-      ": planar shadows fall on " + std::to_string(this->served_) + " planes with " +
-      std::to_string(percent) +
+      ": planar shadows fall on " + std::to_string(this->planes_.planes().size()) +
+      " planes with " + std::to_string(percent) +
       " % of the receiving area; the rest shows no cast shadows of this light");
   }
 }

@@ -13,16 +13,17 @@
 namespace gnomon
 {
 
-/// `planar`: casters are projected from the light onto the planes that receive shadows (Blinn 1988), and drawn
-/// there as the camera sees them. What lies on no such plane shows no cast shadow.
+/// `planar`: casters are projected from the light onto the planes that receive shadows (Blinn 1988),
+/// and drawn there as the camera sees them. What lies on no such plane shows no cast shadow.
 ///
-/// Which plane a pixel's receiver lies on follows from the triangle that VTK drew there. A shadow is drawn into
-/// the pixels of its own plane only, without a depth test: it ends where the receiver ends, and there is
-/// no depth for it to fight with. Casters are clipped to what lies between the plane and the light, so that there are
-/// no shadows of what is behind either (anti-shadows), and planes cast none on themselves.
+/// Which plane a pixel's receiver lies on follows from the triangle that VTK drew there. A shadow is
+/// drawn into the pixels of its own plane only, without a depth test: it ends where the receiver ends,
+/// and there is no depth for it to fight with. Casters are clipped to what lies before the plane, so
+/// that planes cast no shadow on themselves, and what is beyond the light casts none at all
+/// (anti-shadows).
 ///
-/// Soft shadows are the mean of many such pictures from points of the light (LightSamples.h), 32 at a time: each
-/// sets a bit of its own, however many casters it draws over each other.
+/// Soft shadows are the mean of many such pictures from points of the light (LightSamples.h), 32 at a
+/// time: each sets a bit of its own, however many casters it draws over each other.
 class Planar : public Technique
 {
 public:
@@ -44,14 +45,12 @@ private:
   std::int64_t countPixelsOffPlanes() const;
 
   ReceiverPlanes planes_;
-  std::size_t served_ = 0;          ///< how many of them
   std::vector<glm::dvec4> samples_; ///< lightSamples()
 
   IntegerTable planesOfPrimitives_{ { GL_R8UI, GL_RED_INTEGER, 1, GL_UNSIGNED_BYTE } };
   IntegerTable blocks_{ { GL_RGBA32UI, GL_RGBA_INTEGER, 4, GL_UNSIGNED_INT } };
   int blockCount_ = 0;
-  std::uint64_t topologyVersion_ = 0; ///< of planesOfPrimitives_
-  std::uint64_t positionsVersion_ = 0;
+  std::uint64_t sentVersion_ = 0; ///< of planesOfPrimitives_: ReceiverPlanes::version()
 
   GlTexture planesOfPixels_;
   GlTexture shadows_;

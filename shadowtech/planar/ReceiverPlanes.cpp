@@ -88,6 +88,7 @@ int directionCell(const glm::dvec3& normal)
 /// Triangles whose planes are much alike, from which a plane may be grown.
 struct Candidate
 {
+  std::vector<std::size_t> triangles;
   double area = 0.0;
   double largestArea = 0.0;
   std::size_t largest = 0; ///< the triangle
@@ -131,8 +132,9 @@ double magnitudeAlong(const glm::dvec4& plane, const glm::dvec3& point)
 class PlaneSearch
 {
 public:
-  explicit PlaneSearch(const Occluders& occluders)
+  PlaneSearch(const Occluders& occluders, std::size_t wanted)
     : occluders_(occluders)
+    , wanted_(wanted)
   {
   }
 
@@ -153,7 +155,7 @@ public:
       before = planes.size();
       for (const Candidate& candidate : this->candidates())
       {
-        if (planes.size() == mostPlanes || tries-- <= 0)
+        if (planes.size() == mostPlanes || tries-- <= 0 || this->hasLargerThan(candidate, planes))
         {
           break;
         }
@@ -245,6 +247,7 @@ private:
       const double offset = orientation(triangle.areaVector) *
         glm::dot(triangle.areaVector / area, triangle.centroid());
       Candidate& cell = cells[{ direction, std::lround(offset / offsetCell) }];
+      cell.triangles.push_back(number);
       cell.area += area;
       if (area > cell.largestArea)
       {
@@ -266,7 +269,15 @@ private:
     return result;
   }
 
-  /// Finds the plane of a candidate's largest triangle and all that lies on it.
+  /// Whether as many planes as wanted are larger than any that a candidate could be a part of.
+  bool hasLargerThan(const Candidate& candidate, const std::vector<ReceiverPlane>& planes) const
+  {
+    const auto larger = std::count_if(planes.begin(), planes.end(),
+      [&](const ReceiverPlane& plane) { return plane.area * splitShare > candidate.area; });
+    return static_cast<std::size_t>(larger) >= this->wanted_;
+  }
+
+  /// Finds the plane of a candidate's largest triangle, by what else of the candidate lies on it.
   void grow(const Candidate& candidate, std::vector<ReceiverPlane>& planes)
   {
     const Triangle seed(this->occluders_, candidate.largest);
@@ -277,7 +288,7 @@ private:
     const double height = 2.0 * seed.area() / seed.longestEdge();
     const glm::dvec3 middle = seed.centroid();
     PlaneSum sum;
-    for (const std::size_t number : this->flat_)
+    for (const std::size_t number : candidate.triangles)
     {
       if (this->planeOfTriangle_[number] == 0)
       {
@@ -295,7 +306,10 @@ private:
         }
       }
     }
-    this->gather(sum.plane(), planes);
+    if (sum.area >= this->leastArea() * splitShare)
+    {
+      this->gather(sum.plane(), planes);
+    }
   }
 
   /// Makes a plane of all that lies on it, if that is enough.
@@ -309,6 +323,10 @@ private:
     for (const std::size_t number : this->flat_)
     {
       if (this->planeOfTriangle_[number] != 0)
+      {
+        continue;
+      }
+      if (!isNear(plane, number))
       {
         continue;
       }
@@ -340,6 +358,18 @@ private:
     }
   }
 
+  /// Whether a triangle's first corner lies on a plane as far as the scene's size can tell: sorts out nearly
+  /// all that do not, at little cost.
+  bool isNear(const glm::dvec4& plane, std::size_t number) const
+  {
+    const glm::dvec3 corner =
+      this->occluders_.positionsCentred[this->occluders_.triangles[number].x];
+    const Bounds& all = this->occluders_.allCentred;
+    const glm::dvec3 largest = glm::max(glm::abs(all.lower), glm::abs(all.upper));
+    return distanceOff(plane, corner) <= cornerNoise * magnitudeAlong(plane, largest);
+  }
+
+  /// Puts the wanted planes in order of area, and forgets the others.
   void sortByArea(std::vector<ReceiverPlane>& planes)
   {
     std::vector<std::size_t> order(planes.size());
@@ -350,8 +380,11 @@ private:
     std::array<std::uint8_t, mostPlanes + 1> place{};
     for (const std::size_t number : order)
     {
-      sorted.push_back(planes[number]);
-      place[number + 1] = static_cast<std::uint8_t>(sorted.size());
+      if (sorted.size() < this->wanted_)
+      {
+        sorted.push_back(planes[number]);
+        place[number + 1] = static_cast<std::uint8_t>(sorted.size());
+      }
     }
     planes = std::move(sorted);
     for (std::uint8_t& plane : this->planeOfTriangle_)
@@ -365,6 +398,7 @@ private:
   static constexpr double splitShare = 1.0 / 8.0;
 
   const Occluders& occluders_;
+  std::size_t wanted_;
   double area_ = 0.0;
   std::vector<std::size_t> flat_;
   std::vector<std::uint8_t> planeOfTriangle_;
@@ -373,14 +407,15 @@ private:
 } // namespace
 
 //------------------------------------------------------------------------------
-void ReceiverPlanes::update(const Occluders& occluders)
+void ReceiverPlanes::update(const Occluders& occluders, std::size_t wanted)
 {
-  if (this->topologyVersion_ == occluders.topologyVersion &&
+  if (this->version_ > 0 && this->wanted_ == wanted &&
+    this->topologyVersion_ == occluders.topologyVersion &&
     this->positionsVersion_ == occluders.positionsVersion)
   {
     return;
   }
-  PlaneSearch search(occluders);
+  PlaneSearch search(occluders, wanted);
   this->planes_ = search.run();
   this->area_ = search.area();
   this->planeOfDrawn_.clear();
@@ -398,6 +433,8 @@ void ReceiverPlanes::update(const Occluders& occluders)
       this->planeOfDrawn_.push_back(triangle < surface.triangleCount ? planes[triangle] : 0);
     }
   }
+  ++this->version_;
+  this->wanted_ = wanted;
   this->topologyVersion_ = occluders.topologyVersion;
   this->positionsVersion_ = occluders.positionsVersion;
 }

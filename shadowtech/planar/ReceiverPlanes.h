@@ -30,34 +30,38 @@ struct ReceiverPlane
 /// wherever they are and whatever surface they belong to.
 ///
 /// Triangles lie on one plane if their corners do, to within what rounding to float has moved them by.
-/// A plane counts if its triangles have at least `smallestShare` of all receivers' area. So the planes follow
-/// from the scene alone, and stay the same when the camera moves. What is drawn as instances lies on no
-/// plane: many small shapes have none that are large.
+/// A plane counts if its triangles have at least `smallestShare` of all receivers' area. So the planes
+/// follow from the scene alone, and stay the same when the camera moves. What is drawn as instances
+/// lies on no plane: many small shapes have none that are large.
 class ReceiverPlanes
 {
 public:
   static constexpr double smallestShare = 1.0 / 1024.0;
 
-  /// Finds them again if the snapshot has changed.
-  void update(const Occluders& occluders);
+  /// Finds them again if the snapshot or what is wanted has changed.
+  /// @param wanted how many of the largest, at most mostPlanes
+  void update(const Occluders& occluders, std::size_t wanted);
 
-  /// In order of area, no more than mostPlanes.
+  /// In order of area, no more than wanted.
   const std::vector<ReceiverPlane>& planes() const { return this->planes_; }
   /// The area of all receiving triangles.
   double area() const { return this->area_; }
 
-  /// For every triangle that VTK draws of a surface, from drawnBegin() on: 0, or 1 + the plane that it lies on.
+  /// For every triangle that VTK draws of a surface, from drawnBegin() on: 0, or 1 + the plane that it
+  /// lies on.
   const std::vector<std::uint8_t>& planeOfDrawn() const { return this->planeOfDrawn_; }
   std::size_t drawnBegin(std::size_t surface) const { return this->drawnBegin_[surface]; }
 
-  std::uint64_t topologyVersion() const { return this->topologyVersion_; }
-  std::uint64_t positionsVersion() const { return this->positionsVersion_; }
+  /// Changes when all this changes; 0 before the first update.
+  std::uint64_t version() const { return this->version_; }
 
 private:
   std::vector<ReceiverPlane> planes_;
   std::vector<std::uint8_t> planeOfDrawn_;
   std::vector<std::size_t> drawnBegin_;
   double area_ = 0.0;
+  std::uint64_t version_ = 0;
+  std::size_t wanted_ = 0;
   std::uint64_t topologyVersion_ = 0;
   std::uint64_t positionsVersion_ = 0;
 };

@@ -1,5 +1,6 @@
-// How many of a light's samples each pixel's receiver sees, by the shadows that were drawn on planes. What lies on none
-// sees all that it faces. Up to 32 samples at a time; after the last of them, the share.
+// How many of a light's samples each pixel's receiver sees, by the shadows that were drawn on planes.
+// What lies on none sees all that it faces. Up to 32 samples at a time; after the last of them, the
+// share.
 
 #include "shadowtech/base/shadow_ray.glsl"
 

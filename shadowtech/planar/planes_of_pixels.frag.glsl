@@ -7,7 +7,6 @@ uniform usampler2D blocks;           // x: drawn surface, y: its first primitive
                                      // planesOfPrimitives, w: how many follow; in order of x and y
 uniform int blockCount;
 uniform usampler2D planesOfPrimitives; // 0, or 1 + the plane
-uniform int planeCount;                // how many planes are served
 
 out uint plane; // 0: shows no shadow at all; 1: lies on no plane that is served; n + 2: on the n-th
 
@@ -36,7 +35,6 @@ void main()
   plane = 0u;
   if (fragment.x > 0.0)
   {
-    uint number = planeOf(uint(fragment.x) - 1u, uint(fragment.y));
-    plane = 1u + (number <= uint(planeCount) ? number : 0u);
+    plane = 1u + planeOf(uint(fragment.x) - 1u, uint(fragment.y));
   }
 }

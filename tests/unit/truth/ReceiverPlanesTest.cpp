@@ -67,7 +67,7 @@ TEST(ReceiverPlanes, ofNothingAreNone)
   Occluders occluders;
   occluders.topologyVersion = 1;
   ReceiverPlanes planes;
-  planes.update(occluders);
+  planes.update(occluders, mostPlanes);
   EXPECT_TRUE(planes.planes().empty());
   EXPECT_EQ(planes.area(), 0.0);
 }
@@ -81,7 +81,7 @@ TEST(ReceiverPlanes, joinWhatIsCoplanarAcrossSurfacesInOrderOfArea)
   snapshot.add(glm::dvec3(0.0), 2.0 * z, 1.0 * x); // y = 0, area 2
   snapshot.add(z, x, y).receives = false;
   ReceiverPlanes planes;
-  planes.update(snapshot.occluders);
+  planes.update(snapshot.occluders, mostPlanes);
   ASSERT_EQ(planes.planes().size(), 3u);
   EXPECT_NEAR(planes.area(), 7.0, 1e-6);
   const double areas[3] = { 4.0, 2.0, 1.0 };
@@ -112,7 +112,7 @@ TEST(ReceiverPlanes, keepParallelSheetsApartThatFloatsCanTellApart)
     snapshot.add(-0.5 * (u + v), u, v);
     snapshot.add(-0.4 * (u + v) + 1e-5 * size * up, 0.8 * u, 0.8 * v);
     ReceiverPlanes planes;
-    planes.update(snapshot.occluders);
+    planes.update(snapshot.occluders, mostPlanes);
     ASSERT_EQ(planes.planes().size(), 2u) << size;
     EXPECT_LT(planes.planes()[0].thickness, 1e-5 * size);
   }
@@ -127,7 +127,7 @@ TEST(ReceiverPlanes, findFinelyCutOnesWhole)
   snapshot.add(glm::dvec3(-30.0, 10.0, 5.0), u, v, 300);
   snapshot.add(glm::dvec3(-30.0, 10.0, 5.0), u, 20.0 * up, 300);
   ReceiverPlanes planes;
-  planes.update(snapshot.occluders);
+  planes.update(snapshot.occluders, mostPlanes);
   ASSERT_EQ(planes.planes().size(), 2u);
   EXPECT_NEAR(planes.planes()[0].area, 1600.0, 0.01);
   EXPECT_NEAR(planes.planes()[1].area, 800.0, 0.01);
@@ -146,7 +146,7 @@ TEST(ReceiverPlanes, areNotMadeOfCurvedSurfaces)
     point.z = 0.1f * (point.x * point.x + point.y * point.y);
   }
   ReceiverPlanes planes;
-  planes.update(snapshot.occluders);
+  planes.update(snapshot.occluders, mostPlanes);
   ASSERT_EQ(planes.planes().size(), 1u);
   EXPECT_NEAR(planes.planes()[0].area, 16.0, 1e-5);
 }
@@ -157,7 +157,7 @@ TEST(ReceiverPlanes, followDroppedTrianglesAndChanges)
   snapshot.add(glm::dvec3(0.0), x, y).triangleOfDrawn = { 1, Surface::noTriangle, 0 };
   snapshot.add(z, x, y);
   ReceiverPlanes planes;
-  planes.update(snapshot.occluders);
+  planes.update(snapshot.occluders, mostPlanes);
   EXPECT_EQ(planes.drawnBegin(1), 3u);
   const std::vector<std::uint8_t> drawn = planes.planeOfDrawn();
   EXPECT_EQ(drawn.size(), 5u);
@@ -170,10 +170,10 @@ TEST(ReceiverPlanes, followDroppedTrianglesAndChanges)
   {
     snapshot.occluders.positionsCentred[i].z = 0.0f;
   }
-  planes.update(snapshot.occluders);
+  planes.update(snapshot.occluders, mostPlanes);
   EXPECT_EQ(planes.planes().size(), 2u);
   ++snapshot.occluders.positionsVersion;
-  planes.update(snapshot.occluders);
+  planes.update(snapshot.occluders, mostPlanes);
   EXPECT_EQ(planes.planes().size(), 1u);
 }
 
@@ -185,12 +185,16 @@ TEST(ReceiverPlanes, areTheLargestOfMany)
     snapshot.add(0.1 * i * z, (1.0 + 0.001 * i) * x, y);
   }
   ReceiverPlanes planes;
-  planes.update(snapshot.occluders);
+  planes.update(snapshot.occluders, mostPlanes);
   ASSERT_EQ(planes.planes().size(), static_cast<std::size_t>(mostPlanes));
   for (std::size_t i = 0; i < planes.planes().size(); ++i)
   {
     EXPECT_NEAR(planes.planes()[i].area, 1.199 - 0.001 * static_cast<double>(i), 1e-6);
   }
+  planes.update(snapshot.occluders, 3);
+  ASSERT_EQ(planes.planes().size(), 3u);
+  EXPECT_NEAR(planes.planes()[2].area, 1.197, 1e-6);
+  EXPECT_EQ(*std::max_element(planes.planeOfDrawn().begin(), planes.planeOfDrawn().end()), 3);
 }
 
 } // namespace
