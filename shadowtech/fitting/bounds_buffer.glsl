@@ -10,9 +10,11 @@ uint keyOf(float value)
   uint bits = floatBitsToUint(value);
   return (bits & 0x80000000u) != 0u ? ~bits : bits | 0x80000000u;
 }
+// Infinite for the key of none.
 float ofKey(uint key)
 {
-  return uintBitsToFloat((key & 0x80000000u) != 0u ? key & 0x7fffffffu : ~key);
+  uint bits = min(key, 0xff800000u);
+  return uintBitsToFloat((bits & 0x80000000u) != 0u ? bits & 0x7fffffffu : ~bits);
 }
 
 void growBox(int box, vec3 lower, vec3 upper)

@@ -3,7 +3,10 @@
 // distance from the camera.
 //
 // A group of invocations goes along a few rows of pixels, side by side, so that what is read lies side by
-// side; each adds what it found to the boxes at the end.
+// side, and each adds what it found to the boxes at the end. Nearly all receivers lie inside of what was
+// found before them. So an invocation first runs past pixels, some neighbours at a time, which share what
+// is read of the uniforms, until one lies outside; only then it asks whether they count. These are loops,
+// not branches, as software OpenGL runs through all of a branch, whether it is taken or not.
 
 #include "shadowtech/base/light_views.glsl"
 #include "shadowtech/fitting/bounds_buffer.glsl"
@@ -34,53 +37,53 @@ bool isFinite(vec3 v)
   return all(lessThan(abs(v), vec3(infinity)));
 }
 
-// A receiver that counts.
-struct Counted
+// Where a point is on the map of the view that may see it, in texels before the fit; z: the distance along
+// the view.
+struct Place
 {
   int view;
-  vec3 place; // on the view's map, in texels before the fit; z: the distance along the view
-  float distanceCamera;
+  vec3 place;
 };
 
-// Returns false for pixels that do not count: background, what shows no shadows, what the light does not
-// reach, or no caster can shadow, and what is not finite.
-bool findCounted(ivec2 pixel, out Counted counted)
+bool findPlace(vec3 positionLight, out Place place)
 {
-  counted = Counted(0, vec3(0.0), 0.0);
-  vec4 fragment = texelFetch(receiverFragments, pixel, 0);
-  if (!(fragment.x > 0.0))
-  {
-    return false;
-  }
-  vec4 point = texelFetch(receiverPoints, pixel, 0);
-  vec3 normal = vec3(fragment.zw, point.w);
-  if (!isFinite(point.xyz) || !isFinite(normal))
-  {
-    return false;
-  }
-  vec3 p = (lightFromView_LIGHT * vec4(point.xyz, 1.0)).xyz;
-  vec3 n = mat3(lightFromView_LIGHT) * normal;
   ViewPoint entered;
-  if (!lightReaches_LIGHT(p, n) || !enterView_LIGHT(p, n, entered))
+  bool found = enterView_LIGHT(positionLight, vec3(0.0), entered);
+  vec2 texel = texelBeforeFit_LIGHT(entered.view, acrossOf_LIGHT(entered.position));
+  place = Place(entered.view, vec3(texel, entered.position.z));
+  return found;
+}
+
+vec3 lightFromView(vec3 positionView)
+{
+  return (lightFromView_LIGHT * vec4(positionView, 1.0)).xyz;
+}
+
+// False for background, what shows no shadows, what the light does not reach, or no caster can shadow,
+// and what is not finite.
+bool counts(ivec2 pixel, vec4 point)
+{
+  vec4 fragment = texelFetch(receiverFragments, pixel, 0);
+  vec3 normal = vec3(fragment.zw, point.w);
+  if (!(fragment.x > 0.0) || !isFinite(point.xyz) || !isFinite(normal))
   {
     return false;
   }
-  vec2 texel = texelBeforeFit_LIGHT(entered.view, acrossOf_LIGHT(entered.position));
-  counted = Counted(entered.view, vec3(texel, entered.position.z), -point.z);
-  return isFinite(counted.place) && all(greaterThanEqual(texel, coveredTexels.xx)) &&
-    all(lessThanEqual(texel, coveredTexels.yy));
+  vec3 p = lightFromView(point.xyz);
+  Place found;
+  return lightReaches_LIGHT(p, mat3(lightFromView_LIGHT) * normal) && findPlace(p, found) &&
+    isFinite(found.place) && all(greaterThanEqual(found.place.xy, coveredTexels.xx)) &&
+    all(lessThanEqual(found.place.xy, coveredTexels.yy));
 }
 
 #ifdef DISTANCES
 
 void beginBoxes() {}
-int boxOf(Counted counted)
+// What a pixel adds to which box, if it counts.
+int valueOf(vec4 point, out vec3 value)
 {
+  value = vec3(-point.z);
   return 0;
-}
-vec3 valueOf(Counted counted)
-{
-  return vec3(counted.distanceCamera);
 }
 
 #else
@@ -98,12 +101,12 @@ void beginBoxes()
     splits[i] = splitDistance(nearest, farthest, float(i) / float(VIEWS_LIGHT), splitLambda);
   }
 }
-int boxOf(Counted counted)
+int boxOf(Place place, float distanceCamera)
 {
   int box = 0;
   for (int i = 1; i < VIEWS_LIGHT; ++i)
   {
-    box += counted.distanceCamera >= splits[i] ? 1 : 0;
+    box += distanceCamera >= splits[i] ? 1 : 0;
   }
   return box;
 }
@@ -111,44 +114,107 @@ int boxOf(Counted counted)
 #else
 
 void beginBoxes() {}
-int boxOf(Counted counted)
+int boxOf(Place place, float distanceCamera)
 {
-  return counted.view;
+  return place.view;
 }
 
 #endif
 
-vec3 valueOf(Counted counted)
+// What a pixel adds to which box, if it counts.
+int valueOf(vec4 point, out vec3 value)
 {
-  return counted.place;
+  Place place;
+  bool found = findPlace(lightFromView(point.xyz), place);
+  value = place.place;
+  return found ? boxOf(place, -point.z) : -1;
 }
 
 #endif
+
+// Of what this invocation knows.
+vec3 lower[boxes];
+vec3 upper[boxes];
+
+// Neighbours that are looked at together: every GROUP-th pixel of a row, the last one again beyond its end.
+// More of them share more, but need more registers.
+const int together = boxes == 1 ? 8 : 4;
+ivec2 neighbour(ivec2 first, int i, int width)
+{
+  return ivec2(min(first.x + i * GROUP, width - 1), first.y);
+}
+
+// Whether any of some neighbours would make its box larger, if it counts. What is not a number does not.
+bool anyGrows(ivec2 first, int width)
+{
+  bool result = false;
+  for (int i = 0; i < together; ++i)
+  {
+    vec4 point = texelFetch(receiverPoints, neighbour(first, i, width), 0);
+    vec3 value;
+    int box = valueOf(point, value);
+    // As where nothing was drawn since the image began: no receiver lies at the eye.
+    box = point.xyz == vec3(0.0) ? -1 : box;
+    for (int other = 0; other < boxes; ++other)
+    {
+      bool grows = any(lessThan(value, lower[other])) || any(greaterThan(value, upper[other]));
+      result = result || (box == other && grows);
+    }
+  }
+  return result;
+}
+
+void addThoseThatCount(ivec2 first, int width)
+{
+  for (int i = 0; i < together; ++i)
+  {
+    ivec2 pixel = neighbour(first, i, width);
+    vec4 point = texelFetch(receiverPoints, pixel, 0);
+    vec3 value;
+    int box = counts(pixel, point) ? valueOf(point, value) : -1;
+    for (int other = 0; other < boxes; ++other)
+    {
+      lower[other] = box == other ? min(lower[other], value) : lower[other];
+      upper[other] = box == other ? max(upper[other], value) : upper[other];
+    }
+  }
+}
+
+// The next neighbours, in this row or the one after it.
+ivec2 next(ivec2 first, int width)
+{
+  first.x += GROUP * together;
+  return first.x < width ? first : ivec2(gl_LocalInvocationID.x, first.y + 1);
+}
 
 void main()
 {
-  ivec2 size = textureSize(receiverFragments, 0);
-  int firstRow = int(gl_WorkGroupID.x) * ROWS;
+  ivec2 size = textureSize(receiverPoints, 0);
+  ivec2 first = ivec2(gl_LocalInvocationID.x, int(gl_WorkGroupID.x) * ROWS);
+  int end = min(first.y + ROWS, size.y);
   beginBoxes();
-  vec3 lower[boxes];
-  vec3 upper[boxes];
+  // What others have found is a good beginning.
   for (int box = 0; box < boxes; ++box)
   {
-    lower[box] = vec3(infinity);
-    upper[box] = vec3(-infinity);
+    lower[box] = lowerOf(firstBox + box);
+    upper[box] = upperOf(firstBox + box);
   }
-  for (int y = firstRow; y < min(firstRow + ROWS, size.y); ++y)
+  while (first.y < end)
   {
-    for (int x = int(gl_LocalInvocationID.x); x < size.x; x += GROUP)
+    for (;;)
     {
-      Counted counted;
-      if (findCounted(ivec2(x, y), counted))
+      if (anyGrows(first, size.x))
       {
-        int box = boxOf(counted);
-        lower[box] = min(lower[box], valueOf(counted));
-        upper[box] = max(upper[box], valueOf(counted));
+        break;
+      }
+      first = next(first, size.x);
+      if (first.y >= end)
+      {
+        break;
       }
     }
+    addThoseThatCount(ivec2(first.x, min(first.y, end - 1)), size.x); // at the end, some again
+    first = next(first, size.x);
   }
   for (int box = 0; box < boxes; ++box)
   {

@@ -1,0 +1,209 @@
+// What fitting a light's views to the receivers costs, against drawing a plain map: the bunny on a
+// plane, taking turns frame by frame.
+//
+// gnomon_benchmark_fitting [SIDE [FRAMES]], the side of the receivers' image in pixels.
+
+#include "SyntheticScene.h"
+
+#include "plugin/vtkGnomonEGLRenderWindow.h"
+#include "shadowtech/base/OccluderBuffers.h"
+#include "shadowtech/base/ShaderLibrary.h"
+#include "shadowtech/compare/Compare.h"
+#include "shadowtech/fitting/ReceiverFit.h"
+
+#include <glm/gtc/constants.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <vtkNew.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <ctime>
+#include <functional>
+#include <iomanip>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace gnomon::test
+{
+namespace
+{
+
+constexpr int mapSizeTexels = 1024;
+
+/// In milliseconds.
+struct Time
+{
+  double wall = 0.0;
+  double processor = 0.0; ///< of all threads: of meaning where OpenGL is software
+};
+
+double median(std::vector<double> values)
+{
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+struct Task
+{
+  std::string name;
+  std::function<void()> run;
+  std::vector<double> wall = {};
+  std::vector<double> processor = {};
+
+  Time medians() const { return { median(this->wall), median(this->processor) }; }
+};
+
+Time now()
+{
+  timespec wall;
+  timespec processor;
+  clock_gettime(CLOCK_MONOTONIC, &wall);
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &processor);
+  const auto milliseconds = [](const timespec& time)
+  { return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec); };
+  return { milliseconds(wall), milliseconds(processor) };
+}
+
+void measure(Task& task)
+{
+  glFinish();
+  const Time begin = now();
+  task.run();
+  glFinish();
+  const Time end = now();
+  task.wall.push_back(end.wall - begin.wall);
+  task.processor.push_back(end.processor - begin.processor);
+}
+
+void fill(GlTexture& texture, int side, const std::vector<glm::vec4>& texels)
+{
+  glBindTexture(GL_TEXTURE_2D, texture.create());
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, side, side, 0, GL_RGBA, GL_FLOAT, texels.data());
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+}
+
+/// The receivers' images as the receivers stage draws them.
+struct Images
+{
+  Images(const Occluders& occluders, const Camera& camera, const glm::dmat4& viewFromCentred)
+  {
+    const ReceiverPixels receivers = makeReceivers(occluders, camera);
+    std::vector<glm::vec4> fragmentTexels(receivers.size(), glm::vec4(0.0f));
+    std::vector<glm::vec4> pointTexels(receivers.size(), glm::vec4(0.0f));
+    for (std::size_t i = 0; i < receivers.size(); ++i)
+    {
+      if (receivers.surface[i] == ReceiverPixels::notCovered)
+      {
+        continue;
+      }
+      const glm::dvec4 position(
+        receivers.positionX[i], receivers.positionY[i], receivers.positionZ[i], 1.0);
+      const glm::dvec3 normal(receivers.normalX[i], receivers.normalY[i], receivers.normalZ[i]);
+      const glm::vec3 normalView = glm::dmat3(viewFromCentred) * normal;
+      fragmentTexels[i] = glm::vec4(1.0f, 0.0f, normalView.x, normalView.y);
+      pointTexels[i] = glm::vec4(glm::vec3(viewFromCentred * position), normalView.z);
+    }
+    fill(this->fragments, camera.width, fragmentTexels);
+    fill(this->points, camera.width, pointTexels);
+  }
+
+  GlTexture fragments;
+  GlTexture points;
+};
+
+/// Needs a context.
+void run(int side, int frames)
+{
+  const Occluders occluders = makeOccluders(
+    { { readObj("/usr/share/glmark2/models/bunny.obj"),
+        glm::rotate(at({ 0.0, 0.0, 0.99 }), 0.5 * glm::pi<double>(), { 1.0, 0.0, 0.0 }) },
+      { makePlane(10.0) } });
+  Camera camera;
+  camera.position = { 2.0, -4.0, 3.0 };
+  camera.target = { 0.0, 0.0, 0.8 };
+  camera.width = camera.height = side;
+  CameraView view;
+  view.viewFromCentred = glm::lookAt(
+    camera.position - occluders.centreWorld, camera.target - occluders.centreWorld, camera.up);
+  view.clipFromView = glm::perspective(glm::radians(camera.fovDegrees), 1.0, 0.1, 100.0);
+  const Images images(occluders, camera, view.viewFromCentred);
+
+  OccluderBuffers buffers;
+  buffers.update(occluders);
+  ShaderLibrary shaders;
+  Compare technique;
+  ViewFitting fitting;
+  fitting.centreWorld = occluders.centreWorld;
+  fitting.castersCentred = fitting.receiversCentred = occluders.allCentred;
+  fitting.texels = { mapSizeTexels, 1 };
+  ShadowLight plain = directionalLight({ -1.0, 0.5, -1.2 });
+  plain.mapSizeTexels = mapSizeTexels;
+  const LightViews plainViews = fitLightViews(plain, fitting);
+  fitting.camera = view;
+
+  std::vector<Task> tasks;
+  tasks.push_back({ "map of " + std::to_string(mapSizeTexels), [&] {
+                     technique.bake({ plain, plainViews, occluders, buffers, shaders });
+                   } });
+  const auto add = [&](const std::string& name, ShadowLight light, const char* projection)
+  {
+    findSetting("projection")->set(light, projection);
+    light.fit = ViewFit::Frame;
+    light.fittedToReceivers = true;
+    light.mapSizeTexels = mapSizeTexels;
+    const LightViews views = fitLightViews(light, fitting);
+    auto fit = std::make_shared<ReceiverFit>();
+    tasks.push_back({ name,
+      [&, light, views, fit]
+      {
+        fit->compute(light, views, { images.fragments.name(), images.points.name(), side, side },
+          glm::inverse(view.viewFromCentred), shaders);
+      } });
+  };
+  add("fit of a sun", plain, "uniform");
+  add("fit of a sun, lispsm", plain, "lispsm");
+  add("fit of a sun, pssm", plain, "pssm");
+  add("fit of a spot", spotLight({ 4.0, -2.0, 5.0 }, glm::dvec3(0.0), 40.0), "uniform");
+  add("fit of a point light", pointLight({ 1.5, -1.0, 3.0 }), "uniform");
+
+  for (int frame = 0; frame < frames; ++frame)
+  {
+    for (Task& task : tasks)
+    {
+      if (frame == 0)
+      {
+        task.run(); // builds programs
+      }
+      measure(task);
+    }
+  }
+  const Time map = tasks.front().medians();
+  std::cout << std::fixed << std::setprecision(2) << glGetString(GL_RENDERER) << ", " << side
+            << " x " << side << ", " << frames << " frames\n"
+            << std::setw(32) << "ms" << std::setw(8) << "x map" << std::setw(16) << "processor ms"
+            << std::setw(8) << "x map\n";
+  for (const Task& task : tasks)
+  {
+    const Time time = task.medians();
+    std::cout << std::left << std::setw(24) << task.name << std::right << std::setw(8) << time.wall
+              << std::setw(8) << time.wall / map.wall << std::setw(16) << time.processor
+              << std::setw(8) << time.processor / map.processor << "\n";
+  }
+}
+
+} // namespace
+} // namespace gnomon::test
+
+//------------------------------------------------------------------------------
+int main(int argc, char** argv)
+{
+  vtkNew<vtkGnomonEGLRenderWindow> window;
+  window->Initialize();
+  window->MakeCurrent();
+  gnomon::test::run(argc > 1 ? std::atoi(argv[1]) : 2048, argc > 2 ? std::atoi(argv[2]) : 21);
+  return EXIT_SUCCESS;
+}
