@@ -3,6 +3,7 @@
 #include "plugin/ActorInternals.h"
 #include "plugin/CompositeBlocks.h"
 #include "plugin/GlyphInstances.h"
+#include "plugin/PlainProps.h"
 #include "plugin/TextureCutouts.h"
 #include "plugin/vtkGnomonPropKeys.h"
 
@@ -100,18 +101,35 @@ bool askedToCast(vtkProp* viewProp)
   return keys && keys->Has(vtkGnomonPropKeys::CASTS()) && vtkGnomonPropKeys::GetCasts(viewProp);
 }
 
+/// Reads what a prop was told of shadows. Assemblies replace the property keys of their parts by their
+/// own when they draw.
+void takeKeys(DrawnProp& prop)
+{
+  if (prop.viewProp->GetPropertyKeys())
+  {
+    prop.casts = vtkGnomonPropKeys::GetCasts(prop.viewProp);
+    prop.receives = vtkGnomonPropKeys::GetReceives(prop.viewProp);
+    prop.oneSided = vtkGnomonPropKeys::GetOneSided(prop.viewProp);
+  }
+}
+
 class Finder
 {
 public:
-  Finder(vtkRenderer* renderer, TextureCutouts& cutouts)
+  Finder(vtkRenderer* renderer, TextureCutouts& cutouts, PlainProps& plainProps)
     : renderer_(renderer)
     , cutouts_(cutouts)
+    , plainProps_(plainProps)
   {
+    const auto count = static_cast<std::size_t>(renderer->GetViewProps()->GetNumberOfItems());
+    this->drawn_.props.reserve(count);
+    this->drawn_.blocks.reserve(count);
   }
   void addViewProp(vtkProp* viewProp);
   DrawnProps take();
 
 private:
+  void addPlain(const PlainProp& plain);
   void addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatrix4x4* matrix);
   bool serves(vtkMapper* mapper, MapperKind kind);
   void addBlocks(vtkActor* actor, vtkMapper* mapper, MapperKind kind, bool translucent);
@@ -120,6 +138,7 @@ private:
 
   vtkRenderer* renderer_;
   TextureCutouts& cutouts_;
+  PlainProps& plainProps_;
   DrawnProps drawn_;
   std::unordered_set<vtkMapper*> updated_;
   std::map<std::string, int> skipped_; ///< what was left out, and how often
@@ -129,8 +148,14 @@ private:
 //------------------------------------------------------------------------------
 void Finder::addViewProp(vtkProp* viewProp)
 {
+  const PlainProp* plain = this->plainProps_.next(viewProp);
   if (!viewProp->GetVisibility())
   {
+    return;
+  }
+  if (plain)
+  {
+    this->addPlain(*plain);
     return;
   }
   if (isPlainActor(viewProp))
@@ -160,6 +185,21 @@ void Finder::addViewProp(vtkProp* viewProp)
     }
     ++number;
   }
+}
+
+//------------------------------------------------------------------------------
+/// Adds a prop as addLeaf() would, which was asked in an earlier frame.
+void Finder::addPlain(const PlainProp& plain)
+{
+  DrawnProp prop;
+  prop.viewProp = prop.actor = plain.actor;
+  prop.mapper = plain.mapper;
+  prop.worldFromModel = toGlm(plain.actor->GetMatrix());
+  takeKeys(prop);
+  prop.firstBlock = this->drawn_.blocks.size();
+  prop.blockCount = 1;
+  this->drawn_.blocks.push_back({ plain.data });
+  this->drawn_.props.push_back(std::move(prop));
 }
 
 //------------------------------------------------------------------------------
@@ -212,10 +252,7 @@ void Finder::addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatr
   prop.mapper = drawing.mapper;
   prop.worldFromModel = toGlm(drawing.matrix);
   prop.clipPlanes = clipPlanesOf(drawing.mapper);
-  // Assemblies replace the property keys of their parts by their own when they draw.
-  prop.casts = vtkGnomonPropKeys::GetCasts(viewProp);
-  prop.receives = vtkGnomonPropKeys::GetReceives(viewProp);
-  prop.oneSided = vtkGnomonPropKeys::GetOneSided(viewProp);
+  takeKeys(prop);
   const char* uncutReason = nullptr;
   const TextureCutout cutout =
     this->cutouts_.find(actor, drawing.mapper, viewProp->GetPropertyKeys(), uncutReason);
@@ -242,6 +279,10 @@ void Finder::addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatr
   if (opaque)
   {
     add(false);
+    if (eitherOr && viewProp == actor)
+    {
+      this->plainProps_.remember(actor);
+    }
   }
   if (translucent)
   {
@@ -364,22 +405,15 @@ DrawnProps Finder::take()
 //------------------------------------------------------------------------------
 glm::dmat4 toGlm(vtkMatrix4x4* matrix)
 {
-  glm::dmat4 result;
-  for (int row = 0; row < 4; ++row)
-  {
-    for (int column = 0; column < 4; ++column)
-    {
-      result[column][row] = matrix->Element[row][column];
-    }
-  }
-  return result;
+  return glm::transpose(glm::make_mat4(&matrix->Element[0][0])); // VTK's go row by row
 }
 
 //------------------------------------------------------------------------------
-DrawnProps findDrawnProps(vtkRenderer* renderer, TextureCutouts& cutouts)
+DrawnProps findDrawnProps(vtkRenderer* renderer, TextureCutouts& cutouts, PlainProps& plainProps)
 {
   cutouts.beginFrame();
-  Finder finder(renderer, cutouts);
+  plainProps.beginFrame();
+  Finder finder(renderer, cutouts, plainProps);
   vtkPropCollection* viewProps = renderer->GetViewProps();
   vtkCollectionSimpleIterator cookie;
   viewProps->InitTraversal(cookie);
@@ -387,6 +421,7 @@ DrawnProps findDrawnProps(vtkRenderer* renderer, TextureCutouts& cutouts)
   {
     finder.addViewProp(viewProp);
   }
+  plainProps.endFrame();
   return finder.take();
 }
 

@@ -20,6 +20,7 @@ class vtkRenderer;
 namespace gnomon
 {
 
+class PlainProps;
 class TextureCutouts;
 struct CutoutMask;
 
@@ -77,7 +78,8 @@ struct DrawnProps
 /// VTK does when it draws.
 ///
 /// @param cutouts reads their textures, and keeps what it read from frame to frame
-DrawnProps findDrawnProps(vtkRenderer* renderer, TextureCutouts& cutouts);
+/// @param plainProps keeps from frame to frame what need not be asked again
+DrawnProps findDrawnProps(vtkRenderer* renderer, TextureCutouts& cutouts, PlainProps& plainProps);
 
 } // namespace gnomon
 

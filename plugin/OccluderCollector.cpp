@@ -1,6 +1,7 @@
 #include "plugin/OccluderCollector.h"
 
 #include "plugin/DrawnProps.h"
+#include "plugin/PlainProps.h"
 #include "plugin/SurfaceRecord.h"
 #include "plugin/TextureCutouts.h"
 
@@ -72,6 +73,7 @@ private:
 
   std::uint64_t lastVersion_ = 0;
   TextureCutouts cutouts_;
+  PlainProps plainProps_;
   std::vector<SurfaceRecord> records_;       ///< one for each of occluders.surfaces
   std::vector<std::uint32_t> vertexOfPoint_; ///< scratch memory for triangulate()
 };
@@ -79,7 +81,7 @@ private:
 //------------------------------------------------------------------------------
 OccluderCollector::Change OccluderCollector::Impl::collect(vtkRenderer* renderer)
 {
-  DrawnProps drawn = findDrawnProps(renderer, this->cutouts_);
+  DrawnProps drawn = findDrawnProps(renderer, this->cutouts_, this->plainProps_);
   this->lookup.beginFrame(drawn.translucentReceivers);
   this->notes = std::move(drawn.notes);
   this->translucentReceivers = drawn.translucentReceivers.size();
@@ -482,7 +484,7 @@ std::size_t OccluderCollector::Impl::bytes() const
   std::size_t bytes = bytesOf(this->occluders.positionsCentred) +
     bytesOf(this->occluders.triangles) + bytesOf(this->occluders.surfaces) +
     bytesOf(this->records_) + bytesOf(this->vertexOfPoint_) + this->lookup.bytes() +
-    this->cutouts_.bytes();
+    this->cutouts_.bytes() + this->plainProps_.bytes();
   for (const Surface& surface : this->occluders.surfaces)
   {
     bytes += bytesOf(surface.triangleOfDrawn) + bytesOf(surface.textureCoordinates) +

@@ -1,0 +1,307 @@
+// What is remembered of plain props never hides a change: whatever changes, a collector that has followed
+// the scene holds what one that sees it for the first time holds.
+
+#include "plugin/OccluderCollector.h"
+
+#include "TestData.h"
+
+#include "plugin/vtkGnomonPropKeys.h"
+
+#include "vtkFieldData.h"
+#include "vtkFloatArray.h"
+#include "vtkImageData.h"
+#include "vtkLookupTable.h"
+#include "vtkMatrix4x4.h"
+#include "vtkPlane.h"
+#include "vtkPlaneCollection.h"
+#include "vtkPlaneSource.h"
+#include "vtkPointData.h"
+#include "vtkProperty.h"
+#include "vtkRenderer.h"
+#include "vtkTexture.h"
+#include "vtkTransform.h"
+#include "vtkTrivialProducer.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <ostream>
+#include <sstream>
+#include <string>
+
+using namespace gnomon;
+using namespace gnomon::test;
+
+namespace
+{
+
+/// A prop of which everything can be changed, and parts to exchange that are older than what they
+/// take the place of.
+struct PlainScene
+{
+  vtkSmartPointer<vtkPolyData> otherSquare =
+    makePolyData({ { 0, 0, 0 }, { 3, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 } }, { { 0, 1, 2, 3 } });
+  vtkSmartPointer<vtkActor> otherActor = makeActor(otherSquare);
+  vtkNew<vtkProperty> glass;
+  vtkNew<vtkLookupTable> clearColours;
+  vtkNew<vtkFloatArray> otherScalars;
+  vtkNew<vtkTransform> transform;
+  vtkNew<vtkTexture> perforated;
+  vtkSmartPointer<vtkPoints> otherPoints =
+    makePoints({ { 0, 0, 0 }, { 1, 0, 2 }, { 1, 1, 0 }, { 0, 1, 0 } });
+  vtkSmartPointer<vtkCellArray> otherCells = makeCells({ { 0, 1, 2 } });
+  vtkNew<vtkPlane> plane;
+  vtkNew<vtkPlaneCollection> planes;
+
+  vtkSmartPointer<vtkPolyData> square = makeSquare();
+  vtkNew<vtkFloatArray> scalars;
+  vtkNew<vtkLookupTable> colours;
+  vtkNew<vtkTrivialProducer> producer;
+  vtkNew<vtkPolyDataMapper> mapper;
+  vtkNew<vtkMatrix4x4> matrix;
+  vtkNew<vtkActor> actor;
+  vtkSmartPointer<vtkActor> neighbour = makeActor(makeSquare());
+  vtkNew<vtkRenderer> renderer;
+  OccluderCollector collector;
+
+  PlainScene()
+  {
+    this->glass->SetOpacity(0.5);
+    for (vtkLookupTable* table : { this->clearColours.Get(), this->colours.Get() })
+    {
+      table->SetNumberOfTableValues(2);
+      table->Build();
+    }
+    this->clearColours->SetTableValue(1, 1.0, 1.0, 1.0, 0.5);
+    this->transform->Translate(0.0, 0.0, 4.0);
+    vtkNew<vtkImageData> image;
+    image->SetDimensions(2, 1, 1);
+    image->AllocateScalars(VTK_UNSIGNED_CHAR, 4);
+    image->SetScalarComponentFromDouble(0, 0, 0, 3, 255.0);
+    image->SetScalarComponentFromDouble(1, 0, 0, 3, 0.0);
+    this->perforated->SetInputData(image);
+    this->plane->SetNormal(1.0, 0.0, 0.0);
+    this->plane->SetOrigin(0.5, 0.0, 0.0);
+
+    this->scalars->SetNumberOfTuples(4);
+    this->scalars->Fill(0.0);
+    this->square->GetPointData()->SetScalars(this->scalars);
+    vtkNew<vtkFloatArray> coordinates;
+    coordinates->SetNumberOfComponents(2);
+    coordinates->SetNumberOfTuples(4);
+    coordinates->Fill(0.0);
+    this->square->GetPointData()->SetTCoords(coordinates);
+    this->producer->SetOutput(this->square);
+    this->mapper->SetInputConnection(this->producer->GetOutputPort());
+    this->mapper->SetLookupTable(this->colours);
+    this->mapper->SetClippingPlanes(this->planes);
+    this->actor->SetMapper(this->mapper);
+    this->actor->SetUserMatrix(this->matrix);
+    this->neighbour->SetPosition(5.0, 0.0, 0.0);
+    this->renderer->AddActor(this->actor);
+    this->renderer->AddActor(this->neighbour);
+  }
+};
+
+/// All that a collector says of a scene, versions aside.
+std::string stateOf(const OccluderCollector& collector)
+{
+  const Occluders& occluders = collector.occluders();
+  std::ostringstream state;
+  for (const Surface& surface : occluders.surfaces)
+  {
+    state << "surface" << surface.casts << surface.receives << surface.oneSided
+          << (surface.cutout != nullptr);
+    for (std::uint32_t i = 0; i < surface.triangleCount; ++i)
+    {
+      const glm::uvec3 triangle = occluders.triangles[surface.firstTriangle + i];
+      for (int corner = 0; corner < 3; ++corner)
+      {
+        const glm::dvec3 position =
+          glm::dvec3(occluders.positionsCentred[triangle[corner]]) + occluders.centreWorld;
+        state << " (" << position.x << " " << position.y << " " << position.z << ")";
+      }
+    }
+    state << "\n";
+  }
+  state << collector.translucentReceivers() << " translucent\n";
+  for (const std::string& note : collector.notes())
+  {
+    state << note << "\n";
+  }
+  return state.str();
+}
+
+struct Alteration
+{
+  const char* name;
+  std::function<void(PlainScene&)> apply;
+};
+std::ostream& operator<<(std::ostream& stream, const Alteration& alteration)
+{
+  return stream << alteration.name;
+}
+
+class PlainPropChange : public testing::TestWithParam<Alteration>
+{
+};
+
+const std::vector<Alteration> alterations = {
+  { "visibility", [](PlainScene& s) { s.actor->VisibilityOff(); } },
+  { "position", [](PlainScene& s) { s.actor->SetPosition(0.0, 0.0, 3.0); } },
+  { "userMatrixInPlace", [](PlainScene& s) { s.matrix->SetElement(2, 3, 2.0); } },
+  { "userTransform", [](PlainScene& s) { s.actor->SetUserTransform(s.transform); } },
+  { "forceTranslucent", [](PlainScene& s) { s.actor->ForceTranslucentOn(); } },
+  { "casts", [](PlainScene& s) { vtkGnomonPropKeys::SetCasts(s.actor, false); } },
+  { "receives", [](PlainScene& s) { vtkGnomonPropKeys::SetReceives(s.actor, false); } },
+  { "oneSided", [](PlainScene& s) { vtkGnomonPropKeys::SetOneSided(s.actor, true); } },
+  { "opacity", [](PlainScene& s) { s.actor->GetProperty()->SetOpacity(0.5); } },
+  { "representation",
+    [](PlainScene& s) { s.actor->GetProperty()->SetRepresentationToWireframe(); } },
+  { "olderProperty", [](PlainScene& s) { s.actor->SetProperty(s.glass); } },
+  { "texture", [](PlainScene& s) { s.actor->SetTexture(s.perforated); } },
+  { "textureOfTheProperty",
+    [](PlainScene& s) { s.actor->GetProperty()->SetTexture("holes", s.perforated); } },
+  { "olderMapper", [](PlainScene& s) { s.actor->SetMapper(s.otherActor->GetMapper()); } },
+  { "noMapper", [](PlainScene& s) { s.actor->SetMapper(nullptr); } },
+  { "clippingPlane", [](PlainScene& s) { s.mapper->AddClippingPlane(s.plane); } },
+  { "clippingPlaneOfTheList", [](PlainScene& s) { s.planes->AddItem(s.plane); } },
+  { "subPieces", [](PlainScene& s) { s.mapper->SetNumberOfSubPieces(2); } },
+  { "olderInput", [](PlainScene& s) { s.mapper->SetInputData(s.otherSquare); } },
+  { "olderOutputOfTheProducer", [](PlainScene& s) { s.producer->SetOutput(s.otherSquare); } },
+  { "noOutputOfTheProducer", [](PlainScene& s) { s.producer->SetOutput(nullptr); } },
+  { "noInput", [](PlainScene& s) { s.mapper->RemoveAllInputConnections(0); } },
+  { "olderColours",
+    [](PlainScene& s)
+    {
+      s.scalars->Fill(1.0);
+      s.mapper->SetLookupTable(s.clearColours);
+    } },
+  { "coloursInPlace", [](PlainScene& s) { s.colours->SetTableValue(0, 1.0, 1.0, 1.0, 0.5); } },
+  { "newScalars",
+    [](PlainScene& s)
+    {
+      vtkNew<vtkUnsignedCharArray> bytes;
+      bytes->SetNumberOfComponents(4);
+      bytes->SetNumberOfTuples(4);
+      bytes->Fill(100.0);
+      s.square->GetPointData()->SetScalars(bytes);
+    } },
+  { "pointsOfTheData",
+    [](PlainScene& s)
+    {
+      s.square->GetPoints()->SetPoint(2, 7.0, 7.0, 0.0);
+      s.square->Modified();
+    } },
+  { "pointsOfThePoints",
+    [](PlainScene& s)
+    {
+      s.square->GetPoints()->SetPoint(2, 7.0, 7.0, 0.0);
+      s.square->GetPoints()->Modified();
+    } },
+  { "pointsOfTheArray",
+    [](PlainScene& s)
+    {
+      s.square->GetPoints()->GetData()->SetComponent(2, 0, 7.0);
+      s.square->GetPoints()->GetData()->Modified();
+    } },
+  { "olderPoints", [](PlainScene& s) { s.square->SetPoints(s.otherPoints); } },
+  { "olderPolygons", [](PlainScene& s) { s.square->SetPolys(s.otherCells); } },
+  { "strips", [](PlainScene& s) { s.square->SetStrips(s.otherCells); } },
+  { "noCells", [](PlainScene& s) { s.square->SetPolys(nullptr); } },
+  { "order",
+    [](PlainScene& s)
+    {
+      s.renderer->RemoveActor(s.actor);
+      s.renderer->AddActor(s.actor);
+    } },
+  { "olderActorInItsPlace",
+    [](PlainScene& s) { s.renderer->GetViewProps()->ReplaceItem(0, s.otherActor); } },
+  { "removed", [](PlainScene& s) { s.renderer->RemoveActor(s.actor); } },
+};
+
+INSTANTIATE_TEST_SUITE_P(All, PlainPropChange, testing::ValuesIn(alterations),
+  [](const testing::TestParamInfo<Alteration>& alteration) { return alteration.param.name; });
+
+} // namespace
+
+//------------------------------------------------------------------------------
+TEST_P(PlainPropChange, isSeen)
+{
+  PlainScene scene;
+  scene.collector.collect(scene.renderer);
+  scene.collector.collect(scene.renderer);
+  const std::string before = stateOf(scene.collector);
+  GetParam().apply(scene);
+  scene.collector.collect(scene.renderer);
+  const std::string after = stateOf(scene.collector);
+  EXPECT_NE(after, before);
+  OccluderCollector fresh;
+  fresh.collect(scene.renderer);
+  EXPECT_EQ(after, stateOf(fresh));
+  scene.collector.collect(scene.renderer);
+  EXPECT_EQ(after, stateOf(scene.collector)) << "once it is remembered";
+}
+
+//------------------------------------------------------------------------------
+// Where coordinates are is not all: colours in place of others, in an array that says so itself.
+TEST(PlainProps, ScalarsInPlaceAreSeen)
+{
+  for (const bool ofField : { false, true })
+  {
+    PlainScene scene;
+    vtkNew<vtkUnsignedCharArray> bytes;
+    bytes->SetName("colours");
+    bytes->SetNumberOfComponents(4);
+    bytes->SetNumberOfTuples(4);
+    bytes->Fill(255.0);
+    scene.mapper->SelectColorArray("colours");
+    if (ofField)
+    {
+      scene.square->GetFieldData()->AddArray(bytes);
+      scene.mapper->SetScalarModeToUseFieldData();
+    }
+    else
+    {
+      scene.square->GetPointData()->AddArray(bytes);
+      scene.mapper->SetScalarModeToUsePointFieldData();
+    }
+    scene.collector.collect(scene.renderer);
+    scene.collector.collect(scene.renderer);
+    EXPECT_EQ(scene.collector.occluders().surfaces.size(), 2u) << ofField;
+    bytes->Fill(100.0);
+    bytes->Modified();
+    scene.collector.collect(scene.renderer);
+    EXPECT_EQ(scene.collector.occluders().surfaces.size(), 1u) << ofField;
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST(PlainProps, AreFoundAgainAfterOthersCameAndWent)
+{
+  PlainScene scene;
+  vtkNew<vtkPlaneSource> source; // a pipeline: no plain prop
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputConnection(source->GetOutputPort());
+  vtkNew<vtkActor> piped;
+  piped->SetMapper(mapper);
+  const auto expectAsFresh = [&](std::size_t surfaces)
+  {
+    scene.collector.collect(scene.renderer);
+    EXPECT_EQ(scene.collector.occluders().surfaces.size(), surfaces);
+    OccluderCollector fresh;
+    fresh.collect(scene.renderer);
+    EXPECT_EQ(stateOf(scene.collector), stateOf(fresh));
+  };
+  expectAsFresh(2);
+  scene.renderer->GetViewProps()->ReplaceItem(0, piped); // the first is gone
+  scene.renderer->AddActor(scene.actor);
+  expectAsFresh(3);
+  source->SetResolution(3, 2);
+  expectAsFresh(3);
+  scene.renderer->RemoveAllViewProps();
+  expectAsFresh(0);
+  scene.renderer->AddActor(scene.neighbour);
+  expectAsFresh(1);
+}
