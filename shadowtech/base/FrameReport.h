@@ -34,9 +34,9 @@ struct LightReport
   std::string kernel;            ///< what filters it; empty when nothing does
   int kernelTexels = 0;          ///< and how wide that is
   std::int64_t tracedPixels = 0; ///< pixels decided by a ray
-  /// Of planar shadows: the planes that show shadows, and the pixels that lie on none of them and show
-  /// no cast shadow; these are counted only where visibility is kept or stages are measured.
-  int planes = 0;
+  int planes = 0;                ///< of planar shadows: how many planes show them
+  /// Of planar shadows: pixels that lie on none of those and show no cast shadow. Counted only where
+  /// visibility is kept or stages are measured.
   std::int64_t pixelsOffPlanes = 0;
 };
 
