@@ -1,6 +1,7 @@
 // The quality of maps of moments of all techniques and projections, with their default settings: lit
 // surfaces are lit, shadows begin where they should, and no view breaks them.
 
+#include "LitPlane.h"
 #include "PassScene.h"
 
 #include "plugin/VisibilityImages.h"
@@ -134,6 +135,64 @@ TEST_P(MomentMaps, planeIsLitAtAnyAngle)
                                   << kernelSize;
       }
     }
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_P(MomentMaps, longPlaneIsLitAtAnyAngle)
+{
+  for (const char* kernelSize : { "1", "3", "16" })
+  {
+    checkAlongALongPlane(
+      [&](PassScene& scene, vtkLight*)
+      {
+        choose(scene);
+        scene.pass->SetSetting("kernel_size", kernelSize);
+        scene.pass->SetSetting("variance_floor", "1e-9");
+      },
+      { 30.0, 85.0 },
+      [&](const VisibilityImages& kept, const glm::dvec3& toLight, const std::string& where)
+      {
+        const Lit lit = litOf(kept, sunAt(toLight));
+        EXPECT_GT(lit.facing, 5000u);
+        // A warp makes a hyperbola of the plane's depths, the mean over which may lie before the
+        // receiver: of a kernel that is a quarter as wide as the map, by 0.014 at most.
+        const bool wide = std::string(kernelSize) == "16";
+        EXPECT_GE(lit.mean, wide ? 0.985 : 0.999)
+          << where << ", kernel " << kernelSize << ", least " << lit.least;
+      });
+  }
+}
+
+//------------------------------------------------------------------------------
+/// Seen from far away, receivers are rounded by parts of a texel. Under a grazing sun that moves them
+/// along the light by more than their slack, and what lights them at the middle of a texel, where
+/// bilinear filtering leaves no variance, is the spread of the texel's own depths.
+TEST_F(PassTest, spreadOfTexelsLightsAPlaneThatIsSeenFromAfar)
+{
+  for (const char* technique : { "vsm", "evsm" })
+  {
+    const std::vector<double> timesAsFar = { 70.0, 90.0, 120.0 };
+    double mean = 0.0;
+    for (const double times : timesAsFar)
+    {
+      PassScene scene(200, 200);
+      scene.addFloor(4.0);
+      const double angle = glm::radians(86.0);
+      const glm::dvec3 toLight(std::sin(angle), 0.0, std::cos(angle)); // along the map's rows
+      scene.addSun(-toLight);
+      scene.pass->SetTechnique(technique);
+      scene.pass->SetSetting("kernel_size", "1");
+      scene.pass->SetSetting("variance_floor", "1e-9");
+      scene.lookFrom(times * glm::dvec3(1.0, -7.0, 6.0));
+      scene.renderer->GetActiveCamera()->SetViewAngle(60.0 / times);
+      scene.renderer->ResetCameraClippingRange();
+      const Lit lit = litOf(drawKept(scene), sunAt(toLight));
+      EXPECT_GT(lit.facing, 5000u);
+      mean += lit.mean / static_cast<double>(timesAsFar.size());
+    }
+    EXPECT_GE(mean, 0.99) << technique;
+    this->RecordProperty(technique, std::to_string(mean));
   }
 }
 
