@@ -49,6 +49,16 @@ glm::dmat4 fromVtk(vtkMatrix4x4* matrix)
   return result;
 }
 
+/// The name of the kernel that an estimator reads a light's map with; empty: it reads it with none.
+std::string kernelOf(const TechniqueInfo& info, const ShadowLight& light)
+{
+  if (!info.filters)
+  {
+    return "";
+  }
+  return info.ownKernel.empty() ? findSetting("kernel")->get(light) : info.ownKernel;
+}
+
 /// How many samples a pixel has where VTK draws now.
 int samplesPerPixel()
 {
@@ -219,7 +229,7 @@ bool RenderManager::collectLights(vtkRenderer* renderer, const ShadowSettings& d
     report.estimator = light.estimator;
     report.projection = info.needsMap ? findSetting("projection")->get(light) : "";
     report.mapSizeTexels = info.needsMap ? light.mapSizeTexels : 0;
-    report.kernel = info.filters ? findSetting("kernel")->get(light) : "";
+    report.kernel = kernelOf(info, light);
     report.kernelTexels = info.filters ? light.kernelTexels : 0;
     this->report_.lights.push_back(report);
   }

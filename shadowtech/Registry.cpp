@@ -174,8 +174,8 @@ const EstimatorEntry& compose(ShadowLight& light)
     throw CompositionError(
       "'" + light.estimator + "' reads no map that a projection could lay out");
   }
-  if (info.filters && light.kernel == FilterKernel::Castano && light.kernelTexels != 3 &&
-    light.kernelTexels != 5 && light.kernelTexels != 7)
+  if (info.filters && info.ownKernel.empty() && light.kernel == FilterKernel::Castano &&
+    light.kernelTexels != 3 && light.kernelTexels != 5 && light.kernelTexels != 7)
   {
     throw CompositionError(
       "the kernel 'castano' has the sizes 3, 5 and 7, not " + std::to_string(light.kernelTexels));

@@ -31,7 +31,9 @@ struct TechniqueInfo
   bool pointwise = false; ///< visibility is a function of the point: serves both routes
   bool exact = false;     ///< equals the ray-traced visibility bit for bit
   bool needsMap = false;  ///< bakes something from the light
-  bool filters = false;   ///< reads the map with the light's filter kernel
+  bool filters = false;   ///< averages over a kernel, `kernel_size` wide
+  /// The kernel of an estimator that has one of its own; empty: what the setting `kernel` says.
+  std::string ownKernel = {};
 };
 
 /// A texture for a shader's sampler.

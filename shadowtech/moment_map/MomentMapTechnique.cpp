@@ -34,6 +34,18 @@ std::string constant(const char* setting, const ShadowLight& light)
 } // namespace
 
 //------------------------------------------------------------------------------
+TechniqueInfo MomentMapTechnique::infoOf(const char* name)
+{
+  TechniqueInfo info;
+  info.name = name;
+  info.pointwise = true;
+  info.needsMap = true;
+  info.filters = true;
+  info.ownKernel = "square";
+  return info;
+}
+
+//------------------------------------------------------------------------------
 MapReach MomentMapTechnique::mapReach(const ShadowLight& light) const
 {
   return { 0.5 * (light.kernelTexels + 1.0), 0.0 };

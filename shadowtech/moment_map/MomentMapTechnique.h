@@ -54,6 +54,9 @@ protected:
   };
   virtual Moments moments() const = 0;
 
+  /// What an estimator of this name is, like all others over moments.
+  static TechniqueInfo infoOf(const char* name);
+
   /// The source of float estimate_LIGHT(ViewPoint point, float slack), which includes moment_map.glsl.
   virtual std::string estimatorGlsl(const ShadowLight& light) const = 0;
 
