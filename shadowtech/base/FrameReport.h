@@ -35,6 +35,7 @@ struct LightReport
   /// empty when nothing does.
   std::string kernel;
   int kernelTexels = 0;          ///< and how wide that is
+  int mapSamples = 0;            ///< samples of its map's texels; 0 when they hold depths
   std::int64_t tracedPixels = 0; ///< pixels decided by a ray
 };
 

@@ -34,6 +34,7 @@ struct TechniqueInfo
   bool filters = false;   ///< averages over a kernel, `kernel_size` wide
   /// The kernel of an estimator that has one of its own; empty: what the setting `kernel` says.
   std::string ownKernel = {};
+  bool averagesMap = false; ///< its map holds what may be averaged: moments, not depths
 };
 
 /// A texture for a shader's sampler.
