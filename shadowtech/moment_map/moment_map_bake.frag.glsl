@@ -10,7 +10,6 @@ out vec4 moments;
 void main()
 {
 #if SAMPLES > 1
-  // Not "sample in", which Mesa 22.3 does not link to a vertex shader's output without that word.
   float depth = interpolateAtSample(depthLinear, gl_SampleID);
 #else
   float depth = depthLinear;
