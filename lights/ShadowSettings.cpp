@@ -30,6 +30,23 @@ ChoiceSetting choice(std::vector<std::string> names)
     [](ShadowSettings& settings, int number) { settings.*Member = static_cast<Choice>(number); } };
 }
 
+/// A choice among the first powers of two: 1, 2, 4, ...
+template <int ShadowSettings::*Member>
+ChoiceSetting powerOfTwo(std::vector<std::string> names)
+{
+  return { std::move(names),
+    [](const ShadowSettings& settings)
+    {
+      int exponent = 0;
+      while (1 << exponent < settings.*Member)
+      {
+        ++exponent;
+      }
+      return exponent;
+    },
+    [](ShadowSettings& settings, int exponent) { settings.*Member = 1 << exponent; } };
+}
+
 /// The whole text as a number; nothing where it is none.
 template <typename Number>
 std::optional<Number> parse(const std::string& text)
@@ -162,6 +179,9 @@ const std::vector<Setting>& shadowSettings()
     { "variance_floor",
       "of vsm and evsm: the least variance of depths, as a share of the map's depth range, squared",
       RealSetting{ &S::varianceFloor, 1e-9, 1.0 } },
+    { "map_samples",
+      "of maps of moments: with how many samples of a texel they are drawn, which are averaged",
+      powerOfTwo<&S::mapSamples>({ "1", "2", "4", "8" }) },
     { "kernel_width",
       "the kernel's width across the light, in world units (from a position: at distance 1), over "
       "which as many taps are spread as kernel_size says; 0: kernel_size texels",

@@ -99,6 +99,7 @@ struct ShadowSettings
   /// the floor, in squares of the map's depth range (Variance.h).
   double bleeding = 0.2;
   double varianceFloor = 1e-6;
+  int mapSamples = 1; ///< 1, 2, 4 or 8 samples of a texel, which are averaged
   ///@}
   /// The kernel's width across the light, in world units, of a positional light at distance 1; 0:
   /// kernelTexels.
@@ -128,10 +129,10 @@ struct ShadowSettings
   /// Whether another light's map holds the same for the same views and filter.
   bool storesAs(const ShadowSettings& other) const
   {
-    return this->discGrid == other.discGrid && this->discSets == other.discSets &&
-      this->earlyOut == other.earlyOut && this->depth == other.depth &&
-      this->metric == other.metric && this->biasConstant == other.biasConstant &&
-      this->biasSlope == other.biasSlope;
+    return this->mapSamples == other.mapSamples && this->discGrid == other.discGrid &&
+      this->discSets == other.discSets && this->earlyOut == other.earlyOut &&
+      this->depth == other.depth && this->metric == other.metric &&
+      this->biasConstant == other.biasConstant && this->biasSlope == other.biasSlope;
   }
 };
 

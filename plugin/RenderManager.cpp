@@ -49,6 +49,16 @@ glm::dmat4 fromVtk(vtkMatrix4x4* matrix)
   return result;
 }
 
+/// The name of the kernel that an estimator reads a light's map with; empty: it reads it with none.
+std::string kernelOf(const TechniqueInfo& info, const ShadowLight& light)
+{
+  if (!info.filters)
+  {
+    return "";
+  }
+  return info.ownKernel.empty() ? findSetting("kernel")->get(light) : info.ownKernel;
+}
+
 /// How many samples a pixel has where VTK draws now.
 int samplesPerPixel()
 {
@@ -198,6 +208,14 @@ bool RenderManager::collectLights(vtkRenderer* renderer, const ShadowSettings& d
       throw FrameError("light " + std::to_string(light.sceneIndex) + ": " + error.what());
     }
     const TechniqueInfo& info = estimator->info;
+    const int mostSamples = light.mapSamples > 1 ? mostMapSamples() : 1;
+    if (light.mapSamples > mostSamples)
+    {
+      this->report_.notes.push_back("light " + std::to_string(light.sceneIndex) +
+        ": OpenGL draws maps with at most " + std::to_string(mostSamples) +
+        " samples of a texel, not " + std::to_string(light.mapSamples));
+      light.mapSamples = mostSamples;
+    }
     LightSlot slot;
     const auto kept = this->slots_.find(light.sceneIndex);
     if (kept != this->slots_.end() && kept->second.estimator == estimator)
@@ -219,8 +237,9 @@ bool RenderManager::collectLights(vtkRenderer* renderer, const ShadowSettings& d
     report.estimator = light.estimator;
     report.projection = info.needsMap ? findSetting("projection")->get(light) : "";
     report.mapSizeTexels = info.needsMap ? light.mapSizeTexels : 0;
-    report.kernel = info.filters ? findSetting("kernel")->get(light) : "";
+    report.kernel = kernelOf(info, light);
     report.kernelTexels = info.filters ? light.kernelTexels : 0;
+    report.mapSamples = info.averagesMap ? light.mapSamples : 0;
     this->report_.lights.push_back(report);
   }
   this->slots_ = std::move(slots);
@@ -246,7 +265,8 @@ void RenderManager::collectOccluders(vtkRenderer* renderer)
   const Occluders& occluders = this->collector_.occluders();
   this->report_.surfacesExtracted = change.extracted;
   this->report_.surfacesRetransformed = change.retransformed;
-  this->report_.notes = this->collector_.notes();
+  this->report_.notes.insert(
+    this->report_.notes.end(), this->collector_.notes().begin(), this->collector_.notes().end());
   for (const Surface& surface : occluders.surfaces)
   {
     const std::size_t instances = surface.centredFromSource.size();

@@ -33,6 +33,21 @@ const std::string& nameOf(const TechniqueEntry& entry)
   return entry.name;
 }
 
+/// A setting by which a light asks for averages of its map's texels; empty: none.
+std::string averagingSetting(const ShadowLight& light)
+{
+  const ShadowSettings plain;
+  for (const char* name : { "map_samples" })
+  {
+    const Setting* setting = findSetting(name);
+    if (setting->get(light) != setting->get(plain))
+    {
+      return name;
+    }
+  }
+  return "";
+}
+
 template <typename Entry>
 const Entry* find(const std::vector<Entry>& entries, const std::string& name)
 {
@@ -178,11 +193,17 @@ const EstimatorEntry& compose(ShadowLight& light)
     throw CompositionError(
       "'" + light.estimator + "' reads no map that a projection could lay out");
   }
-  if (info.filters && light.kernel == FilterKernel::Castano && light.kernelTexels != 3 &&
-    light.kernelTexels != 5 && light.kernelTexels != 7)
+  if (info.filters && info.ownKernel.empty() && light.kernel == FilterKernel::Castano &&
+    light.kernelTexels != 3 && light.kernelTexels != 5 && light.kernelTexels != 7)
   {
     throw CompositionError(
       "the kernel 'castano' has the sizes 3, 5 and 7, not " + std::to_string(light.kernelTexels));
+  }
+  const std::string averaging = averagingSetting(light);
+  if (info.needsMap && !info.averagesMap && !averaging.empty())
+  {
+    throw CompositionError("'" + light.estimator + "' reads depths, which may not be averaged; '" +
+      averaging + "' is for maps of moments");
   }
   const std::string refused = refusedProjection(light);
   if (!refused.empty())

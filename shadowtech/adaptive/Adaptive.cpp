@@ -34,6 +34,8 @@ TechniqueInfo Adaptive::info()
   info.name = "adaptive";
   info.pointwise = true;
   info.needsMap = true;
+  info.filters = true;
+  info.ownKernel = "disc";
   return info;
 }
 

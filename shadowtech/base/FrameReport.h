@@ -29,10 +29,13 @@ struct LightReport
   /// What its views are fitted to: "off" (all casters), "frustum" (what the camera can see at most) or
   /// "receivers" (those that are drawn); empty when it needs no map.
   std::string fit;
-  std::string fitReason;         ///< why it is the frustum; empty when it is not
-  int castersLeftOut = 0;        ///< casting surfaces that none of its views can see
-  std::string kernel;            ///< what filters it; empty when nothing does
+  std::string fitReason;  ///< why it is the frustum; empty when it is not
+  int castersLeftOut = 0; ///< casting surfaces that none of its views can see
+  /// What filters it: a value of the setting `kernel`, or "disc" (adaptive), "square" (maps of moments);
+  /// empty when nothing does.
+  std::string kernel;
   int kernelTexels = 0;          ///< and how wide that is
+  int mapSamples = 0;            ///< samples of its map's texels; 0 when they hold depths
   std::int64_t tracedPixels = 0; ///< pixels decided by a ray
   int planes = 0;                ///< of planar shadows: how many planes show them
   /// Of planar shadows: pixels that lie on none of those and show no cast shadow. Counted only where

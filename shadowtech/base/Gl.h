@@ -80,6 +80,8 @@ struct Buffer      { static GLuint create() { GLuint n = 0; glGenBuffers(1, &n);
                      static void destroy(GLuint n) { glDeleteBuffers(1, &n); } };
 struct Framebuffer { static GLuint create() { GLuint n = 0; glGenFramebuffers(1, &n); return n; }
                      static void destroy(GLuint n) { glDeleteFramebuffers(1, &n); } };
+struct Renderbuffer{ static GLuint create() { GLuint n = 0; glGenRenderbuffers(1, &n); return n; }
+                     static void destroy(GLuint n) { glDeleteRenderbuffers(1, &n); } };
 struct VertexArray { static GLuint create() { GLuint n = 0; glGenVertexArrays(1, &n); return n; }
                      static void destroy(GLuint n) { glDeleteVertexArrays(1, &n); } };
 struct Program     { static GLuint create() { return glCreateProgram(); }
@@ -90,6 +92,7 @@ struct Program     { static GLuint create() { return glCreateProgram(); }
 using GlTexture = GlHandle<glkind::Texture>;
 using GlBuffer = GlHandle<glkind::Buffer>;
 using GlFramebuffer = GlHandle<glkind::Framebuffer>;
+using GlRenderbuffer = GlHandle<glkind::Renderbuffer>;
 using GlVertexArray = GlHandle<glkind::VertexArray>;
 using GlProgram = GlHandle<glkind::Program>;
 

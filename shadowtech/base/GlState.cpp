@@ -32,6 +32,7 @@ GlStateGuard::GlStateGuard()
   glGetIntegerv(GL_PIXEL_UNPACK_BUFFER_BINDING, &this->unpackBuffer_);
   glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &this->drawFramebuffer_);
   glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &this->readFramebuffer_);
+  glGetIntegerv(GL_RENDERBUFFER_BINDING, &this->renderbuffer_);
   glGetIntegerv(GL_VIEWPORT, this->viewport_);
   glGetIntegerv(GL_SCISSOR_BOX, this->scissor_);
   glGetIntegerv(GL_DEPTH_FUNC, &this->depthFunction_);
@@ -81,6 +82,7 @@ GlStateGuard::~GlStateGuard()
   glViewport(this->viewport_[0], this->viewport_[1], this->viewport_[2], this->viewport_[3]);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(this->readFramebuffer_));
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, static_cast<GLuint>(this->drawFramebuffer_));
+  glBindRenderbuffer(GL_RENDERBUFFER, static_cast<GLuint>(this->renderbuffer_));
   glBindBuffer(GL_PIXEL_UNPACK_BUFFER, static_cast<GLuint>(this->unpackBuffer_));
   glBindBuffer(GL_PIXEL_PACK_BUFFER, static_cast<GLuint>(this->packBuffer_));
   glBindVertexArray(static_cast<GLuint>(this->vertexArray_));

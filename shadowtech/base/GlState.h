@@ -30,7 +30,7 @@ private:
   std::array<GLboolean, switches_.size()> enabled_;
   std::array<GLboolean, 3> blend_;
   GLint program_, vertexArray_, arrayBuffer_, packBuffer_, unpackBuffer_, activeTexture_;
-  GLint drawFramebuffer_, readFramebuffer_;
+  GLint drawFramebuffer_, readFramebuffer_, renderbuffer_;
   GLint viewport_[4], scissor_[4];
   GLint depthFunction_, logicOperation_, cullFace_, frontFace_, polygonMode_[2];
   GLint packAlignment_, unpackAlignment_;

@@ -36,7 +36,10 @@ struct TechniqueInfo
   bool drawn = false;     ///< a screen technique that draws its image on the GPU
   bool exact = false;     ///< equals the ray-traced visibility bit for bit
   bool needsMap = false;  ///< bakes something from the light
-  bool filters = false;   ///< reads the map with the light's filter kernel
+  bool filters = false;   ///< averages over a kernel, `kernel_size` wide
+  /// The kernel of an estimator that has one of its own; empty: what the setting `kernel` says.
+  std::string ownKernel = {};
+  bool averagesMap = false; ///< its map holds what may be averaged: moments, not depths
 };
 
 /// A texture for a shader's sampler.

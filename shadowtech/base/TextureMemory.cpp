@@ -1,5 +1,6 @@
 #include "shadowtech/base/TextureMemory.h"
 
+#include <algorithm>
 #include <fstream>
 #include <limits>
 #include <string>
@@ -149,6 +150,45 @@ void allocateMap(GlTexture& texture, const TexelFormat& format, int sizeTexels, 
   clearErrors();
   throw TextureMemoryError(describe(shape, "a map") + "; one of " + std::to_string(side) + " x " +
     std::to_string(side) + " can");
+}
+
+//------------------------------------------------------------------------------
+int mostMapSamples()
+{
+  GLint most = std::numeric_limits<GLint>::max();
+  for (const GLenum format : { GL_RG32F, GL_RGBA32F, GL_DEPTH_COMPONENT32F })
+  {
+    GLint samples = 1; // stays where there is only one
+    glGetInternalformativ(GL_RENDERBUFFER, format, GL_SAMPLES, 1, &samples); // the most come first
+    most = std::min(most, samples);
+  }
+  return std::max(most, 1);
+}
+
+//------------------------------------------------------------------------------
+void allocateSamples(
+  GlRenderbuffer& samples, const TexelFormat& format, int sizeTexels, int samplesPerTexel)
+{
+  samples.reset(); // what it had makes room
+  const double bytes = static_cast<double>(sizeof(float)) * format.channels * sizeTexels *
+    sizeTexels * samplesPerTexel;
+  clearErrors();
+  bool room = bytes <= largestTextureShare * availableBytes();
+  if (room)
+  {
+    glBindRenderbuffer(GL_RENDERBUFFER, samples.create());
+    glRenderbufferStorageMultisample(
+      GL_RENDERBUFFER, samplesPerTexel, format.internalFormat, sizeTexels, sizeTexels);
+    room = glGetError() == GL_NO_ERROR;
+  }
+  if (!room)
+  {
+    samples.reset();
+    throw TextureMemoryError("a map of " + std::to_string(sizeTexels) + " x " +
+      std::to_string(sizeTexels) + " with " + std::to_string(samplesPerTexel) +
+      " samples of a texel asks for " + std::to_string(static_cast<long>(bytes / 1e6)) +
+      " MB, which cannot be had");
+  }
 }
 
 } // namespace gnomon

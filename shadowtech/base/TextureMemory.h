@@ -41,6 +41,14 @@ void allocateTexture(GlTexture& texture, const TexelFormat& format, int width, i
 /// The same for a light's map. The error offers the largest power of two that fits as its side.
 void allocateMap(GlTexture& texture, const TexelFormat& format, int sizeTexels, int layers);
 
+/// The most samples of a texel that OpenGL draws maps of moments with.
+int mostMapSamples();
+
+/// Gives a renderbuffer the memory of a map's layer with several samples of each texel.
+/// @throws TextureMemoryError; the renderbuffer is then without memory
+void allocateSamples(
+  GlRenderbuffer& samples, const TexelFormat& format, int sizeTexels, int samplesPerTexel);
+
 } // namespace gnomon
 
 #endif

@@ -10,11 +10,7 @@ namespace gnomon
 //------------------------------------------------------------------------------
 TechniqueInfo Exponential::info()
 {
-  TechniqueInfo info;
-  info.name = "exponential";
-  info.pointwise = true;
-  info.needsMap = true;
-  return info;
+  return infoOf("exponential");
 }
 
 //------------------------------------------------------------------------------

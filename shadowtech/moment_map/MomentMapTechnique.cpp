@@ -34,6 +34,19 @@ std::string constant(const char* setting, const ShadowLight& light)
 } // namespace
 
 //------------------------------------------------------------------------------
+TechniqueInfo MomentMapTechnique::infoOf(const char* name)
+{
+  TechniqueInfo info;
+  info.name = name;
+  info.pointwise = true;
+  info.needsMap = true;
+  info.filters = true;
+  info.ownKernel = "square";
+  info.averagesMap = true;
+  return info;
+}
+
+//------------------------------------------------------------------------------
 MapReach MomentMapTechnique::mapReach(const ShadowLight& light) const
 {
   return { 0.5 * (light.kernelTexels + 1.0), 0.0 };
@@ -45,13 +58,15 @@ void MomentMapTechnique::allocate(const ShadowLight& light, int layers)
   const TexelFormat format = formatOf(this->moments().count);
   const int sizeTexels = light.mapSizeTexels;
   light.kernelTexels > 1 ? this->blur_.allocate(format, sizeTexels) : this->blur_.release();
-  if (this->sizeTexels_ == sizeTexels && this->layers_ == layers)
+  if (this->sizeTexels_ == sizeTexels && this->layers_ == layers &&
+    this->samples_ == light.mapSamples)
   {
     return;
   }
   this->sizeTexels_ = 0; // in case that there is no memory
   this->layers_ = 0;
-  allocateMap(this->depth_, { GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, 1 }, sizeTexels, 1);
+  this->depth_.reset();
+  this->sampled_.release();
   allocateMap(this->map_, format, sizeTexels, layers);
   glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
@@ -59,10 +74,19 @@ void MomentMapTechnique::allocate(const ShadowLight& light, int layers)
   glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_BORDER);
   glTexParameterfv(
     GL_TEXTURE_2D_ARRAY, GL_TEXTURE_BORDER_COLOR, glm::value_ptr(this->moments().empty));
+  if (light.mapSamples > 1)
+  {
+    this->sampled_.allocate(format, sizeTexels, light.mapSamples);
+  }
+  else
+  {
+    allocateMap(this->depth_, { GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, 1 }, sizeTexels, 1);
+  }
   glBindFramebuffer(GL_FRAMEBUFFER, this->framebuffer_.create());
   glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, this->depth_.name(), 0, 0);
   this->sizeTexels_ = sizeTexels;
   this->layers_ = layers;
+  this->samples_ = light.mapSamples;
 }
 
 //------------------------------------------------------------------------------
@@ -76,18 +100,27 @@ void MomentMapTechnique::bake(const MapInput& input)
   this->viewFits_ = input.viewFits;
   const Moments moments = this->moments();
 
-  beginCasters(this->framebuffer_.name(), this->sizeTexels_);
+  const bool sampled = this->samples_ > 1;
+  const GLuint target = sampled ? this->sampled_.framebuffer() : this->framebuffer_.name();
+  beginCasters(target, this->sizeTexels_);
+  if (sampled)
+  {
+    glEnable(GL_MULTISAMPLE);
+  }
   glDisable(GL_POLYGON_OFFSET_FILL);
   glDisablei(GL_BLEND, 0);
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   for (std::size_t i = 0; i < views.size(); ++i)
   {
+    glBindFramebuffer(GL_FRAMEBUFFER, this->framebuffer_.name());
     glFramebufferTextureLayer(
       GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, this->map_.name(), 0, static_cast<GLint>(i));
+    glBindFramebuffer(GL_FRAMEBUFFER, target);
     const float farthest = 1.0f;
     glClearBufferfv(GL_DEPTH, 0, &farthest);
     glClearBufferfv(GL_COLOR, 0, glm::value_ptr(moments.empty));
-    std::vector<std::string> defines = { "DEPTH_LINEAR" };
+    std::vector<std::string> defines = { "DEPTH_LINEAR",
+      "SAMPLES " + std::to_string(this->samples_) };
     if (!views[i].depthIsAffine())
     {
       defines.emplace_back("WRITES_DEPTH");
@@ -95,6 +128,10 @@ void MomentMapTechnique::bake(const MapInput& input)
     drawCasters(i, input,
       { moments.glsl + ShaderLibrary::source("shadowtech/moment_map/moment_map_bake.frag.glsl"),
         defines });
+    if (sampled)
+    {
+      this->sampled_.average(this->framebuffer_.name());
+    }
   }
   if (input.light.kernelTexels > 1)
   {
@@ -107,8 +144,9 @@ void MomentMapTechnique::bake(const MapInput& input)
 std::size_t MomentMapTechnique::bytesOfMaps() const
 {
   const auto side = static_cast<std::size_t>(this->sizeTexels_);
-  const auto channels = static_cast<std::size_t>(this->layers_ * this->moments().count);
-  return side * side * (channels + (channels > 0 ? 1 : 0)) * sizeof(float) + this->blur_.bytes();
+  const auto channels =
+    static_cast<std::size_t>(this->layers_ * this->moments().count + (this->depth_ ? 1 : 0));
+  return side * side * channels * sizeof(float) + this->sampled_.bytes() + this->blur_.bytes();
 }
 
 //------------------------------------------------------------------------------

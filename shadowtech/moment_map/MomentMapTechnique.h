@@ -3,6 +3,7 @@
 
 #include "shadowtech/base/Technique.h"
 #include "shadowtech/moment_map/BoxBlur.h"
+#include "shadowtech/moment_map/SampledLayer.h"
 
 namespace gnomon
 {
@@ -27,6 +28,9 @@ namespace gnomon
 /// the variance is. A single texel has no variance of its own: its depths are taken to be spread by
 /// half of what they change by to the next texel (Donnelly and Lauritzen 2006, "derivative bias").
 /// Where there is no slope, the estimators have a floor to the variance.
+///
+/// A texel may be drawn with several samples (`map_samples`), each of which has its own depth, spread as
+/// the part of the texel is that it stands for.
 ///
 /// In concave corners the kernel's square holds what rises towards the light, and so darkens them
 /// within its width.
@@ -54,6 +58,9 @@ protected:
   };
   virtual Moments moments() const = 0;
 
+  /// What an estimator of this name is, like all others over moments.
+  static TechniqueInfo infoOf(const char* name);
+
   /// The source of float estimate_LIGHT(ViewPoint point, float slack), which includes moment_map.glsl.
   virtual std::string estimatorGlsl(const ShadowLight& light) const = 0;
 
@@ -61,11 +68,13 @@ private:
   void allocate(const ShadowLight& light, int layers);
 
   GlTexture map_;
-  GlTexture depth_; ///< of the layer that is being drawn
+  GlTexture depth_; ///< of the layer that is being drawn with one sample
   GlFramebuffer framebuffer_;
+  SampledLayer sampled_; ///< what it is drawn into with several
   BoxBlur blur_;
   int sizeTexels_ = 0;
   int layers_ = 0;
+  int samples_ = 0;
   LightViews views_;        ///< as baked
   TextureBinding viewFits_; ///< as baked
 };

@@ -8,11 +8,7 @@ namespace gnomon
 //------------------------------------------------------------------------------
 TechniqueInfo FourMoments::info()
 {
-  TechniqueInfo info;
-  info.name = "moments";
-  info.pointwise = true;
-  info.needsMap = true;
-  return info;
+  return infoOf("moments");
 }
 
 //------------------------------------------------------------------------------

@@ -8,11 +8,7 @@ namespace gnomon
 //------------------------------------------------------------------------------
 TechniqueInfo Variance::info()
 {
-  TechniqueInfo info;
-  info.name = "variance";
-  info.pointwise = true;
-  info.needsMap = true;
-  return info;
+  return infoOf("variance");
 }
 
 //------------------------------------------------------------------------------

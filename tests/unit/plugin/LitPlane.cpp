@@ -29,7 +29,8 @@ void expectNoAcneUnderTheSun(const Choose& choose, const std::vector<double>& de
 }
 
 //------------------------------------------------------------------------------
-void expectNoAcneAlongALongPlane(const Choose& choose, const std::vector<double>& degrees)
+void checkAlongALongPlane(
+  const Choose& choose, const std::vector<double>& degrees, const CheckSun& check)
 {
   for (const int mapSize : { 64, 256 })
   {
@@ -48,12 +49,24 @@ void expectNoAcneAlongALongPlane(const Choose& choose, const std::vector<double>
         const glm::dvec3 toLight(
           std::cos(around) * std::sin(angle), std::sin(around) * std::sin(angle), std::cos(angle));
         sun->SetPosition(toLight.x, toLight.y, toLight.z);
-        const Acne acne = countAcneOfSun(drawKept(scene), toLight);
-        EXPECT_GT(acne.facing, 5000u);
-        EXPECT_EQ(acne.dark, 0u) << degree << " degrees, turned by " << turn << ", map " << mapSize;
+        check(drawKept(scene), toLight,
+          std::to_string(degree) + " degrees, turned by " + std::to_string(turn) + ", map " +
+            std::to_string(mapSize));
       }
     }
   }
+}
+
+//------------------------------------------------------------------------------
+void expectNoAcneAlongALongPlane(const Choose& choose, const std::vector<double>& degrees)
+{
+  checkAlongALongPlane(choose, degrees,
+    [](const VisibilityImages& kept, const glm::dvec3& toLight, const std::string& where)
+    {
+      const Acne acne = countAcneOfSun(kept, toLight);
+      EXPECT_GT(acne.facing, 5000u);
+      EXPECT_EQ(acne.dark, 0u) << where;
+    });
 }
 
 //------------------------------------------------------------------------------

@@ -4,6 +4,7 @@
 #include "PassScene.h"
 
 #include <functional>
+#include <string>
 #include <vector>
 
 namespace gnomon::test
@@ -19,12 +20,21 @@ using Choose = std::function<void(PassScene&, vtkLight*)>;
 /// not agree.
 void expectNoAcneUnderTheSun(const Choose& choose, const std::vector<double>& degrees);
 
-/// The same of a plane that is seen along itself from its near end, where views are warped by much.
+/// The same of a plane that is seen along itself from its near end, where views are warped by much;
+/// with maps of 64 and 256 texels.
 void expectNoAcneAlongALongPlane(const Choose& choose, const std::vector<double>& degrees);
 
 /// Under spot lights of these cones, from above to grazing.
 void expectNoAcneUnderASpot(const Choose& choose, const std::vector<double>& conesDegrees);
 ///@}
+
+/// What is to be true of a picture of a plane under a sun, which `where` names.
+using CheckSun = std::function<void(
+  const VisibilityImages& kept, const glm::dvec3& toLight, const std::string& where)>;
+
+/// Draws that plane.
+void checkAlongALongPlane(
+  const Choose& choose, const std::vector<double>& degrees, const CheckSun& check);
 
 } // namespace gnomon::test
 

@@ -1,12 +1,17 @@
 // The quality of maps of moments of all techniques and projections, with their default settings: lit
 // surfaces are lit, shadows begin where they should, and no view breaks them.
 
+#include "LitPlane.h"
+#include "LiveObjects.h"
 #include "PassScene.h"
 
 #include "plugin/VisibilityImages.h"
 #include "plugin/vtkGnomonPropKeys.h"
 
 #include <vtkTransform.h>
+
+#include <gmock/gmock.h>
+#include <vtk_glew.h>
 
 #include <algorithm>
 #include <cmath>
@@ -134,6 +139,64 @@ TEST_P(MomentMaps, planeIsLitAtAnyAngle)
                                   << kernelSize;
       }
     }
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_P(MomentMaps, longPlaneIsLitAtAnyAngle)
+{
+  for (const char* kernelSize : { "1", "3", "16" })
+  {
+    checkAlongALongPlane(
+      [&](PassScene& scene, vtkLight*)
+      {
+        choose(scene);
+        scene.pass->SetSetting("kernel_size", kernelSize);
+        scene.pass->SetSetting("variance_floor", "1e-9");
+      },
+      { 30.0, 85.0 },
+      [&](const VisibilityImages& kept, const glm::dvec3& toLight, const std::string& where)
+      {
+        const Lit lit = litOf(kept, sunAt(toLight));
+        EXPECT_GT(lit.facing, 5000u);
+        // A warp makes a hyperbola of the plane's depths, the mean over which may lie before the
+        // receiver: of a kernel that is a quarter as wide as the map, by 0.014 at most.
+        const bool wide = std::string(kernelSize) == "16";
+        EXPECT_GE(lit.mean, wide ? 0.985 : 0.999)
+          << where << ", kernel " << kernelSize << ", least " << lit.least;
+      });
+  }
+}
+
+//------------------------------------------------------------------------------
+/// Seen from far away, receivers are rounded by parts of a texel. Under a grazing sun that moves them
+/// along the light by more than their slack, and what lights them at the middle of a texel, where
+/// bilinear filtering leaves no variance, is the spread of the texel's own depths.
+TEST_F(PassTest, spreadOfTexelsLightsAPlaneThatIsSeenFromAfar)
+{
+  for (const char* technique : { "vsm", "evsm" })
+  {
+    const std::vector<double> timesAsFar = { 70.0, 90.0, 120.0 };
+    double mean = 0.0;
+    for (const double times : timesAsFar)
+    {
+      PassScene scene(200, 200);
+      scene.addFloor(4.0);
+      const double angle = glm::radians(86.0);
+      const glm::dvec3 toLight(std::sin(angle), 0.0, std::cos(angle)); // along the map's rows
+      scene.addSun(-toLight);
+      scene.pass->SetTechnique(technique);
+      scene.pass->SetSetting("kernel_size", "1");
+      scene.pass->SetSetting("variance_floor", "1e-9");
+      scene.lookFrom(times * glm::dvec3(1.0, -7.0, 6.0));
+      scene.renderer->GetActiveCamera()->SetViewAngle(60.0 / times);
+      scene.renderer->ResetCameraClippingRange();
+      const Lit lit = litOf(drawKept(scene), sunAt(toLight));
+      EXPECT_GT(lit.facing, 5000u);
+      mean += lit.mean / static_cast<double>(timesAsFar.size());
+    }
+    EXPECT_GE(mean, 0.99) << technique;
+    this->RecordProperty(technique, std::to_string(mean));
   }
 }
 
@@ -364,4 +427,147 @@ TEST_P(MomentMaps, areBakedOnceAndOnlyForWhatTheMapDependsOn)
   scene.render();
   EXPECT_EQ(scene.report().mapBakes, 1);
   EXPECT_LT(scene.report().bytesMaps, bytes); // no layer to blur over
+}
+
+//------------------------------------------------------------------------------
+TEST_P(MomentMaps, severalSamplesOfATexelAreNearerToItsMean)
+{
+  // A plate whose edges run across the texels of a coarse map, of which one sample makes stairs.
+  PassScene scene(200, 200);
+  choose(scene);
+  scene.addFloor(4.0);
+  vtkNew<vtkTransform> turn;
+  turn->RotateZ(17.0);
+  scene.addBox({ -1.5, -1.5, 2.0 }, { 1.5, 1.5, 2.1 })->SetUserTransform(turn);
+  scene.addSun({ 0.0, 0.0, -1.0 });
+  scene.pass->SetSetting("kernel_size", "1");
+  scene.pass->SetSetting("bleeding", "0");
+  scene.lookFrom({ 0.0, -9.0, 7.0 });
+  const auto draw = [&](int size, const char* kernelSize, const char* samples)
+  {
+    scene.pass->SetMapSize(size);
+    scene.pass->SetSetting("kernel_size", kernelSize);
+    scene.pass->SetSetting("map_samples", samples);
+    VisibilityImages kept = drawKept(scene);
+    EXPECT_EQ(scene.report().mapBakes, 1);
+    EXPECT_EQ(scene.report().lights[0].mapSamples, std::stoi(samples));
+    return kept;
+  };
+  // A texel's mean and the bilinear filter over it are as wide as 1.75 texels of equal weight.
+  const VisibilityImages smooth = draw(512, "14", "1");
+  const auto meanDifference = [&](const VisibilityImages& kept)
+  {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < kept.coverage.size(); ++i)
+    {
+      sum += std::abs(kept.visibility[0][i] - smooth.visibility[0][i]);
+    }
+    return sum / static_cast<double>(kept.coverage.size());
+  };
+  const double one = meanDifference(draw(64, "1", "1"));
+  const std::size_t bytes = scene.report().bytesMaps;
+  const double four = meanDifference(draw(64, "1", "4"));
+  EXPECT_GT(scene.report().bytesMaps, bytes + 3 * 64 * 64 * 8);
+  EXPECT_LE(four, 0.7 * one);
+  EXPECT_EQ(meanDifference(draw(64, "1", "1")), one);
+  EXPECT_EQ(scene.report().bytesMaps, bytes);
+  this->RecordProperty("one", std::to_string(one));
+  this->RecordProperty("four", std::to_string(four));
+}
+
+//------------------------------------------------------------------------------
+TEST_P(MomentMaps, planeIsLitWithSeveralSamplesOfATexel)
+{
+  for (const char* kernelSize : { "1", "3" })
+  {
+    PassScene scene(150, 150);
+    choose(scene);
+    scene.addFloor(4.0);
+    vtkLight* sun = scene.addSun({ 0.0, 0.0, -1.0 });
+    scene.pass->SetMapSize(128);
+    scene.pass->SetSetting("map_samples", "4");
+    scene.pass->SetSetting("kernel_size", kernelSize);
+    scene.pass->SetSetting("variance_floor", "1e-9");
+    scene.lookFrom({ 1.0, -7.0, 6.0 });
+    for (const double degrees : { 0.0, 30.0, 60.0, 85.0, 89.0 })
+    {
+      const double angle = glm::radians(degrees);
+      const glm::dvec3 toLight(0.8 * std::sin(angle), 0.6 * std::sin(angle), std::cos(angle));
+      sun->SetPosition(toLight.x, toLight.y, toLight.z);
+      const Lit lit = litOf(drawKept(scene), sunAt(toLight));
+      EXPECT_GT(lit.facing, 5000u);
+      EXPECT_GE(lit.mean, 0.999) << degrees << " degrees, kernel " << kernelSize;
+      EXPECT_GE(lit.least, 0.9) << degrees << " degrees, kernel " << kernelSize;
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(PassTest, samplesThatOpenGlDoesNotHaveAreNoted)
+{
+  PassScene scene(100, 80);
+  scene.addFloor(4.0);
+  scene.addSphere({ 0.0, 0.0, 1.5 }, 0.7);
+  scene.addSun({ 1.0, 0.4, -1.5 });
+  scene.lookFrom({ 0.0, -9.0, 7.0 });
+  scene.pass->SetTechnique("vsm");
+  scene.pass->SetSetting("map_samples", "8");
+  scene.render();
+  const int samples = scene.report().lights[0].mapSamples;
+  const std::vector<std::string> notes = scene.report().notes;
+  if (samples == 8)
+  {
+    EXPECT_TRUE(notes.empty());
+    return;
+  }
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_EQ(notes[0],
+    "light 0: OpenGL draws maps with at most " + std::to_string(samples) +
+      " samples of a texel, not 8");
+}
+
+//------------------------------------------------------------------------------
+TEST_F(PassTest, depthsAreNotDrawnWithSeveralSamples)
+{
+  PassScene scene(100, 80);
+  scene.addFloor(4.0);
+  scene.addSun({ 1.0, 0.4, -1.5 });
+  scene.lookFrom({ 0.0, -9.0, 7.0 });
+  scene.pass->SetTechnique("pcf");
+  scene.pass->SetSetting("map_samples", "4");
+  scene.render();
+  EXPECT_THAT(
+    this->takeErrors(), testing::HasSubstr("'pcf' reads depths, which may not be averaged"));
+}
+
+//------------------------------------------------------------------------------
+TEST_F(PassTest, samplesOnAndOffKeepTheNumberOfObjects)
+{
+  PassScene scene(100, 80);
+  scene.addFloor(4.0);
+  scene.addSphere({ 0.0, 0.0, 1.5 }, 0.7);
+  scene.addSun({ 1.0, 0.4, -1.5 });
+  scene.lookFrom({ 0.0, -9.0, 7.0 });
+  scene.pass->SetTechnique("vsm");
+  const auto draw = [&](const char* samples)
+  {
+    scene.pass->SetSetting("map_samples", samples);
+    scene.render();
+    return countLiveObjects(scene.window);
+  };
+  draw("4");
+  const LiveObjects one = draw("1");
+  const LiveObjects four = draw("4");
+  EXPECT_EQ(four.renderbuffers, one.renderbuffers + 2);
+  EXPECT_EQ(four.framebuffers, one.framebuffers + 1);
+  GLint renderbuffer = -1;
+  glGetIntegerv(GL_RENDERBUFFER_BINDING, &renderbuffer);
+  for (int time = 0; time < 5; ++time)
+  {
+    EXPECT_EQ(draw("1"), one);
+    EXPECT_EQ(draw("4"), four);
+  }
+  GLint after = -1;
+  glGetIntegerv(GL_RENDERBUFFER_BINDING, &after);
+  EXPECT_EQ(after, renderbuffer);
 }

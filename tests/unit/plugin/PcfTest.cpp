@@ -426,6 +426,26 @@ TEST_F(PassTest, anotherKernelIsBakedOnceAndReported)
   scene.pass->SetTechnique("nsm");
   scene.render();
   EXPECT_EQ(scene.report().lights[0].kernel, "");
+  EXPECT_EQ(scene.report().lights[0].kernelTexels, 0);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(PassTest, kernelsOfTechniquesThatHaveTheirOwnAreReported)
+{
+  PassScene scene(100, 80);
+  scene.addFloor(4.0);
+  scene.addSun({ 1.0, 0.4, -1.5 });
+  scene.lookFrom({ 0.0, -9.0, 7.0 });
+  scene.pass->SetSetting("kernel", "castano"); // of no meaning to them, nor that it has no size 6
+  scene.pass->SetSetting("kernel_size", "6");
+  for (const auto& [technique, kernel] : std::map<std::string, std::string>{
+         { "adaptive", "disc" }, { "vsm", "square" }, { "evsm", "square" }, { "msm", "square" } })
+  {
+    scene.pass->SetTechnique(technique.c_str());
+    scene.render();
+    EXPECT_EQ(scene.report().lights[0].kernel, kernel) << technique;
+    EXPECT_EQ(scene.report().lights[0].kernelTexels, 6) << technique;
+  }
 }
 
 //------------------------------------------------------------------------------

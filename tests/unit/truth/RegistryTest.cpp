@@ -110,6 +110,27 @@ TEST(Registry, takesOrRefusesEveryComposition)
   }
 }
 
+TEST(Registry, refusesToAverageDepths)
+{
+  for (const EstimatorEntry& estimator : estimators())
+  {
+    ShadowSettings settings;
+    settings.estimator = estimator.info.name;
+    settings.mapSamples = 4;
+    const bool depths = estimator.info.needsMap && !estimator.info.averagesMap;
+    const char* verdict = depths ? "map_samples" : "";
+    expectVerdicts(settings, { verdict, verdict, verdict, verdict }, settings.estimator);
+  }
+  for (const char* name : { "compare", "pcf", "adaptive" })
+  {
+    EXPECT_FALSE(findEstimator(name)->info.averagesMap) << name;
+  }
+  for (const char* name : { "variance", "exponential", "moments" })
+  {
+    EXPECT_TRUE(findEstimator(name)->info.averagesMap) << name;
+  }
+}
+
 TEST(Registry, completesTheLight)
 {
   ShadowLight light = lightOf(LightKind::Directional);

@@ -1,0 +1,49 @@
+#include "shadowtech/moment_map/SampledLayer.h"
+
+namespace gnomon
+{
+
+//------------------------------------------------------------------------------
+void SampledLayer::allocate(const TexelFormat& format, int sizeTexels, int samplesPerTexel)
+{
+  this->release(); // in case that there is no memory
+  allocateSamples(this->moments_, format, sizeTexels, samplesPerTexel);
+  allocateSamples(
+    this->depth_, { GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, 1 }, sizeTexels, samplesPerTexel);
+  glBindFramebuffer(GL_FRAMEBUFFER, this->framebuffer_.create());
+  glFramebufferRenderbuffer(
+    GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, this->moments_.name());
+  glFramebufferRenderbuffer(
+    GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, this->depth_.name());
+  this->sizeTexels_ = sizeTexels;
+  this->samples_ = samplesPerTexel;
+  this->channels_ = format.channels + 1;
+}
+
+//------------------------------------------------------------------------------
+void SampledLayer::average(GLuint framebuffer) const
+{
+  const GLint size = this->sizeTexels_;
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, this->framebuffer_.name());
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
+  glBlitFramebuffer(0, 0, size, size, 0, 0, size, size, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  glBindFramebuffer(GL_FRAMEBUFFER, this->framebuffer_.name());
+}
+
+//------------------------------------------------------------------------------
+void SampledLayer::release()
+{
+  this->moments_.reset();
+  this->depth_.reset();
+  this->framebuffer_.reset();
+  this->samples_ = 0;
+}
+
+//------------------------------------------------------------------------------
+std::size_t SampledLayer::bytes() const
+{
+  const auto side = static_cast<std::size_t>(this->sizeTexels_);
+  return side * side * static_cast<std::size_t>(this->samples_ * this->channels_) * sizeof(float);
+}
+
+} // namespace gnomon
