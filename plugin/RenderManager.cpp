@@ -1,6 +1,7 @@
 #include "plugin/RenderManager.h"
 
 #include "lights/KernelShape.h"
+#include "plugin/DrawnProps.h"
 #include "plugin/Hash.h"
 #include "plugin/vtkGnomonShadowPass.h"
 #include "shadowtech/Registry.h"
@@ -11,7 +12,6 @@
 #include <vtkFrameBufferObjectBase.h>
 #include <vtkInformation.h>
 #include <vtkInformationObjectBaseVectorKey.h>
-#include <vtkMatrix4x4.h>
 #include <vtkOpenGLRenderPass.h>
 #include <vtkOpenGLRenderWindow.h>
 #include <vtkOpenGLState.h>
@@ -34,19 +34,6 @@ using Clock = std::chrono::steady_clock;
 double millisecondsSince(Clock::time_point start)
 {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
-
-glm::dmat4 fromVtk(vtkMatrix4x4* matrix)
-{
-  glm::dmat4 result;
-  for (int row = 0; row < 4; ++row)
-  {
-    for (int column = 0; column < 4; ++column)
-    {
-      result[column][row] = matrix->GetElement(row, column);
-    }
-  }
-  return result;
 }
 
 /// The name of the kernel that an estimator reads a light's map with; empty: it reads it with none.
@@ -208,7 +195,7 @@ bool RenderManager::collectLights(vtkRenderer* renderer, const ShadowSettings& d
       throw FrameError("light " + std::to_string(light.sceneIndex) + ": " + error.what());
     }
     const TechniqueInfo& info = estimator->info;
-    const int mostSamples = light.mapSamples > 1 ? mostMapSamples() : 1;
+    const int mostSamples = info.averagesMap ? mostMapSamples() : light.mapSamples;
     if (light.mapSamples > mostSamples)
     {
       this->report_.notes.push_back("light " + std::to_string(light.sceneIndex) +
@@ -429,7 +416,7 @@ glm::dmat4 RenderManager::centredFromView(vtkRenderer* renderer) const
 {
   // The camera's rigid inverse, moved by the centre before anything becomes float.
   glm::dmat4 matrix =
-    glm::inverse(fromVtk(renderer->GetActiveCamera()->GetModelViewTransformMatrix()));
+    glm::inverse(toGlm(renderer->GetActiveCamera()->GetModelViewTransformMatrix()));
   matrix[3] -= glm::dvec4(this->collector_.occluders().centreWorld, 0.0);
   return matrix;
 }
@@ -441,7 +428,7 @@ CameraView RenderManager::camera(vtkRenderer* renderer) const
   CameraView view;
   view.viewFromCentred = glm::inverse(this->centredFromView(renderer));
   view.clipFromView =
-    fromVtk(camera->GetProjectionTransformMatrix(renderer->GetTiledAspectRatio(), -1.0, 1.0));
+    toGlm(camera->GetProjectionTransformMatrix(renderer->GetTiledAspectRatio(), -1.0, 1.0));
   return view;
 }
 

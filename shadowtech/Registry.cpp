@@ -33,21 +33,6 @@ const std::string& nameOf(const TechniqueEntry& entry)
   return entry.name;
 }
 
-/// A setting by which a light asks for averages of its map's texels; empty: none.
-std::string averagingSetting(const ShadowLight& light)
-{
-  const ShadowSettings plain;
-  for (const char* name : { "map_samples" })
-  {
-    const Setting* setting = findSetting(name);
-    if (setting->get(light) != setting->get(plain))
-    {
-      return name;
-    }
-  }
-  return "";
-}
-
 template <typename Entry>
 const Entry* find(const std::vector<Entry>& entries, const std::string& name)
 {
@@ -199,11 +184,10 @@ const EstimatorEntry& compose(ShadowLight& light)
     throw CompositionError(
       "the kernel 'castano' has the sizes 3, 5 and 7, not " + std::to_string(light.kernelTexels));
   }
-  const std::string averaging = averagingSetting(light);
-  if (info.needsMap && !info.averagesMap && !averaging.empty())
+  if (info.needsMap && !info.averagesMap && light.mapSamples > 1)
   {
-    throw CompositionError("'" + light.estimator + "' reads depths, which may not be averaged; '" +
-      averaging + "' is for maps of moments");
+    throw CompositionError("'" + light.estimator +
+      "' reads depths, which may not be averaged; 'map_samples' is for maps of moments");
   }
   const std::string refused = refusedProjection(light);
   if (!refused.empty())

@@ -5,6 +5,7 @@
 // A picture that moves scans what is wrong in it at other points, and would flicker by that alone. So
 // for a moving camera the maps are fitted to where it is, and looked up from where it was at first.
 
+#include "BenchmarkMain.h"
 #include "Errors.h"
 #include "FrameVariant.h"
 #include "Scene.h"
@@ -20,7 +21,6 @@
 
 #include <array>
 #include <cmath>
-#include <exception>
 #include <iomanip>
 #include <iostream>
 #include <string>
@@ -218,13 +218,6 @@ int run(int argc, char** argv)
 
 int main(int argc, char** argv)
 {
-  try
-  {
-    return gnomon::tool::run(argc, argv);
-  }
-  catch (const std::exception& error)
-  {
-    std::cerr << "gnomon_benchmark_flicker: error: " << error.what() << "\n";
-    return 1;
-  }
+  return gnomon::tool::runBenchmark(
+    "gnomon_benchmark_flicker", [&] { return gnomon::tool::run(argc, argv); });
 }

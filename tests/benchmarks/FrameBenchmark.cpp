@@ -1,6 +1,7 @@
 // What a whole frame costs, by wall clock: plain VTK, VTK's own shadows, and the pass in its variants
 // take turns frame by frame on one scene.
 
+#include "BenchmarkMain.h"
 #include "Commands.h"
 #include "Errors.h"
 #include "FrameTiming.h"
@@ -20,7 +21,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <exception>
 #include <fstream>
 #include <iomanip>
 #include <iostream>
@@ -206,13 +206,6 @@ int run(int argc, char** argv)
 
 int main(int argc, char** argv)
 {
-  try
-  {
-    return gnomon::tool::run(argc, argv);
-  }
-  catch (const std::exception& error)
-  {
-    std::cerr << "gnomon_benchmark_frames: error: " << error.what() << "\n";
-    return 1;
-  }
+  return gnomon::tool::runBenchmark(
+    "gnomon_benchmark_frames", [&] { return gnomon::tool::run(argc, argv); });
 }

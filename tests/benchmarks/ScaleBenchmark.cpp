@@ -1,6 +1,7 @@
 // What large scenes cost: time per stage, counters and memory, frame by frame, of one large surface,
 // of many props, or of many blocks of one prop.
 
+#include "BenchmarkMain.h"
 #include "Errors.h"
 #include "VtkMessages.h"
 
@@ -24,7 +25,6 @@
 #include <CLI/CLI.hpp>
 
 #include <cmath>
-#include <exception>
 #include <fstream>
 #include <functional>
 #include <iomanip>
@@ -246,13 +246,6 @@ int run(int argc, char** argv)
 
 int main(int argc, char** argv)
 {
-  try
-  {
-    return gnomon::tool::run(argc, argv);
-  }
-  catch (const std::exception& error)
-  {
-    std::cerr << "gnomon_benchmark_scale: error: " << error.what() << "\n";
-    return 1;
-  }
+  return gnomon::tool::runBenchmark(
+    "gnomon_benchmark_scale", [&] { return gnomon::tool::run(argc, argv); });
 }

@@ -1,5 +1,7 @@
 #include "LitPlane.h"
 
+#include <vtkTransform.h>
+
 #include <cmath>
 
 namespace gnomon::test
@@ -98,6 +100,39 @@ void expectNoAcneUnderASpot(const Choose& choose, const std::vector<double>& con
         EXPECT_GT(acne.facing, 5000u);
         EXPECT_EQ(acne.dark, 0u) << "cone " << cone << ", height " << height << ", map " << mapSize;
       }
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+void addTrough(PassScene& scene)
+{
+  scene.addFloor(2.0);
+  for (const glm::dvec2& side : { glm::dvec2(-1.0, 0.0), { 0.0, -1.0 } })
+  {
+    vtkNew<vtkTransform> stand;
+    stand->Translate(2.0 * side.x, 2.0 * side.y, 2.0);
+    stand->RotateWXYZ(90.0, side.y, -side.x, 0.0);
+    scene.addFloor(2.0)->SetUserTransform(stand);
+  }
+}
+
+//------------------------------------------------------------------------------
+void expectNoAcneInATrough(const Choose& choose, const std::vector<int>& mapSizes)
+{
+  for (const int mapSize : mapSizes)
+  {
+    for (const glm::dvec3& direction :
+      { glm::dvec3(-1.0, -0.8, -1.0), { -0.3, -1.0, -0.1 }, { -0.1, -0.1, -1.0 } })
+    {
+      PassScene scene(200, 200);
+      addTrough(scene);
+      choose(scene, scene.addSun(direction));
+      scene.pass->SetMapSize(mapSize);
+      scene.lookFrom({ 8.0, 9.0, 7.0 });
+      const Acne acne = countAcneOfSun(drawKept(scene), -direction);
+      EXPECT_GT(acne.facing, 8000u);
+      EXPECT_EQ(acne.dark, 0u) << "map " << mapSize << ", sun along " << direction.x;
     }
   }
 }

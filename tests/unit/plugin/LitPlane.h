@@ -26,7 +26,14 @@ void expectNoAcneAlongALongPlane(const Choose& choose, const std::vector<double>
 
 /// Under spot lights of these cones, from above to grazing.
 void expectNoAcneUnderASpot(const Choose& choose, const std::vector<double>& conesDegrees);
+
+/// Expects a trough of a floor and two walls without thickness, which the sun sees from within, to be
+/// fully lit.
+void expectNoAcneInATrough(const Choose& choose, const std::vector<int>& mapSizes);
 ///@}
+
+/// That trough, of side 4 around the origin.
+void addTrough(PassScene& scene);
 
 /// What is to be true of a picture of a plane under a sun, which `where` names.
 using CheckSun = std::function<void(

@@ -4,6 +4,8 @@
 #include "shadowtech/base/LightViewsGlsl.h"
 #include "shadowtech/base/ShaderLibrary.h"
 
+#include <utility>
+
 namespace gnomon::test
 {
 
@@ -11,6 +13,46 @@ namespace gnomon::test
 LightViews sunViews(const ShadowLight& light)
 {
   return fitLightViews(light, glm::dvec3(0.0), { glm::dvec3(-1.0), glm::dvec3(1.0) }, mapSize);
+}
+
+//------------------------------------------------------------------------------
+std::vector<float> visibilityAt(const Technique& technique, const ShadowLight& light,
+  ShaderLibrary& library, std::vector<glm::vec4> pointsView, const glm::vec3& normalView,
+  std::vector<Uniform> uniforms)
+{
+  const std::size_t count = pointsView.size();
+  pointsView.resize((count + 63) / 64 * 64);
+  const std::string source = numberedForLight(technique.visibilityGlsl(light) + R"(
+layout(local_size_x = 64) in;
+layout(std430, binding = 0) readonly buffer Inputs { vec4 inputs[]; };
+layout(std430, binding = 1) writeonly buffer Outputs { float outputs[]; };
+uniform vec3 normal;
+void main()
+{
+  uint i = gl_GlobalInvocationID.x;
+  outputs[i] = visibility_LIGHT(inputs[i].xyz, normal);
+}
+)",
+    0);
+  const GLuint program = library.program({ { GL_COMPUTE_SHADER, source } });
+  GlBuffer buffers[2];
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, buffers[0].create());
+  glBufferData(GL_SHADER_STORAGE_BUFFER,
+    static_cast<GLsizeiptr>(pointsView.size() * sizeof(glm::vec4)), pointsView.data(),
+    GL_STATIC_DRAW);
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, buffers[1].create());
+  std::vector<float> outputs(pointsView.size());
+  const auto bytes = static_cast<GLsizeiptr>(outputs.size() * sizeof(float));
+  glBufferData(GL_SHADER_STORAGE_BUFFER, bytes, nullptr, GL_DYNAMIC_READ);
+  glUseProgram(program);
+  uniforms.push_back({ "normal", normalView });
+  ShaderLibrary::setUniforms(program, uniforms, 0, 0);
+  glDispatchCompute(static_cast<GLuint>(pointsView.size() / 64), 1, 1);
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  glGetBufferSubData(GL_SHADER_STORAGE_BUFFER, 0, bytes, outputs.data());
+  glUseProgram(0);
+  outputs.resize(count);
+  return outputs;
 }
 
 //------------------------------------------------------------------------------
@@ -28,7 +70,6 @@ std::vector<float> runGlsl(const Technique& technique, const ShadowLight& light,
     const glm::dvec2 across = mapped(acrossFromTexel, place);
     points.emplace_back(centredFromView * glm::dvec4(across, distance, 1.0));
   }
-  points.resize((points.size() + 63) / 64 * 64);
   std::vector<float> depths;
   for (int y = 0; y < mapSize; ++y)
   {
@@ -38,50 +79,22 @@ std::vector<float> runGlsl(const Technique& technique, const ShadowLight& light,
     }
   }
 
-  ShaderLibrary library;
-  const std::string source = numberedForLight(technique.visibilityGlsl(light) + R"(
-layout(local_size_x = 64) in;
-layout(std430, binding = 0) readonly buffer Inputs { vec4 inputs[]; };
-layout(std430, binding = 1) writeonly buffer Outputs { float outputs[]; };
-uniform vec3 normal;
-void main()
-{
-  uint i = gl_GlobalInvocationID.x;
-  outputs[i] = visibility_LIGHT(inputs[i].xyz, normal);
-}
-)",
-    0);
-  const GLuint program = library.program({ { GL_COMPUTE_SHADER, source } });
   GlTexture texture;
   glBindTexture(GL_TEXTURE_2D_ARRAY, texture.create());
   glTexImage3D(
     GL_TEXTURE_2D_ARRAY, 0, GL_R32F, mapSize, mapSize, 1, 0, GL_RED, GL_FLOAT, depths.data());
   glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-  GlBuffer buffers[2];
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, buffers[0].create());
-  glBufferData(GL_SHADER_STORAGE_BUFFER, static_cast<GLsizeiptr>(points.size() * sizeof(glm::vec4)),
-    points.data(), GL_STATIC_DRAW);
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, buffers[1].create());
-  std::vector<float> outputs(points.size());
-  const auto bytes = static_cast<GLsizeiptr>(outputs.size() * sizeof(float));
-  glBufferData(GL_SHADER_STORAGE_BUFFER, bytes, nullptr, GL_DYNAMIC_READ);
-  glUseProgram(program);
   std::vector<Uniform> uniforms = lightViewsUniforms(views, mapSize, glm::dmat4(1.0));
   uniforms.push_back({ "depthMap_LIGHT", TextureBinding{ GL_TEXTURE_2D_ARRAY, texture.name() } });
   uniforms.push_back({ "depthSlacks_LIGHT", glm::vec2(1e-6, 0.0) });
-  uniforms.push_back({ "normal", glm::vec3(-light.directionWorld) });
   const MapReach reach = technique.mapReach(light);
   uniforms.push_back({ "kernelUnit_LIGHT",
     static_cast<float>(reach.unitAcross > 0.0 ? reach.unitAcross : reach.largestStretch) });
   uniforms.insert(uniforms.end(), more.begin(), more.end());
-  ShaderLibrary::setUniforms(program, uniforms, 0, 0);
-  glDispatchCompute(static_cast<GLuint>(points.size() / 64), 1, 1);
-  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-  glGetBufferSubData(GL_SHADER_STORAGE_BUFFER, 0, bytes, outputs.data());
-  glUseProgram(0);
-  outputs.resize(places.size());
-  return outputs;
+  ShaderLibrary library;
+  return visibilityAt(technique, light, library, std::move(points),
+    glm::vec3(-light.directionWorld), std::move(uniforms));
 }
 
 } // namespace gnomon::test

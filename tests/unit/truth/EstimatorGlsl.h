@@ -27,6 +27,14 @@ using Map = std::function<bool(const glm::ivec2&)>;
 /// The views of a sun around the cube [-1, 1]^3.
 LightViews sunViews(const ShadowLight& light);
 
+/// What a technique's GLSL answers at points, on a plane.
+/// @param pointsView in the camera's view coordinates
+/// @param normalView of the plane
+/// @param uniforms of the technique
+std::vector<float> visibilityAt(const Technique& technique, const ShadowLight& light,
+  ShaderLibrary& library, std::vector<glm::vec4> pointsView, const glm::vec3& normalView,
+  std::vector<Uniform> uniforms);
+
 /// What the shader answers at places of the first view's map, on a plane across the light.
 /// @param more uniforms of the technique, which has baked nothing
 std::vector<float> runGlsl(const Technique& technique, const ShadowLight& light,

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <map>
 #include <string>
+#include <utility>
 
 namespace gnomon::test
 {
@@ -92,36 +93,9 @@ protected:
       const glm::dvec3 centred = glm::dvec3(x, y, above ? 2.0 : 0.0) - occluders.centreWorld;
       inputs.emplace_back(viewFromCentred * glm::dvec4(centred, 1.0));
     }
-    const std::string source = numberedForLight(technique->visibilityGlsl(light) + R"(
-layout(local_size_x = 64) in;
-layout(std430, binding = 0) readonly buffer Inputs { vec4 inputs[]; };
-layout(std430, binding = 1) writeonly buffer Outputs { float outputs[]; };
-uniform vec3 normal;
-void main()
-{
-  uint i = gl_GlobalInvocationID.x;
-  outputs[i] = visibility_LIGHT(inputs[i].xyz, normal);
-}
-)",
-      0);
-    const GLuint program = library.program({ { GL_COMPUTE_SHADER, source } });
-    GlBuffer storage[2];
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, storage[0].create());
-    glBufferData(GL_SHADER_STORAGE_BUFFER,
-      static_cast<GLsizeiptr>(inputs.size() * sizeof(glm::vec4)), inputs.data(), GL_STATIC_DRAW);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, storage[1].create());
-    std::vector<float> outputs(inputs.size());
-    const auto bytes = static_cast<GLsizeiptr>(outputs.size() * sizeof(float));
-    glBufferData(GL_SHADER_STORAGE_BUFFER, bytes, nullptr, GL_DYNAMIC_READ);
-    glUseProgram(program);
-    std::vector<Uniform> uniforms = technique->uniforms(centredFromView);
-    uniforms.push_back(
-      { "normal", glm::vec3(glm::dmat3(viewFromCentred) * glm::dvec3(0.0, 0.0, 1.0)) });
-    ShaderLibrary::setUniforms(program, uniforms, 0, 0);
-    glDispatchCompute(static_cast<GLuint>(points / 64), 1, 1);
-    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-    glGetBufferSubData(GL_SHADER_STORAGE_BUFFER, 0, bytes, outputs.data());
-    glUseProgram(0);
+    const std::vector<float> outputs = visibilityAt(*technique, light, library, std::move(inputs),
+      glm::vec3(glm::dmat3(viewFromCentred) * glm::dvec3(0.0, 0.0, 1.0)),
+      technique->uniforms(centredFromView));
     EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
     return outputs;
   }
