@@ -3,11 +3,14 @@
 #include "lights/LightViews.h"
 #include "shadowtech/adaptive/Adaptive.h"
 #include "shadowtech/compare/Compare.h"
+#include "shadowtech/crsm/Crsm.h"
+#include "shadowtech/crsma/Crsma.h"
 #include "shadowtech/exponential/Exponential.h"
 #include "shadowtech/moments/FourMoments.h"
 #include "shadowtech/pcf/Pcf.h"
 #include "shadowtech/planar/Planar.h"
 #include "shadowtech/raytraced/Raytraced.h"
+#include "shadowtech/silhouette/Silhouette.h"
 #include "shadowtech/variance/Variance.h"
 
 #include <algorithm>
@@ -66,6 +69,9 @@ const std::vector<EstimatorEntry>& estimators()
     entry<FourMoments>(),
     entry<Planar>(),
     entry<Raytraced>(),
+    entry<Crsm>(),
+    entry<Crsma>(),
+    entry<Silhouette>(),
   };
   return entries;
 }
@@ -95,6 +101,13 @@ const std::vector<TechniqueEntry>& registry()
       findEstimator("compare"), Projection::Splits },
     { "planar", "hard, soft: casters projected onto the flat receivers, with no shadows elsewhere",
       findEstimator("planar"), Projection::Uniform },
+    { "crsm", "hard, exact: a conservative map decides pixels under single triangles, rays the rest",
+      findEstimator("crsm"), Projection::Uniform },
+    { "crsma", "hard, exact: crsm which also decides pixels under a triangle and its neighbours",
+      findEstimator("crsma"), Projection::Uniform },
+    { "silhouette",
+      "hard, exact: a conservative map that knows where casters end decides most pixels, rays the rest",
+      findEstimator("silhouette"), Projection::Uniform },
     { "raytraced", "hard, exact: a shadow ray for every pixel; the truth",
       findEstimator("raytraced"), Projection::Uniform },
   };

@@ -315,6 +315,19 @@ void makeRays(const ReceiverRow& row, Columns columns, const std::uint8_t* recei
   }
 }
 
+/// Leaves out the rays of one row of a tile whose answer is known.
+void takeCertain(const Certainty* certain, std::size_t columns, std::size_t first,
+  TilePixels& pixels, TileArray<float>& visibility)
+{
+  for (std::size_t x = 0; x < columns; ++x)
+  {
+    const bool traced = pixels.traced[first + x] != 0;
+    visibility[first + x] =
+      traced && certain[x] == Certainty::Shadow ? 0.0f : visibility[first + x];
+    pixels.traced[first + x] = traced && certain[x] == Certainty::Uncertain ? -1 : 0;
+  }
+}
+
 /// The whole image, tile by tile.
 /// @param scene null where nothing casts
 /// @param coherence of the rays of a packet
@@ -322,7 +335,8 @@ void makeRays(const ReceiverRow& row, Columns columns, const std::uint8_t* recei
 template <typename Packet, typename MakeRay>
 std::size_t traceImage(RTCScene scene, RTCIntersectContextFlags coherence,
   const ReceiverPixels& receivers, const std::vector<std::uint8_t>& receives,
-  const MakeRay& makeRay, float rayFar, std::vector<float>& visibility)
+  const MakeRay& makeRay, float rayFar, std::vector<float>& visibility,
+  const std::vector<Certainty>& certain)
 {
   const auto width = static_cast<std::size_t>(receivers.width);
   const auto height = static_cast<std::size_t>(receivers.height);
@@ -352,6 +366,10 @@ std::size_t traceImage(RTCScene scene, RTCIntersectContextFlags coherence,
         };
         columns == tileColumns ? make(std::integral_constant<std::size_t, tileColumns>())
                                : make(columns);
+      }
+      for (std::size_t y = 0; y < rows && !certain.empty(); ++y)
+      {
+        takeCertain(&certain[(y0 + y) * width + x0], columns, y * tileColumns, pixels, tileVisibility);
       }
       if (scene)
       {
@@ -581,7 +599,8 @@ RayTracer::Update RayTracer::update(const Occluders& occluders)
 
 //------------------------------------------------------------------------------
 std::size_t RayTracer::trace(const ShadowLight& light, const Occluders& occluders,
-  const ReceiverPixels& receivers, std::vector<float>& visibility) const
+  const ReceiverPixels& receivers, std::vector<float>& visibility,
+  const std::vector<Certainty>& certain) const
 {
   visibility.resize(receivers.size());
   std::vector<std::uint8_t> receives{ 0 };
@@ -602,8 +621,10 @@ std::size_t RayTracer::trace(const ShadowLight& light, const Occluders& occluder
     [&](const auto& makeRay, float rayFar)
     {
       return this->impl_->lanes16
-        ? traceImage<RTCRay16>(scene, coherence, receivers, receives, makeRay, rayFar, visibility)
-        : traceImage<RTCRay8>(scene, coherence, receivers, receives, makeRay, rayFar, visibility);
+        ? traceImage<RTCRay16>(
+            scene, coherence, receivers, receives, makeRay, rayFar, visibility, certain)
+        : traceImage<RTCRay8>(
+            scene, coherence, receivers, receives, makeRay, rayFar, visibility, certain);
     });
 }
 

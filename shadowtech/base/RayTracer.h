@@ -6,11 +6,20 @@
 #include "shadowtech/base/Receivers.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
 namespace gnomon
 {
+
+/// What is known of a receiver's shadow ray without tracing it.
+enum class Certainty : std::uint8_t
+{
+  Uncertain,
+  Lit,
+  Shadow
+};
 
 /// Shadow rays against the casting surfaces, by Embree in robust mode: the truth, and the one entry
 /// point for whoever traces.
@@ -39,9 +48,11 @@ public:
   /// are not covered, or whose surface does not receive, get 1.
   ///
   /// @param visibility resized to the receivers' size, in their order
+  /// @param certain what is known of each receiver without its ray, in the same order; empty: nothing
   /// @return the number of rays traced
   std::size_t trace(const ShadowLight& light, const Occluders& occluders,
-    const ReceiverPixels& receivers, std::vector<float>& visibility) const;
+    const ReceiverPixels& receivers, std::vector<float>& visibility,
+    const std::vector<Certainty>& certain = {}) const;
 
   /// Memory that Embree holds for this tracer.
   std::size_t bytes() const;

@@ -239,6 +239,14 @@ Occluders makeOccluders(const std::vector<Prop>& props)
     occluders.positionsCentred.emplace_back(point - occluders.centreWorld);
     occluders.allCentred.add(glm::dvec3(occluders.positionsCentred.back()));
   }
+  for (const Surface& surface : occluders.surfaces)
+  {
+    for (std::uint32_t i = 0; surface.casts && i < surface.vertexCount; ++i)
+    {
+      occluders.castersCentred.add(
+        glm::dvec3(occluders.positionsCentred[surface.firstVertex + i]));
+    }
+  }
   occluders.topologyVersion = occluders.positionsVersion = ++version;
   return occluders;
 }

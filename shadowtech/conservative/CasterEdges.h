@@ -1,0 +1,73 @@
+#ifndef gnomon_shadowtech_conservative_CasterEdges_h
+#define gnomon_shadowtech_conservative_CasterEdges_h
+
+#include "shadowtech/base/Occluders.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+namespace gnomon
+{
+
+/// Where two triangles of a surface meet, or one ends.
+struct CasterEdge
+{
+  std::uint32_t from = 0, to = 0; ///< vertices in the snapshot
+  /// Triangles in the snapshot; the second is `none` where the surface ends here, or where more than
+  /// two meet, each of which then has an edge of its own.
+  std::array<std::uint32_t, 2> triangles{ { none, none } };
+  /// Whether both triangles run through it the same way, so that they are wound differently.
+  bool sameDirection = false;
+  /// Whether a shadow ray that starts on one of the triangles may begin behind the other: their
+  /// normals are more than 75 degrees apart, or one of them is too thin to say.
+  bool sharp = false;
+
+  static constexpr std::uint32_t none = 0xffffffffu;
+};
+
+/// The edges of one surface.
+struct SurfaceEdges
+{
+  std::vector<CasterEdge> edges;
+  /// For each of its triangles, from the first, the edges from each corner to the next.
+  std::vector<std::array<std::uint32_t, 3>> ofTriangle;
+};
+
+/// The edges of the casting surfaces, kept from snapshot to snapshot.
+///
+/// Vertices at exactly the same place count as one: surfaces that are drawn are split where their
+/// normals or texture coordinates break. Edges where a vertex lies on another triangle's edge (T-junctions),
+/// and those between different surfaces, are ends.
+class CasterEdges
+{
+public:
+  /// Finds the edges of surfaces that are new, or whose vertices moved.
+  void update(const Occluders& occluders);
+
+  /// Edges of a casting surface.
+  /// @param surface index into the snapshot's surfaces, as of the last update
+  const SurfaceEdges& of(std::size_t surface) const { return *this->bySurface_[surface]; }
+
+  std::size_t bytes() const;
+
+private:
+  struct Kept
+  {
+    std::uint64_t positionsVersion = 0;
+    std::uint32_t firstVertex = 0;
+    std::uint32_t firstTriangle = 0;
+    SurfaceEdges edges;
+  };
+  std::unordered_map<std::uint64_t, Kept> kept_; ///< by the surface's topologyVersion
+  std::vector<const SurfaceEdges*> bySurface_;
+};
+
+/// The edges of one surface. Exposed for tests.
+SurfaceEdges findCasterEdges(const Occluders& occluders, const Surface& surface);
+
+} // namespace gnomon
+
+#endif

@@ -1,0 +1,141 @@
+#ifndef gnomon_shadowtech_conservative_CasterShapes_h
+#define gnomon_shadowtech_conservative_CasterShapes_h
+
+#include "lights/LightView.h"
+#include "shadowtech/base/Occluders.h"
+#include "shadowtech/conservative/CasterEdges.h"
+
+#include <glm/glm.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace gnomon
+{
+
+/// @file
+/// Casters as a conservative map sees them: triangles and edges on the plane of its texels, with how far
+/// rounding may move them.
+
+/// How much larger than it is a texel counts, on each side, in texels: for what rounding moves shadow
+/// rays across the light, and for how far beside the receiver they start.
+constexpr double marginTexels = 1.0 / 128.0;
+/// The part of it that is there for where rays start.
+constexpr double offsetTexels = 1.0 / 256.0;
+/// Triangles that are no higher than this seem to be edges alone.
+constexpr double thinTexels = 1.0 / 512.0;
+
+/// A point as the map sees it, in homogeneous coordinates: texels X/W and Y/W, depth Q/W; z along the
+/// view.
+struct MapPoint
+{
+  double X, Y, W, Q, z;
+};
+
+/// From centred coordinates to the map's.
+struct MapSpace
+{
+  bool positional;
+  glm::dmat4 viewFromCentred;
+  glm::dmat3 texelFromAcross;
+  double depthScale;
+  double depthOffset;
+  double size;
+
+  MapPoint at(const glm::dvec3& centred) const
+  {
+    const glm::dvec3 view(this->viewFromCentred * glm::dvec4(centred, 1.0));
+    const glm::dvec3 map =
+      this->texelFromAcross * (this->positional ? view : glm::dvec3(view.x, view.y, 1.0));
+    // The scale of depth is affine in Q/W, and so W's share of it.
+    const double depth = this->positional ? -1.0 : view.z;
+    return { map.x, map.y, map.z, this->depthScale * depth + this->depthOffset * map.z, view.z };
+  }
+
+  /// The same as a matrix, to (X, Y, Q, W).
+  glm::dmat4 mapFromCentred() const;
+};
+
+/// A corner of what is drawn.
+struct MapCorner
+{
+  double x, y, depth;
+};
+
+/// What is true of all casters of a view.
+struct CasterScene
+{
+  const Occluders& occluders;
+  MapSpace space;
+  double begins;  ///< the z from which on casters count
+  bool box;       ///< before that there are none; else they are too near to be drawn
+  double nearW;   ///< what is at the light
+  double lateral; ///< how far beside a ray a tracer may look, in world units
+  double
+    texelsPerUnit; ///< the most texels to a unit across the light, of positional ones at distance 1
+  glm::dvec3 towards; ///< towards the light, of parallel rays; else the light's position; centred
+};
+
+/// How casters are to be looked at in a view of a light.
+CasterScene casterScene(const LightView& view, int sizeTexels, const Occluders& occluders);
+
+/// Depth to a unit of length along the ray at a place, at most.
+double depthPerUnit(const MapSpace& space, double W, double z);
+
+/// How a caster counts.
+struct Role
+{
+  bool present = false; ///< may block
+  bool covers = false;  ///< does block, all over
+  bool poison = false;  ///< where it is, nothing is certain
+};
+
+/// Enough for a triangle cut by five planes.
+constexpr std::size_t mostCorners = 8;
+
+/// A convex piece of a caster on the map.
+struct MapPolygon
+{
+  Role role;
+  int facing = 0; ///< 1 or -1 by the way that it is wound on the map; 0: all its edges are ends
+  std::size_t count = 0;
+  std::array<MapCorner, mostCorners> corners;
+  double margin = 0.0; ///< texels
+  double slack = 0.0;  ///< depth that a tracer may see it off its plane
+};
+
+/// One triangle, or what of it lies on the map.
+/// @param instance of a surface with instances; else 0
+MapPolygon polygonOf(
+  const CasterScene& scene, const Surface& surface, std::uint32_t instance, std::uint32_t triangle);
+
+/// An edge on the map.
+struct MapSegment
+{
+  std::array<MapCorner, 2> ends;
+  double margin = 0.0;
+  double slack = 0.0;
+  bool isEnd = false; ///< the casters' surface ends here; else a sharp edge
+};
+
+/// What an edge is to its triangles, of which each faces one way on the map or the other (1, -1), lies along the light (0),
+/// or is not there at all (`absentFacing`).
+constexpr std::int8_t absentFacing = 2;
+enum class EdgeKind
+{
+  Inner, ///< the casters' surface goes on
+  Sharp, ///< it goes on, but shadow rays from one side may start behind the other
+  End,   ///< it ends or folds over
+  Unsure ///< it ends, and a tracer cannot tell how far the triangle is
+};
+EdgeKind kindOf(const CasterEdge& edge, std::int8_t firstFacing, std::int8_t secondFacing);
+
+/// One edge, or what of it lies on the map.
+/// @return false where nothing does
+bool segmentOf(const CasterScene& scene, const Surface& surface, std::uint32_t instance,
+  const CasterEdge& edge, EdgeKind kind, MapSegment& segment);
+
+} // namespace gnomon
+
+#endif

@@ -1,0 +1,491 @@
+#include "shadowtech/conservative/ConservativeMap.h"
+
+#include "shadowtech/base/Bytes.h"
+#include "shadowtech/base/Receivers.h"
+#include "shadowtech/conservative/CasterEdges.h"
+#include "shadowtech/conservative/TexelCells.h"
+
+#include <glm/gtc/matrix_access.hpp>
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <cstdint>
+
+namespace gnomon
+{
+namespace
+{
+
+/// Texels that count as so much larger than they are would not decide much.
+constexpr double largestMargin = 2.0;
+/// Rows of the map that are drawn at once, so that their cells stay in the processor's cache.
+constexpr int bandRows = 16;
+/// Rounding of depths to float, and of what is computed with them.
+constexpr float depthRounding = 4.76837158e-7f; // 2^-21
+
+/// Depths that are less, or more, whatever was rounded.
+float below(float depth)
+{
+  return std::isfinite(depth) ? depth - depthRounding * (1.0f + std::abs(depth)) : depth;
+}
+float above(float depth)
+{
+  return std::isfinite(depth) ? depth + depthRounding * (1.0f + std::abs(depth)) : depth;
+}
+
+/// What follows from a cell.
+TexelBounds boundsOf(const Cell& cell, Covering covering)
+{
+  TexelBounds bounds;
+  bounds.litUpTo = below(cell.nearest);
+  // One layer alone reaches up to here: that of the receiver.
+  const float second = below(std::min(cell.second, cell.sharpEnd) - cell.climb);
+  bounds.litUpToOnCasters = std::max(bounds.litUpTo, second);
+  bounds.shadowFrom = above(cell.contained);
+  if (covering == Covering::Silhouette)
+  {
+    // From where the nearest caster is no deeper than nearestAcross its surface goes on all over the
+    // texel, as nothing ends it, and climbs no more than twice to the sample.
+    const float everywhere = cell.nearestAcross + 2.0f * cell.climb;
+    if (cell.end > everywhere)
+    {
+      bounds.shadowFrom = std::min(bounds.shadowFrom, above(everywhere));
+    }
+  }
+  return bounds;
+}
+
+/// A casting surface, or one instance of it.
+struct Placement
+{
+  std::uint32_t surface;
+  std::uint32_t instance;
+  std::size_t firstFacing; ///< of its triangles among those of all placements
+};
+
+/// What lies in one band of rows.
+struct BandItem
+{
+  std::uint32_t placement;
+  std::uint32_t index; ///< a triangle of the snapshot, or an edge of the surface
+};
+using Bands = std::vector<std::vector<BandItem>>;
+
+/// Visits the bands that a range of texel rows meets.
+template <typename Visit>
+void visitBands(double low, double high, double margin, int size, const Visit& visit)
+{
+  const Span rows = spanOf(low - margin, high + margin, size);
+  for (int band = rows.first / bandRows; band <= rows.last / bandRows && rows.first <= rows.last;
+       ++band)
+  {
+    visit(static_cast<std::size_t>(band));
+  }
+}
+
+/// A map while it is drawn: first which rows each triangle and edge lies in, then the rows, band by band.
+class MapDrawing
+{
+public:
+  MapDrawing(const CasterScene& scene, const CasterEdges& edges, int size, Covering covering)
+    : scene_(scene)
+    , edges_(edges)
+    , covering_(covering)
+    , size_(size)
+    , bandCount_((size + bandRows - 1) / bandRows)
+    , triangles_([this] { return Bands(static_cast<std::size_t>(this->bandCount_)); })
+    , segments_([this] { return Bands(static_cast<std::size_t>(this->bandCount_)); })
+  {
+    this->place();
+    this->sortTriangles();
+    if (!this->blind_)
+    {
+      this->sortEdges();
+    }
+  }
+
+  /// Whether a caster is so near to the light that nothing is certain.
+  bool blind() const { return this->blind_; }
+
+  /// Draws all bands.
+  /// @param take called with each cell's number on the map and the cell, from several threads
+  template <typename Take>
+  void draw(const Take& take)
+  {
+    tbb::enumerable_thread_specific<std::vector<Cell>> cellsOfThread;
+    tbb::parallel_for(0, this->bandCount_,
+      [&](int band)
+      {
+        std::vector<Cell>& cells = cellsOfThread.local();
+        const Span rows{ band * bandRows, std::min((band + 1) * bandRows, this->size_) - 1 };
+        const std::size_t count = this->cellsOf(rows.last - rows.first + 1);
+        cells.assign(count, Cell());
+        this->drawBand(static_cast<std::size_t>(band), rows, cells.data());
+        for (std::size_t i = 0; i < count; ++i)
+        {
+          take(this->cellsOf(rows.first) + i, cells[i]);
+        }
+      });
+  }
+
+private:
+  std::size_t cellsOf(int rows) const
+  {
+    return static_cast<std::size_t>(rows) * static_cast<std::size_t>(this->size_);
+  }
+
+  void place()
+  {
+    const std::vector<Surface>& surfaces = this->scene_.occluders.surfaces;
+    std::size_t triangles = 0;
+    for (std::size_t i = 0; i < surfaces.size(); ++i)
+    {
+      const Surface& surface = surfaces[i];
+      const std::size_t instances = surface.isInstanced() ? surface.centredFromSource.size() : 1;
+      for (std::size_t instance = 0; surface.casts && instance < instances; ++instance)
+      {
+        if (!surface.isInstanced() || !Surface::isLeftOut(surface.centredFromSource[instance]))
+        {
+          this->placements_.push_back(
+            { static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(instance), triangles });
+          triangles += surface.triangleCount;
+        }
+      }
+    }
+    this->facing_.resize(triangles);
+  }
+
+  const Surface& surfaceOf(const Placement& placement) const
+  {
+    return this->scene_.occluders.surfaces[placement.surface];
+  }
+
+  /// @param countOf how many things a placement has
+  /// @param visit called with the placement's number and the thing's
+  template <typename CountOf, typename Visit>
+  void visitAll(const CountOf& countOf, const Visit& visit) const
+  {
+    tbb::parallel_for(std::uint32_t(0), static_cast<std::uint32_t>(this->placements_.size()),
+      [&](std::uint32_t placement)
+      {
+        const auto count = static_cast<std::uint32_t>(countOf(this->placements_[placement]));
+        tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, count, 1024),
+          [&](const tbb::blocked_range<std::uint32_t>& range)
+          {
+            for (std::uint32_t i = range.begin(); i != range.end(); ++i)
+            {
+              visit(placement, i);
+            }
+          });
+      });
+  }
+
+  void sortTriangles()
+  {
+    const auto countOf = [this](const Placement& placement)
+    { return this->surfaceOf(placement).triangleCount; };
+    std::atomic<bool> blind{ false };
+    this->visitAll(countOf,
+      [&](std::uint32_t number, std::uint32_t i)
+      {
+        const Placement& placement = this->placements_[number];
+        const Surface& surface = this->surfaceOf(placement);
+        const std::uint32_t triangle = surface.firstTriangle + i;
+        const MapPolygon polygon = polygonOf(this->scene_, surface, placement.instance, triangle);
+        this->facing_[placement.firstFacing + i] =
+          polygon.role.present ? static_cast<std::int8_t>(polygon.facing) : absentFacing;
+        if (!polygon.role.present)
+        {
+          return;
+        }
+        // Written so that NaN is blind.
+        if (!(polygon.margin <= largestMargin))
+        {
+          blind = true;
+          return;
+        }
+        double low = polygon.corners[0].y;
+        double high = low;
+        for (std::size_t k = 1; k < polygon.count; ++k)
+        {
+          low = std::min(low, polygon.corners[k].y);
+          high = std::max(high, polygon.corners[k].y);
+        }
+        Bands& bands = this->triangles_.local();
+        visitBands(low, high, polygon.margin, this->size_,
+          [&](std::size_t band) {
+            bands[band].push_back({ number, triangle });
+          });
+      });
+    this->blind_ = blind;
+  }
+
+  std::int8_t facingOf(const Placement& placement, std::uint32_t triangle) const
+  {
+    return triangle == CasterEdge::none
+      ? absentFacing
+      : this
+          ->facing_[placement.firstFacing + (triangle - this->surfaceOf(placement).firstTriangle)];
+  }
+
+  EdgeKind kindOf(const Placement& placement, const CasterEdge& edge) const
+  {
+    return gnomon::kindOf(edge, this->facingOf(placement, edge.triangles[0]),
+      this->facingOf(placement, edge.triangles[1]));
+  }
+
+  bool segment(const Placement& placement, std::uint32_t number, MapSegment& result) const
+  {
+    const CasterEdge& edge = this->edges_.of(placement.surface).edges[number];
+    if (this->facingOf(placement, edge.triangles[0]) == absentFacing &&
+      this->facingOf(placement, edge.triangles[1]) == absentFacing)
+    {
+      return false;
+    }
+    const EdgeKind kind = this->kindOf(placement, edge);
+    return kind != EdgeKind::Inner &&
+      segmentOf(this->scene_, this->surfaceOf(placement), placement.instance, edge, kind, result);
+  }
+
+  /// A triangle with its neighbours across edges that are no ends. Without covering triangles nothing.
+  MapRing ringOf(const Placement& placement, std::uint32_t triangle, const MapPolygon& middle) const
+  {
+    MapRing ring;
+    const Surface& surface = this->surfaceOf(placement);
+    const SurfaceEdges& edges = this->edges_.of(placement.surface);
+    std::vector<std::uint32_t> border;
+    const auto addBorder = [&](std::uint32_t of, std::uint32_t except)
+    {
+      for (const std::uint32_t edge : edges.ofTriangle[of - surface.firstTriangle])
+      {
+        if (edge != except)
+        {
+          border.push_back(edge);
+        }
+      }
+    };
+    ring.triangles.push_back(middle);
+    for (const std::uint32_t number : edges.ofTriangle[triangle - surface.firstTriangle])
+    {
+      const CasterEdge& edge = edges.edges[number];
+      const EdgeKind kind = this->kindOf(placement, edge);
+      const std::uint32_t other =
+        edge.triangles[0] == triangle ? edge.triangles[1] : edge.triangles[0];
+      if (kind == EdgeKind::Inner || kind == EdgeKind::Sharp)
+      {
+        ring.triangles.push_back(polygonOf(this->scene_, surface, placement.instance, other));
+        addBorder(other, number);
+      }
+      else
+      {
+        border.push_back(number);
+      }
+    }
+    for (const std::uint32_t number : border)
+    {
+      MapSegment segment;
+      if (segmentOf(
+            this->scene_, surface, placement.instance, edges.edges[number], EdgeKind::End, segment))
+      {
+        ring.border.push_back(segment);
+      }
+    }
+    return ring;
+  }
+
+  void sortEdges()
+  {
+    const auto countOf = [this](const Placement& placement)
+    { return this->edges_.of(placement.surface).edges.size(); };
+    this->visitAll(countOf,
+      [&](std::uint32_t number, std::uint32_t i)
+      {
+        MapSegment found;
+        if (this->segment(this->placements_[number], i, found))
+        {
+          const auto& [a, b] = found.ends;
+          Bands& bands = this->segments_.local();
+          visitBands(std::min(a.y, b.y), std::max(a.y, b.y), found.margin + thinTexels, this->size_,
+            [&](std::size_t band) {
+              bands[band].push_back({ number, i });
+            });
+        }
+      });
+  }
+
+  /// Ends first: what lies behind one does not matter for how far the layers before it climb.
+  void drawBand(std::size_t band, Span rows, Cell* cells) const
+  {
+    for (const Bands& bands : this->segments_)
+    {
+      for (const BandItem& item : bands[band])
+      {
+        MapSegment found;
+        if (this->segment(this->placements_[item.placement], item.index, found))
+        {
+          drawSegment(found, this->size_, rows, cells);
+        }
+      }
+    }
+    for (const Bands& bands : this->triangles_)
+    {
+      for (const BandItem& item : bands[band])
+      {
+        const Placement& placement = this->placements_[item.placement];
+        const MapPolygon polygon =
+          polygonOf(this->scene_, this->surfaceOf(placement), placement.instance, item.index);
+        drawPolygon(polygon, this->size_, rows, cells);
+        if (this->covering_ == Covering::Ring && polygon.role.covers)
+        {
+          drawRing(this->ringOf(placement, item.index, polygon), this->size_, rows, cells);
+        }
+      }
+    }
+  }
+
+  const CasterScene& scene_;
+  const CasterEdges& edges_;
+  Covering covering_;
+  int size_;
+  int bandCount_;
+  bool blind_ = false;
+  std::vector<Placement> placements_;
+  std::vector<std::int8_t> facing_; ///< on the map, of all placements' triangles
+  tbb::enumerable_thread_specific<Bands> triangles_;
+  tbb::enumerable_thread_specific<Bands> segments_;
+};
+
+} // namespace
+
+//------------------------------------------------------------------------------
+ConservativeMap::ConservativeMap(const LightView& view, int sizeTexels, const Occluders& occluders,
+  const CasterEdges& edges, Covering covering)
+{
+  const CasterScene scene = casterScene(view, sizeTexels, occluders);
+  this->size_ = sizeTexels;
+  this->positional_ = scene.space.positional;
+  const glm::dmat4 mapFromCentred = scene.space.mapFromCentred();
+  this->mapFromCentred_ = glm::mat4(mapFromCentred);
+  this->alongView_ = glm::vec4(glm::row(view.rays.viewFromCentred, 2));
+  this->depthPerW_ = static_cast<float>(scene.space.depthScale);
+  this->rounding_ = static_cast<float>(scene.lateral);
+  this->largestOffset_ = static_cast<float>(offsetTexels / scene.texelsPerUnit);
+  MapDrawing drawing(scene, edges, sizeTexels, covering);
+  this->blind_ = drawing.blind();
+  if (!this->blind_)
+  {
+    this->texels_.resize(
+      static_cast<std::size_t>(sizeTexels) * static_cast<std::size_t>(sizeTexels));
+    drawing.draw(
+      [&](std::size_t i, const Cell& cell) { this->texels_[i] = boundsOf(cell, covering); });
+  }
+}
+
+namespace
+{
+
+/// A few receivers as a map sees them.
+struct Looks
+{
+  static constexpr std::size_t most = 256;
+  std::array<int, most> texel;        ///< -1 where the map cannot say anything
+  std::array<float, most> depth;      ///< the receiver's, at most
+  std::array<float, most> depthOfRay; ///< where its shadow ray starts, at least
+};
+
+/// What there is to know of a map to look receivers up.
+struct LookUp
+{
+  glm::mat4 mapFromCentred;
+  glm::vec4 alongView;
+  float depthPerW;
+  float largestOffset;
+  float rounding; ///< world units that looking up in float moves a receiver by, at most
+  int size;
+};
+
+#ifdef __x86_64__
+[[gnu::target_clones("avx2", "default")]]
+#endif
+void lookAt(const LookUp& map, bool positional, const ReceiverPixels& receivers, std::size_t first,
+  int count, Looks& looks)
+{
+  const float* const positionX = &receivers.positionX[first];
+  const float* const positionY = &receivers.positionY[first];
+  const float* const positionZ = &receivers.positionZ[first];
+  const float* const offset = &receivers.offset[first];
+  const auto size = static_cast<float>(map.size);
+  const glm::mat4& m = map.mapFromCentred;
+  const float fixedZ = positional ? 0.0f : 1.0f;
+  const glm::vec4 along = positional ? map.alongView : glm::vec4(0.0f);
+  int* const texel = looks.texel.data();
+  float* const depths = looks.depth.data();
+  float* const depthsOfRays = looks.depthOfRay.data();
+#pragma GCC ivdep
+  for (int i = 0; i < count; ++i)
+  {
+    const float px = positionX[i], py = positionY[i], pz = positionZ[i];
+    const float w = m[0].w * px + m[1].w * py + m[2].w * pz + m[3].w;
+    const float perW = 1.0f / w;
+    const float x = (m[0].x * px + m[1].x * py + m[2].x * pz + m[3].x) * perW;
+    const float y = (m[0].y * px + m[1].y * py + m[2].y * pz + m[3].y) * perW;
+    const float depth = (m[0].z * px + m[1].z * py + m[2].z * pz + m[3].z) * perW;
+    // Distance 1 of parallel rays, along the view from a position.
+    const float z = fixedZ + along.x * px + along.y * py + along.z * pz + along.w;
+    // Written so that NaN fails. A shadow ray may start no farther beside its receiver than margins say.
+    const bool holds = (w > 0.0f) & (z > 0.0f) & (x >= 0.0f) & (y >= 0.0f) & (x < size) &
+      (y < size) & (offset[i] <= map.largestOffset * z);
+    const int column = static_cast<int>(holds ? x : 0.0f);
+    const int row = static_cast<int>(holds ? y : 0.0f);
+    texel[i] = holds ? row * map.size + column : -1;
+    const float perUnit = map.depthPerW * perW / z;
+    depths[i] = depth + map.rounding * perUnit;
+    depthsOfRays[i] = depth - (map.rounding + offset[i]) * perUnit;
+  }
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+void ConservativeMap::ask(const ReceiverPixels& receivers, std::size_t first, std::size_t count,
+  const std::vector<std::uint8_t>& onCaster, std::vector<Certainty>& certain) const
+{
+  if (this->blind_)
+  {
+    return;
+  }
+  const LookUp map{ this->mapFromCentred_, this->alongView_, this->depthPerW_, this->largestOffset_,
+    this->rounding_, this->size_ };
+  Looks looks;
+  for (std::size_t begin = 0; begin < count; begin += Looks::most)
+  {
+    const std::size_t part = std::min(Looks::most, count - begin);
+    const std::size_t from = first + begin;
+    lookAt(map, this->positional_, receivers, from, static_cast<int>(part), looks);
+    for (std::size_t i = 0; i < part; ++i)
+    {
+      if (looks.texel[i] < 0 || certain[from + i] != Certainty::Uncertain)
+      {
+        continue;
+      }
+      const TexelBounds& texel = this->texels_[static_cast<std::size_t>(looks.texel[i])];
+      const bool casts = onCaster[receivers.surface[from + i] + 1u] != 0;
+      const bool lit = looks.depth[i] <= (casts ? texel.litUpToOnCasters : texel.litUpTo);
+      const bool shadow = looks.depthOfRay[i] > texel.shadowFrom;
+      certain[from + i] = lit ? Certainty::Lit : shadow ? Certainty::Shadow : Certainty::Uncertain;
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+std::size_t ConservativeMap::bytes() const
+{
+  return bytesOf(this->texels_);
+}
+
+} // namespace gnomon

@@ -1,0 +1,78 @@
+#ifndef gnomon_shadowtech_conservative_ConservativeMap_h
+#define gnomon_shadowtech_conservative_ConservativeMap_h
+
+#include "lights/LightView.h"
+#include "shadowtech/base/Occluders.h"
+#include "shadowtech/base/RayTracer.h"
+#include "shadowtech/conservative/CasterShapes.h"
+
+#include <glm/glm.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace gnomon
+{
+
+class CasterEdges;
+struct ReceiverPixels;
+
+/// By what a map may conclude that casters cover all of a texel.
+enum class Covering
+{
+  Triangle,  ///< one triangle contains it
+  Ring,      ///< or: a triangle and those across its edges do
+  Silhouette ///< or: no edge of the casters' surface is there, so that it goes on everywhere
+};
+
+/// What the rays through a texel have before them, as bounds on their shadow ray's answer. Depths are those of
+/// ConservativeMap::depth().
+struct TexelBounds
+{
+  float litUpTo;          ///< a receiver of no more depth than this is lit
+  float litUpToOnCasters; ///< the same of a point of a caster's own surface
+  float shadowFrom;       ///< a receiver of more depth than this is in shadow
+};
+
+/// A map of one view of a light which says of a receiver that it is lit for certain, in shadow for
+/// certain, or neither; and which is never wrong about a shadow ray, rounding included.
+/// docs/techniques/exact.md has the rules and why they hold.
+///
+/// *Depth* is a number that is affine on planes across the map, grows along every ray, and spans about [0, 1]
+/// over the casters: with (X, Y, W) = texelFromAcross * across coordinates, z / W for parallel rays, and -1 / W for those from a
+/// position, then scaled.
+class ConservativeMap
+{
+public:
+  /// Draws the casters.
+  ConservativeMap(const LightView& view, int sizeTexels, const Occluders& occluders,
+    const CasterEdges& edges, Covering covering);
+
+  /// Decides receivers that are still uncertain.
+  /// @param first, count which of the receivers
+  /// @param onCaster by surface + 1, so that `notCovered` + 1 = 0 is the first: whether the surface casts, on both
+  /// sides
+  /// @param certain of all receivers
+  void ask(const ReceiverPixels& receivers, std::size_t first, std::size_t count,
+    const std::vector<std::uint8_t>& onCaster, std::vector<Certainty>& certain) const;
+
+  std::size_t bytes() const;
+
+private:
+  int size_ = 0;
+  bool positional_ = false;
+  /// From centred coordinates to X, Y, Q and W of MapPoint.
+  glm::mat4 mapFromCentred_{ 1.0f };
+  glm::vec4 alongView_{ 0.0f }; ///< the same to z along the view
+  float depthPerW_ =
+    0.0f; ///< how much depth there is to a unit along the ray, times W, of positional ones W z
+  float rounding_ = 0.0f;      ///< world units that looking up moves a receiver by, at most
+  float largestOffset_ = 0.0f; ///< of a shadow ray across the light, at distance 1 from a position
+  bool blind_ = false;         ///< a caster is so near to the light that nothing is certain
+  std::vector<TexelBounds> texels_;
+};
+
+} // namespace gnomon
+
+#endif

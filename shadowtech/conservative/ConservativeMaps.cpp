@@ -1,0 +1,55 @@
+#include "shadowtech/conservative/ConservativeMaps.h"
+
+#include "shadowtech/base/Receivers.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+namespace gnomon
+{
+
+//------------------------------------------------------------------------------
+void ConservativeMaps::bake(const LightViews& views, int sizeTexels, const Occluders& occluders)
+{
+  this->edges_.update(occluders);
+  this->maps_.clear();
+  for (const LightView& view : views.views)
+  {
+    this->maps_.emplace_back(view, sizeTexels, occluders, this->edges_, this->covering_);
+  }
+}
+
+//------------------------------------------------------------------------------
+std::vector<Certainty> ConservativeMaps::ask(
+  const ReceiverPixels& receivers, const Occluders& occluders) const
+{
+  std::vector<std::uint8_t> onCaster{ 0 };
+  for (const Surface& surface : occluders.surfaces)
+  {
+    onCaster.push_back(surface.casts && !surface.oneSided ? 1 : 0);
+  }
+  std::vector<Certainty> certain(receivers.size(), Certainty::Uncertain);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, receivers.size(), 4096),
+    [&](const tbb::blocked_range<std::size_t>& range)
+    {
+      // Whichever map knows is right, so that it does not matter which of them is the point's own.
+      for (const ConservativeMap& map : this->maps_)
+      {
+        map.ask(receivers, range.begin(), range.size(), onCaster, certain);
+      }
+    });
+  return certain;
+}
+
+//------------------------------------------------------------------------------
+std::size_t ConservativeMaps::bytes() const
+{
+  std::size_t bytes = this->edges_.bytes();
+  for (const ConservativeMap& map : this->maps_)
+  {
+    bytes += map.bytes();
+  }
+  return bytes;
+}
+
+} // namespace gnomon

@@ -1,0 +1,42 @@
+#include "shadowtech/conservative/ConservativeTechnique.h"
+
+namespace gnomon
+{
+
+//------------------------------------------------------------------------------
+ConservativeTechnique::ConservativeTechnique(Covering covering)
+  : maps_(covering)
+{
+}
+
+//------------------------------------------------------------------------------
+TechniqueInfo ConservativeTechnique::infoOf(const std::string& name)
+{
+  TechniqueInfo info;
+  info.name = name;
+  info.exact = true;
+  info.needsMap = true;
+  return info;
+}
+
+//------------------------------------------------------------------------------
+void ConservativeTechnique::bake(const MapInput& input)
+{
+  this->maps_.bake(input.views, input.light.mapSizeTexels, input.occluders);
+}
+
+//------------------------------------------------------------------------------
+std::size_t ConservativeTechnique::bytesOfMaps() const
+{
+  return this->maps_.bytes();
+}
+
+//------------------------------------------------------------------------------
+void ConservativeTechnique::computeVisibility(
+  const ScreenInput& input, std::vector<float>& visibility, LightReport& report)
+{
+  report.tracedPixels = static_cast<std::int64_t>(input.tracer.trace(input.light, input.occluders,
+    input.receivers, visibility, this->maps_.ask(input.receivers, input.occluders)));
+}
+
+} // namespace gnomon

@@ -1,0 +1,374 @@
+#include "shadowtech/conservative/TexelCells.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+namespace gnomon
+{
+
+//------------------------------------------------------------------------------
+Span spanOf(double low, double high, int limit)
+{
+  return { static_cast<int>(std::floor(std::clamp(low, 0.0, static_cast<double>(limit)))),
+    static_cast<int>(std::floor(std::clamp(high, -1.0, limit - 1.0))) };
+}
+
+namespace
+{
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Where layers are counted in a texel: off its centre, where the edges of regular casters often are.
+constexpr double sampleOffset = 1.0 / 61.0;
+
+/// Texels of a row, those that a polygon's sides leave.
+struct RowRange
+{
+  double low, high; ///< of texels' centres
+
+  void cut(double nx, double rest) // nx x + rest >= 0
+  {
+    if (nx > 1e-12)
+    {
+      this->low = std::max(this->low, -rest / nx);
+    }
+    else if (nx < -1e-12)
+    {
+      this->high = std::min(this->high, -rest / nx);
+    }
+    else if (rest < 0.0)
+    {
+      this->high = -infinity;
+    }
+  }
+  /// The texels whose point at `at` in [0, 1) lies in the range.
+  Span texels(double at, int width) const
+  {
+    return { static_cast<int>(
+               std::ceil(std::clamp(this->low - at, 0.0, static_cast<double>(width)))),
+      static_cast<int>(std::floor(std::clamp(this->high - at, -1.0, width - 1.0))) };
+  }
+};
+
+/// What a polygon is to the texels, row by row.
+class PolygonOnTexels
+{
+public:
+  explicit PolygonOnTexels(const MapPolygon& polygon)
+    : polygon_(polygon)
+  {
+    for (std::size_t i = 0; i < polygon.count; ++i)
+    {
+      const MapCorner& corner = polygon.corners[i];
+      this->left_ = std::min(this->left_, corner.x);
+      this->right_ = std::max(this->right_, corner.x);
+      this->low_ = std::min(this->low_, corner.y);
+      this->high_ = std::max(this->high_, corner.y);
+      this->least_ = std::min(this->least_, static_cast<float>(corner.depth));
+      this->most_ = std::max(this->most_, static_cast<float>(corner.depth));
+    }
+    this->findSides(this->findPlane());
+    const double slope = std::abs(this->perX_) + std::abs(this->perY_);
+    this->half_ = slope * (0.5 + polygon.margin);
+    this->climb_ = static_cast<float>(
+      (slope * (0.5 + sampleOffset + polygon.margin) + polygon.slack) * 1.000001);
+    this->slack_ = static_cast<float>(polygon.slack);
+  }
+
+  /// The rows, of these, in which it may be.
+  Span rows(Span of) const
+  {
+    const double margin = this->polygon_.margin;
+    const Span inside = spanOf(this->low_ - margin, this->high_ + margin, of.last + 1);
+    return { std::max(of.first, inside.first), inside.last };
+  }
+
+  /// A row of texels.
+  struct Row
+  {
+    Span touched;   ///< those that it is in
+    Span contained; ///< those that it contains
+    Span sampled;   ///< those whose sample it contains
+    double depth;   ///< of its plane, at the middle of the first texel
+  };
+  Row row(int y, int width) const
+  {
+    const double margin = this->polygon_.margin;
+    RowRange touched{ this->left_ - 0.5 - margin, this->right_ + 0.5 + margin };
+    RowRange contained{ this->left_, this->right_ };
+    RowRange sampled{ this->left_ - onEdge, this->right_ + onEdge };
+    const double centre = y + 0.5;
+    for (std::size_t i = 0; i < this->sideCount_; ++i)
+    {
+      const Side& side = this->sides_[i];
+      const double rest = side.ny * centre + side.c;
+      touched.cut(side.nx, rest + side.support);
+      contained.cut(side.nx, rest - side.support);
+      sampled.cut(side.nx, rest + side.ny * sampleOffset + onEdge);
+    }
+    const MapCorner& origin = this->polygon_.corners[0];
+    return { touched.texels(0.5, width), contained.texels(0.5, width),
+      sampled.texels(0.5 + sampleOffset, width),
+      origin.depth + this->perY_ * (centre - origin.y) + this->perX_ * (0.5 - origin.x) };
+  }
+
+  ///@{
+  /// Bounds on its depth in a texel that it touches, and its depth at the sample.
+  float nearest(const Row& row, int x) const
+  {
+    return std::max(this->least_, static_cast<float>(this->depthAt(row, x) - this->half_)) -
+      this->slack_;
+  }
+  float farthest(const Row& row, int x) const
+  {
+    return std::min(this->most_, static_cast<float>(this->depthAt(row, x) + this->half_)) +
+      this->slack_;
+  }
+  float atSample(const Row& row, int x) const
+  {
+    return static_cast<float>(this->depthAt(row, x) + (this->perX_ + this->perY_) * sampleOffset);
+  }
+  ///@}
+
+  /// The most that its depth changes from anywhere in a texel to the sample.
+  float climb() const { return this->climb_; }
+
+private:
+  /// nx x + ny y + c >= 0 inside, with unit normals.
+  struct Side
+  {
+    double nx, ny, c;
+    double support; ///< how far a texel reaches along the normal
+  };
+
+  /// A sample on an edge is in both of its triangles: counted twice rather than not at all.
+  static constexpr double onEdge = 1e-6;
+
+  double depthAt(const Row& row, int x) const { return row.depth + this->perX_ * x; }
+
+  /// The plane is that of the largest of the triangles between three corners.
+  /// @return 1 or -1: which way the corners run
+  double findPlane()
+  {
+    const MapCorner& origin = this->polygon_.corners[0];
+    double largest = 0.0;
+    double area = 0.0;
+    for (std::size_t i = 1; i + 1 < this->polygon_.count; ++i)
+    {
+      for (std::size_t j = i + 1; j < this->polygon_.count; ++j)
+      {
+        const MapCorner& b = this->polygon_.corners[i];
+        const MapCorner& c = this->polygon_.corners[j];
+        const double bx = b.x - origin.x, by = b.y - origin.y, bz = b.depth - origin.depth;
+        const double cx = c.x - origin.x, cy = c.y - origin.y, cz = c.depth - origin.depth;
+        const double doubleArea = bx * cy - cx * by;
+        area += j == i + 1 ? doubleArea : 0.0;
+        if (std::abs(doubleArea) > largest)
+        {
+          largest = std::abs(doubleArea);
+          this->perX_ = (bz * cy - cz * by) / doubleArea;
+          this->perY_ = (bx * cz - cx * bz) / doubleArea;
+        }
+      }
+    }
+    return area > 0.0 ? 1.0 : -1.0;
+  }
+
+  void findSides(double orientation)
+  {
+    for (std::size_t i = 0; i < this->polygon_.count; ++i)
+    {
+      const MapCorner& a = this->polygon_.corners[i];
+      const MapCorner& b = this->polygon_.corners[(i + 1) % this->polygon_.count];
+      const double ex = b.x - a.x, ey = b.y - a.y;
+      const double length = std::hypot(ex, ey);
+      if (length > 0.0) // corners may fall together where polygons are cut
+      {
+        const double nx = -orientation * ey / length, ny = orientation * ex / length;
+        this->sides_[this->sideCount_++] = { nx, ny, -(nx * a.x + ny * a.y),
+          (std::abs(nx) + std::abs(ny)) * (0.5 + this->polygon_.margin) };
+      }
+    }
+  }
+
+  const MapPolygon& polygon_;
+  double left_ = infinity, right_ = -infinity, low_ = infinity, high_ = -infinity;
+  float least_ = std::numeric_limits<float>::infinity();
+  float most_ = -std::numeric_limits<float>::infinity();
+  double perX_ = 0.0, perY_ = 0.0; ///< depth to a texel
+  double half_ = 0.0;              ///< how much depth changes from a texel's middle
+  float climb_ = 0.0f, slack_ = 0.0f;
+  std::array<Side, mostCorners> sides_;
+  std::size_t sideCount_ = 0;
+};
+
+/// The part of the parameter's range [first, last] in which low <= from + t (to - from) <= high.
+/// @return whether there is one
+bool keepBetween(double from, double to, double low, double high, double& first, double& last)
+{
+  const double extent = to - from;
+  if (std::abs(extent) < 1e-12)
+  {
+    return from >= low - 1e-9 && from <= high + 1e-9;
+  }
+  const double t0 = (low - from) / extent;
+  const double t1 = (high - from) / extent;
+  first = std::max(first, std::min(t0, t1));
+  last = std::min(last, std::max(t0, t1));
+  return first <= last;
+}
+
+/// Visits the texels that an edge meets, in some rows.
+/// @param visit called with column, row, and which part of the edge, between 0 and 1, is in the texel
+template <typename Visit>
+void visitTexels(const MapSegment& segment, int width, Span rows, const Visit& visit)
+{
+  const auto& [a, b] = segment.ends;
+  const double margin = segment.margin + thinTexels;
+  const Span inside =
+    spanOf(std::min(a.y, b.y) - margin, std::max(a.y, b.y) + margin, rows.last + 1);
+  for (int y = std::max(rows.first, inside.first); y <= inside.last; ++y)
+  {
+    double rowFirst = 0.0, rowLast = 1.0;
+    if (!keepBetween(a.y, b.y, y - margin, y + 1.0 + margin, rowFirst, rowLast))
+    {
+      continue;
+    }
+    const double x0 = a.x + rowFirst * (b.x - a.x);
+    const double x1 = a.x + rowLast * (b.x - a.x);
+    const Span columns = spanOf(std::min(x0, x1) - margin, std::max(x0, x1) + margin, width);
+    for (int x = columns.first; x <= columns.last; ++x)
+    {
+      double first = rowFirst, last = rowLast;
+      if (keepBetween(a.x, b.x, x - margin, x + 1.0 + margin, first, last))
+      {
+        visit(x, y, first, last);
+      }
+    }
+  }
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+void drawPolygon(const MapPolygon& polygon, int width, Span rows, Cell* cells)
+{
+  if (polygon.facing == 0 && !polygon.role.poison)
+  {
+    return; // its edges alone are drawn
+  }
+  const PolygonOnTexels texels(polygon);
+  const Span drawn = texels.rows(rows);
+  for (int y = drawn.first; y <= drawn.last; ++y)
+  {
+    Cell* const cell = cells + static_cast<std::ptrdiff_t>(y - rows.first) * width;
+    const PolygonOnTexels::Row row = texels.row(y, width);
+    if (polygon.role.poison)
+    {
+      for (int x = row.touched.first; x <= row.touched.last; ++x)
+      {
+        cell[x].nearest = cell[x].end = cell[x].sharpEnd = -std::numeric_limits<float>::infinity();
+      }
+      continue;
+    }
+    for (int x = row.touched.first; x <= row.touched.last; ++x)
+    {
+      const float nearest = texels.nearest(row, x);
+      cell[x].nearest = std::min(cell[x].nearest, nearest);
+      if (nearest < cell[x].end)
+      {
+        cell[x].climb = std::max(cell[x].climb, texels.climb());
+      }
+      if (polygon.role.covers)
+      {
+        cell[x].nearestAcross = std::min(cell[x].nearestAcross, texels.farthest(row, x));
+      }
+    }
+    for (int x = row.sampled.first; x <= row.sampled.last; ++x)
+    {
+      cell[x].addLayer(texels.atSample(row, x));
+    }
+    for (int x = row.contained.first; polygon.role.covers && x <= row.contained.last; ++x)
+    {
+      cell[x].contained = std::min(cell[x].contained, texels.farthest(row, x));
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+void drawRing(const MapRing& ring, int width, Span rows, Cell* cells)
+{
+  const PolygonOnTexels middle(ring.triangles.front());
+  const Span drawn = middle.rows(rows);
+  for (int y = drawn.first; y <= drawn.last; ++y)
+  {
+    Cell* const cell = cells + static_cast<std::ptrdiff_t>(y - rows.first) * width;
+    const PolygonOnTexels::Row row = middle.row(y, width);
+    const int count = row.touched.last - row.touched.first + 1;
+    if (count <= 0)
+    {
+      continue;
+    }
+    // Where the ring's border is not, its triangles go on everywhere.
+    std::vector<float> farthest(static_cast<std::size_t>(count));
+    const auto at = [&](int x) -> float&
+    { return farthest[static_cast<std::size_t>(x - row.touched.first)]; };
+    for (int x = row.touched.first; x <= row.touched.last; ++x)
+    {
+      at(x) = middle.farthest(row, x);
+    }
+    for (std::size_t i = 1; i < ring.triangles.size(); ++i)
+    {
+      const PolygonOnTexels other(ring.triangles[i]);
+      const PolygonOnTexels::Row otherRow = other.row(y, width);
+      for (int x = std::max(row.touched.first, otherRow.touched.first);
+           x <= std::min(row.touched.last, otherRow.touched.last); ++x)
+      {
+        at(x) = std::max(at(x), other.farthest(otherRow, x));
+      }
+    }
+    for (const MapSegment& border : ring.border)
+    {
+      visitTexels(border, width, { y, y },
+        [&](int x, int, double, double)
+        {
+          if (x >= row.touched.first && x <= row.touched.last)
+          {
+            at(x) = std::numeric_limits<float>::infinity();
+          }
+        });
+    }
+    for (int x = row.touched.first; x <= row.touched.last; ++x)
+    {
+      cell[x].contained = std::min(cell[x].contained, at(x));
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+void drawSegment(const MapSegment& segment, int width, Span rows, Cell* cells)
+{
+  const auto& [a, b] = segment.ends;
+  const double start = a.depth;
+  const double extent = b.depth - a.depth;
+  visitTexels(segment, width, rows,
+    [&](int x, int y, double first, double last)
+    {
+      // -infinity with endless slack
+      const auto depth =
+        static_cast<float>(start + std::min(first * extent, last * extent) - segment.slack);
+      Cell& cell = cells[static_cast<std::ptrdiff_t>(y - rows.first) * width + x];
+      cell.sharpEnd = std::min(cell.sharpEnd, depth);
+      if (segment.isEnd)
+      {
+        cell.end = std::min(cell.end, depth);
+        cell.nearest = std::min(cell.nearest, depth);
+      }
+    });
+}
+
+} // namespace gnomon

@@ -1,0 +1,66 @@
+#ifndef gnomon_shadowtech_conservative_TexelCells_h
+#define gnomon_shadowtech_conservative_TexelCells_h
+
+#include "shadowtech/conservative/CasterShapes.h"
+
+#include <limits>
+#include <vector>
+
+namespace gnomon
+{
+
+/// @file
+/// What is gathered of a map's texels while casters are drawn into them.
+
+/// What is gathered of a texel while casters are drawn.
+struct Cell
+{
+  float nearest = std::numeric_limits<float>::infinity(); ///< the least depth of a caster
+  float nearestAcross =
+    std::numeric_limits<float>::infinity(); ///< the least of their largest depths
+  float contained =
+    std::numeric_limits<float>::infinity(); ///< that of casters that cover the texel
+  float climb = 0.0f; ///< the most that depth changes from anywhere to the sample
+  float end =
+    std::numeric_limits<float>::infinity(); ///< the least depth of an end of the casters' surface
+  float sharpEnd = std::numeric_limits<float>::infinity(); ///< the same, with sharp edges
+  float first = std::numeric_limits<float>::infinity();  ///< depth of the first layer at the sample
+  float second = std::numeric_limits<float>::infinity(); ///< and of the second
+
+  void addLayer(float depth)
+  {
+    this->second = std::min(this->second, std::max(this->first, depth));
+    this->first = std::min(this->first, depth);
+  }
+};
+
+/// Columns or rows, from the first to the last.
+struct Span
+{
+  int first, last;
+};
+
+/// The rows or columns below `limit` that a range of texel coordinates meets; none if first > last.
+Span spanOf(double low, double high, int limit);
+
+/// Draws a polygon into some rows.
+/// @param cells of those rows, `width` each
+void drawPolygon(const MapPolygon& polygon, int width, Span rows, Cell* cells);
+
+/// A triangle and those that go on across its edges: a part of the casters' surface, which covers every
+/// texel that it meets but for those on its border.
+struct MapRing
+{
+  std::vector<MapPolygon> triangles; ///< the first is in the middle; all of them cover
+  std::vector<MapSegment> border;    ///< all edges but those that two of the triangles share
+};
+
+/// Notes where a ring covers, for texels that its middle touches.
+void drawRing(const MapRing& ring, int width, Span rows, Cell* cells);
+
+/// Draws an edge into some rows.
+void drawSegment(const MapSegment& segment, int width, Span rows, Cell* cells);
+
+} // namespace gnomon
+
+#endif

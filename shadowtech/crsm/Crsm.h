@@ -1,0 +1,19 @@
+#ifndef gnomon_shadowtech_crsm_Crsm_h
+#define gnomon_shadowtech_crsm_Crsm_h
+
+#include "shadowtech/conservative/ConservativeTechnique.h"
+
+namespace gnomon
+{
+
+/// `crsm`: exact hard shadows. A texel is covered where one triangle contains it (conservative shadow maps after Hertel et al. 2009, with depth bounds that hold).
+class Crsm : public ConservativeTechnique
+{
+public:
+  Crsm();
+  static TechniqueInfo info();
+};
+
+} // namespace gnomon
+
+#endif

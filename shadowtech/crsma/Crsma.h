@@ -1,0 +1,20 @@
+#ifndef gnomon_shadowtech_crsma_Crsma_h
+#define gnomon_shadowtech_crsma_Crsma_h
+
+#include "shadowtech/conservative/ConservativeTechnique.h"
+
+namespace gnomon
+{
+
+/// `crsma`: exact hard shadows. A texel is covered where a triangle and its neighbours contain it (conservative shadow
+/// maps with adjacency after Morais 2016, with a border and depth bounds that hold).
+class Crsma : public ConservativeTechnique
+{
+public:
+  Crsma();
+  static TechniqueInfo info();
+};
+
+} // namespace gnomon
+
+#endif

@@ -1,0 +1,19 @@
+#ifndef gnomon_shadowtech_silhouette_Silhouette_h
+#define gnomon_shadowtech_silhouette_Silhouette_h
+
+#include "shadowtech/conservative/ConservativeTechnique.h"
+
+namespace gnomon
+{
+
+/// `silhouette`: exact hard shadows. Casters cover a texel where no edge of their surface is.
+class Silhouette : public ConservativeTechnique
+{
+public:
+  Silhouette();
+  static TechniqueInfo info();
+};
+
+} // namespace gnomon
+
+#endif

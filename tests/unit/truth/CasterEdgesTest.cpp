@@ -1,0 +1,133 @@
+#include "shadowtech/conservative/CasterEdges.h"
+
+#include "SyntheticScene.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace gnomon::test
+{
+namespace
+{
+
+std::vector<CasterEdge> edgesOf(const Mesh& mesh)
+{
+  const Occluders occluders = makeOccluders({ { mesh } });
+  return findCasterEdges(occluders, occluders.surfaces.front()).edges;
+}
+
+std::size_t countEnds(const std::vector<CasterEdge>& edges)
+{
+  return static_cast<std::size_t>(std::count_if(edges.begin(), edges.end(),
+    [](const CasterEdge& edge) { return edge.triangles[1] == CasterEdge::none; }));
+}
+
+std::size_t countSharp(const std::vector<CasterEdge>& edges)
+{
+  return static_cast<std::size_t>(
+    std::count_if(edges.begin(), edges.end(), [](const CasterEdge& edge) { return edge.sharp; }));
+}
+
+/// The same triangles, each with corners of its own.
+Mesh apart(const Mesh& mesh)
+{
+  Mesh result;
+  for (const glm::uvec3& triangle : mesh.triangles)
+  {
+    const auto first = static_cast<unsigned int>(result.points.size());
+    for (int k = 0; k < 3; ++k)
+    {
+      result.points.push_back(mesh.points[triangle[k]]);
+    }
+    result.triangles.emplace_back(first, first + 1, first + 2);
+  }
+  return result;
+}
+
+TEST(CasterEdges, ofClosedMeshesHaveTwoTriangles)
+{
+  Mesh sphere = makeSphere(16, 32);
+  for (glm::dvec3& point : sphere.points)
+  {
+    point = glm::round(1e6 * point) / 1e6; // its seam closes but for rounding
+  }
+  for (const Mesh& mesh : { sphere, apart(sphere) })
+  {
+    const std::vector<CasterEdge> edges = edgesOf(mesh);
+    EXPECT_EQ(2 * edges.size(), 3 * mesh.triangles.size());
+    EXPECT_EQ(countEnds(edges), 0u);
+    for (const CasterEdge& edge : edges)
+    {
+      EXPECT_NE(edge.triangles[0], edge.triangles[1]);
+      EXPECT_FALSE(edge.sameDirection);
+    }
+    EXPECT_EQ(countSharp(edges), 0u);
+  }
+}
+
+TEST(CasterEdges, ofASheetEndAtItsBorder)
+{
+  const std::vector<CasterEdge> edges = edgesOf(makePlane(2.0, 3));
+  EXPECT_EQ(countEnds(edges), 12u);
+  EXPECT_EQ(edges.size(), 12u + 12u + 9u); // border, between cells, across cells
+}
+
+TEST(CasterEdges, ofABoxAreSharpWhereItsSidesMeet)
+{
+  const std::vector<CasterEdge> edges = edgesOf(makeBox(glm::dvec3(-1.0), glm::dvec3(1.0)));
+  EXPECT_EQ(edges.size(), 18u);
+  // Its corners have sides all around them that are too far apart, and every edge leads to one.
+  EXPECT_EQ(countSharp(edges), 18u);
+}
+
+TEST(CasterEdges, thatThreeTrianglesShareEndEachOfThem)
+{
+  Mesh mesh;
+  mesh.points = { { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 1.0 }, { 1.0, 0.0, 0.0 }, { -1.0, 1.0, 0.0 },
+    { -1.0, -1.0, 0.0 } };
+  mesh.triangles = { { 0, 1, 2 }, { 0, 1, 3 }, { 0, 1, 4 } };
+  const std::vector<CasterEdge> edges = edgesOf(mesh);
+  EXPECT_EQ(edges.size(), 9u);
+  EXPECT_EQ(countEnds(edges), 9u);
+}
+
+TEST(CasterEdges, ofTrianglesThatAreWoundDifferentlySaySo)
+{
+  Mesh mesh = makePlane(1.0);
+  std::swap(mesh.triangles[1].x, mesh.triangles[1].y);
+  const std::vector<CasterEdge> edges = edgesOf(mesh);
+  ASSERT_EQ(countEnds(edges), 4u);
+  const auto inner = std::find_if(edges.begin(), edges.end(),
+    [](const CasterEdge& edge) { return edge.triangles[1] != CasterEdge::none; });
+  ASSERT_NE(inner, edges.end());
+  EXPECT_TRUE(inner->sameDirection);
+  EXPECT_FALSE(inner->sharp);
+}
+
+TEST(CasterEdges, ofNeedlesAreSharp)
+{
+  Mesh mesh;
+  mesh.points = { { 0.0, 0.0, 0.0 }, { 1.0, 0.0, 0.0 }, { 0.5, 1e-6, 0.0 }, { 0.5, -1.0, 0.0 } };
+  mesh.triangles = { { 0, 1, 2 }, { 1, 0, 3 } };
+  EXPECT_EQ(countSharp(edgesOf(mesh)), 5u);
+}
+
+TEST(CasterEdges, areKeptUntilTheSurfaceChanges)
+{
+  Occluders occluders = makeOccluders({ { makePlane(1.0) }, { makeSphere(4, 8) } });
+  CasterEdges edges;
+  edges.update(occluders);
+  const CasterEdge* const plane = edges.of(0).edges.data();
+  const CasterEdge* const sphere = edges.of(1).edges.data();
+  edges.update(occluders);
+  EXPECT_EQ(edges.of(0).edges.data(), plane);
+  EXPECT_EQ(edges.of(1).edges.data(), sphere);
+  moveSurface(occluders, 1, { 0.0, 0.0, 1.0 });
+  edges.update(occluders);
+  EXPECT_EQ(edges.of(0).edges.data(), plane);
+  EXPECT_EQ(edges.of(1).edges.size(), edgesOf(makeSphere(4, 8)).size());
+}
+
+} // namespace
+} // namespace gnomon::test
