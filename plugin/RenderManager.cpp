@@ -271,7 +271,7 @@ bool RenderManager::chooseRoute(int wished, bool keepVisibility)
   std::string screenTechnique;
   for (const LightSlot* slot : this->casting_)
   {
-    if (!slot->estimator->info.pointwise)
+    if (!slot->estimator->info.isPointwise())
     {
       screenTechnique = slot->light.technique;
     }
@@ -349,7 +349,7 @@ std::string RenderManager::reasonAgainstReceivers(const LightSlot& slot) const
   {
     return "the inline route does not draw the receivers first";
   }
-  if (!slot.estimator->info.pointwise)
+  if (!slot.estimator->info.isPointwise())
   {
     return "the technique works on the screen, where the receivers are found after the maps";
   }
@@ -388,7 +388,7 @@ bool RenderManager::readsPoints() const
 {
   return std::any_of(this->casting_.begin(), this->casting_.end(),
     [](const LightSlot* slot)
-    { return slot->estimator->info.pointwise || slot->estimator->info.drawn; });
+    { return slot->estimator->info.evaluation != Evaluation::ScreenCpu; });
 }
 
 //------------------------------------------------------------------------------
@@ -396,7 +396,7 @@ bool RenderManager::readsPoints() const
 const Technique* RenderManager::pointwiseFor(LightSlot& slot) const
 {
   const bool translucent = this->collector_.translucentReceivers() > 0;
-  const bool pointwise = slot.estimator->info.pointwise;
+  const bool pointwise = slot.estimator->info.isPointwise();
   if (pointwise || !translucent)
   {
     slot.plain.reset();
@@ -577,7 +577,7 @@ void RenderManager::computeVisibility(bool keep)
   const Occluders& occluders = this->collector_.occluders();
   const bool onCpu = std::any_of(this->casting_.begin(), this->casting_.end(),
     [](const LightSlot* slot)
-    { return !slot->estimator->info.pointwise && !slot->estimator->info.drawn; });
+    { return slot->estimator->info.evaluation == Evaluation::ScreenCpu; });
   if (onCpu || keep)
   {
     this->resolveReceivers();
@@ -596,30 +596,31 @@ void RenderManager::computeVisibility(bool keep)
   {
     LightSlot& slot = *this->casting_[i];
     const int layer = static_cast<int>(i);
-    if (slot.estimator->info.pointwise)
+    switch (slot.estimator->info.evaluation)
     {
-      this->layers_.estimate(layer, *slot.technique, slot.light, this->receiverTarget_,
-        this->stageValues_.centredFromView, this->library_);
-      this->endStageClock("visibility: estimate");
-    }
-    else if (slot.estimator->info.drawn)
-    {
-      this->buffers_.update(occluders);
-      slot.technique->drawVisibility(
-        { slot.light, this->camera_, occluders, this->buffers_, this->receiverTarget_,
-          this->collector_.drawnSurfaces(), this->layers_, layer, this->library_,
-          keep || this->measureStages_, this->report_.notes },
-        this->reportOf(slot.light));
-      this->report_.bytesMaps += slot.technique->bytesOfMaps();
-      this->endStageClock("visibility: draw");
-    }
-    else
-    {
-      slot.technique->computeVisibility({ slot.light, occluders, this->receivers_, this->tracer_ },
-        visibility, this->reportOf(slot.light));
-      this->endStageClock("visibility: trace");
-      this->layers_.upload(layer, visibility);
-      this->endStageClock("visibility: upload");
+      case Evaluation::Pointwise:
+        this->layers_.estimate(layer, *slot.technique, slot.light, this->receiverTarget_,
+          this->stageValues_.centredFromView, this->library_);
+        this->endStageClock("visibility: estimate");
+        break;
+      case Evaluation::ScreenGpu:
+        this->buffers_.update(occluders);
+        slot.technique->drawVisibility(
+          { slot.light, this->camera_, occluders, this->buffers_, this->receiverTarget_,
+            this->collector_.drawnSurfaces(), this->layers_, layer, this->library_,
+            keep || this->measureStages_, this->report_.notes },
+          this->reportOf(slot.light));
+        this->report_.bytesMaps += slot.technique->bytesOfMaps();
+        this->endStageClock("visibility: draw");
+        break;
+      case Evaluation::ScreenCpu:
+        slot.technique->computeVisibility(
+          { slot.light, occluders, this->receivers_, this->tracer_ }, visibility,
+          this->reportOf(slot.light));
+        this->endStageClock("visibility: trace");
+        this->layers_.upload(layer, visibility);
+        this->endStageClock("visibility: upload");
+        break;
     }
   }
   if (keep)

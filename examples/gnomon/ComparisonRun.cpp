@@ -83,16 +83,16 @@ std::vector<VariantSpec> listVariants(
       leftOut.push_back(text + " is left out: " + error.what() + ".");
       continue;
     }
-    spec.pointwise = info.pointwise;
+    spec.pointwise = info.isPointwise();
     for (int size : info.needsMap ? plan.mapSizesTexels : std::vector<int>{ 0 })
     {
       spec.mapSizeTexels = size;
-      if (info.pointwise && plan.inlineRoute)
+      if (info.isPointwise() && plan.inlineRoute)
       {
         spec.route = vtkGnomonShadowPass::ROUTE_INLINE;
         specs.push_back(spec);
       }
-      if (!info.pointwise || plan.imageRoute)
+      if (!info.isPointwise() || plan.imageRoute)
       {
         spec.route = vtkGnomonShadowPass::ROUTE_IMAGE;
         specs.push_back(spec);

@@ -77,7 +77,7 @@ void check(const RenderOptions& options)
   settings.technique = options.settings.at("technique");
   settings.estimator = options.settings.at("estimator");
   const TechniqueInfo& info = estimatorOf(settings).info;
-  if (options.route == "inline" && !info.pointwise)
+  if (options.route == "inline" && !info.isPointwise())
   {
     throw BadInput("--route inline: technique " + info.name +
       " works on the screen, expected --route image or auto");

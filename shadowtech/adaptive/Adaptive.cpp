@@ -32,7 +32,7 @@ TechniqueInfo Adaptive::info()
 {
   TechniqueInfo info;
   info.name = "adaptive";
-  info.pointwise = true;
+  info.evaluation = Evaluation::Pointwise;
   info.needsMap = true;
   info.filters = true;
   info.ownKernel = "disc";

@@ -28,18 +28,27 @@ class ReceiverTarget;
 class ShaderLibrary;
 class VisibilityLayers;
 
+/// How an estimator's visibility comes about, and so which of Technique's functions gives it.
+enum class Evaluation
+{
+  Pointwise, ///< a function of the point (visibilityGlsl): serves both routes
+  ScreenGpu, ///< drawn on the GPU for all pixels at once (drawVisibility)
+  ScreenCpu  ///< computed on the CPU for all pixels at once (computeVisibility)
+};
+
 /// What an estimator is, before any instance of it exists: one line of the registry.
 struct TechniqueInfo
 {
   std::string name;
-  bool pointwise = false; ///< visibility is a function of the point: serves both routes
-  bool drawn = false;     ///< a screen technique that draws its image on the GPU
-  bool exact = false;     ///< equals the ray-traced visibility bit for bit
-  bool needsMap = false;  ///< bakes something from the light
-  bool filters = false;   ///< averages over a kernel, `kernel_size` wide
+  Evaluation evaluation = Evaluation::Pointwise;
+  bool exact = false;    ///< equals the ray-traced visibility bit for bit
+  bool needsMap = false; ///< bakes something from the light
+  bool filters = false;  ///< averages over a kernel, `kernel_size` wide
   /// The kernel of an estimator that has one of its own; empty: what the setting `kernel` says.
   std::string ownKernel = {};
   bool averagesMap = false; ///< its map holds what may be averaged: moments, not depths
+
+  bool isPointwise() const { return this->evaluation == Evaluation::Pointwise; }
 };
 
 /// A texture for a shader's sampler.
@@ -105,8 +114,8 @@ struct ScreenInput
 /// length. Every identifier that ends in _LIGHT is numbered per light. Both routes call that
 /// function: VTK's own shaders (inline) or a full-screen pass (image).
 ///
-/// A *screen* technique works on the receivers of all pixels at once. One that is *drawn* does so on the
-/// GPU and reads nothing back; the others compute on the CPU, and may trace rays.
+/// A *screen* technique works on the receivers of all pixels at once: on the GPU, where it reads nothing
+/// back, or on the CPU, where it may trace rays.
 class Technique
 {
 public:
@@ -131,7 +140,7 @@ public:
     return {};
   }
 
-  /// Draws a screen technique's visibility into its layer: in [0, 1] for every pixel.
+  /// Draws a screen technique's visibility on the GPU into its layer: in [0, 1] for every pixel.
   virtual void drawVisibility(const LayerInput&, LightReport&) {}
 
   /// Computes a screen technique's visibility on the CPU, one float in [0, 1] per pixel of the receivers.

@@ -10,7 +10,7 @@ TechniqueInfo Compare::info()
 {
   TechniqueInfo info;
   info.name = "compare";
-  info.pointwise = true;
+  info.evaluation = Evaluation::Pointwise;
   info.needsMap = true;
   return info;
 }

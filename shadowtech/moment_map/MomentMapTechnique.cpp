@@ -38,7 +38,7 @@ TechniqueInfo MomentMapTechnique::infoOf(const char* name)
 {
   TechniqueInfo info;
   info.name = name;
-  info.pointwise = true;
+  info.evaluation = Evaluation::Pointwise;
   info.needsMap = true;
   info.filters = true;
   info.ownKernel = "square";

@@ -59,7 +59,7 @@ TechniqueInfo Pcf::info()
 {
   TechniqueInfo info;
   info.name = "pcf";
-  info.pointwise = true;
+  info.evaluation = Evaluation::Pointwise;
   info.needsMap = true;
   info.filters = true;
   return info;

@@ -104,7 +104,7 @@ TechniqueInfo Planar::info()
 {
   TechniqueInfo info;
   info.name = "planar";
-  info.drawn = true;
+  info.evaluation = Evaluation::ScreenGpu;
   return info;
 }
 

@@ -10,6 +10,7 @@ TechniqueInfo Raytraced::info()
 {
   TechniqueInfo info;
   info.name = "raytraced";
+  info.evaluation = Evaluation::ScreenCpu;
   info.exact = true;
   return info;
 }

@@ -2,6 +2,7 @@
 // detached shadows, and no view that breaks them.
 
 #include "LitPlane.h"
+#include "MapLayout.h"
 #include "PassScene.h"
 
 #include "plugin/VisibilityImages.h"
@@ -20,39 +21,23 @@ using gnomon::VisibilityImages;
 namespace
 {
 
-/// A way to lay out a map.
-struct Layout
-{
-  const char* name;
-  const char* technique;
-  const char* fit;
-  const char* snap;
-};
-
 class HardMaps
   : public PassTest
-  , public testing::WithParamInterface<Layout>
+  , public testing::WithParamInterface<MapLayout>
 {
 protected:
-  static void choose(PassScene& scene)
-  {
-    scene.pass->SetTechnique(GetParam().technique);
-    scene.pass->SetSetting("fit", GetParam().fit);
-    scene.pass->SetSetting("snap", GetParam().snap);
-  }
-  /// Warps and splits are for lights with a single view.
+  static void choose(PassScene& scene) { GetParam().choose(scene); }
   static double coneUpTo(double degrees)
   {
-    return std::string(GetParam().technique) == "nsm" ? degrees : std::min(degrees, 60.0);
+    return GetParam().takesCubes() ? degrees : std::min(degrees, 60.0);
   }
 };
 
 INSTANTIATE_TEST_SUITE_P(Layouts, HardMaps,
-  testing::Values(Layout{ "nsm", "nsm", "off", "off" }, Layout{ "fitted", "nsm", "frame", "off" },
-    Layout{ "snapped", "nsm", "frame", "on" }, Layout{ "lispsm", "lispsm", "off", "off" },
-    Layout{ "tsm", "tsm", "off", "off" }, Layout{ "pssm", "pssm", "off", "off" },
-    Layout{ "pssm_snapped", "pssm", "off", "on" }),
-  [](const testing::TestParamInfo<Layout>& layout) { return std::string(layout.param.name); });
+  testing::Values(MapLayout{ "nsm" }, MapLayout{ "nsm", "technique", "frame", "off" },
+    MapLayout{ "nsm", "technique", "frame" }, MapLayout{ "lispsm" }, MapLayout{ "tsm" },
+    MapLayout{ "pssm", "technique", "off", "off" }, MapLayout{ "pssm" }),
+  testing::PrintToStringParamName());
 
 } // namespace
 

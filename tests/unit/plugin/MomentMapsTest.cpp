@@ -3,6 +3,7 @@
 
 #include "LitPlane.h"
 #include "LiveObjects.h"
+#include "MapLayout.h"
 #include "PassScene.h"
 
 #include "plugin/VisibilityImages.h"
@@ -24,30 +25,12 @@ using gnomon::VisibilityImages;
 namespace
 {
 
-/// A technique and a way to lay out its map.
-struct Layout
-{
-  const char* technique;
-  const char* projection;
-  const char* fit;
-};
-
-std::ostream& operator<<(std::ostream& stream, const Layout& layout)
-{
-  return stream << layout.technique << " " << layout.projection << " " << layout.fit;
-}
-
 class MomentMaps
   : public PassTest
-  , public testing::WithParamInterface<Layout>
+  , public testing::WithParamInterface<MapLayout>
 {
 protected:
-  static void choose(PassScene& scene)
-  {
-    scene.pass->SetTechnique(GetParam().technique);
-    scene.pass->SetSetting("projection", GetParam().projection);
-    scene.pass->SetSetting("fit", GetParam().fit);
-  }
+  static void choose(PassScene& scene) { GetParam().choose(scene); }
   /// The truth.
   static const VisibilityImages& traced(PassScene& scene)
   {
@@ -55,21 +38,15 @@ protected:
     scene.pass->SetTechnique("raytraced");
     return drawKept(scene);
   }
-  /// Warps and splits are for lights with a single view.
-  static bool takesCubes() { return std::string(GetParam().projection) == "uniform"; }
+  static bool takesCubes() { return GetParam().takesCubes(); }
 };
 
 INSTANTIATE_TEST_SUITE_P(Layouts, MomentMaps,
-  testing::Values(Layout{ "vsm", "uniform", "off" }, Layout{ "vsm", "uniform", "frame" },
-    Layout{ "vsm", "lispsm", "off" }, Layout{ "vsm", "tsm", "off" }, Layout{ "vsm", "pssm", "off" },
-    Layout{ "evsm", "uniform", "off" }, Layout{ "evsm", "lispsm", "off" },
-    Layout{ "evsm", "pssm", "off" }, Layout{ "msm", "uniform", "off" },
-    Layout{ "msm", "lispsm", "off" }, Layout{ "msm", "pssm", "off" }),
-  [](const testing::TestParamInfo<Layout>& layout)
-  {
-    return std::string(layout.param.technique) + "_" + layout.param.projection + "_" +
-      layout.param.fit;
-  });
+  testing::Values(MapLayout{ "vsm" }, MapLayout{ "vsm", "technique", "frame" },
+    MapLayout{ "vsm", "lispsm" }, MapLayout{ "vsm", "tsm" }, MapLayout{ "vsm", "pssm" },
+    MapLayout{ "evsm" }, MapLayout{ "evsm", "lispsm" }, MapLayout{ "evsm", "pssm" },
+    MapLayout{ "msm" }, MapLayout{ "msm", "lispsm" }, MapLayout{ "msm", "pssm" }),
+  testing::PrintToStringParamName());
 
 /// How lit the pixels are that face a light.
 struct Lit

@@ -235,7 +235,7 @@ TEST_P(Neighbours, translucentPropsKeepTheirColoursAndShowShadows)
     const gnomon::TechniqueInfo& info =
       gnomon::findTechnique(GetParam().technique)->estimator->info;
     this->scene.choose(
-      { info.pointwise ? GetParam().technique : "nsm", vtkGnomonShadowPass::ROUTE_INLINE });
+      { info.isPointwise() ? GetParam().technique : "nsm", vtkGnomonShadowPass::ROUTE_INLINE });
     const auto [behindInline, bothInline] = draw(1.0f);
     this->scene.choose(GetParam());
     std::size_t panePixels = 0;

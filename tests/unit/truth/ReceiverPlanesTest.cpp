@@ -47,9 +47,23 @@ public:
       static_cast<std::uint32_t>(this->occluders.positionsCentred.size()) - surface.firstVertex;
     surface.triangleCount =
       static_cast<std::uint32_t>(this->occluders.triangles.size()) - surface.firstTriangle;
+    surface.topologyVersion = surface.positionsVersion = ++this->versions_;
     this->occluders.surfaces.push_back(surface);
     this->occluders.topologyVersion = this->occluders.positionsVersion = ++this->versions_;
     return this->occluders.surfaces.back();
+  }
+
+  /// Puts a surface elsewhere. The box around all does not change: it may be larger than it must.
+  void move(std::size_t number, const glm::vec3& by)
+  {
+    Surface& surface = this->occluders.surfaces[number];
+    for (std::uint32_t i = 0; i < surface.vertexCount; ++i)
+    {
+      glm::vec3& position = this->occluders.positionsCentred[surface.firstVertex + i];
+      position += by;
+      this->occluders.allCentred.add(position);
+    }
+    surface.positionsVersion = this->occluders.positionsVersion = ++this->versions_;
   }
 
   Occluders occluders;
@@ -166,15 +180,99 @@ TEST(ReceiverPlanes, followDroppedTrianglesAndChanges)
   EXPECT_NE(drawn[0], drawn[3]);
 
   // Nothing is looked at again as long as the versions stay; then it is.
-  for (std::size_t i = 4; i < 8; ++i)
-  {
-    snapshot.occluders.positionsCentred[i].z = 0.0f;
-  }
+  const std::uint64_t version = planes.version();
   planes.update(snapshot.occluders, mostPlanes);
+  EXPECT_EQ(planes.version(), version);
+  snapshot.move(1, -z);
   EXPECT_EQ(planes.planes().size(), 2u);
-  ++snapshot.occluders.positionsVersion;
   planes.update(snapshot.occluders, mostPlanes);
   EXPECT_EQ(planes.planes().size(), 1u);
+}
+
+void expectSame(const ReceiverPlanes& a, const ReceiverPlanes& b)
+{
+  EXPECT_EQ(a.area(), b.area());
+  EXPECT_EQ(a.planeOfDrawn(), b.planeOfDrawn());
+  ASSERT_EQ(a.planes().size(), b.planes().size());
+  for (std::size_t i = 0; i < a.planes().size(); ++i)
+  {
+    EXPECT_EQ(a.planes()[i].plane, b.planes()[i].plane);
+    EXPECT_EQ(a.planes()[i].thickness, b.planes()[i].thickness);
+    EXPECT_EQ(a.planes()[i].area, b.planes()[i].area);
+    EXPECT_EQ(a.planes()[i].boundsCentred.lower, b.planes()[i].boundsCentred.lower);
+    EXPECT_EQ(a.planes()[i].boundsCentred.upper, b.planes()[i].boundsCentred.upper);
+  }
+}
+
+TEST(ReceiverPlanes, lookOnlyAtSurfacesThatHaveChanged)
+{
+  const glm::dvec3 up = glm::normalize(glm::dvec3(0.2, -0.4, 1.0));
+  Snapshot snapshot;
+  snapshot.add(
+    glm::dvec3(-2.0), 4.0 * x, 4.0 * y, 100); // 20,000 triangles: more than a block of them
+  snapshot.add(z, 2.0 * glm::cross(up, x), 2.0 * glm::cross(up, y), 40);
+  snapshot.add(2.0 * z, x, z, 3);
+  ReceiverPlanes planes;
+  const auto expectSorted = [&](std::size_t expected)
+  {
+    planes.update(snapshot.occluders, mostPlanes);
+    EXPECT_EQ(planes.sortedTriangles(), expected);
+    ReceiverPlanes fresh;
+    fresh.update(snapshot.occluders, mostPlanes);
+    expectSame(planes, fresh);
+  };
+  expectSorted(23218);
+  EXPECT_EQ(planes.planes().size(), 3u);
+  snapshot.move(1, glm::vec3(0.1f, 0.2f, 0.3f));
+  expectSorted(3200);
+  snapshot.move(2, glm::vec3(1000.0f, 0.0f, 0.0f)); // cells get another size
+  expectSorted(23218);
+
+  // A surface that becomes curved: there is a direction less that counts; and back.
+  const std::vector<glm::vec3> flat = snapshot.occluders.positionsCentred;
+  for (std::uint32_t i = 0; i < snapshot.occluders.surfaces[1].vertexCount; ++i)
+  {
+    glm::vec3& point =
+      snapshot.occluders.positionsCentred[snapshot.occluders.surfaces[1].firstVertex + i];
+    point += 0.1f * glm::dot(point, point) * glm::vec3(up);
+  }
+  snapshot.move(1, glm::vec3(0.0f));
+  expectSorted(3200);
+  EXPECT_EQ(planes.planes().size(), 2u);
+  snapshot.occluders.positionsCentred = flat;
+  snapshot.move(1, glm::vec3(0.0f));
+  expectSorted(3200);
+  EXPECT_EQ(planes.planes().size(), 3u);
+
+  // Beside a large surface the directions of the others do not count; without it they do again.
+  snapshot.add(5.0 * z, 200.0 * x, 200.0 * y, 4);
+  expectSorted(32);
+  EXPECT_EQ(planes.planes().size(), 1u);
+  snapshot.occluders.surfaces[3].receives = false;
+  ++snapshot.occluders.topologyVersion;
+  expectSorted(3218);
+  EXPECT_EQ(planes.planes().size(), 3u);
+
+  // Surfaces go, and others are elsewhere in the list.
+  snapshot.occluders.surfaces.erase(snapshot.occluders.surfaces.begin() + 1);
+  ++snapshot.occluders.topologyVersion;
+  expectSorted(0);
+  EXPECT_EQ(planes.planes().size(), 2u);
+}
+
+TEST(ReceiverPlanes, haveSliversThatLookElsewhere)
+{
+  // Rounding may turn a triangle that is no wider than its corners' error any way: this one stands
+  // upright, as a wall does that makes its direction count.
+  Snapshot snapshot;
+  snapshot.add(z, 2.0 * x, 2.0 * y);
+  snapshot.add(5.0 * y, x, z);
+  snapshot.add(z + y, x, 0x1p-23 * z);
+  snapshot.add(z + y, x, 0x1p-20 * z);
+  ReceiverPlanes planes;
+  planes.update(snapshot.occluders, mostPlanes);
+  EXPECT_EQ(planes.planes().size(), 2u);
+  EXPECT_EQ(planes.planeOfDrawn(), (std::vector<std::uint8_t>{ 1, 1, 2, 2, 1, 1, 0, 0 }));
 }
 
 TEST(ReceiverPlanes, areTheLargestOfMany)

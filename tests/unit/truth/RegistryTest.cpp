@@ -73,7 +73,21 @@ TEST(Registry, hasEveryTechniqueOnceAndItsEstimator)
   }
   EXPECT_EQ(findTechnique("magic"), nullptr);
   EXPECT_TRUE(findTechnique(defaultTechnique));
-  EXPECT_TRUE(findTechnique(plainTechnique)->estimator->info.pointwise);
+  EXPECT_TRUE(findTechnique(plainTechnique)->estimator->info.isPointwise());
+}
+
+TEST(Registry, knowsWhichEstimatorsAreFunctionsOfThePoint)
+{
+  for (const EstimatorEntry& estimator : estimators())
+  {
+    ShadowLight light = lightOf(LightKind::Directional);
+    light.estimator = estimator.info.name;
+    compose(light);
+    EXPECT_EQ(estimator.create()->visibilityGlsl(light).empty(), !estimator.info.isPointwise())
+      << estimator.info.name;
+  }
+  EXPECT_EQ(findEstimator("planar")->info.evaluation, Evaluation::ScreenGpu);
+  EXPECT_EQ(findEstimator("raytraced")->info.evaluation, Evaluation::ScreenCpu);
 }
 
 TEST(Registry, takesOrRefusesEveryComposition)

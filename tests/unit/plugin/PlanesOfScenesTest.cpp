@@ -1,0 +1,517 @@
+// The planes that `planar` finds in the built-in scenes, against a plain search.
+
+#include "BuiltinScenes.h"
+#include "Scene.h"
+
+#include "plugin/OccluderCollector.h"
+#include "shadowtech/base/Occluders.h"
+#include "shadowtech/planar/ReceiverPlanes.h"
+
+#include <vtkRenderer.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gnomon::test
+{
+namespace
+{
+
+/// How far from their common plane the corners of coplanar triangles lie, as a share of
+/// sum |n_i| |p_i|: rounding moves a corner by up to one unit roundoff 2^-24 of that, the plane, which is
+/// found from such corners, by about as much again, and half of it is left over.
+constexpr double cornerNoise = 4.0 / (1 << 24);
+/// A receiving triangle of the snapshot.
+struct Triangle
+{
+  std::array<glm::dvec3, 3> corners;
+  glm::dvec3 areaVector; ///< normal, as long as the area
+
+  Triangle(const Occluders& occluders, std::size_t number)
+  {
+    for (int i = 0; i < 3; ++i)
+    {
+      this->corners[static_cast<std::size_t>(i)] =
+        occluders.positionsCentred[occluders.triangles[number][i]];
+    }
+    this->areaVector =
+      0.5 * glm::cross(this->corners[1] - this->corners[0], this->corners[2] - this->corners[0]);
+  }
+  double area() const { return glm::length(this->areaVector); }
+  glm::dvec3 centroid() const
+  {
+    return (this->corners[0] + this->corners[1] + this->corners[2]) / 3.0;
+  }
+  glm::dvec3 largest() const
+  {
+    return glm::max(
+      glm::abs(this->corners[0]), glm::max(glm::abs(this->corners[1]), glm::abs(this->corners[2])));
+  }
+  double longestEdge() const
+  {
+    return std::max({ glm::distance(this->corners[0], this->corners[1]),
+      glm::distance(this->corners[1], this->corners[2]),
+      glm::distance(this->corners[2], this->corners[0]) });
+  }
+};
+
+/// A normal's cell in a cube map of directions; opposite ones are the same. The middle of a face is the
+/// middle of a cell, so that axis-parallel planes stay in one.
+constexpr int cellsPerSide = 63;
+constexpr int directionCells = 3 * cellsPerSide * cellsPerSide;
+
+int longestAxis(const glm::dvec3& normal)
+{
+  const glm::dvec3 magnitude = glm::abs(normal);
+  const int axis = magnitude.x >= magnitude.y ? 0 : 1;
+  return magnitude[axis] >= magnitude.z ? axis : 2;
+}
+
+/// -1 for a normal that counts as its opposite.
+double orientation(const glm::dvec3& normal)
+{
+  return normal[longestAxis(normal)] < 0.0 ? -1.0 : 1.0;
+}
+
+int directionCell(const glm::dvec3& normal)
+{
+  const int axis = longestAxis(normal);
+  const auto cell = [&](double component)
+  {
+    const double place = 0.5 * (component / normal[axis] + 1.0); // in [0, 1]
+    return std::min(static_cast<int>(place * cellsPerSide), cellsPerSide - 1);
+  };
+  return (axis * cellsPerSide + cell(normal[(axis + 1) % 3])) * cellsPerSide +
+    cell(normal[(axis + 2) % 3]);
+}
+
+/// Triangles whose planes are much alike, from which a plane may be grown.
+struct Candidate
+{
+  std::vector<std::size_t> triangles;
+  double area = 0.0;
+  double largestArea = 0.0;
+  std::size_t largest = 0; ///< the triangle
+};
+
+/// Sums up triangles that lie on one plane. Their area vectors add up to that of their common outline,
+/// so that the errors of small triangles do not.
+struct PlaneSum
+{
+  glm::dvec3 areaVector{ 0.0 };
+  glm::dvec3 moment{ 0.0 };
+  double area = 0.0;
+
+  void add(const Triangle& triangle, const glm::dvec3& along)
+  {
+    const double weight = triangle.area();
+    const double side = glm::dot(triangle.areaVector, along) < 0.0 ? -1.0 : 1.0;
+    this->areaVector += side * triangle.areaVector;
+    this->moment += weight * triangle.centroid();
+    this->area += weight;
+  }
+  glm::dvec4 plane() const
+  {
+    const glm::dvec3 normal = glm::normalize(this->areaVector);
+    return { normal, -glm::dot(normal, this->moment) / this->area };
+  }
+};
+
+double distanceOff(const glm::dvec4& plane, const glm::dvec3& point)
+{
+  return std::abs(glm::dot(plane, glm::dvec4(point, 1.0)));
+}
+
+/// sum |n_i| |p_i|, which bounds the rounding of n.p.
+double magnitudeAlong(const glm::dvec4& plane, const glm::dvec3& point)
+{
+  return glm::dot(glm::abs(glm::dvec3(plane)), glm::abs(point));
+}
+
+/// Searches a snapshot for planes: the twin of ReceiverPlanes, which looks at every triangle for every
+/// plane, has cells of another size, and remembers nothing.
+class PlainSearch
+{
+public:
+  PlainSearch(const Occluders& occluders, std::size_t wanted)
+    : occluders_(occluders)
+    , wanted_(wanted)
+  {
+  }
+
+  double area() const { return this->area_; }
+  /// By triangle of the snapshot: 0, or 1 + its plane.
+  const std::vector<std::uint8_t>& planeOfTriangle() const { return this->planeOfTriangle_; }
+
+  std::vector<ReceiverPlane> run()
+  {
+    this->planeOfTriangle_.assign(this->occluders_.triangles.size(), 0);
+    this->collectFlat();
+    std::vector<ReceiverPlane> planes;
+    // Candidates fail where surfaces are almost flat. More of them than this are not worth the time.
+    int tries = 2 * mostPlanes;
+    std::size_t before = 0;
+    do
+    {
+      before = planes.size();
+      for (const Candidate& candidate : this->candidates())
+      {
+        if (planes.size() == mostPlanes || tries-- <= 0 || this->hasLargerThan(candidate, planes))
+        {
+          break;
+        }
+        if (this->planeOfTriangle_[candidate.largest] == 0)
+        {
+          this->grow(candidate, planes);
+        }
+      }
+      // What was like a plane that has been found may be another one.
+    } while (planes.size() > before && planes.size() < mostPlanes);
+    this->sortByArea(planes);
+    return planes;
+  }
+
+private:
+  /// Keeps the triangles in whose direction enough of the area looks.
+  void collectFlat()
+  {
+    std::vector<double> areaOfDirection(directionCells, 0.0);
+    const auto visitReceivers = [this](const auto& visit)
+    {
+      for (const Surface& surface : this->occluders_.surfaces)
+      {
+        const bool counts = surface.receives && !surface.isInstanced();
+        for (std::uint32_t i = 0; counts && i < surface.triangleCount; ++i)
+        {
+          const std::size_t number = surface.firstTriangle + i;
+          const Triangle triangle(this->occluders_, number);
+          const double area = triangle.area();
+          if (area > 0.0) // what has none has no direction
+          {
+            visit(number, triangle, area, directionCell(triangle.areaVector));
+          }
+        }
+      }
+    };
+    for (const Surface& surface : this->occluders_.surfaces)
+    {
+      this->area_ +=
+        surface.receives && surface.isInstanced() ? this->areaOfInstances(surface) : 0.0;
+    }
+    visitReceivers(
+      [&](std::size_t, const Triangle&, double area, int cell)
+      {
+        areaOfDirection[static_cast<std::size_t>(cell)] += area;
+        this->area_ += area;
+      });
+    visitReceivers(
+      [&](std::size_t number, const Triangle&, double, int cell)
+      {
+        if (areaOfDirection[static_cast<std::size_t>(cell)] >= this->leastArea() * splitShare)
+        {
+          this->flat_.push_back(number);
+        }
+      });
+  }
+
+  /// As if each instance were scaled evenly.
+  double areaOfInstances(const Surface& surface) const
+  {
+    double areaSource = 0.0;
+    for (std::uint32_t i = 0; i < surface.triangleCount; ++i)
+    {
+      areaSource += Triangle(this->occluders_, surface.firstTriangle + i).area();
+    }
+    double scale = 0.0;
+    for (const glm::mat4x3& instance : surface.centredFromSource)
+    {
+      scale += std::pow(std::abs(glm::determinant(glm::dmat3(instance))), 2.0 / 3.0);
+    }
+    return scale * areaSource;
+  }
+
+  /// The cells of direction and offset that hold enough, in order of their area.
+  std::vector<Candidate> candidates() const
+  {
+    const double offsetCell =
+      std::max(this->occluders_.allCentred.radius() / 2048.0, std::numeric_limits<double>::min());
+    std::map<std::pair<int, long>, Candidate> cells;
+    for (const std::size_t number : this->flat_)
+    {
+      if (this->planeOfTriangle_[number] != 0)
+      {
+        continue;
+      }
+      const Triangle triangle(this->occluders_, number);
+      const double area = triangle.area();
+      const int direction = directionCell(triangle.areaVector);
+      const double offset = orientation(triangle.areaVector) *
+        glm::dot(triangle.areaVector / area, triangle.centroid());
+      Candidate& cell = cells[{ direction, std::lround(offset / offsetCell) }];
+      cell.triangles.push_back(number);
+      cell.area += area;
+      if (area > cell.largestArea)
+      {
+        cell.largestArea = area;
+        cell.largest = number;
+      }
+    }
+    std::vector<Candidate> result;
+    for (const auto& [place, cell] : cells)
+    {
+      if (cell.area >= this->leastArea() * splitShare)
+      {
+        result.push_back(cell);
+      }
+    }
+    std::sort(result.begin(), result.end(),
+      [](const Candidate& a, const Candidate& b)
+      { return a.area != b.area ? a.area > b.area : a.largest < b.largest; });
+    return result;
+  }
+
+  /// Whether as many planes as wanted are larger than any that a candidate could be a part of.
+  bool hasLargerThan(const Candidate& candidate, const std::vector<ReceiverPlane>& planes) const
+  {
+    const auto larger = std::count_if(planes.begin(), planes.end(),
+      [&](const ReceiverPlane& plane) { return plane.area * splitShare > candidate.area; });
+    return static_cast<std::size_t>(larger) >= this->wanted_;
+  }
+
+  /// Finds the plane of a candidate's largest triangle, by what else of the candidate lies on it.
+  void grow(const Candidate& candidate, std::vector<ReceiverPlane>& planes)
+  {
+    const Triangle seed(this->occluders_, candidate.largest);
+    PlaneSum one;
+    one.add(seed, seed.areaVector);
+    const glm::dvec4 seedPlane = one.plane();
+    // Of a small triangle the corners' rounding turns the plane: the farther away, the farther off.
+    const double height = 2.0 * seed.area() / seed.longestEdge();
+    const glm::dvec3 middle = seed.centroid();
+    PlaneSum sum;
+    for (const std::size_t number : candidate.triangles)
+    {
+      if (this->planeOfTriangle_[number] == 0)
+      {
+        const Triangle triangle(this->occluders_, number);
+        const auto near = [&](const glm::dvec3& corner)
+        {
+          const double noise =
+            cornerNoise * magnitudeAlong(seedPlane, glm::max(glm::abs(corner), seed.largest()));
+          return distanceOff(seedPlane, corner) <=
+            noise * (1.0 + glm::distance(corner, middle) / height);
+        };
+        if (std::all_of(triangle.corners.begin(), triangle.corners.end(), near))
+        {
+          sum.add(triangle, seed.areaVector);
+        }
+      }
+    }
+    if (sum.area >= this->leastArea() * splitShare)
+    {
+      this->gather(sum.plane(), planes);
+    }
+  }
+
+  /// Makes a plane of all that lies on it, if that is enough.
+  void gather(const glm::dvec4& plane, std::vector<ReceiverPlane>& planes)
+  {
+    ReceiverPlane found;
+    found.plane = plane;
+    std::vector<std::size_t> members;
+    for (const std::size_t number : this->flat_)
+    {
+      if (this->planeOfTriangle_[number] != 0)
+      {
+        continue;
+      }
+      if (!isNear(plane, number))
+      {
+        continue;
+      }
+      const Triangle triangle(this->occluders_, number);
+      const glm::dvec3 largest = triangle.largest();
+      const auto on = [&](const glm::dvec3& corner)
+      { return distanceOff(plane, corner) <= cornerNoise * magnitudeAlong(plane, largest); };
+      if (std::all_of(triangle.corners.begin(), triangle.corners.end(), on))
+      {
+        members.push_back(number);
+        found.area += triangle.area();
+        for (const glm::dvec3& corner : triangle.corners)
+        {
+          found.boundsCentred.add(corner);
+        }
+      }
+    }
+    if (found.area < this->leastArea() || members.empty())
+    {
+      return;
+    }
+    planes.push_back(found);
+    for (const std::size_t number : members)
+    {
+      this->planeOfTriangle_[number] = static_cast<std::uint8_t>(planes.size());
+    }
+  }
+
+  /// Whether a triangle's first corner lies on a plane as far as the scene's size can tell: sorts out nearly
+  /// all that do not, at little cost.
+  bool isNear(const glm::dvec4& plane, std::size_t number) const
+  {
+    const glm::dvec3 corner =
+      this->occluders_.positionsCentred[this->occluders_.triangles[number].x];
+    const Bounds& all = this->occluders_.allCentred;
+    const glm::dvec3 largest = glm::max(glm::abs(all.lower), glm::abs(all.upper));
+    return distanceOff(plane, corner) <= cornerNoise * magnitudeAlong(plane, largest);
+  }
+
+  /// Puts the wanted planes in order of area, and forgets the others.
+  void sortByArea(std::vector<ReceiverPlane>& planes)
+  {
+    std::vector<std::size_t> order(planes.size());
+    std::iota(order.begin(), order.end(), std::size_t(0));
+    std::stable_sort(order.begin(), order.end(),
+      [&](std::size_t a, std::size_t b) { return planes[a].area > planes[b].area; });
+    std::vector<ReceiverPlane> sorted;
+    std::array<std::uint8_t, mostPlanes + 1> place{};
+    for (const std::size_t number : order)
+    {
+      if (sorted.size() < this->wanted_)
+      {
+        sorted.push_back(planes[number]);
+        place[number + 1] = static_cast<std::uint8_t>(sorted.size());
+      }
+    }
+    planes = std::move(sorted);
+    for (std::uint8_t& plane : this->planeOfTriangle_)
+    {
+      plane = place[plane];
+    }
+  }
+
+  double leastArea() const { return ReceiverPlanes::smallestShare * this->area_; }
+  /// A plane near the border of cells may be spread over so many of them.
+  static constexpr double splitShare = 1.0 / 8.0;
+
+  const Occluders& occluders_;
+  std::size_t wanted_;
+  double area_ = 0.0;
+  std::vector<std::size_t> flat_;
+  std::vector<std::uint8_t> planeOfTriangle_;
+};
+
+class PlanesOfScenes : public testing::TestWithParam<std::string>
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(Builtin, PlanesOfScenes,
+  testing::ValuesIn(
+    []
+    {
+      std::vector<std::string> names;
+      for (const tool::BuiltinScene& scene : tool::builtinScenes())
+      {
+        names.push_back(scene.name);
+      }
+      return names;
+    }()),
+  [](const testing::TestParamInfo<std::string>& scene)
+  {
+    std::string name = scene.param;
+    std::replace(name.begin(), name.end(), '-', '_');
+    return name;
+  });
+
+/// For each plane of the plain search, which of the others has its triangles; `none` where none has.
+constexpr std::size_t none = mostPlanes;
+std::vector<std::size_t> partners(
+  const std::vector<std::uint8_t>& plain, const std::vector<std::uint8_t>& other, std::size_t count)
+{
+  std::vector<std::size_t> result(count, none);
+  for (std::size_t i = 0; i < plain.size(); ++i)
+  {
+    if (plain[i] != 0 && other[i] != 0)
+    {
+      result[plain[i] - 1u] = other[i] - 1u;
+    }
+  }
+  return result;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+TEST_P(PlanesOfScenes, areThoseOfAPlainSearch)
+{
+  const vtkSmartPointer<vtkRenderer> renderer =
+    tool::makeRenderer(tool::loadScene(GetParam()), 1.0);
+  OccluderCollector collector;
+  collector.collect(renderer);
+  const Occluders& occluders = collector.occluders();
+  std::vector<std::size_t> numbers = { 8, mostPlanes };
+  if (occluders.triangles.size() > 1000000)
+  {
+    numbers.pop_back(); // the plain search takes seconds
+  }
+  for (const std::size_t wanted : numbers)
+  {
+    PlainSearch plain(occluders, wanted);
+    const std::vector<ReceiverPlane> expected = plain.run();
+    ReceiverPlanes found;
+    found.update(occluders, wanted);
+    EXPECT_NEAR(found.area(), plain.area(), 1e-9 * plain.area());
+    ASSERT_EQ(found.planes().size(), expected.size());
+
+    // By triangle of the snapshot, as the plain search has it.
+    std::vector<std::uint8_t> planeOfTriangle(occluders.triangles.size(), 0);
+    for (std::size_t i = 0; i < occluders.surfaces.size(); ++i)
+    {
+      const Surface& surface = occluders.surfaces[i];
+      for (std::uint32_t drawn = 0; drawn < surface.drawnCount(); ++drawn)
+      {
+        const std::uint32_t triangle =
+          surface.triangleOfDrawn.empty() ? drawn : surface.triangleOfDrawn[drawn];
+        if (triangle != Surface::noTriangle)
+        {
+          planeOfTriangle[surface.firstTriangle + triangle] =
+            found.planeOfDrawn()[found.drawnBegin(i) + drawn];
+        }
+      }
+    }
+    // Planes of the same area may come in another order.
+    const std::vector<std::size_t> partner =
+      partners(plain.planeOfTriangle(), planeOfTriangle, expected.size());
+    std::size_t differing = 0;
+    for (std::size_t i = 0; i < planeOfTriangle.size(); ++i)
+    {
+      const std::uint8_t mine = planeOfTriangle[i];
+      const std::uint8_t its = plain.planeOfTriangle()[i];
+      differing += its == 0 ? mine != 0 : mine != partner[its - 1u] + 1;
+    }
+    EXPECT_EQ(differing, 0u);
+    for (std::size_t i = 0; i < expected.size(); ++i)
+    {
+      EXPECT_NEAR(found.planes()[i].area, expected[i].area, 1e-9 * expected[i].area);
+      ASSERT_NE(partner[i], none);
+      const ReceiverPlane& plane = found.planes()[partner[i]];
+      EXPECT_NEAR(plane.area, expected[i].area, 1e-9 * expected[i].area);
+      EXPECT_NEAR(
+        std::abs(glm::dot(glm::dvec3(plane.plane), glm::dvec3(expected[i].plane))), 1.0, 1e-12);
+      EXPECT_NEAR(std::abs(plane.plane.w), std::abs(expected[i].plane.w), plane.thickness);
+      EXPECT_EQ(plane.boundsCentred.lower, expected[i].boundsCentred.lower);
+      EXPECT_EQ(plane.boundsCentred.upper, expected[i].boundsCentred.upper);
+    }
+  }
+}
+
+} // namespace gnomon::test
