@@ -14,6 +14,7 @@ TechniqueInfo ConservativeTechnique::infoOf(const std::string& name)
 {
   TechniqueInfo info;
   info.name = name;
+  info.evaluation = Evaluation::ScreenCpu;
   info.exact = true;
   info.needsMap = true;
   return info;
