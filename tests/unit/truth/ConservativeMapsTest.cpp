@@ -10,6 +10,8 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdlib>
 #include <random>
@@ -344,9 +346,19 @@ TEST_P(ConservativeMapsIn, areNeverWrong)
             << " % of " << sum.receivers << std::endl;
 }
 
+std::string nameOfRun(const testing::TestParamInfo<ConservativeMapsIn::ParamType>& run)
+{
+  const char* const coverings[] = { "Triangle", "Ring", "Silhouette" };
+  std::string name = std::get<0>(run.param);
+  const auto isSeparator = [](unsigned char letter) { return !std::isalpha(letter); };
+  name.erase(std::remove_if(name.begin(), name.end(), isSeparator), name.end());
+  return name + coverings[static_cast<int>(std::get<1>(run.param))];
+}
+
 INSTANTIATE_TEST_SUITE_P(Scenes, ConservativeMapsIn,
   testing::Combine(testing::ValuesIn(sceneNames),
-    testing::Values(Covering::Triangle, Covering::Ring, Covering::Silhouette)));
+    testing::Values(Covering::Triangle, Covering::Ring, Covering::Silhouette)),
+  nameOfRun);
 
 TEST(ConservativeMaps, areNeverWrongFarAwayAndAtAnyScale)
 {
