@@ -189,6 +189,15 @@ const EstimatorEntry& compose(ShadowLight& light)
     throw CompositionError("'" + light.estimator +
       "' reads depths, which may not be averaged; 'map_samples' is for maps of moments");
   }
+  if (info.needsMap && light.blur == MapBlur::Sat && !info.sumsMap)
+  {
+    throw CompositionError("'" + light.estimator +
+      (info.averagesMap
+          ? "' has moments beyond the range of the 32-bit integers that a summed-area "
+            "table holds; it takes 'blur' box"
+          : "' reads depths, which may not be averaged; 'blur' is for maps of "
+            "moments"));
+  }
   const std::string refused = refusedProjection(light);
   if (!refused.empty())
   {

@@ -40,10 +40,11 @@ std::string lightViewsDefines(const ShadowLight& light)
 
 //------------------------------------------------------------------------------
 std::vector<Uniform> lightViewsUniforms(const LightViews& views, int sizeTexels,
-  const glm::dmat4& centredFromView, const TextureBinding& viewFits)
+  const ReceiverSpace& space, const TextureBinding& viewFits)
 {
   std::vector<Uniform> uniforms = { { "lightFromView_LIGHT",
-                                      glm::mat4(views.lightFromCentred * centredFromView) },
+                                      glm::mat4(views.lightFromCentred * space.centredFromView) },
+    { "pixelSide_LIGHT", glm::vec2(space.pixelSide) },
     { "viewSize_LIGHT", static_cast<float>(views.views.empty() ? 0 : sizeTexels) },
     { "viewCount_LIGHT", static_cast<int>(views.views.size()) },
     { "viewBorder_LIGHT", static_cast<float>(views.borderTexels) },

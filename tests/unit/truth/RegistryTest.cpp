@@ -131,6 +131,29 @@ TEST(Registry, refusesToAverageDepths)
   }
 }
 
+TEST(Registry, sumsOnlyMomentsThatIntegersHold)
+{
+  for (const EstimatorEntry& estimator : estimators())
+  {
+    ShadowSettings settings;
+    settings.estimator = estimator.info.name;
+    settings.blur = MapBlur::Sat;
+    const bool depths = estimator.info.needsMap && !estimator.info.averagesMap;
+    const char* verdict = depths                              ? "reads depths"
+      : estimator.info.averagesMap && !estimator.info.sumsMap ? "32-bit integers"
+                                                              : "";
+    expectVerdicts(settings, { verdict, verdict, verdict, verdict }, settings.estimator);
+  }
+  for (const char* name : { "compare", "pcf", "adaptive", "exponential" })
+  {
+    EXPECT_FALSE(findEstimator(name)->info.sumsMap) << name;
+  }
+  for (const char* name : { "variance", "moments" })
+  {
+    EXPECT_TRUE(findEstimator(name)->info.sumsMap) << name;
+  }
+}
+
 TEST(Registry, completesTheLight)
 {
   ShadowLight light = lightOf(LightKind::Directional);
