@@ -108,6 +108,7 @@ struct ShadowSettings
   double varianceFloor = 1e-6;
   int mapSamples = 1; ///< 1, 2, 4 or 8 samples of a texel, which are averaged
   MapBlur blur = MapBlur::Box;
+  bool mipMaps = false; ///< whether pixels that see many texels read coarser levels of the map
   ///@}
   /// The kernel's width across the light, in world units, of a positional light at distance 1; 0:
   /// kernelTexels.
@@ -138,10 +139,10 @@ struct ShadowSettings
   bool storesAs(const ShadowSettings& other) const
   {
     return this->mapSamples == other.mapSamples && this->blur == other.blur &&
-      this->discGrid == other.discGrid && this->discSets == other.discSets &&
-      this->earlyOut == other.earlyOut && this->depth == other.depth &&
-      this->metric == other.metric && this->biasConstant == other.biasConstant &&
-      this->biasSlope == other.biasSlope;
+      this->mipMaps == other.mipMaps && this->discGrid == other.discGrid &&
+      this->discSets == other.discSets && this->earlyOut == other.earlyOut &&
+      this->depth == other.depth && this->metric == other.metric &&
+      this->biasConstant == other.biasConstant && this->biasSlope == other.biasSlope;
   }
 };
 

@@ -33,6 +33,17 @@ std::string constant(const char* setting, const ShadowLight& light)
   return "float(" + findSetting(setting)->get(light) + ")";
 }
 
+/// How many levels a light's map has: down to a single texel, or only itself.
+int levelsOf(const ShadowLight& light)
+{
+  int levels = 1;
+  while (light.mipMaps && light.mapSizeTexels >> levels > 0)
+  {
+    ++levels;
+  }
+  return levels;
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -69,7 +80,8 @@ void MomentMapTechnique::allocate(const ShadowLight& light, int views)
   this->summed_ ? this->table_.allocate(format.channels, sizeTexels, views)
                 : this->table_.release();
   const int layers = this->summed_ ? 1 : views;
-  if (this->sizeTexels_ == sizeTexels && this->layers_ == layers &&
+  const int levels = levelsOf(light);
+  if (this->sizeTexels_ == sizeTexels && this->layers_ == layers && this->levels_ == levels &&
     this->samples_ == light.mapSamples)
   {
     return;
@@ -78,8 +90,9 @@ void MomentMapTechnique::allocate(const ShadowLight& light, int views)
   this->layers_ = 0;
   this->depth_.reset();
   this->sampled_.release();
-  allocateMap(this->map_, format, sizeTexels, layers);
-  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  allocateMap(this->map_, format, sizeTexels, layers, levels);
+  glTexParameteri(
+    GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, levels > 1 ? GL_LINEAR_MIPMAP_LINEAR : GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_BORDER);
   glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_BORDER);
@@ -97,6 +110,7 @@ void MomentMapTechnique::allocate(const ShadowLight& light, int views)
   glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, this->depth_.name(), 0, 0);
   this->sizeTexels_ = sizeTexels;
   this->layers_ = layers;
+  this->levels_ = levels;
   this->samples_ = light.mapSamples;
 }
 
@@ -160,6 +174,14 @@ void MomentMapTechnique::bake(const MapInput& input)
     this->blur_.apply(this->map_.name(), static_cast<int>(views.size()), input.light.kernelTexels,
       moments.empty, input.shaders);
   }
+  if (this->levels_ > 1)
+  {
+    // Drivers may read what the blur has stored either way.
+    glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT);
+    glActiveTexture(GL_TEXTURE0);
+    glBindTexture(GL_TEXTURE_2D_ARRAY, this->map_.name());
+    glGenerateMipmap(GL_TEXTURE_2D_ARRAY);
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -175,10 +197,15 @@ double MomentMapTechnique::widestKernel() const
 std::size_t MomentMapTechnique::bytesOfMaps() const
 {
   const auto side = static_cast<std::size_t>(this->sizeTexels_);
-  const auto channels =
-    static_cast<std::size_t>(this->layers_ * this->moments().count + (this->depth_ ? 1 : 0));
-  return side * side * channels * sizeof(float) + this->sampled_.bytes() + this->blur_.bytes() +
-    this->table_.bytes();
+  std::size_t texels = 0;
+  for (int level = 0; level < this->levels_; ++level)
+  {
+    texels += (side >> level) * (side >> level);
+  }
+  const auto channels = static_cast<std::size_t>(this->layers_ * this->moments().count);
+  const std::size_t depth = this->depth_ ? side * side : 0;
+  return (texels * channels + depth) * sizeof(float) + this->sampled_.bytes() +
+    this->blur_.bytes() + this->table_.bytes();
 }
 
 //------------------------------------------------------------------------------
@@ -186,6 +213,7 @@ std::string MomentMapTechnique::visibilityGlsl(const ShadowLight& light) const
 {
   return lightViewsDefines(light) + kernelDefines(light) +
     define("KERNEL_TEXELS_LIGHT", std::to_string(light.kernelTexels)) +
+    define("MOMENT_LEVELS_LIGHT", std::to_string(levelsOf(light))) +
     define("MOMENTS_SUMMED_LIGHT", light.blur == MapBlur::Sat ? "1" : "0") +
     define("BLEEDING_LIGHT", constant("bleeding", light)) +
     define("VARIANCE_FLOOR_LIGHT", constant("variance_floor", light)) + this->estimatorGlsl(light);

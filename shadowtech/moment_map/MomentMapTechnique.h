@@ -34,6 +34,11 @@ namespace gnomon
 /// look-up takes the mean over a rectangle of its own, as wide as the kernel is at that point
 /// (Kernel.h), so that warped maps blur as evenly as others.
 ///
+/// With `mip_maps` the blurred map has coarser levels, of which a look-up reads one whose texels cover what
+/// its pixel shows of the receiver, so that shadows that are far away do not flicker or look like
+/// their middle pixel. How much that is follows from the receiver's plane, the camera and the map's Jacobian
+/// (texelsOfPixel_LIGHT), and never from a pixel's neighbours.
+///
 /// A texel may be drawn with several samples (`map_samples`), each of which has its own depth, spread as
 /// the part of the texel is that it stands for.
 ///
@@ -83,6 +88,7 @@ private:
   SummedAreaTable table_;
   int sizeTexels_ = 0;
   int layers_ = 0; ///< of map_
+  int levels_ = 0; ///< of map_
   int samples_ = 0;
   MapReach reach_;          ///< as baked
   bool summed_ = false;     ///< as baked

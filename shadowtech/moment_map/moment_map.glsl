@@ -2,54 +2,16 @@
 // with a bound on the share of the map's depths that lie behind the point (MomentMapTechnique.h).
 //
 // KERNEL_TEXELS_LIGHT is the kernel's width; MOMENTS_SUMMED_LIGHT: the map is a summed-area table, else
-// it was blurred with a box of that width. BLEEDING_LIGHT is the bound up to which a point is in full
-// shadow.
+// it was blurred. BLEEDING_LIGHT is the bound up to which a point is in full shadow.
 
 #include "shadowtech/base/map_visibility.glsl"
 
+// Both define the mean moments around a point, vec4 momentsAt_LIGHT(ViewPoint), and over how wide a
+// kernel along the map's axes those are, vec2 kernelTexels_LIGHT(ViewPoint).
 #if MOMENTS_SUMMED_LIGHT
-
-#include "shadowtech/base/kernel_units.glsl"
-#include "shadowtech/moment_map/summed_area.glsl"
-
-uniform float widestKernel_LIGHT; // in texels: what the table's units are made for
-
-// The width of the kernel around a point along both axes of the map: of the rectangle whose
-// variance along each of them is that of the kernel in its shape.
-vec2 kernelTexels_LIGHT(ViewPoint point)
-{
-  mat2 shape = kernelShape_LIGHT(point);
-  vec2 spread =
-    vec2(length(vec2(shape[0].x, shape[1].x)), length(vec2(shape[0].y, shape[1].y)));
-  return clamp(float(KERNEL_TEXELS_LIGHT) * spread, 1.0, widestKernel_LIGHT);
-}
-
-// The moments of what a rectangle of that width covers around a point.
-vec4 momentsAt_LIGHT(ViewPoint point)
-{
-  vec2 halfWidth = 0.5 * kernelTexels_LIGHT(point);
-  return meanOver_LIGHT(point.texel - halfWidth, point.texel + halfWidth, point.view);
-}
-
+#include "shadowtech/moment_map/moments_summed.glsl"
 #else
-
-uniform sampler2DArray momentMap_LIGHT; // linear; its border has the moments of depth 1
-
-// The width of the kernel along both axes of the map.
-vec2 kernelTexels_LIGHT(ViewPoint point)
-{
-  return vec2(KERNEL_TEXELS_LIGHT);
-}
-
-// The moments of what a square of the box's width covers around a point: the bilinear filter adds the
-// part of a texel that moves it from the middle of its texel (of a box of even width, from that
-// texel's lower corner) to the point.
-vec4 momentsAt_LIGHT(ViewPoint point)
-{
-  vec2 place = point.texel + (KERNEL_TEXELS_LIGHT % 2 == 0 ? 0.5 : 0.0);
-  return textureLod(momentMap_LIGHT, vec3(place / viewSize_LIGHT, float(point.view)), 0.0);
-}
-
+#include "shadowtech/moment_map/moments_blurred.glsl"
 #endif
 
 // The receiver's depth, nearer by its rounding and by a bias in depths of [0, 1], from [0, 1] to [-1, 1]

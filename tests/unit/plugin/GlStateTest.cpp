@@ -263,13 +263,14 @@ TEST_P(GlStateOfWay, isChangedOnlyWherePlainVtkChangesIt)
 //------------------------------------------------------------------------------
 TEST_F(GlState, isChangedByMapsOfMomentsOnlyWherePlainVtkChangesIt)
 {
-  for (const char* blur : { "box", "sat" })
+  for (const auto& [name, value] : std::multimap<std::string, const char*>{
+         { "blur", "box" }, { "blur", "sat" }, { "mip_maps", "on" } })
   {
     expectChangesOfPlainVtkOnly(
-      [&](PassScene& scene)
+      [name = name, value = value](PassScene& scene)
       {
         scene.pass->SetTechnique("msm");
-        scene.pass->SetSetting("blur", blur);
+        scene.pass->SetSetting(name.c_str(), value);
       });
   }
 }

@@ -8,6 +8,8 @@
 #include "plugin/VisibilityImages.h"
 #include "plugin/vtkGnomonPropKeys.h"
 
+#include <vtkAppendPolyData.h>
+#include <vtkCubeSource.h>
 #include <vtkTransform.h>
 
 #include <gmock/gmock.h>
@@ -30,13 +32,13 @@ struct Layout
   const char* technique;
   const char* projection;
   const char* fit;
-  const char* blur = "box";
+  const char* average = "box"; ///< box, sat, or levels: box with mip maps
 };
 
 std::ostream& operator<<(std::ostream& stream, const Layout& layout)
 {
   return stream << layout.technique << " " << layout.projection << " " << layout.fit << " "
-                << layout.blur;
+                << layout.average;
 }
 
 class MomentMaps
@@ -49,16 +51,17 @@ protected:
     scene.pass->SetTechnique(GetParam().technique);
     scene.pass->SetSetting("projection", GetParam().projection);
     scene.pass->SetSetting("fit", GetParam().fit);
-    scene.pass->SetSetting("blur", GetParam().blur);
+    scene.pass->SetSetting("blur", average() == "sat" ? "sat" : "box");
+    scene.pass->SetSetting("mip_maps", average() == "levels" ? "on" : "off");
   }
   /// The truth.
   static const VisibilityImages& traced(PassScene& scene)
   {
     scene.pass->SetSetting("projection", "technique");
-    scene.pass->SetSetting("blur", "box");
     scene.pass->SetTechnique("raytraced");
     return drawKept(scene);
   }
+  static std::string average() { return GetParam().average; }
   /// Warps and splits are for lights with a single view.
   static bool takesCubes() { return std::string(GetParam().projection) == "uniform"; }
 };
@@ -71,12 +74,14 @@ INSTANTIATE_TEST_SUITE_P(Layouts, MomentMaps,
     Layout{ "msm", "lispsm", "off" }, Layout{ "msm", "pssm", "off" },
     Layout{ "vsm", "uniform", "off", "sat" }, Layout{ "vsm", "uniform", "frame", "sat" },
     Layout{ "vsm", "lispsm", "off", "sat" }, Layout{ "msm", "uniform", "off", "sat" },
-    Layout{ "msm", "tsm", "off", "sat" }, Layout{ "msm", "pssm", "off", "sat" }),
+    Layout{ "msm", "tsm", "off", "sat" }, Layout{ "msm", "pssm", "off", "sat" },
+    Layout{ "vsm", "uniform", "off", "levels" }, Layout{ "evsm", "pssm", "off", "levels" },
+    Layout{ "msm", "lispsm", "off", "levels" }),
   [](const testing::TestParamInfo<Layout>& layout)
   {
-    const std::string blur = layout.param.blur;
+    const std::string average = layout.param.average;
     return std::string(layout.param.technique) + "_" + layout.param.projection + "_" +
-      layout.param.fit + (blur == "box" ? "" : "_" + blur);
+      layout.param.fit + (average == "box" ? "" : "_" + average);
   });
 
 /// How lit the pixels are that face a light.
@@ -171,7 +176,7 @@ TEST_P(MomentMaps, longPlaneIsLitAtAnyAngle)
         // receiver: of a kernel that is a quarter as wide as the map, by 0.014 at most.
         const bool wide = std::string(kernelSize) == "16";
         // The rectangle that keeps a kernel of 3 texels even is 6 texels long there.
-        const bool rectangle = std::string(GetParam().blur) == "sat";
+        const bool rectangle = average() == "sat";
         EXPECT_GE(lit.mean,
           wide          ? 0.985
             : rectangle ? 0.998
@@ -439,7 +444,7 @@ TEST_P(MomentMaps, areBakedOnceAndOnlyForWhatTheMapDependsOn)
   scene.pass->SetSetting("kernel_size", "1");
   scene.render();
   EXPECT_EQ(scene.report().mapBakes, 1);
-  if (std::string(GetParam().blur) == "box")
+  if (average() != "sat")
   {
     EXPECT_LT(scene.report().bytesMaps, bytes); // no layer to blur over
   }
@@ -639,7 +644,7 @@ TEST_F(PassTest, tablesShowWhatBoxesShow)
   {
     for (const double cone : { 0.0, 40.0, allDirections })
     {
-      PassScene scene(200, 200);
+      PassScene scene(120, 120);
       scene.addFloor(4.0);
       scene.addSphere({ -1.0, 0.0, 2.5 }, 0.7);
       scene.addBox({ 0.5, 0.5, 0.0 }, { 1.5, 1.5, 1.5 });
@@ -737,5 +742,208 @@ TEST_F(PassTest, blursBackAndForthKeepTheNumberOfObjects)
   {
     EXPECT_EQ(draw("box"), box);
     EXPECT_EQ(draw("sat"), sat);
+  }
+}
+
+namespace
+{
+
+/// Three rows of thin posts on a floor of half side 20, under a slanting sun.
+void fillWithFences(PassScene& scene)
+{
+  scene.addFloor(20.0);
+  vtkNew<vtkAppendPolyData> fences;
+  for (const double y : { -12.0, 0.0, 12.0 })
+  {
+    for (double x = -18.0; x <= 18.0; x += 0.4)
+    {
+      vtkNew<vtkCubeSource> post;
+      post->SetBounds(x, x + 0.15, y, y + 0.1, 0.0, 2.0);
+      fences->AddInputConnection(post->GetOutputPort());
+    }
+  }
+  scene.add(fences);
+  scene.addSun({ 0.25, 1.0, -0.8 });
+}
+
+/// What is lit of the floor in each pixel: 8 x 8 shadow rays. Less than 0 where it shows anything else, too.
+std::vector<float> litShareOfFloor(PassScene& scene)
+{
+  constexpr int rays = 8;
+  const glm::ivec2 size(scene.window->GetSize()[0], scene.window->GetSize()[1]);
+  scene.window->SetSize(rays * size.x, rays * size.y);
+  scene.pass->SetTechnique("raytraced");
+  const VisibilityImages& traced = drawKept(scene);
+  std::vector<float> share;
+  for (int y = 0; y < size.y; ++y)
+  {
+    for (int x = 0; x < size.x; ++x)
+    {
+      float sum = 0.0f;
+      bool floor = true;
+      for (int i = 0; i < rays * rays; ++i)
+      {
+        const int row = rays * y + i / rays;
+        const auto pixel = static_cast<std::size_t>(row * rays * size.x + rays * x + i % rays);
+        floor = floor && traced.coverage[pixel] > 0.0f && traced.positionZ[pixel] < 1e-3f;
+        sum += traced.visibility[0][pixel];
+      }
+      share.push_back(floor ? sum / (rays * rays) : -1.0f);
+    }
+  }
+  scene.window->SetSize(size.x, size.y);
+  return share;
+}
+
+/// How far a picture is from that in the mean.
+double meanError(const VisibilityImages& kept, const std::vector<float>& truth)
+{
+  double sum = 0.0;
+  double count = 0.0;
+  for (std::size_t i = 0; i < truth.size(); ++i)
+  {
+    if (truth[i] >= 0.0f)
+    {
+      sum += std::abs(kept.visibility[0][i] - truth[i]);
+      ++count;
+    }
+  }
+  EXPECT_GT(count, 1000.0);
+  return sum / std::max(count, 1.0);
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+TEST_F(PassTest, levelsBringFarShadowsNearerToWhatPixelsShow)
+{
+  for (const bool parallel : { false, true })
+  {
+    PassScene scene(120, 80);
+    fillWithFences(scene);
+    scene.lookFrom({ 10.0, -140.0, 90.0 });
+    vtkCamera* camera = scene.renderer->GetActiveCamera();
+    camera->SetViewAngle(12.0);
+    camera->SetParallelProjection(parallel);
+    camera->SetParallelScale(16.0);
+    const std::vector<float> truth = litShareOfFloor(scene);
+    for (const char* technique : { "vsm", "evsm", "msm" })
+    {
+      for (const char* projection : { "uniform", "lispsm", "pssm" })
+      {
+        scene.pass->SetTechnique(technique);
+        scene.pass->SetSetting("projection", projection);
+        scene.pass->SetMapSize(1024);
+        scene.pass->SetSetting("mip_maps", "off");
+        const double without = meanError(drawKept(scene), truth);
+        scene.pass->SetSetting("mip_maps", "on");
+        const double with = meanError(drawKept(scene), truth);
+        EXPECT_EQ(scene.report().mapBakes, 1);
+        const std::string name =
+          std::string(technique) + "_" + projection + (parallel ? "_parallel" : "");
+        EXPECT_LE(with, 0.8 * without) << name;
+        this->RecordProperty(name, std::to_string(without) + " " + std::to_string(with));
+      }
+    }
+    scene.pass->SetSetting("mip_maps", "off");
+    scene.pass->SetSetting("projection", "technique");
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(PassTest, levelsLeaveNearShadowsAsTheyAre)
+{
+  PassScene scene(240, 160);
+  fillWithFences(scene);
+  scene.lookFrom({ 2.0, -3.0, 4.0 }, { 0.0, 0.0, 0.0 });
+  for (const char* technique : { "vsm", "evsm", "msm" })
+  {
+    for (const char* kernelSize : { "3", "4" })
+    {
+      scene.pass->SetTechnique(technique);
+      scene.pass->SetSetting("kernel_size", kernelSize);
+      scene.pass->SetSetting("mip_maps", "off");
+      const VisibilityImages without = drawKept(scene);
+      scene.pass->SetSetting("mip_maps", "on");
+      EXPECT_LE(largestDifference(without, drawKept(scene)), 1e-5) << technique;
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+/// The inline route knows how large pixels are as the image route does.
+TEST_F(PassTest, levelsAreTheSameOnBothRoutes)
+{
+  PassScene scene(120, 80);
+  fillWithFences(scene);
+  scene.lookFrom({ 10.0, -140.0, 90.0 });
+  scene.renderer->GetActiveCamera()->SetViewAngle(12.0);
+  scene.pass->SetTechnique("vsm");
+  const Picture without = scene.render();
+  scene.pass->SetSetting("mip_maps", "on");
+  scene.pass->SetRoute(vtkGnomonShadowPass::ROUTE_INLINE);
+  const Picture inlined = scene.render();
+  EXPECT_EQ(scene.report().route, "inline");
+  scene.pass->SetRoute(vtkGnomonShadowPass::ROUTE_IMAGE);
+  const Picture image = scene.render();
+  EXPECT_LE(differingPixels(inlined, image, 2), inlined.pixels() / 100);
+  EXPECT_GT(differingPixels(inlined, without, 2), inlined.pixels() / 20);
+}
+
+//------------------------------------------------------------------------------
+/// The plane's bias is as wide as the level's kernel.
+TEST_F(PassTest, planesAreLitAtAnyLevel)
+{
+  for (const char* technique : { "vsm", "evsm", "msm" })
+  {
+    for (const double times : { 1.0, 4.0, 16.0 })
+    {
+      PassScene scene(100, 100);
+      scene.addFloor(4.0);
+      vtkLight* sun = scene.addSun({ 0.0, 0.0, -1.0 });
+      scene.pass->SetTechnique(technique);
+      scene.pass->SetMapSize(1024);
+      scene.pass->SetSetting("variance_floor", "1e-9");
+      scene.pass->SetSetting("mip_maps", "on");
+      scene.lookFrom(times * glm::dvec3(1.0, -7.0, 6.0));
+      for (const double degrees : { 0.0, 30.0, 60.0, 85.0 })
+      {
+        const double angle = glm::radians(degrees);
+        const glm::dvec3 toLight(0.8 * std::sin(angle), 0.6 * std::sin(angle), std::cos(angle));
+        sun->SetPosition(toLight.x, toLight.y, toLight.z);
+        const Lit lit = litOf(drawKept(scene), sunAt(toLight));
+        EXPECT_GT(lit.facing, 10u);
+        EXPECT_GE(lit.mean, 0.999) << technique << ", " << times << " times as far, " << degrees
+                                   << " degrees, least " << lit.least;
+      }
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(PassTest, levelsOnAndOffKeepTheNumberOfObjects)
+{
+  PassScene scene(100, 80);
+  scene.addFloor(4.0);
+  scene.addSphere({ 0.0, 0.0, 1.5 }, 0.7);
+  scene.addSun({ 1.0, 0.4, -1.5 });
+  scene.lookFrom({ 0.0, -9.0, 7.0 });
+  scene.pass->SetTechnique("vsm");
+  scene.pass->SetMapSize(128);
+  const auto draw = [&](const char* mipMaps)
+  {
+    scene.pass->SetSetting("mip_maps", mipMaps);
+    scene.render();
+    return countLiveObjects(scene.window);
+  };
+  draw("on");
+  const LiveObjects off = draw("off");
+  const std::size_t bytes = scene.report().bytesMaps;
+  const LiveObjects on = draw("on");
+  EXPECT_EQ(scene.report().bytesMaps, bytes + 8 * (128 * 128 - 1) / 3); // 64^2 + 32^2 + ... + 1
+  for (int time = 0; time < 5; ++time)
+  {
+    EXPECT_EQ(draw("off"), off);
+    EXPECT_EQ(draw("on"), on);
   }
 }

@@ -154,6 +154,25 @@ TEST(Registry, sumsOnlyMomentsThatIntegersHold)
   }
 }
 
+TEST(Registry, buildsLevelsOfBlurredMomentsOnly)
+{
+  for (const EstimatorEntry& estimator : estimators())
+  {
+    ShadowSettings settings;
+    settings.estimator = estimator.info.name;
+    settings.mipMaps = true;
+    const bool depths = estimator.info.needsMap && !estimator.info.averagesMap;
+    const char* verdict = depths ? "'mip_maps' is for maps of moments" : "";
+    expectVerdicts(settings, { verdict, verdict, verdict, verdict }, settings.estimator);
+    if (estimator.info.sumsMap)
+    {
+      settings.blur = MapBlur::Sat;
+      expectVerdicts(settings, { "no levels", "no levels", "no levels", "no levels" },
+        settings.estimator + " with blur sat");
+    }
+  }
+}
+
 TEST(Registry, completesTheLight)
 {
   ShadowLight light = lightOf(LightKind::Directional);
