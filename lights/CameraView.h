@@ -4,6 +4,7 @@
 #include <glm/glm.hpp>
 
 #include <array>
+#include <cmath>
 #include <limits>
 
 namespace gnomon
@@ -33,6 +34,16 @@ struct CameraView
   }
   /// Whether w does not depend on the distance, so that nothing looks smaller far away.
   bool isParallel() const { return this->clipFromView[2][3] == 0.0; }
+
+  /// How large a pixel of a picture of this size is across the view, in world units: the side of the
+  /// square with its area is x + y * distance, the distance being that along the direction of view.
+  glm::dvec2 pixelSide(const glm::ivec2& sizePixels) const
+  {
+    const double pixelsOfUnit = 0.5 *
+      std::sqrt(std::abs(this->clipFromView[0][0] * this->clipFromView[1][1]) * sizePixels.x *
+        sizePixels.y);
+    return glm::dvec2(this->clipFromView[3][3], -this->clipFromView[2][3]) / pixelsOfUnit;
+  }
 
   /// The distance of a point along the direction of view, from the eye's plane.
   double distanceOf(const glm::dvec3& centred) const

@@ -182,6 +182,13 @@ const std::vector<Setting>& shadowSettings()
     { "map_samples",
       "of maps of moments: with how many samples of a texel they are drawn, which are averaged",
       powerOfTwo<&S::mapSamples>({ "1", "2", "4", "8" }) },
+    { "blur",
+      "of maps of moments: averaged over the same box of texels everywhere, or over each point's "
+      "own rectangle, by summed-area tables (not evsm)",
+      choice<MapBlur, &S::blur>({ "box", "sat" }) },
+    { "mip_maps",
+      "of maps of moments with blur=box: whether pixels that see many texels read coarser levels",
+      choice<bool, &S::mipMaps>({ "off", "on" }) },
     { "kernel_width",
       "the kernel's width across the light, in world units (from a position: at distance 1), over "
       "which as many taps are spread as kernel_size says; 0: kernel_size texels",

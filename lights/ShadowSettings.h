@@ -26,6 +26,13 @@ enum class EarlyOut
   Exact ///< the least and the largest depth around the point, which never errs
 };
 
+/// How maps of moments are averaged.
+enum class MapBlur
+{
+  Box, ///< when they are drawn, by a box that is the same on the whole map
+  Sat ///< when they are read, by a summed-area table, over a rectangle that each look-up has of its own
+};
+
 /// Which of the surfaces on a light's ray a depth map holds.
 enum class DepthSurface
 {
@@ -100,6 +107,8 @@ struct ShadowSettings
   double bleeding = 0.2;
   double varianceFloor = 1e-6;
   int mapSamples = 1; ///< 1, 2, 4 or 8 samples of a texel, which are averaged
+  MapBlur blur = MapBlur::Box;
+  bool mipMaps = false; ///< whether pixels that see many texels read coarser levels of the map
   ///@}
   /// The kernel's width across the light, in world units, of a positional light at distance 1; 0:
   /// kernelTexels.
@@ -129,7 +138,8 @@ struct ShadowSettings
   /// Whether another light's map holds the same for the same views and filter.
   bool storesAs(const ShadowSettings& other) const
   {
-    return this->mapSamples == other.mapSamples && this->discGrid == other.discGrid &&
+    return this->mapSamples == other.mapSamples && this->blur == other.blur &&
+      this->mipMaps == other.mipMaps && this->discGrid == other.discGrid &&
       this->discSets == other.discSets && this->earlyOut == other.earlyOut &&
       this->depth == other.depth && this->metric == other.metric &&
       this->biasConstant == other.biasConstant && this->biasSlope == other.biasSlope;

@@ -36,7 +36,11 @@
  * - "bleeding": of maps of moments ("vsm", "evsm", "msm"), up to what visibility points are dark, 0 to
  *   0.99 (default 0.2);
  * - "variance_floor": of "vsm" and "evsm", the least variance of depths, as a share of the map's depth
- *   range, squared (default 1e-6).
+ *   range, squared (default 1e-6);
+ * - "blur": of "vsm" and "msm", "box" (the default; one box of texels for the whole map), or "sat" (a
+ *   rectangle for each point, by summed-area tables: warped and split maps blur as evenly as others);
+ * - "mip_maps": of maps of moments with "blur" "box", whether pixels that see many texels read coarser
+ *   levels of the map: "off" (the default) or "on".
  *
  * <b>Filter kernels.</b> Techniques that filter ("pcf") average over a kernel of the map's texels:
  * - "bilinear": a square around the point, whose texels count by how far it covers them. Edges are

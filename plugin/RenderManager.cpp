@@ -433,6 +433,13 @@ CameraView RenderManager::camera(vtkRenderer* renderer) const
 }
 
 //------------------------------------------------------------------------------
+ReceiverSpace RenderManager::receiverSpace(const vtkRenderState* s) const
+{
+  vtkRenderer* renderer = s->GetRenderer();
+  return { this->centredFromView(renderer), this->camera(renderer).pixelSide(sizeOf(s)) };
+}
+
+//------------------------------------------------------------------------------
 void RenderManager::drawReceivers(const vtkRenderState* s, vtkGnomonShadowPass* pass)
 {
   vtkRenderer* renderer = s->GetRenderer();
@@ -440,16 +447,15 @@ void RenderManager::drawReceivers(const vtkRenderState* s, vtkGnomonShadowPass* 
   const int width = size.x;
   const int height = size.y;
 
-  const glm::dmat4 centredFromView = this->centredFromView(renderer);
+  this->stageValues_.space = this->receiverSpace(s);
   this->camera_ = this->camera(renderer);
   this->receiverImages_.rays =
-    pixelRays(this->camera_.clipFromView, centredFromView, width, height);
+    pixelRays(this->camera_.clipFromView, this->stageValues_.space.centredFromView, width, height);
   this->receiversShown_ = hashOfShown(s, this->camera_, size);
 
   this->layers_.resize(width, height, static_cast<int>(this->casting_.size()));
   this->stageValues_.layers = { GL_TEXTURE_2D_ARRAY, this->layers_.texture() };
   this->stageValues_.layersSize = size;
-  this->stageValues_.centredFromView = centredFromView;
   this->stageValues_.receiversStage = true;
 
   // VTK draws here and keeps its own record of the state, so the state is changed through that
@@ -543,7 +549,7 @@ void RenderManager::bakeMaps(
       slot.receiverFit.compute(light, views,
         { this->receiverTarget_.fragments(), this->receiverTarget_.points(),
           this->receiverTarget_.width(), this->receiverTarget_.height() },
-        this->stageValues_.centredFromView, this->library_);
+        this->stageValues_.space.centredFromView, this->library_);
     }
     try
     {
@@ -600,7 +606,7 @@ void RenderManager::computeVisibility(bool keep)
     {
       case Evaluation::Pointwise:
         this->layers_.estimate(layer, *slot.technique, slot.light, this->receiverTarget_,
-          this->stageValues_.centredFromView, this->library_);
+          this->stageValues_.space, this->library_);
         this->endStageClock("visibility: estimate");
         break;
       case Evaluation::ScreenGpu:
@@ -660,12 +666,12 @@ void RenderManager::keepVisibility()
 }
 
 //------------------------------------------------------------------------------
-void RenderManager::beginShading(vtkRenderer* renderer)
+void RenderManager::beginShading(const vtkRenderState* s)
 {
   this->stageValues_.receiversStage = false;
-  this->stageValues_.centredFromView = this->centredFromView(renderer);
+  this->stageValues_.space = this->receiverSpace(s);
   this->shaders_.beginStage(
-    vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow()), this->stageValues_);
+    vtkOpenGLRenderWindow::SafeDownCast(s->GetRenderer()->GetRenderWindow()), this->stageValues_);
 }
 
 //------------------------------------------------------------------------------

@@ -73,7 +73,7 @@ public:
   void computeVisibility(bool keep);
 
   /// shading: between the two calls VTK draws its props with the hook in place.
-  void beginShading(vtkRenderer* renderer);
+  void beginShading(const vtkRenderState* s);
   /// @return false if props were drawn at another resolution than the visibility layers have; they
   /// show no shadows then
   bool endShading();
@@ -129,6 +129,7 @@ private:
   void keepVisibility();
   bool readsPoints() const;
   CameraView camera(vtkRenderer* renderer) const;
+  ReceiverSpace receiverSpace(const vtkRenderState* s) const;
   glm::dmat4 centredFromView(vtkRenderer* renderer) const;
 
   FrameReport report_;

@@ -236,7 +236,7 @@ void ShaderManager::beginStage(vtkOpenGLRenderWindow* window, const StageValues&
     add("gnomonStrength" + std::to_string(i), static_cast<float>(this->lights_[i].light.strength));
     if (this->lights_[i].pointwise)
     {
-      for (Uniform uniform : this->lights_[i].pointwise->uniforms(values.centredFromView))
+      for (Uniform uniform : this->lights_[i].pointwise->uniforms(values.space))
       {
         uniform.name = numberedForLight(uniform.name, light);
         if (const auto* texture = std::get_if<TextureBinding>(&uniform.value))

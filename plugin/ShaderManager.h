@@ -72,7 +72,7 @@ public:
   struct StageValues
   {
     bool receiversStage = false;
-    glm::dmat4 centredFromView{ 1.0 };
+    ReceiverSpace space;
     TextureBinding layers;      ///< image route: the visibility layers
     glm::ivec2 layersSize{ 0 }; ///< and their size in pixels
   };

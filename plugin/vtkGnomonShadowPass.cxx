@@ -175,7 +175,7 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
       }
 
       // shading
-      manager.beginShading(renderer);
+      manager.beginShading(s);
     }
     drawn = true;
     this->DrawScene(s);

@@ -174,6 +174,42 @@ const EstimatorEntry& estimatorOf(const ShadowSettings& settings)
   return *estimator;
 }
 
+namespace
+{
+
+/// Why a light's map cannot be averaged as its settings say; empty if it can.
+std::string refusedAverage(const ShadowLight& light, const TechniqueInfo& info)
+{
+  const bool sums = light.blur == MapBlur::Sat;
+  if (!info.needsMap)
+  {
+    return {};
+  }
+  if (!info.averagesMap)
+  {
+    const std::string asked = light.mapSamples > 1 ? "map_samples"
+      : sums                                       ? "blur"
+      : light.mipMaps                              ? "mip_maps"
+                                                   : "";
+    return asked.empty() ? ""
+                         : "'" + info.name + "' reads depths, which may not be averaged; '" +
+        asked + "' is for maps of moments";
+  }
+  if (sums && !info.sumsMap)
+  {
+    return "'" + info.name +
+      "' has moments beyond the range of the 32-bit integers that a summed-area table holds; it "
+      "takes 'blur' box";
+  }
+  if (sums && light.mipMaps)
+  {
+    return "a summed-area table has no levels; 'mip_maps' is for 'blur' box";
+  }
+  return {};
+}
+
+} // namespace
+
 //------------------------------------------------------------------------------
 const EstimatorEntry& compose(ShadowLight& light)
 {
@@ -197,15 +233,12 @@ const EstimatorEntry& compose(ShadowLight& light)
     throw CompositionError(
       "the kernel 'castano' has the sizes 3, 5 and 7, not " + std::to_string(light.kernelTexels));
   }
-  if (info.needsMap && !info.averagesMap && light.mapSamples > 1)
+  for (const std::string& refused : { refusedAverage(light, info), refusedProjection(light) })
   {
-    throw CompositionError("'" + light.estimator +
-      "' reads depths, which may not be averaged; 'map_samples' is for maps of moments");
-  }
-  const std::string refused = refusedProjection(light);
-  if (!refused.empty())
-  {
-    throw CompositionError(refused);
+    if (!refused.empty())
+    {
+      throw CompositionError(refused);
+    }
   }
   return estimator;
 }

@@ -2,9 +2,9 @@
 
 #include "shadowtech/adaptive/JitteredDiscs.h"
 #include "shadowtech/base/GlState.h"
+#include "shadowtech/base/Kernel.h"
 #include "shadowtech/base/ShaderLibrary.h"
 #include "shadowtech/base/TextureMemory.h"
-#include "shadowtech/depth_map/Kernel.h"
 
 #include <algorithm>
 
@@ -166,9 +166,9 @@ std::size_t Adaptive::bytesOfMaps() const
 }
 
 //------------------------------------------------------------------------------
-std::vector<Uniform> Adaptive::uniforms(const glm::dmat4& centredFromView) const
+std::vector<Uniform> Adaptive::uniforms(const ReceiverSpace& space) const
 {
-  std::vector<Uniform> uniforms = this->DepthMapTechnique::uniforms(centredFromView);
+  std::vector<Uniform> uniforms = this->DepthMapTechnique::uniforms(space);
   uniforms.push_back({ "discs_LIGHT", TextureBinding{ GL_TEXTURE_2D_ARRAY, this->discs_.name() } });
   if (this->bounds_)
   {

@@ -32,7 +32,7 @@ public:
   MapReach mapReach(const ShadowLight& light) const override;
   void bake(const MapInput& input) override;
   std::size_t bytesOfMaps() const override;
-  std::vector<Uniform> uniforms(const glm::dmat4& centredFromView) const override;
+  std::vector<Uniform> uniforms(const ReceiverSpace& space) const override;
 
 protected:
   std::string estimatorGlsl(const ShadowLight& light) const override;

@@ -35,15 +35,17 @@ std::string lightViewsDefines(const ShadowLight& light)
     define("VIEWS_BLENDED_LIGHT", layout == ViewLayout::Splits && light.splitBlend > 0.0) +
     "#define SPLIT_BLEND_LIGHT float(" + findSetting("split_blend")->get(light) + ")\n" +
     define("VIEWS_WARPED_LIGHT", isWarped(light)) +
-    define("VIEWS_FITTED_LIGHT", light.fittedToReceivers) + define("VIEWS_LIGHT", mostViews(light));
+    define("VIEWS_FITTED_LIGHT", light.fittedToReceivers) +
+    define("VIEWS_PIXELS_LIGHT", light.mipMaps) + define("VIEWS_LIGHT", mostViews(light));
 }
 
 //------------------------------------------------------------------------------
 std::vector<Uniform> lightViewsUniforms(const LightViews& views, int sizeTexels,
-  const glm::dmat4& centredFromView, const TextureBinding& viewFits)
+  const ReceiverSpace& space, const TextureBinding& viewFits)
 {
   std::vector<Uniform> uniforms = { { "lightFromView_LIGHT",
-                                      glm::mat4(views.lightFromCentred * centredFromView) },
+                                      glm::mat4(views.lightFromCentred * space.centredFromView) },
+    { "pixelSide_LIGHT", glm::vec2(space.pixelSide) },
     { "viewSize_LIGHT", static_cast<float>(views.views.empty() ? 0 : sizeTexels) },
     { "viewCount_LIGHT", static_cast<int>(views.views.size()) },
     { "viewBorder_LIGHT", static_cast<float>(views.borderTexels) },

@@ -17,10 +17,9 @@ std::string lightViewsDefines(const ShadowLight& light);
 
 /// The uniforms of light_views.glsl, also those that only other kinds of light use.
 /// @param sizeTexels the side of the map's layers
-/// @param centredFromView the camera's rigid transformation from view to centred coordinates
 /// @param viewFits the last fits of views that await them (MapInput::viewFits)
 std::vector<Uniform> lightViewsUniforms(const LightViews& views, int sizeTexels,
-  const glm::dmat4& centredFromView, const TextureBinding& viewFits = {});
+  const ReceiverSpace& space, const TextureBinding& viewFits = {});
 
 } // namespace gnomon
 

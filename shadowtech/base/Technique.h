@@ -47,6 +47,7 @@ struct TechniqueInfo
   /// The kernel of an estimator that has one of its own; empty: what the setting `kernel` says.
   std::string ownKernel = {};
   bool averagesMap = false; ///< its map holds what may be averaged: moments, not depths
+  bool sumsMap = false;     ///< and which fixed-point numbers hold, so that tables may sum it
 
   bool isPointwise() const { return this->evaluation == Evaluation::Pointwise; }
 };
@@ -66,6 +67,15 @@ struct Uniform
   std::variant<int, float, glm::ivec2, glm::vec2, glm::vec3, glm::vec4, glm::mat3, glm::mat4,
     TextureBinding>
     value;
+};
+
+/// The camera's space, in which shaders have receivers.
+struct ReceiverSpace
+{
+  glm::dmat4 centredFromView{ 1.0 }; ///< the camera's, rigid
+  /// The area of a pixel across the view in squared world units is that of the square of side
+  /// x + y * distance along the view.
+  glm::dvec2 pixelSide{ 0.0 };
 };
 
 /// What a technique gets to draw its maps from.
@@ -133,12 +143,7 @@ public:
   virtual std::string visibilityGlsl(const ShadowLight&) const { return {}; }
   /// The uniforms of that source, as of the last bake, for receivers in the view coordinates of a
   /// camera.
-  /// @param centredFromView the camera's rigid transformation from view to centred coordinates
-  virtual std::vector<Uniform> uniforms(const glm::dmat4& centredFromView) const
-  {
-    static_cast<void>(centredFromView);
-    return {};
-  }
+  virtual std::vector<Uniform> uniforms(const ReceiverSpace&) const { return {}; }
 
   /// Draws a screen technique's visibility on the GPU into its layer: in [0, 1] for every pixel.
   virtual void drawVisibility(const LayerInput&, LightReport&) {}

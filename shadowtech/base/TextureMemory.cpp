@@ -130,9 +130,10 @@ void allocateTexture(GlTexture& texture, const TexelFormat& format, int width, i
 }
 
 //------------------------------------------------------------------------------
-void allocateMap(GlTexture& texture, const TexelFormat& format, int sizeTexels, int layers)
+void allocateMap(
+  GlTexture& texture, const TexelFormat& format, int sizeTexels, int layers, int levels)
 {
-  const Shape shape{ format, sizeTexels, sizeTexels, layers };
+  const Shape shape{ format, sizeTexels, sizeTexels, layers, levels };
   if (allocate(texture, shape))
   {
     return;

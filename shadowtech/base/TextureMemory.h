@@ -39,7 +39,8 @@ void allocateTexture(GlTexture& texture, const TexelFormat& format, int width, i
   int layers, const char* what, int levels = 1);
 
 /// The same for a light's map. The error offers the largest power of two that fits as its side.
-void allocateMap(GlTexture& texture, const TexelFormat& format, int sizeTexels, int layers);
+void allocateMap(
+  GlTexture& texture, const TexelFormat& format, int sizeTexels, int layers, int levels = 1);
 
 /// The most samples of a texel that OpenGL draws maps of moments with.
 int mostMapSamples();

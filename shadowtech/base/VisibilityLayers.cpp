@@ -27,7 +27,7 @@ void VisibilityLayers::resize(int width, int height, int layers)
 
 //------------------------------------------------------------------------------
 void VisibilityLayers::estimate(int layer, const Technique& technique, const ShadowLight& light,
-  const ReceiverTarget& receivers, const glm::dmat4& centredFromView, ShaderLibrary& shaders)
+  const ReceiverTarget& receivers, const ReceiverSpace& space, ShaderLibrary& shaders)
 {
   const GlStateGuard guard;
   const GLuint program = ScreenPass::use(shaders,
@@ -37,7 +37,7 @@ void VisibilityLayers::estimate(int layer, const Technique& technique, const Sha
     { { "receiverFragments", TextureBinding{ GL_TEXTURE_2D, receivers.fragments() } },
       { "receiverPoints", TextureBinding{ GL_TEXTURE_2D, receivers.points() } } },
     0, 0);
-  ShaderLibrary::setUniforms(program, technique.uniforms(centredFromView), 0, freeUnit);
+  ShaderLibrary::setUniforms(program, technique.uniforms(space), 0, freeUnit);
   this->fill(layer);
 }
 

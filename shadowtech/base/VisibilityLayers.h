@@ -23,7 +23,7 @@ public:
 
   /// Fills a layer by a pointwise technique's GLSL, called for the receivers of all pixels.
   void estimate(int layer, const Technique& technique, const ShadowLight& light,
-    const ReceiverTarget& receivers, const glm::dmat4& centredFromView, ShaderLibrary& shaders);
+    const ReceiverTarget& receivers, const ReceiverSpace& space, ShaderLibrary& shaders);
 
   /// Fills a layer with the output of the program in use, called for every pixel (ScreenPass). A
   /// GlStateGuard is the caller's business.

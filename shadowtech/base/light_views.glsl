@@ -5,7 +5,7 @@
 // What kind of light it is, is known when the shader is built: VIEWS_SPOT_LIGHT, VIEWS_BOX_LIGHT and
 // VIEWS_PERSPECTIVE_LIGHT are 0 or 1; and so is how its views lie: VIEWS_CUBE_LIGHT, VIEWS_SPLITS_LIGHT
 // (neither: a single one), VIEWS_WARPED_LIGHT. VIEWS_LIGHT is how many views there can be. With
-// VIEWS_BLENDED_LIGHT splits overlap.
+// VIEWS_BLENDED_LIGHT splits overlap. With VIEWS_PIXELS_LIGHT points know how much their pixel shows.
 // VIEWS_FITTED_LIGHT: the last fit of the views was found on the GPU, and is read from a texture;
 // texels "before the fit" are those of the map that would show all that there can be.
 //
@@ -51,6 +51,7 @@ struct ViewPoint
   vec3 normal;
   int view;   // the layer of the map
   vec2 texel; // its place there
+  float pixelArea; // how much of the point's surface a pixel shows, in squared world units; if asked for
 };
 
 // The face of the cube around a light that sees a point: the twin of cubeFaceOf().
@@ -163,6 +164,23 @@ mat2 texelJacobian_LIGHT(int view, vec2 across)
   return mat2(fit.xy * beforeFit[0], fit.xy * beforeFit[1]);
 }
 
+#if VIEWS_PIXELS_LIGHT
+// How many texels a pixel shows of a point's surface. Both the pixel and the map see it as large as they stand
+// across it, so that silhouettes, whose pixels have nothing to do with their neighbours', are as good as
+// any other point.
+float texelsOfPixel_LIGHT(ViewPoint point)
+{
+  float texels = abs(determinant(texelJacobian_LIGHT(point.view, acrossOf_LIGHT(point.position))));
+#if VIEWS_PERSPECTIVE_LIGHT
+  vec3 ray = point.position / point.position.z;
+  texels /= point.position.z * point.position.z;
+#else
+  vec3 ray = vec3(0.0, 0.0, 1.0);
+#endif
+  return point.pixelArea * texels * abs(dot(ray, normalize(point.normal)));
+}
+#endif
+
 // Whether a view's layer holds a place and all within a border around it.
 bool holds_LIGHT(vec2 texel, float border)
 {
@@ -175,7 +193,7 @@ bool holds_LIGHT(vec2 texel, float border)
 // Returns false where there is no view.
 bool enterView_LIGHT(vec3 positionLight, vec3 normalLight, out ViewPoint point)
 {
-  point = ViewPoint(positionLight, normalLight, 0, vec2(0.0));
+  point = ViewPoint(positionLight, normalLight, 0, vec2(0.0), 0.0);
 #if VIEWS_CUBE_LIGHT
   int face = cubeFaceOf(positionLight);
   point.view = viewOfFace_LIGHT[face];

@@ -5,6 +5,19 @@
 
 uniform vec2 depthSlacks_LIGHT; // what rounding does to a depth; and per distance to the camera
 
+#if VIEWS_PIXELS_LIGHT
+uniform vec2 pixelSide_LIGHT; // of a pixel across the view, in world units: x + y * distance
+
+// How much of a surface a pixel shows, in squared world units. Along the view it is without end.
+float pixelArea_LIGHT(vec3 positionView, vec3 normalView)
+{
+  float distanceView = -positionView.z;
+  float side = pixelSide_LIGHT.x + pixelSide_LIGHT.y * distanceView;
+  vec3 ray = pixelSide_LIGHT.y > 0.0 ? positionView / distanceView : vec3(0.0, 0.0, -1.0);
+  return side * side / max(abs(dot(ray, normalize(normalView))), 1e-6);
+}
+#endif
+
 // The technique's estimator, for a point that the light reaches and a view sees.
 float estimate_LIGHT(ViewPoint point, float slack);
 
@@ -31,6 +44,9 @@ float visibility_LIGHT(vec3 positionView, vec3 normalView)
   {
     return 1.0;
   }
+#if VIEWS_PIXELS_LIGHT
+  point.pixelArea = pixelArea_LIGHT(positionView, normalView);
+#endif
   float visibility = estimateAt_LIGHT(point, positionView);
 #if VIEWS_BLENDED_LIGHT
   ViewPoint next;

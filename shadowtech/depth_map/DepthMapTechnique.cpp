@@ -4,6 +4,7 @@
 #include "lights/KernelShape.h"
 #include "shadowtech/base/CasterDrawing.h"
 #include "shadowtech/base/GlState.h"
+#include "shadowtech/base/Kernel.h"
 #include "shadowtech/base/LightViewsGlsl.h"
 #include "shadowtech/base/ShaderLibrary.h"
 #include "shadowtech/base/TextureMemory.h"
@@ -232,10 +233,10 @@ std::string DepthMapTechnique::visibilityGlsl(const ShadowLight& light) const
 }
 
 //------------------------------------------------------------------------------
-std::vector<Uniform> DepthMapTechnique::uniforms(const glm::dmat4& centredFromView) const
+std::vector<Uniform> DepthMapTechnique::uniforms(const ReceiverSpace& space) const
 {
   std::vector<Uniform> uniforms =
-    lightViewsUniforms(this->views_, this->sizeTexels_, centredFromView, this->viewFits_);
+    lightViewsUniforms(this->views_, this->sizeTexels_, space, this->viewFits_);
   uniforms.push_back(
     { "depthMap_LIGHT", TextureBinding{ GL_TEXTURE_2D_ARRAY, this->map_.name() } });
   const double followed =
@@ -247,9 +248,7 @@ std::vector<Uniform> DepthMapTechnique::uniforms(const glm::dmat4& centredFromVi
     const double scale = 1.0 / longestRay(this->views_.views[i]);
     uniforms.push_back({ "rayScale_LIGHT[" + std::to_string(i) + "]", static_cast<float>(scale) });
   }
-  const bool across = this->reach_.unitAcross > 0.0;
-  uniforms.push_back({ "kernelUnit_LIGHT",
-    static_cast<float>(across ? this->reach_.unitAcross : this->reach_.largestStretch) });
+  uniforms.push_back(kernelUnit(this->reach_));
   return uniforms;
 }
 

@@ -48,7 +48,7 @@ public:
   void bake(const MapInput& input) override;
   std::size_t bytesOfMaps() const override;
   std::string visibilityGlsl(const ShadowLight& light) const override;
-  std::vector<Uniform> uniforms(const glm::dmat4& centredFromView) const override;
+  std::vector<Uniform> uniforms(const ReceiverSpace& space) const override;
 
 protected:
   const GlTexture& map() const { return this->map_; }

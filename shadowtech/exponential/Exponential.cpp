@@ -19,7 +19,7 @@ MomentMapTechnique::Moments Exponential::moments() const
   const double positive = std::exp(exponentPositive);
   const double negative = -std::exp(-exponentNegative);
   return { 4, ShaderLibrary::source("shadowtech/exponential/exponential_moments.glsl"),
-    glm::vec4(positive, positive * positive, negative, negative * negative) };
+    glm::vec4(positive, positive * positive, negative, negative * negative), glm::vec4(0.0f) };
 }
 
 //------------------------------------------------------------------------------

@@ -22,7 +22,7 @@ float warpedBound_LIGHT(vec2 moments, float warped, float exponent)
 float concaveBias_LIGHT(ViewPoint point)
 {
   float exponent = 2.0 * exponentNegative; // of depths in [0, 1]
-  vec2 halfSpan = 0.5 * (float(BLUR_TEXELS_LIGHT) + 1.0) * exponent * planeSlope_LIGHT(point);
+  vec2 halfSpan = 0.5 * (kernelTexels_LIGHT(point) + 1.0) * exponent * planeSlope_LIGHT(point);
   vec2 bias = min(halfSpan, halfSpan * halfSpan / 6.0) / exponent;
   return bias.x + bias.y;
 }

@@ -122,7 +122,7 @@ void ReceiverFit::compute(const ShadowLight& light, const LightViews& views,
 
   const MapTexels texels{ light.mapSizeTexels, views.borderTexels };
   const Rectangle covered = coveredBeforeFit(light, texels);
-  std::vector<Uniform> uniforms = lightViewsUniforms(views, texels.side, centredFromView);
+  std::vector<Uniform> uniforms = lightViewsUniforms(views, texels.side, { centredFromView });
   uniforms.push_back({ "receiverFragments", TextureBinding{ GL_TEXTURE_2D, receivers.fragments } });
   uniforms.push_back({ "receiverPoints", TextureBinding{ GL_TEXTURE_2D, receivers.points } });
   uniforms.push_back({ "splitLambda", static_cast<float>(light.splitLambda) });

@@ -1,7 +1,9 @@
 #include "shadowtech/moment_map/MomentMapTechnique.h"
 
+#include "lights/KernelShape.h"
 #include "shadowtech/base/CasterDrawing.h"
 #include "shadowtech/base/GlState.h"
+#include "shadowtech/base/Kernel.h"
 #include "shadowtech/base/LightViewsGlsl.h"
 #include "shadowtech/base/ShaderLibrary.h"
 #include "shadowtech/base/TextureMemory.h"
@@ -31,6 +33,17 @@ std::string constant(const char* setting, const ShadowLight& light)
   return "float(" + findSetting(setting)->get(light) + ")";
 }
 
+/// How many levels a light's map has: down to a single texel, or only itself.
+int levelsOf(const ShadowLight& light)
+{
+  int levels = 1;
+  while (light.mipMaps && light.mapSizeTexels >> levels > 0)
+  {
+    ++levels;
+  }
+  return levels;
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -49,16 +62,26 @@ TechniqueInfo MomentMapTechnique::infoOf(const char* name)
 //------------------------------------------------------------------------------
 MapReach MomentMapTechnique::mapReach(const ShadowLight& light) const
 {
+  if (light.blur == MapBlur::Sat)
+  {
+    // Along each axis the rectangle reaches as far as a disc would.
+    return kernelReach(light, { 0.5, 0.0, 0.5 * light.kernelTexels });
+  }
   return { 0.5 * (light.kernelTexels + 1.0), 0.0 };
 }
 
 //------------------------------------------------------------------------------
-void MomentMapTechnique::allocate(const ShadowLight& light, int layers)
+void MomentMapTechnique::allocate(const ShadowLight& light, int views)
 {
   const TexelFormat format = formatOf(this->moments().count);
   const int sizeTexels = light.mapSizeTexels;
-  light.kernelTexels > 1 ? this->blur_.allocate(format, sizeTexels) : this->blur_.release();
-  if (this->sizeTexels_ == sizeTexels && this->layers_ == layers &&
+  const bool blurred = !this->summed_ && light.kernelTexels > 1;
+  blurred ? this->blur_.allocate(format, sizeTexels) : this->blur_.release();
+  this->summed_ ? this->table_.allocate(format.channels, sizeTexels, views)
+                : this->table_.release();
+  const int layers = this->summed_ ? 1 : views;
+  const int levels = levelsOf(light);
+  if (this->sizeTexels_ == sizeTexels && this->layers_ == layers && this->levels_ == levels &&
     this->samples_ == light.mapSamples)
   {
     return;
@@ -67,8 +90,9 @@ void MomentMapTechnique::allocate(const ShadowLight& light, int layers)
   this->layers_ = 0;
   this->depth_.reset();
   this->sampled_.release();
-  allocateMap(this->map_, format, sizeTexels, layers);
-  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  allocateMap(this->map_, format, sizeTexels, layers, levels);
+  glTexParameteri(
+    GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, levels > 1 ? GL_LINEAR_MIPMAP_LINEAR : GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_BORDER);
   glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_BORDER);
@@ -86,6 +110,7 @@ void MomentMapTechnique::allocate(const ShadowLight& light, int layers)
   glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, this->depth_.name(), 0, 0);
   this->sizeTexels_ = sizeTexels;
   this->layers_ = layers;
+  this->levels_ = levels;
   this->samples_ = light.mapSamples;
 }
 
@@ -94,11 +119,17 @@ void MomentMapTechnique::bake(const MapInput& input)
 {
   const GlStateGuard guard;
   const std::vector<LightView>& views = input.views.views;
+  this->summed_ = input.light.blur == MapBlur::Sat;
   // A light without a view still needs a texture to bind.
   this->allocate(input.light, std::max(static_cast<int>(views.size()), 1));
   this->views_ = input.views;
   this->viewFits_ = input.viewFits;
+  this->reach_ = this->mapReach(input.light);
   const Moments moments = this->moments();
+  if (this->summed_)
+  {
+    this->table_.setUnits(moments.largest, this->widestKernel());
+  }
 
   const bool sampled = this->samples_ > 1;
   const GLuint target = sampled ? this->sampled_.framebuffer() : this->framebuffer_.name();
@@ -112,9 +143,10 @@ void MomentMapTechnique::bake(const MapInput& input)
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   for (std::size_t i = 0; i < views.size(); ++i)
   {
+    const auto view = static_cast<int>(i);
     glBindFramebuffer(GL_FRAMEBUFFER, this->framebuffer_.name());
     glFramebufferTextureLayer(
-      GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, this->map_.name(), 0, static_cast<GLint>(i));
+      GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, this->map_.name(), 0, this->summed_ ? 0 : view);
     glBindFramebuffer(GL_FRAMEBUFFER, target);
     const float farthest = 1.0f;
     glClearBufferfv(GL_DEPTH, 0, &farthest);
@@ -132,40 +164,77 @@ void MomentMapTechnique::bake(const MapInput& input)
     {
       this->sampled_.average(this->framebuffer_.name());
     }
+    if (this->summed_)
+    {
+      this->table_.sum(this->map_.name(), 0, view, input.shaders);
+    }
   }
-  if (input.light.kernelTexels > 1)
+  if (!this->summed_ && input.light.kernelTexels > 1)
   {
     this->blur_.apply(this->map_.name(), static_cast<int>(views.size()), input.light.kernelTexels,
       moments.empty, input.shaders);
   }
+  if (this->levels_ > 1)
+  {
+    // Drivers may read what the blur has stored either way.
+    glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT);
+    glActiveTexture(GL_TEXTURE0);
+    glBindTexture(GL_TEXTURE_2D_ARRAY, this->map_.name());
+    glGenerateMipmap(GL_TEXTURE_2D_ARRAY);
+  }
+}
+
+//------------------------------------------------------------------------------
+/// The longest side of a rectangle that is read of the baked map, in texels.
+double MomentMapTechnique::widestKernel() const
+{
+  const double texelsAcross = mostTexelsAcross(this->views_, this->sizeTexels_);
+  return std::clamp(
+    2.0 * this->reach_.largestTexels(texelsAcross) - 1.0, 1.0, 2.0 * this->sizeTexels_);
 }
 
 //------------------------------------------------------------------------------
 std::size_t MomentMapTechnique::bytesOfMaps() const
 {
   const auto side = static_cast<std::size_t>(this->sizeTexels_);
-  const auto channels =
-    static_cast<std::size_t>(this->layers_ * this->moments().count + (this->depth_ ? 1 : 0));
-  return side * side * channels * sizeof(float) + this->sampled_.bytes() + this->blur_.bytes();
+  std::size_t texels = 0;
+  for (int level = 0; level < this->levels_; ++level)
+  {
+    texels += (side >> level) * (side >> level);
+  }
+  const auto channels = static_cast<std::size_t>(this->layers_ * this->moments().count);
+  const std::size_t depth = this->depth_ ? side * side : 0;
+  return (texels * channels + depth) * sizeof(float) + this->sampled_.bytes() +
+    this->blur_.bytes() + this->table_.bytes();
 }
 
 //------------------------------------------------------------------------------
 std::string MomentMapTechnique::visibilityGlsl(const ShadowLight& light) const
 {
-  return lightViewsDefines(light) +
-    define("BLUR_TEXELS_LIGHT", std::to_string(light.kernelTexels)) +
+  return lightViewsDefines(light) + kernelDefines(light) +
+    define("KERNEL_TEXELS_LIGHT", std::to_string(light.kernelTexels)) +
+    define("MOMENT_LEVELS_LIGHT", std::to_string(levelsOf(light))) +
+    define("MOMENTS_SUMMED_LIGHT", light.blur == MapBlur::Sat ? "1" : "0") +
     define("BLEEDING_LIGHT", constant("bleeding", light)) +
     define("VARIANCE_FLOOR_LIGHT", constant("variance_floor", light)) + this->estimatorGlsl(light);
 }
 
 //------------------------------------------------------------------------------
-std::vector<Uniform> MomentMapTechnique::uniforms(const glm::dmat4& centredFromView) const
+std::vector<Uniform> MomentMapTechnique::uniforms(const ReceiverSpace& space) const
 {
   std::vector<Uniform> uniforms =
-    lightViewsUniforms(this->views_, this->sizeTexels_, centredFromView, this->viewFits_);
-  uniforms.push_back(
-    { "momentMap_LIGHT", TextureBinding{ GL_TEXTURE_2D_ARRAY, this->map_.name() } });
+    lightViewsUniforms(this->views_, this->sizeTexels_, space, this->viewFits_);
   uniforms.push_back(depthSlacks());
+  if (!this->summed_)
+  {
+    uniforms.push_back(
+      { "momentMap_LIGHT", TextureBinding{ GL_TEXTURE_2D_ARRAY, this->map_.name() } });
+    return uniforms;
+  }
+  const std::vector<Uniform> table = this->table_.uniforms(this->moments().empty);
+  uniforms.insert(uniforms.end(), table.begin(), table.end());
+  uniforms.push_back({ "widestKernel_LIGHT", static_cast<float>(this->widestKernel()) });
+  uniforms.push_back(kernelUnit(this->reach_));
   return uniforms;
 }
 

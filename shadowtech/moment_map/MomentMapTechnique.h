@@ -4,6 +4,7 @@
 #include "shadowtech/base/Technique.h"
 #include "shadowtech/moment_map/BoxBlur.h"
 #include "shadowtech/moment_map/SampledLayer.h"
+#include "shadowtech/moment_map/SummedAreaTable.h"
 
 namespace gnomon
 {
@@ -29,6 +30,15 @@ namespace gnomon
 /// half of what they change by to the next texel (Donnelly and Lauritzen 2006, "derivative bias").
 /// Where there is no slope, the estimators have a floor to the variance.
 ///
+/// With `blur` sat the kernel is not in the map, which is then a summed-area table (SummedAreaTable.h): each
+/// look-up takes the mean over a rectangle of its own, as wide as the kernel is at that point
+/// (Kernel.h), so that warped maps blur as evenly as others.
+///
+/// With `mip_maps` the blurred map has coarser levels, of which a look-up reads one whose texels cover what
+/// its pixel shows of the receiver, so that shadows that are far away do not flicker or look like
+/// their middle pixel. How much that is follows from the receiver's plane, the camera and the map's Jacobian
+/// (texelsOfPixel_LIGHT), and never from a pixel's neighbours.
+///
 /// A texel may be drawn with several samples (`map_samples`), each of which has its own depth, spread as
 /// the part of the texel is that it stands for.
 ///
@@ -43,7 +53,7 @@ public:
   void bake(const MapInput& input) override;
   std::size_t bytesOfMaps() const override;
   std::string visibilityGlsl(const ShadowLight& light) const override;
-  std::vector<Uniform> uniforms(const glm::dmat4& centredFromView) const override;
+  std::vector<Uniform> uniforms(const ReceiverSpace& space) const override;
 
 protected:
   /// How a depth becomes moments.
@@ -55,26 +65,33 @@ protected:
     /// others are of no meaning.
     std::string glsl;
     glm::vec4 empty; ///< momentsOf(1, 0)
+    /// What no moment's size exceeds, a power of two, for fixed-point numbers; 0: too much for them.
+    glm::vec4 largest;
   };
   virtual Moments moments() const = 0;
 
-  /// What an estimator of this name is, like all others over moments.
+  /// What an estimator of this name is, like all others over moments that no table can sum.
   static TechniqueInfo infoOf(const char* name);
 
   /// The source of float estimate_LIGHT(ViewPoint point, float slack), which includes moment_map.glsl.
   virtual std::string estimatorGlsl(const ShadowLight& light) const = 0;
 
 private:
-  void allocate(const ShadowLight& light, int layers);
+  void allocate(const ShadowLight& light, int views);
+  double widestKernel() const;
 
-  GlTexture map_;
+  GlTexture map_;   ///< a layer for each view, or one that is drawn before it is summed
   GlTexture depth_; ///< of the layer that is being drawn with one sample
   GlFramebuffer framebuffer_;
   SampledLayer sampled_; ///< what it is drawn into with several
   BoxBlur blur_;
+  SummedAreaTable table_;
   int sizeTexels_ = 0;
-  int layers_ = 0;
+  int layers_ = 0; ///< of map_
+  int levels_ = 0; ///< of map_
   int samples_ = 0;
+  MapReach reach_;          ///< as baked
+  bool summed_ = false;     ///< as baked
   LightViews views_;        ///< as baked
   TextureBinding viewFits_; ///< as baked
 };

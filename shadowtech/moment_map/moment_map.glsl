@@ -1,21 +1,18 @@
 // Techniques with a map of moments: the mean moments around a point, and what their estimators do
 // with a bound on the share of the map's depths that lie behind the point (MomentMapTechnique.h).
 //
-// BLUR_TEXELS_LIGHT is the width of the box that the map was blurred with; BLEEDING_LIGHT is the
-// bound up to which a point is in full shadow.
+// KERNEL_TEXELS_LIGHT is the kernel's width; MOMENTS_SUMMED_LIGHT: the map is a summed-area table, else
+// it was blurred. BLEEDING_LIGHT is the bound up to which a point is in full shadow.
 
 #include "shadowtech/base/map_visibility.glsl"
 
-uniform sampler2DArray momentMap_LIGHT; // linear; its border has the moments of depth 1
-
-// The moments of what a square of the box's width covers around a point: the bilinear filter adds the
-// part of a texel that moves it from the middle of its texel (of a box of even width, from that
-// texel's lower corner) to the point.
-vec4 momentsAt_LIGHT(ViewPoint point)
-{
-  vec2 place = point.texel + (BLUR_TEXELS_LIGHT % 2 == 0 ? 0.5 : 0.0);
-  return textureLod(momentMap_LIGHT, vec3(place / viewSize_LIGHT, float(point.view)), 0.0);
-}
+// Both define the mean moments around a point, vec4 momentsAt_LIGHT(ViewPoint), and over how wide a
+// kernel along the map's axes those are, vec2 kernelTexels_LIGHT(ViewPoint).
+#if MOMENTS_SUMMED_LIGHT
+#include "shadowtech/moment_map/moments_summed.glsl"
+#else
+#include "shadowtech/moment_map/moments_blurred.glsl"
+#endif
 
 // The receiver's depth, nearer by its rounding and by a bias in depths of [0, 1], from [0, 1] to [-1, 1]
 // as that of the moments. Receivers that do not cast may lie behind all depths of the map: as far away

@@ -8,13 +8,16 @@ namespace gnomon
 //------------------------------------------------------------------------------
 TechniqueInfo FourMoments::info()
 {
-  return infoOf("moments");
+  TechniqueInfo info = infoOf("moments");
+  info.sumsMap = true;
+  return info;
 }
 
 //------------------------------------------------------------------------------
 MomentMapTechnique::Moments FourMoments::moments() const
 {
-  return { 4, ShaderLibrary::source("shadowtech/moments/four_moments.glsl"), glm::vec4(1.0f) };
+  return { 4, ShaderLibrary::source("shadowtech/moments/four_moments.glsl"), glm::vec4(1.0f),
+    { 1.0f, 2.0f, 4.0f, 8.0f } };
 }
 
 //------------------------------------------------------------------------------

@@ -68,12 +68,12 @@ float hamburgerBound(vec4 moments, float depth)
 
 #endif
 
-// The standard deviation of the depths of the receiver's own plane: of the blur's box, of the bilinear
-// filter's two texels, and of the spread that each texel has.
+// The standard deviation of the depths of the receiver's own plane: of the kernel's texels, of its place
+// between them (the bilinear filter's two texels), and of the spread that each texel has.
 float planeDeviation_LIGHT(ViewPoint point)
 {
-  float texels = float(BLUR_TEXELS_LIGHT);
-  return length(planeSlope_LIGHT(point)) * sqrt((texels * texels - 1.0) / 12.0 + 0.25 + 0.25);
+  vec2 texels = kernelTexels_LIGHT(point);
+  return length(planeSlope_LIGHT(point) * sqrt((texels * texels - 1.0) / 12.0 + 0.25 + 0.25));
 }
 
 float estimate_LIGHT(ViewPoint point, float slack)

@@ -1,7 +1,7 @@
 #include "shadowtech/pcf/Pcf.h"
 
+#include "shadowtech/base/Kernel.h"
 #include "shadowtech/base/ShaderLibrary.h"
-#include "shadowtech/depth_map/Kernel.h"
 #include "shadowtech/pcf/PoissonDisc.h"
 
 namespace gnomon

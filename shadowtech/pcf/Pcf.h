@@ -18,7 +18,7 @@ namespace gnomon
 /// | poisson | 16, nearest to points of a disc of diameter n | square, 1/2, and disc, n / 2 |
 ///
 /// Those are kernels on uniform maps. On warped ones, and with `kernel_width`, n counts kernel units
-/// (shadowtech/depth_map/Kernel.h): bilinear and castano weigh all texels in the kernel's shape, and with
+/// (shadowtech/base/Kernel.h): bilinear and castano weigh all texels in the kernel's shape, and with
 /// `kernel_width` n x n bilinear look-ups, a unit apart; box and poisson read the texel at each of their
 /// points.
 ///

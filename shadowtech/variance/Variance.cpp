@@ -8,13 +8,16 @@ namespace gnomon
 //------------------------------------------------------------------------------
 TechniqueInfo Variance::info()
 {
-  return infoOf("variance");
+  TechniqueInfo info = infoOf("variance");
+  info.sumsMap = true;
+  return info;
 }
 
 //------------------------------------------------------------------------------
 MomentMapTechnique::Moments Variance::moments() const
 {
-  return { 2, ShaderLibrary::source("shadowtech/variance/variance_moments.glsl"), glm::vec4(1.0f) };
+  return { 2, ShaderLibrary::source("shadowtech/variance/variance_moments.glsl"), glm::vec4(1.0f),
+    { 1.0f, 2.0f, 1.0f, 1.0f } };
 }
 
 //------------------------------------------------------------------------------

@@ -13,6 +13,7 @@
 
 #include <gmock/gmock.h>
 
+#include <functional>
 #include <map>
 #include <set>
 
@@ -104,6 +105,9 @@ State readState()
     state["GL_BLEND of draw buffer " + std::to_string(i)] = { glIsEnabledi(GL_BLEND, i) ? 1.0
                                                                                         : 0.0 };
   }
+  GLint image = 0;
+  glGetIntegeri_v(GL_IMAGE_BINDING_NAME, 0, &image);
+  state["GL_IMAGE_BINDING_NAME of unit 0"] = { static_cast<double>(image) };
   GLint active = 0;
   glGetIntegerv(GL_ACTIVE_TEXTURE, &active);
   GLint units = 0;
@@ -209,10 +213,9 @@ int freeTextureUnits(vtkOpenGLRenderWindow* window)
   return static_cast<int>(units.size());
 }
 
-} // namespace
-
-//------------------------------------------------------------------------------
-TEST_P(GlStateOfWay, isChangedOnlyWherePlainVtkChangesIt)
+/// Expects the pass to change state only where plain VTK does, too.
+/// @param choose gives the pass its settings
+void expectChangesOfPlainVtkOnly(const std::function<void(PassScene&)>& choose)
 {
   PassScene plain(200, 150);
   fill(plain);
@@ -221,7 +224,7 @@ TEST_P(GlStateOfWay, isChangedOnlyWherePlainVtkChangesIt)
 
   PassScene scene(200, 150);
   fill(scene);
-  this->choose(scene);
+  choose(scene);
   vtkNew<ProbePass> probe;
   probe->Inner = scene.pass;
   scene.renderer->SetPass(probe);
@@ -246,6 +249,29 @@ TEST_P(GlStateOfWay, isChangedOnlyWherePlainVtkChangesIt)
     {
       EXPECT_EQ(probe->After[name], plainProbe->After[name]) << "frame " << frame << ": " << name;
     }
+  }
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+TEST_P(GlStateOfWay, isChangedOnlyWherePlainVtkChangesIt)
+{
+  expectChangesOfPlainVtkOnly([this](PassScene& scene) { this->choose(scene); });
+}
+
+//------------------------------------------------------------------------------
+TEST_F(GlState, isChangedByMapsOfMomentsOnlyWherePlainVtkChangesIt)
+{
+  for (const auto& [name, value] : std::multimap<std::string, const char*>{
+         { "blur", "box" }, { "blur", "sat" }, { "mip_maps", "on" } })
+  {
+    expectChangesOfPlainVtkOnly(
+      [name = name, value = value](PassScene& scene)
+      {
+        scene.pass->SetTechnique("msm");
+        scene.pass->SetSetting(name.c_str(), value);
+      });
   }
 }
 

@@ -18,6 +18,8 @@ struct MapLayout
   const char* projection = "technique";
   const char* fit = "off";
   const char* snap = "on";
+  const char* blur = "box";
+  const char* mipMaps = "off";
 
   void choose(PassScene& scene) const
   {
@@ -25,6 +27,8 @@ struct MapLayout
     scene.pass->SetSetting("projection", this->projection);
     scene.pass->SetSetting("fit", this->fit);
     scene.pass->SetSetting("snap", this->snap);
+    scene.pass->SetSetting("blur", this->blur);
+    scene.pass->SetSetting("mip_maps", this->mipMaps);
   }
   /// Warps and splits are for lights with a single view.
   bool takesCubes() const
@@ -42,6 +46,8 @@ struct MapLayout
       this->projection == std::string(plain.projection) ? "" : "_" + std::string(this->projection);
     text += this->fit == std::string(plain.fit) ? "" : "_" + std::string(this->fit);
     text += this->snap == std::string(plain.snap) ? "" : "_unsnapped";
+    text += this->blur == std::string(plain.blur) ? "" : "_" + std::string(this->blur);
+    text += this->mipMaps == std::string(plain.mipMaps) ? "" : "_levels";
     return text;
   }
 };

@@ -105,6 +105,37 @@ TEST_F(TextureMemory, mapsWithoutRoomAreAnErrorThatOffersSmallerOnes)
 }
 
 //------------------------------------------------------------------------------
+TEST_F(TextureMemory, mapsOfMomentsWithoutRoomLeaveNothingBehind)
+{
+  PassScene scene(100, 80);
+  fill(scene);
+  scene.usePlain();
+  const Picture plain = scene.render();
+  scene.useGnomon();
+  scene.pass->SetTechnique("vsm");
+  for (const char* kind : { "box", "sat", "mip_maps" })
+  {
+    const bool mipMaps = std::string(kind) == "mip_maps";
+    scene.pass->SetSetting("blur", mipMaps ? "box" : kind);
+    scene.pass->SetSetting("mip_maps", mipMaps ? "on" : "off");
+    scene.pass->SetMapSize(64);
+    const Picture shadowed = scene.render();
+    EXPECT_GT(differingPixels(plain, shadowed), 100u);
+    const LiveObjects live = countLiveObjects(scene.window);
+
+    scene.pass->SetMapSize(hugeMap);
+    EXPECT_EQ(differingPixels(plain, scene.render()), 0u);
+    EXPECT_THAT(this->takeErrors(),
+      AllOf(HasSubstr("light 0: a map of 16384 x 16384"), HasSubstr("cannot be had")))
+      << kind;
+
+    scene.pass->SetMapSize(64);
+    EXPECT_EQ(differingPixels(shadowed, scene.render()), 0u);
+    EXPECT_EQ(countLiveObjects(scene.window), live) << kind;
+  }
+}
+
+//------------------------------------------------------------------------------
 TEST_F(TextureMemory, oneLightOfSeveralIsNamed)
 {
   PassScene scene(100, 80);

@@ -211,7 +211,7 @@ TEST_F(DepthMap, pyramidBoundsEveryBlock)
     const std::vector<float> depths =
       readLayer(technique.map().name(), GL_DEPTH_COMPONENT, size, 0, 1);
     GLuint bounds = 0;
-    for (const Uniform& uniform : technique.uniforms(glm::dmat4(1.0)))
+    for (const Uniform& uniform : technique.uniforms({}))
     {
       if (uniform.name == "depthBounds_LIGHT")
       {

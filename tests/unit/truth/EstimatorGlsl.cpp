@@ -1,6 +1,7 @@
 #include "EstimatorGlsl.h"
 
 #include "shadowtech/base/Gl.h"
+#include "shadowtech/base/Kernel.h"
 #include "shadowtech/base/LightViewsGlsl.h"
 #include "shadowtech/base/ShaderLibrary.h"
 
@@ -85,12 +86,10 @@ std::vector<float> runGlsl(const Technique& technique, const ShadowLight& light,
     GL_TEXTURE_2D_ARRAY, 0, GL_R32F, mapSize, mapSize, 1, 0, GL_RED, GL_FLOAT, depths.data());
   glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-  std::vector<Uniform> uniforms = lightViewsUniforms(views, mapSize, glm::dmat4(1.0));
+  std::vector<Uniform> uniforms = lightViewsUniforms(views, mapSize, {});
   uniforms.push_back({ "depthMap_LIGHT", TextureBinding{ GL_TEXTURE_2D_ARRAY, texture.name() } });
   uniforms.push_back({ "depthSlacks_LIGHT", glm::vec2(1e-6, 0.0) });
-  const MapReach reach = technique.mapReach(light);
-  uniforms.push_back({ "kernelUnit_LIGHT",
-    static_cast<float>(reach.unitAcross > 0.0 ? reach.unitAcross : reach.largestStretch) });
+  uniforms.push_back(kernelUnit(technique.mapReach(light)));
   uniforms.insert(uniforms.end(), more.begin(), more.end());
   ShaderLibrary library;
   return visibilityAt(technique, light, library, std::move(points),

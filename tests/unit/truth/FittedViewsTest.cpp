@@ -95,7 +95,7 @@ protected:
     }
     const std::vector<float> outputs = visibilityAt(*technique, light, library, std::move(inputs),
       glm::vec3(glm::dmat3(viewFromCentred) * glm::dvec3(0.0, 0.0, 1.0)),
-      technique->uniforms(centredFromView));
+      technique->uniforms({ centredFromView, { 0.0, 0.05 } }));
     EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
     return outputs;
   }
@@ -115,6 +115,10 @@ INSTANTIATE_TEST_SUITE_P(Estimators, FittedViews,
     Way{ "width", { { "estimator", "pcf" }, { "kernel_width", "0.3" } } },
     Way{ "adaptive", { { "estimator", "adaptive" }, { "kernel_size", "6" } } },
     Way{ "variance", { { "estimator", "variance" } } },
+    Way{
+      "variance_sat", { { "estimator", "variance" }, { "blur", "sat" }, { "kernel_size", "7" } } },
+    Way{ "moments_sat", { { "estimator", "moments" }, { "blur", "sat" }, { "kernel_size", "4" } } },
+    Way{ "mip_maps", { { "estimator", "moments" }, { "mip_maps", "on" } } },
     Way{ "exponential", { { "estimator", "exponential" }, { "kernel_size", "5" } } },
     Way{ "moments", { { "estimator", "moments" } } }),
   [](const testing::TestParamInfo<Way>& way) { return std::string(way.param.name); });

@@ -62,7 +62,7 @@ void main()
   const auto bytes = static_cast<GLsizeiptr>(outputs.size() * sizeof(glm::vec4));
   glBufferData(GL_SHADER_STORAGE_BUFFER, bytes, nullptr, GL_DYNAMIC_READ);
   glUseProgram(program);
-  ShaderLibrary::setUniforms(program, lightViewsUniforms(views, size, glm::dmat4(1.0)), 0, 0);
+  ShaderLibrary::setUniforms(program, lightViewsUniforms(views, size, {}), 0, 0);
   glDispatchCompute(static_cast<GLuint>(points.size() / 64), 1, 1);
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
   glGetBufferSubData(GL_SHADER_STORAGE_BUFFER, 0, bytes, outputs.data());

@@ -145,6 +145,48 @@ TEST(Registry, refusesToAverageDepths)
   }
 }
 
+TEST(Registry, sumsOnlyMomentsThatIntegersHold)
+{
+  for (const EstimatorEntry& estimator : estimators())
+  {
+    ShadowSettings settings;
+    settings.estimator = estimator.info.name;
+    settings.blur = MapBlur::Sat;
+    const bool depths = estimator.info.needsMap && !estimator.info.averagesMap;
+    const char* verdict = depths                              ? "reads depths"
+      : estimator.info.averagesMap && !estimator.info.sumsMap ? "32-bit integers"
+                                                              : "";
+    expectVerdicts(settings, { verdict, verdict, verdict, verdict }, settings.estimator);
+  }
+  for (const char* name : { "compare", "pcf", "adaptive", "exponential" })
+  {
+    EXPECT_FALSE(findEstimator(name)->info.sumsMap) << name;
+  }
+  for (const char* name : { "variance", "moments" })
+  {
+    EXPECT_TRUE(findEstimator(name)->info.sumsMap) << name;
+  }
+}
+
+TEST(Registry, buildsLevelsOfBlurredMomentsOnly)
+{
+  for (const EstimatorEntry& estimator : estimators())
+  {
+    ShadowSettings settings;
+    settings.estimator = estimator.info.name;
+    settings.mipMaps = true;
+    const bool depths = estimator.info.needsMap && !estimator.info.averagesMap;
+    const char* verdict = depths ? "'mip_maps' is for maps of moments" : "";
+    expectVerdicts(settings, { verdict, verdict, verdict, verdict }, settings.estimator);
+    if (estimator.info.sumsMap)
+    {
+      settings.blur = MapBlur::Sat;
+      expectVerdicts(settings, { "no levels", "no levels", "no levels", "no levels" },
+        settings.estimator + " with blur sat");
+    }
+  }
+}
+
 TEST(Registry, completesTheLight)
 {
   ShadowLight light = lightOf(LightKind::Directional);

@@ -1,15 +1,16 @@
-#ifndef gnomon_shadowtech_depth_map_Kernel_h
-#define gnomon_shadowtech_depth_map_Kernel_h
+#ifndef gnomon_shadowtech_base_Kernel_h
+#define gnomon_shadowtech_base_Kernel_h
 
 #include "lights/MapReach.h"
 #include "lights/ShadowLight.h"
+#include "shadowtech/base/Technique.h"
 
 #include <string>
 
 namespace gnomon
 {
 
-/// What a filter's kernel is measured in (kernel.glsl). One of `kernel_size` units is
+/// What a filter's kernel is measured in (kernel_units.glsl). One of `kernel_size` units is
 /// - a texel of a uniform projection;
 /// - of a warped one, whose texels are longer across the light one way than the other, as large as a
 ///   texel, but of a shape that is even across the light (KernelShape.h);
@@ -32,8 +33,11 @@ struct KernelExtent
 };
 MapReach kernelReach(const ShadowLight& light, const KernelExtent& extent);
 
-/// What kernel.glsl needs in front of it.
+///@{
+/// What kernel_units.glsl needs: in front of it, and as a uniform.
 std::string kernelDefines(const ShadowLight& light);
+Uniform kernelUnit(const MapReach& reach);
+///@}
 
 } // namespace gnomon
 

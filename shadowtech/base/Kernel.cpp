@@ -1,4 +1,4 @@
-#include "shadowtech/depth_map/Kernel.h"
+#include "shadowtech/base/Kernel.h"
 
 #include "lights/KernelShape.h"
 #include "lights/LightViews.h"
@@ -47,6 +47,14 @@ std::string kernelDefines(const ShadowLight& light)
   { return "#define " + name + (value ? " 1\n" : " 0\n"); };
   return define("KERNEL_EVEN_LIGHT", units == KernelUnits::Even) +
     define("KERNEL_ACROSS_LIGHT", units == KernelUnits::Across);
+}
+
+//------------------------------------------------------------------------------
+Uniform kernelUnit(const MapReach& reach)
+{
+  const bool across = reach.unitAcross > 0.0;
+  return { "kernelUnit_LIGHT",
+    static_cast<float>(across ? reach.unitAcross : reach.largestStretch) };
 }
 
 } // namespace gnomon

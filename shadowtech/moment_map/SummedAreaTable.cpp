@@ -1,0 +1,104 @@
+#include "shadowtech/moment_map/SummedAreaTable.h"
+
+#include "shadowtech/base/ShaderLibrary.h"
+#include "shadowtech/base/TextureMemory.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <string>
+
+namespace gnomon
+{
+namespace
+{
+
+constexpr int groupSize =
+  16; // as in sum_area.comp.glsl: lines are few, and should be on all processors
+
+TexelFormat formatOf(int channels)
+{
+  return channels == 2 ? TexelFormat{ GL_RG32UI, GL_RG_INTEGER, 2, GL_UNSIGNED_INT }
+                       : TexelFormat{ GL_RGBA32UI, GL_RGBA_INTEGER, 4, GL_UNSIGNED_INT };
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+void SummedAreaTable::allocate(int channels, int sizeTexels, int layers)
+{
+  if (this->channels_ == channels && this->sizeTexels_ == sizeTexels && this->layers_ == layers)
+  {
+    return;
+  }
+  this->release(); // in case that there is no memory
+  allocateMap(this->table_, formatOf(channels), sizeTexels, layers);
+  this->channels_ = channels;
+  this->sizeTexels_ = sizeTexels;
+  this->layers_ = layers;
+}
+
+//------------------------------------------------------------------------------
+void SummedAreaTable::setUnits(const glm::vec4& largest, double widestTexels)
+{
+  // The shader cuts rectangles off at the layer's edge, and takes up to two texels more along an axis.
+  const double side = std::min(widestTexels + 2.0, static_cast<double>(this->sizeTexels_));
+  for (int i = 0; i < 4; ++i)
+  {
+    // A power of two leaves a float its digits. A little of the integers' range is for rounding.
+    const double most =
+      0.999 * std::ldexp(1.0, 31) / (static_cast<double>(largest[i]) * side * side);
+    this->unitsOfOne_[i] = static_cast<float>(std::exp2(std::floor(std::log2(most))));
+  }
+}
+
+//------------------------------------------------------------------------------
+void SummedAreaTable::sum(GLuint map, int mapLayer, int layer, ShaderLibrary& shaders)
+{
+  const TexelFormat format = formatOf(this->channels_);
+  const std::string layout = this->channels_ == 2 ? "rg32ui" : "rgba32ui";
+  const std::string source = ShaderLibrary::source("shadowtech/moment_map/sum_area.comp.glsl");
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D_ARRAY, map);
+  glBindImageTexture(
+    0, this->table_.name(), 0, GL_FALSE, layer, GL_READ_WRITE, format.internalFormat);
+  for (const char* lines : { "ROWS", "COLUMNS" })
+  {
+    const GLuint program =
+      shaders.program({ { GL_COMPUTE_SHADER, source } }, { lines, "FORMAT " + layout });
+    glUseProgram(program);
+    ShaderLibrary::setUniform(program, { "source", 0 });
+    ShaderLibrary::setUniform(program, { "layer", mapLayer });
+    ShaderLibrary::setUniform(program, { "unitsOfOne", this->unitsOfOne_ });
+    glDispatchCompute(static_cast<GLuint>((this->sizeTexels_ + groupSize - 1) / groupSize), 1, 1);
+    // Columns load what rows have stored, and look-ups fetch it.
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+  }
+  glBindImageTexture(0, 0, 0, GL_FALSE, 0, GL_READ_WRITE, format.internalFormat);
+}
+
+//------------------------------------------------------------------------------
+void SummedAreaTable::release()
+{
+  this->table_.reset();
+  this->channels_ = 0;
+  this->sizeTexels_ = 0;
+  this->layers_ = 0;
+}
+
+//------------------------------------------------------------------------------
+std::size_t SummedAreaTable::bytes() const
+{
+  const auto side = static_cast<std::size_t>(this->sizeTexels_);
+  return side * side * static_cast<std::size_t>(this->layers_ * this->channels_) *
+    sizeof(std::uint32_t);
+}
+
+//------------------------------------------------------------------------------
+std::vector<Uniform> SummedAreaTable::uniforms(const glm::vec4& empty) const
+{
+  return { { "momentTable_LIGHT", TextureBinding{ GL_TEXTURE_2D_ARRAY, this->table_.name() } },
+    { "tableUnits_LIGHT", this->unitsOfOne_ }, { "emptyMoments_LIGHT", empty } };
+}
+
+} // namespace gnomon

@@ -1,0 +1,154 @@
+// How many texels of a map shaders take a pixel to show, against the pixel's corners on the map.
+
+#include "EstimatorGlsl.h"
+#include "SyntheticScene.h"
+
+#include "lights/LightSpace.h"
+#include "shadowtech/base/CasterDrawing.h"
+#include "shadowtech/base/LightViewsGlsl.h"
+#include "shadowtech/base/ShaderLibrary.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <random>
+#include <string>
+
+namespace gnomon::test
+{
+namespace
+{
+
+constexpr glm::ivec2 pictureSize(1000, 700);
+constexpr int side = 256;
+
+/// Answers with that number in place of a visibility.
+class TexelsOfPixel : public Technique
+{
+public:
+  std::string visibilityGlsl(const ShadowLight& light) const override
+  {
+    return lightViewsDefines(light) + ShaderLibrary::source("shadowtech/base/map_visibility.glsl") +
+      "float estimate_LIGHT(ViewPoint point, float slack) { return texelsOfPixel_LIGHT(point); }\n";
+  }
+};
+
+struct Plane
+{
+  glm::dvec3 point;
+  glm::dvec3 normal;
+};
+
+/// Where a plane is seen at a place of the picture.
+glm::dvec3 seenAt(const CameraView& camera, const glm::dvec2& pixel, const Plane& plane)
+{
+  const glm::dvec2 device = 2.0 * pixel / glm::dvec2(pictureSize) - 1.0;
+  const glm::dmat4 centredFromClip = glm::inverse(camera.clipFromCentred());
+  const glm::dvec4 front = centredFromClip * glm::dvec4(device, -1.0, 1.0);
+  const glm::dvec4 back = centredFromClip * glm::dvec4(device, 1.0, 1.0);
+  const glm::dvec3 from = glm::dvec3(front) / front.w;
+  const glm::dvec3 along = glm::dvec3(back) / back.w - from;
+  return from + along * glm::dot(plane.point - from, plane.normal) / glm::dot(along, plane.normal);
+}
+
+/// How many texels a quadrangle of points covers on a view's map.
+double texelsOf(const LightView& view, const std::array<glm::dvec3, 4>& corners)
+{
+  const glm::dmat3 texels = texelFromAcross(view, side);
+  std::array<glm::dvec2, 4> places;
+  for (std::size_t i = 0; i < 4; ++i)
+  {
+    const glm::dvec3 p(view.rays.viewFromCentred * glm::dvec4(corners[i], 1.0));
+    places[i] = mapped(texels, view.rays.positional ? glm::dvec2(p) / p.z : glm::dvec2(p));
+  }
+  const glm::dvec2 a = places[2] - places[0];
+  const glm::dvec2 b = places[3] - places[1];
+  return 0.5 * std::abs(a.x * b.y - a.y * b.x);
+}
+
+class PixelArea : public GlslTest
+{
+};
+
+TEST_F(PixelArea, isThatOfItsCornersOnTheMap)
+{
+  const Plane plane{ { 0.0, 0.0, 0.0 }, glm::normalize(glm::dvec3(0.2, -0.3, 1.0)) };
+  for (const bool parallel : { false, true })
+  {
+    CameraView camera;
+    camera.viewFromCentred =
+      glm::lookAt(glm::dvec3(-1.0, -6.0, 4.0), glm::dvec3(0.0), glm::dvec3(0.0, 0.0, 1.0));
+    camera.clipFromView = parallel ? glm::ortho(-2.0, 2.0, -1.4, 1.4, 0.5, 50.0)
+                                   : glm::perspective(glm::radians(30.0), 1.4, 0.5, 50.0);
+    for (const char* projection : { "uniform", "lispsm", "tsm" })
+    {
+      std::vector<ShadowLight> lights = { directionalLight({ 0.7, 0.2, -1.0 }),
+        spotLight({ -3.0, 1.0, 5.0 }, glm::dvec3(0.0), 50.0) };
+      if (std::string(projection) == "uniform")
+      {
+        lights.push_back(pointLight({ -0.9, 0.4, 3.0 }));
+      }
+      for (ShadowLight& light : lights)
+      {
+        SCOPED_TRACE(std::string(projection) + ", kind " +
+          std::to_string(static_cast<int>(light.kind)) + (parallel ? ", parallel" : ""));
+        findSetting("projection")->set(light, projection);
+        light.mapSizeTexels = side;
+        light.mipMaps = true;
+        ViewFitting fitting;
+        fitting.castersCentred = { glm::dvec3(-5.0, -5.0, -2.5), glm::dvec3(5.0, 5.0, 2.8) };
+        fitting.receiversCentred = fitting.castersCentred;
+        fitting.texels = { side, 2 };
+        fitting.camera = camera;
+        const LightViews views = fitLightViews(light, fitting);
+        ASSERT_FALSE(views.views.empty());
+
+        std::mt19937 random(3);
+        std::vector<glm::vec4> pointsView;
+        std::vector<double> expected;
+        for (int i = 0; i < 500; ++i)
+        {
+          const auto below = [&](int end) { return double(random() % unsigned(end)); };
+          const double x = below(pictureSize.x);
+          const glm::dvec2 pixel(x, below(pictureSize.y));
+          const glm::dvec3 middle = seenAt(camera, pixel + 0.5, plane);
+          const glm::dvec3 inLight(views.lightFromCentred * glm::dvec4(middle, 1.0));
+          const int view = views.layout == ViewLayout::Cube
+            ? views.viewOfFace[static_cast<std::size_t>(cubeFaceOf(inLight))]
+            : 0;
+          if (view == LightViews::noView)
+          {
+            continue;
+          }
+          pointsView.emplace_back(camera.viewFromCentred * glm::dvec4(middle, 1.0));
+          expected.push_back(texelsOf(views.views[static_cast<std::size_t>(view)],
+            { seenAt(camera, pixel, plane), seenAt(camera, pixel + glm::dvec2(1.0, 0.0), plane),
+              seenAt(camera, pixel + 1.0, plane),
+              seenAt(camera, pixel + glm::dvec2(0.0, 1.0), plane) }));
+        }
+        const ReceiverSpace space{ glm::inverse(camera.viewFromCentred),
+          camera.pixelSide(pictureSize) };
+        std::vector<Uniform> uniforms = lightViewsUniforms(views, side, space);
+        uniforms.push_back(depthSlacks());
+        ShaderLibrary library;
+        const std::vector<float> answers = visibilityAt(TexelsOfPixel(), light, library, pointsView,
+          glm::vec3(glm::dmat3(camera.viewFromCentred) * plane.normal), uniforms);
+        std::size_t reached = 0;
+        for (std::size_t i = 0; i < answers.size(); ++i)
+        {
+          if (answers[i] > 0.0f && answers[i] < 1.0f) // 0: beside the cone; 1: off the map
+          {
+            ++reached;
+            EXPECT_NEAR(answers[i] / expected[i], 1.0, 0.02) << i;
+          }
+        }
+        EXPECT_GT(reached, 300u);
+      }
+    }
+  }
+}
+
+} // namespace
+} // namespace gnomon::test
