@@ -35,7 +35,8 @@ std::string lightViewsDefines(const ShadowLight& light)
     define("VIEWS_BLENDED_LIGHT", layout == ViewLayout::Splits && light.splitBlend > 0.0) +
     "#define SPLIT_BLEND_LIGHT float(" + findSetting("split_blend")->get(light) + ")\n" +
     define("VIEWS_WARPED_LIGHT", isWarped(light)) +
-    define("VIEWS_FITTED_LIGHT", light.fittedToReceivers) + define("VIEWS_LIGHT", mostViews(light));
+    define("VIEWS_FITTED_LIGHT", light.fittedToReceivers) +
+    define("VIEWS_CHOSEN_LIGHT", choosesWarp(light)) + define("VIEWS_LIGHT", mostViews(light));
 }
 
 //------------------------------------------------------------------------------
