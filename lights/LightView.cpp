@@ -36,11 +36,17 @@ bool LightView::maySee(const Bounds& centred) const
 }
 
 //------------------------------------------------------------------------------
-glm::dmat3 texelFromAcross(const LightView& view, int sizeTexels)
+glm::dmat3 texelFromAcross(const glm::dmat3& mapFromAcross, int sizeTexels)
 {
   const double half = 0.5 * sizeTexels;
   const glm::dmat3 texelFromMap(half, 0.0, 0.0, 0.0, half, 0.0, half, half, 1.0);
-  return texelFromMap * view.mapFromAcross;
+  return texelFromMap * mapFromAcross;
+}
+
+//------------------------------------------------------------------------------
+glm::dmat3 texelFromAcross(const LightView& view, int sizeTexels)
+{
+  return texelFromAcross(view.mapFromAcross, sizeTexels);
 }
 
 } // namespace gnomon

@@ -8,6 +8,7 @@
 #include <glm/glm.hpp>
 
 #include <limits>
+#include <vector>
 
 namespace gnomon
 {
@@ -38,10 +39,17 @@ struct LightView
   /// The part of the map that can be read. It is smaller than the map only where the last fit is
   /// still to come (LightViews::awaitFit).
   Rectangle readable = wholeMap;
+  /// Where the last fit chooses a warp, too: the maps in place of mapFromAcross that it chooses from.
+  /// The first one is mapFromAcross itself, which is uniform.
+  std::vector<glm::dmat3> warps;
 
-  /// Whether texels are of different sizes, so that what is linear across the light is not linear
-  /// on the map.
-  bool warped() const { return this->mapFromAcross[0].z != 0.0 || this->mapFromAcross[1].z != 0.0; }
+  /// Whether texels are, or may yet be, of different sizes, so that what is linear across the light
+  /// is not linear on the map.
+  bool warped() const
+  {
+    return this->mapFromAcross[0].z != 0.0 || this->mapFromAcross[1].z != 0.0 ||
+      !this->warps.empty();
+  }
   /// Whether depth is linear on the map.
   bool depthIsAffine() const { return !this->rays.positional && !this->warped(); }
 
@@ -56,12 +64,14 @@ struct LightView
   {
     return this->rays == other.rays && this->mapFromAcross == other.mapFromAcross &&
       this->depthScale == other.depthScale && this->depthOffset == other.depthOffset &&
-      this->beginsAt == other.beginsAt && this->readable == other.readable;
+      this->beginsAt == other.beginsAt && this->readable == other.readable &&
+      this->warps == other.warps;
   }
   bool operator!=(const LightView& other) const { return !(*this == other); }
 };
 
 /// From across coordinates to texels of a square map, [0, size]^2 in place of [-1, 1]^2.
+glm::dmat3 texelFromAcross(const glm::dmat3& mapFromAcross, int sizeTexels);
 glm::dmat3 texelFromAcross(const LightView& view, int sizeTexels);
 
 } // namespace gnomon

@@ -71,11 +71,12 @@ std::optional<LightView> fitted(
 
 /// What will be read of a map that is fitted to some of what is visible: that and its border. A snapped
 /// map is larger by up to 2^(1/4) and a texel, and a fit widens what is too small.
-Rectangle readableOf(const Rectangle& visible, const MapTexels& texels)
+/// @param coarsest how many times larger than on the uniform map the texels of the border may become
+Rectangle readableOf(const Rectangle& visible, const MapTexels& texels, double coarsest)
 {
   const glm::dvec2 centre = 0.5 * (visible.lower + visible.upper);
-  const glm::dvec2 half =
-    1.25 / texels.inside() * (0.5 * (visible.upper - visible.lower) + 2.0 * leastVisibleShare);
+  const double grown = 1.25 / texels.inside() + coarsest * 2.0 * texels.border / texels.side;
+  const glm::dvec2 half = grown * (0.5 * (visible.upper - visible.lower) + 2.0 * leastVisibleShare);
   return { centre - half, centre + half };
 }
 
@@ -84,7 +85,8 @@ std::vector<LightView> awaitingViews(const ShadowLight& light, const LightView& 
   const std::vector<glm::dvec3>& visibleView, const MapTexels& texels)
 {
   LightView waiting = view;
-  waiting.readable = readableOf(rangeOf(view.mapFromAcross, view.rays.across(visibleView)), texels);
+  waiting.readable = readableOf(rangeOf(view.mapFromAcross, view.rays.across(visibleView)), texels,
+    view.warps.empty() ? 0.0 : coarsestOfSeries);
   const bool splits = light.projection == Projection::Splits;
   return std::vector<LightView>(splits ? static_cast<std::size_t>(light.splits) : 1, waiting);
 }
@@ -109,7 +111,15 @@ std::vector<LightView> layViews(const ShadowLight& light, const ViewFitting& fit
   {
     return {};
   }
-  if (isWarped(light))
+  if (choosesWarp(light))
+  {
+    for (const glm::dmat3& warp : lispsmSeries(visible, camera, view.rays))
+    {
+      view.warps.push_back(scaling(fitting.texels.inside()) * warp);
+    }
+    view.mapFromAcross = view.warps.front();
+  }
+  else if (isWarped(light))
   {
     const glm::dmat3 warp = light.projection == Projection::Lispsm
       ? lispsmFromAcross(visible, camera, view.rays)
@@ -244,6 +254,12 @@ ViewLayout viewLayout(const ShadowLight& light)
 bool isWarped(const ShadowLight& light)
 {
   return light.projection == Projection::Lispsm || light.projection == Projection::Trapezoid;
+}
+
+//------------------------------------------------------------------------------
+bool choosesWarp(const ShadowLight& light)
+{
+  return light.fittedToReceivers && light.projection == Projection::Lispsm;
 }
 
 //------------------------------------------------------------------------------

@@ -42,6 +42,7 @@ struct LightViews
   /// Whether the views still wait for the last fit, F of MapFit.h, which the receivers that are drawn
   /// will give (ShadowLight::fittedToReceivers). Their maps are then in device coordinates before F:
   /// around all casters of a uniform view or split, around what the camera can see of a warped one.
+  /// A view whose warp is to be chosen, too, is uniform until then.
   bool awaitFit = false;
 
   /// Texels around a point that are read with it, which a split's view has to hold, too.
@@ -70,14 +71,16 @@ constexpr double largestSingleViewConeDegrees = 60.0;
 /// light alone, so that shaders can be built before the casters are known.
 ViewLayout viewLayout(const ShadowLight& light);
 
-/// Whether the light's view is warped, so that texels are of different sizes across the light.
+/// Whether the light's projection is a perspective towards the camera, so that texels are of different
+/// sizes across the light.
 bool isWarped(const ShadowLight& light);
+
+/// Whether that perspective is chosen together with the last fit, by the receivers that are drawn
+/// (LightView::warps).
+bool choosesWarp(const ShadowLight& light);
 
 /// Whether the light's views are made for what a camera sees, rather than for all of the scene.
 bool isFittedToCamera(const ShadowLight& light);
-
-/// Whether the light's projection is a perspective towards the camera.
-bool isWarped(const ShadowLight& light);
 
 /// How many views there can be.
 int mostViews(const ShadowLight& light);

@@ -31,6 +31,26 @@ namespace gnomon
 glm::dmat3 lispsmFromAcross(
   const std::vector<glm::dvec3>& bodyView, const CameraView& camera, const LightRays& rays);
 
+/// What a warp of a view that is fitted to receivers is chosen from (shadowtech/fitting/ReceiverFit.h): the
+/// uniform map first, then the perspectives with near distances that grow by equal factors from
+/// leastNearOfSeries to greatestNearOfSeries, in units of the depth that they warp. All of them take
+/// the body as lispsmFromAcross() does. Only the uniform one where that one has no perspective whatever
+/// it would gain.
+///
+/// The published optimum is that of the worst texel, and knows the nearest and the farthest point only.
+/// Where most of what is seen lies far away, as in a view along the ground, it spends the map on the
+/// nearest points, of which there are few.
+std::vector<glm::dmat3> lispsmSeries(
+  const std::vector<glm::dvec3>& bodyView, const CameraView& camera, const LightRays& rays);
+
+constexpr double leastNearOfSeries = 0.01;
+constexpr double greatestNearOfSeries = 10.0;
+constexpr int stepsOfSeries = 18; ///< of a factor 1.47: between two of them the optimum is flat
+
+/// How many times larger than under the uniform map a texel's sides can be under the series, at most: at
+/// the far end of the strongest, (1 + n) / n.
+constexpr double coarsestOfSeries = (1.0 + leastNearOfSeries) / leastNearOfSeries;
+
 /// The optimum of the warp's near distance in units of the depth that it warps, n + sqrt(f n) over
 /// f - n (Wimmer et al. 2004, section 4, for light across the view).
 /// @param alpha the ratio f / n of the farthest to the nearest distance from the eye, > 1

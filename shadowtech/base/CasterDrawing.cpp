@@ -111,6 +111,10 @@ void drawCasters(std::size_t number, const MapInput& input, CasterShader shader)
     shader.uniforms.push_back({ "viewFits", input.viewFits });
     shader.uniforms.push_back({ "view", static_cast<int>(number) });
   }
+  if (!view.warps.empty())
+  {
+    shader.defines.emplace_back("CHOSEN");
+  }
   glm::dvec4 depth = view.depthScale * distance;
   depth.w += view.depthOffset;
   const glm::dmat3 texels = texelFromAcross(view, input.light.mapSizeTexels);

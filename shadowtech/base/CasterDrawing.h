@@ -48,7 +48,7 @@ void drawCasters(const CasterPicture& picture, const OccluderBuffers& buffers,
 /// such views. With DEPTH_LINEAR among its defines it gets the map's linear depth as
 /// `in float depthLinear`; the depth buffer has that by itself only where LightView::depthIsAffine.
 /// Where it is across the light, caster_map.glsl tells. The last fit of views that await it
-/// (MapInput::viewFits) is applied here and there.
+/// (MapInput::viewFits) is applied here and there, and so is a warp that was chosen.
 void drawCasters(std::size_t number, const MapInput& input, CasterShader shader);
 
 /// The uniform of map_visibility.glsl that says what rounding does to the depths that are compared.

@@ -36,7 +36,8 @@ std::string lightViewsDefines(const ShadowLight& light)
     "#define SPLIT_BLEND_LIGHT float(" + findSetting("split_blend")->get(light) + ")\n" +
     define("VIEWS_WARPED_LIGHT", isWarped(light)) +
     define("VIEWS_FITTED_LIGHT", light.fittedToReceivers) +
-    define("VIEWS_PIXELS_LIGHT", light.mipMaps) + define("VIEWS_LIGHT", mostViews(light));
+    define("VIEWS_PIXELS_LIGHT", light.mipMaps) + define("VIEWS_CHOSEN_LIGHT", choosesWarp(light)) +
+    define("VIEWS_LIGHT", mostViews(light));
 }
 
 //------------------------------------------------------------------------------

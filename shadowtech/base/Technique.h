@@ -86,7 +86,7 @@ struct MapInput
   const Occluders& occluders;
   OccluderBuffers& buffers;
   ShaderLibrary& shaders;
-  /// The last fits of views that await them (ReceiverFit.h).
+  /// The last fits of views that await them, and the warps that were chosen (ReceiverFit.h).
   TextureBinding viewFits = {};
 };
 

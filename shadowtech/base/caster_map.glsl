@@ -1,21 +1,41 @@
 // How the map that casters are drawn into lies across the light, at the fragment (CasterDrawing.h).
 
+#include "shadowtech/base/fit_rows.glsl"
 #include "shadowtech/base/kernel_shape.glsl"
 
+#ifdef FITTED
+uniform sampler2D viewFits;
+uniform int view;
+#endif
+
 // Both are for texels before the last fit.
+#ifdef CHOSEN
+mat3 texelHomography()
+{
+  return fetchHomography(viewFits, view, TEXEL_FROM_ACROSS_ROW);
+}
+mat3 acrossHomography()
+{
+  return fetchHomography(viewFits, view, ACROSS_FROM_TEXEL_ROW);
+}
+#else
 uniform mat3 texelFromAcross;
 uniform mat3 acrossFromTexel;
-
-#ifdef FITTED
-uniform sampler2D viewFits; // at (view, 1): the view's last fit, in texels
-uniform int view;
+mat3 texelHomography()
+{
+  return texelFromAcross;
+}
+mat3 acrossHomography()
+{
+  return acrossFromTexel;
+}
 #endif
 
 // texel = xy * texel before the fit + zw; xy is not 0 where anything is drawn.
 vec4 lastFit()
 {
 #ifdef FITTED
-  return texelFetch(viewFits, ivec2(view, 1), 0);
+  return texelFetch(viewFits, ivec2(view, TEXEL_FIT_ROW), 0);
 #else
   return vec4(1.0, 1.0, 0.0, 0.0);
 #endif
@@ -25,7 +45,7 @@ vec4 lastFit()
 vec2 across()
 {
   vec4 fit = lastFit();
-  vec3 place = acrossFromTexel * vec3((gl_FragCoord.xy - fit.zw) / fit.xy, 1.0);
+  vec3 place = acrossHomography() * vec3((gl_FragCoord.xy - fit.zw) / fit.xy, 1.0);
   return place.xy / place.z; // not 0 on the map
 }
 
@@ -33,15 +53,17 @@ vec2 across()
 mat2 texelJacobian()
 {
   vec4 fit = lastFit();
-  mat2 beforeFit = homographyJacobian(texelFromAcross, across());
+  mat2 beforeFit = homographyJacobian(texelHomography(), across());
   return mat2(fit.xy * beforeFit[0], fit.xy * beforeFit[1]);
 }
 
-// A texel's size across the light is this, times (texel, 1), squared, but for a factor.
+// The longer side of a texel across the light is one over the square of this, times (texel, 1), but for a
+// factor.
 vec3 texelScale()
 {
   vec4 fit = lastFit();
-  vec3 beforeFit = vec3(acrossFromTexel[0].z, acrossFromTexel[1].z, acrossFromTexel[2].z);
+  mat3 homography = acrossHomography();
+  vec3 beforeFit = vec3(homography[0].z, homography[1].z, homography[2].z);
   vec2 slope = beforeFit.xy / fit.xy;
   return vec3(slope, beforeFit.z - dot(slope, fit.zw));
 }

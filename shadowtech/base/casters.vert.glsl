@@ -1,5 +1,7 @@
 // Draws the casters into a map as the light sees them, or as shadows (CasterDrawing.h).
 
+#include "shadowtech/base/fit_rows.glsl"
+
 layout(location = 0) in vec3 positionSource;
 // The instance's matrix; the identity, which changes no bit, where a surface is drawn once.
 layout(location = 2) in mat4x3 centredFromSource; // and locations 3, 4, 5
@@ -7,7 +9,7 @@ layout(location = 2) in mat4x3 centredFromSource; // and locations 3, 4, 5
 uniform mat4 clipFromCentred;
 
 #ifdef FITTED
-uniform sampler2D viewFits; // at (view, 0): the view's last fit, in device coordinates
+uniform sampler2D viewFits;
 uniform int view;
 #endif
 
@@ -33,8 +35,11 @@ void main()
 #endif
   vec3 positionCentred = centredFromSource * vec4(positionSource, 1.0);
   gl_Position = clipFromCentred * vec4(positionCentred, 1.0);
+#ifdef CHOSEN
+  gl_Position.xyw = fetchHomography(viewFits, view, WARP_FROM_UNIFORM_ROW) * gl_Position.xyw;
+#endif
 #ifdef FITTED
-  vec4 fit = texelFetch(viewFits, ivec2(view, 0), 0);
+  vec4 fit = texelFetch(viewFits, ivec2(view, DEVICE_FIT_ROW), 0);
   gl_Position.xy = fit.xy * gl_Position.xy + fit.zw * gl_Position.w;
 #endif
 #ifdef DEPTH_LINEAR

@@ -7,23 +7,25 @@
 // (neither: a single one), VIEWS_WARPED_LIGHT. VIEWS_LIGHT is how many views there can be. With
 // VIEWS_BLENDED_LIGHT splits overlap. With VIEWS_PIXELS_LIGHT points know how much their pixel shows.
 // VIEWS_FITTED_LIGHT: the last fit of the views was found on the GPU, and is read from a texture;
-// texels "before the fit" are those of the map that would show all that there can be.
+// texels "before the fit" are those of the map that would show all that there can be. With
+// VIEWS_CHOSEN_LIGHT so was the warp, which lies in the same texture (fit_rows.glsl).
 //
 // A view's map is a homography of the plane of the light's rays, whose points are across coordinates:
 // x and y of parallel rays, their slopes of those from a position (lights/LightRays.h).
 
+#include "shadowtech/base/fit_rows.glsl"
 #include "shadowtech/base/kernel_shape.glsl"
 #include "shadowtech/base/shadow_ray.glsl"
 
 uniform mat4 lightFromView_LIGHT;           // rigid: the camera's space to the light's
 #if VIEWS_FITTED_LIGHT
-uniform sampler2D viewFits_LIGHT; // at (view, 1): the view's last fit, in texels
+uniform sampler2D viewFits_LIGHT;
 #endif
-#if VIEWS_WARPED_LIGHT
+#if !VIEWS_WARPED_LIGHT
+uniform vec4 viewTexels_LIGHT[VIEWS_LIGHT]; // texel = xy * across + zw
+#elif !VIEWS_CHOSEN_LIGHT
 uniform mat3 texelFromAcross_LIGHT[VIEWS_LIGHT];
 uniform mat3 acrossFromTexel_LIGHT[VIEWS_LIGHT];
-#else
-uniform vec4 viewTexels_LIGHT[VIEWS_LIGHT]; // texel = xy * across + zw
 #endif
 #if VIEWS_SPLITS_LIGHT
 uniform int viewCount_LIGHT;
@@ -96,11 +98,31 @@ bool lightReaches_LIGHT(vec3 positionLight, vec3 normalLight)
   return reaches;
 }
 
+#if VIEWS_WARPED_LIGHT
+// The homography of a view's layer before the fit, and the other way round.
+mat3 texelHomography_LIGHT(int view)
+{
+#if VIEWS_CHOSEN_LIGHT
+  return fetchHomography(viewFits_LIGHT, view, TEXEL_FROM_ACROSS_ROW);
+#else
+  return texelFromAcross_LIGHT[view];
+#endif
+}
+mat3 acrossHomography_LIGHT(int view)
+{
+#if VIEWS_CHOSEN_LIGHT
+  return fetchHomography(viewFits_LIGHT, view, ACROSS_FROM_TEXEL_ROW);
+#else
+  return acrossFromTexel_LIGHT[view];
+#endif
+}
+#endif
+
 // Where a ray is on a view's layer before the fit, and the other way round.
 vec2 texelBeforeFit_LIGHT(int view, vec2 across)
 {
 #if VIEWS_WARPED_LIGHT
-  vec3 texel = texelFromAcross_LIGHT[view] * vec3(across, 1.0);
+  vec3 texel = texelHomography_LIGHT(view) * vec3(across, 1.0);
   // What is visible has w > 0; behind the warp's eye nothing is seen: that lies off any map.
   return texel.z > 0.0 ? texel.xy / texel.z : vec2(-1e30);
 #else
@@ -111,7 +133,7 @@ vec2 texelBeforeFit_LIGHT(int view, vec2 across)
 vec2 acrossBeforeFit_LIGHT(int view, vec2 texel)
 {
 #if VIEWS_WARPED_LIGHT
-  vec3 across = acrossFromTexel_LIGHT[view] * vec3(texel, 1.0);
+  vec3 across = acrossHomography_LIGHT(view) * vec3(texel, 1.0);
   return across.xy / across.z; // not 0 on the map
 #else
   vec4 texels = viewTexels_LIGHT[view];
@@ -123,7 +145,7 @@ vec2 acrossBeforeFit_LIGHT(int view, vec2 texel)
 vec4 fitOf_LIGHT(int view)
 {
 #if VIEWS_FITTED_LIGHT
-  return texelFetch(viewFits_LIGHT, ivec2(view, 1), 0);
+  return texelFetch(viewFits_LIGHT, ivec2(view, TEXEL_FIT_ROW), 0);
 #else
   return vec4(1.0, 1.0, 0.0, 0.0);
 #endif
@@ -155,7 +177,7 @@ vec2 acrossOf_LIGHT(vec3 positionLight)
 mat2 texelJacobian_LIGHT(int view, vec2 across)
 {
 #if VIEWS_WARPED_LIGHT
-  mat2 beforeFit = homographyJacobian(texelFromAcross_LIGHT[view], across);
+  mat2 beforeFit = homographyJacobian(texelHomography_LIGHT(view), across);
 #else
   vec4 texels = viewTexels_LIGHT[view];
   mat2 beforeFit = mat2(texels.x, 0.0, 0.0, texels.y);

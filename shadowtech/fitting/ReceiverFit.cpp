@@ -18,7 +18,13 @@ namespace
 constexpr int invocationsPerGroup = 8;
 constexpr int rowsPerGroup = 8;
 constexpr int numbersPerBox = 6;
+/// The rows of fit_rows.glsl: the fits alone, and with the chosen warp.
 constexpr int fitRows = 2;
+constexpr int chosenRows = fitRows + 9;
+/// A warp's own rows: mapFromAcross, and what the chosen one's are (fit_rows.glsl).
+constexpr int warpRows = 3 + 9;
+/// The pixels that warps are compared on: so many columns, and as many in each. A power of two.
+constexpr int samplesAcross = 64;
 
 /// Puts back what computing binds, besides what GlStateGuard does.
 class ComputeBindingsGuard
@@ -64,29 +70,61 @@ Rectangle coveredBeforeFit(const ShadowLight& light, const MapTexels& texels)
   return isWarped(light) ? wholeMap : texels.covered();
 }
 
+/// Uses a program that knows the light's views.
+void useProgram(const char* path, const ShadowLight& light, const std::vector<Uniform>& uniforms,
+  ShaderLibrary& shaders, const std::vector<std::string>& defines)
+{
+  const std::string source =
+    numberedForLight(lightViewsDefines(light) + ShaderLibrary::source(path), 0);
+  const GLuint program = shaders.program({ { GL_COMPUTE_SHADER, source } }, defines);
+  glUseProgram(program);
+  ShaderLibrary::setUniforms(program, uniforms, 0, 0);
+}
+
 /// Adds all receivers to the boxes.
 void reduce(const ShadowLight& light, const std::vector<Uniform>& uniforms,
   const ReceiverTextures& receivers, ShaderLibrary& shaders, std::vector<std::string> defines)
 {
-  const std::string source = numberedForLight(lightViewsDefines(light) +
-      ShaderLibrary::source("shadowtech/fitting/receiver_bounds.comp.glsl"),
-    0);
   defines.push_back("GROUP " + std::to_string(invocationsPerGroup));
   defines.push_back("ROWS " + std::to_string(rowsPerGroup));
-  const GLuint program = shaders.program({ { GL_COMPUTE_SHADER, source } }, defines);
-  glUseProgram(program);
-  ShaderLibrary::setUniforms(program, uniforms, 0, 0);
+  useProgram("shadowtech/fitting/receiver_bounds.comp.glsl", light, uniforms, shaders, defines);
   const int groups = (receivers.height + rowsPerGroup - 1) / rowsPerGroup;
   glDispatchCompute(static_cast<GLuint>(groups), 1, 1);
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
+void addColumns(const glm::dmat3& matrix, std::vector<glm::vec4>& rows)
+{
+  for (int column = 0; column < 3; ++column)
+  {
+    rows.emplace_back(glm::dvec4(matrix[column], 0.0));
+  }
+}
+
+void setNearest()
+{
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
-void ReceiverFit::allocate(int views)
+std::vector<glm::vec4> chosenWarpRows(
+  const LightView& view, const glm::dmat3& mapFromAcross, int sizeTexels)
 {
-  if (this->views_ == views)
+  const glm::dmat3 texels = texelFromAcross(mapFromAcross, sizeTexels);
+  std::vector<glm::vec4> rows;
+  addColumns(texels, rows);
+  addColumns(glm::inverse(texels), rows);
+  addColumns(mapFromAcross * glm::inverse(view.mapFromAcross), rows);
+  return rows;
+}
+
+//------------------------------------------------------------------------------
+void ReceiverFit::allocate(int views, int rows)
+{
+  if (this->views_ == views && this->rows_ == rows)
   {
     return;
   }
@@ -96,10 +134,54 @@ void ReceiverFit::allocate(int views)
   glBufferData(GL_SHADER_STORAGE_BUFFER, bytes, nullptr, GL_DYNAMIC_COPY);
   glActiveTexture(GL_TEXTURE0);
   glBindTexture(GL_TEXTURE_2D, this->fits_.create());
-  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, views, fitRows, 0, GL_RGBA, GL_FLOAT, nullptr);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, views, rows, 0, GL_RGBA, GL_FLOAT, nullptr);
+  setNearest();
   this->views_ = views;
+  this->rows_ = rows;
+}
+
+//------------------------------------------------------------------------------
+/// Chooses the view's warp by what the pixels of a grid show.
+void ReceiverFit::chooseWarp(const ShadowLight& light, const LightView& view,
+  std::vector<Uniform> uniforms, ShaderLibrary& shaders)
+{
+  const auto count = static_cast<GLsizei>(view.warps.size());
+  std::vector<glm::vec4> texels(view.warps.size() * warpRows);
+  for (std::size_t i = 0; i < view.warps.size(); ++i)
+  {
+    std::vector<glm::vec4> rows;
+    addColumns(view.warps[i], rows);
+    const std::vector<glm::vec4> chosen = chosenWarpRows(view, view.warps[i], light.mapSizeTexels);
+    rows.insert(rows.end(), chosen.begin(), chosen.end());
+    for (std::size_t row = 0; row < rows.size(); ++row)
+    {
+      texels[row * view.warps.size() + i] = rows[row];
+    }
+  }
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D, this->warps_.create());
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, count, warpRows, 0, GL_RGBA, GL_FLOAT, texels.data());
+  setNearest();
+  glBindBuffer(GL_SHADER_STORAGE_BUFFER, this->sides_.create());
+  glBufferData(
+    GL_SHADER_STORAGE_BUFFER, count * GLsizeiptr(sizeof(float)), nullptr, GL_DYNAMIC_COPY);
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, this->sides_.name());
+
+  const TextureBinding warps{ GL_TEXTURE_2D, this->warps_.name() };
+  uniforms.push_back({ "warps", warps });
+  useProgram("shadowtech/fitting/texel_sides.comp.glsl", light, uniforms, shaders,
+    { "SAMPLES " + std::to_string(samplesAcross) });
+  glDispatchCompute(static_cast<GLuint>(count), 1, 1);
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+
+  const GLuint program = shaders.program(
+    { { GL_COMPUTE_SHADER, ShaderLibrary::source("shadowtech/fitting/choose_warp.comp.glsl") } });
+  glUseProgram(program);
+  ShaderLibrary::setUniforms(program,
+    { { "warps", warps }, { "largestShare", static_cast<float>(largestSideShare) } }, 0, 0);
+  glBindImageTexture(0, this->fits_.name(), 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RGBA32F);
+  glDispatchCompute(1, 1, 1);
+  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 
 //------------------------------------------------------------------------------
@@ -114,17 +196,21 @@ void ReceiverFit::compute(const ShadowLight& light, const LightViews& views,
   const ComputeBindingsGuard computeGuard;
   // As many as the shaders' arrays have, some of which a cube may not use.
   const int count = mostViews(light);
-  this->allocate(count);
+  this->allocate(count, choosesWarp(light) ? chosenRows : fitRows);
+  const MapTexels texels{ light.mapSizeTexels, views.borderTexels };
+  const Rectangle covered = coveredBeforeFit(light, texels);
+  std::vector<Uniform> uniforms =
+    lightViewsUniforms(views, texels.side, { centredFromView }, this->fits());
+  uniforms.push_back({ "receiverFragments", TextureBinding{ GL_TEXTURE_2D, receivers.fragments } });
+  uniforms.push_back({ "receiverPoints", TextureBinding{ GL_TEXTURE_2D, receivers.points } });
+  if (choosesWarp(light))
+  {
+    this->chooseWarp(light, views.views.front(), uniforms, shaders);
+  }
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, this->bounds_.name());
   const GLuint keyOfNone = 0xffffffffu;
   glClearBufferData(
     GL_SHADER_STORAGE_BUFFER, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &keyOfNone);
-
-  const MapTexels texels{ light.mapSizeTexels, views.borderTexels };
-  const Rectangle covered = coveredBeforeFit(light, texels);
-  std::vector<Uniform> uniforms = lightViewsUniforms(views, texels.side, { centredFromView });
-  uniforms.push_back({ "receiverFragments", TextureBinding{ GL_TEXTURE_2D, receivers.fragments } });
-  uniforms.push_back({ "receiverPoints", TextureBinding{ GL_TEXTURE_2D, receivers.points } });
   uniforms.push_back({ "splitLambda", static_cast<float>(light.splitLambda) });
   uniforms.push_back({ "coveredTexels",
     glm::vec2(0.5 * texels.side * (glm::dvec2(covered.lower.x, covered.upper.x) + 1.0)) });
@@ -179,21 +265,55 @@ std::vector<Bounds> ReceiverFit::readBounds() const
 }
 
 //------------------------------------------------------------------------------
-std::vector<MapFit> ReceiverFit::readFits() const
+std::vector<glm::vec4> ReceiverFit::readRows() const
 {
   const GlStateGuard guard;
   glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
-  std::vector<glm::vec4> texels(static_cast<std::size_t>(this->views_ * fitRows));
+  std::vector<glm::vec4> texels(static_cast<std::size_t>(this->views_ * this->rows_));
   glActiveTexture(GL_TEXTURE0);
   glBindTexture(GL_TEXTURE_2D, this->fits_.name());
   glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
   glGetTexImage(GL_TEXTURE_2D, 0, GL_RGBA, GL_FLOAT, texels.data());
+  return texels;
+}
+
+//------------------------------------------------------------------------------
+std::vector<MapFit> ReceiverFit::readFits() const
+{
+  const std::vector<glm::vec4> texels = this->readRows();
   std::vector<MapFit> result;
   for (int view = 0; view < this->views_; ++view)
   {
     const glm::dvec4 fit(texels[static_cast<std::size_t>(view)]);
     result.push_back({ { fit.x, fit.y }, { fit.z, fit.w } });
   }
+  return result;
+}
+
+//------------------------------------------------------------------------------
+glm::dmat3 ReceiverFit::readWarp() const
+{
+  const std::vector<glm::vec4> texels = this->readRows();
+  glm::dmat3 result(1.0);
+  for (int column = 0; column < 3 && this->rows_ == chosenRows; ++column)
+  {
+    const int row = chosenRows - 3 + column;
+    result[column] = glm::dvec3(texels[static_cast<std::size_t>(this->views_ * row)]);
+  }
+  return result;
+}
+
+//------------------------------------------------------------------------------
+std::vector<float> ReceiverFit::readTexelSides() const
+{
+  const GlStateGuard guard;
+  const ComputeBindingsGuard computeGuard;
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  GLint bytes = 0;
+  glBindBuffer(GL_SHADER_STORAGE_BUFFER, this->sides_.name());
+  glGetBufferParameteriv(GL_SHADER_STORAGE_BUFFER, GL_BUFFER_SIZE, &bytes);
+  std::vector<float> result(static_cast<std::size_t>(bytes) / sizeof(float));
+  glGetBufferSubData(GL_SHADER_STORAGE_BUFFER, 0, bytes, result.data());
   return result;
 }
 

@@ -33,6 +33,14 @@ struct ReceiverTextures
 /// the last fit F of each view (MapFit.h), which stays in a texture, for whoever draws and reads the
 /// map.
 ///
+/// Of a view that chooses its warp (LightView::warps), that comes first: the one under which texels are
+/// the smallest on the mean over what is seen, on pixels of a grid all over the picture. What counts is the
+/// mean of both sides that a texel has after the last fit, in world units across the light. The reason:
+/// edges of shadows are as long as what is seen is far, in the world, so that a pixel has as many of them as
+/// it is far; and an edge makes the wronger pixels the larger its texels look, which is less the farther it
+/// is. Both distances cancel. The published optimum of LiSPSM, the least of the worst texel, leaves a quarter
+/// more wrong pixels in views along the ground (docs/measurements.md).
+///
 /// A view without receivers gets an F that draws and finds nothing: what could be shadowed there, is
 /// not seen.
 class ReceiverFit
@@ -43,7 +51,7 @@ public:
   void compute(const ShadowLight& light, const LightViews& views, const ReceiverTextures& receivers,
     const glm::dmat4& centredFromView, ShaderLibrary& shaders);
 
-  /// The fits: a texel per view, in two rows (fit_views.comp.glsl).
+  /// The fits: a column per view (fit_rows.glsl).
   TextureBinding fits() const { return { GL_TEXTURE_2D, this->fits_.name() }; }
 
   /// Reads back the bounds of the receivers in each view, as of the last compute(): x and y in
@@ -51,14 +59,36 @@ public:
   std::vector<Bounds> readBounds() const;
   /// The same of the fits.
   std::vector<MapFit> readFits() const;
+  /// The same of the warp that was chosen, from the view's uniform map to its own, in device coordinates;
+  /// the identity where none was to be chosen.
+  glm::dmat3 readWarp() const;
+  /// The same of the mean sides of texels that it was chosen by, one per warp of the view.
+  std::vector<float> readTexelSides() const;
 
 private:
-  void allocate(int views);
+  void allocate(int views, int rows);
+  void chooseWarp(const ShadowLight& light, const LightView& view, std::vector<Uniform> uniforms,
+    ShaderLibrary& shaders);
+  std::vector<glm::vec4> readRows() const;
 
   GlBuffer bounds_;
   GlTexture fits_;
   int views_ = 0;
+  int rows_ = 0;
+
+  GlTexture warps_;
+  GlBuffer sides_; ///< of the texels under each of them
 };
+
+/// The mean side of the texels under a warp, as a share of that under the uniform map, up to which the warp
+/// is worth it: its texels move with the camera, and a mean over a grid is no more than that.
+constexpr double largestSideShare = 0.95;
+
+/// What a view's column says of a warp that is chosen, from the row on that follows the fits
+/// (fit_rows.glsl).
+/// @param mapFromAcross one of the view's warps
+std::vector<glm::vec4> chosenWarpRows(
+  const LightView& view, const glm::dmat3& mapFromAcross, int sizeTexels);
 
 } // namespace gnomon
 

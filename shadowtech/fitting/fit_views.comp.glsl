@@ -1,8 +1,7 @@
 // From the receivers' bounds to the last fit of each view: the twin of fitTo() and fitSnappedTo()
 // (lights/MapFit.h), one invocation per view.
 //
-// Row 0 of the result: F, scale and offset in device coordinates. Row 1: the same in texels.
-
+#include "shadowtech/base/fit_rows.glsl"
 #include "shadowtech/fitting/bounds_buffer.glsl"
 
 layout(local_size_x = 1) in;
@@ -62,6 +61,6 @@ void main()
     vec2 y = fitAxis(lowerMap.y, upperMap.y);
     fit = vec4(x.x, y.x, x.y, y.y);
   }
-  imageStore(viewFits, ivec2(view, 0), fit);
-  imageStore(viewFits, ivec2(view, 1), vec4(fit.xy, 0.5 * side * (fit.zw + 1.0 - fit.xy)));
+  imageStore(viewFits, ivec2(view, DEVICE_FIT_ROW), fit);
+  imageStore(viewFits, ivec2(view, TEXEL_FIT_ROW), vec4(fit.xy, 0.5 * side * (fit.zw + 1.0 - fit.xy)));
 }

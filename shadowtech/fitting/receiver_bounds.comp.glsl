@@ -8,20 +8,16 @@
 // is read of the uniforms, until one lies outside; only then it asks whether they count. These are loops,
 // not branches, as software OpenGL runs through all of a branch, whether it is taken or not.
 
-#include "shadowtech/base/light_views.glsl"
 #include "shadowtech/fitting/bounds_buffer.glsl"
+#include "shadowtech/fitting/receivers.glsl"
 #include "shadowtech/fitting/splits.glsl"
 
 layout(local_size_x = GROUP) in;
 
-uniform sampler2D receiverFragments; // x: > 0 if it receives; zw: the normal's x and y
-uniform sampler2D receiverPoints;    // xyz: position, w: the normal's z; all in view coordinates
 uniform vec2 coveredTexels; // receivers between these, before the fit, may be shadowed at all
 #if VIEWS_SPLITS_LIGHT
 uniform float splitLambda;
 #endif
-
-const float infinity = uintBitsToFloat(0x7f800000u);
 
 #ifdef DISTANCES
 const int firstBox = VIEWS_LIGHT;
@@ -30,12 +26,6 @@ const int boxes = 1;
 const int firstBox = 0;
 const int boxes = VIEWS_LIGHT;
 #endif
-
-// Written so that what is not a number fails.
-bool isFinite(vec3 v)
-{
-  return all(lessThan(abs(v), vec3(infinity)));
-}
 
 // Where a point is on the map of the view that may see it, in texels before the fit; z: the distance along
 // the view.
@@ -54,24 +44,11 @@ bool findPlace(vec3 positionLight, out Place place)
   return found;
 }
 
-vec3 lightFromView(vec3 positionView)
-{
-  return (lightFromView_LIGHT * vec4(positionView, 1.0)).xyz;
-}
-
-// False for background, what shows no shadows, what the light does not reach, or no caster can shadow,
-// and what is not finite.
+// False also where no caster can shadow a receiver.
 bool counts(ivec2 pixel, vec4 point)
 {
-  vec4 fragment = texelFetch(receiverFragments, pixel, 0);
-  vec3 normal = vec3(fragment.zw, point.w);
-  if (!(fragment.x > 0.0) || !isFinite(point.xyz) || !isFinite(normal))
-  {
-    return false;
-  }
-  vec3 p = lightFromView(point.xyz);
   Place found;
-  return lightReaches_LIGHT(p, mat3(lightFromView_LIGHT) * normal) && findPlace(p, found) &&
+  return isReached(pixel, point) && findPlace(lightFromView(point.xyz), found) &&
     isFinite(found.place) && all(greaterThanEqual(found.place.xy, coveredTexels.xx)) &&
     all(lessThanEqual(found.place.xy, coveredTexels.yy));
 }

@@ -1,5 +1,5 @@
-// What fitting a light's views to the receivers costs, against drawing a plain map: the bunny on a
-// plane, taking turns frame by frame.
+// What fitting a light's views to the receivers costs, and a map of other surfaces, against drawing a plain
+// map: the bunny on a plane, taking turns frame by frame.
 //
 // gnomon_benchmark_fitting [SIDE [FRAMES]], the side of the receivers' image in pixels.
 
@@ -148,6 +148,18 @@ void run(int side, int frames)
   std::vector<Task> tasks;
   tasks.push_back({ "map of " + std::to_string(mapSizeTexels), [&] {
                      technique.bake({ plain, plainViews, occluders, buffers, shaders });
+                   } });
+  ShadowLight second = plain;
+  second.depth = DepthSurface::Second;
+  ShadowLight midpoint = plain;
+  midpoint.depth = DepthSurface::Midpoint;
+  Compare secondMap;
+  Compare midpointMap;
+  tasks.push_back({ "the same, second depths", [&] {
+                     secondMap.bake({ second, plainViews, occluders, buffers, shaders });
+                   } });
+  tasks.push_back({ "the same, midpoints", [&] {
+                     midpointMap.bake({ midpoint, plainViews, occluders, buffers, shaders });
                    } });
   const auto add = [&](const std::string& name, ShadowLight light, const char* projection)
   {

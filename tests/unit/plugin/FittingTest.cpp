@@ -13,6 +13,7 @@
 
 #include <cmath>
 #include <string>
+#include <vector>
 
 using namespace gnomon::test;
 using gnomon::VisibilityImages;
@@ -65,6 +66,13 @@ class FittingOfKinds
   : public Fitting
   , public testing::WithParamInterface<Kind>
 {
+protected:
+  /// A cube's faces are not warped.
+  static std::vector<std::string> techniquesFor(vtkLight* light)
+  {
+    const bool cube = light->GetPositional() && light->GetConeAngle() > 60.0;
+    return cube ? std::vector<std::string>{ "nsm" } : std::vector<std::string>{ "nsm", "lispsm" };
+  }
 };
 INSTANTIATE_TEST_SUITE_P(Kinds, FittingOfKinds,
   testing::Values(Kind{ "sun",
@@ -253,7 +261,7 @@ TEST_P(FittingOfKinds, leavesOutCastersWithoutChangingThePicture)
 {
   PassScene scene(200, 200);
   this->fill(scene);
-  GetParam().add(scene);
+  vtkLight* light = GetParam().add(scene);
   this->fit(scene, "frame");
   // All in the box of the scene and its casters, and far from what is seen.
   std::vector<vtkActor*> others;
@@ -263,32 +271,45 @@ TEST_P(FittingOfKinds, leavesOutCastersWithoutChangingThePicture)
     others.push_back(
       scene.addBox({ place.x, place.y, 0.0 }, { place.x + 1.0, place.y + 1.0, 2.0 }));
   }
-  const VisibilityImages all = drawKept(scene);
-  EXPECT_EQ(scene.report().lights.at(0).fit, "receivers");
-  const int leftOut = scene.report().lights.at(0).castersLeftOut;
-  EXPECT_GE(leftOut, 3);
-  scene.render();
-  EXPECT_EQ(scene.report().mapBakes, 0);
-  EXPECT_EQ(scene.report().lights.at(0).castersLeftOut, leftOut);
-  for (vtkActor* other : others)
+  for (const std::string& technique : this->techniquesFor(light))
   {
-    other->VisibilityOff();
+    SCOPED_TRACE(technique);
+    scene.pass->SetTechnique(technique.c_str());
+    for (vtkActor* other : others)
+    {
+      other->VisibilityOn();
+    }
+    const VisibilityImages all = drawKept(scene);
+    EXPECT_EQ(scene.report().lights.at(0).fit, "receivers");
+    const int leftOut = scene.report().lights.at(0).castersLeftOut;
+    EXPECT_GE(leftOut, 3);
+    scene.render();
+    EXPECT_EQ(scene.report().mapBakes, 0);
+    EXPECT_EQ(scene.report().lights.at(0).castersLeftOut, leftOut);
+    for (vtkActor* other : others)
+    {
+      other->VisibilityOff();
+    }
+    const VisibilityImages few = drawKept(scene);
+    EXPECT_EQ(few.visibility, all.visibility);
   }
-  const VisibilityImages few = drawKept(scene);
-  EXPECT_EQ(few.visibility, all.visibility);
 }
 
 //------------------------------------------------------------------------------
 TEST_P(FittingOfKinds, cameraThatLooksAwayAndEmptySceneStayFinite)
 {
-  for (const char* technique : { "nsm", "pcf" })
+  for (const std::string technique : { "nsm", "pcf", "lispsm" })
   {
     PassScene scene(64, 48);
     this->fill(scene);
     scene.renderer->RemoveAllViewProps();
-    GetParam().add(scene);
+    vtkLight* light = GetParam().add(scene);
+    if (technique == "lispsm" && this->techniquesFor(light).size() < 2)
+    {
+      continue;
+    }
     this->fit(scene, "frame");
-    scene.pass->SetTechnique(technique);
+    scene.pass->SetTechnique(technique.c_str());
     drawKept(scene); // nothing at all
     this->addProps(scene);
     // At the sky, at the floor's back, which faces no light, and back again.
@@ -302,6 +323,56 @@ TEST_P(FittingOfKinds, cameraThatLooksAwayAndEmptySceneStayFinite)
     const VisibilityImages fitted = drawKept(scene);
     const VisibilityImages truth = this->truthOf(scene);
     EXPECT_GT(compareVisibility(fitted, truth).agreeing(), 0.98);
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Fitting, warpOfAViewAlongTheGroundFollowsTheReceivers)
+{
+  PassScene scene(320, 240);
+  scene.addFloor(100.0);
+  for (int i = 0; i < 12; ++i)
+  {
+    const double x = 3.0 * (i % 3) - 3.0;
+    const double y = -85.0 + 14.0 * i;
+    scene.addBox({ x, y, 0.0 }, { x + 0.8, y + 0.8, 2.5 });
+  }
+  scene.lookFrom({ 0.0, -95.0, 2.5 }, { 0.0, 0.0, 0.0 });
+  scene.pass->SetSetting("map_size", "256");
+  scene.addSun({ 1.0, 0.1, -0.6 });
+  const VisibilityImages truth = this->truthOf(scene);
+  this->fit(scene, "frame", "off");
+  const std::size_t uniform = this->wrong(scene, "nsm", truth);
+  const std::size_t chosen = this->wrong(scene, "lispsm", truth);
+  this->fit(scene, "off");
+  const std::size_t published = this->wrong(scene, "lispsm", truth);
+  EXPECT_GT(uniform, 50u);
+  EXPECT_LE(chosen, 0.6 * static_cast<double>(uniform));
+  EXPECT_LE(chosen, published);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Fitting, warpUnderLightAlongTheViewIsAsGoodAsNone)
+{
+  const glm::dvec3 ahead = glm::normalize(glm::dvec3(0.0, 4.0, -4.0));
+  for (const glm::dvec3& direction :
+    { ahead, glm::dvec3(0.05, 1.0, -1.0), glm::dvec3(0.0, -1.0, -0.9), glm::dvec3(0.0, 1.0, -0.2) })
+  {
+    SCOPED_TRACE(std::to_string(direction.x) + ", " + std::to_string(direction.y));
+    PassScene scene(320, 240);
+    this->fill(scene);
+    scene.addBox({ 1.0, 0.5, 0.0 }, { 1.2, 0.7, 2.0 });
+    scene.pass->SetSetting("map_size", "128");
+    scene.addSun(direction);
+    const VisibilityImages truth = this->truthOf(scene);
+    this->fit(scene, "frame", "off");
+    const std::size_t uniform = this->wrong(scene, "nsm", truth);
+    const std::size_t chosen = this->wrong(scene, "lispsm", truth);
+    EXPECT_LE(chosen, 1.05 * static_cast<double>(uniform) + 20.0) << uniform;
+    for (const float visibility : drawKept(scene).visibility.at(0))
+    {
+      ASSERT_TRUE(visibility >= 0.0f && visibility <= 1.0f);
+    }
   }
 }
 

@@ -4,8 +4,11 @@
 #include "SyntheticScene.h"
 
 #include "shadowtech/Registry.h"
+#include "shadowtech/base/CasterDrawing.h"
+#include "shadowtech/base/GlState.h"
 #include "shadowtech/base/OccluderBuffers.h"
 #include "shadowtech/base/ShaderLibrary.h"
+#include "shadowtech/fitting/ReceiverFit.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -33,45 +36,105 @@ std::ostream& operator<<(std::ostream& stream, const Way& way)
   return stream << way.name;
 }
 
+/// A fit that is narrow one way, and none of which is like another's.
+MapFit fitOf(std::size_t view)
+{
+  const double step = static_cast<double>(view);
+  return { { 1.25 + 0.5 * step, 2.5 - 0.25 * step }, { 0.125 * step - 0.25, 0.5 } };
+}
+
+/// Views that await a fit, and the same with the fit in them.
+struct BothViews
+{
+  LightViews awaiting;
+  LightViews fitted;
+  /// What the GPU would have found for `awaiting`, as ReceiverFit stores it.
+  GlTexture found;
+};
+
+void makeBoth(ShadowLight light, const Occluders& occluders, const CameraView& camera,
+  int borderTexels, BothViews& both)
+{
+  ViewFitting fitting;
+  fitting.centreWorld = occluders.centreWorld;
+  fitting.castersCentred = occluders.allCentred;
+  fitting.receiversCentred = occluders.allCentred;
+  fitting.texels = { side, borderTexels };
+  fitting.camera = camera;
+  light.fittedToReceivers = true;
+  both.awaiting = fitLightViews(light, fitting);
+  both.fitted = both.awaiting;
+  both.fitted.awaitFit = false;
+  const std::size_t count = both.awaiting.views.size();
+  std::vector<glm::vec4> rows(2 * count);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const MapFit fit = fitOf(i);
+    LightView& view = both.fitted.views[i];
+    if (!view.warps.empty())
+    {
+      ASSERT_EQ(count, 1u);
+      view.mapFromAcross = view.warps.at(15);
+      view.warps.clear();
+      const std::vector<glm::vec4> chosen =
+        chosenWarpRows(both.awaiting.views[i], view.mapFromAcross, side);
+      rows.insert(rows.end(), chosen.begin(), chosen.end());
+    }
+    view.mapFromAcross = fit.matrix() * view.mapFromAcross;
+    rows[i] = glm::vec4(fit.scale, fit.offset);
+    rows[count + i] = glm::vec4(fit.scale, 0.5 * side * (fit.offset + 1.0 - fit.scale));
+  }
+  ASSERT_GT(count, 0u);
+  glBindTexture(GL_TEXTURE_2D, both.found.create());
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, static_cast<GLsizei>(count),
+    static_cast<GLsizei>(rows.size() / count), 0, GL_RGBA, GL_FLOAT, rows.data());
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+}
+
+Occluders floorAndBoxes()
+{
+  return makeOccluders({ { makePlane(6.0) }, { makeBox({ -0.5, -0.5, 1.0 }, { 0.5, 0.5, 2.0 }) },
+    { makeBox({ 1.0, -2.0, 0.0 }, { 1.3, -1.0, 0.8 }) } });
+}
+
+CameraView cameraAbove()
+{
+  CameraView camera;
+  camera.viewFromCentred =
+    glm::lookAt(glm::dvec3(-1.0, -5.0, 3.0), glm::dvec3(0.0), glm::dvec3(0.0, 0.0, 1.0));
+  camera.clipFromView = glm::perspective(glm::radians(60.0), 1.3, 0.5, 50.0);
+  return camera;
+}
+
+/// Lights whose views lie in all ways.
+std::vector<ShadowLight> lightsOfAllLayouts()
+{
+  std::vector<ShadowLight> result;
+  for (const char* projection : { "uniform", "lispsm", "tsm", "pssm" })
+  {
+    for (ShadowLight light : { directionalLight({ 0.7, 0.2, -1.0 }),
+           spotLight({ -3.0, 1.0, 5.0 }, glm::dvec3(0.0), 45.0) })
+    {
+      findSetting("projection")->set(light, projection);
+      result.push_back(light);
+    }
+  }
+  result.push_back(pointLight({ -0.9, 0.4, 3.0 }));
+  for (ShadowLight& light : result)
+  {
+    light.fit = ViewFit::Frame;
+    light.splits = 3;
+    light.mapSizeTexels = side;
+  }
+  return result;
+}
+
 class FittedViews
   : public GlslTest
   , public testing::WithParamInterface<Way>
 {
 protected:
-  /// Lights whose views lie in all ways.
-  static std::vector<ShadowLight> lights()
-  {
-    std::vector<ShadowLight> result;
-    for (const char* projection : { "uniform", "lispsm", "tsm", "pssm" })
-    {
-      for (ShadowLight light : { directionalLight({ 0.7, 0.2, -1.0 }),
-             spotLight({ -3.0, 1.0, 5.0 }, glm::dvec3(0.0), 45.0) })
-      {
-        findSetting("projection")->set(light, projection);
-        result.push_back(light);
-      }
-    }
-    result.push_back(pointLight({ -0.9, 0.4, 3.0 }));
-    for (ShadowLight& light : result)
-    {
-      light.fit = ViewFit::Frame;
-      light.splits = 3;
-      light.mapSizeTexels = side;
-      for (const auto& [name, value] : GetParam().settings)
-      {
-        findSetting(name)->set(light, value);
-      }
-    }
-    return result;
-  }
-
-  /// A fit that is narrow one way, and none of which is like another's.
-  static MapFit fitOf(std::size_t view)
-  {
-    const double step = static_cast<double>(view);
-    return { { 1.25 + 0.5 * step, 2.5 - 0.25 * step }, { 0.125 * step - 0.25, 0.5 } };
-  }
-
   /// Bakes and asks.
   /// @return per point of the floor and the box, in view coordinates
   std::vector<float> visibility(const ShadowLight& light, const LightViews& views,
@@ -128,51 +191,26 @@ INSTANTIATE_TEST_SUITE_P(Estimators, FittedViews,
 //------------------------------------------------------------------------------
 TEST_P(FittedViews, decideAsIfTheFitWereInTheView)
 {
-  const Occluders occluders =
-    makeOccluders({ { makePlane(6.0) }, { makeBox({ -0.5, -0.5, 1.0 }, { 0.5, 0.5, 2.0 }) },
-      { makeBox({ 1.0, -2.0, 0.0 }, { 1.3, -1.0, 0.8 }) } });
-  CameraView camera;
-  camera.viewFromCentred =
-    glm::lookAt(glm::dvec3(-1.0, -5.0, 3.0), glm::dvec3(0.0), glm::dvec3(0.0, 0.0, 1.0));
-  camera.clipFromView = glm::perspective(glm::radians(60.0), 1.3, 0.5, 50.0);
+  const Occluders occluders = floorAndBoxes();
+  const CameraView camera = cameraAbove();
   const glm::dmat4 centredFromView = glm::inverse(camera.viewFromCentred);
-  for (ShadowLight light : this->lights())
+  for (ShadowLight light : lightsOfAllLayouts())
   {
     SCOPED_TRACE(findSetting("projection")->get(light) + ", kind " +
       std::to_string(static_cast<int>(light.kind)));
-    const MapReach reach = estimatorOf(light).create()->mapReach(light);
-    ViewFitting fitting;
-    fitting.centreWorld = occluders.centreWorld;
-    fitting.castersCentred = occluders.allCentred;
-    fitting.receiversCentred = occluders.allCentred;
-    fitting.texels = { side, reach.borderTexels(20.0) };
-    fitting.camera = camera;
-    light.fittedToReceivers = true;
-    const LightViews awaiting = fitLightViews(light, fitting);
-    ASSERT_FALSE(awaiting.views.empty());
-    LightViews fitted = awaiting;
-    fitted.awaitFit = false;
-    std::vector<glm::vec4> fits(2 * awaiting.views.size());
-    for (std::size_t i = 0; i < awaiting.views.size(); ++i)
+    for (const auto& [name, value] : GetParam().settings)
     {
-      const MapFit fit = fitOf(i);
-      fitted.views[i].mapFromAcross = fit.matrix() * fitted.views[i].mapFromAcross;
-      fits[i] = glm::vec4(fit.scale, fit.offset);
-      fits[awaiting.views.size() + i] =
-        glm::vec4(fit.scale, 0.5 * side * (fit.offset + 1.0 - fit.scale));
+      findSetting(name)->set(light, value);
     }
-    GlTexture texture;
-    glBindTexture(GL_TEXTURE_2D, texture.create());
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, static_cast<GLsizei>(awaiting.views.size()), 2, 0,
-      GL_RGBA, GL_FLOAT, fits.data());
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-
+    const MapReach reach = estimatorOf(light).create()->mapReach(light);
+    BothViews both;
+    ASSERT_NO_FATAL_FAILURE(makeBoth(light, occluders, camera, reach.borderTexels(20.0), both));
+    light.fittedToReceivers = true;
     const std::vector<float> byTexture = this->visibility(
-      light, awaiting, occluders, { GL_TEXTURE_2D, texture.name() }, centredFromView);
+      light, both.awaiting, occluders, { GL_TEXTURE_2D, both.found.name() }, centredFromView);
     light.fittedToReceivers = false;
     const std::vector<float> byView =
-      this->visibility(light, fitted, occluders, {}, centredFromView);
+      this->visibility(light, both.fitted, occluders, {}, centredFromView);
     std::size_t dark = 0;
     std::size_t differing = 0;
     for (std::size_t i = 0; i < byView.size(); ++i)
@@ -185,6 +223,82 @@ TEST_P(FittedViews, decideAsIfTheFitWereInTheView)
     // A point on the border of texels, and a disc that is turned by the place, may round either way.
     EXPECT_LE(differing, points / 500);
   }
+}
+
+//------------------------------------------------------------------------------
+/// What caster_map.glsl says at the fragments of the casters: how far they are pushed follows from that,
+/// which shadows show too little of.
+class FittedCasters : public GlslTest
+{
+protected:
+  static std::vector<glm::vec4> drawn(const char* shown, const ShadowLight& light,
+    const LightViews& views, const Occluders& occluders, const TextureBinding& viewFits)
+  {
+    ShaderLibrary library;
+    OccluderBuffers buffers;
+    buffers.update(occluders);
+    GlTexture picture;
+    GlFramebuffer framebuffer;
+    glBindTexture(GL_TEXTURE_2D, picture.create());
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, side, side, 0, GL_RGBA, GL_FLOAT, nullptr);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    std::vector<glm::vec4> result(static_cast<std::size_t>(side) * side);
+    const GlStateGuard guard;
+    const glm::vec4 nothing(0.0f);
+    beginCasters(framebuffer.create(), side);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, picture.name(), 0);
+    glDisable(GL_DEPTH_TEST);
+    glDisable(GL_BLEND);
+    glClearBufferfv(GL_COLOR, 0, &nothing.x);
+    drawCasters(0, { light, views, occluders, buffers, library, viewFits },
+      { ShaderLibrary::source("shadowtech/base/caster_map.glsl") +
+          "out vec4 shown;\nvoid main()\n{\n" + shown + "}\n",
+        {} });
+    glReadBuffer(GL_COLOR_ATTACHMENT0);
+    glReadPixels(0, 0, side, side, GL_RGBA, GL_FLOAT, result.data());
+    return result;
+  }
+};
+
+//------------------------------------------------------------------------------
+TEST_F(FittedCasters, knowWhereTheyAreAsIfTheFitWereInTheView)
+{
+  const Occluders occluders = floorAndBoxes();
+  for (ShadowLight light : lightsOfAllLayouts())
+  {
+    SCOPED_TRACE(findSetting("projection")->get(light) + ", kind " +
+      std::to_string(static_cast<int>(light.kind)));
+    BothViews both;
+    ASSERT_NO_FATAL_FAILURE(makeBoth(light, occluders, cameraAbove(), 1, both));
+    for (const char* shown : { "shown = vec4(across(), 0.0, 1.0);\n",
+           "mat2 jacobian = texelJacobian(); shown = vec4(jacobian[0], jacobian[1]);\n",
+           "shown = vec4(texelScale(), 1.0);\n" })
+    {
+      SCOPED_TRACE(shown);
+      const std::vector<glm::vec4> byTexture =
+        this->drawn(shown, light, both.awaiting, occluders, { GL_TEXTURE_2D, both.found.name() });
+      const std::vector<glm::vec4> byView = this->drawn(shown, light, both.fitted, occluders, {});
+      float largest = 0.0f;
+      for (const glm::vec4& value : byView)
+      {
+        for (int i = 0; i < 3; ++i)
+        {
+          largest = std::max(largest, std::abs(value[i]));
+        }
+      }
+      std::size_t differing = 0;
+      std::size_t covered = 0;
+      for (std::size_t i = 0; i < byView.size(); ++i)
+      {
+        covered += byView[i] != glm::vec4(0.0f) ? 1 : 0;
+        const glm::vec4 difference = glm::abs(byTexture[i] - byView[i]);
+        differing += glm::all(glm::lessThanEqual(difference, glm::vec4(1e-4f * largest))) ? 0 : 1;
+      }
+      EXPECT_GT(covered, byView.size() / 4);
+      EXPECT_LE(differing, byView.size() / 500); // where a caster's edge takes another texel
+    }
+  }
+  EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
 }
 
 } // namespace gnomon::test

@@ -15,6 +15,7 @@
 #include <gtest/gtest.h>
 #include <vtkNew.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -177,6 +178,113 @@ Image randomImage(int width, int height, std::mt19937& random)
     image.set(i, { onMap(random), onMap(random), depth(random) }, { 0.0f, 0.0f, -1.0f });
   }
   return image;
+}
+
+/// A ground of 200 x 200 seen from 2 above its middle, and what each pixel shows of it.
+struct Ground
+{
+  Ground(const glm::dvec3& direction, int width, int height)
+    : image(width, height)
+  {
+    const glm::dvec3 eye(0.0, 0.0, 2.0);
+    const glm::dvec3 up =
+      std::abs(direction.z) > 0.9 ? glm::dvec3(0.0, 1.0, 0.0) : glm::dvec3(0.0, 0.0, 1.0);
+    this->camera.viewFromCentred = glm::lookAt(eye, eye + direction, up);
+    this->camera.clipFromView = glm::perspective(glm::radians(50.0), 1.0, 0.1, 1000.0);
+    const glm::dmat4 centredFromClip = glm::inverse(this->camera.clipFromCentred());
+    const glm::dvec3 normalView =
+      glm::dmat3(this->camera.viewFromCentred) * glm::dvec3(0.0, 0.0, 1.0);
+    for (int y = 0; y < height; ++y)
+    {
+      for (int x = 0; x < width; ++x)
+      {
+        const glm::dvec4 far = centredFromClip *
+          glm::dvec4(2.0 * (x + 0.5) / width - 1.0, 2.0 * (y + 0.5) / height - 1.0, 1.0, 1.0);
+        const glm::dvec3 ray = glm::dvec3(far) / far.w - eye;
+        const glm::dvec3 point = eye - eye.z / ray.z * ray;
+        if (ray.z < 0.0 && std::max(std::abs(point.x), std::abs(point.y)) < 100.0)
+        {
+          this->image.set(static_cast<std::size_t>(y * width + x),
+            glm::dvec3(this->camera.viewFromCentred * glm::dvec4(point, 1.0)), normalView);
+        }
+      }
+    }
+  }
+
+  LightViews views(const ShadowLight& light) const
+  {
+    ViewFitting fitting;
+    fitting.castersCentred = { glm::dvec3(-100.0, -100.0, 0.0), glm::dvec3(100.0, 100.0, 5.0) };
+    fitting.receiversCentred = fitting.castersCentred;
+    fitting.texels = { light.mapSizeTexels, 1 };
+    fitting.camera = this->camera;
+    return fitLightViews(light, fitting);
+  }
+
+  CameraView camera;
+  Image image;
+};
+
+ShadowLight lightThatChoosesWarp(ShadowLight light)
+{
+  light.fittedToReceivers = true;
+  light.fit = ViewFit::Frame;
+  light.projection = Projection::Lispsm;
+  light.mapSizeTexels = 512;
+  return light;
+}
+
+/// The mean side of a warp's texels, as texel_sides.comp.glsl has it.
+double meanSide(const Ground& ground, const ShadowLight& light, const LightView& view,
+  const glm::dmat3& mapFromAcross)
+{
+  const glm::dmat4 centredFromView = glm::inverse(ground.camera.viewFromCentred);
+  const ShadowRayLight rayLight(light, glm::dvec3(0.0));
+  Rectangle seen;
+  glm::dvec2 sides(0.0);
+  int count = 0;
+  for (int i = 0; i < 64; ++i)
+  {
+    for (int j = 0; j < 64; ++j)
+    {
+      const auto x = static_cast<int>((i + 0.5) / 64.0 * ground.image.width);
+      const auto y = static_cast<int>((j + 0.5) / 64.0 * ground.image.height);
+      const auto pixel = static_cast<std::size_t>(y * ground.image.width + x);
+      const glm::vec3 position = ground.image.points[pixel];
+      const glm::vec3 normal = ground.image.normal(pixel);
+      if (!(ground.image.fragments[pixel].x > 0.0f) ||
+        !std::isfinite(position.x + position.y + position.z + normal.x + normal.y + normal.z))
+      {
+        continue;
+      }
+      const glm::dvec3 centred(centredFromView * glm::dvec4(glm::dvec3(position), 1.0));
+      const glm::dvec3 n = glm::dmat3(centredFromView) * glm::dvec3(normal);
+      const glm::dvec3 p(view.rays.viewFromCentred * glm::dvec4(centred, 1.0));
+      const glm::dvec2 across = view.rays.across(p);
+      const bool reached = visitShadowRays(
+        rayLight, [&](const auto& rayFrom, float) { return rayFrom(centred, n, 0.0f).traced; });
+      const glm::dvec2 onUniform = mapped(view.mapFromAcross, across);
+      if (!reached || std::max(std::abs(onUniform.x), std::abs(onUniform.y)) > 1.0)
+      {
+        continue;
+      }
+      const glm::dvec2 place = mapped(mapFromAcross, across);
+      const double step = 1e-5;
+      const glm::dmat3 acrossFromMap = glm::inverse(mapFromAcross);
+      const double reach = view.rays.positional ? p.z : 1.0;
+      for (int axis = 0; axis < 2; ++axis)
+      {
+        glm::dvec2 aside(0.0);
+        aside[axis] = step;
+        const glm::dvec2 moved =
+          mapped(acrossFromMap, place + aside) - mapped(acrossFromMap, place - aside);
+        sides[axis] += reach * glm::length(moved) / (2.0 * step);
+      }
+      seen.add(place);
+      ++count;
+    }
+  }
+  return count > 0 ? glm::dot(sides, seen.upper - seen.lower) / count : 0.0;
 }
 
 void expectBounds(const Bounds& bounds, const Bounds& expected)
@@ -478,6 +586,126 @@ TEST_F(ReceiverFitTest, boundsOfAllKindsOfLight)
     }
   }
   EXPECT_GE(viewsSeen, 12u);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(ReceiverFitTest, warpIsTheOneWithTheSmallestTexelsOnTheMean)
+{
+  std::mt19937 random(47);
+  std::size_t warped = 0;
+  std::size_t uniform = 0;
+  for (const glm::dvec3& direction :
+    { glm::dvec3(0.0, 1.0, -0.1), { 0.3, 1.0, -0.5 }, { 0.02, 0.01, -1.0 } })
+  {
+    for (const ShadowLight& kind : { directionalLight({ 1.0, -0.2, -0.5 }),
+           directionalLight({ 0.1, 0.2, -1.0 }), directionalLight({ 0.0, 1.0, -0.12 }),
+           spotLight({ -20.0, 30.0, 40.0 }, { 5.0, 30.0, 0.0 }, 50.0) })
+    {
+      const ShadowLight light = lightThatChoosesWarp(kind);
+      Ground ground(direction, 257, 190);
+      addDebris(ground.image, random);
+      const LightViews views = ground.views(light);
+      ASSERT_EQ(views.views.size(), 1u);
+      const LightView& view = views.views.front();
+      ASSERT_EQ(view.warps.size(), 20u);
+      ReceiverFit fit;
+      this->compute(fit, light, views, ground.image, glm::inverse(ground.camera.viewFromCentred));
+
+      std::vector<double> sides;
+      const std::vector<float> found = fit.readTexelSides();
+      ASSERT_EQ(found.size(), view.warps.size());
+      std::size_t nearest = 0;
+      std::vector<double> distances;
+      for (const glm::dmat3& warp : view.warps)
+      {
+        const double side = meanSide(ground, light, view, warp);
+        EXPECT_NEAR(found[sides.size()], side, 1e-3 * side);
+        sides.push_back(side);
+        const glm::dmat3 difference = fit.readWarp() - warp * glm::inverse(view.mapFromAcross);
+        distances.push_back(
+          glm::length(difference[0]) + glm::length(difference[1]) + glm::length(difference[2]));
+        nearest = distances.back() < distances[nearest] ? distances.size() - 1 : nearest;
+      }
+      EXPECT_LT(distances[nearest], 1e-4);
+      sides.front() *= largestSideShare;
+      const double least = *std::min_element(sides.begin(), sides.end());
+      EXPECT_GT(least, 0.0);
+      EXPECT_LE(sides[nearest], 1.001 * least) << "warp " << nearest;
+      ++(nearest > 0 ? warped : uniform);
+    }
+  }
+  EXPECT_GE(warped, 4u);
+  EXPECT_GE(uniform, 3u);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(ReceiverFitTest, fittedWarpHoldsAllReceivers)
+{
+  const ShadowLight light = lightThatChoosesWarp(directionalLight({ 1.0, -0.2, -0.5 }));
+  const Ground ground({ 0.0, 1.0, -0.1 }, 512, 400);
+  const LightViews views = ground.views(light);
+  ReceiverFit fit;
+  this->compute(fit, light, views, ground.image, glm::inverse(ground.camera.viewFromCentred));
+  const LightView& view = views.views.at(0);
+  const glm::dmat3 warped = fit.readFits().at(0).matrix() * fit.readWarp() * view.mapFromAcross;
+  EXPECT_GT(std::abs(fit.readWarp()[0].z) + std::abs(fit.readWarp()[1].z), 0.1);
+  const glm::dmat4 lightFromView =
+    view.rays.viewFromCentred * glm::inverse(ground.camera.viewFromCentred);
+  Rectangle seen;
+  for (std::size_t i = 0; i < ground.image.points.size(); ++i)
+  {
+    if (ground.image.fragments[i].x > 0.0f)
+    {
+      const glm::dvec3 position(ground.image.points[i]);
+      seen.add(mapped(warped, glm::dvec2(lightFromView * glm::dvec4(position, 1.0))));
+    }
+  }
+  // All of it, and it fills the map up to the border.
+  const double inside = MapTexels{ light.mapSizeTexels, views.borderTexels }.inside();
+  for (int axis = 0; axis < 2; ++axis)
+  {
+    EXPECT_NEAR(seen.lower[axis], -inside, 1e-3);
+    EXPECT_NEAR(seen.upper[axis], inside, 1e-3);
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(ReceiverFitTest, warpIsTheUniformMapWhereThereIsNoneToChoose)
+{
+  const ShadowLight light = lightThatChoosesWarp(directionalLight({ 1.0, -0.2, -0.5 }));
+  const auto chosen = [&](const Ground& ground, const ShadowLight& shining, const Image& image)
+  {
+    const LightViews views = ground.views(shining);
+    EXPECT_EQ(views.views.size(), 1u);
+    ReceiverFit fit;
+    this->compute(fit, shining, views, image, glm::inverse(ground.camera.viewFromCentred));
+    return fit.readWarp();
+  };
+  Ground ground({ 0.0, 1.0, -0.1 }, 64, 64);
+  const glm::dmat3 identity(1.0);
+  const auto expectIdentity = [&](const glm::dmat3& warp)
+  {
+    for (int column = 0; column < 3; ++column)
+    {
+      EXPECT_LT(glm::length(warp[column] - identity[column]), 1e-6);
+    }
+  };
+  expectIdentity(chosen(ground, light, Image(64, 64))); // background
+  Image broken = ground.image;
+  for (glm::vec4& point : broken.points)
+  {
+    point.x = notANumber;
+  }
+  expectIdentity(chosen(ground, light, broken));
+  Image single(1, 1);
+  single.set(0, ground.image.points[64 * 8 + 32], ground.image.normal(64 * 8 + 32));
+  expectIdentity(chosen(ground, light, single));
+  // Light along the view.
+  const glm::dvec3 ahead =
+    -glm::dvec3(glm::transpose(glm::dmat3(ground.camera.viewFromCentred))[2]);
+  expectIdentity(chosen(ground, lightThatChoosesWarp(directionalLight(ahead)), ground.image));
+  ground.camera.clipFromView = glm::ortho(-20.0, 20.0, -20.0, 20.0, 0.1, 300.0);
+  expectIdentity(chosen(ground, light, ground.image));
 }
 
 } // namespace gnomon::test
