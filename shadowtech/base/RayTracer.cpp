@@ -369,7 +369,8 @@ std::size_t traceImage(RTCScene scene, RTCIntersectContextFlags coherence,
       }
       for (std::size_t y = 0; y < rows && !certain.empty(); ++y)
       {
-        takeCertain(&certain[(y0 + y) * width + x0], columns, y * tileColumns, pixels, tileVisibility);
+        takeCertain(
+          &certain[(y0 + y) * width + x0], columns, y * tileColumns, pixels, tileVisibility);
       }
       if (scene)
       {
@@ -620,11 +621,10 @@ std::size_t RayTracer::trace(const ShadowLight& light, const Occluders& occluder
   return visitShadowRays(rayLight,
     [&](const auto& makeRay, float rayFar)
     {
-      return this->impl_->lanes16
-        ? traceImage<RTCRay16>(
-            scene, coherence, receivers, receives, makeRay, rayFar, visibility, certain)
-        : traceImage<RTCRay8>(
-            scene, coherence, receivers, receives, makeRay, rayFar, visibility, certain);
+      return this->impl_->lanes16 ? traceImage<RTCRay16>(scene, coherence, receivers, receives,
+                                      makeRay, rayFar, visibility, certain)
+                                  : traceImage<RTCRay8>(scene, coherence, receivers, receives,
+                                      makeRay, rayFar, visibility, certain);
     });
 }
 

@@ -243,8 +243,7 @@ Occluders makeOccluders(const std::vector<Prop>& props)
   {
     for (std::uint32_t i = 0; surface.casts && i < surface.vertexCount; ++i)
     {
-      occluders.castersCentred.add(
-        glm::dvec3(occluders.positionsCentred[surface.firstVertex + i]));
+      occluders.castersCentred.add(glm::dvec3(occluders.positionsCentred[surface.firstVertex + i]));
     }
   }
   occluders.topologyVersion = occluders.positionsVersion = ++version;
