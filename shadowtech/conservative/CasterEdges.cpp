@@ -15,10 +15,6 @@ namespace gnomon
 namespace
 {
 
-/// The cosine of the angle up to which the normals of neighbours count as one side: moved along either
-/// normal, a point on one of two such triangles moves away from the other by a quarter of that at least,
-/// which is more than rounding takes back.
-constexpr double sharpCosine = 0.25;
 /// Of half that angle: the normals around a vertex are that close to their mean.
 const double sharpCosineToMean = std::sqrt(0.5 * (1.0 + sharpCosine));
 

@@ -12,6 +12,10 @@
 namespace gnomon
 {
 
+/// The cosine of the angle up to which the normals of neighbours count as one side: a shadow ray that starts off one
+/// of them starts that share of its offset off the other.
+constexpr double sharpCosine = 0.75;
+
 /// Where two triangles of a surface meet, or one ends.
 struct CasterEdge
 {
@@ -21,8 +25,8 @@ struct CasterEdge
   std::array<std::uint32_t, 2> triangles{ { none, none } };
   /// Whether both triangles run through it the same way, so that they are wound differently.
   bool sameDirection = false;
-  /// Whether a shadow ray that starts on one of the triangles may begin behind the other: their
-  /// normals are more than 75 degrees apart, or one of them is too thin to say.
+  /// Whether a shadow ray that starts off one of the triangles may begin behind the other: their normals, or those of
+  /// the triangles around one of its corners, are farther apart than sharpCosine, or one is too thin to say.
   bool sharp = false;
 
   static constexpr std::uint32_t none = 0xffffffffu;

@@ -16,7 +16,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double least = std::numeric_limits<double>::min();
 
 /// What is drawn of casters around the map: more than any margin.
-constexpr double padTexels = 4.0;
+constexpr double padTexels = 16.0;
 
 using CutCorners = std::array<MapPoint, mostCorners + 1>;
 
@@ -84,16 +84,28 @@ glm::dvec3 centredCorner(
     : position;
 }
 
-/// How far along a ray a triangle may seem to be off, in world units; infinite where that cannot be bounded.
-double slackOf(const CasterScene& scene, const Surface& surface, std::uint32_t instance,
-  const glm::uvec3& vertices, const std::array<glm::dvec3, 3>& corners, double& cosineToLight)
+/// How far off its plane a tracer may see a triangle, in world units.
+struct Noise
 {
+  double alongNormal = infinity; ///< infinite where it cannot be bounded
+  double cosineToLight = 0.0;    ///< of its normal, the least over the triangle
+
+  double alongRay() const
+  {
+    const double cosine = std::abs(this->cosineToLight);
+    return cosine > 0.0 ? this->alongNormal / cosine : infinity;
+  }
+};
+
+Noise noiseOf(const CasterScene& scene, const Surface& surface, std::uint32_t instance,
+  const glm::uvec3& vertices, const std::array<glm::dvec3, 3>& corners)
+{
+  Noise result;
   const glm::dvec3 areaVector = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
   const double doubleArea = glm::length(areaVector);
-  cosineToLight = 0.0;
   if (!(doubleArea > 0.0))
   {
-    return infinity;
+    return result;
   }
   const glm::dvec3 normal = areaVector / doubleArea;
   // Of a plane, N.(position - corner) is the same for all its points.
@@ -104,15 +116,23 @@ double slackOf(const CasterScene& scene, const Surface& surface, std::uint32_t i
     {
       farthest = std::max(farthest, glm::length(scene.towards - corner));
     }
-    cosineToLight = farthest > 0.0 ? glm::dot(normal, scene.towards - corners[0]) / farthest : 0.0;
+    result.cosineToLight =
+      farthest > 0.0 ? glm::dot(normal, scene.towards - corners[0]) / farthest : 0.0;
   }
   else
   {
-    cosineToLight = glm::dot(normal, scene.towards);
+    result.cosineToLight = glm::dot(normal, scene.towards);
   }
   const auto& [a, b, c] = corners;
   const glm::vec3 largest = glm::max(glm::abs(a), glm::max(glm::abs(b), glm::abs(c)));
   const glm::vec3 extent = glm::max(a, glm::max(b, c)) - glm::min(a, glm::min(b, c));
+  // Of slivers planeNoise() is no bound.
+  const double longest = std::max({ extent.x, extent.y, extent.z });
+  if (!(std::ldexp(1.0, -19) * extent.x * extent.y * extent.z <
+        std::ldexp(1.0, -10) * longest * doubleArea))
+  {
+    return result;
+  }
   double noise = planeNoise(normal, largest, extent, static_cast<float>(doubleArea));
   if (surface.isInstanced())
   {
@@ -121,8 +141,17 @@ double slackOf(const CasterScene& scene, const Surface& surface, std::uint32_t i
       { positions[vertices.x], positions[vertices.y], positions[vertices.z] },
       surface.centredFromSource[instance], doubleArea);
   }
-  const double cosine = std::abs(cosineToLight);
-  return cosine > 0.0 ? noise / cosine : infinity;
+  result.alongNormal = noise;
+  return result;
+}
+
+/// The cosine below which a tracer may take a one-sided triangle to face either way.
+double unclearCosine(const std::array<glm::dvec3, 3>& corners)
+{
+  const glm::dvec3 ab = corners[1] - corners[0];
+  const glm::dvec3 ac = corners[2] - corners[0];
+  const double longest = std::max(glm::dot(ab, ab), glm::dot(ac, ac));
+  return std::max(1e-5, std::ldexp(longest, -19) / glm::length(glm::cross(ab, ac)));
 }
 
 /// The margin of what comes as near to the light as z.
@@ -131,6 +160,22 @@ double marginOf(const CasterScene& scene, double nearestZ)
   const double perUnit =
     scene.space.positional ? scene.texelsPerUnit / nearestZ : scene.texelsPerUnit;
   return marginTexels + perUnit * scene.lateral;
+}
+
+/// Whether a triangle is so near to a positional light that its margin might be wider than what is drawn around the map.
+bool isAtLight(const CasterScene& scene, const std::array<glm::dvec3, 3>& corners)
+{
+  if (!scene.space.positional)
+  {
+    return false;
+  }
+  const double distance = scene.texelsPerUnit * scene.lateral / (0.5 * padTexels);
+  const auto& [a, b, c] = corners;
+  const glm::dvec3 areaVector = glm::cross(b - a, c - a);
+  const glm::dvec3 beside = glm::max(
+    glm::min(a, glm::min(b, c)) - scene.towards, scene.towards - glm::max(a, glm::max(b, c)));
+  return glm::length(glm::max(beside, glm::dvec3(0.0))) <= distance &&
+    std::abs(glm::dot(areaVector, scene.towards - a)) <= distance * glm::length(areaVector);
 }
 
 /// The most texels that a step across the light can be long, on the map.
@@ -170,7 +215,8 @@ glm::dmat4 MapSpace::mapFromCentred() const
 }
 
 //------------------------------------------------------------------------------
-CasterScene casterScene(const LightView& view, int sizeTexels, const Occluders& occluders)
+CasterScene casterScene(
+  const LightView& view, bool hasBox, int sizeTexels, const Occluders& occluders)
 {
   const bool positional = view.rays.positional;
   const glm::dmat4& viewFromCentred = view.rays.viewFromCentred;
@@ -185,7 +231,9 @@ CasterScene casterScene(const LightView& view, int sizeTexels, const Occluders& 
     nearestZ = std::min(nearestZ, z);
     farthestZ = std::max(farthestZ, z);
   }
-  nearestZ = std::max(nearestZ, view.beginsAt);
+  // Rays end at a box's near face to within rounding, wherever the first caster is.
+  const double begins = hasBox ? 0.0 : view.beginsAt;
+  nearestZ = std::max(nearestZ, begins);
   // Depths are scaled by W in the map's middle. Warped views have others, a few times that at most.
   const glm::dvec3 across = glm::inverse(view.mapFromAcross) * glm::dvec3(0.0, 0.0, 1.0);
   const double middleW = (view.mapFromAcross * (across / across.z)).z;
@@ -201,20 +249,22 @@ CasterScene casterScene(const LightView& view, int sizeTexels, const Occluders& 
   {
     largest = std::max(largest, glm::length(corner));
   }
-  largest = 2.0 * largest + (positional ? glm::length(position) : 0.0);
+  largest = 2.0 * largest + (positional || hasBox ? glm::length(position) : 0.0);
 
+  const glm::dmat3 texels = texelFromAcross(view, sizeTexels);
+  const glm::dvec3 gradient(texels[0].z, texels[1].z, positional ? texels[2].z : 0.0);
+  const double farthest = positional
+    ? 0.0
+    : std::abs((viewFromCentred * glm::dvec4(occluders.allCentred.centre(), 1.0)).z) +
+      occluders.allCentred.radius();
+  // Off the view's axis, which ends at 60 degrees, rays are longer and texels' sides, too.
+  const double lateral = std::ldexp(largest, -18) * (positional ? 2.0 : 1.0);
   return { occluders,
-    { positional, viewFromCentred, texelFromAcross(view, sizeTexels), 1.0 / extent, -low / extent,
-      static_cast<double>(sizeTexels) },
-    view.beginsAt, !positional, positional ? 1e-6 * nearestZ * middleW : 0.0,
-    std::ldexp(largest, -18), largestTexelsPerAcross(view, sizeTexels),
+    { positional, viewFromCentred, texels, 1.0 / extent, -low / extent,
+      static_cast<double>(sizeTexels), glm::length(gradient), farthest },
+    begins, positional ? 1e-6 * nearestZ * middleW : 0.0, lateral,
+    largestTexelsPerAcross(view, sizeTexels),
     positional ? position : -glm::dvec3(centredFromView[2]) };
-}
-
-//------------------------------------------------------------------------------
-double depthPerUnit(const MapSpace& space, double W, double z)
-{
-  return space.depthScale / (space.positional ? W * z : W);
 }
 
 //------------------------------------------------------------------------------
@@ -234,39 +284,32 @@ MapPolygon polygonOf(
   const double reach = scene.lateral;
   const double nearestZ = std::min({ points[0].z, points[1].z, points[2].z });
   const double farthestZ = std::max({ points[0].z, points[1].z, points[2].z });
-  if (farthestZ < scene.begins - reach && scene.box)
+  if (farthestZ < scene.begins - reach && !scene.space.positional)
   {
     return polygon;
   }
   std::size_t count = 3;
   const bool apart = cutToMap(points, count, scene.space.size, scene.nearW);
+  if (!apart || isAtLight(scene, corners))
+  {
+    polygon.role.present = true;
+    polygon.margin = infinity;
+    return polygon;
+  }
   if (count < 3)
   {
     return polygon;
   }
   polygon.role.present = true;
-  if (!apart)
+  const Noise noise = noiseOf(scene, surface, instance, vertices, corners);
+  // Casters that face away from the light are not there; along it, a tracer may see it either way.
+  const bool unclear =
+    surface.oneSided && !(std::abs(noise.cosineToLight) > unclearCosine(corners));
+  if (surface.oneSided && !unclear && noise.cosineToLight < 0.0)
   {
-    polygon.margin = infinity;
+    polygon.role.present = false;
     return polygon;
   }
-  double cosine = 0.0;
-  double slack = slackOf(scene, surface, instance, vertices, corners, cosine);
-  if (surface.oneSided)
-  {
-    constexpr double unclear = 1e-5;
-    if (cosine < -unclear)
-    {
-      polygon.role.present = false;
-      return polygon;
-    }
-    polygon.role.covers = cosine > unclear;
-  }
-  else
-  {
-    polygon.role.covers = true;
-  }
-  polygon.role.covers &= !surface.cutout;
 
   double leastZ = infinity;
   double rate = 0.0;
@@ -276,12 +319,11 @@ MapPolygon polygonOf(
     const MapPoint& p = points[i];
     polygon.corners[i] = { p.X / p.W, p.Y / p.W, p.Q / p.W };
     leastZ = std::min(leastZ, p.z);
-    rate = std::max(rate, depthPerUnit(scene.space, p.W, std::max(p.z, least)));
+    rate = std::max(rate, scene.space.depthPerUnit(p.W));
   }
   polygon.margin = marginOf(scene, leastZ);
-  polygon.slack = slack * rate;
-  polygon.role.poison = leastZ < scene.begins + reach || nearestZ < scene.begins - reach;
-
+  polygon.slack = noise.alongRay() * rate;
+  polygon.noise = noise.alongNormal;
   // Twice the area, and how high that makes it over its longest side.
   double area = 0.0;
   double longest = 0.0;
@@ -293,13 +335,11 @@ MapPolygon polygonOf(
     area += (a.x - o.x) * (b.y - o.y) - (b.x - o.x) * (a.y - o.y);
     longest = std::max(longest, std::hypot(b.x - a.x, b.y - a.y));
   }
-  const bool thin = !(std::abs(area) > thinTexels * longest) || !std::isfinite(polygon.slack);
-  polygon.facing = thin ? 0 : area > 0.0 ? 1 : -1;
-  polygon.role.covers &= polygon.facing != 0 && !polygon.role.poison;
-  if (polygon.role.poison || !polygon.role.covers)
-  {
-    polygon.facing = surface.cutout && !thin && !polygon.role.poison ? polygon.facing : 0;
-  }
+  const bool thin = !(std::abs(area) > thinTexels * longest);
+  polygon.role.poison = polygon.margin > largestMargin || leastZ < scene.begins + reach ||
+    nearestZ < scene.begins - reach || (!thin && (unclear || !std::isfinite(polygon.slack)));
+  polygon.facing = thin || polygon.role.poison ? 0 : area > 0.0 ? 1 : -1;
+  polygon.role.covers = polygon.facing != 0 && !surface.cutout;
   return polygon;
 }
 
@@ -344,16 +384,13 @@ bool segmentOf(const CasterScene& scene, const Surface& surface, std::uint32_t i
       ends[1] = i;
     }
   }
-  double leastZ = infinity;
   double rate = 0.0;
   segment.ends = { { corners[ends[0]], corners[ends[1]] } };
   for (const std::size_t end : ends)
   {
     const MapPoint& p = points[end];
-    leastZ = std::min(leastZ, p.z);
-    rate = std::max(rate, depthPerUnit(scene.space, p.W, std::max(p.z, least)));
+    rate = std::max(rate, scene.space.depthPerUnit(p.W));
   }
-  segment.margin = marginOf(scene, leastZ);
   segment.slack = kind == EdgeKind::Unsure ? infinity : rate * scene.lateral;
   segment.isEnd = kind != EdgeKind::Sharp;
   return true;

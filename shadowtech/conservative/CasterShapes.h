@@ -23,8 +23,11 @@ namespace gnomon
 constexpr double marginTexels = 1.0 / 128.0;
 /// The part of it that is there for where rays start.
 constexpr double offsetTexels = 1.0 / 256.0;
-/// Triangles that are no higher than this seem to be edges alone.
-constexpr double thinTexels = 1.0 / 512.0;
+/// With a larger margin a texel would not decide much: casters of which rounding asks for more make texels undecided.
+constexpr double largestMargin = 1.0;
+/// Triangles that are no higher than this seem to be edges alone. Rays start less far beside their receivers, so that
+/// they do not start behind such a triangle's neighbour.
+constexpr double thinTexels = 1.0 / 128.0;
 
 /// A point as the map sees it, in homogeneous coordinates: texels X/W and Y/W, depth Q/W; z along the
 /// view.
@@ -42,6 +45,10 @@ struct MapSpace
   double depthScale;
   double depthOffset;
   double size;
+  /// What W changes by, per unit of length, at most.
+  double gradientOfW;
+  /// The largest |z| of anything, of parallel rays; 0 of those from a position.
+  double farthestZ;
 
   MapPoint at(const glm::dvec3& centred) const
   {
@@ -55,6 +62,19 @@ struct MapSpace
 
   /// The same as a matrix, to (X, Y, Q, W).
   glm::dmat4 mapFromCentred() const;
+
+  /// How much depth changes at most where a point moves by a unit of length in any direction: a / W + b / W^2.
+  glm::dvec2 depthPerUnit() const
+  {
+    return this->positional
+      ? glm::dvec2(0.0, this->depthScale * this->gradientOfW)
+      : this->depthScale * glm::dvec2(1.0, this->farthestZ * this->gradientOfW);
+  }
+  double depthPerUnit(double W) const
+  {
+    const glm::dvec2 perUnit = this->depthPerUnit();
+    return (perUnit.x + perUnit.y / W) / W;
+  }
 };
 
 /// A corner of what is drawn.
@@ -69,7 +89,6 @@ struct CasterScene
   const Occluders& occluders;
   MapSpace space;
   double begins;  ///< the z from which on casters count
-  bool box;       ///< before that there are none; else they are too near to be drawn
   double nearW;   ///< what is at the light
   double lateral; ///< how far beside a ray a tracer may look, in world units
   double
@@ -78,21 +97,20 @@ struct CasterScene
 };
 
 /// How casters are to be looked at in a view of a light.
-CasterScene casterScene(const LightView& view, int sizeTexels, const Occluders& occluders);
-
-/// Depth to a unit of length along the ray at a place, at most.
-double depthPerUnit(const MapSpace& space, double W, double z);
+/// @param hasBox whether the light begins at the near face of a box
+CasterScene casterScene(
+  const LightView& view, bool hasBox, int sizeTexels, const Occluders& occluders);
 
 /// How a caster counts.
 struct Role
 {
   bool present = false; ///< may block
   bool covers = false;  ///< does block, all over
-  bool poison = false;  ///< where it is, nothing is certain
+  bool poison = false;  ///< where it is, by its own margin, nothing is certain
 };
 
-/// Enough for a triangle cut by five planes.
-constexpr std::size_t mostCorners = 8;
+/// Enough for a triangle cut by four planes, even where rounding makes corners alternate.
+constexpr std::size_t mostCorners = 16;
 
 /// A convex piece of a caster on the map.
 struct MapPolygon
@@ -101,8 +119,10 @@ struct MapPolygon
   int facing = 0; ///< 1 or -1 by the way that it is wound on the map; 0: all its edges are ends
   std::size_t count = 0;
   std::array<MapCorner, mostCorners> corners;
-  double margin = 0.0; ///< texels
-  double slack = 0.0;  ///< depth that a tracer may see it off its plane
+  double margin =
+    0.0; ///< that rounding asks for, in texels; infinite where the caster is at the light
+  double slack = 0.0; ///< depth that a tracer may see it off its plane
+  double noise = 0.0; ///< and how far it may see it off, along its normal, in world units
 };
 
 /// One triangle, or what of it lies on the map.
@@ -114,7 +134,6 @@ MapPolygon polygonOf(
 struct MapSegment
 {
   std::array<MapCorner, 2> ends;
-  double margin = 0.0;
   double slack = 0.0;
   bool isEnd = false; ///< the casters' surface ends here; else a sharp edge
 };

@@ -15,14 +15,13 @@
 #include <atomic>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 namespace gnomon
 {
 namespace
 {
 
-/// Texels that count as so much larger than they are would not decide much.
-constexpr double largestMargin = 2.0;
 /// Rows of the map that are drawn at once, so that their cells stay in the processor's cache.
 constexpr int bandRows = 16;
 /// Rounding of depths to float, and of what is computed with them.
@@ -46,6 +45,7 @@ TexelBounds boundsOf(const Cell& cell, Covering covering)
   // One layer alone reaches up to here: that of the receiver.
   const float second = below(std::min(cell.second, cell.sharpEnd) - cell.climb);
   bounds.litUpToOnCasters = std::max(bounds.litUpTo, second);
+  bounds.leastOffsetOnCasters = cell.noise / static_cast<float>(sharpCosine);
   bounds.shadowFrom = above(cell.contained);
   if (covering == Covering::Silhouette)
   {
@@ -190,6 +190,7 @@ private:
     const auto countOf = [this](const Placement& placement)
     { return this->surfaceOf(placement).triangleCount; };
     std::atomic<bool> blind{ false };
+    tbb::enumerable_thread_specific<double> margins(0.0);
     this->visitAll(countOf,
       [&](std::uint32_t number, std::uint32_t i)
       {
@@ -204,10 +205,15 @@ private:
           return;
         }
         // Written so that NaN is blind.
-        if (!(polygon.margin <= largestMargin))
+        if (!(polygon.margin < std::numeric_limits<double>::infinity()))
         {
           blind = true;
           return;
+        }
+        if (!polygon.role.poison)
+        {
+          double& margin = margins.local();
+          margin = std::max(margin, polygon.margin);
         }
         double low = polygon.corners[0].y;
         double high = low;
@@ -217,12 +223,16 @@ private:
           high = std::max(high, polygon.corners[k].y);
         }
         Bands& bands = this->triangles_.local();
-        visitBands(low, high, polygon.margin, this->size_,
+        visitBands(low, high, std::max(polygon.margin, largestMargin), this->size_,
           [&](std::size_t band) {
             bands[band].push_back({ number, triangle });
           });
       });
     this->blind_ = blind;
+    for (const double margin : margins)
+    {
+      this->margin_ = std::max(this->margin_, margin);
+    }
   }
 
   std::int8_t facingOf(const Placement& placement, std::uint32_t triangle) const
@@ -310,7 +320,8 @@ private:
         {
           const auto& [a, b] = found.ends;
           Bands& bands = this->segments_.local();
-          visitBands(std::min(a.y, b.y), std::max(a.y, b.y), found.margin + thinTexels, this->size_,
+          visitBands(std::min(a.y, b.y), std::max(a.y, b.y), this->margin_ + thinTexels,
+            this->size_,
             [&](std::size_t band) {
               bands[band].push_back({ number, i });
             });
@@ -328,7 +339,7 @@ private:
         MapSegment found;
         if (this->segment(this->placements_[item.placement], item.index, found))
         {
-          drawSegment(found, this->size_, rows, cells);
+          drawSegment(found, this->margin_, this->size_, rows, cells);
         }
       }
     }
@@ -339,10 +350,11 @@ private:
         const Placement& placement = this->placements_[item.placement];
         const MapPolygon polygon =
           polygonOf(this->scene_, this->surfaceOf(placement), placement.instance, item.index);
-        drawPolygon(polygon, this->size_, rows, cells);
-        if (this->covering_ == Covering::Ring && polygon.role.covers)
+        drawPolygon(polygon, this->margin_, this->size_, rows, cells);
+        if (this->covering_ != Covering::Triangle && polygon.role.covers)
         {
-          drawRing(this->ringOf(placement, item.index, polygon), this->size_, rows, cells);
+          drawRing(
+            this->ringOf(placement, item.index, polygon), this->margin_, this->size_, rows, cells);
         }
       }
     }
@@ -354,6 +366,7 @@ private:
   int size_;
   int bandCount_;
   bool blind_ = false;
+  double margin_ = 0.0; ///< of all texels: the largest that a caster asks for, but for poison
   std::vector<Placement> placements_;
   std::vector<std::int8_t> facing_; ///< on the map, of all placements' triangles
   tbb::enumerable_thread_specific<Bands> triangles_;
@@ -363,18 +376,19 @@ private:
 } // namespace
 
 //------------------------------------------------------------------------------
-ConservativeMap::ConservativeMap(const LightView& view, int sizeTexels, const Occluders& occluders,
-  const CasterEdges& edges, Covering covering)
+ConservativeMap::ConservativeMap(const LightView& view, bool hasBox, int sizeTexels,
+  const Occluders& occluders, const CasterEdges& edges, Covering covering)
 {
-  const CasterScene scene = casterScene(view, sizeTexels, occluders);
+  const CasterScene scene = casterScene(view, hasBox, sizeTexels, occluders);
   this->size_ = sizeTexels;
   this->positional_ = scene.space.positional;
   const glm::dmat4 mapFromCentred = scene.space.mapFromCentred();
   this->mapFromCentred_ = glm::mat4(mapFromCentred);
   this->alongView_ = glm::vec4(glm::row(view.rays.viewFromCentred, 2));
-  this->depthPerW_ = static_cast<float>(scene.space.depthScale);
+  this->depthPerUnit_ = glm::vec2(scene.space.depthPerUnit());
   this->rounding_ = static_cast<float>(scene.lateral);
-  this->largestOffset_ = static_cast<float>(offsetTexels / scene.texelsPerUnit);
+  this->largestOffset_ =
+    static_cast<float>(offsetTexels / (scene.texelsPerUnit * (this->positional_ ? 2.0 : 1.0)));
   MapDrawing drawing(scene, edges, sizeTexels, covering);
   this->blind_ = drawing.blind();
   if (!this->blind_)
@@ -393,9 +407,12 @@ namespace
 struct Looks
 {
   static constexpr std::size_t most = 256;
-  std::array<int, most> texel;        ///< -1 where the map cannot say anything
-  std::array<float, most> depth;      ///< the receiver's, at most
-  std::array<float, most> depthOfRay; ///< where its shadow ray starts, at least
+  std::array<int, most> texel; ///< -1 where the map cannot say anything
+  ///@{
+  /// What the depth is where the shadow ray starts, at most and at least.
+  std::array<float, most> farthest;
+  std::array<float, most> nearest;
+  ///@}
 };
 
 /// What there is to know of a map to look receivers up.
@@ -403,7 +420,7 @@ struct LookUp
 {
   glm::mat4 mapFromCentred;
   glm::vec4 alongView;
-  float depthPerW;
+  glm::vec2 depthPerUnit;
   float largestOffset;
   float rounding; ///< world units that looking up in float moves a receiver by, at most
   int size;
@@ -424,8 +441,8 @@ void lookAt(const LookUp& map, bool positional, const ReceiverPixels& receivers,
   const float fixedZ = positional ? 0.0f : 1.0f;
   const glm::vec4 along = positional ? map.alongView : glm::vec4(0.0f);
   int* const texel = looks.texel.data();
-  float* const depths = looks.depth.data();
-  float* const depthsOfRays = looks.depthOfRay.data();
+  float* const farthest = looks.farthest.data();
+  float* const nearest = looks.nearest.data();
 #pragma GCC ivdep
   for (int i = 0; i < count; ++i)
   {
@@ -443,9 +460,10 @@ void lookAt(const LookUp& map, bool positional, const ReceiverPixels& receivers,
     const int column = static_cast<int>(holds ? x : 0.0f);
     const int row = static_cast<int>(holds ? y : 0.0f);
     texel[i] = holds ? row * map.size + column : -1;
-    const float perUnit = map.depthPerW * perW / z;
-    depths[i] = depth + map.rounding * perUnit;
-    depthsOfRays[i] = depth - (map.rounding + offset[i]) * perUnit;
+    const float perUnit = (map.depthPerUnit.x + map.depthPerUnit.y * perW) * perW;
+    const float moved = (map.rounding + offset[i]) * perUnit;
+    farthest[i] = depth + moved;
+    nearest[i] = depth - moved;
   }
 }
 
@@ -459,8 +477,8 @@ void ConservativeMap::ask(const ReceiverPixels& receivers, std::size_t first, st
   {
     return;
   }
-  const LookUp map{ this->mapFromCentred_, this->alongView_, this->depthPerW_, this->largestOffset_,
-    this->rounding_, this->size_ };
+  const LookUp map{ this->mapFromCentred_, this->alongView_, this->depthPerUnit_,
+    this->largestOffset_, this->rounding_, this->size_ };
   Looks looks;
   for (std::size_t begin = 0; begin < count; begin += Looks::most)
   {
@@ -474,9 +492,10 @@ void ConservativeMap::ask(const ReceiverPixels& receivers, std::size_t first, st
         continue;
       }
       const TexelBounds& texel = this->texels_[static_cast<std::size_t>(looks.texel[i])];
-      const bool casts = onCaster[receivers.surface[from + i] + 1u] != 0;
-      const bool lit = looks.depth[i] <= (casts ? texel.litUpToOnCasters : texel.litUpTo);
-      const bool shadow = looks.depthOfRay[i] > texel.shadowFrom;
+      const bool onSurface = onCaster[receivers.surface[from + i] + 1u] != 0 &&
+        receivers.offset[from + i] >= texel.leastOffsetOnCasters;
+      const bool lit = looks.farthest[i] <= (onSurface ? texel.litUpToOnCasters : texel.litUpTo);
+      const bool shadow = looks.nearest[i] > texel.shadowFrom;
       certain[from + i] = lit ? Certainty::Lit : shadow ? Certainty::Shadow : Certainty::Uncertain;
     }
   }

@@ -23,7 +23,7 @@ enum class Covering
 {
   Triangle,  ///< one triangle contains it
   Ring,      ///< or: a triangle and those across its edges do
-  Silhouette ///< or: no edge of the casters' surface is there, so that it goes on everywhere
+  Silhouette ///< or: no end of the casters' surface is there, so that it goes on everywhere
 };
 
 /// What the rays through a texel have before them, as bounds on their shadow ray's answer. Depths are those of
@@ -32,7 +32,9 @@ struct TexelBounds
 {
   float litUpTo;          ///< a receiver of no more depth than this is lit
   float litUpToOnCasters; ///< the same of a point of a caster's own surface
-  float shadowFrom;       ///< a receiver of more depth than this is in shadow
+  /// For that, shadow rays must start this far off the caster, in world units.
+  float leastOffsetOnCasters;
+  float shadowFrom; ///< a receiver of more depth than this is in shadow
 };
 
 /// A map of one view of a light which says of a receiver that it is lit for certain, in shadow for
@@ -46,7 +48,8 @@ class ConservativeMap
 {
 public:
   /// Draws the casters.
-  ConservativeMap(const LightView& view, int sizeTexels, const Occluders& occluders,
+  /// @param hasBox whether the light begins at the near face of a box
+  ConservativeMap(const LightView& view, bool hasBox, int sizeTexels, const Occluders& occluders,
     const CasterEdges& edges, Covering covering);
 
   /// Decides receivers that are still uncertain.
@@ -64,10 +67,9 @@ private:
   bool positional_ = false;
   /// From centred coordinates to X, Y, Q and W of MapPoint.
   glm::mat4 mapFromCentred_{ 1.0f };
-  glm::vec4 alongView_{ 0.0f }; ///< the same to z along the view
-  float depthPerW_ =
-    0.0f; ///< how much depth there is to a unit along the ray, times W, of positional ones W z
-  float rounding_ = 0.0f;      ///< world units that looking up moves a receiver by, at most
+  glm::vec4 alongView_{ 0.0f };    ///< the same to z along the view
+  glm::vec2 depthPerUnit_{ 0.0f }; ///< MapSpace::depthPerUnit()
+  float rounding_ = 0.0f;          ///< world units that looking up moves a receiver by, at most
   float largestOffset_ = 0.0f; ///< of a shadow ray across the light, at distance 1 from a position
   bool blind_ = false;         ///< a caster is so near to the light that nothing is certain
   std::vector<TexelBounds> texels_;

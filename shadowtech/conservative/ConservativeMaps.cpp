@@ -15,7 +15,8 @@ void ConservativeMaps::bake(const LightViews& views, int sizeTexels, const Occlu
   this->maps_.clear();
   for (const LightView& view : views.views)
   {
-    this->maps_.emplace_back(view, sizeTexels, occluders, this->edges_, this->covering_);
+    this->maps_.emplace_back(
+      view, views.box.z > 0.0, sizeTexels, occluders, this->edges_, this->covering_);
   }
 }
 

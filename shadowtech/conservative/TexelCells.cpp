@@ -58,8 +58,9 @@ struct RowRange
 class PolygonOnTexels
 {
 public:
-  explicit PolygonOnTexels(const MapPolygon& polygon)
+  PolygonOnTexels(const MapPolygon& polygon, double margin)
     : polygon_(polygon)
+    , margin_(margin)
   {
     for (std::size_t i = 0; i < polygon.count; ++i)
     {
@@ -73,17 +74,17 @@ public:
     }
     this->findSides(this->findPlane());
     const double slope = std::abs(this->perX_) + std::abs(this->perY_);
-    this->half_ = slope * (0.5 + polygon.margin);
-    this->climb_ = static_cast<float>(
-      (slope * (0.5 + sampleOffset + polygon.margin) + polygon.slack) * 1.000001);
+    this->half_ = slope * (0.5 + margin);
+    this->climb_ =
+      static_cast<float>((slope * (0.5 + sampleOffset + margin) + polygon.slack) * 1.000001);
     this->slack_ = static_cast<float>(polygon.slack);
   }
 
   /// The rows, of these, in which it may be.
   Span rows(Span of) const
   {
-    const double margin = this->polygon_.margin;
-    const Span inside = spanOf(this->low_ - margin, this->high_ + margin, of.last + 1);
+    const Span inside =
+      spanOf(this->low_ - this->margin_, this->high_ + this->margin_, of.last + 1);
     return { std::max(of.first, inside.first), inside.last };
   }
 
@@ -97,8 +98,7 @@ public:
   };
   Row row(int y, int width) const
   {
-    const double margin = this->polygon_.margin;
-    RowRange touched{ this->left_ - 0.5 - margin, this->right_ + 0.5 + margin };
+    RowRange touched{ this->left_ - 0.5 - this->margin_, this->right_ + 0.5 + this->margin_ };
     RowRange contained{ this->left_, this->right_ };
     RowRange sampled{ this->left_ - onEdge, this->right_ + onEdge };
     const double centre = y + 0.5;
@@ -186,16 +186,17 @@ private:
       const MapCorner& b = this->polygon_.corners[(i + 1) % this->polygon_.count];
       const double ex = b.x - a.x, ey = b.y - a.y;
       const double length = std::hypot(ex, ey);
-      if (length > 0.0) // corners may fall together where polygons are cut
+      if (length > 1e-9) // corners may fall together where polygons are cut
       {
         const double nx = -orientation * ey / length, ny = orientation * ex / length;
         this->sides_[this->sideCount_++] = { nx, ny, -(nx * a.x + ny * a.y),
-          (std::abs(nx) + std::abs(ny)) * (0.5 + this->polygon_.margin) };
+          (std::abs(nx) + std::abs(ny)) * (0.5 + this->margin_) };
       }
     }
   }
 
   const MapPolygon& polygon_;
+  double margin_;
   double left_ = infinity, right_ = -infinity, low_ = infinity, high_ = -infinity;
   float least_ = std::numeric_limits<float>::infinity();
   float most_ = -std::numeric_limits<float>::infinity();
@@ -225,10 +226,11 @@ bool keepBetween(double from, double to, double low, double high, double& first,
 /// Visits the texels that an edge meets, in some rows.
 /// @param visit called with column, row, and which part of the edge, between 0 and 1, is in the texel
 template <typename Visit>
-void visitTexels(const MapSegment& segment, int width, Span rows, const Visit& visit)
+void visitTexels(
+  const MapSegment& segment, double texelMargin, int width, Span rows, const Visit& visit)
 {
   const auto& [a, b] = segment.ends;
-  const double margin = segment.margin + thinTexels;
+  const double margin = texelMargin + thinTexels;
   const Span inside =
     spanOf(std::min(a.y, b.y) - margin, std::max(a.y, b.y) + margin, rows.last + 1);
   for (int y = std::max(rows.first, inside.first); y <= inside.last; ++y)
@@ -255,13 +257,14 @@ void visitTexels(const MapSegment& segment, int width, Span rows, const Visit& v
 } // namespace
 
 //------------------------------------------------------------------------------
-void drawPolygon(const MapPolygon& polygon, int width, Span rows, Cell* cells)
+void drawPolygon(const MapPolygon& polygon, double margin, int width, Span rows, Cell* cells)
 {
   if (polygon.facing == 0 && !polygon.role.poison)
   {
     return; // its edges alone are drawn
   }
-  const PolygonOnTexels texels(polygon);
+  const PolygonOnTexels texels(
+    polygon, polygon.role.poison ? std::max(margin, polygon.margin) : margin);
   const Span drawn = texels.rows(rows);
   for (int y = drawn.first; y <= drawn.last; ++y)
   {
@@ -282,6 +285,7 @@ void drawPolygon(const MapPolygon& polygon, int width, Span rows, Cell* cells)
       if (nearest < cell[x].end)
       {
         cell[x].climb = std::max(cell[x].climb, texels.climb());
+        cell[x].noise = std::max(cell[x].noise, static_cast<float>(polygon.noise));
       }
       if (polygon.role.covers)
       {
@@ -300,9 +304,9 @@ void drawPolygon(const MapPolygon& polygon, int width, Span rows, Cell* cells)
 }
 
 //------------------------------------------------------------------------------
-void drawRing(const MapRing& ring, int width, Span rows, Cell* cells)
+void drawRing(const MapRing& ring, double margin, int width, Span rows, Cell* cells)
 {
-  const PolygonOnTexels middle(ring.triangles.front());
+  const PolygonOnTexels middle(ring.triangles.front(), margin);
   const Span drawn = middle.rows(rows);
   for (int y = drawn.first; y <= drawn.last; ++y)
   {
@@ -323,7 +327,7 @@ void drawRing(const MapRing& ring, int width, Span rows, Cell* cells)
     }
     for (std::size_t i = 1; i < ring.triangles.size(); ++i)
     {
-      const PolygonOnTexels other(ring.triangles[i]);
+      const PolygonOnTexels other(ring.triangles[i], margin);
       const PolygonOnTexels::Row otherRow = other.row(y, width);
       for (int x = std::max(row.touched.first, otherRow.touched.first);
            x <= std::min(row.touched.last, otherRow.touched.last); ++x)
@@ -333,7 +337,7 @@ void drawRing(const MapRing& ring, int width, Span rows, Cell* cells)
     }
     for (const MapSegment& border : ring.border)
     {
-      visitTexels(border, width, { y, y },
+      visitTexels(border, margin, width, { y, y },
         [&](int x, int, double, double)
         {
           if (x >= row.touched.first && x <= row.touched.last)
@@ -350,12 +354,12 @@ void drawRing(const MapRing& ring, int width, Span rows, Cell* cells)
 }
 
 //------------------------------------------------------------------------------
-void drawSegment(const MapSegment& segment, int width, Span rows, Cell* cells)
+void drawSegment(const MapSegment& segment, double margin, int width, Span rows, Cell* cells)
 {
   const auto& [a, b] = segment.ends;
   const double start = a.depth;
   const double extent = b.depth - a.depth;
-  visitTexels(segment, width, rows,
+  visitTexels(segment, margin, width, rows,
     [&](int x, int y, double first, double last)
     {
       // -infinity with endless slack

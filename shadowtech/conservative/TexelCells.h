@@ -20,6 +20,7 @@ struct Cell
     std::numeric_limits<float>::infinity(); ///< the least of their largest depths
   float contained =
     std::numeric_limits<float>::infinity(); ///< that of casters that cover the texel
+  float noise = 0.0f; ///< the most that a tracer may see a triangle off its plane, in world units
   float climb = 0.0f; ///< the most that depth changes from anywhere to the sample
   float end =
     std::numeric_limits<float>::infinity(); ///< the least depth of an end of the casters' surface
@@ -44,8 +45,10 @@ struct Span
 Span spanOf(double low, double high, int limit);
 
 /// Draws a polygon into some rows.
+/// @param margin of texels, the same for all that is drawn: walks from texel to edge must not lose an edge that is
+/// taken to be farther away
 /// @param cells of those rows, `width` each
-void drawPolygon(const MapPolygon& polygon, int width, Span rows, Cell* cells);
+void drawPolygon(const MapPolygon& polygon, double margin, int width, Span rows, Cell* cells);
 
 /// A triangle and those that go on across its edges: a part of the casters' surface, which covers every
 /// texel that it meets but for those on its border.
@@ -56,10 +59,10 @@ struct MapRing
 };
 
 /// Notes where a ring covers, for texels that its middle touches.
-void drawRing(const MapRing& ring, int width, Span rows, Cell* cells);
+void drawRing(const MapRing& ring, double margin, int width, Span rows, Cell* cells);
 
 /// Draws an edge into some rows.
-void drawSegment(const MapSegment& segment, int width, Span rows, Cell* cells);
+void drawSegment(const MapSegment& segment, double margin, int width, Span rows, Cell* cells);
 
 } // namespace gnomon
 

@@ -47,7 +47,7 @@ Mesh apart(const Mesh& mesh)
 
 TEST(CasterEdges, ofClosedMeshesHaveTwoTriangles)
 {
-  Mesh sphere = makeSphere(16, 32);
+  Mesh sphere = makeSphere(32, 64);
   for (glm::dvec3& point : sphere.points)
   {
     point = glm::round(1e6 * point) / 1e6; // its seam closes but for rounding

@@ -124,7 +124,7 @@ Mesh makeDuplicates(Random& random, int count)
 
 const char* const sceneNames[] = { "one triangle", "spheres", "soup", "needles", "cups", "folds",
   "junctions", "duplicates", "touching boxes", "crossing boxes", "terrain", "perforated",
-  "one-sided", "sheets" };
+  "one-sided", "sheets", "lamp" };
 
 std::vector<Prop> makeScene(const std::string& name, Random& random)
 {
@@ -206,6 +206,13 @@ std::vector<Prop> makeScene(const std::string& name, Random& random)
       props.push_back({ makeBox(glm::dvec3(-0.4), glm::dvec3(0.4)), placed(random, 0.4, 1.0) });
     }
   }
+  else if (name == "lamp")
+  {
+    // The shade around a light is small against the scene, which rounding is in proportion to.
+    props.push_back(
+      { makeCup(8, 24), glm::rotate(at({ 0.1, -0.2, 1.0 }, 0.15), 3.0, { 1.0, 0.2, 0.0 }) });
+    props.push_back({ makeBox(glm::dvec3(20.0), glm::dvec3(25.0)) });
+  }
   else if (name == "terrain")
   {
     props.front() = { makeTerrain(6.0, 24, 0.5) };
@@ -267,6 +274,11 @@ Tally run(const std::string& name, unsigned int seed, Covering covering, const g
   const ReceiverPixels receivers = makeReceivers(occluders, camera);
 
   ShadowLight light = makeLight(random);
+  if (name == "lamp")
+  {
+    const glm::dvec3 bulb(0.12, -0.21, 1.0);
+    light = random() % 2 ? pointLight(bulb) : spotLight(bulb, { 0.0, 0.0, 0.0 }, 80.0);
+  }
   light.positionWorld = toWorld(light.positionWorld);
   if (light.box)
   {
@@ -441,7 +453,7 @@ TEST(ConservativeMaps, areNeverWrongInTheBottomOfAValley)
       const double x = -std::pow(10.0, -8.0 + 8.0 * i / count);
       const double y = -0.9 + 1.8 * std::fmod(0.618 * i, 1.0);
       chosen.set(static_cast<std::size_t>(i),
-        glm::dvec3(x, y, -steepness * x) - occluders.centreWorld, normal, 2e-6f);
+        glm::dvec3(x, y, -steepness * x) - occluders.centreWorld, normal, 3e-5f);
     }
     const Tally tally = compareWithTruth(light,
       fitLightViews(light, occluders.centreWorld, occluders.castersCentred, light.mapSizeTexels),
