@@ -1,6 +1,7 @@
 #include "shadowtech/base/Receivers.h"
 
 #include "shadowtech/base/Occluders.h"
+#include "shadowtech/base/PlacedTriangles.h"
 #include "shadowtech/base/ShadowRay.h"
 
 #include <tbb/blocked_range.h>
@@ -128,50 +129,17 @@ bool isFinite(const glm::dvec3& vector)
   return std::isfinite(vector.x + vector.y + vector.z);
 }
 
-/// A triangle's corners, centred.
-std::array<glm::dvec3, 3> cornersOf(const Occluders& occluders, const TriangleOfFragment& found)
-{
-  const Surface& surface = occluders.surfaces[found.surface];
-  const glm::uvec3 vertices = occluders.triangles[found.triangle];
-  std::array<glm::dvec3, 3> corners = { occluders.positionsCentred[vertices.x],
-    occluders.positionsCentred[vertices.y], occluders.positionsCentred[vertices.z] };
-  if (surface.isInstanced())
-  {
-    const glm::dmat4x3 centredFromSource(surface.centredFromSource[found.instance]);
-    for (glm::dvec3& corner : corners)
-    {
-      corner = centredFromSource * glm::dvec4(corner, 1.0);
-    }
-  }
-  return corners;
-}
-
-/// How far from its plane the points of a triangle may seem to lie.
-float noiseOf(const Occluders& occluders, const TriangleOfFragment& found,
-  const std::array<glm::dvec3, 3>& corners, const glm::vec3& normal, double doubleArea)
-{
-  const auto& [a, b, c] = corners;
-  const glm::vec3 largest = glm::max(glm::abs(a), glm::max(glm::abs(b), glm::abs(c)));
-  const glm::vec3 extent = glm::max(a, glm::max(b, c)) - glm::min(a, glm::min(b, c));
-  const float noise = planeNoise(normal, largest, extent, static_cast<float>(doubleArea));
-  const Surface& surface = occluders.surfaces[found.surface];
-  if (!surface.isInstanced())
-  {
-    return noise;
-  }
-  const glm::uvec3 vertices = occluders.triangles[found.triangle];
-  return noise +
-    instanceNoise(normal, corners,
-      { occluders.positionsCentred[vertices.x], occluders.positionsCentred[vertices.y],
-        occluders.positionsCentred[vertices.z] },
-      surface.centredFromSource[found.instance], doubleArea);
-}
-
 SeenTriangle see(const Occluders& occluders, const TriangleOfFragment& found, const PixelRays& rays)
 {
+  const Surface& surface = occluders.surfaces[found.surface];
+  const auto noise = [&](const SeenTriangle& of, const glm::vec3& normal, double doubleArea)
+  {
+    return noiseOf(
+      occluders, surface, found.instance, found.triangle, of.corners, normal, doubleArea);
+  };
   SeenTriangle seen;
   seen.surface = found.surface;
-  seen.corners = cornersOf(occluders, found);
+  seen.corners = centredCorners(occluders, surface, found.instance, found.triangle);
   seen.finite = isFinite(seen.corners[0] + seen.corners[1] + seen.corners[2]);
   glm::dvec3 areaVector =
     glm::cross(seen.corners[1] - seen.corners[0], seen.corners[2] - seen.corners[0]);
@@ -195,8 +163,7 @@ SeenTriangle see(const Occluders& occluders, const TriangleOfFragment& found, co
   {
     // No area, not finite, or seen along its plane: alongNormal stays 0, so that no ray meets it. No
     // shadow ray either, as if its area were endless.
-    seen.noise = noiseOf(
-      occluders, found, seen.corners, glm::vec3(1.0f), std::numeric_limits<double>::infinity());
+    seen.noise = noise(seen, glm::vec3(1.0f), std::numeric_limits<double>::infinity());
     return seen;
   }
   const double orientation = side > 0.0 ? 1.0 : -1.0;
@@ -215,7 +182,7 @@ SeenTriangle see(const Occluders& occluders, const TriangleOfFragment& found, co
   }
   const double doubleArea = glm::length(areaVector);
   seen.normal = -areaVector / doubleArea;
-  seen.noise = noiseOf(occluders, found, seen.corners, seen.normal, doubleArea);
+  seen.noise = noise(seen, seen.normal, doubleArea);
   return seen;
 }
 

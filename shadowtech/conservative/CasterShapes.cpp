@@ -1,6 +1,6 @@
 #include "shadowtech/conservative/CasterShapes.h"
 
-#include "shadowtech/base/ShadowRay.h"
+#include "shadowtech/base/PlacedTriangles.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,8 +12,7 @@ namespace
 {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-/// What a divisor is at least.
-constexpr double least = std::numeric_limits<double>::min();
+constexpr double smallestDivisor = std::numeric_limits<double>::min();
 
 /// What is drawn of casters around the map: more than any margin.
 constexpr double padTexels = 16.0;
@@ -75,15 +74,6 @@ bool cutToMap(CutCorners& corners, std::size_t& count, double size, double nearW
     [&](const MapPoint& p) { return p.W > nearW; });
 }
 
-glm::dvec3 centredCorner(
-  const Occluders& occluders, const Surface& surface, std::uint32_t instance, std::uint32_t vertex)
-{
-  const glm::dvec3 position = occluders.positionsCentred[vertex];
-  return surface.isInstanced()
-    ? glm::dmat4x3(surface.centredFromSource[instance]) * glm::dvec4(position, 1.0)
-    : position;
-}
-
 /// How far off its plane a tracer may see a triangle, in world units.
 struct Noise
 {
@@ -97,8 +87,8 @@ struct Noise
   }
 };
 
-Noise noiseOf(const CasterScene& scene, const Surface& surface, std::uint32_t instance,
-  const glm::uvec3& vertices, const std::array<glm::dvec3, 3>& corners)
+Noise tracersNoise(const CasterScene& scene, const Surface& surface, std::uint32_t instance,
+  std::uint32_t triangle, const std::array<glm::dvec3, 3>& corners)
 {
   Noise result;
   const glm::dvec3 areaVector = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
@@ -123,25 +113,15 @@ Noise noiseOf(const CasterScene& scene, const Surface& surface, std::uint32_t in
   {
     result.cosineToLight = glm::dot(normal, scene.towards);
   }
-  const auto& [a, b, c] = corners;
-  const glm::vec3 largest = glm::max(glm::abs(a), glm::max(glm::abs(b), glm::abs(c)));
-  const glm::vec3 extent = glm::max(a, glm::max(b, c)) - glm::min(a, glm::min(b, c));
   // Of slivers planeNoise() is no bound.
+  const auto& [a, b, c] = corners;
+  const glm::dvec3 extent = glm::max(a, glm::max(b, c)) - glm::min(a, glm::min(b, c));
   const double longest = std::max({ extent.x, extent.y, extent.z });
-  if (!(std::ldexp(1.0, -19) * extent.x * extent.y * extent.z <
-        std::ldexp(1.0, -10) * longest * doubleArea))
+  if (std::ldexp(extent.x * extent.y * extent.z, -19) < std::ldexp(longest * doubleArea, -10))
   {
-    return result;
+    result.alongNormal =
+      noiseOf(scene.occluders, surface, instance, triangle, corners, normal, doubleArea);
   }
-  double noise = planeNoise(normal, largest, extent, static_cast<float>(doubleArea));
-  if (surface.isInstanced())
-  {
-    const auto& positions = scene.occluders.positionsCentred;
-    noise += instanceNoise(normal, corners,
-      { positions[vertices.x], positions[vertices.y], positions[vertices.z] },
-      surface.centredFromSource[instance], doubleArea);
-  }
-  result.alongNormal = noise;
   return result;
 }
 
@@ -241,7 +221,7 @@ CasterScene casterScene(
   const double high = positional ? -1.0 / (farthestZ * middleW) : farthestZ / middleW;
   // All casters may have one depth.
   const double extent =
-    std::max({ high - low, 1e-6 * std::max(std::abs(high), std::abs(low)), least });
+    std::max({ high - low, 1e-6 * std::max(std::abs(high), std::abs(low)), smallestDivisor });
 
   // What rays and casters are rounded in proportion to: their coordinates, relative to a ray's origin.
   double largest = 0.0;
@@ -272,19 +252,14 @@ MapPolygon polygonOf(
   const CasterScene& scene, const Surface& surface, std::uint32_t instance, std::uint32_t triangle)
 {
   MapPolygon polygon;
-  const glm::uvec3 vertices = scene.occluders.triangles[triangle];
-  std::array<glm::dvec3, 3> corners;
-  std::array<MapPoint, mostCorners + 1> points;
-  for (int k = 0; k < 3; ++k)
-  {
-    const auto corner = static_cast<std::size_t>(k);
-    corners[corner] = centredCorner(scene.occluders, surface, instance, vertices[k]);
-    points[corner] = scene.space.at(corners[corner]);
-  }
-  const double reach = scene.lateral;
+  const std::array<glm::dvec3, 3> corners =
+    centredCorners(scene.occluders, surface, instance, triangle);
+  CutCorners points;
+  std::transform(corners.begin(), corners.end(), points.begin(),
+    [&](const glm::dvec3& corner) { return scene.space.at(corner); });
   const double nearestZ = std::min({ points[0].z, points[1].z, points[2].z });
   const double farthestZ = std::max({ points[0].z, points[1].z, points[2].z });
-  if (farthestZ < scene.begins - reach && !scene.space.positional)
+  if (farthestZ < scene.begins - scene.lateral && !scene.space.positional)
   {
     return polygon;
   }
@@ -301,7 +276,7 @@ MapPolygon polygonOf(
     return polygon;
   }
   polygon.role.present = true;
-  const Noise noise = noiseOf(scene, surface, instance, vertices, corners);
+  const Noise noise = tracersNoise(scene, surface, instance, triangle, corners);
   // Casters that face away from the light are not there; along it, a tracer may see it either way.
   const bool unclear =
     surface.oneSided && !(std::abs(noise.cosineToLight) > unclearCosine(corners));
@@ -311,17 +286,17 @@ MapPolygon polygonOf(
     return polygon;
   }
 
-  double leastZ = infinity;
+  double nearestDrawnZ = infinity;
   double rate = 0.0;
   polygon.count = count;
   for (std::size_t i = 0; i < count; ++i)
   {
     const MapPoint& p = points[i];
     polygon.corners[i] = { p.X / p.W, p.Y / p.W, p.Q / p.W };
-    leastZ = std::min(leastZ, p.z);
+    nearestDrawnZ = std::min(nearestDrawnZ, p.z);
     rate = std::max(rate, scene.space.depthPerUnit(p.W));
   }
-  polygon.margin = marginOf(scene, leastZ);
+  polygon.margin = marginOf(scene, nearestDrawnZ);
   polygon.slack = noise.alongRay() * rate;
   polygon.noise = noise.alongNormal;
   // Twice the area, and how high that makes it over its longest side.
@@ -336,8 +311,9 @@ MapPolygon polygonOf(
     longest = std::max(longest, std::hypot(b.x - a.x, b.y - a.y));
   }
   const bool thin = !(std::abs(area) > thinTexels * longest);
-  polygon.role.poison = polygon.margin > largestMargin || leastZ < scene.begins + reach ||
-    nearestZ < scene.begins - reach || (!thin && (unclear || !std::isfinite(polygon.slack)));
+  polygon.role.poison = polygon.margin > largestMargin ||
+    nearestDrawnZ < scene.begins + scene.lateral || nearestZ < scene.begins - scene.lateral ||
+    (!thin && (unclear || !std::isfinite(polygon.slack)));
   polygon.facing = thin || polygon.role.poison ? 0 : area > 0.0 ? 1 : -1;
   polygon.role.covers = polygon.facing != 0 && !surface.cutout;
   return polygon;
@@ -362,8 +338,8 @@ EdgeKind kindOf(const CasterEdge& edge, std::int8_t firstFacing, std::int8_t sec
 bool segmentOf(const CasterScene& scene, const Surface& surface, std::uint32_t instance,
   const CasterEdge& edge, EdgeKind kind, MapSegment& segment)
 {
-  CutCorners points{ { scene.space.at(centredCorner(scene.occluders, surface, instance, edge.from)),
-    scene.space.at(centredCorner(scene.occluders, surface, instance, edge.to)) } };
+  CutCorners points{ { scene.space.at(centredVertex(scene.occluders, surface, instance, edge.from)),
+    scene.space.at(centredVertex(scene.occluders, surface, instance, edge.to)) } };
   std::size_t count = 2;
   // Cut as a polygon of two sides, which gives both of its ends twice.
   if (!cutToMap(points, count, scene.space.size, scene.nearW) || count < 2)

@@ -373,36 +373,6 @@ private:
   tbb::enumerable_thread_specific<Bands> segments_;
 };
 
-} // namespace
-
-//------------------------------------------------------------------------------
-ConservativeMap::ConservativeMap(const LightView& view, bool hasBox, int sizeTexels,
-  const Occluders& occluders, const CasterEdges& edges, Covering covering)
-{
-  const CasterScene scene = casterScene(view, hasBox, sizeTexels, occluders);
-  this->size_ = sizeTexels;
-  this->positional_ = scene.space.positional;
-  const glm::dmat4 mapFromCentred = scene.space.mapFromCentred();
-  this->mapFromCentred_ = glm::mat4(mapFromCentred);
-  this->alongView_ = glm::vec4(glm::row(view.rays.viewFromCentred, 2));
-  this->depthPerUnit_ = glm::vec2(scene.space.depthPerUnit());
-  this->rounding_ = static_cast<float>(scene.lateral);
-  this->largestOffset_ =
-    static_cast<float>(offsetTexels / (scene.texelsPerUnit * (this->positional_ ? 2.0 : 1.0)));
-  MapDrawing drawing(scene, edges, sizeTexels, covering);
-  this->blind_ = drawing.blind();
-  if (!this->blind_)
-  {
-    this->texels_.resize(
-      static_cast<std::size_t>(sizeTexels) * static_cast<std::size_t>(sizeTexels));
-    drawing.draw(
-      [&](std::size_t i, const Cell& cell) { this->texels_[i] = boundsOf(cell, covering); });
-  }
-}
-
-namespace
-{
-
 /// A few receivers as a map sees them.
 struct Looks
 {
@@ -468,6 +438,31 @@ void lookAt(const LookUp& map, bool positional, const ReceiverPixels& receivers,
 }
 
 } // namespace
+
+//------------------------------------------------------------------------------
+ConservativeMap::ConservativeMap(const LightView& view, bool hasBox, int sizeTexels,
+  const Occluders& occluders, const CasterEdges& edges, Covering covering)
+{
+  const CasterScene scene = casterScene(view, hasBox, sizeTexels, occluders);
+  this->size_ = sizeTexels;
+  this->positional_ = scene.space.positional;
+  const glm::dmat4 mapFromCentred = scene.space.mapFromCentred();
+  this->mapFromCentred_ = glm::mat4(mapFromCentred);
+  this->alongView_ = glm::vec4(glm::row(view.rays.viewFromCentred, 2));
+  this->depthPerUnit_ = glm::vec2(scene.space.depthPerUnit());
+  this->rounding_ = static_cast<float>(scene.lateral);
+  this->largestOffset_ =
+    static_cast<float>(offsetTexels / (scene.texelsPerUnit * (this->positional_ ? 2.0 : 1.0)));
+  MapDrawing drawing(scene, edges, sizeTexels, covering);
+  this->blind_ = drawing.blind();
+  if (!this->blind_)
+  {
+    this->texels_.resize(
+      static_cast<std::size_t>(sizeTexels) * static_cast<std::size_t>(sizeTexels));
+    drawing.draw(
+      [&](std::size_t i, const Cell& cell) { this->texels_[i] = boundsOf(cell, covering); });
+  }
+}
 
 //------------------------------------------------------------------------------
 void ConservativeMap::ask(const ReceiverPixels& receivers, std::size_t first, std::size_t count,

@@ -306,47 +306,49 @@ void drawPolygon(const MapPolygon& polygon, double margin, int width, Span rows,
 //------------------------------------------------------------------------------
 void drawRing(const MapRing& ring, double margin, int width, Span rows, Cell* cells)
 {
-  const PolygonOnTexels middle(ring.triangles.front(), margin);
+  std::vector<PolygonOnTexels> triangles;
+  triangles.reserve(ring.triangles.size());
+  for (const MapPolygon& triangle : ring.triangles)
+  {
+    triangles.emplace_back(triangle, margin);
+  }
+  const PolygonOnTexels& middle = triangles.front();
   const Span drawn = middle.rows(rows);
+  std::vector<float> farthest; // of the texels in a row that the middle touches
   for (int y = drawn.first; y <= drawn.last; ++y)
   {
     Cell* const cell = cells + static_cast<std::ptrdiff_t>(y - rows.first) * width;
-    const PolygonOnTexels::Row row = middle.row(y, width);
-    const int count = row.touched.last - row.touched.first + 1;
-    if (count <= 0)
+    const Span touched = middle.row(y, width).touched;
+    if (touched.first > touched.last)
     {
       continue;
     }
-    // Where the ring's border is not, its triangles go on everywhere.
-    std::vector<float> farthest(static_cast<std::size_t>(count));
+    farthest.assign(static_cast<std::size_t>(touched.last - touched.first + 1),
+      -std::numeric_limits<float>::infinity());
     const auto at = [&](int x) -> float&
-    { return farthest[static_cast<std::size_t>(x - row.touched.first)]; };
-    for (int x = row.touched.first; x <= row.touched.last; ++x)
+    { return farthest[static_cast<std::size_t>(x - touched.first)]; };
+    for (const PolygonOnTexels& triangle : triangles)
     {
-      at(x) = middle.farthest(row, x);
-    }
-    for (std::size_t i = 1; i < ring.triangles.size(); ++i)
-    {
-      const PolygonOnTexels other(ring.triangles[i], margin);
-      const PolygonOnTexels::Row otherRow = other.row(y, width);
-      for (int x = std::max(row.touched.first, otherRow.touched.first);
-           x <= std::min(row.touched.last, otherRow.touched.last); ++x)
+      const PolygonOnTexels::Row row = triangle.row(y, width);
+      for (int x = std::max(touched.first, row.touched.first);
+           x <= std::min(touched.last, row.touched.last); ++x)
       {
-        at(x) = std::max(at(x), other.farthest(otherRow, x));
+        at(x) = std::max(at(x), triangle.farthest(row, x));
       }
     }
+    // Where the ring's border is not, its triangles go on everywhere.
     for (const MapSegment& border : ring.border)
     {
       visitTexels(border, margin, width, { y, y },
         [&](int x, int, double, double)
         {
-          if (x >= row.touched.first && x <= row.touched.last)
+          if (x >= touched.first && x <= touched.last)
           {
             at(x) = std::numeric_limits<float>::infinity();
           }
         });
     }
-    for (int x = row.touched.first; x <= row.touched.last; ++x)
+    for (int x = touched.first; x <= touched.last; ++x)
     {
       cell[x].contained = std::min(cell[x].contained, at(x));
     }

@@ -1,0 +1,37 @@
+#ifndef gnomon_shadowtech_base_PlacedTriangles_h
+#define gnomon_shadowtech_base_PlacedTriangles_h
+
+#include <glm/glm.hpp>
+
+#include <array>
+#include <cstdint>
+
+namespace gnomon
+{
+
+struct Occluders;
+struct Surface;
+
+/// @file
+/// The snapshot's triangles where they stand, in double precision, whether their surface is there once or as instances.
+
+/// A vertex, centred.
+/// @param instance of a surface with instances; else of no meaning
+glm::dvec3 centredVertex(
+  const Occluders& occluders, const Surface& surface, std::uint32_t instance, std::uint32_t vertex);
+
+/// A triangle's corners, centred.
+std::array<glm::dvec3, 3> centredCorners(const Occluders& occluders, const Surface& surface,
+  std::uint32_t instance, std::uint32_t triangle);
+
+/// How far from its plane the points of a triangle may seem to lie: planeNoise(), and instanceNoise() where it is one.
+/// @param corners centred
+/// @param normal unit length
+/// @param doubleArea twice its area; > 0, infinite for the share that does not depend on it
+float noiseOf(const Occluders& occluders, const Surface& surface, std::uint32_t instance,
+  std::uint32_t triangle, const std::array<glm::dvec3, 3>& corners, const glm::vec3& normal,
+  double doubleArea);
+
+} // namespace gnomon
+
+#endif
