@@ -1,0 +1,89 @@
+// Exact techniques show what ray tracing shows, in all built-in scenes but the largest.
+
+#include "BuiltinScenes.h"
+#include "Scene.h"
+
+#include "plugin/VisibilityImages.h"
+#include "plugin/vtkGnomonEGLRenderWindow.h"
+#include "plugin/vtkGnomonShadowPass.h"
+#include "shadowtech/Registry.h"
+
+#include <vtkNew.h>
+#include <vtkRenderer.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace gnomon::test
+{
+namespace
+{
+
+class ExactScenes : public testing::TestWithParam<std::string>
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(Builtin, ExactScenes,
+  testing::ValuesIn(
+    []
+    {
+      std::vector<std::string> names;
+      for (const tool::BuiltinScene& scene : tool::builtinScenes())
+      {
+        if (scene.name != std::string("city"))
+        {
+          names.push_back(scene.name);
+        }
+      }
+      return names;
+    }()),
+  [](const testing::TestParamInfo<std::string>& scene)
+  {
+    std::string name = scene.param;
+    std::replace(name.begin(), name.end(), '-', '_');
+    return name;
+  });
+
+TEST_P(ExactScenes, showWhatIsTraced)
+{
+  const vtkSmartPointer<vtkRenderer> renderer =
+    tool::makeRenderer(tool::loadScene(GetParam()), 1.0);
+  vtkNew<vtkGnomonEGLRenderWindow> window;
+  window->SetMultiSamples(0);
+  window->SetSize(512, 512);
+  window->AddRenderer(renderer);
+  vtkNew<vtkGnomonShadowPass> pass;
+  pass->KeepVisibilityOn();
+  renderer->SetPass(pass);
+
+  pass->SetTechnique("raytraced");
+  window->Render();
+  const std::vector<std::vector<float>> truth = pass->GetVisibility().visibility;
+  ASSERT_FALSE(truth.empty());
+  for (const TechniqueEntry& technique : registry())
+  {
+    if (!technique.estimator->info.exact || !technique.estimator->info.needsMap)
+    {
+      continue;
+    }
+    pass->SetTechnique(technique.name.c_str());
+    window->Render();
+    const std::vector<std::vector<float>>& visibility = pass->GetVisibility().visibility;
+    ASSERT_EQ(visibility.size(), truth.size()) << technique.name;
+    for (std::size_t light = 0; light < truth.size(); ++light)
+    {
+      std::size_t different = 0;
+      for (std::size_t i = 0; i < truth[light].size(); ++i)
+      {
+        different += visibility[light][i] != truth[light][i] ? 1 : 0;
+      }
+      EXPECT_EQ(different, 0u) << technique.name << ", light " << light;
+    }
+  }
+}
+
+} // namespace
+} // namespace gnomon::test
