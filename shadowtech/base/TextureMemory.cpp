@@ -107,13 +107,34 @@ bool allocate(GlTexture& texture, const Shape& shape)
   return true;
 }
 
+std::string describe(const std::string& what, int width, int height, int layers, double bytes,
+  const std::string& memory)
+{
+  return what + " of " + std::to_string(width) + " x " + std::to_string(height) +
+    (layers > 1 ? " in " + std::to_string(layers) + " layers" : "") + " asks for " +
+    std::to_string(static_cast<long>(bytes / 1e6)) + " MB of " + memory + ", which cannot be had";
+}
+
 std::string describe(const Shape& shape, const std::string& what)
 {
-  const std::string layers =
-    shape.layers > 1 ? " in " + std::to_string(shape.layers) + " layers" : "";
-  return what + " of " + std::to_string(shape.width) + " x " + std::to_string(shape.height) +
-    layers + " asks for " + std::to_string(static_cast<long>(shape.bytes() / 1e6)) +
-    " MB of texture memory, which cannot be had";
+  return describe(what, shape.width, shape.height, shape.layers, shape.bytes(), "texture memory");
+}
+
+/// "; one of 8192 x 8192 can": the largest smaller power of two for which there is room, or the smallest map.
+template <typename IsRoom>
+std::string offerSmaller(int sizeTexels, const IsRoom& isRoom)
+{
+  constexpr int smallest = 16;
+  int side = smallest;
+  while (2 * side < sizeTexels)
+  {
+    side *= 2;
+  }
+  while (side > smallest && !isRoom(side))
+  {
+    side /= 2;
+  }
+  return "; one of " + std::to_string(side) + " x " + std::to_string(side) + " can";
 }
 
 } // namespace
@@ -138,19 +159,27 @@ void allocateMap(
   {
     return;
   }
-  constexpr int smallest = 16;
-  int side = smallest;
-  while (2 * side < sizeTexels)
-  {
-    side *= 2;
-  }
-  while (side > smallest && !fits({ format, side, side, layers }))
-  {
-    side /= 2;
-  }
+  const std::string offer = offerSmaller(sizeTexels,
+    [&](int side) {
+      return fits({ format, side, side, layers });
+    });
   clearErrors();
-  throw TextureMemoryError(describe(shape, "a map") + "; one of " + std::to_string(side) + " x " +
-    std::to_string(side) + " can");
+  throw TextureMemoryError(describe(shape, "a map") + offer);
+}
+
+//------------------------------------------------------------------------------
+void requireRoomForMap(std::size_t bytesOfTexel, int sizeTexels, int layers)
+{
+  const auto bytes = [&](int side)
+  { return static_cast<double>(bytesOfTexel) * side * side * layers; };
+  const auto isRoom = [&](int side)
+  { return bytes(side) <= largestTextureShare * availableBytes(); };
+  if (!isRoom(sizeTexels))
+  {
+    throw TextureMemoryError(
+      describe("a map", sizeTexels, sizeTexels, layers, bytes(sizeTexels), "memory") +
+      offerSmaller(sizeTexels, isRoom));
+  }
 }
 
 //------------------------------------------------------------------------------

@@ -42,6 +42,10 @@ void allocateTexture(GlTexture& texture, const TexelFormat& format, int width, i
 void allocateMap(
   GlTexture& texture, const TexelFormat& format, int sizeTexels, int layers, int levels = 1);
 
+/// The same question for a light's map that is kept on the CPU, before its layers are made.
+/// @throws TextureMemoryError, which offers the largest power of two that fits as its side
+void requireRoomForMap(std::size_t bytesOfTexel, int sizeTexels, int layers);
+
 /// The most samples of a texel that OpenGL draws maps of moments with.
 int mostMapSamples();
 

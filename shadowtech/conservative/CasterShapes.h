@@ -91,9 +91,10 @@ struct CasterScene
   double begins;  ///< the z from which on casters count
   double nearW;   ///< what is at the light
   double lateral; ///< how far beside a ray a tracer may look, in world units
-  double
-    texelsPerUnit; ///< the most texels to a unit across the light, of positional ones at distance 1
-  glm::dvec3 towards; ///< towards the light, of parallel rays; else the light's position; centred
+  /// The most texels to a unit across the light, of positional ones at distance 1.
+  double texelsPerUnit;
+  /// Towards the light, of parallel rays; else the light's position, centred.
+  glm::dvec3 towards;
 };
 
 /// How casters are to be looked at in a view of a light.
@@ -119,8 +120,8 @@ struct MapPolygon
   int facing = 0; ///< 1 or -1 by the way that it is wound on the map; 0: all its edges are ends
   std::size_t count = 0;
   std::array<MapCorner, mostCorners> corners;
-  double margin =
-    0.0; ///< that rounding asks for, in texels; infinite where the caster is at the light
+  /// That rounding asks for, in texels; infinite where the caster is at the light.
+  double margin = 0.0;
   double slack = 0.0; ///< depth that a tracer may see it off its plane
   double noise = 0.0; ///< and how far it may see it off, along its normal, in world units
 };
@@ -138,8 +139,8 @@ struct MapSegment
   bool isEnd = false; ///< the casters' surface ends here; else a sharp edge
 };
 
-/// What an edge is to its triangles, of which each faces one way on the map or the other (1, -1), lies along the light (0),
-/// or is not there at all (`absentFacing`).
+/// What an edge is to its triangles, of which each faces one way on the map or the other (1, -1), lies
+/// along the light (0), or is not there at all (`absentFacing`).
 constexpr std::int8_t absentFacing = 2;
 enum class EdgeKind
 {

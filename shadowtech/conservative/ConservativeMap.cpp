@@ -385,22 +385,11 @@ struct Looks
   ///@}
 };
 
-/// What there is to know of a map to look receivers up.
-struct LookUp
-{
-  glm::mat4 mapFromCentred;
-  glm::vec4 alongView;
-  glm::vec2 depthPerUnit;
-  float largestOffset;
-  float rounding; ///< world units that looking up in float moves a receiver by, at most
-  int size;
-};
-
 #ifdef __x86_64__
 [[gnu::target_clones("avx2", "default")]]
 #endif
-void lookAt(const LookUp& map, bool positional, const ReceiverPixels& receivers, std::size_t first,
-  int count, Looks& looks)
+void lookAt(
+  const LookUp& map, const ReceiverPixels& receivers, std::size_t first, int count, Looks& looks)
 {
   const float* const positionX = &receivers.positionX[first];
   const float* const positionY = &receivers.positionY[first];
@@ -408,8 +397,7 @@ void lookAt(const LookUp& map, bool positional, const ReceiverPixels& receivers,
   const float* const offset = &receivers.offset[first];
   const auto size = static_cast<float>(map.size);
   const glm::mat4& m = map.mapFromCentred;
-  const float fixedZ = positional ? 0.0f : 1.0f;
-  const glm::vec4 along = positional ? map.alongView : glm::vec4(0.0f);
+  const glm::vec4 along = map.distance;
   int* const texel = looks.texel.data();
   float* const farthest = looks.farthest.data();
   float* const nearest = looks.nearest.data();
@@ -422,11 +410,10 @@ void lookAt(const LookUp& map, bool positional, const ReceiverPixels& receivers,
     const float x = (m[0].x * px + m[1].x * py + m[2].x * pz + m[3].x) * perW;
     const float y = (m[0].y * px + m[1].y * py + m[2].y * pz + m[3].y) * perW;
     const float depth = (m[0].z * px + m[1].z * py + m[2].z * pz + m[3].z) * perW;
-    // Distance 1 of parallel rays, along the view from a position.
-    const float z = fixedZ + along.x * px + along.y * py + along.z * pz + along.w;
+    const float distance = along.x * px + along.y * py + along.z * pz + along.w;
     // Written so that NaN fails. A shadow ray may start no farther beside its receiver than margins say.
-    const bool holds = (w > 0.0f) & (z > 0.0f) & (x >= 0.0f) & (y >= 0.0f) & (x < size) &
-      (y < size) & (offset[i] <= map.largestOffset * z);
+    const bool holds = (w > 0.0f) & (distance > 0.0f) & (x >= 0.0f) & (y >= 0.0f) & (x < size) &
+      (y < size) & (offset[i] <= map.largestOffset * distance);
     const int column = static_cast<int>(holds ? x : 0.0f);
     const int row = static_cast<int>(holds ? y : 0.0f);
     texel[i] = holds ? row * map.size + column : -1;
@@ -444,15 +431,18 @@ ConservativeMap::ConservativeMap(const LightView& view, bool hasBox, int sizeTex
   const Occluders& occluders, const CasterEdges& edges, Covering covering)
 {
   const CasterScene scene = casterScene(view, hasBox, sizeTexels, occluders);
-  this->size_ = sizeTexels;
-  this->positional_ = scene.space.positional;
-  const glm::dmat4 mapFromCentred = scene.space.mapFromCentred();
-  this->mapFromCentred_ = glm::mat4(mapFromCentred);
-  this->alongView_ = glm::vec4(glm::row(view.rays.viewFromCentred, 2));
-  this->depthPerUnit_ = glm::vec2(scene.space.depthPerUnit());
-  this->rounding_ = static_cast<float>(scene.lateral);
-  this->largestOffset_ =
-    static_cast<float>(offsetTexels / (scene.texelsPerUnit * (this->positional_ ? 2.0 : 1.0)));
+  const bool positional = scene.space.positional;
+  this->lookUp_.mapFromCentred = glm::mat4(scene.space.mapFromCentred());
+  if (positional)
+  {
+    this->lookUp_.distance = glm::vec4(glm::row(view.rays.viewFromCentred, 2));
+  }
+  this->lookUp_.depthPerUnit = glm::vec2(scene.space.depthPerUnit());
+  this->lookUp_.rounding = static_cast<float>(scene.lateral);
+  // Off the view's axis rays are longer, twice at most.
+  this->lookUp_.largestOffset =
+    static_cast<float>(offsetTexels / (scene.texelsPerUnit * (positional ? 2.0 : 1.0)));
+  this->lookUp_.size = sizeTexels;
   MapDrawing drawing(scene, edges, sizeTexels, covering);
   this->blind_ = drawing.blind();
   if (!this->blind_)
@@ -472,14 +462,12 @@ void ConservativeMap::ask(const ReceiverPixels& receivers, std::size_t first, st
   {
     return;
   }
-  const LookUp map{ this->mapFromCentred_, this->alongView_, this->depthPerUnit_,
-    this->largestOffset_, this->rounding_, this->size_ };
   Looks looks;
   for (std::size_t begin = 0; begin < count; begin += Looks::most)
   {
     const std::size_t part = std::min(Looks::most, count - begin);
     const std::size_t from = first + begin;
-    lookAt(map, this->positional_, receivers, from, static_cast<int>(part), looks);
+    lookAt(this->lookUp_, receivers, from, static_cast<int>(part), looks);
     for (std::size_t i = 0; i < part; ++i)
     {
       if (looks.texel[i] < 0 || certain[from + i] != Certainty::Uncertain)

@@ -26,8 +26,7 @@ enum class Covering
   Silhouette ///< or: no end of the casters' surface is there, so that it goes on everywhere
 };
 
-/// What the rays through a texel have before them, as bounds on their shadow ray's answer. Depths are those of
-/// ConservativeMap::depth().
+/// What a texel says of the receivers in it, by their depth (ConservativeMap).
 struct TexelBounds
 {
   float litUpTo;          ///< a receiver of no more depth than this is lit
@@ -37,13 +36,26 @@ struct TexelBounds
   float shadowFrom; ///< a receiver of more depth than this is in shadow
 };
 
+/// How receivers are looked up in a map, in float.
+struct LookUp
+{
+  glm::mat4 mapFromCentred{ 1.0f }; ///< to X, Y, Q and W of MapPoint
+  /// To z along the view, where the light has a position; else to 1, the distance at which lengths
+  /// across parallel rays are what they are.
+  glm::vec4 distance{ 0.0f, 0.0f, 0.0f, 1.0f };
+  glm::vec2 depthPerUnit{ 0.0f }; ///< MapSpace::depthPerUnit()
+  float rounding = 0.0f;          ///< world units that this moves a receiver by, at most
+  float largestOffset = 0.0f;     ///< of a shadow ray across the light, at distance 1
+  int size = 0;                   ///< texels
+};
+
 /// A map of one view of a light which says of a receiver that it is lit for certain, in shadow for
 /// certain, or neither; and which is never wrong about a shadow ray, rounding included.
 /// docs/techniques/exact.md has the rules and why they hold.
 ///
-/// *Depth* is a number that is affine on planes across the map, grows along every ray, and spans about [0, 1]
-/// over the casters: with (X, Y, W) = texelFromAcross * across coordinates, z / W for parallel rays, and -1 / W for those from a
-/// position, then scaled.
+/// *Depth* is a number that is affine on planes across the map, grows along every ray, and spans about
+/// [0, 1] over the casters: with (X, Y, W) = texelFromAcross * across coordinates, z / W for parallel
+/// rays, and -1 / W for those from a position, then scaled.
 class ConservativeMap
 {
 public:
@@ -63,15 +75,8 @@ public:
   std::size_t bytes() const;
 
 private:
-  int size_ = 0;
-  bool positional_ = false;
-  /// From centred coordinates to X, Y, Q and W of MapPoint.
-  glm::mat4 mapFromCentred_{ 1.0f };
-  glm::vec4 alongView_{ 0.0f };    ///< the same to z along the view
-  glm::vec2 depthPerUnit_{ 0.0f }; ///< MapSpace::depthPerUnit()
-  float rounding_ = 0.0f;          ///< world units that looking up moves a receiver by, at most
-  float largestOffset_ = 0.0f; ///< of a shadow ray across the light, at distance 1 from a position
-  bool blind_ = false;         ///< a caster is so near to the light that nothing is certain
+  LookUp lookUp_;
+  bool blind_ = false; ///< a caster is so near to the light that nothing is certain
   std::vector<TexelBounds> texels_;
 };
 

@@ -1,6 +1,7 @@
 #include "shadowtech/conservative/ConservativeMaps.h"
 
 #include "shadowtech/base/Receivers.h"
+#include "shadowtech/base/TextureMemory.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -11,8 +12,9 @@ namespace gnomon
 //------------------------------------------------------------------------------
 void ConservativeMaps::bake(const LightViews& views, int sizeTexels, const Occluders& occluders)
 {
+  this->maps_.clear(); // what they had makes room
+  requireRoomForMap(sizeof(TexelBounds), sizeTexels, static_cast<int>(views.views.size()));
   this->edges_.update(occluders);
-  this->maps_.clear();
   for (const LightView& view : views.views)
   {
     this->maps_.emplace_back(

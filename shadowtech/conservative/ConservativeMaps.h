@@ -22,6 +22,7 @@ public:
   }
 
   /// Draws the casters into a map per view.
+  /// @throws TextureMemoryError for maps without room; there are none then
   void bake(const LightViews& views, int sizeTexels, const Occluders& occluders);
 
   /// What they know of each receiver, in the receivers' order. Receivers that need no shadow ray may

@@ -27,6 +27,14 @@ using gnomon::VisibilityImages;
 namespace
 {
 
+void addSphereOverFloor(PassScene& scene)
+{
+  scene.addFloor(4.0);
+  scene.addSphere({ 0.0, 0.0, 1.5 }, 0.7);
+  scene.addSun({ 1.0, 0.4, -1.5 });
+  scene.lookFrom({ 0.0, -9.0, 7.0 });
+}
+
 class MomentMaps
   : public PassTest
   , public testing::WithParamInterface<MapLayout>
@@ -403,10 +411,7 @@ TEST_P(MomentMaps, areBakedOnceAndOnlyForWhatTheMapDependsOn)
 {
   PassScene scene(100, 80);
   choose(scene);
-  scene.addFloor(4.0);
-  scene.addSphere({ 0.0, 0.0, 1.5 }, 0.7);
-  scene.addSun({ 1.0, 0.4, -1.5 });
-  scene.lookFrom({ 0.0, -9.0, 7.0 });
+  addSphereOverFloor(scene);
   const Picture first = scene.render();
   EXPECT_EQ(scene.report().mapBakes, 1);
   const auto bytes = scene.report().bytesMaps;
@@ -502,10 +507,7 @@ TEST_P(MomentMaps, planeIsLitWithSeveralSamplesOfATexel)
 TEST_F(PassTest, samplesThatOpenGlDoesNotHaveAreNoted)
 {
   PassScene scene(100, 80);
-  scene.addFloor(4.0);
-  scene.addSphere({ 0.0, 0.0, 1.5 }, 0.7);
-  scene.addSun({ 1.0, 0.4, -1.5 });
-  scene.lookFrom({ 0.0, -9.0, 7.0 });
+  addSphereOverFloor(scene);
   scene.pass->SetTechnique("vsm");
   scene.pass->SetSetting("map_samples", "8");
   scene.render();
@@ -540,10 +542,7 @@ TEST_F(PassTest, depthsAreNotDrawnWithSeveralSamples)
 TEST_F(PassTest, samplesOnAndOffKeepTheNumberOfObjects)
 {
   PassScene scene(100, 80);
-  scene.addFloor(4.0);
-  scene.addSphere({ 0.0, 0.0, 1.5 }, 0.7);
-  scene.addSun({ 1.0, 0.4, -1.5 });
-  scene.lookFrom({ 0.0, -9.0, 7.0 });
+  addSphereOverFloor(scene);
   scene.pass->SetTechnique("vsm");
   const auto draw = [&](const char* samples)
   {
@@ -694,10 +693,7 @@ TEST_F(PassTest, momentsThatNoTableHoldsAreNotSummed)
 TEST_F(PassTest, blursBackAndForthKeepTheNumberOfObjects)
 {
   PassScene scene(100, 80);
-  scene.addFloor(4.0);
-  scene.addSphere({ 0.0, 0.0, 1.5 }, 0.7);
-  scene.addSun({ 1.0, 0.4, -1.5 });
-  scene.lookFrom({ 0.0, -9.0, 7.0 });
+  addSphereOverFloor(scene);
   scene.pass->SetTechnique("vsm");
   scene.pass->SetMapSize(128);
   const auto draw = [&](const char* blur)
@@ -899,10 +895,7 @@ TEST_F(PassTest, planesAreLitAtAnyLevel)
 TEST_F(PassTest, levelsOnAndOffKeepTheNumberOfObjects)
 {
   PassScene scene(100, 80);
-  scene.addFloor(4.0);
-  scene.addSphere({ 0.0, 0.0, 1.5 }, 0.7);
-  scene.addSun({ 1.0, 0.4, -1.5 });
-  scene.lookFrom({ 0.0, -9.0, 7.0 });
+  addSphereOverFloor(scene);
   scene.pass->SetTechnique("vsm");
   scene.pass->SetMapSize(128);
   const auto draw = [&](const char* mipMaps)

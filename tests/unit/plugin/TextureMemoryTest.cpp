@@ -136,6 +136,32 @@ TEST_F(TextureMemory, mapsOfMomentsWithoutRoomLeaveNothingBehind)
 }
 
 //------------------------------------------------------------------------------
+TEST_F(TextureMemory, mapsOnTheCpuWithoutRoomAreAnErrorThatOffersSmallerOnes)
+{
+  PassScene scene(100, 80);
+  fill(scene);
+  scene.usePlain();
+  const Picture plain = scene.render();
+  scene.useGnomon();
+  scene.pass->SetTechnique("crsm");
+  scene.pass->SetMapSize(64);
+  const Picture shadowed = scene.render();
+  EXPECT_GT(differingPixels(plain, shadowed), 100u);
+
+  scene.pass->SetMapSize(hugeMap); // 6 of 4 GiB
+  EXPECT_EQ(differingPixels(plain, scene.render()), 0u);
+  EXPECT_THAT(this->takeErrors(),
+    AllOf(
+      HasSubstr("light 0: a map of 16384 x 16384 in 6 layers asks for 25769 MB of memory, which "
+                "cannot be had; one of "),
+      HasSubstr(" can")));
+  EXPECT_TRUE(scene.report().outOfTextureMemory);
+
+  scene.pass->SetMapSize(64);
+  EXPECT_EQ(differingPixels(shadowed, scene.render()), 0u);
+}
+
+//------------------------------------------------------------------------------
 TEST_F(TextureMemory, oneLightOfSeveralIsNamed)
 {
   PassScene scene(100, 80);

@@ -251,6 +251,24 @@ struct Tally
   std::size_t wrong = 0;
 };
 
+/// How a map and a full trace differ.
+Tally compareWithTruth(const ShadowLight& light, const LightViews& views,
+  const Occluders& occluders, const ReceiverPixels& receivers,
+  Covering covering = Covering::Silhouette)
+{
+  ConservativeMaps maps(covering);
+  maps.bake(views, light.mapSizeTexels, occluders);
+  RayTracer tracer;
+  tracer.update(occluders);
+  Tally tally;
+  std::vector<float> truth, visibility;
+  tally.receivers = tracer.trace(light, occluders, receivers, truth);
+  tally.traced =
+    tracer.trace(light, occluders, receivers, visibility, maps.ask(receivers, occluders));
+  tally.wrong = countDifferent(truth, visibility);
+  return tally;
+}
+
 /// One picture of one scene in one light, by maps of one size.
 Tally run(const std::string& name, unsigned int seed, Covering covering, const glm::dmat4& world)
 {
@@ -308,17 +326,8 @@ Tally run(const std::string& name, unsigned int seed, Covering covering, const g
     fitting.camera = CameraView{ viewFromCentred,
       glm::perspective(glm::radians(camera.fovDegrees), 1.0, 0.05 * scale, 20.0 * scale) };
   }
-  ConservativeMaps maps(covering);
-  maps.bake(fitLightViews(light, fitting), light.mapSizeTexels, occluders);
-
-  RayTracer tracer;
-  tracer.update(occluders);
-  Tally tally;
-  std::vector<float> truth, visibility;
-  tally.receivers = tracer.trace(light, occluders, receivers, truth);
-  tally.traced =
-    tracer.trace(light, occluders, receivers, visibility, maps.ask(receivers, occluders));
-  tally.wrong = countDifferent(truth, visibility);
+  const Tally tally =
+    compareWithTruth(light, fitLightViews(light, fitting), occluders, receivers, covering);
   if (tally.wrong > 0)
   {
     ADD_FAILURE() << name << ", seed " << seed << ": " << tally.wrong << " wrong pixels, light "
@@ -411,23 +420,6 @@ struct ChosenReceivers
   }
 };
 
-/// How a map and a full trace differ.
-Tally compareWithTruth(const ShadowLight& light, const LightViews& views,
-  const Occluders& occluders, const ReceiverPixels& receivers)
-{
-  ConservativeMaps maps(Covering::Silhouette);
-  maps.bake(views, light.mapSizeTexels, occluders);
-  RayTracer tracer;
-  tracer.update(occluders);
-  Tally tally;
-  std::vector<float> truth, visibility;
-  tally.receivers = tracer.trace(light, occluders, receivers, truth);
-  tally.traced =
-    tracer.trace(light, occluders, receivers, visibility, maps.ask(receivers, occluders));
-  tally.wrong = countDifferent(truth, visibility);
-  return tally;
-}
-
 TEST(ConservativeMaps, areNeverWrongInTheBottomOfAValley)
 {
   // Both sides face the light, and rays from one start behind the other near the bottom.
@@ -514,6 +506,43 @@ TEST(ConservativeMaps, areNeverWrongWhereEdgesLieOnTexelsBorders)
   const Tally tally = compareWithTruth(light, views, occluders, chosen.pixels);
   EXPECT_EQ(tally.wrong, 0u);
   EXPECT_LT(tally.traced, tally.receivers);
+}
+
+TEST(ConservativeMaps, areNeverWrongWhereCastersTouchTheLight)
+{
+  // A lamp that lies in the ceiling, and a box of light that begins in a plate, where rays end to within rounding.
+  const glm::dmat4 turn = glm::rotate(glm::dmat4(1.0), 0.3, { 1.0, 0.5, 0.2 });
+  for (const glm::dmat4& world : { glm::dmat4(1.0), turn })
+  {
+    const glm::dvec3 lamp(world * glm::dvec4(0.31, 0.12, 2.0, 1.0));
+    const glm::dvec3 floor(world * glm::dvec4(0.3, 0.1, 0.0, 1.0));
+    const Occluders occluders =
+      makeOccluders({ { makePlane(4.0), world }, { makePlane(3.0), world * at({ 0.0, 0.0, 2.0 }) },
+        { makeSphere(8, 12), world * at({ 0.4, 0.3, 0.7 }, 0.3) } });
+    Camera camera;
+    camera.width = camera.height = 96;
+    camera.position = glm::dvec3(world * glm::dvec4(0.5, -5.0, 1.5, 1.0));
+    camera.target = floor;
+    const ReceiverPixels receivers = makeReceivers(occluders, camera);
+    std::vector<ShadowLight> lights{ pointLight(lamp), spotLight(lamp, floor, 30.0),
+      spotLight(lamp, floor, 75.0) };
+    for (const double before : { 0.0, 1e-8, 3e-8, 1e-7 })
+    {
+      // Along the plate's normal, so that its near face lies in the plate all over.
+      const glm::dvec3 normal(world * glm::dvec4(0.0, 0.0, -1.0, 0.0));
+      lights.push_back(boxLight(normal, lamp - before * normal, { 2.0, 2.0, 3.0 }));
+      lights.back().box->upWorld = glm::dvec3(world * glm::dvec4(0.0, 1.0, 0.0, 0.0));
+    }
+    for (ShadowLight light : lights)
+    {
+      light.mapSizeTexels = 128;
+      const Tally tally = compareWithTruth(light,
+        fitLightViews(light, occluders.centreWorld, occluders.castersCentred, light.mapSizeTexels),
+        occluders, receivers);
+      EXPECT_GT(tally.receivers, 500u);
+      EXPECT_EQ(tally.wrong, 0u) << static_cast<int>(light.kind) << " " << light.coneAngleDegrees;
+    }
+  }
 }
 
 } // namespace
