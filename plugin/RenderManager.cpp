@@ -142,6 +142,22 @@ std::vector<Value> topRowFirst(const std::vector<Value>& image, int width, int h
   return flipped;
 }
 
+/// How many pixels are of each class.
+std::vector<ClassCount> countClasses(
+  const std::vector<PixelClass>& classes, const std::vector<std::uint8_t>& ofPixels)
+{
+  std::vector<ClassCount> counts;
+  for (const PixelClass& pixelClass : classes)
+  {
+    counts.push_back({ pixelClass.name, 0 });
+  }
+  for (const std::uint8_t pixelClass : ofPixels)
+  {
+    ++counts[pixelClass].pixels;
+  }
+  return counts;
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -570,14 +586,6 @@ void RenderManager::bakeMaps(
 }
 
 //------------------------------------------------------------------------------
-void RenderManager::resolveReceivers()
-{
-  this->receiverTarget_.read(this->receiverImages_);
-  projectReceivers(this->receiverImages_, this->collector_.drawnSurfaces(),
-    this->collector_.occluders(), this->receivers_);
-}
-
-//------------------------------------------------------------------------------
 void RenderManager::computeVisibility(bool keep)
 {
   const Occluders& occluders = this->collector_.occluders();
@@ -586,7 +594,7 @@ void RenderManager::computeVisibility(bool keep)
     { return slot->estimator->info.evaluation == Evaluation::ScreenCpu; });
   if (onCpu || keep)
   {
-    this->resolveReceivers();
+    this->receiverTarget_.read(this->receiverImages_);
     this->endStageClock("visibility: read receivers");
   }
   if (onCpu)
@@ -597,12 +605,18 @@ void RenderManager::computeVisibility(bool keep)
     this->endStageClock("visibility: build");
   }
 
+  Receivers receivers(
+    this->receiverImages_, this->collector_.drawnSurfaces(), occluders, this->receivers_);
+  const bool classify = keep || this->measureStages_;
   std::vector<float> visibility;
+  std::vector<std::uint8_t> classes;
   for (std::size_t i = 0; i < this->casting_.size(); ++i)
   {
     LightSlot& slot = *this->casting_[i];
+    LightReport& report = this->reportOf(slot.light);
+    const TechniqueInfo& info = slot.estimator->info;
     const int layer = static_cast<int>(i);
-    switch (slot.estimator->info.evaluation)
+    switch (info.evaluation)
     {
       case Evaluation::Pointwise:
         this->layers_.estimate(layer, *slot.technique, slot.light, this->receiverTarget_,
@@ -613,33 +627,43 @@ void RenderManager::computeVisibility(bool keep)
         this->buffers_.update(occluders);
         slot.technique->drawVisibility(
           { slot.light, this->camera_, occluders, this->buffers_, this->receiverTarget_,
-            this->collector_.drawnSurfaces(), this->layers_, layer, this->library_,
-            keep || this->measureStages_, this->report_.notes },
-          this->reportOf(slot.light));
+            this->collector_.drawnSurfaces(), this->layers_, layer, this->library_, classify,
+            this->report_.notes },
+          report);
         this->report_.bytesMaps += slot.technique->bytesOfMaps();
         this->endStageClock("visibility: draw");
         break;
       case Evaluation::ScreenCpu:
         slot.technique->computeVisibility(
-          { slot.light, occluders, this->receivers_, this->tracer_ }, visibility,
-          this->reportOf(slot.light));
+          { slot.light, occluders, receivers, this->tracer_, classify ? &classes : nullptr },
+          visibility, report);
         this->endStageClock("visibility: trace");
         this->layers_.upload(layer, visibility);
         this->endStageClock("visibility: upload");
         break;
     }
+    if (classify && !info.classes.empty())
+    {
+      report.classes = countClasses(info.classes, classes);
+    }
+    if (keep)
+    {
+      this->visibility_.classes.push_back({ info.classes,
+        info.classes.empty()
+          ? std::vector<std::uint8_t>()
+          : topRowFirst(classes, this->receiverImages_.width, this->receiverImages_.height) });
+    }
   }
   if (keep)
   {
-    this->keepVisibility();
+    this->keepVisibility(receivers.all());
   }
 }
 
 //------------------------------------------------------------------------------
-void RenderManager::keepVisibility()
+void RenderManager::keepVisibility(const ReceiverPixels& receivers)
 {
   VisibilityImages& kept = this->visibility_;
-  const ReceiverPixels& receivers = this->receivers_;
   kept.width = receivers.width;
   kept.height = receivers.height;
   const glm::dvec3 centre = this->collector_.occluders().centreWorld;

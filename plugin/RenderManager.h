@@ -125,8 +125,7 @@ private:
   const Technique* pointwiseFor(LightSlot& slot) const;
   void bakeMaps(LightSlot& slot, const CameraView& camera, Technique& technique, Bake& bake);
   LightReport& reportOf(const ShadowLight& light);
-  void resolveReceivers();
-  void keepVisibility();
+  void keepVisibility(const ReceiverPixels& receivers);
   bool readsPoints() const;
   CameraView camera(vtkRenderer* renderer) const;
   ReceiverSpace receiverSpace(const vtkRenderState* s) const;
@@ -149,7 +148,7 @@ private:
   ReceiverTarget receiverTarget_;
   std::size_t receiversShown_ = 0; ///< a hash of what the receivers' images depend on
   ReceiverImages receiverImages_;
-  ReceiverPixels receivers_;
+  ReceiverPixels receivers_; ///< where somebody asked for all of them
   VisibilityLayers layers_;
   ShaderLibrary library_;
   ShaderManager shaders_;

@@ -1,11 +1,21 @@
 #ifndef gnomon_plugin_VisibilityImages_h
 #define gnomon_plugin_VisibilityImages_h
 
+#include "shadowtech/base/PixelClass.h"
+
 #include <array>
+#include <cstdint>
 #include <vector>
 
 namespace gnomon
 {
+
+/// How the visibility of one light's pixels came about.
+struct ClassImage
+{
+  std::vector<PixelClass> classes;    ///< empty where the technique does not tell
+  std::vector<std::uint8_t> ofPixels; ///< each pixel's class, an index into them
+};
 
 /// One frame's visibility as data. Row 0 is the *top* row; pixel (x, y) is at y * width + x.
 struct VisibilityImages
@@ -20,6 +30,8 @@ struct VisibilityImages
   /// not listed.
   std::vector<std::vector<float>> visibility;
   std::vector<int> sceneIndices; ///< which light each image of `visibility` belongs to
+
+  std::vector<ClassImage> classes; ///< of each image of `visibility`
 
   std::vector<float> positionX; ///< of what the camera sees, less `origin`; so Y and Z
   std::vector<float> positionY; ///< see positionX

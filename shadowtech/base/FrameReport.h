@@ -16,6 +16,13 @@ struct StageTime
   double milliseconds = 0.0; ///< wall clock
 };
 
+/// How many pixels are of a class (TechniqueInfo::classes).
+struct ClassCount
+{
+  std::string name;
+  std::int64_t pixels = 0;
+};
+
 /// What became of one light.
 struct LightReport
 {
@@ -41,6 +48,9 @@ struct LightReport
   /// Of planar shadows: pixels that lie on none of those and show no cast shadow. Counted only where
   /// visibility is kept or stages are measured.
   std::int64_t pixelsOffPlanes = 0;
+  /// How its pixels' visibility came about, of techniques that tell. Counted only where visibility is kept or stages
+  /// are measured.
+  std::vector<ClassCount> classes;
 };
 
 /// What one frame did, for people and for tests. Counters count this frame only.

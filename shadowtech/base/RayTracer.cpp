@@ -154,8 +154,8 @@ struct Caster
   const glm::uvec3* triangles = nullptr;
 };
 
-constexpr std::size_t tileColumns = 64;
-constexpr std::size_t tileRows = 4;
+constexpr std::size_t tileColumns = ReceiverTile::mostColumns;
+constexpr std::size_t tileRows = ReceiverTile::mostRows;
 constexpr std::size_t tilePixels = tileColumns * tileRows;
 
 /// One number for each pixel of a tile, row by row, or for each of its rays.
@@ -264,54 +264,43 @@ private:
   float rayFar_;
 };
 
-/// The receivers of one row of a tile.
-struct ReceiverRow
-{
-  const float *positionX, *positionY, *positionZ;
-  const float *normalX, *normalY, *normalZ;
-  const float* offset;
-  const std::uint32_t* surface;
-
-  ReceiverRow(const ReceiverPixels& receivers, std::size_t first)
-    : positionX(&receivers.positionX[first])
-    , positionY(&receivers.positionY[first])
-    , positionZ(&receivers.positionZ[first])
-    , normalX(&receivers.normalX[first])
-    , normalY(&receivers.normalY[first])
-    , normalZ(&receivers.normalZ[first])
-    , offset(&receivers.offset[first])
-    , surface(&receivers.surface[first])
-  {
-  }
-};
-
 /// The rays of one row of a tile from its receivers, and what is known of their visibility without:
 /// 1 for pixels that receive no shadow, 0 for those that the light does not reach in any case.
 /// @param columns a number, or a constant so that the loops become vector code
+/// @param from where the row's receivers begin
 /// @param receives by surface + 1, so that `notCovered` + 1 = 0 is the first: 1 or 0
+/// @param to where the row's pixels begin
 template <typename Columns, typename MakeRay>
-void makeRays(const ReceiverRow& row, Columns columns, const std::uint8_t* receives,
-  const MakeRay& makeRay, std::size_t first, TilePixels& pixels, TileArray<float>& visibility)
+void makeRays(const ReceiverPixels& receivers, std::size_t from, Columns columns,
+  const std::uint8_t* receives, const MakeRay& makeRay, std::size_t to, TilePixels& pixels,
+  TileArray<float>& visibility)
 {
   const std::size_t count = columns;
+  const float* const positionX = &receivers.positionX[from];
+  const float* const positionY = &receivers.positionY[from];
+  const float* const positionZ = &receivers.positionZ[from];
+  const float* const normalX = &receivers.normalX[from];
+  const float* const normalY = &receivers.normalY[from];
+  const float* const normalZ = &receivers.normalZ[from];
+  const float* const offset = &receivers.offset[from];
 #pragma GCC ivdep
   for (std::size_t x = 0; x < count; ++x)
   {
-    const ShadowRay ray = makeRay(glm::vec3(row.positionX[x], row.positionY[x], row.positionZ[x]),
-      glm::vec3(row.normalX[x], row.normalY[x], row.normalZ[x]), row.offset[x]);
-    pixels.originX[first + x] = ray.origin.x;
-    pixels.originY[first + x] = ray.origin.y;
-    pixels.originZ[first + x] = ray.origin.z;
-    pixels.directionX[first + x] = ray.direction.x;
-    pixels.directionY[first + x] = ray.direction.y;
-    pixels.directionZ[first + x] = ray.direction.z;
-    pixels.traced[first + x] = ray.traced ? -1 : 0;
+    const ShadowRay ray = makeRay(glm::vec3(positionX[x], positionY[x], positionZ[x]),
+      glm::vec3(normalX[x], normalY[x], normalZ[x]), offset[x]);
+    pixels.originX[to + x] = ray.origin.x;
+    pixels.originY[to + x] = ray.origin.y;
+    pixels.originZ[to + x] = ray.origin.z;
+    pixels.directionX[to + x] = ray.direction.x;
+    pixels.directionY[to + x] = ray.direction.y;
+    pixels.directionZ[to + x] = ray.direction.z;
+    pixels.traced[to + x] = ray.traced ? -1 : 0;
   }
-  for (std::size_t x = 0; x < columns; ++x)
+  for (std::size_t x = 0; x < count; ++x)
   {
-    const int receiving = receives[row.surface[x] + 1u];
-    visibility[first + x] = receiving > -pixels.traced[first + x] ? 0.0f : 1.0f;
-    pixels.traced[first + x] &= -receiving;
+    const int receiving = receives[receivers.surface[from + x] + 1u];
+    visibility[to + x] = receiving > -pixels.traced[to + x] ? 0.0f : 1.0f;
+    pixels.traced[to + x] &= -receiving;
   }
 }
 
@@ -328,62 +317,99 @@ void takeCertain(const Certainty* certain, std::size_t columns, std::size_t firs
   }
 }
 
-/// The whole image, tile by tile.
-/// @param scene null where nothing casts
-/// @param coherence of the rays of a packet
+TracedClass classOf(bool receives, bool reached, Certainty certain)
+{
+  return !receives                 ? TracedClass::NoReceiver
+    : !reached                     ? TracedClass::Unreached
+    : certain == Certainty::Lit    ? TracedClass::Lit
+    : certain == Certainty::Shadow ? TracedClass::Shadow
+                                   : TracedClass::Traced;
+}
+
+/// The classes of one row of a tile, before takeCertain().
+/// @param certain null: nothing is
+void classify(const ReceiverPixels& receivers, std::size_t from, std::size_t columns,
+  const std::uint8_t* receives, const TilePixels& pixels, std::size_t first,
+  const Certainty* certain, std::uint8_t* classes)
+{
+  for (std::size_t x = 0; x < columns; ++x)
+  {
+    classes[x] = static_cast<std::uint8_t>(classOf(receives[receivers.surface[from + x] + 1u] != 0,
+      pixels.traced[first + x] != 0, certain ? certain[x] : Certainty::Uncertain));
+  }
+}
+
+/// What the rays of a picture have in common.
+struct Tracing
+{
+  RTCScene scene;                     ///< null where nothing casts
+  RTCIntersectContextFlags coherence; ///< of the rays of a packet
+  const std::vector<std::uint8_t>& receives;
+  const DecideReceivers& decide;
+  std::vector<float>& visibility;
+  std::vector<std::uint8_t>* classes;
+};
+
+/// The whole picture, tile by tile.
 /// @return the number of rays traced
 template <typename Packet, typename MakeRay>
-std::size_t traceImage(RTCScene scene, RTCIntersectContextFlags coherence,
-  const ReceiverPixels& receivers, const std::vector<std::uint8_t>& receives,
-  const MakeRay& makeRay, float rayFar, std::vector<float>& visibility,
-  const std::vector<Certainty>& certain)
+std::size_t traceImage(
+  const Tracing& tracing, const Receivers& source, const MakeRay& makeRay, float rayFar)
 {
-  const auto width = static_cast<std::size_t>(receivers.width);
-  const auto height = static_cast<std::size_t>(receivers.height);
-  const std::size_t tilesX = (width + tileColumns - 1) / tileColumns;
-  const std::size_t tilesY = (height + tileRows - 1) / tileRows;
   std::atomic<int> traced{ 0 };
-  const auto traceTiles = [&](const tbb::blocked_range<std::size_t>& tiles)
-  {
-    TilePixels pixels;
-    TileTracer<Packet> tracer(rayFar, coherence);
-    TileArray<float> tileVisibility;
-    for (std::size_t tile = tiles.begin(); tile != tiles.end(); ++tile)
+  source.visitTiles(
+    [&](const ReceiverTile& tile)
     {
-      const std::size_t x0 = tile % tilesX * tileColumns;
-      const std::size_t y0 = tile / tilesX * tileRows;
-      const std::size_t columns = std::min(tileColumns, width - x0);
-      const std::size_t rows = std::min(tileRows, height - y0);
+      const ReceiverPixels& receivers = tile.receivers;
+      const auto columns = static_cast<std::size_t>(receivers.width);
+      const auto rows = static_cast<std::size_t>(receivers.height);
+      const std::size_t firstOfPicture = tile.firstRow * source.width() + tile.firstColumn;
+      TilePixels pixels;
+      TileArray<float> visibility;
       if (columns < tileColumns || rows < tileRows)
       {
         pixels.traced.fill(0);
       }
       for (std::size_t y = 0; y < rows; ++y)
       {
-        const ReceiverRow row(receivers, (y0 + y) * width + x0);
-        const auto make = [&](auto count) {
-          makeRays(row, count, receives.data(), makeRay, y * tileColumns, pixels, tileVisibility);
+        const auto make = [&](auto count)
+        {
+          makeRays(receivers, y * columns, count, tracing.receives.data(), makeRay, y * tileColumns,
+            pixels, visibility);
         };
         columns == tileColumns ? make(std::integral_constant<std::size_t, tileColumns>())
                                : make(columns);
       }
-      for (std::size_t y = 0; y < rows && !certain.empty(); ++y)
+      std::vector<Certainty> certain;
+      if (tracing.decide)
       {
-        takeCertain(
-          &certain[(y0 + y) * width + x0], columns, y * tileColumns, pixels, tileVisibility);
+        certain.assign(receivers.size(), Certainty::Uncertain);
+        tracing.decide(tile, certain);
       }
-      if (scene)
+      for (std::size_t y = 0; y < rows; ++y)
       {
-        tracer.trace(scene, pixels, tileVisibility);
+        const Certainty* const known = tracing.decide ? &certain[y * columns] : nullptr;
+        if (tracing.classes)
+        {
+          classify(receivers, y * columns, columns, tracing.receives.data(), pixels,
+            y * tileColumns, known, &(*tracing.classes)[firstOfPicture + y * source.width()]);
+        }
+        if (known)
+        {
+          takeCertain(known, columns, y * tileColumns, pixels, visibility);
+        }
+      }
+      if (tracing.scene)
+      {
+        TileTracer<Packet>(rayFar, tracing.coherence).trace(tracing.scene, pixels, visibility);
         traced -= std::accumulate(pixels.traced.begin(), pixels.traced.end(), 0);
       }
       for (std::size_t y = 0; y < rows; ++y)
       {
-        std::copy_n(&tileVisibility[y * tileColumns], columns, &visibility[(y0 + y) * width + x0]);
+        std::copy_n(&visibility[y * tileColumns], columns,
+          &tracing.visibility[firstOfPicture + y * source.width()]);
       }
-    }
-  };
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tilesX * tilesY, 16), traceTiles);
+    });
   return static_cast<std::size_t>(traced);
 }
 
@@ -599,11 +625,23 @@ RayTracer::Update RayTracer::update(const Occluders& occluders)
 }
 
 //------------------------------------------------------------------------------
-std::size_t RayTracer::trace(const ShadowLight& light, const Occluders& occluders,
-  const ReceiverPixels& receivers, std::vector<float>& visibility,
-  const std::vector<Certainty>& certain) const
+std::vector<PixelClass> classesOfTracing()
 {
-  visibility.resize(receivers.size());
+  return { { "no receiver", { 0, 0, 0 } }, { "turned away from the light", { 0, 140, 60 } },
+    { "lit for certain", { 230, 230, 230 } }, { "in shadow for certain", { 90, 90, 90 } },
+    { "traced", { 160, 40, 200 } } };
+}
+
+//------------------------------------------------------------------------------
+std::size_t RayTracer::trace(const ShadowLight& light, const Occluders& occluders,
+  const Receivers& receivers, std::vector<float>& visibility, const DecideReceivers& decide,
+  std::vector<std::uint8_t>* classes) const
+{
+  visibility.resize(receivers.width() * receivers.height());
+  if (classes)
+  {
+    classes->resize(visibility.size());
+  }
   std::vector<std::uint8_t> receives{ 0 };
   for (const Surface& surface : occluders.surfaces)
   {
@@ -615,16 +653,14 @@ std::size_t RayTracer::trace(const ShadowLight& light, const Occluders& occluder
   // answers are the same, and of a million triangles and more the time is, too.
   const bool instanced = std::any_of(occluders.surfaces.begin(), occluders.surfaces.end(),
     [](const Surface& surface) { return surface.casts && surface.isInstanced(); });
-  const RTCIntersectContextFlags coherence =
-    instanced ? RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT : RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  RTCScene scene = this->impl_->casters.empty() ? nullptr : this->impl_->scene.get();
+  const Tracing tracing{ this->impl_->casters.empty() ? nullptr : this->impl_->scene.get(),
+    instanced ? RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT : RTC_INTERSECT_CONTEXT_FLAG_COHERENT,
+    receives, decide, visibility, classes };
   return visitShadowRays(rayLight,
     [&](const auto& makeRay, float rayFar)
     {
-      return this->impl_->lanes16 ? traceImage<RTCRay16>(scene, coherence, receivers, receives,
-                                      makeRay, rayFar, visibility, certain)
-                                  : traceImage<RTCRay8>(scene, coherence, receivers, receives,
-                                      makeRay, rayFar, visibility, certain);
+      return this->impl_->lanes16 ? traceImage<RTCRay16>(tracing, receivers, makeRay, rayFar)
+                                  : traceImage<RTCRay8>(tracing, receivers, makeRay, rayFar);
     });
 }
 

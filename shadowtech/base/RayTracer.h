@@ -3,10 +3,12 @@
 
 #include "lights/ShadowLight.h"
 #include "shadowtech/base/Occluders.h"
+#include "shadowtech/base/PixelClass.h"
 #include "shadowtech/base/Receivers.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -20,6 +22,22 @@ enum class Certainty : std::uint8_t
   Lit,
   Shadow
 };
+
+/// Says what it knows of receivers whose `certain` is Uncertain; called for several tiles at once. Of receivers
+/// that need no shadow ray it may say anything.
+using DecideReceivers =
+  std::function<void(const ReceiverTile& tile, std::vector<Certainty>& certain)>;
+
+/// How RayTracer::trace() comes to a pixel's visibility: indices into classesOfTracing().
+enum class TracedClass : std::uint8_t
+{
+  NoReceiver, ///< nothing is seen, or what receives no shadow
+  Unreached,  ///< turned away from the light, or outside its cone or box
+  Lit,        ///< for certain, without a ray
+  Shadow,     ///< the same
+  Traced
+};
+std::vector<PixelClass> classesOfTracing();
 
 /// Shadow rays against the casting surfaces, by Embree in robust mode: the truth, and the one entry
 /// point for whoever traces.
@@ -47,12 +65,13 @@ public:
   /// shadowed, turned away from the light (facesLight()) or outside its cone or box. Pixels that
   /// are not covered, or whose surface does not receive, get 1.
   ///
-  /// @param visibility resized to the receivers' size, in their order
-  /// @param certain what is known of each receiver without its ray, in the same order; empty: nothing
+  /// @param visibility resized to one for each pixel of the picture
+  /// @param decide says what is known without rays; null: nothing
+  /// @param classes where not null, resized likewise, each pixel's TracedClass
   /// @return the number of rays traced
   std::size_t trace(const ShadowLight& light, const Occluders& occluders,
-    const ReceiverPixels& receivers, std::vector<float>& visibility,
-    const std::vector<Certainty>& certain = {}) const;
+    const Receivers& receivers, std::vector<float>& visibility,
+    const DecideReceivers& decide = nullptr, std::vector<std::uint8_t>* classes = nullptr) const;
 
   /// Memory that Embree holds for this tracer.
   std::size_t bytes() const;

@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
 
 namespace gnomon
 {
@@ -129,6 +130,13 @@ bool isFinite(const glm::dvec3& vector)
   return std::isfinite(vector.x + vector.y + vector.z);
 }
 
+bool isFinite(const PixelRays& rays)
+{
+  return isFinite(rays.firstOrigin) && isFinite(rays.originPerColumn) &&
+    isFinite(rays.originPerRow) && isFinite(rays.firstDirection) &&
+    isFinite(rays.directionPerColumn) && isFinite(rays.directionPerRow);
+}
+
 SeenTriangle see(const Occluders& occluders, const TriangleOfFragment& found, const PixelRays& rays)
 {
   const Surface& surface = occluders.surfaces[found.surface];
@@ -140,7 +148,7 @@ SeenTriangle see(const Occluders& occluders, const TriangleOfFragment& found, co
   SeenTriangle seen;
   seen.surface = found.surface;
   seen.corners = centredCorners(occluders, surface, found.instance, found.triangle);
-  seen.finite = isFinite(seen.corners[0] + seen.corners[1] + seen.corners[2]);
+  seen.finite = isFinite(rays) && isFinite(seen.corners[0] + seen.corners[1] + seen.corners[2]);
   glm::dvec3 areaVector =
     glm::cross(seen.corners[1] - seen.corners[0], seen.corners[2] - seen.corners[0]);
   const auto planeDistance = [&](const glm::dvec3& areaVectorSeen)
@@ -266,8 +274,10 @@ private:
 /// Neighbours in a row that show the same triangle.
 struct Span
 {
-  std::size_t y, firstColumn, lastColumn;
-  std::size_t firstPixel; ///< of the row
+  std::size_t y, firstColumn, lastColumn; ///< in the picture
+  std::size_t first;                      ///< where the first one's receiver goes
+
+  std::size_t count() const { return this->lastColumn - this->firstColumn; }
 };
 
 /// Where the rays meet the triangle; of those that pass it by, inside is 0.
@@ -298,47 +308,47 @@ void meetSpan(const SeenTriangle& seen,
   const double sideParallel = glm::length(rays.originPerRow);
   const double sidePerDepth = glm::length(rays.directionPerRow);
 
-  float* const positionX = &receivers.positionX[span.firstPixel];
-  float* const positionY = &receivers.positionY[span.firstPixel];
-  float* const positionZ = &receivers.positionZ[span.firstPixel];
-  float* const offset = &receivers.offset[span.firstPixel];
-  const auto lastColumn = static_cast<int>(span.lastColumn);
+  float* const positionX = &receivers.positionX[span.first];
+  float* const positionY = &receivers.positionY[span.first];
+  float* const positionZ = &receivers.positionZ[span.first];
+  float* const offset = &receivers.offset[span.first];
+  const auto firstColumn = static_cast<int>(span.firstColumn);
+  const auto count = static_cast<int>(span.count());
   const float noise = seen.noise;
 #pragma GCC ivdep
-  for (auto column = static_cast<int>(span.firstColumn); column < lastColumn; ++column)
+  for (int i = 0; i < count; ++i)
   {
-    const double x = column;
+    const double x = firstColumn + i;
     const double along = alongNormal.at(x);
     const double t = planeDistance.at(x) / along;
-    positionX[column] = static_cast<float>(originX.at(x) + t * directionX.at(x));
-    positionY[column] = static_cast<float>(originY.at(x) + t * directionY.at(x));
-    positionZ[column] = static_cast<float>(originZ.at(x) + t * directionZ.at(x));
-    offset[column] =
-      shadowRayOffsetInside(noise, static_cast<float>(sideParallel + t * sidePerDepth));
+    positionX[i] = static_cast<float>(originX.at(x) + t * directionX.at(x));
+    positionY[i] = static_cast<float>(originY.at(x) + t * directionY.at(x));
+    positionZ[i] = static_cast<float>(originZ.at(x) + t * directionZ.at(x));
+    offset[i] = shadowRayOffsetInside(noise, static_cast<float>(sideParallel + t * sidePerDepth));
     // Written so that NaN fails.
-    inside[column] =
-      (edge0.at(x) >= 0.0) & (edge1.at(x) >= 0.0) & (edge2.at(x) >= 0.0) & (along > 0.0);
+    inside[i] = (edge0.at(x) >= 0.0) & (edge1.at(x) >= 0.0) & (edge2.at(x) >= 0.0) & (along > 0.0);
   }
 }
 
 /// The receivers of a span.
-void projectSpan(const SeenTriangle& seen, const PixelRays& rays, const Span& span,
-  ReceiverPixels& receivers, std::vector<std::uint8_t>& inside)
+void projectSpan(
+  const SeenTriangle& seen, const PixelRays& rays, const Span& span, ReceiverPixels& receivers)
 {
+  std::array<std::uint8_t, ReceiverTile::mostColumns> inside;
   meetSpan(seen, rays, span, receivers, inside.data());
-  const std::size_t first = span.firstPixel + span.firstColumn;
-  const std::size_t count = span.lastColumn - span.firstColumn;
+  const std::size_t first = span.first;
+  const std::size_t count = span.count();
   std::fill_n(&receivers.normalX[first], count, seen.normal.x);
   std::fill_n(&receivers.normalY[first], count, seen.normal.y);
   std::fill_n(&receivers.normalZ[first], count, seen.normal.z);
   std::fill_n(&receivers.surface[first], count, seen.surface);
-  for (std::size_t column = span.firstColumn; column < span.lastColumn; ++column)
+  for (std::size_t j = 0; j < count; ++j)
   {
-    if (inside[column])
+    if (inside[j])
     {
       continue;
     }
-    const auto x = static_cast<double>(column);
+    const auto x = static_cast<double>(span.firstColumn + j);
     const auto y = static_cast<double>(span.y);
     const glm::dvec3 origin = rays.origin(x, y);
     const glm::dvec3 direction = rays.direction(x, y);
@@ -346,7 +356,7 @@ void projectSpan(const SeenTriangle& seen, const PixelRays& rays, const Span& sp
     const double t = glm::dot(edge - origin, direction) / glm::dot(direction, direction);
     const double footprint = glm::length(rays.originPerRow + t * rays.directionPerRow);
     const glm::dvec3 position = inwards(edge, seen.corners, footprint);
-    const std::size_t i = span.firstPixel + column;
+    const std::size_t i = first + j;
     receivers.positionX[i] = static_cast<float>(position.x);
     receivers.positionY[i] = static_cast<float>(position.y);
     receivers.positionZ[i] = static_cast<float>(position.z);
@@ -363,8 +373,8 @@ void projectSpan(const SeenTriangle& seen, const PixelRays& rays, const Span& sp
 
 void leaveUncovered(const Span& span, ReceiverPixels& receivers)
 {
-  const std::size_t first = span.firstPixel + span.firstColumn;
-  const std::size_t count = span.lastColumn - span.firstColumn;
+  const std::size_t first = span.first;
+  const std::size_t count = span.count();
   for (std::vector<float>* numbers :
     { &receivers.positionX, &receivers.positionY, &receivers.positionZ, &receivers.normalX,
       &receivers.normalY, &receivers.normalZ, &receivers.offset })
@@ -374,25 +384,34 @@ void leaveUncovered(const Span& span, ReceiverPixels& receivers)
   std::fill_n(&receivers.surface[first], count, ReceiverPixels::notCovered);
 }
 
-} // namespace
-
-//------------------------------------------------------------------------------
-void projectReceivers(const ReceiverImages& images, const std::vector<DrawnSurface>& drawnSurfaces,
-  const Occluders& occluders, ReceiverPixels& receivers)
+/// What the receivers stage drew, and in what.
+struct Drawn
 {
-  receivers.resize(images.width, images.height);
-  const PixelRays& rays = images.rays;
-  const bool raysFinite = isFinite(rays.firstOrigin) && isFinite(rays.originPerColumn) &&
-    isFinite(rays.originPerRow) && isFinite(rays.firstDirection) &&
-    isFinite(rays.directionPerColumn) && isFinite(rays.directionPerRow);
-  const auto width = static_cast<std::size_t>(images.width);
-  const auto height = static_cast<std::size_t>(images.height);
+  const ReceiverImages& images;
+  const std::vector<DrawnSurface>& drawnSurfaces;
+  const Occluders& occluders;
+};
 
-  const auto projectRow = [&](std::size_t y, std::size_t firstColumn, std::size_t lastColumn,
-                            SeenTriangles& cache, std::vector<std::uint8_t>& inside)
+/// A tile's place in the picture.
+struct Rectangle
+{
+  std::size_t firstColumn, firstRow, columns, rows;
+};
+
+/// The receivers of a tile.
+/// @param first where the first one goes
+/// @param perRow and how much farther on those of the next row
+void projectTile(const Drawn& drawn, const Rectangle& tile, SeenTriangles& cache,
+  ReceiverPixels& receivers, std::size_t first, std::size_t perRow)
+{
+  const auto width = static_cast<std::size_t>(drawn.images.width);
+  const PixelRays& rays = drawn.images.rays;
+  const std::size_t lastColumn = tile.firstColumn + tile.columns;
+  for (std::size_t row = 0; row < tile.rows; ++row)
   {
-    const glm::vec2* const fragments = images.fragments.data() + y * width;
-    Span span{ y, firstColumn, firstColumn, y * width };
+    const std::size_t y = tile.firstRow + row;
+    const glm::vec2* const fragments = drawn.images.fragments.data() + y * width;
+    Span span{ y, tile.firstColumn, tile.firstColumn, first + row * perRow };
     while (span.lastColumn < lastColumn)
     {
       // Neighbours mostly share their triangle, and so what was looked up for it.
@@ -402,42 +421,143 @@ void projectReceivers(const ReceiverImages& images, const std::vector<DrawnSurfa
         ++span.lastColumn;
       } while (span.lastColumn < lastColumn && fragments[span.lastColumn] == fragment);
       const TriangleOfFragment found =
-        findTriangle(std::abs(fragment.x), fragment.y, drawnSurfaces, occluders);
-      const SeenTriangle* seen = found.triangle == none || !raysFinite
+        findTriangle(std::abs(fragment.x), fragment.y, drawn.drawnSurfaces, drawn.occluders);
+      const SeenTriangle* seen = found.triangle == none
         ? nullptr
-        : &cache.find(found, [&] { return see(occluders, found, rays); });
+        : &cache.find(found, [&] { return see(drawn.occluders, found, rays); });
       if (seen && seen->finite)
       {
-        projectSpan(*seen, rays, span, receivers, inside);
+        projectSpan(*seen, rays, span, receivers);
       }
       else
       {
         leaveUncovered(span, receivers);
       }
+      span.first += span.count();
       span.firstColumn = span.lastColumn;
     }
-  };
+  }
+}
 
-  constexpr std::size_t tileRows = 8;
-  constexpr std::size_t tileColumns = 256;
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, (height + tileRows - 1) / tileRows),
-    [&](const tbb::blocked_range<std::size_t>& bands)
+/// One row of numbers of a tile, from the picture's.
+template <typename Number>
+void copyRow(const std::vector<Number>& picture, std::size_t from, std::size_t count,
+  std::vector<Number>& tile, std::size_t to)
+{
+  std::copy_n(&picture[from], count, &tile[to]);
+}
+
+void copyTile(const ReceiverPixels& picture, const Rectangle& tile, ReceiverPixels& receivers)
+{
+  const auto width = static_cast<std::size_t>(picture.width);
+  for (std::size_t row = 0; row < tile.rows; ++row)
+  {
+    const std::size_t from = (tile.firstRow + row) * width + tile.firstColumn;
+    const std::size_t to = row * tile.columns;
+    const auto copy = [&](auto array)
+    { copyRow(picture.*array, from, tile.columns, receivers.*array, to); };
+    copy(&ReceiverPixels::positionX);
+    copy(&ReceiverPixels::positionY);
+    copy(&ReceiverPixels::positionZ);
+    copy(&ReceiverPixels::normalX);
+    copy(&ReceiverPixels::normalY);
+    copy(&ReceiverPixels::normalZ);
+    copy(&ReceiverPixels::offset);
+    copy(&ReceiverPixels::surface);
+  }
+}
+
+/// All tiles of a picture, by several threads at once.
+/// @param visitTile with something of the thread's own, made by `makeLocal`
+template <typename MakeLocal, typename VisitTile>
+void visitRectangles(
+  std::size_t width, std::size_t height, const MakeLocal& makeLocal, const VisitTile& visitTile)
+{
+  const std::size_t tilesX = (width + ReceiverTile::mostColumns - 1) / ReceiverTile::mostColumns;
+  const std::size_t tilesY = (height + ReceiverTile::mostRows - 1) / ReceiverTile::mostRows;
+  constexpr std::size_t tilesAtOnce = 8;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tilesX * tilesY, tilesAtOnce),
+    [&](const tbb::blocked_range<std::size_t>& range)
     {
-      SeenTriangles cache;
-      std::vector<std::uint8_t> inside(width);
-      for (std::size_t band = bands.begin(); band != bands.end(); ++band)
+      auto local = makeLocal();
+      for (std::size_t i = range.begin(); i != range.end(); ++i)
       {
-        const std::size_t lastRow = std::min((band + 1) * tileRows, height);
-        for (std::size_t column = 0; column < width; column += tileColumns)
-        {
-          const std::size_t lastColumn = std::min(column + tileColumns, width);
-          for (std::size_t y = band * tileRows; y < lastRow; ++y)
-          {
-            projectRow(y, column, lastColumn, cache, inside);
-          }
-        }
+        Rectangle tile{ i % tilesX * ReceiverTile::mostColumns, i / tilesX * ReceiverTile::mostRows,
+          0, 0 };
+        tile.columns = std::min(ReceiverTile::mostColumns, width - tile.firstColumn);
+        tile.rows = std::min(ReceiverTile::mostRows, height - tile.firstRow);
+        visitTile(tile, *local);
       }
     });
+}
+
+/// What a thread needs to make receivers of tiles.
+struct TileMaking
+{
+  SeenTriangles cache;
+  ReceiverPixels receivers;
+};
+
+} // namespace
+
+//------------------------------------------------------------------------------
+Receivers::Receivers(const ReceiverImages& images, const std::vector<DrawnSurface>& drawnSurfaces,
+  const Occluders& occluders, ReceiverPixels& stored)
+  : images_(&images)
+  , drawnSurfaces_(&drawnSurfaces)
+  , occluders_(&occluders)
+  , toFill_(&stored)
+  , width_(static_cast<std::size_t>(images.width))
+  , height_(static_cast<std::size_t>(images.height))
+{
+  stored.resize(0, 0);
+}
+
+//------------------------------------------------------------------------------
+Receivers::Receivers(const ReceiverPixels& stored)
+  : stored_(&stored)
+  , width_(static_cast<std::size_t>(stored.width))
+  , height_(static_cast<std::size_t>(stored.height))
+{
+}
+
+//------------------------------------------------------------------------------
+void Receivers::visitTiles(const std::function<void(const ReceiverTile&)>& visit) const
+{
+  visitRectangles(
+    this->width_, this->height_, [] { return std::make_unique<TileMaking>(); },
+    [&](const Rectangle& tile, TileMaking& making)
+    {
+      making.receivers.resize(static_cast<int>(tile.columns), static_cast<int>(tile.rows));
+      if (this->stored_)
+      {
+        copyTile(*this->stored_, tile, making.receivers);
+      }
+      else
+      {
+        projectTile({ *this->images_, *this->drawnSurfaces_, *this->occluders_ }, tile,
+          making.cache, making.receivers, 0, tile.columns);
+      }
+      visit({ tile.firstColumn, tile.firstRow, making.receivers });
+    });
+}
+
+//------------------------------------------------------------------------------
+const ReceiverPixels& Receivers::all()
+{
+  if (!this->stored_)
+  {
+    this->toFill_->resize(this->images_->width, this->images_->height);
+    visitRectangles(
+      this->width_, this->height_, [] { return std::make_unique<SeenTriangles>(); },
+      [&](const Rectangle& tile, SeenTriangles& cache)
+      {
+        projectTile({ *this->images_, *this->drawnSurfaces_, *this->occluders_ }, tile, cache,
+          *this->toFill_, tile.firstRow * this->width_ + tile.firstColumn, this->width_);
+      });
+    this->stored_ = this->toFill_;
+  }
+  return *this->stored_;
 }
 
 } // namespace gnomon

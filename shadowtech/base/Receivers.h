@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace gnomon
@@ -81,14 +82,51 @@ struct DrawnSurface
   std::vector<Block> blocks; ///< in order of firstPrimitive
 };
 
-/// Turns what the receivers stage read back into receivers: the points where the pixels' rays meet
-/// the triangles that were drawn there, with geometric normals and shadow ray offsets.
+/// A part of the picture and its receivers.
+struct ReceiverTile
+{
+  static constexpr std::size_t mostColumns = 64;
+  static constexpr std::size_t mostRows = 16;
+
+  std::size_t firstColumn, firstRow; ///< where it begins in the picture
+  /// Its own receivers alone, which is fewer than the most at the picture's right and upper border.
+  const ReceiverPixels& receivers;
+};
+
+/// The receivers of a picture, made of what the receivers stage read back when somebody asks for them: the
+/// points where the pixels' rays meet the triangles that were drawn there, with geometric normals and shadow
+/// ray offsets.
 ///
 /// Rasterisers move corners by up to 1/256 pixel, and so draw triangles in pixels whose rays pass
 /// them by. The receiver is then the point of the triangle that is closest to the ray as the camera
 /// sees it. Pixels whose triangle cannot be found count as not covered.
-void projectReceivers(const ReceiverImages& images, const std::vector<DrawnSurface>& drawnSurfaces,
-  const Occluders& occluders, ReceiverPixels& receivers);
+class Receivers
+{
+public:
+  /// @param stored where all() keeps the receivers; empty until then
+  Receivers(const ReceiverImages& images, const std::vector<DrawnSurface>& drawnSurfaces,
+    const Occluders& occluders, ReceiverPixels& stored);
+  /// Receivers that are there: they may stand for themselves.
+  Receivers(const ReceiverPixels& stored);
+
+  std::size_t width() const { return this->width_; }
+  std::size_t height() const { return this->height_; }
+
+  /// The receivers of all tiles, each for as long as it is visited; tiles are visited by several threads at once.
+  /// They never leave the processor's cache, unless all() has been called: who works pixel by pixel asks here.
+  void visitTiles(const std::function<void(const ReceiverTile&)>& visit) const;
+
+  /// The whole picture, for who looks at a pixel's neighbours. Made once.
+  const ReceiverPixels& all();
+
+private:
+  const ReceiverImages* images_ = nullptr; ///< these three: null where the receivers are there
+  const std::vector<DrawnSurface>* drawnSurfaces_ = nullptr;
+  const Occluders* occluders_ = nullptr;
+  ReceiverPixels* toFill_ = nullptr;
+  const ReceiverPixels* stored_ = nullptr; ///< null until they are there
+  std::size_t width_, height_;
+};
 
 } // namespace gnomon
 

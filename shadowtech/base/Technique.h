@@ -7,6 +7,7 @@
 #include "lights/ShadowLight.h"
 #include "shadowtech/base/FrameReport.h"
 #include "shadowtech/base/Gl.h"
+#include "shadowtech/base/PixelClass.h"
 
 #include <glm/glm.hpp>
 
@@ -21,9 +22,9 @@ namespace gnomon
 
 struct DrawnSurface;
 struct Occluders;
-struct ReceiverPixels;
 class OccluderBuffers;
 class RayTracer;
+class Receivers;
 class ReceiverTarget;
 class ShaderLibrary;
 class VisibilityLayers;
@@ -48,6 +49,9 @@ struct TechniqueInfo
   std::string ownKernel = {};
   bool averagesMap = false; ///< its map holds what may be averaged: moments, not depths
   bool sumsMap = false;     ///< and which fixed-point numbers hold, so that tables may sum it
+
+  /// What a screen technique tells of its pixels (ScreenInput::classes); empty: nothing.
+  std::vector<PixelClass> classes = {};
 
   bool isPointwise() const { return this->evaluation == Evaluation::Pointwise; }
 };
@@ -111,8 +115,10 @@ struct ScreenInput
 {
   const ShadowLight& light;
   const Occluders& occluders;
-  const ReceiverPixels& receivers;
+  Receivers& receivers;
   RayTracer& tracer; ///< its structure is up to date with the occluders
+  /// Where not null: to be filled with each pixel's class, an index into TechniqueInfo::classes.
+  std::vector<std::uint8_t>* classes;
 };
 
 /// One way to compute visibility, for one light. The render manager makes one per casting light

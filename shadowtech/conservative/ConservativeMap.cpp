@@ -455,7 +455,7 @@ ConservativeMap::ConservativeMap(const LightView& view, bool hasBox, int sizeTex
 }
 
 //------------------------------------------------------------------------------
-void ConservativeMap::ask(const ReceiverPixels& receivers, std::size_t first, std::size_t count,
+void ConservativeMap::ask(const ReceiverPixels& receivers,
   const std::vector<std::uint8_t>& onCaster, std::vector<Certainty>& certain) const
 {
   if (this->blind_)
@@ -463,10 +463,9 @@ void ConservativeMap::ask(const ReceiverPixels& receivers, std::size_t first, st
     return;
   }
   Looks looks;
-  for (std::size_t begin = 0; begin < count; begin += Looks::most)
+  for (std::size_t from = 0; from < receivers.size(); from += Looks::most)
   {
-    const std::size_t part = std::min(Looks::most, count - begin);
-    const std::size_t from = first + begin;
+    const std::size_t part = std::min(Looks::most, receivers.size() - from);
     lookAt(this->lookUp_, receivers, from, static_cast<int>(part), looks);
     for (std::size_t i = 0; i < part; ++i)
     {

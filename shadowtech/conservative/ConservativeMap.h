@@ -65,12 +65,9 @@ public:
     const CasterEdges& edges, Covering covering);
 
   /// Decides receivers that are still uncertain.
-  /// @param first, count which of the receivers
-  /// @param onCaster by surface + 1, so that `notCovered` + 1 = 0 is the first: whether the surface casts, on both
-  /// sides
-  /// @param certain of all receivers
-  void ask(const ReceiverPixels& receivers, std::size_t first, std::size_t count,
-    const std::vector<std::uint8_t>& onCaster, std::vector<Certainty>& certain) const;
+  /// @param onCaster ConservativeMaps::onCaster()
+  void ask(const ReceiverPixels& receivers, const std::vector<std::uint8_t>& onCaster,
+    std::vector<Certainty>& certain) const;
 
   std::size_t bytes() const;
 

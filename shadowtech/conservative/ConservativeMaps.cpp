@@ -3,9 +3,6 @@
 #include "shadowtech/base/Receivers.h"
 #include "shadowtech/base/TextureMemory.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 namespace gnomon
 {
 
@@ -23,25 +20,25 @@ void ConservativeMaps::bake(const LightViews& views, int sizeTexels, const Occlu
 }
 
 //------------------------------------------------------------------------------
-std::vector<Certainty> ConservativeMaps::ask(
-  const ReceiverPixels& receivers, const Occluders& occluders) const
+std::vector<std::uint8_t> ConservativeMaps::onCaster(const Occluders& occluders)
 {
   std::vector<std::uint8_t> onCaster{ 0 };
   for (const Surface& surface : occluders.surfaces)
   {
     onCaster.push_back(surface.casts && !surface.oneSided ? 1 : 0);
   }
-  std::vector<Certainty> certain(receivers.size(), Certainty::Uncertain);
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, receivers.size(), 4096),
-    [&](const tbb::blocked_range<std::size_t>& range)
-    {
-      // Whichever map knows is right, so that it does not matter which of them is the point's own.
-      for (const ConservativeMap& map : this->maps_)
-      {
-        map.ask(receivers, range.begin(), range.size(), onCaster, certain);
-      }
-    });
-  return certain;
+  return onCaster;
+}
+
+//------------------------------------------------------------------------------
+void ConservativeMaps::ask(const ReceiverPixels& receivers,
+  const std::vector<std::uint8_t>& onCaster, std::vector<Certainty>& certain) const
+{
+  // Whichever map knows is right, so that it does not matter which of them is the point's own.
+  for (const ConservativeMap& map : this->maps_)
+  {
+    map.ask(receivers, onCaster, certain);
+  }
 }
 
 //------------------------------------------------------------------------------

@@ -25,9 +25,13 @@ public:
   /// @throws TextureMemoryError for maps without room; there are none then
   void bake(const LightViews& views, int sizeTexels, const Occluders& occluders);
 
-  /// What they know of each receiver, in the receivers' order. Receivers that need no shadow ray may
-  /// get any answer.
-  std::vector<Certainty> ask(const ReceiverPixels& receivers, const Occluders& occluders) const;
+  /// By surface + 1, so that `notCovered` + 1 = 0 is the first: whether it casts, on both sides.
+  static std::vector<std::uint8_t> onCaster(const Occluders& occluders);
+
+  /// Decides receivers that are still uncertain. Of those that need no shadow ray it may say anything.
+  /// @param certain of each receiver, in the receivers' order
+  void ask(const ReceiverPixels& receivers, const std::vector<std::uint8_t>& onCaster,
+    std::vector<Certainty>& certain) const;
 
   std::size_t bytes() const;
 

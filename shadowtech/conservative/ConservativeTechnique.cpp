@@ -1,5 +1,7 @@
 #include "shadowtech/conservative/ConservativeTechnique.h"
 
+#include "shadowtech/base/RayTracer.h"
+
 namespace gnomon
 {
 
@@ -16,6 +18,7 @@ TechniqueInfo ConservativeTechnique::infoOf(const std::string& name)
   info.name = name;
   info.evaluation = Evaluation::ScreenCpu;
   info.exact = true;
+  info.classes = classesOfTracing();
   info.needsMap = true;
   return info;
 }
@@ -36,8 +39,12 @@ std::size_t ConservativeTechnique::bytesOfMaps() const
 void ConservativeTechnique::computeVisibility(
   const ScreenInput& input, std::vector<float>& visibility, LightReport& report)
 {
-  report.tracedPixels = static_cast<std::int64_t>(input.tracer.trace(input.light, input.occluders,
-    input.receivers, visibility, this->maps_.ask(input.receivers, input.occluders)));
+  const std::vector<std::uint8_t> onCaster = ConservativeMaps::onCaster(input.occluders);
+  report.tracedPixels = static_cast<std::int64_t>(input.tracer.trace(
+    input.light, input.occluders, input.receivers, visibility,
+    [&](const ReceiverTile& tile, std::vector<Certainty>& certain)
+    { this->maps_.ask(tile.receivers, onCaster, certain); },
+    input.classes));
 }
 
 } // namespace gnomon

@@ -12,6 +12,7 @@ TechniqueInfo Raytraced::info()
   info.name = "raytraced";
   info.evaluation = Evaluation::ScreenCpu;
   info.exact = true;
+  info.classes = classesOfTracing();
   return info;
 }
 
@@ -19,8 +20,8 @@ TechniqueInfo Raytraced::info()
 void Raytraced::computeVisibility(
   const ScreenInput& input, std::vector<float>& visibility, LightReport& report)
 {
-  report.tracedPixels = static_cast<std::int64_t>(
-    input.tracer.trace(input.light, input.occluders, input.receivers, visibility));
+  report.tracedPixels = static_cast<std::int64_t>(input.tracer.trace(
+    input.light, input.occluders, input.receivers, visibility, nullptr, input.classes));
 }
 
 } // namespace gnomon

@@ -40,7 +40,7 @@ struct Subject
     camera.target = { 0.0, 0.0, 0.8 };
     camera.width = camera.height = 1024;
     this->view = makeView(this->occluders, camera);
-    projectReceivers(this->view.images, this->view.drawnSurfaces, this->occluders, this->receivers);
+    Receivers(this->view.images, this->view.drawnSurfaces, this->occluders, this->receivers).all();
   }
 
   Occluders occluders;
@@ -204,7 +204,7 @@ void projectReceiversOfAFrame(benchmark::State& state)
   ReceiverPixels receivers;
   for (auto _ : state)
   {
-    projectReceivers(scene.view.images, scene.view.drawnSurfaces, scene.occluders, receivers);
+    Receivers(scene.view.images, scene.view.drawnSurfaces, scene.occluders, receivers).all();
   }
 }
 BENCHMARK(projectReceiversOfAFrame)->UseRealTime()->Unit(benchmark::kMillisecond);

@@ -261,10 +261,12 @@ Tally compareWithTruth(const ShadowLight& light, const LightViews& views,
   RayTracer tracer;
   tracer.update(occluders);
   Tally tally;
+  const std::vector<std::uint8_t> onCaster = ConservativeMaps::onCaster(occluders);
   std::vector<float> truth, visibility;
   tally.receivers = tracer.trace(light, occluders, receivers, truth);
-  tally.traced =
-    tracer.trace(light, occluders, receivers, visibility, maps.ask(receivers, occluders));
+  tally.traced = tracer.trace(light, occluders, receivers, visibility,
+    [&](const ReceiverTile& tile, std::vector<Certainty>& certain)
+    { maps.ask(tile.receivers, onCaster, certain); });
   tally.wrong = countDifferent(truth, visibility);
   return tally;
 }

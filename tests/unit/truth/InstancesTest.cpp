@@ -154,8 +154,8 @@ TEST(Instances, ReceiversAreThoseOfTheirTriangles)
     const View view = makeView(triangles, cupsCamera());
     ReceiverPixels expected;
     ReceiverPixels receivers;
-    projectReceivers(view.images, view.drawnSurfaces, triangles, expected);
-    projectReceivers(view.images, view.drawnSurfaces, instanced, receivers);
+    Receivers(view.images, view.drawnSurfaces, triangles, expected).all();
+    Receivers(view.images, view.drawnSurfaces, instanced, receivers).all();
     EXPECT_EQ(receivers.surface, expected.surface);
     std::size_t ofInstances = 0;
     for (std::size_t i = 0; i < receivers.size(); ++i)
@@ -200,7 +200,7 @@ TEST(Instances, VisibilityIsThatOfTheirTriangles)
       const Occluders perforatedTriangles = expanded(perforated);
       const View view = makeView(triangles, cupsCamera());
       ReceiverPixels receivers;
-      projectReceivers(view.images, view.drawnSurfaces, instanced, receivers);
+      Receivers(view.images, view.drawnSurfaces, instanced, receivers).all();
       for (const ShadowLight& light :
         { directionalLight({ 0.4, 0.3, -1.0 }), pointLight({ 1.0, 2.0, 9.0 }) })
       {
@@ -308,7 +308,7 @@ TEST(Instances, MovingThemRefitsOnlyTheirPlaces)
   const View view = makeView(expanded(occluders), cupsCamera());
   const ShadowLight light = directionalLight({ 0.4, 0.3, -1.0 });
   ReceiverPixels receivers;
-  projectReceivers(view.images, view.drawnSurfaces, occluders, receivers);
+  Receivers(view.images, view.drawnSurfaces, occluders, receivers).all();
   RayTracer tracer;
   std::vector<float> visibility;
   const auto expectUpdate = [&](int builds, int refits)
@@ -356,7 +356,7 @@ TEST(Instances, LeftOutOnesAreNeitherMetNorReceivers)
   std::fill(occluders.surfaces[1].centredFromSource.begin(),
     occluders.surfaces[1].centredFromSource.end(), glm::mat4x3(0.0f));
   ReceiverPixels receivers;
-  projectReceivers(view.images, view.drawnSurfaces, occluders, receivers);
+  Receivers(view.images, view.drawnSurfaces, occluders, receivers).all();
   EXPECT_EQ(std::count(receivers.surface.begin(), receivers.surface.end(), 1u), 0);
   const std::vector<float> visibility =
     trace(directionalLight({ 0.4, 0.3, -1.0 }), occluders, receivers);

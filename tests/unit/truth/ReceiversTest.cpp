@@ -9,8 +9,10 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <limits>
+#include <tuple>
 #include <utility>
 
 namespace gnomon::test
@@ -47,7 +49,7 @@ double pixelSizeOf(const Camera& camera)
 ReceiverPixels project(const View& view, const Occluders& occluders)
 {
   ReceiverPixels receivers;
-  projectReceivers(view.images, view.drawnSurfaces, occluders, receivers);
+  Receivers(view.images, view.drawnSurfaces, occluders, receivers).all();
   return receivers;
 }
 
@@ -387,11 +389,57 @@ TEST(Receivers, TrianglesWithoutAreaFaceTheCamera)
   }
 }
 
+TEST(Receivers, TilesAreThePicture)
+{
+  // More than one tile each way, the last ones smaller.
+  Camera camera = turnedCamera();
+  camera.width = 2 * static_cast<int>(ReceiverTile::mostColumns) + 5;
+  camera.height = static_cast<int>(ReceiverTile::mostRows) + 3;
+  const Occluders occluders = turnedScene();
+  const View view = makeView(occluders, camera);
+  ReceiverPixels stored;
+  Receivers receivers(view.images, view.drawnSurfaces, occluders, stored);
+  const auto gather = [&](auto array)
+  {
+    auto picture = ReceiverPixels().*array;
+    picture.resize(receivers.width() * receivers.height());
+    std::atomic<std::size_t> pixels = 0;
+    receivers.visitTiles(
+      [&](const ReceiverTile& tile)
+      {
+        const auto columns = static_cast<std::size_t>(tile.receivers.width);
+        pixels += tile.receivers.size();
+        for (std::size_t i = 0; i < tile.receivers.size(); ++i)
+        {
+          picture[(tile.firstRow + i / columns) * receivers.width() + tile.firstColumn +
+            i % columns] = (tile.receivers.*array)[i];
+        }
+      });
+    EXPECT_EQ(pixels, picture.size());
+    return picture;
+  };
+  const auto gatherAll = [&]
+  {
+    return std::make_tuple(gather(&ReceiverPixels::positionX), gather(&ReceiverPixels::positionY),
+      gather(&ReceiverPixels::positionZ), gather(&ReceiverPixels::normalX),
+      gather(&ReceiverPixels::normalY), gather(&ReceiverPixels::normalZ),
+      gather(&ReceiverPixels::offset), gather(&ReceiverPixels::surface));
+  };
+  const auto projected = gatherAll();
+  EXPECT_EQ(stored.size(), 0u) << "nobody asked for all of them";
+  const ReceiverPixels& all = receivers.all();
+  EXPECT_GT(countCovered(all), 0u);
+  EXPECT_EQ(projected,
+    std::tie(all.positionX, all.positionY, all.positionZ, all.normalX, all.normalY, all.normalZ,
+      all.offset, all.surface));
+  EXPECT_EQ(gatherAll(), projected) << "from those that are stored";
+}
+
 TEST(Receivers, EmptyInputs)
 {
   ReceiverPixels receivers;
   receivers.resize(3, 3);
-  projectReceivers({}, {}, {}, receivers);
+  Receivers({}, {}, {}, receivers).all();
   EXPECT_EQ(receivers.size(), 0u);
 
   View view = makeView(turnedScene(), turnedCamera());

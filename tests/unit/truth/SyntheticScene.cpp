@@ -384,7 +384,7 @@ ReceiverPixels makeReceivers(const Occluders& occluders, const Camera& camera)
 {
   const View view = makeView(occluders, camera);
   ReceiverPixels receivers;
-  projectReceivers(view.images, view.drawnSurfaces, occluders, receivers);
+  Receivers(view.images, view.drawnSurfaces, occluders, receivers).all();
   return receivers;
 }
 
