@@ -243,4 +243,29 @@ const char* motionKey(Motion motion)
   return "static";
 }
 
+//------------------------------------------------------------------------------
+std::vector<std::string> classNames(const ComparisonResults& results)
+{
+  std::vector<std::string> names;
+  for (const VariantResult& variant : results.variants)
+  {
+    for (const auto& [name, pixels] : variant.classes)
+    {
+      if (std::find(names.begin(), names.end(), name) == names.end())
+      {
+        names.push_back(name);
+      }
+    }
+  }
+  return names;
+}
+
+//------------------------------------------------------------------------------
+const std::int64_t* findClass(const VariantResult& variant, const std::string& name)
+{
+  const auto found = std::find_if(variant.classes.begin(), variant.classes.end(),
+    [&](const auto& entry) { return entry.first == name; });
+  return found == variant.classes.end() ? nullptr : &found->second;
+}
+
 } // namespace gnomon::tool

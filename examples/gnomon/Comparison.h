@@ -119,11 +119,15 @@ struct VariantResult
   VisibilityError error;
   /// Pixels, of those that count, that were decided by a ray; none where the variant cannot trace.
   std::int64_t tracedPixels = 0;
+  /// How its pixels' visibility came about, over all lights; empty where it does not tell.
+  std::vector<std::pair<std::string, std::int64_t>> classes;
   std::array<MotionTiming, 3> timings; ///< in the order of allMotions
   VariantMemory memory;
   std::vector<std::string> notes; ///< limits that it ran into, each a sentence
   Picture picture;
   Picture errors; ///< see errorPicture
+  /// The classes in their colours, of the first light that tells; without pixels where none does.
+  Picture classPicture;
 };
 
 /// Everything that a report says: the border between measuring and writing.
@@ -141,6 +145,11 @@ struct ComparisonResults
   std::vector<std::string> notes; ///< about the scene, each a sentence
   std::vector<VariantResult> variants;
 };
+
+/// The names of all classes that any variant tells, in order of appearance.
+std::vector<std::string> classNames(const ComparisonResults& results);
+/// A variant's pixels of a class; null where it does not tell them.
+const std::int64_t* findClass(const VariantResult& variant, const std::string& name);
 
 } // namespace gnomon::tool
 

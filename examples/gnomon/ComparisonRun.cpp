@@ -315,19 +315,47 @@ VisibilityImages visibilityOf(Variant& variant, const Scene& scene, const Visibi
   return keptVisibility(variant);
 }
 
-/// 1 where a technique that knows nothing but rays had to trace: everywhere it counts.
-std::vector<unsigned char> tracedMask(
-  const VisibilityImages& truth, const std::vector<SceneLight>& lights)
+/// 1 where a ray decided.
+std::vector<unsigned char> tracedMask(const VisibilityImages& images)
 {
-  std::vector<unsigned char> traced(truth.coverage.size(), 0);
-  for (int index : truth.sceneIndices)
+  std::vector<unsigned char> traced(images.coverage.size(), 0);
+  for (const ClassImage& image : images.classes)
   {
-    const std::vector<unsigned char> facing =
-      facingPixels(truth, lights.at(static_cast<std::size_t>(index)));
-    std::transform(facing.begin(), facing.end(), traced.begin(), traced.begin(),
-      [](unsigned char a, unsigned char b) { return a | b; });
+    for (std::size_t i = 0; i < image.ofPixels.size(); ++i)
+    {
+      traced[i] |= image.classes[image.ofPixels[i]].traced ? 1 : 0;
+    }
   }
   return traced;
+}
+
+/// What a variant says of how its pixels were decided.
+void takeClasses(VariantResult& result, const FrameReport& report, const VisibilityImages& images)
+{
+  for (const LightReport& light : report.lights)
+  {
+    result.tracedPixels += light.tracedPixels;
+    for (const ClassCount& of : light.classes)
+    {
+      const auto same = std::find_if(result.classes.begin(), result.classes.end(),
+        [&](const auto& entry) { return entry.first == of.name; });
+      if (same == result.classes.end())
+      {
+        result.classes.emplace_back(of.name, of.pixels);
+      }
+      else
+      {
+        same->second += of.pixels;
+      }
+    }
+  }
+  const auto told = std::find_if(images.classes.begin(), images.classes.end(),
+    [](const ClassImage& image) { return !image.classes.empty(); });
+  if (told != images.classes.end())
+  {
+    result.classPicture =
+      classPicture(images, static_cast<std::size_t>(told - images.classes.begin()));
+  }
 }
 
 void measureErrors(
@@ -342,16 +370,10 @@ void measureErrors(
     std::vector<PixelVerdict> verdicts;
     result.error = measureError(visibility, truth, scene.lights, &verdicts);
     std::vector<unsigned char> traced(verdicts.size(), 0);
-    if (variant->pass())
+    if (variant->pass() && result.route != "inline")
     {
-      for (const LightReport& light : variant->pass()->GetReport().lights)
-      {
-        result.tracedPixels += light.tracedPixels;
-      }
-      if (result.technique == truthTechnique)
-      {
-        traced = tracedMask(truth, scene.lights);
-      }
+      takeClasses(result, variant->pass()->GetReport(), visibility);
+      traced = tracedMask(visibility);
     }
     result.errors = errorPicture(result.picture, verdicts, &traced);
     steps.advance();

@@ -171,6 +171,20 @@ std::vector<unsigned char> encodePng(const Picture& picture)
 }
 
 //------------------------------------------------------------------------------
+Picture classPicture(const VisibilityImages& images, std::size_t light)
+{
+  Picture picture{ images.width, images.height, {} };
+  picture.rgb.reserve(3 * picture.pixelCount());
+  const ClassImage& image = images.classes.at(light);
+  for (const std::uint8_t pixelClass : image.ofPixels)
+  {
+    const auto& colour = image.classes.at(pixelClass).colour;
+    picture.rgb.insert(picture.rgb.end(), colour.begin(), colour.end());
+  }
+  return picture;
+}
+
+//------------------------------------------------------------------------------
 void writePicture(const Picture& picture, const std::string& path)
 {
   requireWritableFile(path, "picture", { ".png", ".exr" });

@@ -42,6 +42,10 @@ struct ChannelImage
   std::array<double, 3> origin{ { 0.0, 0.0, 0.0 } };
 };
 
+/// The classes of a visibility's pixels in their colours.
+/// @param light which image of `visibility`; one whose technique tells classes
+Picture classPicture(const VisibilityImages& images, std::size_t light);
+
 /// What the window shows after its last Render().
 Picture capture(vtkRenderWindow* window);
 

@@ -43,6 +43,7 @@ struct RenderOptions
   std::string camera;
   std::string visibility;
   std::string stats;
+  std::string classes;
 };
 
 /// One name for every way to write a path.
@@ -70,6 +71,15 @@ void check(const RenderOptions& options)
     if (fullPath(options.stats) == fullPath(options.scene))
     {
       throw BadInput("--stats: " + options.stats + ": is the scene's file, too");
+    }
+  }
+  if (!options.classes.empty())
+  {
+    requireWritableFile(options.classes, "--classes", { ".png", ".exr" });
+    if (fullPath(options.classes) == fullPath(options.picture) ||
+      fullPath(options.classes) == fullPath(options.visibility))
+    {
+      throw BadInput("--classes: " + options.classes + ": is another output's file, too");
     }
   }
   // The options have refused what there is not.
@@ -124,6 +134,16 @@ void requireDrawable(const PictureSize& size, vtkOpenGLRenderWindow* window)
   requireDrawable(size, side, viewport[0], viewport[1]);
 }
 
+nlohmann::ordered_json classesToJson(const std::vector<ClassCount>& classes)
+{
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
+  for (const ClassCount& of : classes)
+  {
+    json[of.name] = of.pixels;
+  }
+  return json;
+}
+
 nlohmann::ordered_json toJson(const FrameReport& report)
 {
   nlohmann::ordered_json json;
@@ -139,7 +159,8 @@ nlohmann::ordered_json toJson(const FrameReport& report)
       { "fit_reason", light.fitReason }, { "casters_left_out", light.castersLeftOut },
       { "kernel", light.kernel }, { "kernel_size_texels", light.kernelTexels },
       { "map_samples", light.mapSamples }, { "traced_pixels", light.tracedPixels },
-      { "planes", light.planes }, { "pixels_off_planes", light.pixelsOffPlanes } });
+      { "planes", light.planes }, { "pixels_off_planes", light.pixelsOffPlanes },
+      { "classes", classesToJson(light.classes) } });
   }
   json["notes"] = report.notes;
   json["stages"] = nlohmann::ordered_json::array();
@@ -173,6 +194,21 @@ void writeStats(const FrameReport& report, const std::string& path)
   {
     throw Failure(path + ": cannot be written");
   }
+}
+
+/// The classes of the pixels of the first light whose technique tells them.
+Picture firstClassPicture(const VisibilityImages& images)
+{
+  for (std::size_t light = 0; light < images.classes.size(); ++light)
+  {
+    if (!images.classes[light].classes.empty())
+    {
+      return classPicture(images, light);
+    }
+  }
+  throw BadInput(
+    "--classes: no light casts by a technique that tells its pixels' classes, expected one that "
+    "traces, such as silhouette");
 }
 
 /// Settings and timings, for the header of the visibility file.
@@ -226,7 +262,7 @@ void render(const RenderOptions& options)
       : options.route == "image"              ? vtkGnomonShadowPass::ROUTE_IMAGE
                                               : vtkGnomonShadowPass::ROUTE_AUTO);
   shadows->SetMeasureStages(!options.stats.empty() || !options.visibility.empty());
-  shadows->SetKeepVisibility(!options.visibility.empty());
+  shadows->SetKeepVisibility(!options.visibility.empty() || !options.classes.empty());
   renderer->SetPass(shadows);
   window->AddRenderer(renderer);
   window->Render();
@@ -242,6 +278,10 @@ void render(const RenderOptions& options)
   if (!messages.errors().empty())
   {
     throw Failure("rendering: " + messages.errors().front());
+  }
+  if (!options.classes.empty())
+  {
+    writePicture(firstClassPicture(shadows->GetVisibility()), options.classes);
   }
   writePicture(capture(window), options.picture);
   if (!options.visibility.empty())
@@ -331,6 +371,12 @@ void addRenderCommand(CLI::App& app)
   command->add_option("--visibility", options->visibility,
     "Also write every light's visibility and the receivers, .exr");
   command->add_option("--stats", options->stats, "Also write what the frame did, .json");
+  command->add_option("--classes", options->classes,
+    "Also write how each pixel's visibility came about, by colours, for the first light whose "
+    "technique "
+    "tells: lit for certain light grey, in shadow for certain dark grey, traced purple, turned "
+    "away from the "
+    "light green; .png or .exr");
   command->callback([options] { render(*options); });
 }
 

@@ -73,6 +73,10 @@ void writeReport(const ComparisonResults& results, const std::string& folder)
     const std::string stem = fileStem(variant.name);
     writePicture(variant.picture, (base / (stem + ".png")).string());
     writePicture(variant.errors, (base / (stem + "-errors.png")).string());
+    if (variant.classPicture.pixelCount() > 0)
+    {
+      writePicture(variant.classPicture, (base / (stem + "-classes.png")).string());
+    }
   }
   const Picture chart = drawChart(results);
   writePicture(chart, (base / "chart.png").string());

@@ -200,6 +200,37 @@ std::string stageTable(const ComparisonResults& results)
   return html + "</tbody>\n</table>";
 }
 
+/// How pixels were decided, with the classes' shares of all pixels of all lights.
+std::string classTable(const ComparisonResults& results)
+{
+  const std::vector<std::string> names = classNames(results);
+  if (names.empty())
+  {
+    return "<p>No variant tells its pixels' classes.</p>";
+  }
+  std::vector<std::string> columns = { "Variant" };
+  columns.insert(columns.end(), names.begin(), names.end());
+  std::string html = "<table>\n" + heading(columns) + "<tbody>\n";
+  const double pixelsOfAll = static_cast<double>(results.width) * results.height * results.lights;
+  for (const VariantResult& variant : results.variants)
+  {
+    if (variant.classes.empty())
+    {
+      continue;
+    }
+    html += "<tr>" + cell(variant.name);
+    for (const std::string& name : names)
+    {
+      const std::int64_t* const pixels = findClass(variant, name);
+      html += pixels
+        ? cell(percent(static_cast<double>(*pixels) / pixelsOfAll), std::to_string(*pixels))
+        : cell(std::string());
+    }
+    html += "</tr>\n";
+  }
+  return html + "</tbody>\n</table>";
+}
+
 std::string sourceTable(const ComparisonResults& results)
 {
   std::string html = "<table class=\"text\">\n<tbody>\n";
@@ -247,7 +278,13 @@ std::string pictureGrid(const ComparisonResults& results)
     html += "<div class=\"pair\">\n<h3>" + name + "</h3>\n<figure><img alt=\"" + name +
       "\" src=\"" + dataUri(variant.picture) + "\" /></figure>\n<figure><img alt=\"" + name +
       ": errors\" src=\"" + dataUri(variant.errors) + "\" /><figcaption>" + wrong +
-      " wrong pixels</figcaption></figure>\n</div>\n";
+      " wrong pixels</figcaption></figure>\n";
+    if (variant.classPicture.pixelCount() > 0)
+    {
+      html += "<figure><img alt=\"" + name + ": classes\" src=\"" + dataUri(variant.classPicture) +
+        "\" /><figcaption>How pixels were decided</figcaption></figure>\n";
+    }
+    html += "</div>\n";
   }
   return html;
 }
@@ -294,6 +331,7 @@ std::string toHtml(const ComparisonResults& results, const Picture& chart)
       { "chart", dataUri(chart) },
       { "pictures", pictureGrid(results) },
       { "stages", stageTable(results) },
+      { "classes", classTable(results) },
       { "sources", sourceTable(results) },
       { "settings", settingsTable(results) },
     });

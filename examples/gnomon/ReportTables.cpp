@@ -102,6 +102,10 @@ CsvRow csvHeading(const ComparisonResults& results)
   {
     row << std::string(name);
   }
+  for (const std::string& name : classNames(results))
+  {
+    row << name + "_pixels";
+  }
   return row;
 }
 
@@ -128,6 +132,11 @@ CsvRow csvRow(const ComparisonResults& results, const VariantResult& variant)
   }
   row << variant.memory.occluders << variant.memory.bvh << variant.memory.maps
       << variant.memory.images << variant.memory.residentGrowth;
+  for (const std::string& name : classNames(results))
+  {
+    const std::int64_t* const pixels = findClass(variant, name);
+    pixels ? row << *pixels : row.empty();
+  }
   return row;
 }
 
@@ -175,9 +184,18 @@ nlohmann::ordered_json jsonOf(const VariantResult& variant)
     { "images", variant.memory.images },
     { "resident_growth", variant.memory.residentGrowth },
   };
+  json["class_pixels"] = nlohmann::ordered_json::object();
+  for (const auto& [name, pixels] : variant.classes)
+  {
+    json["class_pixels"][name] = pixels;
+  }
   json["notes"] = variant.notes;
   json["picture"] = fileStem(variant.name) + ".png";
   json["error_picture"] = fileStem(variant.name) + "-errors.png";
+  if (variant.classPicture.pixelCount() > 0)
+  {
+    json["class_picture"] = fileStem(variant.name) + "-classes.png";
+  }
   return json;
 }
 

@@ -13,6 +13,7 @@ struct PixelClass
 {
   std::string name;                   ///< a few words for people
   std::array<std::uint8_t, 3> colour; ///< red, green, blue in pictures of classes
+  bool traced = false;                ///< whether a ray decided
 };
 
 } // namespace gnomon

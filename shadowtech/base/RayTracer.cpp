@@ -629,7 +629,7 @@ std::vector<PixelClass> classesOfTracing()
 {
   return { { "no receiver", { 0, 0, 0 } }, { "turned away from the light", { 0, 140, 60 } },
     { "lit for certain", { 230, 230, 230 } }, { "in shadow for certain", { 90, 90, 90 } },
-    { "traced", { 160, 40, 200 } } };
+    { "traced", { 160, 40, 200 }, true } };
 }
 
 //------------------------------------------------------------------------------

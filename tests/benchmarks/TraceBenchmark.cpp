@@ -209,6 +209,21 @@ void projectReceiversOfAFrame(benchmark::State& state)
 }
 BENCHMARK(projectReceiversOfAFrame)->UseRealTime()->Unit(benchmark::kMillisecond);
 
+void visitTilesOfAFrame(benchmark::State& state)
+{
+  const Subject& scene = subject();
+  ReceiverPixels stored;
+  for (auto _ : state)
+  {
+    const Receivers receivers(
+      scene.view.images, scene.view.drawnSurfaces, scene.occluders, stored);
+    receivers.visitTiles(
+      [](const ReceiverTile& tile)
+      { benchmark::DoNotOptimize(tile.receivers.positionX.data()); });
+  }
+}
+BENCHMARK(visitTilesOfAFrame)->UseRealTime()->Unit(benchmark::kMillisecond);
+
 void buildStructure(benchmark::State& state)
 {
   for (auto _ : state)

@@ -143,6 +143,22 @@ TEST(ComparisonRun, TakesPictures)
   EXPECT_GT(variant(cubeResults(), "raytraced").tracedPixels, 0);
 }
 
+TEST(ComparisonRun, TellsHowPixelsWereDecided)
+{
+  const VariantResult& result = variant(cubeResults(), "raytraced");
+  std::int64_t pixels = 0;
+  for (const auto& [name, count] : result.classes)
+  {
+    pixels += count;
+  }
+  EXPECT_EQ(pixels, 140 * 140);
+  ASSERT_NE(findClass(result, "traced"), nullptr);
+  EXPECT_EQ(*findClass(result, "traced"), result.tracedPixels);
+  EXPECT_EQ(result.classPicture.width, 140);
+  EXPECT_TRUE(variant(cubeResults(), "nsm 256 image").classes.empty());
+  EXPECT_TRUE(variant(cubeResults(), "nsm 256 inline").classes.empty());
+}
+
 TEST(ComparisonRun, ASceneWithoutCastingLightsIsBadInput)
 {
   Scene scene = loadScene("cube");

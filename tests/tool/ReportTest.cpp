@@ -92,6 +92,8 @@ TEST(Report, CsvSaysAHundredWrongPixels)
   EXPECT_EQ(rows[3][column(rows, "camera_moving_maps_ms")], "");
   EXPECT_EQ(rows[3][column(rows, "traced_pixels")], "1000");
   EXPECT_EQ(rows[3][column(rows, "light_moving_ms")], "180");
+  EXPECT_EQ(rows[3][column(rows, "no receiver_pixels")], "24");
+  EXPECT_EQ(rows[2][column(rows, "no receiver_pixels")], "");
 }
 
 TEST(Report, CsvQuotesWhatNeedsIt)
@@ -118,6 +120,9 @@ TEST(Report, JsonSaysAHundredWrongPixels)
   EXPECT_EQ(nsm.at("times").at("light_moving").at("frame_ms"), 108.0);
   EXPECT_EQ(nsm.at("times").at("static").at("stages_ms").at("maps"), 8.25);
   EXPECT_EQ(json.at("variants").at(2).at("error").at("wrong_pixels"), 0);
+  EXPECT_EQ(json.at("variants").at(2).at("class_pixels").at("no receiver"), 24);
+  EXPECT_EQ(json.at("variants").at(2).at("class_picture"), "raytraced-classes.png");
+  EXPECT_FALSE(nsm.contains("class_picture"));
 }
 
 /// The report with a small stand-in for the chart.
@@ -136,6 +141,8 @@ TEST(Report, HtmlSaysAHundredWrongPixels)
   EXPECT_NE(html.find("floor &amp; &lt;half&gt; shadow"), std::string::npos);
   EXPECT_NE(html.find("36.0 ms<small>1.20 x plain</small>"), std::string::npos);
   EXPECT_NE(html.find("A limit, of &quot;some&quot; kind."), std::string::npos);
+  EXPECT_NE(html.find("<th>no receiver</th>"), std::string::npos);
+  EXPECT_NE(html.find("<small>24</small>"), std::string::npos);
   EXPECT_EQ(html.find("{{"), std::string::npos);
 }
 
@@ -155,7 +162,7 @@ TEST(Report, HtmlNeedsNoOtherFileAndNoNetwork)
     EXPECT_EQ((*match)[1], "data:image/png;base64,");
     ++images;
   }
-  EXPECT_EQ(images, 7); // the chart, and two pictures for each of three variants
+  EXPECT_EQ(images, 8); // the chart, two pictures for each of three variants, and one of classes
 }
 
 TEST(Report, HtmlIsWellFormed)
@@ -180,9 +187,10 @@ TEST(Report, WritesEveryFile)
   const TestFolder folder;
   const std::string target = folder / "new/report";
   writeReport(syntheticResults(), target);
-  for (const char* name : { "results.csv", "results.json", "report.html", "chart.png",
-         "plain-VTK.png", "plain-VTK-errors.png", "nsm-1024-inline.png",
-         "nsm-1024-inline-errors.png", "raytraced.png", "raytraced-errors.png" })
+  for (const char* name :
+    { "results.csv", "results.json", "report.html", "chart.png", "plain-VTK.png",
+      "plain-VTK-errors.png", "nsm-1024-inline.png", "nsm-1024-inline-errors.png", "raytraced.png",
+      "raytraced-errors.png", "raytraced-classes.png" })
   {
     EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(target) / name)) << name;
   }

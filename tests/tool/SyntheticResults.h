@@ -116,6 +116,8 @@ inline ComparisonResults syntheticResults()
     timing.stageShare = 0.965;
   }
   results.variants[2].tracedPixels = 1000;
+  results.variants[2].classes = { { "traced", 1000 }, { "no receiver", 24 } };
+  results.variants[2].classPicture = greyPicture(truth.width, truth.height);
   return results;
 }
 

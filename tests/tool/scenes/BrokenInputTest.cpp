@@ -305,6 +305,13 @@ std::vector<BrokenInput> brokenInputs()
       { "render", "cube", "-o", "out.exr", "--visibility", "./out.exr" }),
     option("stats_unwritable", "--stats",
       { "render", "cube", "-o", "out.png", "--stats", "/proc/s.json" }),
+    option("classes_unwritable", "--classes",
+      { "render", "cube", "-o", "out.png", "--classes", "/proc/c.png" }),
+    option("classes_are_the_picture", "--classes",
+      { "render", "cube", "-o", "out.png", "--classes", "./out.png" }),
+    option("classes_of_a_technique_without", "--classes",
+      { "render", "cube", "-o", "out.png", "--size", "8x8", "--technique", "nsm", "--classes",
+        "c.png" }),
     option("size_zero", "--size", { "render", "cube", "-o", "out.png", "--size", "0x100" }),
     option("size_negative", "--size", { "render", "cube", "-o", "out.png", "--size", "100x-1" }),
     option("size_huge", "--size", { "render", "cube", "-o", "out.png", "--size", "99999x99999" }),
@@ -401,6 +408,24 @@ TEST(Program, RendersASceneFileAndWritesStatistics)
   const nlohmann::json stats = nlohmann::json::parse(readBytes(folder / "stats.json"));
   EXPECT_TRUE(stats.contains("stages"));
   EXPECT_TRUE(stats.contains("lights"));
+}
+
+//------------------------------------------------------------------------------
+TEST(Program, TellsHowPixelsWereDecided)
+{
+  TestFolder folder;
+  const Outcome outcome = run(folder,
+    { "render", "cube", "-o", "out.png", "--size", "64x48", "--technique", "silhouette",
+      "--classes", "classes.png", "--stats", "stats.json" });
+  EXPECT_TRUE(outcome.exited && outcome.code == 0) << outcome.errors;
+  EXPECT_EQ(readBytes(folder / "classes.png").compare(1, 3, "PNG"), 0);
+  const nlohmann::json stats = nlohmann::json::parse(readBytes(folder / "stats.json"));
+  int pixels = 0;
+  for (const auto& count : stats.at("lights").at(0).at("classes"))
+  {
+    pixels += count.get<int>();
+  }
+  EXPECT_EQ(pixels, 64 * 48);
 }
 
 //------------------------------------------------------------------------------
