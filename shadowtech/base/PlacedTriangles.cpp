@@ -1,30 +1,9 @@
 #include "shadowtech/base/PlacedTriangles.h"
 
-#include "shadowtech/base/Occluders.h"
 #include "shadowtech/base/ShadowRay.h"
 
 namespace gnomon
 {
-
-//------------------------------------------------------------------------------
-glm::dvec3 centredVertex(
-  const Occluders& occluders, const Surface& surface, std::uint32_t instance, std::uint32_t vertex)
-{
-  const glm::dvec3 position = occluders.positionsCentred[vertex];
-  return surface.isInstanced()
-    ? glm::dmat4x3(surface.centredFromSource[instance]) * glm::dvec4(position, 1.0)
-    : position;
-}
-
-//------------------------------------------------------------------------------
-std::array<glm::dvec3, 3> centredCorners(const Occluders& occluders, const Surface& surface,
-  std::uint32_t instance, std::uint32_t triangle)
-{
-  const glm::uvec3 vertices = occluders.triangles[triangle];
-  return { centredVertex(occluders, surface, instance, vertices.x),
-    centredVertex(occluders, surface, instance, vertices.y),
-    centredVertex(occluders, surface, instance, vertices.z) };
-}
 
 //------------------------------------------------------------------------------
 float noiseOf(const Occluders& occluders, const Surface& surface, std::uint32_t instance,

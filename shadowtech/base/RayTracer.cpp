@@ -167,7 +167,8 @@ struct alignas(64) TilePixels
 {
   TileArray<float> originX, originY, originZ;
   TileArray<float> directionX, directionY, directionZ;
-  TileArray<int> traced; ///< Embree's mask: -1 where the ray is needed, else 0
+  TileArray<int> traced;           ///< Embree's mask: -1 where the ray is needed, else 0
+  TileArray<std::uint8_t> classes; ///< TracedClass
 };
 
 void occluded(const int* valid, RTCScene scene, RTCIntersectContext* context, RTCRay16* rays)
@@ -264,16 +265,13 @@ private:
   float rayFar_;
 };
 
-/// The rays of one row of a tile from its receivers, and what is known of their visibility without:
-/// 1 for pixels that receive no shadow, 0 for those that the light does not reach in any case.
-/// @param columns a number, or a constant so that the loops become vector code
+/// The rays of one row of a tile from its receivers.
+/// @param columns a number, or a constant so that the loop becomes vector code
 /// @param from where the row's receivers begin
-/// @param receives by surface + 1, so that `notCovered` + 1 = 0 is the first: 1 or 0
 /// @param to where the row's pixels begin
 template <typename Columns, typename MakeRay>
 void makeRays(const ReceiverPixels& receivers, std::size_t from, Columns columns,
-  const std::uint8_t* receives, const MakeRay& makeRay, std::size_t to, TilePixels& pixels,
-  TileArray<float>& visibility)
+  const MakeRay& makeRay, std::size_t to, TilePixels& pixels)
 {
   const std::size_t count = columns;
   const float* const positionX = &receivers.positionX[from];
@@ -296,46 +294,46 @@ void makeRays(const ReceiverPixels& receivers, std::size_t from, Columns columns
     pixels.directionZ[to + x] = ray.direction.z;
     pixels.traced[to + x] = ray.traced ? -1 : 0;
   }
-  for (std::size_t x = 0; x < count; ++x)
-  {
-    const int receiving = receives[receivers.surface[from + x] + 1u];
-    visibility[to + x] = receiving > -pixels.traced[to + x] ? 0.0f : 1.0f;
-    pixels.traced[to + x] &= -receiving;
-  }
 }
 
-/// Leaves out the rays of one row of a tile whose answer is known.
-void takeCertain(const Certainty* certain, std::size_t columns, std::size_t first,
-  TilePixels& pixels, TileArray<float>& visibility)
-{
-  for (std::size_t x = 0; x < columns; ++x)
-  {
-    const bool traced = pixels.traced[first + x] != 0;
-    visibility[first + x] =
-      traced && certain[x] == Certainty::Shadow ? 0.0f : visibility[first + x];
-    pixels.traced[first + x] = traced && certain[x] == Certainty::Uncertain ? -1 : 0;
-  }
-}
+static_assert(static_cast<int>(TracedClass::Traced) == static_cast<int>(Certainty::Uncertain) &&
+    static_cast<int>(TracedClass::Lit) == static_cast<int>(Certainty::Lit) &&
+    static_cast<int>(TracedClass::Shadow) == static_cast<int>(Certainty::Shadow) &&
+    static_cast<int>(TracedClass::Unreached) == static_cast<int>(Certainty::Unreached),
+  "a receiver's class is what is known of it");
 
-TracedClass classOf(bool receives, bool reached, Certainty certain)
-{
-  return !receives                 ? TracedClass::NoReceiver
-    : !reached                     ? TracedClass::Unreached
-    : certain == Certainty::Lit    ? TracedClass::Lit
-    : certain == Certainty::Shadow ? TracedClass::Shadow
-                                   : TracedClass::Traced;
-}
-
-/// The classes of one row of a tile, before takeCertain().
+/// What becomes of the pixels of one row of a tile, and so which rays are needed, and what shows without any.
+/// @param receives by surface + 1, so that `notCovered` + 1 = 0 is the first: 1 or 0
 /// @param certain null: nothing is
-void classify(const ReceiverPixels& receivers, std::size_t from, std::size_t columns,
-  const std::uint8_t* receives, const TilePixels& pixels, std::size_t first,
-  const Certainty* certain, std::uint8_t* classes)
+void classify(const ReceiverTile& tile, std::size_t from, const std::uint8_t* receives,
+  const Certainty* certain, std::size_t to, TilePixels& pixels, TileArray<float>& visibility)
 {
+  constexpr auto unreached = static_cast<std::uint8_t>(TracedClass::Unreached);
+  constexpr auto noReceiver = static_cast<std::uint8_t>(TracedClass::NoReceiver);
+  constexpr auto traced = static_cast<std::uint8_t>(TracedClass::Traced);
+  constexpr auto shadow = static_cast<std::uint8_t>(TracedClass::Shadow);
+  const auto columns = static_cast<std::size_t>(tile.receivers.width);
+  std::array<std::uint8_t, tileColumns> receiving;
+  std::array<std::uint8_t, tileColumns> asked;
   for (std::size_t x = 0; x < columns; ++x)
   {
-    classes[x] = static_cast<std::uint8_t>(classOf(receives[receivers.surface[from + x] + 1u] != 0,
-      pixels.traced[first + x] != 0, certain ? certain[x] : Certainty::Uncertain));
+    receiving[x] = receives[tile.receivers.surface[from + x] + 1u];
+    asked[x] = certain ? static_cast<std::uint8_t>(certain[from + x]) : traced;
+  }
+  const Certainty* const known = &tile.known[from];
+  std::uint8_t* const classes = &pixels.classes[to];
+  int* const rays = &pixels.traced[to];
+  float* const lit = &visibility[to];
+#pragma GCC ivdep
+  for (std::size_t x = 0; x < columns; ++x)
+  {
+    const auto decided = static_cast<std::uint8_t>(known[x]);
+    const std::uint8_t reached = rays[x] != 0 ? asked[x] : unreached;
+    const std::uint8_t undecided = receiving[x] != 0 ? reached : noReceiver;
+    const std::uint8_t result = decided != 0 ? decided : undecided;
+    classes[x] = result;
+    rays[x] = result == traced ? -1 : 0;
+    lit[x] = (result == unreached) | (result == shadow) ? 0.0f : 1.0f;
   }
 }
 
@@ -345,7 +343,7 @@ struct Tracing
   RTCScene scene;                     ///< null where nothing casts
   RTCIntersectContextFlags coherence; ///< of the rays of a packet
   const std::vector<std::uint8_t>& receives;
-  const DecideReceivers& decide;
+  const ReceiverDecider* decider; ///< may be null
   std::vector<float>& visibility;
   std::vector<std::uint8_t>* classes;
 };
@@ -372,32 +370,28 @@ std::size_t traceImage(
       }
       for (std::size_t y = 0; y < rows; ++y)
       {
-        const auto make = [&](auto count)
+        const std::uint32_t* const surfaces = &receivers.surface[y * columns];
+        if (std::all_of(surfaces, surfaces + columns,
+              [](std::uint32_t surface) { return surface == ReceiverPixels::notCovered; }))
         {
-          makeRays(receivers, y * columns, count, tracing.receives.data(), makeRay, y * tileColumns,
-            pixels, visibility);
-        };
+          std::fill_n(&pixels.traced[y * tileColumns], columns, 0);
+          continue;
+        }
+        const auto make = [&](auto count)
+        { makeRays(receivers, y * columns, count, makeRay, y * tileColumns, pixels); };
         columns == tileColumns ? make(std::integral_constant<std::size_t, tileColumns>())
                                : make(columns);
       }
       std::vector<Certainty> certain;
-      if (tracing.decide)
+      if (tracing.decider)
       {
         certain.assign(receivers.size(), Certainty::Uncertain);
-        tracing.decide(tile, certain);
+        tracing.decider->ofPixels(tile, certain);
       }
       for (std::size_t y = 0; y < rows; ++y)
       {
-        const Certainty* const known = tracing.decide ? &certain[y * columns] : nullptr;
-        if (tracing.classes)
-        {
-          classify(receivers, y * columns, columns, tracing.receives.data(), pixels,
-            y * tileColumns, known, &(*tracing.classes)[firstOfPicture + y * source.width()]);
-        }
-        if (known)
-        {
-          takeCertain(known, columns, y * tileColumns, pixels, visibility);
-        }
+        classify(tile, y * columns, tracing.receives.data(),
+          tracing.decider ? certain.data() : nullptr, y * tileColumns, pixels, visibility);
       }
       if (tracing.scene)
       {
@@ -406,10 +400,15 @@ std::size_t traceImage(
       }
       for (std::size_t y = 0; y < rows; ++y)
       {
-        std::copy_n(&visibility[y * tileColumns], columns,
-          &tracing.visibility[firstOfPicture + y * source.width()]);
+        const std::size_t first = firstOfPicture + y * source.width();
+        std::copy_n(&visibility[y * tileColumns], columns, &tracing.visibility[first]);
+        if (tracing.classes)
+        {
+          std::copy_n(&pixels.classes[y * tileColumns], columns, &(*tracing.classes)[first]);
+        }
       }
-    });
+    },
+    tracing.decider);
   return static_cast<std::size_t>(traced);
 }
 
@@ -627,14 +626,14 @@ RayTracer::Update RayTracer::update(const Occluders& occluders)
 //------------------------------------------------------------------------------
 std::vector<PixelClass> classesOfTracing()
 {
-  return { { "no receiver", { 0, 0, 0 } }, { "turned away from the light", { 0, 140, 60 } },
-    { "lit for certain", { 230, 230, 230 } }, { "in shadow for certain", { 90, 90, 90 } },
-    { "traced", { 160, 40, 200 }, true } };
+  return { { "traced", { 160, 40, 200 }, true }, { "lit for certain", { 230, 230, 230 } },
+    { "in shadow for certain", { 90, 90, 90 } }, { "turned away from the light", { 0, 140, 60 } },
+    { "no receiver", { 0, 0, 0 } } };
 }
 
 //------------------------------------------------------------------------------
 std::size_t RayTracer::trace(const ShadowLight& light, const Occluders& occluders,
-  const Receivers& receivers, std::vector<float>& visibility, const DecideReceivers& decide,
+  const Receivers& receivers, std::vector<float>& visibility, const ReceiverDecider* decider,
   std::vector<std::uint8_t>* classes) const
 {
   visibility.resize(receivers.width() * receivers.height());
@@ -655,7 +654,7 @@ std::size_t RayTracer::trace(const ShadowLight& light, const Occluders& occluder
     [](const Surface& surface) { return surface.casts && surface.isInstanced(); });
   const Tracing tracing{ this->impl_->casters.empty() ? nullptr : this->impl_->scene.get(),
     instanced ? RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT : RTC_INTERSECT_CONTEXT_FLAG_COHERENT,
-    receives, decide, visibility, classes };
+    receives, decider, visibility, classes };
   return visitShadowRays(rayLight,
     [&](const auto& makeRay, float rayFar)
     {

@@ -2,40 +2,27 @@
 #define gnomon_shadowtech_base_RayTracer_h
 
 #include "lights/ShadowLight.h"
+#include "shadowtech/base/Certainty.h"
 #include "shadowtech/base/Occluders.h"
 #include "shadowtech/base/PixelClass.h"
 #include "shadowtech/base/Receivers.h"
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <vector>
 
 namespace gnomon
 {
 
-/// What is known of a receiver's shadow ray without tracing it.
-enum class Certainty : std::uint8_t
-{
-  Uncertain,
-  Lit,
-  Shadow
-};
-
-/// Says what it knows of receivers whose `certain` is Uncertain; called for several tiles at once. Of receivers
-/// that need no shadow ray it may say anything.
-using DecideReceivers =
-  std::function<void(const ReceiverTile& tile, std::vector<Certainty>& certain)>;
-
 /// How RayTracer::trace() comes to a pixel's visibility: indices into classesOfTracing().
 enum class TracedClass : std::uint8_t
 {
-  NoReceiver, ///< nothing is seen, or what receives no shadow
-  Unreached,  ///< turned away from the light, or outside its cone or box
-  Lit,        ///< for certain, without a ray
-  Shadow,     ///< the same
-  Traced
+  Traced,
+  Lit,       ///< for certain, without a ray
+  Shadow,    ///< the same
+  Unreached, ///< turned away from the light, or outside its cone or box
+  NoReceiver ///< nothing is seen, or what receives no shadow
 };
 std::vector<PixelClass> classesOfTracing();
 
@@ -66,12 +53,12 @@ public:
   /// are not covered, or whose surface does not receive, get 1.
   ///
   /// @param visibility resized to one for each pixel of the picture
-  /// @param decide says what is known without rays; null: nothing
+  /// @param decider who knows something without rays; null: nobody
   /// @param classes where not null, resized likewise, each pixel's TracedClass
   /// @return the number of rays traced
   std::size_t trace(const ShadowLight& light, const Occluders& occluders,
     const Receivers& receivers, std::vector<float>& visibility,
-    const DecideReceivers& decide = nullptr, std::vector<std::uint8_t>* classes = nullptr) const;
+    const ReceiverDecider* decider = nullptr, std::vector<std::uint8_t>* classes = nullptr) const;
 
   /// Memory that Embree holds for this tracer.
   std::size_t bytes() const;

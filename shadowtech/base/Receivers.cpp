@@ -5,13 +5,13 @@
 #include "shadowtech/base/ShadowRay.h"
 
 #include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
-#include <memory>
 
 namespace gnomon
 {
@@ -69,6 +69,8 @@ struct SeenTriangle
   float noise = 0.0f;       ///< planeNoise()
   std::uint32_t surface = none;
   bool finite = false;
+  Certainty known =
+    Certainty::Uncertain; ///< of all its receivers; else the numbers above mean nothing
 };
 
 /// The largest primitive number that the images can hold exactly.
@@ -137,7 +139,26 @@ bool isFinite(const PixelRays& rays)
     isFinite(rays.directionPerColumn) && isFinite(rays.directionPerRow);
 }
 
-SeenTriangle see(const Occluders& occluders, const TriangleOfFragment& found, const PixelRays& rays)
+/// The most that a pixel's side measures on a triangle.
+double largestFootprint(const PixelRays& rays, const std::array<glm::dvec3, 3>& corners)
+{
+  double t = 0.0;
+  if (!rays.parallel())
+  {
+    // Points at t D from O have t = (point - O).across / D.across, with the same divisor for all pixels.
+    const glm::dvec3 across = glm::cross(rays.directionPerColumn, rays.directionPerRow);
+    const double perT = glm::dot(across, rays.firstDirection);
+    for (const glm::dvec3& corner : corners)
+    {
+      t = std::max(t, glm::dot(across, corner - rays.firstOrigin) / perT);
+    }
+  }
+  return glm::length(rays.originPerRow) + t * glm::length(rays.directionPerRow);
+}
+
+/// @param decider may be null
+SeenTriangle see(const Occluders& occluders, const TriangleOfFragment& found, const PixelRays& rays,
+  const ReceiverDecider* decider)
 {
   const Surface& surface = occluders.surfaces[found.surface];
   const auto noise = [&](const SeenTriangle& of, const glm::vec3& normal, double doubleArea)
@@ -173,6 +194,16 @@ SeenTriangle see(const Occluders& occluders, const TriangleOfFragment& found, co
     // shadow ray either, as if its area were endless.
     seen.noise = noise(seen, glm::vec3(1.0f), std::numeric_limits<double>::infinity());
     return seen;
+  }
+  // The camera is on the side to which the area's vector does not point.
+  if (decider && !surface.isInstanced())
+  {
+    seen.known = decider->ofTriangle(
+      { found.triangle, side > 0.0, seen.corners, largestFootprint(rays, seen.corners) });
+    if (isDecided(seen.known))
+    {
+      return seen;
+    }
   }
   const double orientation = side > 0.0 ? 1.0 : -1.0;
   areaVector *= orientation;
@@ -249,17 +280,20 @@ glm::dvec3 inwards(
   return length > 2.0 * step ? edge + step / length * toMiddle : edge + 0.5 * toMiddle;
 }
 
-/// Triangles that a tile meets again and again; one entry per number modulo the size.
+/// Triangles that a tile meets again and again, by the fragments that name them; one entry per primitive's number modulo
+/// the size.
 class SeenTriangles
 {
 public:
   template <typename Make>
-  const SeenTriangle& find(const TriangleOfFragment& triangle, Make make)
+  const SeenTriangle& find(const glm::vec2& fragment, Make make)
   {
-    const std::size_t slot = (triangle.triangle + 61u * triangle.instance) % size;
-    if (!(this->triangles_[slot] == triangle))
+    const std::size_t slot =
+      (std::isfinite(fragment.y) ? static_cast<std::size_t>(std::abs(fragment.y)) : 0) % size;
+    if (!this->filled_[slot] || this->fragments_[slot] != fragment)
     {
-      this->triangles_[slot] = triangle;
+      this->filled_[slot] = true;
+      this->fragments_[slot] = fragment;
       this->seen_[slot] = make();
     }
     return this->seen_[slot];
@@ -267,7 +301,8 @@ public:
 
 private:
   static constexpr std::size_t size = 256;
-  std::array<TriangleOfFragment, size> triangles_;
+  std::array<bool, size> filled_{};
+  std::array<glm::vec2, size> fragments_;
   std::array<SeenTriangle, size> seen_;
 };
 
@@ -371,6 +406,112 @@ void projectSpan(
   }
 }
 
+/// A span's part from one column to before another.
+Span partOf(const Span& span, std::size_t firstColumn, std::size_t lastColumn)
+{
+  return { span.y, firstColumn, lastColumn, span.first + (firstColumn - span.firstColumn) };
+}
+
+/// The receivers of spans, or what is known of them without.
+class SpanMaking
+{
+public:
+  /// @param known where not null, gets what is decided of each receiver
+  /// @param decider may be null, and is where `known` is
+  SpanMaking(const PixelRays& rays, ReceiverPixels& receivers, std::vector<Certainty>* known,
+    const ReceiverDecider* decider)
+    : rays_(rays)
+    , receivers_(receivers)
+    , known_(known)
+    , decider_(decider)
+  {
+  }
+
+  void make(const SeenTriangle& seen, const Span& span)
+  {
+    if (this->known_ && isDecided(seen.known))
+    {
+      this->leaveOut(span, seen.known);
+    }
+    else if (this->known_ && seen.known == Certainty::Reached)
+    {
+      this->makeByHalves(seen, span);
+    }
+    else
+    {
+      this->project(seen, span);
+    }
+  }
+
+private:
+  /// Below that many pixels it is no dearer to look at each.
+  static constexpr std::size_t shortestAsked = 12;
+
+  void project(const SeenTriangle& seen, const Span& span)
+  {
+    projectSpan(seen, this->rays_, span, this->receivers_);
+  }
+
+  /// Leaves out receivers of which everything is known: their numbers mean nothing.
+  void leaveOut(const Span& span, Certainty certainty)
+  {
+    std::fill_n(&this->receivers_.surface[span.first], span.count(), ReceiverPixels::notCovered);
+    std::fill_n(&(*this->known_)[span.first], span.count(), certainty);
+  }
+
+  void makeByHalves(const SeenTriangle& seen, const Span& span)
+  {
+    if (span.count() < shortestAsked)
+    {
+      this->project(seen, span);
+      return;
+    }
+    const Certainty certainty = this->askAbout(seen, span);
+    if (isDecided(certainty))
+    {
+      this->leaveOut(span, certainty);
+      return;
+    }
+    const std::size_t middle = (span.firstColumn + span.lastColumn) / 2;
+    this->makeByHalves(seen, partOf(span, span.firstColumn, middle));
+    this->makeByHalves(seen, partOf(span, middle, span.lastColumn));
+  }
+
+  /// What is known of a span whose pixels all lie inside the triangle, and so in a line.
+  Certainty askAbout(const SeenTriangle& seen, const Span& span) const
+  {
+    const auto y = static_cast<double>(span.y);
+    ReceiverSegment segment;
+    segment.surface = seen.surface;
+    segment.leastOffset = std::numeric_limits<float>::infinity();
+    segment.mostOffset = 0.0f;
+    const auto meet = [&](std::size_t column, glm::dvec3& position)
+    {
+      const auto x = static_cast<double>(column);
+      const double along = seen.alongNormal.row(y).at(x);
+      const double t = seen.planeDistance.row(y).at(x) / along;
+      position = this->rays_.origin(x, y) + t * this->rays_.direction(x, y);
+      const double footprint =
+        glm::length(this->rays_.originPerRow) + t * glm::length(this->rays_.directionPerRow);
+      const float offset = shadowRayOffsetInside(seen.noise, static_cast<float>(footprint));
+      segment.leastOffset = std::min(segment.leastOffset, offset * 0.999999f);
+      segment.mostOffset = std::max(segment.mostOffset, offset * 1.000001f);
+      // Affine numbers that are not negative at both ends are not between them. Written so that NaN fails.
+      return seen.insideEdge[0].row(y).at(x) >= 0.0 && seen.insideEdge[1].row(y).at(x) >= 0.0 &&
+        seen.insideEdge[2].row(y).at(x) >= 0.0 && along > 0.0;
+    };
+    return meet(span.firstColumn, segment.firstCentred) &&
+        meet(span.lastColumn - 1, segment.lastCentred)
+      ? this->decider_->ofSegment(segment)
+      : Certainty::Uncertain;
+  }
+
+  const PixelRays& rays_;
+  ReceiverPixels& receivers_;
+  std::vector<Certainty>* known_;
+  const ReceiverDecider* decider_;
+};
+
 void leaveUncovered(const Span& span, ReceiverPixels& receivers)
 {
   const std::size_t first = span.first;
@@ -384,12 +525,13 @@ void leaveUncovered(const Span& span, ReceiverPixels& receivers)
   std::fill_n(&receivers.surface[first], count, ReceiverPixels::notCovered);
 }
 
-/// What the receivers stage drew, and in what.
+/// What the receivers stage drew, of what, and what is known of it.
 struct Drawn
 {
   const ReceiverImages& images;
   const std::vector<DrawnSurface>& drawnSurfaces;
   const Occluders& occluders;
+  const ReceiverDecider* decider; ///< may be null
 };
 
 /// A tile's place in the picture.
@@ -399,14 +541,23 @@ struct Rectangle
 };
 
 /// The receivers of a tile.
+/// @param known where not null, gets what is decided of each; null where there is no decider
 /// @param first where the first one goes
 /// @param perRow and how much farther on those of the next row
 void projectTile(const Drawn& drawn, const Rectangle& tile, SeenTriangles& cache,
-  ReceiverPixels& receivers, std::size_t first, std::size_t perRow)
+  ReceiverPixels& receivers, std::vector<Certainty>* known, std::size_t first, std::size_t perRow)
 {
   const auto width = static_cast<std::size_t>(drawn.images.width);
   const PixelRays& rays = drawn.images.rays;
   const std::size_t lastColumn = tile.firstColumn + tile.columns;
+  const auto seeFragment = [&](const glm::vec2& fragment)
+  {
+    const TriangleOfFragment found =
+      findTriangle(std::abs(fragment.x), fragment.y, drawn.drawnSurfaces, drawn.occluders);
+    return found.triangle == none ? SeenTriangle()
+                                  : see(drawn.occluders, found, rays, drawn.decider);
+  };
+  SpanMaking spans(rays, receivers, known, drawn.decider);
   for (std::size_t row = 0; row < tile.rows; ++row)
   {
     const std::size_t y = tile.firstRow + row;
@@ -420,19 +571,8 @@ void projectTile(const Drawn& drawn, const Rectangle& tile, SeenTriangles& cache
       {
         ++span.lastColumn;
       } while (span.lastColumn < lastColumn && fragments[span.lastColumn] == fragment);
-      const TriangleOfFragment found =
-        findTriangle(std::abs(fragment.x), fragment.y, drawn.drawnSurfaces, drawn.occluders);
-      const SeenTriangle* seen = found.triangle == none
-        ? nullptr
-        : &cache.find(found, [&] { return see(drawn.occluders, found, rays); });
-      if (seen && seen->finite)
-      {
-        projectSpan(*seen, rays, span, receivers);
-      }
-      else
-      {
-        leaveUncovered(span, receivers);
-      }
+      const SeenTriangle& seen = cache.find(fragment, [&] { return seeFragment(fragment); });
+      seen.finite ? spans.make(seen, span) : leaveUncovered(span, receivers);
       span.first += span.count();
       span.firstColumn = span.lastColumn;
     }
@@ -468,25 +608,25 @@ void copyTile(const ReceiverPixels& picture, const Rectangle& tile, ReceiverPixe
 }
 
 /// All tiles of a picture, by several threads at once.
-/// @param visitTile with something of the thread's own, made by `makeLocal`
-template <typename MakeLocal, typename VisitTile>
-void visitRectangles(
-  std::size_t width, std::size_t height, const MakeLocal& makeLocal, const VisitTile& visitTile)
+/// @param visitTile with something of the thread's own
+template <typename Local, typename VisitTile>
+void visitRectangles(std::size_t width, std::size_t height, const VisitTile& visitTile)
 {
   const std::size_t tilesX = (width + ReceiverTile::mostColumns - 1) / ReceiverTile::mostColumns;
   const std::size_t tilesY = (height + ReceiverTile::mostRows - 1) / ReceiverTile::mostRows;
+  tbb::enumerable_thread_specific<Local> locals;
   constexpr std::size_t tilesAtOnce = 8;
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tilesX * tilesY, tilesAtOnce),
     [&](const tbb::blocked_range<std::size_t>& range)
     {
-      auto local = makeLocal();
+      Local& local = locals.local();
       for (std::size_t i = range.begin(); i != range.end(); ++i)
       {
         Rectangle tile{ i % tilesX * ReceiverTile::mostColumns, i / tilesX * ReceiverTile::mostRows,
           0, 0 };
         tile.columns = std::min(ReceiverTile::mostColumns, width - tile.firstColumn);
         tile.rows = std::min(ReceiverTile::mostRows, height - tile.firstRow);
-        visitTile(tile, *local);
+        visitTile(tile, local);
       }
     });
 }
@@ -496,6 +636,7 @@ struct TileMaking
 {
   SeenTriangles cache;
   ReceiverPixels receivers;
+  std::vector<Certainty> known;
 };
 
 } // namespace
@@ -522,23 +663,24 @@ Receivers::Receivers(const ReceiverPixels& stored)
 }
 
 //------------------------------------------------------------------------------
-void Receivers::visitTiles(const std::function<void(const ReceiverTile&)>& visit) const
+void Receivers::visitTiles(
+  const std::function<void(const ReceiverTile&)>& visit, const ReceiverDecider* decider) const
 {
-  visitRectangles(
-    this->width_, this->height_, [] { return std::make_unique<TileMaking>(); },
+  visitRectangles<TileMaking>(this->width_, this->height_,
     [&](const Rectangle& tile, TileMaking& making)
     {
       making.receivers.resize(static_cast<int>(tile.columns), static_cast<int>(tile.rows));
+      making.known.assign(making.receivers.size(), Certainty::Uncertain);
       if (this->stored_)
       {
         copyTile(*this->stored_, tile, making.receivers);
       }
       else
       {
-        projectTile({ *this->images_, *this->drawnSurfaces_, *this->occluders_ }, tile,
-          making.cache, making.receivers, 0, tile.columns);
+        projectTile({ *this->images_, *this->drawnSurfaces_, *this->occluders_, decider }, tile,
+          making.cache, making.receivers, decider ? &making.known : nullptr, 0, tile.columns);
       }
-      visit({ tile.firstColumn, tile.firstRow, making.receivers });
+      visit({ tile.firstColumn, tile.firstRow, making.receivers, making.known });
     });
 }
 
@@ -548,12 +690,12 @@ const ReceiverPixels& Receivers::all()
   if (!this->stored_)
   {
     this->toFill_->resize(this->images_->width, this->images_->height);
-    visitRectangles(
-      this->width_, this->height_, [] { return std::make_unique<SeenTriangles>(); },
+    visitRectangles<SeenTriangles>(this->width_, this->height_,
       [&](const Rectangle& tile, SeenTriangles& cache)
       {
-        projectTile({ *this->images_, *this->drawnSurfaces_, *this->occluders_ }, tile, cache,
-          *this->toFill_, tile.firstRow * this->width_ + tile.firstColumn, this->width_);
+        projectTile({ *this->images_, *this->drawnSurfaces_, *this->occluders_, nullptr }, tile,
+          cache, *this->toFill_, nullptr, tile.firstRow * this->width_ + tile.firstColumn,
+          this->width_);
       });
     this->stored_ = this->toFill_;
   }

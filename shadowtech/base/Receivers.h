@@ -2,6 +2,7 @@
 #define gnomon_shadowtech_base_Receivers_h
 
 #include "shadowtech/base/Bytes.h"
+#include "shadowtech/base/Certainty.h"
 #include "shadowtech/base/PixelRays.h"
 
 #include <glm/glm.hpp>
@@ -91,6 +92,9 @@ struct ReceiverTile
   std::size_t firstColumn, firstRow; ///< where it begins in the picture
   /// Its own receivers alone, which is fewer than the most at the picture's right and upper border.
   const ReceiverPixels& receivers;
+  /// What is decided of them by their triangles and lines; else Uncertain. Where it is, the receiver itself is
+  /// left out, as if nothing were covered.
+  const std::vector<Certainty>& known;
 };
 
 /// The receivers of a picture, made of what the receivers stage read back when somebody asks for them: the
@@ -114,7 +118,10 @@ public:
 
   /// The receivers of all tiles, each for as long as it is visited; tiles are visited by several threads at once.
   /// They never leave the processor's cache, unless all() has been called: who works pixel by pixel asks here.
-  void visitTiles(const std::function<void(const ReceiverTile&)>& visit) const;
+  /// @param decider who knows something of triangles and lines; null: nobody. Of receivers that are there already it is
+  /// not asked.
+  void visitTiles(const std::function<void(const ReceiverTile&)>& visit,
+    const ReceiverDecider* decider = nullptr) const;
 
   /// The whole picture, for who looks at a pixel's neighbours. Made once.
   const ReceiverPixels& all();

@@ -286,18 +286,17 @@ MapPolygon polygonOf(
     return polygon;
   }
 
-  double nearestDrawnZ = infinity;
-  double rate = 0.0;
+  polygon.nearestZ = infinity;
   polygon.count = count;
   for (std::size_t i = 0; i < count; ++i)
   {
     const MapPoint& p = points[i];
     polygon.corners[i] = { p.X / p.W, p.Y / p.W, p.Q / p.W };
-    nearestDrawnZ = std::min(nearestDrawnZ, p.z);
-    rate = std::max(rate, scene.space.depthPerUnit(p.W));
+    polygon.nearestZ = std::min(polygon.nearestZ, p.z);
+    polygon.depthPerUnit = std::max(polygon.depthPerUnit, scene.space.depthPerUnit(p.W));
   }
-  polygon.margin = marginOf(scene, nearestDrawnZ);
-  polygon.slack = noise.alongRay() * rate;
+  polygon.margin = marginOf(scene, polygon.nearestZ);
+  polygon.slack = noise.alongRay() * polygon.depthPerUnit;
   polygon.noise = noise.alongNormal;
   // Twice the area, and how high that makes it over its longest side.
   double area = 0.0;
@@ -312,7 +311,7 @@ MapPolygon polygonOf(
   }
   const bool thin = !(std::abs(area) > thinTexels * longest);
   polygon.role.poison = polygon.margin > largestMargin ||
-    nearestDrawnZ < scene.begins + scene.lateral || nearestZ < scene.begins - scene.lateral ||
+    polygon.nearestZ < scene.begins + scene.lateral || nearestZ < scene.begins - scene.lateral ||
     (!thin && (unclear || !std::isfinite(polygon.slack)));
   polygon.facing = thin || polygon.role.poison ? 0 : area > 0.0 ? 1 : -1;
   polygon.role.covers = polygon.facing != 0 && !surface.cutout;

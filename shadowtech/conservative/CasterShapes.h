@@ -95,6 +95,14 @@ struct CasterScene
   double texelsPerUnit;
   /// Towards the light, of parallel rays; else the light's position, centred.
   glm::dvec3 towards;
+
+  /// How far a shadow ray may start beside its receiver, across the light, at a distance from it (of parallel rays: at any).
+  double largestOffset(double distance) const
+  {
+    // Off the view's axis rays are longer, twice at most.
+    return offsetTexels / (this->texelsPerUnit * (this->space.positional ? 2.0 : 1.0)) *
+      (this->space.positional ? distance : 1.0);
+  }
 };
 
 /// How casters are to be looked at in a view of a light.
@@ -122,6 +130,9 @@ struct MapPolygon
   std::array<MapCorner, mostCorners> corners;
   /// That rounding asks for, in texels; infinite where the caster is at the light.
   double margin = 0.0;
+  double nearestZ = 0.0; ///< of what is drawn of it, along the view
+  double depthPerUnit =
+    0.0; ///< how much depth changes at most where a point of it moves by a unit of length
   double slack = 0.0; ///< depth that a tracer may see it off its plane
   double noise = 0.0; ///< and how far it may see it off, along its normal, in world units
 };

@@ -60,6 +60,18 @@ TexelBounds boundsOf(const Cell& cell, Covering covering)
   return bounds;
 }
 
+/// What is true of no texel at all.
+constexpr TexelBounds everyTexel{ std::numeric_limits<float>::infinity(),
+  std::numeric_limits<float>::infinity(), 0.0f, -std::numeric_limits<float>::infinity() };
+
+/// What is true of both.
+TexelBounds bothOf(const TexelBounds& a, const TexelBounds& b)
+{
+  return { std::min(a.litUpTo, b.litUpTo), std::min(a.litUpToOnCasters, b.litUpToOnCasters),
+    std::max(a.leastOffsetOnCasters, b.leastOffsetOnCasters),
+    std::max(a.shadowFrom, b.shadowFrom) };
+}
+
 /// A casting surface, or one instance of it.
 struct Placement
 {
@@ -429,8 +441,11 @@ void lookAt(
 //------------------------------------------------------------------------------
 ConservativeMap::ConservativeMap(const LightView& view, bool hasBox, int sizeTexels,
   const Occluders& occluders, const CasterEdges& edges, Covering covering)
+  : view_(view)
+  , hasBox_(hasBox)
 {
-  const CasterScene scene = casterScene(view, hasBox, sizeTexels, occluders);
+  this->lookUp_.size = sizeTexels;
+  const CasterScene scene = this->sceneOf(occluders);
   const bool positional = scene.space.positional;
   this->lookUp_.mapFromCentred = glm::mat4(scene.space.mapFromCentred());
   if (positional)
@@ -439,10 +454,7 @@ ConservativeMap::ConservativeMap(const LightView& view, bool hasBox, int sizeTex
   }
   this->lookUp_.depthPerUnit = glm::vec2(scene.space.depthPerUnit());
   this->lookUp_.rounding = static_cast<float>(scene.lateral);
-  // Off the view's axis rays are longer, twice at most.
-  this->lookUp_.largestOffset =
-    static_cast<float>(offsetTexels / (scene.texelsPerUnit * (positional ? 2.0 : 1.0)));
-  this->lookUp_.size = sizeTexels;
+  this->lookUp_.largestOffset = static_cast<float>(scene.largestOffset(1.0));
   MapDrawing drawing(scene, edges, sizeTexels, covering);
   this->blind_ = drawing.blind();
   if (!this->blind_)
@@ -451,7 +463,165 @@ ConservativeMap::ConservativeMap(const LightView& view, bool hasBox, int sizeTex
       static_cast<std::size_t>(sizeTexels) * static_cast<std::size_t>(sizeTexels));
     drawing.draw(
       [&](std::size_t i, const Cell& cell) { this->texels_[i] = boundsOf(cell, covering); });
+    this->buildLevels();
   }
+}
+
+//------------------------------------------------------------------------------
+void ConservativeMap::buildLevels()
+{
+  const std::vector<TexelBounds>* finer = &this->texels_;
+  // Lines are one tile long: they need no coarser level than that of a few texels for the whole map.
+  for (int size = this->lookUp_.size; size > 8;)
+  {
+    const int half = (size + 1) / 2;
+    std::vector<TexelBounds> level(static_cast<std::size_t>(half) * static_cast<std::size_t>(half));
+    tbb::parallel_for(0, half,
+      [&](int y)
+      {
+        for (int x = 0; x < half; ++x)
+        {
+          TexelBounds& bounds = level[static_cast<std::size_t>(y) * static_cast<std::size_t>(half) +
+            static_cast<std::size_t>(x)];
+          bounds = everyTexel;
+          for (int i = 0; i < 4; ++i)
+          {
+            const int column = std::min(2 * x + (i & 1), size - 1);
+            const int row = std::min(2 * y + (i >> 1), size - 1);
+            bounds = bothOf(bounds,
+              (*finer)[static_cast<std::size_t>(row) * static_cast<std::size_t>(size) +
+                static_cast<std::size_t>(column)]);
+          }
+        }
+      });
+    this->levels_.push_back(std::move(level));
+    finer = &this->levels_.back();
+    size = half;
+  }
+}
+
+//------------------------------------------------------------------------------
+CasterScene ConservativeMap::sceneOf(const Occluders& occluders) const
+{
+  return casterScene(this->view_, this->hasBox_, this->lookUp_.size, occluders);
+}
+
+//------------------------------------------------------------------------------
+Certainty ConservativeMap::ask(const CasterScene& scene, const MapPolygon& triangle,
+  double leastOffset, double mostOffset, bool onCaster) const
+{
+  // Larger triangles are seldom all lit or all in shadow, and their pixels are many, so that it costs little to ask for
+  // each.
+  constexpr double mostTexels = 4096.0;
+  if (this->blind_ || triangle.facing == 0 || mostOffset > scene.largestOffset(triangle.nearestZ))
+  {
+    return Certainty::Uncertain;
+  }
+  glm::dvec2 low(std::numeric_limits<double>::infinity());
+  glm::dvec2 high(-std::numeric_limits<double>::infinity());
+  for (std::size_t i = 0; i < triangle.count; ++i)
+  {
+    const glm::dvec2 corner(triangle.corners[i].x, triangle.corners[i].y);
+    low = glm::min(low, corner);
+    high = glm::max(high, corner);
+  }
+  const double size = this->lookUp_.size;
+  const glm::dvec2 extent = high - low + 1.0;
+  // Written so that NaN fails.
+  if (!(low.x >= 0.0 && low.y >= 0.0 && high.x < size && high.y < size &&
+        extent.x * extent.y <= mostTexels))
+  {
+    return Certainty::Uncertain;
+  }
+  const auto moved = static_cast<float>((scene.lateral + mostOffset) * triangle.depthPerUnit);
+  bool lit = true;
+  bool shadow = true;
+  const auto agrees = [&](int x, int y, float nearest, float farthest)
+  {
+    const TexelBounds& texel =
+      this->texels_[static_cast<std::size_t>(y) * static_cast<std::size_t>(this->lookUp_.size) +
+        static_cast<std::size_t>(x)];
+    const bool onSurface = onCaster && leastOffset >= texel.leastOffsetOnCasters;
+    lit &= farthest + moved <= (onSurface ? texel.litUpToOnCasters : texel.litUpTo);
+    shadow &= nearest - moved > texel.shadowFrom;
+    return lit || shadow;
+  };
+  return !allTexels(triangle, triangle.margin, this->lookUp_.size, agrees) ? Certainty::Uncertain
+    : lit                                                                  ? Certainty::Lit
+                                                                           : Certainty::Shadow;
+}
+
+//------------------------------------------------------------------------------
+Certainty ConservativeMap::ask(const ReceiverSegment& segment, bool onCaster) const
+{
+  if (this->blind_)
+  {
+    return Certainty::Uncertain;
+  }
+  // As lookAt(), at both ends: place, depth and distance of all between them are between theirs.
+  const glm::dmat4 mapFromCentred(this->lookUp_.mapFromCentred);
+  glm::dvec2 low(std::numeric_limits<double>::infinity());
+  glm::dvec2 high(-std::numeric_limits<double>::infinity());
+  double nearest = std::numeric_limits<double>::infinity();
+  double farthest = -nearest;
+  double perUnit = 0.0;
+  for (const glm::dvec3& end : { segment.firstCentred, segment.lastCentred })
+  {
+    const glm::dvec4 map = mapFromCentred * glm::dvec4(end, 1.0);
+    const double distance = glm::dot(glm::dvec4(this->lookUp_.distance), glm::dvec4(end, 1.0));
+    const double perW = 1.0 / map.w;
+    // Written so that NaN fails.
+    if (!(map.w > 0.0 && distance > 0.0 &&
+          segment.mostOffset <= this->lookUp_.largestOffset * distance * (1.0 - 1e-6)))
+    {
+      return Certainty::Uncertain;
+    }
+    const glm::dvec2 place(map.x * perW, map.y * perW);
+    low = glm::min(low, place);
+    high = glm::max(high, place);
+    nearest = std::min(nearest, map.z * perW);
+    farthest = std::max(farthest, map.z * perW);
+    perUnit = std::max(
+      perUnit, (this->lookUp_.depthPerUnit.x + this->lookUp_.depthPerUnit.y * perW) * perW);
+  }
+  int size = this->lookUp_.size;
+  if (!(low.x >= 0.0 && low.y >= 0.0 && high.x < size && high.y < size))
+  {
+    return Certainty::Uncertain;
+  }
+  const double moved = (this->lookUp_.rounding + segment.mostOffset) * perUnit;
+  nearest -= moved;
+  farthest += moved;
+  // Of a level whose texels are so large that there are few.
+  glm::ivec2 first(low), last(high);
+  const std::vector<TexelBounds>* texels = &this->texels_;
+  for (std::size_t level = 0;
+       level < this->levels_.size() && glm::max(last.x - first.x, last.y - first.y) > 3; ++level)
+  {
+    first /= 2;
+    last /= 2;
+    size = (size + 1) / 2;
+    texels = &this->levels_[level];
+  }
+  bool lit = true;
+  bool shadow = true;
+  for (int y = first.y; y <= last.y; ++y)
+  {
+    for (int x = first.x; x <= last.x; ++x)
+    {
+      const TexelBounds& texel =
+        (*texels)[static_cast<std::size_t>(y) * static_cast<std::size_t>(size) +
+          static_cast<std::size_t>(x)];
+      const bool onSurface = onCaster && segment.leastOffset >= texel.leastOffsetOnCasters;
+      lit &= farthest <= (onSurface ? texel.litUpToOnCasters : texel.litUpTo);
+      shadow &= nearest > texel.shadowFrom;
+      if (!lit && !shadow)
+      {
+        return Certainty::Uncertain;
+      }
+    }
+  }
+  return lit ? Certainty::Lit : Certainty::Shadow;
 }
 
 //------------------------------------------------------------------------------
@@ -466,6 +636,11 @@ void ConservativeMap::ask(const ReceiverPixels& receivers,
   for (std::size_t from = 0; from < receivers.size(); from += Looks::most)
   {
     const std::size_t part = std::min(Looks::most, receivers.size() - from);
+    if (std::all_of(&receivers.surface[from], &receivers.surface[from] + part,
+          [](std::uint32_t surface) { return surface == ReceiverPixels::notCovered; }))
+    {
+      continue;
+    }
     lookAt(this->lookUp_, receivers, from, static_cast<int>(part), looks);
     for (std::size_t i = 0; i < part; ++i)
     {
@@ -486,7 +661,12 @@ void ConservativeMap::ask(const ReceiverPixels& receivers,
 //------------------------------------------------------------------------------
 std::size_t ConservativeMap::bytes() const
 {
-  return bytesOf(this->texels_);
+  std::size_t bytes = bytesOf(this->texels_);
+  for (const std::vector<TexelBounds>& level : this->levels_)
+  {
+    bytes += bytesOf(level);
+  }
+  return bytes;
 }
 
 } // namespace gnomon

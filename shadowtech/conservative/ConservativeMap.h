@@ -65,16 +65,35 @@ public:
     const CasterEdges& edges, Covering covering);
 
   /// Decides receivers that are still uncertain.
-  /// @param onCaster ConservativeMaps::onCaster()
+  /// @param onCaster by surface + 1, so that `notCovered` + 1 = 0 is the first: whether it casts, on both sides
   void ask(const ReceiverPixels& receivers, const std::vector<std::uint8_t>& onCaster,
     std::vector<Certainty>& certain) const;
+
+  /// How it sees casters.
+  CasterScene sceneOf(const Occluders& occluders) const;
+  /// What it knows of all receivers on a triangle, wherever they are.
+  /// @param triangle as it is seen by this map
+  /// @param leastOffset, mostOffset how far their shadow rays start off it, in world units
+  /// @param onCaster whether its surface casts, on both sides
+  Certainty ask(const CasterScene& scene, const MapPolygon& triangle, double leastOffset,
+    double mostOffset, bool onCaster) const;
+
+  /// What it knows of receivers in a line.
+  /// @param onCaster whether their surface casts, on both sides
+  Certainty ask(const ReceiverSegment& segment, bool onCaster) const;
 
   std::size_t bytes() const;
 
 private:
+  void buildLevels();
+
+  LightView view_;
+  bool hasBox_;
   LookUp lookUp_;
   bool blind_ = false; ///< a caster is so near to the light that nothing is certain
   std::vector<TexelBounds> texels_;
+  /// What is known of 2 x 2 texels at once, 4 x 4 and so on; each level by rows, half as many as before, rounded up.
+  std::vector<std::vector<TexelBounds>> levels_;
 };
 
 } // namespace gnomon

@@ -1,5 +1,6 @@
 #include "shadowtech/conservative/ConservativeMaps.h"
 
+#include "shadowtech/base/Bytes.h"
 #include "shadowtech/base/Receivers.h"
 #include "shadowtech/base/TextureMemory.h"
 
@@ -7,44 +8,61 @@ namespace gnomon
 {
 
 //------------------------------------------------------------------------------
-void ConservativeMaps::bake(const LightViews& views, int sizeTexels, const Occluders& occluders)
+void ConservativeMaps::bake(
+  const ShadowLight& light, const LightViews& views, const Occluders& occluders)
 {
   this->maps_.clear(); // what they had makes room
-  requireRoomForMap(sizeof(TexelBounds), sizeTexels, static_cast<int>(views.views.size()));
+  this->triangles_ = {};
+  this->onCaster_.assign(1, 0);
+  for (const Surface& surface : occluders.surfaces)
+  {
+    this->onCaster_.push_back(surface.casts && !surface.oneSided ? 1 : 0);
+  }
+  requireRoomForMap(
+    4 * sizeof(TexelBounds) / 3, light.mapSizeTexels, static_cast<int>(views.views.size()));
   this->edges_.update(occluders);
   for (const LightView& view : views.views)
   {
     this->maps_.emplace_back(
-      view, views.box.z > 0.0, sizeTexels, occluders, this->edges_, this->covering_);
+      view, views.box.z > 0.0, light.mapSizeTexels, occluders, this->edges_, this->covering_);
   }
+  this->triangles_ = TriangleDecisions(light, occluders, this->maps_);
 }
 
 //------------------------------------------------------------------------------
-std::vector<std::uint8_t> ConservativeMaps::onCaster(const Occluders& occluders)
+Certainty ConservativeMaps::ofTriangle(const ReceiverTriangle& triangle) const
 {
-  std::vector<std::uint8_t> onCaster{ 0 };
-  for (const Surface& surface : occluders.surfaces)
-  {
-    onCaster.push_back(surface.casts && !surface.oneSided ? 1 : 0);
-  }
-  return onCaster;
+  return this->triangles_.of(triangle);
 }
 
 //------------------------------------------------------------------------------
-void ConservativeMaps::ask(const ReceiverPixels& receivers,
-  const std::vector<std::uint8_t>& onCaster, std::vector<Certainty>& certain) const
+Certainty ConservativeMaps::ofSegment(const ReceiverSegment& segment) const
 {
-  // Whichever map knows is right, so that it does not matter which of them is the point's own.
+  // Whichever map knows is right, so that it does not matter which of them is the receivers' own.
   for (const ConservativeMap& map : this->maps_)
   {
-    map.ask(receivers, onCaster, certain);
+    const Certainty certainty = map.ask(segment, this->onCaster_[segment.surface + 1u] != 0);
+    if (certainty != Certainty::Uncertain)
+    {
+      return certainty;
+    }
+  }
+  return Certainty::Uncertain;
+}
+
+//------------------------------------------------------------------------------
+void ConservativeMaps::ofPixels(const ReceiverTile& tile, std::vector<Certainty>& certain) const
+{
+  for (const ConservativeMap& map : this->maps_)
+  {
+    map.ask(tile.receivers, this->onCaster_, certain);
   }
 }
 
 //------------------------------------------------------------------------------
 std::size_t ConservativeMaps::bytes() const
 {
-  std::size_t bytes = this->edges_.bytes();
+  std::size_t bytes = this->edges_.bytes() + this->triangles_.bytes() + bytesOf(this->onCaster_);
   for (const ConservativeMap& map : this->maps_)
   {
     bytes += map.bytes();

@@ -2,18 +2,18 @@
 #define gnomon_shadowtech_conservative_ConservativeMaps_h
 
 #include "lights/LightViews.h"
+#include "shadowtech/base/Certainty.h"
 #include "shadowtech/conservative/CasterEdges.h"
 #include "shadowtech/conservative/ConservativeMap.h"
+#include "shadowtech/conservative/TriangleDecisions.h"
 
 #include <vector>
 
 namespace gnomon
 {
 
-struct ReceiverPixels;
-
-/// The conservative maps of all of a light's views.
-class ConservativeMaps
+/// The conservative maps of all of a light's views, and what they know of receivers.
+class ConservativeMaps : public ReceiverDecider
 {
 public:
   explicit ConservativeMaps(Covering covering)
@@ -21,17 +21,13 @@ public:
   {
   }
 
-  /// Draws the casters into a map per view.
+  /// Draws the casters into a map per view, and decides the triangles that they decide.
   /// @throws TextureMemoryError for maps without room; there are none then
-  void bake(const LightViews& views, int sizeTexels, const Occluders& occluders);
+  void bake(const ShadowLight& light, const LightViews& views, const Occluders& occluders);
 
-  /// By surface + 1, so that `notCovered` + 1 = 0 is the first: whether it casts, on both sides.
-  static std::vector<std::uint8_t> onCaster(const Occluders& occluders);
-
-  /// Decides receivers that are still uncertain. Of those that need no shadow ray it may say anything.
-  /// @param certain of each receiver, in the receivers' order
-  void ask(const ReceiverPixels& receivers, const std::vector<std::uint8_t>& onCaster,
-    std::vector<Certainty>& certain) const;
+  Certainty ofTriangle(const ReceiverTriangle& triangle) const override;
+  Certainty ofSegment(const ReceiverSegment& segment) const override;
+  void ofPixels(const ReceiverTile& tile, std::vector<Certainty>& certain) const override;
 
   std::size_t bytes() const;
 
@@ -39,6 +35,9 @@ private:
   Covering covering_;
   CasterEdges edges_;
   std::vector<ConservativeMap> maps_;
+  /// By surface + 1, so that `notCovered` + 1 = 0 is the first: whether it casts, on both sides.
+  std::vector<std::uint8_t> onCaster_;
+  TriangleDecisions triangles_;
 };
 
 } // namespace gnomon

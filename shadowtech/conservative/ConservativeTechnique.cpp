@@ -26,7 +26,7 @@ TechniqueInfo ConservativeTechnique::infoOf(const std::string& name)
 //------------------------------------------------------------------------------
 void ConservativeTechnique::bake(const MapInput& input)
 {
-  this->maps_.bake(input.views, input.light.mapSizeTexels, input.occluders);
+  this->maps_.bake(input.light, input.views, input.occluders);
 }
 
 //------------------------------------------------------------------------------
@@ -39,12 +39,8 @@ std::size_t ConservativeTechnique::bytesOfMaps() const
 void ConservativeTechnique::computeVisibility(
   const ScreenInput& input, std::vector<float>& visibility, LightReport& report)
 {
-  const std::vector<std::uint8_t> onCaster = ConservativeMaps::onCaster(input.occluders);
   report.tracedPixels = static_cast<std::int64_t>(input.tracer.trace(
-    input.light, input.occluders, input.receivers, visibility,
-    [&](const ReceiverTile& tile, std::vector<Certainty>& certain)
-    { this->maps_.ask(tile.receivers, onCaster, certain); },
-    input.classes));
+    input.light, input.occluders, input.receivers, visibility, &this->maps_, input.classes));
 }
 
 } // namespace gnomon

@@ -304,6 +304,26 @@ void drawPolygon(const MapPolygon& polygon, double margin, int width, Span rows,
 }
 
 //------------------------------------------------------------------------------
+bool allTexels(const MapPolygon& polygon, double margin, int width,
+  const std::function<bool(int x, int y, float nearest, float farthest)>& agrees)
+{
+  const PolygonOnTexels texels(polygon, margin);
+  const Span rows = texels.rows({ 0, width - 1 });
+  for (int y = rows.first; y <= rows.last; ++y)
+  {
+    const PolygonOnTexels::Row row = texels.row(y, width);
+    for (int x = row.touched.first; x <= row.touched.last; ++x)
+    {
+      if (!agrees(x, y, texels.nearest(row, x), texels.farthest(row, x)))
+      {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+//------------------------------------------------------------------------------
 void drawRing(const MapRing& ring, double margin, int width, Span rows, Cell* cells)
 {
   std::vector<PolygonOnTexels> triangles;

@@ -3,6 +3,7 @@
 
 #include "shadowtech/conservative/CasterShapes.h"
 
+#include <functional>
 #include <limits>
 #include <vector>
 
@@ -49,6 +50,11 @@ Span spanOf(double low, double high, int limit);
 /// taken to be farther away
 /// @param cells of those rows, `width` each
 void drawPolygon(const MapPolygon& polygon, double margin, int width, Span rows, Cell* cells);
+
+/// Asks `agrees` about each texel that a polygon touches, with bounds on its depth there, until it does not agree.
+/// @return whether it always did
+bool allTexels(const MapPolygon& polygon, double margin, int width,
+  const std::function<bool(int x, int y, float nearest, float farthest)>& agrees);
 
 /// A triangle and those that go on across its edges: a part of the casters' surface, which covers every
 /// texel that it meets but for those on its border.

@@ -6,6 +6,7 @@
 
 #include "shadowtech/base/RayTracer.h"
 #include "shadowtech/base/ShadowRay.h"
+#include "shadowtech/conservative/ConservativeMaps.h"
 
 #include <benchmark/benchmark.h>
 #include <embree3/rtcore.h>
@@ -215,14 +216,45 @@ void visitTilesOfAFrame(benchmark::State& state)
   ReceiverPixels stored;
   for (auto _ : state)
   {
-    const Receivers receivers(
-      scene.view.images, scene.view.drawnSurfaces, scene.occluders, stored);
+    const Receivers receivers(scene.view.images, scene.view.drawnSurfaces, scene.occluders, stored);
     receivers.visitTiles(
-      [](const ReceiverTile& tile)
-      { benchmark::DoNotOptimize(tile.receivers.positionX.data()); });
+      [](const ReceiverTile& tile) { benchmark::DoNotOptimize(tile.receivers.positionX.data()); });
   }
 }
 BENCHMARK(visitTilesOfAFrame)->UseRealTime()->Unit(benchmark::kMillisecond);
+
+/// From what the receivers stage read back to visibility, by rays alone and with a map that decides what it can: they
+/// take turns.
+void hybridAgainstTracing(benchmark::State& state)
+{
+  const Subject& scene = subject();
+  RayTracer tracer;
+  tracer.update(scene.occluders);
+  ConservativeMaps maps(Covering::Silhouette);
+  ShadowLight light = scene.light;
+  ViewFitting fitting;
+  fitting.castersCentred = scene.occluders.castersCentred;
+  fitting.receiversCentred = scene.occluders.allCentred;
+  fitting.texels.side = light.mapSizeTexels;
+  maps.bake(light, fitLightViews(light, fitting), scene.occluders);
+  ReceiverPixels stored;
+  Receivers receivers(scene.view.images, scene.view.drawnSurfaces, scene.occluders, stored);
+  std::vector<float> visibility;
+  std::vector<double> traced;
+  std::vector<double> hybrid;
+  for (auto _ : state)
+  {
+    traced.push_back(
+      milliseconds([&] { tracer.trace(light, scene.occluders, receivers, visibility); }));
+    hybrid.push_back(
+      milliseconds([&] { tracer.trace(light, scene.occluders, receivers, visibility, &maps); }));
+    state.SetIterationTime(hybrid.back() * 1e-3);
+  }
+  state.counters["traced_ms"] = median(traced);
+  state.counters["hybrid_ms"] = median(hybrid);
+  state.counters["hybrid/traced"] = median(hybrid) / median(traced);
+}
+BENCHMARK(hybridAgainstTracing)->UseManualTime()->Unit(benchmark::kMillisecond)->Iterations(101);
 
 void buildStructure(benchmark::State& state)
 {

@@ -257,16 +257,13 @@ Tally compareWithTruth(const ShadowLight& light, const LightViews& views,
   Covering covering = Covering::Silhouette)
 {
   ConservativeMaps maps(covering);
-  maps.bake(views, light.mapSizeTexels, occluders);
+  maps.bake(light, views, occluders);
   RayTracer tracer;
   tracer.update(occluders);
   Tally tally;
-  const std::vector<std::uint8_t> onCaster = ConservativeMaps::onCaster(occluders);
   std::vector<float> truth, visibility;
   tally.receivers = tracer.trace(light, occluders, receivers, truth);
-  tally.traced = tracer.trace(light, occluders, receivers, visibility,
-    [&](const ReceiverTile& tile, std::vector<Certainty>& certain)
-    { maps.ask(tile.receivers, onCaster, certain); });
+  tally.traced = tracer.trace(light, occluders, receivers, visibility, &maps);
   tally.wrong = countDifferent(truth, visibility);
   return tally;
 }
