@@ -302,39 +302,54 @@ static_assert(static_cast<int>(TracedClass::Traced) == static_cast<int>(Certaint
     static_cast<int>(TracedClass::Unreached) == static_cast<int>(Certainty::Unreached),
   "a receiver's class is what is known of it");
 
+/// Whether a pixel of this class is dark without a ray.
+constexpr bool isDark(TracedClass of)
+{
+  return of == TracedClass::Unreached || of == TracedClass::Shadow;
+}
+
+/// Fills a row of a tile whose pixels are all of one class, none of them traced.
+void fillRow(TracedClass of, std::size_t columns, std::size_t to, TilePixels& pixels,
+  TileArray<float>& visibility)
+{
+  std::fill_n(&pixels.classes[to], columns, static_cast<std::uint8_t>(of));
+  std::fill_n(&pixels.traced[to], columns, 0);
+  std::fill_n(&visibility[to], columns, isDark(of) ? 0.0f : 1.0f);
+}
+
 /// What becomes of the pixels of one row of a tile, and so which rays are needed, and what shows without any.
 /// @param receives by surface + 1, so that `notCovered` + 1 = 0 is the first: 1 or 0
 /// @param certain null: nothing is
 void classify(const ReceiverTile& tile, std::size_t from, const std::uint8_t* receives,
   const Certainty* certain, std::size_t to, TilePixels& pixels, TileArray<float>& visibility)
 {
-  constexpr auto unreached = static_cast<std::uint8_t>(TracedClass::Unreached);
-  constexpr auto noReceiver = static_cast<std::uint8_t>(TracedClass::NoReceiver);
-  constexpr auto traced = static_cast<std::uint8_t>(TracedClass::Traced);
-  constexpr auto shadow = static_cast<std::uint8_t>(TracedClass::Shadow);
   const auto columns = static_cast<std::size_t>(tile.receivers.width);
-  std::array<std::uint8_t, tileColumns> receiving;
-  std::array<std::uint8_t, tileColumns> asked;
   for (std::size_t x = 0; x < columns; ++x)
   {
-    receiving[x] = receives[tile.receivers.surface[from + x] + 1u];
-    asked[x] = certain ? static_cast<std::uint8_t>(certain[from + x]) : traced;
+    const Certainty known = tile.known[from + x];
+    const bool reached = pixels.traced[to + x] != 0;
+    const Certainty asked = !reached ? Certainty::Unreached
+      : certain                      ? certain[from + x]
+                                     : Certainty::Uncertain;
+    const bool receiving = receives[tile.receivers.surface[from + x] + 1u] != 0;
+    const TracedClass of = known != Certainty::Uncertain ? static_cast<TracedClass>(known)
+      : receiving                                        ? static_cast<TracedClass>(asked)
+                                                         : TracedClass::NoReceiver;
+    pixels.classes[to + x] = static_cast<std::uint8_t>(of);
+    pixels.traced[to + x] = of == TracedClass::Traced ? -1 : 0;
+    visibility[to + x] = isDark(of) ? 0.0f : 1.0f;
   }
+}
+
+/// Whether all pixels of a row of a tile are left out or not covered, and of one class.
+bool isAlike(const ReceiverTile& tile, std::size_t from)
+{
+  const auto columns = static_cast<std::ptrdiff_t>(tile.receivers.width);
   const Certainty* const known = &tile.known[from];
-  std::uint8_t* const classes = &pixels.classes[to];
-  int* const rays = &pixels.traced[to];
-  float* const lit = &visibility[to];
-#pragma GCC ivdep
-  for (std::size_t x = 0; x < columns; ++x)
-  {
-    const auto decided = static_cast<std::uint8_t>(known[x]);
-    const std::uint8_t reached = rays[x] != 0 ? asked[x] : unreached;
-    const std::uint8_t undecided = receiving[x] != 0 ? reached : noReceiver;
-    const std::uint8_t result = decided != 0 ? decided : undecided;
-    classes[x] = result;
-    rays[x] = result == traced ? -1 : 0;
-    lit[x] = (result == unreached) | (result == shadow) ? 0.0f : 1.0f;
-  }
+  const std::uint32_t* const surfaces = &tile.receivers.surface[from];
+  return std::all_of(surfaces, surfaces + columns,
+           [](std::uint32_t surface) { return surface == ReceiverPixels::notCovered; }) &&
+    std::all_of(known, known + columns, [&](Certainty other) { return other == known[0]; });
 }
 
 /// What the rays of a picture have in common.
@@ -368,13 +383,16 @@ std::size_t traceImage(
       {
         pixels.traced.fill(0);
       }
+      std::array<bool, tileRows> alike;
       for (std::size_t y = 0; y < rows; ++y)
       {
-        const std::uint32_t* const surfaces = &receivers.surface[y * columns];
-        if (std::all_of(surfaces, surfaces + columns,
-              [](std::uint32_t surface) { return surface == ReceiverPixels::notCovered; }))
+        alike[y] = isAlike(tile, y * columns);
+        if (alike[y])
         {
-          std::fill_n(&pixels.traced[y * tileColumns], columns, 0);
+          const Certainty known = tile.known[y * columns];
+          fillRow(known == Certainty::Uncertain ? TracedClass::NoReceiver
+                                                : static_cast<TracedClass>(known),
+            columns, y * tileColumns, pixels, visibility);
           continue;
         }
         const auto make = [&](auto count)
@@ -390,8 +408,11 @@ std::size_t traceImage(
       }
       for (std::size_t y = 0; y < rows; ++y)
       {
-        classify(tile, y * columns, tracing.receives.data(),
-          tracing.decider ? certain.data() : nullptr, y * tileColumns, pixels, visibility);
+        if (!alike[y])
+        {
+          classify(tile, y * columns, tracing.receives.data(),
+            tracing.decider ? certain.data() : nullptr, y * tileColumns, pixels, visibility);
+        }
       }
       if (tracing.scene)
       {

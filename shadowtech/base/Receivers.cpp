@@ -11,7 +11,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <limits>
+#include <optional>
 
 namespace gnomon
 {
@@ -139,37 +141,75 @@ bool isFinite(const PixelRays& rays)
     isFinite(rays.directionPerColumn) && isFinite(rays.directionPerRow);
 }
 
-/// The most that a pixel's side measures on a triangle.
-double largestFootprint(const PixelRays& rays, const std::array<glm::dvec3, 3>& corners)
+/// How large pixels are where a triangle is seen.
+class Footprints
 {
-  double t = 0.0;
-  if (!rays.parallel())
+public:
+  explicit Footprints(const PixelRays& rays)
+    : origin_(rays.firstOrigin)
+    , parallel_(glm::length(rays.originPerRow))
   {
-    // Points at t D from O have t = (point - O).across / D.across, with the same divisor for all pixels.
-    const glm::dvec3 across = glm::cross(rays.directionPerColumn, rays.directionPerRow);
-    const double perT = glm::dot(across, rays.firstDirection);
-    for (const glm::dvec3& corner : corners)
+    if (!rays.parallel())
     {
-      t = std::max(t, glm::dot(across, corner - rays.firstOrigin) / perT);
+      // Points at t D from O have t = (point - O).across / D.across, with the same divisor for all pixels.
+      const glm::dvec3 across = glm::cross(rays.directionPerColumn, rays.directionPerRow);
+      this->perUnit_ =
+        glm::length(rays.directionPerRow) / glm::dot(across, rays.firstDirection) * across;
     }
   }
-  return glm::length(rays.originPerRow) + t * glm::length(rays.directionPerRow);
-}
 
-/// @param decider may be null
-SeenTriangle see(const Occluders& occluders, const TriangleOfFragment& found, const PixelRays& rays,
-  const ReceiverDecider* decider)
+  /// The most that a pixel's side measures on a triangle.
+  double largest(const std::array<glm::dvec3, 3>& corners) const
+  {
+    return this->parallel_ +
+      std::max({ 0.0, glm::dot(this->perUnit_, corners[0] - this->origin_),
+        glm::dot(this->perUnit_, corners[1] - this->origin_),
+        glm::dot(this->perUnit_, corners[2] - this->origin_) });
+  }
+
+private:
+  glm::dvec3 origin_;
+  glm::dvec3 perUnit_{ 0.0 };
+  double parallel_;
+};
+
+/// What the receivers stage drew, of what, and who knows something of it.
+struct Drawn
 {
+  const ReceiverImages& images;
+  const std::vector<DrawnSurface>& drawnSurfaces;
+  const Occluders& occluders;
+  const ReceiverDecider* decider; ///< may be null
+  Footprints footprints;
+  bool raysFinite;
+
+  Drawn(const ReceiverImages& ofImages, const std::vector<DrawnSurface>& surfaces,
+    const Occluders& snapshot, const ReceiverDecider* deciderOrNull)
+    : images(ofImages)
+    , drawnSurfaces(surfaces)
+    , occluders(snapshot)
+    , decider(deciderOrNull)
+    , footprints(ofImages.rays)
+    , raysFinite(isFinite(ofImages.rays))
+  {
+  }
+};
+
+/// @param seen what it was before means nothing
+void see(const Drawn& drawn, const TriangleOfFragment& found, SeenTriangle& seen)
+{
+  const Occluders& occluders = drawn.occluders;
+  const PixelRays& rays = drawn.images.rays;
   const Surface& surface = occluders.surfaces[found.surface];
   const auto noise = [&](const SeenTriangle& of, const glm::vec3& normal, double doubleArea)
   {
     return noiseOf(
       occluders, surface, found.instance, found.triangle, of.corners, normal, doubleArea);
   };
-  SeenTriangle seen;
   seen.surface = found.surface;
+  seen.known = Certainty::Uncertain;
   seen.corners = centredCorners(occluders, surface, found.instance, found.triangle);
-  seen.finite = isFinite(rays) && isFinite(seen.corners[0] + seen.corners[1] + seen.corners[2]);
+  seen.finite = drawn.raysFinite && isFinite(seen.corners[0] + seen.corners[1] + seen.corners[2]);
   glm::dvec3 areaVector =
     glm::cross(seen.corners[1] - seen.corners[0], seen.corners[2] - seen.corners[0]);
   const auto planeDistance = [&](const glm::dvec3& areaVectorSeen)
@@ -192,17 +232,20 @@ SeenTriangle see(const Occluders& occluders, const TriangleOfFragment& found, co
   {
     // No area, not finite, or seen along its plane: alongNormal stays 0, so that no ray meets it. No
     // shadow ray either, as if its area were endless.
+    seen.planeDistance = seen.alongNormal = {};
+    seen.insideEdge = {};
+    seen.normal = glm::vec3(0.0f);
     seen.noise = noise(seen, glm::vec3(1.0f), std::numeric_limits<double>::infinity());
-    return seen;
+    return;
   }
   // The camera is on the side to which the area's vector does not point.
-  if (decider && !surface.isInstanced())
+  if (drawn.decider && !surface.isInstanced())
   {
-    seen.known = decider->ofTriangle(
-      { found.triangle, side > 0.0, seen.corners, largestFootprint(rays, seen.corners) });
+    seen.known = drawn.decider->ofTriangle(
+      { found.triangle, side > 0.0, seen.corners, drawn.footprints.largest(seen.corners) });
     if (isDecided(seen.known))
     {
-      return seen;
+      return;
     }
   }
   const double orientation = side > 0.0 ? 1.0 : -1.0;
@@ -222,7 +265,6 @@ SeenTriangle see(const Occluders& occluders, const TriangleOfFragment& found, co
   const double doubleArea = glm::length(areaVector);
   seen.normal = -areaVector / doubleArea;
   seen.noise = noise(seen, seen.normal, doubleArea);
-  return seen;
 }
 
 /// The point of a triangle that a ray which passes it by comes closest to, as the camera sees it: by
@@ -294,7 +336,7 @@ public:
     {
       this->filled_[slot] = true;
       this->fragments_[slot] = fragment;
-      this->seen_[slot] = make();
+      make(this->seen_[slot]);
     }
     return this->seen_[slot];
   }
@@ -525,20 +567,17 @@ void leaveUncovered(const Span& span, ReceiverPixels& receivers)
   std::fill_n(&receivers.surface[first], count, ReceiverPixels::notCovered);
 }
 
-/// What the receivers stage drew, of what, and what is known of it.
-struct Drawn
-{
-  const ReceiverImages& images;
-  const std::vector<DrawnSurface>& drawnSurfaces;
-  const Occluders& occluders;
-  const ReceiverDecider* decider; ///< may be null
-};
-
 /// A tile's place in the picture.
 struct Rectangle
 {
   std::size_t firstColumn, firstRow, columns, rows;
 };
+
+/// Whether two fragments' numbers are the same, bit by bit.
+bool isSame(const glm::vec2& a, const glm::vec2& b)
+{
+  return std::memcmp(&a, &b, sizeof(a)) == 0;
+}
 
 /// The receivers of a tile.
 /// @param known where not null, gets what is decided of each; null where there is no decider
@@ -548,16 +587,18 @@ void projectTile(const Drawn& drawn, const Rectangle& tile, SeenTriangles& cache
   ReceiverPixels& receivers, std::vector<Certainty>* known, std::size_t first, std::size_t perRow)
 {
   const auto width = static_cast<std::size_t>(drawn.images.width);
-  const PixelRays& rays = drawn.images.rays;
   const std::size_t lastColumn = tile.firstColumn + tile.columns;
-  const auto seeFragment = [&](const glm::vec2& fragment)
+  const auto seeFragment = [&](const glm::vec2& fragment, SeenTriangle& seen)
   {
     const TriangleOfFragment found =
       findTriangle(std::abs(fragment.x), fragment.y, drawn.drawnSurfaces, drawn.occluders);
-    return found.triangle == none ? SeenTriangle()
-                                  : see(drawn.occluders, found, rays, drawn.decider);
+    seen.finite = false;
+    if (found.triangle != none)
+    {
+      see(drawn, found, seen);
+    }
   };
-  SpanMaking spans(rays, receivers, known, drawn.decider);
+  SpanMaking spans(drawn.images.rays, receivers, known, drawn.decider);
   for (std::size_t row = 0; row < tile.rows; ++row)
   {
     const std::size_t y = tile.firstRow + row;
@@ -570,8 +611,9 @@ void projectTile(const Drawn& drawn, const Rectangle& tile, SeenTriangles& cache
       do
       {
         ++span.lastColumn;
-      } while (span.lastColumn < lastColumn && fragments[span.lastColumn] == fragment);
-      const SeenTriangle& seen = cache.find(fragment, [&] { return seeFragment(fragment); });
+      } while (span.lastColumn < lastColumn && isSame(fragments[span.lastColumn], fragment));
+      const SeenTriangle& seen =
+        cache.find(fragment, [&](SeenTriangle& empty) { seeFragment(fragment, empty); });
       seen.finite ? spans.make(seen, span) : leaveUncovered(span, receivers);
       span.first += span.count();
       span.firstColumn = span.lastColumn;
@@ -666,19 +708,23 @@ Receivers::Receivers(const ReceiverPixels& stored)
 void Receivers::visitTiles(
   const std::function<void(const ReceiverTile&)>& visit, const ReceiverDecider* decider) const
 {
+  const std::optional<Drawn> drawn = this->stored_
+    ? std::nullopt
+    : std::optional<Drawn>(
+        std::in_place, *this->images_, *this->drawnSurfaces_, *this->occluders_, decider);
   visitRectangles<TileMaking>(this->width_, this->height_,
     [&](const Rectangle& tile, TileMaking& making)
     {
       making.receivers.resize(static_cast<int>(tile.columns), static_cast<int>(tile.rows));
       making.known.assign(making.receivers.size(), Certainty::Uncertain);
-      if (this->stored_)
+      if (!drawn)
       {
         copyTile(*this->stored_, tile, making.receivers);
       }
       else
       {
-        projectTile({ *this->images_, *this->drawnSurfaces_, *this->occluders_, decider }, tile,
-          making.cache, making.receivers, decider ? &making.known : nullptr, 0, tile.columns);
+        projectTile(*drawn, tile, making.cache, making.receivers, decider ? &making.known : nullptr,
+          0, tile.columns);
       }
       visit({ tile.firstColumn, tile.firstRow, making.receivers, making.known });
     });
@@ -690,12 +736,12 @@ const ReceiverPixels& Receivers::all()
   if (!this->stored_)
   {
     this->toFill_->resize(this->images_->width, this->images_->height);
+    const Drawn drawn(*this->images_, *this->drawnSurfaces_, *this->occluders_, nullptr);
     visitRectangles<SeenTriangles>(this->width_, this->height_,
       [&](const Rectangle& tile, SeenTriangles& cache)
       {
-        projectTile({ *this->images_, *this->drawnSurfaces_, *this->occluders_, nullptr }, tile,
-          cache, *this->toFill_, nullptr, tile.firstRow * this->width_ + tile.firstColumn,
-          this->width_);
+        projectTile(drawn, tile, cache, *this->toFill_, nullptr,
+          tile.firstRow * this->width_ + tile.firstColumn, this->width_);
       });
     this->stored_ = this->toFill_;
   }
