@@ -199,6 +199,11 @@ const std::vector<Setting>& shadowSettings()
       IntegerSetting{ &S::discSets, 1, 32 } },
     { "early_out", "adaptive: what is asked before the whole disc is read",
       choice<EarlyOut, &S::earlyOut>({ "none", "ring", "exact" }) },
+    { "bake",
+      "exact techniques: when a stale map is drawn: once nothing has changed for a frame, till "
+      "when "
+      "all is traced, or at once",
+      choice<BakeTime, &S::bake>({ "settled", "always" }) },
     { "planes", "planar: how many planes show shadows, at most: the largest",
       IntegerSetting{ &S::planes, 1, mostPlanes } },
     { "light_radius",

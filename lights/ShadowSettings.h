@@ -68,6 +68,13 @@ enum class ViewFit
   Frame ///< what the camera sees in this frame
 };
 
+/// When a stale map is drawn that a technique can do without.
+enum class BakeTime
+{
+  Settled, ///< once nothing that it depends on has changed for a frame: what moves is not worth a map
+  Always   ///< at once
+};
+
 /// The most planes that planar shadows can be asked for.
 constexpr int mostPlanes = 64;
 
@@ -124,6 +131,9 @@ struct ShadowSettings
   DepthMetric metric = DepthMetric::Linear;
   double biasConstant = 0.0; ///< in world units
   double biasSlope = 0.0;    ///< times what a caster's depth spans within the filter's reach
+
+  /// Of exact techniques with a map, which trace everything without one.
+  BakeTime bake = BakeTime::Settled;
 
   /// Of planar shadows: how many planes show shadows, at most.
   int planes = 8;

@@ -552,37 +552,65 @@ void RenderManager::bakeMaps(
     hashCombine(receivers, light.snap);
     hashCombine(receivers, light.splitLambda);
   }
-  const bool fresh = bake.once && bake.views == views && bake.sizeTexels == light.mapSizeTexels &&
-    bake.reach == reach && bake.settings.storesAs(light) &&
-    bake.topology == occluders.topologyVersion && bake.positions == occluders.positionsVersion &&
-    bake.receivers == receivers;
-  if (!fresh)
+  const Bake wanted{ std::move(views), fitting.camera, reach, light, light.mapSizeTexels,
+    occluders.topologyVersion, occluders.positionsVersion, receivers, true };
+  if (bake.serves(wanted))
   {
-    this->buffers_.update(occluders);
-    bake.once = false; // in case that there is no memory
-    if (light.fittedToReceivers)
-    {
-      slot.receiverFit.compute(light, views,
-        { this->receiverTarget_.fragments(), this->receiverTarget_.points(),
-          this->receiverTarget_.width(), this->receiverTarget_.height() },
-        this->stageValues_.space.centredFromView, this->library_);
-    }
-    try
-    {
-      technique.bake({ light, views, occluders, this->buffers_, this->library_,
-        light.fittedToReceivers ? slot.receiverFit.fits() : TextureBinding() });
-    }
-    catch (const TextureMemoryError& error)
-    {
-      throw TextureMemoryError("light " + std::to_string(light.sceneIndex) + ": " + error.what());
-    }
-    const int castersLeftOut = this->buffers_.countUnseen(views.views);
-    bake = { std::move(views), fitting.camera, reach, light, light.mapSizeTexels,
-      occluders.topologyVersion, occluders.positionsVersion, receivers, true, castersLeftOut };
-    ++this->report_.mapBakes;
+    this->reportOf(light).castersLeftOut = slot.castersLeftOut;
+    this->report_.bytesMaps += technique.bytesOfMaps();
+    return;
   }
-  this->reportOf(light).castersLeftOut = bake.castersLeftOut;
+  bake.once = false; // in case that there is no memory
+  if (!this->isWorthBaking(slot, technique, wanted))
+  {
+    slot.awaited = wanted;
+    technique.dropMaps();
+    this->reportOf(light).mapReason =
+      "the light, the casters or what it is fitted to have changed: all is traced, and the map is "
+      "drawn once nothing has changed for a frame";
+    return;
+  }
+  this->buffers_.update(occluders);
+  if (light.fittedToReceivers)
+  {
+    slot.receiverFit.compute(light, wanted.views,
+      { this->receiverTarget_.fragments(), this->receiverTarget_.points(),
+        this->receiverTarget_.width(), this->receiverTarget_.height() },
+      this->stageValues_.space.centredFromView, this->library_);
+  }
+  try
+  {
+    technique.bake({ light, wanted.views, occluders, this->buffers_, this->library_,
+      light.fittedToReceivers ? slot.receiverFit.fits() : TextureBinding() });
+  }
+  catch (const TextureMemoryError& error)
+  {
+    throw TextureMemoryError("light " + std::to_string(light.sceneIndex) + ": " + error.what());
+  }
+  slot.castersLeftOut = this->buffers_.countUnseen(wanted.views.views);
+  bake = wanted;
+  ++this->report_.mapBakes;
+  this->reportOf(light).castersLeftOut = slot.castersLeftOut;
   this->report_.bytesMaps += technique.bytesOfMaps();
+}
+
+//------------------------------------------------------------------------------
+bool RenderManager::Bake::serves(const Bake& wanted) const
+{
+  return this->once && this->views == wanted.views && this->sizeTexels == wanted.sizeTexels &&
+    this->reach == wanted.reach && this->settings.storesAs(wanted.settings) &&
+    this->topology == wanted.topology && this->positions == wanted.positions &&
+    this->receivers == wanted.receivers;
+}
+
+//------------------------------------------------------------------------------
+/// Whether a stale map is to be drawn now: always, but for maps that only save time, and would not if
+/// everything moved on.
+bool RenderManager::isWorthBaking(
+  const LightSlot& slot, const Technique& technique, const Bake& wanted) const
+{
+  const bool optional = &technique == slot.technique.get() && slot.estimator->info.mapIsOptional;
+  return !optional || slot.light.bake == BakeTime::Always || slot.awaited.serves(wanted);
 }
 
 //------------------------------------------------------------------------------

@@ -104,7 +104,9 @@ private:
     std::uint64_t positions = 0;
     std::size_t receivers = 0; ///< a hash of what F of MapFit.h was found from on the GPU; else 0
     bool once = false;
-    int castersLeftOut = 0;
+
+    /// Whether maps that were baked from this serve where others are wanted.
+    bool serves(const Bake& wanted) const;
   };
   /// A casting light and its technique.
   struct LightSlot
@@ -112,6 +114,8 @@ private:
     const EstimatorEntry* estimator = nullptr;
     std::unique_ptr<Technique> technique;
     Bake bake;
+    Bake awaited; ///< what a map was last not baked from, to see whether it is still wanted
+    int castersLeftOut = 0;
     /// Shades translucent surfaces where the technique works on the screen; null without such.
     std::unique_ptr<Technique> plain;
     Bake plainBake;
@@ -124,6 +128,7 @@ private:
   std::string reasonAgainstReceivers(const LightSlot& slot) const;
   const Technique* pointwiseFor(LightSlot& slot) const;
   void bakeMaps(LightSlot& slot, const CameraView& camera, Technique& technique, Bake& bake);
+  bool isWorthBaking(const LightSlot& slot, const Technique& technique, const Bake& wanted) const;
   LightReport& reportOf(const ShadowLight& light);
   void keepVisibility(const ReceiverPixels& receivers);
   bool readsPoints() const;

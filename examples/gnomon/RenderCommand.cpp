@@ -152,15 +152,16 @@ nlohmann::ordered_json toJson(const FrameReport& report)
   json["lights"] = nlohmann::ordered_json::array();
   for (const LightReport& light : report.lights)
   {
-    json["lights"].push_back({ { "scene_index", light.sceneIndex }, { "casts", light.casts },
-      { "reason", light.reason }, { "technique", light.technique },
-      { "estimator", light.estimator }, { "projection", light.projection },
-      { "map_size_texels", light.mapSizeTexels }, { "fit", light.fit },
-      { "fit_reason", light.fitReason }, { "casters_left_out", light.castersLeftOut },
-      { "kernel", light.kernel }, { "kernel_size_texels", light.kernelTexels },
-      { "map_samples", light.mapSamples }, { "traced_pixels", light.tracedPixels },
-      { "planes", light.planes }, { "pixels_off_planes", light.pixelsOffPlanes },
-      { "classes", classesToJson(light.classes) } });
+    json["lights"].push_back(
+      { { "scene_index", light.sceneIndex }, { "casts", light.casts }, { "reason", light.reason },
+        { "technique", light.technique }, { "estimator", light.estimator },
+        { "projection", light.projection }, { "map_size_texels", light.mapSizeTexels },
+        { "fit", light.fit }, { "fit_reason", light.fitReason }, { "map_reason", light.mapReason },
+        { "casters_left_out", light.castersLeftOut }, { "kernel", light.kernel },
+        { "kernel_size_texels", light.kernelTexels }, { "map_samples", light.mapSamples },
+        { "traced_pixels", light.tracedPixels }, { "planes", light.planes },
+        { "pixels_off_planes", light.pixelsOffPlanes },
+        { "classes", classesToJson(light.classes) } });
   }
   json["notes"] = report.notes;
   json["stages"] = nlohmann::ordered_json::array();

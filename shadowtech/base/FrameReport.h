@@ -36,7 +36,9 @@ struct LightReport
   /// What its views are fitted to: "off" (all casters), "frustum" (what the camera can see at most) or
   /// "receivers" (those that are drawn); empty when it needs no map.
   std::string fit;
-  std::string fitReason;  ///< why it is the frustum; empty when it is not
+  std::string fitReason; ///< why it is the frustum; empty when it is not
+  /// Why its map is not used, of techniques that can do without; empty when it is.
+  std::string mapReason;
   int castersLeftOut = 0; ///< casting surfaces that none of its views can see
   /// What filters it: a value of the setting `kernel`, or "disc" (adaptive), "square" (maps of moments);
   /// empty when nothing does.

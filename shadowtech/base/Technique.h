@@ -44,7 +44,9 @@ struct TechniqueInfo
   Evaluation evaluation = Evaluation::Pointwise;
   bool exact = false;    ///< equals the ray-traced visibility bit for bit
   bool needsMap = false; ///< bakes something from the light
-  bool filters = false;  ///< averages over a kernel, `kernel_size` wide
+  bool mapIsOptional =
+    false; ///< shows the same without it: it only saves time where it serves several frames
+  bool filters = false; ///< averages over a kernel, `kernel_size` wide
   /// The kernel of an estimator that has one of its own; empty: what the setting `kernel` says.
   std::string ownKernel = {};
   bool averagesMap = false; ///< its map holds what may be averaged: moments, not depths
@@ -142,6 +144,8 @@ public:
   virtual MapReach mapReach(const ShadowLight&) const { return {}; }
   /// Draws the light's maps. Called only when they are stale.
   virtual void bake(const MapInput&) {}
+  /// Forgets the light's maps. Called where they are stale and not drawn (TechniqueInfo::mapIsOptional).
+  virtual void dropMaps() {}
   /// Memory that the baked maps, or what else the technique keeps for the light, take on the GPU.
   virtual std::size_t bytesOfMaps() const { return 0; }
 

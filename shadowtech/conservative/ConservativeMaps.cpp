@@ -11,8 +11,7 @@ namespace gnomon
 void ConservativeMaps::bake(
   const ShadowLight& light, const LightViews& views, const Occluders& occluders)
 {
-  this->maps_.clear(); // what they had makes room
-  this->triangles_ = {};
+  this->clear(); // what they had makes room
   this->onCaster_.assign(1, 0);
   for (const Surface& surface : occluders.surfaces)
   {
@@ -27,6 +26,13 @@ void ConservativeMaps::bake(
       view, views.box.z > 0.0, light.mapSizeTexels, occluders, this->edges_, this->covering_);
   }
   this->triangles_ = TriangleDecisions(light, occluders, this->maps_);
+}
+
+//------------------------------------------------------------------------------
+void ConservativeMaps::clear()
+{
+  this->maps_.clear();
+  this->triangles_ = {};
 }
 
 //------------------------------------------------------------------------------

@@ -25,6 +25,9 @@ public:
   /// @throws TextureMemoryError for maps without room; there are none then
   void bake(const ShadowLight& light, const LightViews& views, const Occluders& occluders);
 
+  /// Forgets them: nothing is known of any receiver.
+  void clear();
+
   Certainty ofTriangle(const ReceiverTriangle& triangle) const override;
   Certainty ofSegment(const ReceiverSegment& segment) const override;
   void ofPixels(const ReceiverTile& tile, std::vector<Certainty>& certain) const override;

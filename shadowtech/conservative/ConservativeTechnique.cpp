@@ -20,6 +20,7 @@ TechniqueInfo ConservativeTechnique::infoOf(const std::string& name)
   info.exact = true;
   info.classes = classesOfTracing();
   info.needsMap = true;
+  info.mapIsOptional = true;
   return info;
 }
 
@@ -27,6 +28,12 @@ TechniqueInfo ConservativeTechnique::infoOf(const std::string& name)
 void ConservativeTechnique::bake(const MapInput& input)
 {
   this->maps_.bake(input.light, input.views, input.occluders);
+}
+
+//------------------------------------------------------------------------------
+void ConservativeTechnique::dropMaps()
+{
+  this->maps_.clear();
 }
 
 //------------------------------------------------------------------------------

@@ -16,6 +16,7 @@ class ConservativeTechnique : public Technique
 {
 public:
   void bake(const MapInput& input) override;
+  void dropMaps() override;
   std::size_t bytesOfMaps() const override;
   void computeVisibility(
     const ScreenInput& input, std::vector<float>& visibility, LightReport& report) override;

@@ -57,6 +57,7 @@ TEST_P(ExactScenes, showWhatIsTraced)
   window->AddRenderer(renderer);
   vtkNew<vtkGnomonShadowPass> pass;
   pass->KeepVisibilityOn();
+  pass->SetSetting("bake", "always");
   renderer->SetPass(pass);
 
   pass->SetTechnique("raytraced");

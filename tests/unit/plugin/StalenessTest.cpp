@@ -343,6 +343,54 @@ TEST_F(NoCastingLight, numbersThatGiveNoLight)
 }
 
 //------------------------------------------------------------------------------
+/// A map that only saves time is drawn once nothing has changed for a frame, and till then all is traced.
+TEST(OptionalMaps, areDrawnOnceNothingMoves)
+{
+  PassScene scene(200, 150);
+  scene.addFloor(4.0);
+  vtkActor* const sphere = scene.addSphere({ 0.0, 0.0, 1.5 }, 0.7);
+  vtkLight* const sun = scene.addSun({ 1.0, 0.3, -1.5 });
+  scene.lookFrom({ 0.0, -9.0, 7.0 });
+  scene.pass->SetTechnique("silhouette");
+  scene.pass->SetSetting("bake", "settled");
+  std::int64_t all = 0;
+  const auto expectTraced = [&]
+  {
+    scene.render();
+    EXPECT_EQ(scene.report().mapBakes, 0);
+    EXPECT_EQ(scene.report().bytesMaps, 0u);
+    EXPECT_NE(scene.report().lights[0].mapReason.find("all is traced"), std::string::npos);
+    all = scene.report().lights[0].tracedPixels;
+    EXPECT_GT(all, 5000);
+  };
+  const auto expectMapped = [&](int bakes)
+  {
+    scene.render();
+    EXPECT_EQ(scene.report().mapBakes, bakes);
+    EXPECT_GT(scene.report().bytesMaps, 0u);
+    EXPECT_EQ(scene.report().lights[0].mapReason, "");
+    EXPECT_LT(scene.report().lights[0].tracedPixels, all / 2);
+  };
+  expectTraced();
+  expectMapped(1);
+  scene.lookFrom({ 0.5, -9.0, 7.0 });
+  expectMapped(0);
+  for (int frame = 0; frame < 3; ++frame)
+  {
+    sun->SetPosition(1.0 + frame, 2.0, 5.0);
+    expectTraced();
+  }
+  expectMapped(1);
+  expectMapped(0);
+  sphere->AddPosition(0.1, 0.0, 0.0);
+  expectTraced();
+  expectMapped(1);
+  scene.pass->SetSetting("bake", "always");
+  sun->SetPosition(3.0, 3.0, 5.0);
+  expectMapped(1);
+}
+
+//------------------------------------------------------------------------------
 TEST_F(NoCastingLight, noLightWithoutIntensity)
 {
   this->sun->SetIntensity(0.0);

@@ -152,7 +152,7 @@ TEST_F(TextureMemory, mapsOnTheCpuWithoutRoomAreAnErrorThatOffersSmallerOnes)
   EXPECT_EQ(differingPixels(plain, scene.render()), 0u);
   EXPECT_THAT(this->takeErrors(),
     AllOf(
-      HasSubstr("light 0: a map of 16384 x 16384 in 6 layers asks for 25769 MB of memory, which "
+      HasSubstr("light 0: a map of 16384 x 16384 in 6 layers asks for 33822 MB of memory, which "
                 "cannot be had; one of "),
       HasSubstr(" can")));
   EXPECT_TRUE(scene.report().outOfTextureMemory);
