@@ -13,7 +13,6 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
-#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
@@ -181,13 +180,14 @@ void occluded(const int* valid, RTCScene scene, RTCIntersectContext* context, RT
 }
 
 /// Traces a tile's rays in squares of 4 x 4 pixels, whose rays stay closer together than those of a
-/// row. Squares where none is needed are left out.
+/// row. Of squares where few are needed, the rays of several go together.
 template <typename Packet>
 class TileTracer
 {
 public:
-  TileTracer(float rayFar, RTCIntersectContextFlags coherence)
-    : rayFar_(rayFar)
+  TileTracer(RTCScene scene, float rayFar, RTCIntersectContextFlags coherence)
+    : scene_(scene)
+    , rayFar_(rayFar)
   {
     rtcInitIntersectContext(&this->context_);
     this->context_.flags = coherence;
@@ -202,15 +202,19 @@ public:
   }
 
   /// Clears the visibility of pixels whose ray is blocked.
-  void trace(RTCScene scene, const TilePixels& pixels, TileArray<float>& visibility)
+  /// @return the number of rays
+  int trace(const TilePixels& pixels, TileArray<float>& visibility)
   {
+    int traced = 0;
     for (std::size_t y = 0; y < tileRows; y += rowsOfPacket)
     {
       for (std::size_t x = 0; x < tileColumns; x += side)
       {
-        this->tracePacket(scene, pixels, y * tileColumns + x, visibility);
+        traced += this->take(pixels, y * tileColumns + x, visibility);
       }
     }
+    this->traceTaken(visibility);
+    return traced;
   }
 
 private:
@@ -218,51 +222,79 @@ private:
   static constexpr std::size_t side = 4;
   static constexpr std::size_t rowsOfPacket = lanes / side;
 
-  void tracePacket(
-    RTCScene scene, const TilePixels& pixels, std::size_t corner, TileArray<float>& visibility)
+  /// Takes the rays that a square needs into the packet, which is traced whenever it is full.
+  int take(const TilePixels& pixels, std::size_t corner, TileArray<float>& visibility)
   {
-    const auto load = [corner](auto* to, const auto& from)
+    std::array<std::uint16_t, lanes> needed;
+    std::size_t count = 0;
+    for (std::size_t lane = 0; lane < lanes; ++lane)
     {
-      for (std::size_t row = 0; row < rowsOfPacket; ++row)
+      const std::size_t pixel = corner + lane / side * tileColumns + lane % side;
+      needed[count] = static_cast<std::uint16_t>(pixel);
+      count += pixels.traced[pixel] != 0 ? 1 : 0;
+    }
+    // What is taken already would be torn from its neighbours by a square that is nearly full.
+    if (this->taken_ > 0 && this->taken_ + count > lanes)
+    {
+      this->traceTaken(visibility);
+    }
+    const std::size_t first = this->taken_;
+    std::copy_n(needed.begin(), count, &this->pixels_[first]);
+    const auto load = [&](float* to, const TileArray<float>& from)
+    {
+      if (count == lanes)
       {
-        std::copy_n(&from[corner + row * tileColumns], side, to + row * side);
+        for (std::size_t row = 0; row < rowsOfPacket; ++row)
+        {
+          std::copy_n(&from[corner + row * tileColumns], side, to + row * side);
+        }
+        return;
+      }
+      for (std::size_t i = 0; i < count; ++i)
+      {
+        to[first + i] = from[needed[i]];
       }
     };
-    alignas(64) std::array<int, lanes> valid;
-    load(valid.data(), pixels.traced);
-    if (std::none_of(valid.begin(), valid.end(), [](int traced) { return traced != 0; }))
-    {
-      return;
-    }
     load(this->packet_.org_x, pixels.originX);
     load(this->packet_.org_y, pixels.originY);
     load(this->packet_.org_z, pixels.originZ);
     load(this->packet_.dir_x, pixels.directionX);
     load(this->packet_.dir_y, pixels.directionY);
     load(this->packet_.dir_z, pixels.directionZ);
-    for (std::size_t lane = 0; lane < lanes; ++lane)
-    {
-      // Where a processor lacks the lanes Embree goes by the interval instead of the mask.
-      this->packet_.tfar[lane] =
-        valid[lane] ? this->rayFar_ : -std::numeric_limits<float>::infinity();
-    }
-    occluded(valid.data(), scene, &this->context_, &this->packet_);
-    for (std::size_t row = 0; row < rowsOfPacket; ++row)
-    {
-      float* lit = &visibility[corner + row * tileColumns];
-      for (std::size_t column = 0; column < side; ++column)
-      {
-        const std::size_t lane = row * side + column;
-        // Embree sets the far end of a ray that hits to minus infinity.
-        const bool blocked = this->packet_.tfar[lane] < 0.0f;
-        lit[column] = valid[lane] && blocked ? 0.0f : lit[column];
-      }
-    }
+    this->taken_ += count;
+    return static_cast<int>(count);
   }
 
+  void traceTaken(TileArray<float>& visibility)
+  {
+    if (this->taken_ == 0)
+    {
+      return;
+    }
+    alignas(64) std::array<int, lanes> valid;
+    for (std::size_t lane = 0; lane < lanes; ++lane)
+    {
+      const bool taken = lane < this->taken_;
+      valid[lane] = taken ? -1 : 0;
+      // Where a processor lacks the lanes Embree goes by the interval instead of the mask.
+      this->packet_.tfar[lane] = taken ? this->rayFar_ : -std::numeric_limits<float>::infinity();
+    }
+    occluded(valid.data(), this->scene_, &this->context_, &this->packet_);
+    for (std::size_t lane = 0; lane < this->taken_; ++lane)
+    {
+      // Embree sets the far end of a ray that hits to minus infinity.
+      float& lit = visibility[this->pixels_[lane]];
+      lit = this->packet_.tfar[lane] < 0.0f ? 0.0f : lit;
+    }
+    this->taken_ = 0;
+  }
+
+  RTCScene scene_;
   Packet packet_;
   RTCIntersectContext context_;
   float rayFar_;
+  std::size_t taken_ = 0;                     ///< rays in the packet
+  std::array<std::uint16_t, lanes> pixels_{}; ///< of the tile, whose rays they are
 };
 
 /// The rays of one row of a tile from its receivers.
@@ -416,8 +448,8 @@ std::size_t traceImage(
       }
       if (tracing.scene)
       {
-        TileTracer<Packet>(rayFar, tracing.coherence).trace(tracing.scene, pixels, visibility);
-        traced -= std::accumulate(pixels.traced.begin(), pixels.traced.end(), 0);
+        traced +=
+          TileTracer<Packet>(tracing.scene, rayFar, tracing.coherence).trace(pixels, visibility);
       }
       for (std::size_t y = 0; y < rows; ++y)
       {
