@@ -284,6 +284,20 @@ std::vector<ShadowLight> lights(const glm::dmat4& world)
       along({ -1.0, 0.5, -1.5 }), point({ 0.9, -0.6, 1.1 }), scale * glm::dvec3(2.7, 2.3, 3.1)) };
 }
 
+/// A triangle in the plane z = 1, counter-clockwise from above.
+Occluders oneTriangle()
+{
+  Mesh mesh;
+  mesh.points = { { -1.0, -1.0, 0.0 }, { 1.0, -1.0, 0.0 }, { -1.0, 1.0, 0.0 } };
+  mesh.triangles = { { 0, 1, 2 } };
+  Occluders occluders = makeOccluders({ { mesh } });
+  for (glm::vec3& position : occluders.positionsCentred)
+  {
+    position.z = 1.0f;
+  }
+  return occluders;
+}
+
 TEST_F(GpuTracerTest, AnswersAsEmbreeDoes)
 {
   Random random(3);
@@ -488,18 +502,32 @@ TEST_F(GpuTracerTest, NoRayLeavesABoxThroughTheCornersOfItsGrid)
   EXPECT_EQ(std::count(blocked.begin(), blocked.end(), 0), 0);
 }
 
-/// A triangle in the plane z = 1, counter-clockwise from above.
-Occluders oneTriangle()
+/// A needle that points at a ray has two edges whose lines pass it by a rounding, on either side. Whoever
+/// takes a sign that rounding ate for "on the edge" has it met, far beyond its tip.
+TEST_F(GpuTracerTest, NeedlesThatPointAtARayDoNotBlockIt)
 {
-  Mesh mesh;
-  mesh.points = { { -1.0, -1.0, 0.0 }, { 1.0, -1.0, 0.0 }, { -1.0, 1.0, 0.0 } };
-  mesh.triangles = { { 0, 1, 2 } };
-  Occluders occluders = makeOccluders({ { mesh } });
-  for (glm::vec3& position : occluders.positionsCentred)
+  Random random(17);
+  Occluders occluders = oneTriangle();
+  occluders.positionsCentred.clear();
+  occluders.triangles.clear();
+  std::vector<TracedRay> rays;
+  for (unsigned int i = 0; i < 20000; ++i)
   {
-    position.z = 1.0f;
+    const auto height = static_cast<float>(i);
+    const double angle = glm::pi<double>() * random.uniform();
+    const glm::dvec2 along(std::cos(angle), std::sin(angle));
+    const glm::dvec2 across = 1e-7 * random.uniform() * glm::dvec2(-along.y, along.x);
+    for (const glm::dvec2& corner : { along, 3.0 * along + across, 3.1 * along - across })
+    {
+      occluders.positionsCentred.emplace_back(glm::vec2(corner), height);
+    }
+    occluders.triangles.emplace_back(3 * i, 3 * i + 1, 3 * i + 2);
+    rays.push_back({ { 0.0f, 0.0f, height - 0.25f }, 0.5f, { 0.0f, 0.0f, 1.0f } });
   }
-  return occluders;
+  occluders.surfaces[0].vertexCount = 60000;
+  occluders.surfaces[0].triangleCount = 20000;
+  const std::vector<std::uint8_t> blocked = this->trace(occluders, rays);
+  EXPECT_EQ(std::count(blocked.begin(), blocked.end(), 1), 0);
 }
 
 TEST_F(GpuTracerTest, RaysCountFromTheirOriginToTheirEnd)
