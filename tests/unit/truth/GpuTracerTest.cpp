@@ -399,6 +399,50 @@ TEST_F(GpuTracerTest, AnswersAsEmbreeDoesOfInstances)
   EXPECT_LE(all.different, all.rays / 1000000 + 1);
 }
 
+/// A lit plane does not shadow itself, from half of the shadow ray's offset on, wherever it lies, however
+/// large, however low the light.
+TEST_F(GpuTracerTest, LitPlanesHaveNoAcne)
+{
+  Random random(19);
+  for (const double tilt : { 0.0, 0.3, 1.1 })
+  {
+    const glm::dmat4 turn = glm::rotate(glm::dmat4(1.0), tilt, { 1.0, 0.2, 0.1 });
+    for (const double side : { 4.0, 20000.0 })
+    {
+      // Something far off, below, moves the centred frame's origin away from the plane.
+      const Occluders occluders = makeOccluders({ { makePlane(side, 3), turn },
+        { makeBox(glm::dvec3(-0.01), glm::dvec3(0.01)),
+          turn * at({ 3.0 * side, side, -2.0 * side }) } });
+      std::vector<TracedRay> rays;
+      for (std::uint32_t triangle = 0; triangle < occluders.surfaces[0].triangleCount; ++triangle)
+      {
+        const auto corners = centredCorners(occluders, occluders.surfaces[0], 0, triangle);
+        const glm::dvec3 area = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+        const glm::vec3 normal = glm::normalize(area);
+        const float noise = noiseOf(
+          occluders, occluders.surfaces[0], 0, triangle, corners, normal, glm::length(area));
+        const float offset = 0.5f * shadowRayOffsetInside(noise, static_cast<float>(1e-3 * side));
+        for (const double degrees : { 0.0, 15.0, 45.0, 80.0, 89.0, 89.9 })
+        {
+          const double angle = glm::radians(degrees);
+          const glm::dvec3 toLight(
+            turn * glm::dvec4(std::sin(angle) * 0.6, std::sin(angle) * 0.8, std::cos(angle), 0.0));
+          for (int i = 0; i < 200; ++i)
+          {
+            const double v = 0.5 * (1.0 + random.uniform());
+            const double w = 0.5 * (1.0 + random.uniform()) * (1.0 - v);
+            const glm::vec3 position(
+              corners[0] + v * (corners[1] - corners[0]) + w * (corners[2] - corners[0]));
+            rays.push_back({ position + offset * normal, infinite, glm::vec3(toLight) });
+          }
+        }
+      }
+      const std::vector<std::uint8_t> blocked = this->trace(occluders, rays);
+      EXPECT_EQ(std::count(blocked.begin(), blocked.end(), 1), 0) << tilt << ", " << side;
+    }
+  }
+}
+
 /// Rays from inside of a closed surface that are aimed at what may have cracks.
 std::vector<TracedRay> aimedRays(
   const Occluders& occluders, const glm::dvec3& centre, double radius, Random& random)
