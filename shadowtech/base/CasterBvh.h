@@ -31,6 +31,8 @@ struct BvhNode
   std::uint32_t unused = 0; ///< the GPU reads a vec3 as 16 bytes
 };
 
+static_assert(sizeof(BvhNode) == 32, "as bvh.glsl reads it");
+
 /// Where to go on: the number of the first of two nodes, or a leaf, whose `count` records begin at `first`.
 namespace BvhLink
 {
@@ -78,6 +80,8 @@ struct BvhInstance
   glm::vec3 upperSource;
   std::uint32_t unused = 0;
 };
+
+static_assert(sizeof(BvhInstance) == 80, "as trace_rays.comp.glsl reads it");
 
 class CasterBvh
 {

@@ -207,9 +207,8 @@ GLuint GpuTracer::useProgram(ShaderLibrary& shaders) const
   {
     defines.emplace_back("CUTOUTS");
   }
-  const GLuint program = shaders.program(
-    { { GL_COMPUTE_SHADER, ShaderLibrary::source("shadowtech/base/trace_rays.comp.glsl") } },
-    defines);
+  static const std::string source = ShaderLibrary::source("shadowtech/base/trace_rays.comp.glsl");
+  const GLuint program = shaders.program({ { GL_COMPUTE_SHADER, source } }, defines);
   glUseProgram(program);
   ShaderLibrary::setUniforms(program,
     { { "root", static_cast<int>(this->bvh_.root()) },

@@ -12,15 +12,17 @@
 namespace gnomon
 {
 
-/// A ray as the GPU reads it, in centred coordinates. It counts from its origin to `far` times its
-/// direction, which has any length.
+/// A ray as the GPU reads it, in centred coordinates. It counts from its origin to `rayFar`
+/// times its direction, which has any length.
 struct TracedRay
 {
   glm::vec3 origin;
-  float far = std::numeric_limits<float>::infinity(); ///< >= 0
+  float rayFar = std::numeric_limits<float>::infinity(); ///< >= 0
   glm::vec3 direction;
   std::uint32_t pixel = 0; ///< whose ray it is; nobody looks at it while it is traced
 };
+
+static_assert(sizeof(TracedRay) == 32, "as trace_rays.comp.glsl reads it");
 
 /// How rays get to the GPU and answers back.
 enum class RayTransfer
