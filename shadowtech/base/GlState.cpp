@@ -99,4 +99,31 @@ GlStateGuard::~GlStateGuard()
   }
 }
 
+//------------------------------------------------------------------------------
+StorageBindingsGuard::StorageBindingsGuard(GLuint count)
+  : indexed_(count)
+{
+  glGetIntegerv(GL_SHADER_STORAGE_BUFFER_BINDING, &this->general_);
+  for (GLuint i = 0; i < count; ++i)
+  {
+    glGetIntegeri_v(GL_SHADER_STORAGE_BUFFER_BINDING, i, &this->indexed_[i].buffer);
+    glGetInteger64i_v(GL_SHADER_STORAGE_BUFFER_START, i, &this->indexed_[i].start);
+    glGetInteger64i_v(GL_SHADER_STORAGE_BUFFER_SIZE, i, &this->indexed_[i].size);
+  }
+}
+
+//------------------------------------------------------------------------------
+StorageBindingsGuard::~StorageBindingsGuard()
+{
+  for (GLuint i = 0; i < this->indexed_.size(); ++i)
+  {
+    const auto& [buffer, start, size] = this->indexed_[i];
+    const auto name = static_cast<GLuint>(buffer);
+    size > 0 ? glBindBufferRange(GL_SHADER_STORAGE_BUFFER, i, name, static_cast<GLintptr>(start),
+                 static_cast<GLsizeiptr>(size))
+             : glBindBufferBase(GL_SHADER_STORAGE_BUFFER, i, name);
+  }
+  glBindBuffer(GL_SHADER_STORAGE_BUFFER, static_cast<GLuint>(this->general_));
+}
+
 } // namespace gnomon

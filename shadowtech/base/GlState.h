@@ -4,6 +4,7 @@
 #include "shadowtech/base/Gl.h"
 
 #include <array>
+#include <vector>
 
 namespace gnomon
 {
@@ -37,6 +38,26 @@ private:
   GLfloat offsetFactor_, offsetUnits_;
   GLboolean depthMask_, colorMask_[4];
   std::array<GLint, textureUnits> texture2D_, texture2DArray_;
+};
+
+/// Remembers the buffers that compute shaders read and write, and puts them back at the end of its scope.
+class StorageBindingsGuard
+{
+public:
+  /// @param count bindings, from 0 on
+  explicit StorageBindingsGuard(GLuint count);
+  ~StorageBindingsGuard();
+  StorageBindingsGuard(const StorageBindingsGuard&) = delete;
+  StorageBindingsGuard& operator=(const StorageBindingsGuard&) = delete;
+
+private:
+  struct Binding
+  {
+    GLint buffer = 0;
+    GLint64 start = 0, size = 0; ///< 0: all of it
+  };
+  std::vector<Binding> indexed_;
+  GLint general_ = 0;
 };
 
 } // namespace gnomon

@@ -50,6 +50,9 @@ public:
   /// The number of casting surfaces that none of the views can see.
   int countUnseen(const std::vector<LightView>& views) const;
 
+  /// The buffer of all the snapshot's positions, three floats each; 0 before the first update.
+  GLuint positions() const { return this->positions_.name(); }
+
   /// On the GPU, and what is remembered of each surface.
   std::size_t bytes() const;
 

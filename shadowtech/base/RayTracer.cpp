@@ -1,6 +1,7 @@
 #include "shadowtech/base/RayTracer.h"
 
 #include "shadowtech/base/Bytes.h"
+#include "shadowtech/base/EmbreeHandle.h"
 #include "shadowtech/base/ShadowRay.h"
 
 #include <embree3/rtcore.h>
@@ -24,40 +25,9 @@ namespace gnomon
 namespace
 {
 
-/// Owns one reference to an Embree object.
-template <typename Object, void (*release)(Object)>
-class EmbreeHandle
-{
-public:
-  EmbreeHandle() = default;
-  explicit EmbreeHandle(Object object)
-    : object_(object)
-  {
-  }
-  EmbreeHandle(EmbreeHandle&& other) noexcept
-    : object_(std::exchange(other.object_, nullptr))
-  {
-  }
-  EmbreeHandle& operator=(EmbreeHandle&& other) noexcept
-  {
-    std::swap(this->object_, other.object_);
-    return *this;
-  }
-  ~EmbreeHandle()
-  {
-    if (this->object_)
-    {
-      release(this->object_);
-    }
-  }
-  Object get() const { return this->object_; }
-
-private:
-  Object object_ = nullptr;
-};
-using Device = EmbreeHandle<RTCDevice, rtcReleaseDevice>;
-using Scene = EmbreeHandle<RTCScene, rtcReleaseScene>;
-using Geometry = EmbreeHandle<RTCGeometry, rtcReleaseGeometry>;
+using Device = EmbreeDevice;
+using Scene = EmbreeScene;
+using Geometry = EmbreeGeometry;
 
 /// Rejects hits on the back of a one-sided surface: those whose front does not face the light.
 /// Embree's geometric normal is that of counter-clockwise winding. Of an instance, ray and normal are

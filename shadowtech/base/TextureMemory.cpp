@@ -221,4 +221,42 @@ void allocateSamples(
   }
 }
 
+//------------------------------------------------------------------------------
+void requireRoomForStorage(std::size_t bytes, const char* what)
+{
+  const auto megabytes = [](double of)
+  { return std::to_string(static_cast<long>(of / 1e6)) + " MB"; };
+  const auto asked = static_cast<double>(bytes);
+  GLint64 most = 0;
+  glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
+  if (asked > static_cast<double>(most))
+  {
+    throw TextureMemoryError(std::string(what) + " ask for " + megabytes(asked) +
+      " in one buffer, of which this OpenGL's shaders read up to " +
+      megabytes(static_cast<double>(most)));
+  }
+  if (asked > largestTextureShare * availableBytes())
+  {
+    throw TextureMemoryError(
+      std::string(what) + " ask for " + megabytes(asked) + " of memory, which cannot be had");
+  }
+}
+
+//------------------------------------------------------------------------------
+void allocateStorage(GlBuffer& buffer, std::size_t bytes, const void* data, const char* what)
+{
+  buffer.reset(); // what it had makes room
+  requireRoomForStorage(bytes, what);
+  clearErrors();
+  glBindBuffer(GL_SHADER_STORAGE_BUFFER, buffer.create());
+  glBufferData(GL_SHADER_STORAGE_BUFFER, static_cast<GLsizeiptr>(bytes), data, GL_STATIC_DRAW);
+  if (glGetError() != GL_NO_ERROR)
+  {
+    buffer.reset();
+    throw TextureMemoryError(std::string(what) + " ask for " +
+      std::to_string(static_cast<long>(static_cast<double>(bytes) / 1e6)) +
+      " MB of memory, which OpenGL does not have");
+  }
+}
+
 } // namespace gnomon

@@ -9,7 +9,7 @@
 namespace gnomon
 {
 
-/// A texture that is too large for OpenGL or for the machine. The message says how much was asked
+/// A texture, or a buffer that shaders read, that is too large for OpenGL or for the machine. The message says how much was asked
 /// for, and for maps which size would fit.
 class TextureMemoryError : public std::runtime_error
 {
@@ -53,6 +53,18 @@ int mostMapSamples();
 /// @throws TextureMemoryError; the renderbuffer is then without memory
 void allocateSamples(
   GlRenderbuffer& samples, const TexelFormat& format, int sizeTexels, int samplesPerTexel);
+
+/// Whether shaders can read so much from one buffer, and the machine has as much.
+/// @param what names it in the error
+/// @throws TextureMemoryError
+void requireRoomForStorage(std::size_t bytes, const char* what);
+
+/// Gives a buffer that shaders read its memory and contents; it is bound to GL_SHADER_STORAGE_BUFFER
+/// afterwards.
+/// @param bytes > 0
+/// @param data null: left open
+/// @throws TextureMemoryError; the buffer is then without memory
+void allocateStorage(GlBuffer& buffer, std::size_t bytes, const void* data, const char* what);
 
 } // namespace gnomon
 

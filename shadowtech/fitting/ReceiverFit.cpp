@@ -32,10 +32,6 @@ class ComputeBindingsGuard
 public:
   ComputeBindingsGuard()
   {
-    glGetIntegerv(GL_SHADER_STORAGE_BUFFER_BINDING, &this->buffer_);
-    glGetIntegeri_v(GL_SHADER_STORAGE_BUFFER_BINDING, 0, &this->indexedBuffer_);
-    glGetInteger64i_v(GL_SHADER_STORAGE_BUFFER_START, 0, &this->start_);
-    glGetInteger64i_v(GL_SHADER_STORAGE_BUFFER_SIZE, 0, &this->size_);
     glGetIntegeri_v(GL_IMAGE_BINDING_NAME, 0, &this->image_);
     glGetIntegeri_v(GL_IMAGE_BINDING_LEVEL, 0, &this->level_);
     glGetIntegeri_v(GL_IMAGE_BINDING_LAYERED, 0, &this->layered_);
@@ -48,18 +44,12 @@ public:
     glBindImageTexture(0, static_cast<GLuint>(this->image_), this->level_,
       static_cast<GLboolean>(this->layered_), this->layer_, static_cast<GLenum>(this->access_),
       static_cast<GLenum>(this->format_));
-    const auto indexed = static_cast<GLuint>(this->indexedBuffer_);
-    this->size_ > 0 ? glBindBufferRange(GL_SHADER_STORAGE_BUFFER, 0, indexed,
-                        static_cast<GLintptr>(this->start_), static_cast<GLsizeiptr>(this->size_))
-                    : glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, indexed);
-    glBindBuffer(GL_SHADER_STORAGE_BUFFER, static_cast<GLuint>(this->buffer_));
   }
   ComputeBindingsGuard(const ComputeBindingsGuard&) = delete;
   ComputeBindingsGuard& operator=(const ComputeBindingsGuard&) = delete;
 
 private:
-  GLint buffer_ = 0, indexedBuffer_ = 0;
-  GLint64 start_ = 0, size_ = 0;
+  StorageBindingsGuard buffer_{ 1 };
   GLint image_ = 0, level_ = 0, layered_ = 0, layer_ = 0, access_ = 0, format_ = 0;
 };
 

@@ -1,12 +1,15 @@
-// What the truth costs: the trace stage against a bare Embree loop over the same rays, the
-// receivers' projection, and the acceleration structure. Bunny on a plane, directional light, 1024
-// x 1024.
+// What the truth costs: the trace stage against a bare Embree loop over the same rays, and against the
+// GPU, the receivers' projection, and the acceleration structures. Bunny on a plane, directional light,
+// 1024 x 1024.
 
 #include "SyntheticScene.h"
 
+#include "shadowtech/base/GpuTracer.h"
 #include "shadowtech/base/RayTracer.h"
 #include "shadowtech/base/ShadowRay.h"
 #include "shadowtech/conservative/ConservativeMaps.h"
+
+#include "vtkGnomonEGLRenderWindow.h"
 
 #include <benchmark/benchmark.h>
 #include <embree3/rtcore.h>
@@ -14,6 +17,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <vtkNew.h>
 
 #include <algorithm>
 #include <array>
@@ -281,6 +285,113 @@ void refitMovedSurface(benchmark::State& state)
 }
 // The bunny (0), the plane (1).
 BENCHMARK(refitMovedSurface)->Arg(0)->Arg(1)->UseRealTime()->Unit(benchmark::kMillisecond);
+
+/// A context without a screen, and what tracing on the GPU takes of it.
+struct Gpu
+{
+  Gpu()
+  {
+    this->window->Initialize();
+    this->window->MakeCurrent();
+    this->renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+  }
+
+  vtkNew<vtkGnomonEGLRenderWindow> window;
+  std::string renderer;
+  ShaderLibrary shaders;
+  OccluderBuffers buffers;
+  GpuTracer tracer;
+};
+
+/// Which GPU it is, or that it is none.
+std::string describe(const Gpu& gpu)
+{
+  return gpu.renderer + (isSoftwareRenderer(gpu.renderer) ? " (software)" : "");
+}
+
+/// The GPU's tracer, rays and answers on their way included, and the stage by Embree on the same pixels
+/// take turns.
+void traceOnGpuAgainstEmbree(benchmark::State& state)
+{
+  const Subject& scene = subject();
+  std::vector<TracedRay> rays;
+  const ShadowRayLight light(scene.light, scene.occluders.centreWorld);
+  const ReceiverPixels& receivers = scene.receivers;
+  for (std::size_t i = 0; i < receivers.size(); ++i)
+  {
+    const ShadowRay ray = shadowRayDirectional(light,
+      { receivers.positionX[i], receivers.positionY[i], receivers.positionZ[i] },
+      { receivers.normalX[i], receivers.normalY[i], receivers.normalZ[i] }, receivers.offset[i]);
+    if (receivers.surface[i] != ReceiverPixels::notCovered && ray.traced)
+    {
+      rays.push_back(
+        { ray.origin, shadowRayFarDirectional, ray.direction, static_cast<std::uint32_t>(i) });
+    }
+  }
+  RayTracer embree;
+  embree.update(scene.occluders);
+  Gpu gpu;
+  gpu.buffers.update(scene.occluders);
+  gpu.tracer.update(scene.occluders, gpu.buffers);
+  std::vector<std::uint8_t> blocked;
+  gpu.tracer.trace(rays, gpu.shaders, blocked); // compiles
+  std::vector<float> visibility;
+  std::vector<double> onGpu;
+  std::vector<double> byEmbree;
+  for (auto _ : state)
+  {
+    byEmbree.push_back(milliseconds(
+      [&] { embree.trace(scene.light, scene.occluders, scene.receivers, visibility); }));
+    onGpu.push_back(milliseconds([&] { gpu.tracer.trace(rays, gpu.shaders, blocked); }));
+    state.SetIterationTime(onGpu.back() * 1e-3);
+  }
+  std::size_t different = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i)
+  {
+    different += (blocked[i] != 0) != (visibility[rays[i].pixel] == 0.0f) ? 1 : 0;
+  }
+  state.counters["gpu_ms"] = median(onGpu);
+  state.counters["embree_ms"] = median(byEmbree);
+  state.counters["gpu/embree"] = median(onGpu) / median(byEmbree);
+  state.counters["rays"] = static_cast<double>(rays.size());
+  state.counters["different"] = static_cast<double>(different);
+  state.SetLabel(describe(gpu));
+}
+BENCHMARK(traceOnGpuAgainstEmbree)->UseManualTime()->Unit(benchmark::kMillisecond)->Iterations(21);
+
+void buildStructureOfGpu(benchmark::State& state)
+{
+  Gpu gpu;
+  gpu.buffers.update(subject().occluders);
+  for (auto _ : state)
+  {
+    GpuTracer tracer;
+    tracer.update(subject().occluders, gpu.buffers);
+    glFinish();
+  }
+  state.SetLabel(describe(gpu));
+}
+BENCHMARK(buildStructureOfGpu)->UseRealTime()->Unit(benchmark::kMillisecond);
+
+void refitMovedSurfaceOnGpu(benchmark::State& state)
+{
+  Occluders occluders = subject().occluders;
+  Gpu gpu;
+  gpu.buffers.update(occluders);
+  gpu.tracer.update(occluders, gpu.buffers);
+  for (auto _ : state)
+  {
+    state.PauseTiming();
+    moveSurface(occluders, 0, { 1e-5, 0.0, 0.0 });
+    gpu.buffers.update(occluders);
+    glFinish();
+    state.ResumeTiming();
+    gpu.tracer.update(occluders, gpu.buffers);
+    glFinish();
+  }
+  state.SetLabel(describe(gpu));
+}
+BENCHMARK(refitMovedSurfaceOnGpu)->UseRealTime()->Unit(benchmark::kMillisecond);
 
 } // namespace
 } // namespace gnomon::test
