@@ -30,21 +30,22 @@ ChoiceSetting choice(std::vector<std::string> names)
     [](ShadowSettings& settings, int number) { settings.*Member = static_cast<Choice>(number); } };
 }
 
-/// A choice among the first powers of two: 1, 2, 4, ...
-template <int ShadowSettings::*Member>
-ChoiceSetting powerOfTwo(std::vector<std::string> names)
+/// A choice among numbers.
+template <int ShadowSettings::*Member, int... Numbers>
+ChoiceSetting oneOf(std::vector<std::string> names)
 {
   return { std::move(names),
     [](const ShadowSettings& settings)
     {
-      int exponent = 0;
-      while (1 << exponent < settings.*Member)
-      {
-        ++exponent;
-      }
-      return exponent;
+      constexpr std::array<int, sizeof...(Numbers)> numbers{ { Numbers... } };
+      const auto found = std::find(numbers.begin(), numbers.end(), settings.*Member);
+      return static_cast<int>(found - numbers.begin());
     },
-    [](ShadowSettings& settings, int exponent) { settings.*Member = 1 << exponent; } };
+    [](ShadowSettings& settings, int choice)
+    {
+      constexpr std::array<int, sizeof...(Numbers)> numbers{ { Numbers... } };
+      settings.*Member = numbers[static_cast<std::size_t>(choice)];
+    } };
 }
 
 /// The whole text as a number; nothing where it is none.
@@ -181,7 +182,7 @@ const std::vector<Setting>& shadowSettings()
       RealSetting{ &S::varianceFloor, 1e-9, 1.0 } },
     { "map_samples",
       "of maps of moments: with how many samples of a texel they are drawn, which are averaged",
-      powerOfTwo<&S::mapSamples>({ "1", "2", "4", "8" }) },
+      oneOf<&S::mapSamples, 1, 2, 4, 8>({ "1", "2", "4", "8" }) },
     { "blur",
       "of maps of moments: averaged over the same box of texels everywhere, or over each point's "
       "own rectangle, by summed-area tables (not evsm)",
@@ -204,6 +205,29 @@ const std::vector<Setting>& shadowSettings()
       "when "
       "all is traced, or at once",
       choice<BakeTime, &S::bake>({ "settled", "always" }) },
+    { "contour",
+      "selective: how wide the contour between light and shadow is that it looks at, in pixels; or "
+      "the whole image",
+      oneOf<&S::contourPixels, 2, 4, 6, 0>({ "2", "4", "6", "image" }) },
+    { "coherence",
+      "coherence, selective: how many texels have to agree for the map to be believed; off: it is "
+      "not",
+      oneOf<&S::coherenceTexels, 0, 4, 9>({ "off", "4", "9" }) },
+    { "neighbours", "selective: of how many texels the triangles are intersected",
+      oneOf<&S::neighbourTexels, 0, 1, 4, 9>({ "off", "1", "4", "9" }) },
+    { "adjacency",
+      "selective: which neighbours of a pixel's own texel's triangle are intersected: those across "
+      "its edges, or all around its vertices",
+      choice<Adjacency, &S::adjacency>({ "off", "edges", "vertices" }) },
+    { "leftovers",
+      "selective: what becomes of what is still uncertain: traced, lit, or what most of nine "
+      "texels "
+      "say",
+      choice<Leftovers, &S::leftovers>({ "trace", "lit", "majority" }) },
+    { "outside",
+      "selective: outside of the contour, whether the map is believed, or looked at more closely "
+      "where nine texels do not agree",
+      choice<OutsideContour, &S::outside>({ "map", "check" }) },
     { "planes", "planar: how many planes show shadows, at most: the largest",
       IntegerSetting{ &S::planes, 1, mostPlanes } },
     { "light_radius",

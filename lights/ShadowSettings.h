@@ -75,6 +75,29 @@ enum class BakeTime
   Always   ///< at once
 };
 
+/// Which neighbours of a triangle count as adjacent to it.
+enum class Adjacency
+{
+  Off,
+  Edges,   ///< those that share an edge with it
+  Vertices ///< those that share a vertex with it
+};
+
+/// What becomes of pixels that nothing decides for certain.
+enum class Leftovers
+{
+  Trace,   ///< they get their shadow ray
+  Lit,     ///< they are lit: what nothing can prove to be in shadow mostly is
+  Majority ///< they get the status that most of the nine texels around them say
+};
+
+/// What becomes of pixels outside of a contour.
+enum class OutsideContour
+{
+  Map,  ///< they keep the status that the map says
+  Check ///< those whose nine texels do not agree are treated as if they were inside
+};
+
 /// The most planes that planar shadows can be asked for.
 constexpr int mostPlanes = 64;
 
@@ -134,6 +157,18 @@ struct ShadowSettings
 
   /// Of exact techniques with a map, which trace everything without one.
   BakeTime bake = BakeTime::Settled;
+
+  ///@{
+  /// Of `selective`, and of `coherence` the second: the pixels that are looked at more closely than at
+  /// their texel, and what is done with them, in this order. Widths are across the contour, half of it on either side;
+  /// 0: the whole image. Texels are those around a pixel's place on the map; 0: not done.
+  int contourPixels = 4;
+  int coherenceTexels = 4;                   ///< that have to agree for the map to be believed
+  int neighbourTexels = 9;                   ///< whose triangles are intersected
+  Adjacency adjacency = Adjacency::Vertices; ///< of its own texel's triangle: intersected as well
+  Leftovers leftovers = Leftovers::Trace;
+  OutsideContour outside = OutsideContour::Map;
+  ///@}
 
   /// Of planar shadows: how many planes show shadows, at most.
   int planes = 8;

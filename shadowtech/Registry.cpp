@@ -10,6 +10,8 @@
 #include "shadowtech/pcf/Pcf.h"
 #include "shadowtech/planar/Planar.h"
 #include "shadowtech/raytraced/Raytraced.h"
+#include "shadowtech/selective/Coherence.h"
+#include "shadowtech/selective/Selective.h"
 #include "shadowtech/silhouette/Silhouette.h"
 #include "shadowtech/variance/Variance.h"
 
@@ -69,6 +71,8 @@ const std::vector<EstimatorEntry>& estimators()
     entry<FourMoments>(),
     entry<Planar>(),
     entry<Raytraced>(),
+    entry<Coherence>(),
+    entry<Selective>(),
     entry<Crsm>(),
     entry<Crsma>(),
     entry<Silhouette>(),
@@ -101,6 +105,13 @@ const std::vector<TechniqueEntry>& registry()
       findEstimator("compare"), Projection::Splits },
     { "planar", "hard, soft: casters projected onto the flat receivers, with no shadows elsewhere",
       findEstimator("planar"), Projection::Uniform },
+    { "coherence",
+      "hard, hybrid: pixels whose texels disagree are traced, the others get what those say",
+      findEstimator("coherence"), Projection::Uniform },
+    { "selective",
+      "hard, hybrid: the contour between light and shadow is tested triangle by triangle, and "
+      "traced where that decides nothing",
+      findEstimator("selective"), Projection::Uniform },
     { "crsm",
       "hard, exact: a conservative map decides pixels under single triangles, rays the rest",
       findEstimator("crsm"), Projection::Uniform },
@@ -210,6 +221,33 @@ std::string refusedAverage(const ShadowLight& light, const TechniqueInfo& info)
   return {};
 }
 
+/// Why the stages of a chain of tests make no sense together; empty if they do.
+std::string refusedStages(const ShadowLight& light, const TechniqueInfo& info)
+{
+  if (info.name == Coherence::info().name && light.coherenceTexels == 0)
+  {
+    return "'coherence' decides pixels by texels that agree, and without that traces all of them, "
+           "as 'raytraced' does; its setting 'coherence' takes 4 or 9";
+  }
+  if (info.name != Selective::info().name)
+  {
+    return {};
+  }
+  if (light.contourPixels == 0 && light.outside == OutsideContour::Check)
+  {
+    return "nothing is outside of a 'contour' that is the whole image; 'outside' is for those of "
+           "2, "
+           "4 and 6 pixels";
+  }
+  if (light.leftovers == Leftovers::Lit && light.coherenceTexels == 0 &&
+    light.neighbourTexels == 0 && light.adjacency == Adjacency::Off)
+  {
+    return "without 'coherence', 'neighbours' and 'adjacency' nothing decides pixels of the "
+           "contour, and with 'leftovers' lit all of them would be lit";
+  }
+  return {};
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -235,7 +273,8 @@ const EstimatorEntry& compose(ShadowLight& light)
     throw CompositionError(
       "the kernel 'castano' has the sizes 3, 5 and 7, not " + std::to_string(light.kernelTexels));
   }
-  for (const std::string& refused : { refusedAverage(light, info), refusedProjection(light) })
+  for (const std::string& refused :
+    { refusedAverage(light, info), refusedStages(light, info), refusedProjection(light) })
   {
     if (!refused.empty())
     {

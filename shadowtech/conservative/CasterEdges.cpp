@@ -1,13 +1,13 @@
 #include "shadowtech/conservative/CasterEdges.h"
 
 #include "shadowtech/base/Bytes.h"
+#include "shadowtech/conservative/WeldedVertices.h"
 
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <tuple>
 
 namespace gnomon
@@ -17,31 +17,6 @@ namespace
 
 /// Of half that angle: the normals around a vertex are that close to their mean.
 const double sharpCosineToMean = std::sqrt(0.5 * (1.0 + sharpCosine));
-
-/// For each vertex of the surface, counted from its first, the first one at the same place.
-std::vector<std::uint32_t> weld(const Occluders& occluders, const Surface& surface)
-{
-  const glm::vec3* const positions = occluders.positionsCentred.data() + surface.firstVertex;
-  std::vector<std::uint32_t> order(surface.vertexCount);
-  std::iota(order.begin(), order.end(), 0u);
-  // As bits, which are in order even where a vertex that no triangle has is not finite.
-  const auto key = [&](std::uint32_t vertex)
-  { return glm::floatBitsToUint(positions[vertex] + glm::vec3(0.0f)); }; // -0 becomes 0
-  const auto less = [&](std::uint32_t a, std::uint32_t b)
-  {
-    const glm::uvec3 first = key(a);
-    const glm::uvec3 second = key(b);
-    return std::tie(first.x, first.y, first.z, a) < std::tie(second.x, second.y, second.z, b);
-  };
-  tbb::parallel_sort(order.begin(), order.end(), less);
-  std::vector<std::uint32_t> welded(surface.vertexCount);
-  for (std::size_t i = 0; i < order.size(); ++i)
-  {
-    const bool same = i > 0 && key(order[i]) == key(order[i - 1]);
-    welded[order[i]] = same ? welded[order[i - 1]] : order[i];
-  }
-  return welded;
-}
 
 /// One side of a triangle, by its ends in increasing order.
 struct Side
@@ -121,7 +96,7 @@ std::vector<std::uint8_t> sharpVertices(const Occluders& occluders, const Surfac
 //------------------------------------------------------------------------------
 SurfaceEdges findCasterEdges(const Occluders& occluders, const Surface& surface)
 {
-  const std::vector<std::uint32_t> welded = weld(occluders, surface);
+  const std::vector<std::uint32_t> welded = weldedVertices(occluders, surface);
   std::vector<Side> sides(3 * static_cast<std::size_t>(surface.triangleCount));
   tbb::parallel_for(std::uint32_t(0), surface.triangleCount,
     [&](std::uint32_t i)
@@ -195,50 +170,14 @@ SurfaceEdges findCasterEdges(const Occluders& occluders, const Surface& surface)
 //------------------------------------------------------------------------------
 void CasterEdges::update(const Occluders& occluders)
 {
-  std::unordered_map<std::uint64_t, Kept> kept;
-  this->bySurface_.assign(occluders.surfaces.size(), nullptr);
-  for (std::size_t i = 0; i < occluders.surfaces.size(); ++i)
-  {
-    const Surface& surface = occluders.surfaces[i];
-    if (!surface.casts)
-    {
-      continue;
-    }
-    const auto before = this->kept_.find(surface.topologyVersion);
-    // Of a surface that only moves, vertices that shared a place still do, and angles stay; of one
-    // that is deformed they need not. Both are new positions.
-    if (before != this->kept_.end() &&
-      before->second.positionsVersion == surface.positionsVersion &&
-      before->second.firstVertex == surface.firstVertex &&
-      before->second.firstTriangle == surface.firstTriangle)
-    {
-      kept.emplace(surface.topologyVersion, std::move(before->second));
-    }
-    else
-    {
-      kept[surface.topologyVersion] = { surface.positionsVersion, surface.firstVertex,
-        surface.firstTriangle, findCasterEdges(occluders, surface) };
-    }
-  }
-  this->kept_ = std::move(kept);
-  for (std::size_t i = 0; i < occluders.surfaces.size(); ++i)
-  {
-    if (occluders.surfaces[i].casts)
-    {
-      this->bySurface_[i] = &this->kept_.at(occluders.surfaces[i].topologyVersion).edges;
-    }
-  }
+  this->kept_.update(occluders, findCasterEdges);
 }
 
 //------------------------------------------------------------------------------
 std::size_t CasterEdges::bytes() const
 {
-  std::size_t bytes = bytesOfTable(this->kept_) + bytesOf(this->bySurface_);
-  for (const auto& entry : this->kept_)
-  {
-    bytes += bytesOf(entry.second.edges.edges) + bytesOf(entry.second.edges.ofTriangle);
-  }
-  return bytes;
+  return this->kept_.bytes(
+    [](const SurfaceEdges& found) { return bytesOf(found.edges) + bytesOf(found.ofTriangle); });
 }
 
 } // namespace gnomon

@@ -2,11 +2,11 @@
 #define gnomon_shadowtech_conservative_CasterEdges_h
 
 #include "shadowtech/base/Occluders.h"
+#include "shadowtech/conservative/KeptOfCasters.h"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <unordered_map>
 #include <vector>
 
 namespace gnomon
@@ -42,8 +42,7 @@ struct SurfaceEdges
 
 /// The edges of the casting surfaces, kept from snapshot to snapshot.
 ///
-/// Vertices at exactly the same place count as one: surfaces that are drawn are split where their
-/// normals or texture coordinates break. Edges where a vertex lies on another triangle's edge (T-junctions),
+/// Vertices at exactly the same place count as one (WeldedVertices.h). Edges where a vertex lies on another triangle's edge (T-junctions),
 /// and those between different surfaces, are ends.
 class CasterEdges
 {
@@ -53,20 +52,12 @@ public:
 
   /// Edges of a casting surface.
   /// @param surface index into the snapshot's surfaces, as of the last update
-  const SurfaceEdges& of(std::size_t surface) const { return *this->bySurface_[surface]; }
+  const SurfaceEdges& of(std::size_t surface) const { return this->kept_.of(surface); }
 
   std::size_t bytes() const;
 
 private:
-  struct Kept
-  {
-    std::uint64_t positionsVersion = 0;
-    std::uint32_t firstVertex = 0;
-    std::uint32_t firstTriangle = 0;
-    SurfaceEdges edges;
-  };
-  std::unordered_map<std::uint64_t, Kept> kept_; ///< by the surface's topologyVersion
-  std::vector<const SurfaceEdges*> bySurface_;
+  KeptOfCasters<SurfaceEdges> kept_;
 };
 
 /// The edges of one surface. Exposed for tests.

@@ -3,10 +3,10 @@
 #include "shadowtech/base/Bytes.h"
 #include "shadowtech/base/Receivers.h"
 #include "shadowtech/conservative/CasterEdges.h"
+#include "shadowtech/conservative/CasterPlacements.h"
 #include "shadowtech/conservative/TexelCells.h"
 
 #include <glm/gtc/matrix_access.hpp>
-#include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
@@ -22,8 +22,6 @@ namespace gnomon
 namespace
 {
 
-/// Rows of the map that are drawn at once, so that their cells stay in the processor's cache.
-constexpr int bandRows = 16;
 /// Rounding of depths to float, and of what is computed with them.
 constexpr float depthRounding = 4.76837158e-7f; // 2^-21
 
@@ -72,34 +70,6 @@ TexelBounds bothOf(const TexelBounds& a, const TexelBounds& b)
     std::max(a.shadowFrom, b.shadowFrom) };
 }
 
-/// A casting surface, or one instance of it.
-struct Placement
-{
-  std::uint32_t surface;
-  std::uint32_t instance;
-  std::size_t firstFacing; ///< of its triangles among those of all placements
-};
-
-/// What lies in one band of rows.
-struct BandItem
-{
-  std::uint32_t placement;
-  std::uint32_t index; ///< a triangle of the snapshot, or an edge of the surface
-};
-using Bands = std::vector<std::vector<BandItem>>;
-
-/// Visits the bands that a range of texel rows meets.
-template <typename Visit>
-void visitBands(double low, double high, double margin, int size, const Visit& visit)
-{
-  const Span rows = spanOf(low - margin, high + margin, size);
-  for (int band = rows.first / bandRows; band <= rows.last / bandRows && rows.first <= rows.last;
-       ++band)
-  {
-    visit(static_cast<std::size_t>(band));
-  }
-}
-
 /// A map while it is drawn: first which rows each triangle and edge lies in, then the rows, band by band.
 class MapDrawing
 {
@@ -109,11 +79,12 @@ public:
     , edges_(edges)
     , covering_(covering)
     , size_(size)
-    , bandCount_((size + bandRows - 1) / bandRows)
+    , bandCount_(bandsOf(size))
+    , placements_(scene.occluders)
+    , facing_(placements_.triangleCount())
     , triangles_([this] { return Bands(static_cast<std::size_t>(this->bandCount_)); })
     , segments_([this] { return Bands(static_cast<std::size_t>(this->bandCount_)); })
   {
-    this->place();
     this->sortTriangles();
     if (!this->blind_)
     {
@@ -134,7 +105,7 @@ public:
       [&](int band)
       {
         std::vector<Cell>& cells = cellsOfThread.local();
-        const Span rows{ band * bandRows, std::min((band + 1) * bandRows, this->size_) - 1 };
+        const Span rows = rowsOfBand(band, this->size_);
         const std::size_t count = this->cellsOf(rows.last - rows.first + 1);
         cells.assign(count, Cell());
         this->drawBand(static_cast<std::size_t>(band), rows, cells.data());
@@ -151,66 +122,18 @@ private:
     return static_cast<std::size_t>(rows) * static_cast<std::size_t>(this->size_);
   }
 
-  void place()
-  {
-    const std::vector<Surface>& surfaces = this->scene_.occluders.surfaces;
-    std::size_t triangles = 0;
-    for (std::size_t i = 0; i < surfaces.size(); ++i)
-    {
-      const Surface& surface = surfaces[i];
-      const std::size_t instances = surface.isInstanced() ? surface.centredFromSource.size() : 1;
-      for (std::size_t instance = 0; surface.casts && instance < instances; ++instance)
-      {
-        if (!surface.isInstanced() || !Surface::isLeftOut(surface.centredFromSource[instance]))
-        {
-          this->placements_.push_back(
-            { static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(instance), triangles });
-          triangles += surface.triangleCount;
-        }
-      }
-    }
-    this->facing_.resize(triangles);
-  }
-
-  const Surface& surfaceOf(const Placement& placement) const
-  {
-    return this->scene_.occluders.surfaces[placement.surface];
-  }
-
-  /// @param countOf how many things a placement has
-  /// @param visit called with the placement's number and the thing's
-  template <typename CountOf, typename Visit>
-  void visitAll(const CountOf& countOf, const Visit& visit) const
-  {
-    tbb::parallel_for(std::uint32_t(0), static_cast<std::uint32_t>(this->placements_.size()),
-      [&](std::uint32_t placement)
-      {
-        const auto count = static_cast<std::uint32_t>(countOf(this->placements_[placement]));
-        tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, count, 1024),
-          [&](const tbb::blocked_range<std::uint32_t>& range)
-          {
-            for (std::uint32_t i = range.begin(); i != range.end(); ++i)
-            {
-              visit(placement, i);
-            }
-          });
-      });
-  }
-
   void sortTriangles()
   {
-    const auto countOf = [this](const Placement& placement)
-    { return this->surfaceOf(placement).triangleCount; };
     std::atomic<bool> blind{ false };
     tbb::enumerable_thread_specific<double> margins(0.0);
-    this->visitAll(countOf,
+    this->placements_.visitTriangles(
       [&](std::uint32_t number, std::uint32_t i)
       {
         const Placement& placement = this->placements_[number];
-        const Surface& surface = this->surfaceOf(placement);
+        const Surface& surface = this->placements_.surfaceOf(placement);
         const std::uint32_t triangle = surface.firstTriangle + i;
         const MapPolygon polygon = polygonOf(this->scene_, surface, placement.instance, triangle);
-        this->facing_[placement.firstFacing + i] =
+        this->facing_[placement.firstTriangle + i] =
           polygon.role.present ? static_cast<std::int8_t>(polygon.facing) : absentFacing;
         if (!polygon.role.present)
         {
@@ -227,15 +150,8 @@ private:
           double& margin = margins.local();
           margin = std::max(margin, polygon.margin);
         }
-        double low = polygon.corners[0].y;
-        double high = low;
-        for (std::size_t k = 1; k < polygon.count; ++k)
-        {
-          low = std::min(low, polygon.corners[k].y);
-          high = std::max(high, polygon.corners[k].y);
-        }
         Bands& bands = this->triangles_.local();
-        visitBands(low, high, std::max(polygon.margin, largestMargin), this->size_,
+        visitBands(polygon, std::max(polygon.margin, largestMargin), this->size_,
           [&](std::size_t band) {
             bands[band].push_back({ number, triangle });
           });
@@ -251,8 +167,8 @@ private:
   {
     return triangle == CasterEdge::none
       ? absentFacing
-      : this
-          ->facing_[placement.firstFacing + (triangle - this->surfaceOf(placement).firstTriangle)];
+      : this->facing_[placement.firstTriangle +
+          (triangle - this->placements_.surfaceOf(placement).firstTriangle)];
   }
 
   EdgeKind kindOf(const Placement& placement, const CasterEdge& edge) const
@@ -271,14 +187,15 @@ private:
     }
     const EdgeKind kind = this->kindOf(placement, edge);
     return kind != EdgeKind::Inner &&
-      segmentOf(this->scene_, this->surfaceOf(placement), placement.instance, edge, kind, result);
+      segmentOf(this->scene_, this->placements_.surfaceOf(placement), placement.instance, edge,
+        kind, result);
   }
 
   /// A triangle with its neighbours across edges that are no ends. Without covering triangles nothing.
   MapRing ringOf(const Placement& placement, std::uint32_t triangle, const MapPolygon& middle) const
   {
     MapRing ring;
-    const Surface& surface = this->surfaceOf(placement);
+    const Surface& surface = this->placements_.surfaceOf(placement);
     const SurfaceEdges& edges = this->edges_.of(placement.surface);
     std::vector<std::uint32_t> border;
     const auto addBorder = [&](std::uint32_t of, std::uint32_t except)
@@ -324,7 +241,7 @@ private:
   {
     const auto countOf = [this](const Placement& placement)
     { return this->edges_.of(placement.surface).edges.size(); };
-    this->visitAll(countOf,
+    this->placements_.visitAll(countOf,
       [&](std::uint32_t number, std::uint32_t i)
       {
         MapSegment found;
@@ -360,8 +277,8 @@ private:
       for (const BandItem& item : bands[band])
       {
         const Placement& placement = this->placements_[item.placement];
-        const MapPolygon polygon =
-          polygonOf(this->scene_, this->surfaceOf(placement), placement.instance, item.index);
+        const MapPolygon polygon = polygonOf(
+          this->scene_, this->placements_.surfaceOf(placement), placement.instance, item.index);
         drawPolygon(polygon, this->margin_, this->size_, rows, cells);
         if (this->covering_ != Covering::Triangle && polygon.role.covers)
         {
@@ -379,7 +296,7 @@ private:
   int bandCount_;
   bool blind_ = false;
   double margin_ = 0.0; ///< of all texels: the largest that a caster asks for, but for poison
-  std::vector<Placement> placements_;
+  CasterPlacements placements_;
   std::vector<std::int8_t> facing_; ///< on the map, of all placements' triangles
   tbb::enumerable_thread_specific<Bands> triangles_;
   tbb::enumerable_thread_specific<Bands> segments_;

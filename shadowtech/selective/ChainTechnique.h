@@ -1,0 +1,35 @@
+#ifndef gnomon_shadowtech_selective_ChainTechnique_h
+#define gnomon_shadowtech_selective_ChainTechnique_h
+
+#include "shadowtech/base/Technique.h"
+#include "shadowtech/selective/Chain.h"
+
+#include <string>
+
+namespace gnomon
+{
+
+/// What `coherence` and `selective` share: triangle maps, and a chain of tests that decides pixels by
+/// them. A technique says which stages its chain has.
+class ChainTechnique : public Technique
+{
+public:
+  MapReach mapReach(const ShadowLight& light) const override;
+  void bake(const MapInput& input) override;
+  std::size_t bytesOfMaps() const override;
+  void computeVisibility(
+    const ScreenInput& input, std::vector<float>& visibility, LightReport& report) override;
+
+protected:
+  virtual ChainStages stagesOf(const ShadowSettings& settings) const = 0;
+  /// What its info() is but for the name.
+  static TechniqueInfo infoOf(const std::string& name);
+
+private:
+  TriangleMaps maps_;
+  TriangleFans fans_;
+};
+
+} // namespace gnomon
+
+#endif

@@ -1,0 +1,22 @@
+#ifndef gnomon_shadowtech_selective_Coherence_h
+#define gnomon_shadowtech_selective_Coherence_h
+
+#include "shadowtech/selective/ChainTechnique.h"
+
+namespace gnomon
+{
+
+/// `coherence`: pixels whose texels disagree are traced, all others get what their texels say (Beister, Ernst,
+/// Stamminger, A Hybrid GPU-CPU Renderer, 2005). Not exact: texels may agree and be wrong.
+class Coherence : public ChainTechnique
+{
+public:
+  static TechniqueInfo info();
+
+protected:
+  ChainStages stagesOf(const ShadowSettings& settings) const override;
+};
+
+} // namespace gnomon
+
+#endif

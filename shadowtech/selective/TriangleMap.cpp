@@ -1,0 +1,285 @@
+#include "shadowtech/selective/TriangleMap.h"
+
+#include "shadowtech/base/Bytes.h"
+#include "shadowtech/base/PlacedTriangles.h"
+#include "shadowtech/conservative/CasterPlacements.h"
+#include "shadowtech/conservative/CasterShapes.h"
+
+#include <glm/gtc/matrix_access.hpp>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace gnomon
+{
+namespace
+{
+
+/// What rounding to float moves depths on a plane by, over 1 and what they change by from texel to texel: four
+/// times half a unit in the last place.
+constexpr double depthRounding = 2.384185791015625e-7; // 2^-22
+
+/// The plane of a polygon on the map.
+struct MapPlane
+{
+  double depth; ///< at the corner
+  double perColumn, perRow;
+  MapCorner corner;
+  double least, most; ///< depths of the corners
+
+  /// Rounding does not take it beyond the corners' depths, which it would on slivers.
+  double at(double x, double y) const
+  {
+    return std::clamp(
+      this->depth + this->perColumn * (x - this->corner.x) + this->perRow * (y - this->corner.y),
+      this->least, this->most);
+  }
+};
+
+/// @return nothing for a polygon without area
+std::optional<MapPlane> planeOf(const MapPolygon& polygon)
+{
+  const MapCorner& o = polygon.corners[0];
+  MapPlane plane{ o.depth, 0.0, 0.0, o, o.depth, o.depth };
+  glm::dvec3 normal(0.0);
+  for (std::size_t i = 1; i < polygon.count; ++i)
+  {
+    const MapCorner& a = polygon.corners[i];
+    const MapCorner& b = polygon.corners[(i + 1) % polygon.count];
+    normal += glm::cross(glm::dvec3(a.x - o.x, a.y - o.y, a.depth - o.depth),
+      glm::dvec3(b.x - o.x, b.y - o.y, b.depth - o.depth));
+    plane.least = std::min(plane.least, a.depth);
+    plane.most = std::max(plane.most, a.depth);
+  }
+  plane.perColumn = -normal.x / normal.z;
+  plane.perRow = -normal.y / normal.z;
+  return std::isfinite(plane.perColumn) && std::isfinite(plane.perRow)
+    ? std::optional<MapPlane>(plane)
+    : std::nullopt;
+}
+
+/// The columns of a row whose centres lie in a convex polygon; none if first > last.
+Span columnsOf(const MapPolygon& polygon, double y, int size)
+{
+  double low = static_cast<double>(size);
+  double high = 0.0;
+  for (std::size_t i = 0; i < polygon.count; ++i)
+  {
+    const MapCorner* a = &polygon.corners[i];
+    const MapCorner* b = &polygon.corners[(i + 1) % polygon.count];
+    if (a->y > b->y)
+    {
+      std::swap(a, b); // so that neighbours cut their common edge at the same place
+    }
+    if (a->y <= y && y < b->y)
+    {
+      const double x = a->x + (y - a->y) / (b->y - a->y) * (b->x - a->x);
+      low = std::min(low, x);
+      high = std::max(high, x);
+    }
+  }
+  const auto firstFrom = [size](double x)
+  { return static_cast<int>(std::ceil(std::clamp(x - 0.5, 0.0, static_cast<double>(size)))); };
+  return { firstFrom(low), firstFrom(high) - 1 };
+}
+
+/// A map while it is drawn.
+class MapDrawing
+{
+public:
+  MapDrawing(const CasterScene& scene, bool hasBox, const glm::dmat4& mapFromCentred, int size,
+    TriangleTexel* texels)
+    : scene_(scene)
+    , hasBox_(hasBox)
+    , centredFromMap_(glm::inverse(mapFromCentred))
+    , size_(size)
+    , texels_(texels)
+    , placements_(scene.occluders)
+    , triangles_([size] { return Bands(static_cast<std::size_t>(bandsOf(size))); })
+  {
+    this->sort();
+    tbb::parallel_for(0, bandsOf(size), [this](int band) { this->drawBand(band); });
+  }
+
+private:
+  MapPolygon polygonOf(const Placement& placement, std::uint32_t triangle) const
+  {
+    return gnomon::polygonOf(
+      this->scene_, this->placements_.surfaceOf(placement), placement.instance, triangle);
+  }
+
+  void sort()
+  {
+    this->placements_.visitTriangles(
+      [&](std::uint32_t number, std::uint32_t i)
+      {
+        const Placement& placement = this->placements_[number];
+        const std::uint32_t triangle = this->placements_.surfaceOf(placement).firstTriangle + i;
+        const MapPolygon polygon = this->polygonOf(placement, triangle);
+        if (polygon.role.present && polygon.count >= 3)
+        {
+          Bands& bands = this->triangles_.local();
+          visitBands(polygon, 0.0, this->size_,
+            [&](std::size_t band) {
+              bands[band].push_back({ number, triangle });
+            });
+        }
+      });
+  }
+
+  void drawBand(int band)
+  {
+    const Span rows = rowsOfBand(band, this->size_);
+    for (const Bands& bands : this->triangles_)
+    {
+      for (const BandItem& item : bands[static_cast<std::size_t>(band)])
+      {
+        const Placement& placement = this->placements_[item.placement];
+        this->draw({ placement.surface, placement.instance, item.index },
+          this->polygonOf(placement, item.index), rows);
+      }
+    }
+  }
+
+  void draw(const CasterTriangle& caster, const MapPolygon& polygon, const Span& rows)
+  {
+    const std::optional<MapPlane> plane = planeOf(polygon);
+    const Surface& surface = this->scene_.occluders.surfaces[caster.surface];
+    for (int row = rows.first; row <= rows.last && plane; ++row)
+    {
+      const double y = row + 0.5;
+      const Span columns = columnsOf(polygon, y, this->size_);
+      TriangleTexel* const texels = this->texels_ + static_cast<std::ptrdiff_t>(row) * this->size_;
+      for (int column = columns.first; column <= columns.last; ++column)
+      {
+        const double x = column + 0.5;
+        const double depth = plane->at(x, y);
+        TriangleTexel& texel = texels[column];
+        const auto rounded = static_cast<float>(depth);
+        // Where two are as near, it does not matter which thread comes first.
+        const bool nearer = rounded < texel.depth ||
+          (rounded == texel.depth && texel.caster.exists() && caster < texel.caster);
+        const bool looksCloser = nearer && (this->hasBox_ || surface.cutout);
+        if (nearer && (!looksCloser || this->blocksAt(caster, surface, { x, y, depth })))
+        {
+          texel = { caster, rounded, static_cast<float>(plane->perColumn),
+            static_cast<float>(plane->perRow) };
+        }
+      }
+    }
+  }
+
+  /// Whether a triangle blocks light at a point of it: in the light's box, and not in a hole.
+  bool blocksAt(const CasterTriangle& caster, const Surface& surface, const MapCorner& point) const
+  {
+    const glm::dvec4 homogeneous =
+      this->centredFromMap_ * glm::dvec4(point.x, point.y, point.depth, 1.0);
+    const glm::dvec3 centred = glm::dvec3(homogeneous) / homogeneous.w;
+    if (this->hasBox_ && this->scene_.space.at(centred).z < this->scene_.begins)
+    {
+      return false;
+    }
+    if (!surface.cutout)
+    {
+      return true;
+    }
+    const auto [a, b, c] =
+      centredCorners(this->scene_.occluders, surface, caster.instance, caster.triangle);
+    const glm::dvec3 area = glm::cross(b - a, c - a);
+    const double perArea = 1.0 / glm::dot(area, area);
+    const double ofB = glm::dot(glm::cross(centred - a, c - a), area) * perArea;
+    const double ofC = glm::dot(glm::cross(b - a, centred - a), area) * perArea;
+    const glm::uvec3 corners =
+      this->scene_.occluders.triangles[caster.triangle] - surface.firstVertex;
+    const auto at = [&](unsigned int corner)
+    { return glm::dvec2(surface.textureCoordinates[corner]); };
+    return surface.cutout->isDrawn(glm::vec2(at(corners.x) + ofB * (at(corners.y) - at(corners.x)) +
+      ofC * (at(corners.z) - at(corners.x))));
+  }
+
+  const CasterScene& scene_;
+  bool hasBox_;
+  glm::dmat4 centredFromMap_;
+  int size_;
+  TriangleTexel* texels_;
+  CasterPlacements placements_;
+  tbb::enumerable_thread_specific<Bands> triangles_;
+};
+
+} // namespace
+
+//------------------------------------------------------------------------------
+TriangleMap::TriangleMap(
+  const LightView& view, bool hasBox, int sizeTexels, const Occluders& occluders)
+  : size_(sizeTexels)
+  , texels_(static_cast<std::size_t>(sizeTexels) * static_cast<std::size_t>(sizeTexels))
+{
+  const CasterScene scene = casterScene(view, hasBox, sizeTexels, occluders);
+  this->mapFromCentred_ = scene.space.mapFromCentred();
+  this->planeFromCentred_ = glm::transpose(glm::inverse(this->mapFromCentred_));
+  MapDrawing(scene, hasBox, this->mapFromCentred_, sizeTexels, this->texels_.data());
+}
+
+//------------------------------------------------------------------------------
+std::optional<MapPlace> TriangleMap::placeOf(
+  const glm::dvec3& origin, const glm::dvec3& normal) const
+{
+  const glm::dvec4 point = this->mapFromCentred_ * glm::dvec4(origin, 1.0);
+  const double perW = 1.0 / point.w;
+  MapPlace place;
+  place.x = point.x * perW;
+  place.y = point.y * perW;
+  place.depth = point.z * perW;
+  const double size = this->size_;
+  // Written so that NaN fails. What has no W is behind a positional light.
+  if (!(point.w > 0.0 && place.x >= 0.0 && place.x < size && place.y >= 0.0 && place.y < size))
+  {
+    return std::nullopt;
+  }
+  place.column = static_cast<int>(place.x);
+  place.row = static_cast<int>(place.y);
+  place.plane = this->planeFromCentred_ * glm::dvec4(normal, -glm::dot(normal, origin));
+  return place;
+}
+
+//------------------------------------------------------------------------------
+const TriangleTexel& TriangleMap::texel(int column, int row) const
+{
+  static const TriangleTexel empty;
+  const bool inside = column >= 0 && row >= 0 && column < this->size_ && row < this->size_;
+  return inside
+    ? this->texels_[static_cast<std::size_t>(row) * static_cast<std::size_t>(this->size_) +
+        static_cast<std::size_t>(column)]
+    : empty;
+}
+
+//------------------------------------------------------------------------------
+bool TriangleMap::shadows(
+  const TriangleTexel& texel, int column, int row, const MapPlace& place) const
+{
+  if (!texel.caster.exists())
+  {
+    return false;
+  }
+  const double x = column + 0.5;
+  const double y = row + 0.5;
+  const double perColumn = texel.perColumn;
+  const double perRow = texel.perRow;
+  const double depth = texel.depth;
+  const double depthAtPlace = depth + perColumn * (place.x - x) + perRow * (place.y - y);
+  const double slack = depthRounding * (1.0 + std::abs(perColumn) + std::abs(perRow));
+  const bool isBefore = depthAtPlace < place.depth - slack;
+  const bool isAbove = glm::dot(place.plane, glm::dvec4(x, y, depth, 1.0)) > 0.0;
+  return isBefore && isAbove;
+}
+
+//------------------------------------------------------------------------------
+std::size_t TriangleMap::bytes() const
+{
+  return bytesOf(this->texels_);
+}
+
+} // namespace gnomon

@@ -1,0 +1,65 @@
+#include "shadowtech/selective/TriangleMaps.h"
+
+#include "shadowtech/base/TextureMemory.h"
+
+namespace gnomon
+{
+
+//------------------------------------------------------------------------------
+int PlaceOnMaps::votes() const
+{
+  int votes = 0;
+  visitNeighbourhood(Neighbourhood::Nine, this->place,
+    [&](int column, int row)
+    {
+      votes += this->shadows(column, row) ? 1 : 0;
+      return false;
+    });
+  return votes;
+}
+
+//------------------------------------------------------------------------------
+bool PlaceOnMaps::agree(Neighbourhood neighbourhood) const
+{
+  const bool first = this->shadows();
+  return !visitNeighbourhood(neighbourhood, this->place,
+    [&](int column, int row) { return this->shadows(column, row) != first; });
+}
+
+//------------------------------------------------------------------------------
+void TriangleMaps::bake(const LightViews& views, int sizeTexels, const Occluders& occluders)
+{
+  this->maps_.clear(); // what they had makes room
+  requireRoomForMap(sizeof(TriangleTexel), sizeTexels, static_cast<int>(views.views.size()));
+  for (const LightView& view : views.views)
+  {
+    this->maps_.emplace_back(view, views.box.z > 0.0, sizeTexels, occluders);
+  }
+}
+
+//------------------------------------------------------------------------------
+std::optional<PlaceOnMaps> TriangleMaps::find(
+  const glm::dvec3& origin, const glm::dvec3& normal) const
+{
+  for (const TriangleMap& map : this->maps_)
+  {
+    if (const std::optional<MapPlace> place = map.placeOf(origin, normal))
+    {
+      return PlaceOnMaps{ &map, *place };
+    }
+  }
+  return std::nullopt;
+}
+
+//------------------------------------------------------------------------------
+std::size_t TriangleMaps::bytes() const
+{
+  std::size_t bytes = 0;
+  for (const TriangleMap& map : this->maps_)
+  {
+    bytes += map.bytes();
+  }
+  return bytes;
+}
+
+} // namespace gnomon
