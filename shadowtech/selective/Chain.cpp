@@ -1,16 +1,12 @@
 #include "shadowtech/selective/Chain.h"
 
+#include "shadowtech/base/Occluders.h"
 #include "shadowtech/base/Receivers.h"
-#include "shadowtech/base/ShadowRay.h"
 #include "shadowtech/selective/CertainHit.h"
 #include "shadowtech/selective/StatusContour.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
-#include <optional>
 
 namespace gnomon
 {
@@ -24,232 +20,256 @@ Neighbourhood neighbourhoodOf(int texels)
                      : Neighbourhood::Centre;
 }
 
-/// Calls `visit` with ranges of pixels, on all cores.
-template <typename Visit>
-void visitPixels(std::size_t count, const Visit& visit)
-{
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 4096),
-    [&](const tbb::blocked_range<std::size_t>& range)
-    {
-      for (std::size_t i = range.begin(); i != range.end(); ++i)
-      {
-        visit(i);
-      }
-    });
-}
-
-} // namespace
-
-//------------------------------------------------------------------------------
-Certainty certaintyOf(PixelClass of)
+/// What a class means for a pixel's shadow ray.
+Certainty certaintyOf(ChainClass of)
 {
   switch (of)
   {
-    case PixelClass::Background:
-    case PixelClass::OutsideLit:
-    case PixelClass::HintedLit:
-    case PixelClass::LeftLit:
-    case PixelClass::MajorityLit:
+    case ChainClass::NoReceiver:
+    case ChainClass::OutsideLit:
+    case ChainClass::HintedLit:
+    case ChainClass::LeftLit:
+    case ChainClass::MajorityLit:
       return Certainty::Lit;
-    case PixelClass::TurnedAway:
-    case PixelClass::OutsideShadow:
-    case PixelClass::HintedShadow:
-    case PixelClass::ConfirmedByTexel:
-    case PixelClass::ConfirmedByNeighbours:
-    case PixelClass::ConfirmedByAdjacency:
-    case PixelClass::Corrected:
-    case PixelClass::MajorityShadow:
+    case ChainClass::Unreached:
+    case ChainClass::OutsideShadow:
+    case ChainClass::HintedShadow:
+    case ChainClass::ConfirmedByTexel:
+    case ChainClass::ConfirmedByNeighbours:
+    case ChainClass::ConfirmedByAdjacency:
+    case ChainClass::Corrected:
+    case ChainClass::MajorityShadow:
       return Certainty::Shadow;
-    case PixelClass::TracedLit:
-    case PixelClass::TracedShadow:
+    case ChainClass::TracedLit:
+    case ChainClass::TracedShadow:
       break;
   }
   return Certainty::Uncertain;
 }
 
-/// A chain for lights whose rays are made in one way.
-template <typename MakeRay>
-class Chain::OfLight
+/// Visits a tile's receivers.
+/// @param visit called with the receiver's number in the tile and in the picture
+template <typename Visit>
+void visitPixels(const ReceiverTile& tile, std::size_t width, const Visit& visit)
 {
-public:
-  OfLight(const Chain& chain, const MakeRay& makeRay, float rayFar)
-    : chain_(chain)
-    , makeRay_(makeRay)
-    , rayFar_(rayFar)
+  const auto columns = static_cast<std::size_t>(tile.receivers.width);
+  for (std::size_t i = 0; i < tile.receivers.size(); ++i)
   {
+    visit(i, (tile.firstRow + i / columns) * width + tile.firstColumn + i % columns);
   }
+}
 
-  std::vector<PixelClass> classes() const
+} // namespace
+
+//------------------------------------------------------------------------------
+std::vector<PixelClass> classesOfChain()
+{
+  std::vector<PixelClass> classes = classesOfTracing();
+  classes.resize(2); // those without a shadow ray are the same
+  classes.insert(classes.end(),
+    { { "outside the contour, lit", { 230, 230, 230 } },
+      { "outside the contour, in shadow", { 90, 90, 90 } }, { "hinted lit", { 160, 200, 255 } },
+      { "hinted in shadow", { 40, 90, 190 } }, { "confirmed by its texel", { 150, 70, 0 } },
+      { "confirmed by neighbours", { 220, 110, 0 } },
+      { "confirmed by adjacency", { 255, 170, 60 } }, { "corrected", { 220, 30, 30 } },
+      { "traced, lit by its texel", { 200, 120, 230 } },
+      { "traced, in shadow by its texel", { 120, 20, 160 } }, { "left lit", { 255, 240, 60 } },
+      { "lit by majority", { 250, 220, 150 } }, { "in shadow by majority", { 130, 110, 30 } } });
+  return classes;
+}
+
+/// A receiver, its shadow ray, and what the map says.
+struct Chain::Look
+{
+  bool receives = false;
+  ShadowRay ray{};
+  float rayFar = 0.0f;
+  std::optional<PlaceOnMaps> place; ///< of rays that would be traced
+  bool inShadow = false;            ///< the status
+
+  PixelStatus status() const
   {
-    const ReceiverPixels& receivers = this->chain_.receivers_;
-    const int radius = this->chain_.stages_.contourPixels / 2;
-    std::vector<std::uint8_t> contour(radius > 0 ? 0 : receivers.size(), 1);
-    if (radius > 0)
-    {
-      std::vector<PixelStatus> statuses(receivers.size());
-      visitPixels(receivers.size(), [&](std::size_t i) { statuses[i] = this->statusOf(i); });
-      contour = contourOf(statuses, receivers.width, receivers.height, radius);
-    }
-    std::vector<PixelClass> classes(receivers.size());
-    visitPixels(
-      receivers.size(), [&](std::size_t i) { classes[i] = this->classOf(i, contour[i] != 0); });
-    return classes;
+    return !this->receives ? PixelStatus::None
+      : this->inShadow     ? PixelStatus::Shadow
+                           : PixelStatus::Lit;
   }
-
-private:
-  bool receives(std::size_t pixel) const
-  {
-    const std::uint32_t surface = this->chain_.receivers_.surface[pixel];
-    return surface != ReceiverPixels::notCovered &&
-      this->chain_.occluders_.surfaces[surface].receives;
-  }
-
-  glm::vec3 normalOf(std::size_t pixel) const
-  {
-    const ReceiverPixels& of = this->chain_.receivers_;
-    return { of.normalX[pixel], of.normalY[pixel], of.normalZ[pixel] };
-  }
-
-  ShadowRay rayOf(std::size_t pixel) const
-  {
-    const ReceiverPixels& of = this->chain_.receivers_;
-    const glm::vec3 position(of.positionX[pixel], of.positionY[pixel], of.positionZ[pixel]);
-    return this->makeRay_(position, this->normalOf(pixel), of.offset[pixel]);
-  }
-
-  std::optional<PlaceOnMaps> placeOf(const ShadowRay& ray, std::size_t pixel) const
-  {
-    return this->chain_.maps_.find(ray.origin, this->normalOf(pixel));
-  }
-
-  PixelStatus statusOf(std::size_t pixel) const
-  {
-    if (!this->receives(pixel))
-    {
-      return PixelStatus::None;
-    }
-    const ShadowRay ray = this->rayOf(pixel);
-    if (!ray.traced)
-    {
-      return PixelStatus::Shadow;
-    }
-    const std::optional<PlaceOnMaps> place = this->placeOf(ray, pixel);
-    return place && place->shadows() ? PixelStatus::Shadow : PixelStatus::Lit;
-  }
-
-  PixelClass classOf(std::size_t pixel, bool inContour) const
-  {
-    const ChainStages& stages = this->chain_.stages_;
-    if (!this->receives(pixel))
-    {
-      return PixelClass::Background;
-    }
-    const ShadowRay ray = this->rayOf(pixel);
-    if (!ray.traced)
-    {
-      return PixelClass::TurnedAway;
-    }
-    const std::optional<PlaceOnMaps> place = this->placeOf(ray, pixel);
-    const bool inShadow = place && place->shadows();
-    const bool joins = inContour ||
-      (stages.outside == OutsideContour::Check && place && !place->agree(Neighbourhood::Nine));
-    if (!joins)
-    {
-      return inShadow ? PixelClass::OutsideShadow : PixelClass::OutsideLit;
-    }
-    if (stages.coherenceTexels > 0 &&
-      (!place || place->agree(neighbourhoodOf(stages.coherenceTexels))))
-    {
-      return inShadow ? PixelClass::HintedShadow : PixelClass::HintedLit;
-    }
-    if (const std::optional<PixelClass> proven =
-          place ? this->proof(ray, *place, inShadow) : std::nullopt)
-    {
-      return *proven;
-    }
-    switch (stages.leftovers)
-    {
-      case Leftovers::Lit:
-        return PixelClass::LeftLit;
-      case Leftovers::Majority:
-        return place && place->votes() > 4 ? PixelClass::MajorityShadow : PixelClass::MajorityLit;
-      case Leftovers::Trace:
-        break;
-    }
-    return inShadow ? PixelClass::TracedShadow : PixelClass::TracedLit;
-  }
-
-  /// What proves that a pixel is in shadow, if anything does.
-  /// @param inShadow the status by the map
-  std::optional<PixelClass> proof(
-    const ShadowRay& ray, const PlaceOnMaps& place, bool inShadow) const
-  {
-    const ChainStages& stages = this->chain_.stages_;
-    const Occluders& occluders = this->chain_.occluders_;
-    const auto stops = [&](const CasterTriangle& caster)
-    { return certainlyStops(occluders, caster, ray, this->rayFar_); };
-
-    std::array<CasterTriangle, 9> tested;
-    std::size_t count = 0;
-    const auto isNew = [&](const CasterTriangle& caster)
-    { return std::find(tested.begin(), tested.begin() + count, caster) == tested.begin() + count; };
-    std::size_t texels = 0;
-    const bool hit = stages.neighbourTexels > 0 &&
-      visitNeighbourhood(neighbourhoodOf(stages.neighbourTexels), place.place,
-        [&](int column, int row)
-        {
-          ++texels;
-          const CasterTriangle& caster = place.map->texel(column, row).caster;
-          return caster.exists() && isNew(caster) && stops(tested[count++] = caster);
-        });
-    if (hit)
-    {
-      return !inShadow ? PixelClass::Corrected
-        : texels == 1  ? PixelClass::ConfirmedByTexel
-                       : PixelClass::ConfirmedByNeighbours;
-    }
-    if (inShadow && stages.adjacency != Adjacency::Off)
-    {
-      CasterTriangle caster = place.map->texel(place.place.column, place.place.row).caster;
-      const bool adjacent =
-        visitAdjacent(this->chain_.fans_.of(caster.surface), caster.triangle, stages.adjacency,
-          [&](std::uint32_t triangle)
-          {
-            caster.triangle = triangle;
-            return stops(caster);
-          });
-      if (adjacent)
-      {
-        return PixelClass::ConfirmedByAdjacency;
-      }
-    }
-    return std::nullopt;
-  }
-
-  const Chain& chain_;
-  const MakeRay& makeRay_;
-  float rayFar_;
 };
 
 //------------------------------------------------------------------------------
 Chain::Chain(const ChainStages& stages, const TriangleMaps& maps, const TriangleFans& fans,
-  const ShadowLight& light, const Occluders& occluders, const ReceiverPixels& receivers)
+  const ScreenInput& input)
   : stages_(stages)
   , maps_(maps)
   , fans_(fans)
-  , light_(light)
-  , occluders_(occluders)
-  , receivers_(receivers)
+  , input_(input)
+  , rayLight_(input.light, input.occluders.centreWorld)
 {
+  if (this->stages_.contourPixels > 0)
+  {
+    this->input_.receivers.all(); // they are looked at twice
+    this->contour_ = this->contour();
+  }
 }
 
 //------------------------------------------------------------------------------
-std::vector<PixelClass> Chain::classes() const
+std::vector<std::uint8_t> Chain::contour() const
 {
-  const ShadowRayLight rayLight(this->light_, this->occluders_.centreWorld);
-  return visitShadowRays(rayLight,
-    [this](const auto& makeRay, float rayFar)
-    { return OfLight<std::decay_t<decltype(makeRay)>>(*this, makeRay, rayFar).classes(); });
+  const std::size_t width = this->input_.receivers.width();
+  const std::size_t height = this->input_.receivers.height();
+  std::vector<PixelStatus> statuses(width * height);
+  this->input_.receivers.visitTiles(
+    [&](const ReceiverTile& tile)
+    {
+      visitPixels(tile, width,
+        [&](std::size_t i, std::size_t pixel)
+        { statuses[pixel] = this->lookAt(tile.receivers, i).status(); });
+    });
+  return contourOf(
+    statuses, static_cast<int>(width), static_cast<int>(height), this->stages_.contourPixels / 2);
+}
+
+//------------------------------------------------------------------------------
+std::size_t Chain::run(std::vector<float>& visibility) const
+{
+  const std::size_t width = this->input_.receivers.width();
+  std::vector<std::uint8_t>* const classes = this->input_.classes;
+  if (classes)
+  {
+    classes->resize(width * this->input_.receivers.height());
+  }
+  return this->input_.tracer.trace(this->input_.light, this->input_.occluders,
+    this->input_.receivers, visibility,
+    [&](const ReceiverTile& tile, std::vector<Certainty>& certain)
+    {
+      visitPixels(tile, width,
+        [&](std::size_t i, std::size_t pixel)
+        {
+          const bool inContour = this->contour_.empty() || this->contour_[pixel] != 0;
+          const ChainClass found = this->classOf(this->lookAt(tile.receivers, i), inContour);
+          certain[i] = certaintyOf(found);
+          if (classes)
+          {
+            (*classes)[pixel] = static_cast<std::uint8_t>(found);
+          }
+        });
+    });
+}
+
+//------------------------------------------------------------------------------
+Chain::Look Chain::lookAt(const ReceiverPixels& receivers, std::size_t i) const
+{
+  Look look;
+  const std::uint32_t surface = receivers.surface[i];
+  look.receives =
+    surface != ReceiverPixels::notCovered && this->input_.occluders.surfaces[surface].receives;
+  if (!look.receives)
+  {
+    return look;
+  }
+  const glm::vec3 position(receivers.positionX[i], receivers.positionY[i], receivers.positionZ[i]);
+  const glm::vec3 normal(receivers.normalX[i], receivers.normalY[i], receivers.normalZ[i]);
+  visitShadowRays(this->rayLight_,
+    [&](const auto& makeRay, float rayFar)
+    {
+      look.ray = makeRay(position, normal, receivers.offset[i]);
+      look.rayFar = rayFar;
+    });
+  if (look.ray.traced)
+  {
+    look.place = this->maps_.find(look.ray.origin, normal);
+  }
+  look.inShadow = !look.ray.traced || (look.place && look.place->shadows());
+  return look;
+}
+
+//------------------------------------------------------------------------------
+ChainClass Chain::classOf(const Look& look, bool inContour) const
+{
+  if (!look.receives)
+  {
+    return ChainClass::NoReceiver;
+  }
+  if (!look.ray.traced)
+  {
+    return ChainClass::Unreached;
+  }
+  // Without a place on the map no caster can be before the receiver, and its texels are all empty.
+  const auto agree = [&](Neighbourhood neighbourhood)
+  { return !look.place || look.place->agree(neighbourhood); };
+  const ChainStages& stages = this->stages_;
+  if (!inContour && (stages.outside == OutsideContour::Map || agree(Neighbourhood::Nine)))
+  {
+    return look.inShadow ? ChainClass::OutsideShadow : ChainClass::OutsideLit;
+  }
+  if (stages.coherenceTexels > 0 && agree(neighbourhoodOf(stages.coherenceTexels)))
+  {
+    return look.inShadow ? ChainClass::HintedShadow : ChainClass::HintedLit;
+  }
+  if (const std::optional<ChainClass> proven = this->proof(look))
+  {
+    return *proven;
+  }
+  switch (stages.leftovers)
+  {
+    case Leftovers::Lit:
+      return ChainClass::LeftLit;
+    case Leftovers::Majority:
+      return look.place && look.place->votes() > 4 ? ChainClass::MajorityShadow
+                                                   : ChainClass::MajorityLit;
+    case Leftovers::Trace:
+      break;
+  }
+  return look.inShadow ? ChainClass::TracedShadow : ChainClass::TracedLit;
+}
+
+//------------------------------------------------------------------------------
+/// What proves that a pixel is in shadow, if anything does.
+std::optional<ChainClass> Chain::proof(const Look& look) const
+{
+  if (!look.place)
+  {
+    return std::nullopt;
+  }
+  const auto& [map, place] = *look.place;
+  const auto stops = [&](const CasterTriangle& caster)
+  { return certainlyStops(this->input_.occluders, caster, look.ray, look.rayFar); };
+
+  std::array<CasterTriangle, 9> tested;
+  auto end = tested.begin(); // of what has been tested
+  int texels = 0;
+  const bool hit = this->stages_.neighbourTexels > 0 &&
+    visitNeighbourhood(neighbourhoodOf(this->stages_.neighbourTexels), place,
+      [&, map = map](int column, int row)
+      {
+        ++texels;
+        const CasterTriangle& caster = map->texel(column, row).caster;
+        if (!caster.exists() || std::find(tested.begin(), end, caster) != end)
+        {
+          return false;
+        }
+        *end++ = caster;
+        return stops(caster);
+      });
+  if (hit)
+  {
+    return !look.inShadow ? ChainClass::Corrected
+      : texels == 1       ? ChainClass::ConfirmedByTexel
+                          : ChainClass::ConfirmedByNeighbours;
+  }
+  if (look.inShadow && this->stages_.adjacency != Adjacency::Off)
+  {
+    CasterTriangle caster = map->texel(place.column, place.row).caster;
+    if (visitAdjacent(this->fans_.of(caster.surface), caster.triangle, this->stages_.adjacency,
+          [&](std::uint32_t triangle)
+          {
+            caster.triangle = triangle;
+            return stops(caster);
+          }))
+    {
+      return ChainClass::ConfirmedByAdjacency;
+    }
+  }
+  return std::nullopt;
 }
 
 } // namespace gnomon

@@ -1,20 +1,23 @@
 #ifndef gnomon_shadowtech_selective_Chain_h
 #define gnomon_shadowtech_selective_Chain_h
 
-#include "lights/ShadowLight.h"
+#include "lights/ShadowSettings.h"
+#include "shadowtech/base/PixelClass.h"
 #include "shadowtech/base/RayTracer.h"
+#include "shadowtech/base/ShadowRay.h"
+#include "shadowtech/base/Technique.h"
 #include "shadowtech/selective/TriangleFans.h"
 #include "shadowtech/selective/TriangleMaps.h"
 
 #include <cstddef>
 #include <cstdint>
-#include <string>
+#include <optional>
 #include <vector>
 
 namespace gnomon
 {
 
-struct ReceiverPixels;
+struct ReceiverTile;
 
 /// Which stages a chain has, in their order.
 struct ChainStages
@@ -27,18 +30,18 @@ struct ChainStages
   Leftovers leftovers = Leftovers::Trace;
 };
 
-/// By what a chain decides a pixel.
-enum class PixelClass : std::uint8_t
+/// By what a chain decides a pixel: indices into classesOfChain().
+enum class ChainClass : std::uint8_t
 {
-  Background, ///< nothing is there that a shadow could fall on
-  TurnedAway, ///< from the light, or outside of its cone or box: dark without a shadow
-  OutsideLit, ///< outside of the contour, by its texel
-  OutsideShadow,
-  HintedLit, ///< by texels that agree; not for certain
-  HintedShadow,
-  ConfirmedByTexel,      ///< its own texel's triangle is hit
-  ConfirmedByNeighbours, ///< one of a texel around
-  ConfirmedByAdjacency,  ///< one that is adjacent to its own texel's
+  NoReceiver,            ///< nothing is seen, or what receives no shadow
+  Unreached,             ///< turned away from the light, or outside its cone or box
+  OutsideLit,            ///< outside of the contour, by its texel
+  OutsideShadow,         ///< the same
+  HintedLit,             ///< by texels that agree
+  HintedShadow,          ///< the same
+  ConfirmedByTexel,      ///< in shadow by its texel, whose triangle is hit
+  ConfirmedByNeighbours, ///< one of the other texels' triangles is
+  ConfirmedByAdjacency,  ///< one that is adjacent to its texel's triangle is
   Corrected,             ///< lit by its texel, but one of the texels' triangles is hit
   TracedLit,             ///< traced; lit by its texel
   TracedShadow,          ///< traced; in shadow by its texel
@@ -46,35 +49,36 @@ enum class PixelClass : std::uint8_t
   MajorityLit,
   MajorityShadow
 };
-constexpr std::size_t pixelClasses = 15;
-
-/// What a class means for a pixel's shadow ray. Confirmed and corrected pixels are in shadow for certain;
-/// those hinted, outside, left or by majority are taken at their word.
-Certainty certaintyOf(PixelClass of);
+std::vector<PixelClass> classesOfChain();
 
 /// Moderno's chain (Shadow Mapping and Ray-Tracing, 3.6): pixels near a change of their status by the
-/// shadow map pass one stage after the other, cheapest first, until one decides them.
+/// shadow map pass one stage after the other, cheapest first, until one decides them. Confirmed and
+/// corrected pixels are in shadow for certain; what is hinted, outside, left or by majority is taken at its word.
 class Chain
 {
 public:
-  /// All of these have to live as long as the chain.
+  /// All of these have to live as long as the chain. Finds the contour, if there is to be one.
   /// @param fans up to date with the occluders where there is a stage of adjacency
   Chain(const ChainStages& stages, const TriangleMaps& maps, const TriangleFans& fans,
-    const ShadowLight& light, const Occluders& occluders, const ReceiverPixels& receivers);
+    const ScreenInput& input);
 
-  /// What decides each pixel, in the receivers' order.
-  std::vector<PixelClass> classes() const;
+  /// Each pixel's visibility; fills the input's classes, if there are to be any.
+  /// @return the number of rays traced
+  std::size_t run(std::vector<float>& visibility) const;
 
 private:
-  template <typename MakeRay>
-  class OfLight;
+  struct Look;
+  Look lookAt(const ReceiverPixels& receivers, std::size_t i) const;
+  ChainClass classOf(const Look& look, bool inContour) const;
+  std::optional<ChainClass> proof(const Look& look) const;
+  std::vector<std::uint8_t> contour() const;
 
   const ChainStages& stages_;
   const TriangleMaps& maps_;
   const TriangleFans& fans_;
-  const ShadowLight& light_;
-  const Occluders& occluders_;
-  const ReceiverPixels& receivers_;
+  const ScreenInput& input_;
+  ShadowRayLight rayLight_;
+  std::vector<std::uint8_t> contour_; ///< 1 for its pixels; empty: the whole image
 };
 
 } // namespace gnomon

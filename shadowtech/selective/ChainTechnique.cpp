@@ -1,7 +1,5 @@
 #include "shadowtech/selective/ChainTechnique.h"
 
-#include <algorithm>
-
 namespace gnomon
 {
 
@@ -12,6 +10,7 @@ TechniqueInfo ChainTechnique::infoOf(const std::string& name)
   info.name = name;
   info.evaluation = Evaluation::ScreenCpu;
   info.needsMap = true;
+  info.classes = classesOfChain();
   return info;
 }
 
@@ -44,13 +43,8 @@ void ChainTechnique::computeVisibility(
   {
     this->fans_.update(input.occluders);
   }
-  const std::vector<PixelClass> classes =
-    Chain(stages, this->maps_, this->fans_, input.light, input.occluders, input.receivers)
-      .classes();
-  std::vector<Certainty> certain(classes.size());
-  std::transform(classes.begin(), classes.end(), certain.begin(), certaintyOf);
-  report.tracedPixels = static_cast<std::int64_t>(
-    input.tracer.trace(input.light, input.occluders, input.receivers, visibility, certain));
+  report.tracedPixels =
+    static_cast<std::int64_t>(Chain(stages, this->maps_, this->fans_, input).run(visibility));
 }
 
 } // namespace gnomon
