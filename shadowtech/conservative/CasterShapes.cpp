@@ -265,7 +265,8 @@ MapPolygon polygonOf(
   }
   std::size_t count = 3;
   const bool apart = cutToMap(points, count, scene.space.size, scene.nearW);
-  if (!apart || isAtLight(scene, corners))
+  const bool atLight = isAtLight(scene, corners);
+  if (!apart || (atLight && count < 3))
   {
     polygon.role.present = true;
     polygon.margin = infinity;
@@ -280,7 +281,7 @@ MapPolygon polygonOf(
   // Casters that face away from the light are not there; along it, a tracer may see it either way.
   const bool unclear =
     surface.oneSided && !(std::abs(noise.cosineToLight) > unclearCosine(corners));
-  if (surface.oneSided && !unclear && noise.cosineToLight < 0.0)
+  if (surface.oneSided && !unclear && noise.cosineToLight < 0.0 && !atLight)
   {
     polygon.role.present = false;
     return polygon;
@@ -295,7 +296,7 @@ MapPolygon polygonOf(
     polygon.nearestZ = std::min(polygon.nearestZ, p.z);
     polygon.depthPerUnit = std::max(polygon.depthPerUnit, scene.space.depthPerUnit(p.W));
   }
-  polygon.margin = marginOf(scene, polygon.nearestZ);
+  polygon.margin = atLight ? infinity : marginOf(scene, polygon.nearestZ);
   polygon.slack = noise.alongRay() * polygon.depthPerUnit;
   polygon.noise = noise.alongNormal;
   // Twice the area, and how high that makes it over its longest side.

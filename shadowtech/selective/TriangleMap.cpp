@@ -18,9 +18,13 @@ namespace gnomon
 namespace
 {
 
-/// What rounding to float moves depths on a plane by, over 1 and what they change by from texel to texel: four
-/// times half a unit in the last place.
+/// What rounding to float moves depths on a plane by, over their magnitude and what they change by from texel to
+/// texel: four times half a unit in the last place.
 constexpr double depthRounding = 2.384185791015625e-7; // 2^-22
+
+/// Depths are counted from the farthest caster's, that they are finest in float where most of what a light in the
+/// midst of a scene sees is: depths are in proportion to -1 / distance there.
+constexpr double farthestDepth = 1.0;
 
 /// The plane of a polygon on the map.
 struct MapPlane
@@ -107,8 +111,13 @@ public:
 private:
   MapPolygon polygonOf(const Placement& placement, std::uint32_t triangle) const
   {
-    return gnomon::polygonOf(
+    MapPolygon polygon = gnomon::polygonOf(
       this->scene_, this->placements_.surfaceOf(placement), placement.instance, triangle);
+    for (std::size_t i = 0; i < polygon.count; ++i)
+    {
+      polygon.corners[i].depth -= farthestDepth;
+    }
+    return polygon;
   }
 
   void sort()
@@ -219,6 +228,11 @@ TriangleMap::TriangleMap(
 {
   const CasterScene scene = casterScene(view, hasBox, sizeTexels, occluders);
   this->mapFromCentred_ = scene.space.mapFromCentred();
+  for (int column = 0; column < 4; ++column)
+  {
+    glm::dvec4& of = this->mapFromCentred_[column];
+    of.z -= farthestDepth * of.w;
+  }
   this->planeFromCentred_ = glm::transpose(glm::inverse(this->mapFromCentred_));
   MapDrawing(scene, hasBox, this->mapFromCentred_, sizeTexels, this->texels_.data());
 }
@@ -269,10 +283,12 @@ bool TriangleMap::shadows(
   const double perColumn = texel.perColumn;
   const double perRow = texel.perRow;
   const double depth = texel.depth;
-  const double depthAtPlace = depth + perColumn * (place.x - x) + perRow * (place.y - y);
-  const double slack = depthRounding * (1.0 + std::abs(perColumn) + std::abs(perRow));
-  const bool isBefore = depthAtPlace < place.depth - slack;
-  const bool isAbove = glm::dot(place.plane, glm::dvec4(x, y, depth, 1.0)) > 0.0;
+  const double alongRow = perColumn * (place.x - x);
+  const double alongColumn = perRow * (place.y - y);
+  const double slack = depthRounding * (std::abs(depth) + std::abs(perColumn) + std::abs(perRow));
+  const bool isBefore = depth + alongRow + alongColumn < place.depth - slack;
+  const double deepest = depth + std::abs(alongRow) + std::abs(alongColumn);
+  const bool isAbove = glm::dot(place.plane, glm::dvec4(x, y, deepest, 1.0)) > 0.0;
   return isBefore && isAbove;
 }
 

@@ -73,8 +73,8 @@ enum class Neighbourhood
 /// as Williams' (1978). Drawn on the CPU, in double precision; both sides of casters count, but of those
 /// that are one-sided, and the holes of textures are left out.
 ///
-/// *Depth* is that of conservative maps (ConservativeMap.h): affine on planes across the map, and growing
-/// along every ray.
+/// *Depth* is that of conservative maps (ConservativeMap.h), affine on planes across the map and growing
+/// along every ray, but that it ends at 0, behind all casters, so that floats hold it well.
 class TriangleMap
 {
 public:
@@ -91,8 +91,12 @@ public:
   const TriangleTexel& texel(int column, int row) const;
 
   /// Whether the caster at a texel's centre hides a receiver, as far as that can be told: its plane
-  /// passes between the receiver and the light, and at the centre it lies before the receiver's plane.
-  /// A surface's own triangles and those around never do both where it is convex, or concave.
+  /// passes between the receiver and the light, and at the centre, even pushed back by what it may
+  /// be deeper on the way to the receiver's place, it lies before the receiver's plane.
+  ///
+  /// No bias is tuned. A triangle does neither to its own points. Where a surface is convex, neighbours lie
+  /// behind the receiver's plane; where it is concave, the receiver lies before theirs. What is left are
+  /// surfaces that are both within a texel.
   bool shadows(const TriangleTexel& texel, int column, int row, const MapPlace& place) const;
   bool shadows(int column, int row, const MapPlace& place) const
   {

@@ -7,6 +7,8 @@
 #include <vtkNew.h>
 #include <vtkObject.h>
 
+#include <variant>
+
 namespace gnomon::test
 {
 namespace
@@ -42,6 +44,27 @@ TEST(ShadowSettings, refuseWhatTheyDoNotTakeAndStayAsTheyAre)
   }
   EXPECT_TRUE(findSetting("kernel")->set(settings, "poisson"));
   EXPECT_EQ(settings.kernel, FilterKernel::Poisson);
+}
+
+TEST(ShadowSettings, takeEveryChoiceAndGiveItBack)
+{
+  for (const Setting& setting : shadowSettings())
+  {
+    const auto* choice = std::get_if<ChoiceSetting>(&setting.values);
+    for (std::size_t i = 0; choice && i < choice->names.size(); ++i)
+    {
+      ShadowSettings settings;
+      EXPECT_TRUE(setting.set(settings, choice->names[i])) << setting.name;
+      EXPECT_EQ(setting.get(settings), choice->names[i]) << setting.name;
+    }
+  }
+  ShadowSettings settings;
+  EXPECT_TRUE(findSetting("contour")->set(settings, "6"));
+  EXPECT_EQ(settings.contourPixels, 6);
+  EXPECT_TRUE(findSetting("contour")->set(settings, "image"));
+  EXPECT_EQ(settings.contourPixels, 0);
+  EXPECT_TRUE(findSetting("map_samples")->set(settings, "8"));
+  EXPECT_EQ(settings.mapSamples, 8);
 }
 
 TEST(ShadowSettings, areALightsOwn)

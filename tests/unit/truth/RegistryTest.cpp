@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace gnomon::test
 {
@@ -184,6 +186,42 @@ TEST(Registry, buildsLevelsOfBlurredMomentsOnly)
       expectVerdicts(settings, { "no levels", "no levels", "no levels", "no levels" },
         settings.estimator + " with blur sat");
     }
+  }
+}
+
+TEST(Registry, refusesChainsOfTestsThatMakeNoSense)
+{
+  struct Case
+  {
+    const char* technique;
+    std::vector<std::pair<const char*, const char*>> settings;
+    const char* verdict;
+  };
+  const std::vector<std::pair<const char*, const char*>> nothing{ { "coherence", "off" },
+    { "neighbours", "off" }, { "adjacency", "off" } };
+  auto nothingLit = nothing;
+  nothingLit.emplace_back("leftovers", "lit");
+  const Case cases[] = {
+    { "coherence", { { "coherence", "off" } }, "takes 4 or 9" },
+    { "coherence", { { "coherence", "9" } }, "" },
+    { "coherence", { { "contour", "image" }, { "outside", "check" } }, "" }, // are selective's
+    { "selective", { { "contour", "image" }, { "outside", "check" } }, "nothing is outside" },
+    { "selective", { { "outside", "check" } }, "" },
+    { "selective", { { "coherence", "off" }, { "contour", "image" } }, "" },
+    { "selective", nothing, "" }, // all of the contour is traced
+    { "selective", nothingLit, "all of them would be lit" },
+    { "nsm", nothingLit, "" },
+  };
+  for (const Case& each : cases)
+  {
+    ShadowSettings settings;
+    settings.technique = each.technique;
+    for (const auto& [name, value] : each.settings)
+    {
+      ASSERT_TRUE(findSetting(name)->set(settings, value)) << name;
+    }
+    expectVerdicts(
+      settings, { each.verdict, each.verdict, each.verdict, each.verdict }, each.technique);
   }
 }
 
