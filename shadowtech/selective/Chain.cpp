@@ -64,18 +64,17 @@ void visitPixels(const ReceiverTile& tile, std::size_t width, const Visit& visit
 //------------------------------------------------------------------------------
 std::vector<PixelClass> classesOfChain()
 {
-  std::vector<PixelClass> classes = classesOfTracing();
-  classes.resize(2); // those without a shadow ray are the same
-  classes.insert(classes.end(),
-    { { "outside the contour, lit", { 230, 230, 230 } },
-      { "outside the contour, in shadow", { 90, 90, 90 } }, { "hinted lit", { 160, 200, 255 } },
-      { "hinted in shadow", { 40, 90, 190 } }, { "confirmed by its texel", { 150, 70, 0 } },
-      { "confirmed by neighbours", { 220, 110, 0 } },
-      { "confirmed by adjacency", { 255, 170, 60 } }, { "corrected", { 220, 30, 30 } },
-      { "traced, lit by its texel", { 200, 120, 230 } },
-      { "traced, in shadow by its texel", { 120, 20, 160 } }, { "left lit", { 255, 240, 60 } },
-      { "lit by majority", { 250, 220, 150 } }, { "in shadow by majority", { 130, 110, 30 } } });
-  return classes;
+  // What has no shadow ray is the same everywhere.
+  const std::vector<PixelClass> tracing = classesOfTracing();
+  return { tracing[static_cast<std::size_t>(TracedClass::NoReceiver)],
+    tracing[static_cast<std::size_t>(TracedClass::Unreached)],
+    { "outside the contour, lit", { 230, 230, 230 } },
+    { "outside the contour, in shadow", { 90, 90, 90 } }, { "hinted lit", { 160, 200, 255 } },
+    { "hinted in shadow", { 40, 90, 190 } }, { "confirmed by its texel", { 150, 70, 0 } },
+    { "confirmed by neighbours", { 220, 110, 0 } }, { "confirmed by adjacency", { 255, 170, 60 } },
+    { "corrected", { 220, 30, 30 } }, { "traced, lit by its texel", { 200, 120, 230 } },
+    { "traced, in shadow by its texel", { 120, 20, 160 } }, { "left lit", { 255, 240, 60 } },
+    { "lit by majority", { 250, 220, 150 } }, { "in shadow by majority", { 130, 110, 30 } } };
 }
 
 /// A receiver, its shadow ray, and what the map says.
@@ -131,27 +130,27 @@ std::vector<std::uint8_t> Chain::contour() const
 //------------------------------------------------------------------------------
 std::size_t Chain::run(std::vector<float>& visibility) const
 {
-  const std::size_t width = this->input_.receivers.width();
-  std::vector<std::uint8_t>* const classes = this->input_.classes;
-  if (classes)
+  if (this->input_.classes)
   {
-    classes->resize(width * this->input_.receivers.height());
+    this->input_.classes->resize(this->input_.receivers.width() * this->input_.receivers.height());
   }
-  return this->input_.tracer.trace(this->input_.light, this->input_.occluders,
-    this->input_.receivers, visibility,
-    [&](const ReceiverTile& tile, std::vector<Certainty>& certain)
+  return this->input_.tracer.trace(
+    this->input_.light, this->input_.occluders, this->input_.receivers, visibility, this);
+}
+
+//------------------------------------------------------------------------------
+void Chain::ofPixels(const ReceiverTile& tile, std::vector<Certainty>& certain) const
+{
+  visitPixels(tile, this->input_.receivers.width(),
+    [&](std::size_t i, std::size_t pixel)
     {
-      visitPixels(tile, width,
-        [&](std::size_t i, std::size_t pixel)
-        {
-          const bool inContour = this->contour_.empty() || this->contour_[pixel] != 0;
-          const ChainClass found = this->classOf(this->lookAt(tile.receivers, i), inContour);
-          certain[i] = certaintyOf(found);
-          if (classes)
-          {
-            (*classes)[pixel] = static_cast<std::uint8_t>(found);
-          }
-        });
+      const bool inContour = this->contour_.empty() || this->contour_[pixel] != 0;
+      const ChainClass found = this->classOf(this->lookAt(tile.receivers, i), inContour);
+      certain[i] = certaintyOf(found);
+      if (this->input_.classes)
+      {
+        (*this->input_.classes)[pixel] = static_cast<std::uint8_t>(found);
+      }
     });
 }
 

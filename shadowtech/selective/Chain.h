@@ -2,6 +2,7 @@
 #define gnomon_shadowtech_selective_Chain_h
 
 #include "lights/ShadowSettings.h"
+#include "shadowtech/base/Certainty.h"
 #include "shadowtech/base/PixelClass.h"
 #include "shadowtech/base/RayTracer.h"
 #include "shadowtech/base/ShadowRay.h"
@@ -54,7 +55,7 @@ std::vector<PixelClass> classesOfChain();
 /// Moderno's chain (Shadow Mapping and Ray-Tracing, 3.6): pixels near a change of their status by the
 /// shadow map pass one stage after the other, cheapest first, until one decides them. Confirmed and
 /// corrected pixels are in shadow for certain; what is hinted, outside, left or by majority is taken at its word.
-class Chain
+class Chain : public ReceiverDecider
 {
 public:
   /// All of these have to live as long as the chain. Finds the contour, if there is to be one.
@@ -65,6 +66,9 @@ public:
   /// Each pixel's visibility; fills the input's classes, if there are to be any.
   /// @return the number of rays traced
   std::size_t run(std::vector<float>& visibility) const;
+
+  /// What run() lets the tracer know of a tile.
+  void ofPixels(const ReceiverTile& tile, std::vector<Certainty>& certain) const override;
 
 private:
   struct Look;
