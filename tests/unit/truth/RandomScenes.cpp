@@ -1,0 +1,318 @@
+#include "RandomScenes.h"
+
+#include "lights/LightViews.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+namespace gnomon::test
+{
+
+//------------------------------------------------------------------------------
+double uniform(Random& random, double low, double high)
+{
+  return std::uniform_real_distribution<double>(low, high)(random);
+}
+
+//------------------------------------------------------------------------------
+glm::dvec3 unitVector(Random& random)
+{
+  const double z = uniform(random, -1.0, 1.0);
+  const double angle = uniform(random, 0.0, 6.283185307179586);
+  const double radius = std::sqrt(1.0 - z * z);
+  return { radius * std::cos(angle), radius * std::sin(angle), z };
+}
+
+//------------------------------------------------------------------------------
+Mesh makeCup(int rings, int segments)
+{
+  Mesh mesh = makeSphere(rings, segments);
+  std::vector<glm::uvec3> kept;
+  for (const glm::uvec3& triangle : mesh.triangles)
+  {
+    if (mesh.points[triangle.x].z < 0.3 && mesh.points[triangle.y].z < 0.3 &&
+      mesh.points[triangle.z].z < 0.3)
+    {
+      kept.push_back(triangle);
+    }
+  }
+  mesh.triangles = kept;
+  return mesh;
+}
+
+namespace
+{
+
+glm::dmat4 placed(Random& random, double spread, double scale)
+{
+  const glm::dvec3 position(
+    uniform(random, -spread, spread), uniform(random, -spread, spread), uniform(random, 0.2, 1.6));
+  return glm::rotate(at(position, scale), uniform(random, 0.0, 6.28), unitVector(random));
+}
+
+/// A fan of triangles around one corner, some of them nearly without area.
+Mesh makeNeedles(Random& random, int count)
+{
+  Mesh mesh;
+  for (int i = 0; i < count; ++i)
+  {
+    const glm::dvec3 from(
+      uniform(random, -1.0, 1.0), uniform(random, -1.0, 1.0), uniform(random, -0.5, 0.5));
+    const glm::dvec3 along = unitVector(random);
+    const double width = std::pow(10.0, uniform(random, -7.0, -1.0));
+    const auto first = static_cast<unsigned int>(mesh.points.size());
+    mesh.points.push_back(from);
+    mesh.points.push_back(from + along);
+    mesh.points.push_back(from + 0.5 * along + width * unitVector(random));
+    mesh.triangles.emplace_back(first, first + 1, first + 2);
+  }
+  return mesh;
+}
+
+/// A sheet that is folded to and fro, with every fold nearly closed.
+Mesh makeFolds(int folds)
+{
+  Mesh mesh;
+  for (int i = 0; i <= folds; ++i)
+  {
+    const double x = 0.05 * i;
+    const double z = (i % 2) ? 0.8 : 0.0;
+    mesh.points.emplace_back(x, -0.7, z);
+    mesh.points.emplace_back(x, 0.7, z);
+    if (i > 0)
+    {
+      const auto last = static_cast<unsigned int>(2 * i);
+      mesh.triangles.emplace_back(last - 2, last, last + 1);
+      mesh.triangles.emplace_back(last - 2, last + 1, last - 1);
+    }
+  }
+  return mesh;
+}
+
+/// A square whose halves are cut differently, so that vertices lie on edges.
+Mesh makeTJunctions()
+{
+  Mesh mesh;
+  mesh.points = { { -1.0, -1.0, 0.0 }, { 0.0, -1.0, 0.0 }, { 0.0, 1.0, 0.0 }, { -1.0, 1.0, 0.0 },
+    { 0.0, 0.25, 0.0 }, { 1.0, -1.0, 0.0 }, { 1.0, 1.0, 0.0 } };
+  mesh.triangles = { { 0, 1, 2 }, { 0, 2, 3 }, { 1, 5, 4 }, { 4, 5, 6 }, { 4, 6, 2 } };
+  return mesh;
+}
+
+/// Triangles that are there twice, once turned over.
+Mesh makeDuplicates(Random& random, int count)
+{
+  Mesh mesh = makeTriangleSoup(count, random());
+  for (std::size_t i = 0; i < static_cast<std::size_t>(count); i += 2)
+  {
+    const glm::uvec3 triangle = mesh.triangles[i];
+    mesh.triangles.push_back((i % 4) ? triangle : glm::uvec3(triangle.y, triangle.x, triangle.z));
+  }
+  return mesh;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+const std::vector<const char*>& randomSceneNames()
+{
+  static const std::vector<const char*> names = { "one triangle", "spheres", "soup", "needles",
+    "cups", "folds", "junctions", "duplicates", "touching boxes", "crossing boxes", "terrain",
+    "perforated", "one-sided", "sheets", "lamp" };
+  return names;
+}
+
+//------------------------------------------------------------------------------
+std::vector<Prop> makeRandomScene(const std::string& name, Random& random)
+{
+  std::vector<Prop> props{ { makePlane(6.0, 1 + static_cast<int>(random() % 4)) } };
+  const auto add = [&](Mesh mesh, double scale) {
+    props.push_back({ std::move(mesh), placed(random, 1.2, scale) });
+  };
+  if (name == "one triangle")
+  {
+    props.clear();
+    Mesh mesh;
+    mesh.points = { unitVector(random), unitVector(random), unitVector(random) };
+    mesh.triangles = { { 0, 1, 2 } };
+    props.push_back({ mesh });
+  }
+  for (int i = 0; i < 4; ++i)
+  {
+    if (name == "spheres")
+    {
+      add(makeSphere(6 + 5 * i, 12 + 10 * i, 0.2 * i), 0.3);
+    }
+    else if (name == "soup")
+    {
+      add(makeTriangleSoup(60, random()), 1.0);
+    }
+    else if (name == "needles")
+    {
+      add(makeNeedles(random, 40), 0.8);
+    }
+    else if (name == "cups")
+    {
+      add(makeCup(12, 16), 0.4);
+    }
+    else if (name == "folds")
+    {
+      add(makeFolds(8 + i), 0.9);
+    }
+    else if (name == "junctions")
+    {
+      add(makeTJunctions(), 0.6);
+    }
+    else if (name == "duplicates")
+    {
+      add(makeDuplicates(random, 30), 1.0);
+    }
+    else if (name == "perforated")
+    {
+      props.push_back(makePerforatedPlane(1.2, 1 + i, placed(random, 0.8, 1.0)));
+    }
+    else if (name == "one-sided")
+    {
+      add(makeSphere(8, 12), 0.4);
+      props.back().oneSided = true;
+    }
+    else if (name == "sheets")
+    {
+      // Close to each other, the last in the same place as the one before.
+      const double height = i == 3 ? 0.52 : 0.5 + 0.01 * i;
+      props.push_back({ makePlane(1.5, 1 + i), at({ 0.1 * i, 0.0, height }) });
+    }
+  }
+  if (name == "one-sided")
+  {
+    // The plane is seen from its back, where it casts nothing.
+    props.front().worldFromMesh =
+      glm::rotate(glm::dmat4(1.0), 3.141592653589793, { 1.0, 0.0, 0.0 });
+    props.front().oneSided = true;
+  }
+  else if (name == "touching boxes")
+  {
+    props.push_back({ makeBox({ -0.5, -0.5, 0.0 }, { 0.5, 0.5, 1.0 }) });
+    props.push_back({ makeBox({ 0.5, -0.2, 0.0 }, { 1.0, 0.7, 0.6 }) });
+    props.push_back({ makeBox({ -0.2, -0.2, 1.0 }, { 0.3, 0.3, 1.2 }) });
+  }
+  else if (name == "crossing boxes")
+  {
+    for (int i = 0; i < 4; ++i)
+    {
+      props.push_back({ makeBox(glm::dvec3(-0.4), glm::dvec3(0.4)), placed(random, 0.4, 1.0) });
+    }
+  }
+  else if (name == "lamp")
+  {
+    // The shade around a light is small against the scene, which rounding is in proportion to.
+    props.push_back(
+      { makeCup(8, 24), glm::rotate(at({ 0.1, -0.2, 1.0 }, 0.15), 3.0, { 1.0, 0.2, 0.0 }) });
+    props.push_back({ makeBox(glm::dvec3(20.0), glm::dvec3(25.0)) });
+  }
+  else if (name == "terrain")
+  {
+    props.front() = { makeTerrain(6.0, 24, 0.5) };
+    props.push_back({ makeBox({ -0.2, -0.2, 0.0 }, { 0.2, 0.2, 1.5 }) });
+  }
+  return props;
+}
+
+//------------------------------------------------------------------------------
+ShadowLight makeRandomLight(Random& random)
+{
+  const glm::dvec3 direction = unitVector(random) * glm::dvec3(1.0, 1.0, -1.0);
+  const glm::dvec3 downwards(direction.x, direction.y, -std::abs(direction.z) - 0.05);
+  switch (random() % 6)
+  {
+    case 0:
+      return directionalLight({ 0.0, 0.0, -1.0 });
+    case 1:
+      return pointLight(
+        { uniform(random, -2.0, 2.0), uniform(random, -2.0, 2.0), uniform(random, 0.3, 4.0) });
+    case 2:
+      return spotLight(
+        -4.0 * glm::normalize(downwards), glm::dvec3(0.0, 0.0, 0.3), uniform(random, 5.0, 80.0));
+    case 3:
+      return boxLight(downwards, -1.2 * glm::normalize(downwards),
+        { uniform(random, 1.0, 4.0), uniform(random, 1.0, 4.0), uniform(random, 1.0, 4.0) });
+    default:
+      return directionalLight(downwards);
+  }
+}
+
+//------------------------------------------------------------------------------
+RandomPicture makeRandomPicture(const std::string& name, unsigned int seed, const glm::dmat4& world)
+{
+  Random random(seed);
+  std::vector<Prop> props = makeRandomScene(name, random);
+  const double scale = glm::length(glm::dvec3(world[0]));
+  for (Prop& prop : props)
+  {
+    prop.worldFromMesh = world * prop.worldFromMesh;
+  }
+  RandomPicture picture;
+  picture.occluders = makeOccluders(props);
+  const auto toWorld = [&](const glm::dvec3& point)
+  { return glm::dvec3(world * glm::dvec4(point, 1.0)); };
+
+  Camera camera;
+  camera.width = camera.height = 96;
+  camera.position =
+    toWorld(3.5 * unitVector(random) * glm::dvec3(1.0, 1.0, 0.5) + glm::dvec3(0.0, 0.0, 2.0));
+  camera.target = toWorld({ 0.0, 0.0, uniform(random, 0.0, 0.8) });
+  camera.fovDegrees = uniform(random, 10.0, 60.0);
+  picture.view = makeView(picture.occluders, camera);
+
+  ShadowLight light = makeRandomLight(random);
+  if (name == "lamp")
+  {
+    const glm::dvec3 bulb(0.12, -0.21, 1.0);
+    light = random() % 2 ? pointLight(bulb) : spotLight(bulb, { 0.0, 0.0, 0.0 }, 80.0);
+  }
+  light.positionWorld = toWorld(light.positionWorld);
+  if (light.box)
+  {
+    light.box->width *= scale;
+    light.box->height *= scale;
+    light.box->depth *= scale;
+  }
+  const char* const projections[] = { "uniform", "uniform", "lispsm", "tsm", "pssm" };
+  findSetting("projection")->set(light, projections[random() % 5]);
+  if (!refusedProjection(light).empty())
+  {
+    findSetting("projection")->set(light, light.kind == LightKind::Point ? "cube" : "uniform");
+  }
+  light.fit = random() % 2 ? ViewFit::Frame : ViewFit::Off;
+  const int sizes[] = { 16, 64, 129, 512 };
+  light.mapSizeTexels = sizes[random() % 4];
+
+  ViewFitting fitting;
+  fitting.centreWorld = picture.occluders.centreWorld;
+  fitting.castersCentred = picture.occluders.castersCentred;
+  fitting.receiversCentred = picture.occluders.allCentred;
+  fitting.texels = { light.mapSizeTexels, 1 };
+  if (isFittedToCamera(light))
+  {
+    const glm::dvec3 centre = picture.occluders.centreWorld;
+    const glm::dmat4 viewFromCentred =
+      glm::lookAt(camera.position - centre, camera.target - centre, camera.up);
+    fitting.camera = CameraView{ viewFromCentred,
+      glm::perspective(glm::radians(camera.fovDegrees), 1.0, 0.05 * scale, 20.0 * scale) };
+  }
+  picture.views = fitLightViews(light, fitting);
+  picture.light = light;
+  return picture;
+}
+
+//------------------------------------------------------------------------------
+unsigned int exactRuns()
+{
+  const char* const asked = std::getenv("GNOMON_EXACT_RUNS");
+  return asked ? static_cast<unsigned int>(std::max(1, std::atoi(asked))) : 24u;
+}
+
+} // namespace gnomon::test
