@@ -34,8 +34,8 @@ struct Tally
 Tally compareWithTruth(const ShadowLight& light, const LightViews& views,
   const Occluders& occluders, const Receivers& receivers, Covering covering = Covering::Silhouette)
 {
-  ConservativeMaps maps(covering);
-  maps.bake(light, views, occluders);
+  ConservativeMaps maps;
+  maps.bake(light, views, occluders, certainRule(covering));
   RayTracer tracer;
   tracer.update(occluders);
   Tally tally;
@@ -103,7 +103,7 @@ TEST_P(ConservativeMapsIn, areNeverWrong)
 
 std::string nameOfRun(const testing::TestParamInfo<ConservativeMapsIn::ParamType>& run)
 {
-  const char* const coverings[] = { "Triangle", "Ring", "Silhouette" };
+  const char* const coverings[] = { "Triangle", "Ring", "Fan", "Silhouette" };
   std::string name = std::get<0>(run.param);
   const auto isSeparator = [](unsigned char letter) { return !std::isalpha(letter); };
   name.erase(std::remove_if(name.begin(), name.end(), isSeparator), name.end());
@@ -112,7 +112,7 @@ std::string nameOfRun(const testing::TestParamInfo<ConservativeMapsIn::ParamType
 
 INSTANTIATE_TEST_SUITE_P(Scenes, ConservativeMapsIn,
   testing::Combine(testing::ValuesIn(randomSceneNames()),
-    testing::Values(Covering::Triangle, Covering::Ring, Covering::Silhouette)),
+    testing::Values(Covering::Triangle, Covering::Ring, Covering::Fan, Covering::Silhouette)),
   nameOfRun);
 
 TEST(ConservativeMaps, areNeverWrongFarAwayAndAtAnyScale)
