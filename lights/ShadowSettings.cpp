@@ -156,6 +156,8 @@ const std::vector<Setting>& shadowSettings()
     { "technique", "the shadow technique (see: gnomon techniques)", TextSetting{ &S::technique } },
     { "estimator", "what decides a point, in place of the technique's own estimator",
       TextSetting{ &S::estimator } },
+    { "as_published", "crsm and crsma by the letter of their publication, which is not exact",
+      choice<bool, &S::asPublished>({ "off", "on" }) },
     { "projection", "how the light's view is laid onto its map",
       choice<Projection, &S::projection>(
         { "technique", "uniform", "lispsm", "tsm", "pssm", "cube" }) },
@@ -200,6 +202,11 @@ const std::vector<Setting>& shadowSettings()
       IntegerSetting{ &S::discSets, 1, 32 } },
     { "early_out", "adaptive: what is asked before the whole disc is read",
       choice<EarlyOut, &S::earlyOut>({ "none", "ring", "exact" }) },
+    { "adjacency_ring",
+      "crsma: which triangles around one may cover a texel with it: across its edges, or all "
+      "around "
+      "its vertices, which decides more and takes longer",
+      choice<AdjacencyRing, &S::adjacencyRing>({ "edges", "vertices" }) },
     { "bake",
       "exact techniques: when a stale map is drawn: once nothing has changed for a frame, till "
       "when "

@@ -68,6 +68,13 @@ enum class ViewFit
   Frame ///< what the camera sees in this frame
 };
 
+/// Which triangles around one may cover a texel together with it.
+enum class AdjacencyRing
+{
+  Edges,   ///< those across its edges
+  Vertices ///< all around its corners
+};
+
 /// When a stale map is drawn that a technique can do without.
 enum class BakeTime
 {
@@ -110,6 +117,8 @@ struct ShadowSettings
 
   /// A name of the registry of estimators; empty: the technique's.
   std::string estimator;
+  /// Whether the estimator is to follow its publication to the letter, where that is not exact.
+  bool asPublished = false;
   Projection projection = Projection::OfTechnique;
 
   ViewFit fit = ViewFit::Off;
@@ -150,6 +159,8 @@ struct ShadowSettings
   int discSets = 16;
   EarlyOut earlyOut = EarlyOut::Exact;
 
+  AdjacencyRing adjacencyRing = AdjacencyRing::Edges; ///< of crsma
+
   DepthSurface depth = DepthSurface::First;
   DepthMetric metric = DepthMetric::Linear;
   double biasConstant = 0.0; ///< in world units
@@ -186,8 +197,9 @@ struct ShadowSettings
     return this->mapSamples == other.mapSamples && this->blur == other.blur &&
       this->mipMaps == other.mipMaps && this->discGrid == other.discGrid &&
       this->discSets == other.discSets && this->earlyOut == other.earlyOut &&
-      this->depth == other.depth && this->metric == other.metric &&
-      this->biasConstant == other.biasConstant && this->biasSlope == other.biasSlope;
+      this->adjacencyRing == other.adjacencyRing && this->depth == other.depth &&
+      this->metric == other.metric && this->biasConstant == other.biasConstant &&
+      this->biasSlope == other.biasSlope;
   }
 };
 

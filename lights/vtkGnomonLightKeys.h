@@ -40,7 +40,10 @@
  * - "blur": of "vsm" and "msm", "box" (the default; one box of texels for the whole map), or "sat" (a
  *   rectangle for each point, by summed-area tables: warped and split maps blur as evenly as others);
  * - "mip_maps": of maps of moments with "blur" "box", whether pixels that see many texels read coarser
- *   levels of the map: "off" (the default) or "on".
+ *   levels of the map: "off" (the default) or "on";
+ * - "adjacency_ring": of "crsma", which triangles around one may cover a texel together with it: "edges" (the default;
+ *   those across its edges), or "vertices" (all around its corners, which decides more and takes longer);
+ * - "as_published": "on" for "crsm" and "crsma" by the letter of their publication, which is not exact (default "off").
  *
  * <b>Filter kernels.</b> Techniques that filter ("pcf") average over a kernel of the map's texels:
  * - "bilinear": a square around the point, whose texels count by how far it covers them. Edges are

@@ -556,7 +556,7 @@ void RenderManager::bakeMaps(
     occluders.topologyVersion, occluders.positionsVersion, receivers, true };
   if (bake.serves(wanted))
   {
-    this->reportOf(light).castersLeftOut = slot.castersLeftOut;
+    this->reportOf(light).castersLeftOut = bake.castersLeftOut;
     this->report_.bytesMaps += technique.bytesOfMaps();
     return;
   }
@@ -587,10 +587,10 @@ void RenderManager::bakeMaps(
   {
     throw TextureMemoryError("light " + std::to_string(light.sceneIndex) + ": " + error.what());
   }
-  slot.castersLeftOut = this->buffers_.countUnseen(wanted.views.views);
   bake = wanted;
+  bake.castersLeftOut = this->buffers_.countUnseen(wanted.views.views);
   ++this->report_.mapBakes;
-  this->reportOf(light).castersLeftOut = slot.castersLeftOut;
+  this->reportOf(light).castersLeftOut = bake.castersLeftOut;
   this->report_.bytesMaps += technique.bytesOfMaps();
 }
 

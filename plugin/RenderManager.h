@@ -104,6 +104,7 @@ private:
     std::uint64_t positions = 0;
     std::size_t receivers = 0; ///< a hash of what F of MapFit.h was found from on the GPU; else 0
     bool once = false;
+    int castersLeftOut = 0;
 
     /// Whether maps that were baked from this serve where others are wanted.
     bool serves(const Bake& wanted) const;
@@ -115,7 +116,6 @@ private:
     std::unique_ptr<Technique> technique;
     Bake bake;
     Bake awaited; ///< what a map was last not baked from, to see whether it is still wanted
-    int castersLeftOut = 0;
     /// Shades translucent surfaces where the technique works on the screen; null without such.
     std::unique_ptr<Technique> plain;
     Bake plainBake;

@@ -16,6 +16,7 @@
 #include "shadowtech/variance/Variance.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace gnomon
 {
@@ -74,7 +75,9 @@ const std::vector<EstimatorEntry>& estimators()
     entry<Coherence>(),
     entry<Selective>(),
     entry<Crsm>(),
+    entry<CrsmAsPublished>(),
     entry<Crsma>(),
+    entry<CrsmaAsPublished>(),
     entry<Silhouette>(),
   };
   return entries;
@@ -167,6 +170,28 @@ std::string expectedBy(const Setting& setting)
                                      : setting.expected();
 }
 
+namespace
+{
+
+/// The estimator that `as_published` selects in place of one.
+/// @throws CompositionError where there is none
+const EstimatorEntry& publishedOf(const TechniqueInfo& info)
+{
+  if (!info.asPublished.empty())
+  {
+    return *findEstimator(info.asPublished);
+  }
+  std::vector<EstimatorEntry> withPublished;
+  std::copy_if(estimators().begin(), estimators().end(), std::back_inserter(withPublished),
+    [](const EstimatorEntry& entry)
+    { return !entry.info.asPublished.empty() && entry.info.asPublished != entry.info.name; });
+  throw CompositionError("'" + info.name +
+    "' has no variant by the letter of a publication; 'as_published' is for: " +
+    namesOf(withPublished));
+}
+
+} // namespace
+
 //------------------------------------------------------------------------------
 const EstimatorEntry& estimatorOf(const ShadowSettings& settings)
 {
@@ -184,7 +209,7 @@ const EstimatorEntry& estimatorOf(const ShadowSettings& settings)
     throw CompositionError(
       "the estimator '" + settings.estimator + "' is asked for; there are: " + estimatorNames());
   }
-  return *estimator;
+  return settings.asPublished ? publishedOf(estimator->info) : *estimator;
 }
 
 namespace

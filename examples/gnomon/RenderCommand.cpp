@@ -264,6 +264,8 @@ void render(const RenderOptions& options)
                                               : vtkGnomonShadowPass::ROUTE_AUTO);
   shadows->SetMeasureStages(!options.stats.empty() || !options.visibility.empty());
   shadows->SetKeepVisibility(!options.visibility.empty() || !options.classes.empty());
+  shadows->SetSetting(
+    "bake", "always"); // the only frame is to show what techniques do with their maps
   renderer->SetPass(shadows);
   window->AddRenderer(renderer);
   window->Render();

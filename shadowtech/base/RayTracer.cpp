@@ -260,7 +260,7 @@ private:
   }
 
   RTCScene scene_;
-  Packet packet_;
+  Packet packet_{};
   RTCIntersectContext context_;
   float rayFar_;
   std::size_t taken_ = 0;                     ///< rays in the packet

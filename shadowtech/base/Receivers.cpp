@@ -148,29 +148,32 @@ public:
   explicit Footprints(const PixelRays& rays)
     : origin_(rays.firstOrigin)
     , parallel_(glm::length(rays.originPerRow))
+    , perDistance_(0.0)
   {
     if (!rays.parallel())
     {
-      // Points at t D from O have t = (point - O).across / D.across, with the same divisor for all pixels.
-      const glm::dvec3 across = glm::cross(rays.directionPerColumn, rays.directionPerRow);
-      this->perUnit_ =
-        glm::length(rays.directionPerRow) / glm::dot(across, rays.firstDirection) * across;
+      // A pixel's side is t times that of directionPerRow where its ray, or the plane across it, has its receiver: at
+      // distance d of it t is no more than d over the shortest direction's length.
+      const glm::dvec3 across =
+        glm::normalize(glm::cross(rays.directionPerColumn, rays.directionPerRow));
+      this->perDistance_ =
+        glm::length(rays.directionPerRow) / std::abs(glm::dot(across, rays.firstDirection));
     }
   }
 
-  /// The most that a pixel's side measures on a triangle.
+  /// The most that a pixel's side measures at a receiver on a triangle, even one whose pixel's ray passes it by.
   double largest(const std::array<glm::dvec3, 3>& corners) const
   {
     return this->parallel_ +
-      std::max({ 0.0, glm::dot(this->perUnit_, corners[0] - this->origin_),
-        glm::dot(this->perUnit_, corners[1] - this->origin_),
-        glm::dot(this->perUnit_, corners[2] - this->origin_) });
+      this->perDistance_ *
+      std::max({ glm::length(corners[0] - this->origin_), glm::length(corners[1] - this->origin_),
+        glm::length(corners[2] - this->origin_) });
   }
 
 private:
   glm::dvec3 origin_;
-  glm::dvec3 perUnit_{ 0.0 };
   double parallel_;
+  double perDistance_; ///< from the origin
 };
 
 /// What the receivers stage drew, of what, and who knows something of it.
@@ -331,7 +334,8 @@ public:
   const SeenTriangle& find(const glm::vec2& fragment, Make make)
   {
     const std::size_t slot =
-      (std::isfinite(fragment.y) ? static_cast<std::size_t>(std::abs(fragment.y)) : 0) % size;
+      (std::abs(fragment.y) < primitiveLimit ? static_cast<std::size_t>(std::abs(fragment.y)) : 0) %
+      size;
     if (!this->filled_[slot] || this->fragments_[slot] != fragment)
     {
       this->filled_[slot] = true;

@@ -42,7 +42,10 @@ struct TechniqueInfo
 {
   std::string name;
   Evaluation evaluation = Evaluation::Pointwise;
-  bool exact = false;    ///< equals the ray-traced visibility bit for bit
+  bool exact = false; ///< equals the ray-traced visibility bit for bit
+  /// The estimator by the letter of the publication, which `as_published` selects (a published one itself); empty:
+  /// there is none.
+  std::string asPublished = {};
   bool needsMap = false; ///< bakes something from the light
   bool mapIsOptional =
     false; ///< shows the same without it: it only saves time where it serves several frames

@@ -30,6 +30,14 @@ struct CasterEdge
   bool sharp = false;
 
   static constexpr std::uint32_t none = 0xffffffffu;
+
+  bool meets(std::uint32_t vertex) const { return this->from == vertex || this->to == vertex; }
+
+  /// The triangle across it from one of its triangles.
+  std::uint32_t other(std::uint32_t triangle) const
+  {
+    return this->triangles[0] == triangle ? this->triangles[1] : this->triangles[0];
+  }
 };
 
 /// The edges of one surface.

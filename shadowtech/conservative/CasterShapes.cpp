@@ -17,7 +17,12 @@ constexpr double smallestDivisor = std::numeric_limits<double>::min();
 /// What is drawn of casters around the map: more than any margin.
 constexpr double padTexels = 16.0;
 
-using CutCorners = std::array<MapPoint, mostCorners + 1>;
+/// A corner of what is cut, and which of the triangle's sides goes on from it.
+struct CutCorner : MapPoint
+{
+  std::uint8_t side = noSide;
+};
+using CutCorners = std::array<CutCorner, mostCorners + 1>;
 
 MapPoint mix(const MapPoint& a, const MapPoint& b, double t)
 {
@@ -33,8 +38,8 @@ void cut(CutCorners& corners, std::size_t& count, const Distance& distance)
   std::size_t keptCount = 0;
   for (std::size_t i = 0; i < count; ++i)
   {
-    const MapPoint& a = corners[i];
-    const MapPoint& b = corners[(i + 1) % count];
+    const CutCorner& a = corners[i];
+    const CutCorner& b = corners[(i + 1) % count];
     const double da = distance(a);
     const double db = distance(b);
     if (da >= 0.0)
@@ -43,7 +48,7 @@ void cut(CutCorners& corners, std::size_t& count, const Distance& distance)
     }
     if ((da >= 0.0) != (db >= 0.0))
     {
-      kept[keptCount++] = mix(a, b, da / (da - db));
+      kept[keptCount++] = { mix(a, b, da / (da - db)), da >= 0.0 ? noSide : a.side };
     }
   }
   std::copy_n(kept.begin(), keptCount, corners.begin());
@@ -248,6 +253,15 @@ CasterScene casterScene(
 }
 
 //------------------------------------------------------------------------------
+std::pair<double, double> MapPolygon::rows() const
+{
+  const auto [low, high] = std::minmax_element(this->corners.begin(),
+    this->corners.begin() + static_cast<std::ptrdiff_t>(this->count),
+    [](const MapCorner& a, const MapCorner& b) { return a.y < b.y; });
+  return { low->y, high->y };
+}
+
+//------------------------------------------------------------------------------
 MapPolygon polygonOf(
   const CasterScene& scene, const Surface& surface, std::uint32_t instance, std::uint32_t triangle)
 {
@@ -255,8 +269,10 @@ MapPolygon polygonOf(
   const std::array<glm::dvec3, 3> corners =
     centredCorners(scene.occluders, surface, instance, triangle);
   CutCorners points;
-  std::transform(corners.begin(), corners.end(), points.begin(),
-    [&](const glm::dvec3& corner) { return scene.space.at(corner); });
+  for (std::uint8_t k = 0; k < 3; ++k)
+  {
+    points[k] = { scene.space.at(corners[k]), k };
+  }
   const double nearestZ = std::min({ points[0].z, points[1].z, points[2].z });
   const double farthestZ = std::max({ points[0].z, points[1].z, points[2].z });
   if (farthestZ < scene.begins - scene.lateral && !scene.space.positional)
@@ -293,6 +309,7 @@ MapPolygon polygonOf(
   {
     const MapPoint& p = points[i];
     polygon.corners[i] = { p.X / p.W, p.Y / p.W, p.Q / p.W };
+    polygon.sides[i] = points[i].side;
     polygon.nearestZ = std::min(polygon.nearestZ, p.z);
     polygon.depthPerUnit = std::max(polygon.depthPerUnit, scene.space.depthPerUnit(p.W));
   }
@@ -320,6 +337,35 @@ MapPolygon polygonOf(
 }
 
 //------------------------------------------------------------------------------
+MapPlane planeOf(const MapPolygon& polygon)
+{
+  MapPlane plane;
+  plane.origin = polygon.corners[0];
+  // From the largest of the triangles between three corners.
+  double largest = 0.0;
+  for (std::size_t i = 1; i + 1 < polygon.count; ++i)
+  {
+    for (std::size_t j = i + 1; j < polygon.count; ++j)
+    {
+      const MapCorner& b = polygon.corners[i];
+      const MapCorner& c = polygon.corners[j];
+      const double bx = b.x - plane.origin.x, by = b.y - plane.origin.y;
+      const double cx = c.x - plane.origin.x, cy = c.y - plane.origin.y;
+      const double bz = b.depth - plane.origin.depth, cz = c.depth - plane.origin.depth;
+      const double doubleArea = bx * cy - cx * by;
+      plane.area += j == i + 1 ? 0.5 * doubleArea : 0.0;
+      if (std::abs(doubleArea) > largest)
+      {
+        largest = std::abs(doubleArea);
+        plane.perX = (bz * cy - cz * by) / doubleArea;
+        plane.perY = (bx * cz - cx * bz) / doubleArea;
+      }
+    }
+  }
+  return plane;
+}
+
+//------------------------------------------------------------------------------
 EdgeKind kindOf(const CasterEdge& edge, std::int8_t firstFacing, std::int8_t secondFacing)
 {
   if (firstFacing == 0 || secondFacing == 0)
@@ -338,8 +384,9 @@ EdgeKind kindOf(const CasterEdge& edge, std::int8_t firstFacing, std::int8_t sec
 bool segmentOf(const CasterScene& scene, const Surface& surface, std::uint32_t instance,
   const CasterEdge& edge, EdgeKind kind, MapSegment& segment)
 {
-  CutCorners points{ { scene.space.at(centredVertex(scene.occluders, surface, instance, edge.from)),
-    scene.space.at(centredVertex(scene.occluders, surface, instance, edge.to)) } };
+  CutCorners points;
+  points[0] = { scene.space.at(centredVertex(scene.occluders, surface, instance, edge.from)) };
+  points[1] = { scene.space.at(centredVertex(scene.occluders, surface, instance, edge.to)) };
   std::size_t count = 2;
   // Cut as a polygon of two sides, which gives both of its ends twice.
   if (!cutToMap(points, count, scene.space.size, scene.nearW) || count < 2)

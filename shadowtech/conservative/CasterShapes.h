@@ -10,6 +10,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 
 namespace gnomon
 {
@@ -121,6 +122,9 @@ struct Role
 /// Enough for a triangle cut by four planes, even where rounding makes corners alternate.
 constexpr std::size_t mostCorners = 16;
 
+/// Of a polygon's side that is none of the triangle's.
+constexpr std::uint8_t noSide = 3;
+
 /// A convex piece of a caster on the map.
 struct MapPolygon
 {
@@ -128,6 +132,9 @@ struct MapPolygon
   int facing = 0; ///< 1 or -1 by the way that it is wound on the map; 0: all its edges are ends
   std::size_t count = 0;
   std::array<MapCorner, mostCorners> corners;
+  /// Which side of the triangle runs from each corner to the next, by the corner of the triangle that it starts at;
+  /// `noSide` where the polygon was cut.
+  std::array<std::uint8_t, mostCorners> sides;
   /// That rounding asks for, in texels; infinite where the caster is at the light.
   double margin = 0.0;
   double nearestZ = 0.0; ///< of what is drawn of it, along the view
@@ -135,7 +142,27 @@ struct MapPolygon
     0.0; ///< how much depth changes at most where a point of it moves by a unit of length
   double slack = 0.0; ///< depth that a tracer may see it off its plane
   double noise = 0.0; ///< and how far it may see it off, along its normal, in world units
+
+  /// Between which rows it lies, in texels.
+  std::pair<double, double> rows() const;
 };
+
+/// A polygon's depth on the map, and its area there.
+struct MapPlane
+{
+  double perX = 0.0, perY = 0.0; ///< that depth changes by, to a texel
+  double area = 0.0;             ///< in square texels; its sign says which way the corners run
+  MapCorner origin;
+
+  double depthAt(double x, double y) const
+  {
+    return this->origin.depth + this->perX * (x - this->origin.x) +
+      this->perY * (y - this->origin.y);
+  }
+};
+
+/// The plane of a polygon; one at its first corner's depth where it has no area.
+MapPlane planeOf(const MapPolygon& polygon);
 
 /// One triangle, or what of it lies on the map.
 /// @param instance of a surface with instances; else 0

@@ -2,8 +2,8 @@
 
 #include "shadowtech/base/Bytes.h"
 #include "shadowtech/base/Receivers.h"
+#include "shadowtech/conservative/CasterBands.h"
 #include "shadowtech/conservative/CasterEdges.h"
-#include "shadowtech/conservative/CasterPlacements.h"
 #include "shadowtech/conservative/TexelCells.h"
 
 #include <glm/gtc/matrix_access.hpp>
@@ -35,6 +35,9 @@ float above(float depth)
   return std::isfinite(depth) ? depth + depthRounding * (1.0f + std::abs(depth)) : depth;
 }
 
+/// How many triangles around a corner are followed, to either side: more than there mostly are.
+constexpr int mostAroundCorner = 12;
+
 /// What follows from a cell.
 TexelBounds boundsOf(const Cell& cell, Covering covering)
 {
@@ -58,7 +61,7 @@ TexelBounds boundsOf(const Cell& cell, Covering covering)
   return bounds;
 }
 
-/// What is true of no texel at all.
+/// What holds of all of no texels, to begin with.
 constexpr TexelBounds everyTexel{ std::numeric_limits<float>::infinity(),
   std::numeric_limits<float>::infinity(), 0.0f, -std::numeric_limits<float>::infinity() };
 
@@ -79,11 +82,9 @@ public:
     , edges_(edges)
     , covering_(covering)
     , size_(size)
-    , bandCount_(bandsOf(size))
     , placements_(scene.occluders)
-    , facing_(placements_.triangleCount())
-    , triangles_([this] { return Bands(static_cast<std::size_t>(this->bandCount_)); })
-    , segments_([this] { return Bands(static_cast<std::size_t>(this->bandCount_)); })
+    , triangles_(size)
+    , segments_(size)
   {
     this->sortTriangles();
     if (!this->blind_)
@@ -100,40 +101,24 @@ public:
   template <typename Take>
   void draw(const Take& take)
   {
-    tbb::enumerable_thread_specific<std::vector<Cell>> cellsOfThread;
-    tbb::parallel_for(0, this->bandCount_,
-      [&](int band)
-      {
-        std::vector<Cell>& cells = cellsOfThread.local();
-        const Span rows = rowsOfBand(band, this->size_);
-        const std::size_t count = this->cellsOf(rows.last - rows.first + 1);
-        cells.assign(count, Cell());
-        this->drawBand(static_cast<std::size_t>(band), rows, cells.data());
-        for (std::size_t i = 0; i < count; ++i)
-        {
-          take(this->cellsOf(rows.first) + i, cells[i]);
-        }
-      });
+    drawBands<Cell>(
+      this->size_, [this](int band, Span rows, Cell* cells) { this->drawBand(band, rows, cells); },
+      take);
   }
 
 private:
-  std::size_t cellsOf(int rows) const
-  {
-    return static_cast<std::size_t>(rows) * static_cast<std::size_t>(this->size_);
-  }
-
   void sortTriangles()
   {
+    this->facing_.resize(this->placements_.triangleCount());
     std::atomic<bool> blind{ false };
     tbb::enumerable_thread_specific<double> margins(0.0);
     this->placements_.visitTriangles(
-      [&](std::uint32_t number, std::uint32_t i)
+      [&](std::uint32_t number, std::uint32_t triangle)
       {
         const Placement& placement = this->placements_[number];
         const Surface& surface = this->placements_.surfaceOf(placement);
-        const std::uint32_t triangle = surface.firstTriangle + i;
         const MapPolygon polygon = polygonOf(this->scene_, surface, placement.instance, triangle);
-        this->facing_[placement.firstTriangle + i] =
+        this->facing_[this->placements_.numberOf(placement, triangle)] =
           polygon.role.present ? static_cast<std::int8_t>(polygon.facing) : absentFacing;
         if (!polygon.role.present)
         {
@@ -150,11 +135,9 @@ private:
           double& margin = margins.local();
           margin = std::max(margin, polygon.margin);
         }
-        Bands& bands = this->triangles_.local();
-        visitBands(polygon, std::max(polygon.margin, largestMargin), this->size_,
-          [&](std::size_t band) {
-            bands[band].push_back({ number, triangle });
-          });
+        const double margin = std::max(polygon.margin, largestMargin);
+        const auto [low, high] = polygon.rows();
+        this->triangles_.add(low - margin, high + margin, { number, triangle });
       });
     this->blind_ = blind;
     for (const double margin : margins)
@@ -167,8 +150,7 @@ private:
   {
     return triangle == CasterEdge::none
       ? absentFacing
-      : this->facing_[placement.firstTriangle +
-          (triangle - this->placements_.surfaceOf(placement).firstTriangle)];
+      : this->facing_[this->placements_.numberOf(placement, triangle)];
   }
 
   EdgeKind kindOf(const Placement& placement, const CasterEdge& edge) const
@@ -191,47 +173,94 @@ private:
         kind, result);
   }
 
-  /// A triangle with its neighbours across edges that are no ends. Without covering triangles nothing.
+  /// The triangle on which the casters' surface goes on across an edge; `none` where it ends.
+  std::uint32_t across(
+    const Placement& placement, const CasterEdge& edge, std::uint32_t triangle) const
+  {
+    const EdgeKind kind = this->kindOf(placement, edge);
+    return kind == EdgeKind::Inner || kind == EdgeKind::Sharp ? edge.other(triangle)
+                                                              : CasterEdge::none;
+  }
+
+  /// A triangle, the first, and those to which its surface goes on around its corners.
+  std::vector<std::uint32_t> fanOf(const Placement& placement, std::uint32_t triangle) const
+  {
+    const SurfaceEdges& edges = this->edges_.of(placement.surface);
+    const std::uint32_t first = this->placements_.surfaceOf(placement).firstTriangle;
+    std::vector<std::uint32_t> fan{ triangle };
+    // Around the corner that two sides share, beginning with one of them.
+    const auto walk = [&](std::uint32_t side, std::uint32_t otherSide)
+    {
+      const CasterEdge& start = edges.edges[side];
+      const bool atFrom = edges.edges[otherSide].meets(start.from);
+      const std::uint32_t corner = atFrom ? start.from : start.to;
+      std::uint32_t current = triangle;
+      for (int i = 0; i < mostAroundCorner; ++i)
+      {
+        current = this->across(placement, edges.edges[side], current);
+        if (current == CasterEdge::none || current == triangle)
+        {
+          return;
+        }
+        if (std::find(fan.begin(), fan.end(), current) == fan.end())
+        {
+          fan.push_back(current);
+        }
+        const auto& sides = edges.ofTriangle[current - first];
+        side = *std::find_if(sides.begin(), sides.end(),
+          [&](std::uint32_t next) { return next != side && edges.edges[next].meets(corner); });
+      }
+    };
+    const auto& sides = edges.ofTriangle[triangle - first];
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      walk(sides[k], sides[(k + 1) % 3]);
+      walk(sides[k], sides[(k + 2) % 3]);
+    }
+    return fan;
+  }
+
+  /// A triangle, the first, and those to which its surface goes on across its edges.
+  std::vector<std::uint32_t> edgeNeighboursOf(
+    const Placement& placement, std::uint32_t triangle) const
+  {
+    const SurfaceEdges& edges = this->edges_.of(placement.surface);
+    std::vector<std::uint32_t> ring{ triangle };
+    for (const std::uint32_t side :
+      edges.ofTriangle[triangle - this->placements_.surfaceOf(placement).firstTriangle])
+    {
+      const std::uint32_t other = this->across(placement, edges.edges[side], triangle);
+      if (other != CasterEdge::none)
+      {
+        ring.push_back(other);
+      }
+    }
+    return ring;
+  }
+
+  /// The part of the casters' surface around a triangle. Without covering triangles nothing.
   MapRing ringOf(const Placement& placement, std::uint32_t triangle, const MapPolygon& middle) const
   {
     MapRing ring;
     const Surface& surface = this->placements_.surfaceOf(placement);
     const SurfaceEdges& edges = this->edges_.of(placement.surface);
-    std::vector<std::uint32_t> border;
-    const auto addBorder = [&](std::uint32_t of, std::uint32_t except)
+    const std::vector<std::uint32_t> members = this->covering_ == Covering::Fan
+      ? this->fanOf(placement, triangle)
+      : this->edgeNeighboursOf(placement, triangle);
+    for (const std::uint32_t member : members)
     {
-      for (const std::uint32_t edge : edges.ofTriangle[of - surface.firstTriangle])
+      ring.triangles.push_back(
+        member == triangle ? middle : polygonOf(this->scene_, surface, placement.instance, member));
+      for (const std::uint32_t number : edges.ofTriangle[member - surface.firstTriangle])
       {
-        if (edge != except)
+        const CasterEdge& edge = edges.edges[number];
+        const std::uint32_t other = this->across(placement, edge, member);
+        MapSegment segment;
+        if (std::find(members.begin(), members.end(), other) == members.end() &&
+          segmentOf(this->scene_, surface, placement.instance, edge, EdgeKind::End, segment))
         {
-          border.push_back(edge);
+          ring.border.push_back(segment);
         }
-      }
-    };
-    ring.triangles.push_back(middle);
-    for (const std::uint32_t number : edges.ofTriangle[triangle - surface.firstTriangle])
-    {
-      const CasterEdge& edge = edges.edges[number];
-      const EdgeKind kind = this->kindOf(placement, edge);
-      const std::uint32_t other =
-        edge.triangles[0] == triangle ? edge.triangles[1] : edge.triangles[0];
-      if (kind == EdgeKind::Inner || kind == EdgeKind::Sharp)
-      {
-        ring.triangles.push_back(polygonOf(this->scene_, surface, placement.instance, other));
-        addBorder(other, number);
-      }
-      else
-      {
-        border.push_back(number);
-      }
-    }
-    for (const std::uint32_t number : border)
-    {
-      MapSegment segment;
-      if (segmentOf(
-            this->scene_, surface, placement.instance, edges.edges[number], EdgeKind::End, segment))
-      {
-        ring.border.push_back(segment);
       }
     }
     return ring;
@@ -248,33 +277,27 @@ private:
         if (this->segment(this->placements_[number], i, found))
         {
           const auto& [a, b] = found.ends;
-          Bands& bands = this->segments_.local();
-          visitBands(std::min(a.y, b.y), std::max(a.y, b.y), this->margin_ + thinTexels,
-            this->size_,
-            [&](std::size_t band) {
-              bands[band].push_back({ number, i });
-            });
+          const double margin = this->margin_ + thinTexels;
+          this->segments_.add(
+            std::min(a.y, b.y) - margin, std::max(a.y, b.y) + margin, { number, i });
         }
       });
   }
 
   /// Ends first: what lies behind one does not matter for how far the layers before it climb.
-  void drawBand(std::size_t band, Span rows, Cell* cells) const
+  void drawBand(int band, Span rows, Cell* cells) const
   {
-    for (const Bands& bands : this->segments_)
-    {
-      for (const BandItem& item : bands[band])
+    this->segments_.visit(band,
+      [&](const BandItem& item)
       {
         MapSegment found;
         if (this->segment(this->placements_[item.placement], item.index, found))
         {
           drawSegment(found, this->margin_, this->size_, rows, cells);
         }
-      }
-    }
-    for (const Bands& bands : this->triangles_)
-    {
-      for (const BandItem& item : bands[band])
+      });
+    this->triangles_.visit(band,
+      [&](const BandItem& item)
       {
         const Placement& placement = this->placements_[item.placement];
         const MapPolygon polygon = polygonOf(
@@ -285,21 +308,19 @@ private:
           drawRing(
             this->ringOf(placement, item.index, polygon), this->margin_, this->size_, rows, cells);
         }
-      }
-    }
+      });
   }
 
   const CasterScene& scene_;
   const CasterEdges& edges_;
   Covering covering_;
   int size_;
-  int bandCount_;
   bool blind_ = false;
   double margin_ = 0.0; ///< of all texels: the largest that a caster asks for, but for poison
   CasterPlacements placements_;
   std::vector<std::int8_t> facing_; ///< on the map, of all placements' triangles
-  tbb::enumerable_thread_specific<Bands> triangles_;
-  tbb::enumerable_thread_specific<Bands> segments_;
+  CasterBands triangles_;
+  CasterBands segments_;
 };
 
 /// A few receivers as a map sees them.
@@ -356,30 +377,50 @@ void lookAt(
 } // namespace
 
 //------------------------------------------------------------------------------
-ConservativeMap::ConservativeMap(const LightView& view, bool hasBox, int sizeTexels,
-  const Occluders& occluders, const CasterEdges& edges, Covering covering)
+LookUp lookUpOf(const CasterScene& scene, const LightView& view)
+{
+  LookUp lookUp;
+  lookUp.mapFromCentred = glm::mat4(scene.space.mapFromCentred());
+  if (scene.space.positional)
+  {
+    lookUp.distance = glm::vec4(glm::row(view.rays.viewFromCentred, 2));
+  }
+  lookUp.size = static_cast<int>(scene.space.size);
+  return lookUp;
+}
+
+//------------------------------------------------------------------------------
+MapRule certainRule(Covering covering)
+{
+  return [covering](const LightView& view, bool hasBox, int sizeTexels, const Occluders& occluders,
+           const CasterEdges& edges)
+  {
+    const CasterScene scene = casterScene(view, hasBox, sizeTexels, occluders);
+    LookUp lookUp = lookUpOf(scene, view);
+    lookUp.depthPerUnit = glm::vec2(scene.space.depthPerUnit());
+    lookUp.rounding = static_cast<float>(scene.lateral);
+    lookUp.largestOffset = static_cast<float>(scene.largestOffset(1.0));
+    MapDrawing drawing(scene, edges, sizeTexels, covering);
+    std::vector<TexelBounds> texels;
+    if (!drawing.blind())
+    {
+      texels.resize(static_cast<std::size_t>(sizeTexels) * static_cast<std::size_t>(sizeTexels));
+      drawing.draw([&](std::size_t i, const Cell& cell) { texels[i] = boundsOf(cell, covering); });
+    }
+    return ConservativeMap(view, hasBox, lookUp, std::move(texels));
+  };
+}
+
+//------------------------------------------------------------------------------
+ConservativeMap::ConservativeMap(
+  const LightView& view, bool hasBox, const LookUp& lookUp, std::vector<TexelBounds> texels)
   : view_(view)
   , hasBox_(hasBox)
+  , lookUp_(lookUp)
+  , texels_(std::move(texels))
 {
-  this->lookUp_.size = sizeTexels;
-  const CasterScene scene = this->sceneOf(occluders);
-  const bool positional = scene.space.positional;
-  this->lookUp_.mapFromCentred = glm::mat4(scene.space.mapFromCentred());
-  if (positional)
+  if (!this->texels_.empty())
   {
-    this->lookUp_.distance = glm::vec4(glm::row(view.rays.viewFromCentred, 2));
-  }
-  this->lookUp_.depthPerUnit = glm::vec2(scene.space.depthPerUnit());
-  this->lookUp_.rounding = static_cast<float>(scene.lateral);
-  this->lookUp_.largestOffset = static_cast<float>(scene.largestOffset(1.0));
-  MapDrawing drawing(scene, edges, sizeTexels, covering);
-  this->blind_ = drawing.blind();
-  if (!this->blind_)
-  {
-    this->texels_.resize(
-      static_cast<std::size_t>(sizeTexels) * static_cast<std::size_t>(sizeTexels));
-    drawing.draw(
-      [&](std::size_t i, const Cell& cell) { this->texels_[i] = boundsOf(cell, covering); });
     this->buildLevels();
   }
 }
@@ -430,7 +471,8 @@ Certainty ConservativeMap::ask(const CasterScene& scene, const MapPolygon& trian
   // Larger triangles are seldom all lit or all in shadow, and their pixels are many, so that it costs little to ask for
   // each.
   constexpr double mostTexels = 4096.0;
-  if (this->blind_ || triangle.facing == 0 || mostOffset > scene.largestOffset(triangle.nearestZ))
+  if (this->texels_.empty() || triangle.facing == 0 ||
+    mostOffset > scene.largestOffset(triangle.nearestZ))
   {
     return Certainty::Uncertain;
   }
@@ -458,8 +500,7 @@ Certainty ConservativeMap::ask(const CasterScene& scene, const MapPolygon& trian
     const TexelBounds& texel =
       this->texels_[static_cast<std::size_t>(y) * static_cast<std::size_t>(this->lookUp_.size) +
         static_cast<std::size_t>(x)];
-    const bool onSurface = onCaster && leastOffset >= texel.leastOffsetOnCasters;
-    lit &= farthest + moved <= (onSurface ? texel.litUpToOnCasters : texel.litUpTo);
+    lit &= farthest + moved <= texel.litUpToOf(onCaster, leastOffset);
     shadow &= nearest - moved > texel.shadowFrom;
     return lit || shadow;
   };
@@ -471,7 +512,7 @@ Certainty ConservativeMap::ask(const CasterScene& scene, const MapPolygon& trian
 //------------------------------------------------------------------------------
 Certainty ConservativeMap::ask(const ReceiverSegment& segment, bool onCaster) const
 {
-  if (this->blind_)
+  if (this->texels_.empty())
   {
     return Certainty::Uncertain;
   }
@@ -529,8 +570,7 @@ Certainty ConservativeMap::ask(const ReceiverSegment& segment, bool onCaster) co
       const TexelBounds& texel =
         (*texels)[static_cast<std::size_t>(y) * static_cast<std::size_t>(size) +
           static_cast<std::size_t>(x)];
-      const bool onSurface = onCaster && segment.leastOffset >= texel.leastOffsetOnCasters;
-      lit &= farthest <= (onSurface ? texel.litUpToOnCasters : texel.litUpTo);
+      lit &= farthest <= texel.litUpToOf(onCaster, segment.leastOffset);
       shadow &= nearest > texel.shadowFrom;
       if (!lit && !shadow)
       {
@@ -545,7 +585,7 @@ Certainty ConservativeMap::ask(const ReceiverSegment& segment, bool onCaster) co
 void ConservativeMap::ask(const ReceiverPixels& receivers,
   const std::vector<std::uint8_t>& onCaster, std::vector<Certainty>& certain) const
 {
-  if (this->blind_)
+  if (this->texels_.empty())
   {
     return;
   }
@@ -566,9 +606,9 @@ void ConservativeMap::ask(const ReceiverPixels& receivers,
         continue;
       }
       const TexelBounds& texel = this->texels_[static_cast<std::size_t>(looks.texel[i])];
-      const bool onSurface = onCaster[receivers.surface[from + i] + 1u] != 0 &&
-        receivers.offset[from + i] >= texel.leastOffsetOnCasters;
-      const bool lit = looks.farthest[i] <= (onSurface ? texel.litUpToOnCasters : texel.litUpTo);
+      const bool lit =
+        looks.farthest[i] <= texel.litUpToOf(onCaster[receivers.surface[from + i] + 1u] != 0,
+                               receivers.offset[from + i]);
       const bool shadow = looks.nearest[i] > texel.shadowFrom;
       certain[from + i] = lit ? Certainty::Lit : shadow ? Certainty::Shadow : Certainty::Uncertain;
     }

@@ -10,6 +10,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <limits>
+#include <utility>
 #include <vector>
 
 namespace gnomon
@@ -21,9 +24,10 @@ struct ReceiverPixels;
 /// By what a map may conclude that casters cover all of a texel.
 enum class Covering
 {
-  Triangle,  ///< one triangle contains it
-  Ring,      ///< or: a triangle and those across its edges do
-  Silhouette ///< or: no end of the casters' surface is there, so that it goes on everywhere
+  Triangle, ///< one triangle contains it
+  Ring,     ///< or: a triangle and those across its edges do
+  Fan,      ///< or: a triangle and those around its corners do
+  Silhouette ///< or, as of Ring: no end of the casters' surface is there, so that it goes on everywhere
 };
 
 /// What a texel says of the receivers in it, by their depth (ConservativeMap).
@@ -34,6 +38,14 @@ struct TexelBounds
   /// For that, shadow rays must start this far off the caster, in world units.
   float leastOffsetOnCasters;
   float shadowFrom; ///< a receiver of more depth than this is in shadow
+
+  /// Up to what depth receivers are lit whose shadow rays start at least so far off their surface.
+  /// @param onCaster whether that casts, on both sides
+  float litUpToOf(bool onCaster, double leastOffset) const
+  {
+    return onCaster && leastOffset >= this->leastOffsetOnCasters ? this->litUpToOnCasters
+                                                                 : this->litUpTo;
+  }
 };
 
 /// How receivers are looked up in a map, in float.
@@ -45,13 +57,13 @@ struct LookUp
   glm::vec4 distance{ 0.0f, 0.0f, 0.0f, 1.0f };
   glm::vec2 depthPerUnit{ 0.0f }; ///< MapSpace::depthPerUnit()
   float rounding = 0.0f;          ///< world units that this moves a receiver by, at most
-  float largestOffset = 0.0f;     ///< of a shadow ray across the light, at distance 1
-  int size = 0;                   ///< texels
+  float largestOffset =
+    std::numeric_limits<float>::infinity(); ///< of a shadow ray across the light, at distance 1
+  int size = 0;                             ///< texels
 };
 
 /// A map of one view of a light which says of a receiver that it is lit for certain, in shadow for
-/// certain, or neither; and which is never wrong about a shadow ray, rounding included.
-/// docs/techniques/exact.md has the rules and why they hold.
+/// certain, or neither.
 ///
 /// *Depth* is a number that is affine on planes across the map, grows along every ray, and spans about
 /// [0, 1] over the casters: with (X, Y, W) = texelFromAcross * across coordinates, z / W for parallel
@@ -59,10 +71,10 @@ struct LookUp
 class ConservativeMap
 {
 public:
-  /// Draws the casters.
-  /// @param hasBox whether the light begins at the near face of a box
-  ConservativeMap(const LightView& view, bool hasBox, int sizeTexels, const Occluders& occluders,
-    const CasterEdges& edges, Covering covering);
+  /// @param view, hasBox what was drawn (MapRule)
+  /// @param texels row by row; none where nothing is certain, as a caster is too near to the light
+  ConservativeMap(
+    const LightView& view, bool hasBox, const LookUp& lookUp, std::vector<TexelBounds> texels);
 
   /// Decides receivers that are still uncertain.
   /// @param onCaster by surface + 1, so that `notCovered` + 1 = 0 is the first: whether it casts, on both sides
@@ -90,11 +102,22 @@ private:
   LightView view_;
   bool hasBox_;
   LookUp lookUp_;
-  bool blind_ = false; ///< a caster is so near to the light that nothing is certain
   std::vector<TexelBounds> texels_;
   /// What is known of 2 x 2 texels at once, 4 x 4 and so on; each level by rows, half as many as before, rounded up.
   std::vector<std::vector<TexelBounds>> levels_;
 };
+
+/// How the casters of one view of a light are drawn into a map.
+/// @param hasBox whether the light begins at the near face of a box
+using MapRule = std::function<ConservativeMap(const LightView& view, bool hasBox, int sizeTexels,
+  const Occluders& occluders, const CasterEdges& edges)>;
+
+/// The rules that are never wrong about a shadow ray, rounding included. docs/techniques/exact.md has them and why
+/// they hold.
+MapRule certainRule(Covering covering);
+
+/// How exact positions are looked up, with no slack for rounding.
+LookUp lookUpOf(const CasterScene& scene, const LightView& view);
 
 } // namespace gnomon
 

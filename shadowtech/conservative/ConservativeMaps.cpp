@@ -8,8 +8,8 @@ namespace gnomon
 {
 
 //------------------------------------------------------------------------------
-void ConservativeMaps::bake(
-  const ShadowLight& light, const LightViews& views, const Occluders& occluders)
+void ConservativeMaps::bake(const ShadowLight& light, const LightViews& views,
+  const Occluders& occluders, const MapRule& rule)
 {
   this->clear(); // what they had makes room
   this->onCaster_.assign(1, 0);
@@ -22,8 +22,8 @@ void ConservativeMaps::bake(
   this->edges_.update(occluders);
   for (const LightView& view : views.views)
   {
-    this->maps_.emplace_back(
-      view, views.box.z > 0.0, light.mapSizeTexels, occluders, this->edges_, this->covering_);
+    this->maps_.push_back(
+      rule(view, views.box.z > 0.0, light.mapSizeTexels, occluders, this->edges_));
   }
   this->triangles_ = TriangleDecisions(light, occluders, this->maps_);
 }

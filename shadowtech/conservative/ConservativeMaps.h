@@ -16,14 +16,11 @@ namespace gnomon
 class ConservativeMaps : public ReceiverDecider
 {
 public:
-  explicit ConservativeMaps(Covering covering)
-    : covering_(covering)
-  {
-  }
-
   /// Draws the casters into a map per view, and decides the triangles that they decide.
+  /// @param rule how they are drawn
   /// @throws TextureMemoryError for maps without room; there are none then
-  void bake(const ShadowLight& light, const LightViews& views, const Occluders& occluders);
+  void bake(const ShadowLight& light, const LightViews& views, const Occluders& occluders,
+    const MapRule& rule);
 
   /// Forgets them: nothing is known of any receiver.
   void clear();
@@ -35,7 +32,6 @@ public:
   std::size_t bytes() const;
 
 private:
-  Covering covering_;
   CasterEdges edges_;
   std::vector<ConservativeMap> maps_;
   /// By surface + 1, so that `notCovered` + 1 = 0 is the first: whether it casts, on both sides.

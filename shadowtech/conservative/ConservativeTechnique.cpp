@@ -6,12 +6,6 @@ namespace gnomon
 {
 
 //------------------------------------------------------------------------------
-ConservativeTechnique::ConservativeTechnique(Covering covering)
-  : maps_(covering)
-{
-}
-
-//------------------------------------------------------------------------------
 TechniqueInfo ConservativeTechnique::infoOf(const std::string& name)
 {
   TechniqueInfo info;
@@ -27,7 +21,7 @@ TechniqueInfo ConservativeTechnique::infoOf(const std::string& name)
 //------------------------------------------------------------------------------
 void ConservativeTechnique::bake(const MapInput& input)
 {
-  this->maps_.bake(input.light, input.views, input.occluders);
+  this->maps_.bake(input.light, input.views, input.occluders, this->rule(input.light));
 }
 
 //------------------------------------------------------------------------------

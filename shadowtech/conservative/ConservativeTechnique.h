@@ -9,9 +9,8 @@
 namespace gnomon
 {
 
-/// What exact hybrid techniques share: conservative maps decide which receivers are lit or in shadow for
-/// certain, and the others get their shadow ray. A technique says by what its maps conclude that a
-/// texel is covered.
+/// What hybrid techniques share: conservative maps decide which receivers are lit or in shadow for
+/// certain, and the others get their shadow ray. A technique says how its maps are drawn.
 class ConservativeTechnique : public Technique
 {
 public:
@@ -22,8 +21,9 @@ public:
     const ScreenInput& input, std::vector<float>& visibility, LightReport& report) override;
 
 protected:
-  explicit ConservativeTechnique(Covering covering);
-  /// What its info() is but for the name.
+  /// How its maps are drawn.
+  virtual MapRule rule(const ShadowSettings& settings) const = 0;
+  /// What its info() is, where its maps' rule is never wrong.
   static TechniqueInfo infoOf(const std::string& name);
 
 private:

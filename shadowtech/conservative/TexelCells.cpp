@@ -10,13 +10,6 @@
 namespace gnomon
 {
 
-//------------------------------------------------------------------------------
-Span spanOf(double low, double high, int limit)
-{
-  return { static_cast<int>(std::floor(std::clamp(low, 0.0, static_cast<double>(limit)))),
-    static_cast<int>(std::floor(std::clamp(high, -1.0, limit - 1.0))) };
-}
-
 namespace
 {
 
@@ -24,35 +17,6 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Where layers are counted in a texel: off its centre, where the edges of regular casters often are.
 constexpr double sampleOffset = 1.0 / 61.0;
-
-/// Texels of a row, those that a polygon's sides leave.
-struct RowRange
-{
-  double low, high; ///< of texels' centres
-
-  void cut(double nx, double rest) // nx x + rest >= 0
-  {
-    if (nx > 1e-12)
-    {
-      this->low = std::max(this->low, -rest / nx);
-    }
-    else if (nx < -1e-12)
-    {
-      this->high = std::min(this->high, -rest / nx);
-    }
-    else if (rest < 0.0)
-    {
-      this->high = -infinity;
-    }
-  }
-  /// The texels whose point at `at` in [0, 1) lies in the range.
-  Span texels(double at, int width) const
-  {
-    return { static_cast<int>(
-               std::ceil(std::clamp(this->low - at, 0.0, static_cast<double>(width)))),
-      static_cast<int>(std::floor(std::clamp(this->high - at, -1.0, width - 1.0))) };
-  }
-};
 
 /// What a polygon is to the texels, row by row.
 class PolygonOnTexels
@@ -72,8 +36,9 @@ public:
       this->least_ = std::min(this->least_, static_cast<float>(corner.depth));
       this->most_ = std::max(this->most_, static_cast<float>(corner.depth));
     }
-    this->findSides(this->findPlane());
-    const double slope = std::abs(this->perX_) + std::abs(this->perY_);
+    this->plane_ = planeOf(polygon);
+    this->findSides();
+    const double slope = std::abs(this->plane_.perX) + std::abs(this->plane_.perY);
     this->half_ = slope * (0.5 + margin);
     this->climb_ =
       static_cast<float>((slope * (0.5 + sampleOffset + margin) + polygon.slack) * 1.000001);
@@ -110,10 +75,8 @@ public:
       contained.cut(side.nx, rest - side.support);
       sampled.cut(side.nx, rest + side.ny * sampleOffset + onEdge);
     }
-    const MapCorner& origin = this->polygon_.corners[0];
     return { touched.texels(0.5, width), contained.texels(0.5, width),
-      sampled.texels(0.5 + sampleOffset, width),
-      origin.depth + this->perY_ * (centre - origin.y) + this->perX_ * (0.5 - origin.x) };
+      sampled.texels(0.5 + sampleOffset, width), this->plane_.depthAt(0.5, centre) };
   }
 
   ///@{
@@ -130,7 +93,8 @@ public:
   }
   float atSample(const Row& row, int x) const
   {
-    return static_cast<float>(this->depthAt(row, x) + (this->perX_ + this->perY_) * sampleOffset);
+    return static_cast<float>(
+      this->depthAt(row, x) + (this->plane_.perX + this->plane_.perY) * sampleOffset);
   }
   ///@}
 
@@ -148,38 +112,11 @@ private:
   /// A sample on an edge is in both of its triangles: counted twice rather than not at all.
   static constexpr double onEdge = 1e-6;
 
-  double depthAt(const Row& row, int x) const { return row.depth + this->perX_ * x; }
+  double depthAt(const Row& row, int x) const { return row.depth + this->plane_.perX * x; }
 
-  /// The plane is that of the largest of the triangles between three corners.
-  /// @return 1 or -1: which way the corners run
-  double findPlane()
+  void findSides()
   {
-    const MapCorner& origin = this->polygon_.corners[0];
-    double largest = 0.0;
-    double area = 0.0;
-    for (std::size_t i = 1; i + 1 < this->polygon_.count; ++i)
-    {
-      for (std::size_t j = i + 1; j < this->polygon_.count; ++j)
-      {
-        const MapCorner& b = this->polygon_.corners[i];
-        const MapCorner& c = this->polygon_.corners[j];
-        const double bx = b.x - origin.x, by = b.y - origin.y, bz = b.depth - origin.depth;
-        const double cx = c.x - origin.x, cy = c.y - origin.y, cz = c.depth - origin.depth;
-        const double doubleArea = bx * cy - cx * by;
-        area += j == i + 1 ? doubleArea : 0.0;
-        if (std::abs(doubleArea) > largest)
-        {
-          largest = std::abs(doubleArea);
-          this->perX_ = (bz * cy - cz * by) / doubleArea;
-          this->perY_ = (bx * cz - cx * bz) / doubleArea;
-        }
-      }
-    }
-    return area > 0.0 ? 1.0 : -1.0;
-  }
-
-  void findSides(double orientation)
-  {
+    const double orientation = this->plane_.area > 0.0 ? 1.0 : -1.0;
     for (std::size_t i = 0; i < this->polygon_.count; ++i)
     {
       const MapCorner& a = this->polygon_.corners[i];
@@ -200,8 +137,8 @@ private:
   double left_ = infinity, right_ = -infinity, low_ = infinity, high_ = -infinity;
   float least_ = std::numeric_limits<float>::infinity();
   float most_ = -std::numeric_limits<float>::infinity();
-  double perX_ = 0.0, perY_ = 0.0; ///< depth to a texel
-  double half_ = 0.0;              ///< how much depth changes from a texel's middle
+  MapPlane plane_;
+  double half_ = 0.0; ///< how much depth changes from a texel's middle
   float climb_ = 0.0f, slack_ = 0.0f;
   std::array<Side, mostCorners> sides_;
   std::size_t sideCount_ = 0;

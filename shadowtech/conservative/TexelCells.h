@@ -2,6 +2,7 @@
 #define gnomon_shadowtech_conservative_TexelCells_h
 
 #include "shadowtech/conservative/CasterShapes.h"
+#include "shadowtech/conservative/TexelRows.h"
 
 #include <functional>
 #include <limits>
@@ -35,15 +36,6 @@ struct Cell
     this->first = std::min(this->first, depth);
   }
 };
-
-/// Columns or rows, from the first to the last.
-struct Span
-{
-  int first, last;
-};
-
-/// The rows or columns below `limit` that a range of texel coordinates meets; none if first > last.
-Span spanOf(double low, double high, int limit);
 
 /// Draws a polygon into some rows.
 /// @param margin of texels, the same for all that is drawn: walks from texel to edge must not lose an edge that is

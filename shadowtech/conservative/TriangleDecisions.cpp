@@ -110,11 +110,16 @@ std::uint8_t packed(Certainty front, Certainty back)
 //------------------------------------------------------------------------------
 TriangleDecisions::TriangleDecisions(
   const ShadowLight& light, const Occluders& occluders, const std::vector<ConservativeMap>& maps)
-  : ofTriangles_(occluders.triangles.size(), packed(Certainty::Uncertain, Certainty::Uncertain))
-  , positional_(light.kind != LightKind::Directional)
+  : positional_(light.kind != LightKind::Directional)
   , positionCentred_(light.positionWorld - occluders.centreWorld)
   , limitAtUnit_(std::numeric_limits<double>::infinity())
 {
+  if (maps.empty())
+  {
+    return; // nobody says how far rounding may move what is seen
+  }
+  this->ofTriangles_.assign(
+    occluders.triangles.size(), packed(Certainty::Uncertain, Certainty::Uncertain));
   std::vector<CasterScene> scenes;
   double lateral = 0.0;
   for (const ConservativeMap& map : maps)

@@ -1,18 +1,39 @@
 #include "shadowtech/crsm/Crsm.h"
 
+#include "shadowtech/conservative/PublishedMap.h"
+
 namespace gnomon
 {
 
 //------------------------------------------------------------------------------
-Crsm::Crsm()
-  : ConservativeTechnique(Covering::Triangle)
+MapRule Crsm::rule(const ShadowSettings&) const
 {
+  return certainRule(Covering::Triangle);
 }
 
 //------------------------------------------------------------------------------
 TechniqueInfo Crsm::info()
 {
-  return infoOf("crsm");
+  TechniqueInfo info = infoOf("crsm");
+  info.asPublished = "crsm_as_published";
+  return info;
+}
+
+//------------------------------------------------------------------------------
+MapRule CrsmAsPublished::rule(const ShadowSettings&) const
+{
+  return publishedRule(PublishedLayers::Crsm);
+}
+
+//------------------------------------------------------------------------------
+TechniqueInfo CrsmAsPublished::info()
+{
+  TechniqueInfo info = infoOf("crsm_as_published");
+  info.asPublished = info.name;
+  info.exact = false;
+  info.mapIsOptional = false;
+  info.mapIsOptional = false;
+  return info;
 }
 
 } // namespace gnomon

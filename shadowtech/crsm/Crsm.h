@@ -10,8 +10,20 @@ namespace gnomon
 class Crsm : public ConservativeTechnique
 {
 public:
-  Crsm();
   static TechniqueInfo info();
+
+protected:
+  MapRule rule(const ShadowSettings& settings) const override;
+};
+
+/// `crsm` by the letter of its publication (Morais 2016, chapter 4): not exact (PublishedMap.h).
+class CrsmAsPublished : public ConservativeTechnique
+{
+public:
+  static TechniqueInfo info();
+
+protected:
+  MapRule rule(const ShadowSettings& settings) const override;
 };
 
 } // namespace gnomon

@@ -1,18 +1,40 @@
 #include "shadowtech/crsma/Crsma.h"
 
+#include "shadowtech/conservative/PublishedMap.h"
+
 namespace gnomon
 {
 
 //------------------------------------------------------------------------------
-Crsma::Crsma()
-  : ConservativeTechnique(Covering::Ring)
+MapRule Crsma::rule(const ShadowSettings& settings) const
 {
+  return certainRule(
+    settings.adjacencyRing == AdjacencyRing::Vertices ? Covering::Fan : Covering::Ring);
 }
 
 //------------------------------------------------------------------------------
 TechniqueInfo Crsma::info()
 {
-  return infoOf("crsma");
+  TechniqueInfo info = infoOf("crsma");
+  info.asPublished = "crsma_as_published";
+  return info;
+}
+
+//------------------------------------------------------------------------------
+MapRule CrsmaAsPublished::rule(const ShadowSettings&) const
+{
+  return publishedRule(PublishedLayers::Crsma);
+}
+
+//------------------------------------------------------------------------------
+TechniqueInfo CrsmaAsPublished::info()
+{
+  TechniqueInfo info = infoOf("crsma_as_published");
+  info.asPublished = info.name;
+  info.exact = false;
+  info.mapIsOptional = false;
+  info.mapIsOptional = false;
+  return info;
 }
 
 } // namespace gnomon

@@ -11,8 +11,20 @@ namespace gnomon
 class Crsma : public ConservativeTechnique
 {
 public:
-  Crsma();
   static TechniqueInfo info();
+
+protected:
+  MapRule rule(const ShadowSettings& settings) const override;
+};
+
+/// `crsma` by the letter of its publication (Morais 2016, chapter 4): not exact (PublishedMap.h).
+class CrsmaAsPublished : public ConservativeTechnique
+{
+public:
+  static TechniqueInfo info();
+
+protected:
+  MapRule rule(const ShadowSettings& settings) const override;
 };
 
 } // namespace gnomon

@@ -2,12 +2,10 @@
 
 #include "shadowtech/base/Bytes.h"
 #include "shadowtech/base/PlacedTriangles.h"
-#include "shadowtech/conservative/CasterPlacements.h"
+#include "shadowtech/conservative/CasterBands.h"
 #include "shadowtech/conservative/CasterShapes.h"
 
 #include <glm/gtc/matrix_access.hpp>
-#include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
@@ -26,44 +24,29 @@ constexpr double depthRounding = 2.384185791015625e-7; // 2^-22
 /// midst of a scene sees is: depths are in proportion to -1 / distance there.
 constexpr double farthestDepth = 1.0;
 
-/// The plane of a polygon on the map.
-struct MapPlane
+/// A polygon's plane, where rounding does not take it beyond the corners' depths, which it would on slivers.
+struct BoundedPlane
 {
-  double depth; ///< at the corner
-  double perColumn, perRow;
-  MapCorner corner;
+  MapPlane plane;
   double least, most; ///< depths of the corners
 
-  /// Rounding does not take it beyond the corners' depths, which it would on slivers.
-  double at(double x, double y) const
+  explicit BoundedPlane(const MapPolygon& polygon)
+    : plane(planeOf(polygon))
+    , least(polygon.corners[0].depth)
+    , most(least)
   {
-    return std::clamp(
-      this->depth + this->perColumn * (x - this->corner.x) + this->perRow * (y - this->corner.y),
-      this->least, this->most);
+    for (std::size_t i = 1; i < polygon.count; ++i)
+    {
+      this->least = std::min(this->least, polygon.corners[i].depth);
+      this->most = std::max(this->most, polygon.corners[i].depth);
+    }
+  }
+
+  double depthAt(double x, double y) const
+  {
+    return std::clamp(this->plane.depthAt(x, y), this->least, this->most);
   }
 };
-
-/// @return nothing for a polygon without area
-std::optional<MapPlane> planeOf(const MapPolygon& polygon)
-{
-  const MapCorner& o = polygon.corners[0];
-  MapPlane plane{ o.depth, 0.0, 0.0, o, o.depth, o.depth };
-  glm::dvec3 normal(0.0);
-  for (std::size_t i = 1; i < polygon.count; ++i)
-  {
-    const MapCorner& a = polygon.corners[i];
-    const MapCorner& b = polygon.corners[(i + 1) % polygon.count];
-    normal += glm::cross(glm::dvec3(a.x - o.x, a.y - o.y, a.depth - o.depth),
-      glm::dvec3(b.x - o.x, b.y - o.y, b.depth - o.depth));
-    plane.least = std::min(plane.least, a.depth);
-    plane.most = std::max(plane.most, a.depth);
-  }
-  plane.perColumn = -normal.x / normal.z;
-  plane.perRow = -normal.y / normal.z;
-  return std::isfinite(plane.perColumn) && std::isfinite(plane.perRow)
-    ? std::optional<MapPlane>(plane)
-    : std::nullopt;
-}
 
 /// The columns of a row whose centres lie in a convex polygon; none if first > last.
 Span columnsOf(const MapPolygon& polygon, double y, int size)
@@ -102,10 +85,10 @@ public:
     , size_(size)
     , texels_(texels)
     , placements_(scene.occluders)
-    , triangles_([size] { return Bands(static_cast<std::size_t>(bandsOf(size))); })
+    , triangles_(size)
   {
     this->sort();
-    tbb::parallel_for(0, bandsOf(size), [this](int band) { this->drawBand(band); });
+    visitBands(size, [this](int band, Span rows) { this->drawBand(band, rows); });
   }
 
 private:
@@ -123,41 +106,33 @@ private:
   void sort()
   {
     this->placements_.visitTriangles(
-      [&](std::uint32_t number, std::uint32_t i)
+      [&](std::uint32_t number, std::uint32_t triangle)
       {
-        const Placement& placement = this->placements_[number];
-        const std::uint32_t triangle = this->placements_.surfaceOf(placement).firstTriangle + i;
-        const MapPolygon polygon = this->polygonOf(placement, triangle);
+        const MapPolygon polygon = this->polygonOf(this->placements_[number], triangle);
         if (polygon.role.present && polygon.count >= 3)
         {
-          Bands& bands = this->triangles_.local();
-          visitBands(polygon, 0.0, this->size_,
-            [&](std::size_t band) {
-              bands[band].push_back({ number, triangle });
-            });
+          const auto [low, high] = polygon.rows();
+          this->triangles_.add(low, high, { number, triangle });
         }
       });
   }
 
-  void drawBand(int band)
+  void drawBand(int band, Span rows)
   {
-    const Span rows = rowsOfBand(band, this->size_);
-    for (const Bands& bands : this->triangles_)
-    {
-      for (const BandItem& item : bands[static_cast<std::size_t>(band)])
+    this->triangles_.visit(band,
+      [&](const BandItem& item)
       {
         const Placement& placement = this->placements_[item.placement];
         this->draw({ placement.surface, placement.instance, item.index },
           this->polygonOf(placement, item.index), rows);
-      }
-    }
+      });
   }
 
   void draw(const CasterTriangle& caster, const MapPolygon& polygon, const Span& rows)
   {
-    const std::optional<MapPlane> plane = planeOf(polygon);
+    const BoundedPlane plane(polygon);
     const Surface& surface = this->scene_.occluders.surfaces[caster.surface];
-    for (int row = rows.first; row <= rows.last && plane; ++row)
+    for (int row = rows.first; row <= rows.last && plane.plane.area != 0.0; ++row)
     {
       const double y = row + 0.5;
       const Span columns = columnsOf(polygon, y, this->size_);
@@ -165,7 +140,7 @@ private:
       for (int column = columns.first; column <= columns.last; ++column)
       {
         const double x = column + 0.5;
-        const double depth = plane->at(x, y);
+        const double depth = plane.depthAt(x, y);
         TriangleTexel& texel = texels[column];
         const auto rounded = static_cast<float>(depth);
         // Where two are as near, it does not matter which thread comes first.
@@ -174,8 +149,8 @@ private:
         const bool looksCloser = nearer && (this->hasBox_ || surface.cutout);
         if (nearer && (!looksCloser || this->blocksAt(caster, surface, { x, y, depth })))
         {
-          texel = { caster, rounded, static_cast<float>(plane->perColumn),
-            static_cast<float>(plane->perRow) };
+          texel = { caster, rounded, static_cast<float>(plane.plane.perX),
+            static_cast<float>(plane.plane.perY) };
         }
       }
     }
@@ -215,7 +190,7 @@ private:
   int size_;
   TriangleTexel* texels_;
   CasterPlacements placements_;
-  tbb::enumerable_thread_specific<Bands> triangles_;
+  CasterBands triangles_;
 };
 
 } // namespace

@@ -4,9 +4,9 @@ namespace gnomon
 {
 
 //------------------------------------------------------------------------------
-Silhouette::Silhouette()
-  : ConservativeTechnique(Covering::Silhouette)
+MapRule Silhouette::rule(const ShadowSettings&) const
 {
+  return certainRule(Covering::Silhouette);
 }
 
 //------------------------------------------------------------------------------

@@ -10,8 +10,10 @@ namespace gnomon
 class Silhouette : public ConservativeTechnique
 {
 public:
-  Silhouette();
   static TechniqueInfo info();
+
+protected:
+  MapRule rule(const ShadowSettings& settings) const override;
 };
 
 } // namespace gnomon

@@ -234,13 +234,14 @@ void hybridAgainstTracing(benchmark::State& state)
   const Subject& scene = subject();
   RayTracer tracer;
   tracer.update(scene.occluders);
-  ConservativeMaps maps(Covering::Silhouette);
+  ConservativeMaps maps;
   ShadowLight light = scene.light;
   ViewFitting fitting;
   fitting.castersCentred = scene.occluders.castersCentred;
   fitting.receiversCentred = scene.occluders.allCentred;
   fitting.texels.side = light.mapSizeTexels;
-  maps.bake(light, fitLightViews(light, fitting), scene.occluders);
+  maps.bake(
+    light, fitLightViews(light, fitting), scene.occluders, certainRule(Covering::Silhouette));
   ReceiverPixels stored;
   Receivers receivers(scene.view.images, scene.view.drawnSurfaces, scene.occluders, stored);
   std::vector<float> visibility;

@@ -426,6 +426,7 @@ TEST(Program, TellsHowPixelsWereDecided)
     pixels += count.get<int>();
   }
   EXPECT_EQ(pixels, 64 * 48);
+  EXPECT_GT(stats.at("lights").at(0).at("classes").at("lit for certain").get<int>(), 500);
 }
 
 //------------------------------------------------------------------------------

@@ -66,6 +66,46 @@ TEST(CasterEdges, ofClosedMeshesHaveTwoTriangles)
   }
 }
 
+TEST(CasterEdges, leadFromEachSideToTheTriangleAcrossIt)
+{
+  Mesh closed = makeSphere(8, 16);
+  for (glm::dvec3& point : closed.points)
+  {
+    point = glm::round(1e6 * point) / 1e6; // its seam closes but for rounding
+  }
+  for (const Mesh& mesh : { closed, makePlane(2.0, 3) })
+  {
+    const Occluders occluders = makeOccluders({ { mesh } });
+    const SurfaceEdges edges = findCasterEdges(occluders, occluders.surfaces.front());
+    // By place, as corners of a seam are there twice.
+    const auto hasBoth = [&](std::uint32_t triangle, const glm::vec3& from, const glm::vec3& to)
+    {
+      int found = 0;
+      for (int k = 0; k < 3; ++k)
+      {
+        const glm::vec3& place = occluders.positionsCentred[occluders.triangles[triangle][k]];
+        found += place == from || place == to ? 1 : 0;
+      }
+      return found == 2;
+    };
+    std::size_t missing = 0;
+    for (std::uint32_t i = 0; i < edges.ofTriangle.size(); ++i)
+    {
+      for (int k = 0; k < 3; ++k)
+      {
+        const std::uint32_t other =
+          edges.edges[edges.ofTriangle[i][static_cast<std::size_t>(k)]].other(i);
+        const glm::uvec3& corners = occluders.triangles[i];
+        const glm::vec3& from = occluders.positionsCentred[corners[k]];
+        const glm::vec3& to = occluders.positionsCentred[corners[(k + 1) % 3]];
+        missing += other == CasterEdge::none ? 1 : 0;
+        EXPECT_TRUE(other == CasterEdge::none || (other != i && hasBoth(other, from, to)));
+      }
+    }
+    EXPECT_EQ(missing, mesh.triangles.size() == 18 ? 12u : 0u);
+  }
+}
+
 TEST(CasterEdges, ofASheetEndAtItsBorder)
 {
   const std::vector<CasterEdge> edges = edgesOf(makePlane(2.0, 3));

@@ -1,5 +1,6 @@
 #include "RandomScenes.h"
 
+#include "lights/LightViews.h"
 #include "lights/ShadowSettings.h"
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -8,8 +9,6 @@
 #include <cctype>
 #include <cmath>
 #include <cstdlib>
-#include <utility>
-#include <vector>
 
 namespace gnomon::test
 {
@@ -20,9 +19,7 @@ double uniform(Random& random, double low, double high)
   return std::uniform_real_distribution<double>(low, high)(random);
 }
 
-namespace
-{
-
+//------------------------------------------------------------------------------
 glm::dvec3 unitVector(Random& random)
 {
   const double z = uniform(random, -1.0, 1.0);
@@ -30,6 +27,26 @@ glm::dvec3 unitVector(Random& random)
   const double radius = std::sqrt(1.0 - z * z);
   return { radius * std::cos(angle), radius * std::sin(angle), z };
 }
+
+//------------------------------------------------------------------------------
+Mesh makeCup(int rings, int segments)
+{
+  Mesh mesh = makeSphere(rings, segments);
+  std::vector<glm::uvec3> kept;
+  for (const glm::uvec3& triangle : mesh.triangles)
+  {
+    if (mesh.points[triangle.x].z < 0.3 && mesh.points[triangle.y].z < 0.3 &&
+      mesh.points[triangle.z].z < 0.3)
+    {
+      kept.push_back(triangle);
+    }
+  }
+  mesh.triangles = kept;
+  return mesh;
+}
+
+namespace
+{
 
 glm::dmat4 placed(Random& random, double spread, double scale)
 {
@@ -54,23 +71,6 @@ Mesh makeNeedles(Random& random, int count)
     mesh.points.push_back(from + 0.5 * along + width * unitVector(random));
     mesh.triangles.emplace_back(first, first + 1, first + 2);
   }
-  return mesh;
-}
-
-/// A sphere without its upper part.
-Mesh makeCup(int rings, int segments)
-{
-  Mesh mesh = makeSphere(rings, segments);
-  std::vector<glm::uvec3> kept;
-  for (const glm::uvec3& triangle : mesh.triangles)
-  {
-    if (mesh.points[triangle.x].z < 0.3 && mesh.points[triangle.y].z < 0.3 &&
-      mesh.points[triangle.z].z < 0.3)
-    {
-      kept.push_back(triangle);
-    }
-  }
-  mesh.triangles = kept;
   return mesh;
 }
 
@@ -116,7 +116,27 @@ Mesh makeDuplicates(Random& random, int count)
   return mesh;
 }
 
-std::vector<Prop> makeScene(const std::string& name, Random& random)
+} // namespace
+
+//------------------------------------------------------------------------------
+const std::vector<const char*>& randomSceneNames()
+{
+  static const std::vector<const char*> names = { "one triangle", "spheres", "soup", "needles",
+    "cups", "folds", "junctions", "duplicates", "touching boxes", "crossing boxes", "terrain",
+    "perforated", "one-sided", "sheets", "lamp" };
+  return names;
+}
+
+//------------------------------------------------------------------------------
+std::string lettersOf(std::string name)
+{
+  const auto isSeparator = [](unsigned char letter) { return !std::isalpha(letter); };
+  name.erase(std::remove_if(name.begin(), name.end(), isSeparator), name.end());
+  return name;
+}
+
+//------------------------------------------------------------------------------
+std::vector<Prop> makeRandomScene(const std::string& name, Random& random)
 {
   std::vector<Prop> props{ { makePlane(6.0, 1 + static_cast<int>(random() % 4)) } };
   const auto add = [&](Mesh mesh, double scale) {
@@ -211,7 +231,8 @@ std::vector<Prop> makeScene(const std::string& name, Random& random)
   return props;
 }
 
-ShadowLight makeLight(Random& random)
+//------------------------------------------------------------------------------
+ShadowLight makeRandomLight(Random& random)
 {
   const glm::dvec3 direction = unitVector(random) * glm::dvec3(1.0, 1.0, -1.0);
   const glm::dvec3 downwards(direction.x, direction.y, -std::abs(direction.z) - 0.05);
@@ -233,19 +254,18 @@ ShadowLight makeLight(Random& random)
   }
 }
 
-} // namespace
-
 //------------------------------------------------------------------------------
 RandomPicture makeRandomPicture(const std::string& name, unsigned int seed, const glm::dmat4& world)
 {
   Random random(seed);
-  std::vector<Prop> props = makeScene(name, random);
+  std::vector<Prop> props = makeRandomScene(name, random);
   const double scale = glm::length(glm::dvec3(world[0]));
   for (Prop& prop : props)
   {
     prop.worldFromMesh = world * prop.worldFromMesh;
   }
-  const Occluders occluders = makeOccluders(props);
+  RandomPicture picture;
+  picture.occluders = makeOccluders(props);
   const auto toWorld = [&](const glm::dvec3& point)
   { return glm::dvec3(world * glm::dvec4(point, 1.0)); };
 
@@ -255,9 +275,9 @@ RandomPicture makeRandomPicture(const std::string& name, unsigned int seed, cons
     toWorld(3.5 * unitVector(random) * glm::dvec3(1.0, 1.0, 0.5) + glm::dvec3(0.0, 0.0, 2.0));
   camera.target = toWorld({ 0.0, 0.0, uniform(random, 0.0, 0.8) });
   camera.fovDegrees = uniform(random, 10.0, 60.0);
-  const View view = makeView(occluders, camera);
+  picture.view = makeView(picture.occluders, camera);
 
-  ShadowLight light = makeLight(random);
+  ShadowLight light = makeRandomLight(random);
   if (name == "lamp")
   {
     const glm::dvec3 bulb(0.12, -0.21, 1.0);
@@ -281,34 +301,28 @@ RandomPicture makeRandomPicture(const std::string& name, unsigned int seed, cons
   light.mapSizeTexels = sizes[random() % 4];
 
   ViewFitting fitting;
-  fitting.centreWorld = occluders.centreWorld;
-  fitting.castersCentred = occluders.castersCentred;
-  fitting.receiversCentred = occluders.allCentred;
+  fitting.centreWorld = picture.occluders.centreWorld;
+  fitting.castersCentred = picture.occluders.castersCentred;
+  fitting.receiversCentred = picture.occluders.allCentred;
   fitting.texels = { light.mapSizeTexels, 1 };
   if (isFittedToCamera(light))
   {
-    const glm::dmat4 viewFromCentred = glm::lookAt(
-      camera.position - occluders.centreWorld, camera.target - occluders.centreWorld, camera.up);
+    const glm::dvec3 centre = picture.occluders.centreWorld;
+    const glm::dmat4 viewFromCentred =
+      glm::lookAt(camera.position - centre, camera.target - centre, camera.up);
     fitting.camera = CameraView{ viewFromCentred,
       glm::perspective(glm::radians(camera.fovDegrees), 1.0, 0.05 * scale, 20.0 * scale) };
   }
-  const std::string description = name + ", seed " + std::to_string(seed) + ": light " +
+  picture.views = fitLightViews(light, fitting);
+  picture.light = light;
+  picture.description = name + ", seed " + std::to_string(seed) + ": light " +
     std::to_string(static_cast<int>(light.kind)) + (light.box ? " with a box, " : ", ") +
     findSetting("projection")->get(light) + ", map " + std::to_string(light.mapSizeTexels);
-  LightViews views = fitLightViews(light, fitting);
-  return { occluders, view, light, std::move(views), description };
+  return picture;
 }
 
 //------------------------------------------------------------------------------
-std::string lettersOf(std::string name)
-{
-  const auto isSeparator = [](unsigned char letter) { return !std::isalpha(letter); };
-  name.erase(std::remove_if(name.begin(), name.end(), isSeparator), name.end());
-  return name;
-}
-
-//------------------------------------------------------------------------------
-unsigned int randomRuns()
+unsigned int exactRuns()
 {
   const char* const asked = std::getenv("GNOMON_EXACT_RUNS");
   return asked ? static_cast<unsigned int>(std::max(1, std::atoi(asked))) : 24u;

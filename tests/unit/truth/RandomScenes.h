@@ -5,45 +5,54 @@
 
 #include "lights/LightViews.h"
 
-#include <glm/glm.hpp>
-
 #include <random>
 #include <string>
+#include <vector>
 
 /// @file
-/// Scenes of many kinds, with all that is hard for maps, and a random light, projection and camera each: for
-/// what must hold always.
+/// Scenes, lights and maps drawn at random, for techniques that must never be wrong.
 
 namespace gnomon::test
 {
 
 using Random = std::mt19937;
+
 double uniform(Random& random, double low, double high);
+glm::dvec3 unitVector(Random& random);
 
-/// The kinds of scenes.
-inline constexpr const char* randomSceneNames[] = { "one triangle", "spheres", "soup", "needles",
-  "cups", "folds", "junctions", "duplicates", "touching boxes", "crossing boxes", "terrain",
-  "perforated", "one-sided", "sheets", "lamp" };
+/// A sphere without its upper part.
+Mesh makeCup(int rings, int segments);
 
-/// The name of one as a part of a test's name: letters alone.
+/// Kinds of scenes that are hard in ways of their own: needles, open cups, folds, T-junctions, duplicates, crossing
+/// boxes, holes, one-sided casters, coincident sheets, a lamp in its shade.
+const std::vector<const char*>& randomSceneNames();
+
+/// The name of a kind as a part of a test's name: letters alone.
 std::string lettersOf(std::string name);
 
-/// One picture of one scene in one light.
+/// A scene of that kind, a few units large.
+std::vector<Prop> makeRandomScene(const std::string& name, Random& random);
+
+/// A light of any kind that shines on such a scene.
+ShadowLight makeRandomLight(Random& random);
+
+/// What a technique gets for one picture.
 struct RandomPicture
 {
   Occluders occluders;
-  View view;
-  ShadowLight light;
-  LightViews views; ///< of its maps
-  std::string description;
+  View view;         ///< what the camera sees
+  ShadowLight light; ///< with a projection, a fit and a map's size that suit it
+  LightViews views;
+  std::string description; ///< for failures
 };
 
-/// @param world from the scene, which is a few units large, to the world
+/// A picture of such a scene from somewhere.
+/// @param world where the scene is put, and its scale
 RandomPicture makeRandomPicture(
   const std::string& name, unsigned int seed, const glm::dmat4& world = glm::dmat4(1.0));
 
-/// Pictures of each scene that tests look at: few by default; more where GNOMON_EXACT_RUNS says so.
-unsigned int randomRuns();
+/// How many pictures of each kind: few by default; as many as GNOMON_EXACT_RUNS says.
+unsigned int exactRuns();
 
 } // namespace gnomon::test
 

@@ -225,6 +225,35 @@ TEST(Registry, refusesChainsOfTestsThatMakeNoSense)
   }
 }
 
+TEST(Registry, followsAPublicationWhereThereIsOneThatIsNotExact)
+{
+  for (const EstimatorEntry& estimator : estimators())
+  {
+    ShadowSettings settings;
+    settings.estimator = estimator.info.name;
+    settings.asPublished = true;
+    const bool is = !estimator.info.asPublished.empty();
+    const char* verdict = is ? "" : "'as_published' is for: crsm, crsma";
+    expectVerdicts(settings, { verdict, verdict, verdict, verdict }, settings.estimator);
+  }
+  for (const std::string name : { "crsm", "crsma" })
+  {
+    ShadowLight light = lightOf(LightKind::Directional);
+    light.technique = name;
+    EXPECT_TRUE(compose(light).info.exact);
+    light.asPublished = true;
+    // Of a light that was composed already, too.
+    for (int i = 0; i < 2; ++i)
+    {
+      const TechniqueInfo& info = compose(light).info;
+      EXPECT_EQ(info.name, name + "_as_published");
+      EXPECT_FALSE(info.exact);
+      EXPECT_EQ(light.estimator, info.name);
+    }
+  }
+  EXPECT_TRUE(findEstimator("silhouette")->info.asPublished.empty());
+}
+
 TEST(Registry, completesTheLight)
 {
   ShadowLight light = lightOf(LightKind::Directional);

@@ -1,4 +1,4 @@
-#include "shadowtech/conservative/CasterPlacements.h"
+#include "shadowtech/conservative/CasterBands.h"
 
 namespace gnomon
 {
@@ -20,6 +20,24 @@ CasterPlacements::CasterPlacements(const Occluders& occluders)
         this->triangleCount_ += surface.triangleCount;
       }
     }
+  }
+}
+
+//------------------------------------------------------------------------------
+CasterBands::CasterBands(int size)
+  : size_(size)
+  , lists_([size] { return Lists(static_cast<std::size_t>((size + rows - 1) / rows)); })
+{
+}
+
+//------------------------------------------------------------------------------
+void CasterBands::add(double low, double high, const BandItem& item)
+{
+  const Span span = spanOf(low, high, this->size_);
+  Lists& lists = this->lists_.local();
+  for (int band = span.first / rows; band <= span.last / rows && span.first <= span.last; ++band)
+  {
+    lists[static_cast<std::size_t>(band)].push_back(item);
   }
 }
 

@@ -1,0 +1,482 @@
+// Hybrid techniques with conservative maps on scenes that show what they are about: seams between triangles, holes
+// at vertices, slivers, thin plates, open cups, poles. The exact ones are never wrong, those as published where their
+// construction is.
+
+#include "shadowtech/conservative/ConservativeMaps.h"
+#include "shadowtech/conservative/PublishedMap.h"
+
+#include "RandomScenes.h"
+
+#include "shadowtech/base/RayTracer.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gnomon::test
+{
+namespace
+{
+
+constexpr double pi = 3.14159265358979;
+constexpr int mapSizes[] = { 64, 256, 1024 };
+
+/// A sphere of triangles that are nearly alike, each point moved along its radius by up to half of `noise`.
+Mesh makeIcosphere(int subdivisions, double noise, Random& random)
+{
+  const double t = 0.5 * (1.0 + std::sqrt(5.0));
+  Mesh mesh;
+  // Three golden rectangles; faces are the triples of corners that are next to each other.
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    for (int corner = 0; corner < 4; ++corner)
+    {
+      glm::dvec3 point(0.0);
+      point[axis] = (corner & 1) ? 1.0 : -1.0;
+      point[(axis + 1) % 3] = (corner & 2) ? t : -t;
+      mesh.points.push_back(glm::normalize(point));
+    }
+  }
+  const auto next = [&](unsigned int a, unsigned int b)
+  { return a != b && glm::distance(mesh.points[a], mesh.points[b]) < 1.1; };
+  for (unsigned int a = 0; a < 12; ++a)
+  {
+    for (unsigned int b = a + 1; b < 12; ++b)
+    {
+      for (unsigned int c = b + 1; c < 12; ++c)
+      {
+        if (next(a, b) && next(b, c) && next(c, a))
+        {
+          const glm::dvec3 normal =
+            glm::cross(mesh.points[b] - mesh.points[a], mesh.points[c] - mesh.points[a]);
+          const bool outside = glm::dot(normal, mesh.points[a]) > 0.0;
+          mesh.triangles.push_back(outside ? glm::uvec3(a, b, c) : glm::uvec3(a, c, b));
+        }
+      }
+    }
+  }
+  for (int i = 0; i < subdivisions; ++i)
+  {
+    std::map<std::pair<unsigned int, unsigned int>, unsigned int> middles;
+    const auto middle = [&](unsigned int a, unsigned int b)
+    {
+      const auto [found, isNew] =
+        middles.try_emplace(std::minmax(a, b), static_cast<unsigned int>(mesh.points.size()));
+      if (isNew)
+      {
+        mesh.points.push_back(glm::normalize(mesh.points[a] + mesh.points[b]));
+      }
+      return found->second;
+    };
+    std::vector<glm::uvec3> finer;
+    for (const glm::uvec3& f : mesh.triangles)
+    {
+      const unsigned int a = middle(f.x, f.y), b = middle(f.y, f.z), c = middle(f.z, f.x);
+      finer.insert(finer.end(), { { f.x, a, c }, { f.y, b, a }, { f.z, c, b }, { a, b, c } });
+    }
+    mesh.triangles = finer;
+  }
+  for (glm::dvec3& point : mesh.points)
+  {
+    point *= 1.0 + noise * uniform(random, -0.5, 0.5);
+  }
+  return mesh;
+}
+
+/// Bodies over a plane that do not touch each other.
+/// @param radii of spheres around them, the least and the most
+/// @param make called for each of them; within the unit sphere
+std::vector<Prop> scattered(
+  int count, const glm::dvec2& radii, Random& random, const std::function<Mesh()>& make)
+{
+  std::vector<Prop> props{ { makePlane(2.0) } };
+  std::vector<glm::dvec4> taken;
+  while (count > 0)
+  {
+    const double radius = uniform(random, radii.x, radii.y);
+    const glm::dvec3 place(uniform(random, -0.75, 0.75), uniform(random, -0.75, 0.75),
+      uniform(random, 0.05 + radius, 1.6 - radius));
+    if (std::all_of(taken.begin(), taken.end(),
+          [&](const glm::dvec4& other)
+          { return glm::distance(place, glm::dvec3(other)) > 1.05 * (radius + other.w); }))
+    {
+      taken.emplace_back(place, radius);
+      props.push_back({ make(),
+        glm::rotate(at(place, radius), uniform(random, 0.0, 2.0 * pi), unitVector(random)) });
+      --count;
+    }
+  }
+  return props;
+}
+
+Mesh scaled(Mesh mesh, const glm::dvec3& by)
+{
+  for (glm::dvec3& point : mesh.points)
+  {
+    point *= by;
+  }
+  return mesh;
+}
+
+std::vector<Prop> makeSpheres()
+{
+  Random random(100);
+  return scattered(12, { 0.1, 0.24 }, random, [&] { return makeIcosphere(3, 0.02, random); });
+}
+
+std::vector<Prop> makeSlivers()
+{
+  Random random(101);
+  return scattered(60, { 0.06, 0.16 }, random,
+    [&]
+    {
+      const double height = uniform(random, 0.15, 0.45);
+      return scaled(makeIcosphere(2, 0.5, random), { 1.0, 1.0, height });
+    });
+}
+
+std::vector<Prop> makeThinPlates()
+{
+  Random random(102);
+  return scattered(16, { 0.18, 0.2 }, random,
+    [&]
+    {
+      const double breadth = uniform(random, 0.1, 0.3);
+      return scaled(makeIcosphere(1, 0.0, random), { 1.0, breadth, 0.05 });
+    });
+}
+
+/// Open at the bottom, so that most of them faces the light.
+std::vector<Prop> makeDomes()
+{
+  Random random(103);
+  std::vector<Prop> props{ { makePlane(2.0) } };
+  for (int i = 0; i < 9; ++i)
+  {
+    const glm::dmat4 place =
+      at({ 0.5 * (i % 3) - 0.5, 0.5 * (i / 3) - 0.5, uniform(random, 0.3, 0.9) },
+        uniform(random, 0.1, 0.22));
+    props.push_back({ makeCup(16, 32), glm::rotate(place, pi, { 1.0, 0.0, 0.0 }) });
+  }
+  return props;
+}
+
+/// A plate that faces down, off the map's grid, of triangles around its middle or of two. It receives nothing, as its
+/// other side is seen.
+std::vector<Prop> makePlate(bool withMiddle)
+{
+  Mesh plate;
+  plate.points = { { -0.52, -0.47, 0.0 }, { 0.49, -0.51, 0.0 }, { 0.53, 0.48, 0.0 },
+    { -0.5, 0.54, 0.0 }, { 0.013, 0.021, 0.0 } };
+  plate.triangles = withMiddle
+    ? std::vector<glm::uvec3>{ { 1, 0, 4 }, { 2, 1, 4 }, { 3, 2, 4 }, { 0, 3, 4 } }
+    : std::vector<glm::uvec3>{ { 1, 0, 3 }, { 1, 3, 2 } };
+  return { { makePlane(2.0) }, { plate, at({ 0.0, 0.0, 0.5 }), true, false } };
+}
+
+/// What a map says of a scene's receivers, against the truth.
+struct Verdict
+{
+  double uncertain = 0.0; ///< share of the receivers that face the light
+  std::size_t falseLight = 0;
+  std::size_t falseShadow = 0;
+  std::vector<std::uint8_t> classes; ///< each receiver's TracedClass
+  bool is(std::size_t receiver, TracedClass what) const
+  {
+    return static_cast<TracedClass>(this->classes[receiver]) == what;
+  }
+  std::size_t wrong() const { return this->falseLight + this->falseShadow; }
+};
+
+/// A scene, what is seen of it, and the truth.
+class HybridScene
+{
+public:
+  explicit HybridScene(
+    const std::vector<Prop>& props, const glm::dvec3& direction = { 0.1, 0.07, -1.0 })
+    : light_(directionalLight(direction))
+    , occluders_(makeOccluders(props))
+  {
+    Camera camera;
+    camera.width = camera.height = 256;
+    camera.position = { 2.0, -1.2, 3.2 };
+    camera.target = { 0.0, 0.0, 0.4 };
+    camera.fovDegrees = 36.0;
+    this->receivers_ = makeReceivers(this->occluders_, camera);
+    this->tracer_.update(this->occluders_);
+  }
+
+  ReceiverPixels& receivers() { return this->receivers_; }
+  const Occluders& occluders() const { return this->occluders_; }
+
+  std::vector<float> truth()
+  {
+    std::vector<float> truth;
+    this->tracer_.trace(this->light_, this->occluders_, this->receivers_, truth);
+    return truth;
+  }
+
+  Verdict ask(const MapRule& rule, int size)
+  {
+    ShadowLight light = this->light_;
+    light.mapSizeTexels = size;
+    ConservativeMaps maps;
+    maps.bake(light,
+      fitLightViews(light, this->occluders_.centreWorld, this->occluders_.castersCentred, size),
+      this->occluders_, rule);
+    Verdict verdict;
+    std::vector<float> visibility;
+    const std::vector<float> truth = this->truth();
+    const std::size_t traced = this->tracer_.trace(
+      light, this->occluders_, this->receivers_, visibility, &maps, &verdict.classes);
+    std::size_t all = 0;
+    for (std::size_t i = 0; i < truth.size(); ++i)
+    {
+      const bool asked =
+        !verdict.is(i, TracedClass::Unreached) && !verdict.is(i, TracedClass::NoReceiver);
+      all += asked ? 1 : 0;
+    }
+    verdict.uncertain = static_cast<double>(traced) / static_cast<double>(all);
+    for (std::size_t i = 0; i < truth.size(); ++i)
+    {
+      verdict.falseLight += visibility[i] > truth[i] ? 1 : 0;
+      verdict.falseShadow += visibility[i] < truth[i] ? 1 : 0;
+    }
+    return verdict;
+  }
+
+private:
+  ShadowLight light_;
+  Occluders occluders_;
+  ReceiverPixels receivers_;
+  RayTracer tracer_;
+};
+
+const MapRule crsm = certainRule(Covering::Triangle);
+const MapRule crsma = certainRule(Covering::Ring);
+const MapRule fan = certainRule(Covering::Fan);
+const MapRule silhouette = certainRule(Covering::Silhouette);
+const MapRule publishedCrsm = publishedRule(PublishedLayers::Crsm);
+const MapRule publishedCrsma = publishedRule(PublishedLayers::Crsma);
+
+struct NamedScene
+{
+  const char* name;
+  std::vector<Prop> (*make)();
+};
+const NamedScene closedScenes[] = { { "two triangles", [] { return makePlate(false); } },
+  { "fan", [] { return makePlate(true); } }, { "spheres", makeSpheres }, { "slivers", makeSlivers },
+  { "thin plates", makeThinPlates } };
+
+bool sameLight(const Verdict& a, const Verdict& b)
+{
+  for (std::size_t i = 0; i < a.classes.size(); ++i)
+  {
+    if (a.is(i, TracedClass::Lit) != b.is(i, TracedClass::Lit))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+std::string percent(double share)
+{
+  return std::to_string(0.01 * std::round(10000.0 * share)).substr(0, 5);
+}
+
+TEST(HybridScenes, areRightWithBoundsAndLessUncertainTheMoreIsKnownOfNeighbours)
+{
+  for (const NamedScene& named : closedScenes)
+  {
+    HybridScene scene(named.make());
+    for (const int size : mapSizes)
+    {
+      const std::string what = std::string(named.name) + ", map " + std::to_string(size);
+      const Verdict alone = scene.ask(crsm, size);
+      const Verdict ring = scene.ask(crsma, size);
+      const Verdict corners = scene.ask(fan, size);
+      const Verdict edges = scene.ask(silhouette, size);
+      EXPECT_EQ(alone.wrong(), 0u) << what;
+      EXPECT_EQ(ring.wrong(), 0u) << what;
+      EXPECT_EQ(corners.wrong(), 0u) << what;
+      EXPECT_EQ(edges.wrong(), 0u) << what;
+      EXPECT_LE(ring.uncertain, alone.uncertain) << what;
+      EXPECT_LE(corners.uncertain, ring.uncertain) << what;
+      EXPECT_LE(edges.uncertain, ring.uncertain) << what;
+      EXPECT_TRUE(sameLight(alone, ring)) << what;
+      EXPECT_TRUE(sameLight(alone, corners)) << what;
+      const Verdict published = scene.ask(publishedCrsm, size);
+      const Verdict publishedRing = scene.ask(publishedCrsma, size);
+      EXPECT_LE(publishedRing.uncertain, published.uncertain) << what;
+      EXPECT_TRUE(sameLight(published, publishedRing)) << what;
+      std::cout << what << ": uncertain % (wrong) crsm " << percent(alone.uncertain) << " crsma "
+                << percent(ring.uncertain) << " fan " << percent(corners.uncertain)
+                << " silhouette " << percent(edges.uncertain) << ", published "
+                << percent(published.uncertain) << " (" << published.falseLight << " + "
+                << published.falseShadow << ") " << percent(publishedRing.uncertain) << " ("
+                << publishedRing.falseLight << " + " << publishedRing.falseShadow << ")"
+                << std::endl;
+    }
+  }
+}
+
+TEST(HybridScenes, ofSliversAreSometimesWrongAsPublished)
+{
+  HybridScene scene(makeSlivers());
+  const Verdict verdict = scene.ask(publishedCrsm, 64);
+  EXPECT_GT(verdict.wrong(), 0u);
+  EXPECT_LT(verdict.wrong(), verdict.classes.size() / 100);
+}
+
+TEST(HybridScenes, ofThinPlatesHaveFalseShadowsWithNeighboursAsPublished)
+{
+  // A neighbour that is thinner than the texel does not cover the rest of it.
+  HybridScene scene(makeThinPlates());
+  EXPECT_GT(scene.ask(publishedCrsma, 256).falseShadow, 0u);
+}
+
+TEST(HybridScenes, ofSpheresAreMuchLessUncertainByTheirSilhouette)
+{
+  // On the ground. Of receivers on the spheres, which cast with both sides, neither knows much at this size.
+  HybridScene scene(makeSpheres());
+  const auto uncertainOnGround = [&](const MapRule& rule)
+  {
+    const Verdict verdict = scene.ask(rule, 64);
+    std::size_t uncertain = 0;
+    for (std::size_t i = 0; i < verdict.classes.size(); ++i)
+    {
+      const bool onGround = scene.receivers().surface[i] == 0;
+      uncertain += onGround && verdict.is(i, TracedClass::Traced) ? 1 : 0;
+    }
+    return static_cast<double>(uncertain);
+  };
+  EXPECT_LE(uncertainOnGround(silhouette), 0.6 * uncertainOnGround(crsm));
+}
+
+TEST(HybridScenes, withOpenDomesHaveFalseLightAsPublishedTheMoreTheFinerTheMap)
+{
+  // They face the light, and what is behind is not there: both layers agree that nothing is.
+  HybridScene scene(makeDomes());
+  std::size_t before = 0;
+  for (const int size : mapSizes)
+  {
+    for (const MapRule& rule : { crsm, crsma, fan, silhouette })
+    {
+      EXPECT_EQ(scene.ask(rule, size).wrong(), 0u) << size;
+    }
+    const std::size_t falseLight = scene.ask(publishedCrsm, size).falseLight;
+    EXPECT_GT(falseLight, 0u) << size;
+    EXPECT_GE(falseLight, before) << size;
+    EXPECT_GE(scene.ask(publishedCrsma, size).falseLight, 1u) << size;
+    before = falseLight;
+  }
+}
+
+TEST(HybridScenes, withAPoleThinnerThanATexelHaveItsShadowTraced)
+{
+  HybridScene scene(
+    { { makePlane(2.0) }, { makeBox({ -0.004, -0.004, 0.05 }, { 0.004, 0.004, 0.9 }) } },
+    { 0.7, 0.2, -1.0 });
+  const std::vector<float> truth = scene.truth();
+  for (const MapRule& rule : { crsm, publishedCrsm })
+  {
+    const Verdict verdict = scene.ask(rule, 64);
+    EXPECT_EQ(verdict.wrong(), 0u);
+    std::size_t shadow = 0, certain = 0;
+    for (std::size_t i = 0; i < truth.size(); ++i)
+    {
+      const bool onGround = scene.receivers().surface[i] == 0;
+      shadow += onGround && truth[i] == 0.0f ? 1 : 0;
+      certain += onGround && verdict.is(i, TracedClass::Shadow) ? 1 : 0;
+    }
+    EXPECT_GT(shadow, 50u);
+    EXPECT_EQ(certain, 0u);
+  }
+}
+
+TEST(HybridScenes, withContactAreRightWhereverRaysStart)
+{
+  HybridScene scene(
+    { { makePlane(2.0) }, { makeSphere(24, 48), at({ 0.0, 0.0, 0.5 }, 0.5) } }, { 0.4, 0.3, -1.0 });
+  const ReceiverPixels receivers = scene.receivers();
+  for (const float factor : { 0.1f, 1.0f, 10.0f })
+  {
+    scene.receivers() = withOffset(receivers, factor);
+    for (const MapRule& rule : { crsm, crsma, fan, silhouette })
+    {
+      EXPECT_EQ(scene.ask(rule, 256).wrong(), 0u) << factor;
+    }
+  }
+}
+
+/// How many of a fine grid of receivers under a plate are uncertain, away from its outer edges.
+/// @param within of its middle; else everywhere
+std::size_t uncertainUnder(HybridScene& scene, const MapRule& rule, int size, double within)
+{
+  constexpr int count = 400;
+  ReceiverPixels& receivers = scene.receivers();
+  receivers.resize(count, count);
+  for (std::size_t i = 0; i < receivers.size(); ++i)
+  {
+    const glm::dvec3 centred = glm::dvec3(0.8 * (static_cast<double>(i % count) / count - 0.5),
+                                 0.8 * (static_cast<double>(i / count) / count - 0.5), 0.0) -
+      scene.occluders().centreWorld;
+    receivers.positionX[i] = static_cast<float>(centred.x);
+    receivers.positionY[i] = static_cast<float>(centred.y);
+    receivers.positionZ[i] = static_cast<float>(centred.z);
+    receivers.normalX[i] = receivers.normalY[i] = 0.0f;
+    receivers.normalZ[i] = 1.0f;
+    receivers.offset[i] = 1e-6f;
+    receivers.surface[i] = 0;
+  }
+  const Verdict verdict = scene.ask(rule, size);
+  EXPECT_EQ(verdict.wrong(), 0u);
+  std::size_t uncertain = 0;
+  for (std::size_t i = 0; i < receivers.size(); ++i)
+  {
+    const double x = receivers.positionX[i] + scene.occluders().centreWorld.x - 0.013;
+    const double y = receivers.positionY[i] + scene.occluders().centreWorld.y - 0.021;
+    uncertain += std::hypot(x, y) <= within && verdict.is(i, TracedClass::Traced) ? 1 : 0;
+  }
+  return uncertain;
+}
+
+TEST(HybridScenes, haveNoSeamBetweenTwoTrianglesThatKnowEachOther)
+{
+  HybridScene scene(makePlate(false), { 0.0, 0.0, -1.0 });
+  for (const MapRule& rule : { crsm, publishedCrsm })
+  {
+    EXPECT_GT(uncertainUnder(scene, rule, 64, 1.0), 0u);
+  }
+  for (const MapRule& rule : { crsma, fan, silhouette, publishedCrsma })
+  {
+    EXPECT_EQ(uncertainUnder(scene, rule, 64, 1.0), 0u);
+  }
+}
+
+TEST(HybridScenes, haveAHoleWhereTrianglesMeetInACornerButForFansAndSilhouettes)
+{
+  HybridScene scene(makePlate(true), { 0.0, 0.0, -1.0 });
+  const double texel = 2.0 / 64.0;
+  for (const MapRule& rule : { publishedCrsma, crsma })
+  {
+    EXPECT_GT(uncertainUnder(scene, rule, 64, texel), 0u);
+  }
+  for (const MapRule& rule : { fan, silhouette })
+  {
+    EXPECT_EQ(uncertainUnder(scene, rule, 64, 1.0), 0u);
+  }
+}
+
+} // namespace
+} // namespace gnomon::test

@@ -1,0 +1,133 @@
+#ifndef gnomon_tests_TexelPolygons_h
+#define gnomon_tests_TexelPolygons_h
+
+#include "RandomScenes.h"
+
+#include "shadowtech/conservative/CasterShapes.h"
+
+#include <glm/glm.hpp>
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <utility>
+
+/// @file
+/// Triangles on the texels of a map, and plane geometry to compare with what is drawn.
+
+namespace gnomon::test
+{
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// x and y in texels, z the depth.
+using Corners = std::array<glm::dvec3, 3>;
+
+/// The area between two vectors, positive where the second lies to the left of the first.
+inline double perp(const glm::dvec2& a, const glm::dvec2& b)
+{
+  return a.x * b.y - a.y * b.x;
+}
+
+/// Twice the area of a triangle, positive where it is counter-clockwise.
+inline double doubleAreaOf(const Corners& corners)
+{
+  return perp(glm::dvec2(corners[1] - corners[0]), glm::dvec2(corners[2] - corners[0]));
+}
+
+/// A triangle of any size from a hundredth of a texel to the whole map, wound either way, each third one a sliver.
+inline Corners randomTriangle(Random& random, int width)
+{
+  const double size = std::pow(10.0, uniform(random, -2.0, 1.5));
+  const double flat = random() % 3 ? 1.0 : std::pow(10.0, uniform(random, -4.0, 0.0));
+  const double angle = uniform(random, 0.0, 6.283185307179586);
+  const glm::dvec2 along(std::cos(angle), std::sin(angle));
+  const glm::dvec2 middle(uniform(random, 0.0, width), uniform(random, 0.0, width));
+  Corners corners;
+  for (glm::dvec3& corner : corners)
+  {
+    const glm::dvec2 place(uniform(random, -1.0, 1.0), flat * uniform(random, -1.0, 1.0));
+    const glm::dvec2 turned(place.x * along - place.y * glm::dvec2(along.y, -along.x));
+    corner = glm::dvec3(middle + size * turned, uniform(random, 0.0, 1.0));
+  }
+  return corners;
+}
+
+/// As what is drawn: a caster that covers.
+inline MapPolygon polygonWith(const Corners& corners)
+{
+  MapPolygon polygon;
+  polygon.count = 3;
+  polygon.role.present = polygon.role.covers = true;
+  polygon.facing = 1;
+  for (std::uint8_t k = 0; k < 3; ++k)
+  {
+    polygon.corners[k] = { corners[k].x, corners[k].y, corners[k].z };
+    polygon.sides[k] = k;
+  }
+  return polygon;
+}
+
+inline bool isInside(const Corners& corners, const glm::dvec2& point)
+{
+  const glm::dvec2 a(corners[0]), b(corners[1]), c(corners[2]);
+  const double sign = doubleAreaOf(corners) > 0.0 ? 1.0 : -1.0;
+  return sign * perp(b - a, point - a) >= 0.0 && sign * perp(c - b, point - b) >= 0.0 &&
+    sign * perp(a - c, point - c) >= 0.0;
+}
+
+/// The depth of a triangle's plane.
+inline auto depthOf(const Corners& corners)
+{
+  const glm::dvec3 normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+  return [corner = corners[0], normal](const glm::dvec2& point)
+  { return corner.z - glm::dot(glm::dvec2(normal), point - glm::dvec2(corner)) / normal.z; };
+}
+
+/// A line: all p with normal.p = c.
+struct Line
+{
+  glm::dvec2 normal;
+  double c;
+};
+
+inline glm::dvec2 crossing(const Line& a, const Line& b)
+{
+  return glm::dvec2(a.c * b.normal.y - b.c * a.normal.y, a.normal.x * b.c - b.normal.x * a.c) /
+    perp(a.normal, b.normal);
+}
+
+/// The line from one point to another, moved to the inside of a triangle.
+/// @param inwards 1 or -1: which side that is of a line's left and right
+inline Line movedLine(const glm::dvec2& from, const glm::dvec2& to, double inwards, double by)
+{
+  const glm::dvec2 along = glm::normalize(to - from);
+  const glm::dvec2 normal = inwards * glm::dvec2(-along.y, along.x);
+  return { normal, glm::dot(normal, from) + by };
+}
+
+/// Where the sides of a triangle cross once they were moved inwards.
+/// @param by called with a side's unit normal
+template <typename By>
+Corners withMovedSides(const Corners& corners, const By& by)
+{
+  const double inwards = doubleAreaOf(corners) > 0.0 ? 1.0 : -1.0;
+  std::array<Line, 3> lines;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    const glm::dvec2 from(corners[k]), to(corners[(k + 1) % 3]);
+    lines[k] = movedLine(from, to, inwards, 0.0);
+    lines[k].c += by(lines[k].normal);
+  }
+  Corners moved;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    moved[k] = glm::dvec3(crossing(lines[(k + 2) % 3], lines[k]), 0.0);
+  }
+  return moved;
+}
+
+} // namespace gnomon::test
+
+#endif
