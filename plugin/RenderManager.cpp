@@ -536,7 +536,8 @@ void RenderManager::bakeMaps(
   fitting.texels = { light.mapSizeTexels, reach.borderTexels() };
   if (isFittedToCamera(light))
   {
-    fitting.camera = light.fit == ViewFit::Once && bake.camera ? bake.camera : camera;
+    const std::optional<CameraView>& first = bake.camera ? bake.camera : slot.awaited.camera;
+    fitting.camera = light.fit == ViewFit::Once && first ? first : camera;
   }
   LightViews views = fitLightViews(light, fitting);
   if (reach.unitAcross > 0.0)

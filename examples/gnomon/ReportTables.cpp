@@ -104,7 +104,7 @@ CsvRow csvHeading(const ComparisonResults& results)
   }
   for (const std::string& name : classNames(results))
   {
-    row << name + "_pixels";
+    row << "class " + name + "_pixels";
   }
   return row;
 }

@@ -92,8 +92,8 @@ TEST(Report, CsvSaysAHundredWrongPixels)
   EXPECT_EQ(rows[3][column(rows, "camera_moving_maps_ms")], "");
   EXPECT_EQ(rows[3][column(rows, "traced_pixels")], "1000");
   EXPECT_EQ(rows[3][column(rows, "light_moving_ms")], "180");
-  EXPECT_EQ(rows[3][column(rows, "no receiver_pixels")], "24");
-  EXPECT_EQ(rows[2][column(rows, "no receiver_pixels")], "");
+  EXPECT_EQ(rows[3][column(rows, "class no receiver_pixels")], "24");
+  EXPECT_EQ(rows[2][column(rows, "class no receiver_pixels")], "");
 }
 
 TEST(Report, CsvQuotesWhatNeedsIt)

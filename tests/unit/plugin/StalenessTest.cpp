@@ -391,6 +391,32 @@ TEST(OptionalMaps, areDrawnOnceNothingMoves)
 }
 
 //------------------------------------------------------------------------------
+/// Views that are fitted once stay where the camera was, also while no map was drawn yet.
+TEST(OptionalMaps, thatAreFittedOnceNeedNoCameraThatRests)
+{
+  PassScene scene(200, 150);
+  scene.addFloor(4.0);
+  scene.addSphere({ 0.0, 0.0, 1.5 }, 0.7);
+  scene.addSun({ 1.0, 0.3, -1.5 });
+  scene.pass->SetTechnique("silhouette");
+  scene.pass->SetSetting("bake", "settled");
+  scene.pass->SetSetting("fit", "once");
+  for (int frame = 0; frame < 4; ++frame)
+  {
+    scene.lookFrom({ 0.1 * frame, -9.0, 7.0 });
+    scene.render();
+    EXPECT_EQ(scene.report().mapBakes, frame == 1 ? 1 : 0) << frame;
+  }
+  scene.pass->SetSetting("fit", "frame");
+  for (int frame = 0; frame < 3; ++frame)
+  {
+    scene.lookFrom({ 0.1 * frame, -9.0, 7.0 });
+    scene.render();
+    EXPECT_EQ(scene.report().mapBakes, 0) << frame;
+  }
+}
+
+//------------------------------------------------------------------------------
 TEST_F(NoCastingLight, noLightWithoutIntensity)
 {
   this->sun->SetIntensity(0.0);

@@ -1,0 +1,162 @@
+#!/bin/bash
+# Sweeps the hybrid techniques over maps, pictures and views, as the theses that they come from did on their own
+# scenes, and writes docs/sweeps.md. Takes about an hour; what was measured before, in out/sweeps, is not measured again.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+source cmake/debian.sh
+
+install_packages
+build release
+
+views=(bench-with bench-side bench-against trees-with trees-side trees-against
+  flowers-with flowers-side flowers-against atrium)
+hybrids=coherence,crsm:as_published=on,crsm,crsma:as_published=on,crsma,silhouette,silhouette:fit=once
+out=out/sweeps
+mkdir -p "$out"
+
+# compare NAME SCENE OPTION... : measures into $out/NAME, unless that was done before
+compare() {
+  local folder="$out/$1"
+  if [ ! -e "$folder/results.csv" ]; then
+    rm -rf "$folder.part"
+    build/release/bin/gnomon compare "$2" -o "$folder.part" --frames 5 --route image "${@:3}"
+    mv "$folder.part" "$folder"
+  fi
+}
+
+for view in "${views[@]}"; do
+  for map in 512 1024 2048 4096; do
+    compare "$view.1024x1024.$map" "$view" --techniques "nsm,$hybrids" --map-sizes "$map"
+  done
+  for size in 512x512 1920x1080; do
+    compare "$view.$size.1024" "$view" --techniques "nsm,$hybrids" --map-sizes 1024 --size "$size"
+  done
+done
+
+# The 72 cases of the selective chain: twelve views, two maps, three widths of the contour.
+chains=
+for width in 2 4 6; do
+  chains+="${chains:+,}selective:contour=$width"
+done
+for view in "${views[@]:0:9}" primitives posts cube; do
+  for map in 1024 2048; do
+    compare "$view.chain.$map" "$view" --techniques "nsm,$chains" --map-sizes "$map"
+  done
+done
+
+# Rows of all runs, of columns by their names, behind view, picture and map.
+rows() {
+  local results run
+  for results in "$out"/*/results.csv; do
+    run="$(basename "$(dirname "$results")")"
+    awk -F, -v run="$run" -v wanted="$1" '
+      BEGIN { split(run, part, "."); count = split(wanted, names, ",") }
+      { sub(/\r$/, "") }
+      NR == 1 { for (i = NF; i >= 1; --i) column[$i] = i; next }
+      {
+        printf "%s,%s,%s", part[1], part[2], part[3]
+        for (i = 1; i <= count; ++i) printf ",%s", (names[i] in column) ? $(column[names[i]]) : ""
+        printf "\n"
+      }' "$results"
+  done
+}
+
+# table TITLE PICTURE MAPS : share of traced pixels and wrong pixels of each variant, mean over the views
+uncertain() {
+  rows variant,facing_pixels,wrong_pixels,traced_pixels | awk -F, -v picture="$1" '
+    $2 == picture {
+      sub(/ [0-9]+( image)?$/, "", $4)
+      if (!($4 in seen)) { seen[$4] = 1; order[++count] = $4 }
+      if (!($3 in maps)) { maps[$3] = 1; sizes[++sizeCount] = $3 + 0 }
+      views[$4, $3]++; traced[$4, $3] += 100 * $7 / $5; wrong[$4, $3] += $6
+    }
+    END {
+      for (i = 1; i <= sizeCount; ++i) for (j = i + 1; j <= sizeCount; ++j)
+        if (sizes[j] < sizes[i]) { swap = sizes[i]; sizes[i] = sizes[j]; sizes[j] = swap }
+      printf "|"; for (i = 1; i <= sizeCount; ++i) printf " | map %d: traced, wrong", sizes[i]; print " |"
+      printf "|---"; for (i = 1; i <= sizeCount; ++i) printf "|---"; print "|"
+      for (k = 1; k <= count; ++k) {
+        name = order[k]
+        if (name ~ /plain VTK|vtkShadowMapPass|raytraced/) continue
+        printf "| `%s`", name
+        for (i = 1; i <= sizeCount; ++i)
+          if ((name, sizes[i]) in views)
+            printf " | %.1f %%, %d", traced[name, sizes[i]] / views[name, sizes[i]], wrong[name, sizes[i]] / views[name, sizes[i]]
+          else printf " | "
+        print " |"
+      }
+    }'
+}
+
+columns=variant
+for stage in "visibility: read receivers" "visibility: trace" "visibility: upload" maps; do
+  columns+=",camera_moving_${stage}_ms"
+done
+
+# The time from receivers to visibility of each variant over that of raytraced, mean over the views.
+times() {
+  rows "$columns" | awk -F, -v picture="$1" -v map="$2" '
+    $2 == picture && $3 == map {
+      sub(/ [0-9]+( image)?$/, "", $4)
+      sum = $5 + $6 + $7 + $8
+      if ($5 == "") next
+      if (!($4 in seen)) { seen[$4] = 1; order[++count] = $4 }
+      time[$4, $1] = sum; read[$4] += $5; trace[$4] += $6; upload[$4] += $7; views[$4]++
+      if ($4 == "raytraced") truth[$1] = sum
+      all[$1] = 1
+    }
+    END {
+      print "| | read back | decided and traced | uploaded | over `raytraced` |"
+      print "|---|---|---|---|---|"
+      for (k = 1; k <= count; ++k) {
+        name = order[k]
+        ratio = 0; n = 0
+        for (view in all) if ((name, view) in time && truth[view] > 0) { ratio += time[name, view] / truth[view]; ++n }
+        if (n > 0 && name !~ /nsm/)
+          printf "| `%s` | %.1f ms | %.1f ms | %.1f ms | %.2f |\n", name, read[name] / views[name], trace[name] / views[name], upload[name] / views[name], ratio / n
+      }
+    }'
+}
+
+# What became of the pixels of the contour, per view and case.
+chain() {
+  rows variant,facing_pixels,wrong_pixels,traced_pixels | awk -F, '
+    $2 == "chain" && $4 ~ /^(nsm|selective)/ {
+      sub(/ [0-9]+( image)?$/, "", $4); sub(/selective contour=/, "", $4)
+      wrong[$1, $3, $4] = $6; traced[$1, $3, $4] = $7; facing[$1] = $5; views[$1] = 1
+    }
+    END {
+      print "| view | map | `nsm`: wrong | 2 pixels: wrong, traced | 4 pixels | 6 pixels |"
+      print "|---|---|---|---|---|---|"
+      for (view in views) for (map = 1024; map <= 2048; map += 1024) {
+        printf "| %s | %d | %d", view, map, wrong[view, map, "nsm"]
+        for (width = 2; width <= 6; width += 2)
+          printf " | %d, %.2f %%", wrong[view, map, width], 100 * traced[view, map, width] / facing[view]
+        print " |"
+      }
+    }' | (read -r head; read -r line; printf '%s\n%s\n' "$head" "$line"; sort)
+}
+
+machine="$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1), $(nproc) processors"
+{
+  echo "# Sweeps over maps, pictures and views"
+  echo
+  echo "Written by \`docs/sweeps.sh\`, on: $machine; OpenGL by software (llvmpipe). Means over ten views: the garden's nine sides and the"
+  echo "atrium. Traced is the share of the pixels that face the light; wrong pixels are in pixels."
+  for size in 512x512 1024x1024 1920x1080; do
+    echo
+    echo "## $size pixels"
+    echo
+    uncertain "$size"
+  done
+  echo
+  echo "## Time, 1024 x 1024 pixels, maps of 1024, camera moving, light static"
+  echo
+  times 1024x1024 1024
+  echo
+  echo "## The selective chain"
+  echo
+  echo "Wrong pixels of the map and of the chain (default settings), and the share of the pixels that face the light that it traces."
+  echo
+  chain
+} > docs/sweeps.md
