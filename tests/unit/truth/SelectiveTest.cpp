@@ -737,7 +737,10 @@ TEST(Chain, hasNoAcneOnRidgesAndInValleys)
   {
     const glm::dmat4 turned = glm::rotate(glm::dmat4(1.0), turn, { 0.0, 0.0, 1.0 });
     const Occluders occluders = makeOccluders({ { sheet, turned } });
-    RandomPicture picture{ occluders, {}, directionalLight({ 0.0, 0.0, -1.0 }), {}, "folds" };
+    RandomPicture picture;
+    picture.occluders = occluders;
+    picture.light = directionalLight({ 0.0, 0.0, -1.0 });
+    picture.description = "folds";
     Camera camera;
     camera.position = { -1.0, -2.0, 8.0 };
     picture.view = makeView(occluders, camera);
@@ -775,7 +778,10 @@ TEST(Chain, hasNoAcneOnSmoothSurfaces)
     lower.triangles = kept;
     const Occluders occluders = makeOccluders({ { makePlane(8.0, 16) },
       { bowl, at({ 0.0, 1.5, 1.0 }) }, { lower, at({ 0.0, -1.5, 1.2 }) } });
-    RandomPicture picture{ occluders, {}, directionalLight(direction), {}, "smooth" };
+    RandomPicture picture;
+    picture.occluders = occluders;
+    picture.light = directionalLight(direction);
+    picture.description = "smooth";
     Camera camera;
     camera.position = { -6.0, -2.0, 7.0 };
     picture.view = makeView(occluders, camera);
