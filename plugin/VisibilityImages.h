@@ -1,7 +1,7 @@
 #ifndef gnomon_plugin_VisibilityImages_h
 #define gnomon_plugin_VisibilityImages_h
 
-#include "shadowtech/base/PixelClass.h"
+#include "PixelClass.h" // flat, as where it is installed
 
 #include <array>
 #include <cstdint>

@@ -19,8 +19,8 @@ struct StageTime
 /// How many pixels are of a class (TechniqueInfo::classes).
 struct ClassCount
 {
-  std::string name;
-  std::int64_t pixels = 0;
+  std::string name;        ///< the class's
+  std::int64_t pixels = 0; ///< how many are of it
 };
 
 /// What became of one light.

@@ -20,6 +20,7 @@ set(expected
   gnomon/GnomonLightsModule.h
   gnomon/GnomonPluginModule.h
   gnomon/GnomonShadowTechModule.h
+  gnomon/PixelClass.h
   gnomon/VisibilityImages.h
   gnomon/vtkGnomonEGLRenderWindow.h
   gnomon/vtkGnomonLightKeys.h

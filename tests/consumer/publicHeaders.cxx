@@ -1,5 +1,6 @@
 // Every public header stands on its own and on what is installed with it.
 #include <FrameReport.h>
+#include <PixelClass.h>
 #include <VisibilityImages.h>
 #include <vtkGnomonEGLRenderWindow.h>
 #include <vtkGnomonLightKeys.h>
