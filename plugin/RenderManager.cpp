@@ -7,6 +7,7 @@
 #include "shadowtech/Registry.h"
 #include "shadowtech/base/Bytes.h"
 #include "shadowtech/base/TextureMemory.h"
+#include "shadowtech/tracing/GpuTracer.h"
 
 #include <vtkCamera.h>
 #include <vtkFrameBufferObjectBase.h>
@@ -615,7 +616,27 @@ bool RenderManager::isWorthBaking(
 }
 
 //------------------------------------------------------------------------------
-void RenderManager::computeVisibility(bool keep)
+/// Brings a tracer up to date, and states in the report which one and why.
+void RenderManager::updateTracer(int wished)
+{
+  const GLubyte* renderer = glGetString(GL_RENDERER);
+  const TracerChoice choice = chooseTracer(
+    wished, GpuTracer::whyUnsupported(), renderer ? reinterpret_cast<const char*>(renderer) : "");
+  const ShadowTracer::Update update = this->tracer_.update(choice, this->collector_.occluders());
+  this->report_.bvhBuilds = update.builds;
+  this->report_.bvhRefits = update.refits;
+  this->report_.tracer = this->tracer_.taken().gpu ? "gpu" : "embree";
+  this->report_.tracerReason = this->tracer_.taken().reason;
+  if (!this->tracer_.gpuFailure().empty())
+  {
+    this->report_.notes.push_back(
+      "Embree traces rays, as tracing on the GPU failed: " + this->tracer_.gpuFailure() + ".");
+  }
+  this->endStageClock("visibility: build");
+}
+
+//------------------------------------------------------------------------------
+void RenderManager::computeVisibility(int wishedTracer, bool keep)
 {
   const Occluders& occluders = this->collector_.occluders();
   const bool onCpu = std::any_of(this->casting_.begin(), this->casting_.end(),
@@ -628,10 +649,7 @@ void RenderManager::computeVisibility(bool keep)
   }
   if (onCpu)
   {
-    const RayTracer::Update update = this->tracer_.update(occluders);
-    this->report_.bvhBuilds = update.builds;
-    this->report_.bvhRefits = update.refits;
-    this->endStageClock("visibility: build");
+    this->updateTracer(wishedTracer);
   }
 
   Receivers receivers(
@@ -663,8 +681,8 @@ void RenderManager::computeVisibility(bool keep)
         this->endStageClock("visibility: draw");
         break;
       case Evaluation::ScreenCpu:
-        slot.technique->computeVisibility(
-          { slot.light, occluders, receivers, this->tracer_, classify ? &classes : nullptr },
+        slot.technique->computeVisibility({ slot.light, occluders, receivers,
+                                            this->tracer_.tracer(), classify ? &classes : nullptr },
           visibility, report);
         this->endStageClock("visibility: trace");
         this->layers_.upload(layer, visibility);
@@ -747,7 +765,8 @@ void RenderManager::endFrame()
   if (this->route_ == Route::Image)
   {
     report.bytesImages = this->receiverTarget_.bytes() + this->layers_.bytes() +
-      bytesOf(this->receiverImages_.fragments) + this->receivers_.bytes();
+      bytesOf(this->receiverImages_.fragments) + this->receivers_.bytes() +
+      this->tracer_.bytesOfRays();
   }
   report.wallMilliseconds = millisecondsSince(this->frameStart_);
 }

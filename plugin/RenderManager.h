@@ -2,13 +2,13 @@
 #define gnomon_plugin_RenderManager_h
 
 #include "lights/LightManager.h"
+#include "plugin/FrameTracer.h"
 #include "plugin/OccluderCollector.h"
 #include "plugin/ShaderManager.h"
 #include "plugin/VisibilityImages.h"
 #include "shadowtech/Registry.h"
 #include "shadowtech/base/FrameReport.h"
 #include "shadowtech/base/OccluderBuffers.h"
-#include "shadowtech/base/RayTracer.h"
 #include "shadowtech/base/ReceiverTarget.h"
 #include "shadowtech/base/Receivers.h"
 #include "shadowtech/base/ShaderLibrary.h"
@@ -70,7 +70,9 @@ public:
   void bakeMaps(vtkRenderer* renderer);
 
   /// visibility (image route): fills one layer per light, and keeps a copy if asked to.
-  void computeVisibility(bool keep);
+  /// @param wishedTracer a vtkGnomonShadowPass::TracerType; nobody asks for it where nothing is traced
+  /// @throws std::runtime_error for a tracer that there is not, or has no room
+  void computeVisibility(int wishedTracer, bool keep);
 
   /// shading: between the two calls VTK draws its props with the hook in place.
   void beginShading(const vtkRenderState* s);
@@ -130,6 +132,7 @@ private:
   void bakeMaps(LightSlot& slot, const CameraView& camera, Technique& technique, Bake& bake);
   bool isWorthBaking(const LightSlot& slot, const Technique& technique, const Bake& wanted) const;
   LightReport& reportOf(const ShadowLight& light);
+  void updateTracer(int wished);
   void keepVisibility(const ReceiverPixels& receivers);
   bool readsPoints() const;
   CameraView camera(vtkRenderer* renderer) const;
@@ -147,7 +150,6 @@ private:
 
   OccluderCollector collector_;
   OccluderBuffers buffers_;
-  RayTracer tracer_;
   Route route_ = Route::Inline;
   CameraView camera_; ///< that the receivers were drawn by
   ReceiverTarget receiverTarget_;
@@ -156,6 +158,7 @@ private:
   ReceiverPixels receivers_; ///< where somebody asked for all of them
   VisibilityLayers layers_;
   ShaderLibrary library_;
+  FrameTracer tracer_{ buffers_, library_ };
   ShaderManager shaders_;
   ShaderManager::StageValues stageValues_;
   VisibilityImages visibility_;

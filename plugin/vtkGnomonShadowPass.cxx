@@ -94,6 +94,7 @@ private:
 //------------------------------------------------------------------------------
 vtkGnomonShadowPass::vtkGnomonShadowPass()
   : Route(ROUTE_AUTO)
+  , Tracer(TRACER_AUTO)
   , MeasureStages(false)
   , KeepVisibility(false)
   , DelegatePass(nullptr)
@@ -171,7 +172,7 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
       // visibility
       if (manager.route() == gnomon::Route::Image)
       {
-        manager.computeVisibility(this->KeepVisibility);
+        manager.computeVisibility(this->Tracer, this->KeepVisibility);
       }
 
       // shading
@@ -457,12 +458,14 @@ void vtkGnomonShadowPass::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   const char* const routes[] = { "auto", "inline", "image" };
+  const char* const tracers[] = { "auto", "embree", "gpu" };
   for (const gnomon::Setting& setting : gnomon::shadowSettings())
   {
     os << indent << "Setting " << setting.name << ": " << setting.get(this->Internal->settings)
        << "\n";
   }
   os << indent << "Route: " << routes[this->Route] << "\n";
+  os << indent << "Tracer: " << tracers[this->Tracer] << "\n";
   os << indent << "MeasureStages: " << (this->MeasureStages ? "on" : "off") << "\n";
   os << indent << "KeepVisibility: " << (this->KeepVisibility ? "on" : "off") << "\n";
   os << indent

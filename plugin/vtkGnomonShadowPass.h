@@ -115,6 +115,30 @@ public:
   vtkGetMacro(Route, int);
   ///@}
 
+  /**
+   * Who traces shadow rays for techniques that do. EMBREE: the CPU. GPU: compute shaders. AUTO: the GPU
+   * where OpenGL draws by hardware and has what it takes, else Embree.
+   */
+  enum TracerType
+  {
+    TRACER_AUTO = 0,
+    TRACER_EMBREE = 1,
+    TRACER_GPU = 2
+  };
+
+  ///@{
+  /**
+   * The tracer to take, for all lights alike: exact techniques show the same to the last bit with one and
+   * the same tracer; of different ones, rays that pass an edge to within a rounding may differ, less than
+   * one in a million. Only the tracer that is taken has an acceleration structure.
+   *
+   * Asking for GPU where OpenGL cannot, or has no room for the scene, is an error, and the scene is drawn
+   * without shadows. With AUTO Embree takes over there, and the report says why. Default TRACER_AUTO.
+   */
+  vtkSetClampMacro(Tracer, int, TRACER_AUTO, TRACER_GPU);
+  vtkGetMacro(Tracer, int);
+  ///@}
+
   ///@{
   /**
    * Measure the stages of a frame: each then ends with glFinish, so that its time is its own; that
@@ -168,7 +192,7 @@ public:
   ///@}
 
   /**
-   * What the last frame did: lights and reasons, route, counters, times, memory (FrameReport.h).
+   * What the last frame did: lights and reasons, route, tracer, counters, times, memory (FrameReport.h).
    */
   const gnomon::FrameReport& GetReport() const;
 
@@ -198,6 +222,7 @@ protected:
   ~vtkGnomonShadowPass() override;
 
   int Route;
+  int Tracer;
   bool MeasureStages;
   bool KeepVisibility;
   vtkRenderPass* DelegatePass;

@@ -145,6 +145,7 @@ void addCompareCommand(CLI::App& app)
       "all")
     ->check(CLI::IsMember({ "all", "inline", "image" }))
     ->capture_default_str();
+  addTracerOption(*command, options->plan.tracer);
   command->add_flag("--progress", options->progress,
     "Show a progress bar even when the error output is not a terminal");
   command->callback([options] { compare(*options); });

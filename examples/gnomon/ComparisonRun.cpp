@@ -83,6 +83,7 @@ std::vector<VariantSpec> listVariants(
       leftOut.push_back(text + " is left out: " + error.what() + ".");
       continue;
     }
+    spec.tracer = plan.tracer;
     spec.pointwise = info.isPointwise();
     for (int size : info.needsMap ? plan.mapSizesTexels : std::vector<int>{ 0 })
     {
@@ -417,8 +418,9 @@ void describeScene(ComparisonResults& results, const Scene& scene, const FrameRe
   }
 }
 
+/// @param truth what the ray-traced frame says
 std::vector<std::pair<std::string, std::string>> listSettings(
-  const ComparisonPlan& plan, vtkRenderWindow* window)
+  const ComparisonPlan& plan, const FrameReport& truth, vtkRenderWindow* window)
 {
   return {
     { "Window",
@@ -428,6 +430,7 @@ std::vector<std::pair<std::string, std::string>> listSettings(
       std::to_string(plan.frames) + " per variant and motion, after " +
         std::to_string(warmUpFrames) + " for warming up" },
     { "Frames measured by stage", std::to_string(measuredFrames(plan)) + " per motion" },
+    { "Tracer of shadow rays", truth.tracer + " (" + truth.tracerReason + ")" },
     { "Motion", "camera and lights turn by 0.05 degrees per frame" },
     { "Gnomon", GNOMON_VERSION },
     { "VTK", vtkVersion::GetVTKVersion() },
@@ -480,7 +483,7 @@ ComparisonResults runComparison(
   results.height = plan.height;
   results.frames = plan.frames;
   results.truth = truthVariant->result.name;
-  results.settings = listSettings(plan, truthVariant->window());
+  results.settings = listSettings(plan, truthVariant->pass()->GetReport(), truthVariant->window());
   for (const std::unique_ptr<Variant>& variant : variants)
   {
     results.variants.push_back(std::move(variant->result));

@@ -22,6 +22,7 @@ struct ComparisonPlan
   std::vector<int> mapSizesTexels; ///< for every variant that has a map
   bool inlineRoute = true;         ///< for pointwise techniques
   bool imageRoute = true;          ///< for pointwise techniques
+  int tracer = 0;                  ///< a vtkGnomonShadowPass::TracerType, for all that trace
   int width = 1024;
   int height = 1024;
   int frames = 21; ///< timed frames per variant and motion

@@ -44,6 +44,7 @@ vtkSmartPointer<vtkRenderPass> makeGnomonPass(const VariantSpec& spec)
   auto pass = vtkSmartPointer<vtkGnomonShadowPass>::New();
   pass->SetTechnique(spec.technique.c_str());
   pass->SetRoute(spec.route);
+  pass->SetTracer(spec.tracer);
   if (spec.mapSizeTexels > 0)
   {
     pass->SetMapSize(spec.mapSizeTexels);

@@ -39,6 +39,7 @@ struct RenderOptions
   std::string size = "1024x1024";
   std::map<std::string, std::string> settings; ///< of all lights, by name; empty: not given
   std::string route = "auto";
+  int tracer = vtkGnomonShadowPass::TRACER_AUTO;
   std::vector<std::string> lights;
   std::string camera;
   std::string visibility;
@@ -149,6 +150,8 @@ nlohmann::ordered_json toJson(const FrameReport& report)
   nlohmann::ordered_json json;
   json["route"] = report.route;
   json["route_reason"] = report.routeReason;
+  json["tracer"] = report.tracer;
+  json["tracer_reason"] = report.tracerReason;
   json["lights"] = nlohmann::ordered_json::array();
   for (const LightReport& light : report.lights)
   {
@@ -219,6 +222,7 @@ std::map<std::string, std::string> makeHeader(
   std::map<std::string, std::string> header;
   header["scene"] = options.scene;
   header["route"] = report.route;
+  header["tracer"] = report.tracer.empty() ? "none" : report.tracer;
   header["wall_milliseconds"] = std::to_string(report.wallMilliseconds);
   for (const StageTime& stage : report.stages)
   {
@@ -262,6 +266,7 @@ void render(const RenderOptions& options)
   shadows->SetRoute(options.route == "inline" ? vtkGnomonShadowPass::ROUTE_INLINE
       : options.route == "image"              ? vtkGnomonShadowPass::ROUTE_IMAGE
                                               : vtkGnomonShadowPass::ROUTE_AUTO);
+  shadows->SetTracer(options.tracer);
   shadows->SetMeasureStages(!options.stats.empty() || !options.visibility.empty());
   shadows->SetKeepVisibility(!options.visibility.empty() || !options.classes.empty());
   shadows->SetSetting(
@@ -362,6 +367,7 @@ void addRenderCommand(CLI::App& app)
       "--route", options->route, "How visibility reaches the shader: inline, image, auto")
     ->check(CLI::IsMember({ "inline", "image", "auto" }))
     ->capture_default_str();
+  addTracerOption(*command, options->tracer);
   command
     ->add_option("--light", options->lights,
       "A light in place of the scene's own; may be given several times, for example "

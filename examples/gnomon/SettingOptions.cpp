@@ -1,6 +1,7 @@
 #include "SettingOptions.h"
 
 #include "lights/ShadowSettings.h"
+#include "plugin/vtkGnomonShadowPass.h"
 #include "shadowtech/Registry.h"
 
 #include <algorithm>
@@ -34,6 +35,28 @@ void addSettingOptions(CLI::App& command, std::map<std::string, std::string>& va
       ->check([&setting](const std::string& text) { return refuse(setting, text); })
       ->option_text(" ");
   }
+}
+
+//------------------------------------------------------------------------------
+void addTracerOption(CLI::App& command, int& tracer)
+{
+  const std::vector<std::pair<std::string, int>> tracers = { { "embree",
+                                                               vtkGnomonShadowPass::TRACER_EMBREE },
+    { "gpu", vtkGnomonShadowPass::TRACER_GPU }, { "auto", vtkGnomonShadowPass::TRACER_AUTO } };
+  command
+    .add_option_function<std::string>(
+      "--tracer",
+      [&tracer, tracers](const std::string& name)
+      {
+        tracer = std::find_if(tracers.begin(), tracers.end(),
+          [&](const auto& entry) {
+            return entry.first == name;
+          })->second;
+      },
+      "Who traces shadow rays: embree (the CPU), gpu (compute shaders), auto (the GPU where OpenGL "
+      "draws by hardware)")
+    ->check(CLI::IsMember({ "embree", "gpu", "auto" }))
+    ->default_str("auto");
 }
 
 } // namespace gnomon::tool

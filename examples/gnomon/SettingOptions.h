@@ -17,6 +17,10 @@ namespace gnomon::tool
 void addSettingOptions(CLI::App& command, std::map<std::string, std::string>& values,
   const std::vector<std::string>& without = {});
 
+/// Gives a command the option "--tracer".
+/// @param tracer a vtkGnomonShadowPass::TracerType. Must outlive the command
+void addTracerOption(CLI::App& command, int& tracer);
+
 } // namespace gnomon::tool
 
 #endif

@@ -58,8 +58,10 @@ struct LightReport
 /// What one frame did, for people and for tests. Counters count this frame only.
 struct FrameReport
 {
-  std::string route;       ///< "inline", "image" or "none" (no light casts: plain VTK)
-  std::string routeReason; ///< why this route, as a clause
+  std::string route;        ///< "inline", "image" or "none" (no light casts: plain VTK)
+  std::string routeReason;  ///< why this route, as a clause
+  std::string tracer;       ///< "embree" or "gpu"; empty where no light's technique traces rays
+  std::string tracerReason; ///< why this one, as a clause
   /// Whether the frame was drawn without shadows because a map or an image is too large for the
   /// texture memory.
   bool outOfTextureMemory = false;
@@ -85,11 +87,11 @@ struct FrameReport
 
   /// The snapshot on the CPU and the GPU, with all that is remembered of its surfaces: no more than
   /// 120 bytes a triangle and 1,500 a surface; of glyphs that are kept as instances 120 a triangle of
-  /// one, and 200 an instance. Embree's own memory is apart.
+  /// one, and 200 an instance. The ray tracer's own memory is apart.
   std::size_t bytesOccluders = 0;
-  std::size_t bytesBvh = 0;    ///< as Embree reports it
+  std::size_t bytesBvh = 0;    ///< as Embree reports it, or the GPU's with the copy on the CPU
   std::size_t bytesMaps = 0;   ///< what the techniques baked
-  std::size_t bytesImages = 0; ///< receivers and visibility, on the CPU and the GPU
+  std::size_t bytesImages = 0; ///< receivers, their rays and visibility, on the CPU and the GPU
 };
 
 } // namespace gnomon

@@ -23,10 +23,10 @@ namespace gnomon
 struct DrawnSurface;
 struct Occluders;
 class OccluderBuffers;
-class RayTracer;
 class Receivers;
 class ReceiverTarget;
 class ShaderLibrary;
+class ShadowTracer;
 class VisibilityLayers;
 
 /// How an estimator's visibility comes about, and so which of Technique's functions gives it.
@@ -121,7 +121,7 @@ struct ScreenInput
   const ShadowLight& light;
   const Occluders& occluders;
   Receivers& receivers;
-  RayTracer& tracer; ///< its structure is up to date with the occluders
+  ShadowTracer& tracer; ///< its structure is up to date with the occluders
   /// Where not null: to be filled with each pixel's class, an index into TechniqueInfo::classes.
   std::vector<std::uint8_t>* classes;
 };

@@ -107,6 +107,20 @@ bool allocate(GlTexture& texture, const Shape& shape)
   return true;
 }
 
+/// @param given whether OpenGL has given the buffer its memory
+/// @throws TextureMemoryError where it has not; the buffer is then without
+void requireStorage(GlBuffer& buffer, bool given, std::size_t bytes, const char* what)
+{
+  if (!given)
+  {
+    clearErrors();
+    buffer.reset();
+    throw TextureMemoryError(std::string(what) + " ask for " +
+      std::to_string(static_cast<long>(static_cast<double>(bytes) / 1e6)) +
+      " MB of memory, which OpenGL does not have");
+  }
+}
+
 std::string describe(const std::string& what, int width, int height, int layers, double bytes,
   const std::string& memory)
 {
@@ -250,13 +264,23 @@ void allocateStorage(GlBuffer& buffer, std::size_t bytes, const void* data, cons
   clearErrors();
   glBindBuffer(GL_SHADER_STORAGE_BUFFER, buffer.create());
   glBufferData(GL_SHADER_STORAGE_BUFFER, static_cast<GLsizeiptr>(bytes), data, GL_STATIC_DRAW);
-  if (glGetError() != GL_NO_ERROR)
-  {
-    buffer.reset();
-    throw TextureMemoryError(std::string(what) + " ask for " +
-      std::to_string(static_cast<long>(static_cast<double>(bytes) / 1e6)) +
-      " MB of memory, which OpenGL does not have");
-  }
+  requireStorage(buffer, glGetError() == GL_NO_ERROR, bytes, what);
+}
+
+//------------------------------------------------------------------------------
+void* allocateMappedStorage(
+  GlBuffer& buffer, std::size_t bytes, GLbitfield access, const char* what)
+{
+  buffer.reset(); // what it had makes room
+  requireRoomForStorage(bytes, what);
+  clearErrors();
+  const GLbitfield flags = access | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
+  const auto size = static_cast<GLsizeiptr>(bytes);
+  glBindBuffer(GL_SHADER_STORAGE_BUFFER, buffer.create());
+  glBufferStorage(GL_SHADER_STORAGE_BUFFER, size, nullptr, flags);
+  void* mapped = glMapBufferRange(GL_SHADER_STORAGE_BUFFER, 0, size, flags);
+  requireStorage(buffer, mapped != nullptr, bytes, what);
+  return mapped;
 }
 
 } // namespace gnomon

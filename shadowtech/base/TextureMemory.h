@@ -66,6 +66,13 @@ void requireRoomForStorage(std::size_t bytes, const char* what);
 /// @throws TextureMemoryError; the buffer is then without memory
 void allocateStorage(GlBuffer& buffer, std::size_t bytes, const void* data, const char* what);
 
+/// The same for a buffer that the CPU, too, sees all the time (OpenGL 4.4), until it goes.
+/// @param access GL_MAP_READ_BIT, GL_MAP_WRITE_BIT
+/// @return where it sees it
+/// @throws TextureMemoryError; the buffer is then without memory
+void* allocateMappedStorage(
+  GlBuffer& buffer, std::size_t bytes, GLbitfield access, const char* what);
+
 } // namespace gnomon
 
 #endif

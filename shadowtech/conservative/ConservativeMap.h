@@ -2,8 +2,8 @@
 #define gnomon_shadowtech_conservative_ConservativeMap_h
 
 #include "lights/LightView.h"
+#include "shadowtech/base/Certainty.h"
 #include "shadowtech/base/Occluders.h"
-#include "shadowtech/base/RayTracer.h"
 #include "shadowtech/conservative/CasterShapes.h"
 
 #include <glm/glm.hpp>

@@ -1,6 +1,6 @@
 #include "shadowtech/conservative/ConservativeTechnique.h"
 
-#include "shadowtech/base/RayTracer.h"
+#include "shadowtech/tracing/ShadowTracer.h"
 
 namespace gnomon
 {

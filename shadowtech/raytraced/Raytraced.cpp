@@ -1,6 +1,6 @@
 #include "shadowtech/raytraced/Raytraced.h"
 
-#include "shadowtech/base/RayTracer.h"
+#include "shadowtech/tracing/ShadowTracer.h"
 
 namespace gnomon
 {

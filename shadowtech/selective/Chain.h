@@ -4,11 +4,11 @@
 #include "lights/ShadowSettings.h"
 #include "shadowtech/base/Certainty.h"
 #include "shadowtech/base/PixelClass.h"
-#include "shadowtech/base/RayTracer.h"
 #include "shadowtech/base/ShadowRay.h"
 #include "shadowtech/base/Technique.h"
 #include "shadowtech/selective/TriangleFans.h"
 #include "shadowtech/selective/TriangleMaps.h"
+#include "shadowtech/tracing/ShadowTracer.h"
 
 #include <cstddef>
 #include <cstdint>

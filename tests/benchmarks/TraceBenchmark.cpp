@@ -4,10 +4,10 @@
 
 #include "SyntheticScene.h"
 
-#include "shadowtech/base/GpuTracer.h"
-#include "shadowtech/base/RayTracer.h"
 #include "shadowtech/base/ShadowRay.h"
 #include "shadowtech/conservative/ConservativeMaps.h"
+#include "shadowtech/tracing/EmbreeTracer.h"
+#include "shadowtech/tracing/GpuShadowTracer.h"
 
 #include "vtkGnomonEGLRenderWindow.h"
 
@@ -22,8 +22,10 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <functional>
 #include <limits>
 #include <memory>
+#include <numeric>
 #include <type_traits>
 
 namespace gnomon::test
@@ -175,7 +177,7 @@ double median(std::vector<double> values)
 void traceStageAgainstBareLoop(benchmark::State& state)
 {
   const Subject& scene = subject();
-  RayTracer tracer;
+  EmbreeTracer tracer;
   tracer.update(scene.occluders);
   BareLoop<RTCRay16> bare16(scene);
   BareLoop<RTCRay8> bare8(scene);
@@ -232,7 +234,7 @@ BENCHMARK(visitTilesOfAFrame)->UseRealTime()->Unit(benchmark::kMillisecond);
 void hybridAgainstTracing(benchmark::State& state)
 {
   const Subject& scene = subject();
-  RayTracer tracer;
+  EmbreeTracer tracer;
   tracer.update(scene.occluders);
   ConservativeMaps maps;
   ShadowLight light = scene.light;
@@ -265,7 +267,7 @@ void buildStructure(benchmark::State& state)
 {
   for (auto _ : state)
   {
-    RayTracer tracer;
+    EmbreeTracer tracer;
     tracer.update(subject().occluders);
   }
 }
@@ -274,7 +276,7 @@ BENCHMARK(buildStructure)->UseRealTime()->Unit(benchmark::kMillisecond);
 void refitMovedSurface(benchmark::State& state)
 {
   Occluders occluders = subject().occluders;
-  RayTracer tracer;
+  EmbreeTracer tracer;
   tracer.update(occluders);
   for (auto _ : state)
   {
@@ -301,7 +303,7 @@ struct Gpu
   std::string renderer;
   ShaderLibrary shaders;
   OccluderBuffers buffers;
-  GpuTracer tracer;
+  GpuShadowTracer tracer{ this->buffers, this->shaders };
 };
 
 /// Which GPU it is, or that it is none.
@@ -310,52 +312,34 @@ std::string describe(const Gpu& gpu)
   return gpu.renderer + (isSoftwareRenderer(gpu.renderer) ? " (software)" : "");
 }
 
-/// The GPU's tracer, rays and answers on their way included, and the stage by Embree on the same pixels
-/// take turns.
+/// From receivers to visibility by the GPU's tracer, rays and answers on their way included, and by Embree: they take
+/// turns.
 void traceOnGpuAgainstEmbree(benchmark::State& state)
 {
   const Subject& scene = subject();
-  std::vector<TracedRay> rays;
-  const ShadowRayLight light(scene.light, scene.occluders.centreWorld);
-  const ReceiverPixels& receivers = scene.receivers;
-  for (std::size_t i = 0; i < receivers.size(); ++i)
-  {
-    const ShadowRay ray = shadowRayDirectional(light,
-      { receivers.positionX[i], receivers.positionY[i], receivers.positionZ[i] },
-      { receivers.normalX[i], receivers.normalY[i], receivers.normalZ[i] }, receivers.offset[i]);
-    if (receivers.surface[i] != ReceiverPixels::notCovered && ray.traced)
-    {
-      rays.push_back(
-        { ray.origin, shadowRayFarDirectional, ray.direction, static_cast<std::uint32_t>(i) });
-    }
-  }
-  RayTracer embree;
+  EmbreeTracer embree;
   embree.update(scene.occluders);
   Gpu gpu;
-  gpu.buffers.update(scene.occluders);
-  gpu.tracer.update(scene.occluders, gpu.buffers);
-  std::vector<std::uint8_t> blocked;
-  gpu.tracer.trace(rays, gpu.shaders, blocked); // compiles
+  gpu.tracer.update(scene.occluders);
   std::vector<float> visibility;
+  std::vector<float> truth;
+  const auto trace = [&](ShadowTracer& tracer, std::vector<float>& result)
+  { return tracer.trace(scene.light, scene.occluders, scene.receivers, result); };
+  const std::size_t rays = trace(gpu.tracer, visibility); // compiles
   std::vector<double> onGpu;
   std::vector<double> byEmbree;
   for (auto _ : state)
   {
-    byEmbree.push_back(milliseconds(
-      [&] { embree.trace(scene.light, scene.occluders, scene.receivers, visibility); }));
-    onGpu.push_back(milliseconds([&] { gpu.tracer.trace(rays, gpu.shaders, blocked); }));
+    byEmbree.push_back(milliseconds([&] { trace(embree, truth); }));
+    onGpu.push_back(milliseconds([&] { trace(gpu.tracer, visibility); }));
     state.SetIterationTime(onGpu.back() * 1e-3);
-  }
-  std::size_t different = 0;
-  for (std::size_t i = 0; i < rays.size(); ++i)
-  {
-    different += (blocked[i] != 0) != (visibility[rays[i].pixel] == 0.0f) ? 1 : 0;
   }
   state.counters["gpu_ms"] = median(onGpu);
   state.counters["embree_ms"] = median(byEmbree);
   state.counters["gpu/embree"] = median(onGpu) / median(byEmbree);
-  state.counters["rays"] = static_cast<double>(rays.size());
-  state.counters["different"] = static_cast<double>(different);
+  state.counters["rays"] = static_cast<double>(rays);
+  state.counters["different"] = static_cast<double>(std::inner_product(truth.begin(), truth.end(),
+    visibility.begin(), 0, std::plus<>(), [](float a, float b) { return a != b ? 1 : 0; }));
   state.SetLabel(describe(gpu));
 }
 BENCHMARK(traceOnGpuAgainstEmbree)->UseManualTime()->Unit(benchmark::kMillisecond)->Iterations(21);
@@ -366,8 +350,8 @@ void buildStructureOfGpu(benchmark::State& state)
   gpu.buffers.update(subject().occluders);
   for (auto _ : state)
   {
-    GpuTracer tracer;
-    tracer.update(subject().occluders, gpu.buffers);
+    GpuShadowTracer tracer(gpu.buffers, gpu.shaders);
+    tracer.update(subject().occluders);
     glFinish();
   }
   state.SetLabel(describe(gpu));
@@ -378,8 +362,7 @@ void refitMovedSurfaceOnGpu(benchmark::State& state)
 {
   Occluders occluders = subject().occluders;
   Gpu gpu;
-  gpu.buffers.update(occluders);
-  gpu.tracer.update(occluders, gpu.buffers);
+  gpu.tracer.update(occluders);
   for (auto _ : state)
   {
     state.PauseTiming();
@@ -387,7 +370,7 @@ void refitMovedSurfaceOnGpu(benchmark::State& state)
     gpu.buffers.update(occluders);
     glFinish();
     state.ResumeTiming();
-    gpu.tracer.update(occluders, gpu.buffers);
+    gpu.tracer.update(occluders);
     glFinish();
   }
   state.SetLabel(describe(gpu));

@@ -5,8 +5,10 @@
 #include "PictureVisibility.h"
 #include "TestFiles.h"
 
+#include "plugin/vtkGnomonShadowPass.h"
+
 #include <CLI/CLI.hpp>
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <algorithm>
 
@@ -98,6 +100,21 @@ TEST(ComparisonRun, ThePlanSaysTheKernelAndNotTheScene)
     return variant(runComparison(scene, plan, {}), name).error.meanAbsolute;
   };
   EXPECT_LT(1.5 * errorOf(1), errorOf(9));
+}
+
+TEST(ComparisonRun, ThePlanSaysTheTracer)
+{
+  ComparisonPlan plan;
+  plan.techniques = { "silhouette" };
+  plan.mapSizesTexels = { 64 };
+  plan.width = 140;
+  plan.height = 140;
+  plan.frames = 1;
+  plan.tracer = vtkGnomonShadowPass::TRACER_GPU;
+  const ComparisonResults results = runComparison(loadScene("cube"), plan, {});
+  EXPECT_THAT(
+    results.settings, testing::Contains(testing::Pair("Tracer of shadow rays", "gpu (asked for)")));
+  EXPECT_EQ(variant(results, "silhouette 64").error.meanAbsolute, 0.0);
 }
 
 TEST(ComparisonRun, VisibilityReadOffPicturesAgreesWithTheImage)
@@ -214,6 +231,7 @@ TEST(CompareCommand, RefusesBadInputBeforeDrawing)
   EXPECT_THROW(compare({ "cube", "-o", report, "--map-sizes", "7" }), CLI::ParseError);
   EXPECT_THROW(compare({ "cube", "-o", report, "--frames", "0" }), CLI::ParseError);
   EXPECT_THROW(compare({ "cube", "-o", report, "--route", "scenic" }), CLI::ParseError);
+  EXPECT_THROW(compare({ "cube", "-o", report, "--tracer", "optix" }), CLI::ParseError);
   EXPECT_THROW(compare({ "cube" }), CLI::ParseError);
 }
 

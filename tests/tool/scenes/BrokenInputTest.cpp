@@ -328,6 +328,8 @@ std::vector<BrokenInput> brokenInputs()
     option(
       "technique", "--technique", { "render", "cube", "-o", "out.png", "--technique", "magic" }),
     option("route", "--route", { "render", "cube", "-o", "out.png", "--route", "sideways" }),
+    option("tracer", "--tracer", { "render", "cube", "-o", "out.png", "--tracer", "optix" }),
+    option("compared_tracer", "--tracer", { "compare", "cube", "-o", "out", "--tracer", "optix" }),
     option("route_of_the_technique", "--route",
       { "render", "cube", "-o", "out.png", "--technique", "raytraced", "--route", "inline" }),
     option("light_type", "--light", { "render", "cube", "-o", "out.png", "--light", "laser:a=1" }),
@@ -408,6 +410,28 @@ TEST(Program, RendersASceneFileAndWritesStatistics)
   const nlohmann::json stats = nlohmann::json::parse(readBytes(folder / "stats.json"));
   EXPECT_TRUE(stats.contains("stages"));
   EXPECT_TRUE(stats.contains("lights"));
+}
+
+//------------------------------------------------------------------------------
+TEST(Program, TellsWhoTraced)
+{
+  TestFolder folder;
+  const auto tracerOf = [&](const std::string& technique, const std::vector<std::string>& options)
+  {
+    std::vector<std::string> arguments = { "render", "cube", "-o", "out.png", "--size", "64x48",
+      "--technique", technique, "--stats", "stats.json" };
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const Outcome outcome = run(folder, arguments);
+    EXPECT_TRUE(outcome.exited && outcome.code == 0) << outcome.errors;
+    const nlohmann::json stats = nlohmann::json::parse(readBytes(folder / "stats.json"));
+    EXPECT_EQ(stats.at("tracer_reason").get<std::string>().empty(),
+      stats.at("tracer").get<std::string>().empty());
+    return stats.at("tracer").get<std::string>();
+  };
+  EXPECT_EQ(tracerOf("raytraced", { "--tracer", "embree" }), "embree");
+  EXPECT_EQ(tracerOf("raytraced", { "--tracer", "gpu" }), "gpu");
+  EXPECT_NE(tracerOf("raytraced", {}), "");
+  EXPECT_EQ(tracerOf("nsm", { "--tracer", "gpu" }), "");
 }
 
 //------------------------------------------------------------------------------

@@ -44,6 +44,7 @@ State readState()
   ADD(GL_PIXEL_PACK_BUFFER_BINDING, 1);
   ADD(GL_PIXEL_UNPACK_BUFFER_BINDING, 1);
   ADD(GL_UNIFORM_BUFFER_BINDING, 1);
+  ADD(GL_SHADER_STORAGE_BUFFER_BINDING, 1);
   ADD(GL_DRAW_FRAMEBUFFER_BINDING, 1);
   ADD(GL_READ_FRAMEBUFFER_BINDING, 1);
   ADD(GL_RENDERBUFFER_BINDING, 1);
@@ -108,6 +109,13 @@ State readState()
   GLint image = 0;
   glGetIntegeri_v(GL_IMAGE_BINDING_NAME, 0, &image);
   state["GL_IMAGE_BINDING_NAME of unit 0"] = { static_cast<double>(image) };
+  for (GLuint binding = 0; binding < 8; ++binding)
+  {
+    GLint buffer = 0;
+    glGetIntegeri_v(GL_SHADER_STORAGE_BUFFER_BINDING, binding, &buffer);
+    state["GL_SHADER_STORAGE_BUFFER_BINDING " + std::to_string(binding)] = { static_cast<double>(
+      buffer) };
+  }
   GLint active = 0;
   glGetIntegerv(GL_ACTIVE_TEXTURE, &active);
   GLint units = 0;
@@ -192,6 +200,7 @@ protected:
 
 INSTANTIATE_TEST_SUITE_P(Ways, GlStateOfWay, allWays, nameOf);
 INSTANTIATE_TEST_SUITE_P(OnPlanes, GlStateOfWay, testing::Values(planarWay), nameOf);
+INSTANTIATE_TEST_SUITE_P(ByTheGpu, GlStateOfWay, testing::Values(gpuTracedWay), nameOf);
 
 class GlState : public PassTest
 {
@@ -408,8 +417,7 @@ TEST_P(GlStateOfWay, passMayDieBeforeItsWindow)
   const LiveObjects plain = countLiveObjects(scene.window);
   {
     vtkNew<vtkGnomonShadowPass> pass;
-    pass->SetTechnique(GetParam().technique);
-    pass->SetRoute(GetParam().route);
+    gnomon::test::choose(pass, GetParam());
     scene.renderer->SetPass(pass);
     scene.render();
     scene.usePlain();
@@ -435,8 +443,7 @@ TEST_P(GlStateOfWay, passMayDieWhileAnotherWindowIsDrawn)
   a.lookFrom({ 0.0, -9.0, 7.0 });
   {
     vtkNew<vtkGnomonShadowPass> pass;
-    pass->SetTechnique(GetParam().technique);
-    pass->SetRoute(GetParam().route);
+    gnomon::test::choose(pass, GetParam());
     a.renderer->SetPass(pass);
     a.render();
     a.usePlain();
@@ -451,8 +458,7 @@ TEST_P(GlStateOfWay, passMayDieWhileAnotherWindowIsDrawn)
 TEST_P(GlStateOfWay, passMayOutliveItsWindow)
 {
   vtkNew<vtkGnomonShadowPass> pass;
-  pass->SetTechnique(GetParam().technique);
-  pass->SetRoute(GetParam().route);
+  gnomon::test::choose(pass, GetParam());
   Picture first;
   {
     PassScene scene(120, 90);

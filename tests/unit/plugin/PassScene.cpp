@@ -61,13 +61,22 @@ std::size_t differingPixels(const Picture& a, const Picture& b, int tolerance)
 std::string nameOf(const testing::TestParamInfo<Way>& way)
 {
   return std::string(way.param.technique) +
-    (way.param.route == vtkGnomonShadowPass::ROUTE_INLINE ? "Inline" : "Image");
+    (way.param.route == vtkGnomonShadowPass::ROUTE_INLINE ? "Inline" : "Image") +
+    (way.param.tracer == vtkGnomonShadowPass::TRACER_GPU ? "Gpu" : "");
 }
 
 //------------------------------------------------------------------------------
 std::ostream& operator<<(std::ostream& stream, const Way& way)
 {
-  return stream << way.technique << ", route " << way.route;
+  return stream << way.technique << ", route " << way.route << ", tracer " << way.tracer;
+}
+
+//------------------------------------------------------------------------------
+void choose(vtkGnomonShadowPass* pass, const Way& way)
+{
+  pass->SetTechnique(way.technique);
+  pass->SetRoute(way.route);
+  pass->SetTracer(way.tracer);
 }
 
 //------------------------------------------------------------------------------
@@ -201,13 +210,6 @@ Picture PassScene::render()
   this->window->Render();
   EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
   return readPicture(this->window);
-}
-
-//------------------------------------------------------------------------------
-void PassScene::choose(const Way& way)
-{
-  this->pass->SetTechnique(way.technique);
-  this->pass->SetRoute(way.route);
 }
 
 //------------------------------------------------------------------------------

@@ -58,6 +58,7 @@ struct Way
 {
   const char* technique;
   int route;
+  int tracer = vtkGnomonShadowPass::TRACER_AUTO;
 };
 std::string nameOf(const testing::TestParamInfo<Way>& way);
 inline const auto allWays = testing::Values(Way{ "nsm", vtkGnomonShadowPass::ROUTE_INLINE },
@@ -66,7 +67,11 @@ inline const auto allWays = testing::Values(Way{ "nsm", vtkGnomonShadowPass::ROU
   Way{ "raytraced", vtkGnomonShadowPass::ROUTE_IMAGE });
 /// Of scenes whose receivers are planes.
 inline const Way planarWay{ "planar", vtkGnomonShadowPass::ROUTE_IMAGE };
+/// Which is not what AUTO takes where OpenGL draws by software.
+inline const Way gpuTracedWay{ "raytraced", vtkGnomonShadowPass::ROUTE_IMAGE,
+  vtkGnomonShadowPass::TRACER_GPU };
 std::ostream& operator<<(std::ostream& stream, const Way& way);
+void choose(vtkGnomonShadowPass* pass, const Way& way);
 
 /// A renderer in a window of its own, with the pass in place. Surfaces are white and matt, without
 /// ambient light, so that a pixel's value is the light's cosine times its visibility.
@@ -103,7 +108,7 @@ public:
   void usePlain() { this->renderer->SetPass(nullptr); }
   ///@}
 
-  void choose(const Way& way);
+  void choose(const Way& way) { test::choose(this->pass, way); }
 
   const FrameReport& report() const { return this->pass->GetReport(); }
 

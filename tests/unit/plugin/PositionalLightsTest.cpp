@@ -9,7 +9,7 @@
 #include "plugin/OccluderCollector.h"
 #include "plugin/VisibilityImages.h"
 #include "plugin/vtkGnomonPropKeys.h"
-#include "shadowtech/base/RayTracer.h"
+#include "shadowtech/tracing/EmbreeTracer.h"
 
 #include <vtkLightCollection.h>
 #include <vtkTransform.h>
@@ -97,7 +97,7 @@ private:
   }
 
   gnomon::OccluderCollector collector_;
-  gnomon::RayTracer tracer_;
+  gnomon::EmbreeTracer tracer_;
   gnomon::ShadowLight light_;
 };
 

@@ -69,8 +69,7 @@ protected:
     this->sphere = this->scene.add(this->sphereData);
     this->sun = this->scene.addSun({ 1.0, 0.3, -1.5 });
     this->scene.lookFrom({ 0.0, -9.0, 7.0 });
-    this->scene.pass->SetTechnique(GetParam().technique);
-    this->scene.pass->SetRoute(GetParam().route);
+    this->scene.choose(GetParam());
   }
 
   bool traced() const { return std::string(GetParam().technique) == "raytraced"; }
@@ -99,6 +98,7 @@ protected:
 };
 
 INSTANTIATE_TEST_SUITE_P(Ways, Staleness, allWays, nameOf);
+INSTANTIATE_TEST_SUITE_P(ByTheGpu, Staleness, testing::Values(gpuTracedWay), nameOf);
 
 } // namespace
 
@@ -253,8 +253,7 @@ TEST_P(Staleness, anotherTechniqueAndBackKeepsTheSnapshot)
   EXPECT_EQ(other.extracted, 0);
   EXPECT_EQ(other.retransformed, 0);
   EXPECT_EQ(this->render(), Work{});
-  this->scene.pass->SetTechnique(GetParam().technique);
-  this->scene.pass->SetRoute(GetParam().route);
+  this->scene.choose(GetParam());
   const Work back = this->render();
   EXPECT_EQ(back.extracted, 0);
   EXPECT_EQ(back.builds, 0);

@@ -1,6 +1,6 @@
 // The tree that the GPU walks: that everything is in it once, in boxes that hold it, and what updates do.
 
-#include "shadowtech/base/CasterBvh.h"
+#include "shadowtech/tracing/CasterBvh.h"
 
 #include "InstancedScene.h"
 #include "SyntheticScene.h"

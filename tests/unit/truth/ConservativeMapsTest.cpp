@@ -5,7 +5,7 @@
 #include "RandomScenes.h"
 
 #include "lights/ShadowSettings.h"
-#include "shadowtech/base/RayTracer.h"
+#include "shadowtech/tracing/EmbreeTracer.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
@@ -36,7 +36,7 @@ Tally compareWithTruth(const ShadowLight& light, const LightViews& views,
 {
   ConservativeMaps maps;
   maps.bake(light, views, occluders, certainRule(covering));
-  RayTracer tracer;
+  EmbreeTracer tracer;
   tracer.update(occluders);
   Tally tally;
   std::vector<float> truth, visibility;

@@ -1,15 +1,15 @@
 // Shadow rays on the GPU against Embree, and where Embree has cracks, against what must be.
 
-#include "shadowtech/base/GpuTracer.h"
+#include "shadowtech/tracing/GpuTracer.h"
 
 #include "../plugin/LiveObjects.h"
 #include "InstancedScene.h"
 #include "SyntheticScene.h"
 
 #include "shadowtech/base/PlacedTriangles.h"
-#include "shadowtech/base/RayTracer.h"
 #include "shadowtech/base/ShadowRay.h"
 #include "shadowtech/base/TextureMemory.h"
+#include "shadowtech/tracing/EmbreeTracer.h"
 
 #include "vtkGnomonEGLRenderWindow.h"
 
@@ -136,7 +136,7 @@ std::vector<TracedRay> raysOf(
 
 /// Whether rays right beside a receiver's are not all blocked or all unblocked: it passes an edge, of a
 /// triangle or a hole, or ends on a surface, to within rounding.
-bool isUndecided(const RayTracer& tracer, const ShadowLight& light, const Occluders& occluders,
+bool isUndecided(EmbreeTracer& tracer, const ShadowLight& light, const Occluders& occluders,
   const ReceiverPixels& receivers, std::size_t pixel, double nearness)
 {
   Random random(1);
@@ -182,7 +182,7 @@ protected:
     GpuTracer tracer;
     tracer.update(occluders, buffers);
     std::vector<std::uint8_t> blocked;
-    tracer.trace(rays, this->shaders_, blocked);
+    tracer.trace(rays.data(), rays.size(), this->shaders_, blocked);
     return blocked;
   }
 
@@ -195,7 +195,7 @@ protected:
   Tally compare(const std::string& name, const Occluders& occluders, const ShadowLight& light,
     const ReceiverPixels& receivers)
   {
-    RayTracer tracer;
+    EmbreeTracer tracer;
     tracer.update(occluders);
     std::vector<float> visibility;
     tracer.trace(light, occluders, receivers, visibility);
@@ -669,7 +669,7 @@ TEST_F(GpuTracerTest, NothingBlocksWhereNothingCasts)
     occluders.topologyVersion += 1000000;
     buffers.update(occluders);
     tracer.update(occluders, buffers);
-    tracer.trace({ up }, this->shaders_, blocked);
+    tracer.trace(&up, 1, this->shaders_, blocked);
     return blocked;
   };
   EXPECT_EQ(blockedAfter(), std::vector<std::uint8_t>{ 1 });
@@ -711,7 +711,7 @@ TEST_F(GpuTracerTest, FollowsWhatMoves)
     const CasterBvh::Change change = tracer.update(occluders, buffers);
     const std::vector<TracedRay> rays =
       raysOf(light, occluders, randomReceivers(light, occluders, 20000, random));
-    tracer.trace(rays, this->shaders_, blocked);
+    tracer.trace(rays.data(), rays.size(), this->shaders_, blocked);
     EXPECT_EQ(blocked, this->trace(occluders, rays)) << "as if built";
     return change;
   };
@@ -758,7 +758,7 @@ TEST_F(GpuTracerTest, AnswersKeepTheOrderOfTheRays)
           { { -0.3f, -0.2f, 0.0f }, infinite, { 0.0f, 0.0f, isHit(i) ? 1.0f : -1.0f } });
       }
       std::vector<std::uint8_t> blocked{ 1, 1, 1 };
-      tracer.trace(rays, this->shaders_, blocked);
+      tracer.trace(rays.data(), rays.size(), this->shaders_, blocked);
       ASSERT_EQ(blocked.size(), count);
       for (std::size_t i = 0; i < count; ++i)
       {
@@ -783,13 +783,13 @@ TEST_F(GpuTracerTest, LeavesStateAndObjectsAsTheyWere)
     ShaderLibrary shaders;
     OccluderBuffers buffers;
     GpuTracer tracer;
-    const TracedRay ray{ glm::vec3(0.0f), infinite, { 0.1f, 0.2f, 1.0f } };
+    const std::vector<TracedRay> rays(2, { glm::vec3(0.0f), infinite, { 0.1f, 0.2f, 1.0f } });
     std::vector<std::uint8_t> blocked;
     for (int time = 0; time < 3; ++time)
     {
       buffers.update(occluders);
       tracer.update(occluders, buffers);
-      tracer.trace({ ray, ray }, shaders, blocked);
+      tracer.trace(rays.data(), rays.size(), shaders, blocked);
       GLint value = 0;
       glGetIntegerv(GL_CURRENT_PROGRAM, &value);
       EXPECT_EQ(value, 0);
@@ -841,12 +841,12 @@ TEST_F(GpuTracerTest, BuffersBeyondOpenGLsLimitsAreAnError)
   std::vector<std::uint8_t> blocked;
   EXPECT_THROW(tracer.update(occluders, buffers), TextureMemoryError);
   EXPECT_EQ(tracer.bytesOnGpu(), 0u);
-  tracer.trace({ up }, this->shaders_, blocked);
+  tracer.trace(&up, 1, this->shaders_, blocked);
   EXPECT_EQ(blocked, std::vector<std::uint8_t>{ 0 });
   occluders.positionsCentred.resize(3);
   buffers.update(occluders);
   EXPECT_EQ(tracer.update(occluders, buffers), CasterBvh::Change::Built) << "tries again";
-  tracer.trace({ up }, this->shaders_, blocked);
+  tracer.trace(&up, 1, this->shaders_, blocked);
   EXPECT_EQ(blocked, std::vector<std::uint8_t>{ 1 });
 }
 

@@ -7,7 +7,7 @@
 
 #include "RandomScenes.h"
 
-#include "shadowtech/base/RayTracer.h"
+#include "shadowtech/tracing/EmbreeTracer.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
@@ -258,7 +258,7 @@ private:
   ShadowLight light_;
   Occluders occluders_;
   ReceiverPixels receivers_;
-  RayTracer tracer_;
+  EmbreeTracer tracer_;
 };
 
 const MapRule crsm = certainRule(Covering::Triangle);

@@ -5,8 +5,8 @@
 #include "InstancedScene.h"
 #include "SyntheticScene.h"
 
-#include "shadowtech/base/RayTracer.h"
 #include "shadowtech/base/ShadowRay.h"
+#include "shadowtech/tracing/EmbreeTracer.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
@@ -114,7 +114,7 @@ TEST(Instances, VisibilityIsThatOfTheirTriangles)
 TEST(Instances, TheOffsetHoldsThroughTheirMatrices)
 {
   Random random(11);
-  RayTracer tracer;
+  EmbreeTracer tracer;
   int rays = 0;
   int dark = 0;
   int darkWithout = 0; // what instances add
@@ -192,11 +192,11 @@ TEST(Instances, MovingThemRefitsOnlyTheirPlaces)
   const ShadowLight light = directionalLight({ 0.4, 0.3, -1.0 });
   ReceiverPixels receivers;
   Receivers(view.images, view.drawnSurfaces, occluders, receivers).all();
-  RayTracer tracer;
+  EmbreeTracer tracer;
   std::vector<float> visibility;
   const auto expectUpdate = [&](int builds, int refits)
   {
-    const RayTracer::Update update = tracer.update(occluders);
+    const EmbreeTracer::Update update = tracer.update(occluders);
     EXPECT_EQ(update.builds, builds);
     EXPECT_EQ(update.refits, refits);
     tracer.trace(light, occluders, receivers, visibility);

@@ -8,7 +8,7 @@
 #include "SyntheticScene.h"
 
 #include "lights/ShadowSettings.h"
-#include "shadowtech/base/RayTracer.h"
+#include "shadowtech/tracing/EmbreeTracer.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
@@ -472,7 +472,7 @@ private:
   Receivers receivers_;
   TriangleMaps maps_;
   TriangleFans fans_;
-  RayTracer tracer_;
+  EmbreeTracer tracer_;
   std::vector<float> truth_;
   std::size_t needRays_ = 0;
 };

@@ -1,7 +1,7 @@
 #include "SyntheticScene.h"
 
-#include "shadowtech/base/RayTracer.h"
 #include "shadowtech/base/ShadowRay.h"
+#include "shadowtech/tracing/EmbreeTracer.h"
 
 #include <embree3/rtcore.h>
 #include <glm/gtc/constants.hpp>
@@ -589,7 +589,7 @@ double edgeDistance(const ShadowLight& light, const Occluders& occluders,
 std::vector<float> trace(
   const ShadowLight& light, const Occluders& occluders, const ReceiverPixels& receivers)
 {
-  RayTracer tracer;
+  EmbreeTracer tracer;
   tracer.update(occluders);
   std::vector<float> visibility;
   tracer.trace(light, occluders, receivers, visibility);

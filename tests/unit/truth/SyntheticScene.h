@@ -100,7 +100,7 @@ std::vector<float> traceBruteForce(
 double edgeDistance(const ShadowLight& light, const Occluders& occluders,
   const ReceiverPixels& receivers, std::size_t pixel);
 
-/// Visibility by a RayTracer made for it.
+/// Visibility by a EmbreeTracer made for it.
 std::vector<float> trace(
   const ShadowLight& light, const Occluders& occluders, const ReceiverPixels& receivers);
 

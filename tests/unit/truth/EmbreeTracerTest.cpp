@@ -1,4 +1,4 @@
-#include "shadowtech/base/RayTracer.h"
+#include "shadowtech/tracing/EmbreeTracer.h"
 
 #include "SyntheticScene.h"
 
@@ -73,7 +73,7 @@ std::vector<TestScene> largeScenes()
   return scenes;
 }
 
-TEST(RayTracer, AgreesWithBruteForce)
+TEST(EmbreeTracer, AgreesWithBruteForce)
 {
   std::size_t rays = 0;
   std::size_t different = 0;
@@ -103,7 +103,7 @@ TEST(RayTracer, AgreesWithBruteForce)
   EXPECT_LE(different, rays / 1000000 + 1) << "of " << rays;
 }
 
-TEST(RayTracer, HalfAndTwiceTheOffsetGiveTheSameVisibility)
+TEST(EmbreeTracer, HalfAndTwiceTheOffsetGiveTheSameVisibility)
 {
   for (const TestScene& scene : largeScenes())
   {
@@ -154,7 +154,7 @@ std::size_t differentWhenMoved(
     visibility, trace(movedLight, movedOccluders, makeReceivers(movedOccluders, moved.camera)));
 }
 
-TEST(RayTracer, MovedAndScaledScenesGiveTheSameVisibility)
+TEST(EmbreeTracer, MovedAndScaledScenesGiveTheSameVisibility)
 {
   for (const TestScene& scene : largeScenes())
   {
@@ -205,7 +205,7 @@ FacingPixels countFacing(const ShadowLight& light, const Occluders& occluders,
 }
 
 /// A lit plane does not shadow itself, wherever it lies, however large, however low the light.
-TEST(RayTracer, LitPlanesHaveNoAcne)
+TEST(EmbreeTracer, LitPlanesHaveNoAcne)
 {
   for (const double tilt : { 0.0, 0.3, 1.1 })
   {
@@ -247,7 +247,7 @@ TEST(RayTracer, LitPlanesHaveNoAcne)
 }
 
 /// Convex surfaces never shadow themselves.
-TEST(RayTracer, LitSidesOfConvexSurfacesHaveNoAcne)
+TEST(EmbreeTracer, LitSidesOfConvexSurfacesHaveNoAcne)
 {
   Camera camera;
   camera.position = { 3.0, -5.0, 4.0 };
@@ -298,7 +298,7 @@ struct Roof
   ReceiverPixels receivers;
 };
 
-TEST(RayTracer, BothSidesCastUnlessOneSided)
+TEST(EmbreeTracer, BothSidesCastUnlessOneSided)
 {
   for (const bool turned : { false, true })
   {
@@ -310,7 +310,7 @@ TEST(RayTracer, BothSidesCastUnlessOneSided)
   }
 }
 
-TEST(RayTracer, SurfacesThatDoNotCastOrReceive)
+TEST(EmbreeTracer, SurfacesThatDoNotCastOrReceive)
 {
   Roof roof(false);
   roof.occluders.surfaces[1].casts = false;
@@ -324,7 +324,7 @@ TEST(RayTracer, SurfacesThatDoNotCastOrReceive)
   EXPECT_EQ(roof.visibility(), 1.0f);
 }
 
-TEST(RayTracer, TurnedAwayIsDarkWithoutCasters)
+TEST(EmbreeTracer, TurnedAwayIsDarkWithoutCasters)
 {
   Roof roof(false);
   roof.occluders.surfaces[0].casts = roof.occluders.surfaces[1].casts = false;
@@ -336,7 +336,7 @@ TEST(RayTracer, TurnedAwayIsDarkWithoutCasters)
   EXPECT_EQ(roof.visibility(), 0.0f) << "along the light";
 }
 
-TEST(RayTracer, SpotLightsReachTheirConeAndNoFurtherThanThemselves)
+TEST(EmbreeTracer, SpotLightsReachTheirConeAndNoFurtherThanThemselves)
 {
   Roof roof(false);
   const auto visibility = [&](const ShadowLight& light)
@@ -384,7 +384,7 @@ struct Sheet
 };
 
 /// Rays through the inner edges of a surface find no crack.
-TEST(RayTracer, SurfacesAreWatertight)
+TEST(EmbreeTracer, SurfacesAreWatertight)
 {
   const Sheet sheet;
   std::vector<glm::vec3> origins;
@@ -419,7 +419,7 @@ TEST(RayTracer, SurfacesAreWatertight)
 /// The volume is |e| |D| times twice the distance from the edge, so rounding decides within 12 u L,
 /// where L is the distance from the ray's origin to the corner; where edges meet at less than a
 /// right angle, somewhat farther.
-TEST(RayTracer, RaysAtCornersSlipThroughOnlyByARounding)
+TEST(EmbreeTracer, RaysAtCornersSlipThroughOnlyByARounding)
 {
   const Sheet sheet;
   std::vector<glm::vec3> origins;
@@ -455,7 +455,7 @@ TEST(RayTracer, RaysAtCornersSlipThroughOnlyByARounding)
   EXPECT_EQ(std::count(exact.begin(), exact.end(), 1.0f), 0);
 }
 
-TEST(RayTracer, ConeOnAPlaneIsADisc)
+TEST(EmbreeTracer, ConeOnAPlaneIsADisc)
 {
   const Occluders occluders = makeOccluders({ { makePlane(10.0) } });
   Camera camera;
@@ -478,9 +478,9 @@ TEST(RayTracer, ConeOnAPlaneIsADisc)
   }
 }
 
-TEST(RayTracer, EmptyInputsGiveEmptyOrLitImages)
+TEST(EmbreeTracer, EmptyInputsGiveEmptyOrLitImages)
 {
-  RayTracer tracer;
+  EmbreeTracer tracer;
   const Occluders nothing;
   ReceiverPixels receivers;
   std::vector<float> visibility{ 0.5f };
@@ -495,7 +495,7 @@ TEST(RayTracer, EmptyInputsGiveEmptyOrLitImages)
 }
 
 /// Every pixel is traced once, whatever the image's shape.
-TEST(RayTracer, ImagesOfAnyShape)
+TEST(EmbreeTracer, ImagesOfAnyShape)
 {
   const TestScene scene = smallScenes()[0];
   const Occluders occluders = makeOccluders(scene.props);
@@ -505,7 +505,7 @@ TEST(RayTracer, ImagesOfAnyShape)
     camera.width = width;
     camera.height = height;
     const ReceiverPixels receivers = makeReceivers(occluders, camera);
-    RayTracer tracer;
+    EmbreeTracer tracer;
     tracer.update(occluders);
     std::vector<float> visibility;
     for (const ShadowLight& light : lights())
@@ -520,7 +520,7 @@ TEST(RayTracer, ImagesOfAnyShape)
 }
 
 /// Bad triangles do no harm: points, needles, the same triangle many times.
-TEST(RayTracer, DegenerateTriangles)
+TEST(EmbreeTracer, DegenerateTriangles)
 {
   Mesh mesh = makePlane(1.0);
   mesh.triangles.insert(mesh.triangles.end(), 20, mesh.triangles[0]);
@@ -541,7 +541,7 @@ TEST(RayTracer, DegenerateTriangles)
 }
 
 /// Surfaces that lie in one another, as decals do, leave each other lit.
-TEST(RayTracer, CoplanarSurfacesDoNotShadowEachOther)
+TEST(EmbreeTracer, CoplanarSurfacesDoNotShadowEachOther)
 {
   const glm::dmat4 turn = glm::rotate(at({ 0.3, 0.2, 0.1 }), 0.6, { 1.0, 0.5, 0.2 });
   const Occluders occluders =
@@ -555,7 +555,7 @@ TEST(RayTracer, CoplanarSurfacesDoNotShadowEachOther)
   EXPECT_EQ(std::count(visibility.begin(), visibility.end(), 0.0f), 0);
 }
 
-TEST(RayTracer, UpdatesWhatChanged)
+TEST(EmbreeTracer, UpdatesWhatChanged)
 {
   const Prop cube{ makeBox(glm::dvec3(-0.5), glm::dvec3(0.5)), at({ 0.0, 0.0, 1.0 }) };
   Prop second = cube;
@@ -564,11 +564,11 @@ TEST(RayTracer, UpdatesWhatChanged)
   Camera camera;
   camera.position = { 3.0, -5.0, 4.0 };
   const ShadowLight light = lights()[0];
-  RayTracer tracer;
+  EmbreeTracer tracer;
   std::vector<float> visibility;
   const auto expectUpdate = [&](int builds, int refits)
   {
-    const RayTracer::Update update = tracer.update(occluders);
+    const EmbreeTracer::Update update = tracer.update(occluders);
     EXPECT_EQ(update.builds, builds);
     EXPECT_EQ(update.refits, refits);
     const ReceiverPixels receivers = makeReceivers(occluders, camera);
@@ -609,7 +609,7 @@ TEST(RayTracer, UpdatesWhatChanged)
   expectUpdate(0, 0);
 }
 
-TEST(RayTracer, CutoutsComeChangeAndGo)
+TEST(EmbreeTracer, CutoutsComeChangeAndGo)
 {
   Prop roof = makePerforatedPlane(2.0, 2, at({ 0.0, 0.0, 1.0 }));
   Occluders occluders = makeOccluders({ { makePlane(6.0) }, roof });
@@ -618,7 +618,7 @@ TEST(RayTracer, CutoutsComeChangeAndGo)
   camera.position = { 3.0, -5.0, 4.0 };
   const ReceiverPixels receivers = makeReceivers(occluders, camera);
   const ShadowLight light = lights()[0];
-  RayTracer tracer;
+  EmbreeTracer tracer;
   const auto darkAfter = [&](int builds)
   {
     occluders.topologyVersion += 1000;

@@ -1,7 +1,7 @@
-#include "shadowtech/base/CasterBvh.h"
+#include "shadowtech/tracing/CasterBvh.h"
 
 #include "shadowtech/base/Bytes.h"
-#include "shadowtech/base/EmbreeHandle.h"
+#include "shadowtech/tracing/EmbreeHandle.h"
 
 #include <embree3/rtcore.h>
 #include <tbb/blocked_range.h>

@@ -7,10 +7,10 @@
 // blocks a ray ends it. As no box is missed that holds a triangle that is met, the answer depends neither on
 // the tree nor on the order.
 
-#include "shadowtech/base/bvh.glsl"
-#include "shadowtech/base/watertight.glsl"
+#include "shadowtech/tracing/bvh.glsl"
+#include "shadowtech/tracing/watertight.glsl"
 #ifdef CUTOUTS
-#include "shadowtech/base/cutout_mask.glsl"
+#include "shadowtech/tracing/cutout_mask.glsl"
 #endif
 
 layout(local_size_x = GROUP) in;

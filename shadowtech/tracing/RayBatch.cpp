@@ -1,4 +1,4 @@
-#include "shadowtech/base/RayBatch.h"
+#include "shadowtech/tracing/RayBatch.h"
 
 #include "shadowtech/base/TextureMemory.h"
 
@@ -15,48 +15,33 @@ constexpr GLenum target = GL_SHADER_STORAGE_BUFFER;
 constexpr std::size_t bytesOfRays = RayBatch::mostRays * sizeof(TracedRay);
 constexpr std::size_t bytesOfAnswers = RayBatch::mostRays / 8;
 
-/// Gives a buffer memory that stays visible to the CPU. It is taken back with the buffer.
-void* allocateMapped(GlBuffer& buffer, std::size_t bytes, GLbitfield access)
-{
-  const GLbitfield flags = access | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
-  const auto size = static_cast<GLsizeiptr>(bytes);
-  buffer.reset();
-  glBindBuffer(target, buffer.create());
-  glBufferStorage(target, size, nullptr, flags);
-  void* mapped = glMapBufferRange(target, 0, size, flags);
-  if (!mapped)
-  {
-    buffer.reset();
-    throw TextureMemoryError("OpenGL has no memory for a batch of rays, or does not map it");
-  }
-  return mapped;
-}
-
 } // namespace
 
 //------------------------------------------------------------------------------
-void RayBatch::allocate(RayTransfer transfer)
+void RayBatch::reserve(RayTransfer transfer)
 {
-  if (transfer == RayTransfer::Mapped)
+  if (this->answers_)
   {
-    this->mappedRays_ =
-      static_cast<TracedRay*>(allocateMapped(this->rays_, bytesOfRays, GL_MAP_WRITE_BIT));
-    this->mappedAnswers_ = static_cast<const std::uint32_t*>(
-      allocateMapped(this->answers_, bytesOfAnswers, GL_MAP_READ_BIT));
     return;
   }
-  allocateStorage(this->rays_, bytesOfRays, nullptr, "a batch's rays");
-  allocateStorage(this->answers_, bytesOfAnswers, nullptr, "a batch's answers");
+  const char* const rays = "a batch's rays";
+  const char* const answers = "a batch's answers";
+  if (transfer == RayTransfer::Mapped)
+  {
+    this->mappedRays_ = static_cast<TracedRay*>(
+      allocateMappedStorage(this->rays_, bytesOfRays, GL_MAP_WRITE_BIT, rays));
+    this->mappedAnswers_ = static_cast<const std::uint32_t*>(
+      allocateMappedStorage(this->answers_, bytesOfAnswers, GL_MAP_READ_BIT, answers));
+    return;
+  }
+  allocateStorage(this->rays_, bytesOfRays, nullptr, rays);
+  allocateStorage(this->answers_, bytesOfAnswers, nullptr, answers);
 }
 
 //------------------------------------------------------------------------------
-void RayBatch::send(const TracedRay* rays, std::size_t count, RayTransfer transfer,
-  GLuint rayBinding, GLuint answerBinding)
+void RayBatch::send(
+  const TracedRay* rays, std::size_t count, GLuint rayBinding, GLuint answerBinding)
 {
-  if (!this->answers_)
-  {
-    this->allocate(transfer);
-  }
   this->wait(); // for what nobody received, which may still be read
   glBindBufferBase(target, answerBinding, this->answers_.name());
   const GLuint unblocked = 0;

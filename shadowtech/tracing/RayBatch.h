@@ -1,5 +1,5 @@
-#ifndef gnomon_shadowtech_base_RayBatch_h
-#define gnomon_shadowtech_base_RayBatch_h
+#ifndef gnomon_shadowtech_tracing_RayBatch_h
+#define gnomon_shadowtech_tracing_RayBatch_h
 
 #include "shadowtech/base/Gl.h"
 
@@ -43,10 +43,13 @@ public:
   ~RayBatch() { this->deleteFence(); }
   RayBatch(RayBatch&& other) = delete;
 
-  /// Writes rays, at most `mostRays`, and binds them and their answers, all unblocked so far, for shaders.
+  /// Takes the memory for rays and answers, unless it has.
   /// @throws TextureMemoryError
-  void send(const TracedRay* rays, std::size_t count, RayTransfer transfer, GLuint rayBinding,
-    GLuint answerBinding);
+  void reserve(RayTransfer transfer);
+
+  /// Writes rays, at most `mostRays`, and binds them and their answers, all unblocked so far, for shaders.
+  /// Memory must have been reserved.
+  void send(const TracedRay* rays, std::size_t count, GLuint rayBinding, GLuint answerBinding);
   /// To be called when the work on what was sent has been given to OpenGL.
   void markSent();
 
@@ -58,7 +61,6 @@ public:
   std::size_t bytesOnGpu() const;
 
 private:
-  void allocate(RayTransfer transfer);
   void wait();
   void deleteFence();
 

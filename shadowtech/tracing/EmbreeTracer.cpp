@@ -1,12 +1,9 @@
-#include "shadowtech/base/RayTracer.h"
+#include "shadowtech/tracing/EmbreeTracer.h"
 
 #include "shadowtech/base/Bytes.h"
-#include "shadowtech/base/EmbreeHandle.h"
-#include "shadowtech/base/ShadowRay.h"
+#include "shadowtech/tracing/EmbreeHandle.h"
 
 #include <embree3/rtcore.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
@@ -123,23 +120,6 @@ struct Caster
   const glm::uvec3* triangles = nullptr;
 };
 
-constexpr std::size_t tileColumns = ReceiverTile::mostColumns;
-constexpr std::size_t tileRows = ReceiverTile::mostRows;
-constexpr std::size_t tilePixels = tileColumns * tileRows;
-
-/// One number for each pixel of a tile, row by row, or for each of its rays.
-template <typename Number>
-using TileArray = std::array<Number, tilePixels>;
-
-/// The rays of all pixels of a tile, wanted or not.
-struct alignas(64) TilePixels
-{
-  TileArray<float> originX, originY, originZ;
-  TileArray<float> directionX, directionY, directionZ;
-  TileArray<int> traced;           ///< Embree's mask: -1 where the ray is needed, else 0
-  TileArray<std::uint8_t> classes; ///< TracedClass
-};
-
 void occluded(const int* valid, RTCScene scene, RTCIntersectContext* context, RTCRay16* rays)
 {
   rtcOccluded16(valid, scene, context, rays);
@@ -173,17 +153,17 @@ public:
 
   /// Clears the visibility of pixels whose ray is blocked.
   /// @return the number of rays
-  int trace(const TilePixels& pixels, TileArray<float>& visibility)
+  std::size_t trace(TracedTile& tile)
   {
-    int traced = 0;
-    for (std::size_t y = 0; y < tileRows; y += rowsOfPacket)
+    std::size_t traced = 0;
+    for (std::size_t y = 0; y < TracedTile::rows; y += rowsOfPacket)
     {
-      for (std::size_t x = 0; x < tileColumns; x += side)
+      for (std::size_t x = 0; x < TracedTile::columns; x += side)
       {
-        traced += this->take(pixels, y * tileColumns + x, visibility);
+        traced += this->take(tile, y * TracedTile::columns + x);
       }
     }
-    this->traceTaken(visibility);
+    this->traceTaken(tile);
     return traced;
   }
 
@@ -193,30 +173,30 @@ private:
   static constexpr std::size_t rowsOfPacket = lanes / side;
 
   /// Takes the rays that a square needs into the packet, which is traced whenever it is full.
-  int take(const TilePixels& pixels, std::size_t corner, TileArray<float>& visibility)
+  std::size_t take(TracedTile& tile, std::size_t corner)
   {
     std::array<std::uint16_t, lanes> needed;
     std::size_t count = 0;
     for (std::size_t lane = 0; lane < lanes; ++lane)
     {
-      const std::size_t pixel = corner + lane / side * tileColumns + lane % side;
+      const std::size_t pixel = corner + lane / side * TracedTile::columns + lane % side;
       needed[count] = static_cast<std::uint16_t>(pixel);
-      count += pixels.traced[pixel] != 0 ? 1 : 0;
+      count += tile.needed[pixel] != 0 ? 1 : 0;
     }
     // What is taken already would be torn from its neighbours by a square that is nearly full.
     if (this->taken_ > 0 && this->taken_ + count > lanes)
     {
-      this->traceTaken(visibility);
+      this->traceTaken(tile);
     }
     const std::size_t first = this->taken_;
     std::copy_n(needed.begin(), count, &this->pixels_[first]);
-    const auto load = [&](float* to, const TileArray<float>& from)
+    const auto load = [&](float* to, const TracedTile::Plane<float>& from)
     {
       if (count == lanes)
       {
         for (std::size_t row = 0; row < rowsOfPacket; ++row)
         {
-          std::copy_n(&from[corner + row * tileColumns], side, to + row * side);
+          std::copy_n(&from[corner + row * TracedTile::columns], side, to + row * side);
         }
         return;
       }
@@ -225,17 +205,17 @@ private:
         to[first + i] = from[needed[i]];
       }
     };
-    load(this->packet_.org_x, pixels.originX);
-    load(this->packet_.org_y, pixels.originY);
-    load(this->packet_.org_z, pixels.originZ);
-    load(this->packet_.dir_x, pixels.directionX);
-    load(this->packet_.dir_y, pixels.directionY);
-    load(this->packet_.dir_z, pixels.directionZ);
+    load(this->packet_.org_x, tile.originX);
+    load(this->packet_.org_y, tile.originY);
+    load(this->packet_.org_z, tile.originZ);
+    load(this->packet_.dir_x, tile.directionX);
+    load(this->packet_.dir_y, tile.directionY);
+    load(this->packet_.dir_z, tile.directionZ);
     this->taken_ += count;
-    return static_cast<int>(count);
+    return count;
   }
 
-  void traceTaken(TileArray<float>& visibility)
+  void traceTaken(TracedTile& tile)
   {
     if (this->taken_ == 0)
     {
@@ -253,7 +233,7 @@ private:
     for (std::size_t lane = 0; lane < this->taken_; ++lane)
     {
       // Embree sets the far end of a ray that hits to minus infinity.
-      float& lit = visibility[this->pixels_[lane]];
+      float& lit = tile.visibility[this->pixels_[lane]];
       lit = this->packet_.tfar[lane] < 0.0f ? 0.0f : lit;
     }
     this->taken_ = 0;
@@ -267,178 +247,10 @@ private:
   std::array<std::uint16_t, lanes> pixels_{}; ///< of the tile, whose rays they are
 };
 
-/// The rays of one row of a tile from its receivers.
-/// @param columns a number, or a constant so that the loop becomes vector code
-/// @param from where the row's receivers begin
-/// @param to where the row's pixels begin
-template <typename Columns, typename MakeRay>
-void makeRays(const ReceiverPixels& receivers, std::size_t from, Columns columns,
-  const MakeRay& makeRay, std::size_t to, TilePixels& pixels)
-{
-  const std::size_t count = columns;
-  const float* const positionX = &receivers.positionX[from];
-  const float* const positionY = &receivers.positionY[from];
-  const float* const positionZ = &receivers.positionZ[from];
-  const float* const normalX = &receivers.normalX[from];
-  const float* const normalY = &receivers.normalY[from];
-  const float* const normalZ = &receivers.normalZ[from];
-  const float* const offset = &receivers.offset[from];
-#pragma GCC ivdep
-  for (std::size_t x = 0; x < count; ++x)
-  {
-    const ShadowRay ray = makeRay(glm::vec3(positionX[x], positionY[x], positionZ[x]),
-      glm::vec3(normalX[x], normalY[x], normalZ[x]), offset[x]);
-    pixels.originX[to + x] = ray.origin.x;
-    pixels.originY[to + x] = ray.origin.y;
-    pixels.originZ[to + x] = ray.origin.z;
-    pixels.directionX[to + x] = ray.direction.x;
-    pixels.directionY[to + x] = ray.direction.y;
-    pixels.directionZ[to + x] = ray.direction.z;
-    pixels.traced[to + x] = ray.traced ? -1 : 0;
-  }
-}
-
-static_assert(static_cast<int>(TracedClass::Traced) == static_cast<int>(Certainty::Uncertain) &&
-    static_cast<int>(TracedClass::Lit) == static_cast<int>(Certainty::Lit) &&
-    static_cast<int>(TracedClass::Shadow) == static_cast<int>(Certainty::Shadow) &&
-    static_cast<int>(TracedClass::Unreached) == static_cast<int>(Certainty::Unreached),
-  "a receiver's class is what is known of it");
-
-/// Whether a pixel of this class is dark without a ray.
-constexpr bool isDark(TracedClass of)
-{
-  return of == TracedClass::Unreached || of == TracedClass::Shadow;
-}
-
-/// Fills a row of a tile whose pixels are all of one class, none of them traced.
-void fillRow(TracedClass of, std::size_t columns, std::size_t to, TilePixels& pixels,
-  TileArray<float>& visibility)
-{
-  std::fill_n(&pixels.classes[to], columns, static_cast<std::uint8_t>(of));
-  std::fill_n(&pixels.traced[to], columns, 0);
-  std::fill_n(&visibility[to], columns, isDark(of) ? 0.0f : 1.0f);
-}
-
-/// What becomes of the pixels of one row of a tile, and so which rays are needed, and what shows without any.
-/// @param receives by surface + 1, so that `notCovered` + 1 = 0 is the first: 1 or 0
-/// @param certain null: nothing is
-void classify(const ReceiverTile& tile, std::size_t from, const std::uint8_t* receives,
-  const Certainty* certain, std::size_t to, TilePixels& pixels, TileArray<float>& visibility)
-{
-  const auto columns = static_cast<std::size_t>(tile.receivers.width);
-  for (std::size_t x = 0; x < columns; ++x)
-  {
-    const Certainty known = tile.known[from + x];
-    const bool reached = pixels.traced[to + x] != 0;
-    const Certainty asked = !reached ? Certainty::Unreached
-      : certain                      ? certain[from + x]
-                                     : Certainty::Uncertain;
-    const bool receiving = receives[tile.receivers.surface[from + x] + 1u] != 0;
-    const TracedClass of = known != Certainty::Uncertain ? static_cast<TracedClass>(known)
-      : receiving                                        ? static_cast<TracedClass>(asked)
-                                                         : TracedClass::NoReceiver;
-    pixels.classes[to + x] = static_cast<std::uint8_t>(of);
-    pixels.traced[to + x] = of == TracedClass::Traced ? -1 : 0;
-    visibility[to + x] = isDark(of) ? 0.0f : 1.0f;
-  }
-}
-
-/// Whether all pixels of a row of a tile are left out or not covered, and of one class.
-bool isAlike(const ReceiverTile& tile, std::size_t from)
-{
-  const auto columns = static_cast<std::ptrdiff_t>(tile.receivers.width);
-  const Certainty* const known = &tile.known[from];
-  const std::uint32_t* const surfaces = &tile.receivers.surface[from];
-  return std::all_of(surfaces, surfaces + columns,
-           [](std::uint32_t surface) { return surface == ReceiverPixels::notCovered; }) &&
-    std::all_of(known, known + columns, [&](Certainty other) { return other == known[0]; });
-}
-
-/// What the rays of a picture have in common.
-struct Tracing
-{
-  RTCScene scene;                     ///< null where nothing casts
-  RTCIntersectContextFlags coherence; ///< of the rays of a packet
-  const std::vector<std::uint8_t>& receives;
-  const ReceiverDecider* decider; ///< may be null
-  std::vector<float>& visibility;
-  std::vector<std::uint8_t>* classes;
-};
-
-/// The whole picture, tile by tile.
-/// @return the number of rays traced
-template <typename Packet, typename MakeRay>
-std::size_t traceImage(
-  const Tracing& tracing, const Receivers& source, const MakeRay& makeRay, float rayFar)
-{
-  std::atomic<int> traced{ 0 };
-  source.visitTiles(
-    [&](const ReceiverTile& tile)
-    {
-      const ReceiverPixels& receivers = tile.receivers;
-      const auto columns = static_cast<std::size_t>(receivers.width);
-      const auto rows = static_cast<std::size_t>(receivers.height);
-      const std::size_t firstOfPicture = tile.firstRow * source.width() + tile.firstColumn;
-      TilePixels pixels;
-      TileArray<float> visibility;
-      if (columns < tileColumns || rows < tileRows)
-      {
-        pixels.traced.fill(0);
-      }
-      std::array<bool, tileRows> alike;
-      for (std::size_t y = 0; y < rows; ++y)
-      {
-        alike[y] = isAlike(tile, y * columns);
-        if (alike[y])
-        {
-          const Certainty known = tile.known[y * columns];
-          fillRow(known == Certainty::Uncertain ? TracedClass::NoReceiver
-                                                : static_cast<TracedClass>(known),
-            columns, y * tileColumns, pixels, visibility);
-          continue;
-        }
-        const auto make = [&](auto count)
-        { makeRays(receivers, y * columns, count, makeRay, y * tileColumns, pixels); };
-        columns == tileColumns ? make(std::integral_constant<std::size_t, tileColumns>())
-                               : make(columns);
-      }
-      std::vector<Certainty> certain;
-      if (tracing.decider)
-      {
-        certain.assign(receivers.size(), Certainty::Uncertain);
-        tracing.decider->ofPixels(tile, certain);
-      }
-      for (std::size_t y = 0; y < rows; ++y)
-      {
-        if (!alike[y])
-        {
-          classify(tile, y * columns, tracing.receives.data(),
-            tracing.decider ? certain.data() : nullptr, y * tileColumns, pixels, visibility);
-        }
-      }
-      if (tracing.scene)
-      {
-        traced +=
-          TileTracer<Packet>(tracing.scene, rayFar, tracing.coherence).trace(pixels, visibility);
-      }
-      for (std::size_t y = 0; y < rows; ++y)
-      {
-        const std::size_t first = firstOfPicture + y * source.width();
-        std::copy_n(&visibility[y * tileColumns], columns, &tracing.visibility[first]);
-        if (tracing.classes)
-        {
-          std::copy_n(&pixels.classes[y * tileColumns], columns, &(*tracing.classes)[first]);
-        }
-      }
-    },
-    tracing.decider);
-  return static_cast<std::size_t>(traced);
-}
-
 } // namespace
 
 //------------------------------------------------------------------------------
-struct RayTracer::Impl
+struct EmbreeTracer::Impl
 {
   Impl();
 
@@ -447,17 +259,20 @@ struct RayTracer::Impl
   void attachInstances(Caster& caster, const Surface& surface) const;
   void move(Caster& caster, const Surface& surface) const;
   void check(const char* what) const;
+  template <typename Packet>
+  std::size_t trace(const TracedPicture& picture) const;
 
   std::atomic<std::ptrdiff_t> bytes{ 0 }; // outlives the device, which counts into it
   Device device;
   Scene scene;
-  bool lanes16 = false; ///< packets of 16; else of 8, whose answers are the same
+  bool instanced = false; ///< whether casters have instances
+  bool lanes16 = false;   ///< packets of 16; else of 8, whose answers are the same
   std::unordered_map<std::uint64_t, Caster> casters; ///< by the surface's topologyVersion
   std::uint64_t topologyVersion = 0;
   std::uint64_t positionsVersion = 0;
 };
 
-RayTracer::Impl::Impl()
+EmbreeTracer::Impl::Impl()
   : device(rtcNewDevice(nullptr))
 {
   if (!this->device.get())
@@ -483,7 +298,7 @@ RayTracer::Impl::Impl()
   rtcSetSceneBuildQuality(this->scene.get(), RTC_BUILD_QUALITY_LOW);
 }
 
-void RayTracer::Impl::check(const char* what) const
+void EmbreeTracer::Impl::check(const char* what) const
 {
   const RTCError error = rtcGetDeviceError(this->device.get());
   if (error != RTC_ERROR_NONE)
@@ -495,7 +310,7 @@ void RayTracer::Impl::check(const char* what) const
 }
 
 /// Points Embree to the snapshot's arrays, where they are now. Indices count over all its vertices.
-void RayTracer::Impl::setBuffers(
+void EmbreeTracer::Impl::setBuffers(
   Caster& caster, const Surface& surface, const Occluders& occluders) const
 {
   const glm::uvec3* triangles = occluders.triangles.data() + surface.firstTriangle;
@@ -521,7 +336,7 @@ void RayTracer::Impl::setBuffers(
   }
 }
 
-Caster RayTracer::Impl::makeCaster(const Surface& surface, const Occluders& occluders) const
+Caster EmbreeTracer::Impl::makeCaster(const Surface& surface, const Occluders& occluders) const
 {
   Caster caster;
   caster.geometry = Geometry(rtcNewGeometry(this->device.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
@@ -548,7 +363,7 @@ Caster RayTracer::Impl::makeCaster(const Surface& surface, const Occluders& occl
   return caster;
 }
 
-void RayTracer::Impl::attachInstances(Caster& caster, const Surface& surface) const
+void EmbreeTracer::Impl::attachInstances(Caster& caster, const Surface& surface) const
 {
   rtcCommitGeometry(caster.geometry.get());
   caster.attached.reserve(surface.centredFromSource.size());
@@ -570,7 +385,7 @@ void RayTracer::Impl::attachInstances(Caster& caster, const Surface& surface) co
 
 /// Refits a surface's structure to its moved vertices, or takes over its instances' matrices: as many
 /// as are attached, in their order.
-void RayTracer::Impl::move(Caster& caster, const Surface& surface) const
+void EmbreeTracer::Impl::move(Caster& caster, const Surface& surface) const
 {
   if (!surface.isInstanced())
   {
@@ -591,14 +406,14 @@ void RayTracer::Impl::move(Caster& caster, const Surface& surface) const
 }
 
 //------------------------------------------------------------------------------
-RayTracer::RayTracer()
+EmbreeTracer::EmbreeTracer()
   : impl_(std::make_unique<Impl>())
 {
 }
-RayTracer::~RayTracer() = default;
+EmbreeTracer::~EmbreeTracer() = default;
 
 //------------------------------------------------------------------------------
-RayTracer::Update RayTracer::update(const Occluders& occluders)
+ShadowTracer::Update EmbreeTracer::update(const Occluders& occluders)
 {
   Impl& impl = *this->impl_;
   if (impl.topologyVersion == occluders.topologyVersion &&
@@ -639,6 +454,8 @@ RayTracer::Update RayTracer::update(const Occluders& occluders)
     }
   }
   impl.casters = std::move(casters);
+  impl.instanced = std::any_of(impl.casters.begin(), impl.casters.end(),
+    [](const auto& entry) { return entry.second.source.get() != nullptr; });
   rtcCommitScene(impl.scene.get());
   impl.check("building the acceleration structure");
   impl.topologyVersion = occluders.topologyVersion;
@@ -647,53 +464,37 @@ RayTracer::Update RayTracer::update(const Occluders& occluders)
 }
 
 //------------------------------------------------------------------------------
-std::vector<PixelClass> classesOfTracing()
+template <typename Packet>
+std::size_t EmbreeTracer::Impl::trace(const TracedPicture& picture) const
 {
-  return { { "traced", { 160, 40, 200 }, true }, { "lit for certain", { 230, 230, 230 } },
-    { "in shadow for certain", { 90, 90, 90 } }, { "turned away from the light", { 0, 140, 60 } },
-    { "no receiver", { 0, 0, 0 } } };
-}
-
-//------------------------------------------------------------------------------
-std::size_t RayTracer::trace(const ShadowLight& light, const Occluders& occluders,
-  const Receivers& receivers, std::vector<float>& visibility, const ReceiverDecider* decider,
-  std::vector<std::uint8_t>* classes) const
-{
-  visibility.resize(receivers.width() * receivers.height());
-  if (classes)
-  {
-    classes->resize(visibility.size());
-  }
-  std::vector<std::uint8_t> receives{ 0 };
-  for (const Surface& surface : occluders.surfaces)
-  {
-    receives.push_back(surface.receives ? 1 : 0);
-  }
-  const ShadowRayLight rayLight(light, occluders.centreWorld);
   // In scenes with instances, Embree 3.13.5 hangs on coherent packets of 16 that hit some: it keeps
   // numbers in AVX-512 registers that the traversal of an instance overwrites. Without coherence the
   // answers are the same, and of a million triangles and more the time is, too.
-  const bool instanced = std::any_of(occluders.surfaces.begin(), occluders.surfaces.end(),
-    [](const Surface& surface) { return surface.casts && surface.isInstanced(); });
-  const Tracing tracing{ this->impl_->casters.empty() ? nullptr : this->impl_->scene.get(),
-    instanced ? RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT : RTC_INTERSECT_CONTEXT_FLAG_COHERENT,
-    receives, decider, visibility, classes };
-  return visitShadowRays(rayLight,
-    [&](const auto& makeRay, float rayFar)
-    {
-      return this->impl_->lanes16 ? traceImage<RTCRay16>(tracing, receivers, makeRay, rayFar)
-                                  : traceImage<RTCRay8>(tracing, receivers, makeRay, rayFar);
-    });
+  const RTCIntersectContextFlags coherence =
+    this->instanced ? RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT : RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  return picture.visitTiles([&](TracedTile& tile)
+    { return TileTracer<Packet>(this->scene.get(), picture.rayFar(), coherence).trace(tile); });
 }
 
 //------------------------------------------------------------------------------
-std::size_t RayTracer::bytes() const
+std::size_t EmbreeTracer::tracePicture(const TracedPicture& picture)
+{
+  if (this->impl_->casters.empty())
+  {
+    return picture.visitTiles([](const TracedTile&) { return std::size_t(0); });
+  }
+  return this->impl_->lanes16 ? this->impl_->trace<RTCRay16>(picture)
+                              : this->impl_->trace<RTCRay8>(picture);
+}
+
+//------------------------------------------------------------------------------
+std::size_t EmbreeTracer::bytes() const
 {
   return static_cast<std::size_t>(std::max<std::ptrdiff_t>(this->impl_->bytes, 0));
 }
 
 //------------------------------------------------------------------------------
-std::size_t RayTracer::bytesOfTable() const
+std::size_t EmbreeTracer::bytesOfTable() const
 {
   std::size_t bytes = gnomon::bytesOfTable(this->impl_->casters);
   for (const auto& entry : this->impl_->casters)

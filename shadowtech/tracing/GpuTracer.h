@@ -1,11 +1,11 @@
-#ifndef gnomon_shadowtech_base_GpuTracer_h
-#define gnomon_shadowtech_base_GpuTracer_h
+#ifndef gnomon_shadowtech_tracing_GpuTracer_h
+#define gnomon_shadowtech_tracing_GpuTracer_h
 
-#include "shadowtech/base/CasterBvh.h"
 #include "shadowtech/base/Gl.h"
 #include "shadowtech/base/OccluderBuffers.h"
-#include "shadowtech/base/RayBatch.h"
 #include "shadowtech/base/ShaderLibrary.h"
+#include "shadowtech/tracing/CasterBvh.h"
+#include "shadowtech/tracing/RayBatch.h"
 
 #include <array>
 #include <cstddef>
@@ -22,7 +22,7 @@ bool isSoftwareRenderer(const std::string& renderer);
 
 /// Shadow rays against the casting surfaces on the GPU, by compute shaders (OpenGL 4.3).
 ///
-/// It answers as RayTracer does, but for rays that pass an edge of a triangle, or end on one, to within a
+/// It answers as EmbreeTracer does, but for rays that pass an edge of a triangle, or end on one, to within a
 /// rounding. There it has no cracks: a ray that goes through a closed surface is blocked, at corners too.
 /// The answers are the same whatever tree is built, on any GPU that rounds as IEEE 754 says.
 ///
@@ -44,14 +44,17 @@ public:
   /// nothing blocks rays then
   CasterBvh::Change update(const Occluders& occluders, const OccluderBuffers& buffers);
 
+  /// Whether nothing casts.
+  bool empty() const { return this->bvh_.empty(); }
+
   /// Traces rays from their origin (shadowRayNear) to their far end. Both sides of a triangle block unless
   /// its surface is one-sided; holes do not. Rays with numbers that are not finite, other than the far
   /// end, or without a direction are not blocked.
   ///
   /// @param blocked resized to the rays, in their order: 1 where something is in the way, else 0
-  /// @throws TextureMemoryError, ShaderError; std::runtime_error if the context is lost
-  void trace(
-    const std::vector<TracedRay>& rays, ShaderLibrary& shaders, std::vector<std::uint8_t>& blocked);
+  /// @throws ShaderError; std::runtime_error if the context is lost
+  void trace(const TracedRay* rays, std::size_t count, ShaderLibrary& shaders,
+    std::vector<std::uint8_t>& blocked);
 
   std::size_t bytes() const { return this->bvh_.bytes(); }
   /// What is kept on the GPU, the snapshot's positions excepted.

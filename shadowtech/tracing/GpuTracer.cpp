@@ -1,4 +1,4 @@
-#include "shadowtech/base/GpuTracer.h"
+#include "shadowtech/tracing/GpuTracer.h"
 
 #include "shadowtech/base/GlState.h"
 #include "shadowtech/base/TextureMemory.h"
@@ -184,6 +184,10 @@ void GpuTracer::sendScene(const Occluders& occluders)
       send(this->cutouts_, cutouts.numbers(), "the ray tracer's textures with holes") +
       send(
         this->textureCoordinates_, cutouts.coordinates(), "the ray tracer's texture coordinates");
+    for (RayBatch& batch : this->batches_)
+    {
+      batch.reserve(this->transfer_);
+    }
   }
   catch (const TextureMemoryError&)
   {
@@ -207,7 +211,8 @@ GLuint GpuTracer::useProgram(ShaderLibrary& shaders) const
   {
     defines.emplace_back("CUTOUTS");
   }
-  static const std::string source = ShaderLibrary::source("shadowtech/base/trace_rays.comp.glsl");
+  static const std::string source =
+    ShaderLibrary::source("shadowtech/tracing/trace_rays.comp.glsl");
   const GLuint program = shaders.program({ { GL_COMPUTE_SHADER, source } }, defines);
   glUseProgram(program);
   ShaderLibrary::setUniforms(program,
@@ -230,11 +235,11 @@ void GpuTracer::bindScene() const
 }
 
 //------------------------------------------------------------------------------
-void GpuTracer::trace(
-  const std::vector<TracedRay>& rays, ShaderLibrary& shaders, std::vector<std::uint8_t>& blocked)
+void GpuTracer::trace(const TracedRay* rays, std::size_t count, ShaderLibrary& shaders,
+  std::vector<std::uint8_t>& blocked)
 {
-  blocked.assign(rays.size(), 0);
-  if (this->bvh_.empty() || rays.empty())
+  blocked.assign(count, 0);
+  if (this->bvh_.empty() || count == 0)
   {
     return;
   }
@@ -243,22 +248,22 @@ void GpuTracer::trace(
   const GLuint program = this->useProgram(shaders);
   this->bindScene();
   const auto firstOf = [](std::size_t batch) { return batch * RayBatch::mostRays; };
-  const std::size_t count = (rays.size() + RayBatch::mostRays - 1) / RayBatch::mostRays;
-  const std::size_t atOnce = std::min(count, this->batches_.size());
-  for (std::size_t i = 0; i < count; ++i)
+  const std::size_t batches = (count + RayBatch::mostRays - 1) / RayBatch::mostRays;
+  const std::size_t atOnce = std::min(batches, this->batches_.size());
+  for (std::size_t i = 0; i < batches; ++i)
   {
     RayBatch& batch = this->batches_[i % this->batches_.size()];
     if (i >= atOnce)
     {
       batch.receive(&blocked[firstOf(i - atOnce)]);
     }
-    const std::size_t size = std::min(rays.size() - firstOf(i), RayBatch::mostRays);
-    batch.send(&rays[firstOf(i)], size, this->transfer_, raysBinding, blockedBinding);
+    const std::size_t size = std::min(count - firstOf(i), RayBatch::mostRays);
+    batch.send(rays + firstOf(i), size, raysBinding, blockedBinding);
     ShaderLibrary::setUniform(program, { "rayCount", static_cast<int>(size) });
     glDispatchCompute(static_cast<GLuint>((size + raysPerGroup - 1) / raysPerGroup), 1, 1);
     batch.markSent();
   }
-  for (std::size_t i = count - atOnce; i < count; ++i)
+  for (std::size_t i = batches - atOnce; i < batches; ++i)
   {
     this->batches_[i % this->batches_.size()].receive(&blocked[firstOf(i)]);
   }

@@ -1,5 +1,5 @@
-#ifndef gnomon_shadowtech_base_CasterBvh_h
-#define gnomon_shadowtech_base_CasterBvh_h
+#ifndef gnomon_shadowtech_tracing_CasterBvh_h
+#define gnomon_shadowtech_tracing_CasterBvh_h
 
 #include "lights/Bounds.h"
 #include "shadowtech/base/Occluders.h"

@@ -1,5 +1,5 @@
-#ifndef gnomon_shadowtech_base_EmbreeHandle_h
-#define gnomon_shadowtech_base_EmbreeHandle_h
+#ifndef gnomon_shadowtech_tracing_EmbreeHandle_h
+#define gnomon_shadowtech_tracing_EmbreeHandle_h
 
 #include <embree3/rtcore.h>
 

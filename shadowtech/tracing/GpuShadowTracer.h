@@ -1,0 +1,41 @@
+#ifndef gnomon_shadowtech_tracing_GpuShadowTracer_h
+#define gnomon_shadowtech_tracing_GpuShadowTracer_h
+
+#include "shadowtech/tracing/GpuTracer.h"
+#include "shadowtech/tracing/ShadowTracer.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace gnomon
+{
+
+/// Shadow rays on the GPU (GpuTracer): those that a picture needs are collected first, and traced all together. It
+/// has one structure for all surfaces. All calls, the destructor included, want the context to be current.
+class GpuShadowTracer : public ShadowTracer
+{
+public:
+  /// @param buffers of the snapshot, which update() brings up to date
+  GpuShadowTracer(OccluderBuffers& buffers, ShaderLibrary& shaders);
+
+  Update update(const Occluders& occluders) override;
+
+  std::size_t bytes() const override;
+  std::size_t bytesOfRays() const override;
+
+private:
+  std::size_t tracePicture(const TracedPicture& picture) override;
+  std::size_t collectRays(const TracedPicture& picture);
+
+  OccluderBuffers& buffers_;
+  ShaderLibrary& shaders_;
+  GpuTracer tracer_;
+  /// Room for the rays of all pixels. They begin tile by tile where a tile's pixels would, and then side by side.
+  std::vector<TracedRay> rays_;
+  std::vector<std::uint8_t> blocked_;
+};
+
+} // namespace gnomon
+
+#endif

@@ -1,0 +1,63 @@
+#ifndef gnomon_shadowtech_tracing_ShadowTracer_h
+#define gnomon_shadowtech_tracing_ShadowTracer_h
+
+#include "shadowtech/tracing/TracedPicture.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace gnomon
+{
+
+/// Shadow rays against the casting surfaces: the truth, and the one entry point for whoever traces. All
+/// techniques of a frame get the same one, so that what they trace is the same to the last bit.
+class ShadowTracer
+{
+public:
+  virtual ~ShadowTracer() = default;
+
+  /// What an update did.
+  struct Update
+  {
+    int builds = 0; ///< structures that were built
+    int refits = 0; ///< structures that were refitted to moved vertices or instances
+  };
+
+  /// Brings the acceleration structure up to date with the snapshot; does nothing when neither
+  /// topologyVersion nor positionsVersion changed. The snapshot's vertex and index arrays and texture
+  /// coordinates may be shared, not copied: they must stay where they are until the next update.
+  /// @throws std::runtime_error where there is no structure to be had, TextureMemoryError included
+  virtual Update update(const Occluders& occluders) = 0;
+
+  /// Visibility of the light from every receiver, by the shadow ray of ShadowRay.h: 1 lit, 0
+  /// shadowed, turned away from the light (facesLight()) or outside its cone or box. Pixels that
+  /// are not covered, or whose surface does not receive, get 1.
+  ///
+  /// @param occluders the snapshot of the last update
+  /// @param visibility resized to one for each pixel of the picture
+  /// @param decider who knows something without rays; null: nobody
+  /// @param classes where not null, resized likewise, each pixel's TracedClass
+  /// @return the number of rays traced
+  std::size_t trace(const ShadowLight& light, const Occluders& occluders,
+    const Receivers& receivers, std::vector<float>& visibility,
+    const ReceiverDecider* decider = nullptr, std::vector<std::uint8_t>* classes = nullptr)
+  {
+    return this->tracePicture({ light, occluders, receivers, decider, visibility, classes });
+  }
+
+  /// Memory of the acceleration structure, on the CPU and the GPU.
+  virtual std::size_t bytes() const = 0;
+  /// Memory that is kept to find each surface's structure again.
+  virtual std::size_t bytesOfTable() const { return 0; }
+  /// Memory that is kept for the rays of a picture.
+  virtual std::size_t bytesOfRays() const { return 0; }
+
+private:
+  /// @return the number of rays traced
+  virtual std::size_t tracePicture(const TracedPicture& picture) = 0;
+};
+
+} // namespace gnomon
+
+#endif

@@ -1,0 +1,237 @@
+#include "shadowtech/tracing/TracedPicture.h"
+
+#include <algorithm>
+#include <atomic>
+#include <type_traits>
+
+namespace gnomon
+{
+namespace
+{
+
+static_assert(static_cast<int>(TracedClass::Traced) == static_cast<int>(Certainty::Uncertain) &&
+    static_cast<int>(TracedClass::Lit) == static_cast<int>(Certainty::Lit) &&
+    static_cast<int>(TracedClass::Shadow) == static_cast<int>(Certainty::Shadow) &&
+    static_cast<int>(TracedClass::Unreached) == static_cast<int>(Certainty::Unreached),
+  "a receiver's class is what is known of it");
+
+/// Whether a pixel of this class is dark without a ray.
+constexpr bool isDark(TracedClass of)
+{
+  return of == TracedClass::Unreached || of == TracedClass::Shadow;
+}
+
+/// The rays of one row of a tile from its receivers.
+/// @param columns a number, or a constant so that the loop becomes vector code
+/// @param from where the row's receivers begin
+/// @param to where the row's pixels begin
+template <typename Columns, typename MakeRay>
+void makeRays(const ReceiverPixels& receivers, std::size_t from, Columns columns,
+  const MakeRay& makeRay, std::size_t to, TracedTile& tile)
+{
+  const std::size_t count = columns;
+  const float* const positionX = &receivers.positionX[from];
+  const float* const positionY = &receivers.positionY[from];
+  const float* const positionZ = &receivers.positionZ[from];
+  const float* const normalX = &receivers.normalX[from];
+  const float* const normalY = &receivers.normalY[from];
+  const float* const normalZ = &receivers.normalZ[from];
+  const float* const offset = &receivers.offset[from];
+#pragma GCC ivdep
+  for (std::size_t x = 0; x < count; ++x)
+  {
+    const ShadowRay ray = makeRay(glm::vec3(positionX[x], positionY[x], positionZ[x]),
+      glm::vec3(normalX[x], normalY[x], normalZ[x]), offset[x]);
+    tile.originX[to + x] = ray.origin.x;
+    tile.originY[to + x] = ray.origin.y;
+    tile.originZ[to + x] = ray.origin.z;
+    tile.directionX[to + x] = ray.direction.x;
+    tile.directionY[to + x] = ray.direction.y;
+    tile.directionZ[to + x] = ray.direction.z;
+    tile.needed[to + x] = ray.traced ? 1 : 0;
+  }
+}
+
+/// Fills a row of a tile whose pixels are all of one class, none of them traced.
+void fillRow(TracedClass of, std::size_t columns, std::size_t to, TracedTile& tile)
+{
+  std::fill_n(&tile.classes[to], columns, static_cast<std::uint8_t>(of));
+  std::fill_n(&tile.needed[to], columns, 0);
+  std::fill_n(&tile.visibility[to], columns, isDark(of) ? 0.0f : 1.0f);
+}
+
+/// What becomes of the pixels of one row of a tile, and so which rays are needed, and what shows without any.
+/// @param receives by surface + 1: 1 or 0
+/// @param certain null: nothing is
+void classify(const ReceiverTile& tile, std::size_t from, const std::uint8_t* receives,
+  const Certainty* certain, std::size_t to, TracedTile& traced)
+{
+  const auto columns = static_cast<std::size_t>(tile.receivers.width);
+  for (std::size_t x = 0; x < columns; ++x)
+  {
+    const Certainty known = tile.known[from + x];
+    const bool reached = traced.needed[to + x] != 0;
+    const Certainty asked = !reached ? Certainty::Unreached
+      : certain                      ? certain[from + x]
+                                     : Certainty::Uncertain;
+    const bool receiving = receives[tile.receivers.surface[from + x] + 1u] != 0;
+    const TracedClass of = known != Certainty::Uncertain ? static_cast<TracedClass>(known)
+      : receiving                                        ? static_cast<TracedClass>(asked)
+                                                         : TracedClass::NoReceiver;
+    traced.classes[to + x] = static_cast<std::uint8_t>(of);
+    traced.needed[to + x] = of == TracedClass::Traced ? 1 : 0;
+    traced.visibility[to + x] = isDark(of) ? 0.0f : 1.0f;
+  }
+}
+
+/// Whether all pixels of a row of a tile are left out or not covered, and of one class.
+bool isAlike(const ReceiverTile& tile, std::size_t from)
+{
+  const auto columns = static_cast<std::ptrdiff_t>(tile.receivers.width);
+  const Certainty* const known = &tile.known[from];
+  const std::uint32_t* const surfaces = &tile.receivers.surface[from];
+  return std::all_of(surfaces, surfaces + columns,
+           [](std::uint32_t surface) { return surface == ReceiverPixels::notCovered; }) &&
+    std::all_of(known, known + columns, [&](Certainty other) { return other == known[0]; });
+}
+
+std::size_t tilesAcross(std::size_t pixels, std::size_t ofTile)
+{
+  return (pixels + ofTile - 1) / ofTile;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+std::vector<PixelClass> classesOfTracing()
+{
+  return { { "traced", { 160, 40, 200 }, true }, { "lit for certain", { 230, 230, 230 } },
+    { "in shadow for certain", { 90, 90, 90 } }, { "turned away from the light", { 0, 140, 60 } },
+    { "no receiver", { 0, 0, 0 } } };
+}
+
+//------------------------------------------------------------------------------
+TracedPicture::TracedPicture(const ShadowLight& light, const Occluders& occluders,
+  const Receivers& receivers, const ReceiverDecider* decider, std::vector<float>& visibility,
+  std::vector<std::uint8_t>* classes)
+  : receivers_(receivers)
+  , decider_(decider)
+  , visibility_(visibility)
+  , classes_(classes)
+  , light_(light, occluders.centreWorld)
+{
+  this->visibility_.resize(receivers.width() * receivers.height());
+  if (this->classes_)
+  {
+    this->classes_->resize(this->visibility_.size());
+  }
+  this->receives_.push_back(0);
+  for (const Surface& surface : occluders.surfaces)
+  {
+    this->receives_.push_back(surface.receives ? 1 : 0);
+  }
+}
+
+//------------------------------------------------------------------------------
+std::size_t TracedPicture::tiles() const
+{
+  return tilesAcross(this->receivers_.width(), TracedTile::columns) *
+    tilesAcross(this->receivers_.height(), TracedTile::rows);
+}
+
+//------------------------------------------------------------------------------
+float TracedPicture::rayFar() const
+{
+  return visitShadowRays(this->light_, [](const auto&, float rayFar) { return rayFar; });
+}
+
+//------------------------------------------------------------------------------
+/// Makes a tile as it shows without its rays, and those that it needs.
+template <typename MakeRay>
+void TracedPicture::prepare(
+  const ReceiverTile& tile, const MakeRay& makeRay, TracedTile& traced) const
+{
+  const ReceiverPixels& receivers = tile.receivers;
+  const auto columns = static_cast<std::size_t>(receivers.width);
+  const auto rows = static_cast<std::size_t>(receivers.height);
+  traced.columnsOfPicture = this->receivers_.width();
+  traced.number =
+    tile.firstRow / TracedTile::rows * tilesAcross(traced.columnsOfPicture, TracedTile::columns) +
+    tile.firstColumn / TracedTile::columns;
+  traced.firstPixel = tile.firstRow * traced.columnsOfPicture + tile.firstColumn;
+  if (columns < TracedTile::columns || rows < TracedTile::rows)
+  {
+    traced.needed.fill(0);
+  }
+  std::array<bool, TracedTile::rows> alike;
+  for (std::size_t y = 0; y < rows; ++y)
+  {
+    alike[y] = isAlike(tile, y * columns);
+    if (alike[y])
+    {
+      const Certainty known = tile.known[y * columns];
+      fillRow(
+        known == Certainty::Uncertain ? TracedClass::NoReceiver : static_cast<TracedClass>(known),
+        columns, y * TracedTile::columns, traced);
+      continue;
+    }
+    const auto make = [&](auto count)
+    { makeRays(receivers, y * columns, count, makeRay, y * TracedTile::columns, traced); };
+    columns == TracedTile::columns
+      ? make(std::integral_constant<std::size_t, TracedTile::columns>())
+      : make(columns);
+  }
+  std::vector<Certainty> certain;
+  if (this->decider_)
+  {
+    certain.assign(receivers.size(), Certainty::Uncertain);
+    this->decider_->ofPixels(tile, certain);
+  }
+  for (std::size_t y = 0; y < rows; ++y)
+  {
+    if (!alike[y])
+    {
+      classify(tile, y * columns, this->receives_.data(), this->decider_ ? certain.data() : nullptr,
+        y * TracedTile::columns, traced);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+/// Takes a tile into the picture.
+void TracedPicture::keep(const ReceiverTile& tile, const TracedTile& traced) const
+{
+  const auto columns = static_cast<std::size_t>(tile.receivers.width);
+  const auto rows = static_cast<std::size_t>(tile.receivers.height);
+  for (std::size_t y = 0; y < rows; ++y)
+  {
+    const std::size_t first = traced.firstPixel + y * traced.columnsOfPicture;
+    std::copy_n(&traced.visibility[y * TracedTile::columns], columns, &this->visibility_[first]);
+    if (this->classes_)
+    {
+      std::copy_n(&traced.classes[y * TracedTile::columns], columns, &(*this->classes_)[first]);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+std::size_t TracedPicture::visitTiles(const std::function<std::size_t(TracedTile&)>& trace) const
+{
+  std::atomic<std::size_t> rays{ 0 };
+  visitShadowRays(this->light_,
+    [&](const auto& makeRay, float)
+    {
+      this->receivers_.visitTiles(
+        [&](const ReceiverTile& tile)
+        {
+          TracedTile traced; // 40 KB that are not cleared
+          this->prepare(tile, makeRay, traced);
+          rays += trace(traced);
+          this->keep(tile, traced);
+        },
+        this->decider_);
+    });
+  return rays;
+}
+
+} // namespace gnomon

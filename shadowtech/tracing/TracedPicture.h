@@ -1,0 +1,96 @@
+#ifndef gnomon_shadowtech_tracing_TracedPicture_h
+#define gnomon_shadowtech_tracing_TracedPicture_h
+
+#include "lights/ShadowLight.h"
+#include "shadowtech/base/Certainty.h"
+#include "shadowtech/base/Occluders.h"
+#include "shadowtech/base/PixelClass.h"
+#include "shadowtech/base/Receivers.h"
+#include "shadowtech/base/ShadowRay.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace gnomon
+{
+
+/// How a pixel comes to its visibility where rays are traced: indices into classesOfTracing().
+enum class TracedClass : std::uint8_t
+{
+  Traced,
+  Lit,       ///< for certain, without a ray
+  Shadow,    ///< the same
+  Unreached, ///< turned away from the light, or outside its cone or box
+  NoReceiver ///< nothing is seen, or what receives no shadow
+};
+std::vector<PixelClass> classesOfTracing();
+
+/// A tile of the picture: which of its pixels need their shadow ray, and what they show unless it is blocked.
+struct alignas(64) TracedTile
+{
+  static constexpr std::size_t columns = ReceiverTile::mostColumns;
+  static constexpr std::size_t rows = ReceiverTile::mostRows;
+  static constexpr std::size_t pixels = columns * rows;
+
+  /// One number for each pixel of a whole tile, row by row.
+  template <typename Number>
+  using Plane = std::array<Number, pixels>;
+
+  /// The shadow rays of all pixels, needed or not. Their direction has any length.
+  Plane<float> originX, originY, originZ;
+  Plane<float> directionX, directionY, directionZ;
+  Plane<int> needed; ///< 1 or 0; 0 beyond the picture's border
+  Plane<float> visibility;
+  Plane<std::uint8_t> classes; ///< TracedClass
+
+  std::size_t number;           ///< of the picture's tiles, row by row
+  std::size_t firstPixel;       ///< of the picture
+  std::size_t columnsOfPicture; ///< from a row of the picture to the next
+};
+
+/// A picture's shadow rays in one light: what the tracers have in common is here, and which rays are blocked is
+/// theirs to say.
+class TracedPicture
+{
+public:
+  /// @param decider who knows something without rays; null: nobody
+  /// @param visibility resized to one for each pixel of the picture
+  /// @param classes where not null, resized likewise
+  TracedPicture(const ShadowLight& light, const Occluders& occluders, const Receivers& receivers,
+    const ReceiverDecider* decider, std::vector<float>& visibility,
+    std::vector<std::uint8_t>* classes);
+
+  /// How many tiles it has.
+  std::size_t tiles() const;
+  /// Where the rays end, in lengths of their direction.
+  float rayFar() const;
+
+  /// Fills visibility and classes, tile by tile; several threads do so at once.
+  /// @param trace gets a tile as it shows without its rays, may clear the visibility of pixels whose ray is blocked,
+  /// and returns the number of rays
+  /// @return the sum of those
+  std::size_t visitTiles(const std::function<std::size_t(TracedTile&)>& trace) const;
+
+  /// Clears the visibility of a pixel of a tile that was visited.
+  void darken(std::size_t pixel) const { this->visibility_[pixel] = 0.0f; }
+
+private:
+  template <typename MakeRay>
+  void prepare(const ReceiverTile& tile, const MakeRay& makeRay, TracedTile& traced) const;
+  void keep(const ReceiverTile& tile, const TracedTile& traced) const;
+
+  const Receivers& receivers_;
+  const ReceiverDecider* decider_;
+  std::vector<float>& visibility_;
+  std::vector<std::uint8_t>* classes_;
+  ShadowRayLight light_;
+  /// By surface + 1, so that `notCovered` + 1 = 0 is the first: 1 or 0.
+  std::vector<std::uint8_t> receives_;
+};
+
+} // namespace gnomon
+
+#endif
