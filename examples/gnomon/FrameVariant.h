@@ -25,10 +25,10 @@ struct VariantSpec
   std::string technique; ///< of the registry, or one of the peers' names
   int mapSizeTexels = 0; ///< 0: no map
   int route = vtkGnomonShadowPass::ROUTE_AUTO;
-  int tracer = vtkGnomonShadowPass::TRACER_AUTO;
   bool pointwise = false; ///< whether the technique has two routes
   /// What else is asked of the lights' shadows, by name (lights/ShadowSettings.h).
   std::map<std::string, std::string> settings = {};
+  int tracer = vtkGnomonShadowPass::TRACER_AUTO;
 
   bool isGnomon() const
   {
