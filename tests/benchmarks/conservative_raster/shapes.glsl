@@ -98,14 +98,15 @@ bool isEmpty(Rectangle rectangle)
 }
 
 // The same by three vertices: the triangle with every side moved outwards by enough, as it is
-// scaled about its centre of gravity, which is a third of the height from a side. Where that would more than
-// double it, as of needles and of what is small, the right angle around the rectangle.
+// scaled about its centre of gravity, which is a third of the height from a side; 1.5 is more than sqrt(2), the most that a
+// square reaches along a unit normal, and than the height's rounding. Where that would more than double it, as of
+// needles and of what is small, the right angle around the rectangle.
 vec2 wideCorner(Cover cover, int corner)
 {
   vec2 centre = (cover.a + cover.b + cover.c) / 3.0;
   vec2 side = longestSide(cover);
   float height = abs(perp(cover.b - cover.a, cover.c - cover.a)) / max(length(side), tiny);
-  float further = 3.0 * sqrt(2.0) * reachOf(cover) / max(height, tiny);
+  float further = 3.0 * 1.5 * reachOf(cover) / max(height, tiny);
   vec2 scaled = max(abs(cover.a - centre), max(abs(cover.b - centre), abs(cover.c - centre)));
   if (further < 1.0 && all(lessThan(abs(centre) + 2.0 * scaled, vec2(size))))
   {
