@@ -226,8 +226,9 @@ std::vector<glm::dmat4> matricesFor(int size)
     glm::scale(glm::translate(glm::dmat4(1.0), { half, half, 0.5 }), { half, half, 0.5 });
   const glm::dmat4 view =
     glm::lookAt(glm::dvec3(3.0, -4.0, 5.0), { 0.2, 0.3, -0.1 }, { 0.0, 0.0, 1.0 });
+  const double third = 1.0 / 3.0;
   const glm::dmat4 deep =
-    glm::scale(glm::translate(glm::dmat4(1.0), { 0.0, 0.0, 100.0 }), { 1.0, 1.0, 1e-3 });
+    glm::scale(glm::translate(glm::dmat4(1.0), { 0.0, 0.0, 1e4 * third }), { 1.0, 1.0, third });
   return { glm::dmat4(1.0), deep, texels * glm::ortho(-2.0, 2.0, -2.0, 2.0, 1.0, 12.0) * view,
     texels * glm::perspective(0.9, 1.0, 1.0, 12.0) * view };
 }
