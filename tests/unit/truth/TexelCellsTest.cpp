@@ -20,37 +20,6 @@ namespace
 
 constexpr int width = 32;
 
-/// Whether a triangle and a cell have a point in common, by separating axes.
-bool overlap(const Corners& corners, const glm::dvec2& low, const glm::dvec2& high)
-{
-  std::vector<glm::dvec2> axes{ { 1.0, 0.0 }, { 0.0, 1.0 } };
-  for (std::size_t k = 0; k < 3; ++k)
-  {
-    const glm::dvec2 edge(corners[(k + 1) % 3] - corners[k]);
-    axes.emplace_back(-edge.y, edge.x);
-  }
-  return std::all_of(axes.begin(), axes.end(),
-    [&](const glm::dvec2& axis)
-    {
-      double least = infinity, most = -infinity;
-      for (const glm::dvec3& corner : corners)
-      {
-        const double at = glm::dot(axis, glm::dvec2(corner));
-        least = std::min(least, at);
-        most = std::max(most, at);
-      }
-      const glm::dvec2 middle = 0.5 * (low + high);
-      const double reach = glm::dot(glm::abs(axis), 0.5 * (high - low));
-      return glm::dot(axis, middle) + reach >= least && glm::dot(axis, middle) - reach <= most;
-    });
-}
-
-bool contains(const Corners& corners, const glm::dvec2& low, const glm::dvec2& high)
-{
-  return isInside(corners, low) && isInside(corners, high) &&
-    isInside(corners, { low.x, high.y }) && isInside(corners, { high.x, low.y });
-}
-
 std::vector<Cell> drawn(const Corners& corners)
 {
   std::vector<Cell> cells(width * width);

@@ -7,11 +7,13 @@
 
 #include <glm/glm.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <utility>
+#include <vector>
 
 /// @file
 /// Triangles on the texels of a map, and plane geometry to compare with what is drawn.
@@ -75,6 +77,38 @@ inline bool isInside(const Corners& corners, const glm::dvec2& point)
   const double sign = doubleAreaOf(corners) > 0.0 ? 1.0 : -1.0;
   return sign * perp(b - a, point - a) >= 0.0 && sign * perp(c - b, point - b) >= 0.0 &&
     sign * perp(a - c, point - c) >= 0.0;
+}
+
+/// Whether a triangle and a cell have a point in common, by separating axes.
+inline bool overlap(const Corners& corners, const glm::dvec2& low, const glm::dvec2& high)
+{
+  std::vector<glm::dvec2> axes{ { 1.0, 0.0 }, { 0.0, 1.0 } };
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    const glm::dvec2 edge(corners[(k + 1) % 3] - corners[k]);
+    axes.emplace_back(-edge.y, edge.x);
+  }
+  return std::all_of(axes.begin(), axes.end(),
+    [&](const glm::dvec2& axis)
+    {
+      double least = infinity, most = -infinity;
+      for (const glm::dvec3& corner : corners)
+      {
+        const double at = glm::dot(axis, glm::dvec2(corner));
+        least = std::min(least, at);
+        most = std::max(most, at);
+      }
+      const glm::dvec2 middle = 0.5 * (low + high);
+      const double reach = glm::dot(glm::abs(axis), 0.5 * (high - low));
+      return glm::dot(axis, middle) + reach >= least && glm::dot(axis, middle) - reach <= most;
+    });
+}
+
+/// Whether all of a cell lies in a triangle.
+inline bool contains(const Corners& corners, const glm::dvec2& low, const glm::dvec2& high)
+{
+  return isInside(corners, low) && isInside(corners, high) &&
+    isInside(corners, { low.x, high.y }) && isInside(corners, { high.x, low.y });
 }
 
 /// The depth of a triangle's plane.
