@@ -10,6 +10,7 @@ CasterPlacements::CasterPlacements(const Occluders& occluders)
   for (std::size_t i = 0; i < occluders.surfaces.size(); ++i)
   {
     const Surface& surface = occluders.surfaces[i];
+    this->firstOfSurface_.push_back(static_cast<std::uint32_t>(this->placements_.size()));
     const std::size_t instances = surface.isInstanced() ? surface.centredFromSource.size() : 1;
     for (std::size_t instance = 0; surface.casts && instance < instances; ++instance)
     {

@@ -51,6 +51,12 @@ public:
     return placement.firstTriangle + (triangle - this->surfaceOf(placement).firstTriangle);
   }
 
+  /// The only placement of a casting surface without instances.
+  const Placement& only(std::uint32_t surface) const
+  {
+    return this->placements_[this->firstOfSurface_[surface]];
+  }
+
   /// Visits things of all placements, on all cores.
   /// @param countOf how many of them a placement has
   /// @param visit called with the placement's number and the thing's
@@ -84,6 +90,7 @@ public:
 private:
   const Occluders& occluders_;
   std::vector<Placement> placements_;
+  std::vector<std::uint32_t> firstOfSurface_; ///< of its placements, where it has any
   std::size_t triangleCount_ = 0;
 };
 

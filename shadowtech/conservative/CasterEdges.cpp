@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <tuple>
 
 namespace gnomon
@@ -57,8 +58,8 @@ std::vector<glm::dvec3> normalsOf(const Occluders& occluders, const Surface& sur
   return normals;
 }
 
-/// Which vertices have triangles around them whose normals are too far apart.
-std::vector<std::uint8_t> sharpVertices(const Occluders& occluders, const Surface& surface,
+/// Where the normals around each vertex are, by the vertices that count for those at their place.
+std::vector<NormalCone> normalCones(const Occluders& occluders, const Surface& surface,
   const std::vector<std::uint32_t>& welded, const std::vector<glm::dvec3>& normals)
 {
   const auto visit = [&](auto&& visitCorner)
@@ -72,23 +73,27 @@ std::vector<std::uint8_t> sharpVertices(const Occluders& occluders, const Surfac
       }
     }
   };
-  std::vector<glm::dvec3> means(surface.vertexCount, glm::dvec3(0.0));
+  std::vector<NormalCone> cones(surface.vertexCount);
   // Which side a normal is on does not matter here, as triangles may be wound either way: where neighbours are no
   // sharper than that, all around a corner are on one side, or far from the mean.
-  visit([&](std::uint32_t vertex, const glm::dvec3& normal)
-    { means[vertex] += glm::dot(normal, means[vertex]) < 0.0 ? -normal : normal; });
-  std::vector<std::uint8_t> sharp(surface.vertexCount, 0);
   visit(
     [&](std::uint32_t vertex, const glm::dvec3& normal)
     {
-      const glm::dvec3& mean = means[vertex];
-      // Written so that the zero normal is sharp.
-      if (!(std::abs(glm::dot(normal, mean)) > sharpCosineToMean * glm::length(mean)))
-      {
-        sharp[vertex] = 1;
-      }
+      glm::dvec3& sum = cones[vertex].axis;
+      sum += glm::dot(normal, sum) < 0.0 ? -normal : normal;
     });
-  return sharp;
+  for (NormalCone& cone : cones)
+  {
+    const double length = glm::length(cone.axis);
+    cone = length > 0.0 ? NormalCone{ cone.axis / length, 1.0 } : NormalCone{};
+  }
+  visit(
+    [&](std::uint32_t vertex, const glm::dvec3& normal)
+    {
+      NormalCone& cone = cones[vertex];
+      cone.leastCosine = std::min(cone.leastCosine, std::abs(glm::dot(normal, cone.axis)));
+    });
+  return cones;
 }
 
 } // namespace
@@ -115,7 +120,12 @@ SurfaceEdges findCasterEdges(const Occluders& occluders, const Surface& surface)
   tbb::parallel_sort(sides.begin(), sides.end());
 
   const std::vector<glm::dvec3> normals = normalsOf(occluders, surface);
-  const std::vector<std::uint8_t> sharp = sharpVertices(occluders, surface, welded, normals);
+  const std::vector<NormalCone> cones = normalCones(occluders, surface, welded, normals);
+  const auto coneOf = [&](std::uint32_t vertex) -> const NormalCone&
+  { return cones[vertex - surface.firstVertex]; };
+  // Written so that NaN is sharp.
+  const auto isSharp = [&](std::uint32_t vertex)
+  { return !(coneOf(vertex).leastCosine > sharpCosineToMean); };
   const auto normalOf = [&](std::uint32_t triangle) -> const glm::dvec3&
   { return normals[triangle - surface.firstTriangle]; };
 
@@ -145,8 +155,8 @@ SurfaceEdges findCasterEdges(const Occluders& occluders, const Surface& surface)
       // Instances may be sheared, which changes angles.
       const double cosine = (edge.sameDirection ? -1.0 : 1.0) *
         glm::dot(normalOf(edge.triangles[0]), normalOf(edge.triangles[1]));
-      edge.sharp = surface.isInstanced() || !(cosine > sharpCosine) ||
-        sharp[edge.from - surface.firstVertex] || sharp[edge.to - surface.firstVertex];
+      edge.sharp =
+        surface.isInstanced() || !(cosine > sharpCosine) || isSharp(edge.from) || isSharp(edge.to);
       noteNext(sides[first]);
       noteNext(sides[first + 1]);
       edges.push_back(edge);
@@ -154,6 +164,11 @@ SurfaceEdges findCasterEdges(const Occluders& occluders, const Surface& surface)
     else
     {
       edge.sharp = true;
+      if (last - first == 1)
+      {
+        result.rims.push_back(
+          { static_cast<std::uint32_t>(edges.size()), { { coneOf(edge.from), coneOf(edge.to) } } });
+      }
       for (std::size_t i = first; i < last; ++i)
       {
         edge.triangles[0] = sides[i].triangle;
@@ -164,20 +179,80 @@ SurfaceEdges findCasterEdges(const Occluders& occluders, const Surface& surface)
     first = last;
   }
   edges.shrink_to_fit();
+  result.rims.shrink_to_fit();
   return result;
 }
 
 //------------------------------------------------------------------------------
 void CasterEdges::update(const Occluders& occluders)
 {
+  if (this->topologyVersion_ == occluders.topologyVersion &&
+    this->positionsVersion_ == occluders.positionsVersion)
+  {
+    return;
+  }
   this->kept_.update(occluders, findCasterEdges);
+  std::vector<const SurfaceEdges*> edges(occluders.surfaces.size(), nullptr);
+  for (std::size_t i = 0; i < edges.size(); ++i)
+  {
+    edges[i] = occluders.surfaces[i].casts ? &this->of(i) : nullptr;
+  }
+  this->seams_.update(occluders, edges);
+  this->joinParts(occluders);
+  this->topologyVersion_ = occluders.topologyVersion;
+  this->positionsVersion_ = occluders.positionsVersion;
+}
+
+//------------------------------------------------------------------------------
+void CasterEdges::joinParts(const Occluders& occluders)
+{
+  this->parts_.resize(occluders.triangles.size());
+  std::iota(this->parts_.begin(), this->parts_.end(), 0u);
+  // Triangles point to lesser ones of their part, the least to itself.
+  const auto leastOf = [this](std::uint32_t triangle)
+  {
+    while (this->parts_[triangle] != triangle)
+    {
+      triangle = this->parts_[triangle] = this->parts_[this->parts_[triangle]];
+    }
+    return triangle;
+  };
+  const auto join = [&](std::uint32_t one, std::uint32_t other)
+  {
+    const std::uint32_t a = leastOf(one);
+    const std::uint32_t b = leastOf(other);
+    this->parts_[std::max(a, b)] = std::min(a, b);
+  };
+  for (std::size_t i = 0; i < occluders.surfaces.size(); ++i)
+  {
+    if (!occluders.surfaces[i].casts)
+    {
+      continue;
+    }
+    for (const CasterEdge& edge : this->of(i).edges)
+    {
+      if (edge.triangles[1] != CasterEdge::none)
+      {
+        join(edge.triangles[0], edge.triangles[1]);
+      }
+    }
+    for (const Seam& seam : this->seams_.of(i))
+    {
+      join(this->of(i).edges[seam.edge].triangles[0], seam.otherTriangle);
+    }
+  }
+  for (std::uint32_t& part : this->parts_)
+  {
+    part = this->parts_[part]; // the least of lesser ones is known
+  }
 }
 
 //------------------------------------------------------------------------------
 std::size_t CasterEdges::bytes() const
 {
-  return this->kept_.bytes(
-    [](const SurfaceEdges& found) { return bytesOf(found.edges) + bytesOf(found.ofTriangle); });
+  return this->seams_.bytes() + bytesOf(this->parts_) +
+    this->kept_.bytes([](const SurfaceEdges& found)
+      { return bytesOf(found.edges) + bytesOf(found.ofTriangle) + bytesOf(found.rims); });
 }
 
 } // namespace gnomon

@@ -2,6 +2,7 @@
 #define gnomon_shadowtech_conservative_CasterEdges_h
 
 #include "shadowtech/base/Occluders.h"
+#include "shadowtech/conservative/CasterSeams.h"
 #include "shadowtech/conservative/KeptOfCasters.h"
 
 #include <array>
@@ -46,26 +47,42 @@ struct SurfaceEdges
   std::vector<CasterEdge> edges;
   /// For each of its triangles, from the first, the edges from each corner to the next.
   std::vector<std::array<std::uint32_t, 3>> ofTriangle;
+  std::vector<Rim>
+    rims; ///< those of its edges that have one triangle, and that no other triangle has
 };
 
 /// The edges of the casting surfaces, kept from snapshot to snapshot.
 ///
-/// Vertices at exactly the same place count as one (WeldedVertices.h). Edges where a vertex lies on another triangle's edge (T-junctions),
-/// and those between different surfaces, are ends.
+/// Vertices at exactly the same place count as one (WeldedVertices.h). Edges where a vertex lies on another triangle's edge (T-junctions)
+/// are ends. Those between different surfaces are, too, unless they are seams.
 class CasterEdges
 {
 public:
-  /// Finds the edges of surfaces that are new, or whose vertices moved.
+  /// Finds the edges of surfaces that are new, or whose vertices moved, the seams, and the parts.
   void update(const Occluders& occluders);
 
   /// Edges of a casting surface.
   /// @param surface index into the snapshot's surfaces, as of the last update
   const SurfaceEdges& of(std::size_t surface) const { return this->kept_.of(surface); }
 
+  const CasterSeams& seams() const { return this->seams_; }
+
+  /// The part of the casters' surface that a casting triangle belongs to: all triangles that one comes to across edges and
+  /// seams, whichever way they are seen. Instances are apart from each other.
+  /// @param triangle of the snapshot
+  /// @return the least of those triangles
+  std::uint32_t partOf(std::uint32_t triangle) const { return this->parts_[triangle]; }
+
   std::size_t bytes() const;
 
 private:
+  void joinParts(const Occluders& occluders);
+
   KeptOfCasters<SurfaceEdges> kept_;
+  CasterSeams seams_;
+  std::vector<std::uint32_t> parts_;
+  std::uint64_t topologyVersion_ = 0;
+  std::uint64_t positionsVersion_ = 0;
 };
 
 /// The edges of one surface. Exposed for tests.

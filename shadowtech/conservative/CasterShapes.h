@@ -125,10 +125,15 @@ constexpr std::size_t mostCorners = 16;
 /// Of a polygon's side that is none of the triangle's.
 constexpr std::uint8_t noSide = 3;
 
+/// One of the parts that the casters' surface falls into (CasterEdges::partOf()), those of instances told apart.
+using CasterPart = std::uint64_t;
+constexpr CasterPart noPart = 0xffffffffffffffffu;
+
 /// A convex piece of a caster on the map.
 struct MapPolygon
 {
   Role role;
+  CasterPart part = noPart; ///< that it belongs to
   int facing = 0; ///< 1 or -1 by the way that it is wound on the map; 0: all its edges are ends
   std::size_t count = 0;
   std::array<MapCorner, mostCorners> corners;
@@ -174,7 +179,8 @@ struct MapSegment
 {
   std::array<MapCorner, 2> ends;
   double slack = 0.0;
-  bool isEnd = false; ///< the casters' surface ends here; else a sharp edge
+  bool isEnd = false;       ///< the casters' surface ends here; else a sharp edge
+  CasterPart part = noPart; ///< that its triangles belong to
 };
 
 /// What an edge is to its triangles, of which each faces one way on the map or the other (1, -1), lies

@@ -16,6 +16,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <tuple>
 
 namespace gnomon
 {
@@ -38,8 +39,8 @@ float above(float depth)
 /// How many triangles around a corner are followed, to either side: more than there mostly are.
 constexpr int mostAroundCorner = 12;
 
-/// What follows from a cell.
-TexelBounds boundsOf(const Cell& cell, Covering covering)
+/// What follows from a cell, when all is drawn.
+TexelBounds boundsOf(const Cell& cell)
 {
   TexelBounds bounds;
   bounds.litUpTo = below(cell.nearest);
@@ -47,17 +48,7 @@ TexelBounds boundsOf(const Cell& cell, Covering covering)
   const float second = below(std::min(cell.second, cell.sharpEnd) - cell.climb);
   bounds.litUpToOnCasters = std::max(bounds.litUpTo, second);
   bounds.leastOffsetOnCasters = cell.noise / static_cast<float>(sharpCosine);
-  bounds.shadowFrom = above(cell.contained);
-  if (covering == Covering::Silhouette)
-  {
-    // From where the nearest caster is no deeper than nearestAcross its surface goes on all over the
-    // texel, as nothing ends it, and climbs no more than twice to the sample.
-    const float everywhere = cell.nearestAcross + 2.0f * cell.climb;
-    if (cell.end > everywhere)
-    {
-      bounds.shadowFrom = std::min(bounds.shadowFrom, above(everywhere));
-    }
-  }
+  bounds.shadowFrom = above(std::min(cell.contained, cell.covered));
   return bounds;
 }
 
@@ -159,6 +150,31 @@ private:
       this->facingOf(placement, edge.triangles[1]));
   }
 
+  /// The same of an edge by its number, at which the surface may go on as another one.
+  EdgeKind kindOf(const Placement& placement, std::uint32_t number) const
+  {
+    CasterEdge edge = this->edges_.of(placement.surface).edges[number];
+    const Seam* const seam = edge.triangles[1] == CasterEdge::none
+      ? this->edges_.seams().at(placement.surface, number)
+      : nullptr;
+    if (!seam)
+    {
+      return this->kindOf(placement, edge);
+    }
+    edge.sameDirection = seam->sameDirection;
+    edge.sharp = seam->sharp;
+    return gnomon::kindOf(edge, this->facingOf(placement, edge.triangles[0]),
+      this->facingOf(this->placements_.only(seam->otherSurface), seam->otherTriangle));
+  }
+
+  /// The part of the casters' surface that a triangle belongs to; none where nobody asks for parts.
+  CasterPart partOf(const Placement& placement, std::uint32_t triangle) const
+  {
+    return this->covering_ == Covering::Silhouette
+      ? CasterPart(placement.instance) << 32 | this->edges_.partOf(triangle)
+      : noPart;
+  }
+
   bool segment(const Placement& placement, std::uint32_t number, MapSegment& result) const
   {
     const CasterEdge& edge = this->edges_.of(placement.surface).edges[number];
@@ -167,10 +183,20 @@ private:
     {
       return false;
     }
-    const EdgeKind kind = this->kindOf(placement, edge);
+    const EdgeKind kind = this->kindOf(placement, number);
+    result.part = this->partOf(placement, edge.triangles[0]);
     return kind != EdgeKind::Inner &&
       segmentOf(this->scene_, this->placements_.surfaceOf(placement), placement.instance, edge,
         kind, result);
+  }
+
+  /// A triangle as the map sees it.
+  MapPolygon polygon(const Placement& placement, std::uint32_t triangle) const
+  {
+    MapPolygon polygon =
+      polygonOf(this->scene_, this->placements_.surfaceOf(placement), placement.instance, triangle);
+    polygon.part = this->partOf(placement, triangle);
+    return polygon;
   }
 
   /// The triangle on which the casters' surface goes on across an edge; `none` where it ends.
@@ -296,19 +322,69 @@ private:
           drawSegment(found, this->margin_, this->size_, rows, cells);
         }
       });
+    if (this->covering_ == Covering::Silhouette)
+    {
+      this->drawParts(band, rows, cells);
+      return;
+    }
+    this->triangles_.visit(
+      band, [&](const BandItem& item) { this->drawTriangle(item, rows, cells); });
+  }
+
+  /// Draws the triangles of a band part by part, of each its ends first.
+  void drawParts(int band, Span rows, Cell* cells) const
+  {
+    struct PartItem
+    {
+      CasterPart part;
+      bool triangle; ///< else an edge
+      BandItem item;
+    };
+    std::vector<PartItem> items;
+    this->segments_.visit(band,
+      [&](const BandItem& item)
+      {
+        const Placement& placement = this->placements_[item.placement];
+        const CasterEdge& edge = this->edges_.of(placement.surface).edges[item.index];
+        items.push_back({ this->partOf(placement, edge.triangles[0]), false, item });
+      });
     this->triangles_.visit(band,
       [&](const BandItem& item)
       {
         const Placement& placement = this->placements_[item.placement];
-        const MapPolygon polygon = polygonOf(
-          this->scene_, this->placements_.surfaceOf(placement), placement.instance, item.index);
-        drawPolygon(polygon, this->margin_, this->size_, rows, cells);
-        if (this->covering_ != Covering::Triangle && polygon.role.covers)
-        {
-          drawRing(
-            this->ringOf(placement, item.index, polygon), this->margin_, this->size_, rows, cells);
-        }
+        items.push_back({ this->partOf(placement, item.index), true, item });
       });
+    std::sort(items.begin(), items.end(),
+      [](const PartItem& a, const PartItem& b)
+      { return std::tie(a.part, a.triangle) < std::tie(b.part, b.triangle); });
+    for (const PartItem& item : items)
+    {
+      MapSegment found;
+      if (item.triangle)
+      {
+        this->drawTriangle(item.item, rows, cells);
+      }
+      else if (this->segment(this->placements_[item.item.placement], item.item.index, found) &&
+        found.isEnd)
+      {
+        drawEndOfPart(found, this->margin_, this->size_, rows, cells);
+      }
+    }
+    std::for_each(cells,
+      cells + static_cast<std::ptrdiff_t>(rows.last - rows.first + 1) * this->size_,
+      [](Cell& cell) { cell.turnTo(noPart); });
+  }
+
+  void drawTriangle(const BandItem& item, Span rows, Cell* cells) const
+  {
+    const Placement& placement = this->placements_[item.placement];
+    const MapPolygon polygon = this->polygon(placement, item.index);
+    drawPolygon(polygon, this->margin_, this->size_, rows, cells);
+    if (this->covering_ != Covering::Triangle && polygon.role.covers)
+    {
+      drawRing(
+        this->ringOf(placement, item.index, polygon), this->margin_, this->size_, rows, cells);
+    }
   }
 
   const CasterScene& scene_;
@@ -405,7 +481,7 @@ MapRule certainRule(Covering covering)
     if (!drawing.blind())
     {
       texels.resize(static_cast<std::size_t>(sizeTexels) * static_cast<std::size_t>(sizeTexels));
-      drawing.draw([&](std::size_t i, const Cell& cell) { texels[i] = boundsOf(cell, covering); });
+      drawing.draw([&](std::size_t i, const Cell& cell) { texels[i] = boundsOf(cell); });
     }
     return ConservativeMap(view, hasBox, lookUp, std::move(texels));
   };

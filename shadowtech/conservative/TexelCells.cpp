@@ -191,6 +191,24 @@ void visitTexels(
   }
 }
 
+/// Visits the texels that an edge meets, in some rows.
+/// @param visit called with the cell, and with the edge's least depth in it
+template <typename Visit>
+void visitCells(
+  const MapSegment& segment, double margin, int width, Span rows, Cell* cells, const Visit& visit)
+{
+  const double start = segment.ends[0].depth;
+  const double extent = segment.ends[1].depth - start;
+  visitTexels(segment, margin, width, rows,
+    [&](int x, int y, double first, double last)
+    {
+      // -infinity with endless slack
+      const auto depth =
+        static_cast<float>(start + std::min(first * extent, last * extent) - segment.slack);
+      visit(cells[static_cast<std::ptrdiff_t>(y - rows.first) * width + x], depth);
+    });
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -211,7 +229,9 @@ void drawPolygon(const MapPolygon& polygon, double margin, int width, Span rows,
     {
       for (int x = row.touched.first; x <= row.touched.last; ++x)
       {
-        cell[x].nearest = cell[x].end = cell[x].sharpEnd = -std::numeric_limits<float>::infinity();
+        cell[x].turnTo(polygon.part);
+        cell[x].nearest = cell[x].partEnd = cell[x].sharpEnd =
+          -std::numeric_limits<float>::infinity();
       }
       continue;
     }
@@ -219,14 +239,19 @@ void drawPolygon(const MapPolygon& polygon, double margin, int width, Span rows,
     {
       const float nearest = texels.nearest(row, x);
       cell[x].nearest = std::min(cell[x].nearest, nearest);
-      if (nearest < cell[x].end)
+      if (nearest < cell[x].sharpEnd)
       {
         cell[x].climb = std::max(cell[x].climb, texels.climb());
         cell[x].noise = std::max(cell[x].noise, static_cast<float>(polygon.noise));
       }
+      cell[x].turnTo(polygon.part);
+      if (nearest < cell[x].partEnd)
+      {
+        cell[x].partClimb = std::max(cell[x].partClimb, texels.climb());
+      }
       if (polygon.role.covers)
       {
-        cell[x].nearestAcross = std::min(cell[x].nearestAcross, texels.farthest(row, x));
+        cell[x].partAcross = std::min(cell[x].partAcross, texels.farthest(row, x));
       }
     }
     for (int x = row.sampled.first; x <= row.sampled.last; ++x)
@@ -313,22 +338,25 @@ void drawRing(const MapRing& ring, double margin, int width, Span rows, Cell* ce
 }
 
 //------------------------------------------------------------------------------
+void drawEndOfPart(const MapSegment& segment, double margin, int width, Span rows, Cell* cells)
+{
+  visitCells(segment, margin, width, rows, cells,
+    [&](Cell& cell, float depth)
+    {
+      cell.turnTo(segment.part);
+      cell.partEnd = std::min(cell.partEnd, depth);
+    });
+}
+
+//------------------------------------------------------------------------------
 void drawSegment(const MapSegment& segment, double margin, int width, Span rows, Cell* cells)
 {
-  const auto& [a, b] = segment.ends;
-  const double start = a.depth;
-  const double extent = b.depth - a.depth;
-  visitTexels(segment, margin, width, rows,
-    [&](int x, int y, double first, double last)
+  visitCells(segment, margin, width, rows, cells,
+    [&](Cell& cell, float depth)
     {
-      // -infinity with endless slack
-      const auto depth =
-        static_cast<float>(start + std::min(first * extent, last * extent) - segment.slack);
-      Cell& cell = cells[static_cast<std::ptrdiff_t>(y - rows.first) * width + x];
       cell.sharpEnd = std::min(cell.sharpEnd, depth);
       if (segment.isEnd)
       {
-        cell.end = std::min(cell.end, depth);
         cell.nearest = std::min(cell.nearest, depth);
       }
     });

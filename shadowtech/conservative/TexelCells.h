@@ -4,6 +4,7 @@
 #include "shadowtech/conservative/CasterShapes.h"
 #include "shadowtech/conservative/TexelRows.h"
 
+#include <algorithm>
 #include <functional>
 #include <limits>
 #include <vector>
@@ -18,17 +19,42 @@ namespace gnomon
 struct Cell
 {
   float nearest = std::numeric_limits<float>::infinity(); ///< the least depth of a caster
-  float nearestAcross =
-    std::numeric_limits<float>::infinity(); ///< the least of their largest depths
   float contained =
     std::numeric_limits<float>::infinity(); ///< that of casters that cover the texel
   float noise = 0.0f; ///< the most that a tracer may see a triangle off its plane, in world units
   float climb = 0.0f; ///< the most that depth changes from anywhere to the sample
-  float end =
-    std::numeric_limits<float>::infinity(); ///< the least depth of an end of the casters' surface
-  float sharpEnd = std::numeric_limits<float>::infinity(); ///< the same, with sharp edges
+  float sharpEnd =
+    std::numeric_limits<float>::infinity(); ///< the least depth of an end or a sharp edge
   float first = std::numeric_limits<float>::infinity();  ///< depth of the first layer at the sample
   float second = std::numeric_limits<float>::infinity(); ///< and of the second
+
+  ///@{
+  /// Of the part of the casters' surface that is being drawn.
+  CasterPart part = noPart;
+  float partAcross =
+    std::numeric_limits<float>::infinity(); ///< the least of its triangles' largest depths
+  float partEnd = std::numeric_limits<float>::infinity(); ///< the least depth of an end
+  float partClimb = 0.0f;                                 ///< of its triangles, the most
+  ///@}
+  /// The least depth from which a part covers the texel, of those that were drawn before.
+  float covered = std::numeric_limits<float>::infinity();
+
+  /// Turns to a part: they are drawn one after another, each once.
+  void turnTo(CasterPart next)
+  {
+    if (next == this->part)
+    {
+      return;
+    }
+    // From where the part is no deeper than partAcross it goes on all over the texel, as nothing ends it, and climbs no
+    // more than twice to the sample.
+    const float everywhere = this->partAcross + 2.0f * this->partClimb;
+    this->covered =
+      this->partEnd > everywhere ? std::min(this->covered, everywhere) : this->covered;
+    this->part = next;
+    this->partAcross = this->partEnd = std::numeric_limits<float>::infinity();
+    this->partClimb = 0.0f;
+  }
 
   void addLayer(float depth)
   {
@@ -58,6 +84,9 @@ struct MapRing
 
 /// Notes where a ring covers, for texels that its middle touches.
 void drawRing(const MapRing& ring, double margin, int width, Span rows, Cell* cells);
+
+/// Notes where a part of the casters' surface ends: before its triangles are drawn.
+void drawEndOfPart(const MapSegment& segment, double margin, int width, Span rows, Cell* cells);
 
 /// Draws an edge into some rows.
 void drawSegment(const MapSegment& segment, double margin, int width, Span rows, Cell* cells);

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace gnomon::test
 {
@@ -167,6 +168,121 @@ TEST(CasterEdges, areKeptUntilTheSurfaceChanges)
   edges.update(occluders);
   EXPECT_EQ(edges.of(0).edges.data(), plane);
   EXPECT_EQ(edges.of(1).edges.size(), edgesOf(makeSphere(4, 8)).size());
+}
+
+/// Two unit squares side by side, of two triangles each, the second at an angle to the first.
+std::vector<Mesh> squaresAtAngle(double degrees)
+{
+  const double angle = glm::radians(degrees);
+  Mesh flat;
+  flat.points = { { -1.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0 }, { -1.0, 1.0, 0.0 } };
+  flat.triangles = { { 0, 1, 2 }, { 0, 2, 3 } };
+  Mesh raised;
+  raised.points = { { 0.0, 0.0, 0.0 }, { std::cos(angle), 0.0, std::sin(angle) },
+    { std::cos(angle), 1.0, std::sin(angle) }, { 0.0, 1.0, 0.0 } };
+  raised.triangles = flat.triangles;
+  return { flat, raised };
+}
+
+CasterEdges edgesOf(const Occluders& occluders)
+{
+  CasterEdges edges;
+  edges.update(occluders);
+  return edges;
+}
+
+TEST(CasterSeams, areWhereTwoSurfacesShareAnEdge)
+{
+  const std::vector<Mesh> squares = squaresAtAngle(20.0);
+  const Occluders occluders = makeOccluders({ { squares[0] }, { squares[1] } });
+  const CasterEdges edges = edgesOf(occluders);
+  for (const std::uint32_t surface : { 0u, 1u })
+  {
+    ASSERT_EQ(edges.seams().of(surface).size(), 1u);
+    const Seam& seam = edges.seams().of(surface).front();
+    const CasterEdge& edge = edges.of(surface).edges[seam.edge];
+    EXPECT_EQ(edge.triangles[1], CasterEdge::none);
+    EXPECT_EQ(occluders.positionsCentred[edge.from].x, occluders.positionsCentred[edge.to].x);
+    EXPECT_EQ(seam.otherSurface, 1u - surface);
+    EXPECT_EQ(seam.otherTriangle, surface == 0u ? 3u : 0u);
+    EXPECT_FALSE(seam.sameDirection);
+    EXPECT_FALSE(seam.sharp);
+    EXPECT_EQ(edges.seams().at(surface, seam.edge), &seam);
+    EXPECT_EQ(edges.seams().at(surface, seam.edge + 1), nullptr);
+  }
+  EXPECT_EQ(edges.partOf(3), 0u) << "it is all one part";
+
+  Mesh turned = squares[1];
+  turned.triangles = { { 0, 2, 1 }, { 0, 3, 2 } };
+  const Occluders otherwise = makeOccluders({ { squares[0] }, { turned } });
+  EXPECT_TRUE(edgesOf(otherwise).seams().of(0).front().sameDirection);
+  EXPECT_FALSE(edgesOf(otherwise).seams().of(0).front().sharp);
+}
+
+TEST(CasterSeams, areSharpWhereShadowRaysMayStartBehindTheOtherSide)
+{
+  for (const double degrees : { 40.0, -40.0, 43.0, 137.0, 175.0 })
+  {
+    const std::vector<Mesh> squares = squaresAtAngle(degrees);
+    const Occluders occluders = makeOccluders({ { squares[0] }, { squares[1] } });
+    const CasterEdges edges = edgesOf(occluders);
+    ASSERT_EQ(edges.seams().of(0).size(), 1u);
+    EXPECT_EQ(edges.seams().of(0).front().sharp, std::abs(degrees) > 41.0) << degrees;
+  }
+}
+
+TEST(CasterSeams, areSharpAtCornersWithOtherTrianglesTooFarApart)
+{
+  // A third surface goes on from the second one around the corner, steeply.
+  std::vector<Mesh> squares = squaresAtAngle(30.0);
+  Mesh wing;
+  wing.points = { { 0.0, 0.0, 0.0 }, squares[1].points[1], { 0.5, -0.2, -1.0 } };
+  wing.triangles = { { 0, 2, 1 } };
+  const Occluders occluders = makeOccluders({ { squares[0] }, { squares[1] }, { wing } });
+  const CasterEdges edges = edgesOf(occluders);
+  ASSERT_EQ(edges.seams().of(1).size(), 2u);
+  for (const Seam& seam : edges.seams().of(1))
+  {
+    EXPECT_TRUE(seam.sharp) << seam.otherSurface;
+  }
+}
+
+TEST(CasterSeams, areNotWhereAThirdSurfaceMeetsNorWhereOneIsDifferent)
+{
+  const std::vector<Mesh> squares = squaresAtAngle(20.0);
+  const std::vector<Mesh> others = squaresAtAngle(-50.0);
+  const auto seams = [](const std::vector<Prop>& props)
+  {
+    const CasterEdges edges = edgesOf(makeOccluders(props));
+    EXPECT_EQ(edges.partOf(1), 0u);
+    EXPECT_EQ(edges.partOf(2), edges.seams().of(0).empty() ? 2u : 0u);
+    return edges.seams().of(0).size();
+  };
+  EXPECT_EQ(seams({ { squares[0] }, { squares[1] } }), 1u);
+  EXPECT_EQ(seams({ { squares[0] }, { squares[1] }, { others[1] } }), 0u);
+  Prop different{ squares[1] };
+  different.oneSided = true;
+  EXPECT_EQ(seams({ { squares[0] }, different }), 0u);
+  different.oneSided = false;
+  different.casts = false;
+  EXPECT_EQ(seams({ { squares[0] }, different }), 0u);
+  different = { squares[1], at({ 0.0, 1e-6, 0.0 }) };
+  EXPECT_EQ(seams({ { squares[0] }, different }), 0u);
+}
+
+TEST(CasterSeams, areFoundAgainWhenASurfaceMoves)
+{
+  const std::vector<Mesh> squares = squaresAtAngle(20.0);
+  Occluders occluders = makeOccluders({ { squares[0] }, { squares[1] } });
+  CasterEdges edges;
+  edges.update(occluders);
+  EXPECT_EQ(edges.seams().of(0).size(), 1u);
+  moveSurface(occluders, 1, { 0.0, 0.0, 0.5 });
+  edges.update(occluders);
+  EXPECT_EQ(edges.seams().of(0).size(), 0u);
+  moveSurface(occluders, 1, { 0.0, 0.0, -0.5 });
+  edges.update(occluders);
+  EXPECT_EQ(edges.seams().of(0).size(), 1u);
 }
 
 } // namespace

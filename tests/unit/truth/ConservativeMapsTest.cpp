@@ -149,7 +149,15 @@ struct ChosenReceivers
   }
 };
 
-TEST(ConservativeMaps, areNeverWrongInTheBottomOfAValley)
+/// Its sides are one surface, or two that meet in a seam.
+class Valley : public testing::TestWithParam<bool>
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(ConservativeMaps, Valley, testing::Bool(),
+  [](const testing::TestParamInfo<bool>& info) { return info.param ? "seam" : "edge"; });
+
+TEST_P(Valley, isNeverWrongInItsBottom)
 {
   // Both sides face the light, and rays from one start behind the other near the bottom.
   for (const double steepness : { 0.5, 1.0, 3.0 })
@@ -163,7 +171,15 @@ TEST(ConservativeMaps, areNeverWrongInTheBottomOfAValley)
       valley.points.emplace_back(side, y, steepness * side);
     }
     valley.triangles = { { 0, 1, 4 }, { 0, 4, 3 }, { 1, 2, 5 }, { 1, 5, 4 } };
-    const Occluders occluders = makeOccluders({ { valley } });
+    std::vector<Prop> props{ { valley } };
+    if (this->GetParam())
+    {
+      props.push_back({ valley });
+      props[0].mesh.triangles.resize(2);
+      props[1].mesh.triangles.erase(
+        props[1].mesh.triangles.begin(), props[1].mesh.triangles.begin() + 2);
+    }
+    const Occluders occluders = makeOccluders(props);
     ShadowLight light = directionalLight({ 0.05, 0.02, -1.0 });
     light.mapSizeTexels = 32;
     constexpr int count = 4000;

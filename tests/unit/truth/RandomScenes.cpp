@@ -116,6 +116,23 @@ Mesh makeDuplicates(Random& random, int count)
   return mesh;
 }
 
+/// The triangles of a mesh dealt out to some meshes, of which every other one is turned over.
+std::vector<Mesh> dealtOut(const Mesh& mesh, std::size_t count, Random& random)
+{
+  std::vector<Mesh> dealt(count);
+  for (Mesh& some : dealt)
+  {
+    some.points = mesh.points;
+  }
+  for (const glm::uvec3& triangle : mesh.triangles)
+  {
+    const std::size_t to = random() % count;
+    dealt[to].triangles.push_back(
+      to % 2 ? glm::uvec3(triangle.y, triangle.x, triangle.z) : triangle);
+  }
+  return dealt;
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -123,7 +140,7 @@ const std::vector<const char*>& randomSceneNames()
 {
   static const std::vector<const char*> names = { "one triangle", "spheres", "soup", "needles",
     "cups", "folds", "junctions", "duplicates", "touching boxes", "crossing boxes", "terrain",
-    "perforated", "one-sided", "sheets", "lamp" };
+    "perforated", "one-sided", "sheets", "lamp", "patchwork" };
   return names;
 }
 
@@ -222,6 +239,21 @@ std::vector<Prop> makeRandomScene(const std::string& name, Random& random)
     props.push_back(
       { makeCup(8, 24), glm::rotate(at({ 0.1, -0.2, 1.0 }, 0.15), 3.0, { 1.0, 0.2, 0.0 }) });
     props.push_back({ makeBox(glm::dvec3(20.0), glm::dvec3(25.0)) });
+  }
+  else if (name == "patchwork")
+  {
+    // Surfaces that go on as others: smooth ones, sharp ones, some that meet in corners alone.
+    props.clear();
+    const Mesh wholes[] = { makeTerrain(6.0, 12, 0.5), makeSphere(8, 16),
+      makeBox(glm::dvec3(-0.5), glm::dvec3(0.5)), makeFolds(6) };
+    for (const Mesh& whole : wholes)
+    {
+      const glm::dmat4 place = props.empty() ? glm::dmat4(1.0) : placed(random, 1.2, 0.5);
+      for (const Mesh& patch : dealtOut(whole, 2 + random() % 2, random))
+      {
+        props.push_back({ patch, place });
+      }
+    }
   }
   else if (name == "terrain")
   {

@@ -156,12 +156,12 @@ TEST(TexelCells, boundTheDepthsThatATriangleHasInThem)
             {
               ++samples;
               EXPECT_LE(cells[i].nearest, depthAt(point) + rounding);
-              EXPECT_GE(cells[i].nearestAcross, depthAt(point) - rounding);
+              EXPECT_GE(cells[i].partAcross, depthAt(point) - rounding);
             }
           }
           if (std::isfinite(cells[i].contained))
           {
-            EXPECT_EQ(cells[i].contained, cells[i].nearestAcross);
+            EXPECT_EQ(cells[i].contained, cells[i].partAcross);
           }
         });
     });

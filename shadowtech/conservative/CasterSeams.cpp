@@ -1,0 +1,225 @@
+#include "shadowtech/conservative/CasterSeams.h"
+
+#include "shadowtech/base/Bytes.h"
+#include "shadowtech/conservative/CasterEdges.h"
+
+#include <tbb/parallel_sort.h>
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+#include <utility>
+
+namespace gnomon
+{
+namespace
+{
+
+/// A place as bits, so that places are in order, and the same only where they are exactly the same.
+using Place = std::array<std::uint32_t, 3>;
+
+Place placeOf(const glm::vec3& position)
+{
+  const glm::uvec3 bits = glm::floatBitsToUint(position + glm::vec3(0.0f)); // -0 becomes 0
+  return { { bits.x, bits.y, bits.z } };
+}
+
+/// A rim by the places of its ends, the lesser one first.
+struct PlacedRim
+{
+  std::array<Place, 2> ends;
+  std::uint32_t surface;
+  std::uint32_t edge;
+  bool swapped; ///< the edge leads from the greater one
+  std::array<NormalCone, 2> corners;
+
+  bool operator<(const PlacedRim& other) const
+  {
+    return std::tie(this->ends, this->surface, this->edge) <
+      std::tie(other.ends, other.surface, other.edge);
+  }
+};
+
+/// Twice a triangle's area along its normal.
+glm::dvec3 areaOf(const Occluders& occluders, std::uint32_t triangle)
+{
+  const glm::uvec3 corners = occluders.triangles[triangle];
+  const glm::dvec3 a = occluders.positionsCentred[corners.x];
+  return glm::cross(glm::dvec3(occluders.positionsCentred[corners.y]) - a,
+    glm::dvec3(occluders.positionsCentred[corners.z]) - a);
+}
+
+/// What is around a vertex at one of the surfaces that meet there.
+struct PlacedCone
+{
+  Place place;
+  NormalCone cone;
+
+  bool operator<(const PlacedCone& other) const { return this->place < other.place; }
+};
+
+bool mayGoOn(const Surface& surface)
+{
+  return surface.casts && !surface.isInstanced() && !surface.oneSided && !surface.cutout;
+}
+
+/// Whether a triangle runs through an edge from its `from` to its `to`.
+bool runsAlong(const Occluders& occluders, const CasterEdge& edge)
+{
+  const Place from = placeOf(occluders.positionsCentred[edge.from]);
+  const Place to = placeOf(occluders.positionsCentred[edge.to]);
+  const glm::uvec3 corners = occluders.triangles[edge.triangles[0]];
+  for (int k = 0; k < 3; ++k)
+  {
+    if (placeOf(occluders.positionsCentred[corners[k]]) == from &&
+      placeOf(occluders.positionsCentred[corners[(k + 1) % 3]]) == to)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+std::vector<PlacedRim> placedRims(
+  const Occluders& occluders, const std::vector<const SurfaceEdges*>& edges)
+{
+  std::vector<PlacedRim> rims;
+  for (std::size_t i = 0; i < edges.size(); ++i)
+  {
+    if (!mayGoOn(occluders.surfaces[i]))
+    {
+      continue;
+    }
+    for (const Rim& rim : edges[i]->rims)
+    {
+      const CasterEdge& edge = edges[i]->edges[rim.edge];
+      const Place from = placeOf(occluders.positionsCentred[edge.from]);
+      const Place to = placeOf(occluders.positionsCentred[edge.to]);
+      const auto surface = static_cast<std::uint32_t>(i);
+      if (from < to)
+      {
+        rims.push_back({ { { from, to } }, surface, rim.edge, false, rim.corners });
+      }
+      else
+      {
+        rims.push_back(
+          { { { to, from } }, surface, rim.edge, true, { { rim.corners[1], rim.corners[0] } } });
+      }
+    }
+  }
+  tbb::parallel_sort(rims.begin(), rims.end());
+  return rims;
+}
+
+/// Whether triangles of two cones are too far apart for shadow rays that start off one of them.
+bool tooFarApart(const NormalCone& a, const NormalCone& b)
+{
+  const auto angle = [](double cosine) { return std::acos(glm::clamp(cosine, -1.0, 1.0)); };
+  // Written so that NaN is too far apart.
+  return !(angle(std::abs(glm::dot(a.axis, b.axis))) + angle(a.leastCosine) + angle(b.leastCosine) <
+    std::acos(sharpCosine) - 1e-6);
+}
+
+/// The places at which triangles of surfaces that meet there are too far apart, in order.
+std::vector<Place> sharpPlaces(const std::vector<std::pair<PlacedRim, PlacedRim>>& pairs)
+{
+  std::vector<PlacedCone> cones;
+  cones.reserve(4 * pairs.size());
+  for (const auto& [one, other] : pairs)
+  {
+    for (std::size_t end = 0; end < 2; ++end)
+    {
+      cones.push_back({ one.ends[end], one.corners[end] });
+      cones.push_back({ one.ends[end], other.corners[end] });
+    }
+  }
+  tbb::parallel_sort(cones.begin(), cones.end());
+  std::vector<Place> sharp;
+  for (std::size_t first = 0; first < cones.size();)
+  {
+    std::size_t last = first;
+    bool apart = false;
+    for (; last < cones.size() && cones[last].place == cones[first].place; ++last)
+    {
+      for (std::size_t i = first; i <= last && !apart; ++i)
+      {
+        apart = tooFarApart(cones[i].cone, cones[last].cone);
+      }
+    }
+    if (apart)
+    {
+      sharp.push_back(cones[first].place);
+    }
+    first = last;
+  }
+  return sharp;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+void CasterSeams::update(const Occluders& occluders, const std::vector<const SurfaceEdges*>& edges)
+{
+  this->bySurface_.assign(occluders.surfaces.size(), {});
+  const std::vector<PlacedRim> rims = placedRims(occluders, edges);
+  std::vector<std::pair<PlacedRim, PlacedRim>> pairs;
+  for (std::size_t first = 0; first < rims.size();)
+  {
+    std::size_t last = first + 1;
+    while (last < rims.size() && rims[last].ends == rims[first].ends)
+    {
+      ++last;
+    }
+    if (last - first == 2)
+    {
+      pairs.emplace_back(rims[first], rims[first + 1]);
+    }
+    first = last;
+  }
+  const std::vector<Place> sharp = sharpPlaces(pairs);
+  const auto isSharp = [&](const Place& place)
+  { return std::binary_search(sharp.begin(), sharp.end(), place); };
+  for (const auto& [one, other] : pairs)
+  {
+    const CasterEdge& edge = edges[one.surface]->edges[one.edge];
+    const CasterEdge& otherEdge = edges[other.surface]->edges[other.edge];
+    const bool sameDirection = (runsAlong(occluders, edge) != one.swapped) ==
+      (runsAlong(occluders, otherEdge) != other.swapped);
+    const glm::dvec3 area = areaOf(occluders, edge.triangles[0]);
+    const glm::dvec3 otherArea = areaOf(occluders, otherEdge.triangles[0]);
+    const double cosine = (sameDirection ? -1.0 : 1.0) * glm::dot(area, otherArea) /
+      (glm::length(area) * glm::length(otherArea));
+    const bool sharpSeam = !(cosine > sharpCosine) || isSharp(one.ends[0]) || isSharp(one.ends[1]);
+    this->bySurface_[one.surface].push_back(
+      { one.edge, other.surface, otherEdge.triangles[0], sameDirection, sharpSeam });
+    this->bySurface_[other.surface].push_back(
+      { other.edge, one.surface, edge.triangles[0], sameDirection, sharpSeam });
+  }
+  for (std::vector<Seam>& seams : this->bySurface_)
+  {
+    std::sort(
+      seams.begin(), seams.end(), [](const Seam& a, const Seam& b) { return a.edge < b.edge; });
+  }
+}
+
+//------------------------------------------------------------------------------
+const Seam* CasterSeams::at(std::size_t surface, std::uint32_t edge) const
+{
+  const std::vector<Seam>& seams = this->bySurface_[surface];
+  const auto found = std::lower_bound(seams.begin(), seams.end(), edge,
+    [](const Seam& seam, std::uint32_t number) { return seam.edge < number; });
+  return found != seams.end() && found->edge == edge ? &*found : nullptr;
+}
+
+//------------------------------------------------------------------------------
+std::size_t CasterSeams::bytes() const
+{
+  std::size_t bytes = bytesOf(this->bySurface_);
+  for (const std::vector<Seam>& seams : this->bySurface_)
+  {
+    bytes += bytesOf(seams);
+  }
+  return bytes;
+}
+
+} // namespace gnomon
