@@ -155,7 +155,7 @@ class Valley : public testing::TestWithParam<bool>
 };
 
 INSTANTIATE_TEST_SUITE_P(ConservativeMaps, Valley, testing::Bool(),
-  [](const testing::TestParamInfo<bool>& info) { return info.param ? "seam" : "edge"; });
+  [](const testing::TestParamInfo<bool>& sides) { return sides.param ? "seam" : "edge"; });
 
 TEST_P(Valley, isNeverWrongInItsBottom)
 {
