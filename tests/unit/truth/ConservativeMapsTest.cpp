@@ -380,7 +380,7 @@ TEST(ConservativeMaps, areNeverWrongOfPixelsWhoseRaysStartAboveASheet)
   cameras[2] = cameras[0];
   cameras[2].parallelHeight = 4.0;
   Tally sum;
-  for (const double texels : { 1.1, 1.25, 1.5, 2.0, 4.0 })
+  for (const double texels : { 0.3, 0.5, 0.7, 1.1, 1.25, 1.5, 2.0, 4.0 })
   {
     // No ray may start farther beside its receiver than 1/256 of a texel; seen from above, it starts so far up.
     const Occluders occluders = makeOccluders(
@@ -426,6 +426,133 @@ TEST(ConservativeMaps, areNeverWrongOfTrianglesWhoseRoundingIsMoreThanTheSheetAb
     sum.add(tally);
   }
   EXPECT_GT(sum.receivers, 1000u);
+}
+
+TEST(ConservativeMaps, areNeverWrongWhereTrianglesTouchTheConeOrTheBox)
+{
+  // Far from the origin, with a corner in the cone's or the box's side, so that rounding says whether the light reaches
+  // it; or well inside, so that maps decide it.
+  const glm::dvec3 lamp(1000.4, 1000.3, 1000.9);
+  const Prop opposite{ makeBox(-lamp - 1.0, -lamp), glm::dmat4(1.0), false };
+  const Prop ground{ makePlane(320.0), at(lamp - glm::dvec3(0.0, 0.0, 160.0)) };
+  Random random(8);
+  Tally sum;
+  for (int i = 0; i < 400; ++i)
+  {
+    const bool isSpot = i % 2 == 0;
+    ShadowLight light = isSpot ? spotLight(lamp, lamp - glm::dvec3(0.0, 0.0, 1.0), 30.0)
+                               : boxLight({ 0.0, 0.0, -1.0 }, lamp, { 80.0, 80.0, 200.0 });
+    const double angle = uniform(random, 0.0, 6.283185307179586);
+    const glm::dvec3 outwards(std::cos(angle), std::sin(angle), 0.0);
+    const glm::dvec3 beside(-outwards.y, outwards.x, 0.0);
+    if (light.box)
+    {
+      light.box->upWorld = beside;
+    }
+    light.mapSizeTexels = 8;
+    const double side = isSpot ? 80.0 * std::tan(glm::radians(30.0)) : 40.0;
+    const double from = uniform(random, -20.0, 20.0);
+    const auto below = [&](double out, double across, double down)
+    { return lamp + out * outwards + (from + across) * beside - glm::dvec3(0.0, 0.0, down); };
+    Mesh triangle;
+    const double inside = i % 4 < 2 ? 1.0 : 0.8;
+    const double across = isSpot ? -from : 0.0;
+    triangle.points = { below(inside * side, across, 80.0), below(5.0, 5.0, 90.0),
+      below(10.0, -5.0, 85.0) };
+    triangle.triangles = { { 0, 1, 2 } };
+    const Occluders occluders =
+      makeOccluders({ { triangle, glm::dmat4(1.0), false }, opposite, ground });
+    // Most rays pass the corner by.
+    const glm::dvec3 corner = triangle.points[0];
+    Camera camera;
+    camera.width = camera.height = 32;
+    camera.target = corner + 0.003 * (corner - triangle.points[1]);
+    camera.position = camera.target + glm::dvec3(0.1, 0.2, 3.0);
+    camera.up = { 0.0, 1.0, 0.0 };
+    camera.fovDegrees = 4.0;
+    const Tally tally = compareWithTruth(light, occluders, viewOfFirstTriangle(occluders, camera));
+    EXPECT_EQ(tally.wrong, 0u) << i;
+    sum.add(tally);
+  }
+  EXPECT_GT(sum.leftOut, 100000u);
+}
+
+TEST(ConservativeMaps, areNeverWrongInTheLastTexels)
+{
+  // Plates that reach over a map's borders, and lines of receivers that end there. Halves of these sides are odd.
+  const Bounds seen{ { -1.0, -1.0, -0.5 }, { 1.0, 1.0, 0.5 } };
+  ShadowLight light = directionalLight({ 0.0, 0.0, -1.0 });
+  Camera camera;
+  camera.width = camera.height = 320;
+  camera.position = { 0.02, 0.01, 0.4 }; // below the plates
+  camera.target = { 0.02, 0.01, 0.0 };
+  camera.parallelHeight = 2.4;
+  Tally sum;
+  for (const int size : { 17, 19, 34, 35, 65, 129 })
+  {
+    light.mapSizeTexels = size;
+    for (const double texels : { -0.3, 0.2, 0.7 })
+    {
+      const double from = 1.0 - texels * 2.0 / size;
+      Mesh plates;
+      for (const glm::dvec2& along : { glm::dvec2(1.0, 0.0), glm::dvec2(0.0, 1.0),
+             glm::dvec2(-1.0, 0.0), glm::dvec2(0.0, -1.0) })
+      {
+        const glm::dvec2 across(-along.y, along.x);
+        const auto first = static_cast<unsigned int>(plates.points.size());
+        for (const glm::dvec2& corner : { glm::dvec2(from, -3.0), glm::dvec2(3.0, -3.0),
+               glm::dvec2(3.0, 3.0), glm::dvec2(from, 3.0) })
+        {
+          plates.points.emplace_back(corner.x * along + corner.y * across, 0.5);
+        }
+        plates.triangles.emplace_back(first, first + 1, first + 2);
+        plates.triangles.emplace_back(first, first + 2, first + 3);
+      }
+      // Decided by lines of a large triangle, along either axis, and by small triangles.
+      for (const auto& [cells, up] : { std::pair(1, glm::dvec3(1.0, 0.0, 0.0)),
+             { 1, glm::dvec3(0.0, 1.0, 0.0) }, { 48, glm::dvec3(1.0, 0.0, 0.0) } })
+      {
+        const Prop floor{ makePlane(6.0, cells), glm::dmat4(1.0), false };
+        const Prop above{ makeBox({ 2.0, 2.0, 2.9 }, { 2.5, 2.5, 3.0 }) };
+        const Occluders occluders = makeOccluders({ floor, { plates }, above });
+        const LightViews views = fitLightViews(light, occluders.centreWorld, seen, size);
+        camera.up = up;
+        const View view = makeView(occluders, camera);
+        ReceiverPixels stored;
+        const Tally tally = compareWithTruth(
+          light, views, occluders, Receivers(view.images, view.drawnSurfaces, occluders, stored));
+        EXPECT_EQ(tally.wrong, 0u) << "map " << size << ", " << texels;
+        sum.add(tally);
+      }
+    }
+  }
+  EXPECT_GT(sum.leftOut, sum.receivers / 2);
+}
+
+TEST(ConservativeMaps, areNeverWrongWithMapsOf64To4096)
+{
+  Camera camera;
+  camera.width = 203; // the last tiles are not whole
+  camera.height = 117;
+  camera.position = { 1.5, -3.0, 2.5 };
+  camera.target = { 0.0, 0.0, 0.4 };
+  for (const char* name : { "spheres", "touching boxes" })
+  {
+    Random random(3);
+    const Occluders occluders = makeOccluders(makeRandomScene(name, random));
+    const View view = makeView(occluders, camera);
+    for (ShadowLight light : { directionalLight({ 0.3, -0.2, -1.0 }),
+           spotLight({ -1.0, 0.5, 4.0 }, { 0.0, 0.0, 0.3 }, 25.0) })
+    {
+      for (const int size : { 64, 256, 1024, 4096 })
+      {
+        light.mapSizeTexels = size;
+        const Tally tally = compareWithTruth(light, occluders, view);
+        EXPECT_EQ(tally.wrong, 0u) << name << ", map " << size;
+        EXPECT_LT(tally.traced, tally.receivers) << name << ", map " << size;
+      }
+    }
+  }
 }
 
 } // namespace
