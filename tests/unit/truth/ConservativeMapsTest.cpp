@@ -454,6 +454,9 @@ TEST(ConservativeMaps, areNeverWrongWhereTrianglesTouchTheConeOrTheBox)
     const double from = uniform(random, -20.0, 20.0);
     const auto below = [&](double out, double across, double down)
     { return lamp + out * outwards + (from + across) * beside - glm::dvec3(0.0, 0.0, down); };
+    // Maps know nothing of what is nearer to a lamp than all casters.
+    const glm::dvec3 low = below(-15.0, -from, 41.0);
+    const Prop shade{ makeBox(low, low + 1.0) };
     Mesh triangle;
     const double inside = i % 4 < 2 ? 1.0 : 0.8;
     const double across = isSpot ? -from : 0.0;
@@ -461,7 +464,7 @@ TEST(ConservativeMaps, areNeverWrongWhereTrianglesTouchTheConeOrTheBox)
       below(10.0, -5.0, 85.0) };
     triangle.triangles = { { 0, 1, 2 } };
     const Occluders occluders =
-      makeOccluders({ { triangle, glm::dmat4(1.0), false }, opposite, ground });
+      makeOccluders({ { triangle, glm::dmat4(1.0), false }, opposite, ground, shade });
     // Most rays pass the corner by.
     const glm::dvec3 corner = triangle.points[0];
     Camera camera;
