@@ -2,6 +2,7 @@
 
 #include "shadowtech/conservative/ConservativeMaps.h"
 
+#include "ExactRecord.h"
 #include "RandomScenes.h"
 
 #include "lights/ShadowSettings.h"
@@ -21,13 +22,19 @@ namespace gnomon::test
 namespace
 {
 
-/// What a run found.
-struct Tally
+/// What runs found.
+struct Tally : Compared
 {
-  std::size_t receivers = 0; ///< that get a shadow ray
-  std::size_t traced = 0;
   std::size_t leftOut = 0; ///< decided before they were made
-  std::size_t wrong = 0;
+
+  void add(const Tally& other)
+  {
+    this->pictures += other.pictures;
+    this->receivers += other.receivers;
+    this->traced += other.traced;
+    this->wrong += other.wrong;
+    this->leftOut += other.leftOut;
+  }
 };
 
 /// How a map and a full trace differ.
@@ -39,6 +46,7 @@ Tally compareWithTruth(const ShadowLight& light, const LightViews& views,
   EmbreeTracer tracer;
   tracer.update(occluders);
   Tally tally;
+  tally.pictures = 1;
   std::vector<float> truth, visibility;
   tally.receivers = tracer.trace(light, occluders, receivers, truth);
   tally.traced = tracer.trace(light, occluders, receivers, visibility, &maps);
@@ -84,12 +92,11 @@ TEST_P(ConservativeMapsIn, areNeverWrong)
   Tally sum;
   for (unsigned int seed = 1; seed <= exactRuns(); ++seed)
   {
-    const Tally tally = run(name, seed, covering);
-    sum.receivers += tally.receivers;
-    sum.traced += tally.traced;
-    sum.wrong += tally.wrong;
-    sum.leftOut += tally.leftOut;
+    sum.add(run(name, seed, covering));
   }
+  const char* const techniques[] = { "crsm", "crsma", "crsma, adjacency_ring=vertices",
+    "silhouette" };
+  recordCompared(techniques[static_cast<int>(covering)], name, sum);
   EXPECT_EQ(sum.wrong, 0u);
   EXPECT_GT(sum.leftOut, sum.receivers / 20) << "triangles and lines are asked about";
   EXPECT_GT(sum.receivers, exactRuns() * 300u);
@@ -114,16 +121,19 @@ TEST(ConservativeMaps, areNeverWrongFarAwayAndAtAnyScale)
 {
   const glm::dmat4 worlds[] = { at(glm::dvec3(1e6, -2e6, 1e6)), at(glm::dvec3(0.0), 1e-4),
     at(glm::dvec3(0.0), 1e4), at(glm::dvec3(1e6), 1e4) };
+  Tally sum;
   for (const glm::dmat4& world : worlds)
   {
     for (const char* name : randomSceneNames())
     {
       for (unsigned int seed = 100; seed < 100 + exactRuns() / 4; ++seed)
       {
-        EXPECT_EQ(run(name, seed, Covering::Silhouette, world).wrong, 0u);
+        sum.add(run(name, seed, Covering::Silhouette, world));
       }
     }
   }
+  EXPECT_EQ(sum.wrong, 0u);
+  recordCompared("silhouette", "all, far away or at other scales", sum);
 }
 
 /// Receivers that are put where a test wants them.
@@ -286,6 +296,308 @@ TEST(ConservativeMaps, areNeverWrongWhereCastersTouchTheLight)
         occluders, receivers);
       EXPECT_GT(tally.receivers, 500u);
       EXPECT_EQ(tally.wrong, 0u) << static_cast<int>(light.kind) << " " << light.coneAngleDegrees;
+    }
+  }
+}
+
+/// All pixels of a picture show the first triangle, as if they were pieces of it, wherever their rays pass.
+View viewOfFirstTriangle(const Occluders& occluders, const Camera& camera)
+{
+  View view = makeView(occluders, camera);
+  std::fill(view.images.fragments.begin(), view.images.fragments.end(), glm::vec2(1.0f, 0.0f));
+  return view;
+}
+
+Tally compareWithTruth(const ShadowLight& light, const Occluders& occluders, const View& view)
+{
+  ReceiverPixels stored;
+  return compareWithTruth(light,
+    fitLightViews(light, occluders.centreWorld, occluders.castersCentred, light.mapSizeTexels),
+    occluders, Receivers(view.images, view.drawnSurfaces, occluders, stored));
+}
+
+/// Triangles in a ring around a place, whose planes nearly pass through it.
+Mesh makeRingOfTriangles(const glm::dvec3& place, Random& random)
+{
+  Mesh ring;
+  for (int i = 0; i < 400; ++i)
+  {
+    const double angle = uniform(random, 0.0, 6.283185307179586);
+    const double radius = uniform(random, 0.3, 0.7);
+    const glm::dvec2 outwards(std::cos(angle), std::sin(angle));
+    const auto first = static_cast<unsigned int>(ring.points.size());
+    for (const glm::dvec2& corner :
+      { glm::dvec2(0.0, 0.0), glm::dvec2(0.1, -0.05), glm::dvec2(0.1, 0.05) })
+    {
+      const glm::dvec2 across =
+        (radius + corner.x) * outwards + corner.y * glm::dvec2(-outwards.y, outwards.x);
+      ring.points.push_back(place + glm::dvec3(across, uniform(random, -1e-4, 1e-4)));
+    }
+    ring.triangles.emplace_back(first, first + 1, first + 2);
+  }
+  return ring;
+}
+
+TEST(ConservativeMaps, areNeverWrongAboutTrianglesThatALampIsBeside)
+{
+  // Far from the origin, so that it is rounding that says on which side of a triangle's plane the lamp is. Maps say how
+  // much that is, where there are any: not without casters, or where none of them is in the cone.
+  Random random(7);
+  Camera camera;
+  camera.width = camera.height = 128;
+  camera.up = { 0.0, 1.0, 0.0 };
+  for (int i = 0; i < 8; ++i)
+  {
+    const glm::dvec3 lamp = 1000.0 +
+      glm::dvec3(uniform(random, 0.0, 1.0), uniform(random, 0.0, 1.0), uniform(random, 0.0, 1.0));
+    const Prop ring{ makeRingOfTriangles(lamp, random), glm::dmat4(1.0), false };
+    const Prop opposite{ makeBox(-lamp - 1.0, -lamp), glm::dmat4(1.0), false };
+    const Prop behind{ makeBox(
+      lamp - glm::dvec3(4.0, 1.0, 1.0), lamp - glm::dvec3(3.0, 0.0, 0.0)) };
+    const ShadowLight point = pointLight(lamp);
+    const ShadowLight spot = spotLight(lamp, lamp + glm::dvec3(1.0, 0.0, 0.0), 50.0);
+    const std::pair<ShadowLight, std::vector<Prop>> cases[] = { { point, { ring, opposite } },
+      { spot, { ring, opposite, behind } }, { point, { ring, opposite, behind } } };
+    camera.target = lamp;
+    for (auto [light, props] : cases)
+    {
+      light.mapSizeTexels = 64;
+      const Occluders occluders = makeOccluders(props);
+      for (const double height : { -2.0, 2.0 })
+      {
+        camera.position = lamp + glm::dvec3(0.0, 0.0, height);
+        const Tally tally = compareWithTruth(light, occluders, makeView(occluders, camera));
+        EXPECT_EQ(tally.wrong, 0u) << i << ", light " << static_cast<int>(light.kind) << ", props "
+                                   << props.size() << ", " << height;
+      }
+    }
+  }
+}
+
+TEST(ConservativeMaps, areNeverWrongOfPixelsWhoseRaysStartAboveASheet)
+{
+  // The larger the pixel, the farther off a triangle's edge does its ray start: above the sheet over it, at last.
+  Mesh triangle;
+  triangle.points = { { -0.2, -0.2, 0.0 }, { 2.2, -0.1, 0.0 }, { -0.1, 0.2, 0.0 } };
+  triangle.triangles = { { 0, 1, 2 } };
+  constexpr int size = 16;
+  constexpr double side = 8.0;
+  constexpr double texel = side / size;
+  ShadowLight light = directionalLight({ 0.0, 0.0, -1.0 });
+  light.mapSizeTexels = size;
+  std::vector<Camera> cameras(3);
+  cameras[0].position = { 0.3, 0.1, 2.0 };
+  cameras[0].target = { 0.3, 0.1, 0.0 };
+  cameras[0].up = { 0.0, 1.0, 0.0 };
+  cameras[0].fovDegrees = 120.0;
+  cameras[1].position = { -0.8, 0.1, 0.5 };
+  cameras[1].target = { 2.0, 0.0, 0.0 };
+  cameras[1].fovDegrees = 60.0;
+  cameras[2] = cameras[0];
+  cameras[2].parallelHeight = 4.0;
+  Tally sum;
+  for (const double texels : { 0.3, 0.5, 0.7, 1.1, 1.25, 1.5, 2.0, 4.0 })
+  {
+    // No ray may start farther beside its receiver than 1/256 of a texel; seen from above, it starts so far up.
+    const Occluders occluders = makeOccluders(
+      { { triangle }, { makePlane(side, 4), at({ 0.0, 0.0, texels * texel / 256.0 }) } });
+    for (Camera camera : cameras)
+    {
+      for (int pixels = 3; pixels < 40; ++pixels)
+      {
+        camera.width = camera.height = pixels;
+        const Tally tally =
+          compareWithTruth(light, occluders, viewOfFirstTriangle(occluders, camera));
+        EXPECT_EQ(tally.wrong, 0u) << texels << ", " << pixels;
+        sum.add(tally);
+      }
+    }
+  }
+  EXPECT_GT(sum.leftOut, 1000u);
+  EXPECT_GT(sum.traced, 1000u);
+}
+
+TEST(ConservativeMaps, areNeverWrongOfTrianglesWhoseRoundingIsMoreThanTheSheetAboveIsHigh)
+{
+  // A long, thin triangle askew, of which only rays that start far off it are safe.
+  const glm::dmat4 turn =
+    glm::rotate(glm::dmat4(1.0), 0.7, glm::normalize(glm::dvec3(0.6, 0.7, 0.1)));
+  Mesh triangle;
+  triangle.points = { { -0.1, -0.09, 0.0 }, { 0.1, 0.09, 0.0 }, { 0.1, 0.0901, 0.0 } };
+  triangle.triangles = { { 0, 1, 2 } };
+  ShadowLight light = directionalLight(glm::dvec3(turn * glm::dvec4(0.0, 0.0, -1.0, 0.0)));
+  light.mapSizeTexels = 512;
+  Camera camera;
+  camera.width = camera.height = 64;
+  camera.fovDegrees = 1.0;
+  camera.position = glm::dvec3(turn * glm::dvec4(0.0, 0.0, 3.0, 1.0));
+  camera.target = glm::dvec3(0.0);
+  Tally sum;
+  for (const double height : { 2e-5, 5e-5, 1e-4, 2e-4, 4e-4, 8e-4, 1.6e-3 })
+  {
+    const Occluders occluders = makeOccluders(
+      { { triangle, turn, false }, { makePlane(3.0), turn * at({ 0.0, 0.0, height }) } });
+    const Tally tally = compareWithTruth(light, occluders, viewOfFirstTriangle(occluders, camera));
+    EXPECT_EQ(tally.wrong, 0u) << height;
+    sum.add(tally);
+  }
+  EXPECT_GT(sum.receivers, 1000u);
+}
+
+TEST(ConservativeMaps, areNeverWrongWhereTrianglesTouchTheConeOrTheBox)
+{
+  // Far from the origin, with a corner in the cone's or the box's side, so that rounding says whether the light reaches
+  // it; or well inside, so that maps decide it.
+  const glm::dvec3 lamp(1000.4, 1000.3, 1000.9);
+  const Prop opposite{ makeBox(-lamp - 1.0, -lamp), glm::dmat4(1.0), false };
+  const Prop ground{ makePlane(320.0), at(lamp - glm::dvec3(0.0, 0.0, 160.0)) };
+  Random random(8);
+  Tally sum;
+  for (int i = 0; i < 400; ++i)
+  {
+    const bool isSpot = i % 2 == 0;
+    ShadowLight light = isSpot ? spotLight(lamp, lamp - glm::dvec3(0.0, 0.0, 1.0), 30.0)
+                               : boxLight({ 0.0, 0.0, -1.0 }, lamp, { 80.0, 80.0, 200.0 });
+    const double angle = uniform(random, 0.0, 6.283185307179586);
+    const glm::dvec3 outwards(std::cos(angle), std::sin(angle), 0.0);
+    const glm::dvec3 beside(-outwards.y, outwards.x, 0.0);
+    if (light.box)
+    {
+      light.box->upWorld = beside;
+    }
+    light.mapSizeTexels = 8;
+    const double side = isSpot ? 80.0 * std::tan(glm::radians(30.0)) : 40.0;
+    const double from = uniform(random, -20.0, 20.0);
+    const auto below = [&](double out, double across, double down)
+    { return lamp + out * outwards + (from + across) * beside - glm::dvec3(0.0, 0.0, down); };
+    // Maps know nothing of what is nearer to a lamp than all casters.
+    const glm::dvec3 low = below(-15.0, -from, 41.0);
+    const Prop shade{ makeBox(low, low + 1.0) };
+    Mesh triangle;
+    const double inside = i % 4 < 2 ? 1.0 : 0.8;
+    const double across = isSpot ? -from : 0.0;
+    triangle.points = { below(inside * side, across, 80.0), below(5.0, 5.0, 90.0),
+      below(10.0, -5.0, 85.0) };
+    triangle.triangles = { { 0, 1, 2 } };
+    const Occluders occluders =
+      makeOccluders({ { triangle, glm::dmat4(1.0), false }, opposite, ground, shade });
+    // Most rays pass the corner by.
+    const glm::dvec3 corner = triangle.points[0];
+    Camera camera;
+    camera.width = camera.height = 32;
+    camera.target = corner + 0.003 * (corner - triangle.points[1]);
+    camera.position = camera.target + glm::dvec3(0.1, 0.2, 3.0);
+    camera.up = { 0.0, 1.0, 0.0 };
+    camera.fovDegrees = 4.0;
+    const Tally tally = compareWithTruth(light, occluders, viewOfFirstTriangle(occluders, camera));
+    EXPECT_EQ(tally.wrong, 0u) << i;
+    sum.add(tally);
+  }
+  EXPECT_GT(sum.leftOut, 100000u);
+}
+
+TEST(ConservativeMaps, areNeverWrongOfWhatDoesNotCastOrOnOneSide)
+{
+  // It is not a layer of the map, so that the nearest one is above it. The plate lies in the middle of the scene, where
+  // it has no rounding, as if all rays started far off it.
+  const Prop plate{ makePlane(1.5), at({ 0.0, 0.0, 0.5 }) };
+  const Prop tower{ makeBox({ 2.0, 2.0, 0.9 }, { 2.5, 2.5, 1.0 }) };
+  ShadowLight light = directionalLight({ 0.1, 0.2, -1.0 });
+  light.mapSizeTexels = 64;
+  Camera camera;
+  camera.position = { 0.3, -4.0, 2.0 };
+  camera.target = { 0.0, 0.0, 0.0 };
+  for (const int cells : { 1, 64 })
+  {
+    for (const bool casts : { false, true })
+    {
+      Prop floor{ makePlane(4.0, cells) };
+      floor.casts = casts;
+      floor.oneSided = casts;
+      // Turned over, it casts nothing on the side that is seen.
+      floor.worldFromMesh =
+        casts ? glm::rotate(glm::dmat4(1.0), 3.14159265358979, { 1.0, 0.0, 0.0 }) : glm::dmat4(1.0);
+      const Occluders occluders = makeOccluders({ floor, plate, tower });
+      const Tally tally = compareWithTruth(light, occluders, makeView(occluders, camera));
+      EXPECT_EQ(tally.wrong, 0u) << cells << (casts ? ", on one side" : "");
+      EXPECT_GT(tally.leftOut, 1000u) << cells << (casts ? ", on one side" : "");
+    }
+  }
+}
+
+TEST(ConservativeMaps, areNeverWrongInTheLastTexels)
+{
+  // Plates that reach over a map's borders, and lines of receivers that end there. Halves of these sides are odd.
+  const Bounds seen{ { -1.0, -1.0, -0.5 }, { 1.0, 1.0, 0.5 } };
+  ShadowLight light = directionalLight({ 0.0, 0.0, -1.0 });
+  Camera camera;
+  camera.width = camera.height = 320;
+  camera.position = { 0.02, 0.01, 0.4 }; // below the plates
+  camera.target = { 0.02, 0.01, 0.0 };
+  camera.parallelHeight = 2.4;
+  Tally sum;
+  for (const int size : { 17, 19, 34, 35, 65, 129 })
+  {
+    light.mapSizeTexels = size;
+    for (const double texels : { -0.3, 0.2, 0.7 })
+    {
+      const double from = 1.0 - texels * 2.0 / size;
+      Mesh plates;
+      for (const glm::dvec2& along : { glm::dvec2(1.0, 0.0), glm::dvec2(0.0, 1.0),
+             glm::dvec2(-1.0, 0.0), glm::dvec2(0.0, -1.0) })
+      {
+        const glm::dvec2 across(-along.y, along.x);
+        const auto first = static_cast<unsigned int>(plates.points.size());
+        for (const glm::dvec2& corner : { glm::dvec2(from, -3.0), glm::dvec2(3.0, -3.0),
+               glm::dvec2(3.0, 3.0), glm::dvec2(from, 3.0) })
+        {
+          plates.points.emplace_back(corner.x * along + corner.y * across, 0.5);
+        }
+        plates.triangles.emplace_back(first, first + 1, first + 2);
+        plates.triangles.emplace_back(first, first + 2, first + 3);
+      }
+      // Decided by lines of a large triangle, along either axis, and by small triangles.
+      for (const auto& [cells, up] : { std::pair(1, glm::dvec3(1.0, 0.0, 0.0)),
+             { 1, glm::dvec3(0.0, 1.0, 0.0) }, { 48, glm::dvec3(1.0, 0.0, 0.0) } })
+      {
+        const Prop floor{ makePlane(6.0, cells), glm::dmat4(1.0), false };
+        const Occluders occluders = makeOccluders({ floor, { plates } });
+        const LightViews views = fitLightViews(light, occluders.centreWorld, seen, size);
+        camera.up = up;
+        const View view = makeView(occluders, camera);
+        ReceiverPixels stored;
+        const Tally tally = compareWithTruth(
+          light, views, occluders, Receivers(view.images, view.drawnSurfaces, occluders, stored));
+        EXPECT_EQ(tally.wrong, 0u) << "map " << size << ", " << texels;
+        sum.add(tally);
+      }
+    }
+  }
+  EXPECT_GT(sum.leftOut, sum.receivers / 2);
+}
+
+TEST(ConservativeMaps, areNeverWrongWithMapsOf64To4096)
+{
+  Camera camera;
+  camera.width = 203; // the last tiles are not whole
+  camera.height = 117;
+  camera.position = { 1.5, -3.0, 2.5 };
+  camera.target = { 0.0, 0.0, 0.4 };
+  for (const char* name : { "spheres", "touching boxes" })
+  {
+    Random random(3);
+    const Occluders occluders = makeOccluders(makeRandomScene(name, random));
+    const View view = makeView(occluders, camera);
+    for (ShadowLight light : { directionalLight({ 0.3, -0.2, -1.0 }),
+           spotLight({ -1.0, 0.5, 4.0 }, { 0.0, 0.0, 0.3 }, 25.0) })
+    {
+      for (const int size : { 64, 256, 1024, 4096 })
+      {
+        light.mapSizeTexels = size;
+        const Tally tally = compareWithTruth(light, occluders, view);
+        EXPECT_EQ(tally.wrong, 0u) << name << ", map " << size;
+        EXPECT_LT(tally.traced, tally.receivers) << name << ", map " << size;
+      }
     }
   }
 }

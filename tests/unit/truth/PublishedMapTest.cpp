@@ -375,5 +375,107 @@ TEST(PublishedMap, sharesSidesWithNeighboursThatFaceAwayAndNoOthers)
   }
 }
 
+/// A triangle that faces away from the light, askew.
+struct Askew
+{
+  Occluders occluders;
+  LightView view;
+  Corners corners; ///< in texels, and z along the view
+
+  explicit Askew(const ShadowLight& light = directionalLight({ 0.0, 0.0, -1.0 }))
+  {
+    Mesh mesh;
+    mesh.points = { { -1.0, -0.9, 0.0 }, { 0.1, 1.0, 0.7 }, { 1.0, -0.8, 0.3 } };
+    mesh.triangles = { { 0, 1, 2 } };
+    this->occluders = makeOccluders({ { mesh } });
+    this->view =
+      fitLightViews(light, this->occluders.centreWorld, this->occluders.castersCentred, width)
+        .views.front();
+    const glm::dmat3 texels = texelFromAcross(this->view, width);
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      const glm::dvec3 point(this->view.rays.viewFromCentred *
+        glm::dvec4(glm::dvec3(this->occluders.positionsCentred[k]), 1.0));
+      const glm::dvec3 texel = texels * glm::dvec3(glm::dvec2(point), 1.0);
+      this->corners[k] = glm::dvec3(glm::dvec2(texel) / texel.z, point.z);
+    }
+  }
+
+  ConservativeMap map() const
+  {
+    CasterEdges edges;
+    edges.update(this->occluders);
+    return publishedRule(PublishedLayers::Crsm)(this->view, false, width, this->occluders, edges);
+  }
+
+  /// What is said of points at texels' centres, so far behind the triangle's plane.
+  std::vector<Certainty> ask(double behind, bool onCaster) const
+  {
+    const glm::dmat4 centredFromView = glm::inverse(this->view.rays.viewFromCentred);
+    const glm::dmat3 acrossFromTexel = glm::inverse(texelFromAcross(this->view, width));
+    const auto depthAt = depthOf(this->corners);
+    ReceiverPixels receivers;
+    receivers.resize(width, width);
+    for (int i = 0; i < width * width; ++i)
+    {
+      const glm::dvec2 texel(i % width + 0.5, i / width + 0.5);
+      const glm::dvec3 across = acrossFromTexel * glm::dvec3(texel, 1.0);
+      const glm::dvec4 point =
+        centredFromView * glm::dvec4(glm::dvec2(across) / across.z, depthAt(texel) + behind, 1.0);
+      const auto at = static_cast<std::size_t>(i);
+      receivers.positionX[at] = static_cast<float>(point.x);
+      receivers.positionY[at] = static_cast<float>(point.y);
+      receivers.positionZ[at] = static_cast<float>(point.z);
+      receivers.surface[at] = 0;
+    }
+    std::vector<Certainty> certain(receivers.size(), Certainty::Uncertain);
+    const std::uint8_t casts = onCaster ? 1 : 0;
+    this->map().ask(receivers, { 0, casts }, certain);
+    return certain;
+  }
+};
+
+TEST(PublishedMap, comparesWithATrianglesPlaneAtTexelsCentres)
+{
+  Askew askew;
+  const MapPolygon polygon = polygonWith(askew.corners);
+  const double offset = publishedOffset(1.0);
+  const std::set<std::size_t> met = texelsOf(dilatedRegion(polygon, offset));
+  const std::set<std::size_t> covered = texelsOf(erodedRegion(polygon, {}, offset));
+  EXPECT_GT(covered.size(), 100u);
+  for (const bool onCaster : { false, true })
+  {
+    const std::vector<Certainty> before = askew.ask(-1e-4, onCaster);
+    const std::vector<Certainty> behind = askew.ask(1e-4, onCaster);
+    for (std::size_t i = 0; i < before.size(); ++i)
+    {
+      EXPECT_EQ(before[i], Certainty::Lit) << i;
+      EXPECT_EQ(behind[i],
+        covered.count(i) ? Certainty::Shadow
+          : met.count(i) ? Certainty::Uncertain
+                         : Certainty::Lit)
+        << i;
+    }
+  }
+}
+
+TEST(PublishedMap, knowsNoShadowOfHoles)
+{
+  Askew askew;
+  askew.occluders.surfaces.front().cutout = makePerforatedPlane(1.0, 1).cutout;
+  const std::vector<Certainty> certain = askew.ask(1.0, false);
+  EXPECT_EQ(std::count(certain.begin(), certain.end(), Certainty::Shadow), 0);
+  EXPECT_GT(std::count(certain.begin(), certain.end(), Certainty::Uncertain), 100);
+}
+
+TEST(PublishedMap, knowsNothingWhereTheLightIsInACaster)
+{
+  EXPECT_GT(Askew(spotLight({ 0.1, 0.0, 2.0 }, { 0.0, 0.0, 0.0 }, 40.0)).map().bytes(), 0u);
+  // In the middle of the triangle.
+  EXPECT_EQ(
+    Askew(spotLight({ 0.1 / 3.0, -0.7 / 3.0, 1.0 / 3.0 }, { 0.0, 0.0, -5.0 }, 55.0)).map().bytes(),
+    0u);
+}
+
 } // namespace
 } // namespace gnomon::test

@@ -4,6 +4,7 @@
 #include "shadowtech/selective/Chain.h"
 #include "shadowtech/selective/StatusContour.h"
 
+#include "ExactRecord.h"
 #include "RandomScenes.h"
 #include "SyntheticScene.h"
 
@@ -497,11 +498,17 @@ INSTANTIATE_TEST_SUITE_P(Scenes, ChainIn, testing::ValuesIn(randomSceneNames()),
 TEST_P(ChainIn, withoutCoherenceIsNeverWrong)
 {
   std::size_t proven = 0, dark = 0;
+  Compared compared;
   for (unsigned int seed = 1; seed <= exactRuns(); ++seed)
   {
     Chained chained(makeRandomPicture(GetParam(), seed));
     const ChainRun image = chained.run(provenStages(0));
-    EXPECT_EQ(countDifferent(image.visibility, chained.truth()), 0u) << chained.description();
+    const std::size_t wrong = countDifferent(image.visibility, chained.truth());
+    EXPECT_EQ(wrong, 0u) << chained.description();
+    ++compared.pictures;
+    compared.receivers += chained.needRays();
+    compared.traced += image.traced;
+    compared.wrong += wrong;
     const ChainRun contour = chained.run(provenStages(4));
     for (std::size_t i = 0; i < contour.classes.size(); ++i)
     {
@@ -518,6 +525,7 @@ TEST_P(ChainIn, withoutCoherenceIsNeverWrong)
       dark += reached && chained.truth()[i] == 0.0f ? 1 : 0;
     }
   }
+  recordCompared("selective, contour=image, coherence=off", GetParam(), compared);
   // Holes are no proof.
   EXPECT_GE(proven, GetParam() == std::string("perforated") ? 0 : dark / 2);
   std::cout << GetParam() << ": proven " << proven << " of " << dark << " in shadow" << std::endl;
@@ -527,6 +535,7 @@ TEST(Chain, isNeverWrongFarAwayAndAtAnyScale)
 {
   const glm::dmat4 worlds[] = { at(glm::dvec3(1e6, -2e6, 1e6)), at(glm::dvec3(0.0), 1e-4),
     at(glm::dvec3(0.0), 1e4), at(glm::dvec3(1e6), 1e4) };
+  Compared compared;
   for (const glm::dmat4& world : worlds)
   {
     for (const char* name : randomSceneNames())
@@ -534,11 +543,18 @@ TEST(Chain, isNeverWrongFarAwayAndAtAnyScale)
       for (unsigned int seed = 100; seed < 100 + exactRuns() / 6; ++seed)
       {
         Chained chained(makeRandomPicture(name, seed, world));
-        EXPECT_EQ(countDifferent(chained.run(provenStages(0)).visibility, chained.truth()), 0u)
-          << chained.description();
+        const ChainRun image = chained.run(provenStages(0));
+        const std::size_t wrong = countDifferent(image.visibility, chained.truth());
+        EXPECT_EQ(wrong, 0u) << chained.description();
+        ++compared.pictures;
+        compared.receivers += chained.needRays();
+        compared.traced += image.traced;
+        compared.wrong += wrong;
       }
     }
   }
+  recordCompared(
+    "selective, contour=image, coherence=off", "all, far away or at other scales", compared);
 }
 
 TEST(Chain, confirmsMoreWithMoreTriangles)

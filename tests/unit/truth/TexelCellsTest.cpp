@@ -20,11 +20,26 @@ namespace
 
 constexpr int width = 32;
 
-std::vector<Cell> drawn(const Corners& corners)
+/// Less than the margin by more than rounding.
+constexpr double margin = 0.999 * marginTexels;
+
+// Of all that is drawn.
+constexpr double slack = 0.01;
+constexpr double noise = 0.02;
+
+std::vector<Cell> drawn(const MapPolygon& polygon)
 {
   std::vector<Cell> cells(width * width);
-  drawPolygon(polygonWith(corners), marginTexels, width, { 0, width - 1 }, cells.data());
+  drawPolygon(polygon, marginTexels, width, { 0, width - 1 }, cells.data());
   return cells;
+}
+
+std::vector<Cell> drawn(const Corners& corners)
+{
+  MapPolygon polygon = polygonWith(corners);
+  polygon.slack = slack;
+  polygon.noise = noise;
+  return drawn(polygon);
 }
 
 /// @param visit called with each triangle and the texels that it is drawn into
@@ -68,7 +83,7 @@ TEST(TexelCells, ofATriangleAreAllThatItMeetsAndHardlyMore)
       visitCells(corners,
         [&](const glm::dvec2& low, std::size_t i)
         {
-          const bool truth = overlap(corners, low, low + 1.0);
+          const bool truth = overlap(corners, low - margin, low + 1.0 + margin);
           const bool touched = std::isfinite(cells[i].nearest);
           meets += truth ? 1 : 0;
           missing += truth && !touched ? 1 : 0;
@@ -90,7 +105,7 @@ TEST(TexelCells, thatATriangleContainsAreNearlyAllOfThose)
       visitCells(corners,
         [&](const glm::dvec2& low, std::size_t i)
         {
-          const bool truth = contains(corners, low, low + 1.0);
+          const bool truth = contains(corners, low - margin, low + 1.0 + margin);
           const bool said = std::isfinite(cells[i].contained);
           contained += truth ? 1 : 0;
           missing += truth && !said ? 1 : 0;
@@ -138,34 +153,174 @@ TEST(TexelCells, areNeverContainedWhereMovingTheSidesLeavesNothing)
 
 TEST(TexelCells, boundTheDepthsThatATriangleHasInThem)
 {
-  std::size_t samples = 0;
+  std::size_t samples = 0, layers = 0;
   visitTriangles(20000,
     [&](const Corners& corners, const std::vector<Cell>& cells)
     {
       const auto depthAt = depthOf(corners);
-      // What float leaves of a depth of this size.
-      const double rounding = 1e-6 *
-        std::max({ 1.0, std::abs(corners[0].z), std::abs(corners[1].z), std::abs(corners[2].z) });
+      const auto [least, most] = std::minmax({ corners[0].z, corners[1].z, corners[2].z });
+      const glm::dvec2 perTexel(depthAt({ 1.0, 0.0 }) - depthAt({ 0.0, 0.0 }),
+        depthAt({ 0.0, 1.0 }) - depthAt({ 0.0, 0.0 }));
+      const double half = (std::abs(perTexel.x) + std::abs(perTexel.y)) * (0.5 + marginTexels);
       visitCells(corners,
         [&](const glm::dvec2& low, std::size_t i)
         {
+          const Cell& cell = cells[i];
+          if (!std::isfinite(cell.nearest))
+          {
+            return;
+          }
+          const double middle = depthAt(low + 0.5);
+          // What float leaves of depths of this size.
+          const double rounding = 1e-6 * (1.0 + std::abs(middle));
           for (int sample = 0; sample < 64; ++sample)
           {
-            const glm::dvec2 point = low + glm::dvec2(sample % 8 + 0.5, sample / 8 + 0.5) / 8.0;
+            const glm::dvec2 place = glm::dvec2(sample % 8, sample / 8) / 7.0;
+            const glm::dvec2 point = low - margin + (1.0 + 2.0 * margin) * place;
             if (isInside(corners, point))
             {
               ++samples;
-              EXPECT_LE(cells[i].nearest, depthAt(point) + rounding);
-              EXPECT_GE(cells[i].partAcross, depthAt(point) - rounding);
+              EXPECT_LE(cell.nearest, depthAt(point) - slack + rounding);
+              EXPECT_GE(cell.partAcross, depthAt(point) + slack - rounding);
+              if (std::isfinite(cell.first))
+              {
+                ++layers;
+                EXPECT_GE(cell.climb, cell.first - depthAt(point) + slack - rounding);
+              }
             }
           }
-          if (std::isfinite(cells[i].contained))
+          // And are no wider than the triangle, and its plane in the texel.
+          EXPECT_GE(cell.nearest, std::max(least, middle - half) - slack - rounding);
+          EXPECT_LE(cell.partAcross, std::min(most, middle + half) + slack + rounding);
+          EXPECT_EQ(cell.noise, static_cast<float>(noise));
+          if (std::isfinite(cell.contained))
           {
-            EXPECT_EQ(cells[i].contained, cells[i].partAcross);
+            EXPECT_EQ(cell.contained, cell.partAcross);
           }
         });
     });
   EXPECT_GT(samples, 1000000u);
+  EXPECT_GT(layers, 100000u);
+}
+
+TEST(TexelCells, ofATriangleThatIsSeenAlongItsPlaneAreNone)
+{
+  Random random(13);
+  for (int i = 0; i < 1000; ++i)
+  {
+    MapPolygon polygon = polygonWith(randomTriangle(random, width));
+    polygon.facing = 0;
+    polygon.role.covers = false;
+    const std::vector<Cell> cells = drawn(polygon);
+    EXPECT_TRUE(std::none_of(
+      cells.begin(), cells.end(), [](const Cell& cell) { return std::isfinite(cell.nearest); }));
+  }
+}
+
+TEST(TexelCells, knowNothingWithinTheMarginOfATriangleThatSpoilsThem)
+{
+  Random random(14);
+  std::size_t spoilt = 0;
+  for (int i = 0; i < 5000; ++i)
+  {
+    const Corners corners = randomTriangle(random, width);
+    MapPolygon polygon = polygonWith(corners);
+    polygon.facing = 0;
+    polygon.role = { true, false, true };
+    polygon.margin = 0.7;
+    const std::vector<Cell> cells = drawn(polygon);
+    visitCells(corners,
+      [&](const glm::dvec2& low, std::size_t at)
+      {
+        if (overlap(corners, low - 0.699, low + 1.699))
+        {
+          ++spoilt;
+          EXPECT_EQ(cells[at].nearest, -infinity);
+          EXPECT_EQ(cells[at].partEnd, -infinity);
+          EXPECT_EQ(cells[at].sharpEnd, -infinity);
+        }
+      });
+  }
+  EXPECT_GT(spoilt, 10000u);
+}
+
+TEST(TexelCells, ofAnEdgeHaveItsLeastDepth)
+{
+  Random random(15);
+  std::size_t points = 0;
+  for (int i = 0; i < 20000; ++i)
+  {
+    const Corners corners = randomTriangle(random, width);
+    const glm::dvec3 &from = corners[0], &to = corners[1];
+    MapSegment segment;
+    segment.ends = { { { from.x, from.y, from.z }, { to.x, to.y, to.z } } };
+    segment.slack = slack;
+    segment.isEnd = i % 2 == 0;
+    std::vector<Cell> cells(width * width);
+    drawSegment(segment, marginTexels, width, { 0, width - 1 }, cells.data());
+    drawEndOfPart(segment, marginTexels, width, { 0, width - 1 }, cells.data());
+    // Near it, too.
+    const double near = margin + thinTexels;
+    for (int k = 0; k < 64; ++k)
+    {
+      const glm::dvec3 at = from + k / 63.0 * (to - from);
+      const glm::dvec2 point =
+        glm::dvec2(at) + near * glm::dvec2((k & 1) ? 1.0 : -1.0, (k & 2) ? 1.0 : -1.0);
+      if (point.x >= 0.0 && point.y >= 0.0 && point.x < width && point.y < width)
+      {
+        ++points;
+        const Cell& cell = cells[static_cast<std::size_t>(
+          static_cast<int>(point.y) * width + static_cast<int>(point.x))];
+        EXPECT_LE(cell.sharpEnd, at.z - slack + 1e-6);
+        EXPECT_EQ(cell.nearest, segment.isEnd ? cell.sharpEnd : infinity);
+        EXPECT_EQ(cell.partEnd, cell.sharpEnd);
+      }
+    }
+    const Corners line{ { from, to, to } };
+    visitCells(line,
+      [&](const glm::dvec2& low, std::size_t at)
+      {
+        const double far = 1.01 * (marginTexels + thinTexels);
+        const float depth = cells[at].sharpEnd;
+        EXPECT_TRUE(depth == infinity || overlap(line, low - far, low + 1.0 + far));
+        EXPECT_GE(depth, std::min(from.z, to.z) - slack - 1e-6);
+      });
+  }
+  EXPECT_GT(points, 100000u);
+}
+
+TEST(TexelCells, areCoveredByAPartThatDoesNotEndThereWhateverOthersDo)
+{
+  // A square of two triangles at depth 0.5, and an edge before or behind it, of its own part or another one.
+  const Corners halves[] = { { { { 2.0, 2.0, 0.5 }, { 9.0, 2.0, 0.5 }, { 9.0, 9.0, 0.5 } } },
+    { { { 2.0, 2.0, 0.5 }, { 9.0, 9.0, 0.5 }, { 2.0, 9.0, 0.5 } } } };
+  constexpr std::size_t onDiagonal = 5 * width + 5;
+  const auto coveredFrom = [&](CasterPart square, CasterPart edge, double depthOfEdge)
+  {
+    std::vector<Cell> cells(width * width);
+    MapSegment end;
+    end.ends = { { { 5.2, 5.0, depthOfEdge }, { 5.3, 6.0, depthOfEdge } } };
+    end.isEnd = true;
+    end.part = edge;
+    const Span rows{ 0, width - 1 };
+    drawEndOfPart(end, marginTexels, width, rows, cells.data());
+    for (const Corners& half : halves)
+    {
+      MapPolygon polygon = polygonWith(half);
+      polygon.part = square;
+      polygon.slack = slack;
+      drawPolygon(polygon, marginTexels, width, rows, cells.data());
+    }
+    Cell cell = cells[onDiagonal];
+    EXPECT_EQ(cell.contained, infinity);
+    cell.turnTo(noPart);
+    return cell.covered;
+  };
+  const auto from = static_cast<float>(0.5 + 3.0 * slack);
+  EXPECT_NEAR(coveredFrom(1, 1, 0.9), from, 1e-5f) << "what lies behind does not matter";
+  EXPECT_NEAR(coveredFrom(1, 2, 0.3), from, 1e-5f) << "nor does another part's end";
+  EXPECT_EQ(coveredFrom(1, 1, 0.3), infinity);
+  EXPECT_EQ(coveredFrom(1, 1, 0.5), infinity);
 }
 
 } // namespace

@@ -1,0 +1,38 @@
+#ifndef gnomon_tests_ExactRecord_h
+#define gnomon_tests_ExactRecord_h
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <string>
+
+/// @file
+/// What tests of random pictures compared with the truth, for docs/exactness.sh, which reads it from their report.
+
+namespace gnomon::test
+{
+
+struct Compared
+{
+  std::size_t pictures = 0;  ///< each with a camera and a light of its own
+  std::size_t receivers = 0; ///< that get a shadow ray
+  std::size_t traced = 0;    ///< of these, those whose ray was traced all the same
+  std::size_t wrong = 0;
+};
+
+/// @param technique by its name, with its settings
+/// @param scenes their kind
+inline void recordCompared(
+  const std::string& technique, const std::string& scenes, const Compared& compared)
+{
+  testing::Test::RecordProperty("technique", technique);
+  testing::Test::RecordProperty("scenes", scenes);
+  testing::Test::RecordProperty("pictures", std::to_string(compared.pictures));
+  testing::Test::RecordProperty("receivers", std::to_string(compared.receivers));
+  testing::Test::RecordProperty("traced", std::to_string(compared.traced));
+  testing::Test::RecordProperty("wrong", std::to_string(compared.wrong));
+}
+
+} // namespace gnomon::test
+
+#endif
