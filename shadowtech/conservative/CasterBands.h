@@ -52,7 +52,7 @@ public:
   }
 
   /// The only placement of a casting surface without instances.
-  const Placement& only(std::uint32_t surface) const
+  const Placement& placementOf(std::uint32_t surface) const
   {
     return this->placements_[this->firstOfSurface_[surface]];
   }

@@ -73,25 +73,26 @@ std::vector<NormalCone> normalCones(const Occluders& occluders, const Surface& s
       }
     }
   };
-  std::vector<NormalCone> cones(surface.vertexCount);
   // Which side a normal is on does not matter here, as triangles may be wound either way: where neighbours are no
   // sharper than that, all around a corner are on one side, or far from the mean.
-  visit(
-    [&](std::uint32_t vertex, const glm::dvec3& normal)
-    {
-      glm::dvec3& sum = cones[vertex].axis;
-      sum += glm::dot(normal, sum) < 0.0 ? -normal : normal;
-    });
-  for (NormalCone& cone : cones)
+  std::vector<glm::dvec3> axes(surface.vertexCount, glm::dvec3(0.0));
+  visit([&](std::uint32_t vertex, const glm::dvec3& normal)
+    { axes[vertex] += glm::dot(normal, axes[vertex]) < 0.0 ? -normal : normal; });
+  std::vector<NormalCone> cones(surface.vertexCount);
+  for (std::size_t i = 0; i < cones.size(); ++i)
   {
-    const double length = glm::length(cone.axis);
-    cone = length > 0.0 ? NormalCone{ cone.axis / length, 1.0 } : NormalCone{};
+    const double length = glm::length(axes[i]);
+    if (length > 0.0)
+    {
+      axes[i] /= length;
+      cones[i] = { axes[i], 1.0f };
+    }
   }
   visit(
     [&](std::uint32_t vertex, const glm::dvec3& normal)
     {
-      NormalCone& cone = cones[vertex];
-      cone.leastCosine = std::min(cone.leastCosine, std::abs(glm::dot(normal, cone.axis)));
+      float& least = cones[vertex].leastCosine;
+      least = std::min(least, static_cast<float>(std::abs(glm::dot(normal, axes[vertex]))));
     });
   return cones;
 }

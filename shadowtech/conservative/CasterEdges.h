@@ -5,6 +5,8 @@
 #include "shadowtech/conservative/CasterSeams.h"
 #include "shadowtech/conservative/KeptOfCasters.h"
 
+#include <glm/glm.hpp>
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -39,6 +41,20 @@ struct CasterEdge
   {
     return this->triangles[0] == triangle ? this->triangles[1] : this->triangles[0];
   }
+};
+
+/// Where the normals of all triangles around a vertex are.
+struct NormalCone
+{
+  glm::vec3 axis{ 0.0f };    ///< of unit length; either side of the surface is meant
+  float leastCosine = -1.0f; ///< of the angle between a normal, or its opposite, and the axis
+};
+
+/// An edge at which a surface ends, of one triangle alone: another surface may go on there (CasterSeams.h).
+struct Rim
+{
+  std::uint32_t edge;                ///< of the surface
+  std::array<NormalCone, 2> corners; ///< around the vertices that it leads from and to
 };
 
 /// The edges of one surface.

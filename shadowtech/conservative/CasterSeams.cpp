@@ -6,6 +6,7 @@
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <tuple>
 #include <utility>
@@ -29,14 +30,13 @@ struct PlacedRim
 {
   std::array<Place, 2> ends;
   std::uint32_t surface;
-  std::uint32_t edge;
-  bool swapped; ///< the edge leads from the greater one
-  std::array<NormalCone, 2> corners;
+  std::uint32_t number; ///< of the surface's rims
+  bool swapped;         ///< the edge leads from the greater one
 
   bool operator<(const PlacedRim& other) const
   {
-    return std::tie(this->ends, this->surface, this->edge) <
-      std::tie(other.ends, other.surface, other.edge);
+    return std::tie(this->ends, this->surface, this->number) <
+      std::tie(other.ends, other.surface, other.number);
   }
 };
 
@@ -53,12 +53,16 @@ glm::dvec3 areaOf(const Occluders& occluders, std::uint32_t triangle)
 struct PlacedCone
 {
   Place place;
+  std::uint32_t surface;
   NormalCone cone;
 
-  bool operator<(const PlacedCone& other) const { return this->place < other.place; }
+  bool operator<(const PlacedCone& other) const
+  {
+    return std::tie(this->place, this->surface) < std::tie(other.place, other.surface);
+  }
 };
 
-bool mayGoOn(const Surface& surface)
+bool mayHaveSeams(const Surface& surface)
 {
   return surface.casts && !surface.isInstanced() && !surface.oneSided && !surface.cutout;
 }
@@ -86,25 +90,18 @@ std::vector<PlacedRim> placedRims(
   std::vector<PlacedRim> rims;
   for (std::size_t i = 0; i < edges.size(); ++i)
   {
-    if (!mayGoOn(occluders.surfaces[i]))
+    if (!mayHaveSeams(occluders.surfaces[i]))
     {
       continue;
     }
-    for (const Rim& rim : edges[i]->rims)
+    const SurfaceEdges& found = *edges[i];
+    for (std::uint32_t number = 0; number < found.rims.size(); ++number)
     {
-      const CasterEdge& edge = edges[i]->edges[rim.edge];
+      const CasterEdge& edge = found.edges[found.rims[number].edge];
       const Place from = placeOf(occluders.positionsCentred[edge.from]);
       const Place to = placeOf(occluders.positionsCentred[edge.to]);
-      const auto surface = static_cast<std::uint32_t>(i);
-      if (from < to)
-      {
-        rims.push_back({ { { from, to } }, surface, rim.edge, false, rim.corners });
-      }
-      else
-      {
-        rims.push_back(
-          { { { to, from } }, surface, rim.edge, true, { { rim.corners[1], rim.corners[0] } } });
-      }
+      rims.push_back({ { { std::min(from, to), std::max(from, to) } },
+        static_cast<std::uint32_t>(i), number, to < from });
     }
   }
   tbb::parallel_sort(rims.begin(), rims.end());
@@ -114,26 +111,37 @@ std::vector<PlacedRim> placedRims(
 /// Whether triangles of two cones are too far apart for shadow rays that start off one of them.
 bool tooFarApart(const NormalCone& a, const NormalCone& b)
 {
-  const auto angle = [](double cosine) { return std::acos(glm::clamp(cosine, -1.0, 1.0)); };
-  // Written so that NaN is too far apart.
+  const auto angle = [](float cosine)
+  { return std::acos(glm::clamp(static_cast<double>(cosine), -1.0, 1.0)); };
+  // Rounding a cosine to float changes its angle by up to 4e-4. Written so that NaN is too far apart.
   return !(angle(std::abs(glm::dot(a.axis, b.axis))) + angle(a.leastCosine) + angle(b.leastCosine) <
-    std::acos(sharpCosine) - 1e-6);
+    std::acos(sharpCosine) - 2e-3);
 }
 
 /// The places at which triangles of surfaces that meet there are too far apart, in order.
-std::vector<Place> sharpPlaces(const std::vector<std::pair<PlacedRim, PlacedRim>>& pairs)
+std::vector<Place> sharpPlaces(const std::vector<std::pair<PlacedRim, PlacedRim>>& pairs,
+  const std::vector<const SurfaceEdges*>& edges)
 {
   std::vector<PlacedCone> cones;
   cones.reserve(4 * pairs.size());
-  for (const auto& [one, other] : pairs)
+  const auto add = [&](const PlacedRim& rim)
   {
+    const Rim& found = edges[rim.surface]->rims[rim.number];
     for (std::size_t end = 0; end < 2; ++end)
     {
-      cones.push_back({ one.ends[end], one.corners[end] });
-      cones.push_back({ one.ends[end], other.corners[end] });
+      cones.push_back({ rim.ends[end], rim.surface, found.corners[rim.swapped ? 1 - end : end] });
     }
+  };
+  for (const auto& [one, other] : pairs)
+  {
+    add(one);
+    add(other);
   }
   tbb::parallel_sort(cones.begin(), cones.end());
+  // Each surface has one cone at a place.
+  const auto isSame = [](const PlacedCone& a, const PlacedCone& b)
+  { return a.place == b.place && a.surface == b.surface; };
+  cones.erase(std::unique(cones.begin(), cones.end(), isSame), cones.end());
   std::vector<Place> sharp;
   for (std::size_t first = 0; first < cones.size();)
   {
@@ -176,13 +184,15 @@ void CasterSeams::update(const Occluders& occluders, const std::vector<const Sur
     }
     first = last;
   }
-  const std::vector<Place> sharp = sharpPlaces(pairs);
+  const std::vector<Place> sharp = sharpPlaces(pairs, edges);
   const auto isSharp = [&](const Place& place)
   { return std::binary_search(sharp.begin(), sharp.end(), place); };
+  const auto edgeOf = [&](const PlacedRim& rim)
+  { return edges[rim.surface]->rims[rim.number].edge; };
   for (const auto& [one, other] : pairs)
   {
-    const CasterEdge& edge = edges[one.surface]->edges[one.edge];
-    const CasterEdge& otherEdge = edges[other.surface]->edges[other.edge];
+    const CasterEdge& edge = edges[one.surface]->edges[edgeOf(one)];
+    const CasterEdge& otherEdge = edges[other.surface]->edges[edgeOf(other)];
     const bool sameDirection = (runsAlong(occluders, edge) != one.swapped) ==
       (runsAlong(occluders, otherEdge) != other.swapped);
     const glm::dvec3 area = areaOf(occluders, edge.triangles[0]);
@@ -191,9 +201,9 @@ void CasterSeams::update(const Occluders& occluders, const std::vector<const Sur
       (glm::length(area) * glm::length(otherArea));
     const bool sharpSeam = !(cosine > sharpCosine) || isSharp(one.ends[0]) || isSharp(one.ends[1]);
     this->bySurface_[one.surface].push_back(
-      { one.edge, other.surface, otherEdge.triangles[0], sameDirection, sharpSeam });
+      { edgeOf(one), other.surface, otherEdge.triangles[0], sameDirection, sharpSeam });
     this->bySurface_[other.surface].push_back(
-      { other.edge, one.surface, edge.triangles[0], sameDirection, sharpSeam });
+      { edgeOf(other), one.surface, edge.triangles[0], sameDirection, sharpSeam });
   }
   for (std::vector<Seam>& seams : this->bySurface_)
   {

@@ -3,9 +3,6 @@
 
 #include "shadowtech/base/Occluders.h"
 
-#include <glm/glm.hpp>
-
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -14,20 +11,6 @@ namespace gnomon
 {
 
 struct SurfaceEdges;
-
-/// Where the normals of all triangles around a vertex are.
-struct NormalCone
-{
-  glm::dvec3 axis{ 0.0 };    ///< of unit length; either side of the surface is meant
-  double leastCosine = -1.0; ///< of the angle between a normal, or its opposite, and the axis
-};
-
-/// An edge at which a surface ends, of one triangle alone: another surface may go on there.
-struct Rim
-{
-  std::uint32_t edge;                ///< of the surface
-  std::array<NormalCone, 2> corners; ///< around the vertices that it leads from and to
-};
 
 /// Where a surface goes on as another one.
 struct Seam

@@ -144,7 +144,7 @@ private:
       : this->facing_[this->placements_.numberOf(placement, triangle)];
   }
 
-  EdgeKind kindOf(const Placement& placement, const CasterEdge& edge) const
+  EdgeKind kindWithinSurface(const Placement& placement, const CasterEdge& edge) const
   {
     return gnomon::kindOf(edge, this->facingOf(placement, edge.triangles[0]),
       this->facingOf(placement, edge.triangles[1]));
@@ -159,12 +159,12 @@ private:
       : nullptr;
     if (!seam)
     {
-      return this->kindOf(placement, edge);
+      return this->kindWithinSurface(placement, edge);
     }
     edge.sameDirection = seam->sameDirection;
     edge.sharp = seam->sharp;
     return gnomon::kindOf(edge, this->facingOf(placement, edge.triangles[0]),
-      this->facingOf(this->placements_.only(seam->otherSurface), seam->otherTriangle));
+      this->facingOf(this->placements_.placementOf(seam->otherSurface), seam->otherTriangle));
   }
 
   /// The part of the casters' surface that a triangle belongs to; none where nobody asks for parts.
@@ -203,7 +203,7 @@ private:
   std::uint32_t across(
     const Placement& placement, const CasterEdge& edge, std::uint32_t triangle) const
   {
-    const EdgeKind kind = this->kindOf(placement, edge);
+    const EdgeKind kind = this->kindWithinSurface(placement, edge);
     return kind == EdgeKind::Inner || kind == EdgeKind::Sharp ? edge.other(triangle)
                                                               : CasterEdge::none;
   }

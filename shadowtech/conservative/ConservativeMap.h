@@ -24,10 +24,10 @@ struct ReceiverPixels;
 /// By what a map may conclude that casters cover all of a texel.
 enum class Covering
 {
-  Triangle, ///< one triangle contains it
-  Ring,     ///< or: a triangle and those across its edges do
-  Fan,      ///< or: a triangle and those around its corners do
-  Silhouette ///< or, as of Ring: no end of the casters' surface is there, so that it goes on everywhere
+  Triangle,  ///< one triangle contains it
+  Ring,      ///< or: a triangle and those across its edges do
+  Fan,       ///< or: a triangle and those around its corners do
+  Silhouette ///< or, as of Ring: no end of a part of the casters' surface is there, so that it goes on everywhere
 };
 
 /// What a texel says of the receivers in it, by their depth (ConservativeMap).

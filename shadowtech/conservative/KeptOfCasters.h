@@ -23,7 +23,8 @@ public:
   template <typename Find>
   void update(const Occluders& occluders, const Find& find)
   {
-    std::unordered_map<std::uint64_t, Kept> kept;
+    // Should finding fail, what was kept is whole, and the rest will be found again.
+    std::unordered_map<std::uint64_t, Kept> earlier = std::exchange(this->kept_, {});
     this->bySurface_.assign(occluders.surfaces.size(), nullptr);
     for (const Surface& surface : occluders.surfaces)
     {
@@ -31,23 +32,22 @@ public:
       {
         continue;
       }
-      const auto before = this->kept_.find(surface.topologyVersion);
+      const auto before = earlier.find(surface.topologyVersion);
       // Of a surface that only moves, vertices that shared a place still do, and angles stay; of one
       // that is deformed they need not. Both are new positions.
-      if (before != this->kept_.end() &&
-        before->second.positionsVersion == surface.positionsVersion &&
+      if (before != earlier.end() && before->second.positionsVersion == surface.positionsVersion &&
         before->second.firstVertex == surface.firstVertex &&
         before->second.firstTriangle == surface.firstTriangle)
       {
-        kept.emplace(surface.topologyVersion, std::move(before->second));
+        this->kept_.emplace(surface.topologyVersion, std::move(before->second));
       }
       else
       {
-        kept[surface.topologyVersion] = { surface.positionsVersion, surface.firstVertex,
-          surface.firstTriangle, find(occluders, surface) };
+        this->kept_.emplace(surface.topologyVersion,
+          Kept{ surface.positionsVersion, surface.firstVertex, surface.firstTriangle,
+            find(occluders, surface) });
       }
     }
-    this->kept_ = std::move(kept);
     for (std::size_t i = 0; i < occluders.surfaces.size(); ++i)
     {
       if (occluders.surfaces[i].casts)

@@ -39,7 +39,8 @@ struct Cell
   /// The least depth from which a part covers the texel, of those that were drawn before.
   float covered = std::numeric_limits<float>::infinity();
 
-  /// Turns to a part: they are drawn one after another, each once.
+  /// Turns to a part. They are drawn one after another, each once: what is taken for one part may be several, which only
+  /// decides less, but of a part that is drawn in pieces a piece would not know where the others end.
   void turnTo(CasterPart next)
   {
     if (next == this->part)
@@ -85,7 +86,8 @@ struct MapRing
 /// Notes where a ring covers, for texels that its middle touches.
 void drawRing(const MapRing& ring, double margin, int width, Span rows, Cell* cells);
 
-/// Notes where a part of the casters' surface ends: before its triangles are drawn.
+/// Notes where a part of the casters' surface ends: before its triangles are drawn, of which those behind an end do not
+/// count for how far it climbs.
 void drawEndOfPart(const MapSegment& segment, double margin, int width, Span rows, Cell* cells);
 
 /// Draws an edge into some rows.

@@ -210,6 +210,56 @@ TEST_P(Valley, isNeverWrongInItsBottom)
   }
 }
 
+TEST_P(Valley, isNeverWrongWhereManySidesMeetInACorner)
+{
+  // Two steep sides, and two thin wedges between them that are less steep: each is flat enough against its neighbours,
+  // but the steep sides are not against each other, and meet in the corner.
+  for (const double halfWedge : { 0.01, 0.03, 0.1 })
+  {
+    const double steep = std::tan(glm::radians(55.0));
+    const double mild = std::tan(glm::radians(18.0));
+    const double x = 2.0 * std::cos(halfWedge);
+    const double y = 2.0 * std::sin(halfWedge);
+    const double border = y * steep;
+    const double bottom = y * (steep - mild);
+    Mesh near;
+    near.points = { { 0.0, 0.0, 0.0 }, { 0.0, -2.0, 2.0 * steep }, { x, -y, border },
+      { 2.0, 0.0, bottom }, { x, y, border }, { 0.0, 2.0, 2.0 * steep }, { -x, y, border },
+      { -2.0, 0.0, bottom }, { -x, -y, border } };
+    Mesh far = near;
+    near.triangles = { { 0, 1, 2 }, { 0, 2, 3 }, { 0, 7, 8 }, { 0, 8, 1 } };
+    far.triangles = { { 0, 3, 4 }, { 0, 4, 5 }, { 0, 5, 6 }, { 0, 6, 7 } };
+    std::vector<Prop> props{ { near }, { far } };
+    if (!this->GetParam())
+    {
+      props[0].mesh.triangles.insert(
+        props[0].mesh.triangles.end(), far.triangles.begin(), far.triangles.end());
+      props.pop_back();
+    }
+    const Occluders occluders = makeOccluders(props);
+    ShadowLight light = directionalLight({ 0.03, 0.02, -1.0 });
+    light.mapSizeTexels = 33;
+    constexpr std::size_t count = 6000;
+    ChosenReceivers chosen(count, 0);
+    Random random(3);
+    const glm::dvec3 normal = glm::normalize(glm::dvec3(0.0, steep, 1.0));
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      // On the near steep side, close to a wedge and the corner.
+      const double along = std::pow(10.0, uniform(random, -6.0, -0.5));
+      const double below =
+        along * std::tan(halfWedge) * (1.0 + std::pow(10.0, uniform(random, -4.0, 0.5)));
+      const glm::dvec3 at(random() % 2 ? along : -along, -below, steep * below);
+      chosen.set(i, at - occluders.centreWorld, normal, 3e-4f);
+    }
+    const Tally tally = compareWithTruth(light,
+      fitLightViews(light, occluders.centreWorld, occluders.castersCentred, light.mapSizeTexels),
+      occluders, chosen.pixels);
+    EXPECT_EQ(tally.wrong, 0u) << halfWedge;
+    EXPECT_GT(tally.receivers, count / 2) << halfWedge;
+  }
+}
+
 TEST(ConservativeMaps, areNeverWrongWhereEdgesLieOnTexelsBorders)
 {
   // A row of plates whose edges lie exactly between texels, high above receivers that lie there, too. The
