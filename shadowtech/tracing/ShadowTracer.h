@@ -47,8 +47,8 @@ public:
       { light, occluders, receivers, decider, visibility, classes, nullptr });
   }
 
-  /// The same of the light's area, whether turned away or not: the share of the light's samples that the
-  /// receiver sees, each pixel with its own (directionToSample()). What the light reaches, its centre says.
+  /// The same of an area light, whose centre decides what it reaches: the share of its samples that the
+  /// receiver sees, each pixel with its own (directionToSample()).
   /// @param light with an area
   std::size_t traceArea(const ShadowLight& light, const Occluders& occluders,
     const Receivers& receivers, std::vector<float>& visibility,
