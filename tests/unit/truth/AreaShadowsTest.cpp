@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -89,6 +90,12 @@ struct Penumbra
   /// What is seen of it from (x, 0, 0) past the edge x = 0, z = 2 of a half plane that lies at x < 0.
   std::function<double(double x)> exact;
 };
+
+/// For the tests' names.
+std::ostream& operator<<(std::ostream& stream, const Penumbra& penumbra)
+{
+  return stream << penumbra.name;
+}
 
 class Penumbras : public testing::TestWithParam<Penumbra>
 {
