@@ -1,14 +1,19 @@
 #include "lights/LightManager.h"
 
+#include "vtkGnomonAreaLight.h"
 #include "vtkGnomonLightKeys.h"
 
 #include <vtkCollection.h>
 #include <vtkInformation.h>
+#include <vtkInformationDoubleKey.h>
 #include <vtkInformationDoubleVectorKey.h>
 #include <vtkInformationIntegerKey.h>
+#include <vtkInformationKeyLookup.h>
 #include <vtkLight.h>
 #include <vtkLightCollection.h>
 #include <vtkRenderer.h>
+
+#include <glm/gtc/type_ptr.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -20,6 +25,9 @@ namespace
 
 /// The largest coordinate of a lamp: of those beyond, floats do not hold the squares.
 constexpr double farthestPosition = 1e18;
+
+/// The largest area of a light, in world units.
+constexpr double largestArea = 1e12;
 
 /// VTK takes the cone of a positional light for a spot's below 90 degrees only.
 LightKind kindOf(vtkLight* light)
@@ -36,6 +44,13 @@ bool isFinite(const glm::dvec3& point)
   return std::isfinite(point.x) && std::isfinite(point.y) && std::isfinite(point.z);
 }
 
+/// Whether an up direction is not along the light. A millionth of the right angle is where rounding begins to turn
+/// what it is up for.
+bool isAcross(const glm::dvec3& up, const glm::dvec3& travel)
+{
+  return glm::length(glm::cross(up, travel)) > 1e-6 * glm::length(up) * glm::length(travel);
+}
+
 /// The box of a directional light, if it has one. Its up direction turns with the light.
 std::optional<LightBox> readBox(vtkLight* light)
 {
@@ -50,6 +65,111 @@ std::optional<LightBox> readBox(vtkLight* light)
   glm::dvec3 up = box.upWorld;
   light->TransformVector(&up.x, &box.upWorld.x);
   return box;
+}
+
+/// The radius that a light has by OSPRay's key; 0 where it has none. The key is found by its name, since the
+/// module that it belongs to is not in every VTK.
+double ospRayRadius(vtkLight* light)
+{
+  auto* key = vtkInformationDoubleKey::SafeDownCast(
+    vtkInformationKeyLookup::Find("RADIUS", "vtkOSPRayLightNode"));
+  vtkInformation* keys = light->GetInformation();
+  return key && keys->Has(key) ? keys->Get(key) : 0.0;
+}
+
+/// What a light says of its size, in the units of vtkGnomonAreaLight.
+struct AreaSize
+{
+  LightArea::Shape shape = LightArea::Shape::Disk;
+  glm::dvec2 size{ 0.0 }; ///< width and height, or twice the radius
+  glm::dvec3 up{ 0.0 };   ///< of a rectangle, in the light's own coordinates
+};
+
+/// A radius as OSPRay measures it is of a directional light the whole angle already.
+AreaSize roundSize(vtkLight* light, double radius, LightArea::Shape shape)
+{
+  return { shape, glm::dvec2(light->GetPositional() ? 2.0 * radius : radius) };
+}
+
+AreaSize readAreaSize(vtkLight* light, const ShadowSettings& settings)
+{
+  const LightArea::Shape round =
+    kindOf(light) == LightKind::Point ? LightArea::Shape::Ball : LightArea::Shape::Disk;
+  if (settings.lightRadius > 0.0)
+  {
+    return roundSize(light, settings.lightRadius, round);
+  }
+  auto* area = vtkGnomonAreaLight::SafeDownCast(light);
+  if (!area)
+  {
+    return roundSize(light, ospRayRadius(light), round);
+  }
+  return area->GetShape() == vtkGnomonAreaLight::DISK
+    ? roundSize(light, area->GetRadius(), LightArea::Shape::Disk)
+    : AreaSize{ LightArea::Shape::Rectangle, { area->GetWidth(), area->GetHeight() },
+        glm::make_vec3(area->GetUp()) };
+}
+
+/// The area of a light that is more than a point.
+/// @param reason to skip the light; filled, if it is empty, where its numbers give no area
+std::optional<LightArea> readArea(
+  vtkLight* light, const ShadowSettings& settings, std::string& reason)
+{
+  const auto skip = [&](const char* why)
+  {
+    reason = reason.empty() ? why : reason;
+    return std::nullopt;
+  };
+  const AreaSize wished = readAreaSize(light, settings);
+  if (!std::isfinite(wished.size.x) || !std::isfinite(wished.size.y))
+  {
+    return skip("its area is not finite");
+  }
+  const glm::dvec2 size = glm::max(wished.size, glm::dvec2(0.0));
+  if (size == glm::dvec2(0.0))
+  {
+    return std::nullopt;
+  }
+  const double longest = std::max(size.x, size.y);
+  if (!light->GetPositional() && longest >= 180.0)
+  {
+    return skip("it fills 180 degrees or more");
+  }
+  if (longest > 2.0 * largestArea)
+  {
+    return skip("its area is too large");
+  }
+  const glm::dvec2 half = light->GetPositional() ? 0.5 * size : glm::tan(glm::radians(0.5 * size));
+  if (wished.shape == LightArea::Shape::Ball)
+  {
+    return ballArea(half.x);
+  }
+  glm::dvec3 position;
+  glm::dvec3 focalPoint;
+  light->GetTransformedPosition(&position.x);
+  light->GetTransformedFocalPoint(&focalPoint.x);
+  const double distance = glm::distance(position, focalPoint);
+  if (!(distance > 0.0) || !std::isfinite(distance))
+  {
+    return skip("its position and focal point give no direction");
+  }
+  const glm::dvec3 travel = (focalPoint - position) / distance;
+  if (wished.shape == LightArea::Shape::Disk)
+  {
+    return diskArea(travel, half.x);
+  }
+  glm::dvec3 up = wished.up;
+  glm::dvec3 upWorld;
+  light->TransformVector(&up.x, &upWorld.x);
+  if (!isFinite(upWorld))
+  {
+    return skip("its area's up direction is not finite");
+  }
+  if (!isAcross(upWorld, travel))
+  {
+    return skip("its area has its up direction along the light");
+  }
+  return rectangleArea(travel, upWorld, half);
 }
 
 /// What is asked of a light's shadows.
@@ -135,9 +255,7 @@ std::string reasonToSkip(vtkLight* light)
     {
       return "its box is empty";
     }
-    // A millionth of the right angle is where rounding begins to turn the box.
-    const glm::dvec3 across = glm::cross(box->upWorld, travel);
-    if (!(glm::length(across) > 1e-6 * glm::length(box->upWorld) * std::sqrt(distance2)))
+    if (!isAcross(box->upWorld, travel))
     {
       return "its box has its up direction along the light";
     }
@@ -145,7 +263,8 @@ std::string reasonToSkip(vtkLight* light)
   return {};
 }
 
-ShadowLight readLight(vtkLight* light, const ShadowSettings& settings)
+ShadowLight readLight(
+  vtkLight* light, const ShadowSettings& settings, const std::optional<LightArea>& area)
 {
   ShadowLight result;
   static_cast<ShadowSettings&>(result) = settings;
@@ -161,6 +280,7 @@ ShadowLight readLight(vtkLight* light, const ShadowSettings& settings)
   }
   result.coneAngleDegrees = result.kind == LightKind::Spot ? light->GetConeAngle() : 0.0;
   result.box = readBox(light);
+  result.area = area;
   result.strength = glm::clamp(static_cast<double>(light->GetShadowAttenuation()), 0.0, 1.0);
 
   return result;
@@ -181,9 +301,10 @@ LightSet LightManager::collect(vtkRenderer* renderer, const ShadowSettings& defa
   {
     std::string reason = reasonToSkip(light);
     const ShadowSettings settings = readSettings(light, defaults, reason);
+    const std::optional<LightArea> area = readArea(light, settings, reason);
     if (reason.empty())
     {
-      set.casting.push_back(readLight(light, settings));
+      set.casting.push_back(readLight(light, settings, area));
       set.casting.back().sceneIndex = sceneIndex;
       set.casting.back().shaderIndex = shaderIndex;
     }

@@ -31,7 +31,9 @@ struct LightSet
 /// Head and camera lights are taken through their transform, which the renderer's
 /// UpdateLightsGeometryToFollowCamera() must have set for this frame. Lights that cannot show a
 /// shadow are left out with a reason: switched off, black, no intensity, marked as not casting,
-/// strength 0, and those whose numbers give no light (a cone without angle, an empty box).
+/// strength 0, and those whose numbers give no light (a cone without angle, an empty box, an endless
+/// area). How large a light is follows from the setting `light_radius`, else from vtkGnomonAreaLight, else from
+/// OSPRay's key for it.
 class LightManager
 {
 public:

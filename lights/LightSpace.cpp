@@ -7,17 +7,6 @@ namespace gnomon
 namespace
 {
 
-/// The world axis that is least aligned with this one.
-glm::dvec3 axisAcross(const glm::dvec3& axis)
-{
-  const glm::dvec3 magnitude = glm::abs(axis);
-  if (magnitude.x <= magnitude.y && magnitude.x <= magnitude.z)
-  {
-    return { 1.0, 0.0, 0.0 };
-  }
-  return magnitude.y <= magnitude.z ? glm::dvec3(0.0, 1.0, 0.0) : glm::dvec3(0.0, 0.0, 1.0);
-}
-
 /// The rotation whose rows are these orthogonal unit vectors.
 glm::dmat4 rotationOnto(const glm::dvec3& x, const glm::dvec3& y, const glm::dvec3& z)
 {
@@ -44,6 +33,17 @@ glm::dmat4 lightFromCentred(const ShadowLight& light, const glm::dvec3& centreWo
   const glm::dvec3 x = glm::normalize(glm::cross(axisAcross(z), z));
   const glm::dmat4 rotation = rotationOnto(x, glm::cross(z, x), z);
   return light.kind == LightKind::Directional ? rotation : glm::translate(rotation, origin);
+}
+
+//------------------------------------------------------------------------------
+glm::dvec3 axisAcross(const glm::dvec3& direction)
+{
+  const glm::dvec3 magnitude = glm::abs(direction);
+  if (magnitude.x <= magnitude.y && magnitude.x <= magnitude.z)
+  {
+    return { 1.0, 0.0, 0.0 };
+  }
+  return magnitude.y <= magnitude.z ? glm::dvec3(0.0, 1.0, 0.0) : glm::dvec3(0.0, 0.0, 1.0);
 }
 
 //------------------------------------------------------------------------------

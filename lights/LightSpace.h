@@ -16,6 +16,9 @@ namespace gnomon
 /// without a box, the centre. The x axis of a box lies along its width, y along its height.
 glm::dmat4 lightFromCentred(const ShadowLight& light, const glm::dvec3& centreWorld);
 
+/// The world axis that is least aligned with this direction.
+glm::dvec3 axisAcross(const glm::dvec3& direction);
+
 /// The faces of the cube around a light, each of which sees the directions of which one axis is the
 /// longest: +x, -x, +y, -y, +z, -z of light space.
 constexpr int cubeFaces = 6;

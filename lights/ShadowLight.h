@@ -1,6 +1,7 @@
 #ifndef gnomon_lights_ShadowLight_h
 #define gnomon_lights_ShadowLight_h
 
+#include "lights/LightArea.h"
 #include "lights/ShadowSettings.h"
 
 #include <glm/glm.hpp>
@@ -43,6 +44,9 @@ struct ShadowLight : ShadowSettings
   double coneAngleDegrees = 0.0;
   /// The box of a directional light that does not fill the whole scene.
   std::optional<LightBox> box;
+  /// What it shines from around its centre, of a light that is more than a point. Techniques with hard
+  /// shadows take the centre; only the centre says what the light reaches: its cone, its box.
+  std::optional<LightArea> area;
 
   /// Place in the renderer's light collection, counted over all lights.
   int sceneIndex = 0;

@@ -238,12 +238,14 @@ const std::vector<Setting>& shadowSettings()
     { "planes", "planar: how many planes show shadows, at most: the largest",
       IntegerSetting{ &S::planes, 1, mostPlanes } },
     { "light_radius",
-      "soft shadows of planar: the light's radius in world units, of a directional light the "
-      "tangent of half the "
-      "angle that it fills; 0: hard shadows",
+      "soft shadows: makes the light a disc of that radius (a point light a ball) in world units, "
+      "a "
+      "directional one a disc that fills so many degrees; 0: as large as it says itself",
       RealSetting{ &S::lightRadius, 0.0, 1e12 } },
-    { "light_samples", "soft shadows of planar: from how many points of the light",
-      IntegerSetting{ &S::lightSamples, 1, 1024 } },
+    { "light_samples", "soft shadows of area lights: from how many points of the light",
+      IntegerSetting{ &S::lightSamples, 1, 65536 } },
+    { "light_seed", "soft shadows of area lights: which points these are",
+      IntegerSetting{ &S::lightSeed, 0, 2147483647 } },
     { "depth", "the surface on a ray that a map holds",
       choice<DepthSurface, &S::depth>({ "first", "second", "midpoint" }) },
     { "metric", "how a map measures: along the view's axis, or along the ray",

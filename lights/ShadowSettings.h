@@ -185,10 +185,12 @@ struct ShadowSettings
   int planes = 8;
 
   ///@{
-  /// Of techniques with soft shadows from many points of the light (LightSamples.h). The radius is in world units,
-  /// of a directional light the tangent of half the angle that the light fills; 0: a hard shadow.
+  /// Of techniques with soft shadows from many points of the light (LightSamples.h). A radius above 0
+  /// replaces what the light says of its area (vtkGnomonAreaLight), in the units of OSPRay's key RADIUS: world
+  /// units, of a directional light the degrees of the whole angle that it fills.
   double lightRadius = 0.0;
   int lightSamples = 64;
+  int lightSeed = 0; ///< which points these are
   ///@}
 
   /// Whether another light's map holds the same for the same views and filter.

@@ -72,6 +72,24 @@ SceneLight makeLamp(const Vec3& position)
 }
 
 //------------------------------------------------------------------------------
+Scene underLamp(Scene scene, const std::string& name, double distance)
+{
+  const SceneLight& sun = scene.lights.front();
+  SceneLight lamp;
+  lamp.type = SceneLight::Type::Spot;
+  lamp.coneAngleDegrees = 55.0;
+  lamp.target = scene.camera.target;
+  lamp.position = lamp.target - distance * normalized(sun.target - sun.position);
+  lamp.area = SceneLight::Area{};
+  lamp.area->rectangle = true;
+  lamp.area->width = lamp.area->height = 0.1 * distance;
+  lamp.area->up = { { 0.0, 0.0, -1.0 } };
+  scene.lights = { lamp };
+  scene.name = name;
+  return scene;
+}
+
+//------------------------------------------------------------------------------
 SceneCamera makeCamera(const Vec3& position, const Vec3& target, double fovDegrees)
 {
   SceneCamera camera;

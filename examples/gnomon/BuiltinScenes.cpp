@@ -1,5 +1,7 @@
 #include "BuiltinScenes.h"
 
+#include "BuiltinParts.h"
+
 namespace gnomon::tool
 {
 
@@ -35,6 +37,14 @@ std::vector<BuiltinSceneEntry> makeEntries()
     { { "terrain", "a square kilometre of rolling terrain seen from 2 m above it, low sun" },
       makeTerrainScene },
   };
+  const auto addSoft = [&](const char* name, const char* summary, Scene (*make)(), double distance)
+  {
+    entries.push_back({ { name, summary }, [=] { return underLamp(make(), name, distance); } });
+  };
+  addSoft("soft-stack", "stack under a square lamp", makeStackScene, 12.0);
+  addSoft("soft-panels", "panels under a square lamp", makePanelsScene, 11.0);
+  addSoft("soft-plates", "plates under a square lamp", makePlatesScene, 18.0);
+  addSoft("soft-long-cube", "long-cube under a square lamp", makeLongCubeScene, 14.0);
   for (const GardenView& view : gardenViews())
   {
     entries.push_back({ view.line, [view] { return makeGardenScene(view); } });

@@ -97,8 +97,7 @@ void check(const RenderOptions& options)
 
 Scene loadWithOptions(const RenderOptions& options)
 {
-  Scene scene =
-    loadScene(options.scene, options.lights.empty() ? FileLights::Use : FileLights::Ignore);
+  Scene scene = loadScene(options.scene);
   if (!options.lights.empty())
   {
     scene.lights.clear();
@@ -162,8 +161,8 @@ nlohmann::ordered_json toJson(const FrameReport& report)
         { "fit", light.fit }, { "fit_reason", light.fitReason }, { "map_reason", light.mapReason },
         { "casters_left_out", light.castersLeftOut }, { "kernel", light.kernel },
         { "kernel_size_texels", light.kernelTexels }, { "map_samples", light.mapSamples },
-        { "traced_pixels", light.tracedPixels }, { "planes", light.planes },
-        { "pixels_off_planes", light.pixelsOffPlanes },
+        { "traced_pixels", light.tracedPixels }, { "light_samples", light.lightSamples },
+        { "planes", light.planes }, { "pixels_off_planes", light.pixelsOffPlanes },
         { "classes", classesToJson(light.classes) } });
   }
   json["notes"] = report.notes;

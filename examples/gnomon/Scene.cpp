@@ -8,6 +8,7 @@
 #include "SceneFraming.h"
 #include "Vec3.h"
 
+#include "lights/vtkGnomonAreaLight.h"
 #include "lights/vtkGnomonLightKeys.h"
 #include "plugin/vtkGnomonPropKeys.h"
 
@@ -78,9 +79,21 @@ vtkSmartPointer<vtkActor> makeActor(const SceneModel& model)
   return actor;
 }
 
+vtkSmartPointer<vtkLight> makeAreaLight(const SceneLight::Area& area)
+{
+  auto light = vtkSmartPointer<vtkGnomonAreaLight>::New();
+  light->SetShape(area.rectangle ? vtkGnomonAreaLight::RECTANGLE : vtkGnomonAreaLight::DISK);
+  light->SetRadius(area.radius);
+  light->SetWidth(area.width);
+  light->SetHeight(area.height);
+  light->SetUp(area.up[0], area.up[1], area.up[2]);
+  return light;
+}
+
 vtkSmartPointer<vtkLight> makeLight(const SceneLight& source)
 {
-  auto light = vtkSmartPointer<vtkLight>::New();
+  const vtkSmartPointer<vtkLight> light =
+    source.area ? makeAreaLight(*source.area) : vtkSmartPointer<vtkLight>::New();
   light->SetLightTypeToSceneLight();
   light->SetPosition(source.position.data());
   light->SetFocalPoint(source.target.data());
@@ -133,7 +146,7 @@ void setClippingRange(vtkRenderer* renderer, const Scene& scene, double aspect)
 } // namespace
 
 //------------------------------------------------------------------------------
-Scene loadScene(const std::string& nameOrPath, FileLights fileLights)
+Scene loadScene(const std::string& nameOrPath)
 {
   for (const BuiltinSceneEntry& entry : builtinSceneEntries())
   {
@@ -145,7 +158,7 @@ Scene loadScene(const std::string& nameOrPath, FileLights fileLights)
   const std::string extension = lowerExtension(nameOrPath);
   if (extension == ".json")
   {
-    return readSceneFile(nameOrPath, fileLights);
+    return readSceneFile(nameOrPath);
   }
   if (isModelFile(nameOrPath))
   {

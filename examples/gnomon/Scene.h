@@ -50,10 +50,20 @@ struct SceneLight
     double depth = 0.0;
     Vec3 up{ { 0, 1, 0 } };
   };
+  /// What a light is that is more than a point: see vtkGnomonAreaLight.
+  struct Area
+  {
+    bool rectangle = false; ///< else a disk
+    double radius = 0.0;
+    double width = 0.0;
+    double height = 0.0;
+    Vec3 up{ { 0, 1, 0 } };
+  };
   Type type = Type::Directional;
   Vec3 position{ { 0, 0, 1 } };
   Vec3 target{ { 0, 0, 0 } }; ///< directional: target - position is the way the light travels
   std::optional<Box> box;     ///< directional only
+  std::optional<Area> area;   ///< around the position, across the way to the target
   Vec3 color{ { 1, 1, 1 } };
   double intensity = 1.0;
   double coneAngleDegrees = 30.0; ///< half the cone of a spot light
@@ -81,17 +91,10 @@ struct Scene
   std::vector<std::string> notes;
 };
 
-/// What becomes of a scene's own lights.
-enum class FileLights
-{
-  Use,   ///< lights of kinds that Gnomon does not have yet are refused
-  Ignore ///< the caller brings lights of its own: no light is loaded, none is refused for its kind
-};
-
 /// Reads a built-in scene's name, a scene file (.json) or a model file (.obj .ply .stl .vtp .3ds
 /// .glb .gltf). A model gets a camera and a light where its file has none.
 /// @throws BadInput
-Scene loadScene(const std::string& nameOrPath, FileLights fileLights = FileLights::Use);
+Scene loadScene(const std::string& nameOrPath);
 
 /// Names and one-line summaries of the built-in scenes.
 struct BuiltinScene

@@ -40,6 +40,22 @@ Json toJson(const SceneLight& light)
   {
     json = { { "type", "directional" }, { "direction", light.target - light.position } };
   }
+  if (light.area)
+  {
+    json["type"] = "area";
+    json["target"] = light.target;
+    json["shape"] = light.area->rectangle ? "rectangle" : "disk";
+    if (light.area->rectangle)
+    {
+      json["width"] = light.area->width;
+      json["height"] = light.area->height;
+      json["up"] = light.area->up;
+    }
+    else
+    {
+      json["radius"] = light.area->radius;
+    }
+  }
   if (light.box)
   {
     json["box"] = { { "position", light.position }, { "up", light.box->up },

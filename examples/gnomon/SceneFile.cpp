@@ -119,7 +119,7 @@ std::vector<SceneModel> readModel(const JsonValue& value, const std::filesystem:
 } // namespace
 
 //------------------------------------------------------------------------------
-Scene readSceneFile(const std::string& path, FileLights fileLights)
+Scene readSceneFile(const std::string& path)
 {
   const nlohmann::json document = readJsonFile(path);
   const JsonValue root(path, document);
@@ -139,10 +139,7 @@ Scene readSceneFile(const std::string& path, FileLights fileLights)
   {
     for (const JsonValue& value : lights.elements())
     {
-      if (const std::optional<SceneLight> light = readLight(value, fileLights))
-      {
-        scene.lights.push_back(*light);
-      }
+      scene.lights.push_back(readLight(value));
     }
   }
   if (const JsonValue background = root.member("background"); background.present())

@@ -168,32 +168,61 @@ SceneLight readPointLight(const JsonValue& value)
   return light;
 }
 
-/// Checks an area light. It lies along x = normalize(cross(target - position, up)) and cross(x,
-/// target - position), so up must not be parallel to its axis.
-void checkArea(const JsonValue& value)
+/// What an area light shines from. A rectangle lies along cross(travel, up), its width, and across that.
+SceneLight::Area readArea(const JsonValue& value, const Vec3& travel)
 {
-  requireLight(value, { "position", "target", "up", "width", "height", "shape" });
-  SceneLight light;
-  light.position = readPoint(value.member("position"));
-  light.target = readTarget(value.member("target"), light.position);
-  readUp(value.member("up"), Vec3{ { 0.0, 1.0, 0.0 } }, light.target - light.position);
-  value.member("width").number(extent);
-  value.member("height").number(extent);
-  if (const JsonValue shape = value.member("shape"); shape.present())
+  SceneLight::Area area;
+  const JsonValue shape = value.member("shape");
+  const std::string name = shape.present() ? shape.text() : "rectangle";
+  if (name != "rectangle" && name != "disk")
   {
-    const std::string name = shape.text();
-    if (name != "rectangle" && name != "ellipse")
+    shape.fail("one of: rectangle, disk");
+  }
+  area.rectangle = name == "rectangle";
+  const std::vector<const char*> sizesOfOther = area.rectangle
+    ? std::vector<const char*>{ "radius" }
+    : std::vector<const char*>{ "width", "height", "up" };
+  for (const char* size : sizesOfOther)
+  {
+    if (const JsonValue surplus = value.member(size); surplus.present())
     {
-      shape.fail("one of: rectangle, ellipse");
+      surplus.refuse("means nothing for a " + name);
     }
   }
+  if (!area.rectangle)
+  {
+    area.radius = value.member("radius").number(extent);
+    return area;
+  }
+  area.width = value.member("width").number(extent);
+  area.height = value.member("height").number(extent);
+  area.up = readUp(value.member("up"), area.up, travel);
+  return area;
+}
+
+/// A light with an area around its position. It shines into all directions, or as a spot.
+SceneLight readAreaLight(const JsonValue& value)
+{
+  requireLight(
+    value, { "position", "target", "cone_angle", "shape", "radius", "width", "height", "up" });
+  SceneLight light;
+  light.type = SceneLight::Type::Point;
+  light.position = readPoint(value.member("position"));
+  light.target = readTarget(value.member("target"), light.position);
+  if (const JsonValue angle = value.member("cone_angle"); angle.present())
+  {
+    light.type = SceneLight::Type::Spot;
+    light.coneAngleDegrees = angle.number(coneAngleDegrees);
+  }
+  light.area = readArea(value, light.target - light.position);
   readCommon(value, light);
+  return light;
 }
 
 } // namespace
 
 //------------------------------------------------------------------------------
-std::optional<SceneLight> readLight(const JsonValue& value, FileLights fileLights)
+SceneLight readLight(const JsonValue& value)
 {
   const JsonValue kind = value.member("type");
   const std::string type = kind.text();
@@ -213,12 +242,7 @@ std::optional<SceneLight> readLight(const JsonValue& value, FileLights fileLight
   {
     kind.fail("one of: directional, spot, point, area");
   }
-  checkArea(value);
-  if (fileLights == FileLights::Use)
-  {
-    kind.refuse(type + " lights are not supported yet, expected one of: directional, spot, point");
-  }
-  return std::nullopt;
+  return readAreaLight(value);
 }
 
 //------------------------------------------------------------------------------

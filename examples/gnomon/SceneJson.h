@@ -9,10 +9,9 @@
 namespace gnomon::tool
 {
 
-/// A light of a scene file or of --light, checked in full. Empty for the kind that comes with a
-/// later version (area) when `fileLights` is Ignore.
+/// A light of a scene file or of --light.
 /// @throws BadInput
-std::optional<SceneLight> readLight(const JsonValue& value, FileLights fileLights);
+SceneLight readLight(const JsonValue& value);
 
 /// A camera of a scene file or of --camera. Without `defaults`, position and target must be there.
 /// @throws BadInput

@@ -46,7 +46,9 @@ struct LightReport
   int kernelTexels = 0;          ///< and how wide that is
   int mapSamples = 0;            ///< samples of its map's texels; 0 when they hold depths
   std::int64_t tracedPixels = 0; ///< pixels decided by a ray
-  int planes = 0;                ///< of planar shadows: how many planes show them
+  /// Points of the light that its shadows come from: 1 where they are hard. A traced pixel has a ray to each.
+  int lightSamples = 1;
+  int planes = 0; ///< of planar shadows: how many planes show them
   /// Of planar shadows: pixels that lie on none of those and show no cast shadow. Counted only where
   /// visibility is kept or stages are measured.
   std::int64_t pixelsOffPlanes = 0;

@@ -114,6 +114,7 @@ void Planar::drawVisibility(const LayerInput& input, LightReport& report)
   const GlStateGuard guard;
   this->planes_.update(input.occluders, static_cast<std::size_t>(input.light.planes));
   this->samples_ = lightSamples(input.light, input.occluders.centreWorld);
+  report.lightSamples = static_cast<int>(this->samples_.size());
   this->allocate(
     input.receivers.width(), input.receivers.height(), this->samples_.size() > samplesPerBatch);
   this->sendPlanes(input);

@@ -20,8 +20,13 @@ TechniqueInfo Raytraced::info()
 void Raytraced::computeVisibility(
   const ScreenInput& input, std::vector<float>& visibility, LightReport& report)
 {
-  report.tracedPixels = static_cast<std::int64_t>(input.tracer.trace(
-    input.light, input.occluders, input.receivers, visibility, nullptr, input.classes));
+  const bool soft = input.light.area.has_value();
+  report.lightSamples = soft ? input.light.lightSamples : 1;
+  const std::size_t rays = soft ? input.tracer.traceArea(input.light, input.occluders,
+                                    input.receivers, visibility, nullptr, input.classes)
+                                : input.tracer.trace(input.light, input.occluders, input.receivers,
+                                    visibility, nullptr, input.classes);
+  report.tracedPixels = static_cast<std::int64_t>(rays) / report.lightSamples;
 }
 
 } // namespace gnomon

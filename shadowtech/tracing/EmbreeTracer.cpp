@@ -151,7 +151,7 @@ public:
     }
   }
 
-  /// Clears the visibility of pixels whose ray is blocked.
+  /// Takes 1 off the visibility of pixels whose ray is blocked.
   /// @return the number of rays
   std::size_t trace(TracedTile& tile)
   {
@@ -233,8 +233,7 @@ private:
     for (std::size_t lane = 0; lane < this->taken_; ++lane)
     {
       // Embree sets the far end of a ray that hits to minus infinity.
-      float& lit = tile.visibility[this->pixels_[lane]];
-      lit = this->packet_.tfar[lane] < 0.0f ? 0.0f : lit;
+      tile.visibility[this->pixels_[lane]] -= this->packet_.tfar[lane] < 0.0f ? 1.0f : 0.0f;
     }
     this->taken_ = 0;
   }
@@ -472,7 +471,8 @@ std::size_t EmbreeTracer::Impl::trace(const TracedPicture& picture) const
   // answers are the same, and of a million triangles and more the time is, too.
   const RTCIntersectContextFlags coherence =
     this->instanced ? RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT : RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  return picture.visitTiles([&](TracedTile& tile)
+  return picture.visitTiles(picture.allSamples(),
+    [&](TracedTile& tile)
     { return TileTracer<Packet>(this->scene.get(), picture.rayFar(), coherence).trace(tile); });
 }
 
@@ -481,7 +481,8 @@ std::size_t EmbreeTracer::tracePicture(const TracedPicture& picture)
 {
   if (this->impl_->casters.empty())
   {
-    return picture.visitTiles([](const TracedTile&) { return std::size_t(0); });
+    return picture.visitTiles(
+      picture.allSamples(), [](const TracedTile&) { return std::size_t(0); });
   }
   return this->impl_->lanes16 ? this->impl_->trace<RTCRay16>(picture)
                               : this->impl_->trace<RTCRay8>(picture);

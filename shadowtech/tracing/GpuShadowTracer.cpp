@@ -16,6 +16,9 @@ constexpr std::size_t squaresAcross = TracedTile::columns / side;
 static_assert(
   TracedTile::columns % side == 0 && TracedTile::rows % side == 0, "squares fill a tile");
 
+/// The rays that there is room for, in sum, where a picture has several per pixel.
+constexpr std::size_t roomForRays = std::size_t(1) << 22;
+
 /// Writes the rays that a tile needs, square by square.
 /// @param to has room for those of a whole tile
 /// @return how many there are
@@ -67,20 +70,25 @@ ShadowTracer::Update GpuShadowTracer::update(const Occluders& occluders)
 //------------------------------------------------------------------------------
 /// Fills the picture but for its rays, and collects these in the order of the tiles, whichever thread visits them.
 /// @return how many there are
-std::size_t GpuShadowTracer::collectRays(const TracedPicture& picture)
+std::size_t GpuShadowTracer::collectRays(
+  const TracedPicture& picture, const TracedPicture::SampleRange& samples)
 {
-  this->rays_.resize(picture.tiles() * TracedTile::pixels);
+  const std::size_t raysOfTile =
+    TracedTile::pixels * static_cast<std::size_t>(samples.end - samples.first);
+  this->rays_.resize(picture.tiles() * raysOfTile);
   std::vector<std::size_t> counts(picture.tiles(), 0);
-  picture.visitTiles(
+  picture.visitTiles(samples,
     [&](const TracedTile& tile)
     {
-      TracedRay* const to = &this->rays_[tile.number * TracedTile::pixels];
-      return counts[tile.number] = writeRays(tile, picture.rayFar(), to);
+      TracedRay* const to = &this->rays_[tile.number * raysOfTile + counts[tile.number]];
+      const std::size_t written = writeRays(tile, picture.rayFar(), to);
+      counts[tile.number] += written;
+      return written;
     });
   std::size_t count = 0;
   for (std::size_t tile = 0; tile < counts.size(); ++tile)
   {
-    const std::size_t first = tile * TracedTile::pixels;
+    const std::size_t first = tile * raysOfTile;
     if (first != count)
     {
       std::copy_n(&this->rays_[first], counts[tile], &this->rays_[count]);
@@ -95,18 +103,28 @@ std::size_t GpuShadowTracer::tracePicture(const TracedPicture& picture)
 {
   if (this->tracer_.empty())
   {
-    return picture.visitTiles([](const TracedTile&) { return std::size_t(0); });
+    return picture.visitTiles(
+      picture.allSamples(), [](const TracedTile&) { return std::size_t(0); });
   }
-  const std::size_t count = this->collectRays(picture);
-  this->tracer_.trace(this->rays_.data(), count, this->shaders_, this->blocked_);
-  for (std::size_t i = 0; i < count; ++i)
+  const std::size_t pixels = picture.tiles() * TracedTile::pixels;
+  const auto samplesAtOnce =
+    static_cast<int>(std::max<std::size_t>(roomForRays / std::max<std::size_t>(pixels, 1), 1));
+  std::size_t rays = 0;
+  for (int first = 0; first < picture.samples(); first += samplesAtOnce)
   {
-    if (this->blocked_[i] != 0)
+    const std::size_t count =
+      this->collectRays(picture, { first, std::min(first + samplesAtOnce, picture.samples()) });
+    this->tracer_.trace(this->rays_.data(), count, this->shaders_, this->blocked_);
+    for (std::size_t i = 0; i < count; ++i)
     {
-      picture.darken(this->rays_[i].pixel);
+      if (this->blocked_[i] != 0)
+      {
+        picture.darken(this->rays_[i].pixel);
+      }
     }
+    rays += count;
   }
-  return count;
+  return rays;
 }
 
 //------------------------------------------------------------------------------

@@ -11,8 +11,8 @@
 namespace gnomon
 {
 
-/// Shadow rays on the GPU (GpuTracer): those that a picture needs are collected first, and traced all together. It
-/// has one structure for all surfaces. All calls, the destructor included, want the context to be current.
+/// Shadow rays on the GPU (GpuTracer): those that a picture needs are collected first, and traced all together; of
+/// an area light some samples at a time. It has one structure for all surfaces. All calls, the destructor included, want the context to be current.
 class GpuShadowTracer : public ShadowTracer
 {
 public:
@@ -26,12 +26,13 @@ public:
 
 private:
   std::size_t tracePicture(const TracedPicture& picture) override;
-  std::size_t collectRays(const TracedPicture& picture);
+  std::size_t collectRays(const TracedPicture& picture, const TracedPicture::SampleRange& samples);
 
   OccluderBuffers& buffers_;
   ShaderLibrary& shaders_;
   GpuTracer tracer_;
-  /// Room for the rays of all pixels. They begin tile by tile where a tile's pixels would, and then side by side.
+  /// Room for some samples' rays of all pixels. They begin tile by tile where all of a tile's would, and then
+  /// side by side.
   std::vector<TracedRay> rays_;
   std::vector<std::uint8_t> blocked_;
 };

@@ -43,7 +43,23 @@ public:
     const Receivers& receivers, std::vector<float>& visibility,
     const ReceiverDecider* decider = nullptr, std::vector<std::uint8_t>* classes = nullptr)
   {
-    return this->tracePicture({ light, occluders, receivers, decider, visibility, classes });
+    return this->tracePicture(
+      { light, occluders, receivers, decider, visibility, classes, nullptr });
+  }
+
+  /// The same of an area light, whose centre decides what it reaches: the share of its samples that the
+  /// receiver sees, each pixel with its own (directionToSample()).
+  /// @param light with an area
+  std::size_t traceArea(const ShadowLight& light, const Occluders& occluders,
+    const Receivers& receivers, std::vector<float>& visibility,
+    const ReceiverDecider* decider = nullptr, std::vector<std::uint8_t>* classes = nullptr)
+  {
+    const LightSamples samples(light);
+    const TracedPicture picture(
+      light, occluders, receivers, decider, visibility, classes, &samples);
+    const std::size_t rays = this->tracePicture(picture);
+    picture.finish();
+    return rays;
   }
 
   /// Memory of the acceleration structure, on the CPU and the GPU.

@@ -53,18 +53,20 @@ void makeRays(const ReceiverPixels& receivers, std::size_t from, Columns columns
 }
 
 /// Fills a row of a tile whose pixels are all of one class, none of them traced.
-void fillRow(TracedClass of, std::size_t columns, std::size_t to, TracedTile& tile)
+/// @param lit the visibility of what is lit
+void fillRow(TracedClass of, float lit, std::size_t columns, std::size_t to, TracedTile& tile)
 {
   std::fill_n(&tile.classes[to], columns, static_cast<std::uint8_t>(of));
   std::fill_n(&tile.needed[to], columns, 0);
-  std::fill_n(&tile.visibility[to], columns, isDark(of) ? 0.0f : 1.0f);
+  std::fill_n(&tile.visibility[to], columns, isDark(of) ? 0.0f : lit);
 }
 
 /// What becomes of the pixels of one row of a tile, and so which rays are needed, and what shows without any.
 /// @param receives by surface + 1: 1 or 0
 /// @param certain null: nothing is
+/// @param lit the visibility of what is lit
 void classify(const ReceiverTile& tile, std::size_t from, const std::uint8_t* receives,
-  const Certainty* certain, std::size_t to, TracedTile& traced)
+  const Certainty* certain, float lit, std::size_t to, TracedTile& traced)
 {
   const auto columns = static_cast<std::size_t>(tile.receivers.width);
   for (std::size_t x = 0; x < columns; ++x)
@@ -80,7 +82,36 @@ void classify(const ReceiverTile& tile, std::size_t from, const std::uint8_t* re
                                                          : TracedClass::NoReceiver;
     traced.classes[to + x] = static_cast<std::uint8_t>(of);
     traced.needed[to + x] = of == TracedClass::Traced ? 1 : 0;
-    traced.visibility[to + x] = isDark(of) ? 0.0f : 1.0f;
+    traced.visibility[to + x] = isDark(of) ? 0.0f : lit;
+  }
+}
+
+/// Turns the rays that a tile needs to a sample of an area light.
+/// @param shifts by pixel of a whole tile
+template <typename MakeRay>
+void turnRays(const ReceiverTile& tile, const MakeRay& makeRay, const ShadowRayLight& light,
+  const LightSamples& samples, int sample, const TracedTile::Plane<LightSamples::Shift>& shifts,
+  TracedTile& traced)
+{
+  const ReceiverPixels& receivers = tile.receivers;
+  const auto columns = static_cast<std::size_t>(receivers.width);
+  for (std::size_t from = 0; from < receivers.size(); ++from)
+  {
+    const std::size_t to = from / columns * TracedTile::columns + from % columns;
+    if (traced.needed[to] == 0)
+    {
+      continue;
+    }
+    const glm::vec3 position(
+      receivers.positionX[from], receivers.positionY[from], receivers.positionZ[from]);
+    const glm::vec3 normal(
+      receivers.normalX[from], receivers.normalY[from], receivers.normalZ[from]);
+    const glm::vec3 direction =
+      directionToSample(light, makeRay(position, normal, receivers.offset[from]), position, normal,
+        samples.offset(sample, shifts[to]));
+    traced.directionX[to] = direction.x;
+    traced.directionY[to] = direction.y;
+    traced.directionZ[to] = direction.z;
   }
 }
 
@@ -113,12 +144,13 @@ std::vector<PixelClass> classesOfTracing()
 //------------------------------------------------------------------------------
 TracedPicture::TracedPicture(const ShadowLight& light, const Occluders& occluders,
   const Receivers& receivers, const ReceiverDecider* decider, std::vector<float>& visibility,
-  std::vector<std::uint8_t>* classes)
+  std::vector<std::uint8_t>* classes, const LightSamples* samples)
   : receivers_(receivers)
   , decider_(decider)
   , visibility_(visibility)
   , classes_(classes)
   , light_(light, occluders.centreWorld)
+  , samples_(samples)
 {
   this->visibility_.resize(receivers.width() * receivers.height());
   if (this->classes_)
@@ -163,6 +195,7 @@ void TracedPicture::prepare(
   {
     traced.needed.fill(0);
   }
+  const auto lit = static_cast<float>(this->samples());
   std::array<bool, TracedTile::rows> alike;
   for (std::size_t y = 0; y < rows; ++y)
   {
@@ -172,7 +205,7 @@ void TracedPicture::prepare(
       const Certainty known = tile.known[y * columns];
       fillRow(
         known == Certainty::Uncertain ? TracedClass::NoReceiver : static_cast<TracedClass>(known),
-        columns, y * TracedTile::columns, traced);
+        lit, columns, y * TracedTile::columns, traced);
       continue;
     }
     const auto make = [&](auto count)
@@ -192,7 +225,7 @@ void TracedPicture::prepare(
     if (!alike[y])
     {
       classify(tile, y * columns, this->receives_.data(), this->decider_ ? certain.data() : nullptr,
-        y * TracedTile::columns, traced);
+        lit, y * TracedTile::columns, traced);
     }
   }
 }
@@ -215,7 +248,31 @@ void TracedPicture::keep(const ReceiverTile& tile, const TracedTile& traced) con
 }
 
 //------------------------------------------------------------------------------
-std::size_t TracedPicture::visitTiles(const std::function<std::size_t(TracedTile&)>& trace) const
+/// Visits a tile with each of these samples of an area light.
+template <typename MakeRay>
+std::size_t TracedPicture::visitSamples(const SampleRange& samples, const ReceiverTile& tile,
+  const MakeRay& makeRay, TracedTile& traced,
+  const std::function<std::size_t(TracedTile&)>& trace) const
+{
+  TracedTile::Plane<LightSamples::Shift> shifts;
+  for (std::size_t pixel = 0; pixel < TracedTile::pixels; ++pixel)
+  {
+    shifts[pixel] = this->samples_->shiftOf(
+      static_cast<std::uint32_t>(tile.firstColumn + pixel % TracedTile::columns),
+      static_cast<std::uint32_t>(tile.firstRow + pixel / TracedTile::columns));
+  }
+  std::size_t rays = 0;
+  for (int sample = samples.first; sample < samples.end; ++sample)
+  {
+    turnRays(tile, makeRay, this->light_, *this->samples_, sample, shifts, traced);
+    rays += trace(traced);
+  }
+  return rays;
+}
+
+//------------------------------------------------------------------------------
+std::size_t TracedPicture::visitTiles(
+  const SampleRange& samples, const std::function<std::size_t(TracedTile&)>& trace) const
 {
   std::atomic<std::size_t> rays{ 0 };
   visitShadowRays(this->light_,
@@ -226,12 +283,35 @@ std::size_t TracedPicture::visitTiles(const std::function<std::size_t(TracedTile
         {
           TracedTile traced; // 40 KB that are not cleared
           this->prepare(tile, makeRay, traced);
-          rays += trace(traced);
-          this->keep(tile, traced);
+          if (!this->samples_)
+          {
+            rays += trace(traced);
+          }
+          else if (std::find(traced.needed.begin(), traced.needed.end(), 1) != traced.needed.end())
+          {
+            rays += this->visitSamples(samples, tile, makeRay, traced, trace);
+          }
+          if (samples.first == 0)
+          {
+            this->keep(tile, traced);
+          }
         },
         this->decider_);
     });
   return rays;
+}
+
+//------------------------------------------------------------------------------
+void TracedPicture::finish() const
+{
+  if (this->samples_)
+  {
+    const auto count = static_cast<float>(this->samples_->count());
+    for (float& visibility : this->visibility_)
+    {
+      visibility /= count;
+    }
+  }
 }
 
 } // namespace gnomon

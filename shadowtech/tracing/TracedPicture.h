@@ -1,6 +1,7 @@
 #ifndef gnomon_shadowtech_tracing_TracedPicture_h
 #define gnomon_shadowtech_tracing_TracedPicture_h
 
+#include "lights/LightSamples.h"
 #include "lights/ShadowLight.h"
 #include "shadowtech/base/Certainty.h"
 #include "shadowtech/base/Occluders.h"
@@ -42,8 +43,8 @@ struct alignas(64) TracedTile
   /// The shadow rays of all pixels, needed or not. Their direction has any length.
   Plane<float> originX, originY, originZ;
   Plane<float> directionX, directionY, directionZ;
-  Plane<int> needed; ///< 1 or 0; 0 beyond the picture's border
-  Plane<float> visibility;
+  Plane<int> needed;           ///< 1 or 0; 0 beyond the picture's border
+  Plane<float> visibility;     ///< how many of the light's samples are seen
   Plane<std::uint8_t> classes; ///< TracedClass
 
   std::size_t number;           ///< of the picture's tiles, row by row
@@ -52,34 +53,55 @@ struct alignas(64) TracedTile
 };
 
 /// A picture's shadow rays in one light: what the tracers have in common is here, and which rays are blocked is
-/// theirs to say.
+/// theirs to say. Each pixel has one to the light's centre, or one to each of an area light's samples. Until
+/// finish(), visibility counts those that arrive.
 class TracedPicture
 {
 public:
+  /// Some of a light's samples, one after another.
+  struct SampleRange
+  {
+    int first, end;
+  };
+
   /// @param decider who knows something without rays; null: nobody
   /// @param visibility resized to one for each pixel of the picture
   /// @param classes where not null, resized likewise
+  /// @param samples of the light's area; null: its centre
   TracedPicture(const ShadowLight& light, const Occluders& occluders, const Receivers& receivers,
     const ReceiverDecider* decider, std::vector<float>& visibility,
-    std::vector<std::uint8_t>* classes);
+    std::vector<std::uint8_t>* classes, const LightSamples* samples);
 
   /// How many tiles it has.
   std::size_t tiles() const;
   /// Where the rays end, in lengths of their direction.
   float rayFar() const;
 
-  /// Fills visibility and classes, tile by tile; several threads do so at once.
-  /// @param trace gets a tile as it shows without its rays, may clear the visibility of pixels whose ray is blocked,
-  /// and returns the number of rays
-  /// @return the sum of those
-  std::size_t visitTiles(const std::function<std::size_t(TracedTile&)>& trace) const;
+  /// How many rays a pixel has, if any.
+  int samples() const { return this->samples_ ? this->samples_->count() : 1; }
+  SampleRange allSamples() const { return { 0, this->samples() }; }
 
-  /// Clears the visibility of a pixel of a tile that was visited.
-  void darken(std::size_t pixel) const { this->visibility_[pixel] = 0.0f; }
+  /// Fills visibility and classes, tile by tile; several threads do so at once.
+  /// @param samples whose rays are traced; visibility and classes are filled with the first of them all
+  /// @param trace gets a tile with the rays of one sample, for all samples in turn; at first as it shows
+  /// without any. It may take 1 off the visibility of pixels whose ray is blocked, and returns the number of rays
+  /// @return the sum of those
+  std::size_t visitTiles(
+    const SampleRange& samples, const std::function<std::size_t(TracedTile&)>& trace) const;
+
+  /// Takes a blocked ray off a pixel of a tile that was visited.
+  void darken(std::size_t pixel) const { this->visibility_[pixel] -= 1.0f; }
+
+  /// Makes shares of counts, once all rays are traced.
+  void finish() const;
 
 private:
   template <typename MakeRay>
   void prepare(const ReceiverTile& tile, const MakeRay& makeRay, TracedTile& traced) const;
+  template <typename MakeRay>
+  std::size_t visitSamples(const SampleRange& samples, const ReceiverTile& tile,
+    const MakeRay& makeRay, TracedTile& traced,
+    const std::function<std::size_t(TracedTile&)>& trace) const;
   void keep(const ReceiverTile& tile, const TracedTile& traced) const;
 
   const Receivers& receivers_;
@@ -87,6 +109,7 @@ private:
   std::vector<float>& visibility_;
   std::vector<std::uint8_t>* classes_;
   ShadowRayLight light_;
+  const LightSamples* samples_;
   /// By surface + 1, so that `notCovered` + 1 = 0 is the first: 1 or 0.
   std::vector<std::uint8_t> receives_;
 };

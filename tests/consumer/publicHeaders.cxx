@@ -2,6 +2,7 @@
 #include <FrameReport.h>
 #include <PixelClass.h>
 #include <VisibilityImages.h>
+#include <vtkGnomonAreaLight.h>
 #include <vtkGnomonEGLRenderWindow.h>
 #include <vtkGnomonLightKeys.h>
 #include <vtkGnomonLightPlacement.h>

@@ -23,7 +23,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t cou
     .write(reinterpret_cast<const char*>(bytes), static_cast<std::streamsize>(count));
   try
   {
-    gnomon::tool::readSceneFile(path, gnomon::tool::FileLights::Use);
+    gnomon::tool::readSceneFile(path);
   }
   catch (const gnomon::tool::BadInput&)
   {

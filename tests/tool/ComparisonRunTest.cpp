@@ -176,6 +176,28 @@ TEST(ComparisonRun, TellsHowPixelsWereDecided)
   EXPECT_TRUE(variant(cubeResults(), "nsm 256 inline").classes.empty());
 }
 
+TEST(ComparisonRun, MeasuresSoftShadowsAgainstManySamples)
+{
+  ComparisonPlan plan;
+  plan.techniques = { "nsm", "raytraced:light_samples=4", "raytraced:light_samples=64" };
+  plan.mapSizesTexels = { 256 };
+  plan.inlineRoute = false;
+  plan.width = 64;
+  plan.height = 64;
+  plan.frames = 1;
+  const ComparisonResults results = runComparison(loadScene("soft-stack"), plan, {});
+  EXPECT_THAT(results.notes,
+    testing::Contains(testing::HasSubstr("The truth has 4096 samples of each area light")));
+  const VisibilityError hard = variant(results, "nsm 256 image").error;
+  const VisibilityError few = variant(results, "raytraced light_samples=4").error;
+  const VisibilityError many = variant(results, "raytraced light_samples=64").error;
+  EXPECT_GT(hard.rootMeanSquare, 2.0 * few.rootMeanSquare);
+  EXPECT_GT(few.rootMeanSquare, 2.0 * many.rootMeanSquare);
+  EXPECT_GT(many.rootMeanSquare, 0.0);
+  EXPECT_LT(many.rootMeanSquare, 0.02);
+  EXPECT_GT(few.meanAbsolute, 2.0 * many.meanAbsolute);
+}
+
 TEST(ComparisonRun, ASceneWithoutCastingLightsIsBadInput)
 {
   Scene scene = loadScene("cube");

@@ -272,9 +272,9 @@ std::vector<BrokenInput> brokenInputs()
     sceneWith(
       "scene_model_with_zero_byte", "models[0].file", "/models/0/file", std::string("a\0b.obj", 7)),
     sceneWith("scene_cone_angle", "lights[1].cone_angle", "/lights/1/cone_angle", 90),
-    sceneWith("scene_area_light", "lights[0].type", "/lights/0",
+    sceneWith("scene_area_light", "lights[0].height", "/lights/0",
       { { "type", "area" }, { "position", { 0, 5, 0 } }, { "target", { 0, 0, 1 } }, { "width", 1 },
-        { "height", 1 } }),
+        { "height", -1 } }),
     sceneWith("scene_point_light", "lights[0].position", "/lights/0",
       { { "type", "point" }, { "position", { 0, 5 } } }),
     sceneWith("scene_light_box", "lights[0].box.depth", "/lights/0",

@@ -112,7 +112,7 @@ TEST(BuiltinScenes, AreListedOnceEach)
     EXPECT_FALSE(line.summary.empty()) << line.name;
     EXPECT_LT(line.summary.size(), 80u) << line.name;
   }
-  EXPECT_EQ(names.size(), 29u);
+  EXPECT_EQ(names.size(), 33u);
 }
 
 //------------------------------------------------------------------------------
@@ -152,7 +152,21 @@ TEST_P(BuiltinSceneTest, IsReadBackFromItsExport)
   EXPECT_EQ(read.camera.position, scene.camera.position);
   EXPECT_EQ(read.camera.target, scene.camera.target);
   EXPECT_EQ(read.camera.fovDegrees, scene.camera.fovDegrees);
-  EXPECT_EQ(read.lights.size(), scene.lights.size());
+  ASSERT_EQ(read.lights.size(), scene.lights.size());
+  for (std::size_t i = 0; i < read.lights.size(); ++i)
+  {
+    EXPECT_EQ(read.lights[i].type, scene.lights[i].type);
+    ASSERT_EQ(read.lights[i].area.has_value(), scene.lights[i].area.has_value());
+    if (read.lights[i].area)
+    {
+      EXPECT_EQ(read.lights[i].area->rectangle, scene.lights[i].area->rectangle);
+      EXPECT_EQ(read.lights[i].area->width, scene.lights[i].area->width);
+      EXPECT_EQ(read.lights[i].area->height, scene.lights[i].area->height);
+      EXPECT_EQ(read.lights[i].area->up, scene.lights[i].area->up);
+      EXPECT_EQ(read.lights[i].position, scene.lights[i].position);
+      EXPECT_EQ(read.lights[i].target, scene.lights[i].target);
+    }
+  }
   EXPECT_EQ(read.models.size(), scene.models.size());
   EXPECT_EQ(countTriangles(read), countTriangles(scene));
   EXPECT_EQ(boundsWorld(read), boundsWorld(scene));

@@ -4,6 +4,7 @@
 #include "Scene.h"
 #include "Vec3.h"
 
+#include "lights/vtkGnomonAreaLight.h"
 #include "lights/vtkGnomonLightKeys.h"
 #include "plugin/vtkGnomonPropKeys.h"
 #include "shadowtech/Registry.h"
@@ -34,10 +35,10 @@ class SceneFile : public ::testing::Test
 protected:
   SceneFile() { writeBytes(this->folder / "model.obj", sampleObj()); }
 
-  Scene load(const nlohmann::json& document, FileLights fileLights = FileLights::Use)
+  Scene load(const nlohmann::json& document)
   {
     writeBytes(this->folder / "scene.json", document.dump());
-    return loadScene(this->folder / "scene.json", fileLights);
+    return loadScene(this->folder / "scene.json");
   }
 
   TestFolder folder;
@@ -318,23 +319,44 @@ TEST_F(SceneFile, BoxesOfDirectionalLightsAreRead)
 }
 
 //------------------------------------------------------------------------------
-TEST_F(SceneFile, AreaLightsAreCheckedThenRefused)
+TEST_F(SceneFile, AreaLightsAreRectanglesOrDisks)
 {
   nlohmann::json document = sampleScene();
   document["lights"][0] = { { "type", "area" }, { "position", { 1, 2, 3 } },
-    { "target", { 0, 0, 0 } }, { "width", 1 }, { "height", 2 } };
-  EXPECT_NE(messageOf<BadInput>([&] { this->load(document); })
-              .find("lights[0].type: area lights are not supported yet"),
-    std::string::npos);
-  EXPECT_EQ(this->load(document, FileLights::Ignore).lights.size(), 1u);
+    { "target", { 0, 0, 0 } }, { "width", 1 }, { "height", 2 }, { "light_samples", 16 } };
+  const SceneLight rectangle = this->load(document).lights[0];
+  EXPECT_EQ(rectangle.type, SceneLight::Type::Point);
+  ASSERT_TRUE(rectangle.area.has_value());
+  EXPECT_TRUE(rectangle.area->rectangle);
+  EXPECT_EQ(rectangle.area->height, 2.0);
+  EXPECT_EQ(rectangle.settings, (Settings{ { "light_samples", "16" } }));
 
-  document["lights"][0]["width"] = 0;
-  EXPECT_NE(messageOf<BadInput>([&] { this->load(document); }).find("lights[0].width: found 0"),
-    std::string::npos);
-  document["lights"][0]["width"] = 1;
-  document["lights"][0]["up"] = { 1, 2, 3 };
-  EXPECT_NE(
-    messageOf<BadInput>([&] { this->load(document); }).find("lights[0].up: "), std::string::npos);
+  const auto refused = [&](const char* key, const nlohmann::json& value, const char* message)
+  {
+    nlohmann::json broken = document;
+    broken["lights"][0][key] = value;
+    EXPECT_NE(messageOf<BadInput>([&] { this->load(broken); }).find(message), std::string::npos)
+      << message;
+  };
+  refused("width", 0, "lights[0].width: found 0");
+  refused("up", { 1, 2, 3 }, "lights[0].up: ");
+  refused("shape", "star", "lights[0].shape: ");
+  refused("radius", 1, "lights[0].radius: means nothing for a rectangle");
+  refused("cone_angle", 90, "lights[0].cone_angle: ");
+  refused("target", { 1, 2, 3 }, "lights[0].target: ");
+
+  document["lights"][0] = { { "type", "area" }, { "position", { 1, 2, 3 } },
+    { "target", { 0, 0, 0 } }, { "shape", "disk" }, { "radius", 0.5 }, { "cone_angle", 40 } };
+  const Scene scene = this->load(document);
+  EXPECT_EQ(scene.lights[0].type, SceneLight::Type::Spot);
+  const auto renderer = makeRenderer(scene, 1.0);
+  auto* light = vtkGnomonAreaLight::SafeDownCast(renderer->GetLights()->GetItemAsObject(0));
+  ASSERT_NE(light, nullptr);
+  EXPECT_EQ(light->GetShape(), vtkGnomonAreaLight::DISK);
+  EXPECT_EQ(light->GetRadius(), 0.5);
+  EXPECT_EQ(light->GetConeAngle(), 40.0);
+  refused("height", 1, "lights[0].height: means nothing for a disk");
+  refused("radius", "wide", "lights[0].radius: ");
 }
 
 //------------------------------------------------------------------------------

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <utility>
 
 namespace gnomon::test
 {
@@ -11,17 +13,36 @@ namespace
 {
 
 const glm::dvec3 centre(10.0, 20.0, 30.0);
+const glm::dvec3 travel = glm::normalize(glm::dvec3(1.0, -2.0, -0.5));
+constexpr double size = 0.5;
 
 ShadowLight lightOf(LightKind kind)
 {
   ShadowLight light;
   light.kind = kind;
   light.positionWorld = { 11.0, 22.0, 33.0 };
-  light.directionWorld = glm::normalize(glm::dvec3(1.0, -2.0, -0.5));
+  light.directionWorld = travel;
   light.coneAngleDegrees = 30.0;
-  light.lightRadius = 0.5;
+  light.area = kind == LightKind::Point ? ballArea(size) : diskArea(travel, size);
   light.lightSamples = 256;
   return light;
+}
+
+/// A square of half side 1 across z, whose offsets are its own coordinates.
+LightSamples squareSamples(int count, int seed = 0)
+{
+  ShadowLight light = lightOf(LightKind::Spot);
+  light.area =
+    rectangleArea(glm::dvec3(0.0, 0.0, -1.0), glm::dvec3(0.0, 1.0, 0.0), glm::dvec2(1.0));
+  light.lightSamples = count;
+  light.lightSeed = seed;
+  return LightSamples(light);
+}
+
+/// Where a point of that square lies, in [0, 1).
+glm::vec2 placeOf(const glm::vec3& offset)
+{
+  return 0.5f * (glm::vec2(offset) + 1.0f);
 }
 
 TEST(LightSamples, ofAHardLightAreItsPlace)
@@ -29,16 +50,30 @@ TEST(LightSamples, ofAHardLightAreItsPlace)
   for (const LightKind kind : { LightKind::Directional, LightKind::Spot, LightKind::Point })
   {
     ShadowLight light = lightOf(kind);
-    light.lightRadius = 0.0;
+    light.area.reset();
     const std::vector<glm::dvec4> samples = lightSamples(light, centre);
     ASSERT_EQ(samples.size(), 1u);
     EXPECT_EQ(samples[0], lightPoint(light, centre));
   }
   EXPECT_EQ(lightPoint(lightOf(LightKind::Point), centre), glm::dvec4(1.0, 2.0, 3.0, 1.0));
   const glm::dvec4 sun = lightPoint(lightOf(LightKind::Directional), centre);
-  EXPECT_NEAR(
-    glm::distance(glm::dvec3(sun), -lightOf(LightKind::Point).directionWorld), 0.0, 1e-15);
+  EXPECT_NEAR(glm::distance(glm::dvec3(sun), -travel), 0.0, 1e-15);
   EXPECT_EQ(sun.w, 0.0);
+}
+
+TEST(LightSamples, ofALightWithoutSizeAreItsCentre)
+{
+  for (const LightArea& area : { diskArea(travel, 0.0), ballArea(0.0),
+         rectangleArea(travel, glm::dvec3(0.0, 1.0, 0.0), glm::dvec2(0.0)) })
+  {
+    ShadowLight light = lightOf(LightKind::Spot);
+    light.area = area;
+    const LightSamples samples(light);
+    for (int i = 0; i < samples.count(); ++i)
+    {
+      EXPECT_EQ(samples.offset(i, samples.shiftOf(3, 4)), glm::vec3(0.0f));
+    }
+  }
 }
 
 TEST(LightSamples, fillADiscAcrossTheLight)
@@ -58,14 +93,36 @@ TEST(LightSamples, fillADiscAcrossTheLight)
         EXPECT_NEAR(glm::length(glm::dvec3(sample)), 1.0, 1e-12);
         offset = glm::dvec3(sample) / glm::dot(glm::dvec3(sample), middle) - middle;
       }
-      EXPECT_NEAR(glm::dot(offset, light.directionWorld), 0.0, 1e-12);
-      EXPECT_LE(glm::length(offset), 0.5);
-      inner += glm::length(offset) < 0.5 * std::sqrt(0.5) ? 1 : 0;
+      EXPECT_NEAR(glm::dot(offset, travel), 0.0, 1e-6);
+      EXPECT_LE(glm::length(offset), size * (1.0 + 1e-6));
+      inner += glm::length(offset) < size * std::sqrt(0.5) ? 1 : 0;
       mean += offset / 256.0;
     }
-    EXPECT_EQ(inner, 128) << "half of the area";
+    EXPECT_NEAR(inner, 128, 8) << "half of the area";
     EXPECT_LT(glm::length(mean), 0.01);
   }
+}
+
+TEST(LightSamples, fillARectangleAlongItsUpDirection)
+{
+  ShadowLight light = lightOf(LightKind::Spot);
+  const glm::dvec3 up(0.3, 1.0, 0.2);
+  light.area = rectangleArea(travel, up, { 0.8, 0.2 });
+  const glm::dvec3 alongWidth = glm::normalize(glm::cross(travel, up));
+  const glm::dvec3 alongHeight = glm::cross(alongWidth, travel);
+  EXPECT_GT(glm::dot(alongHeight, up), 0.0);
+  glm::dvec2 low(1.0);
+  glm::dvec2 high(-1.0);
+  for (const glm::dvec4& sample : lightSamples(light, centre))
+  {
+    const glm::dvec3 offset = glm::dvec3(sample) - glm::dvec3(1.0, 2.0, 3.0);
+    const glm::dvec2 place(glm::dot(offset, alongWidth), glm::dot(offset, alongHeight));
+    EXPECT_NEAR(glm::dot(offset, travel), 0.0, 1e-6);
+    low = glm::min(low, place);
+    high = glm::max(high, place);
+  }
+  EXPECT_NEAR(glm::distance(high, glm::dvec2(0.8, 0.2)), 0.0, 0.01);
+  EXPECT_NEAR(glm::distance(low, glm::dvec2(-0.8, -0.2)), 0.0, 0.01);
 }
 
 TEST(LightSamples, ofALampLookLikeAnEvenDiscFromAllSides)
@@ -82,8 +139,8 @@ TEST(LightSamples, ofALampLookLikeAnEvenDiscFromAllSides)
       {
         const glm::dvec3 offset = glm::dvec3(sample) - glm::dvec3(1.0, 2.0, 3.0);
         inside +=
-          glm::length(offset - glm::dot(offset, axis) * axis) < 0.5 * std::sqrt(share) ? 1 : 0;
-        EXPECT_LE(glm::length(offset), 0.5);
+          glm::length(offset - glm::dot(offset, axis) * axis) < size * std::sqrt(share) ? 1 : 0;
+        EXPECT_LE(glm::length(offset), size * (1.0 + 1e-6));
       }
       EXPECT_NEAR(inside / 1024.0, share, 0.02);
     }
@@ -108,6 +165,95 @@ TEST(LightSamples, areTheSameAtEveryCallAndAllDiffer)
       }
     }
   }
+}
+
+/// Every way to cut the square into as many equal parts as there are points, of sides that are powers of two.
+TEST(LightSamples, ofEveryPixelHoldOnePointInEachPartOfEqualArea)
+{
+  for (const int bits : { 0, 1, 2, 5, 8, 12 })
+  {
+    for (const int seed : { 0, 7 })
+    {
+      const LightSamples samples = squareSamples(1 << bits, seed);
+      for (const LightSamples::Shift& shift :
+        { LightSamples::Shift{}, samples.shiftOf(0, 0), samples.shiftOf(641, 480) })
+      {
+        for (int columnBits = 0; columnBits <= bits; ++columnBits)
+        {
+          const auto columns = static_cast<float>(1 << columnBits);
+          const auto rows = static_cast<float>(1 << (bits - columnBits));
+          std::set<std::pair<int, int>> parts;
+          for (int i = 0; i < samples.count(); ++i)
+          {
+            const glm::vec2 place = placeOf(samples.offset(i, shift));
+            EXPECT_GE(place.x, 0.0f);
+            EXPECT_LT(place.x, 1.0f);
+            parts.insert({ static_cast<int>(place.x * columns), static_cast<int>(place.y * rows) });
+          }
+          EXPECT_EQ(parts.size(), static_cast<std::size_t>(samples.count()))
+            << bits << " bits, " << columnBits << " of columns";
+        }
+      }
+    }
+  }
+}
+
+TEST(LightSamples, ofOneNumberLieInTheSamePartForAllPixels)
+{
+  const LightSamples samples = squareSamples(64);
+  for (int i = 0; i < 64; ++i)
+  {
+    const glm::vec2 here = placeOf(samples.offset(i, samples.shiftOf(1, 2)));
+    const glm::vec2 there = placeOf(samples.offset(i, samples.shiftOf(100, 7)));
+    EXPECT_EQ(glm::floor(here * 8.0f), glm::floor(there * 8.0f));
+    EXPECT_NE(here, there);
+  }
+}
+
+TEST(LightSamples, ofPixelsAndSeedsDiffer)
+{
+  const auto sumOf = [](const LightSamples& samples, const LightSamples::Shift& shift)
+  {
+    glm::dvec3 sum(0.0);
+    for (int i = 0; i < samples.count(); ++i)
+    {
+      sum += glm::dvec3(samples.offset(i, shift));
+    }
+    return sum;
+  };
+  for (const int count : { 1, 16, 100 })
+  {
+    const LightSamples samples = squareSamples(count);
+    const LightSamples others = squareSamples(count, 1);
+    std::set<double> sums;
+    for (std::uint32_t row = 0; row < 16; ++row)
+    {
+      for (std::uint32_t column = 0; column < 16; ++column)
+      {
+        sums.insert(sumOf(samples, samples.shiftOf(column, row)).x);
+        sums.insert(sumOf(others, others.shiftOf(column, row)).x);
+      }
+    }
+    EXPECT_GT(sums.size(), 500u) << "of 512";
+  }
+}
+
+TEST(LightSamples, ofManyPixelsAreEvenOnTheMean)
+{
+  const LightSamples samples = squareSamples(3); // which is no power of two
+  glm::dvec2 mean(0.0);
+  glm::dvec2 squares(0.0);
+  for (std::uint32_t pixel = 0; pixel < 100000; ++pixel)
+  {
+    const glm::dvec2 place(placeOf(
+      samples.offset(static_cast<int>(pixel % 3), samples.shiftOf(pixel % 317, pixel / 317))));
+    mean += place / 1e5;
+    squares += place * place / 1e5;
+  }
+  EXPECT_NEAR(mean.x, 0.5, 0.005);
+  EXPECT_NEAR(mean.y, 0.5, 0.005);
+  EXPECT_NEAR(squares.x, 1.0 / 3.0, 0.005);
+  EXPECT_NEAR(squares.y, 1.0 / 3.0, 0.005);
 }
 
 } // namespace

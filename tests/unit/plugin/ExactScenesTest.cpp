@@ -33,7 +33,8 @@ INSTANTIATE_TEST_SUITE_P(Builtin, ExactScenes,
       std::vector<std::string> names;
       for (const tool::BuiltinScene& scene : tool::builtinScenes())
       {
-        if (scene.name != std::string("city"))
+        // What is exact of an area light is what its centre casts.
+        if (scene.name != std::string("city") && scene.name.rfind("soft-", 0) != 0)
         {
           names.push_back(scene.name);
         }

@@ -538,7 +538,6 @@ TEST_F(Planar, softShadowsAreTheMeanOfTracedSamples)
     PassScene scene(200, 150);
     addBoxes(scene);
     gnomon::ShadowLight light;
-    light.lightRadius = 0.4;
     light.lightSamples = 48; // two batches
     light.positionWorld = { -2.0, -2.5, 5.0 };
     light.directionWorld = glm::normalize(-light.positionWorld);
@@ -546,23 +545,25 @@ TEST_F(Planar, softShadowsAreTheMeanOfTracedSamples)
     if (kind == 0)
     {
       light.kind = gnomon::LightKind::Directional;
-      light.lightRadius = 0.1;
+      light.area = gnomon::diskArea(light.directionWorld, std::tan(glm::radians(6.0)));
       lamp = scene.addSun(light.directionWorld);
     }
     else
     {
       light.kind = kind == 1 ? gnomon::LightKind::Spot : gnomon::LightKind::Point;
+      light.area = kind == 1 ? gnomon::diskArea(light.directionWorld, 0.4) : gnomon::ballArea(0.4);
       lamp = scene.addSpot(light.positionWorld, glm::dvec3(0.0), kind == 1 ? 80.0 : allDirections);
     }
     scene.lookFrom({ 2.0, -8.0, 7.0 });
     scene.pass->SetTechnique("planar");
     scene.pass->SetSetting("planes", "64");
-    scene.pass->SetSetting("light_radius", kind == 0 ? "0.1" : "0.4");
+    scene.pass->SetSetting("light_radius", kind == 0 ? "12" : "0.4");
     scene.pass->SetSetting("light_samples", "48");
     const VisibilityImages soft = drawKept(scene);
 
     std::vector<double> mean(soft.coverage.size(), 0.0);
     scene.pass->SetTechnique("raytraced");
+    scene.pass->SetSetting("light_radius", "0");
     const std::vector<glm::dvec4> samples = gnomon::lightSamples(light, glm::dvec3(0.0));
     for (const glm::dvec4& sample : samples)
     {

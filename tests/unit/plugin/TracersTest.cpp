@@ -231,6 +231,26 @@ TEST_P(TracersOfScene, showTheSame)
 }
 
 //------------------------------------------------------------------------------
+TEST_F(Tracers, showTheSameOfAreaLights)
+{
+  this->scene.pass->SetSetting("light_radius", "0.8");
+  for (const char* samples :
+    { "1", "16", "49", "300" }) // the GPU takes the last ones in several goes
+  {
+    this->scene.pass->SetSetting("light_samples", samples);
+    const Traced byEmbree = drawBy(this->scene.pass, this->scene.window, "raytraced", embree);
+    const Traced byGpu = drawBy(this->scene.pass, this->scene.window, "raytraced", gpu);
+    EXPECT_EQ(byGpu.report.lights[0].lightSamples, std::stoi(samples));
+    EXPECT_EQ(rays(byGpu), rays(byEmbree));
+    EXPECT_GT(rays(byGpu), 5000) << "pixels";
+    // A ray in a million may pass an edge to within rounding.
+    EXPECT_LE(static_cast<double>(differing(byGpu, byEmbree)),
+      1.0 + 1e-6 * static_cast<double>(rays(byEmbree) * std::stoi(samples)));
+    EXPECT_EQ(byGpu.images.classes[0].ofPixels, byEmbree.images.classes[0].ofPixels);
+  }
+}
+
+//------------------------------------------------------------------------------
 TEST_F(Tracers, showTheSameOfInstancesAndFollowThem)
 {
   vtkNew<vtkSphereSource> ball;

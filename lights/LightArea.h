@@ -1,0 +1,41 @@
+#ifndef gnomon_lights_LightArea_h
+#define gnomon_lights_LightArea_h
+
+#include <glm/glm.hpp>
+
+namespace gnomon
+{
+
+/// What a light that is more than a point shines from: a shape around its centre, all of whose points
+/// shine alike. It is symmetric about the centre, so that opposite every point there is another one.
+struct LightArea
+{
+  enum class Shape
+  {
+    Rectangle, ///< across the light
+    Disk,      ///< across the light
+    Ball       ///< that looks like an even disk from all sides
+  };
+  Shape shape = Shape::Disk;
+
+  /// From the shape of half side or radius 1 to the light's own, without its centre: world
+  /// coordinates and units. Of a directional light, the area lies at distance 1 from whatever it
+  /// lights, so that lengths are tangents of angles.
+  glm::dmat3 worldFromUnit{ 0.0 };
+};
+
+/// A rectangle.
+/// @param travel unit vector along which the light travels
+/// @param up not along it, of any length: the rectangle's height lies in the plane of both
+/// @param halfSize half the width and half the height
+LightArea rectangleArea(const glm::dvec3& travel, const glm::dvec3& up, const glm::dvec2& halfSize);
+
+/// A disk across the light.
+/// @param travel unit vector along which the light travels
+LightArea diskArea(const glm::dvec3& travel, double radius);
+
+LightArea ballArea(double radius);
+
+} // namespace gnomon
+
+#endif

@@ -1,0 +1,123 @@
+/**
+ * @class   vtkGnomonAreaLight
+ * @brief   a light that is as large as lamps and windows are, and so gives soft shadows
+ *
+ * @code
+ * vtkNew<vtkGnomonAreaLight> lamp;
+ * lamp->SetPosition(0.0, 0.0, 5.0);
+ * lamp->SetFocalPoint(0.0, 0.0, 0.0);
+ * lamp->SetShapeToRectangle();
+ * lamp->SetWidth(1.0);
+ * lamp->SetHeight(0.5);
+ * @endcode
+ *
+ * A rectangle or a disk around the light's Position, across the direction to its FocalPoint. All of its
+ * points shine alike. Which of them a surface sees is its visibility; shading is VTK's own, from the
+ * centre, and so are the cone and the box (vtkGnomonLightKeys) that the light may have. Techniques with
+ * hard shadows take the centre's. "raytraced" and "planar" take the whole area, by as many points as the
+ * setting "light_samples" says (vtkGnomonLightKeys::SetSetting).
+ *
+ * It is positional and shines into all directions (ConeAngle 90) until it is told otherwise.
+ *
+ * <b>Units.</b> Sizes are in world units, whatever the light's transform. Of a directional light
+ * (PositionalOff) they are angles in degrees: the whole angles that the light fills in the sky, which
+ * for the sun's disk is 0.53. A rectangle's must be below 180 then, and a disk's too.
+ *
+ * <b>OSPRay.</b> Radius is the same number as that of vtkOSPRayLightNode::SetRadius: of a positional
+ * light the radius, of a directional one the angular diameter in degrees. A vtkLight that has
+ * OSPRay's key (RADIUS) gives soft shadows as well, without being of this class: a disk across
+ * the direction of a spot light or directional light, and of a light that shines into all directions a
+ * ball, which looks like a disk of that radius from all sides. The setting "light_radius", of a light or of
+ * the pass, makes any light such a disk or ball.
+ *
+ * A light of size 0 is a point. One whose size is not finite or beyond 1e12, or which has no direction, or
+ * of a rectangle an up direction along it, casts no shadow, which the frame's report says.
+ */
+
+#ifndef vtkGnomonAreaLight_h
+#define vtkGnomonAreaLight_h
+
+#include "GnomonLightsModule.h" // For export macro
+#include "vtkLight.h"
+
+class GNOMONLIGHTS_EXPORT vtkGnomonAreaLight : public vtkLight
+{
+public:
+  static vtkGnomonAreaLight* New();
+  vtkTypeMacro(vtkGnomonAreaLight, vtkLight);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  enum
+  {
+    RECTANGLE = 0,
+    DISK = 1
+  };
+
+  ///@{
+  /**
+   * What it is: RECTANGLE, with Width, Height and Up, or DISK (the default), with Radius.
+   */
+  vtkSetClampMacro(Shape, int, RECTANGLE, DISK);
+  vtkGetMacro(Shape, int);
+  void SetShapeToRectangle() { this->SetShape(RECTANGLE); }
+  void SetShapeToDisk() { this->SetShape(DISK); }
+  ///@}
+
+  ///@{
+  /**
+   * A disk's size, in the units of vtkOSPRayLightNode::SetRadius, see above. What is negative counts
+   * as 0. 0.5 by default.
+   */
+  vtkSetClampMacro(Radius, double, 0.0, VTK_DOUBLE_MAX);
+  vtkGetMacro(Radius, double);
+  ///@}
+
+  ///@{
+  /**
+   * A rectangle's size across Up and along it, see above. What is negative counts as 0. 1 by default.
+   */
+  vtkSetClampMacro(Width, double, 0.0, VTK_DOUBLE_MAX);
+  vtkGetMacro(Width, double);
+  vtkSetClampMacro(Height, double, 0.0, VTK_DOUBLE_MAX);
+  vtkGetMacro(Height, double);
+  ///@}
+
+  ///@{
+  /**
+   * Which way is up in a rectangle: not along the light, of any length, in the light's own coordinates
+   * as its Position is. The height lies in the plane of Up and the light's direction. (0, 1, 0) by
+   * default.
+   */
+  vtkSetVector3Macro(Up, double);
+  vtkGetVector3Macro(Up, double);
+  ///@}
+
+  /**
+   * A light of this class with the same parameters; it shares the transform matrix, if there is one.
+   */
+  vtkLight* ShallowClone() override;
+
+  /**
+   * Copy all parameters; of a light that is none of this class, those that all lights have. The
+   * transform matrix and the information are copied, not shared.
+   */
+  void DeepCopy(vtkLight* light);
+
+protected:
+  vtkGnomonAreaLight();
+  ~vtkGnomonAreaLight() override = default;
+
+  int Shape = DISK;
+  double Radius = 0.5;
+  double Width = 1.0;
+  double Height = 1.0;
+  double Up[3] = { 0.0, 1.0, 0.0 };
+
+private:
+  void CopyArea(vtkGnomonAreaLight* light);
+
+  vtkGnomonAreaLight(const vtkGnomonAreaLight&) = delete;
+  void operator=(const vtkGnomonAreaLight&) = delete;
+};
+
+#endif

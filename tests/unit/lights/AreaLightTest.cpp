@@ -1,0 +1,232 @@
+// vtkGnomonAreaLight, and how large lights are for shadows, whoever says so.
+
+#include "lights/vtkGnomonAreaLight.h"
+
+#include "lights/LightManager.h"
+#include "lights/vtkGnomonLightKeys.h"
+
+#include <vtkInformation.h>
+#include <vtkInformationDoubleKey.h>
+#include <vtkInformationKeyLookup.h>
+#include <vtkMatrix4x4.h>
+#include <vtkNew.h>
+#include <vtkRenderer.h>
+#include <vtkSmartPointer.h>
+
+#include <glm/gtc/constants.hpp>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <string>
+
+namespace gnomon::test
+{
+namespace
+{
+
+/// What shadows make of a light.
+LightSet read(vtkLight* light)
+{
+  vtkNew<vtkRenderer> renderer;
+  renderer->AddLight(light);
+  return LightManager::collect(renderer, {});
+}
+
+/// The area of a light that casts; a disk of no size where it has none.
+LightArea areaOf(vtkLight* light)
+{
+  const LightSet set = read(light);
+  EXPECT_EQ(set.casting.size(), 1u);
+  return set.casting.empty() || !set.casting[0].area ? LightArea{} : *set.casting[0].area;
+}
+
+std::string reasonOf(vtkLight* light)
+{
+  const LightSet set = read(light);
+  return set.skipped.empty() ? "" : set.skipped[0].reason;
+}
+
+vtkSmartPointer<vtkGnomonAreaLight> makeRectangle(double width, double height)
+{
+  auto light = vtkSmartPointer<vtkGnomonAreaLight>::New();
+  light->SetPosition(1.0, 2.0, 5.0);
+  light->SetFocalPoint(1.0, 2.0, 0.0);
+  light->SetShapeToRectangle();
+  light->SetWidth(width);
+  light->SetHeight(height);
+  return light;
+}
+
+/// Which OSPRay's module makes where it is there.
+vtkInformationDoubleKey* ospRayKey()
+{
+  static vtkInformationDoubleKey* const key =
+    vtkInformationDoubleKey::MakeKey("RADIUS", "vtkOSPRayLightNode");
+  return key;
+}
+
+TEST(AreaLight, isARectangleInTheWorld)
+{
+  const auto light = makeRectangle(2.0, 0.5);
+  const LightArea area = areaOf(light);
+  EXPECT_EQ(area.shape, LightArea::Shape::Rectangle);
+  EXPECT_NEAR(glm::distance(glm::abs(area.worldFromUnit[0]), { 1.0, 0.0, 0.0 }), 0.0, 1e-12);
+  EXPECT_NEAR(glm::distance(area.worldFromUnit[1], { 0.0, 0.25, 0.0 }), 0.0, 1e-12);
+
+  // The transform turns the light and what is up in it, but does not make it larger.
+  vtkNew<vtkMatrix4x4> turn;
+  const double numbers[16] = { 0, -3, 0, 7, 3, 0, 0, 8, 0, 0, 3, 9, 0, 0, 0, 1 };
+  turn->DeepCopy(numbers);
+  light->SetTransformMatrix(turn);
+  const LightArea turned = areaOf(light);
+  EXPECT_NEAR(glm::distance(turned.worldFromUnit[1], { -0.25, 0.0, 0.0 }), 0.0, 1e-12);
+}
+
+TEST(AreaLight, ofADirectionHasAngles)
+{
+  const auto light = makeRectangle(90.0, 60.0);
+  light->PositionalOff();
+  const LightArea area = areaOf(light);
+  EXPECT_NEAR(glm::length(area.worldFromUnit[0]), 1.0, 1e-12);
+  EXPECT_NEAR(glm::length(area.worldFromUnit[1]), std::tan(glm::pi<double>() / 6.0), 1e-12);
+  light->SetShapeToDisk();
+  light->SetRadius(90.0); // the diameter
+  EXPECT_NEAR(glm::length(areaOf(light).worldFromUnit[0]), 1.0, 1e-12);
+  light->SetRadius(180.0);
+  EXPECT_EQ(reasonOf(light), "it fills 180 degrees or more");
+}
+
+TEST(AreaLight, isAFlatDiskUntilItIsToldOtherwise)
+{
+  vtkNew<vtkGnomonAreaLight> light;
+  const LightSet set = read(light);
+  ASSERT_EQ(set.casting.size(), 1u);
+  EXPECT_EQ(set.casting[0].kind, LightKind::Point);
+  const LightArea area = areaOf(light);
+  EXPECT_EQ(area.shape, LightArea::Shape::Disk);
+  EXPECT_NEAR(glm::length(area.worldFromUnit[0]), 0.5, 1e-12);
+  EXPECT_NEAR(glm::length(area.worldFromUnit[1]), 0.5, 1e-12);
+  EXPECT_NEAR(area.worldFromUnit[0].z, 0.0, 1e-12) << "it shines along -z";
+}
+
+TEST(AreaLight, withoutSizeIsAPoint)
+{
+  const auto light = makeRectangle(0.0, 0.0);
+  EXPECT_FALSE(read(light).casting.at(0).area.has_value());
+  light->SetWidth(-3.0);
+  EXPECT_EQ(light->GetWidth(), 0.0);
+  light->SetHeight(1.0);
+  EXPECT_TRUE(read(light).casting.at(0).area.has_value()) << "a tube";
+}
+
+TEST(AreaLight, takesOSPRaysRadius)
+{
+  vtkNew<vtkLight> sun;
+  EXPECT_FALSE(read(sun).casting.at(0).area.has_value());
+  sun->GetInformation()->Set(ospRayKey(), 90.0);
+  EXPECT_EQ(areaOf(sun).shape, LightArea::Shape::Disk);
+  EXPECT_NEAR(glm::length(areaOf(sun).worldFromUnit[0]), 1.0, 1e-12);
+
+  vtkNew<vtkLight> spot;
+  spot->PositionalOn();
+  spot->SetConeAngle(40.0);
+  spot->GetInformation()->Set(ospRayKey(), 0.25);
+  EXPECT_EQ(areaOf(spot).shape, LightArea::Shape::Disk);
+  EXPECT_NEAR(glm::length(areaOf(spot).worldFromUnit[0]), 0.25, 1e-12);
+  spot->SetConeAngle(90.0); // which OSPRay draws as a sphere
+  EXPECT_EQ(areaOf(spot).shape, LightArea::Shape::Ball);
+  EXPECT_EQ(areaOf(spot).worldFromUnit, glm::dmat3(0.25));
+
+  // The class says more than the key, and the setting overrules both.
+  const auto area = makeRectangle(2.0, 2.0);
+  area->GetInformation()->Set(ospRayKey(), 0.25);
+  EXPECT_EQ(areaOf(area).shape, LightArea::Shape::Rectangle);
+  vtkGnomonLightKeys::SetSetting(area, "light_radius", "0.125");
+  EXPECT_EQ(areaOf(area).worldFromUnit, glm::dmat3(0.125));
+}
+
+TEST(AreaLight, ofNumbersThatAreNoneCastsNothing)
+{
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  auto light = makeRectangle(nan, 1.0);
+  EXPECT_EQ(reasonOf(light), "its area is not finite");
+  light->SetWidth(std::numeric_limits<double>::infinity());
+  EXPECT_EQ(reasonOf(light), "its area is too large");
+  light->SetWidth(1.0);
+  EXPECT_EQ(reasonOf(light), "");
+  for (const double z : { 1.0, -3.0, nan })
+  {
+    light->SetUp(0.0, 0.0, z);
+    EXPECT_EQ(reasonOf(light),
+      std::isnan(z) ? "its area's up direction is not finite"
+                    : "its area has its up direction along the light");
+  }
+  light->SetUp(0.0, 0.0, 0.0);
+  EXPECT_EQ(reasonOf(light), "its area has its up direction along the light");
+  light->SetUp(0.0, 1.0, 0.0);
+  light->SetFocalPoint(light->GetPosition());
+  EXPECT_EQ(reasonOf(light), "its position and focal point give no direction");
+  light->SetSwitch(false);
+  EXPECT_EQ(reasonOf(light), "switched off") << "what comes first";
+}
+
+TEST(AreaLight, isCopied)
+{
+  const auto light = makeRectangle(2.0, 0.5);
+  light->SetUp(1.0, 2.0, 3.0);
+  light->SetRadius(7.0);
+  light->SetIntensity(0.25);
+  vtkNew<vtkMatrix4x4> matrix;
+  light->SetTransformMatrix(matrix);
+  vtkNew<vtkGnomonAreaLight> copy;
+  copy->DeepCopy(light);
+  EXPECT_NE(copy->GetTransformMatrix(), light->GetTransformMatrix());
+  const auto clone = vtkSmartPointer<vtkLight>::Take(light->ShallowClone());
+  EXPECT_EQ(clone->GetTransformMatrix(), light->GetTransformMatrix());
+  for (vtkLight* other : { static_cast<vtkLight*>(copy.Get()), clone.Get() })
+  {
+    auto* area = vtkGnomonAreaLight::SafeDownCast(other);
+    ASSERT_NE(area, nullptr);
+    EXPECT_EQ(area->GetShape(), vtkGnomonAreaLight::RECTANGLE);
+    EXPECT_EQ(area->GetWidth(), 2.0);
+    EXPECT_EQ(area->GetHeight(), 0.5);
+    EXPECT_EQ(area->GetRadius(), 7.0);
+    EXPECT_EQ(area->GetUp()[2], 3.0);
+    EXPECT_EQ(area->GetIntensity(), 0.25);
+    EXPECT_EQ(area->GetPosition()[2], 5.0);
+  }
+  vtkNew<vtkLight> plain;
+  plain->SetIntensity(0.5);
+  copy->DeepCopy(plain);
+  EXPECT_EQ(copy->GetIntensity(), 0.5);
+  EXPECT_EQ(copy->GetWidth(), 2.0);
+}
+
+TEST(AreaLight, knowsWhenItChangesAndSaysWhatItIs)
+{
+  vtkNew<vtkGnomonAreaLight> light;
+  const auto changes = [&](const auto& change)
+  {
+    const vtkMTimeType before = light->GetMTime();
+    change();
+    return light->GetMTime() > before;
+  };
+  EXPECT_TRUE(changes([&] { light->SetShapeToRectangle(); }));
+  EXPECT_TRUE(changes([&] { light->SetWidth(3.0); }));
+  EXPECT_TRUE(changes([&] { light->SetHeight(4.0); }));
+  EXPECT_TRUE(changes([&] { light->SetRadius(5.0); }));
+  EXPECT_TRUE(changes([&] { light->SetUp(1.0, 0.0, 0.0); }));
+  EXPECT_FALSE(changes([&] { light->SetWidth(3.0); }));
+  std::ostringstream text;
+  light->Print(text);
+  for (const char* part :
+    { "Shape: Rectangle", "Radius: 5", "Width: 3", "Height: 4", "Up: (1, 0, 0)" })
+  {
+    EXPECT_NE(text.str().find(part), std::string::npos) << part;
+  }
+}
+
+} // namespace
+} // namespace gnomon::test

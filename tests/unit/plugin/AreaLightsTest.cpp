@@ -1,0 +1,112 @@
+// Area lights in frames: soft where a technique can, and hard as ever where not.
+
+#include "PassScene.h"
+
+#include "lights/vtkGnomonAreaLight.h"
+#include "shadowtech/Registry.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+using namespace gnomon::test;
+using gnomon::VisibilityImages;
+
+namespace
+{
+
+class AreaLights : public PassTest
+{
+protected:
+  AreaLights()
+  {
+    this->scene.addFloor(4.0);
+    this->scene.addBox({ -0.7, -0.7, 0.0 }, { 0.7, 0.7, 1.0 });
+    this->scene.addSphere({ 1.3, 0.8, 1.4 }, 0.5);
+    this->light->SetPosition(-2.0, -2.5, 6.0);
+    this->light->SetFocalPoint(0.0, 0.0, 0.0);
+    this->light->SetConeAngle(50.0);
+    this->light->SetShapeToRectangle();
+    this->scene.renderer->AddLight(this->light);
+    this->scene.lookFrom({ 2.0, -8.0, 7.0 });
+  }
+
+  std::vector<float> visibility() { return drawKept(this->scene).visibility.at(0); }
+
+  /// Pixels that are neither lit nor dark.
+  static std::ptrdiff_t between(const std::vector<float>& visibility)
+  {
+    return std::count_if(
+      visibility.begin(), visibility.end(), [](float v) { return v > 0.0f && v < 1.0f; });
+  }
+
+  PassScene scene{ 140, 100 };
+  vtkNew<vtkGnomonAreaLight> light;
+};
+
+//------------------------------------------------------------------------------
+TEST_F(AreaLights, areTheirCentreForHardTechniques)
+{
+  for (const gnomon::TechniqueEntry& technique : gnomon::registry())
+  {
+    if (technique.name == "raytraced" || technique.name == "planar")
+    {
+      continue;
+    }
+    this->scene.pass->SetTechnique(technique.name.c_str());
+    this->light->SetWidth(3.0);
+    const std::vector<float> large = this->visibility();
+    EXPECT_EQ(this->scene.report().lights[0].lightSamples, 1);
+    this->light->SetWidth(0.0);
+    this->light->SetHeight(0.0);
+    EXPECT_EQ(this->visibility(), large) << technique.name;
+    this->light->SetHeight(1.0);
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(AreaLights, areSoftForThoseThatTakeSamples)
+{
+  for (const char* technique : { "raytraced", "planar" })
+  {
+    this->scene.pass->SetTechnique(technique);
+    this->light->SetHeight(1.0);
+    this->light->SetWidth(1.0);
+    const std::vector<float> soft = this->visibility();
+    EXPECT_GT(between(soft), 200);
+    EXPECT_EQ(this->scene.report().lights[0].lightSamples, 64);
+    EXPECT_EQ(this->visibility(), soft) << "the next frame";
+    // What changes shows in the next frame.
+    this->light->SetWidth(2.0);
+    EXPECT_NE(this->visibility(), soft);
+    this->light->SetWidth(1.0);
+    EXPECT_EQ(this->visibility(), soft);
+    this->light->SetShapeToDisk();
+    EXPECT_NE(this->visibility(), soft);
+    this->light->SetRadius(0.0);
+    EXPECT_EQ(between(this->visibility()), 0) << "a point";
+    this->light->SetShapeToRectangle();
+    this->scene.pass->SetSetting("light_samples", "16");
+    EXPECT_NE(this->visibility(), soft);
+    this->scene.pass->SetSetting("light_samples", "64");
+    this->light->SetRadius(0.5);
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(AreaLights, countTheirRays)
+{
+  this->scene.pass->SetTechnique("raytraced");
+  this->light->SetRadius(0.0);
+  this->light->SetShapeToDisk();
+  this->visibility();
+  const std::int64_t pixels = this->scene.report().lights[0].tracedPixels;
+  EXPECT_GT(pixels, 2000);
+  this->light->SetShapeToRectangle();
+  this->visibility();
+  EXPECT_EQ(this->scene.report().lights[0].tracedPixels, pixels);
+}
+
+} // namespace

@@ -1,0 +1,357 @@
+// Ray-traced shadows of area lights against what is known of them.
+
+#include "SyntheticScene.h"
+
+#include "lights/LightArea.h"
+#include "shadowtech/tracing/EmbreeTracer.h"
+
+#include <glm/gtc/constants.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <ostream>
+#include <string>
+#include <vector>
+
+namespace gnomon::test
+{
+namespace
+{
+
+std::vector<float> traceArea(
+  const ShadowLight& light, const Occluders& occluders, const ReceiverPixels& receivers)
+{
+  EmbreeTracer tracer;
+  tracer.update(occluders);
+  std::vector<float> visibility;
+  const std::size_t rays = tracer.traceArea(light, occluders, receivers, visibility);
+  EXPECT_EQ(rays % static_cast<std::size_t>(light.lightSamples), 0u);
+  EXPECT_TRUE(std::all_of(
+    visibility.begin(), visibility.end(), [](float v) { return v >= 0.0f && v <= 1.0f; }));
+  return visibility;
+}
+
+const glm::dvec3 down(0.0, 0.0, -1.0);
+
+ShadowLight withArea(ShadowLight light, const LightArea& area, int samples = 64)
+{
+  light.area = area;
+  light.lightSamples = samples;
+  return light;
+}
+
+/// A light of each kind and shape, from about the same direction.
+std::vector<ShadowLight> areaLights(int samples = 64)
+{
+  const glm::dvec3 place(2.0, -1.0, 5.0);
+  const glm::dvec3 travel = -glm::normalize(place);
+  const glm::dvec3 up(0.0, 1.0, 0.3);
+  return { withArea(directionalLight(travel), diskArea(travel, 0.1), samples),
+    withArea(directionalLight(travel), rectangleArea(travel, up, { 0.1, 0.05 }), samples),
+    withArea(boxLight(travel, 0.8 * place, { 4.0, 4.0, 9.0 }), diskArea(travel, 0.1), samples),
+    withArea(spotLight(place, {}, 40.0), rectangleArea(travel, up, { 0.5, 0.3 }), samples),
+    withArea(pointLight(place), diskArea(travel, 0.5), samples),
+    withArea(pointLight(place), ballArea(0.5), samples) };
+}
+
+/// Level receivers in the plane z = 0, at these x of the world, in a picture of 64 columns.
+ReceiverPixels levelReceivers(const Occluders& occluders, const std::vector<double>& x)
+{
+  ReceiverPixels receivers;
+  receivers.resize(64, static_cast<int>(x.size() / 64));
+  for (std::size_t i = 0; i < x.size(); ++i)
+  {
+    const glm::dvec3 position = glm::dvec3(x[i], 0.0, 0.0) - occluders.centreWorld;
+    receivers.positionX[i] = static_cast<float>(position.x);
+    receivers.positionY[i] = static_cast<float>(position.y);
+    receivers.positionZ[i] = static_cast<float>(position.z);
+    receivers.normalX[i] = receivers.normalY[i] = 0.0f;
+    receivers.normalZ[i] = 1.0f;
+    receivers.offset[i] = 1e-5f;
+    receivers.surface[i] = 0;
+  }
+  return receivers;
+}
+
+/// The share of a disk, or of what looks like one, on one side of a line at this distance from its middle, in radii.
+double diskShare(double distance)
+{
+  const double t = std::clamp(distance, -1.0, 1.0);
+  return 1.0 - (std::acos(t) - t * std::sqrt(1.0 - t * t)) / glm::pi<double>();
+}
+
+struct Penumbra
+{
+  std::string name;
+  ShadowLight light;
+  /// What is seen of it from (x, 0, 0) past the edge x = 0, z = 2 of a half plane that lies at x < 0.
+  std::function<double(double x)> exact;
+};
+
+/// For the tests' names.
+std::ostream& operator<<(std::ostream& stream, const Penumbra& penumbra)
+{
+  return stream << penumbra.name;
+}
+
+class Penumbras : public testing::TestWithParam<Penumbra>
+{
+};
+
+std::vector<Penumbra> penumbras()
+{
+  const double height = 2.0; // of the half plane
+  const double lamp = 10.0;
+  const glm::dvec3 place(0.0, 0.0, lamp);
+  const glm::dvec3 up(0.0, 1.0, 0.0);
+  const double ratio = (lamp - height) / height;
+  return {
+    { "square", withArea(spotLight(place, {}, 60.0), rectangleArea(down, up, { 1.0, 0.3 })),
+      [=](double x) { return std::clamp(0.5 + 0.5 * x * ratio, 0.0, 1.0); } },
+    { "disk", withArea(spotLight(place, {}, 60.0), diskArea(down, 1.0)),
+      [=](double x) { return diskShare(x * ratio); } },
+    // Cut by the plane through the receiver and the edge.
+    { "ball", withArea(pointLight(place), ballArea(1.0)),
+      [=](double x) { return diskShare(x * (lamp - height) / std::hypot(x, height)); } },
+    { "sun", withArea(directionalLight(down), diskArea(down, 0.1)),
+      [=](double x) { return diskShare(x / (0.1 * height)); } },
+    { "window", withArea(directionalLight(down), rectangleArea(down, up, { 0.1, 0.2 })),
+      [=](double x) { return std::clamp(0.5 + 0.5 * x / (0.1 * height), 0.0, 1.0); } },
+  };
+}
+
+INSTANTIATE_TEST_SUITE_P(OfHalfPlane, Penumbras, testing::ValuesIn(penumbras()),
+  [](const testing::TestParamInfo<Penumbra>& penumbra) { return penumbra.param.name; });
+
+TEST_P(Penumbras, areThoseOfGeometry)
+{
+  const Penumbra& penumbra = GetParam();
+  const Occluders occluders =
+    makeOccluders({ { makePlane(200.0) }, { makePlane(80.0), at({ -40.0, 0.0, 2.0 }) } });
+  std::vector<double> x(64 * 64);
+  for (std::size_t i = 0; i < x.size(); ++i)
+  {
+    x[i] = -0.4 + 0.8 * (static_cast<double>(i) + 0.5) / static_cast<double>(x.size());
+  }
+  ShadowLight light = penumbra.light;
+  light.lightSamples = 1024;
+  const std::vector<float> seen = traceArea(light, occluders, levelReceivers(occluders, x));
+  double width = 0.0;
+  double exactWidth = 0.0;
+  double mostOff = 0.0;
+  double offset = 0.0;
+  const double step = 0.8 / static_cast<double>(x.size());
+  for (std::size_t i = 0; i < x.size(); ++i)
+  {
+    const double exact = penumbra.exact(x[i]);
+    mostOff = std::max(mostOff, std::abs(seen[i] - exact));
+    offset += step * (seen[i] - exact);
+    // From an eighth to seven eighths, wherever that is.
+    width += seen[i] > 0.125f && seen[i] < 0.875f ? step : 0.0;
+    exactWidth += exact > 0.125 && exact < 0.875 ? step : 0.0;
+    if (exact == 0.0 || exact == 1.0)
+    {
+      EXPECT_EQ(seen[i], static_cast<float>(exact)) << x[i];
+    }
+  }
+  EXPECT_GT(exactWidth, 0.1);
+  EXPECT_NEAR(width, exactWidth, 0.01 * exactWidth);
+  EXPECT_LT(mostOff, 0.01);
+  EXPECT_LT(std::abs(offset), 1e-4);
+}
+
+/// Cube, sphere and sheet over a plane.
+Occluders makeThings()
+{
+  return makeOccluders({ { makePlane(12.0) }, { makeBox({ -1.0, -1.0, 0.0 }, { 0.0, 0.0, 1.0 }) },
+    { makeSphere(16, 32), at({ 1.2, 0.3, 0.8 }, 0.6) },
+    { makePlane(1.5), glm::rotate(at({ 0.0, 1.4, 0.9 }), 0.5, { 1.0, 0.2, 0.0 }) } });
+}
+
+Camera cameraOfThings()
+{
+  Camera camera;
+  camera.position = { 2.0, -6.0, 5.0 };
+  camera.width = 150;
+  camera.height = 110; // tiles are cut at both borders
+  return camera;
+}
+
+TEST(AreaShadows, ofALightWithoutSizeAreHardToTheLastBit)
+{
+  const Occluders occluders = makeThings();
+  const ReceiverPixels receivers = makeReceivers(occluders, cameraOfThings());
+  for (const int samples : { 1, 7, 16 })
+  {
+    for (ShadowLight light : areaLights(samples))
+    {
+      light.area->worldFromUnit = glm::dmat3(0.0);
+      EXPECT_EQ(traceArea(light, occluders, receivers), trace(light, occluders, receivers));
+    }
+  }
+}
+
+TEST(AreaShadows, becomeHardAsTheLightShrinks)
+{
+  const Occluders occluders = makeThings();
+  const ReceiverPixels receivers = makeReceivers(occluders, cameraOfThings());
+  for (ShadowLight light : areaLights())
+  {
+    const std::vector<float> hard = trace(light, occluders, receivers);
+    EXPECT_GT(countDifferent(traceArea(light, occluders, receivers), hard), 100u);
+    light.area->worldFromUnit *= 1e-4;
+    EXPECT_LT(countDifferent(traceArea(light, occluders, receivers), hard), 12u);
+  }
+}
+
+TEST(AreaShadows, areWholeWhereNothingOrEverythingIsInTheWay)
+{
+  const Occluders open = makeOccluders({ { makePlane(20.0) } });
+  const Occluders covered =
+    makeOccluders({ { makePlane(20.0) }, { makePlane(1000.0), at({ 0.0, 0.0, 3.0 }) } });
+  Camera camera = cameraOfThings();
+  camera.position.z = 2.0; // below the cover
+  for (const int samples : { 1, 3, 64, 100 })
+  {
+    for (const ShadowLight& light : areaLights(samples))
+    {
+      const ReceiverPixels receivers = makeReceivers(open, camera);
+      EXPECT_EQ(traceArea(light, open, receivers), trace(light, open, receivers));
+      const ReceiverPixels below = makeReceivers(covered, camera);
+      const std::vector<float> dark = traceArea(light, covered, below);
+      for (std::size_t i = 0; i < dark.size(); ++i)
+      {
+        if (below.surface[i] == 0 && light.box == std::nullopt)
+        {
+          EXPECT_EQ(dark[i], 0.0f);
+        }
+      }
+    }
+  }
+}
+
+/// Lights that the floor cuts through, or that lie in it: their lower half is behind its plane.
+TEST(AreaShadows, ofALightInTheFloorsPlaneAreCleanOnTheFloor)
+{
+  const Occluders occluders = makeOccluders({ { makePlane(20.0, 5) } });
+  const ReceiverPixels receivers = makeReceivers(occluders, cameraOfThings());
+  for (const double height : { 0.5, 0.01, 1e-6, 0.0, -0.1 })
+  {
+    const glm::dvec3 place(3.0, 0.0, height);
+    const glm::dvec3 travel(-1.0, 0.0, 0.0);
+    const glm::dvec3 up(0.0, 0.0, 1.0);
+    for (const double size : { 0.3, 3.0, 1e4 })
+    {
+      for (const LightArea& area : { rectangleArea(travel, up, { size, size }),
+             diskArea(travel, size), diskArea(down, size), ballArea(size) })
+      {
+        const ShadowLight light = withArea(pointLight(place), area, 16);
+        const std::vector<float> soft = traceArea(light, occluders, receivers);
+        // The floor is no caster of shadows on itself, whatever part of the light it sees.
+        EXPECT_EQ(countDifferent(soft, trace(light, occluders, receivers)), 0u)
+          << height << " " << size;
+      }
+    }
+  }
+}
+
+TEST(AreaShadows, ofALightInGeometryAndOfThinSheetsAreFinite)
+{
+  const Occluders occluders = makeThings();
+  const ReceiverPixels receivers = makeReceivers(occluders, cameraOfThings());
+  for (const glm::dvec3& place : { glm::dvec3(-0.5, -0.5, 0.5), { -0.5, -0.5, 1.0 },
+         { 1.2, 0.3, 0.8 }, { 0.0, 1.4, 0.9 }, { 0.0, 0.0, 3.0 } })
+  {
+    for (const double size : { 1e-3, 0.4, 100.0 })
+    {
+      for (const LightArea& area : { diskArea(down, size), ballArea(size),
+             rectangleArea(down, { 0.0, 1.0, 0.0 }, { size, 0.0 }) })
+      {
+        traceArea(withArea(pointLight(place), area, 16), occluders, receivers);
+      }
+    }
+  }
+}
+
+/// A convex body shows no shadow on itself that its plain shading does not: no acne at any of its facets.
+TEST(AreaShadows, ofABodyOnItselfAreOnlyWhereTheCentreIsHidden)
+{
+  const Occluders occluders =
+    makeOccluders({ { makeBox({ -1.0, -1.0, -1.0 }, { 1.0, 1.0, 1.0 }) } });
+  const ReceiverPixels receivers = makeReceivers(occluders, cameraOfThings());
+  for (const ShadowLight& light : areaLights())
+  {
+    EXPECT_EQ(
+      countDifferent(traceArea(light, occluders, receivers), trace(light, occluders, receivers)),
+      0u);
+  }
+}
+
+TEST(AreaShadows, touchWhatCastsThem)
+{
+  // A wall that stands on the floor: the penumbra is as narrow as the receiver is near.
+  const Occluders occluders = makeOccluders({ { makePlane(200.0) },
+    { makePlane(80.0),
+      glm::rotate(at({ 0.0, 0.0, 0.0 }), glm::half_pi<double>(), { 0.0, 1.0, 0.0 }) } });
+  const glm::dvec3 travel = glm::normalize(glm::dvec3(1.0, 0.0, -1.0));
+  const ShadowLight light = withArea(directionalLight(travel), diskArea(travel, 0.05));
+  std::vector<double> x(64 * 16);
+  for (std::size_t i = 0; i < x.size(); ++i)
+  {
+    x[i] = (static_cast<double>(i) - 512.0 + 0.5) * 1e-4;
+  }
+  const std::vector<float> seen = traceArea(light, occluders, levelReceivers(occluders, x));
+  for (std::size_t i = 0; i < x.size(); ++i)
+  {
+    EXPECT_EQ(seen[i], x[i] < 0.0 ? 1.0f : 0.0f) << x[i];
+  }
+}
+
+TEST(AreaShadows, areTheSameEveryTimeAndOthersWithOtherSeeds)
+{
+  const Occluders occluders = makeThings();
+  const ReceiverPixels receivers = makeReceivers(occluders, cameraOfThings());
+  for (ShadowLight light : areaLights(16))
+  {
+    const std::vector<float> once = traceArea(light, occluders, receivers);
+    EXPECT_EQ(traceArea(light, occluders, receivers), once);
+    light.lightSeed = 1;
+    EXPECT_GT(countDifferent(traceArea(light, occluders, receivers), once), 50u);
+  }
+}
+
+TEST(AreaShadows, comeNearerTheTruthWithMoreSamples)
+{
+  const Occluders occluders = makeThings();
+  Camera camera = cameraOfThings();
+  camera.width = 60;
+  camera.height = 44;
+  const ReceiverPixels receivers = makeReceivers(occluders, camera);
+  for (ShadowLight light : areaLights(4096))
+  {
+    light.lightSeed = 5;
+    const std::vector<float> truth = traceArea(light, occluders, receivers);
+    light.lightSeed = 0;
+    double last = 1.0;
+    for (const int samples : { 4, 16, 64, 256 })
+    {
+      light.lightSamples = samples;
+      const std::vector<float> seen = traceArea(light, occluders, receivers);
+      double squares = 0.0;
+      for (std::size_t i = 0; i < seen.size(); ++i)
+      {
+        squares += std::pow(seen[i] - truth[i], 2);
+      }
+      const double error = std::sqrt(squares / static_cast<double>(seen.size()));
+      EXPECT_LT(error, 0.6 * last) << samples; // half of it would be random points' rate
+      last = error;
+    }
+    EXPECT_LT(last, 0.004);
+  }
+}
+
+} // namespace
+} // namespace gnomon::test
