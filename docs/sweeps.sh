@@ -14,18 +14,20 @@ hybrids=coherence,crsm:as_published=on,crsm,crsma:as_published=on,crsma,silhouet
 out=out/sweeps
 mkdir -p "$out"
 
-# compare NAME SCENE OPTION... : measures into $out/NAME, unless that was done before
+frames=1
+# compare NAME SCENE OPTION... : measures into $out/NAME, unless that was done before; one frame where nobody asks for times
 compare() {
   local folder="$out/$1"
   if [ ! -e "$folder/results.csv" ]; then
     rm -rf "$folder.part"
-    build/release/bin/gnomon compare "$2" -o "$folder.part" --frames 5 --route image "${@:3}"
+    build/release/bin/gnomon compare "$2" -o "$folder.part" --frames "$frames" --route image "${@:3}"
     mv "$folder.part" "$folder"
   fi
 }
 
 for view in "${views[@]}"; do
-  for map in 512 1024 2048 4096; do
+  frames=9 compare "$view.1024x1024.1024" "$view" --techniques "nsm,$hybrids" --map-sizes 1024
+  for map in 512 2048 4096; do
     compare "$view.1024x1024.$map" "$view" --techniques "nsm,$hybrids" --map-sizes "$map"
   done
   for size in 512x512 1920x1080; do
