@@ -159,6 +159,17 @@ struct ChosenReceivers
   }
 };
 
+Mesh oneTriangle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c)
+{
+  Mesh mesh;
+  for (const glm::dvec3& corner : { a, b, c })
+  {
+    mesh.points.push_back(corner);
+  }
+  mesh.triangles.emplace_back(0, 1, 2);
+  return mesh;
+}
+
 /// Its sides are one surface, or two that meet in a seam.
 class Valley : public testing::TestWithParam<bool>
 {
@@ -427,9 +438,7 @@ TEST(ConservativeMaps, areNeverWrongAboutTrianglesThatALampIsBeside)
 TEST(ConservativeMaps, areNeverWrongOfPixelsWhoseRaysStartAboveASheet)
 {
   // The larger the pixel, the farther off a triangle's edge does its ray start: above the sheet over it, at last.
-  Mesh triangle;
-  triangle.points = { { -0.2, -0.2, 0.0 }, { 2.2, -0.1, 0.0 }, { -0.1, 0.2, 0.0 } };
-  triangle.triangles = { { 0, 1, 2 } };
+  const Mesh triangle = oneTriangle({ -0.2, -0.2, 0.0 }, { 2.2, -0.1, 0.0 }, { -0.1, 0.2, 0.0 });
   constexpr int size = 16;
   constexpr double side = 8.0;
   constexpr double texel = side / size;
@@ -472,9 +481,7 @@ TEST(ConservativeMaps, areNeverWrongOfTrianglesWhoseRoundingIsMoreThanTheSheetAb
   // A long, thin triangle askew, of which only rays that start far off it are safe.
   const glm::dmat4 turn =
     glm::rotate(glm::dmat4(1.0), 0.7, glm::normalize(glm::dvec3(0.6, 0.7, 0.1)));
-  Mesh triangle;
-  triangle.points = { { -0.1, -0.09, 0.0 }, { 0.1, 0.09, 0.0 }, { 0.1, 0.0901, 0.0 } };
-  triangle.triangles = { { 0, 1, 2 } };
+  const Mesh triangle = oneTriangle({ -0.1, -0.09, 0.0 }, { 0.1, 0.09, 0.0 }, { 0.1, 0.0901, 0.0 });
   ShadowLight light = directionalLight(glm::dvec3(turn * glm::dvec4(0.0, 0.0, -1.0, 0.0)));
   light.mapSizeTexels = 512;
   Camera camera;
@@ -523,12 +530,10 @@ TEST(ConservativeMaps, areNeverWrongWhereTrianglesTouchTheConeOrTheBox)
     // Maps know nothing of what is nearer to a lamp than all casters.
     const glm::dvec3 low = below(-15.0, -from, 41.0);
     const Prop shade{ makeBox(low, low + 1.0) };
-    Mesh triangle;
     const double inside = i % 4 < 2 ? 1.0 : 0.8;
     const double across = isSpot ? -from : 0.0;
-    triangle.points = { below(inside * side, across, 80.0), below(5.0, 5.0, 90.0),
-      below(10.0, -5.0, 85.0) };
-    triangle.triangles = { { 0, 1, 2 } };
+    const Mesh triangle = oneTriangle(
+      below(inside * side, across, 80.0), below(5.0, 5.0, 90.0), below(10.0, -5.0, 85.0));
     const Occluders occluders =
       makeOccluders({ { triangle, glm::dmat4(1.0), false }, opposite, ground, shade });
     // Most rays pass the corner by.
