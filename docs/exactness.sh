@@ -1,7 +1,7 @@
 #!/bin/bash
 # Compares the exact techniques with ray tracing on random pictures, and writes docs/exactness.md.
 # Usage: docs/exactness.sh [RUNS]
-# RUNS pictures of each of 15 kinds of scenes, each with a camera and a light of its own. One light in six shines
+# RUNS pictures of each kind of scene, each with a camera and a light of its own. One light in six shines
 # straight down: with 100 and more, each technique sees more than 1,000 directions.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
