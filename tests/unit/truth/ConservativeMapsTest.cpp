@@ -271,6 +271,28 @@ TEST_P(Valley, isNeverWrongWhereManySidesMeetInACorner)
   }
 }
 
+TEST(ConservativeMaps, knowNothingOfLinesWhoseRaysMayStartAboveASheet)
+{
+  const double height = 1e-3;
+  const Occluders occluders =
+    makeOccluders({ { makePlane(8.0) }, { makePlane(7.0), at({ 0.0, 0.0, height }) } });
+  ShadowLight light = directionalLight({ 0.0, 0.0, -1.0 });
+  light.mapSizeTexels = 16;
+  ConservativeMaps maps;
+  maps.bake(light,
+    fitLightViews(light, occluders.centreWorld, occluders.castersCentred, light.mapSizeTexels),
+    occluders, certainRule(Covering::Silhouette));
+  const auto known = [&](float mostOffset)
+  {
+    const ReceiverSegment line{ glm::dvec3(-1.3, 0.2, 0.0) - occluders.centreWorld,
+      glm::dvec3(1.2, 0.9, 0.0) - occluders.centreWorld, 1e-6f, mostOffset, 0 };
+    return maps.ofSegment(line);
+  };
+  EXPECT_EQ(known(1e-5f), Certainty::Shadow);
+  EXPECT_EQ(known(static_cast<float>(0.9 * height)), Certainty::Shadow);
+  EXPECT_EQ(known(static_cast<float>(1.01 * height)), Certainty::Uncertain);
+}
+
 TEST(ConservativeMaps, areNeverWrongWhereEdgesLieOnTexelsBorders)
 {
   // A row of plates whose edges lie exactly between texels, high above receivers that lie there, too. The
