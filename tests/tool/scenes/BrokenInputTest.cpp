@@ -335,9 +335,9 @@ std::vector<BrokenInput> brokenInputs()
     option("light_type", "--light", { "render", "cube", "-o", "out.png", "--light", "laser:a=1" }),
     option(
       "light_without_type", "--light", { "render", "cube", "-o", "out.png", "--light", "a=1" }),
-    option("light_area", "--light",
+    option("light_area", "height",
       { "render", "cube", "-o", "out.png", "--light",
-        "area:position=1,2,3;target=0,0,0;width=1;height=1" }),
+        "area:position=1,2,3;target=0,0,0;width=1;height=-1" }),
     option("light_direction", "direction",
       { "render", "cube", "-o", "out.png", "--light", "directional:direction=0,0,0" }),
     option("light_numbers", "direction",
