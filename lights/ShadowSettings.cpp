@@ -238,9 +238,8 @@ const std::vector<Setting>& shadowSettings()
     { "planes", "planar: how many planes show shadows, at most: the largest",
       IntegerSetting{ &S::planes, 1, mostPlanes } },
     { "light_radius",
-      "soft shadows: makes the light a disc of that radius (a point light a ball) in world units, "
-      "a "
-      "directional one a disc that fills so many degrees; 0: as large as it says itself",
+      "soft shadows: makes the light a disc of that radius (a point light a ball) in world "
+      "units, a directional one a disc that fills so many degrees; 0: as large as it says itself",
       RealSetting{ &S::lightRadius, 0.0, 1e12 } },
     { "light_samples", "soft shadows of area lights: from how many points of the light",
       IntegerSetting{ &S::lightSamples, 1, 65536 } },

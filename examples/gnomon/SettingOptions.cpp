@@ -40,22 +40,14 @@ void addSettingOptions(CLI::App& command, std::map<std::string, std::string>& va
 //------------------------------------------------------------------------------
 void addTracerOption(CLI::App& command, int& tracer)
 {
-  const std::vector<std::pair<std::string, int>> tracers = { { "embree",
-                                                               vtkGnomonShadowPass::TRACER_EMBREE },
-    { "gpu", vtkGnomonShadowPass::TRACER_GPU }, { "auto", vtkGnomonShadowPass::TRACER_AUTO } };
+  static const std::map<std::string, int> tracers = { { "auto", vtkGnomonShadowPass::TRACER_AUTO },
+    { "embree", vtkGnomonShadowPass::TRACER_EMBREE }, { "gpu", vtkGnomonShadowPass::TRACER_GPU } };
   command
     .add_option_function<std::string>(
-      "--tracer",
-      [&tracer, tracers](const std::string& name)
-      {
-        tracer = std::find_if(tracers.begin(), tracers.end(),
-          [&](const auto& entry) {
-            return entry.first == name;
-          })->second;
-      },
+      "--tracer", [&tracer](const std::string& name) { tracer = tracers.at(name); },
       "Who traces shadow rays: embree (the CPU), gpu (compute shaders), auto (the GPU where OpenGL "
       "draws by hardware)")
-    ->check(CLI::IsMember({ "embree", "gpu", "auto" }))
+    ->check(CLI::IsMember(tracers))
     ->default_str("auto");
 }
 

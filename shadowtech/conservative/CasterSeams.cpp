@@ -2,6 +2,7 @@
 
 #include "shadowtech/base/Bytes.h"
 #include "shadowtech/conservative/CasterEdges.h"
+#include "shadowtech/conservative/WeldedVertices.h"
 
 #include <tbb/parallel_sort.h>
 
@@ -15,15 +16,6 @@ namespace gnomon
 {
 namespace
 {
-
-/// A place as bits, so that places are in order, and the same only where they are exactly the same.
-using Place = std::array<std::uint32_t, 3>;
-
-Place placeOf(const glm::vec3& position)
-{
-  const glm::uvec3 bits = glm::floatBitsToUint(position + glm::vec3(0.0f)); // -0 becomes 0
-  return { { bits.x, bits.y, bits.z } };
-}
 
 /// A rim by the places of its ends, the lesser one first.
 struct PlacedRim

@@ -19,10 +19,10 @@ namespace gnomon
 struct Cell
 {
   float nearest = std::numeric_limits<float>::infinity(); ///< the least depth of a caster
-  float contained =
-    std::numeric_limits<float>::infinity(); ///< that of casters that cover the texel
-  float noise = 0.0f; ///< the most that a tracer may see a triangle off its plane, in world units
-  float climb = 0.0f; ///< the most that depth changes from anywhere to the sample
+  float contained = std::numeric_limits<
+    float>::infinity(); ///< the least, over casters that cover the texel, of their largest depths
+  float noise = 0.0f;   ///< the most that a tracer may see a triangle off its plane, in world units
+  float climb = 0.0f;   ///< the most that depth changes from anywhere to the sample
   float sharpEnd =
     std::numeric_limits<float>::infinity(); ///< the least depth of an end or a sharp edge
   float first = std::numeric_limits<float>::infinity();  ///< depth of the first layer at the sample

@@ -12,7 +12,8 @@ namespace gnomon
 {
 
 /// Shadow rays on the GPU (GpuTracer): those that a picture needs are collected first, and traced all together; of
-/// an area light some samples at a time. It has one structure for all surfaces. All calls, the destructor included, want the context to be current.
+/// an area light some samples at a time. It has one structure for all surfaces. All calls, the destructor included, want
+/// the context to be current.
 class GpuShadowTracer : public ShadowTracer
 {
 public:

@@ -29,10 +29,7 @@ struct Tally : Compared
 
   void add(const Tally& other)
   {
-    this->pictures += other.pictures;
-    this->receivers += other.receivers;
-    this->traced += other.traced;
-    this->wrong += other.wrong;
+    Compared::add(other);
     this->leftOut += other.leftOut;
   }
 };

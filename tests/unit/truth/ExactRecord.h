@@ -18,6 +18,14 @@ struct Compared
   std::size_t receivers = 0; ///< that get a shadow ray
   std::size_t traced = 0;    ///< of these, those whose ray was traced all the same
   std::size_t wrong = 0;
+
+  void add(const Compared& other)
+  {
+    this->pictures += other.pictures;
+    this->receivers += other.receivers;
+    this->traced += other.traced;
+    this->wrong += other.wrong;
+  }
 };
 
 /// @param technique by its name, with its settings

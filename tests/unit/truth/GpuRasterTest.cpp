@@ -189,6 +189,13 @@ struct Counts
     }
   }
 
+  /// The same of all texels of a map.
+  void add(const Corners& corners, int size, const std::vector<TexelDepths>& drawn)
+  {
+    TexelBox{ glm::ivec2(0), glm::ivec2(size - 1) }.visit([&](const glm::ivec2& texel)
+      { this->add(corners, texel, drawn[static_cast<std::size_t>(texel.y * size + texel.x)]); });
+  }
+
   void expectSound() const
   {
     EXPECT_EQ(this->missing, 0u) << "of " << this->touched;
@@ -306,8 +313,7 @@ TEST_P(GpuRasterTest, drawsTexelsThatATriangleTouchesInACorner)
     Triangles triangles;
     triangles.add(corners);
     const std::vector<TexelDepths> texels = triangles.draw(raster, size, 0.0);
-    TexelBox{ glm::ivec2(0), glm::ivec2(size - 1) }.visit([&](const glm::ivec2& texel)
-      { counts.add(corners, texel, texels[static_cast<std::size_t>(texel.y * size + texel.x)]); });
+    counts.add(corners, size, texels);
   }
   counts.expectSound();
   EXPECT_GT(counts.touched, 20000u);
@@ -340,12 +346,7 @@ TEST_P(GpuRasterTest, drawsTrianglesThatTheMapCuts)
       triangles.add(corners);
       const std::vector<TexelDepths> texels =
         triangles.draw(raster, size, i % 4 < 2 ? marginTexels : 0.0);
-      TexelBox{ glm::ivec2(0), glm::ivec2(size - 1) }.visit(
-        [&](const glm::ivec2& texel)
-        {
-          counts.add(triangles.corners().front(), texel,
-            texels[static_cast<std::size_t>(texel.y * size + texel.x)]);
-        });
+      counts.add(triangles.corners().front(), size, texels);
     }
   }
   counts.expectSound();
@@ -374,12 +375,7 @@ TEST_P(GpuRasterTest, drawsNeedlesOfWhichRoundingHidesHowTheyAreTurned)
     Triangles triangles;
     triangles.add(corners);
     const std::vector<TexelDepths> texels = triangles.draw(raster, size, 0.0);
-    TexelBox{ glm::ivec2(0), glm::ivec2(size - 1) }.visit(
-      [&](const glm::ivec2& texel)
-      {
-        counts.add(triangles.corners().front(), texel,
-          texels[static_cast<std::size_t>(texel.y * size + texel.x)]);
-      });
+    counts.add(triangles.corners().front(), size, texels);
   }
   counts.expectSound();
   EXPECT_GT(counts.touched, 30000u);

@@ -505,10 +505,7 @@ TEST_P(ChainIn, withoutCoherenceIsNeverWrong)
     const ChainRun image = chained.run(provenStages(0));
     const std::size_t wrong = countDifferent(image.visibility, chained.truth());
     EXPECT_EQ(wrong, 0u) << chained.description();
-    ++compared.pictures;
-    compared.receivers += chained.needRays();
-    compared.traced += image.traced;
-    compared.wrong += wrong;
+    compared.add({ 1, chained.needRays(), image.traced, wrong });
     const ChainRun contour = chained.run(provenStages(4));
     for (std::size_t i = 0; i < contour.classes.size(); ++i)
     {
@@ -546,10 +543,7 @@ TEST(Chain, isNeverWrongFarAwayAndAtAnyScale)
         const ChainRun image = chained.run(provenStages(0));
         const std::size_t wrong = countDifferent(image.visibility, chained.truth());
         EXPECT_EQ(wrong, 0u) << chained.description();
-        ++compared.pictures;
-        compared.receivers += chained.needRays();
-        compared.traced += image.traced;
-        compared.wrong += wrong;
+        compared.add({ 1, chained.needRays(), image.traced, wrong });
       }
     }
   }
