@@ -3,90 +3,12 @@
 #include <glm/gtc/constants.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstddef>
-#include <utility>
 
 namespace gnomon
 {
 namespace
 {
-
-constexpr int bitsOfWord = 32;
-
-std::uint32_t reversed(std::uint32_t x)
-{
-  x = (x << 16) | (x >> 16);
-  x = ((x & 0x00ff00ffu) << 8) | ((x & 0xff00ff00u) >> 8);
-  x = ((x & 0x0f0f0f0fu) << 4) | ((x & 0xf0f0f0f0u) >> 4);
-  x = ((x & 0x33333333u) << 2) | ((x & 0xccccccccu) >> 2);
-  return ((x & 0x55555555u) << 1) | ((x & 0xaaaaaaaau) >> 1);
-}
-
-/// A well mixed number of one ("lowbias32" of Wellons 2018).
-std::uint32_t hashOf(std::uint32_t x)
-{
-  x = (x ^ (x >> 16)) * 0x7feb352du;
-  x = (x ^ (x >> 15)) * 0x846ca68bu;
-  return x ^ (x >> 16);
-}
-
-/// Flips each bit by a hash of the bits above it (Laine and Karras 2011, with Burley's constants): Owen's
-/// scrambling.
-std::uint32_t scrambled(std::uint32_t x, std::uint32_t seed)
-{
-  x = reversed(x) + seed;
-  x ^= x * 0x6c50b47cu;
-  x ^= x * 0xb82f1e52u;
-  x ^= x * 0xc7afe638u;
-  x ^= x * 0x8d22f6e6u;
-  return reversed(x);
-}
-
-/// Direction numbers of a dimension of Sobol's sequence.
-using Directions = std::array<std::uint32_t, bitsOfWord>;
-
-/// Of the second dimension: the polynomial x + 1.
-Directions directionsOfSecond()
-{
-  Directions directions;
-  directions[0] = 1u << 31;
-  for (std::size_t i = 1; i < directions.size(); ++i)
-  {
-    directions[i] = directions[i - 1] ^ (directions[i - 1] >> 1);
-  }
-  return directions;
-}
-
-/// Of the third: x^2 + x + 1, begun by 1 and 3.
-Directions directionsOfThird()
-{
-  Directions directions;
-  directions[0] = 1u << 31;
-  directions[1] = 3u << 30;
-  for (std::size_t i = 2; i < directions.size(); ++i)
-  {
-    directions[i] = directions[i - 1] ^ directions[i - 2] ^ (directions[i - 2] >> 2);
-  }
-  return directions;
-}
-
-std::uint32_t sobol(std::uint32_t i, const Directions& directions)
-{
-  std::uint32_t point = 0;
-  for (std::size_t bit = 0; i != 0; ++bit, i >>= 1)
-  {
-    point ^= (i & 1u) != 0 ? directions[bit] : 0u;
-  }
-  return point;
-}
-
-/// The leading bits of a word.
-std::uint32_t leading(std::uint32_t word, int bits)
-{
-  return bits == 0 ? 0u : word >> (bitsOfWord - bits); // a shift by all bits is undefined
-}
 
 /// A word's fraction of 2^32 in [0, 1): as many bits as a float holds.
 float fractionOf(std::uint32_t word)
@@ -127,63 +49,45 @@ glm::vec2 diskPoint(const glm::vec2& square)
   return wide ? glm::vec2(along, across) : glm::vec2(across, along);
 }
 
+std::variant<SobolPoints, HashedPoints> pointsFor(const ShadowLight& light)
+{
+  const auto seed = static_cast<std::uint32_t>(light.lightSeed);
+  switch (light.lightSampling)
+  {
+    case LightSampling::Jittered:
+      return HashedPoints(
+        static_cast<int>(std::lround(std::sqrt(static_cast<double>(light.lightSamples)))), seed);
+    case LightSampling::Random:
+      return HashedPoints(1, seed);
+    case LightSampling::Sobol:
+      break;
+  }
+  return SobolPoints(light.lightSamples, seed);
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
 LightSamples::LightSamples(const ShadowLight& light)
-  : points_(static_cast<std::size_t>(light.lightSamples))
-  , seed_(hashOf(static_cast<std::uint32_t>(light.lightSeed)))
+  : count_(light.lightSamples)
+  , points_(pointsFor(light))
   , shape_(light.area->shape)
   , worldFromUnit_(light.area->worldFromUnit)
 {
-  const Directions second = directionsOfSecond();
-  const Directions third = directionsOfThird();
-  for (std::size_t i = 0; i < this->points_.size(); ++i)
-  {
-    const auto number = static_cast<std::uint32_t>(i);
-    this->points_[i] = { scrambled(reversed(number), hashOf(this->seed_ + 1u)),
-      scrambled(sobol(number, second), hashOf(this->seed_ + 2u)),
-      scrambled(sobol(number, third), hashOf(this->seed_ + 3u)) };
-  }
-  const std::size_t count = this->points_.size();
-  if ((count & (count - 1)) == 0)
-  {
-    int bits = 0;
-    while ((std::size_t(1) << bits) < count)
-    {
-      ++bits;
-    }
-    this->columnBits_ = (bits + 1) / 2;
-    this->rowBits_ = bits / 2;
-    // Every part of the light holds one point, which takes the part's number.
-    std::vector<glm::uvec3> sorted(count);
-    for (const glm::uvec3& point : this->points_)
-    {
-      sorted[(leading(point.y, this->rowBits_) << this->columnBits_) |
-        leading(point.x, this->columnBits_)] = point;
-    }
-    this->points_ = std::move(sorted);
-  }
 }
 
 //------------------------------------------------------------------------------
-LightSamples::Shift LightSamples::shiftOf(std::uint32_t column, std::uint32_t row) const
+SamplePixel LightSamples::pixel(std::uint32_t column, std::uint32_t row) const
 {
-  const std::uint32_t pixel = hashOf(hashOf(column + this->seed_) + row);
-  Shift shift;
-  shift.bits = { hashOf(pixel + 1u), hashOf(pixel + 2u), hashOf(pixel + 3u) };
-  shift.order = (leading(shift.bits.y, this->rowBits_) << this->columnBits_) |
-    leading(shift.bits.x, this->columnBits_);
-  return shift;
+  return std::visit([&](const auto& points) { return points.pixel(column, row); }, this->points_);
 }
 
 //------------------------------------------------------------------------------
-glm::vec3 LightSamples::offset(int i, const Shift& shift) const
+glm::vec3 LightSamples::offset(int i, const SamplePixel& pixel) const
 {
-  // The shift moves parts of the light as wholes. What lies in part i came from this one.
-  const glm::uvec3& point = this->points_[static_cast<std::uint32_t>(i) ^ shift.order];
-  const glm::vec2 square(2.0f * fractionOf(point.x ^ shift.bits.x) - 1.0f,
-    2.0f * fractionOf(point.y ^ shift.bits.y) - 1.0f);
+  const glm::uvec3 point =
+    std::visit([&](const auto& points) { return points.point(i, pixel); }, this->points_);
+  const glm::vec2 square(2.0f * fractionOf(point.x) - 1.0f, 2.0f * fractionOf(point.y) - 1.0f);
   if (this->shape_ == LightArea::Shape::Rectangle)
   {
     return this->worldFromUnit_ * glm::vec3(square, 0.0f);
@@ -195,7 +99,7 @@ glm::vec3 LightSamples::offset(int i, const Shift& shift) const
   }
   // The middle of the ball's rim may be rounded to just outside of it.
   const float height = std::sqrt(std::max(1.0f - glm::dot(disk, disk), 0.0f));
-  const float angle = glm::pi<float>() * (0.5f - fractionOf(point.z ^ shift.bits.z));
+  const float angle = glm::pi<float>() * (0.5f - fractionOf(point.z));
   return this->worldFromUnit_ * glm::vec3(disk, height * sineOf(angle));
 }
 

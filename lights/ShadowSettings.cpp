@@ -245,6 +245,10 @@ const std::vector<Setting>& shadowSettings()
       IntegerSetting{ &S::lightSamples, 1, 65536 } },
     { "light_seed", "soft shadows of area lights: which points these are",
       IntegerSetting{ &S::lightSeed, 0, 2147483647 } },
+    { "light_sampling",
+      "soft shadows of area lights: evenly spread points, random ones in the cells of a grid "
+      "(light_samples is a square then), or random ones",
+      choice<LightSampling, &S::lightSampling>({ "sobol", "jittered", "random" }) },
     { "depth", "the surface on a ray that a map holds",
       choice<DepthSurface, &S::depth>({ "first", "second", "midpoint" }) },
     { "metric", "how a map measures: along the view's axis, or along the ray",

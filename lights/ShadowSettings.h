@@ -105,6 +105,14 @@ enum class OutsideContour
   Check ///< those whose nine texels do not agree are treated as if they were inside
 };
 
+/// Which points of an area light a pixel takes.
+enum class LightSampling
+{
+  Sobol,    ///< evenly spread ones, whose errors cancel between neighbouring pixels
+  Jittered, ///< a random one in each cell of a square grid, as Curtis published it
+  Random    ///< random ones
+};
+
 /// The most planes that planar shadows can be asked for.
 constexpr int mostPlanes = 64;
 
@@ -191,6 +199,7 @@ struct ShadowSettings
   double lightRadius = 0.0;
   int lightSamples = 64;
   int lightSeed = 0; ///< which points these are
+  LightSampling lightSampling = LightSampling::Sobol;
   ///@}
 
   /// Whether another light's map holds the same for the same views and filter.

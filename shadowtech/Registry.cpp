@@ -16,6 +16,7 @@
 #include "shadowtech/variance/Variance.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 namespace gnomon
@@ -273,6 +274,19 @@ std::string refusedStages(const ShadowLight& light, const TechniqueInfo& info)
   return {};
 }
 
+/// Why an area light cannot have samples as its settings say; empty if it can.
+std::string refusedSamples(const ShadowLight& light)
+{
+  const int side =
+    static_cast<int>(std::lround(std::sqrt(static_cast<double>(light.lightSamples))));
+  return light.area && light.lightSampling == LightSampling::Jittered &&
+      side * side != light.lightSamples
+    ? "'light_sampling' jittered has one sample in each cell of a square grid, of which there are "
+      "no " +
+      std::to_string(light.lightSamples) + "; 'light_samples' takes squares then: 4, 9, 16, ..."
+    : "";
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -298,8 +312,8 @@ const EstimatorEntry& compose(ShadowLight& light)
     throw CompositionError(
       "the kernel 'castano' has the sizes 3, 5 and 7, not " + std::to_string(light.kernelTexels));
   }
-  for (const std::string& refused :
-    { refusedAverage(light, info), refusedStages(light, info), refusedProjection(light) })
+  for (const std::string& refused : { refusedAverage(light, info), refusedStages(light, info),
+         refusedSamples(light), refusedProjection(light) })
   {
     if (!refused.empty())
     {

@@ -87,10 +87,10 @@ void classify(const ReceiverTile& tile, std::size_t from, const std::uint8_t* re
 }
 
 /// Turns the rays that a tile needs to a sample of an area light.
-/// @param shifts by pixel of a whole tile
+/// @param pixels of a whole tile
 template <typename MakeRay>
 void turnRays(const ReceiverTile& tile, const MakeRay& makeRay, const ShadowRayLight& light,
-  const LightSamples& samples, int sample, const TracedTile::Plane<LightSamples::Shift>& shifts,
+  const LightSamples& samples, int sample, const TracedTile::Plane<SamplePixel>& pixels,
   TracedTile& traced)
 {
   const ReceiverPixels& receivers = tile.receivers;
@@ -108,7 +108,7 @@ void turnRays(const ReceiverTile& tile, const MakeRay& makeRay, const ShadowRayL
       receivers.normalX[from], receivers.normalY[from], receivers.normalZ[from]);
     const glm::vec3 direction =
       directionToSample(light, makeRay(position, normal, receivers.offset[from]), position, normal,
-        samples.offset(sample, shifts[to]));
+        samples.offset(sample, pixels[to]));
     traced.directionX[to] = direction.x;
     traced.directionY[to] = direction.y;
     traced.directionZ[to] = direction.z;
@@ -254,17 +254,17 @@ std::size_t TracedPicture::visitSamples(const SampleRange& samples, const Receiv
   const MakeRay& makeRay, TracedTile& traced,
   const std::function<std::size_t(TracedTile&)>& trace) const
 {
-  TracedTile::Plane<LightSamples::Shift> shifts;
+  TracedTile::Plane<SamplePixel> pixels;
   for (std::size_t pixel = 0; pixel < TracedTile::pixels; ++pixel)
   {
-    shifts[pixel] = this->samples_->shiftOf(
+    pixels[pixel] = this->samples_->pixel(
       static_cast<std::uint32_t>(tile.firstColumn + pixel % TracedTile::columns),
       static_cast<std::uint32_t>(tile.firstRow + pixel / TracedTile::columns));
   }
   std::size_t rays = 0;
   for (int sample = samples.first; sample < samples.end; ++sample)
   {
-    turnRays(tile, makeRay, this->light_, *this->samples_, sample, shifts, traced);
+    turnRays(tile, makeRay, this->light_, *this->samples_, sample, pixels, traced);
     rays += trace(traced);
   }
   return rays;

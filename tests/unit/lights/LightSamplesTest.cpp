@@ -29,13 +29,14 @@ ShadowLight lightOf(LightKind kind)
 }
 
 /// A square of half side 1 across z, whose offsets are its own coordinates.
-LightSamples squareSamples(int count, int seed = 0)
+LightSamples squareSamples(int count, int seed = 0, LightSampling sampling = LightSampling::Sobol)
 {
   ShadowLight light = lightOf(LightKind::Spot);
   light.area =
     rectangleArea(glm::dvec3(0.0, 0.0, -1.0), glm::dvec3(0.0, 1.0, 0.0), glm::dvec2(1.0));
   light.lightSamples = count;
   light.lightSeed = seed;
+  light.lightSampling = sampling;
   return LightSamples(light);
 }
 
@@ -71,7 +72,7 @@ TEST(LightSamples, ofALightWithoutSizeAreItsCentre)
     const LightSamples samples(light);
     for (int i = 0; i < samples.count(); ++i)
     {
-      EXPECT_EQ(samples.offset(i, samples.shiftOf(3, 4)), glm::vec3(0.0f));
+      EXPECT_EQ(samples.offset(i, samples.pixel(3, 4)), glm::vec3(0.0f));
     }
   }
 }
@@ -175,8 +176,8 @@ TEST(LightSamples, ofEveryPixelHoldOnePointInEachPartOfEqualArea)
     for (const int seed : { 0, 7 })
     {
       const LightSamples samples = squareSamples(1 << bits, seed);
-      for (const LightSamples::Shift& shift :
-        { LightSamples::Shift{}, samples.shiftOf(0, 0), samples.shiftOf(641, 480) })
+      for (const SamplePixel& pixel :
+        { SamplePixel{}, samples.pixel(0, 0), samples.pixel(641, 480) })
       {
         for (int columnBits = 0; columnBits <= bits; ++columnBits)
         {
@@ -185,7 +186,7 @@ TEST(LightSamples, ofEveryPixelHoldOnePointInEachPartOfEqualArea)
           std::set<std::pair<int, int>> parts;
           for (int i = 0; i < samples.count(); ++i)
           {
-            const glm::vec2 place = placeOf(samples.offset(i, shift));
+            const glm::vec2 place = placeOf(samples.offset(i, pixel));
             EXPECT_GE(place.x, 0.0f);
             EXPECT_LT(place.x, 1.0f);
             parts.insert({ static_cast<int>(place.x * columns), static_cast<int>(place.y * rows) });
@@ -203,57 +204,218 @@ TEST(LightSamples, ofOneNumberLieInTheSamePartForAllPixels)
   const LightSamples samples = squareSamples(64);
   for (int i = 0; i < 64; ++i)
   {
-    const glm::vec2 here = placeOf(samples.offset(i, samples.shiftOf(1, 2)));
-    const glm::vec2 there = placeOf(samples.offset(i, samples.shiftOf(100, 7)));
+    const glm::vec2 here = placeOf(samples.offset(i, samples.pixel(1, 2)));
+    const glm::vec2 there = placeOf(samples.offset(i, samples.pixel(100, 7)));
     EXPECT_EQ(glm::floor(here * 8.0f), glm::floor(there * 8.0f));
     EXPECT_NE(here, there);
   }
 }
 
-TEST(LightSamples, ofPixelsAndSeedsDiffer)
+/// Neighbours, too: those of 2 x 2 pixels and of 4 x 4.
+TEST(LightSamples, ofBlocksOfPixelsAreAsEvenAsThoseOfOne)
 {
-  const auto sumOf = [](const LightSamples& samples, const LightSamples::Shift& shift)
+  constexpr int bits = 4;
+  const LightSamples samples = squareSamples(1 << bits, 3);
+  for (const int blockBits : { 1, 2 })
   {
-    glm::dvec3 sum(0.0);
-    for (int i = 0; i < samples.count(); ++i)
+    const std::uint32_t side = 1u << blockBits;
+    const int allBits = bits + 2 * blockBits;
+    for (const glm::uvec2& block : { glm::uvec2(0u), glm::uvec2(17u, 4u), glm::uvec2(160u, 99u) })
     {
-      sum += glm::dvec3(samples.offset(i, shift));
-    }
-    return sum;
-  };
-  for (const int count : { 1, 16, 100 })
-  {
-    const LightSamples samples = squareSamples(count);
-    const LightSamples others = squareSamples(count, 1);
-    std::set<double> sums;
-    for (std::uint32_t row = 0; row < 16; ++row)
-    {
-      for (std::uint32_t column = 0; column < 16; ++column)
+      for (int columnBits = 0; columnBits <= allBits; ++columnBits)
       {
-        sums.insert(sumOf(samples, samples.shiftOf(column, row)).x);
-        sums.insert(sumOf(others, others.shiftOf(column, row)).x);
+        const auto columns = static_cast<float>(1 << columnBits);
+        const auto rows = static_cast<float>(1 << (allBits - columnBits));
+        std::set<std::pair<int, int>> parts;
+        for (std::uint32_t pixel = 0; pixel < side * side; ++pixel)
+        {
+          const SamplePixel of =
+            samples.pixel(block.x * side + pixel % side, block.y * side + pixel / side);
+          for (int i = 0; i < samples.count(); ++i)
+          {
+            const glm::vec2 place = placeOf(samples.offset(i, of));
+            parts.insert({ static_cast<int>(place.x * columns), static_cast<int>(place.y * rows) });
+          }
+        }
+        EXPECT_EQ(parts.size(), std::size_t(1) << allBits)
+          << side << " pixels wide, " << columnBits << " of columns";
       }
     }
-    EXPECT_GT(sums.size(), 500u) << "of 512";
+  }
+}
+
+/// RMS error of the share of a square that lies on one side of a slanted line, which moves from pixel to pixel.
+/// @param side errors are averaged over as many times as many pixels
+double halfPlaneError(const LightSamples& samples, int side)
+{
+  constexpr int width = 64;
+  const glm::vec2 across(0.8f, 0.6f);
+  std::vector<double> errors;
+  for (int pixel = 0; pixel < width * width; ++pixel)
+  {
+    const int column = pixel % width;
+    const int row = pixel / width;
+    const float limit =
+      (static_cast<float>(column) + 0.37f * static_cast<float>(row)) / width - 0.7f;
+    // The square's width along the line's normal at each height, summed finely.
+    double truth = 0.0;
+    for (int slice = 0; slice < 500; ++slice)
+    {
+      const double y = (slice + 0.5) / 250.0 - 1.0;
+      truth += std::clamp(((limit - across.y * y) / across.x + 1.0) / 2.0, 0.0, 1.0) / 500.0;
+    }
+    int inside = 0;
+    const SamplePixel of =
+      samples.pixel(static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(row));
+    for (int i = 0; i < samples.count(); ++i)
+    {
+      inside += glm::dot(glm::vec2(samples.offset(i, of)), across) < limit ? 1 : 0;
+    }
+    errors.push_back(static_cast<double>(inside) / samples.count() - truth);
+  }
+  double sum = 0.0;
+  int blocks = 0;
+  for (int row = 0; row + side <= width; ++row)
+  {
+    for (int column = 0; column + side <= width; ++column, ++blocks)
+    {
+      double mean = 0.0;
+      for (int i = 0; i < side * side; ++i)
+      {
+        mean += errors[static_cast<std::size_t>((row + i / side) * width + column + i % side)] /
+          (side * side);
+      }
+      sum += mean * mean;
+    }
+  }
+  return std::sqrt(sum / blocks);
+}
+
+TEST(LightSamples, errLeastByDefaultAndLeaveTheLeastNoiseToABlur)
+{
+  for (const int count : { 4, 16, 64 })
+  {
+    double sobol = 0.0;
+    double sobolBlurred = 0.0;
+    for (const int seed : { 0, 1, 2, 3 })
+    {
+      sobol += halfPlaneError(squareSamples(count, seed), 1) / 4.0;
+      sobolBlurred += halfPlaneError(squareSamples(count, seed), 3) / 4.0;
+    }
+    const LightSamples jittered = squareSamples(count, 0, LightSampling::Jittered);
+    const LightSamples random = squareSamples(count, 0, LightSampling::Random);
+    EXPECT_LT(sobol, halfPlaneError(jittered, 1)) << count;
+    EXPECT_LT(halfPlaneError(jittered, 1), halfPlaneError(random, 1)) << count;
+    // What has nothing to do with its neighbours loses a factor of 3 over 3 x 3.
+    EXPECT_NEAR(halfPlaneError(jittered, 3) / halfPlaneError(jittered, 1), 1.0 / 3.0, 0.03);
+    EXPECT_LT(sobolBlurred, 0.3 * sobol) << count;
+  }
+}
+
+/// Curtis 2009, section 3.1: a straight edge along the grid, over all of its places. A cell that it cuts is
+/// lit by chance, its variance 1/6 on the mean, and the k x k grid has k such cells: sqrt(1/6 / k^3).
+TEST(LightSamples, inTheCellsOfAGridErrAsTheyMust)
+{
+  for (const int side : { 2, 3, 4 })
+  {
+    const LightSamples jittered = squareSamples(side * side, 0, LightSampling::Jittered);
+    const LightSamples random = squareSamples(side * side, 0, LightSampling::Random);
+    double jitteredSum = 0.0;
+    double randomSum = 0.0;
+    constexpr std::uint32_t pixels = 40000;
+    for (std::uint32_t pixel = 0; pixel < pixels; ++pixel)
+    {
+      const float limit = (static_cast<float>(pixel) + 0.5f) / pixels;
+      const auto squaredError = [&](const LightSamples& samples)
+      {
+        const SamplePixel of = samples.pixel(pixel % 200u, pixel / 200u);
+        int inside = 0;
+        for (int i = 0; i < samples.count(); ++i)
+        {
+          inside += placeOf(samples.offset(i, of)).x < limit ? 1 : 0;
+        }
+        const double error = static_cast<double>(inside) / samples.count() - limit;
+        return error * error / pixels;
+      };
+      jitteredSum += squaredError(jittered);
+      randomSum += squaredError(random);
+    }
+    const double expectedJittered = std::sqrt(1.0 / 6.0 / (side * side * side));
+    const double expectedRandom = std::sqrt(1.0 / 6.0) / side;
+    EXPECT_NEAR(std::sqrt(jitteredSum), expectedJittered, 0.02 * expectedJittered) << side;
+    EXPECT_NEAR(std::sqrt(randomSum), expectedRandom, 0.02 * expectedRandom) << side;
+  }
+}
+
+TEST(LightSamples, inTheCellsOfAGridStayInThem)
+{
+  const LightSamples samples = squareSamples(9, 5, LightSampling::Jittered);
+  for (std::uint32_t pixel = 0; pixel < 2000; ++pixel)
+  {
+    for (int i = 0; i < samples.count(); ++i)
+    {
+      const glm::vec2 place = placeOf(samples.offset(i, samples.pixel(pixel % 50u, pixel / 50u)));
+      EXPECT_EQ(glm::ivec2(glm::floor(place * 3.0f)), glm::ivec2(i % 3, i / 3));
+    }
+  }
+}
+
+TEST(LightSamples, ofPixelsAndSeedsDiffer)
+{
+  for (const LightSampling sampling :
+    { LightSampling::Sobol, LightSampling::Jittered, LightSampling::Random })
+  {
+    for (const int count : { 1, 16, 100 })
+    {
+      const LightSamples samples = squareSamples(count, 0, sampling);
+      const LightSamples others = squareSamples(count, 1, sampling);
+      std::set<std::pair<float, float>> places;
+      for (std::uint32_t row = 0; row < 16; ++row)
+      {
+        for (std::uint32_t column = 0; column < 16; ++column)
+        {
+          const glm::vec2 here = placeOf(samples.offset(count - 1, samples.pixel(column, row)));
+          const glm::vec2 other = placeOf(others.offset(count - 1, others.pixel(column, row)));
+          places.insert({ here.x, here.y });
+          places.insert({ other.x, other.y });
+        }
+      }
+      EXPECT_EQ(places.size(), 512u) << count;
+    }
   }
 }
 
 TEST(LightSamples, ofManyPixelsAreEvenOnTheMean)
 {
-  const LightSamples samples = squareSamples(3); // which is no power of two
-  glm::dvec2 mean(0.0);
-  glm::dvec2 squares(0.0);
-  for (std::uint32_t pixel = 0; pixel < 100000; ++pixel)
+  for (const LightSampling sampling :
+    { LightSampling::Sobol, LightSampling::Jittered, LightSampling::Random })
   {
-    const glm::dvec2 place(placeOf(
-      samples.offset(static_cast<int>(pixel % 3), samples.shiftOf(pixel % 317, pixel / 317))));
-    mean += place / 1e5;
-    squares += place * place / 1e5;
+    for (const int count : { 1, 3, 4, 16, 100 })
+    {
+      if (sampling == LightSampling::Jittered && count == 3)
+      {
+        continue; // no square
+      }
+      const LightSamples samples = squareSamples(count, 2, sampling);
+      glm::dvec2 mean(0.0);
+      glm::dvec2 squares(0.0);
+      constexpr std::uint32_t pixels = 128 * 128;
+      for (std::uint32_t pixel = 0; pixel < pixels; ++pixel)
+      {
+        const SamplePixel of = samples.pixel(pixel % 128u, pixel / 128u);
+        for (int i = 0; i < count; ++i)
+        {
+          const glm::dvec2 place(placeOf(samples.offset(i, of)));
+          mean += place / (double(pixels) * count);
+          squares += place * place / (double(pixels) * count);
+        }
+      }
+      EXPECT_NEAR(mean.x, 0.5, 0.004) << count;
+      EXPECT_NEAR(mean.y, 0.5, 0.004) << count;
+      EXPECT_NEAR(squares.x, 1.0 / 3.0, 0.004) << count;
+      EXPECT_NEAR(squares.y, 1.0 / 3.0, 0.004) << count;
+    }
   }
-  EXPECT_NEAR(mean.x, 0.5, 0.005);
-  EXPECT_NEAR(mean.y, 0.5, 0.005);
-  EXPECT_NEAR(squares.x, 1.0 / 3.0, 0.005);
-  EXPECT_NEAR(squares.y, 1.0 / 3.0, 0.005);
 }
 
 } // namespace

@@ -1,0 +1,29 @@
+#ifndef gnomon_lights_SamplePixel_h
+#define gnomon_lights_SamplePixel_h
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+
+namespace gnomon
+{
+
+/// What makes a pixel's samples of a light differ from those of others, for whoever makes them. As it is, those that all
+/// pixels may share.
+struct SamplePixel
+{
+  glm::uvec3 bits{ 0u };
+  std::uint32_t order = 0;
+};
+
+/// A well mixed number of one ("lowbias32" of Wellons 2018).
+inline std::uint32_t hashOf(std::uint32_t x)
+{
+  x = (x ^ (x >> 16)) * 0x7feb352du;
+  x = (x ^ (x >> 15)) * 0x846ca68bu;
+  return x ^ (x >> 16);
+}
+
+} // namespace gnomon
+
+#endif

@@ -1,0 +1,137 @@
+#include "lights/SobolPoints.h"
+
+#include <cstddef>
+
+namespace gnomon
+{
+namespace
+{
+
+/// Of the first dimension: the digits of a number behind the point, the last one first.
+constexpr std::uint32_t direction(std::size_t bit)
+{
+  return 0x80000000u >> bit;
+}
+
+/// A direction number through a triangular matrix that is its own for each seed: a bit stays, and flips others
+/// behind it.
+std::uint32_t scrambled(std::uint32_t from, std::uint32_t seed)
+{
+  std::uint32_t to = 0;
+  for (std::size_t bit = 0; from != 0; ++bit, from <<= 1)
+  {
+    if ((from & 0x80000000u) != 0)
+    {
+      const std::uint32_t first = direction(bit);
+      to ^= first | (hashOf(seed + static_cast<std::uint32_t>(bit)) & (first - 1u));
+    }
+  }
+  return to;
+}
+
+/// Bits of a word with a zero between any two.
+std::uint32_t spread(std::uint32_t x)
+{
+  x &= 0x0000ffffu;
+  x = (x | (x << 8)) & 0x00ff00ffu;
+  x = (x | (x << 4)) & 0x0f0f0f0fu;
+  x = (x | (x << 2)) & 0x33333333u;
+  return (x | (x << 1)) & 0x55555555u;
+}
+
+/// A number on a Z curve whose parts, of any size, are swapped at random: each bit is flipped by a hash of those before it.
+std::uint32_t shuffled(std::uint32_t number, std::uint32_t seed)
+{
+  std::uint32_t to = number;
+  for (int bit = 0; bit < 32; ++bit)
+  {
+    const std::uint32_t before = bit == 31 ? 0u : number >> (bit + 1);
+    to ^= (hashOf(hashOf(before + seed) + static_cast<std::uint32_t>(bit)) & 1u) << bit;
+  }
+  return to;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+SobolPoints::SobolPoints(int count, std::uint32_t seed)
+  : orderSeed_(hashOf(seed + 4u))
+{
+  // Of the second dimension the polynomial is x + 1, of the third x^2 + x + 1, begun by 1 and 3.
+  Directions& first = this->directions_[0];
+  Directions& second = this->directions_[1];
+  Directions& third = this->directions_[2];
+  for (std::size_t i = 0; i < first.size(); ++i)
+  {
+    first[i] = direction(i);
+    second[i] = i == 0 ? direction(0) : second[i - 1] ^ (second[i - 1] >> 1);
+    third[i] = i == 0 ? direction(0)
+      : i == 1        ? 3u << 30
+                      : third[i - 1] ^ third[i - 2] ^ (third[i - 2] >> 2);
+  }
+  for (std::size_t axis = 0; axis < this->directions_.size(); ++axis)
+  {
+    const std::uint32_t seedOfAxis = hashOf(seed + 1u + static_cast<std::uint32_t>(axis));
+    for (std::uint32_t& number : this->directions_[axis])
+    {
+      number = scrambled(number, seedOfAxis);
+    }
+    this->first_[static_cast<glm::length_t>(axis)] = hashOf(seedOfAxis + 32u);
+  }
+
+  const auto most = static_cast<std::uint32_t>(count);
+  while (1u << this->numberBits_ < most)
+  {
+    ++this->numberBits_;
+  }
+  const std::uint32_t numbers = 1u << this->numberBits_;
+  this->hasParts_ = numbers == most;
+  this->columnBits_ = (this->numberBits_ + 1) / 2;
+  this->rowBits_ = this->numberBits_ / 2;
+  this->points_.resize(numbers);
+  for (std::uint32_t i = 0; i < numbers; ++i)
+  {
+    const glm::uvec3 point = this->sobol(i);
+    this->points_[this->hasParts_ ? this->partOf(point) : i] = point;
+  }
+}
+
+//------------------------------------------------------------------------------
+glm::uvec3 SobolPoints::sobol(std::uint32_t number) const
+{
+  glm::uvec3 point = this->first_;
+  for (std::size_t bit = 0; number != 0; ++bit, number >>= 1)
+  {
+    if ((number & 1u) != 0)
+    {
+      point ^=
+        glm::uvec3(this->directions_[0][bit], this->directions_[1][bit], this->directions_[2][bit]);
+    }
+  }
+  return point;
+}
+
+//------------------------------------------------------------------------------
+std::uint32_t SobolPoints::partOf(const glm::uvec3& point) const
+{
+  const auto leading = [](std::uint32_t word, int bits)
+  { return bits == 0 ? 0u : word >> (bitsOfWord - bits); }; // a shift by all bits is undefined
+  return (leading(point.y, this->rowBits_) << this->columnBits_) |
+    leading(point.x, this->columnBits_);
+}
+
+//------------------------------------------------------------------------------
+SamplePixel SobolPoints::pixel(std::uint32_t column, std::uint32_t row) const
+{
+  const std::uint32_t place = shuffled(spread(column) | (spread(row) << 1), this->orderSeed_);
+  SamplePixel pixel;
+  pixel.bits = this->sobol(place << this->numberBits_) ^ this->first_;
+  // Flipping bits moves parts of the square as wholes: what lies in part i came from part i ^ order. Without parts any
+  // order will do that chooses among the numbers.
+  const std::uint32_t numbers = static_cast<std::uint32_t>(this->points_.size());
+  pixel.order =
+    this->hasParts_ ? this->partOf(pixel.bits) : hashOf(place + this->orderSeed_) & (numbers - 1u);
+  return pixel;
+}
+
+} // namespace gnomon
