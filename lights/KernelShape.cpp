@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace gnomon
 {
@@ -70,6 +71,29 @@ double mostTexelsAcross(const LightViews& views, int sizeTexels)
     }
   }
   return most;
+}
+
+//------------------------------------------------------------------------------
+double reachOfArea(const LightArea& area, const LightViews& views, const Bounds& receiversCentred)
+{
+  double widest = 0.0;
+  for (const LightView& view : views.views)
+  {
+    double farthest = -std::numeric_limits<double>::infinity();
+    for (const glm::dvec3& corner : receiversCentred.corners())
+    {
+      farthest = std::max(farthest, (view.rays.viewFromCentred * glm::dvec4(corner, 1.0)).z);
+    }
+    const double nearest =
+      view.rays.positional ? view.beginsAt : -view.depthOffset / view.depthScale;
+    if (nearest < farthest)
+    {
+      widest = std::max(widest,
+        view.rays.positional ? longestRay(view) * (1.0 / nearest - 1.0 / farthest)
+                             : farthest - nearest);
+    }
+  }
+  return area.radius() * widest;
 }
 
 //------------------------------------------------------------------------------

@@ -113,7 +113,9 @@ float cosineOf(float angle)
       square / 12.0f * (1.0f - square / 30.0f * (1.0f - square / 56.0f * (1.0f - square / 90.0f))));
 }
 
-/// The concentric map from the square of half side 1 to the unit disk.
+} // namespace
+
+//------------------------------------------------------------------------------
 glm::vec2 diskPoint(const glm::vec2& square)
 {
   const bool wide = std::abs(square.x) > std::abs(square.y);
@@ -125,8 +127,6 @@ glm::vec2 diskPoint(const glm::vec2& square)
   const float across = radius * sineOf(angle);
   return wide ? glm::vec2(along, across) : glm::vec2(across, along);
 }
-
-} // namespace
 
 //------------------------------------------------------------------------------
 LightSamples::LightSamples(const ShadowLight& light)
