@@ -56,6 +56,7 @@ public:
   std::vector<Uniform> uniforms(const ReceiverSpace& space) const override;
 
 protected:
+  const GlTexture& map() const { return this->map_; }
   /// The views of the last bake.
   const LightViews& views() const { return this->views_; }
   /// The reach of the last bake.

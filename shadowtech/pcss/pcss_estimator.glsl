@@ -7,8 +7,8 @@
 uniform sampler2D lightPoints_LIGHT; // the search's, then the filter's
 uniform mat3 viewFromUnitLight_LIGHT[VIEWS_LIGHT];
 
-// A caster's own separation varies over the filter. One of less than that share of the mean is another
-// surface, like the wall of a corner, which does not reach between the point and this part of the light.
+// How far beside its own ray a surface may be found that is taken to hide a point of the light all the same, as a
+// share of that ray's way: surfaces slope.
 const float leastShareOfSeparation_LIGHT = 0.5;
 
 // The light as the point sees it: its shape on the plane across the view, through its centre. Of a directional
@@ -134,6 +134,30 @@ vec2 lightPoint_LIGHT(int number, vec2 pattern, vec3 facing)
   return dot(facing, vec3(place, 1.0)) < 0.0 ? -place : place;
 }
 
+// The share of the light that is hidden by what has this separation on a part of the search's area. What
+// lies near the point hides more of the light than what is as large on the map and near the light.
+float shareHidden_LIGHT(float part, float separation, float largest)
+{
+  float larger = largest / max(separation, 1e-30); // 0 is left of what nearly touches the point
+  return min(part * larger * larger, 1.0);
+}
+
+// Whether what is on the map where a point of the light is looked for hides the receiver from it. If that
+// lies too near the receiver to do so, as the wall of a corner or a surface further down, it is looked for
+// once more, at that surface's own separation.
+bool hidesLightPoint_LIGHT(
+  ViewPoint point, mat2 texels, float separation, vec2 place, float slack)
+{
+  float extent = extentOf_LIGHT(place);
+  float found = separationAt_LIGHT(point, point.texel + texels * (separation * place), slack);
+  if (found < 0.0 || found >= separation * extent)
+  {
+    return found >= 0.0;
+  }
+  float again = separationAt_LIGHT(point, point.texel + texels * (found * place), slack);
+  return again >= leastShareOfSeparation_LIGHT * found * extent;
+}
+
 float estimate_LIGHT(ViewPoint point, float slack)
 {
   mat2 light = lightAcross_LIGHT(point);
@@ -154,18 +178,22 @@ float estimate_LIGHT(ViewPoint point, float slack)
 #endif
   vec3 facing = vec3(point.normal.xy * light, centre);
   vec2 pattern = patternOf_LIGHT(point);
+  const float points = float(PCSS_SEARCH_POINTS_LIGHT);
 
   float own = separationAt_LIGHT(point, point.texel, slack);
-  float blockers = own >= 0.0 ? 1.0 : 0.0;
-  float sum = max(own, 0.0);
+  float blockers = own < 0.0 ? 0.0 : shareHidden_LIGHT(1.0 / (points * points), own, largest);
+  float sum = blockers * own;
   for (int i = 0; i < PCSS_SEARCH_POINTS_LIGHT; ++i)
   {
     vec2 place = lightPoint_LIGHT(i, pattern, facing);
+    place *= extentOf_LIGHT(place);
+    float extent = extentOf_LIGHT(place);
     float separation = separationAt_LIGHT(point, point.texel + texels * (largest * place), slack);
-    if (separation >= largest * extentOf_LIGHT(place))
+    if (separation >= largest * extent)
     {
-      blockers += 1.0;
-      sum += separation;
+      float share = shareHidden_LIGHT(2.0 * extent / points, separation, largest);
+      blockers += share;
+      sum += share * separation;
     }
   }
   if (blockers == 0.0)
@@ -184,9 +212,7 @@ float estimate_LIGHT(ViewPoint point, float slack)
   for (int i = 0; i < PCSS_FILTER_POINTS_LIGHT; ++i)
   {
     vec2 place = lightPoint_LIGHT(PCSS_SEARCH_POINTS_LIGHT + i, pattern, facing);
-    float separation = separationAt_LIGHT(point, point.texel + texels * (mean * place), slack);
-    bool hides = separation >= leastShareOfSeparation_LIGHT * mean * extentOf_LIGHT(place);
-    hidden += hides ? 1.0 : 0.0;
+    hidden += hidesLightPoint_LIGHT(point, texels, mean, place, slack) ? 1.0 : 0.0;
   }
   return max(1.0 - hidden / float(PCSS_FILTER_POINTS_LIGHT), 0.0);
 }

@@ -167,35 +167,50 @@ private:
       const glm::dvec3 away = source - (view.rays.positional ? this->p_ : glm::dvec3(0.0));
       return glm::dot(away, this->n_) < 0.0 ? -place : place;
     };
-    std::vector<double> blockers;
+    double hiddenShare = 0.0;
+    double sum = 0.0;
+    const auto addBlocker = [&](double separation, double part)
+    {
+      const double share = std::min(part * std::pow(largest / separation, 2), 1.0);
+      hiddenShare += share;
+      sum += share * separation;
+    };
     if (const auto own = this->hiderAt(glm::dvec2(0.0)))
     {
-      blockers.push_back(*own);
+      addBlocker(*own, std::pow(this->counts_.search, -2.0));
     }
     for (int i = 0; i < this->counts_.search; ++i)
     {
-      const glm::dvec2 place = turned(i);
+      // Denser in the middle: as many points in every ring of the same width.
+      glm::dvec2 place = turned(i);
+      place *= this->extent(place);
       const auto hider = this->hiderAt(largest * place);
       if (hider && *hider >= largest * this->extent(place))
       {
-        blockers.push_back(*hider);
+        addBlocker(*hider, 2.0 * this->extent(place) / this->counts_.search);
       }
     }
-    if (blockers.empty())
+    if (hiddenShare == 0.0)
     {
       return 1.0;
     }
-    double mean = 0.0;
-    for (const double blocker : blockers)
-    {
-      mean += blocker / static_cast<double>(blockers.size());
-    }
+    const double mean = sum / hiddenShare;
     int hidden = 0;
     for (int i = 0; i < this->counts_.filter; ++i)
     {
       const glm::dvec2 place = turned(this->counts_.search + i);
-      const auto hider = this->hiderAt(mean * place);
-      hidden += hider && *hider >= 0.5 * mean * this->extent(place) ? 1 : 0;
+      const double extent = this->extent(place);
+      auto hider = this->hiderAt(mean * place);
+      if (hider && *hider < mean * extent)
+      {
+        const double own = *hider;
+        hider = this->hiderAt(own * place);
+        hidden += hider && *hider >= 0.5 * own * extent ? 1 : 0;
+      }
+      else
+      {
+        hidden += hider ? 1 : 0;
+      }
     }
     return 1.0 - static_cast<double>(hidden) / this->counts_.filter;
   }
@@ -461,9 +476,11 @@ TEST(Pcss, readsAsManyTexelsAsItsPresetsSayAndFewerWhereAllIsLit)
       most = std::max(most, answer.fetches);
       fewest = std::min(fewest, answer.fetches);
     }
-    // The point's own texel, the search, and the filter where there is a blocker.
+    // The point's own texel, the search, and where there is a blocker the filter, which looks twice at
+    // some places.
     EXPECT_EQ(fewest, 1 + expected[preset].search);
-    EXPECT_EQ(most, 1 + expected[preset].search + expected[preset].filter);
+    EXPECT_GE(most, 1 + expected[preset].search + expected[preset].filter);
+    EXPECT_LE(most, 1 + expected[preset].search + 2 * expected[preset].filter);
     EXPECT_GT(most, previous);
     previous = most;
   }
