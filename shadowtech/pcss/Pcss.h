@@ -17,14 +17,17 @@ namespace gnomon
 /// away from the receiver: s is its *separation*. So one kernel, the light's own shape, serves both
 /// steps and all projections; the map's Jacobian at the point takes it to texels.
 ///
-/// 1. Blocker search: `pcss_samples` points of the light, on the map at the largest separation that a
-///    caster around has (from the map's pyramid of depths, DepthBounds.h), and the point's own texel. A
-///    blocker is a texel in front of the receiver's plane on whose ray some point of the light lies, as
-///    seen from the receiver: |L| s' <= |light| s. Without the latter the floor of a concave corner
-///    would be hidden by the wall beside it.
-/// 2. Penumbra: the blockers' mean separation. The shadow of a straight edge is as wide as the light times
-///    that.
-/// 3. Filter: the share of the light whose points, at that separation, find texels that hide the receiver.
+/// 1. Blocker search: `pcss_samples` points of the light, on the map at the largest separation S that a
+///    caster around has (from the map's pyramid of depths, DepthBounds.h), and the receiver's own texel.
+///    Blockers are texels in front of the receiver's plane that lie between it and some point of the
+///    light: L S = L' s for an L' of the light. Without the latter the floor of a concave corner would be
+///    hidden by the wall beside it.
+/// 2. Penumbra: the blockers' mean separation, each weighted by the share of the light that it hides. That
+///    falls with the square of s, and the points lie denser in the middle, so that casters near the
+///    receiver count beside those near the light. The shadow of a straight edge is as wide as the light
+///    times that mean.
+/// 3. Filter: the share of the light whose points, at that separation, find texels that hide the receiver. What
+///    lies too near the receiver to hide that point of the light is looked for again at its own separation.
 ///
 /// A point of the light that lies behind the receiver's plane gives way to the one opposite, as the truth has it
 /// (docs/techniques/soft.md). The points are Poisson sets: on a disk turned, on a rectangle shifted around

@@ -9,7 +9,7 @@ uniform mat3 viewFromUnitLight_LIGHT[VIEWS_LIGHT];
 
 // How far beside its own ray a surface may be found that is taken to hide a point of the light all the same, as a
 // share of that ray's way: surfaces slope.
-const float leastShareOfSeparation_LIGHT = 0.5;
+const float leastShareOfSeparation_LIGHT = 0.75;
 
 // The light as the point sees it: its shape on the plane across the view, through its centre. Of a directional
 // light it is at distance 1.
@@ -196,11 +196,9 @@ float estimate_LIGHT(ViewPoint point, float slack)
       sum += share * separation;
     }
   }
-  if (blockers == 0.0)
-  {
-    return 1.0;
-  }
-  float mean = min(sum / blockers, largest);
+  // A search that finds nothing is not believed: at a penumbra's rim the filter's points may find what it
+  // missed.
+  float mean = blockers > 0.0 ? min(sum / blockers, largest) : largest;
 #if PCSS_ASKS_BOUNDS_LIGHT
   decided = filterDecided_LIGHT(point, reach, mean, slack);
   if (decided >= 0.0)
