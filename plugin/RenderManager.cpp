@@ -546,7 +546,7 @@ void RenderManager::bakeMaps(
   {
     // How many texels that is, only a view can tell. A wider border makes them fewer.
     fitting.texels.border = reach.borderTexels(mostTexelsAcross(views, light.mapSizeTexels),
-      reachOfArea(reach.area, views, fitting.receiversCentred));
+      reachOfArea(reach.area, views, fitting.castersCentred, fitting.receiversCentred));
     views = fitLightViews(light, fitting);
   }
   std::size_t receivers = 0;

@@ -245,12 +245,10 @@ std::vector<Uniform> DepthMapTechnique::uniforms(const ReceiverSpace& space) con
     lightViewsUniforms(this->views_, this->sizeTexels_, space, this->viewFits_);
   uniforms.push_back(
     { "depthMap_LIGHT", TextureBinding{ GL_TEXTURE_2D_ARRAY, this->map_.name() } });
-  double followed = this->reach_.largestTexels(mostTexelsAcross(this->views_, this->sizeTexels_));
-  if (this->reach_.area.radius() > 0.0)
-  {
-    followed = std::max(followed, static_cast<double>(this->views_.borderTexels));
-  }
-  uniforms.push_back(depthSlacks(followed / MapReach().largestTexels()));
+  const double followed =
+    this->reach_.largestTexels(mostTexelsAcross(this->views_, this->sizeTexels_)) /
+    MapReach{}.largestTexels();
+  uniforms.push_back(depthSlacks(followed));
   for (std::size_t i = 0; i < this->views_.views.size(); ++i)
   {
     const double scale = 1.0 / longestRay(this->views_.views[i]);

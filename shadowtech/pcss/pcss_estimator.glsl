@@ -164,6 +164,9 @@ float estimate_LIGHT(ViewPoint point, float slack)
   mat2 texels = texelJacobian_LIGHT(point.view, acrossOf_LIGHT(point.position)) * light;
   vec2 reach = reachOf_LIGHT(texels);
   float largest = largestSeparation_LIGHT(point, reach);
+  // What rounding does to the receiver's plane grows with how far that is followed: half a texel so far.
+  vec2 farthest = min(reach * largest, vec2(viewSize_LIGHT));
+  slack *= max(2.0 * max(farthest.x, farthest.y), 1.0);
 #if PCSS_ASKS_BOUNDS_LIGHT
   float decided = filterDecided_LIGHT(point, reach, largest, slack);
   if (decided >= 0.0)

@@ -50,9 +50,11 @@ std::vector<AreaCase> areaCases()
   spot.positionWorld = -4.0 * travel;
   spot.directionWorld = travel;
   spot.coneAngleDegrees = 40.0;
+  // One face of their cubes sees all casters. The rectangle stands at a slant to it.
   ShadowLight wide = spot;
   wide.coneAngleDegrees = 75.0;
-  wide.positionWorld = { 0.3, 1.1, 3.0 };
+  wide.positionWorld = { 1.5, -1.2, 4.0 };
+  wide.directionWorld = glm::normalize(glm::dvec3(0.2, 0.1, -1.0));
   ShadowLight point = wide;
   point.kind = LightKind::Point;
   const auto with = [](ShadowLight light, const LightArea& area)
@@ -127,13 +129,18 @@ private:
     const glm::dmat3 turn(view.rays.viewFromCentred);
     this->p_ = glm::dvec3(view.rays.viewFromCentred * glm::dvec4(receiver.position, 1.0));
     this->n_ = turn * receiver.normal;
+    const bool positional = view.rays.positional;
+    if (glm::dot(this->n_, positional ? this->p_ : glm::dvec3(0.0, 0.0, 1.0)) >= 0.0)
+    {
+      return 0.0; // it faces away
+    }
     const glm::dmat3 texels = texelFromAcross(view, mapSize);
     this->acrossFromTexel_ = glm::inverse(texels);
     const glm::dvec2 across = view.rays.across(this->p_);
     this->texel_ = mapped(texels, across);
     // Where the light's axes seem to be on the plane z = 0, seen from the receiver.
     const glm::dmat3 area = turn * this->light_.area->worldFromUnit;
-    const glm::dvec3 ray(view.rays.positional ? across : glm::dvec2(0.0), 1.0);
+    const glm::dvec3 ray(positional ? across : glm::dvec2(0.0), 1.0);
     glm::dmat2 seen(0.0);
     if (this->light_.area->shape == LightArea::Shape::Ball)
     {
@@ -151,20 +158,22 @@ private:
       }
     }
     this->lightTexels_ = texelJacobian(texels, across) * seen;
+    const glm::dvec2 farthest = this->reach();
 
     double largest = 1e300;
     glm::dvec2 reach(1e4);
     for (int step = 0; step < 4; ++step)
     {
       largest = std::min(largest, this->separation(this->nearest(reach)));
-      reach = this->reach() * largest;
+      reach = farthest * largest;
     }
+    this->slack_ = slack * std::max(2.0 * std::max(reach.x, reach.y), 1.0);
     const auto turned = [&](int number)
     {
       glm::dvec2 place =
         this->patterned(this->points_[static_cast<std::size_t>(number)], patterned);
-      const glm::dvec3 source(seen * place, view.rays.positional ? 0.0 : -1.0);
-      const glm::dvec3 away = source - (view.rays.positional ? this->p_ : glm::dvec3(0.0));
+      const glm::dvec3 source(seen * place, positional ? 0.0 : -1.0);
+      const glm::dvec3 away = source - (positional ? this->p_ : glm::dvec3(0.0));
       return glm::dot(away, this->n_) < 0.0 ? -place : place;
     };
     double hiddenShare = 0.0;
@@ -223,7 +232,7 @@ private:
   glm::dvec2 reach() const
   {
     glm::dvec2 farthest(0.0);
-    const int corners = this->isRectangle() ? 4 : 4096;
+    const int corners = this->isRectangle() ? 4 : 1024;
     for (int i = 0; i < corners; ++i)
     {
       const double angle = glm::two_pi<double>() * (i + 0.5) / corners;
@@ -287,7 +296,7 @@ private:
       const glm::dvec2 away = centre - glm::dvec2(this->p_);
       z = std::min(z, this->p_.z - glm::dot(glm::dvec2(this->n_), away) / this->n_.z);
     }
-    const bool lit = depth >= 1.0 || z * view.depthScale + view.depthOffset <= depth + slack;
+    const bool lit = depth >= 1.0 || z * view.depthScale + view.depthOffset <= depth + this->slack_;
     return lit ? std::nullopt : std::optional<double>(this->separation(depth));
   }
 
@@ -328,6 +337,7 @@ private:
   glm::dvec2 texel_{ 0.0 };
   glm::dmat2 lightTexels_{ 0.0 };
   glm::dmat3 acrossFromTexel_{ 1.0 };
+  double slack_ = 0.0;
   int fetches_ = 0;
 };
 
@@ -348,7 +358,9 @@ std::vector<Receiver> receiversOf(const LightViews& views, const glm::dvec2& til
   const glm::dvec3 normal = glm::normalize(glm::dvec3(tilt, -1.0));
   const double distance = (0.7 - view.depthOffset) / view.depthScale;
   std::vector<Receiver> receivers;
-  for (const glm::dvec2& place : randomPlaces(4))
+  std::vector<glm::dvec2> places = randomPlaces(4);
+  places.resize(700);
+  for (const glm::dvec2& place : places)
   {
     const glm::dvec2 across = mapped(acrossFromTexel, place);
     // The plane through (0, 0, distance).
@@ -570,7 +582,7 @@ TEST(Pcss, turningThePointsLeavesNoBands)
   const double alike = bandsOf(false);
   RecordProperty("turned", std::to_string(turned));
   RecordProperty("alike", std::to_string(alike));
-  EXPECT_LT(turned, 0.012); // 100 rows of noise; a level of 16 points is 0.0625
+  EXPECT_LT(turned, 0.02); // a level of 16 points is 0.0625
   EXPECT_GT(alike, 2.0 * turned);
 }
 
@@ -584,15 +596,21 @@ TEST(Pcss, widthsAreThoseOfSimilarTriangles)
   light.positionWorld = { 0.0, 0.0, 10.0 };
   light.coneAngleDegrees = 50.0;
   light.area = rectangleArea(light.directionWorld, { 0.0, 1.0, 0.0 }, glm::dvec2(0.5));
-  const LightViews views =
-    fitLightViews(light, glm::dvec3(0.0), { { -1.0, -1.0, 5.0 }, { 1.0, 1.0, 5.0 } }, 1024, 1);
+  const Bounds casters{ { -1.0, -1.0, 5.0 }, { 1.0, 1.0, 5.0 } };
+  const Bounds receivers{ { -5.0, -5.0, 0.0 }, glm::dvec3(5.0) };
+  LightViews views = fitLightViews(light, glm::dvec3(0.0), casters, 1024, 1);
   // Half the light's diagonal times 1/5 - 1/10. Distances are cut 0.1 % short, so that rounding cuts no
   // caster off.
-  const double reach =
-    reachOfArea(*light.area, views, { glm::dvec3(-5.0, -5.0, 0.0), glm::dvec3(5.0) });
-  EXPECT_NEAR(reach, std::sqrt(0.5) * 0.1, 2e-4);
-  light.area = LightArea();
-  EXPECT_EQ(reachOfArea(*light.area, views, { glm::dvec3(-5.0), glm::dvec3(5.0) }), 0.0);
+  EXPECT_NEAR(reachOfArea(*light.area, views, casters, receivers), std::sqrt(0.5) * 0.1, 2e-4);
+  EXPECT_EQ(reachOfArea(LightArea(), views, casters, receivers), 0.0);
+  light.kind = LightKind::Directional;
+  views = fitLightViews(light, glm::dvec3(0.0), casters, 1024, 1);
+  EXPECT_NEAR(reachOfArea(*light.area, views, casters, receivers), std::sqrt(0.5) * 5.0, 1e-3);
+  // Nothing is nearer to a point light than the casters' box, whatever its faces' planes cut.
+  light.kind = LightKind::Point;
+  const Bounds wide{ glm::dvec3(-4.0), glm::dvec3(4.0) };
+  views = fitLightViews(light, glm::dvec3(0.0), wide, 1024, 1);
+  EXPECT_LT(reachOfArea(ballArea(0.3), views, wide, receivers), 0.3);
 }
 
 } // namespace
