@@ -36,19 +36,6 @@ float cosineOf(float angle)
       square / 12.0f * (1.0f - square / 30.0f * (1.0f - square / 56.0f * (1.0f - square / 90.0f))));
 }
 
-/// The concentric map from the square of half side 1 to the unit disk.
-glm::vec2 diskPoint(const glm::vec2& square)
-{
-  const bool wide = std::abs(square.x) > std::abs(square.y);
-  const float radius = wide ? square.x : square.y;
-  const float other = wide ? square.y : square.x;
-  // The middle of the square is that of the disk.
-  const float angle = radius == 0.0f ? 0.0f : glm::quarter_pi<float>() * (other / radius);
-  const float along = radius * cosineOf(angle);
-  const float across = radius * sineOf(angle);
-  return wide ? glm::vec2(along, across) : glm::vec2(across, along);
-}
-
 std::variant<SobolPoints, HashedPoints> pointsFor(const ShadowLight& light)
 {
   const auto seed = static_cast<std::uint32_t>(light.lightSeed);
@@ -66,6 +53,19 @@ std::variant<SobolPoints, HashedPoints> pointsFor(const ShadowLight& light)
 }
 
 } // namespace
+
+//------------------------------------------------------------------------------
+glm::vec2 diskPoint(const glm::vec2& square)
+{
+  const bool wide = std::abs(square.x) > std::abs(square.y);
+  const float radius = wide ? square.x : square.y;
+  const float other = wide ? square.y : square.x;
+  // The middle of the square is that of the disk.
+  const float angle = radius == 0.0f ? 0.0f : glm::quarter_pi<float>() * (other / radius);
+  const float along = radius * cosineOf(angle);
+  const float across = radius * sineOf(angle);
+  return wide ? glm::vec2(along, across) : glm::vec2(across, along);
+}
 
 //------------------------------------------------------------------------------
 LightSamples::LightSamples(const ShadowLight& light)

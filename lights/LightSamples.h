@@ -42,6 +42,10 @@ private:
   glm::mat3 worldFromUnit_;
 };
 
+/// The concentric map (Shirley and Chiu 1997) from the square of half side 1 to the unit disk, which keeps
+/// areas and, but for a factor, distances.
+glm::vec2 diskPoint(const glm::vec2& square);
+
 /// A light's place in centred coordinates: (position, 1), or (unit vector towards it, 0).
 glm::dvec4 lightPoint(const ShadowLight& light, const glm::dvec3& centreWorld);
 

@@ -200,8 +200,16 @@ const std::vector<Setting>& shadowSettings()
       IntegerSetting{ &S::discGrid, 2, 16 } },
     { "disc_sets", "adaptive: discs that differ are the square of this",
       IntegerSetting{ &S::discSets, 1, 32 } },
-    { "early_out", "adaptive: what is asked before the whole disc is read",
+    { "early_out",
+      "adaptive, pcss: what is asked before the whole disc, or all of the light, is read (pcss: "
+      "not "
+      "ring)",
       choice<EarlyOut, &S::earlyOut>({ "none", "ring", "exact" }) },
+    { "pcss_samples",
+      "pcss: points of the light to look for blockers with, and to filter with: 16 and 16, 36 and "
+      "64, "
+      "64 and 256",
+      choice<PcssSamples, &S::pcssSamples>({ "low", "medium", "high" }) },
     { "adjacency_ring",
       "crsma: which triangles around one may cover a texel with it: across its edges, or all "
       "around "

@@ -25,6 +25,8 @@
  *   "kernel_size" or "kernel_width": its points are the square of "disc_grid" (default 8), discs that
  *   differ the square of "disc_sets" (default 16); "early_out" is what is asked before all of a disc is
  *   read: "none", "ring" (its outermost points, which miss small lit gaps), or "exact" (the default);
+ * - "pcss_samples": of "pcss", from how many points of an area light: "low" (16 to look for blockers, 16 to
+ *   filter), "medium" (36 and 64, the default) or "high" (64 and 256). It takes "early_out", too: "none" or "exact";
  * - "depth": the surface on a ray that a map holds: "first" (the default), "second" (the nearest that
  *   faces away from the light; only closed surfaces whose front faces are outside cast), or "midpoint"
  *   (halfway between the first two surfaces; the first one where it is alone);

@@ -386,9 +386,10 @@ std::string RenderManager::reasonAgainstReceivers(const LightSlot& slot) const
   {
     return "translucent surfaces receive, which are not among the receivers that are drawn first";
   }
-  if (slot.technique->mapReach(slot.light).unitAcross > 0.0)
+  if (slot.technique->mapReach(slot.light).dependsOnViews())
   {
-    return "a kernel of a width in world units needs a border that follows from the fit itself";
+    return "a kernel of a width in world units, or as wide as penumbrae are, needs a border that "
+           "follows from the fit itself";
   }
   return {};
 }
@@ -541,10 +542,11 @@ void RenderManager::bakeMaps(
     fitting.camera = light.fit == ViewFit::Once && first ? first : camera;
   }
   LightViews views = fitLightViews(light, fitting);
-  if (reach.unitAcross > 0.0)
+  if (reach.dependsOnViews())
   {
     // How many texels that is, only a view can tell. A wider border makes them fewer.
-    fitting.texels.border = reach.borderTexels(mostTexelsAcross(views, light.mapSizeTexels));
+    fitting.texels.border = reach.borderTexels(mostTexelsAcross(views, light.mapSizeTexels),
+      reachOfArea(reach.area, views, fitting.castersCentred, fitting.receiversCentred));
     views = fitLightViews(light, fitting);
   }
   std::size_t receivers = 0;

@@ -8,6 +8,7 @@
 #include "shadowtech/exponential/Exponential.h"
 #include "shadowtech/moments/FourMoments.h"
 #include "shadowtech/pcf/Pcf.h"
+#include "shadowtech/pcss/Pcss.h"
 #include "shadowtech/planar/Planar.h"
 #include "shadowtech/raytraced/Raytraced.h"
 #include "shadowtech/selective/Coherence.h"
@@ -68,6 +69,7 @@ const std::vector<EstimatorEntry>& estimators()
     entry<Adaptive>(),
     entry<Compare>(),
     entry<Pcf>(),
+    entry<Pcss>(),
     entry<Variance>(),
     entry<Exponential>(),
     entry<FourMoments>(),
@@ -92,6 +94,8 @@ const std::vector<TechniqueEntry>& registry()
       findEstimator("compare"), Projection::Uniform },
     { "pcf", "hard, smoothed: the plain shadow map with percentage closer filtering",
       findEstimator("pcf"), Projection::Uniform },
+    { "pcss", "soft: percentage closer soft shadows, penumbrae as wide as an area light makes them",
+      findEstimator("pcss"), Projection::Uniform },
     { "vsm", "smoothed: variance shadow map, filtered at a cost that does not depend on the width",
       findEstimator("variance"), Projection::Uniform },
     { "evsm", "smoothed: exponential variance shadow map, which lets less light bleed through",
@@ -247,6 +251,15 @@ std::string refusedAverage(const ShadowLight& light, const TechniqueInfo& info)
   return {};
 }
 
+/// Why an estimator cannot ask first what a light's settings say; empty if it can.
+std::string refusedEarlyOut(const ShadowLight& light, const TechniqueInfo& info)
+{
+  return info.name == Pcss::info().name && light.earlyOut == EarlyOut::Ring
+    ? "'pcss' has no ring of points to believe, since its points are all over the light; its "
+      "'early_out' is exact or none"
+    : "";
+}
+
 /// Why the stages of a chain of tests make no sense together; empty if they do.
 std::string refusedStages(const ShadowLight& light, const TechniqueInfo& info)
 {
@@ -312,8 +325,8 @@ const EstimatorEntry& compose(ShadowLight& light)
     throw CompositionError(
       "the kernel 'castano' has the sizes 3, 5 and 7, not " + std::to_string(light.kernelTexels));
   }
-  for (const std::string& refused : { refusedAverage(light, info), refusedStages(light, info),
-         refusedSamples(light), refusedProjection(light) })
+  for (const std::string& refused : { refusedAverage(light, info), refusedEarlyOut(light, info),
+         refusedStages(light, info), refusedSamples(light), refusedProjection(light) })
   {
     if (!refused.empty())
     {

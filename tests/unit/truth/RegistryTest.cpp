@@ -137,7 +137,7 @@ TEST(Registry, refusesToAverageDepths)
     const char* verdict = depths ? "map_samples" : "";
     expectVerdicts(settings, { verdict, verdict, verdict, verdict }, settings.estimator);
   }
-  for (const char* name : { "compare", "pcf", "adaptive" })
+  for (const char* name : { "compare", "pcf", "adaptive", "pcss" })
   {
     EXPECT_FALSE(findEstimator(name)->info.averagesMap) << name;
   }
@@ -160,7 +160,7 @@ TEST(Registry, sumsOnlyMomentsThatIntegersHold)
                                                               : "";
     expectVerdicts(settings, { verdict, verdict, verdict, verdict }, settings.estimator);
   }
-  for (const char* name : { "compare", "pcf", "adaptive", "exponential" })
+  for (const char* name : { "compare", "pcf", "adaptive", "pcss", "exponential" })
   {
     EXPECT_FALSE(findEstimator(name)->info.sumsMap) << name;
   }
@@ -186,6 +186,20 @@ TEST(Registry, buildsLevelsOfBlurredMomentsOnly)
       expectVerdicts(settings, { "no levels", "no levels", "no levels", "no levels" },
         settings.estimator + " with blur sat");
     }
+  }
+}
+
+TEST(Registry, refusesARingOfPointsThatThereIsNot)
+{
+  for (const EstimatorEntry& estimator : estimators())
+  {
+    ShadowSettings settings;
+    settings.estimator = estimator.info.name;
+    settings.earlyOut = EarlyOut::Ring;
+    const char* verdict = estimator.info.name == "pcss" ? "exact or none" : "";
+    expectVerdicts(settings, { verdict, verdict, verdict, verdict }, settings.estimator);
+    settings.earlyOut = EarlyOut::None;
+    expectVerdicts(settings, { "", "", "", "" }, settings.estimator);
   }
 }
 
