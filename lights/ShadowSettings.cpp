@@ -246,6 +246,12 @@ const std::vector<Setting>& shadowSettings()
       IntegerSetting{ &S::lightSamples, 1, 65536 } },
     { "light_seed", "soft shadows of area lights: which points these are",
       IntegerSetting{ &S::lightSeed, 0, 2147483647 } },
+    { "batch", "sampled: how many points of the light have their maps drawn and held at a time",
+      IntegerSetting{ &S::batchSamples, 1, mostBatchSamples } },
+    { "progressive",
+      "sampled: how many points of the light each frame adds while nothing changes, after a first "
+      "frame with hard shadows; 0: all are in every frame",
+      IntegerSetting{ &S::progressiveSamples, 0, 65536 } },
     { "depth", "the surface on a ray that a map holds",
       choice<DepthSurface, &S::depth>({ "first", "second", "midpoint" }) },
     { "metric", "how a map measures: along the view's axis, or along the ray",

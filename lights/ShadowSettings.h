@@ -105,6 +105,9 @@ enum class OutsideContour
   Check ///< those whose nine texels do not agree are treated as if they were inside
 };
 
+/// The most points of a light whose maps `sampled` holds at a time: one shader reads all of them.
+constexpr int mostBatchSamples = 8;
+
 /// The most planes that planar shadows can be asked for.
 constexpr int mostPlanes = 64;
 
@@ -190,7 +193,11 @@ struct ShadowSettings
   /// units, of a directional light the degrees of the whole angle that it fills.
   double lightRadius = 0.0;
   int lightSamples = 64;
-  int lightSeed = 0; ///< which points these are
+  int lightSeed = 0;    ///< which points these are
+  int batchSamples = 8; ///< of `sampled`: points whose maps are held at a time
+  /// Of `sampled`: points that each frame adds while nothing changes, the first one showing the hard shadow of
+  /// the centre; 0: all are in every frame.
+  int progressiveSamples = 0;
   ///@}
 
   /// Whether another light's map holds the same for the same views and filter.

@@ -10,6 +10,7 @@
 #include "shadowtech/pcf/Pcf.h"
 #include "shadowtech/planar/Planar.h"
 #include "shadowtech/raytraced/Raytraced.h"
+#include "shadowtech/sampled/Sampled.h"
 #include "shadowtech/selective/Coherence.h"
 #include "shadowtech/selective/Selective.h"
 #include "shadowtech/silhouette/Silhouette.h"
@@ -72,6 +73,7 @@ const std::vector<EstimatorEntry>& estimators()
     entry<FourMoments>(),
     entry<Planar>(),
     entry<Raytraced>(),
+    entry<Sampled>(),
     entry<Coherence>(),
     entry<Selective>(),
     entry<Crsm>(),
@@ -108,6 +110,8 @@ const std::vector<TechniqueEntry>& registry()
       findEstimator("compare"), Projection::Splits },
     { "planar", "hard, soft: casters projected onto the flat receivers, with no shadows elsewhere",
       findEstimator("planar"), Projection::Uniform },
+    { "sampled", "soft: a shadow map from each of many points of the light",
+      findEstimator("sampled"), Projection::Uniform },
     { "coherence",
       "hard, hybrid: pixels whose texels disagree are traced, the others get what those say",
       findEstimator("coherence"), Projection::Uniform },
@@ -246,6 +250,19 @@ std::string refusedAverage(const ShadowLight& light, const TechniqueInfo& info)
   return {};
 }
 
+/// Why the maps of a light's points cannot be laid out as its settings say; empty if they can.
+std::string refusedPoints(const ShadowLight& light, const TechniqueInfo& info)
+{
+  const bool alike =
+    light.projection == Projection::Uniform || light.projection == Projection::Cube;
+  return alike || info.name != Sampled::info().name ? ""
+                                                    : "'" + info.name +
+      "' looks from all points of the light at what its centre reaches, for which the projections "
+      "are "
+      "uniform and cube, not '" +
+      findSetting("projection")->get(light) + "'";
+}
+
 /// Why the stages of a chain of tests make no sense together; empty if they do.
 std::string refusedStages(const ShadowLight& light, const TechniqueInfo& info)
 {
@@ -298,8 +315,8 @@ const EstimatorEntry& compose(ShadowLight& light)
     throw CompositionError(
       "the kernel 'castano' has the sizes 3, 5 and 7, not " + std::to_string(light.kernelTexels));
   }
-  for (const std::string& refused :
-    { refusedAverage(light, info), refusedStages(light, info), refusedProjection(light) })
+  for (const std::string& refused : { refusedAverage(light, info), refusedStages(light, info),
+         refusedProjection(light), refusedPoints(light, info) })
   {
     if (!refused.empty())
     {
