@@ -44,7 +44,7 @@
  * - "adjacency_ring": of "crsma", which triangles around one may cover a texel together with it: "edges" (the default;
  *   those across its edges), or "vertices" (all around its corners, which decides more and takes longer);
  * - "light_samples", "light_seed": of area lights (vtkGnomonAreaLight) and techniques with soft shadows ("raytraced",
- *   "planar"), from how many points of the light, 1 to 65536 (default 64), and which ones (default 0);
+ *   "sampled", "planar"), from how many points of the light, 1 to 65536 (default 64), and which ones (default 0);
  * - "light_radius": makes any light an area light, a disk across it or of a point light a ball, in the units of
  *   vtkGnomonAreaLight's Radius (default 0: as large as it says itself);
  * - "as_published": "on" for "crsm" and "crsma" by the letter of their publication, which is not exact (default "off").

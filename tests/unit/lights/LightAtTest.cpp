@@ -121,12 +121,12 @@ TEST(LightAt, laysOutAllPointsOfALightAlike)
 {
   const auto layouts = [](const ShadowLight& light)
   {
-    std::vector<ViewLayout> layouts;
+    std::vector<ViewLayout> ofPoints;
     for (const glm::dvec3& offset : pairedLightSamples(light))
     {
-      layouts.push_back(viewLayout(lightAt(light, offset, fittingTo(scene))));
+      ofPoints.push_back(viewLayout(lightAt(light, offset, fittingTo(scene))));
     }
-    return layouts;
+    return ofPoints;
   };
   const std::vector<ViewLayout> single(12, ViewLayout::Single);
   const std::vector<ViewLayout> cube(12, ViewLayout::Cube);
