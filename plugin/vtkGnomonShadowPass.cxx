@@ -503,5 +503,6 @@ void vtkGnomonShadowPass::PrintSelf(ostream& os, vtkIndent indent)
      << "DelegatePass: " << (this->DelegatePass ? this->DelegatePass->GetClassName() : "(none)")
      << "\n";
   os << indent << "ObeyUseShadows: " << (this->ObeyUseShadows ? "on" : "off") << "\n";
+  os << indent << "Progress: " << this->GetProgress() << "\n";
   os << indent << "Last frame's route: " << this->GetReport().route << "\n";
 }

@@ -253,14 +253,16 @@ std::string refusedAverage(const ShadowLight& light, const TechniqueInfo& info)
 /// Why the maps of a light's points cannot be laid out as its settings say; empty if they can.
 std::string refusedPoints(const ShadowLight& light, const TechniqueInfo& info)
 {
-  const bool alike =
-    light.projection == Projection::Uniform || light.projection == Projection::Cube;
-  return alike || info.name != Sampled::info().name ? ""
-                                                    : "'" + info.name +
-      "' looks from all points of the light at what its centre reaches, for which the projections "
-      "are "
-      "uniform and cube, not '" +
-      findSetting("projection")->get(light) + "'";
+  const Projection projection = light.projection;
+  if (info.name != Sampled::info().name || projection == Projection::Uniform ||
+    projection == Projection::Cube)
+  {
+    return {};
+  }
+  return "'" + info.name +
+    "' looks from all points of the light at what its centre reaches, with the projections uniform "
+    "and cube, not '" +
+    findSetting("projection")->get(light) + "'";
 }
 
 /// Why the stages of a chain of tests make no sense together; empty if they do.
