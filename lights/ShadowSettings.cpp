@@ -257,6 +257,12 @@ const std::vector<Setting>& shadowSettings()
       "soft shadows of area lights: evenly spread points, random ones in the cells of a grid "
       "(light_samples is a square then), or random ones",
       choice<LightSampling, &S::lightSampling>({ "sobol", "jittered", "random" }) },
+    { "batch", "sampled: how many points of the light have their maps drawn and held at a time",
+      IntegerSetting{ &S::batchSamples, 1, mostBatchSamples } },
+    { "progressive",
+      "sampled: how many points of the light each frame adds while nothing changes, after a first "
+      "frame with hard shadows; 0: all are in every frame",
+      IntegerSetting{ &S::progressiveSamples, 0, 65536 } },
     { "depth", "the surface on a ray that a map holds",
       choice<DepthSurface, &S::depth>({ "first", "second", "midpoint" }) },
     { "metric", "how a map measures: along the view's axis, or along the ray",

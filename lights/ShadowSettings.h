@@ -122,6 +122,9 @@ enum class LightSampling
   Random    ///< random ones
 };
 
+/// The most points of a light whose maps `sampled` holds at a time: one shader reads all of them.
+constexpr int mostBatchSamples = 8;
+
 /// The most planes that planar shadows can be asked for.
 constexpr int mostPlanes = 64;
 
@@ -211,6 +214,10 @@ struct ShadowSettings
   int lightSamples = 64;
   int lightSeed = 0; ///< which points these are
   LightSampling lightSampling = LightSampling::Sobol;
+  int batchSamples = 8; ///< of `sampled`: points whose maps are held at a time
+  /// Of `sampled`: points that each frame adds while nothing changes, the first one showing the hard shadow of
+  /// the centre; 0: all are in every frame.
+  int progressiveSamples = 0;
   ///@}
 
   /// Whether another light's map holds the same for the same views and filter.

@@ -561,7 +561,6 @@ void RenderManager::bakeMaps(
   if (bake.serves(wanted))
   {
     this->reportOf(light).castersLeftOut = bake.castersLeftOut;
-    this->report_.bytesMaps += technique.bytesOfMaps();
     return;
   }
   bake.once = false; // in case that there is no memory
@@ -585,7 +584,7 @@ void RenderManager::bakeMaps(
   try
   {
     technique.bake({ light, wanted.views, occluders, this->buffers_, this->library_,
-      light.fittedToReceivers ? slot.receiverFit.fits() : TextureBinding() });
+      light.fittedToReceivers ? slot.receiverFit.fits() : TextureBinding(), fitting });
   }
   catch (const TextureMemoryError& error)
   {
@@ -595,7 +594,6 @@ void RenderManager::bakeMaps(
   bake.castersLeftOut = this->buffers_.countUnseen(wanted.views.views);
   ++this->report_.mapBakes;
   this->reportOf(light).castersLeftOut = bake.castersLeftOut;
-  this->report_.bytesMaps += technique.bytesOfMaps();
 }
 
 //------------------------------------------------------------------------------
@@ -675,11 +673,11 @@ void RenderManager::computeVisibility(int wishedTracer, bool keep)
       case Evaluation::ScreenGpu:
         this->buffers_.update(occluders);
         slot.technique->drawVisibility(
-          { slot.light, this->camera_, occluders, this->buffers_, this->receiverTarget_,
-            this->collector_.drawnSurfaces(), this->layers_, layer, this->library_, classify,
-            this->report_.notes },
+          { slot.light, this->camera_, this->stageValues_.space, occluders, this->buffers_,
+            this->receiverTarget_, this->receiversShown_, this->collector_.drawnSurfaces(),
+            this->layers_, layer, this->library_, classify, this->report_.notes,
+            this->report_.mapBakes },
           report);
-        this->report_.bytesMaps += slot.technique->bytesOfMaps();
         this->endStageClock("visibility: draw");
         break;
       case Evaluation::ScreenCpu:
@@ -764,6 +762,11 @@ void RenderManager::endFrame()
   report.bytesOccluders =
     this->collector_.bytes() + this->buffers_.bytes() + this->tracer_.bytesOfTable();
   report.bytesBvh = this->tracer_.bytes();
+  for (const LightSlot* slot : this->casting_)
+  {
+    report.bytesMaps +=
+      slot->technique->bytesOfMaps() + (slot->plain ? slot->plain->bytesOfMaps() : 0);
+  }
   if (this->route_ == Route::Image)
   {
     report.bytesImages = this->receiverTarget_.bytes() + this->layers_.bytes() +

@@ -11,6 +11,7 @@
 #include "shadowtech/pcss/Pcss.h"
 #include "shadowtech/planar/Planar.h"
 #include "shadowtech/raytraced/Raytraced.h"
+#include "shadowtech/sampled/Sampled.h"
 #include "shadowtech/selective/Coherence.h"
 #include "shadowtech/selective/Selective.h"
 #include "shadowtech/silhouette/Silhouette.h"
@@ -75,6 +76,7 @@ const std::vector<EstimatorEntry>& estimators()
     entry<FourMoments>(),
     entry<Planar>(),
     entry<Raytraced>(),
+    entry<Sampled>(),
     entry<Coherence>(),
     entry<Selective>(),
     entry<Crsm>(),
@@ -113,6 +115,8 @@ const std::vector<TechniqueEntry>& registry()
       findEstimator("compare"), Projection::Splits },
     { "planar", "hard, soft: casters projected onto the flat receivers, with no shadows elsewhere",
       findEstimator("planar"), Projection::Uniform },
+    { "sampled", "soft: a shadow map from each of many points of the light",
+      findEstimator("sampled"), Projection::Uniform },
     { "coherence",
       "hard, hybrid: pixels whose texels disagree are traced, the others get what those say",
       findEstimator("coherence"), Projection::Uniform },
@@ -260,6 +264,21 @@ std::string refusedEarlyOut(const ShadowLight& light, const TechniqueInfo& info)
     : "";
 }
 
+/// Why the maps of a light's points cannot be laid out as its settings say; empty if they can.
+std::string refusedPoints(const ShadowLight& light, const TechniqueInfo& info)
+{
+  const Projection projection = light.projection;
+  if (info.name != Sampled::info().name || projection == Projection::Uniform ||
+    projection == Projection::Cube)
+  {
+    return {};
+  }
+  return "'" + info.name +
+    "' looks from all points of the light at what its centre reaches, with the projections uniform "
+    "and cube, not '" +
+    findSetting("projection")->get(light) + "'";
+}
+
 /// Why the stages of a chain of tests make no sense together; empty if they do.
 std::string refusedStages(const ShadowLight& light, const TechniqueInfo& info)
 {
@@ -325,8 +344,9 @@ const EstimatorEntry& compose(ShadowLight& light)
     throw CompositionError(
       "the kernel 'castano' has the sizes 3, 5 and 7, not " + std::to_string(light.kernelTexels));
   }
-  for (const std::string& refused : { refusedAverage(light, info), refusedEarlyOut(light, info),
-         refusedStages(light, info), refusedSamples(light), refusedProjection(light) })
+  for (const std::string& refused :
+    { refusedAverage(light, info), refusedEarlyOut(light, info), refusedStages(light, info),
+      refusedSamples(light), refusedProjection(light), refusedPoints(light, info) })
   {
     if (!refused.empty())
     {

@@ -162,7 +162,8 @@ nlohmann::ordered_json toJson(const FrameReport& report)
         { "casters_left_out", light.castersLeftOut }, { "kernel", light.kernel },
         { "kernel_size_texels", light.kernelTexels }, { "map_samples", light.mapSamples },
         { "traced_pixels", light.tracedPixels }, { "light_samples", light.lightSamples },
-        { "planes", light.planes }, { "pixels_off_planes", light.pixelsOffPlanes },
+        { "progress", light.progress }, { "planes", light.planes },
+        { "pixels_off_planes", light.pixelsOffPlanes },
         { "classes", classesToJson(light.classes) } });
   }
   json["notes"] = report.notes;
@@ -272,7 +273,10 @@ void render(const RenderOptions& options)
     "bake", "always"); // the only frame is to show what techniques do with their maps
   renderer->SetPass(shadows);
   window->AddRenderer(renderer);
-  window->Render();
+  do
+  {
+    window->Render();
+  } while (shadows->GetProgress() < 1.0);
 
   for (const std::string& warning : messages.warnings())
   {

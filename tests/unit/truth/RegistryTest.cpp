@@ -89,6 +89,7 @@ TEST(Registry, knowsWhichEstimatorsAreFunctionsOfThePoint)
       << estimator.info.name;
   }
   EXPECT_EQ(findEstimator("planar")->info.evaluation, Evaluation::ScreenGpu);
+  EXPECT_EQ(findEstimator("sampled")->info.evaluation, Evaluation::ScreenGpu);
   EXPECT_EQ(findEstimator("raytraced")->info.evaluation, Evaluation::ScreenCpu);
 }
 
@@ -97,6 +98,8 @@ TEST(Registry, takesOrRefusesEveryComposition)
   const Verdicts all{ "", "", "", "" };
   const Verdicts single{ "", "", "faces of a cube", "faces of a cube" };
   const Verdicts cube{ "directional", "", "", "" };
+  const Verdicts uniform{ "uniform and cube", "uniform and cube", "faces of a cube",
+    "faces of a cube" };
   const Verdicts noMap{ "no map", "no map", "no map", "no map" };
   for (const TechniqueEntry& technique : registry())
   {
@@ -118,9 +121,10 @@ TEST(Registry, takesOrRefusesEveryComposition)
           what + ", projection " + findSetting("projection")->get(settings));
       };
       expectOf(Projection::Uniform, all);
-      expectOf(Projection::Lispsm, single);
-      expectOf(Projection::Trapezoid, single);
-      expectOf(Projection::Splits, single);
+      const Verdicts& divided = settings.estimator == "sampled" ? uniform : single;
+      expectOf(Projection::Lispsm, divided);
+      expectOf(Projection::Trapezoid, divided);
+      expectOf(Projection::Splits, divided);
       expectOf(Projection::Cube, cube);
     }
   }
