@@ -26,7 +26,8 @@ void Raytraced::computeVisibility(
                                     input.receivers, visibility, nullptr, input.classes)
                                 : input.tracer.trace(input.light, input.occluders, input.receivers,
                                     visibility, nullptr, input.classes);
-  report.tracedPixels = static_cast<std::int64_t>(rays) / report.lightSamples;
+  report.rays = static_cast<std::int64_t>(rays);
+  report.tracedPixels = report.rays / report.lightSamples;
 }
 
 } // namespace gnomon
