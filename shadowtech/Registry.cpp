@@ -9,6 +9,7 @@
 #include "shadowtech/moments/FourMoments.h"
 #include "shadowtech/pcf/Pcf.h"
 #include "shadowtech/pcss/Pcss.h"
+#include "shadowtech/penumbra/Penumbra.h"
 #include "shadowtech/planar/Planar.h"
 #include "shadowtech/raytraced/Raytraced.h"
 #include "shadowtech/sampled/Sampled.h"
@@ -84,6 +85,7 @@ const std::vector<EstimatorEntry>& estimators()
     entry<Crsma>(),
     entry<CrsmaAsPublished>(),
     entry<Silhouette>(),
+    entry<Penumbra>(),
   };
   return entries;
 }
@@ -133,6 +135,9 @@ const std::vector<TechniqueEntry>& registry()
       "hard, exact: a conservative map that knows where casters end decides most pixels, rays the "
       "rest",
       findEstimator("silhouette"), Projection::Uniform },
+    { "penumbra",
+      "soft, exact: the light is counted between the edges that casters show it, rays the rest",
+      findEstimator("penumbra"), Projection::Uniform },
     { "raytraced", "hard, exact: a shadow ray for every pixel; the truth",
       findEstimator("raytraced"), Projection::Uniform },
   };
