@@ -1,0 +1,88 @@
+#!/bin/bash
+# Measures the error of soft shadows against the time that they take, and writes docs/soft.md. Takes about a quarter of an hour;
+# what was measured before, in out/soft, is not measured again.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+source cmake/debian.sh
+
+install_packages
+build release
+
+out=out/soft
+mkdir -p "$out"
+
+techniques=nsm,pcss:pcss_samples=low,pcss,pcss:pcss_samples=high
+for rays in 2 3 4 8; do
+  techniques+=",montecarlo:mc_rays=$rays"
+done
+for samples in 4 16 64 256; do
+  techniques+=",sampled:light_samples=$samples,penumbra:light_samples=$samples,raytraced:light_samples=$samples"
+done
+for sampling in jittered random; do
+  for samples in 4 16 64 256; do
+    techniques+=",raytraced:light_sampling=$sampling:light_samples=$samples"
+  done
+done
+
+# compare SCENE OPTION... : measures into $out/SCENE, unless that was done before
+compare() {
+  local folder="$out/$1"
+  if [ ! -e "$folder/results.csv" ]; then
+    rm -rf "$folder.part"
+    build/release/bin/gnomon compare "$1" -o "$folder.part" --techniques "$techniques" --route image --size 256x256 --frames 5 "${@:2}"
+    mv "$folder.part" "$folder"
+  fi
+}
+
+scenes=(soft-stack soft-panels soft-plates soft-long-cube bunny atrium)
+for scene in "${scenes[@]:0:4}"; do
+  compare "$scene"
+done
+# The sun of these two is a point otherwise; 5 degrees make its penumbrae show.
+compare bunny --light-radius 5
+compare atrium --light-radius 5
+
+# One scene's variants: error, time, and the error of raytraced at that time, between its two numbers of samples around it.
+table() {
+  sed '1s/"\([^",]*\),\([^",]*\)"/\1\2/g' "$out/$1/results.csv" | awk -F, '
+    { sub(/\r$/, "") }
+    NR == 1 { for (i = NF; i >= 1; --i) column[$i] = i; next }
+    {
+      name = $1; sub(/ 1024/, "", name); sub(/ image$/, "", name)
+      if (name ~ /VTK|vtkShadowMapPass/) next
+      order[++count] = name
+      mae[name] = $(column["mean_absolute_error"]); rms[name] = $(column["rms_error"]); ms[name] = $(column["camera_moving_ms"])
+      if (name ~ /^raytraced light_samples=[0-9]+$/) truth[++truths] = name
+    }
+    END {
+      print "| | MAE | RMS | ms | RMS of `raytraced` in that time |"
+      print "|---|---|---|---|---|"
+      for (k = 1; k <= count; ++k) {
+        name = order[k]; other = ""
+        for (i = 1; i < truths; ++i) {
+          a = truth[i]; b = truth[i + 1]
+          if (ms[a] <= ms[name] && ms[name] <= ms[b] && ms[a] < ms[b])
+            other = sprintf("%.4f", exp(log(rms[a]) + (log(rms[b]) - log(rms[a])) * (log(ms[name]) - log(ms[a])) / (log(ms[b]) - log(ms[a]))))
+        }
+        if (truths && ms[name] < ms[truth[1]]) other = "none: less than with 4"
+        if (truths && ms[name] > ms[truth[truths]]) other = "less: more than with 256"
+        if (name ~ /^raytraced/) other = ""
+        printf "| `%s` | %.5f | %.4f | %.0f | %s |\n", name, mae[name], rms[name], ms[name], other
+      }
+    }'
+}
+
+machine="$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1), $(nproc) processors"
+{
+  echo "# Soft shadows: error against time"
+  echo
+  echo "Written by \`docs/soft.sh\`, on: $machine; OpenGL by software (llvmpipe). Errors are those of visibility against \`raytraced\`"
+  echo "with 4,096 other samples, over the pixels that face the light; times are those of whole frames with a moving camera, 256 x 256 pixels, maps of"
+  echo "1024, median of 5, all techniques taking turns. What a technique is and lacks: [soft](techniques/soft.md), [montecarlo](techniques/montecarlo.md), [penumbra](techniques/penumbra.md)."
+  for scene in "${scenes[@]}"; do
+    echo
+    echo "## $scene"
+    echo
+    table "$scene"
+  done
+} > docs/soft.md
