@@ -249,6 +249,20 @@ const std::vector<Setting>& shadowSettings()
       "soft shadows of area lights: evenly spread points, random ones in the cells of a grid "
       "(light_samples is a square then), or random ones",
       choice<LightSampling, &S::lightSampling>({ "sobol", "jittered", "random" }) },
+    { "mc_rays",
+      "montecarlo: rays of a pixel along either side of a grid on the light, so that 3 makes 9",
+      IntegerSetting{ &S::mcRays, 1, 32 } },
+    { "mc_layers",
+      "montecarlo: what is solid in a texel: each of up to four casters, all between the first and "
+      "the last surface, or all behind the first",
+      choice<RayLayers, &S::mcLayers>({ "peeled", "near_far", "near" }) },
+    { "mc_pyramid",
+      "montecarlo: how the bounds over the map lie: on a grid, or around every texel, which takes "
+      "ten times the memory",
+      choice<SlabHierarchy, &S::mcPyramid>({ "mips", "nbuffer" }) },
+    { "mc_filter",
+      "montecarlo: radius of the filter in pixels that takes off the noise, on surfaces; 0: none",
+      IntegerSetting{ &S::mcFilter, 0, 32 } },
     { "depth", "the surface on a ray that a map holds",
       choice<DepthSurface, &S::depth>({ "first", "second", "midpoint" }) },
     { "metric", "how a map measures: along the view's axis, or along the ray",

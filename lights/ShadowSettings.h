@@ -113,6 +113,21 @@ enum class LightSampling
   Random    ///< random ones
 };
 
+/// What rays through a light's map take for solid in a texel.
+enum class RayLayers
+{
+  Peeled,  ///< each of the first few casters by itself
+  NearFar, ///< all between the first and the last surface
+  Near     ///< all behind the first surface
+};
+
+/// How bounds over the texels of such a map are laid out.
+enum class SlabHierarchy
+{
+  Mips,   ///< a pyramid: squares on a grid
+  NBuffer ///< squares around every texel, for as many times the memory as there are levels
+};
+
 /// The most planes that planar shadows can be asked for.
 constexpr int mostPlanes = 64;
 
@@ -202,6 +217,14 @@ struct ShadowSettings
   LightSampling lightSampling = LightSampling::Sobol;
   ///@}
 
+  ///@{
+  /// Of `montecarlo`.
+  int mcRays = 3; ///< to the cells of a grid of so many along either side of the light
+  RayLayers mcLayers = RayLayers::Peeled;
+  SlabHierarchy mcPyramid = SlabHierarchy::Mips;
+  int mcFilter = 5; ///< in pixels; 0: none
+  ///@}
+
   /// Whether another light's map holds the same for the same views and filter.
   bool storesAs(const ShadowSettings& other) const
   {
@@ -210,7 +233,8 @@ struct ShadowSettings
       this->discSets == other.discSets && this->earlyOut == other.earlyOut &&
       this->adjacencyRing == other.adjacencyRing && this->depth == other.depth &&
       this->metric == other.metric && this->biasConstant == other.biasConstant &&
-      this->biasSlope == other.biasSlope;
+      this->biasSlope == other.biasSlope && this->mcLayers == other.mcLayers &&
+      this->mcPyramid == other.mcPyramid;
   }
 };
 

@@ -540,12 +540,13 @@ void RenderManager::bakeMaps(
     const std::optional<CameraView>& first = bake.camera ? bake.camera : slot.awaited.camera;
     fitting.camera = light.fit == ViewFit::Once && first ? first : camera;
   }
-  LightViews views = fitLightViews(light, fitting);
+  const ShadowLight seen = technique.lightOfMap(light);
+  LightViews views = fitLightViews(seen, fitting);
   if (reach.unitAcross > 0.0)
   {
     // How many texels that is, only a view can tell. A wider border makes them fewer.
     fitting.texels.border = reach.borderTexels(mostTexelsAcross(views, light.mapSizeTexels));
-    views = fitLightViews(light, fitting);
+    views = fitLightViews(seen, fitting);
   }
   std::size_t receivers = 0;
   if (light.fittedToReceivers)
@@ -675,7 +676,7 @@ void RenderManager::computeVisibility(int wishedTracer, bool keep)
         slot.technique->drawVisibility(
           { slot.light, this->camera_, occluders, this->buffers_, this->receiverTarget_,
             this->collector_.drawnSurfaces(), this->layers_, layer, this->library_, classify,
-            this->report_.notes },
+            classify ? &classes : nullptr, this->report_.notes },
           report);
         this->report_.bytesMaps += slot.technique->bytesOfMaps();
         this->endStageClock("visibility: draw");

@@ -7,6 +7,7 @@
 #include "shadowtech/crsma/Crsma.h"
 #include "shadowtech/exponential/Exponential.h"
 #include "shadowtech/moments/FourMoments.h"
+#include "shadowtech/montecarlo/MonteCarlo.h"
 #include "shadowtech/pcf/Pcf.h"
 #include "shadowtech/planar/Planar.h"
 #include "shadowtech/raytraced/Raytraced.h"
@@ -71,6 +72,7 @@ const std::vector<EstimatorEntry>& estimators()
     entry<Variance>(),
     entry<Exponential>(),
     entry<FourMoments>(),
+    entry<MonteCarlo>(),
     entry<Planar>(),
     entry<Raytraced>(),
     entry<Coherence>(),
@@ -109,6 +111,9 @@ const std::vector<TechniqueEntry>& registry()
       findEstimator("compare"), Projection::Splits },
     { "planar", "hard, soft: casters projected onto the flat receivers, with no shadows elsewhere",
       findEstimator("planar"), Projection::Uniform },
+    { "montecarlo",
+      "soft: a few random rays for each pixel through depth layers of the map, and a filter",
+      findEstimator("montecarlo"), Projection::Uniform },
     { "coherence",
       "hard, hybrid: pixels whose texels disagree are traced, the others get what those say",
       findEstimator("coherence"), Projection::Uniform },
@@ -274,6 +279,25 @@ std::string refusedStages(const ShadowLight& light, const TechniqueInfo& info)
   return {};
 }
 
+/// Why rays cannot be followed through the light's map as its settings lay it out; empty if they can.
+std::string refusedRays(const ShadowLight& light, const TechniqueInfo& info)
+{
+  if (info.name != MonteCarlo::info().name)
+  {
+    return {};
+  }
+  if (light.projection != Projection::Uniform && light.projection != Projection::Cube)
+  {
+    return "'montecarlo' follows rays through a map that holds all casters, and the projection '" +
+      findSetting("projection")->get(light) +
+      "' is made for what a camera sees; it takes uniform and cube";
+  }
+  return light.fit == ViewFit::Off
+    ? ""
+    : "'montecarlo' follows rays through a map that holds all casters, and one with 'fit' " +
+      findSetting("fit")->get(light) + " holds what a camera sees; it takes off";
+}
+
 /// Why an area light cannot have samples as its settings say; empty if it can.
 std::string refusedSamples(const ShadowLight& light)
 {
@@ -313,7 +337,7 @@ const EstimatorEntry& compose(ShadowLight& light)
       "the kernel 'castano' has the sizes 3, 5 and 7, not " + std::to_string(light.kernelTexels));
   }
   for (const std::string& refused : { refusedAverage(light, info), refusedStages(light, info),
-         refusedSamples(light), refusedProjection(light) })
+         refusedSamples(light), refusedRays(light, info), refusedProjection(light) })
   {
     if (!refused.empty())
     {

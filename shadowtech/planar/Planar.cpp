@@ -1,10 +1,10 @@
 #include "shadowtech/planar/Planar.h"
 
 #include "lights/LightSamples.h"
-#include "lights/LightSpace.h"
 #include "lights/PlanarProjection.h"
 #include "shadowtech/base/CasterDrawing.h"
 #include "shadowtech/base/GlState.h"
+#include "shadowtech/base/LightReach.h"
 #include "shadowtech/base/Occluders.h"
 #include "shadowtech/base/ReceiverTarget.h"
 #include "shadowtech/base/Receivers.h"
@@ -12,7 +12,6 @@
 #include "shadowtech/base/VisibilityLayers.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace gnomon
 {
@@ -264,21 +263,9 @@ void Planar::drawShadows(const LayerInput& input, const Batch& batch)
 /// Adds a batch's samples to those before; after the last one, fills the light's layer.
 void Planar::sumUp(const LayerInput& input, const Batch& batch)
 {
-  const ShadowLight& light = input.light;
   const glm::dmat4& viewFromCentred = input.camera.viewFromCentred;
-  const glm::dmat4 lightFromView =
-    lightFromCentred(light, input.occluders.centreWorld) * glm::inverse(viewFromCentred);
-  const double tangent = std::tan(glm::radians(light.coneAngleDegrees));
-  const LightBox box = light.box.value_or(LightBox());
-  std::vector<std::string> defines = { "PLANES " + std::to_string(mostPlanes) };
-  if (light.kind == LightKind::Spot)
-  {
-    defines.emplace_back("SPOT");
-  }
-  if (light.box)
-  {
-    defines.emplace_back("BOX");
-  }
+  std::vector<std::string> defines = lightReachDefines(input.light);
+  defines.push_back("PLANES " + std::to_string(mostPlanes));
   const GLuint program = ScreenPass::use(
     input.shaders, ShaderLibrary::source("shadowtech/planar/planar_visibility.frag.glsl"), defines);
   const std::size_t number = batch.first / samplesPerBatch;
@@ -289,11 +276,11 @@ void Planar::sumUp(const LayerInput& input, const Batch& batch)
     { "shadows", TextureBinding{ GL_TEXTURE_2D, this->shadows_.name() } },
     { "litBefore", TextureBinding{ GL_TEXTURE_2D, this->lit_[number % 2].name() } },
     { "isFirst", number == 0 ? 1 : 0 }, { "sampleCount", static_cast<int>(batch.count) },
-    { "divisor", batch.last ? static_cast<float>(this->samples_.size()) : 1.0f },
-    { "lightFromView", glm::mat4(lightFromView) },
-    { "lightCone", static_cast<float>(tangent * tangent) },
-    { "lightBox", glm::vec3(0.5 * box.width, 0.5 * box.height, box.depth) }
+    { "divisor", batch.last ? static_cast<float>(this->samples_.size()) : 1.0f }
   };
+  const std::vector<Uniform> reach =
+    lightReachUniforms(input.light, input.occluders.centreWorld, viewFromCentred);
+  uniforms.insert(uniforms.end(), reach.begin(), reach.end());
   for (std::size_t i = 0; i < batch.count; ++i)
   {
     uniforms.push_back({ "samplesView[" + std::to_string(i) + "]",

@@ -1,0 +1,63 @@
+// A Gaussian over the pixels around one along a row or a column, of those that show the same surface (Curtis 2009, section 3,
+// whose weights know depth alone). The first of the two passes goes along rows.
+//
+// What is turned away from the light is left as it is and gives nothing to others. A pixel with no searched one in its square
+// keeps its visibility bit for bit.
+
+#include "shadowtech/montecarlo/classes.glsl"
+
+uniform sampler2D receiverFragments; // x: > 0 if it receives; zw: the normal's x and y
+uniform sampler2D receiverPoints;    // xyz: position, w: the normal's z; all in view coordinates
+uniform sampler2D unfiltered;        // x: visibility, y: class
+uniform sampler2D source;            // x: visibility, y: as SEARCHED where there is one in the row: the first pass' result
+uniform ivec2 axis;                  // of the pass
+uniform vec2 pixelSide;              // a pixel's side is x + y * distance
+
+out vec2 filtered;
+
+#define SIGMA max(0.5 * float(FILTER_PIXELS), 0.5)
+
+void main()
+{
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  ivec2 size = textureSize(source, 0);
+  vec2 original = texelFetch(unfiltered, pixel, 0).xy;
+  if (original.y < LIT)
+  {
+    filtered = original;
+    return;
+  }
+  vec4 point = texelFetch(receiverPoints, pixel, 0);
+  vec3 normal = vec3(texelFetch(receiverFragments, pixel, 0).zw, point.w);
+  float footprint = pixelSide.x + pixelSide.y * -point.z;
+
+  float sum = 0.0;
+  float weights = 0.0;
+  float greatestClass = 0.0;
+  for (int i = -FILTER_PIXELS; i <= FILTER_PIXELS; ++i)
+  {
+    ivec2 other = pixel + i * axis;
+    if (any(lessThan(other, ivec2(0))) || any(greaterThanEqual(other, size)))
+    {
+      continue;
+    }
+    if (texelFetch(unfiltered, other, 0).y < LIT)
+    {
+      continue;
+    }
+    vec2 visibility = texelFetch(source, other, 0).xy;
+    vec4 otherPoint = texelFetch(receiverPoints, other, 0);
+    vec3 otherNormal = vec3(texelFetch(receiverFragments, other, 0).zw, otherPoint.w);
+    // How many pixels the other point lies off the plane of this one: 0 all over a plane, however it is seen.
+    float off = abs(dot(normal, otherPoint.xyz - point.xyz)) / footprint;
+    float alike = max(dot(normal, otherNormal), 0.0);
+    float alike4 = alike * alike * alike * alike;
+    float weight =
+      i == 0 ? 1.0 : exp(-0.5 * float(i * i) / (SIGMA * SIGMA)) * alike4 * alike4 / (1.0 + off);
+    sum += weight * visibility.x;
+    weights += weight;
+    greatestClass = max(greatestClass, visibility.y);
+  }
+  bool keeps = axis.y == 1 && greatestClass < SEARCHED;
+  filtered = vec2(keeps ? original.x : sum / weights, greatestClass);
+}
