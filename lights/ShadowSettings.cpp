@@ -254,8 +254,18 @@ const std::vector<Setting>& shadowSettings()
       IntegerSetting{ &S::mcRays, 1, 32 } },
     { "mc_layers",
       "montecarlo: what is solid in a texel: each of up to four casters, all between the first and "
-      "the last surface, or all behind the first",
-      choice<RayLayers, &S::mcLayers>({ "peeled", "near_far", "near" }) },
+      "the last surface, all behind the first, or (eye) between the first and the last what the "
+      "camera does not see to be empty",
+      choice<RayLayers, &S::mcLayers>({ "peeled", "near_far", "near", "eye" }) },
+    { "mc_search",
+      "montecarlo: how rays are searched: from cell to cell of a hierarchy, or in steps of equal "
+      "length, which misses some",
+      choice<RaySearch, &S::mcSearch>({ "hierarchical", "linear" }) },
+    { "mc_classify",
+      "montecarlo: what bounds over the map decide without a search: nothing, pixels, or pixels "
+      "and "
+      "then single rays",
+      choice<RayClasses, &S::mcClassify>({ "off", "pixels", "rays" }) },
     { "mc_pyramid",
       "montecarlo: how the bounds over the map lie: on a grid, or around every texel, which takes "
       "ten times the memory",

@@ -118,7 +118,23 @@ enum class RayLayers
 {
   Peeled,  ///< each of the first few casters by itself
   NearFar, ///< all between the first and the last surface
-  Near     ///< all behind the first surface
+  Near,    ///< all behind the first surface
+  Eye      ///< all between the first and the last surface that the camera does not see to be empty
+};
+
+/// How a ray is searched for what it meets.
+enum class RaySearch
+{
+  Hierarchical, ///< from cell to cell of a hierarchy: nothing is missed
+  Linear        ///< in steps of equal length, with bisection
+};
+
+/// What is decided from bounds over a region of the map, before it is searched.
+enum class RayClasses
+{
+  Off,
+  Pixels, ///< all rays of a pixel at once
+  Rays    ///< and then every ray by itself
 };
 
 /// How bounds over the texels of such a map are laid out.
@@ -222,6 +238,8 @@ struct ShadowSettings
   int mcRays = 3; ///< to the cells of a grid of so many along either side of the light
   RayLayers mcLayers = RayLayers::Peeled;
   SlabHierarchy mcPyramid = SlabHierarchy::Mips;
+  RaySearch mcSearch = RaySearch::Hierarchical;
+  RayClasses mcClassify = RayClasses::Rays;
   int mcFilter = 5; ///< in pixels; 0: none
   ///@}
 

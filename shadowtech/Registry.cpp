@@ -292,6 +292,18 @@ std::string refusedRays(const ShadowLight& light, const TechniqueInfo& info)
       findSetting("projection")->get(light) +
       "' is made for what a camera sees; it takes uniform and cube";
   }
+  const bool linear = light.mcSearch == RaySearch::Linear;
+  if (linear && light.mcLayers == RayLayers::Peeled)
+  {
+    return "'mc_search' linear knows where a ray is by one solid in a texel, and 'mc_layers' "
+           "peeled "
+           "has up to four; it takes near_far, near and eye";
+  }
+  if (!linear && light.mcLayers == RayLayers::Eye)
+  {
+    return "'mc_layers' eye asks the camera about single points of a ray, and 'mc_search' "
+           "hierarchical has none; it takes linear";
+  }
   return light.fit == ViewFit::Off
     ? ""
     : "'montecarlo' follows rays through a map that holds all casters, and one with 'fit' " +

@@ -45,7 +45,8 @@ TechniqueInfo MonteCarlo::info()
   info.needsMap = true;
   info.classes = { { "no receiver", { 0, 0, 0 } }, { "turned away from the light", { 0, 140, 60 } },
     { "lit by the map's bounds", { 230, 230, 230 } },
-    { "in shadow by the map's bounds", { 90, 90, 90 } }, { "searched", { 60, 90, 220 } } };
+    { "in shadow by the map's bounds", { 90, 90, 90 } },
+    { "decided by each ray's bounds", { 60, 160, 220 } }, { "searched", { 60, 60, 220 } } };
   return info;
 }
 
@@ -71,7 +72,7 @@ void MonteCarlo::bake(const MapInput& input)
   }
   this->layers_.draw(
     { input.light, this->views_, input.occluders, input.buffers, input.shaders }, this->nearest_);
-  this->bounds_.build(this->layers_, input.light.mapSizeTexels,
+  this->bounds_.build(this->layers_.slabs(), this->layers_.pages(), input.light.mapSizeTexels,
     static_cast<int>(this->views_.views.size()), input.light.mcPyramid, input.shaders);
 }
 
@@ -114,7 +115,8 @@ std::vector<Uniform> MonteCarlo::uniformsOf(const LayerInput& input) const
     { "lightView", glm::vec4(viewFromCentred * lightPoint(light, centreWorld)) },
     { "pixelSide", glm::vec2(input.camera.pixelSide({ this->width_, this->height_ })) },
     { "viewFromUnit", glm::mat3(glm::dmat3(viewFromCentred) * areaOf(light).worldFromUnit) },
-    { "lightSeed", light.lightSeed }, { "viewCount", static_cast<int>(this->views_.views.size()) }
+    { "clipFromView", glm::mat4(input.camera.clipFromView) }, { "lightSeed", light.lightSeed },
+    { "viewCount", static_cast<int>(this->views_.views.size()) }
   };
   uniforms.insert(uniforms.end(), own.begin(), own.end());
   for (std::size_t i = 0; i < this->views_.views.size(); ++i)
@@ -162,15 +164,25 @@ void MonteCarlo::drawVisibility(const LayerInput& input, LightReport& report)
   defines.push_back("RAYS " + std::to_string(rays));
   defines.push_back("SHAPE " + std::to_string(static_cast<int>(areaOf(light).shape)));
   defines.push_back("PAGES " + std::to_string(this->layers_.pages()));
-  if (light.mcPyramid == SlabHierarchy::NBuffer)
+  const auto defineWhere = [&](bool holds, const char* name)
   {
-    defines.emplace_back("NBUFFER");
-  }
+    if (holds)
+    {
+      defines.emplace_back(name);
+    }
+  };
+  defineWhere(light.mcPyramid == SlabHierarchy::NBuffer, "NBUFFER");
+  defineWhere(light.mcSearch == RaySearch::Linear, "LINEAR_SEARCH");
+  defineWhere(light.mcLayers == RayLayers::Eye, "EYE_LAYER");
+  // A receiver's rays may cross the faces of a cube.
+  defineWhere(light.mcClassify != RayClasses::Off && viewLayout(light) == ViewLayout::Single,
+    "CLASSIFY_PIXELS");
+  defineWhere(light.mcClassify == RayClasses::Rays, "CLASSIFY_RAYS");
   const GLuint program = ScreenPass::use(
     input.shaders, ShaderLibrary::source("shadowtech/montecarlo/montecarlo.frag.glsl"), defines);
   ShaderLibrary::setUniforms(program, this->uniformsOf(input), 0, 0);
   this->screenPass_.fill(this->unfiltered_.name(), -1, this->width_, this->height_);
-  this->filter_.apply(input, this->unfiltered_.name(), light.mcFilter);
+  this->filter_.apply(input, this->unfiltered_.name(), rays, light.mcFilter);
   this->readClasses(input);
 }
 

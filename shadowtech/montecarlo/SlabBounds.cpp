@@ -2,7 +2,6 @@
 
 #include "shadowtech/base/ShaderLibrary.h"
 #include "shadowtech/base/TextureMemory.h"
-#include "shadowtech/montecarlo/DepthLayers.h"
 
 #include <algorithm>
 
@@ -50,7 +49,7 @@ void SlabBounds::allocate(int sizeTexels, int views, SlabHierarchy kind)
 
 //------------------------------------------------------------------------------
 void SlabBounds::build(
-  const DepthLayers& layers, int sizeTexels, int views, SlabHierarchy kind, ShaderLibrary& shaders)
+  GLuint slabs, int pages, int sizeTexels, int views, SlabHierarchy kind, ShaderLibrary& shaders)
 {
   this->allocate(sizeTexels, std::max(views, 1), kind);
   const std::string source = ShaderLibrary::source("shadowtech/montecarlo/slab_bounds.comp.glsl");
@@ -59,7 +58,7 @@ void SlabBounds::build(
     return shaders.program({ { GL_COMPUTE_SHADER, source } }, { define });
   };
   const GLuint ofSlabs = shaders.program(
-    { { GL_COMPUTE_SHADER, source } }, { "OF_SLABS", "PAGES " + std::to_string(layers.pages()) });
+    { { GL_COMPUTE_SHADER, source } }, { "OF_SLABS", "PAGES " + std::to_string(pages) });
   const GLuint ofBounds = program(mips ? "MIPS" : "NBUFFER");
   const int levels = this->topLevel_ + 1;
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
@@ -73,9 +72,8 @@ void SlabBounds::build(
       glUseProgram(used);
       ShaderLibrary::setUniforms(used,
         { { "below",
-            TextureBinding{
-              GL_TEXTURE_2D_ARRAY, level == 0 ? layers.slabs() : this->texture_.name() } },
-          { "layer", level == 0 ? view * layers.pages() : below },
+            TextureBinding{ GL_TEXTURE_2D_ARRAY, level == 0 ? slabs : this->texture_.name() } },
+          { "layer", level == 0 ? view * pages : below },
           { "level", mips && level > 0 ? level - 1 : 0 }, { "steps", stepsTo(level) } },
         0, 0);
       glBindImageTexture(0, this->texture_.name(), mips ? level : 0, GL_FALSE,

@@ -10,7 +10,6 @@
 namespace gnomon
 {
 
-class DepthLayers;
 class ShaderLibrary;
 
 /// A hierarchy over the slabs of a light's map (DepthLayers.h): for squares of 2^level texels, the least depth at which a slab
@@ -23,9 +22,10 @@ class ShaderLibrary;
 class SlabBounds
 {
 public:
+  /// @param slabs as DepthLayers::slabs() has them, so many pages of each view
   /// @param sizeTexels the side of the map; the hierarchy's is the next power of two, beyond the map with no slab
-  void build(const DepthLayers& layers, int sizeTexels, int views, SlabHierarchy kind,
-    ShaderLibrary& shaders);
+  void build(
+    GLuint slabs, int pages, int sizeTexels, int views, SlabHierarchy kind, ShaderLibrary& shaders);
 
   /// An array of RGBA textures: with levels for each view, or each view's levels one after the other.
   GLuint texture() const { return this->texture_.name(); }

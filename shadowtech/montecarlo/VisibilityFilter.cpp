@@ -9,7 +9,7 @@ namespace gnomon
 {
 
 //------------------------------------------------------------------------------
-void VisibilityFilter::apply(const LayerInput& input, GLuint unfiltered, int radiusPixels)
+void VisibilityFilter::apply(const LayerInput& input, GLuint unfiltered, int rays, int radiusPixels)
 {
   const int width = input.receivers.width();
   const int height = input.receivers.height();
@@ -22,7 +22,7 @@ void VisibilityFilter::apply(const LayerInput& input, GLuint unfiltered, int rad
   }
   const GLuint program = ScreenPass::use(input.shaders,
     ShaderLibrary::source("shadowtech/montecarlo/visibility_filter.frag.glsl"),
-    { "FILTER_PIXELS " + std::to_string(radiusPixels) });
+    { "FILTER_PIXELS " + std::to_string(radiusPixels), "RAYS " + std::to_string(rays) });
   const auto set = [&](GLuint source, const glm::ivec2& axis)
   {
     ShaderLibrary::setUniforms(program,

@@ -1,5 +1,6 @@
 // Whether a ray meets a slab of the light's map: a search from cell to cell of the hierarchy (SlabBounds.h), after Curtis 2009,
-// section 3.5, algorithm 2. A cell of a level is a square of 2^level texels; of an N-buffer it may lie anywhere.
+// section 3.5, algorithm 2. A cell of a level is a square of 2^level texels; of an N-buffer it may lie anywhere. With
+// LINEAR_SEARCH it is a search in steps of equal length, with bisection (section 3.3), of maps with one slab in a texel.
 
 uniform sampler2DArray slabs; // the views' pages, one after the other
 uniform sampler2DArray slabBounds;
@@ -48,6 +49,98 @@ vec4 boundsOfRegion(int view, ivec2 lower, ivec2 upper)
   return vec4(min(min(a.x, b.x), min(c.x, d.x)), max(max(a.y, b.y), max(c.y, d.y)),
     max(max(a.z, b.z), max(c.z, d.z)), min(min(a.w, b.w), min(c.w, d.w)));
 }
+
+#ifdef LINEAR_SEARCH
+
+#define STEPS 32
+#define BISECTIONS 6
+
+// Where a point is in its texel; one that is empty is BEFORE and BEHIND at once.
+#define INSIDE 0
+#define BEFORE 1
+#define BEHIND 2
+#define EMPTY 3
+
+#ifdef EYE_LAYER
+uniform mat4 clipFromView;
+
+// Whether the camera sees that a point is in empty space: it is before the surface that is seen there (Curtis 2009, section
+// 3.4).
+bool seenEmpty(int view, vec3 point)
+{
+  vec4 place = viewFromRay[view] * vec4(point, 1.0);
+  vec3 position = place.xyz / place.w;
+  vec4 clip = clipFromView * vec4(position, 1.0);
+  if (clip.w <= 0.0 || any(greaterThanEqual(abs(clip.xy), vec2(clip.w))))
+  {
+    return false; // beside the picture
+  }
+  ivec2 pixel = ivec2((0.5 * clip.xy / clip.w + 0.5) * vec2(textureSize(receiverPoints, 0)));
+  vec4 fragment = texelFetch(receiverFragments, pixel, 0);
+  if (fragment.x == 0.0)
+  {
+    return true; // the camera sees the background
+  }
+  vec4 seen = texelFetch(receiverPoints, pixel, 0);
+  vec3 normal = vec3(fragment.zw, seen.w);
+  float footprint = pixelSide.x + pixelSide.y * -seen.z;
+  return dot(normal, position - seen.xyz) > -footprint;
+}
+#endif
+
+int stateAt(int view, vec3 point)
+{
+  ivec2 texel = clamp(ivec2(floor(point.xy)), ivec2(0), ivec2(mapSide - 1));
+  vec2 slab = texelFetch(slabs, ivec3(texel, view), 0).xy;
+  bool before = point.z < slab.x;
+  bool behind = point.z > slab.y;
+#ifdef EYE_LAYER
+  if (!before && !behind && seenEmpty(view, point))
+  {
+    return BEFORE;
+  }
+#endif
+  return before && behind ? EMPTY : before ? BEFORE : behind ? BEHIND : INSIDE;
+}
+
+// Whether a line towards the light may have met a slab between two points.
+bool mayMeet(int first, int second)
+{
+  return (second == BEFORE && first != BEFORE) || (first == BEHIND && second != BEHIND);
+}
+
+// @param begin at the receiver
+bool meetsSlabs(int view, vec3 begin, vec3 end)
+{
+  int state = stateAt(view, begin);
+  for (int i = 0; i < STEPS && state != INSIDE; ++i)
+  {
+    float t = float(i) / float(STEPS);
+    float last = float(i + 1) / float(STEPS);
+    int next = stateAt(view, mix(begin, end, last));
+    if (mayMeet(state, next))
+    {
+      // Of the two halves the one nearer to the receiver, if it may be in either.
+      for (int j = 0; j < BISECTIONS; ++j)
+      {
+        float middle = 0.5 * (t + last);
+        int between = stateAt(view, mix(begin, end, middle));
+        if (between == INSIDE)
+        {
+          return true;
+        }
+        bool inFirst = mayMeet(state, between);
+        last = inFirst ? middle : last;
+        t = inFirst ? t : middle;
+        state = inFirst ? state : between;
+      }
+    }
+    state = next;
+  }
+  return state == INSIDE;
+}
+
+#else
 
 // Whether a slab of a texel has any of these depths.
 bool meetsSlab(int view, ivec2 texel, float least, float greatest)
@@ -117,3 +210,5 @@ bool meetsSlabs(int view, vec3 begin, vec3 end)
   }
   return false;
 }
+
+#endif

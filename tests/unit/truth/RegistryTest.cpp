@@ -89,6 +89,7 @@ TEST(Registry, knowsWhichEstimatorsAreFunctionsOfThePoint)
       << estimator.info.name;
   }
   EXPECT_EQ(findEstimator("planar")->info.evaluation, Evaluation::ScreenGpu);
+  EXPECT_EQ(findEstimator("montecarlo")->info.evaluation, Evaluation::ScreenGpu);
   EXPECT_EQ(findEstimator("raytraced")->info.evaluation, Evaluation::ScreenCpu);
 }
 
@@ -97,6 +98,8 @@ TEST(Registry, takesOrRefusesEveryComposition)
   const Verdicts all{ "", "", "", "" };
   const Verdicts single{ "", "", "faces of a cube", "faces of a cube" };
   const Verdicts cube{ "directional", "", "", "" };
+  const char* camera = "holds all casters";
+  const Verdicts allCasters{ camera, camera, camera, camera };
   const Verdicts noMap{ "no map", "no map", "no map", "no map" };
   for (const TechniqueEntry& technique : registry())
   {
@@ -117,10 +120,12 @@ TEST(Registry, takesOrRefusesEveryComposition)
         expectVerdicts(settings, map ? verdicts : noMap,
           what + ", projection " + findSetting("projection")->get(settings));
       };
+      const bool needsAllCasters = settings.estimator == "montecarlo";
+      const Verdicts& seen = needsAllCasters ? allCasters : single;
       expectOf(Projection::Uniform, all);
-      expectOf(Projection::Lispsm, single);
-      expectOf(Projection::Trapezoid, single);
-      expectOf(Projection::Splits, single);
+      expectOf(Projection::Lispsm, seen);
+      expectOf(Projection::Trapezoid, seen);
+      expectOf(Projection::Splits, seen);
       expectOf(Projection::Cube, cube);
     }
   }
@@ -220,6 +225,41 @@ TEST(Registry, refusesChainsOfTestsThatMakeNoSense)
     {
       ASSERT_TRUE(findSetting(name)->set(settings, value)) << name;
     }
+    expectVerdicts(
+      settings, { each.verdict, each.verdict, each.verdict, each.verdict }, each.technique);
+  }
+}
+
+TEST(Registry, refusesRaysThatCannotBeFollowed)
+{
+  struct Case
+  {
+    const char* technique;
+    const char* layers;
+    const char* search;
+    const char* fit;
+    const char* verdict;
+  };
+  const Case cases[] = {
+    { "montecarlo", "peeled", "hierarchical", "off", "" },
+    { "montecarlo", "peeled", "linear", "off", "one solid in a texel" },
+    { "montecarlo", "near_far", "hierarchical", "off", "" },
+    { "montecarlo", "near_far", "linear", "off", "" },
+    { "montecarlo", "near", "hierarchical", "off", "" },
+    { "montecarlo", "near", "linear", "off", "" },
+    { "montecarlo", "eye", "hierarchical", "off", "asks the camera" },
+    { "montecarlo", "eye", "linear", "off", "" },
+    { "montecarlo", "peeled", "hierarchical", "once", "'fit' once" },
+    { "montecarlo", "peeled", "hierarchical", "frame", "'fit' frame" },
+    { "nsm", "eye", "hierarchical", "frame", "" }, // are montecarlo's
+  };
+  for (const Case& each : cases)
+  {
+    ShadowSettings settings;
+    settings.technique = each.technique;
+    ASSERT_TRUE(findSetting("mc_layers")->set(settings, each.layers));
+    ASSERT_TRUE(findSetting("mc_search")->set(settings, each.search));
+    ASSERT_TRUE(findSetting("fit")->set(settings, each.fit));
     expectVerdicts(
       settings, { each.verdict, each.verdict, each.verdict, each.verdict }, each.technique);
   }
