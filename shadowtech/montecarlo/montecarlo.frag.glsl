@@ -70,10 +70,11 @@ Segment onMap(int view, Receiver receiver, vec3 way, float length, vec2 depths, 
   segment.end = end.xyz / end.w;
 
   // The receiver may itself be in the map, as one depth for all of a texel. Rays count from where they are as far before its
-  // plane as that is off within half a texel, and for rounding.
+  // plane as that is off within half a texel, and for rounding: also of the corners of triangles, which are drawn to within
+  // 1/256 of a texel.
   vec4 plane = vec4(receiver.normal, -dot(receiver.normal, receiver.position)) * viewFromRay[view];
-  float rounding = 9.5367432e-7 * max(abs(segment.begin.z), abs(segment.end.z)); // 2^-20
-  float limit = 0.5 * (abs(plane.x) + abs(plane.y)) + rounding * abs(plane.z);
+  float rounding = 7.6293945e-6 * max(abs(segment.begin.z), abs(segment.end.z)); // 2^-17
+  float limit = 0.51 * (abs(plane.x) + abs(plane.y)) + rounding * abs(plane.z);
   vec2 before = rising * range / vec2(begin.w, end.w);
   if (before.y <= limit)
   {

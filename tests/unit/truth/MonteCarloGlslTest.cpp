@@ -117,7 +117,7 @@ TEST_F(MonteCarloGlsl, takesTheJitteredSamplesOfTheLight)
       const glm::ivec4& at = places[i];
       const SamplePixel pixel =
         samples.pixel(static_cast<std::uint32_t>(at.x), static_cast<std::uint32_t>(at.y));
-      ASSERT_LT(glm::distance(glm::vec3(points[i]), samples.offset(at.z, pixel)), 2e-6f)
+      ASSERT_LT(glm::distance(glm::vec3(points[i]), samples.offset(at.z, pixel)), 3e-5f)
         << i << " of shape " << static_cast<int>(area.shape);
     }
   }
@@ -357,7 +357,7 @@ TEST_F(MonteCarloGlsl, searchesAsAWalkFromTexelToTexel)
 //------------------------------------------------------------------------------
 TEST_F(MonteCarloGlsl, linearSearchNeverHitsWhatIsNotThereAndMissesLittle)
 {
-  SlabMap map(128, 6, this->random_);
+  SlabMap map(128, 60, this->random_);
   for (int y = 0; y < map.side(); ++y)
   {
     for (int x = 0; x < map.side(); ++x)
@@ -377,8 +377,7 @@ TEST_F(MonteCarloGlsl, linearSearchNeverHitsWhatIsNotThereAndMissesLittle)
     misses += found[i] == 0u && meets ? 1 : 0;
   }
   EXPECT_LE(falseHits, 2u); // at a border to within rounding
-  EXPECT_LE(misses, lines.size() * 3 / 100);
-  EXPECT_GT(misses, 0u);
+  EXPECT_LE(misses, lines.size() * 3 / 1000);
 }
 
 //------------------------------------------------------------------------------
