@@ -5,6 +5,7 @@
 #include "lights/LightSamples.h"
 #include "lights/LightViews.h"
 #include "lights/ReducedMd5.h"
+#include "shadowtech/base/ScreenPass.h"
 #include "shadowtech/base/ShaderLibrary.h"
 #include "shadowtech/base/TextureMemory.h"
 #include "shadowtech/montecarlo/RaySpace.h"
@@ -378,6 +379,148 @@ TEST_F(MonteCarloGlsl, linearSearchNeverHitsWhatIsNotThereAndMissesLittle)
   }
   EXPECT_LE(falseHits, 2u); // at a border to within rounding
   EXPECT_LE(misses, lines.size() * 3 / 1000);
+}
+
+//------------------------------------------------------------------------------
+/// Pixels of surfaces across the view, for the filter.
+struct FilteredPicture
+{
+  static constexpr int side = 32;
+  std::vector<glm::vec4> fragments; ///< as ReceiverTarget has them
+  std::vector<glm::vec4> points;
+  std::vector<glm::vec4> visibility; ///< x, and y: the class
+
+  FilteredPicture()
+  {
+    for (int i = 0; i < side * side; ++i)
+    {
+      this->fragments.emplace_back(1.0f, 0.0f, 0.0f, 0.0f);
+      this->points.emplace_back(i % side, i / side, -10.0f, 1.0f);
+      this->visibility.emplace_back(1.0f, 5.0f, 0.0f, 0.0f); // searched
+    }
+  }
+  /// Both passes of visibility_filter.frag.glsl, for 3 x 3 rays and 5 pixels. Pixels are of side 1.
+  std::vector<float> filtered(ShaderLibrary& library) const
+  {
+    GlTexture textures[5];
+    const auto allocated = [&](GlTexture& texture, const std::vector<glm::vec4>* texels)
+    {
+      allocateTexture(texture, { GL_RGBA32F, GL_RGBA, 4 }, side, side, 0, "a test's picture");
+      if (texels)
+      {
+        glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, side, side, GL_RGBA, GL_FLOAT, texels->data());
+      }
+      return TextureBinding{ GL_TEXTURE_2D, texture.name() };
+    };
+    const TextureBinding receivers = allocated(textures[0], &this->fragments);
+    const TextureBinding places = allocated(textures[1], &this->points);
+    const TextureBinding unfiltered = allocated(textures[2], &this->visibility);
+    const TextureBinding rows = allocated(textures[3], nullptr);
+    const TextureBinding result = allocated(textures[4], nullptr);
+    const GLuint program = ScreenPass::use(library,
+      ShaderLibrary::source("shadowtech/montecarlo/visibility_filter.frag.glsl"),
+      { "FILTER_PIXELS 5", "RAYS 3" });
+    ScreenPass pass;
+    const auto run =
+      [&](const TextureBinding& source, const TextureBinding& target, const glm::ivec2& axis)
+    {
+      ShaderLibrary::setUniforms(program,
+        { { "receiverFragments", receivers }, { "receiverPoints", places },
+          { "unfiltered", unfiltered }, { "source", source }, { "axis", axis },
+          { "pixelSide", glm::vec2(1.0f, 0.0f) } },
+        0, 0);
+      pass.fill(target.texture, -1, side, side);
+    };
+    run(unfiltered, rows, { 1, 0 });
+    run(rows, result, { 0, 1 });
+    std::vector<glm::vec4> texels(this->visibility.size());
+    glBindTexture(GL_TEXTURE_2D, result.texture);
+    glGetTexImage(GL_TEXTURE_2D, 0, GL_RGBA, GL_FLOAT, texels.data());
+    std::vector<float> values;
+    for (const glm::vec4& texel : texels)
+    {
+      values.push_back(texel.x);
+    }
+    return values;
+  }
+};
+
+TEST_F(MonteCarloGlsl, filterSmoothsNoiseOfOneSurface)
+{
+  constexpr int side = FilteredPicture::side;
+  FilteredPicture noisy;
+  for (glm::vec4& pixel : noisy.visibility)
+  {
+    pixel.x = 0.4f + 0.2f * this->uniform(); // an RMS of 0.058
+  }
+  double squares = 0.0;
+  for (const float v : noisy.filtered(this->library_))
+  {
+    squares += (v - 0.5) * (v - 0.5) / (side * side);
+  }
+  EXPECT_LT(std::sqrt(squares), 0.015);
+
+  FilteredPicture even;
+  for (glm::vec4& pixel : even.visibility)
+  {
+    pixel.x = 0.7f;
+  }
+  for (const float v : even.filtered(this->library_))
+  {
+    EXPECT_NEAR(v, 0.7f, 1e-6f);
+  }
+}
+
+TEST_F(MonteCarloGlsl, filterKeepsEdgesOfSurfacesAndOfShadows)
+{
+  constexpr int side = FilteredPicture::side;
+  const auto half = [](int i) { return i % side < side / 2; };
+  const auto expectKept =
+    [&](FilteredPicture& picture, float left, float right, float tolerance, const char* what)
+  {
+    for (int i = 0; i < side * side; ++i)
+    {
+      picture.visibility[static_cast<std::size_t>(i)].x = half(i) ? left : right;
+    }
+    const std::vector<float> filtered = picture.filtered(this->library_);
+    for (int i = 0; i < side * side; ++i)
+    {
+      ASSERT_NEAR(filtered[static_cast<std::size_t>(i)], half(i) ? left : right, tolerance)
+        << what << " at " << i;
+    }
+  };
+  FilteredPicture gap;
+  for (int i = 0; i < side * side; ++i)
+  {
+    gap.points[static_cast<std::size_t>(i)].z = half(i) ? -10.0f : -110.0f;
+  }
+  expectKept(gap, 0.4f, 0.6f, 0.002f, "a gap in depth of 100 pixels: 1 % of the step");
+
+  FilteredPicture crease;
+  for (int i = 0; i < side * side; ++i)
+  {
+    // To the right a surface that stands along the view: its normal is x.
+    crease.fragments[static_cast<std::size_t>(i)].z = half(i) ? 0.0f : 1.0f;
+    crease.points[static_cast<std::size_t>(i)].w = half(i) ? 1.0f : 0.0f;
+  }
+  expectKept(crease, 0.4f, 0.6f, 1e-6f, "a crease");
+
+  FilteredPicture edge;
+  expectKept(edge, 0.0f, 1.0f, 0.001f, "a sharp shadow");
+
+  FilteredPicture decided;
+  for (glm::vec4& pixel : decided.visibility)
+  {
+    pixel.y = 2.0f; // by bounds
+  }
+  expectKept(decided, 0.4f, 0.6f, 0.0f, "what no ray has decided, bit for bit");
+
+  FilteredPicture away;
+  for (int i = 0; i < side * side; ++i)
+  {
+    away.visibility[static_cast<std::size_t>(i)].y = half(i) ? 1.0f : 5.0f;
+  }
+  expectKept(away, 0.4f, 0.6f, 1e-6f, "what is turned away gives nothing to others");
 }
 
 //------------------------------------------------------------------------------
