@@ -47,6 +47,8 @@
  *   "planar"), from how many points of the light, 1 to 65536 (default 64), and which ones (default 0);
  * - "light_sampling": of the same, "sobol" (the default; evenly spread points, whose errors cancel between neighbouring
  *   pixels), "jittered" (a random one in each cell of a square grid: "light_samples" is a square then) or "random";
+ * - "mc_rays", "mc_layers", "mc_search", "mc_classify", "mc_pyramid", "mc_filter": of "montecarlo"
+ *   (docs/techniques/montecarlo.md); "mc_rays" is how many rays a pixel has along either side of the light (default 3);
  * - "light_radius": makes any light an area light, a disk across it or of a point light a ball, in the units of
  *   vtkGnomonAreaLight's Radius (default 0: as large as it says itself);
  * - "as_published": "on" for "crsm" and "crsma" by the letter of their publication, which is not exact (default "off").
