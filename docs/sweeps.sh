@@ -46,12 +46,12 @@ for view in "${views[@]:0:9}" primitives posts cube; do
   done
 done
 
-# Rows of all runs, of columns by their names, behind view, picture and map.
+# Rows of all runs, of columns by their names (without commas), behind view, picture and map.
 rows() {
   local results run
   for results in "$out"/*/results.csv; do
     run="$(basename "$(dirname "$results")")"
-    awk -F, -v run="$run" -v wanted="$1" '
+    sed '1s/"\([^",]*\),\([^",]*\)"/\1\2/g' "$results" | awk -F, -v run="$run" -v wanted="$1" '
       BEGIN { split(run, part, "."); count = split(wanted, names, ",") }
       { sub(/\r$/, "") }
       NR == 1 { for (i = NF; i >= 1; --i) column[$i] = i; next }
@@ -59,7 +59,7 @@ rows() {
         printf "%s,%s,%s", part[1], part[2], part[3]
         for (i = 1; i <= count; ++i) printf ",%s", (names[i] in column) ? $(column[names[i]]) : ""
         printf "\n"
-      }' "$results"
+      }'
   done
 }
 
@@ -139,6 +139,70 @@ chain() {
     }' | (read -r head; read -r line; printf '%s\n%s\n' "$head" "$line"; sort)
 }
 
+# In how many cases what the theses' tables show is so here as well.
+orderings() {
+  echo "| | holds in | else |"
+  echo "|---|---|---|"
+  rows variant,wrong_pixels,traced_pixels,facing_pixels | awk -F, '
+    # case NAME HOLDS WHERE: counts; keeps the first cases in which it does not hold
+    function check(name, holds, where) {
+      if (!(name in cases)) order[++statements] = name
+      cases[name]++
+      if (holds) held[name]++
+      else if (++failures[name] <= 4) not[name] = not[name] (not[name] ? "; " : "") where
+    }
+    function place(view, picture, map) { return view " " (picture == "chain" ? "" : picture " ") map }
+    function abs(x) { return x < 0 ? -x : x }
+    $2 != "chain" && $6 != "" {
+      sub(/ [0-9]+( image)?$/, "", $4)
+      wrong[$1, $2, $3, $4] = $5; traced[$1, $2, $3, $4] = $6; facing[$1, $2] = $7
+      runs[$1, $2, $3] = 1; names[$4] = 1; views[$1] = 1
+    }
+    END {
+      published = "crsm as_published=on"; publishedA = "crsma as_published=on"
+      for (run in runs) {
+        split(run, part, SUBSEP)
+        where = place(part[1], part[2], part[3])
+        check("`coherence` traces less than `crsma` as published", traced[run, "coherence"] < traced[run, publishedA], where)
+        check("`crsma` as published traces no more than `crsm` as published", traced[run, publishedA] <= traced[run, published], where)
+        check("`crsma` traces no more than `crsm`", traced[run, "crsma"] <= traced[run, "crsm"], where)
+        check("`silhouette` traces no more than `crsma`", traced[run, "silhouette"] <= traced[run, "crsma"], where)
+        check("`crsm`, `crsma`, `silhouette`: no wrong pixel", wrong[run, "crsm"] + wrong[run, "crsma"] + wrong[run, "silhouette"] + wrong[run, "silhouette fit=once"] == 0, where)
+        check("`coherence` has fewer wrong pixels than `nsm`", wrong[run, "coherence"] < wrong[run, "nsm"], where)
+      }
+      split("coherence;" published ";" publishedA ";crsm;crsma;silhouette", hybrids, ";")
+      for (view in views) for (i = 1; i in hybrids; ++i) {
+        name = hybrids[i]
+        for (map = 1024; map <= 2048; map *= 2)
+          check("traced pixels fall with the map'"'"'s size, from 1024 on", traced[view, "1024x1024", 2 * map, name] < traced[view, "1024x1024", map, name], "`" name "` " place(view, "", 2 * map))
+        small = traced[view, "512x512", 1024, name] / facing[view, "512x512"]; large = traced[view, "1024x1024", 1024, name] / facing[view, "1024x1024"]
+        check("the share of traced pixels is the same in 512 x 512 and 1024 x 1024 pixels, within 5 %", abs(small - large) <= 0.05 * large, "`" name "` " view)
+      }
+      for (view in views) for (map = 512; map <= 2048; map *= 2)
+        check("`crsm` as published has more wrong pixels with a larger map", wrong[view, "1024x1024", 2 * map, published] >= wrong[view, "1024x1024", map, published], place(view, "", 2 * map))
+      for (i = 1; i <= statements; ++i)
+        printf "| %s | %d of %d | %s%s |\n", order[i], held[order[i]], cases[order[i]], not[order[i]], (failures[order[i]] > 4 ? "; ..." : "")
+    }'
+  rows "variant,wrong_pixels,traced_pixels,class traced lit by its texel_pixels,class traced in shadow by its texel_pixels" | awk -F, '
+    $2 == "chain" {
+      sub(/ [0-9]+( image)?$/, "", $4)
+      if ($4 == "nsm") plain[$1, $3] = $5
+      if ($4 !~ /^selective/) next
+      sub(/selective contour=/, "", $4)
+      wrong[$1, $3, $4] = $5; traced[$1, $3, $4] = $6; lit += $7; shadow += $8; runs[$1, $3] = 1; ++cases; more += $7 > $8
+    }
+    END {
+      for (run in runs) {
+        ++count; wider += traced[run, 2] <= traced[run, 4] && traced[run, 4] <= traced[run, 6]; fewer += wrong[run, 2] >= wrong[run, 4] && wrong[run, 4] >= wrong[run, 6]
+        mended += wrong[run, 4] <= 0.1 * plain[run]
+      }
+      printf "| `selective`: a wider contour traces no less | %d of %d | |\n", wider, count
+      printf "| `selective`: a wider contour leaves no more wrong pixels | %d of %d | |\n", fewer, count
+      printf "| `selective`, 4 pixels: at most a tenth of the map'"'"'s wrong pixels are left | %d of %d | |\n", mended, count
+      printf "| `selective`: more pixels are traced that are lit by their texel than in shadow | %d of %d | of all: %.2f to 1 |\n", more, cases, shadow ? lit / shadow : 0
+    }'
+}
+
 machine="$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1), $(nproc) processors"
 {
   echo "# Sweeps over maps, pictures and views"
@@ -161,4 +225,12 @@ machine="$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1), $(nproc)
   echo "Wrong pixels of the map and of the chain (default settings), and the share of the pixels that face the light that it traces."
   echo
   chain
+  echo
+  echo "## What the theses' tables show, here"
+  echo
+  echo "Cases are views, pictures and maps; those where a statement does not hold are named, the first four of them."
+  echo
+  orderings
+  echo
+  echo "More than a tenth of the wrong pixels is left where leaves and blades are finer than texels: what the map has not seen has no contour there."
 } > docs/sweeps.md

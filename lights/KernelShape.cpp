@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace gnomon
 {
@@ -70,6 +71,35 @@ double mostTexelsAcross(const LightViews& views, int sizeTexels)
     }
   }
   return most;
+}
+
+//------------------------------------------------------------------------------
+double reachOfArea(const LightArea& area, const LightViews& views, const Bounds& castersCentred,
+  const Bounds& receiversCentred)
+{
+  const glm::dvec3 lightCentred(glm::inverse(views.lightFromCentred)[3]);
+  const double clearance = glm::distance(
+    lightCentred, glm::clamp(lightCentred, castersCentred.lower, castersCentred.upper));
+  double widest = 0.0;
+  for (const LightView& view : views.views)
+  {
+    double farthest = -std::numeric_limits<double>::infinity();
+    for (const glm::dvec3& corner : receiversCentred.corners())
+    {
+      farthest = std::max(farthest, (view.rays.viewFromCentred * glm::dvec4(corner, 1.0)).z);
+    }
+    // A cube's face may see the casters' box from its own plane on, but nothing nearer than the box is.
+    const double longest = longestRay(view);
+    const double nearest = view.rays.positional ? std::max(view.beginsAt, clearance / longest)
+                                                : -view.depthOffset / view.depthScale;
+    if (nearest < farthest)
+    {
+      const double slant = views.layout == ViewLayout::Cube ? longest : 1.0;
+      widest = std::max(widest,
+        view.rays.positional ? slant * (1.0 / nearest - 1.0 / farthest) : farthest - nearest);
+    }
+  }
+  return area.radius() * widest;
 }
 
 //------------------------------------------------------------------------------

@@ -33,6 +33,13 @@ double largestStretch(int kernelTexels);
 /// The most texels to a unit across the light in any of the views; 0 without views.
 double mostTexelsAcross(const LightViews& views, int sizeTexels);
 
+/// How far from a point's place across the light the rays to an area light pass the casters, at most: of
+/// the casters that come first and the farthest point that receives. Of a caster at distance z from the light
+/// and a receiver at distance r, that is the light's radius times 1 / z - 1 / r, of a directional light times
+/// r - z; and more where a cube's face sees the light at a slant.
+double reachOfArea(const LightArea& area, const LightViews& views, const Bounds& castersCentred,
+  const Bounds& receiversCentred);
+
 /// Of a positional light's view: the length of the longest ray on the map that reaches distance 1.
 double longestRay(const LightView& view);
 

@@ -6,6 +6,15 @@ namespace gnomon
 {
 
 //------------------------------------------------------------------------------
+double LightArea::radius() const
+{
+  const double longest = glm::length(this->worldFromUnit[0]);
+  return this->shape == Shape::Rectangle
+    ? glm::length(glm::dvec2(longest, glm::length(this->worldFromUnit[1])))
+    : longest;
+}
+
+//------------------------------------------------------------------------------
 LightArea rectangleArea(const glm::dvec3& travel, const glm::dvec3& up, const glm::dvec2& halfSize)
 {
   const glm::dvec3 along = glm::normalize(glm::cross(travel, up));

@@ -22,6 +22,14 @@ struct LightArea
   /// coordinates and units. Of a directional light, the area lies at distance 1 from whatever it
   /// lights, so that lengths are tangents of angles.
   glm::dmat3 worldFromUnit{ 0.0 };
+
+  /// How far from the centre it shines at most, in the units of worldFromUnit; 0: it is a point.
+  double radius() const;
+
+  bool operator==(const LightArea& other) const
+  {
+    return this->shape == other.shape && this->worldFromUnit == other.worldFromUnit;
+  }
 };
 
 /// A rectangle.

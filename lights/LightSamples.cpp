@@ -36,19 +36,6 @@ float cosineOf(float angle)
       square / 12.0f * (1.0f - square / 30.0f * (1.0f - square / 56.0f * (1.0f - square / 90.0f))));
 }
 
-/// The concentric map from the square of half side 1 to the unit disk.
-glm::vec2 diskPoint(const glm::vec2& square)
-{
-  const bool wide = std::abs(square.x) > std::abs(square.y);
-  const float radius = wide ? square.x : square.y;
-  const float other = wide ? square.y : square.x;
-  // The middle of the square is that of the disk.
-  const float angle = radius == 0.0f ? 0.0f : glm::quarter_pi<float>() * (other / radius);
-  const float along = radius * cosineOf(angle);
-  const float across = radius * sineOf(angle);
-  return wide ? glm::vec2(along, across) : glm::vec2(across, along);
-}
-
 std::variant<SobolPoints, HashedPoints> pointsFor(const ShadowLight& light)
 {
   const auto seed = static_cast<std::uint32_t>(light.lightSeed);
@@ -68,6 +55,19 @@ std::variant<SobolPoints, HashedPoints> pointsFor(const ShadowLight& light)
 } // namespace
 
 //------------------------------------------------------------------------------
+glm::vec2 diskPoint(const glm::vec2& square)
+{
+  const bool wide = std::abs(square.x) > std::abs(square.y);
+  const float radius = wide ? square.x : square.y;
+  const float other = wide ? square.y : square.x;
+  // The middle of the square is that of the disk.
+  const float angle = radius == 0.0f ? 0.0f : glm::quarter_pi<float>() * (other / radius);
+  const float along = radius * cosineOf(angle);
+  const float across = radius * sineOf(angle);
+  return wide ? glm::vec2(along, across) : glm::vec2(across, along);
+}
+
+//------------------------------------------------------------------------------
 LightSamples::LightSamples(const ShadowLight& light)
   : count_(light.lightSamples)
   , points_(pointsFor(light))
@@ -85,8 +85,22 @@ SamplePixel LightSamples::pixel(std::uint32_t column, std::uint32_t row) const
 //------------------------------------------------------------------------------
 glm::vec3 LightSamples::offset(int i, const SamplePixel& pixel) const
 {
+  return this->placeOf(
+    std::visit([&](const auto& points) { return points.point(i, pixel); }, this->points_));
+}
+
+//------------------------------------------------------------------------------
+glm::vec3 LightSamples::offsetInHalf(int i) const
+{
   const glm::uvec3 point =
-    std::visit([&](const auto& points) { return points.point(i, pixel); }, this->points_);
+    std::visit([&](const auto& points) { return points.point(i, {}); }, this->points_);
+  return this->placeOf({ point.x, point.y >> 1, point.z });
+}
+
+//------------------------------------------------------------------------------
+/// The place of a point of the unit cube.
+glm::vec3 LightSamples::placeOf(const glm::uvec3& point) const
+{
   const glm::vec2 square(2.0f * fractionOf(point.x) - 1.0f, 2.0f * fractionOf(point.y) - 1.0f);
   if (this->shape_ == LightArea::Shape::Rectangle)
   {
@@ -127,6 +141,36 @@ std::vector<glm::dvec4> lightSamples(const ShadowLight& light, const glm::dvec3&
     const glm::dvec3 moved = glm::dvec3(centre) + glm::dvec3(points.offset(i, {}));
     samples.push_back(light.kind == LightKind::Directional ? glm::dvec4(glm::normalize(moved), 0.0)
                                                            : glm::dvec4(moved, 1.0));
+  }
+  return samples;
+}
+
+//------------------------------------------------------------------------------
+std::vector<glm::dvec3> pairedLightSamples(const ShadowLight& light)
+{
+  if (!light.area || light.area->worldFromUnit == glm::dmat3(0.0))
+  {
+    return { glm::dvec3(0.0) };
+  }
+  ShadowLight half = light;
+  half.lightSamples = light.lightSamples / 2;
+  const LightSamples points(half);
+  std::vector<glm::dvec3> offsets;
+  for (int i = 0; i < points.count(); ++i)
+  {
+    offsets.emplace_back(points.offsetInHalf(i));
+  }
+  std::stable_sort(offsets.begin(), offsets.end(),
+    [](const glm::dvec3& a, const glm::dvec3& b) { return glm::dot(a, a) < glm::dot(b, b); });
+  std::vector<glm::dvec3> samples;
+  if (light.lightSamples % 2 == 1)
+  {
+    samples.emplace_back(0.0);
+  }
+  for (const glm::dvec3& offset : offsets)
+  {
+    samples.push_back(offset);
+    samples.push_back(-offset);
   }
   return samples;
 }

@@ -35,12 +35,22 @@ public:
   /// Sample `i` of a pixel, from the light's centre, as LightArea measures it.
   glm::vec3 offset(int i, const SamplePixel& pixel) const;
 
+  /// Point `i` without shift, of points that are as even over one half of the light as those of offset() are over
+  /// all of it: with the points opposite, they are as even over all of it.
+  glm::vec3 offsetInHalf(int i) const;
+
 private:
+  glm::vec3 placeOf(const glm::uvec3& point) const;
+
   int count_;
   std::variant<SobolPoints, HashedPoints> points_;
   LightArea::Shape shape_;
   glm::mat3 worldFromUnit_;
 };
+
+/// The concentric map (Shirley and Chiu 1997) from the square of half side 1 to the unit disk, which keeps
+/// areas and, but for a factor, distances.
+glm::vec2 diskPoint(const glm::vec2& square);
 
 /// A light's place in centred coordinates: (position, 1), or (unit vector towards it, 0).
 glm::dvec4 lightPoint(const ShadowLight& light, const glm::dvec3& centreWorld);
@@ -48,6 +58,14 @@ glm::dvec4 lightPoint(const ShadowLight& light, const glm::dvec3& centreWorld);
 /// LightSamples of no pixel, each a place as lightPoint() has it, for techniques that see the light from the
 /// same points in all pixels; of a light without area the one of lightPoint().
 std::vector<glm::dvec4> lightSamples(const ShadowLight& light, const glm::dvec3& centreWorld);
+
+/// As many points as ShadowSettings::lightSamples says for techniques that see the light from the same points in all
+/// pixels, and want each one's opposite among them, from the light's centre, as LightArea measures them.
+///
+/// From the middle outwards, so that what is seen from the first ones is what is seen from a smaller light. Every point is
+/// followed by its opposite; an odd number of points begins with the centre. Of a light without area or without extent,
+/// the centre alone.
+std::vector<glm::dvec3> pairedLightSamples(const ShadowLight& light);
 
 } // namespace gnomon
 

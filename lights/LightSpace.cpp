@@ -36,6 +36,13 @@ glm::dmat4 lightFromCentred(const ShadowLight& light, const glm::dvec3& centreWo
 }
 
 //------------------------------------------------------------------------------
+glm::dvec4 nearFaceCentred(const ShadowLight& light, const glm::dvec3& centreWorld)
+{
+  return { light.directionWorld,
+    -glm::dot(light.directionWorld, light.positionWorld - centreWorld) };
+}
+
+//------------------------------------------------------------------------------
 glm::dvec3 axisAcross(const glm::dvec3& direction)
 {
   const glm::dvec3 magnitude = glm::abs(direction);

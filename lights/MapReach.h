@@ -1,6 +1,8 @@
 #ifndef gnomon_lights_MapReach_h
 #define gnomon_lights_MapReach_h
 
+#include "lights/LightArea.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -14,6 +16,10 @@ namespace gnomon
 ///
 /// The kernel is again a square and a disc, in units that lie on the map as its projection has it at
 /// the point (KernelShape.h).
+///
+/// A technique with soft shadows also reads the casters between the point and the light's area. How far
+/// that is follows from where the casters are (reachOfArea, KernelShape.h). Maps are not pushed back for
+/// it.
 struct MapReach
 {
   double squareTexels = 0.5; ///< half the square's side
@@ -24,9 +30,13 @@ struct MapReach
   double largestStretch = 1.0; ///< of kernel units that keep a texel's area
   double unitAcross = 0.0; ///< a kernel unit's length across the light; 0: it keeps a texel's area
 
+  LightArea area = {}; ///< of radius 0: the light is a point to the technique
+
+  /// Whether only views tell how many texels it is.
+  bool dependsOnViews() const { return this->unitAcross > 0.0 || this->area.radius() > 0.0; }
   bool hasKernel() const { return this->kernelSquare > 0.0 || this->kernelDisc > 0.0; }
 
-  /// The farthest along either axis.
+  /// The farthest along either axis, but for the light's area.
   /// @param texelsAcross the most texels to a unit across the light, which kernels of a width across the
   /// light are measured by
   double largestTexels(double texelsAcross = 0.0) const
@@ -38,17 +48,20 @@ struct MapReach
   }
 
   /// Texels to keep free around a view, so that all that is read lies on its own layer.
-  int borderTexels(double texelsAcross = 0.0) const
+  /// @param areaAcross how far the light's area reaches across the light
+  int borderTexels(double texelsAcross = 0.0, double areaAcross = 0.0) const
   {
     constexpr double most = 1 << 20; // more than any map has
-    return static_cast<int>(std::ceil(std::min(this->largestTexels(texelsAcross), most)));
+    const double texels = this->largestTexels(texelsAcross) + areaAcross * texelsAcross;
+    return static_cast<int>(std::ceil(std::min(texels, most)));
   }
 
   bool operator==(const MapReach& other) const
   {
     return this->squareTexels == other.squareTexels && this->discTexels == other.discTexels &&
       this->kernelSquare == other.kernelSquare && this->kernelDisc == other.kernelDisc &&
-      this->largestStretch == other.largestStretch && this->unitAcross == other.unitAcross;
+      this->largestStretch == other.largestStretch && this->unitAcross == other.unitAcross &&
+      this->area == other.area;
   }
 };
 

@@ -200,8 +200,16 @@ const std::vector<Setting>& shadowSettings()
       IntegerSetting{ &S::discGrid, 2, 16 } },
     { "disc_sets", "adaptive: discs that differ are the square of this",
       IntegerSetting{ &S::discSets, 1, 32 } },
-    { "early_out", "adaptive: what is asked before the whole disc is read",
+    { "early_out",
+      "adaptive, pcss: what is asked before the whole disc, or all of the light, is read (pcss: "
+      "not "
+      "ring)",
       choice<EarlyOut, &S::earlyOut>({ "none", "ring", "exact" }) },
+    { "pcss_samples",
+      "pcss: points of the light to look for blockers with, and to filter with: 16 and 16, 36 and "
+      "64, "
+      "64 and 256",
+      choice<PcssSamples, &S::pcssSamples>({ "low", "medium", "high" }) },
     { "adjacency_ring",
       "crsma: which triangles around one may cover a texel with it: across its edges, or all "
       "around "
@@ -249,6 +257,12 @@ const std::vector<Setting>& shadowSettings()
       "soft shadows of area lights: evenly spread points, random ones in the cells of a grid "
       "(light_samples is a square then), or random ones",
       choice<LightSampling, &S::lightSampling>({ "sobol", "jittered", "random" }) },
+    { "batch", "sampled: how many points of the light have their maps drawn and held at a time",
+      IntegerSetting{ &S::batchSamples, 1, mostBatchSamples } },
+    { "progressive",
+      "sampled: how many points of the light each frame adds while nothing changes, after a first "
+      "frame with hard shadows; 0: all are in every frame",
+      IntegerSetting{ &S::progressiveSamples, 0, 65536 } },
     { "mc_rays",
       "montecarlo: rays of a pixel along either side of a grid on the light, so that 3 makes 9",
       IntegerSetting{ &S::mcRays, 1, 32 } },

@@ -18,12 +18,21 @@ enum class FilterKernel
   Castano   ///< a square of any place whose texels count the less the farther they are
 };
 
-/// What the adaptive filter asks before it reads its whole kernel.
+/// What `adaptive` and `pcss` ask before they read their whole kernel.
 enum class EarlyOut
 {
   None, ///< nothing
   Ring, ///< the outermost points, and believes them where they agree
   Exact ///< the least and the largest depth around the point, which never errs
+};
+
+/// How many points of the light percentage closer soft shadows look for blockers with, and how many they
+/// filter with (Apelles, table 4.1).
+enum class PcssSamples
+{
+  Low,    ///< 4 x 4 and 4 x 4
+  Medium, ///< 6 x 6 and 8 x 8
+  High    ///< 8 x 8 and 16 x 16
 };
 
 /// How maps of moments are averaged.
@@ -144,6 +153,9 @@ enum class SlabHierarchy
   NBuffer ///< squares around every texel, for as many times the memory as there are levels
 };
 
+/// The most points of a light whose maps `sampled` holds at a time: one shader reads all of them.
+constexpr int mostBatchSamples = 8;
+
 /// The most planes that planar shadows can be asked for.
 constexpr int mostPlanes = 64;
 
@@ -198,6 +210,8 @@ struct ShadowSettings
   int discSets = 16;
   EarlyOut earlyOut = EarlyOut::Exact;
 
+  PcssSamples pcssSamples = PcssSamples::Medium;
+
   AdjacencyRing adjacencyRing = AdjacencyRing::Edges; ///< of crsma
 
   DepthSurface depth = DepthSurface::First;
@@ -231,6 +245,10 @@ struct ShadowSettings
   int lightSamples = 64;
   int lightSeed = 0; ///< which points these are
   LightSampling lightSampling = LightSampling::Sobol;
+  int batchSamples = 8; ///< of `sampled`: points whose maps are held at a time
+  /// Of `sampled`: points that each frame adds while nothing changes, the first one showing the hard shadow of
+  /// the centre; 0: all are in every frame.
+  int progressiveSamples = 0;
   ///@}
 
   ///@{
@@ -249,10 +267,10 @@ struct ShadowSettings
     return this->mapSamples == other.mapSamples && this->blur == other.blur &&
       this->mipMaps == other.mipMaps && this->discGrid == other.discGrid &&
       this->discSets == other.discSets && this->earlyOut == other.earlyOut &&
-      this->adjacencyRing == other.adjacencyRing && this->depth == other.depth &&
-      this->metric == other.metric && this->biasConstant == other.biasConstant &&
-      this->biasSlope == other.biasSlope && this->mcLayers == other.mcLayers &&
-      this->mcPyramid == other.mcPyramid;
+      this->pcssSamples == other.pcssSamples && this->adjacencyRing == other.adjacencyRing &&
+      this->depth == other.depth && this->metric == other.metric &&
+      this->biasConstant == other.biasConstant && this->biasSlope == other.biasSlope &&
+      this->mcLayers == other.mcLayers && this->mcPyramid == other.mcPyramid;
   }
 };
 

@@ -25,6 +25,8 @@
  *   "kernel_size" or "kernel_width": its points are the square of "disc_grid" (default 8), discs that
  *   differ the square of "disc_sets" (default 16); "early_out" is what is asked before all of a disc is
  *   read: "none", "ring" (its outermost points, which miss small lit gaps), or "exact" (the default);
+ * - "pcss_samples": of "pcss", from how many points of an area light: "low" (16 to look for blockers, 16 to
+ *   filter), "medium" (36 and 64, the default) or "high" (64 and 256). It takes "early_out", too: "none" or "exact";
  * - "depth": the surface on a ray that a map holds: "first" (the default), "second" (the nearest that
  *   faces away from the light; only closed surfaces whose front faces are outside cast), or "midpoint"
  *   (halfway between the first two surfaces; the first one where it is alone);
@@ -44,9 +46,12 @@
  * - "adjacency_ring": of "crsma", which triangles around one may cover a texel together with it: "edges" (the default;
  *   those across its edges), or "vertices" (all around its corners, which decides more and takes longer);
  * - "light_samples", "light_seed": of area lights (vtkGnomonAreaLight) and techniques with soft shadows ("raytraced",
- *   "planar"), from how many points of the light, 1 to 65536 (default 64), and which ones (default 0);
+ *   "sampled", "planar"), from how many points of the light, 1 to 65536 (default 64), and which ones (default 0);
  * - "light_sampling": of the same, "sobol" (the default; evenly spread points, whose errors cancel between neighbouring
  *   pixels), "jittered" (a random one in each cell of a square grid: "light_samples" is a square then) or "random";
+ * - "batch": of "sampled", points of the light whose maps are held at a time, 1 to 8 (the default);
+ * - "progressive": of "sampled", points of the light that each frame adds while nothing changes, 0 (the default) for
+ *   all at once (vtkGnomonShadowPass::GetProgress);
  * - "mc_rays", "mc_layers", "mc_search", "mc_classify", "mc_pyramid", "mc_filter": of "montecarlo"
  *   (docs/techniques/montecarlo.md); "mc_rays" is how many rays a pixel has along either side of the light (default 3);
  * - "light_radius": makes any light an area light, a disk across it or of a point light a ball, in the units of

@@ -386,9 +386,10 @@ std::string RenderManager::reasonAgainstReceivers(const LightSlot& slot) const
   {
     return "translucent surfaces receive, which are not among the receivers that are drawn first";
   }
-  if (slot.technique->mapReach(slot.light).unitAcross > 0.0)
+  if (slot.technique->mapReach(slot.light).dependsOnViews())
   {
-    return "a kernel of a width in world units needs a border that follows from the fit itself";
+    return "a kernel of a width in world units, or as wide as penumbrae are, needs a border that "
+           "follows from the fit itself";
   }
   return {};
 }
@@ -542,10 +543,11 @@ void RenderManager::bakeMaps(
   }
   const ShadowLight seen = technique.lightOfMap(light);
   LightViews views = fitLightViews(seen, fitting);
-  if (reach.unitAcross > 0.0)
+  if (reach.dependsOnViews())
   {
     // How many texels that is, only a view can tell. A wider border makes them fewer.
-    fitting.texels.border = reach.borderTexels(mostTexelsAcross(views, light.mapSizeTexels));
+    fitting.texels.border = reach.borderTexels(mostTexelsAcross(views, light.mapSizeTexels),
+      reachOfArea(reach.area, views, fitting.castersCentred, fitting.receiversCentred));
     views = fitLightViews(seen, fitting);
   }
   std::size_t receivers = 0;
@@ -560,7 +562,6 @@ void RenderManager::bakeMaps(
   if (bake.serves(wanted))
   {
     this->reportOf(light).castersLeftOut = bake.castersLeftOut;
-    this->report_.bytesMaps += technique.bytesOfMaps();
     return;
   }
   bake.once = false; // in case that there is no memory
@@ -584,7 +585,7 @@ void RenderManager::bakeMaps(
   try
   {
     technique.bake({ light, wanted.views, occluders, this->buffers_, this->library_,
-      light.fittedToReceivers ? slot.receiverFit.fits() : TextureBinding() });
+      light.fittedToReceivers ? slot.receiverFit.fits() : TextureBinding(), fitting });
   }
   catch (const TextureMemoryError& error)
   {
@@ -594,7 +595,6 @@ void RenderManager::bakeMaps(
   bake.castersLeftOut = this->buffers_.countUnseen(wanted.views.views);
   ++this->report_.mapBakes;
   this->reportOf(light).castersLeftOut = bake.castersLeftOut;
-  this->report_.bytesMaps += technique.bytesOfMaps();
 }
 
 //------------------------------------------------------------------------------
@@ -674,11 +674,11 @@ void RenderManager::computeVisibility(int wishedTracer, bool keep)
       case Evaluation::ScreenGpu:
         this->buffers_.update(occluders);
         slot.technique->drawVisibility(
-          { slot.light, this->camera_, occluders, this->buffers_, this->receiverTarget_,
-            this->collector_.drawnSurfaces(), this->layers_, layer, this->library_, classify,
-            classify ? &classes : nullptr, this->report_.notes },
+          { slot.light, this->camera_, this->stageValues_.space, occluders, this->buffers_,
+            this->receiverTarget_, this->receiversShown_, this->collector_.drawnSurfaces(),
+            this->layers_, layer, this->library_, classify, classify ? &classes : nullptr,
+            this->report_.notes, this->report_.mapBakes },
           report);
-        this->report_.bytesMaps += slot.technique->bytesOfMaps();
         this->endStageClock("visibility: draw");
         break;
       case Evaluation::ScreenCpu:
@@ -763,6 +763,11 @@ void RenderManager::endFrame()
   report.bytesOccluders =
     this->collector_.bytes() + this->buffers_.bytes() + this->tracer_.bytesOfTable();
   report.bytesBvh = this->tracer_.bytes();
+  for (const LightSlot* slot : this->casting_)
+  {
+    report.bytesMaps +=
+      slot->technique->bytesOfMaps() + (slot->plain ? slot->plain->bytesOfMaps() : 0);
+  }
   if (this->route_ == Route::Image)
   {
     report.bytesImages = this->receiverTarget_.bytes() + this->layers_.bytes() +

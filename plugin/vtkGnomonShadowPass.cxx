@@ -6,6 +6,7 @@
 #include "shadowtech/base/FrameReport.h"
 #include "shadowtech/base/TextureMemory.h"
 
+#include "vtkCommand.h"
 #include "vtkInformation.h"
 #include "vtkInformationObjectBaseVectorKey.h"
 #include "vtkNew.h"
@@ -50,6 +51,7 @@ struct vtkGnomonShadowPass::Internals
   vtkNew<vtkRenderStepsPass> steps; ///< draws into the framebuffers of outer passes
   gnomon::FrameReport plainReport;  ///< of frames that were drawn without the manager
   bool shadowed = false;            ///< whether the last frame was the manager's
+  bool refining = false;            ///< whether the last frame left something to the next ones
 
   vtkWeakPointer<vtkOpenGLRenderWindow> window; ///< whose context holds the manager's GL objects
   vtkTimeStamp contextChecked;
@@ -206,6 +208,24 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
   {
     this->RenderPlain(s, "an error was met");
     this->Internal->plainReport.outOfTextureMemory = outOfTextureMemory;
+  }
+  this->TellProgress();
+}
+
+//------------------------------------------------------------------------------
+/// Tells observers of frames that refine what is shown.
+void vtkGnomonShadowPass::TellProgress()
+{
+  const bool was = this->Internal->refining;
+  double progress = this->GetProgress();
+  this->Internal->refining = progress < 1.0;
+  if (was || this->Internal->refining)
+  {
+    this->InvokeEvent(vtkCommand::ProgressEvent, &progress);
+  }
+  if (was && !this->Internal->refining && this->Internal->shadowed)
+  {
+    this->InvokeEvent(vtkCommand::EndEvent);
   }
 }
 
@@ -414,6 +434,17 @@ const gnomon::FrameReport& vtkGnomonShadowPass::GetReport() const
 }
 
 //------------------------------------------------------------------------------
+double vtkGnomonShadowPass::GetProgress() const
+{
+  double progress = 1.0;
+  for (const gnomon::LightReport& light : this->GetReport().lights)
+  {
+    progress = std::min(progress, light.progress);
+  }
+  return progress;
+}
+
+//------------------------------------------------------------------------------
 const gnomon::VisibilityImages& vtkGnomonShadowPass::GetVisibility() const
 {
   return this->Internal->manager->visibility();
@@ -472,5 +503,6 @@ void vtkGnomonShadowPass::PrintSelf(ostream& os, vtkIndent indent)
      << "DelegatePass: " << (this->DelegatePass ? this->DelegatePass->GetClassName() : "(none)")
      << "\n";
   os << indent << "ObeyUseShadows: " << (this->ObeyUseShadows ? "on" : "off") << "\n";
+  os << indent << "Progress: " << this->GetProgress() << "\n";
   os << indent << "Last frame's route: " << this->GetReport().route << "\n";
 }

@@ -197,6 +197,17 @@ public:
   const gnomon::FrameReport& GetReport() const;
 
   /**
+   * How much of what lights' techniques are to show the last frame showed, in [0, 1]: below 1 where they take
+   * several frames (the setting `progressive` of `sampled`), and further frames of the same scene bring
+   * more. It is the least of all lights'.
+   *
+   * A frame that brings more ends with a vtkCommand::ProgressEvent, whose call data is this number (a
+   * double), and the one that completes it, once, with a vtkCommand::EndEvent. Observers must
+   * not draw; an application draws the next frame when it is idle, while this is below 1.
+   */
+  double GetProgress() const;
+
+  /**
    * The last frame's visibility and receivers (VisibilityImages.h); empty unless KeepVisibility was
    * on while it was drawn.
    */
@@ -232,6 +243,7 @@ private:
   vtkRenderPass* FindDelegate(const vtkRenderState* s);
   void BeginView(const vtkRenderState* s);
   void DrawScene(const vtkRenderState* s);
+  void TellProgress();
   void RenderPlain(const vtkRenderState* s, const char* reason);
   bool PrepareContext(vtkRenderer* renderer);
 

@@ -9,8 +9,11 @@
 #include "shadowtech/moments/FourMoments.h"
 #include "shadowtech/montecarlo/MonteCarlo.h"
 #include "shadowtech/pcf/Pcf.h"
+#include "shadowtech/pcss/Pcss.h"
+#include "shadowtech/penumbra/Penumbra.h"
 #include "shadowtech/planar/Planar.h"
 #include "shadowtech/raytraced/Raytraced.h"
+#include "shadowtech/sampled/Sampled.h"
 #include "shadowtech/selective/Coherence.h"
 #include "shadowtech/selective/Selective.h"
 #include "shadowtech/silhouette/Silhouette.h"
@@ -69,12 +72,14 @@ const std::vector<EstimatorEntry>& estimators()
     entry<Adaptive>(),
     entry<Compare>(),
     entry<Pcf>(),
+    entry<Pcss>(),
     entry<Variance>(),
     entry<Exponential>(),
     entry<FourMoments>(),
     entry<MonteCarlo>(),
     entry<Planar>(),
     entry<Raytraced>(),
+    entry<Sampled>(),
     entry<Coherence>(),
     entry<Selective>(),
     entry<Crsm>(),
@@ -82,6 +87,7 @@ const std::vector<EstimatorEntry>& estimators()
     entry<Crsma>(),
     entry<CrsmaAsPublished>(),
     entry<Silhouette>(),
+    entry<Penumbra>(),
   };
   return entries;
 }
@@ -94,6 +100,8 @@ const std::vector<TechniqueEntry>& registry()
       findEstimator("compare"), Projection::Uniform },
     { "pcf", "hard, smoothed: the plain shadow map with percentage closer filtering",
       findEstimator("pcf"), Projection::Uniform },
+    { "pcss", "soft: percentage closer soft shadows, penumbrae as wide as an area light makes them",
+      findEstimator("pcss"), Projection::Uniform },
     { "vsm", "smoothed: variance shadow map, filtered at a cost that does not depend on the width",
       findEstimator("variance"), Projection::Uniform },
     { "evsm", "smoothed: exponential variance shadow map, which lets less light bleed through",
@@ -111,6 +119,8 @@ const std::vector<TechniqueEntry>& registry()
       findEstimator("compare"), Projection::Splits },
     { "planar", "hard, soft: casters projected onto the flat receivers, with no shadows elsewhere",
       findEstimator("planar"), Projection::Uniform },
+    { "sampled", "soft: a shadow map from each of many points of the light",
+      findEstimator("sampled"), Projection::Uniform },
     { "montecarlo",
       "soft: a few random rays for each pixel through depth layers of the map, and a filter",
       findEstimator("montecarlo"), Projection::Uniform },
@@ -130,6 +140,9 @@ const std::vector<TechniqueEntry>& registry()
       "hard, exact: a conservative map that knows where casters end decides most pixels, rays the "
       "rest",
       findEstimator("silhouette"), Projection::Uniform },
+    { "penumbra",
+      "soft, exact: the light is counted between the edges that casters show it, rays the rest",
+      findEstimator("penumbra"), Projection::Uniform },
     { "raytraced", "hard, exact: a shadow ray for every pixel; the truth",
       findEstimator("raytraced"), Projection::Uniform },
   };
@@ -252,6 +265,30 @@ std::string refusedAverage(const ShadowLight& light, const TechniqueInfo& info)
   return {};
 }
 
+/// Why an estimator cannot ask first what a light's settings say; empty if it can.
+std::string refusedEarlyOut(const ShadowLight& light, const TechniqueInfo& info)
+{
+  return info.name == Pcss::info().name && light.earlyOut == EarlyOut::Ring
+    ? "'pcss' has no ring of points to believe, since its points are all over the light; its "
+      "'early_out' is exact or none"
+    : "";
+}
+
+/// Why the maps of a light's points cannot be laid out as its settings say; empty if they can.
+std::string refusedPoints(const ShadowLight& light, const TechniqueInfo& info)
+{
+  const Projection projection = light.projection;
+  if (info.name != Sampled::info().name || projection == Projection::Uniform ||
+    projection == Projection::Cube)
+  {
+    return {};
+  }
+  return "'" + info.name +
+    "' looks from all points of the light at what its centre reaches, with the projections uniform "
+    "and cube, not '" +
+    findSetting("projection")->get(light) + "'";
+}
+
 /// Why the stages of a chain of tests make no sense together; empty if they do.
 std::string refusedStages(const ShadowLight& light, const TechniqueInfo& info)
 {
@@ -348,8 +385,9 @@ const EstimatorEntry& compose(ShadowLight& light)
     throw CompositionError(
       "the kernel 'castano' has the sizes 3, 5 and 7, not " + std::to_string(light.kernelTexels));
   }
-  for (const std::string& refused : { refusedAverage(light, info), refusedStages(light, info),
-         refusedSamples(light), refusedRays(light, info), refusedProjection(light) })
+  for (const std::string& refused : { refusedAverage(light, info), refusedEarlyOut(light, info),
+         refusedStages(light, info), refusedSamples(light), refusedRays(light, info),
+         refusedProjection(light), refusedPoints(light, info) })
   {
     if (!refused.empty())
     {

@@ -265,7 +265,10 @@ void warmUp(Variant& variant)
 VisibilityImages keptVisibility(Variant& variant)
 {
   variant.pass()->KeepVisibilityOn();
-  variant.drawFrame(Motion::Static, 0);
+  do
+  {
+    variant.drawFrame(Motion::Static, 0);
+  } while (variant.pass()->GetProgress() < 1.0);
   VisibilityImages images = variant.pass()->GetVisibility();
   variant.pass()->KeepVisibilityOff();
   return images;

@@ -161,7 +161,8 @@ nlohmann::ordered_json toJson(const FrameReport& report)
         { "fit", light.fit }, { "fit_reason", light.fitReason }, { "map_reason", light.mapReason },
         { "casters_left_out", light.castersLeftOut }, { "kernel", light.kernel },
         { "kernel_size_texels", light.kernelTexels }, { "map_samples", light.mapSamples },
-        { "traced_pixels", light.tracedPixels }, { "light_samples", light.lightSamples },
+        { "traced_pixels", light.tracedPixels }, { "rays", light.rays },
+        { "light_samples", light.lightSamples }, { "progress", light.progress },
         { "planes", light.planes }, { "pixels_off_planes", light.pixelsOffPlanes },
         { "classes", classesToJson(light.classes) } });
   }
@@ -272,7 +273,10 @@ void render(const RenderOptions& options)
     "bake", "always"); // the only frame is to show what techniques do with their maps
   renderer->SetPass(shadows);
   window->AddRenderer(renderer);
-  window->Render();
+  do
+  {
+    window->Render();
+  } while (shadows->GetProgress() < 1.0);
 
   for (const std::string& warning : messages.warnings())
   {
@@ -382,9 +386,8 @@ void addRenderCommand(CLI::App& app)
   command->add_option("--classes", options->classes,
     "Also write how each pixel's visibility came about, by colours, for the first light whose "
     "technique "
-    "tells: lit for certain light grey, in shadow for certain dark grey, traced purple, turned "
-    "away from the "
-    "light green; .png or .exr");
+    "tells: lit for certain light grey, in shadow for certain dark grey, traced purple, "
+    "penumbras by their edges orange, turned away from the light green; .png or .exr");
   command->callback([options] { render(*options); });
 }
 

@@ -6,8 +6,6 @@
 #include "shadowtech/base/ShaderLibrary.h"
 #include "shadowtech/base/TextureMemory.h"
 
-#include <algorithm>
-
 namespace gnomon
 {
 namespace
@@ -20,9 +18,7 @@ std::string define(const std::string& name, int value)
 
 bool readsBounds(const ShadowLight& light)
 {
-  const bool alongRay =
-    light.kind != LightKind::Directional && light.metric == DepthMetric::Euclidean;
-  return light.earlyOut == EarlyOut::Exact && !alongRay;
+  return light.earlyOut == EarlyOut::Exact && !measuresAlongRay(light);
 }
 
 } // namespace
@@ -51,7 +47,11 @@ void Adaptive::bake(const MapInput& input)
   this->DepthMapTechnique::bake(input);
   const GlStateGuard guard;
   this->bakeDiscs(input.light);
-  this->bakeBounds(input);
+  this->bounds_.release();
+  if (readsBounds(input.light))
+  {
+    this->bakeBounds(this->bounds_, input.shaders);
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -84,84 +84,11 @@ void Adaptive::bakeDiscs(const ShadowLight& light)
 }
 
 //------------------------------------------------------------------------------
-void Adaptive::bakeBounds(const MapInput& input)
-{
-  this->bounds_.reset();
-  this->bytesOfBounds_ = 0;
-  if (!readsBounds(input.light))
-  {
-    return;
-  }
-  // As many as the map has: a light without a view still needs a texture to bind.
-  const int layers = std::max(static_cast<int>(input.views.views.size()), 1);
-  // A power of two, so that a block's texels are those of 2 x 2 smaller blocks.
-  int side = 1;
-  while (2 * side < input.light.mapSizeTexels)
-  {
-    side *= 2;
-  }
-  int levels = 1;
-  while (side >> levels > 0)
-  {
-    ++levels;
-  }
-  allocateTexture(
-    this->bounds_, { GL_RG32F, GL_RG, 2 }, side, side, layers, "the depth bounds of a map", levels);
-  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_NEAREST_MIPMAP_NEAREST);
-  for (int blocks = side; blocks >= 1; blocks /= 2)
-  {
-    this->bytesOfBounds_ += static_cast<std::size_t>(blocks) * static_cast<std::size_t>(blocks) *
-      static_cast<std::size_t>(layers) * sizeof(glm::vec2);
-  }
-
-  const GLuint program = input.shaders.program(
-    { { GL_VERTEX_SHADER, ShaderLibrary::source("shadowtech/base/screen_visibility.vert.glsl") },
-      { GL_FRAGMENT_SHADER,
-        ShaderLibrary::source("shadowtech/adaptive/depth_bounds.frag.glsl") } });
-  glUseProgram(program);
-  glBindFramebuffer(GL_FRAMEBUFFER, this->framebuffer_.create());
-  glDrawBuffer(GL_COLOR_ATTACHMENT0);
-  glDisable(GL_DEPTH_TEST);
-  glDisable(GL_SCISSOR_TEST);
-  glDisable(GL_STENCIL_TEST);
-  glDisable(GL_CULL_FACE);
-  glDisable(GL_CLIP_DISTANCE0);
-  glDisable(GL_MULTISAMPLE);
-  glDisable(GL_FRAMEBUFFER_SRGB);
-  glDisablei(GL_BLEND, 0);
-  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-  glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
-  GlVertexArray noAttributes;
-  glBindVertexArray(noAttributes.create());
-  for (int level = 0; level < levels; ++level)
-  {
-    const int blocks = side >> level;
-    glViewport(0, 0, blocks, blocks);
-    for (int layer = 0; layer < layers; ++layer)
-    {
-      glFramebufferTextureLayer(
-        GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, this->bounds_.name(), level, layer);
-      // Only what is finished may be read.
-      glBindTexture(GL_TEXTURE_2D_ARRAY, this->bounds_.name());
-      glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAX_LEVEL, std::max(level - 1, 0));
-      ShaderLibrary::setUniforms(program,
-        { { "depthMap", TextureBinding{ GL_TEXTURE_2D_ARRAY, this->map().name() } },
-          { "bounds", TextureBinding{ GL_TEXTURE_2D_ARRAY, this->bounds_.name() } },
-          { "level", level }, { "layer", layer } },
-        0, 0);
-      glDrawArrays(GL_TRIANGLES, 0, 3);
-    }
-  }
-  glBindTexture(GL_TEXTURE_2D_ARRAY, this->bounds_.name());
-  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAX_LEVEL, levels - 1);
-}
-
-//------------------------------------------------------------------------------
 std::size_t Adaptive::bytesOfMaps() const
 {
   const auto points = static_cast<std::size_t>(this->discGrid_ * this->discGrid_);
   const auto discs = static_cast<std::size_t>(this->discSets_ * this->discSets_);
-  return this->DepthMapTechnique::bytesOfMaps() + this->bytesOfBounds_ +
+  return this->DepthMapTechnique::bytesOfMaps() + this->bounds_.bytes() +
     points * discs * sizeof(glm::vec2);
 }
 
@@ -172,8 +99,7 @@ std::vector<Uniform> Adaptive::uniforms(const ReceiverSpace& space) const
   uniforms.push_back({ "discs_LIGHT", TextureBinding{ GL_TEXTURE_2D_ARRAY, this->discs_.name() } });
   if (this->bounds_)
   {
-    uniforms.push_back(
-      { "depthBounds_LIGHT", TextureBinding{ GL_TEXTURE_2D_ARRAY, this->bounds_.name() } });
+    uniforms.push_back(this->bounds_.uniform());
   }
   return uniforms;
 }

@@ -1,6 +1,7 @@
 #ifndef gnomon_shadowtech_adaptive_Adaptive_h
 #define gnomon_shadowtech_adaptive_Adaptive_h
 
+#include "shadowtech/depth_map/DepthBounds.h"
 #include "shadowtech/depth_map/DepthMapTechnique.h"
 
 namespace gnomon
@@ -39,16 +40,11 @@ protected:
 
 private:
   void bakeDiscs(const ShadowLight& light);
-  void bakeBounds(const MapInput& input);
 
   GlTexture discs_; ///< a layer for each point of the disc, a texel for each disc
   int discGrid_ = 0;
   int discSets_ = 0;
-  /// The least and the largest depth of blocks of 2, 4, 8, ... texels of the map; no texture where the
-  /// light does not ask for them.
-  GlTexture bounds_;
-  GlFramebuffer framebuffer_;
-  std::size_t bytesOfBounds_ = 0;
+  DepthBounds bounds_; ///< none where the light does not ask for them
 };
 
 } // namespace gnomon

@@ -105,6 +105,10 @@ void drawCasters(std::size_t number, const MapInput& input, CasterShader shader)
   {
     picture.keptFromCentred.push_back(distance - glm::dvec4(0.0, 0.0, 0.0, view.beginsAt));
   }
+  if (input.keptFromCentred)
+  {
+    picture.keptFromCentred.push_back(*input.keptFromCentred);
+  }
   if (input.views.awaitFit)
   {
     shader.defines.emplace_back("FITTED");

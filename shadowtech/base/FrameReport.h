@@ -48,6 +48,11 @@ struct LightReport
   std::int64_t tracedPixels = 0; ///< pixels decided by a ray
   /// Points of the light that its shadows come from: 1 where they are hard. A traced pixel has a ray to each.
   int lightSamples = 1;
+  /// The share of its points that are in the picture: below 1 where further frames are to add more.
+  double progress = 1.0;
+  /// Rays that were traced. Of most techniques as many as tracedPixels times lightSamples; where rays decide others
+  /// (`penumbra`), tracedPixels have all of theirs, and other pixels some.
+  std::int64_t rays = 0;
   int planes = 0; ///< of planar shadows: how many planes show them
   /// Of planar shadows: pixels that lie on none of those and show no cast shadow. Counted only where
   /// visibility is kept or stages are measured.

@@ -12,6 +12,13 @@ void setEnabled(GLenum name, GLboolean enabled)
   enabled ? glEnable(name) : glDisable(name);
 }
 
+/// Binds a texture again, unless it was deleted meanwhile, which unbinds it for good.
+void bindAgain(GLenum target, GLint texture)
+{
+  const auto name = static_cast<GLuint>(texture);
+  glBindTexture(target, glIsTexture(name) ? name : 0);
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -64,10 +71,8 @@ GlStateGuard::~GlStateGuard()
   for (int unit = 0; unit < textureUnits; ++unit)
   {
     glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
-    glBindTexture(
-      GL_TEXTURE_2D, static_cast<GLuint>(this->texture2D_[static_cast<std::size_t>(unit)]));
-    glBindTexture(GL_TEXTURE_2D_ARRAY,
-      static_cast<GLuint>(this->texture2DArray_[static_cast<std::size_t>(unit)]));
+    bindAgain(GL_TEXTURE_2D, this->texture2D_[static_cast<std::size_t>(unit)]);
+    bindAgain(GL_TEXTURE_2D_ARRAY, this->texture2DArray_[static_cast<std::size_t>(unit)]);
   }
   glActiveTexture(static_cast<GLenum>(this->activeTexture_));
   glColorMask(this->colorMask_[0], this->colorMask_[1], this->colorMask_[2], this->colorMask_[3]);

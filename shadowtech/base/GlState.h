@@ -21,7 +21,7 @@ public:
   GlStateGuard& operator=(const GlStateGuard&) = delete;
 
   /// Texture units whose 2D and 2D array bindings are put back.
-  static constexpr int textureUnits = 6;
+  static constexpr int textureUnits = 12;
 
 private:
   static constexpr std::array<GLenum, 12> switches_ = { GL_DEPTH_TEST, GL_CLIP_DISTANCE0,

@@ -13,6 +13,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -93,10 +94,14 @@ struct MapInput
   const ShadowLight& light;
   const LightViews& views;
   const Occluders& occluders;
-  OccluderBuffers& buffers;
+  const OccluderBuffers& buffers;
   ShaderLibrary& shaders;
   /// The last fits of views that await them, and the warps that were chosen (ReceiverFit.h).
   TextureBinding viewFits = {};
+  /// What the views were fitted to, for techniques that lay out more of them.
+  ViewFitting fitting = {};
+  /// A plane (n, d) in centred coordinates: of casters, only what has n.p + d >= 0 counts.
+  std::optional<glm::dvec4> keptFromCentred = std::nullopt;
 };
 
 /// What a screen technique gets to draw one light's visibility image from, on the GPU.
@@ -104,9 +109,12 @@ struct LayerInput
 {
   const ShadowLight& light;
   const CameraView& camera;
+  const ReceiverSpace& space; ///< the camera's
   const Occluders& occluders;
-  const OccluderBuffers& buffers;                 ///< up to date with the occluders
-  const ReceiverTarget& receivers;                ///< with points
+  const OccluderBuffers& buffers;  ///< up to date with the occluders
+  const ReceiverTarget& receivers; ///< with points
+  /// While this is the same, and so are the occluders, the receivers are.
+  std::size_t receiversShown;
   const std::vector<DrawnSurface>& drawnSurfaces; ///< that the receivers' fragments name
   VisibilityLayers& layers;
   int layer; ///< of the layers: this light's
@@ -115,6 +123,7 @@ struct LayerInput
   /// Where not null: to be filled with each pixel's class, an index into TechniqueInfo::classes.
   std::vector<std::uint8_t>* classes;
   std::vector<std::string>& notes; ///< FrameReport::notes
+  int& mapBakes;                   ///< FrameReport::mapBakes
 };
 
 /// What a screen technique gets to compute one light's visibility image from, on the CPU.

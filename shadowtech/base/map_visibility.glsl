@@ -31,14 +31,10 @@ float estimateAt_LIGHT(ViewPoint point, vec3 positionView)
   return estimate_LIGHT(point, slack);
 }
 
-float visibility_LIGHT(vec3 positionView, vec3 normalView)
+// What the map says of a point, whether or not the light reaches it. `p` and `n` are its place and
+// normal in light space.
+float visibilityOnMap_LIGHT(vec3 p, vec3 n, vec3 positionView, vec3 normalView)
 {
-  vec3 p = (lightFromView_LIGHT * vec4(positionView, 1.0)).xyz;
-  vec3 n = mat3(lightFromView_LIGHT) * normalView;
-  if (!lightReaches_LIGHT(p, n))
-  {
-    return 0.0;
-  }
   ViewPoint point;
   if (!findView_LIGHT(p, n, point))
   {
@@ -57,4 +53,11 @@ float visibility_LIGHT(vec3 positionView, vec3 normalView)
   }
 #endif
   return visibility;
+}
+
+float visibility_LIGHT(vec3 positionView, vec3 normalView)
+{
+  vec3 p = (lightFromView_LIGHT * vec4(positionView, 1.0)).xyz;
+  vec3 n = mat3(lightFromView_LIGHT) * normalView;
+  return lightReaches_LIGHT(p, n) ? visibilityOnMap_LIGHT(p, n, positionView, normalView) : 0.0;
 }

@@ -42,6 +42,7 @@ void ConservativeTechnique::computeVisibility(
 {
   report.tracedPixels = static_cast<std::int64_t>(input.tracer.trace(
     input.light, input.occluders, input.receivers, visibility, &this->maps_, input.classes));
+  report.rays = report.tracedPixels;
 }
 
 } // namespace gnomon

@@ -8,6 +8,7 @@
 #include "shadowtech/base/LightViewsGlsl.h"
 #include "shadowtech/base/ShaderLibrary.h"
 #include "shadowtech/base/TextureMemory.h"
+#include "shadowtech/depth_map/DepthBounds.h"
 
 #include <algorithm>
 #include <sstream>
@@ -32,7 +33,8 @@ struct Layer
 /// pushes by. That is twice what is asked for in the worst case, and costs nothing.
 bool polygonOffsetServes(const LightView& view, const MapReach& reach)
 {
-  return view.depthIsAffine() && reach == MapReach{};
+  return view.depthIsAffine() && reach.squareTexels == MapReach().squareTexels &&
+    reach.discTexels == 0.0 && !reach.hasKernel();
 }
 
 std::string define(const char* name, double value)
@@ -43,20 +45,14 @@ std::string define(const char* name, double value)
   return text.str();
 }
 
-bool measuresAlongRay(const LightView& view, const ShadowLight& light)
-{
-  return view.rays.positional && light.metric == DepthMetric::Euclidean;
-}
-
 /// The fragment shader's definitions of a layer whose depth it writes.
 std::vector<std::string> writingDefines(
-  const LightView& view, const MapReach& reach, const Layer& layer, const ShadowLight& light)
+  const MapReach& reach, const Layer& layer, const ShadowLight& light)
 {
   std::vector<std::string> defines = { "DEPTH_LINEAR", "WRITES_DEPTH",
     define("PUSH", layer.push + light.biasSlope), define("DEEPEST", deepestPushed),
     define("REACH_SQUARE", reach.squareTexels), define("REACH_DISC", reach.discTexels) };
-  const bool alongRay = measuresAlongRay(view, light);
-  if (alongRay)
+  if (measuresAlongRay(light))
   {
     defines.emplace_back("EUCLIDEAN");
   }
@@ -94,7 +90,7 @@ void drawView(std::size_t number, const MapReach& reach, const Layer& layer, con
   }
   else
   {
-    defines = writingDefines(view, reach, layer, light);
+    defines = writingDefines(reach, layer, light);
   }
   std::vector<Uniform> uniforms = { { "bias",
                                       static_cast<float>(light.biasConstant * view.depthScale) },
@@ -124,6 +120,12 @@ void drawInto(const GlTexture& depths, std::size_t layer)
 }
 
 } // namespace
+
+//------------------------------------------------------------------------------
+bool measuresAlongRay(const ShadowLight& light)
+{
+  return light.kind != LightKind::Directional && light.metric == DepthMetric::Euclidean;
+}
 
 //------------------------------------------------------------------------------
 void DepthMapTechnique::allocate(int sizeTexels, int layers)
@@ -217,6 +219,12 @@ void DepthMapTechnique::bakeMidpoints(const MapInput& input)
 }
 
 //------------------------------------------------------------------------------
+void DepthMapTechnique::bakeBounds(DepthBounds& bounds, ShaderLibrary& shaders) const
+{
+  bounds.bake(this->map_.name(), this->sizeTexels_, this->layers_, shaders);
+}
+
+//------------------------------------------------------------------------------
 std::size_t DepthMapTechnique::bytesOfMaps() const
 {
   return static_cast<std::size_t>(this->layers_) * static_cast<std::size_t>(this->sizeTexels_) *
@@ -226,10 +234,8 @@ std::size_t DepthMapTechnique::bytesOfMaps() const
 //------------------------------------------------------------------------------
 std::string DepthMapTechnique::visibilityGlsl(const ShadowLight& light) const
 {
-  const bool euclidean =
-    light.kind != LightKind::Directional && light.metric == DepthMetric::Euclidean;
-  return lightViewsDefines(light) + "#define MAP_EUCLIDEAN_LIGHT " + (euclidean ? "1\n" : "0\n") +
-    this->estimatorGlsl(light);
+  return lightViewsDefines(light) + "#define MAP_EUCLIDEAN_LIGHT " +
+    (measuresAlongRay(light) ? "1\n" : "0\n") + this->estimatorGlsl(light);
 }
 
 //------------------------------------------------------------------------------

@@ -6,6 +6,11 @@
 namespace gnomon
 {
 
+class DepthBounds;
+
+/// Whether a light's depth maps hold distances along the ray, which are not linear across the light.
+bool measuresAlongRay(const ShadowLight& light);
+
 /// What techniques with a plain shadow map share: one layer of linear depth for each of the light's
 /// views. What is left to them is the estimator: GLSL that defines
 ///     float estimate_LIGHT(ViewPoint point, float slack)
@@ -52,6 +57,12 @@ public:
 
 protected:
   const GlTexture& map() const { return this->map_; }
+  /// The views of the last bake.
+  const LightViews& views() const { return this->views_; }
+  /// The reach of the last bake.
+  const MapReach& reach() const { return this->reach_; }
+  /// The pyramid of the map's depths, as baked.
+  void bakeBounds(DepthBounds& bounds, ShaderLibrary& shaders) const;
 
   /// The estimator's source. It includes depth_map.glsl.
   virtual std::string estimatorGlsl(const ShadowLight& light) const = 0;

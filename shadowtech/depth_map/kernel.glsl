@@ -1,6 +1,5 @@
 // How filters compare with the texels of a depth map.
 
-#include "shadowtech/base/kernel_units.glsl"
 #include "shadowtech/depth_map/depth_map.glsl"
 
 // 1 where the point is hidden at a texel, else 0. The border makes sure that casters lie inside the

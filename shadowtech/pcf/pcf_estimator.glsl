@@ -6,6 +6,7 @@
 //
 // What is hidden is added up, not what is lit, so that a lit point's visibility is 1 exactly.
 
+#include "shadowtech/base/kernel_units.glsl"
 #include "shadowtech/depth_map/kernel.glsl"
 
 #if PCF_CASTANO_LIGHT

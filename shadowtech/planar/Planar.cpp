@@ -79,8 +79,7 @@ std::vector<glm::dvec4> castingPart(const ShadowLight& light, const glm::dvec3& 
   std::vector<glm::dvec4> kept = { plane - glm::dvec4(0.0, 0.0, 0.0, thickness) };
   if (light.box)
   {
-    kept.emplace_back(
-      light.directionWorld, -glm::dot(light.directionWorld, light.positionWorld - centreWorld));
+    kept.push_back(nearFaceCentred(light, centreWorld));
   }
   return kept;
 }
@@ -114,8 +113,10 @@ void Planar::drawVisibility(const LayerInput& input, LightReport& report)
   this->planes_.update(input.occluders, static_cast<std::size_t>(input.light.planes));
   this->samples_ = lightSamples(input.light, input.occluders.centreWorld);
   report.lightSamples = static_cast<int>(this->samples_.size());
-  this->allocate(
-    input.receivers.width(), input.receivers.height(), this->samples_.size() > samplesPerBatch);
+  this->allocate(input.receivers.width(), input.receivers.height());
+  this->samples_.size() > samplesPerBatch
+    ? this->lit_.begin(this->width_, this->height_, "the samples' shadows")
+    : this->lit_.clear();
   this->sendPlanes(input);
   this->findPlanesOfPixels(input);
   for (std::size_t first = 0; first < this->samples_.size(); first += samplesPerBatch)
@@ -130,10 +131,9 @@ void Planar::drawVisibility(const LayerInput& input, LightReport& report)
 }
 
 //------------------------------------------------------------------------------
-void Planar::allocate(int width, int height, bool soft)
+void Planar::allocate(int width, int height)
 {
-  const bool isSoft = static_cast<bool>(this->lit_[0]);
-  if (this->width_ == width && this->height_ == height && isSoft == soft)
+  if (this->width_ == width && this->height_ == height)
   {
     return;
   }
@@ -142,14 +142,6 @@ void Planar::allocate(int width, int height, bool soft)
   const TexelFormat integers{ GL_R32UI, GL_RED_INTEGER, 1, GL_UNSIGNED_INT };
   allocateTexture(this->planesOfPixels_, integers, width, height, 0, "the pixels' planes");
   allocateTexture(this->shadows_, integers, width, height, 0, "the planes' shadows");
-  for (GlTexture& lit : this->lit_)
-  {
-    lit.reset();
-    if (soft)
-    {
-      allocateTexture(lit, { GL_R32F, GL_RED, 1 }, width, height, 0, "the samples' shadows");
-    }
-  }
   glBindFramebuffer(GL_FRAMEBUFFER, this->shadowFramebuffer_.create());
   glFramebufferTexture2D(
     GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, this->shadows_.name(), 0);
@@ -268,19 +260,19 @@ void Planar::sumUp(const LayerInput& input, const Batch& batch)
   defines.push_back("PLANES " + std::to_string(mostPlanes));
   const GLuint program = ScreenPass::use(
     input.shaders, ShaderLibrary::source("shadowtech/planar/planar_visibility.frag.glsl"), defines);
-  const std::size_t number = batch.first / samplesPerBatch;
   std::vector<Uniform> uniforms = {
     { "receiverFragments", TextureBinding{ GL_TEXTURE_2D, input.receivers.fragments() } },
     { "receiverPoints", TextureBinding{ GL_TEXTURE_2D, input.receivers.points() } },
     { "planesOfPixels", TextureBinding{ GL_TEXTURE_2D, this->planesOfPixels_.name() } },
     { "shadows", TextureBinding{ GL_TEXTURE_2D, this->shadows_.name() } },
-    { "litBefore", TextureBinding{ GL_TEXTURE_2D, this->lit_[number % 2].name() } },
-    { "isFirst", number == 0 ? 1 : 0 }, { "sampleCount", static_cast<int>(batch.count) },
+    { "sampleCount", static_cast<int>(batch.count) },
     { "divisor", batch.last ? static_cast<float>(this->samples_.size()) : 1.0f }
   };
-  const std::vector<Uniform> reach =
-    lightReachUniforms(input.light, input.occluders.centreWorld, viewFromCentred);
-  uniforms.insert(uniforms.end(), reach.begin(), reach.end());
+  for (const std::vector<Uniform>& more : { this->lit_.before(),
+         lightReachUniforms(input.light, input.occluders.centreWorld, viewFromCentred) })
+  {
+    uniforms.insert(uniforms.end(), more.begin(), more.end());
+  }
   for (std::size_t i = 0; i < batch.count; ++i)
   {
     uniforms.push_back({ "samplesView[" + std::to_string(i) + "]",
@@ -298,7 +290,7 @@ void Planar::sumUp(const LayerInput& input, const Batch& batch)
   }
   else
   {
-    this->screenPass_.fill(this->lit_[(number + 1) % 2].name(), -1, this->width_, this->height_);
+    this->lit_.fill();
   }
 }
 
@@ -339,8 +331,7 @@ std::size_t Planar::bytesOfMaps() const
 {
   const auto pixels =
     static_cast<std::size_t>(this->width_) * static_cast<std::size_t>(this->height_);
-  const std::size_t images = this->lit_[0] ? 4 : 2;
-  return images * pixels * sizeof(float) + this->planesOfPrimitives_.bytes() +
+  return 2 * pixels * sizeof(float) + this->lit_.bytes() + this->planesOfPrimitives_.bytes() +
     this->blocks_.bytes();
 }
 

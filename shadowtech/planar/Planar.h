@@ -1,6 +1,7 @@
 #ifndef gnomon_shadowtech_planar_Planar_h
 #define gnomon_shadowtech_planar_Planar_h
 
+#include "shadowtech/base/RunningSum.h"
 #include "shadowtech/base/ScreenPass.h"
 #include "shadowtech/base/Technique.h"
 #include "shadowtech/planar/IntegerTable.h"
@@ -35,7 +36,7 @@ public:
 private:
   struct Batch;
 
-  void allocate(int width, int height, bool soft);
+  void allocate(int width, int height);
   void sendPlanes(const LayerInput& input);
   void findPlanesOfPixels(const LayerInput& input);
   Batch makeBatch(const LayerInput& input, std::size_t first) const;
@@ -54,7 +55,7 @@ private:
 
   GlTexture planesOfPixels_;
   GlTexture shadows_;
-  GlTexture lit_[2]; ///< of several batches: the samples that were seen before, and with this one
+  RunningSum lit_; ///< of several batches: the samples that are seen
   GlFramebuffer shadowFramebuffer_;
   ScreenPass screenPass_;
   int width_ = 0;

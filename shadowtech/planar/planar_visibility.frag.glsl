@@ -3,6 +3,7 @@
 // share.
 
 #include "shadowtech/base/light_reach.glsl"
+#include "shadowtech/base/running_sum.glsl"
 
 #define MOST_SAMPLES 32
 
@@ -10,8 +11,6 @@ uniform sampler2D receiverFragments; // zw: the normal's x and y
 uniform sampler2D receiverPoints;    // xyz: position, w: the normal's z; all in view coordinates
 uniform usampler2D planesOfPixels;   // planes_of_pixels.frag.glsl
 uniform usampler2D shadows;          // a bit for each sample that is shadowed
-uniform sampler2D litBefore;         // samples of former batches that were seen
-uniform int isFirst;                 // 1: there were none
 uniform int sampleCount;
 uniform vec4 samplesView[MOST_SAMPLES]; // (position, 1) or (towards the light, 0)
 uniform int facingPlane[PLANES];        // the bits of the samples that the plane's visible side faces
@@ -43,6 +42,5 @@ void main()
     uint facing = plane > 1u ? uint(facingPlane[plane - 2u]) : facedBy(point.xyz, normal);
     lit = lightReaches(point.xyz) ? bitCount(facing & ~texelFetch(shadows, pixel, 0).r) : 0;
   }
-  float before = isFirst == 1 ? 0.0 : texelFetch(litBefore, pixel, 0).r;
-  visibility = (before + float(lit)) / divisor;
+  visibility = (summedBefore(pixel) + float(lit)) / divisor;
 }

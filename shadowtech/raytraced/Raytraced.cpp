@@ -22,10 +22,12 @@ void Raytraced::computeVisibility(
 {
   const bool soft = input.light.area.has_value();
   report.lightSamples = soft ? input.light.lightSamples : 1;
-  const auto trace = soft ? &ShadowTracer::traceArea : &ShadowTracer::trace;
-  const std::size_t rays = (input.tracer.*trace)(
-    input.light, input.occluders, input.receivers, visibility, nullptr, input.classes);
-  report.tracedPixels = static_cast<std::int64_t>(rays) / report.lightSamples;
+  const std::size_t rays = soft ? input.tracer.traceArea(input.light, input.occluders,
+                                    input.receivers, visibility, nullptr, input.classes)
+                                : input.tracer.trace(input.light, input.occluders, input.receivers,
+                                    visibility, nullptr, input.classes);
+  report.rays = static_cast<std::int64_t>(rays);
+  report.tracedPixels = report.rays / report.lightSamples;
 }
 
 } // namespace gnomon

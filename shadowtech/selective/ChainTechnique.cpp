@@ -45,6 +45,7 @@ void ChainTechnique::computeVisibility(
   }
   report.tracedPixels =
     static_cast<std::int64_t>(Chain(stages, this->maps_, this->fans_, input).run(visibility));
+  report.rays = report.tracedPixels;
 }
 
 } // namespace gnomon

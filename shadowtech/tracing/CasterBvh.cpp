@@ -1,9 +1,8 @@
 #include "shadowtech/tracing/CasterBvh.h"
 
 #include "shadowtech/base/Bytes.h"
-#include "shadowtech/tracing/EmbreeHandle.h"
+#include "shadowtech/tracing/BvhBuilder.h"
 
-#include <embree3/rtcore.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
@@ -17,153 +16,8 @@ namespace gnomon
 namespace
 {
 
-/// Where Embree's builder gives up looking for the best cut. Forty cuts leave less than a millionth of a
-/// scene; it halves what is left.
-constexpr unsigned int mostDepth = 48;
-
 /// How much worse than when it was built a tree may become before another one is built.
 constexpr double mostCostRatio = 2.0;
-
-/// A tree as Embree builds it. Boxes are left out: fitBoxes() finds them, for new trees as for old ones.
-struct TreeNode
-{
-  std::array<TreeNode*, 2> children{};
-  std::uint32_t count = 0; ///< of a leaf
-  std::array<std::uint32_t, BvhLink::mostRecordsOfLeaf> records{};
-};
-
-void* newTreeNode(RTCThreadLocalAllocator allocator)
-{
-  return new (rtcThreadLocalAlloc(allocator, sizeof(TreeNode), alignof(TreeNode))) TreeNode;
-}
-
-void* createLeaf(
-  RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* primitives, std::size_t count, void*)
-{
-  auto* leaf = static_cast<TreeNode*>(newTreeNode(allocator));
-  leaf->count = static_cast<std::uint32_t>(count);
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    leaf->records[i] = primitives[i].primID;
-  }
-  return leaf;
-}
-
-void setChildren(void* node, void** children, unsigned int, void*)
-{
-  static_cast<TreeNode*>(node)->children = { static_cast<TreeNode*>(children[0]),
-    static_cast<TreeNode*>(children[1]) };
-}
-
-/// Appends a tree's nodes and its leaves' records to those of all trees.
-class Flattening
-{
-public:
-  Flattening(std::vector<BvhNode>& nodes, std::vector<BvhRecord>& records,
-    const std::vector<BvhRecord>& unordered)
-    : nodes_(nodes)
-    , records_(records)
-    , unordered_(unordered)
-  {
-  }
-
-  /// @return the link to what was appended
-  std::uint32_t append(const TreeNode* node, int depth = 0)
-  {
-    this->depth_ = std::max(this->depth_, depth);
-    if (node->count > 0)
-    {
-      const auto first = static_cast<std::uint32_t>(this->records_.size());
-      for (std::uint32_t i = 0; i < node->count; ++i)
-      {
-        this->records_.push_back(this->unordered_[node->records[i]]);
-      }
-      return BvhLink::leaf(first, node->count);
-    }
-    const std::size_t pair = this->nodes_.size();
-    this->nodes_.resize(pair + 2);
-    for (std::size_t child = 0; child < 2; ++child)
-    {
-      const std::uint32_t link = this->append(node->children[child], depth + 1);
-      this->nodes_[pair + child].link = link;
-    }
-    return static_cast<std::uint32_t>(pair);
-  }
-
-  /// Inner nodes one below another.
-  int depth() const { return this->depth_; }
-
-private:
-  std::vector<BvhNode>& nodes_;
-  std::vector<BvhRecord>& records_;
-  const std::vector<BvhRecord>& unordered_;
-  int depth_ = 0;
-};
-
-/// Builds trees and appends them.
-class TreeBuilder
-{
-public:
-  TreeBuilder(std::vector<BvhNode>& nodes, std::vector<BvhRecord>& records)
-    : device_(rtcNewDevice(nullptr))
-    , nodes_(nodes)
-    , records_(records)
-  {
-    if (!this->device_.get())
-    {
-      throw std::runtime_error("Embree cannot be started on this machine");
-    }
-  }
-
-  struct Tree
-  {
-    std::uint32_t root;
-    int depth;
-  };
-
-  /// @param boundsOf box of a record
-  template <typename BoundsOf>
-  Tree add(const std::vector<BvhRecord>& records, const BoundsOf& boundsOf)
-  {
-    std::vector<RTCBuildPrimitive> primitives(records.size());
-    tbb::parallel_for(std::size_t(0), records.size(),
-      [&](std::size_t i)
-      {
-        const Bounds bounds = boundsOf(records[i]);
-        const glm::vec3 lower(bounds.lower);
-        const glm::vec3 upper(bounds.upper);
-        primitives[i] = { lower.x, lower.y, lower.z, 0, upper.x, upper.y, upper.z,
-          static_cast<unsigned int>(i) };
-      });
-    const EmbreeBvh bvh(rtcNewBVH(this->device_.get()));
-    RTCBuildArguments arguments = rtcDefaultBuildArguments();
-    arguments.maxDepth = mostDepth;
-    arguments.maxLeafSize = BvhLink::mostRecordsOfLeaf;
-    arguments.bvh = bvh.get();
-    arguments.primitives = primitives.data();
-    arguments.primitiveCount = arguments.primitiveArrayCapacity = primitives.size();
-    arguments.createNode = [](RTCThreadLocalAllocator allocator, unsigned int, void*)
-    { return newTreeNode(allocator); };
-    arguments.setNodeChildren = setChildren;
-    arguments.setNodeBounds = [](void*, const RTCBounds**, unsigned int, void*) {};
-    arguments.createLeaf = createLeaf;
-    const auto* root = static_cast<const TreeNode*>(rtcBuildBVH(&arguments));
-    if (!root)
-    {
-      throw std::runtime_error(
-        "Embree failed while building the tree of the GPU's ray tracer: error " +
-        std::to_string(static_cast<int>(rtcGetDeviceError(this->device_.get()))));
-    }
-    Flattening flattening(this->nodes_, this->records_, records);
-    const std::uint32_t link = flattening.append(root);
-    return { link, flattening.depth() };
-  }
-
-private:
-  EmbreeDevice device_;
-  std::vector<BvhNode>& nodes_;
-  std::vector<BvhRecord>& records_;
-};
 
 bool isCaster(const Surface& surface)
 {
@@ -248,7 +102,7 @@ CasterBvh::Change CasterBvh::update(const Occluders& occluders)
 void CasterBvh::build(const Occluders& occluders)
 {
   *this = CasterBvh();
-  TreeBuilder builder(this->nodes_, this->records_);
+  BvhBuilder builder(this->nodes_, this->records_);
   const auto boundsOf = [&](const BvhRecord& record)
   { return this->recordBounds(record, occluders); };
   std::vector<BvhRecord> all;
@@ -275,7 +129,7 @@ void CasterBvh::build(const Occluders& occluders)
     }
     std::vector<BvhRecord> own;
     addTriangles(occluders, surface, flags, own);
-    const TreeBuilder::Tree tree = builder.add(own, boundsOf);
+    const BvhBuilder::Tree tree = builder.add(own, boundsOf);
     deepestBelow = std::max(deepestBelow, tree.depth);
     for (const glm::mat4x3& instance : surface.centredFromSource)
     {
@@ -299,7 +153,7 @@ void CasterBvh::build(const Occluders& occluders)
   }
   this->placeInstances(occluders);
   this->firstNodeOfAll_ = this->nodes_.size();
-  const TreeBuilder::Tree tree = builder.add(all, boundsOf);
+  const BvhBuilder::Tree tree = builder.add(all, boundsOf);
   this->root_ = tree.root;
   // Below the first link, which ends the walk, one waits at each node passed. Instances of a leaf wait
   // together; below the one that is entered lies the link that leaves it.

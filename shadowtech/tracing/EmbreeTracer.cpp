@@ -151,7 +151,7 @@ public:
     }
   }
 
-  /// Takes 1 off the visibility of pixels whose ray is blocked.
+  /// Takes what blocked rays stand for off the visibility of their pixels.
   /// @return the number of rays
   std::size_t trace(TracedTile& tile)
   {
@@ -233,7 +233,8 @@ private:
     for (std::size_t lane = 0; lane < this->taken_; ++lane)
     {
       // Embree sets the far end of a ray that hits to minus infinity.
-      tile.visibility[this->pixels_[lane]] -= this->packet_.tfar[lane] < 0.0f ? 1.0f : 0.0f;
+      const std::uint16_t pixel = this->pixels_[lane];
+      tile.visibility[pixel] -= this->packet_.tfar[lane] < 0.0f ? tile.samplesOfRay[pixel] : 0.0f;
     }
     this->taken_ = 0;
   }
@@ -468,9 +469,12 @@ std::size_t EmbreeTracer::Impl::trace(const TracedPicture& picture) const
 {
   // In scenes with instances, Embree 3.13.5 hangs on coherent packets of 16 that hit some: it keeps
   // numbers in AVX-512 registers that the traversal of an instance overwrites. Without coherence the
-  // answers are the same, and of a million triangles and more the time is, too.
-  const RTCIntersectContextFlags coherence =
-    this->instanced ? RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT : RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  // answers are the same, and of a million triangles and more the time is, too. Coherent packets enter boxes
+  // together: whether a ray meets a triangle's edge that lies in its box's side, to within a rounding, then depends on
+  // the other rays. Those of an area light must have their answers by themselves, since not all of them are always traced.
+  const RTCIntersectContextFlags coherence = this->instanced || picture.ofArea()
+    ? RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT
+    : RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   return picture.visitTiles(picture.allSamples(),
     [&](TracedTile& tile)
     { return TileTracer<Packet>(this->scene.get(), picture.rayFar(), coherence).trace(tile); });

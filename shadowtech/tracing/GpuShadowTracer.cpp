@@ -21,8 +21,9 @@ constexpr std::size_t roomForRays = std::size_t(1) << 22;
 
 /// Writes the rays that a tile needs, square by square.
 /// @param to has room for those of a whole tile
+/// @param samplesTo the same for how many samples each stands for
 /// @return how many there are
-std::size_t writeRays(const TracedTile& tile, float rayFar, TracedRay* to)
+std::size_t writeRays(const TracedTile& tile, float rayFar, TracedRay* to, float* samplesTo)
 {
   TracedRay* const first = to;
   for (std::size_t square = 0; square < TracedTile::pixels / (side * side); ++square)
@@ -39,6 +40,7 @@ std::size_t writeRays(const TracedTile& tile, float rayFar, TracedRay* to)
         *to++ = { { tile.originX[pixel], tile.originY[pixel], tile.originZ[pixel] }, rayFar,
           { tile.directionX[pixel], tile.directionY[pixel], tile.directionZ[pixel] },
           static_cast<std::uint32_t>(tile.firstPixel + y * tile.columnsOfPicture + x) };
+        *samplesTo++ = tile.samplesOfRay[pixel];
       }
     }
   }
@@ -76,12 +78,14 @@ std::size_t GpuShadowTracer::collectRays(
   const std::size_t raysOfTile =
     TracedTile::pixels * static_cast<std::size_t>(samples.end - samples.first);
   this->rays_.resize(picture.tiles() * raysOfTile);
+  this->samplesOfRays_.resize(this->rays_.size());
   std::vector<std::size_t> counts(picture.tiles(), 0);
   picture.visitTiles(samples,
     [&](const TracedTile& tile)
     {
-      TracedRay* const to = &this->rays_[tile.number * raysOfTile + counts[tile.number]];
-      const std::size_t written = writeRays(tile, picture.rayFar(), to);
+      const std::size_t to = tile.number * raysOfTile + counts[tile.number];
+      const std::size_t written =
+        writeRays(tile, picture.rayFar(), &this->rays_[to], &this->samplesOfRays_[to]);
       counts[tile.number] += written;
       return written;
     });
@@ -92,6 +96,7 @@ std::size_t GpuShadowTracer::collectRays(
     if (first != count)
     {
       std::copy_n(&this->rays_[first], counts[tile], &this->rays_[count]);
+      std::copy_n(&this->samplesOfRays_[first], counts[tile], &this->samplesOfRays_[count]);
     }
     count += counts[tile];
   }
@@ -119,7 +124,7 @@ std::size_t GpuShadowTracer::tracePicture(const TracedPicture& picture)
     {
       if (this->blocked_[i] != 0)
       {
-        picture.darken(this->rays_[i].pixel);
+        picture.darken(this->rays_[i].pixel, this->samplesOfRays_[i]);
       }
     }
     rays += count;
@@ -136,7 +141,7 @@ std::size_t GpuShadowTracer::bytes() const
 //------------------------------------------------------------------------------
 std::size_t GpuShadowTracer::bytesOfRays() const
 {
-  return bytesOf(this->rays_) + bytesOf(this->blocked_);
+  return bytesOf(this->rays_) + bytesOf(this->samplesOfRays_) + bytesOf(this->blocked_);
 }
 
 } // namespace gnomon

@@ -50,13 +50,15 @@ public:
   /// The same of an area light, whose centre decides what it reaches: the share of its samples that the
   /// receiver sees, each pixel with its own (directionToSample()).
   /// @param light with an area
+  /// @param chooser who knows which of a pixel's rays decide the others; null: nobody
   std::size_t traceArea(const ShadowLight& light, const Occluders& occluders,
     const Receivers& receivers, std::vector<float>& visibility,
-    const ReceiverDecider* decider = nullptr, std::vector<std::uint8_t>* classes = nullptr)
+    const ReceiverDecider* decider = nullptr, std::vector<std::uint8_t>* classes = nullptr,
+    const SampleChooser* chooser = nullptr)
   {
     const LightSamples samples(light);
     const TracedPicture picture(
-      light, occluders, receivers, decider, visibility, classes, &samples);
+      light, occluders, receivers, decider, visibility, classes, &samples, chooser);
     const std::size_t rays = this->tracePicture(picture);
     picture.finish();
     return rays;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <numeric>
 #include <type_traits>
 
 namespace gnomon
@@ -86,32 +87,71 @@ void classify(const ReceiverTile& tile, std::size_t from, const std::uint8_t* re
   }
 }
 
-/// Turns the rays that a tile needs to a sample of an area light.
-/// @param pixels of a whole tile
+/// The pixels of a tile that need a ray, and how their rays go to an area light's samples.
 template <typename MakeRay>
-void turnRays(const ReceiverTile& tile, const MakeRay& makeRay, const ShadowRayLight& light,
-  const LightSamples& samples, int sample, const TracedTile::Plane<SamplePixel>& pixels,
-  TracedTile& traced)
+class AreaRays
 {
-  const ReceiverPixels& receivers = tile.receivers;
-  const auto columns = static_cast<std::size_t>(receivers.width);
-  for (std::size_t from = 0; from < receivers.size(); ++from)
+public:
+  AreaRays(const ReceiverTile& tile, const MakeRay& makeRay, const ShadowRayLight& light,
+    const LightSamples& samples)
+    : tile_(tile)
+    , makeRay_(makeRay)
+    , light_(light)
+    , samples_(samples)
   {
-    const std::size_t to = from / columns * TracedTile::columns + from % columns;
-    if (traced.needed[to] == 0)
+    for (std::size_t pixel = 0; pixel < TracedTile::pixels; ++pixel)
     {
-      continue;
+      this->pixels_[pixel] =
+        samples.pixel(static_cast<std::uint32_t>(tile.firstColumn + pixel % TracedTile::columns),
+          static_cast<std::uint32_t>(tile.firstRow + pixel / TracedTile::columns));
     }
+  }
+
+  /// Calls `visit` with a function that gives the direction to a sample.
+  /// @param pixel of a whole tile, in the picture
+  template <typename Visit>
+  void visitDirections(std::size_t pixel, const Visit& visit) const
+  {
+    const ReceiverPixels& receivers = this->tile_.receivers;
+    const std::size_t from =
+      pixel / TracedTile::columns * static_cast<std::size_t>(receivers.width) +
+      pixel % TracedTile::columns;
     const glm::vec3 position(
       receivers.positionX[from], receivers.positionY[from], receivers.positionZ[from]);
     const glm::vec3 normal(
       receivers.normalX[from], receivers.normalY[from], receivers.normalZ[from]);
-    const glm::vec3 direction =
-      directionToSample(light, makeRay(position, normal, receivers.offset[from]), position, normal,
-        samples.offset(sample, pixels[to]));
-    traced.directionX[to] = direction.x;
-    traced.directionY[to] = direction.y;
-    traced.directionZ[to] = direction.z;
+    const ShadowRay toCentre = this->makeRay_(position, normal, receivers.offset[from]);
+    const SamplePixel& of = this->pixels_[pixel];
+    visit(
+      [&](std::uint32_t sample)
+      {
+        return directionToSample(this->light_, toCentre, position, normal,
+          this->samples_.offset(static_cast<int>(sample), of));
+      });
+  }
+
+private:
+  const ReceiverTile& tile_;
+  const MakeRay& makeRay_;
+  const ShadowRayLight& light_;
+  const LightSamples& samples_;
+  TracedTile::Plane<SamplePixel> pixels_;
+};
+
+/// Each pixel's rays to all samples.
+/// @param count of the samples
+void wantAll(const TracedTile& tile, std::size_t count, SampleRays& rays)
+{
+  rays.samples.resize(count);
+  std::iota(rays.samples.begin(), rays.samples.end(), 0u);
+  rays.pixels.assign(TracedTile::pixels, {});
+  for (std::size_t pixel = 0; pixel < TracedTile::pixels; ++pixel)
+  {
+    if (tile.needed[pixel] != 0)
+    {
+      const auto all = static_cast<std::uint32_t>(count);
+      rays.pixels[pixel] = { all, 1, 0, all };
+    }
   }
 }
 
@@ -144,13 +184,14 @@ std::vector<PixelClass> classesOfTracing()
 //------------------------------------------------------------------------------
 TracedPicture::TracedPicture(const ShadowLight& light, const Occluders& occluders,
   const Receivers& receivers, const ReceiverDecider* decider, std::vector<float>& visibility,
-  std::vector<std::uint8_t>* classes, const LightSamples* samples)
+  std::vector<std::uint8_t>* classes, const LightSamples* samples, const SampleChooser* chooser)
   : receivers_(receivers)
   , decider_(decider)
   , visibility_(visibility)
   , classes_(classes)
   , light_(light, occluders.centreWorld)
   , samples_(samples)
+  , chooser_(chooser)
 {
   this->visibility_.resize(receivers.width() * receivers.height());
   if (this->classes_)
@@ -248,26 +289,72 @@ void TracedPicture::keep(const ReceiverTile& tile, const TracedTile& traced) con
 }
 
 //------------------------------------------------------------------------------
-/// Visits a tile with each of these samples of an area light.
+/// Visits a tile with each of these rays to an area light.
 template <typename MakeRay>
 std::size_t TracedPicture::visitSamples(const SampleRange& samples, const ReceiverTile& tile,
   const MakeRay& makeRay, TracedTile& traced,
   const std::function<std::size_t(TracedTile&)>& trace) const
 {
-  TracedTile::Plane<SamplePixel> pixels;
+  const AreaRays<MakeRay> area(tile, makeRay, this->light_, *this->samples_);
+  SampleRays rays;
+  wantAll(traced, static_cast<std::size_t>(this->samples_->count()), rays);
+  if (this->chooser_)
+  {
+    this->chooser_->choose(
+      traced,
+      [&](std::size_t pixel, glm::vec3* directions)
+      {
+        area.visitDirections(pixel,
+          [&](const auto& direction)
+          {
+            const auto count = static_cast<std::uint32_t>(this->samples_->count());
+            for (std::uint32_t sample = 0; sample < count; ++sample)
+            {
+              directions[sample] = direction(sample);
+            }
+          });
+      },
+      rays);
+  }
   for (std::size_t pixel = 0; pixel < TracedTile::pixels; ++pixel)
   {
-    pixels[pixel] = this->samples_->pixel(
-      static_cast<std::uint32_t>(tile.firstColumn + pixel % TracedTile::columns),
-      static_cast<std::uint32_t>(tile.firstRow + pixel / TracedTile::columns));
+    if (traced.needed[pixel] != 0)
+    {
+      traced.visibility[pixel] = static_cast<float>(rays.pixels[pixel].lit);
+    }
   }
-  std::size_t rays = 0;
-  for (int sample = samples.first; sample < samples.end; ++sample)
+  std::size_t count = 0;
+  for (int number = samples.first; number < samples.end; ++number)
   {
-    turnRays(tile, makeRay, this->light_, *this->samples_, sample, pixels, traced);
-    rays += trace(traced);
+    bool any = false;
+    for (std::size_t pixel = 0; pixel < TracedTile::pixels; ++pixel)
+    {
+      const PixelSamples& wanted = rays.pixels[pixel];
+      const bool needed = static_cast<std::uint32_t>(number) < wanted.count;
+      traced.needed[pixel] = needed ? 1 : 0;
+      if (!needed)
+      {
+        continue;
+      }
+      any = true;
+      traced.samplesOfRay[pixel] = number == 0 ? static_cast<float>(wanted.ofFirstRay) : 1.0f;
+      const std::uint32_t sample = rays.samples[wanted.first + static_cast<std::uint32_t>(number)];
+      area.visitDirections(pixel,
+        [&](const auto& direction)
+        {
+          const glm::vec3 towards = direction(sample);
+          traced.directionX[pixel] = towards.x;
+          traced.directionY[pixel] = towards.y;
+          traced.directionZ[pixel] = towards.z;
+        });
+    }
+    if (!any)
+    {
+      break;
+    }
+    count += trace(traced);
   }
-  return rays;
+  return count;
 }
 
 //------------------------------------------------------------------------------
@@ -285,6 +372,7 @@ std::size_t TracedPicture::visitTiles(
           this->prepare(tile, makeRay, traced);
           if (!this->samples_)
           {
+            traced.samplesOfRay.fill(1.0f);
             rays += trace(traced);
           }
           else if (std::find(traced.needed.begin(), traced.needed.end(), 1) != traced.needed.end())

@@ -8,6 +8,7 @@
 #include "shadowtech/base/PixelClass.h"
 #include "shadowtech/base/Receivers.h"
 #include "shadowtech/base/ShadowRay.h"
+#include "shadowtech/tracing/SampleRays.h"
 
 #include <array>
 #include <cstddef>
@@ -45,6 +46,7 @@ struct alignas(64) TracedTile
   Plane<float> directionX, directionY, directionZ;
   Plane<int> needed;           ///< 1 or 0; 0 beyond the picture's border
   Plane<float> visibility;     ///< how many of the light's samples are seen
+  Plane<float> samplesOfRay;   ///< how many of them a blocked ray takes off
   Plane<std::uint8_t> classes; ///< TracedClass
 
   std::size_t number;           ///< of the picture's tiles, row by row
@@ -58,7 +60,7 @@ struct alignas(64) TracedTile
 class TracedPicture
 {
 public:
-  /// Some of a light's samples, one after another.
+  /// Some of a pixel's rays, one after another: nearly always its samples.
   struct SampleRange
   {
     int first, end;
@@ -68,29 +70,35 @@ public:
   /// @param visibility resized to one for each pixel of the picture
   /// @param classes where not null, resized likewise
   /// @param samples of the light's area; null: its centre
+  /// @param chooser who knows which of a pixel's rays decide the others; null: nobody
   TracedPicture(const ShadowLight& light, const Occluders& occluders, const Receivers& receivers,
     const ReceiverDecider* decider, std::vector<float>& visibility,
-    std::vector<std::uint8_t>* classes, const LightSamples* samples);
+    std::vector<std::uint8_t>* classes, const LightSamples* samples,
+    const SampleChooser* chooser = nullptr);
 
   /// How many tiles it has.
   std::size_t tiles() const;
   /// Where the rays end, in lengths of their direction.
   float rayFar() const;
 
+  /// Whether its rays go to the samples of an area light.
+  bool ofArea() const { return this->samples_ != nullptr; }
   /// How many rays a pixel has, if any.
   int samples() const { return this->samples_ ? this->samples_->count() : 1; }
   SampleRange allSamples() const { return { 0, this->samples() }; }
 
   /// Fills visibility and classes, tile by tile; several threads do so at once.
   /// @param samples whose rays are traced; visibility and classes are filled with the first of them all
-  /// @param trace gets a tile with the rays of one sample, for all samples in turn; at first as it shows
-  /// without any. It may take 1 off the visibility of pixels whose ray is blocked, and returns the number of rays
+  /// @param trace gets a tile with one ray for each pixel that needs one, for all samples in turn; at first as it shows
+  /// without any. It may take samplesOfRay off the visibility of pixels whose ray is blocked, and returns the number of
+  /// rays
   /// @return the sum of those
   std::size_t visitTiles(
     const SampleRange& samples, const std::function<std::size_t(TracedTile&)>& trace) const;
 
   /// Takes a blocked ray off a pixel of a tile that was visited.
-  void darken(std::size_t pixel) const { this->visibility_[pixel] -= 1.0f; }
+  /// @param samples that the ray stands for
+  void darken(std::size_t pixel, float samples) const { this->visibility_[pixel] -= samples; }
 
   /// Makes shares of counts, once all rays are traced.
   void finish() const;
@@ -110,6 +118,7 @@ private:
   std::vector<std::uint8_t>* classes_;
   ShadowRayLight light_;
   const LightSamples* samples_;
+  const SampleChooser* chooser_;
   /// By surface + 1, so that `notCovered` + 1 = 0 is the first: 1 or 0.
   std::vector<std::uint8_t> receives_;
 };

@@ -418,5 +418,70 @@ TEST(LightSamples, ofManyPixelsAreEvenOnTheMean)
   }
 }
 
+TEST(LightSamples, inPairsAreOppositeAndGoFromTheMiddleOutwards)
+{
+  for (const LightKind kind : { LightKind::Directional, LightKind::Spot, LightKind::Point })
+  {
+    for (const int count : { 2, 3, 16, 100, 257 })
+    {
+      ShadowLight light = lightOf(kind);
+      light.lightSamples = count;
+      const std::vector<glm::dvec3> samples = pairedLightSamples(light);
+      ASSERT_EQ(samples.size(), static_cast<std::size_t>(count));
+      const std::size_t odd = count % 2;
+      if (odd)
+      {
+        EXPECT_EQ(samples[0], glm::dvec3(0.0));
+      }
+      for (std::size_t i = odd; i < samples.size(); i += 2)
+      {
+        EXPECT_EQ(samples[i], -samples[i + 1]);
+        EXPECT_LE(glm::length(samples[i]), size * (1.0 + 1e-6));
+        if (i > odd)
+        {
+          EXPECT_LE(glm::length(samples[i - 1]), glm::length(samples[i]));
+        }
+      }
+      light.lightSeed = 1;
+      EXPECT_NE(pairedLightSamples(light), samples);
+    }
+  }
+}
+
+TEST(LightSamples, inPairsAreAsEvenAsWithout)
+{
+  ShadowLight light = lightOf(LightKind::Spot);
+  light.area =
+    rectangleArea(glm::dvec3(0.0, 0.0, -1.0), glm::dvec3(0.0, 1.0, 0.0), glm::dvec2(1.0));
+  light.lightSamples = 256;
+  // One in each part of the square, however it is cut, but for cuts that leave it whole from bottom to top.
+  for (int columnBits = 0; columnBits < 8; ++columnBits)
+  {
+    const int columns = 1 << columnBits;
+    const int rows = 256 / columns;
+    std::set<std::pair<int, int>> parts;
+    for (const glm::dvec3& sample : pairedLightSamples(light))
+    {
+      const glm::vec2 place = placeOf(sample);
+      parts.insert({ static_cast<int>(place.x * static_cast<float>(columns)),
+        static_cast<int>(place.y * static_cast<float>(rows)) });
+    }
+    EXPECT_EQ(parts.size(), 256u) << columns;
+  }
+}
+
+TEST(LightSamples, inPairsOfALightWithoutSizeAreItsCentre)
+{
+  const std::vector<glm::dvec3> alone{ glm::dvec3(0.0) };
+  ShadowLight light = lightOf(LightKind::Spot);
+  light.lightSamples = 1;
+  EXPECT_EQ(pairedLightSamples(light), alone);
+  light.lightSamples = 16;
+  light.area = diskArea(travel, 0.0);
+  EXPECT_EQ(pairedLightSamples(light), alone);
+  light.area.reset();
+  EXPECT_EQ(pairedLightSamples(light), alone);
+}
+
 } // namespace
 } // namespace gnomon::test

@@ -51,8 +51,8 @@ TEST_F(AreaLights, areTheirCentreForHardTechniques)
 {
   for (const gnomon::TechniqueEntry& technique : gnomon::registry())
   {
-    if (technique.name == "raytraced" || technique.name == "planar" ||
-      technique.name == "montecarlo")
+    if (technique.name == "raytraced" || technique.name == "planar" || technique.name == "pcss" ||
+      technique.name == "sampled" || technique.name == "montecarlo")
     {
       continue;
     }
@@ -70,7 +70,7 @@ TEST_F(AreaLights, areTheirCentreForHardTechniques)
 //------------------------------------------------------------------------------
 TEST_F(AreaLights, areSoftForThoseThatTakeSamples)
 {
-  for (const char* technique : { "raytraced", "planar" })
+  for (const char* technique : { "raytraced", "planar", "sampled" })
   {
     this->scene.pass->SetTechnique(technique);
     this->light->SetHeight(1.0);

@@ -87,5 +87,56 @@ TEST_P(ExactScenes, showWhatIsTraced)
   }
 }
 
+class ExactSoftScenes : public testing::TestWithParam<const char*>
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(Builtin, ExactSoftScenes,
+  testing::Values("soft-stack", "soft-panels", "soft-plates", "soft-long-cube", "bunny", "posts",
+    "plates", "screens", "cups", "office", "room", "terrain", "bench-side", "atrium"),
+  [](const testing::TestParamInfo<const char*>& scene)
+  {
+    std::string name = scene.param;
+    std::replace(name.begin(), name.end(), '-', '_');
+    return name;
+  });
+
+/// Whoever traces.
+TEST_P(ExactSoftScenes, showWhatAllRaysShow)
+{
+  const vtkSmartPointer<vtkRenderer> renderer =
+    tool::makeRenderer(tool::loadScene(GetParam()), 1.0);
+  vtkNew<vtkGnomonEGLRenderWindow> window;
+  window->SetMultiSamples(0);
+  window->SetSize(160, 160);
+  window->AddRenderer(renderer);
+  vtkNew<vtkGnomonShadowPass> pass;
+  pass->KeepVisibilityOn();
+  pass->SetSetting("light_samples", "16");
+  if (std::string(GetParam()).rfind("soft-", 0) != 0)
+  {
+    pass->SetSetting("light_radius", "3"); // degrees, or world units
+  }
+  renderer->SetPass(pass);
+  for (const int tracer : { vtkGnomonShadowPass::TRACER_EMBREE, vtkGnomonShadowPass::TRACER_GPU })
+  {
+    pass->SetTracer(tracer);
+    pass->SetTechnique("raytraced");
+    window->Render();
+    const std::vector<std::vector<float>> truth = pass->GetVisibility().visibility;
+    pass->SetTechnique("penumbra");
+    window->Render();
+    const std::vector<std::vector<float>>& visibility = pass->GetVisibility().visibility;
+    ASSERT_FALSE(truth.empty());
+    ASSERT_EQ(visibility.size(), truth.size());
+    for (std::size_t light = 0; light < truth.size(); ++light)
+    {
+      EXPECT_EQ(std::count(truth[light].begin(), truth[light].end(), 1.0f),
+        std::count(visibility[light].begin(), visibility[light].end(), 1.0f));
+      EXPECT_TRUE(visibility[light] == truth[light]) << "tracer " << tracer << ", light " << light;
+    }
+  }
+}
+
 } // namespace
 } // namespace gnomon::test

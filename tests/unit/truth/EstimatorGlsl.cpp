@@ -1,6 +1,5 @@
 #include "EstimatorGlsl.h"
 
-#include "shadowtech/base/Gl.h"
 #include "shadowtech/base/Kernel.h"
 #include "shadowtech/base/LightViewsGlsl.h"
 #include "shadowtech/base/ShaderLibrary.h"
@@ -9,6 +8,24 @@
 
 namespace gnomon::test
 {
+
+//------------------------------------------------------------------------------
+void fillDepths(GlTexture& texture, const Depths& depths)
+{
+  std::vector<float> texels;
+  for (int y = 0; y < mapSize; ++y)
+  {
+    for (int x = 0; x < mapSize; ++x)
+    {
+      texels.push_back(depths({ x, y }));
+    }
+  }
+  glBindTexture(GL_TEXTURE_2D_ARRAY, texture.create());
+  glTexImage3D(
+    GL_TEXTURE_2D_ARRAY, 0, GL_R32F, mapSize, mapSize, 1, 0, GL_RED, GL_FLOAT, texels.data());
+  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+}
 
 //------------------------------------------------------------------------------
 LightViews sunViews(const ShadowLight& light)
@@ -71,21 +88,8 @@ std::vector<float> runGlsl(const Technique& technique, const ShadowLight& light,
     const glm::dvec2 across = mapped(acrossFromTexel, place);
     points.emplace_back(centredFromView * glm::dvec4(across, distance, 1.0));
   }
-  std::vector<float> depths;
-  for (int y = 0; y < mapSize; ++y)
-  {
-    for (int x = 0; x < mapSize; ++x)
-    {
-      depths.push_back(map({ x, y }) ? 0.25f : 1.0f);
-    }
-  }
-
   GlTexture texture;
-  glBindTexture(GL_TEXTURE_2D_ARRAY, texture.create());
-  glTexImage3D(
-    GL_TEXTURE_2D_ARRAY, 0, GL_R32F, mapSize, mapSize, 1, 0, GL_RED, GL_FLOAT, depths.data());
-  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  fillDepths(texture, [&](const glm::ivec2& texel) { return map(texel) ? 0.25f : 1.0f; });
   std::vector<Uniform> uniforms = lightViewsUniforms(views, mapSize, {});
   uniforms.push_back({ "depthMap_LIGHT", TextureBinding{ GL_TEXTURE_2D_ARRAY, texture.name() } });
   uniforms.push_back({ "depthSlacks_LIGHT", glm::vec2(1e-6, 0.0) });

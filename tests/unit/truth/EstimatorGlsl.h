@@ -4,6 +4,7 @@
 // The GLSL of estimators on maps that are given, for comparison with twins.
 
 #include "lights/LightViews.h"
+#include "shadowtech/base/Gl.h"
 #include "shadowtech/base/Technique.h"
 
 #include "vtkGnomonEGLRenderWindow.h"
@@ -23,6 +24,12 @@ constexpr int mapSize = 64;
 
 /// Whether a texel holds a caster that hides the points below.
 using Map = std::function<bool(const glm::ivec2&)>;
+
+/// A map's depths, texel by texel.
+using Depths = std::function<float(const glm::ivec2&)>;
+
+/// A map's layer of depths.
+void fillDepths(GlTexture& texture, const Depths& depths);
 
 /// The views of a sun around the cube [-1, 1]^3.
 LightViews sunViews(const ShadowLight& light);

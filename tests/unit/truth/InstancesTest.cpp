@@ -5,7 +5,9 @@
 #include "InstancedScene.h"
 #include "SyntheticScene.h"
 
+#include "lights/LightArea.h"
 #include "shadowtech/base/ShadowRay.h"
+#include "shadowtech/penumbra/PenumbraChooser.h"
 #include "shadowtech/tracing/EmbreeTracer.h"
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -14,6 +16,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace gnomon::test
 {
@@ -183,6 +186,35 @@ TEST(Instances, TheOffsetHoldsThroughTheirMatrices)
   }
   EXPECT_EQ(dark, 0);
   EXPECT_GT(darkWithout, 100) << "so that the bound is needed";
+}
+
+/// `penumbra` knows no edges of instances, and traces what may see one.
+TEST(Instances, SoftShadowsByEdgesAreThoseOfAllRays)
+{
+  for (const bool oneSided : { false, true })
+  {
+    const Occluders occluders = cupsOverFloor(false, oneSided);
+    Camera camera = cupsCamera();
+    camera.width = camera.height = 120;
+    const View view = makeView(expanded(occluders), camera);
+    ReceiverPixels receivers;
+    Receivers(view.images, view.drawnSurfaces, occluders, receivers).all();
+    ShadowLight light = pointLight({ 1.0, 2.0, 30.0 });
+    light.area = ballArea(0.5);
+    light.lightSamples = 16;
+    EmbreeTracer tracer;
+    tracer.update(occluders);
+    EdgeTree tree;
+    tree.update(occluders);
+    const PenumbraChooser chooser(tree, light, occluders.centreWorld);
+    std::vector<float> truth;
+    std::vector<float> visibility;
+    const std::size_t all = tracer.traceArea(light, occluders, receivers, truth);
+    const std::size_t rays =
+      tracer.traceArea(light, occluders, receivers, visibility, nullptr, nullptr, &chooser);
+    EXPECT_EQ(countDifferent(visibility, truth), 0u);
+    EXPECT_LT(rays, all);
+  }
 }
 
 TEST(Instances, MovingThemRefitsOnlyTheirPlaces)

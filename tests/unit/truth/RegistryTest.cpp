@@ -90,6 +90,7 @@ TEST(Registry, knowsWhichEstimatorsAreFunctionsOfThePoint)
   }
   EXPECT_EQ(findEstimator("planar")->info.evaluation, Evaluation::ScreenGpu);
   EXPECT_EQ(findEstimator("montecarlo")->info.evaluation, Evaluation::ScreenGpu);
+  EXPECT_EQ(findEstimator("sampled")->info.evaluation, Evaluation::ScreenGpu);
   EXPECT_EQ(findEstimator("raytraced")->info.evaluation, Evaluation::ScreenCpu);
 }
 
@@ -100,6 +101,8 @@ TEST(Registry, takesOrRefusesEveryComposition)
   const Verdicts cube{ "directional", "", "", "" };
   const char* camera = "holds all casters";
   const Verdicts allCasters{ camera, camera, camera, camera };
+  const Verdicts uniform{ "uniform and cube", "uniform and cube", "faces of a cube",
+    "faces of a cube" };
   const Verdicts noMap{ "no map", "no map", "no map", "no map" };
   for (const TechniqueEntry& technique : registry())
   {
@@ -120,12 +123,13 @@ TEST(Registry, takesOrRefusesEveryComposition)
         expectVerdicts(settings, map ? verdicts : noMap,
           what + ", projection " + findSetting("projection")->get(settings));
       };
-      const bool needsAllCasters = settings.estimator == "montecarlo";
-      const Verdicts& seen = needsAllCasters ? allCasters : single;
       expectOf(Projection::Uniform, all);
-      expectOf(Projection::Lispsm, seen);
-      expectOf(Projection::Trapezoid, seen);
-      expectOf(Projection::Splits, seen);
+      const Verdicts& divided = settings.estimator == "sampled" ? uniform
+        : settings.estimator == "montecarlo"                    ? allCasters
+                                                                : single;
+      expectOf(Projection::Lispsm, divided);
+      expectOf(Projection::Trapezoid, divided);
+      expectOf(Projection::Splits, divided);
       expectOf(Projection::Cube, cube);
     }
   }
@@ -142,7 +146,7 @@ TEST(Registry, refusesToAverageDepths)
     const char* verdict = depths ? "map_samples" : "";
     expectVerdicts(settings, { verdict, verdict, verdict, verdict }, settings.estimator);
   }
-  for (const char* name : { "compare", "pcf", "adaptive" })
+  for (const char* name : { "compare", "pcf", "adaptive", "pcss" })
   {
     EXPECT_FALSE(findEstimator(name)->info.averagesMap) << name;
   }
@@ -165,7 +169,7 @@ TEST(Registry, sumsOnlyMomentsThatIntegersHold)
                                                               : "";
     expectVerdicts(settings, { verdict, verdict, verdict, verdict }, settings.estimator);
   }
-  for (const char* name : { "compare", "pcf", "adaptive", "exponential" })
+  for (const char* name : { "compare", "pcf", "adaptive", "pcss", "exponential" })
   {
     EXPECT_FALSE(findEstimator(name)->info.sumsMap) << name;
   }
@@ -191,6 +195,20 @@ TEST(Registry, buildsLevelsOfBlurredMomentsOnly)
       expectVerdicts(settings, { "no levels", "no levels", "no levels", "no levels" },
         settings.estimator + " with blur sat");
     }
+  }
+}
+
+TEST(Registry, refusesARingOfPointsThatThereIsNot)
+{
+  for (const EstimatorEntry& estimator : estimators())
+  {
+    ShadowSettings settings;
+    settings.estimator = estimator.info.name;
+    settings.earlyOut = EarlyOut::Ring;
+    const char* verdict = estimator.info.name == "pcss" ? "exact or none" : "";
+    expectVerdicts(settings, { verdict, verdict, verdict, verdict }, settings.estimator);
+    settings.earlyOut = EarlyOut::None;
+    expectVerdicts(settings, { "", "", "", "" }, settings.estimator);
   }
 }
 
@@ -267,30 +285,37 @@ TEST(Registry, refusesRaysThatCannotBeFollowed)
 
 TEST(Registry, putsSamplesIntoTheCellsOfSquareGridsOnly)
 {
-  for (const int count : { 1, 4, 9, 64, 4096, 65536, 2, 8, 63, 65, 65535 })
+  const auto refusalOf = [](int count, LightSampling sampling, bool hasArea) -> std::string
   {
-    const bool isSquare =
-      count == 1 || count == 4 || count == 9 || count == 64 || count == 4096 || count == 65536;
     ShadowLight light = lightOf(LightKind::Spot);
     light.technique = "raytraced";
     light.lightSamples = count;
-    light.lightSampling = LightSampling::Jittered;
-    EXPECT_NO_THROW(compose(light)) << "of a light that is a point";
-    light.area = diskArea({ 0.0, 0.0, -1.0 }, 1.0);
-    std::string refused;
+    light.lightSampling = sampling;
+    if (hasArea)
+    {
+      light.area = diskArea({ 0.0, 0.0, -1.0 }, 1.0);
+    }
     try
     {
       compose(light);
     }
     catch (const CompositionError& error)
     {
-      refused = error.what();
+      return error.what();
     }
-    EXPECT_EQ(refused.empty(), isSquare) << count << " " << refused;
-    EXPECT_TRUE(isSquare || refused.find("no " + std::to_string(count) + ";") != std::string::npos)
-      << refused;
-    light.lightSampling = LightSampling::Random;
-    EXPECT_NO_THROW(compose(light)) << count;
+    return {};
+  };
+  for (const int count : { 1, 4, 9, 64, 4096, 65536 })
+  {
+    EXPECT_EQ(refusalOf(count, LightSampling::Jittered, true), "") << count;
+  }
+  for (const int count : { 2, 8, 63, 65, 65535 })
+  {
+    const std::string refusal = refusalOf(count, LightSampling::Jittered, true);
+    EXPECT_NE(refusal.find("no " + std::to_string(count) + ";"), std::string::npos) << refusal;
+    EXPECT_EQ(refusalOf(count, LightSampling::Random, true), "") << count;
+    EXPECT_EQ(refusalOf(count, LightSampling::Sobol, true), "") << count;
+    EXPECT_EQ(refusalOf(count, LightSampling::Jittered, false), "") << "of a light that is a point";
   }
 }
 

@@ -1,0 +1,73 @@
+#ifndef gnomon_shadowtech_pcss_Pcss_h
+#define gnomon_shadowtech_pcss_Pcss_h
+
+#include "shadowtech/depth_map/DepthBounds.h"
+#include "shadowtech/depth_map/DepthMapTechnique.h"
+
+namespace gnomon
+{
+
+/// `pcss`: percentage closer soft shadows (Fernando 2005; Apelles, section 3.4.1) of area lights, from one map
+/// that the light's centre sees.
+///
+/// All widths are metric, by similar triangles. What hides the light's point L (in the light's plane, from its
+/// centre) from a receiver at distance r lies, at distance z from the light, across the light by
+///     L s,   s = 1 / z - 1 / r   in slopes of a positional light's rays,
+///            s = r - z           of a directional light, where L are tangents of angles,
+/// away from the receiver: s is its *separation*. So one kernel, the light's own shape, serves both
+/// steps and all projections; the map's Jacobian at the point takes it to texels.
+///
+/// 1. Blocker search: `pcss_samples` points of the light, on the map at the largest separation S that a
+///    caster around has (from the map's pyramid of depths, DepthBounds.h), and the receiver's own texel.
+///    Blockers are texels in front of the receiver's plane that lie between it and some point of the
+///    light: L S = L' s for an L' of the light. Without the latter the floor of a concave corner would be
+///    hidden by the wall beside it.
+/// 2. Penumbra: the blockers' mean separation, each weighted by the share of the light that it hides. That
+///    falls with the square of s, and the points lie denser in the middle, so that casters near the
+///    receiver count beside those near the light. The shadow of a straight edge is as wide as the light
+///    times that mean.
+/// 3. Filter: the share of the light whose points, at that separation, find texels that hide the receiver. What
+///    lies too near the receiver to hide that point of the light is looked for again at its own separation.
+///
+/// A point of the light that lies behind the receiver's plane gives way to the one opposite, as the truth has it
+/// (docs/techniques/soft.md). The points are Poisson sets: on a disk turned, on a rectangle shifted around
+/// its edges, from each cell of the map (a quarter of a texel) to the next, so that the pattern stays
+/// on the surface when the camera moves.
+///
+/// `early_out` `exact` asks the pyramid before either step whether all texels that it may read say the same, and
+/// changes no value. A light without area has the hard shadow of `compare`.
+class Pcss : public DepthMapTechnique
+{
+public:
+  static TechniqueInfo info();
+
+  MapReach mapReach(const ShadowLight& light) const override;
+  void bake(const MapInput& input) override;
+  std::size_t bytesOfMaps() const override;
+  std::vector<Uniform> uniforms(const ReceiverSpace& space) const override;
+
+protected:
+  std::string estimatorGlsl(const ShadowLight& light) const override;
+
+private:
+  void bakePoints(const ShadowLight& light);
+
+  DepthBounds bounds_; ///< none of lights without area
+  GlTexture points_;   ///< the search's points of the light's shape, then the filter's
+  std::size_t bytesOfPoints_ = 0;
+};
+
+/// How many points each step takes.
+struct PcssCounts
+{
+  int search;
+  int filter;
+};
+PcssCounts pcssCounts(PcssSamples samples);
+
+/// The points of both steps, one after the other, on the shape of radius or half side 1.
+std::vector<glm::vec2> pcssPoints(PcssSamples samples, LightArea::Shape shape);
+
+} // namespace gnomon
+
+#endif

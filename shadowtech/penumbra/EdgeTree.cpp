@@ -1,0 +1,352 @@
+#include "shadowtech/penumbra/EdgeTree.h"
+
+#include "shadowtech/base/Bytes.h"
+#include "shadowtech/tracing/BvhBuilder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace gnomon
+{
+namespace
+{
+
+/// Triangles that are more than so many times as long as high are needles: what a tracer makes of them is rounding.
+constexpr double mostSlender = 16384.0;
+
+/// What the sign of a ray's start against a triangle's plane may be off by is 33u XYZ/A (ShadowRay.h); this is twice as
+/// much.
+constexpr double noiseOfExtent = 66.0 / 16777216.0;
+
+EdgeTriangle edgeTriangle(const std::array<glm::vec3, 3>& corners, bool oneSided)
+{
+  const glm::dvec3 a = corners[0];
+  const glm::dvec3 b = corners[1];
+  const glm::dvec3 c = corners[2];
+  const glm::dvec3 normal = glm::cross(b - a, c - a);
+  const double longest = std::max({ glm::length(b - a), glm::length(c - b), glm::length(a - c) });
+  const glm::dvec3 extent = glm::max(a, glm::max(b, c)) - glm::min(a, glm::min(b, c));
+  // Triangles without area are not in the snapshot.
+  EdgeTriangle triangle;
+  triangle.normal = normal / longest;
+  triangle.corner = corners[0];
+  triangle.height = static_cast<float>(glm::length(normal) / longest);
+  triangle.longest = static_cast<float>(longest);
+  triangle.noise = static_cast<float>(noiseOfExtent * extent.x * extent.y * extent.z / longest);
+  triangle.oneSided = oneSided;
+  return triangle;
+}
+
+/// Both, where the second one may say nothing.
+EdgeTree::Cone joined(const EdgeTree::Cone& one, const EdgeTree::Cone& other)
+{
+  EdgeTree::Cone cone;
+  cone.mostPerHeight = std::max(one.mostPerHeight, other.mostPerHeight);
+  cone.reach = std::max(one.reach, other.reach);
+  const glm::vec3 sum = one.axis + other.axis;
+  const float length = glm::length(sum);
+  if (!(one.cosine > 0.0f) || !(other.cosine > 0.0f) || !(length > 0.5f))
+  {
+    return cone;
+  }
+  cone.axis = sum / length;
+  const auto angleTo = [&](const EdgeTree::Cone& of)
+  {
+    return std::acos(std::clamp(glm::dot(cone.axis, of.axis), -1.0f, 1.0f)) +
+      std::atan2(of.sine, of.cosine);
+  };
+  // Larger by more than what cosines of small angles lose.
+  const float angle = std::max(angleTo(one), angleTo(other)) + 0.001f;
+  cone.cosine = std::cos(angle);
+  cone.sine = std::sin(angle);
+  return cone;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+void EdgeTree::update(const Occluders& occluders)
+{
+  if (this->topologyVersion_ == occluders.topologyVersion &&
+    this->positionsVersion_ == occluders.positionsVersion)
+  {
+    return;
+  }
+  this->topologyVersion_ = 0; // should anything fail
+  this->found_.update(occluders, findCasterEdges);
+  this->triangles_.clear();
+  this->corners_.clear();
+  this->bounds_.clear();
+  this->opaqueBounds_.clear();
+  this->edges_.clear();
+  this->nodes_.clear();
+  this->records_.clear();
+  std::vector<BvhRecord> records;
+  for (std::size_t i = 0; i < occluders.surfaces.size(); ++i)
+  {
+    if (occluders.surfaces[i].casts && occluders.surfaces[i].triangleCount > 0)
+    {
+      this->addSurface(occluders, i, records);
+    }
+  }
+  if (!records.empty())
+  {
+    this->root_ = BvhBuilder(this->nodes_, this->records_)
+                    .add(records,
+                      [this](const BvhRecord& of)
+                      { return (of.w ? this->opaqueBounds_ : this->bounds_)[of.x]; })
+                    .root;
+  }
+  this->fitNodes();
+  this->topologyVersion_ = occluders.topologyVersion;
+  this->positionsVersion_ = occluders.positionsVersion;
+}
+
+//------------------------------------------------------------------------------
+void EdgeTree::addOpaque(const Bounds& bounds, std::vector<BvhRecord>& records)
+{
+  records.emplace_back(this->opaqueBounds_.size(), 0, 0, 1);
+  this->opaqueBounds_.push_back(bounds);
+}
+
+//------------------------------------------------------------------------------
+void EdgeTree::addSurface(
+  const Occluders& occluders, std::size_t surface, std::vector<BvhRecord>& records)
+{
+  const Surface& of = occluders.surfaces[surface];
+  const auto position = [&](std::uint32_t vertex) { return occluders.positionsCentred[vertex]; };
+  if (of.isInstanced())
+  {
+    for (const glm::mat4x3& instance : of.centredFromSource)
+    {
+      if (Surface::isLeftOut(instance))
+      {
+        continue;
+      }
+      Bounds bounds;
+      for (std::uint32_t i = 0; i < of.vertexCount; ++i)
+      {
+        bounds.add(glm::dmat4x3(instance) * glm::dvec4(position(of.firstVertex + i), 1.0));
+      }
+      const double more = std::ldexp(bounds.radius() + glm::length(bounds.centre()), -16);
+      bounds.lower -= more;
+      bounds.upper += more;
+      this->addOpaque(bounds, records);
+    }
+    return;
+  }
+  const SurfaceEdges& found = this->found_.of(surface);
+  const auto first = static_cast<std::uint32_t>(this->triangles_.size());
+  const auto numberOf = [&](std::uint32_t triangle) { return first + triangle - of.firstTriangle; };
+  for (std::uint32_t i = 0; i < of.triangleCount; ++i)
+  {
+    const glm::uvec3 vertices = occluders.triangles[of.firstTriangle + i];
+    this->corners_.push_back({ position(vertices.x), position(vertices.y), position(vertices.z) });
+    const EdgeTriangle triangle = edgeTriangle(this->corners_.back(), of.oneSided);
+    Bounds bounds;
+    for (const glm::vec3& corner : this->corners_.back())
+    {
+      bounds.add(glm::dvec3(corner));
+    }
+    // A needle may seem to reach as far again as it does.
+    const bool needle = !(triangle.longest < mostSlender * triangle.height);
+    const double more = needle ? triangle.longest : triangle.noise / triangle.height;
+    bounds.lower -= more;
+    bounds.upper += more;
+    this->triangles_.push_back(triangle);
+    this->bounds_.push_back(bounds);
+    if (of.cutout || needle)
+    {
+      this->addOpaque(bounds, records);
+    }
+    else
+    {
+      records.emplace_back(numberOf(of.firstTriangle + i), 0, 0, 0);
+    }
+  }
+  if (of.cutout)
+  {
+    return;
+  }
+  // The edges of a triangle lie side by side. Needles have none: where they meet others, these end.
+  std::vector<TreeEdge> edges;
+  edges.reserve(found.edges.size());
+  std::vector<std::uint8_t> isNeedle(of.triangleCount);
+  for (std::uint32_t i = 0; i < of.triangleCount; ++i)
+  {
+    const EdgeTriangle& triangle = this->triangles_[first + i];
+    isNeedle[i] = triangle.longest < mostSlender * triangle.height ? 0 : 1;
+  }
+  for (const CasterEdge& edge : found.edges)
+  {
+    std::array<std::uint32_t, 2> triangles{ { TreeEdge::none, TreeEdge::none } };
+    std::size_t count = 0;
+    for (const std::uint32_t triangle : edge.triangles)
+    {
+      if (triangle != CasterEdge::none && isNeedle[triangle - of.firstTriangle] == 0)
+      {
+        triangles[count++] = triangle;
+      }
+    }
+    if (count == 0)
+    {
+      continue;
+    }
+    TreeEdge made;
+    made.triangles = { { numberOf(triangles[0]),
+      count == 2 ? numberOf(triangles[1]) : TreeEdge::none } };
+    made.sameDirection = edge.sameDirection;
+    made.from = position(edge.from);
+    made.to = position(edge.to);
+    // The first triangle says which way it runs.
+    const std::array<glm::vec3, 3>& corners = this->corners_[made.triangles[0]];
+    const bool runs = (corners[0] == made.from && corners[1] == made.to) ||
+      (corners[1] == made.from && corners[2] == made.to) ||
+      (corners[2] == made.from && corners[0] == made.to);
+    if (!runs)
+    {
+      std::swap(made.from, made.to);
+    }
+    made.length = glm::length(made.to - made.from);
+    made.reach = this->triangles_[made.triangles[0]].longest;
+    if (count == 2)
+    {
+      made.reach = std::max(made.reach, this->triangles_[made.triangles[1]].longest);
+    }
+    edges.push_back(made);
+  }
+  std::vector<std::uint32_t> firstOf(of.triangleCount + 1, 0);
+  for (const TreeEdge& edge : edges)
+  {
+    ++firstOf[edge.triangles[0] - first + 1];
+  }
+  std::partial_sum(firstOf.begin(), firstOf.end(), firstOf.begin());
+  const std::size_t firstEdge = this->edges_.size();
+  this->edges_.resize(firstEdge + edges.size());
+  std::vector<std::uint32_t> next = firstOf;
+  for (const TreeEdge& edge : edges)
+  {
+    this->edges_[firstEdge + next[edge.triangles[0] - first]++] = edge;
+  }
+  for (BvhRecord& record : records)
+  {
+    if (record.w == 0 && record.x >= first)
+    {
+      const std::uint32_t triangle = record.x - first;
+      record.y = static_cast<std::uint32_t>(firstEdge) + firstOf[triangle];
+      record.z = firstOf[triangle + 1] - firstOf[triangle];
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+EdgeTree::Cone EdgeTree::coneOf(const BvhRecord& record) const
+{
+  if (record.w != 0)
+  {
+    return {};
+  }
+  const auto ofTriangle = [this](std::uint32_t number)
+  {
+    const EdgeTriangle& triangle = this->triangles_[number];
+    Cone cone;
+    cone.axis = glm::normalize(triangle.normal);
+    cone.cosine = 1.0f;
+    cone.mostPerHeight = 1.0f / triangle.height;
+    cone.reach = triangle.longest;
+    return cone;
+  };
+  Cone cone = ofTriangle(record.x);
+  for (std::uint32_t i = 0; i < record.z; ++i)
+  {
+    const TreeEdge& edge = this->edges_[record.y + i];
+    if (edge.triangles[1] == TreeEdge::none || edge.sameDirection)
+    {
+      return {};
+    }
+    cone = joined(cone, ofTriangle(edge.triangles[1]));
+  }
+  return cone;
+}
+
+//------------------------------------------------------------------------------
+/// Finds the boxes and cones of all nodes from what lies in the leaves.
+void EdgeTree::fitNodes()
+{
+  this->cones_.assign(this->nodes_.size(), {});
+  for (std::size_t i = this->nodes_.size(); i-- > 0;)
+  {
+    BvhNode& node = this->nodes_[i];
+    Bounds bounds;
+    const bool leaf = BvhLink::isLeaf(node.link);
+    const std::uint32_t count = leaf ? BvhLink::count(node.link) : 2;
+    for (std::uint32_t k = 0; k < count; ++k)
+    {
+      Cone cone;
+      if (leaf)
+      {
+        const std::uint32_t place = BvhLink::first(node.link) + k;
+        bounds.add(this->bounds(this->record(place)));
+        cone = this->coneOf(this->records_[place]);
+      }
+      else
+      {
+        const BvhNode& child = this->nodes_[node.link + k];
+        bounds.add({ glm::dvec3(child.lower), glm::dvec3(child.upper) });
+        cone = this->cones_[node.link + k];
+      }
+      this->cones_[i] = k == 0 ? cone : joined(this->cones_[i], cone);
+    }
+    // Floats that are rounded to the outside.
+    const glm::dvec3 more =
+      std::ldexp(1.0, -22) * glm::max(glm::abs(bounds.lower), glm::abs(bounds.upper));
+    node.lower = bounds.lower - more;
+    node.upper = bounds.upper + more;
+  }
+}
+
+//------------------------------------------------------------------------------
+bool EdgeTree::isOnTriangle(const glm::vec3& start) const
+{
+  return !this->empty() && this->isOnTriangle(start, this->root_);
+}
+
+//------------------------------------------------------------------------------
+/// @param link where to go on
+bool EdgeTree::isOnTriangle(const glm::vec3& start, std::uint32_t link) const
+{
+  const auto isIn = [&](const auto& box)
+  {
+    return start.x >= box.lower.x && start.x <= box.upper.x && start.y >= box.lower.y &&
+      start.y <= box.upper.y && start.z >= box.lower.z && start.z <= box.upper.z;
+  };
+  if (!BvhLink::isLeaf(link))
+  {
+    return (isIn(this->nodes_[link]) && this->isOnTriangle(start, this->nodes_[link].link)) ||
+      (isIn(this->nodes_[link + 1]) && this->isOnTriangle(start, this->nodes_[link + 1].link));
+  }
+  for (std::uint32_t i = 0; i < BvhLink::count(link); ++i)
+  {
+    const Record of = this->record(BvhLink::first(link) + i);
+    if (isIn(this->bounds(of)) &&
+      (of.opaque ||
+        !(std::abs(this->triangles_[of.number].behind(start)) > this->triangles_[of.number].noise)))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+//------------------------------------------------------------------------------
+std::size_t EdgeTree::bytes() const
+{
+  return bytesOf(this->triangles_) + bytesOf(this->corners_) + bytesOf(this->bounds_) +
+    bytesOf(this->opaqueBounds_) + bytesOf(this->edges_) + bytesOf(this->nodes_) +
+    bytesOf(this->records_) + bytesOf(this->cones_) +
+    this->found_.bytes([](const SurfaceEdges& found)
+      { return bytesOf(found.edges) + bytesOf(found.ofTriangle) + bytesOf(found.rims); });
+}
+
+} // namespace gnomon

@@ -1,0 +1,49 @@
+#include "shadowtech/penumbra/Penumbra.h"
+
+#include "shadowtech/penumbra/PenumbraChooser.h"
+#include "shadowtech/tracing/ShadowTracer.h"
+
+namespace gnomon
+{
+
+//------------------------------------------------------------------------------
+TechniqueInfo Penumbra::info()
+{
+  TechniqueInfo info;
+  info.name = "penumbra";
+  info.evaluation = Evaluation::ScreenCpu;
+  info.exact = true;
+  info.classes = classesOfPenumbra();
+  return info;
+}
+
+//------------------------------------------------------------------------------
+void Penumbra::computeVisibility(
+  const ScreenInput& input, std::vector<float>& visibility, LightReport& report)
+{
+  if (!input.light.area)
+  {
+    report.tracedPixels = static_cast<std::int64_t>(input.tracer.trace(
+      input.light, input.occluders, input.receivers, visibility, nullptr, input.classes));
+    report.rays = report.tracedPixels;
+    return;
+  }
+  this->tree_.update(input.occluders);
+  const PenumbraChooser chooser(this->tree_, input.light, input.occluders.centreWorld);
+  report.lightSamples = input.light.lightSamples;
+  report.rays = static_cast<std::int64_t>(input.tracer.traceArea(
+    input.light, input.occluders, input.receivers, visibility, nullptr, input.classes, &chooser));
+  report.tracedPixels = chooser.tracedPixels();
+  if (input.classes)
+  {
+    for (std::size_t i = 0; i < visibility.size(); ++i)
+    {
+      std::uint8_t& of = (*input.classes)[i];
+      const bool blocked =
+        of == static_cast<std::uint8_t>(TracedClass::Lit) && visibility[i] == 0.0f;
+      of = blocked ? static_cast<std::uint8_t>(TracedClass::Shadow) : of;
+    }
+  }
+}
+
+} // namespace gnomon

@@ -1,0 +1,407 @@
+#include "shadowtech/penumbra/PenumbraChooser.h"
+
+#include "shadowtech/penumbra/EdgeSums.h"
+#include "shadowtech/penumbra/ShaftEdges.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+
+namespace gnomon
+{
+namespace
+{
+
+/// Pixels that are looked at together: squares of so many a side.
+constexpr std::size_t sideOfBlock = 8;
+
+/// Pixels that have something else than edges between them and the light are halved if they are at least so many.
+constexpr std::size_t fewestToHalve = 8;
+
+///@{
+/// More edges than so many times the samples are not counted, since tracing is faster: of pixels together, of one. Where so
+/// many pixels have too many of them, and none has few, their neighbours are not asked.
+constexpr std::size_t edgesPerSample = 4;
+constexpr std::size_t mostEdges = 8192;
+constexpr std::size_t seenPerSample = 2;
+constexpr std::int64_t triesOfBlock = 4;
+///@}
+
+/// An edge as it is seen from a start.
+class Seeing
+{
+public:
+  Seeing(const EdgeTree& tree, const LightShaft& shaft, const glm::vec3& start)
+    : tree_(tree)
+    , shaft_(shaft)
+    , start_(start)
+    , startShaft_(shaft.toShaft(start))
+    , slopes_(shaft.slopes(startShaft_))
+    , longestSlope_(
+        std::sqrt(1.0 + square(std::max(std::abs(slopes_.least.x), std::abs(slopes_.most.x))) +
+          square(std::max(std::abs(slopes_.least.y), std::abs(slopes_.most.y)))))
+  {
+  }
+
+  const LightShaft::Slopes& slopes() const { return this->slopes_; }
+  const glm::dvec3& startShaft() const { return this->startShaft_; }
+
+  /// @return nothing where it is not seen, or where the same is on both sides of it
+  std::optional<SeenEdge> operator()(const ShaftEdges& edges, std::uint32_t number) const
+  {
+    const ShaftEdges::Edge& edge = edges.edge(number);
+    const glm::dvec3 from = edges.from(number) - this->startShaft_;
+    const glm::dvec3 to = edges.to(number) - this->startShaft_;
+    const double squared = std::max(glm::dot(from, from), glm::dot(to, to));
+    Look look{ std::sqrt(squared) + edge.edge->reach, edge.weight, 1.0, edge.height };
+    if (std::isnan(edge.weight))
+    {
+      this->lookAtTriangles(*edge.edge, look);
+      if (look.weight == 0.0f && look.width == 1.0)
+      {
+        return std::nullopt;
+      }
+    }
+    return this->see(*edge.edge, from, to, look);
+  }
+
+private:
+  static double square(double x) { return x * x; }
+
+  /// What its triangles make of an edge.
+  struct Look
+  {
+    double farthest; ///< the distance of their farthest corner
+    float weight;    ///< SeenEdge::weight
+    double width; ///< of what is close to it by rounding; 1 where no triangle is seen from its side
+    double
+      height; ///< the least above their planes, over their longest side; 0 where one is seen from its side
+  };
+
+  void lookAtTriangles(const TreeEdge& edge, Look& look) const
+  {
+    look.weight = 0.0f;
+    look.height = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < 2 && edge.triangles[i] != TreeEdge::none; ++i)
+    {
+      const EdgeTriangle& triangle = this->tree_.triangle(edge.triangles[i]);
+      const double behind = triangle.behind(this->start_);
+      look.weight += directionOf(edge, i) * weightOf(triangle, behind > 0.0);
+      look.height = std::min(look.height, std::abs(behind) / triangle.longest);
+      if (!(std::abs(behind) >
+            EdgeRounding::ofHeight * EdgeRounding::unit * look.farthest * look.farthest))
+      {
+        look.width = std::max({ look.width, EdgeRounding::wider,
+          static_cast<double>(triangle.longest / triangle.height) });
+        look.height = 0.0;
+      }
+    }
+  }
+
+  /// Where an edge begins that is cut off where the rays start and where they end.
+  /// @param least z of what is left
+  /// @param end depth of what is left
+  glm::dvec3 cut(const glm::dvec3& from, const glm::dvec3& to, double least, double end) const
+  {
+    glm::dvec3 cut = from;
+    if (cut.z < least)
+    {
+      cut += std::clamp((least - cut.z) / (to.z - cut.z), 0.0, 1.0) * (to - cut);
+      cut.z = std::max(cut.z, least);
+    }
+    const double depth = this->shaft_.endDepth(cut);
+    if (depth > end)
+    {
+      cut += std::clamp((end - depth) / (this->shaft_.endDepth(to) - depth), 0.0, 1.0) * (to - cut);
+    }
+    return cut;
+  }
+
+  /// Whether an edge, as it is seen, passes all rays by.
+  bool passes(
+    const glm::dvec2& from, const glm::dvec2& to, const glm::dvec3& across, double uncertain) const
+  {
+    for (int i = 0; i < 2; ++i)
+    {
+      if (std::max(from[i], to[i]) < this->slopes_.least[i] ||
+        std::min(from[i], to[i]) > this->slopes_.most[i])
+      {
+        return true;
+      }
+    }
+    const glm::dvec2 middle = 0.5 * (this->slopes_.least + this->slopes_.most);
+    const glm::dvec2 half = this->slopes_.most - middle;
+    return std::abs(glm::dot(across, glm::dvec3(middle, 1.0))) >
+      std::abs(across.x) * half.x + std::abs(across.y) * half.y + uncertain;
+  }
+
+  std::optional<SeenEdge> see(
+    const TreeEdge& edge, const glm::dvec3& from, const glm::dvec3& to, const Look& look) const
+  {
+    const double end = this->shaft_.firstEnd() - this->shaft_.endDepth(this->startShaft_);
+    if (this->shaft_.endDepth(from) > end && this->shaft_.endDepth(to) > end)
+    {
+      return std::nullopt; // beyond the light
+    }
+    glm::dvec3 across = glm::cross(from, to);
+    const double uncertain = EdgeRounding::ofSide * EdgeRounding::unit * look.width *
+      this->longestSlope_ * edge.length * look.farthest;
+    const double least = 1e-9 * look.farthest;
+    const glm::dvec3 cutFrom = this->cut(from, to, least, end);
+    const glm::dvec3 cutTo = this->cut(to, from, least, end);
+    glm::dvec2 lower(cutFrom.x / cutFrom.z, cutFrom.y / cutFrom.z);
+    glm::dvec2 upper(cutTo.x / cutTo.z, cutTo.y / cutTo.z);
+    if (this->passes(lower, upper, across, uncertain))
+    {
+      return std::nullopt;
+    }
+    const bool swapped = static_cast<float>(lower.y) > static_cast<float>(upper.y);
+    if (swapped)
+    {
+      std::swap(lower, upper);
+      across = -across;
+    }
+    const float weight = swapped ? -look.weight : look.weight;
+    SeenEdge seen;
+    seen.across = across;
+    seen.uncertain = static_cast<float>(uncertain);
+    seen.weight = weight;
+    seen.lower = static_cast<float>(lower.y);
+    seen.upper = static_cast<float>(upper.y);
+    // Beyond its ends, as far as the lines of two sides with a small angle stay close.
+    const double projected = glm::length(glm::dvec2(across));
+    const double beyond = 2.0 * uncertain / projected * (1.0 + look.farthest / look.height);
+    seen.uncertainLower = beyond < 1e30 ? static_cast<float>(lower.y - beyond) : -3e38f;
+    seen.uncertainUpper = beyond < 1e30 ? static_cast<float>(upper.y + beyond) : 3e38f;
+    seen.weightBelow = seen.below = 0.0f;
+    // What goes on beyond the largest x is counted along that line.
+    const double border = this->slopes_.most.x;
+    const bool lowerIn = lower.x <= border;
+    const bool upperIn = upper.x <= border;
+    if (lowerIn != upperIn)
+    {
+      auto crossing = static_cast<float>(-(across.x * border + across.z) / across.y);
+      crossing = crossing > seen.lower ? std::min(crossing, seen.upper) : seen.lower;
+      seen.below = crossing;
+      seen.weightBelow = lowerIn ? -weight : weight;
+      (lowerIn ? seen.upper : seen.lower) = crossing;
+    }
+    else if (!lowerIn)
+    {
+      seen.upper = seen.lower;
+    }
+    return seen;
+  }
+
+  const EdgeTree& tree_;
+  const LightShaft& shaft_;
+  glm::dvec3 start_, startShaft_;
+  LightShaft::Slopes slopes_;
+  double longestSlope_;
+};
+
+/// One tile's choice.
+class Choice
+{
+public:
+  Choice(const EdgeTree& tree, const ShaftLight& light, std::size_t samples, TracedTile& tile,
+    const SampleChooser::DirectionsOf& directionsOf, SampleRays& rays)
+    : tree_(tree)
+    , light_(light)
+    , tile_(tile)
+    , directionsOf_(directionsOf)
+    , rays_(rays)
+    , directions_(samples)
+  {
+  }
+
+  /// @return how many of these pixels have all their rays traced
+  std::int64_t choose(std::uint16_t* pixels, std::size_t count)
+  {
+    std::vector<glm::vec3> starts(count);
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      starts[i] = this->startOf(pixels[i]);
+    }
+    ShaftEdges::Found found = ShaftEdges::Found::Unclear;
+    if (const std::optional<LightShaft> shaft = LightShaft::make(this->light_, starts))
+    {
+      found = this->edges_.find(
+        this->tree_, *shaft, std::min(edgesPerSample * this->directions_.size(), mostEdges));
+      if (found == ShaftEdges::Found::All)
+      {
+        return this->choose(pixels, count, *shaft);
+      }
+    }
+    if (found == ShaftEdges::Found::TooMany || count < fewestToHalve)
+    {
+      return static_cast<std::int64_t>(count);
+    }
+    // Halves across the longest side of what holds them.
+    Bounds bounds;
+    for (const glm::vec3& start : starts)
+    {
+      bounds.add(glm::dvec3(start));
+    }
+    const glm::dvec3 size = bounds.upper - bounds.lower;
+    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    std::uint16_t* const middle = pixels + count / 2;
+    std::nth_element(pixels, middle, pixels + count,
+      [&](std::uint16_t a, std::uint16_t b)
+      { return this->startOf(a)[axis] < this->startOf(b)[axis]; });
+    return this->choose(pixels, count / 2) + this->choose(middle, count - count / 2);
+  }
+
+private:
+  glm::vec3 startOf(std::size_t pixel) const
+  {
+    return { this->tile_.originX[pixel], this->tile_.originY[pixel], this->tile_.originZ[pixel] };
+  }
+
+  std::int64_t choose(const std::uint16_t* pixels, std::size_t count, const LightShaft& shaft)
+  {
+    std::int64_t traced = 0;
+    std::int64_t tooMany = 0;
+    bool anyFew = false;
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      const std::uint16_t pixel = pixels[i];
+      const glm::vec3 start = this->startOf(pixel);
+      if (this->tree_.isOnTriangle(start))
+      {
+        ++traced;
+        continue;
+      }
+      this->seen_.clear();
+      if (this->edges_.size() == 0)
+      {
+        this->decideByOneRay(pixel);
+        continue;
+      }
+      const Seeing see(this->tree_, shaft, start);
+      this->edges_.select(see.startShaft(), see.slopes(), this->numbers_);
+      if (this->numbers_.size() > seenPerSample * this->directions_.size())
+      {
+        ++traced;
+        ++tooMany;
+        if (tooMany == triesOfBlock && !anyFew)
+        {
+          return traced + static_cast<std::int64_t>(count - i - 1);
+        }
+        continue;
+      }
+      anyFew = true;
+      for (const std::uint32_t number : this->numbers_)
+      {
+        if (const std::optional<SeenEdge> seen = see(this->edges_, number))
+        {
+          this->seen_.push_back(*seen);
+        }
+      }
+      if (this->seen_.empty())
+      {
+        this->decideByOneRay(pixel);
+        continue;
+      }
+      this->count(pixel, shaft);
+    }
+    return traced;
+  }
+
+  /// A pixel whose rays pass no edge.
+  void decideByOneRay(std::uint16_t pixel)
+  {
+    const auto all = static_cast<std::uint32_t>(this->directions_.size());
+    this->rays_.pixels[pixel] = { all, all, 0, 1 };
+    this->tile_.classes[pixel] = static_cast<std::uint8_t>(TracedClass::Lit);
+  }
+
+  /// A pixel whose rays pass edges.
+  void count(std::uint16_t pixel, const LightShaft& shaft)
+  {
+    this->directionsOf_(pixel, this->directions_.data());
+    this->sums_.setRays(
+      glm::mat3(shaft.rotation()), this->directions_.data(), this->directions_.size());
+    this->sums_.add(this->seen_);
+    float least = std::numeric_limits<float>::infinity();
+    for (std::size_t i = 0; i < this->sums_.count(); ++i)
+    {
+      least = this->sums_.isUncertain(i) ? least : std::min(least, this->sums_.sum(i));
+    }
+    PixelSamples& chosen = this->rays_.pixels[pixel];
+    chosen = { 0, 0, static_cast<std::uint32_t>(this->rays_.samples.size()), 0 };
+    // One of those that meet the fewest triangles comes first, and stands for all of them.
+    std::uint32_t uncertain = 0;
+    for (std::size_t i = 0; i < this->sums_.count(); ++i)
+    {
+      const bool fewest = !this->sums_.isUncertain(i) && this->sums_.sum(i) == least;
+      if (fewest && chosen.ofFirstRay == 0)
+      {
+        this->rays_.samples.push_back(static_cast<std::uint32_t>(i));
+      }
+      chosen.ofFirstRay += fewest ? 1u : 0u;
+      uncertain += this->sums_.isUncertain(i) ? 1u : 0u;
+    }
+    for (std::size_t i = 0; i < this->sums_.count() && uncertain > 0; ++i)
+    {
+      if (this->sums_.isUncertain(i))
+      {
+        this->rays_.samples.push_back(static_cast<std::uint32_t>(i));
+      }
+    }
+    chosen.lit = chosen.ofFirstRay + uncertain;
+    chosen.count = static_cast<std::uint32_t>(this->rays_.samples.size()) - chosen.first;
+    chosen.ofFirstRay = std::max(chosen.ofFirstRay, 1u);
+    this->tile_.classes[pixel] = penumbraClass;
+  }
+
+  const EdgeTree& tree_;
+  const ShaftLight& light_;
+  TracedTile& tile_;
+  const SampleChooser::DirectionsOf& directionsOf_;
+  SampleRays& rays_;
+  std::vector<glm::vec3> directions_;
+  ShaftEdges edges_;
+  std::vector<std::uint32_t> numbers_;
+  std::vector<SeenEdge> seen_;
+  EdgeSums sums_;
+};
+
+} // namespace
+
+//------------------------------------------------------------------------------
+std::vector<PixelClass> classesOfPenumbra()
+{
+  std::vector<PixelClass> classes = classesOfTracing();
+  classes.push_back({ "penumbra, by its edges", { 250, 170, 30 }, true });
+  return classes;
+}
+
+//------------------------------------------------------------------------------
+void PenumbraChooser::choose(
+  TracedTile& tile, const DirectionsOf& directionsOf, SampleRays& rays) const
+{
+  Choice choice(this->tree_, this->light_, this->samples_, tile, directionsOf, rays);
+  std::int64_t traced = 0;
+  for (std::size_t row = 0; row < TracedTile::rows; row += sideOfBlock)
+  {
+    for (std::size_t column = 0; column < TracedTile::columns; column += sideOfBlock)
+    {
+      std::array<std::uint16_t, sideOfBlock * sideOfBlock> pixels;
+      std::size_t count = 0;
+      for (std::size_t i = 0; i < pixels.size(); ++i)
+      {
+        const std::size_t pixel =
+          (row + i / sideOfBlock) * TracedTile::columns + column + i % sideOfBlock;
+        pixels[count] = static_cast<std::uint16_t>(pixel);
+        count += tile.needed[pixel] != 0 ? 1 : 0;
+      }
+      traced += count > 0 ? choice.choose(pixels.data(), count) : 0;
+    }
+  }
+  this->tracedPixels_ += traced;
+}
+
+} // namespace gnomon

@@ -1,0 +1,50 @@
+#ifndef gnomon_shadowtech_penumbra_PenumbraChooser_h
+#define gnomon_shadowtech_penumbra_PenumbraChooser_h
+
+#include "shadowtech/base/PixelClass.h"
+#include "shadowtech/penumbra/EdgeTree.h"
+#include "shadowtech/penumbra/LightShaft.h"
+#include "shadowtech/tracing/SampleRays.h"
+#include "shadowtech/tracing/TracedPicture.h"
+
+#include <atomic>
+#include <cstdint>
+#include <vector>
+
+namespace gnomon
+{
+
+/// The class of a pixel whose visibility edges tell, beyond TracedClass: an index into classesOfPenumbra(). Those that one ray
+/// decides are Lit until it is known to be blocked.
+constexpr std::uint8_t penumbraClass = static_cast<std::uint8_t>(TracedClass::NoReceiver) + 1;
+std::vector<PixelClass> classesOfPenumbra();
+
+/// Chooses the rays to an area light that decide all of them, by the edges at which casters seem to end from where the
+/// rays start (docs/techniques/penumbra.md).
+class PenumbraChooser : public SampleChooser
+{
+public:
+  /// @param tree of the casters
+  /// @param light with an area
+  PenumbraChooser(const EdgeTree& tree, const ShadowLight& light, const glm::dvec3& centreWorld)
+    : tree_(tree)
+    , light_(light, centreWorld)
+    , samples_(static_cast<std::size_t>(light.lightSamples))
+  {
+  }
+
+  void choose(TracedTile& tile, const DirectionsOf& directionsOf, SampleRays& rays) const override;
+
+  /// Pixels all of whose rays were traced, so far.
+  std::int64_t tracedPixels() const { return this->tracedPixels_; }
+
+private:
+  const EdgeTree& tree_;
+  ShaftLight light_;
+  std::size_t samples_;
+  mutable std::atomic<std::int64_t> tracedPixels_{ 0 };
+};
+
+} // namespace gnomon
+
+#endif

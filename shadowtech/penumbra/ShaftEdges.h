@@ -1,0 +1,108 @@
+#ifndef gnomon_shadowtech_penumbra_ShaftEdges_h
+#define gnomon_shadowtech_penumbra_ShaftEdges_h
+
+#include "shadowtech/penumbra/EdgeTree.h"
+#include "shadowtech/penumbra/LightShaft.h"
+
+#include <glm/glm.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace gnomon
+{
+
+/// What rounding is to an edge (docs/techniques/penumbra.md).
+namespace EdgeRounding
+{
+/// The unit roundoff of float, 2^-24.
+constexpr double unit = 1.0 / 16777216.0;
+/// How exactly is known on which side of an edge a ray passes, in roundings of the length of the edge times the distance of
+/// its triangles' farthest corner.
+constexpr double ofSide = 40.0;
+/// From where a triangle's height times the height above its plane is less than so many roundings of the squared distance
+/// of its farthest corner, it is seen from its side, and all of it is close to its edges.
+constexpr double ofHeight = 1024.0;
+/// Where that is so, what is close to its edges is so many times as wide.
+constexpr double wider = 64.0;
+} // namespace EdgeRounding
+
+/// What a triangle adds to the rays to the left of an edge that it runs along.
+/// @param behind whether the rays start behind it
+inline float weightOf(const EdgeTriangle& triangle, bool behind)
+{
+  return behind ? 1.0f : triangle.oneSided ? 0.0f : -1.0f;
+}
+
+/// How often a triangle runs along an edge, less how often against it.
+/// @param triangle the first or the second of the edge
+inline float directionOf(const TreeEdge& edge, std::size_t triangle)
+{
+  return triangle == 0 || edge.sameDirection ? 1.0f : -1.0f;
+}
+
+/// The edges at which casters may seem to end from some starts of rays, as far as they are in these rays' shaft. In its
+/// coordinates.
+class ShaftEdges
+{
+public:
+  struct Edge
+  {
+    const TreeEdge* edge;
+    /// How many triangles more are met to its left than to its right, where that is the same from all starts; else NaN.
+    float weight;
+    /// Then, the least height above the plane of its triangles, over their longest side.
+    float height;
+  };
+
+  /// What came of looking for them.
+  enum class Found
+  {
+    All,
+    TooMany,
+    Unclear ///< something else than edges matters: what has holes, instances, needles, what is at the light
+  };
+  /// Looks for them.
+  /// @param most of them that are not too many
+  Found find(const EdgeTree& tree, const LightShaft& shaft, std::size_t most);
+
+  std::size_t size() const { return this->edges_.size(); }
+  const Edge& edge(std::size_t number) const { return this->edges_[number]; }
+  glm::dvec3 from(std::size_t number) const
+  {
+    return { this->ends_[0][number], this->ends_[1][number], this->ends_[2][number] };
+  }
+  glm::dvec3 to(std::size_t number) const
+  {
+    return { this->ends_[3][number], this->ends_[4][number], this->ends_[5][number] };
+  }
+
+  /// Those that may be in the shaft of one of the starts.
+  /// @param slopes of its rays
+  /// @param numbers gets them
+  void select(
+    const glm::dvec3& start, const LightShaft::Slopes& slopes, std::vector<std::uint32_t>& numbers);
+
+private:
+  Found visit(std::uint32_t link);
+  bool isAlike(const Bounds& bounds, const EdgeTree::Cone& cone) const;
+  Found take(const EdgeTree::Record& record);
+  void takeEdge(const TreeEdge& edge);
+
+  const EdgeTree* tree_ = nullptr;
+  const LightShaft* shaft_ = nullptr;
+  glm::dvec3 centre_, half_; ///< of the starts' box, centred
+  double radius_ = 0.0;
+  std::size_t most_ = 0;
+  std::vector<Edge> edges_;
+  std::array<std::vector<double>, 6>
+    ends_;                        ///< x, y, z of where edges begin, then of where they end
+  std::vector<double> uncertain_; ///< the most that rounding may make of their side
+  std::vector<std::uint8_t> selected_;
+};
+
+} // namespace gnomon
+
+#endif

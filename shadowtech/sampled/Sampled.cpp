@@ -1,0 +1,196 @@
+#include "shadowtech/sampled/Sampled.h"
+
+#include "lights/LightAt.h"
+#include "lights/LightSamples.h"
+#include "lights/LightSpace.h"
+#include "shadowtech/base/GlState.h"
+#include "shadowtech/base/Occluders.h"
+#include "shadowtech/base/ReceiverTarget.h"
+#include "shadowtech/base/ShaderLibrary.h"
+#include "shadowtech/base/VisibilityLayers.h"
+
+#include <algorithm>
+
+namespace gnomon
+{
+namespace
+{
+
+/// What the centre's identifiers are numbered by; those of a batch's points follow.
+constexpr int centreNumber = 0;
+
+int numberOf(std::size_t pointOfBatch)
+{
+  return centreNumber + 1 + static_cast<int>(pointOfBatch);
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+TechniqueInfo Sampled::info()
+{
+  TechniqueInfo info;
+  info.name = "sampled";
+  info.evaluation = Evaluation::ScreenGpu;
+  info.needsMap = true;
+  return info;
+}
+
+//------------------------------------------------------------------------------
+void Sampled::bake(const MapInput& input)
+{
+  this->shown_.reset();
+  this->fitting_ = input.fitting;
+  this->centre_.bake(input);
+}
+
+//------------------------------------------------------------------------------
+std::size_t Sampled::bytesOfMaps() const
+{
+  std::size_t bytes = this->centre_.bytesOfMaps() + this->sum_.bytes();
+  for (const Compare& map : this->batch_)
+  {
+    bytes += map.bytesOfMaps();
+  }
+  return bytes;
+}
+
+//------------------------------------------------------------------------------
+void Sampled::drawVisibility(const LayerInput& input, LightReport& report)
+{
+  const GlStateGuard guard;
+  const bool begins = this->beginIfStale(input);
+  const std::size_t points = this->shown_->points.size();
+  if (points == 1 || (begins && input.light.progressiveSamples > 0))
+  {
+    input.layers.estimate(
+      input.layer, this->centre_, input.light, input.receivers, input.space, input.shaders);
+    report.lightSamples = 1;
+    report.progress = points == 1 ? 1.0 : 0.0;
+    return;
+  }
+  const auto most = static_cast<std::size_t>(input.light.batchSamples);
+  if (this->batch_.size() > most)
+  {
+    this->batch_.clear(); // gives their memory back
+  }
+  const std::size_t wanted = this->pointsWanted(input.light);
+  while (this->summed_ < wanted)
+  {
+    this->addBatch(input, std::min(wanted - this->summed_, most));
+  }
+  this->showMean(input);
+  report.lightSamples = static_cast<int>(this->summed_);
+  report.progress = static_cast<double>(this->summed_) / static_cast<double>(points);
+}
+
+//------------------------------------------------------------------------------
+/// Forgets the sum if it is not of what is to be shown.
+/// @return whether it did
+bool Sampled::beginIfStale(const LayerInput& input)
+{
+  Shown shown{ input.receiversShown, pairedLightSamples(input.light) };
+  if (this->shown_ && *this->shown_ == shown)
+  {
+    return false;
+  }
+  this->shown_.reset(); // in case that there is no memory
+  this->sum_.begin(
+    input.receivers.width(), input.receivers.height(), "the sum of a light's points");
+  this->summed_ = 0;
+  this->shown_ = std::move(shown);
+  return true;
+}
+
+//------------------------------------------------------------------------------
+/// How many points the sum is to have in this frame: whole pairs, and the centre of an odd number.
+std::size_t Sampled::pointsWanted(const ShadowLight& light) const
+{
+  const std::size_t all = this->shown_->points.size();
+  if (light.progressiveSamples == 0)
+  {
+    return all;
+  }
+  const std::size_t wanted = this->summed_ + static_cast<std::size_t>(light.progressiveSamples);
+  return std::min(all, wanted + (all - std::min(wanted, all)) % 2);
+}
+
+//------------------------------------------------------------------------------
+/// Draws the maps of the next points, and adds what they see.
+void Sampled::addBatch(const LayerInput& input, std::size_t count)
+{
+  const ShadowLight& light = input.light;
+  if (this->batch_.size() < count)
+  {
+    this->batch_ = std::vector<Compare>(count);
+  }
+  std::vector<ShadowLight> lights;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    lights.push_back(lightAt(light, this->shown_->points[this->summed_ + i], this->fitting_));
+    const LightViews views = fitLightViews(lights[i], this->fitting_);
+    MapInput map{ lights[i], views, input.occluders, input.buffers, input.shaders };
+    if (light.box)
+    {
+      map.keptFromCentred = nearFaceCentred(light, this->fitting_.centreWorld);
+    }
+    this->batch_[i].bake(map);
+    ++input.mapBakes;
+  }
+
+  const GLuint program = ScreenPass::use(input.shaders, this->sumGlsl(input, lights));
+  std::vector<Uniform> uniforms = this->sum_.before();
+  uniforms.push_back(
+    { "receiverFragments", TextureBinding{ GL_TEXTURE_2D, input.receivers.fragments() } });
+  uniforms.push_back(
+    { "receiverPoints", TextureBinding{ GL_TEXTURE_2D, input.receivers.points() } });
+  uniforms.push_back({ "batchPoints", static_cast<int>(count) });
+  int freeUnit = ShaderLibrary::setUniforms(program, uniforms, centreNumber, 0);
+  freeUnit = ShaderLibrary::setUniforms(
+    program, this->centre_.uniforms(input.space), centreNumber, freeUnit);
+  const glm::dmat3 lightFromWorld(lightFromCentred(light, this->fitting_.centreWorld));
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    std::vector<Uniform> ofPoint = this->batch_[i].uniforms(input.space);
+    ofPoint.push_back(
+      { "pointOffset_LIGHT", glm::vec3(lightFromWorld * this->shown_->points[this->summed_ + i]) });
+    freeUnit = ShaderLibrary::setUniforms(program, ofPoint, numberOf(i), freeUnit);
+  }
+  this->sum_.fill();
+  this->summed_ += count;
+}
+
+//------------------------------------------------------------------------------
+/// The shader that compares with the maps of these lights.
+std::string Sampled::sumGlsl(const LayerInput& input, const std::vector<ShadowLight>& lights) const
+{
+  std::string text = numberedForLight(this->centre_.visibilityGlsl(input.light), centreNumber);
+  std::string sum;
+  const std::string share = ShaderLibrary::source("shadowtech/sampled/sampled_share.glsl");
+  for (std::size_t i = 0; i < lights.size(); ++i)
+  {
+    text += numberedForLight(this->batch_[i].visibilityGlsl(lights[i]) + share, numberOf(i));
+    sum += (sum.empty() ? "" : " + ") + std::string("share_") + std::to_string(numberOf(i)) +
+      "(positionView, normalView, normalCentre, toCentre)";
+  }
+  text += "float sharesOfBatch(vec3 positionView, vec3 normalView, vec3 normalCentre, vec3 "
+          "toCentre)\n{\n  return " +
+    sum + ";\n}\n";
+  return text +
+    numberedForLight(
+      ShaderLibrary::source("shadowtech/sampled/sampled_sum.frag.glsl"), centreNumber);
+}
+
+//------------------------------------------------------------------------------
+void Sampled::showMean(const LayerInput& input)
+{
+  const GLuint program = ScreenPass::use(
+    input.shaders, ShaderLibrary::source("shadowtech/sampled/sampled_mean.frag.glsl"));
+  ShaderLibrary::setUniforms(program,
+    { { "sum", TextureBinding{ GL_TEXTURE_2D, this->sum_.texture() } },
+      { "points", static_cast<float>(this->summed_) } },
+    centreNumber, 0);
+  input.layers.fill(input.layer);
+}
+
+} // namespace gnomon

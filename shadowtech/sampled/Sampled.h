@@ -1,0 +1,69 @@
+#ifndef gnomon_shadowtech_sampled_Sampled_h
+#define gnomon_shadowtech_sampled_Sampled_h
+
+#include "shadowtech/base/RunningSum.h"
+#include "shadowtech/base/Technique.h"
+#include "shadowtech/compare/Compare.h"
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gnomon
+{
+
+/// `sampled`: soft shadows as the mean of the hard ones that many points of the light cast, each by a depth map of its
+/// own (Heckbert and Herf 1997 from shadow maps instead of projected casters).
+///
+/// Maps are drawn a batch at a time, and one shader compares each receiver with all maps of the batch and adds what it
+/// sees to a running sum. Sums are whole numbers below 2^24, which floats hold: neither the batches' size nor the frames
+/// that the points are spread over change a bit of the mean. (Splits that blend would; they are refused.)
+///
+/// Visibility means what it means to shadow rays (directionToSample): a point behind the receiver's plane gives way to the
+/// opposite one. Points come in opposite pairs (pairedLightSamples), so that this is a matter of weights: a point counts
+/// twice where the receiver faces it and not its opposite. A pair's weights always sum to 2, so that a pair is the least
+/// that may be shown.
+///
+/// The sum is kept while nothing changes that it depends on: then nothing more is drawn. In progressive mode a change
+/// shows the centre's hard shadow, from the centre's map, which outlives the camera's moves, and each further frame
+/// adds points, from the middle of the light outwards.
+class Sampled : public Technique
+{
+public:
+  static TechniqueInfo info();
+
+  void bake(const MapInput& input) override;
+  std::size_t bytesOfMaps() const override;
+  void drawVisibility(const LayerInput& input, LightReport& report) override;
+
+private:
+  /// What the sum was made for, beside what makes the centre's map stale.
+  struct Shown
+  {
+    std::size_t receivers = 0;      ///< LayerInput::receiversShown
+    std::vector<glm::dvec3> points; ///< pairedLightSamples()
+
+    bool operator==(const Shown& other) const
+    {
+      return this->receivers == other.receivers && this->points == other.points;
+    }
+  };
+
+  bool beginIfStale(const LayerInput& input);
+  std::size_t pointsWanted(const ShadowLight& light) const;
+  void addBatch(const LayerInput& input, std::size_t count);
+  std::string sumGlsl(const LayerInput& input, const std::vector<ShadowLight>& lights) const;
+  void showMean(const LayerInput& input);
+
+  Compare centre_;
+  ViewFitting fitting_;        ///< of the centre's views, as baked
+  std::optional<Shown> shown_; ///< none: the next frame begins anew
+  std::vector<Compare> batch_; ///< the maps that are held at a time
+  RunningSum sum_;
+  std::size_t summed_ = 0; ///< points in the sum
+};
+
+} // namespace gnomon
+
+#endif

@@ -1,0 +1,190 @@
+#include "lights/LightAt.h"
+
+#include "lights/LightSamples.h"
+#include "lights/LightSpace.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+namespace gnomon::test
+{
+namespace
+{
+
+const glm::dvec3 centre(100.0, -50.0, 7.0);
+const Bounds scene{ { -3.0, -2.0, 0.0 }, { 3.0, 4.0, 2.5 } };
+
+ViewFitting fittingTo(const Bounds& bounds)
+{
+  ViewFitting fitting;
+  fitting.centreWorld = centre;
+  fitting.castersCentred = bounds;
+  fitting.receiversCentred = bounds;
+  fitting.texels = { 64, 1 };
+  return fitting;
+}
+
+ShadowLight lightOf(LightKind kind, const glm::dvec3& positionCentred, const glm::dvec3& direction)
+{
+  ShadowLight light;
+  light.kind = kind;
+  light.positionWorld = centre + positionCentred;
+  light.directionWorld = glm::normalize(direction);
+  light.coneAngleDegrees = 40.0;
+  light.lightSamples = 12;
+  light.area = rectangleArea(light.directionWorld, { 0.3, 1.0, 0.2 }, { 0.5, 0.3 });
+  return light;
+}
+
+/// Points in a box, its corners and more.
+std::vector<glm::dvec3> pointsIn(const Bounds& bounds)
+{
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  const auto corners = bounds.corners();
+  std::vector<glm::dvec3> points(corners.begin(), corners.end());
+  for (int i = 0; i < 500; ++i)
+  {
+    const glm::dvec3 share(uniform(random), uniform(random), uniform(random));
+    points.push_back(bounds.lower + share * (bounds.upper - bounds.lower));
+  }
+  return points;
+}
+
+/// Whether a light's views see a point, as shaders find it.
+bool isSeen(const LightViews& views, const glm::dvec3& centred)
+{
+  std::size_t index = 0;
+  if (views.layout == ViewLayout::Cube)
+  {
+    const glm::dvec3 light(views.lightFromCentred * glm::dvec4(centred, 1.0));
+    const int view = views.viewOfFace[static_cast<std::size_t>(cubeFaceOf(light))];
+    index = view == LightViews::noView ? views.views.size() : static_cast<std::size_t>(view);
+  }
+  if (index >= views.views.size())
+  {
+    return false;
+  }
+  const LightView& view = views.views[index];
+  const glm::dvec4 clip = view.clipFromCentred() * glm::dvec4(centred, 1.0);
+  const double z = (view.rays.viewFromCentred * glm::dvec4(centred, 1.0)).z;
+  const double most = clip.w * (1.0 + 1e-12);
+  return z > 0.0 && std::abs(clip.x) <= most && std::abs(clip.y) <= most &&
+    z * view.depthScale + view.depthOffset < 0.95;
+}
+
+bool isInCone(const ShadowLight& light, const glm::dvec3& centred)
+{
+  const glm::dvec3 p(lightFromCentred(light, centre) * glm::dvec4(centred, 1.0));
+  const double tangent = std::tan(glm::radians(light.coneAngleDegrees));
+  return p.z > 0.0 && std::hypot(p.x, p.y) <= tangent * p.z;
+}
+
+/// All that a spot's centre lights, each of its points sees, from outside of the scene, from its edge and from inside.
+TEST(LightAt, seesFromAllPointsWhatTheCentreOfASpotReaches)
+{
+  const ViewFitting fitting = fittingTo(scene);
+  for (const glm::dvec3& place :
+    { glm::dvec3(0.5, 0.5, 9.0), { 2.0, 5.0, 4.0 }, { 0.0, 0.0, 2.5 }, { 0.3, 0.2, 1.0 } })
+  {
+    for (const double angle : { 20.0, 40.0, 75.0 })
+    {
+      ShadowLight light = lightOf(LightKind::Spot, place, { 0.1, -0.3, -1.0 });
+      light.coneAngleDegrees = angle;
+      std::size_t lit = 0;
+      for (const glm::dvec3& offset : pairedLightSamples(light))
+      {
+        const ShadowLight at = lightAt(light, offset, fitting);
+        EXPECT_EQ(at.positionWorld, light.positionWorld + offset);
+        EXPECT_EQ(at.directionWorld, light.directionWorld);
+        EXPECT_FALSE(at.area);
+        const LightViews views = fitLightViews(at, fitting);
+        for (const glm::dvec3& point : pointsIn(scene))
+        {
+          if (isInCone(light, point))
+          {
+            ++lit;
+            EXPECT_TRUE(isSeen(views, point)) << place.z << " " << angle;
+          }
+        }
+      }
+      EXPECT_GT(lit, 0u) << place.z << " " << angle;
+    }
+  }
+}
+
+TEST(LightAt, laysOutAllPointsOfALightAlike)
+{
+  const auto layouts = [](const ShadowLight& light)
+  {
+    std::vector<ViewLayout> ofPoints;
+    for (const glm::dvec3& offset : pairedLightSamples(light))
+    {
+      ofPoints.push_back(viewLayout(lightAt(light, offset, fittingTo(scene))));
+    }
+    return ofPoints;
+  };
+  const std::vector<ViewLayout> single(12, ViewLayout::Single);
+  const std::vector<ViewLayout> cube(12, ViewLayout::Cube);
+  const glm::dvec3 down(0.0, 0.0, -1.0);
+  EXPECT_EQ(layouts(lightOf(LightKind::Spot, { 0.0, 0.0, 9.0 }, down)), single);
+  EXPECT_EQ(layouts(lightOf(LightKind::Spot, { 0.0, 0.0, 2.0 }, down)), cube)
+    << "receivers may be at the lamp";
+  EXPECT_EQ(layouts(lightOf(LightKind::Point, { 0.0, 0.0, 9.0 }, down)), cube);
+  EXPECT_EQ(layouts(lightOf(LightKind::Directional, {}, down)), single);
+}
+
+TEST(LightAt, turnsParallelRaysToThePoint)
+{
+  const ShadowLight light = lightOf(LightKind::Directional, {}, { 0.2, 0.5, -1.0 });
+  for (const glm::dvec3& offset : pairedLightSamples(light))
+  {
+    const ShadowLight at = lightAt(light, offset, fittingTo(scene));
+    const glm::dvec3 towards = offset - light.directionWorld;
+    EXPECT_NEAR(glm::distance(at.directionWorld, -glm::normalize(towards)), 0.0, 1e-15);
+    EXPECT_FALSE(at.box);
+  }
+}
+
+/// Every ray from the centre's box to a point of the light, as far as the centre's near face, lies in the point's box.
+TEST(LightAt, standsABoxAroundAllRaysIntoTheCentresBox)
+{
+  for (const glm::dvec3& up : { glm::dvec3(0.0, 1.0, 0.0), { 1.0, 0.2, 0.0 } })
+  {
+    ShadowLight light = lightOf(LightKind::Directional, { 0.5, 0.2, 3.0 }, { 0.2, 0.5, -1.0 });
+    light.box = LightBox{ 2.0, 1.5, 4.0, up };
+    // Up to a light of 80 degrees.
+    for (const double size : { 0.01, 0.3, 1.7 })
+    {
+      light.area = rectangleArea(light.directionWorld, { 0.3, 1.0, 0.2 }, { size, 0.7 * size });
+      for (const glm::dvec3& offset : pairedLightSamples(light))
+      {
+        const ShadowLight at = lightAt(light, offset, fittingTo(scene));
+        ASSERT_TRUE(at.box);
+        const glm::dmat4 boxFromCentred = lightFromCentred(at, centre);
+        const glm::dmat4 centredFromLight = glm::inverse(lightFromCentred(light, centre));
+        const Bounds whole{ { -1.0, -0.75, 0.0 }, { 1.0, 0.75, 4.0 } };
+        for (const glm::dvec3& point : pointsIn(whole))
+        {
+          const glm::dvec3 centred(centredFromLight * glm::dvec4(point, 1.0));
+          for (const double share : { 0.0, 0.4, 1.0 })
+          {
+            const glm::dvec3 onRay = centred + share * point.z * (offset - light.directionWorld);
+            const glm::dvec3 inBox(boxFromCentred * glm::dvec4(onRay, 1.0));
+            EXPECT_LE(std::abs(inBox.x), 0.5 * at.box->width + 1e-9);
+            EXPECT_LE(std::abs(inBox.y), 0.5 * at.box->height + 1e-9);
+            EXPECT_GE(inBox.z, -1e-9);
+            EXPECT_LE(inBox.z, at.box->depth + 1e-9);
+          }
+        }
+      }
+    }
+  }
+}
+
+} // namespace
+} // namespace gnomon::test

@@ -1,0 +1,424 @@
+// Percentage closer soft shadows in frames: widths that are known, no acne, and no light that breaks them.
+
+#include "LitPlane.h"
+#include "PassScene.h"
+
+#include "lights/vtkGnomonAreaLight.h"
+#include "lights/vtkGnomonLightKeys.h"
+
+#include <vtkTransform.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+using namespace gnomon::test;
+using gnomon::VisibilityImages;
+
+namespace
+{
+
+/// An area light's radius and the technique.
+Choose soft(const char* radius)
+{
+  return [radius](PassScene& scene, vtkLight* light)
+  {
+    scene.pass->SetTechnique("pcss");
+    vtkGnomonLightKeys::SetSetting(light, "light_radius", radius);
+  };
+}
+
+std::vector<float> visibilityOf(PassScene& scene, const char* technique)
+{
+  scene.pass->SetTechnique(technique);
+  return drawKept(scene).visibility.at(0);
+}
+
+double meanDifference(const std::vector<float>& a, const std::vector<float>& b)
+{
+  double sum = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+  {
+    sum += std::abs(a[i] - b[i]);
+  }
+  return sum / static_cast<double>(a.size());
+}
+
+/// A floor with the shadow of a half plane at height 2 that ends at x = 0, seen from above.
+class Penumbra : public PassTest
+{
+protected:
+  Penumbra()
+  {
+    // Texels are five times as long along x as along y.
+    this->scene.addFloor(20.0)->SetScale(1.0, 0.2, 1.0);
+    this->scene.addBox({ -12.0, -4.0, 1.999 }, { 0.0, 4.0, 2.0 });
+    this->scene.lookDown(1.0, 0.0);
+    this->scene.renderer->GetActiveCamera()->SetPosition(0.0, 0.0, 1.5); // below the half plane
+    this->scene.renderer->GetActiveCamera()->SetClippingRange(0.1, 3.0);
+  }
+
+  /// Where the columns' mean visibility passes two levels.
+  /// @return the way between them, in world units
+  double width(double lower, double upper)
+  {
+    const VisibilityImages& kept = drawKept(this->scene);
+    std::vector<double> profile(static_cast<std::size_t>(kept.width), 0.0);
+    for (int y = 0; y < kept.height; ++y)
+    {
+      for (int x = 0; x < kept.width; ++x)
+      {
+        profile[static_cast<std::size_t>(x)] +=
+          kept.visibility[0][static_cast<std::size_t>(y * kept.width + x)] / kept.height;
+      }
+    }
+    const auto passes = [&](double level)
+    {
+      const auto above =
+        std::find_if(profile.begin() + 1, profile.end(), [&](double v) { return v >= level; });
+      EXPECT_NE(above, profile.end());
+      const double before = *(above - 1);
+      return static_cast<double>(above - profile.begin()) - (*above - level) / (*above - before);
+    };
+    return (passes(upper) - passes(lower)) * 2.0 / kept.height;
+  }
+
+  PassScene scene{ 400, 400 };
+};
+
+//------------------------------------------------------------------------------
+TEST_F(Penumbra, ofASpotLightIsThatOfSimilarTriangles)
+{
+  this->scene.pass->SetTechnique("pcss");
+  vtkNew<vtkGnomonAreaLight> lamp;
+  lamp->SetPosition(0.0, 0.0, 10.0);
+  lamp->SetFocalPoint(0.0, 0.0, 0.0);
+  lamp->SetConeAngle(50.0);
+  lamp->SetShapeToRectangle();
+  lamp->SetUp(0.0, 1.0, 0.0);
+  lamp->SetWidth(2.0);
+  lamp->SetHeight(0.6);
+  this->scene.renderer->AddLight(lamp);
+  // A square lamp of width 2: linear over 2 * 2 / 8.
+  const double exact = 0.8 * 2.0 * 2.0 / 8.0;
+  double widths[2] = {};
+  for (const int mapSize : { 1024, 4096 })
+  {
+    this->scene.pass->SetMapSize(mapSize);
+    const double width = this->width(0.1, 0.9);
+    RecordProperty("width" + std::to_string(mapSize), std::to_string(width / exact));
+    EXPECT_NEAR(width, exact, 0.02 * exact) << mapSize; // 15 % are asked
+    widths[mapSize == 4096 ? 1 : 0] = width;
+  }
+  EXPECT_NEAR(widths[0] / widths[1], 1.0, 0.02); // 5 % are asked
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Penumbra, ofTheSunIsThatOfItsAngle)
+{
+  soft("10")(this->scene, this->scene.addSun({ 0.0, 0.0, -1.0 }));
+  // A disk's share is 0.1 where a chord cuts it at 0.687 of its radius.
+  const double exact = 2.0 * 0.687 * 2.0 * std::tan(glm::radians(5.0));
+  for (const int mapSize : { 1024, 4096 })
+  {
+    this->scene.pass->SetMapSize(mapSize);
+    const double width = this->width(0.1, 0.9);
+    RecordProperty("width" + std::to_string(mapSize), std::to_string(width / exact));
+    EXPECT_NEAR(width, exact, 0.05 * exact) << mapSize;
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Penumbra, ofAPointLightIsThatOfItsBall)
+{
+  vtkLight* lamp = this->scene.addSpot({ 0.0, 0.0, 10.0 }, glm::dvec3(0.0), allDirections);
+  soft("1")(this->scene, lamp);
+  this->scene.pass->SetMapSize(2048);
+  const double exact = 2.0 * 0.687 * 2.0 / 8.0;
+  EXPECT_NEAR(this->width(0.1, 0.9), exact, 0.05 * exact);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Penumbra, isSmoothInTheDefaultPreset)
+{
+  soft("10")(this->scene, this->scene.addSun({ 0.0, 0.0, -1.0 }));
+  // A column's pixels have one answer in truth. With one pattern for all of them they would have it
+  // here, too, in steps; with patterns that turn, steps become noise of less than a level in 30.
+  const VisibilityImages& kept = drawKept(this->scene);
+  const auto at = [&](int x, int y)
+  { return kept.visibility[0][static_cast<std::size_t>(y * kept.width + x)]; };
+  double noise = 0.0;
+  double steps = 0.0;
+  int columns = 0;
+  double previous = -1.0;
+  for (int x = 0; x < kept.width; ++x)
+  {
+    double mean = 0.0;
+    double square = 0.0;
+    for (int y = 0; y < kept.height; ++y)
+    {
+      mean += at(x, y) / static_cast<double>(kept.height);
+      square += at(x, y) * at(x, y) / static_cast<double>(kept.height);
+    }
+    if (mean > 0.1 && mean < 0.9)
+    {
+      noise += square - mean * mean;
+      steps = previous < 0.0 ? 0.0 : std::max(steps, std::abs(mean - previous));
+      previous = mean;
+      ++columns;
+    }
+  }
+  ASSERT_GT(columns, 30);
+  noise = std::sqrt(noise / columns);
+  RecordProperty("noise", std::to_string(noise));
+  RecordProperty("step", std::to_string(steps * columns));
+  EXPECT_GT(noise, 0.005);
+  EXPECT_LT(noise, 0.05);
+  EXPECT_LT(steps, 2.0 / columns);
+}
+
+//------------------------------------------------------------------------------
+class Pcss : public PassTest
+{
+protected:
+  /// Boxes and a ball on a floor, one of them hovering.
+  static void addThings(PassScene& scene)
+  {
+    scene.addFloor(4.0);
+    scene.addBox({ -0.7, -0.7, 0.0 }, { 0.7, 0.7, 1.0 });
+    scene.addSphere({ 1.3, 0.8, 1.4 }, 0.5);
+    scene.addBox({ -2.0, 1.0, 1.0 }, { -1.0, 2.0, 1.2 });
+    scene.lookFrom({ 2.0, -8.0, 7.0 });
+  }
+};
+
+//------------------------------------------------------------------------------
+TEST_F(Pcss, litPlaneHasNoAcneUnderTheSun)
+{
+  for (const char* radius : { "0.53", "10" })
+  {
+    expectNoAcneUnderTheSun(soft(radius), { 0.0, 5.0, 45.0, 75.0, 85.0, 88.0, 89.0 });
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Pcss, litPlaneHasNoAcneUnderALamp)
+{
+  for (const char* radius : { "0.05", "1" })
+  {
+    expectNoAcneUnderASpot(soft(radius), { 50.0, 80.0 });
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Pcss, concaveCornersAreLit)
+{
+  // No part of the sun is behind a wall.
+  expectNoAcneInATrough(soft("4"), { 64, 256, 1024 });
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Pcss, aLightWithoutSizeIsThePlainShadowMap)
+{
+  for (const char* radius : { "0", "1e-9" })
+  {
+    PassScene scene(200, 150);
+    addThings(scene);
+    vtkLight* sun = scene.addSun({ 0.4, 0.5, -1.0 });
+    vtkLight* lamp = scene.addSpot({ -2.0, -2.5, 6.0 }, glm::dvec3(0.0), 50.0);
+    vtkLight* bulb = scene.addSpot({ 1.0, -1.5, 3.0 }, glm::dvec3(0.0), allDirections);
+    for (vtkLight* light : { sun, lamp, bulb })
+    {
+      vtkGnomonLightKeys::SetSetting(light, "light_radius", radius);
+    }
+    scene.pass->SetTechnique("nsm");
+    const std::vector<std::vector<float>> hard = drawKept(scene).visibility;
+    scene.pass->SetTechnique("pcss");
+    const std::vector<std::vector<float>> seen = drawKept(scene).visibility;
+    for (std::size_t i = 0; i < hard.size(); ++i)
+    {
+      std::size_t different = 0;
+      for (std::size_t pixel = 0; pixel < hard[i].size(); ++pixel)
+      {
+        different += hard[i][pixel] == seen[i][pixel] ? 0 : 1;
+      }
+      // The border takes a texel more, which may move every other one.
+      EXPECT_LE(different, radius == std::string("0") ? 0u : hard[i].size() / 200) << radius << i;
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Pcss, isNearTheTruthUnderEveryLightAndProjection)
+{
+  struct Case
+  {
+    const char* projection;
+    const char* fit;
+    double cone; ///< 0: the sun
+    const char* radius;
+  };
+  const Case cases[] = { { "uniform", "off", 0.0, "6" }, { "lispsm", "frame", 0.0, "6" },
+    { "tsm", "frame", 0.0, "6" }, { "pssm", "frame", 0.0, "6" }, { "uniform", "frame", 0.0, "6" },
+    { "uniform", "off", 50.0, "0.4" }, { "lispsm", "frame", 50.0, "0.4" },
+    { "pssm", "frame", 50.0, "0.4" }, { "cube", "off", 75.0, "0.4" },
+    { "cube", "off", allDirections, "0.4" } };
+  for (const Case& each : cases)
+  {
+    PassScene scene(200, 150);
+    addThings(scene);
+    vtkLight* light = each.cone > 0.0
+      ? scene.addSpot({ -2.0, -2.5, 6.0 }, glm::dvec3(0.0), each.cone)
+      : scene.addSun({ 0.4, 0.5, -1.0 });
+    vtkGnomonLightKeys::SetSetting(light, "light_radius", each.radius);
+    scene.pass->SetSetting("light_samples", "256");
+    const std::vector<float> truth = visibilityOf(scene, "raytraced");
+    vtkGnomonLightKeys::SetSetting(light, "projection", each.projection);
+    vtkGnomonLightKeys::SetSetting(light, "fit", each.fit);
+    const std::vector<float> softly = visibilityOf(scene, "pcss");
+    const std::vector<float> hard = visibilityOf(scene, "nsm");
+    const double error = meanDifference(softly, truth);
+    const std::string name =
+      std::string(each.projection) + " " + each.fit + " " + std::to_string(each.cone);
+    RecordProperty(
+      name, std::to_string(error) + " nsm " + std::to_string(meanDifference(hard, truth)));
+    EXPECT_LT(error, 0.0015) << name;
+    EXPECT_LT(error, 0.25 * meanDifference(hard, truth)) << name;
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Pcss, bothRoutesAndEarlyOutsShowTheSame)
+{
+  PassScene scene(200, 150);
+  addThings(scene);
+  vtkLight* lamp = scene.addSpot({ -2.0, -2.5, 6.0 }, glm::dvec3(0.0), 50.0);
+  soft("0.4")(scene, lamp);
+  soft("5")(scene, scene.addSun({ 0.4, 0.5, -1.0 }));
+  scene.pass->SetRoute(vtkGnomonShadowPass::ROUTE_INLINE);
+  const Picture inlined = scene.render();
+  scene.pass->SetRoute(vtkGnomonShadowPass::ROUTE_IMAGE);
+  const Picture image = scene.render();
+  EXPECT_LE(differingPixels(inlined, image, 1), inlined.pixels() / 500); // patterns of other cells
+  const std::vector<std::vector<float>> early = drawKept(scene).visibility;
+  scene.pass->SetSetting("early_out", "none");
+  EXPECT_EQ(drawKept(scene).visibility, early);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Pcss, shadowsHardenTowardsTheirContact)
+{
+  // A wall that stands on the floor, under a low sun: the far end of its shadow is the widest.
+  PassScene scene(300, 300);
+  scene.addFloor(6.0);
+  scene.addBox({ -0.05, -0.05, 0.0 }, { 0.05, 0.05, 3.0 });
+  soft("6")(scene, scene.addSun({ 1.0, 0.0, -1.0 }));
+  scene.pass->SetMapSize(4096);
+  scene.pass->SetSetting("pcss_samples", "high");
+  scene.lookDown(1.6, 1.6);
+  const VisibilityImages& kept = drawKept(scene);
+  double previous = 0.0;
+  for (const double along : { 0.3, 0.8, 1.5, 2.4 })
+  {
+    // How much shadow there is, less what is fully dark: the two penumbrae.
+    int between = 0;
+    for (int y = 0; y < kept.height; ++y)
+    {
+      const auto x = static_cast<int>((along - 0.0) / 3.2 * kept.width);
+      const float v = kept.visibility[0][static_cast<std::size_t>(y * kept.width + x)];
+      between += v > 0.1f && v < 0.9f ? 1 : 0;
+    }
+    EXPECT_GE(between, previous) << along;
+    previous = between;
+  }
+  EXPECT_GT(previous, 4.0);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Pcss, contactsAreAsSharpAsTheMap)
+{
+  // A wall thinner than a texel on the floor, under a large sun: what is dark begins within two texels.
+  PassScene scene(400, 400);
+  scene.addFloor(4.0);
+  scene.addBox({ 0.099, -3.0, 0.0 }, { 0.1, 3.0, 2.0 });
+  soft("6")(scene, scene.addSun({ 1.0, 0.0, -1.0 }));
+  scene.pass->SetMapSize(1024);
+  scene.lookDown(0.1, 0.15);
+  const VisibilityImages& kept = drawKept(scene);
+  const double texel = 14.0 / 1024.0; // on the floor, along x, at most
+  int lit = 0;
+  int counted = 0;
+  for (int y = 0; y < kept.height; ++y)
+  {
+    for (int x = 0; x < kept.width; ++x)
+    {
+      const double place = 0.05 + 0.2 * (x + 0.5) / kept.width;
+      if (place > 0.1 + 2.0 * texel)
+      {
+        ++counted;
+        lit += kept.visibility[0][static_cast<std::size_t>(y * kept.width + x)] > 0.1f ? 1 : 0;
+      }
+    }
+  }
+  RecordProperty("lit", lit);
+  EXPECT_GT(counted, 10000);
+  EXPECT_EQ(lit, 0);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Pcss, lightsThatTouchOrHoldGeometryAreFinite)
+{
+  // drawKept() checks that visibilities are numbers from 0 to 1.
+  for (const glm::dvec3& place : { glm::dvec3(0.0, 0.0, 0.5), { 0.0, 0.0, 1.0 }, { 1.3, 0.8, 1.4 },
+         { 0.0, 0.0, 0.0 }, { 3.0, 0.0, 1e-6 }, { 0.0, 0.0, -1.0 } })
+  {
+    for (const double cone : { 40.0, 80.0, allDirections })
+    {
+      for (const char* radius : { "1e-6", "0.3", "1000" })
+      {
+        PassScene scene(60, 50);
+        addThings(scene);
+        soft(radius)(scene, scene.addSpot(place, place + glm::dvec3(-0.3, -0.2, -1.0), cone));
+        scene.pass->SetMapSize(128);
+        drawKept(scene);
+      }
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Pcss, lightsInTheFloorsPlaneAreCleanOnTheFloor)
+{
+  PassScene scene(100, 80);
+  scene.addFloor(4.0);
+  scene.lookFrom({ 2.0, -8.0, 7.0 });
+  vtkLight* lamp = scene.addSpot({ 3.0, 0.0, 1.0 }, { 0.0, 0.0, 1.0 }, allDirections);
+  scene.pass->SetMapSize(256);
+  for (const double height : { 0.5, 0.01, 1e-4 })
+  {
+    lamp->SetPosition(3.0, 0.0, height);
+    for (const char* radius : { "0.3", "3", "1000" })
+    {
+      soft(radius)(scene, lamp);
+      const Acne acne = countAcneOfLamp(drawKept(scene), { 3.0, 0.0, height });
+      EXPECT_GT(acne.facing, 1000u);
+      EXPECT_EQ(acne.dark, 0u) << height << " " << radius;
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Pcss, noCastersAreLit)
+{
+  PassScene scene(60, 50);
+  scene.lookFrom({ 2.0, -8.0, 7.0 });
+  soft("3")(scene, scene.addSun({ 0.4, 0.5, -1.0 }));
+  drawKept(scene);
+  scene.addSphere({ 0.0, 0.0, 0.0 }, 1.0);
+  const Acne acne = countAcneOfSun(drawKept(scene), { -0.4, -0.5, 1.0 });
+  EXPECT_GT(acne.facing, 100u);
+  EXPECT_EQ(acne.dark, 0u); // a convex body
+}
+
+} // namespace

@@ -1,0 +1,591 @@
+// `sampled`: soft shadows by a map from each of many points of the light.
+
+#include "PassScene.h"
+
+#include "lights/vtkGnomonAreaLight.h"
+#include "lights/vtkGnomonLightKeys.h"
+#include "plugin/vtkGnomonPropKeys.h"
+
+#include <vtkCallbackCommand.h>
+#include <vtkCommand.h>
+#include <vtkPlaneSource.h>
+
+#include <glm/gtc/constants.hpp>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <ostream>
+#include <string>
+#include <vector>
+
+using namespace gnomon::test;
+using gnomon::LightReport;
+using gnomon::VisibilityImages;
+
+namespace
+{
+
+/// Adds a light to a scene.
+using AddLight = std::function<vtkLight*(PassScene&)>;
+
+AddLight rectangle(
+  const glm::dvec3& place, const glm::dvec3& target, double size, double coneAngleDegrees)
+{
+  return [=](PassScene& scene)
+  {
+    vtkNew<vtkGnomonAreaLight> light;
+    light->SetPosition(place.x, place.y, place.z);
+    light->SetFocalPoint(target.x, target.y, target.z);
+    light->SetConeAngle(coneAngleDegrees);
+    light->SetShapeToRectangle();
+    light->SetWidth(size);
+    light->SetHeight(0.6 * size);
+    scene.renderer->AddLight(light);
+    return light.Get();
+  };
+}
+
+AddLight lamp(const glm::dvec3& place, const char* radius, double coneAngleDegrees)
+{
+  return [=](PassScene& scene)
+  {
+    vtkLight* light = scene.addSpot(place, { place.x, place.y, 0.0 }, coneAngleDegrees);
+    vtkGnomonLightKeys::SetSetting(light, "light_radius", radius);
+    return light;
+  };
+}
+
+AddLight sun(const glm::dvec3& direction, const char* degrees)
+{
+  return [=](PassScene& scene)
+  {
+    vtkLight* light = scene.addSun(direction);
+    vtkGnomonLightKeys::SetSetting(light, "light_radius", degrees);
+    return light;
+  };
+}
+
+AddLight sunInABox(const glm::dvec3& direction, const char* degrees, const glm::dvec3& box)
+{
+  return [=](PassScene& scene)
+  {
+    vtkLight* light = sun(direction, degrees)(scene);
+    const double up[3] = { 0.3, 1.0, 0.0 };
+    light->SetPosition(-2.0 * direction.x, -2.0 * direction.y, -2.0 * direction.z);
+    light->SetFocalPoint(0.0, 0.0, 0.0);
+    vtkGnomonLightKeys::SetBox(light, box.x, box.y, box.z, up);
+    return light;
+  };
+}
+
+void set(PassScene& scene, const char* setting, int value)
+{
+  scene.pass->SetSetting(setting, std::to_string(value).c_str());
+}
+
+std::vector<float> visibilityOf(PassScene& scene)
+{
+  return drawKept(scene).visibility.at(0);
+}
+
+std::vector<float> visibilityBy(PassScene& scene, const char* technique)
+{
+  scene.pass->SetTechnique(technique);
+  std::vector<float> visibility = visibilityOf(scene);
+  scene.pass->SetTechnique("sampled");
+  return visibility;
+}
+
+double meanDifference(const std::vector<float>& a, const std::vector<float>& b)
+{
+  double sum = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+  {
+    sum += std::abs(a[i] - b[i]);
+  }
+  return sum / static_cast<double>(a.size());
+}
+
+struct Named
+{
+  const char* name;
+  AddLight add;
+  /// What is seen of it from (x, 0, 0) past the edge x = 0, z = 2 of a half plane that lies at x < 0.
+  std::function<double(double x)> exact = {};
+};
+
+/// For the tests' names.
+std::ostream& operator<<(std::ostream& stream, const Named& named)
+{
+  return stream << named.name;
+}
+std::string nameOfLight(const testing::TestParamInfo<Named>& info)
+{
+  return info.param.name;
+}
+
+//------------------------------------------------------------------------------
+// Half plane over plane
+//------------------------------------------------------------------------------
+
+/// The share of a disk, or of what looks like one, on one side of a line at this distance from its middle, in radii.
+double diskShare(double distance)
+{
+  const double t = std::clamp(distance, -1.0, 1.0);
+  return 1.0 - (std::acos(t) - t * std::sqrt(1.0 - t * t)) / glm::pi<double>();
+}
+
+constexpr double edgeHeight = 2.0;
+
+std::vector<Named> penumbras()
+{
+  const double height = 10.0;
+  const double ratio = (height - edgeHeight) / edgeHeight;
+  const glm::dvec3 place(0.0, 0.0, height);
+  const double tangent = std::tan(glm::radians(5.0));
+  return {
+    { "square", rectangle(place, {}, 2.0, 30.0),
+      [=](double x) { return std::clamp(0.5 + 0.5 * x * ratio, 0.0, 1.0); } },
+    { "disk", lamp(place, "1", 30.0), [=](double x) { return diskShare(x * ratio); } },
+    // Cut by the plane through the receiver and the edge.
+    { "ball", lamp(place, "1", allDirections),
+      [=](double x) { return diskShare(x * (height - edgeHeight) / std::hypot(x, edgeHeight)); } },
+    { "sun", sun({ 0.0, 0.0, -1.0 }, "10"),
+      [=](double x) { return diskShare(x / (tangent * edgeHeight)); } },
+  };
+}
+
+class SampledPenumbras : public testing::TestWithParam<Named>
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(
+  OfHalfPlane, SampledPenumbras, testing::ValuesIn(penumbras()), nameOfLight);
+
+//------------------------------------------------------------------------------
+TEST_P(SampledPenumbras, areThoseOfGeometry)
+{
+  PassScene scene(160, 120);
+  scene.addFloor(2.0);
+  vtkNew<vtkPlaneSource> halfPlane;
+  halfPlane->SetOrigin(-2.0, -2.0, edgeHeight);
+  halfPlane->SetPoint1(0.0, -2.0, edgeHeight);
+  halfPlane->SetPoint2(-2.0, 2.0, edgeHeight);
+  scene.add(halfPlane);
+  GetParam().add(scene);
+  scene.lookFrom({ 0.0, -1.2, 1.2 }); // from below the half plane
+  scene.renderer->GetActiveCamera()->SetViewUp(0.0, 0.0, 1.0);
+  scene.pass->SetTechnique("sampled");
+  set(scene, "light_samples", 256);
+  const VisibilityImages& kept = drawKept(scene);
+  std::size_t penumbra = 0;
+  double width = 0.0;
+  double exactWidth = 0.0;
+  double offBy = 0.0;
+  double mostOff = 0.0;
+  for (std::size_t i = 0; i < kept.coverage.size(); ++i)
+  {
+    const glm::dvec3 position = positionOf(kept, i);
+    if (kept.coverage[i] == 0.0f || position.z > 0.1 || std::abs(position.y) > 0.7)
+    {
+      continue;
+    }
+    const double seen = kept.visibility[0][i];
+    const double exact = GetParam().exact(position.x);
+    penumbra += exact > 0.0 && exact < 1.0 ? 1 : 0;
+    width += seen * (1.0 - seen);
+    exactWidth += exact * (1.0 - exact);
+    offBy += std::abs(seen - exact);
+    mostOff = std::max(mostOff, std::abs(seen - exact));
+  }
+  EXPECT_GT(penumbra, 500u);
+  EXPECT_NEAR(width, exactWidth, 0.01 * exactWidth);
+  EXPECT_LT(offBy, 0.01 * static_cast<double>(penumbra));
+  EXPECT_LT(mostOff, 0.03); // of an edge that is no axis of the light's samples
+}
+
+//------------------------------------------------------------------------------
+// A box, a sphere and a sheet over a floor
+//------------------------------------------------------------------------------
+
+void addThings(PassScene& scene)
+{
+  scene.addFloor(4.0);
+  scene.addBox({ -0.9, -0.7, 0.0 }, { 0.3, 0.5, 1.0 });
+  scene.addSphere({ 1.3, 0.8, 0.9 }, 0.6);
+  vtkNew<vtkPlaneSource> sheet;
+  sheet->SetOrigin(-1.0, 1.2, 1.0);
+  sheet->SetPoint1(1.0, 1.4, 1.3);
+  sheet->SetPoint2(-1.0, 2.2, 1.6);
+  scene.add(sheet);
+  scene.lookFrom({ 2.0, -8.0, 7.0 });
+}
+
+const glm::dvec3 slanting(0.7, 0.5, -2.0);
+
+std::vector<Named> allLights()
+{
+  const glm::dvec3 above(-2.0, -2.5, 6.0);
+  return {
+    { "sun", sun(slanting, "6") },
+    { "sunInABox", sunInABox(slanting, "12", { 4.0, 3.0, 9.0 }) },
+    // Whose near face cuts the sphere and the sheet.
+    { "sunInALowBox", sunInABox({ 0.1, 0.1, -0.5 }, "20", { 5.0, 5.0, 2.0 }) },
+    { "rectangle", rectangle(above, {}, 1.0, 35.0) },
+    { "wideRectangle", rectangle(above, {}, 1.5, 75.0) },
+    { "rectangleInTheScene", rectangle({ -1.5, -1.5, 1.2 }, { 0.5, 0.5, 0.0 }, 0.4, 50.0) },
+    { "disk", lamp(above, "0.4", 40.0) },
+    { "ball", lamp({ -1.5, -1.5, 3.0 }, "0.3", allDirections) },
+    { "flatPoint", rectangle(above, {}, 1.0, allDirections) },
+  };
+}
+
+class SampledLights
+  : public PassTest
+  , public testing::WithParamInterface<Named>
+{
+protected:
+  SampledLights()
+  {
+    addThings(this->scene);
+    this->light = GetParam().add(this->scene);
+    this->scene.pass->SetTechnique("sampled");
+  }
+
+  PassScene scene{ 140, 100 };
+  vtkLight* light;
+};
+
+INSTANTIATE_TEST_SUITE_P(Lights, SampledLights, testing::ValuesIn(allLights()), nameOfLight);
+
+//------------------------------------------------------------------------------
+TEST_P(SampledLights, showWhatRaysShow)
+{
+  set(this->scene, "light_samples", 1024);
+  const std::vector<float> truth = visibilityBy(this->scene, "raytraced");
+  EXPECT_GT(
+    std::count_if(truth.begin(), truth.end(), [](float v) { return v > 0.0f && v < 1.0f; }), 100);
+  set(this->scene, "light_samples", 128);
+  const std::vector<float> seen = visibilityOf(this->scene);
+  EXPECT_LT(meanDifference(seen, truth), 0.003);
+  EXPECT_EQ(this->scene.report().lights[0].lightSamples, 128);
+  // With views that are fitted to the camera, too.
+  this->scene.pass->SetSetting("fit", "frame");
+  EXPECT_LT(meanDifference(visibilityOf(this->scene), truth), 0.003);
+}
+
+//------------------------------------------------------------------------------
+TEST_P(SampledLights, showTheSameInBatchesOfAnySize)
+{
+  set(this->scene, "light_samples", 13);
+  const std::vector<float> seen = visibilityOf(this->scene);
+  for (const int batch : { 1, 3, 5 })
+  {
+    set(this->scene, "batch", batch);
+    set(this->scene, "light_seed", batch); // so that nothing is kept
+    visibilityOf(this->scene);
+    set(this->scene, "light_seed", 0);
+    EXPECT_EQ(visibilityOf(this->scene), seen) << batch;
+    EXPECT_EQ(this->scene.report().mapBakes, 13);
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_P(SampledLights, ofNoSizeShowTheHardShadow)
+{
+  set(this->scene, "light_samples", 1);
+  EXPECT_EQ(visibilityOf(this->scene), visibilityBy(this->scene, "nsm"));
+  EXPECT_EQ(this->scene.report().lights[0].lightSamples, 1);
+}
+
+//------------------------------------------------------------------------------
+class Sampled : public PassTest
+{
+protected:
+  Sampled()
+  {
+    addThings(this->scene);
+    this->light->SetPosition(-2.0, -2.5, 6.0);
+    this->light->SetFocalPoint(0.0, 0.0, 0.0);
+    this->light->SetConeAngle(50.0);
+    this->scene.renderer->AddLight(this->light);
+    this->scene.pass->SetTechnique("sampled");
+    set(this->scene, "light_samples", 32);
+  }
+
+  const LightReport& report() const { return this->scene.report().lights[0]; }
+
+  PassScene scene{ 140, 100 };
+  vtkNew<vtkGnomonAreaLight> light;
+};
+
+//------------------------------------------------------------------------------
+TEST_F(Sampled, shadowsHardenAsTheLightShrinks)
+{
+  const std::vector<float> hard = visibilityBy(this->scene, "nsm");
+  EXPECT_GT(meanDifference(visibilityOf(this->scene), hard), 0.004);
+  this->light->SetRadius(1e-5);
+  EXPECT_LT(meanDifference(visibilityOf(this->scene), hard), 0.0005);
+  this->light->SetRadius(0.0);
+  EXPECT_EQ(visibilityOf(this->scene), hard);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Sampled, framesOfAStaticSceneDrawNothingAgain)
+{
+  const std::vector<float> seen = visibilityOf(this->scene);
+  EXPECT_EQ(this->scene.report().mapBakes, 33); // and the centre's
+  for (int frame = 0; frame < 3; ++frame)
+  {
+    EXPECT_EQ(visibilityOf(this->scene), seen);
+    EXPECT_EQ(this->scene.report().mapBakes, 0);
+    EXPECT_EQ(this->scene.report().programCompiles, 0);
+    EXPECT_EQ(this->report().lightSamples, 32);
+    EXPECT_EQ(this->report().progress, 1.0);
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Sampled, takesBoundedMemory)
+{
+  set(this->scene, "map_size", 64);
+  set(this->scene, "light_samples", 1024);
+  this->scene.render();
+  const std::size_t map = 64 * 64 * 4;
+  const std::size_t images = 2 * 140 * 100 * 4;
+  EXPECT_EQ(this->scene.report().bytesMaps, 9 * map + images);
+  set(this->scene, "light_samples", 1023);
+  set(this->scene, "batch", 2);
+  this->scene.render();
+  EXPECT_EQ(this->scene.report().bytesMaps, 3 * map + images);
+  EXPECT_EQ(this->report().lightSamples, 1023);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Sampled, refinesFromTheHardShadowToTheWhole)
+{
+  for (const int samples : { 32, 33 })
+  {
+    set(this->scene, "progressive", 0);
+    set(this->scene, "light_samples", samples);
+    const std::vector<float> whole = visibilityOf(this->scene);
+    const std::vector<float> hard = visibilityBy(this->scene, "nsm");
+    set(this->scene, "progressive", 7);
+    EXPECT_EQ(visibilityOf(this->scene), hard) << "another technique was between";
+    EXPECT_EQ(this->report().lightSamples, 1);
+    EXPECT_EQ(this->scene.pass->GetProgress(), 0.0);
+    double progress = 0.0;
+    double distance = meanDifference(hard, whole);
+    int frames = 0;
+    while (progress < 1.0)
+    {
+      ASSERT_LT(frames++, 10);
+      const std::vector<float> seen = visibilityOf(this->scene);
+      EXPECT_EQ(this->report().lightSamples, std::min(samples, 8 * frames - samples % 2));
+      EXPECT_GT(this->scene.pass->GetProgress(), progress);
+      progress = this->scene.pass->GetProgress();
+      EXPECT_LT(meanDifference(seen, whole), distance);
+      distance = meanDifference(seen, whole);
+    }
+    EXPECT_EQ(distance, 0.0);
+    EXPECT_EQ(visibilityOf(this->scene), whole);
+    EXPECT_EQ(this->scene.report().mapBakes, 0);
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Sampled, refinesAnewWhenSomethingChanges)
+{
+  set(this->scene, "progressive", 16);
+  vtkActor* box = this->scene.addBox({ 1.0, -2.0, 0.0 }, { 1.5, -1.5, 1.0 });
+  const std::pair<const char*, std::function<void()>> changes[] = {
+    { "camera",
+      [&] {
+        this->scene.lookFrom({ 2.1, -8.0, 7.0 });
+      } },
+    { "light", [&] { this->light->SetPosition(-2.0, -2.6, 6.0); } },
+    { "size", [&] { this->light->SetRadius(0.8); } },
+    { "shape", [&] { this->light->SetShapeToRectangle(); } },
+    { "caster", [&] { box->SetPosition(0.1, 0.0, 0.0); } },
+    { "casting", [&] { vtkGnomonPropKeys::SetCasts(box, false); } },
+    { "receiving", [&] { vtkGnomonPropKeys::SetReceives(box, false); } },
+    { "visible", [&] { box->VisibilityOff(); } },
+    { "samples", [&] { set(this->scene, "light_samples", 48); } },
+    { "seed", [&] { set(this->scene, "light_seed", 3); } },
+    { "map", [&] { set(this->scene, "map_size", 256); } },
+    { "window", [&] { this->scene.window->SetSize(120, 90); } },
+  };
+  for (const auto& [what, change] : changes)
+  {
+    for (int frame = 0; frame < 5; ++frame)
+    {
+      this->scene.render();
+    }
+    EXPECT_EQ(this->scene.pass->GetProgress(), 1.0) << what;
+    change();
+    this->scene.render();
+    EXPECT_EQ(this->scene.pass->GetProgress(), 0.0) << what;
+    this->scene.render();
+    EXPECT_GT(this->scene.pass->GetProgress(), 0.3) << what;
+  }
+  // The centre's map serves all cameras.
+  this->scene.lookFrom({ 2.0, -8.0, 7.0 });
+  this->scene.render();
+  EXPECT_EQ(this->scene.report().mapBakes, 0);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Sampled, tellsOfProgress)
+{
+  struct Events
+  {
+    std::vector<double> progress;
+    int ends = 0;
+  } events;
+  vtkNew<vtkCallbackCommand> observer;
+  observer->SetClientData(&events);
+  observer->SetCallback(
+    [](vtkObject*, unsigned long event, void* clientData, void* callData)
+    {
+      auto& told = *static_cast<Events*>(clientData);
+      if (event == vtkCommand::ProgressEvent)
+      {
+        told.progress.push_back(*static_cast<double*>(callData));
+      }
+      told.ends += event == vtkCommand::EndEvent ? 1 : 0;
+    });
+  this->scene.pass->AddObserver(vtkCommand::AnyEvent, observer);
+  const auto render = [&](int frames)
+  {
+    for (int frame = 0; frame < frames; ++frame)
+    {
+      this->scene.render();
+    }
+  };
+  render(3);
+  EXPECT_TRUE(events.progress.empty()) << "in one frame";
+  set(this->scene, "progressive", 16);
+  render(3);
+  EXPECT_TRUE(events.progress.empty()) << "all is there already";
+  this->light->SetRadius(0.6);
+  render(6);
+  EXPECT_EQ(events.progress, (std::vector<double>{ 0.0, 0.5, 1.0 }));
+  EXPECT_EQ(events.ends, 1);
+  this->light->SetRadius(0.7);
+  render(2);
+  this->light->SetRadius(0.8); // before the end
+  render(6);
+  EXPECT_EQ(events.progress, (std::vector<double>{ 0.0, 0.5, 1.0, 0.0, 0.5, 0.0, 0.5, 1.0 }));
+  EXPECT_EQ(events.ends, 2);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Sampled, refinesEachLight)
+{
+  vtkLight* other = this->scene.addSun({ -1.0, 0.5, -1.5 });
+  vtkGnomonLightKeys::SetSetting(other, "light_radius", "5");
+  set(this->scene, "progressive", 16);
+  vtkGnomonLightKeys::SetSetting(other, "progressive", "8");
+  const double expected[] = { 0.0, 0.25, 0.5, 0.75, 1.0, 1.0 };
+  for (const double progress : expected)
+  {
+    this->scene.render();
+    EXPECT_EQ(this->scene.pass->GetProgress(), progress);
+  }
+  // Only what has changed begins anew.
+  other->SetIntensity(0.5);
+  this->light->SetRadius(0.4);
+  this->scene.render();
+  EXPECT_EQ(this->scene.report().lights[0].progress, 0.0);
+  EXPECT_EQ(this->scene.report().lights[1].progress, 1.0);
+}
+
+//------------------------------------------------------------------------------
+// Hard cases
+//------------------------------------------------------------------------------
+
+/// What nothing is in the way of is lit in every frame, by lights above the floor, in it and cut by it, of any size.
+TEST(SampledFloor, isNoCasterOnItself)
+{
+  PassScene scene(60, 40);
+  scene.addFloor(4.0);
+  scene.lookFrom({ 2.0, -6.0, 5.0 });
+  vtkNew<vtkGnomonAreaLight> light;
+  scene.renderer->AddLight(light);
+  set(scene, "map_size", 128);
+  set(scene, "light_samples", 9);
+  set(scene, "progressive", 4);
+  // Of a light that lies flat and is large and near, rounding lets no receiver face any point but the centre.
+  for (const double height : { 3.0, 0.001, 0.0, -0.1 })
+  {
+    for (const glm::dvec3& travel : { glm::dvec3(-0.1, 1.0, 0.0), { 0.0, 0.0, -1.0 } })
+    {
+      light->SetPosition(0.5, 0.2, height);
+      light->SetFocalPoint(0.5 + travel.x, 0.2 + travel.y, height + travel.z);
+      for (const double cone : { 90.0, 30.0 })
+      {
+        light->SetConeAngle(cone);
+        for (const double size : { 0.3, 1e4 })
+        {
+          light->SetRadius(size);
+          const std::vector<float> plain = visibilityBy(scene, "nsm");
+          for (int frame = 0; frame < 4; ++frame)
+          {
+            EXPECT_EQ(visibilityOf(scene), plain)
+              << height << " " << travel.z << " " << cone << " " << size;
+          }
+          EXPECT_EQ(scene.pass->GetProgress(), 1.0);
+        }
+      }
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+/// drawKept() holds that numbers are finite and in [0, 1].
+TEST(SampledHardCases, areFinite)
+{
+  PassScene scene(60, 40);
+  addThings(scene);
+  vtkNew<vtkGnomonAreaLight> light;
+  scene.renderer->AddLight(light);
+  scene.pass->SetTechnique("sampled");
+  set(scene, "map_size", 64);
+  set(scene, "light_samples", 8);
+  // Inside the box, in its top, inside the sphere, in the sheet, in the open, far away.
+  for (const glm::dvec3& place : { glm::dvec3(-0.5, -0.5, 0.5), { -0.5, 0.0, 1.0 },
+         { 1.3, 0.8, 0.9 }, { 0.0, 1.75, 1.45 }, { 0.0, 0.0, 3.0 }, { 1e5, 0.0, 1e5 } })
+  {
+    light->SetPosition(place.x, place.y, place.z);
+    light->SetFocalPoint(place.x, place.y + 0.1, place.z - 1.0);
+    for (const double cone : { 90.0, 80.0, 1.0 })
+    {
+      light->SetConeAngle(cone);
+      for (const double size : { 1e-3, 0.4, 100.0 })
+      {
+        light->SetRadius(size);
+        visibilityOf(scene);
+      }
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+/// Bodies shade themselves where their facets are turned away, and nowhere else: no acne.
+TEST(SampledHardCases, areFreeOfAcne)
+{
+  PassScene scene(120, 90);
+  scene.addBox({ -1.0, -1.0, 0.0 }, { 1.0, 1.0, 1.0 });
+  scene.lookFrom({ 3.0, -6.0, 5.0 });
+  const glm::dvec3 place(2.0, -3.0, 4.0);
+  lamp(place, "0.5", allDirections)(scene);
+  scene.pass->SetTechnique("sampled");
+  set(scene, "map_size", 128);
+  const Acne acne = countAcneOfLamp(drawKept(scene), place);
+  EXPECT_GT(acne.facing, 1000u);
+  EXPECT_EQ(acne.dark, 0u);
+}
+
+} // namespace

@@ -1,0 +1,644 @@
+// pcss_estimator.glsl against a twin, its early out, and its points.
+
+#include "EstimatorGlsl.h"
+
+#include "lights/KernelShape.h"
+#include "shadowtech/base/Kernel.h"
+#include "shadowtech/base/LightViewsGlsl.h"
+#include "shadowtech/base/ShaderLibrary.h"
+#include "shadowtech/depth_map/DepthBounds.h"
+#include "shadowtech/pcss/Pcss.h"
+#include "shadowtech/pcss/PoissonSquare.h"
+
+#include <glm/gtc/constants.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <ostream>
+#include <string>
+#include <utility>
+
+namespace gnomon::test
+{
+namespace
+{
+
+constexpr double slack = 1e-6;
+
+/// A light of the cube [-1, 1]^3 and the name that tests call it by.
+struct AreaCase
+{
+  const char* name;
+  ShadowLight light;
+};
+
+std::ostream& operator<<(std::ostream& stream, const AreaCase& each)
+{
+  return stream << each.name;
+}
+
+std::vector<AreaCase> areaCases()
+{
+  const glm::dvec3 travel = glm::normalize(glm::dvec3(0.2, -0.1, -1.0));
+  const glm::dvec3 up(0.3, 1.0, 0.1);
+  ShadowLight sun;
+  sun.directionWorld = travel;
+  ShadowLight spot;
+  spot.kind = LightKind::Spot;
+  spot.positionWorld = -4.0 * travel;
+  spot.directionWorld = travel;
+  spot.coneAngleDegrees = 40.0;
+  // One face of their cubes sees all casters. The rectangle stands at a slant to it.
+  ShadowLight wide = spot;
+  wide.coneAngleDegrees = 75.0;
+  wide.positionWorld = { 1.5, -1.2, 4.0 };
+  wide.directionWorld = glm::normalize(glm::dvec3(0.2, 0.1, -1.0));
+  ShadowLight point = wide;
+  point.kind = LightKind::Point;
+  const auto with = [](ShadowLight light, const LightArea& area)
+  {
+    light.area = area;
+    return light;
+  };
+  return { { "sun_disk", with(sun, diskArea(travel, 0.15)) },
+    { "sun_rectangle", with(sun, rectangleArea(travel, up, { 0.2, 0.05 })) },
+    { "spot_disk", with(spot, diskArea(travel, 0.5)) },
+    { "spot_rectangle", with(spot, rectangleArea(travel, up, { 0.6, 0.2 })) },
+    { "wide_spot_rectangle", with(wide, rectangleArea(travel, up, { 0.4, 0.3 })) },
+    { "point_ball", with(point, ballArea(0.4)) } };
+}
+
+/// Blocks at several heights over an empty ground, and single texels.
+float blocks(const glm::ivec2& texel)
+{
+  const glm::ivec2 block = texel / 12;
+  const unsigned bits = static_cast<unsigned>(block.x * 7 + block.y * 13) * 2654435761u;
+  const bool single = texel.x % 17 == 5 && texel.y % 13 == 7;
+  return single         ? 0.36f
+    : bits >> 30u == 0u ? 0.3f + 0.05f * static_cast<float>(bits >> 28u & 3u)
+                        : 1.0f;
+}
+
+/// A slope that ends in a step.
+float slope(const glm::ivec2& texel)
+{
+  return texel.x < mapSize / 2 ? 0.3f + 0.004f * static_cast<float>(texel.x) : 1.0f;
+}
+
+/// Something above every level receiver, but some of it so low that it hides only its own ray.
+float layers(const glm::ivec2& texel)
+{
+  const unsigned bits = static_cast<unsigned>(texel.x * 73 + texel.y * 1009) * 2654435761u;
+  return 0.7f - 0.4f * std::exp2(-static_cast<float>(bits >> 29u));
+}
+
+/// A receiver in centred coordinates.
+struct Receiver
+{
+  glm::dvec3 position;
+  glm::dvec3 normal;
+};
+
+/// The estimator of the first view, written from Pcss.h.
+class Twin
+{
+public:
+  Twin(const ShadowLight& light, LightViews views, Depths depths)
+    : light_(light)
+    , views_(std::move(views))
+    , depths_(std::move(depths))
+    , counts_(pcssCounts(light.pcssSamples))
+    , points_(pcssPoints(light.pcssSamples, light.area->shape))
+  {
+  }
+
+  struct Answer
+  {
+    double lit = 1.0;
+    int fetches = 0; ///< texels of the map that are read without an early out
+  };
+
+  Answer at(const Receiver& receiver, bool patterned = true)
+  {
+    this->fetches_ = 0;
+    Answer answer;
+    answer.lit = this->visibility(receiver, patterned);
+    answer.fetches = this->fetches_;
+    return answer;
+  }
+
+private:
+  double visibility(const Receiver& receiver, bool patterned)
+  {
+    const LightView& view = this->views_.views.front();
+    const glm::dmat3 turn(view.rays.viewFromCentred);
+    this->p_ = glm::dvec3(view.rays.viewFromCentred * glm::dvec4(receiver.position, 1.0));
+    this->n_ = turn * receiver.normal;
+    const bool positional = view.rays.positional;
+    if (glm::dot(this->n_, positional ? this->p_ : glm::dvec3(0.0, 0.0, 1.0)) >= 0.0)
+    {
+      return 0.0; // it faces away
+    }
+    if (this->light_.kind == LightKind::Spot)
+    {
+      const glm::dvec3 p(this->views_.lightFromCentred * glm::dvec4(receiver.position, 1.0));
+      if (p.z <= 0.0 ||
+        glm::length(glm::dvec2(p)) > std::sqrt(this->views_.coneTangentSquared) * p.z)
+      {
+        return 0.0;
+      }
+    }
+    const glm::dmat3 texels = texelFromAcross(view, mapSize);
+    this->acrossFromTexel_ = glm::inverse(texels);
+    const glm::dvec2 across = view.rays.across(this->p_);
+    this->texel_ = mapped(texels, across);
+    // Where the light's axes seem to be on the plane z = 0, seen from the receiver.
+    const glm::dmat3 area = turn * this->light_.area->worldFromUnit;
+    const glm::dvec3 ray(positional ? across : glm::dvec2(0.0), 1.0);
+    glm::dmat2 seen(0.0);
+    if (this->light_.area->shape == LightArea::Shape::Ball)
+    {
+      // An ellipse: along the slope as long as the ray is.
+      const glm::dvec2 along = glm::normalize(across);
+      const glm::dmat2 axes(along, glm::dvec2(-along.y, along.x));
+      const double radius = this->light_.area->radius();
+      seen = axes * glm::dmat2(radius * glm::length(ray), 0.0, 0.0, radius) * glm::transpose(axes);
+    }
+    else
+    {
+      for (int axis = 0; axis < 2; ++axis)
+      {
+        seen[axis] = glm::dvec2(area[axis] - area[axis].z * ray);
+      }
+    }
+    this->lightTexels_ = texelJacobian(texels, across) * seen;
+    const glm::dvec2 farthest = this->reach();
+
+    double largest = 1e300;
+    glm::dvec2 reach(1e4);
+    for (int step = 0; step < 4; ++step)
+    {
+      largest = std::min(largest, this->separation(this->nearest(reach)));
+      reach = farthest * largest;
+    }
+    this->slack_ = slack * std::max(2.0 * std::max(reach.x, reach.y), 1.0);
+    const auto turned = [&](int number)
+    {
+      glm::dvec2 place =
+        this->patterned(this->points_[static_cast<std::size_t>(number)], patterned);
+      const glm::dvec3 source(seen * place, positional ? 0.0 : -1.0);
+      const glm::dvec3 away = source - (positional ? this->p_ : glm::dvec3(0.0));
+      return glm::dot(away, this->n_) < 0.0 ? -place : place;
+    };
+    double hiddenShare = 0.0;
+    double sum = 0.0;
+    const auto addBlocker = [&](double separation, double part)
+    {
+      const double share = std::min(part * std::pow(largest / separation, 2), 1.0);
+      hiddenShare += share;
+      sum += share * separation;
+    };
+    if (const auto own = this->hiderAt(glm::dvec2(0.0)))
+    {
+      addBlocker(*own, std::pow(this->counts_.search, -2.0));
+    }
+    for (int i = 0; i < this->counts_.search; ++i)
+    {
+      // Denser in the middle: as many points in every ring of the same width.
+      glm::dvec2 place = turned(i);
+      place *= this->extent(place);
+      const auto hider = this->hiderAt(largest * place);
+      if (hider && *hider >= largest * this->extent(place))
+      {
+        addBlocker(*hider, 2.0 * this->extent(place) / this->counts_.search);
+      }
+    }
+    const double mean = hiddenShare > 0.0 ? sum / hiddenShare : largest;
+    int hidden = 0;
+    for (int i = 0; i < this->counts_.filter; ++i)
+    {
+      const glm::dvec2 place = turned(this->counts_.search + i);
+      const double extent = this->extent(place);
+      auto hider = this->hiderAt(mean * place);
+      if (hider && *hider < mean * extent)
+      {
+        const double own = *hider;
+        hider = this->hiderAt(own * place);
+        hidden += hider && *hider >= 0.75 * own * extent ? 1 : 0;
+      }
+      else
+      {
+        hidden += hider ? 1 : 0;
+      }
+    }
+    return 1.0 - static_cast<double>(hidden) / this->counts_.filter;
+  }
+
+  bool isRectangle() const { return this->light_.area->shape == LightArea::Shape::Rectangle; }
+
+  double extent(const glm::dvec2& place) const
+  {
+    const glm::dvec2 away = glm::abs(place);
+    return this->isRectangle() ? std::max(away.x, away.y) : glm::length(place);
+  }
+
+  /// The box around the light's outline.
+  glm::dvec2 reach() const
+  {
+    glm::dvec2 farthest(0.0);
+    const int corners = this->isRectangle() ? 4 : 1024;
+    for (int i = 0; i < corners; ++i)
+    {
+      const double angle = glm::two_pi<double>() * (i + 0.5) / corners;
+      const glm::dvec2 rim =
+        (this->isRectangle() ? std::sqrt(2.0) : 1.0) * glm::dvec2(std::cos(angle), std::sin(angle));
+      farthest = glm::max(farthest, glm::abs(this->lightTexels_ * rim));
+    }
+    return farthest;
+  }
+
+  double separation(double depth) const
+  {
+    const LightView& view = this->views_.views.front();
+    const double z = (depth - view.depthOffset) / view.depthScale;
+    return std::max(view.rays.positional ? 1.0 / z - 1.0 / this->p_.z : this->p_.z - z, 0.0);
+  }
+
+  /// The least depth of the blocks of the pyramid that hold the texels within a reach.
+  double nearest(const glm::dvec2& reach) const
+  {
+    const glm::ivec2 first = texelOf(this->texel_ - reach);
+    const glm::ivec2 last = texelOf(this->texel_ + reach);
+    const int width = std::max(last.x - first.x, last.y - first.y) + 1;
+    int block = 2;
+    while (block < width)
+    {
+      block *= 2;
+    }
+    double least = 1.0;
+    for (int y = first.y / block * block; y < (last.y / block + 1) * block; ++y)
+    {
+      for (int x = first.x / block * block; x < (last.x / block + 1) * block; ++x)
+      {
+        least = std::min<double>(least, this->depths_({ x, y }));
+      }
+    }
+    return least;
+  }
+
+  static glm::ivec2 texelOf(const glm::dvec2& place)
+  {
+    return glm::ivec2(glm::clamp(glm::floor(place), 0.0, mapSize - 1.0));
+  }
+
+  /// The separation of what hides the receiver at a place, by the light's point that the place is for.
+  std::optional<double> hiderAt(const glm::dvec2& light)
+  {
+    ++this->fetches_;
+    const LightView& view = this->views_.views.front();
+    const glm::ivec2 texel = texelOf(this->texel_ + this->lightTexels_ * light);
+    const double depth = this->depths_(texel);
+    const glm::dvec2 centre = mapped(this->acrossFromTexel_, glm::dvec2(texel) + 0.5);
+    double z = this->p_.z;
+    if (view.rays.positional)
+    {
+      const double along = glm::dot(this->n_, glm::dvec3(centre, 1.0));
+      z = along < 0.0 ? std::min(z, glm::dot(this->n_, this->p_) / along) : z;
+    }
+    else
+    {
+      const glm::dvec2 away = centre - glm::dvec2(this->p_);
+      z = std::min(z, this->p_.z - glm::dot(glm::dvec2(this->n_), away) / this->n_.z);
+    }
+    const bool lit = depth >= 1.0 || z * view.depthScale + view.depthOffset <= depth + this->slack_;
+    return lit ? std::nullopt : std::optional<double>(this->separation(depth));
+  }
+
+  static double noise(const glm::ivec2& cell)
+  {
+    std::uint32_t bits =
+      static_cast<std::uint32_t>(cell.x) + 65536u * static_cast<std::uint32_t>(cell.y);
+    bits = (bits ^ (bits >> 16u)) * 0x7feb352du;
+    bits = (bits ^ (bits >> 15u)) * 0x846ca68bu;
+    bits ^= bits >> 16u;
+    return static_cast<double>(bits >> 8u) / 16777216.0;
+  }
+
+  glm::dvec2 patterned(const glm::dvec2& place, bool patterned) const
+  {
+    if (!patterned)
+    {
+      return place;
+    }
+    const auto cell = glm::ivec2(4.0 * this->texel_);
+    if (this->isRectangle())
+    {
+      const glm::dvec2 shift(noise(cell), noise(cell + 32768));
+      return 2.0 * glm::fract(0.5 * place + 0.5 + shift) - 1.0;
+    }
+    const double angle = glm::two_pi<double>() * noise(cell);
+    return { std::cos(angle) * place.x - std::sin(angle) * place.y,
+      std::sin(angle) * place.x + std::cos(angle) * place.y };
+  }
+
+  ShadowLight light_;
+  LightViews views_;
+  Depths depths_;
+  PcssCounts counts_;
+  std::vector<glm::vec2> points_;
+  glm::dvec3 p_{ 0.0 };
+  glm::dvec3 n_{ 0.0 };
+  glm::dvec2 texel_{ 0.0 };
+  glm::dmat2 lightTexels_{ 0.0 };
+  glm::dmat3 acrossFromTexel_{ 1.0 };
+  double slack_ = 0.0;
+  int fetches_ = 0;
+};
+
+/// A light's first view of a cube that casts.
+LightViews firstView(const ShadowLight& light)
+{
+  LightViews views =
+    fitLightViews(light, glm::dvec3(0.0), { glm::dvec3(-1.0), glm::dvec3(1.0) }, mapSize, 8);
+  return views;
+}
+
+/// Receivers on a plane that is tilted towards the light's first view.
+std::vector<Receiver> receiversOf(const LightViews& views, const glm::dvec2& tilt)
+{
+  const LightView& view = views.views.front();
+  const glm::dmat3 acrossFromTexel = glm::inverse(texelFromAcross(view, mapSize));
+  const glm::dmat4 centredFromView = glm::inverse(view.rays.viewFromCentred);
+  const glm::dvec3 normal = glm::normalize(glm::dvec3(tilt, -1.0));
+  const double distance = (0.7 - view.depthOffset) / view.depthScale;
+  std::vector<Receiver> receivers;
+  std::vector<glm::dvec2> places = randomPlaces(4);
+  places.resize(700);
+  for (const glm::dvec2& place : places)
+  {
+    const glm::dvec2 across = mapped(acrossFromTexel, place);
+    // The plane through (0, 0, distance).
+    const double z = view.rays.positional
+      ? normal.z * distance / glm::dot(normal, glm::dvec3(across, 1.0))
+      : distance - glm::dot(glm::dvec2(normal), across) / normal.z;
+    const glm::dvec3 position(view.rays.positional ? across * z : across, z);
+    const Receiver receiver{ glm::dvec3(centredFromView * glm::dvec4(position, 1.0)),
+      glm::dmat3(centredFromView) * normal };
+    if (views.layout == ViewLayout::Cube)
+    {
+      const glm::dvec4 positionLight = views.lightFromCentred * glm::dvec4(receiver.position, 1.0);
+      const int face = cubeFaceOf(glm::dvec3(positionLight));
+      if (views.viewOfFace[static_cast<std::size_t>(face)] != 0)
+      {
+        continue; // another face's
+      }
+    }
+    receivers.push_back(receiver);
+  }
+  return receivers;
+}
+
+class PcssGlsl
+  : public GlslTest
+  , public testing::WithParamInterface<AreaCase>
+{
+protected:
+  static std::vector<float> run(const ShadowLight& light, const LightViews& views,
+    const Depths& depths, const std::vector<Receiver>& receivers)
+  {
+    GlTexture map;
+    fillDepths(map, depths);
+    ShaderLibrary library;
+    DepthBounds bounds;
+    bounds.bake(map.name(), mapSize, 1, library);
+    const std::vector<glm::vec2> lightPoints = pcssPoints(light.pcssSamples, light.area->shape);
+    GlTexture pointTexture;
+    glBindTexture(GL_TEXTURE_2D, pointTexture.create());
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RG32F, static_cast<GLsizei>(lightPoints.size()), 1, 0, GL_RG,
+      GL_FLOAT, lightPoints.data());
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    const glm::dmat3 viewFromUnit =
+      glm::dmat3(views.views.front().rays.viewFromCentred) * light.area->worldFromUnit;
+    std::vector<Uniform> uniforms = lightViewsUniforms(views, mapSize, {});
+    uniforms.push_back({ "depthMap_LIGHT", TextureBinding{ GL_TEXTURE_2D_ARRAY, map.name() } });
+    uniforms.push_back({ "depthSlacks_LIGHT", glm::vec2(slack, 0.0) });
+    uniforms.push_back(bounds.uniform());
+    uniforms.push_back(
+      { "lightPoints_LIGHT", TextureBinding{ GL_TEXTURE_2D, pointTexture.name() } });
+    uniforms.push_back({ "viewFromUnitLight_LIGHT[0]", glm::mat3(viewFromUnit) });
+    std::vector<glm::vec4> points;
+    for (const Receiver& receiver : receivers)
+    {
+      points.emplace_back(receiver.position, 1.0);
+    }
+    return visibilityAt(Pcss(), light, library, std::move(points),
+      glm::vec3(receivers.front().normal), std::move(uniforms));
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(Lights, PcssGlsl, testing::ValuesIn(areaCases()),
+  [](const testing::TestParamInfo<AreaCase>& each) { return std::string(each.param.name); });
+
+/// The last one's plane cuts through the light.
+const glm::dvec2 tilts[] = { { 0.0, 0.0 }, { 0.4, -0.2 }, { -1.5, 0.7 }, { -9.0, 0.5 } };
+
+TEST_P(PcssGlsl, isItsTwin)
+{
+  std::size_t between = 0;
+  for (const PcssSamples samples : { PcssSamples::Low, PcssSamples::Medium, PcssSamples::High })
+  {
+    for (const Depths& depths : { Depths(blocks), Depths(slope) })
+    {
+      for (const glm::dvec2& tilt : tilts)
+      {
+        ShadowLight light = GetParam().light;
+        light.pcssSamples = samples;
+        const LightViews views = firstView(light);
+        const std::vector<Receiver> receivers = receiversOf(views, tilt);
+        const std::vector<float> values = run(light, views, depths, receivers);
+        Twin twin(light, views, depths);
+        std::size_t different = 0;
+        for (std::size_t i = 0; i < values.size(); ++i)
+        {
+          different += std::abs(values[i] - twin.at(receivers[i]).lit) < 1e-5 ? 0 : 1;
+          between += values[i] > 0.0f && values[i] < 1.0f ? 1 : 0;
+        }
+        // Each of up to 320 places may lie within rounding of a texel's border.
+        EXPECT_LE(different, values.size() / 50) << tilt.x;
+      }
+    }
+  }
+  EXPECT_GT(between, 500u);
+}
+
+TEST_P(PcssGlsl, theEarlyOutChangesNothing)
+{
+  for (const Depths& depths : { Depths(blocks), Depths(slope), Depths(layers),
+         Depths([](const glm::ivec2&) { return 0.35f; }) })
+  {
+    for (const glm::dvec2& tilt : tilts)
+    {
+      ShadowLight light = GetParam().light;
+      const LightViews views = firstView(light);
+      const std::vector<Receiver> receivers = receiversOf(views, tilt);
+      const std::vector<float> early = run(light, views, depths, receivers);
+      light.earlyOut = EarlyOut::None;
+      EXPECT_EQ(early, run(light, views, depths, receivers)) << tilt.x;
+    }
+  }
+}
+
+TEST(Pcss, readsAsManyTexelsAsItsPresetsSay)
+{
+  const PcssCounts expected[] = { { 16, 16 }, { 36, 64 }, { 64, 256 } };
+  int previous = 0;
+  for (int preset = 0; preset < 3; ++preset)
+  {
+    ShadowLight light = areaCases().front().light;
+    light.pcssSamples = static_cast<PcssSamples>(preset);
+    EXPECT_EQ(pcssCounts(light.pcssSamples).search, expected[preset].search);
+    EXPECT_EQ(pcssCounts(light.pcssSamples).filter, expected[preset].filter);
+    const LightViews views = firstView(light);
+    const std::vector<Receiver> receivers = receiversOf(views, {});
+    Twin twin(light, views, slope);
+    int most = 0;
+    int fewest = 1000;
+    for (const Receiver& receiver : receivers)
+    {
+      const Twin::Answer answer = twin.at(receiver);
+      most = std::max(most, answer.fetches);
+      fewest = std::min(fewest, answer.fetches);
+    }
+    // The point's own texel, the search, and the filter, which looks twice at some places.
+    EXPECT_EQ(fewest, 1 + expected[preset].search + expected[preset].filter);
+    EXPECT_LE(most, 1 + expected[preset].search + 2 * expected[preset].filter);
+    EXPECT_GT(most, previous);
+    previous = most;
+  }
+}
+
+TEST(Pcss, pointsKeepTheirDistance)
+{
+  for (const int count : { 16, 36, 64, 256, 512 })
+  {
+    const std::vector<glm::dvec2> points = poissonSquare(count);
+    ASSERT_EQ(points.size(), static_cast<std::size_t>(count));
+    double least = 2.0;
+    for (std::size_t i = 0; i < points.size(); ++i)
+    {
+      EXPECT_LE(std::max(std::abs(points[i].x), std::abs(points[i].y)), 1.0);
+      for (std::size_t j = 0; j < i; ++j)
+      {
+        least = std::min(least, wrappedDistance(points[i], points[j]));
+      }
+    }
+    // Random points: 0.1 of it for 16, 0.02 for 256.
+    EXPECT_GE(least, 0.69 * largestPoissonDistance(count)) << count;
+    EXPECT_LE(least, largestPoissonDistance(count)) << count;
+  }
+}
+
+TEST(Pcss, pointsOfADiskFillItEvenly)
+{
+  for (const PcssSamples samples : { PcssSamples::Low, PcssSamples::Medium, PcssSamples::High })
+  {
+    const std::vector<glm::vec2> points = pcssPoints(samples, LightArea::Shape::Disk);
+    const PcssCounts counts = pcssCounts(samples);
+    ASSERT_EQ(points.size(), static_cast<std::size_t>(counts.search + counts.filter));
+    // Four rings of equal area: chi-square with 3 degrees of freedom, which random points exceed once in
+    // twenty times.
+    double chiSquare = 0.0;
+    const double expected = 0.25 * counts.filter;
+    std::vector<int> rings(4, 0);
+    for (std::size_t i = static_cast<std::size_t>(counts.search); i < points.size(); ++i)
+    {
+      const double radius = glm::length(points[i]);
+      ASSERT_LE(radius, 1.0 + 1e-6);
+      ++rings[static_cast<std::size_t>(std::min(3.0, 4.0 * radius * radius))];
+    }
+    for (const int ring : rings)
+    {
+      chiSquare += (ring - expected) * (ring - expected) / expected;
+    }
+    EXPECT_LT(chiSquare, 7.8);
+  }
+}
+
+/// How far a profile across a straight edge is from the truth, root mean square: its rows, which are as
+/// many patterns, averaged first.
+double bandsOf(bool patterned)
+{
+  ShadowLight light = areaCases().front().light;
+  light.directionWorld = { 0.0, 0.0, -1.0 };
+  light.area = diskArea(light.directionWorld, 0.5);
+  light.pcssSamples = PcssSamples::Low;
+  const Depths half = [](const glm::ivec2& texel) { return texel.x < mapSize / 2 ? 0.3f : 1.0f; };
+  const LightViews views = firstView(light);
+  Twin twin(light, views, half);
+  const LightView& view = views.views.front();
+  const glm::dmat4 centredFromView = glm::inverse(view.rays.viewFromCentred);
+  const glm::dmat3 acrossFromTexel = glm::inverse(texelFromAcross(view, mapSize));
+  const double distance = (0.7 - view.depthOffset) / view.depthScale;
+  const double texelsAcross = mostTexelsAcross(views, mapSize);
+  const double radiusTexels = 0.5 * texelsAcross * 0.4 / view.depthScale;
+  double squares = 0.0;
+  int count = 0;
+  for (double x = -0.8; x <= 0.8; x += 0.05, ++count)
+  {
+    double mean = 0.0;
+    constexpr int rows = 100;
+    for (int row = 0; row < rows; ++row)
+    {
+      const glm::dvec2 place(32.0 + x * radiusTexels, 20.0 + 0.25 * row);
+      const glm::dvec4 position(mapped(acrossFromTexel, place), distance, 1.0);
+      mean +=
+        twin.at({ glm::dvec3(centredFromView * position), { 0.0, 0.0, 1.0 } }, patterned).lit /
+        rows;
+    }
+    const double lit = 0.5 + (std::asin(x) + x * std::sqrt(1.0 - x * x)) / glm::pi<double>();
+    squares += (mean - lit) * (mean - lit);
+  }
+  return std::sqrt(squares / count);
+}
+
+TEST(Pcss, turningThePointsLeavesNoBands)
+{
+  const double turned = bandsOf(true);
+  const double alike = bandsOf(false);
+  RecordProperty("turned", std::to_string(turned));
+  RecordProperty("alike", std::to_string(alike));
+  EXPECT_LT(turned, 0.02); // a level of 16 points is 0.0625
+  EXPECT_GT(alike, 2.0 * turned);
+}
+
+TEST(Pcss, widthsAreThoseOfSimilarTriangles)
+{
+  // Selected Real-Time Shadow Techniques, 2.9: a light of width 1, a receiver at 10 and a blocker at 5; a frustum
+  // that is 10 wide at the near plane 1. The penumbra is 0.1 of the map's plane there, the filter 0.01.
+  ShadowLight light;
+  light.kind = LightKind::Spot;
+  light.directionWorld = { 0.0, 0.0, -1.0 };
+  light.positionWorld = { 0.0, 0.0, 10.0 };
+  light.coneAngleDegrees = 50.0;
+  light.area = rectangleArea(light.directionWorld, { 0.0, 1.0, 0.0 }, glm::dvec2(0.5));
+  const Bounds casters{ { -1.0, -1.0, 5.0 }, { 1.0, 1.0, 5.0 } };
+  const Bounds receivers{ { -5.0, -5.0, 0.0 }, glm::dvec3(5.0) };
+  LightViews views = fitLightViews(light, glm::dvec3(0.0), casters, 1024, 1);
+  // Half the light's diagonal times 1/5 - 1/10. Distances are cut 0.1 % short, so that rounding cuts no
+  // caster off.
+  EXPECT_NEAR(reachOfArea(*light.area, views, casters, receivers), std::sqrt(0.5) * 0.1, 2e-4);
+  EXPECT_EQ(reachOfArea(LightArea(), views, casters, receivers), 0.0);
+  light.kind = LightKind::Directional;
+  views = fitLightViews(light, glm::dvec3(0.0), casters, 1024, 1);
+  EXPECT_NEAR(reachOfArea(*light.area, views, casters, receivers), std::sqrt(0.5) * 5.0, 1e-3);
+  // Nothing is nearer to a point light than the casters' box, whatever its faces' planes cut.
+  light.kind = LightKind::Point;
+  const Bounds wide{ glm::dvec3(-4.0), glm::dvec3(4.0) };
+  views = fitLightViews(light, glm::dvec3(0.0), wide, 1024, 1);
+  EXPECT_LT(reachOfArea(ballArea(0.3), views, wide, receivers), 0.3);
+}
+
+} // namespace
+} // namespace gnomon::test

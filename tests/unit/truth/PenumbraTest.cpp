@@ -1,0 +1,326 @@
+// `penumbra` shows what all rays of `raytraced` show, to the last bit.
+
+#include "ExactRecord.h"
+#include "RandomScenes.h"
+#include "SyntheticScene.h"
+
+#include "lights/LightArea.h"
+#include "lights/LightSpace.h"
+#include "shadowtech/penumbra/PenumbraChooser.h"
+#include "shadowtech/tracing/EmbreeTracer.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace gnomon::test
+{
+namespace
+{
+
+struct Outcome
+{
+  std::size_t different = 0;
+  std::size_t raysOfTruth = 0;
+  std::size_t rays = 0;
+};
+
+/// Compares a light's visibility with that of all of its rays.
+Outcome compareWithTruth(
+  const ShadowLight& light, const Occluders& occluders, const Receivers& receivers)
+{
+  EmbreeTracer tracer;
+  tracer.update(occluders);
+  EdgeTree tree;
+  tree.update(occluders);
+  const PenumbraChooser chooser(tree, light, occluders.centreWorld);
+  std::vector<float> truth;
+  std::vector<float> visibility;
+  Outcome outcome;
+  outcome.raysOfTruth = tracer.traceArea(light, occluders, receivers, truth);
+  outcome.rays =
+    tracer.traceArea(light, occluders, receivers, visibility, nullptr, nullptr, &chooser);
+  outcome.different = countDifferent(visibility, truth);
+  return outcome;
+}
+
+/// An area of any shape for a light, now and then a very large or a very small one.
+LightArea makeRandomArea(const ShadowLight& light, double scale, Random& random)
+{
+  const bool directional = light.kind == LightKind::Directional;
+  const glm::dvec3 travel = light.kind == LightKind::Point && random() % 2
+    ? unitVector(random)
+    : glm::normalize(light.directionWorld);
+  const double size =
+    (directional ? 0.3 : 0.6 * scale) * std::pow(10.0, uniform(random, -2.0, 0.3));
+  switch (random() % 4)
+  {
+    case 0:
+      return rectangleArea(travel, axisAcross(travel), { size, size });
+    case 1:
+      return rectangleArea(
+        travel, axisAcross(travel) + 0.3 * unitVector(random), { size, 0.2 * size });
+    case 2:
+      return diskArea(travel, size);
+    default:
+      return directional ? diskArea(travel, size) : ballArea(size);
+  }
+}
+
+class RandomPenumbras : public testing::TestWithParam<const char*>
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(OfScenes, RandomPenumbras, testing::ValuesIn(randomSceneNames()),
+  [](const testing::TestParamInfo<const char*>& name) { return lettersOf(name.param); });
+
+TEST_P(RandomPenumbras, areThoseOfAllRays)
+{
+  Compared compared;
+  std::size_t rays = 0;
+  std::size_t raysOfTruth = 0;
+  for (unsigned int seed = 0; seed < exactRuns(); ++seed)
+  {
+    RandomPicture picture = makeRandomPicture(GetParam(), 5000 + seed);
+    Random random(seed);
+    ShadowLight& light = picture.light;
+    light.area = makeRandomArea(light, 1.0, random);
+    const int counts[] = { 16, 64, 64, 23 };
+    light.lightSamples = counts[random() % 4];
+    light.lightSeed = static_cast<int>(random() % 100);
+    ReceiverPixels stored;
+    Receivers receivers(picture.view.images, picture.view.drawnSurfaces, picture.occluders, stored);
+    receivers.all();
+    const Outcome outcome = compareWithTruth(light, picture.occluders, receivers);
+    EXPECT_EQ(outcome.different, 0u)
+      << picture.description << ", shape " << static_cast<int>(light.area->shape) << ", "
+      << light.lightSamples << " samples";
+    ++compared.pictures;
+    const auto samples = static_cast<std::size_t>(light.lightSamples);
+    compared.receivers += outcome.raysOfTruth / samples;
+    compared.traced += outcome.rays / samples;
+    compared.wrong += outcome.different;
+    rays += outcome.rays;
+    raysOfTruth += outcome.raysOfTruth;
+  }
+  EXPECT_LT(rays, raysOfTruth);
+  recordCompared("penumbra", GetParam(), compared);
+}
+
+/// Receivers with a shadow ray each, wherever it starts. They fill squares of 8 x 8 pixels, one after another: those of a
+/// square should be close to each other, as what is far apart has too much in its way to be anything but traced.
+struct Starts
+{
+  static constexpr std::size_t side = 8;
+  static constexpr std::size_t ofSquare = side * side;
+
+  ReceiverPixels receivers;
+  std::size_t count = 0;
+
+  Starts() { this->receivers.resize(64, 64); }
+  bool full() const { return this->count == this->receivers.size(); }
+  bool beginsSquare() const { return this->count % ofSquare == 0; }
+  /// @param start centred
+  void add(const glm::dvec3& start, const glm::dvec3& normal, double offset)
+  {
+    const std::size_t square = this->count / ofSquare;
+    const std::size_t in = this->count % ofSquare;
+    const std::size_t pixel =
+      (square / side * side + in / side) * 64 + square % side * side + in % side;
+    const glm::dvec3 position = start - offset * normal;
+    this->receivers.positionX[pixel] = static_cast<float>(position.x);
+    this->receivers.positionY[pixel] = static_cast<float>(position.y);
+    this->receivers.positionZ[pixel] = static_cast<float>(position.z);
+    this->receivers.normalX[pixel] = static_cast<float>(normal.x);
+    this->receivers.normalY[pixel] = static_cast<float>(normal.y);
+    this->receivers.normalZ[pixel] = static_cast<float>(normal.z);
+    this->receivers.offset[pixel] = static_cast<float>(offset);
+    this->receivers.surface[pixel] = 0;
+    ++this->count;
+  }
+};
+
+const glm::dvec3 upwards(0.0, 0.0, 1.0);
+
+/// A floor with triangles of all shapes above it.
+Occluders makeSoupOverFloor(unsigned int seed)
+{
+  return makeOccluders(
+    { { makePlane(6.0) }, { makeTriangleSoup(40, seed), at({ -0.5, -0.5, 0.4 }) } });
+}
+
+/// A triangle of the soup.
+std::array<glm::dvec3, 3> anyTriangle(const Occluders& occluders, Random& random)
+{
+  const Surface& soup = occluders.surfaces[1];
+  const glm::uvec3 triangle =
+    occluders.triangles[soup.firstTriangle + random() % soup.triangleCount];
+  return { occluders.positionsCentred[triangle.x], occluders.positionsCentred[triangle.y],
+    occluders.positionsCentred[triangle.z] };
+}
+
+/// Rays that pass edges to within a rounding are traced.
+TEST(Penumbra, isThatOfAllRaysWhereTheseGoAlongEdges)
+{
+  Random random(1);
+  for (unsigned int scene = 0; scene < 10; ++scene)
+  {
+    const Occluders occluders = makeSoupOverFloor(scene);
+    const glm::dvec3 place(uniform(random, -1.0, 1.0), uniform(random, -1.0, 1.0), 5.0);
+    const glm::dvec3 placeCentred = place - occluders.centreWorld;
+    const double floor = -occluders.centreWorld.z;
+    Starts starts;
+    std::array<glm::dvec3, 3> triangle{};
+    double along = 0.0;
+    while (!starts.full())
+    {
+      if (starts.beginsSquare())
+      {
+        triangle = anyTriangle(occluders, random);
+        along = uniform(random, 0.0, 1.0);
+      }
+      const glm::dvec3 on =
+        glm::mix(triangle[0], triangle[1], along + uniform(random, -0.02, 0.02));
+      const double share = (floor + 1e-5 - on.z) / (on.z - placeCentred.z);
+      starts.add(on + share * (on - placeCentred), upwards, 1e-5);
+    }
+    for (const double size : { 1e-7, 1e-6, 1e-5, 1e-3, 0.3 })
+    {
+      ShadowLight light = pointLight(place);
+      light.area = rectangleArea(-upwards, { 0.0, 1.0, 0.0 }, { size, size });
+      light.lightSamples = 16;
+      EXPECT_EQ(compareWithTruth(light, occluders, starts.receivers).different, 0u)
+        << "scene " << scene << ", size " << size;
+    }
+  }
+}
+
+/// So are rays that start on a triangle that is not the receiver's own.
+TEST(Penumbra, isThatOfAllRaysWhereTheseStartOnTriangles)
+{
+  Random random(2);
+  for (unsigned int scene = 0; scene < 10; ++scene)
+  {
+    const Occluders occluders = makeSoupOverFloor(scene);
+    Starts starts;
+    while (!starts.full())
+    {
+      const std::array<glm::dvec3, 3> triangle = anyTriangle(occluders, random);
+      const double a = uniform(random, 0.0, 1.0);
+      const double b = uniform(random, 0.0, 1.0 - a);
+      const double off = std::pow(10.0, uniform(random, -9.0, -5.0));
+      starts.add(
+        (1.0 - a - b) * triangle[0] + a * triangle[1] + b * triangle[2] + off * unitVector(random),
+        upwards, 1e-7);
+    }
+    for (const double size : { 1e-3, 0.1, 1.0 })
+    {
+      ShadowLight light = pointLight({ 0.3, 0.2, 5.0 });
+      light.area = diskArea(-upwards, size);
+      light.lightSamples = 64;
+      EXPECT_EQ(compareWithTruth(light, occluders, starts.receivers).different, 0u)
+        << "scene " << scene << ", size " << size;
+    }
+  }
+}
+
+/// So are rays that end on a triangle, or near one.
+TEST(Penumbra, isThatOfAllRaysWhereTheseEndOnTriangles)
+{
+  Random random(3);
+  for (unsigned int scene = 0; scene < 12; ++scene)
+  {
+    const Occluders occluders = makeSoupOverFloor(scene);
+    Starts starts;
+    glm::dvec3 square(0.0);
+    while (!starts.full())
+    {
+      if (starts.beginsSquare())
+      {
+        square = { uniform(random, -1.5, 1.5), uniform(random, -1.5, 1.5), 1e-5 };
+      }
+      const glm::dvec3 off(uniform(random, -0.02, 0.02), uniform(random, -0.02, 0.02), 0.0);
+      starts.add(square + off - occluders.centreWorld, upwards, 1e-5);
+    }
+    const std::array<glm::dvec3, 3> triangle = anyTriangle(occluders, random);
+    const glm::dvec3 place =
+      occluders.centreWorld + (triangle[0] + triangle[1] + triangle[2]) / 3.0;
+    for (const double size : { 1e-4, 0.02, 0.2 })
+    {
+      for (const LightArea& area : { diskArea(-upwards, size), ballArea(size),
+             rectangleArea(unitVector(random), { 0.1, 0.9, 0.4 }, { size, 0.3 * size }) })
+      {
+        ShadowLight light = pointLight(place + size * uniform(random, -1.0, 1.0) * upwards);
+        light.area = area;
+        light.lightSamples = 16;
+        EXPECT_EQ(compareWithTruth(light, occluders, starts.receivers).different, 0u)
+          << "scene " << scene << ", size " << size;
+      }
+    }
+  }
+}
+
+/// What the rest costs: one ray where no edge is seen, and few where some are.
+TEST(Penumbra, takesOneRayOfMostPixelsWhereNothingIsInTheWay)
+{
+  const Occluders occluders = makeOccluders({ { makePlane(20.0) } });
+  Camera camera;
+  camera.position = { 2.0, -6.0, 5.0 };
+  const ReceiverPixels receivers = makeReceivers(occluders, camera);
+  ShadowLight light = pointLight({ 1.0, 1.0, 6.0 });
+  light.area = diskArea(-upwards, 0.5);
+  light.lightSamples = 64;
+  const Outcome outcome = compareWithTruth(light, occluders, receivers);
+  EXPECT_EQ(outcome.different, 0u);
+  EXPECT_LT(outcome.rays, outcome.raysOfTruth / 60);
+}
+
+TEST(Penumbra, takesFewRaysOfSpheres)
+{
+  const Occluders occluders =
+    makeOccluders({ { makePlane(12.0) }, { makeSphere(12, 24), at({ 0.0, 0.0, 1.5 }) } });
+  Camera camera;
+  camera.position = { 2.0, -6.0, 5.0 };
+  const ReceiverPixels receivers = makeReceivers(occluders, camera);
+  ShadowLight light = pointLight({ 1.0, 1.0, 6.0 });
+  light.area = rectangleArea(-upwards, { 0.0, 1.0, 0.0 }, { 0.5, 0.5 });
+  light.lightSamples = 64;
+  const Outcome outcome = compareWithTruth(light, occluders, receivers);
+  EXPECT_EQ(outcome.different, 0u);
+  EXPECT_LT(outcome.rays, outcome.raysOfTruth / 25);
+}
+
+/// What moved is found again.
+TEST(Penumbra, followsCastersThatMove)
+{
+  Occluders occluders =
+    makeOccluders({ { makePlane(12.0) }, { makeSphere(12, 24), at({ 0.0, 0.0, 1.5 }) } });
+  Camera camera;
+  camera.position = { 2.0, -6.0, 5.0 };
+  ShadowLight light = pointLight({ 1.0, 1.0, 6.0 });
+  light.area = ballArea(0.5);
+  light.lightSamples = 16;
+  EmbreeTracer tracer;
+  EdgeTree tree;
+  for (int step = 0; step < 3; ++step)
+  {
+    tracer.update(occluders);
+    tree.update(occluders);
+    const ReceiverPixels receivers = makeReceivers(occluders, camera);
+    const PenumbraChooser chooser(tree, light, occluders.centreWorld);
+    std::vector<float> truth;
+    std::vector<float> visibility;
+    tracer.traceArea(light, occluders, receivers, truth);
+    tracer.traceArea(light, occluders, receivers, visibility, nullptr, nullptr, &chooser);
+    EXPECT_EQ(visibility, truth);
+    moveSurface(occluders, 1, { 0.4, 0.2, 0.1 });
+  }
+}
+
+} // namespace
+} // namespace gnomon::test
