@@ -263,6 +263,30 @@ const std::vector<Setting>& shadowSettings()
       "sampled: how many points of the light each frame adds while nothing changes, after a first "
       "frame with hard shadows; 0: all are in every frame",
       IntegerSetting{ &S::progressiveSamples, 0, 65536 } },
+    { "mc_rays",
+      "montecarlo: rays of a pixel along either side of a grid on the light, so that 3 makes 9",
+      IntegerSetting{ &S::mcRays, 1, 32 } },
+    { "mc_layers",
+      "montecarlo: what is solid in a texel: each of up to four casters, all between the first and "
+      "the last surface, all behind the first, or (eye) between the first and the last what the "
+      "camera does not see to be empty",
+      choice<RayLayers, &S::mcLayers>({ "peeled", "near_far", "near", "eye" }) },
+    { "mc_search",
+      "montecarlo: how rays are searched: from cell to cell of a hierarchy, or in steps of equal "
+      "length, which misses some",
+      choice<RaySearch, &S::mcSearch>({ "hierarchical", "linear" }) },
+    { "mc_classify",
+      "montecarlo: what bounds over the map decide without a search: nothing, pixels, or pixels "
+      "and "
+      "then single rays",
+      choice<RayClasses, &S::mcClassify>({ "off", "pixels", "rays" }) },
+    { "mc_pyramid",
+      "montecarlo: how the bounds over the map lie: on a grid, or around every texel, which takes "
+      "ten times the memory",
+      choice<SlabHierarchy, &S::mcPyramid>({ "mips", "nbuffer" }) },
+    { "mc_filter",
+      "montecarlo: radius of the filter in pixels that takes off the noise, on surfaces; 0: none",
+      IntegerSetting{ &S::mcFilter, 0, 32 } },
     { "depth", "the surface on a ray that a map holds",
       choice<DepthSurface, &S::depth>({ "first", "second", "midpoint" }) },
     { "metric", "how a map measures: along the view's axis, or along the ray",

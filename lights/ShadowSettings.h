@@ -122,6 +122,37 @@ enum class LightSampling
   Random    ///< random ones
 };
 
+/// What rays through a light's map take for solid in a texel.
+enum class RayLayers
+{
+  Peeled,  ///< each of the first few casters by itself
+  NearFar, ///< all between the first and the last surface
+  Near,    ///< all behind the first surface
+  Eye      ///< all between the first and the last surface that the camera does not see to be empty
+};
+
+/// How a ray is searched for what it meets.
+enum class RaySearch
+{
+  Hierarchical, ///< from cell to cell of a hierarchy: nothing is missed
+  Linear        ///< in steps of equal length, with bisection
+};
+
+/// What is decided from bounds over a region of the map, before it is searched.
+enum class RayClasses
+{
+  Off,
+  Pixels, ///< all rays of a pixel at once
+  Rays    ///< and then every ray by itself
+};
+
+/// How bounds over the texels of such a map are laid out.
+enum class SlabHierarchy
+{
+  Mips,   ///< a pyramid: squares on a grid
+  NBuffer ///< squares around every texel, for as many times the memory as there are levels
+};
+
 /// The most points of a light whose maps `sampled` holds at a time: one shader reads all of them.
 constexpr int mostBatchSamples = 8;
 
@@ -220,6 +251,16 @@ struct ShadowSettings
   int progressiveSamples = 0;
   ///@}
 
+  ///@{
+  /// Of `montecarlo`.
+  int mcRays = 3; ///< to the cells of a grid of so many along either side of the light
+  RayLayers mcLayers = RayLayers::Peeled;
+  SlabHierarchy mcPyramid = SlabHierarchy::Mips;
+  RaySearch mcSearch = RaySearch::Hierarchical;
+  RayClasses mcClassify = RayClasses::Rays;
+  int mcFilter = 5; ///< in pixels; 0: none
+  ///@}
+
   /// Whether another light's map holds the same for the same views and filter.
   bool storesAs(const ShadowSettings& other) const
   {
@@ -228,7 +269,8 @@ struct ShadowSettings
       this->discSets == other.discSets && this->earlyOut == other.earlyOut &&
       this->pcssSamples == other.pcssSamples && this->adjacencyRing == other.adjacencyRing &&
       this->depth == other.depth && this->metric == other.metric &&
-      this->biasConstant == other.biasConstant && this->biasSlope == other.biasSlope;
+      this->biasConstant == other.biasConstant && this->biasSlope == other.biasSlope &&
+      this->mcLayers == other.mcLayers && this->mcPyramid == other.mcPyramid;
   }
 };
 

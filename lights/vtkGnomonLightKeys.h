@@ -52,6 +52,8 @@
  * - "batch": of "sampled", points of the light whose maps are held at a time, 1 to 8 (the default);
  * - "progressive": of "sampled", points of the light that each frame adds while nothing changes, 0 (the default) for
  *   all at once (vtkGnomonShadowPass::GetProgress);
+ * - "mc_rays", "mc_layers", "mc_search", "mc_classify", "mc_pyramid", "mc_filter": of "montecarlo"
+ *   (docs/techniques/montecarlo.md); "mc_rays" is how many rays a pixel has along either side of the light (default 3);
  * - "light_radius": makes any light an area light, a disk across it or of a point light a ball, in the units of
  *   vtkGnomonAreaLight's Radius (default 0: as large as it says itself);
  * - "as_published": "on" for "crsm" and "crsma" by the letter of their publication, which is not exact (default "off").

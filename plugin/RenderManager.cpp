@@ -541,13 +541,14 @@ void RenderManager::bakeMaps(
     const std::optional<CameraView>& first = bake.camera ? bake.camera : slot.awaited.camera;
     fitting.camera = light.fit == ViewFit::Once && first ? first : camera;
   }
-  LightViews views = fitLightViews(light, fitting);
+  const ShadowLight seen = technique.lightOfMap(light);
+  LightViews views = fitLightViews(seen, fitting);
   if (reach.dependsOnViews())
   {
     // How many texels that is, only a view can tell. A wider border makes them fewer.
     fitting.texels.border = reach.borderTexels(mostTexelsAcross(views, light.mapSizeTexels),
       reachOfArea(reach.area, views, fitting.castersCentred, fitting.receiversCentred));
-    views = fitLightViews(light, fitting);
+    views = fitLightViews(seen, fitting);
   }
   std::size_t receivers = 0;
   if (light.fittedToReceivers)
@@ -675,8 +676,8 @@ void RenderManager::computeVisibility(int wishedTracer, bool keep)
         slot.technique->drawVisibility(
           { slot.light, this->camera_, this->stageValues_.space, occluders, this->buffers_,
             this->receiverTarget_, this->receiversShown_, this->collector_.drawnSurfaces(),
-            this->layers_, layer, this->library_, classify, this->report_.notes,
-            this->report_.mapBakes },
+            this->layers_, layer, this->library_, classify, classify ? &classes : nullptr,
+            this->report_.notes, this->report_.mapBakes },
           report);
         this->endStageClock("visibility: draw");
         break;

@@ -7,6 +7,7 @@
 #include "shadowtech/crsma/Crsma.h"
 #include "shadowtech/exponential/Exponential.h"
 #include "shadowtech/moments/FourMoments.h"
+#include "shadowtech/montecarlo/MonteCarlo.h"
 #include "shadowtech/pcf/Pcf.h"
 #include "shadowtech/pcss/Pcss.h"
 #include "shadowtech/penumbra/Penumbra.h"
@@ -75,6 +76,7 @@ const std::vector<EstimatorEntry>& estimators()
     entry<Variance>(),
     entry<Exponential>(),
     entry<FourMoments>(),
+    entry<MonteCarlo>(),
     entry<Planar>(),
     entry<Raytraced>(),
     entry<Sampled>(),
@@ -119,6 +121,9 @@ const std::vector<TechniqueEntry>& registry()
       findEstimator("planar"), Projection::Uniform },
     { "sampled", "soft: a shadow map from each of many points of the light",
       findEstimator("sampled"), Projection::Uniform },
+    { "montecarlo",
+      "soft: a few random rays for each pixel through depth layers of the map, and a filter",
+      findEstimator("montecarlo"), Projection::Uniform },
     { "coherence",
       "hard, hybrid: pixels whose texels disagree are traced, the others get what those say",
       findEstimator("coherence"), Projection::Uniform },
@@ -311,6 +316,37 @@ std::string refusedStages(const ShadowLight& light, const TechniqueInfo& info)
   return {};
 }
 
+/// Why rays cannot be followed through the light's map as its settings lay it out; empty if they can.
+std::string refusedRays(const ShadowLight& light, const TechniqueInfo& info)
+{
+  if (info.name != MonteCarlo::info().name)
+  {
+    return {};
+  }
+  if (light.projection != Projection::Uniform && light.projection != Projection::Cube)
+  {
+    return "'montecarlo' follows rays through a map that holds all casters, and the projection '" +
+      findSetting("projection")->get(light) +
+      "' is made for what a camera sees; it takes uniform and cube";
+  }
+  const bool linear = light.mcSearch == RaySearch::Linear;
+  if (linear && light.mcLayers == RayLayers::Peeled)
+  {
+    return "'mc_search' linear knows where a ray is by one solid in a texel, and 'mc_layers' "
+           "peeled "
+           "has up to four; it takes near_far, near and eye";
+  }
+  if (!linear && light.mcLayers == RayLayers::Eye)
+  {
+    return "'mc_layers' eye asks the camera about single points of a ray, and 'mc_search' "
+           "hierarchical has none; it takes linear";
+  }
+  return light.fit == ViewFit::Off
+    ? ""
+    : "'montecarlo' follows rays through a map that holds all casters, and one with 'fit' " +
+      findSetting("fit")->get(light) + " holds what a camera sees; it takes off";
+}
+
 /// Why an area light cannot have samples as its settings say; empty if it can.
 std::string refusedSamples(const ShadowLight& light)
 {
@@ -349,9 +385,9 @@ const EstimatorEntry& compose(ShadowLight& light)
     throw CompositionError(
       "the kernel 'castano' has the sizes 3, 5 and 7, not " + std::to_string(light.kernelTexels));
   }
-  for (const std::string& refused :
-    { refusedAverage(light, info), refusedEarlyOut(light, info), refusedStages(light, info),
-      refusedSamples(light), refusedProjection(light), refusedPoints(light, info) })
+  for (const std::string& refused : { refusedAverage(light, info), refusedEarlyOut(light, info),
+         refusedStages(light, info), refusedSamples(light), refusedRays(light, info),
+         refusedProjection(light), refusedPoints(light, info) })
   {
     if (!refused.empty())
     {

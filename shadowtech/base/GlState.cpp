@@ -42,6 +42,8 @@ GlStateGuard::GlStateGuard()
   glGetIntegerv(GL_RENDERBUFFER_BINDING, &this->renderbuffer_);
   glGetIntegerv(GL_VIEWPORT, this->viewport_);
   glGetIntegerv(GL_SCISSOR_BOX, this->scissor_);
+  glGetIntegerv(GL_BLEND_EQUATION_RGB, &this->blendEquationRgb_);
+  glGetIntegerv(GL_BLEND_EQUATION_ALPHA, &this->blendEquationAlpha_);
   glGetIntegerv(GL_DEPTH_FUNC, &this->depthFunction_);
   glGetIntegerv(GL_LOGIC_OP_MODE, &this->logicOperation_);
   glGetIntegerv(GL_CULL_FACE_MODE, &this->cullFace_);
@@ -83,6 +85,8 @@ GlStateGuard::~GlStateGuard()
   glCullFace(static_cast<GLenum>(this->cullFace_));
   glLogicOp(static_cast<GLenum>(this->logicOperation_));
   glDepthFunc(static_cast<GLenum>(this->depthFunction_));
+  glBlendEquationSeparate(
+    static_cast<GLenum>(this->blendEquationRgb_), static_cast<GLenum>(this->blendEquationAlpha_));
   glScissor(this->scissor_[0], this->scissor_[1], this->scissor_[2], this->scissor_[3]);
   glViewport(this->viewport_[0], this->viewport_[1], this->viewport_[2], this->viewport_[3]);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(this->readFramebuffer_));

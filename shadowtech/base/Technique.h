@@ -120,6 +120,8 @@ struct LayerInput
   int layer; ///< of the layers: this light's
   ShaderLibrary& shaders;
   bool counting; ///< whether the report is worth reading back what only the GPU knows
+  /// Where not null: to be filled with each pixel's class, an index into TechniqueInfo::classes.
+  std::vector<std::uint8_t>* classes;
   std::vector<std::string>& notes; ///< FrameReport::notes
   int& mapBakes;                   ///< FrameReport::mapBakes
 };
@@ -151,6 +153,9 @@ class Technique
 public:
   virtual ~Technique() = default;
 
+  /// The light that the maps' views are fitted to: of techniques that see an area light from elsewhere than its centre, another
+  /// one, whose views lie as the light's do (viewLayout()).
+  virtual ShadowLight lightOfMap(const ShadowLight& light) const { return light; }
   /// How far around a receiver's place on the map the technique reads. Views are fitted for it, and
   /// the maps are stale when it changes.
   virtual MapReach mapReach(const ShadowLight&) const { return {}; }

@@ -1,10 +1,10 @@
 #include "shadowtech/planar/Planar.h"
 
 #include "lights/LightSamples.h"
-#include "lights/LightSpace.h"
 #include "lights/PlanarProjection.h"
 #include "shadowtech/base/CasterDrawing.h"
 #include "shadowtech/base/GlState.h"
+#include "shadowtech/base/LightReach.h"
 #include "shadowtech/base/Occluders.h"
 #include "shadowtech/base/ReceiverTarget.h"
 #include "shadowtech/base/Receivers.h"
@@ -12,7 +12,6 @@
 #include "shadowtech/base/VisibilityLayers.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace gnomon
 {
@@ -256,21 +255,9 @@ void Planar::drawShadows(const LayerInput& input, const Batch& batch)
 /// Adds a batch's samples to those before; after the last one, fills the light's layer.
 void Planar::sumUp(const LayerInput& input, const Batch& batch)
 {
-  const ShadowLight& light = input.light;
   const glm::dmat4& viewFromCentred = input.camera.viewFromCentred;
-  const glm::dmat4 lightFromView =
-    lightFromCentred(light, input.occluders.centreWorld) * glm::inverse(viewFromCentred);
-  const double tangent = std::tan(glm::radians(light.coneAngleDegrees));
-  const LightBox box = light.box.value_or(LightBox());
-  std::vector<std::string> defines = { "PLANES " + std::to_string(mostPlanes) };
-  if (light.kind == LightKind::Spot)
-  {
-    defines.emplace_back("SPOT");
-  }
-  if (light.box)
-  {
-    defines.emplace_back("BOX");
-  }
+  std::vector<std::string> defines = lightReachDefines(input.light);
+  defines.push_back("PLANES " + std::to_string(mostPlanes));
   const GLuint program = ScreenPass::use(
     input.shaders, ShaderLibrary::source("shadowtech/planar/planar_visibility.frag.glsl"), defines);
   std::vector<Uniform> uniforms = {
@@ -279,13 +266,13 @@ void Planar::sumUp(const LayerInput& input, const Batch& batch)
     { "planesOfPixels", TextureBinding{ GL_TEXTURE_2D, this->planesOfPixels_.name() } },
     { "shadows", TextureBinding{ GL_TEXTURE_2D, this->shadows_.name() } },
     { "sampleCount", static_cast<int>(batch.count) },
-    { "divisor", batch.last ? static_cast<float>(this->samples_.size()) : 1.0f },
-    { "lightFromView", glm::mat4(lightFromView) },
-    { "lightCone", static_cast<float>(tangent * tangent) },
-    { "lightBox", glm::vec3(0.5 * box.width, 0.5 * box.height, box.depth) }
+    { "divisor", batch.last ? static_cast<float>(this->samples_.size()) : 1.0f }
   };
-  const std::vector<Uniform> before = this->lit_.before();
-  uniforms.insert(uniforms.end(), before.begin(), before.end());
+  for (const std::vector<Uniform>& more : { this->lit_.before(),
+         lightReachUniforms(input.light, input.occluders.centreWorld, viewFromCentred) })
+  {
+    uniforms.insert(uniforms.end(), more.begin(), more.end());
+  }
   for (std::size_t i = 0; i < batch.count; ++i)
   {
     uniforms.push_back({ "samplesView[" + std::to_string(i) + "]",

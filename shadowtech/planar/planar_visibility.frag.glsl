@@ -2,8 +2,8 @@
 // What lies on none sees all that it faces. Up to 32 samples at a time; after the last of them, the
 // share.
 
+#include "shadowtech/base/light_reach.glsl"
 #include "shadowtech/base/running_sum.glsl"
-#include "shadowtech/base/shadow_ray.glsl"
 
 #define MOST_SAMPLES 32
 
@@ -15,26 +15,8 @@ uniform int sampleCount;
 uniform vec4 samplesView[MOST_SAMPLES]; // (position, 1) or (towards the light, 0)
 uniform int facingPlane[PLANES];        // the bits of the samples that the plane's visible side faces
 uniform float divisor;                  // 1, or the number of all samples
-uniform mat4 lightFromView;             // rigid: the camera's space to the light's
-uniform float lightCone;                // squared tangent of half the cone
-uniform vec3 lightBox;                  // half width, half height, depth
 
 out float visibility;
-
-// Whether the light shines into this part of the scene at all.
-bool reaches(vec3 positionView)
-{
-#if defined(SPOT) || defined(BOX)
-  vec3 positionLight = (lightFromView * vec4(positionView, 1.0)).xyz;
-#endif
-#if defined(SPOT)
-  return insideCone(-positionLight, vec3(0.0, 0.0, -1.0), lightCone);
-#elif defined(BOX)
-  return insideBox(positionLight, lightBox);
-#else
-  return true;
-#endif
-}
 
 // The samples that a surface faces.
 uint facedBy(vec3 positionView, vec3 normalView)
@@ -58,7 +40,7 @@ void main()
     vec4 point = texelFetch(receiverPoints, pixel, 0);
     vec3 normal = vec3(texelFetch(receiverFragments, pixel, 0).zw, point.w);
     uint facing = plane > 1u ? uint(facingPlane[plane - 2u]) : facedBy(point.xyz, normal);
-    lit = reaches(point.xyz) ? bitCount(facing & ~texelFetch(shadows, pixel, 0).r) : 0;
+    lit = lightReaches(point.xyz) ? bitCount(facing & ~texelFetch(shadows, pixel, 0).r) : 0;
   }
   visibility = (summedBefore(pixel) + float(lit)) / divisor;
 }

@@ -133,6 +133,7 @@ class BrokenLights
 
 INSTANTIATE_TEST_SUITE_P(Ways, BrokenLights, allWays, nameOf);
 INSTANTIATE_TEST_SUITE_P(OnPlanes, BrokenLights, testing::Values(planarWay), nameOf);
+INSTANTIATE_TEST_SUITE_P(ThroughLayers, BrokenLights, testing::Values(layersWay), nameOf);
 
 } // namespace
 

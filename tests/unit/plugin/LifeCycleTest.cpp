@@ -106,6 +106,7 @@ protected:
 
 INSTANTIATE_TEST_SUITE_P(Ways, LifeCycle, allWays, nameOf);
 INSTANTIATE_TEST_SUITE_P(OnPlanes, LifeCycle, testing::Values(planarWay), nameOf);
+INSTANTIATE_TEST_SUITE_P(ThroughLayers, LifeCycle, testing::Values(layersWay), nameOf);
 
 } // namespace
 

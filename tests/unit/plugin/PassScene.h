@@ -67,6 +67,8 @@ inline const auto allWays = testing::Values(Way{ "nsm", vtkGnomonShadowPass::ROU
   Way{ "raytraced", vtkGnomonShadowPass::ROUTE_IMAGE });
 /// Of scenes whose receivers are planes.
 inline const Way planarWay{ "planar", vtkGnomonShadowPass::ROUTE_IMAGE };
+/// With a map and on the screen.
+inline const Way layersWay{ "montecarlo", vtkGnomonShadowPass::ROUTE_IMAGE };
 /// Which is not what AUTO takes where OpenGL draws by software.
 inline const Way gpuTracedWay{ "raytraced", vtkGnomonShadowPass::ROUTE_IMAGE,
   vtkGnomonShadowPass::TRACER_GPU };

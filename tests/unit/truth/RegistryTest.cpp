@@ -89,6 +89,7 @@ TEST(Registry, knowsWhichEstimatorsAreFunctionsOfThePoint)
       << estimator.info.name;
   }
   EXPECT_EQ(findEstimator("planar")->info.evaluation, Evaluation::ScreenGpu);
+  EXPECT_EQ(findEstimator("montecarlo")->info.evaluation, Evaluation::ScreenGpu);
   EXPECT_EQ(findEstimator("sampled")->info.evaluation, Evaluation::ScreenGpu);
   EXPECT_EQ(findEstimator("raytraced")->info.evaluation, Evaluation::ScreenCpu);
 }
@@ -98,6 +99,8 @@ TEST(Registry, takesOrRefusesEveryComposition)
   const Verdicts all{ "", "", "", "" };
   const Verdicts single{ "", "", "faces of a cube", "faces of a cube" };
   const Verdicts cube{ "directional", "", "", "" };
+  const char* camera = "holds all casters";
+  const Verdicts allCasters{ camera, camera, camera, camera };
   const Verdicts uniform{ "uniform and cube", "uniform and cube", "faces of a cube",
     "faces of a cube" };
   const Verdicts noMap{ "no map", "no map", "no map", "no map" };
@@ -121,7 +124,9 @@ TEST(Registry, takesOrRefusesEveryComposition)
           what + ", projection " + findSetting("projection")->get(settings));
       };
       expectOf(Projection::Uniform, all);
-      const Verdicts& divided = settings.estimator == "sampled" ? uniform : single;
+      const Verdicts& divided = settings.estimator == "sampled" ? uniform
+        : settings.estimator == "montecarlo"                    ? allCasters
+                                                                : single;
       expectOf(Projection::Lispsm, divided);
       expectOf(Projection::Trapezoid, divided);
       expectOf(Projection::Splits, divided);
@@ -238,6 +243,41 @@ TEST(Registry, refusesChainsOfTestsThatMakeNoSense)
     {
       ASSERT_TRUE(findSetting(name)->set(settings, value)) << name;
     }
+    expectVerdicts(
+      settings, { each.verdict, each.verdict, each.verdict, each.verdict }, each.technique);
+  }
+}
+
+TEST(Registry, refusesRaysThatCannotBeFollowed)
+{
+  struct Case
+  {
+    const char* technique;
+    const char* layers;
+    const char* search;
+    const char* fit;
+    const char* verdict;
+  };
+  const Case cases[] = {
+    { "montecarlo", "peeled", "hierarchical", "off", "" },
+    { "montecarlo", "peeled", "linear", "off", "one solid in a texel" },
+    { "montecarlo", "near_far", "hierarchical", "off", "" },
+    { "montecarlo", "near_far", "linear", "off", "" },
+    { "montecarlo", "near", "hierarchical", "off", "" },
+    { "montecarlo", "near", "linear", "off", "" },
+    { "montecarlo", "eye", "hierarchical", "off", "asks the camera" },
+    { "montecarlo", "eye", "linear", "off", "" },
+    { "montecarlo", "peeled", "hierarchical", "once", "'fit' once" },
+    { "montecarlo", "peeled", "hierarchical", "frame", "'fit' frame" },
+    { "nsm", "eye", "hierarchical", "frame", "" }, // are montecarlo's
+  };
+  for (const Case& each : cases)
+  {
+    ShadowSettings settings;
+    settings.technique = each.technique;
+    ASSERT_TRUE(findSetting("mc_layers")->set(settings, each.layers));
+    ASSERT_TRUE(findSetting("mc_search")->set(settings, each.search));
+    ASSERT_TRUE(findSetting("fit")->set(settings, each.fit));
     expectVerdicts(
       settings, { each.verdict, each.verdict, each.verdict, each.verdict }, each.technique);
   }

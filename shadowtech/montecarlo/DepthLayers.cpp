@@ -1,0 +1,137 @@
+#include "shadowtech/montecarlo/DepthLayers.h"
+
+#include "shadowtech/base/CasterDrawing.h"
+#include "shadowtech/base/ShaderLibrary.h"
+#include "shadowtech/base/TextureMemory.h"
+
+#include <utility>
+
+namespace gnomon
+{
+namespace
+{
+
+/// How many surfaces are peeled that face the light, and as many that face away.
+constexpr int peeledSurfaces = 4;
+
+/// Before all depths: a texel's cleared layers.
+constexpr GLfloat noSurface[4] = { 2.0f, 2.0f, 2.0f, 2.0f };
+
+/// Of the caster's shader that is to draw a view's layer.
+CasterShader layerShader(const char* path, const LightView& view, double nearest)
+{
+  return { ShaderLibrary::source(path), { "DEPTH_LINEAR" },
+    { { "nearest", static_cast<float>(view.depthScale * nearest) } } };
+}
+
+bool isPeeled(const ShadowLight& light)
+{
+  return light.mcLayers == RayLayers::Peeled;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+void DepthLayers::allocate(const ShadowLight& light, int views)
+{
+  const int pages = isPeeled(light) ? 2 : 1;
+  if (this->sizeTexels_ == light.mapSizeTexels && this->views_ == views && this->pages_ == pages)
+  {
+    return;
+  }
+  this->sizeTexels_ = 0; // in case that there is no memory
+  const int layers = isPeeled(light) ? 2 * peeledSurfaces : 1;
+  allocateMap(this->slabs_, { GL_RGBA32F, GL_RGBA, 4 }, light.mapSizeTexels, views * pages);
+  allocateMap(this->layers_, { GL_RG32F, GL_RG, 2 }, light.mapSizeTexels, layers);
+  allocateMap(
+    this->depth_, { GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, 1 }, light.mapSizeTexels, 1);
+  glBindFramebuffer(GL_FRAMEBUFFER, this->framebuffer_.create());
+  glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, this->depth_.name(), 0, 0);
+  this->sizeTexels_ = light.mapSizeTexels;
+  this->views_ = views;
+  this->pages_ = pages;
+}
+
+//------------------------------------------------------------------------------
+void DepthLayers::draw(const MapInput& input, double nearest)
+{
+  const std::vector<LightView>& views = input.views.views;
+  this->allocate(input.light, std::max(static_cast<int>(views.size()), 1));
+  for (std::size_t view = 0; view < views.size(); ++view)
+  {
+    beginCasters(this->framebuffer_.name(), this->sizeTexels_);
+    glDisable(GL_POLYGON_OFFSET_FILL);
+    glDisablei(GL_BLEND, 0);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    isPeeled(input.light) ? this->drawPeeled(input, view, nearest)
+                          : this->drawHull(input, view, nearest);
+    this->makeSlabs(input, view);
+  }
+}
+
+//------------------------------------------------------------------------------
+void DepthLayers::drawHull(const MapInput& input, std::size_t view, double nearest)
+{
+  glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, this->layers_.name(), 0, 0);
+  glClearBufferfv(GL_COLOR, 0, noSurface);
+  glDisable(GL_DEPTH_TEST);
+  glEnablei(GL_BLEND, 0);
+  glBlendEquation(GL_MIN);
+  drawCasters(view, input,
+    layerShader("shadowtech/montecarlo/layer_hull.frag.glsl", input.views.views[view], nearest));
+  glDisablei(GL_BLEND, 0);
+}
+
+//------------------------------------------------------------------------------
+void DepthLayers::drawPeeled(const MapInput& input, std::size_t view, double nearest)
+{
+  for (int layer = 0; layer < 2 * peeledSurfaces; ++layer)
+  {
+    const bool first = layer % peeledSurfaces == 0;
+    glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, this->layers_.name(), 0, layer);
+    const GLfloat farthest = 1.0f;
+    glClearBufferfv(GL_DEPTH, 0, &farthest);
+    glClearBufferfv(GL_COLOR, 0, noSurface);
+    CasterShader shader =
+      layerShader("shadowtech/montecarlo/layer_peel.frag.glsl", input.views.views[view], nearest);
+    shader.uniforms.push_back(
+      { "layers", TextureBinding{ GL_TEXTURE_2D_ARRAY, this->layers_.name() } });
+    shader.uniforms.push_back({ "before", first ? -1 : layer - 1 });
+    shader.uniforms.push_back({ "fronts", layer < peeledSurfaces ? 1 : 0 });
+    drawCasters(view, input, std::move(shader));
+  }
+}
+
+//------------------------------------------------------------------------------
+void DepthLayers::makeSlabs(const MapInput& input, std::size_t view)
+{
+  std::vector<std::string> defines = { "PEELED " + std::to_string(peeledSurfaces) };
+  if (input.light.mcLayers == RayLayers::Near)
+  {
+    defines.emplace_back("ENDLESS");
+  }
+  const GLuint program = ScreenPass::use(input.shaders,
+    ShaderLibrary::source(isPeeled(input.light) ? "shadowtech/montecarlo/slabs_of_peeled.frag.glsl"
+                                                : "shadowtech/montecarlo/slabs_of_hull.frag.glsl"),
+    defines);
+  for (int page = 0; page < this->pages_; ++page)
+  {
+    ShaderLibrary::setUniforms(program,
+      { { "layers", TextureBinding{ GL_TEXTURE_2D_ARRAY, this->layers_.name() } },
+        { "page", page } },
+      0, 0);
+    this->screenPass_.fill(this->slabs_.name(), static_cast<int>(view) * this->pages_ + page,
+      this->sizeTexels_, this->sizeTexels_);
+  }
+}
+
+//------------------------------------------------------------------------------
+std::size_t DepthLayers::bytes() const
+{
+  const auto side = static_cast<std::size_t>(this->sizeTexels_);
+  const int layers = this->pages_ > 1 ? 2 * peeledSurfaces : 1;
+  const auto channels = static_cast<std::size_t>(4 * this->views_ * this->pages_ + 2 * layers + 1);
+  return side * side * channels * sizeof(float);
+}
+
+} // namespace gnomon

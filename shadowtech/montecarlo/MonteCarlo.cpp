@@ -1,0 +1,189 @@
+#include "shadowtech/montecarlo/MonteCarlo.h"
+
+#include "lights/LightSamples.h"
+#include "shadowtech/base/GlState.h"
+#include "shadowtech/base/LightReach.h"
+#include "shadowtech/base/Occluders.h"
+#include "shadowtech/base/ReceiverTarget.h"
+#include "shadowtech/base/ShaderLibrary.h"
+#include "shadowtech/base/TextureMemory.h"
+#include "shadowtech/base/VisibilityLayers.h"
+#include "shadowtech/montecarlo/RaySpace.h"
+
+#include <algorithm>
+
+namespace gnomon
+{
+namespace
+{
+
+std::string element(const std::string& name, std::size_t index)
+{
+  return name + "[" + std::to_string(index) + "]";
+}
+
+/// The light's shape, of one that has none a point.
+LightArea areaOf(const ShadowLight& light)
+{
+  return light.area.value_or(LightArea());
+}
+
+/// Rays along each side of the grid on the light: a point takes one.
+int raysOf(const ShadowLight& light)
+{
+  return light.area ? light.mcRays : 1;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+TechniqueInfo MonteCarlo::info()
+{
+  TechniqueInfo info;
+  info.name = "montecarlo";
+  info.evaluation = Evaluation::ScreenGpu;
+  info.needsMap = true;
+  info.classes = { { "no receiver", { 0, 0, 0 } }, { "turned away from the light", { 0, 140, 60 } },
+    { "lit by the map's bounds", { 230, 230, 230 } },
+    { "in shadow by the map's bounds", { 90, 90, 90 } },
+    { "decided by each ray's bounds", { 60, 160, 220 } }, { "searched", { 60, 60, 220 } } };
+  return info;
+}
+
+//------------------------------------------------------------------------------
+ShadowLight MonteCarlo::lightOfMap(const ShadowLight& light) const
+{
+  return gnomon::lightOfMap(light);
+}
+
+//------------------------------------------------------------------------------
+void MonteCarlo::bake(const MapInput& input)
+{
+  const GlStateGuard guard;
+  this->views_ = input.views;
+  this->nearest_ = 1.0;
+  for (LightView& view : this->views_.views)
+  {
+    if (view.rays.positional)
+    {
+      view.beginsAt = std::max(view.beginsAt, nearestOfArea(input.light));
+      this->nearest_ = view.beginsAt; // faces of a cube begin at the same distance
+    }
+  }
+  this->layers_.draw(
+    { input.light, this->views_, input.occluders, input.buffers, input.shaders }, this->nearest_);
+  this->bounds_.build(this->layers_.slabs(), this->layers_.pages(), input.light.mapSizeTexels,
+    static_cast<int>(this->views_.views.size()), input.light.mcPyramid, input.shaders);
+}
+
+//------------------------------------------------------------------------------
+std::size_t MonteCarlo::bytesOfMaps() const
+{
+  const auto pixels =
+    static_cast<std::size_t>(this->width_) * static_cast<std::size_t>(this->height_);
+  return this->layers_.bytes() + this->bounds_.bytes() + this->filter_.bytes() +
+    2 * pixels * sizeof(float);
+}
+
+//------------------------------------------------------------------------------
+void MonteCarlo::allocate(int width, int height)
+{
+  if (this->width_ == width && this->height_ == height)
+  {
+    return;
+  }
+  this->width_ = 0; // in case that there is no memory
+  allocateTexture(this->unfiltered_, { GL_RG32F, GL_RG, 2 }, width, height, 0, "visibility");
+  this->width_ = width;
+  this->height_ = height;
+}
+
+//------------------------------------------------------------------------------
+std::vector<Uniform> MonteCarlo::uniformsOf(const LayerInput& input) const
+{
+  const ShadowLight& light = input.light;
+  const glm::dmat4& viewFromCentred = input.camera.viewFromCentred;
+  const glm::dmat4 centredFromView = glm::inverse(viewFromCentred);
+  const glm::dvec3 centreWorld = input.occluders.centreWorld;
+  std::vector<Uniform> uniforms = lightReachUniforms(light, centreWorld, viewFromCentred);
+  const std::vector<Uniform> own = {
+    { "receiverFragments", TextureBinding{ GL_TEXTURE_2D, input.receivers.fragments() } },
+    { "receiverPoints", TextureBinding{ GL_TEXTURE_2D, input.receivers.points() } },
+    { "slabs", TextureBinding{ GL_TEXTURE_2D_ARRAY, this->layers_.slabs() } },
+    { "slabBounds", TextureBinding{ GL_TEXTURE_2D_ARRAY, this->bounds_.texture() } },
+    { "topLevel", this->bounds_.topLevel() }, { "mapSide", light.mapSizeTexels },
+    { "lightView", glm::vec4(viewFromCentred * lightPoint(light, centreWorld)) },
+    { "pixelSide", glm::vec2(input.camera.pixelSide({ this->width_, this->height_ })) },
+    { "viewFromUnit", glm::mat3(glm::dmat3(viewFromCentred) * areaOf(light).worldFromUnit) },
+    { "clipFromView", glm::mat4(input.camera.clipFromView) }, { "lightSeed", light.lightSeed },
+    { "viewCount", static_cast<int>(this->views_.views.size()) }
+  };
+  uniforms.insert(uniforms.end(), own.begin(), own.end());
+  for (std::size_t i = 0; i < this->views_.views.size(); ++i)
+  {
+    const glm::dmat4 rayFromView =
+      rayFromCentred(this->views_.views[i], light.mapSizeTexels, this->nearest_) * centredFromView;
+    uniforms.push_back({ element("rayFromView", i), glm::mat4(rayFromView) });
+    uniforms.push_back({ element("viewFromRay", i), glm::mat4(glm::inverse(rayFromView)) });
+  }
+  return uniforms;
+}
+
+//------------------------------------------------------------------------------
+void MonteCarlo::readClasses(const LayerInput& input) const
+{
+  if (!input.classes)
+  {
+    return;
+  }
+  std::vector<float> texels(
+    2 * static_cast<std::size_t>(this->width_) * static_cast<std::size_t>(this->height_));
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D, this->unfiltered_.name());
+  glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+  glPixelStorei(GL_PACK_ALIGNMENT, 4);
+  glGetTexImage(GL_TEXTURE_2D, 0, GL_RG, GL_FLOAT, texels.data());
+  input.classes->resize(texels.size() / 2);
+  for (std::size_t i = 0; i < input.classes->size(); ++i)
+  {
+    (*input.classes)[i] = static_cast<std::uint8_t>(texels[2 * i + 1]);
+  }
+}
+
+//------------------------------------------------------------------------------
+void MonteCarlo::drawVisibility(const LayerInput& input, LightReport& report)
+{
+  const GlStateGuard guard;
+  const ShadowLight& light = input.light;
+  const int rays = raysOf(light);
+  report.lightSamples = rays * rays;
+  this->allocate(input.receivers.width(), input.receivers.height());
+
+  std::vector<std::string> defines = lightReachDefines(light);
+  defines.push_back("VIEWS " + std::to_string(mostViews(light)));
+  defines.push_back("RAYS " + std::to_string(rays));
+  defines.push_back("SHAPE " + std::to_string(static_cast<int>(areaOf(light).shape)));
+  defines.push_back("PAGES " + std::to_string(this->layers_.pages()));
+  const auto defineWhere = [&](bool holds, const char* name)
+  {
+    if (holds)
+    {
+      defines.emplace_back(name);
+    }
+  };
+  defineWhere(light.mcPyramid == SlabHierarchy::NBuffer, "NBUFFER");
+  defineWhere(light.mcSearch == RaySearch::Linear, "LINEAR_SEARCH");
+  defineWhere(light.mcLayers == RayLayers::Eye, "EYE_LAYER");
+  // A receiver's rays may cross the faces of a cube.
+  defineWhere(light.mcClassify != RayClasses::Off && viewLayout(light) == ViewLayout::Single,
+    "CLASSIFY_PIXELS");
+  defineWhere(light.mcClassify == RayClasses::Rays, "CLASSIFY_RAYS");
+  const GLuint program = ScreenPass::use(
+    input.shaders, ShaderLibrary::source("shadowtech/montecarlo/montecarlo.frag.glsl"), defines);
+  ShaderLibrary::setUniforms(program, this->uniformsOf(input), 0, 0);
+  this->screenPass_.fill(this->unfiltered_.name(), -1, this->width_, this->height_);
+  this->filter_.apply(input, this->unfiltered_.name(), rays, light.mcFilter);
+  this->readClasses(input);
+}
+
+} // namespace gnomon

@@ -1,0 +1,52 @@
+#ifndef gnomon_shadowtech_montecarlo_MonteCarlo_h
+#define gnomon_shadowtech_montecarlo_MonteCarlo_h
+
+#include "lights/LightViews.h"
+#include "shadowtech/base/ScreenPass.h"
+#include "shadowtech/base/Technique.h"
+#include "shadowtech/montecarlo/DepthLayers.h"
+#include "shadowtech/montecarlo/SlabBounds.h"
+#include "shadowtech/montecarlo/VisibilityFilter.h"
+
+#include <cstddef>
+
+namespace gnomon
+{
+
+/// `montecarlo`: soft shadows of area lights by a few random rays for each pixel, which are followed through the depth layers of
+/// the light's map, and a filter that takes off the noise (Curtis, *Real-Time Soft Shadows Using Monte Carlo Ray Tracing of
+/// Depth Maps*, 2009).
+///
+/// Instead of the casters' triangles, rays meet slabs between two depths in the texels of a map (DepthLayers.h), which a
+/// hierarchy of bounds leads them to (SlabBounds.h).
+class MonteCarlo : public Technique
+{
+public:
+  static TechniqueInfo info();
+
+  ShadowLight lightOfMap(const ShadowLight& light) const override;
+  void bake(const MapInput& input) override;
+  std::size_t bytesOfMaps() const override;
+
+  void drawVisibility(const LayerInput& input, LightReport& report) override;
+
+private:
+  void allocate(int width, int height);
+  std::vector<Uniform> uniformsOf(const LayerInput& input) const;
+  void readClasses(const LayerInput& input) const;
+
+  LightViews views_;
+  double nearest_ = 0.0; ///< the z at which depths of ray space begin (RaySpace.h)
+  DepthLayers layers_;
+  SlabBounds bounds_;
+
+  GlTexture unfiltered_; ///< visibility and class
+  VisibilityFilter filter_;
+  ScreenPass screenPass_;
+  int width_ = 0;
+  int height_ = 0;
+};
+
+} // namespace gnomon
+
+#endif

@@ -1,0 +1,49 @@
+#include "shadowtech/montecarlo/VisibilityFilter.h"
+
+#include "shadowtech/base/ReceiverTarget.h"
+#include "shadowtech/base/ShaderLibrary.h"
+#include "shadowtech/base/TextureMemory.h"
+#include "shadowtech/base/VisibilityLayers.h"
+
+namespace gnomon
+{
+
+//------------------------------------------------------------------------------
+void VisibilityFilter::apply(const LayerInput& input, GLuint unfiltered, int rays, int radiusPixels)
+{
+  const int width = input.receivers.width();
+  const int height = input.receivers.height();
+  if (this->width_ != width || this->height_ != height)
+  {
+    this->width_ = 0; // in case that there is no memory
+    allocateTexture(this->rows_, { GL_RG32F, GL_RG, 2 }, width, height, 0, "filtered rows");
+    this->width_ = width;
+    this->height_ = height;
+  }
+  const GLuint program = ScreenPass::use(input.shaders,
+    ShaderLibrary::source("shadowtech/montecarlo/visibility_filter.frag.glsl"),
+    { "FILTER_PIXELS " + std::to_string(radiusPixels), "RAYS " + std::to_string(rays) });
+  const auto set = [&](GLuint source, const glm::ivec2& axis)
+  {
+    ShaderLibrary::setUniforms(program,
+      { { "receiverFragments", TextureBinding{ GL_TEXTURE_2D, input.receivers.fragments() } },
+        { "receiverPoints", TextureBinding{ GL_TEXTURE_2D, input.receivers.points() } },
+        { "unfiltered", TextureBinding{ GL_TEXTURE_2D, unfiltered } },
+        { "source", TextureBinding{ GL_TEXTURE_2D, source } }, { "axis", axis },
+        { "pixelSide", glm::vec2(input.camera.pixelSide({ width, height })) } },
+      0, 0);
+  };
+  set(unfiltered, { 1, 0 });
+  this->screenPass_.fill(this->rows_.name(), -1, width, height);
+  set(this->rows_.name(), { 0, 1 });
+  input.layers.fill(input.layer);
+}
+
+//------------------------------------------------------------------------------
+std::size_t VisibilityFilter::bytes() const
+{
+  return static_cast<std::size_t>(this->width_) * static_cast<std::size_t>(this->height_) * 2 *
+    sizeof(float);
+}
+
+} // namespace gnomon

@@ -1,0 +1,275 @@
+// What share of an area light each pixel's receiver sees: the mean over rays to points of the light, which are followed through
+// the light's map (Curtis 2009). y is the pixel's class (MonteCarlo::info()).
+
+#include "shadowtech/base/light_reach.glsl"
+#include "shadowtech/montecarlo/classes.glsl"
+#include "shadowtech/montecarlo/light_points.glsl"
+
+uniform sampler2D receiverFragments; // x: > 0 if it receives; zw: the normal's x and y
+uniform sampler2D receiverPoints;    // xyz: position, w: the normal's z; all in view coordinates
+uniform vec4 lightView;              // (position of the centre, 1), or (unit vector towards it, 0)
+uniform vec2 pixelSide;              // a pixel's side is x + y * distance
+uniform int viewCount;               // of the light's map; 0: there is no caster
+uniform mat4 rayFromView[VIEWS];     // the camera's view coordinates to ray space (RaySpace.h)
+uniform mat4 viewFromRay[VIEWS];
+
+#include "shadowtech/montecarlo/slab_search.glsl"
+
+out vec2 visibilityAndClass;
+
+// A receiver of the light.
+struct Receiver
+{
+  vec3 position;
+  vec3 normal;
+  float offset; // how far above the surface rays begin to count, in world units
+};
+
+// The part of a ray that is on a view's map, in ray space.
+struct Segment
+{
+  vec3 begin; // at the receiver
+  vec3 end;   // at the light
+  bool any;
+};
+
+// Cuts the range in which position + t * way is on the positive side of a plane.
+void cut(inout vec2 range, float position, float way)
+{
+  float t = -position / way;
+  range.x = way > 0.0 ? max(range.x, t) : range.x;
+  range.y = way < 0.0 ? min(range.y, t) : range.y;
+  range.y = way == 0.0 && position < 0.0 ? -1.0 : range.y; // along the plane, on its other side
+}
+
+// @param depths of the map, between which there may be slabs
+// @param cutAtBorders whether what is beside the map is cut off, too
+Segment onMap(int view, Receiver receiver, vec3 way, float length, vec2 depths, bool cutAtBorders)
+{
+  vec4 at = rayFromView[view] * vec4(receiver.position, 1.0);
+  vec4 by = rayFromView[view] * vec4(way, 0.0);
+  float rising = dot(receiver.normal, way); // > 0: the receiver faces where the ray goes
+  vec2 range = vec2(receiver.offset / rising, length);
+  cut(range, at.z - depths.x * at.w, by.z - depths.x * by.w);
+  cut(range, depths.y * at.w - at.z, depths.y * by.w - by.z);
+  if (cutAtBorders)
+  {
+    cut(range, at.x, by.x);
+    cut(range, at.y, by.y);
+    cut(range, float(mapSide) * at.w - at.x, float(mapSide) * by.w - by.x);
+    cut(range, float(mapSide) * at.w - at.y, float(mapSide) * by.w - by.y);
+  }
+  Segment segment = Segment(vec3(0.0), vec3(0.0), range.x < range.y);
+  if (!segment.any)
+  {
+    return segment;
+  }
+  vec4 begin = at + range.x * by;
+  vec4 end = at + range.y * by;
+  segment.begin = begin.xyz / begin.w;
+  segment.end = end.xyz / end.w;
+
+  // The receiver may itself be in the map, as one depth for all of a texel. Rays count from where they are as far before its
+  // plane as that is off within half a texel, and for rounding: also of the corners of triangles, which are drawn to within
+  // 1/256 of a texel.
+  vec4 plane = vec4(receiver.normal, -dot(receiver.normal, receiver.position)) * viewFromRay[view];
+  float rounding = 7.6293945e-6 * max(abs(segment.begin.z), abs(segment.end.z)); // 2^-17
+  float limit = 0.51 * (abs(plane.x) + abs(plane.y)) + rounding * abs(plane.z);
+  vec2 before = rising * range / vec2(begin.w, end.w);
+  if (before.y <= limit)
+  {
+    segment.any = false;
+  }
+  else if (before.x < limit)
+  {
+    segment.begin =
+      mix(segment.begin, segment.end, (limit - before.x) / (before.y - before.x));
+  }
+  return segment;
+}
+
+// The ray to a point of the light, and where it ends.
+vec3 wayTo(Receiver receiver, vec3 toCentre, vec3 offset, out float length)
+{
+  // A point behind the receiver's plane gives way to the opposite one (directionToSample() in ShadowRay.h).
+  vec3 way = facesLight(receiver.normal, toCentre + offset) ? toCentre + offset : toCentre - offset;
+#if defined(BOX)
+  // To the box's near face.
+  length = (lightFromView * vec4(receiver.position, 1.0)).z;
+#else
+  length = lightView.w > 0.0 ? 1.0 : 1e30;
+#endif
+  return way;
+}
+
+vec2 depthsOf(int view)
+{
+  return boundsOfCell(view, ivec2(0), topLevel).xy;
+}
+
+#ifdef CLASSIFY_PIXELS
+// What all rays of a pixel can meet: they lie between those to the corners of a box around the light, and so does their part
+// behind the depth where the first slab begins (Curtis 2009, section 3.6, whose region this is for a square light).
+// @param depths of the map; on return, of the region
+// @return LIT, UMBRA or SEARCHED
+float classOf(Receiver receiver, vec3 toCentre, inout vec2 depths)
+{
+  const int corners = SHAPE == BALL ? 8 : 4;
+  for (int iteration = 0; iteration < 2; ++iteration)
+  {
+    vec2 lower = vec2(1e30);
+    vec2 upper = vec2(-1e30);
+    vec2 begins = vec2(1e30, -1e30); // the least and the greatest depth at the receiver's end
+    float ends = -1e30;              // the greatest at the light's
+    for (int i = 0; i < corners; ++i)
+    {
+      vec3 corner = 2.0 * vec3(i & 1, (i >> 1) & 1, i >> 2) - 1.0;
+      corner.z = SHAPE == BALL ? corner.z : 0.0;
+      vec3 offset = viewFromUnit * corner;
+      if (!facesLight(receiver.normal, toCentre + offset))
+      {
+        return SEARCHED; // some of the light is behind the receiver's plane
+      }
+      float length;
+      vec3 way = wayTo(receiver, toCentre, offset, length);
+      Segment segment = onMap(0, receiver, way, length, vec2(depths.x, 2.0), false);
+      if (!segment.any)
+      {
+        vec4 at = rayFromView[0] * vec4(receiver.position, 1.0);
+        segment.begin = at.xyz / at.w;
+        segment.end = segment.begin;
+      }
+      lower = min(lower, min(segment.begin.xy, segment.end.xy));
+      upper = max(upper, max(segment.begin.xy, segment.end.xy));
+      begins = vec2(min(begins.x, segment.begin.z), max(begins.y, segment.begin.z));
+      ends = max(ends, segment.end.z);
+    }
+    // Rounding may take a place to the texel beside it.
+    lower = floor(lower - 0.01);
+    upper = floor(upper + 0.01);
+    float last = float(mapSide - 1);
+    if (any(greaterThan(lower, vec2(last))) || any(lessThan(upper, vec2(0.0))))
+    {
+      return LIT;
+    }
+    vec4 bounds =
+      boundsOfRegion(0, ivec2(max(lower, vec2(0.0))), ivec2(min(upper, vec2(last))));
+    if (begins.y < bounds.x)
+    {
+      return LIT;
+    }
+#ifndef EYE_LAYER
+    // A depth that is inside a slab of every texel.
+    bool inside = all(greaterThanEqual(lower, vec2(0.0))) && all(lessThanEqual(upper, vec2(last)));
+    if (inside && bounds.z <= min(begins.x, bounds.w) && ends <= bounds.z)
+    {
+      return UMBRA;
+    }
+#endif
+    depths = vec2(max(depths.x, bounds.x), min(depths.y, bounds.y));
+  }
+  return SEARCHED;
+}
+#endif
+
+#ifdef CLASSIFY_RAYS
+// The same of a single ray.
+float classOf(int view, Segment segment)
+{
+  vec2 last = vec2(float(mapSide - 1));
+  vec2 lower = clamp(floor(min(segment.begin.xy, segment.end.xy) - 0.01), vec2(0.0), last);
+  vec2 upper = clamp(floor(max(segment.begin.xy, segment.end.xy) + 0.01), vec2(0.0), last);
+  vec4 bounds = boundsOfRegion(view, ivec2(lower), ivec2(upper));
+  float least = min(segment.begin.z, segment.end.z);
+  float greatest = max(segment.begin.z, segment.end.z);
+  if (greatest < bounds.x || bounds.y < least)
+  {
+    return LIT;
+  }
+#ifndef EYE_LAYER
+  if (bounds.z <= min(greatest, bounds.w) && least <= bounds.z)
+  {
+    return UMBRA;
+  }
+#endif
+  return SEARCHED;
+}
+#endif
+
+// @param depths of a single view, between which there may be slabs
+// @param searched becomes true where that took a search
+bool isBlocked(Receiver receiver, vec3 way, float length, vec2 depths, inout bool searched)
+{
+  for (int view = 0; view < viewCount; ++view)
+  {
+    Segment segment =
+      onMap(view, receiver, way, length, VIEWS == 1 ? depths : depthsOf(view), true);
+    if (!segment.any)
+    {
+      continue;
+    }
+#ifdef CLASSIFY_RAYS
+    float rayClass = classOf(view, segment);
+    if (rayClass == UMBRA)
+    {
+      return true;
+    }
+    if (rayClass == LIT)
+    {
+      continue;
+    }
+#endif
+    searched = true;
+    if (meetsSlabs(view, segment.begin, segment.end))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+void main()
+{
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  vec4 fragment = texelFetch(receiverFragments, pixel, 0);
+  if (fragment.x <= 0.0)
+  {
+    visibilityAndClass = vec2(1.0, NO_RECEIVER);
+    return;
+  }
+  vec4 point = texelFetch(receiverPoints, pixel, 0);
+  Receiver receiver = Receiver(point.xyz, vec3(fragment.zw, point.w), 0.0);
+  float footprint = pixelSide.x + pixelSide.y * -point.z;
+  receiver.offset = shadowRayOffset(2.3841858e-7 * length(point.xyz), footprint); // 2^-22
+  vec3 toCentre = lightView.xyz - lightView.w * receiver.position;
+  if (!facesLight(receiver.normal, toCentre) || !lightReaches(receiver.position))
+  {
+    visibilityAndClass = vec2(0.0, TURNED_AWAY);
+    return;
+  }
+
+  vec2 depths = viewCount > 0 ? depthsOf(0) : vec2(0.0);
+#ifdef CLASSIFY_PIXELS
+  float pixelClass = viewCount > 0 ? classOf(receiver, toCentre, depths) : LIT;
+  if (pixelClass != SEARCHED)
+  {
+    visibilityAndClass = vec2(pixelClass == LIT ? 1.0 : 0.0, pixelClass);
+    return;
+  }
+#endif
+
+  int lit = 0;
+  bool searched = false;
+  FourPoints points;
+  for (int i = 0; i < RAYS * RAYS; ++i)
+  {
+    if (i % 4 == 0)
+    {
+      points = fourPoints(pixel, i);
+    }
+    float length;
+    vec3 way = wayTo(receiver, toCentre, lightPoint(points, i), length);
+    lit += isBlocked(receiver, way, length, depths, searched) ? 0 : 1;
+  }
+  visibilityAndClass = vec2(float(lit) / float(RAYS * RAYS), searched ? SEARCHED : BY_RAYS);
+}

@@ -1,0 +1,64 @@
+// A level of the hierarchy over the slabs (SlabBounds.h) from the one below; level 0 from the slabs.
+
+#include "shadowtech/montecarlo/slabs.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+uniform sampler2DArray below; // the slabs, or the hierarchy
+uniform int layer;            // of `below`
+uniform int level;            // of the mip map that is read
+uniform ivec2 steps;          // from a texel to the first and to the last of those that it is made of
+layout(binding = 0, rgba32f) writeonly uniform image2D target;
+
+// x: the least depth at which a slab begins, y: the greatest at which one ends; z, w: the greatest and the
+// least of the thickest slab of every texel.
+vec4 joined(vec4 a, vec4 b)
+{
+  return vec4(min(a.x, b.x), max(a.y, b.y), max(a.z, b.z), min(a.w, b.w));
+}
+
+#ifdef OF_SLABS
+vec4 boundsOfTexel(ivec2 texel)
+{
+  vec4 bounds = vec4(NO_SLAB, NO_SLAB);
+  if (any(greaterThanEqual(texel, textureSize(below, 0).xy)))
+  {
+    return bounds; // beyond a map whose side is no power of two
+  }
+  for (int i = 0; i < 2 * PAGES; ++i)
+  {
+    vec4 page = texelFetch(below, ivec3(texel, layer + i / 2), 0);
+    vec2 slab = i % 2 == 0 ? page.xy : page.zw;
+    bounds.xy = vec2(min(bounds.x, slab.x), max(bounds.y, slab.y));
+    bounds.zw = slab.y - slab.x > bounds.w - bounds.z ? slab : bounds.zw;
+  }
+  return bounds;
+}
+#endif
+
+void main()
+{
+  ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
+  if (any(greaterThanEqual(texel, imageSize(target))))
+  {
+    return;
+  }
+#ifdef OF_SLABS
+  vec4 bounds = boundsOfTexel(texel);
+#else
+#ifdef NBUFFER
+  // Clamped to the border, the four overlap, which no extremum minds.
+  ivec2 last = textureSize(below, 0).xy - 1;
+  ivec2 first = clamp(texel + steps.x, ivec2(0), last);
+  ivec2 second = clamp(texel + steps.y, ivec2(0), last);
+#else
+  ivec2 first = 2 * texel;
+  ivec2 second = first + 1;
+#endif
+  vec4 bounds = joined(joined(texelFetch(below, ivec3(first, layer), level),
+                         texelFetch(below, ivec3(second.x, first.y, layer), level)),
+    joined(texelFetch(below, ivec3(first.x, second.y, layer), level),
+      texelFetch(below, ivec3(second, layer), level)));
+#endif
+  imageStore(target, texel, bounds);
+}

@@ -1,0 +1,214 @@
+// Whether a ray meets a slab of the light's map: a search from cell to cell of the hierarchy (SlabBounds.h), after Curtis 2009,
+// section 3.5, algorithm 2. A cell of a level is a square of 2^level texels; of an N-buffer it may lie anywhere. With
+// LINEAR_SEARCH it is a search in steps of equal length, with bisection (section 3.3), of maps with one slab in a texel.
+
+uniform sampler2DArray slabs; // the views' pages, one after the other
+uniform sampler2DArray slabBounds;
+uniform int mapSide;  // in texels
+uniform int topLevel; // a single cell over the whole map
+
+// The cell that a ray enters at a texel: as far ahead as it goes, or the one of the grid.
+ivec2 cellFrom(ivec2 texel, int level, bvec2 ahead)
+{
+#ifdef NBUFFER
+  ivec2 back = texel - ((1 << level) - 1);
+  return ivec2(ahead.x ? texel.x : back.x, ahead.y ? texel.y : back.y);
+#else
+  return (texel >> level) << level;
+#endif
+}
+
+// What a cell holds: see slab_bounds.comp.glsl.
+vec4 boundsOfCell(int view, ivec2 cell, int level)
+{
+#ifdef NBUFFER
+  int side = textureSize(slabBounds, 0).x;
+  ivec2 centre = cell + (level == 0 ? 0 : (1 << (level - 1)) - 1);
+  ivec2 texel = clamp(centre, ivec2(0), ivec2(side - 1));
+  return texelFetch(slabBounds, ivec3(texel, view * (topLevel + 1) + level), 0);
+#else
+  return texelFetch(slabBounds, ivec3(cell >> level, view), level);
+#endif
+}
+
+// What all texels from one to another hold, and a few more around them.
+vec4 boundsOfRegion(int view, ivec2 lower, ivec2 upper)
+{
+  ivec2 size = upper - lower + 1;
+#ifdef NBUFFER
+  int level = min(findMSB(max(size.x, size.y)), topLevel);
+  ivec2 last = max(upper + 1 - (1 << level), lower);
+#else
+  int level = min(findMSB(2 * max(size.x, size.y) - 1), topLevel);
+  ivec2 last = upper;
+#endif
+  vec4 a = boundsOfCell(view, lower, level);
+  vec4 b = boundsOfCell(view, ivec2(last.x, lower.y), level);
+  vec4 c = boundsOfCell(view, ivec2(lower.x, last.y), level);
+  vec4 d = boundsOfCell(view, last, level);
+  return vec4(min(min(a.x, b.x), min(c.x, d.x)), max(max(a.y, b.y), max(c.y, d.y)),
+    max(max(a.z, b.z), max(c.z, d.z)), min(min(a.w, b.w), min(c.w, d.w)));
+}
+
+#ifdef LINEAR_SEARCH
+
+#define STEPS 32
+#define BISECTIONS 6
+
+// Where a point is in its texel; one that is empty is BEFORE and BEHIND at once.
+#define INSIDE 0
+#define BEFORE 1
+#define BEHIND 2
+#define EMPTY 3
+
+#ifdef EYE_LAYER
+uniform mat4 clipFromView;
+
+// Whether the camera sees that a point is in empty space: it is before the surface that is seen there (Curtis 2009, section
+// 3.4).
+bool seenEmpty(int view, vec3 point)
+{
+  vec4 place = viewFromRay[view] * vec4(point, 1.0);
+  vec3 position = place.xyz / place.w;
+  vec4 clip = clipFromView * vec4(position, 1.0);
+  if (clip.w <= 0.0 || any(greaterThanEqual(abs(clip.xy), vec2(clip.w))))
+  {
+    return false; // beside the picture
+  }
+  ivec2 pixel = ivec2((0.5 * clip.xy / clip.w + 0.5) * vec2(textureSize(receiverPoints, 0)));
+  vec4 fragment = texelFetch(receiverFragments, pixel, 0);
+  if (fragment.x == 0.0)
+  {
+    return true; // the camera sees the background
+  }
+  vec4 seen = texelFetch(receiverPoints, pixel, 0);
+  vec3 normal = vec3(fragment.zw, seen.w);
+  float footprint = pixelSide.x + pixelSide.y * -seen.z;
+  return dot(normal, position - seen.xyz) > -footprint;
+}
+#endif
+
+int stateAt(int view, vec3 point)
+{
+  ivec2 texel = clamp(ivec2(floor(point.xy)), ivec2(0), ivec2(mapSide - 1));
+  vec2 slab = texelFetch(slabs, ivec3(texel, view), 0).xy;
+  bool before = point.z < slab.x;
+  bool behind = point.z > slab.y;
+#ifdef EYE_LAYER
+  if (!before && !behind && seenEmpty(view, point))
+  {
+    return BEFORE;
+  }
+#endif
+  return before && behind ? EMPTY : before ? BEFORE : behind ? BEHIND : INSIDE;
+}
+
+// Whether a line towards the light may have met a slab between two points.
+bool mayMeet(int first, int second)
+{
+  return (second == BEFORE && first != BEFORE) || (first == BEHIND && second != BEHIND);
+}
+
+// @param begin at the receiver
+bool meetsSlabs(int view, vec3 begin, vec3 end)
+{
+  int state = stateAt(view, begin);
+  for (int i = 0; i < STEPS && state != INSIDE; ++i)
+  {
+    float t = float(i) / float(STEPS);
+    float last = float(i + 1) / float(STEPS);
+    int next = stateAt(view, mix(begin, end, last));
+    if (mayMeet(state, next))
+    {
+      // Of the two halves the one nearer to the receiver, if it may be in either.
+      for (int j = 0; j < BISECTIONS; ++j)
+      {
+        float middle = 0.5 * (t + last);
+        int between = stateAt(view, mix(begin, end, middle));
+        if (between == INSIDE)
+        {
+          return true;
+        }
+        bool inFirst = mayMeet(state, between);
+        last = inFirst ? middle : last;
+        t = inFirst ? t : middle;
+        state = inFirst ? state : between;
+      }
+    }
+    state = next;
+  }
+  return state == INSIDE;
+}
+
+#else
+
+// Whether a slab of a texel has any of these depths.
+bool meetsSlab(int view, ivec2 texel, float least, float greatest)
+{
+  bool meets = false;
+  for (int i = 0; i < PAGES; ++i)
+  {
+    vec4 page = texelFetch(slabs, ivec3(texel, view * PAGES + i), 0);
+    meets = meets || (page.x <= greatest && least <= page.y) ||
+      (page.z <= greatest && least <= page.w);
+  }
+  return meets;
+}
+
+// Whether the line from `begin` to `end`, in ray space and on the map, meets a slab.
+bool meetsSlabs(int view, vec3 begin, vec3 end)
+{
+  vec3 way = end - begin;
+  bvec2 ahead = greaterThanEqual(way.xy, vec2(0.0));
+  // Lines that stay in a column or a row leave it never.
+  vec2 inverse = vec2(way.x != 0.0 ? 1.0 / way.x : 1e30, way.y != 0.0 ? 1.0 / way.y : 1e30);
+  ivec2 texel = clamp(ivec2(floor(begin.xy)), ivec2(0), ivec2(mapSide - 1));
+  float longest = max(abs(way.x), abs(way.y));
+  int level = clamp(int(ceil(log2(longest + 1.0))), 0, topLevel);
+  float t = 0.0;
+  // Each step descends or leaves a cell, and each cell that is left was descended to: no line takes nearly so many.
+  for (int i = 0; i < 64 + 8 * mapSide; ++i)
+  {
+    ivec2 cell = cellFrom(texel, level, ahead);
+    int side = 1 << level;
+    vec2 border = vec2(ahead.x ? cell.x + side : cell.x, ahead.y ? cell.y + side : cell.y);
+    vec2 leaving = (border - begin.xy) * inverse;
+    leaving = vec2(way.x != 0.0 ? leaving.x : 1e30, way.y != 0.0 ? leaving.y : 1e30);
+    float exit = max(min(leaving.x, leaving.y), t);
+    float here = begin.z + t * way.z;
+    float there = begin.z + min(exit, 1.0) * way.z;
+    float least = min(here, there);
+    float greatest = max(here, there);
+    vec4 bounds = boundsOfCell(view, cell, level);
+    if (bounds.x <= greatest && least <= bounds.y)
+    {
+      if (level > 0)
+      {
+        --level;
+        continue;
+      }
+      if (meetsSlab(view, texel, least, greatest))
+      {
+        return true;
+      }
+    }
+    if (exit >= 1.0)
+    {
+      return false;
+    }
+    // The next texel's number is not computed from a place, which may be rounded to either side of the border.
+    t = exit;
+    ivec2 place = clamp(ivec2(floor(begin.xy + t * way.xy)), cell, cell + side - 1);
+    bool leavesAlongX = leaving.x <= leaving.y;
+    texel.x = leavesAlongX ? (ahead.x ? cell.x + side : cell.x - 1) : place.x;
+    texel.y = leavesAlongX ? place.y : (ahead.y ? cell.y + side : cell.y - 1);
+    if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, ivec2(mapSide))))
+    {
+      return false;
+    }
+    level = min(level + 1, topLevel);
+  }
+  return false;
+}
+
+#endif

@@ -1,0 +1,60 @@
+// The slabs of each texel, from its peeled surfaces in their order: what lies between a surface that faces the light and the
+// next one that faces away is solid, and all other surfaces are sheets, as thick as they span.
+
+#include "shadowtech/montecarlo/slabs.glsl"
+
+uniform sampler2DArray layers; // x: depth, y: span; PEELED that face the light, then as many that face away
+uniform int page;              // of the two
+
+out vec4 slabs;
+
+// Two surfaces that lie in each other are as far apart as rounding has it.
+#define ROUNDING 3.8146973e-6 // 2^-18
+
+vec2 surfaceAt(int number, int firstLayer)
+{
+  return number < PEELED ? texelFetch(layers, ivec3(gl_FragCoord.xy, firstLayer + number), 0).rg
+                         : vec2(2.0, 0.0);
+}
+
+void main()
+{
+  vec2 found[4] = vec2[](NO_SLAB, NO_SLAB, NO_SLAB, NO_SLAB);
+  int count = 0;
+  int fronts = 0;
+  int backs = 0;
+  bool open = false; // a surface that faces the light waits for one that faces away
+  vec2 front = vec2(0.0);
+  for (int i = 0; i < 2 * PEELED && count < 4; ++i)
+  {
+    vec2 nextFront = surfaceAt(fronts, 0);
+    vec2 nextBack = surfaceAt(backs, PEELED);
+    if (min(nextFront.x, nextBack.x) > 1.0)
+    {
+      break;
+    }
+    // What stands on a ground ends before the ground begins.
+    if (nextBack.x <= nextFront.x + (open ? ROUNDING : 0.0))
+    {
+      ++backs;
+      found[count++] =
+        open ? vec2(front.x, max(front.x, nextBack.x)) : vec2(nextBack.x, nextBack.x + nextBack.y);
+      open = false;
+    }
+    else
+    {
+      ++fronts;
+      if (open)
+      {
+        found[count++] = vec2(front.x, front.x + front.y);
+      }
+      front = nextFront;
+      open = true;
+    }
+  }
+  if (open && count < 4)
+  {
+    found[count++] = vec2(front.x, front.x + front.y);
+  }
+  slabs = page == 0 ? vec4(found[0], found[1]) : vec4(found[2], found[3]);
+}

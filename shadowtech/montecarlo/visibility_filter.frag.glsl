@@ -1,0 +1,70 @@
+// A Gaussian over the pixels around one along a row or a column, of those that show the same surface (Curtis 2009, section 3,
+// whose weights know depth alone), and whose visibility differs by no more than the rays' noise makes it: so that an edge that
+// is sharper than the filter is wide stays as it is. The first of the two passes goes along rows.
+//
+// What is turned away from the light is left as it is and gives nothing to others. A pixel with none in its square that rays have
+// decided keeps its visibility bit for bit.
+
+#include "shadowtech/montecarlo/classes.glsl"
+
+uniform sampler2D receiverFragments; // x: > 0 if it receives; zw: the normal's x and y
+uniform sampler2D receiverPoints;    // xyz: position, w: the normal's z; all in view coordinates
+uniform sampler2D unfiltered;        // x: visibility, y: class
+uniform sampler2D source;            // x: visibility, y: the greatest class in the row: the first pass' result
+uniform ivec2 axis;                  // of the pass
+uniform vec2 pixelSide;              // a pixel's side is x + y * distance
+
+out vec2 filtered;
+
+// Deviations of the Gaussian in pixels, and of what differences in visibility count as noise: three times what a line across
+// the light makes RAYS x RAYS jittered rays err by, sqrt(1 / 6 RAYS^3).
+#define SIGMA_PIXELS max(0.5 * float(FILTER_PIXELS), 0.5)
+#define SIGMA_NOISE (1.2247449 / sqrt(float(RAYS * RAYS * RAYS)))
+
+void main()
+{
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  ivec2 size = textureSize(source, 0);
+  vec2 original = texelFetch(unfiltered, pixel, 0).xy;
+  if (original.y < LIT)
+  {
+    filtered = original;
+    return;
+  }
+  vec4 point = texelFetch(receiverPoints, pixel, 0);
+  vec3 normal = vec3(texelFetch(receiverFragments, pixel, 0).zw, point.w);
+  float footprint = pixelSide.x + pixelSide.y * -point.z;
+
+  float here = texelFetch(source, pixel, 0).x;
+  float sum = 0.0;
+  float weights = 0.0;
+  float greatestClass = 0.0;
+  for (int i = -FILTER_PIXELS; i <= FILTER_PIXELS; ++i)
+  {
+    ivec2 other = pixel + i * axis;
+    if (any(lessThan(other, ivec2(0))) || any(greaterThanEqual(other, size)))
+    {
+      continue;
+    }
+    if (texelFetch(unfiltered, other, 0).y < LIT)
+    {
+      continue;
+    }
+    vec2 visibility = texelFetch(source, other, 0).xy;
+    vec4 otherPoint = texelFetch(receiverPoints, other, 0);
+    vec3 otherNormal = vec3(texelFetch(receiverFragments, other, 0).zw, otherPoint.w);
+    // How many pixels the other point lies off the plane of this one: 0 all over a plane, however it is seen.
+    float off = abs(dot(normal, otherPoint.xyz - point.xyz)) / footprint;
+    float alike = max(dot(normal, otherNormal), 0.0);
+    float alike4 = alike * alike * alike * alike;
+    float steps = float(i) / SIGMA_PIXELS;
+    float noise = (visibility.x - here) / SIGMA_NOISE;
+    float weight =
+      i == 0 ? 1.0 : exp(-0.5 * (steps * steps + noise * noise)) * alike4 * alike4 / (1.0 + off);
+    sum += weight * visibility.x;
+    weights += weight;
+    greatestClass = max(greatestClass, visibility.y);
+  }
+  bool keeps = axis.y == 1 && greatestClass < BY_RAYS;
+  filtered = vec2(keeps ? original.x : sum / weights, greatestClass);
+}

@@ -1,0 +1,461 @@
+// `montecarlo` in frames: against known penumbrae, against rays to the same points of the light, and what its settings change.
+
+#include "LitPlane.h"
+#include "PassScene.h"
+
+#include "lights/vtkGnomonAreaLight.h"
+#include "plugin/vtkGnomonPropKeys.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <string>
+#include <utility>
+#include <vector>
+
+using namespace gnomon::test;
+using gnomon::VisibilityImages;
+
+namespace
+{
+
+using Settings = std::vector<std::pair<const char*, const char*>>;
+
+struct Errors
+{
+  double meanAbsolute = 0.0;
+  std::size_t wrong = 0; ///< pixels that are off by more than a half
+};
+
+Errors errorsOf(const std::vector<float>& visibility, const std::vector<float>& truth)
+{
+  Errors errors;
+  for (std::size_t i = 0; i < truth.size(); ++i)
+  {
+    const double off = std::abs(static_cast<double>(visibility[i]) - truth[i]);
+    errors.meanAbsolute += off / static_cast<double>(truth.size());
+    errors.wrong += off > 0.5 ? 1 : 0;
+  }
+  return errors;
+}
+
+std::size_t differing(const std::vector<float>& a, const std::vector<float>& b)
+{
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+  {
+    count += a[i] != b[i] ? 1 : 0;
+  }
+  return count;
+}
+
+class MonteCarlo : public PassTest
+{
+protected:
+  /// A box and a sphere over a floor, under a lamp.
+  void buildScene()
+  {
+    this->floor = this->scene.addFloor(4.0);
+    this->scene.addBox({ -0.7, -0.7, 0.0 }, { 0.7, 0.7, 1.0 });
+    this->scene.addSphere({ 1.3, 0.8, 1.4 }, 0.5);
+    this->scene.lookFrom({ 2.0, -8.0, 7.0 });
+    this->lamp->SetPosition(-2.0, -2.5, 6.0);
+    this->lamp->SetFocalPoint(0.0, 0.0, 0.0);
+    this->lamp->SetConeAngle(50.0);
+    this->lamp->SetShapeToRectangle();
+    this->lamp->SetWidth(1.0);
+    this->lamp->SetHeight(1.0);
+  }
+
+  /// A plate that ends at x = 0 over a floor that casts nothing, seen from above, whose shadow ends around x = 1.
+  void buildHalfPlane()
+  {
+    this->floor = this->scene.addFloor(6.0);
+    vtkGnomonPropKeys::SetCasts(this->floor, false);
+    this->scene.addBox({ -8.0, -8.0, 2.0 }, { 0.0, 8.0, 2.001 });
+    this->scene.lookDown(0.5, 1.0, 0.0);
+    this->lamp->SetPosition(-4.0, 0.0, 10.0);
+    this->lamp->SetFocalPoint(-4.0, 0.0, 0.0);
+    this->lamp->SetConeAngle(60.0);
+    this->lamp->SetShapeToRectangle();
+    this->lamp->SetWidth(2.0);
+    this->lamp->SetHeight(2.0);
+  }
+  /// The visible share of that lamp: its side is 2, at height 10, the plate's 2.
+  static double halfPlaneAt(double x) { return std::clamp(0.5 + 2.0 * (x - 1.0), 0.0, 1.0); }
+
+  const VisibilityImages& draw(const char* technique, const Settings& settings)
+  {
+    this->scene.pass->SetTechnique(technique);
+    for (const auto& [name, value] : settings)
+    {
+      this->scene.pass->SetSetting(name, value);
+    }
+    return drawKept(this->scene);
+  }
+  std::vector<float> visibility(const char* technique, const Settings& settings)
+  {
+    return this->draw(technique, settings).visibility.at(0);
+  }
+  /// Of rays to the same points.
+  std::vector<float> truth()
+  {
+    return this->visibility(
+      "raytraced", { { "light_sampling", "jittered" }, { "light_samples", "9" } });
+  }
+
+  PassScene scene{ 160, 120 };
+  vtkNew<vtkGnomonAreaLight> lamp;
+  vtkActor* floor = nullptr;
+};
+
+//------------------------------------------------------------------------------
+TEST_F(MonteCarlo, hasThePenumbraOfAHalfPlane)
+{
+  this->buildHalfPlane();
+  this->scene.renderer->AddLight(this->lamp);
+  double before = 1.0;
+  for (const int rays : { 1, 2, 3, 4, 8 })
+  {
+    const VisibilityImages& kept = this->draw(
+      "montecarlo", { { "mc_rays", std::to_string(rays).c_str() }, { "mc_filter", "0" } });
+    EXPECT_EQ(this->scene.report().lights[0].lightSamples, rays * rays);
+    // Of the pixels in the penumbra: how visibility rises across it, and by how much pixels are off.
+    double count = 0.0;
+    double sumX = 0.0;
+    double sumV = 0.0;
+    double sumXX = 0.0;
+    double sumXV = 0.0;
+    double squares = 0.0;
+    for (std::size_t i = 0; i < kept.visibility[0].size(); ++i)
+    {
+      const double x = positionOf(kept, i).x;
+      const double expected = halfPlaneAt(x);
+      const double v = kept.visibility[0][i];
+      if (expected <= 0.0 || expected >= 1.0)
+      {
+        EXPECT_NEAR(v, expected, 1.0 / rays) << x; // a texel's width
+        continue;
+      }
+      count += 1.0;
+      sumX += x;
+      sumV += v;
+      sumXX += x * x;
+      sumXV += x * v;
+      squares += (v - expected) * (v - expected);
+    }
+    ASSERT_GT(count, 2000.0);
+    const double slope = (count * sumXV - sumX * sumV) / (count * sumXX - sumX * sumX);
+    EXPECT_NEAR(slope, 2.0, 0.1) << rays << " x " << rays << " rays: the width within 5 %";
+    EXPECT_NEAR(sumV / count, halfPlaneAt(sumX / count), 0.01) << rays;
+    const double rms = std::sqrt(squares / count);
+    // What a line across the light makes jittered rays err by; 64 rays see the texels, too.
+    const double expected = std::sqrt(1.0 / (6.0 * rays * rays * rays));
+    EXPECT_NEAR(rms, expected, rays < 8 ? 0.05 * expected : 0.5 * expected) << rays;
+    EXPECT_LT(rms, before);
+    before = rms;
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(MonteCarlo, agreesWithRaysToTheSamePointsOfAllLights)
+{
+  this->buildScene();
+  this->scene.renderer->AddLight(this->lamp);
+  const auto expectAgreement = [&](const std::string& what)
+  {
+    const std::vector<float> truth = this->truth();
+    const Errors errors = errorsOf(this->visibility("montecarlo", { { "mc_filter", "0" } }), truth);
+    EXPECT_GT(
+      std::count_if(truth.begin(), truth.end(), [](float v) { return v > 0.0f && v < 1.0f; }), 200)
+      << what;
+    EXPECT_LT(errors.meanAbsolute, 0.004) << what;
+    EXPECT_LT(errors.wrong, truth.size() / 1000) << what;
+  };
+  expectAgreement("a rectangle");
+  this->lamp->SetShapeToDisk();
+  this->lamp->SetRadius(0.6);
+  expectAgreement("a disk");
+  this->lamp->SetConeAngle(70.0);
+  expectAgreement("a disk of a wide cone");
+  this->lamp->SetConeAngle(allDirections);
+  expectAgreement("a ball or disk of a point light");
+  this->lamp->PositionalOff();
+  this->lamp->SetRadius(12.0);
+  expectAgreement("a sun");
+}
+
+//------------------------------------------------------------------------------
+TEST_F(MonteCarlo, decidesByBoundsWhatRaysWouldSay)
+{
+  this->buildScene();
+  this->scene.addBox({ -3.5, 0.0, 1.0 }, { -1.5, 3.0, 2.0 });
+  vtkGnomonPropKeys::SetCasts(this->floor, false);
+  this->scene.renderer->AddLight(this->lamp);
+  for (const char* layers : { "peeled", "near_far", "near" })
+  {
+    const Settings settings = { { "mc_filter", "0" }, { "mc_layers", layers } };
+    this->draw("montecarlo", settings);
+    this->scene.pass->SetSetting("mc_classify", "off");
+    const std::vector<float> searched = this->visibility("montecarlo", {});
+    std::int64_t searches = 0;
+    for (const char* classify : { "off", "pixels", "rays" })
+    {
+      const VisibilityImages& kept = this->draw("montecarlo", { { "mc_classify", classify } });
+      // Rounding moves the ends of rays that are cut elsewhere.
+      EXPECT_LE(differing(kept.visibility[0], searched), searched.size() / 10000) << classify;
+      const auto& classes = this->scene.report().lights[0].classes;
+      ASSERT_EQ(classes.size(), 6u);
+      std::int64_t all = 0;
+      for (const auto& each : classes)
+      {
+        all += each.pixels;
+      }
+      EXPECT_EQ(all, 160 * 120);
+      const bool off = classify == std::string("off");
+      EXPECT_EQ(classes[2].pixels > 0, !off) << "lit by bounds";
+      EXPECT_EQ(classes[3].pixels > 0, !off) << "in shadow by bounds";
+      EXPECT_TRUE(off || classes[5].pixels < searches) << "each saves searches";
+      searches = classes[5].pixels;
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(MonteCarlo, findsTheSameInBothHierarchies)
+{
+  this->buildScene();
+  this->scene.renderer->AddLight(this->lamp);
+  for (const char* size : { "256", "300", "1024" })
+  {
+    this->scene.pass->SetSetting("map_size", size);
+    const std::vector<float> mips = this->visibility("montecarlo", { { "mc_pyramid", "mips" } });
+    const std::size_t bytes = this->scene.report().bytesMaps;
+    const std::vector<float> nBuffer =
+      this->visibility("montecarlo", { { "mc_pyramid", "nbuffer" } });
+    EXPECT_GT(this->scene.report().bytesMaps, bytes);
+    EXPECT_LT(errorsOf(mips, nBuffer).meanAbsolute, 2e-5) << size;
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(MonteCarlo, ofASmallLightIsTheHardShadow)
+{
+  this->buildScene();
+  this->scene.renderer->AddLight(this->lamp);
+  this->lamp->SetWidth(1e-4);
+  this->lamp->SetHeight(1e-4);
+  const std::vector<float> truth = this->truth();
+  const Errors small = errorsOf(this->visibility("montecarlo", {}), truth);
+  EXPECT_LE(small.wrong, truth.size() / 200);
+  this->lamp->SetWidth(0.0);
+  this->lamp->SetHeight(0.0);
+  const std::vector<float> point = this->visibility("montecarlo", { { "mc_filter", "0" } });
+  EXPECT_EQ(this->scene.report().lights[0].lightSamples, 1);
+  EXPECT_EQ(
+    std::count_if(point.begin(), point.end(), [](float v) { return v > 0.0f && v < 1.0f; }), 0);
+  EXPECT_LE(errorsOf(point, truth).wrong, truth.size() / 200);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(MonteCarlo, shadowsBeginAtTheirCasters)
+{
+  // Along the side of a low box that the lamp does not see, the floor is dark but for two texels.
+  this->scene.addFloor(4.0);
+  this->scene.addBox({ -1.0, -1.0, 0.0 }, { 0.0, 1.0, 0.2 });
+  this->scene.lookDown(0.2, 0.1, 0.0);
+  this->lamp->SetPosition(-6.0, 0.0, 8.0);
+  this->lamp->SetFocalPoint(0.0, 0.0, 0.0);
+  this->lamp->SetConeAngle(25.0);
+  this->lamp->SetShapeToDisk();
+  this->lamp->SetRadius(0.01);
+  this->scene.renderer->AddLight(this->lamp);
+  const VisibilityImages& kept =
+    this->draw("montecarlo", { { "mc_filter", "0" }, { "map_size", "512" } });
+  const double texel = 2.0 * 10.0 * std::tan(25.0 * 3.14159265 / 180.0) / 512.0; // at most
+  std::size_t lit = 0;
+  std::size_t beside = 0;
+  for (std::size_t i = 0; i < kept.visibility[0].size(); ++i)
+  {
+    const glm::dvec3 at = positionOf(kept, i);
+    if (std::abs(at.z) < 1e-3 && at.x > 2.0 * texel && at.x < 0.15 - 2.0 * texel)
+    {
+      ++beside;
+      lit += kept.visibility[0][i] > 0.0f ? 1 : 0;
+    }
+  }
+  EXPECT_GT(beside, 1000u);
+  EXPECT_EQ(lit, 0u);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(MonteCarlo, bodiesAreSolidAlongTheLight)
+{
+  // Rays enter a tower by one side and leave it by another, neither of which a sun from straight above sees.
+  this->scene.addFloor(2.0);
+  this->scene.addBox({ -0.1, -0.1, 0.0 }, { 0.1, 0.1, 4.0 });
+  this->scene.lookFrom({ 0.0, -4.0, 3.0 });
+  this->scene.addSun({ 0.0, 0.0, -1.0 });
+  const Settings settings = { { "light_radius", "12" }, { "mc_filter", "0" } };
+  this->draw("montecarlo", settings);
+  const std::vector<float> truth = this->truth();
+  const VisibilityImages& kept = this->draw("montecarlo", {});
+  // On the floor: whether sides that are parallel to the light face it, rounding decides.
+  std::vector<float> onFloor;
+  std::vector<float> truthOnFloor;
+  for (std::size_t i = 0; i < truth.size(); ++i)
+  {
+    if (truth[i] < 1.0f && std::abs(positionOf(kept, i).z) < 1e-3)
+    {
+      onFloor.push_back(kept.visibility[0][i]);
+      truthOnFloor.push_back(truth[i]);
+    }
+  }
+  EXPECT_GT(onFloor.size(), 300u);
+  EXPECT_LT(errorsOf(onFloor, truthOnFloor).meanAbsolute, 0.01);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(MonteCarlo, pointsBehindTheReceiverGiveWay)
+{
+  // Half of the lamp is below the floor, and what is above it is hidden behind a wall that stands on nothing.
+  this->scene.addFloor(6.0);
+  this->scene.addBox({ -2.2, -4.0, 0.05 }, { -2.0, 4.0, 4.0 });
+  this->scene.lookFrom({ 1.0, -8.0, 7.0 });
+  this->lamp->SetPosition(-5.0, 0.0, 0.4);
+  this->lamp->SetFocalPoint(0.0, 0.0, 0.0);
+  this->lamp->SetConeAngle(40.0);
+  this->lamp->SetShapeToDisk();
+  this->lamp->SetRadius(1.0);
+  this->scene.renderer->AddLight(this->lamp);
+  const std::vector<float> truth = this->truth();
+  const Errors errors = errorsOf(this->visibility("montecarlo", { { "mc_filter", "0" } }), truth);
+  EXPECT_LT(errors.meanAbsolute, 0.01);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(MonteCarlo, hasNoAcne)
+{
+  const auto withRadius = [](const char* radius) -> Choose
+  {
+    return [radius](PassScene& tested, vtkLight*)
+    {
+      tested.pass->SetTechnique("montecarlo");
+      tested.pass->SetSetting("light_radius", radius);
+    };
+  };
+  expectNoAcneUnderTheSun(withRadius("0.5"), { 0.0, 30.0, 60.0, 80.0 });
+  expectNoAcneUnderASpot(withRadius("0.02"), { 20.0, 50.0 });
+}
+
+//------------------------------------------------------------------------------
+TEST_F(MonteCarlo, filterTakesNoiseOffAndLeavesWhatHasNone)
+{
+  this->buildScene();
+  vtkGnomonPropKeys::SetCasts(this->floor, false);
+  this->scene.renderer->AddLight(this->lamp);
+  const std::vector<float> truth =
+    this->visibility("raytraced", { { "light_sampling", "sobol" }, { "light_samples", "1024" } });
+  const VisibilityImages& noisy = this->draw("montecarlo", { { "mc_filter", "0" } });
+  const std::vector<float> unfiltered = noisy.visibility[0];
+  const std::vector<std::uint8_t> classes = noisy.classes[0].ofPixels;
+  const std::vector<float> filtered = this->visibility("montecarlo", { { "mc_filter", "2" } });
+  EXPECT_LT(errorsOf(filtered, truth).meanAbsolute, errorsOf(unfiltered, truth).meanAbsolute);
+  // Pixels far from all that rays decided are the same bit for bit.
+  std::size_t left = 0;
+  for (int y = 2; y < 118; ++y)
+  {
+    for (int x = 2; x < 158; ++x)
+    {
+      bool byBounds = true;
+      for (int dy = -2; dy <= 2; ++dy)
+      {
+        for (int dx = -2; dx <= 2; ++dx)
+        {
+          byBounds &= classes[static_cast<std::size_t>((y + dy) * 160 + x + dx)] < 4;
+        }
+      }
+      const auto pixel = static_cast<std::size_t>(y * 160 + x);
+      if (byBounds)
+      {
+        ++left;
+        ASSERT_EQ(filtered[pixel], unfiltered[pixel]) << x << ", " << y;
+      }
+      if (classes[pixel] < 2)
+      {
+        ASSERT_EQ(filtered[pixel], unfiltered[pixel]) << "turned away: " << x << ", " << y;
+      }
+    }
+  }
+  EXPECT_GT(left, 5000u);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(MonteCarlo, oneLayerHasOuterPenumbraeOnly)
+{
+  this->buildHalfPlane();
+  this->scene.renderer->AddLight(this->lamp);
+  // What is behind the first surface is in its shadow, wherever rays go from there. From the eye behind the light, 0.816 above it,
+  // that is x < 0.907, of which the lamp lights what is above 0.75.
+  const VisibilityImages& kept =
+    this->draw("montecarlo", { { "mc_layers", "near" }, { "mc_filter", "0" } });
+  std::size_t inside = 0;
+  std::size_t outer = 0;
+  for (std::size_t i = 0; i < kept.visibility[0].size(); ++i)
+  {
+    const double x = positionOf(kept, i).x;
+    const float v = kept.visibility[0][i];
+    if (std::abs(positionOf(kept, i).z) < 1e-3 && x > 0.77 && x < 0.89)
+    {
+      ++inside;
+      EXPECT_EQ(v, 0.0f) << x;
+    }
+    outer += x > 1.0 && x < 1.2 && v > 0.0f && v < 1.0f ? 1 : 0;
+  }
+  EXPECT_GT(inside, 300u);
+  EXPECT_GT(outer, 500u);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(MonteCarlo, pureReceiversLeaveTheLayersAlone)
+{
+  // Between the nearest and the farthest surface all is solid: over a floor that casts, everything down to it.
+  this->buildScene();
+  this->scene.renderer->AddLight(this->lamp);
+  const std::vector<float> truth = this->truth();
+  const Settings nearFar = { { "mc_layers", "near_far" }, { "mc_filter", "0" } };
+  const double casting = errorsOf(this->visibility("montecarlo", nearFar), truth).meanAbsolute;
+  vtkGnomonPropKeys::SetCasts(this->floor, false);
+  const double pure = errorsOf(this->visibility("montecarlo", nearFar), truth).meanAbsolute;
+  EXPECT_LT(pure, 0.02);
+  EXPECT_LT(pure, 0.6 * casting);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(MonteCarlo, eyeLayerEmptiesWhatTheCameraSeesToBeEmpty)
+{
+  // A box floats over a slab: between them there is nothing, which two layers hold for solid.
+  this->floor = this->scene.addFloor(4.0);
+  vtkGnomonPropKeys::SetCasts(this->floor, false);
+  this->scene.addBox({ -0.5, -0.5, 2.0 }, { 0.5, 0.5, 2.6 });
+  this->scene.addBox({ -1.4, -1.4, 0.0 }, { 1.4, 1.4, 0.1 });
+  this->scene.lookFrom({ 1.0, -8.0, 2.2 });
+  this->lamp->SetPosition(0.0, 0.5, 6.0);
+  this->lamp->SetFocalPoint(0.0, 0.0, 0.0);
+  this->lamp->SetConeAngle(50.0);
+  this->lamp->SetShapeToRectangle();
+  this->lamp->SetWidth(2.0);
+  this->lamp->SetHeight(2.0);
+  this->scene.renderer->AddLight(this->lamp);
+  const std::vector<float> truth = this->truth();
+  const Settings linear = { { "mc_search", "linear" }, { "mc_filter", "0" } };
+  this->draw("montecarlo", { { "mc_layers", "near_far" } });
+  const double two = errorsOf(this->visibility("montecarlo", linear), truth).meanAbsolute;
+  const double three =
+    errorsOf(this->visibility("montecarlo", { { "mc_layers", "eye" } }), truth).meanAbsolute;
+  EXPECT_LT(three, 0.5 * two);
+}
+
+} // namespace

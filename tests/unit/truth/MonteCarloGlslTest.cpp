@@ -1,0 +1,607 @@
+// What `montecarlo` computes on the GPU, against twins.
+
+#include "EstimatorGlsl.h"
+
+#include "lights/LightSamples.h"
+#include "lights/LightViews.h"
+#include "lights/ReducedMd5.h"
+#include "shadowtech/base/ScreenPass.h"
+#include "shadowtech/base/ShaderLibrary.h"
+#include "shadowtech/base/TextureMemory.h"
+#include "shadowtech/montecarlo/RaySpace.h"
+#include "shadowtech/montecarlo/SlabBounds.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace gnomon::test
+{
+namespace
+{
+
+/// Runs a compute shader with one invocation per input: `uniform int count`, buffer 0 in, buffer 1 out.
+template <typename Out, typename In>
+std::vector<Out> runCompute(ShaderLibrary& library, const std::string& glsl,
+  const std::vector<In>& in, const std::vector<std::string>& defines = {},
+  const std::vector<Uniform>& uniforms = {})
+{
+  const GLuint program = library.program({ { GL_COMPUTE_SHADER, glsl } }, defines);
+  glUseProgram(program);
+  ShaderLibrary::setUniforms(program, uniforms, 0, 0);
+  ShaderLibrary::setUniform(program, { "count", static_cast<int>(in.size()) });
+  GlBuffer buffers[2];
+  allocateStorage(buffers[0], in.size() * sizeof(In), in.data(), "a test's input");
+  allocateStorage(buffers[1], in.size() * sizeof(Out), nullptr, "a test's output");
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, buffers[0].name());
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, buffers[1].name());
+  glDispatchCompute(static_cast<GLuint>((in.size() + 63) / 64), 1, 1);
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  std::vector<Out> out(in.size());
+  glGetBufferSubData(
+    GL_SHADER_STORAGE_BUFFER, 0, static_cast<GLsizeiptr>(out.size() * sizeof(Out)), out.data());
+  EXPECT_EQ(glGetError(), GLenum(GL_NO_ERROR));
+  return out;
+}
+
+/// The frame of such a shader.
+std::string computeGlsl(const std::string& included, const std::string& in, const std::string& out,
+  const std::string& body)
+{
+  return "layout(local_size_x = 64) in;\nuniform int count;\n"
+         "layout(std430, binding = 0) readonly buffer In { " +
+    in + " given[]; };\nlayout(std430, binding = 1) writeonly buffer Out { " + out +
+    " result[]; };\n" + ShaderLibrary::source("shadowtech/montecarlo/" + included) +
+    "\nvoid main()\n{\n  uint i = gl_GlobalInvocationID.x;\n  if (i < uint(count))\n  {\n" + body +
+    "  }\n}\n";
+}
+
+class MonteCarloGlsl : public GlslTest
+{
+protected:
+  float uniform() { return static_cast<float>(this->random_() / 4294967296.0); }
+
+  ShaderLibrary library_;
+  std::mt19937 random_{ 7 };
+};
+
+//------------------------------------------------------------------------------
+TEST_F(MonteCarloGlsl, hashesAsTheCpuDoes)
+{
+  std::vector<glm::uvec4> seeds;
+  for (std::uint32_t i = 0; i < 20000; ++i)
+  {
+    const bool pixel = i % 2 == 0;
+    seeds.emplace_back(pixel ? i % 173 : this->random_(), pixel ? i / 173 : this->random_(),
+      pixel ? i % 3 : this->random_(), pixel ? 0 : this->random_());
+  }
+  for (const std::uint32_t key : { 0u, 7u, 0xdeadbeefu })
+  {
+    const auto hashes = runCompute<glm::uvec4>(this->library_,
+      computeGlsl("reduced_md5.glsl", "uvec4", "uvec4",
+        "result[i] = reducedMd5(given[i], " + std::to_string(key) + "u);\n"),
+      seeds);
+    for (std::size_t i = 0; i < seeds.size(); ++i)
+    {
+      ASSERT_EQ(hashes[i], reducedMd5(seeds[i], key)) << i;
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(MonteCarloGlsl, takesTheJitteredSamplesOfTheLight)
+{
+  ShadowLight light;
+  light.lightSampling = LightSampling::Jittered;
+  light.lightSamples = 9;
+  light.lightSeed = 3;
+  std::vector<glm::ivec4> places;
+  for (int i = 0; i < 9000; ++i)
+  {
+    places.emplace_back(i / 9 % 40, i / 360, i % 9, 0);
+  }
+  const glm::dvec3 travel = glm::normalize(glm::dvec3(0.3, -1.0, 0.2));
+  const LightArea areas[] = { rectangleArea(travel, { 0.0, 0.0, 1.0 }, { 0.5, 0.25 }),
+    diskArea(travel, 0.75), ballArea(0.5) };
+  for (const LightArea& area : areas)
+  {
+    light.area = area;
+    const LightSamples samples(light);
+    const auto points = runCompute<glm::vec4>(this->library_,
+      computeGlsl("light_points.glsl", "ivec4", "vec4",
+        "ivec4 at = given[i];\n"
+        "result[i] = vec4(lightPoint(fourPoints(at.xy, at.z), at.z), 0.0);\n"),
+      places, { "RAYS 3", "SHAPE " + std::to_string(static_cast<int>(area.shape)) },
+      { { "viewFromUnit", glm::mat3(area.worldFromUnit) }, { "lightSeed", light.lightSeed } });
+    for (std::size_t i = 0; i < places.size(); ++i)
+    {
+      const glm::ivec4& at = places[i];
+      const SamplePixel pixel =
+        samples.pixel(static_cast<std::uint32_t>(at.x), static_cast<std::uint32_t>(at.y));
+      ASSERT_LT(glm::distance(glm::vec3(points[i]), samples.offset(at.z, pixel)), 3e-5f)
+        << i << " of shape " << static_cast<int>(area.shape);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+/// Random slabs of a map with one page, and its hierarchy.
+class SlabMap
+{
+public:
+  SlabMap(int side, int boxes, std::mt19937& random)
+    : side_(side)
+    , slabs_(static_cast<std::size_t>(side) * static_cast<std::size_t>(side),
+        glm::vec4(2.0f, -2.0f, 2.0f, -2.0f))
+  {
+    for (int i = 0; i < boxes; ++i)
+    {
+      const auto number = [&](int below)
+      { return static_cast<int>(random() % static_cast<unsigned>(below)); };
+      const int width = 1 + number(side / 3);
+      const int height = 1 + number(side / 3);
+      const int x0 = number(side);
+      const int y0 = number(side);
+      const float begin = 0.05f + 0.8f * static_cast<float>(random() / 4294967296.0);
+      for (int y = y0; y < std::min(y0 + height, side); ++y)
+      {
+        for (int x = x0; x < std::min(x0 + width, side); ++x)
+        {
+          // Slopes, so that neighbours differ; every other box in the second slab.
+          const float depth = begin + 0.001f * static_cast<float>(x - x0);
+          glm::vec4& texel = this->at(x, y);
+          (i % 2 == 0 ? texel.x : texel.z) = depth;
+          (i % 2 == 0 ? texel.y : texel.w) = depth + 0.002f * static_cast<float>(1 + i % 40);
+        }
+      }
+    }
+    allocateMap(this->texture_, { GL_RGBA32F, GL_RGBA, 4 }, side, 1);
+    glTexSubImage3D(
+      GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, side, side, 1, GL_RGBA, GL_FLOAT, this->slabs_.data());
+  }
+
+  glm::vec4& at(int x, int y)
+  {
+    return this->slabs_[static_cast<std::size_t>(y) * static_cast<std::size_t>(this->side_) +
+      static_cast<std::size_t>(x)];
+  }
+  bool holds(int x, int y) const { return x >= 0 && y >= 0 && x < this->side_ && y < this->side_; }
+  GLuint texture() const { return this->texture_.name(); }
+  int side() const { return this->side_; }
+
+  /// The extrema over a square of texels, as far as they are on the map: slab_bounds.comp.glsl.
+  glm::vec4 bounds(int x0, int y0, int size)
+  {
+    glm::vec4 result(2.0f, -2.0f, -10.0f, 10.0f);
+    for (int y = y0; y < y0 + size; ++y)
+    {
+      for (int x = x0; x < x0 + size; ++x)
+      {
+        if (!this->holds(x, y))
+        {
+          continue;
+        }
+        const glm::vec4 texel = this->at(x, y);
+        const glm::vec2 first(texel.x, texel.y);
+        const glm::vec2 second(texel.z, texel.w);
+        result.x = std::min(result.x, std::min(first.x, second.x));
+        result.y = std::max(result.y, std::max(first.y, second.y));
+        glm::vec2 thickest(2.0f, -2.0f);
+        for (const glm::vec2& slab : { first, second })
+        {
+          thickest = slab.y - slab.x > thickest.y - thickest.x ? slab : thickest;
+        }
+        result.z = std::max(result.z, thickest.x);
+        result.w = std::min(result.w, thickest.y);
+      }
+    }
+    return result;
+  }
+
+  /// Whether a line meets a slab, texel by texel in the order of its crossings, in double precision.
+  bool meets(const glm::dvec3& begin, const glm::dvec3& end)
+  {
+    const glm::dvec3 way = end - begin;
+    std::vector<double> crossings{ 0.0, 1.0 };
+    for (int axis = 0; axis < 2; ++axis)
+    {
+      for (int border = 0; border <= this->side_; ++border)
+      {
+        const double t = (border - begin[axis]) / way[axis];
+        if (t > 0.0 && t < 1.0)
+        {
+          crossings.push_back(t);
+        }
+      }
+    }
+    std::sort(crossings.begin(), crossings.end());
+    for (std::size_t i = 0; i + 1 < crossings.size(); ++i)
+    {
+      const glm::dvec3 middle = begin + 0.5 * (crossings[i] + crossings[i + 1]) * way;
+      const int x = static_cast<int>(std::floor(middle.x));
+      const int y = static_cast<int>(std::floor(middle.y));
+      if (!this->holds(x, y))
+      {
+        continue;
+      }
+      const double a = begin.z + crossings[i] * way.z;
+      const double b = begin.z + crossings[i + 1] * way.z;
+      const glm::dvec4 texel(this->at(x, y));
+      const double least = std::min(a, b);
+      const double greatest = std::max(a, b);
+      if ((texel.x <= greatest && least <= texel.y) || (texel.z <= greatest && least <= texel.w))
+      {
+        return true;
+      }
+    }
+    return false;
+  }
+
+private:
+  int side_;
+  std::vector<glm::vec4> slabs_;
+  GlTexture texture_;
+};
+
+//------------------------------------------------------------------------------
+TEST_F(MonteCarloGlsl, boundsAreExtremaOfTheirTexels)
+{
+  for (const int side : { 64, 100 })
+  {
+    SlabMap map(side, 12, this->random_);
+    for (const SlabHierarchy kind : { SlabHierarchy::Mips, SlabHierarchy::NBuffer })
+    {
+      SlabBounds bounds;
+      bounds.build(map.texture(), 1, side, 1, kind, this->library_);
+      const int levels = bounds.topLevel() + 1;
+      const int whole = 1 << bounds.topLevel();
+      EXPECT_EQ(whole, side == 64 ? 64 : 128);
+      const bool mips = kind == SlabHierarchy::Mips;
+      glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
+      for (int level = 0; level < levels; ++level)
+      {
+        const int width = mips ? whole >> level : whole;
+        const std::size_t layer = static_cast<std::size_t>(width) * static_cast<std::size_t>(width);
+        std::vector<glm::vec4> texels(layer * static_cast<std::size_t>(mips ? 1 : levels));
+        glBindTexture(GL_TEXTURE_2D_ARRAY, bounds.texture());
+        glGetTexImage(GL_TEXTURE_2D_ARRAY, mips ? level : 0, GL_RGBA, GL_FLOAT, texels.data());
+        const int size = 1 << level;
+        const int offset = level == 0 ? 0 : size / 2 - 1;
+        // Beyond the map there is no slab, which as one of many in the greatest begin counts.
+        for (int i = 0; i < 3000; ++i)
+        {
+          const int x = static_cast<int>(this->random_() % static_cast<unsigned>(width));
+          const int y = static_cast<int>(this->random_() % static_cast<unsigned>(width));
+          const glm::ivec2 from = mips ? glm::ivec2(x, y) * size : glm::ivec2(x, y) - offset;
+          glm::vec4 expected = map.bounds(from.x, from.y, size);
+          const glm::ivec2 last = glm::min(from + size, glm::ivec2(whole)) - 1;
+          if (last.x >= side || last.y >= side)
+          {
+            expected.z = 2.0f;
+            expected.w = -2.0f;
+          }
+          const std::size_t at = (mips ? 0 : layer * static_cast<std::size_t>(level)) +
+            static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+            static_cast<std::size_t>(x);
+          ASSERT_EQ(texels[at], expected)
+            << "level " << level << " at " << x << ", " << y << (mips ? " mips" : " N-buffer");
+        }
+      }
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+struct Line
+{
+  glm::vec4 begin;
+  glm::vec4 end;
+};
+
+/// Lines of any length from behind to before all slabs.
+std::vector<Line> randomLines(int side, std::size_t count, std::mt19937& random)
+{
+  const auto number = [&] { return static_cast<float>(random() / 4294967296.0); };
+  std::vector<Line> lines;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const float reach = std::pow(number(), 3.0f);
+    const auto place = [&] { return glm::vec2(number(), number()) * static_cast<float>(side); };
+    const glm::vec2 from = place();
+    const glm::vec2 to = glm::mix(from, place(), reach);
+    lines.push_back(
+      { glm::vec4(from, 0.3f + 0.7f * number(), 0.0f), glm::vec4(to, 0.3f * number(), 0.0f) });
+  }
+  return lines;
+}
+
+std::vector<std::uint32_t> search(ShaderLibrary& library, const SlabMap& map,
+  const SlabBounds& bounds, const std::vector<Line>& lines, std::vector<std::string> defines)
+{
+  defines.emplace_back("PAGES 1");
+  const std::string source = computeGlsl("slab_search.glsl", "mat2x4", "uint",
+    "result[i] = meetsSlabs(0, given[i][0].xyz, given[i][1].xyz) ? 1u : 0u;\n");
+  return runCompute<std::uint32_t>(library, source, lines, defines,
+    { { "slabs", TextureBinding{ GL_TEXTURE_2D_ARRAY, map.texture() } },
+      { "slabBounds", TextureBinding{ GL_TEXTURE_2D_ARRAY, bounds.texture() } },
+      { "mapSide", map.side() }, { "topLevel", bounds.topLevel() } });
+}
+
+TEST_F(MonteCarloGlsl, searchesAsAWalkFromTexelToTexel)
+{
+  for (const int boxes : { 6, 60 })
+  {
+    SlabMap map(128, boxes, this->random_);
+    const std::vector<Line> lines = randomLines(map.side(), 50000, this->random_);
+    for (const char* kind : { "MIPS", "NBUFFER" })
+    {
+      SlabBounds bounds;
+      bounds.build(map.texture(), 1, map.side(), 1,
+        kind == std::string("MIPS") ? SlabHierarchy::Mips : SlabHierarchy::NBuffer, this->library_);
+      const auto found = search(this->library_, map, bounds, lines, { kind });
+      std::size_t differing = 0;
+      std::size_t hits = 0;
+      for (std::size_t i = 0; i < lines.size(); ++i)
+      {
+        const bool meets = map.meets(glm::vec3(lines[i].begin), glm::vec3(lines[i].end));
+        hits += meets ? 1 : 0;
+        differing += (found[i] == 1u) != meets ? 1 : 0;
+      }
+      EXPECT_GT(hits, lines.size() / 50);
+      EXPECT_LT(hits, lines.size() * 49 / 50);
+      // Lines that pass a texel's corner, or just touch a slab, to within rounding.
+      EXPECT_LE(differing, lines.size() / 10000) << kind << ", " << boxes << " boxes";
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(MonteCarloGlsl, linearSearchNeverHitsWhatIsNotThereAndMissesLittle)
+{
+  SlabMap map(128, 60, this->random_);
+  for (int y = 0; y < map.side(); ++y)
+  {
+    for (int x = 0; x < map.side(); ++x)
+    {
+      map.at(x, y).z = 2.0f; // its states are those of one slab
+      map.at(x, y).w = -2.0f;
+    }
+  }
+  const std::vector<Line> lines = randomLines(map.side(), 50000, this->random_);
+  const auto found = search(this->library_, map, SlabBounds(), lines, { "LINEAR_SEARCH" });
+  std::size_t falseHits = 0;
+  std::size_t misses = 0;
+  for (std::size_t i = 0; i < lines.size(); ++i)
+  {
+    const bool meets = map.meets(glm::vec3(lines[i].begin), glm::vec3(lines[i].end));
+    falseHits += found[i] == 1u && !meets ? 1 : 0;
+    misses += found[i] == 0u && meets ? 1 : 0;
+  }
+  EXPECT_LE(falseHits, 2u); // at a border to within rounding
+  EXPECT_LE(misses, lines.size() * 3 / 1000);
+}
+
+//------------------------------------------------------------------------------
+/// Pixels of surfaces across the view, for the filter.
+struct FilteredPicture
+{
+  static constexpr int side = 32;
+  std::vector<glm::vec4> fragments; ///< as ReceiverTarget has them
+  std::vector<glm::vec4> points;
+  std::vector<glm::vec4> visibility; ///< x, and y: the class
+
+  FilteredPicture()
+  {
+    for (int i = 0; i < side * side; ++i)
+    {
+      this->fragments.emplace_back(1.0f, 0.0f, 0.0f, 0.0f);
+      this->points.emplace_back(i % side, i / side, -10.0f, 1.0f);
+      this->visibility.emplace_back(1.0f, 5.0f, 0.0f, 0.0f); // searched
+    }
+  }
+  /// Both passes of visibility_filter.frag.glsl, for 3 x 3 rays and 5 pixels. Pixels are of side 1.
+  std::vector<float> filtered(ShaderLibrary& library) const
+  {
+    GlTexture textures[5];
+    const auto allocated = [&](GlTexture& texture, const std::vector<glm::vec4>* texels)
+    {
+      allocateTexture(texture, { GL_RGBA32F, GL_RGBA, 4 }, side, side, 0, "a test's picture");
+      if (texels)
+      {
+        glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, side, side, GL_RGBA, GL_FLOAT, texels->data());
+      }
+      return TextureBinding{ GL_TEXTURE_2D, texture.name() };
+    };
+    const TextureBinding receivers = allocated(textures[0], &this->fragments);
+    const TextureBinding places = allocated(textures[1], &this->points);
+    const TextureBinding unfiltered = allocated(textures[2], &this->visibility);
+    const TextureBinding rows = allocated(textures[3], nullptr);
+    const TextureBinding result = allocated(textures[4], nullptr);
+    const GLuint program = ScreenPass::use(library,
+      ShaderLibrary::source("shadowtech/montecarlo/visibility_filter.frag.glsl"),
+      { "FILTER_PIXELS 5", "RAYS 3" });
+    ScreenPass pass;
+    const auto run =
+      [&](const TextureBinding& source, const TextureBinding& target, const glm::ivec2& axis)
+    {
+      ShaderLibrary::setUniforms(program,
+        { { "receiverFragments", receivers }, { "receiverPoints", places },
+          { "unfiltered", unfiltered }, { "source", source }, { "axis", axis },
+          { "pixelSide", glm::vec2(1.0f, 0.0f) } },
+        0, 0);
+      pass.fill(target.texture, -1, side, side);
+    };
+    run(unfiltered, rows, { 1, 0 });
+    run(rows, result, { 0, 1 });
+    std::vector<glm::vec4> texels(this->visibility.size());
+    glBindTexture(GL_TEXTURE_2D, result.texture);
+    glGetTexImage(GL_TEXTURE_2D, 0, GL_RGBA, GL_FLOAT, texels.data());
+    std::vector<float> values;
+    for (const glm::vec4& texel : texels)
+    {
+      values.push_back(texel.x);
+    }
+    return values;
+  }
+};
+
+TEST_F(MonteCarloGlsl, filterSmoothsNoiseOfOneSurface)
+{
+  constexpr int side = FilteredPicture::side;
+  FilteredPicture noisy;
+  for (glm::vec4& pixel : noisy.visibility)
+  {
+    pixel.x = 0.4f + 0.2f * this->uniform(); // an RMS of 0.058
+  }
+  double squares = 0.0;
+  for (const float v : noisy.filtered(this->library_))
+  {
+    squares += (v - 0.5) * (v - 0.5) / (side * side);
+  }
+  EXPECT_LT(std::sqrt(squares), 0.015);
+
+  FilteredPicture even;
+  for (glm::vec4& pixel : even.visibility)
+  {
+    pixel.x = 0.7f;
+  }
+  for (const float v : even.filtered(this->library_))
+  {
+    EXPECT_NEAR(v, 0.7f, 1e-6f);
+  }
+}
+
+TEST_F(MonteCarloGlsl, filterKeepsEdgesOfSurfacesAndOfShadows)
+{
+  constexpr int side = FilteredPicture::side;
+  const auto half = [](int i) { return i % side < side / 2; };
+  const auto expectKept =
+    [&](FilteredPicture& picture, float left, float right, float tolerance, const char* what)
+  {
+    for (int i = 0; i < side * side; ++i)
+    {
+      picture.visibility[static_cast<std::size_t>(i)].x = half(i) ? left : right;
+    }
+    const std::vector<float> filtered = picture.filtered(this->library_);
+    for (int i = 0; i < side * side; ++i)
+    {
+      ASSERT_NEAR(filtered[static_cast<std::size_t>(i)], half(i) ? left : right, tolerance)
+        << what << " at " << i;
+    }
+  };
+  FilteredPicture gap;
+  for (int i = 0; i < side * side; ++i)
+  {
+    gap.points[static_cast<std::size_t>(i)].z = half(i) ? -10.0f : -110.0f;
+  }
+  expectKept(gap, 0.4f, 0.6f, 0.002f, "a gap in depth of 100 pixels: 1 % of the step");
+
+  FilteredPicture crease;
+  for (int i = 0; i < side * side; ++i)
+  {
+    // To the right a surface that stands along the view: its normal is x.
+    crease.fragments[static_cast<std::size_t>(i)].z = half(i) ? 0.0f : 1.0f;
+    crease.points[static_cast<std::size_t>(i)].w = half(i) ? 1.0f : 0.0f;
+  }
+  expectKept(crease, 0.4f, 0.6f, 1e-6f, "a crease");
+
+  FilteredPicture edge;
+  expectKept(edge, 0.0f, 1.0f, 0.001f, "a sharp shadow");
+
+  FilteredPicture decided;
+  for (glm::vec4& pixel : decided.visibility)
+  {
+    pixel.y = 2.0f; // by bounds
+  }
+  expectKept(decided, 0.4f, 0.6f, 0.0f, "what no ray has decided, bit for bit");
+
+  FilteredPicture away;
+  for (int i = 0; i < side * side; ++i)
+  {
+    away.visibility[static_cast<std::size_t>(i)].y = half(i) ? 1.0f : 5.0f;
+  }
+  expectKept(away, 0.4f, 0.6f, 1e-6f, "what is turned away gives nothing to others");
+}
+
+//------------------------------------------------------------------------------
+ShadowLight lampOver(double radius, double coneAngleDegrees)
+{
+  ShadowLight light;
+  light.kind = LightKind::Spot;
+  light.positionWorld = { 1.0, 2.0, 10.0 };
+  light.directionWorld = { 0.0, 0.0, -1.0 };
+  light.coneAngleDegrees = coneAngleDegrees;
+  light.area = diskArea(light.directionWorld, radius);
+  return light;
+}
+
+TEST(RaySpace, stepsBackUntilItsConeHoldsTheLight)
+{
+  EXPECT_NEAR(distanceToProjectionPoint(lampOver(1.0, 30.0)), 1.7320508, 1e-6);
+  EXPECT_EQ(distanceToProjectionPoint(lampOver(0.0, 30.0)), 0.0);
+  ShadowLight light = lampOver(1.0, 30.0);
+  light.area = ballArea(1.0);
+  EXPECT_NEAR(distanceToProjectionPoint(light), 2.0, 1e-12);
+  EXPECT_NEAR(nearestOfArea(light), 1.0, 1e-12);
+  light.area = rectangleArea(light.directionWorld, { 0.0, 1.0, 0.0 }, { 0.6, 0.8 });
+  EXPECT_NEAR(distanceToProjectionPoint(light), 1.7320508, 1e-6);
+  EXPECT_EQ(lightOfMap(light).positionWorld.z, 10.0 + distanceToProjectionPoint(light));
+
+  // Lines between points of the cone and of the light stay in the cone from there.
+  const ShadowLight seen = lightOfMap(light);
+  std::mt19937 random(3);
+  const auto number = [&] { return 2.0 * (random() / 4294967296.0) - 1.0; };
+  const double tangent = std::tan(glm::radians(30.0));
+  for (int i = 0; i < 10000; ++i)
+  {
+    const double distance = 5.0 + 4.0 * number();
+    const double angle = 3.14159 * number();
+    const glm::dvec3 receiver = light.positionWorld +
+      distance * glm::dvec3(tangent * std::cos(angle), tangent * std::sin(angle), -1.0);
+    const glm::dvec3 end =
+      light.positionWorld + light.area->worldFromUnit * glm::dvec3(number(), number(), 0.0);
+    const glm::dvec3 at = glm::mix(receiver, end, 0.5 + 0.5 * number()) - seen.positionWorld;
+    ASSERT_LE(std::hypot(at.x, at.y), -at.z * tangent * (1.0 + 1e-9));
+  }
+  light.kind = LightKind::Point;
+  EXPECT_EQ(distanceToProjectionPoint(light), 0.0) << "the faces of a cube see all around";
+}
+
+TEST(RaySpace, keepsLinesStraightAndDepthsInOrder)
+{
+  Bounds casters;
+  casters.add({ -3.0, -2.0, -1.0 });
+  casters.add({ 2.0, 4.0, 5.0 });
+  ShadowLight sun;
+  sun.directionWorld = glm::normalize(glm::dvec3(0.2, -0.3, -1.0));
+  for (const ShadowLight& light : { lampOver(1.0, 40.0), sun })
+  {
+    const LightViews views = fitLightViews(lightOfMap(light), glm::dvec3(0.0), casters, 256);
+    ASSERT_EQ(views.views.size(), 1u);
+    const double nearest = 2.0;
+    const glm::dmat4 matrix = rayFromCentred(views.views[0], 256, nearest);
+    const auto at = [&](const glm::dvec3& point)
+    {
+      const glm::dvec4 image = matrix * glm::dvec4(point, 1.0);
+      EXPECT_GT(image.w, 0.0);
+      return glm::dvec3(image) / image.w;
+    };
+    const glm::dvec3 a = at({ -1.0, 1.0, 0.0 });
+    const glm::dvec3 b = at({ 1.5, 3.0, 4.0 });
+    EXPECT_GT(a.z, b.z) << "farther from the light";
+    const glm::dvec3 between = at(glm::mix(glm::dvec3(-1.0, 1.0, 0.0), { 1.5, 3.0, 4.0 }, 0.3));
+    const double share = (between.z - a.z) / (b.z - a.z);
+    EXPECT_LT(glm::length(between - glm::mix(a, b, share)), 1e-10);
+    // Where the map has it.
+    const LightView& view = views.views[0];
+    const glm::dvec3 inView(view.rays.viewFromCentred * glm::dvec4(-1.0, 1.0, 0.0, 1.0));
+    const glm::dvec2 texel = mapped(texelFromAcross(view, 256), view.rays.across(inView));
+    EXPECT_LT(glm::distance(glm::dvec2(a), texel), 1e-9);
+    EXPECT_NEAR(a.z,
+      view.rays.positional ? -nearest / inView.z : inView.z * view.depthScale + view.depthOffset,
+      1e-12);
+  }
+}
+
+} // namespace
+} // namespace gnomon::test
