@@ -1,5 +1,5 @@
 #!/bin/bash
-# Measures the error of soft shadows against the time that they take, and writes docs/soft.md. Takes about a quarter of an hour;
+# Measures the error of soft shadows against the time that they take, and writes docs/soft_shadows.md. Takes about a quarter of an hour;
 # what was measured before, in out/soft, is not measured again.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -76,7 +76,7 @@ machine="$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1), $(nproc)
 {
   echo "# Soft shadows: error against time"
   echo
-  echo "Written by \`docs/soft.sh\`, on: $machine; OpenGL by software (llvmpipe). Errors are those of visibility against \`raytraced\`"
+  echo "Written by \`docs/soft_shadows.sh\`, on: $machine; OpenGL by software (llvmpipe). Errors are those of visibility against \`raytraced\`"
   echo "with 4,096 other samples, over the pixels that face the light; times are those of whole frames with a moving camera, 256 x 256 pixels, maps of"
   echo "1024, median of 5, all techniques taking turns. What a technique is and lacks: [soft](techniques/soft.md), [montecarlo](techniques/montecarlo.md), [penumbra](techniques/penumbra.md)."
   for scene in "${scenes[@]}"; do
@@ -85,4 +85,4 @@ machine="$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1), $(nproc)
     echo
     table "$scene"
   done
-} > docs/soft.md
+} > docs/soft_shadows.md
