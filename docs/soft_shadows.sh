@@ -11,10 +11,11 @@ build release
 out=out/soft
 mkdir -p "$out"
 
-techniques=nsm,pcss:pcss_samples=low,pcss,pcss:pcss_samples=high
-for rays in 2 3 4 8; do
+techniques=nsm,planar:planes=64,pcss:pcss_samples=low,pcss,pcss:pcss_samples=high
+for rays in 1 2 3 4 8; do
   techniques+=",montecarlo:mc_rays=$rays"
 done
+techniques+=,montecarlo:mc_filter=0,montecarlo:mc_layers=near_far
 for samples in 4 16 64 256; do
   techniques+=",sampled:light_samples=$samples,penumbra:light_samples=$samples,raytraced:light_samples=$samples"
 done

@@ -11,14 +11,6 @@ namespace gnomon
 namespace
 {
 
-/// A distance from the light's centre that none of its points exceeds.
-double reachOf(const LightArea& area)
-{
-  const glm::dmat3& sides = area.worldFromUnit;
-  return std::sqrt(
-    glm::dot(sides[0], sides[0]) + glm::dot(sides[1], sides[1]) + glm::dot(sides[2], sides[2]));
-}
-
 /// Half the angle, in degrees, of a cone around a spot's axis that holds what its own holds of the scene, wherever on the
 /// light its apex is.
 double widenedConeDegrees(const ShadowLight& light, const ViewFitting& fitting)
@@ -32,7 +24,7 @@ double widenedConeDegrees(const ShadowLight& light, const ViewFitting& fitting)
   }
   const ConvexBody lit = ConvexBody(fitting.receiversCentred, rays.viewFromCentred)
                            .clipped(coneHalfSpaces(tangent, nearest));
-  const double reach = reachOf(*light.area);
+  const double reach = light.area->radius();
   double widened = tangent;
   // Slopes from a point are largest at the corners of a convex body. The area lies across the axis.
   for (const glm::dvec3& corner : lit.vertices())

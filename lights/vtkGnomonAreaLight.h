@@ -14,8 +14,8 @@
  * A rectangle or a disk around the light's Position, across the direction to its FocalPoint. All of its
  * points shine alike. Which of them a surface sees is its visibility; shading is VTK's own, from the
  * centre, and so are the cone and the box (vtkGnomonLightKeys) that the light may have. Techniques with
- * hard shadows take the centre's. "raytraced", "sampled" and "planar" take the whole area, by as many points as the
- * setting "light_samples" says (vtkGnomonLightKeys::SetSetting).
+ * hard shadows take the centre's. "raytraced", "penumbra", "sampled" and "planar" take the whole area, by as many points
+ * as the setting "light_samples" says (vtkGnomonLightKeys::SetSetting), and so do "pcss" and "montecarlo".
  *
  * It is positional and shines into all directions (ConeAngle 90) until it is told otherwise.
  *

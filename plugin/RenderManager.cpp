@@ -9,6 +9,7 @@
 #include "shadowtech/base/TextureMemory.h"
 #include "shadowtech/tracing/GpuTracer.h"
 
+#include <vtkActor2D.h>
 #include <vtkCamera.h>
 #include <vtkFrameBufferObjectBase.h>
 #include <vtkInformation.h>
@@ -20,6 +21,7 @@
 #include <vtkRenderState.h>
 #include <vtkRenderer.h>
 #include <vtkSmartPointer.h>
+#include <vtkVolume.h>
 
 #include <glm/gtc/type_ptr.hpp>
 
@@ -104,6 +106,14 @@ private:
   vtkSmartPointer<vtkInformation> hidden_;
 };
 
+/// Whether a renderer is drawn for one eye or tile at a time.
+bool showsSeveralViews(vtkRenderer* renderer)
+{
+  int tiles[2] = { 1, 1 };
+  renderer->GetRenderWindow()->GetTileScale(tiles);
+  return renderer->GetRenderWindow()->GetStereoRender() || tiles[0] > 1 || tiles[1] > 1;
+}
+
 void hashMatrix(std::size_t& seed, const glm::dmat4& matrix)
 {
   for (int i = 0; i < 16; ++i)
@@ -124,8 +134,12 @@ std::size_t hashOfShown(const vtkRenderState* s, const CameraView& camera, const
   for (int i = 0; i < s->GetPropArrayCount(); ++i)
   {
     vtkProp* prop = s->GetPropArray()[i];
-    hashCombine(seed, prop);
-    hashCombine(seed, prop->GetRedrawMTime());
+    // Annotations and volumes receive nothing: a text that tells the frame's time is no other picture.
+    if (!vtkActor2D::SafeDownCast(prop) && !vtkVolume::SafeDownCast(prop))
+    {
+      hashCombine(seed, prop);
+      hashCombine(seed, prop->GetRedrawMTime());
+    }
   }
   return seed;
 }
@@ -198,6 +212,9 @@ bool RenderManager::collectLights(vtkRenderer* renderer, const ShadowSettings& d
     this->report_.lights.push_back(light);
   }
 
+  const bool severalViews =
+    showsSeveralViews(renderer) || (this->rendererBefore_ && this->rendererBefore_ != renderer);
+  this->rendererBefore_ = renderer;
   this->casting_.clear();
   std::map<int, LightSlot> slots;
   for (ShadowLight light : set.casting)
@@ -219,6 +236,13 @@ bool RenderManager::collectLights(vtkRenderer* renderer, const ShadowSettings& d
         ": OpenGL draws maps with at most " + std::to_string(mostSamples) +
         " samples of a texel, not " + std::to_string(light.mapSamples));
       light.mapSamples = mostSamples;
+    }
+    if (info.refines && light.progressiveSamples > 0 && severalViews)
+    {
+      this->report_.notes.push_back("light " + std::to_string(light.sceneIndex) +
+        ": 'progressive' refines one view, and the pass draws several (stereo, tiles, renderers): "
+        "all of the light's points are in every frame");
+      light.progressiveSamples = 0;
     }
     LightSlot slot;
     const auto kept = this->slots_.find(light.sceneIndex);
@@ -558,7 +582,8 @@ void RenderManager::bakeMaps(
     hashCombine(receivers, light.splitLambda);
   }
   const Bake wanted{ std::move(views), fitting.camera, reach, light, light.mapSizeTexels,
-    occluders.topologyVersion, occluders.positionsVersion, receivers, true };
+    occluders.topologyVersion, occluders.positionsVersion, receivers, true, 0, fitting };
+  bake.fitting = fitting;
   if (bake.serves(wanted))
   {
     this->reportOf(light).castersLeftOut = bake.castersLeftOut;
@@ -585,7 +610,7 @@ void RenderManager::bakeMaps(
   try
   {
     technique.bake({ light, wanted.views, occluders, this->buffers_, this->library_,
-      light.fittedToReceivers ? slot.receiverFit.fits() : TextureBinding(), fitting });
+      light.fittedToReceivers ? slot.receiverFit.fits() : TextureBinding() });
   }
   catch (const TextureMemoryError& error)
   {
@@ -674,10 +699,10 @@ void RenderManager::computeVisibility(int wishedTracer, bool keep)
       case Evaluation::ScreenGpu:
         this->buffers_.update(occluders);
         slot.technique->drawVisibility(
-          { slot.light, this->camera_, this->stageValues_.space, occluders, this->buffers_,
-            this->receiverTarget_, this->receiversShown_, this->collector_.drawnSurfaces(),
-            this->layers_, layer, this->library_, classify, classify ? &classes : nullptr,
-            this->report_.notes, this->report_.mapBakes },
+          { slot.light, slot.bake.fitting, this->camera_, this->stageValues_.space, occluders,
+            this->buffers_, this->receiverTarget_, this->receiversShown_,
+            this->collector_.drawnSurfaces(), this->layers_, layer, this->library_, classify,
+            classify ? &classes : nullptr, this->report_.notes, this->report_.mapBakes },
           report);
         this->endStageClock("visibility: draw");
         break;

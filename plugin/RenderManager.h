@@ -107,6 +107,7 @@ private:
     std::size_t receivers = 0; ///< a hash of what F of MapFit.h was found from on the GPU; else 0
     bool once = false;
     int castersLeftOut = 0;
+    ViewFitting fitting; ///< of this frame, by which the same views might be laid out again
 
     /// Whether maps that were baked from this serve where others are wanted.
     bool serves(const Bake& wanted) const;
@@ -147,6 +148,8 @@ private:
 
   std::map<int, LightSlot> slots_; ///< by the light's place in the scene
   std::vector<LightSlot*> casting_;
+  const vtkRenderer* rendererBefore_ =
+    nullptr; ///< which the frame before was drawn for; only compared
 
   OccluderCollector collector_;
   OccluderBuffers buffers_;

@@ -51,7 +51,7 @@ struct vtkGnomonShadowPass::Internals
   vtkNew<vtkRenderStepsPass> steps; ///< draws into the framebuffers of outer passes
   gnomon::FrameReport plainReport;  ///< of frames that were drawn without the manager
   bool shadowed = false;            ///< whether the last frame was the manager's
-  bool refining = false;            ///< whether the last frame left something to the next ones
+  double progress = 1.0;            ///< of the last frame that was no selection's
 
   vtkWeakPointer<vtkOpenGLRenderWindow> window; ///< whose context holds the manager's GL objects
   vtkTimeStamp contextChecked;
@@ -91,6 +91,17 @@ private:
   vtkTypeBool before_;
 };
 
+/// Of the light that has the least of its points in the picture.
+double leastProgress(const gnomon::FrameReport& report)
+{
+  double progress = 1.0;
+  for (const gnomon::LightReport& light : report.lights)
+  {
+    progress = std::min(progress, light.progress);
+  }
+  return progress;
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -123,9 +134,11 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
   this->NumberOfRenderedProps = 0;
   if (renderer->GetSelector())
   {
-    this->RenderPlain(s, "a selection is drawn");
+    this->RenderPlain(s, "a selection is drawn"); // and what refines goes on after it
     return;
   }
+  const double progressBefore = this->Internal->progress;
+  this->Internal->progress = 1.0;
   if (this->ObeyUseShadows && !renderer->GetUseShadows())
   {
     this->RenderPlain(s, "the renderer's UseShadows is off");
@@ -193,6 +206,7 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
     }
     manager.endFrame();
     this->Internal->shadowed = true;
+    this->Internal->progress = leastProgress(manager.report());
   }
   catch (const std::exception& error)
   {
@@ -209,21 +223,23 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
     this->RenderPlain(s, "an error was met");
     this->Internal->plainReport.outOfTextureMemory = outOfTextureMemory;
   }
-  this->TellProgress();
+  else
+  {
+    this->TellProgress(progressBefore);
+  }
 }
 
 //------------------------------------------------------------------------------
 /// Tells observers of frames that refine what is shown.
-void vtkGnomonShadowPass::TellProgress()
+/// @param before the progress of the frame before
+void vtkGnomonShadowPass::TellProgress(double before)
 {
-  const bool was = this->Internal->refining;
-  double progress = this->GetProgress();
-  this->Internal->refining = progress < 1.0;
-  if (was || this->Internal->refining)
+  double progress = this->Internal->progress;
+  if (before < 1.0 || progress < 1.0)
   {
     this->InvokeEvent(vtkCommand::ProgressEvent, &progress);
   }
-  if (was && !this->Internal->refining && this->Internal->shadowed)
+  if (before < 1.0 && progress == 1.0)
   {
     this->InvokeEvent(vtkCommand::EndEvent);
   }
@@ -436,12 +452,7 @@ const gnomon::FrameReport& vtkGnomonShadowPass::GetReport() const
 //------------------------------------------------------------------------------
 double vtkGnomonShadowPass::GetProgress() const
 {
-  double progress = 1.0;
-  for (const gnomon::LightReport& light : this->GetReport().lights)
-  {
-    progress = std::min(progress, light.progress);
-  }
-  return progress;
+  return this->Internal->progress;
 }
 
 //------------------------------------------------------------------------------

@@ -199,7 +199,8 @@ public:
   /**
    * How much of what lights' techniques are to show the last frame showed, in [0, 1]: below 1 where they take
    * several frames (the setting `progressive` of `sampled`), and further frames of the same scene bring
-   * more. It is the least of all lights'.
+   * more. It is the least of all lights'. Selections (vtkHardwareSelector) leave it as it is. Windows that show several
+   * views by one pass (stereo, tiles, several renderers) get all in every frame.
    *
    * A frame that brings more ends with a vtkCommand::ProgressEvent, whose call data is this number (a
    * double), and the one that completes it, once, with a vtkCommand::EndEvent. Observers must
@@ -243,7 +244,7 @@ private:
   vtkRenderPass* FindDelegate(const vtkRenderState* s);
   void BeginView(const vtkRenderState* s);
   void DrawScene(const vtkRenderState* s);
-  void TellProgress();
+  void TellProgress(double before);
   void RenderPlain(const vtkRenderState* s, const char* reason);
   bool PrepareContext(vtkRenderer* renderer);
 

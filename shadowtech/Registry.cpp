@@ -265,94 +265,12 @@ std::string refusedAverage(const ShadowLight& light, const TechniqueInfo& info)
   return {};
 }
 
-/// Why an estimator cannot ask first what a light's settings say; empty if it can.
-std::string refusedEarlyOut(const ShadowLight& light, const TechniqueInfo& info)
-{
-  return info.name == Pcss::info().name && light.earlyOut == EarlyOut::Ring
-    ? "'pcss' has no ring of points to believe, since its points are all over the light; its "
-      "'early_out' is exact or none"
-    : "";
-}
-
-/// Why the maps of a light's points cannot be laid out as its settings say; empty if they can.
-std::string refusedPoints(const ShadowLight& light, const TechniqueInfo& info)
-{
-  const Projection projection = light.projection;
-  if (info.name != Sampled::info().name || projection == Projection::Uniform ||
-    projection == Projection::Cube)
-  {
-    return {};
-  }
-  return "'" + info.name +
-    "' looks from all points of the light at what its centre reaches, with the projections uniform "
-    "and cube, not '" +
-    findSetting("projection")->get(light) + "'";
-}
-
-/// Why the stages of a chain of tests make no sense together; empty if they do.
-std::string refusedStages(const ShadowLight& light, const TechniqueInfo& info)
-{
-  if (info.name == Coherence::info().name && light.coherenceTexels == 0)
-  {
-    return "'coherence' decides pixels by texels that agree, and without that traces all of them, "
-           "as 'raytraced' does; its setting 'coherence' takes 4 or 9";
-  }
-  if (info.name != Selective::info().name)
-  {
-    return {};
-  }
-  if (light.contourPixels == 0 && light.outside == OutsideContour::Check)
-  {
-    return "nothing is outside of a 'contour' that is the whole image; 'outside' is for those of "
-           "2, "
-           "4 and 6 pixels";
-  }
-  if (light.leftovers == Leftovers::Lit && light.coherenceTexels == 0 &&
-    light.neighbourTexels == 0 && light.adjacency == Adjacency::Off)
-  {
-    return "without 'coherence', 'neighbours' and 'adjacency' nothing decides pixels of the "
-           "contour, and with 'leftovers' lit all of them would be lit";
-  }
-  return {};
-}
-
-/// Why rays cannot be followed through the light's map as its settings lay it out; empty if they can.
-std::string refusedRays(const ShadowLight& light, const TechniqueInfo& info)
-{
-  if (info.name != MonteCarlo::info().name)
-  {
-    return {};
-  }
-  if (light.projection != Projection::Uniform && light.projection != Projection::Cube)
-  {
-    return "'montecarlo' follows rays through a map that holds all casters, and the projection '" +
-      findSetting("projection")->get(light) +
-      "' is made for what a camera sees; it takes uniform and cube";
-  }
-  const bool linear = light.mcSearch == RaySearch::Linear;
-  if (linear && light.mcLayers == RayLayers::Peeled)
-  {
-    return "'mc_search' linear knows where a ray is by one solid in a texel, and 'mc_layers' "
-           "peeled "
-           "has up to four; it takes near_far, near and eye";
-  }
-  if (!linear && light.mcLayers == RayLayers::Eye)
-  {
-    return "'mc_layers' eye asks the camera about single points of a ray, and 'mc_search' "
-           "hierarchical has none; it takes linear";
-  }
-  return light.fit == ViewFit::Off
-    ? ""
-    : "'montecarlo' follows rays through a map that holds all casters, and one with 'fit' " +
-      findSetting("fit")->get(light) + " holds what a camera sees; it takes off";
-}
-
 /// Why an area light cannot have samples as its settings say; empty if it can.
-std::string refusedSamples(const ShadowLight& light)
+std::string refusedSamples(const ShadowLight& light, const TechniqueInfo& info)
 {
   const int side =
     static_cast<int>(std::lround(std::sqrt(static_cast<double>(light.lightSamples))));
-  return light.area && light.lightSampling == LightSampling::Jittered &&
+  return info.takesLightSamples && light.area && light.lightSampling == LightSampling::Jittered &&
       side * side != light.lightSamples
     ? "'light_sampling' jittered has one sample in each cell of a square grid, of which there are "
       "no " +
@@ -385,9 +303,8 @@ const EstimatorEntry& compose(ShadowLight& light)
     throw CompositionError(
       "the kernel 'castano' has the sizes 3, 5 and 7, not " + std::to_string(light.kernelTexels));
   }
-  for (const std::string& refused : { refusedAverage(light, info), refusedEarlyOut(light, info),
-         refusedStages(light, info), refusedSamples(light), refusedRays(light, info),
-         refusedProjection(light), refusedPoints(light, info) })
+  for (const std::string& refused : { refusedAverage(light, info), refusedSamples(light, info),
+         info.refused ? info.refused(light) : std::string(), refusedProjection(light) })
   {
     if (!refused.empty())
     {

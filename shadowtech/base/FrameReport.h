@@ -97,7 +97,7 @@ struct FrameReport
   /// one, and 200 an instance. The ray tracer's own memory is apart.
   std::size_t bytesOccluders = 0;
   std::size_t bytesBvh = 0;    ///< as Embree reports it, or the GPU's with the copy on the CPU
-  std::size_t bytesMaps = 0;   ///< what the techniques baked
+  std::size_t bytesMaps = 0;   ///< what the techniques baked, and what they keep to bake again
   std::size_t bytesImages = 0; ///< receivers, their rays and visibility, on the CPU and the GPU
 };
 

@@ -56,6 +56,15 @@ struct TechniqueInfo
   bool averagesMap = false; ///< its map holds what may be averaged: moments, not depths
   bool sumsMap = false;     ///< and which fixed-point numbers hold, so that tables may sum it
 
+  /// Whether it takes points of area lights as ShadowSettings::lightSamples and lightSampling say.
+  bool takesLightSamples = false;
+
+  /// Whether its picture may come about over several frames (ShadowSettings::progressiveSamples).
+  bool refines = false;
+
+  /// Why it cannot do what a light's settings say, whose projection is resolved; empty if it can. Null: it always can.
+  std::string (*refused)(const ShadowLight&) = nullptr;
+
   /// What a screen technique tells of its pixels (ScreenInput::classes); empty: nothing.
   std::vector<PixelClass> classes = {};
 
@@ -98,8 +107,6 @@ struct MapInput
   ShaderLibrary& shaders;
   /// The last fits of views that await them, and the warps that were chosen (ReceiverFit.h).
   TextureBinding viewFits = {};
-  /// What the views were fitted to, for techniques that lay out more of them.
-  ViewFitting fitting = {};
   /// A plane (n, d) in centred coordinates: of casters, only what has n.p + d >= 0 counts.
   std::optional<glm::dvec4> keptFromCentred = std::nullopt;
 };
@@ -108,6 +115,8 @@ struct MapInput
 struct LayerInput
 {
   const ShadowLight& light;
+  const ViewFitting&
+    fitting; ///< of the light's views in this frame, for techniques that lay out more of them
   const CameraView& camera;
   const ReceiverSpace& space; ///< the camera's
   const Occluders& occluders;

@@ -34,6 +34,37 @@ int raysOf(const ShadowLight& light)
   return light.area ? light.mcRays : 1;
 }
 
+/// Of the filter, in pixels: hard shadows have no noise.
+int filterOf(const ShadowLight& light)
+{
+  return light.area ? light.mcFilter : 0;
+}
+
+std::string refused(const ShadowLight& light)
+{
+  if (light.projection != Projection::Uniform && light.projection != Projection::Cube)
+  {
+    return "'montecarlo' follows rays through a map that holds all casters, and the projection '" +
+      findSetting("projection")->get(light) +
+      "' is made for what a camera sees; it takes uniform and cube";
+  }
+  const bool linear = light.mcSearch == RaySearch::Linear;
+  if (linear && light.mcLayers == RayLayers::Peeled)
+  {
+    return "'mc_search' linear knows where a ray is by one solid in a texel, and 'mc_layers' "
+           "peeled has up to four; it takes near_far, near and eye";
+  }
+  if (!linear && light.mcLayers == RayLayers::Eye)
+  {
+    return "'mc_layers' eye asks the camera about single points of a ray, and 'mc_search' "
+           "hierarchical has none; it takes linear";
+  }
+  return light.fit == ViewFit::Off
+    ? ""
+    : "'montecarlo' follows rays through a map that holds all casters, and one with 'fit' " +
+      findSetting("fit")->get(light) + " holds what a camera sees; it takes off";
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -43,6 +74,7 @@ TechniqueInfo MonteCarlo::info()
   info.name = "montecarlo";
   info.evaluation = Evaluation::ScreenGpu;
   info.needsMap = true;
+  info.refused = refused;
   info.classes = { { "no receiver", { 0, 0, 0 } }, { "turned away from the light", { 0, 140, 60 } },
     { "lit by the map's bounds", { 230, 230, 230 } },
     { "in shadow by the map's bounds", { 90, 90, 90 } },
@@ -182,7 +214,7 @@ void MonteCarlo::drawVisibility(const LayerInput& input, LightReport& report)
     input.shaders, ShaderLibrary::source("shadowtech/montecarlo/montecarlo.frag.glsl"), defines);
   ShaderLibrary::setUniforms(program, this->uniformsOf(input), 0, 0);
   this->screenPass_.fill(this->unfiltered_.name(), -1, this->width_, this->height_);
-  this->filter_.apply(input, this->unfiltered_.name(), rays, light.mcFilter);
+  this->filter_.apply(input, this->unfiltered_.name(), rays, filterOf(light));
   this->readClasses(input);
 }
 

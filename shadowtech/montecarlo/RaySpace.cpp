@@ -15,21 +15,6 @@ bool stepsBack(const ShadowLight& light)
   return light.area && light.kind == LightKind::Spot && viewLayout(light) == ViewLayout::Single;
 }
 
-/// How far the area reaches from its centre.
-double radiusOf(const LightArea& area)
-{
-  const glm::dmat3& sides = area.worldFromUnit;
-  switch (area.shape)
-  {
-    case LightArea::Shape::Rectangle:
-      return std::sqrt(glm::dot(sides[0], sides[0]) + glm::dot(sides[1], sides[1]));
-    case LightArea::Shape::Disk:
-    case LightArea::Shape::Ball:
-      break;
-  }
-  return glm::length(sides[0]);
-}
-
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -40,7 +25,7 @@ double distanceToProjectionPoint(const ShadowLight& light)
     return 0.0;
   }
   const double angle = glm::radians(light.coneAngleDegrees);
-  return radiusOf(*light.area) /
+  return light.area->radius() /
     (light.area->shape == LightArea::Shape::Ball ? std::sin(angle) : std::tan(angle));
 }
 
@@ -48,8 +33,7 @@ double distanceToProjectionPoint(const ShadowLight& light)
 double nearestOfArea(const ShadowLight& light)
 {
   const bool ball = light.area && light.area->shape == LightArea::Shape::Ball;
-  return distanceToProjectionPoint(light) -
-    (ball && stepsBack(light) ? radiusOf(*light.area) : 0.0);
+  return distanceToProjectionPoint(light) - (ball && stepsBack(light) ? light.area->radius() : 0.0);
 }
 
 //------------------------------------------------------------------------------

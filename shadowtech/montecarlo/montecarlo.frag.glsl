@@ -121,6 +121,7 @@ float classOf(Receiver receiver, vec3 toCentre, inout vec2 depths)
     vec2 upper = vec2(-1e30);
     vec2 begins = vec2(1e30, -1e30); // the least and the greatest depth at the receiver's end
     float ends = -1e30;              // the greatest at the light's
+    bool blockable = true;           // whether all of them have a part on the map that counts
     for (int i = 0; i < corners; ++i)
     {
       vec3 corner = 2.0 * vec3(i & 1, (i >> 1) & 1, i >> 2) - 1.0;
@@ -135,6 +136,7 @@ float classOf(Receiver receiver, vec3 toCentre, inout vec2 depths)
       Segment segment = onMap(0, receiver, way, length, vec2(depths.x, 2.0), false);
       if (!segment.any)
       {
+        blockable = false;
         vec4 at = rayFromView[0] * vec4(receiver.position, 1.0);
         segment.begin = at.xyz / at.w;
         segment.end = segment.begin;
@@ -161,7 +163,7 @@ float classOf(Receiver receiver, vec3 toCentre, inout vec2 depths)
 #ifndef EYE_LAYER
     // A depth that is inside a slab of every texel.
     bool inside = all(greaterThanEqual(lower, vec2(0.0))) && all(lessThanEqual(upper, vec2(last)));
-    if (inside && bounds.z <= min(begins.x, bounds.w) && ends <= bounds.z)
+    if (blockable && inside && bounds.z <= min(begins.x, bounds.w) && ends <= bounds.z)
     {
       return UMBRA;
     }

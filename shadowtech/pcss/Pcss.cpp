@@ -16,6 +16,14 @@ std::string define(const std::string& name, int value)
   return "#define " + name + " " + std::to_string(value) + "\n";
 }
 
+std::string refused(const ShadowLight& light)
+{
+  return light.earlyOut == EarlyOut::Ring
+    ? "'pcss' has no ring of points to believe, since its points are all over the light; its "
+      "'early_out' is exact or none"
+    : "";
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -56,6 +64,7 @@ TechniqueInfo Pcss::info()
   info.name = "pcss";
   info.evaluation = Evaluation::Pointwise;
   info.needsMap = true;
+  info.refused = refused;
   return info;
 }
 

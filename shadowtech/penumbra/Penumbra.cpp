@@ -13,6 +13,7 @@ TechniqueInfo Penumbra::info()
   info.name = "penumbra";
   info.evaluation = Evaluation::ScreenCpu;
   info.exact = true;
+  info.takesLightSamples = true;
   info.classes = classesOfPenumbra();
   return info;
 }

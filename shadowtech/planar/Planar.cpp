@@ -102,6 +102,7 @@ TechniqueInfo Planar::info()
 {
   TechniqueInfo info;
   info.name = "planar";
+  info.takesLightSamples = true;
   info.evaluation = Evaluation::ScreenGpu;
   return info;
 }

@@ -24,6 +24,20 @@ int numberOf(std::size_t pointOfBatch)
   return centreNumber + 1 + static_cast<int>(pointOfBatch);
 }
 
+std::string refused(const ShadowLight& light)
+{
+  if (light.projection != Projection::Uniform && light.projection != Projection::Cube)
+  {
+    return "'sampled' looks from all points of the light at what its centre reaches, with the "
+           "projections uniform and cube, not '" +
+      findSetting("projection")->get(light) + "'";
+  }
+  return light.area && light.lightSampling == LightSampling::Jittered
+    ? "'sampled' takes points in opposite pairs, which a grid of cells does not come in; its "
+      "'light_sampling' is sobol or random"
+    : "";
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -33,6 +47,8 @@ TechniqueInfo Sampled::info()
   info.name = "sampled";
   info.evaluation = Evaluation::ScreenGpu;
   info.needsMap = true;
+  info.refines = true;
+  info.refused = refused;
   return info;
 }
 
@@ -40,7 +56,6 @@ TechniqueInfo Sampled::info()
 void Sampled::bake(const MapInput& input)
 {
   this->shown_.reset();
-  this->fitting_ = input.fitting;
   this->centre_.bake(input);
 }
 
@@ -127,12 +142,12 @@ void Sampled::addBatch(const LayerInput& input, std::size_t count)
   std::vector<ShadowLight> lights;
   for (std::size_t i = 0; i < count; ++i)
   {
-    lights.push_back(lightAt(light, this->shown_->points[this->summed_ + i], this->fitting_));
-    const LightViews views = fitLightViews(lights[i], this->fitting_);
+    lights.push_back(lightAt(light, this->shown_->points[this->summed_ + i], input.fitting));
+    const LightViews views = fitLightViews(lights[i], input.fitting);
     MapInput map{ lights[i], views, input.occluders, input.buffers, input.shaders };
     if (light.box)
     {
-      map.keptFromCentred = nearFaceCentred(light, this->fitting_.centreWorld);
+      map.keptFromCentred = nearFaceCentred(light, input.fitting.centreWorld);
     }
     this->batch_[i].bake(map);
     ++input.mapBakes;
@@ -148,7 +163,7 @@ void Sampled::addBatch(const LayerInput& input, std::size_t count)
   int freeUnit = ShaderLibrary::setUniforms(program, uniforms, centreNumber, 0);
   freeUnit = ShaderLibrary::setUniforms(
     program, this->centre_.uniforms(input.space), centreNumber, freeUnit);
-  const glm::dmat3 lightFromWorld(lightFromCentred(light, this->fitting_.centreWorld));
+  const glm::dmat3 lightFromWorld(lightFromCentred(light, input.fitting.centreWorld));
   for (std::size_t i = 0; i < count; ++i)
   {
     std::vector<Uniform> ofPoint = this->batch_[i].uniforms(input.space);

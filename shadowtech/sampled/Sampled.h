@@ -57,7 +57,6 @@ private:
   void showMean(const LayerInput& input);
 
   Compare centre_;
-  ViewFitting fitting_;        ///< of the centre's views, as baked
   std::optional<Shown> shown_; ///< none: the next frame begins anew
   std::vector<Compare> batch_; ///< the maps that are held at a time
   RunningSum sum_;

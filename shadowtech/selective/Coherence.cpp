@@ -2,11 +2,25 @@
 
 namespace gnomon
 {
+namespace
+{
+
+std::string refused(const ShadowLight& light)
+{
+  return light.coherenceTexels == 0
+    ? "'coherence' decides pixels by texels that agree, and without that traces all of them, as "
+      "'raytraced' does; its setting 'coherence' takes 4 or 9"
+    : "";
+}
+
+} // namespace
 
 //------------------------------------------------------------------------------
 TechniqueInfo Coherence::info()
 {
-  return infoOf("coherence");
+  TechniqueInfo info = infoOf("coherence");
+  info.refused = refused;
+  return info;
 }
 
 //------------------------------------------------------------------------------

@@ -252,7 +252,7 @@ TEST_F(MonteCarlo, ofASmallLightIsTheHardShadow)
   EXPECT_LE(small.wrong, truth.size() / 200);
   this->lamp->SetWidth(0.0);
   this->lamp->SetHeight(0.0);
-  const std::vector<float> point = this->visibility("montecarlo", { { "mc_filter", "0" } });
+  const std::vector<float> point = this->visibility("montecarlo", {});
   EXPECT_EQ(this->scene.report().lights[0].lightSamples, 1);
   EXPECT_EQ(
     std::count_if(point.begin(), point.end(), [](float v) { return v > 0.0f && v < 1.0f; }), 0);

@@ -357,7 +357,8 @@ TEST(OptionalMaps, areDrawnOnceNothingMoves)
   {
     scene.render();
     EXPECT_EQ(scene.report().mapBakes, 0);
-    EXPECT_EQ(scene.report().bytesMaps, 0u);
+    // What is known of the casters' edges stays.
+    EXPECT_LT(scene.report().bytesMaps, std::size_t(1) << 20);
     EXPECT_NE(scene.report().lights[0].mapReason.find("all is traced"), std::string::npos);
     all = scene.report().lights[0].tracedPixels;
     EXPECT_GT(all, 5000);
@@ -366,7 +367,8 @@ TEST(OptionalMaps, areDrawnOnceNothingMoves)
   {
     scene.render();
     EXPECT_EQ(scene.report().mapBakes, bakes);
-    EXPECT_GT(scene.report().bytesMaps, 0u);
+    // A map has a million texels of several numbers.
+    EXPECT_GT(scene.report().bytesMaps, std::size_t(1) << 24);
     EXPECT_EQ(scene.report().lights[0].mapReason, "");
     EXPECT_LT(scene.report().lights[0].tracedPixels, all / 2);
   };

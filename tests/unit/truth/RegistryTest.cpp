@@ -101,8 +101,8 @@ TEST(Registry, takesOrRefusesEveryComposition)
   const Verdicts cube{ "directional", "", "", "" };
   const char* camera = "holds all casters";
   const Verdicts allCasters{ camera, camera, camera, camera };
-  const Verdicts uniform{ "uniform and cube", "uniform and cube", "faces of a cube",
-    "faces of a cube" };
+  const char* points = "uniform and cube";
+  const Verdicts uniform{ points, points, points, points };
   const Verdicts noMap{ "no map", "no map", "no map", "no map" };
   for (const TechniqueEntry& technique : registry())
   {
