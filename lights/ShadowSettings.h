@@ -114,7 +114,7 @@ enum class OutsideContour
   Check ///< those whose nine texels do not agree are treated as if they were inside
 };
 
-/// Which points of an area light a pixel takes.
+/// Which points of an area light are taken, by each pixel for itself or by all alike.
 enum class LightSampling
 {
   Sobol,    ///< evenly spread ones, whose errors cancel between neighbouring pixels

@@ -6,9 +6,15 @@
 #include "lights/vtkGnomonLightKeys.h"
 #include "plugin/vtkGnomonPropKeys.h"
 
+#include <vtkActor.h>
+#include <vtkActorCollection.h>
 #include <vtkCallbackCommand.h>
 #include <vtkCommand.h>
+#include <vtkHardwareSelector.h>
 #include <vtkPlaneSource.h>
+#include <vtkSelection.h>
+#include <vtkSmartPointer.h>
+#include <vtkTextActor.h>
 
 #include <glm/gtc/constants.hpp>
 #include <gtest/gtest.h>
@@ -479,6 +485,69 @@ TEST_F(Sampled, tellsOfProgress)
   render(6);
   EXPECT_EQ(events.progress, (std::vector<double>{ 0.0, 0.5, 1.0, 0.0, 0.5, 0.0, 0.5, 1.0 }));
   EXPECT_EQ(events.ends, 2);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Sampled, refinesOnAcrossSelectionsAndTexts)
+{
+  vtkNew<vtkTextActor> text;
+  this->scene.renderer->AddActor2D(text);
+  set(this->scene, "progressive", 16);
+  for (const double progress : { 0.0, 0.5, 1.0, 1.0 })
+  {
+    text->SetInput(("frame " + std::to_string(progress)).c_str());
+    this->scene.render();
+    EXPECT_EQ(this->scene.pass->GetProgress(), progress);
+    vtkNew<vtkHardwareSelector> selector;
+    selector->SetRenderer(this->scene.renderer);
+    selector->SetArea(0, 0, 20, 20);
+    vtkSmartPointer<vtkSelection>::Take(selector->Select());
+    EXPECT_EQ(this->scene.pass->GetProgress(), progress) << "after a selection";
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Sampled, takesAllPointsAtOnceWhereThePassDrawsSeveralViews)
+{
+  set(this->scene, "progressive", 16);
+  const auto saysWhy = [&]
+  {
+    const std::vector<std::string>& notes = this->scene.report().notes;
+    return std::any_of(notes.begin(), notes.end(),
+      [](const std::string& note) { return note.find("draws several") != std::string::npos; });
+  };
+  this->scene.render();
+  EXPECT_EQ(this->scene.pass->GetProgress(), 0.0);
+  EXPECT_FALSE(saysWhy());
+
+  vtkNew<vtkRenderer> other;
+  other->SetPass(this->scene.pass);
+  other->SetViewport(0.5, 0.0, 1.0, 1.0);
+  other->SetActiveCamera(this->scene.renderer->GetActiveCamera());
+  vtkCollectionSimpleIterator cookie;
+  vtkActorCollection* actors = this->scene.renderer->GetActors();
+  actors->InitTraversal(cookie);
+  while (vtkActor* actor = actors->GetNextActor(cookie))
+  {
+    other->AddActor(actor);
+  }
+  other->AddLight(this->light);
+  this->scene.window->AddRenderer(other);
+  for (int frame = 0; frame < 3; ++frame)
+  {
+    this->scene.window->Render();
+    EXPECT_EQ(this->scene.pass->GetProgress(), 1.0);
+    EXPECT_EQ(this->report().lightSamples, 32);
+    EXPECT_TRUE(saysWhy());
+  }
+  this->scene.window->RemoveRenderer(other);
+
+  this->scene.window->StereoCapableWindowOn();
+  this->scene.window->SetStereoTypeToAnaglyph();
+  this->scene.window->StereoRenderOn();
+  this->scene.window->Render();
+  EXPECT_EQ(this->scene.pass->GetProgress(), 1.0);
+  EXPECT_TRUE(saysWhy());
 }
 
 //------------------------------------------------------------------------------

@@ -285,10 +285,11 @@ TEST(Registry, refusesRaysThatCannotBeFollowed)
 
 TEST(Registry, putsSamplesIntoTheCellsOfSquareGridsOnly)
 {
-  const auto refusalOf = [](int count, LightSampling sampling, bool hasArea) -> std::string
+  const auto refusalOf = [](int count, LightSampling sampling, bool hasArea,
+                           const char* technique = "raytraced") -> std::string
   {
     ShadowLight light = lightOf(LightKind::Spot);
-    light.technique = "raytraced";
+    light.technique = technique;
     light.lightSamples = count;
     light.lightSampling = sampling;
     if (hasArea)
@@ -309,6 +310,9 @@ TEST(Registry, putsSamplesIntoTheCellsOfSquareGridsOnly)
   {
     EXPECT_EQ(refusalOf(count, LightSampling::Jittered, true), "") << count;
   }
+  EXPECT_NE(refusalOf(64, LightSampling::Jittered, true, "sampled").find("opposite pairs"),
+    std::string::npos);
+  EXPECT_EQ(refusalOf(64, LightSampling::Random, true, "sampled"), "");
   for (const int count : { 2, 8, 63, 65, 65535 })
   {
     const std::string refusal = refusalOf(count, LightSampling::Jittered, true);
@@ -316,6 +320,7 @@ TEST(Registry, putsSamplesIntoTheCellsOfSquareGridsOnly)
     EXPECT_EQ(refusalOf(count, LightSampling::Random, true), "") << count;
     EXPECT_EQ(refusalOf(count, LightSampling::Sobol, true), "") << count;
     EXPECT_EQ(refusalOf(count, LightSampling::Jittered, false), "") << "of a light that is a point";
+    EXPECT_EQ(refusalOf(count, LightSampling::Jittered, true, "nsm"), "") << "who takes none";
   }
 }
 
