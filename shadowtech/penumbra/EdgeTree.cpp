@@ -137,6 +137,7 @@ void EdgeTree::addSurface(
     return;
   }
   const SurfaceEdges& found = this->found_.of(surface);
+  const std::size_t firstRecord = records.size();
   const auto first = static_cast<std::uint32_t>(this->triangles_.size());
   const auto numberOf = [&](std::uint32_t triangle) { return first + triangle - of.firstTriangle; };
   for (std::uint32_t i = 0; i < of.triangleCount; ++i)
@@ -229,9 +230,10 @@ void EdgeTree::addSurface(
   {
     this->edges_[firstEdge + next[edge.triangles[0] - first]++] = edge;
   }
-  for (BvhRecord& record : records)
+  for (std::size_t i = firstRecord; i < records.size(); ++i)
   {
-    if (record.w == 0 && record.x >= first)
+    BvhRecord& record = records[i];
+    if (record.w == 0)
     {
       const std::uint32_t triangle = record.x - first;
       record.y = static_cast<std::uint32_t>(firstEdge) + firstOf[triangle];

@@ -84,6 +84,8 @@ public:
   bool isOnTriangle(const glm::vec3& start) const;
 
   bool empty() const { return this->records_.empty(); }
+  /// How many records there are.
+  std::size_t size() const { return this->records_.size(); }
   std::uint32_t root() const { return this->root_; }
   /// Its box is that of what it holds, and of where shadow rays may start too close to that to say on which side.
   const BvhNode& node(std::uint32_t number) const { return this->nodes_[number]; }

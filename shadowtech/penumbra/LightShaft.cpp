@@ -9,12 +9,13 @@ namespace gnomon
 namespace
 {
 
-/// By how much what a start sees is larger than the light, as slopes, and shafts are larger than that: more than what is
-/// close to an edge by rounding.
+/// By how much what a start sees is larger than the light, as slopes, and shafts are larger than that. What is close to an
+/// edge by rounding may be wider: it is asked for by itself.
 constexpr double moreSlope = 1.0 / 8192.0;
 
-/// How exactly is known where on its way a ray meets a triangle that it does not pass at its edges: this share of it.
-constexpr double moreOfWay = 1.0 / 256.0;
+/// How exactly is known where on its way a ray meets a triangle that is not seen from its side: this share of it
+/// (docs/techniques/penumbra.md).
+constexpr double moreOfWay = 1.0 / 24.0;
 
 /// The steepest rays of a shaft.
 constexpr double mostSlope = 2.0;
@@ -106,11 +107,15 @@ bool LightShaft::laySides(const Bounds& startsShaft)
     this->allSlopes_.least = glm::min(this->allSlopes_.least, of.least);
     this->allSlopes_.most = glm::max(this->allSlopes_.most, of.most);
   }
+  const glm::dvec2 steepest =
+    glm::max(glm::abs(this->allSlopes_.least), glm::abs(this->allSlopes_.most));
+  this->longestSlope_ = 1.0 + steepest.x + steepest.y;
+  this->firstStart_ = lower.z;
   for (int i = 0; i < 2; ++i)
   {
-    const auto lay = [&](double sign, double start, double steepest)
+    const auto lay = [&](double sign, double start, double slopeOfAll)
     {
-      const double slope = steepest + moreSlope;
+      const double slope = slopeOfAll + moreSlope;
       glm::dvec3 outwards(0.0, 0.0, -slope);
       outwards[i] = sign;
       return Plane{ outwards, start - slope * (slope > 0.0 ? lower.z : upper.z) };
@@ -120,8 +125,6 @@ bool LightShaft::laySides(const Bounds& startsShaft)
     this->sides_[side + 1] = lay(-1.0, -lower[i], -this->allSlopes_.least[i]);
   }
   this->sides_[4] = { { 0.0, 0.0, -1.0 }, -lower.z };
-  const glm::dvec2 steepest =
-    glm::max(glm::abs(this->allSlopes_.least), glm::abs(this->allSlopes_.most));
   return steepest.x < mostSlope && steepest.y < mostSlope;
 }
 
@@ -154,7 +157,7 @@ bool LightShaft::layEnds(const ShaftLight& light, const glm::dmat3& area, const 
       nearest = std::min(nearest, end - glm::dot(normal, corner));
       farthest = std::max(farthest, end - glm::dot(normal, corner));
     }
-    if (nearest > 16.0 * rounding && nearest > (this->directional_ ? farthest : distance) / 32.0)
+    if (nearest > 16.0 * rounding && nearest > (this->directional_ ? farthest : distance) / 16.0)
     {
       this->end_ = normal;
       this->firstEnd_ = end - moreOfWay * farthest - rounding;
@@ -215,15 +218,15 @@ bool LightShaft::mayReachEnds(const Bounds& centred) const
 }
 
 //------------------------------------------------------------------------------
-bool LightShaft::passes(const glm::dvec3& from, const glm::dvec3& to, double length) const
+bool LightShaft::passes(
+  const glm::dvec3& from, const glm::dvec3& to, double length, double uncertain) const
 {
   // Seen from a start s instead of the origin, from x to changes by s x (to - from).
   const glm::dvec3 across = glm::cross(from, to);
   const glm::dvec2 middle = 0.5 * (this->allSlopes_.least + this->allSlopes_.most);
   const glm::dvec2 half = this->allSlopes_.most - middle;
-  const double longest = 1.0 + std::abs(middle.x) + half.x + std::abs(middle.y) + half.y;
   return std::abs(glm::dot(across, glm::dvec3(middle, 1.0))) > std::abs(across.x) * half.x +
-    std::abs(across.y) * half.y + this->startsRadius_ * length * longest;
+    std::abs(across.y) * half.y + this->startsRadius_ * length * this->longestSlope_ + uncertain;
 }
 
 } // namespace gnomon

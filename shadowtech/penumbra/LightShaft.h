@@ -59,15 +59,17 @@ public:
   /// Whether a box may meet it. Larger than it is by as much as rays may be from what they meet by rounding.
   bool mayMeet(const Bounds& centred) const;
   /// The same of a triangle, and of an edge, in its coordinates.
+  /// @param more by how much the shaft's slopes are larger than that
   template <std::size_t count>
-  bool mayMeet(const std::array<glm::dvec3, count>& corners) const
+  bool mayMeet(const std::array<glm::dvec3, count>& corners, double more = 0.0) const
   {
     for (const Plane& plane : this->sides_)
     {
       bool outside = true;
       for (const glm::dvec3& corner : corners)
       {
-        outside &= glm::dot(plane.outwards, corner) > plane.distance;
+        outside &=
+          glm::dot(plane.outwards, corner) - plane.distance > more * (corner.z - this->firstStart_);
       }
       if (outside)
       {
@@ -78,7 +80,10 @@ public:
   }
 
   /// Whether the line of an edge passes all rays by.
-  bool passes(const glm::dvec3& from, const glm::dvec3& to, double length) const;
+  /// @param uncertain how little of cross(from, to) times a ray's (x, y, 1) says nothing
+  bool passes(const glm::dvec3& from, const glm::dvec3& to, double length, double uncertain) const;
+  /// Not less than the length of (x, y, 1) for any ray's slopes.
+  double longestSlope() const { return this->longestSlope_; }
 
   /// Where rays end: none of them beyond `last`, none before `first`, as endDepth() has it. Infinite where they go on for ever.
   double firstEnd() const { return this->firstEnd_; }
@@ -107,6 +112,8 @@ private:
   double lightDistance_ = 1.0;  ///< of its centre, which is at x = y = 0, from the origin
   glm::dvec3 lightHalf_{ 0.0 }; ///< half the box around it, or around its directions
   Slopes allSlopes_;            ///< of all rays
+  double longestSlope_ = 1.0;
+  double firstStart_ = 0.0; ///< the least z of the starts, in the shaft's coordinates
   std::array<Plane, 5> sides_;
   glm::dvec3 end_{ 0.0 };
   double firstEnd_ = std::numeric_limits<double>::infinity();

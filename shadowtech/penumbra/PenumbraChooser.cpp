@@ -59,11 +59,12 @@ public:
     if (std::isnan(edge.weight))
     {
       this->lookAtTriangles(*edge.edge, look);
-      if (look.weight == 0.0f && look.width == 1.0)
+      if (look.weight == 0.0f && look.width == 1.0 && !edge.strip)
       {
         return std::nullopt;
       }
     }
+    look.weight = edge.strip ? 0.0f : look.weight;
     return this->see(*edge.edge, from, to, look);
   }
 
@@ -120,13 +121,14 @@ private:
   }
 
   /// Whether an edge, as it is seen, passes all rays by.
-  bool passes(
-    const glm::dvec2& from, const glm::dvec2& to, const glm::dvec3& across, double uncertain) const
+  /// @param around how far around its ends as seen it matters
+  bool passes(const glm::dvec2& from, const glm::dvec2& to, const glm::dvec3& across,
+    double uncertain, double around) const
   {
     for (int i = 0; i < 2; ++i)
     {
-      if (std::max(from[i], to[i]) < this->slopes_.least[i] ||
-        std::min(from[i], to[i]) > this->slopes_.most[i])
+      if (std::max(from[i], to[i]) + around < this->slopes_.least[i] ||
+        std::min(from[i], to[i]) - around > this->slopes_.most[i])
       {
         return true;
       }
@@ -141,19 +143,27 @@ private:
     const TreeEdge& edge, const glm::dvec3& from, const glm::dvec3& to, const Look& look) const
   {
     const double end = this->shaft_.firstEnd() - this->shaft_.endDepth(this->startShaft_);
-    if (this->shaft_.endDepth(from) > end && this->shaft_.endDepth(to) > end)
+    const double least = 1e-9 * look.farthest;
+    const bool beyondLight = this->shaft_.endDepth(from) > end && this->shaft_.endDepth(to) > end;
+    const bool behindStart = from.z < least && to.z < least;
+    if (beyondLight && look.height > 0.0)
     {
-      return std::nullopt; // beyond the light
+      return std::nullopt;
     }
     glm::dvec3 across = glm::cross(from, to);
     const double uncertain = EdgeRounding::ofSide * EdgeRounding::unit * look.width *
       this->longestSlope_ * edge.length * look.farthest;
-    const double least = 1e-9 * look.farthest;
+    // Beyond its ends, as far as the lines of two sides with a small angle stay close.
+    const double half = uncertain / glm::length(glm::dvec2(across));
+    const double beyond =
+      EdgeRounding::beyond(half, this->longestSlope_, look.farthest, look.height);
+    const bool everywhere = behindStart || !(beyond < 1e30);
     const glm::dvec3 cutFrom = this->cut(from, to, least, end);
     const glm::dvec3 cutTo = this->cut(to, from, least, end);
     glm::dvec2 lower(cutFrom.x / cutFrom.z, cutFrom.y / cutFrom.z);
     glm::dvec2 upper(cutTo.x / cutTo.z, cutTo.y / cutTo.z);
-    if (this->passes(lower, upper, across, uncertain))
+    if (this->passes(lower, upper, across, uncertain,
+          everywhere ? std::numeric_limits<double>::infinity() : half + beyond))
     {
       return std::nullopt;
     }
@@ -163,18 +173,16 @@ private:
       std::swap(lower, upper);
       across = -across;
     }
-    const float weight = swapped ? -look.weight : look.weight;
+    const bool counts = !beyondLight && !behindStart;
+    const float weight = !counts ? 0.0f : swapped ? -look.weight : look.weight;
     SeenEdge seen;
     seen.across = across;
     seen.uncertain = static_cast<float>(uncertain);
     seen.weight = weight;
     seen.lower = static_cast<float>(lower.y);
     seen.upper = static_cast<float>(upper.y);
-    // Beyond its ends, as far as the lines of two sides with a small angle stay close.
-    const double projected = glm::length(glm::dvec2(across));
-    const double beyond = 2.0 * uncertain / projected * (1.0 + look.farthest / look.height);
-    seen.uncertainLower = beyond < 1e30 ? static_cast<float>(lower.y - beyond) : -3e38f;
-    seen.uncertainUpper = beyond < 1e30 ? static_cast<float>(upper.y + beyond) : 3e38f;
+    seen.uncertainLower = everywhere ? -3e38f : static_cast<float>(lower.y - beyond);
+    seen.uncertainUpper = everywhere ? 3e38f : static_cast<float>(upper.y + beyond);
     seen.weightBelow = seen.below = 0.0f;
     // What goes on beyond the largest x is counted along that line.
     const double border = this->slopes_.most.x;
@@ -260,6 +268,17 @@ private:
     return { this->tile_.originX[pixel], this->tile_.originY[pixel], this->tile_.originZ[pixel] };
   }
 
+  /// Whether its rays end where the shaft's do: those that start closer to the near face of a light's box than their
+  /// offset is long go beyond it.
+  bool endsAsShaft(std::size_t pixel, const LightShaft& shaft) const
+  {
+    const glm::dvec3 direction(
+      this->tile_.directionX[pixel], this->tile_.directionY[pixel], this->tile_.directionZ[pixel]);
+    return !(shaft.lastEnd() < std::numeric_limits<double>::infinity()) ||
+      shaft.endDepth(shaft.toShaft(this->startOf(pixel)) + shaft.rotation() * direction) <=
+      shaft.lastEnd();
+  }
+
   std::int64_t choose(const std::uint16_t* pixels, std::size_t count, const LightShaft& shaft)
   {
     std::int64_t traced = 0;
@@ -269,7 +288,7 @@ private:
     {
       const std::uint16_t pixel = pixels[i];
       const glm::vec3 start = this->startOf(pixel);
-      if (this->tree_.isOnTriangle(start))
+      if (this->tree_.isOnTriangle(start) || !this->endsAsShaft(pixel, shaft))
       {
         ++traced;
         continue;
@@ -381,7 +400,7 @@ std::vector<PixelClass> classesOfPenumbra()
 
 //------------------------------------------------------------------------------
 void PenumbraChooser::choose(
-  TracedTile& tile, const DirectionsOf& directionsOf, SampleRays& rays) const
+  TracedTile& tile, const DirectionsOf& directionsOf, SampleRays& rays, bool again) const
 {
   Choice choice(this->tree_, this->light_, this->samples_, tile, directionsOf, rays);
   std::int64_t traced = 0;
@@ -401,7 +420,7 @@ void PenumbraChooser::choose(
       traced += count > 0 ? choice.choose(pixels.data(), count) : 0;
     }
   }
-  this->tracedPixels_ += traced;
+  this->tracedPixels_ += again ? 0 : traced;
 }
 
 } // namespace gnomon

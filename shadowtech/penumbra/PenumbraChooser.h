@@ -33,7 +33,8 @@ public:
   {
   }
 
-  void choose(TracedTile& tile, const DirectionsOf& directionsOf, SampleRays& rays) const override;
+  void choose(TracedTile& tile, const DirectionsOf& directionsOf, SampleRays& rays,
+    bool again) const override;
 
   /// Pixels all of whose rays were traced, so far.
   std::int64_t tracedPixels() const { return this->tracedPixels_; }

@@ -7,6 +7,17 @@
 
 namespace gnomon
 {
+namespace
+{
+
+/// So few triangles may all lie in one leaf of a tracer's, which asks them without looking at any box.
+constexpr std::size_t mostOfLeaf = 32;
+
+/// What matters farther around an edge than so much matters everywhere.
+constexpr double mostSlopes = 0.25;
+
+} // namespace
+
 //------------------------------------------------------------------------------
 ShaftEdges::Found ShaftEdges::find(const EdgeTree& tree, const LightShaft& shaft, std::size_t most)
 {
@@ -22,7 +33,20 @@ ShaftEdges::Found ShaftEdges::find(const EdgeTree& tree, const LightShaft& shaft
     ends.clear();
   }
   this->uncertain_.clear();
-  return tree.empty() ? Found::All : this->visit(tree.root());
+  this->more_.clear();
+  this->anywhere_.clear();
+  this->strips_.clear();
+  this->fewTriangles_ = tree.size() <= mostOfLeaf;
+  if (!this->fewTriangles_)
+  {
+    return this->visit(tree.root());
+  }
+  Found found = Found::All;
+  for (std::uint32_t place = 0; place < tree.size() && found == Found::All; ++place)
+  {
+    found = this->take(tree.record(place));
+  }
+  return found;
 }
 
 //------------------------------------------------------------------------------
@@ -84,32 +108,112 @@ bool ShaftEdges::isAlike(const Bounds& bounds, const EdgeTree::Cone& cone) const
 //------------------------------------------------------------------------------
 ShaftEdges::Found ShaftEdges::take(const EdgeTree::Record& record)
 {
+  const bool boxMeets = this->shaft_->mayMeet(this->tree_->bounds(record));
   if (record.opaque)
   {
-    return this->shaft_->mayMeet(this->tree_->bounds(record)) ? Found::Unclear : Found::All;
+    return boxMeets ? Found::Unclear : Found::All;
+  }
+  if (!boxMeets && !this->fewTriangles_)
+  {
+    return Found::All;
   }
   const std::array<glm::vec3, 3>& corners = this->tree_->corners(record.number);
   const std::array<glm::dvec3, 3> placed{ { this->shaft_->toShaft(corners[0]),
     this->shaft_->toShaft(corners[1]), this->shaft_->toShaft(corners[2]) } };
-  if (!this->shaft_->mayMeet(placed))
-  {
-    return Found::All;
-  }
   const auto [nearest, farthest] = std::minmax({ this->shaft_->endDepth(placed[0]),
     this->shaft_->endDepth(placed[1]), this->shaft_->endDepth(placed[2]) });
-  if (nearest > this->shaft_->lastEnd())
-  {
-    return Found::All; // beyond the light
-  }
-  if (farthest >= this->shaft_->firstEnd())
+  const bool beyond = nearest > this->shaft_->lastEnd();
+  const bool meets = !beyond && this->shaft_->mayMeet(placed);
+  if (meets && farthest >= this->shaft_->firstEnd())
   {
     return Found::Unclear; // rays may end on it
   }
-  for (std::uint32_t i = 0; i < record.edgeCount; ++i)
+  const Sight sight = this->look(this->tree_->triangle(record.number));
+  if (beyond && sight.alike)
+  {
+    return Found::All;
+  }
+  for (std::uint32_t i = 0; meets && i < record.edgeCount; ++i)
   {
     this->takeEdge(this->tree_->edge(record.firstEdge + i));
   }
-  return this->edges_.size() <= this->most_ ? Found::All : Found::TooMany;
+  // A ray that meets its box may seem to meet it close to the lines of its sides, far from where these are.
+  for (std::size_t side = 0; side < 3; ++side)
+  {
+    if (!meets ||
+      !this->shaft_->mayMeet(std::array<glm::dvec3, 2>{ { placed[side], placed[(side + 1) % 3] } }))
+    {
+      this->takeStrip(record.number, side, placed, sight);
+    }
+  }
+  // Few of the strips are seen by any one of the starts.
+  return this->edges_.size() - this->strips_.size() <= this->most_ ? Found::All : Found::TooMany;
+}
+
+//------------------------------------------------------------------------------
+ShaftEdges::Sight ShaftEdges::look(const EdgeTriangle& triangle) const
+{
+  const double behind = triangle.behind(this->centre_);
+  const double least = std::abs(behind) - glm::dot(glm::abs(triangle.normal), this->half_);
+  const double farthest =
+    glm::length(glm::dvec3(triangle.corner) - this->centre_) + triangle.longest + this->radius_;
+  const bool alike = least > EdgeRounding::ofHeight * EdgeRounding::unit * farthest * farthest;
+  return { behind, least / triangle.longest, alike,
+    alike
+      ? 1.0
+      : std::max(EdgeRounding::wider, static_cast<double>(triangle.longest / triangle.height)) };
+}
+
+//------------------------------------------------------------------------------
+/// @param reach how far from its ends its triangles' corners may be
+/// @param width Sight::width, the most of its triangles
+/// @param height Sight::height, the least of them
+ShaftEdges::Closeness ShaftEdges::closeness(const glm::dvec3& from, const glm::dvec3& to,
+  double length, double reach, double width, double height) const
+{
+  const double farthest =
+    std::sqrt(std::max(glm::dot(from, from), glm::dot(to, to))) + this->radius_ + reach;
+  const double longest = this->shaft_->longestSlope();
+  const double uncertain =
+    EdgeRounding::ofSide * EdgeRounding::unit * width * longest * length * farthest;
+  // The length of the edge times the least distance of its line.
+  const double least = glm::length(glm::cross(from, to)) - this->radius_ * length;
+  if (width > 1.0 || !(least > 0.0) || !(height > 0.0))
+  {
+    return { uncertain, std::numeric_limits<double>::infinity() };
+  }
+  const double half = uncertain * longest / least;
+  return { uncertain, half + EdgeRounding::beyond(half, longest, farthest, height) };
+}
+
+//------------------------------------------------------------------------------
+/// Takes a side of a triangle for what is close to its line.
+void ShaftEdges::takeStrip(std::uint32_t triangle, std::size_t side,
+  const std::array<glm::dvec3, 3>& placed, const Sight& sight)
+{
+  const glm::dvec3& from = placed[side];
+  const glm::dvec3& to = placed[(side + 1) % 3];
+  const double length = glm::length(to - from);
+  const double reach = this->tree_->triangle(triangle).longest;
+  const Closeness close = this->closeness(from, to, length, reach, sight.width, sight.height);
+  if ((close.slopes < mostSlopes &&
+        !this->shaft_->mayMeet(std::array<glm::dvec3, 2>{ { from, to } }, close.slopes)) ||
+    this->shaft_->passes(from, to, length, close.uncertain))
+  {
+    return;
+  }
+  const std::array<glm::vec3, 3>& corners = this->tree_->corners(triangle);
+  TreeEdge strip;
+  strip.from = corners[side];
+  strip.to = corners[(side + 1) % 3];
+  strip.triangles = { { triangle, TreeEdge::none } };
+  strip.sameDirection = false;
+  strip.length = static_cast<float>(length);
+  strip.reach = static_cast<float>(reach);
+  this->strips_.push_back(strip);
+  this->add({ &this->strips_.back(), sight.alike ? 0.0f : std::numeric_limits<float>::quiet_NaN(),
+              static_cast<float>(sight.height), true },
+    from, to, close);
 }
 
 //------------------------------------------------------------------------------
@@ -117,39 +221,47 @@ void ShaftEdges::takeEdge(const TreeEdge& edge)
 {
   const glm::dvec3 from = this->shaft_->toShaft(edge.from);
   const glm::dvec3 to = this->shaft_->toShaft(edge.to);
-  if (!this->shaft_->mayMeet(std::array<glm::dvec3, 2>{ { from, to } }) ||
-    this->shaft_->passes(from, to, edge.length))
+  if (!this->shaft_->mayMeet(std::array<glm::dvec3, 2>{ { from, to } }))
   {
     return;
   }
-  Edge taken{ &edge, 0.0f, std::numeric_limits<float>::infinity() };
+  Edge taken{ &edge, 0.0f, std::numeric_limits<float>::infinity(), false };
+  double width = 1.0;
   for (std::size_t i = 0; i < 2 && edge.triangles[i] != TreeEdge::none; ++i)
   {
     const EdgeTriangle& triangle = this->tree_->triangle(edge.triangles[i]);
-    const double behind = triangle.behind(this->centre_);
-    const double least = std::abs(behind) - glm::dot(glm::abs(triangle.normal), this->half_);
-    const double farthest =
-      glm::length(glm::dvec3(triangle.corner) - this->centre_) + triangle.longest + this->radius_;
-    const bool alike = least > EdgeRounding::ofHeight * EdgeRounding::unit * farthest * farthest;
-    taken.weight += alike ? directionOf(edge, i) * weightOf(triangle, behind > 0.0)
-                          : std::numeric_limits<float>::quiet_NaN();
-    taken.height = std::min(taken.height, static_cast<float>(least / triangle.longest));
+    const Sight sight = this->look(triangle);
+    taken.weight += sight.alike ? directionOf(edge, i) * weightOf(triangle, sight.behind > 0.0)
+                                : std::numeric_limits<float>::quiet_NaN();
+    taken.height = std::min(taken.height, static_cast<float>(sight.height));
+    width = std::max(width, sight.width);
   }
   if (taken.weight == 0.0f)
   {
     return;
   }
-  this->edges_.push_back(taken);
+  const Closeness close = this->closeness(from, to, edge.length, edge.reach, width, taken.height);
+  if (!this->shaft_->passes(from, to, edge.length, close.uncertain))
+  {
+    this->add(taken, from, to, close);
+  }
+}
+
+//------------------------------------------------------------------------------
+void ShaftEdges::add(
+  const Edge& edge, const glm::dvec3& from, const glm::dvec3& to, const Closeness& close)
+{
+  this->edges_.push_back(edge);
   for (std::size_t i = 0; i < 3; ++i)
   {
     const auto axis = static_cast<glm::length_t>(i);
     this->ends_[i].push_back(from[axis]);
     this->ends_[i + 3].push_back(to[axis]);
   }
-  const double farthest =
-    std::sqrt(std::max(glm::dot(from, from), glm::dot(to, to))) + this->radius_ + edge.reach;
-  this->uncertain_.push_back(
-    4.0 * EdgeRounding::ofSide * EdgeRounding::unit * EdgeRounding::wider * edge.length * farthest);
+  const bool anywhere = !(close.slopes < mostSlopes);
+  this->uncertain_.push_back(close.uncertain);
+  this->more_.push_back(anywhere ? 0.0 : close.slopes);
+  this->anywhere_.push_back(anywhere ? std::numeric_limits<double>::infinity() : 0.0);
 }
 
 //------------------------------------------------------------------------------
@@ -168,6 +280,8 @@ void ShaftEdges::select(const glm::dvec3& start, const LightShaft::Slopes& slope
   const double* const toY = this->ends_[4].data();
   const double* const toZ = this->ends_[5].data();
   const double* const uncertain = this->uncertain_.data();
+  const double* const more = this->more_.data();
+  const double* const anywhere = this->anywhere_.data();
   std::uint8_t* const selected = this->selected_.data();
   const double leastX = slopes.least.x, leastY = slopes.least.y;
   const double mostX = slopes.most.x, mostY = slopes.most.y;
@@ -180,13 +294,14 @@ void ShaftEdges::select(const glm::dvec3& start, const LightShaft::Slopes& slope
     const double ax = fromX[i] - startX, ay = fromY[i] - startY, az = fromZ[i] - startZ;
     const double bx = toX[i] - startX, by = toY[i] - startY, bz = toZ[i] - startZ;
     // The farther inside of the two of each side.
-    const double right = std::min(ax - mostX * az, bx - mostX * bz);
-    const double left = std::min(leastX * az - ax, leastX * bz - bx);
-    const double above = std::min(ay - mostY * az, by - mostY * bz);
-    const double below = std::min(leastY * az - ay, leastY * bz - by);
+    const double moreA = more[i] * az, moreB = more[i] * bz;
+    const double right = std::min(ax - mostX * az - moreA, bx - mostX * bz - moreB);
+    const double left = std::min(leastX * az - ax - moreA, leastX * bz - bx - moreB);
+    const double above = std::min(ay - mostY * az - moreA, by - mostY * bz - moreB);
+    const double below = std::min(leastY * az - ay - moreA, leastY * bz - by - moreB);
     const double before = std::min(-az, -bz);
     const double outside =
-      std::max(std::max(std::max(right, left), std::max(above, below)), before);
+      std::max(std::max(std::max(right, left), std::max(above, below)), before) - anywhere[i];
     // And the line between them.
     const double x = ay * bz - az * by, y = az * bx - ax * bz, z = ax * by - ay * bx;
     const double beside = std::abs(x * middleX + y * middleY + z) - std::abs(x) * halfX -

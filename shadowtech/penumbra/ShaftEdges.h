@@ -9,6 +9,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <vector>
 
 namespace gnomon
@@ -27,6 +28,15 @@ constexpr double ofSide = 40.0;
 constexpr double ofHeight = 1024.0;
 /// Where that is so, what is close to its edges is so many times as wide.
 constexpr double wider = 64.0;
+/// How far beyond an edge's ends the lines of two sides of a triangle stay close, as slopes.
+/// @param half how close
+/// @param longestSlope of rays (x, y, 1), their length
+/// @param farthest the distance of the triangle's farthest corner
+/// @param height above its plane, times its least height, over its longest side
+inline double beyond(double half, double longestSlope, double farthest, double height)
+{
+  return 2.0 * half * longestSlope * longestSlope * (1.0 + farthest / height);
+}
 } // namespace EdgeRounding
 
 /// What a triangle adds to the rays to the left of an edge that it runs along.
@@ -55,6 +65,8 @@ public:
     float weight;
     /// Then, the least height above the plane of its triangles, over their longest side.
     float height;
+    /// Whether only what is close to it by rounding matters: it is a side of its first triangle that is itself no edge here.
+    bool strip;
   };
 
   /// What came of looking for them.
@@ -91,15 +103,44 @@ private:
   Found take(const EdgeTree::Record& record);
   void takeEdge(const TreeEdge& edge);
 
+  /// A triangle as all of the starts see it.
+  struct Sight
+  {
+    double behind; ///< EdgeTriangle::behind() of the middle of the starts
+    double height; ///< the least above its plane, over its longest side; may be below 0
+    bool alike;    ///< whether it shows them the same side for certain
+    double width;  ///< of what is close to its edges by rounding
+  };
+  Sight look(const EdgeTriangle& triangle) const;
+
+  /// What is close to a line by rounding, as seen from any of the starts.
+  struct Closeness
+  {
+    double uncertain; ///< as LightShaft::passes() has it
+    double slopes;    ///< so far around the edge as such
+  };
+  Closeness closeness(const glm::dvec3& from, const glm::dvec3& to, double length, double reach,
+    double width, double height) const;
+  void takeStrip(std::uint32_t triangle, std::size_t side, const std::array<glm::dvec3, 3>& placed,
+    const Sight& sight);
+  void add(const Edge& edge, const glm::dvec3& from, const glm::dvec3& to, const Closeness& close);
+
   const EdgeTree* tree_ = nullptr;
   const LightShaft* shaft_ = nullptr;
   glm::dvec3 centre_, half_; ///< of the starts' box, centred
   double radius_ = 0.0;
   std::size_t most_ = 0;
+  bool fewTriangles_ = false; ///< which a tracer may ask without looking at their boxes
   std::vector<Edge> edges_;
   std::array<std::vector<double>, 6>
     ends_;                        ///< x, y, z of where edges begin, then of where they end
   std::vector<double> uncertain_; ///< the most that rounding may make of their side
+  ///@{
+  /// So far beyond the rays' slopes they matter; infinite in the second where they do wherever they are.
+  std::vector<double> more_;
+  std::vector<double> anywhere_;
+  ///@}
+  std::deque<TreeEdge> strips_;
   std::vector<std::uint8_t> selected_;
 };
 

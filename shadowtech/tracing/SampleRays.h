@@ -45,8 +45,9 @@ public:
   /// Chooses the rays of a tile. Called by several threads at once.
   /// @param tile whose pixels that need a ray may get another class
   /// @param rays with all rays of these pixels
+  /// @param again whether it did so before, as where a picture's rays are traced in parts: what it counts is counted then
   virtual void choose(
-    TracedTile& tile, const DirectionsOf& directionsOf, SampleRays& rays) const = 0;
+    TracedTile& tile, const DirectionsOf& directionsOf, SampleRays& rays, bool again) const = 0;
 };
 
 } // namespace gnomon

@@ -314,7 +314,7 @@ std::size_t TracedPicture::visitSamples(const SampleRange& samples, const Receiv
             }
           });
       },
-      rays);
+      rays, samples.first > 0);
   }
   for (std::size_t pixel = 0; pixel < TracedTile::pixels; ++pixel)
   {

@@ -9,6 +9,7 @@
 #include "shadowtech/penumbra/PenumbraChooser.h"
 #include "shadowtech/tracing/EmbreeTracer.h"
 
+#include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
@@ -262,6 +263,138 @@ TEST(Penumbra, isThatOfAllRaysWhereTheseEndOnTriangles)
           << "scene " << scene << ", size " << size;
       }
     }
+  }
+}
+
+/// A triangle whose edge nearly points at the starts, and a light beside it: so seen, rounding reaches far around its edges.
+TEST(Penumbra, isThatOfAllRaysWhereEdgesPointAtTheLight)
+{
+  Random random(4);
+  for (const bool fromSide : { false, true })
+  {
+    for (const double offLine : { 1e-3, 1e-4, 1e-5, 3e-6 })
+    {
+      for (int scene = 0; scene < 8; ++scene)
+      {
+        const glm::dvec3 along = unitVector(random);
+        const glm::dvec3 x = glm::normalize(glm::cross(along, unitVector(random)));
+        const glm::dvec3 y = glm::cross(along, x);
+        const glm::dvec3 place = 2.0 * unitVector(random);
+        const double nearest = uniform(random, 0.5, 2.0);
+        const double farthest = nearest + uniform(random, 2.0, 5.0);
+        Mesh mesh;
+        mesh.points = { place + nearest * along, place + farthest * along,
+          place + uniform(random, 1.0, 5.0) * along + uniform(random, 1.0, 3.0) * x };
+        mesh.triangles = { { 0, 1, 2 } };
+        const Occluders occluders = makeOccluders({ { mesh } });
+        Starts starts;
+        while (!starts.full())
+        {
+          const double angle = (random() % 2 ? glm::pi<double>() : 0.0) +
+            (fromSide ? uniform(random, -0.02, 0.02) : uniform(random, 0.3, 2.8));
+          const double off = offLine * farthest * uniform(random, 0.2, 1.0);
+          starts.add(
+            place - occluders.centreWorld + off * (std::cos(angle) * x + std::sin(angle) * y),
+            along, 1e-7);
+        }
+        const double side = scene % 2 == 0 ? 1.0 : -1.0;
+        const bool directional = scene % 4 < 2;
+        const double distance = 10.0;
+        const double half = uniform(random, 2e-5, 1e-4);
+        const glm::dvec3 towards = glm::normalize(along + side * uniform(random, 3e-4, 1.5e-3) * x);
+        ShadowLight light =
+          directional ? directionalLight(-towards) : pointLight(place + distance * towards);
+        light.area = rectangleArea(
+          -towards, axisAcross(-towards), glm::dvec2(half * (directional ? 1.0 : distance)));
+        light.lightSamples = 16;
+        EXPECT_EQ(compareWithTruth(light, occluders, starts.receivers).different, 0u)
+          << "scene " << scene << ", " << offLine << " off the line, from its side " << fromSide;
+      }
+    }
+  }
+}
+
+/// Starts in a triangle's plane, and a light in it, too, beyond its tip.
+TEST(Penumbra, isThatOfAllRaysWhereTheseGoAlongTriangles)
+{
+  Random random(5);
+  for (const double offPlane : { 0.0, 1e-6, 1e-5, 1e-4 })
+  {
+    for (const double angle : { 1e-3, 1e-2, 1e-1 })
+    {
+      for (const double half : { 1e-5, 1e-3 })
+      {
+        for (int scene = 0; scene < 6; ++scene)
+        {
+          const glm::dvec3 normal = unitVector(random);
+          const glm::dvec3 x = glm::normalize(glm::cross(normal, unitVector(random)));
+          const glm::dvec3 y = glm::cross(normal, x);
+          const glm::dvec3 place = 2.0 * unitVector(random);
+          const auto at = [&](double distance, double direction)
+          { return place + distance * (std::cos(direction) * x + std::sin(direction) * y); };
+          Mesh mesh;
+          mesh.points = { at(uniform(random, 2.0, 5.0), 0.0),
+            at(uniform(random, 1.0, 6.0), uniform(random, 0.1, 1.0)),
+            at(uniform(random, 1.0, 6.0), uniform(random, 0.1, 1.0)) };
+          mesh.triangles = { { 0, 1, 2 } };
+          const Occluders occluders = makeOccluders({ { mesh } });
+          const glm::dvec3 towards = std::cos(angle) * x - std::sin(angle) * y;
+          Starts starts;
+          while (!starts.full())
+          {
+            const double off = uniform(random, -offPlane, offPlane);
+            const double offX = uniform(random, -1e-3, 1e-3);
+            const double offY = angle * uniform(random, -1e-3, 1e-3);
+            starts.add(
+              place - occluders.centreWorld + off * normal + offX * x + offY * y, towards, 1e-7);
+          }
+          ShadowLight light = pointLight(place + 10.0 * towards);
+          light.area = rectangleArea(-towards, normal, glm::dvec2(10.0 * half));
+          light.lightSamples = 64;
+          EXPECT_EQ(compareWithTruth(light, occluders, starts.receivers).different, 0u)
+            << "scene " << scene << ", " << offPlane << " off the plane, " << angle << ", " << half;
+        }
+      }
+    }
+  }
+}
+
+/// Rays that start closer to the near face of a light's box than their offset is long go beyond it.
+TEST(Penumbra, isThatOfAllRaysWhereTheseGoBeyondTheBoxOfTheLight)
+{
+  Random random(6);
+  const Occluders occluders =
+    makeOccluders({ { makePlane(6.0) }, { makePlane(0.2), at({ 0.1, 0.0, 0.512 }) } });
+  Starts starts;
+  while (!starts.full())
+  {
+    const glm::dvec3 start(uniform(random, -0.003, 0.003), uniform(random, -0.003, 0.003), 0.506);
+    starts.add(start - occluders.centreWorld, upwards, 0.01);
+  }
+  ShadowLight light = boxLight(-upwards, { 0.0, 0.0, 0.507 }, { 4.0, 4.0, 4.0 });
+  light.box = LightBox{ 4.0, 4.0, 4.0, { 0.0, 1.0, 0.0 } };
+  light.area = diskArea(-upwards, 0.3);
+  light.lightSamples = 16;
+  EXPECT_EQ(compareWithTruth(light, occluders, starts.receivers).different, 0u);
+}
+
+/// Samples that do not spread evenly are decided by the same edges.
+TEST(Penumbra, isThatOfAllRaysWhicheverPointsOfTheLightTheyGoTo)
+{
+  const Occluders occluders =
+    makeOccluders({ { makePlane(12.0) }, { makeSphere(12, 24), at({ 0.0, 0.0, 1.5 }) } });
+  Camera camera;
+  camera.position = { 2.0, -6.0, 5.0 };
+  const ReceiverPixels receivers = makeReceivers(occluders, camera);
+  for (const LightSampling sampling : { LightSampling::Jittered, LightSampling::Random })
+  {
+    ShadowLight light = pointLight({ 1.0, 1.0, 6.0 });
+    light.area = rectangleArea(-upwards, { 0.0, 1.0, 0.0 }, { 0.5, 0.5 });
+    light.lightSamples = 64;
+    light.lightSampling = sampling;
+    const Outcome outcome = compareWithTruth(light, occluders, receivers);
+    EXPECT_EQ(outcome.different, 0u);
+    EXPECT_LT(outcome.rays, outcome.raysOfTruth / 20);
   }
 }
 
