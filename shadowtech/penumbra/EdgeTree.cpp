@@ -243,33 +243,31 @@ void EdgeTree::addSurface(
 }
 
 //------------------------------------------------------------------------------
-EdgeTree::Cone EdgeTree::coneOf(const BvhRecord& record) const
+/// Finds where all triangles and those across their edges face; where that says nothing, an edge may have a weight from anywhere.
+std::vector<EdgeTree::Cone> EdgeTree::conesOfTriangles() const
 {
-  if (record.w != 0)
+  std::vector<Cone> own(this->triangles_.size());
+  for (std::size_t i = 0; i < own.size(); ++i)
   {
-    return {};
+    const EdgeTriangle& triangle = this->triangles_[i];
+    own[i].axis = glm::normalize(triangle.normal);
+    own[i].cosine = 1.0f;
+    own[i].mostPerHeight = 1.0f / triangle.height;
+    own[i].reach = triangle.longest;
   }
-  const auto ofTriangle = [this](std::uint32_t number)
+  std::vector<Cone> cones = own;
+  for (const TreeEdge& edge : this->edges_)
   {
-    const EdgeTriangle& triangle = this->triangles_[number];
-    Cone cone;
-    cone.axis = glm::normalize(triangle.normal);
-    cone.cosine = 1.0f;
-    cone.mostPerHeight = 1.0f / triangle.height;
-    cone.reach = triangle.longest;
-    return cone;
-  };
-  Cone cone = ofTriangle(record.x);
-  for (std::uint32_t i = 0; i < record.z; ++i)
-  {
-    const TreeEdge& edge = this->edges_[record.y + i];
-    if (edge.triangles[1] == TreeEdge::none || edge.sameDirection)
+    const auto [first, second] = edge.triangles;
+    if (second == TreeEdge::none)
     {
-      return {};
+      cones[first] = {};
+      continue;
     }
-    cone = joined(cone, ofTriangle(edge.triangles[1]));
+    cones[first] = edge.sameDirection ? Cone{} : joined(cones[first], own[second]);
+    cones[second] = edge.sameDirection ? Cone{} : joined(cones[second], own[first]);
   }
-  return cone;
+  return cones;
 }
 
 //------------------------------------------------------------------------------
@@ -277,6 +275,7 @@ EdgeTree::Cone EdgeTree::coneOf(const BvhRecord& record) const
 void EdgeTree::fitNodes()
 {
   this->cones_.assign(this->nodes_.size(), {});
+  const std::vector<Cone> ofTriangles = this->conesOfTriangles();
   for (std::size_t i = this->nodes_.size(); i-- > 0;)
   {
     BvhNode& node = this->nodes_[i];
@@ -290,7 +289,8 @@ void EdgeTree::fitNodes()
       {
         const std::uint32_t place = BvhLink::first(node.link) + k;
         bounds.add(this->bounds(this->record(place)));
-        cone = this->coneOf(this->records_[place]);
+        const BvhRecord& record = this->records_[place];
+        cone = record.w != 0 ? Cone{} : ofTriangles[record.x];
       }
       else
       {

@@ -109,7 +109,7 @@ private:
   void addOpaque(const Bounds& bounds, std::vector<BvhRecord>& records);
   void fitNodes();
   bool isOnTriangle(const glm::vec3& start, std::uint32_t link) const;
-  Cone coneOf(const BvhRecord& record) const;
+  std::vector<Cone> conesOfTriangles() const;
 
   KeptOfCasters<SurfaceEdges> found_;
   std::vector<EdgeTriangle> triangles_;
