@@ -16,14 +16,6 @@ struct SamplePixel
   std::uint32_t order = 0;
 };
 
-/// A well mixed number of one ("lowbias32" of Wellons 2018).
-inline std::uint32_t hashOf(std::uint32_t x)
-{
-  x = (x ^ (x >> 16)) * 0x7feb352du;
-  x = (x ^ (x >> 15)) * 0x846ca68bu;
-  return x ^ (x >> 16);
-}
-
 } // namespace gnomon
 
 #endif

@@ -7,6 +7,14 @@ namespace gnomon
 namespace
 {
 
+/// A well mixed number of one ("lowbias32" of Wellons 2018).
+std::uint32_t hashOf(std::uint32_t x)
+{
+  x = (x ^ (x >> 16)) * 0x7feb352du;
+  x = (x ^ (x >> 15)) * 0x846ca68bu;
+  return x ^ (x >> 16);
+}
+
 /// Of the first dimension: the digits of a number behind the point, the last one first.
 constexpr std::uint32_t direction(std::size_t bit)
 {

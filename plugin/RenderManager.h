@@ -148,8 +148,8 @@ private:
 
   std::map<int, LightSlot> slots_; ///< by the light's place in the scene
   std::vector<LightSlot*> casting_;
-  const vtkRenderer* rendererBefore_ =
-    nullptr; ///< which the frame before was drawn for; only compared
+  /// Which the frame before was drawn for; only compared.
+  const vtkRenderer* rendererBefore_ = nullptr;
 
   OccluderCollector collector_;
   OccluderBuffers buffers_;

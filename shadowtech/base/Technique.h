@@ -115,8 +115,8 @@ struct MapInput
 struct LayerInput
 {
   const ShadowLight& light;
-  const ViewFitting&
-    fitting; ///< of the light's views in this frame, for techniques that lay out more of them
+  /// Of the light's views in this frame, for techniques that lay out more of them.
+  const ViewFitting& fitting;
   const CameraView& camera;
   const ReceiverSpace& space; ///< the camera's
   const Occluders& occluders;
