@@ -282,10 +282,10 @@ TEST(Penumbra, isThatOfAllRaysWhereEdgesPointAtTheLight)
         const glm::dvec3 place = 2.0 * unitVector(random);
         const double nearest = uniform(random, 0.5, 2.0);
         const double farthest = nearest + uniform(random, 2.0, 5.0);
-        Mesh mesh;
-        mesh.points = { place + nearest * along, place + farthest * along,
-          place + uniform(random, 1.0, 5.0) * along + uniform(random, 1.0, 3.0) * x };
-        mesh.triangles = { { 0, 1, 2 } };
+        const Mesh mesh{ { place + nearest * along, place + farthest * along,
+                           place + uniform(random, 1.0, 5.0) * along +
+                             uniform(random, 1.0, 3.0) * x },
+          { { 0, 1, 2 } } };
         const Occluders occluders = makeOccluders({ { mesh } });
         Starts starts;
         while (!starts.full())
@@ -332,11 +332,10 @@ TEST(Penumbra, isThatOfAllRaysWhereTheseGoAlongTriangles)
           const glm::dvec3 place = 2.0 * unitVector(random);
           const auto at = [&](double distance, double direction)
           { return place + distance * (std::cos(direction) * x + std::sin(direction) * y); };
-          Mesh mesh;
-          mesh.points = { at(uniform(random, 2.0, 5.0), 0.0),
-            at(uniform(random, 1.0, 6.0), uniform(random, 0.1, 1.0)),
-            at(uniform(random, 1.0, 6.0), uniform(random, 0.1, 1.0)) };
-          mesh.triangles = { { 0, 1, 2 } };
+          const Mesh mesh{ { at(uniform(random, 2.0, 5.0), 0.0),
+                             at(uniform(random, 1.0, 6.0), uniform(random, 0.1, 1.0)),
+                             at(uniform(random, 1.0, 6.0), uniform(random, 0.1, 1.0)) },
+            { { 0, 1, 2 } } };
           const Occluders occluders = makeOccluders({ { mesh } });
           const glm::dvec3 towards = std::cos(angle) * x - std::sin(angle) * y;
           Starts starts;
