@@ -3,6 +3,7 @@
 #include <glm/gtc/constants.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace gnomon
@@ -11,29 +12,117 @@ namespace
 {
 
 /// A word's fraction of 2^32 in [0, 1): as many bits as a float holds.
-float fractionOf(std::uint32_t word)
+inline float fractionOf(std::uint32_t word)
 {
-  return static_cast<float>(word >> 8) * 5.9604645e-8f; // 2^-24
+  // Signed numbers become floats faster.
+  return static_cast<float>(static_cast<std::int32_t>(word >> 8)) * 5.9604645e-8f; // 2^-24
 }
 
 /// Sines and cosines for |angle| <= pi / 2, to 1e-7: polynomials, which are the same on all machines.
-float sineOf(float angle)
+inline float sineOf(float angle)
 {
   const float square = angle * angle;
   return angle *
     (1.0f -
-      square / 6.0f *
+      square * (1.0f / 6.0f) *
         (1.0f -
-          square / 20.0f *
-            (1.0f - square / 42.0f * (1.0f - square / 72.0f * (1.0f - square / 110.0f)))));
+          square * (1.0f / 20.0f) *
+            (1.0f -
+              square * (1.0f / 42.0f) *
+                (1.0f - square * (1.0f / 72.0f) * (1.0f - square * (1.0f / 110.0f))))));
 }
-float cosineOf(float angle)
+inline float cosineOf(float angle)
 {
   const float square = angle * angle;
   return 1.0f -
-    square / 2.0f *
+    square * (1.0f / 2.0f) *
     (1.0f -
-      square / 12.0f * (1.0f - square / 30.0f * (1.0f - square / 56.0f * (1.0f - square / 90.0f))));
+      square * (1.0f / 12.0f) *
+        (1.0f -
+          square * (1.0f / 30.0f) *
+            (1.0f - square * (1.0f / 56.0f) * (1.0f - square * (1.0f / 90.0f)))));
+}
+
+/// diskPoint().
+inline glm::vec2 concentric(const glm::vec2& square)
+{
+  const bool wide = std::abs(square.x) > std::abs(square.y);
+  const float radius = wide ? square.x : square.y;
+  const float other = wide ? square.y : square.x;
+  // The middle of the square, where both are 0, is that of the disk.
+  const float angle = glm::quarter_pi<float>() * (other / (radius == 0.0f ? 1.0f : radius));
+  const float along = radius * cosineOf(angle);
+  const float across = radius * sineOf(angle);
+  return { wide ? along : across, wide ? across : along };
+}
+
+/// Coordinates of points of the unit cube, as fractions of 2^32, those of the same axis side by side.
+struct Points
+{
+  static constexpr std::size_t most = 64;
+  std::array<std::uint32_t, most> x, y, z;
+};
+
+/// The places of points on a light of some shape. `unitOf` takes the fractions in [0, 1) of a point's coordinates to the shape.
+template <typename UnitOf>
+inline void placeAll(const Points& points, std::size_t count, const glm::mat3& worldFromUnit,
+  const UnitOf& unitOf, const LightSamples::Coordinates& to)
+{
+  float* const toX = to.x;
+  float* const toY = to.y;
+  float* const toZ = to.z;
+  const glm::mat3 m = worldFromUnit;
+#pragma GCC ivdep
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const glm::vec2 square(
+      2.0f * fractionOf(points.x[i]) - 1.0f, 2.0f * fractionOf(points.y[i]) - 1.0f);
+    const glm::vec3 unit = unitOf(square, points.z[i]);
+    toX[i] = m[0].x * unit.x + m[1].x * unit.y + m[2].x * unit.z;
+    toY[i] = m[0].y * unit.x + m[1].y * unit.y + m[2].y * unit.z;
+    toZ[i] = m[0].z * unit.x + m[1].z * unit.y + m[2].z * unit.z;
+  }
+}
+
+#ifdef __x86_64__
+[[gnu::target_clones("avx2", "default")]]
+#endif
+void placePoints(const Points& points, std::size_t count, LightArea::Shape shape,
+  const glm::mat3& worldFromUnit, const LightSamples::Coordinates& to)
+{
+  switch (shape)
+  {
+    case LightArea::Shape::Rectangle:
+      placeAll(
+        points, count, worldFromUnit,
+        [](const glm::vec2& square, std::uint32_t) { return glm::vec3(square.x, square.y, 0.0f); },
+        to);
+      return;
+    case LightArea::Shape::Disk:
+      placeAll(
+        points, count, worldFromUnit,
+        [](const glm::vec2& square, std::uint32_t)
+        {
+          const glm::vec2 disk = concentric(square);
+          return glm::vec3(disk.x, disk.y, 0.0f);
+        },
+        to);
+      return;
+    case LightArea::Shape::Ball:
+      placeAll(
+        points, count, worldFromUnit,
+        [](const glm::vec2& square, std::uint32_t word)
+        {
+          const glm::vec2 disk = concentric(square);
+          // The middle of the ball's rim may be rounded to just outside of it.
+          const float height =
+            std::sqrt(std::max(1.0f - (disk.x * disk.x + disk.y * disk.y), 0.0f));
+          return glm::vec3(
+            disk.x, disk.y, height * sineOf(glm::pi<float>() * (0.5f - fractionOf(word))));
+        },
+        to);
+      return;
+  }
 }
 
 std::variant<SobolPoints, HashedPoints> pointsFor(const ShadowLight& light)
@@ -57,14 +146,7 @@ std::variant<SobolPoints, HashedPoints> pointsFor(const ShadowLight& light)
 //------------------------------------------------------------------------------
 glm::vec2 diskPoint(const glm::vec2& square)
 {
-  const bool wide = std::abs(square.x) > std::abs(square.y);
-  const float radius = wide ? square.x : square.y;
-  const float other = wide ? square.y : square.x;
-  // The middle of the square is that of the disk.
-  const float angle = radius == 0.0f ? 0.0f : glm::quarter_pi<float>() * (other / radius);
-  const float along = radius * cosineOf(angle);
-  const float across = radius * sineOf(angle);
-  return wide ? glm::vec2(along, across) : glm::vec2(across, along);
+  return concentric(square);
 }
 
 //------------------------------------------------------------------------------
@@ -83,38 +165,73 @@ SamplePixel LightSamples::pixel(std::uint32_t column, std::uint32_t row) const
 }
 
 //------------------------------------------------------------------------------
+/// Makes the places of points of the unit cube.
+/// @param pointOf a point by its number, below `count`, of points of either kind
+template <typename PointOf>
+void LightSamples::place(std::size_t count, const PointOf& pointOf, const Coordinates& to) const
+{
+  std::visit(
+    [&](const auto& points)
+    {
+      Points some; // not cleared
+      for (std::size_t from = 0; from < count; from += Points::most)
+      {
+        const std::size_t part = std::min(Points::most, count - from);
+        for (std::size_t i = 0; i < part; ++i)
+        {
+          const glm::uvec3 point = pointOf(points, from + i);
+          some.x[i] = point.x;
+          some.y[i] = point.y;
+          some.z[i] = point.z;
+        }
+        placePoints(some, part, this->shape_, this->worldFromUnit_,
+          { to.x + from, to.y + from, to.z + from });
+      }
+    },
+    this->points_);
+}
+
+//------------------------------------------------------------------------------
 glm::vec3 LightSamples::offset(int i, const SamplePixel& pixel) const
 {
-  return this->placeOf(
-    std::visit([&](const auto& points) { return points.point(i, pixel); }, this->points_));
+  glm::vec3 offset;
+  this->place(1, [&](const auto& points, std::size_t) { return points.point(i, pixel); },
+    { &offset.x, &offset.y, &offset.z });
+  return offset;
+}
+
+//------------------------------------------------------------------------------
+void LightSamples::offsets(const std::uint32_t* samples, const SamplePixel* pixels,
+  std::size_t count, const Coordinates& to) const
+{
+  this->place(
+    count,
+    [&](const auto& points, std::size_t i)
+    { return points.point(static_cast<int>(samples[i]), pixels[i]); },
+    to);
+}
+
+//------------------------------------------------------------------------------
+void LightSamples::offsets(const SamplePixel& pixel, const Coordinates& to) const
+{
+  this->place(
+    static_cast<std::size_t>(this->count_),
+    [&](const auto& points, std::size_t i) { return points.point(static_cast<int>(i), pixel); },
+    to);
 }
 
 //------------------------------------------------------------------------------
 glm::vec3 LightSamples::offsetInHalf(int i) const
 {
-  const glm::uvec3 point =
-    std::visit([&](const auto& points) { return points.point(i, {}); }, this->points_);
-  return this->placeOf({ point.x, point.y >> 1, point.z });
-}
-
-//------------------------------------------------------------------------------
-/// The place of a point of the unit cube.
-glm::vec3 LightSamples::placeOf(const glm::uvec3& point) const
-{
-  const glm::vec2 square(2.0f * fractionOf(point.x) - 1.0f, 2.0f * fractionOf(point.y) - 1.0f);
-  if (this->shape_ == LightArea::Shape::Rectangle)
-  {
-    return this->worldFromUnit_ * glm::vec3(square, 0.0f);
-  }
-  const glm::vec2 disk = diskPoint(square);
-  if (this->shape_ == LightArea::Shape::Disk)
-  {
-    return this->worldFromUnit_ * glm::vec3(disk, 0.0f);
-  }
-  // The middle of the ball's rim may be rounded to just outside of it.
-  const float height = std::sqrt(std::max(1.0f - glm::dot(disk, disk), 0.0f));
-  const float angle = glm::pi<float>() * (0.5f - fractionOf(point.z));
-  return this->worldFromUnit_ * glm::vec3(disk, height * sineOf(angle));
+  glm::vec3 offset;
+  this->place(1,
+    [&](const auto& points, std::size_t)
+    {
+      const glm::uvec3 point = points.point(i, {});
+      return glm::uvec3(point.x, point.y >> 1, point.z);
+    },
+    { &offset.x, &offset.y, &offset.z });
+  return offset;
 }
 
 //------------------------------------------------------------------------------

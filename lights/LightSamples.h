@@ -7,6 +7,7 @@
 
 #include <glm/glm.hpp>
 
+#include <cstddef>
 #include <cstdint>
 #include <variant>
 #include <vector>
@@ -24,6 +25,14 @@ namespace gnomon
 class LightSamples
 {
 public:
+  /// Where the coordinates of several offsets are put, those of the same axis side by side.
+  struct Coordinates
+  {
+    float* x;
+    float* y;
+    float* z;
+  };
+
   /// @param light with an area
   explicit LightSamples(const ShadowLight& light);
 
@@ -35,12 +44,20 @@ public:
   /// Sample `i` of a pixel, from the light's centre, as LightArea measures it.
   glm::vec3 offset(int i, const SamplePixel& pixel) const;
 
+  /// The same of one sample for each of `count` pixels.
+  void offsets(const std::uint32_t* samples, const SamplePixel* pixels, std::size_t count,
+    const Coordinates& to) const;
+
+  /// The same of all samples of a pixel.
+  void offsets(const SamplePixel& pixel, const Coordinates& to) const;
+
   /// Point `i` without shift, of points that are as even over one half of the light as those of offset() are over
   /// all of it: with the points opposite, they are as even over all of it.
   glm::vec3 offsetInHalf(int i) const;
 
 private:
-  glm::vec3 placeOf(const glm::uvec3& point) const;
+  template <typename PointOf>
+  void place(std::size_t count, const PointOf& pointOf, const Coordinates& to) const;
 
   int count_;
   std::variant<SobolPoints, HashedPoints> points_;

@@ -48,15 +48,19 @@ std::uint32_t spread(std::uint32_t x)
 }
 
 /// A number on a Z curve whose parts, of any size, are swapped at random: each bit is flipped by a hash of those before it.
-std::uint32_t shuffled(std::uint32_t number, std::uint32_t seed)
+#ifdef __x86_64__
+[[gnu::target_clones("avx2", "default")]]
+#endif
+std::uint32_t
+shuffled(std::uint32_t number, std::uint32_t seed)
 {
-  std::uint32_t to = number;
-  for (int bit = 0; bit < 32; ++bit)
+  std::uint32_t flipped = 0;
+  for (std::uint32_t bit = 0; bit < 32; ++bit)
   {
-    const std::uint32_t before = bit == 31 ? 0u : number >> (bit + 1);
-    to ^= (hashOf(hashOf(before + seed) + static_cast<std::uint32_t>(bit)) & 1u) << bit;
+    const std::uint32_t before = number >> bit >> 1;
+    flipped ^= (hashOf(hashOf(before + seed) + bit) & 1u) << bit;
   }
-  return to;
+  return number ^ flipped;
 }
 
 } // namespace
@@ -105,18 +109,21 @@ SobolPoints::SobolPoints(int count, std::uint32_t seed)
 }
 
 //------------------------------------------------------------------------------
-glm::uvec3 SobolPoints::sobol(std::uint32_t number) const
+#ifdef __x86_64__
+[[gnu::target_clones("avx2", "default")]]
+#endif
+glm::uvec3
+SobolPoints::sobol(std::uint32_t number) const
 {
-  glm::uvec3 point = this->first_;
-  for (std::size_t bit = 0; number != 0; ++bit, number >>= 1)
+  std::uint32_t x = this->first_.x, y = this->first_.y, z = this->first_.z;
+  for (std::uint32_t bit = 0; bit < bitsOfWord; ++bit)
   {
-    if ((number & 1u) != 0)
-    {
-      point ^=
-        glm::uvec3(this->directions_[0][bit], this->directions_[1][bit], this->directions_[2][bit]);
-    }
+    const std::uint32_t all = 0u - (number >> bit & 1u); // of a word's bits, or none
+    x ^= this->directions_[0][bit] & all;
+    y ^= this->directions_[1][bit] & all;
+    z ^= this->directions_[2][bit] & all;
   }
-  return point;
+  return { x, y, z };
 }
 
 //------------------------------------------------------------------------------

@@ -244,27 +244,38 @@ inline ShadowRay shadowRaySpot(
   return ray;
 }
 
-/// Where a receiver's shadow ray goes to a point of an area light (LightSamples.h) instead of its centre. It
-/// starts and ends as the centre's does.
+/// What a receiver's shadow rays to the points of an area light have in common. They start and end as the centre's does.
+struct AreaRays
+{
+  glm::vec3 normal;   ///< the receiver's
+  glm::vec3 toCentre; ///< from the receiver to the light's centre, in the units of LightArea
+  glm::vec3 ray;      ///< the direction of the ray to the centre, of any length
+  float perUnit;      ///< how far a ray's end moves when the point on the light moves by one
+};
+
+/// @param light which the receiver faces
+/// @param ray the direction of the receiver's ray to the light's centre
+inline AreaRays areaRays(const ShadowRayLight& light, const glm::vec3& position,
+  const glm::vec3& normal, const glm::vec3& ray)
+{
+  const bool directional = light.kind == LightKind::Directional;
+  // The rays to a box's near face are as long as it takes.
+  return { normal, directional ? light.toLight : light.position - position, ray,
+    directional && light.hasBox ? glm::dot(ray, light.toLight) : 1.0f };
+}
+
+/// Where a receiver's shadow ray goes to a point of an area light (LightSamples.h) instead of its centre.
 ///
 /// VTK shades from the centre: N.L there is the mean over all of the light, of what lies behind the
 /// receiver's plane too, which then counts as negative. So that this is not taken off twice, and so that what nothing is
 /// in the way of is lit: a point behind the plane gives way to the one opposite, which is in front of it
 /// wherever the centre is. The mean of both cosines is the centre's.
 ///
-/// @param light which the receiver faces
-/// @param toCentre the receiver's ray to the light's centre
 /// @param sample from the light's centre
-inline glm::vec3 directionToSample(const ShadowRayLight& light, const ShadowRay& toCentre,
-  const glm::vec3& position, const glm::vec3& normal, const glm::vec3& sample)
+inline glm::vec3 directionToSample(const AreaRays& rays, const glm::vec3& sample)
 {
-  const bool directional = light.kind == LightKind::Directional;
-  const glm::vec3 centre = directional ? light.toLight : light.position - position;
-  const float side = facesLight(normal, centre + sample) ? 1.0f : -1.0f;
-  // The rays to a box's near face are as long as it takes.
-  const float distance =
-    directional && light.hasBox ? glm::dot(toCentre.direction, light.toLight) : 1.0f;
-  return toCentre.direction + side * distance * sample;
+  const float side = facesLight(rays.normal, rays.toCentre + sample) ? 1.0f : -1.0f;
+  return rays.ray + side * rays.perUnit * sample;
 }
 
 /// Calls `visit` with the function that makes this light's shadow rays from position, normal and

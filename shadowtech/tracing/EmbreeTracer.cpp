@@ -135,12 +135,16 @@ template <typename Packet>
 class TileTracer
 {
 public:
-  TileTracer(RTCScene scene, float rayFar, RTCIntersectContextFlags coherence)
+  TileTracer(RTCScene scene, float rayFar)
     : scene_(scene)
     , rayFar_(rayFar)
   {
     rtcInitIntersectContext(&this->context_);
-    this->context_.flags = coherence;
+    // Rays have their answers by themselves, whichever of their neighbours are traced as well. Coherent packets
+    // enter boxes together: whether a ray meets an edge that lies in its box's side, to within a rounding, then
+    // depends on the packet. In scenes with instances Embree 3.13.5 hangs on coherent packets of 16 that hit
+    // some, too: it keeps numbers in AVX-512 registers that the traversal of an instance overwrites.
+    this->context_.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
     for (std::size_t lane = 0; lane < lanes; ++lane)
     {
       this->packet_.tnear[lane] = shadowRayNear;
@@ -265,8 +269,7 @@ struct EmbreeTracer::Impl
   std::atomic<std::ptrdiff_t> bytes{ 0 }; // outlives the device, which counts into it
   Device device;
   Scene scene;
-  bool instanced = false; ///< whether casters have instances
-  bool lanes16 = false;   ///< packets of 16; else of 8, whose answers are the same
+  bool lanes16 = false; ///< packets of 16; else of 8, whose answers are the same
   std::unordered_map<std::uint64_t, Caster> casters; ///< by the surface's topologyVersion
   std::uint64_t topologyVersion = 0;
   std::uint64_t positionsVersion = 0;
@@ -454,8 +457,6 @@ ShadowTracer::Update EmbreeTracer::update(const Occluders& occluders)
     }
   }
   impl.casters = std::move(casters);
-  impl.instanced = std::any_of(impl.casters.begin(), impl.casters.end(),
-    [](const auto& entry) { return entry.second.source.get() != nullptr; });
   rtcCommitScene(impl.scene.get());
   impl.check("building the acceleration structure");
   impl.topologyVersion = occluders.topologyVersion;
@@ -467,17 +468,9 @@ ShadowTracer::Update EmbreeTracer::update(const Occluders& occluders)
 template <typename Packet>
 std::size_t EmbreeTracer::Impl::trace(const TracedPicture& picture) const
 {
-  // In scenes with instances, Embree 3.13.5 hangs on coherent packets of 16 that hit some: it keeps
-  // numbers in AVX-512 registers that the traversal of an instance overwrites. Without coherence the
-  // answers are the same, and of a million triangles and more the time is, too. Coherent packets enter boxes
-  // together: whether a ray meets a triangle's edge that lies in its box's side, to within a rounding, then depends on
-  // the other rays. Those of an area light must have their answers by themselves, since not all of them are always traced.
-  const RTCIntersectContextFlags coherence = this->instanced || picture.ofArea()
-    ? RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT
-    : RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   return picture.visitTiles(picture.allSamples(),
     [&](TracedTile& tile)
-    { return TileTracer<Packet>(this->scene.get(), picture.rayFar(), coherence).trace(tile); });
+    { return TileTracer<Packet>(this->scene.get(), picture.rayFar()).trace(tile); });
 }
 
 //------------------------------------------------------------------------------

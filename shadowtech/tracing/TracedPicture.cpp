@@ -87,55 +87,99 @@ void classify(const ReceiverTile& tile, std::size_t from, const std::uint8_t* re
   }
 }
 
-/// The pixels of a tile that need a ray, and how their rays go to an area light's samples.
-template <typename MakeRay>
-class AreaRays
+/// Pixels whose rays to an area light are made together.
+constexpr std::size_t pixelsTogether = 16;
+static_assert(TracedTile::columns % pixelsTogether == 0, "they lie in one row");
+
+/// Numbers of those pixels.
+template <typename Number>
+using Together = std::array<Number, pixelsTogether>;
+
+/// How the rays of a tile's pixels go to an area light's samples.
+class AreaTile
 {
 public:
-  AreaRays(const ReceiverTile& tile, const MakeRay& makeRay, const ShadowRayLight& light,
+  /// @param traced as prepared: with the rays to the light's centre
+  AreaTile(const ReceiverTile& tile, const TracedTile& traced, const ShadowRayLight& light,
     const LightSamples& samples)
-    : tile_(tile)
-    , makeRay_(makeRay)
-    , light_(light)
-    , samples_(samples)
+    : samples_(samples)
+    , x_(static_cast<std::size_t>(samples.count()))
+    , y_(x_.size())
+    , z_(x_.size())
   {
+    const auto columns = static_cast<std::size_t>(tile.receivers.width);
     for (std::size_t pixel = 0; pixel < TracedTile::pixels; ++pixel)
     {
-      this->pixels_[pixel] =
-        samples.pixel(static_cast<std::uint32_t>(tile.firstColumn + pixel % TracedTile::columns),
-          static_cast<std::uint32_t>(tile.firstRow + pixel / TracedTile::columns));
+      if (traced.needed[pixel] == 0)
+      {
+        continue;
+      }
+      const std::size_t row = pixel / TracedTile::columns;
+      const std::size_t column = pixel % TracedTile::columns;
+      this->pixels_[pixel] = samples.pixel(static_cast<std::uint32_t>(tile.firstColumn + column),
+        static_cast<std::uint32_t>(tile.firstRow + row));
+      const ReceiverPixels& receivers = tile.receivers;
+      const std::size_t from = row * columns + column;
+      const AreaRays rays = areaRays(light,
+        { receivers.positionX[from], receivers.positionY[from], receivers.positionZ[from] },
+        { receivers.normalX[from], receivers.normalY[from], receivers.normalZ[from] },
+        { traced.directionX[pixel], traced.directionY[pixel], traced.directionZ[pixel] });
+      for (glm::length_t axis = 0; axis < 3; ++axis)
+      {
+        const auto i = static_cast<std::size_t>(axis);
+        this->normal_[i][pixel] = rays.normal[axis];
+        this->toCentre_[i][pixel] = rays.toCentre[axis];
+        this->ray_[i][pixel] = rays.ray[axis];
+      }
+      this->perUnit_[pixel] = rays.perUnit;
     }
   }
 
-  /// Calls `visit` with a function that gives the direction to a sample.
-  /// @param pixel of a whole tile, in the picture
-  template <typename Visit>
-  void visitDirections(std::size_t pixel, const Visit& visit) const
+  /// Where a pixel's rays to all samples go.
+  void directionsOf(std::size_t pixel, glm::vec3* directions)
   {
-    const ReceiverPixels& receivers = this->tile_.receivers;
-    const std::size_t from =
-      pixel / TracedTile::columns * static_cast<std::size_t>(receivers.width) +
-      pixel % TracedTile::columns;
-    const glm::vec3 position(
-      receivers.positionX[from], receivers.positionY[from], receivers.positionZ[from]);
-    const glm::vec3 normal(
-      receivers.normalX[from], receivers.normalY[from], receivers.normalZ[from]);
-    const ShadowRay toCentre = this->makeRay_(position, normal, receivers.offset[from]);
-    const SamplePixel& of = this->pixels_[pixel];
-    visit(
-      [&](std::uint32_t sample)
-      {
-        return directionToSample(this->light_, toCentre, position, normal,
-          this->samples_.offset(static_cast<int>(sample), of));
-      });
+    this->samples_.offsets(
+      this->pixels_[pixel], { this->x_.data(), this->y_.data(), this->z_.data() });
+    const AreaRays rays = this->raysOf(pixel);
+    for (std::size_t i = 0; i < this->x_.size(); ++i)
+    {
+      directions[i] = directionToSample(rays, { this->x_[i], this->y_[i], this->z_[i] });
+    }
+  }
+
+  /// Turns the rays of some pixels to one sample each.
+  /// @param first of the pixels; those that need no ray get one that means nothing
+  void turn(std::size_t first, const Together<std::uint32_t>& samples, TracedTile& traced) const
+  {
+    Together<float> x, y, z;
+    this->samples_.offsets(
+      samples.data(), &this->pixels_[first], pixelsTogether, { x.data(), y.data(), z.data() });
+#pragma GCC ivdep
+    for (std::size_t i = 0; i < pixelsTogether; ++i)
+    {
+      const glm::vec3 towards = directionToSample(this->raysOf(first + i), { x[i], y[i], z[i] });
+      traced.directionX[first + i] = towards.x;
+      traced.directionY[first + i] = towards.y;
+      traced.directionZ[first + i] = towards.z;
+    }
   }
 
 private:
-  const ReceiverTile& tile_;
-  const MakeRay& makeRay_;
-  const ShadowRayLight& light_;
+  AreaRays raysOf(std::size_t pixel) const
+  {
+    return { { this->normal_[0][pixel], this->normal_[1][pixel], this->normal_[2][pixel] },
+      { this->toCentre_[0][pixel], this->toCentre_[1][pixel], this->toCentre_[2][pixel] },
+      { this->ray_[0][pixel], this->ray_[1][pixel], this->ray_[2][pixel] }, this->perUnit_[pixel] };
+  }
+
   const LightSamples& samples_;
-  TracedTile::Plane<SamplePixel> pixels_;
+  ///@{
+  /// Of pixels that need a ray, else 0.
+  TracedTile::Plane<SamplePixel> pixels_{};
+  std::array<TracedTile::Plane<float>, 3> normal_{}, toCentre_{}, ray_{};
+  TracedTile::Plane<float> perUnit_{};
+  ///@}
+  std::vector<float> x_, y_, z_; ///< a pixel's offsets
 };
 
 /// Each pixel's rays to all samples.
@@ -290,31 +334,18 @@ void TracedPicture::keep(const ReceiverTile& tile, const TracedTile& traced) con
 
 //------------------------------------------------------------------------------
 /// Visits a tile with each of these rays to an area light.
-template <typename MakeRay>
 std::size_t TracedPicture::visitSamples(const SampleRange& samples, const ReceiverTile& tile,
-  const MakeRay& makeRay, TracedTile& traced,
-  const std::function<std::size_t(TracedTile&)>& trace) const
+  TracedTile& traced, const std::function<std::size_t(TracedTile&)>& trace) const
 {
-  const AreaRays<MakeRay> area(tile, makeRay, this->light_, *this->samples_);
+  AreaTile area(tile, traced, this->light_, *this->samples_);
   SampleRays rays;
   wantAll(traced, static_cast<std::size_t>(this->samples_->count()), rays);
   if (this->chooser_)
   {
     this->chooser_->choose(
       traced,
-      [&](std::size_t pixel, glm::vec3* directions)
-      {
-        area.visitDirections(pixel,
-          [&](const auto& direction)
-          {
-            const auto count = static_cast<std::uint32_t>(this->samples_->count());
-            for (std::uint32_t sample = 0; sample < count; ++sample)
-            {
-              directions[sample] = direction(sample);
-            }
-          });
-      },
-      rays, samples.first > 0);
+      [&](std::size_t pixel, glm::vec3* directions) { area.directionsOf(pixel, directions); }, rays,
+      samples.first > 0);
   }
   for (std::size_t pixel = 0; pixel < TracedTile::pixels; ++pixel)
   {
@@ -327,26 +358,28 @@ std::size_t TracedPicture::visitSamples(const SampleRange& samples, const Receiv
   for (int number = samples.first; number < samples.end; ++number)
   {
     bool any = false;
-    for (std::size_t pixel = 0; pixel < TracedTile::pixels; ++pixel)
+    for (std::size_t first = 0; first < TracedTile::pixels; first += pixelsTogether)
     {
-      const PixelSamples& wanted = rays.pixels[pixel];
-      const bool needed = static_cast<std::uint32_t>(number) < wanted.count;
-      traced.needed[pixel] = needed ? 1 : 0;
-      if (!needed)
+      Together<std::uint32_t> sampleOf{};
+      bool anyOfThese = false;
+      for (std::size_t i = 0; i < pixelsTogether; ++i)
       {
-        continue;
-      }
-      any = true;
-      traced.samplesOfRay[pixel] = number == 0 ? static_cast<float>(wanted.ofFirstRay) : 1.0f;
-      const std::uint32_t sample = rays.samples[wanted.first + static_cast<std::uint32_t>(number)];
-      area.visitDirections(pixel,
-        [&](const auto& direction)
+        const PixelSamples& wanted = rays.pixels[first + i];
+        const bool needed = static_cast<std::uint32_t>(number) < wanted.count;
+        traced.needed[first + i] = needed ? 1 : 0;
+        if (needed)
         {
-          const glm::vec3 towards = direction(sample);
-          traced.directionX[pixel] = towards.x;
-          traced.directionY[pixel] = towards.y;
-          traced.directionZ[pixel] = towards.z;
-        });
+          anyOfThese = true;
+          traced.samplesOfRay[first + i] =
+            number == 0 ? static_cast<float>(wanted.ofFirstRay) : 1.0f;
+          sampleOf[i] = rays.samples[wanted.first + static_cast<std::uint32_t>(number)];
+        }
+      }
+      if (anyOfThese)
+      {
+        area.turn(first, sampleOf, traced);
+        any = true;
+      }
     }
     if (!any)
     {
@@ -377,7 +410,7 @@ std::size_t TracedPicture::visitTiles(
           }
           else if (std::find(traced.needed.begin(), traced.needed.end(), 1) != traced.needed.end())
           {
-            rays += this->visitSamples(samples, tile, makeRay, traced, trace);
+            rays += this->visitSamples(samples, tile, traced, trace);
           }
           if (samples.first == 0)
           {

@@ -81,8 +81,6 @@ public:
   /// Where the rays end, in lengths of their direction.
   float rayFar() const;
 
-  /// Whether its rays go to the samples of an area light.
-  bool ofArea() const { return this->samples_ != nullptr; }
   /// How many rays a pixel has, if any.
   int samples() const { return this->samples_ ? this->samples_->count() : 1; }
   SampleRange allSamples() const { return { 0, this->samples() }; }
@@ -106,9 +104,7 @@ public:
 private:
   template <typename MakeRay>
   void prepare(const ReceiverTile& tile, const MakeRay& makeRay, TracedTile& traced) const;
-  template <typename MakeRay>
-  std::size_t visitSamples(const SampleRange& samples, const ReceiverTile& tile,
-    const MakeRay& makeRay, TracedTile& traced,
+  std::size_t visitSamples(const SampleRange& samples, const ReceiverTile& tile, TracedTile& traced,
     const std::function<std::size_t(TracedTile&)>& trace) const;
   void keep(const ReceiverTile& tile, const TracedTile& traced) const;
 
