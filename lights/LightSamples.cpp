@@ -292,4 +292,15 @@ std::vector<glm::dvec3> pairedLightSamples(const ShadowLight& light)
   return samples;
 }
 
+//------------------------------------------------------------------------------
+std::size_t pairedPointsWanted(std::size_t all, std::size_t before, std::size_t perFrame)
+{
+  if (perFrame == 0)
+  {
+    return all;
+  }
+  const std::size_t wanted = std::min(all, before + perFrame);
+  return wanted + (all - wanted) % 2;
+}
+
 } // namespace gnomon

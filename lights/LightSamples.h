@@ -84,6 +84,11 @@ std::vector<glm::dvec4> lightSamples(const ShadowLight& light, const glm::dvec3&
 /// the centre alone.
 std::vector<glm::dvec3> pairedLightSamples(const ShadowLight& light);
 
+/// How many of `all` paired points a frame is to have that adds some to those of the frames before: whole pairs, and the
+/// centre of an odd number.
+/// @param perFrame points that each frame adds at least; 0: all are in every frame
+std::size_t pairedPointsWanted(std::size_t all, std::size_t before, std::size_t perFrame);
+
 } // namespace gnomon
 
 #endif

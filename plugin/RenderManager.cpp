@@ -11,7 +11,6 @@
 
 #include <vtkActor2D.h>
 #include <vtkCamera.h>
-#include <vtkFrameBufferObjectBase.h>
 #include <vtkInformation.h>
 #include <vtkInformationObjectBaseVectorKey.h>
 #include <vtkOpenGLRenderPass.h>
@@ -22,8 +21,6 @@
 #include <vtkRenderer.h>
 #include <vtkSmartPointer.h>
 #include <vtkVolume.h>
-
-#include <glm/gtc/type_ptr.hpp>
 
 #include <algorithm>
 
@@ -57,24 +54,6 @@ int samplesPerPixel()
   return std::max(samples, 1);
 }
 
-/// The picture that a render state asks for, in pixels: the renderer's part of the window, or the
-/// whole framebuffer that an outer pass hands in.
-glm::ivec2 sizeOf(const vtkRenderState* s)
-{
-  glm::ivec2 size(0);
-  if (auto* framebuffer = s->GetFrameBuffer())
-  {
-    framebuffer->GetLastSize(size.x, size.y);
-  }
-  else
-  {
-    int left = 0;
-    int bottom = 0;
-    s->GetRenderer()->GetTiledSizeAndOrigin(&size.x, &size.y, &left, &bottom);
-  }
-  return glm::max(size, 1);
-}
-
 /// Hides from a prop's shaders all render passes but one, for as long as it lives: other passes may
 /// write outputs of their own.
 class WithoutOtherPasses
@@ -106,31 +85,12 @@ private:
   vtkSmartPointer<vtkInformation> hidden_;
 };
 
-/// Whether a renderer is drawn for one eye or tile at a time.
-bool showsSeveralViews(vtkRenderer* renderer)
-{
-  int tiles[2] = { 1, 1 };
-  renderer->GetRenderWindow()->GetTileScale(tiles);
-  return renderer->GetRenderWindow()->GetStereoRender() || tiles[0] > 1 || tiles[1] > 1;
-}
-
-void hashMatrix(std::size_t& seed, const glm::dmat4& matrix)
-{
-  for (int i = 0; i < 16; ++i)
-  {
-    hashCombine(seed, glm::value_ptr(matrix)[i]);
-  }
-}
-
 /// What a picture of props depends on, beside their places in the snapshot: the same numbers mean the
 /// same picture.
 std::size_t hashOfShown(const vtkRenderState* s, const CameraView& camera, const glm::ivec2& size)
 {
   std::size_t seed = 0;
-  hashMatrix(seed, camera.viewFromCentred);
-  hashMatrix(seed, camera.clipFromView);
-  hashCombine(seed, size.x);
-  hashCombine(seed, size.y);
+  hashView(seed, camera, size);
   for (int i = 0; i < s->GetPropArrayCount(); ++i)
   {
     vtkProp* prop = s->GetPropArray()[i];
@@ -212,9 +172,7 @@ bool RenderManager::collectLights(vtkRenderer* renderer, const ShadowSettings& d
     this->report_.lights.push_back(light);
   }
 
-  const bool severalViews =
-    showsSeveralViews(renderer) || (this->rendererBefore_ && this->rendererBefore_ != renderer);
-  this->rendererBefore_ = renderer;
+  const bool severalViews = this->viewCount_.areSeveral(renderer);
   this->casting_.clear();
   std::map<int, LightSlot> slots;
   for (ShadowLight light : set.casting)

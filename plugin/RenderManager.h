@@ -5,6 +5,7 @@
 #include "plugin/FrameTracer.h"
 #include "plugin/OccluderCollector.h"
 #include "plugin/ShaderManager.h"
+#include "plugin/ShownView.h"
 #include "plugin/VisibilityImages.h"
 #include "shadowtech/Registry.h"
 #include "shadowtech/base/FrameReport.h"
@@ -148,8 +149,7 @@ private:
 
   std::map<int, LightSlot> slots_; ///< by the light's place in the scene
   std::vector<LightSlot*> casting_;
-  /// Which the frame before was drawn for; only compared.
-  const vtkRenderer* rendererBefore_ = nullptr;
+  ViewCount viewCount_;
 
   OccluderCollector collector_;
   OccluderBuffers buffers_;

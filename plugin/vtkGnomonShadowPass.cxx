@@ -1,12 +1,13 @@
 #include "vtkGnomonShadowPass.h"
 
+#include "plugin/PassContext.h"
+#include "plugin/Progress.h"
 #include "plugin/RenderManager.h"
 #include "plugin/VisibilityImages.h"
 #include "shadowtech/Registry.h"
 #include "shadowtech/base/FrameReport.h"
 #include "shadowtech/base/TextureMemory.h"
 
-#include "vtkCommand.h"
 #include "vtkInformation.h"
 #include "vtkInformationObjectBaseVectorKey.h"
 #include "vtkNew.h"
@@ -18,7 +19,6 @@
 #include "vtkRenderState.h"
 #include "vtkRenderStepsPass.h"
 #include "vtkRenderer.h"
-#include "vtkWeakPointer.h"
 
 #include <algorithm>
 
@@ -53,9 +53,7 @@ struct vtkGnomonShadowPass::Internals
   bool shadowed = false;            ///< whether the last frame was the manager's
   double progress = 1.0;            ///< of the last frame that was no selection's
 
-  vtkWeakPointer<vtkOpenGLRenderWindow> window; ///< whose context holds the manager's GL objects
-  vtkTimeStamp contextChecked;
-  bool contextServes = false;
+  gnomon::PassContext context; ///< which holds the manager's GL objects
 };
 
 namespace
@@ -120,7 +118,7 @@ vtkGnomonShadowPass::vtkGnomonShadowPass()
 //------------------------------------------------------------------------------
 vtkGnomonShadowPass::~vtkGnomonShadowPass()
 {
-  this->ReleaseGraphicsResources(this->Internal->window);
+  this->ReleaseGraphicsResources(this->Internal->context.window());
   this->SetDelegatePass(nullptr);
 }
 
@@ -144,7 +142,7 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
     this->RenderPlain(s, "the renderer's UseShadows is off");
     return;
   }
-  if (!this->PrepareContext(renderer))
+  if (!this->Internal->context.enter(this, renderer))
   {
     this->RenderPlain(s, "OpenGL 4.3 is not available");
     return;
@@ -225,23 +223,7 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
   }
   else
   {
-    this->TellProgress(progressBefore);
-  }
-}
-
-//------------------------------------------------------------------------------
-/// Tells observers of frames that refine what is shown.
-/// @param before the progress of the frame before
-void vtkGnomonShadowPass::TellProgress(double before)
-{
-  double progress = this->Internal->progress;
-  if (before < 1.0 || progress < 1.0)
-  {
-    this->InvokeEvent(vtkCommand::ProgressEvent, &progress);
-  }
-  if (before < 1.0 && progress == 1.0)
-  {
-    this->InvokeEvent(vtkCommand::EndEvent);
+    gnomon::tellProgress(this, progressBefore, this->Internal->progress);
   }
 }
 
@@ -302,59 +284,22 @@ void vtkGnomonShadowPass::RenderPlain(const vtkRenderState* s, const char* reaso
 }
 
 //------------------------------------------------------------------------------
-bool vtkGnomonShadowPass::PrepareContext(vtkRenderer* renderer)
-{
-  Internals& internal = *this->Internal;
-  auto* window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
-  if (!window)
-  {
-    vtkErrorMacro("The renderer has no OpenGL render window.");
-    return false;
-  }
-  window->MakeCurrent();
-  if (window != internal.window ||
-    window->GetContextCreationTime() > internal.contextChecked.GetMTime())
-  {
-    this->ReleaseGraphicsResources(internal.window);
-    internal.window = window;
-    internal.contextChecked.Modified();
-    int major = 0;
-    int minor = 0;
-    window->GetOpenGLVersion(major, minor);
-    internal.contextServes = major > 4 || (major == 4 && minor >= 3);
-    if (!internal.contextServes)
-    {
-      vtkErrorMacro("Shadows need OpenGL 4.3, and this context has "
-        << major << "." << minor << ". The scene is drawn without shadows.");
-    }
-  }
-  return internal.contextServes;
-}
-
-//------------------------------------------------------------------------------
 void vtkGnomonShadowPass::ReleaseGraphicsResources(vtkWindow* window)
 {
   this->Superclass::ReleaseGraphicsResources(window);
-  Internals& internal = *this->Internal;
-  if (internal.window)
-  {
-    // Mappers may hold the last reference to a pass that they were drawn with, and drop it while
-    // another window is being drawn.
-    internal.window->PushContext();
-    if (this->DelegatePass)
+  this->Internal->context.leave(
+    [this](vtkWindow* drawnIn)
     {
-      this->DelegatePass->ReleaseGraphicsResources(internal.window);
-    }
-    internal.steps->ReleaseGraphicsResources(internal.window);
-    internal.manager = std::make_unique<gnomon::RenderManager>();
-    internal.window->PopContext();
-  }
-  else
-  {
-    const gnomon::GlContextLost contextLost;
-    internal.manager = std::make_unique<gnomon::RenderManager>();
-  }
-  internal.window = nullptr;
+      if (drawnIn)
+      {
+        if (this->DelegatePass)
+        {
+          this->DelegatePass->ReleaseGraphicsResources(drawnIn);
+        }
+        this->Internal->steps->ReleaseGraphicsResources(drawnIn);
+      }
+      this->Internal->manager = std::make_unique<gnomon::RenderManager>();
+    });
 }
 
 //------------------------------------------------------------------------------

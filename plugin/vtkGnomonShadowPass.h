@@ -244,9 +244,7 @@ private:
   vtkRenderPass* FindDelegate(const vtkRenderState* s);
   void BeginView(const vtkRenderState* s);
   void DrawScene(const vtkRenderState* s);
-  void TellProgress(double before);
   void RenderPlain(const vtkRenderState* s, const char* reason);
-  bool PrepareContext(vtkRenderer* renderer);
 
   vtkGnomonShadowPass(const vtkGnomonShadowPass&) = delete;
   void operator=(const vtkGnomonShadowPass&) = delete;

@@ -89,7 +89,8 @@ void Sampled::drawVisibility(const LayerInput& input, LightReport& report)
   {
     this->batch_.clear(); // gives their memory back
   }
-  const std::size_t wanted = this->pointsWanted(input.light);
+  const std::size_t wanted = pairedPointsWanted(
+    points, this->summed_, static_cast<std::size_t>(input.light.progressiveSamples));
   while (this->summed_ < wanted)
   {
     this->addBatch(input, std::min(wanted - this->summed_, most));
@@ -115,19 +116,6 @@ bool Sampled::beginIfStale(const LayerInput& input)
   this->summed_ = 0;
   this->shown_ = std::move(shown);
   return true;
-}
-
-//------------------------------------------------------------------------------
-/// How many points the sum is to have in this frame: whole pairs, and the centre of an odd number.
-std::size_t Sampled::pointsWanted(const ShadowLight& light) const
-{
-  const std::size_t all = this->shown_->points.size();
-  if (light.progressiveSamples == 0)
-  {
-    return all;
-  }
-  const std::size_t wanted = this->summed_ + static_cast<std::size_t>(light.progressiveSamples);
-  return std::min(all, wanted + (all - std::min(wanted, all)) % 2);
 }
 
 //------------------------------------------------------------------------------

@@ -51,7 +51,6 @@ private:
   };
 
   bool beginIfStale(const LayerInput& input);
-  std::size_t pointsWanted(const ShadowLight& light) const;
   void addBatch(const LayerInput& input, std::size_t count);
   std::string sumGlsl(const LayerInput& input, const std::vector<ShadowLight>& lights) const;
   void showMean(const LayerInput& input);

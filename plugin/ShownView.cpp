@@ -1,0 +1,49 @@
+#include "plugin/ShownView.h"
+
+#include "plugin/Hash.h"
+
+#include <vtkFrameBufferObjectBase.h>
+#include <vtkRenderState.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+
+namespace gnomon
+{
+
+//------------------------------------------------------------------------------
+glm::ivec2 sizeOf(const vtkRenderState* s)
+{
+  glm::ivec2 size(0);
+  if (auto* framebuffer = s->GetFrameBuffer())
+  {
+    framebuffer->GetLastSize(size.x, size.y);
+  }
+  else
+  {
+    int left = 0;
+    int bottom = 0;
+    s->GetRenderer()->GetTiledSizeAndOrigin(&size.x, &size.y, &left, &bottom);
+  }
+  return glm::max(size, 1);
+}
+
+//------------------------------------------------------------------------------
+void hashView(std::size_t& seed, const CameraView& camera, const glm::ivec2& size)
+{
+  hashMatrix(seed, camera.viewFromCentred);
+  hashMatrix(seed, camera.clipFromView);
+  hashCombine(seed, size.x);
+  hashCombine(seed, size.y);
+}
+
+//------------------------------------------------------------------------------
+bool ViewCount::areSeveral(vtkRenderer* renderer)
+{
+  int tiles[2] = { 1, 1 };
+  renderer->GetRenderWindow()->GetTileScale(tiles);
+  const bool other = this->before_ && this->before_ != renderer;
+  this->before_ = renderer;
+  return other || renderer->GetRenderWindow()->GetStereoRender() || tiles[0] > 1 || tiles[1] > 1;
+}
+
+} // namespace gnomon
