@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 
 namespace gnomon
 {
@@ -67,12 +68,18 @@ std::optional<LightBox> readBox(vtkLight* light)
   return box;
 }
 
-/// The radius that a light has by OSPRay's key; 0 where it has none. The key is found by its name, since the
-/// module that it belongs to is not in every VTK.
+/// OSPRay's key of a light's radius, found by its name, since the module that it belongs to is not in every VTK;
+/// null where it is not.
+vtkInformationDoubleKey* ospRayRadiusKey()
+{
+  return vtkInformationDoubleKey::SafeDownCast(
+    vtkInformationKeyLookup::Find("RADIUS", "vtkOSPRayLightNode"));
+}
+
+/// The radius that a light has by OSPRay's key; 0 where it has none.
 double ospRayRadius(vtkLight* light)
 {
-  auto* key = vtkInformationDoubleKey::SafeDownCast(
-    vtkInformationKeyLookup::Find("RADIUS", "vtkOSPRayLightNode"));
+  vtkInformationDoubleKey* key = ospRayRadiusKey();
   vtkInformation* keys = light->GetInformation();
   return key && keys->Has(key) ? keys->Get(key) : 0.0;
 }
@@ -190,8 +197,8 @@ ShadowSettings readSettings(vtkLight* light, const ShadowSettings& defaults, std
   return settings;
 }
 
-/// Why this light can show no shadow; empty when it can.
-std::string reasonToSkip(vtkLight* light)
+/// Why nothing is lit by this light; empty when something is.
+std::string whyDark(vtkLight* light)
 {
   if (!light->GetSwitch())
   {
@@ -205,6 +212,12 @@ std::string reasonToSkip(vtkLight* light)
   {
     return "gives no light";
   }
+  return {};
+}
+
+/// Why no shadow is asked of this light; empty when one is.
+std::string whyWithoutShadow(vtkLight* light)
+{
   vtkInformation* keys = light->GetInformation();
   if (keys->Has(vtkGnomonLightKeys::CASTS()) && !keys->Get(vtkGnomonLightKeys::CASTS()))
   {
@@ -218,6 +231,12 @@ std::string reasonToSkip(vtkLight* light)
   {
     return "its shadow attenuation is 0";
   }
+  return {};
+}
+
+/// Why this light's numbers say not where it shines from and to; empty when they do.
+std::string whyWithoutPlace(vtkLight* light)
+{
   if (light->GetPositional() && !(light->GetConeAngle() > 0.0))
   {
     return "its cone is empty";
@@ -239,7 +258,7 @@ std::string reasonToSkip(vtkLight* light)
   {
     return "its position and focal point give no direction";
   }
-  const int boxNumbers = keys->Length(vtkGnomonLightKeys::BOX());
+  const int boxNumbers = light->GetInformation()->Length(vtkGnomonLightKeys::BOX());
   if (boxNumbers != 0 && boxNumbers != 6 && !light->GetPositional())
   {
     return "its box has " + std::to_string(boxNumbers) + " numbers instead of 6";
@@ -258,6 +277,20 @@ std::string reasonToSkip(vtkLight* light)
     if (!isAcross(box->upWorld, travel))
     {
       return "its box has its up direction along the light";
+    }
+  }
+  return {};
+}
+
+std::string firstReason(
+  vtkLight* light, std::initializer_list<std::string (*)(vtkLight*)> reasonsOf)
+{
+  for (const auto reasonOf : reasonsOf)
+  {
+    std::string reason = reasonOf(light);
+    if (!reason.empty())
+    {
+      return reason;
     }
   }
   return {};
@@ -299,7 +332,7 @@ LightSet LightManager::collect(vtkRenderer* renderer, const ShadowSettings& defa
   lights->InitTraversal(iterator);
   while (vtkLight* light = lights->GetNextLight(iterator))
   {
-    std::string reason = reasonToSkip(light);
+    std::string reason = firstReason(light, { whyDark, whyWithoutShadow, whyWithoutPlace });
     const ShadowSettings settings = readSettings(light, defaults, reason);
     const std::optional<LightArea> area = readArea(light, settings, reason);
     if (reason.empty())
@@ -317,6 +350,40 @@ LightSet LightManager::collect(vtkRenderer* renderer, const ShadowSettings& defa
     shaderIndex += light->GetSwitch() ? 1 : 0;
   }
   return set;
+}
+
+//------------------------------------------------------------------------------
+std::vector<ShadowLight> LightManager::collectAreas(
+  vtkRenderer* renderer, const ShadowSettings& defaults)
+{
+  std::vector<ShadowLight> areas;
+  int sceneIndex = 0;
+  vtkLightCollection* lights = renderer->GetLights();
+  vtkCollectionSimpleIterator iterator;
+  lights->InitTraversal(iterator);
+  while (vtkLight* light = lights->GetNextLight(iterator))
+  {
+    std::string reason = firstReason(light, { whyDark, whyWithoutPlace });
+    const ShadowSettings settings = readSettings(light, defaults, reason);
+    const std::optional<LightArea> area = readArea(light, settings, reason);
+    if (reason.empty() && area && area->radius() > 0.0)
+    {
+      areas.push_back(readLight(light, settings, area));
+      areas.back().sceneIndex = sceneIndex;
+    }
+    ++sceneIndex;
+  }
+  return areas;
+}
+
+//------------------------------------------------------------------------------
+void LightManager::makePoint(vtkLight* light)
+{
+  vtkGnomonLightKeys::SetSetting(light, "light_radius", "0"); // whatever the pass says
+  if (auto* key = ospRayRadiusKey())
+  {
+    light->GetInformation()->Remove(key);
+  }
 }
 
 } // namespace gnomon

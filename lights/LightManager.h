@@ -39,6 +39,14 @@ class LightManager
 public:
   /// @param defaults what lights fall back on where they say nothing themselves (vtkGnomonLightKeys)
   static LightSet collect(vtkRenderer* renderer, const ShadowSettings& defaults);
+
+  /// The renderer's lights that shine from more than a point, whether or not they cast shadows.
+  static std::vector<ShadowLight> collectAreas(
+    vtkRenderer* renderer, const ShadowSettings& defaults);
+
+  /// Takes from a light whatever it says of an area. (The area of vtkGnomonAreaLight is the class's: such a light is
+  /// exchanged.)
+  static void makePoint(vtkLight* light);
 };
 
 } // namespace gnomon

@@ -16,6 +16,7 @@
  * centre, and so are the cone and the box (vtkGnomonLightKeys) that the light may have. Techniques with
  * hard shadows take the centre's. "raytraced", "penumbra", "sampled" and "planar" take the whole area, by as many points
  * as the setting "light_samples" says (vtkGnomonLightKeys::SetSetting), and so do "pcss" and "montecarlo".
+ * vtkGnomonLightSamplingPass has VTK shade from all of its points instead.
  *
  * It is positional and shines into all directions (ConeAngle 90) until it is told otherwise.
  *

@@ -14,10 +14,12 @@ void RunningSum::begin(int width, int height, const char* what)
     return;
   }
   this->width_ = 0; // in case that there is no memory
+  const TexelFormat format = this->channels_ == 1 ? TexelFormat{ GL_R32F, GL_RED, 1 }
+                                                  : TexelFormat{ GL_RGBA32F, GL_RGBA, 4 };
   glActiveTexture(GL_TEXTURE0);
   for (GlTexture& image : this->images_)
   {
-    allocateTexture(image, { GL_R32F, GL_RED, 1 }, width, height, 0, what);
+    allocateTexture(image, format, width, height, 0, what);
   }
   this->width_ = width;
   this->height_ = height;
@@ -53,8 +55,9 @@ void RunningSum::fill()
 //------------------------------------------------------------------------------
 std::size_t RunningSum::bytes() const
 {
-  return this->images_.size() * static_cast<std::size_t>(this->width_) *
-    static_cast<std::size_t>(this->height_) * sizeof(float);
+  return this->images_.size() * static_cast<std::size_t>(this->channels_) *
+    static_cast<std::size_t>(this->width_) * static_cast<std::size_t>(this->height_) *
+    sizeof(float);
 }
 
 } // namespace gnomon

@@ -17,6 +17,12 @@ namespace gnomon
 class RunningSum
 {
 public:
+  /// @param channels 1 or 4
+  explicit RunningSum(int channels = 1)
+    : channels_(channels)
+  {
+  }
+
   /// Starts at 0.
   /// @param what names it in the error
   /// @throws TextureMemoryError
@@ -36,6 +42,7 @@ public:
   std::size_t bytes() const;
 
 private:
+  int channels_;
   std::array<GlTexture, 2> images_; ///< the newest sum, and what the next one will be drawn into
   std::size_t newest_ = 0;
   bool isEmpty_ = true;

@@ -28,8 +28,24 @@ void ScreenPass::fill(GLuint texture, int layer, int width, int height)
     glFramebufferTextureLayer(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, texture, 0, layer);
   }
   glViewport(0, 0, width, height);
-  glDisable(GL_SCISSOR_TEST);
   glDisable(GL_DEPTH_TEST);
+  this->draw();
+}
+
+//------------------------------------------------------------------------------
+void ScreenPass::fillBound(const glm::ivec2& origin, const glm::ivec2& size)
+{
+  glViewport(origin.x, origin.y, size.x, size.y);
+  glEnable(GL_DEPTH_TEST); // without which no depth is written
+  glDepthFunc(GL_ALWAYS);
+  glDepthMask(GL_TRUE);
+  this->draw();
+}
+
+//------------------------------------------------------------------------------
+void ScreenPass::draw()
+{
+  glDisable(GL_SCISSOR_TEST);
   glDisable(GL_STENCIL_TEST);
   glDisable(GL_CULL_FACE);
   glDisable(GL_COLOR_LOGIC_OP);

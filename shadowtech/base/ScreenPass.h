@@ -4,6 +4,8 @@
 #include "shadowtech/base/Gl.h"
 #include "shadowtech/base/ShaderLibrary.h"
 
+#include <glm/glm.hpp>
+
 #include <string>
 
 namespace gnomon
@@ -21,7 +23,13 @@ public:
   /// @param layer of an array; negative for a texture that is none
   void fill(GLuint texture, int layer, int width, int height);
 
+  /// Fills a part of the framebuffer that is bound with the colours and depths (gl_FragDepth) that the program in use
+  /// gives.
+  void fillBound(const glm::ivec2& origin, const glm::ivec2& size);
+
 private:
+  void draw();
+
   GlFramebuffer framebuffer_;
   GlVertexArray noAttributes_;
 };

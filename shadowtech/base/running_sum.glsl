@@ -3,7 +3,7 @@
 uniform sampler2D sumBefore;
 uniform int sumIsEmpty; // 1: nothing was, and the image holds anything
 
-float summedBefore(ivec2 pixel)
+vec4 summedBefore(ivec2 pixel)
 {
-  return sumIsEmpty == 1 ? 0.0 : texelFetch(sumBefore, pixel, 0).r;
+  return sumIsEmpty == 1 ? vec4(0.0) : texelFetch(sumBefore, pixel, 0);
 }

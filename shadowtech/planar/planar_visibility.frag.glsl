@@ -42,5 +42,5 @@ void main()
     uint facing = plane > 1u ? uint(facingPlane[plane - 2u]) : facedBy(point.xyz, normal);
     lit = lightReaches(point.xyz) ? bitCount(facing & ~texelFetch(shadows, pixel, 0).r) : 0;
   }
-  visibility = (summedBefore(pixel) + float(lit)) / divisor;
+  visibility = (summedBefore(pixel).r + float(lit)) / divisor;
 }

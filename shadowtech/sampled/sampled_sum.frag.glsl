@@ -12,7 +12,7 @@ out float sum;
 void main()
 {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
-  sum = summedBefore(pixel);
+  sum = summedBefore(pixel).r;
   vec4 fragment = texelFetch(receiverFragments, pixel, 0);
   if (fragment.x <= 0.0)
   {

@@ -26,6 +26,7 @@ set(expected
   gnomon/vtkGnomonEGLRenderWindow.h
   gnomon/vtkGnomonLightKeys.h
   gnomon/vtkGnomonLightPlacement.h
+  gnomon/vtkGnomonLightSamplingPass.h
   gnomon/vtkGnomonPropKeys.h
   gnomon/vtkGnomonShadowPass.h)
 if(NOT headers STREQUAL expected)

@@ -6,5 +6,6 @@
 #include <vtkGnomonEGLRenderWindow.h>
 #include <vtkGnomonLightKeys.h>
 #include <vtkGnomonLightPlacement.h>
+#include <vtkGnomonLightSamplingPass.h>
 #include <vtkGnomonPropKeys.h>
 #include <vtkGnomonShadowPass.h>

@@ -5,6 +5,9 @@
 #include "LiveObjects.h"
 #include "PassScene.h"
 
+#include "lights/vtkGnomonLightKeys.h"
+#include "plugin/vtkGnomonLightSamplingPass.h"
+
 #include <vtkLightCollection.h>
 
 #include <unistd.h>
@@ -203,4 +206,63 @@ TEST_P(LifeCycle, passMovedToAnotherWindowAndBackHundredTimes)
       this->draw();
     }));
   EXPECT_EQ(differingPixels(picture, this->scene_.render()), 0u);
+}
+
+//------------------------------------------------------------------------------
+TEST_P(LifeCycle, lightsSampledFourHundredTimes)
+{
+  vtkNew<vtkGnomonLightSamplingPass> sampling;
+  sampling->SetDelegatePass(this->scene_.pass);
+  sampling->SetSamples(4);
+  auto* spot = vtkLight::SafeDownCast(this->scene_.renderer->GetLights()->GetItemAsObject(1));
+  this->scene_.renderer->SetPass(sampling);
+  expectNothingLeftBehind(repeat(this->scene_.window, 400,
+    [&](int time)
+    {
+      sampling->SetSamplesPerFrame(time % 10 < 5 ? 2 : 0);
+      vtkGnomonLightKeys::SetSetting(spot, "light_radius", time % 7 < 3 ? "0" : "0.5");
+      this->scene_.window->SetSize(20 + 7 * (time % 5), 30);
+      this->draw();
+    }));
+}
+
+//------------------------------------------------------------------------------
+TEST_P(LifeCycle, lightSamplingReleasesEverything)
+{
+  auto* spot = vtkLight::SafeDownCast(this->scene_.renderer->GetLights()->GetItemAsObject(1));
+  vtkGnomonLightKeys::SetSetting(spot, "light_radius", "0.5");
+  this->scene_.usePlain();
+  this->draw();
+  const LiveObjects plain = countLiveObjects(this->scene_.window);
+  Picture picture;
+  {
+    vtkNew<vtkGnomonLightSamplingPass> sampling;
+    sampling->SetDelegatePass(this->scene_.pass);
+    sampling->SetSamples(4);
+    this->scene_.renderer->SetPass(sampling);
+    picture = this->scene_.render();
+    EXPECT_FALSE(countLiveObjects(this->scene_.window).sameButPrograms(plain));
+    sampling->ReleaseGraphicsResources(this->scene_.window);
+    const LiveObjects released = countLiveObjects(this->scene_.window);
+    EXPECT_TRUE(released.sameButPrograms(plain)) << released << "; plain: " << plain;
+    EXPECT_EQ(picture, this->scene_.render()) << "drawn again after the release";
+    this->scene_.usePlain();
+  }
+  // It may die before its window, and move to another one.
+  const LiveObjects after = countLiveObjects(this->scene_.window);
+  EXPECT_TRUE(after.sameButPrograms(plain)) << after << "; plain: " << plain;
+  vtkNew<vtkGnomonLightSamplingPass> sampling;
+  sampling->SetSamples(4);
+  for (int time = 0; time < 3; ++time)
+  {
+    PassScene other(40, 30);
+    fill(other);
+    vtkGnomonLightKeys::SetSetting(
+      vtkLight::SafeDownCast(other.renderer->GetLights()->GetItemAsObject(1)), "light_radius",
+      "0.5");
+    other.choose(GetParam());
+    sampling->SetDelegatePass(other.pass);
+    other.renderer->SetPass(sampling);
+    EXPECT_EQ(other.render(), picture);
+  }
 }

@@ -3,8 +3,8 @@
 #include "PassScene.h"
 
 #include "lights/vtkGnomonLightKeys.h"
-
 #include "plugin/VisibilityImages.h"
+#include "plugin/vtkGnomonLightSamplingPass.h"
 
 #include <vtkLightCollection.h>
 
@@ -377,4 +377,13 @@ TEST_F(OldOpenGL, isOneClearErrorAndThePictureOfPlainVtk)
   scene.pass->SetTechnique("raytraced");
   EXPECT_EQ(differingPixels(plain, scene.render()), 0u);
   EXPECT_EQ(this->takeErrors(), "") << "said once";
+  vtkNew<vtkGnomonLightSamplingPass> sampling;
+  vtkGnomonLightKeys::SetSetting(
+    vtkLight::SafeDownCast(scene.renderer->GetLights()->GetItemAsObject(0)), "light_radius", "2");
+  scene.renderer->SetPass(sampling);
+  EXPECT_EQ(differingPixels(plain, scene.render()), 0u);
+  EXPECT_EQ(differingPixels(plain, scene.render()), 0u);
+  const std::string errorsOfSampling = this->takeErrors();
+  EXPECT_THAT(errorsOfSampling, HasSubstr("OpenGL 4.3"));
+  EXPECT_EQ(std::count(errorsOfSampling.begin(), errorsOfSampling.end(), '\n'), 1) << "one error";
 }

@@ -1,0 +1,311 @@
+#include "vtkGnomonLightSamplingPass.h"
+
+#include "lights/LightManager.h"
+#include "lights/LightSamples.h"
+#include "plugin/DrawnProps.h"
+#include "plugin/Hash.h"
+#include "plugin/PassContext.h"
+#include "plugin/PictureTarget.h"
+#include "plugin/PointLights.h"
+#include "plugin/Progress.h"
+#include "plugin/ShownScene.h"
+#include "plugin/ShownView.h"
+#include "shadowtech/base/PictureMean.h"
+
+#include "vtkActor.h"
+#include "vtkCamera.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkOpenGLFramebufferObject.h"
+#include "vtkOpenGLRenderWindow.h"
+#include "vtkOpenGLState.h"
+#include "vtkPropCollection.h"
+#include "vtkProperty.h"
+#include "vtkRenderState.h"
+#include "vtkRenderStepsPass.h"
+#include "vtkRenderer.h"
+#include "vtk_glew.h"
+
+#include <algorithm>
+#include <optional>
+#include <stdexcept>
+
+vtkStandardNewMacro(vtkGnomonLightSamplingPass);
+
+namespace
+{
+
+/// That VTK's physically based shading ends in.
+constexpr double gammaOfPbr = 2.2;
+
+/// The renderer's area lights with the points that stand for them.
+std::vector<gnomon::PointedLight> pointedLights(vtkRenderer* renderer, int samples)
+{
+  std::vector<gnomon::PointedLight> pointed;
+  for (gnomon::ShadowLight& light : gnomon::LightManager::collectAreas(renderer, {}))
+  {
+    if (light.lightSampling == gnomon::LightSampling::Jittered)
+    {
+      throw std::runtime_error("light " + std::to_string(light.sceneIndex) +
+        ": its points are to come in opposite pairs, which a grid of cells does not; its "
+        "'light_sampling' is sobol or random");
+    }
+    light.lightSamples = samples;
+    std::vector<glm::dvec3> offsets = gnomon::pairedLightSamples(light);
+    pointed.push_back({ std::move(light), std::move(offsets) });
+  }
+  return pointed;
+}
+
+/// Refuses what the mean of pictures cannot be shown in.
+void requireToBeInPlace(vtkRenderer* renderer)
+{
+  GLint second = GL_NONE;
+  glGetIntegerv(GL_DRAW_BUFFER1, &second);
+  if (second != GL_NONE)
+  {
+    throw std::runtime_error("the pass around this one has it draw into several images, of which "
+                             "it knows one; let that pass be the delegate");
+  }
+  if (renderer->GetPreserveDepthBuffer() || !renderer->GetErase() ||
+    !renderer->GetRenderWindow()->GetErase())
+  {
+    throw std::runtime_error(
+      "the depths of what is drawn already are to be kept (PreserveDepthBuffer, or Erase off)");
+  }
+}
+
+/// Where the renderer's picture is in the framebuffer that is bound.
+glm::ivec2 originOf(const vtkRenderState* s)
+{
+  glm::ivec2 size(0);
+  glm::ivec2 origin(0);
+  if (!s->GetFrameBuffer())
+  {
+    s->GetRenderer()->GetTiledSizeAndOrigin(&size.x, &size.y, &origin.x, &origin.y);
+  }
+  return origin;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+struct vtkGnomonLightSamplingPass::Internals
+{
+  vtkNew<vtkRenderStepsPass> steps; ///< where there is no delegate
+  gnomon::PassContext context;      ///< which holds the following two's OpenGL objects
+  std::unique_ptr<gnomon::PictureTarget> target = std::make_unique<gnomon::PictureTarget>();
+  std::unique_ptr<gnomon::PictureMean> mean = std::make_unique<gnomon::PictureMean>();
+  std::vector<gnomon::PointedLight> lights; ///< of this frame
+  std::optional<std::size_t> shown;         ///< a hash of what the mean was begun for
+  gnomon::ShownScene scene;
+  gnomon::ViewCount viewCount;
+  double progress = 1.0; ///< of the last frame that was no selection's
+};
+
+//------------------------------------------------------------------------------
+vtkGnomonLightSamplingPass::vtkGnomonLightSamplingPass()
+  : Internal(new Internals)
+{
+}
+
+//------------------------------------------------------------------------------
+vtkGnomonLightSamplingPass::~vtkGnomonLightSamplingPass()
+{
+  this->ReleaseGraphicsResources(this->Internal->context.window());
+  this->SetDelegatePass(nullptr);
+}
+
+//------------------------------------------------------------------------------
+vtkCxxSetObjectMacro(vtkGnomonLightSamplingPass, DelegatePass, vtkRenderPass);
+
+//------------------------------------------------------------------------------
+vtkRenderPass* vtkGnomonLightSamplingPass::Delegate() const
+{
+  return this->DelegatePass ? this->DelegatePass : this->Internal->steps;
+}
+
+//------------------------------------------------------------------------------
+void vtkGnomonLightSamplingPass::DrawByDelegate(const vtkRenderState* s)
+{
+  this->Delegate()->Render(s);
+  this->NumberOfRenderedProps = this->Delegate()->GetNumberOfRenderedProps();
+}
+
+//------------------------------------------------------------------------------
+void vtkGnomonLightSamplingPass::DrawFromCentres(const vtkRenderState* s)
+{
+  const gnomon::PointLights atCentres(s->GetRenderer(), this->Internal->lights);
+  this->DrawByDelegate(s);
+}
+
+//------------------------------------------------------------------------------
+void vtkGnomonLightSamplingPass::Render(const vtkRenderState* s)
+{
+  Internals& internal = *this->Internal;
+  vtkRenderer* renderer = s->GetRenderer();
+  if (renderer->GetSelector())
+  {
+    this->DrawByDelegate(s);
+    return;
+  }
+  const double progressBefore = internal.progress;
+  internal.progress = 1.0;
+  if (!internal.context.enter(this, renderer))
+  {
+    this->DrawByDelegate(s);
+    return;
+  }
+  try
+  {
+    this->UpdateLightGeometry(renderer); // head lights follow the camera
+    internal.lights = pointedLights(renderer, this->Samples);
+    internal.progress = this->DrawMean(s);
+  }
+  catch (const std::exception& error)
+  {
+    internal.shown.reset();
+    vtkErrorMacro("The delegate draws alone: " << error.what() << ".");
+    this->DrawByDelegate(s);
+  }
+  gnomon::tellProgress(this, progressBefore, internal.progress);
+}
+
+//------------------------------------------------------------------------------
+/// @return how much of the mean this frame shows
+double vtkGnomonLightSamplingPass::DrawMean(const vtkRenderState* s)
+{
+  Internals& internal = *this->Internal;
+  vtkRenderer* renderer = s->GetRenderer();
+  if (internal.lights.empty() || this->Samples == 1)
+  {
+    internal.shown.reset();
+    this->DrawFromCentres(s);
+    return 1.0;
+  }
+  requireToBeInPlace(renderer);
+  const bool refines = !internal.viewCount.areSeveral(renderer) && this->SamplesPerFrame > 0;
+  const bool begins = !refines || internal.shown != this->HashOfShown(s);
+  internal.shown.reset(); // in case of an error
+  if (begins)
+  {
+    internal.mean->begin(gnomon::sizeOf(s), this->GammaOf(s));
+  }
+  if (begins && refines)
+  {
+    this->DrawFromCentres(s);
+    internal.shown = this->HashOfShown(s);
+    return 0.0;
+  }
+  const auto all = static_cast<std::size_t>(this->Samples);
+  this->AddPictures(s,
+    gnomon::pairedPointsWanted(all, internal.mean->pictures(),
+      refines ? static_cast<std::size_t>(this->SamplesPerFrame) : 0));
+  const glm::ivec2 origin = originOf(s);
+  const glm::ivec2 size = gnomon::sizeOf(s);
+  internal.mean->show(internal.target->picture(), origin);
+  // As the renderer leaves them that draws for itself.
+  vtkOpenGLState* state = internal.context.window()->GetState();
+  state->vtkglViewport(origin.x, origin.y, size.x, size.y);
+  state->vtkglScissor(origin.x, origin.y, size.x, size.y);
+  if (refines)
+  {
+    internal.shown = this->HashOfShown(s); // which drawing may change: of a text, the texture
+  }
+  return static_cast<double>(internal.mean->pictures()) / static_cast<double>(all);
+}
+
+//------------------------------------------------------------------------------
+/// Draws pictures from the lights' next points until there are as many as wanted.
+void vtkGnomonLightSamplingPass::AddPictures(const vtkRenderState* s, std::size_t wanted)
+{
+  Internals& internal = *this->Internal;
+  internal.target->resize(internal.context.window(), gnomon::sizeOf(s));
+  gnomon::PointLights lights(s->GetRenderer(), internal.lights);
+  while (internal.mean->pictures() < wanted)
+  {
+    lights.moveTo(internal.mean->pictures());
+    internal.target->draw(this->Delegate(), s, originOf(s));
+    internal.mean->add(internal.target->picture());
+  }
+  this->NumberOfRenderedProps = this->Delegate()->GetNumberOfRenderedProps();
+}
+
+//------------------------------------------------------------------------------
+double vtkGnomonLightSamplingPass::GammaOf(const vtkRenderState* s) const
+{
+  if (this->Gamma > 0.0)
+  {
+    return this->Gamma;
+  }
+  vtkNew<vtkPropCollection> parts;
+  for (int i = 0; i < s->GetPropArrayCount(); ++i)
+  {
+    s->GetPropArray()[i]->GetActors(parts);
+  }
+  vtkCollectionSimpleIterator iterator;
+  parts->InitTraversal(iterator);
+  while (vtkProp* part = parts->GetNextProp(iterator))
+  {
+    auto* actor = vtkActor::SafeDownCast(part);
+    if (actor && actor->GetProperty()->GetInterpolation() == VTK_PBR)
+    {
+      return gammaOfPbr;
+    }
+  }
+  return 1.0;
+}
+
+//------------------------------------------------------------------------------
+/// What a picture from given points of the lights depends on: the same number means the same picture.
+std::size_t vtkGnomonLightSamplingPass::HashOfShown(const vtkRenderState* s)
+{
+  vtkRenderer* renderer = s->GetRenderer();
+  vtkCamera* camera = renderer->GetActiveCamera();
+  std::size_t seed = this->Internal->scene.hash(renderer);
+  gnomon::hashView(seed,
+    { gnomon::toGlm(camera->GetModelViewTransformMatrix()),
+      gnomon::toGlm(
+        camera->GetProjectionTransformMatrix(renderer->GetTiledAspectRatio(), -1.0, 1.0)) },
+    gnomon::sizeOf(s));
+  gnomon::hashCombine(seed, this->GetMTime());
+  gnomon::hashCombine(seed, this->Delegate()->GetMTime());
+  return seed;
+}
+
+//------------------------------------------------------------------------------
+double vtkGnomonLightSamplingPass::GetProgress() const
+{
+  return this->Internal->progress;
+}
+
+//------------------------------------------------------------------------------
+void vtkGnomonLightSamplingPass::ReleaseGraphicsResources(vtkWindow* window)
+{
+  this->Superclass::ReleaseGraphicsResources(window);
+  this->Internal->context.leave(
+    [this](vtkOpenGLRenderWindow* drawnIn)
+    {
+      Internals& internal = *this->Internal;
+      if (drawnIn)
+      {
+        this->Delegate()->ReleaseGraphicsResources(drawnIn);
+      }
+      internal.target = std::make_unique<gnomon::PictureTarget>();
+      internal.mean = std::make_unique<gnomon::PictureMean>();
+      internal.shown.reset();
+    });
+}
+
+//------------------------------------------------------------------------------
+void vtkGnomonLightSamplingPass::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent
+     << "DelegatePass: " << (this->DelegatePass ? this->DelegatePass->GetClassName() : "(none)")
+     << "\n";
+  os << indent << "Samples: " << this->Samples << "\n";
+  os << indent << "SamplesPerFrame: " << this->SamplesPerFrame << "\n";
+  os << indent << "Gamma: " << this->Gamma << "\n";
+  os << indent << "Progress: " << this->GetProgress() << "\n";
+}

@@ -1,0 +1,895 @@
+// vtkGnomonLightSamplingPass: shading from each of many points of the light.
+
+#include "PassScene.h"
+
+#include "lights/LightManager.h"
+#include "lights/LightSamples.h"
+#include "lights/vtkGnomonAreaLight.h"
+#include "lights/vtkGnomonLightKeys.h"
+#include "plugin/vtkGnomonLightSamplingPass.h"
+#include "plugin/vtkGnomonPropKeys.h"
+
+#include <vtkCallbackCommand.h>
+#include <vtkCommand.h>
+#include <vtkDepthPeelingPass.h>
+#include <vtkHardwareSelector.h>
+#include <vtkImageData.h>
+#include <vtkInformation.h>
+#include <vtkLightCollection.h>
+#include <vtkObjectFactory.h>
+#include <vtkOpenGLFXAAPass.h>
+#include <vtkOpenGLRenderer.h>
+#include <vtkPlaneSource.h>
+#include <vtkProperty.h>
+#include <vtkRenderState.h>
+#include <vtkRenderStepsPass.h>
+#include <vtkSSAAPass.h>
+#include <vtkSSAOPass.h>
+#include <vtkSelection.h>
+#include <vtkSelectionNode.h>
+#include <vtkTextActor.h>
+#include <vtkToneMappingPass.h>
+#include <vtkTransform.h>
+#include <vtkTranslucentPass.h>
+#include <vtkUnsignedCharArray.h>
+#include <vtkWindowToImageFilter.h>
+
+#include <glm/gtc/type_ptr.hpp>
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numeric>
+#include <ostream>
+#include <string>
+#include <vector>
+
+using namespace gnomon::test;
+using testing::HasSubstr;
+
+namespace
+{
+
+/// Counts the pictures that the pass within draws.
+class CountingPass : public vtkRenderPass
+{
+public:
+  static CountingPass* New();
+  vtkTypeMacro(CountingPass, vtkRenderPass);
+  void Render(const vtkRenderState* s) override
+  {
+    ++this->Count;
+    this->Inner->Render(s);
+    this->NumberOfRenderedProps = this->Inner->GetNumberOfRenderedProps();
+  }
+  void ReleaseGraphicsResources(vtkWindow* window) override
+  {
+    this->Inner->ReleaseGraphicsResources(window);
+  }
+
+  vtkSmartPointer<vtkRenderPass> Inner;
+  int Count = 0;
+};
+vtkStandardNewMacro(CountingPass);
+
+/// A picture's channels before they are rounded.
+using Channels = std::vector<double>;
+
+Channels channelsOf(const Picture& picture)
+{
+  return Channels(picture.rgb.begin(), picture.rgb.end());
+}
+
+double largestDifference(const Channels& a, const Channels& b)
+{
+  EXPECT_EQ(a.size(), b.size());
+  double largest = 0.0;
+  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
+  {
+    largest = std::max(largest, std::abs(a[i] - b[i]));
+  }
+  return largest;
+}
+
+double meanOf(const Channels& channels)
+{
+  return std::accumulate(channels.begin(), channels.end(), 0.0) /
+    static_cast<double>(channels.size());
+}
+
+/// A lamp or sun with an area.
+struct Named
+{
+  const char* name;
+  std::function<vtkSmartPointer<vtkLight>()> make;
+};
+std::ostream& operator<<(std::ostream& stream, const Named& named)
+{
+  return stream << named.name;
+}
+std::string nameOfLight(const testing::TestParamInfo<Named>& info)
+{
+  return info.param.name;
+}
+
+const glm::dvec3 lampPlace(-2.0, -2.5, 4.0);
+
+vtkSmartPointer<vtkGnomonAreaLight> rectangle(double coneAngleDegrees)
+{
+  auto light = vtkSmartPointer<vtkGnomonAreaLight>::New();
+  light->SetPosition(lampPlace.x, lampPlace.y, lampPlace.z);
+  light->SetFocalPoint(0.0, 0.0, 0.0);
+  light->SetConeAngle(coneAngleDegrees);
+  light->SetShapeToRectangle();
+  light->SetWidth(2.0);
+  light->SetHeight(1.0);
+  return light;
+}
+
+vtkSmartPointer<vtkLight> withRadius(const char* radius)
+{
+  auto light = vtkSmartPointer<vtkLight>::New();
+  light->SetPosition(lampPlace.x, lampPlace.y, lampPlace.z);
+  light->SetFocalPoint(0.0, 0.0, 0.0);
+  vtkGnomonLightKeys::SetSetting(light, "light_radius", radius);
+  return light;
+}
+
+std::vector<Named> allLights()
+{
+  return {
+    { "sun", [] { return withRadius("15"); } },
+    { "sunInABox",
+      []
+      {
+        vtkSmartPointer<vtkLight> light = withRadius("15");
+        const double up[3] = { 0.3, 1.0, 0.0 };
+        vtkGnomonLightKeys::SetBox(light, 5.0, 4.0, 9.0, up);
+        return light;
+      } },
+    { "rectangle", [] { return vtkSmartPointer<vtkLight>(rectangle(35.0)); } },
+    { "rectangleThatFades",
+      []
+      {
+        vtkSmartPointer<vtkLight> light = rectangle(50.0);
+        light->SetExponent(4.0);
+        light->SetAttenuationValues(0.2, 0.1, 0.02);
+        light->SetDiffuseColor(1.0, 0.8, 0.5);
+        light->SetSpecularColor(0.3, 0.6, 1.0);
+        light->SetAmbientColor(0.1, 0.1, 0.2);
+        return light;
+      } },
+    { "disk",
+      []
+      {
+        vtkSmartPointer<vtkGnomonAreaLight> light = rectangle(70.0);
+        light->SetShapeToDisk();
+        light->SetRadius(0.8);
+        return vtkSmartPointer<vtkLight>(light);
+      } },
+    { "ball",
+      []
+      {
+        vtkSmartPointer<vtkLight> light = withRadius("0.7");
+        light->PositionalOn();
+        light->SetConeAngle(allDirections);
+        return light;
+      } },
+    { "placedByAMatrix",
+      []
+      {
+        vtkSmartPointer<vtkLight> light = rectangle(60.0);
+        vtkNew<vtkTransform> transform;
+        transform->RotateZ(25.0);
+        transform->Translate(0.3, 0.2, 0.1);
+        light->SetTransformMatrix(transform->GetMatrix());
+        return light;
+      } },
+    { "headlight",
+      []
+      {
+        vtkSmartPointer<vtkLight> light = withRadius("20");
+        light->SetLightTypeToHeadlight();
+        return light;
+      } },
+    { "cameraLight",
+      []
+      {
+        vtkSmartPointer<vtkGnomonAreaLight> light = rectangle(80.0);
+        light->SetLightTypeToCameraLight();
+        light->SetPosition(0.2, 0.3, 1.0);
+        light->SetFocalPoint(0.0, 0.0, 0.0);
+        return vtkSmartPointer<vtkLight>(light);
+      } },
+  };
+}
+
+/// A box, a shining sphere and a floor, lit by an area light, and shaded from each of its points.
+class LightSamplingScene : public PassTest
+{
+protected:
+  LightSamplingScene()
+  {
+    this->floor = this->scene.addFloor(4.0);
+    this->box = this->scene.addBox({ -0.9, -0.7, 0.0 }, { 0.3, 0.5, 1.0 });
+    this->sphere = this->scene.addSphere({ 1.3, 0.8, 0.9 }, 0.6);
+    this->sphere->GetProperty()->SetColor(0.6, 0.5, 0.3);
+    this->sphere->GetProperty()->SetSpecular(0.6);
+    this->sphere->GetProperty()->SetSpecularPower(20.0);
+    this->sphere->GetProperty()->SetAmbient(0.1);
+    this->scene.lookFrom({ 2.0, -8.0, 7.0 });
+    this->counting->Inner = this->scene.pass;
+    this->sampling->SetDelegatePass(this->counting);
+    this->sampling->SetSamples(8);
+    this->scene.renderer->SetPass(this->sampling);
+    this->scene.pass->SetTechnique("nsm");
+  }
+
+  void add(vtkLight* areaLight)
+  {
+    this->light = areaLight;
+    this->scene.renderer->AddLight(areaLight);
+  }
+
+  Picture pictureOf(vtkRenderPass* pass)
+  {
+    vtkSmartPointer<vtkRenderPass> before = this->scene.renderer->GetPass();
+    this->scene.renderer->SetPass(pass);
+    Picture picture = this->scene.render();
+    this->scene.renderer->SetPass(before);
+    return picture;
+  }
+
+  /// Pictures of a pass, one for each point of the light, by a light of VTK's that is placed there by hand.
+  /// @param add gets each of them
+  void forEachPoint(vtkRenderPass* pass, const std::function<void(const Picture&)>& add)
+  {
+    this->scene.render(); // head lights follow the camera
+    std::vector<gnomon::ShadowLight> areas =
+      gnomon::LightManager::collectAreas(this->scene.renderer, {});
+    ASSERT_EQ(areas.size(), 1u);
+    gnomon::ShadowLight& area = areas[0];
+    area.lightSamples = this->sampling->GetSamples();
+    vtkNew<vtkLight> point;
+    point->DeepCopy(this->light);
+    point->SetTransformMatrix(nullptr);
+    point->SetLightTypeToSceneLight();
+    vtkGnomonLightKeys::SetSetting(point, "light_radius", "0");
+    this->scene.renderer->RemoveLight(this->light);
+    this->scene.renderer->AddLight(point);
+    for (const glm::dvec3& offset : gnomon::pairedLightSamples(area))
+    {
+      const bool sun = area.kind == gnomon::LightKind::Directional;
+      const glm::dvec3 place = area.positionWorld + (sun ? glm::dvec3(0.0) : offset);
+      const glm::dvec3 target =
+        place + 3.0 * (sun ? area.directionWorld - offset : area.directionWorld);
+      point->SetPosition(place.x, place.y, place.z);
+      point->SetFocalPoint(target.x, target.y, target.z);
+      add(this->pictureOf(pass));
+    }
+    this->scene.renderer->RemoveLight(point);
+    this->scene.renderer->AddLight(this->light);
+  }
+
+  /// Their mean.
+  /// @param gamma what the pictures' values stand for is their power of it
+  Channels meanByHand(vtkRenderPass* pass, double gamma = 1.0)
+  {
+    Channels sum;
+    int pictures = 0;
+    this->forEachPoint(pass,
+      [&](const Picture& picture)
+      {
+        sum.resize(picture.rgb.size(), 0.0);
+        for (std::size_t i = 0; i < sum.size(); ++i)
+        {
+          sum[i] += std::pow(picture.rgb[i] / 255.0, gamma);
+        }
+        ++pictures;
+      });
+    for (double& value : sum)
+    {
+      value = 255.0 * std::pow(value / pictures, 1.0 / gamma);
+    }
+    return sum;
+  }
+
+  PassScene scene{ 140, 100 };
+  vtkNew<vtkGnomonLightSamplingPass> sampling;
+  vtkNew<CountingPass> counting;
+  vtkSmartPointer<vtkLight> light;
+  vtkActor* floor = nullptr;
+  vtkActor* box = nullptr;
+  vtkActor* sphere = nullptr;
+};
+
+class LightSamplingOf
+  : public LightSamplingScene
+  , public testing::WithParamInterface<Named>
+{
+protected:
+  LightSamplingOf() { this->add(GetParam().make()); }
+};
+
+INSTANTIATE_TEST_SUITE_P(Lights, LightSamplingOf, testing::ValuesIn(allLights()), nameOfLight);
+
+//------------------------------------------------------------------------------
+/// By one point it is the hard picture, bit for bit, whatever the delegate makes of area lights.
+TEST_P(LightSamplingOf, oneSampleIsTheHardPicture)
+{
+  this->sampling->SetSamples(1);
+  EXPECT_EQ(this->scene.render(), this->pictureOf(this->scene.pass));
+  this->scene.pass->SetTechnique("silhouette");
+  const Picture hard = this->pictureOf(this->scene.pass);
+  this->scene.pass->SetTechnique("raytraced");
+  EXPECT_GT(differingPixels(this->pictureOf(this->scene.pass), hard, 20), 0u);
+  EXPECT_EQ(this->scene.render(), hard);
+}
+
+//------------------------------------------------------------------------------
+/// What is drawn is what pictures say that are drawn with VTK's own lights at the points.
+TEST_P(LightSamplingOf, meanIsThatOfPicturesByHand)
+{
+  for (const int samples : { 6, 7 })
+  {
+    this->sampling->SetSamples(samples);
+    const Picture seen = this->scene.render();
+    EXPECT_GT(differingPixels(seen, this->pictureOf(this->scene.pass), 10), 100u) << "soft";
+    // Eight bits round each of the pictures, and the mean.
+    EXPECT_LE(largestDifference(channelsOf(seen), this->meanByHand(this->scene.pass)), 1.0);
+  }
+  // Where nobody makes shadows, too.
+  this->sampling->SetDelegatePass(nullptr);
+  EXPECT_LE(largestDifference(channelsOf(this->scene.render()), this->meanByHand(nullptr)), 1.0);
+}
+
+//------------------------------------------------------------------------------
+TEST_P(LightSamplingOf, lightsAreAsTheyWere)
+{
+  const Picture plain = this->pictureOf(nullptr);
+  this->scene.render();
+  vtkLightCollection* lights = this->scene.renderer->GetLights();
+  vtkMatrix4x4* matrix = this->light->GetTransformMatrix();
+  const glm::dvec3 position = glm::make_vec3(this->light->GetPosition());
+  const vtkMTimeType keysTime = this->light->GetInformation()->GetMTime();
+  int modified = 0;
+  vtkNew<vtkCallbackCommand> count;
+  count->SetClientData(&modified);
+  count->SetCallback(
+    [](vtkObject*, unsigned long, void* counter, void*) { ++*static_cast<int*>(counter); });
+  this->light->AddObserver(vtkCommand::ModifiedEvent, count);
+  this->scene.renderer->AddObserver(vtkCommand::ModifiedEvent, count);
+  for (int frame = 0; frame < 2; ++frame)
+  {
+    this->scene.render();
+    EXPECT_EQ(this->scene.renderer->GetLights(), lights);
+    EXPECT_EQ(lights->GetNumberOfItems(), 1);
+    EXPECT_EQ(lights->GetItemAsObject(0), this->light);
+    EXPECT_EQ(this->light->GetTransformMatrix(), matrix);
+    EXPECT_EQ(glm::make_vec3(this->light->GetPosition()), position);
+    EXPECT_EQ(this->light->GetInformation()->GetMTime(), keysTime);
+  }
+  EXPECT_EQ(modified, 0);
+  // Nor do shaders remember where the lights have been, whoever they are of.
+  EXPECT_EQ(this->pictureOf(nullptr), plain);
+  this->sampling->SetDelegatePass(nullptr);
+  this->scene.render();
+  EXPECT_EQ(this->pictureOf(nullptr), plain);
+}
+
+//------------------------------------------------------------------------------
+TEST_P(LightSamplingOf, refinesToWhatOneFrameShows)
+{
+  for (const int samples : { 16, 17 })
+  {
+    this->sampling->SetSamples(samples);
+    this->sampling->SetSamplesPerFrame(0);
+    const Picture whole = this->scene.render();
+    EXPECT_EQ(this->sampling->GetProgress(), 1.0);
+    this->sampling->SetSamplesPerFrame(5);
+    this->counting->Count = 0;
+    EXPECT_EQ(this->scene.render(), this->pictureOf(this->scene.pass)) << "the centre's";
+    EXPECT_EQ(this->sampling->GetProgress(), 0.0);
+    EXPECT_EQ(this->counting->Count, 1);
+    for (int frame = 1; this->sampling->GetProgress() < 1.0; ++frame)
+    {
+      ASSERT_LT(frame, 10);
+      this->scene.render();
+      const int pictures = std::min(samples, 6 * frame - samples % 2);
+      EXPECT_EQ(this->sampling->GetProgress(), static_cast<double>(pictures) / samples);
+      EXPECT_EQ(this->counting->Count, pictures + 1);
+    }
+    EXPECT_EQ(this->scene.render(), whole);
+    EXPECT_EQ(this->counting->Count, samples + 1) << "nothing is drawn again";
+  }
+}
+
+//------------------------------------------------------------------------------
+class LightSampling : public LightSamplingScene
+{
+protected:
+  LightSampling() { this->add(rectangle(50.0)); }
+
+  /// Renders until all is shown.
+  void finish()
+  {
+    int frame = 0;
+    do
+    {
+      this->scene.render();
+      ASSERT_LT(frame++, 20);
+    } while (this->sampling->GetProgress() < 1.0);
+  }
+};
+
+//------------------------------------------------------------------------------
+/// Unoccluded, no frame is brighter or darker than the others by more than what a larger light is.
+TEST_F(LightSampling, refinesAtConstantBrightness)
+{
+  this->box->VisibilityOff();
+  this->sphere->VisibilityOff();
+  this->sampling->SetSamples(64);
+  this->sampling->SetSamplesPerFrame(2);
+  std::vector<double> means;
+  do
+  {
+    means.push_back(meanOf(channelsOf(this->scene.render())));
+  } while (this->sampling->GetProgress() < 1.0);
+  EXPECT_EQ(means.size(), 33u);
+  for (const double mean : means)
+  {
+    EXPECT_NEAR(mean, means.back(), 0.02 * means.back());
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(LightSampling, refinesAnewWhenSomethingChanges)
+{
+  this->sampling->SetSamplesPerFrame(4);
+  vtkNew<vtkTextActor> text;
+  text->SetInput("3");
+  this->scene.renderer->AddActor2D(text);
+  // A caster that the camera does not see.
+  vtkNew<vtkPlaneSource> behind;
+  behind->SetOrigin(-2.2, -3.0, 3.0);
+  behind->SetPoint1(-1.8, -3.0, 3.0);
+  behind->SetPoint2(-2.2, -2.6, 3.0);
+  this->scene.add(behind);
+  auto* lamp = vtkGnomonAreaLight::SafeDownCast(this->light);
+  vtkNew<vtkLight> other;
+  other->SetIntensity(0.1);
+  const std::pair<const char*, std::function<void()>> changes[] = {
+    { "camera",
+      [&] {
+        this->scene.lookFrom({ 2.1, -8.0, 7.0 });
+      } },
+    { "light", [&] { lamp->SetPosition(-2.0, -2.6, 4.0); } },
+    { "size", [&] { lamp->SetWidth(0.8); } },
+    { "colour", [&] { lamp->SetDiffuseColor(1.0, 0.9, 0.8); } },
+    { "seed", [&] { vtkGnomonLightKeys::SetSetting(lamp, "light_seed", "3"); } },
+    { "another light", [&] { this->scene.renderer->AddLight(other); } },
+    { "no other light", [&] { this->scene.renderer->RemoveLight(other); } },
+    { "caster", [&] { this->box->SetPosition(0.1, 0.0, 0.0); } },
+    { "material", [&] { this->sphere->GetProperty()->SetSpecular(0.3); } },
+    { "casting", [&] { vtkGnomonPropKeys::SetCasts(this->box, false); } },
+    { "receiving", [&] { vtkGnomonPropKeys::SetReceives(this->sphere, false); } },
+    { "caster out of view", [&] { behind->SetCenter(-1.9, -2.8, 3.0); } },
+    { "visible", [&] { this->box->VisibilityOff(); } },
+    { "text", [&] { text->SetInput("4"); } },
+    { "background", [&] { this->scene.renderer->SetBackground(0.1, 0.2, 0.3); } },
+    { "samples", [&] { this->sampling->SetSamples(10); } },
+    { "delegate's setting", [&] { this->counting->Modified(); } },
+    { "delegate", [&] { this->sampling->SetDelegatePass(this->scene.pass); } },
+    { "technique", [&] { this->scene.pass->SetTechnique("pcf"); } },
+    { "window", [&] { this->scene.window->SetSize(120, 90); } },
+  };
+  for (const auto& [what, change] : changes)
+  {
+    this->finish();
+    change();
+    this->scene.render();
+    EXPECT_EQ(this->sampling->GetProgress(), 0.0) << what;
+    this->scene.render();
+    EXPECT_GT(this->sampling->GetProgress(), 0.3) << what;
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(LightSampling, tellsOfItsProgress)
+{
+  std::vector<double> told;
+  vtkNew<vtkCallbackCommand> listen;
+  listen->SetClientData(&told);
+  listen->SetCallback(
+    [](vtkObject*, unsigned long event, void* list, void* data)
+    {
+      static_cast<std::vector<double>*>(list)->push_back(
+        event == vtkCommand::EndEvent ? 2.0 : *static_cast<double*>(data));
+    });
+  this->sampling->AddObserver(vtkCommand::ProgressEvent, listen);
+  this->sampling->AddObserver(vtkCommand::EndEvent, listen);
+  this->scene.render();
+  EXPECT_EQ(told, std::vector<double>());
+  this->sampling->SetSamplesPerFrame(4);
+  for (int frame = 0; frame < 5; ++frame)
+  {
+    this->scene.render();
+  }
+  EXPECT_EQ(told, std::vector<double>({ 0.0, 0.5, 1.0, 2.0 }));
+}
+
+//------------------------------------------------------------------------------
+/// Lambert and 1 / d^2 under a large near light: the mean over a rectangle of h / d^3 is the solid angle that it
+/// fills, over its area.
+TEST_F(LightSampling, attenuatedCosinesAreThoseOfGeometry)
+{
+  this->box->VisibilityOff();
+  this->sphere->VisibilityOff();
+  const double height = 1.0;
+  const glm::dvec2 half(1.5, 1.0);
+  vtkSmartPointer<vtkGnomonAreaLight> lamp = rectangle(90.0);
+  this->scene.renderer->RemoveLight(this->light);
+  this->add(lamp);
+  lamp->SetPosition(0.0, 0.0, height);
+  lamp->SetUp(0.0, 1.0, 0.0);
+  lamp->SetWidth(2.0 * half.x);
+  lamp->SetHeight(2.0 * half.y);
+  const double area = 4.0 * half.x * half.y;
+  const auto corner = [&](double x, double y)
+  { return std::atan2(x * y, height * std::sqrt(x * x + y * y + height * height)); };
+  const auto exact = [&](const glm::dvec2& at)
+  {
+    return (corner(at.x + half.x, at.y + half.y) - corner(at.x - half.x, at.y + half.y) -
+             corner(at.x + half.x, at.y - half.y) + corner(at.x - half.x, at.y - half.y)) /
+      area;
+  };
+  lamp->SetAttenuationValues(0.0, 0.0, 1.0);
+  lamp->SetIntensity(0.95 / exact(glm::dvec2(0.0)));
+  this->scene.lookDown(2.0);
+  this->sampling->SetSamples(256);
+  this->sampling->SetDelegatePass(nullptr);
+  const Picture seen = this->scene.render();
+  double worst = 0.0;
+  double worstOfCentre = 0.0;
+  for (int y = 0; y < seen.height; ++y)
+  {
+    for (int x = 0; x < seen.width; ++x)
+    {
+      const glm::dvec2 at = this->scene.floorAt(x, y);
+      const double value = 255.0 * lamp->GetIntensity() * exact(at);
+      if (value < 60.0)
+      {
+        continue; // rounded to more than a percent
+      }
+      worst = std::max(worst, (std::abs(seen.red(x, y) - value) - 0.5) / value);
+      const double distance = glm::length(glm::dvec3(at, height));
+      worstOfCentre = std::max(worstOfCentre,
+        std::abs(255.0 * lamp->GetIntensity() * height / std::pow(distance, 3.0) - value) / value);
+    }
+  }
+  EXPECT_LT(worst, 0.01);
+  EXPECT_GT(worstOfCentre, 0.5); // what shading from the centre is off by
+}
+
+//------------------------------------------------------------------------------
+TEST_F(LightSampling, highlightsAreAsWideAsTheLight)
+{
+  this->scene.pass->SetTechnique("raytraced");
+  vtkProperty* matt = this->sphere->GetProperty();
+  matt->SetDiffuse(0.0);
+  matt->SetAmbient(0.0);
+  matt->SetSpecular(1.0);
+  matt->SetSpecularPower(300.0);
+  matt->SetSpecularColor(1.0, 1.0, 1.0);
+  this->scene.lookFrom({ 0.6, -0.2, 1.9 }, { 1.3, 0.8, 0.9 });
+  const auto widthOf = [](const Picture& picture)
+  {
+    const Channels channels = channelsOf(picture);
+    const double brightest = *std::max_element(channels.begin(), channels.end());
+    return std::count_if(
+      channels.begin(), channels.end(), [&](double value) { return value > 0.5 * brightest; });
+  };
+  this->box->VisibilityOff();
+  this->floor->VisibilityOff();
+  this->sampling->SetSamples(256);
+  const Picture seen = this->scene.render();
+  const Picture centre = this->pictureOf(this->scene.pass);
+  EXPECT_GT(widthOf(centre), 100);
+  EXPECT_GT(widthOf(seen), 2 * widthOf(centre));
+}
+
+//------------------------------------------------------------------------------
+/// VTK's physically based shading gives the 2.2th root of light: what is averaged is the light.
+TEST_F(LightSampling, physicallyBasedShadingIsAveragedAsLight)
+{
+  for (vtkActor* actor : { this->floor, this->box, this->sphere })
+  {
+    actor->GetProperty()->SetInterpolationToPBR();
+    actor->GetProperty()->SetRoughness(0.4);
+    actor->GetProperty()->SetMetallic(0.3);
+    actor->GetProperty()->SetCoatStrength(0.5);
+  }
+  this->light->SetIntensity(0.7); // so that no picture is brighter than white
+  const Channels seen = channelsOf(this->scene.render());
+  // What eight bits round is more after a root, where it is dark.
+  EXPECT_LE(largestDifference(seen, this->meanByHand(this->scene.pass, 2.2)), 1.5);
+  this->sampling->SetGamma(1.0);
+  const Channels asShown = channelsOf(this->scene.render());
+  EXPECT_GT(largestDifference(seen, asShown), 30.0);
+  EXPECT_LE(largestDifference(asShown, this->meanByHand(this->scene.pass)), 1.0);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(LightSampling, lightsWithoutAreaStay)
+{
+  vtkLight* sun = this->scene.addSun({ -1.0, 0.3, -1.5 });
+  sun->SetIntensity(0.3);
+  this->light->SetIntensity(0.5); // so that no picture is brighter than white
+  EXPECT_LE(
+    largestDifference(channelsOf(this->scene.render()), this->meanByHand(this->scene.pass)), 1.0);
+  this->light->SwitchOff();
+  this->counting->Count = 0;
+  EXPECT_EQ(this->scene.render(), this->pictureOf(this->scene.pass));
+  EXPECT_EQ(this->counting->Count, 1);
+}
+
+//------------------------------------------------------------------------------
+/// Lights that cast no shadow are shaded from all of their points as well.
+TEST_F(LightSampling, lightsWithoutShadowsAreSampled)
+{
+  this->light->SetShadowAttenuation(0.0f);
+  const Picture seen = this->scene.render();
+  EXPECT_LE(largestDifference(channelsOf(seen), this->meanByHand(nullptr)), 1.0);
+}
+
+//------------------------------------------------------------------------------
+// Windows and neighbours
+//------------------------------------------------------------------------------
+
+TEST_F(LightSampling, windowsWithSeveralSamplesPerPixelStaySmooth)
+{
+  this->scene.window->SetMultiSamples(4);
+  const Picture seen = this->scene.render();
+  EXPECT_LE(largestDifference(channelsOf(seen), this->meanByHand(this->scene.pass)), 1.0);
+  this->scene.window->SetMultiSamples(0);
+  EXPECT_GT(differingPixels(seen, this->scene.render(), 20), 50u);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(LightSampling, depthsAreThoseOfThePlainPicture)
+{
+  this->scene.render();
+  const auto depths = [&]
+  {
+    std::vector<float> of;
+    for (int y = 0; y < 100; y += 3)
+    {
+      for (int x = 0; x < 140; x += 3)
+      {
+        of.push_back(static_cast<float>(this->scene.renderer->GetZ(x, y)));
+      }
+    }
+    return of;
+  };
+  const std::vector<float> seen = depths();
+  this->pictureOf(nullptr);
+  const std::vector<float> plain = depths();
+  EXPECT_LT(*std::min_element(plain.begin(), plain.end()), 0.9f);
+  for (std::size_t i = 0; i < plain.size(); ++i)
+  {
+    EXPECT_NEAR(seen[i], plain[i], 1e-6);
+  }
+}
+
+//------------------------------------------------------------------------------
+/// Two renderers side by side, and a transparent one in front of both.
+TEST_F(LightSampling, partsOfWindowsAndLayersAreShown)
+{
+  this->scene.window->SetNumberOfLayers(2);
+  this->scene.renderer->SetLayer(1);
+  this->scene.renderer->SetViewport(0.4, 0.2, 1.0, 0.9);
+  vtkNew<vtkRenderer> below;
+  below->SetBackground(0.2, 0.4, 0.6);
+  this->scene.window->AddRenderer(below);
+  this->scene.render();
+  const Picture seen = this->scene.render();
+  EXPECT_EQ(seen.at(2, 2), glm::ivec3(51, 102, 153));
+  EXPECT_EQ(seen.at(138, 88), glm::ivec3(51, 102, 153));
+  EXPECT_GT(differingPixels(seen, this->pictureOf(this->scene.pass), 10), 50u);
+  EXPECT_LE(largestDifference(channelsOf(seen), this->meanByHand(this->scene.pass)), 1.0);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(LightSampling, alphaIsThatOfThePlainPicture)
+{
+  this->scene.window->AlphaBitPlanesOn();
+  this->sphere->GetProperty()->SetOpacity(0.5);
+  this->scene.lookFrom({ 2.0, -12.0, 3.0 });
+  vtkNew<vtkRenderStepsPass> steps; // as in all framebuffers of passes
+  this->scene.pass->SetDelegatePass(steps);
+  const auto alphas = [&]
+  {
+    vtkNew<vtkUnsignedCharArray> rgba;
+    this->scene.window->GetRGBACharPixelData(0, 0, 139, 99, 0, rgba);
+    std::vector<int> of;
+    for (vtkIdType i = 0; i < rgba->GetNumberOfTuples(); ++i)
+    {
+      of.push_back(rgba->GetTypedComponent(i, 3));
+    }
+    return of;
+  };
+  this->scene.render();
+  const std::vector<int> seen = alphas();
+  this->pictureOf(this->scene.pass);
+  const std::vector<int> plain = alphas();
+  EXPECT_GT(std::count(plain.begin(), plain.end(), 0), 100);
+  EXPECT_GT(std::count(plain.begin(), plain.end(), 255), 100);
+  const auto [seenAt, plainAt] = std::mismatch(
+    seen.begin(), seen.end(), plain.begin(), [](int a, int b) { return std::abs(a - b) <= 1; });
+  EXPECT_TRUE(seenAt == seen.end()) << *seenAt << " for " << *plainAt;
+}
+
+//------------------------------------------------------------------------------
+TEST_F(LightSampling, translucentSurfacesAreShown)
+{
+  this->box->GetProperty()->SetOpacity(0.4);
+  this->sphere->GetProperty()->SetOpacity(0.6);
+  vtkNew<vtkRenderStepsPass> steps;
+  vtkNew<vtkDepthPeelingPass> peeling;
+  vtkNew<vtkTranslucentPass> translucent;
+  peeling->SetTranslucentPass(translucent);
+  steps->SetTranslucentPass(peeling);
+  this->scene.pass->SetDelegatePass(steps);
+  const Picture seen = this->scene.render();
+  // Eight bits round what lies behind, too.
+  EXPECT_LE(largestDifference(channelsOf(seen), this->meanByHand(this->scene.pass)), 2.0);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(LightSampling, stepsAsideForSelections)
+{
+  this->sampling->SetSamplesPerFrame(4);
+  this->scene.render();
+  this->scene.render();
+  const double progress = this->sampling->GetProgress();
+  const int pictures = this->counting->Count;
+  vtkNew<vtkHardwareSelector> selector;
+  selector->SetRenderer(this->scene.renderer);
+  selector->SetArea(0, 0, 139, 99);
+  vtkSmartPointer<vtkSelection> selection;
+  selection.TakeReference(selector->Select());
+  EXPECT_EQ(selection->GetNumberOfNodes(), 3u);
+  EXPECT_EQ(this->sampling->GetProgress(), progress);
+  EXPECT_GT(this->counting->Count, pictures);
+  this->scene.render();
+  EXPECT_GT(this->sampling->GetProgress(), progress);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(LightSampling, severalViewsGetAllInEveryFrame)
+{
+  this->sampling->SetSamplesPerFrame(2);
+  this->scene.window->StereoCapableWindowOn();
+  this->scene.window->SetStereoTypeToAnaglyph();
+  this->scene.window->StereoRenderOn();
+  for (int frame = 0; frame < 2; ++frame)
+  {
+    this->counting->Count = 0;
+    this->scene.render();
+    EXPECT_EQ(this->sampling->GetProgress(), 1.0);
+    EXPECT_EQ(this->counting->Count, 16);
+  }
+}
+
+//------------------------------------------------------------------------------
+/// Nine tiles, which the camera sees one after the other.
+TEST_F(LightSampling, tilesShowAllOfEachPart)
+{
+  this->sampling->SetSamplesPerFrame(2);
+  this->scene.render();
+  this->counting->Count = 0;
+  vtkNew<vtkWindowToImageFilter> large;
+  large->SetInput(this->scene.window);
+  large->SetScale(3);
+  large->Update();
+  EXPECT_EQ(this->counting->Count % 8, 0);
+  EXPECT_GE(this->counting->Count, 72);
+  this->scene.window->SetSize(420, 300);
+  this->sampling->SetSamplesPerFrame(0);
+  const Picture seen = this->scene.render();
+  const auto* tiled = static_cast<const unsigned char*>(large->GetOutput()->GetScalarPointer());
+  Picture joined = seen;
+  std::copy(tiled, tiled + joined.rgb.size(), joined.rgb.begin());
+  EXPECT_LT(differingPixels(seen, joined, 20), 300u); // edges, of pixels that are split otherwise
+}
+
+//------------------------------------------------------------------------------
+TEST_F(LightSampling, otherPassesStandAroundAndInside)
+{
+  const Picture seen = this->scene.render();
+  const auto alike = [&](vtkRenderPass* pass)
+  {
+    // Edges aside, which those passes smooth.
+    const Picture through = this->pictureOf(pass);
+    EXPECT_LT(differingPixels(seen, through, 40), 700u) << pass->GetClassName();
+    EXPECT_NEAR(meanOf(channelsOf(through)), meanOf(channelsOf(seen)), 2.0) << pass->GetClassName();
+    pass->ReleaseGraphicsResources(this->scene.window);
+  };
+  vtkNew<vtkSSAAPass> supersampling;
+  supersampling->SetDelegatePass(this->sampling);
+  alike(supersampling);
+  vtkNew<vtkOpenGLFXAAPass> fxaa;
+  fxaa->SetDelegatePass(this->sampling);
+  alike(fxaa);
+  vtkNew<vtkToneMappingPass> toneMapping;
+  toneMapping->SetToneMappingType(vtkToneMappingPass::Clamp);
+  toneMapping->SetDelegatePass(this->sampling);
+  alike(toneMapping);
+  vtkNew<vtkSSAOPass> occlusion;
+  vtkNew<vtkRenderStepsPass> steps;
+  occlusion->SetDelegatePass(steps);
+  occlusion->SetRadius(0.1);
+  this->scene.pass->SetDelegatePass(occlusion);
+  EXPECT_LE(
+    largestDifference(channelsOf(this->scene.render()), this->meanByHand(this->scene.pass)), 1.0);
+}
+
+//------------------------------------------------------------------------------
+// What cannot be
+//------------------------------------------------------------------------------
+
+TEST_F(LightSampling, refusesWhatItCannotShow)
+{
+  // Ambient occlusion around it wants positions as well.
+  vtkNew<vtkSSAOPass> occlusion;
+  occlusion->SetDelegatePass(this->sampling);
+  occlusion->SetRadius(0.1);
+  this->pictureOf(occlusion);
+  occlusion->ReleaseGraphicsResources(this->scene.window);
+  EXPECT_THAT(this->takeErrors(), HasSubstr("several images"));
+
+  const Picture centre = this->pictureOf(this->scene.pass);
+  this->scene.renderer->PreserveDepthBufferOn();
+  this->counting->Count = 0;
+  this->scene.render();
+  EXPECT_THAT(this->takeErrors(), HasSubstr("PreserveDepthBuffer"));
+  EXPECT_EQ(this->counting->Count, 1);
+  this->scene.renderer->PreserveDepthBufferOff();
+
+  vtkGnomonLightKeys::SetSetting(this->light, "light_sampling", "jittered");
+  EXPECT_EQ(differingPixels(this->scene.render(), centre), 0u);
+  EXPECT_THAT(this->takeErrors(),
+    testing::AllOf(HasSubstr("light 0"), HasSubstr("opposite pairs"), HasSubstr("sobol")));
+  vtkGnomonLightKeys::SetSetting(this->light, "light_sampling", "random");
+  EXPECT_GT(differingPixels(this->scene.render(), centre, 10), 100u);
+  EXPECT_EQ(this->takeErrors(), "");
+}
+
+//------------------------------------------------------------------------------
+TEST_F(LightSampling, printsItself)
+{
+  std::ostringstream text;
+  this->sampling->Print(text);
+  for (const char* part :
+    { "DelegatePass: CountingPass", "Samples: 8", "SamplesPerFrame: 0", "Gamma: 0", "Progress: 1" })
+  {
+    EXPECT_THAT(text.str(), HasSubstr(part));
+  }
+}
+
+//------------------------------------------------------------------------------
+/// A thousand pictures and one add up in the memory of two.
+TEST_F(LightSampling, takesAThousandPictures)
+{
+  this->scene.window->SetSize(24, 16);
+  this->scene.pass->SetTechnique("raytraced");
+  this->sampling->SetSamples(1025);
+  this->scene.render();
+  EXPECT_EQ(this->counting->Count, 1025);
+  const Picture seen = this->scene.render();
+  this->sampling->SetSamples(256);
+  EXPECT_LT(largestDifference(channelsOf(seen), channelsOf(this->scene.render())), 6.0);
+}
+
+} // namespace
