@@ -8,6 +8,7 @@
 
 #include "plugin/VisibilityImages.h"
 #include "plugin/vtkGnomonEGLRenderWindow.h"
+#include "plugin/vtkGnomonLightSamplingPass.h"
 #include "plugin/vtkGnomonShadowPass.h"
 #include "shadowtech/Registry.h"
 #include "shadowtech/base/FrameReport.h"
@@ -22,6 +23,7 @@
 #include <fstream>
 #include <iostream>
 #include <memory>
+#include <utility>
 
 namespace gnomon::tool
 {
@@ -40,6 +42,7 @@ struct RenderOptions
   std::map<std::string, std::string> settings; ///< of all lights, by name; empty: not given
   std::string route = "auto";
   int tracer = vtkGnomonShadowPass::TRACER_AUTO;
+  bool shadeSamples = false;
   std::vector<std::string> lights;
   std::string camera;
   std::string visibility;
@@ -83,6 +86,15 @@ void check(const RenderOptions& options)
       throw BadInput("--classes: " + options.classes + ": is another output's file, too");
     }
   }
+  for (const auto& [name, file] : { std::pair("--visibility", options.visibility),
+         { "--stats", options.stats }, { "--classes", options.classes } })
+  {
+    if (options.shadeSamples && !file.empty())
+    {
+      throw BadInput(std::string(name) +
+        ": is of one picture, and --shade-samples shows the mean of many, expected one of them");
+    }
+  }
   // The options have refused what there is not.
   ShadowSettings settings;
   settings.technique = options.settings.at("technique");
@@ -121,6 +133,19 @@ Scene loadWithOptions(const RenderOptions& options)
     }
   }
   return scene;
+}
+
+/// What an integer setting is, by its option or else by default.
+int integerOf(const char* name, const RenderOptions& options)
+{
+  const Setting& setting = *findSetting(name);
+  ShadowSettings settings;
+  const std::string& text = options.settings.at(name);
+  if (!text.empty())
+  {
+    setting.set(settings, text);
+  }
+  return settings.*std::get<IntegerSetting>(setting.values).member;
 }
 
 /// Refuses pictures that are larger than the window's OpenGL draws.
@@ -271,12 +296,16 @@ void render(const RenderOptions& options)
   shadows->SetKeepVisibility(!options.visibility.empty() || !options.classes.empty());
   shadows->SetSetting(
     "bake", "always"); // the only frame is to show what techniques do with their maps
-  renderer->SetPass(shadows);
+  vtkNew<vtkGnomonLightSamplingPass> sampling;
+  sampling->SetDelegatePass(shadows);
+  sampling->SetSamples(integerOf("light_samples", options));
+  sampling->SetSamplesPerFrame(integerOf("progressive", options));
+  renderer->SetPass(options.shadeSamples ? static_cast<vtkRenderPass*>(sampling) : shadows);
   window->AddRenderer(renderer);
   do
   {
     window->Render();
-  } while (shadows->GetProgress() < 1.0);
+  } while (std::min(shadows->GetProgress(), sampling->GetProgress()) < 1.0);
 
   for (const std::string& warning : messages.warnings())
   {
@@ -371,6 +400,10 @@ void addRenderCommand(CLI::App& app)
     ->check(CLI::IsMember({ "inline", "image", "auto" }))
     ->capture_default_str();
   addTracerOption(*command, options->tracer);
+  command->add_flag("--shade-samples", options->shadeSamples,
+    "Shade from each of an area light's points (--light-samples, and --progressive of them per "
+    "frame), with its hard shadows, and show the mean, rather than shade from the centre and take "
+    "the share of the light that is seen");
   command
     ->add_option("--light", options->lights,
       "A light in place of the scene's own; may be given several times, for example "
