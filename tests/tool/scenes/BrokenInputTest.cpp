@@ -312,6 +312,12 @@ std::vector<BrokenInput> brokenInputs()
     option("classes_of_a_technique_without", "--classes",
       { "render", "cube", "-o", "out.png", "--size", "8x8", "--technique", "nsm", "--classes",
         "c.png" }),
+    option("shaded_samples_have_no_visibility", "--visibility",
+      { "render", "cube", "-o", "out.png", "--shade-samples", "--visibility", "v.exr" }),
+    option("shaded_samples_have_no_stats", "--stats",
+      { "render", "cube", "-o", "out.png", "--shade-samples", "--stats", "s.json" }),
+    option("shaded_samples_have_no_classes", "--classes",
+      { "render", "cube", "-o", "out.png", "--shade-samples", "--classes", "c.png" }),
     option("size_zero", "--size", { "render", "cube", "-o", "out.png", "--size", "0x100" }),
     option("size_negative", "--size", { "render", "cube", "-o", "out.png", "--size", "100x-1" }),
     option("size_huge", "--size", { "render", "cube", "-o", "out.png", "--size", "99999x99999" }),
@@ -451,6 +457,25 @@ TEST(Program, TellsHowPixelsWereDecided)
   }
   EXPECT_EQ(pixels, 64 * 48);
   EXPECT_GT(stats.at("lights").at(0).at("classes").at("lit for certain").get<int>(), 500);
+}
+
+//------------------------------------------------------------------------------
+TEST(Program, ShadesFromAllPointsOfALight)
+{
+  TestFolder folder;
+  const auto pictureOf = [&](const std::vector<std::string>& options)
+  {
+    std::vector<std::string> arguments = { "render", "soft-stack", "-o", "out.png", "--size",
+      "64x48", "--technique", "nsm" };
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const Outcome outcome = run(folder, arguments);
+    EXPECT_TRUE(outcome.exited && outcome.code == 0) << outcome.errors;
+    return readBytes(folder / "out.png");
+  };
+  const std::string shaded = pictureOf({ "--shade-samples", "--light-samples", "8" });
+  EXPECT_NE(shaded, pictureOf({}));
+  EXPECT_EQ(shaded, pictureOf({ "--shade-samples", "--light-samples", "8", "--progressive", "4" }));
+  EXPECT_NE(shaded, pictureOf({ "--shade-samples", "--light-samples", "4" }));
 }
 
 //------------------------------------------------------------------------------
