@@ -180,7 +180,7 @@ double vtkGnomonLightSamplingPass::DrawMean(const vtkRenderState* s)
   if (internal.lights.empty() || this->Samples == 1)
   {
     internal.shown.reset();
-    this->DrawFromCentres(s);
+    internal.lights.empty() ? this->DrawByDelegate(s) : this->DrawFromCentres(s);
     return 1.0;
   }
   requireToBeInPlace(renderer);

@@ -630,8 +630,10 @@ TEST_F(LightSampling, lightsWithoutAreaStay)
     largestDifference(channelsOf(this->scene.render()), this->meanByHand(this->scene.pass)), 1.0);
   this->light->SwitchOff();
   this->counting->Count = 0;
+  const vtkMTimeType time = this->scene.renderer->GetLights()->GetMTime();
   EXPECT_EQ(this->scene.render(), this->pictureOf(this->scene.pass));
   EXPECT_EQ(this->counting->Count, 1);
+  EXPECT_EQ(this->scene.renderer->GetLights()->GetMTime(), time);
 }
 
 //------------------------------------------------------------------------------
