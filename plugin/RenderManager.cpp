@@ -7,6 +7,7 @@
 #include "shadowtech/Registry.h"
 #include "shadowtech/base/Bytes.h"
 #include "shadowtech/base/TextureMemory.h"
+#include "shadowtech/conservative/CellsOnGpu.h"
 #include "shadowtech/tracing/GpuTracer.h"
 
 #include <vtkActor2D.h>
@@ -44,6 +45,13 @@ std::string kernelOf(const TechniqueInfo& info, const ShadowLight& light)
     return "";
   }
   return info.ownKernel.empty() ? findSetting("kernel")->get(light) : info.ownKernel;
+}
+
+/// What draws, by the name that OpenGL gives it.
+std::string rendererName()
+{
+  const GLubyte* name = glGetString(GL_RENDERER);
+  return name ? reinterpret_cast<const char*>(name) : "";
 }
 
 /// How many samples a pixel has where VTK draws now.
@@ -488,8 +496,14 @@ void RenderManager::drawReceivers(const vtkRenderState* s, vtkGnomonShadowPass* 
 }
 
 //------------------------------------------------------------------------------
-void RenderManager::bakeMaps(vtkRenderer* renderer)
+void RenderManager::bakeMaps(vtkRenderer* renderer, int wishedRasterizer)
 {
+  if (std::any_of(this->casting_.begin(), this->casting_.end(),
+        [](const LightSlot* slot) { return slot->estimator->info.conservativeMap; }))
+  {
+    this->rasterizer_ = chooseRasterizer(wishedRasterizer, whyUnsupported(CellPath::Compute),
+      whyUnsupported(CellPath::Extension), rendererName());
+  }
   const CameraView camera = this->camera(renderer);
   for (LightSlot* slot : this->casting_)
   {
@@ -539,12 +553,13 @@ void RenderManager::bakeMaps(
     hashCombine(receivers, light.snap);
     hashCombine(receivers, light.splitLambda);
   }
-  const Bake wanted{ std::move(views), fitting.camera, reach, light, light.mapSizeTexels,
-    occluders.topologyVersion, occluders.positionsVersion, receivers, true, 0, fitting };
+  Bake wanted{ std::move(views), fitting.camera, reach, light, light.mapSizeTexels,
+    occluders.topologyVersion, occluders.positionsVersion, receivers, true,
+    this->rasterizerFor(slot, technique), {}, 0, fitting };
   bake.fitting = fitting;
   if (bake.serves(wanted))
   {
-    this->reportOf(light).castersLeftOut = bake.castersLeftOut;
+    this->reportBake(light, bake);
     return;
   }
   bake.once = false; // in case that there is no memory
@@ -567,8 +582,10 @@ void RenderManager::bakeMaps(
   }
   try
   {
-    technique.bake({ light, wanted.views, occluders, this->buffers_, this->library_,
-      light.fittedToReceivers ? slot.receiverFit.fits() : TextureBinding() });
+    this->drawMaps(technique,
+      { light, wanted.views, occluders, this->buffers_, this->library_,
+        light.fittedToReceivers ? slot.receiverFit.fits() : TextureBinding() },
+      wanted);
   }
   catch (const TextureMemoryError& error)
   {
@@ -577,7 +594,62 @@ void RenderManager::bakeMaps(
   bake = wanted;
   bake.castersLeftOut = this->buffers_.countUnseen(wanted.views.views);
   ++this->report_.mapBakes;
-  this->reportOf(light).castersLeftOut = bake.castersLeftOut;
+  this->reportBake(light, bake);
+}
+
+//------------------------------------------------------------------------------
+/// Who is to draw a technique's conservative maps; none where it has others.
+std::optional<RasterizerChoice> RenderManager::rasterizerFor(
+  const LightSlot& slot, const Technique& technique) const
+{
+  const TechniqueInfo& info = slot.estimator->info;
+  if (&technique != slot.technique.get() || !info.conservativeMap)
+  {
+    return std::nullopt;
+  }
+  return info.onlyCpuDraws.empty() ? this->rasterizer_
+                                   : RasterizerChoice{ std::nullopt, false, info.onlyCpuDraws };
+}
+
+//------------------------------------------------------------------------------
+/// Has a technique draw its maps, conservative ones by the GPU where it is to. Where nobody asked for it and it has no room,
+/// the CPU takes over.
+void RenderManager::drawMaps(Technique& technique, MapInput input, Bake& wanted)
+{
+  wanted.drawnBy = wanted.rasterizer.value_or(RasterizerChoice());
+  if (wanted.drawnBy.gpu)
+  {
+    const CellsOnGpu cells(this->library_, *wanted.drawnBy.gpu);
+    input.cellsOnGpu = &cells;
+    try
+    {
+      technique.bake(input);
+      return;
+    }
+    catch (const TextureMemoryError& error)
+    {
+      if (wanted.drawnBy.asked)
+      {
+        throw;
+      }
+      wanted.drawnBy = { std::nullopt, false,
+        std::string("drawing maps on the GPU failed: ") + error.what() };
+      input.cellsOnGpu = nullptr;
+    }
+  }
+  technique.bake(input);
+}
+
+//------------------------------------------------------------------------------
+void RenderManager::reportBake(const ShadowLight& light, const Bake& bake)
+{
+  LightReport& report = this->reportOf(light);
+  report.castersLeftOut = bake.castersLeftOut;
+  if (bake.rasterizer)
+  {
+    report.rasterizer = bake.drawnBy.gpu ? std::string("gpu: ") + nameOf(*bake.drawnBy.gpu) : "cpu";
+    report.rasterizerReason = bake.drawnBy.reason;
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -585,6 +657,8 @@ bool RenderManager::Bake::serves(const Bake& wanted) const
 {
   return this->once && this->views == wanted.views && this->sizeTexels == wanted.sizeTexels &&
     this->reach == wanted.reach && this->settings.storesAs(wanted.settings) &&
+    this->rasterizer.has_value() == wanted.rasterizer.has_value() &&
+    (!this->rasterizer || this->rasterizer->gpu == wanted.rasterizer->gpu) &&
     this->topology == wanted.topology && this->positions == wanted.positions &&
     this->receivers == wanted.receivers;
 }
@@ -603,9 +677,7 @@ bool RenderManager::isWorthBaking(
 /// Brings a tracer up to date, and states in the report which one and why.
 void RenderManager::updateTracer(int wished)
 {
-  const GLubyte* renderer = glGetString(GL_RENDERER);
-  const TracerChoice choice = chooseTracer(
-    wished, GpuTracer::whyUnsupported(), renderer ? reinterpret_cast<const char*>(renderer) : "");
+  const TracerChoice choice = chooseTracer(wished, GpuTracer::whyUnsupported(), rendererName());
   const ShadowTracer::Update update = this->tracer_.update(choice, this->collector_.occluders());
   this->report_.bvhBuilds = update.builds;
   this->report_.bvhRefits = update.refits;

@@ -3,6 +3,7 @@
 
 #include "lights/LightManager.h"
 #include "plugin/FrameTracer.h"
+#include "plugin/MapRasterizer.h"
 #include "plugin/OccluderCollector.h"
 #include "plugin/ShaderManager.h"
 #include "plugin/ShownView.h"
@@ -21,6 +22,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -68,7 +70,9 @@ public:
   void drawReceivers(const vtkRenderState* s, vtkGnomonShadowPass* pass);
 
   /// maps: bakes what is stale.
-  void bakeMaps(vtkRenderer* renderer);
+  /// @param wishedRasterizer a vtkGnomonShadowPass::RasterizerType; nobody asks for it where no map is conservative
+  /// @throws std::runtime_error for a rasterizer that there is not
+  void bakeMaps(vtkRenderer* renderer, int wishedRasterizer);
 
   /// visibility (image route): fills one layer per light, and keeps a copy if asked to.
   /// @param wishedTracer a vtkGnomonShadowPass::TracerType; nobody asks for it where nothing is traced
@@ -107,6 +111,9 @@ private:
     std::uint64_t positions = 0;
     std::size_t receivers = 0; ///< a hash of what F of MapFit.h was found from on the GPU; else 0
     bool once = false;
+    /// Who was to draw a conservative map; none for other maps.
+    std::optional<RasterizerChoice> rasterizer;
+    RasterizerChoice drawnBy; ///< and who did
     int castersLeftOut = 0;
     ViewFitting fitting; ///< of this frame, by which the same views might be laid out again
 
@@ -133,6 +140,10 @@ private:
   const Technique* pointwiseFor(LightSlot& slot) const;
   void bakeMaps(LightSlot& slot, const CameraView& camera, Technique& technique, Bake& bake);
   bool isWorthBaking(const LightSlot& slot, const Technique& technique, const Bake& wanted) const;
+  std::optional<RasterizerChoice> rasterizerFor(
+    const LightSlot& slot, const Technique& technique) const;
+  void drawMaps(Technique& technique, MapInput input, Bake& wanted);
+  void reportBake(const ShadowLight& light, const Bake& bake);
   LightReport& reportOf(const ShadowLight& light);
   void updateTracer(int wished);
   void keepVisibility(const ReceiverPixels& receivers);
@@ -153,6 +164,7 @@ private:
 
   OccluderCollector collector_;
   OccluderBuffers buffers_;
+  RasterizerChoice rasterizer_; ///< of conservative maps in this frame
   Route route_ = Route::Inline;
   CameraView camera_; ///< that the receivers were drawn by
   ReceiverTarget receiverTarget_;

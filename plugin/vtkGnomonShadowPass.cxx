@@ -106,6 +106,7 @@ double leastProgress(const gnomon::FrameReport& report)
 vtkGnomonShadowPass::vtkGnomonShadowPass()
   : Route(ROUTE_AUTO)
   , Tracer(TRACER_AUTO)
+  , Rasterizer(RASTERIZER_AUTO)
   , MeasureStages(false)
   , KeepVisibility(false)
   , DelegatePass(nullptr)
@@ -180,7 +181,7 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
       }
 
       // maps
-      manager.bakeMaps(renderer);
+      manager.bakeMaps(renderer, this->Rasterizer);
 
       // visibility
       if (manager.route() == gnomon::Route::Image)
@@ -446,6 +447,7 @@ void vtkGnomonShadowPass::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   const char* const routes[] = { "auto", "inline", "image" };
   const char* const tracers[] = { "auto", "embree", "gpu" };
+  const char* const rasterizers[] = { "auto", "cpu", "gpu" };
   for (const gnomon::Setting& setting : gnomon::shadowSettings())
   {
     os << indent << "Setting " << setting.name << ": " << setting.get(this->Internal->settings)
@@ -453,6 +455,7 @@ void vtkGnomonShadowPass::PrintSelf(ostream& os, vtkIndent indent)
   }
   os << indent << "Route: " << routes[this->Route] << "\n";
   os << indent << "Tracer: " << tracers[this->Tracer] << "\n";
+  os << indent << "Rasterizer: " << rasterizers[this->Rasterizer] << "\n";
   os << indent << "MeasureStages: " << (this->MeasureStages ? "on" : "off") << "\n";
   os << indent << "KeepVisibility: " << (this->KeepVisibility ? "on" : "off") << "\n";
   os << indent

@@ -139,6 +139,30 @@ public:
   vtkGetMacro(Tracer, int);
   ///@}
 
+  /**
+   * Who draws conservative maps, for techniques that have them. CPU: all its cores. GPU: OpenGL, by
+   * GL_NV_conservative_raster or GL_INTEL_conservative_rasterization where it has one of these, else by compute
+   * shaders. AUTO: the GPU where OpenGL draws by hardware and has one of them, else the CPU.
+   */
+  enum RasterizerType
+  {
+    RASTERIZER_AUTO = 0,
+    RASTERIZER_CPU = 1,
+    RASTERIZER_GPU = 2
+  };
+
+  ///@{
+  /**
+   * The rasterizer to take, for all lights alike. All of them draw the same maps. What GPU does not draw (`silhouette`, and
+   * what is drawn as published) the CPU draws, and the report says so.
+   *
+   * Asking for GPU where OpenGL cannot, or has no room for the map, is an error, and the scene is drawn without
+   * shadows. With AUTO the CPU takes over there, and the report says why. Default RASTERIZER_AUTO.
+   */
+  vtkSetClampMacro(Rasterizer, int, RASTERIZER_AUTO, RASTERIZER_GPU);
+  vtkGetMacro(Rasterizer, int);
+  ///@}
+
   ///@{
   /**
    * Measure the stages of a frame: each then ends with glFinish, so that its time is its own; that
@@ -235,6 +259,7 @@ protected:
 
   int Route;
   int Tracer;
+  int Rasterizer;
   bool MeasureStages;
   bool KeepVisibility;
   vtkRenderPass* DelegatePass;

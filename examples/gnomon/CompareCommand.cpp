@@ -146,6 +146,7 @@ void addCompareCommand(CLI::App& app)
     ->check(CLI::IsMember({ "all", "inline", "image" }))
     ->capture_default_str();
   addTracerOption(*command, options->plan.tracer);
+  addRasterizerOption(*command, options->plan.rasterizer);
   command->add_flag("--progress", options->progress,
     "Show a progress bar even when the error output is not a terminal");
   command->callback([options] { compare(*options); });

@@ -84,6 +84,7 @@ std::vector<VariantSpec> listVariants(
       continue;
     }
     spec.tracer = plan.tracer;
+    spec.rasterizer = plan.rasterizer;
     spec.pointwise = info.isPointwise();
     for (int size : info.needsMap ? plan.mapSizesTexels : std::vector<int>{ 0 })
     {

@@ -23,6 +23,7 @@ struct ComparisonPlan
   bool inlineRoute = true;         ///< for pointwise techniques
   bool imageRoute = true;          ///< for pointwise techniques
   int tracer = 0;                  ///< a vtkGnomonShadowPass::TracerType, for all that trace
+  int rasterizer = 0;              ///< a vtkGnomonShadowPass::RasterizerType, for conservative maps
   int width = 1024;
   int height = 1024;
   int frames = 21; ///< timed frames per variant and motion

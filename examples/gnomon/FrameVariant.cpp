@@ -45,6 +45,7 @@ vtkSmartPointer<vtkRenderPass> makeGnomonPass(const VariantSpec& spec)
   pass->SetTechnique(spec.technique.c_str());
   pass->SetRoute(spec.route);
   pass->SetTracer(spec.tracer);
+  pass->SetRasterizer(spec.rasterizer);
   if (spec.mapSizeTexels > 0)
   {
     pass->SetMapSize(spec.mapSizeTexels);

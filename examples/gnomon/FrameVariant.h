@@ -29,6 +29,7 @@ struct VariantSpec
   /// What else is asked of the lights' shadows, by name (lights/ShadowSettings.h).
   std::map<std::string, std::string> settings = {};
   int tracer = vtkGnomonShadowPass::TRACER_AUTO;
+  int rasterizer = vtkGnomonShadowPass::RASTERIZER_AUTO;
 
   bool isGnomon() const
   {

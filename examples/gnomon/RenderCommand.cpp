@@ -42,6 +42,7 @@ struct RenderOptions
   std::map<std::string, std::string> settings; ///< of all lights, by name; empty: not given
   std::string route = "auto";
   int tracer = vtkGnomonShadowPass::TRACER_AUTO;
+  int rasterizer = vtkGnomonShadowPass::RASTERIZER_AUTO;
   bool shadeSamples = false;
   std::vector<std::string> lights;
   std::string camera;
@@ -184,6 +185,7 @@ nlohmann::ordered_json toJson(const FrameReport& report)
         { "technique", light.technique }, { "estimator", light.estimator },
         { "projection", light.projection }, { "map_size_texels", light.mapSizeTexels },
         { "fit", light.fit }, { "fit_reason", light.fitReason }, { "map_reason", light.mapReason },
+        { "rasterizer", light.rasterizer }, { "rasterizer_reason", light.rasterizerReason },
         { "casters_left_out", light.castersLeftOut }, { "kernel", light.kernel },
         { "kernel_size_texels", light.kernelTexels }, { "map_samples", light.mapSamples },
         { "traced_pixels", light.tracedPixels }, { "rays", light.rays },
@@ -258,6 +260,10 @@ std::map<std::string, std::string> makeHeader(
     const std::string prefix = "light." + std::to_string(light.sceneIndex);
     header[prefix + ".technique"] = light.casts ? light.technique : "none: " + light.reason;
     header[prefix + ".map_size_texels"] = std::to_string(light.mapSizeTexels);
+    if (!light.rasterizer.empty())
+    {
+      header[prefix + ".rasterizer"] = light.rasterizer;
+    }
     if (!light.fit.empty())
     {
       header[prefix + ".fit"] = light.fit;
@@ -292,6 +298,7 @@ void render(const RenderOptions& options)
       : options.route == "image"              ? vtkGnomonShadowPass::ROUTE_IMAGE
                                               : vtkGnomonShadowPass::ROUTE_AUTO);
   shadows->SetTracer(options.tracer);
+  shadows->SetRasterizer(options.rasterizer);
   shadows->SetMeasureStages(!options.stats.empty() || !options.visibility.empty());
   shadows->SetKeepVisibility(!options.visibility.empty() || !options.classes.empty());
   shadows->SetSetting(
@@ -400,6 +407,7 @@ void addRenderCommand(CLI::App& app)
     ->check(CLI::IsMember({ "inline", "image", "auto" }))
     ->capture_default_str();
   addTracerOption(*command, options->tracer);
+  addRasterizerOption(*command, options->rasterizer);
   command->add_flag("--shade-samples", options->shadeSamples,
     "Shade from each of an area light's points (--light-samples, and --progressive of them per "
     "frame), with its hard shadows, and show the mean, rather than shade from the centre and take "

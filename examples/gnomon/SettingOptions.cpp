@@ -17,6 +17,17 @@ std::string refuse(const Setting& setting, const std::string& text)
   return takes(setting, text) ? "" : "found \"" + text + "\", expected " + expectedBy(setting);
 }
 
+/// An option that takes one of these names.
+void addChoice(CLI::App& command, const std::string& option,
+  const std::map<std::string, int>& choices, int& choice, const std::string& help)
+{
+  command
+    .add_option_function<std::string>(
+      option, [&choice, &choices](const std::string& name) { choice = choices.at(name); }, help)
+    ->check(CLI::IsMember(choices))
+    ->default_str("auto");
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -42,13 +53,21 @@ void addTracerOption(CLI::App& command, int& tracer)
 {
   static const std::map<std::string, int> tracers = { { "auto", vtkGnomonShadowPass::TRACER_AUTO },
     { "embree", vtkGnomonShadowPass::TRACER_EMBREE }, { "gpu", vtkGnomonShadowPass::TRACER_GPU } };
-  command
-    .add_option_function<std::string>(
-      "--tracer", [&tracer](const std::string& name) { tracer = tracers.at(name); },
-      "Who traces shadow rays: embree (the CPU), gpu (compute shaders), auto (the GPU where OpenGL "
-      "draws by hardware)")
-    ->check(CLI::IsMember(tracers))
-    ->default_str("auto");
+  addChoice(command, "--tracer", tracers, tracer,
+    "Who traces shadow rays: embree (the CPU), gpu (compute shaders), auto (the GPU where OpenGL "
+    "draws by hardware)");
+}
+
+//------------------------------------------------------------------------------
+void addRasterizerOption(CLI::App& command, int& rasterizer)
+{
+  static const std::map<std::string, int> rasterizers = {
+    { "auto", vtkGnomonShadowPass::RASTERIZER_AUTO },
+    { "cpu", vtkGnomonShadowPass::RASTERIZER_CPU }, { "gpu", vtkGnomonShadowPass::RASTERIZER_GPU }
+  };
+  addChoice(command, "--rasterizer", rasterizers, rasterizer,
+    "Who draws conservative maps: cpu, gpu (OpenGL), auto (the GPU where OpenGL draws by hardware "
+    "and has an extension for it)");
 }
 
 } // namespace gnomon::tool

@@ -21,6 +21,10 @@ void addSettingOptions(CLI::App& command, std::map<std::string, std::string>& va
 /// @param tracer a vtkGnomonShadowPass::TracerType. Must outlive the command
 void addTracerOption(CLI::App& command, int& tracer);
 
+/// Gives a command the option "--rasterizer".
+/// @param rasterizer a vtkGnomonShadowPass::RasterizerType. Must outlive the command
+void addRasterizerOption(CLI::App& command, int& rasterizer);
+
 } // namespace gnomon::tool
 
 #endif

@@ -21,6 +21,7 @@
 namespace gnomon
 {
 
+class CellsOnGpu;
 struct DrawnSurface;
 struct Occluders;
 class OccluderBuffers;
@@ -50,6 +51,9 @@ struct TechniqueInfo
   bool needsMap = false; ///< bakes something from the light
   bool mapIsOptional =
     false; ///< shows the same without it: it only saves time where it serves several frames
+  bool conservativeMap = false; ///< its map is a conservative one
+  /// Why that is drawn on the CPU, whoever is to draw conservative maps, as a clause; empty: it need not be.
+  std::string onlyCpuDraws = {};
   bool filters = false; ///< averages over a kernel, `kernel_size` wide
   /// The kernel of an estimator that has one of its own; empty: what the setting `kernel` says.
   std::string ownKernel = {};
@@ -109,6 +113,8 @@ struct MapInput
   TextureBinding viewFits = {};
   /// A plane (n, d) in centred coordinates: of casters, only what has n.p + d >= 0 counts.
   std::optional<glm::dvec4> keptFromCentred = std::nullopt;
+  /// Who draws conservative maps; null: the CPU.
+  const CellsOnGpu* cellsOnGpu = nullptr;
 };
 
 /// What a screen technique gets to draw one light's visibility image from, on the GPU.

@@ -2,21 +2,18 @@
 
 #include "shadowtech/base/Bytes.h"
 #include "shadowtech/base/Receivers.h"
-#include "shadowtech/conservative/CasterBands.h"
-#include "shadowtech/conservative/CasterEdges.h"
-#include "shadowtech/conservative/TexelCells.h"
+#include "shadowtech/conservative/CellsOnCpu.h"
+#include "shadowtech/conservative/CellsOnGpu.h"
 
 #include <glm/gtc/matrix_access.hpp>
-#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <tuple>
+#include <utility>
 
 namespace gnomon
 {
@@ -35,9 +32,6 @@ float above(float depth)
 {
   return std::isfinite(depth) ? depth + depthRounding * (1.0f + std::abs(depth)) : depth;
 }
-
-/// How many triangles around a corner are followed, to either side: more than there mostly are.
-constexpr int mostAroundCorner = 12;
 
 /// What follows from a cell, when all is drawn.
 TexelBounds boundsOf(const Cell& cell)
@@ -63,341 +57,6 @@ TexelBounds bothOf(const TexelBounds& a, const TexelBounds& b)
     std::max(a.leastOffsetOnCasters, b.leastOffsetOnCasters),
     std::max(a.shadowFrom, b.shadowFrom) };
 }
-
-/// A map while it is drawn: first which rows each triangle and edge lies in, then the rows, band by band.
-class MapDrawing
-{
-public:
-  MapDrawing(const CasterScene& scene, const CasterEdges& edges, int size, Covering covering)
-    : scene_(scene)
-    , edges_(edges)
-    , covering_(covering)
-    , size_(size)
-    , placements_(scene.occluders)
-    , triangles_(size)
-    , segments_(size)
-  {
-    this->sortTriangles();
-    if (!this->blind_)
-    {
-      this->sortEdges();
-    }
-  }
-
-  /// Whether a caster is so near to the light that nothing is certain.
-  bool blind() const { return this->blind_; }
-
-  /// Draws all bands.
-  /// @param take called with each cell's number on the map and the cell, from several threads
-  template <typename Take>
-  void draw(const Take& take)
-  {
-    drawBands<Cell>(
-      this->size_, [this](int band, Span rows, Cell* cells) { this->drawBand(band, rows, cells); },
-      take);
-  }
-
-private:
-  void sortTriangles()
-  {
-    this->facing_.resize(this->placements_.triangleCount());
-    std::atomic<bool> blind{ false };
-    tbb::enumerable_thread_specific<double> margins(0.0);
-    this->placements_.visitTriangles(
-      [&](std::uint32_t number, std::uint32_t triangle)
-      {
-        const Placement& placement = this->placements_[number];
-        const Surface& surface = this->placements_.surfaceOf(placement);
-        const MapPolygon polygon = polygonOf(this->scene_, surface, placement.instance, triangle);
-        this->facing_[this->placements_.numberOf(placement, triangle)] =
-          polygon.role.present ? static_cast<std::int8_t>(polygon.facing) : absentFacing;
-        if (!polygon.role.present)
-        {
-          return;
-        }
-        // Written so that NaN is blind.
-        if (!(polygon.margin < std::numeric_limits<double>::infinity()))
-        {
-          blind = true;
-          return;
-        }
-        if (!polygon.role.poison)
-        {
-          double& margin = margins.local();
-          margin = std::max(margin, polygon.margin);
-        }
-        const double margin = std::max(polygon.margin, largestMargin);
-        const auto [low, high] = polygon.rows();
-        this->triangles_.add(low - margin, high + margin, { number, triangle });
-      });
-    this->blind_ = blind;
-    for (const double margin : margins)
-    {
-      this->margin_ = std::max(this->margin_, margin);
-    }
-  }
-
-  std::int8_t facingOf(const Placement& placement, std::uint32_t triangle) const
-  {
-    return triangle == CasterEdge::none
-      ? absentFacing
-      : this->facing_[this->placements_.numberOf(placement, triangle)];
-  }
-
-  EdgeKind kindWithinSurface(const Placement& placement, const CasterEdge& edge) const
-  {
-    return gnomon::kindOf(edge, this->facingOf(placement, edge.triangles[0]),
-      this->facingOf(placement, edge.triangles[1]));
-  }
-
-  /// The same of an edge by its number, at which the surface may go on as another one.
-  EdgeKind kindOf(const Placement& placement, std::uint32_t number) const
-  {
-    CasterEdge edge = this->edges_.of(placement.surface).edges[number];
-    const Seam* const seam = edge.triangles[1] == CasterEdge::none
-      ? this->edges_.seams().at(placement.surface, number)
-      : nullptr;
-    if (!seam)
-    {
-      return this->kindWithinSurface(placement, edge);
-    }
-    edge.sameDirection = seam->sameDirection;
-    edge.sharp = seam->sharp;
-    return gnomon::kindOf(edge, this->facingOf(placement, edge.triangles[0]),
-      this->facingOf(this->placements_.placementOf(seam->otherSurface), seam->otherTriangle));
-  }
-
-  /// The part of the casters' surface that a triangle belongs to; none where nobody asks for parts.
-  CasterPart partOf(const Placement& placement, std::uint32_t triangle) const
-  {
-    return this->covering_ == Covering::Silhouette
-      ? CasterPart(placement.instance) << 32 | this->edges_.partOf(triangle)
-      : noPart;
-  }
-
-  bool segment(const Placement& placement, std::uint32_t number, MapSegment& result) const
-  {
-    const CasterEdge& edge = this->edges_.of(placement.surface).edges[number];
-    if (this->facingOf(placement, edge.triangles[0]) == absentFacing &&
-      this->facingOf(placement, edge.triangles[1]) == absentFacing)
-    {
-      return false;
-    }
-    const EdgeKind kind = this->kindOf(placement, number);
-    result.part = this->partOf(placement, edge.triangles[0]);
-    return kind != EdgeKind::Inner &&
-      segmentOf(this->scene_, this->placements_.surfaceOf(placement), placement.instance, edge,
-        kind, result);
-  }
-
-  /// A triangle as the map sees it.
-  MapPolygon polygon(const Placement& placement, std::uint32_t triangle) const
-  {
-    MapPolygon polygon =
-      polygonOf(this->scene_, this->placements_.surfaceOf(placement), placement.instance, triangle);
-    polygon.part = this->partOf(placement, triangle);
-    return polygon;
-  }
-
-  /// The triangle on which the casters' surface goes on across an edge; `none` where it ends.
-  std::uint32_t across(
-    const Placement& placement, const CasterEdge& edge, std::uint32_t triangle) const
-  {
-    const EdgeKind kind = this->kindWithinSurface(placement, edge);
-    return kind == EdgeKind::Inner || kind == EdgeKind::Sharp ? edge.other(triangle)
-                                                              : CasterEdge::none;
-  }
-
-  /// A triangle, the first, and those to which its surface goes on around its corners.
-  std::vector<std::uint32_t> fanOf(const Placement& placement, std::uint32_t triangle) const
-  {
-    const SurfaceEdges& edges = this->edges_.of(placement.surface);
-    const std::uint32_t first = this->placements_.surfaceOf(placement).firstTriangle;
-    std::vector<std::uint32_t> fan{ triangle };
-    // Around the corner that two sides share, beginning with one of them.
-    const auto walk = [&](std::uint32_t side, std::uint32_t otherSide)
-    {
-      const CasterEdge& start = edges.edges[side];
-      const bool atFrom = edges.edges[otherSide].meets(start.from);
-      const std::uint32_t corner = atFrom ? start.from : start.to;
-      std::uint32_t current = triangle;
-      for (int i = 0; i < mostAroundCorner; ++i)
-      {
-        current = this->across(placement, edges.edges[side], current);
-        if (current == CasterEdge::none || current == triangle)
-        {
-          return;
-        }
-        if (std::find(fan.begin(), fan.end(), current) == fan.end())
-        {
-          fan.push_back(current);
-        }
-        const auto& sides = edges.ofTriangle[current - first];
-        side = *std::find_if(sides.begin(), sides.end(),
-          [&](std::uint32_t next) { return next != side && edges.edges[next].meets(corner); });
-      }
-    };
-    const auto& sides = edges.ofTriangle[triangle - first];
-    for (std::size_t k = 0; k < 3; ++k)
-    {
-      walk(sides[k], sides[(k + 1) % 3]);
-      walk(sides[k], sides[(k + 2) % 3]);
-    }
-    return fan;
-  }
-
-  /// A triangle, the first, and those to which its surface goes on across its edges.
-  std::vector<std::uint32_t> edgeNeighboursOf(
-    const Placement& placement, std::uint32_t triangle) const
-  {
-    const SurfaceEdges& edges = this->edges_.of(placement.surface);
-    std::vector<std::uint32_t> ring{ triangle };
-    for (const std::uint32_t side :
-      edges.ofTriangle[triangle - this->placements_.surfaceOf(placement).firstTriangle])
-    {
-      const std::uint32_t other = this->across(placement, edges.edges[side], triangle);
-      if (other != CasterEdge::none)
-      {
-        ring.push_back(other);
-      }
-    }
-    return ring;
-  }
-
-  /// The part of the casters' surface around a triangle. Without covering triangles nothing.
-  MapRing ringOf(const Placement& placement, std::uint32_t triangle, const MapPolygon& middle) const
-  {
-    MapRing ring;
-    const Surface& surface = this->placements_.surfaceOf(placement);
-    const SurfaceEdges& edges = this->edges_.of(placement.surface);
-    const std::vector<std::uint32_t> members = this->covering_ == Covering::Fan
-      ? this->fanOf(placement, triangle)
-      : this->edgeNeighboursOf(placement, triangle);
-    for (const std::uint32_t member : members)
-    {
-      ring.triangles.push_back(
-        member == triangle ? middle : polygonOf(this->scene_, surface, placement.instance, member));
-      for (const std::uint32_t number : edges.ofTriangle[member - surface.firstTriangle])
-      {
-        const CasterEdge& edge = edges.edges[number];
-        const std::uint32_t other = this->across(placement, edge, member);
-        MapSegment segment;
-        if (std::find(members.begin(), members.end(), other) == members.end() &&
-          segmentOf(this->scene_, surface, placement.instance, edge, EdgeKind::End, segment))
-        {
-          ring.border.push_back(segment);
-        }
-      }
-    }
-    return ring;
-  }
-
-  void sortEdges()
-  {
-    const auto countOf = [this](const Placement& placement)
-    { return this->edges_.of(placement.surface).edges.size(); };
-    this->placements_.visitAll(countOf,
-      [&](std::uint32_t number, std::uint32_t i)
-      {
-        MapSegment found;
-        if (this->segment(this->placements_[number], i, found))
-        {
-          const auto& [a, b] = found.ends;
-          const double margin = this->margin_ + thinTexels;
-          this->segments_.add(
-            std::min(a.y, b.y) - margin, std::max(a.y, b.y) + margin, { number, i });
-        }
-      });
-  }
-
-  /// Ends first: what lies behind one does not matter for how far the layers before it climb.
-  void drawBand(int band, Span rows, Cell* cells) const
-  {
-    this->segments_.visit(band,
-      [&](const BandItem& item)
-      {
-        MapSegment found;
-        if (this->segment(this->placements_[item.placement], item.index, found))
-        {
-          drawSegment(found, this->margin_, this->size_, rows, cells);
-        }
-      });
-    if (this->covering_ == Covering::Silhouette)
-    {
-      this->drawParts(band, rows, cells);
-      return;
-    }
-    this->triangles_.visit(
-      band, [&](const BandItem& item) { this->drawTriangle(item, rows, cells); });
-  }
-
-  /// Draws the triangles of a band part by part, of each its ends first.
-  void drawParts(int band, Span rows, Cell* cells) const
-  {
-    struct PartItem
-    {
-      CasterPart part;
-      bool triangle; ///< else an edge
-      BandItem item;
-    };
-    std::vector<PartItem> items;
-    this->segments_.visit(band,
-      [&](const BandItem& item)
-      {
-        const Placement& placement = this->placements_[item.placement];
-        const CasterEdge& edge = this->edges_.of(placement.surface).edges[item.index];
-        items.push_back({ this->partOf(placement, edge.triangles[0]), false, item });
-      });
-    this->triangles_.visit(band,
-      [&](const BandItem& item)
-      {
-        const Placement& placement = this->placements_[item.placement];
-        items.push_back({ this->partOf(placement, item.index), true, item });
-      });
-    std::sort(items.begin(), items.end(),
-      [](const PartItem& a, const PartItem& b)
-      { return std::tie(a.part, a.triangle) < std::tie(b.part, b.triangle); });
-    for (const PartItem& item : items)
-    {
-      MapSegment found;
-      if (item.triangle)
-      {
-        this->drawTriangle(item.item, rows, cells);
-      }
-      else if (this->segment(this->placements_[item.item.placement], item.item.index, found) &&
-        found.isEnd)
-      {
-        drawEndOfPart(found, this->margin_, this->size_, rows, cells);
-      }
-    }
-    std::for_each(cells,
-      cells + static_cast<std::ptrdiff_t>(rows.last - rows.first + 1) * this->size_,
-      [](Cell& cell) { cell.turnTo(noPart); });
-  }
-
-  void drawTriangle(const BandItem& item, Span rows, Cell* cells) const
-  {
-    const Placement& placement = this->placements_[item.placement];
-    const MapPolygon polygon = this->polygon(placement, item.index);
-    drawPolygon(polygon, this->margin_, this->size_, rows, cells);
-    if (this->covering_ != Covering::Triangle && polygon.role.covers)
-    {
-      drawRing(
-        this->ringOf(placement, item.index, polygon), this->margin_, this->size_, rows, cells);
-    }
-  }
-
-  const CasterScene& scene_;
-  const CasterEdges& edges_;
-  Covering covering_;
-  int size_;
-  bool blind_ = false;
-  double margin_ = 0.0; ///< of all texels: the largest that a caster asks for, but for poison
-  CasterPlacements placements_;
-  std::vector<std::int8_t> facing_; ///< on the map, of all placements' triangles
-  CasterBands triangles_;
-  CasterBands segments_;
-};
 
 /// A few receivers as a map sees them.
 struct Looks
@@ -466,22 +125,24 @@ LookUp lookUpOf(const CasterScene& scene, const LightView& view)
 }
 
 //------------------------------------------------------------------------------
-MapRule certainRule(Covering covering)
+MapRule certainRule(Covering covering, const CellsOnGpu* gpu)
 {
-  return [covering](const LightView& view, bool hasBox, int sizeTexels, const Occluders& occluders,
-           const CasterEdges& edges)
+  return [covering, gpu](const LightView& view, bool hasBox, int sizeTexels,
+           const Occluders& occluders, const CasterEdges& edges)
   {
     const CasterScene scene = casterScene(view, hasBox, sizeTexels, occluders);
     LookUp lookUp = lookUpOf(scene, view);
     lookUp.depthPerUnit = glm::vec2(scene.space.depthPerUnit());
     lookUp.rounding = static_cast<float>(scene.lateral);
     lookUp.largestOffset = static_cast<float>(scene.largestOffset(1.0));
-    MapDrawing drawing(scene, edges, sizeTexels, covering);
-    std::vector<TexelBounds> texels;
-    if (!drawing.blind())
+    std::vector<TexelBounds> texels(
+      static_cast<std::size_t>(sizeTexels) * static_cast<std::size_t>(sizeTexels));
+    const TakeCell take = [&](std::size_t i, const Cell& cell) { texels[i] = boundsOf(cell); };
+    const bool certain = gpu ? gpu->draw(scene, edges, sizeTexels, covering, take)
+                             : drawCellsOnCpu(scene, edges, sizeTexels, covering, take);
+    if (!certain)
     {
-      texels.resize(static_cast<std::size_t>(sizeTexels) * static_cast<std::size_t>(sizeTexels));
-      drawing.draw([&](std::size_t i, const Cell& cell) { texels[i] = boundsOf(cell); });
+      texels = {};
     }
     return ConservativeMap(view, hasBox, lookUp, std::move(texels));
   };

@@ -5,6 +5,7 @@
 #include "shadowtech/base/Certainty.h"
 #include "shadowtech/base/Occluders.h"
 #include "shadowtech/conservative/CasterShapes.h"
+#include "shadowtech/conservative/MapCasters.h"
 
 #include <glm/glm.hpp>
 
@@ -19,16 +20,8 @@ namespace gnomon
 {
 
 class CasterEdges;
+class CellsOnGpu;
 struct ReceiverPixels;
-
-/// By what a map may conclude that casters cover all of a texel.
-enum class Covering
-{
-  Triangle,  ///< one triangle contains it
-  Ring,      ///< or: a triangle and those across its edges do
-  Fan,       ///< or: a triangle and those around its corners do
-  Silhouette ///< or, as of Ring: no end of a part of the casters' surface is there, so that it goes on everywhere
-};
 
 /// What a texel says of the receivers in it, by their depth (ConservativeMap).
 struct TexelBounds
@@ -114,7 +107,8 @@ using MapRule = std::function<ConservativeMap(const LightView& view, bool hasBox
 
 /// The rules that are never wrong about a shadow ray, rounding included. docs/techniques/exact.md has them and why
 /// they hold.
-MapRule certainRule(Covering covering);
+/// @param gpu who draws them; null: the CPU. Not for `Covering::Silhouette`, whose parts are drawn one after another
+MapRule certainRule(Covering covering, const CellsOnGpu* gpu = nullptr);
 
 /// How exact positions are looked up, with no slack for rounding.
 LookUp lookUpOf(const CasterScene& scene, const LightView& view);

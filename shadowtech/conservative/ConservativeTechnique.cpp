@@ -15,13 +15,15 @@ TechniqueInfo ConservativeTechnique::infoOf(const std::string& name)
   info.classes = classesOfTracing();
   info.needsMap = true;
   info.mapIsOptional = true;
+  info.conservativeMap = true;
   return info;
 }
 
 //------------------------------------------------------------------------------
 void ConservativeTechnique::bake(const MapInput& input)
 {
-  this->maps_.bake(input.light, input.views, input.occluders, this->rule(input.light));
+  this->maps_.bake(
+    input.light, input.views, input.occluders, this->rule(input.light, input.cellsOnGpu));
 }
 
 //------------------------------------------------------------------------------

@@ -22,7 +22,8 @@ public:
 
 protected:
   /// How its maps are drawn.
-  virtual MapRule rule(const ShadowSettings& settings) const = 0;
+  /// @param gpu who draws them, where they are not drawn by the CPU alone; null: the CPU
+  virtual MapRule rule(const ShadowSettings& settings, const CellsOnGpu* gpu) const = 0;
   /// What its info() is, where its maps' rule is never wrong.
   static TechniqueInfo infoOf(const std::string& name);
 

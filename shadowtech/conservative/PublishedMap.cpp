@@ -219,7 +219,7 @@ Span TexelRegion::row(int y, int width) const
   for (std::size_t i = 0; i < this->count; ++i)
   {
     const HalfPlane& side = this->sides[i];
-    range.cut(side.nx, side.ny * (y + 0.5) + side.c);
+    range.cut(boundPerRest(side.nx), side.ny * (y + 0.5) + side.c);
   }
   return range.texels(0.5, width);
 }

@@ -24,20 +24,28 @@ inline Span spanOf(double low, double high, int limit)
     static_cast<int>(std::floor(std::clamp(high, -1.0, limit - 1.0))) };
 }
 
+/// How x where nx x + rest = 0 follows from the rest; 0 where a side runs along the row.
+inline double boundPerRest(double nx)
+{
+  return std::abs(nx) > 1e-12 ? -1.0 / nx : 0.0;
+}
+
 /// Texels of a row, those that a polygon's sides leave.
 struct RowRange
 {
   double low, high; ///< of texels' centres
 
-  void cut(double nx, double rest) // nx x + rest >= 0
+  /// Leaves nx x + rest >= 0.
+  /// @param perRest boundPerRest(nx)
+  void cut(double perRest, double rest)
   {
-    if (nx > 1e-12)
+    if (perRest < 0.0)
     {
-      this->low = std::max(this->low, -rest / nx);
+      this->low = std::max(this->low, rest * perRest);
     }
-    else if (nx < -1e-12)
+    else if (perRest > 0.0)
     {
-      this->high = std::min(this->high, -rest / nx);
+      this->high = std::min(this->high, rest * perRest);
     }
     else if (rest < 0.0)
     {

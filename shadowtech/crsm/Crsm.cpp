@@ -6,9 +6,9 @@ namespace gnomon
 {
 
 //------------------------------------------------------------------------------
-MapRule Crsm::rule(const ShadowSettings&) const
+MapRule Crsm::rule(const ShadowSettings&, const CellsOnGpu* gpu) const
 {
-  return certainRule(Covering::Triangle);
+  return certainRule(Covering::Triangle, gpu);
 }
 
 //------------------------------------------------------------------------------
@@ -20,7 +20,7 @@ TechniqueInfo Crsm::info()
 }
 
 //------------------------------------------------------------------------------
-MapRule CrsmAsPublished::rule(const ShadowSettings&) const
+MapRule CrsmAsPublished::rule(const ShadowSettings&, const CellsOnGpu*) const
 {
   return publishedRule(PublishedLayers::Crsm);
 }
@@ -32,7 +32,7 @@ TechniqueInfo CrsmAsPublished::info()
   info.asPublished = info.name;
   info.exact = false;
   info.mapIsOptional = false;
-  info.mapIsOptional = false;
+  info.onlyCpuDraws = "what was published is";
   return info;
 }
 

@@ -13,7 +13,7 @@ public:
   static TechniqueInfo info();
 
 protected:
-  MapRule rule(const ShadowSettings& settings) const override;
+  MapRule rule(const ShadowSettings& settings, const CellsOnGpu* gpu) const override;
 };
 
 /// `crsm` by the letter of its publication (Morais 2016, chapter 4): not exact (PublishedMap.h).
@@ -23,7 +23,7 @@ public:
   static TechniqueInfo info();
 
 protected:
-  MapRule rule(const ShadowSettings& settings) const override;
+  MapRule rule(const ShadowSettings& settings, const CellsOnGpu* gpu) const override;
 };
 
 } // namespace gnomon

@@ -6,10 +6,10 @@ namespace gnomon
 {
 
 //------------------------------------------------------------------------------
-MapRule Crsma::rule(const ShadowSettings& settings) const
+MapRule Crsma::rule(const ShadowSettings& settings, const CellsOnGpu* gpu) const
 {
   return certainRule(
-    settings.adjacencyRing == AdjacencyRing::Vertices ? Covering::Fan : Covering::Ring);
+    settings.adjacencyRing == AdjacencyRing::Vertices ? Covering::Fan : Covering::Ring, gpu);
 }
 
 //------------------------------------------------------------------------------
@@ -21,7 +21,7 @@ TechniqueInfo Crsma::info()
 }
 
 //------------------------------------------------------------------------------
-MapRule CrsmaAsPublished::rule(const ShadowSettings&) const
+MapRule CrsmaAsPublished::rule(const ShadowSettings&, const CellsOnGpu*) const
 {
   return publishedRule(PublishedLayers::Crsma);
 }
@@ -33,7 +33,7 @@ TechniqueInfo CrsmaAsPublished::info()
   info.asPublished = info.name;
   info.exact = false;
   info.mapIsOptional = false;
-  info.mapIsOptional = false;
+  info.onlyCpuDraws = "what was published is";
   return info;
 }
 

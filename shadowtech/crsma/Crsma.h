@@ -14,7 +14,7 @@ public:
   static TechniqueInfo info();
 
 protected:
-  MapRule rule(const ShadowSettings& settings) const override;
+  MapRule rule(const ShadowSettings& settings, const CellsOnGpu* gpu) const override;
 };
 
 /// `crsma` by the letter of its publication (Morais 2016, chapter 4): not exact (PublishedMap.h).
@@ -24,7 +24,7 @@ public:
   static TechniqueInfo info();
 
 protected:
-  MapRule rule(const ShadowSettings& settings) const override;
+  MapRule rule(const ShadowSettings& settings, const CellsOnGpu* gpu) const override;
 };
 
 } // namespace gnomon

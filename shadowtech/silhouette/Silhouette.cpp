@@ -4,7 +4,7 @@ namespace gnomon
 {
 
 //------------------------------------------------------------------------------
-MapRule Silhouette::rule(const ShadowSettings&) const
+MapRule Silhouette::rule(const ShadowSettings&, const CellsOnGpu*) const
 {
   return certainRule(Covering::Silhouette);
 }
@@ -12,7 +12,9 @@ MapRule Silhouette::rule(const ShadowSettings&) const
 //------------------------------------------------------------------------------
 TechniqueInfo Silhouette::info()
 {
-  return infoOf("silhouette");
+  TechniqueInfo info = infoOf("silhouette");
+  info.onlyCpuDraws = "parts of the casters' surface are drawn one after another";
+  return info;
 }
 
 } // namespace gnomon

@@ -13,7 +13,7 @@ public:
   static TechniqueInfo info();
 
 protected:
-  MapRule rule(const ShadowSettings& settings) const override;
+  MapRule rule(const ShadowSettings& settings, const CellsOnGpu* gpu) const override;
 };
 
 } // namespace gnomon

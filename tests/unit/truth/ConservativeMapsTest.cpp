@@ -6,10 +6,14 @@
 #include "RandomScenes.h"
 
 #include "lights/ShadowSettings.h"
+#include "shadowtech/conservative/CellsOnGpu.h"
 #include "shadowtech/tracing/EmbreeTracer.h"
+
+#include "vtkGnomonEGLRenderWindow.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
+#include <vtkNew.h>
 
 #include <algorithm>
 #include <atomic>
@@ -36,10 +40,11 @@ struct Tally : Compared
 
 /// How a map and a full trace differ.
 Tally compareWithTruth(const ShadowLight& light, const LightViews& views,
-  const Occluders& occluders, const Receivers& receivers, Covering covering = Covering::Silhouette)
+  const Occluders& occluders, const Receivers& receivers,
+  const MapRule& rule = certainRule(Covering::Silhouette))
 {
   ConservativeMaps maps;
-  maps.bake(light, views, occluders, certainRule(covering));
+  maps.bake(light, views, occluders, rule);
   EmbreeTracer tracer;
   tracer.update(occluders);
   Tally tally;
@@ -61,7 +66,7 @@ Tally compareWithTruth(const ShadowLight& light, const LightViews& views,
 }
 
 /// One picture of one scene in one light, by maps of one size.
-Tally run(const std::string& name, unsigned int seed, Covering covering,
+Tally run(const std::string& name, unsigned int seed, const MapRule& rule,
   const glm::dmat4& world = glm::dmat4(1.0))
 {
   const RandomPicture picture = makeRandomPicture(name, seed, world);
@@ -70,8 +75,7 @@ Tally run(const std::string& name, unsigned int seed, Covering covering,
   ReceiverPixels stored;
   const Receivers receivers(
     picture.view.images, picture.view.drawnSurfaces, picture.occluders, stored);
-  const Tally tally =
-    compareWithTruth(light, picture.views, picture.occluders, receivers, covering);
+  const Tally tally = compareWithTruth(light, picture.views, picture.occluders, receivers, rule);
   if (tally.wrong > 0)
   {
     ADD_FAILURE() << tally.wrong << " wrong pixels of " << picture.description;
@@ -89,7 +93,7 @@ TEST_P(ConservativeMapsIn, areNeverWrong)
   Tally sum;
   for (unsigned int seed = 1; seed <= exactRuns(); ++seed)
   {
-    sum.add(run(name, seed, covering));
+    sum.add(run(name, seed, certainRule(covering)));
   }
   const char* const techniques[] = { "crsm", "crsma", "crsma, adjacency_ring=vertices",
     "silhouette" };
@@ -114,6 +118,51 @@ INSTANTIATE_TEST_SUITE_P(Scenes, ConservativeMapsIn,
     testing::Values(Covering::Triangle, Covering::Ring, Covering::Fan, Covering::Silhouette)),
   nameOfRun);
 
+std::string nameOfRunOnGpu(const testing::TestParamInfo<std::tuple<CellPath, Covering>>& onGpu)
+{
+  const char* const paths[] = { "Compute", "Rasterised", "Extension" };
+  const char* const coverings[] = { "Triangle", "Ring", "Fan" };
+  return std::string(paths[static_cast<int>(std::get<0>(onGpu.param))]) +
+    coverings[static_cast<int>(std::get<1>(onGpu.param))];
+}
+
+/// Drawn on the GPU, by its path and by what covers texels.
+class ConservativeMapsOnGpu : public testing::TestWithParam<std::tuple<CellPath, Covering>>
+{
+};
+
+TEST_P(ConservativeMapsOnGpu, areNeverWrong)
+{
+  const auto& [path, covering] = GetParam();
+  vtkNew<vtkGnomonEGLRenderWindow> window;
+  window->Initialize();
+  window->MakeCurrent();
+  const std::string why = whyUnsupported(path);
+  if (!why.empty())
+  {
+    GTEST_SKIP() << why;
+  }
+  ShaderLibrary shaders;
+  const CellsOnGpu gpu(shaders, path);
+  Tally sum;
+  for (const char* name : randomSceneNames())
+  {
+    for (unsigned int seed = 200; seed < 200 + std::max(exactRuns() / 4, 1u); ++seed)
+    {
+      sum.add(run(name, seed, certainRule(covering, &gpu)));
+    }
+  }
+  EXPECT_EQ(sum.wrong, 0u);
+  EXPECT_LT(sum.traced, sum.receivers * 3 / 4);
+  recordCompared(covering == Covering::Triangle ? "crsm" : "crsma",
+    std::string("all, drawn on the GPU: ") + nameOf(path), sum);
+}
+
+INSTANTIATE_TEST_SUITE_P(Paths, ConservativeMapsOnGpu,
+  testing::Combine(testing::Values(CellPath::Compute, CellPath::Rasterised, CellPath::Extension),
+    testing::Values(Covering::Triangle, Covering::Ring, Covering::Fan)),
+  nameOfRunOnGpu);
+
 TEST(ConservativeMaps, areNeverWrongFarAwayAndAtAnyScale)
 {
   const glm::dmat4 worlds[] = { at(glm::dvec3(1e6, -2e6, 1e6)), at(glm::dvec3(0.0), 1e-4),
@@ -125,7 +174,7 @@ TEST(ConservativeMaps, areNeverWrongFarAwayAndAtAnyScale)
     {
       for (unsigned int seed = 100; seed < 100 + exactRuns() / 4; ++seed)
       {
-        sum.add(run(name, seed, Covering::Silhouette, world));
+        sum.add(run(name, seed, certainRule(Covering::Silhouette), world));
       }
     }
   }

@@ -1,0 +1,37 @@
+#include "plugin/MapRasterizer.h"
+
+#include "plugin/vtkGnomonShadowPass.h"
+#include "shadowtech/tracing/GpuTracer.h"
+
+#include <stdexcept>
+
+namespace gnomon
+{
+
+//------------------------------------------------------------------------------
+RasterizerChoice chooseRasterizer(int wished, const std::string& gpuLacks,
+  const std::string& extensionLacks, const std::string& renderer)
+{
+  if (wished == vtkGnomonShadowPass::RASTERIZER_CPU)
+  {
+    return { std::nullopt, true, "asked for" };
+  }
+  if (wished == vtkGnomonShadowPass::RASTERIZER_GPU)
+  {
+    if (!gpuLacks.empty())
+    {
+      throw std::runtime_error("the rasterizer on the GPU was asked for, but " + gpuLacks);
+    }
+    return { extensionLacks.empty() ? CellPath::Extension : CellPath::Compute, true, "asked for" };
+  }
+  if (isSoftwareRenderer(renderer))
+  {
+    return { std::nullopt, false, "OpenGL draws by software: " + renderer };
+  }
+  // Nothing has shown yet that compute shaders are worth their while.
+  return extensionLacks.empty()
+    ? RasterizerChoice{ CellPath::Extension, false, "OpenGL draws by hardware: " + renderer }
+    : RasterizerChoice{ std::nullopt, false, extensionLacks };
+}
+
+} // namespace gnomon

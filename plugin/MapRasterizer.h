@@ -1,0 +1,30 @@
+#ifndef gnomon_plugin_MapRasterizer_h
+#define gnomon_plugin_MapRasterizer_h
+
+#include "shadowtech/conservative/CellTarget.h"
+
+#include <optional>
+#include <string>
+
+namespace gnomon
+{
+
+/// Who draws conservative maps in a frame, and why.
+struct RasterizerChoice
+{
+  std::optional<CellPath> gpu; ///< none: the CPU
+  bool asked = false;          ///< and no other will do
+  std::string reason;          ///< as a clause
+};
+
+/// @param wished a vtkGnomonShadowPass::RasterizerType
+/// @param gpuLacks whyUnsupported(CellPath::Compute)
+/// @param extensionLacks whyUnsupported(CellPath::Extension)
+/// @param renderer GL_RENDERER
+/// @throws std::runtime_error where the GPU is asked for and lacks something
+RasterizerChoice chooseRasterizer(int wished, const std::string& gpuLacks,
+  const std::string& extensionLacks, const std::string& renderer);
+
+} // namespace gnomon
+
+#endif

@@ -1,0 +1,30 @@
+// What a polygon gives to a texel that it touches (drawPolygon() of TexelCells.h). POISON: it spoils it.
+
+#include "shadowtech/conservative/texel_shapes.glsl"
+#include "shadowtech/conservative/texel_cells.glsl"
+
+void drawTexel(PolygonRecord polygon, Row row, int x, int y)
+{
+  uint cell = cellAt(x, y);
+#ifdef POISON
+  lower(cell + nearestInCell, -infinity);
+  lower(cell + sharpEndInCell, -infinity);
+#else
+  double depth = depthAt(polygon, row, x);
+  float nearest = nearestOf(polygon, depth);
+  lower(cell + nearestInCell, nearest);
+  if (orderedBits(nearest) < cells[cell + sharpEndInCell])
+  {
+    lower(cell + climbInCell, -polygon.climb);
+    lower(cell + noiseInCell, -polygon.noise);
+  }
+  if (isIn(row.sampled, x))
+  {
+    addLayer(cell, atSample(polygon, depth));
+  }
+  if (polygon.covers != 0u && isIn(row.contained, x))
+  {
+    lower(cell + containedInCell, farthestOf(polygon, depth));
+  }
+#endif
+}

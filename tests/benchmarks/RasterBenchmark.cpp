@@ -1,0 +1,204 @@
+// What it costs to draw a conservative map on the CPU and, in all ways that there are, on the GPU: whole maps, from the
+// snapshot to what pixels ask. All take turns.
+
+#include "BenchmarkMain.h"
+#include "FrameTiming.h"
+#include "Machine.h"
+#include "Scene.h"
+#include "SyntheticScene.h"
+
+#include "plugin/OccluderCollector.h"
+#include "plugin/vtkGnomonEGLRenderWindow.h"
+#include "shadowtech/conservative/CellsOnGpu.h"
+#include "shadowtech/conservative/ConservativeMap.h"
+
+#include <CLI/CLI.hpp>
+#include <vtkNew.h>
+
+#include <ctime>
+#include <functional>
+#include <iomanip>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace gnomon::test
+{
+namespace
+{
+
+struct Options
+{
+  std::vector<std::string> scenes{ "bunny", "atrium", "terrain" };
+  std::vector<int> mapSizes{ 512, 1024, 2048 };
+  std::string technique = "crsm";
+  int repetitions = 21;
+};
+
+/// A scene's casters and its sun.
+class Subject
+{
+public:
+  explicit Subject(const std::string& name)
+  {
+    const tool::Scene scene = tool::loadScene(name);
+    this->collector_.collect(tool::makeRenderer(scene, 1.0));
+    this->edges_.update(this->occluders());
+    const tool::SceneLight& sun = scene.lights.at(0);
+    this->light_ = directionalLight({ sun.target[0] - sun.position[0],
+      sun.target[1] - sun.position[1], sun.target[2] - sun.position[2] });
+  }
+
+  const Occluders& occluders() const { return this->collector_.occluders(); }
+  const CasterEdges& edges() const { return this->edges_; }
+  /// The sun's view of them all.
+  LightView view(int sizeTexels) const
+  {
+    ViewFitting fitting;
+    fitting.centreWorld = this->occluders().centreWorld;
+    fitting.castersCentred = this->occluders().castersCentred;
+    fitting.receiversCentred = this->occluders().allCentred;
+    fitting.texels.side = sizeTexels;
+    return fitLightViews(this->light_, fitting).views.at(0);
+  }
+
+private:
+  OccluderCollector collector_;
+  CasterEdges edges_;
+  ShadowLight light_;
+};
+
+/// In milliseconds.
+struct Time
+{
+  double wall;
+  double
+    processor; ///< of all threads: tells more than wall clock on a machine that is not alone, where OpenGL is software
+};
+
+Time now()
+{
+  const auto millisecondsOf = [](clockid_t clock)
+  {
+    timespec time;
+    clock_gettime(clock, &time);
+    return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
+  };
+  return { millisecondsOf(CLOCK_MONOTONIC), millisecondsOf(CLOCK_PROCESS_CPUTIME_ID) };
+}
+
+/// One way to draw a map.
+struct Way
+{
+  std::string name;
+  std::function<void()> draw;
+  std::vector<double> wall = {};
+  std::vector<double> processor = {};
+
+  Time medians() const { return { tool::median(this->wall), tool::median(this->processor) }; }
+};
+
+void run(const Subject& subject, const std::string& name, int sizeTexels, Covering covering,
+  int repetitions, ShaderLibrary& shaders)
+{
+  const LightView view = subject.view(sizeTexels);
+  std::vector<Way> ways;
+  const auto add = [&](const std::string& way, const CellsOnGpu* gpu)
+  {
+    ways.push_back({ way, [&view, &subject, sizeTexels, rule = certainRule(covering, gpu)] {
+                      rule(view, false, sizeTexels, subject.occluders(), subject.edges());
+                    } });
+  };
+  add("cpu", nullptr);
+  std::vector<std::unique_ptr<CellsOnGpu>> onGpu;
+  for (const CellPath path : { CellPath::Compute, CellPath::Rasterised, CellPath::Extension })
+  {
+    const std::string why = whyUnsupported(path);
+    if (why.empty())
+    {
+      onGpu.push_back(std::make_unique<CellsOnGpu>(shaders, path));
+      add(nameOf(path), onGpu.back().get());
+    }
+    else
+    {
+      std::cout << "One way is not measured: " << why << "\n";
+    }
+  }
+  for (int repetition = 0; repetition <= repetitions; ++repetition)
+  {
+    for (Way& way : ways)
+    {
+      const Time begin = now();
+      way.draw();
+      const Time end = now();
+      if (repetition > 0) // the first one builds programs
+      {
+        way.wall.push_back(end.wall - begin.wall);
+        way.processor.push_back(end.processor - begin.processor);
+      }
+    }
+  }
+  std::cout << name << ", " << CasterPlacements(subject.occluders()).triangleCount()
+            << " triangles, map " << sizeTexels << ", "
+            << (covering == Covering::Triangle ? "crsm" : "crsma") << "\n"
+            << std::setw(36) << "ms" << std::setw(10) << "x cpu" << std::setw(16) << "processor ms"
+            << std::setw(10) << "x cpu\n";
+  const Time cpu = ways.front().medians();
+  for (const Way& way : ways)
+  {
+    const Time time = way.medians();
+    std::cout << "  " << std::left << std::setw(24) << way.name << std::right
+              << std::setprecision(2) << std::setw(10) << time.wall << std::setw(10)
+              << time.wall / cpu.wall << std::setw(16) << time.processor << std::setw(10)
+              << time.processor / cpu.processor << "\n";
+  }
+  std::cout << std::flush;
+}
+
+int runAll(int argc, char** argv)
+{
+  CLI::App app{ "Times conservative maps drawn by the processor and by OpenGL, taking turns",
+    "gnomon_benchmark_raster" };
+  Options options;
+  app.add_option("SCENES", options.scenes, "Scenes, as for gnomon, with a sun")
+    ->capture_default_str();
+  app.add_option("--map-sizes", options.mapSizes, "Sides of the maps in texels")
+    ->check(CLI::Range(16, 16384))
+    ->delimiter(',')
+    ->capture_default_str();
+  app.add_option("--technique", options.technique, "crsm or crsma")
+    ->check(CLI::IsMember({ "crsm", "crsma" }))
+    ->capture_default_str();
+  app.add_option("--repetitions", options.repetitions, "Timed maps of each")
+    ->check(CLI::Range(1, 10000))
+    ->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
+
+  vtkNew<vtkGnomonEGLRenderWindow> window;
+  window->Initialize();
+  window->MakeCurrent();
+  std::cout << tool::openGlName(window) << "; " << tool::processorName() << "; medians of "
+            << options.repetitions << "\n"
+            << std::fixed;
+  ShaderLibrary shaders;
+  const Covering covering = options.technique == "crsm" ? Covering::Triangle : Covering::Ring;
+  for (const std::string& name : options.scenes)
+  {
+    const Subject subject(name);
+    for (const int size : options.mapSizes)
+    {
+      run(subject, name, size, covering, options.repetitions, shaders);
+    }
+  }
+  return 0;
+}
+
+} // namespace
+} // namespace gnomon::test
+
+int main(int argc, char** argv)
+{
+  return gnomon::tool::runBenchmark(
+    "gnomon_benchmark_raster", [&] { return gnomon::test::runAll(argc, argv); });
+}

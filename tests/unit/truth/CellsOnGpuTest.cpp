@@ -1,0 +1,417 @@
+// Conservative maps drawn on the GPU: their cells are those of the CPU, to the last bit, whatever is drawn, and hold what
+// separating axes say of each texel.
+
+#include "shadowtech/conservative/CellsOnGpu.h"
+
+#include "../plugin/LiveObjects.h"
+#include "RandomScenes.h"
+#include "TexelPolygons.h"
+
+#include "shadowtech/conservative/CellsOnCpu.h"
+
+#include "vtkGnomonEGLRenderWindow.h"
+
+#include <gtest/gtest.h>
+#include <vtkNew.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <iostream>
+#include <sstream>
+#include <string>
+#include <tuple>
+#include <vector>
+
+namespace gnomon
+{
+
+/// For GoogleTest.
+std::ostream& operator<<(std::ostream& stream, CellPath path)
+{
+  return stream << nameOf(path);
+}
+
+} // namespace gnomon
+
+namespace gnomon::test
+{
+namespace
+{
+
+/// Of what is drawn, beside that of a texel whose depths a triangle spoils: there nothing is asked.
+bool areSame(const Cell& a, const Cell& b)
+{
+  const bool spoilt = a.sharpEnd == -infinity && b.sharpEnd == -infinity;
+  return a.nearest == b.nearest && a.contained == b.contained && a.sharpEnd == b.sharpEnd &&
+    (spoilt || (a.climb == b.climb && a.noise == b.noise)) && a.first == b.first &&
+    a.second == b.second;
+}
+
+std::string textOf(const Cell& cell)
+{
+  std::ostringstream text;
+  text << "N " << cell.nearest << ", C " << cell.contained << ", G " << cell.climb << ", noise "
+       << cell.noise << ", E' " << cell.sharpEnd << ", layers " << cell.first << " and "
+       << cell.second;
+  return text.str();
+}
+
+/// @return how many texels have something
+std::size_t expectSame(
+  const std::vector<Cell>& gpu, const std::vector<Cell>& cpu, int width, const std::string& what)
+{
+  EXPECT_EQ(gpu.size(), cpu.size());
+  std::size_t different = 0, filled = 0;
+  for (std::size_t i = 0; i < std::min(gpu.size(), cpu.size()); ++i)
+  {
+    filled += cpu[i].nearest < infinity ? 1 : 0;
+    if (!areSame(gpu[i], cpu[i]) && ++different == 1)
+    {
+      ADD_FAILURE() << what << ": texel " << i % static_cast<std::size_t>(width) << ", "
+                    << i / static_cast<std::size_t>(width) << ": " << textOf(gpu[i])
+                    << "; by the CPU: " << textOf(cpu[i]);
+    }
+  }
+  EXPECT_EQ(different, 0u) << what << ", of " << filled;
+  return filled;
+}
+
+/// Drawn by each path.
+class CellsOnGpuBy : public testing::TestWithParam<CellPath>
+{
+protected:
+  void SetUp() override
+  {
+    this->window_->Initialize();
+    this->window_->MakeCurrent();
+    const std::string why = whyUnsupported(GetParam());
+    if (!why.empty())
+    {
+      GTEST_SKIP() << why;
+    }
+  }
+  void TearDown() override { EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR)); }
+
+  vtkNew<vtkGnomonEGLRenderWindow> window_;
+  ShaderLibrary shaders_;
+};
+
+std::string nameOfPath(const testing::TestParamInfo<CellPath>& path)
+{
+  const char* const names[] = { "Compute", "Rasterised", "Extension" };
+  return names[static_cast<int>(path.param)];
+}
+
+INSTANTIATE_TEST_SUITE_P(Paths, CellsOnGpuBy,
+  testing::Values(CellPath::Compute, CellPath::Rasterised, CellPath::Extension), nameOfPath);
+
+/// Shapes at random, drawn by the CPU and the GPU.
+struct Shapes
+{
+  std::vector<MapSegment> segments;
+  std::vector<MapPolygon> spoiling, triangles;
+  std::vector<MapRing> rings;
+  double margin = marginTexels;
+
+  std::vector<Cell> onCpu(int width, Span rows) const
+  {
+    std::vector<Cell> cells(
+      static_cast<std::size_t>(width) * static_cast<std::size_t>(rows.last - rows.first + 1));
+    for (const MapSegment& segment : this->segments)
+    {
+      drawSegment(segment, this->margin, width, rows, cells.data());
+    }
+    for (const std::vector<MapPolygon>& polygons : { this->spoiling, this->triangles })
+    {
+      for (const MapPolygon& polygon : polygons)
+      {
+        drawPolygon(polygon, this->margin, width, rows, cells.data());
+      }
+    }
+    for (const MapRing& ring : this->rings)
+    {
+      drawRing(ring, this->margin, width, rows, cells.data());
+    }
+    return cells;
+  }
+
+  std::vector<Cell> onGpu(ShaderLibrary& shaders, CellPath path, int width, Span rows) const
+  {
+    SegmentBatch segmentBatch;
+    for (const MapSegment& segment : this->segments)
+    {
+      segmentBatch.draw(SegmentOnTexels(segment, this->margin, rows));
+    }
+    TriangleBatch spoilingBatch, triangleBatch;
+    for (const MapPolygon& polygon : this->spoiling)
+    {
+      spoilingBatch.draw(polygon, this->margin, width, rows, CellPath::Compute);
+    }
+    for (const MapPolygon& polygon : this->triangles)
+    {
+      triangleBatch.draw(polygon, this->margin, width, rows, path);
+    }
+    RingBatch ringBatch;
+    for (const MapRing& ring : this->rings)
+    {
+      ringBatch.draw(ring, this->margin, rows);
+    }
+    CellTarget target(shaders, path, width, rows);
+    target.draw(segmentBatch);
+    target.spoil(spoilingBatch);
+    target.endEdges();
+    target.draw(triangleBatch);
+    target.draw(ringBatch);
+    std::vector<Cell> cells(
+      static_cast<std::size_t>(width) * static_cast<std::size_t>(rows.last - rows.first + 1));
+    target.read([&](std::size_t i, const Cell& cell) { cells[i] = cell; });
+    return cells;
+  }
+};
+
+MapSegment segmentBetween(const glm::dvec3& from, const glm::dvec3& to)
+{
+  MapSegment segment;
+  segment.ends = { { { from.x, from.y, from.z }, { to.x, to.y, to.z } } };
+  return segment;
+}
+
+/// Triangles of all sizes; polygons with more corners, and degenerate ones; edges and rings.
+Shapes randomShapes(Random& random, int width)
+{
+  Shapes shapes;
+  shapes.margin = random() % 3 ? marginTexels : uniform(random, marginTexels, largestMargin);
+  const auto anyPolygon = [&]
+  {
+    MapPolygon polygon = polygonWith(randomTriangle(random, width));
+    if (random() % 4 == 0) // its corner is cut off
+    {
+      const auto [a, b, c] = std::tie(polygon.corners[0], polygon.corners[1], polygon.corners[2]);
+      const double t = uniform(random, 0.1, 0.9);
+      polygon.corners[3] = { c.x + t * (a.x - c.x), c.y + t * (a.y - c.y),
+        c.depth + t * (a.depth - c.depth) };
+      polygon.corners[2] = { c.x + t * (b.x - c.x), c.y + t * (b.y - c.y),
+        c.depth + t * (b.depth - c.depth) };
+      polygon.count = 4;
+    }
+    if (random() % 8 == 0) // on texels' corners
+    {
+      for (std::size_t i = 0; i < polygon.count; ++i)
+      {
+        polygon.corners[i].x = std::round(polygon.corners[i].x);
+        polygon.corners[i].y = std::round(polygon.corners[i].y);
+      }
+    }
+    polygon.role.covers = random() % 4 != 0;
+    polygon.slack = uniform(random, 0.0, 0.01);
+    polygon.noise = uniform(random, 0.0, 0.1);
+    return polygon;
+  };
+  for (int i = 0; i < 200; ++i)
+  {
+    shapes.triangles.push_back(anyPolygon());
+    if (i % 8 == 0) // the same layer again
+    {
+      shapes.triangles.push_back(shapes.triangles.back());
+    }
+  }
+  for (int i = 0; i < 4; ++i)
+  {
+    MapPolygon polygon = anyPolygon();
+    polygon.facing = 0;
+    polygon.role = { true, false, true };
+    polygon.margin = uniform(random, 0.0, 3.0);
+    shapes.spoiling.push_back(polygon);
+  }
+  for (int i = 0; i < 100; ++i)
+  {
+    const Corners corners = randomTriangle(random, width);
+    MapSegment segment = segmentBetween(
+      corners[0], i % 10 == 0 ? glm::dvec3(corners[0].x, corners[1].y, 0.5) : corners[1]);
+    segment.slack = i % 10 == 1 ? infinity : 0.01;
+    segment.isEnd = random() % 2 == 0;
+    shapes.segments.push_back(segment);
+  }
+  for (int i = 0; i < 60; ++i)
+  {
+    const Corners corners = randomTriangle(random, width);
+    MapRing ring;
+    ring.triangles.push_back(polygonWith(corners));
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      const glm::dvec3 &a = corners[k], &b = corners[(k + 1) % 3], &c = corners[(k + 2) % 3];
+      const glm::dvec3 other = a + b - c;
+      if (i % 4 == 0)
+      {
+        ring.border.push_back(segmentBetween(a, b));
+        continue;
+      }
+      ring.triangles.push_back(polygonWith({ { b, a, other } }));
+      ring.border.push_back(segmentBetween(a, other));
+      ring.border.push_back(segmentBetween(other, b));
+    }
+    shapes.rings.push_back(ring);
+  }
+  return shapes;
+}
+
+TEST_P(CellsOnGpuBy, areThoseOfTheCpu)
+{
+  Random random(41);
+  std::size_t filled = 0;
+  for (int picture = 0; picture < 40; ++picture)
+  {
+    const int width = 1 + static_cast<int>(random() % 200);
+    const int first = static_cast<int>(random() % static_cast<unsigned int>(width));
+    const Span rows = picture % 2
+      ? Span{ first, first + static_cast<int>(random() % static_cast<unsigned int>(width - first)) }
+      : Span{ 0, width - 1 };
+    const Shapes shapes = randomShapes(random, width);
+    filled += expectSame(shapes.onGpu(this->shaders_, GetParam(), width, rows),
+      shapes.onCpu(width, rows), width, "picture " + std::to_string(picture));
+  }
+  EXPECT_GT(filled, 100000u);
+}
+
+TEST_P(CellsOnGpuBy, ofTrianglesAreAllThatTheyMeetAndContainNoOthers)
+{
+  // Each in a tile of its own.
+  constexpr int tile = 96, tiles = 10, size = tile * tiles;
+  constexpr double margin = 0.999 * marginTexels;
+  Random random(42);
+  std::size_t met = 0, missing = 0, extra = 0, contained = 0, lost = 0, invented = 0;
+  for (int picture = 0; picture < 30; ++picture)
+  {
+    Shapes shapes;
+    std::vector<Corners> all;
+    for (int i = 0; i < tiles * tiles; ++i)
+    {
+      Corners corners = randomTriangle(random, 0);
+      for (glm::dvec3& corner : corners)
+      {
+        corner += glm::dvec3(tile * (i % tiles + 0.5), tile * (i / tiles + 0.5), 0.0);
+      }
+      all.push_back(corners);
+      shapes.triangles.push_back(polygonWith(corners));
+    }
+    const std::vector<Cell> cells = shapes.onGpu(this->shaders_, GetParam(), size, { 0, size - 1 });
+    for (int y = 0; y < size; ++y)
+    {
+      for (int x = 0; x < size; ++x)
+      {
+        const Corners& corners = all[static_cast<std::size_t>(y / tile * tiles + x / tile)];
+        const Cell& cell = cells[static_cast<std::size_t>(y * size + x)];
+        const glm::dvec2 low(x, y);
+        const bool isMet = overlap(corners, low - margin, low + 1.0 + margin);
+        const bool isContained = isMet && contains(corners, low - margin, low + 1.0 + margin);
+        const bool isTouched = std::isfinite(cell.nearest);
+        const bool isCovered = std::isfinite(cell.contained);
+        met += isMet ? 1 : 0;
+        missing += isMet && !isTouched ? 1 : 0;
+        extra += isTouched && !isMet ? 1 : 0;
+        contained += isContained ? 1 : 0;
+        lost += isContained && !isCovered ? 1 : 0;
+        invented += isCovered && !isContained ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_EQ(missing, 0u) << "of " << met;
+  EXPECT_EQ(invented, 0u) << "of " << contained;
+  EXPECT_GT(met, 50000u);
+  EXPECT_LT(static_cast<double>(extra), 0.001 * static_cast<double>(met));
+  EXPECT_LT(static_cast<double>(lost), 0.001 * static_cast<double>(contained));
+  std::cout << nameOf(GetParam()) << ": " << met << " texels, "
+            << 100.0 * static_cast<double>(extra) / static_cast<double>(met) << " % extra, "
+            << 100.0 * static_cast<double>(lost) / static_cast<double>(contained) << " % lost"
+            << std::endl;
+}
+
+/// One map's cells; none where a caster is at the light.
+template <typename Draw>
+std::vector<Cell> drawnBy(int size, const Draw& draw)
+{
+  std::vector<Cell> cells(static_cast<std::size_t>(size) * static_cast<std::size_t>(size));
+  return draw([&](std::size_t i, const Cell& cell) { cells[i] = cell; }) ? cells
+                                                                         : std::vector<Cell>();
+}
+
+TEST_P(CellsOnGpuBy, areThoseOfTheCpuInRandomScenes)
+{
+  std::size_t filled = 0;
+  const CellsOnGpu gpu(this->shaders_, GetParam());
+  for (const char* name : randomSceneNames())
+  {
+    for (unsigned int seed = 1; seed <= 6; ++seed)
+    {
+      const RandomPicture picture = makeRandomPicture(name, seed);
+      CasterEdges edges;
+      edges.update(picture.occluders);
+      const int size = picture.light.mapSizeTexels;
+      const auto covering = static_cast<Covering>(seed % 3);
+      for (const LightView& view : picture.views.views)
+      {
+        const CasterScene scene =
+          casterScene(view, picture.views.box.z > 0.0, size, picture.occluders);
+        filled += expectSame(
+          drawnBy(size,
+            [&](const TakeCell& take) { return gpu.draw(scene, edges, size, covering, take); }),
+          drawnBy(size,
+            [&](const TakeCell& take)
+            { return drawCellsOnCpu(scene, edges, size, covering, take); }),
+          size, picture.description);
+      }
+    }
+  }
+  EXPECT_GT(filled, 100000u);
+}
+
+TEST_P(CellsOnGpuBy, leaveNothingBehindAndOpenGlAsItWas)
+{
+  Random random(43);
+  const Shapes shapes = randomShapes(random, 64);
+  shapes.onGpu(this->shaders_, GetParam(), 64, { 0, 63 }); // programs stay
+  const LiveObjects before = countLiveObjects(this->window_);
+  GlBuffer mine;
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, mine.create());
+  glViewport(1, 2, 3, 4);
+  glEnable(GL_SCISSOR_TEST);
+  glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
+  for (int i = 0; i < 3; ++i)
+  {
+    shapes.onGpu(this->shaders_, GetParam(), 64, { 0, 63 });
+  }
+  GLint bound = 0, viewport[4] = {}, program = -1, mode[2] = {};
+  glGetIntegeri_v(GL_SHADER_STORAGE_BUFFER_BINDING, 3, &bound);
+  EXPECT_EQ(static_cast<GLuint>(bound), mine.name());
+  glGetIntegerv(GL_VIEWPORT, viewport);
+  EXPECT_EQ(viewport[0], 1);
+  EXPECT_EQ(viewport[3], 4);
+  glGetIntegerv(GL_CURRENT_PROGRAM, &program);
+  EXPECT_EQ(program, 0);
+  glGetIntegerv(GL_POLYGON_MODE, mode);
+  EXPECT_EQ(mode[0], GL_LINE);
+  EXPECT_TRUE(glIsEnabled(GL_SCISSOR_TEST));
+  glDisable(GL_SCISSOR_TEST);
+  glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+  mine.reset();
+  EXPECT_EQ(countLiveObjects(this->window_), before);
+}
+
+TEST_P(CellsOnGpuBy, areEmptyWithoutCasters)
+{
+  for (const Cell& cell : Shapes().onGpu(this->shaders_, GetParam(), 7, { 2, 5 }))
+  {
+    EXPECT_TRUE(areSame(cell, Cell()));
+  }
+}
+
+TEST_P(CellsOnGpuBy, needRoom)
+{
+  EXPECT_GE(CellTarget::mostRows(1024), 1024);
+  EXPECT_GE(CellTarget::mostRows(1 << 24), 1);
+  EXPECT_LT(CellTarget::mostRows(8192), 8192) << "and are drawn in parts";
+}
+
+} // namespace
+} // namespace gnomon::test
