@@ -51,9 +51,6 @@ enum Number
 };
 constexpr std::size_t bytesOfCell = numbers * sizeof(std::uint32_t);
 
-/// The most that cells may take at once: enough for a map of 2048.
-constexpr std::size_t mostBytesOfCells = std::size_t(1) << 27;
-
 /// The bits of infinity, as shaders order them: of all minima, before there is any.
 constexpr std::uint32_t nothing = 0xff800000u;
 
@@ -354,11 +351,11 @@ CellTarget::CellTarget(ShaderLibrary& shaders, CellPath path, int width, Span ro
 }
 
 //------------------------------------------------------------------------------
-int CellTarget::mostRows(int width)
+int CellTarget::mostRows(int width, std::size_t mostBytes)
 {
   GLint64 largest = 0;
   glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &largest);
-  const std::size_t bytes = std::min(static_cast<std::size_t>(largest), mostBytesOfCells);
+  const std::size_t bytes = std::min(static_cast<std::size_t>(largest), mostBytes);
   return static_cast<int>(
     std::max<std::size_t>(bytes / (bytesOfCell * static_cast<std::size_t>(width)), 1));
 }

@@ -109,8 +109,9 @@ public:
   /// @throws TextureMemoryError where there is no room
   CellTarget(ShaderLibrary& shaders, CellPath path, int width, Span rows);
 
-  /// The most rows that one of these has room for.
-  static int mostRows(int width);
+  /// How many rows OpenGL takes at once; one at least.
+  /// @param mostBytes that their cells may take
+  static int mostRows(int width, std::size_t mostBytes);
 
   /// Draws edges.
   /// @throws TextureMemoryError

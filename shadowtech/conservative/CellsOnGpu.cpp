@@ -143,7 +143,7 @@ bool CellsOnGpu::draw(const CasterScene& scene, const CasterEdges& edges, int si
   {
     spoiling.insert(spoiling.end(), some.begin(), some.end());
   }
-  const int most = CellTarget::mostRows(size);
+  const int most = CellTarget::mostRows(size, this->mostBytes_);
   for (int first = 0; first < size; first += most)
   {
     RowsOnGpu rows(

@@ -13,15 +13,18 @@ namespace gnomon
 class CellsOnGpu
 {
 public:
+  /// Enough for all of a map of 2048; larger ones are drawn in parts.
+  static constexpr std::size_t mostBytesOfCells = std::size_t(1) << 27;
+
   /// @param shaders must outlive this
   /// @param path one that is supported
-  CellsOnGpu(ShaderLibrary& shaders, CellPath path)
+  /// @param mostBytes that cells may take on the GPU at once
+  CellsOnGpu(ShaderLibrary& shaders, CellPath path, std::size_t mostBytes = mostBytesOfCells)
     : shaders_(shaders)
     , path_(path)
+    , mostBytes_(mostBytes)
   {
   }
-
-  CellPath path() const { return this->path_; }
 
   /// As drawCellsOnCpu(); not for `Covering::Silhouette`.
   /// @throws TextureMemoryError where there is no room
@@ -31,6 +34,7 @@ public:
 private:
   ShaderLibrary& shaders_;
   CellPath path_;
+  std::size_t mostBytes_;
 };
 
 } // namespace gnomon

@@ -1,0 +1,147 @@
+// Who draws conservative maps, what the report says of it, and when they are drawn anew.
+
+#include "plugin/MapRasterizer.h"
+
+#include "LiveObjects.h"
+#include "PassScene.h"
+
+#include "plugin/vtkGnomonShadowPass.h"
+
+#include <gmock/gmock.h>
+
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+namespace gnomon::test
+{
+namespace
+{
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+const std::string geforce = "NVIDIA GeForce RTX 4090/PCIe/SSE2";
+const std::string llvmpipe = "llvmpipe (LLVM 15.0.6, 256 bits)";
+constexpr int automatic = vtkGnomonShadowPass::RASTERIZER_AUTO;
+constexpr int cpu = vtkGnomonShadowPass::RASTERIZER_CPU;
+constexpr int gpu = vtkGnomonShadowPass::RASTERIZER_GPU;
+
+TEST(RasterizerChoice, isWhatWasAskedFor)
+{
+  for (const std::string& renderer : { llvmpipe, geforce })
+  {
+    const RasterizerChoice asCpu = chooseRasterizer(cpu, "", "", renderer);
+    EXPECT_FALSE(asCpu.gpu);
+    EXPECT_TRUE(asCpu.asked);
+    EXPECT_EQ(asCpu.reason, "asked for");
+    EXPECT_EQ(chooseRasterizer(gpu, "", "", renderer).gpu, CellPath::Extension);
+    EXPECT_EQ(chooseRasterizer(gpu, "", "no extension", renderer).gpu, CellPath::Compute);
+  }
+}
+
+TEST(RasterizerChoice, isTheGpuWhereOpenGlIsHardwareAndHasAnExtension)
+{
+  const RasterizerChoice hardware = chooseRasterizer(automatic, "", "", geforce);
+  EXPECT_EQ(hardware.gpu, CellPath::Extension);
+  EXPECT_FALSE(hardware.asked);
+  EXPECT_EQ(hardware.reason, "OpenGL draws by hardware: " + geforce);
+  const RasterizerChoice without = chooseRasterizer(automatic, "", "no extension", geforce);
+  EXPECT_FALSE(without.gpu);
+  EXPECT_EQ(without.reason, "no extension");
+  const RasterizerChoice software = chooseRasterizer(automatic, "", "", llvmpipe);
+  EXPECT_FALSE(software.gpu);
+  EXPECT_EQ(software.reason, "OpenGL draws by software: " + llvmpipe);
+}
+
+TEST(RasterizerChoice, tellsWhatTheGpuLacks)
+{
+  EXPECT_FALSE(chooseRasterizer(automatic, "it lacks this", "it lacks that", geforce).gpu);
+  EXPECT_FALSE(chooseRasterizer(cpu, "it lacks this", "it lacks that", geforce).gpu);
+  try
+  {
+    chooseRasterizer(gpu, "it lacks this", "it lacks that", geforce);
+    FAIL() << "it cannot";
+  }
+  catch (const std::runtime_error& error)
+  {
+    EXPECT_STREQ(error.what(), "the rasterizer on the GPU was asked for, but it lacks this");
+  }
+}
+
+/// A box over a floor.
+class Rasterizers : public testing::Test
+{
+protected:
+  void SetUp() override
+  {
+    this->scene_.addFloor(4.0, 0.0);
+    this->scene_.addBox({ -0.5, -0.5, 0.5 }, { 0.5, 0.5, 1.0 });
+    this->scene_.addSun({ 0.4, 0.3, -1.0 });
+    this->scene_.lookDown(3.0);
+    this->scene_.pass->SetTechnique("crsm");
+  }
+  const LightReport& render()
+  {
+    this->scene_.render();
+    return this->scene_.report().lights.at(0);
+  }
+
+  PassScene scene_{ 64, 64 };
+};
+
+TEST_F(Rasterizers, areInTheReport)
+{
+  const LightReport first = this->render();
+  const RasterizerChoice choice = chooseRasterizer(automatic, whyUnsupported(CellPath::Compute),
+    whyUnsupported(CellPath::Extension), reinterpret_cast<const char*>(glGetString(GL_RENDERER)));
+  EXPECT_EQ(first.rasterizer, choice.gpu ? std::string("gpu: ") + nameOf(*choice.gpu) : "cpu");
+  EXPECT_EQ(first.rasterizerReason, choice.reason);
+  this->scene_.pass->SetRasterizer(gpu);
+  EXPECT_THAT(this->render().rasterizer, StartsWith("gpu: "));
+  EXPECT_EQ(this->render().rasterizerReason, "asked for");
+  this->scene_.pass->SetTechnique("silhouette");
+  EXPECT_EQ(this->render().rasterizer, "cpu");
+  EXPECT_THAT(this->render().rasterizerReason, HasSubstr("one after another"));
+  this->scene_.pass->SetTechnique("raytraced");
+  EXPECT_EQ(this->render().rasterizer, "");
+  EXPECT_EQ(this->render().rasterizerReason, "");
+  this->scene_.pass->SetTechnique("nsm");
+  EXPECT_EQ(this->render().rasterizer, "");
+  std::ostringstream text;
+  this->scene_.pass->Print(text);
+  EXPECT_THAT(text.str(), HasSubstr("Rasterizer: gpu"));
+}
+
+TEST_F(Rasterizers, drawMapsAnewOnlyWhereTheyChange)
+{
+  this->scene_.pass->SetRasterizer(cpu);
+  this->render();
+  EXPECT_EQ(this->scene_.report().mapBakes, 1);
+  this->scene_.pass->SetRasterizer(gpu);
+  this->render();
+  EXPECT_EQ(this->scene_.report().mapBakes, 1);
+  this->render();
+  EXPECT_EQ(this->scene_.report().mapBakes, 0);
+  EXPECT_EQ(this->scene_.report().programCompiles, 0);
+}
+
+TEST_F(Rasterizers, leaveNothingOnTheGpu)
+{
+  this->scene_.pass->SetRasterizer(cpu);
+  this->render();
+  this->scene_.pass->SetRasterizer(gpu);
+  this->render(); // programs stay
+  this->scene_.pass->SetRasterizer(cpu);
+  this->render();
+  const LiveObjects before = countLiveObjects(this->scene_.window);
+  for (const int rasterizer : { gpu, cpu, gpu })
+  {
+    this->scene_.pass->SetRasterizer(rasterizer);
+    this->render();
+  }
+  EXPECT_EQ(countLiveObjects(this->scene_.window), before);
+}
+
+} // namespace
+} // namespace gnomon::test
