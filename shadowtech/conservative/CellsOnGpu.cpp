@@ -45,7 +45,7 @@ public:
         MapSegment found;
         if (this->casters_.segment({ placement, i }, found))
         {
-          batches.local().draw(SegmentOnTexels(found, this->casters_.margin(), this->rows_));
+          batches.local().add(SegmentOnTexels(found, this->casters_.margin(), this->rows_));
         }
       },
       [&]
@@ -57,7 +57,7 @@ public:
     TriangleBatch batch;
     for (const BandItem& item : spoiling)
     {
-      batch.draw(this->casters_.polygon(item), this->casters_.margin(), this->size_, this->rows_,
+      batch.add(this->casters_.polygon(item), this->casters_.margin(), this->size_, this->rows_,
         CellPath::Compute);
     }
     this->target_.spoil(batch);
@@ -85,12 +85,11 @@ public:
           return; // its edges alone are drawn, or it spoils texels
         }
         Batches& local = batches.local();
-        local.triangles.draw(
+        local.triangles.add(
           polygon, this->casters_.margin(), this->size_, this->rows_, this->path_);
         if (this->casters_.covering() != Covering::Triangle && polygon.role.covers)
         {
-          local.rings.draw(
-            this->casters_.ring(item, polygon), this->casters_.margin(), this->rows_);
+          local.rings.add(this->casters_.ring(item, polygon), this->casters_.margin(), this->rows_);
         }
       },
       [&]

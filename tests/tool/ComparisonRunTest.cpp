@@ -254,6 +254,7 @@ TEST(CompareCommand, RefusesBadInputBeforeDrawing)
   EXPECT_THROW(compare({ "cube", "-o", report, "--frames", "0" }), CLI::ParseError);
   EXPECT_THROW(compare({ "cube", "-o", report, "--route", "scenic" }), CLI::ParseError);
   EXPECT_THROW(compare({ "cube", "-o", report, "--tracer", "optix" }), CLI::ParseError);
+  EXPECT_THROW(compare({ "cube", "-o", report, "--rasterizer", "pencil" }), CLI::ParseError);
   EXPECT_THROW(compare({ "cube" }), CLI::ParseError);
 }
 

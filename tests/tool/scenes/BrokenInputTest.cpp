@@ -337,6 +337,10 @@ std::vector<BrokenInput> brokenInputs()
     option("route", "--route", { "render", "cube", "-o", "out.png", "--route", "sideways" }),
     option("tracer", "--tracer", { "render", "cube", "-o", "out.png", "--tracer", "optix" }),
     option("compared_tracer", "--tracer", { "compare", "cube", "-o", "out", "--tracer", "optix" }),
+    option("rasterizer", "--rasterizer",
+      { "render", "cube", "-o", "out.png", "--rasterizer", "pencil" }),
+    option("compared_rasterizer", "--rasterizer",
+      { "compare", "cube", "-o", "out", "--rasterizer", "pencil" }),
     option("route_of_the_technique", "--route",
       { "render", "cube", "-o", "out.png", "--technique", "raytraced", "--route", "inline" }),
     option("light_type", "--light", { "render", "cube", "-o", "out.png", "--light", "laser:a=1" }),
@@ -439,6 +443,29 @@ TEST(Program, TellsWhoTraced)
   EXPECT_EQ(tracerOf("raytraced", { "--tracer", "gpu" }), "gpu");
   EXPECT_NE(tracerOf("raytraced", {}), "");
   EXPECT_EQ(tracerOf("nsm", { "--tracer", "gpu" }), "");
+}
+
+//------------------------------------------------------------------------------
+TEST(Program, TellsWhoDrewAConservativeMap)
+{
+  TestFolder folder;
+  const auto rasterizerOf = [&](const std::string& technique, const std::string& rasterizer)
+  {
+    const Outcome outcome = run(folder,
+      { "render", "cube", "-o", "out.png", "--size", "64x48", "--technique", technique, "--stats",
+        "stats.json", "--rasterizer", rasterizer });
+    EXPECT_TRUE(outcome.exited && outcome.code == 0) << outcome.errors;
+    const nlohmann::json light =
+      nlohmann::json::parse(readBytes(folder / "stats.json")).at("lights").at(0);
+    EXPECT_EQ(light.at("rasterizer_reason").get<std::string>().empty(),
+      light.at("rasterizer").get<std::string>().empty());
+    return light.at("rasterizer").get<std::string>();
+  };
+  EXPECT_EQ(rasterizerOf("crsm", "cpu"), "cpu");
+  EXPECT_EQ(rasterizerOf("crsm", "gpu").rfind("gpu: ", 0), 0u);
+  EXPECT_NE(rasterizerOf("crsma", "auto"), "");
+  EXPECT_EQ(rasterizerOf("silhouette", "gpu"), "cpu");
+  EXPECT_EQ(rasterizerOf("nsm", "gpu"), "");
 }
 
 //------------------------------------------------------------------------------

@@ -141,21 +141,21 @@ struct Shapes
     SegmentBatch segmentBatch;
     for (const MapSegment& segment : this->segments)
     {
-      segmentBatch.draw(SegmentOnTexels(segment, this->margin, rows));
+      segmentBatch.add(SegmentOnTexels(segment, this->margin, rows));
     }
     TriangleBatch spoilingBatch, triangleBatch;
     for (const MapPolygon& polygon : this->spoiling)
     {
-      spoilingBatch.draw(polygon, this->margin, width, rows, CellPath::Compute);
+      spoilingBatch.add(polygon, this->margin, width, rows, CellPath::Compute);
     }
     for (const MapPolygon& polygon : this->triangles)
     {
-      triangleBatch.draw(polygon, this->margin, width, rows, path);
+      triangleBatch.add(polygon, this->margin, width, rows, path);
     }
     RingBatch ringBatch;
     for (const MapRing& ring : this->rings)
     {
-      ringBatch.draw(ring, this->margin, rows);
+      ringBatch.add(ring, this->margin, rows);
     }
     CellTarget target(shaders, path, width, rows);
     target.draw(segmentBatch);
@@ -281,7 +281,7 @@ TEST_P(CellsOnGpuBy, ofTrianglesAreAllThatTheyMeetAndContainNoOthers)
   constexpr double margin = 0.999 * marginTexels;
   Random random(42);
   std::size_t met = 0, missing = 0, extra = 0, contained = 0, lost = 0, invented = 0;
-  for (int picture = 0; picture < 30; ++picture)
+  for (int picture = 0; picture < 12; ++picture)
   {
     Shapes shapes;
     std::vector<Corners> all;
@@ -318,13 +318,56 @@ TEST_P(CellsOnGpuBy, ofTrianglesAreAllThatTheyMeetAndContainNoOthers)
   }
   EXPECT_EQ(missing, 0u) << "of " << met;
   EXPECT_EQ(invented, 0u) << "of " << contained;
-  EXPECT_GT(met, 50000u);
+  EXPECT_GT(met, 20000u);
   EXPECT_LT(static_cast<double>(extra), 0.001 * static_cast<double>(met));
   EXPECT_LT(static_cast<double>(lost), 0.001 * static_cast<double>(contained));
   std::cout << nameOf(GetParam()) << ": " << met << " texels, "
             << 100.0 * static_cast<double>(extra) / static_cast<double>(met) << " % extra, "
             << 100.0 * static_cast<double>(lost) / static_cast<double>(contained) << " % lost"
             << std::endl;
+}
+
+TEST(CellBatches, holdTrianglesThatTouchAllTexelsThatAreMetWhereOpenGlFindsThose)
+{
+  // As GL_NV_conservative_raster finds them, after corners were moved to a grid of 4 bits below a texel.
+  constexpr double grid = 1.0 / 16.0;
+  constexpr double margin = 0.999 * marginTexels;
+  Random random(44);
+  std::size_t met = 0, missing = 0, touched = 0;
+  for (int i = 0; i < 5000; ++i)
+  {
+    const int width = 8 + static_cast<int>(random() % 40);
+    const Span rows{ static_cast<int>(random() % 4), width - 1 - static_cast<int>(random() % 4) };
+    const Corners corners = randomTriangle(random, width);
+    TriangleBatch batch;
+    batch.add(polygonWith(corners), marginTexels, width, rows, CellPath::Extension);
+    if (batch.placesClip.empty())
+    {
+      continue; // beside these rows
+    }
+    Corners shape;
+    const glm::dvec2 size(width, rows.last - rows.first + 1);
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      const glm::dvec2 place = 0.5 * (glm::dvec2(batch.placesClip[k]) + 1.0) * size;
+      shape[k] = glm::dvec3(place.x, place.y + rows.first, 0.0);
+    }
+    for (int y = rows.first; y <= rows.last; ++y)
+    {
+      for (int x = 0; x < width; ++x)
+      {
+        const glm::dvec2 low(x, y);
+        const bool isMet = overlap(corners, low - margin, low + 1.0 + margin);
+        met += isMet ? 1 : 0;
+        missing += isMet && !overlap(shape, low + grid, low + 1.0 - grid) ? 1 : 0;
+        touched += overlap(shape, low - grid, low + 1.0 + grid) ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_EQ(missing, 0u) << "of " << met;
+  EXPECT_GT(met, 40000u);
+  EXPECT_LT(touched, 4 * met) << "and few others";
+  std::cout << touched << " texels touched for " << met << std::endl;
 }
 
 /// One map's cells; none where a caster is at the light.

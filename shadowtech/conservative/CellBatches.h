@@ -1,0 +1,95 @@
+#ifndef gnomon_shadowtech_conservative_CellBatches_h
+#define gnomon_shadowtech_conservative_CellBatches_h
+
+#include "shadowtech/conservative/TexelCells.h"
+#include "shadowtech/conservative/TexelShapes.h"
+
+#include <glm/glm.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace gnomon
+{
+
+/// @file
+/// What some rows of a conservative map are drawn from on the GPU, as shaders read it.
+
+/// How the texels are found that a triangle may touch. Which of them it does touch, all ways ask alike.
+enum class CellPath
+{
+  Compute,    ///< an invocation walks its rows, or one of them where there are many texels
+  Rasterised, ///< a larger triangle is drawn, and each fragment asks for its texel
+  /// The same, but for the half texel that GL_NV_conservative_raster or GL_INTEL_conservative_rasterization adds.
+  Extension
+};
+
+/// How many invocations a work group has.
+constexpr int invocationsPerGroup = 64;
+
+/// Who walks which rows of what is drawn by compute shaders.
+struct RowWalks
+{
+  ///@{ The number of a shape and a row of it.
+  std::vector<glm::uvec2> ofShapes; ///< an invocation walks all that follow
+  std::vector<glm::uvec2> ofRows;   ///< those of a work group walk a row each
+  ///@}
+
+  /// @param columns how many the shape has, about
+  void add(std::size_t shape, Span rows, double columns);
+};
+
+/// Polygons.
+struct PolygonBatch
+{
+  std::vector<PolygonRecord> records;
+  std::vector<SideRecord> sides;
+
+  /// @return its number
+  std::size_t add(const PolygonOnTexels& polygon);
+};
+
+/// Edges.
+struct SegmentBatch
+{
+  std::vector<SegmentRecord> records;
+  RowWalks walks;
+
+  void add(const SegmentOnTexels& segment);
+};
+
+/// Triangles, of which some spoil texels.
+struct TriangleBatch
+{
+  PolygonBatch polygons;
+  RowWalks walks;
+  /// Three corners each of what is rasterised instead, in clip coordinates of the rows.
+  std::vector<glm::vec2> placesClip;
+
+  /// @param path nothing is rasterised by Compute
+  void add(const MapPolygon& polygon, double margin, int width, Span rows, CellPath path);
+};
+
+/// Which polygons are a ring, the middle first, and which edges are around it.
+struct RingRecord
+{
+  std::uint32_t firstPolygon, polygonCount;
+  std::uint32_t firstSegment, segmentCount;
+};
+static_assert(sizeof(RingRecord) == 16, "as shaders read it");
+
+/// Parts of the casters' surface.
+struct RingBatch
+{
+  PolygonBatch polygons;
+  std::vector<SegmentRecord> borders;
+  std::vector<RingRecord> records;
+  RowWalks walks;
+
+  void add(const MapRing& ring, double margin, Span rows);
+};
+
+} // namespace gnomon
+
+#endif
