@@ -1,6 +1,8 @@
 #include "plugin/MapRasterizer.h"
 
 #include "plugin/vtkGnomonShadowPass.h"
+#include "shadowtech/base/TextureMemory.h"
+#include "shadowtech/conservative/CellsOnGpu.h"
 #include "shadowtech/tracing/GpuTracer.h"
 
 #include <stdexcept>
@@ -32,6 +34,33 @@ RasterizerChoice chooseRasterizer(int wished, const std::string& gpuLacks,
   return extensionLacks.empty()
     ? RasterizerChoice{ CellPath::Extension, false, "OpenGL draws by hardware: " + renderer }
     : RasterizerChoice{ std::nullopt, false, extensionLacks };
+}
+
+//------------------------------------------------------------------------------
+RasterizerChoice bakeMaps(Technique& technique, MapInput input, const RasterizerChoice& choice)
+{
+  if (!choice.gpu)
+  {
+    technique.bake(input);
+    return choice;
+  }
+  const CellsOnGpu cells(input.shaders, *choice.gpu);
+  input.cellsOnGpu = &cells;
+  try
+  {
+    technique.bake(input);
+    return choice;
+  }
+  catch (const TextureMemoryError& error)
+  {
+    if (choice.asked)
+    {
+      throw;
+    }
+    input.cellsOnGpu = nullptr;
+    technique.bake(input);
+    return { std::nullopt, false, std::string("drawing maps on the GPU failed: ") + error.what() };
+  }
 }
 
 } // namespace gnomon

@@ -1,6 +1,7 @@
 #ifndef gnomon_plugin_MapRasterizer_h
 #define gnomon_plugin_MapRasterizer_h
 
+#include "shadowtech/base/Technique.h"
 #include "shadowtech/conservative/CellTarget.h"
 
 #include <optional>
@@ -24,6 +25,12 @@ struct RasterizerChoice
 /// @throws std::runtime_error where the GPU is asked for and lacks something
 RasterizerChoice chooseRasterizer(int wished, const std::string& gpuLacks,
   const std::string& extensionLacks, const std::string& renderer);
+
+/// Has a technique draw its maps, conservative ones by who is chosen. Where the GPU was not asked for and has no room, the CPU
+/// takes over.
+/// @return who drew them
+/// @throws TextureMemoryError for maps without room
+RasterizerChoice bakeMaps(Technique& technique, MapInput input, const RasterizerChoice& choice);
 
 } // namespace gnomon
 

@@ -7,7 +7,6 @@
 #include "shadowtech/Registry.h"
 #include "shadowtech/base/Bytes.h"
 #include "shadowtech/base/TextureMemory.h"
-#include "shadowtech/conservative/CellsOnGpu.h"
 #include "shadowtech/tracing/GpuTracer.h"
 
 #include <vtkActor2D.h>
@@ -582,10 +581,10 @@ void RenderManager::bakeMaps(
   }
   try
   {
-    this->drawMaps(technique,
+    wanted.drawnBy = gnomon::bakeMaps(technique,
       { light, wanted.views, occluders, this->buffers_, this->library_,
         light.fittedToReceivers ? slot.receiverFit.fits() : TextureBinding() },
-      wanted);
+      wanted.rasterizer.value_or(RasterizerChoice()));
   }
   catch (const TextureMemoryError& error)
   {
@@ -609,35 +608,6 @@ std::optional<RasterizerChoice> RenderManager::rasterizerFor(
   }
   return info.onlyCpuDraws.empty() ? this->rasterizer_
                                    : RasterizerChoice{ std::nullopt, false, info.onlyCpuDraws };
-}
-
-//------------------------------------------------------------------------------
-/// Has a technique draw its maps, conservative ones by the GPU where it is to. Where nobody asked for it and it has no room,
-/// the CPU takes over.
-void RenderManager::drawMaps(Technique& technique, MapInput input, Bake& wanted)
-{
-  wanted.drawnBy = wanted.rasterizer.value_or(RasterizerChoice());
-  if (wanted.drawnBy.gpu)
-  {
-    const CellsOnGpu cells(this->library_, *wanted.drawnBy.gpu);
-    input.cellsOnGpu = &cells;
-    try
-    {
-      technique.bake(input);
-      return;
-    }
-    catch (const TextureMemoryError& error)
-    {
-      if (wanted.drawnBy.asked)
-      {
-        throw;
-      }
-      wanted.drawnBy = { std::nullopt, false,
-        std::string("drawing maps on the GPU failed: ") + error.what() };
-      input.cellsOnGpu = nullptr;
-    }
-  }
-  technique.bake(input);
 }
 
 //------------------------------------------------------------------------------

@@ -142,7 +142,6 @@ private:
   bool isWorthBaking(const LightSlot& slot, const Technique& technique, const Bake& wanted) const;
   std::optional<RasterizerChoice> rasterizerFor(
     const LightSlot& slot, const Technique& technique) const;
-  void drawMaps(Technique& technique, MapInput input, Bake& wanted);
   void reportBake(const ShadowLight& light, const Bake& bake);
   LightReport& reportOf(const ShadowLight& light);
   void updateTracer(int wished);

@@ -4,6 +4,8 @@
 #include "shadowtech/base/Receivers.h"
 #include "shadowtech/base/TextureMemory.h"
 
+#include <utility>
+
 namespace gnomon
 {
 
@@ -20,11 +22,12 @@ void ConservativeMaps::bake(const ShadowLight& light, const LightViews& views,
   requireRoomForMap(
     4 * sizeof(TexelBounds) / 3, light.mapSizeTexels, static_cast<int>(views.views.size()));
   this->edges_.update(occluders);
+  std::vector<ConservativeMap> maps; // all of them or none
   for (const LightView& view : views.views)
   {
-    this->maps_.push_back(
-      rule(view, views.box.z > 0.0, light.mapSizeTexels, occluders, this->edges_));
+    maps.push_back(rule(view, views.box.z > 0.0, light.mapSizeTexels, occluders, this->edges_));
   }
+  this->maps_ = std::move(maps);
   this->triangles_ = TriangleDecisions(light, occluders, this->maps_);
 }
 

@@ -6,6 +6,8 @@
 #include "PassScene.h"
 
 #include "plugin/vtkGnomonShadowPass.h"
+#include "shadowtech/base/OccluderBuffers.h"
+#include "shadowtech/base/TextureMemory.h"
 
 #include <gmock/gmock.h>
 
@@ -67,6 +69,43 @@ TEST(RasterizerChoice, tellsWhatTheGpuLacks)
   {
     EXPECT_STREQ(error.what(), "the rasterizer on the GPU was asked for, but it lacks this");
   }
+}
+
+/// Draws maps, but not on the GPU.
+class WithoutRoomOnGpu : public Technique
+{
+public:
+  void bake(const MapInput& input) override
+  {
+    ++this->bakes;
+    if (input.cellsOnGpu)
+    {
+      throw TextureMemoryError("no room");
+    }
+  }
+
+  int bakes = 0;
+};
+
+TEST(RasterizerChoice, isTheCpuWhereTheGpuHasNoRoomAndWasNotAskedFor)
+{
+  const ShadowLight light;
+  const LightViews views;
+  const Occluders occluders;
+  const OccluderBuffers buffers;
+  ShaderLibrary shaders;
+  const auto bake = [&](WithoutRoomOnGpu& technique, const RasterizerChoice& choice) {
+    return bakeMaps(technique, { light, views, occluders, buffers, shaders }, choice);
+  };
+  WithoutRoomOnGpu automatically, asked, onCpu;
+  const RasterizerChoice taken = bake(automatically, { CellPath::Compute, false, "hardware" });
+  EXPECT_FALSE(taken.gpu);
+  EXPECT_EQ(taken.reason, "drawing maps on the GPU failed: no room");
+  EXPECT_EQ(automatically.bakes, 2);
+  EXPECT_THROW(bake(asked, { CellPath::Compute, true, "asked for" }), TextureMemoryError);
+  EXPECT_EQ(asked.bakes, 1);
+  EXPECT_EQ(bake(onCpu, { std::nullopt, true, "asked for" }).reason, "asked for");
+  EXPECT_EQ(onCpu.bakes, 1);
 }
 
 /// A box over a floor.

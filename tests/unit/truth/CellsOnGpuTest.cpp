@@ -23,17 +23,6 @@
 #include <tuple>
 #include <vector>
 
-namespace gnomon
-{
-
-/// For GoogleTest.
-std::ostream& operator<<(std::ostream& stream, CellPath path)
-{
-  return stream << nameOf(path);
-}
-
-} // namespace gnomon
-
 namespace gnomon::test
 {
 namespace
