@@ -83,6 +83,14 @@ Tally run(const std::string& name, unsigned int seed, const MapRule& rule,
   return tally;
 }
 
+/// By which name and settings a map's rule is known.
+std::string techniqueOf(Covering covering)
+{
+  const char* const techniques[] = { "crsm", "crsma", "crsma, adjacency_ring=vertices",
+    "silhouette" };
+  return techniques[static_cast<int>(covering)];
+}
+
 class ConservativeMapsIn : public testing::TestWithParam<std::tuple<const char*, Covering>>
 {
 };
@@ -95,9 +103,7 @@ TEST_P(ConservativeMapsIn, areNeverWrong)
   {
     sum.add(run(name, seed, certainRule(covering)));
   }
-  const char* const techniques[] = { "crsm", "crsma", "crsma, adjacency_ring=vertices",
-    "silhouette" };
-  recordCompared(techniques[static_cast<int>(covering)], name, sum);
+  recordCompared(techniqueOf(covering), name, sum);
   EXPECT_EQ(sum.wrong, 0u);
   EXPECT_GT(sum.leftOut, sum.receivers / 20) << "triangles and lines are asked about";
   EXPECT_GT(sum.receivers, exactRuns() * 300u);
@@ -154,8 +160,8 @@ TEST_P(ConservativeMapsOnGpu, areNeverWrong)
   }
   EXPECT_EQ(sum.wrong, 0u);
   EXPECT_LT(sum.traced, sum.receivers * 3 / 4);
-  recordCompared(covering == Covering::Triangle ? "crsm" : "crsma",
-    std::string("all, drawn on the GPU: ") + nameOf(path), sum);
+  recordCompared(
+    techniqueOf(covering) + ", maps drawn on the GPU (" + nameOf(path) + ")", "all", sum);
 }
 
 INSTANTIATE_TEST_SUITE_P(Paths, ConservativeMapsOnGpu,
