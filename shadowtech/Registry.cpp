@@ -189,6 +189,23 @@ std::string expectedBy(const Setting& setting)
                                      : setting.expected();
 }
 
+//------------------------------------------------------------------------------
+bool concerns(const Setting& setting, const TechniqueInfo& info)
+{
+  switch (setting.about)
+  {
+    case SettingSubject::Map:
+      return info.needsMap;
+    case SettingSubject::LightSamples:
+      return info.needsMap || info.takesLightSamples;
+    case SettingSubject::Planes:
+      return info.servesPlanes;
+    case SettingSubject::Light:
+      return true;
+  }
+  return false;
+}
+
 namespace
 {
 

@@ -58,6 +58,8 @@ struct TechniqueInfo
 
   /// Whether it takes points of area lights as ShadowSettings::lightSamples and lightSampling say.
   bool takesLightSamples = false;
+  /// Whether it shows shadows on planes only (ShadowSettings::planes).
+  bool servesPlanes = false;
 
   /// Whether its picture may come about over several frames (ShadowSettings::progressiveSamples).
   bool refines = false;
