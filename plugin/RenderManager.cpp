@@ -665,8 +665,9 @@ void RenderManager::computeVisibility(int wishedTracer, bool keep)
         this->endStageClock("visibility: draw");
         break;
       case Evaluation::ScreenCpu:
-        slot.technique->computeVisibility({ slot.light, occluders, receivers,
-                                            this->tracer_.tracer(), classify ? &classes : nullptr },
+        slot.technique->computeVisibility(
+          { slot.light, slot.bake.fitting, occluders, receivers, this->tracer_.tracer(),
+            classify ? &classes : nullptr, this->report_.mapBakes },
           visibility, report);
         this->endStageClock("visibility: trace");
         this->layers_.upload(layer, visibility);

@@ -125,7 +125,7 @@ const std::vector<TechniqueEntry>& registry()
       "soft: a few random rays for each pixel through depth layers of the map, and a filter",
       findEstimator("montecarlo"), Projection::Uniform },
     { "coherence",
-      "hard, hybrid: pixels whose texels disagree are traced, the others get what those say",
+      "hard, soft, hybrid: pixels whose texels disagree are traced, the others get what those say",
       findEstimator("coherence"), Projection::Uniform },
     { "selective",
       "hard, hybrid: the contour between light and shadow is tested triangle by triangle, and "
