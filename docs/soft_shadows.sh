@@ -1,5 +1,5 @@
 #!/bin/bash
-# Measures the error of soft shadows against the time that they take, and writes docs/soft_shadows.md. Takes about five minutes;
+# Measures the error of soft shadows against the time that they take, and writes docs/soft_shadows.md. Takes a quarter of an hour or so;
 # what was measured before, in out/soft, is not measured again.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -25,19 +25,25 @@ for sampling in jittered random; do
   done
 done
 
-# compare SCENE : measures into $out/SCENE, unless that was done before
+# compare SCENE OPTION... : measures into $out/SCENE, unless that was done before
 compare() {
   local folder="$out/$1"
   if [ ! -e "$folder/results.csv" ]; then
     rm -rf "$folder.part"
-    build/release/bin/gnomon compare "$1" -o "$folder.part" --techniques "$techniques" --route image --size 256x256 --frames 5
+    build/release/bin/gnomon compare "$1" -o "$folder.part" --techniques "$techniques" --route image --size 256x256 --frames 5 "${@:2}"
     mv "$folder.part" "$folder"
   fi
 }
 
+# Scenes with lamps whose sides are a tenth of the scene, and scenes whose sun gets that size, about.
 scenes=(soft-stack soft-panels soft-plates soft-long-cube)
+sunny=(bunny atrium)
+degrees=5
 for scene in "${scenes[@]}"; do
   compare "$scene"
+done
+for scene in "${sunny[@]}"; do
+  compare "$scene" --light-radius "$degrees"
 done
 
 # One scene's variants: error, time, and the error of raytraced at that time, between its two numbers of samples around it.
@@ -80,6 +86,12 @@ machine="$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1), $(nproc)
   for scene in "${scenes[@]}"; do
     echo
     echo "## $scene"
+    echo
+    table "$scene"
+  done
+  for scene in "${sunny[@]}"; do
+    echo
+    echo "## $scene, a sun of $degrees degrees"
     echo
     table "$scene"
   done

@@ -2,8 +2,45 @@
 
 #include "lights/LightSpace.h"
 
+#include <glm/gtc/constants.hpp>
+
+#include <cmath>
+
 namespace gnomon
 {
+namespace
+{
+
+/// The point of the border of the square of half side 1 that is this share of the way around it.
+glm::dvec3 borderOfSquare(double share)
+{
+  const double sides = 4.0 * share;
+  const double along = 2.0 * (sides - std::floor(sides)) - 1.0;
+  switch (static_cast<int>(sides))
+  {
+    case 0:
+      return { along, -1.0, 0.0 };
+    case 1:
+      return { 1.0, along, 0.0 };
+    case 2:
+      return { -along, 1.0, 0.0 };
+    default:
+      return { -1.0, -along, 0.0 };
+  }
+}
+
+/// One of the points of a spiral over the sphere of radius 1, each of which stands for as much of it: share is its
+/// place among them, in (0, 1).
+glm::dvec3 pointOfSphere(double share, std::size_t number)
+{
+  const double angle =
+    glm::two_pi<double>() * glm::golden_ratio<double>() * static_cast<double>(number);
+  const double height = 1.0 - 2.0 * share;
+  const double across = std::sqrt(1.0 - height * height);
+  return { across * std::cos(angle), across * std::sin(angle), height };
+}
+
+} // namespace
 
 //------------------------------------------------------------------------------
 double LightArea::radius() const
@@ -34,6 +71,23 @@ LightArea diskArea(const glm::dvec3& travel, double radius)
 LightArea ballArea(double radius)
 {
   return { LightArea::Shape::Ball, glm::dmat3(radius) };
+}
+
+//------------------------------------------------------------------------------
+std::vector<glm::dvec3> rimOf(const LightArea& area, std::size_t points)
+{
+  std::vector<glm::dvec3> rim;
+  for (std::size_t i = 0; i < points; ++i)
+  {
+    const double share = static_cast<double>(i) / static_cast<double>(points);
+    const double angle = glm::two_pi<double>() * share;
+    const glm::dvec3 unit = area.shape == LightArea::Shape::Rectangle ? borderOfSquare(share)
+      : area.shape == LightArea::Shape::Disk
+      ? glm::dvec3(std::cos(angle), std::sin(angle), 0.0)
+      : pointOfSphere(share + 0.5 / static_cast<double>(points), i);
+    rim.push_back(area.worldFromUnit * unit);
+  }
+  return rim;
 }
 
 } // namespace gnomon

@@ -3,6 +3,9 @@
 
 #include <glm/glm.hpp>
 
+#include <cstddef>
+#include <vector>
+
 namespace gnomon
 {
 
@@ -43,6 +46,10 @@ LightArea rectangleArea(const glm::dvec3& travel, const glm::dvec3& up, const gl
 LightArea diskArea(const glm::dvec3& travel, double radius);
 
 LightArea ballArea(double radius);
+
+/// Points all around a light, as far from each other as they go: on a disk's rim, on a rectangle's border from a corner on,
+/// on a ball. From the centre, in the units of worldFromUnit.
+std::vector<glm::dvec3> rimOf(const LightArea& area, std::size_t points);
 
 } // namespace gnomon
 

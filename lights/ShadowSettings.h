@@ -300,12 +300,22 @@ struct ChoiceSetting
 };
 ///@}
 
+/// What a setting is about, and so whom it concerns (concerns(), shadowtech/Registry.h).
+enum class SettingSubject
+{
+  Map,          ///< how shadows are made of a map, and which technique makes them
+  LightSamples, ///< which points of an area light are taken
+  Planes,       ///< the planes of planar shadows
+  Light         ///< what the light is, whoever makes its shadows
+};
+
 /// One setting: a line of the table that light keys, scene files and command lines are made from.
 struct Setting
 {
   std::string name; ///< as in scene files, "kernel_size"; on the command line "--kernel-size"
   std::string help; ///< one line for people
   std::variant<TextSetting, IntegerSetting, RealSetting, ChoiceSetting> values;
+  SettingSubject about = SettingSubject::Map;
 
   /// Sets it from text.
   /// @return false for what it does not take; nothing changes then

@@ -140,6 +140,20 @@ std::vector<ClassCount> countClasses(
   return counts;
 }
 
+/// Does a light's work; what it says of memory that is not there then names the light.
+template <typename Work>
+void namingLight(const ShadowLight& light, const Work& work)
+{
+  try
+  {
+    work();
+  }
+  catch (const TextureMemoryError& error)
+  {
+    throw TextureMemoryError("light " + std::to_string(light.sceneIndex) + ": " + error.what());
+  }
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -579,17 +593,14 @@ void RenderManager::bakeMaps(
         this->receiverTarget_.width(), this->receiverTarget_.height() },
       this->stageValues_.space.centredFromView, this->library_);
   }
-  try
-  {
-    wanted.drawnBy = gnomon::bakeMaps(technique,
-      { light, wanted.views, occluders, this->buffers_, this->library_,
-        light.fittedToReceivers ? slot.receiverFit.fits() : TextureBinding() },
-      wanted.rasterizer.value_or(RasterizerChoice()));
-  }
-  catch (const TextureMemoryError& error)
-  {
-    throw TextureMemoryError("light " + std::to_string(light.sceneIndex) + ": " + error.what());
-  }
+  namingLight(light,
+    [&]
+    {
+      wanted.drawnBy = gnomon::bakeMaps(technique,
+        { light, wanted.views, occluders, this->buffers_, this->library_,
+          light.fittedToReceivers ? slot.receiverFit.fits() : TextureBinding() },
+        wanted.rasterizer.value_or(RasterizerChoice()));
+    });
   bake = wanted;
   bake.castersLeftOut = this->buffers_.countUnseen(wanted.views.views);
   ++this->report_.mapBakes;
@@ -698,18 +709,27 @@ void RenderManager::computeVisibility(int wishedTracer, bool keep)
         break;
       case Evaluation::ScreenGpu:
         this->buffers_.update(occluders);
-        slot.technique->drawVisibility(
-          { slot.light, slot.bake.fitting, this->camera_, this->stageValues_.space, occluders,
-            this->buffers_, this->receiverTarget_, this->receiversShown_,
-            this->collector_.drawnSurfaces(), this->layers_, layer, this->library_, classify,
-            classify ? &classes : nullptr, this->report_.notes, this->report_.mapBakes },
-          report);
+        namingLight(slot.light,
+          [&]
+          {
+            slot.technique->drawVisibility(
+              { slot.light, slot.bake.fitting, this->camera_, this->stageValues_.space, occluders,
+                this->buffers_, this->receiverTarget_, this->receiversShown_,
+                this->collector_.drawnSurfaces(), this->layers_, layer, this->library_, classify,
+                classify ? &classes : nullptr, this->report_.notes, this->report_.mapBakes },
+              report);
+          });
         this->endStageClock("visibility: draw");
         break;
       case Evaluation::ScreenCpu:
-        slot.technique->computeVisibility({ slot.light, occluders, receivers,
-                                            this->tracer_.tracer(), classify ? &classes : nullptr },
-          visibility, report);
+        namingLight(slot.light,
+          [&]
+          {
+            slot.technique->computeVisibility(
+              { slot.light, slot.bake.fitting, occluders, receivers, this->tracer_.tracer(),
+                classify ? &classes : nullptr, this->report_.mapBakes },
+              visibility, report);
+          });
         this->endStageClock("visibility: trace");
         this->layers_.upload(layer, visibility);
         this->endStageClock("visibility: upload");

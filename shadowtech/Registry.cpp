@@ -125,7 +125,7 @@ const std::vector<TechniqueEntry>& registry()
       "soft: a few random rays for each pixel through depth layers of the map, and a filter",
       findEstimator("montecarlo"), Projection::Uniform },
     { "coherence",
-      "hard, hybrid: pixels whose texels disagree are traced, the others get what those say",
+      "hard, soft, hybrid: pixels whose texels disagree are traced, the others get what those say",
       findEstimator("coherence"), Projection::Uniform },
     { "selective",
       "hard, hybrid: the contour between light and shadow is tested triangle by triangle, and "
@@ -187,6 +187,23 @@ std::string expectedBy(const Setting& setting)
   return setting.name == "technique" ? "one of: " + techniqueNames()
     : setting.name == "estimator"    ? "one of: " + estimatorNames()
                                      : setting.expected();
+}
+
+//------------------------------------------------------------------------------
+bool concerns(const Setting& setting, const TechniqueInfo& info)
+{
+  switch (setting.about)
+  {
+    case SettingSubject::Map:
+      return info.needsMap;
+    case SettingSubject::LightSamples:
+      return info.needsMap || info.takesLightSamples;
+    case SettingSubject::Planes:
+      return info.servesPlanes;
+    case SettingSubject::Light:
+      return true;
+  }
+  return false;
 }
 
 namespace

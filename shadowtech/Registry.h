@@ -61,6 +61,9 @@ bool takes(const Setting& setting, const std::string& text);
 std::string expectedBy(const Setting& setting);
 ///@}
 
+/// Whether a technique may look at a setting. Those with a map look at many that are about neither: which ones is theirs.
+bool concerns(const Setting& setting, const TechniqueInfo& info);
+
 /// A light's settings ask for what there is not, or for what makes no sense.
 class CompositionError : public std::runtime_error
 {

@@ -34,6 +34,23 @@ ShadowSettings settingsOf(const VariantSpec& spec)
   return settings;
 }
 
+/// The scene whose lights are what the plan says, and leave the rest to the variants.
+Scene sceneOf(const ComparisonPlan& plan, const Scene& original)
+{
+  Scene scene = withoutShadowSettings(original);
+  for (const auto& [name, value] : plan.settings)
+  {
+    if (!value.empty() && findSetting(name)->about == SettingSubject::Light)
+    {
+      for (SceneLight& light : scene.lights)
+      {
+        light.settings[name] = value;
+      }
+    }
+  }
+  return scene;
+}
+
 /// @throws CompositionError where one of the scene's lights refuses a variant's settings
 void requireComposition(const VariantSpec& spec, vtkRenderer* renderer)
 {
@@ -64,14 +81,12 @@ std::vector<VariantSpec> listVariants(
   {
     VariantSpec spec = parseTechnique(text);
     const TechniqueInfo& info = estimatorOf(settingsOf(spec)).info;
-    if (info.needsMap)
+    for (const auto& [name, value] : plan.settings)
     {
-      for (const auto& [name, value] : plan.settings)
+      const Setting& setting = *findSetting(name);
+      if (!value.empty() && setting.about != SettingSubject::Light && concerns(setting, info))
       {
-        if (!value.empty())
-        {
-          spec.settings.emplace(name, value);
-        }
+        spec.settings.emplace(name, value);
       }
     }
     try
@@ -275,34 +290,54 @@ VisibilityImages keptVisibility(Variant& variant)
   return images;
 }
 
-/// Whether a variant's last frame had soft shadows of area lights.
-bool isSoft(Variant& variant)
+/// Whether one of the lights that cast is more than a point, and so has soft shadows.
+bool isSoft(const Variant& variant)
 {
-  const std::vector<LightReport>& lights = variant.pass()->GetReport().lights;
+  const std::vector<ShadowLight> lights =
+    LightManager::collect(variant.renderer(), settingsOf(variant.spec())).casting;
   return std::any_of(
-    lights.begin(), lights.end(), [](const LightReport& light) { return light.lightSamples > 1; });
+    lights.begin(), lights.end(), [](const ShadowLight& light) { return light.area.has_value(); });
+}
+
+/// The first seed from 1 on that no variant has.
+std::string unusedSeed(const Variants& variants)
+{
+  const auto has = [](const std::unique_ptr<Variant>& variant, int seed)
+  { return variant->pass() && variant->pass()->GetSetting("light_seed") == std::to_string(seed); };
+  int seed = 1;
+  while (std::any_of(variants.begin(), variants.end(),
+    [&](const std::unique_ptr<Variant>& variant) { return has(variant, seed); }))
+  {
+    ++seed;
+  }
+  return std::to_string(seed);
 }
 
 /// What the others are measured against. Of area lights, whose ray-traced shadows have an error of their own, it has more
-/// samples than the variant, and other ones.
-VisibilityImages truthOf(Variant& variant, std::vector<std::string>& notes)
+/// samples than variants are given, evenly spread whatever those are, and other ones.
+VisibilityImages truthOf(
+  Variant& variant, const Variants& variants, std::vector<std::string>& notes)
 {
   if (!isSoft(variant))
   {
     return keptVisibility(variant);
   }
-  constexpr const char* truthSamples = "4096";
-  constexpr const char* truthSeed = "1";
-  vtkGnomonShadowPass* const pass = variant.pass();
-  const std::string samples = pass->GetSetting("light_samples");
-  const std::string seed = pass->GetSetting("light_seed");
-  pass->SetSetting("light_samples", truthSamples);
-  pass->SetSetting("light_seed", truthSeed);
+  const std::map<std::string, std::string> ofTruth = { { "light_samples", "4096" },
+    { "light_seed", unusedSeed(variants) }, { "light_sampling", "sobol" } };
+  std::map<std::string, std::string> ofVariant;
+  for (const auto& [name, value] : ofTruth)
+  {
+    ofVariant[name] = variant.pass()->GetSetting(name.c_str());
+    variant.pass()->SetSetting(name.c_str(), value.c_str());
+  }
   VisibilityImages truth = keptVisibility(variant);
-  pass->SetSetting("light_samples", samples.c_str());
-  pass->SetSetting("light_seed", seed.c_str());
-  notes.push_back(std::string("The truth has ") + truthSamples +
-    " samples of each area light for every pixel, with light_seed " + truthSeed + ".");
+  for (const auto& [name, value] : ofVariant)
+  {
+    variant.pass()->SetSetting(name.c_str(), value.c_str());
+  }
+  notes.push_back("The truth has " + ofTruth.at("light_samples") +
+    " samples of each area light for every pixel, with light_seed " + ofTruth.at("light_seed") +
+    ".");
   return truth;
 }
 
@@ -457,7 +492,7 @@ void describeScene(ComparisonResults& results, const Scene& scene, const FrameRe
 std::vector<std::pair<std::string, std::string>> listSettings(
   const ComparisonPlan& plan, const FrameReport& truth, vtkRenderWindow* window)
 {
-  return {
+  std::vector<std::pair<std::string, std::string>> settings = {
     { "Window",
       std::to_string(plan.width) + " x " + std::to_string(plan.height) +
         " pixels, one sample per pixel" },
@@ -473,6 +508,14 @@ std::vector<std::pair<std::string, std::string>> listSettings(
     { "Processor", processorName() },
     { "Resident set at the end", std::to_string(residentBytes() / (1024 * 1024)) + " MB" },
   };
+  for (const auto& [name, value] : plan.settings)
+  {
+    if (!value.empty() && findSetting(name)->about == SettingSubject::Light)
+    {
+      settings.emplace_back("Of all lights", name + " " + value);
+    }
+  }
+  return settings;
 }
 
 } // namespace
@@ -481,7 +524,7 @@ std::vector<std::pair<std::string, std::string>> listSettings(
 ComparisonResults runComparison(
   const Scene& original, const ComparisonPlan& plan, const ProgressFunction& progress)
 {
-  const Scene scene = withoutLightSettings(original);
+  const Scene scene = sceneOf(plan, original);
   std::vector<std::string> leftOut;
   const std::vector<VariantSpec> specs = listVariants(plan, scene, leftOut);
   const std::size_t framesPerMotion =
@@ -510,7 +553,7 @@ ComparisonResults runComparison(
     timeWholeFrames(variants, motion, plan, steps);
     timeStages(variants, motion, plan, steps);
   }
-  const VisibilityImages truth = truthOf(*truthVariant, results.notes);
+  const VisibilityImages truth = truthOf(*truthVariant, variants, results.notes);
   measureErrors(variants, scene, truth, steps);
 
   results.scene = scene.name;

@@ -17,7 +17,8 @@ struct ComparisonPlan
   /// Names of the registry, with settings if wished: "nsm", "pcf:kernel=box:projection=lispsm". The
   /// truth is added when missing.
   std::vector<std::string> techniques;
-  /// Settings of all techniques that have a map and do not say it themselves; empty ones are none.
+  /// Settings of all lights and of all techniques that they concern and that do not say them themselves; empty ones are
+  /// none.
   std::map<std::string, std::string> settings;
   std::vector<int> mapSizesTexels; ///< for every variant that has a map
   bool inlineRoute = true;         ///< for pointwise techniques
@@ -37,7 +38,8 @@ using ProgressFunction = std::function<void(double)>;
 
 /// Draws the scene with every variant of the plan and with the peers (plain VTK, vtkShadowMapPass)
 /// and measures errors, times and memory. Frames of all variants are interleaved. What the scene's
-/// lights ask for themselves (technique, map size) is set aside: the plan decides.
+/// lights ask for themselves (technique, map size) is set aside: the plan decides. What they say of their size stays,
+/// unless the plan has a `light_radius`.
 /// A technique whose settings make no sense for one of the lights is left out, which a note says.
 /// @throws BadInput when no light of the scene casts a shadow, Failure when drawing fails
 ComparisonResults runComparison(

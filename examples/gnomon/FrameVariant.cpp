@@ -1,6 +1,7 @@
 #include "FrameVariant.h"
 
 #include "Errors.h"
+#include "SettingOptions.h"
 
 #include "shadowtech/Registry.h"
 
@@ -15,8 +16,10 @@
 #include <glm/glm.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include <algorithm>
 #include <chrono>
 #include <cstddef>
+#include <iterator>
 #include <sstream>
 
 namespace gnomon::tool
@@ -102,6 +105,13 @@ VariantSpec parseTechnique(const std::string& text)
       throw BadInput("--techniques: " + text + ": found the setting \"" + name +
         "\", expected one of: " + settingNames() + " (but technique and map_size)");
     }
+    if (setting->about == SettingSubject::Light)
+    {
+      throw BadInput("--techniques: " + text + ": found the setting \"" + name +
+        "\", which says what the lights are, expected for all techniques alike (of a light of the "
+        "scene, or " +
+        optionOf(name) + ")");
+    }
     if (!takes(*setting, value))
     {
       throw BadInput("--techniques: " + text + ": " + name + ": found \"" + value +
@@ -123,11 +133,15 @@ vtkSmartPointer<vtkRenderPass> makePass(const VariantSpec& spec)
 }
 
 //------------------------------------------------------------------------------
-Scene withoutLightSettings(Scene scene)
+Scene withoutShadowSettings(Scene scene)
 {
   for (SceneLight& light : scene.lights)
   {
-    light.settings.clear();
+    std::map<std::string, std::string> ofLight;
+    std::copy_if(light.settings.begin(), light.settings.end(),
+      std::inserter(ofLight, ofLight.end()),
+      [](const auto& entry) { return findSetting(entry.first)->about == SettingSubject::Light; });
+    light.settings = std::move(ofLight);
   }
   return scene;
 }

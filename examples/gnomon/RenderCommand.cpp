@@ -216,10 +216,52 @@ nlohmann::ordered_json toJson(const FrameReport& report)
   return json;
 }
 
-void writeStats(const FrameReport& report, const std::string& path)
+/// What a picture's frames did: their times and counts together, the rest as the last one says.
+class PictureReport
+{
+public:
+  void add(const FrameReport& frame)
+  {
+    FrameReport sum = frame;
+    sum.stages = this->sum_.stages;
+    for (const StageTime& stage : frame.stages)
+    {
+      const auto same = std::find_if(sum.stages.begin(), sum.stages.end(),
+        [&stage](const StageTime& before) { return before.name == stage.name; });
+      if (same == sum.stages.end())
+      {
+        sum.stages.push_back(stage);
+      }
+      else
+      {
+        same->milliseconds += stage.milliseconds;
+      }
+    }
+    sum.wallMilliseconds += this->sum_.wallMilliseconds;
+    for (int FrameReport::*count : { &FrameReport::mapBakes, &FrameReport::programCompiles,
+           &FrameReport::bvhBuilds, &FrameReport::bvhRefits, &FrameReport::surfacesExtracted,
+           &FrameReport::surfacesRetransformed })
+    {
+      sum.*count += this->sum_.*count;
+    }
+    this->sum_ = sum;
+    ++this->frames_;
+  }
+
+  const FrameReport& sum() const { return this->sum_; }
+  int frames() const { return this->frames_; }
+
+private:
+  FrameReport sum_;
+  int frames_ = 0;
+};
+
+void writeStats(const PictureReport& report, const std::string& path)
 {
   std::ofstream file(path);
-  file << toJson(report).dump(2) << "\n";
+  nlohmann::ordered_json json = toJson(report.sum());
+  json["frames"] = report.frames();
+  file << json.dump(2) << "\n";
   file.close();
   if (!file)
   {
@@ -309,16 +351,18 @@ void render(const RenderOptions& options)
   sampling->SetSamplesPerFrame(integerOf("progressive", options));
   renderer->SetPass(options.shadeSamples ? static_cast<vtkRenderPass*>(sampling) : shadows);
   window->AddRenderer(renderer);
+  PictureReport report;
   do
   {
     window->Render();
+    report.add(shadows->GetReport());
   } while (std::min(shadows->GetProgress(), sampling->GetProgress()) < 1.0);
 
   for (const std::string& warning : messages.warnings())
   {
     std::cerr << "gnomon: warning: " << warning << "\n";
   }
-  if (shadows->GetReport().outOfTextureMemory)
+  if (report.sum().outOfTextureMemory)
   {
     throw BadInput("rendering: " + messages.errors().front());
   }
@@ -334,11 +378,11 @@ void render(const RenderOptions& options)
   if (!options.visibility.empty())
   {
     writeVisibility(
-      shadows->GetVisibility(), options.visibility, makeHeader(options, shadows->GetReport()));
+      shadows->GetVisibility(), options.visibility, makeHeader(options, report.sum()));
   }
   if (!options.stats.empty())
   {
-    writeStats(shadows->GetReport(), options.stats);
+    writeStats(report, options.stats);
   }
 }
 
@@ -423,7 +467,8 @@ void addRenderCommand(CLI::App& app)
     "position=0,1,5;target=0,0,0;up=0,1,0;fov=45");
   command->add_option("--visibility", options->visibility,
     "Also write every light's visibility and the receivers, .exr");
-  command->add_option("--stats", options->stats, "Also write what the frame did, .json");
+  command->add_option("--stats", options->stats,
+    "Also write what the picture's frames did (several with --progressive), .json");
   command->add_option("--classes", options->classes,
     "Also write how each pixel's visibility came about, by colours, for the first light whose "
     "technique "

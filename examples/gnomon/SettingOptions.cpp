@@ -31,6 +31,13 @@ void addChoice(CLI::App& command, const std::string& option,
 } // namespace
 
 //------------------------------------------------------------------------------
+std::string optionOf(std::string settingName)
+{
+  std::replace(settingName.begin(), settingName.end(), '_', '-');
+  return "--" + settingName;
+}
+
+//------------------------------------------------------------------------------
 void addSettingOptions(CLI::App& command, std::map<std::string, std::string>& values,
   const std::vector<std::string>& without)
 {
@@ -40,9 +47,9 @@ void addSettingOptions(CLI::App& command, std::map<std::string, std::string>& va
     {
       continue;
     }
-    std::string option = "--" + setting.name;
-    std::replace(option.begin(), option.end(), '_', '-');
-    command.add_option(option, values[setting.name], setting.help + ": " + expectedBy(setting))
+    command
+      .add_option(
+        optionOf(setting.name), values[setting.name], setting.help + ": " + expectedBy(setting))
       ->check([&setting](const std::string& text) { return refuse(setting, text); })
       ->option_text(" ");
   }

@@ -9,8 +9,10 @@
 namespace gnomon::tool
 {
 
-/// Gives a command an option for every setting of a light's shadows ("--kernel-size" for
-/// "kernel_size"), which refuses what the setting does not take.
+/// The option of a setting: "--kernel-size" for "kernel_size".
+std::string optionOf(std::string settingName);
+
+/// Gives a command an option for every setting of a light's shadows, which refuses what the setting does not take.
 /// @param values by the settings' names; empty where the command line says nothing. Must outlive the
 /// command
 /// @param without settings that the command has its own options for

@@ -62,6 +62,8 @@ struct TechniqueInfo
 
   /// Whether it takes points of area lights as ShadowSettings::lightSamples and lightSampling say.
   bool takesLightSamples = false;
+  /// Whether it shows shadows on planes only (ShadowSettings::planes).
+  bool servesPlanes = false;
 
   /// Whether its picture may come about over several frames (ShadowSettings::progressiveSamples).
   bool refines = false;
@@ -145,11 +147,14 @@ struct LayerInput
 struct ScreenInput
 {
   const ShadowLight& light;
+  /// Of the light's views in this frame, for techniques that lay out more of them.
+  const ViewFitting& fitting;
   const Occluders& occluders;
   Receivers& receivers;
   ShadowTracer& tracer; ///< its structure is up to date with the occluders
   /// Where not null: to be filled with each pixel's class, an index into TechniqueInfo::classes.
   std::vector<std::uint8_t>* classes;
+  int& mapBakes; ///< FrameReport::mapBakes
 };
 
 /// One way to compute visibility, for one light. The render manager makes one per casting light

@@ -103,6 +103,7 @@ TechniqueInfo Planar::info()
   TechniqueInfo info;
   info.name = "planar";
   info.takesLightSamples = true;
+  info.servesPlanes = true;
   info.evaluation = Evaluation::ScreenGpu;
   return info;
 }

@@ -81,6 +81,8 @@ std::vector<PixelClass> classesOfChain()
 struct Chain::Look
 {
   bool receives = false;
+  glm::vec3 normal{ 0.0f };
+  glm::vec3 toCentre{ 0.0f }; ///< of the light; of a directional one of length 1
   ShadowRay ray{};
   float rayFar = 0.0f;
   std::optional<PlaceOnMaps> place; ///< of rays that would be traced
@@ -95,10 +97,11 @@ struct Chain::Look
 };
 
 //------------------------------------------------------------------------------
-Chain::Chain(const ChainStages& stages, const TriangleMaps& maps, const TriangleFans& fans,
-  const ScreenInput& input)
+Chain::Chain(const ChainStages& stages, const TriangleMaps& maps, const RimMaps* rim,
+  const TriangleFans& fans, const ScreenInput& input)
   : stages_(stages)
   , maps_(maps)
+  , rim_(rim)
   , fans_(fans)
   , input_(input)
   , rayLight_(input.light, input.occluders.centreWorld)
@@ -134,8 +137,10 @@ std::size_t Chain::run(std::vector<float>& visibility) const
   {
     this->input_.classes->resize(this->input_.receivers.width() * this->input_.receivers.height());
   }
-  return this->input_.tracer.trace(
-    this->input_.light, this->input_.occluders, this->input_.receivers, visibility, this);
+  const ScreenInput& input = this->input_;
+  return this->rim_
+    ? input.tracer.traceArea(input.light, input.occluders, input.receivers, visibility, this)
+    : input.tracer.trace(input.light, input.occluders, input.receivers, visibility, this);
 }
 
 //------------------------------------------------------------------------------
@@ -167,6 +172,10 @@ Chain::Look Chain::lookAt(const ReceiverPixels& receivers, std::size_t i) const
   }
   const glm::vec3 position(receivers.positionX[i], receivers.positionY[i], receivers.positionZ[i]);
   const glm::vec3 normal(receivers.normalX[i], receivers.normalY[i], receivers.normalZ[i]);
+  look.normal = normal;
+  look.toCentre = this->rayLight_.kind == LightKind::Directional
+    ? this->rayLight_.toLight
+    : this->rayLight_.position - position;
   visitShadowRays(this->rayLight_,
     [&](const auto& makeRay, float rayFar)
     {
@@ -192,15 +201,13 @@ ChainClass Chain::classOf(const Look& look, bool inContour) const
   {
     return ChainClass::Unreached;
   }
-  // Without a place on the map no caster can be before the receiver, and its texels are all empty.
-  const auto agree = [&](Neighbourhood neighbourhood)
-  { return !look.place || look.place->agree(neighbourhood); };
   const ChainStages& stages = this->stages_;
-  if (!inContour && (stages.outside == OutsideContour::Map || agree(Neighbourhood::Nine)))
+  if (!inContour &&
+    (stages.outside == OutsideContour::Map || this->agree(look, Neighbourhood::Nine)))
   {
     return look.inShadow ? ChainClass::OutsideShadow : ChainClass::OutsideLit;
   }
-  if (stages.coherenceTexels > 0 && agree(neighbourhoodOf(stages.coherenceTexels)))
+  if (stages.coherenceTexels > 0 && this->agree(look, neighbourhoodOf(stages.coherenceTexels)))
   {
     return look.inShadow ? ChainClass::HintedShadow : ChainClass::HintedLit;
   }
@@ -219,6 +226,19 @@ ChainClass Chain::classOf(const Look& look, bool inContour) const
       break;
   }
   return look.inShadow ? ChainClass::TracedShadow : ChainClass::TracedLit;
+}
+
+//------------------------------------------------------------------------------
+/// Whether the texels of all maps say of a receiver what its status is.
+bool Chain::agree(const Look& look, Neighbourhood neighbourhood) const
+{
+  // Without a place on the map no caster can be before the receiver, and its texels are all empty.
+  if (look.place && !look.place->agree(neighbourhood))
+  {
+    return false;
+  }
+  return !this->rim_ ||
+    this->rim_->agree(look.ray.origin, look.normal, look.toCentre, neighbourhood, look.inShadow);
 }
 
 //------------------------------------------------------------------------------

@@ -6,6 +6,7 @@
 #include "shadowtech/base/PixelClass.h"
 #include "shadowtech/base/ShadowRay.h"
 #include "shadowtech/base/Technique.h"
+#include "shadowtech/selective/RimMaps.h"
 #include "shadowtech/selective/TriangleFans.h"
 #include "shadowtech/selective/TriangleMaps.h"
 #include "shadowtech/tracing/ShadowTracer.h"
@@ -26,6 +27,9 @@ struct ChainStages
   int contourPixels = 0; ///< width of the contour; 0: the whole image
   OutsideContour outside = OutsideContour::Map;
   int coherenceTexels = 0; ///< 0, 4 or 9
+  /// Of an area light: how many points around it see maps that have to agree with the centre's; 0: its shadows are the hard
+  /// ones of its centre.
+  std::size_t rimPoints = 0;
   int neighbourTexels = 0; ///< 0, 1, 4 or 9
   Adjacency adjacency = Adjacency::Off;
   Leftovers leftovers = Leftovers::Trace;
@@ -59,9 +63,11 @@ class Chain : public ReceiverDecider
 {
 public:
   /// All of these have to live as long as the chain. Finds the contour, if there is to be one.
+  /// @param rim of soft shadows, up to date: what is left is traced with all of the light's samples; null: with the ray to its
+  /// centre
   /// @param fans up to date with the occluders where there is a stage of adjacency
-  Chain(const ChainStages& stages, const TriangleMaps& maps, const TriangleFans& fans,
-    const ScreenInput& input);
+  Chain(const ChainStages& stages, const TriangleMaps& maps, const RimMaps* rim,
+    const TriangleFans& fans, const ScreenInput& input);
 
   /// Each pixel's visibility; fills the input's classes, if there are to be any.
   /// @return the number of rays traced
@@ -74,11 +80,13 @@ private:
   struct Look;
   Look lookAt(const ReceiverPixels& receivers, std::size_t i) const;
   ChainClass classOf(const Look& look, bool inContour) const;
+  bool agree(const Look& look, Neighbourhood neighbourhood) const;
   std::optional<ChainClass> proof(const Look& look) const;
   std::vector<std::uint8_t> contour() const;
 
   const ChainStages& stages_;
   const TriangleMaps& maps_;
+  const RimMaps* rim_;
   const TriangleFans& fans_;
   const ScreenInput& input_;
   ShadowRayLight rayLight_;

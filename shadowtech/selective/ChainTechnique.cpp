@@ -1,5 +1,7 @@
 #include "shadowtech/selective/ChainTechnique.h"
 
+#include "lights/LightSpace.h"
+
 namespace gnomon
 {
 
@@ -25,13 +27,16 @@ MapReach ChainTechnique::mapReach(const ShadowLight&) const
 //------------------------------------------------------------------------------
 void ChainTechnique::bake(const MapInput& input)
 {
-  this->maps_.bake(input.views, input.light.mapSizeTexels, input.occluders);
+  const ShadowLight& light = input.light;
+  this->rim_.clear();
+  this->maps_.bake(input.views, light.mapSizeTexels, input.occluders,
+    light.box ? std::optional(nearFaceCentred(light, input.occluders.centreWorld)) : std::nullopt);
 }
 
 //------------------------------------------------------------------------------
 std::size_t ChainTechnique::bytesOfMaps() const
 {
-  return this->maps_.bytes() + this->fans_.bytes();
+  return this->maps_.bytes() + this->rim_.bytes() + this->fans_.bytes();
 }
 
 //------------------------------------------------------------------------------
@@ -43,9 +48,20 @@ void ChainTechnique::computeVisibility(
   {
     this->fans_.update(input.occluders);
   }
-  report.tracedPixels =
-    static_cast<std::int64_t>(Chain(stages, this->maps_, this->fans_, input).run(visibility));
-  report.rays = report.tracedPixels;
+  const bool soft = input.light.area && stages.rimPoints > 0;
+  if (soft)
+  {
+    input.mapBakes +=
+      this->rim_.update(input.light, input.fitting, input.occluders, stages.rimPoints);
+  }
+  else
+  {
+    this->rim_.clear();
+  }
+  const Chain chain(stages, this->maps_, soft ? &this->rim_ : nullptr, this->fans_, input);
+  report.lightSamples = soft ? input.light.lightSamples : 1;
+  report.rays = static_cast<std::int64_t>(chain.run(visibility));
+  report.tracedPixels = report.rays / report.lightSamples;
 }
 
 } // namespace gnomon

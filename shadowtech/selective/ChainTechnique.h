@@ -3,6 +3,7 @@
 
 #include "shadowtech/base/Technique.h"
 #include "shadowtech/selective/Chain.h"
+#include "shadowtech/selective/RimMaps.h"
 
 #include <string>
 
@@ -27,6 +28,7 @@ protected:
 
 private:
   TriangleMaps maps_;
+  RimMaps rim_; ///< of soft shadows
   TriangleFans fans_;
 };
 

@@ -19,6 +19,7 @@ std::string refused(const ShadowLight& light)
 TechniqueInfo Coherence::info()
 {
   TechniqueInfo info = infoOf("coherence");
+  info.takesLightSamples = true;
   info.refused = refused;
   return info;
 }
@@ -28,6 +29,7 @@ ChainStages Coherence::stagesOf(const ShadowSettings& settings) const
 {
   ChainStages stages;
   stages.coherenceTexels = settings.coherenceTexels;
+  stages.rimPoints = 7;
   return stages;
 }
 

@@ -77,10 +77,10 @@ Span columnsOf(const MapPolygon& polygon, double y, int size)
 class MapDrawing
 {
 public:
-  MapDrawing(const CasterScene& scene, bool hasBox, const glm::dmat4& mapFromCentred, int size,
-    TriangleTexel* texels)
+  MapDrawing(const CasterScene& scene, const std::optional<glm::dvec4>& keptFromCentred,
+    const glm::dmat4& mapFromCentred, int size, TriangleTexel* texels)
     : scene_(scene)
-    , hasBox_(hasBox)
+    , kept_(keptFromCentred)
     , centredFromMap_(glm::inverse(mapFromCentred))
     , size_(size)
     , texels_(texels)
@@ -146,7 +146,7 @@ private:
         // Where two are as near, it does not matter which thread comes first.
         const bool nearer = rounded < texel.depth ||
           (rounded == texel.depth && texel.caster.exists() && caster < texel.caster);
-        const bool looksCloser = nearer && (this->hasBox_ || surface.cutout);
+        const bool looksCloser = nearer && (this->kept_ || surface.cutout);
         if (nearer && (!looksCloser || this->blocksAt(caster, surface, { x, y, depth })))
         {
           texel = { caster, rounded, static_cast<float>(plane.plane.perX),
@@ -162,7 +162,7 @@ private:
     const glm::dvec4 homogeneous =
       this->centredFromMap_ * glm::dvec4(point.x, point.y, point.depth, 1.0);
     const glm::dvec3 centred = glm::dvec3(homogeneous) / homogeneous.w;
-    if (this->hasBox_ && this->scene_.space.at(centred).z < this->scene_.begins)
+    if (this->kept_ && glm::dot(*this->kept_, glm::dvec4(centred, 1.0)) < 0.0)
     {
       return false;
     }
@@ -185,7 +185,7 @@ private:
   }
 
   const CasterScene& scene_;
-  bool hasBox_;
+  const std::optional<glm::dvec4>& kept_;
   glm::dmat4 centredFromMap_;
   int size_;
   TriangleTexel* texels_;
@@ -196,12 +196,12 @@ private:
 } // namespace
 
 //------------------------------------------------------------------------------
-TriangleMap::TriangleMap(
-  const LightView& view, bool hasBox, int sizeTexels, const Occluders& occluders)
+TriangleMap::TriangleMap(const LightView& view, const std::optional<glm::dvec4>& keptFromCentred,
+  int sizeTexels, const Occluders& occluders)
   : size_(sizeTexels)
   , texels_(static_cast<std::size_t>(sizeTexels) * static_cast<std::size_t>(sizeTexels))
 {
-  const CasterScene scene = casterScene(view, hasBox, sizeTexels, occluders);
+  const CasterScene scene = casterScene(view, keptFromCentred.has_value(), sizeTexels, occluders);
   this->mapFromCentred_ = scene.space.mapFromCentred();
   for (int column = 0; column < 4; ++column)
   {
@@ -209,7 +209,7 @@ TriangleMap::TriangleMap(
     of.z -= farthestDepth * of.w;
   }
   this->planeFromCentred_ = glm::transpose(glm::inverse(this->mapFromCentred_));
-  MapDrawing(scene, hasBox, this->mapFromCentred_, sizeTexels, this->texels_.data());
+  MapDrawing(scene, keptFromCentred, this->mapFromCentred_, sizeTexels, this->texels_.data());
 }
 
 //------------------------------------------------------------------------------

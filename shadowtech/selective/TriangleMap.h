@@ -79,8 +79,10 @@ class TriangleMap
 {
 public:
   /// Draws the casters.
-  /// @param hasBox whether the light begins at the near face of a box
-  TriangleMap(const LightView& view, bool hasBox, int sizeTexels, const Occluders& occluders);
+  /// @param keptFromCentred of a light with a box: a plane (n, d) in centred coordinates, no deeper than the view's box;
+  /// of casters, only what has n.p + d >= 0 counts
+  TriangleMap(const LightView& view, const std::optional<glm::dvec4>& keptFromCentred,
+    int sizeTexels, const Occluders& occluders);
 
   /// Where a shadow ray lies on the map; nothing where it lies beside it.
   /// @param origin where it starts, centred

@@ -27,13 +27,14 @@ bool PlaceOnMaps::agree(Neighbourhood neighbourhood) const
 }
 
 //------------------------------------------------------------------------------
-void TriangleMaps::bake(const LightViews& views, int sizeTexels, const Occluders& occluders)
+void TriangleMaps::bake(const LightViews& views, int sizeTexels, const Occluders& occluders,
+  const std::optional<glm::dvec4>& keptFromCentred)
 {
   this->maps_.clear(); // what they had makes room
   requireRoomForMap(sizeof(TriangleTexel), sizeTexels, static_cast<int>(views.views.size()));
   for (const LightView& view : views.views)
   {
-    this->maps_.emplace_back(view, views.box.z > 0.0, sizeTexels, occluders);
+    this->maps_.emplace_back(view, keptFromCentred, sizeTexels, occluders);
   }
 }
 

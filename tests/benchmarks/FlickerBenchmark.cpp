@@ -183,7 +183,7 @@ int run(int argc, char** argv)
   CLI11_PARSE(app, argc, argv);
 
   const VtkMessages messages;
-  const Scene scene = withoutLightSettings(loadScene(options.scene));
+  const Scene scene = withoutShadowSettings(loadScene(options.scene));
   std::vector<std::vector<std::vector<float>>> truths;
   for (const Movement movement : allMovements)
   {

@@ -65,7 +65,7 @@ class Benchmark
 {
 public:
   explicit Benchmark(const Options& options)
-    : scene_(withoutLightSettings(loadScene(options.scene)))
+    : scene_(withoutShadowSettings(loadScene(options.scene)))
     , size_(parseSize(options.size))
   {
     const int map = options.mapSizeTexels;

@@ -198,6 +198,86 @@ TEST(ComparisonRun, MeasuresSoftShadowsAgainstManySamples)
   EXPECT_GT(few.meanAbsolute, 2.0 * many.meanAbsolute);
 }
 
+/// A small comparison of soft shadows.
+ComparisonPlan softPlan(std::vector<std::string> techniques)
+{
+  ComparisonPlan plan;
+  plan.techniques = std::move(techniques);
+  plan.mapSizesTexels = { 256 };
+  plan.inlineRoute = false;
+  plan.width = 64;
+  plan.height = 64;
+  plan.frames = 1;
+  return plan;
+}
+
+TEST(ComparisonRun, TheLightsHaveOneSizeForAllVariantsAndTheTruth)
+{
+  ComparisonPlan plan = softPlan({ "nsm", "planar", "penumbra" });
+  plan.settings = { { "light_radius", "10" }, { "light_samples", "16" } };
+  const ComparisonResults results = runComparison(loadScene("cube"), plan, {});
+  EXPECT_THAT(results.notes, testing::Contains(testing::HasSubstr("4096 samples of each area")));
+  EXPECT_THAT(
+    results.settings, testing::Contains(testing::Pair("Of all lights", "light_radius 10")));
+  const VisibilityError hard = variant(results, "nsm light_samples=16 256 image").error;
+  const VisibilityError traced = variant(results, "raytraced light_samples=16").error;
+  const VisibilityError counted = variant(results, "penumbra light_samples=16").error;
+  const VisibilityError planar = variant(results, "planar light_samples=16").error;
+  EXPECT_GT(traced.rootMeanSquare, 0.0);
+  EXPECT_EQ(counted.rootMeanSquare, traced.rootMeanSquare);
+  EXPECT_GT(hard.rootMeanSquare, 3.0 * traced.rootMeanSquare);
+  EXPECT_GT(hard.rootMeanSquare, 3.0 * planar.rootMeanSquare);
+
+  // The scene's own lights say it as well; the plan overrides them.
+  Scene scene = loadScene("cube");
+  scene.lights.at(0).settings = { { "light_radius", "10" } };
+  plan.settings = { { "light_samples", "16" } };
+  EXPECT_EQ(
+    variant(runComparison(scene, plan, {}), "raytraced light_samples=16").error.rootMeanSquare,
+    traced.rootMeanSquare);
+  scene.lights.at(0).settings = { { "light_radius", "1" } };
+  plan.settings["light_radius"] = "10";
+  EXPECT_EQ(
+    variant(runComparison(scene, plan, {}), "raytraced light_samples=16").error.rootMeanSquare,
+    traced.rootMeanSquare);
+}
+
+TEST(ComparisonRun, TheTruthHasSamplesOfItsOwn)
+{
+  ComparisonPlan plan = softPlan({ "raytraced:light_seed=2" });
+  plan.settings = { { "light_radius", "10" }, { "light_samples", "1" }, { "light_seed", "1" },
+    { "light_sampling", "random" } };
+  const ComparisonResults results = runComparison(loadScene("cube"), plan, {});
+  EXPECT_THAT(results.notes, testing::Contains(testing::HasSubstr("with light_seed 3")));
+  const VariantResult& single =
+    variant(results, "raytraced light_samples=1 light_sampling=random light_seed=1");
+  EXPECT_GT(single.error.rootMeanSquare, 0.02); // one of 4,096 samples is far from all of them
+  EXPECT_EQ(single.errorSource, "From its visibility image, one number per pixel and light.");
+}
+
+TEST(ComparisonRun, SettingsReachThoseWhomTheyConcern)
+{
+  ComparisonPlan plan = softPlan({ "nsm", "planar", "raytraced" });
+  plan.settings = { { "planes", "2" }, { "bias_constant", "0.5" }, { "kernel", "" } };
+  std::vector<std::string> names;
+  for (const VariantResult& result : runComparison(loadScene("cube"), plan, {}).variants)
+  {
+    names.push_back(result.name);
+  }
+  EXPECT_THAT(names,
+    testing::ElementsAre("plain VTK", "vtkShadowMapPass 256", "nsm bias_constant=0.5 256 image",
+      "planar planes=2", "raytraced"));
+}
+
+TEST(ComparisonRun, ATechniqueHasNoLightOfItsOwn)
+{
+  const ComparisonPlan plan = softPlan({ "pcss:light_radius=3" });
+  const std::string message =
+    messageOf<BadInput>([&] { runComparison(loadScene("cube"), plan, {}); });
+  EXPECT_NE(message.find("pcss:light_radius=3"), std::string::npos) << message;
+  EXPECT_NE(message.find("--light-radius"), std::string::npos) << message;
+}
+
 TEST(ComparisonRun, ASceneWithoutCastingLightsIsBadInput)
 {
   Scene scene = loadScene("cube");

@@ -424,6 +424,36 @@ TEST(Program, RendersASceneFileAndWritesStatistics)
 }
 
 //------------------------------------------------------------------------------
+TEST(Program, StatisticsAreOfAllFramesOfAPicture)
+{
+  TestFolder folder;
+  const auto statsOf = [&](const std::string& progressive)
+  {
+    const Outcome outcome = run(folder,
+      { "render", "cube", "-o", "out.png", "--size", "64x48", "--technique", "sampled",
+        "--light-radius", "5", "--light-samples", "32", "--map-size", "64", "--progressive",
+        progressive, "--stats", "stats.json" });
+    EXPECT_TRUE(outcome.exited && outcome.code == 0) << outcome.errors;
+    return nlohmann::json::parse(readBytes(folder / "stats.json"));
+  };
+  const nlohmann::json single = statsOf("0");
+  EXPECT_EQ(single.at("frames"), 1);
+  EXPECT_EQ(single.at("map_bakes"), 33);
+  const nlohmann::json several = statsOf("8");
+  EXPECT_EQ(several.at("frames"), 5);
+  EXPECT_EQ(several.at("map_bakes"), 33);
+  EXPECT_EQ(several.at("lights").at(0).at("progress"), 1.0);
+  EXPECT_EQ(several.at("lights").at(0).at("light_samples"), 32);
+  EXPECT_EQ(several.at("stages").size(), single.at("stages").size());
+  double stages = 0.0;
+  for (const auto& stage : several.at("stages"))
+  {
+    stages += stage.at("milliseconds").get<double>();
+  }
+  EXPECT_LE(stages, several.at("wall_milliseconds").get<double>());
+}
+
+//------------------------------------------------------------------------------
 TEST(Program, TellsWhoTraced)
 {
   TestFolder folder;

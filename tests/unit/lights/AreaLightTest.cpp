@@ -16,10 +16,12 @@
 #include <glm/gtc/constants.hpp>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <sstream>
 #include <string>
+#include <vector>
 
 namespace gnomon::test
 {
@@ -119,6 +121,54 @@ TEST(AreaLight, withoutSizeIsAPoint)
   EXPECT_EQ(light->GetWidth(), 0.0);
   light->SetHeight(1.0);
   EXPECT_TRUE(read(light).casting.at(0).area.has_value()) << "a tube";
+}
+
+/// As far as the light reaches, everywhere around its centre, and no two at one place.
+TEST(AreaLight, hasARim)
+{
+  const glm::dvec3 travel = glm::normalize(glm::dvec3(1.0, -2.0, 0.5));
+  const LightArea areas[] = { rectangleArea(travel, { 0.0, 0.0, 1.0 }, { 0.6, 0.2 }),
+    diskArea(travel, 0.5), ballArea(0.5) };
+  for (const LightArea& area : areas)
+  {
+    const bool ball = area.shape == LightArea::Shape::Ball;
+    for (const std::size_t count : { 1u, 4u, 7u, 16u })
+    {
+      const std::vector<glm::dvec3> rim = rimOf(area, count);
+      ASSERT_EQ(rim.size(), count);
+      glm::dvec3 sum(0.0);
+      for (std::size_t i = 0; i < count; ++i)
+      {
+        sum += rim[i];
+        const glm::dvec2 unit(glm::dot(rim[i], area.worldFromUnit[0]) /
+            glm::dot(area.worldFromUnit[0], area.worldFromUnit[0]),
+          glm::dot(rim[i], area.worldFromUnit[1]) /
+            glm::dot(area.worldFromUnit[1], area.worldFromUnit[1]));
+        const double extent = area.shape == LightArea::Shape::Rectangle
+          ? std::max(std::abs(unit.x), std::abs(unit.y))
+          : ball ? glm::length(rim[i]) / 0.5
+                 : glm::length(unit);
+        EXPECT_NEAR(extent, 1.0, 1e-12);
+        if (!ball)
+        {
+          EXPECT_NEAR(glm::dot(rim[i], travel), 0.0, 1e-12);
+        }
+        for (std::size_t k = 0; k < i; ++k)
+        {
+          EXPECT_GT(glm::length(rim[i] - rim[k]), 1.2 * area.radius() / static_cast<double>(count));
+        }
+      }
+      if (count > 1)
+      {
+        EXPECT_LT(glm::length(sum), 0.2 * area.radius() * static_cast<double>(count));
+      }
+    }
+  }
+  // A rectangle's four are its corners.
+  for (const glm::dvec3& corner : rimOf(areas[0], 4))
+  {
+    EXPECT_NEAR(glm::length(corner), areas[0].radius(), 1e-12);
+  }
 }
 
 TEST(AreaLight, takesOSPRaysRadius)

@@ -52,7 +52,8 @@ TEST_F(AreaLights, areTheirCentreForHardTechniques)
   for (const gnomon::TechniqueEntry& technique : gnomon::registry())
   {
     if (technique.name == "raytraced" || technique.name == "planar" || technique.name == "pcss" ||
-      technique.name == "sampled" || technique.name == "montecarlo" || technique.name == "penumbra")
+      technique.name == "sampled" || technique.name == "montecarlo" ||
+      technique.name == "penumbra" || technique.name == "coherence")
     {
       continue;
     }
@@ -70,7 +71,7 @@ TEST_F(AreaLights, areTheirCentreForHardTechniques)
 //------------------------------------------------------------------------------
 TEST_F(AreaLights, areSoftForThoseThatTakeSamples)
 {
-  for (const char* technique : { "raytraced", "planar", "sampled" })
+  for (const char* technique : { "raytraced", "planar", "sampled", "coherence" })
   {
     this->scene.pass->SetTechnique(technique);
     this->light->SetHeight(1.0);

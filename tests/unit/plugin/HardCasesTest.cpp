@@ -189,17 +189,12 @@ struct Wrong
 };
 Wrong countWrong(const VisibilityImages& kept, const VisibilityImages& truth, vtkLight* light)
 {
-  const auto vector = [](const double* v) { return glm::dvec3(v[0], v[1], v[2]); };
-  const glm::dvec3 position = vector(light->GetTransformedPosition());
-  const glm::dvec3 away = vector(light->GetTransformedFocalPoint()) - position;
   Wrong result;
   for (std::size_t i = 0; i < truth.coverage.size(); ++i)
   {
-    const glm::dvec3 toLight = light->GetPositional() ? position - positionOf(truth, i) : -away;
-    const glm::dvec3 normal(truth.normalX[i], truth.normalY[i], truth.normalZ[i]);
     // The normals of the image route are known to this. What is parallel to the light has no shade.
     constexpr double leastCosine = 1e-5;
-    if (truth.coverage[i] > 0.5f && glm::dot(normal, toLight) > leastCosine * glm::length(toLight))
+    if (truth.coverage[i] > 0.5f && cosineTowards(truth, i, light) > leastCosine)
     {
       ++result.facing;
       result.wrong += std::abs(kept.visibility[0][i] - truth.visibility[0][i]) > 0.5f ? 1 : 0;

@@ -340,6 +340,19 @@ glm::dvec3 positionOf(const VisibilityImages& kept, std::size_t pixel)
 }
 
 //------------------------------------------------------------------------------
+double cosineTowards(const VisibilityImages& kept, std::size_t pixel, vtkLight* light)
+{
+  const auto vector = [](const double* v) { return glm::dvec3(v[0], v[1], v[2]); };
+  const glm::dvec3 position = vector(light->GetTransformedPosition());
+  const glm::dvec3 toLight = light->GetPositional()
+    ? position - positionOf(kept, pixel)
+    : position - vector(light->GetTransformedFocalPoint());
+  const glm::dvec3 normal(kept.normalX[pixel], kept.normalY[pixel], kept.normalZ[pixel]);
+  const double distance = glm::length(toLight);
+  return distance > 0.0 ? glm::dot(normal, toLight) / distance : 0.0;
+}
+
+//------------------------------------------------------------------------------
 Acne countAcne(const VisibilityImages& kept,
   const std::function<glm::dvec3(const glm::dvec3&)>& toLight, double leastCosine)
 {

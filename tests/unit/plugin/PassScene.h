@@ -173,6 +173,9 @@ const VisibilityImages& drawKept(PassScene& scene);
 /// Where a pixel's receiver is in the world.
 glm::dvec3 positionOf(const VisibilityImages& kept, std::size_t pixel);
 
+/// The cosine between a pixel's normal and the way from there to a light; 0 where it is in the light.
+double cosineTowards(const VisibilityImages& kept, std::size_t pixel, vtkLight* light);
+
 /// Of the pixels that face the first light by more than a cosine, those that are not fully lit.
 struct Acne
 {

@@ -174,6 +174,33 @@ TEST_F(TextureMemory, oneLightOfSeveralIsNamed)
 }
 
 //------------------------------------------------------------------------------
+/// The centre's map has room, those of the light's other points have none when the picture is drawn.
+TEST_F(TextureMemory, mapsThatAreDrawnWithThePictureNameTheirLight)
+{
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "the address sanitizer ends a program whose address space ends";
+#endif
+  PassScene scene(100, 80);
+  scene.addFloor(4.0);
+  scene.addSphere({ 0.0, 0.0, 1.5 }, 0.7);
+  scene.lookFrom({ 0.0, -9.0, 7.0 });
+  scene.addSun({ 0.3, 0.3, -1.0 });
+  vtkGnomonLightKeys::SetSetting(scene.addSun({ -0.3, 0.3, -1.0 }), "technique", "sampled");
+  scene.pass->SetSetting("light_radius", "5");
+  scene.pass->SetMapSize(64);
+  const Picture coarse = scene.render();
+  {
+    const AddressSpace scarce(300u << 20);
+    scene.pass->SetMapSize(4096); // 67 MB, ten of them
+    scene.render();
+  }
+  EXPECT_THAT(this->takeErrors(), HasSubstr("light 1: a map of 4096 x 4096 asks for 67 MB"));
+  EXPECT_TRUE(scene.report().outOfTextureMemory);
+  scene.pass->SetMapSize(64);
+  EXPECT_EQ(differingPixels(coarse, scene.render()), 0u);
+}
+
+//------------------------------------------------------------------------------
 /// Each of the maps has room alone, and not all of them together.
 TEST_F(TextureMemory, mapsThatHaveNoRoomTogetherAreAnErrorThatNamesTheFirstLightWithout)
 {

@@ -8,6 +8,7 @@
 #include "RandomScenes.h"
 #include "SyntheticScene.h"
 
+#include "lights/LightSpace.h"
 #include "lights/ShadowSettings.h"
 #include "shadowtech/tracing/EmbreeTracer.h"
 
@@ -26,6 +27,14 @@ namespace gnomon::test
 {
 namespace
 {
+
+/// What casts of a light with a box, as TriangleMap takes it.
+std::optional<glm::dvec4> keptFromCentred(const RandomPicture& picture)
+{
+  return picture.light.box
+    ? std::optional(nearFaceCentred(picture.light, picture.occluders.centreWorld))
+    : std::nullopt;
+}
 
 //------------------------------------------------------------------------------
 // The contour
@@ -299,7 +308,7 @@ TEST(TriangleMap, hasTheFirstTriangleAtEveryTexelsCentre)
       const int size = std::min(picture.light.mapSizeTexels, 64);
       for (const LightView& view : picture.views.views)
       {
-        const TriangleMap map(view, picture.light.box.has_value(), size, picture.occluders);
+        const TriangleMap map(view, keptFromCentred(picture), size, picture.occluders);
         const glm::dmat4 centredFromView = glm::inverse(view.rays.viewFromCentred);
         const glm::dmat3 acrossFromTexel = glm::inverse(texelFromAcross(view, size));
         for (int row = 0; row < size; row += 5)
@@ -441,8 +450,8 @@ public:
     , receivers_(this->picture_.view.images, this->picture_.view.drawnSurfaces,
         this->picture_.occluders, this->stored_)
   {
-    this->maps_.bake(
-      this->picture_.views, this->picture_.light.mapSizeTexels, this->picture_.occluders);
+    this->maps_.bake(this->picture_.views, this->picture_.light.mapSizeTexels,
+      this->picture_.occluders, keptFromCentred(this->picture_));
     this->fans_.update(this->picture_.occluders);
     this->tracer_.update(this->picture_.occluders);
     this->needRays_ = this->tracer_.trace(
@@ -453,9 +462,11 @@ public:
   {
     std::vector<std::uint8_t> classes;
     ChainRun run;
-    const ScreenInput input{ this->picture_.light, this->picture_.occluders, this->receivers_,
-      this->tracer_, &classes };
-    run.traced = Chain(stages, this->maps_, this->fans_, input).run(run.visibility);
+    const ViewFitting fitting;
+    int mapBakes = 0;
+    const ScreenInput input{ this->picture_.light, fitting, this->picture_.occluders,
+      this->receivers_, this->tracer_, &classes, mapBakes };
+    run.traced = Chain(stages, this->maps_, nullptr, this->fans_, input).run(run.visibility);
     for (const std::uint8_t pixel : classes)
     {
       run.classes.push_back(static_cast<ChainClass>(pixel));

@@ -1,0 +1,69 @@
+#include "shadowtech/selective/RimMaps.h"
+
+#include "lights/LightAt.h"
+#include "lights/LightSpace.h"
+#include "shadowtech/base/ShadowRay.h"
+
+#include <algorithm>
+
+namespace gnomon
+{
+
+//------------------------------------------------------------------------------
+int RimMaps::update(const ShadowLight& light, const ViewFitting& fitting,
+  const Occluders& occluders, std::size_t points)
+{
+  const std::vector<glm::dvec3> offsets = rimOf(*light.area, points);
+  if (this->points_.size() != points)
+  {
+    this->points_ = std::vector<Point>(points);
+  }
+  // What the centre's box leaves out, casts nothing.
+  const std::optional<glm::dvec4> begins =
+    light.box ? std::optional(nearFaceCentred(light, fitting.centreWorld)) : std::nullopt;
+  int drawn = 0;
+  for (std::size_t i = 0; i < points; ++i)
+  {
+    Point& point = this->points_[i];
+    point.offset = offsets[i];
+    LightViews views = fitLightViews(lightAt(light, offsets[i], fitting), fitting);
+    if (point.views == views)
+    {
+      continue;
+    }
+    point.views = {}; // in case that there is no memory
+    point.maps.bake(views, light.mapSizeTexels, occluders, begins);
+    point.views = std::move(views);
+    ++drawn;
+  }
+  return drawn;
+}
+
+//------------------------------------------------------------------------------
+bool RimMaps::agree(const glm::dvec3& origin, const glm::vec3& normal, const glm::vec3& toCentre,
+  Neighbourhood neighbourhood, bool inShadow) const
+{
+  return std::all_of(this->points_.begin(), this->points_.end(),
+    [&](const Point& point)
+    {
+      if (!facesLight(normal, toCentre + point.offset))
+      {
+        return true;
+      }
+      const std::optional<PlaceOnMaps> place = point.maps.find(origin, normal);
+      return place ? place->shadows() == inShadow && place->agree(neighbourhood) : !inShadow;
+    });
+}
+
+//------------------------------------------------------------------------------
+std::size_t RimMaps::bytes() const
+{
+  std::size_t bytes = 0;
+  for (const Point& point : this->points_)
+  {
+    bytes += point.maps.bytes();
+  }
+  return bytes;
+}
+
+} // namespace gnomon

@@ -1,0 +1,498 @@
+// Techniques with soft shadows under area lights and on scenes that break such: the numbers stay finite, OpenGL has
+// nothing to complain about, and the visibility differs from the ray-traced one by no more than is stated here and in
+// docs/techniques/soft.md.
+
+#include "PassScene.h"
+
+#include "lights/vtkGnomonAreaLight.h"
+#include "lights/vtkGnomonLightKeys.h"
+#include "plugin/VisibilityImages.h"
+
+#include <vtkCellArray.h>
+#include <vtkPoints.h>
+#include <vtkSphereSource.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <iterator>
+#include <ostream>
+#include <string>
+#include <vector>
+
+using namespace gnomon::test;
+using gnomon::VisibilityImages;
+
+namespace
+{
+
+/// Sets up casters, receivers, an area light and the camera.
+using Build = std::function<vtkLight*(PassScene&)>;
+
+/// A horizontal sheet.
+void addSheet(PassScene& scene, const glm::dvec2& lower, const glm::dvec2& upper, double z)
+{
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  points->InsertNextPoint(lower.x, lower.y, z);
+  points->InsertNextPoint(upper.x, lower.y, z);
+  points->InsertNextPoint(upper.x, upper.y, z);
+  points->InsertNextPoint(lower.x, upper.y, z);
+  vtkNew<vtkCellArray> cells;
+  const vtkIdType corners[] = { 0, 1, 2, 3 };
+  cells->InsertNextCell(4, corners);
+  vtkNew<vtkPolyData> sheet;
+  sheet->SetPoints(points);
+  sheet->SetPolys(cells);
+  scene.add(sheet);
+}
+
+/// A box that stands on a slab and a sphere that hangs over it, `unit` times as large as elsewhere and moved by `offset`.
+void addThings(PassScene& scene, double unit = 1.0, const glm::dvec3& offset = glm::dvec3(0.0))
+{
+  const auto place = [&](double x, double y, double z)
+  { return offset + unit * glm::dvec3(x, y, z); };
+  scene.addBox(place(-4.0, -4.0, -0.2), place(4.0, 4.0, 0.0));
+  scene.addBox(place(-2.0, -1.0, 0.0), place(-0.5, 1.0, 1.5));
+  scene.addSphere(place(1.5, 0.0, 1.2), 0.8 * unit);
+  scene.lookFrom(place(0.0, -9.0, 7.0), place(0.0, 0.0, 0.0));
+}
+
+vtkLight* addSun(PassScene& scene, const glm::dvec3& direction, const char* degrees)
+{
+  vtkLight* light = scene.addSun(direction);
+  vtkGnomonLightKeys::SetSetting(light, "light_radius", degrees);
+  return light;
+}
+
+vtkLight* addBall(PassScene& scene, const glm::dvec3& place, const char* radius)
+{
+  vtkLight* light = scene.addSpot(place, place + glm::dvec3(-0.1, 0.2, -1.0), allDirections);
+  vtkGnomonLightKeys::SetSetting(light, "light_radius", radius);
+  return light;
+}
+
+vtkLight* addDisk(PassScene& scene, const glm::dvec3& place, const glm::dvec3& travel,
+  double radius, double coneAngleDegrees = 90.0)
+{
+  vtkNew<vtkGnomonAreaLight> light;
+  light->SetPosition(place.x, place.y, place.z);
+  light->SetFocalPoint(place.x + travel.x, place.y + travel.y, place.z + travel.z);
+  light->SetConeAngle(coneAngleDegrees);
+  light->SetRadius(radius);
+  scene.renderer->AddLight(light);
+  return light;
+}
+
+const glm::dvec3 down(0.0, 0.0, -1.0);
+const glm::dvec3 slanting(1.0, 0.4, -1.5);
+const glm::dvec3 over(2.0, -2.0, 5.0);
+
+Build things(const Build& addLight)
+{
+  return [=](PassScene& scene)
+  {
+    addThings(scene);
+    return addLight(scene);
+  };
+}
+
+Build thingsAt(double unit, const glm::dvec3& offset)
+{
+  return [=](PassScene& scene)
+  {
+    addThings(scene, unit, offset);
+    return addDisk(scene, offset + unit * over, down, 0.5 * unit);
+  };
+}
+
+/// By how much a technique may differ from the truth.
+struct Bound
+{
+  double meanAbsolute;
+  std::size_t spots; ///< pixels; see SoftError
+};
+
+/// The techniques with a map whose shadows are soft.
+constexpr const char* mapTechniques[] = { "pcss", "montecarlo", "sampled", "coherence" };
+
+/// Of lamps that lie in a caster: what such are on one side of, rounding says.
+constexpr std::size_t allPixels = 120 * 90;
+
+struct SoftCase
+{
+  const char* name;
+  double tracedMeanAbsolute; ///< of 64 rays
+  Bound mapped[4];           ///< in the order of mapTechniques
+  Build build;
+};
+
+const std::vector<SoftCase>& softCases()
+{
+  static const std::vector<SoftCase> cases = {
+    { "disk", 0.001, { { 0.0036, 0 }, { 0.0077, 3 }, { 0.0012, 0 }, { 0.001, 0 } },
+      things([](PassScene& scene) { return addDisk(scene, over, down, 0.5); }) },
+    { "zeroSize", 0.0002, { { 0.0005, 0 }, { 0.0005, 0 }, { 0.0005, 0 }, { 0.0002, 0 } },
+      things([](PassScene& scene) { return addDisk(scene, over, down, 0.0); }) },
+    { "tinySun", 0.0002, { { 0.0009, 0 }, { 0.0009, 0 }, { 0.0009, 0 }, { 0.0002, 0 } },
+      things([](PassScene& scene) { return addSun(scene, slanting, "1e-6"); }) },
+    // In the box's top, in the box, in the floor, half in the sphere.
+    { "diskOnTheBox", 0.0002, { { 0.551, 6747 }, { 0.0064, 0 }, { 0.0002, 0 }, { 0.0002, 0 } },
+      things(
+        [](PassScene& scene) {
+          return addDisk(scene, { -1.2, 0.0, 1.5001 }, down, 0.3);
+        }) },
+    { "diskInTheBoxesTop", 0.0002,
+      { { 0.021, 107 }, { 0.285, 3862 }, { 0.021, 107 }, { 0.0002, 0 } },
+      things(
+        [](PassScene& scene) {
+          return addDisk(scene, { -1.2, 0.0, 1.5 }, down, 0.3);
+        }) },
+    { "diskUnderTheBoxesTop", 0.0002,
+      { { 0.262, 4389 }, { 0.0002, 0 }, { 0.0009, 7 }, { 0.0002, 0 } },
+      things(
+        [](PassScene& scene) {
+          return addDisk(scene, { -1.2, 0.0, 1.4999 }, down, 0.3);
+        }) },
+    { "diskOnTheFloor", 0.0005, { { 0.178, 580 }, { 0.123, 141 }, { 0.123, 141 }, { 0.0005, 0 } },
+      things(
+        [](PassScene& scene) {
+          return addDisk(scene, { 0.5, -2.0, 0.001 }, down, 0.5);
+        }) },
+    { "ballThroughTheBoxesTop", 0.0049,
+      { { 0.458, 4028 }, { 0.0061, 0 }, { 0.0035, 4 }, { 0.0049, 0 } },
+      things(
+        [](PassScene& scene) {
+          return addBall(scene, { -1.2, 0.0, 1.6 }, "0.3");
+        }) },
+    { "ballInTheBox", 0.0002, { { 0.0006, 5 }, { 0.0002, 0 }, { 0.0004, 3 }, { 0.0002, 0 } },
+      things(
+        [](PassScene& scene) {
+          return addBall(scene, { -1.2, 0.0, 0.8 }, "0.2");
+        }) },
+    { "ballAroundTheSphere", 0.024, { { 0.649, 0 }, { 0.037, 0 }, { 0.021, 0 }, { 0.024, 0 } },
+      things(
+        [](PassScene& scene) {
+          return addBall(scene, { 1.5, 0.0, 1.2 }, "1.2");
+        }) },
+    { "ballTouchesTheFloor", 0.0004,
+      { { 0.0075, 111 }, { 0.0021, 0 }, { 0.0004, 0 }, { 0.0004, 0 } },
+      things(
+        [](PassScene& scene) {
+          return addBall(scene, { 0.5, -2.0, 0.3 }, "0.3");
+        }) },
+    // Receivers in the light's plane, and behind it.
+    { "diskInTheFloor", 0.0002,
+      { { 1.0, allPixels }, { 1.0, allPixels }, { 1.0, allPixels }, { 0.0002, 0 } },
+      things(
+        [](PassScene& scene) {
+          return addDisk(scene, { 0.5, -2.0, 0.0 }, down, 0.5);
+        }) },
+    { "diskInTheBoxesTopsPlane", 0.0017,
+      { { 0.011, 0 }, { 0.0056, 0 }, { 0.0017, 0 }, { 0.0017, 0 } },
+      things(
+        [](PassScene& scene) {
+          return addDisk(scene, { 1.0, -2.0, 1.5 }, down, 0.5);
+        }) },
+    { "diskStandsOnTheFloor", 0.0035, { { 0.036, 3 }, { 0.0071, 0 }, { 0.0058, 0 }, { 0.0035, 0 } },
+      things(
+        [](PassScene& scene) {
+          return addDisk(scene, { 2.5, -2.5, 0.5 }, { -1.0, 0.3, 0.0 }, 1.0);
+        }) },
+    { "receiversBehindTheDisk", 0.0022,
+      { { 0.037, 0 }, { 0.0056, 0 }, { 0.0025, 0 }, { 0.0022, 0 } },
+      things(
+        [](PassScene& scene) {
+          return addDisk(scene, { 0.5, -1.0, 1.0 }, { 1.0, 0.5, 0.0 }, 0.4);
+        }) },
+    // Grazing receivers.
+    { "sunAlongTheFloor", 0.0004, { { 0.0017, 0 }, { 0.0023, 0 }, { 0.0012, 0 }, { 0.0004, 0 } },
+      things(
+        [](PassScene& scene) {
+          return addSun(scene, { 1.0, 0.2, -0.02 }, "1");
+        }) },
+    { "sunAcrossTheHorizon", 0.0027, { { 0.012, 0 }, { 0.0088, 0 }, { 0.0029, 0 }, { 0.0027, 0 } },
+      things(
+        [](PassScene& scene) {
+          return addSun(scene, { 1.0, 0.2, -0.05 }, "20");
+        }) },
+    // Huge lights.
+    { "sunOfHalfTheSky", 0.011, { { 0.052, 0 }, { 0.01, 0 }, { 0.012, 0 }, { 0.019, 0 } },
+      things([](PassScene& scene) { return addSun(scene, slanting, "120"); }) },
+    { "ballOfTheScenesSize", 0.0061, { { 0.02, 0 }, { 0.008, 0 }, { 0.0066, 0 }, { 0.0061, 0 } },
+      things(
+        [](PassScene& scene) {
+          return addBall(scene, { 3.0, -3.0, 9.0 }, "5");
+        }) },
+    { "diskOfTenScenes", 0.019, { { 0.184, 0 }, { 0.014, 0 }, { 0.019, 0 }, { 0.043, 0 } },
+      things(
+        [](PassScene& scene) {
+          return addDisk(scene, { 0.0, 0.0, 6.0 }, down, 80.0);
+        }) },
+    // Sheets, whose other side is lit as well, and open meshes.
+    { "sheets", 0.0012, { { 0.0034, 0 }, { 0.0079, 4 }, { 0.0022, 34 }, { 0.0012, 0 } },
+      [](PassScene& scene)
+      {
+        scene.addFloor(4.0);
+        addSheet(scene, { -3.0, -1.0 }, { -1.0, 1.0 }, 0.001);
+        addSheet(scene, { -0.5, -1.0 }, { 1.0, 1.0 }, 0.5);
+        addSheet(scene, { 0.0, -1.0 }, { 1.5, 1.0 }, 0.501);
+        addSheet(scene, { 2.0, -2.0 }, { 3.0, 2.0 }, 1.5);
+        scene.lookFrom({ 0.0, -9.0, 7.0 });
+        return addDisk(scene, over, down, 0.5);
+      } },
+    { "sheetsAlongTheLight", 0.0013, { { 0.0079, 0 }, { 0.017, 0 }, { 0.0022, 0 }, { 0.0013, 0 } },
+      [](PassScene& scene)
+      {
+        scene.addFloor(4.0);
+        for (int i = 0; i < 6; ++i)
+        {
+          vtkActor* sheet = scene.addFloor(1.0);
+          sheet->SetOrientation(0.0, 90.0, 0.0);
+          sheet->SetPosition(-2.5 + i, 0.0, 1.0);
+        }
+        scene.lookFrom({ 0.0, -9.0, 7.0 });
+        return addDisk(scene, { 0.5, 0.0, 6.0 }, down, 0.3);
+      } },
+    { "halfSpheres", 0.0008, { { 0.0022, 0 }, { 0.0065, 0 }, { 0.0008, 0 }, { 0.0008, 0 } },
+      [](PassScene& scene)
+      {
+        scene.addFloor(4.0);
+        for (const double x : { -1.5, 1.5 })
+        {
+          vtkNew<vtkSphereSource> bowl;
+          bowl->SetRadius(1.0);
+          bowl->SetThetaResolution(24);
+          bowl->SetPhiResolution(24);
+          bowl->SetEndPhi(90.0);
+          vtkActor* actor = scene.add(bowl);
+          actor->SetPosition(x, 0.0, x > 0.0 ? 1.2 : 0.2);
+          actor->RotateX(x > 0.0 ? 180.0 : 0.0);
+        }
+        scene.lookFrom({ 0.0, -9.0, 7.0 });
+        return addDisk(scene, over, down, 0.5);
+      } },
+    { "lampInAShade", 0.0093, { { 0.013, 0 }, { 0.014, 0 }, { 0.0097, 0 }, { 0.0093, 0 } },
+      [](PassScene& scene)
+      {
+        scene.addFloor(4.0);
+        vtkNew<vtkSphereSource> shade;
+        shade->SetRadius(0.6);
+        shade->SetThetaResolution(24);
+        shade->SetPhiResolution(24);
+        shade->SetEndPhi(110.0);
+        scene.add(shade)->SetPosition(0.0, 0.0, 2.0);
+        scene.addBox({ 1.5, -0.5, 0.0 }, { 2.5, 0.5, 0.8 });
+        scene.lookFrom({ 0.0, -9.0, 7.0 });
+        return addBall(scene, { 0.0, 0.0, 2.0 }, "0.15");
+      } },
+    { "postsOfATexel", 0.0008, { { 0.0023, 0 }, { 0.0095, 0 }, { 0.0013, 0 }, { 0.0008, 0 } },
+      [](PassScene& scene)
+      {
+        scene.addFloor(4.0);
+        for (int i = 0; i < 15; ++i)
+        {
+          const double x = -3.5 + 0.5 * i;
+          scene.addBox({ x, -0.02, 0.0 }, { x + 0.04, 0.02, 1.5 });
+        }
+        scene.lookFrom({ 0.0, -9.0, 7.0 });
+        return addDisk(scene, { 0.0, -3.0, 6.0 }, down, 0.3);
+      } },
+    { "unitsOfAThousandth", 0.001, { { 0.0036, 0 }, { 0.0077, 3 }, { 0.0012, 0 }, { 0.001, 0 } },
+      thingsAt(1e-3, glm::dvec3(0.0)) },
+    { "unitsOfAMillion", 0.001, { { 0.0036, 0 }, { 0.0077, 3 }, { 0.0012, 0 }, { 0.001, 0 } },
+      thingsAt(1e6, glm::dvec3(0.0)) },
+    { "aMillionAway", 0.001, { { 0.0045, 0 }, { 0.0082, 3 }, { 0.0014, 0 }, { 0.001, 0 } },
+      thingsAt(1.0, { 1e6, -1e6, 1e6 }) },
+  };
+  return cases;
+}
+
+/// What is seen along itself has no shade. The normals of the image route are known to this.
+constexpr double leastCosine = 1e-5;
+
+/// How a technique differs from the truth.
+struct SoftError
+{
+  double meanAbsolute = 0.0;
+  double rootMeanSquare = 0.0;
+  /// Pixels that are not fully lit, or not dark, as are all around them in truth: acne and leaks.
+  std::size_t spots = 0;
+};
+
+/// Whether all pixels around one have this visibility, as far as montecarlo's filter takes.
+bool isAmong(const VisibilityImages& truth, int x, int y, float visibility)
+{
+  for (int dy = -6; dy <= 6; ++dy)
+  {
+    for (int dx = -6; dx <= 6; ++dx)
+    {
+      const int column = std::clamp(x + dx, 0, truth.width - 1);
+      const int row = std::clamp(y + dy, 0, truth.height - 1);
+      if (truth.visibility[0][static_cast<std::size_t>(row * truth.width + column)] != visibility)
+      {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+SoftError errorOf(
+  const std::vector<float>& visibility, const VisibilityImages& truth, vtkLight* light)
+{
+  SoftError error;
+  double count = 0.0;
+  for (int y = 0; y < truth.height; ++y)
+  {
+    for (int x = 0; x < truth.width; ++x)
+    {
+      const auto i = static_cast<std::size_t>(y * truth.width + x);
+      if (truth.coverage[i] < 0.5f || cosineTowards(truth, i, light) <= leastCosine)
+      {
+        continue;
+      }
+      const double difference = visibility[i] - truth.visibility[0][i];
+      count += 1.0;
+      error.meanAbsolute += std::abs(difference);
+      error.rootMeanSquare += difference * difference;
+      error.spots += (visibility[i] < 0.95f && isAmong(truth, x, y, 1.0f)) ||
+          (visibility[i] > 0.05f && isAmong(truth, x, y, 0.0f))
+        ? 1
+        : 0;
+    }
+  }
+  error.meanAbsolute /= count;
+  error.rootMeanSquare = std::sqrt(error.rootMeanSquare / count);
+  return error;
+}
+
+void PrintTo(const SoftCase& softCase, std::ostream* stream)
+{
+  *stream << softCase.name;
+}
+
+class SoftHardCases
+  : public PassTest
+  , public testing::WithParamInterface<SoftCase>
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(All, SoftHardCases, testing::ValuesIn(softCases()),
+  [](const testing::TestParamInfo<SoftCase>& softCase)
+  { return std::string(softCase.param.name); });
+
+TEST_P(SoftHardCases, stayFiniteAndNearTheTruth)
+{
+  const SoftCase& softCase = GetParam();
+  PassScene scene(120, 90);
+  scene.pass->SetMapSize(512);
+  vtkLight* const light = softCase.build(scene);
+  const auto draw = [&](const char* technique)
+  {
+    scene.pass->SetTechnique(technique);
+    return drawKept(scene); // which holds that numbers are finite and in [0, 1]
+  };
+  scene.pass->SetSetting("light_samples", "1024");
+  scene.pass->SetSetting("light_seed", "1");
+  const VisibilityImages truth = draw("raytraced");
+  scene.pass->SetSetting("light_samples", "64");
+  scene.pass->SetSetting("light_seed", "0");
+  const std::vector<float> traced = draw("raytraced").visibility[0];
+  EXPECT_EQ(draw("penumbra").visibility[0], traced);
+  const auto measure = [&](
+                         const char* name, const std::vector<float>& visibility, const Bound& bound)
+  {
+    const SoftError error = errorOf(visibility, truth, light);
+    this->RecordProperty(name,
+      std::to_string(error.meanAbsolute) + " / " + std::to_string(error.rootMeanSquare) + ", " +
+        std::to_string(error.spots));
+    EXPECT_LE(error.meanAbsolute, bound.meanAbsolute) << name;
+    EXPECT_LE(error.spots, bound.spots) << name;
+  };
+  measure("raytraced", traced, { softCase.tracedMeanAbsolute, 0 });
+  for (std::size_t i = 0; i < std::size(mapTechniques); ++i)
+  {
+    const char* const technique = mapTechniques[i];
+    measure(technique, draw(technique).visibility[0], softCase.mapped[i]);
+    // The picture, by the technique's own route.
+    scene.pass->KeepVisibilityOff();
+    scene.render();
+    scene.pass->KeepVisibilityOn();
+  }
+}
+
+//------------------------------------------------------------------------------
+/// What nothing is in the way of is fully lit, whatever the light's size and place.
+TEST(SoftReceivers, thatSeeAllOfTheLightHaveNoAcne)
+{
+  PassScene scene(90, 60);
+  scene.pass->SetMapSize(256);
+  scene.addBox({ -4.0, -4.0, -0.2 }, { 4.0, 4.0, 0.0 });
+  scene.lookFrom({ 2.0, -8.0, 7.0 });
+  struct Place
+  {
+    glm::dvec3 position;
+    glm::dvec3 travel;
+  };
+  const Place places[] = { { { 0.5, 0.2, 4.0 }, down }, { { 0.5, 0.2, 0.05 }, down },
+    { { 0.5, 0.2, 0.3 }, { 1.0, 0.3, 0.0 } }, { { 30.0, 5.0, 0.5 }, { -1.0, 0.0, 0.0 } } };
+  for (const Place& place : places)
+  {
+    for (const double cone : { 40.0, 90.0 })
+    {
+      for (const double radius : { 0.0, 1e-6, 0.3, 50.0 })
+      {
+        vtkLight* const light = addDisk(scene, place.position, place.travel, radius, cone);
+        scene.pass->SetTechnique("nsm");
+        const std::vector<float> plain = drawKept(scene).visibility[0];
+        for (const char* technique :
+          { "pcss", "montecarlo", "sampled", "coherence", "penumbra", "raytraced" })
+        {
+          scene.pass->SetTechnique(technique);
+          EXPECT_EQ(drawKept(scene).visibility[0], plain)
+            << technique << " at " << place.position.z << ", cone " << cone << ", radius "
+            << radius;
+        }
+        scene.renderer->RemoveLight(light);
+      }
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+/// Across the penumbra of a half plane: along lines on which the truth is the same, the mean visibility falls from
+/// column to column without steps, which would show as bands.
+TEST(SoftPenumbras, haveNoBandsByDefault)
+{
+  PassScene scene(200, 100);
+  scene.addFloor(20.0);
+  scene.addBox({ -12.0, -4.0, 1.999 }, { 0.0, 4.0, 2.0 });
+  scene.lookDown(0.5);
+  scene.renderer->GetActiveCamera()->SetPosition(0.0, 0.0, 1.5); // below the half plane
+  scene.renderer->GetActiveCamera()->SetClippingRange(0.1, 3.0);
+  addDisk(scene, { 0.0, 0.0, 10.0 }, down, 1.2, 50.0);
+  // The penumbra is 60 columns wide, and steepest in its middle, where the light's diameter is cut.
+  const double steepest = 4.0 / std::acos(-1.0) / 60.0;
+  for (const char* technique : { "raytraced", "penumbra", "pcss", "montecarlo" })
+  {
+    scene.pass->SetTechnique(technique);
+    const VisibilityImages& kept = drawKept(scene);
+    std::vector<double> columns(static_cast<std::size_t>(kept.width), 0.0);
+    for (std::size_t i = 0; i < kept.visibility[0].size(); ++i)
+    {
+      columns[i % columns.size()] += kept.visibility[0][i] / kept.height;
+    }
+    double step = 0.0;
+    for (std::size_t x = 1; x < columns.size(); ++x)
+    {
+      step = std::max(step, std::abs(columns[x] - columns[x - 1]));
+    }
+    RecordProperty(technique, std::to_string(step));
+    EXPECT_LT(columns.front(), 0.01) << technique;
+    EXPECT_GT(columns.back(), 0.99) << technique;
+    EXPECT_LT(step, 1.4 * steepest) << technique;
+  }
+}
+
+} // namespace
