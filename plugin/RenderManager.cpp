@@ -163,7 +163,7 @@ void RenderManager::endStageClock(const std::string& name)
 //------------------------------------------------------------------------------
 bool RenderManager::collectLights(vtkRenderer* renderer, const ShadowSettings& defaults)
 {
-  const LightSet set = LightManager::collect(renderer, defaults);
+  const LightSet set = this->lightManager_.collect(renderer, defaults);
   for (const SkippedLight& skipped : set.skipped)
   {
     LightReport light;

@@ -147,6 +147,7 @@ private:
   std::chrono::steady_clock::time_point stageStart_;
   int compilesBefore_ = 0;
 
+  LightManager lightManager_;
   std::map<int, LightSlot> slots_; ///< by the light's place in the scene
   std::vector<LightSlot*> casting_;
   ViewCount viewCount_;

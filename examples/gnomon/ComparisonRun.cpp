@@ -37,7 +37,7 @@ ShadowSettings settingsOf(const VariantSpec& spec)
 /// @throws CompositionError where one of the scene's lights refuses a variant's settings
 void requireComposition(const VariantSpec& spec, vtkRenderer* renderer)
 {
-  for (ShadowLight light : LightManager::collect(renderer, settingsOf(spec)).casting)
+  for (ShadowLight light : LightManager().collect(renderer, settingsOf(spec)).casting)
   {
     compose(light);
   }
