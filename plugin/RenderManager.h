@@ -124,6 +124,8 @@ private:
     std::unique_ptr<Technique> plain;
     Bake plainBake;
     ShadowLight light;
+    int layer = 0;    ///< of the visibility layers, its first
+    int channels = 1; ///< of its visibility, a layer each
     ReceiverFit receiverFit;
   };
 
@@ -136,6 +138,7 @@ private:
   LightReport& reportOf(const ShadowLight& light);
   void updateTracer(int wished);
   void keepVisibility(const ReceiverPixels& receivers);
+  void keepLayers(const LightSlot& slot);
   bool readsPoints() const;
   CameraView camera(vtkRenderer* renderer) const;
   ReceiverSpace receiverSpace(const vtkRenderState* s) const;
