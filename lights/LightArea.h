@@ -9,8 +9,8 @@
 namespace gnomon
 {
 
-/// What a light that is more than a point shines from: a shape around its centre, all of whose points
-/// shine alike. It is symmetric about the centre, so that opposite every point there is another one.
+/// What a light that is more than a point shines from: a shape around its centre. Its points shine alike unless it has a
+/// texture (LightTexture.h). It is symmetric about the centre, so that opposite every point there is another one.
 struct LightArea
 {
   enum class Shape

@@ -4,6 +4,7 @@
 #include "vtkGnomonLightKeys.h"
 
 #include <vtkCollection.h>
+#include <vtkImageData.h>
 #include <vtkInformation.h>
 #include <vtkInformationDoubleKey.h>
 #include <vtkInformationDoubleVectorKey.h>
@@ -18,6 +19,7 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <utility>
 
 namespace gnomon
 {
@@ -89,7 +91,7 @@ struct AreaSize
 {
   LightArea::Shape shape = LightArea::Shape::Disk;
   glm::dvec2 size{ 0.0 }; ///< width and height, or twice the radius
-  glm::dvec3 up{ 0.0 };   ///< of a rectangle, in the light's own coordinates
+  glm::dvec3 up{ 0.0 };   ///< of vtkGnomonAreaLight, in the light's own coordinates
 };
 
 /// A radius as OSPRay measures it is of a directional light the whole angle already.
@@ -111,31 +113,43 @@ AreaSize readAreaSize(vtkLight* light, const ShadowSettings& settings)
   {
     return roundSize(light, ospRayRadius(light), round);
   }
-  return area->GetShape() == vtkGnomonAreaLight::DISK
+  AreaSize size = area->GetShape() == vtkGnomonAreaLight::DISK
     ? roundSize(light, area->GetRadius(), LightArea::Shape::Disk)
-    : AreaSize{ LightArea::Shape::Rectangle, { area->GetWidth(), area->GetHeight() },
-        glm::make_vec3(area->GetUp()) };
+    : AreaSize{ LightArea::Shape::Rectangle, { area->GetWidth(), area->GetHeight() } };
+  size.up = glm::make_vec3(area->GetUp());
+  return size;
 }
 
-/// The area of a light that is more than a point.
+/// A light that is more than a point, and how its colour is spread.
+struct LitArea
+{
+  std::optional<LightArea> area;
+  std::optional<PlacedTexture> texture;
+};
+
+/// @param texture null: its points shine alike
 /// @param reason to skip the light; filled, if it is empty, where its numbers give no area
-std::optional<LightArea> readArea(
-  vtkLight* light, const ShadowSettings& settings, std::string& reason)
+LitArea readArea(vtkLight* light, const ShadowSettings& settings,
+  const std::shared_ptr<const LightTexture>& texture, std::string& reason)
 {
   const auto skip = [&](const char* why)
   {
     reason = reason.empty() ? why : reason;
-    return std::nullopt;
+    return LitArea();
   };
+  if (texture && settings.lightRadius > 0.0)
+  {
+    return skip("its texture lies on its own area, which 'light_radius' replaces");
+  }
   const AreaSize wished = readAreaSize(light, settings);
   if (!std::isfinite(wished.size.x) || !std::isfinite(wished.size.y))
   {
     return skip("its area is not finite");
   }
   const glm::dvec2 size = glm::max(wished.size, glm::dvec2(0.0));
-  if (size == glm::dvec2(0.0))
+  if (size == glm::dvec2(0.0) && !texture)
   {
-    return std::nullopt;
+    return {};
   }
   const double longest = std::max(size.x, size.y);
   if (!light->GetPositional() && longest >= 180.0)
@@ -149,7 +163,7 @@ std::optional<LightArea> readArea(
   const glm::dvec2 half = light->GetPositional() ? 0.5 * size : glm::tan(glm::radians(0.5 * size));
   if (wished.shape == LightArea::Shape::Ball)
   {
-    return ballArea(half.x);
+    return { ballArea(half.x), std::nullopt };
   }
   glm::dvec3 position;
   glm::dvec3 focalPoint;
@@ -161,9 +175,10 @@ std::optional<LightArea> readArea(
     return skip("its position and focal point give no direction");
   }
   const glm::dvec3 travel = (focalPoint - position) / distance;
-  if (wished.shape == LightArea::Shape::Disk)
+  const bool isDisk = wished.shape == LightArea::Shape::Disk;
+  if (isDisk && !texture)
   {
-    return diskArea(travel, half.x);
+    return { diskArea(travel, half.x), std::nullopt };
   }
   glm::dvec3 up = wished.up;
   glm::dvec3 upWorld;
@@ -176,7 +191,16 @@ std::optional<LightArea> readArea(
   {
     return skip("its area has its up direction along the light");
   }
-  return rectangleArea(travel, upWorld, half);
+  LitArea lit;
+  if (size != glm::dvec2(0.0))
+  {
+    lit.area = isDisk ? diskArea(travel, half.x) : rectangleArea(travel, upWorld, half);
+  }
+  if (texture)
+  {
+    lit.texture = placeTexture(texture, wished.shape, travel, upWorld, half);
+  }
+  return lit;
 }
 
 /// What is asked of a light's shadows.
@@ -296,8 +320,7 @@ std::string firstReason(
   return {};
 }
 
-ShadowLight readLight(
-  vtkLight* light, const ShadowSettings& settings, const std::optional<LightArea>& area)
+ShadowLight readLight(vtkLight* light, const ShadowSettings& settings, LitArea lit)
 {
   ShadowLight result;
   static_cast<ShadowSettings&>(result) = settings;
@@ -313,7 +336,8 @@ ShadowLight readLight(
   }
   result.coneAngleDegrees = result.kind == LightKind::Spot ? light->GetConeAngle() : 0.0;
   result.box = readBox(light);
-  result.area = area;
+  result.area = lit.area;
+  result.texture = std::move(lit.texture);
   result.strength = glm::clamp(static_cast<double>(light->GetShadowAttenuation()), 0.0, 1.0);
 
   return result;
@@ -325,6 +349,7 @@ ShadowLight readLight(
 LightSet LightManager::collect(vtkRenderer* renderer, const ShadowSettings& defaults)
 {
   LightSet set;
+  ReadTextures textures;
   int sceneIndex = 0;
   int shaderIndex = 0;
   vtkLightCollection* lights = renderer->GetLights();
@@ -334,10 +359,11 @@ LightSet LightManager::collect(vtkRenderer* renderer, const ShadowSettings& defa
   {
     std::string reason = firstReason(light, { whyDark, whyWithoutShadow, whyWithoutPlace });
     const ShadowSettings settings = readSettings(light, defaults, reason);
-    const std::optional<LightArea> area = readArea(light, settings, reason);
+    const std::shared_ptr<const LightTexture> texture = this->textureOf(light, textures, reason);
+    LitArea lit = readArea(light, settings, texture, reason);
     if (reason.empty())
     {
-      set.casting.push_back(readLight(light, settings, area));
+      set.casting.push_back(readLight(light, settings, std::move(lit)));
       set.casting.back().sceneIndex = sceneIndex;
       set.casting.back().shaderIndex = shaderIndex;
     }
@@ -349,6 +375,7 @@ LightSet LightManager::collect(vtkRenderer* renderer, const ShadowSettings& defa
     // VTK numbers lightColorN over the lights that are switched on, whether or not they cast.
     shaderIndex += light->GetSwitch() ? 1 : 0;
   }
+  this->textures_ = std::move(textures);
   return set;
 }
 
@@ -357,6 +384,7 @@ std::vector<ShadowLight> LightManager::collectAreas(
   vtkRenderer* renderer, const ShadowSettings& defaults)
 {
   std::vector<ShadowLight> areas;
+  ReadTextures textures;
   int sceneIndex = 0;
   vtkLightCollection* lights = renderer->GetLights();
   vtkCollectionSimpleIterator iterator;
@@ -365,14 +393,16 @@ std::vector<ShadowLight> LightManager::collectAreas(
   {
     std::string reason = firstReason(light, { whyDark, whyWithoutPlace });
     const ShadowSettings settings = readSettings(light, defaults, reason);
-    const std::optional<LightArea> area = readArea(light, settings, reason);
-    if (reason.empty() && area && area->radius() > 0.0)
+    const std::shared_ptr<const LightTexture> texture = this->textureOf(light, textures, reason);
+    LitArea lit = readArea(light, settings, texture, reason);
+    if (reason.empty() && lit.area && lit.area->radius() > 0.0)
     {
-      areas.push_back(readLight(light, settings, area));
+      areas.push_back(readLight(light, settings, std::move(lit)));
       areas.back().sceneIndex = sceneIndex;
     }
     ++sceneIndex;
   }
+  this->textures_ = std::move(textures);
   return areas;
 }
 
@@ -384,6 +414,31 @@ void LightManager::makePoint(vtkLight* light)
   {
     light->GetInformation()->Remove(key);
   }
+}
+
+//------------------------------------------------------------------------------
+/// The texture of a light that has one.
+/// @param current gets what is read or kept
+/// @param reason to skip the light; filled, if it is empty, where its image is no texture
+std::shared_ptr<const LightTexture> LightManager::textureOf(
+  vtkLight* light, ReadTextures& current, std::string& reason)
+{
+  auto* area = vtkGnomonAreaLight::SafeDownCast(light);
+  vtkImageData* const image = area ? area->GetTexture() : nullptr;
+  if (!image)
+  {
+    return nullptr;
+  }
+  ReadTexture& read = current[image];
+  read = this->textures_[image];
+  if (read.modified != image->GetMTime())
+  {
+    read = {};
+    read.modified = image->GetMTime();
+    read.texture = readLightTexture(image, read.reason);
+  }
+  reason = reason.empty() ? read.reason : reason;
+  return read.texture;
 }
 
 } // namespace gnomon

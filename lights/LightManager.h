@@ -3,9 +3,13 @@
 
 #include "lights/ShadowLight.h"
 
+#include <cstdint>
+#include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
+class vtkImageData;
 class vtkLight;
 class vtkRenderer;
 
@@ -34,19 +38,35 @@ struct LightSet
 /// strength 0, and those whose numbers give no light (a cone without angle, an empty box, an endless
 /// area). How large a light is follows from the setting `light_radius`, else from vtkGnomonAreaLight, else from
 /// OSPRay's key for it.
+///
+/// Textures of lights are kept until the next frame: an image is read once, and again when it has changed.
 class LightManager
 {
 public:
   /// @param defaults what lights fall back on where they say nothing themselves (vtkGnomonLightKeys)
-  static LightSet collect(vtkRenderer* renderer, const ShadowSettings& defaults);
+  LightSet collect(vtkRenderer* renderer, const ShadowSettings& defaults);
 
   /// The renderer's lights that shine from more than a point, whether or not they cast shadows.
-  static std::vector<ShadowLight> collectAreas(
-    vtkRenderer* renderer, const ShadowSettings& defaults);
+  std::vector<ShadowLight> collectAreas(vtkRenderer* renderer, const ShadowSettings& defaults);
 
   /// Takes from a light whatever it says of an area. (The area of vtkGnomonAreaLight is the class's: such a light is
   /// exchanged.)
   static void makePoint(vtkLight* light);
+
+private:
+  /// What readLightTexture() has made of an image.
+  struct ReadTexture
+  {
+    std::uint64_t modified = 0; ///< the image's MTime
+    std::shared_ptr<const LightTexture> texture;
+    std::string reason; ///< why it is null
+  };
+  using ReadTextures = std::map<vtkImageData*, ReadTexture>;
+
+  std::shared_ptr<const LightTexture> textureOf(
+    vtkLight* light, ReadTextures& current, std::string& reason);
+
+  ReadTextures textures_; ///< of the frame before
 };
 
 } // namespace gnomon

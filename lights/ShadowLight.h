@@ -2,6 +2,7 @@
 #define gnomon_lights_ShadowLight_h
 
 #include "lights/LightArea.h"
+#include "lights/LightTexture.h"
 #include "lights/ShadowSettings.h"
 
 #include <glm/glm.hpp>
@@ -47,13 +48,16 @@ struct ShadowLight : ShadowSettings
   /// What it shines from around its centre, of a light that is more than a point. Techniques with hard
   /// shadows take the centre; only the centre says what the light reaches: its cone, its box.
   std::optional<LightArea> area;
+  /// How its colour is spread over the area; none: evenly. Where there is no area, its mean is what counts.
+  std::optional<PlacedTexture> texture;
 
   /// Place in the renderer's light collection, counted over all lights.
   int sceneIndex = 0;
   /// Place among the lights that are switched on: the N of VTK's shader uniform lightColorN.
   int shaderIndex = 0;
 
-  /// How much of the light a full shadow takes away, in [0, 1]: shading uses mix(1, v, strength).
+  /// How much of the light a full shadow takes away, in [0, 1]: shading uses
+  /// mix(lit, v, strength), where lit is 1 or the texture's mean.
   double strength = 1.0;
 
   /// Whether this frame fits the light's views to the receivers that are drawn, on the GPU

@@ -21,6 +21,7 @@ void vtkGnomonAreaLight::CopyArea(vtkGnomonAreaLight* light)
   this->SetWidth(light->Width);
   this->SetHeight(light->Height);
   this->SetUp(light->Up);
+  this->SetTexture(light->Texture);
 }
 
 //------------------------------------------------------------------------------
@@ -51,4 +52,5 @@ void vtkGnomonAreaLight::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Width: " << this->Width << "\n";
   os << indent << "Height: " << this->Height << "\n";
   os << indent << "Up: (" << this->Up[0] << ", " << this->Up[1] << ", " << this->Up[2] << ")\n";
+  os << indent << "Texture: " << this->Texture.Get() << "\n";
 }

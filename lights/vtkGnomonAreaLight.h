@@ -12,7 +12,7 @@
  * @endcode
  *
  * A rectangle or a disk around the light's Position, across the direction to its FocalPoint. All of its
- * points shine alike. Which of them a surface sees is its visibility; shading is VTK's own, from the
+ * points shine alike, unless it has a Texture. Which of them a surface sees is its visibility; shading is VTK's own, from the
  * centre, and so are the cone and the box (vtkGnomonLightKeys) that the light may have. Techniques with
  * hard shadows take the centre's. "raytraced", "penumbra", "sampled" and "planar" take the whole area, by as many points
  * as the setting "light_samples" says (vtkGnomonLightKeys::SetSetting), and so do "pcss" and "montecarlo".
@@ -32,14 +32,16 @@
  * the pass, makes any light such a disk or ball.
  *
  * A light of size 0 is a point. One whose size is not finite or beyond 1e12, or which has no direction, or
- * of a rectangle an up direction along it, casts no shadow, which the frame's report says.
+ * of a rectangle an up direction along it, casts no shadow, which the frame's report says. So does one with a bad Texture.
  */
 
 #ifndef vtkGnomonAreaLight_h
 #define vtkGnomonAreaLight_h
 
 #include "GnomonLightsModule.h" // For export macro
+#include "vtkImageData.h"
 #include "vtkLight.h"
+#include "vtkSmartPointer.h"
 
 class GNOMONLIGHTS_EXPORT vtkGnomonAreaLight : public vtkLight
 {
@@ -85,7 +87,7 @@ public:
 
   ///@{
   /**
-   * Which way is up in a rectangle: not along the light, of any length, in the light's own coordinates
+   * Which way is up in a rectangle, and in a disk with a Texture: not along the light, of any length, in the light's own coordinates
    * as its Position is. The height lies in the plane of Up and the light's direction. (0, 1, 0) by
    * default.
    */
@@ -93,14 +95,37 @@ public:
   vtkGetVector3Macro(Up, double);
   ///@}
 
+  ///@{
   /**
-   * A light of this class with the same parameters; it shares the transform matrix, if there is one.
+   * How the light's colour is spread over its area: a picture that its light comes through, as through the panes of a
+   * window. A point of the light shines with the light's colour times the colour of the texel there (the nearest one),
+   * channel by channel; null, the default, and all white: all points shine alike. What nothing hides the light from gets the
+   * light's colour times the picture's mean. Who looks at the light from where it shines to, with Up upwards, sees the picture
+   * as it is: its first row at the bottom, as images of VTK have it. A disk shows what of the picture lies inside of the circle
+   * that touches its sides.
+   *
+   * The image has one slice, with 1 to 4 components a point: grey or colours, and an alpha, which means nothing. Values of
+   * unsigned char and unsigned short go from 0 to the type's greatest, of float and double from 0 to 1, each in 255 steps. They
+   * are taken as they stand, as light colours are: no colour space is converted. With anything else, or with the setting
+   * "light_radius", the light casts no shadow, for the reason that the frame's report gives, and is VTK's own, without texture.
+   *
+   * "raytraced", "penumbra", "montecarlo" and "sampled" show it; of others visibility has one channel, and the light is
+   * an even one of the picture's mean.
+   *
+   * The light shares the image, and sees when it is modified. A pipeline is not updated.
+   */
+  vtkSetSmartPointerMacro(Texture, vtkImageData);
+  vtkGetSmartPointerMacro(Texture, vtkImageData);
+  ///@}
+
+  /**
+   * A light of this class with the same parameters; it shares the transform matrix and the texture, if there are any.
    */
   vtkLight* ShallowClone() override;
 
   /**
    * Copy all parameters; of a light that is none of this class, those that all lights have. The
-   * transform matrix and the information are copied, not shared.
+   * transform matrix and the information are copied, not shared; the texture is shared.
    */
   void DeepCopy(vtkLight* light);
 
@@ -113,6 +138,7 @@ protected:
   double Width = 1.0;
   double Height = 1.0;
   double Up[3] = { 0.0, 1.0, 0.0 };
+  vtkSmartPointer<vtkImageData> Texture;
 
 private:
   void CopyArea(vtkGnomonAreaLight* light);

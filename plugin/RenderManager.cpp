@@ -23,6 +23,7 @@
 #include <vtkVolume.h>
 
 #include <algorithm>
+#include <array>
 
 namespace gnomon
 {
@@ -184,7 +185,7 @@ void RenderManager::endStageClock(const std::string& name)
 //------------------------------------------------------------------------------
 bool RenderManager::collectLights(vtkRenderer* renderer, const ShadowSettings& defaults)
 {
-  const LightSet set = LightManager::collect(renderer, defaults);
+  const LightSet set = this->lightManager_.collect(renderer, defaults);
   for (const SkippedLight& skipped : set.skipped)
   {
     LightReport light;
@@ -235,6 +236,12 @@ bool RenderManager::collectLights(vtkRenderer* renderer, const ShadowSettings& d
       slot.technique = estimator->create();
     }
     slot.light = light;
+    slot.channels = channelsOf(info, light);
+    if (light.texture && !info.seesTextures)
+    {
+      this->report_.notes.push_back("light " + std::to_string(light.sceneIndex) + ": '" +
+        light.technique + "' shows an even light of its texture's mean colour");
+    }
     slots[light.sceneIndex] = std::move(slot);
 
     LightReport report;
@@ -250,8 +257,11 @@ bool RenderManager::collectLights(vtkRenderer* renderer, const ShadowSettings& d
     this->report_.lights.push_back(report);
   }
   this->slots_ = std::move(slots);
+  int layer = 0;
   for (auto& [sceneIndex, slot] : this->slots_)
   {
+    slot.layer = layer;
+    layer += slot.channels;
     this->casting_.push_back(&slot);
   }
   std::sort(this->report_.lights.begin(), this->report_.lights.end(),
@@ -335,7 +345,7 @@ bool RenderManager::chooseRoute(int wished, bool keepVisibility)
   std::vector<ShadedLight> lights;
   for (LightSlot* slot : this->casting_)
   {
-    lights.push_back({ slot->light, this->pointwiseFor(*slot) });
+    lights.push_back({ slot->light, slot->layer, slot->channels, this->pointwiseFor(*slot) });
   }
   this->shaders_.configure({ this->route_, this->readsPoints(), samples > 1 }, lights);
   return wished != vtkGnomonShadowPass::ROUTE_INLINE || screenTechnique.empty();
@@ -474,7 +484,8 @@ void RenderManager::drawReceivers(const vtkRenderState* s, vtkGnomonShadowPass* 
     pixelRays(this->camera_.clipFromView, this->stageValues_.space.centredFromView, width, height);
   this->receiversShown_ = hashOfShown(s, this->camera_, size);
 
-  this->layers_.resize(width, height, static_cast<int>(this->casting_.size()));
+  const LightSlot& last = *this->casting_.back();
+  this->layers_.resize(width, height, last.layer + last.channels);
   this->stageValues_.layers = { GL_TEXTURE_2D_ARRAY, this->layers_.texture() };
   this->stageValues_.layersSize = size;
   this->stageValues_.receiversStage = true;
@@ -694,16 +705,15 @@ void RenderManager::computeVisibility(int wishedTracer, bool keep)
   const bool classify = keep || this->measureStages_;
   std::vector<float> visibility;
   std::vector<std::uint8_t> classes;
-  for (std::size_t i = 0; i < this->casting_.size(); ++i)
+  for (LightSlot* const casting : this->casting_)
   {
-    LightSlot& slot = *this->casting_[i];
+    LightSlot& slot = *casting;
     LightReport& report = this->reportOf(slot.light);
     const TechniqueInfo& info = slot.estimator->info;
-    const int layer = static_cast<int>(i);
     switch (info.evaluation)
     {
       case Evaluation::Pointwise:
-        this->layers_.estimate(layer, *slot.technique, slot.light, this->receiverTarget_,
+        this->layers_.estimate(slot.layer, *slot.technique, slot.light, this->receiverTarget_,
           this->stageValues_.space, this->library_);
         this->endStageClock("visibility: estimate");
         break;
@@ -715,8 +725,9 @@ void RenderManager::computeVisibility(int wishedTracer, bool keep)
             slot.technique->drawVisibility(
               { slot.light, slot.bake.fitting, this->camera_, this->stageValues_.space, occluders,
                 this->buffers_, this->receiverTarget_, this->receiversShown_,
-                this->collector_.drawnSurfaces(), this->layers_, layer, this->library_, classify,
-                classify ? &classes : nullptr, this->report_.notes, this->report_.mapBakes },
+                this->collector_.drawnSurfaces(), this->layers_, slot.layer, this->library_,
+                classify, classify ? &classes : nullptr, this->report_.notes,
+                this->report_.mapBakes },
               report);
           });
         this->endStageClock("visibility: draw");
@@ -731,7 +742,7 @@ void RenderManager::computeVisibility(int wishedTracer, bool keep)
               visibility, report);
           });
         this->endStageClock("visibility: trace");
-        this->layers_.upload(layer, visibility);
+        this->layers_.upload(slot.layer, visibility);
         this->endStageClock("visibility: upload");
         break;
     }
@@ -741,10 +752,12 @@ void RenderManager::computeVisibility(int wishedTracer, bool keep)
     }
     if (keep)
     {
-      this->visibility_.classes.push_back({ info.classes,
-        info.classes.empty()
-          ? std::vector<std::uint8_t>()
-          : topRowFirst(classes, this->receiverImages_.width, this->receiverImages_.height) });
+      this->visibility_.classes.resize(
+        this->visibility_.classes.size() + (slot.light.texture ? 3 : 1),
+        { info.classes,
+          info.classes.empty()
+            ? std::vector<std::uint8_t>()
+            : topRowFirst(classes, this->receiverImages_.width, this->receiverImages_.height) });
     }
   }
   if (keep)
@@ -761,12 +774,9 @@ void RenderManager::keepVisibility(const ReceiverPixels& receivers)
   kept.height = receivers.height;
   const glm::dvec3 centre = this->collector_.occluders().centreWorld;
   kept.origin = { { centre.x, centre.y, centre.z } };
-  for (std::size_t i = 0; i < this->casting_.size(); ++i)
+  for (const LightSlot* slot : this->casting_)
   {
-    std::vector<float> layer;
-    this->layers_.read(static_cast<int>(i), layer);
-    kept.visibility.push_back(topRowFirst(layer, kept.width, kept.height));
-    kept.sceneIndices.push_back(this->casting_[i]->light.sceneIndex);
+    this->keepLayers(*slot);
   }
   const auto flip = [&](const std::vector<float>& plane)
   { return topRowFirst(plane, kept.width, kept.height); };
@@ -780,6 +790,36 @@ void RenderManager::keepVisibility(const ReceiverPixels& receivers)
   std::transform(receivers.surface.begin(), receivers.surface.end(), coverage.begin(),
     [](std::uint32_t surface) { return surface == ReceiverPixels::notCovered ? 0.0f : 1.0f; });
   kept.coverage = flip(coverage);
+}
+
+//------------------------------------------------------------------------------
+/// Keeps a light's visibility: one image, or three of a light with a texture, whether or not its technique sees it.
+void RenderManager::keepLayers(const LightSlot& slot)
+{
+  VisibilityImages& kept = this->visibility_;
+  const auto keep = [&](const std::vector<float>& image, LightChannel channel)
+  {
+    kept.visibility.push_back(topRowFirst(image, kept.width, kept.height));
+    kept.sceneIndices.push_back(slot.light.sceneIndex);
+    kept.channels.push_back(channel);
+  };
+  std::vector<float> image;
+  if (!slot.light.texture)
+  {
+    this->layers_.read(slot.layer, image);
+    keep(image, LightChannel::All);
+    return;
+  }
+  constexpr std::array<LightChannel, 3> channels = { LightChannel::Red, LightChannel::Green,
+    LightChannel::Blue };
+  for (int channel = 0; channel < 3; ++channel)
+  {
+    const bool seen = slot.channels == 3;
+    this->layers_.read(slot.layer + (seen ? channel : 0), image);
+    const float lit = seen ? 1.0f : slot.light.texture->mean[channel];
+    std::transform(image.begin(), image.end(), image.begin(), [&](float v) { return lit * v; });
+    keep(image, channels[static_cast<std::size_t>(channel)]);
+  }
 }
 
 //------------------------------------------------------------------------------

@@ -131,6 +131,8 @@ private:
     std::unique_ptr<Technique> plain;
     Bake plainBake;
     ShadowLight light;
+    int layer = 0;    ///< of the visibility layers, its first
+    int channels = 1; ///< of its visibility, a layer each
     ReceiverFit receiverFit;
   };
 
@@ -146,6 +148,7 @@ private:
   LightReport& reportOf(const ShadowLight& light);
   void updateTracer(int wished);
   void keepVisibility(const ReceiverPixels& receivers);
+  void keepLayers(const LightSlot& slot);
   bool readsPoints() const;
   CameraView camera(vtkRenderer* renderer) const;
   ReceiverSpace receiverSpace(const vtkRenderState* s) const;
@@ -157,6 +160,7 @@ private:
   std::chrono::steady_clock::time_point stageStart_;
   int compilesBefore_ = 0;
 
+  LightManager lightManager_;
   std::map<int, LightSlot> slots_; ///< by the light's place in the scene
   std::vector<LightSlot*> casting_;
   ViewCount viewCount_;

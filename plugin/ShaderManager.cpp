@@ -34,13 +34,25 @@ GLenum bindingOf(GLenum target)
   return target == GL_TEXTURE_2D_ARRAY ? GL_TEXTURE_BINDING_2D_ARRAY : GL_TEXTURE_BINDING_2D;
 }
 
+/// The expression of what a light's colour is multiplied by where nothing hides it.
+std::string litOf(const ShadedLight& shaded, int light)
+{
+  return shaded.light.texture ? "gnomonLit" + std::to_string(light) : "1.0";
+}
+
 /// The expression of one light's visibility. On the image route, translucent surfaces compute theirs:
 /// the layers do not know them.
 std::string visibilityOf(Route route, const ShadedLight& shaded, int light)
 {
-  const std::string number = std::to_string(light);
-  const std::string fetched = "gnomonLayer(" + number + ")";
-  const std::string computed = "visibility_" + number + "(gnomonPosition, gnomonNormal)";
+  // What has one channel is seen as if the light were an even one.
+  const std::string even = shaded.light.texture ? litOf(shaded, light) + " * " : "";
+  const auto layer = [&](int channel)
+  { return "gnomonLayer(" + std::to_string(shaded.layer + channel) + ")"; };
+  const std::string fetched = shaded.channels == 3
+    ? "vec3(" + layer(0) + ", " + layer(1) + ", " + layer(2) + ")"
+    : even + layer(0);
+  const std::string computed =
+    even + "visibility_" + std::to_string(light) + "(gnomonPosition, gnomonNormal)";
   if (route == Route::Inline)
   {
     return computed;
@@ -80,10 +92,15 @@ void ShaderManager::configure(const HookVariant& variant, const std::vector<Shad
     }
     const std::string strength = "gnomonStrength" + std::to_string(i);
     declarations += "uniform float " + strength + ";\n";
+    const std::string lit = litOf(shaded, number);
+    if (shaded.light.texture)
+    {
+      declarations += "uniform vec3 " + lit + ";\n";
+    }
     const std::string colour = "lightColor" + std::to_string(shaded.light.shaderIndex);
-    multiplications += "  vec3 " + colour + " = " + colour +
-      " * (gnomonReceives == 0 ? 1.0 : mix(1.0, " + visibilityOf(variant.route, shaded, number) +
-      ", " + strength + "));\n";
+    multiplications += "  vec3 " + colour + " = " + colour + " * (gnomonReceives == 0 ? " + lit +
+      " : mix(" + lit + ", " + visibilityOf(variant.route, shaded, number) + ", " + strength +
+      "));\n";
   }
   if (declarations != this->declarations_ || multiplications != this->multiplications_ ||
     variant.route != this->variant_.route ||
@@ -234,6 +251,10 @@ void ShaderManager::beginStage(vtkOpenGLRenderWindow* window, const StageValues&
   {
     const int light = static_cast<int>(i);
     add("gnomonStrength" + std::to_string(i), static_cast<float>(this->lights_[i].light.strength));
+    if (const auto& texture = this->lights_[i].light.texture)
+    {
+      add(litOf(this->lights_[i], light), texture->mean);
+    }
     if (this->lights_[i].pointwise)
     {
       for (Uniform uniform : this->lights_[i].pointwise->uniforms(values.space))

@@ -36,6 +36,8 @@ struct HookVariant
 struct ShadedLight
 {
   ShadowLight light;
+  int layer = 0;    ///< image route: of the visibility layers, its first
+  int channels = 1; ///< of its visibility, a layer each (channelsOf())
   /// What the shader computes visibility with: on the inline route for all surfaces, on the image
   /// route for translucent ones, since the layers show what is opaque. Null where nothing needs it.
   const Technique* pointwise = nullptr;
@@ -49,6 +51,7 @@ bool passInstance(std::string& vertexShader, std::string& geometryShader);
 
 /// The hook into VTK's lighting. In front of VTK's light loop it puts, per casting light N,
 ///     vec3 lightColorN = lightColorN * (visibility of light N);
+/// Of a light with a texture that is a colour, and what is lit has the texture's mean.
 /// The local variable hides VTK's uniform of the same name, so that the loop, of whatever shading
 /// model and kind of light, works with the shadowed colour. Only the uniforms' names are relied on.
 ///

@@ -17,6 +17,15 @@ struct ClassImage
   std::vector<std::uint8_t> ofPixels; ///< each pixel's class, an index into them
 };
 
+/// Which part of a light's colour an image of visibility is of.
+enum class LightChannel : std::uint8_t
+{
+  All, ///< of a light without texture
+  Red,
+  Green,
+  Blue
+};
+
 /// One frame's visibility as data. Row 0 is the *top* row; pixel (x, y) is at y * width + x.
 struct VisibilityImages
 {
@@ -27,9 +36,11 @@ struct VisibilityImages
 
   /// visibility[k] belongs to the light with number sceneIndices[k] in the renderer's light
   /// collection: 1 lit, 0 in shadow, turned away or outside the cone. Lights that do not cast are
-  /// not listed.
+  /// not listed. A light with a texture (vtkGnomonAreaLight::SetTexture) has three images in a row, and what is lit has the
+  /// texture's mean instead of 1.
   std::vector<std::vector<float>> visibility;
-  std::vector<int> sceneIndices; ///< which light each image of `visibility` belongs to
+  std::vector<int> sceneIndices;      ///< which light each image of `visibility` belongs to
+  std::vector<LightChannel> channels; ///< and which part of its colour
 
   std::vector<ClassImage> classes; ///< of each image of `visibility`
 

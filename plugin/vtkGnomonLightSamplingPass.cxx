@@ -42,13 +42,18 @@ constexpr double gammaOfPbr = 2.2;
 std::vector<gnomon::PointedLight> pointedLights(vtkRenderer* renderer, int samples)
 {
   std::vector<gnomon::PointedLight> pointed;
-  for (gnomon::ShadowLight& light : gnomon::LightManager::collectAreas(renderer, {}))
+  for (gnomon::ShadowLight& light : gnomon::LightManager().collectAreas(renderer, {}))
   {
     if (light.lightSampling == gnomon::LightSampling::Jittered)
     {
       throw std::runtime_error("light " + std::to_string(light.sceneIndex) +
         ": its points are to come in opposite pairs, which a grid of cells does not; its "
         "'light_sampling' is sobol or random");
+    }
+    if (light.texture)
+    {
+      throw std::runtime_error("light " + std::to_string(light.sceneIndex) +
+        ": it has a texture, which the lights that stand for its points do not show");
     }
     light.lightSamples = samples;
     std::vector<glm::dvec3> offsets = gnomon::pairedLightSamples(light);

@@ -45,6 +45,8 @@ std::vector<BuiltinSceneEntry> makeEntries()
   addSoft("soft-panels", "panels under a square lamp", makePanelsScene, 11.0);
   addSoft("soft-plates", "plates under a square lamp", makePlatesScene, 18.0);
   addSoft("soft-long-cube", "long-cube under a square lamp", makeLongCubeScene, 14.0);
+  entries.push_back(
+    { { "soft-window", "stack under a window of coloured panes" }, makeWindowScene });
   for (const GardenView& view : gardenViews())
   {
     entries.push_back({ view.line, [view] { return makeGardenScene(view); } });

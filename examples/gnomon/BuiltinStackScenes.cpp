@@ -3,8 +3,11 @@
 #include "MeshBuilder.h"
 #include "Vec3.h"
 
+#include <vtkImageData.h>
 #include <vtkMath.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 // Scenes whose casters lie above each other or reach far along the light: where one depth per texel
@@ -58,6 +61,32 @@ SceneModel makeLetter(const Vec3& center, double inner, double outer, double thi
   return makeModel("letter", mesh.build(), { { 0.45, 0.52, 0.72 } });
 }
 
+/// The picture of a window: two by two panes between dark bars.
+vtkSmartPointer<vtkImageData> makePanes()
+{
+  constexpr int texels = 40; // a side
+  constexpr int bar = 2;     // half of one
+  using Colour = std::array<unsigned char, 3>;
+  constexpr Colour dark = { 10, 10, 10 };
+  constexpr std::array<Colour, 4> panes = { { // the lower row first
+    { 40, 200, 60 }, { 50, 80, 255 }, { 255, 50, 40 }, { 255, 220, 70 } } };
+  auto image = vtkSmartPointer<vtkImageData>::New();
+  image->SetDimensions(texels, texels, 1);
+  image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
+  auto* to = static_cast<unsigned char*>(image->GetScalarPointer());
+  const auto isBar = [](int place) { return (place + bar) % (texels / 2) < 2 * bar; };
+  for (int y = 0; y < texels; ++y)
+  {
+    for (int x = 0; x < texels; ++x)
+    {
+      const int pane = 2 * (2 * y / texels) + 2 * x / texels;
+      const Colour& colour = isBar(x) || isBar(y) ? dark : panes[static_cast<std::size_t>(pane)];
+      to = std::copy(colour.begin(), colour.end(), to);
+    }
+  }
+  return image;
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -74,6 +103,17 @@ Scene makeStackScene()
     makeModel("sphere", sphere.build(), { { 0.8, 0.72, 0.5 } }), makePlane(origin, 12.0) };
   scene.camera = makeCamera({ { 3.4, 5.0, 9.0 } }, { { 0.25, 1.9, 0.0 } }, 40.0);
   scene.lights = { makeSun({ { 0.3, -1.0, -0.3 } }) };
+  return scene;
+}
+
+//------------------------------------------------------------------------------
+Scene makeWindowScene()
+{
+  Scene scene = underLamp(makeStackScene(), "soft-window", 9.0);
+  SceneLight& window = scene.lights.front();
+  window.area->width = window.area->height = 3.0;
+  window.area->texture = makePanes();
+  window.intensity = 2.0; // of which the panes leave about a half
   return scene;
 }
 

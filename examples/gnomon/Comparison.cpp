@@ -30,7 +30,7 @@ void requireSameImages(const VisibilityImages& technique, const VisibilityImages
   {
     throw std::invalid_argument("visibility images of different sizes cannot be compared");
   }
-  if (technique.sceneIndices != truth.sceneIndices)
+  if (technique.sceneIndices != truth.sceneIndices || technique.channels != truth.channels)
   {
     throw std::invalid_argument("visibility images of different lights cannot be compared");
   }

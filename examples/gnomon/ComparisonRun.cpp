@@ -54,7 +54,7 @@ Scene sceneOf(const ComparisonPlan& plan, const Scene& original)
 /// @throws CompositionError where one of the scene's lights refuses a variant's settings
 void requireComposition(const VariantSpec& spec, vtkRenderer* renderer)
 {
-  for (ShadowLight light : LightManager::collect(renderer, settingsOf(spec)).casting)
+  for (ShadowLight light : LightManager().collect(renderer, settingsOf(spec)).casting)
   {
     compose(light);
   }
@@ -294,7 +294,7 @@ VisibilityImages keptVisibility(Variant& variant)
 bool isSoft(const Variant& variant)
 {
   const std::vector<ShadowLight> lights =
-    LightManager::collect(variant.renderer(), settingsOf(variant.spec())).casting;
+    LightManager().collect(variant.renderer(), settingsOf(variant.spec())).casting;
   return std::any_of(
     lights.begin(), lights.end(), [](const ShadowLight& light) { return light.area.has_value(); });
 }

@@ -43,6 +43,23 @@ void requireReasonableSize(
   }
 }
 
+/// What the name of an image's channel ends in.
+const char* suffixOf(LightChannel channel)
+{
+  switch (channel)
+  {
+    case LightChannel::Red:
+      return ".R";
+    case LightChannel::Green:
+      return ".G";
+    case LightChannel::Blue:
+      return ".B";
+    case LightChannel::All:
+      break;
+  }
+  return "";
+}
+
 /// libpng's description of an image, with what it holds given back at the end.
 ///
 /// libpng itself and not vtkPNGReader: that one ends the whole program on a truncated file.
@@ -335,7 +352,8 @@ void writeVisibility(const VisibilityImages& images, const std::string& path,
   };
   for (std::size_t k = 0; k < images.visibility.size(); ++k)
   {
-    planes["visibility." + std::to_string(images.sceneIndices.at(k))] = &images.visibility[k];
+    planes["visibility." + std::to_string(images.sceneIndices.at(k)) +
+      suffixOf(images.channels.at(k))] = &images.visibility[k];
   }
   Imf::Header header(images.width, images.height);
   for (const auto& [name, text] : attributes)

@@ -67,7 +67,8 @@ Picture readPicture(const std::string& path);
 /// large
 ChannelImage readChannels(const std::string& path);
 
-/// Writes a visibility file: 32-bit float channels `visibility.N` (N counts the renderer's lights),
+/// Writes a visibility file: 32-bit float channels `visibility.N` (N counts the renderer's lights; of one with a texture
+/// `visibility.N.R/G/B`),
 /// `position.X/Y/Z` (world coordinates less the header attribute `origin`, a V3d), `normal.X/Y/Z`
 /// and `coverage`. `header` becomes text attributes; its keys must differ from the names of EXR's
 /// own attributes.

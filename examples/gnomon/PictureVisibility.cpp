@@ -98,7 +98,8 @@ std::vector<Picture> expose(vtkRenderer* renderer, int width, int height)
 } // namespace
 
 //------------------------------------------------------------------------------
-std::vector<float> visibilityFromPictures(const std::vector<ExposedPair>& exposures)
+std::vector<float> visibilityFromPictures(
+  const std::vector<ExposedPair>& exposures, std::size_t colour)
 {
   std::vector<float> visibility(exposures.empty() ? 0 : exposures.front().lit.pixelCount(),
     std::numeric_limits<float>::quiet_NaN());
@@ -106,15 +107,15 @@ std::vector<float> visibilityFromPictures(const std::vector<ExposedPair>& exposu
   {
     for (const ExposedPair& pair : exposures)
     {
-      const int lit = pair.lit.rgb[3 * i];
+      const int lit = pair.lit.rgb[3 * i + colour];
       if (lit == 255)
       {
         break;
       }
       if (lit > 0)
       {
-        visibility[i] =
-          std::min(1.0f, static_cast<float>(pair.shadowed.rgb[3 * i]) / static_cast<float>(lit));
+        visibility[i] = std::min(
+          1.0f, static_cast<float>(pair.shadowed.rgb[3 * i + colour]) / static_cast<float>(lit));
       }
     }
   }
@@ -140,7 +141,10 @@ PictureVisibility measureVisibility(const Scene& scene, const VisibilityImages& 
     {
       exposures.push_back({ lit[i], shadowed[i] });
     }
-    const std::vector<float> found = visibilityFromPictures(exposures);
+    // Of an even light, which is white here, all colours say the same.
+    const LightChannel channel = truth.channels[k];
+    const std::size_t colour = channel == LightChannel::Blue ? 2 : channel == LightChannel::Green;
+    const std::vector<float> found = visibilityFromPictures(exposures, colour);
     const std::vector<unsigned char> facing = facingPixels(truth, white.lights[0]);
     for (std::size_t i = 0; i < found.size(); ++i)
     {

@@ -29,7 +29,9 @@ struct ExposedPair
 /// bright, and each pixel uses the brightest one that is not white without shadows. Where even that
 /// one is black, no light arrives and the visibility is 0. Values above 1 (some passes brighten)
 /// count as 1.
-std::vector<float> visibilityFromPictures(const std::vector<ExposedPair>& exposures);
+/// @param colour which of the pictures' is looked at: 0 red, 1 green, 2 blue
+std::vector<float> visibilityFromPictures(
+  const std::vector<ExposedPair>& exposures, std::size_t colour);
 
 /// What measureVisibility finds.
 struct PictureVisibility

@@ -87,6 +87,7 @@ vtkSmartPointer<vtkLight> makeAreaLight(const SceneLight::Area& area)
   light->SetWidth(area.width);
   light->SetHeight(area.height);
   light->SetUp(area.up[0], area.up[1], area.up[2]);
+  light->SetTexture(area.texture);
   return light;
 }
 

@@ -1,6 +1,7 @@
 #ifndef gnomon_examples_gnomon_Scene_h
 #define gnomon_examples_gnomon_Scene_h
 
+#include <vtkImageData.h>
 #include <vtkPolyData.h>
 #include <vtkProperty.h>
 #include <vtkRenderer.h>
@@ -58,6 +59,7 @@ struct SceneLight
     double width = 0.0;
     double height = 0.0;
     Vec3 up{ { 0, 1, 0 } };
+    vtkSmartPointer<vtkImageData> texture; ///< how its colour is spread over it, or null
   };
   Type type = Type::Directional;
   Vec3 position{ { 0, 0, 1 } };

@@ -24,7 +24,8 @@ namespace
 
 using Json = nlohmann::ordered_json;
 
-Json toJson(const SceneLight& light)
+/// @param texture the file of its texture; empty if it has none
+Json toJson(const SceneLight& light, const std::string& texture)
 {
   Json json;
   if (light.type == SceneLight::Type::Spot)
@@ -49,11 +50,18 @@ Json toJson(const SceneLight& light)
     {
       json["width"] = light.area->width;
       json["height"] = light.area->height;
-      json["up"] = light.area->up;
     }
     else
     {
       json["radius"] = light.area->radius;
+    }
+    if (light.area->rectangle || !texture.empty())
+    {
+      json["up"] = light.area->up;
+    }
+    if (!texture.empty())
+    {
+      json["texture"] = texture;
     }
   }
   if (light.box)
@@ -143,7 +151,14 @@ std::string exportScene(const Scene& scene, const std::string& folder)
   json["lights"] = Json::array();
   for (const SceneLight& light : scene.lights)
   {
-    json["lights"].push_back(toJson(light));
+    const bool textured = light.area && light.area->texture;
+    const std::string texture =
+      textured ? scene.name + "-light-" + std::to_string(json["lights"].size()) + ".png" : "";
+    if (textured)
+    {
+      writeImage(light.area->texture, (std::filesystem::path(folder) / texture).string());
+    }
+    json["lights"].push_back(toJson(light, texture));
   }
   json["background"] = scene.background;
 

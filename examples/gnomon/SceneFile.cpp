@@ -127,6 +127,7 @@ Scene readSceneFile(const std::string& path)
 
   Scene scene;
   scene.name = std::filesystem::path(path).stem().string();
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
 
   // The cheap parts first: a typing error should not wait for the models.
   const JsonValue camera = root.member("camera");
@@ -139,7 +140,7 @@ Scene readSceneFile(const std::string& path)
   {
     for (const JsonValue& value : lights.elements())
     {
-      scene.lights.push_back(readLight(value));
+      scene.lights.push_back(readLight(value, folder));
     }
   }
   if (const JsonValue background = root.member("background"); background.present())
@@ -154,7 +155,6 @@ Scene readSceneFile(const std::string& path)
     models.fail("at least one model");
   }
   std::map<std::string, Model> loaded;
-  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
   for (const JsonValue& entry : entries)
   {
     for (SceneModel& surface : readModel(entry, folder, loaded, scene.notes))

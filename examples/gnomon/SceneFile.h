@@ -20,7 +20,7 @@ namespace gnomon::tool
 ///                 {"type": "area", "position": [...], "target": [...], "shape": "rectangle",
 ///                  "up": [0,1,0], "width": 1, "height": 1},
 ///                 {"type": "area", "position": [...], "target": [...], "shape": "disk",
-///                  "radius": 0.5, "cone_angle": 30}],
+///                  "radius": 0.5, "cone_angle": 30, "texture": "panes.png", "up": [0,1,0]}],
 ///      "background": [r,g,b]}
 ///
 /// `direction` is the way the light travels, `fov` the full vertical angle in degrees, `cone_angle`
@@ -28,8 +28,9 @@ namespace gnomon::tool
 /// across it around `position`, and reaches `depth` far; nothing else is lit by it or casts into it
 /// (vtkGnomonLightKeys). An area light lies around its `position`, across the way to its `target`; it is a
 /// rectangle unless it says otherwise, and shines into all directions unless it has a cone
-/// (vtkGnomonAreaLight). Lights of all types take vtkGnomonLightKeys's settings by name, as `technique`,
-/// `map_size`, `kernel` and `kernel_size` here. Model paths are relative to the scene file. Of a model only `file` must be given;
+/// (vtkGnomonAreaLight). Its `texture` is a PNG or JPEG image that says how its colour is spread over it; a disk has an `up` with one
+/// only. Lights of all types take vtkGnomonLightKeys's settings by name, as `technique`,
+/// `map_size`, `kernel` and `kernel_size` here. Paths are relative to the scene file. Of a model only `file` must be given;
 /// its `color` replaces the colours and textures of the file, its `texture` (an image of the nearest
 /// texel, repeated; where its alpha is 0 the model has holes) the file's texture, and lights and cameras of the model
 /// file are not used. A scene without "camera" or "lights" gets those of a bare model.

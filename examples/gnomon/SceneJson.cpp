@@ -1,5 +1,7 @@
 #include "SceneJson.h"
 
+#include "Errors.h"
+#include "TextureFile.h"
 #include "Vec3.h"
 #include "lights/ShadowSettings.h"
 #include "shadowtech/Registry.h"
@@ -169,7 +171,8 @@ SceneLight readPointLight(const JsonValue& value)
 }
 
 /// What an area light shines from. A rectangle lies along cross(travel, up), its width, and across that.
-SceneLight::Area readArea(const JsonValue& value, const Vec3& travel)
+SceneLight::Area readArea(
+  const JsonValue& value, const Vec3& travel, const std::filesystem::path& folder)
 {
   SceneLight::Area area;
   const JsonValue shape = value.member("shape");
@@ -179,9 +182,20 @@ SceneLight::Area readArea(const JsonValue& value, const Vec3& travel)
     shape.fail("one of: rectangle, disk");
   }
   area.rectangle = name == "rectangle";
+  if (const JsonValue texture = value.member("texture"); texture.present())
+  {
+    try
+    {
+      area.texture = readImage((folder / texture.text()).string());
+    }
+    catch (const BadInput& error)
+    {
+      texture.refuse(error.what());
+    }
+  }
   const std::vector<const char*> sizesOfOther = area.rectangle
     ? std::vector<const char*>{ "radius" }
-    : std::vector<const char*>{ "width", "height", "up" };
+    : std::vector<const char*>{ "width", "height" };
   for (const char* size : sizesOfOther)
   {
     if (const JsonValue surplus = value.member(size); surplus.present())
@@ -189,22 +203,32 @@ SceneLight::Area readArea(const JsonValue& value, const Vec3& travel)
       surplus.refuse("means nothing for a " + name);
     }
   }
-  if (!area.rectangle)
+  const JsonValue up = value.member("up");
+  if (area.rectangle)
+  {
+    area.width = value.member("width").number(extent);
+    area.height = value.member("height").number(extent);
+  }
+  else
   {
     area.radius = value.member("radius").number(extent);
-    return area;
+    if (!area.texture && up.present())
+    {
+      up.refuse("means nothing for a disk without texture");
+    }
   }
-  area.width = value.member("width").number(extent);
-  area.height = value.member("height").number(extent);
-  area.up = readUp(value.member("up"), area.up, travel);
+  if (area.rectangle || area.texture)
+  {
+    area.up = readUp(up, area.up, travel);
+  }
   return area;
 }
 
 /// A light with an area around its position. It shines into all directions, or as a spot.
-SceneLight readAreaLight(const JsonValue& value)
+SceneLight readAreaLight(const JsonValue& value, const std::filesystem::path& folder)
 {
-  requireLight(
-    value, { "position", "target", "cone_angle", "shape", "radius", "width", "height", "up" });
+  requireLight(value,
+    { "position", "target", "cone_angle", "shape", "radius", "width", "height", "up", "texture" });
   SceneLight light;
   light.type = SceneLight::Type::Point;
   light.position = readPoint(value.member("position"));
@@ -214,7 +238,7 @@ SceneLight readAreaLight(const JsonValue& value)
     light.type = SceneLight::Type::Spot;
     light.coneAngleDegrees = angle.number(coneAngleDegrees);
   }
-  light.area = readArea(value, light.target - light.position);
+  light.area = readArea(value, light.target - light.position, folder);
   readCommon(value, light);
   return light;
 }
@@ -222,7 +246,7 @@ SceneLight readAreaLight(const JsonValue& value)
 } // namespace
 
 //------------------------------------------------------------------------------
-SceneLight readLight(const JsonValue& value)
+SceneLight readLight(const JsonValue& value, const std::filesystem::path& folder)
 {
   const JsonValue kind = value.member("type");
   const std::string type = kind.text();
@@ -242,7 +266,7 @@ SceneLight readLight(const JsonValue& value)
   {
     kind.fail("one of: directional, spot, point, area");
   }
-  return readAreaLight(value);
+  return readAreaLight(value, folder);
 }
 
 //------------------------------------------------------------------------------

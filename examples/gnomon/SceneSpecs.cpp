@@ -71,7 +71,7 @@ SceneLight parseLight(const std::string& spec)
   {
     throw BadInput(source + ": unknown key \"type\", expected the type in front of the colon only");
   }
-  return readLight(JsonValue(source, object));
+  return readLight(JsonValue(source, object), {});
 }
 
 //------------------------------------------------------------------------------

@@ -13,7 +13,7 @@ namespace gnomon::tool
 {
 
 //------------------------------------------------------------------------------
-vtkSmartPointer<vtkTexture> readTexture(const std::string& path)
+vtkSmartPointer<vtkImageData> readImage(const std::string& path)
 {
   const std::string bytes = readWholeFile(path, largestModelBytes);
   if (!isWholeImage(bytes))
@@ -31,8 +31,14 @@ vtkSmartPointer<vtkTexture> readTexture(const std::string& path)
   }
   reader->SetFileName(path.c_str());
   reader->Update();
+  return reader->GetOutput();
+}
+
+//------------------------------------------------------------------------------
+vtkSmartPointer<vtkTexture> readTexture(const std::string& path)
+{
   auto texture = vtkSmartPointer<vtkTexture>::New();
-  texture->SetInputData(reader->GetOutput());
+  texture->SetInputData(readImage(path));
   return texture;
 }
 

@@ -1,6 +1,7 @@
 #ifndef gnomon_examples_gnomon_TextureFile_h
 #define gnomon_examples_gnomon_TextureFile_h
 
+#include <vtkImageData.h>
 #include <vtkSmartPointer.h>
 #include <vtkTexture.h>
 
@@ -9,7 +10,11 @@
 namespace gnomon::tool
 {
 
-/// A PNG or JPEG image as a texture with VTK's settings: repeated, the nearest texel.
+/// A PNG or JPEG image.
+/// @throws BadInput with a message that names the file
+vtkSmartPointer<vtkImageData> readImage(const std::string& path);
+
+/// The same as a texture with VTK's settings: repeated, the nearest texel.
 /// @throws BadInput with a message that names the file
 vtkSmartPointer<vtkTexture> readTexture(const std::string& path);
 

@@ -40,6 +40,7 @@ public:
   /// The sum, once anything was added.
   GLuint texture() const { return this->images_[this->newest_].name(); }
   std::size_t bytes() const;
+  int channels() const { return this->channels_; }
 
 private:
   int channels_;

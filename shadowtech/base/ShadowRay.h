@@ -264,18 +264,27 @@ inline AreaRays areaRays(const ShadowRayLight& light, const glm::vec3& position,
     directional && light.hasBox ? glm::dot(ray, light.toLight) : 1.0f };
 }
 
-/// Where a receiver's shadow ray goes to a point of an area light (LightSamples.h) instead of its centre.
+/// Which point of an area light a receiver is asked about in place of a sample of it (LightSamples.h): 1 the sample, -1 the
+/// point opposite.
 ///
 /// VTK shades from the centre: N.L there is the mean over all of the light, of what lies behind the
 /// receiver's plane too, which then counts as negative. So that this is not taken off twice, and so that what nothing is
 /// in the way of is lit: a point behind the plane gives way to the one opposite, which is in front of it
-/// wherever the centre is. The mean of both cosines is the centre's.
+/// wherever the centre is. The mean of both cosines is the centre's. Where the light has a texture, it gives way with its colour:
+/// none of what is behind the plane reaches the receiver.
+///
+/// @param sample from the light's centre
+inline float sideOfSample(const AreaRays& rays, const glm::vec3& sample)
+{
+  return facesLight(rays.normal, rays.toCentre + sample) ? 1.0f : -1.0f;
+}
+
+/// Where a receiver's shadow ray goes to that point instead of the light's centre.
 ///
 /// @param sample from the light's centre
 inline glm::vec3 directionToSample(const AreaRays& rays, const glm::vec3& sample)
 {
-  const float side = facesLight(rays.normal, rays.toCentre + sample) ? 1.0f : -1.0f;
-  return rays.ray + side * rays.perUnit * sample;
+  return rays.ray + sideOfSample(rays, sample) * rays.perUnit * sample;
 }
 
 /// Calls `visit` with the function that makes this light's shadow rays from position, normal and

@@ -65,6 +65,10 @@ struct TechniqueInfo
   /// Whether it shows shadows on planes only (ShadowSettings::planes).
   bool servesPlanes = false;
 
+  /// Whether visibility has three channels in a light with a texture (channelsOf()). Of others the light is an even one of
+  /// the texture's mean colour.
+  bool seesTextures = false;
+
   /// Whether its picture may come about over several frames (ShadowSettings::progressiveSamples).
   bool refines = false;
 
@@ -76,6 +80,13 @@ struct TechniqueInfo
 
   bool isPointwise() const { return this->evaluation == Evaluation::Pointwise; }
 };
+
+/// The channels of a light's visibility as a technique computes it: 1, or 3 (red, green, blue) where it sees the texture of
+/// the light's area.
+inline int channelsOf(const TechniqueInfo& info, const ShadowLight& light)
+{
+  return info.seesTextures && light.area && light.texture ? 3 : 1;
+}
 
 /// A texture for a shader's sampler.
 struct TextureBinding
@@ -134,7 +145,7 @@ struct LayerInput
   std::size_t receiversShown;
   const std::vector<DrawnSurface>& drawnSurfaces; ///< that the receivers' fragments name
   VisibilityLayers& layers;
-  int layer; ///< of the layers: this light's
+  int layer; ///< of the layers: this light's, the first one of several channels
   ShaderLibrary& shaders;
   bool counting; ///< whether the report is worth reading back what only the GPU knows
   /// Where not null: to be filled with each pixel's class, an index into TechniqueInfo::classes.
@@ -192,10 +203,11 @@ public:
   /// camera.
   virtual std::vector<Uniform> uniforms(const ReceiverSpace&) const { return {}; }
 
-  /// Draws a screen technique's visibility on the GPU into its layer: in [0, 1] for every pixel.
+  /// Draws a screen technique's visibility on the GPU into its layer, or one for each channel: in [0, 1] for every pixel.
   virtual void drawVisibility(const LayerInput&, LightReport&) {}
 
-  /// Computes a screen technique's visibility on the CPU, one float in [0, 1] per pixel of the receivers.
+  /// Computes a screen technique's visibility on the CPU, one float in [0, 1] per pixel of the receivers; of several
+  /// channels one image after the other.
   virtual void computeVisibility(const ScreenInput&, std::vector<float>&, LightReport&) {}
 };
 

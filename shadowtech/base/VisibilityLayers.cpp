@@ -48,15 +48,17 @@ void VisibilityLayers::fill(int layer)
 }
 
 //------------------------------------------------------------------------------
-void VisibilityLayers::upload(int layer, const std::vector<float>& visibility)
+void VisibilityLayers::upload(int firstLayer, const std::vector<float>& visibility)
 {
   const GlStateGuard guard;
   glActiveTexture(GL_TEXTURE0);
   glBindTexture(GL_TEXTURE_2D_ARRAY, this->texture_.name());
   glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-  glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, layer, this->width_, this->height_, 1, GL_RED,
-    GL_FLOAT, visibility.data());
+  const std::size_t pixels =
+    static_cast<std::size_t>(this->width_) * static_cast<std::size_t>(this->height_);
+  glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, firstLayer, this->width_, this->height_,
+    static_cast<GLsizei>(visibility.size() / pixels), GL_RED, GL_FLOAT, visibility.data());
 }
 
 //------------------------------------------------------------------------------

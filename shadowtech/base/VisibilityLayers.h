@@ -13,8 +13,8 @@ namespace gnomon
 
 class ReceiverTarget;
 
-/// The visibility images of the image route, one 32-bit float layer per casting light. Row 0 is the
-/// bottom row.
+/// The visibility images of the image route, one 32-bit float layer per casting light, or three (red, green, blue) where its
+/// texture is seen (channelsOf()). Row 0 is the bottom row.
 class VisibilityLayers
 {
 public:
@@ -29,8 +29,9 @@ public:
   /// GlStateGuard is the caller's business.
   void fill(int layer);
 
-  /// Fills a layer with what a screen technique has computed on the CPU.
-  void upload(int layer, const std::vector<float>& visibility);
+  /// Fills layers with what a screen technique has computed on the CPU.
+  /// @param visibility of as many layers as it has values for, one after the other
+  void upload(int firstLayer, const std::vector<float>& visibility);
 
   /// Reads a layer back.
   void read(int layer, std::vector<float>& visibility) const;

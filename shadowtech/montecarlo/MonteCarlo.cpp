@@ -1,6 +1,7 @@
 #include "shadowtech/montecarlo/MonteCarlo.h"
 
 #include "lights/LightSamples.h"
+#include "shadowtech/base/ChannelView.h"
 #include "shadowtech/base/GlState.h"
 #include "shadowtech/base/LightReach.h"
 #include "shadowtech/base/Occluders.h"
@@ -74,6 +75,7 @@ TechniqueInfo MonteCarlo::info()
   info.name = "montecarlo";
   info.evaluation = Evaluation::ScreenGpu;
   info.needsMap = true;
+  info.seesTextures = true;
   info.refused = refused;
   info.classes = { { "no receiver", { 0, 0, 0 } }, { "turned away from the light", { 0, 140, 60 } },
     { "lit by the map's bounds", { 230, 230, 230 } },
@@ -114,20 +116,41 @@ std::size_t MonteCarlo::bytesOfMaps() const
   const auto pixels =
     static_cast<std::size_t>(this->width_) * static_cast<std::size_t>(this->height_);
   return this->layers_.bytes() + this->bounds_.bytes() + this->filter_.bytes() +
-    2 * pixels * sizeof(float);
+    (static_cast<std::size_t>(this->channels_) + 1) * pixels * sizeof(float) +
+    (this->uploaded_ ? sizeof(glm::u8vec3) * this->uploaded_->texels.size() : 0);
 }
 
 //------------------------------------------------------------------------------
-void MonteCarlo::allocate(int width, int height)
+void MonteCarlo::allocate(int width, int height, int channels)
 {
-  if (this->width_ == width && this->height_ == height)
+  if (this->width_ == width && this->height_ == height && this->channels_ == channels)
   {
     return;
   }
   this->width_ = 0; // in case that there is no memory
-  allocateTexture(this->unfiltered_, { GL_RG32F, GL_RG, 2 }, width, height, 0, "visibility");
+  const TexelFormat format =
+    channels == 3 ? TexelFormat{ GL_RGBA32F, GL_RGBA, 4 } : TexelFormat{ GL_RG32F, GL_RG, 2 };
+  allocateTexture(this->unfiltered_, format, width, height, 0, "visibility");
   this->width_ = width;
   this->height_ = height;
+  this->channels_ = channels;
+}
+
+//------------------------------------------------------------------------------
+void MonteCarlo::upload(const std::shared_ptr<const LightTexture>& texture)
+{
+  if (this->uploaded_ == texture)
+  {
+    return;
+  }
+  this->uploaded_.reset(); // in case that there is no memory
+  allocateTexture(this->lightTexture_, { GL_RGB8UI, GL_RGB_INTEGER, 3, GL_UNSIGNED_BYTE },
+    texture->width, texture->height, 0, "a light's texture");
+  glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, texture->width, texture->height, GL_RGB_INTEGER,
+    GL_UNSIGNED_BYTE, texture->texels.data());
+  this->uploaded_ = texture;
 }
 
 //------------------------------------------------------------------------------
@@ -151,6 +174,14 @@ std::vector<Uniform> MonteCarlo::uniformsOf(const LayerInput& input) const
     { "viewCount", static_cast<int>(this->views_.views.size()) }
   };
   uniforms.insert(uniforms.end(), own.begin(), own.end());
+  if (this->channels_ == 3)
+  {
+    uniforms.push_back(
+      { "lightTexture", TextureBinding{ GL_TEXTURE_2D, this->lightTexture_.name() } });
+    uniforms.push_back({ "pictureFromView",
+      glm::mat3(glm::dmat3(light.texture->pictureFromWorld) * glm::dmat3(centredFromView)) });
+    uniforms.push_back({ "lit", light.texture->mean });
+  }
   for (std::size_t i = 0; i < this->views_.views.size(); ++i)
   {
     const glm::dmat4 rayFromView =
@@ -168,18 +199,15 @@ void MonteCarlo::readClasses(const LayerInput& input) const
   {
     return;
   }
-  std::vector<float> texels(
-    2 * static_cast<std::size_t>(this->width_) * static_cast<std::size_t>(this->height_));
+  std::vector<float> classes(
+    static_cast<std::size_t>(this->width_) * static_cast<std::size_t>(this->height_));
   glActiveTexture(GL_TEXTURE0);
   glBindTexture(GL_TEXTURE_2D, this->unfiltered_.name());
   glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
   glPixelStorei(GL_PACK_ALIGNMENT, 4);
-  glGetTexImage(GL_TEXTURE_2D, 0, GL_RG, GL_FLOAT, texels.data());
-  input.classes->resize(texels.size() / 2);
-  for (std::size_t i = 0; i < input.classes->size(); ++i)
-  {
-    (*input.classes)[i] = static_cast<std::uint8_t>(texels[2 * i + 1]);
-  }
+  glGetTexImage(
+    GL_TEXTURE_2D, 0, this->channels_ == 3 ? GL_ALPHA : GL_GREEN, GL_FLOAT, classes.data());
+  input.classes->assign(classes.begin(), classes.end());
 }
 
 //------------------------------------------------------------------------------
@@ -189,7 +217,12 @@ void MonteCarlo::drawVisibility(const LayerInput& input, LightReport& report)
   const ShadowLight& light = input.light;
   const int rays = raysOf(light);
   report.lightSamples = rays * rays;
-  this->allocate(input.receivers.width(), input.receivers.height());
+  this->allocate(input.receivers.width(), input.receivers.height(), channelsOf(info(), light));
+  const bool textured = this->channels_ == 3;
+  if (textured)
+  {
+    this->upload(light.texture->texture);
+  }
 
   std::vector<std::string> defines = lightReachDefines(light);
   defines.push_back("VIEWS " + std::to_string(mostViews(light)));
@@ -203,6 +236,7 @@ void MonteCarlo::drawVisibility(const LayerInput& input, LightReport& report)
       defines.emplace_back(name);
     }
   };
+  defineWhere(textured, "TEXTURED");
   defineWhere(light.mcPyramid == SlabHierarchy::NBuffer, "NBUFFER");
   defineWhere(light.mcSearch == RaySearch::Linear, "LINEAR_SEARCH");
   defineWhere(light.mcLayers == RayLayers::Eye, "EYE_LAYER");
@@ -214,7 +248,13 @@ void MonteCarlo::drawVisibility(const LayerInput& input, LightReport& report)
     input.shaders, ShaderLibrary::source("shadowtech/montecarlo/montecarlo.frag.glsl"), defines);
   ShaderLibrary::setUniforms(program, this->uniformsOf(input), 0, 0);
   this->screenPass_.fill(this->unfiltered_.name(), -1, this->width_, this->height_);
-  this->filter_.apply(input, this->unfiltered_.name(), rays, filterOf(light));
+  for (int channel = 0; channel < this->channels_; ++channel)
+  {
+    const ChannelView view(this->unfiltered_.name(), GL_RED + static_cast<GLenum>(channel),
+      textured ? GL_ALPHA : GL_GREEN);
+    this->filter_.apply(
+      input, input.layer + channel, this->unfiltered_.name(), rays, filterOf(light));
+  }
   this->readClasses(input);
 }
 

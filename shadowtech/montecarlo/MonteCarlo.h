@@ -9,6 +9,7 @@
 #include "shadowtech/montecarlo/VisibilityFilter.h"
 
 #include <cstddef>
+#include <memory>
 
 namespace gnomon
 {
@@ -31,7 +32,8 @@ public:
   void drawVisibility(const LayerInput& input, LightReport& report) override;
 
 private:
-  void allocate(int width, int height);
+  void allocate(int width, int height, int channels);
+  void upload(const std::shared_ptr<const LightTexture>& texture);
   std::vector<Uniform> uniformsOf(const LayerInput& input) const;
   void readClasses(const LayerInput& input) const;
 
@@ -40,11 +42,15 @@ private:
   DepthLayers layers_;
   SlabBounds bounds_;
 
-  GlTexture unfiltered_; ///< visibility and class
+  GlTexture lightTexture_;
+  std::shared_ptr<const LightTexture> uploaded_; ///< which that is
+
+  GlTexture unfiltered_; ///< visibility in one channel or three, and class
   VisibilityFilter filter_;
   ScreenPass screenPass_;
   int width_ = 0;
   int height_ = 0;
+  int channels_ = 1; ///< of visibility
 };
 
 } // namespace gnomon

@@ -9,7 +9,8 @@ namespace gnomon
 {
 
 //------------------------------------------------------------------------------
-void VisibilityFilter::apply(const LayerInput& input, GLuint unfiltered, int rays, int radiusPixels)
+void VisibilityFilter::apply(
+  const LayerInput& input, int layer, GLuint unfiltered, int rays, int radiusPixels)
 {
   const int width = input.receivers.width();
   const int height = input.receivers.height();
@@ -36,7 +37,7 @@ void VisibilityFilter::apply(const LayerInput& input, GLuint unfiltered, int ray
   set(unfiltered, { 1, 0 });
   this->screenPass_.fill(this->rows_.name(), -1, width, height);
   set(this->rows_.name(), { 0, 1 });
-  input.layers.fill(input.layer);
+  input.layers.fill(layer);
 }
 
 //------------------------------------------------------------------------------

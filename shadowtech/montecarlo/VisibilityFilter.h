@@ -17,11 +17,11 @@ namespace gnomon
 class VisibilityFilter
 {
 public:
-  /// Fills the light's layer.
+  /// Fills a layer of the light.
   /// @param unfiltered visibility and class (classes.glsl), two floats per pixel
   /// @param rays as the light's samples are a grid of rays x rays, which says how large the noise is
   /// @param radiusPixels the Gaussian's deviation is half of it; 0: nothing is changed
-  void apply(const LayerInput& input, GLuint unfiltered, int rays, int radiusPixels);
+  void apply(const LayerInput& input, int layer, GLuint unfiltered, int rays, int radiusPixels);
 
   std::size_t bytes() const;
 

@@ -1,9 +1,10 @@
 // What share of an area light each pixel's receiver sees: the mean over rays to points of the light, which are followed through
-// the light's map (Curtis 2009). y is the pixel's class (MonteCarlo::info()).
+// the light's map (Curtis 2009). Behind it the pixel's class (MonteCarlo::info()).
 
 #include "shadowtech/base/light_reach.glsl"
 #include "shadowtech/montecarlo/classes.glsl"
 #include "shadowtech/montecarlo/light_points.glsl"
+#include "shadowtech/montecarlo/light_shine.glsl"
 
 uniform sampler2D receiverFragments; // x: > 0 if it receives; zw: the normal's x and y
 uniform sampler2D receiverPoints;    // xyz: position, w: the normal's z; all in view coordinates
@@ -15,7 +16,12 @@ uniform mat4 viewFromRay[VIEWS];
 
 #include "shadowtech/montecarlo/slab_search.glsl"
 
-out vec2 visibilityAndClass;
+#ifdef TEXTURED
+#define VisibilityAndClass vec4
+#else
+#define VisibilityAndClass vec2
+#endif
+out VisibilityAndClass visibilityAndClass;
 
 // A receiver of the light.
 struct Receiver
@@ -88,18 +94,22 @@ Segment onMap(int view, Receiver receiver, vec3 way, float length, vec2 depths, 
   return segment;
 }
 
-// The ray to a point of the light, and where it ends.
-vec3 wayTo(Receiver receiver, vec3 toCentre, vec3 offset, out float length)
+// A point of the light that is behind the receiver's plane gives way to the opposite one: the twin of sideOfSample() in
+// ShadowRay.h.
+vec3 inFront(Receiver receiver, vec3 toCentre, vec3 offset)
 {
-  // A point behind the receiver's plane gives way to the opposite one (directionToSample() in ShadowRay.h).
-  vec3 way = facesLight(receiver.normal, toCentre + offset) ? toCentre + offset : toCentre - offset;
+  return facesLight(receiver.normal, toCentre + offset) ? offset : -offset;
+}
+
+// How far the ray to a point of the light goes, in lengths of its way.
+float lengthOfRays(Receiver receiver)
+{
 #if defined(BOX)
   // To the box's near face.
-  length = (lightFromView * vec4(receiver.position, 1.0)).z;
+  return (lightFromView * vec4(receiver.position, 1.0)).z;
 #else
-  length = lightView.w > 0.0 ? 1.0 : 1e30;
+  return lightView.w > 0.0 ? 1.0 : 1e30;
 #endif
-  return way;
 }
 
 vec2 depthsOf(int view)
@@ -108,6 +118,14 @@ vec2 depthsOf(int view)
 }
 
 #ifdef CLASSIFY_PIXELS
+// A corner of a box around the light, from its centre.
+vec3 cornerOfLight(int i)
+{
+  vec3 corner = 2.0 * vec3(i & 1, (i >> 1) & 1, i >> 2) - 1.0;
+  corner.z = SHAPE == BALL ? corner.z : 0.0;
+  return viewFromUnit * corner;
+}
+
 // What all rays of a pixel can meet: they lie between those to the corners of a box around the light, and so does their part
 // behind the depth where the first slab begins (Curtis 2009, section 3.6, whose region this is for a square light).
 // @param depths of the map; on return, of the region
@@ -115,6 +133,17 @@ vec2 depthsOf(int view)
 float classOf(Receiver receiver, vec3 toCentre, inout vec2 depths)
 {
   const int corners = SHAPE == BALL ? 8 : 4;
+  for (int i = 0; i < corners; ++i)
+  {
+    if (!facesLight(receiver.normal, toCentre + cornerOfLight(i)))
+    {
+      return SEARCHED; // some of the light is behind the receiver's plane
+    }
+  }
+  if (viewCount == 0)
+  {
+    return LIT;
+  }
   for (int iteration = 0; iteration < 2; ++iteration)
   {
     vec2 lower = vec2(1e30);
@@ -124,16 +153,8 @@ float classOf(Receiver receiver, vec3 toCentre, inout vec2 depths)
     bool blockable = true;           // whether all of them have a part on the map that counts
     for (int i = 0; i < corners; ++i)
     {
-      vec3 corner = 2.0 * vec3(i & 1, (i >> 1) & 1, i >> 2) - 1.0;
-      corner.z = SHAPE == BALL ? corner.z : 0.0;
-      vec3 offset = viewFromUnit * corner;
-      if (!facesLight(receiver.normal, toCentre + offset))
-      {
-        return SEARCHED; // some of the light is behind the receiver's plane
-      }
-      float length;
-      vec3 way = wayTo(receiver, toCentre, offset, length);
-      Segment segment = onMap(0, receiver, way, length, vec2(depths.x, 2.0), false);
+      Segment segment = onMap(0, receiver, toCentre + cornerOfLight(i), lengthOfRays(receiver),
+        vec2(depths.x, 2.0), false);
       if (!segment.any)
       {
         blockable = false;
@@ -236,7 +257,7 @@ void main()
   vec4 fragment = texelFetch(receiverFragments, pixel, 0);
   if (fragment.x <= 0.0)
   {
-    visibilityAndClass = vec2(1.0, NO_RECEIVER);
+    visibilityAndClass = VisibilityAndClass(lit, NO_RECEIVER);
     return;
   }
   vec4 point = texelFetch(receiverPoints, pixel, 0);
@@ -246,21 +267,22 @@ void main()
   vec3 toCentre = lightView.xyz - lightView.w * receiver.position;
   if (!facesLight(receiver.normal, toCentre) || !lightReaches(receiver.position))
   {
-    visibilityAndClass = vec2(0.0, TURNED_AWAY);
+    visibilityAndClass = VisibilityAndClass(Shine(0.0), TURNED_AWAY);
     return;
   }
 
   vec2 depths = viewCount > 0 ? depthsOf(0) : vec2(0.0);
 #ifdef CLASSIFY_PIXELS
-  float pixelClass = viewCount > 0 ? classOf(receiver, toCentre, depths) : LIT;
+  float pixelClass = classOf(receiver, toCentre, depths);
   if (pixelClass != SEARCHED)
   {
-    visibilityAndClass = vec2(pixelClass == LIT ? 1.0 : 0.0, pixelClass);
+    visibilityAndClass = VisibilityAndClass(pixelClass == LIT ? lit : Shine(0.0), pixelClass);
     return;
   }
 #endif
 
-  int lit = 0;
+  Shine seen = Shine(0.0);
+  Shine all = Shine(0.0);
   bool searched = false;
   FourPoints points;
   for (int i = 0; i < RAYS * RAYS; ++i)
@@ -269,9 +291,14 @@ void main()
     {
       points = fourPoints(pixel, i);
     }
-    float length;
-    vec3 way = wayTo(receiver, toCentre, lightPoint(points, i), length);
-    lit += isBlocked(receiver, way, length, depths, searched) ? 0 : 1;
+    vec3 offset = lightPoint(points, i);
+    all += shineAt(offset);
+    offset = inFront(receiver, toCentre, offset);
+    if (!isBlocked(receiver, toCentre + offset, lengthOfRays(receiver), depths, searched))
+    {
+      seen += shineAt(offset);
+    }
   }
-  visibilityAndClass = vec2(float(lit) / float(RAYS * RAYS), searched ? SEARCHED : BY_RAYS);
+  visibilityAndClass =
+    VisibilityAndClass(visibilityOf(seen, all), searched ? SEARCHED : BY_RAYS);
 }

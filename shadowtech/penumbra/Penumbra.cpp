@@ -1,6 +1,7 @@
 #include "shadowtech/penumbra/Penumbra.h"
 
 #include "shadowtech/penumbra/PenumbraChooser.h"
+#include "shadowtech/raytraced/Raytraced.h"
 #include "shadowtech/tracing/ShadowTracer.h"
 
 namespace gnomon
@@ -14,6 +15,7 @@ TechniqueInfo Penumbra::info()
   info.evaluation = Evaluation::ScreenCpu;
   info.exact = true;
   info.takesLightSamples = true;
+  info.seesTextures = true;
   info.classes = classesOfPenumbra();
   return info;
 }
@@ -22,11 +24,10 @@ TechniqueInfo Penumbra::info()
 void Penumbra::computeVisibility(
   const ScreenInput& input, std::vector<float>& visibility, LightReport& report)
 {
-  if (!input.light.area)
+  // Bounds count samples, whatever their colours.
+  if (!input.light.area || input.light.texture)
   {
-    report.tracedPixels = static_cast<std::int64_t>(input.tracer.trace(
-      input.light, input.occluders, input.receivers, visibility, nullptr, input.classes));
-    report.rays = report.tracedPixels;
+    Raytraced().computeVisibility(input, visibility, report);
     return;
   }
   this->tree_.update(input.occluders);

@@ -13,6 +13,7 @@ TechniqueInfo Raytraced::info()
   info.evaluation = Evaluation::ScreenCpu;
   info.exact = true;
   info.takesLightSamples = true;
+  info.seesTextures = true;
   info.classes = classesOfTracing();
   return info;
 }

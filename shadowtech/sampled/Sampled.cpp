@@ -3,6 +3,7 @@
 #include "lights/LightAt.h"
 #include "lights/LightSamples.h"
 #include "lights/LightSpace.h"
+#include "shadowtech/base/ChannelView.h"
 #include "shadowtech/base/GlState.h"
 #include "shadowtech/base/Occluders.h"
 #include "shadowtech/base/ReceiverTarget.h"
@@ -10,6 +11,7 @@
 #include "shadowtech/base/VisibilityLayers.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace gnomon
 {
@@ -48,6 +50,7 @@ TechniqueInfo Sampled::info()
   info.evaluation = Evaluation::ScreenGpu;
   info.needsMap = true;
   info.refines = true;
+  info.seesTextures = true;
   info.refused = refused;
   return info;
 }
@@ -76,7 +79,8 @@ void Sampled::drawVisibility(const LayerInput& input, LightReport& report)
   const GlStateGuard guard;
   const bool begins = this->beginIfStale(input);
   const std::size_t points = this->shown_->points.size();
-  if (points == 1 || (begins && input.light.progressiveSamples > 0))
+  const bool hard = points == 1 || (begins && input.light.progressiveSamples > 0);
+  if (hard && this->shown_->channels == 1)
   {
     input.layers.estimate(
       input.layer, this->centre_, input.light, input.receivers, input.space, input.shaders);
@@ -105,10 +109,20 @@ void Sampled::drawVisibility(const LayerInput& input, LightReport& report)
 /// @return whether it did
 bool Sampled::beginIfStale(const LayerInput& input)
 {
-  Shown shown{ input.receiversShown, pairedLightSamples(input.light) };
+  Shown shown{ input.receiversShown, pairedLightSamples(input.light),
+    channelsOf(info(), input.light), {} };
+  const bool textured = shown.channels == 3;
+  for (const glm::dvec3& point : shown.points)
+  {
+    shown.shine.push_back(textured ? input.light.texture->colourAt(point) : glm::vec3(1.0f));
+  }
   if (this->shown_ && *this->shown_ == shown)
   {
     return false;
+  }
+  if (const int channels = textured ? 4 : 1; this->sum_.channels() != channels)
+  {
+    this->sum_ = RunningSum(channels);
   }
   this->shown_.reset(); // in case that there is no memory
   this->sum_.begin(
@@ -141,13 +155,17 @@ void Sampled::addBatch(const LayerInput& input, std::size_t count)
     ++input.mapBakes;
   }
 
-  const GLuint program = ScreenPass::use(input.shaders, this->sumGlsl(input, lights));
+  const bool textured = this->shown_->channels == 3;
+  const std::vector<std::string> defines =
+    textured ? std::vector<std::string>{ "TEXTURED" } : std::vector<std::string>{};
+  const GLuint program = ScreenPass::use(input.shaders, this->sumGlsl(input, lights), defines);
   std::vector<Uniform> uniforms = this->sum_.before();
   uniforms.push_back(
     { "receiverFragments", TextureBinding{ GL_TEXTURE_2D, input.receivers.fragments() } });
   uniforms.push_back(
     { "receiverPoints", TextureBinding{ GL_TEXTURE_2D, input.receivers.points() } });
-  uniforms.push_back({ "batchPoints", static_cast<int>(count) });
+  const glm::vec3 shine = this->shineOf(this->summed_, this->summed_ + count);
+  uniforms.push_back(textured ? Uniform{ "batchShine", shine } : Uniform{ "batchShine", shine.r });
   int freeUnit = ShaderLibrary::setUniforms(program, uniforms, centreNumber, 0);
   freeUnit = ShaderLibrary::setUniforms(
     program, this->centre_.uniforms(input.space), centreNumber, freeUnit);
@@ -157,6 +175,7 @@ void Sampled::addBatch(const LayerInput& input, std::size_t count)
     std::vector<Uniform> ofPoint = this->batch_[i].uniforms(input.space);
     ofPoint.push_back(
       { "pointOffset_LIGHT", glm::vec3(lightFromWorld * this->shown_->points[this->summed_ + i]) });
+    ofPoint.push_back({ "pointShine_LIGHT", this->shown_->shine[this->summed_ + i] });
     freeUnit = ShaderLibrary::setUniforms(program, ofPoint, numberOf(i), freeUnit);
   }
   this->sum_.fill();
@@ -176,7 +195,7 @@ std::string Sampled::sumGlsl(const LayerInput& input, const std::vector<ShadowLi
     sum += (sum.empty() ? "" : " + ") + std::string("share_") + std::to_string(numberOf(i)) +
       "(positionView, normalView, normalCentre, toCentre)";
   }
-  text += "float sharesOfBatch(vec3 positionView, vec3 normalView, vec3 normalCentre, vec3 "
+  text += "Shine sharesOfBatch(vec3 positionView, vec3 normalView, vec3 normalCentre, vec3 "
           "toCentre)\n{\n  return " +
     sum + ";\n}\n";
   return text +
@@ -185,15 +204,32 @@ std::string Sampled::sumGlsl(const LayerInput& input, const std::vector<ShadowLi
 }
 
 //------------------------------------------------------------------------------
+/// What some of the points shine with together.
+glm::vec3 Sampled::shineOf(std::size_t first, std::size_t end) const
+{
+  const auto begin = this->shown_->shine.begin();
+  return std::accumulate(begin + static_cast<std::ptrdiff_t>(first),
+    begin + static_cast<std::ptrdiff_t>(end), glm::vec3(0.0f));
+}
+
+//------------------------------------------------------------------------------
 void Sampled::showMean(const LayerInput& input)
 {
+  const glm::vec3 all = this->shineOf(0, this->summed_);
+  const int channels = this->shown_->channels;
   const GLuint program = ScreenPass::use(
     input.shaders, ShaderLibrary::source("shadowtech/sampled/sampled_mean.frag.glsl"));
-  ShaderLibrary::setUniforms(program,
-    { { "sum", TextureBinding{ GL_TEXTURE_2D, this->sum_.texture() } },
-      { "points", static_cast<float>(this->summed_) } },
-    centreNumber, 0);
-  input.layers.fill(input.layer);
+  for (int channel = 0; channel < channels; ++channel)
+  {
+    const float lit = channels == 3 ? input.light.texture->mean[channel] : 1.0f;
+    // Of a colour that no point has, the sum is 0.
+    const float whole = all[channel] > 0.0f ? all[channel] / lit : 1.0f;
+    const ChannelView view(this->sum_.texture(), GL_RED + static_cast<GLenum>(channel), GL_GREEN);
+    ShaderLibrary::setUniforms(program,
+      { { "sum", TextureBinding{ GL_TEXTURE_2D, this->sum_.texture() } }, { "whole", whole } },
+      centreNumber, 0);
+    input.layers.fill(input.layer + channel);
+  }
 }
 
 } // namespace gnomon

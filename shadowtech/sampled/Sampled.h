@@ -5,6 +5,8 @@
 #include "shadowtech/base/Technique.h"
 #include "shadowtech/compare/Compare.h"
 
+#include <glm/glm.hpp>
+
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -20,10 +22,14 @@ namespace gnomon
 /// sees to a running sum. Sums are whole numbers below 2^24, which floats hold: neither the batches' size nor the frames
 /// that the points are spread over change a bit of the mean. (Splits that blend would; they are refused.)
 ///
-/// Visibility means what it means to shadow rays (directionToSample): a point behind the receiver's plane gives way to the
+/// Visibility means what it means to shadow rays (sideOfSample): a point behind the receiver's plane gives way to the
 /// opposite one. Points come in opposite pairs (pairedLightSamples), so that this is a matter of weights: a point counts
 /// twice where the receiver faces it and not its opposite. A pair's weights always sum to 2, so that a pair is the least
 /// that may be shown.
+///
+/// Of a light with a texture the sum has three channels: each point counts with its colour (LightTexture.h). A few points
+/// seldom have the texture's mean, and so the sum is divided by what makes theirs the mean: of what nothing hides the light from,
+/// visibility is the mean. There is no hard shadow to begin with then.
 ///
 /// The sum is kept while nothing changes that it depends on: then nothing more is drawn. In progressive mode a change
 /// shows the centre's hard shadow, from the centre's map, which outlives the camera's moves, and each further frame
@@ -43,16 +49,20 @@ private:
   {
     std::size_t receivers = 0;      ///< LayerInput::receiversShown
     std::vector<glm::dvec3> points; ///< pairedLightSamples()
+    int channels = 1;               ///< channelsOf()
+    std::vector<glm::vec3> shine;   ///< of each of them: its colour in 255ths, of one channel 1
 
     bool operator==(const Shown& other) const
     {
-      return this->receivers == other.receivers && this->points == other.points;
+      return this->receivers == other.receivers && this->points == other.points &&
+        this->channels == other.channels && this->shine == other.shine;
     }
   };
 
   bool beginIfStale(const LayerInput& input);
   void addBatch(const LayerInput& input, std::size_t count);
   std::string sumGlsl(const LayerInput& input, const std::vector<ShadowLight>& lights) const;
+  glm::vec3 shineOf(std::size_t first, std::size_t end) const;
   void showMean(const LayerInput& input);
 
   Compare centre_;

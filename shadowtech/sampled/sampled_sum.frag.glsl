@@ -2,21 +2,22 @@
 // stand in front of this one, and that of the light's centre, which says what the light reaches.
 
 #include "shadowtech/base/running_sum.glsl"
+#include "shadowtech/base/shine.glsl"
 
 uniform sampler2D receiverFragments; // x: > 0 if it receives; zw: the normal's x and y
 uniform sampler2D receiverPoints;    // xyz: position, w: the normal's z; all in view coordinates
-uniform int batchPoints;
+uniform Shine batchShine; // of all its points
 
-out float sum;
+out Shine sum;
 
 void main()
 {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
-  sum = summedBefore(pixel).r;
+  sum = Shine(summedBefore(pixel));
   vec4 fragment = texelFetch(receiverFragments, pixel, 0);
   if (fragment.x <= 0.0)
   {
-    sum += float(batchPoints);
+    sum += batchShine;
     return;
   }
   vec4 point = texelFetch(receiverPoints, pixel, 0);

@@ -20,6 +20,7 @@ TechniqueInfo Coherence::info()
 {
   TechniqueInfo info = infoOf("coherence");
   info.takesLightSamples = true;
+  info.seesTextures = true;
   info.refused = refused;
   return info;
 }

@@ -238,7 +238,13 @@ private:
     {
       // Embree sets the far end of a ray that hits to minus infinity.
       const std::uint16_t pixel = this->pixels_[lane];
-      tile.visibility[pixel] -= this->packet_.tfar[lane] < 0.0f ? tile.samplesOfRay[pixel] : 0.0f;
+      const bool blocked = this->packet_.tfar[lane] < 0.0f;
+      // Nearly always there is one channel.
+      tile.visibility[0][pixel] -= blocked ? tile.samplesOfRay[0][pixel] : 0.0f;
+      for (std::size_t channel = 1; channel < tile.channels; ++channel)
+      {
+        tile.visibility[channel][pixel] -= blocked ? tile.samplesOfRay[channel][pixel] : 0.0f;
+      }
     }
     this->taken_ = 0;
   }

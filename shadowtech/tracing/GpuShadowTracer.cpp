@@ -21,7 +21,7 @@ constexpr std::size_t roomForRays = std::size_t(1) << 22;
 
 /// Writes the rays that a tile needs, square by square.
 /// @param to has room for those of a whole tile
-/// @param samplesTo the same for how many samples each stands for
+/// @param samplesTo the same for how many samples each stands for, by channel
 /// @return how many there are
 std::size_t writeRays(const TracedTile& tile, float rayFar, TracedRay* to, float* samplesTo)
 {
@@ -40,7 +40,10 @@ std::size_t writeRays(const TracedTile& tile, float rayFar, TracedRay* to, float
         *to++ = { { tile.originX[pixel], tile.originY[pixel], tile.originZ[pixel] }, rayFar,
           { tile.directionX[pixel], tile.directionY[pixel], tile.directionZ[pixel] },
           static_cast<std::uint32_t>(tile.firstPixel + y * tile.columnsOfPicture + x) };
-        *samplesTo++ = tile.samplesOfRay[pixel];
+        for (std::size_t channel = 0; channel < tile.channels; ++channel)
+        {
+          *samplesTo++ = tile.samplesOfRay[channel][pixel];
+        }
       }
     }
   }
@@ -78,14 +81,15 @@ std::size_t GpuShadowTracer::collectRays(
   const std::size_t raysOfTile =
     TracedTile::pixels * static_cast<std::size_t>(samples.end - samples.first);
   this->rays_.resize(picture.tiles() * raysOfTile);
-  this->samplesOfRays_.resize(this->rays_.size());
+  const std::size_t channels = picture.channels();
+  this->samplesOfRays_.resize(channels * this->rays_.size());
   std::vector<std::size_t> counts(picture.tiles(), 0);
   picture.visitTiles(samples,
     [&](const TracedTile& tile)
     {
       const std::size_t to = tile.number * raysOfTile + counts[tile.number];
       const std::size_t written =
-        writeRays(tile, picture.rayFar(), &this->rays_[to], &this->samplesOfRays_[to]);
+        writeRays(tile, picture.rayFar(), &this->rays_[to], &this->samplesOfRays_[channels * to]);
       counts[tile.number] += written;
       return written;
     });
@@ -96,7 +100,8 @@ std::size_t GpuShadowTracer::collectRays(
     if (first != count)
     {
       std::copy_n(&this->rays_[first], counts[tile], &this->rays_[count]);
-      std::copy_n(&this->samplesOfRays_[first], counts[tile], &this->samplesOfRays_[count]);
+      std::copy_n(&this->samplesOfRays_[channels * first], channels * counts[tile],
+        &this->samplesOfRays_[channels * count]);
     }
     count += counts[tile];
   }
@@ -124,7 +129,7 @@ std::size_t GpuShadowTracer::tracePicture(const TracedPicture& picture)
     {
       if (this->blocked_[i] != 0)
       {
-        picture.darken(this->rays_[i].pixel, this->samplesOfRays_[i]);
+        picture.darken(this->rays_[i].pixel, &this->samplesOfRays_[picture.channels() * i]);
       }
     }
     rays += count;

@@ -35,7 +35,7 @@ private:
   /// Room for some samples' rays of all pixels. They begin tile by tile where all of a tile's would, and then
   /// side by side.
   std::vector<TracedRay> rays_;
-  std::vector<float> samplesOfRays_; ///< how many samples each of them stands for
+  std::vector<float> samplesOfRays_; ///< how many samples each of them stands for, by channel
   std::vector<std::uint8_t> blocked_;
 };
 

@@ -48,9 +48,11 @@ public:
   }
 
   /// The same of an area light, whose centre decides what it reaches: the share of its samples that the
-  /// receiver sees, each pixel with its own (directionToSample()).
+  /// receiver sees, each pixel with its own (sideOfSample()). Of a light with a texture it has three channels, one image
+  /// after the other: the share of its samples' colours that the receiver sees, times the texture's mean; where there is nothing
+  /// to trace and it is lit, the texture's mean.
   /// @param light with an area
-  /// @param chooser who knows which of a pixel's rays decide the others; null: nobody
+  /// @param chooser who knows which of a pixel's rays decide the others; null: nobody. There is none for textures
   std::size_t traceArea(const ShadowLight& light, const Occluders& occluders,
     const Receivers& receivers, std::vector<float>& visibility,
     const ReceiverDecider* decider = nullptr, std::vector<std::uint8_t>* classes = nullptr,

@@ -54,20 +54,24 @@ void makeRays(const ReceiverPixels& receivers, std::size_t from, Columns columns
 }
 
 /// Fills a row of a tile whose pixels are all of one class, none of them traced.
-/// @param lit the visibility of what is lit
-void fillRow(TracedClass of, float lit, std::size_t columns, std::size_t to, TracedTile& tile)
+/// @param lit the visibility of what is lit, by channel
+void fillRow(TracedClass of, const std::array<float, 3>& lit, std::size_t columns, std::size_t to,
+  TracedTile& tile)
 {
   std::fill_n(&tile.classes[to], columns, static_cast<std::uint8_t>(of));
   std::fill_n(&tile.needed[to], columns, 0);
-  std::fill_n(&tile.visibility[to], columns, isDark(of) ? 0.0f : lit);
+  for (std::size_t channel = 0; channel < tile.channels; ++channel)
+  {
+    std::fill_n(&tile.visibility[channel][to], columns, isDark(of) ? 0.0f : lit[channel]);
+  }
 }
 
 /// What becomes of the pixels of one row of a tile, and so which rays are needed, and what shows without any.
 /// @param receives by surface + 1: 1 or 0
 /// @param certain null: nothing is
-/// @param lit the visibility of what is lit
+/// @param lit the visibility of what is lit, by channel
 void classify(const ReceiverTile& tile, std::size_t from, const std::uint8_t* receives,
-  const Certainty* certain, float lit, std::size_t to, TracedTile& traced)
+  const Certainty* certain, const std::array<float, 3>& lit, std::size_t to, TracedTile& traced)
 {
   const auto columns = static_cast<std::size_t>(tile.receivers.width);
   for (std::size_t x = 0; x < columns; ++x)
@@ -83,7 +87,10 @@ void classify(const ReceiverTile& tile, std::size_t from, const std::uint8_t* re
                                                          : TracedClass::NoReceiver;
     traced.classes[to + x] = static_cast<std::uint8_t>(of);
     traced.needed[to + x] = of == TracedClass::Traced ? 1 : 0;
-    traced.visibility[to + x] = isDark(of) ? 0.0f : lit;
+    for (std::size_t channel = 0; channel < traced.channels; ++channel)
+    {
+      traced.visibility[channel][to + x] = isDark(of) ? 0.0f : lit[channel];
+    }
   }
 }
 
@@ -147,6 +154,27 @@ public:
     }
   }
 
+  /// What of a texture a pixel's samples show, in sum: all of them, and those points that its rays go to.
+  struct Colours
+  {
+    glm::vec3 all{ 0.0f };
+    glm::vec3 lit{ 0.0f };
+  };
+  Colours coloursOf(std::size_t pixel, const PlacedTexture& texture)
+  {
+    this->samples_.offsets(
+      this->pixels_[pixel], { this->x_.data(), this->y_.data(), this->z_.data() });
+    const AreaRays rays = this->raysOf(pixel);
+    Colours sums;
+    for (std::size_t i = 0; i < this->x_.size(); ++i)
+    {
+      const glm::vec3 sample(this->x_[i], this->y_[i], this->z_[i]);
+      sums.all += texture.colourAt(sample);
+      sums.lit += texture.colourAt(sideOfSample(rays, sample) * sample);
+    }
+    return sums;
+  }
+
   /// Turns the rays of some pixels to one sample each.
   /// @param first of the pixels; those that need no ray get one that means nothing
   void turn(std::size_t first, const Together<std::uint32_t>& samples, TracedTile& traced) const
@@ -161,6 +189,25 @@ public:
       traced.directionX[first + i] = towards.x;
       traced.directionY[first + i] = towards.y;
       traced.directionZ[first + i] = towards.z;
+    }
+  }
+
+  /// Has these rays, where they are blocked, take off the colours of the points that they go to.
+  void colour(std::size_t first, const Together<std::uint32_t>& samples,
+    const PlacedTexture& texture, TracedTile& traced) const
+  {
+    Together<float> x, y, z;
+    this->samples_.offsets(
+      samples.data(), &this->pixels_[first], pixelsTogether, { x.data(), y.data(), z.data() });
+    for (std::size_t i = 0; i < pixelsTogether; ++i)
+    {
+      const glm::vec3 sample(x[i], y[i], z[i]);
+      const glm::vec3 colour =
+        texture.colourAt(sideOfSample(this->raysOf(first + i), sample) * sample);
+      for (std::size_t channel = 0; channel < 3; ++channel)
+      {
+        traced.samplesOfRay[channel][first + i] = colour[static_cast<glm::length_t>(channel)];
+      }
     }
   }
 
@@ -235,12 +282,24 @@ TracedPicture::TracedPicture(const ShadowLight& light, const Occluders& occluder
   , classes_(classes)
   , light_(light, occluders.centreWorld)
   , samples_(samples)
+  , texture_(samples && light.texture ? &*light.texture : nullptr)
   , chooser_(chooser)
 {
-  this->visibility_.resize(receivers.width() * receivers.height());
+  this->visibility_.resize(this->channels() * this->pixels());
   if (this->classes_)
   {
-    this->classes_->resize(this->visibility_.size());
+    this->classes_->resize(this->pixels());
+  }
+  this->lit_.fill(static_cast<float>(this->samples()));
+  if (this->texture_)
+  {
+    const auto whole = static_cast<float>(this->samples() * LightTexture::full);
+    this->wholes_ = std::make_unique<float[]>(this->visibility_.size());
+    std::fill_n(this->wholes_.get(), this->visibility_.size(), whole);
+    for (int channel = 0; channel < 3; ++channel)
+    {
+      this->lit_[static_cast<std::size_t>(channel)] = whole * this->texture_->mean[channel];
+    }
   }
   this->receives_.push_back(0);
   for (const Surface& surface : occluders.surfaces)
@@ -271,6 +330,7 @@ void TracedPicture::prepare(
   const ReceiverPixels& receivers = tile.receivers;
   const auto columns = static_cast<std::size_t>(receivers.width);
   const auto rows = static_cast<std::size_t>(receivers.height);
+  traced.channels = this->channels();
   traced.columnsOfPicture = this->receivers_.width();
   traced.number =
     tile.firstRow / TracedTile::rows * tilesAcross(traced.columnsOfPicture, TracedTile::columns) +
@@ -280,7 +340,6 @@ void TracedPicture::prepare(
   {
     traced.needed.fill(0);
   }
-  const auto lit = static_cast<float>(this->samples());
   std::array<bool, TracedTile::rows> alike;
   for (std::size_t y = 0; y < rows; ++y)
   {
@@ -290,7 +349,7 @@ void TracedPicture::prepare(
       const Certainty known = tile.known[y * columns];
       fillRow(
         known == Certainty::Uncertain ? TracedClass::NoReceiver : static_cast<TracedClass>(known),
-        lit, columns, y * TracedTile::columns, traced);
+        this->lit_, columns, y * TracedTile::columns, traced);
       continue;
     }
     const auto make = [&](auto count)
@@ -310,7 +369,7 @@ void TracedPicture::prepare(
     if (!alike[y])
     {
       classify(tile, y * columns, this->receives_.data(), this->decider_ ? certain.data() : nullptr,
-        lit, y * TracedTile::columns, traced);
+        this->lit_, y * TracedTile::columns, traced);
     }
   }
 }
@@ -324,7 +383,11 @@ void TracedPicture::keep(const ReceiverTile& tile, const TracedTile& traced) con
   for (std::size_t y = 0; y < rows; ++y)
   {
     const std::size_t first = traced.firstPixel + y * traced.columnsOfPicture;
-    std::copy_n(&traced.visibility[y * TracedTile::columns], columns, &this->visibility_[first]);
+    for (std::size_t channel = 0; channel < traced.channels; ++channel)
+    {
+      std::copy_n(&traced.visibility[channel][y * TracedTile::columns], columns,
+        &this->visibility_[channel * this->pixels() + first]);
+    }
     if (this->classes_)
     {
       std::copy_n(&traced.classes[y * TracedTile::columns], columns, &(*this->classes_)[first]);
@@ -349,9 +412,19 @@ std::size_t TracedPicture::visitSamples(const SampleRange& samples, const Receiv
   }
   for (std::size_t pixel = 0; pixel < TracedTile::pixels; ++pixel)
   {
-    if (traced.needed[pixel] != 0)
+    if (traced.needed[pixel] == 0)
     {
-      traced.visibility[pixel] = static_cast<float>(rays.pixels[pixel].lit);
+      continue;
+    }
+    traced.visibility[0][pixel] = static_cast<float>(rays.pixels[pixel].lit);
+    if (this->texture_)
+    {
+      const AreaTile::Colours sums = area.coloursOf(pixel, *this->texture_);
+      for (std::size_t channel = 0; channel < 3; ++channel)
+      {
+        traced.visibility[channel][pixel] = sums.lit[static_cast<glm::length_t>(channel)];
+      }
+      this->scale(traced.pixelOfPicture(pixel), sums.all);
     }
   }
   std::size_t count = 0;
@@ -370,7 +443,7 @@ std::size_t TracedPicture::visitSamples(const SampleRange& samples, const Receiv
         if (needed)
         {
           anyOfThese = true;
-          traced.samplesOfRay[first + i] =
+          traced.samplesOfRay[0][first + i] =
             number == 0 ? static_cast<float>(wanted.ofFirstRay) : 1.0f;
           sampleOf[i] = rays.samples[wanted.first + static_cast<std::uint32_t>(number)];
         }
@@ -378,6 +451,10 @@ std::size_t TracedPicture::visitSamples(const SampleRange& samples, const Receiv
       if (anyOfThese)
       {
         area.turn(first, sampleOf, traced);
+        if (this->texture_)
+        {
+          area.colour(first, sampleOf, *this->texture_, traced);
+        }
         any = true;
       }
     }
@@ -401,11 +478,11 @@ std::size_t TracedPicture::visitTiles(
       this->receivers_.visitTiles(
         [&](const ReceiverTile& tile)
         {
-          TracedTile traced; // 40 KB that are not cleared
+          TracedTile traced; // 56 KB that are not cleared
           this->prepare(tile, makeRay, traced);
           if (!this->samples_)
           {
-            traced.samplesOfRay.fill(1.0f);
+            traced.samplesOfRay[0].fill(1.0f);
             rays += trace(traced);
           }
           else if (std::find(traced.needed.begin(), traced.needed.end(), 1) != traced.needed.end())
@@ -425,12 +502,30 @@ std::size_t TracedPicture::visitTiles(
 //------------------------------------------------------------------------------
 void TracedPicture::finish() const
 {
-  if (this->samples_)
+  if (!this->samples_)
   {
-    const auto count = static_cast<float>(this->samples_->count());
-    for (float& visibility : this->visibility_)
+    return;
+  }
+  const auto count = static_cast<float>(this->samples_->count());
+  for (std::size_t i = 0; i < this->visibility_.size(); ++i)
+  {
+    // Samples that gave way to brighter ones may come to more than all of the light.
+    const float whole = this->texture_ ? this->wholes_[i] : count;
+    this->visibility_[i] = std::min(this->visibility_[i] / whole, 1.0f);
+  }
+}
+
+//------------------------------------------------------------------------------
+/// Has a pixel's sums of colours scaled so that all of its samples together have the texture's mean.
+/// @param all the sum of their colours; channels that none of them has stay as they are
+void TracedPicture::scale(std::size_t pixel, const glm::vec3& all) const
+{
+  for (int channel = 0; channel < 3; ++channel)
+  {
+    if (all[channel] > 0.0f)
     {
-      visibility /= count;
+      this->wholes_[static_cast<std::size_t>(channel) * this->pixels() + pixel] =
+        all[channel] / this->texture_->mean[channel];
     }
   }
 }

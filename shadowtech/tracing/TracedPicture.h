@@ -14,6 +14,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <vector>
 
 namespace gnomon
@@ -44,14 +45,25 @@ struct alignas(64) TracedTile
   /// The shadow rays of all pixels, needed or not. Their direction has any length.
   Plane<float> originX, originY, originZ;
   Plane<float> directionX, directionY, directionZ;
-  Plane<int> needed;           ///< 1 or 0; 0 beyond the picture's border
-  Plane<float> visibility;     ///< how many of the light's samples are seen
-  Plane<float> samplesOfRay;   ///< how many of them a blocked ray takes off
+  Plane<int> needed; ///< 1 or 0; 0 beyond the picture's border
+  ///@{
+  /// How many of the light's samples are seen, and how many of them a blocked ray takes off; of a light with a texture the sums
+  /// of their colours in 255ths, channel by channel.
+  std::array<Plane<float>, 3> visibility;
+  std::array<Plane<float>, 3> samplesOfRay;
+  ///@}
   Plane<std::uint8_t> classes; ///< TracedClass
 
+  std::size_t channels;         ///< of the visibility: 1 or 3
   std::size_t number;           ///< of the picture's tiles, row by row
   std::size_t firstPixel;       ///< of the picture
   std::size_t columnsOfPicture; ///< from a row of the picture to the next
+
+  /// The picture's pixel that one of the tile's is.
+  std::size_t pixelOfPicture(std::size_t pixel) const
+  {
+    return this->firstPixel + pixel / columns * this->columnsOfPicture + pixel % columns;
+  }
 };
 
 /// A picture's shadow rays in one light: what the tracers have in common is here, and which rays are blocked is
@@ -67,10 +79,10 @@ public:
   };
 
   /// @param decider who knows something without rays; null: nobody
-  /// @param visibility resized to one for each pixel of the picture
-  /// @param classes where not null, resized likewise
-  /// @param samples of the light's area; null: its centre
-  /// @param chooser who knows which of a pixel's rays decide the others; null: nobody
+  /// @param visibility resized to one for each pixel of the picture; of several channels one image after the other
+  /// @param classes where not null, resized to one for each pixel
+  /// @param samples of the light's area, which it has a texture with if any; null: its centre
+  /// @param chooser who knows which of a pixel's rays decide the others; null: nobody. There is none for textures
   TracedPicture(const ShadowLight& light, const Occluders& occluders, const Receivers& receivers,
     const ReceiverDecider* decider, std::vector<float>& visibility,
     std::vector<std::uint8_t>* classes, const LightSamples* samples,
@@ -84,6 +96,8 @@ public:
   /// How many rays a pixel has, if any.
   int samples() const { return this->samples_ ? this->samples_->count() : 1; }
   SampleRange allSamples() const { return { 0, this->samples() }; }
+  /// Of its visibility: 3 of an area light with a texture, else 1.
+  std::size_t channels() const { return this->texture_ ? 3 : 1; }
 
   /// Fills visibility and classes, tile by tile; several threads do so at once.
   /// @param samples whose rays are traced; visibility and classes are filled with the first of them all
@@ -95,8 +109,14 @@ public:
     const SampleRange& samples, const std::function<std::size_t(TracedTile&)>& trace) const;
 
   /// Takes a blocked ray off a pixel of a tile that was visited.
-  /// @param samples that the ray stands for
-  void darken(std::size_t pixel, float samples) const { this->visibility_[pixel] -= samples; }
+  /// @param samples that the ray stands for, one number for each channel
+  void darken(std::size_t pixel, const float* samples) const
+  {
+    for (std::size_t channel = 0; channel < this->channels(); ++channel)
+    {
+      this->visibility_[channel * this->pixels() + pixel] -= samples[channel];
+    }
+  }
 
   /// Makes shares of counts, once all rays are traced.
   void finish() const;
@@ -107,6 +127,8 @@ private:
   std::size_t visitSamples(const SampleRange& samples, const ReceiverTile& tile, TracedTile& traced,
     const std::function<std::size_t(TracedTile&)>& trace) const;
   void keep(const ReceiverTile& tile, const TracedTile& traced) const;
+  std::size_t pixels() const { return this->receivers_.width() * this->receivers_.height(); }
+  void scale(std::size_t pixel, const glm::vec3& all) const;
 
   const Receivers& receivers_;
   const ReceiverDecider* decider_;
@@ -114,7 +136,12 @@ private:
   std::vector<std::uint8_t>* classes_;
   ShadowRayLight light_;
   const LightSamples* samples_;
+  const PlacedTexture* texture_; ///< null: all samples count alike
   const SampleChooser* chooser_;
+  /// What is lit, by channel, in the unit of TracedTile::visibility.
+  std::array<float, 3> lit_;
+  /// What the sums are divided by, as `visibility_` is laid out; null without texture.
+  std::unique_ptr<float[]> wholes_;
   /// By surface + 1, so that `notCovered` + 1 = 0 is the first: 1 or 0.
   std::vector<std::uint8_t> receives_;
 };

@@ -156,6 +156,24 @@ TEST(Comparison, EveryLightCountsOnItsOwn)
   EXPECT_EQ(error.falseShadow, 1);
 }
 
+TEST(Comparison, ALightWithATextureCountsByChannel)
+{
+  VisibilityImages truth = floorTruth();
+  truth.visibility.resize(3, truth.visibility[0]);
+  truth.sceneIndices = { 0, 0, 0 };
+  truth.channels = { LightChannel::Red, LightChannel::Green, LightChannel::Blue };
+  VisibilityImages technique = truth;
+  for (float& v : technique.visibility[1])
+  {
+    v += 0.3f;
+  }
+  technique.visibility[2][0] = 0.6f;
+  const VisibilityError error = measureError(technique, truth, { lightFromAbove() });
+  EXPECT_EQ(error.facingPixels, 3 * coveredPixels);
+  EXPECT_EQ(error.falseLight, 1);
+  EXPECT_NEAR(error.meanAbsolute, 0.1, 0.001);
+}
+
 TEST(Comparison, ImagesThatDoNotMatchAreRefused)
 {
   const VisibilityImages truth = floorTruth();
@@ -165,6 +183,9 @@ TEST(Comparison, ImagesThatDoNotMatchAreRefused)
   EXPECT_THROW(measureError(other, truth, { lightFromAbove() }), std::invalid_argument);
   other = truth;
   other.sceneIndices = { 1 };
+  EXPECT_THROW(measureError(other, truth, { lightFromAbove() }), std::invalid_argument);
+  other = truth;
+  other.channels = { LightChannel::Red };
   EXPECT_THROW(measureError(other, truth, { lightFromAbove() }), std::invalid_argument);
   other = truth;
   other.visibility[0].pop_back();
@@ -207,7 +228,7 @@ TEST(PictureVisibility, IsTheQuotientOfTheBrightestUsefulExposure)
     { grey({ 200, 200, 1, 0, 100 }), grey({ 200, 100, 1, 0, 120 }) },
     { grey({ 255, 255, 20, 0, 255 }), grey({ 255, 255, 10, 0, 255 }) },
   };
-  std::vector<float> found = visibilityFromPictures(exposures);
+  std::vector<float> found = visibilityFromPictures(exposures, 0);
   ASSERT_EQ(found.size(), 5u);
   EXPECT_TRUE(std::isnan(found[3]));
   found[3] = 0.0f;

@@ -107,6 +107,26 @@ TEST(ImageFile, CaptureHasItsTopRowFirst)
   EXPECT_GT(picture.rgb[last + 2], 200);
 }
 
+TEST(ImageFile, VisibilityOfALightWithATextureHasThreeChannels)
+{
+  const TestFolder folder;
+  VisibilityImages images = floorTruth();
+  images.sceneIndices = { 0, 2, 2, 2 };
+  for (const LightChannel channel : { LightChannel::Red, LightChannel::Green, LightChannel::Blue })
+  {
+    images.channels.push_back(channel);
+    images.visibility.emplace_back(
+      images.coverage.size(), 0.25f * static_cast<float>(images.channels.size()));
+  }
+  const std::string path = folder / "visibility.exr";
+  writeVisibility(images, path, {});
+  const ChannelImage read = readChannels(path);
+  EXPECT_EQ(read.channels.at("visibility.0"), images.visibility[0]);
+  EXPECT_EQ(read.channels.at("visibility.2.R"), images.visibility[1]);
+  EXPECT_EQ(read.channels.at("visibility.2.G"), images.visibility[2]);
+  EXPECT_EQ(read.channels.at("visibility.2.B"), images.visibility[3]);
+}
+
 TEST(ImageFile, VisibilityComesBackAsWritten)
 {
   const TestFolder folder;
@@ -114,6 +134,7 @@ TEST(ImageFile, VisibilityComesBackAsWritten)
   images.origin = { { 4e6 + 0.125, -1.0 / 3.0, 5e-7 } };
   images.visibility.push_back(std::vector<float>(images.coverage.size(), 0.25f));
   images.sceneIndices = { 0, 2 };
+  images.channels.push_back(LightChannel::All);
   images.positionX[5] = 1.0f / 3.0f;
   const std::string path = folder / "visibility.exr";
   writeVisibility(images, path, { { "technique", "nsm" }, { "stage maps", "8.25 ms" } });

@@ -19,6 +19,7 @@ inline VisibilityImages floorTruth()
   images.height = 30;
   images.origin = { { 1e6, 2e6, 3e6 } };
   images.sceneIndices = { 0 };
+  images.channels = { LightChannel::All };
   images.visibility.resize(1);
   for (int y = 0; y < images.height; ++y)
   {

@@ -357,6 +357,46 @@ TEST_F(SceneFile, AreaLightsAreRectanglesOrDisks)
   EXPECT_EQ(light->GetConeAngle(), 40.0);
   refused("height", 1, "lights[0].height: means nothing for a disk");
   refused("radius", "wide", "lights[0].radius: ");
+  refused("up", { 0, 1, 0 }, "lights[0].up: means nothing for a disk without texture");
+}
+
+//------------------------------------------------------------------------------
+TEST_F(SceneFile, AreaLightsMayHaveATexture)
+{
+  writeBytes(this->folder / "panes.png", samplePng());
+  nlohmann::json document = sampleScene();
+  document["lights"][0] = { { "type", "area" }, { "position", { 1, 2, 3 } },
+    { "target", { 0, 0, 0 } }, { "width", 1 }, { "height", 2 }, { "texture", "panes.png" } };
+  const SceneLight rectangle = this->load(document).lights[0];
+  ASSERT_TRUE(rectangle.area->texture);
+  EXPECT_EQ(rectangle.area->texture->GetDimensions()[0], 8);
+
+  const auto refused = [&](const nlohmann::json& value, const char* message)
+  {
+    nlohmann::json broken = document;
+    broken["lights"][0]["texture"] = value;
+    const std::string found = messageOf<BadInput>([&] { this->load(broken); });
+    EXPECT_NE(found.find("lights[0].texture: "), std::string::npos) << found;
+    EXPECT_NE(found.find(message), std::string::npos) << found;
+  };
+  refused(3, "expected a text");
+  refused("gone.png", "gone.png: no such file");
+  refused("scene.json", "scene.json: not a PNG or JPEG image");
+  nlohmann::json point = document;
+  point["lights"][0] = { { "type", "point" }, { "position", { 1, 2, 3 } },
+    { "texture", "panes.png" } };
+  const std::string message = messageOf<BadInput>([&] { this->load(point); });
+  EXPECT_NE(message.find("unknown key \"texture\""), std::string::npos) << message;
+
+  document["lights"][0] = { { "type", "area" }, { "position", { 1, 2, 3 } },
+    { "target", { 0, 0, 0 } }, { "shape", "disk" }, { "radius", 0.5 }, { "up", { 0, 0, 1 } },
+    { "texture", "panes.png" } };
+  const auto renderer = makeRenderer(this->load(document), 1.0);
+  auto* light = vtkGnomonAreaLight::SafeDownCast(renderer->GetLights()->GetItemAsObject(0));
+  ASSERT_NE(light, nullptr);
+  EXPECT_EQ(light->GetUp()[2], 1.0);
+  ASSERT_NE(light->GetTexture(), nullptr);
+  EXPECT_EQ(light->GetTexture()->GetDimensions()[0], 8);
 }
 
 //------------------------------------------------------------------------------

@@ -33,7 +33,7 @@ LightSet read(vtkLight* light)
 {
   vtkNew<vtkRenderer> renderer;
   renderer->AddLight(light);
-  return LightManager::collect(renderer, {});
+  return LightManager().collect(renderer, {});
 }
 
 /// The area of a light that casts; a disk of no size where it has none.

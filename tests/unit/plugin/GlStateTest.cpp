@@ -4,12 +4,16 @@
 #include "LiveObjects.h"
 #include "PassScene.h"
 
+#include "lights/vtkGnomonAreaLight.h"
 #include "lights/vtkGnomonLightKeys.h"
 #include "plugin/vtkGnomonLightSamplingPass.h"
 
+#include <vtkDataArray.h>
+#include <vtkImageData.h>
 #include <vtkLightCollection.h>
 #include <vtkObjectFactory.h>
 #include <vtkOpenGLState.h>
+#include <vtkPointData.h>
 #include <vtkRenderPass.h>
 #include <vtkRenderState.h>
 #include <vtkTextureUnitManager.h>
@@ -319,6 +323,28 @@ TEST_P(GlStateOfWay, isChangedByPicturesOfLightPointsOnlyWherePlainVtkChangesIt)
         },
         { "GL_CURRENT_PROGRAM", "GL_ARRAY_BUFFER_BINDING" });
     }
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(GlState, isChangedByTexturesOfLightsOnlyWherePlainVtkChangesIt)
+{
+  for (const char* technique : { "raytraced", "montecarlo", "sampled", "pcf" })
+  {
+    expectChangesOfPlainVtkOnly(
+      [technique](PassScene& scene)
+      {
+        vtkNew<vtkImageData> image;
+        image->SetDimensions(3, 1, 1);
+        image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
+        image->GetPointData()->GetScalars()->Fill(99.0);
+        vtkNew<vtkGnomonAreaLight> lamp;
+        lamp->SetPosition(2.0, 1.0, 6.0);
+        lamp->SetTexture(image);
+        scene.renderer->AddLight(lamp);
+        scene.pass->SetTechnique(technique);
+        return scene.pass.Get();
+      });
   }
 }
 

@@ -247,7 +247,7 @@ protected:
   {
     this->scene.render(); // head lights follow the camera
     std::vector<gnomon::ShadowLight> areas =
-      gnomon::LightManager::collectAreas(this->scene.renderer, {});
+      gnomon::LightManager().collectAreas(this->scene.renderer, {});
     ASSERT_EQ(areas.size(), 1u);
     gnomon::ShadowLight& area = areas[0];
     area.lightSamples = this->sampling->GetSamples();
