@@ -4,6 +4,7 @@
 #include "PassScene.h"
 
 #include "lights/vtkGnomonAreaLight.h"
+#include "plugin/vtkGnomonLightSamplingPass.h"
 #include "plugin/vtkGnomonPropKeys.h"
 #include "shadowtech/Registry.h"
 
@@ -481,6 +482,20 @@ TEST_F(LightTextures, areRefined)
   } while (this->scene.pass->GetProgress() < 1.0 && frames < 50);
   EXPECT_EQ(frames, 6);
   EXPECT_EQ(this->scene.pass->GetVisibility().visibility, whole.visibility);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(LightTextures, areRefusedByPicturesOfTheirPoints)
+{
+  this->addFloor();
+  this->lamp->SetTexture(makeRedAndBlue());
+  vtkNew<vtkGnomonLightSamplingPass> sampling;
+  sampling->SetDelegatePass(this->scene.pass);
+  this->scene.renderer->SetPass(sampling);
+  this->scene.render();
+  EXPECT_THAT(this->takeErrors(), HasSubstr("light 0: it has a texture"));
+  this->lamp->SetTexture(nullptr);
+  this->scene.render();
 }
 
 //------------------------------------------------------------------------------
