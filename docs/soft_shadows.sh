@@ -1,6 +1,6 @@
 #!/bin/bash
 # Measures the error of soft shadows against the time that they take, and writes docs/soft_shadows.md. Takes a quarter of an hour or so;
-# what was measured before, in out/soft, is not measured again.
+# what the same program has measured in the same way before, in out/soft, is not measured again.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source cmake/debian.sh
@@ -17,7 +17,8 @@ for rays in 1 2 3 4 8; do
 done
 techniques+=,montecarlo:mc_filter=0,montecarlo:mc_layers=near_far
 for samples in 4 16 64 256; do
-  techniques+=",sampled:light_samples=$samples,penumbra:light_samples=$samples,raytraced:light_samples=$samples"
+  techniques+=",sampled:light_samples=$samples,coherence:light_samples=$samples"
+  techniques+=",penumbra:light_samples=$samples,raytraced:light_samples=$samples"
 done
 for sampling in jittered random; do
   for samples in 4 16 64 256; do
@@ -25,12 +26,16 @@ for sampling in jittered random; do
   done
 done
 
+program=$(cat build/release/bin/gnomon build/release/lib/libGnomon*.so | cksum)
+
 # compare SCENE OPTION... : measures into $out/SCENE, unless that was done before
 compare() {
   local folder="$out/$1"
-  if [ ! -e "$folder/results.csv" ]; then
-    rm -rf "$folder.part"
+  local how="$* $techniques $program"
+  if [ "$(cat "$folder/how.txt" 2> /dev/null)" != "$how" ]; then
+    rm -rf "$folder" "$folder.part"
     build/release/bin/gnomon compare "$1" -o "$folder.part" --techniques "$techniques" --route image --size 256x256 --frames 5 "${@:2}"
+    echo "$how" > "$folder.part/how.txt"
     mv "$folder.part" "$folder"
   fi
 }

@@ -60,7 +60,32 @@ void requireComposition(const VariantSpec& spec, vtkRenderer* renderer)
   }
 }
 
+/// Adds the plan's settings that concern a variant, unless it says them itself.
+/// @return what draws it then
+/// @throws CompositionError where nothing does
+const TechniqueInfo& addSettings(const ComparisonPlan& plan, VariantSpec& spec)
+{
+  const auto choosesEstimator = [](const Setting& setting)
+  { return setting.name == "estimator" || setting.name == "as_published"; };
+  // What these make of it is what the others concern, or do not.
+  for (const bool choosing : { true, false })
+  {
+    const TechniqueInfo& info = estimatorOf(settingsOf(spec)).info;
+    for (const auto& [name, value] : plan.settings)
+    {
+      const Setting& setting = *findSetting(name);
+      if (!value.empty() && choosesEstimator(setting) == choosing &&
+        setting.about != SettingSubject::Light && concerns(setting, info))
+      {
+        spec.settings.emplace(name, value);
+      }
+    }
+  }
+  return estimatorOf(settingsOf(spec)).info;
+}
+
 /// @param leftOut filled with the reason for each technique that a light refuses
+/// @throws BadInput where that is the truth
 std::vector<VariantSpec> listVariants(
   const ComparisonPlan& plan, const Scene& scene, std::vector<std::string>& leftOut)
 {
@@ -80,36 +105,33 @@ std::vector<VariantSpec> listVariants(
   for (const std::string& text : techniques)
   {
     VariantSpec spec = parseTechnique(text);
-    const TechniqueInfo& info = estimatorOf(settingsOf(spec)).info;
-    for (const auto& [name, value] : plan.settings)
-    {
-      const Setting& setting = *findSetting(name);
-      if (!value.empty() && setting.about != SettingSubject::Light && concerns(setting, info))
-      {
-        spec.settings.emplace(name, value);
-      }
-    }
+    const TechniqueInfo* info = nullptr;
     try
     {
+      info = &addSettings(plan, spec);
       requireComposition(spec, renderer);
     }
     catch (const CompositionError& error)
     {
+      if (text == truthTechnique)
+      {
+        throw BadInput(text + ", the truth that all are compared with: " + error.what());
+      }
       leftOut.push_back(text + " is left out: " + error.what() + ".");
       continue;
     }
     spec.tracer = plan.tracer;
     spec.rasterizer = plan.rasterizer;
-    spec.pointwise = info.isPointwise();
-    for (int size : info.needsMap ? plan.mapSizesTexels : std::vector<int>{ 0 })
+    spec.pointwise = info->isPointwise();
+    for (int size : info->needsMap ? plan.mapSizesTexels : std::vector<int>{ 0 })
     {
       spec.mapSizeTexels = size;
-      if (info.isPointwise() && plan.inlineRoute)
+      if (info->isPointwise() && plan.inlineRoute)
       {
         spec.route = vtkGnomonShadowPass::ROUTE_INLINE;
         specs.push_back(spec);
       }
-      if (!info.isPointwise() || plan.imageRoute)
+      if (!info->isPointwise() || plan.imageRoute)
       {
         spec.route = vtkGnomonShadowPass::ROUTE_IMAGE;
         specs.push_back(spec);

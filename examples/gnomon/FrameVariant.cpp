@@ -103,7 +103,7 @@ VariantSpec parseTechnique(const std::string& text)
     if (!setting || name == "technique" || name == "map_size")
     {
       throw BadInput("--techniques: " + text + ": found the setting \"" + name +
-        "\", expected one of: " + settingNames() + " (but technique and map_size)");
+        "\", expected one of: " + settingNames() + " (but technique, map_size and light_radius)");
     }
     if (setting->about == SettingSubject::Light)
     {

@@ -23,6 +23,7 @@
 #include <fstream>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <utility>
 
 namespace gnomon::tool
@@ -136,17 +137,23 @@ Scene loadWithOptions(const RenderOptions& options)
   return scene;
 }
 
-/// What an integer setting is, by its option or else by default.
-int integerOf(const char* name, const RenderOptions& options)
+/// The most that lights say of an integer setting; its default where none says anything.
+int mostOf(const char* name, const Scene& scene)
 {
   const Setting& setting = *findSetting(name);
-  ShadowSettings settings;
-  const std::string& text = options.settings.at(name);
-  if (!text.empty())
+  const auto valueOf = [&](const ShadowSettings& settings)
+  { return settings.*std::get<IntegerSetting>(setting.values).member; };
+  std::optional<int> most;
+  for (const SceneLight& light : scene.lights)
   {
-    setting.set(settings, text);
+    const auto said = light.settings.find(name);
+    ShadowSettings settings;
+    if (said != light.settings.end() && setting.set(settings, said->second))
+    {
+      most = std::max(most.value_or(valueOf(settings)), valueOf(settings));
+    }
   }
-  return settings.*std::get<IntegerSetting>(setting.values).member;
+  return most.value_or(valueOf({}));
 }
 
 /// Refuses pictures that are larger than the window's OpenGL draws.
@@ -347,8 +354,8 @@ void render(const RenderOptions& options)
     "bake", "always"); // the only frame is to show what techniques do with their maps
   vtkNew<vtkGnomonLightSamplingPass> sampling;
   sampling->SetDelegatePass(shadows);
-  sampling->SetSamples(integerOf("light_samples", options));
-  sampling->SetSamplesPerFrame(integerOf("progressive", options));
+  sampling->SetSamples(mostOf("light_samples", scene));
+  sampling->SetSamplesPerFrame(mostOf("progressive", scene));
   renderer->SetPass(options.shadeSamples ? static_cast<vtkRenderPass*>(sampling) : shadows);
   window->AddRenderer(renderer);
   PictureReport report;

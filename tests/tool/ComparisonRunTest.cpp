@@ -255,6 +255,34 @@ TEST(ComparisonRun, TheTruthHasSamplesOfItsOwn)
   EXPECT_EQ(single.errorSource, "From its visibility image, one number per pixel and light.");
 }
 
+TEST(ComparisonRun, NamesWhatTheTruthDoesNotTake)
+{
+  ComparisonPlan plan = softPlan({ "nsm" });
+  plan.settings = { { "light_radius", "10" }, { "light_samples", "5" },
+    { "light_sampling", "jittered" } };
+  try
+  {
+    runComparison(loadScene("cube"), plan, {});
+    FAIL();
+  }
+  catch (const BadInput& error)
+  {
+    EXPECT_THAT(error.what(), testing::HasSubstr("raytraced, the truth"));
+    EXPECT_THAT(error.what(), testing::HasSubstr("jittered"));
+  }
+}
+
+TEST(ComparisonRun, SettingsConcernWhatTheOthersMakeOfATechnique)
+{
+  ComparisonPlan plan = softPlan({ "nsm" });
+  plan.inlineRoute = true;
+  plan.settings = { { "estimator", "crsm" } };
+  const ComparisonResults results = runComparison(loadScene("cube"), plan, {});
+  const VariantResult& exact = variant(results, "nsm estimator=crsm 256");
+  EXPECT_EQ(exact.error.wrongPixels(), 0);
+  EXPECT_GT(exact.tracedPixels, 0);
+}
+
 TEST(ComparisonRun, SettingsReachThoseWhomTheyConcern)
 {
   ComparisonPlan plan = softPlan({ "nsm", "planar", "raytraced" });

@@ -534,6 +534,12 @@ TEST(Program, ShadesFromAllPointsOfALight)
   EXPECT_NE(shaded, pictureOf({}));
   EXPECT_EQ(shaded, pictureOf({ "--shade-samples", "--light-samples", "8", "--progressive", "4" }));
   EXPECT_NE(shaded, pictureOf({ "--shade-samples", "--light-samples", "4" }));
+  // Lights may say it themselves.
+  const std::string lamp = "area:position=1,-1,6;target=0,0,0;shape=disk;radius=1";
+  EXPECT_EQ(pictureOf({ "--shade-samples", "--light", lamp + ";light_samples=4" }),
+    pictureOf({ "--shade-samples", "--light", lamp, "--light-samples", "4" }));
+  EXPECT_NE(pictureOf({ "--shade-samples", "--light", lamp + ";light_samples=4" }),
+    pictureOf({ "--shade-samples", "--light", lamp }));
 }
 
 //------------------------------------------------------------------------------
