@@ -92,7 +92,7 @@ TEST(TexelCells, ofATriangleAreAllThatItMeetsAndHardlyMore)
     });
   EXPECT_EQ(missing, 0u);
   EXPECT_GT(meets, 1000000u);
-  EXPECT_LT(static_cast<double>(extra), 0.03 * static_cast<double>(meets));
+  EXPECT_LT(static_cast<double>(extra), 3e-5 * static_cast<double>(meets));
   RecordProperty("extraPercent", std::to_string(100.0 * extra / meets));
 }
 
@@ -114,7 +114,7 @@ TEST(TexelCells, thatATriangleContainsAreNearlyAllOfThose)
     });
   EXPECT_EQ(extra, 0u);
   EXPECT_GT(contained, 300000u);
-  EXPECT_LT(static_cast<double>(missing), 0.02 * static_cast<double>(contained));
+  EXPECT_LT(static_cast<double>(missing), 1e-5 * static_cast<double>(contained));
   RecordProperty("missingPercent", std::to_string(100.0 * missing / contained));
 }
 
