@@ -1,7 +1,6 @@
 #include "plugin/MapRasterizer.h"
 
 #include "plugin/vtkGnomonShadowPass.h"
-#include "shadowtech/base/TextureMemory.h"
 #include "shadowtech/conservative/CellsOnGpu.h"
 #include "shadowtech/tracing/GpuTracer.h"
 
@@ -51,7 +50,7 @@ RasterizerChoice bakeMaps(Technique& technique, MapInput input, const Rasterizer
     technique.bake(input);
     return choice;
   }
-  catch (const TextureMemoryError& error)
+  catch (const std::runtime_error& error)
   {
     if (choice.asked)
     {
@@ -61,6 +60,14 @@ RasterizerChoice bakeMaps(Technique& technique, MapInput input, const Rasterizer
     technique.bake(input);
     return { std::nullopt, false, std::string("drawing maps on the GPU failed: ") + error.what() };
   }
+}
+
+//------------------------------------------------------------------------------
+bool servesChoice(
+  const RasterizerChoice& chosen, const RasterizerChoice& drawnBy, const RasterizerChoice& now)
+{
+  // Where the GPU failed and was not asked for, it is not tried again.
+  return drawnBy.gpu == now.gpu || (!now.asked && chosen.gpu == now.gpu);
 }
 
 } // namespace gnomon

@@ -26,11 +26,17 @@ struct RasterizerChoice
 RasterizerChoice chooseRasterizer(int wished, const std::string& gpuLacks,
   const std::string& extensionLacks, const std::string& renderer);
 
-/// Has a technique draw its maps, conservative ones by who is chosen. Where the GPU was not asked for and has no room, the CPU
-/// takes over.
+/// Has a technique draw its maps, conservative ones by who is chosen. Where the GPU was not asked for and fails, as for want of
+/// room, the CPU takes over.
 /// @return who drew them
-/// @throws TextureMemoryError for maps without room
+/// @throws TextureMemoryError for maps without room, std::runtime_error where OpenGL fails
 RasterizerChoice bakeMaps(Technique& technique, MapInput input, const RasterizerChoice& choice);
+
+/// Whether a map need not be drawn anew for who is chosen now.
+/// @param chosen who was to draw it
+/// @param drawnBy who did
+bool servesChoice(
+  const RasterizerChoice& chosen, const RasterizerChoice& drawnBy, const RasterizerChoice& now);
 
 } // namespace gnomon
 

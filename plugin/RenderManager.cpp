@@ -577,12 +577,14 @@ void RenderManager::bakeMaps(
     hashCombine(receivers, light.snap);
     hashCombine(receivers, light.splitLambda);
   }
+  const std::optional<RasterizerChoice> rasterizer = this->rasterizerFor(slot, technique);
   Bake wanted{ std::move(views), fitting.camera, reach, light, light.mapSizeTexels,
-    occluders.topologyVersion, occluders.positionsVersion, receivers, true,
-    this->rasterizerFor(slot, technique), {}, 0, fitting };
+    occluders.topologyVersion, occluders.positionsVersion, receivers, true, rasterizer,
+    rasterizer.value_or(RasterizerChoice()), 0, fitting };
   bake.fitting = fitting;
   if (bake.serves(wanted))
   {
+    takeReason(bake, wanted);
     this->reportBake(light, bake);
     return;
   }
@@ -610,7 +612,7 @@ void RenderManager::bakeMaps(
       wanted.drawnBy = gnomon::bakeMaps(technique,
         { light, wanted.views, occluders, this->buffers_, this->library_,
           light.fittedToReceivers ? slot.receiverFit.fits() : TextureBinding() },
-        wanted.rasterizer.value_or(RasterizerChoice()));
+        wanted.drawnBy);
     });
   bake = wanted;
   bake.castersLeftOut = this->buffers_.countUnseen(wanted.views.views);
@@ -633,6 +635,17 @@ std::optional<RasterizerChoice> RenderManager::rasterizerFor(
 }
 
 //------------------------------------------------------------------------------
+/// Who drew a map that serves may have been chosen anew, for another reason.
+void RenderManager::takeReason(Bake& bake, const Bake& wanted)
+{
+  if (wanted.rasterizer && bake.drawnBy.gpu == wanted.rasterizer->gpu)
+  {
+    bake.rasterizer = wanted.rasterizer;
+    bake.drawnBy = *wanted.rasterizer;
+  }
+}
+
+//------------------------------------------------------------------------------
 void RenderManager::reportBake(const ShadowLight& light, const Bake& bake)
 {
   LightReport& report = this->reportOf(light);
@@ -650,7 +663,7 @@ bool RenderManager::Bake::serves(const Bake& wanted) const
   return this->once && this->views == wanted.views && this->sizeTexels == wanted.sizeTexels &&
     this->reach == wanted.reach && this->settings.storesAs(wanted.settings) &&
     this->rasterizer.has_value() == wanted.rasterizer.has_value() &&
-    (!this->rasterizer || this->rasterizer->gpu == wanted.rasterizer->gpu) &&
+    (!this->rasterizer || servesChoice(*this->rasterizer, this->drawnBy, *wanted.rasterizer)) &&
     this->topology == wanted.topology && this->positions == wanted.positions &&
     this->receivers == wanted.receivers;
 }

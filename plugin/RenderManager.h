@@ -113,7 +113,7 @@ private:
     bool once = false;
     /// Who was to draw a conservative map; none for other maps.
     std::optional<RasterizerChoice> rasterizer;
-    RasterizerChoice drawnBy; ///< and who did
+    RasterizerChoice drawnBy; ///< and who did; before that the same
     int castersLeftOut = 0;
     ViewFitting fitting; ///< of this frame, by which the same views might be laid out again
 
@@ -144,6 +144,7 @@ private:
   bool isWorthBaking(const LightSlot& slot, const Technique& technique, const Bake& wanted) const;
   std::optional<RasterizerChoice> rasterizerFor(
     const LightSlot& slot, const Technique& technique) const;
+  static void takeReason(Bake& bake, const Bake& wanted);
   void reportBake(const ShadowLight& light, const Bake& bake);
   LightReport& reportOf(const ShadowLight& light);
   void updateTracer(int wished);

@@ -70,6 +70,10 @@ enum class PublishedLayers
 /// itself is certain of nothing.
 MapRule publishedRule(PublishedLayers layers);
 
+/// TechniqueInfo::onlyCpuDraws of these.
+constexpr const char* onlyCpuDrawsPublished =
+  "maps by the letter of the publication are drawn by the CPU alone";
+
 } // namespace gnomon
 
 #endif

@@ -32,7 +32,7 @@ TechniqueInfo CrsmAsPublished::info()
   info.asPublished = info.name;
   info.exact = false;
   info.mapIsOptional = false;
-  info.onlyCpuDraws = "what was published is";
+  info.onlyCpuDraws = onlyCpuDrawsPublished;
   return info;
 }
 

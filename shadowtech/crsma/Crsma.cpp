@@ -33,7 +33,7 @@ TechniqueInfo CrsmaAsPublished::info()
   info.asPublished = info.name;
   info.exact = false;
   info.mapIsOptional = false;
-  info.onlyCpuDraws = "what was published is";
+  info.onlyCpuDraws = onlyCpuDrawsPublished;
   return info;
 }
 

@@ -108,6 +108,46 @@ TEST(RasterizerChoice, isTheCpuWhereTheGpuHasNoRoomAndWasNotAskedFor)
   EXPECT_EQ(onCpu.bakes, 1);
 }
 
+TEST(RasterizerChoice, isTheCpuWhereOpenGlFailsAndWasNotAskedFor)
+{
+  class Failing : public Technique
+  {
+  public:
+    void bake(const MapInput& input) override
+    {
+      if (input.cellsOnGpu)
+      {
+        throw std::runtime_error("OpenGL fails");
+      }
+    }
+  } technique;
+  const ShadowLight light;
+  const LightViews views;
+  const Occluders occluders;
+  const OccluderBuffers buffers;
+  ShaderLibrary shaders;
+  EXPECT_EQ(bakeMaps(technique, { light, views, occluders, buffers, shaders },
+              { CellPath::Compute, false, "hardware" })
+              .reason,
+    "drawing maps on the GPU failed: OpenGL fails");
+}
+
+TEST(RasterizerChoice, isWhatMapsAreDrawnAnewFor)
+{
+  const RasterizerChoice byCpu{ std::nullopt, true, "asked for" };
+  const RasterizerChoice byGpu{ CellPath::Extension, true, "asked for" };
+  const RasterizerChoice hardware{ CellPath::Extension, false, "hardware" };
+  const RasterizerChoice failed{ std::nullopt, false, "no room" };
+  EXPECT_TRUE(servesChoice(byCpu, byCpu, byCpu));
+  EXPECT_FALSE(servesChoice(byCpu, byCpu, byGpu));
+  EXPECT_FALSE(servesChoice(byCpu, byCpu, hardware));
+  EXPECT_TRUE(servesChoice(hardware, hardware, byGpu));
+  EXPECT_FALSE(servesChoice(hardware, hardware, byCpu));
+  EXPECT_TRUE(servesChoice(hardware, failed, hardware)) << "it would fail again";
+  EXPECT_FALSE(servesChoice(hardware, failed, byGpu)) << "it is to be drawn, or to be an error";
+  EXPECT_TRUE(servesChoice(hardware, failed, byCpu));
+}
+
 /// A box over a floor.
 class Rasterizers : public testing::Test
 {
@@ -163,6 +203,31 @@ TEST_F(Rasterizers, drawMapsAnewOnlyWhereTheyChange)
   this->render();
   EXPECT_EQ(this->scene_.report().mapBakes, 0);
   EXPECT_EQ(this->scene_.report().programCompiles, 0);
+}
+
+TEST_F(Rasterizers, areThereForTheReasonOfThisFrame)
+{
+  const bool byCpu = this->render().rasterizer == "cpu";
+  EXPECT_NE(this->scene_.report().lights.at(0).rasterizerReason, "asked for");
+  this->scene_.pass->SetRasterizer(byCpu ? cpu : gpu);
+  EXPECT_EQ(this->render().rasterizerReason, "asked for");
+  EXPECT_EQ(this->scene_.report().mapBakes, 0);
+  this->scene_.pass->SetRasterizer(automatic);
+  EXPECT_NE(this->render().rasterizerReason, "asked for");
+  EXPECT_EQ(this->scene_.report().mapBakes, 0);
+}
+
+TEST_F(Rasterizers, areTheCpuForMapsAsPublished)
+{
+  this->scene_.pass->SetRasterizer(gpu);
+  this->scene_.pass->SetSetting("as_published", "on");
+  for (const char* technique : { "crsm", "crsma" })
+  {
+    this->scene_.pass->SetTechnique(technique);
+    EXPECT_EQ(this->render().rasterizer, "cpu") << technique;
+    EXPECT_EQ(this->render().rasterizerReason,
+      "maps by the letter of the publication are drawn by the CPU alone");
+  }
 }
 
 TEST_F(Rasterizers, leaveNothingOnTheGpu)
