@@ -132,7 +132,45 @@ std::array<glm::vec2, 3> shapeAround(const MapPolygon& polygon, double reach, in
   return { { glm::vec2(shape[0] / half), glm::vec2(shape[1] / half), glm::vec2(shape[2] / half) } };
 }
 
+template <typename Element>
+std::size_t storageBytes(const std::vector<Element>& elements)
+{
+  return elements.size() * sizeof(Element);
+}
+
 } // namespace
+
+//------------------------------------------------------------------------------
+std::size_t RowWalks::largestBytes() const
+{
+  return std::max(storageBytes(this->ofShapes), storageBytes(this->ofRows));
+}
+
+//------------------------------------------------------------------------------
+std::size_t PolygonBatch::largestBytes() const
+{
+  return std::max(storageBytes(this->records), storageBytes(this->sides));
+}
+
+//------------------------------------------------------------------------------
+std::size_t SegmentBatch::largestBytes() const
+{
+  return std::max(storageBytes(this->records), this->walks.largestBytes());
+}
+
+//------------------------------------------------------------------------------
+std::size_t TriangleBatch::largestBytes() const
+{
+  return std::max(
+    { this->polygons.largestBytes(), this->walks.largestBytes(), storageBytes(this->placesClip) });
+}
+
+//------------------------------------------------------------------------------
+std::size_t RingBatch::largestBytes() const
+{
+  return std::max({ this->polygons.largestBytes(), storageBytes(this->borders),
+    storageBytes(this->records), this->walks.largestBytes() });
+}
 
 //------------------------------------------------------------------------------
 void RowWalks::add(std::size_t shape, Span rows, double columns)

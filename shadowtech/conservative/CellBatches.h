@@ -5,6 +5,7 @@
 #include "shadowtech/conservative/TexelShapes.h"
 
 #include <glm/glm.hpp>
+#include <tbb/enumerable_thread_specific.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -38,6 +39,8 @@ struct RowWalks
 
   /// @param columns how many the shape has, about
   void add(std::size_t shape, Span rows, double columns);
+  /// That the larger of them takes; so of all below.
+  std::size_t largestBytes() const;
 };
 
 /// Polygons.
@@ -48,6 +51,7 @@ struct PolygonBatch
 
   /// @return its number
   std::size_t add(const PolygonOnTexels& polygon);
+  std::size_t largestBytes() const;
 };
 
 /// Edges.
@@ -57,6 +61,7 @@ struct SegmentBatch
   RowWalks walks;
 
   void add(const SegmentOnTexels& segment);
+  std::size_t largestBytes() const;
 };
 
 /// Triangles, of which some spoil texels.
@@ -69,6 +74,7 @@ struct TriangleBatch
 
   /// @param path nothing is rasterised by Compute
   void add(const MapPolygon& polygon, double margin, int width, Span rows, CellPath path);
+  std::size_t largestBytes() const;
 };
 
 /// Which polygons are a ring, the middle first, and which edges are around it.
@@ -88,6 +94,48 @@ struct RingBatch
   RowWalks walks;
 
   void add(const MapRing& ring, double margin, Span rows);
+  std::size_t largestBytes() const;
+};
+
+/// What threads collect of a kind of batch, in so many that shaders can read each from one buffer.
+template <typename Batch>
+class CollectedBatches
+{
+public:
+  /// @param mostBytes of a buffer, after which another batch begins; so it may become larger by what is added last
+  explicit CollectedBatches(std::size_t mostBytes)
+    : mostBytes_(mostBytes)
+  {
+  }
+
+  /// Where the calling thread adds.
+  Batch& local()
+  {
+    std::vector<Batch>& mine = this->ofThreads_.local();
+    if (mine.empty() || mine.back().largestBytes() >= this->mostBytes_)
+    {
+      mine.emplace_back();
+    }
+    return mine.back();
+  }
+
+  /// Hands over all batches and forgets them. No thread may add meanwhile.
+  template <typename Draw>
+  void drawAll(const Draw& draw)
+  {
+    for (std::vector<Batch>& batches : this->ofThreads_)
+    {
+      for (const Batch& batch : batches)
+      {
+        draw(batch);
+      }
+      batches.clear();
+    }
+  }
+
+private:
+  std::size_t mostBytes_;
+  tbb::enumerable_thread_specific<std::vector<Batch>> ofThreads_;
 };
 
 } // namespace gnomon

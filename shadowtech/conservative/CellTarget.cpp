@@ -10,6 +10,7 @@
 #include <iomanip>
 #include <limits>
 #include <sstream>
+#include <stdexcept>
 
 namespace gnomon
 {
@@ -27,6 +28,8 @@ enum Binding : GLuint
   ringsBinding,
   bindings
 };
+
+constexpr const char* whatIsDrawnFrom = "what a conservative map is drawn from";
 
 constexpr const char* folder = "shadowtech/conservative/";
 
@@ -101,8 +104,7 @@ void bind(Binding binding, GlBuffer& buffer, const std::vector<Element>& element
 {
   if (!elements.empty())
   {
-    allocateStorage(buffer, elements.size() * sizeof(Element), elements.data(),
-      "what a conservative map is drawn from");
+    allocateStorage(buffer, elements.size() * sizeof(Element), elements.data(), whatIsDrawnFrom);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, buffer.name());
   }
 }
@@ -166,6 +168,11 @@ CellTarget::CellTarget(ShaderLibrary& shaders, CellPath path, int width, Span ro
   allocateStorage(this->cells_, texels * bytesOfCell, nullptr, "the cells of a conservative map");
   glClearBufferData(GL_SHADER_STORAGE_BUFFER, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &nothing);
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, cellsBinding, this->cells_.name());
+  if (path != CellPath::Compute)
+  {
+    this->prepareRasterising();
+  }
+  this->requireNoError();
 }
 
 //------------------------------------------------------------------------------
@@ -176,6 +183,26 @@ int CellTarget::mostRows(int width, std::size_t mostBytes)
   const std::size_t bytes = std::min(static_cast<std::size_t>(largest), mostBytes);
   return static_cast<int>(
     std::max<std::size_t>(bytes / (bytesOfCell * static_cast<std::size_t>(width)), 1));
+}
+
+//------------------------------------------------------------------------------
+/// To be called before the next buffer is made, which forgets errors.
+void CellTarget::requireNoError() const
+{
+  const GLenum error = glGetError();
+  if (error == GL_NO_ERROR)
+  {
+    return;
+  }
+  std::ostringstream what;
+  what << "a conservative map of " << this->width_ << " texels could not be drawn by "
+       << nameOf(this->path_) << ": ";
+  if (error == GL_OUT_OF_MEMORY)
+  {
+    throw TextureMemoryError(what.str() + "OpenGL is out of memory");
+  }
+  what << "OpenGL reports error 0x" << std::hex << error;
+  throw std::runtime_error(what.str());
 }
 
 //------------------------------------------------------------------------------
@@ -215,6 +242,7 @@ void CellTarget::walk(const RowWalks& walks, const char* shader, std::vector<std
         0);
       glDispatchCompute(static_cast<GLuint>((count + ofGroup - 1) / ofGroup), 1, 1);
     }
+    this->requireNoError();
   }
 }
 
@@ -260,12 +288,21 @@ void CellTarget::draw(const TriangleBatch& batch)
 }
 
 //------------------------------------------------------------------------------
-void CellTarget::rasterise(const TriangleBatch& batch)
+void CellTarget::prepareRasterising()
 {
   const int height = this->rows_.last - this->rows_.first + 1;
   glBindFramebuffer(GL_FRAMEBUFFER, this->framebuffer_.create());
   glFramebufferParameteri(GL_FRAMEBUFFER, GL_FRAMEBUFFER_DEFAULT_WIDTH, this->width_);
   glFramebufferParameteri(GL_FRAMEBUFFER, GL_FRAMEBUFFER_DEFAULT_HEIGHT, height);
+  this->requireNoError(); // as of more texels than OpenGL rasterises
+  const GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
+  if (status != GL_FRAMEBUFFER_COMPLETE)
+  {
+    std::ostringstream what;
+    what << "a conservative map cannot be rasterised in " << this->width_ << " x " << height
+         << " texels: OpenGL says 0x" << std::hex << status << " of the framebuffer";
+    throw std::runtime_error(what.str());
+  }
   glViewport(0, 0, this->width_, height);
   for (const GLenum off : { GL_DEPTH_TEST, GL_STENCIL_TEST, GL_CULL_FACE, GL_SCISSOR_TEST,
          GL_MULTISAMPLE, GL_CLIP_DISTANCE0, GL_CLIP_DISTANCE1 })
@@ -274,21 +311,27 @@ void CellTarget::rasterise(const TriangleBatch& batch)
   }
   glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
   glBindVertexArray(this->vertexArray_.create());
-  glBindBuffer(GL_ARRAY_BUFFER, this->places_.create());
-  glBufferData(GL_ARRAY_BUFFER,
-    static_cast<GLsizeiptr>(batch.placesClip.size() * sizeof(glm::vec2)), batch.placesClip.data(),
-    GL_STREAM_DRAW);
-  glVertexAttribPointer(0, 2, GL_FLOAT, GL_FALSE, 0, nullptr);
   glEnableVertexAttribArray(0);
+}
+
+//------------------------------------------------------------------------------
+void CellTarget::rasterise(const TriangleBatch& batch)
+{
+  allocateStorage(this->places_, batch.placesClip.size() * sizeof(glm::vec2),
+    batch.placesClip.data(), whatIsDrawnFrom);
+  glBindBuffer(GL_ARRAY_BUFFER, this->places_.name());
+  glVertexAttribPointer(0, 2, GL_FLOAT, GL_FALSE, 0, nullptr);
   this->use(this->shaders_.program(
     { { GL_VERTEX_SHADER, ShaderLibrary::source(std::string(folder) + "draw_polygons.vert.glsl") },
       { GL_FRAGMENT_SHADER,
         ShaderLibrary::source(std::string(folder) + "draw_polygons.frag.glsl") } },
     sampleDefines()));
   const GLenum conservative = this->path_ == CellPath::Extension ? conservativeSwitch() : 0;
-  conservative ? glEnable(conservative) : void();
+  const bool switches = conservative && !glIsEnabled(conservative);
+  switches ? glEnable(conservative) : void();
   glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(batch.placesClip.size()));
-  conservative ? glDisable(conservative) : void();
+  switches ? glDisable(conservative) : void();
+  this->requireNoError();
 }
 
 //------------------------------------------------------------------------------
@@ -310,6 +353,7 @@ void CellTarget::read(const std::function<void(std::size_t texel, const Cell& ce
   glBindBuffer(GL_SHADER_STORAGE_BUFFER, this->cells_.name());
   glGetBufferSubData(GL_SHADER_STORAGE_BUFFER, 0,
     static_cast<GLsizeiptr>(ordered.size() * sizeof(std::uint32_t)), ordered.data());
+  this->requireNoError();
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, texels, 4096),
     [&](const tbb::blocked_range<std::size_t>& range)
     {

@@ -27,7 +27,8 @@ class CellTarget
 {
 public:
   /// Empty cells.
-  /// @throws TextureMemoryError where there is no room
+  /// @throws TextureMemoryError where there is no room, std::runtime_error where OpenGL fails; so does all that follows: what
+  /// was not drawn would pass for lit
   CellTarget(ShaderLibrary& shaders, CellPath path, int width, Span rows);
 
   /// How many rows OpenGL takes at once; one at least.
@@ -35,18 +36,14 @@ public:
   static int mostRows(int width, std::size_t mostBytes);
 
   /// Draws edges.
-  /// @throws TextureMemoryError
   void draw(const SegmentBatch& batch);
   /// Spoils texels.
-  /// @throws TextureMemoryError
   void spoil(const TriangleBatch& batch);
   /// To be called between edges and what spoils texels, and triangles: what lies behind an end does not count for how far
   /// they climb.
   void endEdges();
   /// Draws triangles.
-  /// @throws TextureMemoryError
   void draw(const TriangleBatch& batch);
-  /// @throws TextureMemoryError
   void draw(const RingBatch& batch);
 
   /// Reads the cells, row by row.
@@ -56,7 +53,9 @@ public:
 private:
   void send(const PolygonBatch& polygons);
   void walk(const RowWalks& walks, const char* shader, std::vector<std::string> defines);
+  void prepareRasterising();
   void rasterise(const TriangleBatch& batch);
+  void requireNoError() const;
   void use(GLuint program) const;
 
   const GlStateGuard state_;

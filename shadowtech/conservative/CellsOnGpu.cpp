@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <stdexcept>
 #include <vector>
 
 namespace gnomon
@@ -11,24 +12,16 @@ namespace gnomon
 namespace
 {
 
-/// Draws what threads have collected.
-template <typename Batch, typename Draw>
-void drawBatches(tbb::enumerable_thread_specific<Batch>& batches, const Draw& draw)
-{
-  for (Batch& batch : batches)
-  {
-    draw(batch);
-    batch = Batch();
-  }
-}
-
 /// Some rows of a map.
 class RowsOnGpu
 {
 public:
-  RowsOnGpu(ShaderLibrary& shaders, CellPath path, const MapCasters& casters, int size, Span rows)
+  /// @param mostBytes of what is drawn from in one buffer (CollectedBatches)
+  RowsOnGpu(ShaderLibrary& shaders, CellPath path, std::size_t mostBytes, const MapCasters& casters,
+    int size, Span rows)
     : casters_(casters)
     , path_(path)
+    , mostBytes_(mostBytes)
     , size_(size)
     , rows_(rows)
     , target_(shaders, path, size, rows)
@@ -37,7 +30,7 @@ public:
 
   void drawSegments()
   {
-    tbb::enumerable_thread_specific<SegmentBatch> batches;
+    CollectedBatches<SegmentBatch> batches(this->mostBytes_);
     this->casters_.placements().visitInParts([this](const Placement& placement)
       { return this->casters_.edgeCount(placement); },
       [&](std::uint32_t placement, std::uint32_t i)
@@ -48,30 +41,25 @@ public:
           batches.local().add(SegmentOnTexels(found, this->casters_.margin(), this->rows_));
         }
       },
-      [&]
-      { drawBatches(batches, [this](const SegmentBatch& batch) { this->target_.draw(batch); }); });
+      [&] { batches.drawAll([this](const SegmentBatch& batch) { this->target_.draw(batch); }); });
   }
 
   void spoil(const std::vector<BandItem>& spoiling)
   {
-    TriangleBatch batch;
+    CollectedBatches<TriangleBatch> batches(this->mostBytes_);
     for (const BandItem& item : spoiling)
     {
-      batch.add(this->casters_.polygon(item), this->casters_.margin(), this->size_, this->rows_,
-        CellPath::Compute);
+      batches.local().add(this->casters_.polygon(item), this->casters_.margin(), this->size_,
+        this->rows_, CellPath::Compute);
     }
-    this->target_.spoil(batch);
+    batches.drawAll([this](const TriangleBatch& batch) { this->target_.spoil(batch); });
     this->target_.endEdges();
   }
 
   void drawTriangles()
   {
-    struct Batches
-    {
-      TriangleBatch triangles;
-      RingBatch rings;
-    };
-    tbb::enumerable_thread_specific<Batches> batches;
+    CollectedBatches<TriangleBatch> triangles(this->mostBytes_);
+    CollectedBatches<RingBatch> rings(this->mostBytes_);
     this->casters_.placements().visitInParts([this](const Placement& placement)
       { return this->casters_.placements().surfaceOf(placement).triangleCount; },
       [&](std::uint32_t number, std::uint32_t i)
@@ -84,22 +72,18 @@ public:
         {
           return; // its edges alone are drawn, or it spoils texels
         }
-        Batches& local = batches.local();
-        local.triangles.add(
+        triangles.local().add(
           polygon, this->casters_.margin(), this->size_, this->rows_, this->path_);
         if (this->casters_.covering() != Covering::Triangle && polygon.role.covers)
         {
-          local.rings.add(this->casters_.ring(item, polygon), this->casters_.margin(), this->rows_);
+          rings.local().add(
+            this->casters_.ring(item, polygon), this->casters_.margin(), this->rows_);
         }
       },
       [&]
       {
-        drawBatches(batches,
-          [this](const Batches& batch)
-          {
-            this->target_.draw(batch.triangles);
-            this->target_.draw(batch.rings);
-          });
+        triangles.drawAll([this](const TriangleBatch& batch) { this->target_.draw(batch); });
+        rings.drawAll([this](const RingBatch& batch) { this->target_.draw(batch); });
       });
   }
 
@@ -113,6 +97,7 @@ public:
 private:
   const MapCasters& casters_;
   CellPath path_;
+  std::size_t mostBytes_;
   int size_;
   Span rows_;
   CellTarget target_;
@@ -124,6 +109,10 @@ private:
 bool CellsOnGpu::draw(const CasterScene& scene, const CasterEdges& edges, int size,
   Covering covering, const TakeCell& take) const
 {
+  if (covering == Covering::Silhouette)
+  {
+    throw std::logic_error("the GPU does not draw maps by silhouettes");
+  }
   tbb::enumerable_thread_specific<std::vector<BandItem>> found;
   const MapCasters casters(scene, edges, covering,
     [&](const BandItem& triangle, const MapPolygon& polygon)
@@ -142,11 +131,11 @@ bool CellsOnGpu::draw(const CasterScene& scene, const CasterEdges& edges, int si
   {
     spoiling.insert(spoiling.end(), some.begin(), some.end());
   }
-  const int most = CellTarget::mostRows(size, this->mostBytes_);
+  const int most = CellTarget::mostRows(size, this->room_.cells);
   for (int first = 0; first < size; first += most)
   {
-    RowsOnGpu rows(
-      this->shaders_, this->path_, casters, size, { first, std::min(first + most, size) - 1 });
+    RowsOnGpu rows(this->shaders_, this->path_, this->room_.records, casters, size,
+      { first, std::min(first + most, size) - 1 });
     rows.drawSegments();
     rows.spoil(spoiling);
     rows.drawTriangles();

@@ -8,33 +8,45 @@ namespace gnomon
 {
 
 /// Draws conservative maps' cells on the GPU. The CPU looks at casters as it does where it draws them, and makes them ready for
-/// the texels; which texels they meet and what these keep is found by shaders (CellTarget.h), which get the same cells.
+/// the texels; which texels they meet and what these keep is found by shaders (CellTarget.h), which get the same
+/// cells, but for G and noise of texels that a caster has spoilt: nothing asks for these.
 /// All calls want the context to be current.
 class CellsOnGpu
 {
 public:
-  /// Enough for all of a map of 2048; larger ones are drawn in parts.
-  static constexpr std::size_t mostBytesOfCells = std::size_t(1) << 27;
+  /// What is on the GPU at once, in bytes.
+  struct Room
+  {
+    /// Of cells: enough for all of a map of 2048; larger ones are drawn in parts.
+    std::size_t cells = std::size_t(1) << 27;
+    /// Of what they are drawn from, in one buffer, before another is begun: half of what shaders read at least, by OpenGL 4.3, so
+    /// that what a single caster's part adds has room.
+    std::size_t records = std::size_t(1) << 23;
+  };
 
   /// @param shaders must outlive this
   /// @param path one that is supported
-  /// @param mostBytes that cells may take on the GPU at once
-  CellsOnGpu(ShaderLibrary& shaders, CellPath path, std::size_t mostBytes = mostBytesOfCells)
+  CellsOnGpu(ShaderLibrary& shaders, CellPath path)
+    : CellsOnGpu(shaders, path, Room())
+  {
+  }
+  CellsOnGpu(ShaderLibrary& shaders, CellPath path, const Room& room)
     : shaders_(shaders)
     , path_(path)
-    , mostBytes_(mostBytes)
+    , room_(room)
   {
   }
 
-  /// As drawCellsOnCpu(); not for `Covering::Silhouette`.
-  /// @throws TextureMemoryError where there is no room
+  /// As drawCellsOnCpu().
+  /// @throws TextureMemoryError where there is no room, std::runtime_error where OpenGL fails, std::logic_error for
+  /// `Covering::Silhouette`
   bool draw(const CasterScene& scene, const CasterEdges& edges, int size, Covering covering,
     const TakeCell& take) const;
 
 private:
   ShaderLibrary& shaders_;
   CellPath path_;
-  std::size_t mostBytes_;
+  Room room_;
 };
 
 } // namespace gnomon

@@ -19,6 +19,7 @@
 #include <cstddef>
 #include <iostream>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -372,7 +373,7 @@ TEST_P(CellsOnGpuBy, areThoseOfTheCpuInRandomScenes)
 {
   std::size_t filled = 0;
   const CellsOnGpu atOnce(this->shaders_, GetParam());
-  const CellsOnGpu inParts(this->shaders_, GetParam(), 100000);
+  const CellsOnGpu inParts(this->shaders_, GetParam(), { 100000, 2000 });
   for (const char* name : randomSceneNames())
   {
     for (unsigned int seed = 1; seed <= 6; ++seed)
@@ -406,8 +407,13 @@ TEST_P(CellsOnGpuBy, leaveNothingBehindAndOpenGlAsItWas)
   const Shapes shapes = randomShapes(random, 64);
   shapes.onGpu(this->shaders_, GetParam(), 64, { 0, 63 }); // programs stay
   const LiveObjects before = countLiveObjects(this->window_);
-  GlBuffer mine;
+  GlBuffer mine, vertices;
+  GlVertexArray vertexArray;
+  GlFramebuffer framebuffer;
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, mine.create());
+  glBindVertexArray(vertexArray.create());
+  glBindBuffer(GL_ARRAY_BUFFER, vertices.create());
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.create());
   glViewport(1, 2, 3, 4);
   glEnable(GL_SCISSOR_TEST);
   glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
@@ -418,6 +424,15 @@ TEST_P(CellsOnGpuBy, leaveNothingBehindAndOpenGlAsItWas)
   GLint bound = 0, viewport[4] = {}, program = -1, mode[2] = {};
   glGetIntegeri_v(GL_SHADER_STORAGE_BUFFER_BINDING, 3, &bound);
   EXPECT_EQ(static_cast<GLuint>(bound), mine.name());
+  glGetIntegerv(GL_VERTEX_ARRAY_BINDING, &bound);
+  EXPECT_EQ(static_cast<GLuint>(bound), vertexArray.name());
+  glGetIntegerv(GL_ARRAY_BUFFER_BINDING, &bound);
+  EXPECT_EQ(static_cast<GLuint>(bound), vertices.name());
+  for (const GLenum binding : { GL_DRAW_FRAMEBUFFER_BINDING, GL_READ_FRAMEBUFFER_BINDING })
+  {
+    glGetIntegerv(binding, &bound);
+    EXPECT_EQ(static_cast<GLuint>(bound), framebuffer.name());
+  }
   glGetIntegerv(GL_VIEWPORT, viewport);
   EXPECT_EQ(viewport[0], 1);
   EXPECT_EQ(viewport[3], 4);
@@ -429,6 +444,9 @@ TEST_P(CellsOnGpuBy, leaveNothingBehindAndOpenGlAsItWas)
   glDisable(GL_SCISSOR_TEST);
   glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
   mine.reset();
+  vertices.reset();
+  vertexArray.reset();
+  framebuffer.reset();
   EXPECT_EQ(countLiveObjects(this->window_), before);
 }
 
@@ -442,9 +460,109 @@ TEST_P(CellsOnGpuBy, areEmptyWithoutCasters)
 
 TEST_P(CellsOnGpuBy, needRoom)
 {
-  EXPECT_GE(CellTarget::mostRows(2048, CellsOnGpu::mostBytesOfCells), 2048);
+  const std::size_t room = CellsOnGpu::Room().cells;
+  GLint64 block = 0;
+  glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &block);
+  if (static_cast<std::size_t>(block) >= room)
+  {
+    EXPECT_GE(CellTarget::mostRows(2048, room), 2048);
+  }
   EXPECT_EQ(CellTarget::mostRows(100, 2 * 28 * 100 + 1), 2);
   EXPECT_EQ(CellTarget::mostRows(100, 1), 1);
+}
+
+/// What is thrown where OpenGL fails; empty where nothing is.
+template <typename Call>
+std::string failureOf(const Call& call)
+{
+  try
+  {
+    call();
+    return {};
+  }
+  catch (const std::runtime_error& error)
+  {
+    return error.what();
+  }
+}
+
+TEST_P(CellsOnGpuBy, areNotThereWhereOpenGlFails)
+{
+  TriangleBatch batch;
+  batch.add(polygonWith({ { { 1.0, 1.0, 0.5 }, { 6.0, 1.0, 0.5 }, { 1.0, 6.0, 0.5 } } }),
+    marginTexels, 8, { 0, 7 }, GetParam());
+  const auto nothing = [](std::size_t, const Cell&) {};
+  {
+    CellTarget target(this->shaders_, GetParam(), 8, { 0, 7 });
+    target.draw(batch);
+    // Cells that the CPU looks at cannot be read.
+    GLint cells = 0;
+    glGetIntegeri_v(GL_SHADER_STORAGE_BUFFER_BINDING, 3, &cells);
+    glBindBuffer(GL_SHADER_STORAGE_BUFFER, static_cast<GLuint>(cells));
+    ASSERT_NE(glMapBuffer(GL_SHADER_STORAGE_BUFFER, GL_READ_ONLY), nullptr);
+    EXPECT_EQ(failureOf([&] { target.read(nothing); }),
+      std::string("a conservative map of 8 texels could not be drawn by ") + nameOf(GetParam()) +
+        ": OpenGL reports error 0x502");
+    glUnmapBuffer(GL_SHADER_STORAGE_BUFFER);
+    EXPECT_EQ(failureOf([&] { target.read(nothing); }), "");
+  }
+  if (GetParam() == CellPath::Compute)
+  {
+    return;
+  }
+  CellTarget target(this->shaders_, GetParam(), 8, { 0, 7 });
+  glFramebufferParameteri(GL_FRAMEBUFFER, GL_FRAMEBUFFER_DEFAULT_WIDTH, 0); // no longer complete
+  EXPECT_EQ(failureOf([&] { target.draw(batch); }),
+    std::string("a conservative map of 8 texels could not be drawn by ") + nameOf(GetParam()) +
+      ": OpenGL reports error 0x506");
+  GLint widest = 0;
+  glGetIntegerv(GL_MAX_FRAMEBUFFER_WIDTH, &widest);
+  EXPECT_NE(failureOf([&] { CellTarget(this->shaders_, GetParam(), widest + 1, { 0, 0 }); }), "");
+}
+
+TEST_P(CellsOnGpuBy, areNotDrawnBySilhouettes)
+{
+  const RandomPicture picture = makeRandomPicture(randomSceneNames().front(), 1);
+  CasterEdges edges;
+  edges.update(picture.occluders);
+  const CasterScene scene =
+    casterScene(picture.views.views.front(), picture.views.box.z > 0.0, 16, picture.occluders);
+  EXPECT_THROW(CellsOnGpu(this->shaders_, GetParam())
+                 .draw(scene, edges, 16, Covering::Silhouette, [](std::size_t, const Cell&) {}),
+    std::logic_error);
+}
+
+TEST(CellBatches, areAsManyAsOneBufferOfEachHolds)
+{
+  constexpr std::size_t mostBytes = 4000, rings = 500;
+  Random random(45);
+  CollectedBatches<RingBatch> batches(mostBytes);
+  std::size_t largestRing = 0;
+  for (std::size_t i = 0; i < rings; ++i)
+  {
+    // A fan, as of a vertex with up to 20 triangles.
+    MapRing ring;
+    for (unsigned int k = 0; k <= random() % 20; ++k)
+    {
+      ring.triangles.push_back(polygonWith(randomTriangle(random, 64)));
+    }
+    RingBatch alone;
+    alone.add(ring, marginTexels, { 0, 63 });
+    largestRing = std::max(largestRing, alone.largestBytes());
+    batches.local().add(ring, marginTexels, { 0, 63 });
+  }
+  std::size_t drawn = 0, count = 0;
+  batches.drawAll(
+    [&](const RingBatch& batch)
+    {
+      ++count;
+      drawn += batch.records.size();
+      EXPECT_LT(batch.polygons.records.size() * sizeof(PolygonRecord), mostBytes + largestRing);
+      EXPECT_LT(batch.polygons.sides.size() * sizeof(SideRecord), mostBytes + largestRing);
+    });
+  EXPECT_EQ(drawn, rings);
+  EXPECT_GT(count, 10u);
+  batches.drawAll([](const RingBatch&) { FAIL() << "they were handed over"; });
 }
 
 } // namespace
