@@ -142,7 +142,8 @@ public:
   /**
    * Who draws conservative maps, for techniques that have them. CPU: all its cores. GPU: OpenGL, by
    * GL_NV_conservative_raster or GL_INTEL_conservative_rasterization where it has one of these, else by compute
-   * shaders. AUTO: the GPU where OpenGL draws by hardware and has one of them, else the CPU.
+   * shaders. AUTO: the GPU where OpenGL draws by hardware and has one of them, else the CPU. With either extension none of
+   * this has been tested or measured yet, for want of such hardware; CPU is what has been.
    */
   enum RasterizerType
   {
@@ -156,7 +157,7 @@ public:
    * The rasterizer to take, for all lights alike. All of them draw the same maps. What GPU does not draw (`silhouette`, and
    * what is drawn as published) the CPU draws, and the report says so.
    *
-   * Asking for GPU where OpenGL cannot, or has no room for the map, is an error, and the scene is drawn without
+   * Asking for GPU where OpenGL cannot, fails, or has no room for the map, is an error, and the scene is drawn without
    * shadows. With AUTO the CPU takes over there, and the report says why. Default RASTERIZER_AUTO.
    */
   vtkSetClampMacro(Rasterizer, int, RASTERIZER_AUTO, RASTERIZER_GPU);

@@ -1,6 +1,6 @@
 // What is gathered of texels: seven minima of each, by atomic operations on bits that are ordered as the numbers
 // are. Of what is the most somewhere, they hold the least of the negative. As minima do not depend on the order, the
-// cells are those of the CPU (TexelCells.h), to the last bit.
+// cells are those of the CPU (TexelCells.h), to the last bit, but for G and noise of spoilt texels, for which nothing asks.
 
 const uint numbersOfCell = 7u;
 const uint nearestInCell = 0u;
