@@ -249,8 +249,8 @@ TEST_F(LightTextures, giveWayWhereTheyAreCutBetweenTheRim)
   this->addFloor();
   this->lamp->SetPosition(-5.0, 0.0, 1.3);
   this->lamp->SetFocalPoint(0.0, 0.0, 1.3);
-  this->lamp->SetTexture(makeImage(
-    16, 16, [](int x, int y) { return x + y < 6 || x - y > 12 ? green : blue; }));
+  this->lamp->SetTexture(
+    makeImage(16, 16, [](int x, int y) { return x + y < 6 || x - y > 12 ? green : blue; }));
   for (int turn = 0; turn < 4; ++turn)
   {
     this->lamp->SetUp(0.0, turn % 2 == 0 ? 1.0 : -1.0, turn < 2 ? 1.0 : -1.0);
