@@ -52,6 +52,13 @@ double LightArea::radius() const
 }
 
 //------------------------------------------------------------------------------
+double LightArea::extentAlong(const glm::dvec3& direction) const
+{
+  const glm::dvec3 ofAxes = glm::abs(direction * this->worldFromUnit);
+  return this->shape == Shape::Rectangle ? ofAxes.x + ofAxes.y : glm::length(ofAxes);
+}
+
+//------------------------------------------------------------------------------
 LightArea rectangleArea(const glm::dvec3& travel, const glm::dvec3& up, const glm::dvec2& halfSize)
 {
   const glm::dvec3 along = glm::normalize(glm::cross(travel, up));

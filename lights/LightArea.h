@@ -29,6 +29,11 @@ struct LightArea
   /// How far from the centre it shines at most, in the units of worldFromUnit; 0: it is a point.
   double radius() const;
 
+  /// How far from the centre it goes along a direction, which is as far as it goes the opposite way, in the units of
+  /// worldFromUnit.
+  /// @param direction a unit vector
+  double extentAlong(const glm::dvec3& direction) const;
+
   bool operator==(const LightArea& other) const
   {
     return this->shape == other.shape && this->worldFromUnit == other.worldFromUnit;

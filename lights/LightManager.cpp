@@ -380,10 +380,9 @@ LightSet LightManager::collect(vtkRenderer* renderer, const ShadowSettings& defa
 }
 
 //------------------------------------------------------------------------------
-std::vector<ShadowLight> LightManager::collectAreas(
-  vtkRenderer* renderer, const ShadowSettings& defaults)
+AreaLights LightManager::collectAreas(vtkRenderer* renderer, const ShadowSettings& defaults)
 {
-  std::vector<ShadowLight> areas;
+  AreaLights areas;
   ReadTextures textures;
   int sceneIndex = 0;
   vtkLightCollection* lights = renderer->GetLights();
@@ -391,14 +390,24 @@ std::vector<ShadowLight> LightManager::collectAreas(
   lights->InitTraversal(iterator);
   while (vtkLight* light = lights->GetNextLight(iterator))
   {
-    std::string reason = firstReason(light, { whyDark, whyWithoutPlace });
+    std::string reason = whyWithoutPlace(light);
+    std::string reasonOfArea;
     const ShadowSettings settings = readSettings(light, defaults, reason);
     const std::shared_ptr<const LightTexture> texture = this->textureOf(light, textures, reason);
-    LitArea lit = readArea(light, settings, texture, reason);
-    if (reason.empty() && lit.area && lit.area->radius() > 0.0)
+    LitArea lit = readArea(light, settings, texture, reasonOfArea);
+    const bool wantsArea = !reasonOfArea.empty() || (lit.area && lit.area->radius() > 0.0);
+    reason = reason.empty() ? reasonOfArea : reason;
+    if (wantsArea && whyDark(light).empty())
     {
-      areas.push_back(readLight(light, settings, std::move(lit)));
-      areas.back().sceneIndex = sceneIndex;
+      if (reason.empty())
+      {
+        areas.lights.push_back(readLight(light, settings, std::move(lit)));
+        areas.lights.back().sceneIndex = sceneIndex;
+      }
+      else
+      {
+        areas.skipped.push_back({ sceneIndex, reason });
+      }
     }
     ++sceneIndex;
   }
@@ -429,8 +438,12 @@ std::shared_ptr<const LightTexture> LightManager::textureOf(
   {
     return nullptr;
   }
-  ReadTexture& read = current[image];
-  read = this->textures_[image];
+  const auto [place, isFirst] = current.try_emplace(image);
+  ReadTexture& read = place->second;
+  if (const auto before = this->textures_.find(image); isFirst && before != this->textures_.end())
+  {
+    read = before->second;
+  }
   if (read.modified != image->GetMTime())
   {
     read = {};

@@ -16,7 +16,7 @@ class vtkRenderer;
 namespace gnomon
 {
 
-/// A light that casts no shadow in this frame, and why.
+/// A light that is left out in this frame, and why.
 struct SkippedLight
 {
   int sceneIndex = 0; ///< place in the renderer's light collection
@@ -30,6 +30,13 @@ struct LightSet
   std::vector<SkippedLight> skipped;
 };
 
+/// The frame's lights that shine from more than a point, and those that give light and would if their numbers said how.
+struct AreaLights
+{
+  std::vector<ShadowLight> lights;
+  std::vector<SkippedLight> skipped;
+};
+
 /// Reads the renderer's vtkLights as they are at this moment.
 ///
 /// Head and camera lights are taken through their transform, which the renderer's
@@ -39,7 +46,8 @@ struct LightSet
 /// area). How large a light is follows from the setting `light_radius`, else from vtkGnomonAreaLight, else from
 /// OSPRay's key for it.
 ///
-/// Textures of lights are kept until the next frame: an image is read once, and again when it has changed.
+/// Textures of lights are kept until the next frame: an image is read once, however many lights have it, and again when it
+/// has changed.
 class LightManager
 {
 public:
@@ -47,7 +55,7 @@ public:
   LightSet collect(vtkRenderer* renderer, const ShadowSettings& defaults);
 
   /// The renderer's lights that shine from more than a point, whether or not they cast shadows.
-  std::vector<ShadowLight> collectAreas(vtkRenderer* renderer, const ShadowSettings& defaults);
+  AreaLights collectAreas(vtkRenderer* renderer, const ShadowSettings& defaults);
 
   /// Takes from a light whatever it says of an area. (The area of vtkGnomonAreaLight is the class's: such a light is
   /// exchanged.)

@@ -14,7 +14,7 @@
  * A rectangle or a disk around the light's Position, across the direction to its FocalPoint. All of its
  * points shine alike, unless it has a Texture. Which of them a surface sees is its visibility; shading is VTK's own, from the
  * centre, and so are the cone and the box (vtkGnomonLightKeys) that the light may have. Techniques with
- * hard shadows take the centre's. "raytraced", "penumbra", "sampled" and "planar" take the whole area, by as many points
+ * hard shadows take the centre's. "raytraced", "penumbra", "coherence", "sampled" and "planar" take the whole area, by as many points
  * as the setting "light_samples" says (vtkGnomonLightKeys::SetSetting), and so do "pcss" and "montecarlo".
  * vtkGnomonLightSamplingPass has VTK shade from all of its points instead.
  *
@@ -109,7 +109,7 @@ public:
    * are taken as they stand, as light colours are: no colour space is converted. With anything else, or with the setting
    * "light_radius", the light casts no shadow, for the reason that the frame's report gives, and is VTK's own, without texture.
    *
-   * "raytraced", "penumbra", "montecarlo" and "sampled" show it; of others visibility has one channel, and the light is
+   * "raytraced", "penumbra", "coherence", "montecarlo" and "sampled" show it; of others visibility has one channel, and the light is
    * an even one of the picture's mean.
    *
    * The light shares the image, and sees when it is modified. A pipeline is not updated.

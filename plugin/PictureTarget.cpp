@@ -37,15 +37,24 @@ TextureBinding bindingOf(vtkTextureObject* texture)
 } // namespace
 
 //------------------------------------------------------------------------------
-void PictureTarget::resize(vtkOpenGLRenderWindow* window, const glm::ivec2& size)
+int samplesOfBoundFramebuffer()
 {
   GLint samples = 0;
   glGetIntegerv(GL_SAMPLES, &samples);
+  return samples;
+}
+
+//------------------------------------------------------------------------------
+void PictureTarget::resize(vtkOpenGLRenderWindow* window, const glm::ivec2& size)
+{
+  const int samples = samplesOfBoundFramebuffer();
   if (this->size_ == size && this->samples_ == samples)
   {
     return;
   }
-  this->size_ = glm::ivec2(0); // in case that there is no memory
+  this->size_ = glm::ivec2(0);  // in case that there is no memory
+  this->framebuffer_ = nullptr; // what it had makes room
+  requireRoomForPicture(size.x, size.y, samples);
   vtkOpenGLState* state = window->GetState();
   GLint texture = 0;
   glGetIntegerv(GL_TEXTURE_BINDING_2D, &texture);
@@ -58,8 +67,9 @@ void PictureTarget::resize(vtkOpenGLRenderWindow* window, const glm::ivec2& size
   glBindTexture(GL_TEXTURE_2D, static_cast<GLuint>(texture));
   if (!made)
   {
-    throw TextureMemoryError("a picture of " + std::to_string(size.x) + " x " +
-      std::to_string(size.y) + " pixels of 32-bit floats cannot be had");
+    throw TextureMemoryError("OpenGL has no picture of " + std::to_string(size.x) + " x " +
+      std::to_string(size.y) +
+      " pixels of 32-bit floats; samples of a pixel: " + std::to_string(std::max(samples, 1)));
   }
   this->size_ = size;
   this->samples_ = samples;

@@ -15,6 +15,9 @@ class vtkRenderState;
 namespace gnomon
 {
 
+/// Of each pixel of the framebuffer that is bound; 0 where a pixel is not split.
+int samplesOfBoundFramebuffer();
+
 /// Where a render pass draws a picture of 32-bit floats in place of the framebuffer that it is given, with as many
 /// samples per pixel.
 class PictureTarget

@@ -1,5 +1,6 @@
 #include "plugin/ShownScene.h"
 
+#include "lights/vtkGnomonAreaLight.h"
 #include "plugin/DrawnProps.h"
 #include "plugin/Hash.h"
 
@@ -95,6 +96,7 @@ void hashSurroundings(std::size_t& seed, vtkRenderer* renderer)
   hashCombine(seed, renderer->GetUseImageBasedLighting());
   hashObject(seed, renderer->GetEnvironmentTexture());
   hashCombine(seed, renderer->GetTwoSidedLighting());
+  hashCombine(seed, renderer->GetUseShadows()); // which shadow passes may obey
 }
 
 void hashLight(std::size_t& seed, vtkLight* light)
@@ -102,6 +104,10 @@ void hashLight(std::size_t& seed, vtkLight* light)
   hashObject(seed, light);
   hashObject(seed, light->GetTransformMatrix());
   hashObject(seed, light->GetInformation());
+  if (auto* area = vtkGnomonAreaLight::SafeDownCast(light))
+  {
+    hashObject(seed, area->GetTexture());
+  }
 }
 
 } // namespace

@@ -39,10 +39,15 @@ namespace
 constexpr double gammaOfPbr = 2.2;
 
 /// The renderer's area lights with the points that stand for them.
-std::vector<gnomon::PointedLight> pointedLights(vtkRenderer* renderer, int samples)
+std::vector<gnomon::PointedLight> pointedLights(gnomon::AreaLights areas, int samples)
 {
+  if (!areas.skipped.empty())
+  {
+    const gnomon::SkippedLight& first = areas.skipped.front();
+    throw std::runtime_error("light " + std::to_string(first.sceneIndex) + ": " + first.reason);
+  }
   std::vector<gnomon::PointedLight> pointed;
-  for (gnomon::ShadowLight& light : gnomon::LightManager().collectAreas(renderer, {}))
+  for (gnomon::ShadowLight& light : areas.lights)
   {
     if (light.lightSampling == gnomon::LightSampling::Jittered)
     {
@@ -101,6 +106,7 @@ struct vtkGnomonLightSamplingPass::Internals
   gnomon::PassContext context;      ///< which holds the following two's OpenGL objects
   std::unique_ptr<gnomon::PictureTarget> target = std::make_unique<gnomon::PictureTarget>();
   std::unique_ptr<gnomon::PictureMean> mean = std::make_unique<gnomon::PictureMean>();
+  gnomon::LightManager lightManager;
   std::vector<gnomon::PointedLight> lights; ///< of this frame
   std::optional<std::size_t> shown;         ///< a hash of what the mean was begun for
   gnomon::ShownScene scene;
@@ -155,25 +161,34 @@ void vtkGnomonLightSamplingPass::Render(const vtkRenderState* s)
     return;
   }
   const double progressBefore = internal.progress;
-  internal.progress = 1.0;
-  if (!internal.context.enter(this, renderer))
-  {
-    this->DrawByDelegate(s);
-    return;
-  }
+  internal.progress = this->DrawMeanOrAlone(s);
+  gnomon::tellProgress(this, progressBefore, internal.progress);
+}
+
+//------------------------------------------------------------------------------
+/// Has the delegate draw alone where the mean cannot be shown.
+/// @return how much of the mean this frame shows, or all of what there is
+double vtkGnomonLightSamplingPass::DrawMeanOrAlone(const vtkRenderState* s)
+{
+  Internals& internal = *this->Internal;
+  vtkRenderer* renderer = s->GetRenderer();
   try
   {
-    this->UpdateLightGeometry(renderer); // head lights follow the camera
-    internal.lights = pointedLights(renderer, this->Samples);
-    internal.progress = this->DrawMean(s);
+    if (internal.context.enter(this, renderer))
+    {
+      this->UpdateLightGeometry(renderer); // head lights follow the camera
+      internal.lights =
+        pointedLights(internal.lightManager.collectAreas(renderer, {}), this->Samples);
+      return this->DrawMean(s);
+    }
   }
   catch (const std::exception& error)
   {
-    internal.shown.reset();
     vtkErrorMacro("The delegate draws alone: " << error.what() << ".");
-    this->DrawByDelegate(s);
   }
-  gnomon::tellProgress(this, progressBefore, internal.progress);
+  internal.shown.reset();
+  this->DrawByDelegate(s);
+  return 1.0;
 }
 
 //------------------------------------------------------------------------------
@@ -189,7 +204,8 @@ double vtkGnomonLightSamplingPass::DrawMean(const vtkRenderState* s)
     return 1.0;
   }
   requireToBeInPlace(renderer);
-  const bool refines = !internal.viewCount.areSeveral(renderer) && this->SamplesPerFrame > 0;
+  const bool refines = !internal.viewCount.areSeveral(renderer) && !renderer->Transparent() &&
+    this->SamplesPerFrame > 0;
   const bool begins = !refines || internal.shown != this->HashOfShown(s);
   internal.shown.reset(); // in case of an error
   if (begins)
@@ -273,6 +289,7 @@ std::size_t vtkGnomonLightSamplingPass::HashOfShown(const vtkRenderState* s)
       gnomon::toGlm(
         camera->GetProjectionTransformMatrix(renderer->GetTiledAspectRatio(), -1.0, 1.0)) },
     gnomon::sizeOf(s));
+  gnomon::hashCombine(seed, gnomon::samplesOfBoundFramebuffer());
   gnomon::hashCombine(seed, this->GetMTime());
   gnomon::hashCombine(seed, this->Delegate()->GetMTime());
   return seed;

@@ -22,7 +22,7 @@
  * is soft; a directional light turns about its position, and its box with it. What a light says of its
  * size counts (vtkGnomonLightKeys' "light_radius" included, but not that of a shadow pass), and so do its
  * "light_seed" and "light_sampling", "sobol" or "random"; Samples takes the place of "light_samples". A light with a
- * texture is refused. The renderer's lights are its own again after the frame, and have not been modified.
+ * texture is an error, and so is one whose area cannot be (vtkGnomonAreaLight). The renderer's lights are its own again after the frame, and have not been modified.
  *
  * <b>Pictures</b> are of 32-bit floats, so that they may be brighter than any display and are not rounded,
  * with the window's samples per pixel. Memory does not grow with their number. They are drawn in front of
@@ -81,7 +81,8 @@ public:
    * Pictures that each frame adds while nothing changes. The first frame after a change then shows what
    * the delegate shows from the lights' centres, and the last one, bit for bit, what one frame with all of
    * them shows; after it, nothing is drawn any more but the mean. 0, the default, draws all in every
-   * frame. So do windows that show several views by one pass (stereo, tiles, several renderers).
+   * frame. So do windows that show several views by one pass (stereo, tiles, several renderers), and renderers that are
+   * transparent (a layer), since what is below them is a part of each picture, and nobody tells when it changes.
    *
    * What counts as a change is what VTK and Gnomon have times for: the camera, lights, props with their
    * inputs, this pass and its delegate. Call this pass's Modified() where something else changed, as a
@@ -127,6 +128,7 @@ private:
   vtkRenderPass* Delegate() const;
   void DrawByDelegate(const vtkRenderState* s);
   void DrawFromCentres(const vtkRenderState* s);
+  double DrawMeanOrAlone(const vtkRenderState* s);
   double DrawMean(const vtkRenderState* s);
   void AddPictures(const vtkRenderState* s, std::size_t wanted);
   double GammaOf(const vtkRenderState* s) const;

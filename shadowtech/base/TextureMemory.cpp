@@ -197,6 +197,20 @@ void requireRoomForMap(std::size_t bytesOfTexel, int sizeTexels, int layers)
 }
 
 //------------------------------------------------------------------------------
+void requireRoomForPicture(int width, int height, int samples)
+{
+  constexpr double floatsOfSample = 5.0; // red, green, blue, alpha and depth
+  const double bytes = floatsOfSample * sizeof(float) * width * height * std::max(samples, 1);
+  if (bytes > largestTextureShare * availableBytes())
+  {
+    const std::string split =
+      samples > 1 ? " with " + std::to_string(samples) + " samples of a pixel" : "";
+    throw TextureMemoryError(
+      describe("a picture" + split, width, height, 0, bytes, "texture memory"));
+  }
+}
+
+//------------------------------------------------------------------------------
 int mostMapSamples()
 {
   GLint most = std::numeric_limits<GLint>::max();

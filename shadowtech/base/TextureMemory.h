@@ -46,6 +46,11 @@ void allocateMap(
 /// @throws TextureMemoryError, which offers the largest power of two that fits as its side
 void requireRoomForMap(std::size_t bytesOfTexel, int sizeTexels, int layers);
 
+/// The same question for a picture of colours and depths with samples of each pixel, which VTK makes.
+/// @param samples 0 where a pixel is not split
+/// @throws TextureMemoryError
+void requireRoomForPicture(int width, int height, int samples);
+
 /// The most samples of a texel that OpenGL draws maps of moments with.
 int mostMapSamples();
 

@@ -199,15 +199,17 @@ void MonteCarlo::readClasses(const LayerInput& input) const
   {
     return;
   }
-  std::vector<float> classes(
+  std::vector<glm::vec4> texels(
     static_cast<std::size_t>(this->width_) * static_cast<std::size_t>(this->height_));
   glActiveTexture(GL_TEXTURE0);
   glBindTexture(GL_TEXTURE_2D, this->unfiltered_.name());
   glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
   glPixelStorei(GL_PACK_ALIGNMENT, 4);
-  glGetTexImage(
-    GL_TEXTURE_2D, 0, this->channels_ == 3 ? GL_ALPHA : GL_GREEN, GL_FLOAT, classes.data());
-  input.classes->assign(classes.begin(), classes.end());
+  glGetTexImage(GL_TEXTURE_2D, 0, GL_RGBA, GL_FLOAT, texels.data());
+  input.classes->resize(texels.size());
+  std::transform(texels.begin(), texels.end(), input.classes->begin(),
+    [channel = this->channels_](const glm::vec4& texel)
+    { return static_cast<std::uint8_t>(texel[channel]); }); // behind the channels
 }
 
 //------------------------------------------------------------------------------
@@ -252,8 +254,11 @@ void MonteCarlo::drawVisibility(const LayerInput& input, LightReport& report)
   {
     const ChannelView view(this->unfiltered_.name(), GL_RED + static_cast<GLenum>(channel),
       textured ? GL_ALPHA : GL_GREEN);
+    // A colour that the light has not is 0 everywhere, and has no noise.
+    const float mean = textured ? light.texture->mean[channel] : 1.0f;
+    const float lit = mean > 0.0f ? mean : 1.0f;
     this->filter_.apply(
-      input, input.layer + channel, this->unfiltered_.name(), rays, filterOf(light));
+      input, input.layer + channel, this->unfiltered_.name(), rays, filterOf(light), lit);
   }
   this->readClasses(input);
 }

@@ -10,7 +10,7 @@ namespace gnomon
 
 //------------------------------------------------------------------------------
 void VisibilityFilter::apply(
-  const LayerInput& input, int layer, GLuint unfiltered, int rays, int radiusPixels)
+  const LayerInput& input, int layer, GLuint unfiltered, int rays, int radiusPixels, float lit)
 {
   const int width = input.receivers.width();
   const int height = input.receivers.height();
@@ -30,7 +30,7 @@ void VisibilityFilter::apply(
       { { "receiverFragments", TextureBinding{ GL_TEXTURE_2D, input.receivers.fragments() } },
         { "receiverPoints", TextureBinding{ GL_TEXTURE_2D, input.receivers.points() } },
         { "unfiltered", TextureBinding{ GL_TEXTURE_2D, unfiltered } },
-        { "source", TextureBinding{ GL_TEXTURE_2D, source } }, { "axis", axis },
+        { "source", TextureBinding{ GL_TEXTURE_2D, source } }, { "axis", axis }, { "lit", lit },
         { "pixelSide", glm::vec2(input.camera.pixelSide({ width, height })) } },
       0, 0);
   };

@@ -21,7 +21,9 @@ public:
   /// @param unfiltered visibility and class (classes.glsl), two floats per pixel
   /// @param rays as the light's samples are a grid of rays x rays, which says how large the noise is
   /// @param radiusPixels the Gaussian's deviation is half of it; 0: nothing is changed
-  void apply(const LayerInput& input, int layer, GLuint unfiltered, int rays, int radiusPixels);
+  /// @param lit the visibility of what nothing hides the light from, which the noise is a share of; > 0
+  void apply(
+    const LayerInput& input, int layer, GLuint unfiltered, int rays, int radiusPixels, float lit);
 
   std::size_t bytes() const;
 

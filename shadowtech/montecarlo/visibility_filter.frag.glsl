@@ -12,14 +12,15 @@ uniform sampler2D receiverPoints;    // xyz: position, w: the normal's z; all in
 uniform sampler2D unfiltered;        // x: visibility, y: class
 uniform sampler2D source;            // x: visibility, y: the greatest class in the row: the first pass' result
 uniform ivec2 axis;                  // of the pass
+uniform float lit;                   // the visibility of what nothing hides the light from
 uniform vec2 pixelSide;              // a pixel's side is x + y * distance
 
 out vec2 filtered;
 
 // Deviations of the Gaussian in pixels, and of what differences in visibility count as noise: three times what a line across
-// the light makes RAYS x RAYS jittered rays err by, sqrt(1 / 6 RAYS^3).
+// the light makes RAYS x RAYS jittered rays err by, sqrt(1 / 6 RAYS^3) of what is lit.
 #define SIGMA_PIXELS max(0.5 * float(FILTER_PIXELS), 0.5)
-#define SIGMA_NOISE (1.2247449 / sqrt(float(RAYS * RAYS * RAYS)))
+#define SIGMA_NOISE (lit * 1.2247449 / sqrt(float(RAYS * RAYS * RAYS)))
 
 void main()
 {

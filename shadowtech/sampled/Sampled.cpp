@@ -26,6 +26,14 @@ int numberOf(std::size_t pointOfBatch)
   return centreNumber + 1 + static_cast<int>(pointOfBatch);
 }
 
+/// What some points shine with together.
+glm::vec3 shineOf(const std::vector<glm::vec3>& shine, std::size_t first, std::size_t end)
+{
+  const auto begin = shine.begin();
+  return std::accumulate(begin + static_cast<std::ptrdiff_t>(first),
+    begin + static_cast<std::ptrdiff_t>(end), glm::vec3(0.0f));
+}
+
 std::string refused(const ShadowLight& light)
 {
   if (light.projection != Projection::Uniform && light.projection != Projection::Cube)
@@ -77,15 +85,15 @@ std::size_t Sampled::bytesOfMaps() const
 void Sampled::drawVisibility(const LayerInput& input, LightReport& report)
 {
   const GlStateGuard guard;
-  const bool begins = this->beginIfStale(input);
-  const std::size_t points = this->shown_->points.size();
-  const bool hard = points == 1 || (begins && input.light.progressiveSamples > 0);
-  if (hard && this->shown_->channels == 1)
+  const bool stale = this->beginIfStale(input);
+  const Points& points = this->shown_->points;
+  const std::size_t all = points.offsets.size();
+  const bool begins = stale && all > 1 && input.light.progressiveSamples > 0;
+  if (begins || (all == 1 && this->shown_->channels == 1))
   {
-    input.layers.estimate(
-      input.layer, this->centre_, input.light, input.receivers, input.space, input.shaders);
+    this->showCentre(input);
     report.lightSamples = 1;
-    report.progress = points == 1 ? 1.0 : 0.0;
+    report.progress = begins ? 0.0 : 1.0;
     return;
   }
   const auto most = static_cast<std::size_t>(input.light.batchSamples);
@@ -94,14 +102,16 @@ void Sampled::drawVisibility(const LayerInput& input, LightReport& report)
     this->batch_.clear(); // gives their memory back
   }
   const std::size_t wanted = pairedPointsWanted(
-    points, this->summed_, static_cast<std::size_t>(input.light.progressiveSamples));
+    all, this->summed_, static_cast<std::size_t>(input.light.progressiveSamples));
   while (this->summed_ < wanted)
   {
-    this->addBatch(input, std::min(wanted - this->summed_, most));
+    const std::size_t count = std::min(wanted - this->summed_, most);
+    this->addBatch(input, points, this->summed_, count);
+    this->summed_ += count;
   }
-  this->showMean(input);
+  this->showMean(input, shineOf(points.shine, 0, this->summed_));
   report.lightSamples = static_cast<int>(this->summed_);
-  report.progress = static_cast<double>(this->summed_) / static_cast<double>(points);
+  report.progress = static_cast<double>(this->summed_) / static_cast<double>(all);
 }
 
 //------------------------------------------------------------------------------
@@ -109,12 +119,12 @@ void Sampled::drawVisibility(const LayerInput& input, LightReport& report)
 /// @return whether it did
 bool Sampled::beginIfStale(const LayerInput& input)
 {
-  Shown shown{ input.receiversShown, pairedLightSamples(input.light),
-    channelsOf(info(), input.light), {} };
+  Shown shown{ input.receiversShown, { pairedLightSamples(input.light), {} },
+    channelsOf(info(), input.light) };
   const bool textured = shown.channels == 3;
-  for (const glm::dvec3& point : shown.points)
+  for (const glm::dvec3& point : shown.points.offsets)
   {
-    shown.shine.push_back(textured ? input.light.texture->colourAt(point) : glm::vec3(1.0f));
+    shown.points.shine.push_back(textured ? input.light.texture->colourAt(point) : glm::vec3(1.0f));
   }
   if (this->shown_ && *this->shown_ == shown)
   {
@@ -125,16 +135,23 @@ bool Sampled::beginIfStale(const LayerInput& input)
     this->sum_ = RunningSum(channels);
   }
   this->shown_.reset(); // in case that there is no memory
-  this->sum_.begin(
-    input.receivers.width(), input.receivers.height(), "the sum of a light's points");
-  this->summed_ = 0;
+  this->beginSum(input);
   this->shown_ = std::move(shown);
   return true;
 }
 
 //------------------------------------------------------------------------------
-/// Draws the maps of the next points, and adds what they see.
-void Sampled::addBatch(const LayerInput& input, std::size_t count)
+void Sampled::beginSum(const LayerInput& input)
+{
+  this->sum_.begin(
+    input.receivers.width(), input.receivers.height(), "the sum of a light's points");
+  this->summed_ = 0;
+}
+
+//------------------------------------------------------------------------------
+/// Draws the maps of some of the points, and adds what they see.
+void Sampled::addBatch(
+  const LayerInput& input, const Points& points, std::size_t first, std::size_t count)
 {
   const ShadowLight& light = input.light;
   if (this->batch_.size() < count)
@@ -144,7 +161,7 @@ void Sampled::addBatch(const LayerInput& input, std::size_t count)
   std::vector<ShadowLight> lights;
   for (std::size_t i = 0; i < count; ++i)
   {
-    lights.push_back(lightAt(light, this->shown_->points[this->summed_ + i], input.fitting));
+    lights.push_back(lightAt(light, points.offsets[first + i], input.fitting));
     const LightViews views = fitLightViews(lights[i], input.fitting);
     MapInput map{ lights[i], views, input.occluders, input.buffers, input.shaders };
     if (light.box)
@@ -164,7 +181,7 @@ void Sampled::addBatch(const LayerInput& input, std::size_t count)
     { "receiverFragments", TextureBinding{ GL_TEXTURE_2D, input.receivers.fragments() } });
   uniforms.push_back(
     { "receiverPoints", TextureBinding{ GL_TEXTURE_2D, input.receivers.points() } });
-  const glm::vec3 shine = this->shineOf(this->summed_, this->summed_ + count);
+  const glm::vec3 shine = shineOf(points.shine, first, first + count);
   uniforms.push_back(textured ? Uniform{ "batchShine", shine } : Uniform{ "batchShine", shine.r });
   int freeUnit = ShaderLibrary::setUniforms(program, uniforms, centreNumber, 0);
   freeUnit = ShaderLibrary::setUniforms(
@@ -174,12 +191,11 @@ void Sampled::addBatch(const LayerInput& input, std::size_t count)
   {
     std::vector<Uniform> ofPoint = this->batch_[i].uniforms(input.space);
     ofPoint.push_back(
-      { "pointOffset_LIGHT", glm::vec3(lightFromWorld * this->shown_->points[this->summed_ + i]) });
-    ofPoint.push_back({ "pointShine_LIGHT", this->shown_->shine[this->summed_ + i] });
+      { "pointOffset_LIGHT", glm::vec3(lightFromWorld * points.offsets[first + i]) });
+    ofPoint.push_back({ "pointShine_LIGHT", points.shine[first + i] });
     freeUnit = ShaderLibrary::setUniforms(program, ofPoint, numberOf(i), freeUnit);
   }
   this->sum_.fill();
-  this->summed_ += count;
 }
 
 //------------------------------------------------------------------------------
@@ -204,18 +220,9 @@ std::string Sampled::sumGlsl(const LayerInput& input, const std::vector<ShadowLi
 }
 
 //------------------------------------------------------------------------------
-/// What some of the points shine with together.
-glm::vec3 Sampled::shineOf(std::size_t first, std::size_t end) const
+/// @param shine what the points in the sum shine with together
+void Sampled::showMean(const LayerInput& input, const glm::vec3& shine)
 {
-  const auto begin = this->shown_->shine.begin();
-  return std::accumulate(begin + static_cast<std::ptrdiff_t>(first),
-    begin + static_cast<std::ptrdiff_t>(end), glm::vec3(0.0f));
-}
-
-//------------------------------------------------------------------------------
-void Sampled::showMean(const LayerInput& input)
-{
-  const glm::vec3 all = this->shineOf(0, this->summed_);
   const int channels = this->shown_->channels;
   const GLuint program = ScreenPass::use(
     input.shaders, ShaderLibrary::source("shadowtech/sampled/sampled_mean.frag.glsl"));
@@ -223,13 +230,29 @@ void Sampled::showMean(const LayerInput& input)
   {
     const float lit = channels == 3 ? input.light.texture->mean[channel] : 1.0f;
     // Of a colour that no point has, the sum is 0.
-    const float whole = all[channel] > 0.0f ? all[channel] / lit : 1.0f;
+    const float whole = shine[channel] > 0.0f ? shine[channel] / lit : 1.0f;
     const ChannelView view(this->sum_.texture(), GL_RED + static_cast<GLenum>(channel), GL_GREEN);
     ShaderLibrary::setUniforms(program,
       { { "sum", TextureBinding{ GL_TEXTURE_2D, this->sum_.texture() } }, { "whole", whole } },
       centreNumber, 0);
     input.layers.fill(input.layer + channel);
   }
+}
+
+//------------------------------------------------------------------------------
+/// Shows the centre's hard shadow. The sum is empty before and after.
+void Sampled::showCentre(const LayerInput& input)
+{
+  if (this->shown_->channels == 1)
+  {
+    input.layers.estimate(
+      input.layer, this->centre_, input.light, input.receivers, input.space, input.shaders);
+    return;
+  }
+  const Points centre{ { glm::dvec3(0.0) }, { input.light.texture->mean } };
+  this->addBatch(input, centre, 0, 1);
+  this->showMean(input, centre.shine[0]);
+  this->beginSum(input);
 }
 
 } // namespace gnomon

@@ -29,11 +29,12 @@ namespace gnomon
 ///
 /// Of a light with a texture the sum has three channels: each point counts with its colour (LightTexture.h). A few points
 /// seldom have the texture's mean, and so the sum is divided by what makes theirs the mean: of what nothing hides the light from,
-/// visibility is the mean. There is no hard shadow to begin with then.
+/// visibility is the mean.
 ///
 /// The sum is kept while nothing changes that it depends on: then nothing more is drawn. In progressive mode a change
 /// shows the centre's hard shadow, from the centre's map, which outlives the camera's moves, and each further frame
-/// adds points, from the middle of the light outwards.
+/// adds points, from the middle of the light outwards. (Of a light with a texture the hard shadow is that of a point at the centre
+/// that has the texture's mean, as the sum shows it.)
 class Sampled : public Technique
 {
 public:
@@ -44,26 +45,39 @@ public:
   void drawVisibility(const LayerInput& input, LightReport& report) override;
 
 private:
+  /// Points of a light, and what each of them shines with: its colour in 255ths, of one channel 1.
+  struct Points
+  {
+    std::vector<glm::dvec3> offsets; ///< from the light's centre
+    std::vector<glm::vec3> shine;
+
+    bool operator==(const Points& other) const
+    {
+      return this->offsets == other.offsets && this->shine == other.shine;
+    }
+  };
+
   /// What the sum was made for, beside what makes the centre's map stale.
   struct Shown
   {
-    std::size_t receivers = 0;      ///< LayerInput::receiversShown
-    std::vector<glm::dvec3> points; ///< pairedLightSamples()
-    int channels = 1;               ///< channelsOf()
-    std::vector<glm::vec3> shine;   ///< of each of them: its colour in 255ths, of one channel 1
+    std::size_t receivers = 0; ///< LayerInput::receiversShown
+    Points points;             ///< pairedLightSamples()
+    int channels = 1;          ///< channelsOf()
 
     bool operator==(const Shown& other) const
     {
       return this->receivers == other.receivers && this->points == other.points &&
-        this->channels == other.channels && this->shine == other.shine;
+        this->channels == other.channels;
     }
   };
 
   bool beginIfStale(const LayerInput& input);
-  void addBatch(const LayerInput& input, std::size_t count);
+  void beginSum(const LayerInput& input);
+  void addBatch(
+    const LayerInput& input, const Points& points, std::size_t first, std::size_t count);
   std::string sumGlsl(const LayerInput& input, const std::vector<ShadowLight>& lights) const;
-  glm::vec3 shineOf(std::size_t first, std::size_t end) const;
-  void showMean(const LayerInput& input);
+  void showMean(const LayerInput& input, const glm::vec3& shine);
+  void showCentre(const LayerInput& input);
 
   Compare centre_;
   std::optional<Shown> shown_; ///< none: the next frame begins anew

@@ -13,6 +13,7 @@ namespace gnomon
 int RimMaps::update(const ShadowLight& light, const ViewFitting& fitting,
   const Occluders& occluders, std::size_t points)
 {
+  this->textured_ = light.texture ? light.area : std::nullopt;
   const std::vector<glm::dvec3> offsets = rimOf(*light.area, points);
   if (this->points_.size() != points)
   {
@@ -43,6 +44,10 @@ int RimMaps::update(const ShadowLight& light, const ViewFitting& fitting,
 bool RimMaps::agree(const glm::dvec3& origin, const glm::vec3& normal, const glm::vec3& toCentre,
   Neighbourhood neighbourhood, bool inShadow) const
 {
+  if (!inShadow && this->cutsTexture(normal, toCentre))
+  {
+    return false;
+  }
   return std::all_of(this->points_.begin(), this->points_.end(),
     [&](const Point& point)
     {
@@ -53,6 +58,14 @@ bool RimMaps::agree(const glm::dvec3& origin, const glm::vec3& normal, const glm
       const std::optional<PlaceOnMaps> place = point.maps.find(origin, normal);
       return place ? place->shadows() == inShadow && place->agree(neighbourhood) : !inShadow;
     });
+}
+
+//------------------------------------------------------------------------------
+bool RimMaps::cutsTexture(const glm::vec3& normal, const glm::vec3& toCentre) const
+{
+  return this->textured_ &&
+    !facesLight(
+      normal, toCentre - static_cast<float>(this->textured_->extentAlong(normal)) * normal);
 }
 
 //------------------------------------------------------------------------------

@@ -8,6 +8,7 @@
 #include <glm/glm.hpp>
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace gnomon
@@ -30,7 +31,8 @@ public:
     std::size_t points);
 
   /// Whether the texels of all points' maps say this of a receiver. A point behind the receiver's plane is not asked,
-  /// since it gives way to the opposite one (directionToSample()).
+  /// since it gives way to the opposite one (directionToSample()). Where the light has a texture, that changes the colour of what
+  /// nothing hides the light from: no map says of a receiver whose plane cuts the light that it is lit.
   /// @param origin where the receiver's shadow rays start, centred
   /// @param normal of the receiver, on the camera's side
   /// @param toCentre from the receiver to the light's centre; of a directional light of length 1
@@ -46,7 +48,12 @@ private:
     LightViews views;
     TriangleMaps maps;
   };
+  /// Whether a receiver's plane has some of the light behind it and some in front.
+  /// @param toCentre the light's, which the receiver faces
+  bool cutsTexture(const glm::vec3& normal, const glm::vec3& toCentre) const;
+
   std::vector<Point> points_;
+  std::optional<LightArea> textured_; ///< the light's area, if it has a texture
 };
 
 } // namespace gnomon

@@ -171,6 +171,28 @@ TEST(AreaLight, hasARim)
   }
 }
 
+/// Along any direction, as far as the farthest of its rim.
+TEST(AreaLight, hasAnExtent)
+{
+  const glm::dvec3 travel = glm::normalize(glm::dvec3(1.0, -2.0, 0.5));
+  for (const LightArea& area : { rectangleArea(travel, { 0.0, 0.0, 1.0 }, { 0.6, 0.2 }),
+         diskArea(travel, 0.5), ballArea(0.5) })
+  {
+    const std::vector<glm::dvec3> rim = rimOf(area, 20000);
+    EXPECT_LT(area.extentAlong(travel), area.shape == LightArea::Shape::Ball ? 0.5 + 1e-12 : 1e-12);
+    for (const glm::dvec3& across : rimOf(ballArea(1.0), 50))
+    {
+      double farthest = 0.0;
+      for (const glm::dvec3& point : rim)
+      {
+        farthest = std::max(farthest, glm::dot(point, across));
+      }
+      EXPECT_NEAR(area.extentAlong(across), farthest, 2e-4);
+      EXPECT_EQ(area.extentAlong(-across), area.extentAlong(across));
+    }
+  }
+}
+
 TEST(AreaLight, takesOSPRaysRadius)
 {
   vtkNew<vtkLight> sun;

@@ -255,6 +255,23 @@ TEST_F(TexturedLight, isReadOnceUntilItChanges)
 }
 
 //------------------------------------------------------------------------------
+TEST_F(TexturedLight, sharesAnImageThatIsReadOnce)
+{
+  vtkNew<vtkGnomonAreaLight> other;
+  other->DeepCopy(this->light);
+  this->renderer->AddLight(other);
+  std::shared_ptr<const LightTexture> first;
+  for (int frame = 0; frame < 2; ++frame)
+  {
+    const gnomon::LightSet set = this->manager.collect(this->renderer, {});
+    ASSERT_EQ(set.casting.size(), 2u);
+    EXPECT_EQ(set.casting[1].texture->texture, set.casting[0].texture->texture);
+    first = first ? first : set.casting[0].texture->texture;
+    EXPECT_EQ(set.casting[0].texture->texture, first);
+  }
+}
+
+//------------------------------------------------------------------------------
 TEST_F(TexturedLight, isLeftOutForAReason)
 {
   vtkGnomonLightKeys::SetSetting(this->light, "light_radius", "0.5");

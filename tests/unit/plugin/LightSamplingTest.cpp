@@ -8,6 +8,7 @@
 #include "lights/vtkGnomonLightKeys.h"
 #include "plugin/vtkGnomonLightSamplingPass.h"
 #include "plugin/vtkGnomonPropKeys.h"
+#include "shadowtech/base/TextureMemory.h"
 
 #include <vtkCallbackCommand.h>
 #include <vtkCommand.h>
@@ -20,6 +21,7 @@
 #include <vtkOpenGLFXAAPass.h>
 #include <vtkOpenGLRenderer.h>
 #include <vtkPlaneSource.h>
+#include <vtkPointData.h>
 #include <vtkProperty.h>
 #include <vtkRenderState.h>
 #include <vtkRenderStepsPass.h>
@@ -247,7 +249,7 @@ protected:
   {
     this->scene.render(); // head lights follow the camera
     std::vector<gnomon::ShadowLight> areas =
-      gnomon::LightManager().collectAreas(this->scene.renderer, {});
+      gnomon::LightManager().collectAreas(this->scene.renderer, {}).lights;
     ASSERT_EQ(areas.size(), 1u);
     gnomon::ShadowLight& area = areas[0];
     area.lightSamples = this->sampling->GetSamples();
@@ -459,6 +461,15 @@ TEST_F(LightSampling, refinesAnewWhenSomethingChanges)
   auto* lamp = vtkGnomonAreaLight::SafeDownCast(this->light);
   vtkNew<vtkLight> other;
   other->SetIntensity(0.1);
+  vtkNew<vtkImageData> colour;
+  colour->SetDimensions(1, 1, 1);
+  colour->AllocateScalars(VTK_UNSIGNED_CHAR, 1);
+  vtkNew<vtkGnomonAreaLight> point;
+  point->SetRadius(0.0);
+  point->SetIntensity(0.1);
+  point->SetTexture(colour);
+  this->scene.pass->ObeyUseShadowsOn();
+  this->scene.renderer->UseShadowsOn();
   const std::pair<const char*, std::function<void()>> changes[] = {
     { "camera",
       [&] {
@@ -483,6 +494,16 @@ TEST_F(LightSampling, refinesAnewWhenSomethingChanges)
     { "delegate", [&] { this->sampling->SetDelegatePass(this->scene.pass); } },
     { "technique", [&] { this->scene.pass->SetTechnique("pcf"); } },
     { "window", [&] { this->scene.window->SetSize(120, 90); } },
+    { "samples of a pixel", [&] { this->scene.window->SetMultiSamples(4); } },
+    { "one sample of a pixel", [&] { this->scene.window->SetMultiSamples(0); } },
+    { "shadows", [&] { this->scene.renderer->UseShadowsOff(); } },
+    { "a point with a texture", [&] { this->scene.renderer->AddLight(point); } },
+    { "its texture",
+      [&]
+      {
+        colour->SetScalarComponentFromDouble(0, 0, 0, 0, 200.0);
+        colour->GetPointData()->GetScalars()->Modified();
+      } },
   };
   for (const auto& [what, change] : changes)
   {
@@ -703,6 +724,25 @@ TEST_F(LightSampling, partsOfWindowsAndLayersAreShown)
 }
 
 //------------------------------------------------------------------------------
+/// What is below a layer is a part of its pictures, and may change in every frame.
+TEST_F(LightSampling, layersGetAllInEveryFrame)
+{
+  this->sampling->SetSamplesPerFrame(2);
+  this->scene.window->SetNumberOfLayers(2);
+  this->scene.renderer->SetLayer(1);
+  this->scene.lookFrom({ 2.0, -12.0, 3.0 }); // below the horizon and above it
+  vtkNew<vtkRenderer> below;
+  this->scene.window->AddRenderer(below);
+  for (const double green : { 0.2, 0.4, 0.6 })
+  {
+    below->SetBackground(0.2, green, 0.6);
+    const Picture seen = this->scene.render();
+    EXPECT_EQ(this->sampling->GetProgress(), 1.0);
+    EXPECT_EQ(seen.at(2, 97), glm::ivec3(glm::round(255.0 * glm::dvec3(0.2, green, 0.6))));
+  }
+}
+
+//------------------------------------------------------------------------------
 TEST_F(LightSampling, alphaIsThatOfThePlainPicture)
 {
   this->scene.window->AlphaBitPlanesOn();
@@ -866,6 +906,51 @@ TEST_F(LightSampling, refusesWhatItCannotShow)
   vtkGnomonLightKeys::SetSetting(this->light, "light_sampling", "random");
   EXPECT_GT(differingPixels(this->scene.render(), centre, 10), 100u);
   EXPECT_EQ(this->takeErrors(), "");
+}
+
+//------------------------------------------------------------------------------
+/// Lights that cannot be sampled are not passed over in silence, unless nothing is lit by them.
+TEST_F(LightSampling, saysWhichLightsAreNotSampled)
+{
+  auto* lamp = vtkGnomonAreaLight::SafeDownCast(this->light);
+  lamp->SetUp(2.0, 2.5, -4.0);
+  const auto saysUp = HasSubstr("light 0: its area has its up direction along");
+  this->scene.render();
+  EXPECT_THAT(this->takeErrors(), saysUp);
+  lamp->SwitchOff();
+  this->scene.render();
+  EXPECT_EQ(this->takeErrors(), "");
+  lamp->SwitchOn();
+  lamp->SetUp(0.0, 1.0, 0.0);
+  vtkNew<vtkImageData> empty;
+  lamp->SetTexture(empty);
+  this->scene.render();
+  EXPECT_THAT(this->takeErrors(), HasSubstr("light 0: its texture"));
+  lamp->SetTexture(nullptr);
+  // A light without area has none that could be wrong.
+  vtkNew<vtkLight> nowhere;
+  nowhere->SetPosition(0.0, 0.0, 0.0);
+  nowhere->SetFocalPoint(0.0, 0.0, 0.0);
+  nowhere->SetIntensity(0.1);
+  this->scene.renderer->AddLight(nowhere);
+  this->scene.pass->SetTechnique("nsm");
+  this->scene.render();
+  EXPECT_EQ(this->takeErrors(), "");
+}
+
+//------------------------------------------------------------------------------
+TEST_F(LightSampling, asksForRoomFirst)
+{
+  try
+  {
+    gnomon::requireRoomForPicture(1 << 20, 1 << 20, 8);
+    ADD_FAILURE() << "176 TB";
+  }
+  catch (const gnomon::TextureMemoryError& error)
+  {
+    EXPECT_THAT(error.what(),
+      testing::AllOf(HasSubstr("8 samples of a pixel of 1048576 x 1048576"), HasSubstr("MB")));
+  }
 }
 
 //------------------------------------------------------------------------------

@@ -243,6 +243,40 @@ TEST_F(LightTextures, giveWayWithTheirColoursBehindTheReceiver)
 }
 
 //------------------------------------------------------------------------------
+TEST_F(LightTextures, giveWayWhereTheyAreCutBetweenTheRim)
+{
+  // Of a lamp as above on its corner, only that corner is below the floor. None of the rim points need be there.
+  this->addFloor();
+  this->lamp->SetPosition(-5.0, 0.0, 1.3);
+  this->lamp->SetFocalPoint(0.0, 0.0, 1.3);
+  this->lamp->SetTexture(
+    makeImage(16, 16, [](int x, int y) { return x + y < 6 || x - y > 12 ? green : blue; }));
+  for (int turn = 0; turn < 4; ++turn)
+  {
+    this->lamp->SetUp(0.0, turn % 2 == 0 ? 1.0 : -1.0, turn < 2 ? 1.0 : -1.0);
+    const VisibilityImages truth = this->draw("raytraced");
+    EXPECT_EQ(this->draw("coherence").visibility, truth.visibility) << turn;
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(LightTextures, areFilteredAsLightIsWithout)
+{
+  this->buildScene();
+  this->scene.pass->SetSetting("mc_rays", "3");
+  this->scene.pass->SetSetting("mc_filter", "5");
+  const VisibilityImages plain = this->draw("montecarlo");
+  this->lamp->SetTexture(makeImage(1, 1, [](int, int) { return Colour{ 0.2, 0.6, 0.0 }; }));
+  const VisibilityImages& kept = this->draw("montecarlo");
+  for (std::size_t i = 0; i < plain.coverage.size(); ++i)
+  {
+    ASSERT_NEAR(kept.visibility[0][i], 0.2 * plain.visibility[0][i], 1e-5);
+    ASSERT_NEAR(kept.visibility[1][i], 0.6 * plain.visibility[0][i], 1e-5);
+    ASSERT_EQ(kept.visibility[2][i], 0.0f);
+  }
+}
+
+//------------------------------------------------------------------------------
 TEST_F(LightTextures, ofWhiteAreNone)
 {
   this->buildScene();
@@ -480,8 +514,28 @@ TEST_F(LightTextures, areRefined)
     this->draw("sampled");
     ++frames;
   } while (this->scene.pass->GetProgress() < 1.0 && frames < 50);
-  EXPECT_EQ(frames, 6);
+  EXPECT_EQ(frames, 7);
   EXPECT_EQ(this->scene.pass->GetVisibility().visibility, whole.visibility);
+}
+
+//------------------------------------------------------------------------------
+/// Whatever the colour is in the middle.
+TEST_F(LightTextures, areRefinedFromTheHardShadow)
+{
+  this->buildScene();
+  this->lamp->SetTexture(
+    makeImage(3, 3, [](int x, int y) { return x == 1 && y == 1 ? black : white; }));
+  const VisibilityImages hard = this->draw("nsm");
+  this->scene.pass->SetSetting("progressive", "4");
+  const VisibilityImages& begun = this->draw("sampled");
+  EXPECT_EQ(this->scene.pass->GetProgress(), 0.0);
+  EXPECT_EQ(this->scene.report().lights.at(0).lightSamples, 1);
+  std::size_t different = 0;
+  for (std::size_t i = 0; i < hard.coverage.size(); ++i)
+  {
+    different += std::abs(begun.visibility[1][i] - hard.visibility[1][i]) > 1e-6;
+  }
+  EXPECT_LT(different, 10u); // the maps are laid out otherwise
 }
 
 //------------------------------------------------------------------------------

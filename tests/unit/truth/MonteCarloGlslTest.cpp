@@ -427,7 +427,7 @@ struct FilteredPicture
       ShaderLibrary::setUniforms(program,
         { { "receiverFragments", receivers }, { "receiverPoints", places },
           { "unfiltered", unfiltered }, { "source", source }, { "axis", axis },
-          { "pixelSide", glm::vec2(1.0f, 0.0f) } },
+          { "pixelSide", glm::vec2(1.0f, 0.0f) }, { "lit", 1.0f } },
         0, 0);
       pass.fill(target.texture, -1, side, side);
     };
