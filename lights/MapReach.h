@@ -32,8 +32,14 @@ struct MapReach
 
   LightArea area = {}; ///< of radius 0: the light is a point to the technique
 
+  /// How much farther it reads, across the light, though maps are not pushed back for it.
+  double unbiasedAcross = 0.0;
+
   /// Whether only views tell how many texels it is.
-  bool dependsOnViews() const { return this->unitAcross > 0.0 || this->area.radius() > 0.0; }
+  bool dependsOnViews() const
+  {
+    return this->unitAcross > 0.0 || this->area.radius() > 0.0 || this->unbiasedAcross > 0.0;
+  }
   bool hasKernel() const { return this->kernelSquare > 0.0 || this->kernelDisc > 0.0; }
 
   /// The farthest along either axis, but for the light's area.
@@ -52,7 +58,8 @@ struct MapReach
   int borderTexels(double texelsAcross = 0.0, double areaAcross = 0.0) const
   {
     constexpr double most = 1 << 20; // more than any map has
-    const double texels = this->largestTexels(texelsAcross) + areaAcross * texelsAcross;
+    const double texels =
+      this->largestTexels(texelsAcross) + (areaAcross + this->unbiasedAcross) * texelsAcross;
     return static_cast<int>(std::ceil(std::min(texels, most)));
   }
 
@@ -61,7 +68,7 @@ struct MapReach
     return this->squareTexels == other.squareTexels && this->discTexels == other.discTexels &&
       this->kernelSquare == other.kernelSquare && this->kernelDisc == other.kernelDisc &&
       this->largestStretch == other.largestStretch && this->unitAcross == other.unitAcross &&
-      this->area == other.area;
+      this->area == other.area && this->unbiasedAcross == other.unbiasedAcross;
   }
 };
 

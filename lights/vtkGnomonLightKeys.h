@@ -56,7 +56,8 @@
  *   (docs/techniques/montecarlo.md); "mc_rays" is how many rays a pixel has along either side of the light (default 3);
  * - "light_radius": makes any light an area light, a disk across it or of a point light a ball, in the units of
  *   vtkGnomonAreaLight's Radius (default 0: as large as it says itself);
- * - "as_published": "on" for "crsm" and "crsma" by the letter of their publication, which is not exact (default "off").
+ * - "as_published": "on" for "crsm" and "crsma" by the letter of their publication, which is not exact, and for "pcss" of spot lights
+ *   by that of Apelles' listings, whose widths are no lengths (default "off").
  *
  * <b>Filter kernels.</b> Techniques that filter ("pcf") average over a kernel of the map's texels:
  * - "bilinear": a square around the point, whose texels count by how far it covers them. Edges are

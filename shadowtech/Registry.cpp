@@ -10,6 +10,7 @@
 #include "shadowtech/montecarlo/MonteCarlo.h"
 #include "shadowtech/pcf/Pcf.h"
 #include "shadowtech/pcss/Pcss.h"
+#include "shadowtech/pcss/PublishedPcss.h"
 #include "shadowtech/penumbra/Penumbra.h"
 #include "shadowtech/planar/Planar.h"
 #include "shadowtech/raytraced/Raytraced.h"
@@ -73,6 +74,7 @@ const std::vector<EstimatorEntry>& estimators()
     entry<Compare>(),
     entry<Pcf>(),
     entry<Pcss>(),
+    entry<PublishedPcss>(),
     entry<Variance>(),
     entry<Exponential>(),
     entry<FourMoments>(),

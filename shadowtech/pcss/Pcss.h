@@ -3,6 +3,7 @@
 
 #include "shadowtech/depth_map/DepthBounds.h"
 #include "shadowtech/depth_map/DepthMapTechnique.h"
+#include "shadowtech/pcss/PcssPoints.h"
 
 namespace gnomon
 {
@@ -50,23 +51,9 @@ protected:
   std::string estimatorGlsl(const ShadowLight& light) const override;
 
 private:
-  void bakePoints(const ShadowLight& light);
-
   DepthBounds bounds_; ///< none of lights without area
-  GlTexture points_;   ///< the search's points of the light's shape, then the filter's
-  std::size_t bytesOfPoints_ = 0;
+  PcssPoints points_;  ///< of the light's shape
 };
-
-/// How many points each step takes.
-struct PcssCounts
-{
-  int search;
-  int filter;
-};
-PcssCounts pcssCounts(PcssSamples samples);
-
-/// The points of both steps, one after the other, on the shape of radius or half side 1.
-std::vector<glm::vec2> pcssPoints(PcssSamples samples, LightArea::Shape shape);
 
 } // namespace gnomon
 

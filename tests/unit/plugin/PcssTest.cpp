@@ -5,6 +5,7 @@
 
 #include "lights/vtkGnomonAreaLight.h"
 #include "lights/vtkGnomonLightKeys.h"
+#include "plugin/vtkGnomonPropKeys.h"
 
 #include <vtkTransform.h>
 
@@ -52,7 +53,7 @@ protected:
   Penumbra()
   {
     // Texels are five times as long along x as along y.
-    this->scene.addFloor(20.0)->SetScale(1.0, 0.2, 1.0);
+    this->floor->SetScale(1.0, 0.2, 1.0);
     this->scene.addBox({ -12.0, -4.0, 1.999 }, { 0.0, 4.0, 2.0 });
     this->scene.lookDown(1.0, 0.0);
     this->scene.renderer->GetActiveCamera()->SetPosition(0.0, 0.0, 1.5); // below the half plane
@@ -85,6 +86,7 @@ protected:
   }
 
   PassScene scene{ 400, 400 };
+  vtkActor* floor = this->scene.addFloor(20.0);
 };
 
 //------------------------------------------------------------------------------
@@ -137,6 +139,33 @@ TEST_F(Penumbra, ofAPointLightIsThatOfItsBall)
   this->scene.pass->SetMapSize(2048);
   const double exact = 2.0 * 0.687 * 2.0 / 8.0;
   EXPECT_NEAR(this->width(0.1, 0.9), exact, 0.05 * exact);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Penumbra, asPublishedIsAShareOfTheConesMap)
+{
+  // Receivers at 10, blockers at 8: the filter's disk is a quarter of the light's width wide and a 16th more, in
+  // shares of a map of the whole cone, which is 2 tan(cone) wide at distance 1. The floor would darken itself.
+  vtkGnomonPropKeys::SetCasts(this->floor, false);
+  this->scene.pass->SetTechnique("pcss");
+  this->scene.pass->SetSetting("as_published", "on");
+  this->scene.pass->SetSetting("pcss_samples", "high");
+  this->scene.pass->SetMapSize(4096);
+  vtkLight* lamp = this->scene.addSpot({ 0.0, 0.0, 10.0 }, glm::dvec3(0.0), 50.0);
+  for (const double cone : { 50.0, 30.0 })
+  {
+    lamp->SetConeAngle(cone);
+    for (const double radius : { 0.0125, 0.025 })
+    {
+      vtkGnomonLightKeys::SetSetting(lamp, "light_radius", std::to_string(radius).c_str());
+      const double disk =
+        0.25 * (2.0 * radius) * 1.0625 * 2.0 * std::tan(glm::radians(cone)) * 10.0;
+      const double exact = 2.0 * 0.687 * disk; // as of the sun's disk
+      const double width = this->width(0.1, 0.9);
+      RecordProperty("width", std::to_string(width / exact));
+      EXPECT_NEAR(width, exact, 0.05 * exact) << cone << " " << radius;
+    }
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -364,6 +393,51 @@ TEST_F(Pcss, contactsAreAsSharpAsTheMap)
   RecordProperty("lit", lit);
   EXPECT_GT(counted, 10000);
   EXPECT_EQ(lit, 0);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Pcss, asPublishedNeedsABiasThatGrowsWithTheLight)
+{
+  PassScene scene(100, 80);
+  scene.addFloor(4.0);
+  scene.lookDown(1.0, 0.0);
+  const glm::dvec3 place(4.0, 0.0, 3.0);
+  vtkLight* lamp = scene.addSpot(place, glm::dvec3(0.0), 50.0);
+  scene.pass->SetSetting("as_published", "on");
+  const auto dark = [&](const char* radius, const char* bias)
+  {
+    soft(radius)(scene, lamp);
+    scene.pass->SetSetting("bias_slope", bias);
+    const Acne acne = countAcneOfLamp(drawKept(scene), place);
+    EXPECT_GT(acne.facing, 1000u);
+    return acne.dark;
+  };
+  EXPECT_GT(dark("0.01", "0"), 1000u);
+  EXPECT_EQ(dark("0.01", "5"), 0u);
+  EXPECT_GT(dark("0.05", "5"), 1000u);
+  EXPECT_EQ(dark("0.05", "100"), 0u);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Pcss, asPublishedIsForSpotLightsAlone)
+{
+  PassScene scene(100, 80);
+  addThings(scene);
+  vtkLight* lamp = scene.addSpot({ -2.0, -2.5, 6.0 }, glm::dvec3(0.0), 50.0);
+  soft("0")(scene, lamp);
+  const std::vector<float> hard = visibilityOf(scene, "nsm");
+  scene.pass->SetSetting("as_published", "on");
+  EXPECT_EQ(visibilityOf(scene, "pcss"), hard); // of a light without area
+  soft("0.1")(scene, lamp);
+  scene.render();
+  EXPECT_EQ(scene.report().lights.at(0).estimator, "pcss_as_published");
+  for (const double cone : { 70.0, allDirections })
+  {
+    lamp->SetConeAngle(cone);
+    scene.render();
+    const std::string error = this->takeErrors();
+    EXPECT_NE(error.find("spot lights with a single view"), std::string::npos) << error;
+  }
 }
 
 //------------------------------------------------------------------------------

@@ -402,6 +402,33 @@ TEST_F(Sampled, refinesFromTheHardShadowToTheWhole)
 }
 
 //------------------------------------------------------------------------------
+TEST_F(Sampled, staysHardWhileTheCameraMovesAndRefinesWhenItStops)
+{
+  const auto at = [&](double x)
+  {
+    this->scene.lookFrom({ x, -8.0, 7.0 });
+    return visibilityOf(this->scene);
+  };
+  const double way[] = { 2.0, 1.8, 1.5, 1.0 };
+  this->scene.pass->SetTechnique("nsm");
+  std::vector<std::vector<float>> hard;
+  for (const double x : way)
+  {
+    hard.push_back(at(x));
+  }
+  this->scene.pass->SetTechnique("sampled");
+  const std::vector<float> whole = at(way[3]);
+  set(this->scene, "progressive", 16);
+  for (int i = 0; i < 4; ++i)
+  {
+    EXPECT_EQ(at(way[i]), hard[static_cast<std::size_t>(i)]) << i;
+    EXPECT_EQ(this->scene.report().mapBakes, 0) << i; // the centre's map serves on
+  }
+  at(way[3]);
+  EXPECT_EQ(at(way[3]), whole);
+}
+
+//------------------------------------------------------------------------------
 TEST_F(Sampled, refinesAnewWhenSomethingChanges)
 {
   set(this->scene, "progressive", 16);

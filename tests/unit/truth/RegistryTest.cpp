@@ -332,7 +332,7 @@ TEST(Registry, followsAPublicationWhereThereIsOneThatIsNotExact)
     settings.estimator = estimator.info.name;
     settings.asPublished = true;
     const bool is = !estimator.info.asPublished.empty();
-    const char* verdict = is ? "" : "'as_published' is for: crsm, crsma";
+    const char* verdict = is ? "" : "'as_published' is for: pcss, crsm, crsma";
     expectVerdicts(settings, { verdict, verdict, verdict, verdict }, settings.estimator);
   }
   for (const std::string name : { "crsm", "crsma" })

@@ -1,0 +1,68 @@
+// Percentage closer soft shadows by the letter of Apelles' listings 4.8 to 4.11 (PublishedPcss.h). Distances are those from
+// the light's centre, radii shares of a map of the whole cone.
+
+#include "shadowtech/depth_map/depth_map.glsl"
+
+uniform sampler2D lightPoints_LIGHT; // the search's, then the filter's
+uniform float widthLight_LIGHT;
+
+// How far from the light what is on the map lies at a place; beyond everything where there is nothing.
+float distanceAt_LIGHT(ViewPoint point, vec2 place)
+{
+  ivec2 texel = ivec2(clamp(floor(place), vec2(0.0), vec2(viewSize_LIGHT - 1.0)));
+  float depth = texelFetch(depthMap_LIGHT, ivec3(texel, point.view), 0).r;
+  if (depth >= 1.0)
+  {
+    return 3e38;
+  }
+  float ray = length(vec3(acrossOf_LIGHT(point.view, vec2(texel) + 0.5), 1.0));
+#if MAP_EUCLIDEAN_LIGHT
+  depth /= rayScale_LIGHT[point.view] * ray;
+#endif
+  vec2 depths = viewDepths_LIGHT[point.view];
+  return (depth - depths.y) / depths.x * ray;
+}
+
+// The listings' random number of a pixel.
+float random_LIGHT(vec2 pixel)
+{
+  return fract(sin(dot(pixel, vec2(12.9898, 78.233))) * 43758.5453);
+}
+
+float estimate_LIGHT(ViewPoint point, float slack)
+{
+  float receiver = length(point.position);
+  float angle = 6.2831853 * random_LIGHT(gl_FragCoord.xy);
+  mat2 turn = mat2(cos(angle), sin(angle), -sin(angle), cos(angle));
+  float map = 2.0 * sqrt(lightCone_LIGHT); // of the whole cone, at distance 1 across the light
+  mat2 texels = map * texelJacobian_LIGHT(point.view, acrossOf_LIGHT(point.position)) * turn;
+
+  const float searchSide = sqrt(float(PCSS_SEARCH_POINTS_LIGHT));
+  float blockers = 0.0;
+  float sum = 0.0;
+  for (int i = 0; i < PCSS_SEARCH_POINTS_LIGHT; ++i)
+  {
+    vec2 place = texelFetch(lightPoints_LIGHT, ivec2(i, 0), 0).rg;
+    vec2 offset = texels * ((widthLight_LIGHT + widthLight_LIGHT / searchSide) * place);
+    float caster = distanceAt_LIGHT(point, point.texel + offset);
+    blockers += caster < receiver ? 1.0 : 0.0;
+    sum += caster < receiver ? caster : 0.0;
+  }
+  if (blockers == 0.0)
+  {
+    return 1.0;
+  }
+
+  float blocker = max(sum / blockers, 1e-6 * receiver); // one that touches the light
+  float penumbra = (receiver - blocker) / blocker * widthLight_LIGHT;
+
+  const float filterSide = sqrt(float(PCSS_FILTER_POINTS_LIGHT));
+  float hidden = 0.0;
+  for (int i = 0; i < PCSS_FILTER_POINTS_LIGHT; ++i)
+  {
+    vec2 place = texelFetch(lightPoints_LIGHT, ivec2(PCSS_SEARCH_POINTS_LIGHT + i, 0), 0).rg;
+    vec2 offset = texels * ((penumbra + penumbra / filterSide) * place);
+    hidden += distanceAt_LIGHT(point, point.texel + offset) < receiver ? 1.0 : 0.0;
+  }
+  return 1.0 - hidden / float(PCSS_FILTER_POINTS_LIGHT);
+}
