@@ -13,7 +13,9 @@ namespace
 
 std::string refused(const ShadowLight& light)
 {
-  return light.kind == LightKind::Spot && viewLayout(light) != ViewLayout::Cube
+  const bool isMeasured =
+    !light.area || (light.kind == LightKind::Spot && viewLayout(light) != ViewLayout::Cube);
+  return isMeasured
     ? ""
     : "'pcss' as published measures in shares of a spot light's map, and this light has none: its "
       "'as_published' is for spot lights with a single view";
