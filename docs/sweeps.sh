@@ -235,5 +235,8 @@ machine="$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1), $(nproc)
   echo
   orderings
   echo
+  echo "Cloths of the atrium hang almost along the light. Whether they are decided depends on how far off them rays begin, a share of the pixel's size: in"
+  echo "512 x 512 pixels more of them are."
+  echo
   echo "More than a tenth of the wrong pixels is left where leaves and blades are finer than texels: what the map has not seen has no contour there."
 } > docs/sweeps.md
