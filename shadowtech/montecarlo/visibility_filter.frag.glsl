@@ -17,10 +17,18 @@ uniform vec2 pixelSide;              // a pixel's side is x + y * distance
 
 out vec2 filtered;
 
-// Deviations of the Gaussian in pixels, and of what differences in visibility count as noise: three times what a line across
-// the light makes RAYS x RAYS jittered rays err by, sqrt(1 / 6 RAYS^3) of what is lit.
-#define SIGMA_PIXELS max(0.5 * float(FILTER_PIXELS), 0.5)
-#define SIGMA_NOISE (lit * 1.2247449 / sqrt(float(RAYS * RAYS * RAYS)))
+#define SIGMA_PIXELS max(0.5 * float(FILTER_PIXELS), 0.5) // the Gaussian's deviation
+
+// How far two visibilities are apart, squared, in deviations of what counts as noise: twice what RAYS x RAYS jittered rays err
+// by. Squared, that is v (1 - v) / RAYS^3 where a line across the light leaves a share v of it: 1 / 6 RAYS^3 on the mean over v,
+// and nothing where it leaves all of the light or nothing.
+float squaredDeviations(float a, float b)
+{
+  float v = 0.5 * (a + b) / lit;
+  float apart = (a - b) / lit;
+  float noise = 4.0 * v * (1.0 - v) / float(RAYS * RAYS * RAYS);
+  return apart * apart / max(noise, 1e-6); // where both have all or nothing, they are not apart
+}
 
 void main()
 {
@@ -59,9 +67,9 @@ void main()
     float alike = max(dot(normal, otherNormal), 0.0);
     float alike4 = alike * alike * alike * alike;
     float steps = float(i) / SIGMA_PIXELS;
-    float noise = (visibility.x - here) / SIGMA_NOISE;
+    float apart = squaredDeviations(visibility.x, here);
     float weight =
-      i == 0 ? 1.0 : exp(-0.5 * (steps * steps + noise * noise)) * alike4 * alike4 / (1.0 + off);
+      i == 0 ? 1.0 : exp(-0.5 * (steps * steps + apart)) * alike4 * alike4 / (1.0 + off);
     sum += weight * visibility.x;
     weights += weight;
     greatestClass = max(greatestClass, visibility.y);
