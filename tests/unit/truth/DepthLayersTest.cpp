@@ -1,0 +1,380 @@
+// What the layers of `montecarlo` hold, against rays along the light through the texels' centres.
+
+#include "EstimatorGlsl.h"
+#include "SyntheticScene.h"
+
+#include "lights/LightViews.h"
+#include "shadowtech/base/GlState.h"
+#include "shadowtech/base/OccluderBuffers.h"
+#include "shadowtech/base/ShaderLibrary.h"
+#include "shadowtech/montecarlo/DepthLayers.h"
+#include "shadowtech/montecarlo/RaySpace.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace gnomon::test
+{
+namespace
+{
+
+/// Where a surface is along a texel's ray.
+struct Hit
+{
+  double depth; ///< in ray space
+  double span;  ///< of its plane within the texel
+  bool front;   ///< faces the light
+};
+
+/// The layers of a light with a single view, and the rays that they were seen along.
+class Layers
+{
+public:
+  Layers(ShadowLight light, const std::vector<Prop>& props, RayLayers kind, int side)
+    : side_(side)
+    , occluders_(makeOccluders(props))
+  {
+    light.mapSizeTexels = side;
+    light.mcLayers = kind;
+    LightViews views = fitLightViews(
+      lightOfMap(light), this->occluders_.centreWorld, this->occluders_.castersCentred, side);
+    this->view_ = views.views.at(0);
+    if (this->view_.rays.positional)
+    {
+      this->nearest_ = this->view_.beginsAt;
+    }
+    OccluderBuffers buffers;
+    buffers.update(this->occluders_);
+    ShaderLibrary shaders;
+    DepthLayers layers;
+    {
+      const GlStateGuard guard;
+      layers.draw({ light, views, this->occluders_, buffers, shaders }, this->nearest_);
+    }
+    std::vector<glm::vec4> pages(this->texels() * static_cast<std::size_t>(layers.pages()));
+    glBindTexture(GL_TEXTURE_2D_ARRAY, layers.slabs());
+    glGetTexImage(GL_TEXTURE_2D_ARRAY, 0, GL_RGBA, GL_FLOAT, pages.data());
+    this->slabs_.resize(this->texels());
+    for (std::size_t i = 0; i < pages.size(); ++i)
+    {
+      std::vector<glm::dvec2>& slabs = this->slabs_[i % this->texels()];
+      slabs.emplace_back(pages[i].x, pages[i].y);
+      slabs.emplace_back(pages[i].z, pages[i].w);
+    }
+  }
+
+  int side() const { return this->side_; }
+  const LightView& view() const { return this->view_; }
+  /// Of a texel, those that are none among them.
+  const std::vector<glm::dvec2>& slabs(int x, int y) const
+  {
+    return this->slabs_[static_cast<std::size_t>(y) * static_cast<std::size_t>(this->side_) +
+      static_cast<std::size_t>(x)];
+  }
+  bool isEmpty(int x, int y) const
+  {
+    const std::vector<glm::dvec2>& all = this->slabs(x, y);
+    return std::all_of(
+      all.begin(), all.end(), [](const glm::dvec2& slab) { return slab == glm::dvec2(2.0, -2.0); });
+  }
+
+  /// The ray at a place of the map, in the view's space.
+  void ray(const glm::dvec2& texel, glm::dvec3& origin, glm::dvec3& direction) const
+  {
+    const glm::dmat3 acrossFromTexel = glm::inverse(texelFromAcross(this->view_, this->side_));
+    const glm::dvec2 across = mapped(acrossFromTexel, texel);
+    const bool positional = this->view_.rays.positional;
+    origin = positional ? glm::dvec3(0.0) : glm::dvec3(across, 0.0);
+    direction = positional ? glm::dvec3(across, 1.0) : glm::dvec3(0.0, 0.0, 1.0);
+  }
+  /// In ray space, of a distance along the view.
+  double depthAt(double z) const
+  {
+    return this->view_.rays.positional ? -this->nearest_ / z
+                                       : z * this->view_.depthScale + this->view_.depthOffset;
+  }
+  double distanceAt(double depth) const
+  {
+    return this->view_.rays.positional ? -this->nearest_ / depth
+                                       : (depth - this->view_.depthOffset) / this->view_.depthScale;
+  }
+
+  /// What a texel's ray meets, in its order; nothing where the picture of a corner that is drawn a bit beside its place,
+  /// as rasterisers may, would be another.
+  std::optional<std::vector<Hit>> hits(int x, int y) const
+  {
+    const glm::dvec2 centre(x + 0.5, y + 0.5);
+    std::vector<Hit> hits = this->hitsAt(centre);
+    for (const glm::dvec2& off :
+      { glm::dvec2(0.015, 0.015), { -0.015, 0.015 }, { 0.015, -0.015 }, { -0.015, -0.015 } })
+    {
+      const std::vector<Hit> beside = this->hitsAt(centre + off);
+      if (!std::equal(hits.begin(), hits.end(), beside.begin(), beside.end(),
+            [](const Hit& a, const Hit& b) { return a.front == b.front; }))
+      {
+        return std::nullopt;
+      }
+    }
+    return hits;
+  }
+
+private:
+  std::size_t texels() const
+  {
+    return static_cast<std::size_t>(this->side_) * static_cast<std::size_t>(this->side_);
+  }
+
+  std::vector<Hit> hitsAt(const glm::dvec2& texel) const
+  {
+    std::vector<Hit> hits;
+    for (const glm::uvec3& triangle : this->occluders_.triangles)
+    {
+      glm::dvec3 corners[3];
+      for (int i = 0; i < 3; ++i)
+      {
+        corners[i] = glm::dvec3(this->view_.rays.viewFromCentred *
+          glm::dvec4(glm::dvec3(this->occluders_.positionsCentred[triangle[i]]), 1.0));
+      }
+      const glm::dvec3 normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+      const auto distance = [&](const glm::dvec2& place, glm::dvec3& at)
+      {
+        glm::dvec3 origin;
+        glm::dvec3 direction;
+        this->ray(place, origin, direction);
+        at = origin +
+          (glm::dot(normal, corners[0] - origin) / glm::dot(normal, direction)) * direction;
+        return at.z;
+      };
+      glm::dvec3 at;
+      const double z = distance(texel, at);
+      const auto isInside = [&](int i)
+      {
+        const glm::dvec3 edge = corners[(i + 1) % 3] - corners[i];
+        return glm::dot(glm::cross(edge, at - corners[i]), normal) >= 0.0;
+      };
+      if (!isInside(0) || !isInside(1) || !isInside(2))
+      {
+        continue;
+      }
+      glm::dvec3 beside;
+      const double depth = this->depthAt(z);
+      const double span =
+        std::abs(this->depthAt(distance(texel + glm::dvec2(1.0, 0.0), beside)) - depth) +
+        std::abs(this->depthAt(distance(texel + glm::dvec2(0.0, 1.0), beside)) - depth);
+      glm::dvec3 origin;
+      glm::dvec3 direction;
+      this->ray(texel, origin, direction);
+      hits.push_back({ depth, span, glm::dot(normal, direction) < 0.0 });
+    }
+    std::sort(
+      hits.begin(), hits.end(), [](const Hit& a, const Hit& b) { return a.depth < b.depth; });
+    return hits;
+  }
+
+  int side_;
+  Occluders occluders_;
+  LightView view_;
+  double nearest_ = 1.0;
+  std::vector<std::vector<glm::dvec2>> slabs_;
+};
+
+/// Corners are drawn to within 1/256 of a texel, and depths are rounded: a small part of what a plane spans in the texel.
+double tolerance(const Hit& hit)
+{
+  return hit.span / 100.0 + 4e-6;
+}
+
+/// A box, a sphere and two sheets of either winding over a floor, none of which touch.
+std::vector<Prop> things()
+{
+  return { { makePlane(8.0) }, { makeBox({ -1.2, -1.0, 0.5 }, { 0.2, 0.3, 1.6 }) },
+    { makeSphere(12, 16), at({ 1.2, 0.8, 1.3 }, 0.8) },
+    { makePlane(1.5), glm::rotate(at({ -0.3, 0.4, 2.6 }), 0.5, glm::dvec3(1.0, 0.4, 0.0)) },
+    { makePlane(1.2), glm::rotate(at({ 0.6, -0.5, 2.2 }), 2.7, glm::dvec3(0.2, 1.0, 0.0)) } };
+}
+
+std::vector<ShadowLight> lights()
+{
+  return { directionalLight({ 0.4, 0.3, -1.0 }), directionalLight({ 0.0, 0.0, -1.0 }),
+    spotLight({ -2.0, -2.5, 6.0 }, { 0.0, 0.0, 0.5 }, 40.0) };
+}
+
+using DepthLayersTest = GlslTest;
+
+//------------------------------------------------------------------------------
+TEST_F(DepthLayersTest, beginAtTheFirstSurfaceOfEachTexelsRay)
+{
+  for (const ShadowLight& light : lights())
+  {
+    for (const RayLayers kind : { RayLayers::Near, RayLayers::NearFar, RayLayers::Peeled })
+    {
+      const Layers layers(light, things(), kind, 64);
+      int counted = 0;
+      int empty = 0;
+      for (int y = 0; y < layers.side(); ++y)
+      {
+        for (int x = 0; x < layers.side(); ++x)
+        {
+          const std::optional<std::vector<Hit>> hits = layers.hits(x, y);
+          if (!hits)
+          {
+            continue;
+          }
+          ++counted;
+          if (hits->empty())
+          {
+            ++empty;
+            EXPECT_TRUE(layers.isEmpty(x, y)) << x << ", " << y;
+            continue;
+          }
+          const std::vector<glm::dvec2>& slabs = layers.slabs(x, y);
+          const double begin = std::min_element(slabs.begin(), slabs.end(),
+            [](const glm::dvec2& a, const glm::dvec2& b) {
+              return a.x < b.x;
+            })->x;
+          ASSERT_NEAR(begin, hits->front().depth, tolerance(hits->front())) << x << ", " << y;
+        }
+      }
+      EXPECT_GT(counted, 64 * 64 * 8 / 10);
+      EXPECT_GT(empty, light.directionWorld == lights()[1].directionWorld ? -1 : 50);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(DepthLayersTest, endAtTheLastSurfaceAndWhatItSpans)
+{
+  for (const ShadowLight& light : lights())
+  {
+    const Layers layers(light, things(), RayLayers::NearFar, 64);
+    for (int y = 0; y < layers.side(); ++y)
+    {
+      for (int x = 0; x < layers.side(); ++x)
+      {
+        const std::optional<std::vector<Hit>> hits = layers.hits(x, y);
+        if (!hits || hits->empty())
+        {
+          continue;
+        }
+        double end = -2.0;
+        double farthest = -2.0;
+        for (const Hit& hit : *hits)
+        {
+          end = std::max(end, hit.depth - tolerance(hit));
+          farthest = std::max(farthest, hit.depth + hit.span + 2.0 * tolerance(hit));
+        }
+        ASSERT_GE(layers.slabs(x, y)[0].y, end) << x << ", " << y;
+        ASSERT_LE(layers.slabs(x, y)[0].y, farthest) << x << ", " << y;
+      }
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(DepthLayersTest, areSolidFromFrontsToBacksAndEmptyFromBacksToFronts)
+{
+  for (const ShadowLight& light : lights())
+  {
+    const Layers layers(light, things(), RayLayers::Peeled, 64);
+    int solids = 0;
+    int gaps = 0;
+    for (int y = 0; y < layers.side(); ++y)
+    {
+      for (int x = 0; x < layers.side(); ++x)
+      {
+        const std::optional<std::vector<Hit>> hits = layers.hits(x, y);
+        if (!hits)
+        {
+          continue;
+        }
+        const auto isSolid = [&](double depth, double slack)
+        {
+          const std::vector<glm::dvec2>& slabs = layers.slabs(x, y);
+          return std::any_of(slabs.begin(), slabs.end(),
+            [&](const glm::dvec2& slab)
+            { return slab.x - slack <= depth && depth <= slab.y + slack; });
+        };
+        for (std::size_t i = 0; i < hits->size(); ++i)
+        {
+          const Hit& hit = (*hits)[i];
+          ASSERT_TRUE(isSolid(hit.depth, tolerance(hit))) << x << ", " << y << ": " << hit.depth;
+          if (i + 1 == hits->size())
+          {
+            continue;
+          }
+          const Hit& next = (*hits)[i + 1];
+          const double middle = 0.5 * (hit.depth + next.depth);
+          if (hit.front && !next.front)
+          {
+            ++solids;
+            ASSERT_TRUE(isSolid(middle, 0.0)) << x << ", " << y << ": " << middle;
+          }
+          else if (hit.depth + hit.span + tolerance(hit) < middle)
+          {
+            ++gaps;
+            ASSERT_FALSE(isSolid(middle, 0.0)) << x << ", " << y << ": " << middle;
+          }
+        }
+      }
+    }
+    EXPECT_GT(solids, 150);
+    EXPECT_GT(gaps, 300);
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(DepthLayersTest, ofACubeAreAsThickAsItsChords)
+{
+  const glm::dmat4 turned = glm::rotate(at({ 0.2, -0.1, 1.0 }), 0.7, glm::dvec3(0.5, 0.8, 0.3));
+  const std::vector<Prop> cube = { { makeBox(glm::dvec3(-0.5), glm::dvec3(0.5)), turned } };
+  const glm::dmat4 cubeFromWorld = glm::inverse(turned);
+  for (const ShadowLight& light : lights())
+  {
+    const Layers layers(light, cube, RayLayers::Peeled, 512);
+    const glm::dmat4 centredFromView = glm::inverse(layers.view().rays.viewFromCentred);
+    const glm::dvec3 centreWorld = makeOccluders(cube).centreWorld;
+    int counted = 0;
+    for (int y = 0; y < layers.side(); y += 3)
+    {
+      for (int x = 0; x < layers.side(); x += 3)
+      {
+        glm::dvec3 origin;
+        glm::dvec3 direction;
+        layers.ray({ x + 0.5, y + 0.5 }, origin, direction);
+        const auto inCube = [&](const glm::dvec4& view)
+        {
+          const glm::dvec4 centred = centredFromView * view;
+          return glm::dvec3(
+            cubeFromWorld * glm::dvec4(glm::dvec3(centred) + centred.w * centreWorld, centred.w));
+        };
+        const glm::dvec3 from = inCube(glm::dvec4(origin, 1.0));
+        const glm::dvec3 along = inCube(glm::dvec4(direction, 0.0));
+        const glm::dvec3 a = (glm::dvec3(-0.5) - from) / along;
+        const glm::dvec3 b = (glm::dvec3(0.5) - from) / along;
+        const glm::dvec3 enters = glm::min(a, b);
+        const glm::dvec3 leaves = glm::max(a, b);
+        const double first = std::max(enters.x, std::max(enters.y, enters.z));
+        const double last = std::min(leaves.x, std::min(leaves.y, leaves.z));
+        if (last < first - 0.02)
+        {
+          EXPECT_TRUE(layers.isEmpty(x, y)) << "the background: " << x << ", " << y;
+        }
+        if (last < first + 0.7)
+        {
+          continue; // near its silhouette, a corner's place decides
+        }
+        ++counted;
+        const glm::dvec2 slab = layers.slabs(x, y)[0];
+        const double chord = layers.distanceAt(slab.y) - layers.distanceAt(slab.x);
+        ASSERT_NEAR(chord, last - first, 1e-4 * (last - first)) << x << ", " << y;
+      }
+    }
+    EXPECT_GT(counted, 2000);
+  }
+}
+
+} // namespace
+} // namespace gnomon::test
