@@ -155,6 +155,8 @@ bool meetsSlab(int view, ivec2 texel, float least, float greatest)
   return meets;
 }
 
+int cellsVisited = 0; // by all searches of the invocation, for who asks: tests do
+
 // Whether the line from `begin` to `end`, in ray space and on the map, meets a slab.
 bool meetsSlabs(int view, vec3 begin, vec3 end)
 {
@@ -169,6 +171,7 @@ bool meetsSlabs(int view, vec3 begin, vec3 end)
   // Each step descends or leaves a cell, and each cell that is left was descended to: no line takes nearly so many.
   for (int i = 0; i < 64 + 8 * mapSide; ++i)
   {
+    ++cellsVisited;
     ivec2 cell = cellFrom(texel, level, ahead);
     int side = 1 << level;
     vec2 border = vec2(ahead.x ? cell.x + side : cell.x, ahead.y ? cell.y + side : cell.y);

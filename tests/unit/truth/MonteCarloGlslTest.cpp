@@ -1,13 +1,17 @@
 // What `montecarlo` computes on the GPU, against twins.
 
 #include "EstimatorGlsl.h"
+#include "SyntheticScene.h"
 
 #include "lights/LightSamples.h"
 #include "lights/LightViews.h"
 #include "lights/ReducedMd5.h"
+#include "shadowtech/base/GlState.h"
+#include "shadowtech/base/OccluderBuffers.h"
 #include "shadowtech/base/ScreenPass.h"
 #include "shadowtech/base/ShaderLibrary.h"
 #include "shadowtech/base/TextureMemory.h"
+#include "shadowtech/montecarlo/DepthLayers.h"
 #include "shadowtech/montecarlo/RaySpace.h"
 #include "shadowtech/montecarlo/SlabBounds.h"
 
@@ -315,16 +319,35 @@ std::vector<Line> randomLines(int side, std::size_t count, std::mt19937& random)
   return lines;
 }
 
-std::vector<std::uint32_t> search(ShaderLibrary& library, const SlabMap& map,
-  const SlabBounds& bounds, const std::vector<Line>& lines, std::vector<std::string> defines)
+/// What a search finds: x, whether there is a slab; y, how many cells it looked at (hierarchical ones tell).
+std::vector<glm::uvec2> search(ShaderLibrary& library, GLuint slabs, int side,
+  const SlabBounds& bounds, const std::vector<Line>& lines, const std::vector<std::string>& defines)
 {
-  defines.emplace_back("PAGES 1");
-  const std::string source = computeGlsl("slab_search.glsl", "mat2x4", "uint",
-    "result[i] = meetsSlabs(0, given[i][0].xyz, given[i][1].xyz) ? 1u : 0u;\n");
-  return runCompute<std::uint32_t>(library, source, lines, defines,
-    { { "slabs", TextureBinding{ GL_TEXTURE_2D_ARRAY, map.texture() } },
+  const bool isLinear = std::find(defines.begin(), defines.end(), "LINEAR_SEARCH") != defines.end();
+  const std::string source = computeGlsl("slab_search.glsl", "mat2x4", "uvec2",
+    std::string("bool meets = meetsSlabs(0, given[i][0].xyz, given[i][1].xyz);\n") +
+      "result[i] = uvec2(meets, " + (isLinear ? "0" : "cellsVisited") + ");\n");
+  return runCompute<glm::uvec2>(library, source, lines, defines,
+    { { "slabs", TextureBinding{ GL_TEXTURE_2D_ARRAY, slabs } },
       { "slabBounds", TextureBinding{ GL_TEXTURE_2D_ARRAY, bounds.texture() } },
-      { "mapSide", map.side() }, { "topLevel", bounds.topLevel() } });
+      { "mapSide", side }, { "topLevel", bounds.topLevel() } });
+}
+
+/// How many cells searches looked at.
+struct Visits
+{
+  double mean = 0.0;
+  unsigned int most = 0;
+};
+Visits visitsOf(const std::vector<glm::uvec2>& found)
+{
+  Visits visits;
+  for (const glm::uvec2& each : found)
+  {
+    visits.mean += static_cast<double>(each.y) / static_cast<double>(found.size());
+    visits.most = std::max(visits.most, each.y);
+  }
+  return visits;
 }
 
 TEST_F(MonteCarloGlsl, searchesAsAWalkFromTexelToTexel)
@@ -338,20 +361,133 @@ TEST_F(MonteCarloGlsl, searchesAsAWalkFromTexelToTexel)
       SlabBounds bounds;
       bounds.build(map.texture(), 1, map.side(), 1,
         kind == std::string("MIPS") ? SlabHierarchy::Mips : SlabHierarchy::NBuffer, this->library_);
-      const auto found = search(this->library_, map, bounds, lines, { kind });
+      const auto found =
+        search(this->library_, map.texture(), map.side(), bounds, lines, { kind, "PAGES 1" });
       std::size_t differing = 0;
       std::size_t hits = 0;
       for (std::size_t i = 0; i < lines.size(); ++i)
       {
         const bool meets = map.meets(glm::vec3(lines[i].begin), glm::vec3(lines[i].end));
         hits += meets ? 1 : 0;
-        differing += (found[i] == 1u) != meets ? 1 : 0;
+        differing += (found[i].x == 1u) != meets ? 1 : 0;
       }
       EXPECT_GT(hits, lines.size() / 50);
       EXPECT_LT(hits, lines.size() * 49 / 50);
       // Lines that pass a texel's corner, or just touch a slab, to within rounding.
       EXPECT_LE(differing, lines.size() / 10000) << kind << ", " << boxes << " boxes";
+      // Sixty boxes, each as wide as a sixth of the map on the mean, are a maze.
+      const Visits visits = visitsOf(found);
+      EXPECT_LT(visits.mean, boxes == 6 ? 4.0 : 16.0) << kind << ", " << boxes << " boxes";
+      EXPECT_LT(visits.most, (64u + 8u * 128u) / 4u) << "far from where it gives up";
+      RecordProperty(std::string("visits_") + kind + "_" + std::to_string(boxes),
+        std::to_string(visits.mean) + ", at most " + std::to_string(visits.most));
     }
+  }
+}
+
+//------------------------------------------------------------------------------
+/// Rays that begin inside of what is solid need no test of their own: the search sees it in the first texel.
+TEST_F(MonteCarloGlsl, searchesThatBeginInsideASlabEndThere)
+{
+  SlabMap map(128, 60, this->random_);
+  std::vector<Line> lines = randomLines(map.side(), 50000, this->random_);
+  for (Line& line : lines)
+  {
+    const glm::vec4 texel = map.at(static_cast<int>(line.begin.x), static_cast<int>(line.begin.y));
+    line.begin.z = 0.5f * (texel.x + texel.y); // of an empty one 0, before all slabs
+  }
+  lines.erase(std::remove_if(
+                lines.begin(), lines.end(), [](const Line& line) { return line.begin.z == 0.0f; }),
+    lines.end());
+  ASSERT_GT(lines.size(), 10000u);
+  for (const char* kind : { "MIPS", "NBUFFER" })
+  {
+    SlabBounds bounds;
+    bounds.build(map.texture(), 1, map.side(), 1,
+      kind == std::string("MIPS") ? SlabHierarchy::Mips : SlabHierarchy::NBuffer, this->library_);
+    const auto found =
+      search(this->library_, map.texture(), map.side(), bounds, lines, { kind, "PAGES 1" });
+    for (const glm::uvec2& each : found)
+    {
+      ASSERT_EQ(each.x, 1u) << kind;
+      ASSERT_LE(each.y, static_cast<unsigned int>(bounds.topLevel()) + 1u) << "it only descends";
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+/// From what a camera sees of casters to points of a lamp, through the layers that they have.
+TEST_F(MonteCarloGlsl, searchesInScenesLookAtFewCells)
+{
+  const std::vector<Prop> props = { { makePlane(12.0) },
+    { makeBox({ -1.2, -1.0, 0.0 }, { 0.2, 0.3, 1.6 }) },
+    { makeSphere(24, 32), at({ 1.2, 0.8, 1.3 }, 0.8) },
+    { makeTriangleSoup(300, 5), at({ -2.5, 1.0, 1.0 }) } };
+  const Occluders occluders = makeOccluders(props);
+  Camera camera;
+  camera.position = { 4.0, -9.0, 6.0 };
+  camera.width = camera.height = 128;
+  const ReceiverPixels receivers = makeReceivers(occluders, camera);
+  ShadowLight light = spotLight({ -2.0, -2.5, 7.0 }, { 0.0, 0.0, 0.0 }, 40.0);
+  light.area = diskArea(light.directionWorld, 0.5);
+  light.mapSizeTexels = 512;
+  LightViews views =
+    fitLightViews(lightOfMap(light), occluders.centreWorld, occluders.castersCentred, 512);
+  LightView& view = views.views.at(0);
+  view.beginsAt = std::max(view.beginsAt, nearestOfArea(light));
+  OccluderBuffers buffers;
+  buffers.update(occluders);
+  DepthLayers layers;
+  {
+    const GlStateGuard guard;
+    layers.draw({ light, views, occluders, buffers, this->library_ }, view.beginsAt);
+  }
+
+  const glm::dmat4 rayFromCentred = gnomon::rayFromCentred(view, 512, view.beginsAt);
+  const auto inRaySpace = [&](const glm::dvec3& centred)
+  {
+    const glm::dvec4 place = rayFromCentred * glm::dvec4(centred, 1.0);
+    return glm::vec4(glm::dvec3(place) / place.w, 0.0);
+  };
+  const glm::dvec3 lamp = light.positionWorld - occluders.centreWorld;
+  std::vector<Line> lines;
+  for (std::size_t i = 0; i < receivers.size(); ++i)
+  {
+    const glm::dvec3 normal(receivers.normalX[i], receivers.normalY[i], receivers.normalZ[i]);
+    const glm::dvec3 position =
+      glm::dvec3(receivers.positionX[i], receivers.positionY[i], receivers.positionZ[i]);
+    const glm::dvec2 across(2.0 * this->uniform() - 1.0, 2.0 * this->uniform() - 1.0);
+    const glm::dvec3 point = lamp + light.area->worldFromUnit * glm::dvec3(across, 0.0);
+    if (receivers.surface[i] == ReceiverPixels::notCovered ||
+      glm::dot(normal, point - position) <= 0.0)
+    {
+      continue;
+    }
+    // About two texels before the receiver, and as far as there are casters.
+    const Line line{ inRaySpace(position + 0.05 * normal), inRaySpace(point) };
+    const float first = -1.0f;
+    const float share = std::min((first - line.begin.z) / (line.end.z - line.begin.z), 1.0f);
+    const Line cut{ line.begin, glm::mix(line.begin, line.end, share) };
+    const auto isOnMap = [](const glm::vec4& at)
+    { return at.x >= 0.0f && at.y >= 0.0f && at.x < 512.0f && at.y < 512.0f; };
+    if (isOnMap(cut.begin) && isOnMap(cut.end))
+    {
+      lines.push_back(cut);
+    }
+  }
+  ASSERT_GT(lines.size(), 5000u);
+  for (const char* kind : { "MIPS", "NBUFFER" })
+  {
+    SlabBounds bounds;
+    bounds.build(layers.slabs(), layers.pages(), 512, 1,
+      kind == std::string("MIPS") ? SlabHierarchy::Mips : SlabHierarchy::NBuffer, this->library_);
+    const auto found =
+      search(this->library_, layers.slabs(), 512, bounds, lines, { kind, "PAGES 2" });
+    const Visits visits = visitsOf(found);
+    EXPECT_LT(visits.mean, 8.0) << kind;
+    EXPECT_LT(visits.most, 64u + 4u * 9u) << kind;
+    RecordProperty(std::string("visits_") + kind,
+      std::to_string(visits.mean) + ", at most " + std::to_string(visits.most));
   }
 }
 
@@ -368,14 +504,15 @@ TEST_F(MonteCarloGlsl, linearSearchNeverHitsWhatIsNotThereAndMissesLittle)
     }
   }
   const std::vector<Line> lines = randomLines(map.side(), 50000, this->random_);
-  const auto found = search(this->library_, map, SlabBounds(), lines, { "LINEAR_SEARCH" });
+  const auto found = search(
+    this->library_, map.texture(), map.side(), SlabBounds(), lines, { "LINEAR_SEARCH", "PAGES 1" });
   std::size_t falseHits = 0;
   std::size_t misses = 0;
   for (std::size_t i = 0; i < lines.size(); ++i)
   {
     const bool meets = map.meets(glm::vec3(lines[i].begin), glm::vec3(lines[i].end));
-    falseHits += found[i] == 1u && !meets ? 1 : 0;
-    misses += found[i] == 0u && meets ? 1 : 0;
+    falseHits += found[i].x == 1u && !meets ? 1 : 0;
+    misses += found[i].x == 0u && meets ? 1 : 0;
   }
   EXPECT_LE(falseHits, 2u); // at a border to within rounding
   EXPECT_LE(misses, lines.size() * 3 / 1000);
@@ -521,6 +658,24 @@ TEST_F(MonteCarloGlsl, filterKeepsEdgesOfSurfacesAndOfShadows)
     away.visibility[static_cast<std::size_t>(i)].y = half(i) ? 1.0f : 5.0f;
   }
   expectKept(away, 0.4f, 0.6f, 1e-6f, "what is turned away gives nothing to others");
+}
+
+/// Where all rays agree there is little noise: narrow penumbrae do not spread over what is lit and what is dark.
+TEST_F(MonteCarloGlsl, filterKeepsNarrowPenumbrae)
+{
+  constexpr int side = FilteredPicture::side;
+  constexpr int width = 4; // pixels, of a filter of 11
+  FilteredPicture ramp;
+  for (int i = 0; i < side * side; ++i)
+  {
+    const float across = (static_cast<float>(i % side - side / 2) + 0.5f) / width;
+    ramp.visibility[static_cast<std::size_t>(i)].x = std::clamp(across, 0.0f, 1.0f);
+  }
+  const std::vector<float> filtered = ramp.filtered(this->library_);
+  for (std::size_t i = 0; i < filtered.size(); ++i)
+  {
+    ASSERT_NEAR(filtered[i], ramp.visibility[i].x, 0.025f) << i;
+  }
 }
 
 //------------------------------------------------------------------------------
