@@ -6,6 +6,8 @@
 #include "lights/vtkGnomonAreaLight.h"
 #include "plugin/vtkGnomonPropKeys.h"
 
+#include <vtkPlaneSource.h>
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -348,6 +350,123 @@ TEST_F(MonteCarlo, hasNoAcne)
   };
   expectNoAcneUnderTheSun(withRadius("0.5"), { 0.0, 30.0, 60.0, 80.0 });
   expectNoAcneUnderASpot(withRadius("0.02"), { 20.0, 50.0 });
+}
+
+//------------------------------------------------------------------------------
+/// The foot of a sheet lies in texels whose centres may see the ground before it. What that lets through is at most as wide as
+/// a texel, and half of that on the mean.
+TEST_F(MonteCarlo, sheetsThatStandOnTheGroundLeakATexelAtMost)
+{
+  this->scene.addFloor(4.0);
+  vtkNew<vtkPlaneSource> sheet; // over the line x = y / 3, which crosses the map's rows anywhere
+  sheet->SetOrigin(-0.5, -1.5, 0.0);
+  sheet->SetPoint1(0.5, 1.5, 0.0);
+  sheet->SetPoint2(-0.5, -1.5, 1.0);
+  this->scene.add(sheet);
+  this->scene.lookDown(0.2, 0.1, 0.0);
+  for (const double slope : { 0.5, 1.0, 2.0 })
+  {
+    this->scene.renderer->RemoveAllLights();
+    this->scene.addSun(glm::dvec3(1.0, 0.0, -slope));
+    for (const int mapSize : { 256, 512, 1024 })
+    {
+      this->scene.pass->SetMapSize(mapSize);
+      const VisibilityImages& kept =
+        this->draw("montecarlo", { { "mc_filter", "0" }, { "light_radius", "0.1" } });
+      const double texel = 8.0 / mapSize; // along the sun, as long as a row on the floor, or longer
+      double lit = 0.0;
+      double farthest = 0.0;
+      for (std::size_t i = 0; i < kept.visibility[0].size(); ++i)
+      {
+        const glm::dvec3 at = positionOf(kept, i);
+        const double behind = at.x - at.y / 3.0;
+        if (std::abs(at.z) < 1e-6 && behind > 0.0 && behind < 0.9 / slope)
+        {
+          lit += kept.visibility[0][i];
+          farthest = std::max(farthest, kept.visibility[0][i] > 0.0f ? behind : 0.0);
+        }
+      }
+      const double mean = lit / 120.0 * (0.4 / 120.0); // of the picture's rows
+      EXPECT_LT(farthest, texel) << slope << ", map " << mapSize;
+      EXPECT_LT(mean, 0.6 * texel) << slope << ", map " << mapSize;
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+/// Of Curtis' thesis, figure 4.2: a box whose length lies along the light, of which a map sees the upper end only.
+TEST_F(MonteCarlo, elongatedBoxesShadeWhatIsBelowThem)
+{
+  this->scene.addFloor(7.0);
+  this->scene.addBox({ -0.7, -0.7, 0.6 }, { 0.7, 0.7, 6.0 });
+  this->scene.lookFrom({ 4.5, -10.5, 5.5 }, { 0.5, 0.0, 1.6 });
+  this->scene.window->SetSize(80, 60);
+  this->lamp->SetPosition(-0.3, -0.4, 14.0);
+  this->lamp->SetFocalPoint(0.0, 0.0, 0.0);
+  this->lamp->SetConeAngle(40.0);
+  this->lamp->SetShapeToRectangle();
+  this->lamp->SetWidth(3.0);
+  this->lamp->SetHeight(3.0);
+  this->scene.renderer->AddLight(this->lamp);
+  const std::vector<float> truth =
+    this->visibility("raytraced", { { "light_sampling", "sobol" }, { "light_samples", "4096" } });
+  /// Mean visibility of the floor below the box, and that of `truth`.
+  const auto below = [&](const VisibilityImages& kept)
+  {
+    glm::dvec2 sums(0.0);
+    double count = 0.0;
+    for (std::size_t i = 0; i < truth.size(); ++i)
+    {
+      const glm::dvec3 at = positionOf(kept, i);
+      if (std::abs(at.z) < 1e-3 && std::abs(at.x) < 1.1 && std::abs(at.y) < 1.1)
+      {
+        sums += glm::dvec2(kept.visibility[0][i], truth[i]);
+        count += 1.0;
+      }
+    }
+    EXPECT_GT(count, 40.0);
+    return sums / count;
+  };
+  const VisibilityImages& kept = this->draw("montecarlo", {});
+  EXPECT_LT(errorsOf(kept.visibility[0], truth).meanAbsolute, 0.02);
+  const glm::dvec2 found = below(kept);
+  EXPECT_NEAR(found.x, found.y, 0.05);
+  // Whoever takes the upper end for endless has it darker.
+  const glm::dvec2 endless = below(this->draw("montecarlo", { { "mc_layers", "near" } }));
+  EXPECT_GT(endless.y - endless.x, 0.05);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(MonteCarlo, turnedAwayPixelsAndOnlyTheyAreDarkWithoutRays)
+{
+  this->buildScene();
+  this->scene.renderer->AddLight(this->lamp);
+  for (const char* layers : { "peeled", "near_far" })
+  {
+    const VisibilityImages& kept =
+      this->draw("montecarlo", { { "mc_filter", "0" }, { "mc_layers", layers } });
+    std::size_t turned = 0;
+    for (std::size_t i = 0; i < kept.visibility[0].size(); ++i)
+    {
+      const std::uint8_t pixelClass = kept.classes[0].ofPixels[i];
+      if (pixelClass == 0)
+      {
+        continue;
+      }
+      const double cosine = cosineTowards(kept, i, this->lamp);
+      if (std::abs(cosine) > 1e-5)
+      {
+        ASSERT_EQ(pixelClass == 1, cosine < 0.0) << i;
+      }
+      turned += pixelClass == 1 ? 1 : 0;
+      if (pixelClass == 1)
+      {
+        ASSERT_EQ(kept.visibility[0][i], 0.0f) << i;
+      }
+    }
+    EXPECT_GT(turned, 100u);
+    EXPECT_EQ(static_cast<std::int64_t>(turned), this->scene.report().lights[0].classes[1].pixels);
+  }
 }
 
 //------------------------------------------------------------------------------
