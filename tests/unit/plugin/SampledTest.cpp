@@ -5,12 +5,14 @@
 #include "lights/vtkGnomonAreaLight.h"
 #include "lights/vtkGnomonLightKeys.h"
 #include "plugin/vtkGnomonPropKeys.h"
+#include "shadowtech/base/Gl.h"
 
 #include <vtkActor.h>
 #include <vtkActorCollection.h>
 #include <vtkCallbackCommand.h>
 #include <vtkCommand.h>
 #include <vtkHardwareSelector.h>
+#include <vtkImageData.h>
 #include <vtkPlaneSource.h>
 #include <vtkSelection.h>
 #include <vtkSmartPointer.h>
@@ -367,6 +369,67 @@ TEST_F(Sampled, takesBoundedMemory)
   this->scene.render();
   EXPECT_EQ(this->scene.report().bytesMaps, 3 * map + images);
   EXPECT_EQ(this->report().lightSamples, 1023);
+}
+
+//------------------------------------------------------------------------------
+/// What of a program's uniforms takes room in the fragment shader: components, where each element of an array takes a vector of
+/// four, as hardware has it, and textures.
+struct UniformRoom
+{
+  int components = 0;
+  int textures = 0;
+};
+UniformRoom roomOf(GLuint program)
+{
+  UniformRoom room;
+  GLint uniforms = 0;
+  glGetProgramiv(program, GL_ACTIVE_UNIFORMS, &uniforms);
+  for (GLint i = 0; i < uniforms; ++i)
+  {
+    GLint size = 0;
+    GLenum type = GL_NONE;
+    GLchar name[64];
+    glGetActiveUniform(program, static_cast<GLuint>(i), sizeof(name), nullptr, &size, &type, name);
+    const bool isTexture = type == GL_SAMPLER_2D || type == GL_SAMPLER_2D_ARRAY;
+    const int vectors = type == GL_FLOAT_MAT4 ? 4 : type == GL_FLOAT_MAT3 ? 3 : 1;
+    room.textures += isTexture ? size : 0;
+    room.components += isTexture ? 0 : 4 * vectors * size;
+  }
+  return room;
+}
+
+/// OpenGL promises 1,024 components and 16 textures, which nine lights that see all around have to do with.
+TEST_F(Sampled, batchesFitIntoTheUniformsThatOpenGlPromises)
+{
+  constexpr int promisedComponents = 1024;
+  constexpr int promisedTextures = 16;
+  this->light->SetConeAngle(allDirections);
+  this->light->SetPosition(0.3, -0.6, 1.5); // among the things, so that all faces see some
+  for (const bool textured : { false, true })
+  {
+    vtkNew<vtkImageData> image;
+    image->SetDimensions(2, 2, 1);
+    image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
+    std::fill_n(static_cast<unsigned char*>(image->GetScalarPointer()), 12, 200);
+    this->light->SetShapeToRectangle();
+    this->light->SetTexture(textured ? image.Get() : nullptr);
+    this->scene.render();
+    EXPECT_EQ(this->scene.report().mapBakes, textured ? 32 : 33);
+    int programs = 0;
+    for (GLuint name = 1; name < 1000; ++name)
+    {
+      if (!glIsProgram(name) || glGetUniformLocation(name, "batchShine") < 0)
+      {
+        continue;
+      }
+      ++programs;
+      const UniformRoom room = roomOf(name);
+      EXPECT_LE(room.components, promisedComponents) << textured;
+      EXPECT_LE(room.textures, promisedTextures) << textured;
+      EXPECT_GT(room.components, 9 * 4 * (4 + 6)) << "all lights' matrices and views";
+    }
+    EXPECT_GE(programs, 1);
+  }
 }
 
 //------------------------------------------------------------------------------
