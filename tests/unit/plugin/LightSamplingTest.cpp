@@ -897,6 +897,7 @@ TEST_F(LightSampling, refusesWhatItCannotShow)
   this->scene.render();
   EXPECT_THAT(this->takeErrors(), HasSubstr("PreserveDepthBuffer"));
   EXPECT_EQ(this->counting->Count, 1);
+  EXPECT_EQ(this->sampling->GetProgress(), 1.0) << "there is nothing to wait for";
   this->scene.renderer->PreserveDepthBufferOff();
 
   vtkGnomonLightKeys::SetSetting(this->light, "light_sampling", "jittered");

@@ -386,4 +386,5 @@ TEST_F(OldOpenGL, isOneClearErrorAndThePictureOfPlainVtk)
   const std::string errorsOfSampling = this->takeErrors();
   EXPECT_THAT(errorsOfSampling, HasSubstr("OpenGL 4.3"));
   EXPECT_EQ(std::count(errorsOfSampling.begin(), errorsOfSampling.end(), '\n'), 1) << "one error";
+  EXPECT_EQ(sampling->GetProgress(), 1.0) << "there is nothing to wait for";
 }

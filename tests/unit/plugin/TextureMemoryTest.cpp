@@ -136,6 +136,40 @@ TEST_F(TextureMemory, mapsOfMomentsWithoutRoomLeaveNothingBehind)
 }
 
 //------------------------------------------------------------------------------
+TEST_F(TextureMemory, depthLayersWithoutRoomLeaveNothingBehind)
+{
+  PassScene scene(100, 80);
+  fill(scene);
+  scene.usePlain();
+  const Picture plain = scene.render();
+  scene.useGnomon();
+  scene.pass->SetTechnique("montecarlo");
+  scene.pass->SetSetting("light_radius", "0.2");
+  for (const char* pyramid : { "mips", "nbuffer" })
+  {
+    scene.pass->SetSetting("mc_pyramid", pyramid);
+    scene.pass->SetMapSize(64);
+    const Picture shadowed = scene.render();
+    EXPECT_GT(differingPixels(plain, shadowed), 100u);
+    const LiveObjects live = countLiveObjects(scene.window);
+
+    scene.pass->SetMapSize(hugeMap);
+    EXPECT_EQ(differingPixels(plain, scene.render()), 0u);
+    EXPECT_THAT(this->takeErrors(),
+      AllOf(HasSubstr("drawn without shadows: light 0: a map of 16384 x 16384"),
+        HasSubstr("cannot be had; one of ")))
+      << pyramid;
+    EXPECT_TRUE(scene.report().outOfTextureMemory);
+    EXPECT_EQ(differingPixels(plain, scene.render()), 0u);
+    EXPECT_THAT(this->takeErrors(), HasSubstr("cannot be had")) << "the next frame, too";
+
+    scene.pass->SetMapSize(64);
+    EXPECT_EQ(differingPixels(shadowed, scene.render()), 0u);
+    EXPECT_EQ(countLiveObjects(scene.window), live) << pyramid;
+  }
+}
+
+//------------------------------------------------------------------------------
 TEST_F(TextureMemory, mapsOnTheCpuWithoutRoomAreAnErrorThatOffersSmallerOnes)
 {
   PassScene scene(100, 80);
