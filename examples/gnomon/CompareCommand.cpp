@@ -140,6 +140,11 @@ void addCompareCommand(CLI::App& app)
     ->check(CLI::Range(1, 10000))
     ->capture_default_str();
   command
+    ->add_option("--truth-samples", options->plan.truthSamples,
+      "Samples of each area light by which the truth that errors are told by is traced")
+    ->check(CLI::Range(1, 65536))
+    ->capture_default_str();
+  command
     ->add_option("--route", options->route,
       "The routes of techniques that have both: inline (in VTK's shaders), image (from a prepass), "
       "all")

@@ -335,16 +335,16 @@ std::string unusedSeed(const Variants& variants)
   return std::to_string(seed);
 }
 
-/// What the others are measured against. Of area lights, whose ray-traced shadows have an error of their own, it has more
-/// samples than variants are given, evenly spread whatever those are, and other ones.
+/// What the others are measured against. Of area lights, whose ray-traced shadows have an error of their own, it has samples
+/// that are evenly spread, whatever those of the variants are, and other ones.
 VisibilityImages truthOf(
-  Variant& variant, const Variants& variants, std::vector<std::string>& notes)
+  Variant& variant, const Variants& variants, int samples, std::vector<std::string>& notes)
 {
   if (!isSoft(variant))
   {
     return keptVisibility(variant);
   }
-  const std::map<std::string, std::string> ofTruth = { { "light_samples", "4096" },
+  const std::map<std::string, std::string> ofTruth = { { "light_samples", std::to_string(samples) },
     { "light_seed", unusedSeed(variants) }, { "light_sampling", "sobol" } };
   std::map<std::string, std::string> ofVariant;
   for (const auto& [name, value] : ofTruth)
@@ -575,7 +575,7 @@ ComparisonResults runComparison(
     timeWholeFrames(variants, motion, plan, steps);
     timeStages(variants, motion, plan, steps);
   }
-  const VisibilityImages truth = truthOf(*truthVariant, variants, results.notes);
+  const VisibilityImages truth = truthOf(*truthVariant, variants, plan.truthSamples, results.notes);
   measureErrors(variants, scene, truth, steps);
 
   results.scene = scene.name;

@@ -27,10 +27,11 @@ struct ComparisonPlan
   int rasterizer = 0;              ///< a vtkGnomonShadowPass::RasterizerType, for conservative maps
   int width = 1024;
   int height = 1024;
-  int frames = 21; ///< timed frames per variant and motion
+  int frames = 21;         ///< timed frames per variant and motion
+  int truthSamples = 4096; ///< of each area light for every pixel, by which errors are told
 };
 
-/// The technique whose visibility is the truth: of area lights with 4,096 samples, whatever it is timed with.
+/// The technique whose visibility is the truth: of area lights with ComparisonPlan::truthSamples, whatever it is timed with.
 inline constexpr const char* truthTechnique = "raytraced";
 
 /// Is told what share of the work, in [0, 1], is done.

@@ -255,6 +255,17 @@ TEST(ComparisonRun, TheTruthHasSamplesOfItsOwn)
   EXPECT_EQ(single.errorSource, "From its visibility image, one number per pixel and light.");
 }
 
+TEST(ComparisonRun, TheTruthHasAsManySamplesAsTheyAskFor)
+{
+  ComparisonPlan plan = softPlan({ "nsm" });
+  plan.settings = { { "light_radius", "10" } };
+  plan.truthSamples = 32;
+  const ComparisonResults results = runComparison(loadScene("cube"), plan, {});
+  EXPECT_THAT(results.notes, testing::Contains(testing::HasSubstr("The truth has 32 samples")));
+  EXPECT_GT(variant(results, "raytraced").error.rootMeanSquare, 0.001)
+    << "as far from 64 others as so few are";
+}
+
 TEST(ComparisonRun, NamesWhatTheTruthDoesNotTake)
 {
   ComparisonPlan plan = softPlan({ "nsm" });
