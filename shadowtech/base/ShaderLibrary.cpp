@@ -51,6 +51,7 @@ std::string infoLog(GLuint object, bool isProgram)
   {
     isProgram ? glGetProgramInfoLog(object, length, nullptr, log.data())
               : glGetShaderInfoLog(object, length, nullptr, log.data());
+    log.pop_back(); // the terminator, where the error's text would end
   }
   return log;
 }

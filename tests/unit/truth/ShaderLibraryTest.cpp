@@ -1,0 +1,94 @@
+// Shaders that cannot be: errors that say what and why, and a library that goes on.
+
+#include "EstimatorGlsl.h"
+
+#include "shadowtech/base/ScreenPass.h"
+#include "shadowtech/base/ShaderLibrary.h"
+
+#include <gmock/gmock.h>
+
+#include <functional>
+#include <string>
+
+namespace gnomon::test
+{
+namespace
+{
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+/// What a call that is to fail says.
+std::string errorOf(const std::function<void()>& call)
+{
+  try
+  {
+    call();
+  }
+  catch (const ShaderError& error)
+  {
+    return error.what();
+  }
+  return "no error";
+}
+
+using ShaderLibraryTest = GlslTest;
+
+//------------------------------------------------------------------------------
+TEST_F(ShaderLibraryTest, saysWhatDoesNotCompileEachTimeThatItIsAskedFor)
+{
+  ShaderLibrary library;
+  const auto broken = [&]
+  { ScreenPass::use(library, "out float v;\nvoid main()\n{\n  v = MISSING;\n}\n", { "GIVEN 3" }); };
+  for (int attempt = 0; attempt < 2; ++attempt)
+  {
+    EXPECT_THAT(errorOf(broken),
+      AllOf(HasSubstr("a shader does not compile"), HasSubstr("MISSING"),
+        HasSubstr("#define GIVEN 3")));
+  }
+  EXPECT_EQ(library.compiles(), 0);
+  EXPECT_EQ(glGetError(), GLenum(GL_NO_ERROR));
+  ScreenPass::use(library, "out float v;\nvoid main()\n{\n  v = 1.0;\n}\n");
+  EXPECT_EQ(library.compiles(), 1);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(ShaderLibraryTest, saysWhatDoesNotLink)
+{
+  ShaderLibrary library;
+  EXPECT_THAT(errorOf(
+                [&]
+                {
+                  ScreenPass::use(library,
+                    "float missing();\nout float v;\nvoid main()\n{\n  v = missing();\n}\n");
+                }),
+    AllOf(HasSubstr("a program does not link"), HasSubstr("missing")));
+  EXPECT_EQ(library.compiles(), 0);
+}
+
+//------------------------------------------------------------------------------
+/// More uniforms than there can be are no program that shows something else.
+TEST_F(ShaderLibraryTest, saysThatUniformsAreTooMany)
+{
+  GLint most = 0;
+  glGetIntegerv(GL_MAX_FRAGMENT_UNIFORM_COMPONENTS, &most);
+  ShaderLibrary library;
+  const std::string error = errorOf(
+    [&]
+    {
+      ScreenPass::use(library,
+        "uniform vec4 many[" + std::to_string(most / 4 + 1) +
+          "];\nuniform int i;\nout vec4 v;\nvoid main()\n{\n  v = many[i];\n}\n");
+    });
+  EXPECT_THAT(error, HasSubstr("a program does not link"));
+}
+
+//------------------------------------------------------------------------------
+TEST_F(ShaderLibraryTest, namesASourceThatIsNotThere)
+{
+  EXPECT_THAT(errorOf([] { ShaderLibrary::source("shadowtech/none.glsl"); }),
+    HasSubstr("shadowtech/none.glsl"));
+}
+
+} // namespace
+} // namespace gnomon::test
