@@ -53,14 +53,8 @@ std::vector<gnomon::PointedLight> pointedLights(gnomon::AreaLights areas, int sa
         ": its points are to come in opposite pairs, which a grid of cells does not; its "
         "'light_sampling' is sobol or random");
     }
-    if (light.texture)
-    {
-      throw std::runtime_error(gnomon::nameOf(light) +
-        ": it has a texture, which the lights that stand for its points do not show");
-    }
     light.lightSamples = samples;
-    std::vector<glm::dvec3> offsets = gnomon::pairedLightSamples(light);
-    pointed.push_back({ std::move(light), std::move(offsets) });
+    pointed.push_back(gnomon::pointedLight(std::move(light)));
   }
   return pointed;
 }
