@@ -252,7 +252,7 @@ const std::vector<Setting>& shadowSettings()
     { "light_samples", "soft shadows of area lights: from how many points of the light",
       IntegerSetting{ &S::lightSamples, 1, 65536 }, SettingSubject::LightSamples },
     { "light_seed", "soft shadows of area lights: which points these are",
-      IntegerSetting{ &S::lightSeed, 0, 2147483647 }, SettingSubject::LightSamples },
+      IntegerSetting{ &S::lightSeed, 0, 2147483647 }, SettingSubject::LightSeed },
     { "light_sampling",
       "soft shadows of area lights: evenly spread points, random ones in the cells of a grid "
       "(light_samples is a square then), or random ones",

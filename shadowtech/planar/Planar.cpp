@@ -102,7 +102,7 @@ TechniqueInfo Planar::info()
 {
   TechniqueInfo info;
   info.name = "planar";
-  info.takesLightSamples = true;
+  info.lightPoints = LightPoints::Sampled;
   info.servesPlanes = true;
   info.evaluation = Evaluation::ScreenGpu;
   return info;
