@@ -156,7 +156,8 @@ const std::vector<Setting>& shadowSettings()
     { "technique", "the shadow technique (see: gnomon techniques)", TextSetting{ &S::technique } },
     { "estimator", "what decides a point, in place of the technique's own estimator",
       TextSetting{ &S::estimator } },
-    { "as_published", "pcss, crsm and crsma by the letter of their publications, which is not right",
+    { "as_published",
+      "pcss, crsm and crsma by the letter of their publications, which is not right",
       choice<bool, &S::asPublished>({ "off", "on" }) },
     { "projection", "how the light's view is laid onto its map",
       choice<Projection, &S::projection>(
