@@ -1,5 +1,5 @@
 #!/bin/bash
-# Measures the error of soft shadows against the time that they take, and writes docs/soft_shadows.md. Takes a quarter of an hour or so;
+# Measures the error of soft shadows against the time that they take, and writes docs/soft_shadows.md, with pictures in docs/figures/soft. Takes a quarter of an hour or so;
 # what the same program has measured in the same way before, in out/soft, is not measured again.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -51,6 +51,24 @@ for scene in "${sunny[@]}"; do
   compare "$scene" --light-radius "$degrees"
 done
 
+# Of these variants' pictures, the names that the comparison gives them, what they are here, and what is written above them.
+shown=(raytraced-light_samples-256 pcss-1024-image montecarlo-mc_rays-3-1024 sampled-light_samples-256-1024 penumbra-light_samples-64)
+names=(raytraced pcss montecarlo sampled penumbra)
+titles=('`raytraced`, 256 rays' '`pcss`' '`montecarlo`, 9 rays' '`sampled`, 256 points' '`penumbra`, 64 points')
+
+# One scene's pictures: puts them into docs/figures/soft, and writes a table of them.
+pictures() {
+  local titleRow="|" line="|" row="|"
+  mkdir -p docs/figures/soft
+  for k in "${!shown[@]}"; do
+    cp "$out/$1/${shown[$k]}.png" "docs/figures/soft/$1-${names[$k]}.png"
+    titleRow+=" ${titles[$k]} |"
+    line+="---|"
+    row+=" ![$1 by ${names[$k]}](figures/soft/$1-${names[$k]}.png) |"
+  done
+  printf '%s\n' "$titleRow" "$line" "$row"
+}
+
 # One scene's variants: error, time, and the error of raytraced at that time, between its two numbers of samples around it.
 table() {
   sed '1s/"\([^",]*\),\([^",]*\)"/\1\2/g' "$out/$1/results.csv" | awk -F, '
@@ -92,11 +110,15 @@ machine="$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1), $(nproc)
     echo
     echo "## $scene"
     echo
+    pictures "$scene"
+    echo
     table "$scene"
   done
   for scene in "${sunny[@]}"; do
     echo
     echo "## $scene, a sun of $degrees degrees"
+    echo
+    pictures "$scene"
     echo
     table "$scene"
   done

@@ -8,12 +8,12 @@ namespace gnomon
 //------------------------------------------------------------------------------
 glm::uvec3 HashedPoints::point(int i, const SamplePixel& pixel) const
 {
-  // A hash has a word for each of four points, and another one their third coordinates.
+  // A hash has a word for each of four points.
   const auto number = static_cast<std::uint32_t>(i);
   const auto word = static_cast<glm::length_t>(number % 4u);
-  const glm::uvec4 seed(pixel.bits.x, pixel.bits.y, number / 4u, 0u);
-  const std::uint32_t across = reducedMd5(seed, this->key_)[word];
-  const std::uint32_t along = reducedMd5(seed + glm::uvec4(0u, 0u, 0u, 1u), this->key_)[word];
+  const glm::uvec4 hash = reducedMd5({ pixel.bits.x, pixel.bits.y, number / 4u, 0u }, this->key_);
+  const std::uint32_t across = hash[word];
+  const std::uint32_t along = this->solid_ ? reducedMd5(hash, this->key_)[word] : 0u;
 
   // In 64 bits, so that a cell's border is where the grid has it.
   const auto inCell = [&](std::uint32_t cell, std::uint32_t fraction)

@@ -128,13 +128,14 @@ void placePoints(const Points& points, std::size_t count, LightArea::Shape shape
 std::variant<SobolPoints, HashedPoints> pointsFor(const ShadowLight& light)
 {
   const auto seed = static_cast<std::uint32_t>(light.lightSeed);
+  const int dimensions = light.area->shape == LightArea::Shape::Ball ? 3 : 2;
   switch (light.lightSampling)
   {
     case LightSampling::Jittered:
-      return HashedPoints(
+      return HashedPoints(dimensions,
         static_cast<int>(std::lround(std::sqrt(static_cast<double>(light.lightSamples)))), seed);
     case LightSampling::Random:
-      return HashedPoints(1, seed);
+      return HashedPoints(dimensions, 1, seed);
     case LightSampling::Sobol:
       break;
   }

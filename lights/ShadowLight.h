@@ -8,6 +8,7 @@
 #include <glm/glm.hpp>
 
 #include <optional>
+#include <string>
 
 namespace gnomon
 {
@@ -64,6 +65,12 @@ struct ShadowLight : ShadowSettings
   /// (shadowtech/fitting/), rather than to what the camera's frustum leaves of the scene.
   bool fittedToReceivers = false;
 };
+
+/// "light 3": by its place in the scene, for notes and errors.
+inline std::string nameOf(const ShadowLight& light)
+{
+  return "light " + std::to_string(light.sceneIndex);
+}
 
 } // namespace gnomon
 

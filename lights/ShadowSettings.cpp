@@ -156,7 +156,8 @@ const std::vector<Setting>& shadowSettings()
     { "technique", "the shadow technique (see: gnomon techniques)", TextSetting{ &S::technique } },
     { "estimator", "what decides a point, in place of the technique's own estimator",
       TextSetting{ &S::estimator } },
-    { "as_published", "pcss, crsm and crsma by the letter of their publications, which is not right",
+    { "as_published",
+      "pcss, crsm and crsma by the letter of their publications, which is not right",
       choice<bool, &S::asPublished>({ "off", "on" }) },
     { "projection", "how the light's view is laid onto its map",
       choice<Projection, &S::projection>(
@@ -252,7 +253,7 @@ const std::vector<Setting>& shadowSettings()
     { "light_samples", "soft shadows of area lights: from how many points of the light",
       IntegerSetting{ &S::lightSamples, 1, 65536 }, SettingSubject::LightSamples },
     { "light_seed", "soft shadows of area lights: which points these are",
-      IntegerSetting{ &S::lightSeed, 0, 2147483647 }, SettingSubject::LightSamples },
+      IntegerSetting{ &S::lightSeed, 0, 2147483647 }, SettingSubject::LightSeed },
     { "light_sampling",
       "soft shadows of area lights: evenly spread points, random ones in the cells of a grid "
       "(light_samples is a square then), or random ones",

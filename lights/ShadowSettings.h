@@ -304,7 +304,8 @@ struct ChoiceSetting
 enum class SettingSubject
 {
   Map,          ///< how shadows are made of a map, and which technique makes them
-  LightSamples, ///< which points of an area light are taken
+  LightSamples, ///< how many points of an area light are taken, and how they lie
+  LightSeed,    ///< which of such points
   Planes,       ///< the planes of planar shadows
   Light         ///< what the light is, whoever makes its shadows
 };

@@ -110,7 +110,7 @@ public:
    * "light_radius", the light casts no shadow, for the reason that the frame's report gives, and is VTK's own, without texture.
    *
    * "raytraced", "penumbra", "coherence", "montecarlo" and "sampled" show it; of others visibility has one channel, and the light is
-   * an even one of the picture's mean.
+   * an even one of the picture's mean. With vtkGnomonLightSamplingPass all of them show it.
    *
    * The light shares the image, and sees when it is modified. A pipeline is not updated.
    */

@@ -1,14 +1,14 @@
 #ifndef gnomon_plugin_RenderManager_h
 #define gnomon_plugin_RenderManager_h
 
-#include "lights/LightManager.h"
+#include "lights/CameraView.h"
+#include "plugin/CastingLights.h"
 #include "plugin/FrameTracer.h"
 #include "plugin/MapRasterizer.h"
 #include "plugin/OccluderCollector.h"
+#include "plugin/Route.h"
 #include "plugin/ShaderManager.h"
-#include "plugin/ShownView.h"
 #include "plugin/VisibilityImages.h"
-#include "shadowtech/Registry.h"
 #include "shadowtech/base/FrameReport.h"
 #include "shadowtech/base/OccluderBuffers.h"
 #include "shadowtech/base/ReceiverTarget.h"
@@ -16,17 +16,15 @@
 #include "shadowtech/base/ShaderLibrary.h"
 #include "shadowtech/base/Technique.h"
 #include "shadowtech/base/VisibilityLayers.h"
-#include "shadowtech/fitting/ReceiverFit.h"
+
+#include <glm/glm.hpp>
 
 #include <chrono>
 #include <cstdint>
-#include <map>
-#include <memory>
-#include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
+class vtkAbstractMapper;
 class vtkGnomonShadowPass;
 class vtkRenderState;
 class vtkRenderer;
@@ -34,15 +32,8 @@ class vtkRenderer;
 namespace gnomon
 {
 
-/// A setting that cannot be served. The frame goes on without shadows, with this as its error.
-class FrameError : public std::runtime_error
-{
-public:
-  using std::runtime_error::runtime_error;
-};
-
-/// The stages of a frame, what each of them keeps from frame to frame, and when that is stale. The
-/// pass calls the stages in the order in which they stand here.
+/// The stages of a frame, in the order in which the pass calls them and they stand here: what each takes from those before
+/// it, keeps from frame to frame, and says in the report.
 class RenderManager
 {
 public:
@@ -54,8 +45,8 @@ public:
   /// @throws FrameError for techniques that do not exist or make no sense
   bool collectLights(vtkRenderer* renderer, const ShadowSettings& defaults);
 
-  /// occluders: brings the snapshot up to date with the renderer's props.
-  void collectOccluders(vtkRenderer* renderer);
+  /// occluders: brings the snapshot up to date with the renderer's props. From here on it is known where the camera is in it.
+  void collectOccluders(const vtkRenderState* s);
 
   /// Chooses how visibility reaches the shader, and states it in the report.
   /// @param wished a vtkGnomonShadowPass::RouteType
@@ -72,7 +63,7 @@ public:
   /// maps: bakes what is stale.
   /// @param wishedRasterizer a vtkGnomonShadowPass::RasterizerType; nobody asks for it where no map is conservative
   /// @throws std::runtime_error for a rasterizer that there is not
-  void bakeMaps(vtkRenderer* renderer, int wishedRasterizer);
+  void bakeMaps(int wishedRasterizer);
 
   /// visibility (image route): fills one layer per light, and keeps a copy if asked to.
   /// @param wishedTracer a vtkGnomonShadowPass::TracerType; nobody asks for it where nothing is traced
@@ -99,61 +90,10 @@ public:
   const VisibilityImages& visibility() const { return this->visibility_; }
 
 private:
-  /// What a technique's maps were baked from.
-  struct Bake
-  {
-    LightViews views;
-    std::optional<CameraView> camera; ///< that the views were fitted to
-    MapReach reach;
-    ShadowSettings settings;
-    int sizeTexels = 0;
-    std::uint64_t topology = 0;
-    std::uint64_t positions = 0;
-    std::size_t receivers = 0; ///< a hash of what F of MapFit.h was found from on the GPU; else 0
-    bool once = false;
-    /// Who was to draw a conservative map; none for other maps.
-    std::optional<RasterizerChoice> rasterizer;
-    RasterizerChoice drawnBy; ///< and who did; before that the same
-    int castersLeftOut = 0;
-    ViewFitting fitting; ///< of this frame, by which the same views might be laid out again
-
-    /// Whether maps that were baked from this serve where others are wanted.
-    bool serves(const Bake& wanted) const;
-  };
-  /// A casting light and its technique.
-  struct LightSlot
-  {
-    const EstimatorEntry* estimator = nullptr;
-    std::unique_ptr<Technique> technique;
-    Bake bake;
-    Bake awaited; ///< what a map was last not baked from, to see whether it is still wanted
-    /// Shades translucent surfaces where the technique works on the screen; null without such.
-    std::unique_ptr<Technique> plain;
-    Bake plainBake;
-    ShadowLight light;
-    int layer = 0;    ///< of the visibility layers, its first
-    int channels = 1; ///< of its visibility, a layer each
-    ReceiverFit receiverFit;
-  };
-
   void endStageClock(const std::string& name);
-  void chooseFits();
-  std::string reasonAgainstReceivers(const LightSlot& slot) const;
-  const Technique* pointwiseFor(LightSlot& slot) const;
-  void bakeMaps(LightSlot& slot, const CameraView& camera, Technique& technique, Bake& bake);
-  bool isWorthBaking(const LightSlot& slot, const Technique& technique, const Bake& wanted) const;
-  std::optional<RasterizerChoice> rasterizerFor(
-    const LightSlot& slot, const Technique& technique) const;
-  static void takeReason(Bake& bake, const Bake& wanted);
-  void reportBake(const ShadowLight& light, const Bake& bake);
-  LightReport& reportOf(const ShadowLight& light);
   void updateTracer(int wished);
-  void keepVisibility(const ReceiverPixels& receivers);
-  void keepLayers(const LightSlot& slot);
+  void fillLayers(CastingLight& casting, Receivers& receivers, std::vector<std::uint8_t>* classes);
   bool readsPoints() const;
-  CameraView camera(vtkRenderer* renderer) const;
-  ReceiverSpace receiverSpace(const vtkRenderState* s) const;
-  glm::dmat4 centredFromView(vtkRenderer* renderer) const;
 
   FrameReport report_;
   bool measureStages_ = false;
@@ -161,16 +101,13 @@ private:
   std::chrono::steady_clock::time_point stageStart_;
   int compilesBefore_ = 0;
 
-  LightManager lightManager_;
-  std::map<int, LightSlot> slots_; ///< by the light's place in the scene
-  std::vector<LightSlot*> casting_;
-  ViewCount viewCount_;
+  glm::ivec2 size_{ 0 }; ///< of this frame's picture, in pixels
+  CameraView camera_;    ///< that it is drawn by
 
+  CastingLights lights_;
   OccluderCollector collector_;
   OccluderBuffers buffers_;
-  RasterizerChoice rasterizer_; ///< of conservative maps in this frame
   Route route_ = Route::Inline;
-  CameraView camera_; ///< that the receivers were drawn by
   ReceiverTarget receiverTarget_;
   std::size_t receiversShown_ = 0; ///< a hash of what the receivers' images depend on
   ReceiverImages receiverImages_;

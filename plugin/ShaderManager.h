@@ -3,6 +3,7 @@
 
 #include "lights/ShadowLight.h"
 #include "plugin/DrawnLookup.h"
+#include "plugin/Route.h"
 #include "shadowtech/base/Technique.h"
 
 #include <vtkTimeStamp.h>
@@ -16,13 +17,6 @@ class vtkShaderProgram;
 
 namespace gnomon
 {
-
-/// How visibility reaches the shader.
-enum class Route
-{
-  Inline, ///< VTK's fragment shader computes it
-  Image   ///< it is computed for all pixels beforehand, and fetched
-};
 
 /// What the shaders of a frame have to do, besides their lights.
 struct HookVariant

@@ -1,7 +1,9 @@
 #include "plugin/ShownView.h"
 
+#include "plugin/DrawnProps.h"
 #include "plugin/Hash.h"
 
+#include <vtkCamera.h>
 #include <vtkFrameBufferObjectBase.h>
 #include <vtkRenderState.h>
 #include <vtkRenderWindow.h>
@@ -25,6 +27,25 @@ glm::ivec2 sizeOf(const vtkRenderState* s)
     s->GetRenderer()->GetTiledSizeAndOrigin(&size.x, &size.y, &left, &bottom);
   }
   return glm::max(size, 1);
+}
+
+//------------------------------------------------------------------------------
+glm::dmat4 centredFromView(vtkRenderer* renderer, const glm::dvec3& centreWorld)
+{
+  glm::dmat4 matrix =
+    glm::inverse(toGlm(renderer->GetActiveCamera()->GetModelViewTransformMatrix()));
+  matrix[3] -= glm::dvec4(centreWorld, 0.0);
+  return matrix;
+}
+
+//------------------------------------------------------------------------------
+CameraView cameraOf(vtkRenderer* renderer, const glm::dvec3& centreWorld)
+{
+  CameraView view;
+  view.viewFromCentred = glm::inverse(centredFromView(renderer, centreWorld));
+  view.clipFromView = toGlm(renderer->GetActiveCamera()->GetProjectionTransformMatrix(
+    renderer->GetTiledAspectRatio(), -1.0, 1.0));
+  return view;
 }
 
 //------------------------------------------------------------------------------

@@ -17,6 +17,13 @@ namespace gnomon
 /// whole framebuffer that an outer pass hands in.
 glm::ivec2 sizeOf(const vtkRenderState* s);
 
+///@{
+/// A renderer's camera, with places relative to a point before anything becomes float.
+/// @param centreWorld the origin of centred coordinates
+glm::dmat4 centredFromView(vtkRenderer* renderer, const glm::dvec3& centreWorld); ///< rigid
+CameraView cameraOf(vtkRenderer* renderer, const glm::dvec3& centreWorld);
+///@}
+
 /// Adds a camera, and the size of its picture, to a hash.
 void hashView(std::size_t& seed, const CameraView& camera, const glm::ivec2& size);
 

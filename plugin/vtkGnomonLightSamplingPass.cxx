@@ -2,7 +2,6 @@
 
 #include "lights/LightManager.h"
 #include "lights/LightSamples.h"
-#include "plugin/DrawnProps.h"
 #include "plugin/Hash.h"
 #include "plugin/PassContext.h"
 #include "plugin/PictureTarget.h"
@@ -13,7 +12,6 @@
 #include "shadowtech/base/PictureMean.h"
 
 #include "vtkActor.h"
-#include "vtkCamera.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLFramebufferObject.h"
@@ -51,18 +49,12 @@ std::vector<gnomon::PointedLight> pointedLights(gnomon::AreaLights areas, int sa
   {
     if (light.lightSampling == gnomon::LightSampling::Jittered)
     {
-      throw std::runtime_error("light " + std::to_string(light.sceneIndex) +
+      throw std::runtime_error(gnomon::nameOf(light) +
         ": its points are to come in opposite pairs, which a grid of cells does not; its "
         "'light_sampling' is sobol or random");
     }
-    if (light.texture)
-    {
-      throw std::runtime_error("light " + std::to_string(light.sceneIndex) +
-        ": it has a texture, which the lights that stand for its points do not show");
-    }
     light.lightSamples = samples;
-    std::vector<glm::dvec3> offsets = gnomon::pairedLightSamples(light);
-    pointed.push_back({ std::move(light), std::move(offsets) });
+    pointed.push_back(gnomon::pointedLight(std::move(light)));
   }
   return pointed;
 }
@@ -282,13 +274,8 @@ double vtkGnomonLightSamplingPass::GammaOf(const vtkRenderState* s) const
 std::size_t vtkGnomonLightSamplingPass::HashOfShown(const vtkRenderState* s)
 {
   vtkRenderer* renderer = s->GetRenderer();
-  vtkCamera* camera = renderer->GetActiveCamera();
   std::size_t seed = this->Internal->scene.hash(renderer);
-  gnomon::hashView(seed,
-    { gnomon::toGlm(camera->GetModelViewTransformMatrix()),
-      gnomon::toGlm(
-        camera->GetProjectionTransformMatrix(renderer->GetTiledAspectRatio(), -1.0, 1.0)) },
-    gnomon::sizeOf(s));
+  gnomon::hashView(seed, gnomon::cameraOf(renderer, glm::dvec3(0.0)), gnomon::sizeOf(s));
   gnomon::hashCombine(seed, gnomon::samplesOfBoundFramebuffer());
   gnomon::hashCombine(seed, this->GetMTime());
   gnomon::hashCombine(seed, this->Delegate()->GetMTime());

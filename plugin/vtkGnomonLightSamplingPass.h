@@ -21,8 +21,10 @@
  * where they shine from: the cone of a spot moves along with its point, so that the edge of what it lights
  * is soft; a directional light turns about its position, and its box with it. What a light says of its
  * size counts (vtkGnomonLightKeys' "light_radius" included, but not that of a shadow pass), and so do its
- * "light_seed" and "light_sampling", "sobol" or "random"; Samples takes the place of "light_samples". A light with a
- * texture is an error, and so is one whose area cannot be (vtkGnomonAreaLight). The renderer's lights are its own again after the frame, and have not been modified.
+ * "light_seed" and "light_sampling", "sobol" or "random"; Samples takes the place of "light_samples". The points of a
+ * light with a texture have its colours, and their mean is the texture's; at its centre the light has that. A light whose area
+ * or texture cannot be is an error (vtkGnomonAreaLight). The renderer's lights are its own again after the frame, and have not
+ * been modified.
  *
  * <b>Pictures</b> are of 32-bit floats, so that they may be brighter than any display and are not rounded,
  * with the window's samples per pixel. Memory does not grow with their number. They are drawn in front of

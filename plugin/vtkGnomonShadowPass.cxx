@@ -163,7 +163,7 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
     if (casting)
     {
       // occluders
-      manager.collectOccluders(renderer);
+      manager.collectOccluders(s);
 
       // From here on, mappers call the hook.
       if (!manager.chooseRoute(this->Route, this->KeepVisibility))
@@ -181,7 +181,7 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
       }
 
       // maps
-      manager.bakeMaps(renderer, this->Rasterizer);
+      manager.bakeMaps(this->Rasterizer);
 
       // visibility
       if (manager.route() == gnomon::Route::Image)

@@ -199,7 +199,9 @@ bool concerns(const Setting& setting, const TechniqueInfo& info)
     case SettingSubject::Map:
       return info.needsMap;
     case SettingSubject::LightSamples:
-      return info.needsMap || info.takesLightSamples;
+      return info.lightPoints == LightPoints::Sampled;
+    case SettingSubject::LightSeed:
+      return info.lightPoints != LightPoints::Fixed;
     case SettingSubject::Planes:
       return info.servesPlanes;
     case SettingSubject::Light:
@@ -289,8 +291,8 @@ std::string refusedSamples(const ShadowLight& light, const TechniqueInfo& info)
 {
   const int side =
     static_cast<int>(std::lround(std::sqrt(static_cast<double>(light.lightSamples))));
-  return info.takesLightSamples && light.area && light.lightSampling == LightSampling::Jittered &&
-      side * side != light.lightSamples
+  return info.lightPoints == LightPoints::Sampled && light.area &&
+      light.lightSampling == LightSampling::Jittered && side * side != light.lightSamples
     ? "'light_sampling' jittered has one sample in each cell of a square grid, of which there are "
       "no " +
       std::to_string(light.lightSamples) + "; 'light_samples' takes squares then: 4, 9, 16, ..."
@@ -322,8 +324,10 @@ const EstimatorEntry& compose(ShadowLight& light)
     throw CompositionError(
       "the kernel 'castano' has the sizes 3, 5 and 7, not " + std::to_string(light.kernelTexels));
   }
-  for (const std::string& refused : { refusedAverage(light, info), refusedSamples(light, info),
-         info.refused ? info.refused(light) : std::string(), refusedProjection(light) })
+  // What an estimator never can comes before what it cannot with these numbers.
+  for (const std::string& refused :
+    { refusedAverage(light, info), info.refused ? info.refused(light) : std::string(),
+      refusedSamples(light, info), refusedProjection(light) })
   {
     if (!refused.empty())
     {

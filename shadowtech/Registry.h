@@ -61,7 +61,7 @@ bool takes(const Setting& setting, const std::string& text);
 std::string expectedBy(const Setting& setting);
 ///@}
 
-/// Whether a technique may look at a setting. Those with a map look at many that are about neither: which ones is theirs.
+/// Whether a technique may look at a setting. Of those about maps, any technique with a map may: which ones is theirs.
 bool concerns(const Setting& setting, const TechniqueInfo& info);
 
 /// A light's settings ask for what there is not, or for what makes no sense.

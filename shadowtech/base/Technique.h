@@ -39,6 +39,15 @@ enum class Evaluation
   ScreenCpu  ///< computed on the CPU for all pixels at once (computeVisibility)
 };
 
+/// Which points of an area light an estimator asks about, and so which settings of points concern it (concerns(),
+/// Registry.h).
+enum class LightPoints
+{
+  Fixed,  ///< the centre, or points that no setting changes
+  Seeded, ///< points of its own, as ShadowSettings::lightSeed says
+  Sampled ///< those of LightSamples.h: lightSamples, lightSeed and lightSampling
+};
+
 /// What an estimator is, before any instance of it exists: one line of the registry.
 struct TechniqueInfo
 {
@@ -60,8 +69,7 @@ struct TechniqueInfo
   bool averagesMap = false; ///< its map holds what may be averaged: moments, not depths
   bool sumsMap = false;     ///< and which fixed-point numbers hold, so that tables may sum it
 
-  /// Whether it takes points of area lights as ShadowSettings::lightSamples and lightSampling say.
-  bool takesLightSamples = false;
+  LightPoints lightPoints = LightPoints::Fixed;
   /// Whether it shows shadows on planes only (ShadowSettings::planes).
   bool servesPlanes = false;
 

@@ -75,6 +75,7 @@ TechniqueInfo MonteCarlo::info()
   info.name = "montecarlo";
   info.evaluation = Evaluation::ScreenGpu;
   info.needsMap = true;
+  info.lightPoints = LightPoints::Seeded;
   info.seesTextures = true;
   info.refused = refused;
   info.classes = { { "no receiver", { 0, 0, 0 } }, { "turned away from the light", { 0, 140, 60 } },

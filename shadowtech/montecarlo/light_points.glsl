@@ -22,7 +22,7 @@ vec2 diskPoint(vec2 square)
   return wide ? point : point.yx;
 }
 
-// The hashes of four points of a pixel: where in their cells they lie, and, of a ball, how high.
+// The hashes of four points of a pixel: where in their cells they lie, and, of a ball, how high (HashedPoints.h).
 struct FourPoints
 {
   uvec4 across;
@@ -34,7 +34,7 @@ FourPoints fourPoints(ivec2 pixel, int number)
   FourPoints points;
   points.across = reducedMd5(seed, uint(lightSeed));
 #if SHAPE == BALL
-  points.along = reducedMd5(seed + uvec4(0u, 0u, 0u, 1u), uint(lightSeed));
+  points.along = reducedMd5(points.across, uint(lightSeed));
 #else
   points.along = uvec4(0u);
 #endif

@@ -14,7 +14,7 @@ TechniqueInfo Penumbra::info()
   info.name = "penumbra";
   info.evaluation = Evaluation::ScreenCpu;
   info.exact = true;
-  info.takesLightSamples = true;
+  info.lightPoints = LightPoints::Sampled;
   info.seesTextures = true;
   info.classes = classesOfPenumbra();
   return info;

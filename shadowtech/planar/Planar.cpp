@@ -102,7 +102,7 @@ TechniqueInfo Planar::info()
 {
   TechniqueInfo info;
   info.name = "planar";
-  info.takesLightSamples = true;
+  info.lightPoints = LightPoints::Sampled;
   info.servesPlanes = true;
   info.evaluation = Evaluation::ScreenGpu;
   return info;
@@ -308,9 +308,8 @@ void Planar::noteWhatIsLeftOut(const LayerInput& input) const
   const int percent = static_cast<int>(100.0 * served / std::max(this->planes_.area(), served));
   if (served < this->planes_.area() * (1.0 - 1e-9))
   {
-    input.notes.push_back("light " + std::to_string(input.light.sceneIndex) +
-      ": planar shadows fall on " + std::to_string(this->planes_.planes().size()) +
-      " planes with " + std::to_string(percent) +
+    input.notes.push_back(nameOf(input.light) + ": planar shadows fall on " +
+      std::to_string(this->planes_.planes().size()) + " planes with " + std::to_string(percent) +
       " % of the receiving area; the rest shows no cast shadows of this light");
   }
 }

@@ -12,7 +12,7 @@ TechniqueInfo Raytraced::info()
   info.name = "raytraced";
   info.evaluation = Evaluation::ScreenCpu;
   info.exact = true;
-  info.takesLightSamples = true;
+  info.lightPoints = LightPoints::Sampled;
   info.seesTextures = true;
   info.classes = classesOfTracing();
   return info;

@@ -57,6 +57,7 @@ TechniqueInfo Sampled::info()
   info.name = "sampled";
   info.evaluation = Evaluation::ScreenGpu;
   info.needsMap = true;
+  info.lightPoints = LightPoints::Sampled;
   info.refines = true;
   info.seesTextures = true;
   info.refused = refused;

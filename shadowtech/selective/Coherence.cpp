@@ -19,7 +19,7 @@ std::string refused(const ShadowLight& light)
 TechniqueInfo Coherence::info()
 {
   TechniqueInfo info = infoOf("coherence");
-  info.takesLightSamples = true;
+  info.lightPoints = LightPoints::Sampled;
   info.seesTextures = true;
   info.refused = refused;
   return info;

@@ -290,6 +290,10 @@ TracedPicture::TracedPicture(const ShadowLight& light, const Occluders& occluder
   {
     this->classes_->resize(this->pixels());
   }
+  if (this->decider_)
+  {
+    this->certain_ = std::make_unique<std::vector<Certainty>[]>(this->tiles());
+  }
   this->lit_.fill(static_cast<float>(this->samples()));
   if (this->texture_)
   {
@@ -319,6 +323,23 @@ std::size_t TracedPicture::tiles() const
 float TracedPicture::rayFar() const
 {
   return visitShadowRays(this->light_, [](const auto&, float rayFar) { return rayFar; });
+}
+
+//------------------------------------------------------------------------------
+/// What is known of a tile's receivers; null: nothing.
+const Certainty* TracedPicture::certaintiesOf(const ReceiverTile& tile, std::size_t number) const
+{
+  if (!this->decider_)
+  {
+    return nullptr;
+  }
+  std::vector<Certainty>& certain = this->certain_[number];
+  if (certain.empty())
+  {
+    certain.assign(tile.receivers.size(), Certainty::Uncertain);
+    this->decider_->ofPixels(tile, certain);
+  }
+  return certain.data();
 }
 
 //------------------------------------------------------------------------------
@@ -358,18 +379,13 @@ void TracedPicture::prepare(
       ? make(std::integral_constant<std::size_t, TracedTile::columns>())
       : make(columns);
   }
-  std::vector<Certainty> certain;
-  if (this->decider_)
-  {
-    certain.assign(receivers.size(), Certainty::Uncertain);
-    this->decider_->ofPixels(tile, certain);
-  }
+  const Certainty* const certain = this->certaintiesOf(tile, traced.number);
   for (std::size_t y = 0; y < rows; ++y)
   {
     if (!alike[y])
     {
-      classify(tile, y * columns, this->receives_.data(), this->decider_ ? certain.data() : nullptr,
-        this->lit_, y * TracedTile::columns, traced);
+      classify(tile, y * columns, this->receives_.data(), certain, this->lit_,
+        y * TracedTile::columns, traced);
     }
   }
 }

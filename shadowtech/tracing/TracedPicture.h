@@ -78,7 +78,7 @@ public:
     int first, end;
   };
 
-  /// @param decider who knows something without rays; null: nobody
+  /// @param decider who knows something without rays; null: nobody. It is asked about a tile's pixels once, however often that is visited
   /// @param visibility resized to one for each pixel of the picture; of several channels one image after the other
   /// @param classes where not null, resized to one for each pixel
   /// @param samples of the light's area, which it has a texture with if any; null: its centre
@@ -122,6 +122,7 @@ public:
   void finish() const;
 
 private:
+  const Certainty* certaintiesOf(const ReceiverTile& tile, std::size_t number) const;
   template <typename MakeRay>
   void prepare(const ReceiverTile& tile, const MakeRay& makeRay, TracedTile& traced) const;
   std::size_t visitSamples(const SampleRange& samples, const ReceiverTile& tile, TracedTile& traced,
@@ -138,6 +139,8 @@ private:
   const LightSamples* samples_;
   const PlacedTexture* texture_; ///< null: all samples count alike
   const SampleChooser* chooser_;
+  /// What the decider has said of each tile's receivers, row by row; empty where it was not asked yet. Null without a decider.
+  std::unique_ptr<std::vector<Certainty>[]> certain_;
   /// What is lit, by channel, in the unit of TracedTile::visibility.
   std::array<float, 3> lit_;
   /// What the sums are divided by, as `visibility_` is laid out; null without texture.

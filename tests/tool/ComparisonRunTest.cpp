@@ -219,7 +219,7 @@ TEST(ComparisonRun, TheLightsHaveOneSizeForAllVariantsAndTheTruth)
   EXPECT_THAT(results.notes, testing::Contains(testing::HasSubstr("4096 samples of each area")));
   EXPECT_THAT(
     results.settings, testing::Contains(testing::Pair("Of all lights", "light_radius 10")));
-  const VisibilityError hard = variant(results, "nsm light_samples=16 256 image").error;
+  const VisibilityError hard = variant(results, "nsm 256 image").error;
   const VisibilityError traced = variant(results, "raytraced light_samples=16").error;
   const VisibilityError counted = variant(results, "penumbra light_samples=16").error;
   const VisibilityError planar = variant(results, "planar light_samples=16").error;

@@ -1,11 +1,16 @@
 #include "lights/LightSamples.h"
 
+#include "lights/HashedPoints.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <set>
 #include <utility>
+#include <vector>
 
 namespace gnomon::test
 {
@@ -344,6 +349,46 @@ TEST(LightSamples, inTheCellsOfAGridErrAsTheyMust)
     const double expectedRandom = std::sqrt(1.0 / 6.0) / side;
     EXPECT_NEAR(std::sqrt(jitteredSum), expectedJittered, 0.02 * expectedJittered) << side;
     EXPECT_NEAR(std::sqrt(randomSum), expectedRandom, 0.02 * expectedRandom) << side;
+  }
+}
+
+/// How far the numbers of pairs in 16 x 16 cells are off what chance gives, in standard deviations.
+double dependenceOf(const std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs)
+{
+  constexpr double degreesOfFreedom = 255.0;
+  std::array<double, 256> counts{};
+  for (const auto& [a, b] : pairs)
+  {
+    counts[a >> 28 << 4 | b >> 28] += 1.0;
+  }
+  const double expected = static_cast<double>(pairs.size()) / 256.0;
+  double chiSquared = 0.0;
+  for (const double count : counts)
+  {
+    chiSquared += (count - expected) * (count - expected) / expected;
+  }
+  return (chiSquared - degreesOfFreedom) / std::sqrt(2.0 * degreesOfFreedom);
+}
+
+TEST(LightSamples, atRandomHaveCoordinatesThatDoNotDependOnEachOther)
+{
+  for (std::uint32_t key = 0; key < 32; ++key)
+  {
+    const HashedPoints points(3, 1, key);
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> xy, xz, yz;
+    for (std::uint32_t pixel = 0; pixel < 64u * 64u; ++pixel)
+    {
+      for (int i = 0; i < 64; ++i)
+      {
+        const glm::uvec3 point = points.point(i, points.pixel(pixel % 64u, pixel / 64u));
+        xy.emplace_back(point.x, point.y);
+        xz.emplace_back(point.x, point.z);
+        yz.emplace_back(point.y, point.z);
+      }
+    }
+    EXPECT_LT(dependenceOf(xy), 5.0) << key;
+    EXPECT_LT(dependenceOf(xz), 5.0) << key;
+    EXPECT_LT(dependenceOf(yz), 5.0) << key;
   }
 }
 

@@ -2,14 +2,19 @@
 // routes show.
 
 #include "PassScene.h"
+#include "Scene.h"
 
+#include "lights/LightManager.h"
 #include "lights/vtkGnomonAreaLight.h"
 #include "plugin/vtkGnomonLightSamplingPass.h"
 #include "plugin/vtkGnomonPropKeys.h"
 #include "shadowtech/Registry.h"
 
+#include <vtkActorCollection.h>
+#include <vtkCollectionRange.h>
 #include <vtkDataArray.h>
 #include <vtkImageData.h>
+#include <vtkLightCollection.h>
 #include <vtkPointData.h>
 #include <vtkProperty.h>
 
@@ -539,17 +544,80 @@ TEST_F(LightTextures, areRefinedFromTheHardShadow)
 }
 
 //------------------------------------------------------------------------------
-TEST_F(LightTextures, areRefusedByPicturesOfTheirPoints)
+/// On a matt floor under a window, shading from all points shows what rays to all of them see, but for the cosines, which are
+/// not those of the window's centre.
+TEST_F(PassTest, aWindowsPointsShadeAMattFloorAsRaysSeeIt)
 {
-  this->addFloor();
-  this->lamp->SetTexture(makeRedAndBlue());
+  const auto renderer = gnomon::tool::makeRenderer(gnomon::tool::loadScene("soft-window"), 1.0);
+  for (vtkActor* actor : vtk::Range(renderer->GetActors()))
+  {
+    actor->GetProperty()->SetAmbient(0.0);
+    actor->GetProperty()->SetSpecular(0.0);
+    actor->GetProperty()->SetColor(1.0, 1.0, 1.0);
+  }
+  vtkNew<vtkGnomonEGLRenderWindow> window;
+  window->SetMultiSamples(0);
+  window->SetSize(100, 100);
+  window->AddRenderer(renderer);
+  auto* lamp = vtkGnomonAreaLight::SafeDownCast(renderer->GetLights()->GetItemAsObject(0));
+  lamp->SetIntensity(1.0); // so that nothing is clipped
+  const auto draw = [&](vtkRenderPass* pass)
+  {
+    renderer->SetPass(pass);
+    window->Render();
+    return readPicture(window);
+  };
+  vtkNew<vtkGnomonShadowPass> shadows;
+  shadows->SetTechnique("raytraced");
+  shadows->SetSetting("light_samples", "1024");
+  shadows->KeepVisibilityOn();
+  const Picture seen = draw(shadows);
+  const VisibilityImages kept = shadows->GetVisibility();
+  shadows->KeepVisibilityOff();
   vtkNew<vtkGnomonLightSamplingPass> sampling;
-  sampling->SetDelegatePass(this->scene.pass);
-  this->scene.renderer->SetPass(sampling);
-  this->scene.render();
-  EXPECT_THAT(this->takeErrors(), HasSubstr("light 0: it has a texture"));
-  this->lamp->SetTexture(nullptr);
-  this->scene.render();
+  sampling->SetSamples(256);
+  sampling->SetDelegatePass(shadows);
+  const Picture shaded = draw(sampling);
+  const gnomon::ShadowLight light = gnomon::LightManager().collectAreas(renderer, {}).lights.at(0);
+  const std::vector<glm::dvec3> rim = gnomon::rimOf(*light.area, 32);
+  lamp->SetTexture(nullptr);
+  const Picture even = draw(sampling);
+
+  int floor = 0;
+  int wrong = 0;
+  int unlikeEven = 0;
+  for (int y = 0; y < seen.height; ++y)
+  {
+    for (int x = 0; x < seen.width; ++x)
+    {
+      const auto pixel =
+        static_cast<std::size_t>(seen.height - 1 - y) * static_cast<std::size_t>(seen.width) +
+        static_cast<std::size_t>(x);
+      const glm::dvec3 place = positionOf(kept, pixel);
+      if (kept.coverage[pixel] == 0.0f || std::abs(place.y) > 1e-4)
+      {
+        continue;
+      }
+      ++floor;
+      const glm::dvec3 toCentre = light.positionWorld - place;
+      const double cosine = glm::normalize(toCentre).y;
+      double off = 0.0;
+      for (const glm::dvec3& offset : rim)
+      {
+        off = std::max(off, std::abs(glm::normalize(toCentre + offset).y / cosine - 1.0));
+      }
+      for (int channel = 0; channel < 3; ++channel)
+      {
+        const int rays = seen.at(x, y)[channel];
+        // Beyond the cosines, two sets of points differ.
+        wrong += std::abs(shaded.at(x, y)[channel] - rays) > off * rays + 3.0;
+        unlikeEven += std::abs(even.at(x, y)[channel] - rays) > off * rays + 3.0;
+      }
+    }
+  }
+  EXPECT_GT(floor, 3000);
+  EXPECT_EQ(wrong, 0);
+  EXPECT_GT(unlikeEven, floor);
 }
 
 //------------------------------------------------------------------------------

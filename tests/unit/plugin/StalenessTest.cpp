@@ -11,6 +11,8 @@
 #include <vtkProperty.h>
 #include <vtkSphereSource.h>
 
+#include <gmock/gmock.h>
+
 #include <limits>
 #include <ostream>
 
@@ -339,6 +341,37 @@ TEST_F(NoCastingLight, numbersThatGiveNoLight)
   this->sun->SetConeAngle(180.0);
   this->sun->SetPosition(0.0, std::numeric_limits<double>::quiet_NaN(), 0.0);
   this->expectPlain("its position is not finite");
+}
+
+//------------------------------------------------------------------------------
+/// A light whose settings make no sense takes the whole frame's shadows, but nothing that lights have kept.
+TEST_F(PassTest, aLightThatCannotBeServedLeavesAllMapsAsTheyAre)
+{
+  PassScene scene(200, 150);
+  scene.addFloor(4.0);
+  scene.addSphere({ 0.0, 0.0, 1.5 }, 0.7);
+  scene.addSun({ 1.0, 0.3, -1.5 });
+  vtkLight* const second = scene.addSun({ -1.0, 0.3, -1.5 });
+  scene.lookFrom({ 0.0, -9.0, 7.0 });
+  scene.usePlain();
+  const Picture plain = scene.render();
+  scene.useGnomon();
+  scene.pass->SetTechnique("pcf");
+  scene.pass->SetSetting("kernel", "castano");
+  const auto render = [&](const char* kernelSize)
+  {
+    vtkGnomonLightKeys::SetSetting(second, "kernel_size", kernelSize);
+    return scene.render();
+  };
+  const Picture shadowed = render("3");
+  EXPECT_EQ(scene.report().mapBakes, 2);
+
+  EXPECT_EQ(differingPixels(plain, render("4")), 0u);
+  EXPECT_THAT(
+    this->takeErrors(), testing::HasSubstr("light 1: the kernel 'castano' has the sizes 3, 5"));
+
+  EXPECT_EQ(differingPixels(shadowed, render("3")), 0u);
+  EXPECT_EQ(scene.report().mapBakes, 0);
 }
 
 //------------------------------------------------------------------------------

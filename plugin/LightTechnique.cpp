@@ -1,0 +1,217 @@
+#include "plugin/LightTechnique.h"
+
+#include "lights/KernelShape.h"
+#include "plugin/Hash.h"
+#include "shadowtech/base/OccluderBuffers.h"
+#include "shadowtech/base/Occluders.h"
+#include "shadowtech/base/ReceiverTarget.h"
+
+#include <utility>
+
+namespace gnomon
+{
+
+//------------------------------------------------------------------------------
+LightTechnique::LightTechnique(const EstimatorEntry& estimator)
+  : estimator_(&estimator)
+  , technique_(estimator.create())
+{
+}
+
+//------------------------------------------------------------------------------
+void LightTechnique::chooseFit(
+  ShadowLight& light, Route route, bool translucentReceivers, LightReport& report) const
+{
+  if (!this->info().needsMap)
+  {
+    return;
+  }
+  const bool fitted = isFittedToCamera(light);
+  report.fitReason = fitted ? this->reasonAgainstReceivers(light, route, translucentReceivers) : "";
+  light.fittedToReceivers = fitted && report.fitReason.empty();
+  report.fit = light.fittedToReceivers ? "receivers" : fitted ? "frustum" : "off";
+}
+
+//------------------------------------------------------------------------------
+/// Why a light's views cannot be fitted to the receivers that are drawn; empty if they can.
+std::string LightTechnique::reasonAgainstReceivers(
+  const ShadowLight& light, Route route, bool translucentReceivers) const
+{
+  if (route == Route::Inline)
+  {
+    return "the inline route does not draw the receivers first";
+  }
+  if (!this->info().isPointwise())
+  {
+    return "the technique works on the screen, where the receivers are found after the maps";
+  }
+  if (light.fit == ViewFit::Off)
+  {
+    return "that takes the setting fit=frame";
+  }
+  if (light.projection == Projection::Splits && light.splitBlend > 0.0)
+  {
+    return "splits that are blended overlap, and each receiver is counted to one";
+  }
+  if (light.fit == ViewFit::Once)
+  {
+    return "a fit that is made once has to hold what will be seen later";
+  }
+  if (translucentReceivers)
+  {
+    return "translucent surfaces receive, which are not among the receivers that are drawn first";
+  }
+  if (this->technique_->mapReach(light).dependsOnViews())
+  {
+    return "a kernel of a width in world units, or as wide as penumbrae are, needs a border that "
+           "follows from the fit itself";
+  }
+  return {};
+}
+
+//------------------------------------------------------------------------------
+void LightTechnique::updateMaps(
+  const ShadowLight& light, const MapStage& stage, LightReport& report)
+{
+  if (!this->info().needsMap)
+  {
+    return;
+  }
+  Bake wanted = this->wantedIn(light, stage);
+  if (this->baked_.serves(wanted))
+  {
+    this->baked_.takeReasonOf(wanted);
+    this->baked_.tell(report);
+    return;
+  }
+  this->baked_.made = false; // in case that there is no memory
+  // Maps that only save time would not if everything moved on.
+  const bool awaitsRest = this->info().mapIsOptional && light.bake != BakeTime::Always;
+  if (awaitsRest && !this->awaited_.serves(wanted))
+  {
+    this->awaited_ = std::move(wanted);
+    this->technique_->dropMaps();
+    report.mapReason =
+      "the light, the casters or what it is fitted to have changed: all is traced, and the map is "
+      "drawn once nothing has changed for a frame";
+    return;
+  }
+  this->bake(light, stage, std::move(wanted));
+  this->baked_.tell(report);
+}
+
+//------------------------------------------------------------------------------
+/// Lays out the light's views, and keeps how.
+LightViews LightTechnique::layOut(
+  const ShadowLight& light, const MapStage& stage, const MapReach& reach)
+{
+  ViewFitting& fitting = this->fitting_ = ViewFitting();
+  fitting.centreWorld = stage.occluders.centreWorld;
+  fitting.castersCentred = stage.occluders.castersCentred;
+  fitting.receiversCentred = stage.occluders.allCentred;
+  fitting.texels = { light.mapSizeTexels, reach.borderTexels() };
+  if (isFittedToCamera(light))
+  {
+    const std::optional<CameraView>& first =
+      this->baked_.camera ? this->baked_.camera : this->awaited_.camera;
+    fitting.camera = light.fit == ViewFit::Once && first ? first : stage.camera;
+  }
+  const ShadowLight seen = this->technique_->lightOfMap(light);
+  LightViews views = fitLightViews(seen, fitting);
+  if (reach.dependsOnViews())
+  {
+    // How many texels that is, only a view can tell. A wider border makes them fewer.
+    fitting.texels.border = reach.borderTexels(mostTexelsAcross(views, light.mapSizeTexels),
+      reachOfArea(reach.area, views, fitting.castersCentred, fitting.receiversCentred));
+    views = fitLightViews(seen, fitting);
+  }
+  return views;
+}
+
+//------------------------------------------------------------------------------
+/// What maps of this frame are to be drawn from.
+LightTechnique::Bake LightTechnique::wantedIn(const ShadowLight& light, const MapStage& stage)
+{
+  Bake wanted;
+  wanted.reach = this->technique_->mapReach(light);
+  wanted.views = this->layOut(light, stage, wanted.reach);
+  wanted.camera = this->fitting_.camera;
+  wanted.settings = light;
+  wanted.topology = stage.occluders.topologyVersion;
+  wanted.positions = stage.occluders.positionsVersion;
+  if (light.fittedToReceivers)
+  {
+    wanted.receivers = stage.receiversShown;
+    hashCombine(wanted.receivers, light.snap);
+    hashCombine(wanted.receivers, light.splitLambda);
+  }
+  if (this->info().conservativeMap)
+  {
+    wanted.rasterizer = this->info().onlyCpuDraws.empty()
+      ? stage.rasterizer
+      : RasterizerChoice{ std::nullopt, false, this->info().onlyCpuDraws };
+    wanted.drawnBy = *wanted.rasterizer;
+  }
+  wanted.made = true;
+  return wanted;
+}
+
+//------------------------------------------------------------------------------
+void LightTechnique::bake(const ShadowLight& light, const MapStage& stage, Bake wanted)
+{
+  stage.buffers.update(stage.occluders);
+  if (light.fittedToReceivers)
+  {
+    this->receiverFit_.compute(light, wanted.views,
+      { stage.receivers.fragments(), stage.receivers.points(), stage.receivers.width(),
+        stage.receivers.height() },
+      stage.centredFromView, stage.shaders);
+  }
+  namingLight(light,
+    [&]
+    {
+      wanted.drawnBy = bakeMaps(*this->technique_,
+        { light, wanted.views, stage.occluders, stage.buffers, stage.shaders,
+          light.fittedToReceivers ? this->receiverFit_.fits() : TextureBinding() },
+        wanted.drawnBy);
+    });
+  wanted.castersLeftOut = stage.buffers.countUnseen(wanted.views.views);
+  this->baked_ = std::move(wanted);
+  ++stage.mapBakes;
+}
+
+//------------------------------------------------------------------------------
+bool LightTechnique::Bake::serves(const Bake& wanted) const
+{
+  return this->made && this->views == wanted.views && this->reach == wanted.reach &&
+    this->settings.mapSizeTexels == wanted.settings.mapSizeTexels &&
+    this->settings.storesAs(wanted.settings) &&
+    this->rasterizer.has_value() == wanted.rasterizer.has_value() &&
+    (!this->rasterizer || servesChoice(*this->rasterizer, this->drawnBy, *wanted.rasterizer)) &&
+    this->topology == wanted.topology && this->positions == wanted.positions &&
+    this->receivers == wanted.receivers;
+}
+
+//------------------------------------------------------------------------------
+void LightTechnique::Bake::takeReasonOf(const Bake& wanted)
+{
+  if (wanted.rasterizer && this->drawnBy.gpu == wanted.rasterizer->gpu)
+  {
+    this->rasterizer = wanted.rasterizer;
+    this->drawnBy = *wanted.rasterizer;
+  }
+}
+
+//------------------------------------------------------------------------------
+void LightTechnique::Bake::tell(LightReport& report) const
+{
+  report.castersLeftOut = this->castersLeftOut;
+  if (this->rasterizer)
+  {
+    report.rasterizer =
+      this->drawnBy.gpu ? std::string("gpu: ") + nameOf(*this->drawnBy.gpu) : "cpu";
+    report.rasterizerReason = this->drawnBy.reason;
+  }
+}
+
+} // namespace gnomon
