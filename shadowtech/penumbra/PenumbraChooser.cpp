@@ -4,6 +4,7 @@
 #include "shadowtech/penumbra/ShaftEdges.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -27,6 +28,13 @@ constexpr std::size_t edgesPerSample = 4;
 constexpr std::size_t mostEdges = 8192;
 constexpr std::size_t seenPerSample = 2;
 constexpr std::int64_t triesOfBlock = 4;
+///@}
+
+///@{
+/// Where pixels of a square see what is far apart, their starts lie in parts of so many along the longest side of their box, with at least
+/// so many empty ones between them.
+constexpr std::size_t partsOfStarts = 8;
+constexpr std::size_t emptyOfStarts = 3;
 ///@}
 
 /// An edge as it is seen from a start.
@@ -228,6 +236,10 @@ public:
   /// @return how many of these pixels have all their rays traced
   std::int64_t choose(std::uint16_t* pixels, std::size_t count)
   {
+    if (const std::size_t nearer = this->splitAtGap(pixels, count))
+    {
+      return this->choose(pixels, nearer) + this->choose(pixels + nearer, count - nearer);
+    }
     std::vector<glm::vec3> starts(count);
     for (std::size_t i = 0; i < count; ++i)
     {
@@ -248,13 +260,7 @@ public:
       return static_cast<std::int64_t>(count);
     }
     // Halves across the longest side of what holds them.
-    Bounds bounds;
-    for (const glm::vec3& start : starts)
-    {
-      bounds.add(glm::dvec3(start));
-    }
-    const glm::dvec3 size = bounds.upper - bounds.lower;
-    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    const int axis = longestAxis(this->boundsOf(pixels, count));
     std::uint16_t* const middle = pixels + count / 2;
     std::nth_element(pixels, middle, pixels + count,
       [&](std::uint16_t a, std::uint16_t b)
@@ -266,6 +272,61 @@ private:
   glm::vec3 startOf(std::size_t pixel) const
   {
     return { this->tile_.originX[pixel], this->tile_.originY[pixel], this->tile_.originZ[pixel] };
+  }
+
+  Bounds boundsOf(const std::uint16_t* pixels, std::size_t count) const
+  {
+    Bounds bounds;
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      bounds.add(glm::dvec3(this->startOf(pixels[i])));
+    }
+    return bounds;
+  }
+
+  static int longestAxis(const Bounds& bounds)
+  {
+    const glm::dvec3 size = bounds.upper - bounds.lower;
+    return size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+  }
+
+  /// Sorts pixels into those before and those behind a gap, as where one surface ends before another: a shaft of
+  /// both would hold all that is between them.
+  /// @return how many of them come first; 0 where there is no gap
+  std::size_t splitAtGap(std::uint16_t* pixels, std::size_t count) const
+  {
+    const Bounds bounds = this->boundsOf(pixels, count);
+    const int axis = longestAxis(bounds);
+    const double lower = bounds.lower[axis];
+    const double size = bounds.upper[axis] - lower;
+    if (!(size > 0.0))
+    {
+      return 0;
+    }
+    const auto partOf = [&](std::uint16_t pixel)
+    {
+      const double share = (static_cast<double>(this->startOf(pixel)[axis]) - lower) / size;
+      return std::min(
+        static_cast<std::size_t>(share * static_cast<double>(partsOfStarts)), partsOfStarts - 1);
+    };
+    std::array<bool, partsOfStarts> taken{};
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      taken[partOf(pixels[i])] = true;
+    }
+    // The first part and the last one are taken.
+    std::size_t empty = 0;
+    for (std::size_t part = 1; part < partsOfStarts; ++part)
+    {
+      if (taken[part] && empty >= emptyOfStarts)
+      {
+        std::uint16_t* const behind = std::partition(
+          pixels, pixels + count, [&](std::uint16_t pixel) { return partOf(pixel) < part; });
+        return static_cast<std::size_t>(behind - pixels);
+      }
+      empty = taken[part] ? 0 : empty + 1;
+    }
+    return 0;
   }
 
   /// Whether its rays end where the shaft's do: those that start closer to the near face of a light's box than their
