@@ -15,9 +15,9 @@ namespace
 /// Triangles that are more than so many times as long as high are needles: what a tracer makes of them is rounding.
 constexpr double mostSlender = 16384.0;
 
-/// What the sign of a ray's start against a triangle's plane may be off by is 33u XYZ/A (ShadowRay.h); this is twice as
-/// much.
-constexpr double noiseOfExtent = 66.0 / 16777216.0;
+/// What the sign of v . N may be off by for a triangle's normal N and a vector from one of its corners, or a direction: ShadowRay.h's
+/// bound is 11u YZ for each x, with Y and Z the extent of its box. This is twice as much.
+constexpr double noiseOfExtent = 22.0 / 16777216.0;
 
 EdgeTriangle edgeTriangle(const std::array<glm::vec3, 3>& corners, bool oneSided)
 {
@@ -33,7 +33,9 @@ EdgeTriangle edgeTriangle(const std::array<glm::vec3, 3>& corners, bool oneSided
   triangle.corner = corners[0];
   triangle.height = static_cast<float>(glm::length(normal) / longest);
   triangle.longest = static_cast<float>(longest);
-  triangle.noise = static_cast<float>(noiseOfExtent * extent.x * extent.y * extent.z / longest);
+  triangle.unsure = noiseOfExtent / longest *
+    glm::dvec3(extent.y * extent.z, extent.z * extent.x, extent.x * extent.y);
+  triangle.noise = glm::dot(triangle.unsure, glm::vec3(extent));
   triangle.oneSided = oneSided;
   return triangle;
 }

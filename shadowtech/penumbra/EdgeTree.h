@@ -24,9 +24,27 @@ struct EdgeTriangle
   glm::vec3 corner;  ///< centred
   float height;      ///< the least of its three, in world units
   float longest;     ///< of its sides
+  /// What rounding makes of a product with the normal: up to dot(unsure, abs(v)) of dot(v, normal).
+  glm::vec3 unsure;
   /// How far off its plane, times its height, a point in its box may seem to lie.
   float noise;
   bool oneSided; ///< blocks rays through its back alone, which then faces away from the light
+
+  /// Whether rays that start on one side of its plane go away from it for certain, so that none meets it, whatever rounding makes of
+  /// these two signs: as those from the surface that they start on.
+  /// @param behind the least and the most of their starts'
+  /// @param reach of the corners from the starts, at most, axis by axis
+  /// @param along the least and the most of dot(direction, normal)
+  /// @param longestDirection not less than their length
+  bool isLeft(const glm::dvec2& behind, const glm::dvec3& reach, const glm::dvec2& along,
+    double longestDirection) const
+  {
+    const double unsureBehind = glm::dot(glm::dvec3(this->unsure), reach);
+    const double unsureAlong =
+      (this->unsure.x + this->unsure.y + this->unsure.z) * longestDirection;
+    return (behind.y < -unsureBehind && along.x > unsureAlong) ||
+      (behind.x > unsureBehind && along.y < -unsureAlong);
+  }
 
   /// How far a point lies behind its plane, times its height. Behind is where its corners run clockwise.
   double behind(const glm::dvec3& point) const
@@ -95,6 +113,16 @@ public:
   const std::array<glm::vec3, 3>& corners(std::uint32_t triangle) const
   {
     return this->corners_[triangle];
+  }
+  /// How far from a point a triangle's corners are, axis by axis.
+  glm::dvec3 reach(std::uint32_t triangle, const glm::dvec3& point) const
+  {
+    glm::dvec3 reach(0.0);
+    for (const glm::vec3& corner : this->corners_[triangle])
+    {
+      reach = glm::max(reach, glm::abs(glm::dvec3(corner) - point));
+    }
+    return reach;
   }
   /// Of a record.
   const Bounds& bounds(const Record& record) const

@@ -218,6 +218,17 @@ bool LightShaft::mayReachEnds(const Bounds& centred) const
 }
 
 //------------------------------------------------------------------------------
+glm::dvec2 LightShaft::extentAlong(const glm::dvec3& centred, const Slopes& slopes) const
+{
+  const glm::dvec3 along = this->shaftFromCentred_ * centred;
+  const glm::dvec2 middle = 0.5 * (slopes.least + slopes.most);
+  const glm::dvec2 half = slopes.most - middle;
+  const double ofMiddle = glm::dot(along, glm::dvec3(middle, 1.0));
+  const double more = std::abs(along.x) * half.x + std::abs(along.y) * half.y;
+  return { ofMiddle - more, ofMiddle + more };
+}
+
+//------------------------------------------------------------------------------
 bool LightShaft::passes(
   const glm::dvec3& from, const glm::dvec3& to, double length, double uncertain) const
 {

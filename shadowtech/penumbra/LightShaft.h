@@ -82,6 +82,15 @@ public:
   /// Whether the line of an edge passes all rays by.
   /// @param uncertain how little of cross(from, to) times a ray's (x, y, 1) says nothing
   bool passes(const glm::dvec3& from, const glm::dvec3& to, double length, double uncertain) const;
+  /// The least and the most of the product of a vector and any ray's (x, y, 1).
+  /// @param centred the vector
+  ///@{
+  glm::dvec2 extentAlong(const glm::dvec3& centred) const
+  {
+    return this->extentAlong(centred, this->allSlopes_);
+  }
+  glm::dvec2 extentAlong(const glm::dvec3& centred, const Slopes& slopes) const;
+  ///@}
   /// Not less than the length of (x, y, 1) for any ray's slopes.
   double longestSlope() const { return this->longestSlope_; }
 

@@ -66,7 +66,7 @@ public:
     Look look{ std::sqrt(squared) + edge.edge->reach, edge.weight, 1.0, edge.height };
     if (std::isnan(edge.weight))
     {
-      this->lookAtTriangles(*edge.edge, look);
+      this->lookAtTriangles(edge, look);
       if (look.weight == 0.0f && look.width == 1.0 && !edge.strip)
       {
         return std::nullopt;
@@ -89,24 +89,40 @@ private:
       height; ///< the least above their planes, over their longest side; 0 where one is seen from its side
   };
 
-  void lookAtTriangles(const TreeEdge& edge, Look& look) const
+  void lookAtTriangles(const ShaftEdges::Edge& edge, Look& look) const
   {
     look.weight = 0.0f;
     look.height = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < 2 && edge.triangles[i] != TreeEdge::none; ++i)
+    for (std::size_t i = 0; i < 2; ++i)
     {
+      if (edge.triangles[i] == TreeEdge::none)
+      {
+        continue;
+      }
       const EdgeTriangle& triangle = this->tree_.triangle(edge.triangles[i]);
       const double behind = triangle.behind(this->start_);
-      look.weight += directionOf(edge, i) * weightOf(triangle, behind > 0.0);
-      look.height = std::min(look.height, std::abs(behind) / triangle.longest);
-      if (!(std::abs(behind) >
-            EdgeRounding::ofHeight * EdgeRounding::unit * look.farthest * look.farthest))
+      look.weight += directionOf(*edge.edge, i) * weightOf(triangle, behind > 0.0);
+      const bool fromSide = !(std::abs(behind) >
+        EdgeRounding::ofHeight * EdgeRounding::unit * look.farthest * look.farthest);
+      if (fromSide && this->isLeft(edge.triangles[i], behind))
+      {
+        continue; // rounding makes nothing of it
+      }
+      look.height = fromSide ? 0.0 : std::min(look.height, std::abs(behind) / triangle.longest);
+      if (fromSide)
       {
         look.width = std::max({ look.width, EdgeRounding::wider,
           static_cast<double>(triangle.longest / triangle.height) });
-        look.height = 0.0;
       }
     }
+  }
+
+  /// Whether no ray meets a triangle, whatever rounding makes of it.
+  bool isLeft(std::uint32_t number, double behind) const
+  {
+    const EdgeTriangle& triangle = this->tree_.triangle(number);
+    return triangle.isLeft(glm::dvec2(behind), this->tree_.reach(number, this->start_),
+      this->shaft_.extentAlong(triangle.normal, this->slopes_), this->longestSlope_);
   }
 
   /// Where an edge begins that is cut off where the rays start and where they end.
@@ -248,8 +264,8 @@ public:
     ShaftEdges::Found found = ShaftEdges::Found::Unclear;
     if (const std::optional<LightShaft> shaft = LightShaft::make(this->light_, starts))
     {
-      found = this->edges_.find(
-        this->tree_, *shaft, std::min(edgesPerSample * this->directions_.size(), mostEdges));
+      found = this->edges_.find(this->tree_, *shaft, starts,
+        std::min(edgesPerSample * this->directions_.size(), mostEdges));
       if (found == ShaftEdges::Found::All)
       {
         return this->choose(pixels, count, *shaft);
