@@ -198,7 +198,9 @@ private:
       across = -across;
     }
     const bool counts = !beyondLight && !behindStart;
-    const float weight = !counts ? 0.0f : swapped ? -look.weight : look.weight;
+    const auto weight = static_cast<std::int32_t>(!counts ? 0.0f
+        : swapped                                         ? -look.weight
+                                                          : look.weight);
     SeenEdge seen;
     seen.across = across;
     seen.uncertain = static_cast<float>(uncertain);
@@ -207,7 +209,8 @@ private:
     seen.upper = static_cast<float>(upper.y);
     seen.uncertainLower = everywhere ? -3e38f : static_cast<float>(lower.y - beyond);
     seen.uncertainUpper = everywhere ? 3e38f : static_cast<float>(upper.y + beyond);
-    seen.weightBelow = seen.below = 0.0f;
+    seen.weightBelow = 0;
+    seen.below = 0.0f;
     // What goes on beyond the largest x is counted along that line.
     const double border = this->slopes_.most.x;
     const bool lowerIn = lower.x <= border;
@@ -245,8 +248,12 @@ public:
     , tile_(tile)
     , directionsOf_(directionsOf)
     , rays_(rays)
-    , directions_(samples)
+    , samples_(samples)
   {
+    for (std::vector<float>& axis : this->directions_)
+    {
+      axis.resize(samples);
+    }
   }
 
   /// @return how many of these pixels have all their rays traced
@@ -264,8 +271,8 @@ public:
     ShaftEdges::Found found = ShaftEdges::Found::Unclear;
     if (const std::optional<LightShaft> shaft = LightShaft::make(this->light_, starts))
     {
-      found = this->edges_.find(this->tree_, *shaft, starts,
-        std::min(edgesPerSample * this->directions_.size(), mostEdges));
+      found = this->edges_.find(
+        this->tree_, *shaft, starts, std::min(edgesPerSample * this->samples_, mostEdges));
       if (found == ShaftEdges::Found::All)
       {
         return this->choose(pixels, count, *shaft);
@@ -378,7 +385,7 @@ private:
       }
       const Seeing see(this->tree_, shaft, start);
       this->edges_.select(see.startShaft(), see.slopes(), this->numbers_);
-      if (this->numbers_.size() > seenPerSample * this->directions_.size())
+      if (this->numbers_.size() > seenPerSample * this->samples_)
       {
         ++traced;
         ++tooMany;
@@ -409,7 +416,7 @@ private:
   /// A pixel whose rays pass no edge.
   void decideByOneRay(std::uint16_t pixel)
   {
-    const auto all = static_cast<std::uint32_t>(this->directions_.size());
+    const auto all = static_cast<std::uint32_t>(this->samples_);
     this->rays_.pixels[pixel] = { all, all, 0, 1 };
     this->tile_.classes[pixel] = static_cast<std::uint8_t>(TracedClass::Lit);
   }
@@ -417,39 +424,26 @@ private:
   /// A pixel whose rays pass edges.
   void count(std::uint16_t pixel, const LightShaft& shaft)
   {
-    this->directionsOf_(pixel, this->directions_.data());
-    this->sums_.setRays(
-      glm::mat3(shaft.rotation()), this->directions_.data(), this->directions_.size());
+    const LightSamples::Coordinates directions{ this->directions_[0].data(),
+      this->directions_[1].data(), this->directions_[2].data() };
+    this->directionsOf_(pixel, directions);
+    this->sums_.setRays(glm::mat3(shaft.rotation()), directions, this->samples_);
     this->sums_.add(this->seen_);
-    float least = std::numeric_limits<float>::infinity();
-    for (std::size_t i = 0; i < this->sums_.count(); ++i)
-    {
-      least = this->sums_.isUncertain(i) ? least : std::min(least, this->sums_.sum(i));
-    }
-    PixelSamples& chosen = this->rays_.pixels[pixel];
-    chosen = { 0, 0, static_cast<std::uint32_t>(this->rays_.samples.size()), 0 };
+    std::vector<std::uint32_t>& samples = this->rays_.samples;
+    const std::size_t before = samples.size();
     // One of those that meet the fewest triangles comes first, and stands for all of them.
-    std::uint32_t uncertain = 0;
-    for (std::size_t i = 0; i < this->sums_.count(); ++i)
+    const EdgeSums::Fewest fewest = this->sums_.fewest();
+    if (fewest.count > 0)
     {
-      const bool fewest = !this->sums_.isUncertain(i) && this->sums_.sum(i) == least;
-      if (fewest && chosen.ofFirstRay == 0)
-      {
-        this->rays_.samples.push_back(static_cast<std::uint32_t>(i));
-      }
-      chosen.ofFirstRay += fewest ? 1u : 0u;
-      uncertain += this->sums_.isUncertain(i) ? 1u : 0u;
+      samples.push_back(fewest.first);
     }
-    for (std::size_t i = 0; i < this->sums_.count() && uncertain > 0; ++i)
-    {
-      if (this->sums_.isUncertain(i))
-      {
-        this->rays_.samples.push_back(static_cast<std::uint32_t>(i));
-      }
-    }
-    chosen.lit = chosen.ofFirstRay + uncertain;
-    chosen.count = static_cast<std::uint32_t>(this->rays_.samples.size()) - chosen.first;
-    chosen.ofFirstRay = std::max(chosen.ofFirstRay, 1u);
+    const std::size_t certain = samples.size();
+    this->sums_.appendUncertain(samples);
+    PixelSamples& chosen = this->rays_.pixels[pixel];
+    chosen.lit = fewest.count + static_cast<std::uint32_t>(samples.size() - certain);
+    chosen.ofFirstRay = std::max(fewest.count, 1u);
+    chosen.first = static_cast<std::uint32_t>(before);
+    chosen.count = static_cast<std::uint32_t>(samples.size() - before);
     this->tile_.classes[pixel] = penumbraClass;
   }
 
@@ -458,7 +452,8 @@ private:
   TracedTile& tile_;
   const SampleChooser::DirectionsOf& directionsOf_;
   SampleRays& rays_;
-  std::vector<glm::vec3> directions_;
+  std::size_t samples_;
+  std::array<std::vector<float>, 3> directions_; ///< of a pixel's rays: x, y, z
   ShaftEdges edges_;
   std::vector<std::uint32_t> numbers_;
   std::vector<SeenEdge> seen_;
