@@ -311,36 +311,45 @@ void EdgeTree::fitNodes()
 }
 
 //------------------------------------------------------------------------------
-bool EdgeTree::isOnTriangle(const glm::vec3& start) const
+void EdgeTree::find(const Bounds& bounds, std::vector<std::uint32_t>& places) const
 {
-  return !this->empty() && this->isOnTriangle(start, this->root_);
+  places.clear();
+  if (!this->empty())
+  {
+    this->find(bounds, this->root_, places);
+  }
 }
 
 //------------------------------------------------------------------------------
 /// @param link where to go on
-bool EdgeTree::isOnTriangle(const glm::vec3& start, std::uint32_t link) const
+void EdgeTree::find(
+  const Bounds& bounds, std::uint32_t link, std::vector<std::uint32_t>& places) const
 {
-  const auto isIn = [&](const auto& box)
+  const auto meets = [&](const auto& box)
   {
-    return start.x >= box.lower.x && start.x <= box.upper.x && start.y >= box.lower.y &&
-      start.y <= box.upper.y && start.z >= box.lower.z && start.z <= box.upper.z;
+    return bounds.upper.x >= box.lower.x && bounds.lower.x <= box.upper.x &&
+      bounds.upper.y >= box.lower.y && bounds.lower.y <= box.upper.y &&
+      bounds.upper.z >= box.lower.z && bounds.lower.z <= box.upper.z;
   };
   if (!BvhLink::isLeaf(link))
   {
-    return (isIn(this->nodes_[link]) && this->isOnTriangle(start, this->nodes_[link].link)) ||
-      (isIn(this->nodes_[link + 1]) && this->isOnTriangle(start, this->nodes_[link + 1].link));
+    for (std::uint32_t child = link; child < link + 2; ++child)
+    {
+      if (meets(this->nodes_[child]))
+      {
+        this->find(bounds, this->nodes_[child].link, places);
+      }
+    }
+    return;
   }
   for (std::uint32_t i = 0; i < BvhLink::count(link); ++i)
   {
-    const Record of = this->record(BvhLink::first(link) + i);
-    if (isIn(this->bounds(of)) &&
-      (of.opaque ||
-        !(std::abs(this->triangles_[of.number].behind(start)) > this->triangles_[of.number].noise)))
+    const std::uint32_t place = BvhLink::first(link) + i;
+    if (meets(this->bounds(this->record(place))))
     {
-      return true;
+      places.push_back(place);
     }
   }
-  return false;
 }
 
 //------------------------------------------------------------------------------

@@ -10,6 +10,7 @@
 #include <glm/glm.hpp>
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -98,8 +99,21 @@ public:
     float reach = 0.0f;         ///< the most of their edges'
   };
 
-  /// Whether rays from a start may begin on a triangle, as far as rounding says.
-  bool isOnTriangle(const glm::vec3& start) const;
+  /// Finds the places of records whose boxes meet another box.
+  /// @param places gets them
+  void find(const Bounds& bounds, std::vector<std::uint32_t>& places) const;
+
+  /// Whether rays from a start may begin on what a record stands for, as far as rounding says.
+  bool isOn(const glm::vec3& start, const Record& record) const
+  {
+    const Bounds& box = this->bounds(record);
+    const bool isIn = start.x >= box.lower.x && start.x <= box.upper.x && start.y >= box.lower.y &&
+      start.y <= box.upper.y && start.z >= box.lower.z && start.z <= box.upper.z;
+    return isIn &&
+      (record.opaque ||
+        !(std::abs(this->triangles_[record.number].behind(start)) >
+          this->triangles_[record.number].noise));
+  }
 
   bool empty() const { return this->records_.empty(); }
   /// How many records there are.
@@ -136,7 +150,7 @@ private:
   void addSurface(const Occluders& occluders, std::size_t surface, std::vector<BvhRecord>& records);
   void addOpaque(const Bounds& bounds, std::vector<BvhRecord>& records);
   void fitNodes();
-  bool isOnTriangle(const glm::vec3& start, std::uint32_t link) const;
+  void find(const Bounds& bounds, std::uint32_t link, std::vector<std::uint32_t>& places) const;
   std::vector<Cone> conesOfTriangles() const;
 
   KeptOfCasters<SurfaceEdges> found_;

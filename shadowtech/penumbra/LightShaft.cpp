@@ -43,14 +43,10 @@ glm::dmat3 axesAlong(const glm::dvec3& z, const glm::dmat3& area)
 } // namespace
 
 //------------------------------------------------------------------------------
-std::optional<LightShaft> LightShaft::make(
-  const ShaftLight& light, const std::vector<glm::vec3>& starts)
+std::optional<LightShaft> LightShaft::make(const ShaftLight& light, const RayStarts& starts)
 {
   LightShaft shaft;
-  for (const glm::vec3& start : starts)
-  {
-    shaft.starts_.add(glm::dvec3(start));
-  }
+  shaft.starts_ = starts.bounds();
   shaft.origin_ = shaft.starts_.centre();
   shaft.directional_ = light.rays.kind == LightKind::Directional;
   const glm::dvec3 centre = light.rays.position;

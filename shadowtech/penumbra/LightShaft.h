@@ -3,6 +3,7 @@
 
 #include "lights/Bounds.h"
 #include "shadowtech/base/ShadowRay.h"
+#include "shadowtech/penumbra/RayStarts.h"
 
 #include <glm/glm.hpp>
 
@@ -10,7 +11,6 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
-#include <vector>
 
 namespace gnomon
 {
@@ -41,8 +41,7 @@ public:
 
   /// @param starts centred; at least one
   /// @return nothing where the light is too close, or too large, or seen from its side
-  static std::optional<LightShaft> make(
-    const ShaftLight& light, const std::vector<glm::vec3>& starts);
+  static std::optional<LightShaft> make(const ShaftLight& light, const RayStarts& starts);
 
   glm::dvec3 toShaft(const glm::dvec3& centred) const
   {

@@ -263,16 +263,17 @@ public:
     {
       return this->choose(pixels, nearer) + this->choose(pixels + nearer, count - nearer);
     }
-    std::vector<glm::vec3> starts(count);
+    this->starts_.clear();
     for (std::size_t i = 0; i < count; ++i)
     {
-      starts[i] = this->startOf(pixels[i]);
+      this->starts_.add(this->startOf(pixels[i]));
     }
+    this->starts_.finish();
     ShaftEdges::Found found = ShaftEdges::Found::Unclear;
-    if (const std::optional<LightShaft> shaft = LightShaft::make(this->light_, starts))
+    if (const std::optional<LightShaft> shaft = LightShaft::make(this->light_, this->starts_))
     {
       found = this->edges_.find(
-        this->tree_, *shaft, starts, std::min(edgesPerSample * this->samples_, mostEdges));
+        this->tree_, *shaft, this->starts_, std::min(edgesPerSample * this->samples_, mostEdges));
       if (found == ShaftEdges::Found::All)
       {
         return this->choose(pixels, count, *shaft);
@@ -283,7 +284,7 @@ public:
       return static_cast<std::int64_t>(count);
     }
     // Halves across the longest side of what holds them.
-    const int axis = longestAxis(this->boundsOf(pixels, count));
+    const int axis = longestAxis(this->starts_.bounds());
     std::uint16_t* const middle = pixels + count / 2;
     std::nth_element(pixels, middle, pixels + count,
       [&](std::uint16_t a, std::uint16_t b)
@@ -352,6 +353,31 @@ private:
     return 0;
   }
 
+  /// Finds what rays may start on, as far as rounding says.
+  void findUnderStarts()
+  {
+    this->tree_.find(this->starts_.bounds(), this->under_);
+    const auto isCertain = [&](std::uint32_t place)
+    {
+      const EdgeTree::Record record = this->tree_.record(place);
+      if (record.opaque)
+      {
+        return false;
+      }
+      const EdgeTriangle& triangle = this->tree_.triangle(record.number);
+      const glm::dvec2 behind = this->starts_.behind(triangle);
+      return behind.x > triangle.noise || behind.y < -triangle.noise;
+    };
+    this->under_.erase(
+      std::remove_if(this->under_.begin(), this->under_.end(), isCertain), this->under_.end());
+  }
+
+  bool isOnTriangle(const glm::vec3& start) const
+  {
+    return std::any_of(this->under_.begin(), this->under_.end(),
+      [&](std::uint32_t place) { return this->tree_.isOn(start, this->tree_.record(place)); });
+  }
+
   /// Whether its rays end where the shaft's do: those that start closer to the near face of a light's box than their
   /// offset is long go beyond it.
   bool endsAsShaft(std::size_t pixel, const LightShaft& shaft) const
@@ -365,6 +391,7 @@ private:
 
   std::int64_t choose(const std::uint16_t* pixels, std::size_t count, const LightShaft& shaft)
   {
+    this->findUnderStarts();
     std::int64_t traced = 0;
     std::int64_t tooMany = 0;
     bool anyFew = false;
@@ -372,7 +399,7 @@ private:
     {
       const std::uint16_t pixel = pixels[i];
       const glm::vec3 start = this->startOf(pixel);
-      if (this->tree_.isOnTriangle(start) || !this->endsAsShaft(pixel, shaft))
+      if (this->isOnTriangle(start) || !this->endsAsShaft(pixel, shaft))
       {
         ++traced;
         continue;
@@ -454,6 +481,8 @@ private:
   SampleRays& rays_;
   std::size_t samples_;
   std::array<std::vector<float>, 3> directions_; ///< of a pixel's rays: x, y, z
+  RayStarts starts_;
+  std::vector<std::uint32_t> under_; ///< places of records that some of these may be on
   ShaftEdges edges_;
   std::vector<std::uint32_t> numbers_;
   std::vector<SeenEdge> seen_;

@@ -13,16 +13,21 @@ namespace
 /// So few triangles may all lie in one leaf of a tracer's, which asks them without looking at any box.
 constexpr std::size_t mostOfLeaf = 32;
 
+/// Triangles whose sight is kept while looking for edges: more than a square nearly always has.
+constexpr std::size_t sightsKept = 512;
+
 /// What matters farther around an edge than so much matters everywhere.
 constexpr double mostSlopes = 0.25;
 
 } // namespace
 
 //------------------------------------------------------------------------------
-ShaftEdges::Found ShaftEdges::find(const EdgeTree& tree, const LightShaft& shaft,
-  const std::vector<glm::vec3>& starts, std::size_t most)
+ShaftEdges::Found ShaftEdges::find(
+  const EdgeTree& tree, const LightShaft& shaft, const RayStarts& starts, std::size_t most)
 {
   this->most_ = most;
+  ++this->search_;
+  this->looked_.resize(sightsKept);
   this->tree_ = &tree;
   this->shaft_ = &shaft;
   this->starts_ = &starts;
@@ -119,7 +124,7 @@ ShaftEdges::Found ShaftEdges::take(const EdgeTree::Record& record)
   {
     return Found::All;
   }
-  const Sight sight = this->look(record.number);
+  const Sight sight = this->look(record.number); // a copy: what is kept may give way
   if (sight.left)
   {
     return Found::All;
@@ -157,9 +162,19 @@ ShaftEdges::Found ShaftEdges::take(const EdgeTree::Record& record)
 }
 
 //------------------------------------------------------------------------------
-ShaftEdges::Sight ShaftEdges::look(std::uint32_t number) const
+const ShaftEdges::Sight& ShaftEdges::look(std::uint32_t number)
 {
-  const EdgeTriangle& triangle = this->tree_->triangle(number);
+  Looked& looked = this->looked_[number % sightsKept];
+  if (looked.search != this->search_ || looked.number != number)
+  {
+    looked = { this->search_, number, this->sightOf(this->tree_->triangle(number), number) };
+  }
+  return looked.sight;
+}
+
+//------------------------------------------------------------------------------
+ShaftEdges::Sight ShaftEdges::sightOf(const EdgeTriangle& triangle, std::uint32_t number) const
+{
   const double behind = triangle.behind(this->centre_);
   const double least = std::abs(behind) - glm::dot(glm::abs(triangle.normal), this->half_);
   const double farthest =
@@ -176,16 +191,13 @@ ShaftEdges::Sight ShaftEdges::look(std::uint32_t number) const
 bool ShaftEdges::isLeft(std::uint32_t number) const
 {
   const EdgeTriangle& triangle = this->tree_->triangle(number);
-  glm::dvec2 behind(
-    std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity());
-  for (const glm::vec3& start : *this->starts_)
+  const glm::dvec2 along = this->shaft_->extentAlong(triangle.normal);
+  if (along.x < 0.0 && along.y > 0.0)
   {
-    const double of = triangle.behind(start);
-    behind.x = std::min(behind.x, of);
-    behind.y = std::max(behind.y, of);
+    return false;
   }
-  return triangle.isLeft(behind, this->tree_->reach(number, this->centre_) + this->half_,
-    this->shaft_->extentAlong(triangle.normal), this->shaft_->longestSlope());
+  return triangle.isLeft(this->starts_->behind(triangle),
+    this->tree_->reach(number, this->centre_) + this->half_, along, this->shaft_->longestSlope());
 }
 
 //------------------------------------------------------------------------------
@@ -255,7 +267,7 @@ void ShaftEdges::takeEdge(const TreeEdge& edge)
   for (std::size_t i = 0; i < 2 && edge.triangles[i] != TreeEdge::none; ++i)
   {
     const EdgeTriangle& triangle = this->tree_->triangle(edge.triangles[i]);
-    const Sight sight = this->look(edge.triangles[i]);
+    const Sight& sight = this->look(edge.triangles[i]);
     if (sight.left)
     {
       taken.triangles[i] = TreeEdge::none;
