@@ -149,7 +149,10 @@ public:
 private:
   void addSurface(const Occluders& occluders, std::size_t surface, std::vector<BvhRecord>& records);
   void addOpaque(const Bounds& bounds, std::vector<BvhRecord>& records);
-  void fitNodes();
+  TreeEdge treeEdge(const std::array<std::uint32_t, 2>& triangles, const glm::vec3& from,
+    const glm::vec3& to, bool sameDirection) const;
+  void fitNodes(std::uint32_t link, const std::vector<Cone>& ofTriangles, int parallel);
+  void fitNode(std::uint32_t number, const std::vector<Cone>& ofTriangles);
   void find(const Bounds& bounds, std::uint32_t link, std::vector<std::uint32_t>& places) const;
   std::vector<Cone> conesOfTriangles() const;
 
