@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 namespace gnomon
@@ -76,12 +77,21 @@ std::optional<LightShaft> LightShaft::make(const ShaftLight& light, const RaySta
     const glm::dvec3 outwards = plane.outwards * shaft.shaftFromCentred_;
     return Plane{ outwards, plane.distance + glm::dot(outwards, shaft.origin_) };
   };
+  Planes& sides = shaft.sidesCentred_;
+  sides.distance.fill(std::numeric_limits<double>::infinity());
+  const auto put = [&](std::size_t i, const Plane& plane)
+  {
+    sides.x[i] = plane.outwards.x;
+    sides.y[i] = plane.outwards.y;
+    sides.z[i] = plane.outwards.z;
+    sides.distance[i] = plane.distance;
+  };
   for (std::size_t i = 0; i < shaft.sides_.size(); ++i)
   {
-    shaft.sidesCentred_[i] = toCentred(shaft.sides_[i]);
+    put(i, toCentred(shaft.sides_[i]));
   }
+  put(shaft.sides_.size(), toCentred({ shaft.end_, shaft.lastEnd_ }));
   shaft.firstEndCentred_ = toCentred({ shaft.end_, shaft.firstEnd_ });
-  shaft.sidesCentred_.back() = toCentred({ shaft.end_, shaft.lastEnd_ });
   return shaft;
 }
 
@@ -191,16 +201,23 @@ LightShaft::Slopes LightShaft::slopes(const glm::dvec3& start) const
 }
 
 //------------------------------------------------------------------------------
+#ifdef __x86_64__
+[[gnu::target_clones("avx2", "default")]]
+#endif
 bool LightShaft::mayMeet(const Bounds& centred) const
 {
   const glm::dvec3 centre = centred.centre();
   const glm::dvec3 half = centred.upper - centre;
-  return std::none_of(this->sidesCentred_.begin(), this->sidesCentred_.end(),
-    [&](const Plane& plane)
-    {
-      return glm::dot(plane.outwards, centre) - glm::dot(glm::abs(plane.outwards), half) >
-        plane.distance;
-    });
+  const Planes& planes = this->sidesCentred_;
+  std::int64_t outside = 0;
+  for (std::size_t i = 0; i < planes.x.size(); ++i)
+  {
+    const double nearest = planes.x[i] * centre.x - std::abs(planes.x[i]) * half.x +
+      (planes.y[i] * centre.y - std::abs(planes.y[i]) * half.y) +
+      (planes.z[i] * centre.z - std::abs(planes.z[i]) * half.z);
+    outside |= nearest > planes.distance[i] ? 1 : 0;
+  }
+  return outside == 0;
 }
 
 //------------------------------------------------------------------------------

@@ -126,11 +126,13 @@ private:
   glm::dvec3 end_{ 0.0 };
   double firstEnd_ = std::numeric_limits<double>::infinity();
   double lastEnd_ = std::numeric_limits<double>::infinity();
-  ///@{
-  /// Centred: the sides and the last end; the first end.
-  std::array<Plane, 6> sidesCentred_;
-  Plane firstEndCentred_;
-  ///@}
+  /// Centred: the sides and the last end, with planes beyond which nothing is up to as many as are compared at once.
+  struct Planes
+  {
+    std::array<double, 8> x{}, y{}, z{}, distance{};
+  };
+  Planes sidesCentred_;
+  Plane firstEndCentred_; ///< centred
 };
 
 } // namespace gnomon
