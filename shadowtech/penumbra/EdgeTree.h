@@ -31,6 +31,10 @@ struct EdgeTriangle
   float noise;
   bool oneSided; ///< blocks rays through its back alone, which then faces away from the light
 
+  /// What rounding makes of a direction's product with twice the triangle's area vector: so much of the direction's length times the
+  /// squared reach of its corners (docs/techniques/penumbra.md).
+  static constexpr double noiseAlong = 128.0 / 16777216.0;
+
   /// Whether rays that start on one side of its plane go away from it for certain, so that none meets it, whatever rounding makes of
   /// these two signs: as those from the surface that they start on.
   /// @param behind the least and the most of their starts'
@@ -42,7 +46,7 @@ struct EdgeTriangle
   {
     const double unsureBehind = glm::dot(glm::dvec3(this->unsure), reach);
     const double unsureAlong =
-      (this->unsure.x + this->unsure.y + this->unsure.z) * longestDirection;
+      noiseAlong * glm::dot(reach, reach) / static_cast<double>(this->longest) * longestDirection;
     return (behind.y < -unsureBehind && along.x > unsureAlong) ||
       (behind.x > unsureBehind && along.y < -unsureAlong);
   }
