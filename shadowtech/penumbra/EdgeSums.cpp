@@ -4,82 +4,133 @@
 #include <cmath>
 #include <limits>
 
+// Rays side by side, as many as the processor takes. Whichever it takes, what is certain is the same.
+#ifdef __x86_64__
+#define GNOMON_SIDE_BY_SIDE [[gnu::target_clones("avx512f", "avx2", "default")]]
+#else
+#define GNOMON_SIDE_BY_SIDE
+#endif
+
 namespace gnomon
 {
 namespace
 {
 
-/// Adds an edge to `count` rays side by side.
-template <std::size_t count>
-inline void addTo(
-  const SeenEdge& edge, const float* x, const float* y, float* sums, std::int32_t* uncertain)
+GNOMON_SIDE_BY_SIDE
+void slopesOf(const glm::mat3& turn, const LightSamples::Coordinates& directions, std::size_t count,
+  float* x, float* y)
 {
+  const float *const fromX = directions.x, *const fromY = directions.y, *const fromZ = directions.z;
+#pragma GCC ivdep
   for (std::size_t i = 0; i < count; ++i)
   {
-    const float side = edge.across.x * x[i] + edge.across.y * y[i] + edge.across.z;
-    const bool within = (y[i] >= edge.lower) & (y[i] < edge.upper) & (side > 0.0f);
-    sums[i] += within ? edge.weight : 0.0f;
-    sums[i] += y[i] < edge.below ? edge.weightBelow : 0.0f;
-    const bool unclear = (std::abs(side) <= edge.uncertain) & (y[i] >= edge.uncertainLower) &
-      (y[i] <= edge.uncertainUpper);
-    uncertain[i] |= unclear ? 1 : 0;
+    const float z = turn[0].z * fromX[i] + turn[1].z * fromY[i] + turn[2].z * fromZ[i];
+    x[i] = (turn[0].x * fromX[i] + turn[1].x * fromY[i] + turn[2].x * fromZ[i]) / z;
+    y[i] = (turn[0].y * fromX[i] + turn[1].y * fromY[i] + turn[2].y * fromZ[i]) / z;
   }
+}
+
+/// Adds edges to the rays.
+GNOMON_SIDE_BY_SIDE
+void addEdges(const SeenEdge* edges, std::size_t edgeCount, const float* x, const float* y,
+  std::size_t count, std::int32_t* sums, std::int32_t* uncertain)
+{
+  for (std::size_t number = 0; number < edgeCount; ++number)
+  {
+    const SeenEdge edge = edges[number];
+#pragma GCC ivdep
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      const float side = edge.across.x * x[i] + edge.across.y * y[i] + edge.across.z;
+      const bool within = (y[i] >= edge.lower) & (y[i] < edge.upper) & (side > 0.0f);
+      const bool below = y[i] < edge.below;
+      sums[i] += (within ? edge.weight : 0) + (below ? edge.weightBelow : 0);
+      const bool unclear = (std::abs(side) <= edge.uncertain) & (y[i] >= edge.uncertainLower) &
+        (y[i] <= edge.uncertainUpper);
+      uncertain[i] |= unclear ? 1 : 0;
+    }
+  }
+}
+
+constexpr std::int32_t none = std::numeric_limits<std::int32_t>::max();
+
+GNOMON_SIDE_BY_SIDE
+std::int32_t leastOf(const std::int32_t* sums, const std::int32_t* uncertain, std::size_t count)
+{
+  std::int32_t least = none;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const std::int32_t of = uncertain[i] != 0 ? none : sums[i];
+    least = std::min(least, of);
+  }
+  return least;
+}
+
+GNOMON_SIDE_BY_SIDE
+std::uint32_t countOf(
+  std::int32_t sum, const std::int32_t* sums, const std::int32_t* uncertain, std::size_t count)
+{
+  std::int32_t found = 0;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    found += (sums[i] == sum) & (uncertain[i] == 0) ? 1 : 0;
+  }
+  return static_cast<std::uint32_t>(found);
 }
 
 } // namespace
 
 //------------------------------------------------------------------------------
 void EdgeSums::setRays(
-  const glm::mat3& shaftFromCentred, const glm::vec3* directions, std::size_t count)
+  const glm::mat3& shaftFromCentred, const LightSamples::Coordinates& directions, std::size_t count)
 {
-  const std::size_t groups = (count + together - 1) / together;
+  const std::size_t padded = (count + together - 1) / together * together;
   this->count_ = count;
-  this->x_.assign(groups * together, std::numeric_limits<float>::quiet_NaN());
-  this->y_.assign(groups * together, std::numeric_limits<float>::quiet_NaN());
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    const glm::vec3 direction = shaftFromCentred * directions[i];
-    this->x_[i] = direction.x / direction.z;
-    this->y_[i] = direction.y / direction.z;
-  }
-  this->lowest_.resize(groups);
-  this->highest_.resize(groups);
-  for (std::size_t group = 0; group < groups; ++group)
-  {
-    const auto first = this->y_.begin() + static_cast<std::ptrdiff_t>(group * together);
-    const auto last =
-      first + static_cast<std::ptrdiff_t>(std::min(together, count - group * together));
-    const auto [lowest, highest] = std::minmax_element(first, last);
-    this->lowest_[group] = *lowest;
-    this->highest_[group] = *highest;
-  }
-  this->sums_.assign(groups * together, 0.0f);
-  this->uncertain_.assign(groups * together, 0);
+  this->x_.resize(padded, 0.0f);
+  this->y_.resize(padded, 0.0f);
+  slopesOf(shaftFromCentred, directions, count, this->x_.data(), this->y_.data());
+  this->sums_.assign(padded, 0);
+  this->uncertain_.assign(padded, 0);
+  std::fill(
+    this->uncertain_.begin() + static_cast<std::ptrdiff_t>(count), this->uncertain_.end(), 1);
 }
 
 //------------------------------------------------------------------------------
-#ifdef __x86_64__
-[[gnu::target_clones("avx2", "default")]]
-#endif
 void EdgeSums::add(const std::vector<SeenEdge>& edges)
 {
-  for (const SeenEdge& edge : edges)
+  addEdges(edges.data(), edges.size(), this->x_.data(), this->y_.data(), this->x_.size(),
+    this->sums_.data(), this->uncertain_.data());
+}
+
+//------------------------------------------------------------------------------
+EdgeSums::Fewest EdgeSums::fewest() const
+{
+  const std::int32_t least =
+    leastOf(this->sums_.data(), this->uncertain_.data(), this->sums_.size());
+  if (least == none)
   {
-    const float lowest = std::min(edge.lower, edge.uncertainLower);
-    const float highest = edge.weightBelow != 0.0f ? std::numeric_limits<float>::infinity()
-                                                   : std::max(edge.upper, edge.uncertainUpper);
-    const float least = edge.weightBelow != 0.0f ? -highest : lowest;
-    for (std::size_t group = 0; group < this->lowest_.size(); ++group)
-    {
-      if (this->highest_[group] < least || this->lowest_[group] > highest)
-      {
-        continue;
-      }
-      const std::size_t first = group * together;
-      addTo<together>(
-        edge, &this->x_[first], &this->y_[first], &this->sums_[first], &this->uncertain_[first]);
-    }
+    return { 0, 0 };
   }
+  std::uint32_t first = 0;
+  while (this->uncertain_[first] != 0 || this->sums_[first] != least)
+  {
+    ++first;
+  }
+  return { first, countOf(least, this->sums_.data(), this->uncertain_.data(), this->sums_.size()) };
+}
+
+//------------------------------------------------------------------------------
+void EdgeSums::appendUncertain(std::vector<std::uint32_t>& rays) const
+{
+  const std::size_t before = rays.size();
+  rays.resize(before + this->count_);
+  std::uint32_t* next = rays.data() + before;
+  for (std::size_t i = 0; i < this->count_; ++i)
+  {
+    *next = static_cast<std::uint32_t>(i);
+    next += this->uncertain_[i];
+  }
+  rays.resize(static_cast<std::size_t>(next - rays.data()));
 }
 
 } // namespace gnomon

@@ -1,6 +1,8 @@
 #ifndef gnomon_shadowtech_penumbra_EdgeSums_h
 #define gnomon_shadowtech_penumbra_EdgeSums_h
 
+#include "lights/LightSamples.h"
+
 #include <glm/glm.hpp>
 
 #include <cstddef>
@@ -18,10 +20,11 @@ struct SeenEdge
   float lower, upper; ///< from this y on, up to that one
   float uncertainLower, uncertainUpper; ///< the same of where rounding counts
   /// How many triangles more are met to its left than to its right.
-  float weight;
+  std::int32_t weight;
   ///@{
   /// How many more are met below this y than above, along the line of largest x.
-  float weightBelow, below;
+  std::int32_t weightBelow;
+  float below;
   ///@}
 };
 
@@ -31,24 +34,31 @@ class EdgeSums
 public:
   /// Takes the rays.
   /// @param shaftFromCentred turns their directions; z > 0 then
-  void setRays(const glm::mat3& shaftFromCentred, const glm::vec3* directions, std::size_t count);
+  void setRays(const glm::mat3& shaftFromCentred, const LightSamples::Coordinates& directions,
+    std::size_t count);
 
   /// Sums the edges.
   void add(const std::vector<SeenEdge>& edges);
 
-  std::size_t count() const { return this->count_; }
-  float sum(std::size_t ray) const { return this->sums_[ray]; }
-  /// Whether rounding may say on which side of an edge it passes.
-  bool isUncertain(std::size_t ray) const { return this->uncertain_[ray] != 0; }
+  /// Of those rays of which no rounding says on which side of an edge they pass, those that meet the fewest triangles.
+  struct Fewest
+  {
+    std::uint32_t first; ///< one of them
+    std::uint32_t count; ///< 0 where there is none
+  };
+  Fewest fewest() const;
+
+  /// Appends the numbers of all other rays: where rounding may say on which side of an edge they pass.
+  void appendUncertain(std::vector<std::uint32_t>& rays) const;
 
 private:
-  static constexpr std::size_t together = 8;
+  static constexpr std::size_t together = 16;
 
   std::size_t count_ = 0;
-  std::vector<float> x_, y_; ///< slopes; NaN beyond the last one, up to a multiple of `together`
-  std::vector<float> lowest_, highest_; ///< y of so many rays together
-  std::vector<float> sums_;
-  std::vector<std::int32_t> uncertain_;
+  /// Slopes; up to a multiple of `together` those of no ray, which are uncertain.
+  std::vector<float> x_, y_;
+  std::vector<std::int32_t> sums_;
+  std::vector<std::int32_t> uncertain_; ///< 1 or 0
 };
 
 } // namespace gnomon

@@ -3,6 +3,9 @@
 #include "shadowtech/base/Bytes.h"
 #include "shadowtech/tracing/BvhBuilder.h"
 
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -15,9 +18,12 @@ namespace
 /// Triangles that are more than so many times as long as high are needles: what a tracer makes of them is rounding.
 constexpr double mostSlender = 16384.0;
 
-/// What the sign of a ray's start against a triangle's plane may be off by is 33u XYZ/A (ShadowRay.h); this is twice as
-/// much.
-constexpr double noiseOfExtent = 66.0 / 16777216.0;
+/// What the sign of v . N may be off by for a triangle's normal N and a vector from one of its corners, or a direction: ShadowRay.h's
+/// bound is 11u YZ for each x, with Y and Z the extent of its box. This is twice as much.
+constexpr double noiseOfExtent = 22.0 / 16777216.0;
+
+/// Down to so many levels of the tree either half is fitted by itself.
+constexpr int levelsInParallel = 8;
 
 EdgeTriangle edgeTriangle(const std::array<glm::vec3, 3>& corners, bool oneSided)
 {
@@ -33,7 +39,9 @@ EdgeTriangle edgeTriangle(const std::array<glm::vec3, 3>& corners, bool oneSided
   triangle.corner = corners[0];
   triangle.height = static_cast<float>(glm::length(normal) / longest);
   triangle.longest = static_cast<float>(longest);
-  triangle.noise = static_cast<float>(noiseOfExtent * extent.x * extent.y * extent.z / longest);
+  triangle.unsure = noiseOfExtent / longest *
+    glm::dvec3(extent.y * extent.z, extent.z * extent.x, extent.x * extent.y);
+  triangle.noise = glm::dot(triangle.unsure, glm::vec3(extent));
   triangle.oneSided = oneSided;
   return triangle;
 }
@@ -51,13 +59,10 @@ EdgeTree::Cone joined(const EdgeTree::Cone& one, const EdgeTree::Cone& other)
     return cone;
   }
   cone.axis = sum / length;
-  const auto angleTo = [&](const EdgeTree::Cone& of)
-  {
-    return std::acos(std::clamp(glm::dot(cone.axis, of.axis), -1.0f, 1.0f)) +
-      std::atan2(of.sine, of.cosine);
-  };
-  // Larger by more than what cosines of small angles lose.
-  const float angle = std::max(angleTo(one), angleTo(other)) + 0.001f;
+  // Both axes are as far from their middle. Larger by more than what cosines of small angles lose.
+  const EdgeTree::Cone& wider = one.cosine < other.cosine ? one : other;
+  const float angle = std::acos(std::clamp(glm::dot(cone.axis, one.axis), -1.0f, 1.0f)) +
+    std::atan2(wider.sine, wider.cosine) + 0.001f;
   cone.cosine = std::cos(angle);
   cone.sine = std::sin(angle);
   return cone;
@@ -98,7 +103,11 @@ void EdgeTree::update(const Occluders& occluders)
                       { return (of.w ? this->opaqueBounds_ : this->bounds_)[of.x]; })
                     .root;
   }
-  this->fitNodes();
+  this->cones_.assign(this->nodes_.size(), {});
+  if (!this->empty())
+  {
+    this->fitNodes(this->root_, this->conesOfTriangles(), levelsInParallel);
+  }
   this->topologyVersion_ = occluders.topologyVersion;
   this->positionsVersion_ = occluders.positionsVersion;
 }
@@ -140,46 +149,47 @@ void EdgeTree::addSurface(
   const std::size_t firstRecord = records.size();
   const auto first = static_cast<std::uint32_t>(this->triangles_.size());
   const auto numberOf = [&](std::uint32_t triangle) { return first + triangle - of.firstTriangle; };
+  this->triangles_.resize(first + of.triangleCount);
+  this->corners_.resize(first + of.triangleCount);
+  this->bounds_.resize(first + of.triangleCount);
+  std::vector<std::uint8_t> isNeedle(of.triangleCount);
+  tbb::parallel_for(std::uint32_t(0), of.triangleCount,
+    [&](std::uint32_t i)
+    {
+      const glm::uvec3 vertices = occluders.triangles[of.firstTriangle + i];
+      std::array<glm::vec3, 3>& corners = this->corners_[first + i];
+      corners = { position(vertices.x), position(vertices.y), position(vertices.z) };
+      EdgeTriangle& triangle = this->triangles_[first + i];
+      triangle = edgeTriangle(corners, of.oneSided);
+      Bounds& bounds = this->bounds_[first + i];
+      for (const glm::vec3& corner : corners)
+      {
+        bounds.add(glm::dvec3(corner));
+      }
+      // A needle may seem to reach as far again as it does.
+      isNeedle[i] = triangle.longest < mostSlender * triangle.height ? 0 : 1;
+      const double more = isNeedle[i] != 0 ? triangle.longest : triangle.noise / triangle.height;
+      bounds.lower -= more;
+      bounds.upper += more;
+    });
   for (std::uint32_t i = 0; i < of.triangleCount; ++i)
   {
-    const glm::uvec3 vertices = occluders.triangles[of.firstTriangle + i];
-    this->corners_.push_back({ position(vertices.x), position(vertices.y), position(vertices.z) });
-    const EdgeTriangle triangle = edgeTriangle(this->corners_.back(), of.oneSided);
-    Bounds bounds;
-    for (const glm::vec3& corner : this->corners_.back())
+    if (of.cutout || isNeedle[i] != 0)
     {
-      bounds.add(glm::dvec3(corner));
-    }
-    // A needle may seem to reach as far again as it does.
-    const bool needle = !(triangle.longest < mostSlender * triangle.height);
-    const double more = needle ? triangle.longest : triangle.noise / triangle.height;
-    bounds.lower -= more;
-    bounds.upper += more;
-    this->triangles_.push_back(triangle);
-    this->bounds_.push_back(bounds);
-    if (of.cutout || needle)
-    {
-      this->addOpaque(bounds, records);
+      this->addOpaque(this->bounds_[first + i], records);
     }
     else
     {
-      records.emplace_back(numberOf(of.firstTriangle + i), 0, 0, 0);
+      records.emplace_back(first + i, 0, 0, 0);
     }
   }
   if (of.cutout)
   {
     return;
   }
-  // The edges of a triangle lie side by side. Needles have none: where they meet others, these end.
-  std::vector<TreeEdge> edges;
-  edges.reserve(found.edges.size());
-  std::vector<std::uint8_t> isNeedle(of.triangleCount);
-  for (std::uint32_t i = 0; i < of.triangleCount; ++i)
-  {
-    const EdgeTriangle& triangle = this->triangles_[first + i];
-    isNeedle[i] = triangle.longest < mostSlender * triangle.height ? 0 : 1;
-  }
-  for (const CasterEdge& edge : found.edges)
+  // The edges of a triangle lie side by side: those that it is the first of. Needles have none: where they meet others,
+  // these end.
+  const auto trianglesOf = [&](const CasterEdge& edge)
   {
     std::array<std::uint32_t, 2> triangles{ { TreeEdge::none, TreeEdge::none } };
     std::size_t count = 0;
@@ -187,49 +197,32 @@ void EdgeTree::addSurface(
     {
       if (triangle != CasterEdge::none && isNeedle[triangle - of.firstTriangle] == 0)
       {
-        triangles[count++] = triangle;
+        triangles[count++] = numberOf(triangle);
       }
     }
-    if (count == 0)
-    {
-      continue;
-    }
-    TreeEdge made;
-    made.triangles = { { numberOf(triangles[0]),
-      count == 2 ? numberOf(triangles[1]) : TreeEdge::none } };
-    made.sameDirection = edge.sameDirection;
-    made.from = position(edge.from);
-    made.to = position(edge.to);
-    // The first triangle says which way it runs.
-    const std::array<glm::vec3, 3>& corners = this->corners_[made.triangles[0]];
-    const bool runs = (corners[0] == made.from && corners[1] == made.to) ||
-      (corners[1] == made.from && corners[2] == made.to) ||
-      (corners[2] == made.from && corners[0] == made.to);
-    if (!runs)
-    {
-      std::swap(made.from, made.to);
-    }
-    made.length = glm::length(made.to - made.from);
-    made.reach = this->triangles_[made.triangles[0]].longest;
-    if (count == 2)
-    {
-      made.reach = std::max(made.reach, this->triangles_[made.triangles[1]].longest);
-    }
-    edges.push_back(made);
-  }
+    return triangles;
+  };
   std::vector<std::uint32_t> firstOf(of.triangleCount + 1, 0);
-  for (const TreeEdge& edge : edges)
+  std::vector<std::uint32_t> placeOf(found.edges.size());
+  for (std::size_t i = 0; i < placeOf.size(); ++i)
   {
-    ++firstOf[edge.triangles[0] - first + 1];
+    const std::uint32_t owner = trianglesOf(found.edges[i])[0];
+    placeOf[i] = owner != TreeEdge::none ? firstOf[owner - first + 1]++ : TreeEdge::none;
   }
   std::partial_sum(firstOf.begin(), firstOf.end(), firstOf.begin());
   const std::size_t firstEdge = this->edges_.size();
-  this->edges_.resize(firstEdge + edges.size());
-  std::vector<std::uint32_t> next = firstOf;
-  for (const TreeEdge& edge : edges)
-  {
-    this->edges_[firstEdge + next[edge.triangles[0] - first]++] = edge;
-  }
+  this->edges_.resize(firstEdge + firstOf.back());
+  tbb::parallel_for(std::size_t(0), placeOf.size(),
+    [&](std::size_t i)
+    {
+      if (placeOf[i] != TreeEdge::none)
+      {
+        const CasterEdge& edge = found.edges[i];
+        const std::array<std::uint32_t, 2> triangles = trianglesOf(edge);
+        this->edges_[firstEdge + firstOf[triangles[0] - first] + placeOf[i]] =
+          this->treeEdge(triangles, position(edge.from), position(edge.to), edge.sameDirection);
+      }
+    });
   for (std::size_t i = firstRecord; i < records.size(); ++i)
   {
     BvhRecord& record = records[i];
@@ -243,102 +236,168 @@ void EdgeTree::addSurface(
 }
 
 //------------------------------------------------------------------------------
+/// @param triangles numbers; the second may be none
+TreeEdge EdgeTree::treeEdge(const std::array<std::uint32_t, 2>& triangles, const glm::vec3& from,
+  const glm::vec3& to, bool sameDirection) const
+{
+  TreeEdge edge{ from, to, triangles, sameDirection, glm::length(to - from),
+    this->triangles_[triangles[0]].longest };
+  // The first triangle says which way it runs.
+  const std::array<glm::vec3, 3>& corners = this->corners_[triangles[0]];
+  const bool runs = (corners[0] == from && corners[1] == to) ||
+    (corners[1] == from && corners[2] == to) || (corners[2] == from && corners[0] == to);
+  if (!runs)
+  {
+    std::swap(edge.from, edge.to);
+  }
+  if (triangles[1] != TreeEdge::none)
+  {
+    edge.reach = std::max(edge.reach, this->triangles_[triangles[1]].longest);
+  }
+  return edge;
+}
+
+//------------------------------------------------------------------------------
 /// Finds where all triangles and those across their edges face; where that says nothing, an edge may have a weight from anywhere.
 std::vector<EdgeTree::Cone> EdgeTree::conesOfTriangles() const
 {
-  std::vector<Cone> own(this->triangles_.size());
-  for (std::size_t i = 0; i < own.size(); ++i)
+  std::vector<Cone> cones(this->triangles_.size());
+  tbb::parallel_for(std::size_t(0), cones.size(),
+    [&](std::size_t i)
+    {
+      const EdgeTriangle& triangle = this->triangles_[i];
+      cones[i] = { glm::normalize(triangle.normal), 1.0f, 0.0f, 1.0f / triangle.height,
+        triangle.longest };
+    });
+  const auto join = [&](std::uint32_t triangle, std::uint32_t across, float cosine)
   {
-    const EdgeTriangle& triangle = this->triangles_[i];
-    own[i].axis = glm::normalize(triangle.normal);
-    own[i].cosine = 1.0f;
-    own[i].mostPerHeight = 1.0f / triangle.height;
-    own[i].reach = triangle.longest;
-  }
-  std::vector<Cone> cones = own;
+    Cone& cone = cones[triangle];
+    const EdgeTriangle& other = this->triangles_[across];
+    cone.cosine = std::min(cone.cosine, cosine);
+    cone.mostPerHeight = std::max(cone.mostPerHeight, 1.0f / other.height);
+    cone.reach = std::max(cone.reach, other.longest);
+  };
   for (const TreeEdge& edge : this->edges_)
   {
     const auto [first, second] = edge.triangles;
     if (second == TreeEdge::none)
     {
-      cones[first] = {};
+      cones[first].cosine = -1.0f;
       continue;
     }
-    cones[first] = edge.sameDirection ? Cone{} : joined(cones[first], own[second]);
-    cones[second] = edge.sameDirection ? Cone{} : joined(cones[second], own[first]);
+    const float cosine =
+      edge.sameDirection ? -1.0f : glm::dot(cones[first].axis, cones[second].axis);
+    join(first, second, cosine);
+    join(second, first, cosine);
   }
+  tbb::parallel_for(std::size_t(0), cones.size(),
+    [&](std::size_t i)
+    {
+      // Less by more than what rounding adds.
+      const double cosine = cones[i].cosine -= 2e-6f;
+      cones[i].sine = static_cast<float>(std::sqrt(std::max(1.0 - cosine * cosine, 0.0)));
+    });
   return cones;
 }
 
 //------------------------------------------------------------------------------
-/// Finds the boxes and cones of all nodes from what lies in the leaves.
-void EdgeTree::fitNodes()
+/// Finds the boxes and cones of all nodes below a link from what lies in the leaves.
+/// @param parallel down to so many levels further, either half by itself
+void EdgeTree::fitNodes(std::uint32_t link, const std::vector<Cone>& ofTriangles, int parallel)
 {
-  this->cones_.assign(this->nodes_.size(), {});
-  const std::vector<Cone> ofTriangles = this->conesOfTriangles();
-  for (std::size_t i = this->nodes_.size(); i-- > 0;)
+  if (BvhLink::isLeaf(link))
   {
-    BvhNode& node = this->nodes_[i];
-    Bounds bounds;
-    const bool leaf = BvhLink::isLeaf(node.link);
-    const std::uint32_t count = leaf ? BvhLink::count(node.link) : 2;
-    for (std::uint32_t k = 0; k < count; ++k)
-    {
-      Cone cone;
-      if (leaf)
-      {
-        const std::uint32_t place = BvhLink::first(node.link) + k;
-        bounds.add(this->bounds(this->record(place)));
-        const BvhRecord& record = this->records_[place];
-        cone = record.w != 0 ? Cone{} : ofTriangles[record.x];
-      }
-      else
-      {
-        const BvhNode& child = this->nodes_[node.link + k];
-        bounds.add({ glm::dvec3(child.lower), glm::dvec3(child.upper) });
-        cone = this->cones_[node.link + k];
-      }
-      this->cones_[i] = k == 0 ? cone : joined(this->cones_[i], cone);
-    }
-    // Floats that are rounded to the outside.
-    const glm::dvec3 more =
-      std::ldexp(1.0, -22) * glm::max(glm::abs(bounds.lower), glm::abs(bounds.upper));
-    node.lower = bounds.lower - more;
-    node.upper = bounds.upper + more;
+    return;
+  }
+  const auto fit = [&](std::uint32_t node)
+  {
+    this->fitNodes(this->nodes_[node].link, ofTriangles, parallel - 1);
+    this->fitNode(node, ofTriangles);
+  };
+  if (parallel > 0)
+  {
+    tbb::parallel_invoke([&] { fit(link); }, [&] { fit(link + 1); });
+  }
+  else
+  {
+    fit(link);
+    fit(link + 1);
   }
 }
 
 //------------------------------------------------------------------------------
-bool EdgeTree::isOnTriangle(const glm::vec3& start) const
+/// Finds the box and the cone of a node from what it leads to.
+void EdgeTree::fitNode(std::uint32_t number, const std::vector<Cone>& ofTriangles)
 {
-  return !this->empty() && this->isOnTriangle(start, this->root_);
+  BvhNode& node = this->nodes_[number];
+  Bounds bounds;
+  const bool leaf = BvhLink::isLeaf(node.link);
+  const std::uint32_t count = leaf ? BvhLink::count(node.link) : 2;
+  for (std::uint32_t k = 0; k < count; ++k)
+  {
+    Cone cone;
+    if (leaf)
+    {
+      const std::uint32_t place = BvhLink::first(node.link) + k;
+      bounds.add(this->bounds(this->record(place)));
+      const BvhRecord& record = this->records_[place];
+      cone = record.w != 0 ? Cone{} : ofTriangles[record.x];
+    }
+    else
+    {
+      const BvhNode& child = this->nodes_[node.link + k];
+      bounds.add({ glm::dvec3(child.lower), glm::dvec3(child.upper) });
+      cone = this->cones_[node.link + k];
+    }
+    this->cones_[number] = k == 0 ? cone : joined(this->cones_[number], cone);
+  }
+  // Floats that are rounded to the outside.
+  const glm::dvec3 more =
+    std::ldexp(1.0, -22) * glm::max(glm::abs(bounds.lower), glm::abs(bounds.upper));
+  node.lower = bounds.lower - more;
+  node.upper = bounds.upper + more;
+}
+
+//------------------------------------------------------------------------------
+void EdgeTree::find(const Bounds& bounds, std::vector<std::uint32_t>& places) const
+{
+  places.clear();
+  if (!this->empty())
+  {
+    this->find(bounds, this->root_, places);
+  }
 }
 
 //------------------------------------------------------------------------------
 /// @param link where to go on
-bool EdgeTree::isOnTriangle(const glm::vec3& start, std::uint32_t link) const
+void EdgeTree::find(
+  const Bounds& bounds, std::uint32_t link, std::vector<std::uint32_t>& places) const
 {
-  const auto isIn = [&](const auto& box)
+  const auto meets = [&](const auto& box)
   {
-    return start.x >= box.lower.x && start.x <= box.upper.x && start.y >= box.lower.y &&
-      start.y <= box.upper.y && start.z >= box.lower.z && start.z <= box.upper.z;
+    return bounds.upper.x >= box.lower.x && bounds.lower.x <= box.upper.x &&
+      bounds.upper.y >= box.lower.y && bounds.lower.y <= box.upper.y &&
+      bounds.upper.z >= box.lower.z && bounds.lower.z <= box.upper.z;
   };
   if (!BvhLink::isLeaf(link))
   {
-    return (isIn(this->nodes_[link]) && this->isOnTriangle(start, this->nodes_[link].link)) ||
-      (isIn(this->nodes_[link + 1]) && this->isOnTriangle(start, this->nodes_[link + 1].link));
+    for (std::uint32_t child = link; child < link + 2; ++child)
+    {
+      if (meets(this->nodes_[child]))
+      {
+        this->find(bounds, this->nodes_[child].link, places);
+      }
+    }
+    return;
   }
   for (std::uint32_t i = 0; i < BvhLink::count(link); ++i)
   {
-    const Record of = this->record(BvhLink::first(link) + i);
-    if (isIn(this->bounds(of)) &&
-      (of.opaque ||
-        !(std::abs(this->triangles_[of.number].behind(start)) > this->triangles_[of.number].noise)))
+    const std::uint32_t place = BvhLink::first(link) + i;
+    if (meets(this->bounds(this->record(place))))
     {
-      return true;
+      places.push_back(place);
     }
   }
-  return false;
 }
 
 //------------------------------------------------------------------------------

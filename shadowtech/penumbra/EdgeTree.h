@@ -10,6 +10,7 @@
 #include <glm/glm.hpp>
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -24,9 +25,31 @@ struct EdgeTriangle
   glm::vec3 corner;  ///< centred
   float height;      ///< the least of its three, in world units
   float longest;     ///< of its sides
+  /// What rounding makes of a product with the normal: up to dot(unsure, abs(v)) of dot(v, normal).
+  glm::vec3 unsure;
   /// How far off its plane, times its height, a point in its box may seem to lie.
   float noise;
   bool oneSided; ///< blocks rays through its back alone, which then faces away from the light
+
+  /// What rounding makes of a direction's product with twice the triangle's area vector: so much of the direction's length times the
+  /// squared reach of its corners (docs/techniques/penumbra.md).
+  static constexpr double noiseAlong = 128.0 / 16777216.0;
+
+  /// Whether rays that start on one side of its plane go away from it for certain, so that none meets it, whatever rounding makes of
+  /// these two signs: as those from the surface that they start on.
+  /// @param behind the least and the most of their starts'
+  /// @param reach of the corners from the starts, at most, axis by axis
+  /// @param along the least and the most of dot(direction, normal)
+  /// @param longestDirection not less than their length
+  bool isLeft(const glm::dvec2& behind, const glm::dvec3& reach, const glm::dvec2& along,
+    double longestDirection) const
+  {
+    const double unsureBehind = glm::dot(glm::dvec3(this->unsure), reach);
+    const double unsureAlong =
+      noiseAlong * glm::dot(reach, reach) / static_cast<double>(this->longest) * longestDirection;
+    return (behind.y < -unsureBehind && along.x > unsureAlong) ||
+      (behind.x > unsureBehind && along.y < -unsureAlong);
+  }
 
   /// How far a point lies behind its plane, times its height. Behind is where its corners run clockwise.
   double behind(const glm::dvec3& point) const
@@ -80,8 +103,21 @@ public:
     float reach = 0.0f;         ///< the most of their edges'
   };
 
-  /// Whether rays from a start may begin on a triangle, as far as rounding says.
-  bool isOnTriangle(const glm::vec3& start) const;
+  /// Finds the places of records whose boxes meet another box.
+  /// @param places gets them
+  void find(const Bounds& bounds, std::vector<std::uint32_t>& places) const;
+
+  /// Whether rays from a start may begin on what a record stands for, as far as rounding says.
+  bool isOn(const glm::vec3& start, const Record& record) const
+  {
+    const Bounds& box = this->bounds(record);
+    const bool isIn = start.x >= box.lower.x && start.x <= box.upper.x && start.y >= box.lower.y &&
+      start.y <= box.upper.y && start.z >= box.lower.z && start.z <= box.upper.z;
+    return isIn &&
+      (record.opaque ||
+        !(std::abs(this->triangles_[record.number].behind(start)) >
+          this->triangles_[record.number].noise));
+  }
 
   bool empty() const { return this->records_.empty(); }
   /// How many records there are.
@@ -96,6 +132,16 @@ public:
   {
     return this->corners_[triangle];
   }
+  /// How far from a point a triangle's corners are, axis by axis.
+  glm::dvec3 reach(std::uint32_t triangle, const glm::dvec3& point) const
+  {
+    glm::dvec3 reach(0.0);
+    for (const glm::vec3& corner : this->corners_[triangle])
+    {
+      reach = glm::max(reach, glm::abs(glm::dvec3(corner) - point));
+    }
+    return reach;
+  }
   /// Of a record.
   const Bounds& bounds(const Record& record) const
   {
@@ -107,8 +153,11 @@ public:
 private:
   void addSurface(const Occluders& occluders, std::size_t surface, std::vector<BvhRecord>& records);
   void addOpaque(const Bounds& bounds, std::vector<BvhRecord>& records);
-  void fitNodes();
-  bool isOnTriangle(const glm::vec3& start, std::uint32_t link) const;
+  TreeEdge treeEdge(const std::array<std::uint32_t, 2>& triangles, const glm::vec3& from,
+    const glm::vec3& to, bool sameDirection) const;
+  void fitNodes(std::uint32_t link, const std::vector<Cone>& ofTriangles, int parallel);
+  void fitNode(std::uint32_t number, const std::vector<Cone>& ofTriangles);
+  void find(const Bounds& bounds, std::uint32_t link, std::vector<std::uint32_t>& places) const;
   std::vector<Cone> conesOfTriangles() const;
 
   KeptOfCasters<SurfaceEdges> found_;

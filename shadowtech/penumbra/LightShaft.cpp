@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 namespace gnomon
@@ -43,14 +44,10 @@ glm::dmat3 axesAlong(const glm::dvec3& z, const glm::dmat3& area)
 } // namespace
 
 //------------------------------------------------------------------------------
-std::optional<LightShaft> LightShaft::make(
-  const ShaftLight& light, const std::vector<glm::vec3>& starts)
+std::optional<LightShaft> LightShaft::make(const ShaftLight& light, const RayStarts& starts)
 {
   LightShaft shaft;
-  for (const glm::vec3& start : starts)
-  {
-    shaft.starts_.add(glm::dvec3(start));
-  }
+  shaft.starts_ = starts.bounds();
   shaft.origin_ = shaft.starts_.centre();
   shaft.directional_ = light.rays.kind == LightKind::Directional;
   const glm::dvec3 centre = light.rays.position;
@@ -80,12 +77,21 @@ std::optional<LightShaft> LightShaft::make(
     const glm::dvec3 outwards = plane.outwards * shaft.shaftFromCentred_;
     return Plane{ outwards, plane.distance + glm::dot(outwards, shaft.origin_) };
   };
+  Planes& sides = shaft.sidesCentred_;
+  sides.distance.fill(std::numeric_limits<double>::infinity());
+  const auto put = [&](std::size_t i, const Plane& plane)
+  {
+    sides.x[i] = plane.outwards.x;
+    sides.y[i] = plane.outwards.y;
+    sides.z[i] = plane.outwards.z;
+    sides.distance[i] = plane.distance;
+  };
   for (std::size_t i = 0; i < shaft.sides_.size(); ++i)
   {
-    shaft.sidesCentred_[i] = toCentred(shaft.sides_[i]);
+    put(i, toCentred(shaft.sides_[i]));
   }
+  put(shaft.sides_.size(), toCentred({ shaft.end_, shaft.lastEnd_ }));
   shaft.firstEndCentred_ = toCentred({ shaft.end_, shaft.firstEnd_ });
-  shaft.sidesCentred_.back() = toCentred({ shaft.end_, shaft.lastEnd_ });
   return shaft;
 }
 
@@ -195,16 +201,23 @@ LightShaft::Slopes LightShaft::slopes(const glm::dvec3& start) const
 }
 
 //------------------------------------------------------------------------------
+#ifdef __x86_64__
+[[gnu::target_clones("avx2", "default")]]
+#endif
 bool LightShaft::mayMeet(const Bounds& centred) const
 {
   const glm::dvec3 centre = centred.centre();
   const glm::dvec3 half = centred.upper - centre;
-  return std::none_of(this->sidesCentred_.begin(), this->sidesCentred_.end(),
-    [&](const Plane& plane)
-    {
-      return glm::dot(plane.outwards, centre) - glm::dot(glm::abs(plane.outwards), half) >
-        plane.distance;
-    });
+  const Planes& planes = this->sidesCentred_;
+  std::int64_t outside = 0;
+  for (std::size_t i = 0; i < planes.x.size(); ++i)
+  {
+    const double nearest = planes.x[i] * centre.x - std::abs(planes.x[i]) * half.x +
+      (planes.y[i] * centre.y - std::abs(planes.y[i]) * half.y) +
+      (planes.z[i] * centre.z - std::abs(planes.z[i]) * half.z);
+    outside |= nearest > planes.distance[i] ? 1 : 0;
+  }
+  return outside == 0;
 }
 
 //------------------------------------------------------------------------------
@@ -215,6 +228,17 @@ bool LightShaft::mayReachEnds(const Bounds& centred) const
   return glm::dot(end.outwards, centre) +
     glm::dot(glm::abs(end.outwards), centred.upper - centre) >=
     end.distance;
+}
+
+//------------------------------------------------------------------------------
+glm::dvec2 LightShaft::extentAlong(const glm::dvec3& centred, const Slopes& slopes) const
+{
+  const glm::dvec3 along = this->shaftFromCentred_ * centred;
+  const glm::dvec2 middle = 0.5 * (slopes.least + slopes.most);
+  const glm::dvec2 half = slopes.most - middle;
+  const double ofMiddle = glm::dot(along, glm::dvec3(middle, 1.0));
+  const double more = std::abs(along.x) * half.x + std::abs(along.y) * half.y;
+  return { ofMiddle - more, ofMiddle + more };
 }
 
 //------------------------------------------------------------------------------

@@ -3,6 +3,7 @@
 
 #include "lights/Bounds.h"
 #include "shadowtech/base/ShadowRay.h"
+#include "shadowtech/penumbra/RayStarts.h"
 
 #include <glm/glm.hpp>
 
@@ -10,7 +11,6 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
-#include <vector>
 
 namespace gnomon
 {
@@ -41,8 +41,7 @@ public:
 
   /// @param starts centred; at least one
   /// @return nothing where the light is too close, or too large, or seen from its side
-  static std::optional<LightShaft> make(
-    const ShaftLight& light, const std::vector<glm::vec3>& starts);
+  static std::optional<LightShaft> make(const ShaftLight& light, const RayStarts& starts);
 
   glm::dvec3 toShaft(const glm::dvec3& centred) const
   {
@@ -82,6 +81,15 @@ public:
   /// Whether the line of an edge passes all rays by.
   /// @param uncertain how little of cross(from, to) times a ray's (x, y, 1) says nothing
   bool passes(const glm::dvec3& from, const glm::dvec3& to, double length, double uncertain) const;
+  /// The least and the most of the product of a vector and any ray's (x, y, 1).
+  /// @param centred the vector
+  ///@{
+  glm::dvec2 extentAlong(const glm::dvec3& centred) const
+  {
+    return this->extentAlong(centred, this->allSlopes_);
+  }
+  glm::dvec2 extentAlong(const glm::dvec3& centred, const Slopes& slopes) const;
+  ///@}
   /// Not less than the length of (x, y, 1) for any ray's slopes.
   double longestSlope() const { return this->longestSlope_; }
 
@@ -118,11 +126,13 @@ private:
   glm::dvec3 end_{ 0.0 };
   double firstEnd_ = std::numeric_limits<double>::infinity();
   double lastEnd_ = std::numeric_limits<double>::infinity();
-  ///@{
-  /// Centred: the sides and the last end; the first end.
-  std::array<Plane, 6> sidesCentred_;
-  Plane firstEndCentred_;
-  ///@}
+  /// Centred: the sides and the last end, with planes beyond which nothing is up to as many as are compared at once.
+  struct Planes
+  {
+    std::array<double, 8> x{}, y{}, z{}, distance{};
+  };
+  Planes sidesCentred_;
+  Plane firstEndCentred_; ///< centred
 };
 
 } // namespace gnomon

@@ -4,6 +4,7 @@
 #include "shadowtech/penumbra/ShaftEdges.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -27,6 +28,13 @@ constexpr std::size_t edgesPerSample = 4;
 constexpr std::size_t mostEdges = 8192;
 constexpr std::size_t seenPerSample = 2;
 constexpr std::int64_t triesOfBlock = 4;
+///@}
+
+///@{
+/// Where pixels of a square see what is far apart, their starts lie in parts of so many along the longest side of their box, with at least
+/// so many empty ones between them.
+constexpr std::size_t partsOfStarts = 8;
+constexpr std::size_t emptyOfStarts = 3;
 ///@}
 
 /// An edge as it is seen from a start.
@@ -58,7 +66,7 @@ public:
     Look look{ std::sqrt(squared) + edge.edge->reach, edge.weight, 1.0, edge.height };
     if (std::isnan(edge.weight))
     {
-      this->lookAtTriangles(*edge.edge, look);
+      this->lookAtTriangles(edge, look);
       if (look.weight == 0.0f && look.width == 1.0 && !edge.strip)
       {
         return std::nullopt;
@@ -81,24 +89,40 @@ private:
       height; ///< the least above their planes, over their longest side; 0 where one is seen from its side
   };
 
-  void lookAtTriangles(const TreeEdge& edge, Look& look) const
+  void lookAtTriangles(const ShaftEdges::Edge& edge, Look& look) const
   {
     look.weight = 0.0f;
     look.height = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < 2 && edge.triangles[i] != TreeEdge::none; ++i)
+    for (std::size_t i = 0; i < 2; ++i)
     {
+      if (edge.triangles[i] == TreeEdge::none)
+      {
+        continue;
+      }
       const EdgeTriangle& triangle = this->tree_.triangle(edge.triangles[i]);
       const double behind = triangle.behind(this->start_);
-      look.weight += directionOf(edge, i) * weightOf(triangle, behind > 0.0);
-      look.height = std::min(look.height, std::abs(behind) / triangle.longest);
-      if (!(std::abs(behind) >
-            EdgeRounding::ofHeight * EdgeRounding::unit * look.farthest * look.farthest))
+      look.weight += directionOf(*edge.edge, i) * weightOf(triangle, behind > 0.0);
+      const bool fromSide = !(std::abs(behind) >
+        EdgeRounding::ofHeight * EdgeRounding::unit * look.farthest * look.farthest);
+      if (fromSide && this->isLeft(edge.triangles[i], behind))
+      {
+        continue; // rounding makes nothing of it
+      }
+      look.height = fromSide ? 0.0 : std::min(look.height, std::abs(behind) / triangle.longest);
+      if (fromSide)
       {
         look.width = std::max({ look.width, EdgeRounding::wider,
           static_cast<double>(triangle.longest / triangle.height) });
-        look.height = 0.0;
       }
     }
+  }
+
+  /// Whether no ray meets a triangle, whatever rounding makes of it.
+  bool isLeft(std::uint32_t number, double behind) const
+  {
+    const EdgeTriangle& triangle = this->tree_.triangle(number);
+    return triangle.isLeft(glm::dvec2(behind), this->tree_.reach(number, this->start_),
+      this->shaft_.extentAlong(triangle.normal, this->slopes_), this->longestSlope_);
   }
 
   /// Where an edge begins that is cut off where the rays start and where they end.
@@ -174,7 +198,9 @@ private:
       across = -across;
     }
     const bool counts = !beyondLight && !behindStart;
-    const float weight = !counts ? 0.0f : swapped ? -look.weight : look.weight;
+    const auto weight = static_cast<std::int32_t>(!counts ? 0.0f
+        : swapped                                         ? -look.weight
+                                                          : look.weight);
     SeenEdge seen;
     seen.across = across;
     seen.uncertain = static_cast<float>(uncertain);
@@ -183,7 +209,8 @@ private:
     seen.upper = static_cast<float>(upper.y);
     seen.uncertainLower = everywhere ? -3e38f : static_cast<float>(lower.y - beyond);
     seen.uncertainUpper = everywhere ? 3e38f : static_cast<float>(upper.y + beyond);
-    seen.weightBelow = seen.below = 0.0f;
+    seen.weightBelow = 0;
+    seen.below = 0.0f;
     // What goes on beyond the largest x is counted along that line.
     const double border = this->slopes_.most.x;
     const bool lowerIn = lower.x <= border;
@@ -221,23 +248,32 @@ public:
     , tile_(tile)
     , directionsOf_(directionsOf)
     , rays_(rays)
-    , directions_(samples)
+    , samples_(samples)
   {
+    for (std::vector<float>& axis : this->directions_)
+    {
+      axis.resize(samples);
+    }
   }
 
   /// @return how many of these pixels have all their rays traced
   std::int64_t choose(std::uint16_t* pixels, std::size_t count)
   {
-    std::vector<glm::vec3> starts(count);
+    if (const std::size_t nearer = this->splitAtGap(pixels, count))
+    {
+      return this->choose(pixels, nearer) + this->choose(pixels + nearer, count - nearer);
+    }
+    this->starts_.clear();
     for (std::size_t i = 0; i < count; ++i)
     {
-      starts[i] = this->startOf(pixels[i]);
+      this->starts_.add(this->startOf(pixels[i]));
     }
+    this->starts_.finish();
     ShaftEdges::Found found = ShaftEdges::Found::Unclear;
-    if (const std::optional<LightShaft> shaft = LightShaft::make(this->light_, starts))
+    if (const std::optional<LightShaft> shaft = LightShaft::make(this->light_, this->starts_))
     {
       found = this->edges_.find(
-        this->tree_, *shaft, std::min(edgesPerSample * this->directions_.size(), mostEdges));
+        this->tree_, *shaft, this->starts_, std::min(edgesPerSample * this->samples_, mostEdges));
       if (found == ShaftEdges::Found::All)
       {
         return this->choose(pixels, count, *shaft);
@@ -248,13 +284,7 @@ public:
       return static_cast<std::int64_t>(count);
     }
     // Halves across the longest side of what holds them.
-    Bounds bounds;
-    for (const glm::vec3& start : starts)
-    {
-      bounds.add(glm::dvec3(start));
-    }
-    const glm::dvec3 size = bounds.upper - bounds.lower;
-    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    const int axis = longestAxis(this->starts_.bounds());
     std::uint16_t* const middle = pixels + count / 2;
     std::nth_element(pixels, middle, pixels + count,
       [&](std::uint16_t a, std::uint16_t b)
@@ -266,6 +296,86 @@ private:
   glm::vec3 startOf(std::size_t pixel) const
   {
     return { this->tile_.originX[pixel], this->tile_.originY[pixel], this->tile_.originZ[pixel] };
+  }
+
+  Bounds boundsOf(const std::uint16_t* pixels, std::size_t count) const
+  {
+    Bounds bounds;
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      bounds.add(glm::dvec3(this->startOf(pixels[i])));
+    }
+    return bounds;
+  }
+
+  static int longestAxis(const Bounds& bounds)
+  {
+    const glm::dvec3 size = bounds.upper - bounds.lower;
+    return size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+  }
+
+  /// Sorts pixels into those before and those behind a gap, as where one surface ends before another: a shaft of
+  /// both would hold all that is between them.
+  /// @return how many of them come first; 0 where there is no gap
+  std::size_t splitAtGap(std::uint16_t* pixels, std::size_t count) const
+  {
+    const Bounds bounds = this->boundsOf(pixels, count);
+    const int axis = longestAxis(bounds);
+    const double lower = bounds.lower[axis];
+    const double size = bounds.upper[axis] - lower;
+    if (!(size > 0.0))
+    {
+      return 0;
+    }
+    const auto partOf = [&](std::uint16_t pixel)
+    {
+      const double share = (static_cast<double>(this->startOf(pixel)[axis]) - lower) / size;
+      return std::min(
+        static_cast<std::size_t>(share * static_cast<double>(partsOfStarts)), partsOfStarts - 1);
+    };
+    std::array<bool, partsOfStarts> taken{};
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      taken[partOf(pixels[i])] = true;
+    }
+    // The first part and the last one are taken.
+    std::size_t empty = 0;
+    for (std::size_t part = 1; part < partsOfStarts; ++part)
+    {
+      if (taken[part] && empty >= emptyOfStarts)
+      {
+        std::uint16_t* const behind = std::partition(
+          pixels, pixels + count, [&](std::uint16_t pixel) { return partOf(pixel) < part; });
+        return static_cast<std::size_t>(behind - pixels);
+      }
+      empty = taken[part] ? 0 : empty + 1;
+    }
+    return 0;
+  }
+
+  /// Finds what rays may start on, as far as rounding says.
+  void findUnderStarts()
+  {
+    this->tree_.find(this->starts_.bounds(), this->under_);
+    const auto isCertain = [&](std::uint32_t place)
+    {
+      const EdgeTree::Record record = this->tree_.record(place);
+      if (record.opaque)
+      {
+        return false;
+      }
+      const EdgeTriangle& triangle = this->tree_.triangle(record.number);
+      const glm::dvec2 behind = this->starts_.behind(triangle);
+      return behind.x > triangle.noise || behind.y < -triangle.noise;
+    };
+    this->under_.erase(
+      std::remove_if(this->under_.begin(), this->under_.end(), isCertain), this->under_.end());
+  }
+
+  bool isOnTriangle(const glm::vec3& start) const
+  {
+    return std::any_of(this->under_.begin(), this->under_.end(),
+      [&](std::uint32_t place) { return this->tree_.isOn(start, this->tree_.record(place)); });
   }
 
   /// Whether its rays end where the shaft's do: those that start closer to the near face of a light's box than their
@@ -281,6 +391,7 @@ private:
 
   std::int64_t choose(const std::uint16_t* pixels, std::size_t count, const LightShaft& shaft)
   {
+    this->findUnderStarts();
     std::int64_t traced = 0;
     std::int64_t tooMany = 0;
     bool anyFew = false;
@@ -288,7 +399,7 @@ private:
     {
       const std::uint16_t pixel = pixels[i];
       const glm::vec3 start = this->startOf(pixel);
-      if (this->tree_.isOnTriangle(start) || !this->endsAsShaft(pixel, shaft))
+      if (this->isOnTriangle(start) || !this->endsAsShaft(pixel, shaft))
       {
         ++traced;
         continue;
@@ -301,7 +412,7 @@ private:
       }
       const Seeing see(this->tree_, shaft, start);
       this->edges_.select(see.startShaft(), see.slopes(), this->numbers_);
-      if (this->numbers_.size() > seenPerSample * this->directions_.size())
+      if (this->numbers_.size() > seenPerSample * this->samples_)
       {
         ++traced;
         ++tooMany;
@@ -332,7 +443,7 @@ private:
   /// A pixel whose rays pass no edge.
   void decideByOneRay(std::uint16_t pixel)
   {
-    const auto all = static_cast<std::uint32_t>(this->directions_.size());
+    const auto all = static_cast<std::uint32_t>(this->samples_);
     this->rays_.pixels[pixel] = { all, all, 0, 1 };
     this->tile_.classes[pixel] = static_cast<std::uint8_t>(TracedClass::Lit);
   }
@@ -340,39 +451,26 @@ private:
   /// A pixel whose rays pass edges.
   void count(std::uint16_t pixel, const LightShaft& shaft)
   {
-    this->directionsOf_(pixel, this->directions_.data());
-    this->sums_.setRays(
-      glm::mat3(shaft.rotation()), this->directions_.data(), this->directions_.size());
+    const LightSamples::Coordinates directions{ this->directions_[0].data(),
+      this->directions_[1].data(), this->directions_[2].data() };
+    this->directionsOf_(pixel, directions);
+    this->sums_.setRays(glm::mat3(shaft.rotation()), directions, this->samples_);
     this->sums_.add(this->seen_);
-    float least = std::numeric_limits<float>::infinity();
-    for (std::size_t i = 0; i < this->sums_.count(); ++i)
-    {
-      least = this->sums_.isUncertain(i) ? least : std::min(least, this->sums_.sum(i));
-    }
-    PixelSamples& chosen = this->rays_.pixels[pixel];
-    chosen = { 0, 0, static_cast<std::uint32_t>(this->rays_.samples.size()), 0 };
+    std::vector<std::uint32_t>& samples = this->rays_.samples;
+    const std::size_t before = samples.size();
     // One of those that meet the fewest triangles comes first, and stands for all of them.
-    std::uint32_t uncertain = 0;
-    for (std::size_t i = 0; i < this->sums_.count(); ++i)
+    const EdgeSums::Fewest fewest = this->sums_.fewest();
+    if (fewest.count > 0)
     {
-      const bool fewest = !this->sums_.isUncertain(i) && this->sums_.sum(i) == least;
-      if (fewest && chosen.ofFirstRay == 0)
-      {
-        this->rays_.samples.push_back(static_cast<std::uint32_t>(i));
-      }
-      chosen.ofFirstRay += fewest ? 1u : 0u;
-      uncertain += this->sums_.isUncertain(i) ? 1u : 0u;
+      samples.push_back(fewest.first);
     }
-    for (std::size_t i = 0; i < this->sums_.count() && uncertain > 0; ++i)
-    {
-      if (this->sums_.isUncertain(i))
-      {
-        this->rays_.samples.push_back(static_cast<std::uint32_t>(i));
-      }
-    }
-    chosen.lit = chosen.ofFirstRay + uncertain;
-    chosen.count = static_cast<std::uint32_t>(this->rays_.samples.size()) - chosen.first;
-    chosen.ofFirstRay = std::max(chosen.ofFirstRay, 1u);
+    const std::size_t certain = samples.size();
+    this->sums_.appendUncertain(samples);
+    PixelSamples& chosen = this->rays_.pixels[pixel];
+    chosen.lit = fewest.count + static_cast<std::uint32_t>(samples.size() - certain);
+    chosen.ofFirstRay = std::max(fewest.count, 1u);
+    chosen.first = static_cast<std::uint32_t>(before);
+    chosen.count = static_cast<std::uint32_t>(samples.size() - before);
     this->tile_.classes[pixel] = penumbraClass;
   }
 
@@ -381,7 +479,10 @@ private:
   TracedTile& tile_;
   const SampleChooser::DirectionsOf& directionsOf_;
   SampleRays& rays_;
-  std::vector<glm::vec3> directions_;
+  std::size_t samples_;
+  std::array<std::vector<float>, 3> directions_; ///< of a pixel's rays: x, y, z
+  RayStarts starts_;
+  std::vector<std::uint32_t> under_; ///< places of records that some of these may be on
   ShaftEdges edges_;
   std::vector<std::uint32_t> numbers_;
   std::vector<SeenEdge> seen_;

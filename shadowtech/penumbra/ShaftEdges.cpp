@@ -13,17 +13,24 @@ namespace
 /// So few triangles may all lie in one leaf of a tracer's, which asks them without looking at any box.
 constexpr std::size_t mostOfLeaf = 32;
 
+/// Triangles whose sight is kept while looking for edges: more than a square nearly always has.
+constexpr std::size_t sightsKept = 512;
+
 /// What matters farther around an edge than so much matters everywhere.
 constexpr double mostSlopes = 0.25;
 
 } // namespace
 
 //------------------------------------------------------------------------------
-ShaftEdges::Found ShaftEdges::find(const EdgeTree& tree, const LightShaft& shaft, std::size_t most)
+ShaftEdges::Found ShaftEdges::find(
+  const EdgeTree& tree, const LightShaft& shaft, const RayStarts& starts, std::size_t most)
 {
   this->most_ = most;
+  ++this->search_;
+  this->looked_.resize(sightsKept);
   this->tree_ = &tree;
   this->shaft_ = &shaft;
+  this->starts_ = &starts;
   this->centre_ = shaft.starts().centre();
   this->half_ = shaft.starts().upper - this->centre_;
   this->radius_ = glm::length(this->half_);
@@ -117,6 +124,11 @@ ShaftEdges::Found ShaftEdges::take(const EdgeTree::Record& record)
   {
     return Found::All;
   }
+  const Sight sight = this->look(record.number); // a copy: what is kept may give way
+  if (sight.left)
+  {
+    return Found::All;
+  }
   const std::array<glm::vec3, 3>& corners = this->tree_->corners(record.number);
   const std::array<glm::dvec3, 3> placed{ { this->shaft_->toShaft(corners[0]),
     this->shaft_->toShaft(corners[1]), this->shaft_->toShaft(corners[2]) } };
@@ -128,7 +140,6 @@ ShaftEdges::Found ShaftEdges::take(const EdgeTree::Record& record)
   {
     return Found::Unclear; // rays may end on it
   }
-  const Sight sight = this->look(this->tree_->triangle(record.number));
   if (beyond && sight.alike)
   {
     return Found::All;
@@ -151,17 +162,42 @@ ShaftEdges::Found ShaftEdges::take(const EdgeTree::Record& record)
 }
 
 //------------------------------------------------------------------------------
-ShaftEdges::Sight ShaftEdges::look(const EdgeTriangle& triangle) const
+const ShaftEdges::Sight& ShaftEdges::look(std::uint32_t number)
+{
+  Looked& looked = this->looked_[number % sightsKept];
+  if (looked.search != this->search_ || looked.number != number)
+  {
+    looked = { this->search_, number, this->sightOf(this->tree_->triangle(number), number) };
+  }
+  return looked.sight;
+}
+
+//------------------------------------------------------------------------------
+ShaftEdges::Sight ShaftEdges::sightOf(const EdgeTriangle& triangle, std::uint32_t number) const
 {
   const double behind = triangle.behind(this->centre_);
   const double least = std::abs(behind) - glm::dot(glm::abs(triangle.normal), this->half_);
   const double farthest =
     glm::length(glm::dvec3(triangle.corner) - this->centre_) + triangle.longest + this->radius_;
   const bool alike = least > EdgeRounding::ofHeight * EdgeRounding::unit * farthest * farthest;
-  return { behind, least / triangle.longest, alike,
+  return { behind, least / triangle.longest, alike, !alike && this->isLeft(number),
     alike
       ? 1.0
       : std::max(EdgeRounding::wider, static_cast<double>(triangle.longest / triangle.height)) };
+}
+
+//------------------------------------------------------------------------------
+/// EdgeTriangle::isLeft() of all starts.
+bool ShaftEdges::isLeft(std::uint32_t number) const
+{
+  const EdgeTriangle& triangle = this->tree_->triangle(number);
+  const glm::dvec2 along = this->shaft_->extentAlong(triangle.normal);
+  if (along.x < 0.0 && along.y > 0.0)
+  {
+    return false;
+  }
+  return triangle.isLeft(this->starts_->behind(triangle),
+    this->tree_->reach(number, this->centre_) + this->half_, along, this->shaft_->longestSlope());
 }
 
 //------------------------------------------------------------------------------
@@ -211,7 +247,8 @@ void ShaftEdges::takeStrip(std::uint32_t triangle, std::size_t side,
   strip.length = static_cast<float>(length);
   strip.reach = static_cast<float>(reach);
   this->strips_.push_back(strip);
-  this->add({ &this->strips_.back(), sight.alike ? 0.0f : std::numeric_limits<float>::quiet_NaN(),
+  this->add({ &this->strips_.back(), this->strips_.back().triangles,
+              sight.alike ? 0.0f : std::numeric_limits<float>::quiet_NaN(),
               static_cast<float>(sight.height), true },
     from, to, close);
 }
@@ -225,12 +262,17 @@ void ShaftEdges::takeEdge(const TreeEdge& edge)
   {
     return;
   }
-  Edge taken{ &edge, 0.0f, std::numeric_limits<float>::infinity(), false };
+  Edge taken{ &edge, edge.triangles, 0.0f, std::numeric_limits<float>::infinity(), false };
   double width = 1.0;
   for (std::size_t i = 0; i < 2 && edge.triangles[i] != TreeEdge::none; ++i)
   {
     const EdgeTriangle& triangle = this->tree_->triangle(edge.triangles[i]);
-    const Sight sight = this->look(triangle);
+    const Sight& sight = this->look(edge.triangles[i]);
+    if (sight.left)
+    {
+      taken.triangles[i] = TreeEdge::none;
+      continue;
+    }
     taken.weight += sight.alike ? directionOf(edge, i) * weightOf(triangle, sight.behind > 0.0)
                                 : std::numeric_limits<float>::quiet_NaN();
     taken.height = std::min(taken.height, static_cast<float>(sight.height));

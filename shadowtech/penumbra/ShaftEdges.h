@@ -3,6 +3,7 @@
 
 #include "shadowtech/penumbra/EdgeTree.h"
 #include "shadowtech/penumbra/LightShaft.h"
+#include "shadowtech/penumbra/RayStarts.h"
 
 #include <glm/glm.hpp>
 
@@ -61,6 +62,8 @@ public:
   struct Edge
   {
     const TreeEdge* edge;
+    /// Its triangles, but for those that no ray meets: these are `none`.
+    std::array<std::uint32_t, 2> triangles;
     /// How many triangles more are met to its left than to its right, where that is the same from all starts; else NaN.
     float weight;
     /// Then, the least height above the plane of its triangles, over their longest side.
@@ -77,8 +80,10 @@ public:
     Unclear ///< something else than edges matters: what has holes, instances, needles, what is at the light
   };
   /// Looks for them.
+  /// @param starts of the shaft, centred; read as long as find() takes
   /// @param most of them that are not too many
-  Found find(const EdgeTree& tree, const LightShaft& shaft, std::size_t most);
+  Found find(
+    const EdgeTree& tree, const LightShaft& shaft, const RayStarts& starts, std::size_t most);
 
   std::size_t size() const { return this->edges_.size(); }
   const Edge& edge(std::size_t number) const { return this->edges_[number]; }
@@ -109,9 +114,12 @@ private:
     double behind; ///< EdgeTriangle::behind() of the middle of the starts
     double height; ///< the least above its plane, over its longest side; may be below 0
     bool alike;    ///< whether it shows them the same side for certain
+    bool left;     ///< whether all rays leave its plane for certain, so that none meets it
     double width;  ///< of what is close to its edges by rounding
   };
-  Sight look(const EdgeTriangle& triangle) const;
+  const Sight& look(std::uint32_t number);
+  Sight sightOf(const EdgeTriangle& triangle, std::uint32_t number) const;
+  bool isLeft(std::uint32_t number) const;
 
   /// What is close to a line by rounding, as seen from any of the starts.
   struct Closeness
@@ -125,9 +133,20 @@ private:
     const Sight& sight);
   void add(const Edge& edge, const glm::dvec3& from, const glm::dvec3& to, const Closeness& close);
 
+  /// A triangle that was looked at, most of which are again, with each of their edges.
+  struct Looked
+  {
+    std::uint64_t search = 0; ///< in which
+    std::uint32_t number = 0;
+    Sight sight;
+  };
+
+  std::uint64_t search_ = 0;   ///< number of this one
+  std::vector<Looked> looked_; ///< by the triangles' numbers, less whole multiples of its size
   const EdgeTree* tree_ = nullptr;
   const LightShaft* shaft_ = nullptr;
-  glm::dvec3 centre_, half_; ///< of the starts' box, centred
+  const RayStarts* starts_ = nullptr; ///< while looking
+  glm::dvec3 centre_, half_;          ///< of the starts' box, centred
   double radius_ = 0.0;
   std::size_t most_ = 0;
   bool fewTriangles_ = false; ///< which a tracer may ask without looking at their boxes

@@ -1,7 +1,7 @@
 #ifndef gnomon_shadowtech_tracing_SampleRays_h
 #define gnomon_shadowtech_tracing_SampleRays_h
 
-#include <glm/glm.hpp>
+#include "lights/LightSamples.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -40,7 +40,8 @@ public:
   virtual ~SampleChooser() = default;
 
   /// A pixel's rays to all samples, in their order: directions as they would be traced.
-  using DirectionsOf = std::function<void(std::size_t pixel, glm::vec3* directions)>;
+  using DirectionsOf =
+    std::function<void(std::size_t pixel, const LightSamples::Coordinates& directions)>;
 
   /// Chooses the rays of a tile. Called by several threads at once.
   /// @param tile whose pixels that need a ray may get another class

@@ -143,14 +143,19 @@ public:
   }
 
   /// Where a pixel's rays to all samples go.
-  void directionsOf(std::size_t pixel, glm::vec3* directions)
+  void directionsOf(std::size_t pixel, const LightSamples::Coordinates& directions) const
   {
-    this->samples_.offsets(
-      this->pixels_[pixel], { this->x_.data(), this->y_.data(), this->z_.data() });
+    this->samples_.offsets(this->pixels_[pixel], directions);
     const AreaRays rays = this->raysOf(pixel);
-    for (std::size_t i = 0; i < this->x_.size(); ++i)
+    float *const x = directions.x, *const y = directions.y, *const z = directions.z;
+    const auto count = static_cast<std::size_t>(this->samples_.count());
+#pragma GCC ivdep
+    for (std::size_t i = 0; i < count; ++i)
     {
-      directions[i] = directionToSample(rays, { this->x_[i], this->y_[i], this->z_[i] });
+      const glm::vec3 direction = directionToSample(rays, { x[i], y[i], z[i] });
+      x[i] = direction.x;
+      y[i] = direction.y;
+      z[i] = direction.z;
     }
   }
 
@@ -423,8 +428,9 @@ std::size_t TracedPicture::visitSamples(const SampleRange& samples, const Receiv
   {
     this->chooser_->choose(
       traced,
-      [&](std::size_t pixel, glm::vec3* directions) { area.directionsOf(pixel, directions); }, rays,
-      samples.first > 0);
+      [&](std::size_t pixel, const LightSamples::Coordinates& directions)
+      { area.directionsOf(pixel, directions); },
+      rays, samples.first > 0);
   }
   for (std::size_t pixel = 0; pixel < TracedTile::pixels; ++pixel)
   {

@@ -1,0 +1,110 @@
+// Edges that are summed for all rays side by side, against one ray after another.
+
+#include "RandomScenes.h"
+
+#include "shadowtech/penumbra/EdgeSums.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace gnomon::test
+{
+namespace
+{
+
+constexpr float pixel = 1.0f / 64.0f;
+
+/// On a grid, so that products and sums are exact and rays come to lie on edges and at their ends.
+float onGrid(Random& random)
+{
+  return std::round(static_cast<float>(uniform(random, -1.0, 1.0)) / pixel) * pixel;
+}
+
+SeenEdge anyEdge(Random& random)
+{
+  SeenEdge edge{};
+  edge.across = { onGrid(random), onGrid(random), onGrid(random) };
+  edge.uncertain = random() % 2 ? 0.01f : -1.0f;
+  edge.lower = onGrid(random);
+  edge.upper = edge.lower + std::abs(onGrid(random));
+  edge.uncertainLower = edge.lower - pixel;
+  edge.uncertainUpper = edge.upper + pixel;
+  edge.weight = static_cast<std::int32_t>(random() % 5) - 2;
+  edge.weightBelow = static_cast<std::int32_t>(random() % 3) - 1;
+  edge.below = onGrid(random);
+  return edge;
+}
+
+TEST(EdgeSums, areThoseOfOneRayAfterAnother)
+{
+  Random random(1);
+  EdgeSums sums;
+  for (const std::size_t count : { 1, 7, 16, 23, 64, 65, 256 })
+  {
+    for (int picture = 0; picture < 50; ++picture)
+    {
+      std::array<std::vector<float>, 3> axes;
+      for (std::size_t i = 0; i < count; ++i)
+      {
+        axes[0].push_back(onGrid(random));
+        axes[1].push_back(onGrid(random));
+        axes[2].push_back(1.0f);
+      }
+      std::vector<SeenEdge> edges(random() % 20);
+      std::generate(edges.begin(), edges.end(), [&] { return anyEdge(random); });
+      sums.setRays(glm::mat3(1.0f), { axes[0].data(), axes[1].data(), axes[2].data() }, count);
+      sums.add(edges);
+
+      std::vector<std::uint32_t> uncertain;
+      std::vector<std::int32_t> certain;
+      std::vector<std::uint32_t> raysOfCertain;
+      for (std::size_t i = 0; i < count; ++i)
+      {
+        const float x = axes[0][i];
+        const float y = axes[1][i];
+        std::int32_t sum = 0;
+        bool unclear = false;
+        for (const SeenEdge& edge : edges)
+        {
+          const float side = edge.across.x * x + edge.across.y * y + edge.across.z;
+          sum += side > 0.0f && y >= edge.lower && y < edge.upper ? edge.weight : 0;
+          sum += y < edge.below ? edge.weightBelow : 0;
+          unclear = unclear ||
+            (std::abs(side) <= edge.uncertain && y >= edge.uncertainLower &&
+              y <= edge.uncertainUpper);
+        }
+        if (unclear)
+        {
+          uncertain.push_back(static_cast<std::uint32_t>(i));
+        }
+        else
+        {
+          certain.push_back(sum);
+          raysOfCertain.push_back(static_cast<std::uint32_t>(i));
+        }
+      }
+      std::vector<std::uint32_t> found{ 12345u };
+      sums.appendUncertain(found);
+      EXPECT_EQ(found[0], 12345u);
+      EXPECT_EQ(std::vector<std::uint32_t>(found.begin() + 1, found.end()), uncertain);
+      const EdgeSums::Fewest fewest = sums.fewest();
+      if (certain.empty())
+      {
+        EXPECT_EQ(fewest.count, 0u);
+        continue;
+      }
+      const auto least = std::min_element(certain.begin(), certain.end());
+      EXPECT_EQ(fewest.count, std::count(certain.begin(), certain.end(), *least));
+      EXPECT_EQ(fewest.first, raysOfCertain[static_cast<std::size_t>(least - certain.begin())]);
+    }
+  }
+}
+
+} // namespace
+} // namespace gnomon::test
