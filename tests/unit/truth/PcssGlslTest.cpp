@@ -154,42 +154,38 @@ private:
     this->acrossFromTexel_ = glm::inverse(texels);
     const glm::dvec2 across = view.rays.across(this->p_);
     this->texel_ = mapped(texels, across);
-    // Where the light's axes seem to be on the plane z = 0, seen from the receiver.
     const glm::dmat3 area = turn * this->light_.area->worldFromUnit;
-    const glm::dvec3 ray(positional ? across : glm::dvec2(0.0), 1.0);
-    glm::dmat2 seen(0.0);
+    this->axes_ = glm::dmat2x3(area[0], area[1]);
     if (this->light_.area->shape == LightArea::Shape::Ball)
     {
       // An ellipse: along the slope as long as the ray is.
       const glm::dvec2 along = glm::normalize(across);
       const glm::dmat2 axes(along, glm::dvec2(-along.y, along.x));
       const double radius = this->light_.area->radius();
-      seen = axes * glm::dmat2(radius * glm::length(ray), 0.0, 0.0, radius) * glm::transpose(axes);
+      const double ray = glm::length(glm::dvec3(across, 1.0));
+      const glm::dmat2 seen =
+        axes * glm::dmat2(radius * ray, 0.0, 0.0, radius) * glm::transpose(axes);
+      this->axes_ = glm::dmat2x3(glm::dvec3(seen[0], 0.0), glm::dvec3(seen[1], 0.0));
     }
-    else
-    {
-      for (int axis = 0; axis < 2; ++axis)
-      {
-        seen[axis] = glm::dvec2(area[axis] - area[axis].z * ray);
-      }
-    }
-    this->lightTexels_ = texelJacobian(texels, across) * seen;
-    const glm::dvec2 farthest = this->reach();
+    this->lightTexels_ = texelJacobian(texels, across) *
+      glm::dmat2(glm::dvec2(this->axes_[0]), glm::dvec2(this->axes_[1]));
 
-    double largest = 1e300;
-    glm::dvec2 reach(1e4);
+    double largest = this->isAround() ? this->mostAround() : 1e300;
+    Window window{ glm::ivec2(0), glm::ivec2(mapSize - 1) };
     for (int step = 0; step < 4; ++step)
     {
-      largest = std::min(largest, this->separation(this->nearest(reach)));
-      reach = farthest * largest;
+      largest = std::min(largest, this->separationBound(window, step == 0, largest));
+      window = this->window(largest);
     }
-    this->slack_ = slack * std::max(2.0 * std::max(reach.x, reach.y), 1.0);
+    const glm::dvec2 width =
+      this->isAround() ? glm::dvec2(window.last - window.first) : 2.0 * this->reach() * largest;
+    this->slack_ = slack * std::max(std::max(width.x, width.y), 1.0);
     const auto turned = [&](int number)
     {
       glm::dvec2 place =
         this->patterned(this->points_[static_cast<std::size_t>(number)], patterned);
-      const glm::dvec3 source(seen * place, positional ? 0.0 : -1.0);
-      const glm::dvec3 away = source - (positional ? this->p_ : glm::dvec3(0.0));
+      const glm::dvec3 source = this->axes_ * place;
+      const glm::dvec3 away = source - (positional ? this->p_ : glm::dvec3(0.0, 0.0, 1.0));
       return glm::dot(away, this->n_) < 0.0 ? -place : place;
     };
     double hiddenShare = 0.0;
@@ -206,13 +202,21 @@ private:
     }
     for (int i = 0; i < this->counts_.search; ++i)
     {
-      // Denser in the middle: as many points in every ring of the same width.
+      // Denser in the middle: as many points in every ring of the same width, or of the same angle.
       glm::dvec2 place = turned(i);
       place *= this->extent(place);
+      double density = 1.0;
+      if (this->isAround())
+      {
+        const double widest = largest * this->radiusOfAxes() / glm::length(this->p_);
+        const double angle = this->extent(place) * std::atan(widest);
+        place *= std::tan(angle) / widest / this->extent(place);
+        density = std::atan(widest) / widest / std::pow(std::cos(angle), 2);
+      }
       const auto hider = this->hiderAt(largest * place);
       if (hider && *hider >= largest * this->extent(place))
       {
-        addBlocker(*hider, 2.0 * this->extent(place) / this->counts_.search);
+        addBlocker(*hider, 2.0 * this->extent(place) * density / this->counts_.search);
       }
     }
     const double mean = hiddenShare > 0.0 ? sum / hiddenShare : largest;
@@ -259,18 +263,122 @@ private:
     return farthest;
   }
 
-  double separation(double depth) const
+  /// Whether the light looks around from the middle of a cube. Other faces see no casters here.
+  bool isAround() const { return this->views_.layout == ViewLayout::Cube; }
+
+  double radiusOfAxes() const
   {
-    const LightView& view = this->views_.views.front();
-    const double z = (depth - view.depthOffset) / view.depthScale;
-    return std::max(view.rays.positional ? 1.0 / z - 1.0 / this->p_.z : this->p_.z - z, 0.0);
+    return std::max(glm::length(this->axes_[0]), glm::length(this->axes_[1]));
   }
 
-  /// The least depth of the blocks of the pyramid that hold the texels within a reach.
-  double nearest(const glm::dvec2& reach) const
+  /// At which the rays to the rim are eight texels from those to the light's centre plane.
+  double mostAround() const
   {
-    const glm::ivec2 first = texelOf(this->texel_ - reach);
-    const glm::ivec2 last = texelOf(this->texel_ + reach);
+    const glm::dmat3 acrossFromTexel = glm::inverse(this->acrossFromTexel_);
+    return glm::length(this->p_) * std::min(acrossFromTexel[0].x, acrossFromTexel[1].y) /
+      (8.0 * this->radiusOfAxes());
+  }
+
+  double distance(double depth) const
+  {
+    const LightView& view = this->views_.views.front();
+    return (depth - view.depthOffset) / view.depthScale;
+  }
+
+  double separation(double depth) const
+  {
+    const double z = this->distance(depth);
+    return std::max(
+      this->views_.views.front().rays.positional ? 1.0 / z - 1.0 / this->p_.z : this->p_.z - z,
+      0.0);
+  }
+
+  struct Window
+  {
+    glm::ivec2 first;
+    glm::ivec2 last;
+    glm::dvec2 lower{ -1.0 }; ///< slopes, of a cube's face
+    glm::dvec2 upper{ 1.0 };
+  };
+
+  /// The largest slope of a plane through the light, on the face, that has all of these on its upper side.
+  static double leastSlope(const std::vector<glm::dvec3>& corners, int axis, double sign)
+  {
+    double least = -1.0;
+    const auto holds = [&](double slope)
+    {
+      return std::all_of(corners.begin(), corners.end(),
+        [&](const glm::dvec3& corner)
+        { return sign * corner[axis] - slope * corner.z >= -1e-12 * glm::length(corner); });
+    };
+    for (const glm::dvec3& corner : corners)
+    {
+      const double slope = sign * corner[axis] / corner.z;
+      least = std::abs(slope) <= 1.0 && holds(slope) ? std::max(least, slope) : least;
+    }
+    return holds(1.0) ? 1.0 : least;
+  }
+
+  /// What is looked up at a separation.
+  Window window(double separation) const
+  {
+    Window window{ texelOf(this->texel_ - this->reach() * separation),
+      texelOf(this->texel_ + this->reach() * separation) };
+    if (this->isAround())
+    {
+      std::vector<glm::dvec3> corners;
+      for (const glm::dvec2& corner :
+        { glm::dvec2(1.0, 1.0), { 1.0, -1.0 }, { -1.0, 1.0 }, { -1.0, -1.0 } })
+      {
+        corners.push_back(this->p_ + separation * (this->axes_ * corner));
+      }
+      for (int axis = 0; axis < 2; ++axis)
+      {
+        window.lower[axis] = leastSlope(corners, axis, 1.0);
+        window.upper[axis] = -leastSlope(corners, axis, -1.0);
+      }
+      const glm::dmat3 texels = glm::inverse(this->acrossFromTexel_);
+      window.first = texelOf(mapped(texels, window.lower) - 0.01);
+      window.last = texelOf(mapped(texels, window.upper) + 0.01);
+    }
+    return window;
+  }
+
+  /// The largest separation that a caster of a window may have, as far as its nearest depth tells.
+  double separationBound(const Window& window, bool whole, double most) const
+  {
+    const double least = this->nearest(window);
+    if (!this->isAround())
+    {
+      return this->separation(least);
+    }
+    if (least >= 1.0 && !whole)
+    {
+      return 0.0;
+    }
+    // From (1 + s) X = P + L s: along the axis, and over the light's plane.
+    const double z = this->distance(least);
+    const glm::dvec2 depths(this->axes_[0].z, this->axes_[1].z);
+    const double farther =
+      this->isRectangle() ? std::abs(depths.x) + std::abs(depths.y) : glm::length(depths);
+    double bound = z > farther ? std::max(this->p_.z - z, 0.0) / (z - farther) : most;
+    const glm::dvec3 normal = glm::cross(this->axes_[0], this->axes_[1]);
+    const double height = glm::dot(normal, this->p_);
+    double lowest = 1e300;
+    for (const glm::dvec2& slope : { window.lower, window.upper,
+           glm::dvec2(window.lower.x, window.upper.y), { window.upper.x, window.lower.y } })
+    {
+      lowest = std::min(lowest, glm::dot(normal, z * glm::dvec3(slope, 1.0)) / height);
+    }
+    bound = lowest > 0.0 ? std::min(bound, std::max(1.0 / lowest - 1.0, 0.0)) : bound;
+    return std::min(bound, most);
+  }
+
+  /// The least depth of the blocks of the pyramid that hold a window.
+  double nearest(const Window& window) const
+  {
+    const glm::ivec2& first = window.first;
+    const glm::ivec2& last = window.last;
     const int width = std::max(last.x - first.x, last.y - first.y) + 1;
     int block = 2;
     while (block < width)
@@ -298,10 +406,17 @@ private:
   {
     ++this->fetches_;
     const LightView& view = this->views_.views.front();
-    const glm::ivec2 texel = texelOf(this->texel_ + this->lightTexels_ * light);
+    const glm::dvec3 ray = this->isAround() ? this->p_ + this->axes_ * light : this->p_;
+    if (std::max(std::abs(ray.x), std::abs(ray.y)) > ray.z && this->isAround())
+    {
+      return std::nullopt; // another face's
+    }
+    const glm::ivec2 texel = this->isAround()
+      ? texelOf(mapped(glm::inverse(this->acrossFromTexel_), glm::dvec2(ray) / ray.z))
+      : texelOf(this->texel_ + this->lightTexels_ * light);
     const double depth = this->depths_(texel);
     const glm::dvec2 centre = mapped(this->acrossFromTexel_, glm::dvec2(texel) + 0.5);
-    double z = this->p_.z;
+    double z = ray.z;
     if (view.rays.positional)
     {
       const double along = glm::dot(this->n_, glm::dvec3(centre, 1.0));
@@ -312,8 +427,12 @@ private:
       const glm::dvec2 away = centre - glm::dvec2(this->p_);
       z = std::min(z, this->p_.z - glm::dot(glm::dvec2(this->n_), away) / this->n_.z);
     }
-    const bool lit = depth >= 1.0 || z * view.depthScale + view.depthOffset <= depth + this->slack_;
-    return lit ? std::nullopt : std::optional<double>(this->separation(depth));
+    if (depth >= 1.0 || z * view.depthScale + view.depthOffset <= depth + this->slack_)
+    {
+      return std::nullopt;
+    }
+    return this->isAround() ? std::max(ray.z / this->distance(depth) - 1.0, 0.0)
+                            : this->separation(depth);
   }
 
   static double noise(const glm::ivec2& cell)
@@ -351,17 +470,23 @@ private:
   glm::dvec3 p_{ 0.0 };
   glm::dvec3 n_{ 0.0 };
   glm::dvec2 texel_{ 0.0 };
+  glm::dmat2x3 axes_{ 0.0 }; ///< the light's
   glm::dmat2 lightTexels_{ 0.0 };
   glm::dmat3 acrossFromTexel_{ 1.0 };
   double slack_ = 0.0;
   int fetches_ = 0;
 };
 
-/// A light's first view of a cube that casts.
+/// A light's first view of a cube that casts, as the only one.
 LightViews firstView(const ShadowLight& light)
 {
   LightViews views =
     fitLightViews(light, glm::dvec3(0.0), { glm::dvec3(-1.0), glm::dvec3(1.0) }, mapSize, 8);
+  views.views.resize(1);
+  for (int& view : views.viewOfFace)
+  {
+    view = view == 0 ? 0 : LightViews::noView;
+  }
   return views;
 }
 
