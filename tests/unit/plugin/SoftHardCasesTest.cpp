@@ -143,7 +143,7 @@ const std::vector<SoftCase>& softCases()
           return addDisk(scene, { -1.2, 0.0, 1.5001 }, down, 0.3);
         }) },
     { "diskInTheBoxesTop", 0.0002,
-      { { 0.021, 107 }, { 0.285, 3862 }, { 0.021, 107 }, { 0.0002, 0 } },
+      { { 0.021, 107 }, { 0.021, 107 }, { 0.021, 107 }, { 0.0002, 0 } },
       things(
         [](PassScene& scene) {
           return addDisk(scene, { -1.2, 0.0, 1.5 }, down, 0.3);
