@@ -118,6 +118,7 @@ public:
   {
     double lit = 1.0;
     int fetches = 0; ///< texels of the map that are read without an early out
+    bool foundBlocker = false;
   };
 
   Answer at(const Receiver& receiver, bool patterned = true)
@@ -126,6 +127,7 @@ public:
     Answer answer;
     answer.lit = this->visibility(receiver, patterned);
     answer.fetches = this->fetches_;
+    answer.foundBlocker = this->foundBlocker_;
     return answer;
   }
 
@@ -219,6 +221,7 @@ private:
         addBlocker(*hider, 2.0 * this->extent(place) * density / this->counts_.search);
       }
     }
+    this->foundBlocker_ = hiddenShare > 0.0;
     const double mean = hiddenShare > 0.0 ? sum / hiddenShare : largest;
     int hidden = 0;
     for (int i = 0; i < this->counts_.filter; ++i)
@@ -475,6 +478,7 @@ private:
   glm::dmat3 acrossFromTexel_{ 1.0 };
   double slack_ = 0.0;
   int fetches_ = 0;
+  bool foundBlocker_ = false;
 };
 
 /// A light's first view of a cube that casts, as the only one.
@@ -641,6 +645,98 @@ TEST(Pcss, readsAsManyTexelsAsItsPresetsSay)
     EXPECT_LE(most, 1 + expected[preset].search + 2 * expected[preset].filter);
     EXPECT_GT(most, previous);
     previous = most;
+  }
+}
+
+/// What a light's search says of receivers on a plane.
+struct SearchShares
+{
+  double blocked = 0.0; ///< the share of receivers that find a blocker, and filter by its penumbra
+  double lit = 0.0;     ///< their mean visibility
+  int fetches = 0;      ///< of all receivers
+};
+
+/// @param nearShare the distance from the light to where depths begin is this times what it was
+SearchShares sharesOf(const ShadowLight& light, double nearShare = 1.0)
+{
+  LightViews views = firstView(light);
+  const std::vector<Receiver> receivers = receiversOf(views, { 0.4, -0.2 });
+  LightView& view = views.views.front();
+  const LightView tight = view;
+  const double far = (1.0 - tight.depthOffset) / tight.depthScale;
+  const double near = -tight.depthOffset / tight.depthScale * nearShare;
+  view.depthScale = 1.0 / (far - near);
+  view.depthOffset = -near * view.depthScale;
+  const Depths depths = [&](const glm::ivec2& texel)
+  {
+    const double depth = blocks(texel);
+    const double z = (depth - tight.depthOffset) / tight.depthScale;
+    return depth < 1.0 ? static_cast<float>(z * view.depthScale + view.depthOffset) : 1.0f;
+  };
+  Twin twin(light, views, depths);
+  SearchShares shares;
+  for (const Receiver& receiver : receivers)
+  {
+    const Twin::Answer answer = twin.at(receiver);
+    shares.blocked += answer.foundBlocker ? 1.0 : 0.0;
+    shares.lit += answer.lit;
+    shares.fetches += answer.fetches;
+  }
+  shares.blocked /= static_cast<double>(receivers.size());
+  shares.lit /= static_cast<double>(receivers.size());
+  return shares;
+}
+
+TEST(Pcss, presetsReadMoreFromLowToHigh)
+{
+  for (const AreaCase& each : areaCases())
+  {
+    int previous = 0;
+    for (const PcssSamples samples : { PcssSamples::Low, PcssSamples::Medium, PcssSamples::High })
+    {
+      ShadowLight light = each.light;
+      light.pcssSamples = samples;
+      const int fetches = sharesOf(light).fetches;
+      EXPECT_GT(fetches, 2 * previous) << each;
+      previous = fetches;
+    }
+  }
+}
+
+TEST(Pcss, whoFindsBlockersDoesNotDependOnTheNearPlane)
+{
+  for (const AreaCase& each : areaCases())
+  {
+    if (each.light.kind == LightKind::Directional)
+    {
+      continue; // it has no light to be near to
+    }
+    const SearchShares tight = sharesOf(each.light);
+    EXPECT_GT(tight.blocked, 0.2) << each;
+    EXPECT_LT(tight.blocked, 1.0) << each;
+    for (const double nearShare : { 0.5, 0.1, 0.01 })
+    {
+      const SearchShares near = sharesOf(each.light, nearShare);
+      // Depths of floats: a receiver may lie on a texel's plane.
+      EXPECT_NEAR(near.blocked, tight.blocked, 0.005) << each << nearShare;
+      EXPECT_NEAR(near.lit, tight.lit, 0.001) << each << nearShare;
+    }
+  }
+}
+
+TEST(Pcss, largerLightsFindBlockersForMoreReceivers)
+{
+  for (const AreaCase& each : areaCases())
+  {
+    double previous = 0.0;
+    for (const double size : { 0.1, 0.3, 1.0, 3.0 })
+    {
+      ShadowLight light = each.light;
+      light.area->worldFromUnit *= size;
+      const double blocked = sharesOf(light).blocked;
+      EXPECT_GT(blocked, previous) << each << size;
+      previous = blocked;
+    }
   }
 }
 
