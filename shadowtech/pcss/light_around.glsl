@@ -138,9 +138,11 @@ FaceWindow_LIGHT windowOn_LIGHT(
   return window;
 }
 
-// The largest separation that a caster may have which is no nearer along a face's axis than a depth of its map.
+// The largest separation that a caster may have which is no nearer along a face's axis than a depth of its map, as far as
+// that tells, which is all where the light stands across that axis.
+// @param slope where it is seen
 float separationBound_LIGHT(
-  ViewPoint onFace, ViewPoint point, SeenLight_LIGHT light, FaceWindow_LIGHT window, float depth)
+  ViewPoint onFace, ViewPoint point, SeenLight_LIGHT light, vec2 slope, float depth)
 {
   float nearest = distanceOf_LIGHT(onFace, depth);
   // On the way to a point of the light that is as far along the axis as any.
@@ -149,27 +151,46 @@ float separationBound_LIGHT(
   float before = nearest - extentAlong_LIGHT(vec2(first.z, second.z));
   float behind = max(onFace.position.z - nearest, 0.0);
   float bound = behind < light.most * before ? behind / before : light.most;
-  // The heights over the light's plane of the receiver and of the caster that is the lowest.
+  // The heights of both over the light's plane.
   vec3 normal = onFace_LIGHT(point, onFace.face, light.normal);
   float height = dot(normal, onFace.position);
-  vec2 most = height > 0.0 ? normal.xy : -normal.xy;
-  vec2 slope = mix(window.upper, window.lower, greaterThan(most, vec2(0.0)));
-  float lowest = nearest * (dot(most, slope) + (height > 0.0 ? normal.z : -normal.z));
-  float above = max(abs(height) - lowest, 0.0);
-  return above < bound * lowest ? above / lowest : bound;
+  float heightCaster = nearest * dot(normal, vec3(slope, 1.0));
+  float share = max(height / heightCaster, 0.0); // 0: they are on either side of it
+  return heightCaster == 0.0 ? bound : clamp(share - 1.0, 0.0, bound);
 }
 
-// The largest separation that a caster has within the light's reach at that separation: of all casters on the receiver's
-// own face, and then of those that the light's rays come by on any face.
+// The same of all casters in the blocks of the map's pyramid that hold a window.
+float separationBound_LIGHT(
+  ViewPoint onFace, ViewPoint point, SeenLight_LIGHT light, FaceWindow_LIGHT window)
+{
+  float largest = 0.0;
+  int level = window.texels.level;
+  ivec2 last = window.texels.last >> level;
+  for (int y = window.texels.first.y >> level; y <= last.y; ++y)
+  {
+    for (int x = window.texels.first.x >> level; x <= last.x; ++x)
+    {
+      float nearest = texelFetch(depthBounds_LIGHT, ivec3(x, y, onFace.view), level - 1).r;
+      if (nearest < 1.0)
+      {
+        vec2 a = acrossOf_LIGHT(onFace.view, vec2(ivec2(x, y) << level));
+        vec2 b = acrossOf_LIGHT(onFace.view, vec2((ivec2(x, y) + 1) << level));
+        vec2 lower = clamp(min(a, b), window.lower, window.upper);
+        vec2 upper = clamp(max(a, b), window.lower, window.upper);
+        vec2 slope = 0.5 * (lower + upper);
+        largest = max(largest, separationBound_LIGHT(onFace, point, light, slope, nearest));
+      }
+    }
+  }
+  return largest;
+}
+
+// The largest separation that a caster has within the light's reach at that separation, or more. What the first steps
+// find lies farther around than what the last one needs.
 float largestSeparation_LIGHT(ViewPoint point, SeenLight_LIGHT light)
 {
-  FaceWindow_LIGHT window;
-  window.lower = vec2(-1.0);
-  window.upper = vec2(1.0);
-  window.texels = windowAround_LIGHT(point, vec2(viewSize_LIGHT));
-  float nearest = boundsOf_LIGHT(point, window.texels).x;
-  float separation = separationBound_LIGHT(point, point, light, window, nearest);
-  for (int i = 0; i < 3; ++i)
+  float separation = light.most;
+  for (int i = 0; i < 4; ++i)
   {
     float largest = 0.0;
     for (int face = 0; face < 6; ++face)
@@ -179,14 +200,9 @@ float largestSeparation_LIGHT(ViewPoint point, SeenLight_LIGHT light)
       {
         continue;
       }
-      window = windowOn_LIGHT(onFace, point, light, separation);
-      if (window.any)
-      {
-        nearest = boundsOf_LIGHT(onFace, window.texels).x;
-        largest = nearest < 1.0
-          ? max(largest, separationBound_LIGHT(onFace, point, light, window, nearest))
-          : largest;
-      }
+      FaceWindow_LIGHT window = windowOn_LIGHT(onFace, point, light, separation);
+      largest =
+        window.any ? max(largest, separationBound_LIGHT(onFace, point, light, window)) : largest;
     }
     separation = min(separation, largest);
   }

@@ -173,10 +173,11 @@ private:
       glm::dmat2(glm::dvec2(this->axes_[0]), glm::dvec2(this->axes_[1]));
 
     double largest = this->isAround() ? this->mostAround() : 1e300;
-    Window window{ glm::ivec2(0), glm::ivec2(mapSize - 1) };
+    Window window =
+      this->isAround() ? this->window(largest) : Window{ glm::ivec2(0), glm::ivec2(mapSize - 1) };
     for (int step = 0; step < 4; ++step)
     {
-      largest = std::min(largest, this->separationBound(window, step == 0, largest));
+      largest = std::min(largest, this->separationBound(window, largest));
       window = this->window(largest);
     }
     const glm::dvec2 width =
@@ -222,7 +223,7 @@ private:
       }
     }
     this->foundBlocker_ = hiddenShare > 0.0;
-    const double mean = hiddenShare > 0.0 ? sum / hiddenShare : largest;
+    const double mean = hiddenShare > 0.0 ? std::min(sum / hiddenShare, largest) : largest;
     int hidden = 0;
     for (int i = 0; i < this->counts_.filter; ++i)
     {
@@ -347,38 +348,8 @@ private:
     return window;
   }
 
-  /// The largest separation that a caster of a window may have, as far as its nearest depth tells.
-  double separationBound(const Window& window, bool whole, double most) const
-  {
-    const double least = this->nearest(window);
-    if (!this->isAround())
-    {
-      return this->separation(least);
-    }
-    if (least >= 1.0 && !whole)
-    {
-      return 0.0;
-    }
-    // From (1 + s) X = P + L s: along the axis, and over the light's plane.
-    const double z = this->distance(least);
-    const glm::dvec2 depths(this->axes_[0].z, this->axes_[1].z);
-    const double farther =
-      this->isRectangle() ? std::abs(depths.x) + std::abs(depths.y) : glm::length(depths);
-    double bound = z > farther ? std::max(this->p_.z - z, 0.0) / (z - farther) : most;
-    const glm::dvec3 normal = glm::cross(this->axes_[0], this->axes_[1]);
-    const double height = glm::dot(normal, this->p_);
-    double lowest = 1e300;
-    for (const glm::dvec2& slope : { window.lower, window.upper,
-           glm::dvec2(window.lower.x, window.upper.y), { window.upper.x, window.lower.y } })
-    {
-      lowest = std::min(lowest, glm::dot(normal, z * glm::dvec3(slope, 1.0)) / height);
-    }
-    bound = lowest > 0.0 ? std::min(bound, std::max(1.0 / lowest - 1.0, 0.0)) : bound;
-    return std::min(bound, most);
-  }
-
-  /// The least depth of the blocks of the pyramid that hold a window.
-  double nearest(const Window& window) const
+  /// The largest separation that a caster of a window has, as far as the nearest depths of the pyramid's blocks tell.
+  double separationBound(const Window& window, double most) const
   {
     const glm::ivec2& first = window.first;
     const glm::ivec2& last = window.last;
@@ -388,10 +359,50 @@ private:
     {
       block *= 2;
     }
-    double least = 1.0;
-    for (int y = first.y / block * block; y < (last.y / block + 1) * block; ++y)
+    double bound = 0.0;
+    for (int y = first.y / block; y <= last.y / block; ++y)
     {
-      for (int x = first.x / block * block; x < (last.x / block + 1) * block; ++x)
+      for (int x = first.x / block; x <= last.x / block; ++x)
+      {
+        const glm::ivec2 lower = block * glm::ivec2(x, y);
+        const double least = this->nearest(lower, lower + block);
+        bound = std::max(bound,
+          this->isAround() ? this->separationBoundAround(window, lower, lower + block, least, most)
+                           : this->separation(least));
+      }
+    }
+    return bound;
+  }
+
+  double separationBoundAround(const Window& window, const glm::ivec2& first, const glm::ivec2& end,
+    double least, double most) const
+  {
+    if (least >= 1.0)
+    {
+      return 0.0;
+    }
+    // From (1 + s) X = P + L s: along the axis, and over the light's plane in the middle of the block.
+    const double z = this->distance(least);
+    const glm::dvec2 depths(this->axes_[0].z, this->axes_[1].z);
+    const double farther =
+      this->isRectangle() ? std::abs(depths.x) + std::abs(depths.y) : glm::length(depths);
+    const double bound = z > farther ? std::max(this->p_.z - z, 0.0) / (z - farther) : most;
+    const glm::dvec2 slope = 0.5 *
+      (glm::clamp(mapped(this->acrossFromTexel_, glm::dvec2(first)), window.lower, window.upper) +
+        glm::clamp(mapped(this->acrossFromTexel_, glm::dvec2(end)), window.lower, window.upper));
+    const glm::dvec3 normal = glm::cross(this->axes_[0], this->axes_[1]);
+    const double share =
+      glm::dot(normal, this->p_) / (z * glm::dot(normal, glm::dvec3(slope, 1.0)));
+    return std::max(std::min({ share - 1.0, bound, most }), 0.0);
+  }
+
+  /// The least depth of a block.
+  double nearest(const glm::ivec2& first, const glm::ivec2& end) const
+  {
+    double least = 1.0;
+    for (int y = first.y; y < end.y; ++y)
+    {
+      for (int x = first.x; x < end.x; ++x)
       {
         least = std::min<double>(least, this->depths_({ x, y }));
       }
