@@ -120,9 +120,14 @@ LightViews LightTechnique::layOut(
   LightViews views = fitLightViews(seen, fitting);
   if (reach.dependsOnViews())
   {
-    // How many texels that is, only a view can tell. A wider border makes them fewer.
-    fitting.texels.border = reach.borderTexels(mostTexelsAcross(views, light.mapSizeTexels),
-      reachOfArea(reach.area, views, fitting.castersCentred, fitting.receiversCentred));
+    // How many texels that is, only a view can tell. A wider border makes them fewer. The faces of a cube that are
+    // not fitted hold all casters together, and none needs what is beside it.
+    const bool seesAllAround = views.layout == ViewLayout::Cube && !fitting.camera;
+    const double areaAcross = seesAllAround
+      ? 0.0
+      : reachOfArea(reach.area, views, fitting.castersCentred, fitting.receiversCentred);
+    fitting.texels.border =
+      reach.borderTexels(mostTexelsAcross(views, light.mapSizeTexels), areaAcross);
     views = fitLightViews(seen, fitting);
   }
   return views;

@@ -51,6 +51,7 @@ struct ViewPoint
 {
   vec3 position;
   vec3 normal;
+  int face;   // of a cube
   int view;   // the layer of the map
   vec2 texel; // its place there
   float pixelArea; // how much of the point's surface a pixel shows, in squared world units; if asked for
@@ -76,6 +77,14 @@ vec3 cubeFaceFromLight(int face, vec3 v)
 {
   vec3 along = face < 2 ? v.yzx : face < 4 ? v.zxy : v;
   vec3 against = face < 2 ? vec3(v.zy, -v.x) : face < 4 ? vec3(v.xz, -v.y) : vec3(v.yx, -v.z);
+  return (face & 1) == 0 ? along : against;
+}
+
+// The other way round.
+vec3 lightFromCubeFace(int face, vec3 v)
+{
+  vec3 along = face < 2 ? v.zxy : face < 4 ? v.yzx : v;
+  vec3 against = face < 2 ? vec3(-v.z, v.yx) : face < 4 ? vec3(v.x, -v.z, v.y) : vec3(v.yx, -v.z);
   return (face & 1) == 0 ? along : against;
 }
 
@@ -215,16 +224,16 @@ bool holds_LIGHT(vec2 texel, float border)
 // Returns false where there is no view.
 bool enterView_LIGHT(vec3 positionLight, vec3 normalLight, out ViewPoint point)
 {
-  point = ViewPoint(positionLight, normalLight, 0, vec2(0.0), 0.0);
+  point = ViewPoint(positionLight, normalLight, 0, 0, vec2(0.0), 0.0);
 #if VIEWS_CUBE_LIGHT
-  int face = cubeFaceOf(positionLight);
-  point.view = viewOfFace_LIGHT[face];
+  point.face = cubeFaceOf(positionLight);
+  point.view = viewOfFace_LIGHT[point.face];
   if (point.view < 0)
   {
     return false;
   }
-  point.position = cubeFaceFromLight(face, positionLight);
-  point.normal = cubeFaceFromLight(face, normalLight);
+  point.position = cubeFaceFromLight(point.face, positionLight);
+  point.normal = cubeFaceFromLight(point.face, normalLight);
 #endif
   return true;
 }
@@ -277,9 +286,8 @@ float blendIntoNext_LIGHT(ViewPoint point, out ViewPoint next)
 }
 #endif
 
-// How far from the light the receiver's plane is on the ray through a texel's centre, but no farther
-// than the point itself. Where the plane runs past that ray or away from it, only the point's own
-// distance is left.
+// How far from the light the receiver's plane is on the ray through a texel's centre. Where the plane runs past
+// that ray or away from it, it is farther than anything.
 float planeDistance_LIGHT(ViewPoint point, vec2 texelCentre)
 {
   vec2 centre = acrossOf_LIGHT(point.view, texelCentre);
@@ -287,9 +295,9 @@ float planeDistance_LIGHT(ViewPoint point, vec2 texelCentre)
   vec3 n = point.normal;
 #if VIEWS_PERSPECTIVE_LIGHT
   float along = dot(n, vec3(centre, 1.0));
-  return along < 0.0 ? min(dot(n, p) / along, p.z) : p.z;
+  return along < 0.0 ? dot(n, p) / along : 1e30;
 #else
-  return min(p.z - dot(n.xy, centre - p.xy) / n.z, p.z); // n.z < 0: the surface faces the light
+  return p.z - dot(n.xy, centre - p.xy) / n.z; // n.z < 0: the surface faces the light
 #endif
 }
 

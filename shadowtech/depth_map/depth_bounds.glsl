@@ -4,7 +4,7 @@
 
 uniform sampler2DArray depthBounds_LIGHT; // least and largest depth of blocks of 2, 4, 8, ... texels
 
-// The texels around a point's place, as far as they lie on the map.
+// The texels between two places, as far as they lie on the map.
 struct TexelWindow_LIGHT
 {
   ivec2 first;
@@ -12,12 +12,12 @@ struct TexelWindow_LIGHT
   int level; // at which 2 x 2 blocks of 2^level texels hold all of them
 };
 
-TexelWindow_LIGHT windowAround_LIGHT(ViewPoint point, vec2 reach)
+TexelWindow_LIGHT windowOf_LIGHT(vec2 lower, vec2 upper)
 {
   vec2 end = vec2(viewSize_LIGHT - 1.0);
   TexelWindow_LIGHT window;
-  window.first = ivec2(clamp(floor(point.texel - reach), vec2(0.0), end));
-  window.last = ivec2(clamp(floor(point.texel + reach), vec2(0.0), end));
+  window.first = ivec2(clamp(floor(lower), vec2(0.0), end));
+  window.last = ivec2(clamp(floor(upper), vec2(0.0), end));
   int width = max(window.last.x - window.first.x, window.last.y - window.first.y) + 1;
   window.level = 1;
   while (1 << window.level < width)
@@ -27,10 +27,14 @@ TexelWindow_LIGHT windowAround_LIGHT(ViewPoint point, vec2 reach)
   return window;
 }
 
-// The least and the largest depth in blocks that hold all texels within a reach, and more.
-vec2 boundsAround_LIGHT(ViewPoint point, vec2 reach)
+TexelWindow_LIGHT windowAround_LIGHT(ViewPoint point, vec2 reach)
 {
-  TexelWindow_LIGHT window = windowAround_LIGHT(point, reach);
+  return windowOf_LIGHT(point.texel - reach, point.texel + reach);
+}
+
+// The least and the largest depth in blocks that hold all texels of a window, and more.
+vec2 boundsOf_LIGHT(ViewPoint point, TexelWindow_LIGHT window)
+{
   vec2 bounds = vec2(1.0, 0.0);
   for (int y = window.first.y >> window.level; y <= window.last.y >> window.level; ++y)
   {
@@ -43,9 +47,19 @@ vec2 boundsAround_LIGHT(ViewPoint point, vec2 reach)
   return bounds;
 }
 
+float least_LIGHT(vec4 of)
+{
+  return min(min(of.x, of.y), min(of.z, of.w));
+}
+float largest_LIGHT(vec4 of)
+{
+  return max(max(of.x, of.y), max(of.z, of.w));
+}
+
 // What all texels of a window say: 1 lit, 0 hidden, -1 where the bounds of blocks of 2^level texels do
 // not tell. Rounding between the corners of a block and its texels is well below half of the slack.
-float decided_LIGHT(ViewPoint point, TexelWindow_LIGHT window, int level, float slack)
+// @param own the least and the largest that isLitAt_LIGHT() may be given
+float decided_LIGHT(ViewPoint point, TexelWindow_LIGHT window, int level, vec2 own, float slack)
 {
   bool lit = true;
   bool hidden = true;
@@ -57,11 +71,11 @@ float decided_LIGHT(ViewPoint point, TexelWindow_LIGHT window, int level, float 
       // On the map a plane's depth is monotonic along every line, so that its bounds are at corners.
       vec2 lower = vec2(max(ivec2(x, y) << level, window.first)) + 0.5;
       vec2 upper = vec2(min((ivec2(x, y) + 1) << level, window.last + 1)) - 0.5;
-      vec4 plane = vec4(planeDepth_LIGHT(point, lower), planeDepth_LIGHT(point, upper),
-        planeDepth_LIGHT(point, vec2(lower.x, upper.y)),
-        planeDepth_LIGHT(point, vec2(upper.x, lower.y)));
-      float nearest = min(min(plane.x, plane.y), min(plane.z, plane.w));
-      float farthest = max(max(plane.x, plane.y), max(plane.z, plane.w));
+      vec4 plane = vec4(planeDistance_LIGHT(point, lower), planeDistance_LIGHT(point, upper),
+        planeDistance_LIGHT(point, vec2(lower.x, upper.y)),
+        planeDistance_LIGHT(point, vec2(upper.x, lower.y)));
+      float nearest = viewDepth_LIGHT(point, min(least_LIGHT(plane), own.x));
+      float farthest = viewDepth_LIGHT(point, min(largest_LIGHT(plane), own.y));
       lit = lit && (bounds.x >= 1.0 || farthest <= bounds.x + 0.5 * slack);
       hidden = hidden && bounds.y < 1.0 && nearest > bounds.y + 1.5 * slack;
       if (!lit && !hidden)
@@ -73,12 +87,18 @@ float decided_LIGHT(ViewPoint point, TexelWindow_LIGHT window, int level, float 
   return lit ? 1.0 : 0.0;
 }
 
-// The same of all texels within a reach: from large blocks, then from smaller ones.
+// The same: from large blocks, then from smaller ones.
+float decided_LIGHT(ViewPoint point, TexelWindow_LIGHT window, vec2 own, float slack)
+{
+  float decided = decided_LIGHT(point, window, window.level, own, slack);
+  int finer = max(window.level - 2, 1);
+  return decided >= 0.0 || finer == window.level
+    ? decided
+    : decided_LIGHT(point, window, finer, own, slack);
+}
+
+// The same of all texels within a reach.
 float decided_LIGHT(ViewPoint point, vec2 reach, float slack)
 {
-  TexelWindow_LIGHT window = windowAround_LIGHT(point, reach);
-  float decided = decided_LIGHT(point, window, window.level, slack);
-  int finer = max(window.level - 2, 1);
-  return decided >= 0.0 || finer == window.level ? decided
-                                                 : decided_LIGHT(point, window, finer, slack);
+  return decided_LIGHT(point, windowAround_LIGHT(point, reach), point.position.zz, slack);
 }

@@ -14,10 +14,10 @@ uniform sampler2DArray depthMap_LIGHT; // linear depth in [0, 1], one layer per 
 uniform float rayScale_LIGHT[VIEWS_LIGHT]; // 1 / the longest ray to distance 1 from the light
 #endif
 
-// Where the receiver's plane is on the ray through a place of the map, as the map measures.
-float planeDepth_LIGHT(ViewPoint point, vec2 texel)
+// A distance from the light on the ray through a place of the map, as the map measures.
+float depthOnRay_LIGHT(ViewPoint point, float distanceLight, vec2 texel)
 {
-  float depth = viewDepth_LIGHT(point, planeDistance_LIGHT(point, texel));
+  float depth = viewDepth_LIGHT(point, distanceLight);
 #if MAP_EUCLIDEAN_LIGHT
   depth *= rayScale_LIGHT[point.view] * length(vec3(acrossOf_LIGHT(point.view, texel), 1.0));
 #endif
@@ -25,12 +25,19 @@ float planeDepth_LIGHT(ViewPoint point, vec2 texel)
 }
 
 // Whether nothing that was drawn at a texel's centre hides the point from the light.
-bool isLitAt_LIGHT(ViewPoint point, ivec2 texel, float slack)
+// @param own how far from the light the point is, where its plane is farther
+bool isLitAt_LIGHT(ViewPoint point, ivec2 texel, float own, float slack)
 {
   float depthCaster = texelFetch(depthMap_LIGHT, ivec3(texel, point.view), 0).r;
   if (depthCaster >= 1.0)
   {
     return true; // no caster here; receivers that do not cast may lie beyond the map's depths
   }
-  return planeDepth_LIGHT(point, vec2(texel) + 0.5) <= depthCaster + slack;
+  vec2 centre = vec2(texel) + 0.5;
+  float nearer = min(planeDistance_LIGHT(point, centre), own);
+  return depthOnRay_LIGHT(point, nearer, centre) <= depthCaster + slack;
+}
+bool isLitAt_LIGHT(ViewPoint point, ivec2 texel, float slack)
+{
+  return isLitAt_LIGHT(point, texel, point.position.z, slack);
 }

@@ -30,7 +30,7 @@ vec2 planeSlope_LIGHT(ViewPoint point)
   vec2 nearest = vec2(min(planeDistance_LIGHT(point, point.texel - x),
                         planeDistance_LIGHT(point, point.texel + x)),
     min(planeDistance_LIGHT(point, point.texel - y), planeDistance_LIGHT(point, point.texel + y)));
-  return 2.0 * viewDepths_LIGHT[point.view].x * (point.position.z - nearest);
+  return 2.0 * viewDepths_LIGHT[point.view].x * max(point.position.z - nearest, 0.0);
 }
 
 // The bound as a visibility: what bleeds through is cut off, and the rest spread over [0, 1].

@@ -56,6 +56,9 @@ Segment onMap(int view, Receiver receiver, vec3 way, float length, vec2 depths, 
   vec4 by = rayFromView[view] * vec4(way, 0.0);
   float rising = dot(receiver.normal, way); // > 0: the receiver faces where the ray goes
   vec2 range = vec2(receiver.offset / rising, length);
+  // Rounding must not end a ray just before what lies at those depths: 2^-18, of parallel rays in their range of [0, 1].
+  vec2 beyond = 3.8146973e-6 * max(abs(depths), vec2(1.0 - lightView.w));
+  depths += vec2(-beyond.x, beyond.y);
   cut(range, at.z - depths.x * at.w, by.z - depths.x * by.w);
   cut(range, depths.y * at.w - at.z, depths.y * by.w - by.z);
   if (cutAtBorders)

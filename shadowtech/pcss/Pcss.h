@@ -18,14 +18,18 @@ namespace gnomon
 /// away from the receiver: s is its *separation*. So one kernel, the light's own shape, serves both
 /// steps and all projections; the map's Jacobian at the point takes it to texels.
 ///
+/// From the middle of a cube a light is looked at in three dimensions. Times r the separation is that of directions
+///     P + L s,   s = r / z - 1,
+/// for the receiver at P: from the receiver at s = 0 towards L, each on the face that sees it (light_around.glsl).
+///
 /// 1. Blocker search: `pcss_samples` points of the light, on the map at the largest separation S that a
 ///    caster around has (from the map's pyramid of depths, DepthBounds.h), and the receiver's own texel.
 ///    Blockers are texels in front of the receiver's plane that lie between it and some point of the
 ///    light: L S = L' s for an L' of the light. Without the latter the floor of a concave corner would be
 ///    hidden by the wall beside it.
 /// 2. Penumbra: the blockers' mean separation, each weighted by the share of the light that it hides. That
-///    falls with the square of s, and the points lie denser in the middle, so that casters near the
-///    receiver count beside those near the light. The shadow of a straight edge is as wide as the light
+///    falls with the square of s, and the points lie denser in the middle (on a cube evenly over the angle), so that casters
+///    near the receiver count beside those near the light. The shadow of a straight edge is as wide as the light
 ///    times that mean.
 /// 3. Filter: the share of the light whose points, at that separation, find texels that hide the receiver. What
 ///    lies too near the receiver to hide that point of the light is looked for again at its own separation.

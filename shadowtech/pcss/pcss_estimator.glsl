@@ -3,107 +3,29 @@
 
 #include "shadowtech/depth_map/depth_bounds.glsl"
 #include "shadowtech/depth_map/kernel.glsl"
+#include "shadowtech/pcss/light_shape.glsl"
+#if VIEWS_CUBE_LIGHT
+#include "shadowtech/pcss/light_around.glsl"
+#else
+#include "shadowtech/pcss/light_on_map.glsl"
+#endif
 
 uniform sampler2D lightPoints_LIGHT; // the search's, then the filter's
-uniform mat3 viewFromUnitLight_LIGHT[VIEWS_LIGHT];
 
 // How far beside its own ray a surface may be found that is taken to hide a point of the light all the same, as a
 // share of that ray's way: surfaces slope.
 const float leastShareOfSeparation_LIGHT = 0.75;
 
-// The light as the point sees it: its shape on the plane across the view, through its centre. Of a directional
-// light it is at distance 1.
-mat2 lightAcross_LIGHT(ViewPoint point)
-{
-  mat3 light = viewFromUnitLight_LIGHT[point.view];
-#if PCSS_BALL_LIGHT
-  // A ball's outline seen along a slope is longer that way: by the ray's length to distance 1.
-  vec2 slope = acrossOf_LIGHT(point.position);
-  float ray = length(vec3(slope, 1.0));
-  return length(light[0]) * (mat2(1.0) + outerProduct(slope, slope) / (1.0 + ray));
-#elif VIEWS_CUBE_LIGHT
-  // A flat light that stands at a slant is followed along the ray.
-  vec2 slope = acrossOf_LIGHT(point.position);
-  return mat2(light[0].xy - light[0].z * slope, light[1].xy - light[1].z * slope);
-#else
-  return mat2(light);
-#endif
-}
-
-// How far a point of the shape is out, from 0 in its middle to 1 at its rim.
-float extentOf_LIGHT(vec2 place)
-{
-#if PCSS_RECTANGLE_LIGHT
-  return max(abs(place.x), abs(place.y));
-#else
-  return length(place);
-#endif
-}
-
-// How far the whole shape reaches, at a separation of 1.
-vec2 reachOf_LIGHT(mat2 texels)
-{
-#if PCSS_RECTANGLE_LIGHT
-  return abs(texels[0]) + abs(texels[1]);
-#else
-  return vec2(length(vec2(texels[0].x, texels[1].x)), length(vec2(texels[0].y, texels[1].y)));
-#endif
-}
-
-// The separation of what is at a depth of the map.
-float separationOf_LIGHT(ViewPoint point, float depth)
-{
-  vec2 depths = viewDepths_LIGHT[point.view];
-  float distanceLight = (depth - depths.y) / depths.x;
-#if VIEWS_PERSPECTIVE_LIGHT
-  // What touches the light is as good as what nearly does.
-  float nearest = 1e-5 * point.position.z;
-  return max(1.0 / max(distanceLight, nearest) - 1.0 / point.position.z, 0.0);
-#else
-  return max(point.position.z - distanceLight, 0.0);
-#endif
-}
-
-// The separation of what hides the point at a place of the map; -1 where nothing does.
-float separationAt_LIGHT(ViewPoint point, vec2 place, float slack)
-{
-  ivec2 texel = ivec2(clamp(floor(place), vec2(0.0), vec2(viewSize_LIGHT - 1.0)));
-  if (isLitAt_LIGHT(point, texel, slack))
-  {
-    return -1.0;
-  }
-  float depth = texelFetch(depthMap_LIGHT, ivec3(texel, point.view), 0).r;
-#if MAP_EUCLIDEAN_LIGHT
-  depth /= rayScale_LIGHT[point.view] *
-    length(vec3(acrossOf_LIGHT(point.view, vec2(texel) + 0.5), 1.0));
-#endif
-  return separationOf_LIGHT(point, depth);
-}
-
-// The largest separation that a caster has within the light's reach at that separation. What the first
-// steps find lies farther around than what the last one needs.
-float largestSeparation_LIGHT(ViewPoint point, vec2 reach)
-{
-  float separation = separationOf_LIGHT(point, boundsAround_LIGHT(point, vec2(viewSize_LIGHT)).x);
-  for (int i = 0; i < 3; ++i)
-  {
-    float nearest = boundsAround_LIGHT(point, reach * separation).x;
-    separation = min(separation, separationOf_LIGHT(point, nearest));
-  }
-  return separation;
-}
-
 #if PCSS_ASKS_BOUNDS_LIGHT
 // What the filter answers at any separation up to the largest: 1 lit, 0 hidden, -1 where the map's
 // bounds do not tell.
-float filterDecided_LIGHT(ViewPoint point, vec2 reach, float largest, float slack)
+float filterDecided_LIGHT(ViewPoint point, SeenLight_LIGHT light, float largest, float slack)
 {
-  float decided = decided_LIGHT(point, reach * largest, slack);
+  float decided = decidedWithin_LIGHT(point, light, largest, slack);
   if (decided == 0.0)
   {
-    float farthest = boundsAround_LIGHT(point, reach * largest).y;
-    bool allHide = separationOf_LIGHT(point, farthest) > leastShareOfSeparation_LIGHT * largest;
-    return allHide ? 0.0 : -1.0;
+    float least = leastSeparation_LIGHT(point, light, largest);
+    return least > leastShareOfSeparation_LIGHT * largest ? 0.0 : -1.0;
   }
   return decided;
 }
@@ -146,55 +68,45 @@ float shareHidden_LIGHT(float part, float separation, float largest)
 // lies too near the receiver to do so, as the wall of a corner or a surface further down, it is looked for
 // once more, at that surface's own separation.
 bool hidesLightPoint_LIGHT(
-  ViewPoint point, mat2 texels, float separation, vec2 place, float slack)
+  ViewPoint point, SeenLight_LIGHT light, float separation, vec2 place, float slack)
 {
   float extent = extentOf_LIGHT(place);
-  float found = separationAt_LIGHT(point, point.texel + texels * (separation * place), slack);
+  float found = separationAt_LIGHT(point, light, separation * place, slack);
   if (found < 0.0 || found >= separation * extent)
   {
     return found >= 0.0;
   }
-  float again = separationAt_LIGHT(point, point.texel + texels * (found * place), slack);
+  float again = separationAt_LIGHT(point, light, found * place, slack);
   return again >= leastShareOfSeparation_LIGHT * found * extent;
 }
 
 float estimate_LIGHT(ViewPoint point, float slack)
 {
-  mat2 light = lightAcross_LIGHT(point);
-  mat2 texels = texelJacobian_LIGHT(point.view, acrossOf_LIGHT(point.position)) * light;
-  vec2 reach = reachOf_LIGHT(texels);
-  float largest = largestSeparation_LIGHT(point, reach);
+  SeenLight_LIGHT light = seenLight_LIGHT(point);
+  float largest = largestSeparation_LIGHT(point, light);
   // What rounding does to the receiver's plane grows with how far that is followed: half a texel so far.
-  vec2 farthest = min(reach * largest, vec2(viewSize_LIGHT));
-  slack *= max(2.0 * max(farthest.x, farthest.y), 1.0);
+  slack *= max(2.0 * texelsAcross_LIGHT(point, light, largest), 1.0);
 #if PCSS_ASKS_BOUNDS_LIGHT
-  float decided = filterDecided_LIGHT(point, reach, largest, slack);
+  float decided = filterDecided_LIGHT(point, light, largest, slack);
   if (decided >= 0.0)
   {
     return decided;
   }
 #endif
-#if VIEWS_PERSPECTIVE_LIGHT
-  float centre = -dot(point.normal, point.position);
-#else
-  float centre = -point.normal.z;
-#endif
-  vec3 facing = vec3(point.normal.xy * light, centre);
   vec2 pattern = patternOf_LIGHT(point);
   const float points = float(PCSS_SEARCH_POINTS_LIGHT);
 
-  float own = separationAt_LIGHT(point, point.texel, slack);
+  float own = separationAt_LIGHT(point, light, vec2(0.0), slack);
   float blockers = own < 0.0 ? 0.0 : shareHidden_LIGHT(1.0 / (points * points), own, largest);
   float sum = blockers * own;
   for (int i = 0; i < PCSS_SEARCH_POINTS_LIGHT; ++i)
   {
-    vec2 place = lightPoint_LIGHT(i, pattern, facing);
-    place *= extentOf_LIGHT(place);
-    float extent = extentOf_LIGHT(place);
-    float separation = separationAt_LIGHT(point, point.texel + texels * (largest * place), slack);
-    if (separation >= largest * extent)
+    vec2 place = lightPoint_LIGHT(i, pattern, light.facing);
+    float part = spreadForSearch_LIGHT(place, light, point, largest) / points;
+    float separation = separationAt_LIGHT(point, light, largest * place, slack);
+    if (separation >= largest * extentOf_LIGHT(place))
     {
-      float share = shareHidden_LIGHT(2.0 * extent / points, separation, largest);
+      float share = shareHidden_LIGHT(part, separation, largest);
       blockers += share;
       sum += share * separation;
     }
@@ -203,7 +115,7 @@ float estimate_LIGHT(ViewPoint point, float slack)
   // missed.
   float mean = blockers > 0.0 ? min(sum / blockers, largest) : largest;
 #if PCSS_ASKS_BOUNDS_LIGHT
-  decided = filterDecided_LIGHT(point, reach, mean, slack);
+  decided = filterDecided_LIGHT(point, light, mean, slack);
   if (decided >= 0.0)
   {
     return decided;
@@ -212,8 +124,8 @@ float estimate_LIGHT(ViewPoint point, float slack)
   float hidden = 0.0;
   for (int i = 0; i < PCSS_FILTER_POINTS_LIGHT; ++i)
   {
-    vec2 place = lightPoint_LIGHT(PCSS_SEARCH_POINTS_LIGHT + i, pattern, facing);
-    hidden += hidesLightPoint_LIGHT(point, texels, mean, place, slack) ? 1.0 : 0.0;
+    vec2 place = lightPoint_LIGHT(PCSS_SEARCH_POINTS_LIGHT + i, pattern, light.facing);
+    hidden += hidesLightPoint_LIGHT(point, light, mean, place, slack) ? 1.0 : 0.0;
   }
   return max(1.0 - hidden / float(PCSS_FILTER_POINTS_LIGHT), 0.0);
 }

@@ -41,6 +41,23 @@ bool standsBefore(const glm::dvec4& plane, double thickness, const glm::dvec4& l
   return glm::dot(plane, light) > (light.w > 0.0 ? thickness : 9.5367431640625e-7); // 2^-20
 }
 
+/// The point of the light that a plane is drawn the shadows of in place of a sample: one that is behind it gives way to
+/// the one opposite (sideOfSample()), which stands before a plane that the light's centre stands before.
+glm::dvec4 sampleBefore(
+  const glm::dvec4& plane, double thickness, const glm::dvec4& sample, const glm::dvec4& centre)
+{
+  if (standsBefore(plane, thickness, sample))
+  {
+    return sample;
+  }
+  if (centre.w > 0.0)
+  {
+    return 2.0 * centre - sample;
+  }
+  // Samples of a directional light are on the plane at distance 1.
+  return glm::normalize(2.0 * centre - sample / glm::dot(centre, sample));
+}
+
 /// Where a box ends on the far side of a plane.
 double highestAbove(const glm::dvec4& plane, const Bounds& bounds)
 {
@@ -93,8 +110,8 @@ struct Planar::Batch
   std::size_t first = 0; ///< of all samples
   std::size_t count = 0;
   bool last = false;
-  std::vector<glm::dvec4> planes;    ///< those that are served, turned to the camera
-  std::vector<std::uint32_t> facing; ///< by plane: the bits of the samples that it faces
+  std::vector<glm::dvec4> planes; ///< those that are served, turned to the camera
+  std::vector<bool> facing;       ///< by plane: whether it faces the light's centre
 };
 
 //------------------------------------------------------------------------------
@@ -113,6 +130,7 @@ void Planar::drawVisibility(const LayerInput& input, LightReport& report)
 {
   const GlStateGuard guard;
   this->planes_.update(input.occluders, static_cast<std::size_t>(input.light.planes));
+  this->centre_ = lightPoint(input.light, input.occluders.centreWorld);
   this->samples_ = lightSamples(input.light, input.occluders.centreWorld);
   report.lightSamples = static_cast<int>(this->samples_.size());
   this->allocate(input.receivers.width(), input.receivers.height());
@@ -202,14 +220,7 @@ Planar::Batch Planar::makeBatch(const LayerInput& input, std::size_t first) cons
   for (const ReceiverPlane& plane : this->planes_.planes())
   {
     batch.planes.push_back(turnedTo(input.camera, plane.plane));
-    std::uint32_t facing = 0;
-    for (std::size_t bit = 0; bit < batch.count; ++bit)
-    {
-      const bool faces =
-        standsBefore(batch.planes.back(), plane.thickness, this->samples_[first + bit]);
-      facing |= faces ? 1u << bit : 0u;
-    }
-    batch.facing.push_back(facing);
+    batch.facing.push_back(standsBefore(batch.planes.back(), plane.thickness, this->centre_));
   }
   return batch;
 }
@@ -224,18 +235,15 @@ void Planar::drawShadows(const LayerInput& input, const Batch& batch)
   for (std::size_t i = 0; i < this->planes_.planes().size(); ++i)
   {
     const ReceiverPlane& receiver = this->planes_.planes()[i];
-    if (!mayShow(clipFromCentred, receiver.boundsCentred))
+    if (!batch.facing[i] || !mayShow(clipFromCentred, receiver.boundsCentred))
     {
       continue;
     }
     for (std::size_t bit = 0; bit < batch.count; ++bit)
     {
-      if (!(batch.facing[i] >> bit & 1u))
-      {
-        continue;
-      }
       const glm::dvec4& plane = batch.planes[i];
-      const glm::dvec4& sample = this->samples_[batch.first + bit];
+      const glm::dvec4 sample =
+        sampleBefore(plane, receiver.thickness, this->samples_[batch.first + bit], this->centre_);
       CasterPicture picture;
       picture.clipFromCentred = clipFromCentred * planarProjection(plane, sample);
       picture.keptFromCentred =
@@ -268,6 +276,7 @@ void Planar::sumUp(const LayerInput& input, const Batch& batch)
     { "planesOfPixels", TextureBinding{ GL_TEXTURE_2D, this->planesOfPixels_.name() } },
     { "shadows", TextureBinding{ GL_TEXTURE_2D, this->shadows_.name() } },
     { "sampleCount", static_cast<int>(batch.count) },
+    { "lightView", glm::vec4(viewFromCentred * this->centre_) },
     { "divisor", batch.last ? static_cast<float>(this->samples_.size()) : 1.0f }
   };
   for (const std::vector<Uniform>& more : { this->lit_.before(),
@@ -275,15 +284,9 @@ void Planar::sumUp(const LayerInput& input, const Batch& batch)
   {
     uniforms.insert(uniforms.end(), more.begin(), more.end());
   }
-  for (std::size_t i = 0; i < batch.count; ++i)
-  {
-    uniforms.push_back({ "samplesView[" + std::to_string(i) + "]",
-      glm::vec4(viewFromCentred * this->samples_[batch.first + i]) });
-  }
   for (std::size_t i = 0; i < batch.facing.size(); ++i)
   {
-    uniforms.push_back(
-      { "facingPlane[" + std::to_string(i) + "]", static_cast<int>(batch.facing[i]) });
+    uniforms.push_back({ "planesFacingLight[" + std::to_string(i) + "]", batch.facing[i] ? 1 : 0 });
   }
   ShaderLibrary::setUniforms(program, uniforms, 0, 0);
   if (batch.last)

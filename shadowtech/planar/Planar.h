@@ -24,7 +24,8 @@ namespace gnomon
 /// (anti-shadows).
 ///
 /// Soft shadows are the mean of many such pictures from points of the light (LightSamples.h), 32 at a
-/// time: each sets a bit of its own, however many casters it draws over each other.
+/// time: each sets a bit of its own, however many casters it draws over each other. Of a plane that runs through the
+/// light, samples behind it give way to those opposite, as for all techniques (docs/techniques/soft.md).
 class Planar : public Technique
 {
 public:
@@ -46,6 +47,7 @@ private:
   std::int64_t countPixelsOffPlanes() const;
 
   ReceiverPlanes planes_;
+  glm::dvec4 centre_{ 0.0 };        ///< lightPoint()
   std::vector<glm::dvec4> samples_; ///< lightSamples()
 
   IntegerTable planesOfPrimitives_{ { GL_R8UI, GL_RED_INTEGER, 1, GL_UNSIGNED_BYTE } };

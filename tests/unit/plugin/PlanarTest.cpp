@@ -595,6 +595,43 @@ TEST_F(Planar, softShadowsAreTheMeanOfTracedSamples)
 }
 
 //------------------------------------------------------------------------------
+/// Of a lamp or a sun that a receiver's plane runs through, what is behind it gives way to what is opposite, as for rays.
+TEST_F(Planar, lightsThatTheirReceiversPlaneCutsAreWhatRaysSay)
+{
+  for (const int kind : { 0, 1, 2 })
+  {
+    SCOPED_TRACE(kind);
+    PassScene scene(200, 150);
+    addBoxes(scene);
+    kind == 0     ? scene.addSun({ 1.0, 0.4, -0.2 })
+      : kind == 1 ? scene.addSpot({ -3.0, -1.5, 0.5 }, { 0.0, 0.0, 0.5 }, 80.0)
+                  : scene.addSpot({ -2.0, -2.0, 0.6 }, glm::dvec3(0.0), allDirections);
+    scene.lookFrom({ 2.0, -8.0, 7.0 });
+    scene.pass->SetSetting("light_radius", kind == 0 ? "40" : "1");
+    scene.pass->SetSetting("light_samples", "1024");
+    scene.pass->SetTechnique("raytraced");
+    const VisibilityImages truth = drawKept(scene);
+    scene.pass->SetTechnique("planar");
+    const VisibilityImages& planar = drawKept(scene);
+    double error = 0.0;
+    std::size_t covered = 0;
+    std::size_t penumbra = 0;
+    for (std::size_t i = 0; i < truth.coverage.size(); ++i)
+    {
+      if (truth.coverage[i] > 0.0f)
+      {
+        ++covered;
+        error += std::abs(planar.visibility[0][i] - truth.visibility[0][i]);
+        penumbra += truth.visibility[0][i] > 0.05f && truth.visibility[0][i] < 0.95f ? 1 : 0;
+      }
+    }
+    RecordProperty("error" + std::to_string(kind), std::to_string(error / covered));
+    EXPECT_GT(penumbra, 500u);
+    EXPECT_LT(error / static_cast<double>(covered), 0.002);
+  }
+}
+
+//------------------------------------------------------------------------------
 TEST_F(Planar, softShadowsEndExactlyAtDarkAndLit)
 {
   PassScene scene(120, 90);

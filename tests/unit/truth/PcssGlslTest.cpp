@@ -118,6 +118,7 @@ public:
   {
     double lit = 1.0;
     int fetches = 0; ///< texels of the map that are read without an early out
+    bool foundBlocker = false;
   };
 
   Answer at(const Receiver& receiver, bool patterned = true)
@@ -126,6 +127,7 @@ public:
     Answer answer;
     answer.lit = this->visibility(receiver, patterned);
     answer.fetches = this->fetches_;
+    answer.foundBlocker = this->foundBlocker_;
     return answer;
   }
 
@@ -154,42 +156,39 @@ private:
     this->acrossFromTexel_ = glm::inverse(texels);
     const glm::dvec2 across = view.rays.across(this->p_);
     this->texel_ = mapped(texels, across);
-    // Where the light's axes seem to be on the plane z = 0, seen from the receiver.
     const glm::dmat3 area = turn * this->light_.area->worldFromUnit;
-    const glm::dvec3 ray(positional ? across : glm::dvec2(0.0), 1.0);
-    glm::dmat2 seen(0.0);
+    this->axes_ = glm::dmat2x3(area[0], area[1]);
     if (this->light_.area->shape == LightArea::Shape::Ball)
     {
       // An ellipse: along the slope as long as the ray is.
       const glm::dvec2 along = glm::normalize(across);
       const glm::dmat2 axes(along, glm::dvec2(-along.y, along.x));
       const double radius = this->light_.area->radius();
-      seen = axes * glm::dmat2(radius * glm::length(ray), 0.0, 0.0, radius) * glm::transpose(axes);
+      const double ray = glm::length(glm::dvec3(across, 1.0));
+      const glm::dmat2 seen =
+        axes * glm::dmat2(radius * ray, 0.0, 0.0, radius) * glm::transpose(axes);
+      this->axes_ = glm::dmat2x3(glm::dvec3(seen[0], 0.0), glm::dvec3(seen[1], 0.0));
     }
-    else
-    {
-      for (int axis = 0; axis < 2; ++axis)
-      {
-        seen[axis] = glm::dvec2(area[axis] - area[axis].z * ray);
-      }
-    }
-    this->lightTexels_ = texelJacobian(texels, across) * seen;
-    const glm::dvec2 farthest = this->reach();
+    this->lightTexels_ = texelJacobian(texels, across) *
+      glm::dmat2(glm::dvec2(this->axes_[0]), glm::dvec2(this->axes_[1]));
 
-    double largest = 1e300;
-    glm::dvec2 reach(1e4);
+    double largest = this->isAround() ? this->mostAround() : 1e300;
+    Window window =
+      this->isAround() ? this->window(largest) : Window{ glm::ivec2(0), glm::ivec2(mapSize - 1) };
     for (int step = 0; step < 4; ++step)
     {
-      largest = std::min(largest, this->separation(this->nearest(reach)));
-      reach = farthest * largest;
+      largest = std::min(largest, this->separationBound(window, largest));
+      window = this->window(largest);
     }
-    this->slack_ = slack * std::max(2.0 * std::max(reach.x, reach.y), 1.0);
+    const glm::dvec2 width =
+      this->isAround() ? glm::dvec2(window.last - window.first) : 2.0 * this->reach() * largest;
+    this->slack_ = slack * std::max(std::max(width.x, width.y), 1.0);
     const auto turned = [&](int number)
     {
       glm::dvec2 place =
         this->patterned(this->points_[static_cast<std::size_t>(number)], patterned);
-      const glm::dvec3 source(seen * place, positional ? 0.0 : -1.0);
-      const glm::dvec3 away = source - (positional ? this->p_ : glm::dvec3(0.0));
+      const glm::dvec3 source = this->axes_ * place;
+      const glm::dvec3 away = source - (positional ? this->p_ : glm::dvec3(0.0, 0.0, 1.0));
       return glm::dot(away, this->n_) < 0.0 ? -place : place;
     };
     double hiddenShare = 0.0;
@@ -206,16 +205,25 @@ private:
     }
     for (int i = 0; i < this->counts_.search; ++i)
     {
-      // Denser in the middle: as many points in every ring of the same width.
+      // Denser in the middle: as many points in every ring of the same width, or of the same angle.
       glm::dvec2 place = turned(i);
       place *= this->extent(place);
+      double density = 1.0;
+      if (this->isAround())
+      {
+        const double widest = largest * this->radiusOfAxes() / glm::length(this->p_);
+        const double angle = this->extent(place) * std::atan(widest);
+        place *= std::tan(angle) / widest / this->extent(place);
+        density = std::atan(widest) / widest / std::pow(std::cos(angle), 2);
+      }
       const auto hider = this->hiderAt(largest * place);
       if (hider && *hider >= largest * this->extent(place))
       {
-        addBlocker(*hider, 2.0 * this->extent(place) / this->counts_.search);
+        addBlocker(*hider, 2.0 * this->extent(place) * density / this->counts_.search);
       }
     }
-    const double mean = hiddenShare > 0.0 ? sum / hiddenShare : largest;
+    this->foundBlocker_ = hiddenShare > 0.0;
+    const double mean = hiddenShare > 0.0 ? std::min(sum / hiddenShare, largest) : largest;
     int hidden = 0;
     for (int i = 0; i < this->counts_.filter; ++i)
     {
@@ -259,28 +267,142 @@ private:
     return farthest;
   }
 
-  double separation(double depth) const
+  /// Whether the light looks around from the middle of a cube. Other faces see no casters here.
+  bool isAround() const { return this->views_.layout == ViewLayout::Cube; }
+
+  double radiusOfAxes() const
   {
-    const LightView& view = this->views_.views.front();
-    const double z = (depth - view.depthOffset) / view.depthScale;
-    return std::max(view.rays.positional ? 1.0 / z - 1.0 / this->p_.z : this->p_.z - z, 0.0);
+    return std::max(glm::length(this->axes_[0]), glm::length(this->axes_[1]));
   }
 
-  /// The least depth of the blocks of the pyramid that hold the texels within a reach.
-  double nearest(const glm::dvec2& reach) const
+  /// At which the rays to the rim are eight texels from those to the light's centre plane.
+  double mostAround() const
   {
-    const glm::ivec2 first = texelOf(this->texel_ - reach);
-    const glm::ivec2 last = texelOf(this->texel_ + reach);
+    const glm::dmat3 acrossFromTexel = glm::inverse(this->acrossFromTexel_);
+    return glm::length(this->p_) * std::min(acrossFromTexel[0].x, acrossFromTexel[1].y) /
+      (8.0 * this->radiusOfAxes());
+  }
+
+  double distance(double depth) const
+  {
+    const LightView& view = this->views_.views.front();
+    return (depth - view.depthOffset) / view.depthScale;
+  }
+
+  double separation(double depth) const
+  {
+    const double z = this->distance(depth);
+    return std::max(
+      this->views_.views.front().rays.positional ? 1.0 / z - 1.0 / this->p_.z : this->p_.z - z,
+      0.0);
+  }
+
+  struct Window
+  {
+    glm::ivec2 first;
+    glm::ivec2 last;
+    glm::dvec2 lower{ -1.0 }; ///< slopes, of a cube's face
+    glm::dvec2 upper{ 1.0 };
+  };
+
+  /// The largest slope of a plane through the light, on the face, that has all of these on its upper side.
+  static double leastSlope(const std::vector<glm::dvec3>& corners, int axis, double sign)
+  {
+    double least = -1.0;
+    const auto holds = [&](double slope)
+    {
+      return std::all_of(corners.begin(), corners.end(),
+        [&](const glm::dvec3& corner)
+        { return sign * corner[axis] - slope * corner.z >= -1e-12 * glm::length(corner); });
+    };
+    for (const glm::dvec3& corner : corners)
+    {
+      const double slope = sign * corner[axis] / corner.z;
+      least = std::abs(slope) <= 1.0 && holds(slope) ? std::max(least, slope) : least;
+    }
+    return holds(1.0) ? 1.0 : least;
+  }
+
+  /// What is looked up at a separation.
+  Window window(double separation) const
+  {
+    Window window{ texelOf(this->texel_ - this->reach() * separation),
+      texelOf(this->texel_ + this->reach() * separation) };
+    if (this->isAround())
+    {
+      std::vector<glm::dvec3> corners;
+      for (const glm::dvec2& corner :
+        { glm::dvec2(1.0, 1.0), { 1.0, -1.0 }, { -1.0, 1.0 }, { -1.0, -1.0 } })
+      {
+        corners.push_back(this->p_ + separation * (this->axes_ * corner));
+      }
+      for (int axis = 0; axis < 2; ++axis)
+      {
+        window.lower[axis] = leastSlope(corners, axis, 1.0);
+        window.upper[axis] = -leastSlope(corners, axis, -1.0);
+      }
+      const glm::dmat3 texels = glm::inverse(this->acrossFromTexel_);
+      window.first = texelOf(mapped(texels, window.lower) - 0.01);
+      window.last = texelOf(mapped(texels, window.upper) + 0.01);
+    }
+    return window;
+  }
+
+  /// The largest separation that a caster of a window has, as far as the nearest depths of the pyramid's blocks tell.
+  double separationBound(const Window& window, double most) const
+  {
+    const glm::ivec2& first = window.first;
+    const glm::ivec2& last = window.last;
     const int width = std::max(last.x - first.x, last.y - first.y) + 1;
     int block = 2;
     while (block < width)
     {
       block *= 2;
     }
-    double least = 1.0;
-    for (int y = first.y / block * block; y < (last.y / block + 1) * block; ++y)
+    double bound = 0.0;
+    for (int y = first.y / block; y <= last.y / block; ++y)
     {
-      for (int x = first.x / block * block; x < (last.x / block + 1) * block; ++x)
+      for (int x = first.x / block; x <= last.x / block; ++x)
+      {
+        const glm::ivec2 lower = block * glm::ivec2(x, y);
+        const double least = this->nearest(lower, lower + block);
+        bound = std::max(bound,
+          this->isAround() ? this->separationBoundAround(window, lower, lower + block, least, most)
+                           : this->separation(least));
+      }
+    }
+    return bound;
+  }
+
+  double separationBoundAround(const Window& window, const glm::ivec2& first, const glm::ivec2& end,
+    double least, double most) const
+  {
+    if (least >= 1.0)
+    {
+      return 0.0;
+    }
+    // From (1 + s) X = P + L s: along the axis, and over the light's plane in the middle of the block.
+    const double z = this->distance(least);
+    const glm::dvec2 depths(this->axes_[0].z, this->axes_[1].z);
+    const double farther =
+      this->isRectangle() ? std::abs(depths.x) + std::abs(depths.y) : glm::length(depths);
+    const double bound = z > farther ? std::max(this->p_.z - z, 0.0) / (z - farther) : most;
+    const glm::dvec2 slope = 0.5 *
+      (glm::clamp(mapped(this->acrossFromTexel_, glm::dvec2(first)), window.lower, window.upper) +
+        glm::clamp(mapped(this->acrossFromTexel_, glm::dvec2(end)), window.lower, window.upper));
+    const glm::dvec3 normal = glm::cross(this->axes_[0], this->axes_[1]);
+    const double share =
+      glm::dot(normal, this->p_) / (z * glm::dot(normal, glm::dvec3(slope, 1.0)));
+    return std::max(std::min({ share - 1.0, bound, most }), 0.0);
+  }
+
+  /// The least depth of a block.
+  double nearest(const glm::ivec2& first, const glm::ivec2& end) const
+  {
+    double least = 1.0;
+    for (int y = first.y; y < end.y; ++y)
+    {
+      for (int x = first.x; x < end.x; ++x)
       {
         least = std::min<double>(least, this->depths_({ x, y }));
       }
@@ -298,10 +420,17 @@ private:
   {
     ++this->fetches_;
     const LightView& view = this->views_.views.front();
-    const glm::ivec2 texel = texelOf(this->texel_ + this->lightTexels_ * light);
+    const glm::dvec3 ray = this->isAround() ? this->p_ + this->axes_ * light : this->p_;
+    if (std::max(std::abs(ray.x), std::abs(ray.y)) > ray.z && this->isAround())
+    {
+      return std::nullopt; // another face's
+    }
+    const glm::ivec2 texel = this->isAround()
+      ? texelOf(mapped(glm::inverse(this->acrossFromTexel_), glm::dvec2(ray) / ray.z))
+      : texelOf(this->texel_ + this->lightTexels_ * light);
     const double depth = this->depths_(texel);
     const glm::dvec2 centre = mapped(this->acrossFromTexel_, glm::dvec2(texel) + 0.5);
-    double z = this->p_.z;
+    double z = ray.z;
     if (view.rays.positional)
     {
       const double along = glm::dot(this->n_, glm::dvec3(centre, 1.0));
@@ -312,8 +441,12 @@ private:
       const glm::dvec2 away = centre - glm::dvec2(this->p_);
       z = std::min(z, this->p_.z - glm::dot(glm::dvec2(this->n_), away) / this->n_.z);
     }
-    const bool lit = depth >= 1.0 || z * view.depthScale + view.depthOffset <= depth + this->slack_;
-    return lit ? std::nullopt : std::optional<double>(this->separation(depth));
+    if (depth >= 1.0 || z * view.depthScale + view.depthOffset <= depth + this->slack_)
+    {
+      return std::nullopt;
+    }
+    return this->isAround() ? std::max(ray.z / this->distance(depth) - 1.0, 0.0)
+                            : this->separation(depth);
   }
 
   static double noise(const glm::ivec2& cell)
@@ -351,17 +484,24 @@ private:
   glm::dvec3 p_{ 0.0 };
   glm::dvec3 n_{ 0.0 };
   glm::dvec2 texel_{ 0.0 };
+  glm::dmat2x3 axes_{ 0.0 }; ///< the light's
   glm::dmat2 lightTexels_{ 0.0 };
   glm::dmat3 acrossFromTexel_{ 1.0 };
   double slack_ = 0.0;
   int fetches_ = 0;
+  bool foundBlocker_ = false;
 };
 
-/// A light's first view of a cube that casts.
+/// A light's first view of a cube that casts, as the only one.
 LightViews firstView(const ShadowLight& light)
 {
   LightViews views =
     fitLightViews(light, glm::dvec3(0.0), { glm::dvec3(-1.0), glm::dvec3(1.0) }, mapSize, 8);
+  views.views.resize(1);
+  for (int& view : views.viewOfFace)
+  {
+    view = view == 0 ? 0 : LightViews::noView;
+  }
   return views;
 }
 
@@ -516,6 +656,98 @@ TEST(Pcss, readsAsManyTexelsAsItsPresetsSay)
     EXPECT_LE(most, 1 + expected[preset].search + 2 * expected[preset].filter);
     EXPECT_GT(most, previous);
     previous = most;
+  }
+}
+
+/// What a light's search says of receivers on a plane.
+struct SearchShares
+{
+  double blocked = 0.0; ///< the share of receivers that find a blocker, and filter by its penumbra
+  double lit = 0.0;     ///< their mean visibility
+  int fetches = 0;      ///< of all receivers
+};
+
+/// @param nearShare the distance from the light to where depths begin is this times what it was
+SearchShares sharesOf(const ShadowLight& light, double nearShare = 1.0)
+{
+  LightViews views = firstView(light);
+  const std::vector<Receiver> receivers = receiversOf(views, { 0.4, -0.2 });
+  LightView& view = views.views.front();
+  const LightView tight = view;
+  const double far = (1.0 - tight.depthOffset) / tight.depthScale;
+  const double near = -tight.depthOffset / tight.depthScale * nearShare;
+  view.depthScale = 1.0 / (far - near);
+  view.depthOffset = -near * view.depthScale;
+  const Depths depths = [&](const glm::ivec2& texel)
+  {
+    const double depth = blocks(texel);
+    const double z = (depth - tight.depthOffset) / tight.depthScale;
+    return depth < 1.0 ? static_cast<float>(z * view.depthScale + view.depthOffset) : 1.0f;
+  };
+  Twin twin(light, views, depths);
+  SearchShares shares;
+  for (const Receiver& receiver : receivers)
+  {
+    const Twin::Answer answer = twin.at(receiver);
+    shares.blocked += answer.foundBlocker ? 1.0 : 0.0;
+    shares.lit += answer.lit;
+    shares.fetches += answer.fetches;
+  }
+  shares.blocked /= static_cast<double>(receivers.size());
+  shares.lit /= static_cast<double>(receivers.size());
+  return shares;
+}
+
+TEST(Pcss, presetsReadMoreFromLowToHigh)
+{
+  for (const AreaCase& each : areaCases())
+  {
+    int previous = 0;
+    for (const PcssSamples samples : { PcssSamples::Low, PcssSamples::Medium, PcssSamples::High })
+    {
+      ShadowLight light = each.light;
+      light.pcssSamples = samples;
+      const int fetches = sharesOf(light).fetches;
+      EXPECT_GT(fetches, 2 * previous) << each;
+      previous = fetches;
+    }
+  }
+}
+
+TEST(Pcss, whoFindsBlockersDoesNotDependOnTheNearPlane)
+{
+  for (const AreaCase& each : areaCases())
+  {
+    if (each.light.kind == LightKind::Directional)
+    {
+      continue; // it has no light to be near to
+    }
+    const SearchShares tight = sharesOf(each.light);
+    EXPECT_GT(tight.blocked, 0.2) << each;
+    EXPECT_LT(tight.blocked, 1.0) << each;
+    for (const double nearShare : { 0.5, 0.1, 0.01 })
+    {
+      const SearchShares near = sharesOf(each.light, nearShare);
+      // Depths of floats: a receiver may lie on a texel's plane.
+      EXPECT_NEAR(near.blocked, tight.blocked, 0.005) << each << nearShare;
+      EXPECT_NEAR(near.lit, tight.lit, 0.001) << each << nearShare;
+    }
+  }
+}
+
+TEST(Pcss, largerLightsFindBlockersForMoreReceivers)
+{
+  for (const AreaCase& each : areaCases())
+  {
+    double previous = 0.0;
+    for (const double size : { 0.1, 0.3, 1.0, 3.0 })
+    {
+      ShadowLight light = each.light;
+      light.area->worldFromUnit *= size;
+      const double blocked = sharesOf(light).blocked;
+      EXPECT_GT(blocked, previous) << each << size;
+      previous = blocked;
+    }
   }
 }
 

@@ -1,0 +1,30 @@
+// The shape of an area light, of radius or half side 1.
+
+uniform mat3 viewFromUnitLight_LIGHT[VIEWS_LIGHT];
+
+// How far a point of the shape is out, from 0 in its middle to 1 at its rim.
+float extentOf_LIGHT(vec2 place)
+{
+#if PCSS_RECTANGLE_LIGHT
+  return max(abs(place.x), abs(place.y));
+#else
+  return length(place);
+#endif
+}
+
+// How far the whole shape reaches along a direction.
+// @param axes how far its two axes do
+float extentAlong_LIGHT(vec2 axes)
+{
+#if PCSS_RECTANGLE_LIGHT
+  return abs(axes.x) + abs(axes.y);
+#else
+  return length(axes);
+#endif
+}
+
+// A ball's outline seen along a slope, on the plane across the view: longer that way, by the ray's length to distance 1.
+mat2 ballAcross_LIGHT(float radius, vec2 slope)
+{
+  return radius * (mat2(1.0) + outerProduct(slope, slope) / (1.0 + length(vec3(slope, 1.0))));
+}
