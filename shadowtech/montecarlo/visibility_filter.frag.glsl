@@ -19,14 +19,14 @@ out vec2 filtered;
 
 #define SIGMA_PIXELS max(0.5 * float(FILTER_PIXELS), 0.5) // the Gaussian's deviation
 
-// How far two visibilities are apart, squared, in deviations of what counts as noise: twice what RAYS x RAYS jittered rays err
-// by. Squared, that is v (1 - v) / RAYS^3 where a line across the light leaves a share v of it: 1 / 6 RAYS^3 on the mean over v,
-// and nothing where it leaves all of the light or nothing.
+// How far two visibilities are apart, squared, in deviations of what counts as noise: sqrt(6) times what RAYS x RAYS jittered rays
+// err by. Squared, that is v (1 - v) / RAYS^3 where a line across the light leaves a share v of it: 1 / 6 RAYS^3 on the mean over
+// v, and nothing where it leaves all of the light or nothing. So in the middle of a penumbra three times the mean noise counts.
 float squaredDeviations(float a, float b)
 {
   float v = 0.5 * (a + b) / lit;
   float apart = (a - b) / lit;
-  float noise = 4.0 * v * (1.0 - v) / float(RAYS * RAYS * RAYS);
+  float noise = 6.0 * v * (1.0 - v) / float(RAYS * RAYS * RAYS);
   return apart * apart / max(noise, 1e-6); // where both have all or nothing, they are not apart
 }
 
