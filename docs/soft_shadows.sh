@@ -1,5 +1,5 @@
 #!/bin/bash
-# Measures the error of soft shadows against the time that they take, and writes docs/soft_shadows.md, with pictures in docs/figures/soft. Takes a quarter of an hour or so;
+# Measures the error of soft shadows against the time that they take, and writes docs/soft_shadows.md, with pictures in docs/figures/soft. Takes twenty minutes or so;
 # what the same program has measured in the same way before, in out/soft, is not measured again.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -28,16 +28,22 @@ done
 
 program=$(cat build/release/bin/gnomon build/release/lib/libGnomon*.so | cksum)
 
-# compare SCENE OPTION... : measures into $out/SCENE, unless that was done before
-compare() {
+# measure NAME SCENE OPTION... : compares into $out/NAME, unless that was done before
+measure() {
   local folder="$out/$1"
-  local how="$* $techniques $program"
+  local how="$* $program"
   if [ "$(cat "$folder/how.txt" 2> /dev/null)" != "$how" ]; then
     rm -rf "$folder" "$folder.part"
-    build/release/bin/gnomon compare "$1" -o "$folder.part" --techniques "$techniques" --route image --size 256x256 --frames 5 "${@:2}"
+    build/release/bin/gnomon compare "$2" -o "$folder.part" --route image --size 256x256 "${@:3}"
     echo "$how" > "$folder.part/how.txt"
     mv "$folder.part" "$folder"
   fi
+}
+
+# compare SCENE OPTION... : all techniques, and the truth against a second truth, which is its own error
+compare() {
+  measure "$1" "$1" --techniques "$techniques" --frames 5 "${@:2}"
+  measure "$1.truth" "$1" --techniques raytraced:light_samples=4096 --frames 1 "${@:2}"
 }
 
 # Scenes with lamps whose sides are a tenth of the scene, and scenes whose sun gets that size, about.
@@ -99,6 +105,39 @@ table() {
     }'
 }
 
+# One scene: its two truths.
+truths() {
+  sed '1s/"\([^",]*\),\([^",]*\)"/\1\2/g' "$out/$1.truth/results.csv" | awk -F, -v scene="$1" '
+    { sub(/\r$/, "") }
+    NR == 1 { for (i = NF; i >= 1; --i) column[$i] = i; next }
+    $1 ~ /light_samples=4096/ { printf "| %s | %.5f | %.4f |\n", scene, $(column["mean_absolute_error"]), $(column["rms_error"]) }'
+}
+
+# One scene: the RMS error of raytraced, and the least one of the others that take no longer.
+equalTimes() {
+  sed '1s/"\([^",]*\),\([^",]*\)"/\1\2/g' "$out/$1/results.csv" | awk -F, -v scene="$1" '
+    { sub(/\r$/, "") }
+    NR == 1 { for (i = NF; i >= 1; --i) column[$i] = i; next }
+    {
+      name = $1; sub(/ 1024/, "", name); sub(/ image$/, "", name)
+      if (name ~ /VTK|vtkShadowMapPass/) next
+      rms = $(column["rms_error"]); ms = $(column["camera_moving_ms"])
+      if (name !~ /^raytraced/) { other[++others] = name; rmsOf[name] = rms; msOf[name] = ms }
+      if (name ~ /^raytraced light_samples=[0-9]+$/) { truth[++truths] = rms; truthMs[truths] = ms }
+    }
+    END {
+      printf "| %s", scene
+      for (i = 1; i <= truths; ++i) {
+        best = ""
+        for (k = 1; k <= others; ++k)
+          if (msOf[other[k]] <= truthMs[i] && (best == "" || rmsOf[other[k]] < rmsOf[best])) best = other[k]
+        if (best == "") printf " | %.4f; none is as fast", truth[i]
+        else printf " | %.4f; %.4f `%s`", truth[i], rmsOf[best], best
+      }
+      print " |"
+    }'
+}
+
 machine="$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1), $(nproc) processors"
 {
   echo "# Soft shadows: error against time"
@@ -106,6 +145,26 @@ machine="$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1), $(nproc)
   echo "Written by \`docs/soft_shadows.sh\`, on: $machine; OpenGL by software (llvmpipe). Errors are those of visibility against \`raytraced\`"
   echo "with 4,096 other samples, over the pixels that face the light; times are those of whole frames with a moving camera, 256 x 256 pixels, maps of"
   echo "1024, median of 5, all techniques taking turns. What a technique is and lacks: [soft](techniques/soft.md), [montecarlo](techniques/montecarlo.md), [penumbra](techniques/penumbra.md)."
+  echo
+  echo "## The truth"
+  echo
+  echo "4,096 samples against 4,096 others:"
+  echo
+  echo "| | MAE | RMS |"
+  echo "|---|---|---|"
+  for scene in "${scenes[@]}" "${sunny[@]}"; do
+    truths "$scene"
+  done
+  echo
+  echo "## In the same time"
+  echo
+  echo "The RMS error of \`raytraced\` with so many samples; the least one of all others that take no longer:"
+  echo
+  echo "| | 4 samples | 16 samples | 64 samples | 256 samples |"
+  echo "|---|---|---|---|---|"
+  for scene in "${scenes[@]}" "${sunny[@]}"; do
+    equalTimes "$scene"
+  done
   for scene in "${scenes[@]}"; do
     echo
     echo "## $scene"
