@@ -158,4 +158,5 @@ machine="$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1), $(nproc)
   echo "Cases are scenes, pictures, maps and numbers of rays."
   echo
   relations
-} > docs/montecarlo_tables.md
+} > "$out/page.md"
+mv "$out/page.md" docs/montecarlo_tables.md

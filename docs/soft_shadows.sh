@@ -181,4 +181,5 @@ machine="$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1), $(nproc)
     echo
     table "$scene"
   done
-} > docs/soft_shadows.md
+} > "$out/page.md"
+mv "$out/page.md" docs/soft_shadows.md

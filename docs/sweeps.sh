@@ -239,4 +239,5 @@ machine="$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1), $(nproc)
   echo "512 x 512 pixels more of them are."
   echo
   echo "More than a tenth of the wrong pixels is left where leaves and blades are finer than texels: what the map has not seen has no contour there."
-} > docs/sweeps.md
+} > "$out/page.md"
+mv "$out/page.md" docs/sweeps.md

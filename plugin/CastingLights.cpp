@@ -2,6 +2,7 @@
 
 #include "shadowtech/base/TextureMemory.h"
 
+#include <iterator>
 #include <utility>
 
 namespace gnomon

@@ -12,6 +12,8 @@
 #include <vtkRenderState.h>
 #include <vtkRenderer.h>
 
+#include <algorithm>
+
 namespace gnomon
 {
 namespace

@@ -67,7 +67,7 @@ public:
     if (std::isnan(edge.weight))
     {
       this->lookAtTriangles(edge, look);
-      if (look.weight == 0.0f && look.width == 1.0 && !edge.strip)
+      if (look.weight == 0.0f && look.width == 1.0 && !edge.strip && !look.oneIsLeft)
       {
         return std::nullopt;
       }
@@ -87,12 +87,16 @@ private:
     double width; ///< of what is close to it by rounding; 1 where no triangle is seen from its side
     double
       height; ///< the least above their planes, over their longest side; 0 where one is seen from its side
+    /// Whether rays leave one triangle and may meet the other: rounding at the edge then says alone whether they do.
+    bool oneIsLeft = false;
   };
 
   void lookAtTriangles(const ShaftEdges::Edge& edge, Look& look) const
   {
     look.weight = 0.0f;
     look.height = std::numeric_limits<double>::infinity();
+    bool anyLeft = false;
+    bool anyMet = false;
     for (std::size_t i = 0; i < 2; ++i)
     {
       if (edge.triangles[i] == TreeEdge::none)
@@ -106,8 +110,10 @@ private:
         EdgeRounding::ofHeight * EdgeRounding::unit * look.farthest * look.farthest);
       if (fromSide && this->isLeft(edge.triangles[i], behind))
       {
+        anyLeft = true;
         continue; // rounding makes nothing of it
       }
+      anyMet = true;
       look.height = fromSide ? 0.0 : std::min(look.height, std::abs(behind) / triangle.longest);
       if (fromSide)
       {
@@ -115,6 +121,7 @@ private:
           static_cast<double>(triangle.longest / triangle.height) });
       }
     }
+    look.oneIsLeft = anyLeft && anyMet;
   }
 
   /// Whether no ray meets a triangle, whatever rounding makes of it.

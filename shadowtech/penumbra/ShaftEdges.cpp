@@ -125,10 +125,6 @@ ShaftEdges::Found ShaftEdges::take(const EdgeTree::Record& record)
     return Found::All;
   }
   const Sight sight = this->look(record.number); // a copy: what is kept may give way
-  if (sight.left)
-  {
-    return Found::All;
-  }
   const std::array<glm::vec3, 3>& corners = this->tree_->corners(record.number);
   const std::array<glm::dvec3, 3> placed{ { this->shaft_->toShaft(corners[0]),
     this->shaft_->toShaft(corners[1]), this->shaft_->toShaft(corners[2]) } };
@@ -136,7 +132,7 @@ ShaftEdges::Found ShaftEdges::take(const EdgeTree::Record& record)
     this->shaft_->endDepth(placed[1]), this->shaft_->endDepth(placed[2]) });
   const bool beyond = nearest > this->shaft_->lastEnd();
   const bool meets = !beyond && this->shaft_->mayMeet(placed);
-  if (meets && farthest >= this->shaft_->firstEnd())
+  if (meets && !sight.left && farthest >= this->shaft_->firstEnd())
   {
     return Found::Unclear; // rays may end on it
   }
@@ -147,6 +143,10 @@ ShaftEdges::Found ShaftEdges::take(const EdgeTree::Record& record)
   for (std::uint32_t i = 0; meets && i < record.edgeCount; ++i)
   {
     this->takeEdge(this->tree_->edge(record.firstEdge + i));
+  }
+  if (sight.left)
+  {
+    return Found::All; // what is close to its sides matters to its neighbours alone
   }
   // A ray that meets its box may seem to meet it close to the lines of its sides, far from where these are.
   for (std::size_t side = 0; side < 3; ++side)

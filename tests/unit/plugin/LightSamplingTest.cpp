@@ -984,6 +984,36 @@ TEST_F(LightSampling, refusesWhatItCannotShow)
 }
 
 //------------------------------------------------------------------------------
+/// Of a channel that no point has there is nothing to scale.
+TEST_F(LightSampling, channelsThatNoPointHasStayDark)
+{
+  auto* lamp = vtkGnomonAreaLight::SafeDownCast(this->light);
+  vtkNew<vtkLight> other;
+  other->SetPosition(3.0, -4.0, 5.0);
+  other->SetFocalPoint(0.0, 0.0, 0.0);
+  other->SetIntensity(0.6);
+  this->scene.renderer->AddLight(other);
+  this->sampling->SetSamples(2);
+  lamp->SwitchOff();
+  const Picture without = this->scene.render();
+  lamp->SwitchOn();
+  for (const unsigned char red : { 0, 255 })
+  {
+    vtkNew<vtkImageData> corner; // red at most, where neither of the two points is
+    corner->SetDimensions(16, 16, 1);
+    corner->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
+    auto* const bytes = static_cast<unsigned char*>(corner->GetScalarPointer());
+    std::fill(bytes, bytes + 3 * 16 * 16, static_cast<unsigned char>(0));
+    bytes[0] = red;
+    lamp->SetTexture(corner);
+    const Picture with = this->scene.render();
+    EXPECT_EQ(differingPixels(with, without, 1), 0u) << int(red);
+    EXPECT_TRUE(this->scene.render() == with);
+    EXPECT_EQ(this->scene.report().programCompiles, 0) << "a light that is black is still one";
+  }
+}
+
+//------------------------------------------------------------------------------
 /// Lights that cannot be sampled are not passed over in silence, unless nothing is lit by them.
 TEST_F(LightSampling, saysWhichLightsAreNotSampled)
 {

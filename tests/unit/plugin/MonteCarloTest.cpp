@@ -376,17 +376,21 @@ TEST_F(MonteCarlo, sheetsThatStandOnTheGroundLeakATexelAtMost)
       const double texel = 8.0 / mapSize; // along the sun, as long as a row on the floor, or longer
       double lit = 0.0;
       double farthest = 0.0;
+      std::size_t looked = 0;
       for (std::size_t i = 0; i < kept.visibility[0].size(); ++i)
       {
         const glm::dvec3 at = positionOf(kept, i);
         const double behind = at.x - at.y / 3.0;
         if (std::abs(at.z) < 1e-6 && behind > 0.0 && behind < 0.9 / slope)
         {
+          ++looked;
           lit += kept.visibility[0][i];
           farthest = std::max(farthest, kept.visibility[0][i] > 0.0f ? behind : 0.0);
         }
       }
       const double mean = lit / 120.0 * (0.4 / 120.0); // of the picture's rows
+      EXPECT_GT(looked, 1000u);
+      EXPECT_GT(farthest, 0.0) << "light that no longer leaks: say so in montecarlo.md";
       EXPECT_LT(farthest, texel) << slope << ", map " << mapSize;
       EXPECT_LT(mean, 0.6 * texel) << slope << ", map " << mapSize;
     }
