@@ -561,13 +561,20 @@ TEST_F(Pcss, asPublishedIsForSpotLightsAlone)
   soft("0.1")(scene, lamp);
   scene.render();
   EXPECT_EQ(scene.report().lights.at(0).estimator, "pcss_as_published");
-  for (const double cone : { 70.0, allDirections })
+  const auto expectRefused = [&]
   {
-    lamp->SetConeAngle(cone);
     scene.render();
     const std::string error = this->takeErrors();
     EXPECT_NE(error.find("spot lights with a single view"), std::string::npos) << error;
+  };
+  for (const double cone : { 70.0, allDirections })
+  {
+    lamp->SetConeAngle(cone);
+    expectRefused();
   }
+  lamp->SetConeAngle(50.0);
+  vtkGnomonLightKeys::SetSetting(lamp, "projection", "pssm");
+  expectRefused();
 }
 
 //------------------------------------------------------------------------------
