@@ -72,7 +72,11 @@ float separationAt_LIGHT(ViewPoint point, SeenLight_LIGHT light, vec2 beside, fl
     return -1.0;
   }
   ray = onFace_LIGHT(point, face, ray);
-  vec2 place = texelOf_LIGHT(onFace.view, ray.xy / ray.z); // not 0: it is the ray's longest coordinate
+  if (ray.z == 0.0) // its longest coordinate: it ends at the light's centre, which nothing hides
+  {
+    return -1.0;
+  }
+  vec2 place = texelOf_LIGHT(onFace.view, ray.xy / ray.z);
   ivec2 texel = ivec2(clamp(floor(place), vec2(0.0), vec2(viewSize_LIGHT - 1.0)));
   if (isLitAt_LIGHT(onFace, texel, ray.z, slackOn_LIGHT(onFace, point, slack)))
   {
@@ -93,7 +97,7 @@ struct FaceWindow_LIGHT
   bool any;
   vec2 lower; // slopes
   vec2 upper;
-  TexelWindow_LIGHT texels;
+  TexelWindow_LIGHT texels; // where the face has a view
   vec2 own; // the least and the largest distance that a ray has at the receiver
 };
 
@@ -130,6 +134,9 @@ FaceWindow_LIGHT windowOn_LIGHT(
   {
     window.lower = vec2(leastSlope_LIGHT(x, z), leastSlope_LIGHT(y, z));
     window.upper = -vec2(leastSlope_LIGHT(-x, z), leastSlope_LIGHT(-y, z));
+  }
+  if (window.any && onFace.view >= 0)
+  {
     vec2 a = texelOf_LIGHT(onFace.view, window.lower);
     vec2 b = texelOf_LIGHT(onFace.view, window.upper);
     // Rounding may take a ray to the texel beside it.
@@ -250,6 +257,10 @@ float leastSeparation_LIGHT(ViewPoint point, SeenLight_LIGHT light, float separa
   for (int face = 0; face < 6; ++face)
   {
     ViewPoint onFace = onFace_LIGHT(point, face);
+    if (onFace.view < 0)
+    {
+      continue;
+    }
     FaceWindow_LIGHT window = windowOn_LIGHT(onFace, point, light, separation);
     if (window.any)
     {
