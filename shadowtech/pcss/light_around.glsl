@@ -145,10 +145,12 @@ FaceWindow_LIGHT windowOn_LIGHT(
   return window;
 }
 
-// The largest separation that a caster may have which is no nearer along a face's axis than a depth of its map, as far as
-// that tells, which is all where the light stands across that axis.
-// @param slope where it is seen
-float separationBound_LIGHT(
+// About the largest separation of casters which are no nearer along a face's axis than a depth of its map. That depth alone
+// bounds it, tightly where the light stands across the axis. Elsewhere the height over the light's plane says more, but that
+// is taken in the middle of where they are seen, and so is no bound: the least height would be one, and is next to 0 so often
+// that searches grow too wide to find what is near the receiver.
+// @param slope the middle of where they are seen
+float separationEstimate_LIGHT(
   ViewPoint onFace, ViewPoint point, SeenLight_LIGHT light, vec2 slope, float depth)
 {
   float nearest = distanceOf_LIGHT(onFace, depth);
@@ -167,7 +169,7 @@ float separationBound_LIGHT(
 }
 
 // The same of all casters in the blocks of the map's pyramid that hold a window.
-float separationBound_LIGHT(
+float separationEstimate_LIGHT(
   ViewPoint onFace, ViewPoint point, SeenLight_LIGHT light, FaceWindow_LIGHT window)
 {
   float largest = 0.0;
@@ -185,14 +187,14 @@ float separationBound_LIGHT(
         vec2 lower = clamp(min(a, b), window.lower, window.upper);
         vec2 upper = clamp(max(a, b), window.lower, window.upper);
         vec2 slope = 0.5 * (lower + upper);
-        largest = max(largest, separationBound_LIGHT(onFace, point, light, slope, nearest));
+        largest = max(largest, separationEstimate_LIGHT(onFace, point, light, slope, nearest));
       }
     }
   }
   return largest;
 }
 
-// The largest separation that a caster has within the light's reach at that separation, or more. What the first steps
+// About the largest separation that a caster has within the light's reach at that separation. What the first steps
 // find lies farther around than what the last one needs.
 float largestSeparation_LIGHT(ViewPoint point, SeenLight_LIGHT light)
 {
@@ -209,7 +211,7 @@ float largestSeparation_LIGHT(ViewPoint point, SeenLight_LIGHT light)
       }
       FaceWindow_LIGHT window = windowOn_LIGHT(onFace, point, light, separation);
       largest =
-        window.any ? max(largest, separationBound_LIGHT(onFace, point, light, window)) : largest;
+        window.any ? max(largest, separationEstimate_LIGHT(onFace, point, light, window)) : largest;
     }
     separation = min(separation, largest);
   }
