@@ -26,7 +26,7 @@ void LightTechnique::chooseFit(
   {
     return;
   }
-  const bool fitted = isFittedToCamera(light);
+  const bool fitted = isFittedToCamera(this->technique_->lightOfMap(light));
   report.fitReason = fitted ? this->reasonAgainstReceivers(light, route, translucentReceivers) : "";
   light.fittedToReceivers = fitted && report.fitReason.empty();
   report.fit = light.fittedToReceivers ? "receivers" : fitted ? "frustum" : "off";
@@ -110,20 +110,19 @@ LightViews LightTechnique::layOut(
   fitting.castersCentred = stage.occluders.castersCentred;
   fitting.receiversCentred = stage.occluders.allCentred;
   fitting.texels = { light.mapSizeTexels, reach.borderTexels() };
-  if (isFittedToCamera(light))
+  const ShadowLight seen = this->technique_->lightOfMap(light);
+  if (isFittedToCamera(seen))
   {
     const std::optional<CameraView>& first =
       this->baked_.camera ? this->baked_.camera : this->awaited_.camera;
-    fitting.camera = light.fit == ViewFit::Once && first ? first : stage.camera;
+    fitting.camera = seen.fit == ViewFit::Once && first ? first : stage.camera;
   }
-  const ShadowLight seen = this->technique_->lightOfMap(light);
   LightViews views = fitLightViews(seen, fitting);
   if (reach.dependsOnViews())
   {
-    // How many texels that is, only a view can tell. A wider border makes them fewer. The faces of a cube that are
-    // not fitted hold all casters together, and none needs what is beside it.
-    const bool seesAllAround = views.layout == ViewLayout::Cube && !fitting.camera;
-    const double areaAcross = seesAllAround
+    // How many texels that is, only a view can tell. A wider border makes them fewer. The faces of a cube hold all
+    // casters together, and none needs what an area reaches beside it.
+    const double areaAcross = views.layout == ViewLayout::Cube
       ? 0.0
       : reachOfArea(reach.area, views, fitting.castersCentred, fitting.receiversCentred);
     fitting.texels.border =

@@ -192,8 +192,8 @@ class Technique
 public:
   virtual ~Technique() = default;
 
-  /// The light that the maps' views are fitted to: of techniques that see an area light from elsewhere than its centre, another
-  /// one, whose views lie as the light's do (viewLayout()).
+  /// The light that the maps' views are laid out for, as the light's are (viewLayout()): another one of techniques that see an
+  /// area light from elsewhere than its centre, or read more of the map than what the camera's receivers are on.
   virtual ShadowLight lightOfMap(const ShadowLight& light) const { return light; }
   /// How far around a receiver's place on the map the technique reads. Views are fitted for it, and
   /// the maps are stale when it changes.

@@ -1,5 +1,6 @@
 #include "shadowtech/pcss/Pcss.h"
 
+#include "lights/LightViews.h"
 #include "shadowtech/base/ShaderLibrary.h"
 
 namespace gnomon
@@ -32,6 +33,17 @@ TechniqueInfo Pcss::info()
   info.refused = refused;
   info.asPublished = "pcss_as_published";
   return info;
+}
+
+//------------------------------------------------------------------------------
+ShadowLight Pcss::lightOfMap(const ShadowLight& light) const
+{
+  ShadowLight seen = light;
+  if (light.area && viewLayout(light) == ViewLayout::Cube)
+  {
+    seen.fit = ViewFit::Off;
+  }
+  return seen;
 }
 
 //------------------------------------------------------------------------------

@@ -46,6 +46,9 @@ class Pcss : public DepthMapTechnique
 public:
   static TechniqueInfo info();
 
+  /// Around a light with an area rays go over to other faces of the cube: none of them may be left out, or be cut to the
+  /// receivers on it.
+  ShadowLight lightOfMap(const ShadowLight& light) const override;
   MapReach mapReach(const ShadowLight& light) const override;
   void bake(const MapInput& input) override;
   std::size_t bytesOfMaps() const override;

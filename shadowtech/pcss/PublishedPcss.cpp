@@ -14,7 +14,7 @@ namespace
 std::string refused(const ShadowLight& light)
 {
   const bool isMeasured =
-    !light.area || (light.kind == LightKind::Spot && viewLayout(light) != ViewLayout::Cube);
+    !light.area || (light.kind == LightKind::Spot && viewLayout(light) == ViewLayout::Single);
   return isMeasured
     ? ""
     : "'pcss' as published measures in shares of a spot light's map, and this light has none: its "

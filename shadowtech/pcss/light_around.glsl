@@ -72,7 +72,11 @@ float separationAt_LIGHT(ViewPoint point, SeenLight_LIGHT light, vec2 beside, fl
     return -1.0;
   }
   ray = onFace_LIGHT(point, face, ray);
-  vec2 place = texelOf_LIGHT(onFace.view, ray.xy / ray.z); // not 0: it is the ray's longest coordinate
+  if (ray.z == 0.0) // its longest coordinate: it ends at the light's centre, which nothing hides
+  {
+    return -1.0;
+  }
+  vec2 place = texelOf_LIGHT(onFace.view, ray.xy / ray.z);
   ivec2 texel = ivec2(clamp(floor(place), vec2(0.0), vec2(viewSize_LIGHT - 1.0)));
   if (isLitAt_LIGHT(onFace, texel, ray.z, slackOn_LIGHT(onFace, point, slack)))
   {
@@ -93,7 +97,7 @@ struct FaceWindow_LIGHT
   bool any;
   vec2 lower; // slopes
   vec2 upper;
-  TexelWindow_LIGHT texels;
+  TexelWindow_LIGHT texels; // where the face has a view
   vec2 own; // the least and the largest distance that a ray has at the receiver
 };
 
@@ -130,6 +134,9 @@ FaceWindow_LIGHT windowOn_LIGHT(
   {
     window.lower = vec2(leastSlope_LIGHT(x, z), leastSlope_LIGHT(y, z));
     window.upper = -vec2(leastSlope_LIGHT(-x, z), leastSlope_LIGHT(-y, z));
+  }
+  if (window.any && onFace.view >= 0)
+  {
     vec2 a = texelOf_LIGHT(onFace.view, window.lower);
     vec2 b = texelOf_LIGHT(onFace.view, window.upper);
     // Rounding may take a ray to the texel beside it.
@@ -138,10 +145,12 @@ FaceWindow_LIGHT windowOn_LIGHT(
   return window;
 }
 
-// The largest separation that a caster may have which is no nearer along a face's axis than a depth of its map, as far as
-// that tells, which is all where the light stands across that axis.
-// @param slope where it is seen
-float separationBound_LIGHT(
+// About the largest separation of casters which are no nearer along a face's axis than a depth of its map. That depth alone
+// bounds it, tightly where the light stands across the axis. Elsewhere the height over the light's plane says more, but that
+// is taken in the middle of where they are seen, and so is no bound: the least height would be one, and is next to 0 so often
+// that searches grow too wide to find what is near the receiver.
+// @param slope the middle of where they are seen
+float separationEstimate_LIGHT(
   ViewPoint onFace, ViewPoint point, SeenLight_LIGHT light, vec2 slope, float depth)
 {
   float nearest = distanceOf_LIGHT(onFace, depth);
@@ -160,7 +169,7 @@ float separationBound_LIGHT(
 }
 
 // The same of all casters in the blocks of the map's pyramid that hold a window.
-float separationBound_LIGHT(
+float separationEstimate_LIGHT(
   ViewPoint onFace, ViewPoint point, SeenLight_LIGHT light, FaceWindow_LIGHT window)
 {
   float largest = 0.0;
@@ -178,14 +187,14 @@ float separationBound_LIGHT(
         vec2 lower = clamp(min(a, b), window.lower, window.upper);
         vec2 upper = clamp(max(a, b), window.lower, window.upper);
         vec2 slope = 0.5 * (lower + upper);
-        largest = max(largest, separationBound_LIGHT(onFace, point, light, slope, nearest));
+        largest = max(largest, separationEstimate_LIGHT(onFace, point, light, slope, nearest));
       }
     }
   }
   return largest;
 }
 
-// The largest separation that a caster has within the light's reach at that separation, or more. What the first steps
+// About the largest separation that a caster has within the light's reach at that separation. What the first steps
 // find lies farther around than what the last one needs.
 float largestSeparation_LIGHT(ViewPoint point, SeenLight_LIGHT light)
 {
@@ -202,7 +211,7 @@ float largestSeparation_LIGHT(ViewPoint point, SeenLight_LIGHT light)
       }
       FaceWindow_LIGHT window = windowOn_LIGHT(onFace, point, light, separation);
       largest =
-        window.any ? max(largest, separationBound_LIGHT(onFace, point, light, window)) : largest;
+        window.any ? max(largest, separationEstimate_LIGHT(onFace, point, light, window)) : largest;
     }
     separation = min(separation, largest);
   }
@@ -250,6 +259,10 @@ float leastSeparation_LIGHT(ViewPoint point, SeenLight_LIGHT light, float separa
   for (int face = 0; face < 6; ++face)
   {
     ViewPoint onFace = onFace_LIGHT(point, face);
+    if (onFace.view < 0)
+    {
+      continue;
+    }
     FaceWindow_LIGHT window = windowOn_LIGHT(onFace, point, light, separation);
     if (window.any)
     {

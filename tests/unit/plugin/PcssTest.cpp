@@ -211,6 +211,7 @@ TEST_F(Penumbra, isSmootherFromPresetToPreset)
     EXPECT_LT(steps, 2.0 / columns) << preset;
     if (preset == std::string("medium"))
     {
+      EXPECT_GT(noise, 0.005);
       EXPECT_LT(noise, 0.05);
     }
     previous = noise;
@@ -380,6 +381,59 @@ TEST_F(Pcss, castersOnOtherFacesOfTheCubeAreFound)
 }
 
 //------------------------------------------------------------------------------
+/// A lamp amid casters on all sides, over a floor that five faces of its cube see.
+class PcssAllAround : public PassTest
+{
+protected:
+  PcssAllAround()
+  {
+    this->scene.addFloor(4.0);
+    // Just beside the face below, and over receivers on that face.
+    this->scene.addBox({ 0.5, -1.0, 0.52 }, { 0.55, 1.0, 1.4 });
+    this->scene.addBox({ -1.4, 0.6, 0.0 }, { -0.4, 0.9, 0.7 });
+    this->scene.addSphere({ -0.8, -0.7, 1.0 }, 0.4);
+    this->scene.addBox({ -0.3, -0.2, 0.2 }, { 0.1, 0.1, 0.25 });
+    vtkGnomonLightKeys::SetSetting(this->lamp, "light_radius", "0.3");
+    this->scene.pass->SetTechnique("pcss");
+    this->scene.pass->SetMapSize(512);
+    this->scene.lookFrom({ 1.0, -4.0, 3.0 });
+  }
+
+  PassScene scene{ 200, 150 };
+  vtkLight* lamp = this->scene.addSpot({ 0.0, 0.0, 1.0 }, glm::dvec3(0.0), allDirections);
+};
+
+//------------------------------------------------------------------------------
+TEST_F(PcssAllAround, earlyOutsShowTheSame)
+{
+  const std::vector<float> early = drawKept(this->scene).visibility.at(0);
+  const auto partly =
+    std::count_if(early.begin(), early.end(), [](float v) { return v > 0.0f && v < 1.0f; });
+  EXPECT_GT(partly, 2000);
+  this->scene.pass->SetSetting("early_out", "none");
+  EXPECT_EQ(drawKept(this->scene).visibility.at(0), early);
+}
+
+//------------------------------------------------------------------------------
+/// Rays come by faces that no receiver is on.
+TEST_F(PcssAllAround, isNotFittedToTheCamera)
+{
+  this->scene.lookDown(0.5, 0.8);
+  const std::vector<float> whole = drawKept(this->scene).visibility.at(0);
+  EXPECT_EQ(this->scene.report().lights.at(0).fit, "off");
+  for (const char* fit : { "frame", "once" })
+  {
+    this->scene.pass->SetSetting("fit", fit);
+    EXPECT_EQ(drawKept(this->scene).visibility.at(0), whole) << fit;
+    EXPECT_EQ(this->scene.report().lights.at(0).fit, "off") << fit;
+  }
+  // A light without an area is.
+  vtkGnomonLightKeys::SetSetting(this->lamp, "light_radius", "0");
+  drawKept(this->scene);
+  EXPECT_EQ(this->scene.report().lights.at(0).fit, "frustum");
+}
+
+//------------------------------------------------------------------------------
 /// Salt and pepper of searches: one that takes a large area, because of a caster near the lamp, has few points where the
 /// edge of a low caster is found.
 TEST_F(Pcss, searchesLeaveNoSpecks)
@@ -509,13 +563,20 @@ TEST_F(Pcss, asPublishedIsForSpotLightsAlone)
   soft("0.1")(scene, lamp);
   scene.render();
   EXPECT_EQ(scene.report().lights.at(0).estimator, "pcss_as_published");
-  for (const double cone : { 70.0, allDirections })
+  const auto expectRefused = [&]
   {
-    lamp->SetConeAngle(cone);
     scene.render();
     const std::string error = this->takeErrors();
     EXPECT_NE(error.find("spot lights with a single view"), std::string::npos) << error;
+  };
+  for (const double cone : { 70.0, allDirections })
+  {
+    lamp->SetConeAngle(cone);
+    expectRefused();
   }
+  lamp->SetConeAngle(50.0);
+  vtkGnomonLightKeys::SetSetting(lamp, "projection", "pssm");
+  expectRefused();
 }
 
 //------------------------------------------------------------------------------

@@ -50,11 +50,12 @@ std::vector<AreaCase> areaCases()
   spot.positionWorld = -4.0 * travel;
   spot.directionWorld = travel;
   spot.coneAngleDegrees = 40.0;
-  // One face of their cubes sees all casters. The rectangle stands at a slant to it.
+  // One face of their cubes sees all casters. Rectangles stand at a slant to it; the plane of a steep one cuts through it.
   ShadowLight wide = spot;
   wide.coneAngleDegrees = 75.0;
   wide.positionWorld = { 1.5, -1.2, 4.0 };
   wide.directionWorld = glm::normalize(glm::dvec3(0.2, 0.1, -1.0));
+  const glm::dvec3 steep = glm::normalize(glm::dvec3(1.0, 0.3, -0.3));
   ShadowLight point = wide;
   point.kind = LightKind::Point;
   const auto with = [](ShadowLight light, const LightArea& area)
@@ -67,6 +68,7 @@ std::vector<AreaCase> areaCases()
     { "spot_disk", with(spot, diskArea(travel, 0.5)) },
     { "spot_rectangle", with(spot, rectangleArea(travel, up, { 0.6, 0.2 })) },
     { "wide_spot_rectangle", with(wide, rectangleArea(travel, up, { 0.4, 0.3 })) },
+    { "wide_spot_steep_rectangle", with(wide, rectangleArea(steep, up, { 0.4, 0.3 })) },
     { "point_ball", with(point, ballArea(0.4)) } };
 }
 
@@ -177,7 +179,7 @@ private:
       this->isAround() ? this->window(largest) : Window{ glm::ivec2(0), glm::ivec2(mapSize - 1) };
     for (int step = 0; step < 4; ++step)
     {
-      largest = std::min(largest, this->separationBound(window, largest));
+      largest = std::min(largest, this->separationEstimate(window, largest));
       window = this->window(largest);
     }
     const glm::dvec2 width =
@@ -348,8 +350,8 @@ private:
     return window;
   }
 
-  /// The largest separation that a caster of a window has, as far as the nearest depths of the pyramid's blocks tell.
-  double separationBound(const Window& window, double most) const
+  /// About the largest separation that a caster of a window has, as far as the nearest depths of the pyramid's blocks tell.
+  double separationEstimate(const Window& window, double most) const
   {
     const glm::ivec2& first = window.first;
     const glm::ivec2& last = window.last;
@@ -367,15 +369,16 @@ private:
         const glm::ivec2 lower = block * glm::ivec2(x, y);
         const double least = this->nearest(lower, lower + block);
         bound = std::max(bound,
-          this->isAround() ? this->separationBoundAround(window, lower, lower + block, least, most)
-                           : this->separation(least));
+          this->isAround()
+            ? this->separationEstimateAround(window, lower, lower + block, least, most)
+            : this->separation(least));
       }
     }
     return bound;
   }
 
-  double separationBoundAround(const Window& window, const glm::ivec2& first, const glm::ivec2& end,
-    double least, double most) const
+  double separationEstimateAround(const Window& window, const glm::ivec2& first,
+    const glm::ivec2& end, double least, double most) const
   {
     if (least >= 1.0)
     {
