@@ -24,6 +24,16 @@ float depthOnRay_LIGHT(ViewPoint point, float distanceLight, vec2 texel)
   return depth;
 }
 
+// The linear depth of what was drawn at a texel's centre, however the map measures.
+float linearDepthAt_LIGHT(int view, ivec2 texel)
+{
+  float depth = texelFetch(depthMap_LIGHT, ivec3(texel, view), 0).r;
+#if MAP_EUCLIDEAN_LIGHT
+  depth /= rayScale_LIGHT[view] * length(vec3(acrossOf_LIGHT(view, vec2(texel) + 0.5), 1.0));
+#endif
+  return depth;
+}
+
 // Whether nothing that was drawn at a texel's centre hides the point from the light.
 // @param own how far from the light the point is, where its plane is farther
 bool isLitAt_LIGHT(ViewPoint point, ivec2 texel, float own, float slack)

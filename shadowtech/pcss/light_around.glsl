@@ -82,11 +82,7 @@ float separationAt_LIGHT(ViewPoint point, SeenLight_LIGHT light, vec2 beside, fl
   {
     return -1.0;
   }
-  float depth = texelFetch(depthMap_LIGHT, ivec3(texel, onFace.view), 0).r;
-#if MAP_EUCLIDEAN_LIGHT
-  depth /= rayScale_LIGHT[onFace.view] *
-    length(vec3(acrossOf_LIGHT(onFace.view, vec2(texel) + 0.5), 1.0));
-#endif
+  float depth = linearDepthAt_LIGHT(onFace.view, texel);
   float nearest = ray.z / (1.0 + light.most);
   return max(ray.z / max(distanceOf_LIGHT(onFace, depth), nearest) - 1.0, 0.0);
 }

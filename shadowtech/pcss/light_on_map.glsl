@@ -52,12 +52,7 @@ float separationAt_LIGHT(ViewPoint point, SeenLight_LIGHT light, vec2 beside, fl
   {
     return -1.0;
   }
-  float depth = texelFetch(depthMap_LIGHT, ivec3(texel, point.view), 0).r;
-#if MAP_EUCLIDEAN_LIGHT
-  depth /= rayScale_LIGHT[point.view] *
-    length(vec3(acrossOf_LIGHT(point.view, vec2(texel) + 0.5), 1.0));
-#endif
-  return separationOf_LIGHT(point, depth);
+  return separationOf_LIGHT(point, linearDepthAt_LIGHT(point.view, texel));
 }
 
 // The largest separation that a caster has within the light's reach at that separation. What the first

@@ -10,17 +10,13 @@ uniform float widthLight_LIGHT;
 float distanceAt_LIGHT(ViewPoint point, vec2 place)
 {
   ivec2 texel = ivec2(clamp(floor(place), vec2(0.0), vec2(viewSize_LIGHT - 1.0)));
-  float depth = texelFetch(depthMap_LIGHT, ivec3(texel, point.view), 0).r;
-  if (depth >= 1.0)
+  if (texelFetch(depthMap_LIGHT, ivec3(texel, point.view), 0).r >= 1.0)
   {
     return 3e38;
   }
-  float ray = length(vec3(acrossOf_LIGHT(point.view, vec2(texel) + 0.5), 1.0));
-#if MAP_EUCLIDEAN_LIGHT
-  depth /= rayScale_LIGHT[point.view] * ray;
-#endif
   vec2 depths = viewDepths_LIGHT[point.view];
-  return (depth - depths.y) / depths.x * ray;
+  float along = (linearDepthAt_LIGHT(point.view, texel) - depths.y) / depths.x;
+  return along * length(vec3(acrossOf_LIGHT(point.view, vec2(texel) + 0.5), 1.0));
 }
 
 // The listings' random number of a pixel.
