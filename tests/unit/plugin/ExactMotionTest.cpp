@@ -1,0 +1,225 @@
+// Exact techniques show what ray tracing shows while casters are deformed, moved, parted, taken away and put back: nothing that they
+// remember of casters is out of date.
+
+#include "PassScene.h"
+
+#include "plugin/VisibilityImages.h"
+
+#include <vtkCell.h>
+#include <vtkCellArray.h>
+#include <vtkPlaneSource.h>
+#include <vtkPoints.h>
+#include <vtkSphereSource.h>
+
+#include <cmath>
+#include <random>
+
+namespace gnomon::test
+{
+namespace
+{
+
+/// A pass that lives through all changes.
+struct ExactPass
+{
+  const char* technique;
+  std::vector<std::pair<const char*, const char*>> settings;
+  int rasterizer = vtkGnomonShadowPass::RASTERIZER_CPU;
+};
+
+std::string nameOfPass(const testing::TestParamInfo<ExactPass>& pass)
+{
+  std::string name = pass.param.technique;
+  for (const auto& setting : pass.param.settings)
+  {
+    name += std::string("_") + setting.first;
+  }
+  return pass.param.rasterizer == vtkGnomonShadowPass::RASTERIZER_GPU ? name + "_gpu" : name;
+}
+
+/// Gives each triangle corners of its own, so that moving points tears the surface.
+void partTriangles(vtkPolyData* shape)
+{
+  vtkNew<vtkPoints> corners;
+  vtkNew<vtkCellArray> triangles;
+  for (vtkIdType cell = 0; cell < shape->GetNumberOfCells(); ++cell)
+  {
+    triangles->InsertNextCell(3);
+    for (int corner = 0; corner < 3; ++corner)
+    {
+      const vtkIdType point = shape->GetCell(cell)->GetPointId(corner);
+      triangles->InsertCellPoint(corners->InsertNextPoint(shape->GetPoint(point)));
+    }
+  }
+  shape->Initialize();
+  shape->SetPoints(corners);
+  shape->SetPolys(triangles);
+}
+
+class ExactInMotion
+  : public PassTest
+  , public testing::WithParamInterface<ExactPass>
+{
+protected:
+  ExactInMotion()
+  {
+    this->scene.addFloor(4.0);
+    vtkNew<vtkSphereSource> whole;
+    whole->SetRadius(0.7);
+    whole->SetThetaResolution(32);
+    whole->SetPhiResolution(20);
+    this->ball = this->addCopy(whole, this->ballShape);
+    vtkNew<vtkSphereSource> open;
+    open->SetRadius(0.5);
+    open->SetThetaResolution(24);
+    open->SetPhiResolution(12);
+    open->SetEndPhi(100.0);
+    this->cup = this->addCopy(open, this->cupShape);
+    partTriangles(this->cupShape);
+    // Two surfaces that meet in an edge.
+    for (std::size_t side = 0; side < 2; ++side)
+    {
+      const double from = side == 0 ? -1.0 : 0.0;
+      vtkNew<vtkPlaneSource> sheet;
+      sheet->SetOrigin(from, -0.8, 1.6);
+      sheet->SetPoint1(from + 1.0, -0.8, 1.6);
+      sheet->SetPoint2(from, 0.8, 1.6);
+      sheet->SetResolution(6, 6);
+      this->sheets[side] = this->addCopy(sheet, this->sheetShapes[side]);
+    }
+    this->sun = this->scene.addSun({ -1.0, -0.4, -2.0 });
+    this->lamp = this->scene.addSpot({ -1.5, -1.0, 3.0 }, { 0.0, 0.0, 0.0 }, 80.0);
+    this->scene.lookFrom({ 0.0, -9.0, 7.0 }, { 0.0, 0.0, 0.3 });
+
+    this->truth->SetTechnique("raytraced");
+    this->truth->KeepVisibilityOn();
+    this->scene.pass->SetTechnique(GetParam().technique);
+    this->scene.pass->SetSetting("bake", "always");
+    this->scene.pass->SetMapSize(256);
+    for (const auto& [name, value] : GetParam().settings)
+    {
+      this->scene.pass->SetSetting(name, value);
+    }
+    this->scene.pass->SetRasterizer(GetParam().rasterizer);
+    this->scene.pass->KeepVisibilityOn();
+  }
+
+  /// From -1 to 1.
+  double some() { return std::uniform_real_distribution<double>(-1.0, 1.0)(this->random); }
+
+  /// Moves a shape's points.
+  template <typename Move>
+  static void deform(vtkPolyData* shape, const Move& move)
+  {
+    vtkPoints* const points = shape->GetPoints();
+    for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
+    {
+      glm::dvec3 point;
+      points->GetPoint(i, &point.x);
+      point = move(point);
+      points->SetPoint(i, &point.x);
+    }
+    points->Modified();
+  }
+
+  /// Holds the technique to ray tracing.
+  void expectTruth(const std::string& after)
+  {
+    this->scene.renderer->SetPass(this->truth);
+    this->scene.window->Render();
+    const std::vector<std::vector<float>> traced = this->truth->GetVisibility().visibility;
+    this->scene.useGnomon();
+    this->scene.render();
+    const std::vector<std::vector<float>>& shown = this->scene.pass->GetVisibility().visibility;
+    ASSERT_EQ(traced.size(), 2u);
+    ASSERT_EQ(shown.size(), traced.size());
+    for (std::size_t light = 0; light < traced.size(); ++light)
+    {
+      std::size_t different = 0;
+      for (std::size_t i = 0; i < traced[light].size(); ++i)
+      {
+        different += shown[light][i] != traced[light][i] ? 1 : 0;
+      }
+      EXPECT_EQ(different, 0u) << after << ", light " << light;
+      const LightReport& report = this->scene.report().lights[light];
+      EXPECT_GT(report.mapSizeTexels, 0) << after;
+      this->rays += report.tracedPixels;
+      this->raysOfTruth += this->truth->GetReport().lights[light].tracedPixels;
+    }
+  }
+
+  PassScene scene{ 160, 128 };
+  vtkNew<vtkGnomonShadowPass> truth;
+  vtkNew<vtkPolyData> ballShape, cupShape;
+  std::array<vtkNew<vtkPolyData>, 2> sheetShapes;
+  vtkActor* ball;
+  vtkActor* cup;
+  std::array<vtkSmartPointer<vtkActor>, 2> sheets; // which the renderer may let go
+  vtkLight* sun;
+  vtkLight* lamp;
+  std::mt19937 random;
+  std::size_t rays = 0;
+  std::size_t raysOfTruth = 0;
+
+private:
+  vtkActor* addCopy(vtkAlgorithm* source, vtkPolyData* copy)
+  {
+    source->Update();
+    copy->DeepCopy(source->GetOutputDataObject(0));
+    return this->scene.add(copy);
+  }
+};
+
+TEST_P(ExactInMotion, showsWhatIsTraced)
+{
+  for (int round = 0; round < 3; ++round)
+  {
+    this->expectTruth("at rest");
+    const auto jitter = [this](const glm::dvec3& point)
+    { return point + 0.02 * glm::dvec3(this->some(), this->some(), this->some()); };
+    deform(this->ballShape, jitter);
+    deform(this->cupShape, jitter);
+    this->expectTruth("points moved, some surfaces torn");
+
+    this->ball->SetPosition(this->some(), this->some(), 0.8 + 0.5 * this->some());
+    this->ball->RotateX(20.0);
+    this->cup->SetPosition(this->some(), this->some(), 1.0 + 0.4 * this->some());
+    this->cup->SetScale(1.0, 1.0, 1.0 + 0.3 * this->some());
+    this->expectTruth("actors moved");
+
+    const double height = 0.3 * this->some();
+    for (vtkPolyData* sheet : this->sheetShapes)
+    {
+      deform(sheet,
+        [height](const glm::dvec3& point)
+        { return glm::dvec3(point.x, point.y, 1.6 + height * std::sin(3.0 * point.x)); });
+    }
+    this->expectTruth("both sides of a seam bent");
+    this->sheets[1]->SetPosition(0.1, 0.0, 0.0);
+    this->expectTruth("seam opened");
+    this->sheets[1]->SetPosition(0.0, 0.0, 0.0);
+    this->expectTruth("seam closed");
+
+    this->sun->SetPosition(1.0 + this->some(), this->some(), 2.0);
+    this->lamp->SetPosition(-1.5 + this->some(), -1.0, 3.0);
+    this->expectTruth("lights moved");
+
+    this->scene.renderer->RemoveActor(this->sheets[0]);
+    this->expectTruth("one side of a seam taken away");
+    this->scene.renderer->AddActor(this->sheets[0]);
+    this->expectTruth("put back");
+  }
+  EXPECT_LT(this->rays, this->raysOfTruth) << "maps decide something";
+}
+
+INSTANTIATE_TEST_SUITE_P(Techniques, ExactInMotion,
+  testing::Values(ExactPass{ "crsm", {} }, ExactPass{ "crsma", {} },
+    ExactPass{ "crsma", { { "adjacency_ring", "vertices" } } }, ExactPass{ "silhouette", {} },
+    ExactPass{ "silhouette", { { "fit", "frame" } } },
+    ExactPass{ "selective", { { "coherence", "off" }, { "contour", "image" } } },
+    ExactPass{ "crsm", {}, vtkGnomonShadowPass::RASTERIZER_GPU },
+    ExactPass{ "crsma", {}, vtkGnomonShadowPass::RASTERIZER_GPU }),
+  nameOfPass);
+
+} // namespace
+} // namespace gnomon::test
