@@ -4,6 +4,7 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source cmake/debian.sh
+source docs/comparisons.sh
 
 install_packages
 build release
@@ -16,7 +17,7 @@ done
 cp out/figures/chart.png docs/figures/
 
 # The columns by their names, so that new ones do not shift the table.
-table=$(awk -F, '
+table=$(results out/figures | awk -F, '
   NR == 1 { for (i = 1; i <= NF; ++i) column[$i] = i; next }
   function value(name) { return $(column[name]) }
   NR == 2 {
@@ -33,11 +34,10 @@ table=$(awk -F, '
     for (i = 1; i <= 3; ++i)
       printf " %.1f ms (%.2f) |", value(modes[i] "_ms"), value(modes[i] "_ms") / plain[modes[i]]
     printf "\n"
-  }' out/figures/results.csv)
+  }')
 
-machine="$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1), $(nproc) processors"
-awk -v table="$table" -v machine="$machine" '
-  /<!-- figures -->/ { print; print ""; print table; print ""; print "Measured on: " machine "; OpenGL by software (llvmpipe)."; print ""; skip = 1; next }
+awk -v table="$table" -v machine="$(machine)" '
+  /<!-- figures -->/ { print; print ""; print table; print ""; print "Measured on: " machine "."; print ""; skip = 1; next }
   /<!-- end of figures -->/ { skip = 0 }
   !skip { print }' README.md > out/README.md
 mv out/README.md README.md

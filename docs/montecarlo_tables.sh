@@ -5,6 +5,7 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source cmake/debian.sh
+source docs/comparisons.sh
 
 install_packages
 build release
@@ -21,19 +22,9 @@ for rays in 2 3; do
 done
 techniques="${techniques%,}"
 
-program=$(cat build/release/bin/gnomon build/release/lib/libGnomon*.so | cksum)
-
-# compare SCENE SIZE MAPS OPTION... : measures into $out/SCENE.SIZE, unless that was done before
+# compare SCENE SIZE MAPS OPTION... : into $out/SCENE.SIZE
 compare() {
-  local folder="$out/$1.$2"
-  local how="$* $techniques $program"
-  if [ "$(cat "$folder/how.txt" 2> /dev/null)" != "$how" ]; then
-    rm -rf "$folder" "$folder.part"
-    build/release/bin/gnomon compare "$1" -o "$folder.part" --techniques "$techniques" --size "$2" --map-sizes "$3" \
-      --frames 1 --truth-samples 64 "${@:4}"
-    echo "$how" > "$folder.part/how.txt"
-    mv "$folder.part" "$folder"
-  fi
+  compareOnce "$out/$1.$2" "$1" --techniques "$techniques" --size "$2" --map-sizes "$3" --frames 1 --truth-samples 64 "${@:4}"
 }
 
 # A body with fine detail and the elongated cube, in place of the thesis' dragon and its cube. Pictures have half the width and the height
@@ -51,12 +42,11 @@ done
 
 # Of all runs: scene, picture, map, search (published: hier or lin; ours: peeled), rays, milliseconds, mean absolute error.
 rows() {
-  local results run
-  for results in "$out"/*/results.csv; do
-    run="$(basename "$(dirname "$results")")"
-    sed '1s/"\([^",]*\),\([^",]*\)"/\1\2/g' "$results" | awk -F, -v run="$run" '
+  local run
+  for run in "$out"/*/results.csv; do
+    run="$(basename "$(dirname "$run")")"
+    results "$out/$run" | awk -F, -v run="$run" '
       BEGIN { split(run, part, ".") }
-      { sub(/\r$/, "") }
       NR == 1 { for (i = NF; i >= 1; --i) column[$i] = i; next }
       $1 ~ /^montecarlo/ {
         search = $1 ~ /linear/ ? "lin" : $1 ~ /near_far/ ? "hier" : "peeled"
@@ -127,11 +117,10 @@ relations() {
     }'
 }
 
-machine="$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1), $(nproc) processors"
 {
   echo "# The four tables of Curtis' thesis"
   echo
-  echo "Written by \`docs/montecarlo_tables.sh\`, on: $machine; OpenGL by software (llvmpipe). The bunny under a sun of 5 degrees stands for the"
+  echo "Written by \`docs/montecarlo_tables.sh\`, on: $(machine). The bunny under a sun of 5 degrees stands for the"
   echo "thesis' dragon, \`soft-long-cube\` is its elongated cube. Times are those of whole frames with a moving camera over a map that stays, all"
   echo "variants of a picture taking turns; behind them the mean absolute error over the pixels that face the light, against \`raytraced\` with 64 samples. The"
   echo "thesis' hierarchical search has two layers, and its linear one the camera's depths as a third; \`peeled\` is what is done"

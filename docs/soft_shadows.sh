@@ -4,6 +4,7 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source cmake/debian.sh
+source docs/comparisons.sh
 
 install_packages
 build release
@@ -26,18 +27,9 @@ for sampling in jittered random; do
   done
 done
 
-program=$(cat build/release/bin/gnomon build/release/lib/libGnomon*.so | cksum)
-
-# measure NAME SCENE OPTION... : compares into $out/NAME, unless that was done before
+# measure NAME SCENE OPTION... : into $out/NAME
 measure() {
-  local folder="$out/$1"
-  local how="$* $program"
-  if [ "$(cat "$folder/how.txt" 2> /dev/null)" != "$how" ]; then
-    rm -rf "$folder" "$folder.part"
-    build/release/bin/gnomon compare "$2" -o "$folder.part" --route image --size 256x256 "${@:3}"
-    echo "$how" > "$folder.part/how.txt"
-    mv "$folder.part" "$folder"
-  fi
+  compareOnce "$out/$1" "$2" --route image --size 256x256 "${@:3}"
 }
 
 # compare SCENE OPTION... : all techniques
@@ -83,8 +75,7 @@ pictures() {
 
 # One scene's variants: error, time, and the error of raytraced at that time, between its two numbers of samples around it.
 table() {
-  sed '1s/"\([^",]*\),\([^",]*\)"/\1\2/g' "$out/$1/results.csv" | awk -F, '
-    { sub(/\r$/, "") }
+  results "$out/$1" | awk -F, '
     NR == 1 { for (i = NF; i >= 1; --i) column[$i] = i; next }
     {
       name = $1; sub(/ 1024/, "", name); sub(/ image$/, "", name)
@@ -113,16 +104,14 @@ table() {
 
 # One scene: its two truths.
 truths() {
-  sed '1s/"\([^",]*\),\([^",]*\)"/\1\2/g' "$out/$1.truth/results.csv" | awk -F, -v scene="$1" '
-    { sub(/\r$/, "") }
+  results "$out/$1.truth" | awk -F, -v scene="$1" '
     NR == 1 { for (i = NF; i >= 1; --i) column[$i] = i; next }
     $1 ~ /light_samples=4096/ { printf "| %s | %.5f | %.4f |\n", scene, $(column["mean_absolute_error"]), $(column["rms_error"]) }'
 }
 
 # One scene: the RMS error of raytraced, and the least one of the others that take no longer.
 equalTimes() {
-  sed '1s/"\([^",]*\),\([^",]*\)"/\1\2/g' "$out/$1/results.csv" | awk -F, -v scene="$1" '
-    { sub(/\r$/, "") }
+  results "$out/$1" | awk -F, -v scene="$1" '
     NR == 1 { for (i = NF; i >= 1; --i) column[$i] = i; next }
     {
       name = $1; sub(/ 1024/, "", name); sub(/ image$/, "", name)
@@ -144,11 +133,10 @@ equalTimes() {
     }'
 }
 
-machine="$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1), $(nproc) processors"
 {
   echo "# Soft shadows: error against time"
   echo
-  echo "Written by \`docs/soft_shadows.sh\`, on: $machine; OpenGL by software (llvmpipe). Errors are those of visibility against \`raytraced\`"
+  echo "Written by \`docs/soft_shadows.sh\`, on: $(machine). Errors are those of visibility against \`raytraced\`"
   echo "with 4,096 other samples, over the pixels that face the light; times are those of whole frames with a moving camera, 256 x 256 pixels, maps of"
   echo "1024, median of 5, all techniques taking turns. What a technique is and lacks: [soft](techniques/soft.md), [montecarlo](techniques/montecarlo.md), [penumbra](techniques/penumbra.md)."
   echo

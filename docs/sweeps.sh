@@ -1,9 +1,11 @@
 #!/bin/bash
 # Sweeps the hybrid techniques over maps, pictures and views, as the theses that they come from did on their own
-# scenes, and writes docs/sweeps.md. Takes about an hour; what was measured before, in out/sweeps, is not measured again.
+# scenes, and writes docs/sweeps.md. Takes about an hour; what the same program has measured in the same way before, in
+# out/sweeps, is not measured again.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source cmake/debian.sh
+source docs/comparisons.sh
 
 install_packages
 build release
@@ -15,14 +17,9 @@ out=out/sweeps
 mkdir -p "$out"
 
 frames=1
-# compare NAME SCENE OPTION... : measures into $out/NAME, unless that was done before; one frame where nobody asks for times
+# compare NAME SCENE OPTION... : into $out/NAME; one frame where nobody asks for times
 compare() {
-  local folder="$out/$1"
-  if [ ! -e "$folder/results.csv" ]; then
-    rm -rf "$folder.part"
-    build/release/bin/gnomon compare "$2" -o "$folder.part" --frames "$frames" --route image "${@:3}"
-    mv "$folder.part" "$folder"
-  fi
+  compareOnce "$out/$1" "$2" --frames "$frames" --route image "${@:3}"
 }
 
 # What is timed comes first: a machine that is quiet needs to be so for a few minutes only.
@@ -51,12 +48,11 @@ done
 
 # Rows of all runs, of columns by their names (without commas), behind view, picture and map.
 rows() {
-  local results run
-  for results in "$out"/*/results.csv; do
-    run="$(basename "$(dirname "$results")")"
-    sed '1s/"\([^",]*\),\([^",]*\)"/\1\2/g' "$results" | awk -F, -v run="$run" -v wanted="$1" '
+  local run
+  for run in "$out"/*/results.csv; do
+    run="$(basename "$(dirname "$run")")"
+    results "$out/$run" | awk -F, -v run="$run" -v wanted="$1" '
       BEGIN { split(run, part, "."); count = split(wanted, names, ",") }
-      { sub(/\r$/, "") }
       NR == 1 { for (i = NF; i >= 1; --i) column[$i] = i; next }
       {
         printf "%s,%s,%s", part[1], part[2], part[3]
@@ -206,11 +202,10 @@ orderings() {
     }'
 }
 
-machine="$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1), $(nproc) processors"
 {
   echo "# Sweeps over maps, pictures and views"
   echo
-  echo "Written by \`docs/sweeps.sh\`, on: $machine; OpenGL by software (llvmpipe). Means over ten views: the garden's nine sides and the"
+  echo "Written by \`docs/sweeps.sh\`, on: $(machine). Means over ten views: the garden's nine sides and the"
   echo "atrium. Traced is the share of the pixels that face the light; wrong pixels are in pixels."
   for size in 512x512 1024x1024 1920x1080; do
     echo

@@ -207,6 +207,19 @@ std::vector<Named> allLights()
         light->SetTexture(makePanes());
         return vtkSmartPointer<vtkLight>(light);
       } },
+    { "windowOfTheSky",
+      []
+      {
+        vtkSmartPointer<vtkGnomonAreaLight> light = rectangle(90.0);
+        light->PositionalOff();
+        light->SetWidth(24.0); // degrees
+        light->SetHeight(16.0);
+        light->SetDiffuseColor(1.0, 0.8, 0.9);
+        light->SetSpecularColor(0.5, 1.0, 0.7);
+        light->SetIntensity(0.5); // so that no point's picture is clipped
+        light->SetTexture(makePanes());
+        return vtkSmartPointer<vtkLight>(light);
+      } },
     { "ball",
       []
       {
@@ -981,6 +994,55 @@ TEST_F(LightSampling, refusesWhatItCannotShow)
   vtkGnomonLightKeys::SetSetting(this->light, "light_sampling", "random");
   EXPECT_GT(differingPixels(this->scene.render(), centre, 10), 100u);
   EXPECT_EQ(this->takeErrors(), "");
+}
+
+//------------------------------------------------------------------------------
+/// Who looks up at a texture in the sky sees it as it is: what a plate over one half of the floor hides of it says which half is where.
+TEST_F(LightSampling, aTextureInTheSkyLiesAsItIsSeen)
+{
+  this->box->VisibilityOff();
+  this->sphere->VisibilityOff();
+  const double slope = 0.2;  // of the way to the sky's window's sides
+  const double height = 5.0; // of the plate, so that its penumbra ends at 1 and -1
+  vtkActor* const plates[] = { this->scene.addBox(
+                                 { -8.0, -8.0, height }, { 0.0, 8.0, height + 0.01 }),
+    this->scene.addBox({ -8.0, -8.0, height }, { 8.0, 0.0, height + 0.01 }) };
+  auto* sky = vtkGnomonAreaLight::SafeDownCast(this->light);
+  sky->PositionalOff();
+  sky->SetPosition(0.0, 0.0, 1.0);
+  sky->SetWidth(2.0 * glm::degrees(std::atan(slope)));
+  sky->SetHeight(2.0 * glm::degrees(std::atan(slope)));
+  this->sampling->SetSamples(256);
+  this->scene.lookDown(1.2);
+  this->scene.renderer->GetActiveCamera()->SetPosition(0.0, 0.0, 0.5 * height); // below the plates
+  for (const int axis : { 0, 1 })
+  {
+    for (const int other : { 0, 1 })
+    {
+      plates[other]->SetVisibility(other == axis);
+    }
+    // Its left is at +x for who looks up with +y upwards, and its top at +y: what is seen from where the plate ends last.
+    vtkNew<vtkImageData> halves;
+    halves->SetDimensions(axis == 0 ? 2 : 1, axis == 0 ? 1 : 2, 1);
+    halves->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
+    const std::array<unsigned char, 6> colours = axis == 0
+      ? std::array<unsigned char, 6>{ 255, 0, 0, 0, 0, 255 }
+      : std::array<unsigned char, 6>{ 0, 0, 255, 255, 0, 0 };
+    std::copy(
+      colours.begin(), colours.end(), static_cast<unsigned char*>(halves->GetScalarPointer()));
+    sky->SetTexture(halves);
+    const Picture seen = this->scene.render();
+    for (int pixel = 0; pixel < 100; ++pixel)
+    {
+      const int x = axis == 0 ? 20 + pixel : 70;
+      const int y = axis == 0 ? 50 : pixel;
+      const double place = this->scene.floorAt(x, y)[axis];
+      const glm::dvec3 expected(
+        0.5 * std::clamp(1.0 + place, 0.0, 1.0), 0.0, 0.5 * std::clamp(place, 0.0, 1.0));
+      EXPECT_LT(glm::distance(glm::dvec3(seen.at(x, y)), 255.0 * expected), 8.0)
+        << axis << ", " << place;
+    }
+  }
 }
 
 //------------------------------------------------------------------------------

@@ -451,6 +451,74 @@ TEST(OptionalMaps, thatAreFittedOnceNeedNoCameraThatRests)
 }
 
 //------------------------------------------------------------------------------
+/// Translucent surfaces show a plain map, to which it is nothing what the exact one beside it awaits: it is drawn at once, and
+/// goes on with the view that it was fitted to first.
+TEST(OptionalMaps, leaveThePlainMapBesideThemAsItIs)
+{
+  constexpr int mapSize = 64; // so coarse that pictures show where a view is
+  struct Shown : PassScene
+  {
+    explicit Shown(const char* technique)
+      : PassScene(200, 150)
+    {
+      this->addFloor(40.0);
+      this->addFloor(1.5, 0.4)->GetProperty()->SetOpacity(0.6);
+      this->sphere = this->addSphere({ 0.0, 0.0, 1.5 }, 0.5);
+      this->addSun({ 1.0, 0.3, -1.5 });
+      this->pass->SetTechnique(technique);
+      this->pass->SetSetting("bake", "settled");
+      this->pass->SetSetting("fit", "once");
+      this->pass->SetMapSize(mapSize);
+    }
+    Picture renderFrom(double x)
+    {
+      this->lookFrom({ x, -4.0, 4.0 });
+      return this->render();
+    }
+    vtkActor* sphere;
+  };
+  for (const char* technique : { "crsm", "silhouette" })
+  {
+    SCOPED_TRACE(technique);
+    Shown scene(technique);
+    Shown rays("raytraced"); // without a map beside the plain one
+    const auto expectBakes = [&](double x, int bakes, int bakesOfRays)
+    {
+      const Picture shown = scene.renderFrom(x);
+      EXPECT_EQ(differingPixels(shown, rays.renderFrom(x)), 0u) << x;
+      EXPECT_EQ(scene.report().mapBakes, bakes) << x;
+      EXPECT_EQ(rays.report().mapBakes, bakesOfRays) << x;
+      return shown;
+    };
+    expectBakes(0.0, 1, 1); // the plain map
+    EXPECT_NE(scene.report().lights[0].mapReason, "");
+    expectBakes(0.3, 1, 0); // the exact one, which has settled
+    EXPECT_EQ(scene.report().lights[0].mapReason, "");
+    expectBakes(0.6, 0, 0);
+    for (Shown* shown : { &scene, &rays })
+    {
+      shown->sphere->AddPosition(0.2, 0.1, 0.0);
+    }
+    expectBakes(0.9, 1, 1); // the plain map again
+    EXPECT_NE(scene.report().lights[0].mapReason, "");
+    expectBakes(1.2, 1, 0);
+    EXPECT_EQ(scene.report().lights[0].mapReason, "");
+    const Picture settled = expectBakes(1.5, 0, 0);
+
+    // Seen from elsewhere at first, it has another view.
+    Shown fromThere(technique);
+    fromThere.sphere->AddPosition(0.2, 0.1, 0.0);
+    fromThere.renderFrom(1.5);
+    EXPECT_GT(differingPixels(fromThere.renderFrom(1.5), settled), 100u);
+    // And from there again, the same.
+    Shown fromHere(technique);
+    fromHere.sphere->AddPosition(0.2, 0.1, 0.0);
+    fromHere.renderFrom(0.0);
+    EXPECT_EQ(differingPixels(fromHere.renderFrom(1.5), settled), 0u);
+  }
+}
+
+//------------------------------------------------------------------------------
 TEST_F(NoCastingLight, noLightWithoutIntensity)
 {
   this->sun->SetIntensity(0.0);

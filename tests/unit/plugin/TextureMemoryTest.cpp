@@ -14,6 +14,10 @@
 #include <unistd.h>
 
 #include <fstream>
+#include <ostream>
+#include <string>
+#include <utility>
+#include <vector>
 
 using namespace gnomon::test;
 using testing::AllOf;
@@ -47,6 +51,48 @@ void fill(PassScene& scene)
   scene.lookFrom({ 0.0, -9.0, 7.0 });
 }
 
+/// Maps of a technique.
+struct MapsOf
+{
+  const char* name;
+  Way way;
+  std::vector<std::pair<const char*, const char*>> settings;
+  /// What the error goes on with; anything where that depends on which of several images has no room.
+  const char* asks;
+};
+std::ostream& operator<<(std::ostream& stream, const MapsOf& maps)
+{
+  return stream << maps.name;
+}
+
+class MapsWithoutRoom
+  : public TextureMemory
+  , public testing::WithParamInterface<MapsOf>
+{
+};
+
+constexpr const char* sixDepths =
+  " in 6 layers asks for 6442 MB of texture memory, which cannot be had; one of ";
+constexpr const char* sixOnCpu =
+  " in 6 layers asks for 33822 MB of memory, which cannot be had; one of ";
+
+INSTANTIATE_TEST_SUITE_P(TextureMemory, MapsWithoutRoom,
+  testing::Values(
+    MapsOf{ "depthsInline", { "nsm", vtkGnomonShadowPass::ROUTE_INLINE }, {}, sixDepths },
+    MapsOf{ "depthsByTheImage", { "nsm", vtkGnomonShadowPass::ROUTE_IMAGE }, {}, sixDepths },
+    MapsOf{ "momentsBlurred", { "vsm", vtkGnomonShadowPass::ROUTE_AUTO },
+      { { "blur", "box" }, { "mip_maps", "off" } }, "" },
+    MapsOf{ "momentsSummed", { "vsm", vtkGnomonShadowPass::ROUTE_AUTO },
+      { { "blur", "sat" }, { "mip_maps", "off" } }, "" },
+    MapsOf{ "momentsInMipMaps", { "vsm", vtkGnomonShadowPass::ROUTE_AUTO },
+      { { "blur", "box" }, { "mip_maps", "on" } }, "" },
+    MapsOf{ "layersInMips", { "montecarlo", vtkGnomonShadowPass::ROUTE_AUTO },
+      { { "light_radius", "0.2" }, { "mc_pyramid", "mips" } }, "" },
+    MapsOf{ "layersInNBuffers", { "montecarlo", vtkGnomonShadowPass::ROUTE_AUTO },
+      { { "light_radius", "0.2" }, { "mc_pyramid", "nbuffer" } }, "" },
+    MapsOf{ "cellsOnTheCpu", { "crsm", vtkGnomonShadowPass::ROUTE_AUTO }, {}, sixOnCpu }),
+  [](const testing::TestParamInfo<MapsOf>& maps) { return std::string(maps.param.name); });
+
 /// Leaves this process so much address space beside what it has, in bytes, for as long as it lives.
 class AddressSpace
 {
@@ -72,127 +118,40 @@ private:
 } // namespace
 
 //------------------------------------------------------------------------------
-TEST_F(TextureMemory, mapsWithoutRoomAreAnErrorThatOffersSmallerOnes)
-{
-  for (const int route : { vtkGnomonShadowPass::ROUTE_INLINE, vtkGnomonShadowPass::ROUTE_IMAGE })
-  {
-    PassScene scene(100, 80);
-    fill(scene);
-    scene.usePlain();
-    const Picture plain = scene.render();
-    scene.useGnomon();
-    scene.choose({ "nsm", route });
-    const Picture shadowed = scene.render();
-    EXPECT_GT(differingPixels(plain, shadowed), 100u);
-    const LiveObjects live = countLiveObjects(scene.window);
-
-    scene.pass->SetMapSize(hugeMap);
-    EXPECT_EQ(differingPixels(plain, scene.render()), 0u);
-    EXPECT_THAT(this->takeErrors(),
-      AllOf(HasSubstr("drawn without shadows: light 0: a map of 16384 x 16384 in 6 layers asks for "
-                      "6442 MB of texture memory, which cannot be had; one of "),
-        HasSubstr(" can")));
-    EXPECT_TRUE(scene.report().outOfTextureMemory);
-    EXPECT_EQ(scene.report().route, "none");
-    scene.render();
-    EXPECT_THAT(this->takeErrors(), HasSubstr("cannot be had")) << "the next frame, too";
-
-    scene.pass->SetMapSize(1024);
-    EXPECT_EQ(differingPixels(shadowed, scene.render()), 0u);
-    EXPECT_FALSE(scene.report().outOfTextureMemory);
-    EXPECT_EQ(countLiveObjects(scene.window), live);
-  }
-}
-
-//------------------------------------------------------------------------------
-TEST_F(TextureMemory, mapsOfMomentsWithoutRoomLeaveNothingBehind)
+/// An error in every frame, no shadows, and all as it was before once the maps have room again.
+TEST_P(MapsWithoutRoom, areAnErrorThatOffersSmallerOnesAndLeaveNothingBehind)
 {
   PassScene scene(100, 80);
   fill(scene);
   scene.usePlain();
   const Picture plain = scene.render();
   scene.useGnomon();
-  scene.pass->SetTechnique("vsm");
-  for (const char* kind : { "box", "sat", "mip_maps" })
+  scene.choose(GetParam().way);
+  for (const auto& [setting, value] : GetParam().settings)
   {
-    const bool mipMaps = std::string(kind) == "mip_maps";
-    scene.pass->SetSetting("blur", mipMaps ? "box" : kind);
-    scene.pass->SetSetting("mip_maps", mipMaps ? "on" : "off");
-    scene.pass->SetMapSize(64);
-    const Picture shadowed = scene.render();
-    EXPECT_GT(differingPixels(plain, shadowed), 100u);
-    const LiveObjects live = countLiveObjects(scene.window);
-
-    scene.pass->SetMapSize(hugeMap);
-    EXPECT_EQ(differingPixels(plain, scene.render()), 0u);
-    EXPECT_THAT(this->takeErrors(),
-      AllOf(HasSubstr("light 0: a map of 16384 x 16384"), HasSubstr("cannot be had")))
-      << kind;
-
-    scene.pass->SetMapSize(64);
-    EXPECT_EQ(differingPixels(shadowed, scene.render()), 0u);
-    EXPECT_EQ(countLiveObjects(scene.window), live) << kind;
+    scene.pass->SetSetting(setting, value);
   }
-}
-
-//------------------------------------------------------------------------------
-TEST_F(TextureMemory, depthLayersWithoutRoomLeaveNothingBehind)
-{
-  PassScene scene(100, 80);
-  fill(scene);
-  scene.usePlain();
-  const Picture plain = scene.render();
-  scene.useGnomon();
-  scene.pass->SetTechnique("montecarlo");
-  scene.pass->SetSetting("light_radius", "0.2");
-  for (const char* pyramid : { "mips", "nbuffer" })
-  {
-    scene.pass->SetSetting("mc_pyramid", pyramid);
-    scene.pass->SetMapSize(64);
-    const Picture shadowed = scene.render();
-    EXPECT_GT(differingPixels(plain, shadowed), 100u);
-    const LiveObjects live = countLiveObjects(scene.window);
-
-    scene.pass->SetMapSize(hugeMap);
-    EXPECT_EQ(differingPixels(plain, scene.render()), 0u);
-    EXPECT_THAT(this->takeErrors(),
-      AllOf(HasSubstr("drawn without shadows: light 0: a map of 16384 x 16384"),
-        HasSubstr("cannot be had; one of ")))
-      << pyramid;
-    EXPECT_TRUE(scene.report().outOfTextureMemory);
-    EXPECT_EQ(differingPixels(plain, scene.render()), 0u);
-    EXPECT_THAT(this->takeErrors(), HasSubstr("cannot be had")) << "the next frame, too";
-
-    scene.pass->SetMapSize(64);
-    EXPECT_EQ(differingPixels(shadowed, scene.render()), 0u);
-    EXPECT_EQ(countLiveObjects(scene.window), live) << pyramid;
-  }
-}
-
-//------------------------------------------------------------------------------
-TEST_F(TextureMemory, mapsOnTheCpuWithoutRoomAreAnErrorThatOffersSmallerOnes)
-{
-  PassScene scene(100, 80);
-  fill(scene);
-  scene.usePlain();
-  const Picture plain = scene.render();
-  scene.useGnomon();
-  scene.pass->SetTechnique("crsm");
   scene.pass->SetMapSize(64);
   const Picture shadowed = scene.render();
   EXPECT_GT(differingPixels(plain, shadowed), 100u);
+  const LiveObjects live = countLiveObjects(scene.window);
 
-  scene.pass->SetMapSize(hugeMap); // 6 of 4 GiB
-  EXPECT_EQ(differingPixels(plain, scene.render()), 0u);
-  EXPECT_THAT(this->takeErrors(),
-    AllOf(
-      HasSubstr("light 0: a map of 16384 x 16384 in 6 layers asks for 33822 MB of memory, which "
-                "cannot be had; one of "),
-      HasSubstr(" can")));
-  EXPECT_TRUE(scene.report().outOfTextureMemory);
+  scene.pass->SetMapSize(hugeMap);
+  for (int frame = 0; frame < 2; ++frame)
+  {
+    EXPECT_EQ(differingPixels(plain, scene.render()), 0u);
+    EXPECT_THAT(this->takeErrors(),
+      AllOf(HasSubstr(std::string("drawn without shadows: light 0: a map of 16384 x 16384") +
+              GetParam().asks),
+        HasSubstr("cannot be had; one of "), HasSubstr(" can")));
+    EXPECT_TRUE(scene.report().outOfTextureMemory);
+    EXPECT_EQ(scene.report().route, "none");
+  }
 
   scene.pass->SetMapSize(64);
   EXPECT_EQ(differingPixels(shadowed, scene.render()), 0u);
+  EXPECT_FALSE(scene.report().outOfTextureMemory);
+  EXPECT_EQ(countLiveObjects(scene.window), live);
 }
 
 //------------------------------------------------------------------------------

@@ -1,0 +1,29 @@
+# shellcheck shell=bash
+# Comparisons by `build/release` that pages are written from. The scripts of this folder source it.
+
+# compareOnce FOLDER SCENE OPTION... : `gnomon compare` into the folder, unless the same program did just that before
+compareOnce()
+{
+  local folder="$1"
+  local how
+  how="${*:2} $(cat build/release/bin/gnomon build/release/lib/libGnomon*.so | cksum)"
+  if [ "$(cat "$folder/how.txt" 2> /dev/null)" = "$how" ]; then
+    return
+  fi
+  rm -rf "$folder" "$folder.part"
+  build/release/bin/gnomon compare "$2" -o "$folder.part" "${@:3}"
+  echo "$how" > "$folder.part/how.txt"
+  mv "$folder.part" "$folder"
+}
+
+# results FOLDER : its results without the commas that are in names, so that awk splits them
+results()
+{
+  sed -e 's/\r$//' -e '1s/"\([^",]*\),\([^",]*\)"/\1\2/g' "$1/results.csv"
+}
+
+# What was measured on.
+machine()
+{
+  echo "$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1), $(nproc) processors; OpenGL by software (llvmpipe)"
+}
