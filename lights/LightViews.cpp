@@ -352,4 +352,15 @@ LightViews fitLightViews(const ShadowLight& light, const glm::dvec3& centreWorld
   return fitLightViews(light, fitting);
 }
 
+//------------------------------------------------------------------------------
+void moveTexels(LightViews& views, const glm::dvec2& texels, int sideTexels)
+{
+  MapFit move;
+  move.offset = 2.0 * texels / static_cast<double>(sideTexels);
+  for (LightView& view : views.views)
+  {
+    view.mapFromAcross = move.matrix() * view.mapFromAcross;
+  }
+}
+
 } // namespace gnomon

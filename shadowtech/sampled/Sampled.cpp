@@ -34,6 +34,15 @@ glm::vec3 shineOf(const std::vector<glm::vec3>& shine, std::size_t first, std::s
     begin + static_cast<std::ptrdiff_t>(end), glm::vec3(0.0f));
 }
 
+/// By how much of a texel the map of a light's point is moved. Else the maps of a directional light, or of a small one, would all round
+/// an edge to the same texels, as a scene's box keeps its place in them, and penumbrae would have steps as wide as texels. Points of
+/// Roberts' R2 sequence (The Unreasonable Effectiveness of Quasirandom Sequences, 2018), the first of which is not moved.
+glm::dvec2 moveOfMap(std::size_t point)
+{
+  const glm::dvec2 step(0.7548776662466927, 0.5698402909980532); // 1/g, 1/g^2, g^3 = g + 1
+  return glm::fract(0.5 + static_cast<double>(point) * step) - 0.5;
+}
+
 std::string refused(const ShadowLight& light)
 {
   if (light.projection != Projection::Uniform && light.projection != Projection::Cube)
@@ -159,11 +168,14 @@ void Sampled::addBatch(
   {
     this->batch_ = std::vector<Compare>(count);
   }
+  ViewFitting fitting = input.fitting;
+  ++fitting.texels.border; // for what maps are moved by
   std::vector<ShadowLight> lights;
   for (std::size_t i = 0; i < count; ++i)
   {
-    lights.push_back(lightAt(light, points.offsets[first + i], input.fitting));
-    const LightViews views = fitLightViews(lights[i], input.fitting);
+    lights.push_back(lightAt(light, points.offsets[first + i], fitting));
+    LightViews views = fitLightViews(lights[i], fitting);
+    moveTexels(views, moveOfMap(first + i), fitting.texels.side);
     MapInput map{ lights[i], views, input.occluders, input.buffers, input.shaders };
     if (light.box)
     {
