@@ -15,7 +15,7 @@
  * points shine alike, unless it has a Texture. Which of them a surface sees is its visibility; shading is VTK's own, from the
  * centre, and so are the cone and the box (vtkGnomonLightKeys) that the light may have. Techniques with
  * hard shadows take the centre's. "raytraced", "penumbra", "coherence", "sampled" and "planar" take the whole area, by as many points
- * as the setting "light_samples" says (vtkGnomonLightKeys::SetSetting), and so do "pcss" and "montecarlo".
+ * as the setting "light_samples" says (vtkGnomonLightKeys::SetSetting), and so do "pcss", by "pcss_samples", and "montecarlo", by "mc_rays".
  * vtkGnomonLightSamplingPass has VTK shade from all of its points instead.
  *
  * It is positional and shines into all directions (ConeAngle 90) until it is told otherwise.

@@ -46,9 +46,10 @@
  * - "adjacency_ring": of "crsma", which triangles around one may cover a texel together with it: "edges" (the default;
  *   those across its edges), or "vertices" (all around its corners, which decides more and takes longer);
  * - "light_samples", "light_seed": of area lights (vtkGnomonAreaLight) and techniques with soft shadows ("raytraced",
- *   "penumbra", "sampled", "planar"), from how many points of the light, 1 to 65536 (default 64), and which ones (default 0);
+ *   "penumbra", "coherence", "sampled", "planar"), from how many points of the light, 1 to 65536 (default 64), and which ones (default 0);
  * - "light_sampling": of the same, "sobol" (the default; evenly spread points, whose errors cancel between neighbouring
- *   pixels), "jittered" (a random one in each cell of a square grid: "light_samples" is a square then) or "random";
+ *   pixels), "jittered" (a random one in each cell of a square grid: "light_samples" is a square then; not with
+ *   "sampled", which takes points in pairs) or "random";
  * - "batch": of "sampled", points of the light whose maps are held at a time, 1 to 8 (the default);
  * - "progressive": of "sampled", points of the light that each frame adds while nothing changes, 0 (the default) for
  *   all at once (vtkGnomonShadowPass::GetProgress);

@@ -483,9 +483,14 @@ TEST(SoftPenumbras, haveNoBandsByDefault)
   addDisk(scene, { 0.0, 0.0, 10.0 }, down, 1.2, 50.0);
   // The penumbra is 60 columns wide, and steepest in its middle, where the light's diameter is cut.
   const double steepest = 4.0 / std::acos(-1.0) / 60.0;
-  for (const char* technique : { "raytraced", "penumbra", "pcss", "montecarlo" })
+  for (const char* technique : { "raytraced", "penumbra", "pcss", "montecarlo", "sampled" })
   {
     scene.pass->SetTechnique(technique);
+    if (technique == std::string("sampled"))
+    {
+      scene.pass->SetSetting(
+        "light_samples", "512"); // all pixels see the same points: the 64 of the default show
+    }
     const VisibilityImages& kept = drawKept(scene);
     std::vector<double> columns(static_cast<std::size_t>(kept.width), 0.0);
     for (std::size_t i = 0; i < kept.visibility[0].size(); ++i)
