@@ -81,14 +81,9 @@ std::vector<Uniform> Pcss::uniforms(const ReceiverSpace& space) const
   {
     uniforms.push_back(this->bounds_.uniform());
     uniforms.push_back(this->points_.uniform());
-    const std::vector<LightView>& views = this->views().views;
-    for (std::size_t i = 0; i < views.size(); ++i)
-    {
-      const glm::dmat3 viewFromUnit =
-        glm::dmat3(views[i].rays.viewFromCentred) * this->reach().area.worldFromUnit;
-      uniforms.push_back(
-        { "viewFromUnitLight_LIGHT[" + std::to_string(i) + "]", glm::mat3(viewFromUnit) });
-    }
+    const glm::dmat3 lightFromUnit =
+      glm::dmat3(this->views().lightFromCentred) * this->reach().area.worldFromUnit;
+    uniforms.push_back({ "lightFromUnit_LIGHT", glm::mat3(lightFromUnit) });
   }
   return uniforms;
 }

@@ -16,13 +16,14 @@ const float texelsToRim_LIGHT = 8.0;
 
 SeenLight_LIGHT seenLight_LIGHT(ViewPoint point)
 {
-  mat3 light = viewFromUnitLight_LIGHT[point.view];
 #if PCSS_BALL_LIGHT
   // Its outline, on the plane across the face.
-  mat2 outline = ballAcross_LIGHT(length(light[0]), acrossOf_LIGHT(point.position));
+  mat2 outline =
+    ballAcross_LIGHT(length(lightFromUnit_LIGHT[0]), acrossOf_LIGHT(point.position));
   mat2x3 axes = mat2x3(vec3(outline[0], 0.0), vec3(outline[1], 0.0));
 #else
-  mat2x3 axes = mat2x3(light[0], light[1]);
+  mat2x3 axes = mat2x3(cubeFaceFromLight(point.face, lightFromUnit_LIGHT[0]),
+    cubeFaceFromLight(point.face, lightFromUnit_LIGHT[1]));
 #endif
   float radius = max(length(axes[0]), length(axes[1]));
   vec2 texels = abs(viewTexels_LIGHT[point.view].xy);

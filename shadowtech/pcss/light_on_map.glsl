@@ -11,11 +11,11 @@ struct SeenLight_LIGHT
 // The light is seen on the plane across the view, through its centre. Of a directional light it is at distance 1.
 SeenLight_LIGHT seenLight_LIGHT(ViewPoint point)
 {
-  mat3 light = viewFromUnitLight_LIGHT[point.view];
 #if PCSS_BALL_LIGHT
-  mat2 across = ballAcross_LIGHT(length(light[0]), acrossOf_LIGHT(point.position));
+  mat2 across =
+    ballAcross_LIGHT(length(lightFromUnit_LIGHT[0]), acrossOf_LIGHT(point.position));
 #else
-  mat2 across = mat2(light);
+  mat2 across = mat2(lightFromUnit_LIGHT);
 #endif
 #if VIEWS_PERSPECTIVE_LIGHT
   float centre = -dot(point.normal, point.position);

@@ -1,6 +1,6 @@
 // The shape of an area light, of radius or half side 1.
 
-uniform mat3 viewFromUnitLight_LIGHT[VIEWS_LIGHT];
+uniform mat3 lightFromUnit_LIGHT; // its axes in light space
 
 // How far a point of the shape is out, from 0 in its middle to 1 at its rim.
 float extentOf_LIGHT(vec2 place)

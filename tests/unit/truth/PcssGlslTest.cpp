@@ -558,15 +558,14 @@ protected:
     glTexImage2D(GL_TEXTURE_2D, 0, GL_RG32F, static_cast<GLsizei>(lightPoints.size()), 1, 0, GL_RG,
       GL_FLOAT, lightPoints.data());
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    const glm::dmat3 viewFromUnit =
-      glm::dmat3(views.views.front().rays.viewFromCentred) * light.area->worldFromUnit;
+    const glm::dmat3 lightFromUnit = glm::dmat3(views.lightFromCentred) * light.area->worldFromUnit;
     std::vector<Uniform> uniforms = lightViewsUniforms(views, mapSize, {});
     uniforms.push_back({ "depthMap_LIGHT", TextureBinding{ GL_TEXTURE_2D_ARRAY, map.name() } });
     uniforms.push_back({ "depthSlacks_LIGHT", glm::vec2(slack, 0.0) });
     uniforms.push_back(bounds.uniform());
     uniforms.push_back(
       { "lightPoints_LIGHT", TextureBinding{ GL_TEXTURE_2D, pointTexture.name() } });
-    uniforms.push_back({ "viewFromUnitLight_LIGHT[0]", glm::mat3(viewFromUnit) });
+    uniforms.push_back({ "lightFromUnit_LIGHT", glm::mat3(lightFromUnit) });
     std::vector<glm::vec4> points;
     for (const Receiver& receiver : receivers)
     {
