@@ -14,10 +14,15 @@ struct SeenLight_LIGHT
 // How many texels there have to be between the ray of a separation and the light's rim.
 const float texelsToRim_LIGHT = 8.0;
 
+// A ball's outline seen along a slope, on the plane across the view: longer that way, by the ray's length to distance 1.
+mat2 ballAcross_LIGHT(float radius, vec2 slope)
+{
+  return radius * (mat2(1.0) + outerProduct(slope, slope) / (1.0 + length(vec3(slope, 1.0))));
+}
+
 SeenLight_LIGHT seenLight_LIGHT(ViewPoint point)
 {
 #if PCSS_BALL_LIGHT
-  // Its outline, on the plane across the face.
   mat2 outline =
     ballAcross_LIGHT(length(lightFromUnit_LIGHT[0]), acrossOf_LIGHT(point.position));
   mat2x3 axes = mat2x3(vec3(outline[0], 0.0), vec3(outline[1], 0.0));

@@ -11,12 +11,7 @@ struct SeenLight_LIGHT
 // The light is seen on the plane across the view, through its centre. Of a directional light it is at distance 1.
 SeenLight_LIGHT seenLight_LIGHT(ViewPoint point)
 {
-#if PCSS_BALL_LIGHT
-  mat2 across =
-    ballAcross_LIGHT(length(lightFromUnit_LIGHT[0]), acrossOf_LIGHT(point.position));
-#else
   mat2 across = mat2(lightFromUnit_LIGHT);
-#endif
 #if VIEWS_PERSPECTIVE_LIGHT
   float centre = -dot(point.normal, point.position);
 #else

@@ -22,9 +22,3 @@ float extentAlong_LIGHT(vec2 axes)
   return length(axes);
 #endif
 }
-
-// A ball's outline seen along a slope, on the plane across the view: longer that way, by the ray's length to distance 1.
-mat2 ballAcross_LIGHT(float radius, vec2 slope)
-{
-  return radius * (mat2(1.0) + outerProduct(slope, slope) / (1.0 + length(vec3(slope, 1.0))));
-}
