@@ -219,27 +219,31 @@ bool holds_LIGHT(vec2 texel, float border)
     all(lessThan(texel, vec2(viewSize_LIGHT - border)));
 }
 
+#if VIEWS_CUBE_LIGHT
+// A point that the light reaches in the space of the face that sees it, whether or not that has a view.
+ViewPoint onOwnFace_LIGHT(vec3 positionLight, vec3 normalLight)
+{
+  int face = cubeFaceOf(positionLight);
+  return ViewPoint(cubeFaceFromLight(face, positionLight), cubeFaceFromLight(face, normalLight), face,
+    viewOfFace_LIGHT[face], vec2(0.0), 0.0);
+}
+#endif
+
 // Brings a point that the light reaches into the space of the view that may see it; of splits, which
 // have one space, into that.
 // Returns false where there is no view.
 bool enterView_LIGHT(vec3 positionLight, vec3 normalLight, out ViewPoint point)
 {
-  point = ViewPoint(positionLight, normalLight, 0, 0, vec2(0.0), 0.0);
 #if VIEWS_CUBE_LIGHT
-  point.face = cubeFaceOf(positionLight);
-  point.view = viewOfFace_LIGHT[point.face];
-  if (point.view < 0)
-  {
-    return false;
-  }
-  point.position = cubeFaceFromLight(point.face, positionLight);
-  point.normal = cubeFaceFromLight(point.face, normalLight);
+  point = onOwnFace_LIGHT(positionLight, normalLight);
+#else
+  point = ViewPoint(positionLight, normalLight, 0, 0, vec2(0.0), 0.0);
 #endif
-  return true;
+  return point.view >= 0;
 }
 
 // Finds the view of a point that the light reaches.
-// Returns false where no view sees it: the views hold all casters that could shadow a receiver.
+// Returns false where no view sees it: the views hold all casters that could hide the light's centre from it.
 bool findView_LIGHT(vec3 positionLight, vec3 normalLight, out ViewPoint point)
 {
   if (!enterView_LIGHT(positionLight, normalLight, point))
@@ -262,6 +266,20 @@ bool findView_LIGHT(vec3 positionLight, vec3 normalLight, out ViewPoint point)
   point.texel = texelOf_LIGHT(point.view, across);
   return holds_LIGHT(point.texel, 0.0);
 }
+
+#if VIEWS_CUBE_LIGHT
+// The same for those who look at other points of the light than its centre, and so at casters on any face: the point's own
+// face may have none, or be cut to casters elsewhere on it. The point then lies off its map; where a face has no view, texels
+// and depths are those of the first one.
+// Returns false where there are no casters.
+bool findFace_LIGHT(vec3 positionLight, vec3 normalLight, out ViewPoint point)
+{
+  point = onOwnFace_LIGHT(positionLight, normalLight);
+  point.view = max(point.view, 0);
+  point.texel = texelOf_LIGHT(point.view, acrossOf_LIGHT(point.position));
+  return viewSize_LIGHT > 0.0;
+}
+#endif
 
 #if VIEWS_BLENDED_LIGHT
 // In what share a point that a split's view sees is the next one's, from 0 inside of the layer to 1 at

@@ -1,5 +1,5 @@
 // The frame of pointwise techniques with a map: it finds a point on the map and asks the technique's
-// estimator.
+// estimator. With LOOKS_AROUND_LIGHT that looks from a cube's faces at more of the light than its centre.
 
 #include "shadowtech/base/light_views.glsl"
 
@@ -18,7 +18,7 @@ float pixelArea_LIGHT(vec3 positionView, vec3 normalView)
 }
 #endif
 
-// The technique's estimator, for a point that the light reaches and a view sees.
+// The technique's estimator, for a point that findPoint_LIGHT() has found.
 float estimate_LIGHT(ViewPoint point, float slack);
 
 // The same with what rounding does to depths there. The position is rounded relative to its distance
@@ -31,12 +31,23 @@ float estimateAt_LIGHT(ViewPoint point, vec3 positionView)
   return estimate_LIGHT(point, slack);
 }
 
+// Finds a point that the light reaches on the map.
+// Returns false where nothing on the map can be in the way of the light.
+bool findPoint_LIGHT(vec3 positionLight, vec3 normalLight, out ViewPoint point)
+{
+#ifdef LOOKS_AROUND_LIGHT
+  return findFace_LIGHT(positionLight, normalLight, point);
+#else
+  return findView_LIGHT(positionLight, normalLight, point);
+#endif
+}
+
 // What the map says of a point, whether or not the light reaches it. `p` and `n` are its place and
 // normal in light space.
 float visibilityOnMap_LIGHT(vec3 p, vec3 n, vec3 positionView, vec3 normalView)
 {
   ViewPoint point;
-  if (!findView_LIGHT(p, n, point))
+  if (!findPoint_LIGHT(p, n, point))
   {
     return 1.0;
   }

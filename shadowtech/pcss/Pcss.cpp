@@ -95,8 +95,10 @@ std::string Pcss::estimatorGlsl(const ShadowLight& light) const
   {
     return ShaderLibrary::source("shadowtech/compare/compare_estimator.glsl");
   }
+  const std::string around =
+    viewLayout(light) == ViewLayout::Cube ? "#define LOOKS_AROUND_LIGHT\n" : "";
   const bool asksBounds = light.earlyOut == EarlyOut::Exact && !measuresAlongRay(light);
-  return define("PCSS_BALL_LIGHT", light.area->shape == LightArea::Shape::Ball) +
+  return around + define("PCSS_BALL_LIGHT", light.area->shape == LightArea::Shape::Ball) +
     define("PCSS_RECTANGLE_LIGHT", light.area->shape == LightArea::Shape::Rectangle) +
     pcssCountsDefines(light.pcssSamples) + define("PCSS_ASKS_BOUNDS_LIGHT", asksBounds) +
     ShaderLibrary::source("shadowtech/pcss/pcss_estimator.glsl");

@@ -23,8 +23,7 @@ mat2 ballAcross_LIGHT(float radius, vec2 slope)
 SeenLight_LIGHT seenLight_LIGHT(ViewPoint point)
 {
 #if PCSS_BALL_LIGHT
-  mat2 outline =
-    ballAcross_LIGHT(length(lightFromUnit_LIGHT[0]), acrossOf_LIGHT(point.position));
+  mat2 outline = ballAcross_LIGHT(length(lightFromUnit_LIGHT[0]), acrossOf_LIGHT(point.position));
   mat2x3 axes = mat2x3(vec3(outline[0], 0.0), vec3(outline[1], 0.0));
 #else
   mat2x3 axes = mat2x3(cubeFaceFromLight(point.face, lightFromUnit_LIGHT[0]),
@@ -223,9 +222,9 @@ float largestSeparation_LIGHT(ViewPoint point, SeenLight_LIGHT light)
 // How many texels the receiver's plane is followed at a separation.
 float texelsAcross_LIGHT(ViewPoint point, SeenLight_LIGHT light, float separation)
 {
-  TexelWindow_LIGHT window = windowOn_LIGHT(point, point, light, separation).texels;
-  ivec2 width = window.last - window.first;
-  return 0.5 * float(max(width.x, width.y));
+  FaceWindow_LIGHT window = windowOn_LIGHT(point, point, light, separation);
+  vec2 texels = abs(viewTexels_LIGHT[point.view].xy) * (window.upper - window.lower);
+  return 0.5 * max(texels.x, texels.y);
 }
 
 // What all say that may be looked up at a separation: 1 lit, 0 hidden, -1 where the map's bounds do not tell.

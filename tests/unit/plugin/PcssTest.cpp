@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -378,6 +379,91 @@ TEST_F(Pcss, castersOnOtherFacesOfTheCubeAreFound)
   RecordProperty("found", found);
   EXPECT_GT(partly, 2000);
   EXPECT_GT(found, 0.95 * partly);
+}
+
+//------------------------------------------------------------------------------
+/// A floor that casts nothing under a large lamp, and a screen that stands close beside the lamp: the face of the lamp's cube
+/// that sees most of the floor holds no casters, others are cut to the screen, which lies elsewhere on them.
+TEST_F(Pcss, castersAreFoundFromFacesWithout)
+{
+  struct Case
+  {
+    const char* name;
+    std::function<vtkLight*(PassScene&)> addLight;
+  };
+  const glm::dvec3 place(0.0, 0.0, 2.0);
+  const auto area = [&](vtkGnomonAreaLight* light)
+  {
+    light->SetPosition(place.x, place.y, place.z);
+    light->SetFocalPoint(0.0, 0.0, 0.0);
+    light->SetConeAngle(90.0);
+  };
+  const Case cases[] = {
+    { "ball",
+      [&](PassScene& scene)
+      {
+        vtkLight* light = scene.addSpot(place, glm::dvec3(0.0), allDirections);
+        vtkGnomonLightKeys::SetSetting(light, "light_radius", "0.5");
+        return light;
+      } },
+    { "disk",
+      [&](PassScene& scene)
+      {
+        vtkNew<vtkGnomonAreaLight> light;
+        area(light);
+        light->SetShapeToDisk();
+        light->SetRadius(0.5);
+        scene.renderer->AddLight(light);
+        return static_cast<vtkLight*>(light);
+      } },
+    { "rectangle",
+      [&](PassScene& scene)
+      {
+        vtkNew<vtkGnomonAreaLight> light;
+        area(light);
+        light->SetShapeToRectangle();
+        light->SetUp(0.0, 1.0, 0.0);
+        light->SetWidth(0.6);
+        light->SetHeight(0.6);
+        scene.renderer->AddLight(light);
+        return static_cast<vtkLight*>(light);
+      } },
+  };
+  for (const Case& each : cases)
+  {
+    PassScene scene(100, 100);
+    vtkGnomonPropKeys::SetCasts(scene.addFloor(4.0), false);
+    scene.addBox({ 0.6, -0.8, 1.6 }, { 0.7, 0.8, 2.4 });
+    each.addLight(scene);
+    scene.lookDown(2.5, 1.5);
+    scene.renderer->GetActiveCamera()->SetPosition(1.5, 0.0, 1.5); // below the screen
+    scene.renderer->GetActiveCamera()->SetClippingRange(0.1, 3.0);
+    scene.pass->SetSetting("light_samples", "256");
+    const std::vector<float> truth = visibilityOf(scene, "raytraced");
+    const std::vector<float> softly = visibilityOf(scene, "pcss");
+    scene.pass->SetSetting("early_out", "none");
+    EXPECT_EQ(visibilityOf(scene, "pcss"), softly) << each.name;
+    int partly = 0;
+    int found = 0;
+    int lit = 0;
+    int darkened = 0;
+    for (std::size_t i = 0; i < truth.size(); ++i)
+    {
+      partly += truth[i] < 0.9f ? 1 : 0;
+      found += truth[i] < 0.9f && softly[i] < 0.97f ? 1 : 0;
+      lit += truth[i] == 1.0f ? 1 : 0;
+      darkened += truth[i] == 1.0f && softly[i] < 0.9f ? 1 : 0;
+    }
+    const double error = meanDifference(softly, truth);
+    RecordProperty(each.name,
+      std::to_string(partly) + " partly, found " + std::to_string(found) + ", error " +
+        std::to_string(error) + ", of " + std::to_string(lit) + " lit, darkened " +
+        std::to_string(darkened));
+    EXPECT_GT(partly, 2000) << each.name;
+    EXPECT_GT(found, 0.95 * partly) << each.name;
+    EXPECT_LE(darkened, 10) << each.name;
+    EXPECT_LT(error, 0.035) << each.name;
+  }
 }
 
 //------------------------------------------------------------------------------

@@ -7,6 +7,7 @@
 #include "lights/vtkGnomonAreaLight.h"
 #include "lights/vtkGnomonLightKeys.h"
 #include "plugin/VisibilityImages.h"
+#include "plugin/vtkGnomonPropKeys.h"
 
 #include <vtkCellArray.h>
 #include <vtkPoints.h>
@@ -284,6 +285,16 @@ const std::vector<SoftCase>& softCases()
         scene.addBox({ 1.5, -0.5, 0.0 }, { 2.5, 0.5, 0.8 });
         scene.lookFrom({ 0.0, -9.0, 7.0 });
         return addBall(scene, { 0.0, 0.0, 2.0 }, "0.15");
+      } },
+    // Faces of the lamp's cube that hold no casters, and others that are cut to a screen beside the lamp.
+    { "floorThatCastsNothing", 0.0076,
+      { { 0.019, 0 }, { 0.0085, 0 }, { 0.0095, 0 }, { 0.0093, 0 } },
+      [](PassScene& scene)
+      {
+        vtkGnomonPropKeys::SetCasts(scene.addFloor(4.0), false);
+        scene.addBox({ 0.6, -0.8, 1.6 }, { 0.7, 0.8, 2.4 });
+        scene.lookFrom({ 0.0, -9.0, 7.0 });
+        return addBall(scene, { 0.0, 0.0, 2.0 }, "0.5");
       } },
     { "postsOfATexel", 0.0008, { { 0.0013, 0 }, { 0.0095, 0 }, { 0.0013, 0 }, { 0.0008, 0 } },
       [](PassScene& scene)

@@ -23,8 +23,9 @@ namespace gnomon::test
 namespace
 {
 
-/// Runs light_views.glsl for a light on points of its own space, and returns for each two vec4: the
-/// point in its face, with the face; and texel, view, and whether the point is in the light's reach.
+/// Runs light_views.glsl for a light on points of its own space, and returns for each three vec4: the
+/// point in its face, with the face; texel, view, and whether the point is in the light's reach; of a cube texel
+/// and view of who looks around.
 std::vector<glm::vec4> runGlsl(
   const ShadowLight& light, const LightViews& views, int size, const std::vector<glm::vec4>& points)
 {
@@ -46,9 +47,13 @@ void main()
 #if VIEWS_BOX_LIGHT
   inBox = insideBox(p, lightBox_LIGHT);
 #endif
-  outputs[2u * i] = vec4(cubeFaceFromLight(face, p), float(face));
-  outputs[2u * i + 1u] =
+  outputs[3u * i] = vec4(cubeFaceFromLight(face, p), float(face));
+  outputs[3u * i + 1u] =
     vec4(point.texel, found ? float(point.view) : -1.0, inBox ? 1.0 : 0.0);
+#if VIEWS_CUBE_LIGHT
+  found = findFace_LIGHT(p, -p, point);
+  outputs[3u * i + 2u] = vec4(point.texel, found ? float(point.view) : -1.0, float(point.face));
+#endif
 }
 )",
     0);
@@ -58,7 +63,7 @@ void main()
   glBufferData(GL_SHADER_STORAGE_BUFFER, static_cast<GLsizeiptr>(points.size() * sizeof(glm::vec4)),
     points.data(), GL_STATIC_DRAW);
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, buffers[1].create());
-  std::vector<glm::vec4> outputs(2 * points.size());
+  std::vector<glm::vec4> outputs(3 * points.size());
   const auto bytes = static_cast<GLsizeiptr>(outputs.size() * sizeof(glm::vec4));
   glBufferData(GL_SHADER_STORAGE_BUFFER, bytes, nullptr, GL_DYNAMIC_READ);
   glUseProgram(program);
@@ -108,7 +113,7 @@ TEST(LightViewsGlsl, FindsTheViewsThatTheMathematicsMade)
   {
     const glm::dvec3 point(points[i]);
     const int face = cubeFaceOf(point);
-    EXPECT_EQ(outputs[2 * i], glm::vec4(cubeFaceFromLight(face) * point, face));
+    EXPECT_EQ(outputs[3 * i], glm::vec4(cubeFaceFromLight(face) * point, face));
 
     const int view = views.viewOfFace[static_cast<std::size_t>(face)];
     glm::dvec2 texel(-1.0);
@@ -117,16 +122,42 @@ TEST(LightViewsGlsl, FindsTheViewsThatTheMathematicsMade)
       const glm::dvec4 clip =
         views.views[static_cast<std::size_t>(view)].clipFromCentred() * glm::dvec4(point, 1.0);
       texel = (glm::dvec2(clip) / clip.w * 0.5 + 0.5) * static_cast<double>(size);
-      EXPECT_NEAR(outputs[2 * i + 1].x, texel.x, 1e-4 * (1.0 + std::abs(texel.x)));
-      EXPECT_NEAR(outputs[2 * i + 1].y, texel.y, 1e-4 * (1.0 + std::abs(texel.y)));
+      EXPECT_NEAR(outputs[3 * i + 1].x, texel.x, 1e-4 * (1.0 + std::abs(texel.x)));
+      EXPECT_NEAR(outputs[3 * i + 1].y, texel.y, 1e-4 * (1.0 + std::abs(texel.y)));
     }
     const bool inside = glm::all(glm::greaterThanEqual(texel, glm::dvec2(0.0))) &&
       glm::all(glm::lessThan(texel, glm::dvec2(size)));
-    EXPECT_EQ(outputs[2 * i + 1].z, inside ? static_cast<float>(view) : -1.0f);
+    EXPECT_EQ(outputs[3 * i + 1].z, inside ? static_cast<float>(view) : -1.0f);
     found += inside ? 1 : 0;
+
+    // Who looks around has a place for every point, on a map or beside one.
+    const int around = view == LightViews::noView ? 0 : view;
+    const glm::dvec2 place =
+      mapped(texelFromAcross(views.views[static_cast<std::size_t>(around)], size),
+        views.views[static_cast<std::size_t>(around)].rays.across(cubeFaceFromLight(face) * point));
+    EXPECT_EQ(outputs[3 * i + 2].z, static_cast<float>(around));
+    EXPECT_EQ(outputs[3 * i + 2].w, static_cast<float>(face));
+    EXPECT_NEAR(outputs[3 * i + 2].x, place.x, 1e-4 * (1.0 + std::abs(place.x)));
+    EXPECT_NEAR(outputs[3 * i + 2].y, place.y, 1e-4 * (1.0 + std::abs(place.y)));
   }
   EXPECT_GT(found, 500u);
   EXPECT_LT(found, 5000u);
+}
+
+TEST(LightViewsGlsl, WhoLooksAroundFindsNothingWhereThereAreNoCasters)
+{
+  vtkNew<vtkGnomonEGLRenderWindow> window;
+  window->Initialize();
+  window->MakeCurrent();
+  const ShadowLight light = pointLight({ 0.0, 0.0, 0.0 });
+  const LightViews views = fitLightViews(light, glm::dvec3(0.0), Bounds(), 64);
+  ASSERT_TRUE(views.views.empty());
+  const std::vector<glm::vec4> points = randomPoints();
+  const std::vector<glm::vec4> outputs = runGlsl(light, views, 64, points);
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    EXPECT_EQ(outputs[3 * i + 2].z, -1.0f);
+  }
 }
 
 /// A sun over a floor that a camera looks along.
@@ -179,11 +210,11 @@ TEST(LightViewsGlsl, FindsTheFirstSplitThatHoldsAPointAndItsBorder)
     {
       continue;
     }
-    EXPECT_EQ(outputs[2 * i + 1].z, static_cast<float>(expected));
+    EXPECT_EQ(outputs[3 * i + 1].z, static_cast<float>(expected));
     if (expected >= 0)
     {
-      EXPECT_NEAR(outputs[2 * i + 1].x, texel.x, 1e-3);
-      EXPECT_NEAR(outputs[2 * i + 1].y, texel.y, 1e-3);
+      EXPECT_NEAR(outputs[3 * i + 1].x, texel.x, 1e-3);
+      EXPECT_NEAR(outputs[3 * i + 1].y, texel.y, 1e-3);
     }
     ++found[static_cast<std::size_t>(expected + 1)];
   }
@@ -221,11 +252,11 @@ TEST(LightViewsGlsl, FindsTexelsOfAWarpedView)
         continue;
       }
       const bool seen = image.z > 0.0 && least > 0.0;
-      EXPECT_EQ(outputs[2 * i + 1].z, seen ? 0.0f : -1.0f);
+      EXPECT_EQ(outputs[3 * i + 1].z, seen ? 0.0f : -1.0f);
       if (seen)
       {
-        EXPECT_NEAR(outputs[2 * i + 1].x, texel.x, 1e-3);
-        EXPECT_NEAR(outputs[2 * i + 1].y, texel.y, 1e-3);
+        EXPECT_NEAR(outputs[3 * i + 1].x, texel.x, 1e-3);
+        EXPECT_NEAR(outputs[3 * i + 1].y, texel.y, 1e-3);
         ++found;
       }
     }
@@ -250,7 +281,7 @@ TEST(LightViewsGlsl, AgreesOnWhatLiesInABox)
   for (std::size_t i = 0; i < points.size(); ++i)
   {
     const bool expected = insideBox(glm::vec3(points[i]), rayLight.box);
-    EXPECT_EQ(outputs[2 * i + 1].w != 0.0f, expected);
+    EXPECT_EQ(outputs[3 * i + 1].w != 0.0f, expected);
     inside += expected ? 1 : 0;
   }
   EXPECT_GT(inside, 500u);

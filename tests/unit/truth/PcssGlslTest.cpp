@@ -180,8 +180,9 @@ private:
       largest = std::min(largest, this->separationEstimate(window, largest));
       window = this->window(largest);
     }
-    const glm::dvec2 width =
-      this->isAround() ? glm::dvec2(window.last - window.first) : 2.0 * this->reach() * largest;
+    const glm::dvec2 width = this->isAround()
+      ? (window.upper - window.lower) * glm::dvec2(texels[0].x, texels[1].y)
+      : 2.0 * this->reach() * largest;
     this->slack_ = slack * std::max(std::max(width.x, width.y), 1.0);
     const auto turned = [&](int number)
     {
