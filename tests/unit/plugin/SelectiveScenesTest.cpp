@@ -19,6 +19,7 @@
 #include <cstdint>
 #include <iostream>
 #include <map>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -212,6 +213,11 @@ struct StageCase
   double byVerticesLeast;           ///< confirmed by all triangles around it
   double correctedLeast;            ///< by nine texels
 };
+
+std::ostream& operator<<(std::ostream& stream, const StageCase& stages)
+{
+  return stream << stages.scene << ", map " << stages.mapSize;
+}
 
 class SelectiveStages : public testing::TestWithParam<StageCase>
 {
