@@ -291,7 +291,7 @@ Picture firstClassPicture(const VisibilityImages& images)
     "traces, such as silhouette");
 }
 
-/// Settings and timings, for the header of the visibility file.
+/// Settings, timings and counts, for the header of the visibility file.
 std::map<std::string, std::string> makeHeader(
   const RenderOptions& options, const FrameReport& report)
 {
@@ -321,6 +321,12 @@ std::map<std::string, std::string> makeHeader(
     {
       header[prefix + ".kernel"] = light.kernel;
       header[prefix + ".kernel_size_texels"] = std::to_string(light.kernelTexels);
+    }
+    header[prefix + ".traced_pixels"] = std::to_string(light.tracedPixels);
+    header[prefix + ".rays"] = std::to_string(light.rays);
+    for (const ClassCount& count : light.classes)
+    {
+      header[prefix + ".pixels." + count.name] = std::to_string(count.pixels);
     }
   }
   return header;

@@ -72,8 +72,8 @@ std::vector<PixelClass> classesOfChain()
     { "outside the contour, in shadow", { 90, 90, 90 } }, { "hinted lit", { 160, 200, 255 } },
     { "hinted in shadow", { 40, 90, 190 } }, { "confirmed by its texel", { 150, 70, 0 } },
     { "confirmed by neighbours", { 220, 110, 0 } }, { "confirmed by adjacency", { 255, 170, 60 } },
-    { "corrected", { 220, 30, 30 } }, { "traced, lit by its texel", { 200, 120, 230 } },
-    { "traced, in shadow by its texel", { 120, 20, 160 } }, { "left lit", { 255, 240, 60 } },
+    { "corrected", { 220, 30, 30 } }, { "traced, lit by its texel", { 200, 120, 230 }, true },
+    { "traced, in shadow by its texel", { 120, 20, 160 }, true }, { "left lit", { 255, 240, 60 } },
     { "lit by majority", { 250, 220, 150 } }, { "in shadow by majority", { 130, 110, 30 } } };
 }
 

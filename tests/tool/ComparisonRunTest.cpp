@@ -6,11 +6,14 @@
 #include "TestFiles.h"
 
 #include "plugin/vtkGnomonShadowPass.h"
+#include "shadowtech/Registry.h"
 
 #include <CLI/CLI.hpp>
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <array>
+#include <map>
 
 namespace gnomon::tool
 {
@@ -145,6 +148,108 @@ TEST(ComparisonRun, MeasuresTimesStagesAndMemory)
   EXPECT_GE(image.memory.maps, 256u * 256u * 4u);
   EXPECT_GT(image.memory.images, 0u);
   EXPECT_TRUE(variant(cubeResults(), "plain VTK").timings[0].stages.empty());
+}
+
+TEST(ComparisonRun, StagesAreNineTenthsOfAFrame)
+{
+  ComparisonPlan plan;
+  plan.techniques = { "nsm", "coherence", "crsm" };
+  plan.mapSizesTexels = { 512 };
+  plan.inlineRoute = false;
+  plan.width = 512;
+  plan.height = 512;
+  plan.frames = 3;
+  for (const VariantResult& result : runComparison(loadScene("posts"), plan, {}).variants)
+  {
+    // Of the motions the best: what else the machine does comes between stages and takes from their share.
+    double share = 0.0;
+    for (const MotionTiming& timing : result.timings)
+    {
+      share = std::max(share, timing.stageShare);
+    }
+    EXPECT_TRUE(result.timings[0].stages.empty() || share >= 0.9) << result.name << ": " << share;
+  }
+}
+
+TEST(ComparisonRun, AllTechniquesCountTheSamePixels)
+{
+  ComparisonPlan plan;
+  for (const TechniqueEntry& technique : registry())
+  {
+    plan.techniques.push_back(technique.name);
+  }
+  plan.mapSizesTexels = { 128 };
+  plan.width = 64;
+  plan.height = 64;
+  plan.frames = 1;
+  const ComparisonResults results = runComparison(loadScene("posts"), plan, {});
+  const std::int64_t facing = variant(results, "raytraced").error.facingPixels;
+  EXPECT_GT(facing, 1000);
+  for (const VariantResult& result : results.variants)
+  {
+    EXPECT_EQ(result.error.facingPixels, facing) << result.name;
+  }
+  EXPECT_GE(results.variants.size(), registry().size() + 2) << "with the peers";
+}
+
+/// How many pixels of a picture have each colour.
+std::map<std::array<int, 3>, std::int64_t> coloursOf(const Picture& picture)
+{
+  std::map<std::array<int, 3>, std::int64_t> pixels;
+  for (std::size_t i = 0; i < picture.pixelCount(); ++i)
+  {
+    const unsigned char* const of = &picture.rgb[3 * i];
+    ++pixels[{ of[0], of[1], of[2] }];
+  }
+  return pixels;
+}
+
+TEST(ComparisonRun, ColoursOfPicturesAreItsNumbers)
+{
+  ComparisonPlan plan;
+  plan.techniques = { "crsm:as_published=on", "coherence", "selective", "silhouette" };
+  plan.mapSizesTexels = { 64 };
+  plan.width = 160;
+  plan.height = 160;
+  plan.frames = 1;
+  const ComparisonResults results = runComparison(loadScene("posts"), plan, {});
+  std::int64_t falseLight = 0, falseShadow = 0, turnedAway = 0;
+  for (const VariantResult& result : results.variants)
+  {
+    // Blue: false light; red: false shadow; purple, through which the picture shines: traced and right, as all that is
+    // traced is. All else is grey.
+    std::map<std::array<int, 3>, std::int64_t> errors = coloursOf(result.errors);
+    EXPECT_EQ((errors[{ 64, 128, 255 }]), result.error.falseLight) << result.name;
+    EXPECT_EQ((errors[{ 255, 48, 48 }]), result.error.falseShadow) << result.name;
+    std::int64_t purple = 0;
+    for (const auto& [colour, pixels] : errors)
+    {
+      purple += colour[0] - colour[1] == 68 && colour[2] - colour[1] == 95 ? pixels : 0;
+    }
+    EXPECT_EQ(purple, result.tracedPixels) << result.name;
+    falseLight += result.error.falseLight;
+    falseShadow += result.error.falseShadow;
+
+    // Each class has a colour of its own, green that of what is turned away.
+    std::map<std::array<int, 3>, std::int64_t> classes = coloursOf(result.classPicture);
+    std::vector<std::int64_t> drawn, counted;
+    for (const auto& [colour, pixels] : classes)
+    {
+      drawn.push_back(pixels);
+    }
+    for (const auto& [name, pixels] : result.classes)
+    {
+      counted.push_back(pixels);
+    }
+    counted.erase(std::remove(counted.begin(), counted.end(), 0), counted.end());
+    EXPECT_THAT(drawn, testing::UnorderedElementsAreArray(counted)) << result.name;
+    const std::int64_t* const away = findClass(result, "turned away from the light");
+    EXPECT_EQ((classes[{ 0, 140, 60 }]), away ? *away : 0) << result.name;
+    turnedAway += away ? *away : 0;
+  }
+  EXPECT_GT(falseLight, 0);
+  EXPECT_GT(falseShadow, 0);
+  EXPECT_GT(turnedAway, 0);
 }
 
 TEST(ComparisonRun, TakesPictures)

@@ -499,12 +499,25 @@ TEST(Program, TellsWhoDrewAConservativeMap)
 }
 
 //------------------------------------------------------------------------------
+/// A text attribute of an OpenEXR file's header: name and type end in zeros, the length takes four bytes.
+std::string textAttribute(const std::string& file, const std::string& name)
+{
+  const std::string begin = name + std::string("\0string\0", 8);
+  const std::size_t found = file.find(begin);
+  if (found == std::string::npos)
+  {
+    return "none";
+  }
+  const std::size_t length = found + begin.size();
+  return file.substr(length + 4, static_cast<unsigned char>(file[length]));
+}
+
 TEST(Program, TellsHowPixelsWereDecided)
 {
   TestFolder folder;
   const Outcome outcome = run(folder,
     { "render", "cube", "-o", "out.png", "--size", "64x48", "--technique", "silhouette",
-      "--classes", "classes.png", "--stats", "stats.json" });
+      "--classes", "classes.png", "--stats", "stats.json", "--visibility", "visibility.exr" });
   EXPECT_TRUE(outcome.exited && outcome.code == 0) << outcome.errors;
   EXPECT_EQ(readBytes(folder / "classes.png").compare(1, 3, "PNG"), 0);
   const nlohmann::json stats = nlohmann::json::parse(readBytes(folder / "stats.json"));
@@ -515,6 +528,16 @@ TEST(Program, TellsHowPixelsWereDecided)
   }
   EXPECT_EQ(pixels, 64 * 48);
   EXPECT_GT(stats.at("lights").at(0).at("classes").at("lit for certain").get<int>(), 500);
+
+  // The file of the visibility says the same in its header.
+  const std::string file = readBytes(folder / "visibility.exr");
+  const nlohmann::json& light = stats.at("lights").at(0);
+  EXPECT_EQ(textAttribute(file, "light.0.rays"), light.at("rays").dump());
+  EXPECT_EQ(textAttribute(file, "light.0.traced_pixels"), light.at("traced_pixels").dump());
+  for (const auto& [name, count] : light.at("classes").items())
+  {
+    EXPECT_EQ(textAttribute(file, "light.0.pixels." + name), count.dump()) << name;
+  }
 }
 
 //------------------------------------------------------------------------------

@@ -1,5 +1,7 @@
 // Exact techniques show what ray tracing shows, in all built-in scenes but the largest.
 
+#include "PassScene.h"
+
 #include "BuiltinScenes.h"
 #include "Scene.h"
 
@@ -97,6 +99,42 @@ TEST_P(ExactScenes, showWhatIsTraced)
       }
     }
   }
+}
+
+/// Whole in the truth, in pieces in a plain map, and traced by the hybrid: none of it is certain.
+TEST(ExactPoles, thatTheMapHasInPiecesAreTracedWhole)
+{
+  PassScene scene(256, 256);
+  scene.addFloor(1.0);
+  scene.addBox({ -0.004, -0.004, 0.05 }, { 0.004, 0.004, 0.9 });
+  scene.addSun({ 0.7, 0.2, -1.0 });
+  scene.lookDown(1.0);
+  scene.pass->KeepVisibilityOn();
+  scene.pass->SetMapSize(64);
+  scene.pass->SetSetting("bake", "always");
+  const auto draw = [&](const char* technique)
+  {
+    scene.pass->SetTechnique(technique);
+    scene.render();
+    return scene.pass->GetVisibility();
+  };
+  const VisibilityImages truth = draw("raytraced");
+  const VisibilityImages plain = draw("nsm");
+  const VisibilityImages hybrid = draw("crsm");
+  EXPECT_EQ(hybrid.visibility, truth.visibility);
+  std::size_t shadow = 0, found = 0, traced = 0;
+  for (std::size_t i = 0; i < truth.visibility[0].size(); ++i)
+  {
+    const bool inShadow = truth.visibility[0][i] == 0.0f && truth.normalZ[i] > 0.5f;
+    const ClassImage& classes = hybrid.classes[0];
+    shadow += inShadow ? 1 : 0;
+    found += inShadow && plain.visibility[0][i] == 0.0f ? 1 : 0;
+    traced += inShadow && classes.classes[classes.ofPixels[i]].name == "traced" ? 1 : 0;
+  }
+  EXPECT_GT(shadow, 50u);
+  EXPECT_GT(found, 0u);
+  EXPECT_LT(found, shadow / 2);
+  EXPECT_EQ(traced, shadow);
 }
 
 class ExactSoftScenes : public testing::TestWithParam<const char*>

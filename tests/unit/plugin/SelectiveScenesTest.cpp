@@ -15,7 +15,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <numeric>
+#include <cstddef>
+#include <cstdint>
+#include <iostream>
+#include <map>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -100,6 +104,155 @@ TEST_P(SelectiveScenes, haveAClassForEveryPixel)
       EXPECT_EQ(traced, light.tracedPixels) << technique;
     }
   }
+}
+
+/// What the contour of a built-in scene has, and what each stage makes of it by itself.
+struct StageShares
+{
+  std::size_t pixels = 0;                      ///< of the contour
+  std::size_t rightLight = 0, rightShadow = 0; ///< whose status is the truth
+  std::size_t falseLight = 0, falseShadow = 0; ///< whose status is not
+  std::map<std::string, double> confirmed; ///< share of the shadow whose status is right, by stage
+  std::map<std::string, double> corrected; ///< share of the false light, by stage
+  /// Of the chain with leftovers lit: its wrong pixels in the contour, over the status'.
+  double wrongLeftLit = 0.0;
+};
+
+/// 1024 x 1024 pixels, with a contour of 4.
+StageShares measureStages(const char* scene, int mapSize)
+{
+  const vtkSmartPointer<vtkRenderer> renderer = tool::makeRenderer(tool::loadScene(scene), 1.0);
+  vtkNew<vtkGnomonEGLRenderWindow> window;
+  window->SetMultiSamples(0);
+  window->SetSize(1024, 1024);
+  window->AddRenderer(renderer);
+  vtkNew<vtkGnomonShadowPass> pass;
+  pass->KeepVisibilityOn();
+  pass->SetMapSize(mapSize);
+  renderer->SetPass(pass);
+  const auto draw =
+    [&](const char* coherence, const char* neighbours, const char* adjacency, const char* leftovers)
+  {
+    pass->SetTechnique("selective");
+    pass->SetSetting("coherence", coherence);
+    pass->SetSetting("neighbours", neighbours);
+    pass->SetSetting("adjacency", adjacency);
+    pass->SetSetting("leftovers", leftovers);
+    window->Render();
+    return pass->GetVisibility();
+  };
+  const auto isOf = [](const VisibilityImages& images, std::size_t i, const char* part)
+  {
+    const ClassImage& classes = images.classes[0];
+    return classes.classes[classes.ofPixels[i]].name.find(part) != std::string::npos;
+  };
+  const VisibilityImages statuses = draw("off", "off", "off", "trace");
+  const std::int64_t traced = pass->GetReport().lights[0].tracedPixels;
+  const VisibilityImages chain = draw("4", "9", "vertices", "lit");
+  std::map<std::string, VisibilityImages> stages;
+  for (const char* texels : { "1", "4", "9" })
+  {
+    stages[texels] = draw("off", texels, "off", "trace");
+  }
+  for (const char* adjacency : { "edges", "vertices" })
+  {
+    stages[adjacency] = draw("off", "off", adjacency, "trace");
+  }
+
+  StageShares shares;
+  std::size_t wrongLeftLit = 0;
+  for (std::size_t i = 0; i < statuses.visibility[0].size(); ++i)
+  {
+    // Of the contour is what is traced.
+    const bool inShadow = isOf(statuses, i, "traced, in shadow");
+    if (inShadow || isOf(statuses, i, "traced, lit"))
+    {
+      const bool isRight = inShadow == (statuses.visibility[0][i] == 0.0f);
+      ++shares.pixels;
+      (inShadow ? (isRight ? shares.rightShadow : shares.falseShadow)
+                : (isRight ? shares.rightLight : shares.falseLight)) += 1;
+      wrongLeftLit += chain.visibility[0][i] != statuses.visibility[0][i] ? 1 : 0;
+      for (const auto& [stage, images] : stages)
+      {
+        const bool isConfirmed = isOf(images, i, "confirmed");
+        const bool isCorrected = isOf(images, i, "corrected");
+        EXPECT_TRUE(!isConfirmed || (inShadow && isRight)) << stage;
+        EXPECT_TRUE(!isCorrected || (!inShadow && !isRight)) << stage;
+        shares.confirmed[stage] += isConfirmed ? 1.0 : 0.0;
+        shares.corrected[stage] += isCorrected ? 1.0 : 0.0;
+      }
+    }
+  }
+  EXPECT_EQ(shares.pixels, static_cast<std::size_t>(traced));
+  for (const auto& [stage, images] : stages)
+  {
+    shares.confirmed[stage] /= static_cast<double>(shares.rightShadow);
+    shares.corrected[stage] /= static_cast<double>(shares.falseLight);
+  }
+  shares.wrongLeftLit =
+    static_cast<double>(wrongLeftLit) / static_cast<double>(shares.falseLight + shares.falseShadow);
+  std::cout << scene << ", map " << mapSize << ": contour " << shares.pixels << ", right "
+            << shares.rightLight << " + " << shares.rightShadow << ", false light "
+            << shares.falseLight << ", false shadow " << shares.falseShadow
+            << ", wrong with leftovers lit over status' " << shares.wrongLeftLit;
+  for (const auto& [stage, share] : shares.confirmed)
+  {
+    std::cout << "; " << stage << ": confirmed " << share << ", corrected "
+              << shares.corrected[stage];
+  }
+  std::cout << std::endl;
+  return shares;
+}
+
+/// What a scene's stages have to come to: shares as in Moderno's tables, where they are so here.
+struct StageCase
+{
+  const char* scene;
+  int mapSize;
+  double byTexelLeast, byTexelMost; ///< confirmed by the texel's triangle alone
+  double byVerticesLeast;           ///< confirmed by all triangles around it
+  double correctedLeast;            ///< by nine texels
+  double wrongLeftLitMost;
+};
+
+std::ostream& operator<<(std::ostream& stream, const StageCase& stages)
+{
+  return stream << stages.scene << ", map " << stages.mapSize;
+}
+
+class SelectiveStages : public testing::TestWithParam<StageCase>
+{
+};
+
+// The first are closed, smooth and finely cut; the last is so finely that its triangles are smaller than texels.
+INSTANTIATE_TEST_SUITE_P(Builtin, SelectiveStages,
+  testing::Values(StageCase{ "primitives", 1024, 0.69, 0.98, 0.985, 0.35, 0.61 },
+    StageCase{ "primitives", 2048, 0.69, 0.98, 0.99, 0.35, 0.61 },
+    StageCase{ "bench-side", 1024, 0.0, 1.0, 0.0, 0.35, 0.61 },
+    StageCase{ "bench-side", 2048, 0.0, 1.0, 0.0, 0.35, 0.61 },
+    StageCase{ "trees-side", 1024, 0.0, 1.0, 0.0, 0.35, 0.61 },
+    StageCase{ "trees-side", 2048, 0.0, 1.0, 0.0, 0.35, 0.61 },
+    StageCase{ "flowers-side", 1024, 0.0, 1.0, 0.0, 0.35, 0.61 },
+    StageCase{ "flowers-side", 2048, 0.0, 1.0, 0.0, 0.35, 0.61 },
+    StageCase{ "posts", 1024, 0.0, 1.0, 0.0, 0.35, 0.61 },
+    StageCase{ "posts", 2048, 0.0, 1.0, 0.0, 0.35, 0.61 },
+    StageCase{ "bunny", 1024, 0.0, 1.0, 0.0, 0.0, 0.65 },
+    StageCase{ "bunny", 2048, 0.0, 1.0, 0.0, 0.35, 0.61 }),
+  [](const testing::TestParamInfo<StageCase>& stages)
+  {
+    std::string name = stages.param.scene + std::to_string(stages.param.mapSize);
+    std::replace(name.begin(), name.end(), '-', '_');
+    return name;
+  });
+
+TEST_P(SelectiveStages, decideAsMuchAsTheyAreFor)
+{
+  StageShares shares = measureStages(GetParam().scene, GetParam().mapSize);
+  EXPECT_GE(shares.confirmed["1"], GetParam().byTexelLeast);
+  EXPECT_LE(shares.confirmed["1"], GetParam().byTexelMost);
+  EXPECT_GE(shares.confirmed["vertices"], GetParam().byVerticesLeast);
+  EXPECT_GE(shares.corrected["9"], GetParam().correctedLeast);
+  EXPECT_LE(shares.wrongLeftLit, GetParam().wrongLeftLitMost);
 }
 
 } // namespace

@@ -238,13 +238,15 @@ public:
     const std::vector<float> truth = this->truth();
     const std::size_t traced = this->tracer_.trace(
       light, this->occluders_, this->receivers_, visibility, &maps, &verdict.classes);
-    std::size_t all = 0;
+    std::size_t all = 0, uncertain = 0;
     for (std::size_t i = 0; i < truth.size(); ++i)
     {
       const bool asked =
         !verdict.is(i, TracedClass::Unreached) && !verdict.is(i, TracedClass::NoReceiver);
       all += asked ? 1 : 0;
+      uncertain += verdict.is(i, TracedClass::Traced) ? 1 : 0;
     }
+    EXPECT_EQ(traced, uncertain) << "a ray for each of them, and no other";
     verdict.uncertain = static_cast<double>(traced) / static_cast<double>(all);
     for (std::size_t i = 0; i < truth.size(); ++i)
     {
