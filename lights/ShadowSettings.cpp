@@ -217,9 +217,8 @@ const std::vector<Setting>& shadowSettings()
       "its vertices, which decides more and takes longer",
       choice<AdjacencyRing, &S::adjacencyRing>({ "edges", "vertices" }) },
     { "bake",
-      "exact techniques: when a stale map is drawn: once nothing has changed for a frame, till "
-      "when "
-      "all is traced, or at once",
+      "exact techniques: when a stale map is drawn: once nothing has changed for long enough to be "
+      "worth it, till when all is traced, and kept where it pays, or at once",
       choice<BakeTime, &S::bake>({ "settled", "always" }) },
     { "contour",
       "selective: how wide the contour between light and shadow is that it looks at, in pixels; or "

@@ -87,7 +87,7 @@ enum class AdjacencyRing
 /// When a stale map is drawn that a technique can do without.
 enum class BakeTime
 {
-  Settled, ///< once nothing that it depends on has changed for a frame: what moves is not worth a map
+  Settled, ///< once what it depends on has been still for long enough to be worth it, and kept while it pays
   Always   ///< at once
 };
 

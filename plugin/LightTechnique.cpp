@@ -2,6 +2,7 @@
 
 #include "lights/KernelShape.h"
 #include "plugin/Hash.h"
+#include "shadowtech/base/Gl.h"
 #include "shadowtech/base/OccluderBuffers.h"
 #include "shadowtech/base/Occluders.h"
 #include "shadowtech/base/ReceiverTarget.h"
@@ -78,26 +79,67 @@ void LightTechnique::updateMaps(
     return;
   }
   Bake wanted = this->wantedIn(light, stage);
+  if (this->info().mapIsOptional && light.bake != BakeTime::Always)
+  {
+    this->updateOptionalMaps(light, stage, report, std::move(wanted));
+    return;
+  }
+  this->cost_ = MapCost();
+  this->usesMap_ = true;
   if (this->baked_.serves(wanted))
   {
     this->baked_.takeReasonOf(wanted);
-    this->baked_.tell(report);
-    return;
   }
-  this->baked_.made = false; // in case that there is no memory
-  // Maps that only save time would not if everything moved on.
-  const bool awaitsRest = this->info().mapIsOptional && light.bake != BakeTime::Always;
-  if (awaitsRest && !this->awaited_.serves(wanted))
+  else
   {
-    this->awaited_ = std::move(wanted);
-    this->technique_->dropMaps();
-    report.mapReason =
-      "the light, the casters or what it is fitted to have changed: all is traced, and the map is "
-      "drawn once nothing has changed for a frame";
-    return;
+    this->bake(light, stage, std::move(wanted));
   }
-  this->bake(light, stage, std::move(wanted));
   this->baked_.tell(report);
+}
+
+//------------------------------------------------------------------------------
+/// Maps that only save time are drawn and kept where they do.
+void LightTechnique::updateOptionalMaps(
+  const ShadowLight& light, const MapStage& stage, LightReport& report, Bake wanted)
+{
+  if (!this->wanted_.costsAs(wanted))
+  {
+    this->cost_ = MapCost();
+  }
+  const MapCost::Situation situation = this->baked_.serves(wanted) ? MapCost::Situation::Mapped
+    : this->wanted_.serves(wanted)                                 ? MapCost::Situation::Still
+                                                                   : MapCost::Situation::Changed;
+  const MapCost::Plan plan =
+    this->cost_.plan(situation, { stage.receivers.width(), stage.receivers.height() });
+  report.mapReason = this->cost_.reason();
+  this->usesMap_ = report.mapReason.empty();
+  this->wanted_ = wanted;
+  switch (plan)
+  {
+    case MapCost::Plan::Trace:
+    case MapCost::Plan::Drop:
+      this->baked_.made = false;
+      this->technique_->dropMaps();
+      break;
+    case MapCost::Plan::Compare:
+      break;
+    case MapCost::Plan::Draw:
+    {
+      if (wanted.drawnBy.gpu)
+      {
+        glFinish(); // else the map, whose cells are waited for, would wait for the receivers, too
+      }
+      const double start = stage.now();
+      this->bake(light, stage, std::move(wanted));
+      this->cost_.mapTook(stage.now() - start);
+      this->baked_.tell(report);
+      break;
+    }
+    case MapCost::Plan::Use:
+      this->baked_.takeReasonOf(wanted);
+      this->baked_.tell(report);
+      break;
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -114,7 +156,7 @@ LightViews LightTechnique::layOut(
   if (isFittedToCamera(seen))
   {
     const std::optional<CameraView>& first =
-      this->baked_.camera ? this->baked_.camera : this->awaited_.camera;
+      this->baked_.camera ? this->baked_.camera : this->wanted_.camera;
     fitting.camera = seen.fit == ViewFit::Once && first ? first : stage.camera;
   }
   LightViews views = fitLightViews(seen, fitting);
@@ -163,6 +205,7 @@ LightTechnique::Bake LightTechnique::wantedIn(const ShadowLight& light, const Ma
 //------------------------------------------------------------------------------
 void LightTechnique::bake(const ShadowLight& light, const MapStage& stage, Bake wanted)
 {
+  this->baked_.made = false; // in case that there is no memory
   stage.buffers.update(stage.occluders);
   if (light.fittedToReceivers)
   {
@@ -194,6 +237,15 @@ bool LightTechnique::Bake::serves(const Bake& wanted) const
     (!this->rasterizer || servesChoice(*this->rasterizer, this->drawnBy, *wanted.rasterizer)) &&
     this->topology == wanted.topology && this->positions == wanted.positions &&
     this->receivers == wanted.receivers;
+}
+
+//------------------------------------------------------------------------------
+bool LightTechnique::Bake::costsAs(const Bake& wanted) const
+{
+  return this->made && this->reach == wanted.reach &&
+    this->settings.mapSizeTexels == wanted.settings.mapSizeTexels &&
+    this->settings.storesAs(wanted.settings) && this->views.layout == wanted.views.layout &&
+    this->drawnBy.gpu == wanted.drawnBy.gpu;
 }
 
 //------------------------------------------------------------------------------

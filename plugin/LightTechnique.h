@@ -5,6 +5,8 @@
 #include "lights/LightViews.h"
 #include "lights/MapReach.h"
 #include "lights/ShadowLight.h"
+#include "plugin/Clock.h"
+#include "plugin/MapCost.h"
 #include "plugin/MapRasterizer.h"
 #include "plugin/Route.h"
 #include "shadowtech/Registry.h"
@@ -36,10 +38,12 @@ struct MapStage
   const glm::dmat4& centredFromView; ///< the camera's that they were drawn by
   std::size_t receiversShown;        ///< a hash of what their images depend on
   ///@}
+  Clock now;     ///< by which it is known what drawing maps takes
   int& mapBakes; ///< FrameReport::mapBakes
 };
 
-/// One light's technique, and its maps from frame to frame: what they were drawn from, and so whether they serve.
+/// One light's technique, and its maps from frame to frame: what they were drawn from, and so whether they serve. Whether
+/// maps that there may be or not are worth drawing, MapCost says.
 class LightTechnique
 {
 public:
@@ -56,9 +60,13 @@ public:
   void chooseFit(
     ShadowLight& light, Route route, bool translucentReceivers, LightReport& report) const;
 
-  /// Has the maps drawn where those that there are do not serve.
+  /// Has the maps drawn where those that there are do not serve, and they are worth it.
   /// @throws TextureMemoryError that names the light, for maps without room
   void updateMaps(const ShadowLight& light, const MapStage& stage, LightReport& report);
+  /// Whether this frame's visibility is to be computed with the maps.
+  bool usesMap() const { return this->usesMap_; }
+  /// What that took, on the CPU or waited for there: so it is known what maps save.
+  void visibilityTook(double milliseconds) { this->cost_.visibilityTook(milliseconds); }
 
   /// How the views were laid out in this frame, and others may be: whether or not maps were drawn.
   const ViewFitting& fitting() const { return this->fitting_; }
@@ -82,6 +90,8 @@ private:
 
     /// Whether maps that were baked from this serve where others are wanted.
     bool serves(const Bake& wanted) const;
+    /// Whether it takes about as long to draw.
+    bool costsAs(const Bake& wanted) const;
     /// Whoever drew maps that serve may have been chosen anew, for another reason.
     void takeReasonOf(const Bake& wanted);
     void tell(LightReport& report) const;
@@ -91,13 +101,17 @@ private:
     const ShadowLight& light, Route route, bool translucentReceivers) const;
   LightViews layOut(const ShadowLight& light, const MapStage& stage, const MapReach& reach);
   Bake wantedIn(const ShadowLight& light, const MapStage& stage);
+  void updateOptionalMaps(
+    const ShadowLight& light, const MapStage& stage, LightReport& report, Bake wanted);
   void bake(const ShadowLight& light, const MapStage& stage, Bake wanted);
 
   const EstimatorEntry* estimator_;
   std::unique_ptr<Technique> technique_;
   ViewFitting fitting_;
   Bake baked_;
-  Bake awaited_; ///< what maps were last not drawn from, to see whether it is still wanted
+  Bake wanted_;  ///< what maps that only save time were to be drawn from in the frame before
+  MapCost cost_; ///< of maps that only save time
+  bool usesMap_ = true;
   ReceiverFit receiverFit_;
 };
 

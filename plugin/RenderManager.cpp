@@ -19,13 +19,6 @@ namespace gnomon
 namespace
 {
 
-using Clock = std::chrono::steady_clock;
-
-double millisecondsSince(Clock::time_point start)
-{
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
-
 /// What draws, by the name that OpenGL gives it.
 std::string rendererName()
 {
@@ -66,7 +59,7 @@ void RenderManager::beginFrame(bool measureStages)
   {
     glFinish(); // what was pending before the frame is not the frame's
   }
-  this->frameStart_ = this->stageStart_ = Clock::now();
+  this->frameStart_ = this->stageStart_ = steadyMilliseconds();
   this->compilesBefore_ = this->library_.compiles() + this->shaders_.rebuilds();
 }
 
@@ -76,8 +69,8 @@ void RenderManager::endStageClock(const std::string& name)
   if (this->measureStages_)
   {
     glFinish();
-    this->report_.stages.push_back({ name, millisecondsSince(this->stageStart_) });
-    this->stageStart_ = Clock::now();
+    this->report_.stages.push_back({ name, steadyMilliseconds() - this->stageStart_ });
+    this->stageStart_ = steadyMilliseconds();
   }
 }
 
@@ -196,7 +189,7 @@ void RenderManager::bakeMaps(int wishedRasterizer)
   }
   const MapStage stage{ this->camera_, this->collector_.occluders(), this->buffers_, rasterizer,
     this->library_, this->receiverTarget_, this->stageValues_.space.centredFromView,
-    this->receiversShown_, this->report_.mapBakes };
+    this->receiversShown_, steadyMilliseconds, this->report_.mapBakes };
   for (CastingLight& casting : this->lights_)
   {
     LightReport& report = reportOf(this->report_, casting.light);
@@ -299,13 +292,16 @@ void RenderManager::fillLayers(
     case Evaluation::ScreenCpu:
     {
       std::vector<float> visibility;
+      const double start = steadyMilliseconds();
       namingLight(light,
         [&]
         {
-          technique.computeVisibility({ light, casting.own.fitting(), occluders, receivers,
-                                        this->tracer_.tracer(), classes, this->report_.mapBakes },
+          technique.computeVisibility(
+            { light, casting.own.fitting(), occluders, receivers, this->tracer_.tracer(),
+              casting.own.usesMap(), classes, this->report_.mapBakes },
             visibility, report);
         });
+      casting.own.visibilityTook(steadyMilliseconds() - start);
       this->endStageClock("visibility: trace");
       this->layers_.upload(casting.layer, visibility);
       this->endStageClock("visibility: upload");
@@ -349,7 +345,7 @@ void RenderManager::endFrame()
       bytesOf(this->receiverImages_.fragments) + this->receivers_.bytes() +
       this->tracer_.bytesOfRays();
   }
-  report.wallMilliseconds = millisecondsSince(this->frameStart_);
+  report.wallMilliseconds = steadyMilliseconds() - this->frameStart_;
 }
 
 //------------------------------------------------------------------------------

@@ -3,6 +3,7 @@
 
 #include "lights/CameraView.h"
 #include "plugin/CastingLights.h"
+#include "plugin/Clock.h"
 #include "plugin/FrameTracer.h"
 #include "plugin/MapRasterizer.h"
 #include "plugin/OccluderCollector.h"
@@ -19,7 +20,6 @@
 
 #include <glm/glm.hpp>
 
-#include <chrono>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -97,8 +97,8 @@ private:
 
   FrameReport report_;
   bool measureStages_ = false;
-  std::chrono::steady_clock::time_point frameStart_;
-  std::chrono::steady_clock::time_point stageStart_;
+  double frameStart_ = 0.0; ///< by steadyMilliseconds()
+  double stageStart_ = 0.0; ///< likewise
   int compilesBefore_ = 0;
 
   glm::ivec2 size_{ 0 }; ///< of this frame's picture, in pixels

@@ -171,6 +171,7 @@ struct ScreenInput
   const Occluders& occluders;
   Receivers& receivers;
   ShadowTracer& tracer; ///< its structure is up to date with the occluders
+  bool usesMap; ///< false: what the light baked is not to be used (TechniqueInfo::mapIsOptional)
   /// Where not null: to be filled with each pixel's class, an index into TechniqueInfo::classes.
   std::vector<std::uint8_t>* classes;
   int& mapBakes; ///< FrameReport::mapBakes

@@ -120,6 +120,20 @@ TEST(ComparisonRun, ThePlanSaysTheTracer)
   EXPECT_EQ(variant(results, "silhouette 64").error.meanAbsolute, 0.0);
 }
 
+/// Though lights have moved before, so that tracing all takes less time than another map.
+TEST(ComparisonRun, PixelsAreCountedAsTheMapDecidesThem)
+{
+  ComparisonPlan plan;
+  plan.techniques = { "silhouette" };
+  plan.mapSizesTexels = { 1024 };
+  plan.width = 140;
+  plan.height = 140;
+  plan.frames = 1;
+  const ComparisonResults results = runComparison(loadScene("cube"), plan, {});
+  EXPECT_LT(2 * variant(results, "silhouette 1024").tracedPixels,
+    variant(results, "raytraced").tracedPixels);
+}
+
 TEST(ComparisonRun, VisibilityReadOffPicturesAgreesWithTheImage)
 {
   // The same technique by both routes: one image is handed out, the other read off pictures.

@@ -482,7 +482,7 @@ public:
     const ViewFitting fitting;
     int mapBakes = 0;
     const ScreenInput input{ this->picture_.light, fitting, this->picture_.occluders,
-      this->receivers_, this->tracer_, &classes, mapBakes };
+      this->receivers_, this->tracer_, true, &classes, mapBakes };
     run.traced = Chain(stages, this->maps_, nullptr, this->fans_, input).run(run.visibility);
     for (const std::uint8_t pixel : classes)
     {
