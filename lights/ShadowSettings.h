@@ -88,7 +88,7 @@ enum class AdjacencyRing
 enum class BakeTime
 {
   Settled, ///< once what it depends on has been still for long enough to be worth it, and kept while it pays
-  Always   ///< at once
+  Always ///< at once
 };
 
 /// Which neighbours of a triangle count as adjacent to it.
