@@ -135,7 +135,9 @@ const std::vector<SoftCase>& softCases()
       things([](PassScene& scene) { return addDisk(scene, over, down, 0.5); }) },
     { "zeroSize", 0.0002, { { 0.0005, 0 }, { 0.0005, 0 }, { 0.0005, 0 }, { 0.0002, 0 } },
       things([](PassScene& scene) { return addDisk(scene, over, down, 0.0); }) },
-    { "tinySun", 0.0002, { { 0.0009, 0 }, { 0.0009, 0 }, { 0.0009, 0 }, { 0.0002, 0 } },
+    // The hard shadow's edges are off by texels' shares: by 0.0002 to 0.0019 as the map lies, and by the mean of that where, of
+    // "sampled", it lies in many ways.
+    { "tinySun", 0.0002, { { 0.0009, 0 }, { 0.0009, 0 }, { 0.0013, 0 }, { 0.0002, 0 } },
       things([](PassScene& scene) { return addSun(scene, slanting, "1e-6"); }) },
     // On the box's top, in it and close to it; around, in and at casters.
     { "diskOnTheBox", 0.0002, { { 0.0015, 0 }, { 0.0064, 0 }, { 0.0002, 0 }, { 0.0002, 0 } },
