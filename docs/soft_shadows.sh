@@ -13,7 +13,7 @@ out=out/soft
 mkdir -p "$out"
 
 techniques=nsm,planar:planes=64,pcss:pcss_samples=low,pcss,pcss:pcss_samples=high
-for rays in 1 2 3 4 8 16; do
+for rays in 1 2 3 4 8; do
   techniques+=",montecarlo:mc_rays=$rays"
 done
 techniques+=,montecarlo:mc_filter=0,montecarlo:mc_layers=near_far
@@ -21,7 +21,6 @@ for samples in 4 16 64 256; do
   techniques+=",sampled:light_samples=$samples,coherence:light_samples=$samples"
   techniques+=",penumbra:light_samples=$samples,raytraced:light_samples=$samples"
 done
-techniques+=,penumbra:light_samples=1024 # which may have the time of fewer rays
 for sampling in jittered random; do
   for samples in 4 16 64 256; do
     techniques+=",raytraced:light_sampling=$sampling:light_samples=$samples"
