@@ -112,7 +112,7 @@ void LightTechnique::updateOptionalMaps(
   const MapCost::Plan plan =
     this->cost_.plan(situation, { stage.receivers.width(), stage.receivers.height() });
   report.mapReason = this->cost_.reason();
-  this->usesMap_ = report.mapReason.empty();
+  this->usesMap_ = plan == MapCost::Plan::Draw || plan == MapCost::Plan::Use;
   this->wanted_ = wanted;
   switch (plan)
   {
