@@ -39,7 +39,7 @@ compare() {
 
 # compareTruths SCENE OPTION... : the truth against a second truth, which is its own error; nobody asks for times
 compareTruths() {
-  measure "$1.truth" "$1" --techniques raytraced:light_samples=4096 --frames 1 "${@:2}"
+  measure "$1.truth" "$1" --techniques raytraced:light_samples=4096 --frames 0 "${@:2}"
 }
 
 # Scenes with lamps whose sides are a tenth of the scene, and scenes whose sun gets that size, about.

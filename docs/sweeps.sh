@@ -16,8 +16,8 @@ hybrids=coherence,crsm:as_published=on,crsm,crsma:as_published=on,crsma,silhouet
 out=out/sweeps
 mkdir -p "$out"
 
-frames=1
-# compare NAME SCENE OPTION... : into $out/NAME; one frame where nobody asks for times
+frames=0
+# compare NAME SCENE OPTION... : into $out/NAME; without times where nobody asks for them
 compare() {
   compareOnce "$out/$1" "$2" --frames "$frames" --route image "${@:3}"
 }

@@ -136,8 +136,10 @@ void addCompareCommand(CLI::App& app)
   addSettingOptions(*command, options->plan.settings, { "technique", "map_size" });
   command->add_option("--size", options->size, "Window size in pixels, WIDTHxHEIGHT")
     ->capture_default_str();
-  command->add_option("--frames", options->plan.frames, "Timed frames per variant and motion")
-    ->check(CLI::Range(1, 10000))
+  command
+    ->add_option("--frames", options->plan.frames,
+      "Timed frames per variant and motion; 0: none, errors alone")
+    ->check(CLI::Range(0, 10000))
     ->capture_default_str();
   command
     ->add_option("--truth-samples", options->plan.truthSamples,

@@ -244,6 +244,13 @@ const char* motionKey(Motion motion)
 }
 
 //------------------------------------------------------------------------------
+std::vector<Motion> timedMotions(const ComparisonResults& results)
+{
+  return results.frames > 0 ? std::vector<Motion>(allMotions.begin(), allMotions.end())
+                            : std::vector<Motion>();
+}
+
+//------------------------------------------------------------------------------
 std::vector<std::string> classNames(const ComparisonResults& results)
 {
   std::vector<std::string> names;

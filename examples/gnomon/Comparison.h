@@ -136,7 +136,7 @@ struct ComparisonResults
   std::string scene;
   int width = 0;
   int height = 0;
-  int frames = 0; ///< timed frames per variant and motion
+  int frames = 0; ///< timed frames per variant and motion; 0: no motion was timed
   std::size_t triangles = 0;
   int lights = 0;    ///< that cast
   std::string truth; ///< the name of the variant that the others are measured against
@@ -145,6 +145,9 @@ struct ComparisonResults
   std::vector<std::string> notes; ///< about the scene, each a sentence
   std::vector<VariantResult> variants;
 };
+
+/// The motions under which frames were timed: all or none.
+std::vector<Motion> timedMotions(const ComparisonResults& results);
 
 /// The names of all classes that any variant tells, in order of appearance.
 std::vector<std::string> classNames(const ComparisonResults& results);

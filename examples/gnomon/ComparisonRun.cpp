@@ -235,9 +235,18 @@ private:
   const ProgressFunction& progress_;
 };
 
+/// Frames of each motion of which every stage is timed.
 int measuredFrames(const ComparisonPlan& plan)
 {
   return std::clamp(plan.frames / 3, 1, 9);
+}
+
+/// Frames of each variant and motion, with those for warming up.
+std::size_t framesPerMotion(const ComparisonPlan& plan)
+{
+  return plan.frames > 0
+    ? static_cast<std::size_t>(warmUpFrames + plan.frames + measuredFrames(plan))
+    : 0;
 }
 
 void timeWholeFrames(
@@ -524,11 +533,12 @@ std::vector<std::pair<std::string, std::string>> listSettings(
       std::to_string(plan.width) + " x " + std::to_string(plan.height) +
         " pixels, one sample per pixel" },
     { "Timed frames",
-      std::to_string(plan.frames) + " per variant and motion, after " +
-        std::to_string(warmUpFrames) + " for warming up" },
-    { "Frames measured by stage", std::to_string(measuredFrames(plan)) + " per motion" },
+      plan.frames > 0 ? std::to_string(plan.frames) + " per variant and motion, after " +
+          std::to_string(warmUpFrames) + " for warming up, and " +
+          std::to_string(measuredFrames(plan)) + " by stage; " +
+          "camera and lights turn by 0.05 degrees per frame"
+                      : "none" },
     { "Tracer of shadow rays", truth.tracer + " (" + truth.tracerReason + ")" },
-    { "Motion", "camera and lights turn by 0.05 degrees per frame" },
     { "Gnomon", GNOMON_VERSION },
     { "VTK", vtkVersion::GetVTKVersion() },
     { "OpenGL", openGlName(window) },
@@ -554,9 +564,7 @@ ComparisonResults runComparison(
   const Scene scene = sceneOf(plan, original);
   std::vector<std::string> leftOut;
   const std::vector<VariantSpec> specs = listVariants(plan, scene, leftOut);
-  const std::size_t framesPerMotion =
-    static_cast<std::size_t>(warmUpFrames + plan.frames + measuredFrames(plan));
-  StepCounter steps(2 * specs.size() + allMotions.size() * framesPerMotion, progress);
+  StepCounter steps(2 * specs.size() + allMotions.size() * framesPerMotion(plan), progress);
 
   Variants variants;
   Variant* truthVariant = nullptr;
@@ -575,7 +583,8 @@ ComparisonResults runComparison(
   describeScene(results, scene, truthVariant->pass()->GetReport());
   results.notes.insert(results.notes.end(), leftOut.begin(), leftOut.end());
 
-  for (Motion motion : allMotions)
+  results.frames = plan.frames;
+  for (Motion motion : timedMotions(results))
   {
     timeWholeFrames(variants, motion, plan, steps);
     timeStages(variants, motion, plan, steps);
@@ -586,7 +595,6 @@ ComparisonResults runComparison(
   results.scene = scene.name;
   results.width = plan.width;
   results.height = plan.height;
-  results.frames = plan.frames;
   results.truth = truthVariant->result.name;
   results.settings = listSettings(plan, truthVariant->pass()->GetReport(), truthVariant->window());
   for (const std::unique_ptr<Variant>& variant : variants)

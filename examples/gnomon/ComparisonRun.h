@@ -27,7 +27,7 @@ struct ComparisonPlan
   int rasterizer = 0;              ///< a vtkGnomonShadowPass::RasterizerType, for conservative maps
   int width = 1024;
   int height = 1024;
-  int frames = 21;         ///< timed frames per variant and motion
+  int frames = 21;         ///< timed frames per variant and motion; 0: only errors are asked for
   int truthSamples = 4096; ///< of each area light for every pixel, by which errors are told
 };
 

@@ -78,8 +78,12 @@ void writeReport(const ComparisonResults& results, const std::string& folder)
       writePicture(variant.classPicture, (base / (stem + "-classes.png")).string());
     }
   }
-  const Picture chart = drawChart(results);
-  writePicture(chart, (base / "chart.png").string());
+  Picture chart;
+  if (results.frames > 0)
+  {
+    chart = drawChart(results);
+    writePicture(chart, (base / "chart.png").string());
+  }
   writeText(base / "results.csv", toCsv(results));
   writeText(base / "results.json", toJson(results));
   writeText(base / "report.html", toHtml(results, chart));

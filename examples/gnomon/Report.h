@@ -17,7 +17,7 @@ std::string toJson(const ComparisonResults& results);
 
 /// The report for people: one HTML file that needs neither a network nor other files; it is
 /// well-formed XML too.
-/// @param chart the chart of error against time (ReportChart.h)
+/// @param chart the chart of error against time (ReportChart.h); without pixels: nothing was timed
 std::string toHtml(const ComparisonResults& results, const Picture& chart);
 
 /// The name of a variant in file names: "nsm 1024 inline" becomes "nsm-1024-inline".
@@ -27,7 +27,7 @@ std::string fileStem(const std::string& variantName);
 /// @throws BadInput
 void prepareReportFolder(const std::string& folder);
 
-/// Writes results.csv, results.json, report.html, chart.png, and for each variant its picture and
+/// Writes results.csv, results.json, report.html, chart.png (if frames were timed), and for each variant its picture and
 /// its errors (<variant>.png, <variant>-errors.png), and where it tells its pixels' classes those
 /// (<variant>-classes.png), into the folder.
 /// @throws BadInput when the folder cannot be made, Failure when writing fails

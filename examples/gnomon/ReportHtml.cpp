@@ -124,11 +124,15 @@ std::string errorTable(const ComparisonResults& results)
 {
   const auto plain = std::find_if(results.variants.begin(), results.variants.end(),
     [](const VariantResult& variant) { return variant.technique == plainTechnique; });
-  std::string html = "<table>\n" +
-    heading({ "Variant", "Wrong pixels", "False light", "False shadow", "Mean error", "RMS error",
-      "Neither lit nor dark", "Traced", "Frame, static", "Frame, camera moving",
-      "Frame, light moving", "Memory" }) +
-    "<tbody>\n";
+  const std::vector<Motion> motions = timedMotions(results);
+  std::vector<std::string> columns = { "Variant", "Wrong pixels", "False light", "False shadow",
+    "Mean error", "RMS error", "Neither lit nor dark", "Traced" };
+  for (Motion motion : motions)
+  {
+    columns.push_back(std::string("Frame, ") + motionName(motion));
+  }
+  columns.push_back("Memory");
+  std::string html = "<table>\n" + heading(columns) + "<tbody>\n";
   for (const VariantResult& variant : results.variants)
   {
     const VisibilityError& error = variant.error;
@@ -136,11 +140,12 @@ std::string errorTable(const ComparisonResults& results)
       pixelCell(error, error.falseLight) + pixelCell(error, error.falseShadow) +
       cell(threeDigits(error.meanAbsolute)) + cell(threeDigits(error.rootMeanSquare)) +
       pixelCell(error, error.betweenPixels) + pixelCell(error, variant.tracedPixels);
-    for (std::size_t motion = 0; motion < allMotions.size(); ++motion)
+    for (Motion motion : motions)
     {
-      const double milliseconds = variant.timings[motion].milliseconds;
+      const auto index = static_cast<std::size_t>(motion);
+      const double milliseconds = variant.timings[index].milliseconds;
       const double reference =
-        plain != results.variants.end() ? plain->timings[motion].milliseconds : 0.0;
+        plain != results.variants.end() ? plain->timings[index].milliseconds : 0.0;
       html += cell(fixed(milliseconds, 1) + " ms",
         reference > 0.0 ? fixed(milliseconds / reference, 2) + " x plain" : std::string());
     }
@@ -153,6 +158,8 @@ std::string errorTable(const ComparisonResults& results)
   }
   return html + "</tbody>\n</table>";
 }
+
+constexpr const char* notTimed = "<p>No frames were timed.</p>";
 
 std::string stageTable(const ComparisonResults& results)
 {
@@ -172,7 +179,7 @@ std::string stageTable(const ComparisonResults& results)
   }
   if (names.empty())
   {
-    return "<p>No variant has stages.</p>";
+    return results.frames > 0 ? "<p>No variant has stages.</p>" : notTimed;
   }
   std::vector<std::string> columns = { "Variant", "Motion" };
   columns.insert(columns.end(), names.begin(), names.end());
@@ -268,6 +275,14 @@ std::string noteList(const ComparisonResults& results)
   return items.empty() ? std::string() : "<ul>\n" + items + "</ul>\n";
 }
 
+std::string chartFigure(const Picture& chart)
+{
+  return chart.pixelCount() > 0
+    ? "<figure><img alt=\"Chart: wrong pixels against time per frame\" src=\"" + dataUri(chart) +
+      "\" /></figure>"
+    : notTimed;
+}
+
 std::string pictureGrid(const ComparisonResults& results)
 {
   std::string html;
@@ -328,7 +343,7 @@ std::string toHtml(const ComparisonResults& results, const Picture& chart)
       { "dark", fixed(static_cast<double>(VisibilityError::darkBelow), 1) },
       { "lit", fixed(static_cast<double>(VisibilityError::litAbove), 1) },
       { "frames", std::to_string(results.frames) },
-      { "chart", dataUri(chart) },
+      { "chart", chartFigure(chart) },
       { "pictures", pictureGrid(results) },
       { "stages", stageTable(results) },
       { "classes", classTable(results) },

@@ -87,7 +87,7 @@ CsvRow csvHeading(const ComparisonResults& results)
   {
     row << std::string(name);
   }
-  for (Motion motion : allMotions)
+  for (Motion motion : timedMotions(results))
   {
     const std::string key = motionKey(motion);
     row << key + "_ms";
@@ -118,7 +118,7 @@ CsvRow csvRow(const ComparisonResults& results, const VariantResult& variant)
   row << error.facingPixels << error.wrongPixels() << error.share(error.wrongPixels())
       << error.falseLight << error.falseShadow << error.meanAbsolute << error.rootMeanSquare
       << error.betweenPixels << error.share(error.betweenPixels) << variant.tracedPixels;
-  for (Motion motion : allMotions)
+  for (Motion motion : timedMotions(results))
   {
     const MotionTiming& times = timing(variant, motion);
     row << times.milliseconds;
@@ -140,7 +140,7 @@ CsvRow csvRow(const ComparisonResults& results, const VariantResult& variant)
   return row;
 }
 
-nlohmann::ordered_json jsonOf(const VariantResult& variant)
+nlohmann::ordered_json jsonOf(const ComparisonResults& results, const VariantResult& variant)
 {
   const VisibilityError& error = variant.error;
   nlohmann::ordered_json json = {
@@ -163,7 +163,7 @@ nlohmann::ordered_json jsonOf(const VariantResult& variant)
       } },
     { "traced_pixels", variant.tracedPixels },
   };
-  for (Motion motion : allMotions)
+  for (Motion motion : timedMotions(results))
   {
     const MotionTiming& times = timing(variant, motion);
     nlohmann::ordered_json& target = json["times"][motionKey(motion)];
@@ -233,7 +233,7 @@ std::string toJson(const ComparisonResults& results)
   json["variants"] = nlohmann::ordered_json::array();
   for (const VariantResult& variant : results.variants)
   {
-    json["variants"].push_back(jsonOf(variant));
+    json["variants"].push_back(jsonOf(results, variant));
   }
   // File names given by users may hold bytes that are not UTF-8.
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";

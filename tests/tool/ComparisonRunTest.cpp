@@ -84,6 +84,29 @@ TEST(ComparisonRun, MeasuresErrorsAgainstTheTruth)
   }
 }
 
+TEST(ComparisonRun, WithoutTimedFramesErrorsAreTheSame)
+{
+  ComparisonPlan plan;
+  plan.techniques = { "nsm" };
+  plan.mapSizesTexels = { 256 };
+  plan.width = 140;
+  plan.height = 140;
+  plan.frames = 0;
+  double done = 0.0;
+  const ComparisonResults results =
+    runComparison(loadScene("cube"), plan, [&done](double share) { done = share; });
+  EXPECT_DOUBLE_EQ(done, 1.0);
+  EXPECT_TRUE(timedMotions(results).empty());
+  ASSERT_EQ(results.variants.size(), cubeResults().variants.size());
+  for (const VariantResult& result : results.variants)
+  {
+    const VariantResult& timed = variant(cubeResults(), result.name);
+    EXPECT_EQ(result.error.falseLight, timed.error.falseLight) << result.name;
+    EXPECT_EQ(result.error.falseShadow, timed.error.falseShadow) << result.name;
+    EXPECT_EQ(result.picture.rgb, timed.picture.rgb) << result.name;
+  }
+}
+
 TEST(ComparisonRun, ThePlanSaysTheKernelAndNotTheScene)
 {
   Scene scene = loadScene("cube");
@@ -94,7 +117,7 @@ TEST(ComparisonRun, ThePlanSaysTheKernelAndNotTheScene)
   plan.inlineRoute = false;
   plan.width = 140;
   plan.height = 140;
-  plan.frames = 1;
+  plan.frames = 0;
   const auto errorOf = [&](int kernelTexels)
   {
     const std::string size = std::to_string(kernelTexels);
@@ -112,7 +135,7 @@ TEST(ComparisonRun, ThePlanSaysTheTracer)
   plan.mapSizesTexels = { 64 };
   plan.width = 140;
   plan.height = 140;
-  plan.frames = 1;
+  plan.frames = 0;
   plan.tracer = vtkGnomonShadowPass::TRACER_GPU;
   const ComparisonResults results = runComparison(loadScene("cube"), plan, {});
   EXPECT_THAT(
@@ -195,7 +218,7 @@ TEST(ComparisonRun, AllTechniquesCountTheSamePixels)
   plan.mapSizesTexels = { 128 };
   plan.width = 64;
   plan.height = 64;
-  plan.frames = 1;
+  plan.frames = 0;
   const ComparisonResults results = runComparison(loadScene("posts"), plan, {});
   const std::int64_t facing = variant(results, "raytraced").error.facingPixels;
   EXPECT_GT(facing, 1000);
@@ -225,7 +248,7 @@ TEST(ComparisonRun, ColoursOfPicturesAreItsNumbers)
   plan.mapSizesTexels = { 64 };
   plan.width = 160;
   plan.height = 160;
-  plan.frames = 1;
+  plan.frames = 0;
   const ComparisonResults results = runComparison(loadScene("posts"), plan, {});
   std::int64_t falseLight = 0, falseShadow = 0, turnedAway = 0;
   for (const VariantResult& result : results.variants)
@@ -303,7 +326,7 @@ TEST(ComparisonRun, MeasuresSoftShadowsAgainstManySamples)
   plan.inlineRoute = false;
   plan.width = 64;
   plan.height = 64;
-  plan.frames = 1;
+  plan.frames = 0;
   const ComparisonResults results = runComparison(loadScene("soft-stack"), plan, {});
   EXPECT_THAT(results.notes,
     testing::Contains(testing::HasSubstr("The truth has 4096 samples of each area light")));
@@ -326,7 +349,7 @@ ComparisonPlan softPlan(std::vector<std::string> techniques)
   plan.inlineRoute = false;
   plan.width = 64;
   plan.height = 64;
-  plan.frames = 1;
+  plan.frames = 0;
   return plan;
 }
 
@@ -446,7 +469,7 @@ TEST(ComparisonRun, ASceneWithoutCastingLightsIsBadInput)
   ComparisonPlan plan;
   plan.width = 32;
   plan.height = 32;
-  plan.frames = 1;
+  plan.frames = 0;
   const std::string message = messageOf<BadInput>([&] { runComparison(scene, plan, {}); });
   EXPECT_NE(message.find("no light casts a shadow"), std::string::npos) << message;
 }
@@ -489,7 +512,7 @@ TEST(CompareCommand, RefusesBadInputBeforeDrawing)
   EXPECT_THROW(compare({ "cube", "-o", report, "--size", "0x10" }), BadInput);
   EXPECT_THROW(compare({ "cube", "-o", report, "--techniques", "nsm,magic" }), BadInput);
   EXPECT_THROW(compare({ "cube", "-o", report, "--map-sizes", "7" }), CLI::ParseError);
-  EXPECT_THROW(compare({ "cube", "-o", report, "--frames", "0" }), CLI::ParseError);
+  EXPECT_THROW(compare({ "cube", "-o", report, "--frames", "-1" }), CLI::ParseError);
   EXPECT_THROW(compare({ "cube", "-o", report, "--route", "scenic" }), CLI::ParseError);
   EXPECT_THROW(compare({ "cube", "-o", report, "--tracer", "optix" }), CLI::ParseError);
   EXPECT_THROW(compare({ "cube", "-o", report, "--rasterizer", "pencil" }), CLI::ParseError);

@@ -206,6 +206,41 @@ TEST(Report, WritesEveryFile)
   EXPECT_EQ(red, 40);
 }
 
+TEST(Report, WithoutTimedFramesNothingSaysATime)
+{
+  ComparisonResults results = syntheticResults();
+  results.frames = 0;
+  for (VariantResult& variant : results.variants)
+  {
+    variant.timings = {};
+  }
+  const auto rows = table(toCsv(results));
+  EXPECT_EQ(rows[2][column(rows, "wrong_pixels")], "100");
+  EXPECT_EQ(rows[2].size(), rows[0].size());
+  for (const std::string& name : rows[0])
+  {
+    EXPECT_EQ(name.find("_ms"), std::string::npos) << name;
+    EXPECT_EQ(name.find("stage"), std::string::npos) << name;
+  }
+  const nlohmann::json json = nlohmann::json::parse(toJson(results));
+  EXPECT_EQ(json.at("frames"), 0);
+  EXPECT_FALSE(json.at("variants").at(1).contains("times"));
+
+  const TestFolder folder;
+  const std::string target = folder / "report";
+  writeReport(results, target);
+  EXPECT_FALSE(std::filesystem::exists(std::filesystem::path(target) / "chart.png"));
+  const std::string html = toHtml(results, {});
+  EXPECT_NE(html.find("No frames were timed."), std::string::npos);
+  EXPECT_EQ(html.find("Frame, static"), std::string::npos);
+  EXPECT_EQ(html.find("0.0 ms"), std::string::npos);
+  EXPECT_EQ(html.find("alt=\"Chart"), std::string::npos);
+  std::istringstream text(html);
+  vtkNew<vtkXMLDataParser> parser;
+  parser->SetStream(&text);
+  EXPECT_EQ(parser->Parse(), 1);
+}
+
 TEST(Report, AFolderThatCannotBeMadeIsBadInput)
 {
   const TestFolder folder;
