@@ -29,6 +29,8 @@ struct Receiver
   vec3 position;
   vec3 normal;
   float offset; // how far above the surface rays begin to count, in world units
+  int view;     // the first that has it on its map; negative: none
+  float own;    // how far above its plane its texel there holds its own surface, in planeOf()'s measure
 };
 
 // The part of a ray that is on a view's map, in ray space.
@@ -38,6 +40,43 @@ struct Segment
   vec3 end;   // at the light
   bool any;
 };
+
+// The receiver's plane in ray space. Points (u, v, p, 1) are in it, above it or below by their product, which is their distance in
+// the world over w.
+vec4 planeOf(Receiver receiver, int view)
+{
+  return vec4(receiver.normal, -dot(receiver.normal, receiver.position)) * viewFromRay[view];
+}
+
+// Where surfaces bend, another triangle may be in the middle of the receiver's texel, whose depth is that of the whole texel, and
+// rise above the receiver's plane till there. What begins less than a quarter of a texel above the plane counts as the same
+// surface: of a valley it may rise by 27 degrees within half a texel. Without it, smooth meshes with triangles of a texel's size have dark pixels.
+void findOwnSurface(inout Receiver receiver)
+{
+  for (int view = 0; view < viewCount && receiver.view < 0; ++view)
+  {
+    vec4 at = rayFromView[view] * vec4(receiver.position, 1.0);
+    vec2 texel = floor(at.xy / at.w);
+    if (at.w <= 0.0 || any(lessThan(texel, vec2(0.0))) ||
+      any(greaterThanEqual(texel, vec2(mapSide))))
+    {
+      continue;
+    }
+    receiver.view = view;
+    vec4 plane = planeOf(receiver, view);
+    vec3 along = viewFromRay[view][0].xyz;
+    vec3 across = viewFromRay[view][1].xyz;
+    float most = 0.25 * min(sqrt(dot(along, along)), sqrt(dot(across, across)));
+    for (int i = 0; i < PAGES; ++i)
+    {
+      vec4 page = texelFetch(slabs, ivec3(texel, view * PAGES + i), 0);
+      vec2 above = vec2(dot(plane, vec4(texel + 0.5, page.x, 1.0)),
+        dot(plane, vec4(texel + 0.5, page.z, 1.0)));
+      receiver.own = max(receiver.own, above.x < most ? above.x : 0.0);
+      receiver.own = max(receiver.own, above.y < most ? above.y : 0.0);
+    }
+  }
+}
 
 // Cuts the range in which position + t * way is on the positive side of a plane.
 void cut(inout vec2 range, float position, float way)
@@ -79,11 +118,12 @@ Segment onMap(int view, Receiver receiver, vec3 way, float length, vec2 depths, 
   segment.end = end.xyz / end.w;
 
   // The receiver may itself be in the map, as one depth for all of a texel. Rays count from where they are as far before its
-  // plane as that is off within half a texel, and for rounding: also of the corners of triangles, which are drawn to within
-  // 1/256 of a texel.
-  vec4 plane = vec4(receiver.normal, -dot(receiver.normal, receiver.position)) * viewFromRay[view];
+  // plane, or before what bends up from it, as that is off within half a texel, and for rounding: also of the corners of
+  // triangles, which are drawn to within 1/256 of a texel.
+  vec4 plane = planeOf(receiver, view);
   float rounding = 7.6293945e-6 * max(abs(segment.begin.z), abs(segment.end.z)); // 2^-17
-  float limit = 0.51 * (abs(plane.x) + abs(plane.y)) + rounding * abs(plane.z);
+  float limit = 0.51 * (abs(plane.x) + abs(plane.y)) + rounding * abs(plane.z) +
+    (view == receiver.view ? receiver.own : 0.0);
   vec2 before = rising * range / vec2(begin.w, end.w);
   if (before.y <= limit)
   {
@@ -264,7 +304,7 @@ void main()
     return;
   }
   vec4 point = texelFetch(receiverPoints, pixel, 0);
-  Receiver receiver = Receiver(point.xyz, vec3(fragment.zw, point.w), 0.0);
+  Receiver receiver = Receiver(point.xyz, vec3(fragment.zw, point.w), 0.0, -1, 0.0);
   float footprint = pixelSide.x + pixelSide.y * -point.z;
   receiver.offset = shadowRayOffset(2.3841858e-7 * length(point.xyz), footprint); // 2^-22
   vec3 toCentre = lightView.xyz - lightView.w * receiver.position;
@@ -274,6 +314,7 @@ void main()
     return;
   }
 
+  findOwnSurface(receiver);
   vec2 depths = viewCount > 0 ? depthsOf(0) : vec2(0.0);
 #ifdef CLASSIFY_PIXELS
   float pixelClass = classOf(receiver, toCentre, depths);
