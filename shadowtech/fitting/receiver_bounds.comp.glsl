@@ -39,8 +39,9 @@ bool findPlace(vec3 positionLight, out Place place)
 {
   ViewPoint entered;
   bool found = enterView_LIGHT(positionLight, vec3(0.0), entered);
-  vec2 texel = texelBeforeFit_LIGHT(entered.view, acrossOf_LIGHT(entered.position));
-  place = Place(entered.view, vec3(texel, entered.position.z));
+  int view = max(entered.view, 0); // of what no view sees, anything, but no lookup beside the views
+  vec2 texel = texelBeforeFit_LIGHT(view, acrossOf_LIGHT(entered.position));
+  place = Place(view, vec3(texel, entered.position.z));
   return found;
 }
 
