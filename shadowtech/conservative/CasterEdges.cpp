@@ -10,6 +10,7 @@
 #include <cmath>
 #include <numeric>
 #include <tuple>
+#include <utility>
 
 namespace gnomon
 {
@@ -97,12 +98,9 @@ std::vector<NormalCone> normalCones(const Occluders& occluders, const Surface& s
   return cones;
 }
 
-} // namespace
-
-//------------------------------------------------------------------------------
-SurfaceEdges findCasterEdges(const Occluders& occluders, const Surface& surface)
+/// Finds which triangles meet in which edge: those whose sides have the same ends.
+void joinTriangles(const Occluders& occluders, const Surface& surface, SurfaceEdges& found)
 {
-  const std::vector<std::uint32_t> welded = weldedVertices(occluders, surface);
   std::vector<Side> sides(3 * static_cast<std::size_t>(surface.triangleCount));
   tbb::parallel_for(std::uint32_t(0), surface.triangleCount,
     [&](std::uint32_t i)
@@ -110,8 +108,8 @@ SurfaceEdges findCasterEdges(const Occluders& occluders, const Surface& surface)
       const glm::uvec3 corners = occluders.triangles[surface.firstTriangle + i];
       for (int k = 0; k < 3; ++k)
       {
-        const std::uint64_t from = welded[corners[k] - surface.firstVertex];
-        const std::uint64_t to = welded[corners[(k + 1) % 3] - surface.firstVertex];
+        const std::uint64_t from = found.welded[corners[k] - surface.firstVertex];
+        const std::uint64_t to = found.welded[corners[(k + 1) % 3] - surface.firstVertex];
         sides[3 * static_cast<std::size_t>(i) + static_cast<std::size_t>(k)] = {
           std::min(from, to) << 32 | std::max(from, to), surface.firstTriangle + i,
           static_cast<std::uint8_t>(k), from > to
@@ -120,22 +118,11 @@ SurfaceEdges findCasterEdges(const Occluders& occluders, const Surface& surface)
     });
   tbb::parallel_sort(sides.begin(), sides.end());
 
-  const std::vector<glm::dvec3> normals = normalsOf(occluders, surface);
-  const std::vector<NormalCone> cones = normalCones(occluders, surface, welded, normals);
-  const auto coneOf = [&](std::uint32_t vertex) -> const NormalCone&
-  { return cones[vertex - surface.firstVertex]; };
-  // Written so that NaN is sharp.
-  const auto isSharp = [&](std::uint32_t vertex)
-  { return !(coneOf(vertex).leastCosine > sharpCosineToMean); };
-  const auto normalOf = [&](std::uint32_t triangle) -> const glm::dvec3&
-  { return normals[triangle - surface.firstTriangle]; };
-
-  SurfaceEdges result;
-  result.ofTriangle.resize(surface.triangleCount);
-  std::vector<CasterEdge>& edges = result.edges;
+  found.ofTriangle.resize(surface.triangleCount);
+  std::vector<CasterEdge>& edges = found.edges;
   const auto noteNext = [&](const Side& side)
   {
-    result.ofTriangle[side.triangle - surface.firstTriangle][side.corner] =
+    found.ofTriangle[side.triangle - surface.firstTriangle][side.corner] =
       static_cast<std::uint32_t>(edges.size());
   };
   edges.reserve(sides.size() / 2 + sides.size() / 16);
@@ -153,22 +140,15 @@ SurfaceEdges findCasterEdges(const Occluders& occluders, const Surface& surface)
     {
       edge.triangles = { { sides[first].triangle, sides[first + 1].triangle } };
       edge.sameDirection = sides[first].reversed == sides[first + 1].reversed;
-      // Instances may be sheared, which changes angles.
-      const double cosine = (edge.sameDirection ? -1.0 : 1.0) *
-        glm::dot(normalOf(edge.triangles[0]), normalOf(edge.triangles[1]));
-      edge.sharp =
-        surface.isInstanced() || !(cosine > sharpCosine) || isSharp(edge.from) || isSharp(edge.to);
       noteNext(sides[first]);
       noteNext(sides[first + 1]);
       edges.push_back(edge);
     }
     else
     {
-      edge.sharp = true;
       if (last - first == 1)
       {
-        result.rims.push_back(
-          { static_cast<std::uint32_t>(edges.size()), { { coneOf(edge.from), coneOf(edge.to) } } });
+        found.rims.push_back({ static_cast<std::uint32_t>(edges.size()), {} });
       }
       for (std::size_t i = first; i < last; ++i)
       {
@@ -180,8 +160,89 @@ SurfaceEdges findCasterEdges(const Occluders& occluders, const Surface& surface)
     first = last;
   }
   edges.shrink_to_fit();
-  result.rims.shrink_to_fit();
-  return result;
+  found.rims.shrink_to_fit();
+}
+
+/// Where a surface has another place in the snapshot, its vertices and triangles have other numbers.
+void renumber(const Surface& surface, SurfaceEdges& found)
+{
+  // Modulo 2^32, so that it may go either way.
+  const std::uint32_t vertices = surface.firstVertex - found.firstVertex;
+  const std::uint32_t triangles = surface.firstTriangle - found.firstTriangle;
+  if (vertices == 0 && triangles == 0)
+  {
+    return;
+  }
+  for (CasterEdge& edge : found.edges)
+  {
+    edge.from += vertices;
+    edge.to += vertices;
+    for (std::uint32_t& triangle : edge.triangles)
+    {
+      triangle += triangle == CasterEdge::none ? 0 : triangles;
+    }
+  }
+}
+
+/// Finds which edges are sharp, and the normals around the rims' corners.
+void findSharp(const Occluders& occluders, const Surface& surface, SurfaceEdges& found)
+{
+  const std::vector<glm::dvec3> normals = normalsOf(occluders, surface);
+  const std::vector<NormalCone> cones = normalCones(occluders, surface, found.welded, normals);
+  const auto coneOf = [&](std::uint32_t vertex) -> const NormalCone&
+  { return cones[vertex - surface.firstVertex]; };
+  // Written so that NaN is sharp.
+  const auto isSharp = [&](std::uint32_t vertex)
+  { return !(coneOf(vertex).leastCosine > sharpCosineToMean); };
+  const auto normalOf = [&](std::uint32_t triangle) -> const glm::dvec3&
+  { return normals[triangle - surface.firstTriangle]; };
+  tbb::parallel_for(std::size_t(0), found.edges.size(),
+    [&](std::size_t i)
+    {
+      CasterEdge& edge = found.edges[i];
+      // Instances may be sheared, which changes angles.
+      if (edge.triangles[1] == CasterEdge::none || surface.isInstanced())
+      {
+        edge.sharp = true;
+        return;
+      }
+      const double cosine = (edge.sameDirection ? -1.0 : 1.0) *
+        glm::dot(normalOf(edge.triangles[0]), normalOf(edge.triangles[1]));
+      edge.sharp = !(cosine > sharpCosine) || isSharp(edge.from) || isSharp(edge.to);
+    });
+  for (Rim& rim : found.rims)
+  {
+    const CasterEdge& edge = found.edges[rim.edge];
+    rim.corners = { { coneOf(edge.from), coneOf(edge.to) } };
+  }
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+void updateCasterEdges(const Occluders& occluders, const Surface& surface, SurfaceEdges& edges)
+{
+  std::vector<std::uint32_t> welded = weldedVertices(occluders, surface);
+  if (welded != edges.welded)
+  {
+    edges = {};
+    edges.welded = std::move(welded);
+    joinTriangles(occluders, surface, edges);
+  }
+  else
+  {
+    renumber(surface, edges);
+  }
+  edges.firstVertex = surface.firstVertex;
+  edges.firstTriangle = surface.firstTriangle;
+  findSharp(occluders, surface, edges);
+}
+
+//------------------------------------------------------------------------------
+std::size_t SurfaceEdges::bytes() const
+{
+  return bytesOf(this->edges) + bytesOf(this->ofTriangle) + bytesOf(this->rims) +
+    bytesOf(this->welded);
 }
 
 //------------------------------------------------------------------------------
@@ -192,7 +253,7 @@ void CasterEdges::update(const Occluders& occluders)
   {
     return;
   }
-  this->kept_.update(occluders, findCasterEdges);
+  this->kept_.update(occluders, updateCasterEdges);
   std::vector<const SurfaceEdges*> edges(occluders.surfaces.size(), nullptr);
   for (std::size_t i = 0; i < edges.size(); ++i)
   {
@@ -251,9 +312,7 @@ void CasterEdges::joinParts(const Occluders& occluders)
 //------------------------------------------------------------------------------
 std::size_t CasterEdges::bytes() const
 {
-  return this->seams_.bytes() + bytesOf(this->parts_) +
-    this->kept_.bytes([](const SurfaceEdges& found)
-      { return bytesOf(found.edges) + bytesOf(found.ofTriangle) + bytesOf(found.rims); });
+  return this->seams_.bytes() + bytesOf(this->parts_) + this->kept_.bytes();
 }
 
 } // namespace gnomon

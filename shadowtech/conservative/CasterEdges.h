@@ -65,7 +65,23 @@ struct SurfaceEdges
   std::vector<std::array<std::uint32_t, 3>> ofTriangle;
   std::vector<Rim>
     rims; ///< those of its edges that have one triangle, and that no other triangle has
+
+  ///@{
+  /// By what its triangles were joined: as of weldedVertices(), and from where vertices and triangles count.
+  std::vector<std::uint32_t> welded;
+  std::uint32_t firstVertex = 0, firstTriangle = 0;
+  ///@}
+
+  std::size_t bytes() const;
 };
+
+/// Brings the edges of a surface up to date with where its vertices are, and with its place in the snapshot.
+///
+/// All that hangs on positions is found again: which edges are sharp, and the rims' corners. Which triangles meet in
+/// which edge hangs on nothing but which vertices are at the same place. So vertices are welded anew, and where that comes
+/// out as before, however they moved, all that is kept.
+/// @param edges of the same triangles at any other place; or empty, and then all is found
+void updateCasterEdges(const Occluders& occluders, const Surface& surface, SurfaceEdges& edges);
 
 /// The edges of the casting surfaces, kept from snapshot to snapshot.
 ///
@@ -74,7 +90,7 @@ struct SurfaceEdges
 class CasterEdges
 {
 public:
-  /// Finds the edges of surfaces that are new, or whose vertices moved, the seams, and the parts.
+  /// Finds the edges of surfaces that are new, brings those of others up to date, and finds the seams and the parts.
   void update(const Occluders& occluders);
 
   /// Edges of a casting surface.
@@ -100,9 +116,6 @@ private:
   std::uint64_t topologyVersion_ = 0;
   std::uint64_t positionsVersion_ = 0;
 };
-
-/// The edges of one surface. Exposed for tests.
-SurfaceEdges findCasterEdges(const Occluders& occluders, const Surface& surface);
 
 } // namespace gnomon
 

@@ -13,17 +13,19 @@
 namespace gnomon
 {
 
-/// Something that is found once for each casting surface, and kept from snapshot to snapshot.
+/// Something that is found for each casting surface, and kept from snapshot to snapshot.
+/// @tparam Found with bytes(), what it holds elsewhere
 template <typename Found>
 class KeptOfCasters
 {
 public:
-  /// Finds it for surfaces that are new, or whose vertices moved.
-  /// @param find called with a snapshot and a surface of it
-  template <typename Find>
-  void update(const Occluders& occluders, const Find& find)
+  /// Finds it for surfaces that are new, and brings it up to date for those that moved or have another place in the snapshot.
+  /// @param bringUpToDate called with a snapshot, a surface of it, and what was found for the same triangles; a new Found, if nothing
+  /// was
+  template <typename BringUpToDate>
+  void update(const Occluders& occluders, const BringUpToDate& bringUpToDate)
   {
-    // Should finding fail, what was kept is whole, and the rest will be found again.
+    // Should that fail, what is kept is whole, and the rest will be found again.
     std::unordered_map<std::uint64_t, Kept> earlier = std::exchange(this->kept_, {});
     this->bySurface_.assign(occluders.surfaces.size(), nullptr);
     for (const Surface& surface : occluders.surfaces)
@@ -32,21 +34,22 @@ public:
       {
         continue;
       }
+      Kept kept;
       const auto before = earlier.find(surface.topologyVersion);
-      // Of a surface that only moves, vertices that shared a place still do, and angles stay; of one
-      // that is deformed they need not. Both are new positions.
-      if (before != earlier.end() && before->second.positionsVersion == surface.positionsVersion &&
-        before->second.firstVertex == surface.firstVertex &&
-        before->second.firstTriangle == surface.firstTriangle)
+      const bool isNew = before == earlier.end();
+      if (!isNew)
       {
-        this->kept_.emplace(surface.topologyVersion, std::move(before->second));
+        kept = std::move(before->second);
       }
-      else
+      if (isNew || kept.positionsVersion != surface.positionsVersion ||
+        kept.firstVertex != surface.firstVertex || kept.firstTriangle != surface.firstTriangle)
       {
-        this->kept_.emplace(surface.topologyVersion,
-          Kept{ surface.positionsVersion, surface.firstVertex, surface.firstTriangle,
-            find(occluders, surface) });
+        bringUpToDate(occluders, surface, kept.found);
+        kept.positionsVersion = surface.positionsVersion;
+        kept.firstVertex = surface.firstVertex;
+        kept.firstTriangle = surface.firstTriangle;
       }
+      this->kept_.emplace(surface.topologyVersion, std::move(kept));
     }
     for (std::size_t i = 0; i < occluders.surfaces.size(); ++i)
     {
@@ -61,14 +64,12 @@ public:
   /// @param surface index into the snapshot's surfaces, as of the last update
   const Found& of(std::size_t surface) const { return *this->bySurface_[surface]; }
 
-  /// @param bytesOfFound what one of them holds elsewhere
-  template <typename BytesOfFound>
-  std::size_t bytes(const BytesOfFound& bytesOfFound) const
+  std::size_t bytes() const
   {
     std::size_t bytes = bytesOfTable(this->kept_) + bytesOf(this->bySurface_);
     for (const auto& entry : this->kept_)
     {
-      bytes += bytesOfFound(entry.second.found);
+      bytes += entry.second.found.bytes();
     }
     return bytes;
   }

@@ -79,7 +79,7 @@ void EdgeTree::update(const Occluders& occluders)
     return;
   }
   this->topologyVersion_ = 0; // should anything fail
-  this->found_.update(occluders, findCasterEdges);
+  this->found_.update(occluders, updateCasterEdges);
   this->triangles_.clear();
   this->corners_.clear();
   this->bounds_.clear();
@@ -405,9 +405,7 @@ std::size_t EdgeTree::bytes() const
 {
   return bytesOf(this->triangles_) + bytesOf(this->corners_) + bytesOf(this->bounds_) +
     bytesOf(this->opaqueBounds_) + bytesOf(this->edges_) + bytesOf(this->nodes_) +
-    bytesOf(this->records_) + bytesOf(this->cones_) +
-    this->found_.bytes([](const SurfaceEdges& found)
-      { return bytesOf(found.edges) + bytesOf(found.ofTriangle) + bytesOf(found.rims); });
+    bytesOf(this->records_) + bytesOf(this->cones_) + this->found_.bytes();
 }
 
 } // namespace gnomon

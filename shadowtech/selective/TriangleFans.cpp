@@ -3,24 +3,33 @@
 #include "shadowtech/base/Bytes.h"
 #include "shadowtech/conservative/WeldedVertices.h"
 
+#include <utility>
+
 namespace gnomon
 {
 
 //------------------------------------------------------------------------------
-SurfaceFans findFans(const Occluders& occluders, const Surface& surface)
+void updateFans(const Occluders& occluders, const Surface& surface, SurfaceFans& fans)
 {
-  const std::vector<std::uint32_t> welded = weldedVertices(occluders, surface);
-  SurfaceFans fans;
   fans.firstTriangle = surface.firstTriangle;
-  fans.corners.reserve(surface.triangleCount);
-  fans.begin.assign(static_cast<std::size_t>(surface.vertexCount) + 1, 0);
+  const std::vector<std::uint32_t> welded = weldedVertices(occluders, surface);
+  std::vector<glm::uvec3> triangles(surface.triangleCount);
   for (std::uint32_t i = 0; i < surface.triangleCount; ++i)
   {
     const glm::uvec3 corners = occluders.triangles[surface.firstTriangle + i] - surface.firstVertex;
-    fans.corners.emplace_back(welded[corners.x], welded[corners.y], welded[corners.z]);
+    triangles[i] = { welded[corners.x], welded[corners.y], welded[corners.z] };
+  }
+  if (triangles == fans.corners)
+  {
+    return;
+  }
+  fans.corners = std::move(triangles);
+  fans.begin.assign(static_cast<std::size_t>(surface.vertexCount) + 1, 0);
+  for (const glm::uvec3& corners : fans.corners)
+  {
     for (int k = 0; k < 3; ++k)
     {
-      ++fans.begin[fans.corners.back()[k]];
+      ++fans.begin[corners[k]];
     }
   }
   // From how many there are to where each one's end, and from there down to where they begin.
@@ -37,14 +46,12 @@ SurfaceFans findFans(const Occluders& occluders, const Surface& surface)
       fans.triangles[--fans.begin[fans.corners[i][k]]] = i;
     }
   }
-  return fans;
 }
 
 //------------------------------------------------------------------------------
-std::size_t TriangleFans::bytes() const
+std::size_t SurfaceFans::bytes() const
 {
-  return this->kept_.bytes([](const SurfaceFans& found)
-    { return bytesOf(found.corners) + bytesOf(found.begin) + bytesOf(found.triangles); });
+  return bytesOf(this->corners) + bytesOf(this->begin) + bytesOf(this->triangles);
 }
 
 } // namespace gnomon

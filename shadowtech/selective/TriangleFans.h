@@ -21,17 +21,22 @@ struct SurfaceFans
   std::vector<glm::uvec3> corners;  ///< the vertices of each of its triangles, as they count here
   std::vector<std::uint32_t> begin; ///< of each vertex' fan in `triangles`, and the end of the last
   std::vector<std::uint32_t> triangles; ///< counted from firstTriangle
+
+  std::size_t bytes() const;
 };
-SurfaceFans findFans(const Occluders& occluders, const Surface& surface);
+
+/// Brings the fans of a surface up to date: they stay where the same vertices as before are at the same place.
+/// @param fans of the same triangles at any other place; or empty, and then all is found
+void updateFans(const Occluders& occluders, const Surface& surface, SurfaceFans& fans);
 
 /// The fans of the casting surfaces, kept from snapshot to snapshot.
 class TriangleFans
 {
 public:
-  void update(const Occluders& occluders) { this->kept_.update(occluders, findFans); }
+  void update(const Occluders& occluders) { this->kept_.update(occluders, updateFans); }
   /// @param surface index into the snapshot's surfaces, as of the last update
   const SurfaceFans& of(std::size_t surface) const { return this->kept_.of(surface); }
-  std::size_t bytes() const;
+  std::size_t bytes() const { return this->kept_.bytes(); }
 
 private:
   KeptOfCasters<SurfaceFans> kept_;

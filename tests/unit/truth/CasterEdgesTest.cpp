@@ -12,6 +12,13 @@ namespace gnomon::test
 namespace
 {
 
+SurfaceEdges findCasterEdges(const Occluders& occluders, const Surface& surface)
+{
+  SurfaceEdges edges;
+  updateCasterEdges(occluders, surface, edges);
+  return edges;
+}
+
 std::vector<CasterEdge> edgesOf(const Mesh& mesh)
 {
   const Occluders occluders = makeOccluders({ { mesh } });

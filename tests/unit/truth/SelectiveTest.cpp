@@ -252,7 +252,9 @@ TEST(TriangleFans, haveAnyNumberOfTrianglesAtAnEdge)
     { -1.0, -1.0, 0.0 }, { 0.0, 0.0, 3.0 }, { 0.0, 1.0, 3.0 } };
   mesh.triangles = { { 0, 1, 2 }, { 1, 0, 3 }, { 0, 1, 4 }, { 1, 5, 6 } };
   const Occluders occluders = makeOccluders({ { mesh } });
-  const SurfaceFans fans = findFans(occluders, occluders.surfaces.front());
+  TriangleFans all;
+  all.update(occluders);
+  const SurfaceFans& fans = all.of(0);
   EXPECT_EQ(adjacentTo(fans, 0, Adjacency::Edges), (std::vector<std::uint32_t>{ 0, 1, 2 }));
   EXPECT_EQ(adjacentTo(fans, 0, Adjacency::Vertices), (std::vector<std::uint32_t>{ 0, 1, 2, 3 }));
   EXPECT_EQ(adjacentTo(fans, 3, Adjacency::Edges), (std::vector<std::uint32_t>{ 3 }));
