@@ -24,12 +24,6 @@ struct PlacedRim
   std::uint32_t surface;
   std::uint32_t number; ///< of the surface's rims
   bool swapped;         ///< the edge leads from the greater one
-
-  bool operator<(const PlacedRim& other) const
-  {
-    return std::tie(this->ends, this->surface, this->number) <
-      std::tie(other.ends, other.surface, other.number);
-  }
 };
 
 /// Twice a triangle's area along its normal.
@@ -96,18 +90,86 @@ std::vector<PlacedRim> placedRims(
         static_cast<std::uint32_t>(i), number, to < from });
     }
   }
-  tbb::parallel_sort(rims.begin(), rims.end());
   return rims;
 }
 
-/// Whether triangles of two cones are too far apart for shadow rays that start off one of them.
-bool tooFarApart(const NormalCone& a, const NormalCone& b)
+/// Rims of which there are two between the same places, and no third.
+std::vector<std::pair<PlacedRim, PlacedRim>> pairsOf(const std::vector<PlacedRim>& rims)
 {
-  const auto angle = [](float cosine)
-  { return std::acos(glm::clamp(static_cast<double>(cosine), -1.0, 1.0)); };
+  // Of rims between the same places, at the first of them.
+  struct Same
+  {
+    std::uint32_t count = 0;
+    std::uint32_t last = 0;
+  };
+  std::vector<Same> same(rims.size());
+  FirstOfSame first(rims.size());
+  for (std::uint32_t i = 0; i < rims.size(); ++i)
+  {
+    const std::array<Place, 2>& ends = rims[i].ends;
+    Same& sameAsThis = same[first.of(i, hashOf(ends[0]) + 3 * hashOf(ends[1]),
+      [&](std::uint32_t other) { return rims[other].ends == ends; })];
+    ++sameAsThis.count;
+    sameAsThis.last = i;
+  }
+  std::vector<std::pair<PlacedRim, PlacedRim>> pairs;
+  for (std::size_t i = 0; i < rims.size(); ++i)
+  {
+    if (same[i].count == 2)
+    {
+      pairs.emplace_back(rims[i], rims[same[i].last]);
+    }
+  }
+  return pairs;
+}
+
+/// A cone of normals, either side of each, by its half angle in radians.
+struct WideCone
+{
+  glm::dvec3 axis;
+  double halfAngle;
+
+  explicit WideCone(const NormalCone& cone)
+    : axis(cone.axis)
+    , halfAngle(std::acos(glm::clamp(static_cast<double>(cone.leastCosine), -1.0, 1.0)))
+  {
+  }
+
+  /// The most that a normal of the other cone is off this one's axis.
+  double reachOf(const WideCone& other) const
+  {
+    return std::acos(glm::min(std::abs(glm::dot(this->axis, other.axis)), 1.0)) + other.halfAngle;
+  }
+};
+
+/// The cone out of some whose normals go farthest from the axis of one.
+const WideCone& farthestFrom(const WideCone& one, const std::vector<WideCone>& cones)
+{
+  return *std::max_element(cones.begin(), cones.end(),
+    [&](const WideCone& a, const WideCone& b) { return one.reachOf(a) < one.reachOf(b); });
+}
+
+/// Whether triangles of cones may be too far apart for shadow rays that start off one of them: the normals do not fit into one
+/// cone.
+///
+/// Its axis is chosen as the centre of a sphere around points is by Ritter (An efficient bounding sphere, 1990): in the middle of the
+/// normals of two cones that are far apart. Two cones alone are too far apart only if some of their normals are.
+bool tooFarApart(const std::vector<WideCone>& cones)
+{
+  const WideCone& one = farthestFrom(cones.front(), cones);
+  const WideCone& other = farthestFrom(one, cones);
+  WideCone middle = one;
+  const double angle = one.reachOf(other) - other.halfAngle;
+  if (angle > 0.0) // else they have one axis
+  {
+    const double from = glm::clamp(0.5 * (angle + other.halfAngle - one.halfAngle), 0.0, angle);
+    const glm::dvec3 towards = glm::dot(one.axis, other.axis) < 0.0 ? -other.axis : other.axis;
+    middle.axis = glm::normalize(std::sin(angle - from) * one.axis + std::sin(from) * towards);
+  }
   // Rounding a cosine to float changes its angle by up to 4e-4. Written so that NaN is too far apart.
-  return !(angle(std::abs(glm::dot(a.axis, b.axis))) + angle(a.leastCosine) + angle(b.leastCosine) <
-    std::acos(sharpCosine) - 2e-3);
+  const double most = 0.5 * std::acos(sharpCosine) - 1e-3;
+  return !std::all_of(
+    cones.begin(), cones.end(), [&](const WideCone& cone) { return middle.reachOf(cone) < most; });
 }
 
 /// The places at which triangles of surfaces that meet there are too far apart, in order.
@@ -135,18 +197,16 @@ std::vector<Place> sharpPlaces(const std::vector<std::pair<PlacedRim, PlacedRim>
   { return a.place == b.place && a.surface == b.surface; };
   cones.erase(std::unique(cones.begin(), cones.end(), isSame), cones.end());
   std::vector<Place> sharp;
+  std::vector<WideCone> atPlace;
   for (std::size_t first = 0; first < cones.size();)
   {
+    atPlace.clear();
     std::size_t last = first;
-    bool apart = false;
     for (; last < cones.size() && cones[last].place == cones[first].place; ++last)
     {
-      for (std::size_t i = first; i <= last && !apart; ++i)
-      {
-        apart = tooFarApart(cones[i].cone, cones[last].cone);
-      }
+      atPlace.emplace_back(cones[last].cone);
     }
-    if (apart)
+    if (tooFarApart(atPlace))
     {
       sharp.push_back(cones[first].place);
     }
@@ -161,21 +221,7 @@ std::vector<Place> sharpPlaces(const std::vector<std::pair<PlacedRim, PlacedRim>
 void CasterSeams::update(const Occluders& occluders, const std::vector<const SurfaceEdges*>& edges)
 {
   this->bySurface_.assign(occluders.surfaces.size(), {});
-  const std::vector<PlacedRim> rims = placedRims(occluders, edges);
-  std::vector<std::pair<PlacedRim, PlacedRim>> pairs;
-  for (std::size_t first = 0; first < rims.size();)
-  {
-    std::size_t last = first + 1;
-    while (last < rims.size() && rims[last].ends == rims[first].ends)
-    {
-      ++last;
-    }
-    if (last - first == 2)
-    {
-      pairs.emplace_back(rims[first], rims[first + 1]);
-    }
-    first = last;
-  }
+  const std::vector<std::pair<PlacedRim, PlacedRim>> pairs = pairsOf(placedRims(occluders, edges));
   const std::vector<Place> sharp = sharpPlaces(pairs, edges);
   const auto isSharp = [&](const Place& place)
   { return std::binary_search(sharp.begin(), sharp.end(), place); };
