@@ -99,8 +99,11 @@ std::vector<NormalCone> normalCones(const Occluders& occluders, const Surface& s
 }
 
 /// Finds which triangles meet in which edge: those whose sides have the same ends.
-void joinTriangles(const Occluders& occluders, const Surface& surface, SurfaceEdges& found)
+SurfaceEdges joinTriangles(
+  const Occluders& occluders, const Surface& surface, std::vector<std::uint32_t> welded)
 {
+  SurfaceEdges found;
+  found.welded = std::move(welded);
   std::vector<Side> sides(3 * static_cast<std::size_t>(surface.triangleCount));
   tbb::parallel_for(std::uint32_t(0), surface.triangleCount,
     [&](std::uint32_t i)
@@ -161,6 +164,7 @@ void joinTriangles(const Occluders& occluders, const Surface& surface, SurfaceEd
   }
   edges.shrink_to_fit();
   found.rims.shrink_to_fit();
+  return found;
 }
 
 /// Where a surface has another place in the snapshot, its vertices and triangles have other numbers.
@@ -225,9 +229,7 @@ void updateCasterEdges(const Occluders& occluders, const Surface& surface, Surfa
   std::vector<std::uint32_t> welded = weldedVertices(occluders, surface);
   if (welded != edges.welded)
   {
-    edges = {};
-    edges.welded = std::move(welded);
-    joinTriangles(occluders, surface, edges);
+    edges = joinTriangles(occluders, surface, std::move(welded));
   }
   else
   {

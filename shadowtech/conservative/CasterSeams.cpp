@@ -123,53 +123,73 @@ std::vector<std::pair<PlacedRim, PlacedRim>> pairsOf(const std::vector<PlacedRim
   return pairs;
 }
 
-/// A cone of normals, either side of each, by its half angle in radians.
-struct WideCone
+/// A cone around normals, either side of each, by its half angle in radians.
+class WideCone
 {
-  glm::dvec3 axis;
-  double halfAngle;
-
+public:
   explicit WideCone(const NormalCone& cone)
-    : axis(cone.axis)
-    , halfAngle(std::acos(glm::clamp(static_cast<double>(cone.leastCosine), -1.0, 1.0)))
+    : axis_(glm::normalize(glm::dvec3(cone.axis)))
+    , halfAngle_(std::acos(glm::clamp(static_cast<double>(cone.leastCosine), -1.0, 1.0)))
   {
   }
 
-  /// The most that a normal of the other cone is off this one's axis.
-  double reachOf(const WideCone& other) const
+  double halfAngle() const { return this->halfAngle_; }
+
+  /// The most that a normal of the other one is off this one's axis.
+  double reachOf(const WideCone& other) const { return this->angleTo(other) + other.halfAngle_; }
+
+  /// Becomes the narrowest one around both; NaN where the other one is.
+  void add(const WideCone& other)
   {
-    return std::acos(glm::min(std::abs(glm::dot(this->axis, other.axis)), 1.0)) + other.halfAngle;
+    const double angle = this->angleTo(other);
+    if (angle + other.halfAngle_ <= this->halfAngle_)
+    {
+      return;
+    }
+    if (angle + this->halfAngle_ <= other.halfAngle_)
+    {
+      *this = other;
+      return;
+    }
+    const double halfAngle = 0.5 * (this->halfAngle_ + angle + other.halfAngle_);
+    const double by = halfAngle - this->halfAngle_;
+    const glm::dvec3 towards =
+      glm::dot(this->axis_, other.axis_) < 0.0 ? -other.axis_ : other.axis_;
+    // Not both are 0, as the angle is not: then one would be around the other.
+    this->axis_ = glm::normalize(std::sin(angle - by) * this->axis_ + std::sin(by) * towards);
+    this->halfAngle_ = halfAngle;
   }
+
+private:
+  double angleTo(const WideCone& other) const
+  {
+    return std::acos(glm::min(std::abs(glm::dot(this->axis_, other.axis_)), 1.0));
+  }
+
+  glm::dvec3 axis_;
+  double halfAngle_;
 };
-
-/// The cone out of some whose normals go farthest from the axis of one.
-const WideCone& farthestFrom(const WideCone& one, const std::vector<WideCone>& cones)
-{
-  return *std::max_element(cones.begin(), cones.end(),
-    [&](const WideCone& a, const WideCone& b) { return one.reachOf(a) < one.reachOf(b); });
-}
 
 /// Whether triangles of cones may be too far apart for shadow rays that start off one of them: the normals do not fit into one
 /// cone.
 ///
-/// Its axis is chosen as the centre of a sphere around points is by Ritter (An efficient bounding sphere, 1990): in the middle of the
-/// normals of two cones that are far apart. Two cones alone are too far apart only if some of their normals are.
+/// It is found as a sphere around points is by Ritter (An efficient bounding sphere, 1990): from two that are far apart, and
+/// widened by the others. So two cones alone are too far apart only if some of their normals are.
 bool tooFarApart(const std::vector<WideCone>& cones)
 {
-  const WideCone& one = farthestFrom(cones.front(), cones);
-  const WideCone& other = farthestFrom(one, cones);
-  WideCone middle = one;
-  const double angle = one.reachOf(other) - other.halfAngle;
-  if (angle > 0.0) // else they have one axis
+  const auto farthestFrom = [&](const WideCone& one)
   {
-    const double from = glm::clamp(0.5 * (angle + other.halfAngle - one.halfAngle), 0.0, angle);
-    const glm::dvec3 towards = glm::dot(one.axis, other.axis) < 0.0 ? -other.axis : other.axis;
-    middle.axis = glm::normalize(std::sin(angle - from) * one.axis + std::sin(from) * towards);
+    return *std::max_element(cones.begin(), cones.end(),
+      [&](const WideCone& a, const WideCone& b) { return one.reachOf(a) < one.reachOf(b); });
+  };
+  WideCone all = farthestFrom(cones.front());
+  all.add(farthestFrom(all));
+  for (const WideCone& cone : cones)
+  {
+    all.add(cone);
   }
   // Rounding a cosine to float changes its angle by up to 4e-4. Written so that NaN is too far apart.
-  const double most = 0.5 * std::acos(sharpCosine) - 1e-3;
-  return !std::all_of(
-    cones.begin(), cones.end(), [&](const WideCone& cone) { return middle.reachOf(cone) < most; });
+  return !(all.halfAngle() < 0.5 * std::acos(sharpCosine) - 1e-3);
 }
 
 /// The places at which triangles of surfaces that meet there are too far apart, in order.

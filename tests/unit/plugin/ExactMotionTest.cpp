@@ -11,8 +11,10 @@
 #include <vtkPoints.h>
 #include <vtkSphereSource.h>
 
+#include <array>
 #include <cmath>
 #include <random>
+#include <vector>
 
 namespace gnomon::test
 {
@@ -122,6 +124,33 @@ protected:
     points->Modified();
   }
 
+  using Corners = std::vector<glm::dvec3>;
+  static Corners cornersOf(vtkPolyData* shape)
+  {
+    Corners corners(static_cast<std::size_t>(shape->GetNumberOfPoints()));
+    for (std::size_t i = 0; i < corners.size(); ++i)
+    {
+      shape->GetPoint(static_cast<vtkIdType>(i), &corners[i].x);
+    }
+    return corners;
+  }
+  static void putBack(vtkPolyData* shape, const Corners& corners)
+  {
+    std::size_t next = 0;
+    deform(shape, [&](const glm::dvec3&) { return corners[next++]; });
+  }
+
+  /// Takes the first of a shape's cells away, and turns the order of the others round.
+  static void changeCells(vtkPolyData* shape)
+  {
+    vtkNew<vtkCellArray> cells;
+    for (vtkIdType cell = shape->GetNumberOfCells() - 1; cell > 0; --cell)
+    {
+      cells->InsertNextCell(shape->GetCell(cell)->GetPointIds());
+    }
+    shape->SetPolys(cells);
+  }
+
   /// Holds the technique to ray tracing.
   void expectTruth(const std::string& after)
   {
@@ -175,17 +204,27 @@ TEST_P(ExactInMotion, showsWhatIsTraced)
   for (int round = 0; round < 3; ++round)
   {
     this->expectTruth("at rest");
+    const std::array<Corners, 2> whole{ { cornersOf(this->ballShape), cornersOf(this->cupShape) } };
     const auto jitter = [this](const glm::dvec3& point)
     { return point + 0.02 * glm::dvec3(this->some(), this->some(), this->some()); };
     deform(this->ballShape, jitter);
     deform(this->cupShape, jitter);
     this->expectTruth("points moved, some surfaces torn");
+    const auto merge = [](const glm::dvec3& point) { return glm::round(8.0 * point) / 8.0; };
+    deform(this->ballShape, merge);
+    deform(this->cupShape, merge);
+    this->expectTruth("points merged");
+    putBack(this->ballShape, whole[0]);
+    putBack(this->cupShape, whole[1]);
+    this->expectTruth("points put back");
 
     this->ball->SetPosition(this->some(), this->some(), 0.8 + 0.5 * this->some());
     this->ball->RotateX(20.0);
     this->cup->SetPosition(this->some(), this->some(), 1.0 + 0.4 * this->some());
     this->cup->SetScale(1.0, 1.0, 1.0 + 0.3 * this->some());
     this->expectTruth("actors moved");
+    changeCells(this->ballShape);
+    this->expectTruth("cells changed");
 
     const double height = 0.3 * this->some();
     for (vtkPolyData* sheet : this->sheetShapes)

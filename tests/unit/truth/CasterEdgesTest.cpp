@@ -1,11 +1,16 @@
 #include "shadowtech/conservative/CasterEdges.h"
 
+#include "RandomScenes.h"
 #include "SyntheticScene.h"
 
+#include "shadowtech/conservative/WeldedVertices.h"
+
+#include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace gnomon::test
 {
@@ -37,6 +42,17 @@ std::size_t countSharp(const std::vector<CasterEdge>& edges)
     std::count_if(edges.begin(), edges.end(), [](const CasterEdge& edge) { return edge.sharp; }));
 }
 
+/// A sphere whose seam and poles close, which else they do but for rounding.
+Mesh makeClosedSphere(int rings, int segments)
+{
+  Mesh sphere = makeSphere(rings, segments);
+  for (glm::dvec3& point : sphere.points)
+  {
+    point = glm::round(1e6 * point) / 1e6;
+  }
+  return sphere;
+}
+
 /// The same triangles, each with corners of its own.
 Mesh apart(const Mesh& mesh)
 {
@@ -55,11 +71,7 @@ Mesh apart(const Mesh& mesh)
 
 TEST(CasterEdges, ofClosedMeshesHaveTwoTriangles)
 {
-  Mesh sphere = makeSphere(32, 64);
-  for (glm::dvec3& point : sphere.points)
-  {
-    point = glm::round(1e6 * point) / 1e6; // its seam closes but for rounding
-  }
+  const Mesh sphere = makeClosedSphere(32, 64);
   for (const Mesh& mesh : { sphere, apart(sphere) })
   {
     const std::vector<CasterEdge> edges = edgesOf(mesh);
@@ -76,12 +88,7 @@ TEST(CasterEdges, ofClosedMeshesHaveTwoTriangles)
 
 TEST(CasterEdges, leadFromEachSideToTheTriangleAcrossIt)
 {
-  Mesh closed = makeSphere(8, 16);
-  for (glm::dvec3& point : closed.points)
-  {
-    point = glm::round(1e6 * point) / 1e6; // its seam closes but for rounding
-  }
-  for (const Mesh& mesh : { closed, makePlane(2.0, 3) })
+  for (const Mesh& mesh : { makeClosedSphere(8, 16), makePlane(2.0, 3) })
   {
     const Occluders occluders = makeOccluders({ { mesh } });
     const SurfaceEdges edges = findCasterEdges(occluders, occluders.surfaces.front());
@@ -177,6 +184,244 @@ TEST(CasterEdges, areKeptUntilTheSurfaceChanges)
   EXPECT_EQ(edges.of(1).edges.size(), edgesOf(makeSphere(4, 8)).size());
 }
 
+/// Moves the vertices of a surface, and marks what changed.
+template <typename Move>
+void deformSurface(Occluders& occluders, std::size_t index, const Move& move)
+{
+  const Surface& surface = occluders.surfaces[index];
+  for (std::uint32_t i = surface.firstVertex; i < surface.firstVertex + surface.vertexCount; ++i)
+  {
+    occluders.positionsCentred[i] =
+      glm::vec3(glm::dvec3(move(glm::dvec3(occluders.positionsCentred[i]))));
+  }
+  moveSurface(occluders, index, glm::dvec3(0.0));
+}
+
+glm::dmat4 randomTurn(Random& random)
+{
+  return glm::rotate(glm::dmat4(1.0), uniform(random, -3.0, 3.0), unitVector(random));
+}
+
+/// Turns a surface, and puts it somewhere else.
+void turnSurface(Occluders& occluders, std::size_t index, Random& random)
+{
+  const glm::dmat4 turned =
+    glm::translate(glm::dmat4(1.0), 3.0 * unitVector(random)) * randomTurn(random);
+  deformSurface(occluders, index,
+    [&](const glm::dvec3& point) { return glm::dvec3(turned * glm::dvec4(point, 1.0)); });
+}
+
+/// That edges, seams and parts which have been kept are those that would be found anew, number by number.
+void expectAsFoundAnew(
+  const CasterEdges& kept, const Occluders& occluders, const std::string& after)
+{
+  CasterEdges anew;
+  anew.update(occluders);
+  for (std::size_t i = 0; i < occluders.surfaces.size(); ++i)
+  {
+    if (!occluders.surfaces[i].casts)
+    {
+      continue;
+    }
+    const SurfaceEdges& one = kept.of(i);
+    const SurfaceEdges& other = anew.of(i);
+    const auto same = [&](const auto& a, const auto& b, const auto& isSame)
+    { return std::equal(a.begin(), a.end(), b.begin(), b.end(), isSame); };
+    EXPECT_EQ(one.ofTriangle, other.ofTriangle) << after;
+    EXPECT_TRUE(same(one.edges, other.edges,
+      [](const CasterEdge& a, const CasterEdge& b)
+      {
+        return a.from == b.from && a.to == b.to && a.triangles == b.triangles &&
+          a.sameDirection == b.sameDirection && a.sharp == b.sharp;
+      }))
+      << after << ", surface " << i;
+    EXPECT_TRUE(same(one.rims, other.rims,
+      [](const Rim& a, const Rim& b)
+      {
+        return a.edge == b.edge &&
+          std::equal(a.corners.begin(), a.corners.end(), b.corners.begin(),
+            [](const NormalCone& c, const NormalCone& d)
+            { return c.axis == d.axis && c.leastCosine == d.leastCosine; });
+      }))
+      << after << ", surface " << i;
+    EXPECT_TRUE(same(kept.seams().of(i), anew.seams().of(i),
+      [](const Seam& a, const Seam& b)
+      {
+        return a.edge == b.edge && a.otherSurface == b.otherSurface &&
+          a.otherTriangle == b.otherTriangle && a.sameDirection == b.sameDirection &&
+          a.sharp == b.sharp;
+      }))
+      << after << ", surface " << i;
+  }
+  for (std::uint32_t i = 0; i < occluders.triangles.size(); ++i)
+  {
+    ASSERT_EQ(kept.partOf(i), anew.partOf(i)) << after;
+  }
+}
+
+TEST(CasterEdges, areNotFoundAgainWhereASurfaceTurnsMovesOrIsScaled)
+{
+  Random random(1);
+  Occluders occluders = makeOccluders({ { makePlane(4.0, 3) }, { makeClosedSphere(16, 32) },
+    { apart(makeBox(glm::dvec3(-1.0), glm::dvec3(1.0))) } });
+  CasterEdges edges;
+  edges.update(occluders);
+  // What is found anew lies elsewhere, as what was there before is let go afterwards.
+  const CasterEdge* const found = edges.of(1).edges.data();
+  const CasterEdge* const foundApart = edges.of(2).edges.data();
+  for (int i = 0; i < 100; ++i)
+  {
+    turnSurface(occluders, 1, random);
+    turnSurface(occluders, 2, random);
+    const double scale = uniform(random, 0.5, 1.5);
+    deformSurface(occluders, 1, [&](const glm::dvec3& point) { return scale * point; });
+    edges.update(occluders);
+    ASSERT_EQ(edges.of(1).edges.data(), found) << i;
+    ASSERT_EQ(edges.of(2).edges.data(), foundApart) << i;
+    expectAsFoundAnew(edges, occluders, "step " + std::to_string(i));
+  }
+}
+
+TEST(CasterEdges, areFoundAgainWhereMovingMakesPlacesOneThatWereApartByARounding)
+{
+  Occluders occluders = makeOccluders({ { makeSphere(8, 16) } });
+  CasterEdges edges;
+  edges.update(occluders);
+  EXPECT_GT(edges.of(0).rims.size(), 0u) << "open at the seam";
+  moveSurface(occluders, 0, { 1.0, 2.0, 3.0 });
+  edges.update(occluders);
+  EXPECT_EQ(edges.of(0).rims.size(), 0u) << "closed";
+  expectAsFoundAnew(edges, occluders, "moved");
+}
+
+TEST(CasterEdges, areThoseFoundAnewHoweverCastersAreDeformed)
+{
+  std::size_t keptAfterAll = 0, foundAfterAll = 0;
+  for (const char* name : randomSceneNames())
+  {
+    for (unsigned int seed = 0; seed < 4; ++seed)
+    {
+      Random random(seed);
+      std::vector<Prop> props = makeRandomScene(name, random);
+      for (std::size_t i = 0; i < props.size(); i += 2)
+      {
+        props[i].mesh = apart(props[i].mesh);
+      }
+      Occluders occluders = makeOccluders(props);
+      CasterEdges edges;
+      edges.update(occluders);
+      const auto expectRight = [&](const std::string& what)
+      {
+        std::vector<std::vector<std::uint32_t>> welded;
+        std::vector<const CasterEdge*> before;
+        for (std::size_t i = 0; i < props.size(); ++i)
+        {
+          before.push_back(props[i].casts ? edges.of(i).edges.data() : nullptr);
+          welded.push_back(props[i].casts ? edges.of(i).welded : std::vector<std::uint32_t>());
+        }
+        edges.update(occluders);
+        for (std::size_t i = 0; i < props.size(); ++i)
+        {
+          if (props[i].casts && !props[i].mesh.triangles.empty())
+          {
+            const bool isKept = edges.of(i).edges.data() == before[i];
+            EXPECT_EQ(isKept, edges.of(i).welded == welded[i]) << name << what;
+            ++(isKept ? keptAfterAll : foundAfterAll);
+          }
+        }
+        expectAsFoundAnew(edges, occluders, name + what);
+      };
+      for (std::size_t i = 0; i < props.size(); ++i)
+      {
+        const std::vector<glm::vec3> whole = occluders.positionsCentred;
+        turnSurface(occluders, i, random);
+        expectRight(": turned");
+        const double bend = uniform(random, 0.2, 2.0);
+        deformSurface(occluders, i,
+          [&](const glm::dvec3& point)
+          { return point + glm::dvec3(0.0, 0.0, bend * std::sin(point.x + 2.0 * point.y)); });
+        expectRight(": bent, what was one place staying one");
+        deformSurface(
+          occluders, i, [&](const glm::dvec3& point) { return point + 0.01 * unitVector(random); });
+        expectRight(": torn");
+        deformSurface(
+          occluders, i, [](const glm::dvec3& point) { return glm::round(4.0 * point) / 4.0; });
+        expectRight(": points merged");
+        occluders.positionsCentred = whole;
+        moveSurface(occluders, i, glm::dvec3(0.0));
+        expectRight(": put together again");
+      }
+    }
+  }
+  EXPECT_GT(keptAfterAll, 1000u);
+  EXPECT_GT(foundAfterAll, 500u);
+}
+
+TEST(CasterEdges, areKeptWhereOtherSurfacesComeAndGo)
+{
+  const std::vector<Prop> props = { { makePlane(1.0, 2) }, { makeSphere(8, 16) },
+    { makePlane(2.0, 3), at({ 0.0, 0.0, 2.0 }) } };
+  const Occluders all = makeOccluders(props);
+  // The same without the first one: numbers are smaller, positions stay.
+  Occluders fewer = makeOccluders({ props[1], props[2] });
+  for (std::size_t i = 0; i < fewer.surfaces.size(); ++i)
+  {
+    fewer.surfaces[i].topologyVersion = all.surfaces[i + 1].topologyVersion;
+    fewer.surfaces[i].positionsVersion = all.surfaces[i + 1].positionsVersion;
+  }
+  CasterEdges edges;
+  edges.update(all);
+  const CasterEdge* const sphere = edges.of(1).edges.data();
+  const CasterEdge* const plane = edges.of(2).edges.data();
+  edges.update(fewer);
+  EXPECT_EQ(edges.of(0).edges.data(), sphere);
+  EXPECT_EQ(edges.of(1).edges.data(), plane);
+  expectAsFoundAnew(edges, fewer, "one gone");
+  edges.update(all);
+  EXPECT_EQ(edges.of(1).edges.data(), sphere);
+  expectAsFoundAnew(edges, all, "one back");
+}
+
+TEST(CasterEdges, areFoundAgainWhereTrianglesAreOthers)
+{
+  Mesh mesh = makeSphere(8, 16);
+  Occluders before = makeOccluders({ { mesh } });
+  CasterEdges edges;
+  edges.update(before);
+  mesh.triangles.pop_back();
+  std::swap(mesh.triangles[3].x, mesh.triangles[3].y);
+  const Occluders after = makeOccluders({ { mesh } }); // a surface with a version of its own
+  edges.update(after);
+  expectAsFoundAnew(edges, after, "cells changed");
+}
+
+TEST(WeldedVertices, areTheFirstOnesAtTheirPlace)
+{
+  Random random(2);
+  for (const int places : { 1, 3, 20, 1000 })
+  {
+    Mesh mesh;
+    for (int i = 0; i < 3000; ++i)
+    {
+      // Either zero is the same place.
+      const double x = static_cast<int>(random() % static_cast<unsigned int>(places)) - places / 2;
+      mesh.points.emplace_back(x, random() % 2 == 0 ? 0.0 : -0.0, 1e-3 * x * x);
+    }
+    Occluders occluders = makeOccluders({ { makePlane(1.0) }, { mesh } });
+    const Surface& surface = occluders.surfaces[1];
+    for (std::size_t i = 0; i < mesh.points.size(); ++i)
+    {
+      occluders.positionsCentred[surface.firstVertex + i] = glm::vec3(mesh.points[i]);
+    }
+    const std::vector<std::uint32_t> welded = weldedVertices(occluders, surface);
+    std::map<double, std::uint32_t> first;
+    for (std::uint32_t i = 0; i < welded.size(); ++i)
+    {
+      EXPECT_EQ(welded[i], first.emplace(mesh.points[i].x, i).first->second);
+    }
+  }
+}
+
 /// Two unit squares side by side, of two triangles each, the second at an angle to the first.
 std::vector<Mesh> squaresAtAngle(double degrees)
 {
@@ -252,6 +497,115 @@ TEST(CasterSeams, areSharpAtCornersWithOtherTrianglesTooFarApart)
   {
     EXPECT_TRUE(seam.sharp) << seam.otherSurface;
   }
+}
+
+/// Triangles around the origin, each a surface of its own.
+std::vector<Prop> makeUmbrella(const std::vector<glm::dvec3>& corners)
+{
+  std::vector<Prop> props;
+  for (std::size_t i = 0; i < corners.size(); ++i)
+  {
+    const glm::dvec3& next = corners[(i + 1) % corners.size()];
+    props.push_back({ { { glm::dvec3(0.0), corners[i], next }, { { 0, 1, 2 } } } });
+  }
+  return props;
+}
+
+/// The same with as many outer corners as there are angles by which they go down.
+std::vector<Prop> makeUmbrella(const std::vector<double>& slopesDegrees)
+{
+  std::vector<glm::dvec3> corners;
+  for (const double slope : slopesDegrees)
+  {
+    const double around = glm::radians(
+      360.0 * static_cast<double>(corners.size()) / static_cast<double>(slopesDegrees.size()));
+    corners.emplace_back(std::cos(around), std::sin(around), -std::tan(glm::radians(slope)));
+  }
+  return makeUmbrella(corners);
+}
+
+/// The most that normals of single triangles are apart, in degrees.
+double widestAngle(const std::vector<Prop>& triangles)
+{
+  double least = 1.0;
+  const auto normalOf = [](const Prop& prop)
+  {
+    const std::vector<glm::dvec3>& points = prop.mesh.points;
+    return glm::normalize(glm::cross(points[1] - points[0], points[2] - points[0]));
+  };
+  for (const Prop& one : triangles)
+  {
+    for (const Prop& other : triangles)
+    {
+      least = std::min(least, std::abs(glm::dot(normalOf(one), normalOf(other))));
+    }
+  }
+  return glm::degrees(std::acos(least));
+}
+
+std::size_t countSharpSeams(const std::vector<Prop>& props)
+{
+  const CasterEdges edges = edgesOf(makeOccluders(props));
+  std::size_t sharp = 0;
+  for (std::size_t i = 0; i < props.size(); ++i)
+  {
+    EXPECT_EQ(edges.seams().of(i).size(), 2u);
+    for (const Seam& seam : edges.seams().of(i))
+    {
+      sharp += seam.sharp ? 1 : 0;
+    }
+  }
+  return sharp;
+}
+
+TEST(CasterSeams, areSharpAtCornersWhereManySurfacesDoNotFitIntoTheAngle)
+{
+  for (const std::size_t count : { 8u, 9u, 100u, 1001u })
+  {
+    EXPECT_EQ(countSharpSeams(makeUmbrella(std::vector<double>(count, 16.0))), 0u) << count;
+    EXPECT_EQ(countSharpSeams(makeUmbrella(std::vector<double>(count, 23.5))), 2 * count) << count;
+  }
+  // Many that are alike do not outvote a few: a sheet that is bent by less than the angle.
+  std::vector<glm::dvec3> corners;
+  for (int i = 0; i < 20; ++i)
+  {
+    const double around = glm::radians(90.0 + 9.0 * i);
+    corners.emplace_back(std::cos(around), std::sin(around), 0.0);
+  }
+  corners.emplace_back(0.0, -1.0, 0.0);
+  corners.emplace_back(1.0, 0.0, std::tan(glm::radians(35.0)));
+  EXPECT_EQ(countSharpSeams(makeUmbrella(corners)), 0u);
+}
+
+TEST(CasterSeams, areSharpAtCornersWhereAnyTwoOfTheSurfacesAreTooFarApart)
+{
+  Random random(3);
+  std::size_t sharp = 0, flat = 0;
+  for (int run = 0; run < 2000; ++run)
+  {
+    std::vector<double> slopes(6 + random() % 10);
+    const double most = uniform(random, 5.0, 30.0);
+    for (double& slope : slopes)
+    {
+      slope = uniform(random, -most, most);
+    }
+    const std::vector<Prop> umbrella = makeUmbrella(slopes);
+    const double widest = widestAngle(umbrella);
+    const std::size_t count = countSharpSeams(umbrella);
+    if (widest > 41.5)
+    {
+      EXPECT_EQ(count, 2 * slopes.size()) << widest;
+      ++sharp;
+    }
+    // A circle around points that are so far apart need not be larger (Jung's theorem), nor one that is not the least.
+    else if (widest < 30.0)
+    {
+      EXPECT_EQ(count, 0u) << widest;
+      ++flat;
+    }
+  }
+  EXPECT_GT(sharp, 200u);
+  EXPECT_GT(flat, 200u);
 }
 
 TEST(CasterSeams, areNotWhereAThirdSurfaceMeetsNorWhereOneIsDifferent)
