@@ -3,8 +3,8 @@
 #include "shadowtech/base/Bytes.h"
 #include "shadowtech/conservative/WeldedVertices.h"
 
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <cmath>
@@ -20,20 +20,61 @@ namespace
 /// Of half that angle: the normals around a vertex are that close to their mean.
 const double sharpCosineToMean = std::sqrt(0.5 * (1.0 + sharpCosine));
 
-/// One side of a triangle, by its ends in increasing order.
+/// One side of a triangle.
 struct Side
 {
-  std::uint64_t ends; ///< the smaller one first
+  std::uint32_t lesser, greater; ///< its ends, as they count
   std::uint32_t triangle;
   std::uint8_t corner; ///< it runs from this corner to the next
-  bool reversed;
+  bool reversed;       ///< from the greater end to the lesser one
 
   bool operator<(const Side& other) const
   {
-    return std::tie(this->ends, this->triangle, this->corner) <
-      std::tie(other.ends, other.triangle, other.corner);
+    return std::tie(this->lesser, this->greater, this->triangle, this->corner) <
+      std::tie(other.lesser, other.greater, other.triangle, other.corner);
+  }
+  bool hasEndsOf(const Side& other) const
+  {
+    return this->lesser == other.lesser && this->greater == other.greater;
   }
 };
+
+/// The sides of all of a surface's triangles, in order.
+/// @param welded the vertices that its vertices count as
+std::vector<Side> sortedSides(
+  const Occluders& occluders, const Surface& surface, const std::vector<std::uint32_t>& welded)
+{
+  const auto visit = [&](auto&& visitSide)
+  {
+    for (std::uint32_t i = 0; i < surface.triangleCount; ++i)
+    {
+      const glm::uvec3 corners =
+        occluders.triangles[surface.firstTriangle + i] - surface.firstVertex;
+      for (int k = 0; k < 3; ++k)
+      {
+        const std::uint32_t from = welded[corners[k]];
+        const std::uint32_t to = welded[corners[(k + 1) % 3]];
+        visitSide(Side{ std::min(from, to), std::max(from, to), surface.firstTriangle + i,
+          static_cast<std::uint8_t>(k), from > to });
+      }
+    }
+  };
+  // They are dealt out by their lesser ends first: few have the same one.
+  std::vector<std::uint32_t> end(static_cast<std::size_t>(surface.vertexCount) + 1, 0);
+  visit([&](const Side& side) { ++end[side.lesser + 1]; });
+  std::partial_sum(end.begin(), end.end(), end.begin());
+  std::vector<Side> sides(end.back());
+  visit([&](const Side& side) { sides[end[side.lesser]++] = side; });
+  tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, surface.vertexCount, 1024),
+    [&](const tbb::blocked_range<std::uint32_t>& vertices)
+    {
+      for (std::uint32_t i = vertices.begin(); i != vertices.end(); ++i)
+      {
+        std::sort(sides.begin() + (i > 0 ? end[i - 1] : 0), sides.begin() + end[i]);
+      }
+    });
+  return sides;
+}
 
 /// Unit normals; zero of triangles that are too thin for shadow rays that start on their neighbours.
 std::vector<glm::dvec3> normalsOf(const Occluders& occluders, const Surface& surface)
@@ -104,23 +145,7 @@ SurfaceEdges joinTriangles(
 {
   SurfaceEdges found;
   found.welded = std::move(welded);
-  std::vector<Side> sides(3 * static_cast<std::size_t>(surface.triangleCount));
-  tbb::parallel_for(std::uint32_t(0), surface.triangleCount,
-    [&](std::uint32_t i)
-    {
-      const glm::uvec3 corners = occluders.triangles[surface.firstTriangle + i];
-      for (int k = 0; k < 3; ++k)
-      {
-        const std::uint64_t from = found.welded[corners[k] - surface.firstVertex];
-        const std::uint64_t to = found.welded[corners[(k + 1) % 3] - surface.firstVertex];
-        sides[3 * static_cast<std::size_t>(i) + static_cast<std::size_t>(k)] = {
-          std::min(from, to) << 32 | std::max(from, to), surface.firstTriangle + i,
-          static_cast<std::uint8_t>(k), from > to
-        };
-      }
-    });
-  tbb::parallel_sort(sides.begin(), sides.end());
-
+  const std::vector<Side> sides = sortedSides(occluders, surface, found.welded);
   found.ofTriangle.resize(surface.triangleCount);
   std::vector<CasterEdge>& edges = found.edges;
   const auto noteNext = [&](const Side& side)
@@ -132,13 +157,13 @@ SurfaceEdges joinTriangles(
   for (std::size_t first = 0; first < sides.size();)
   {
     std::size_t last = first + 1;
-    while (last < sides.size() && sides[last].ends == sides[first].ends)
+    while (last < sides.size() && sides[last].hasEndsOf(sides[first]))
     {
       ++last;
     }
     CasterEdge edge;
-    edge.from = surface.firstVertex + static_cast<std::uint32_t>(sides[first].ends >> 32);
-    edge.to = surface.firstVertex + static_cast<std::uint32_t>(sides[first].ends);
+    edge.from = surface.firstVertex + sides[first].lesser;
+    edge.to = surface.firstVertex + sides[first].greater;
     if (last - first == 2)
     {
       edge.triangles = { { sides[first].triangle, sides[first + 1].triangle } };
