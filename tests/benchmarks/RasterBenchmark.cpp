@@ -1,5 +1,6 @@
 // What it costs to draw a conservative map on the CPU and, in all ways that there are, on the GPU: whole maps, from the
-// snapshot to what pixels ask. All take turns.
+// snapshot to what pixels ask. All take turns. And what it costs to find the casters' edges for it, or to bring them up to date
+// where all casters have moved.
 
 #include "BenchmarkMain.h"
 #include "FrameTiming.h"
@@ -13,8 +14,10 @@
 #include "shadowtech/conservative/ConservativeMap.h"
 
 #include <CLI/CLI.hpp>
+#include <glm/gtc/matrix_transform.hpp>
 #include <vtkNew.h>
 
+#include <cstdint>
 #include <ctime>
 #include <functional>
 #include <iomanip>
@@ -88,18 +91,91 @@ Time now()
   return { millisecondsOf(CLOCK_MONOTONIC), millisecondsOf(CLOCK_PROCESS_CPUTIME_ID) };
 }
 
-/// One way to draw a map.
+/// One of the ways that take turns.
 struct Way
 {
   std::string name;
-  std::function<void()> draw;
+  std::function<void()> run;
   std::vector<double> wall = {};
   std::vector<double> processor = {};
 
   Time medians() const { return { tool::median(this->wall), tool::median(this->processor) }; }
 };
 
-void run(const Subject& subject, const std::string& name, int sizeTexels, Covering covering,
+/// Times them all, taking turns.
+void takeTurns(std::vector<Way>& ways, int repetitions)
+{
+  for (int repetition = 0; repetition <= repetitions; ++repetition)
+  {
+    for (Way& way : ways)
+    {
+      const Time begin = now();
+      way.run();
+      const Time end = now();
+      if (repetition > 0) // the first one builds programs
+      {
+        way.wall.push_back(end.wall - begin.wall);
+        way.processor.push_back(end.processor - begin.processor);
+      }
+    }
+  }
+}
+
+/// Prints how long each took, and how often the first one's time that is.
+void print(const std::vector<Way>& ways)
+{
+  const std::string perFirst = "x " + ways.front().name;
+  std::cout << std::setw(36) << "ms" << std::setw(10) << perFirst << std::setw(16) << "processor ms"
+            << std::setw(10) << perFirst << "\n";
+  const Time first = ways.front().medians();
+  for (const Way& way : ways)
+  {
+    const Time time = way.medians();
+    std::cout << "  " << std::left << std::setw(24) << way.name << std::right
+              << std::setprecision(2) << std::setw(10) << time.wall << std::setw(10)
+              << time.wall / first.wall << std::setw(16) << time.processor << std::setw(10)
+              << time.processor / first.processor << "\n";
+  }
+  std::cout << std::flush;
+}
+
+/// The same casters, all of them turned.
+Occluders turned(Occluders occluders)
+{
+  const glm::dmat3 turn(glm::rotate(glm::dmat4(1.0), 1.0, glm::dvec3(1.0, 2.0, 3.0)));
+  for (glm::vec3& position : occluders.positionsCentred)
+  {
+    position = turn * glm::dvec3(position);
+  }
+  // Later than any version of the snapshot's.
+  constexpr std::uint64_t later = 1u << 30;
+  occluders.positionsVersion += later;
+  for (Surface& surface : occluders.surfaces)
+  {
+    surface.positionsVersion += later;
+  }
+  return occluders;
+}
+
+void runEdges(const Subject& subject, const std::string& name, int repetitions)
+{
+  const Occluders moved = turned(subject.occluders());
+  CasterEdges kept;
+  bool isMoved = false;
+  std::vector<Way> ways;
+  ways.push_back({ "found", [&] { CasterEdges().update(subject.occluders()); } });
+  ways.push_back({ "moved",
+    [&]
+    {
+      kept.update(isMoved ? subject.occluders() : moved);
+      isMoved = !isMoved;
+    } });
+  takeTurns(ways, repetitions);
+  std::cout << name << ", edges, seams and parts\n";
+  print(ways);
+}
+
+void runMaps(const Subject& subject, const std::string& name, int sizeTexels, Covering covering,
   int repetitions, ShaderLibrary& shaders)
 {
   const LightView view = subject.view(sizeTexels);
@@ -125,40 +201,17 @@ void run(const Subject& subject, const std::string& name, int sizeTexels, Coveri
       std::cout << "One way is not measured: " << why << "\n";
     }
   }
-  for (int repetition = 0; repetition <= repetitions; ++repetition)
-  {
-    for (Way& way : ways)
-    {
-      const Time begin = now();
-      way.draw();
-      const Time end = now();
-      if (repetition > 0) // the first one builds programs
-      {
-        way.wall.push_back(end.wall - begin.wall);
-        way.processor.push_back(end.processor - begin.processor);
-      }
-    }
-  }
+  takeTurns(ways, repetitions);
   std::cout << name << ", " << CasterPlacements(subject.occluders()).triangleCount()
             << " triangles, map " << sizeTexels << ", "
-            << (covering == Covering::Triangle ? "crsm" : "crsma") << "\n"
-            << std::setw(36) << "ms" << std::setw(10) << "x cpu" << std::setw(16) << "processor ms"
-            << std::setw(10) << "x cpu\n";
-  const Time cpu = ways.front().medians();
-  for (const Way& way : ways)
-  {
-    const Time time = way.medians();
-    std::cout << "  " << std::left << std::setw(24) << way.name << std::right
-              << std::setprecision(2) << std::setw(10) << time.wall << std::setw(10)
-              << time.wall / cpu.wall << std::setw(16) << time.processor << std::setw(10)
-              << time.processor / cpu.processor << "\n";
-  }
-  std::cout << std::flush;
+            << (covering == Covering::Triangle ? "crsm" : "crsma") << "\n";
+  print(ways);
 }
 
 int runAll(int argc, char** argv)
 {
-  CLI::App app{ "Times conservative maps drawn by the processor and by OpenGL, taking turns",
+  CLI::App app{ "Times conservative maps drawn by the processor and by OpenGL, taking turns, and "
+                "how casters' edges are found",
     "gnomon_benchmark_raster" };
   Options options;
   app.add_option("SCENES", options.scenes, "Scenes, as for gnomon, with a sun")
@@ -186,9 +239,10 @@ int runAll(int argc, char** argv)
   for (const std::string& name : options.scenes)
   {
     const Subject subject(name);
+    runEdges(subject, name, options.repetitions);
     for (const int size : options.mapSizes)
     {
-      run(subject, name, size, covering, options.repetitions, shaders);
+      runMaps(subject, name, size, covering, options.repetitions, shaders);
     }
   }
   return 0;
