@@ -268,23 +268,35 @@ void CellTarget::spoil(const TriangleBatch& batch)
 }
 
 //------------------------------------------------------------------------------
-void CellTarget::endEdges()
+void CellTarget::endPass()
 {
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
 //------------------------------------------------------------------------------
-void CellTarget::draw(const TriangleBatch& batch)
+void CellTarget::drawPolygons(const TriangleBatch& batch, const std::vector<std::string>& defines)
 {
   this->send(batch.polygons);
   if (this->path_ == CellPath::Compute)
   {
-    this->walk(batch.walks, "draw_polygons.comp.glsl", {});
+    this->walk(batch.walks, "draw_polygons.comp.glsl", defines);
   }
   else if (!batch.polygons.records.empty())
   {
-    this->rasterise(batch);
+    this->rasterise(batch, defines);
   }
+}
+
+//------------------------------------------------------------------------------
+void CellTarget::draw(const TriangleBatch& batch)
+{
+  this->drawPolygons(batch, {});
+}
+
+//------------------------------------------------------------------------------
+void CellTarget::drawNoise(const TriangleBatch& batch)
+{
+  this->drawPolygons(batch, { "NOISE" });
 }
 
 //------------------------------------------------------------------------------
@@ -315,8 +327,9 @@ void CellTarget::prepareRasterising()
 }
 
 //------------------------------------------------------------------------------
-void CellTarget::rasterise(const TriangleBatch& batch)
+void CellTarget::rasterise(const TriangleBatch& batch, std::vector<std::string> defines)
 {
+  defines.insert(defines.end(), sampleDefines().begin(), sampleDefines().end());
   allocateStorage(this->places_, batch.placesClip.size() * sizeof(glm::vec2),
     batch.placesClip.data(), whatIsDrawnFrom);
   glBindBuffer(GL_ARRAY_BUFFER, this->places_.name());
@@ -325,7 +338,7 @@ void CellTarget::rasterise(const TriangleBatch& batch)
     { { GL_VERTEX_SHADER, ShaderLibrary::source(std::string(folder) + "draw_polygons.vert.glsl") },
       { GL_FRAGMENT_SHADER,
         ShaderLibrary::source(std::string(folder) + "draw_polygons.frag.glsl") } },
-    sampleDefines()));
+    defines));
   const GLenum conservative = this->path_ == CellPath::Extension ? conservativeSwitch() : 0;
   const bool switches = conservative && !glIsEnabled(conservative);
   switches ? glEnable(conservative) : void();

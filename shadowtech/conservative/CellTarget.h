@@ -39,12 +39,13 @@ public:
   void draw(const SegmentBatch& batch);
   /// Spoils texels.
   void spoil(const TriangleBatch& batch);
-  /// To be called between edges and what spoils texels, and triangles: what lies behind an end does not count for how far
-  /// they climb.
-  void endEdges();
   /// Draws triangles.
   void draw(const TriangleBatch& batch);
   void draw(const RingBatch& batch);
+  /// Notes the noise of triangles.
+  void drawNoise(const TriangleBatch& batch);
+  /// To be called between edges and what spoils texels, triangles, and their noise: each looks at what was drawn before.
+  void endPass();
 
   /// Reads the cells, row by row.
   /// @param take told of each, from several threads, with its number among these rows
@@ -54,7 +55,8 @@ private:
   void send(const PolygonBatch& polygons);
   void walk(const RowWalks& walks, const char* shader, std::vector<std::string> defines);
   void prepareRasterising();
-  void rasterise(const TriangleBatch& batch);
+  void drawPolygons(const TriangleBatch& batch, const std::vector<std::string>& defines);
+  void rasterise(const TriangleBatch& batch, std::vector<std::string> defines);
   void requireNoError() const;
   void use(GLuint program) const;
 

@@ -10,6 +10,20 @@ namespace gnomon
 namespace
 {
 
+/// The triangles of a band whose noise is still to be drawn.
+struct DrawnTriangles
+{
+  /// Of how many it is kept where they are among the texels, which takes as long to find as to draw them: some 10 MB.
+  static constexpr std::size_t mostKept = std::size_t(1) << 14;
+  std::vector<PolygonOnTexels> kept;
+  std::vector<BandItem> others;
+
+  void add(const BandItem& item, const PolygonOnTexels& texels)
+  {
+    this->kept.size() < mostKept ? this->kept.push_back(texels) : this->others.push_back(item);
+  }
+};
+
 /// A map while it is drawn: first which rows each triangle and edge lies in, then the rows, band by band.
 class CellDrawing
 {
@@ -60,7 +74,8 @@ private:
       });
   }
 
-  /// Ends first: what lies behind one does not matter for how far the layers before it climb.
+  /// Ends first: what lies behind one does not matter for how far the layers before it climb. Noise last: what lies behind the one
+  /// layer does not matter for how far off that rays have to start.
   void drawBand(int band, Span rows, Cell* cells) const
   {
     this->segments_.visit(band,
@@ -72,17 +87,29 @@ private:
           drawSegment(found, this->casters_.margin(), this->size_, rows, cells);
         }
       });
+    DrawnTriangles drawn;
     if (this->casters_.covering() == Covering::Silhouette)
     {
-      this->drawParts(band, rows, cells);
-      return;
+      this->drawParts(band, rows, cells, drawn);
     }
-    this->triangles_.visit(
-      band, [&](const BandItem& item) { this->drawTriangle(item, rows, cells); });
+    else
+    {
+      this->triangles_.visit(
+        band, [&](const BandItem& item) { this->drawTriangle(item, rows, cells, drawn); });
+    }
+    for (const PolygonOnTexels& texels : drawn.kept)
+    {
+      drawNoise(texels, this->size_, rows, cells);
+    }
+    for (const BandItem& item : drawn.others)
+    {
+      drawNoise(PolygonOnTexels(this->casters_.polygon(item), this->casters_.margin(), rows),
+        this->size_, rows, cells);
+    }
   }
 
   /// Draws the triangles of a band part by part, of each its ends first.
-  void drawParts(int band, Span rows, Cell* cells) const
+  void drawParts(int band, Span rows, Cell* cells, DrawnTriangles& drawn) const
   {
     struct PartItem
     {
@@ -107,7 +134,7 @@ private:
       MapSegment found;
       if (item.triangle)
       {
-        this->drawTriangle(item.item, rows, cells);
+        this->drawTriangle(item.item, rows, cells, drawn);
       }
       else if (this->casters_.segment(item.item, found) && found.isEnd)
       {
@@ -119,11 +146,16 @@ private:
       [](Cell& cell) { cell.turnTo(noPart); });
   }
 
-  void drawTriangle(const BandItem& item, Span rows, Cell* cells) const
+  void drawTriangle(const BandItem& item, Span rows, Cell* cells, DrawnTriangles& drawn) const
   {
     const MapPolygon polygon = this->casters_.polygon(item);
     const double margin = this->casters_.margin();
-    drawPolygon(polygon, margin, this->size_, rows, cells);
+    const PolygonOnTexels texels(polygon, margin, rows);
+    drawPolygon(polygon, texels, this->size_, rows, cells);
+    if (polygon.facing != 0)
+    {
+      drawn.add(item, texels);
+    }
     if (this->casters_.covering() != Covering::Triangle && polygon.role.covers)
     {
       drawRing(this->casters_.ring(item, polygon), margin, this->size_, rows, cells);

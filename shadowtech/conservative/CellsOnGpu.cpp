@@ -53,27 +53,17 @@ public:
         this->rows_, CellPath::Compute);
     }
     batches.drawAll([this](const TriangleBatch& batch) { this->target_.spoil(batch); });
-    this->target_.endEdges();
+    this->target_.endPass();
   }
 
   void drawTriangles()
   {
     CollectedBatches<TriangleBatch> triangles(this->mostBytes_);
     CollectedBatches<RingBatch> rings(this->mostBytes_);
-    this->casters_.placements().visitInParts([this](const Placement& placement)
-      { return this->casters_.placements().surfaceOf(placement).triangleCount; },
-      [&](std::uint32_t number, std::uint32_t i)
+    this->visitTriangles(
+      [&](const BandItem& item, const MapPolygon& polygon)
       {
-        const Placement& placement = this->casters_.placements()[number];
-        const BandItem item{ number,
-          this->casters_.placements().surfaceOf(placement).firstTriangle + i };
-        const MapPolygon polygon = this->casters_.polygon(item);
-        if (polygon.facing == 0)
-        {
-          return; // its edges alone are drawn, or it spoils texels
-        }
-        triangles.local().add(
-          polygon, this->casters_.margin(), this->size_, this->rows_, this->path_);
+        this->add(polygon, triangles);
         if (this->casters_.covering() != Covering::Triangle && polygon.role.covers)
         {
           rings.local().add(
@@ -85,6 +75,17 @@ public:
         triangles.drawAll([this](const TriangleBatch& batch) { this->target_.draw(batch); });
         rings.drawAll([this](const RingBatch& batch) { this->target_.draw(batch); });
       });
+    this->target_.endPass();
+  }
+
+  void drawNoise()
+  {
+    CollectedBatches<TriangleBatch> triangles(this->mostBytes_);
+    this->visitTriangles([&](const BandItem&, const MapPolygon& polygon)
+      { this->add(polygon, triangles); },
+      [&] {
+        triangles.drawAll([this](const TriangleBatch& batch) { this->target_.drawNoise(batch); });
+      });
   }
 
   void read(const TakeCell& take)
@@ -95,6 +96,30 @@ public:
   }
 
 private:
+  /// Those that are drawn, so many of them after one another as visitInParts().
+  template <typename Visit, typename FinishPart>
+  void visitTriangles(const Visit& visit, const FinishPart& finishPart) const
+  {
+    const CasterPlacements& placements = this->casters_.placements();
+    placements.visitInParts([&](const Placement& placement)
+      { return placements.surfaceOf(placement).triangleCount; },
+      [&](std::uint32_t number, std::uint32_t i)
+      {
+        const BandItem item{ number, placements.surfaceOf(placements[number]).firstTriangle + i };
+        const MapPolygon polygon = this->casters_.polygon(item);
+        if (polygon.facing != 0) // else its edges alone are drawn, or it spoils texels
+        {
+          visit(item, polygon);
+        }
+      },
+      finishPart);
+  }
+
+  void add(const MapPolygon& polygon, CollectedBatches<TriangleBatch>& triangles) const
+  {
+    triangles.local().add(polygon, this->casters_.margin(), this->size_, this->rows_, this->path_);
+  }
+
   const MapCasters& casters_;
   CellPath path_;
   std::size_t mostBytes_;
@@ -139,6 +164,7 @@ bool CellsOnGpu::draw(const CasterScene& scene, const CasterEdges& edges, int si
     rows.drawSegments();
     rows.spoil(spoiling);
     rows.drawTriangles();
+    rows.drawNoise();
     rows.read(take);
   }
   return true;

@@ -38,9 +38,8 @@ TexelBounds boundsOf(const Cell& cell)
 {
   TexelBounds bounds;
   bounds.litUpTo = below(cell.nearest);
-  // One layer alone reaches up to here: that of the receiver.
-  const float second = below(std::min(cell.second, cell.sharpEnd) - cell.climb);
-  bounds.litUpToOnCasters = std::max(bounds.litUpTo, second);
+  // The one layer up to here is the receiver's.
+  bounds.litUpToOnCasters = std::max(bounds.litUpTo, below(cell.oneLayerUpTo()));
   bounds.leastOffsetOnCasters = cell.noise / static_cast<float>(sharpCosine);
   bounds.shadowFrom = above(std::min(cell.contained, cell.covered));
   return bounds;

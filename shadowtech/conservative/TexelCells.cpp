@@ -1,7 +1,5 @@
 #include "shadowtech/conservative/TexelCells.h"
 
-#include "shadowtech/conservative/TexelShapes.h"
-
 #include <algorithm>
 #include <cstddef>
 #include <limits>
@@ -30,13 +28,13 @@ void visitCells(
 } // namespace
 
 //------------------------------------------------------------------------------
-void drawPolygon(const MapPolygon& polygon, double margin, int width, Span rows, Cell* cells)
+void drawPolygon(
+  const MapPolygon& polygon, const PolygonOnTexels& texels, int width, Span rows, Cell* cells)
 {
   if (polygon.facing == 0 && !polygon.role.poison)
   {
     return; // its edges alone are drawn
   }
-  const PolygonOnTexels texels(polygon, margin, rows);
   const Span drawn = texels.rows();
   for (int y = drawn.first; y <= drawn.last; ++y)
   {
@@ -59,7 +57,6 @@ void drawPolygon(const MapPolygon& polygon, double margin, int width, Span rows,
       if (nearest < cell[x].sharpEnd)
       {
         cell[x].climb = std::max(cell[x].climb, texels.climb());
-        cell[x].noise = std::max(cell[x].noise, static_cast<float>(polygon.noise));
       }
       cell[x].turnTo(polygon.part);
       if (nearest < cell[x].partEnd)
@@ -78,6 +75,24 @@ void drawPolygon(const MapPolygon& polygon, double margin, int width, Span rows,
     for (int x = row.contained.first; polygon.role.covers && x <= row.contained.last; ++x)
     {
       cell[x].contained = std::min(cell[x].contained, texels.farthest(row, x));
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+void drawNoise(const PolygonOnTexels& texels, int width, Span rows, Cell* cells)
+{
+  const Span drawn = texels.rows();
+  for (int y = drawn.first; y <= drawn.last; ++y)
+  {
+    Cell* const cell = cells + static_cast<std::ptrdiff_t>(y - rows.first) * width;
+    const PolygonOnTexels::Row row = texels.row(y, width);
+    for (int x = row.touched.first; x <= row.touched.last; ++x)
+    {
+      if (texels.nearest(row, x) < cell[x].oneLayerUpTo())
+      {
+        cell[x].noise = std::max(cell[x].noise, texels.noise());
+      }
     }
   }
 }

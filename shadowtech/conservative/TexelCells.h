@@ -3,6 +3,7 @@
 
 #include "shadowtech/conservative/CasterShapes.h"
 #include "shadowtech/conservative/TexelRows.h"
+#include "shadowtech/conservative/TexelShapes.h"
 
 #include <algorithm>
 #include <functional>
@@ -21,8 +22,9 @@ struct Cell
   float nearest = std::numeric_limits<float>::infinity(); ///< the least depth of a caster
   float contained = std::numeric_limits<
     float>::infinity(); ///< the least, over casters that cover the texel, of their largest depths
-  float noise = 0.0f;   ///< the most that a tracer may see a triangle off its plane, in world units
-  float climb = 0.0f;   ///< the most that depth changes from anywhere to the sample
+  /// The most that a tracer may see a triangle off its plane, of those that begin before oneLayerUpTo(), in world units.
+  float noise = 0.0f;
+  float climb = 0.0f; ///< the most that depth changes from anywhere to the sample
   float sharpEnd =
     std::numeric_limits<float>::infinity(); ///< the least depth of an end or a sharp edge
   float first = std::numeric_limits<float>::infinity();  ///< depth of the first layer at the sample
@@ -57,6 +59,10 @@ struct Cell
     this->partClimb = 0.0f;
   }
 
+  /// Up to what depth there is one layer, if any: from anywhere before it walks come to the sample before the second, and
+  /// meet no end.
+  float oneLayerUpTo() const { return std::min(this->second, this->sharpEnd) - this->climb; }
+
   void addLayer(float depth)
   {
     this->second = std::min(this->second, std::max(this->first, depth));
@@ -64,11 +70,16 @@ struct Cell
   }
 };
 
-/// Draws a polygon into some rows.
-/// @param margin of texels, the same for all that is drawn: walks from texel to edge must not lose an edge that is
-/// taken to be farther away
+/// Draws a polygon into some rows. Of one that lies along the light (MapPolygon::facing) edges alone are drawn.
+/// @param texels where it is among the texels. Their margin is the same for all that is drawn: walks from texel to edge must not
+/// lose an edge that is taken to be farther away
 /// @param cells of those rows, `width` each
-void drawPolygon(const MapPolygon& polygon, double margin, int width, Span rows, Cell* cells);
+void drawPolygon(
+  const MapPolygon& polygon, const PolygonOnTexels& texels, int width, Span rows, Cell* cells);
+
+/// Notes how far off its plane a tracer may see a polygon that does not lie along the light and begins before Cell::oneLayerUpTo(): when all edges and polygons are
+/// drawn. Others are behind the receivers that are lit by that, wherever a tracer sees them.
+void drawNoise(const PolygonOnTexels& texels, int width, Span rows, Cell* cells);
 
 /// Asks `agrees` about each texel that a polygon touches, with bounds on its depth there, until it does not agree.
 /// @return whether it always did

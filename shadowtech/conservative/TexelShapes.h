@@ -98,6 +98,9 @@ public:
   /// The most that its depth changes from anywhere in a texel to the sample.
   float climb() const { return this->record_.climb; }
 
+  /// How far off its plane a tracer may see it, in world units.
+  float noise() const { return this->record_.noise; }
+
   /// For shaders; its first side is to be filled in.
   const PolygonRecord& record() const { return this->record_; }
   const SideRecord* sides() const { return this->sides_.data(); }

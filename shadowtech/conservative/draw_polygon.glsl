@@ -1,4 +1,5 @@
-// What a polygon gives to a texel that it touches (drawPolygon() of TexelCells.h). POISON: it spoils it.
+// What a polygon gives to a texel that it touches (drawPolygon() of TexelCells.h). POISON: it spoils it. NOISE: what it gives when
+// all else is drawn (drawNoise()).
 
 #include "shadowtech/conservative/texel_shapes.glsl"
 #include "shadowtech/conservative/texel_cells.glsl"
@@ -9,6 +10,11 @@ void drawTexel(PolygonRecord polygon, Row row, int x, int y)
 #ifdef POISON
   lower(cell + nearestInCell, -infinity);
   lower(cell + sharpEndInCell, -infinity);
+#elif defined(NOISE)
+  if (nearestOf(polygon, depthAt(polygon, row, x)) < oneLayerUpTo(cell))
+  {
+    lower(cell + noiseInCell, -polygon.noise);
+  }
 #else
   double depth = depthAt(polygon, row, x);
   float nearest = nearestOf(polygon, depth);
@@ -16,7 +22,6 @@ void drawTexel(PolygonRecord polygon, Row row, int x, int y)
   if (orderedBits(nearest) < cells[cell + sharpEndInCell])
   {
     lower(cell + climbInCell, -polygon.climb);
-    lower(cell + noiseInCell, -polygon.noise);
   }
   if (isIn(row.sampled, x))
   {

@@ -23,6 +23,11 @@ uint orderedBits(float number)
   return (bits & 0x80000000u) != 0u ? ~bits : bits | 0x80000000u;
 }
 
+float numberOf(uint ordered)
+{
+  return uintBitsToFloat((ordered & 0x80000000u) != 0u ? ordered & 0x7fffffffu : ~ordered);
+}
+
 uint cellAt(int x, int y)
 {
   return numbersOfCell * (uint(y - firstRow) * uint(width) + uint(x));
@@ -40,6 +45,15 @@ void lowerBits(uint at, uint bits)
 void lower(uint at, float number)
 {
   lowerBits(at, orderedBits(number));
+}
+
+// Up to what depth there is one layer, if any (Cell of TexelCells.h): when all of that is drawn.
+float oneLayerUpTo(uint cell)
+{
+  precise float climb = max(0.0, -numberOf(cells[cell + climbInCell]));
+  precise float upTo =
+    numberOf(min(cells[cell + secondInCell], cells[cell + sharpEndInCell])) - climb;
+  return upTo;
 }
 
 // The two least of all. Whatever comes is in the end either the first, or was taken for the second when it, or what it gave

@@ -116,12 +116,17 @@ struct Shapes
     {
       for (const MapPolygon& polygon : polygons)
       {
-        drawPolygon(polygon, this->margin, width, rows, cells.data());
+        drawPolygon(
+          polygon, PolygonOnTexels(polygon, this->margin, rows), width, rows, cells.data());
       }
     }
     for (const MapRing& ring : this->rings)
     {
       drawRing(ring, this->margin, width, rows, cells.data());
+    }
+    for (const MapPolygon& polygon : this->triangles)
+    {
+      drawNoise(PolygonOnTexels(polygon, this->margin, rows), width, rows, cells.data());
     }
     return cells;
   }
@@ -150,9 +155,11 @@ struct Shapes
     CellTarget target(shaders, path, width, rows);
     target.draw(segmentBatch);
     target.spoil(spoilingBatch);
-    target.endEdges();
+    target.endPass();
     target.draw(triangleBatch);
     target.draw(ringBatch);
+    target.endPass();
+    target.drawNoise(triangleBatch);
     std::vector<Cell> cells(
       static_cast<std::size_t>(width) * static_cast<std::size_t>(rows.last - rows.first + 1));
     target.read([&](std::size_t i, const Cell& cell) { cells[i] = cell; });

@@ -27,10 +27,24 @@ constexpr double margin = 0.999 * marginTexels;
 constexpr double slack = 0.01;
 constexpr double noise = 0.02;
 
-std::vector<Cell> drawn(const MapPolygon& polygon)
+constexpr Span allRows{ 0, width - 1 };
+
+/// With the noise of those that do not lie along the light.
+std::vector<Cell> drawn(const std::vector<MapPolygon>& polygons)
 {
   std::vector<Cell> cells(width * width);
-  drawPolygon(polygon, marginTexels, width, { 0, width - 1 }, cells.data());
+  for (const MapPolygon& polygon : polygons)
+  {
+    drawPolygon(
+      polygon, PolygonOnTexels(polygon, marginTexels, allRows), width, allRows, cells.data());
+  }
+  for (const MapPolygon& polygon : polygons)
+  {
+    if (polygon.facing != 0)
+    {
+      drawNoise(PolygonOnTexels(polygon, marginTexels, allRows), width, allRows, cells.data());
+    }
+  }
   return cells;
 }
 
@@ -39,7 +53,7 @@ std::vector<Cell> drawn(const Corners& corners)
   MapPolygon polygon = polygonWith(corners);
   polygon.slack = slack;
   polygon.noise = noise;
-  return drawn(polygon);
+  return drawn({ polygon });
 }
 
 /// @param visit called with each triangle and the texels that it is drawn into
@@ -203,6 +217,62 @@ TEST(TexelCells, boundTheDepthsThatATriangleHasInThem)
   EXPECT_GT(layers, 100000u);
 }
 
+/// What lies behind the one layer does not matter for how far off that rays have to start; what may come before its receivers does.
+TEST(TexelCells, haveTheNoiseOfWhatBeginsBeforeTheLastReceiver)
+{
+  constexpr std::size_t middle = 6 * width + 6;
+  // Three sheets over the texel, by depth in its middle, what that changes by to a texel, and noise.
+  struct Sheet
+  {
+    double depth, perTexel, noise;
+  };
+  const auto noiseOf = [](const std::vector<Sheet>& sheets)
+  {
+    std::vector<MapPolygon> polygons;
+    for (const Sheet& sheet : sheets)
+    {
+      const auto depthAt = [&](double x) { return sheet.depth + sheet.perTexel * (x - 6.5); };
+      MapPolygon polygon = polygonWith(Corners{ { { 1.0, 1.0, depthAt(1.0) },
+        { 25.0, 1.0, depthAt(25.0) }, { 1.0, 25.0, depthAt(1.0) } } });
+      polygon.noise = sheet.noise;
+      polygons.push_back(polygon);
+    }
+    std::vector<float> noises;
+    // In whichever order they are drawn.
+    std::sort(polygons.begin(), polygons.end(),
+      [](const MapPolygon& a, const MapPolygon& b) { return a.noise < b.noise; });
+    do
+    {
+      noises.push_back(drawn(polygons)[middle].noise);
+    } while (std::next_permutation(polygons.begin(), polygons.end(),
+      [](const MapPolygon& a, const MapPolygon& b) { return a.noise < b.noise; }));
+    EXPECT_EQ(std::count(noises.begin(), noises.end(), noises.front()),
+      static_cast<std::ptrdiff_t>(noises.size()));
+    return noises.front();
+  };
+  EXPECT_EQ(noiseOf({ { 0.2, 0.0, 0.01 }, { 0.5, 0.0, 0.02 }, { 0.7, 0.0, 0.03 } }), 0.01f);
+  EXPECT_EQ(noiseOf({ { 0.2, 0.1, 0.01 }, { 0.5, 0.1, 0.02 }, { 0.7, 0.2, 0.03 } }), 0.01f)
+    << "each climbs, and begins behind the last receiver";
+  EXPECT_EQ(noiseOf({ { 0.2, 0.0, 0.01 }, { 0.4, 0.2, 0.02 }, { 0.7, 0.0, 0.03 } }), 0.01f)
+    << "the second begins before its depth at the sample, but it climbs as far";
+  // One that does not come to the sample is no layer.
+  const auto beside = [](double depth)
+  {
+    MapPolygon sheet =
+      polygonWith(Corners{ { { 1.0, 1.0, 0.2 }, { 25.0, 1.0, 0.2 }, { 1.0, 25.0, 0.2 } } });
+    MapPolygon behind =
+      polygonWith(Corners{ { { 1.0, 1.0, 0.5 }, { 25.0, 1.0, 0.5 }, { 1.0, 25.0, 0.5 } } });
+    MapPolygon corner =
+      polygonWith(Corners{ { { 6.1, 6.1, depth }, { 6.3, 6.1, depth }, { 6.1, 6.3, depth } } });
+    sheet.noise = 0.01;
+    behind.noise = 0.02;
+    corner.noise = 0.03;
+    return drawn({ corner, behind, sheet })[middle].noise;
+  };
+  EXPECT_EQ(beside(0.3), 0.03f);
+  EXPECT_EQ(beside(0.6), 0.01f);
+}
+
 TEST(TexelCells, ofATriangleThatIsSeenAlongItsPlaneAreNone)
 {
   Random random(13);
@@ -211,7 +281,7 @@ TEST(TexelCells, ofATriangleThatIsSeenAlongItsPlaneAreNone)
     MapPolygon polygon = polygonWith(randomTriangle(random, width));
     polygon.facing = 0;
     polygon.role.covers = false;
-    const std::vector<Cell> cells = drawn(polygon);
+    const std::vector<Cell> cells = drawn({ polygon });
     EXPECT_TRUE(std::none_of(
       cells.begin(), cells.end(), [](const Cell& cell) { return std::isfinite(cell.nearest); }));
   }
@@ -228,7 +298,7 @@ TEST(TexelCells, knowNothingWithinTheMarginOfATriangleThatSpoilsThem)
     polygon.facing = 0;
     polygon.role = { true, false, true };
     polygon.margin = 0.7;
-    const std::vector<Cell> cells = drawn(polygon);
+    const std::vector<Cell> cells = drawn({ polygon });
     visitCells(corners,
       [&](const glm::dvec2& low, std::size_t at)
       {
@@ -302,14 +372,14 @@ TEST(TexelCells, areCoveredByAPartThatDoesNotEndThereWhateverOthersDo)
     end.ends = { { { 5.2, 5.0, depthOfEdge }, { 5.3, 6.0, depthOfEdge } } };
     end.isEnd = true;
     end.part = edge;
-    const Span rows{ 0, width - 1 };
-    drawEndOfPart(end, marginTexels, width, rows, cells.data());
+    drawEndOfPart(end, marginTexels, width, allRows, cells.data());
     for (const Corners& half : halves)
     {
       MapPolygon polygon = polygonWith(half);
       polygon.part = square;
       polygon.slack = slack;
-      drawPolygon(polygon, marginTexels, width, rows, cells.data());
+      drawPolygon(
+        polygon, PolygonOnTexels(polygon, marginTexels, allRows), width, allRows, cells.data());
     }
     Cell cell = cells[onDiagonal];
     EXPECT_EQ(cell.contained, infinity);
