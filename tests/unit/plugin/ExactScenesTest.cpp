@@ -101,6 +101,39 @@ TEST_P(ExactScenes, showWhatIsTraced)
   }
 }
 
+/// A lit face's texels hold other layers, too: faces of its own solid that are turned away from the light, and the ground. Rays need
+/// not start off the noise of those.
+TEST(ExactFaces, areDecidedWhateverTheNoiseOfWhatIsBehindThem)
+{
+  for (const char* name : { "long-cube", "stack" })
+  {
+    const vtkSmartPointer<vtkRenderer> renderer = tool::makeRenderer(tool::loadScene(name), 1.0);
+    vtkNew<vtkGnomonEGLRenderWindow> window;
+    window->SetMultiSamples(0);
+    window->SetSize(256, 256);
+    window->AddRenderer(renderer);
+    vtkNew<vtkGnomonShadowPass> pass;
+    pass->KeepVisibilityOn();
+    pass->SetMapSize(1024);
+    pass->SetSetting("bake", "always");
+    renderer->SetPass(pass);
+    const auto traced = [&](const char* technique)
+    {
+      pass->SetTechnique(technique);
+      window->Render();
+      return pass->GetReport().lights[0].tracedPixels;
+    };
+    const auto all = traced("raytraced");
+    const std::vector<std::vector<float>> truth = pass->GetVisibility().visibility;
+    ASSERT_FALSE(truth.empty());
+    for (const char* technique : { "crsma", "silhouette" })
+    {
+      EXPECT_LT(20 * traced(technique), all) << technique << ", " << name;
+      EXPECT_EQ(pass->GetVisibility().visibility, truth) << technique << ", " << name;
+    }
+  }
+}
+
 /// Whole in the truth, in pieces in a plain map, and traced by the hybrid: none of it is certain.
 TEST(ExactPoles, thatTheMapHasInPiecesAreTracedWhole)
 {
