@@ -110,7 +110,7 @@ TEST(ExactFaces, areDecidedWhateverTheNoiseOfWhatIsBehindThem)
     const vtkSmartPointer<vtkRenderer> renderer = tool::makeRenderer(tool::loadScene(name), 1.0);
     vtkNew<vtkGnomonEGLRenderWindow> window;
     window->SetMultiSamples(0);
-    window->SetSize(256, 256);
+    window->SetSize(512, 512);
     window->AddRenderer(renderer);
     vtkNew<vtkGnomonShadowPass> pass;
     pass->KeepVisibilityOn();
