@@ -77,8 +77,9 @@ struct Cell
 void drawPolygon(
   const MapPolygon& polygon, const PolygonOnTexels& texels, int width, Span rows, Cell* cells);
 
-/// Notes how far off its plane a tracer may see a polygon that does not lie along the light and begins before Cell::oneLayerUpTo(): when all edges and polygons are
-/// drawn. Others are behind the receivers that are lit by that, wherever a tracer sees them.
+/// Notes how far off its plane a tracer may see a polygon that does not lie along the light and begins before
+/// Cell::oneLayerUpTo(): when all edges and polygons are drawn. Others are behind the receivers that are lit by that, wherever a
+/// tracer sees them.
 void drawNoise(const PolygonOnTexels& texels, int width, Span rows, Cell* cells);
 
 /// Asks `agrees` about each texel that a polygon touches, with bounds on its depth there, until it does not agree.
