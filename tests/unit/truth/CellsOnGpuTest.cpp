@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <iostream>
 #include <sstream>
 #include <stdexcept>
@@ -406,6 +407,63 @@ TEST_P(CellsOnGpuBy, areThoseOfTheCpuInRandomScenes)
     }
   }
   EXPECT_GT(filled, 100000u);
+}
+
+/// Makes four triangles of each, in its plane. Those that met still do.
+void subdivide(Occluders& occluders)
+{
+  const Occluders before = occluders;
+  occluders.positionsCentred.clear();
+  occluders.triangles.clear();
+  for (Surface& surface : occluders.surfaces)
+  {
+    const std::uint32_t first = surface.firstTriangle, count = surface.triangleCount;
+    surface.firstVertex = static_cast<std::uint32_t>(occluders.positionsCentred.size());
+    surface.firstTriangle = static_cast<std::uint32_t>(occluders.triangles.size());
+    for (std::uint32_t i = first; i < first + count; ++i)
+    {
+      const auto vertex = static_cast<std::uint32_t>(occluders.positionsCentred.size());
+      const auto cornerOf = [&](int k)
+      { return before.positionsCentred[before.triangles[i][k % 3]]; };
+      for (int k = 0; k < 3; ++k)
+      {
+        occluders.positionsCentred.push_back(cornerOf(k));
+        occluders.positionsCentred.push_back(0.5f * (cornerOf(k) + cornerOf(k + 1)));
+      }
+      for (const glm::uvec3& corners :
+        { glm::uvec3(0, 1, 5), glm::uvec3(1, 2, 3), glm::uvec3(5, 3, 4), glm::uvec3(1, 3, 5) })
+      {
+        occluders.triangles.push_back(vertex + corners);
+      }
+    }
+    surface.vertexCount = 6 * count;
+    surface.triangleCount = 4 * count;
+  }
+}
+
+/// Of a band of rows the CPU keeps so many triangles for their noise, and looks at the others again.
+TEST_P(CellsOnGpuBy, areThoseOfTheCpuWhereManyTrianglesLieInABand)
+{
+  RandomPicture picture = makeRandomPicture("touching boxes", 3);
+  while (picture.occluders.triangles.size() < 40000)
+  {
+    subdivide(picture.occluders);
+  }
+  CasterEdges edges;
+  edges.update(picture.occluders);
+  constexpr int size = 16;
+  const LightView& view = picture.views.views.front();
+  const CasterScene scene = casterScene(view, picture.views.box.z > 0.0, size, picture.occluders);
+  const CellsOnGpu gpu(this->shaders_, GetParam());
+  const std::vector<Cell> cells = drawnBy(size,
+    [&](const TakeCell& take)
+    { return drawCellsOnCpu(scene, edges, size, Covering::Triangle, take); });
+  expectSame(
+    drawnBy(size,
+      [&](const TakeCell& take) { return gpu.draw(scene, edges, size, Covering::Triangle, take); }),
+    cells, size, picture.description);
+  EXPECT_TRUE(
+    std::any_of(cells.begin(), cells.end(), [](const Cell& cell) { return cell.noise > 0.0f; }));
 }
 
 TEST_P(CellsOnGpuBy, leaveNothingBehindAndOpenGlAsItWas)
