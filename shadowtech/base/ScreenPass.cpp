@@ -1,5 +1,7 @@
 #include "shadowtech/base/ScreenPass.h"
 
+#include <vector>
+
 namespace gnomon
 {
 
@@ -27,9 +29,41 @@ void ScreenPass::fill(GLuint texture, int layer, int width, int height)
   {
     glFramebufferTextureLayer(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, texture, 0, layer);
   }
+  this->fillAttached(1, width, height);
+}
+
+//------------------------------------------------------------------------------
+void ScreenPass::fill(std::initializer_list<GLuint> textures, int width, int height)
+{
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, this->framebuffer_.create());
+  GLuint output = 0;
+  for (const GLuint texture : textures)
+  {
+    glFramebufferTexture2D(
+      GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0 + output, GL_TEXTURE_2D, texture, 0);
+    ++output;
+  }
+  this->fillAttached(output, width, height);
+}
+
+//------------------------------------------------------------------------------
+/// @param outputs images that are attached; those of earlier calls beyond them no longer are
+void ScreenPass::fillAttached(GLuint outputs, int width, int height)
+{
+  std::vector<GLenum> buffers;
+  for (GLuint i = 0; i < outputs; ++i)
+  {
+    buffers.push_back(GL_COLOR_ATTACHMENT0 + i);
+  }
+  for (GLuint i = outputs; i < this->attached_; ++i)
+  {
+    glFramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0 + i, GL_TEXTURE_2D, 0, 0);
+  }
+  this->attached_ = outputs;
+  glDrawBuffers(static_cast<GLsizei>(outputs), buffers.data());
   glViewport(0, 0, width, height);
   glDisable(GL_DEPTH_TEST);
-  this->draw();
+  this->draw(outputs);
 }
 
 //------------------------------------------------------------------------------
@@ -39,11 +73,11 @@ void ScreenPass::fillBound(const glm::ivec2& origin, const glm::ivec2& size)
   glEnable(GL_DEPTH_TEST); // without which no depth is written
   glDepthFunc(GL_ALWAYS);
   glDepthMask(GL_TRUE);
-  this->draw();
+  this->draw(1);
 }
 
 //------------------------------------------------------------------------------
-void ScreenPass::draw()
+void ScreenPass::draw(GLuint outputs)
 {
   glDisable(GL_SCISSOR_TEST);
   glDisable(GL_STENCIL_TEST);
@@ -53,7 +87,10 @@ void ScreenPass::draw()
   {
     glDisable(GL_CLIP_DISTANCE0 + i);
   }
-  glDisablei(GL_BLEND, 0);
+  for (GLuint i = 0; i < outputs; ++i)
+  {
+    glDisablei(GL_BLEND, i);
+  }
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
   glBindVertexArray(this->noAttributes_.create());

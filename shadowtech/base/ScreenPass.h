@@ -6,6 +6,7 @@
 
 #include <glm/glm.hpp>
 
+#include <initializer_list>
 #include <string>
 
 namespace gnomon
@@ -23,14 +24,20 @@ public:
   /// @param layer of an array; negative for a texture that is none
   void fill(GLuint texture, int layer, int width, int height);
 
+  /// Fills several images at once, each with the output at its place.
+  /// @param textures no arrays
+  void fill(std::initializer_list<GLuint> textures, int width, int height);
+
   /// Fills a part of the framebuffer that is bound with the colours and depths (gl_FragDepth) that the program in use
   /// gives.
   void fillBound(const glm::ivec2& origin, const glm::ivec2& size);
 
 private:
-  void draw();
+  void fillAttached(GLuint outputs, int width, int height);
+  void draw(GLuint outputs);
 
   GlFramebuffer framebuffer_;
+  GLuint attached_ = 0; ///< images of the framebuffer
   GlVertexArray noAttributes_;
 };
 

@@ -117,7 +117,7 @@ std::size_t MonteCarlo::bytesOfMaps() const
   const auto pixels =
     static_cast<std::size_t>(this->width_) * static_cast<std::size_t>(this->height_);
   return this->layers_.bytes() + this->bounds_.bytes() + this->filter_.bytes() +
-    (static_cast<std::size_t>(this->channels_) + 1) * pixels * sizeof(float) +
+    (static_cast<std::size_t>(this->channels_) + 5) * pixels * sizeof(float) +
     (this->uploaded_ ? sizeof(glm::u8vec3) * this->uploaded_->texels.size() : 0);
 }
 
@@ -132,6 +132,8 @@ void MonteCarlo::allocate(int width, int height, int channels)
   const TexelFormat format =
     channels == 3 ? TexelFormat{ GL_RGBA32F, GL_RGBA, 4 } : TexelFormat{ GL_RG32F, GL_RG, 2 };
   allocateTexture(this->unfiltered_, format, width, height, 0, "visibility");
+  allocateTexture(
+    this->slopes_, { GL_RGBA32F, GL_RGBA, 4 }, width, height, 0, "slopes of visibility");
   this->width_ = width;
   this->height_ = height;
   this->channels_ = channels;
@@ -250,7 +252,8 @@ void MonteCarlo::drawVisibility(const LayerInput& input, LightReport& report)
   const GLuint program = ScreenPass::use(
     input.shaders, ShaderLibrary::source("shadowtech/montecarlo/montecarlo.frag.glsl"), defines);
   ShaderLibrary::setUniforms(program, this->uniformsOf(input), 0, 0);
-  this->screenPass_.fill(this->unfiltered_.name(), -1, this->width_, this->height_);
+  this->screenPass_.fill(
+    { this->unfiltered_.name(), this->slopes_.name() }, this->width_, this->height_);
   for (int channel = 0; channel < this->channels_; ++channel)
   {
     const ChannelView view(this->unfiltered_.name(), GL_RED + static_cast<GLenum>(channel),
@@ -258,8 +261,8 @@ void MonteCarlo::drawVisibility(const LayerInput& input, LightReport& report)
     // A colour that the light has not is 0 everywhere, and has no noise.
     const float mean = textured ? light.texture->mean[channel] : 1.0f;
     const float lit = mean > 0.0f ? mean : 1.0f;
-    this->filter_.apply(
-      input, input.layer + channel, this->unfiltered_.name(), rays, filterOf(light), lit);
+    this->filter_.apply(input, input.layer + channel,
+      { this->unfiltered_.name(), this->slopes_.name(), rays, lit }, filterOf(light));
   }
   this->readClasses(input);
 }

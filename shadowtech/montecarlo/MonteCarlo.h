@@ -46,6 +46,7 @@ private:
   std::shared_ptr<const LightTexture> uploaded_; ///< which that is
 
   GlTexture unfiltered_; ///< visibility in one channel or three, and class
+  GlTexture slopes_;     ///< of visibility
   VisibilityFilter filter_;
   ScreenPass screenPass_;
   int width_ = 0;

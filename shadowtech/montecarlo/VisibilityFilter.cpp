@@ -10,7 +10,7 @@ namespace gnomon
 
 //------------------------------------------------------------------------------
 void VisibilityFilter::apply(
-  const LayerInput& input, int layer, GLuint unfiltered, int rays, int radiusPixels, float lit)
+  const LayerInput& input, int layer, const Noisy& noisy, int radiusPixels)
 {
   const int width = input.receivers.width();
   const int height = input.receivers.height();
@@ -18,32 +18,36 @@ void VisibilityFilter::apply(
   {
     this->width_ = 0; // in case that there is no memory
     allocateTexture(this->rows_, { GL_RG32F, GL_RG, 2 }, width, height, 0, "filtered rows");
+    allocateTexture(
+      this->slopesOfRows_, { GL_RGBA32F, GL_RGBA, 4 }, width, height, 0, "slopes of filtered rows");
     this->width_ = width;
     this->height_ = height;
   }
   const GLuint program = ScreenPass::use(input.shaders,
     ShaderLibrary::source("shadowtech/montecarlo/visibility_filter.frag.glsl"),
-    { "FILTER_PIXELS " + std::to_string(radiusPixels), "RAYS " + std::to_string(rays) });
-  const auto set = [&](GLuint source, const glm::ivec2& axis)
+    { "FILTER_PIXELS " + std::to_string(radiusPixels), "RAYS " + std::to_string(noisy.rays) });
+  const auto set = [&](GLuint source, GLuint slopes, const glm::ivec2& axis)
   {
     ShaderLibrary::setUniforms(program,
       { { "receiverFragments", TextureBinding{ GL_TEXTURE_2D, input.receivers.fragments() } },
         { "receiverPoints", TextureBinding{ GL_TEXTURE_2D, input.receivers.points() } },
-        { "unfiltered", TextureBinding{ GL_TEXTURE_2D, unfiltered } },
-        { "source", TextureBinding{ GL_TEXTURE_2D, source } }, { "axis", axis }, { "lit", lit },
+        { "unfiltered", TextureBinding{ GL_TEXTURE_2D, noisy.visibility } },
+        { "source", TextureBinding{ GL_TEXTURE_2D, source } },
+        { "slopes", TextureBinding{ GL_TEXTURE_2D, slopes } }, { "axis", axis },
+        { "lit", noisy.lit },
         { "pixelSide", glm::vec2(input.camera.pixelSide({ width, height })) } },
       0, 0);
   };
-  set(unfiltered, { 1, 0 });
-  this->screenPass_.fill(this->rows_.name(), -1, width, height);
-  set(this->rows_.name(), { 0, 1 });
+  set(noisy.visibility, noisy.slopes, { 1, 0 });
+  this->screenPass_.fill({ this->rows_.name(), this->slopesOfRows_.name() }, width, height);
+  set(this->rows_.name(), this->slopesOfRows_.name(), { 0, 1 });
   input.layers.fill(layer);
 }
 
 //------------------------------------------------------------------------------
 std::size_t VisibilityFilter::bytes() const
 {
-  return static_cast<std::size_t>(this->width_) * static_cast<std::size_t>(this->height_) * 2 *
+  return static_cast<std::size_t>(this->width_) * static_cast<std::size_t>(this->height_) * 6 *
     sizeof(float);
 }
 

@@ -17,18 +17,24 @@ namespace gnomon
 class VisibilityFilter
 {
 public:
+  /// What is filtered.
+  struct Noisy
+  {
+    GLuint visibility; ///< and class (classes.glsl), two floats per pixel
+    GLuint slopes;     ///< its gradient in view coordinates, where rays tell it
+    int rays;          ///< the light's samples are a grid of rays x rays: how large the noise is
+    float lit;         ///< the visibility of what nothing hides the light from, > 0
+  };
+
   /// Fills a layer of the light.
-  /// @param unfiltered visibility and class (classes.glsl), two floats per pixel
-  /// @param rays as the light's samples are a grid of rays x rays, which says how large the noise is
-  /// @param radiusPixels the Gaussian's deviation is half of it; 0: nothing is changed
-  /// @param lit the visibility of what nothing hides the light from, which the noise is a share of; > 0
-  void apply(
-    const LayerInput& input, int layer, GLuint unfiltered, int rays, int radiusPixels, float lit);
+  /// @param radiusPixels the Gaussian's deviation is half of it at most; 0: nothing is changed
+  void apply(const LayerInput& input, int layer, const Noisy& noisy, int radiusPixels);
 
   std::size_t bytes() const;
 
 private:
   GlTexture rows_;
+  GlTexture slopesOfRows_;
   ScreenPass screenPass_;
   int width_ = 0;
   int height_ = 0;

@@ -21,7 +21,8 @@ uniform mat4 viewFromRay[VIEWS];
 #else
 #define VisibilityAndClass vec2
 #endif
-out VisibilityAndClass visibilityAndClass;
+layout(location = 0) out VisibilityAndClass visibilityAndClass;
+layout(location = 1) out vec3 visibilitySlope; // slopeOf() where some rays are blocked, but not all; else 0
 
 // A receiver of the light.
 struct Receiver
@@ -240,8 +241,10 @@ float classOf(Receiver receiver, vec3 toCentre, inout vec2 depths)
 
 #ifdef CLASSIFY_RAYS
 // The same of a single ray.
-float classOf(int view, Segment segment)
+// @param where it is in a slab if it is UMBRA, as near to the receiver as is known: from 0 there to 1
+float classOf(int view, Segment segment, out float where)
 {
+  where = 0.0;
   vec2 last = vec2(float(mapSide - 1));
   vec2 lower = clamp(floor(min(segment.begin.xy, segment.end.xy) - 0.01), vec2(0.0), last);
   vec2 upper = clamp(floor(max(segment.begin.xy, segment.end.xy) + 0.01), vec2(0.0), last);
@@ -253,8 +256,12 @@ float classOf(int view, Segment segment)
     return LIT;
   }
 #ifndef EYE_LAYER
-  if (bounds.z <= min(greatest, bounds.w) && least <= bounds.z)
+  float deepest = min(greatest, bounds.w); // that is inside a slab of every texel
+  if (bounds.z <= deepest && least <= bounds.z)
   {
+    float span = segment.end.z - segment.begin.z;
+    // A ray across the light has one depth all along.
+    where = span != 0.0 ? clamp((deepest - segment.begin.z) / span, 0.0, 1.0) : 0.0;
     return UMBRA;
   }
 #endif
@@ -262,10 +269,20 @@ float classOf(int view, Segment segment)
 }
 #endif
 
+// Where a point of a view's map lies on a ray, in lengths of its way.
+float lengthTo(int view, Receiver receiver, vec3 way, vec3 point)
+{
+  vec4 place = viewFromRay[view] * vec4(point, 1.0);
+  return max(dot(place.xyz / place.w - receiver.position, way), 0.0) / dot(way, way);
+}
+
 // @param depths of a single view, between which there may be slabs
 // @param searched becomes true where that took a search
-bool isBlocked(Receiver receiver, vec3 way, float length, vec2 depths, inout bool searched)
+// @param at where it is blocked, in lengths of its way
+bool isBlocked(
+  Receiver receiver, vec3 way, float length, vec2 depths, inout bool searched, out float at)
 {
+  at = 0.0;
   for (int view = 0; view < viewCount; ++view)
   {
     Segment segment =
@@ -274,10 +291,12 @@ bool isBlocked(Receiver receiver, vec3 way, float length, vec2 depths, inout boo
     {
       continue;
     }
+    float where;
 #ifdef CLASSIFY_RAYS
-    float rayClass = classOf(view, segment);
+    float rayClass = classOf(view, segment, where);
     if (rayClass == UMBRA)
     {
+      at = lengthTo(view, receiver, way, mix(segment.begin, segment.end, where));
       return true;
     }
     if (rayClass == LIT)
@@ -286,17 +305,47 @@ bool isBlocked(Receiver receiver, vec3 way, float length, vec2 depths, inout boo
     }
 #endif
     searched = true;
-    if (meetsSlabs(view, segment.begin, segment.end))
+    if (meetsSlabs(view, segment.begin, segment.end, where))
     {
+      at = lengthTo(view, receiver, way, mix(segment.begin, segment.end, where));
       return true;
     }
   }
   return false;
 }
 
+// How visibility changes around a receiver in the penumbra of an edge, as its gradient in view coordinates: while the receiver
+// goes across the penumbra, the edge goes across the light.
+// @param across from the middle of what is hidden of the light to the middle of what is seen
+// @param at where the edge is, in lengths of the way to the light
+vec3 slopeOf(vec3 toCentre, vec3 across, float at, float footprint)
+{
+  // As the light is seen from the receiver.
+  vec3 ray = normalize(toCentre);
+  across -= dot(across, ray) * ray;
+  float apart = length(across);
+  if (apart == 0.0)
+  {
+    return vec3(0.0); // the edge may lie any way
+  }
+  vec3 direction = across / apart;
+  vec3 extents = abs(direction * viewFromUnit);
+#if SHAPE == RECTANGLE
+  float side = 2.0 * (extents.x + extents.y);
+#elif SHAPE == DISK
+  float side = 2.0 * length(extents.xy);
+#else
+  float side = 2.0 * length(extents);
+#endif
+  // Rays to a lamp meet in the receiver; those to a sun are counted in units of length.
+  float width = side * (lightView.w > 0.0 ? at / max(1.0 - at, 1e-6) : at);
+  return direction / max(width, 1e-6 * footprint); // what touches the receiver has none
+}
+
 void main()
 {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
+  visibilitySlope = vec3(0.0);
   vec4 fragment = texelFetch(receiverFragments, pixel, 0);
   if (fragment.x <= 0.0)
   {
@@ -328,6 +377,10 @@ void main()
   Shine seen = Shine(0.0);
   Shine all = Shine(0.0);
   bool searched = false;
+  float blocked = 0.0;           // rays
+  float blockedAt = 0.0;         // sum, in lengths of their ways
+  vec3 hiddenPoints = vec3(0.0); // sum
+  vec3 seenPoints = vec3(0.0);   // likewise
   FourPoints points;
   for (int i = 0; i < RAYS * RAYS; ++i)
   {
@@ -338,10 +391,24 @@ void main()
     vec3 offset = lightPoint(points, i);
     all += shineAt(offset);
     offset = inFront(receiver, toCentre, offset);
-    if (!isBlocked(receiver, toCentre + offset, lengthOfRays(receiver), depths, searched))
+    float at;
+    if (isBlocked(receiver, toCentre + offset, lengthOfRays(receiver), depths, searched, at))
+    {
+      blocked += 1.0;
+      blockedAt += at;
+      hiddenPoints += offset;
+    }
+    else
     {
       seen += shineAt(offset);
+      seenPoints += offset;
     }
+  }
+  float free = float(RAYS * RAYS) - blocked;
+  if (blocked > 0.0 && free > 0.0)
+  {
+    vec3 across = seenPoints / free - hiddenPoints / blocked;
+    visibilitySlope = slopeOf(toCentre, across, blockedAt / blocked, footprint);
   }
   visibilityAndClass =
     VisibilityAndClass(visibilityOf(seen, all), searched ? SEARCHED : BY_RAYS);

@@ -110,8 +110,11 @@ bool mayMeet(int first, int second)
 }
 
 // @param begin at the receiver
-bool meetsSlabs(int view, vec3 begin, vec3 end)
+// @return whether a line meets a slab
+// @param where it does, from 0 at its beginning to 1
+bool meetsSlabs(int view, vec3 begin, vec3 end, out float where)
 {
+  where = 0.0;
   int state = stateAt(view, begin);
   for (int i = 0; i < STEPS && state != INSIDE; ++i)
   {
@@ -127,6 +130,7 @@ bool meetsSlabs(int view, vec3 begin, vec3 end)
         int between = stateAt(view, mix(begin, end, middle));
         if (between == INSIDE)
         {
+          where = middle;
           return true;
         }
         bool inFirst = mayMeet(state, between);
@@ -136,6 +140,7 @@ bool meetsSlabs(int view, vec3 begin, vec3 end)
       }
     }
     state = next;
+    where = last;
   }
   return state == INSIDE;
 }
@@ -158,7 +163,8 @@ bool meetsSlab(int view, ivec2 texel, float least, float greatest)
 int cellsVisited = 0; // by all searches of the invocation, for who asks: tests do
 
 // Whether the line from `begin` to `end`, in ray space and on the map, meets a slab.
-bool meetsSlabs(int view, vec3 begin, vec3 end)
+// @param where it enters the texel of that slab, from 0 at its beginning to 1
+bool meetsSlabs(int view, vec3 begin, vec3 end, out float where)
 {
   vec3 way = end - begin;
   bvec2 ahead = greaterThanEqual(way.xy, vec2(0.0));
@@ -168,6 +174,7 @@ bool meetsSlabs(int view, vec3 begin, vec3 end)
   float longest = max(abs(way.x), abs(way.y));
   int level = clamp(int(ceil(log2(longest + 1.0))), 0, topLevel);
   float t = 0.0;
+  where = 0.0;
   // Each step descends or leaves a cell, and each cell that is left was descended to: no line takes nearly so many.
   for (int i = 0; i < 64 + 8 * mapSide; ++i)
   {
@@ -192,6 +199,7 @@ bool meetsSlabs(int view, vec3 begin, vec3 end)
       }
       if (meetsSlab(view, texel, least, greatest))
       {
+        where = t;
         return true;
       }
     }

@@ -325,7 +325,8 @@ std::vector<glm::uvec2> search(ShaderLibrary& library, GLuint slabs, int side,
 {
   const bool isLinear = std::find(defines.begin(), defines.end(), "LINEAR_SEARCH") != defines.end();
   const std::string source = computeGlsl("slab_search.glsl", "mat2x4", "uvec2",
-    std::string("bool meets = meetsSlabs(0, given[i][0].xyz, given[i][1].xyz);\n") +
+    std::string(
+      "float where;\nbool meets = meetsSlabs(0, given[i][0].xyz, given[i][1].xyz, where);\n") +
       "result[i] = uvec2(meets, " + (isLinear ? "0" : "cellsVisited") + ");\n");
   return runCompute<glm::uvec2>(library, source, lines, defines,
     { { "slabs", TextureBinding{ GL_TEXTURE_2D_ARRAY, slabs } },
@@ -526,6 +527,7 @@ struct FilteredPicture
   std::vector<glm::vec4> fragments; ///< as ReceiverTarget has them
   std::vector<glm::vec4> points;
   std::vector<glm::vec4> visibility; ///< x, and y: the class
+  std::vector<glm::vec4> slopes;     ///< xyz: what rays know of its gradient: nothing
 
   FilteredPicture()
   {
@@ -534,12 +536,13 @@ struct FilteredPicture
       this->fragments.emplace_back(1.0f, 0.0f, 0.0f, 0.0f);
       this->points.emplace_back(i % side, i / side, -10.0f, 1.0f);
       this->visibility.emplace_back(1.0f, 5.0f, 0.0f, 0.0f); // searched
+      this->slopes.emplace_back(0.0f);
     }
   }
   /// Both passes of visibility_filter.frag.glsl, for 3 x 3 rays and 5 pixels. Pixels are of side 1.
   std::vector<float> filtered(ShaderLibrary& library) const
   {
-    GlTexture textures[5];
+    GlTexture textures[7];
     const auto allocated = [&](GlTexture& texture, const std::vector<glm::vec4>* texels)
     {
       allocateTexture(texture, { GL_RGBA32F, GL_RGBA, 4 }, side, side, 0, "a test's picture");
@@ -554,22 +557,25 @@ struct FilteredPicture
     const TextureBinding unfiltered = allocated(textures[2], &this->visibility);
     const TextureBinding rows = allocated(textures[3], nullptr);
     const TextureBinding result = allocated(textures[4], nullptr);
+    const TextureBinding ofPixels = allocated(textures[5], &this->slopes);
+    const TextureBinding ofRows = allocated(textures[6], nullptr);
     const GLuint program = ScreenPass::use(library,
       ShaderLibrary::source("shadowtech/montecarlo/visibility_filter.frag.glsl"),
       { "FILTER_PIXELS 5", "RAYS 3" });
     ScreenPass pass;
-    const auto run =
-      [&](const TextureBinding& source, const TextureBinding& target, const glm::ivec2& axis)
+    const auto use =
+      [&](const TextureBinding& source, const TextureBinding& slopesOfIt, const glm::ivec2& axis)
     {
       ShaderLibrary::setUniforms(program,
         { { "receiverFragments", receivers }, { "receiverPoints", places },
-          { "unfiltered", unfiltered }, { "source", source }, { "axis", axis },
-          { "pixelSide", glm::vec2(1.0f, 0.0f) }, { "lit", 1.0f } },
+          { "unfiltered", unfiltered }, { "source", source }, { "slopes", slopesOfIt },
+          { "axis", axis }, { "pixelSide", glm::vec2(1.0f, 0.0f) }, { "lit", 1.0f } },
         0, 0);
-      pass.fill(target.texture, -1, side, side);
     };
-    run(unfiltered, rows, { 1, 0 });
-    run(rows, result, { 0, 1 });
+    use(unfiltered, ofPixels, { 1, 0 });
+    pass.fill({ rows.texture, ofRows.texture }, side, side);
+    use(rows, ofRows, { 0, 1 });
+    pass.fill(result.texture, -1, side, side);
     std::vector<glm::vec4> texels(this->visibility.size());
     glBindTexture(GL_TEXTURE_2D, result.texture);
     glGetTexImage(GL_TEXTURE_2D, 0, GL_RGBA, GL_FLOAT, texels.data());
@@ -676,6 +682,43 @@ TEST_F(MonteCarloGlsl, filterKeepsNarrowPenumbrae)
   {
     ASSERT_NEAR(filtered[i], ramp.visibility[i].x, 0.025f) << i;
   }
+}
+
+/// A penumbra stays as wide as it is, and along it noise is taken off.
+TEST_F(MonteCarloGlsl, filterGoesAlongPenumbraeWhoseSlopeRaysTell)
+{
+  constexpr int side = FilteredPicture::side;
+  constexpr float width = 12.0f; // pixels, of a filter of 11
+  const auto acrossAt = [](std::size_t pixel)
+  { return (static_cast<float>(static_cast<int>(pixel) % side - side / 2) + 0.5f) / width; };
+  FilteredPicture ramp;
+  FilteredPicture noisy;
+  for (std::size_t i = 0; i < ramp.visibility.size(); ++i)
+  {
+    const float across = acrossAt(i);
+    ramp.visibility[i].x = std::clamp(0.5f + across, 0.0f, 1.0f);
+    ramp.slopes[i].x = std::abs(across) < 0.5f ? 1.0f / width : 0.0f;
+    noisy.visibility[i].x =
+      std::clamp(0.5f + across + 0.2f * (this->uniform() - 0.5f), 0.0f, 1.0f); // an RMS of 0.058
+  }
+  noisy.slopes = ramp.slopes;
+  /// Over pixels this near to the middle of the penumbra.
+  const auto rmsError = [&](const FilteredPicture& picture, float nearest)
+  {
+    const std::vector<float> filtered = picture.filtered(this->library_);
+    double squares = 0.0;
+    double count = 0.0;
+    for (std::size_t i = 0; i < filtered.size(); ++i)
+    {
+      const double off = filtered[i] - ramp.visibility[i].x;
+      const bool counts = std::abs(acrossAt(i)) < nearest;
+      squares += counts ? off * off : 0.0;
+      count += counts ? 1.0 : 0.0;
+    }
+    return std::sqrt(squares / count);
+  };
+  EXPECT_LT(rmsError(ramp, 1.0f), 0.007);
+  EXPECT_LT(rmsError(noisy, 0.3f), 0.017);
 }
 
 //------------------------------------------------------------------------------
