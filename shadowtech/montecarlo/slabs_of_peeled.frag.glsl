@@ -17,6 +17,31 @@ vec2 surfaceAt(int number, int firstLayer)
                          : vec2(2.0, 0.0);
 }
 
+// Where a solid ends that begins at a surface which faces the light. On a slope, a body that is thinner than the surface spans
+// would have gaps between its texels: there it goes on to where the surface is in the next one.
+float endOfSolid(vec2 front, float back)
+{
+  float end = max(front.x, back);
+  float reach = min(front.x + 1.01 * front.y, 1.0); // with room for rounding; 1 is before what is empty
+  if (reach <= end)
+  {
+    return end;
+  }
+  ivec2 last = textureSize(layers, 0).xy - 1;
+  for (int i = 0; i < 4; ++i)
+  {
+    ivec2 beside = (i & 1) == 0 ? ivec2(1 - i, 0) : ivec2(0, 2 - i);
+    ivec2 texel = clamp(ivec2(gl_FragCoord.xy) + beside, ivec2(0), last);
+    for (int number = 0; number < PEELED; ++number)
+    {
+      vec2 next = texelFetch(layers, ivec3(texel, number), 0).rg;
+      bool sameSurface = next.x <= reach && next.x - 1.01 * next.y <= front.x; // either spans to the other
+      end = sameSurface ? max(end, next.x) : end;
+    }
+  }
+  return end;
+}
+
 void main()
 {
   vec2 found[4] = vec2[](NO_SLAB, NO_SLAB, NO_SLAB, NO_SLAB);
@@ -38,7 +63,8 @@ void main()
     {
       ++backs;
       found[count++] =
-        open ? vec2(front.x, max(front.x, nextBack.x)) : vec2(nextBack.x, nextBack.x + nextBack.y);
+        vec2(open ? front.x : nextBack.x,
+          open ? endOfSolid(front, nextBack.x) : nextBack.x + nextBack.y);
       open = false;
     }
     else
