@@ -1,0 +1,227 @@
+// Techniques with soft shadows in built-in scenes: how far they may be from rays on the mean.
+
+#include "BuiltinScenes.h"
+#include "Comparison.h"
+#include "Scene.h"
+
+#include "plugin/VisibilityImages.h"
+#include "plugin/vtkGnomonEGLRenderWindow.h"
+#include "plugin/vtkGnomonShadowPass.h"
+
+#include <vtkNew.h>
+#include <vtkRenderer.h>
+#include <vtkSmartPointer.h>
+
+#include <glm/glm.hpp>
+#include <glm/gtc/constants.hpp>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <ostream>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gnomon::test
+{
+namespace
+{
+
+struct SoftScene
+{
+  const char* name;
+  const char* sunDegrees = nullptr; ///< null: the scene has a lamp
+  const char* ground = "plane";     ///< a model
+};
+
+void PrintTo(const SoftScene& scene, std::ostream* stream)
+{
+  *stream << scene.name;
+}
+
+std::string nameOfScene(const testing::TestParamInfo<SoftScene>& scene)
+{
+  std::string name = scene.param.name;
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+}
+
+using Settings = std::vector<std::pair<const char*, const char*>>;
+
+/// A built-in scene in a window of 128 x 128 pixels, with maps of 1024.
+class SoftSceneTest : public testing::TestWithParam<SoftScene>
+{
+protected:
+  SoftSceneTest() { this->window_->SetMultiSamples(0); }
+
+  void show(const tool::Scene& scene)
+  {
+    this->lights_ = scene.lights;
+    this->renderer_ = tool::makeRenderer(scene, 1.0);
+    this->renderer_->SetPass(this->pass_);
+    this->window_->SetSize(128, 128);
+    this->window_->AddRenderer(this->renderer_);
+    this->pass_->KeepVisibilityOn();
+    if (GetParam().sunDegrees)
+    {
+      this->pass_->SetSetting("light_radius", GetParam().sunDegrees);
+    }
+    this->truth_ = this->draw("raytraced", { { "light_samples", "1024" }, { "light_seed", "1" } });
+    this->pass_->SetSetting("light_seed", "0");
+  }
+
+  /// Holds the mean absolute error to a bound, against rays to 1,024 other points of the light, over the pixels that face it; and
+  /// to a share of the hard shadow's, which may be small, too.
+  void expectNearTheTruth(const char* technique, const Settings& settings, double bound)
+  {
+    const tool::VisibilityError error = this->errorOf(technique, settings);
+    const tool::VisibilityError hard = this->errorOf("nsm", {});
+    EXPECT_GT(error.facingPixels, 5000);
+    EXPECT_LE(error.meanAbsolute, bound);
+    EXPECT_LE(error.meanAbsolute, 0.7 * hard.meanAbsolute);
+    this->RecordProperty("mean_absolute_error", std::to_string(error.meanAbsolute));
+    this->RecordProperty("rms_error", std::to_string(error.rootMeanSquare));
+    this->RecordProperty("hard_mean_absolute_error", std::to_string(hard.meanAbsolute));
+  }
+
+private:
+  tool::VisibilityError errorOf(const char* technique, const Settings& settings)
+  {
+    return tool::measureError(this->draw(technique, settings), this->truth_, this->lights_);
+  }
+  VisibilityImages draw(const char* technique, const Settings& settings)
+  {
+    this->pass_->SetTechnique(technique);
+    for (const auto& [name, value] : settings)
+    {
+      this->pass_->SetSetting(name, value);
+    }
+    this->window_->Render();
+    return this->pass_->GetVisibility();
+  }
+
+  vtkNew<vtkGnomonEGLRenderWindow> window_;
+  vtkNew<vtkGnomonShadowPass> pass_;
+  vtkSmartPointer<vtkRenderer> renderer_;
+  std::vector<tool::SceneLight> lights_;
+  VisibilityImages truth_;
+};
+
+//------------------------------------------------------------------------------
+/// A cube over a sphere over a plane, three panels, stacked plates, an elongated cube, the bunny, the atrium.
+using SoftScenes = SoftSceneTest;
+
+INSTANTIATE_TEST_SUITE_P(Builtin, SoftScenes,
+  testing::Values(SoftScene{ "soft-stack" }, SoftScene{ "soft-panels" }, SoftScene{ "soft-plates" },
+    SoftScene{ "soft-long-cube" }, SoftScene{ "bunny", "5" }, SoftScene{ "atrium", "5" }),
+  nameOfScene);
+
+TEST_P(SoftScenes, sampledIsNearTheTruth)
+{
+  this->show(tool::loadScene(GetParam().name));
+  this->expectNearTheTruth("sampled", { { "light_samples", "256" } }, 0.005);
+}
+
+TEST_P(SoftScenes, filteredRaysThroughPeeledLayersAreNearTheTruth)
+{
+  this->show(tool::loadScene(GetParam().name));
+  this->expectNearTheTruth("montecarlo", {}, 0.02);
+}
+
+//------------------------------------------------------------------------------
+/// Those whose ground is one model.
+using SoftScenesOnGrounds = SoftSceneTest;
+
+INSTANTIATE_TEST_SUITE_P(Builtin, SoftScenesOnGrounds,
+  testing::Values(SoftScene{ "soft-stack" }, SoftScene{ "soft-panels", nullptr, "bottom" },
+    SoftScene{ "soft-plates" }, SoftScene{ "soft-long-cube" }),
+  nameOfScene);
+
+TEST_P(SoftScenesOnGrounds, filteredRaysThroughTwoLayersAreNearTheTruthWhereTheyCastNothing)
+{
+  tool::Scene scene = tool::loadScene(GetParam().name);
+  const auto ground = std::find_if(scene.models.begin(), scene.models.end(),
+    [](const tool::SceneModel& model) { return model.name == GetParam().ground; });
+  ASSERT_NE(ground, scene.models.end());
+  ground->casts = false;
+  this->show(scene);
+  this->expectNearTheTruth("montecarlo", { { "mc_layers", "near_far" } }, 0.02);
+}
+
+//------------------------------------------------------------------------------
+// Half a plane over a plane
+//------------------------------------------------------------------------------
+
+/// What is seen from (x, 0, z) of a sun of this angle past the edge of the scene `half-plane`, which is at x = 0, y = 2.5.
+double halfPlaneAt(double x, double degrees)
+{
+  const double height = 2.5;
+  const glm::dvec3 toSun =
+    glm::normalize(glm::dvec3(-tool::halfPlaneShadowEdge / height, 1.0, 0.3));
+  // A ray along r is at x + height r.x / r.y where it is as high as the edge. So those to the points of the sun, one unit away,
+  // pass it on one side of a line.
+  const glm::dvec3 across(height, x, 0.0);
+  const double along = glm::dot(across, toSun);
+  const double radii =
+    along / (glm::length(across - along * toSun) * std::tan(glm::radians(0.5 * degrees)));
+  const double t = std::clamp(radii, -1.0, 1.0);
+  return 1.0 - (std::acos(t) - t * std::sqrt(1.0 - t * t)) / glm::pi<double>();
+}
+
+/// Though the filter's radius is in pixels, and the penumbra a few pixels wide.
+TEST(SoftHalfPlane, montecarloLeavesThePenumbraAsWideAsItIs)
+{
+  const vtkSmartPointer<vtkRenderer> renderer =
+    tool::makeRenderer(tool::loadScene("half-plane"), 1.0);
+  vtkNew<vtkGnomonEGLRenderWindow> window;
+  window->SetMultiSamples(0);
+  window->AddRenderer(renderer);
+  vtkNew<vtkGnomonShadowPass> pass;
+  pass->KeepVisibilityOn();
+  pass->SetTechnique("montecarlo");
+  pass->SetSetting("light_radius", "6");
+  renderer->SetPass(pass);
+  for (const int side : { 256, 512 })
+  {
+    window->SetSize(side, side);
+    window->Render();
+    const VisibilityImages& kept = pass->GetVisibility();
+    // Sums of what comes of the edge beyond the hard shadow's, by how far: as the square of the penumbra's width.
+    double spread = 0.0;
+    double exactSpread = 0.0;
+    std::array<double, 10> offBy{}; // sums, by what is to be seen
+    std::array<double, 10> pixels{};
+    for (std::size_t i = 0; i < kept.coverage.size(); ++i)
+    {
+      const double y = kept.positionY[i] + kept.origin[1];
+      if (kept.coverage[i] < 0.5f || std::abs(y) > 1e-3)
+      {
+        continue;
+      }
+      const double x = kept.positionX[i] + kept.origin[0];
+      const double exact = halfPlaneAt(x, 6.0);
+      const double seen = kept.visibility[0][i];
+      const double beyond = x - tool::halfPlaneShadowEdge;
+      spread += std::abs(beyond) * (beyond < 0.0 ? seen : 1.0 - seen);
+      exactSpread += std::abs(beyond) * (beyond < 0.0 ? exact : 1.0 - exact);
+      if (exact > 0.0 && exact < 1.0)
+      {
+        const auto tenth = static_cast<std::size_t>(10.0 * exact);
+        offBy[tenth] += seen - exact;
+        pixels[tenth] += 1.0;
+      }
+    }
+    EXPECT_NEAR(std::sqrt(spread / exactSpread), 1.0, 0.05) << side;
+    for (std::size_t tenth = 0; tenth < offBy.size(); ++tenth)
+    {
+      EXPECT_GT(pixels[tenth], 100.0) << side;
+      EXPECT_NEAR(offBy[tenth] / pixels[tenth], 0.0, 0.05) << side << ", " << tenth;
+    }
+  }
+}
+
+} // namespace
+} // namespace gnomon::test
