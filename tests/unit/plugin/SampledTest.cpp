@@ -2,6 +2,7 @@
 
 #include "PassScene.h"
 
+#include "lights/LightSamples.h"
 #include "lights/vtkGnomonAreaLight.h"
 #include "lights/vtkGnomonLightKeys.h"
 #include "plugin/vtkGnomonPropKeys.h"
@@ -488,6 +489,67 @@ TEST_F(Sampled, refinesFromTheHardShadowToTheWhole)
     EXPECT_EQ(distance, 0.0);
     EXPECT_EQ(visibilityOf(this->scene), whole);
     EXPECT_EQ(this->scene.report().mapBakes, 0);
+  }
+}
+
+//------------------------------------------------------------------------------
+/// Each frame is the mean over its own points: what rays to these show, and not what rays to all of them do.
+TEST_F(Sampled, showsTheMeanOverItsPointsInEachFrame)
+{
+  const glm::dvec3 place(-2.0, -2.5, 6.0);
+  const double radius = 1.0;
+  this->light->SetRadius(radius);
+  gnomon::ShadowLight sampled;
+  sampled.kind = gnomon::LightKind::Spot;
+  sampled.positionWorld = place;
+  sampled.directionWorld = glm::normalize(-place);
+  sampled.area = gnomon::diskArea(sampled.directionWorld, radius);
+  sampled.lightSamples = 32;
+  const std::vector<glm::dvec3> points = gnomon::pairedLightSamples(sampled);
+  ASSERT_EQ(points.size(), 32u);
+
+  // Hard shadows of a light at each of the points.
+  std::vector<std::vector<float>> means; // over the first 8, 16, 24, 32
+  std::vector<float> sum(140 * 100, 0.0f);
+  this->light->SetRadius(0.0);
+  this->scene.pass->SetTechnique("raytraced");
+  for (std::size_t k = 0; k < points.size(); ++k)
+  {
+    const glm::dvec3 at = place + points[k];
+    this->light->SetPosition(at.x, at.y, at.z);
+    this->light->SetFocalPoint(points[k].x, points[k].y, points[k].z);
+    const std::vector<float> hard = visibilityOf(this->scene);
+    std::transform(sum.begin(), sum.end(), hard.begin(), sum.begin(), std::plus<float>());
+    if (k % 8 == 7)
+    {
+      means.push_back(sum);
+      std::transform(sum.begin(), sum.end(), means.back().begin(),
+        [&](float v) { return v / static_cast<float>(k + 1); });
+    }
+  }
+
+  this->light->SetPosition(place.x, place.y, place.z);
+  this->light->SetFocalPoint(0.0, 0.0, 0.0);
+  this->light->SetRadius(radius);
+  this->scene.pass->SetTechnique("sampled");
+  set(this->scene, "progressive", 8);
+  visibilityOf(this->scene); // the hard shadow
+  for (std::size_t frame = 0; frame < means.size(); ++frame)
+  {
+    const std::vector<float> seen = visibilityOf(this->scene);
+    EXPECT_EQ(this->report().lightSamples, 8 * (static_cast<int>(frame) + 1));
+    for (std::size_t other = 0; other < means.size(); ++other)
+    {
+      const double difference = meanDifference(seen, means[other]);
+      if (other == frame)
+      {
+        EXPECT_LT(difference, 0.0015) << frame << ": the maps' texels";
+      }
+      else
+      {
+        EXPECT_GT(difference, 0.002) << frame << ", " << other;
+      }
+    }
   }
 }
 
