@@ -14,17 +14,19 @@ struct SeenLight_LIGHT
 // How many texels there have to be between the ray of a separation and the light's rim.
 const float texelsToRim_LIGHT = 8.0;
 
-// A ball's outline seen along a slope, on the plane across the view: longer that way, by the ray's length to distance 1.
-mat2 ballAcross_LIGHT(float radius, vec2 slope)
+// A ball's outline: the disk across the way from its centre to the receiver, which is the same from whatever face that is
+// looked at. Its axes are those of the plane across the face, turned the shortest way.
+mat2x3 ballAcross_LIGHT(float radius, vec3 position)
 {
-  return radius * (mat2(1.0) + outerProduct(slope, slope) / (1.0 + length(vec3(slope, 1.0))));
+  vec3 away = normalize(position); // not along -z: it is on the face
+  mat2 turned = mat2(1.0) - outerProduct(away.xy, away.xy) / (1.0 + away.z);
+  return radius * mat2x3(vec3(turned[0], -away.x), vec3(turned[1], -away.y));
 }
 
 SeenLight_LIGHT seenLight_LIGHT(ViewPoint point)
 {
 #if PCSS_BALL_LIGHT
-  mat2 outline = ballAcross_LIGHT(length(lightFromUnit_LIGHT[0]), acrossOf_LIGHT(point.position));
-  mat2x3 axes = mat2x3(vec3(outline[0], 0.0), vec3(outline[1], 0.0));
+  mat2x3 axes = ballAcross_LIGHT(length(lightFromUnit_LIGHT[0]), point.position);
 #else
   mat2x3 axes = mat2x3(cubeFaceFromLight(point.face, lightFromUnit_LIGHT[0]),
     cubeFaceFromLight(point.face, lightFromUnit_LIGHT[1]));
