@@ -272,7 +272,8 @@ void RenderManager::fillLayers(
   {
     case Evaluation::Pointwise:
       this->layers_.estimate(casting.layer, technique, light, this->receiverTarget_,
-        this->stageValues_.space, this->library_);
+        this->stageValues_.space, this->library_,
+        casting.own.info().classes.empty() ? nullptr : classes);
       this->endStageClock("visibility: estimate");
       break;
     case Evaluation::ScreenGpu:

@@ -83,7 +83,8 @@ struct TechniqueInfo
   /// Why it cannot do what a light's settings say, whose projection is resolved; empty if it can. Null: it always can.
   std::string (*refused)(const ShadowLight&) = nullptr;
 
-  /// What a screen technique tells of its pixels (ScreenInput::classes); empty: nothing.
+  /// What the technique tells of its pixels; empty: nothing. A screen technique fills ScreenInput::classes, a pointwise one's
+  /// GLSL has `int pixelClass_LIGHT` after each call.
   std::vector<PixelClass> classes = {};
 
   bool isPointwise() const { return this->evaluation == Evaluation::Pointwise; }

@@ -27,18 +27,55 @@ void VisibilityLayers::resize(int width, int height, int layers)
 
 //------------------------------------------------------------------------------
 void VisibilityLayers::estimate(int layer, const Technique& technique, const ShadowLight& light,
-  const ReceiverTarget& receivers, const ReceiverSpace& space, ShaderLibrary& shaders)
+  const ReceiverTarget& receivers, const ReceiverSpace& space, ShaderLibrary& shaders,
+  std::vector<std::uint8_t>* classes)
 {
   const GlStateGuard guard;
+  GlTexture ofPixels;
+  std::vector<std::string> defines;
+  if (classes)
+  {
+    glActiveTexture(GL_TEXTURE0);
+    allocateTexture(ofPixels, { GL_R8UI, GL_RED_INTEGER, 1, GL_UNSIGNED_BYTE }, this->width_,
+      this->height_, 0, "the pixels' classes");
+    defines.emplace_back("CLASSES");
+  }
   const GLuint program = ScreenPass::use(shaders,
     numberedForLight(technique.visibilityGlsl(light), 0) +
-      ShaderLibrary::source("shadowtech/base/screen_visibility.frag.glsl"));
+      ShaderLibrary::source("shadowtech/base/screen_visibility.frag.glsl"),
+    defines);
   const int freeUnit = ShaderLibrary::setUniforms(program,
     { { "receiverFragments", TextureBinding{ GL_TEXTURE_2D, receivers.fragments() } },
       { "receiverPoints", TextureBinding{ GL_TEXTURE_2D, receivers.points() } } },
     0, 0);
   ShaderLibrary::setUniforms(program, technique.uniforms(space), 0, freeUnit);
-  this->fill(layer);
+  if (classes)
+  {
+    this->fillWithClasses(layer, ofPixels.name(), *classes);
+  }
+  else
+  {
+    this->fill(layer);
+  }
+}
+
+//------------------------------------------------------------------------------
+/// Fills a layer with the first output of the program in use, and a texture with the second, which it reads back.
+void VisibilityLayers::fillWithClasses(
+  int layer, GLuint ofPixels, std::vector<std::uint8_t>& classes)
+{
+  GlFramebuffer framebuffer;
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.create());
+  glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, this->texture_.name(), 0, layer);
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT1, GL_TEXTURE_2D, ofPixels, 0);
+  const GLenum both[] = { GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1 };
+  glDrawBuffers(2, both);
+  this->screenPass_.fillBound({ 0, 0 }, { this->width_, this->height_ });
+  classes.resize(static_cast<std::size_t>(this->width_) * static_cast<std::size_t>(this->height_));
+  glReadBuffer(GL_COLOR_ATTACHMENT1);
+  glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glReadPixels(0, 0, this->width_, this->height_, GL_RED_INTEGER, GL_UNSIGNED_BYTE, classes.data());
 }
 
 //------------------------------------------------------------------------------

@@ -6,6 +6,7 @@
 #include "shadowtech/base/Technique.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace gnomon
@@ -22,8 +23,10 @@ public:
   void resize(int width, int height, int layers);
 
   /// Fills a layer by a pointwise technique's GLSL, called for the receivers of all pixels.
+  /// @param classes where not null, each pixel's class (TechniqueInfo::classes), of a technique that tells
   void estimate(int layer, const Technique& technique, const ShadowLight& light,
-    const ReceiverTarget& receivers, const ReceiverSpace& space, ShaderLibrary& shaders);
+    const ReceiverTarget& receivers, const ReceiverSpace& space, ShaderLibrary& shaders,
+    std::vector<std::uint8_t>* classes = nullptr);
 
   /// Fills a layer with the output of the program in use, called for every pixel (ScreenPass). A
   /// GlStateGuard is the caller's business.
@@ -40,6 +43,8 @@ public:
   std::size_t bytes() const;
 
 private:
+  void fillWithClasses(int layer, GLuint ofPixels, std::vector<std::uint8_t>& classes);
+
   GlTexture texture_;
   ScreenPass screenPass_;
   int width_ = 0;

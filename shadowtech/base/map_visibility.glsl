@@ -3,6 +3,15 @@
 
 #include "shadowtech/base/light_views.glsl"
 
+// How a point's visibility comes about: classesOfMaps(), in their order, behind which techniques have their own.
+#ifndef GNOMON_MAP_CLASSES
+#define GNOMON_MAP_CLASSES
+#define MAP_TURNED_AWAY 1
+#define MAP_NO_CASTER 2
+#define MAP_BY_TEXELS 3
+#endif
+int pixelClass_LIGHT; // of the last point that visibility_LIGHT() was asked for
+
 uniform vec2 depthSlacks_LIGHT; // what rounding does to a depth; and per distance to the camera
 
 #if VIEWS_PIXELS_LIGHT
@@ -49,8 +58,10 @@ float visibilityOnMap_LIGHT(vec3 p, vec3 n, vec3 positionView, vec3 normalView)
   ViewPoint point;
   if (!findPoint_LIGHT(p, n, point))
   {
+    pixelClass_LIGHT = MAP_NO_CASTER;
     return 1.0;
   }
+  pixelClass_LIGHT = MAP_BY_TEXELS; // unless the estimator says otherwise
 #if VIEWS_PIXELS_LIGHT
   point.pixelArea = pixelArea_LIGHT(positionView, normalView);
 #endif
@@ -70,5 +81,6 @@ float visibility_LIGHT(vec3 positionView, vec3 normalView)
 {
   vec3 p = (lightFromView_LIGHT * vec4(positionView, 1.0)).xyz;
   vec3 n = mat3(lightFromView_LIGHT) * normalView;
+  pixelClass_LIGHT = MAP_TURNED_AWAY;
   return lightReaches_LIGHT(p, n) ? visibilityOnMap_LIGHT(p, n, positionView, normalView) : 0.0;
 }

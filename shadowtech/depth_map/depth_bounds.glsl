@@ -58,7 +58,7 @@ float largest_LIGHT(vec4 of)
 
 // What all texels of a window say: 1 lit, 0 hidden, -1 where the bounds of blocks of 2^level texels do
 // not tell. Rounding between the corners of a block and its texels is well below half of the slack.
-// @param own the least and the largest that isLitAt_LIGHT() may be given
+// @param own the least and the largest that isLitBy_LIGHT() may be given
 float decided_LIGHT(ViewPoint point, TexelWindow_LIGHT window, int level, vec2 own, float slack)
 {
   bool lit = true;

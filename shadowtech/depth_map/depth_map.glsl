@@ -24,10 +24,15 @@ float depthOnRay_LIGHT(ViewPoint point, float distanceLight, vec2 texel)
   return depth;
 }
 
-// The linear depth of what was drawn at a texel's centre, however the map measures.
-float linearDepthAt_LIGHT(int view, ivec2 texel)
+// What the map holds of a texel: the depth of what was drawn at its centre.
+float depthAt_LIGHT(int view, ivec2 texel)
 {
-  float depth = texelFetch(depthMap_LIGHT, ivec3(texel, view), 0).r;
+  return texelFetch(depthMap_LIGHT, ivec3(texel, view), 0).r;
+}
+
+// The linear depth of that, however the map measures.
+float linearDepth_LIGHT(int view, ivec2 texel, float depth)
+{
 #if MAP_EUCLIDEAN_LIGHT
   depth /= rayScale_LIGHT[view] * length(vec3(acrossOf_LIGHT(view, vec2(texel) + 0.5), 1.0));
 #endif
@@ -35,10 +40,10 @@ float linearDepthAt_LIGHT(int view, ivec2 texel)
 }
 
 // Whether nothing that was drawn at a texel's centre hides the point from the light.
+// @param depthCaster what the map holds of it
 // @param own how far from the light the point is, where its plane is farther
-bool isLitAt_LIGHT(ViewPoint point, ivec2 texel, float own, float slack)
+bool isLitBy_LIGHT(ViewPoint point, ivec2 texel, float depthCaster, float own, float slack)
 {
-  float depthCaster = texelFetch(depthMap_LIGHT, ivec3(texel, point.view), 0).r;
   if (depthCaster >= 1.0)
   {
     return true; // no caster here; receivers that do not cast may lie beyond the map's depths
@@ -49,5 +54,6 @@ bool isLitAt_LIGHT(ViewPoint point, ivec2 texel, float own, float slack)
 }
 bool isLitAt_LIGHT(ViewPoint point, ivec2 texel, float slack)
 {
-  return isLitAt_LIGHT(point, texel, point.position.z, slack);
+  return isLitBy_LIGHT(
+    point, texel, depthAt_LIGHT(point.view, texel), point.position.z, slack);
 }

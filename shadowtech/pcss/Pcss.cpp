@@ -32,6 +32,11 @@ TechniqueInfo Pcss::info()
   info.needsMap = true;
   info.refused = refused;
   info.asPublished = "pcss_as_published";
+  info.classes = classesOfMaps();
+  info.classes.insert(info.classes.end(),
+    { { "lit by the map's bounds", { 230, 230, 230 } },
+      { "in shadow by the map's bounds", { 90, 90, 90 } },
+      { "no blocker found", { 180, 200, 230 } } });
   return info;
 }
 

@@ -85,11 +85,12 @@ float separationAt_LIGHT(ViewPoint point, SeenLight_LIGHT light, vec2 beside, fl
   }
   vec2 place = texelOf_LIGHT(onFace.view, ray.xy / ray.z);
   ivec2 texel = ivec2(clamp(floor(place), vec2(0.0), vec2(viewSize_LIGHT - 1.0)));
-  if (isLitAt_LIGHT(onFace, texel, ray.z, slackOn_LIGHT(onFace, point, slack)))
+  float depth = depthAt_LIGHT(onFace.view, texel);
+  if (isLitBy_LIGHT(onFace, texel, depth, ray.z, slackOn_LIGHT(onFace, point, slack)))
   {
     return -1.0;
   }
-  float depth = linearDepthAt_LIGHT(onFace.view, texel);
+  depth = linearDepth_LIGHT(onFace.view, texel, depth);
   float nearest = ray.z / (1.0 + light.most);
   return max(ray.z / max(distanceOf_LIGHT(onFace, depth), nearest) - 1.0, 0.0);
 }

@@ -43,11 +43,12 @@ float separationAt_LIGHT(ViewPoint point, SeenLight_LIGHT light, vec2 beside, fl
 {
   vec2 place = point.texel + light.texels * beside;
   ivec2 texel = ivec2(clamp(floor(place), vec2(0.0), vec2(viewSize_LIGHT - 1.0)));
-  if (isLitAt_LIGHT(point, texel, slack))
+  float depth = depthAt_LIGHT(point.view, texel);
+  if (isLitBy_LIGHT(point, texel, depth, point.position.z, slack))
   {
     return -1.0;
   }
-  return separationOf_LIGHT(point, linearDepthAt_LIGHT(point.view, texel));
+  return separationOf_LIGHT(point, linearDepth_LIGHT(point.view, texel, depth));
 }
 
 // The largest separation that a caster has within the light's reach at that separation. What the first

@@ -16,10 +16,15 @@ uniform sampler2D lightPoints_LIGHT; // the search's, then the filter's
 // share of that ray's way: surfaces slope.
 const float leastShareOfSeparation_LIGHT = 0.75;
 
+// Behind those of all maps, those of Pcss::info(), in their order.
+#define PCSS_LIT_BY_BOUNDS 4
+#define PCSS_HIDDEN_BY_BOUNDS 5
+#define PCSS_NO_BLOCKER 6
+
 #if PCSS_ASKS_BOUNDS_LIGHT
-// What the filter answers at any separation up to the largest: 1 lit, 0 hidden, -1 where the map's
-// bounds do not tell.
-float filterDecided_LIGHT(ViewPoint point, SeenLight_LIGHT light, float largest, float slack)
+// What search and filter answer: 1 lit, 0 hidden, -1 where the map's bounds do not tell. Neither looks farther than the largest
+// separation.
+float decidedByBounds_LIGHT(ViewPoint point, SeenLight_LIGHT light, float largest, float slack)
 {
   float decided = decidedWithin_LIGHT(point, light, largest, slack);
   if (decided == 0.0)
@@ -56,28 +61,91 @@ vec2 lightPoint_LIGHT(int number, vec2 pattern, vec3 facing)
   return dot(facing, vec3(place, 1.0)) < 0.0 ? -place : place;
 }
 
-// The share of the light that is hidden by what has this separation on a part of the search's area. What
-// lies near the point hides more of the light than what is as large on the map and near the light.
-float shareHidden_LIGHT(float part, float separation, float largest)
+// What is found no nearer than this share of where it is looked for is there.
+const float ownShareOfSeparation_LIGHT = 0.9;
+
+// How often that is done at most. It is rarely more than once; most where casters reach far towards the light.
+#define PCSS_LOOKS_AGAIN_LIGHT 4
+
+// What hides points of the light, as a search finds it.
+struct Blockers_LIGHT
 {
-  float larger = largest / max(separation, 1e-30); // 0 is left of what nearly touches the point
-  return min(part * larger * larger, 1.0);
+  float area; // on the map; 0: there are none
+  float sum;  // of separations over it
+  float least;
+};
+
+void add_LIGHT(inout Blockers_LIGHT blockers, float separation, float area)
+{
+  blockers.area += area;
+  blockers.sum += area * separation;
+  blockers.least = min(blockers.least, separation);
 }
 
-// Whether what is on the map where a point of the light is looked for hides the receiver from it. If that
-// lies too near the receiver to do so, as the wall of a corner or a surface further down, it is looked for
-// once more, at that surface's own separation.
-bool hidesLightPoint_LIGHT(
-  ViewPoint point, SeenLight_LIGHT light, float separation, vec2 place, float slack)
+// Searches as far as the largest separation for what hides any point of the light.
+Blockers_LIGHT blockersOf_LIGHT(
+  ViewPoint point, SeenLight_LIGHT light, vec2 pattern, float largest, float slack)
 {
-  float extent = extentOf_LIGHT(place);
-  float found = separationAt_LIGHT(point, light, separation * place, slack);
-  if (found < 0.0 || found >= separation * extent)
+  Blockers_LIGHT blockers = Blockers_LIGHT(0.0, 0.0, largest);
+  const float points = float(PCSS_SEARCH_POINTS_LIGHT);
+  float own = separationAt_LIGHT(point, light, vec2(0.0), slack);
+  if (own >= 0.0)
   {
-    return found >= 0.0;
+    add_LIGHT(blockers, own, 1.0 / (points * points));
   }
-  float again = separationAt_LIGHT(point, light, found * place, slack);
-  return again >= leastShareOfSeparation_LIGHT * found * extent;
+  for (int i = 0; i < PCSS_SEARCH_POINTS_LIGHT; ++i)
+  {
+    vec2 place = lightPoint_LIGHT(i, pattern, light.facing);
+    float part = spreadForSearch_LIGHT(place, light, point, largest) / points;
+    float separation = separationAt_LIGHT(point, light, largest * place, slack);
+    if (separation >= largest * extentOf_LIGHT(place))
+    {
+      add_LIGHT(blockers, separation, part);
+    }
+  }
+  return blockers;
+}
+
+// The separation of what hides the receiver from a point of the light that is looked for at another one; -1: nothing. What
+// is found at another separation hides another point, and so is looked for again at its own: the wall of a corner, a surface
+// further down, or one nearer to the light.
+// @param largest that any caster has
+float hiderOf_LIGHT(ViewPoint point, SeenLight_LIGHT light, vec2 place, float separation,
+  float largest, float slack)
+{
+  float found = min(separationAt_LIGHT(point, light, separation * place, slack), largest);
+  if (found < 0.0 || (found >= separation && leastShareOfSeparation_LIGHT * found <= separation))
+  {
+    return found;
+  }
+  for (int i = 0; i < PCSS_LOOKS_AGAIN_LIGHT; ++i)
+  {
+    separation = found;
+    found = min(separationAt_LIGHT(point, light, separation * place, slack), largest);
+    if (found < 0.0 || found >= ownShareOfSeparation_LIGHT * separation)
+    {
+      return found < 0.0 ? -1.0 : separation;
+    }
+  }
+  return found >= leastShareOfSeparation_LIGHT * separation * extentOf_LIGHT(place) ? separation
+                                                                                     : -1.0;
+}
+
+// Searches by the filter's points, each for what hides it: more, and none in vain.
+Blockers_LIGHT blockersOfFilter_LIGHT(
+  ViewPoint point, SeenLight_LIGHT light, vec2 pattern, float largest, float slack)
+{
+  Blockers_LIGHT blockers = Blockers_LIGHT(0.0, 0.0, largest);
+  for (int i = 0; i < PCSS_FILTER_POINTS_LIGHT; ++i)
+  {
+    vec2 place = lightPoint_LIGHT(PCSS_SEARCH_POINTS_LIGHT + i, pattern, light.facing);
+    float separation = hiderOf_LIGHT(point, light, place, largest, largest, slack);
+    if (separation >= 0.0)
+    {
+      add_LIGHT(blockers, separation, 1.0);
+    }
+  }
+  return blockers;
 }
 
 float estimate_LIGHT(ViewPoint point, float slack)
@@ -87,45 +155,37 @@ float estimate_LIGHT(ViewPoint point, float slack)
   // What rounding does to the receiver's plane grows with how far that is followed: half a texel so far.
   slack *= max(2.0 * texelsAcross_LIGHT(point, light, largest), 1.0);
 #if PCSS_ASKS_BOUNDS_LIGHT
-  float decided = filterDecided_LIGHT(point, light, largest, slack);
+  float decided = decidedByBounds_LIGHT(point, light, largest, slack);
   if (decided >= 0.0)
   {
+    pixelClass_LIGHT = decided > 0.0 ? PCSS_LIT_BY_BOUNDS : PCSS_HIDDEN_BY_BOUNDS;
     return decided;
   }
 #endif
   vec2 pattern = patternOf_LIGHT(point);
-  const float points = float(PCSS_SEARCH_POINTS_LIGHT);
-
-  float own = separationAt_LIGHT(point, light, vec2(0.0), slack);
-  float blockers = own < 0.0 ? 0.0 : shareHidden_LIGHT(1.0 / (points * points), own, largest);
-  float sum = blockers * own;
-  for (int i = 0; i < PCSS_SEARCH_POINTS_LIGHT; ++i)
+  Blockers_LIGHT blockers = blockersOf_LIGHT(point, light, pattern, largest, slack);
+  if (blockers.area == 0.0)
   {
-    vec2 place = lightPoint_LIGHT(i, pattern, light.facing);
-    float part = spreadForSearch_LIGHT(place, light, point, largest) / points;
-    float separation = separationAt_LIGHT(point, light, largest * place, slack);
-    if (separation >= largest * extentOf_LIGHT(place))
-    {
-      float share = shareHidden_LIGHT(part, separation, largest);
-      blockers += share;
-      sum += share * separation;
-    }
+    // At a penumbra's rim few points may have missed what there is.
+    blockers = blockersOfFilter_LIGHT(point, light, pattern, largest, slack);
   }
-  // A search that finds nothing is not believed: at a penumbra's rim the filter's points may find what it
-  // missed.
-  float mean = blockers > 0.0 ? min(sum / blockers, largest) : largest;
-#if PCSS_ASKS_BOUNDS_LIGHT
-  decided = filterDecided_LIGHT(point, light, mean, slack);
-  if (decided >= 0.0)
+  if (blockers.area == 0.0)
   {
-    return decided;
+    pixelClass_LIGHT = PCSS_NO_BLOCKER;
+    return 1.0;
   }
-#endif
+  // What is near the receiver hides the light along other ways than what is far above it; and what is round by its rim, which
+  // is farther from the light than its middle.
+  float least = blockers.least;
+  float mean = clamp(blockers.sum / blockers.area, least, largest);
+  bool several = least < leastShareOfSeparation_LIGHT * mean;
   float hidden = 0.0;
   for (int i = 0; i < PCSS_FILTER_POINTS_LIGHT; ++i)
   {
     vec2 place = lightPoint_LIGHT(PCSS_SEARCH_POINTS_LIGHT + i, pattern, light.facing);
-    hidden += hidesLightPoint_LIGHT(point, light, mean, place, slack) ? 1.0 : 0.0;
+    bool hides = hiderOf_LIGHT(point, light, place, least, largest, slack) >= 0.0 ||
+      (several && hiderOf_LIGHT(point, light, place, mean, largest, slack) >= 0.0);
+    hidden += hides ? 1.0 : 0.0;
   }
   return max(1.0 - hidden / float(PCSS_FILTER_POINTS_LIGHT), 0.0);
 }

@@ -10,12 +10,13 @@ uniform float widthLight_LIGHT;
 float distanceAt_LIGHT(ViewPoint point, vec2 place)
 {
   ivec2 texel = ivec2(clamp(floor(place), vec2(0.0), vec2(viewSize_LIGHT - 1.0)));
-  if (texelFetch(depthMap_LIGHT, ivec3(texel, point.view), 0).r >= 1.0)
+  float depth = depthAt_LIGHT(point.view, texel);
+  if (depth >= 1.0)
   {
     return 3e38;
   }
   vec2 depths = viewDepths_LIGHT[point.view];
-  float along = (linearDepthAt_LIGHT(point.view, texel) - depths.y) / depths.x;
+  float along = (linearDepth_LIGHT(point.view, texel, depth) - depths.y) / depths.x;
   return along * length(vec3(acrossOf_LIGHT(point.view, vec2(texel) + 0.5), 1.0));
 }
 

@@ -11,7 +11,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -550,6 +552,136 @@ TEST_F(Pcss, searchesLeaveNoSpecks)
     }
     RecordProperty(std::string("specks_") + preset, specks);
     EXPECT_EQ(specks, 0) << preset << " of " << penumbra;
+  }
+}
+
+//------------------------------------------------------------------------------
+/// A ball of light beside a screen, whose shadow goes over from one face of the lamp's cube to the next at x = 1: what visibility
+/// is off by is the same on both sides.
+TEST_F(Pcss, hasNoSeamsWhereFacesOfTheCubeMeet)
+{
+  PassScene scene(100, 100);
+  scene.addFloor(4.0);
+  scene.addBox({ 0.4, -3.0, 0.62 }, { 0.45, 3.0, 1.4 });
+  soft("0.3")(scene, scene.addSpot({ 0.0, 0.0, 1.0 }, glm::dvec3(0.0), allDirections));
+  scene.lookDown(0.4, 1.0);
+  scene.pass->SetSetting("light_samples", "256");
+  const std::vector<float> truth = visibilityOf(scene, "raytraced");
+  const std::vector<float> softly = visibilityOf(scene, "pcss");
+  constexpr int strip = 5; // columns, of 0.008
+  double off[2] = {};
+  double seen = 0.0;
+  for (std::size_t i = 0; i < truth.size(); ++i)
+  {
+    const int column = static_cast<int>(i % 100);
+    if (std::abs(column - 49.5) < strip)
+    {
+      off[column < 50 ? 0 : 1] += (softly[i] - truth[i]) / (100.0 * strip);
+      seen += truth[i] / (2 * 100.0 * strip);
+    }
+  }
+  RecordProperty("jump", std::to_string(off[1] - off[0]));
+  RecordProperty("seen", std::to_string(seen));
+  EXPECT_GT(seen, 0.2);
+  EXPECT_LT(seen, 0.8);
+  EXPECT_LT(std::abs(off[1] - off[0]), 0.01);
+}
+
+//------------------------------------------------------------------------------
+/// The shadow of a box that stands on the floor, where a ball close to the lamp hides a part of it, too.
+TEST_F(Pcss, contactsAreSeenInWidePenumbrae)
+{
+  PassScene scene(200, 150);
+  scene.addFloor(4.0);
+  scene.addSphere({ 0.7, 0.0, 3.3 }, 0.3);
+  scene.addBox({ 1.0, -0.5, 0.0 }, { 1.4, 0.5, 1.0 });
+  soft("0.4")(scene, scene.addSpot({ 0.0, 0.0, 4.0 }, { 1.0, 0.0, 0.0 }, 50.0));
+  scene.lookDown(0.6, 1.9);
+  scene.renderer->GetActiveCamera()->SetPosition(1.9, 0.0, 2.0); // below the ball
+  scene.renderer->GetActiveCamera()->SetClippingRange(0.1, 3.0);
+  scene.pass->SetSetting("light_samples", "256");
+  const std::vector<float> truth = visibilityOf(scene, "raytraced");
+  const std::vector<float> softly = visibilityOf(scene, "pcss");
+  int dark = 0;
+  int lost = 0;
+  for (std::size_t i = 0; i < truth.size(); ++i)
+  {
+    dark += truth[i] < 0.1f ? 1 : 0;
+    lost += truth[i] < 0.1f && softly[i] > 0.3f ? 1 : 0;
+  }
+  const double error = meanDifference(softly, truth);
+  RecordProperty("dark", dark);
+  RecordProperty("lost", lost);
+  RecordProperty("error", std::to_string(error));
+  EXPECT_GT(dark, 1000);
+  EXPECT_LT(lost, 0.02 * dark);
+  EXPECT_LT(error, 0.06);
+}
+
+//------------------------------------------------------------------------------
+/// A ball's penumbra is that of its rim, which lies behind its middle as the lamp sees it.
+TEST_F(Pcss, roundCastersHaveThePenumbraOfTheirRims)
+{
+  PassScene scene(150, 150);
+  scene.addFloor(4.0);
+  scene.addSphere({ 0.0, 0.0, 1.2 }, 0.8);
+  soft("0.4")(scene, scene.addSpot({ 0.0, 0.0, 4.0 }, glm::dvec3(0.0), 40.0));
+  scene.lookDown(2.0);
+  scene.renderer->GetActiveCamera()->SetPosition(0.0, 0.0, 0.3); // below the ball
+  scene.renderer->GetActiveCamera()->SetClippingRange(0.01, 1.0);
+  scene.pass->SetSetting("light_samples", "256");
+  const std::vector<float> truth = visibilityOf(scene, "raytraced");
+  const double error = meanDifference(visibilityOf(scene, "pcss"), truth);
+  const double hard = meanDifference(visibilityOf(scene, "nsm"), truth);
+  RecordProperty("error", std::to_string(error));
+  RecordProperty("hard", std::to_string(hard));
+  EXPECT_LT(error, 0.2 * hard);
+}
+
+//------------------------------------------------------------------------------
+/// How pixels come to their visibility: every one of a class, what bounds decide neither searched nor filtered, and the more
+/// filtered the larger the light.
+TEST_F(Pcss, tellsWhatTheEarlyOutDecides)
+{
+  PassScene scene(200, 150);
+  addThings(scene);
+  vtkLight* lamp = scene.addSpot({ -2.0, -2.5, 6.0 }, glm::dvec3(0.0), 50.0);
+  const auto classesOf = [&](const char* radius, const char* earlyOut)
+  {
+    soft(radius)(scene, lamp);
+    scene.pass->SetSetting("early_out", earlyOut);
+    std::map<std::string, std::int64_t> counts;
+    const std::vector<float> visibility = drawKept(scene).visibility[0];
+    std::int64_t all = 0;
+    for (const gnomon::ClassCount& of : scene.report().lights.at(0).classes)
+    {
+      counts[of.name] = of.pixels;
+      all += of.pixels;
+    }
+    EXPECT_EQ(all, 200 * 150);
+    const auto between = std::count_if(
+      visibility.begin(), visibility.end(), [](float v) { return v > 0.0f && v < 1.0f; });
+    EXPECT_LE(between, counts["by the map's texels"]) << radius << earlyOut;
+    return counts;
+  };
+  std::int64_t filtered = 0;
+  for (const char* radius : { "0.1", "0.4", "1.2" })
+  {
+    auto none = classesOf(radius, "none");
+    auto exact = classesOf(radius, "exact");
+    EXPECT_EQ(none["lit by the map's bounds"] + none["in shadow by the map's bounds"], 0);
+    EXPECT_GT(exact["lit by the map's bounds"], 0) << radius;
+    for (const char* alike : { "no receiver", "turned away from the light" })
+    {
+      EXPECT_GT(exact[alike], 0) << alike;
+      EXPECT_EQ(exact[alike], none[alike]) << alike;
+    }
+    EXPECT_EQ(
+      exact["no blocker found"] + exact["lit by the map's bounds"], none["no blocker found"]);
+    EXPECT_EQ(exact["by the map's texels"] + exact["in shadow by the map's bounds"],
+      none["by the map's texels"]);
+    EXPECT_GT(exact["by the map's texels"], filtered) << radius;
+    filtered = exact["by the map's texels"];
   }
 }
 

@@ -160,14 +160,13 @@ private:
     this->axes_ = glm::dmat2x3(area[0], area[1]);
     if (this->light_.area->shape == LightArea::Shape::Ball)
     {
-      // An ellipse: along the slope as long as the ray is.
+      // The disk across the ray: what leans with it is along the slope.
       const glm::dvec2 along = glm::normalize(across);
-      const glm::dmat2 axes(along, glm::dvec2(-along.y, along.x));
-      const double radius = this->light_.area->radius();
-      const double ray = glm::length(glm::dvec3(across, 1.0));
-      const glm::dmat2 seen =
-        axes * glm::dmat2(radius * ray, 0.0, 0.0, radius) * glm::transpose(axes);
-      this->axes_ = glm::dmat2x3(glm::dvec3(seen[0], 0.0), glm::dvec3(seen[1], 0.0));
+      const glm::dvec3 ray = glm::normalize(this->p_);
+      const glm::dvec3 leaning(along * ray.z, -glm::length(glm::dvec2(ray)));
+      const glm::dvec3 level(-along.y, along.x, 0.0);
+      this->axes_ = this->light_.area->radius() *
+        glm::dmat2x3(along.x * leaning - along.y * level, along.y * leaning + along.x * level);
     }
     this->lightTexels_ = texelJacobian(texels, across) *
       glm::dmat2(glm::dvec2(this->axes_[0]), glm::dvec2(this->axes_[1]));
@@ -192,17 +191,72 @@ private:
       const glm::dvec3 away = source - (positional ? this->p_ : glm::dvec3(0.0, 0.0, 1.0));
       return glm::dot(away, this->n_) < 0.0 ? -place : place;
     };
-    double hiddenShare = 0.0;
-    double sum = 0.0;
-    const auto addBlocker = [&](double separation, double part)
+    // Of what hides a point of the light that is looked for at a separation.
+    const auto hider = [&](int number, double separation) -> std::optional<double>
     {
-      const double share = std::min(part * std::pow(largest / separation, 2), 1.0);
-      hiddenShare += share;
-      sum += share * separation;
+      const glm::dvec2 place = turned(this->counts_.search + number);
+      auto found = this->hiderAt(separation * place);
+      if (found && *found >= separation && std::min(*found, largest) <= separation / 0.75)
+      {
+        return std::min(*found, largest);
+      }
+      bool holds = false;
+      for (int again = 0; again < 4 && found && !holds; ++again)
+      {
+        separation = std::min(*found, largest);
+        found = this->hiderAt(separation * place);
+        const double share = again < 3 ? 0.9 : 0.75 * this->extent(place);
+        holds = found && std::min(*found, largest) >= share * separation;
+      }
+      return holds ? std::optional(separation) : std::nullopt;
     };
+    Blockers blockers = this->search(largest, turned);
+    if (blockers.area == 0.0)
+    {
+      // What few points have missed, more may find.
+      for (int i = 0; i < this->counts_.filter; ++i)
+      {
+        if (const auto separation = hider(i, largest))
+        {
+          blockers.add(*separation, 1.0);
+        }
+      }
+    }
+    if (blockers.area == 0.0)
+    {
+      return 1.0;
+    }
+    const double least = std::min(blockers.least, largest);
+    const double mean = std::clamp(blockers.sum / blockers.area, least, largest);
+    int hidden = 0;
+    for (int i = 0; i < this->counts_.filter; ++i)
+    {
+      hidden += hider(i, least) || (least < 0.75 * mean && hider(i, mean)) ? 1 : 0;
+    }
+    return 1.0 - static_cast<double>(hidden) / this->counts_.filter;
+  }
+
+  struct Blockers
+  {
+    double area = 0.0;
+    double sum = 0.0;
+    double least = 1e300;
+
+    void add(double separation, double part)
+    {
+      this->area += part;
+      this->sum += part * separation;
+      this->least = std::min(this->least, separation);
+    }
+  };
+
+  template <typename Turned>
+  Blockers search(double largest, const Turned& turned)
+  {
+    Blockers blockers;
     if (const auto own = this->hiderAt(glm::dvec2(0.0)))
     {
-      addBlocker(*own, std::pow(this->counts_.search, -2.0));
+      blockers.add(*own, std::pow(this->counts_.search, -2.0));
     }
     for (int i = 0; i < this->counts_.search; ++i)
     {
@@ -217,31 +271,13 @@ private:
         place *= std::tan(angle) / widest / this->extent(place);
         density = std::atan(widest) / widest / std::pow(std::cos(angle), 2);
       }
-      const auto hider = this->hiderAt(largest * place);
-      if (hider && *hider >= largest * this->extent(place))
+      const auto found = this->hiderAt(largest * place);
+      if (found && *found >= largest * this->extent(place))
       {
-        addBlocker(*hider, 2.0 * this->extent(place) * density / this->counts_.search);
+        blockers.add(*found, 2.0 * this->extent(place) * density / this->counts_.search);
       }
     }
-    const double mean = hiddenShare > 0.0 ? std::min(sum / hiddenShare, largest) : largest;
-    int hidden = 0;
-    for (int i = 0; i < this->counts_.filter; ++i)
-    {
-      const glm::dvec2 place = turned(this->counts_.search + i);
-      const double extent = this->extent(place);
-      auto hider = this->hiderAt(mean * place);
-      if (hider && *hider < mean * extent)
-      {
-        const double own = *hider;
-        hider = this->hiderAt(own * place);
-        hidden += hider && *hider >= 0.75 * own * extent ? 1 : 0;
-      }
-      else
-      {
-        hidden += hider ? 1 : 0;
-      }
-    }
-    return 1.0 - static_cast<double>(hidden) / this->counts_.filter;
+    return blockers;
   }
 
   bool isRectangle() const { return this->light_.area->shape == LightArea::Shape::Rectangle; }
@@ -540,6 +576,37 @@ std::vector<Receiver> receiversOf(const LightViews& views, const glm::dvec2& til
   return receivers;
 }
 
+/// What a technique's GLSL answers at receivers on a map.
+std::vector<float> run(const Technique& technique, const ShadowLight& light,
+  const LightViews& views, const Depths& depths, const std::vector<Receiver>& receivers)
+{
+  GlTexture map;
+  fillDepths(map, depths);
+  ShaderLibrary library;
+  DepthBounds bounds;
+  bounds.bake(map.name(), mapSize, 1, library);
+  const std::vector<glm::vec2> lightPoints = pcssPoints(light.pcssSamples, light.area->shape);
+  GlTexture pointTexture;
+  glBindTexture(GL_TEXTURE_2D, pointTexture.create());
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_RG32F, static_cast<GLsizei>(lightPoints.size()), 1, 0, GL_RG,
+    GL_FLOAT, lightPoints.data());
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  const glm::dmat3 lightFromUnit = glm::dmat3(views.lightFromCentred) * light.area->worldFromUnit;
+  std::vector<Uniform> uniforms = lightViewsUniforms(views, mapSize, {});
+  uniforms.push_back({ "depthMap_LIGHT", TextureBinding{ GL_TEXTURE_2D_ARRAY, map.name() } });
+  uniforms.push_back({ "depthSlacks_LIGHT", glm::vec2(slack, 0.0) });
+  uniforms.push_back(bounds.uniform());
+  uniforms.push_back({ "lightPoints_LIGHT", TextureBinding{ GL_TEXTURE_2D, pointTexture.name() } });
+  uniforms.push_back({ "lightFromUnit_LIGHT", glm::mat3(lightFromUnit) });
+  std::vector<glm::vec4> points;
+  for (const Receiver& receiver : receivers)
+  {
+    points.emplace_back(receiver.position, 1.0);
+  }
+  return visibilityAt(technique, light, library, std::move(points),
+    glm::vec3(receivers.front().normal), std::move(uniforms));
+}
+
 class PcssGlsl
   : public GlslTest
   , public testing::WithParamInterface<AreaCase>
@@ -548,32 +615,7 @@ protected:
   static std::vector<float> run(const ShadowLight& light, const LightViews& views,
     const Depths& depths, const std::vector<Receiver>& receivers)
   {
-    GlTexture map;
-    fillDepths(map, depths);
-    ShaderLibrary library;
-    DepthBounds bounds;
-    bounds.bake(map.name(), mapSize, 1, library);
-    const std::vector<glm::vec2> lightPoints = pcssPoints(light.pcssSamples, light.area->shape);
-    GlTexture pointTexture;
-    glBindTexture(GL_TEXTURE_2D, pointTexture.create());
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_RG32F, static_cast<GLsizei>(lightPoints.size()), 1, 0, GL_RG,
-      GL_FLOAT, lightPoints.data());
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    const glm::dmat3 lightFromUnit = glm::dmat3(views.lightFromCentred) * light.area->worldFromUnit;
-    std::vector<Uniform> uniforms = lightViewsUniforms(views, mapSize, {});
-    uniforms.push_back({ "depthMap_LIGHT", TextureBinding{ GL_TEXTURE_2D_ARRAY, map.name() } });
-    uniforms.push_back({ "depthSlacks_LIGHT", glm::vec2(slack, 0.0) });
-    uniforms.push_back(bounds.uniform());
-    uniforms.push_back(
-      { "lightPoints_LIGHT", TextureBinding{ GL_TEXTURE_2D, pointTexture.name() } });
-    uniforms.push_back({ "lightFromUnit_LIGHT", glm::mat3(lightFromUnit) });
-    std::vector<glm::vec4> points;
-    for (const Receiver& receiver : receivers)
-    {
-      points.emplace_back(receiver.position, 1.0);
-    }
-    return visibilityAt(Pcss(), light, library, std::move(points),
-      glm::vec3(receivers.front().normal), std::move(uniforms));
+    return test::run(Pcss(), light, views, depths, receivers);
   }
 };
 
@@ -629,60 +671,105 @@ TEST_P(PcssGlsl, theEarlyOutChangesNothing)
   }
 }
 
-TEST(Pcss, readsAsManyTexelsAsItsPresetsSay)
+/// The texels of the map that the shader itself reads for receivers, counted as it runs. They have a pixel each for themselves.
+class PcssReads : public GlslTest
+{
+protected:
+  struct Reads
+  {
+    int fewest = 1000000;
+    int most = 0;
+    double all = 0.0;
+  };
+
+  static Reads readsOf(const ShadowLight& light, const Depths& depths, const glm::dvec2& tilt)
+  {
+    const LightViews views = firstView(light);
+    Reads reads;
+    for (const float each : run(CountingPcss(), light, views, depths, receiversOf(views, tilt)))
+    {
+      const int count = static_cast<int>(each);
+      reads.fewest = std::min(reads.fewest, count);
+      reads.most = std::max(reads.most, count);
+      reads.all += count;
+    }
+    return reads;
+  }
+
+private:
+  /// Answers with how many texels it has read.
+  class CountingPcss : public Pcss
+  {
+  public:
+    std::string visibilityGlsl(const ShadowLight& light) const override
+    {
+      std::string text = this->Pcss::visibilityGlsl(light);
+      const auto replace = [&text](const std::string& from, const std::string& to)
+      {
+        const std::size_t place = text.find(from);
+        ASSERT_NE(place, std::string::npos) << from;
+        text.replace(place, from.size(), to);
+        EXPECT_EQ(text.find(from, place + to.size()), std::string::npos) << "once: " << from;
+      };
+      replace("float depthAt_LIGHT(int view, ivec2 texel)\n{",
+        "int reads_LIGHT = 0;\nfloat depthAt_LIGHT(int view, ivec2 texel)\n{\n  ++reads_LIGHT;");
+      replace("float visibility_LIGHT(", "float visibilityOfPcss_LIGHT(");
+      return text +
+        "float visibility_LIGHT(vec3 positionView, vec3 normalView)\n{\n  reads_LIGHT = 0;\n"
+        "  visibilityOfPcss_LIGHT(positionView, normalView);\n  return float(reads_LIGHT);\n}\n";
+    }
+  };
+};
+
+const Depths cover = [](const glm::ivec2&) { return 0.35f; };
+const Depths nothing = [](const glm::ivec2&) { return 1.0f; };
+
+/// Apelles, table 4.1.
+TEST_F(PcssReads, areThoseOfItsPresets)
 {
   const PcssCounts expected[] = { { 16, 16 }, { 36, 64 }, { 64, 256 } };
-  int previous = 0;
   for (int preset = 0; preset < 3; ++preset)
   {
     ShadowLight light = areaCases().front().light;
     light.pcssSamples = static_cast<PcssSamples>(preset);
-    EXPECT_EQ(pcssCounts(light.pcssSamples).search, expected[preset].search);
-    EXPECT_EQ(pcssCounts(light.pcssSamples).filter, expected[preset].filter);
-    const LightViews views = firstView(light);
-    const std::vector<Receiver> receivers = receiversOf(views, {});
-    Twin twin(light, views, slope);
-    int most = 0;
-    int fewest = 1000;
-    for (const Receiver& receiver : receivers)
+    light.earlyOut = EarlyOut::None;
+    const auto [search, filter] = pcssCounts(light.pcssSamples);
+    EXPECT_EQ(search, expected[preset].search);
+    EXPECT_EQ(filter, expected[preset].filter);
+    // The receiver's own texel, the search, and the filter; where that finds nothing it has searched.
+    for (const Depths& depths : { cover, nothing })
     {
-      const Twin::Answer answer = twin.at(receiver);
-      most = std::max(most, answer.fetches);
-      fewest = std::min(fewest, answer.fetches);
+      const Reads plain = readsOf(light, depths, {});
+      EXPECT_EQ(plain.fewest, 1 + search + filter);
+      EXPECT_EQ(plain.most, 1 + search + filter);
     }
-    // The point's own texel, the search, and the filter, which looks twice at some places.
-    EXPECT_EQ(fewest, 1 + expected[preset].search + expected[preset].filter);
-    EXPECT_LE(most, 1 + expected[preset].search + 2 * expected[preset].filter);
-    EXPECT_GT(most, previous);
-    previous = most;
+    // The filter searches, too, and looks at two depths, at each of them five times at most.
+    const Reads mixed = readsOf(light, layers, {});
+    EXPECT_GE(mixed.fewest, 1 + search + filter);
+    EXPECT_GT(mixed.most, 1 + search + filter);
+    EXPECT_LE(mixed.most, 1 + search + 3 * 5 * filter);
+    // What bounds decide reads none of the map.
+    light.earlyOut = EarlyOut::Exact;
+    EXPECT_EQ(readsOf(light, cover, {}).most, 0);
+    EXPECT_EQ(readsOf(light, nothing, {}).most, 0);
   }
 }
 
-/// Texels that a light's receivers on a plane read together.
-int fetchesOf(const ShadowLight& light)
-{
-  const LightViews views = firstView(light);
-  Twin twin(light, views, blocks);
-  int fetches = 0;
-  for (const Receiver& receiver : receiversOf(views, tilts[1]))
-  {
-    fetches += twin.at(receiver).fetches;
-  }
-  return fetches;
-}
-
-TEST(Pcss, presetsReadMoreFromLowToHigh)
+TEST_F(PcssReads, growFromLowToHighAndShrinkByTheEarlyOut)
 {
   for (const AreaCase& each : areaCases())
   {
-    int previous = 0;
+    double previous = 0.0;
     for (const PcssSamples samples : { PcssSamples::Low, PcssSamples::Medium, PcssSamples::High })
     {
       ShadowLight light = each.light;
       light.pcssSamples = samples;
-      const int fetches = fetchesOf(light);
-      EXPECT_GT(fetches, 2 * previous) << each;
-      previous = fetches;
+      light.earlyOut = EarlyOut::None;
+      const double all = readsOf(light, blocks, tilts[1]).all;
+      EXPECT_GT(all, 2.0 * previous) << each;
+      previous = all;
+      light.earlyOut = EarlyOut::Exact;
+      EXPECT_LE(readsOf(light, blocks, tilts[1]).all, all) << each;
     }
   }
 }
