@@ -1,6 +1,6 @@
 #!/bin/bash
 # Sweeps the hybrid techniques over maps, pictures and views, as the theses that they come from did on their own
-# scenes, and writes docs/sweeps.md. Takes about two hours; what the same program has measured in the same way before, in
+# scenes, and writes docs/sweeps.md. Takes about an hour; what the same program has measured in the same way before, in
 # out/sweeps, is not measured again.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
