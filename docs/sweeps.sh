@@ -375,9 +375,6 @@ chainOrderings() {
   echo
   echo "On the cube and the primitives a contour of 2 pixels has all that is left already, but for 25 pixels."
   echo
-  echo "Cloths of the atrium hang almost along the light. Whether they are decided depends on how far off them rays begin, a share of the pixel's size: in"
-  echo "512 x 512 pixels more of them are."
-  echo
   echo "More than a tenth of the wrong pixels is left where leaves and blades are finer than texels: what the map has not seen has no contour there."
 } > "$out/page.md"
 mv "$out/page.md" docs/sweeps.md
