@@ -48,7 +48,7 @@ std::vector<Uniform> RunningSum::before() const
 void RunningSum::fill()
 {
   this->newest_ = 1 - this->newest_;
-  this->screenPass_.fill(this->texture(), -1, this->width_, this->height_);
+  this->screenPass_.fill({ { this->texture() } }, this->width_, this->height_);
   this->isEmpty_ = false;
 }
 

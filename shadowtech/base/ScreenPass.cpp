@@ -18,43 +18,24 @@ GLuint ScreenPass::use(
 }
 
 //------------------------------------------------------------------------------
-void ScreenPass::fill(GLuint texture, int layer, int width, int height)
+void ScreenPass::fill(std::initializer_list<Image> images, int width, int height)
 {
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, this->framebuffer_.create());
-  if (layer < 0)
-  {
-    glFramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture, 0);
-  }
-  else
-  {
-    glFramebufferTextureLayer(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, texture, 0, layer);
-  }
-  this->fillAttached(1, width, height);
-}
-
-//------------------------------------------------------------------------------
-void ScreenPass::fill(std::initializer_list<GLuint> textures, int width, int height)
-{
-  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, this->framebuffer_.create());
-  GLuint output = 0;
-  for (const GLuint texture : textures)
-  {
-    glFramebufferTexture2D(
-      GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0 + output, GL_TEXTURE_2D, texture, 0);
-    ++output;
-  }
-  this->fillAttached(output, width, height);
-}
-
-//------------------------------------------------------------------------------
-/// @param outputs images that are attached; those of earlier calls beyond them no longer are
-void ScreenPass::fillAttached(GLuint outputs, int width, int height)
-{
   std::vector<GLenum> buffers;
-  for (GLuint i = 0; i < outputs; ++i)
+  for (const Image& image : images)
   {
-    buffers.push_back(GL_COLOR_ATTACHMENT0 + i);
+    buffers.push_back(GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(buffers.size()));
+    if (image.layer < 0)
+    {
+      glFramebufferTexture2D(GL_DRAW_FRAMEBUFFER, buffers.back(), GL_TEXTURE_2D, image.texture, 0);
+    }
+    else
+    {
+      glFramebufferTextureLayer(GL_DRAW_FRAMEBUFFER, buffers.back(), image.texture, 0, image.layer);
+    }
   }
+  // Those of earlier calls beyond these are no longer attached.
+  const auto outputs = static_cast<GLuint>(buffers.size());
   for (GLuint i = outputs; i < this->attached_; ++i)
   {
     glFramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0 + i, GL_TEXTURE_2D, 0, 0);

@@ -20,20 +20,19 @@ public:
   static GLuint use(ShaderLibrary& shaders, const std::string& fragmentGlsl,
     const std::vector<std::string>& defines = {});
 
-  /// Fills an image with the output of the program in use.
-  /// @param layer of an array; negative for a texture that is none
-  void fill(GLuint texture, int layer, int width, int height);
-
-  /// Fills several images at once, each with the output at its place.
-  /// @param textures no arrays
-  void fill(std::initializer_list<GLuint> textures, int width, int height);
+  struct Image
+  {
+    GLuint texture;
+    int layer = -1; ///< of an array; negative for a texture that is none
+  };
+  /// Fills images with the outputs of the program in use, each with the one at its place.
+  void fill(std::initializer_list<Image> images, int width, int height);
 
   /// Fills a part of the framebuffer that is bound with the colours and depths (gl_FragDepth) that the program in use
   /// gives.
   void fillBound(const glm::ivec2& origin, const glm::ivec2& size);
 
 private:
-  void fillAttached(GLuint outputs, int width, int height);
   void draw(GLuint outputs);
 
   GlFramebuffer framebuffer_;

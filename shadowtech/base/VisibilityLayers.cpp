@@ -49,39 +49,25 @@ void VisibilityLayers::estimate(int layer, const Technique& technique, const Sha
       { "receiverPoints", TextureBinding{ GL_TEXTURE_2D, receivers.points() } } },
     0, 0);
   ShaderLibrary::setUniforms(program, technique.uniforms(space), 0, freeUnit);
-  if (classes)
-  {
-    this->fillWithClasses(layer, ofPixels.name(), *classes);
-  }
-  else
+  if (!classes)
   {
     this->fill(layer);
+    return;
   }
-}
-
-//------------------------------------------------------------------------------
-/// Fills a layer with the first output of the program in use, and a texture with the second, which it reads back.
-void VisibilityLayers::fillWithClasses(
-  int layer, GLuint ofPixels, std::vector<std::uint8_t>& classes)
-{
-  GlFramebuffer framebuffer;
-  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.create());
-  glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, this->texture_.name(), 0, layer);
-  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT1, GL_TEXTURE_2D, ofPixels, 0);
-  const GLenum both[] = { GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1 };
-  glDrawBuffers(2, both);
-  this->screenPass_.fillBound({ 0, 0 }, { this->width_, this->height_ });
-  classes.resize(static_cast<std::size_t>(this->width_) * static_cast<std::size_t>(this->height_));
-  glReadBuffer(GL_COLOR_ATTACHMENT1);
+  this->screenPass_.fill(
+    { { this->texture_.name(), layer }, { ofPixels.name() } }, this->width_, this->height_);
+  classes->resize(static_cast<std::size_t>(this->width_) * static_cast<std::size_t>(this->height_));
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D, ofPixels.name());
   glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glReadPixels(0, 0, this->width_, this->height_, GL_RED_INTEGER, GL_UNSIGNED_BYTE, classes.data());
+  glGetTexImage(GL_TEXTURE_2D, 0, GL_RED_INTEGER, GL_UNSIGNED_BYTE, classes->data());
 }
 
 //------------------------------------------------------------------------------
 void VisibilityLayers::fill(int layer)
 {
-  this->screenPass_.fill(this->texture_.name(), layer, this->width_, this->height_);
+  this->screenPass_.fill({ { this->texture_.name(), layer } }, this->width_, this->height_);
 }
 
 //------------------------------------------------------------------------------

@@ -43,8 +43,6 @@ public:
   std::size_t bytes() const;
 
 private:
-  void fillWithClasses(int layer, GLuint ofPixels, std::vector<std::uint8_t>& classes);
-
   GlTexture texture_;
   ScreenPass screenPass_;
   int width_ = 0;

@@ -120,8 +120,9 @@ void DepthLayers::makeSlabs(const MapInput& input, std::size_t view)
       { { "layers", TextureBinding{ GL_TEXTURE_2D_ARRAY, this->layers_.name() } },
         { "page", page } },
       0, 0);
-    this->screenPass_.fill(this->slabs_.name(), static_cast<int>(view) * this->pages_ + page,
-      this->sizeTexels_, this->sizeTexels_);
+    this->screenPass_.fill(
+      { { this->slabs_.name(), static_cast<int>(view) * this->pages_ + page } }, this->sizeTexels_,
+      this->sizeTexels_);
   }
 }
 

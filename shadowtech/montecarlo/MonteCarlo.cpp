@@ -253,7 +253,7 @@ void MonteCarlo::drawVisibility(const LayerInput& input, LightReport& report)
     input.shaders, ShaderLibrary::source("shadowtech/montecarlo/montecarlo.frag.glsl"), defines);
   ShaderLibrary::setUniforms(program, this->uniformsOf(input), 0, 0);
   this->screenPass_.fill(
-    { this->unfiltered_.name(), this->slopes_.name() }, this->width_, this->height_);
+    { { this->unfiltered_.name() }, { this->slopes_.name() } }, this->width_, this->height_);
   for (int channel = 0; channel < this->channels_; ++channel)
   {
     const ChannelView view(this->unfiltered_.name(), GL_RED + static_cast<GLenum>(channel),

@@ -39,7 +39,7 @@ void VisibilityFilter::apply(
       0, 0);
   };
   set(noisy.visibility, noisy.slopes, { 1, 0 });
-  this->screenPass_.fill({ this->rows_.name(), this->slopesOfRows_.name() }, width, height);
+  this->screenPass_.fill({ { this->rows_.name() }, { this->slopesOfRows_.name() } }, width, height);
   set(this->rows_.name(), this->slopesOfRows_.name(), { 0, 1 });
   input.layers.fill(layer);
 }

@@ -51,7 +51,8 @@ vec4 planeOf(Receiver receiver, int view)
 
 // Where surfaces bend, another triangle may be in the middle of the receiver's texel, whose depth is that of the whole texel, and
 // rise above the receiver's plane till there. What begins less than a quarter of a texel above the plane counts as the same
-// surface: of a valley it may rise by 27 degrees within half a texel. Without it, smooth meshes with triangles of a texel's size have dark pixels.
+// surface: one that bends up by 27 degrees does, within half a texel. Else smooth meshes with triangles of a texel's size have
+// dark pixels.
 void findOwnSurface(inout Receiver receiver)
 {
   for (int view = 0; view < viewCount && receiver.view < 0; ++view)

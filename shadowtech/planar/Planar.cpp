@@ -207,7 +207,7 @@ void Planar::findPlanesOfPixels(const LayerInput& input)
       { "planesOfPrimitives",
         TextureBinding{ GL_TEXTURE_2D, this->planesOfPrimitives_.texture() } } },
     0, 0);
-  this->screenPass_.fill(this->planesOfPixels_.name(), -1, this->width_, this->height_);
+  this->screenPass_.fill({ { this->planesOfPixels_.name() } }, this->width_, this->height_);
 }
 
 //------------------------------------------------------------------------------

@@ -31,16 +31,23 @@ const VariantResult& variant(const ComparisonResults& results, const std::string
   return *found;
 }
 
+ComparisonPlan cubePlan()
+{
+  ComparisonPlan plan;
+  plan.techniques = { "nsm" };
+  plan.mapSizesTexels = { 256 };
+  plan.width = 140; // a square: vtkShadowMapPass is wrong in all other windows
+  plan.height = 140;
+  plan.frames = 0;
+  return plan;
+}
+
 /// One small comparison for all tests of this file.
 const ComparisonResults& cubeResults()
 {
   static const ComparisonResults results = []
   {
-    ComparisonPlan plan;
-    plan.techniques = { "nsm" };
-    plan.mapSizesTexels = { 256 };
-    plan.width = 140; // a square: vtkShadowMapPass is wrong in all other windows
-    plan.height = 140;
+    ComparisonPlan plan = cubePlan();
     plan.frames = 2;
     return runComparison(loadScene("cube"), plan, {});
   }();
@@ -86,15 +93,9 @@ TEST(ComparisonRun, MeasuresErrorsAgainstTheTruth)
 
 TEST(ComparisonRun, WithoutTimedFramesErrorsAreTheSame)
 {
-  ComparisonPlan plan;
-  plan.techniques = { "nsm" };
-  plan.mapSizesTexels = { 256 };
-  plan.width = 140;
-  plan.height = 140;
-  plan.frames = 0;
   double done = 0.0;
   const ComparisonResults results =
-    runComparison(loadScene("cube"), plan, [&done](double share) { done = share; });
+    runComparison(loadScene("cube"), cubePlan(), [&done](double share) { done = share; });
   EXPECT_DOUBLE_EQ(done, 1.0);
   EXPECT_TRUE(timedMotions(results).empty());
   ASSERT_EQ(results.variants.size(), cubeResults().variants.size());

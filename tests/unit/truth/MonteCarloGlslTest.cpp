@@ -573,9 +573,9 @@ struct FilteredPicture
         0, 0);
     };
     use(unfiltered, ofPixels, { 1, 0 });
-    pass.fill({ rows.texture, ofRows.texture }, side, side);
+    pass.fill({ { rows.texture }, { ofRows.texture } }, side, side);
     use(rows, ofRows, { 0, 1 });
-    pass.fill(result.texture, -1, side, side);
+    pass.fill({ { result.texture } }, side, side);
     std::vector<glm::vec4> texels(this->visibility.size());
     glBindTexture(GL_TEXTURE_2D, result.texture);
     glGetTexImage(GL_TEXTURE_2D, 0, GL_RGBA, GL_FLOAT, texels.data());
