@@ -1,6 +1,8 @@
 // Exact techniques show what ray tracing shows, in all built-in scenes but the largest.
 
+#include "ExactRecord.h"
 #include "PassScene.h"
+#include "RandomScenes.h"
 
 #include "BuiltinScenes.h"
 #include "Scene.h"
@@ -10,13 +12,18 @@
 #include "plugin/vtkGnomonShadowPass.h"
 #include "shadowtech/Registry.h"
 
+#include <vtkBoundingBox.h>
+#include <vtkCamera.h>
+#include <vtkLight.h>
 #include <vtkNew.h>
 #include <vtkRenderer.h>
 
+#include <glm/gtc/type_ptr.hpp>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace gnomon::test
@@ -98,6 +105,109 @@ TEST_P(ExactScenes, showWhatIsTraced)
         EXPECT_EQ(different, 0u) << what << ", light " << light;
       }
     }
+  }
+}
+
+/// Cameras and lights of which no scene's author has thought: from inside of things, too, and with lamps that touch them.
+class ExactScenesFromAnywhere : public testing::TestWithParam<std::tuple<const char*, const char*>>
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(Builtin, ExactScenesFromAnywhere,
+  testing::Combine(testing::Values("bunny", "horse", "cat", "office", "room", "terrain",
+                     "bench-side", "trees-side", "flowers-side", "atrium"),
+    testing::Values("crsm", "crsma", "silhouette", "selective")),
+  [](const testing::TestParamInfo<ExactScenesFromAnywhere::ParamType>& run)
+  {
+    std::string name = std::string(std::get<0>(run.param)) + "_by_" + std::get<1>(run.param);
+    std::replace(name.begin(), name.end(), '-', '_');
+    return name;
+  });
+
+TEST_P(ExactScenesFromAnywhere, showWhatIsTraced)
+{
+  const std::string name = std::get<0>(GetParam());
+  const char* const technique = std::get<1>(GetParam());
+  const vtkSmartPointer<vtkRenderer> renderer = tool::makeRenderer(tool::loadScene(name), 1.0);
+  const vtkBoundingBox bounds(renderer->ComputeVisiblePropBounds());
+  double lowest[3], highest[3];
+  bounds.GetBounds(lowest[0], highest[0], lowest[1], highest[1], lowest[2], highest[2]);
+  const glm::dvec3 low = glm::make_vec3(lowest), high = glm::make_vec3(highest);
+  // Seeded by the scene, so that no two of them share cameras.
+  std::seed_seq seeds(name.begin(), name.end());
+  Random random(seeds);
+  /// Somewhere in the scene's box, grown by that share of its sides.
+  const auto somewhere = [&](double grown)
+  {
+    const glm::dvec3 share(uniform(random, -grown, 1.0 + grown),
+      uniform(random, -grown, 1.0 + grown), uniform(random, -grown, 1.0 + grown));
+    return low + share * (high - low);
+  };
+
+  vtkNew<vtkGnomonEGLRenderWindow> window;
+  window->SetMultiSamples(0);
+  window->SetSize(256, 256);
+  window->AddRenderer(renderer);
+  vtkNew<vtkGnomonShadowPass> pass;
+  pass->KeepVisibilityOn();
+  pass->SetSetting("bake", "always");
+  renderer->SetPass(pass);
+  // Selective is exact where it looks at all of the picture, and believes no texel that others agree with.
+  pass->SetSetting("contour", "image");
+  pass->SetSetting("coherence", "off");
+  Compared sum;
+  for (unsigned int run = 0; run < exactRuns(2); ++run)
+  {
+    vtkCamera* const camera = renderer->GetActiveCamera();
+    const glm::dvec3 eye = somewhere(0.5), looksAt = somewhere(0.0);
+    camera->SetPosition(glm::value_ptr(eye));
+    camera->SetFocalPoint(glm::value_ptr(looksAt));
+    camera->SetViewUp(glm::value_ptr(unitVector(random)));
+    camera->SetViewAngle(uniform(random, 15.0, 70.0));
+    renderer->ResetCameraClippingRange();
+
+    // Four in six are directional.
+    const unsigned int kind = random() % 6;
+    vtkNew<vtkLight> light;
+    light->SetLightTypeToSceneLight();
+    light->SetPositional(kind < 2);
+    light->SetConeAngle(kind == 0 ? uniform(random, 10.0, 60.0) : 180.0);
+    const glm::dvec3 towards = somewhere(0.0);
+    const glm::dvec3 from = light->GetPositional() ? somewhere(0.5) : towards + unitVector(random);
+    light->SetPosition(glm::value_ptr(from));
+    light->SetFocalPoint(glm::value_ptr(towards));
+    renderer->RemoveAllLights();
+    renderer->AddLight(light);
+    const int mapSizes[] = { 64, 128, 256, 512, 1024, 4096 };
+    pass->SetMapSize(mapSizes[random() % 6]);
+    pass->SetSetting("fit", random() % 2 ? "frame" : "off");
+
+    pass->SetTechnique("raytraced");
+    window->Render();
+    const std::vector<std::vector<float>> truth = pass->GetVisibility().visibility;
+    ASSERT_EQ(truth.size(), 1u);
+    Compared picture;
+    picture.pictures = 1;
+    picture.receivers = pass->GetReport().lights.at(0).tracedPixels;
+    pass->SetTechnique(technique);
+    window->Render();
+    const std::vector<std::vector<float>>& visibility = pass->GetVisibility().visibility;
+    ASSERT_EQ(visibility.size(), 1u);
+    picture.traced = pass->GetReport().lights.at(0).tracedPixels;
+    for (std::size_t i = 0; i < truth[0].size(); ++i)
+    {
+      picture.wrong += visibility[0][i] != truth[0][i] ? 1 : 0;
+    }
+    EXPECT_EQ(picture.wrong, 0u) << "run " << run << ", map " << pass->GetMapSize()
+                                 << ", light of kind " << kind;
+    sum.add(picture);
+  }
+  recordCompared(technique, name + ", from anywhere", sum);
+  EXPECT_GT(sum.receivers, 0u);
+  // Where two pictures are all that selective gets, it may have to trace them whole.
+  if (std::string(technique) != "selective")
+  {
+    EXPECT_LT(sum.traced, sum.receivers);
   }
 }
 

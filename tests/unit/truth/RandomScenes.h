@@ -51,8 +51,8 @@ struct RandomPicture
 RandomPicture makeRandomPicture(
   const std::string& name, unsigned int seed, const glm::dmat4& world = glm::dmat4(1.0));
 
-/// How many pictures of each kind: few by default; as many as GNOMON_EXACT_RUNS says.
-unsigned int exactRuns();
+/// How many pictures of each kind: as many as GNOMON_EXACT_RUNS says, and few where it is not set.
+unsigned int exactRuns(unsigned int few = 24);
 
 } // namespace gnomon::test
 
