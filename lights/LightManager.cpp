@@ -1,5 +1,6 @@
 #include "lights/LightManager.h"
 
+#include "lights/OSPRayRadius.h"
 #include "vtkGnomonAreaLight.h"
 #include "vtkGnomonLightKeys.h"
 
@@ -9,7 +10,6 @@
 #include <vtkInformationDoubleKey.h>
 #include <vtkInformationDoubleVectorKey.h>
 #include <vtkInformationIntegerKey.h>
-#include <vtkInformationKeyLookup.h>
 #include <vtkLight.h>
 #include <vtkLightCollection.h>
 #include <vtkRenderer.h>
@@ -68,14 +68,6 @@ std::optional<LightBox> readBox(vtkLight* light)
   glm::dvec3 up = box.upWorld;
   light->TransformVector(&up.x, &box.upWorld.x);
   return box;
-}
-
-/// OSPRay's key of a light's radius, found by its name, since the module that it belongs to is not in every VTK;
-/// null where it is not.
-vtkInformationDoubleKey* ospRayRadiusKey()
-{
-  return vtkInformationDoubleKey::SafeDownCast(
-    vtkInformationKeyLookup::Find("RADIUS", "vtkOSPRayLightNode"));
 }
 
 /// The radius that a light has by OSPRay's key; 0 where it has none.

@@ -1,8 +1,12 @@
 #include "vtkGnomonAreaLight.h"
 
+#include "lights/OSPRayRadius.h"
 #include "vtkInformation.h"
+#include "vtkInformationDoubleKey.h"
 #include "vtkMatrix4x4.h"
 #include "vtkObjectFactory.h"
+
+#include <algorithm>
 
 vtkStandardNewMacro(vtkGnomonAreaLight);
 
@@ -11,6 +15,52 @@ vtkGnomonAreaLight::vtkGnomonAreaLight()
 {
   this->Positional = 1;
   this->ConeAngle = 90.0;
+  this->TellOSPRay();
+}
+
+//------------------------------------------------------------------------------
+void vtkGnomonAreaLight::SetShape(int shape)
+{
+  const int clamped = std::clamp<int>(shape, RECTANGLE, DISK);
+  if (this->Shape == clamped)
+  {
+    return;
+  }
+  this->Shape = clamped;
+  this->TellOSPRay();
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+void vtkGnomonAreaLight::SetRadius(double radius)
+{
+  // What is no number stays, and casts nothing, for a reason that the frame's report gives.
+  const double clamped = std::clamp(radius, 0.0, VTK_DOUBLE_MAX);
+  if (this->Radius == clamped)
+  {
+    return;
+  }
+  this->Radius = clamped;
+  this->TellOSPRay();
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+void vtkGnomonAreaLight::TellOSPRay()
+{
+  vtkInformationDoubleKey* const key = gnomon::ospRayRadiusKey();
+  if (!key)
+  {
+    return;
+  }
+  if (this->Shape == DISK)
+  {
+    this->GetInformation()->Set(key, this->Radius);
+  }
+  else
+  {
+    this->GetInformation()->Remove(key);
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -32,6 +82,7 @@ void vtkGnomonAreaLight::DeepCopy(vtkLight* light)
   {
     this->CopyArea(area);
   }
+  this->TellOSPRay(); // the information, and the key in it, is the other light's
 }
 
 //------------------------------------------------------------------------------

@@ -25,7 +25,8 @@
  * for the sun's disk is 0.53. A rectangle's must be below 180 then, and a disk's too.
  *
  * <b>OSPRay.</b> Radius is the same number as that of vtkOSPRayLightNode::SetRadius: of a positional
- * light the radius, of a directional one the angular diameter in degrees. A vtkLight that has
+ * light the radius, of a directional one the angular diameter in degrees. A disk has OSPRay's key, too, where OSPRay's module is loaded before
+ * the disk gets its size, so that it is as large to vtkOSPRayPass; a rectangle is a point there. A vtkLight that has
  * OSPRay's key (RADIUS) gives soft shadows as well, without being of this class: a disk across
  * the direction of a spot light or directional light, and of a light that shines into all directions a
  * ball, which looks like a disk of that radius from all sides. The setting "light_radius", of a light or of
@@ -60,7 +61,7 @@ public:
   /**
    * What it is: RECTANGLE, with Width, Height and Up, or DISK (the default), with Radius.
    */
-  vtkSetClampMacro(Shape, int, RECTANGLE, DISK);
+  virtual void SetShape(int shape);
   vtkGetMacro(Shape, int);
   void SetShapeToRectangle() { this->SetShape(RECTANGLE); }
   void SetShapeToDisk() { this->SetShape(DISK); }
@@ -71,7 +72,7 @@ public:
    * A disk's size, in the units of vtkOSPRayLightNode::SetRadius, see above. What is negative counts
    * as 0. 0.5 by default.
    */
-  vtkSetClampMacro(Radius, double, 0.0, VTK_DOUBLE_MAX);
+  virtual void SetRadius(double radius);
   vtkGetMacro(Radius, double);
   ///@}
 
@@ -142,6 +143,7 @@ protected:
 
 private:
   void CopyArea(vtkGnomonAreaLight* light);
+  void TellOSPRay();
 
   vtkGnomonAreaLight(const vtkGnomonAreaLight&) = delete;
   void operator=(const vtkGnomonAreaLight&) = delete;

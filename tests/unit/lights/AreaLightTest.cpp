@@ -219,6 +219,35 @@ TEST(AreaLight, takesOSPRaysRadius)
   EXPECT_EQ(areaOf(area).worldFromUnit, glm::dmat3(0.125));
 }
 
+TEST(AreaLight, tellsOSPRayHowLargeADiskIs)
+{
+  ospRayKey(); // its module is there
+  const auto told = [](vtkLight* light)
+  {
+    vtkInformation* const keys = light->GetInformation();
+    return keys->Has(ospRayKey()) ? keys->Get(ospRayKey()) : -1.0;
+  };
+  vtkNew<vtkGnomonAreaLight> disk;
+  EXPECT_EQ(told(disk), disk->GetRadius());
+  disk->SetRadius(0.25);
+  EXPECT_EQ(told(disk), 0.25);
+  disk->SetShapeToRectangle();
+  EXPECT_EQ(told(disk), -1.0);
+  disk->SetShapeToDisk();
+  EXPECT_EQ(told(disk), 0.25);
+  disk->SetRadius(-1.0);
+  EXPECT_EQ(disk->GetRadius(), 0.0);
+  EXPECT_EQ(told(disk), 0.0);
+
+  vtkNew<vtkGnomonAreaLight> copy;
+  disk->SetRadius(3.0);
+  copy->DeepCopy(disk);
+  EXPECT_EQ(told(copy), 3.0);
+  vtkNew<vtkLight> plain;
+  copy->DeepCopy(plain);
+  EXPECT_EQ(told(copy), copy->GetRadius()) << "the information is the other light's";
+}
+
 TEST(AreaLight, ofNumbersThatAreNoneCastsNothing)
 {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
