@@ -34,6 +34,15 @@ LightViews sunViews(const ShadowLight& light)
 }
 
 //------------------------------------------------------------------------------
+void replaceOnce(std::string& text, const std::string& from, const std::string& to)
+{
+  const std::size_t place = text.find(from);
+  ASSERT_NE(place, std::string::npos) << from;
+  text.replace(place, from.size(), to);
+  EXPECT_EQ(text.find(from, place + to.size()), std::string::npos) << "once: " << from;
+}
+
+//------------------------------------------------------------------------------
 std::vector<float> visibilityAt(const Technique& technique, const ShadowLight& light,
   ShaderLibrary& library, std::vector<glm::vec4> pointsView, const glm::vec3& normalView,
   std::vector<Uniform> uniforms)

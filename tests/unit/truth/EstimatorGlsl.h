@@ -15,6 +15,7 @@
 
 #include <functional>
 #include <random>
+#include <string>
 #include <vector>
 
 namespace gnomon::test
@@ -33,6 +34,9 @@ void fillDepths(GlTexture& texture, const Depths& depths);
 
 /// The views of a sun around the cube [-1, 1]^3.
 LightViews sunViews(const ShadowLight& light);
+
+/// Replaces what must stand in a shader once, for tests that count what it does or have it do something else.
+void replaceOnce(std::string& text, const std::string& from, const std::string& to);
 
 /// What a technique's GLSL answers at points, on a plane.
 /// @param pointsView in the camera's view coordinates

@@ -3,6 +3,7 @@
 #include "EstimatorGlsl.h"
 #include "SyntheticScene.h"
 
+#include "lights/Bounds.h"
 #include "lights/LightSamples.h"
 #include "lights/LightViews.h"
 #include "lights/ReducedMd5.h"
@@ -17,6 +18,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <utility>
 
@@ -165,6 +167,20 @@ public:
           (i % 2 == 0 ? texel.x : texel.z) = depth;
           (i % 2 == 0 ? texel.y : texel.w) = depth + 0.002f * static_cast<float>(1 + i % 40);
         }
+      }
+    }
+    this->upload();
+  }
+
+  /// One slab in each texel.
+  SlabMap(int side, const std::function<glm::vec2(const glm::ivec2&)>& slabAt)
+    : side_(side)
+  {
+    for (int y = 0; y < side; ++y)
+    {
+      for (int x = 0; x < side; ++x)
+      {
+        this->slabs_.emplace_back(slabAt({ x, y }), 2.0f, -2.0f);
       }
     }
     this->upload();
@@ -468,13 +484,18 @@ std::vector<bool> walksOf(SlabMap& map, const std::vector<Line>& lines)
 
 /// What a search finds: x, whether there is a slab; y, how many cells it looked at (hierarchical ones tell).
 std::vector<glm::uvec2> search(ShaderLibrary& library, GLuint slabs, int side,
-  const SlabBounds& bounds, const std::vector<Line>& lines, const std::vector<std::string>& defines)
+  const SlabBounds& bounds, const std::vector<Line>& lines, const std::vector<std::string>& defines,
+  const std::vector<std::pair<std::string, std::string>>& replacements = {})
 {
   const bool isLinear = std::find(defines.begin(), defines.end(), "LINEAR_SEARCH") != defines.end();
-  const std::string source = computeGlsl("slab_search.glsl", "mat2x4", "uvec2",
+  std::string source = computeGlsl("slab_search.glsl", "mat2x4", "uvec2",
     std::string(
       "float where;\nbool meets = meetsSlabs(0, given[i][0].xyz, given[i][1].xyz, where);\n") +
       "result[i] = uvec2(meets, " + (isLinear ? "0" : "cellsVisited") + ");\n");
+  for (const auto& [from, to] : replacements)
+  {
+    replaceOnce(source, from, to);
+  }
   return runCompute<glm::uvec2>(library, source, lines, defines,
     { { "slabs", TextureBinding{ GL_TEXTURE_2D_ARRAY, slabs } },
       { "slabBounds", TextureBinding{ GL_TEXTURE_2D_ARRAY, bounds.texture() } },
@@ -644,30 +665,145 @@ TEST_F(MonteCarloGlsl, searchesInScenesLookAtFewCells)
 }
 
 //------------------------------------------------------------------------------
-TEST_F(MonteCarloGlsl, linearSearchNeverHitsWhatIsNotThereAndMissesLittle)
+/// Boxes between depths of 5 and 20 under an eye, as a map with two layers has them, and rays from the ground at 20 to a light at 1
+/// that fills the map's frustum there: the geometry of the rates that the linear search was specified with.
+struct BoxesUnderALight
 {
-  SlabMap map(128, 60, this->random_);
-  for (int y = 0; y < map.side(); ++y)
+  static constexpr int side = 256;
+  static constexpr double tangent = 0.5773503; ///< of half the map's angle, 30 degrees
+  static constexpr double nearest = 5.0;
+  static constexpr double ground = 20.0;
+
+  std::vector<Bounds> boxes;
+
+  BoxesUnderALight(int count, double least, double greatest, std::mt19937& random)
   {
-    for (int x = 0; x < map.side(); ++x)
+    const auto number = [&](double from, double to)
+    { return from + (to - from) * (random() / 4294967296.0); };
+    for (int i = 0; i < count; ++i)
     {
-      map.at(x, y).z = 2.0f; // its states are those of one slab
-      map.at(x, y).w = -2.0f;
+      const glm::dvec3 half =
+        0.5 * glm::dvec3(number(least, greatest), number(least, greatest), number(least, greatest));
+      const double z = number(nearest + half.z, ground - half.z);
+      const glm::dvec3 centre(number(-1.0, 1.0) * tangent * z, number(-1.0, 1.0) * tangent * z, z);
+      this->boxes.push_back({ centre - half, centre + half });
     }
   }
-  const std::vector<Line> lines = randomLines(map.side(), 50000, this->random_);
-  const auto found = search(
-    this->library_, map.texture(), map.side(), SlabBounds(), lines, { "LINEAR_SEARCH", "PAGES 1" });
-  std::size_t falseHits = 0;
-  std::size_t misses = 0;
-  for (std::size_t i = 0; i < lines.size(); ++i)
+
+  /// The first and the last depth along the eye's ray through a texel's centre, in ray space.
+  glm::vec2 slabAt(const glm::ivec2& texel) const
   {
-    const bool meets = map.meets(glm::vec3(lines[i].begin), glm::vec3(lines[i].end));
-    falseHits += found[i].x == 1u && !meets ? 1 : 0;
-    misses += found[i].x == 0u && meets ? 1 : 0;
+    const glm::dvec2 across =
+      tangent * (2.0 * (glm::dvec2(texel) + 0.5) / static_cast<double>(side) - 1.0);
+    glm::dvec2 slab(2.0, -2.0);
+    for (const Bounds& box : this->boxes)
+    {
+      double enters = box.lower.z;
+      double leaves = box.upper.z;
+      for (int axis = 0; axis < 2; ++axis)
+      {
+        const double a = box.lower[axis] / across[axis];
+        const double b = box.upper[axis] / across[axis];
+        enters = std::max(enters, std::min(a, b));
+        leaves = std::min(leaves, std::max(a, b));
+      }
+      if (enters <= leaves)
+      {
+        slab = { std::min(slab.x, -1.0 / enters), std::max(slab.y, -1.0 / leaves) };
+      }
+    }
+    return slab;
   }
-  EXPECT_LE(falseHits, 2u); // at a border to within rounding
-  EXPECT_LE(misses, lines.size() * 3 / 1000);
+
+  /// Cut where there are no casters, as `montecarlo` cuts its rays.
+  static std::vector<Line> rays(std::size_t count, std::mt19937& random)
+  {
+    const auto place = [&] {
+      return static_cast<float>(side) * glm::vec2(random() / 4294967296.0, random() / 4294967296.0);
+    };
+    std::vector<Line> lines;
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      const glm::vec4 begin(place(), -1.0 / ground, 0.0f);
+      const glm::vec4 end(place(), -1.0f, 0.0f);
+      const auto share =
+        static_cast<float>((-1.0 / nearest + 1.0 / ground) / (-1.0 + 1.0 / ground));
+      lines.push_back({ begin, glm::mix(begin, end, share) });
+    }
+    return lines;
+  }
+};
+
+/// Rates are means over maps, since those of single ones lie between none and thrice as much. Boxes have sides that give the share of
+/// rays that meet something, 17.2 and 3.8 %, with which the rates were specified.
+TEST_F(MonteCarloGlsl, linearSearchNeverHitsWhatIsNotThereAndMissesLittle)
+{
+  struct Rate
+  {
+    int steps;
+    double specified; ///< the share of all rays that are missed
+    double misses = 0.0;
+    double reversed = 0.0; ///< by the rule for lines that go from the light to the receiver
+  };
+  struct Case
+  {
+    int boxes;
+    double least; ///< of a box's sides, and so on
+    double greatest;
+    double hits; ///< specified, too
+    std::vector<Rate> rates;
+  };
+  Case cases[] = { { 6, 1.0, 2.8, 0.172, { { 8, 0.0015 }, { 32, 0.0004 } } },
+    { 60, 0.1, 0.37, 0.038, { { 8, 0.009 }, { 16, 0.004 }, { 32, 0.0014 } } } };
+  constexpr int maps = 10;
+  constexpr std::size_t raysOfMap = 20000;
+  for (Case& each : cases)
+  {
+    double hits = 0.0;
+    for (int i = 0; i < maps; ++i)
+    {
+      const BoxesUnderALight scene(each.boxes, each.least, each.greatest, this->random_);
+      SlabMap map(
+        BoxesUnderALight::side, [&](const glm::ivec2& texel) { return scene.slabAt(texel); });
+      const std::vector<Line> rays = BoxesUnderALight::rays(raysOfMap, this->random_);
+      const std::vector<bool> truth = walksOf(map, rays);
+      hits +=
+        static_cast<double>(std::count(truth.begin(), truth.end(), true)) / (maps * raysOfMap);
+      const auto misses = [&](std::vector<std::pair<std::string, std::string>> changes)
+      {
+        const auto found = search(this->library_, map.texture(), map.side(), SlabBounds(), rays,
+          { "LINEAR_SEARCH", "PAGES 1" }, changes);
+        double missed = 0.0;
+        for (std::size_t ray = 0; ray < rays.size(); ++ray)
+        {
+          const bool hit = found[ray].x == 1u;
+          missed += truth[ray] && !hit ? 1.0 / (maps * raysOfMap) : 0.0;
+          EXPECT_TRUE(truth[ray] || !hit || !map.isDecided(rays[ray]))
+            << "a hit where there is nothing: " << each.boxes << " boxes, ray " << ray;
+        }
+        return missed;
+      };
+      for (Rate& rate : each.rates)
+      {
+        const std::pair<std::string, std::string> steps(
+          "#define STEPS 32", "#define STEPS " + std::to_string(rate.steps));
+        rate.misses += misses({ steps });
+        rate.reversed += misses({ steps,
+          { "(second == BEFORE && first != BEFORE) || (first == BEHIND && second != BEHIND)",
+            "(first == BEFORE && second != BEFORE) || (second == BEHIND && first != BEHIND)" } });
+      }
+    }
+    EXPECT_NEAR(hits, each.hits, 0.1 * each.hits) << each.boxes << " boxes";
+    for (const Rate& rate : each.rates)
+    {
+      const std::string name = std::to_string(each.boxes) + "_" + std::to_string(rate.steps);
+      EXPECT_LE(rate.misses, 1.5 * rate.specified) << name;
+      EXPECT_GT(rate.reversed, 5.0 * rate.misses) << name;
+      RecordProperty(
+        "misses_" + name, std::to_string(rate.misses) + ", " + std::to_string(rate.reversed));
+    }
+    RecordProperty("hits_" + std::to_string(each.boxes), std::to_string(hits));
+  }
 }
 
 //------------------------------------------------------------------------------

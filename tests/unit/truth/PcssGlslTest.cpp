@@ -704,16 +704,9 @@ private:
     std::string visibilityGlsl(const ShadowLight& light) const override
     {
       std::string text = this->Pcss::visibilityGlsl(light);
-      const auto replace = [&text](const std::string& from, const std::string& to)
-      {
-        const std::size_t place = text.find(from);
-        ASSERT_NE(place, std::string::npos) << from;
-        text.replace(place, from.size(), to);
-        EXPECT_EQ(text.find(from, place + to.size()), std::string::npos) << "once: " << from;
-      };
-      replace("float depthAt_LIGHT(int view, ivec2 texel)\n{",
+      replaceOnce(text, "float depthAt_LIGHT(int view, ivec2 texel)\n{",
         "int reads_LIGHT = 0;\nfloat depthAt_LIGHT(int view, ivec2 texel)\n{\n  ++reads_LIGHT;");
-      replace("float visibility_LIGHT(", "float visibilityOfPcss_LIGHT(");
+      replaceOnce(text, "float visibility_LIGHT(", "float visibilityOfPcss_LIGHT(");
       return text +
         "float visibility_LIGHT(vec3 positionView, vec3 normalView)\n{\n  reads_LIGHT = 0;\n"
         "  visibilityOfPcss_LIGHT(positionView, normalView);\n  return float(reads_LIGHT);\n}\n";
