@@ -290,6 +290,41 @@ TEST(ComparisonRun, ColoursOfPicturesAreItsNumbers)
   EXPECT_GT(turnedAway, 0);
 }
 
+TEST(ComparisonRun, ColoursOfRaysThroughLayersAreItsNumbers)
+{
+  ComparisonPlan plan;
+  plan.techniques = { "montecarlo", "montecarlo:mc_classify=off" };
+  plan.mapSizesTexels = { 256 };
+  plan.width = 120;
+  plan.height = 90;
+  plan.frames = 0;
+  const ComparisonResults results = runComparison(loadScene("soft-stack"), plan, {});
+  const std::vector<PixelClass>& classes = findEstimator("montecarlo")->info.classes;
+  std::int64_t mostKinds = 0;
+  std::size_t looked = 0;
+  for (const VariantResult& result : results.variants)
+  {
+    if (result.name.rfind("montecarlo", 0) != 0)
+    {
+      continue;
+    }
+    ++looked;
+    std::map<std::array<int, 3>, std::int64_t> colours = coloursOf(result.classPicture);
+    std::int64_t kinds = 0;
+    for (const PixelClass& each : classes)
+    {
+      const std::int64_t* const counted = findClass(result, each.name);
+      const std::int64_t drawn = colours[{ each.colour[0], each.colour[1], each.colour[2] }];
+      EXPECT_EQ(drawn, counted ? *counted : 0) << each.name << " of " << result.name;
+      kinds += drawn > 0 ? 1 : 0;
+    }
+    EXPECT_EQ(colours.size(), classes.size()) << "there is no other";
+    mostKinds = std::max(mostKinds, kinds);
+  }
+  EXPECT_EQ(looked, 2u);
+  EXPECT_GE(mostKinds, 5);
+}
+
 TEST(ComparisonRun, TakesPictures)
 {
   for (const VariantResult& result : cubeResults().variants)
