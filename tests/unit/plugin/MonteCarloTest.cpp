@@ -5,7 +5,9 @@
 
 #include "lights/vtkGnomonAreaLight.h"
 #include "plugin/vtkGnomonPropKeys.h"
+#include "shadowtech/base/Gl.h"
 
+#include <vtkMatrix4x4.h>
 #include <vtkPlaneSource.h>
 
 #include <gtest/gtest.h>
@@ -424,6 +426,70 @@ TEST_F(MonteCarlo, bodiesAreSolidAlongTheLight)
   }
   EXPECT_GT(onFloor.size(), 300u);
   EXPECT_LT(errorsOf(onFloor, truthOnFloor).meanAbsolute, 0.01);
+}
+
+//------------------------------------------------------------------------------
+/// The points that rays begin at are drawn on the GPU, in view coordinates. Those of the CPU's receivers, which they are compared with, are
+/// the camera's rays' hits (ReceiversTest.cpp).
+TEST_F(MonteCarlo, raysBeginWhereTheCamerasRaysEnd)
+{
+  this->buildScene();
+  this->scene.renderer->AddLight(this->lamp);
+  const VisibilityImages& kept = this->draw("montecarlo", {});
+  const vtkMatrix4x4* const view =
+    this->scene.renderer->GetActiveCamera()->GetViewTransformMatrix();
+  /// The greatest distance of a pixel's point in an image from its receiver, over that from the camera.
+  const auto worstOf = [&](const std::vector<glm::vec4>& points)
+  {
+    double worst = 0.0;
+    for (std::size_t i = 0; i < points.size(); ++i)
+    {
+      const std::size_t row = 119 - i / 160; // OpenGL's first row is the bottom one
+      const std::size_t pixel = row * 160 + i % 160;
+      if (kept.coverage[pixel] == 0.0f)
+      {
+        continue;
+      }
+      const glm::dvec4 world(positionOf(kept, pixel), 1.0);
+      glm::dvec3 expected(0.0);
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        for (int k = 0; k < 4; ++k)
+        {
+          expected[axis] += view->GetElement(axis, k) * world[k];
+        }
+      }
+      worst =
+        std::max(worst, glm::distance(glm::dvec3(points[i]), expected) / glm::length(expected));
+    }
+    return worst;
+  };
+  // The image of points is the one of the context's that has them.
+  this->scene.window->MakeCurrent();
+  double best = 1.0;
+  for (GLuint name = 1; name < 2000; ++name)
+  {
+    if (glIsTexture(name) == GL_FALSE)
+    {
+      continue;
+    }
+    glBindTexture(GL_TEXTURE_2D, name);
+    GLint form[3] = { 0, 0, 0 };
+    if (glGetError() == GL_NO_ERROR) // else it is not of this kind
+    {
+      glGetTexLevelParameteriv(GL_TEXTURE_2D, 0, GL_TEXTURE_WIDTH, &form[0]);
+      glGetTexLevelParameteriv(GL_TEXTURE_2D, 0, GL_TEXTURE_HEIGHT, &form[1]);
+      glGetTexLevelParameteriv(GL_TEXTURE_2D, 0, GL_TEXTURE_INTERNAL_FORMAT, &form[2]);
+    }
+    if (form[0] == 160 && form[1] == 120 && form[2] == GL_RGBA32F)
+    {
+      std::vector<glm::vec4> points(160 * 120);
+      glGetTexImage(GL_TEXTURE_2D, 0, GL_RGBA, GL_FLOAT, points.data());
+      best = std::min(best, worstOf(points));
+    }
+  }
+  glBindTexture(GL_TEXTURE_2D, 0);
+  EXPECT_LT(best, 1e-4);
 }
 
 //------------------------------------------------------------------------------
