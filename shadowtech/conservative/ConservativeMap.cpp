@@ -93,7 +93,7 @@ void lookAt(
     const float perW = 1.0f / w;
     const float x = (m[0].x * px + m[1].x * py + m[2].x * pz + m[3].x) * perW;
     const float y = (m[0].y * px + m[1].y * py + m[2].y * pz + m[3].y) * perW;
-    const float depth = (m[0].z * px + m[1].z * py + m[2].z * pz + m[3].z) * perW;
+    const float depth = (m[0].z * px + m[1].z * py + m[2].z * pz + m[3].z) * perW + map.depthOffset;
     const float distance = along.x * px + along.y * py + along.z * pz + along.w;
     // Written so that NaN fails. A shadow ray may start no farther beside its receiver than margins say.
     const bool holds = (w > 0.0f) & (distance > 0.0f) & (x >= 0.0f) & (y >= 0.0f) & (x < size) &
@@ -114,7 +114,13 @@ void lookAt(
 LookUp lookUpOf(const CasterScene& scene, const LightView& view)
 {
   LookUp lookUp;
-  lookUp.mapFromCentred = glm::mat4(scene.space.mapFromCentred());
+  glm::dmat4 mapFromCentred = scene.space.mapFromCentred();
+  for (int column = 0; column < 4; ++column)
+  {
+    mapFromCentred[column].z -= scene.space.depthOffset * mapFromCentred[column].w;
+  }
+  lookUp.mapFromCentred = glm::mat4(mapFromCentred);
+  lookUp.depthOffset = static_cast<float>(scene.space.depthOffset);
   if (scene.space.positional)
   {
     lookUp.distance = glm::vec4(glm::row(view.rays.viewFromCentred, 2));
@@ -273,8 +279,9 @@ Certainty ConservativeMap::ask(const ReceiverSegment& segment, bool onCaster) co
     const glm::dvec2 place(map.x * perW, map.y * perW);
     low = glm::min(low, place);
     high = glm::max(high, place);
-    nearest = std::min(nearest, map.z * perW);
-    farthest = std::max(farthest, map.z * perW);
+    const double depth = map.z * perW + this->lookUp_.depthOffset;
+    nearest = std::min(nearest, depth);
+    farthest = std::max(farthest, depth);
     perUnit = std::max(
       perUnit, (this->lookUp_.depthPerUnit.x + this->lookUp_.depthPerUnit.y * perW) * perW);
   }

@@ -44,7 +44,10 @@ struct TexelBounds
 /// How receivers are looked up in a map, in float.
 struct LookUp
 {
-  glm::mat4 mapFromCentred{ 1.0f }; ///< to X, Y, Q and W of MapPoint
+  /// To X, Y, Q and W of MapPoint, but for W's share of Q: that is `depthOffset` of Q / W, whatever the place, and as a
+  /// part of Q would be rounded in proportion to W's terms. Of a light among its casters depth changes by less than that.
+  glm::mat4 mapFromCentred{ 1.0f };
+  float depthOffset = 0.0f; ///< MapSpace::depthOffset
   /// To z along the view, where the light has a position; else to 1, the distance at which lengths
   /// across parallel rays are what they are.
   glm::vec4 distance{ 0.0f, 0.0f, 0.0f, 1.0f };
@@ -87,6 +90,9 @@ public:
   /// @param onCaster whether their surface casts, on both sides
   Certainty ask(const ReceiverSegment& segment, bool onCaster) const;
 
+  const LookUp& lookUp() const { return this->lookUp_; }
+  /// Row by row.
+  const std::vector<TexelBounds>& texels() const { return this->texels_; }
   std::size_t bytes() const;
 
 private:

@@ -19,7 +19,11 @@
 #include <atomic>
 #include <cctype>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace gnomon::test
 {
@@ -113,6 +117,83 @@ TEST_P(ConservativeMapsIn, areNeverWrong)
             << " % of " << sum.receivers << std::endl;
 }
 
+/// The same maps with one of their two answers alone: what they call lit, or what they call in shadow.
+MapRule onlyOf(Certainty answer, const MapRule& rule)
+{
+  return [answer, rule](const LightView& view, bool hasBox, int sizeTexels,
+           const Occluders& occluders, const CasterEdges& edges)
+  {
+    constexpr float never = std::numeric_limits<float>::infinity();
+    const ConservativeMap both = rule(view, hasBox, sizeTexels, occluders, edges);
+    std::vector<TexelBounds> texels = both.texels();
+    for (TexelBounds& texel : texels)
+    {
+      if (answer == Certainty::Lit)
+      {
+        texel.shadowFrom = never;
+      }
+      else
+      {
+        texel.litUpTo = texel.litUpToOnCasters = -never;
+      }
+    }
+    return ConservativeMap(view, hasBox, both.lookUp(), std::move(texels));
+  };
+}
+
+/// What maps make of each pixel of a picture.
+std::vector<std::uint8_t> classesOf(const RandomPicture& picture, const MapRule& rule)
+{
+  ConservativeMaps maps;
+  maps.bake(picture.light, picture.views, picture.occluders, rule);
+  EmbreeTracer tracer;
+  tracer.update(picture.occluders);
+  ReceiverPixels stored;
+  const Receivers receivers(
+    picture.view.images, picture.view.drawnSurfaces, picture.occluders, stored);
+  std::vector<float> visibility;
+  std::vector<std::uint8_t> classes;
+  tracer.trace(picture.light, picture.occluders, receivers, visibility, &maps, &classes);
+  return classes;
+}
+
+class ConservativeMapsBy : public testing::TestWithParam<Covering>
+{
+};
+
+TEST_P(ConservativeMapsBy, neverCallAReceiverBothLitAndInShadow)
+{
+  // Each answer is asked for by itself: a map that says lit does not look whether it would say shadow, too.
+  const MapRule rule = certainRule(GetParam());
+  std::size_t both = 0, lit = 0, shadow = 0, other = 0;
+  for (const char* name : randomSceneNames())
+  {
+    for (unsigned int seed = 1; seed <= std::max(exactRuns() / 12, 1u); ++seed)
+    {
+      const RandomPicture picture = makeRandomPicture(name, seed);
+      const std::vector<std::uint8_t> classes = classesOf(picture, rule);
+      const std::vector<std::uint8_t> byLight = classesOf(picture, onlyOf(Certainty::Lit, rule));
+      const std::vector<std::uint8_t> byShadow =
+        classesOf(picture, onlyOf(Certainty::Shadow, rule));
+      for (std::size_t i = 0; i < classes.size(); ++i)
+      {
+        const bool isLit = static_cast<TracedClass>(byLight[i]) == TracedClass::Lit;
+        const bool isShadow = static_cast<TracedClass>(byShadow[i]) == TracedClass::Shadow;
+        lit += isLit ? 1 : 0;
+        shadow += isShadow ? 1 : 0;
+        both += isLit && isShadow ? 1 : 0;
+        // And both together say what the maps say.
+        const std::uint8_t expected = isLit ? byLight[i] : byShadow[i];
+        other += classes[i] != expected ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_EQ(both, 0u);
+  EXPECT_EQ(other, 0u);
+  EXPECT_GT(lit, 10000u);
+  EXPECT_GT(shadow, 10000u);
+}
+
 std::string nameOfCovering(Covering covering)
 {
   const char* const coverings[] = { "Triangle", "Ring", "Fan", "Silhouette" };
@@ -123,6 +204,10 @@ std::string nameOfRun(const testing::TestParamInfo<ConservativeMapsIn::ParamType
 {
   return lettersOf(std::get<0>(run.param)) + nameOfCovering(std::get<1>(run.param));
 }
+
+INSTANTIATE_TEST_SUITE_P(Rules, ConservativeMapsBy,
+  testing::Values(Covering::Triangle, Covering::Ring, Covering::Fan, Covering::Silhouette),
+  [](const testing::TestParamInfo<Covering>& rule) { return nameOfCovering(rule.param); });
 
 INSTANTIATE_TEST_SUITE_P(Scenes, ConservativeMapsIn,
   testing::Combine(testing::ValuesIn(randomSceneNames()),
@@ -411,6 +496,47 @@ TEST(ConservativeMaps, areNeverWrongWhereEdgesLieOnTexelsBorders)
   EXPECT_LT(tally.traced, tally.receivers);
 }
 
+TEST(ConservativeMaps, areNeverWrongWhereDepthHardlyChangesFarFromALamp)
+{
+  // Depth runs as -1 / z from where the map begins, at the lamp if that is among the casters: farther off it hardly
+  // changes. What is far away moves the origin off, so that what is computed from places is rounded by more than that.
+  // Small plates have their ends all over the floor, so that little but its own triangle says anything of it.
+  Random random(4);
+  Tally sum;
+  for (int i = 0; i < 40; ++i)
+  {
+    const glm::dvec3 lamp(uniform(random, -0.5, 0.5), uniform(random, -0.5, 0.5), 1.0);
+    ShadowLight light = pointLight(lamp);
+    light.mapSizeTexels = 32;
+    Mesh plates;
+    for (unsigned int k = 0; k < 3 * 400; k += 3)
+    {
+      const glm::dvec3 corner(
+        uniform(random, -2.0, 2.0), uniform(random, -2.0, 2.0), uniform(random, 0.01, 0.1));
+      plates.points.push_back(corner);
+      plates.points.push_back(corner + glm::dvec3(0.01, 0.0, 0.0));
+      plates.points.push_back(corner + glm::dvec3(0.0, 0.01, 0.0));
+      plates.triangles.emplace_back(k, k + 1, k + 2);
+    }
+    const glm::dvec3 away = 300.0 * glm::abs(unitVector(random));
+    const Occluders occluders =
+      makeOccluders({ { makePlane(6.0) }, { plates }, { makeBox(away - 1.0, away + 1.0) } });
+    constexpr int count = 4000;
+    ChosenReceivers chosen(count, 0);
+    for (std::size_t k = 0; k < count; ++k)
+    {
+      const glm::dvec3 place(uniform(random, -2.0, 2.0), uniform(random, -2.0, 2.0), 0.0);
+      chosen.set(k, place - occluders.centreWorld, { 0.0, 0.0, 1.0 }, 4e-6f);
+    }
+    const Tally tally = compareWithTruth(light,
+      fitLightViews(light, occluders.centreWorld, occluders.castersCentred, light.mapSizeTexels),
+      occluders, chosen.pixels);
+    EXPECT_EQ(tally.wrong, 0u) << i;
+    sum.add(tally);
+  }
+  EXPECT_LT(sum.traced, sum.receivers);
+}
+
 TEST(ConservativeMaps, areNeverWrongWhereCastersTouchTheLight)
 {
   // A lamp that lies in the ceiling, and a box of light that begins in a plate, where rays end to within rounding.
@@ -456,12 +582,13 @@ View viewOfFirstTriangle(const Occluders& occluders, const Camera& camera)
   return view;
 }
 
-Tally compareWithTruth(const ShadowLight& light, const Occluders& occluders, const View& view)
+Tally compareWithTruth(const ShadowLight& light, const Occluders& occluders, const View& view,
+  const MapRule& rule = certainRule(Covering::Silhouette))
 {
   ReceiverPixels stored;
   return compareWithTruth(light,
     fitLightViews(light, occluders.centreWorld, occluders.castersCentred, light.mapSizeTexels),
-    occluders, Receivers(view.images, view.drawnSurfaces, occluders, stored));
+    occluders, Receivers(view.images, view.drawnSurfaces, occluders, stored), rule);
 }
 
 /// Triangles in a ring around a place, whose planes nearly pass through it.
