@@ -136,7 +136,7 @@ TEST(TexelCells, areNeverContainedWhereMovingTheSidesLeavesNothing)
 {
   // With every side moved inwards by as much as a texel reaches along its normal, a triangle shrinks by the factor
   // k = 1 - (width + height of its box) / (twice its area); from k = 0 on the lines meet again, turned over.
-  std::size_t empty = 0;
+  std::size_t empty = 0, thinner = 0;
   Random random(12);
   for (int i = 0; i < 100000; ++i)
   {
@@ -152,17 +152,17 @@ TEST(TexelCells, areNeverContainedWhereMovingTheSidesLeavesNothing)
       EXPECT_TRUE(std::none_of(cells.begin(), cells.end(),
         [](const Cell& cell) { return std::isfinite(cell.contained); }));
     }
-    if (doubleArea < 1e-2 * glm::dot(box, box))
-    {
-      continue; // the lines' crossings are far off
-    }
     const Corners moved = withMovedSides(corners,
       [](const glm::dvec2& normal) { return 0.5 * (std::abs(normal.x) + std::abs(normal.y)); });
     const glm::dvec2 edge = b - a;
     const double ratio = glm::dot(glm::dvec2(moved[1] - moved[0]), edge) / glm::dot(edge, edge);
-    EXPECT_NEAR(ratio, k, 1e-12 * (1.0 + std::abs(k)) * 100.0);
+    // The lines of thinner triangles cross so far off that doubles do not hold where.
+    const bool thin = doubleArea < 1e-4 * glm::dot(box, box);
+    thinner += thin ? 1 : 0;
+    EXPECT_NEAR(ratio, k, (thin ? 1e-9 : 1e-12) * (1.0 + std::abs(k)));
   }
   EXPECT_GT(empty, 10000u);
+  EXPECT_LT(thinner, 5000u);
 }
 
 TEST(TexelCells, boundTheDepthsThatATriangleHasInThem)
