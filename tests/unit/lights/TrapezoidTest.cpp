@@ -40,6 +40,60 @@ TEST(Trapezoid, TouchesAllSidesOfTheMap)
   EXPECT_LT(glm::length(range.upper - 1.0), 1e-9);
 }
 
+TEST(Trapezoid, TakesTheCornersOfTheTrapezoidToThoseOfTheMap)
+{
+  // The trapezoid by geometry of its own: parallel sides across the centre line, legs that touch what is visible from a
+  // point on it before the near side.
+  for (const glm::dvec3& light : { glm::dvec3(0.0, 0.0, -1.0), glm::dvec3(1.0, 0.0, -1.0),
+         glm::dvec3(0.0, 1.0, -1.0), glm::dvec3(0.0, -1.0, -1.0) })
+  {
+    const Setting setting = terrain(directionalRays(light));
+    const Points body = setting.body().vertices();
+    const DistanceRange all = distancesOf(body, setting.camera, setting.rays);
+    const auto onAxis = [&](double distance)
+    {
+      const glm::dvec3 point =
+        setting.camera.eyeCentred() + distance * setting.camera.directionCentred();
+      return glm::dvec2(setting.rays.across(inView(setting.rays, point)));
+    };
+    const glm::dvec2 along = glm::normalize(onAxis(all.upper) - onAxis(all.lower));
+    const glm::dvec2 right(along.y, -along.x);
+    double nearSide = std::numeric_limits<double>::infinity(), farSide = -nearSide;
+    for (const glm::dvec2& point : setting.rays.across(body))
+    {
+      nearSide = std::min(nearSide, glm::dot(point, along));
+      farSide = std::max(farSide, glm::dot(point, along));
+    }
+    // Martin and Tan, section 5.2, with the focus on the line xi = -0.6 of a map whose near side is at 1.
+    const double lambda = farSide - nearSide;
+    const double delta =
+      glm::dot(onAxis(all.lower * std::pow(all.upper / all.lower, 0.8)), along) - nearSide;
+    const double xi = -0.6;
+    const double before = lambda * delta * (1.0 + xi) / (lambda - 2.0 * delta - lambda * xi);
+    const double centreLine = glm::dot(onAxis(all.lower), right);
+    double leftLeg = std::numeric_limits<double>::infinity(), rightLeg = -leftLeg;
+    for (const glm::dvec2& point : setting.rays.across(body))
+    {
+      const double slope =
+        (glm::dot(point, right) - centreLine) / (glm::dot(point, along) - nearSide + before);
+      leftLeg = std::min(leftLeg, slope);
+      rightLeg = std::max(rightLeg, slope);
+    }
+    const glm::dmat3 map = trapezoidOf(setting);
+    ASSERT_NE(map, uniformOf(setting));
+    for (const double x : { -1.0, 1.0 })
+    {
+      for (const double y : { -1.0, 1.0 })
+      {
+        const double from = y < 0.0 ? before : before + lambda; // the legs' meeting
+        const glm::dvec2 corner = (centreLine + from * (x < 0.0 ? leftLeg : rightLeg)) * right +
+          (nearSide - before + from) * along;
+        EXPECT_LT(glm::length(mapped(map, corner) - glm::dvec2(x, y)), 1e-6);
+      }
+    }
+  }
+}
+
 TEST(Trapezoid, IsSoundForAnyCameraAndLight)
 {
   expectSoundProjections(trapezoidFromAcross, 102);
