@@ -3,6 +3,10 @@
 #include "lights/MapWarp.h"
 #include "lights/Trapezoid.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 namespace gnomon::test
 {
 namespace
