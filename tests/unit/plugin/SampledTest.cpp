@@ -1,5 +1,6 @@
 // `sampled`: soft shadows by a map from each of many points of the light.
 
+#include "HalfPlane.h"
 #include "PassScene.h"
 
 #include "lights/LightSamples.h"
@@ -19,7 +20,6 @@
 #include <vtkSmartPointer.h>
 #include <vtkTextActor.h>
 
-#include <glm/gtc/constants.hpp>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -138,13 +138,6 @@ std::string nameOfLight(const testing::TestParamInfo<Named>& info)
 //------------------------------------------------------------------------------
 // Half plane over plane
 //------------------------------------------------------------------------------
-
-/// The share of a disk, or of what looks like one, on one side of a line at this distance from its middle, in radii.
-double diskShare(double distance)
-{
-  const double t = std::clamp(distance, -1.0, 1.0);
-  return 1.0 - (std::acos(t) - t * std::sqrt(1.0 - t * t)) / glm::pi<double>();
-}
 
 constexpr double edgeHeight = 2.0;
 

@@ -2,6 +2,7 @@
 
 #include "BuiltinScenes.h"
 #include "Comparison.h"
+#include "HalfPlane.h"
 #include "Scene.h"
 
 #include "plugin/VisibilityImages.h"
@@ -13,7 +14,6 @@
 #include <vtkSmartPointer.h>
 
 #include <glm/glm.hpp>
-#include <glm/gtc/constants.hpp>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -167,8 +167,7 @@ double halfPlaneAt(double x, double degrees)
   const double along = glm::dot(across, toSun);
   const double radii =
     along / (glm::length(across - along * toSun) * std::tan(glm::radians(0.5 * degrees)));
-  const double t = std::clamp(radii, -1.0, 1.0);
-  return 1.0 - (std::acos(t) - t * std::sqrt(1.0 - t * t)) / glm::pi<double>();
+  return diskShare(radii);
 }
 
 /// Though the filter's radius is in pixels, and the penumbra a few pixels wide.
