@@ -723,32 +723,48 @@ TEST_F(Pcss, tellsWhatTheEarlyOutDecides)
 }
 
 //------------------------------------------------------------------------------
+/// The shadow of a post that stands on the floor, under a sun at 45 degrees: its penumbrae are as wide as the way to the post
+/// makes them.
 TEST_F(Pcss, shadowsHardenTowardsTheirContact)
 {
-  // A wall that stands on the floor, under a low sun: the far end of its shadow is the widest.
-  PassScene scene(300, 300);
+  PassScene scene(320, 320);
   scene.addFloor(6.0);
-  scene.addBox({ -0.05, -0.05, 0.0 }, { 0.05, 0.05, 3.0 });
+  scene.addBox({ -0.001, -0.5, 0.0 }, { 0.0, 0.5, 3.5 });
   soft("6")(scene, scene.addSun({ 1.0, 0.0, -1.0 }));
   scene.pass->SetMapSize(4096);
   scene.pass->SetSetting("pcss_samples", "high");
-  scene.lookDown(1.6, 1.6);
+  scene.lookDown(1.4, 1.4);
   const VisibilityImages& kept = drawKept(scene);
+  const double pixel = scene.floorAt(1, 0).x - scene.floorAt(0, 0).x;
   double previous = 0.0;
-  for (const double along : { 0.3, 0.8, 1.5, 2.4 })
+  double most = 0.0;
+  for (const double along : { 0.2, 0.5, 0.8, 1.1, 1.4, 1.7, 2.0, 2.3, 2.6 })
   {
-    // How much shadow there is, less what is fully dark: the two penumbrae.
-    int between = 0;
-    for (int y = 0; y < kept.height; ++y)
+    // The shares of a row of columns, from the shadow's middle to its side, on both sides.
+    const auto column = static_cast<int>(along / pixel);
+    std::vector<double> shares(static_cast<std::size_t>(kept.height / 2), 0.0);
+    for (std::size_t i = 0; i < shares.size(); ++i)
     {
-      const auto x = static_cast<int>((along - 0.0) / 3.2 * kept.width);
-      const float v = kept.visibility[0][static_cast<std::size_t>(y * kept.width + x)];
-      between += v > 0.1f && v < 0.9f ? 1 : 0;
+      for (int x = column - 4; x <= column + 4; ++x)
+      {
+        const int away = static_cast<int>(i);
+        for (const int y : { kept.height / 2 + away, kept.height / 2 - 1 - away })
+        {
+          shares[i] += kept.visibility[0][static_cast<std::size_t>(y * kept.width + x)] / 18.0;
+        }
+      }
     }
-    EXPECT_GE(between, previous) << along;
-    previous = between;
+    const double width = widthOf(shares) * pixel;
+    // Half the sun's angle, over the slant way to the post.
+    const double exact = 2.0 * chordOfTenth * std::tan(glm::radians(3.0)) * std::sqrt(2.0) *
+      scene.floorAt(column, 0).x;
+    RecordProperty("width_" + std::to_string(along), std::to_string(width / exact));
+    EXPECT_GT(width, previous) << along;
+    EXPECT_NEAR(width, exact, 0.08 * exact) << along; // 15 % are asked of widths
+    most = std::max(most, std::abs(width / exact - 1.0));
+    previous = width;
   }
-  EXPECT_GT(previous, 4.0);
+  RecordProperty("most_off", std::to_string(most));
 }
 
 //------------------------------------------------------------------------------
