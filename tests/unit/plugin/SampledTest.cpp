@@ -169,15 +169,22 @@ INSTANTIATE_TEST_SUITE_P(
 /// A penumbra against geometry's.
 struct PenumbraError
 {
-  std::size_t pixels = 0;  ///< that see part of the light
-  double width = 0.0;      ///< the sum of v (1 - v)
-  double exactWidth = 0.0; ///< the same of geometry
-  double offBy = 0.0;      ///< sum
+  std::size_t pixels = 0;    ///< that see part of the light
+  double width = 0.0;        ///< the sum of v (1 - v)
+  double exactWidth = 0.0;   ///< the same of geometry
+  double offBy = 0.0;        ///< sum
+  double offBySquared = 0.0; ///< sum of squares
   double mostOff = 0.0;
+
+  double rootMeanSquare() const
+  {
+    return std::sqrt(this->offBySquared / static_cast<double>(this->pixels));
+  }
 };
 
 /// Half a plane over a plane.
-PenumbraError errorOfHalfPlane(const Named& light, int mapSize)
+PenumbraError errorOfHalfPlane(
+  const Named& light, int mapSize, int samples = 256, const char* fit = "off")
 {
   PassScene scene(160, 120);
   scene.addFloor(2.0);
@@ -191,7 +198,8 @@ PenumbraError errorOfHalfPlane(const Named& light, int mapSize)
   scene.renderer->GetActiveCamera()->SetViewUp(0.0, 0.0, 1.0);
   scene.pass->SetTechnique("sampled");
   scene.pass->SetMapSize(mapSize);
-  set(scene, "light_samples", 256);
+  set(scene, "light_samples", samples);
+  scene.pass->SetSetting("fit", fit);
   const VisibilityImages& kept = drawKept(scene);
   PenumbraError error;
   for (std::size_t i = 0; i < kept.coverage.size(); ++i)
@@ -207,6 +215,7 @@ PenumbraError errorOfHalfPlane(const Named& light, int mapSize)
     error.width += seen * (1.0 - seen);
     error.exactWidth += exact * (1.0 - exact);
     error.offBy += std::abs(seen - exact);
+    error.offBySquared += (seen - exact) * (seen - exact);
     error.mostOff = std::max(error.mostOff, std::abs(seen - exact));
   }
   return error;
@@ -216,6 +225,7 @@ PenumbraError errorOfHalfPlane(const Named& light, int mapSize)
 TEST_P(SampledPenumbras, areThoseOfGeometry)
 {
   const PenumbraError error = errorOfHalfPlane(GetParam(), 1024);
+  RecordProperty("most_off", std::to_string(error.mostOff));
   EXPECT_GT(error.pixels, 500u);
   EXPECT_NEAR(error.width, error.exactWidth, 0.01 * error.exactWidth);
   EXPECT_LT(error.offBy, 0.01 * static_cast<double>(error.pixels));
@@ -230,6 +240,21 @@ TEST_P(SampledPenumbras, haveNoStepsOfTexelsThatTheyAreAFewOfWide)
   EXPECT_NEAR(error.width, error.exactWidth, 0.03 * error.exactWidth);
   EXPECT_LT(error.offBy, 0.01 * static_cast<double>(error.pixels));
   EXPECT_LT(error.mostOff, 0.04);
+}
+
+//------------------------------------------------------------------------------
+/// As random points do at least, while there is more to gain by points than the maps' texels take.
+TEST_P(SampledPenumbras, errHalfAsMuchByFourTimesThePoints)
+{
+  double previous = 1.0;
+  for (const int samples : { 8, 32, 128, 512 })
+  {
+    const double error = errorOfHalfPlane(GetParam(), 512, samples, "frame").rootMeanSquare();
+    RecordProperty("rms_" + std::to_string(samples), std::to_string(error));
+    EXPECT_LT(error, 0.5 * previous) << samples;
+    previous = error;
+  }
+  EXPECT_LT(previous, 1.5 / 255.0);
 }
 
 //------------------------------------------------------------------------------
@@ -486,33 +511,75 @@ TEST_F(Sampled, refinesFromTheHardShadowToTheWhole)
 }
 
 //------------------------------------------------------------------------------
-/// Each frame is the mean over its own points: what rays to these show, and not what rays to all of them do.
-TEST_F(Sampled, showsTheMeanOverItsPointsInEachFrame)
+/// Whether a pixel or one of the eight around it is not as the others are.
+bool hasEdgeBeside(const std::vector<float>& image, int width, std::size_t pixel)
 {
-  const glm::dvec3 place(-2.0, -2.5, 6.0);
-  const double radius = 1.0;
-  this->light->SetRadius(radius);
-  gnomon::ShadowLight sampled;
-  sampled.kind = gnomon::LightKind::Spot;
-  sampled.positionWorld = place;
-  sampled.directionWorld = glm::normalize(-place);
-  sampled.area = gnomon::diskArea(sampled.directionWorld, radius);
-  sampled.lightSamples = 32;
-  const std::vector<glm::dvec3> points = gnomon::pairedLightSamples(sampled);
-  ASSERT_EQ(points.size(), 32u);
+  const int height = static_cast<int>(image.size()) / width;
+  const int x = static_cast<int>(pixel) % width;
+  const int y = static_cast<int>(pixel) / width;
+  for (int row = std::max(y - 1, 0); row <= std::min(y + 1, height - 1); ++row)
+  {
+    for (int column = std::max(x - 1, 0); column <= std::min(x + 1, width - 1); ++column)
+    {
+      if (image[static_cast<std::size_t>(row * width + column)] != image[pixel])
+      {
+        return true;
+      }
+    }
+  }
+  return false;
+}
 
-  // Hard shadows of a light at each of the points.
+/// A disk of light that refines by 8 points in each frame, and hard shadows of lights at each of these points.
+class SampledPoints : public Sampled
+{
+protected:
+  void takePoints(int samples)
+  {
+    gnomon::ShadowLight sampled;
+    sampled.kind = gnomon::LightKind::Spot;
+    sampled.positionWorld = this->place;
+    sampled.directionWorld = glm::normalize(-this->place);
+    sampled.area = gnomon::diskArea(sampled.directionWorld, radius);
+    sampled.lightSamples = samples;
+    this->points = gnomon::pairedLightSamples(sampled);
+    ASSERT_EQ(this->points.size(), static_cast<std::size_t>(samples));
+
+    this->light->SetRadius(0.0);
+    this->scene.pass->SetTechnique("raytraced");
+    for (const glm::dvec3& point : this->points)
+    {
+      const glm::dvec3 at = this->place + point;
+      this->light->SetPosition(at.x, at.y, at.z);
+      this->light->SetFocalPoint(point.x, point.y, point.z);
+      this->traced.push_back(visibilityOf(this->scene));
+    }
+    this->light->SetPosition(this->place.x, this->place.y, this->place.z);
+    this->light->SetFocalPoint(0.0, 0.0, 0.0);
+    this->light->SetRadius(radius);
+    this->scene.pass->SetTechnique("sampled");
+    set(this->scene, "light_samples", samples);
+    set(this->scene, "progressive", 8);
+    visibilityOf(this->scene); // the hard shadow
+  }
+
+  static constexpr double radius = 1.0;
+  const glm::dvec3 place{ -2.0, -2.5, 6.0 };
+  std::vector<glm::dvec3> points; ///< from the light's place
+  std::vector<std::vector<float>> traced;
+};
+
+//------------------------------------------------------------------------------
+/// Each frame is the mean over its own points: what rays to these show, and not what rays to all of them do.
+TEST_F(SampledPoints, areMeantOverInEachFrame)
+{
+  this->takePoints(32);
   std::vector<std::vector<float>> means; // over the first 8, 16, 24, 32
   std::vector<float> sum(140 * 100, 0.0f);
-  this->light->SetRadius(0.0);
-  this->scene.pass->SetTechnique("raytraced");
-  for (std::size_t k = 0; k < points.size(); ++k)
+  for (std::size_t k = 0; k < this->traced.size(); ++k)
   {
-    const glm::dvec3 at = place + points[k];
-    this->light->SetPosition(at.x, at.y, at.z);
-    this->light->SetFocalPoint(points[k].x, points[k].y, points[k].z);
-    const std::vector<float> hard = visibilityOf(this->scene);
-    std::transform(sum.begin(), sum.end(), hard.begin(), sum.begin(), std::plus<float>());
+    std::transform(
+      sum.begin(), sum.end(), this->traced[k].begin(), sum.begin(), std::plus<float>());
     if (k % 8 == 7)
     {
       means.push_back(sum);
@@ -520,13 +587,6 @@ TEST_F(Sampled, showsTheMeanOverItsPointsInEachFrame)
         [&](float v) { return v / static_cast<float>(k + 1); });
     }
   }
-
-  this->light->SetPosition(place.x, place.y, place.z);
-  this->light->SetFocalPoint(0.0, 0.0, 0.0);
-  this->light->SetRadius(radius);
-  this->scene.pass->SetTechnique("sampled");
-  set(this->scene, "progressive", 8);
-  visibilityOf(this->scene); // the hard shadow
   for (std::size_t frame = 0; frame < means.size(); ++frame)
   {
     const std::vector<float> seen = visibilityOf(this->scene);
@@ -544,6 +604,68 @@ TEST_F(Sampled, showsTheMeanOverItsPointsInEachFrame)
       }
     }
   }
+}
+
+//------------------------------------------------------------------------------
+/// Of the very same 512 points, what a frame adds is what rays to its points show, but where the shadows of these have an edge:
+/// a pixel may differ by as many points as have one beside it. Pixels are larger than texels.
+TEST_F(SampledPoints, showWhatRaysToThemShowButAtEdges)
+{
+  this->scene.window->SetSize(80, 60);
+  this->scene.lookFrom({ 2.0, -8.0, 7.0 }, { 1.0, 0.6, 0.2 });
+  this->scene.renderer->GetActiveCamera()->SetViewAngle(10.0);
+  this->scene.pass->SetMapSize(512);
+  this->scene.pass->SetSetting("fit", "frame");
+  this->takePoints(512);
+  const VisibilityImages kept = this->scene.pass->GetVisibility();
+  const std::size_t pixels = kept.coverage.size();
+  // Of 8 points each: how many see a pixel, and how many have an edge beside it.
+  std::vector<std::vector<int>> seeing(64, std::vector<int>(pixels, 0));
+  std::vector<std::vector<int>> edges = seeing;
+  for (std::size_t k = 0; k < this->traced.size(); ++k)
+  {
+    const std::vector<float>& hard = this->traced[k];
+    for (std::size_t i = 0; i < pixels; ++i)
+    {
+      seeing[k / 8][i] += hard[i] == 1.0f ? 1 : 0;
+      edges[k / 8][i] += hasEdgeBeside(hard, kept.width, i) ? 1 : 0;
+    }
+  }
+  int compared = 0;
+  int differing = 0;
+  int elsewhere = 0;
+  int elsewhereOfOthers = 0; // against the points of another frame
+  std::vector<float> before(pixels, 0.0f);
+  for (std::size_t frame = 0; frame < 64; ++frame)
+  {
+    const std::vector<float> seen = visibilityOf(this->scene);
+    ASSERT_EQ(this->report().lightSamples, 8 * (static_cast<int>(frame) + 1));
+    for (std::size_t i = 0; i < pixels; ++i)
+    {
+      // Where all of the light is in front of the receiver no point gives way to another.
+      const glm::dvec3 normal(kept.normalX[i], kept.normalY[i], kept.normalZ[i]);
+      if (kept.coverage[i] == 0.0f || glm::dot(normal, this->place - positionOf(kept, i)) <= radius)
+      {
+        continue;
+      }
+      const auto added = static_cast<int>(
+        std::lround(8.0 * (static_cast<double>(frame + 1) * seen[i] - frame * before[i])));
+      const auto differsFrom = [&](std::size_t group)
+      { return std::abs(added - seeing[group][i]) > edges[group][i]; };
+      ++compared;
+      differing += added != seeing[frame][i] ? 1 : 0;
+      elsewhere += differsFrom(frame) ? 1 : 0;
+      elsewhereOfOthers += differsFrom((frame + 32) % 64) ? 1 : 0;
+    }
+    before = seen;
+  }
+  RecordProperty("compared", compared);
+  RecordProperty("differing", differing);
+  RecordProperty("elsewhere", elsewhere);
+  RecordProperty("elsewhere_of_others", elsewhereOfOthers);
+  EXPECT_GT(compared, 200000);
+  EXPECT_LE(elsewhere, compared / 50000); // edges of what is narrower than a pixel
+  EXPECT_GT(elsewhereOfOthers, 1000);
 }
 
 //------------------------------------------------------------------------------
