@@ -3,6 +3,7 @@
 #include "EstimatorGlsl.h"
 
 #include "lights/KernelShape.h"
+#include "lights/LightSamples.h"
 #include "shadowtech/base/Kernel.h"
 #include "shadowtech/base/LightViewsGlsl.h"
 #include "shadowtech/base/ShaderLibrary.h"
@@ -17,6 +18,7 @@
 #include <cstdint>
 #include <optional>
 #include <ostream>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -121,6 +123,9 @@ public:
     double lit = 1.0;
     int fetches = 0; ///< texels of the map that are read without an early out
   };
+
+  /// Takes other points, as many.
+  void setPoints(std::vector<glm::vec2> points) { this->points_ = std::move(points); }
 
   Answer at(const Receiver& receiver, bool patterned = true)
   {
@@ -767,6 +772,71 @@ TEST_F(PcssReads, growFromLowToHighAndShrinkByTheEarlyOut)
   }
 }
 
+/// Answers with something of the points as the receiver's cell of the map takes them.
+class PatternedPcss : public Pcss
+{
+public:
+  /// @param expression of GLSL, of `taken`, the cell's points, and `given`, those of the set
+  explicit PatternedPcss(std::string expression)
+    : expression_(std::move(expression))
+  {
+  }
+
+  std::string visibilityGlsl(const ShadowLight& light) const override
+  {
+    std::string text = this->Pcss::visibilityGlsl(light);
+    replaceOnce(text, "float estimate_LIGHT(ViewPoint point, float slack)\n{",
+      "float estimate_LIGHT(ViewPoint point, float slack)\n{\n" + this->expression_ +
+        "}\n"
+        "float estimateOfPcss_LIGHT(ViewPoint point, float slack)\n{");
+    return text;
+  }
+
+private:
+  std::string expression_;
+};
+
+/// Turns of a disk, and shifts of a square whose edges meet, leave the points as far from each other as they are.
+TEST_P(PcssGlsl, patternsKeepThePointsDistances)
+{
+  const ShadowLight& light = GetParam().light;
+  const LightViews views = firstView(light);
+  const std::vector<Receiver> receivers = receiversOf(views, {});
+  const Depths depths = blocks;
+  const bool isRectangle = light.area->shape == LightArea::Shape::Rectangle;
+  const std::string preamble =
+    "  vec2 pattern = patternOf_LIGHT(point);\n"
+    "  vec3 none = vec3(0.0, 0.0, 1.0);\n"; // nothing is behind the receiver
+  // Over the square's edges, if that is shorter.
+  const std::string wrap = isRectangle ? "    given = min(given, 2.0 - given);\n"
+                                         "    taken = min(taken, 2.0 - taken);\n"
+                                       : "";
+  const std::vector<float> most =
+    test::run(PatternedPcss(preamble +
+                "  float most = 0.0;\n"
+                "  for (int i = 0; i < PCSS_FILTER_POINTS_LIGHT; ++i)\n"
+                "  for (int j = 0; j < i; ++j)\n"
+                "  {\n"
+                "    ivec2 ij = PCSS_SEARCH_POINTS_LIGHT + ivec2(i, j);\n"
+                "    vec2 given = abs(texelFetch(lightPoints_LIGHT, ivec2(ij.x, 0), 0).rg\n"
+                "      - texelFetch(lightPoints_LIGHT, ivec2(ij.y, 0), 0).rg);\n"
+                "    vec2 taken = abs(lightPoint_LIGHT(ij.x, pattern, none)\n"
+                "      - lightPoint_LIGHT(ij.y, pattern, none));\n" +
+                wrap +
+                "    most = max(most, abs(length(taken) - length(given)));\n"
+                "  }\n"
+                "  return most;\n"),
+      light, views, depths, receivers);
+  EXPECT_LT(*std::max_element(most.begin(), most.end()), 1e-5f);
+  // And from cell to cell they lie elsewhere.
+  const std::vector<float> places =
+    test::run(PatternedPcss(preamble + "  return lightPoint_LIGHT(0, pattern, none).x;\n"), light,
+      views, depths, receivers);
+  const auto [least, largest] = std::minmax_element(places.begin(), places.end());
+  RecordProperty("places", std::to_string(*least) + " to " + std::to_string(*largest));
+  EXPECT_GT(*largest - *least, 0.3f);
+}
+
 /// The map's depths may begin anywhere before its nearest caster, as if there were a near plane.
 TEST_P(PcssGlsl, doesNotDependOnWhereDepthsBegin)
 {
@@ -857,51 +927,166 @@ TEST(Pcss, pointsOfADiskFillItEvenly)
   }
 }
 
-/// How far a profile across a straight edge is from the truth, root mean square: its rows, which are as
-/// many patterns, averaged first.
-double bandsOf(bool patterned)
+/// The penumbra of a straight edge under a round sun, by 16 points.
+class EdgeOfSun
 {
-  ShadowLight light = areaCases().front().light;
-  light.directionWorld = { 0.0, 0.0, -1.0 };
-  light.area = diskArea(light.directionWorld, 0.5);
-  light.pcssSamples = PcssSamples::Low;
-  const Depths half = [](const glm::ivec2& texel) { return texel.x < mapSize / 2 ? 0.3f : 1.0f; };
-  const LightViews views = firstView(light);
-  Twin twin(light, views, half);
-  const LightView& view = views.views.front();
-  const glm::dmat4 centredFromView = glm::inverse(view.rays.viewFromCentred);
-  const glm::dmat3 acrossFromTexel = glm::inverse(texelFromAcross(view, mapSize));
-  const double distance = (0.7 - view.depthOffset) / view.depthScale;
-  const double texelsAcross = mostTexelsAcross(views, mapSize);
-  const double radiusTexels = 0.5 * texelsAcross * 0.4 / view.depthScale;
-  double squares = 0.0;
-  int count = 0;
-  for (double x = -0.8; x <= 0.8; x += 0.05, ++count)
+public:
+  EdgeOfSun()
+  {
+    this->light_.directionWorld = { 0.0, 0.0, -1.0 };
+    this->light_.area = diskArea(this->light_.directionWorld, 0.5);
+    this->light_.pcssSamples = PcssSamples::Low;
+    this->views_ = firstView(this->light_);
+    const LightView& view = this->views_.views.front();
+    this->distance_ = (0.7 - view.depthOffset) / view.depthScale;
+    this->radiusTexels_ = 0.5 * mostTexelsAcross(this->views_, mapSize) * 0.4 / view.depthScale;
+  }
+
+  Twin twin() const
+  {
+    return { this->light_, this->views_,
+      [](const glm::ivec2& texel) { return texel.x < mapSize / 2 ? 0.3f : 1.0f; } };
+  }
+
+  /// @param x across the penumbra, from -1 to 1
+  /// @param cell along it
+  double visibility(Twin& twin, double x, int cell, bool patterned) const
+  {
+    const LightView& view = this->views_.views.front();
+    const glm::dvec2 place(32.0 + x * this->radiusTexels_, 12.0 + 0.25 * cell);
+    const glm::dvec3 position(
+      mapped(glm::inverse(texelFromAcross(view, mapSize)), place), this->distance_);
+    const glm::dmat4 centredFromView = glm::inverse(view.rays.viewFromCentred);
+    return twin
+      .at({ glm::dvec3(centredFromView * glm::dvec4(position, 1.0)), { 0.0, 0.0, 1.0 } }, patterned)
+      .lit;
+  }
+
+  static double exact(double x)
+  {
+    return 0.5 + (std::asin(x) + x * std::sqrt(1.0 - x * x)) / glm::pi<double>();
+  }
+
+private:
+  ShadowLight light_ = areaCases().front().light;
+  LightViews views_;
+  double distance_ = 0.0;
+  double radiusTexels_ = 0.0;
+};
+
+/// How a profile across the penumbra is: its rows, which are as many patterns, averaged first.
+struct Bands
+{
+  double offBy = 0.0;     ///< root mean square from the truth
+  std::size_t levels = 0; ///< different ones
+  int columns = 0;
+};
+
+Bands bandsOf(Twin twin, bool patterned)
+{
+  const EdgeOfSun edge;
+  Bands bands;
+  std::set<long> levels;
+  for (double x = -0.8; x <= 0.8; x += 0.05, ++bands.columns)
   {
     double mean = 0.0;
     constexpr int rows = 100;
     for (int row = 0; row < rows; ++row)
     {
-      const glm::dvec2 place(32.0 + x * radiusTexels, 20.0 + 0.25 * row);
-      const glm::dvec4 position(mapped(acrossFromTexel, place), distance, 1.0);
-      mean +=
-        twin.at({ glm::dvec3(centredFromView * position), { 0.0, 0.0, 1.0 } }, patterned).lit /
-        rows;
+      mean += edge.visibility(twin, x, 32 + row, patterned) / rows;
     }
-    const double lit = 0.5 + (std::asin(x) + x * std::sqrt(1.0 - x * x)) / glm::pi<double>();
-    squares += (mean - lit) * (mean - lit);
+    levels.insert(std::lround(1e6 * mean));
+    bands.offBy += std::pow(mean - EdgeOfSun::exact(x), 2);
   }
-  return std::sqrt(squares / count);
+  bands.offBy = std::sqrt(bands.offBy / bands.columns);
+  bands.levels = levels.size();
+  return bands;
 }
 
 TEST(Pcss, turningThePointsLeavesNoBands)
 {
-  const double turned = bandsOf(true);
-  const double alike = bandsOf(false);
-  RecordProperty("turned", std::to_string(turned));
-  RecordProperty("alike", std::to_string(alike));
-  EXPECT_LT(turned, 0.02); // a level of 16 points is 0.0625
-  EXPECT_GT(alike, 2.0 * turned);
+  const EdgeOfSun edge;
+  const Bands turned = bandsOf(edge.twin(), true);
+  const Bands alike = bandsOf(edge.twin(), false);
+  // As many points on a grid of the square, and on the disk that this makes.
+  std::vector<glm::vec2> grid;
+  for (int i = 0; i < 32; ++i)
+  {
+    const glm::vec2 place(0.5 * (i % 4) - 0.75, 0.5 * (i / 4 % 4) - 0.75);
+    grid.push_back(diskPoint(place));
+  }
+  Twin uniform = edge.twin();
+  uniform.setPoints(grid);
+  const Bands regular = bandsOf(uniform, false);
+  for (const auto& [name, bands] :
+    { std::pair("turned", turned), { "alike", alike }, { "regular", regular } })
+  {
+    RecordProperty(name,
+      std::to_string(bands.offBy) + ", levels " + std::to_string(bands.levels) + " of " +
+        std::to_string(bands.columns));
+  }
+  EXPECT_LT(turned.offBy, 0.02); // a level of 16 points is 0.0625
+  EXPECT_GT(alike.offBy, 2.0 * turned.offBy);
+  EXPECT_GT(regular.offBy, 2.0 * turned.offBy);
+  EXPECT_GT(turned.levels, 2 * regular.levels);
+}
+
+/// Noise along a penumbra, where the truth is the same: cells have nothing to do with their neighbours, so that no frequency has
+/// more of it than others.
+TEST(Pcss, noiseOfTurnedPointsIsWhite)
+{
+  const EdgeOfSun edge;
+  Twin twin = edge.twin();
+  constexpr int cells = 160;
+  double power[cells / 2 + 1] = {};
+  double square = 0.0;
+  double withNext = 0.0;
+  int rows = 0;
+  for (double x = -0.5; x <= 0.5; x += 0.1, ++rows)
+  {
+    std::vector<double> noise;
+    double mean = 0.0;
+    for (int cell = 0; cell < cells; ++cell)
+    {
+      noise.push_back(edge.visibility(twin, x, cell, true));
+      mean += noise.back() / cells;
+    }
+    for (int cell = 0; cell < cells; ++cell)
+    {
+      const auto i = static_cast<std::size_t>(cell);
+      noise[i] -= mean;
+      square += noise[i] * noise[i];
+      withNext += cell > 0 ? noise[i] * noise[i - 1] : 0.0;
+    }
+    for (int frequency = 1; frequency <= cells / 2; ++frequency)
+    {
+      double real = 0.0;
+      double imaginary = 0.0;
+      for (int cell = 0; cell < cells; ++cell)
+      {
+        const double angle = glm::two_pi<double>() * frequency * cell / cells;
+        real += noise[static_cast<std::size_t>(cell)] * std::cos(angle);
+        imaginary += noise[static_cast<std::size_t>(cell)] * std::sin(angle);
+      }
+      power[frequency] += real * real + imaginary * imaginary;
+    }
+  }
+  double all = 0.0;
+  double high = 0.0;
+  double low = 0.0;
+  for (int frequency = 1; frequency < cells / 2; ++frequency)
+  {
+    all += power[frequency];
+    high += frequency > cells / 4 ? power[frequency] : 0.0;
+    low += frequency <= cells / 8 ? power[frequency] : 0.0;
+  }
+  RecordProperty("noise", std::to_string(std::sqrt(square / (rows * cells))));
+  RecordProperty("upper_half", std::to_string(high / all));
+  RecordProperty("lowest_quarter", std::to_string(low / all));
+  RecordProperty("with_next", std::to_string(withNext / square));
+  EXPECT_NEAR(high / all, 0.5, 0.1);
+  EXPECT_LT(low / all, 0.35);
+  EXPECT_LT(std::abs(withNext / square), 0.1);
 }
 
 TEST(Pcss, widthsAreThoseOfSimilarTriangles)
