@@ -24,7 +24,7 @@ class SoftContacts
 {
 };
 
-INSTANTIATE_TEST_SUITE_P(Techniques, SoftContacts, testing::Values("sampled", "montecarlo"),
+INSTANTIATE_TEST_SUITE_P(Techniques, SoftContacts, testing::Values("pcss", "sampled", "montecarlo"),
   [](const testing::TestParamInfo<const char*>& technique)
   { return std::string(technique.param); });
 
