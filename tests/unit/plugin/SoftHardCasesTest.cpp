@@ -495,7 +495,8 @@ TEST(SoftPenumbras, haveNoBandsByDefault)
   addDisk(scene, { 0.0, 0.0, 10.0 }, down, 1.2, 50.0);
   // The penumbra is 60 columns wide, and steepest in its middle, where the light's diameter is cut.
   const double steepest = 4.0 / std::acos(-1.0) / 60.0;
-  for (const char* technique : { "raytraced", "penumbra", "pcss", "montecarlo", "sampled" })
+  for (const char* technique :
+    { "raytraced", "penumbra", "pcss", "montecarlo", "coherence", "sampled" })
   {
     scene.pass->SetTechnique(technique);
     if (technique == std::string("sampled"))
