@@ -81,11 +81,11 @@ class SoftCoherenceScenes : public testing::TestWithParam<SceneCase>
 };
 
 INSTANTIATE_TEST_SUITE_P(Builtin, SoftCoherenceScenes,
-  testing::Values(SceneCase{ "soft-stack", 0.09, 0.0002 },
-    SceneCase{ "soft-panels", 0.125, 0.0001 }, SceneCase{ "soft-plates", 0.021, 0.00005 },
-    SceneCase{ "soft-long-cube", 0.072, 0.0002 }, SceneCase{ "bunny", 0.043, 0.0005 },
+  testing::Values(SceneCase{ "soft-stack", 0.09, 0.0006 },
+    SceneCase{ "soft-panels", 0.125, 0.00025 }, SceneCase{ "soft-plates", 0.021, 0.00005 },
+    SceneCase{ "soft-long-cube", 0.072, 0.0007 }, SceneCase{ "bunny", 0.043, 0.0005 },
     SceneCase{ "cups", 0.06, 0.0001 }, SceneCase{ "posts", 0.072, 0.0001 },
-    SceneCase{ "terrain", 0.09, 0.0027 }),
+    SceneCase{ "terrain", 0.09, 0.0025 }),
   [](const testing::TestParamInfo<SceneCase>& scene)
   {
     std::string name = scene.param.name;
@@ -103,7 +103,7 @@ TEST_P(SoftCoherenceScenes, traceTheRestAndAreSeldomWrong)
   window->AddRenderer(renderer);
   vtkNew<vtkGnomonShadowPass> pass;
   pass->KeepVisibilityOn();
-  pass->SetSetting("light_samples", "16");
+  pass->SetSetting("light_samples", "64");
   if (std::string(GetParam().name).rfind("soft-", 0) != 0)
   {
     pass->SetSetting("light_radius", "3"); // degrees, or world units
@@ -118,13 +118,14 @@ TEST_P(SoftCoherenceScenes, traceTheRestAndAreSeldomWrong)
   ASSERT_GT(hints.reached, 1000u);
   RecordProperty("traced", std::to_string(share(hints.traced, hints)));
   RecordProperty("wrong", std::to_string(share(hints.wrong, hints)));
+  RecordProperty("worst", std::to_string(hints.worst));
   EXPECT_LE(share(hints.traced, hints), GetParam().traced);
   EXPECT_LE(share(hints.wrong, hints), GetParam().wrong);
 
   const LightReport& report = pass->GetReport().lights.at(0);
-  EXPECT_EQ(report.lightSamples, 16);
+  EXPECT_EQ(report.lightSamples, 64);
   EXPECT_EQ(report.tracedPixels, static_cast<std::int64_t>(hints.traced));
-  EXPECT_EQ(report.rays, 16 * report.tracedPixels);
+  EXPECT_EQ(report.rays, 64 * report.tracedPixels);
 }
 
 //------------------------------------------------------------------------------
