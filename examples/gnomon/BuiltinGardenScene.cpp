@@ -515,11 +515,11 @@ Scene makeGarden()
 } // namespace
 
 //------------------------------------------------------------------------------
-const std::vector<GardenView>& gardenViews()
+const std::vector<SceneView>& gardenViews()
 {
   // Cameras of the thesis' section 5.1; "with" looks along the light, "against" towards it, "side"
   // across.
-  static const std::vector<GardenView> views = {
+  static const std::vector<SceneView> views = {
     { { "bench-with", "garden of two trees, lamp, flower box and bench, seen along the light" },
       { { -37.034573, 35.208973, -8.597797 } }, { { 0.605439, -0.732089, 0.312232 } } },
     { { "bench-side", "the garden, seen across the light" }, { { -23.277, 18.541, 30.143 } },
@@ -543,7 +543,7 @@ const std::vector<GardenView>& gardenViews()
 }
 
 //------------------------------------------------------------------------------
-Scene makeGardenScene(const GardenView& view)
+Scene makeGardenScene(const SceneView& view)
 {
   Scene scene = makeGarden();
   scene.name = view.line.name;

@@ -16,8 +16,6 @@ std::vector<BuiltinSceneEntry> makeEntries()
     { { "horse", "a horse on a plane (needs the package glmark2-data)" }, makeHorseScene },
     { { "cat", "a cat on a plane (needs the package glmark2-data)" }, makeCatScene },
     { { "cube", "a cube on a plane" }, makeCubeScene },
-    { { "primitives", "torus, cylinder, pyramid and sphere on a plane, 4,944 triangles" },
-      makePrimitivesScene },
     { { "posts", "thin posts and a fence" }, makePostsScene },
     { { "plates", "plates that rest on each other, or nearly" }, makePlatesScene },
     { { "half-plane", "a half plane over a plane, its shadow's edge is known" },
@@ -47,7 +45,11 @@ std::vector<BuiltinSceneEntry> makeEntries()
   addSoft("soft-long-cube", "long-cube under a square lamp", makeLongCubeScene, 14.0);
   entries.push_back(
     { { "soft-window", "stack under a window of coloured panes" }, makeWindowScene });
-  for (const GardenView& view : gardenViews())
+  for (const SceneView& view : primitivesViews())
+  {
+    entries.push_back({ view.line, [view] { return makePrimitivesScene(view); } });
+  }
+  for (const SceneView& view : gardenViews())
   {
     entries.push_back({ view.line, [view] { return makeGardenScene(view); } });
   }

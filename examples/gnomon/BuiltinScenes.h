@@ -29,8 +29,6 @@ Scene makeCatScene();
 
 /// A cube that stands on a plane.
 Scene makeCubeScene();
-/// Torus, cylinder, pyramid and sphere on a plane: 4,944 triangles.
-Scene makePrimitivesScene();
 /// Thin posts and a fence: shadows of about a texel's width.
 Scene makePostsScene();
 /// Plates that rest on each other, or nearly: contact shadows and small gaps.
@@ -68,17 +66,22 @@ Scene makeAtriumScene();
 /// Streets and towers, whose windows and ledges are triangles: 10 million of them.
 Scene makeCityScene();
 
-/// A view of the garden of bench, trees and flowers.
-struct GardenView
+/// A view of a scene that is listed once for each of its views.
+struct SceneView
 {
   BuiltinScene line;
   Vec3 position;
   Vec3 direction;
 };
+/// The three of Moderno's thesis, section 4.1.
+const std::vector<SceneView>& primitivesViews();
+/// Torus, cylinder, pyramid and sphere on a plane: 4,944 triangles.
+Scene makePrimitivesScene(const SceneView& view);
+
 /// The nine of Morais' thesis, section 5.1.
-const std::vector<GardenView>& gardenViews();
+const std::vector<SceneView>& gardenViews();
 /// Two trees, a lamp, a flower box and a bench on a lawn: 55,026 triangles as in the thesis.
-Scene makeGardenScene(const GardenView& view);
+Scene makeGardenScene(const SceneView& view);
 
 /// A square kilometre of rolling terrain with trees, rocks and posts, seen from 2 m above it, under
 /// a low sun.

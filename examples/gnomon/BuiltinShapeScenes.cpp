@@ -107,10 +107,25 @@ Scene makeCubeScene()
 }
 
 //------------------------------------------------------------------------------
-Scene makePrimitivesScene()
+const std::vector<SceneView>& primitivesViews()
+{
+  // Cameras of the thesis' section 4.1, named as the garden's; across the light: the name alone.
+  static const std::vector<SceneView> views = {
+    { { "primitives", "torus, cylinder, pyramid and sphere on a plane, 4,944 triangles" },
+      { { 35.0, 50.0, -43.0 } }, { { -1.0, -1.2, 1.0 } } },
+    { { "primitives-with", "the primitives, seen along the light" }, { { -28.0, 38.0, -40.0 } },
+      { { 0.4, -0.7, 0.6 } } },
+    { { "primitives-against", "the primitives, seen against the light" }, { { 31.0, 54.0, 38.0 } },
+      { { -0.4, -0.7, -0.5 } } },
+  };
+  return views;
+}
+
+//------------------------------------------------------------------------------
+Scene makePrimitivesScene(const SceneView& view)
 {
   Scene scene;
-  scene.name = "primitives";
+  scene.name = view.line.name;
   MeshBuilder cylinder;
   cylinder.addCone({ { -11.0, 0.0, 6.0 } }, 12.0, 3.0, 3.0, 32);
   MeshBuilder sphere;
@@ -118,9 +133,7 @@ Scene makePrimitivesScene()
   scene.models = { makePlane(origin, 90.0), makePyramid({ { 10.0, 0.0, 8.0 } }, 9.0, 9.0),
     makeModel("cylinder", cylinder.build(), green), makeTorus({ { -7.0, 2.0, -10.0 } }, 6.0, 2.0),
     makeModel("sphere", sphere.build(), blue) };
-  // The side view and the light of Moderno's scene of the same name.
-  const Vec3 eye{ { 35.0, 50.0, -43.0 } };
-  scene.camera = makeCamera(eye, eye + 41.0 * Vec3{ { -1.0, -1.2, 1.0 } }, 60.0);
+  scene.camera = makeCamera(view.position, view.position + 41.0 * view.direction, 60.0);
   scene.lights = { makeSun({ { 0.528542, -0.376004, 0.761095 } }) };
   return scene;
 }

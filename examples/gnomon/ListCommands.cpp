@@ -17,7 +17,7 @@ namespace
 
 void printLine(const std::string& name, const std::string& summary)
 {
-  std::cout << std::left << std::setw(17) << name << summary << "\n";
+  std::cout << std::left << std::setw(20) << name << summary << "\n";
 }
 
 /// @throws BadInput when there is no built-in scene of this name

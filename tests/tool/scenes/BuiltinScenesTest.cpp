@@ -126,7 +126,7 @@ TEST(BuiltinScenes, AreListedOnceEach)
     EXPECT_FALSE(line.summary.empty()) << line.name;
     EXPECT_LT(line.summary.size(), 80u) << line.name;
   }
-  EXPECT_EQ(names.size(), 34u);
+  EXPECT_EQ(names.size(), 36u);
 }
 
 //------------------------------------------------------------------------------
@@ -198,17 +198,37 @@ TEST(BuiltinScenes, HaveTheTrianglesThatTheyPromise)
   EXPECT_EQ(countTriangles(loadScene("long-cube")), 14);
   EXPECT_NEAR(static_cast<double>(countTriangles(loadScene("cups"))), 9241.0, 500.0);
   EXPECT_NEAR(static_cast<double>(countTriangles(loadScene("atrium"))), 260000.0, 2000.0);
-  for (const GardenView& view : gardenViews())
+  for (const SceneView& view : gardenViews())
   {
     EXPECT_EQ(countTriangles(loadScene(view.line.name)), 55026) << view.line.name;
   }
+  for (const SceneView& view : primitivesViews())
+  {
+    EXPECT_EQ(countTriangles(loadScene(view.line.name)), 4944) << view.line.name;
+  }
   const Scene primitives = loadScene("primitives");
-  EXPECT_EQ(countTriangles(primitives), 4944);
   const std::map<std::string, vtkIdType> parts = { { "plane", 2 }, { "pyramid", 6 },
     { "cylinder", 128 }, { "torus", 3072 }, { "sphere", 1736 } };
   for (const auto& [name, count] : parts)
   {
     EXPECT_EQ(findModel(primitives, name).surface->GetNumberOfPolys(), count) << name;
+  }
+}
+
+//------------------------------------------------------------------------------
+// Cosines between the cameras' directions and the light's, of Moderno's table 3.
+TEST(BuiltinScenes, PrimitivesAreSeenAcrossWithAndAgainstTheLight)
+{
+  const std::map<std::string, double> cosines = { { "primitives", 0.37 },
+    { "primitives-with", 0.93 }, { "primitives-against", -0.35 } };
+  ASSERT_EQ(primitivesViews().size(), cosines.size());
+  for (const auto& [name, cosine] : cosines)
+  {
+    const Scene scene = loadScene(name);
+    const Vec3 forward = normalized(scene.camera.target - scene.camera.position);
+    EXPECT_NEAR(
+      dot(forward, normalized(scene.lights[0].target - scene.lights[0].position)), cosine, 0.005)
+      << name;
   }
 }
 
@@ -364,7 +384,7 @@ TEST(BuiltinScenes, SolidsAreClosedAndSheetsAreOpen)
 // meet the lawn. The corners see farthest.
 TEST(BuiltinScenes, TheGardensLawnFillsEveryView)
 {
-  for (const GardenView& view : gardenViews())
+  for (const SceneView& view : gardenViews())
   {
     SCOPED_TRACE(view.line.name);
     const Scene scene = loadScene(view.line.name);
