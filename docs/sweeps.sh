@@ -182,15 +182,15 @@ stageColumns() {
   echo "$columns"
 }
 
-# Per method and cell of a view: the time of drawing maps and that from receivers to visibility.
+# Per method and cell of a view: the time of drawing maps, where the light moves, and that from receivers to visibility.
 # cells VIEW MOTION
 cells() {
-  rows "variant$(stageColumns "$2")" | awk -F, -v view="$1" -v cells="${timedCells[*]}" '
+  rows "variant$(stageColumns "$2")" | awk -F, -v view="$1" -v motion="$2" -v cells="${timedCells[*]}" '
     $1 == view && $2 ~ /^timed-/ {
       sub(/timed-/, "", $2)
       if ($4 ~ /plain VTK|vtkShadowMapPass/) next
       if (!($4 in seen)) { seen[$4] = 1; order[++count] = $4 }
-      time[$4, $2 "." $3] = sprintf("%.1f + %.1f", $5, $6 + $7 + $8 + $9 + $10)
+      time[$4, $2 "." $3] = (motion == "light_moving" ? sprintf("%.1f + ", $5) : "") sprintf("%.1f", $6 + $7 + $8 + $9 + $10)
     }
     END {
       cellCount = split(cells, cell, " ")
@@ -511,6 +511,7 @@ checks='
   function printChecks(   i, name) {
     for (i = 1; i <= statements; ++i) {
       name = order[i]
+      if (!held[name] && not[name] !~ /\(/) not[name] = "all of them"
       printf "| %s | %d of %d | %s | %s%s |\n", name, held[name], cases[name], thesis[name], not[name], \
         failures[name] && why[name] ? ". " why[name] : ""
     }
@@ -563,16 +564,18 @@ pixelOrderings() {
 # Morais' tables of times: of drawing maps (light moving), from receivers to visibility (camera moving), and both (light moving).
 timeOrderings() {
   rows "variant$(stageColumns light_moving)$(stageColumns camera_moving)" | awk -F, "$checks"'
-    $2 ~ /^timed-/ && $4 !~ /plain VTK|vtkShadowMapPass/ {
-      sub(/timed-/, "", $2)
+    $2 ~ /^timed/ && $4 !~ /plain VTK|vtkShadowMapPass/ && $13 != "" {
       run = $1 SUBSEP $2 SUBSEP $3
       if (!(run in known)) { known[run] = 1; runs[++runCount] = run }
       maps[run, $4] = $5; whole[run, $4] = $5 + $6 + $7 + $8 + $9 + $10; resolve[run, $4] = $12 + $13 + $14 + $15 + $16
+      if (!($4 in seen) && $4 !~ /nsm|raytraced/) { seen[$4] = 1; methods[++methodCount] = $4 }
     }
-    function faster(name, times, one, other) {
-      check(name, times[run, one] < times[run, other], sprintf("%s (%.1f, %.1f)", where, times[run, one], times[run, other]))
-    }
+    function faster(name, times, one, other) { check(name, times[run, one] < times[run, other], where) }
+    # count(KEY, HOLDS) : for the table of methods
+    function count(key, holds) { of[key]++; yes[key] += holds }
+    function counted(key) { return of[key] ? yes[key] " of " of[key] : "" }
     END {
+      if (!runCount) exit
       published = "crsm as_published=on"; publishedA = "crsma as_published=on"
       drawn[1] = "maps: `coherence` draws its own faster than `crsm` as published"
       drawn[2] = "maps: `crsm` as published draws them faster than `crsma` as published"
@@ -580,44 +583,48 @@ timeOrderings() {
       drawn[4] = "maps: `crsm` draws them faster than `crsma`"
       cheapest = "maps and resolve: `coherence` takes less than `crsm` and `crsma` as published"
       adjacent = "maps and resolve: `crsma` as published takes less than `crsm` as published"
-      split("coherence;" published ";" publishedA ";crsm;crsma;silhouette;silhouette fit=once", hybrids, ";")
-      split("42 of 48;20 of 48;20 of 48", beat, ";")
       for (r = 1; r <= runCount; ++r) {
         run = runs[r]
         split(run, part, SUBSEP)
-        where = place(part[1], part[2], part[3])
-        faster(drawn[1], maps, "coherence", published)
-        faster(drawn[2], maps, published, publishedA)
-        faster(drawn[3], maps, published, "crsm")
-        faster(drawn[4], maps, "crsm", "crsma")
-        check(cheapest, whole[run, "coherence"] < whole[run, published] && whole[run, "coherence"] < whole[run, publishedA], where)
-        faster(adjacent, whole, publishedA, published)
+        where = place(part[1], substr(part[2], 7), part[3])
+        if (part[2] != "timed") {
+          faster(drawn[1], maps, "coherence", published)
+          faster(drawn[2], maps, published, publishedA)
+          faster(drawn[3], maps, published, "crsm")
+          faster(drawn[4], maps, "crsm", "crsma")
+          check(cheapest, whole[run, "coherence"] < whole[run, published] && whole[run, "coherence"] < whole[run, publishedA], where)
+          faster(adjacent, whole, publishedA, published)
+        }
+        for (m = 1; m <= methodCount; ++m) if ((run, methods[m]) in whole) {
+          name = methods[m]
+          if (part[2] == "timed") { count(name " views", resolve[run, name] < resolve[run, "raytraced"]); continue }
+          count(name " moving", whole[run, name] < whole[run, "raytraced"])
+          count(name " static", resolve[run, name] < resolve[run, "raytraced"])
+          half = part[1] SUBSEP part[2] SUBSEP part[3] / 2
+          if (part[2] == "timed-1024x1024" && part[3] > 1024) count(name " falls", resolve[run, name] < resolve[half, name])
+        }
       }
       thesis[drawn[1]] = thesis[drawn[2]] = "16 of 16"; thesis[cheapest] = "48 of 48"; thesis[adjacent] = "23 of 48"
-      # A statement a method, so that the page says which.
-      for (i = 1; i in hybrids; ++i) {
-        moving = "maps and resolve, light moving: `" hybrids[i] "` takes less than `raytraced`"
-        still = "resolve, light static: `" hybrids[i] "` takes less than `raytraced`"
-        falls = "resolve: `" hybrids[i] "` takes less with a larger map, from 1024 on"
-        for (r = 1; r <= runCount; ++r) {
-          run = runs[r]
-          split(run, part, SUBSEP)
-          where = place(part[1], part[2], part[3])
-          check(moving, whole[run, hybrids[i]] < whole[run, "raytraced"], where)
-          check(still, resolve[run, hybrids[i]] < resolve[run, "raytraced"], where)
-          if (part[2] == "1024x1024" && (part[3] == 2048 || part[3] == 4096)) {
-            half = part[1] SUBSEP part[2] SUBSEP part[3] / 2
-            check(falls, resolve[run, hybrids[i]] < resolve[half, hybrids[i]], sprintf("%s (%.1f, %.1f)", where, resolve[half, hybrids[i]], resolve[run, hybrids[i]]))
-          }
-        }
-        if (i in beat) thesis[moving] = beat[i]
-        if (i <= 3) thesis[falls] = i == 1 ? "23 of 24" : "24 of 24"
-        if (i > 1) why[moving] = "Maps of the CPU take longer than rays of Embree: they pay where the light rests"
-        else why[moving] = why[still] = "It looks every pixel up in its map, on the CPU, where a look-up with its triangle takes longer than a ray of Embree"
-      }
-      why[drawn[1]] = why[cheapest] = "Its map, of triangles, is drawn on the CPU in double precision, 24 bytes a texel, and grows with texels; the thesis had a plain depth map"
-      why[drawn[2]] = why[adjacent] = "Both are drawn on the CPU here, of the same triangles; the thesis tells neighbours in a geometry shader, which is what made its maps slow"
+      why[drawn[1]] = why[cheapest] = "Its map, of triangles, is drawn on the CPU in double precision and has 24 bytes a texel; the thesis had a plain map of depths, and a GPU that looks it up"
+      why[drawn[2]] = why[adjacent] = "Both are drawn on the CPU here, of the same triangles; in the thesis it is a geometry shader that makes maps with neighbours slow"
       printChecks()
+      print ""
+      print "How often each takes less than `raytraced`, and less with twice the map, from 1024 on (the thesis in brackets):"
+      print ""
+      print "| | maps and resolve, light moving | resolve, light static | the same, ten views, map 1024 | resolve, twice the map |"
+      print "|---|---|---|---|---|"
+      moving["coherence"] = " (42 of 48)"; moving[published] = moving[publishedA] = " (20 of 48)"
+      twice["coherence"] = " (23 of 24)"; twice[published] = twice[publishedA] = " (24 of 24)"
+      for (m = 1; m <= methodCount; ++m) {
+        name = methods[m]
+        printf "| `%s` | %s%s | %s | %s | %s%s |\n", name, counted(name " moving"), of[name " moving"] ? moving[name] : "", counted(name " static"), \
+          counted(name " views"), counted(name " falls"), of[name " falls"] ? twice[name] : ""
+      }
+      print ""
+      print "Where they take longer: maps drawn on the CPU take longer than the rays that they save, so that they pay where the light rests; where"
+      print "most pixels are traced (`crsm`, small maps), looking them up comes on top of their rays. `coherence` and `selective` look"
+      print "every pixel up, on the CPU, too, where a look-up with its triangle takes longer than a ray of Embree"
+      print "([limits](techniques/selective.md#artefacts-and-limits)): a larger map has fewer rays, but not fewer look-ups. In the thesis both were the GPU\047s."
     }'
 }
 
@@ -771,8 +778,7 @@ page() {
   echo
   echo "### Times (Morais)"
   echo
-  echo "Of the [two views](#time-over-maps-and-pictures-light-moving) that are timed over maps and pictures; in brackets milliseconds. Resolve is"
-  echo "from receivers to visibility."
+  echo "Of the [two views](#time-over-maps-and-pictures) that are timed over maps and pictures. Resolve is from receivers to visibility."
   echo
   timeOrderings
   echo
@@ -788,16 +794,19 @@ page() {
   echo
   uncertainByView 1024x1024 1024
   echo
-  echo "### Time over maps and pictures, light moving"
+  echo "### Time over maps and pictures"
   echo
-  echo "Maps drawn + from receivers to visibility, in milliseconds, medians of $cellFrames frames. \`nsm\` looks up on the (software) GPU; with"
-  echo "\`bake\` \`always\`, by which \`crsm\` and its kin draw their maps while the light moves, too. Of two of the ten views, a garden's and the"
-  echo "atrium: these are timed on a machine that does nothing else, for a quarter of an hour; all ten would take more than an hour."
+  echo "In milliseconds, medians of $cellFrames frames. \`nsm\` looks up on the (software) GPU. While the light moves: maps drawn + from receivers to"
+  echo "visibility, with \`bake\` \`always\`, by which \`crsm\` and its kin draw their maps in these frames, too. While the camera moves and the light"
+  echo "does not: from receivers to visibility alone. Of two of the ten views, one of the garden and the atrium: these are timed on a machine that does"
+  echo "nothing else, for a quarter of an hour; all ten would take more than an hour."
   for view in "${timedViews[@]}"; do
-    echo
-    echo "#### $view"
-    echo
-    cells "$view" light_moving
+    for motion in light camera; do
+      echo
+      echo "#### $view, $motion moving"
+      echo
+      cells "$view" "${motion}_moving"
+    done
   done
   echo
   echo "### The selective chain"
