@@ -110,7 +110,7 @@ table() {
 
 # What montecarlo makes of the first surface alone.
 nearLayer() {
-  cp "$out"/soft-stack.near/montecarlo-*.png docs/figures/soft/soft-stack-near.png
+  cp "$out/soft-stack.near/montecarlo-mc_layers-near-1024.png" docs/figures/soft/soft-stack-near.png
   echo "With the first surface alone (\`mc_layers\` \`near\`), all behind which is solid, there are no inner penumbrae: MAE" \
     "$(results "$out/soft-stack.near" | awk -F, '
       NR == 1 { for (i = NF; i >= 1; --i) column[$i] = i; next }
