@@ -141,8 +141,10 @@ records() {
     match($0, /^ *"(technique|scenes|pictures|receivers|traced|wrong)": "/) {
       name = $1; gsub(/[":]/, "", name)
       value[name] = substr($0, RLENGTH + 1); sub(/",?$/, "", value[name])
-      if (name == "wrong")
+      if (name == "wrong") {
         print value["technique"] "\t" value["scenes"] "\t" value["pictures"] "\t" value["receivers"] "\t" value["traced"] "\t" value["wrong"]
+        delete value
+      }
     }' "${reports[@]}"
 }
 
@@ -172,6 +174,12 @@ table() {
 
 farAway="far away or at other scales"
 anywhere="from anywhere"
+for kind in "$farAway" "$anywhere"; do
+  if [ "$(records | grep -c "$kind")" = 0 ]; then
+    echo "No pictures $kind were compared." >&2
+    exit 1
+  fi
+done
 {
   echo "# Exact techniques against ray tracing"
   echo
@@ -216,6 +224,7 @@ anywhere="from anywhere"
   echo
   echo "## Kinds of scenes"
   echo
-  records | grep -v "$farAway" | table "technique | scenes" 1,2
-} > docs/exactness.md
+  records | grep -v "$farAway\|$anywhere" | table "technique | scenes" 1,2
+} > "$pictures/page.md"
+mv "$pictures/page.md" docs/exactness.md
 exit "$failed"

@@ -9,6 +9,9 @@
 namespace gnomon
 {
 
+/// How far from its centre a light may shine at most, in world units.
+constexpr double largestAreaRadius = 1e12;
+
 /// What a light that is more than a point shines from: a shape around its centre. Its points shine alike unless it has a
 /// texture (LightTexture.h). It is symmetric about the centre, so that opposite every point there is another one.
 struct LightArea

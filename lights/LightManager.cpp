@@ -29,9 +29,6 @@ namespace
 /// The largest coordinate of a lamp: of those beyond, floats do not hold the squares.
 constexpr double farthestPosition = 1e18;
 
-/// The largest area of a light, in world units.
-constexpr double largestArea = 1e12;
-
 /// VTK takes the cone of a positional light for a spot's below 90 degrees only.
 LightKind kindOf(vtkLight* light)
 {
@@ -148,7 +145,7 @@ LitArea readArea(vtkLight* light, const ShadowSettings& settings,
   {
     return skip("it fills 180 degrees or more");
   }
-  if (longest > 2.0 * largestArea)
+  if (longest > 2.0 * largestAreaRadius)
   {
     return skip("its area is too large");
   }

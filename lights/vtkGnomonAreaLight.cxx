@@ -1,5 +1,6 @@
 #include "vtkGnomonAreaLight.h"
 
+#include "lights/LightArea.h"
 #include "lights/OSPRayRadius.h"
 #include "vtkInformation.h"
 #include "vtkInformationDoubleKey.h"
@@ -22,13 +23,13 @@ vtkGnomonAreaLight::vtkGnomonAreaLight()
 void vtkGnomonAreaLight::SetShape(int shape)
 {
   const int clamped = std::clamp<int>(shape, RECTANGLE, DISK);
-  if (this->Shape == clamped)
-  {
-    return;
-  }
+  const bool changes = this->Shape != clamped;
   this->Shape = clamped;
-  this->TellOSPRay();
-  this->Modified();
+  this->TellOSPRay(); // whose module may have been loaded since
+  if (changes)
+  {
+    this->Modified();
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -36,13 +37,13 @@ void vtkGnomonAreaLight::SetRadius(double radius)
 {
   // What is no number stays, and casts nothing, for a reason that the frame's report gives.
   const double clamped = std::clamp(radius, 0.0, VTK_DOUBLE_MAX);
-  if (this->Radius == clamped)
-  {
-    return;
-  }
+  const bool changes = this->Radius != clamped;
   this->Radius = clamped;
-  this->TellOSPRay();
-  this->Modified();
+  this->TellOSPRay(); // whose module may have been loaded since
+  if (changes)
+  {
+    this->Modified();
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -53,7 +54,8 @@ void vtkGnomonAreaLight::TellOSPRay()
   {
     return;
   }
-  if (this->Shape == DISK)
+  // A radius that is no number, or too large to cast anything here, is none there.
+  if (this->Shape == DISK && this->Radius <= gnomon::largestAreaRadius)
   {
     this->GetInformation()->Set(key, this->Radius);
   }
@@ -77,12 +79,16 @@ void vtkGnomonAreaLight::CopyArea(vtkGnomonAreaLight* light)
 //------------------------------------------------------------------------------
 void vtkGnomonAreaLight::DeepCopy(vtkLight* light)
 {
-  this->Superclass::DeepCopy(light);
-  if (auto* area = vtkGnomonAreaLight::SafeDownCast(light))
+  auto* const area = vtkGnomonAreaLight::SafeDownCast(light);
+  if (area)
   {
     this->CopyArea(area);
   }
-  this->TellOSPRay(); // the information, and the key in it, is the other light's
+  this->Superclass::DeepCopy(light); // the information as well, and OSPRay's key in it
+  if (!area)
+  {
+    this->TellOSPRay();
+  }
 }
 
 //------------------------------------------------------------------------------

@@ -25,8 +25,9 @@
  * for the sun's disk is 0.53. A rectangle's must be below 180 then, and a disk's too.
  *
  * <b>OSPRay.</b> Radius is the same number as that of vtkOSPRayLightNode::SetRadius: of a positional
- * light the radius, of a directional one the angular diameter in degrees. A disk has OSPRay's key, too, where OSPRay's module is loaded before
- * the disk gets its size, so that it is as large to vtkOSPRayPass; a rectangle is a point there. A vtkLight that has
+ * light the radius, of a directional one the angular diameter in degrees. SetRadius and SetShape give
+ * a disk OSPRay's key, too, where OSPRay's module is loaded by then, so that it is as large to
+ * vtkOSPRayPass, and take it off a rectangle, which is a point there. A vtkLight that has
  * OSPRay's key (RADIUS) gives soft shadows as well, without being of this class: a disk across
  * the direction of a spot light or directional light, and of a light that shines into all directions a
  * ball, which looks like a disk of that radius from all sides. The setting "light_radius", of a light or of

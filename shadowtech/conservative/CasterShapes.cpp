@@ -185,11 +185,11 @@ double largestTexelsPerAcross(const LightView& view, double size)
 } // namespace
 
 //------------------------------------------------------------------------------
-glm::dmat4 MapSpace::mapFromCentred() const
+glm::dmat4 MapSpace::mapFromCentred(double constant) const
 {
   const glm::dmat3& map = this->texelFromAcross;
   const auto column = [&](const glm::dvec3& across, double ownDepth)
-  { return glm::dvec4(across.x, across.y, ownDepth + this->depthOffset * across.z, across.z); };
+  { return glm::dvec4(across.x, across.y, ownDepth + constant * across.z, across.z); };
   const glm::dvec3 none(0.0);
   const glm::dmat4 mapFromView = this->positional
     ? glm::dmat4(column(map[0], 0.0), column(map[1], 0.0), column(map[2], 0.0),

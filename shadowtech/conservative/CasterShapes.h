@@ -62,7 +62,8 @@ struct MapSpace
   }
 
   /// The same as a matrix, to (X, Y, Q, W).
-  glm::dmat4 mapFromCentred() const;
+  /// @param constant what Q / W has everywhere, in place of `depthOffset`
+  glm::dmat4 mapFromCentred(double constant) const;
 
   /// How much depth changes at most where a point moves by a unit of length in any direction: a / W + b / W^2.
   glm::dvec2 depthPerUnit() const

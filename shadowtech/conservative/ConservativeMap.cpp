@@ -114,13 +114,10 @@ void lookAt(
 LookUp lookUpOf(const CasterScene& scene, const LightView& view)
 {
   LookUp lookUp;
-  glm::dmat4 mapFromCentred = scene.space.mapFromCentred();
-  for (int column = 0; column < 4; ++column)
-  {
-    mapFromCentred[column].z -= scene.space.depthOffset * mapFromCentred[column].w;
-  }
-  lookUp.mapFromCentred = glm::mat4(mapFromCentred);
   lookUp.depthOffset = static_cast<float>(scene.space.depthOffset);
+  // What rounding takes off the constant stays with the place.
+  lookUp.mapFromCentred =
+    glm::mat4(scene.space.mapFromCentred(scene.space.depthOffset - lookUp.depthOffset));
   if (scene.space.positional)
   {
     lookUp.distance = glm::vec4(glm::row(view.rays.viewFromCentred, 2));

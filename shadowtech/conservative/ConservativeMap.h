@@ -44,10 +44,12 @@ struct TexelBounds
 /// How receivers are looked up in a map, in float.
 struct LookUp
 {
-  /// To X, Y, Q and W of MapPoint, but for W's share of Q: that is `depthOffset` of Q / W, whatever the place, and as a
-  /// part of Q would be rounded in proportion to W's terms. Of a light among its casters depth changes by less than that.
+  /// To X, Y, Q and W of MapPoint, but for what Q / W has everywhere, `depthOffset`. As a part of Q
+  /// that would be rounded in proportion to W's terms, by more than depth changes far from a lamp
+  /// that is among its casters.
   glm::mat4 mapFromCentred{ 1.0f };
-  float depthOffset = 0.0f; ///< MapSpace::depthOffset
+  float depthOffset =
+    0.0f; ///< MapSpace::depthOffset; what that has beyond a float is in the matrix
   /// To z along the view, where the light has a position; else to 1, the distance at which lengths
   /// across parallel rays are what they are.
   glm::vec4 distance{ 0.0f, 0.0f, 0.0f, 1.0f };

@@ -202,12 +202,7 @@ TriangleMap::TriangleMap(const LightView& view, const std::optional<glm::dvec4>&
   , texels_(static_cast<std::size_t>(sizeTexels) * static_cast<std::size_t>(sizeTexels))
 {
   const CasterScene scene = casterScene(view, keptFromCentred.has_value(), sizeTexels, occluders);
-  this->mapFromCentred_ = scene.space.mapFromCentred();
-  for (int column = 0; column < 4; ++column)
-  {
-    glm::dvec4& of = this->mapFromCentred_[column];
-    of.z -= farthestDepth * of.w;
-  }
+  this->mapFromCentred_ = scene.space.mapFromCentred(scene.space.depthOffset - farthestDepth);
   this->planeFromCentred_ = glm::transpose(glm::inverse(this->mapFromCentred_));
   MapDrawing(scene, keptFromCentred, this->mapFromCentred_, sizeTexels, this->texels_.data());
 }

@@ -238,6 +238,15 @@ TEST(AreaLight, tellsOSPRayHowLargeADiskIs)
   disk->SetRadius(-1.0);
   EXPECT_EQ(disk->GetRadius(), 0.0);
   EXPECT_EQ(told(disk), 0.0);
+  disk->GetInformation()->Remove(ospRayKey()); // as if the module had come after that
+  disk->SetRadius(0.0);
+  EXPECT_EQ(told(disk), 0.0);
+  for (const double none :
+    { std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 2e12 })
+  {
+    disk->SetRadius(none);
+    EXPECT_EQ(told(disk), -1.0) << none;
+  }
 
   vtkNew<vtkGnomonAreaLight> copy;
   disk->SetRadius(3.0);
@@ -246,6 +255,10 @@ TEST(AreaLight, tellsOSPRayHowLargeADiskIs)
   vtkNew<vtkLight> plain;
   copy->DeepCopy(plain);
   EXPECT_EQ(told(copy), copy->GetRadius()) << "the information is the other light's";
+  const auto rectangle = makeRectangle(2.0, 1.0);
+  rectangle->GetInformation()->Set(ospRayKey(), 0.75); // by somebody who wants that there
+  copy->DeepCopy(rectangle);
+  EXPECT_EQ(told(copy), 0.75);
 }
 
 TEST(AreaLight, ofNumbersThatAreNoneCastsNothing)

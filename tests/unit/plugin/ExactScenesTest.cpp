@@ -202,7 +202,9 @@ TEST_P(ExactScenesFromAnywhere, showWhatIsTraced)
                                  << ", light of kind " << kind;
     sum.add(picture);
   }
-  recordCompared(technique, name + ", from anywhere", sum);
+  recordCompared(std::string(technique) +
+      (technique == std::string("selective") ? ", contour=image, coherence=off" : ""),
+    name + ", from anywhere", sum);
   EXPECT_GT(sum.receivers, 0u);
   // Where two pictures are all that selective gets, it may have to trace them whole.
   if (std::string(technique) != "selective")
