@@ -110,11 +110,14 @@ table() {
 
 # What montecarlo makes of the first surface alone.
 nearLayer() {
+  local mae
+  mae="$(results "$out/soft-stack.near" | awk -F, '
+    NR == 1 { for (i = NF; i >= 1; --i) column[$i] = i; next }
+    $1 ~ /^montecarlo/ { printf "%.4f", $(column["mean_absolute_error"]) }')"
+  [ -n "$mae" ]
   cp "$out/soft-stack.near/montecarlo-mc_layers-near-1024.png" docs/figures/soft/soft-stack-near.png
-  echo "With the first surface alone (\`mc_layers\` \`near\`), all behind which is solid, there are no inner penumbrae: MAE" \
-    "$(results "$out/soft-stack.near" | awk -F, '
-      NR == 1 { for (i = NF; i >= 1; --i) column[$i] = i; next }
-      $1 ~ /^montecarlo/ { printf "%.4f", $(column["mean_absolute_error"]) }')."
+  echo "With the first surface alone (\`mc_layers\` \`near\`), all behind which is solid, there are no inner penumbrae: MAE $mae. The"
+  echo "ground casts in this scene, so that two layers (\`near_far\`) have none there, either:"
   echo
   echo "![soft-stack by its first surface alone](figures/soft/soft-stack-near.png)"
 }
