@@ -333,6 +333,17 @@ const VisibilityImages& drawKept(PassScene& scene)
 }
 
 //------------------------------------------------------------------------------
+std::vector<double> columnMeans(const VisibilityImages& kept)
+{
+  std::vector<double> means(static_cast<std::size_t>(kept.width), 0.0);
+  for (std::size_t i = 0; i < kept.visibility[0].size(); ++i)
+  {
+    means[i % means.size()] += kept.visibility[0][i] / kept.height;
+  }
+  return means;
+}
+
+//------------------------------------------------------------------------------
 glm::dvec3 positionOf(const VisibilityImages& kept, std::size_t pixel)
 {
   return { kept.origin[0] + kept.positionX[pixel], kept.origin[1] + kept.positionY[pixel],

@@ -170,6 +170,9 @@ inline constexpr double allDirections = 180.0;
 /// Draws a frame, keeps its visibility, and checks that its numbers are visibilities, and finite.
 const VisibilityImages& drawKept(PassScene& scene);
 
+/// The mean visibility of each column of a picture, of the first light.
+std::vector<double> columnMeans(const VisibilityImages& kept);
+
 /// Where a pixel's receiver is in the world.
 glm::dvec3 positionOf(const VisibilityImages& kept, std::size_t pixel);
 

@@ -504,12 +504,7 @@ TEST(SoftPenumbras, haveNoBandsByDefault)
       scene.pass->SetSetting(
         "light_samples", "512"); // all pixels see the same points: the 64 of the default show
     }
-    const VisibilityImages& kept = drawKept(scene);
-    std::vector<double> columns(static_cast<std::size_t>(kept.width), 0.0);
-    for (std::size_t i = 0; i < kept.visibility[0].size(); ++i)
-    {
-      columns[i % columns.size()] += kept.visibility[0][i] / kept.height;
-    }
+    const std::vector<double> columns = columnMeans(drawKept(scene));
     double step = 0.0;
     for (std::size_t x = 1; x < columns.size(); ++x)
     {

@@ -1,6 +1,7 @@
 // adaptive_estimator.glsl and its discs against twins, and what they cost in texels read.
 
 #include "EstimatorGlsl.h"
+#include "HalfPlane.h"
 
 #include "shadowtech/adaptive/Adaptive.h"
 #include "shadowtech/adaptive/JitteredDiscs.h"
@@ -252,13 +253,6 @@ TEST(JitteredDiscs, beginWithTheirRings)
   }
 }
 
-/// The share of the unit disc to the left of a line at x.
-double shareLeftOf(double x)
-{
-  const double c = glm::clamp(x, -1.0, 1.0);
-  return 0.5 + (std::asin(c) + c * std::sqrt(1.0 - c * c)) / glm::radians(180.0);
-}
-
 TEST(JitteredDiscs, straightEdgesAreTrueToAFewHundredths)
 {
   // Survey, 2.7: 0.0215 for 8 x 8, 0.0135 for 11 x 11, 0.0077 for 16 x 16; the ring adds nothing.
@@ -286,8 +280,8 @@ TEST(JitteredDiscs, straightEdgesAreTrueToAFewHundredths)
         const double all = static_cast<double>(left(points)) / points;
         const double ring = static_cast<double>(left(grid)) / grid;
         const double early = ring == 0.0 || ring == 1.0 ? ring : all;
-        squares += std::pow(all - shareLeftOf(edge), 2);
-        squaresOfRing += std::pow(early - shareLeftOf(edge), 2);
+        squares += std::pow(all - diskShare(edge), 2);
+        squaresOfRing += std::pow(early - diskShare(edge), 2);
       }
     }
     const double rms = std::sqrt(squares / count);

@@ -1,5 +1,6 @@
 // Ray-traced shadows of area lights against what is known of them.
 
+#include "HalfPlane.h"
 #include "SyntheticScene.h"
 
 #include "lights/LightArea.h"
@@ -77,13 +78,6 @@ ReceiverPixels levelReceivers(const Occluders& occluders, const std::vector<doub
   return receivers;
 }
 
-/// The share of a disk, or of what looks like one, on one side of a line at this distance from its middle, in radii.
-double diskShare(double distance)
-{
-  const double t = std::clamp(distance, -1.0, 1.0);
-  return 1.0 - (std::acos(t) - t * std::sqrt(1.0 - t * t)) / glm::pi<double>();
-}
-
 struct Penumbra
 {
   std::string name;
@@ -108,19 +102,19 @@ std::vector<Penumbra> penumbras()
   const double lamp = 10.0;
   const glm::dvec3 place(0.0, 0.0, lamp);
   const glm::dvec3 up(0.0, 1.0, 0.0);
-  const double ratio = (lamp - height) / height;
+  const LampPastEdge lampPastEdge{ height, lamp, 1.0 };
+  const SunPastEdge sunPastEdge{ height, 0.1 };
   return {
     { "square", withArea(spotLight(place, {}, 60.0), rectangleArea(down, up, { 1.0, 0.3 })),
-      [=](double x) { return std::clamp(0.5 + 0.5 * x * ratio, 0.0, 1.0); } },
+      [=](double x) { return lampPastEdge.square(x); } },
     { "disk", withArea(spotLight(place, {}, 60.0), diskArea(down, 1.0)),
-      [=](double x) { return diskShare(x * ratio); } },
-    // Cut by the plane through the receiver and the edge.
+      [=](double x) { return lampPastEdge.disk(x); } },
     { "ball", withArea(pointLight(place), ballArea(1.0)),
-      [=](double x) { return diskShare(x * (lamp - height) / std::hypot(x, height)); } },
+      [=](double x) { return lampPastEdge.ball(x); } },
     { "sun", withArea(directionalLight(down), diskArea(down, 0.1)),
-      [=](double x) { return diskShare(x / (0.1 * height)); } },
+      [=](double x) { return sunPastEdge.disk(x); } },
     { "window", withArea(directionalLight(down), rectangleArea(down, up, { 0.1, 0.2 })),
-      [=](double x) { return std::clamp(0.5 + 0.5 * x / (0.1 * height), 0.0, 1.0); } },
+      [=](double x) { return sunPastEdge.square(x); } },
   };
 }
 
