@@ -1,6 +1,7 @@
 # Set-up on Debian 12, shared by examples/bunny.sh and tests/run.sh, which source it.
 
-# Installs what cmake/debian-packages.txt lists and this machine lacks; nothing when it lacks nothing.
+# install_packages [PACKAGE...]: installs what cmake/debian-packages.txt lists, and these packages, as far as this machine lacks
+# them; nothing when it lacks nothing.
 install_packages()
 {
   local package
@@ -12,7 +13,7 @@ install_packages()
     if [ "$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null)" != installed ]; then
       missing+=("$package")
     fi
-  done < cmake/debian-packages.txt
+  done < <(cat cmake/debian-packages.txt; printf '%s\n' "$@")
   if [ "${#missing[@]}" -eq 0 ]; then
     return
   fi
