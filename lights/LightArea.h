@@ -9,7 +9,7 @@
 namespace gnomon
 {
 
-/// How far from its centre a light may shine at most, in world units.
+/// How far a light's area may reach from its centre, in world units.
 constexpr double largestAreaRadius = 1e12;
 
 /// What a light that is more than a point shines from: a shape around its centre. Its points shine alike unless it has a

@@ -48,8 +48,7 @@ struct LookUp
   /// that would be rounded in proportion to W's terms, by more than depth changes far from a lamp
   /// that is among its casters.
   glm::mat4 mapFromCentred{ 1.0f };
-  float depthOffset =
-    0.0f; ///< MapSpace::depthOffset; what that has beyond a float is in the matrix
+  float depthOffset = 0.0f; ///< MapSpace::depthOffset, whose rest beyond a float is in the matrix
   /// To z along the view, where the light has a position; else to 1, the distance at which lengths
   /// across parallel rays are what they are.
   glm::vec4 distance{ 0.0f, 0.0f, 0.0f, 1.0f };
@@ -92,9 +91,11 @@ public:
   /// @param onCaster whether their surface casts, on both sides
   Certainty ask(const ReceiverSegment& segment, bool onCaster) const;
 
+  ///@{
+  /// What it is made of, from which a test makes maps that have one of the two answers alone: texels row by row.
   const LookUp& lookUp() const { return this->lookUp_; }
-  /// Row by row.
   const std::vector<TexelBounds>& texels() const { return this->texels_; }
+  ///@}
   std::size_t bytes() const;
 
 private:

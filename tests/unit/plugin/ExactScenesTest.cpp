@@ -1,5 +1,6 @@
 // Exact techniques show what ray tracing shows, in all built-in scenes but the largest.
 
+#include "BuiltinPass.h"
 #include "ExactRecord.h"
 #include "PassScene.h"
 #include "RandomScenes.h"
@@ -50,29 +51,16 @@ INSTANTIATE_TEST_SUITE_P(Builtin, ExactScenes,
       }
       return names;
     }()),
-  [](const testing::TestParamInfo<std::string>& scene)
-  {
-    std::string name = scene.param;
-    std::replace(name.begin(), name.end(), '-', '_');
-    return name;
-  });
+  [](const testing::TestParamInfo<std::string>& scene) { return testNameOf(scene.param); });
 
 TEST_P(ExactScenes, showWhatIsTraced)
 {
-  const vtkSmartPointer<vtkRenderer> renderer =
-    tool::makeRenderer(tool::loadScene(GetParam()), 1.0);
-  vtkNew<vtkGnomonEGLRenderWindow> window;
-  window->SetMultiSamples(0);
-  window->SetSize(512, 512);
-  window->AddRenderer(renderer);
-  vtkNew<vtkGnomonShadowPass> pass;
-  pass->KeepVisibilityOn();
-  pass->SetSetting("bake", "always");
-  renderer->SetPass(pass);
+  const BuiltinPass scene(GetParam(), 512);
+  scene.pass->SetSetting("bake", "always");
 
-  pass->SetTechnique("raytraced");
-  window->Render();
-  const std::vector<std::vector<float>> truth = pass->GetVisibility().visibility;
+  scene.pass->SetTechnique("raytraced");
+  scene.window->Render();
+  const std::vector<std::vector<float>> truth = scene.pass->GetVisibility().visibility;
   ASSERT_FALSE(truth.empty());
   for (const TechniqueEntry& technique : registry())
   {
@@ -82,7 +70,7 @@ TEST_P(ExactScenes, showWhatIsTraced)
     }
     const bool drawnOnGpu =
       technique.estimator->info.conservativeMap && technique.estimator->info.onlyCpuDraws.empty();
-    pass->SetTechnique(technique.name.c_str());
+    scene.pass->SetTechnique(technique.name.c_str());
     for (const int rasterizer :
       { vtkGnomonShadowPass::RASTERIZER_CPU, vtkGnomonShadowPass::RASTERIZER_GPU })
     {
@@ -90,10 +78,10 @@ TEST_P(ExactScenes, showWhatIsTraced)
       {
         continue;
       }
-      pass->SetRasterizer(rasterizer);
-      window->Render();
+      scene.pass->SetRasterizer(rasterizer);
+      scene.window->Render();
       const std::string what = technique.name + ", rasterizer " + std::to_string(rasterizer);
-      const std::vector<std::vector<float>>& visibility = pass->GetVisibility().visibility;
+      const std::vector<std::vector<float>>& visibility = scene.pass->GetVisibility().visibility;
       ASSERT_EQ(visibility.size(), truth.size()) << what;
       for (std::size_t light = 0; light < truth.size(); ++light)
       {
@@ -118,18 +106,14 @@ INSTANTIATE_TEST_SUITE_P(Builtin, ExactScenesFromAnywhere,
                      "bench-side", "trees-side", "flowers-side", "atrium"),
     testing::Values("crsm", "crsma", "silhouette", "selective")),
   [](const testing::TestParamInfo<ExactScenesFromAnywhere::ParamType>& run)
-  {
-    std::string name = std::string(std::get<0>(run.param)) + "_by_" + std::get<1>(run.param);
-    std::replace(name.begin(), name.end(), '-', '_');
-    return name;
-  });
+  { return testNameOf(std::get<0>(run.param)) + "_by_" + std::get<1>(run.param); });
 
 TEST_P(ExactScenesFromAnywhere, showWhatIsTraced)
 {
   const std::string name = std::get<0>(GetParam());
   const char* const technique = std::get<1>(GetParam());
-  const vtkSmartPointer<vtkRenderer> renderer = tool::makeRenderer(tool::loadScene(name), 1.0);
-  const vtkBoundingBox bounds(renderer->ComputeVisiblePropBounds());
+  const BuiltinPass scene(name, 256);
+  const vtkBoundingBox bounds(scene.renderer->ComputeVisiblePropBounds());
   double lowest[3], highest[3];
   bounds.GetBounds(lowest[0], highest[0], lowest[1], highest[1], lowest[2], highest[2]);
   const glm::dvec3 low = glm::make_vec3(lowest), high = glm::make_vec3(highest);
@@ -144,27 +128,20 @@ TEST_P(ExactScenesFromAnywhere, showWhatIsTraced)
     return low + share * (high - low);
   };
 
-  vtkNew<vtkGnomonEGLRenderWindow> window;
-  window->SetMultiSamples(0);
-  window->SetSize(256, 256);
-  window->AddRenderer(renderer);
-  vtkNew<vtkGnomonShadowPass> pass;
-  pass->KeepVisibilityOn();
-  pass->SetSetting("bake", "always");
-  renderer->SetPass(pass);
+  scene.pass->SetSetting("bake", "always");
   // Selective is exact where it looks at all of the picture, and believes no texel that others agree with.
-  pass->SetSetting("contour", "image");
-  pass->SetSetting("coherence", "off");
+  scene.pass->SetSetting("contour", "image");
+  scene.pass->SetSetting("coherence", "off");
   Compared sum;
   for (unsigned int run = 0; run < exactRuns(2); ++run)
   {
-    vtkCamera* const camera = renderer->GetActiveCamera();
+    vtkCamera* const camera = scene.renderer->GetActiveCamera();
     const glm::dvec3 eye = somewhere(0.5), looksAt = somewhere(0.0);
     camera->SetPosition(glm::value_ptr(eye));
     camera->SetFocalPoint(glm::value_ptr(looksAt));
     camera->SetViewUp(glm::value_ptr(unitVector(random)));
     camera->SetViewAngle(uniform(random, 15.0, 70.0));
-    renderer->ResetCameraClippingRange();
+    scene.renderer->ResetCameraClippingRange();
 
     // Four in six are directional.
     const unsigned int kind = random() % 6;
@@ -176,29 +153,29 @@ TEST_P(ExactScenesFromAnywhere, showWhatIsTraced)
     const glm::dvec3 from = light->GetPositional() ? somewhere(0.5) : towards + unitVector(random);
     light->SetPosition(glm::value_ptr(from));
     light->SetFocalPoint(glm::value_ptr(towards));
-    renderer->RemoveAllLights();
-    renderer->AddLight(light);
+    scene.renderer->RemoveAllLights();
+    scene.renderer->AddLight(light);
     const int mapSizes[] = { 64, 128, 256, 512, 1024, 4096 };
-    pass->SetMapSize(mapSizes[random() % 6]);
-    pass->SetSetting("fit", random() % 2 ? "frame" : "off");
+    scene.pass->SetMapSize(mapSizes[random() % 6]);
+    scene.pass->SetSetting("fit", random() % 2 ? "frame" : "off");
 
-    pass->SetTechnique("raytraced");
-    window->Render();
-    const std::vector<std::vector<float>> truth = pass->GetVisibility().visibility;
+    scene.pass->SetTechnique("raytraced");
+    scene.window->Render();
+    const std::vector<std::vector<float>> truth = scene.pass->GetVisibility().visibility;
     ASSERT_EQ(truth.size(), 1u);
     Compared picture;
     picture.pictures = 1;
-    picture.receivers = pass->GetReport().lights.at(0).tracedPixels;
-    pass->SetTechnique(technique);
-    window->Render();
-    const std::vector<std::vector<float>>& visibility = pass->GetVisibility().visibility;
+    picture.receivers = scene.pass->GetReport().lights.at(0).tracedPixels;
+    scene.pass->SetTechnique(technique);
+    scene.window->Render();
+    const std::vector<std::vector<float>>& visibility = scene.pass->GetVisibility().visibility;
     ASSERT_EQ(visibility.size(), 1u);
-    picture.traced = pass->GetReport().lights.at(0).tracedPixels;
+    picture.traced = scene.pass->GetReport().lights.at(0).tracedPixels;
     for (std::size_t i = 0; i < truth[0].size(); ++i)
     {
       picture.wrong += visibility[0][i] != truth[0][i] ? 1 : 0;
     }
-    EXPECT_EQ(picture.wrong, 0u) << "run " << run << ", map " << pass->GetMapSize()
+    EXPECT_EQ(picture.wrong, 0u) << "run " << run << ", map " << scene.pass->GetMapSize()
                                  << ", light of kind " << kind;
     sum.add(picture);
   }
@@ -219,29 +196,22 @@ TEST(ExactFaces, areDecidedWhateverTheNoiseOfWhatIsBehindThem)
 {
   for (const char* name : { "long-cube", "stack" })
   {
-    const vtkSmartPointer<vtkRenderer> renderer = tool::makeRenderer(tool::loadScene(name), 1.0);
-    vtkNew<vtkGnomonEGLRenderWindow> window;
-    window->SetMultiSamples(0);
-    window->SetSize(512, 512);
-    window->AddRenderer(renderer);
-    vtkNew<vtkGnomonShadowPass> pass;
-    pass->KeepVisibilityOn();
-    pass->SetMapSize(1024);
-    pass->SetSetting("bake", "always");
-    renderer->SetPass(pass);
+    const BuiltinPass scene(name, 512);
+    scene.pass->SetMapSize(1024);
+    scene.pass->SetSetting("bake", "always");
     const auto traced = [&](const char* technique)
     {
-      pass->SetTechnique(technique);
-      window->Render();
-      return pass->GetReport().lights[0].tracedPixels;
+      scene.pass->SetTechnique(technique);
+      scene.window->Render();
+      return scene.pass->GetReport().lights[0].tracedPixels;
     };
     const auto all = traced("raytraced");
-    const std::vector<std::vector<float>> truth = pass->GetVisibility().visibility;
+    const std::vector<std::vector<float>> truth = scene.pass->GetVisibility().visibility;
     ASSERT_FALSE(truth.empty());
     for (const char* technique : { "crsma", "silhouette" })
     {
       EXPECT_LT(20 * traced(technique), all) << technique << ", " << name;
-      EXPECT_EQ(pass->GetVisibility().visibility, truth) << technique << ", " << name;
+      EXPECT_EQ(scene.pass->GetVisibility().visibility, truth) << technique << ", " << name;
     }
   }
 }
@@ -289,39 +259,26 @@ class ExactSoftScenes : public testing::TestWithParam<const char*>
 INSTANTIATE_TEST_SUITE_P(Builtin, ExactSoftScenes,
   testing::Values("soft-stack", "soft-panels", "soft-plates", "soft-long-cube", "bunny", "posts",
     "plates", "screens", "cups", "office", "room", "terrain", "bench-side", "atrium"),
-  [](const testing::TestParamInfo<const char*>& scene)
-  {
-    std::string name = scene.param;
-    std::replace(name.begin(), name.end(), '-', '_');
-    return name;
-  });
+  [](const testing::TestParamInfo<const char*>& scene) { return testNameOf(scene.param); });
 
 /// Whoever traces.
 TEST_P(ExactSoftScenes, showWhatAllRaysShow)
 {
-  const vtkSmartPointer<vtkRenderer> renderer =
-    tool::makeRenderer(tool::loadScene(GetParam()), 1.0);
-  vtkNew<vtkGnomonEGLRenderWindow> window;
-  window->SetMultiSamples(0);
-  window->SetSize(160, 160);
-  window->AddRenderer(renderer);
-  vtkNew<vtkGnomonShadowPass> pass;
-  pass->KeepVisibilityOn();
-  pass->SetSetting("light_samples", "16");
+  const BuiltinPass scene(GetParam(), 160);
+  scene.pass->SetSetting("light_samples", "16");
   if (std::string(GetParam()).rfind("soft-", 0) != 0)
   {
-    pass->SetSetting("light_radius", "3"); // degrees, or world units
+    scene.pass->SetSetting("light_radius", "3"); // degrees, or world units
   }
-  renderer->SetPass(pass);
   for (const int tracer : { vtkGnomonShadowPass::TRACER_EMBREE, vtkGnomonShadowPass::TRACER_GPU })
   {
-    pass->SetTracer(tracer);
-    pass->SetTechnique("raytraced");
-    window->Render();
-    const std::vector<std::vector<float>> truth = pass->GetVisibility().visibility;
-    pass->SetTechnique("penumbra");
-    window->Render();
-    const std::vector<std::vector<float>>& visibility = pass->GetVisibility().visibility;
+    scene.pass->SetTracer(tracer);
+    scene.pass->SetTechnique("raytraced");
+    scene.window->Render();
+    const std::vector<std::vector<float>> truth = scene.pass->GetVisibility().visibility;
+    scene.pass->SetTechnique("penumbra");
+    scene.window->Render();
+    const std::vector<std::vector<float>>& visibility = scene.pass->GetVisibility().visibility;
     ASSERT_FALSE(truth.empty());
     ASSERT_EQ(visibility.size(), truth.size());
     for (std::size_t light = 0; light < truth.size(); ++light)

@@ -1,6 +1,6 @@
 // coherence under area lights: eight maps decide what they agree on, all samples the rest.
 
-#include "BuiltinScenes.h"
+#include "BuiltinPass.h"
 #include "PassScene.h"
 #include "Scene.h"
 
@@ -86,35 +86,22 @@ INSTANTIATE_TEST_SUITE_P(Builtin, SoftCoherenceScenes,
     SceneCase{ "soft-long-cube", 0.072, 0.0007 }, SceneCase{ "bunny", 0.043, 0.0005 },
     SceneCase{ "cups", 0.06, 0.0001 }, SceneCase{ "posts", 0.072, 0.0001 },
     SceneCase{ "terrain", 0.09, 0.0025 }),
-  [](const testing::TestParamInfo<SceneCase>& scene)
-  {
-    std::string name = scene.param.name;
-    std::replace(name.begin(), name.end(), '-', '_');
-    return name;
-  });
+  [](const testing::TestParamInfo<SceneCase>& scene) { return testNameOf(scene.param.name); });
 
 TEST_P(SoftCoherenceScenes, traceTheRestAndAreSeldomWrong)
 {
-  const vtkSmartPointer<vtkRenderer> renderer =
-    tool::makeRenderer(tool::loadScene(GetParam().name), 1.0);
-  vtkNew<vtkGnomonEGLRenderWindow> window;
-  window->SetMultiSamples(0);
-  window->SetSize(256, 256);
-  window->AddRenderer(renderer);
-  vtkNew<vtkGnomonShadowPass> pass;
-  pass->KeepVisibilityOn();
-  pass->SetSetting("light_samples", "64");
+  const BuiltinPass scene(GetParam().name, 256);
+  scene.pass->SetSetting("light_samples", "64");
   if (std::string(GetParam().name).rfind("soft-", 0) != 0)
   {
-    pass->SetSetting("light_radius", "3"); // degrees, or world units
+    scene.pass->SetSetting("light_radius", "3"); // degrees, or world units
   }
-  renderer->SetPass(pass);
-  pass->SetTechnique("raytraced");
-  window->Render();
-  const std::vector<float> truth = pass->GetVisibility().visibility.at(0);
-  pass->SetTechnique("coherence");
-  window->Render();
-  const Hints hints = countHints(pass->GetVisibility(), truth);
+  scene.pass->SetTechnique("raytraced");
+  scene.window->Render();
+  const std::vector<float> truth = scene.pass->GetVisibility().visibility.at(0);
+  scene.pass->SetTechnique("coherence");
+  scene.window->Render();
+  const Hints hints = countHints(scene.pass->GetVisibility(), truth);
   ASSERT_GT(hints.reached, 1000u);
   RecordProperty("traced", std::to_string(share(hints.traced, hints)));
   RecordProperty("wrong", std::to_string(share(hints.wrong, hints)));
@@ -122,7 +109,7 @@ TEST_P(SoftCoherenceScenes, traceTheRestAndAreSeldomWrong)
   EXPECT_LE(share(hints.traced, hints), GetParam().traced);
   EXPECT_LE(share(hints.wrong, hints), GetParam().wrong);
 
-  const LightReport& report = pass->GetReport().lights.at(0);
+  const LightReport& report = scene.pass->GetReport().lights.at(0);
   EXPECT_EQ(report.lightSamples, 64);
   EXPECT_EQ(report.tracedPixels, static_cast<std::int64_t>(hints.traced));
   EXPECT_EQ(report.rays, 64 * report.tracedPixels);
