@@ -21,10 +21,17 @@ mkdir -p "$out"
 
 frames=0
 runs=() # those that the page is written from
-# compare NAME SCENE OPTION... : into $out/NAME; without times where nobody asks for them
+# compare NAME SCENE OPTION... : into $out/NAME; without times where nobody asks for them, and then next to others
 compare() {
   runs+=("$1")
-  compareOnce "$out/$1" "$2" --frames "$frames" --route image "${@:3}"
+  if [ "$frames" -gt 0 ]; then
+    compareOnce "$out/$1" "$2" --frames "$frames" --route image "${@:3}"
+    return
+  fi
+  while [ "$(jobs -rp | wc -l)" -ge "$(nproc)" ]; do
+    wait -n
+  done
+  compareOnce "$out/$1" "$2" --frames 0 --route image "${@:3}" &
 }
 
 # bakeAlways TECHNIQUE,... : `crsm` and its kin so that they draw their maps in every frame in which the light moves,
@@ -91,6 +98,9 @@ for map in 2048 1024; do
   done
 done
 
+for job in $(jobs -p); do
+  wait "$job"
+done
 docs/sweeps_page.py --machine "$(machine)" --view-frames "$viewFrames" --cell-frames "$cellFrames" \
   "$out" "${runs[@]}" > "$out/page.md"
 if [ "${1:-}" != counts ]; then
