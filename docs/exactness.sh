@@ -1,37 +1,33 @@
 #!/bin/bash
 # Compares the exact techniques with ray tracing on the built-in scenes and on random pictures, and writes docs/exactness.md.
-# Usage: docs/exactness.sh [RUNS]
-# RUNS random pictures of each of 16 kinds of scenes, each with a camera and a light of its own. One light in six shines straight
-# down: with 100, each technique sees 1,600 cameras and more than 1,000 lights that do not. And RUNS pictures of each of ten built-in scenes, from
+# Usage: docs/exactness.sh [RUNS [PART...]]
+# PART: random, anywhere, scenes, tracers or soft, a section of the page each, which says of which commit it is; all of them if none is named.
+# RUNS: of `random`, pictures of each of 16 kinds of scenes, each with a camera and a light of its own. One light in six shines straight
+# down: with 100, each technique sees 1,600 cameras and more than 1,000 lights that do not. Of `anywhere`, pictures of each of ten built-in scenes, from
 # anywhere, in any light: with 100, 1,000 cameras and lights.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source cmake/debian.sh
 
 runs="${1:-300}"
+parts=("${@:2}")
+[ "${#parts[@]}" -gt 0 ] || parts=(random anywhere scenes tracers soft)
+for part in "${parts[@]}"; do
+  if ! grep -qx "<!-- $part -->" docs/exactness.md; then
+    echo "There is no part $part: docs/exactness.md has no section of that name." >&2
+    exit 1
+  fi
+done
+commit="$(git rev-parse --short HEAD)"
+git diff --quiet HEAD -- . ':!docs' || commit+=", with changes"
 install_packages
 build release
 
-mkdir -p out
-reports=(out/exactness_truth.json out/exactness_plugin.json)
-rm -f "${reports[@]}"
-# The page also says what is wrong, so that it is written in any case.
+# A section also says what is wrong, so that it is written in any case.
 failed=0
-# compareRandom TESTS FILTER : into their report
-compareRandom() {
-  env -u DISPLAY GNOMON_EXACT_RUNS="$runs" "build/release/bin/gnomon_test_$1" --gtest_filter="$2" \
-    --gtest_output="json:out/exactness_$1.json" || failed=1
-}
-compareRandom truth '*ConservativeMapsIn.*:*ConservativeMapsOnGpu.*:*ConservativeMapsAnywhere.*:*ChainIn.*:Chain.isNeverWrong*:*RandomPenumbras.*'
-compareRandom plugin '*ExactScenesFromAnywhere.*'
-for report in "${reports[@]}"; do
-  [ -e "$report" ]
-done
-
-# Built-in scenes.
-pictures=out/exactness
-rm -rf "$pictures"
-mkdir -p "$pictures"
+mkdir -p out
+pictures="$(mktemp -d out/exactness.XXXXXX)" # its own, so that parts may be made at the same time
+trap 'rm -rf "$pictures"' EXIT
 
 # visibility NAME SCENE OPTION... : draws into $pictures/NAME.exr and .json; these are not there where that fails
 visibility() {
@@ -84,7 +80,10 @@ row() {
 
 scenes=$(build/release/bin/gnomon scenes | awk '{ print $1 }')
 hard=$(grep -v '^soft-' <<< "$scenes" | grep -vx city)
-{
+
+# Parts: each prints its tables.
+
+scenes() {
   echo "| scene | \`crsm\` | \`crsma\` | fan | \`silhouette\` | \`silhouette\`, \`fit\` frame | \`selective\` |"
   echo "|---|---|---|---|---|---|---|"
   techniques=(crsm crsma "crsma --adjacency-ring vertices" silhouette "silhouette --fit frame" "selective --contour image --coherence off")
@@ -97,11 +96,11 @@ hard=$(grep -v '^soft-' <<< "$scenes" | grep -vx city)
     done
   done
   row city 200x200 --map-size 512
-} > "$pictures/hard.md"
+}
 
 # Rays by the GPU's tracer against Embree's: the same, but for those that pass an edge to within a rounding, one in a million at most.
-allRays=0 allDiffering=0
-{
+tracers() {
+  local rays differing allRays=0 allDiffering=0
   echo "| scene | rays | pixels that differ |"
   echo "|---|---|---|"
   for scene in $hard; do
@@ -117,9 +116,10 @@ allRays=0 allDiffering=0
     fi
   done
   echo "| all | $allRays | $allDiffering |"
-} > "$pictures/tracers.md"
-[ "$allDiffering" -le $((allRays / 1000000)) ] || failed=1
-{
+  [ "$allDiffering" -le $((allRays / 1000000)) ] || failed=1
+}
+
+soft() {
   echo "| scene | \`penumbra\` |"
   echo "|---|---|"
   techniques=(penumbra)
@@ -133,7 +133,15 @@ allRays=0 allDiffering=0
   for scene in bunny bench-side atrium; do
     row "$scene" 1024x1024 --light-radius 5
   done
-} > "$pictures/soft.md"
+}
+
+# compareRandom TESTS FILTER : runs them, with their records in $report
+report="$pictures/records.json"
+compareRandom() {
+  rm -f "$report"
+  env -u DISPLAY GNOMON_EXACT_RUNS="$runs" "build/release/bin/gnomon_test_$1" --gtest_filter="$2" --gtest_output="json:$report" >&2 || failed=1
+  [ -e "$report" ]
+}
 
 # What tests recorded (tests/unit/truth/ExactRecord.h), a line each: technique, scenes, pictures, receivers, traced, wrong.
 records() {
@@ -145,7 +153,7 @@ records() {
         print value["technique"] "\t" value["scenes"] "\t" value["pictures"] "\t" value["receivers"] "\t" value["traced"] "\t" value["wrong"]
         delete value
       }
-    }' "${reports[@]}"
+    }' "$report"
 }
 
 # table HEAD COLUMNS : sums of the records read, by these columns
@@ -173,58 +181,49 @@ table() {
 }
 
 farAway="far away or at other scales"
-anywhere="from anywhere"
-for kind in "$farAway" "$anywhere"; do
-  if [ "$(records | grep -c "$kind")" = 0 ]; then
-    echo "No pictures $kind were compared." >&2
-    exit 1
+
+random() {
+  compareRandom truth '*ConservativeMapsIn.*:*ConservativeMapsOnGpu.*:*ConservativeMapsAnywhere.*:*ChainIn.*:Chain.isNeverWrong*:*RandomPenumbras.*'
+  if [ "$(records | grep -c "$farAway")" = 0 ]; then
+    echo "No pictures $farAway were compared." >&2
+    return 1
   fi
-done
-{
-  echo "# Exact techniques against ray tracing"
-  echo
-  echo "Written by \`docs/exactness.sh $runs\`. Differs, and wrong, is any visibility that is not that of \`raytraced\`."
-  echo
-  echo "## Built-in scenes"
-  echo
-  echo "Pixels that were traced, in per cent of those that face the light; all pixels of the visibility are compared. 1024 x 1024 pixels and"
-  echo "maps of 1024, but for maps of other sizes: 512 x 512 pixels; the city: 200 x 200. Fan is \`crsma\` with \`adjacency_ring\` \`vertices\`; \`selective\` is"
-  echo "without coherence, the contour all of the picture."
-  echo
-  cat "$pictures/hard.md"
-  echo
-  echo "Rays that the GPU's tracer traces (\`raytraced --tracer gpu\`), 1024 x 1024 pixels, against Embree's. They may differ where a ray passes an edge to"
-  echo "within a rounding, of all scenes' together one in a million; before foliage more do than elsewhere:"
-  echo
-  cat "$pictures/tracers.md"
-  echo
-  echo "Soft shadows, 64 samples: 1024 x 1024 pixels under lamps of their own and with \`light_radius\` 5, and 512 x 512 pixels with 0.5. Traced are pixels"
-  echo "all of whose rays were."
-  echo
-  cat "$pictures/soft.md"
-  echo
-  echo "## Random scenes"
-  echo
-  echo "Pictures of 96 x 96 pixels, each with a camera, a light, a projection"
-  echo "and a map of 16 to 512 texels of its own (\`tests/unit/truth/RandomScenes.cpp\`). Receivers are the pixels that have a"
-  echo "shadow ray; traced is the share of those that the technique traced."
-  echo
-  records | grep -v "$farAway\|$anywhere" | table technique 1
+  records | grep -v "$farAway" | table technique 1
   echo
   echo "Other pictures, of scenes far away from the origin or at scales of 1e-4 and 1e4:"
   echo
   records | grep "$farAway" | table technique 1
   echo
-  echo "## Built-in scenes from anywhere"
+  echo "By kinds of scenes:"
   echo
-  echo "Pictures of 256 x 256 pixels of built-in scenes, with maps of 64 to 4096 texels; cameras are in and around the scene at random, inside of things, too, and look anywhere into"
-  echo "it; lights come from any direction, and lamps stand anywhere. Each technique gets the same cameras and lights."
-  echo
-  records | grep "$anywhere" | table technique 1
-  echo
-  echo "## Kinds of scenes"
-  echo
-  records | grep -v "$farAway\|$anywhere" | table "technique | scenes" 1,2
-} > "$pictures/page.md"
-mv "$pictures/page.md" docs/exactness.md
+  records | grep -v "$farAway" | table "technique | scenes" 1,2
+}
+
+anywhere() {
+  compareRandom plugin '*ExactScenesFromAnywhere.*'
+  records | table technique 1
+}
+
+# put PART FILE : the file's text into the part's section of the page
+put() {
+  awk -v begin="<!-- $1 -->" -v end="<!-- end of $1 -->" -v text="$2" '
+    $0 == end { skip = 0 }
+    !skip { print }
+    $0 == begin {
+      print ""
+      while ((getline line < text) > 0) print line
+      print ""
+      skip = 1
+    }' docs/exactness.md > "$pictures/page.md"
+  mv "$pictures/page.md" docs/exactness.md
+}
+
+for part in "${parts[@]}"; do
+  {
+    echo "\`docs/exactness.sh $runs $part\`, commit $commit:"
+    echo
+    "$part"
+  } > "$pictures/$part.md"
+  put "$part" "$pictures/$part.md"
+done
 exit "$failed"
