@@ -410,8 +410,9 @@ pay where the light rests; where most pixels are traced (`crsm`, small maps), lo
 on top of their rays. `coherence` and `selective` look every pixel up, on the CPU, too, where a
 look-up with its triangle takes longer than a ray of Embree
 ([limits](techniques/selective.md#artefacts-and-limits)): a larger map has fewer rays, but not fewer
-look-ups. Where few rays are left, as in the atrium and by fitted maps, twice the map saves few more, and
-what its look-ups take longer outweighs them. In the thesis both were the GPU's."""
+look-ups. In the thesis both were the GPU's. Maps are timed one after another, not side by side: what
+twice the map saves in the atrium and by fitted maps, where few rays are left, is within what such
+runs differ by."""
     yield "### The selective chain (Moderno)"
     yield table(checked, chain_rows(cases))
     ratio = cases["left_L_TC4"].sum() / cases["left_S_TC4"].sum()
