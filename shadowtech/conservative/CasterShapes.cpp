@@ -304,6 +304,7 @@ MapPolygon polygonOf(
   }
 
   polygon.nearestZ = infinity;
+  polygon.farthestZ = -infinity;
   polygon.count = count;
   for (std::size_t i = 0; i < count; ++i)
   {
@@ -311,11 +312,15 @@ MapPolygon polygonOf(
     polygon.corners[i] = { p.X / p.W, p.Y / p.W, p.Q / p.W };
     polygon.sides[i] = points[i].side;
     polygon.nearestZ = std::min(polygon.nearestZ, p.z);
+    polygon.farthestZ = std::max(polygon.farthestZ, p.z);
     polygon.depthPerUnit = std::max(polygon.depthPerUnit, scene.space.depthPerUnit(p.W));
   }
   polygon.margin = atLight ? infinity : marginOf(scene, polygon.nearestZ);
   polygon.slack = noise.alongRay() * polygon.depthPerUnit;
   polygon.noise = noise.alongNormal;
+  polygon.cosineToLight = noise.cosineToLight;
+  polygon.entranceSlack =
+    static_cast<float>(scene.reachOnSolids(polygon.farthestZ) * polygon.depthPerUnit);
   // Twice the area, and how high that makes it over its longest side.
   double area = 0.0;
   double longest = 0.0;
@@ -408,12 +413,15 @@ bool segmentOf(const CasterScene& scene, const Surface& surface, std::uint32_t i
     }
   }
   double rate = 0.0;
+  double farthestZ = -infinity;
   segment.ends = { { corners[ends[0]], corners[ends[1]] } };
   for (const std::size_t end : ends)
   {
     const MapPoint& p = points[end];
     rate = std::max(rate, scene.space.depthPerUnit(p.W));
+    farthestZ = std::max(farthestZ, p.z);
   }
+  segment.entranceSlack = static_cast<float>(scene.reachOnSolids(farthestZ) * rate);
   segment.slack = kind == EdgeKind::Unsure ? infinity : rate * scene.lateral;
   segment.isEnd = kind != EdgeKind::Sharp;
   return true;

@@ -30,6 +30,10 @@ constexpr double largestMargin = 1.0;
 /// they do not start behind such a triangle's neighbour.
 constexpr double thinTexels = 1.0 / 128.0;
 
+/// The tangent of the angle between a side of a solid and the map up to which it may be one that rays can only leave the solid by: what a
+/// tracer is off across the light, it is off along the light times that.
+constexpr double steepestExit = 8.0;
+
 /// A point as the map sees it, in homogeneous coordinates: texels X/W and Y/W, depth Q/W; z along the
 /// view.
 struct MapPoint
@@ -105,6 +109,13 @@ struct CasterScene
     return offsetTexels / (this->texelsPerUnit * (this->space.positional ? 2.0 : 1.0)) *
       (this->space.positional ? distance : 1.0);
   }
+
+  /// How much farther along the light than it is a tracer may see a side of a solid, in world units, at a distance from
+  /// the light: what rays may be off across the light, and what noise adds, of which an eighth is enough.
+  double reachOnSolids(double distance) const
+  {
+    return steepestExit * (1.125 * this->lateral + this->largestOffset(distance));
+  }
 };
 
 /// How casters are to be looked at in a view of a light.
@@ -143,11 +154,18 @@ struct MapPolygon
   std::array<std::uint8_t, mostCorners> sides;
   /// That rounding asks for, in texels; infinite where the caster is at the light.
   double margin = 0.0;
-  double nearestZ = 0.0; ///< of what is drawn of it, along the view
+  ///@{ Of what is drawn of it, along the view.
+  double nearestZ = 0.0;
+  double farthestZ = 0.0;
+  ///@}
   double depthPerUnit =
     0.0; ///< how much depth changes at most where a point of it moves by a unit of length
-  double slack = 0.0; ///< depth that a tracer may see it off its plane
-  double noise = 0.0; ///< and how far it may see it off, along its normal, in world units
+  double slack = 0.0;         ///< depth that a tracer may see it off its plane
+  double noise = 0.0;         ///< and how far it may see it off, along its normal, in world units
+  double cosineToLight = 0.0; ///< of its normal as it is wound, the least by magnitude
+  /// How much nearer, beyond `slack`, it counts as what rays that start on the casters' surface may enter a solid by (Cell::entrance).
+  /// -infinity where they can only leave one: then it does not count.
+  float entranceSlack = 0.0f;
 
   /// Between which rows it lies, in texels.
   std::pair<double, double> rows() const;
@@ -180,8 +198,9 @@ struct MapSegment
 {
   std::array<MapCorner, 2> ends;
   double slack = 0.0;
-  bool isEnd = false;       ///< the casters' surface ends here; else a sharp edge
-  CasterPart part = noPart; ///< that its triangles belong to
+  float entranceSlack = 0.0f; ///< as of MapPolygon
+  bool isEnd = false;         ///< the casters' surface ends here; else a sharp edge
+  CasterPart part = noPart;   ///< that its triangles belong to
 };
 
 /// What an edge is to its triangles, of which each faces one way on the map or the other (1, -1), lies

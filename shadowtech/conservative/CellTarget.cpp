@@ -46,6 +46,7 @@ enum Number
   second,
   climb,
   noise,
+  entrance,
   numbers
 };
 constexpr std::size_t bytesOfCell = numbers * sizeof(std::uint32_t);
@@ -71,6 +72,7 @@ Cell cellOf(const std::uint32_t* ordered)
   cell.second = numberOf(ordered[second]);
   cell.climb = std::max(0.0f, -numberOf(ordered[climb]));
   cell.noise = std::max(0.0f, -numberOf(ordered[noise]));
+  cell.entrance = numberOf(ordered[entrance]);
   return cell;
 }
 

@@ -38,8 +38,7 @@ TexelBounds boundsOf(const Cell& cell)
 {
   TexelBounds bounds;
   bounds.litUpTo = below(cell.nearest);
-  // The one layer up to here is the receiver's.
-  bounds.litUpToOnCasters = std::max(bounds.litUpTo, below(cell.oneLayerUpTo()));
+  bounds.litUpToOnCasters = std::max(bounds.litUpTo, below(cell.clearUpTo()));
   bounds.leastOffsetOnCasters = cell.noise / static_cast<float>(sharpCosine);
   bounds.shadowFrom = above(std::min(cell.contained, cell.covered));
   return bounds;

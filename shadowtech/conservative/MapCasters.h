@@ -66,6 +66,7 @@ private:
   EdgeKind kindWithinSurface(const Placement& placement, const CasterEdge& edge) const;
   EdgeKind kindOf(const Placement& placement, std::uint32_t number) const;
   CasterPart partOf(const Placement& placement, std::uint32_t triangle) const;
+  bool isExit(const MapPolygon& polygon, std::uint32_t triangle) const;
   std::uint32_t across(
     const Placement& placement, const CasterEdge& edge, std::uint32_t triangle) const;
   std::vector<std::uint32_t> fanOf(const Placement& placement, std::uint32_t triangle) const;
@@ -78,7 +79,8 @@ private:
   bool blind_ = false;
   double margin_ = 0.0;
   CasterPlacements placements_;
-  std::vector<std::int8_t> facing_; ///< on the map, of all placements' triangles
+  std::vector<std::uint8_t> raysEndOutside_; ///< of the light, by solids
+  std::vector<std::int8_t> facing_;          ///< on the map, of all placements' triangles
 };
 
 /// Told of each cell when all is drawn, by its number on the map; from several threads.

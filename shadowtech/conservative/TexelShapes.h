@@ -48,11 +48,13 @@ struct PolygonRecord
   float climb;          ///< how much depth changes, at most, from anywhere in a texel to its sample
   float slack;          ///< depth that a tracer may see it off its plane
   float noise;          ///< and how far, in world units
+  float entranceSlack;  ///< MapPolygon::entranceSlack
   std::uint32_t covers; ///< whether it blocks all over
   std::uint32_t firstSide, sideCount;
   std::int32_t firstRow, lastRow; ///< those that it may meet
+  std::uint32_t unused = 0;
 };
-static_assert(sizeof(SideRecord) == 32 && sizeof(PolygonRecord) == 128, "as shaders read them");
+static_assert(sizeof(SideRecord) == 32 && sizeof(PolygonRecord) == 136, "as shaders read them");
 
 /// A convex polygon among the texels.
 class PolygonOnTexels
@@ -98,6 +100,10 @@ public:
   /// The most that its depth changes from anywhere in a texel to the sample.
   float climb() const { return this->record_.climb; }
 
+  /// Whether rays may enter a solid by it; and from what depth on, in a texel where its nearest is known.
+  bool isEntrance() const { return this->record_.entranceSlack >= 0.0f; }
+  float entrance(float nearest) const { return nearest - this->record_.entranceSlack; }
+
   /// How far off its plane a tracer may see it, in world units.
   float noise() const { return this->record_.noise; }
 
@@ -124,7 +130,7 @@ struct SegmentRecord
   double slack;      ///< depth that it may be nearer; may be infinite
   std::uint32_t isEnd;
   std::int32_t firstRow, lastRow; ///< those that it may meet
-  std::uint32_t unused = 0;
+  float entranceSlack;            ///< MapSegment::entranceSlack
 };
 static_assert(sizeof(SegmentRecord) == 88, "as shaders read it");
 
@@ -165,6 +171,9 @@ public:
       }
     }
   }
+
+  /// As of PolygonOnTexels.
+  float entrance(float nearest) const { return nearest - this->record_.entranceSlack; }
 
   /// For shaders.
   const SegmentRecord& record() const { return this->record_; }

@@ -10,8 +10,9 @@ void drawTexel(PolygonRecord polygon, Row row, int x, int y)
 #ifdef POISON
   lower(cell + nearestInCell, -infinity);
   lower(cell + sharpEndInCell, -infinity);
+  lower(cell + entranceInCell, -infinity);
 #elif defined(NOISE)
-  if (nearestOf(polygon, depthAt(polygon, row, x)) < oneLayerUpTo(cell))
+  if (nearestOf(polygon, depthAt(polygon, row, x)) < clearUpTo(cell))
   {
     lower(cell + noiseInCell, -polygon.noise);
   }
@@ -19,6 +20,11 @@ void drawTexel(PolygonRecord polygon, Row row, int x, int y)
   double depth = depthAt(polygon, row, x);
   float nearest = nearestOf(polygon, depth);
   lower(cell + nearestInCell, nearest);
+  if (polygon.entranceSlack >= 0.0)
+  {
+    precise float entrance = nearest - polygon.entranceSlack;
+    lower(cell + entranceInCell, entrance);
+  }
   if (orderedBits(nearest) < cells[cell + sharpEndInCell])
   {
     lower(cell + climbInCell, -polygon.climb);

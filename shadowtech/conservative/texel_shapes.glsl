@@ -17,10 +17,11 @@ struct PolygonRecord
   double perX, perY;
   double toSample;
   double spread;
-  float least, most, climb, slack, noise;
+  float least, most, climb, slack, noise, entranceSlack;
   uint covers;
   uint firstSide, sideCount;
   int firstRow, lastRow;
+  uint unused;
 };
 
 struct SegmentRecord
@@ -31,7 +32,7 @@ struct SegmentRecord
   double margin, slack;
   uint isEnd;
   int firstRow, lastRow;
-  uint unused;
+  float entranceSlack;
 };
 
 layout(std430, binding = 0) readonly buffer Polygons { PolygonRecord polygons[]; };

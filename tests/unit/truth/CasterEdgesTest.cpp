@@ -42,17 +42,6 @@ std::size_t countSharp(const std::vector<CasterEdge>& edges)
     std::count_if(edges.begin(), edges.end(), [](const CasterEdge& edge) { return edge.sharp; }));
 }
 
-/// A sphere whose seam and poles close, which else they do but for rounding.
-Mesh makeClosedSphere(int rings, int segments)
-{
-  Mesh sphere = makeSphere(rings, segments);
-  for (glm::dvec3& point : sphere.points)
-  {
-    point = glm::round(1e6 * point) / 1e6;
-  }
-  return sphere;
-}
-
 /// The same triangles, each with corners of its own.
 Mesh apart(const Mesh& mesh)
 {

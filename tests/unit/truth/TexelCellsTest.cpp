@@ -287,6 +287,30 @@ TEST(TexelCells, ofATriangleThatIsSeenAlongItsPlaneAreNone)
   }
 }
 
+TEST(TexelCells, doNotCountAsEntrancesWhatRaysOnlyLeaveBy)
+{
+  const auto sheetAt = [](double depth, float entranceSlack, double ofNoise)
+  {
+    MapPolygon polygon =
+      polygonWith({ { { 1.0, 1.0, depth }, { 25.0, 1.0, depth }, { 1.0, 25.0, depth } } });
+    polygon.entranceSlack = entranceSlack;
+    polygon.noise = ofNoise;
+    return polygon;
+  };
+  const auto exit = static_cast<float>(-infinity);
+  constexpr std::size_t middle = 6 * width + 6;
+  // Three layers: by the first rule they are lit up to the second, by this one up to where one may enter.
+  const Cell cell = drawn(
+    { sheetAt(0.2, exit, 0.01), sheetAt(0.4, exit, 0.02), sheetAt(0.7, 0.125f, 0.03) })[middle];
+  EXPECT_EQ(cell.nearest, 0.2f);
+  EXPECT_EQ(cell.entrance, 0.7f - 0.125f);
+  EXPECT_EQ(cell.clearUpTo(), cell.entrance);
+  EXPECT_EQ(cell.noise, 0.02f) << "of what begins before that";
+  EXPECT_EQ(
+    drawn({ sheetAt(0.2, exit, 0.01), sheetAt(0.4, 0.0f, 0.02) })[middle].clearUpTo(), 0.4f);
+  EXPECT_EQ(drawn({ sheetAt(0.2, exit, 0.01) })[middle].entrance, static_cast<float>(infinity));
+}
+
 TEST(TexelCells, knowNothingWithinTheMarginOfATriangleThatSpoilsThem)
 {
   Random random(14);
@@ -308,6 +332,7 @@ TEST(TexelCells, knowNothingWithinTheMarginOfATriangleThatSpoilsThem)
           EXPECT_EQ(cells[at].nearest, -infinity);
           EXPECT_EQ(cells[at].partEnd, -infinity);
           EXPECT_EQ(cells[at].sharpEnd, -infinity);
+          EXPECT_EQ(cells[at].entrance, -infinity);
         }
       });
   }
@@ -325,6 +350,7 @@ TEST(TexelCells, ofAnEdgeHaveItsLeastDepth)
     MapSegment segment;
     segment.ends = { { { from.x, from.y, from.z }, { to.x, to.y, to.z } } };
     segment.slack = slack;
+    segment.entranceSlack = 0.125f;
     segment.isEnd = i % 2 == 0;
     std::vector<Cell> cells(width * width);
     drawSegment(segment, marginTexels, width, { 0, width - 1 }, cells.data());
@@ -344,6 +370,7 @@ TEST(TexelCells, ofAnEdgeHaveItsLeastDepth)
         EXPECT_LE(cell.sharpEnd, at.z - slack + 1e-6);
         EXPECT_EQ(cell.nearest, segment.isEnd ? cell.sharpEnd : infinity);
         EXPECT_EQ(cell.partEnd, cell.sharpEnd);
+        EXPECT_EQ(cell.entrance, cell.sharpEnd - segment.entranceSlack);
       }
     }
     const Corners line{ { from, to, to } };
