@@ -461,17 +461,18 @@ private:
   tbb::spin_mutex mutex_;
 };
 
-} // namespace
+/// Of one-sided ones rays do not see how they are entered, through cut-out ones they pass, and instances may be anywhere.
+bool mayHaveSolids(const Surface& surface)
+{
+  return !surface.oneSided && !surface.cutout && !surface.isInstanced();
+}
 
-//------------------------------------------------------------------------------
+/// Finds the solids of a surface that may have some, and how clear their triangles are.
+/// @param parts CasterEdges::partOf() by triangles of the snapshot
 SurfaceSolids findSolids(const Occluders& occluders, const Surface& surface,
   const SurfaceEdges& edges, const std::vector<std::uint32_t>& parts)
 {
   SurfaceSolids found;
-  if (surface.oneSided || surface.cutout || surface.isInstanced())
-  {
-    return found;
-  }
   const auto partOf = [&](std::uint32_t triangle)
   { return parts[surface.firstTriangle + triangle] - surface.firstTriangle; };
   // A part that goes on as another surface ends in this one, and its least triangle may be of that other.
@@ -513,6 +514,8 @@ SurfaceSolids findSolids(const Occluders& occluders, const Surface& surface,
   return found;
 }
 
+} // namespace
+
 //------------------------------------------------------------------------------
 std::size_t SurfaceSolids::bytes() const
 {
@@ -525,12 +528,14 @@ void CasterSolids::update(const Occluders& occluders, const std::vector<const Su
 {
   const auto find = [&](const Occluders& from, const Surface& surface, SurfaceSolids& found)
   {
-    if (!found.areFound)
+    const bool mayHaveSome = mayHaveSolids(surface);
+    if (!found.areFound || found.mayHaveSome != mayHaveSome)
     {
-      found = findSolids(
-        from, surface, *edges[static_cast<std::size_t>(&surface - from.surfaces.data())], parts);
+      const auto index = static_cast<std::size_t>(&surface - from.surfaces.data());
+      found = mayHaveSome ? findSolids(from, surface, *edges[index], parts) : SurfaceSolids();
       found.areFound = true;
       found.positionsVersion = surface.positionsVersion;
+      found.mayHaveSome = mayHaveSome;
     }
   };
   this->kept_.update(
@@ -538,15 +543,13 @@ void CasterSolids::update(const Occluders& occluders, const std::vector<const Su
     [&](const Occluders& from, const Surface& surface, SurfaceSolids& found)
     {
       const bool isNew = found.positionsVersion == 0;
-      if (isNew)
+      if (isNew || found.positionsVersion == surface.positionsVersion)
       {
         find(from, surface, found);
+        return;
       }
-      else if (found.positionsVersion != surface.positionsVersion)
-      {
-        found = {};
-        found.positionsVersion = surface.positionsVersion;
-      }
+      found = SurfaceSolids();
+      found.positionsVersion = surface.positionsVersion;
     },
     find);
   this->keepApart(occluders);

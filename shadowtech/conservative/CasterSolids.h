@@ -27,19 +27,16 @@ struct SurfaceSolids
   std::vector<std::uint32_t> ofTriangle;
   /// For each of its triangles, from the first: CasterSolids::clearanceOf(), whatever other solids there are.
   std::vector<float> clearance;
-  bool areFound = false;              ///< whether they were looked for where the surface is
-  std::uint64_t positionsVersion = 0; ///< of the surface, where that is
+  bool areFound = false; ///< whether they were looked for, where and as the surface is
+  ///@{ Of the surface then.
+  std::uint64_t positionsVersion = 0;
+  bool mayHaveSome = false; ///< by its flags
+  ///@}
 
   static constexpr std::uint32_t none = 0xffffffffu;
 
   std::size_t bytes() const;
 };
-
-/// Finds a surface's solids, and how clear their triangles are.
-/// @param edges of the surface
-/// @param parts CasterEdges::partOf() by triangles of the snapshot
-SurfaceSolids findSolids(const Occluders& occluders, const Surface& surface,
-  const SurfaceEdges& edges, const std::vector<std::uint32_t>& parts);
 
 /// Solids among the casters, kept from snapshot to snapshot: what shadow rays that start on them need not be asked for is in
 /// docs/techniques/exact.md, "Closed surfaces".

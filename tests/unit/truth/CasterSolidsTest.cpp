@@ -330,6 +330,23 @@ TEST(CasterSolids, areFoundInWhatIsNewAndInWhatStays)
   EXPECT_NEAR(edges.solids().clearanceOf(20), clearance, 1e-4);
 }
 
+TEST(CasterSolids, areForgottenWhereASurfaceComesToCastOnOneSide)
+{
+  Occluders occluders = makeOccluders({ { makeClosedSphere(12, 16) } });
+  CasterEdges edges;
+  edges.update(occluders);
+  const float clearance = edges.solids().clearanceOf(20);
+  EXPECT_GT(clearance, 0.0f);
+  for (const bool oneSided : { true, false })
+  {
+    occluders.surfaces.front().oneSided = oneSided;
+    ++occluders.topologyVersion;
+    ++occluders.positionsVersion;
+    edges.update(occluders);
+    EXPECT_EQ(edges.solids().clearanceOf(20), oneSided ? 0.0f : clearance);
+  }
+}
+
 /// Of the casters of a map, those that rays can only leave solids by, with what their slopes and their noise are.
 std::vector<MapPolygon> exitsOf(
   const Occluders& occluders, const CasterEdges& edges, const CasterScene& scene)
