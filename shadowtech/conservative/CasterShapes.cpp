@@ -182,7 +182,28 @@ double largestTexelsPerAcross(const LightView& view, double size)
   return std::sqrt(2.0) * 0.5 * size * largest;
 }
 
+/// What rays and casters are rounded in proportion to: their coordinates, relative to a ray's origin. Without the light's.
+double largestOfRays(const Occluders& occluders)
+{
+  double largest = 0.0;
+  for (const glm::dvec3& corner : occluders.allCentred.corners())
+  {
+    largest = std::max(largest, glm::length(corner));
+  }
+  return 2.0 * largest;
+}
+
+/// How far beside a ray that is, as a power of two.
+constexpr int lateralBits = -18;
+
 } // namespace
+
+//------------------------------------------------------------------------------
+double leastClearance(const Occluders& occluders)
+{
+  const double lateral = std::ldexp(largestOfRays(occluders), lateralBits);
+  return 2.0 * lateral * (1.0 + 1.125 * steepestExit);
+}
 
 //------------------------------------------------------------------------------
 glm::dmat4 MapSpace::mapFromCentred(double constant) const
@@ -228,13 +249,8 @@ CasterScene casterScene(
   const double extent =
     std::max({ high - low, 1e-6 * std::max(std::abs(high), std::abs(low)), smallestDivisor });
 
-  // What rays and casters are rounded in proportion to: their coordinates, relative to a ray's origin.
-  double largest = 0.0;
-  for (const glm::dvec3& corner : occluders.allCentred.corners())
-  {
-    largest = std::max(largest, glm::length(corner));
-  }
-  largest = 2.0 * largest + (positional || hasBox ? glm::length(position) : 0.0);
+  const double largest =
+    largestOfRays(occluders) + (positional || hasBox ? glm::length(position) : 0.0);
 
   const glm::dmat3 texels = texelFromAcross(view, sizeTexels);
   const glm::dvec3 gradient(texels[0].z, texels[1].z, positional ? texels[2].z : 0.0);
@@ -243,7 +259,7 @@ CasterScene casterScene(
     : std::abs((viewFromCentred * glm::dvec4(occluders.allCentred.centre(), 1.0)).z) +
       occluders.allCentred.radius();
   // Off the view's axis, which ends at 60 degrees, rays are longer and texels' sides, too.
-  const double lateral = std::ldexp(largest, -18) * (positional ? 2.0 : 1.0);
+  const double lateral = std::ldexp(largest, lateralBits) * (positional ? 2.0 : 1.0);
   return { occluders,
     { positional, viewFromCentred, texels, 1.0 / extent, -low / extent,
       static_cast<double>(sizeTexels), glm::length(gradient), farthest },

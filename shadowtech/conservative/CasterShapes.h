@@ -111,12 +111,21 @@ struct CasterScene
   }
 
   /// How much farther along the light than it is a tracer may see a side of a solid, in world units, at a distance from
-  /// the light: what rays may be off across the light, and what noise adds, of which an eighth is enough.
+  /// the light: what rays may be off across the light, and what noise adds, for which an eighth is enough.
   double reachOnSolids(double distance) const
   {
     return steepestExit * (1.125 * this->lateral + this->largestOffset(distance));
   }
+
+  /// How clear (CasterSolids::clearanceOf()) an exit has to be, at a distance from the light.
+  double leastClearance(double distance) const
+  {
+    return 2.0 * (this->lateral + this->largestOffset(distance) + this->reachOnSolids(distance));
+  }
 };
+
+/// What that is in any view of any light, at least.
+double leastClearance(const Occluders& occluders);
 
 /// How casters are to be looked at in a view of a light.
 /// @param hasBox whether the light begins at the near face of a box
@@ -163,8 +172,8 @@ struct MapPolygon
   double slack = 0.0;         ///< depth that a tracer may see it off its plane
   double noise = 0.0;         ///< and how far it may see it off, along its normal, in world units
   double cosineToLight = 0.0; ///< of its normal as it is wound, the least by magnitude
-  /// How much nearer, beyond `slack`, it counts as what rays that start on the casters' surface may enter a solid by (Cell::entrance).
-  /// -infinity where they can only leave one: then it does not count.
+  bool isExit = false; ///< rays that start on the casters' surface can only leave a solid by it
+  /// How much nearer, beyond `slack`, it counts for Cell::entrance, if it is none.
   float entranceSlack = 0.0f;
 
   /// Between which rows it lies, in texels.

@@ -2,9 +2,10 @@
 
 #include "shadowtech/base/Bytes.h"
 #include "shadowtech/conservative/CasterEdges.h"
-#include "shadowtech/conservative/MeetingBoxes.h"
+#include "shadowtech/conservative/CasterShapes.h"
 
 #include <glm/glm.hpp>
+#include <glm/gtc/constants.hpp>
 #include <tbb/parallel_for.h>
 #include <tbb/spin_mutex.h>
 
@@ -21,8 +22,11 @@ namespace gnomon
 namespace
 {
 
-/// How far around a triangle others are looked for, of the size of its solid.
+/// How far around a triangle others are looked for at most, of the size of its solid.
 constexpr double reachOfSize = 1.0 / 512.0;
+
+/// With more pairs than that for each triangle, about, they are not looked at.
+constexpr std::size_t mostPairs = 64;
 
 /// Sines and shares of a solid's size that are less say nothing: double precision is surer than that.
 constexpr double smallest = 1e-10;
@@ -30,11 +34,6 @@ constexpr double smallest = 1e-10;
 Bounds grown(const Bounds& box, double by)
 {
   return { box.lower - by, box.upper + by };
-}
-
-double reachAround(const SurfaceSolids::Solid& solid)
-{
-  return 2.0 * reachOfSize * solid.boxCentred.radius();
 }
 
 /// A triangle of a solid.
@@ -166,8 +165,9 @@ bool meetInCorner(const std::array<glm::dvec3, 2>& a, const glm::dvec3& normalA,
 class SolidSearch
 {
 public:
+  /// @param leastReach of solids that are of use
   SolidSearch(const Occluders& occluders, const Surface& surface, const SurfaceEdges& edges,
-    SurfaceSolids& found)
+    double leastReach, MeetingBoxes& meeting, SurfaceSolids& found)
     : surface_(surface)
     , edges_(edges)
     , found_(found)
@@ -189,65 +189,115 @@ public:
         const double length = glm::length(area);
         facet.normal = length > 0.0 ? area / length : glm::dvec3(0.0);
       });
-    this->measure();
-    this->lookAtPairs();
+    this->measure(leastReach);
+    this->lookAtPairs(meeting);
     this->findOutside();
   }
 
 private:
   /// Sizes, and as much clearance as is looked for.
-  void measure()
+  void measure(double leastReach)
   {
     SurfaceSolids& found = this->found_;
-    const auto visitFacets = [&](const auto& visit)
-    {
-      for (std::uint32_t i = 0; i < this->facets_.size(); ++i)
-      {
-        if (found.ofTriangle[i] != SurfaceSolids::none)
-        {
-          visit(i, found.ofTriangle[i]);
-        }
-      }
-    };
     this->crosses_.assign(this->facets_.size(), 0);
     this->ofSolid_.resize(found.solids.size());
-    visitFacets(
-      [&](std::uint32_t i, std::uint32_t solid)
-      {
-        for (const glm::dvec3& corner : this->facets_[i].corners)
-        {
-          found.solids[solid].boxCentred.add(corner);
-        }
-        this->ofSolid_[solid].push_back(i);
-      });
-    for (const SurfaceSolids::Solid& solid : found.solids)
+    for (std::uint32_t i = 0; i < this->facets_.size(); ++i)
     {
-      this->reaches_.push_back(reachAround(solid));
+      if (found.ofTriangle[i] != SurfaceSolids::none)
+      {
+        this->ofSolid_[found.ofTriangle[i]].push_back(i);
+      }
     }
-    visitFacets([&](std::uint32_t i, std::uint32_t solid)
-      { found.clearance[i] = static_cast<float>(this->reaches_[solid]); });
+    for (std::size_t i = 0; i < found.solids.size(); ++i)
+    {
+      SurfaceSolids::Solid& solid = found.solids[i];
+      for (const std::uint32_t facet : this->ofSolid_[i])
+      {
+        solid.boxCentred.add(this->boxOf(facet));
+      }
+      const double reach = this->reachAround(solid, this->ofSolid_[i]);
+      if (reach < leastReach)
+      {
+        found.largestLeftOut = std::max(found.largestLeftOut, reach);
+      }
+      else if (this->countClose(this->ofSolid_[i], reach) <= mostPairs * this->ofSolid_[i].size())
+      {
+        solid.reach = reach;
+      }
+      for (const std::uint32_t facet : this->ofSolid_[i])
+      {
+        found.clearance[facet] = static_cast<float>(solid.reach);
+      }
+    }
+  }
+
+  Bounds boxOf(std::uint32_t facet) const
+  {
+    Bounds box;
+    for (const glm::dvec3& corner : this->facets_[facet].corners)
+    {
+      box.add(corner);
+    }
+    return box;
+  }
+
+  /// No more than its triangles are long, but for a tenth of them: else fine meshes would have too many near each other.
+  double reachAround(
+    const SurfaceSolids::Solid& solid, const std::vector<std::uint32_t>& facets) const
+  {
+    std::vector<double> lengths;
+    lengths.reserve(facets.size());
+    for (const std::uint32_t facet : facets)
+    {
+      const auto& [a, b, c] = this->facets_[facet].corners;
+      lengths.push_back(std::max({ glm::length(b - a), glm::length(c - b), glm::length(a - c) }));
+    }
+    const auto tenth = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 10);
+    std::nth_element(lengths.begin(), tenth, lengths.end());
+    return std::min(2.0 * reachOfSize * solid.boxCentred.radius(), *tenth);
+  }
+
+  /// How many pairs of triangles begin in one cell of a grid.
+  std::size_t countClose(const std::vector<std::uint32_t>& facets, double cell) const
+  {
+    std::vector<std::array<std::int64_t, 3>> cells;
+    cells.reserve(facets.size());
+    for (const std::uint32_t facet : facets)
+    {
+      const glm::dvec3 place = glm::floor(this->facets_[facet].corners[0] / cell);
+      cells.push_back({ { static_cast<std::int64_t>(place.x), static_cast<std::int64_t>(place.y),
+        static_cast<std::int64_t>(place.z) } });
+    }
+    std::sort(cells.begin(), cells.end());
+    std::size_t pairs = 0;
+    for (auto first = cells.begin(); first != cells.end();)
+    {
+      const auto last = std::upper_bound(first, cells.end(), *first);
+      const auto count = static_cast<std::size_t>(last - first);
+      pairs += count * count;
+      first = last;
+    }
+    return pairs;
   }
 
   /// The pairs whose boxes meet, grown by half of what is looked for.
-  void lookAtPairs()
+  void lookAtPairs(MeetingBoxes& meeting)
   {
     std::vector<Bounds> boxes;
     std::vector<std::uint32_t> ofBox;
-    for (std::uint32_t i = 0; i < this->facets_.size(); ++i)
+    for (std::size_t solid = 0; solid < this->ofSolid_.size(); ++solid)
     {
-      const std::uint32_t solid = this->found_.ofTriangle[i];
-      if (solid != SurfaceSolids::none)
+      const double reach = this->found_.solids[solid].reach;
+      for (const std::uint32_t facet : this->ofSolid_[solid])
       {
-        Bounds box;
-        for (const glm::dvec3& corner : this->facets_[i].corners)
+        if (reach > 0.0)
         {
-          box.add(corner);
+          boxes.push_back(grown(this->boxOf(facet), 0.51 * reach)); // a little more, for rounding
+          ofBox.push_back(facet);
         }
-        boxes.push_back(grown(box, 0.51 * this->reaches_[solid])); // a little more, for rounding
-        ofBox.push_back(i);
       }
     }
-    visitMeetingBoxes(boxes,
+    meeting.visit(boxes,
       [&](std::uint32_t a, std::uint32_t b)
       {
         if (this->found_.ofTriangle[ofBox[a]] == this->found_.ofTriangle[ofBox[b]])
@@ -278,12 +328,12 @@ private:
         }
       }
     }
-    const double reach = this->reaches_[this->found_.ofTriangle[first]];
+    const SurfaceSolids::Solid& solid = this->found_.solids[this->found_.ofTriangle[first]];
     if (shared == 0)
     {
-      const double none = smallest * reach / reachOfSize;
+      const double none = smallest * solid.boxCentred.radius();
       const double gap =
-        gapBetween(a.corners, a.normal, b.corners, b.normal, alike ? 2.0 * none : reach);
+        gapBetween(a.corners, a.normal, b.corners, b.normal, alike ? 2.0 * none : solid.reach);
       if (!(gap > none))
       {
         this->noteCrossing(first, second);
@@ -308,7 +358,7 @@ private:
     }
     else
     {
-      this->noteCrossing(first, second); // folded onto each other
+      this->noteCrossing(first, second); // folded onto each other, or the same twice
     }
   }
 
@@ -335,7 +385,7 @@ private:
     {
       // A walk from one to the other either passes one of the corner's edges, which are sharp, or the far side.
       const bool bulge = bulges(a, b);
-      const double reach = this->reaches_[this->found_.ofTriangle[first]];
+      const double reach = this->found_.solids[this->found_.ofTriangle[first]].reach;
       const glm::dvec3 none(0.0);
       this->limit(first, bulge ? gapBetween(a.corners, a.normal, farB, none, reach) : 0.0);
       this->limit(second, bulge ? gapBetween(b.corners, b.normal, farA, none, reach) : 0.0);
@@ -378,8 +428,8 @@ private:
     this->crosses_[first] = this->crosses_[second] = 1;
   }
 
-  /// Tells which side is outside: of all that hangs together without crossing anything, it is the same. Pieces of less than an
-  /// eighth of a solid are left out.
+  /// Leaves triangles on whose outer side is what is outside of the solid as a whole: of all that hangs together without crossing anything, it is
+  /// the same. Pieces of less than an eighth of a solid are left out.
   void findOutside()
   {
     std::vector<std::uint8_t> seen(this->facets_.size(), 0);
@@ -387,17 +437,17 @@ private:
     {
       for (const std::uint32_t first : this->ofSolid_[solid])
       {
-        if (this->crosses_[first] || seen[first])
+        if (this->found_.solids[solid].reach == 0.0 || this->crosses_[first] || seen[first])
         {
           continue;
         }
         const std::vector<std::uint32_t> piece = this->pieceAround(first, seen);
         const bool isLarge = 8 * piece.size() >= this->ofSolid_[solid].size();
-        const float sign = isLarge ? this->outerSideOf(piece, this->ofSolid_[solid]) : 0.0f;
+        const bool isOuter = isLarge && this->isOuter(piece, this->ofSolid_[solid]);
         for (const std::uint32_t facet : piece)
         {
-          this->found_.clearance[facet] *= sign;
-          this->found_.solids[solid].clearCount += this->found_.clearance[facet] != 0.0f ? 1 : 0;
+          this->found_.clearance[facet] = isOuter ? this->found_.clearance[facet] : 0.0f;
+          this->found_.solids[solid].clearCount += this->found_.clearance[facet] > 0.0f ? 1 : 0;
         }
       }
     }
@@ -424,31 +474,28 @@ private:
     return piece;
   }
 
-  /// Whether outside is where the piece's triangles are seen counter-clockwise (1), or clockwise (-1): where the solid winds around no
-  /// point (its winding number there is the sum of all solid angles over 4 pi). 0 if it is neither.
-  float outerSideOf(
+  /// Whether the solid winds around no point where a piece's triangles are seen counter-clockwise, and once around those on the other side.
+  ///
+  /// As seen from a point, all triangles take 4 pi times as much as they wind around it. From a point of one of them that takes nothing itself, and the
+  /// others take the mean of both sides: 2 pi (0 + 1).
+  bool isOuter(
     const std::vector<std::uint32_t>& piece, const std::vector<std::uint32_t>& solid) const
   {
-    const std::uint32_t seen = *std::max_element(piece.begin(), piece.end(),
+    const std::uint32_t from = *std::max_element(piece.begin(), piece.end(),
       [this](std::uint32_t a, std::uint32_t b)
       { return this->found_.clearance[a] < this->found_.clearance[b]; });
-    const Facet& facet = this->facets_[seen];
-    const glm::dvec3 middle = (facet.corners[0] + facet.corners[1] + facet.corners[2]) / 3.0;
-    for (const float side : { 1.0f, -1.0f })
+    if (!(this->found_.clearance[from] > 0.0f))
     {
-      const glm::dvec3 beside = middle + 0.5 * side * this->found_.clearance[seen] * facet.normal;
-      double angle = 0.0;
-      for (const std::uint32_t i : solid)
-      {
-        angle += solidAngleOf(this->facets_[i], beside);
-      }
-      // Not NaN, nor of a point on a triangle.
-      if (this->found_.clearance[seen] > 0.0f && std::abs(angle) < 1.0)
-      {
-        return side;
-      }
+      return false;
     }
-    return 0.0f;
+    const auto& [a, b, c] = this->facets_[from].corners;
+    const glm::dvec3 middle = (a + b + c) / 3.0;
+    double angle = 0.0;
+    for (const std::uint32_t facet : solid)
+    {
+      angle += facet == from ? 0.0 : solidAngleOf(this->facets_[facet], middle);
+    }
+    return std::abs(angle - glm::two_pi<double>()) < 1.0; // not NaN
   }
 
   const Surface& surface_;
@@ -456,7 +503,6 @@ private:
   SurfaceSolids& found_;
   std::vector<Facet> facets_;
   std::vector<std::vector<std::uint32_t>> ofSolid_; ///< triangles, by solid
-  std::vector<double> reaches_;                     ///< how far is looked around, by solid
   std::vector<std::uint8_t> crosses_; ///< by triangle, whether it meets another where it should not
   tbb::spin_mutex mutex_;
 };
@@ -470,7 +516,7 @@ bool mayHaveSolids(const Surface& surface)
 /// Finds the solids of a surface that may have some, and how clear their triangles are.
 /// @param parts CasterEdges::partOf() by triangles of the snapshot
 SurfaceSolids findSolids(const Occluders& occluders, const Surface& surface,
-  const SurfaceEdges& edges, const std::vector<std::uint32_t>& parts)
+  const SurfaceEdges& edges, const std::vector<std::uint32_t>& parts, MeetingBoxes& meeting)
 {
   SurfaceSolids found;
   const auto partOf = [&](std::uint32_t triangle)
@@ -509,7 +555,7 @@ SurfaceSolids findSolids(const Occluders& occluders, const Surface& surface,
   {
     found.ofTriangle = std::move(ofTriangle);
     found.clearance.assign(surface.triangleCount, 0.0f);
-    SolidSearch(occluders, surface, edges, found);
+    SolidSearch(occluders, surface, edges, leastClearance(occluders), meeting, found);
   }
   return found;
 }
@@ -529,10 +575,12 @@ void CasterSolids::update(const Occluders& occluders, const std::vector<const Su
   const auto find = [&](const Occluders& from, const Surface& surface, SurfaceSolids& found)
   {
     const bool mayHaveSome = mayHaveSolids(surface);
-    if (!found.areFound || found.mayHaveSome != mayHaveSome)
+    if (!found.areFound || found.mayHaveSome != mayHaveSome ||
+      found.largestLeftOut >= leastClearance(from))
     {
       const auto index = static_cast<std::size_t>(&surface - from.surfaces.data());
-      found = mayHaveSome ? findSolids(from, surface, *edges[index], parts) : SurfaceSolids();
+      found = mayHaveSome ? findSolids(from, surface, *edges[index], parts, this->meeting_)
+                          : SurfaceSolids();
       found.areFound = true;
       found.positionsVersion = surface.positionsVersion;
       found.mayHaveSome = mayHaveSome;
@@ -562,23 +610,25 @@ void CasterSolids::keepApart(const Occluders& occluders)
   static const SurfaceSolids none;
   const auto foundOf = [&](std::size_t surface) -> const SurfaceSolids&
   { return occluders.surfaces[surface].casts ? this->kept_.of(surface) : none; };
-  this->areAllFound_ = true;
+  bool areAllFound = true;
+  const double leastReach = leastClearance(occluders);
   std::vector<Bounds> boxes;
   std::vector<std::uint32_t> clearCounts;
   for (std::size_t i = 0; i < occluders.surfaces.size(); ++i)
   {
-    this->areAllFound_ &= !occluders.surfaces[i].casts || foundOf(i).areFound;
+    areAllFound &= !occluders.surfaces[i].casts || foundOf(i).areFound;
     for (const SurfaceSolids::Solid& solid : foundOf(i).solids)
     {
-      boxes.push_back(grown(solid.boxCentred, reachAround(solid)));
-      clearCounts.push_back(solid.clearCount);
+      boxes.push_back(grown(solid.boxCentred, solid.reach));
+      // Where the scene has grown, what is too small to be of use is in nobody's way.
+      clearCounts.push_back(solid.reach >= leastReach ? solid.clearCount : 0);
     }
   }
   const auto isLarger = [&](std::uint32_t a, std::uint32_t b)
   { return std::tie(clearCounts[a], b) > std::tie(clearCounts[b], a); };
   std::vector<std::vector<std::uint32_t>> larger(boxes.size()); // of those that a box meets
   tbb::spin_mutex mutex;
-  visitMeetingBoxes(boxes,
+  this->meeting_.visit(boxes,
     [&](std::uint32_t a, std::uint32_t b)
     {
       const tbb::spin_mutex::scoped_lock lock(mutex);
@@ -594,9 +644,7 @@ void CasterSolids::keepApart(const Occluders& occluders)
       std::none_of(larger[solid].begin(), larger[solid].end(),
         [&](std::uint32_t other) { return stays[other] != 0; });
   }
-  this->boxesCentred_ = std::move(boxes);
   this->clearance_.assign(occluders.triangles.size(), 0.0f);
-  this->solids_.assign(occluders.triangles.size(), SurfaceSolids::none);
   std::uint32_t first = 0;
   for (std::size_t surface = 0; surface < occluders.surfaces.size(); ++surface)
   {
@@ -606,20 +654,18 @@ void CasterSolids::keepApart(const Occluders& occluders)
       const std::uint32_t solid = first + found.ofTriangle[i];
       if (found.ofTriangle[i] != SurfaceSolids::none && stays[solid] != 0)
       {
-        const std::size_t triangle = occluders.surfaces[surface].firstTriangle + i;
-        this->solids_[triangle] = solid;
-        this->clearance_[triangle] = found.clearance[i];
+        this->clearance_[occluders.surfaces[surface].firstTriangle + i] = found.clearance[i];
       }
     }
     first += static_cast<std::uint32_t>(found.solids.size());
   }
+  this->areAllFound_ = areAllFound; // at last: where Embree fails, another update is to try again
 }
 
 //------------------------------------------------------------------------------
 std::size_t CasterSolids::bytes() const
 {
-  return this->kept_.bytes() + bytesOf(this->boxesCentred_) + bytesOf(this->solids_) +
-    bytesOf(this->clearance_);
+  return this->kept_.bytes() + bytesOf(this->clearance_);
 }
 
 } // namespace gnomon

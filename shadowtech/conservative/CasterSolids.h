@@ -4,6 +4,7 @@
 #include "lights/Bounds.h"
 #include "shadowtech/base/Occluders.h"
 #include "shadowtech/conservative/KeptOfCasters.h"
+#include "shadowtech/conservative/MeetingBoxes.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -20,6 +21,8 @@ struct SurfaceSolids
   struct Solid
   {
     Bounds boxCentred;
+    double reach =
+      0.0; ///< how far around its triangles others are looked for; 0 where they are not
     std::uint32_t clearCount = 0; ///< of its triangles, those with any clearance
   };
   std::vector<Solid> solids;
@@ -27,6 +30,9 @@ struct SurfaceSolids
   std::vector<std::uint32_t> ofTriangle;
   /// For each of its triangles, from the first: CasterSolids::clearanceOf(), whatever other solids there are.
   std::vector<float> clearance;
+  /// Of solids too small against the scene to be of use, the largest reach that was left out.
+  double largestLeftOut = 0.0;
+
   bool areFound = false; ///< whether they were looked for, where and as the surface is
   ///@{ Of the surface then.
   std::uint64_t positionsVersion = 0;
@@ -38,11 +44,12 @@ struct SurfaceSolids
   std::size_t bytes() const;
 };
 
-/// Solids among the casters, kept from snapshot to snapshot: what shadow rays that start on them need not be asked for is in
+/// Solids among the casters, kept from snapshot to snapshot: why shadow rays that start on them need not be asked for is in
 /// docs/techniques/exact.md, "Closed surfaces".
 ///
 /// Of solids whose boxes meet, those stay that have the most clear triangles, so that no two of them touch and none is inside of
-/// another. Surfaces of which one side alone casts, that have cut-outs, or that are instances have none. To find
+/// another. Surfaces of which one side alone casts, that have cut-outs, or that are instances have none, nor are those looked at that are
+/// so small against the scene that no light would have a use for them. To find
 /// solids may take longer than to draw a map. So a surface that has moved since the last update has none, until
 /// it stays for another.
 class CasterSolids
@@ -57,18 +64,11 @@ public:
   /// Whether another update would find no more.
   bool areAllFound() const { return this->areAllFound_; }
 
-  /// Boxes around the solids.
-  const std::vector<Bounds>& boxesCentred() const { return this->boxesCentred_; }
-
-  /// The solid that a triangle of the snapshot bounds, by its number; `SurfaceSolids::none` if there is none.
-  std::uint32_t solidOf(std::uint32_t triangle) const { return this->solids_[triangle]; }
-
   /// How far a triangle of a solid is from those of the same solid which a ray that starts on its outer side may
   /// start behind, or may seem to: from all whose normals make an angle with its own whose cosine is less than sharpCosine, but
-  /// for neighbours across edges that bulge. 0 where the solid crosses itself, or where what is
-  /// outside cannot be told. In world units; no more than is looked for, which is 1/512 of the solid's size; negative
-  /// where the triangle is wound clockwise as it is seen from outside.
-  /// @param triangle of a solid
+  /// for neighbours across edges that bulge. In world units, and no more than is looked for, which is 1/512 of the solid's size at most. 0 where the solid
+  /// crosses itself, where the triangle is wound clockwise as it is seen from outside, or its outer side may be inside of another part; and of all other triangles.
+  /// @param triangle of the snapshot
   float clearanceOf(std::uint32_t triangle) const { return this->clearance_[triangle]; }
 
   std::size_t bytes() const;
@@ -77,12 +77,9 @@ private:
   void keepApart(const Occluders& occluders);
 
   KeptOfCasters<SurfaceSolids> kept_;
-  bool areAllFound_ = true;
-  std::vector<Bounds> boxesCentred_;
-  ///@{ By triangles of the snapshot.
-  std::vector<std::uint32_t> solids_;
-  std::vector<float> clearance_;
-  ///@}
+  MeetingBoxes meeting_;
+  bool areAllFound_ = false;
+  std::vector<float> clearance_; ///< by triangles of the snapshot
 };
 
 } // namespace gnomon

@@ -3,7 +3,6 @@
 #include <tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cmath>
 #include <limits>
@@ -16,19 +15,6 @@ namespace
 /// How many triangles around a corner are followed, to either side: more than there mostly are.
 constexpr int mostAroundCorner = 12;
 
-/// Whether no ray of a map ends in a box.
-bool endOutside(const CasterScene& scene, const Bounds& box)
-{
-  if (scene.space.positional)
-  {
-    return glm::any(glm::lessThan(scene.towards, box.lower)) ||
-      glm::any(glm::greaterThan(scene.towards, box.upper));
-  }
-  const std::array<glm::dvec3, 8> corners = box.corners();
-  return std::all_of(corners.begin(), corners.end(),
-    [&](const glm::dvec3& corner) { return scene.space.at(corner).z > scene.begins; });
-}
-
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -39,10 +25,6 @@ MapCasters::MapCasters(const CasterScene& scene, const CasterEdges& edges, Cover
   , covering_(covering)
   , placements_(scene.occluders)
 {
-  for (const Bounds& box : edges.solids().boxesCentred())
-  {
-    this->raysEndOutside_.push_back(endOutside(scene, box));
-  }
   this->facing_.resize(this->placements_.triangleCount());
   std::atomic<bool> blind{ false };
   tbb::enumerable_thread_specific<double> margins(0.0);
@@ -154,10 +136,7 @@ MapPolygon MapCasters::polygon(const BandItem& triangle) const
   MapPolygon polygon = polygonOf(
     this->scene_, this->placements_.surfaceOf(placement), placement.instance, triangle.index);
   polygon.part = this->partOf(placement, triangle.index);
-  if (this->isExit(polygon, triangle.index))
-  {
-    polygon.entranceSlack = -std::numeric_limits<float>::infinity();
-  }
+  polygon.isExit = this->isExit(polygon, triangle.index);
   return polygon;
 }
 
@@ -166,19 +145,10 @@ MapPolygon MapCasters::polygon(const BandItem& triangle) const
 /// rounding and the rays' offsets reach.
 bool MapCasters::isExit(const MapPolygon& polygon, std::uint32_t triangle) const
 {
-  const CasterSolids& solids = this->edges_.solids();
-  const std::uint32_t solid = solids.solidOf(triangle);
-  if (solid == SurfaceSolids::none || !this->raysEndOutside_[solid] || !polygon.role.covers)
-  {
-    return false;
-  }
-  const double clearance = solids.clearanceOf(triangle);
-  const double cosine = clearance < 0.0 ? -polygon.cosineToLight : polygon.cosineToLight;
-  const double reach = this->scene_.lateral + this->scene_.largestOffset(polygon.farthestZ) +
-    this->scene_.reachOnSolids(polygon.farthestZ);
   // Written so that NaN is none.
-  return cosine >= 1.0 / std::hypot(1.0, steepestExit) &&
-    polygon.noise <= this->scene_.lateral / 16.0 && 2.0 * reach <= std::abs(clearance);
+  return polygon.role.covers && polygon.cosineToLight >= 1.0 / std::hypot(1.0, steepestExit) &&
+    polygon.noise <= this->scene_.lateral / 16.0 &&
+    this->edges_.solids().clearanceOf(triangle) >= this->scene_.leastClearance(polygon.farthestZ);
 }
 
 //------------------------------------------------------------------------------

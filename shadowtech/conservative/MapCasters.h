@@ -79,8 +79,7 @@ private:
   bool blind_ = false;
   double margin_ = 0.0;
   CasterPlacements placements_;
-  std::vector<std::uint8_t> raysEndOutside_; ///< of the light, by solids
-  std::vector<std::int8_t> facing_;          ///< on the map, of all placements' triangles
+  std::vector<std::int8_t> facing_; ///< on the map, of all placements' triangles
 };
 
 /// Told of each cell when all is drawn, by its number on the map; from several threads.

@@ -1,7 +1,5 @@
 #include "shadowtech/conservative/MeetingBoxes.h"
 
-#include "shadowtech/tracing/EmbreeHandle.h"
-
 #include <stdexcept>
 #include <string>
 
@@ -34,20 +32,24 @@ void visitPairs(void* visit, RTCCollision* pairs, unsigned int count)
 } // namespace
 
 //------------------------------------------------------------------------------
-void visitMeetingBoxes(
+void MeetingBoxes::visit(
   const std::vector<Bounds>& boxes, const std::function<void(std::uint32_t, std::uint32_t)>& visit)
 {
   if (boxes.size() < 2)
   {
     return; // Embree takes having none for a mistake
   }
-  const EmbreeDevice device(rtcNewDevice(nullptr));
-  if (!device.get())
+  if (!this->device_.get())
+  {
+    this->device_ = EmbreeDevice(rtcNewDevice(nullptr));
+  }
+  const RTCDevice device = this->device_.get();
+  if (!device)
   {
     throw std::runtime_error("Embree cannot be started on this machine");
   }
-  const EmbreeScene scene(rtcNewScene(device.get()));
-  const EmbreeGeometry geometry(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_USER));
+  const EmbreeScene scene(rtcNewScene(device));
+  const EmbreeGeometry geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER));
   rtcSetGeometryUserPrimitiveCount(geometry.get(), static_cast<unsigned int>(boxes.size()));
   rtcSetGeometryUserData(geometry.get(), const_cast<std::vector<Bounds>*>(&boxes));
   rtcSetGeometryBoundsFunction(geometry.get(), boxOf, nullptr);
@@ -56,7 +58,7 @@ void visitMeetingBoxes(
   rtcCommitScene(scene.get());
   rtcCollide(scene.get(), scene.get(), visitPairs,
     const_cast<std::function<void(std::uint32_t, std::uint32_t)>*>(&visit));
-  const RTCError error = rtcGetDeviceError(device.get());
+  const RTCError error = rtcGetDeviceError(device);
   if (error != RTC_ERROR_NONE)
   {
     throw std::runtime_error(

@@ -54,7 +54,7 @@ void drawPolygon(
     {
       const float nearest = texels.nearest(row, x);
       cell[x].nearest = std::min(cell[x].nearest, nearest);
-      if (texels.isEntrance())
+      if (!texels.isExit())
       {
         cell[x].entrance = std::min(cell[x].entrance, texels.entrance(nearest));
       }

@@ -20,7 +20,7 @@ namespace gnomon
 struct Cell
 {
   float nearest = std::numeric_limits<float>::infinity(); ///< the least depth of a caster
-  /// The least depth of an end, a sharp edge, or a caster but for such sides of solids as rays can only leave them by.
+  /// The least depth of an end, a sharp edge, or a caster but for exits (MapPolygon::isExit).
   float entrance = std::numeric_limits<float>::infinity();
   float contained = std::numeric_limits<
     float>::infinity(); ///< the least, over casters that cover the texel, of their largest depths

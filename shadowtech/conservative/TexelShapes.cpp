@@ -47,6 +47,7 @@ PolygonOnTexels::PolygonOnTexels(const MapPolygon& polygon, double margin, Span 
   record.slack = static_cast<float>(polygon.slack);
   record.noise = static_cast<float>(polygon.noise);
   record.entranceSlack = polygon.entranceSlack;
+  record.isExit = polygon.isExit ? 1 : 0;
   record.covers = polygon.role.covers ? 1 : 0;
   this->findSides(polygon, plane.area > 0.0 ? 1.0 : -1.0, reach);
 }

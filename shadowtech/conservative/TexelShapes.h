@@ -52,7 +52,7 @@ struct PolygonRecord
   std::uint32_t covers; ///< whether it blocks all over
   std::uint32_t firstSide, sideCount;
   std::int32_t firstRow, lastRow; ///< those that it may meet
-  std::uint32_t unused = 0;
+  std::uint32_t isExit;           ///< MapPolygon::isExit
 };
 static_assert(sizeof(SideRecord) == 32 && sizeof(PolygonRecord) == 136, "as shaders read them");
 
@@ -100,9 +100,9 @@ public:
   /// The most that its depth changes from anywhere in a texel to the sample.
   float climb() const { return this->record_.climb; }
 
-  /// Whether rays may enter a solid by it; and from what depth on, in a texel where its nearest is known.
-  bool isEntrance() const { return this->record_.entranceSlack >= 0.0f; }
+  /// What it lowers Cell::entrance to in a texel where its nearest is known, unless it is an exit.
   float entrance(float nearest) const { return nearest - this->record_.entranceSlack; }
+  bool isExit() const { return this->record_.isExit != 0; }
 
   /// How far off its plane a tracer may see it, in world units.
   float noise() const { return this->record_.noise; }

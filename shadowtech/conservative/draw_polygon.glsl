@@ -20,7 +20,7 @@ void drawTexel(PolygonRecord polygon, Row row, int x, int y)
   double depth = depthAt(polygon, row, x);
   float nearest = nearestOf(polygon, depth);
   lower(cell + nearestInCell, nearest);
-  if (polygon.entranceSlack >= 0.0)
+  if (polygon.isExit == 0u)
   {
     precise float entrance = nearest - polygon.entranceSlack;
     lower(cell + entranceInCell, entrance);

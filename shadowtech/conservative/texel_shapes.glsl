@@ -21,7 +21,7 @@ struct PolygonRecord
   uint covers;
   uint firstSide, sideCount;
   int firstRow, lastRow;
-  uint unused;
+  uint isExit;
 };
 
 struct SegmentRecord

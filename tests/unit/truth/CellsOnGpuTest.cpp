@@ -204,7 +204,8 @@ Shapes randomShapes(Random& random, int width)
     polygon.role.covers = random() % 4 != 0;
     polygon.slack = uniform(random, 0.0, 0.01);
     polygon.noise = uniform(random, 0.0, 0.1);
-    polygon.entranceSlack = static_cast<float>(polygon.noise < 0.05 ? polygon.noise : -infinity);
+    polygon.isExit = polygon.noise < 0.05;
+    polygon.entranceSlack = static_cast<float>(polygon.slack);
     return polygon;
   };
   for (int i = 0; i < 200; ++i)

@@ -289,26 +289,27 @@ TEST(TexelCells, ofATriangleThatIsSeenAlongItsPlaneAreNone)
 
 TEST(TexelCells, doNotCountAsEntrancesWhatRaysOnlyLeaveBy)
 {
-  const auto sheetAt = [](double depth, float entranceSlack, double ofNoise)
+  const auto sheetAt = [](double depth, bool isExit, double ofNoise)
   {
     MapPolygon polygon =
       polygonWith({ { { 1.0, 1.0, depth }, { 25.0, 1.0, depth }, { 1.0, 25.0, depth } } });
-    polygon.entranceSlack = entranceSlack;
+    polygon.isExit = isExit;
+    polygon.entranceSlack = 0.125f;
     polygon.noise = ofNoise;
     return polygon;
   };
-  const auto exit = static_cast<float>(-infinity);
   constexpr std::size_t middle = 6 * width + 6;
   // Three layers: by the first rule they are lit up to the second, by this one up to where one may enter.
   const Cell cell = drawn(
-    { sheetAt(0.2, exit, 0.01), sheetAt(0.4, exit, 0.02), sheetAt(0.7, 0.125f, 0.03) })[middle];
+    { sheetAt(0.2, true, 0.01), sheetAt(0.4, true, 0.02), sheetAt(0.7, false, 0.03) })[middle];
   EXPECT_EQ(cell.nearest, 0.2f);
   EXPECT_EQ(cell.entrance, 0.7f - 0.125f);
   EXPECT_EQ(cell.clearUpTo(), cell.entrance);
   EXPECT_EQ(cell.noise, 0.02f) << "of what begins before that";
   EXPECT_EQ(
-    drawn({ sheetAt(0.2, exit, 0.01), sheetAt(0.4, 0.0f, 0.02) })[middle].clearUpTo(), 0.4f);
-  EXPECT_EQ(drawn({ sheetAt(0.2, exit, 0.01) })[middle].entrance, static_cast<float>(infinity));
+    drawn({ sheetAt(0.2, true, 0.01), sheetAt(0.4, false, 0.02) })[middle].clearUpTo(), 0.4f)
+    << "it is the second layer";
+  EXPECT_EQ(drawn({ sheetAt(0.2, true, 0.01) })[middle].entrance, static_cast<float>(infinity));
 }
 
 TEST(TexelCells, knowNothingWithinTheMarginOfATriangleThatSpoilsThem)
