@@ -163,15 +163,6 @@ int windingAround(const Occluders& occluders, const glm::dvec3& point, const glm
   return winding;
 }
 
-Mesh turnedOver(Mesh mesh)
-{
-  for (glm::uvec3& triangle : mesh.triangles)
-  {
-    std::swap(triangle.y, triangle.z);
-  }
-  return mesh;
-}
-
 TEST(CasterSolids, areClearOnTheirOuterSideAlone)
 {
   const Mesh sphere = makeClosedSphere(12, 16);

@@ -116,16 +116,6 @@ Mesh makeDuplicates(Random& random, int count)
   return mesh;
 }
 
-/// The same, wound the other way round.
-Mesh turnedOver(Mesh mesh)
-{
-  for (glm::uvec3& triangle : mesh.triangles)
-  {
-    std::swap(triangle.y, triangle.z);
-  }
-  return mesh;
-}
-
 /// A sphere with waves on it.
 Mesh makeBlob(Random& random)
 {

@@ -16,6 +16,7 @@
 #include <random>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 namespace gnomon::test
 {
@@ -144,6 +145,16 @@ Mesh makeClosedSphere(int rings, int segments)
     point = glm::round(1e6 * point) / 1e6;
   }
   return sphere;
+}
+
+//------------------------------------------------------------------------------
+Mesh turnedOver(Mesh mesh)
+{
+  for (glm::uvec3& triangle : mesh.triangles)
+  {
+    std::swap(triangle.y, triangle.z);
+  }
+  return mesh;
 }
 
 //------------------------------------------------------------------------------
