@@ -201,8 +201,7 @@ constexpr int lateralBits = -18;
 //------------------------------------------------------------------------------
 double leastClearance(const Occluders& occluders)
 {
-  const double lateral = std::ldexp(largestOfRays(occluders), lateralBits);
-  return 2.0 * lateral * (1.0 + 1.125 * steepestExit);
+  return leastClearance(std::ldexp(largestOfRays(occluders), lateralBits), 0.0);
 }
 
 //------------------------------------------------------------------------------

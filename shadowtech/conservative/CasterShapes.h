@@ -34,6 +34,21 @@ constexpr double thinTexels = 1.0 / 128.0;
 /// tracer is off across the light, it is off along the light times that.
 constexpr double steepestExit = 8.0;
 
+/// How much farther along the light than it is a tracer may see a side of a solid: what rays may be off across the light, and what
+/// noise adds, for which an eighth is enough.
+/// @param lateral how far beside a ray a tracer may look
+/// @param offset how far beside its receiver a ray may start
+inline double reachOnSolids(double lateral, double offset)
+{
+  return steepestExit * (1.125 * lateral + offset);
+}
+
+/// How clear (CasterSolids::clearanceOf()) an exit has to be.
+inline double leastClearance(double lateral, double offset)
+{
+  return 2.0 * (lateral + offset + reachOnSolids(lateral, offset));
+}
+
 /// A point as the map sees it, in homogeneous coordinates: texels X/W and Y/W, depth Q/W; z along the
 /// view.
 struct MapPoint
@@ -110,21 +125,19 @@ struct CasterScene
       (this->space.positional ? distance : 1.0);
   }
 
-  /// How much farther along the light than it is a tracer may see a side of a solid, in world units, at a distance from
-  /// the light: what rays may be off across the light, and what noise adds, for which an eighth is enough.
+  ///@{ In world units, at a distance from the light.
   double reachOnSolids(double distance) const
   {
-    return steepestExit * (1.125 * this->lateral + this->largestOffset(distance));
+    return gnomon::reachOnSolids(this->lateral, this->largestOffset(distance));
   }
-
-  /// How clear (CasterSolids::clearanceOf()) an exit has to be, at a distance from the light.
   double leastClearance(double distance) const
   {
-    return 2.0 * (this->lateral + this->largestOffset(distance) + this->reachOnSolids(distance));
+    return gnomon::leastClearance(this->lateral, this->largestOffset(distance));
   }
+  ///@}
 };
 
-/// What that is in any view of any light, at least.
+/// How clear an exit has to be in any view of any light, at least.
 double leastClearance(const Occluders& occluders);
 
 /// How casters are to be looked at in a view of a light.
