@@ -290,7 +290,7 @@ TEST(CasterSolids, ofBoxesAreClearAndOfGroovesAreNot)
   EXPECT_EQ(top, 4u);
 }
 
-/// Of triangles that do not meet.
+/// Of triangles that do not meet; one may be a segment, with an end twice.
 double distanceBetween(std::array<glm::dvec3, 3> a, std::array<glm::dvec3, 3> b)
 {
   double least = std::numeric_limits<double>::infinity();
@@ -325,34 +325,57 @@ double distanceBetween(std::array<glm::dvec3, 3> a, std::array<glm::dvec3, 3> b)
   return std::sqrt(least);
 }
 
+/// A roof with a steep point of that size at its ridge. All else near the tip slopes little more than the flat side.
+Mesh makePointedRidge(double size)
+{
+  const auto slope = [size](double x, double y) { return glm::dvec3(x, y, -0.58 * (x + size)); };
+  Mesh mesh;
+  mesh.points = { { -1.0, -1.0, 0.0 }, { -1.0, 1.0, 0.0 }, slope(-size, -1.0), slope(-size, 1.0),
+    slope(-size, -0.5), slope(-size, 0.5), { 0.0, 0.0, 0.0 }, slope(0.5 * size, -0.3 * size),
+    slope(0.5 * size, 0.3 * size), slope(1.0, -1.0), slope(1.0, 1.0), { 0.0, 0.0, -3.0 } };
+  mesh.triangles = { { 0, 2, 4 }, { 0, 4, 1 }, { 1, 4, 5 }, { 1, 5, 3 }, { 4, 6, 5 }, // flat
+    { 4, 7, 6 }, { 6, 7, 8 }, { 6, 8, 5 },                                            // steep
+    { 2, 9, 4 }, { 4, 9, 7 }, { 7, 9, 8 }, { 8, 9, 10 }, { 8, 10, 5 }, { 5, 10, 3 },  // sloped
+    { 2, 0, 11 }, { 9, 2, 11 }, { 10, 9, 11 }, { 3, 10, 11 }, { 1, 3, 11 }, { 0, 1, 11 } };
+  return mesh;
+}
+
 TEST(CasterSolids, areClearByNoMoreThanOthersAreAway)
 {
   Random random(7);
-  std::size_t clear = 0, close = 0;
-  for (int run = 0; run < 30; ++run)
+  std::size_t clear = 0, close = 0, closeNeighbours = 0;
+  for (int run = 0; run < 40; ++run)
   {
     const char* const kinds[] = { "solids", "knots", "grooves" };
     Mesh mesh = makeRandomScene(kinds[run % 3], random).front().mesh;
-    if (run % 2)
+    const double width = uniform(random, 1e-5, 4e-3);
+    if (run % 4 == 1)
     {
       // A block with a slot, as wide as is looked for, or less.
-      const double halfWidth = uniform(random, 1e-5, 4e-3);
-      mesh = makeBlock({ { -1.0, 0.3 }, { -halfWidth, 0.3 }, { -0.9 * halfWidth, 0.0 },
-        { 0.9 * halfWidth, 0.0 }, { halfWidth, 0.3 }, { 1.0, 0.3 } });
+      mesh = makeBlock({ { -1.0, 0.3 }, { -width, 0.3 }, { -0.9 * width, 0.0 },
+        { 0.9 * width, 0.0 }, { width, 0.3 }, { 1.0, 0.3 } });
+    }
+    else if (run % 4 == 3)
+    {
+      mesh = makePointedRidge(width);
     }
     const Occluders occluders = makeOccluders({ { mesh } });
     const CasterEdges edges = edgesOf(occluders);
     const std::vector<std::uint32_t>& welded = edges.of(0).welded;
-    const auto isNeighbour = [&](std::uint32_t a, std::uint32_t b)
+    // Corners that a triangle has and another has not.
+    const auto cornersApart = [&](std::uint32_t of, std::uint32_t from)
     {
-      for (int i = 0; i < 9; ++i)
+      std::vector<glm::dvec3> apart;
+      for (int i = 0; i < 3; ++i)
       {
-        if (welded[occluders.triangles[a][i / 3]] == welded[occluders.triangles[b][i % 3]])
+        const std::uint32_t corner = welded[occluders.triangles[of][i]];
+        const glm::uvec3& others = occluders.triangles[from];
+        if (corner != welded[others.x] && corner != welded[others.y] && corner != welded[others.z])
         {
-          return true;
+          apart.push_back(cornersOf(occluders, of)[static_cast<std::size_t>(i)]);
         }
       }
-      return false;
+      return apart;
     };
     const double reach = 2.0 / 512.0 * occluders.castersCentred.radius();
     for (int k = 0; k < 40; ++k)
@@ -364,24 +387,39 @@ TEST(CasterSolids, areClearByNoMoreThanOthersAreAway)
         continue;
       }
       double least = std::numeric_limits<double>::infinity();
+      double leastOfNeighbours = least;
       const std::array<glm::dvec3, 3> ofA = cornersOf(occluders, a);
       for (std::uint32_t b = 0; b < occluders.triangles.size(); ++b)
       {
         const std::array<glm::dvec3, 3> ofB = cornersOf(occluders, b);
-        if (!isNeighbour(a, b) && glm::dot(normalOf(ofA), normalOf(ofB)) < sharpCosine - 1e-9)
+        if (!(glm::dot(normalOf(ofA), normalOf(ofB)) < sharpCosine - 1e-9))
+        {
+          continue;
+        }
+        const std::vector<glm::dvec3> apart = cornersApart(b, a);
+        if (apart.size() == 3)
         {
           least = std::min(least, distanceBetween(ofA, ofB));
+        }
+        else if (apart.size() == 2)
+        {
+          leastOfNeighbours =
+            std::min(leastOfNeighbours, distanceBetween(ofA, { apart[0], apart[1], apart[1] }));
         }
       }
       ++clear;
       close += least < reach ? 1 : 0;
+      closeNeighbours += leastOfNeighbours < std::min(least, reach) ? 1 : 0;
       EXPECT_LE(clearance, 1.001 * least) << "run " << run << ", triangle " << a;
+      EXPECT_LE(clearance, 1.001 * leastOfNeighbours) << "run " << run << ", triangle " << a;
       EXPECT_LE(clearance, 1.001 * reach);
     }
   }
   EXPECT_GT(clear, 500u);
   EXPECT_GT(close, 20u) << "some are near enough to tell";
-  std::cout << close << " of " << clear << " are near others" << std::endl;
+  EXPECT_GT(closeNeighbours, 20u) << "of some, nothing is as near as the far side of a neighbour";
+  std::cout << clear << ", of which " << close << " are near others, and " << closeNeighbours
+            << " nearer to neighbours' far sides" << std::endl;
 }
 
 TEST(CasterSolids, haveNothingOfThemselvesOutsideEvenWhereTheyCrossThemselves)
