@@ -348,16 +348,16 @@ TEST(CasterSolids, areClearByNoMoreThanOthersAreAway)
   {
     const char* const kinds[] = { "solids", "knots", "grooves" };
     Mesh mesh = makeRandomScene(kinds[run % 3], random).front().mesh;
-    const double width = uniform(random, 1e-5, 4e-3);
+    const double size = uniform(random, 1e-5, 4e-3); // of what is close to something else
     if (run % 4 == 1)
     {
-      // A block with a slot, as wide as is looked for, or less.
-      mesh = makeBlock({ { -1.0, 0.3 }, { -width, 0.3 }, { -0.9 * width, 0.0 },
-        { 0.9 * width, 0.0 }, { width, 0.3 }, { 1.0, 0.3 } });
+      // A block with a slot, at most about as wide as is looked for.
+      mesh = makeBlock({ { -1.0, 0.3 }, { -size, 0.3 }, { -0.9 * size, 0.0 }, { 0.9 * size, 0.0 },
+        { size, 0.3 }, { 1.0, 0.3 } });
     }
     else if (run % 4 == 3)
     {
-      mesh = makePointedRidge(width);
+      mesh = makePointedRidge(size);
     }
     const Occluders occluders = makeOccluders({ { mesh } });
     const CasterEdges edges = edgesOf(occluders);

@@ -36,7 +36,7 @@ Mesh makeSphere(int rings, int segments, double bumps = 0.0);
 
 /// A sphere whose seam and poles close, which else they do but for rounding.
 Mesh makeClosedSphere(int rings, int segments);
-/// The same, wound the other way round.
+/// A mesh, wound the other way round.
 Mesh turnedOver(Mesh mesh);
 /// A closed block, from y = -1 to 1 and down to z = -0.6.
 /// @param profile x and z of its top, from the least x to the greatest
