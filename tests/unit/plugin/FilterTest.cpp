@@ -1,6 +1,7 @@
 // Filters on all kinds of maps: no acne, on warped maps neither, and no kind of depth or early-out that
 // breaks them.
 
+#include "DegenerateViews.h"
 #include "LitPlane.h"
 #include "PassScene.h"
 
@@ -24,13 +25,13 @@ using gnomon::VisibilityImages;
 namespace
 {
 
-using Settings = std::map<std::string, std::string>;
+using NamedSettings = std::map<std::string, std::string>;
 
 struct Filter
 {
   const char* name;
   const char* technique;
-  Settings settings;
+  NamedSettings settings;
 };
 
 std::ostream& operator<<(std::ostream& stream, const Filter& filter)
@@ -38,7 +39,7 @@ std::ostream& operator<<(std::ostream& stream, const Filter& filter)
   return stream << filter.name;
 }
 
-void choose(PassScene& scene, const char* technique, const Settings& settings)
+void choose(PassScene& scene, const char* technique, const NamedSettings& settings)
 {
   scene.pass->SetTechnique(technique);
   for (const auto& [name, value] : settings)
@@ -135,17 +136,18 @@ TEST_P(Filters, valleysAcrossTheViewAreLit)
     vtkNew<vtkPolyData> land;
     land->SetPoints(points);
     land->SetStrips(strips);
+    PassScene scene(150, 150);
+    this->choose(scene);
+    scene.add(land);
+    vtkLight* sun = scene.addSun({ 0.0, 0.0, -1.0 });
+    scene.lookFrom({ 3.0, -98.0, 2.0 }, { 0.0, 0.0, 10.0 });
     for (const int mapSize : { 64, 256 })
     {
+      scene.pass->SetMapSize(mapSize);
       for (const glm::dvec3& direction : { glm::dvec3(0.0, 0.3, -1.0), { 0.0, -1.0, -1.0 },
              { 1.0, 0.3, -0.5 }, { -1.0, -0.2, -0.6 } })
       {
-        PassScene scene(150, 150);
-        this->choose(scene);
-        scene.add(land);
-        scene.addSun(direction);
-        scene.pass->SetMapSize(mapSize);
-        scene.lookFrom({ 3.0, -98.0, 2.0 }, { 0.0, 0.0, 10.0 });
+        sun->SetPosition(-direction.x, -direction.y, -direction.z);
         const Acne acne = countAcneOfSun(drawKept(scene), -direction);
         EXPECT_GT(acne.facing, 5000u);
         EXPECT_EQ(acne.dark, 0u) << "valley at " << valley << ", map " << mapSize << ", sun along "
@@ -160,35 +162,14 @@ TEST_P(Filters, degenerateViewsStayFinite)
 {
   for (const int mapSize : { 16, 256 })
   {
-    const auto drawBothRoutes = [&](PassScene& scene)
-    {
-      this->choose(scene);
-      scene.addFloor(4.0);
-      scene.addSphere({ 0.0, 0.0, 1.5 }, 0.7);
-      scene.pass->SetMapSize(mapSize);
-      scene.lookFrom({ 0.0, -9.0, 7.0 });
-      drawKept(scene);
-      scene.pass->KeepVisibilityOff();
-      scene.render();
-      EXPECT_EQ(scene.report().route, "inline");
-    };
-    for (const glm::dvec3& direction :
-      { glm::dvec3(0.0, -1.0, 0.0), { 1.0, 0.0, 0.0 }, { 0.0, 0.0, 1.0 }, { 0.0, 0.0, -1.0 } })
-    {
-      PassScene scene(64, 48);
-      scene.addSun(direction);
-      drawBothRoutes(scene);
-    }
-    for (const glm::dvec3& position : { glm::dvec3(0.0, 0.0, 1.5), { 0.0, 0.0, -1.0 },
-           { 0.0, 0.0, 0.0 }, { 0.7, 0.0, 1.5 }, { 0.0, 0.0, 50.0 } })
-    {
-      for (const double cone : { 1.0, 45.0 })
+    drawDegenerateViews(
+      { 1.0, 45.0 },
+      [mapSize](PassScene& scene, vtkLight*)
       {
-        PassScene scene(64, 48);
-        scene.addSpot(position, { 0.1, 0.2, -3.0 }, cone);
-        drawBothRoutes(scene);
-      }
-    }
+        choose(scene);
+        scene.pass->SetMapSize(mapSize);
+      },
+      drawByBothRoutes);
   }
 }
 
@@ -299,7 +280,7 @@ TEST_F(PassTest, blendedSplitsHaveNoBorder)
 //------------------------------------------------------------------------------
 TEST_F(PassTest, theExactEarlyOutIsThatOfTheWholeDisc)
 {
-  const auto compare = [](PassScene& scene, const Settings& more)
+  const auto compare = [](PassScene& scene, const NamedSettings& more)
   {
     for (const int mapSize : { 60, 256, 1000 })
     {
@@ -431,7 +412,7 @@ TEST_F(PassTest, aNewKindOfDepthIsBakedOnce)
   scene.lookFrom({ 0.0, -9.0, 7.0 });
   scene.pass->SetTechnique("adaptive");
   scene.render();
-  for (const auto& [name, value] : Settings{ { "depth", "midpoint" }, { "early_out", "ring" },
+  for (const auto& [name, value] : NamedSettings{ { "depth", "midpoint" }, { "early_out", "ring" },
          { "disc_grid", "5" }, { "disc_sets", "3" }, { "bias_constant", "0.1" },
          { "bias_slope", "1" }, { "metric", "euclidean" }, { "kernel_width", "0.1" } })
   {

@@ -1,6 +1,7 @@
 // The quality of hard shadow maps of all projections, with their default settings: no acne, no
 // detached shadows, and no view that breaks them.
 
+#include "DegenerateViews.h"
 #include "LitPlane.h"
 #include "MapLayout.h"
 #include "PassScene.h"
@@ -182,43 +183,16 @@ TEST_P(HardMaps, litPlaneHasNoAcneFromFarAway)
 //------------------------------------------------------------------------------
 TEST_P(HardMaps, degenerateViewsStayFinite)
 {
-  const auto drawBothWays = [this](PassScene& scene)
-  {
-    drawKept(scene);
-    scene.pass->SetTechnique("raytraced");
-    drawKept(scene);
-    this->choose(scene);
-    scene.pass->KeepVisibilityOff();
-    scene.render();
-    EXPECT_EQ(scene.report().route, "inline");
-  };
-  // Straight along every axis.
-  for (const glm::dvec3& direction : { glm::dvec3(0.0, -1.0, 0.0), { 0.0, 1.0, 0.0 },
-         { 1.0, 0.0, 0.0 }, { 0.0, 0.0, 1.0 }, { 0.0, 0.0, -1.0 } })
-  {
-    PassScene scene(64, 48);
-    this->choose(scene);
-    scene.addFloor(4.0);
-    scene.addSphere({ 0.0, 0.0, 1.5 }, 0.7);
-    scene.addSun(direction);
-    scene.lookFrom({ 0.0, -9.0, 7.0 });
-    drawBothWays(scene);
-  }
-  // Spot lights inside, behind and on the casters, and with the narrowest and widest of cones.
-  for (const glm::dvec3& position : { glm::dvec3(0.0, 0.0, 1.5), { 0.0, 0.0, -1.0 },
-         { 0.0, 0.0, 0.0 }, { 0.7, 0.0, 1.5 }, { 0.0, 0.0, 50.0 } })
-  {
-    for (const double cone : { 1.0, 45.0, 89.0 })
+  // The narrowest and widest of cones, too.
+  drawDegenerateViews(
+    { 1.0, 45.0, this->coneUpTo(89.0) }, [](PassScene&, vtkLight*) {},
+    [](PassScene& scene)
     {
-      PassScene scene(64, 48);
-      this->choose(scene);
-      scene.addFloor(4.0);
-      scene.addSphere({ 0.0, 0.0, 1.5 }, 0.7);
-      scene.addSpot(position, { 0.1, 0.2, -3.0 }, this->coneUpTo(cone));
-      scene.lookFrom({ 0.0, -9.0, 7.0 });
-      drawBothWays(scene);
-    }
-  }
+      scene.pass->SetTechnique("raytraced");
+      drawKept(scene);
+      choose(scene);
+      drawByBothRoutes(scene);
+    });
 }
 
 //------------------------------------------------------------------------------

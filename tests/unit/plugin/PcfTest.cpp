@@ -1,6 +1,7 @@
 // Percentage closer filtering with every kernel: no acne, shadows as far from contacts as the kernel
 // reaches and no farther, and no setting or view that breaks it.
 
+#include "DegenerateViews.h"
 #include "LitPlane.h"
 #include "PassScene.h"
 
@@ -297,37 +298,16 @@ TEST_F(PassTest, penumbrasGoOnAcrossTheEdgesOfALampsFaces)
 //------------------------------------------------------------------------------
 TEST_P(Pcf, degenerateViewsStayFinite)
 {
-  // Along the axes and in the floor's plane; lamps inside, below, on and far from the casters; maps
-  // that are smaller than the kernel.
-  for (const int mapSize : { 16, 256 })
+  for (const int mapSize : { 16, 256 }) // the smaller is smaller than the kernel
   {
-    const auto drawBothRoutes = [&](PassScene& scene, vtkLight* light)
-    {
-      scene.addFloor(4.0);
-      scene.addSphere({ 0.0, 0.0, 1.5 }, 0.7);
-      choose(scene, light);
-      scene.pass->SetMapSize(mapSize);
-      scene.lookFrom({ 0.0, -9.0, 7.0 });
-      drawKept(scene);
-      scene.pass->KeepVisibilityOff();
-      scene.render();
-      EXPECT_EQ(scene.report().route, "inline");
-    };
-    for (const glm::dvec3& direction :
-      { glm::dvec3(0.0, -1.0, 0.0), { 1.0, 0.0, 0.0 }, { 0.0, 0.0, 1.0 }, { 0.0, 0.0, -1.0 } })
-    {
-      PassScene scene(64, 48);
-      drawBothRoutes(scene, scene.addSun(direction));
-    }
-    for (const glm::dvec3& position : { glm::dvec3(0.0, 0.0, 1.5), { 0.0, 0.0, -1.0 },
-           { 0.0, 0.0, 0.0 }, { 0.7, 0.0, 1.5 }, { 0.0, 0.0, 50.0 } })
-    {
-      for (const double cone : { 1.0, 45.0, allDirections })
+    drawDegenerateViews(
+      { 1.0, 45.0, allDirections },
+      [mapSize](PassScene& scene, vtkLight* light)
       {
-        PassScene scene(64, 48);
-        drawBothRoutes(scene, scene.addSpot(position, { 0.1, 0.2, -3.0 }, cone));
-      }
-    }
+        choose(scene, light);
+        scene.pass->SetMapSize(mapSize);
+      },
+      drawByBothRoutes);
   }
 }
 
