@@ -146,8 +146,8 @@ compareRandom() {
 # What tests recorded (tests/unit/truth/ExactRecord.h), a line each: technique, scenes, pictures, receivers, traced, wrong.
 records() {
   awk '
-    match($0, /^ *"(technique|scenes|pictures|receivers|traced|wrong)": "/) {
-      name = $1; gsub(/[":]/, "", name)
+    match($0, /^ *"([a-z]+\.)?(technique|scenes|pictures|receivers|traced|wrong)": "/) {
+      name = $1; gsub(/[":]/, "", name); sub(/^.*\./, "", name)
       value[name] = substr($0, RLENGTH + 1); sub(/",?$/, "", value[name])
       if (name == "wrong") {
         print value["technique"] "\t" value["scenes"] "\t" value["pictures"] "\t" value["receivers"] "\t" value["traced"] "\t" value["wrong"]

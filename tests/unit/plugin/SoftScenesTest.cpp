@@ -52,7 +52,7 @@ std::string nameOfScene(const testing::TestParamInfo<SoftScene>& scene)
   return name;
 }
 
-using Settings = std::vector<std::pair<const char*, const char*>>;
+using SceneSettings = std::vector<std::pair<const char*, const char*>>;
 
 /// A built-in scene in a window of 128 x 128 pixels, with maps of 1024.
 class SoftSceneTest : public testing::TestWithParam<SoftScene>
@@ -79,7 +79,7 @@ protected:
   /// Holds the mean absolute error to a bound, against rays to 1,024 other points of the light, over the pixels that face it; and
   /// to a share of the hard shadow's, which may be small, too.
   tool::VisibilityError expectNearTheTruth(
-    const char* technique, const Settings& settings, double bound)
+    const char* technique, const SceneSettings& settings, double bound)
   {
     const tool::VisibilityError error = this->errorOf(this->draw(technique, settings));
     const tool::VisibilityError hard = this->errorOf(this->draw("nsm", {}));
@@ -131,7 +131,7 @@ protected:
 
   const VisibilityImages& truth() const { return this->truth_; }
 
-  VisibilityImages draw(const char* technique, const Settings& settings)
+  VisibilityImages draw(const char* technique, const SceneSettings& settings)
   {
     this->pass_->SetTechnique(technique);
     for (const auto& [name, value] : settings)
@@ -161,21 +161,16 @@ INSTANTIATE_TEST_SUITE_P(Builtin, SoftScenes,
     SoftScene{ "atrium", "5", 0.04 }),
   nameOfScene);
 
-TEST_P(SoftScenes, sampledIsNearTheTruth)
+TEST_P(SoftScenes, sampledAndFilteredRaysThroughPeeledLayersAreNearTheTruth)
 {
   this->show(tool::loadScene(GetParam().name));
+  this->expectNearTheTruth("montecarlo", {}, 0.02);
   const tool::VisibilityError error =
     this->expectNearTheTruth("sampled", { { "light_samples", "256" } }, 0.005);
   EXPECT_LE(error.rootMeanSquare, GetParam().sampledRms);
   const double guessed = this->errorOf(this->draw("pcss", {})).rootMeanSquare;
   RecordProperty("pcss_rms_error", std::to_string(guessed));
   EXPECT_LT(error.rootMeanSquare, guessed);
-}
-
-TEST_P(SoftScenes, filteredRaysThroughPeeledLayersAreNearTheTruth)
-{
-  this->show(tool::loadScene(GetParam().name));
-  this->expectNearTheTruth("montecarlo", {}, 0.02);
 }
 
 //------------------------------------------------------------------------------

@@ -30,15 +30,19 @@ struct Compared
 
 /// @param technique by its name, with its settings
 /// @param scenes their kind
-inline void recordCompared(
-  const std::string& technique, const std::string& scenes, const Compared& compared)
+/// @param part what tells several records of one test apart
+inline void recordCompared(const std::string& technique, const std::string& scenes,
+  const Compared& compared, const std::string& part = "")
 {
-  testing::Test::RecordProperty("technique", technique);
-  testing::Test::RecordProperty("scenes", scenes);
-  testing::Test::RecordProperty("pictures", std::to_string(compared.pictures));
-  testing::Test::RecordProperty("receivers", std::to_string(compared.receivers));
-  testing::Test::RecordProperty("traced", std::to_string(compared.traced));
-  testing::Test::RecordProperty("wrong", std::to_string(compared.wrong));
+  const std::string prefix = part.empty() ? "" : part + ".";
+  const auto record = [&prefix](const char* name, const std::string& value)
+  { testing::Test::RecordProperty(prefix + name, value); };
+  record("technique", technique);
+  record("scenes", scenes);
+  record("pictures", std::to_string(compared.pictures));
+  record("receivers", std::to_string(compared.receivers));
+  record("traced", std::to_string(compared.traced));
+  record("wrong", std::to_string(compared.wrong));
 }
 
 } // namespace gnomon::test
