@@ -49,6 +49,17 @@ struct Bounds
   }
 };
 
+/// Return the box round an affinely transformed box.
+inline Bounds affinelyTransformed(const Bounds& bounds, const glm::dmat4& matrix)
+{
+  Bounds result;
+  for (const glm::dvec3& corner : bounds.corners())
+  {
+    result.add(glm::dvec3(matrix * glm::dvec4(corner, 1.0)));
+  }
+  return result;
+}
+
 /// Whether a projection may show something of a box: false only if it shows nothing of it. What lies
 /// before the near plane or behind the far one counts as shown.
 inline bool mayShow(const glm::dmat4& clipFromSpace, const Bounds& bounds)

@@ -10,45 +10,35 @@ namespace gnomon
 namespace
 {
 
-Bounds transformed(const Bounds& bounds, const glm::dmat4& matrix)
-{
-  Bounds result;
-  for (const glm::dvec3& corner : bounds.corners())
-  {
-    result.add(glm::dvec3(matrix * glm::dvec4(corner, 1.0)));
-  }
-  return result;
-}
-
-struct Interval
+struct SlopeInterval
 {
   double lower;
   double upper;
 };
 
-Interval within(const Interval& interval, double limit)
+SlopeInterval within(const SlopeInterval& interval, double limit)
 {
   return { std::max(interval.lower, -limit), std::min(interval.upper, limit) };
 }
 
-bool empty(const Interval& interval)
+bool empty(const SlopeInterval& interval)
 {
   return !(interval.lower <= interval.upper);
 }
 
-double halfOf(const Interval& interval)
+double halfOf(const SlopeInterval& interval)
 {
   return empty(interval) ? 0.0 : 0.5 * (interval.upper - interval.lower);
 }
 
-Interval around(const Interval& interval, double half)
+SlopeInterval around(const SlopeInterval& interval, double half)
 {
   const double middle = 0.5 * (interval.lower + interval.upper);
   return { middle - half, middle + half };
 }
 
 /// The slopes x/z of the points with x in `across`, z in `along` (> 0).
-Interval slopesOf(const Interval& across, const Interval& along)
+SlopeInterval slopesOf(const SlopeInterval& across, const SlopeInterval& along)
 {
   return { across.lower / (across.lower < 0.0 ? along.lower : along.upper),
     across.upper / (across.upper > 0.0 ? along.lower : along.upper) };
@@ -57,8 +47,8 @@ Interval slopesOf(const Interval& across, const Interval& along)
 /// The casters in front of a light, in the space of a view.
 struct Casters
 {
-  Interval distances;             ///< along the view, > 0
-  std::array<Interval, 2> slopes; ///< x/z and y/z
+  SlopeInterval distances;             ///< along the view, > 0
+  std::array<SlopeInterval, 2> slopes; ///< x/z and y/z
 };
 
 /// @return nothing where all of them lie behind the light
@@ -72,14 +62,14 @@ std::optional<Casters> castersInFront(const Bounds& castersView)
   }
   // A caster may touch the light: near stays positive, but well below anything that can be told
   // apart at the far end. Linear depth does not suffer from a small near plane as z/w does.
-  const Interval distances{ std::max(lower.z, nearestShare * upper.z), upper.z };
+  const SlopeInterval distances{ std::max(lower.z, nearestShare * upper.z), upper.z };
   return Casters{ distances,
     { { slopesOf({ lower.x, upper.x }, distances), slopesOf({ lower.y, upper.y }, distances) } } };
 }
 
 /// The view of a positional light whose map spans these slopes.
-LightView perspectiveView(const Interval& distances, const std::array<Interval, 2>& slopes,
-  const glm::dmat4& viewFromCentred)
+LightView perspectiveView(const SlopeInterval& distances,
+  const std::array<SlopeInterval, 2>& slopes, const glm::dmat4& viewFromCentred)
 {
   LightView view;
   view.rays.viewFromCentred = viewFromCentred;
@@ -96,16 +86,16 @@ LightView perspectiveView(const Interval& distances, const std::array<Interval, 
 /// @param casters slopes
 /// @param least half of what the map spans at least
 /// @return nothing where no caster is read
-std::optional<Interval> spanOfFace(const Interval& casters, double least, double inside)
+std::optional<SlopeInterval> spanOfFace(const SlopeInterval& casters, double least, double inside)
 {
   const double half = std::max(halfOf(within(casters, 1.0)), least) + 1e-6;
   const double border = half / inside - half;
-  const Interval seen = within(casters, 1.0 + border);
+  const SlopeInterval seen = within(casters, 1.0 + border);
   if (empty(seen))
   {
     return std::nullopt;
   }
-  const Interval read = within({ seen.lower - border, seen.upper + border }, 1.0 + border);
+  const SlopeInterval read = within({ seen.lower - border, seen.upper + border }, 1.0 + border);
   return around(read, half);
 }
 
@@ -139,10 +129,10 @@ std::optional<LightView> spotCasterView(
   {
     return std::nullopt;
   }
-  std::array<Interval, 2> slopes{};
+  std::array<SlopeInterval, 2> slopes{};
   for (std::size_t axis = 0; axis < 2; ++axis)
   {
-    const Interval seen = within(casters->slopes[axis], slopeLimit);
+    const SlopeInterval seen = within(casters->slopes[axis], slopeLimit);
     if (empty(seen))
     {
       return std::nullopt; // the light misses all casters
@@ -161,7 +151,7 @@ std::array<std::optional<LightView>, cubeFaces> cubeCasterViews(
   for (int face = 0; face < cubeFaces; ++face)
   {
     const auto casters =
-      castersInFront(transformed(castersLight, glm::dmat4(cubeFaceFromLight(face))));
+      castersInFront(affinelyTransformed(castersLight, glm::dmat4(cubeFaceFromLight(face))));
     castersOfFace[static_cast<std::size_t>(face)] = casters;
     if (casters && !empty(within(casters->slopes[0], 1.0)) &&
       !empty(within(casters->slopes[1], 1.0)))
@@ -178,12 +168,12 @@ std::array<std::optional<LightView>, cubeFaces> cubeCasterViews(
     {
       continue;
     }
-    const auto nearsEdge = [&](const Interval& slopes)
+    const auto nearsEdge = [&](const SlopeInterval& slopes)
     { return slopes.lower < -inside || slopes.upper > inside; };
     const bool atEdge = nearsEdge(casters->slopes[0]) || nearsEdge(casters->slopes[1]);
     const double least = atEdge ? 0.5 * widest : 0.0;
-    const std::optional<Interval> x = spanOfFace(casters->slopes[0], least, inside);
-    const std::optional<Interval> y = spanOfFace(casters->slopes[1], least, inside);
+    const std::optional<SlopeInterval> x = spanOfFace(casters->slopes[0], least, inside);
+    const std::optional<SlopeInterval> y = spanOfFace(casters->slopes[1], least, inside);
     if (x && y)
     {
       views[static_cast<std::size_t>(face)] = perspectiveView(

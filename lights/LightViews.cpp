@@ -18,16 +18,6 @@ namespace gnomon
 namespace
 {
 
-Bounds transformed(const Bounds& bounds, const glm::dmat4& matrix)
-{
-  Bounds result;
-  for (const glm::dvec3& corner : bounds.corners())
-  {
-    result.add(glm::dvec3(matrix * glm::dvec4(corner, 1.0)));
-  }
-  return result;
-}
-
 glm::dmat3 scaling(double factor)
 {
   MapFit fit;
@@ -325,7 +315,7 @@ LightViews fitLightViews(const ShadowLight& light, const ViewFitting& fitting)
   {
     return result;
   }
-  const Bounds castersLight = transformed(fitting.castersCentred, result.lightFromCentred);
+  const Bounds castersLight = affinelyTransformed(fitting.castersCentred, result.lightFromCentred);
   if (light.kind == LightKind::Directional)
   {
     fitDirectional(castersLight, light, fitting, result);

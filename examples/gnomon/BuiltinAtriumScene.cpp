@@ -18,7 +18,6 @@ namespace gnomon::tool
 namespace
 {
 
-const Vec3 up{ { 0.0, 1.0, 0.0 } };
 constexpr double courtHalfLength = 1200.0; ///< from the middle to the arcades, along x
 constexpr double courtHalfWidth = 300.0;   ///< along z
 constexpr double aisle = 290.0;            ///< depth behind the arcades

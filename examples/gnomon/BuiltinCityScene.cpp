@@ -106,8 +106,8 @@ void addFacade(CityMesh& mesh, const Vec3& from, const Vec3& to, int bays, int f
   double floorHeight, double windowShare)
 {
   const Vec3 along = (1.0 / bays) * (to - from);
-  const Vec3 up{ { 0.0, floorHeight, 0.0 } };
-  const Vec3 outward = normalized(cross(along, up));
+  const Vec3 storey{ { 0.0, floorHeight, 0.0 } };
+  const Vec3 outward = normalized(cross(along, storey));
   constexpr double depth = 0.35;
   constexpr double sillReach = 0.25;
 
@@ -116,7 +116,7 @@ void addFacade(CityMesh& mesh, const Vec3& from, const Vec3& to, int bays, int f
   {
     for (int bay = floor == 0 ? 1 : 0; bay <= bays; ++bay)
     {
-      mesh.addPoint(from + static_cast<double>(bay) * along + static_cast<double>(floor) * up);
+      mesh.addPoint(from + static_cast<double>(bay) * along + static_cast<double>(floor) * storey);
     }
   }
   const double margin = 0.5 * (1.0 - windowShare);
@@ -127,10 +127,11 @@ void addFacade(CityMesh& mesh, const Vec3& from, const Vec3& to, int bays, int f
       const vtkIdType low = grid + floor * (bays + 1) + bay;
       const vtkIdType high = low + bays + 1;
       const vtkIdType wall[4] = { low, low + 1, high + 1, high };
-      const Vec3 corner = from + static_cast<double>(bay) * along + static_cast<double>(floor) * up;
-      const Vec3 opening[4] = { corner + margin * along + 0.28 * up,
-        corner + (1.0 - margin) * along + 0.28 * up, corner + (1.0 - margin) * along + 0.85 * up,
-        corner + margin * along + 0.85 * up };
+      const Vec3 corner =
+        from + static_cast<double>(bay) * along + static_cast<double>(floor) * storey;
+      const Vec3 opening[4] = { corner + margin * along + 0.28 * storey,
+        corner + (1.0 - margin) * along + 0.28 * storey,
+        corner + (1.0 - margin) * along + 0.85 * storey, corner + margin * along + 0.85 * storey };
       vtkIdType rim[4];
       vtkIdType pane[4];
       for (int i = 0; i < 4; ++i)
@@ -146,7 +147,7 @@ void addFacade(CityMesh& mesh, const Vec3& from, const Vec3& to, int bays, int f
       }
       mesh.addQuad(pane[0], pane[1], pane[2], pane[3]);
 
-      const Vec3 sill = opening[0] - 0.05 * along - 0.05 * up;
+      const Vec3 sill = opening[0] - 0.05 * along - 0.05 * storey;
       const Vec3 sillAlong = (windowShare + 0.1) * along;
       mesh.addBlock({ { sill + sillReach * outward, sill + sillReach * outward + sillAlong,
                       sill + sillAlong, sill } },

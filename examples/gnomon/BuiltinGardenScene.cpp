@@ -21,7 +21,6 @@ namespace
 {
 
 constexpr vtkIdType trianglesOfTheThesis = 55026;
-const Vec3 up{ { 0.0, 1.0, 0.0 } };
 
 /// Two directions square to a third and to each other.
 struct Frame
@@ -109,7 +108,7 @@ SceneModel makeEarth()
 }
 
 /// Stepping stones and the terrace below the bench.
-SceneModel makePaving()
+SceneModel makeGardenPaving()
 {
   MeshBuilder mesh;
   for (int row = 0; row < 5; ++row)
@@ -489,7 +488,7 @@ Scene makeGarden()
   const std::vector<Tree> trees = { { { { -50.0, 0.0, -42.0 } }, 46.0, 14.0, 1.7, 1 },
     { { { -2.0, 0.0, -44.0 } }, 60.0, 27.0, 3.4, 2 } };
 
-  scene.models = { makeLawn(true), makeLawn(false), makeEarth(), makePaving(),
+  scene.models = { makeLawn(true), makeLawn(false), makeEarth(), makeGardenPaving(),
     placed(makeBenchSlats(), { { 0.5, 0.12, 0.5 } }, 12.0),
     placed(makeBenchFrame(), { { 0.5, 0.12, 0.5 } }, 12.0), makeLampPole(lampFoot),
     makeLampHead(lampFoot), makeLampHood(lampFoot), makeFlowerBox(), makeSoil() };

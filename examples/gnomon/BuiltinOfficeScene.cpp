@@ -15,7 +15,6 @@ namespace gnomon::tool
 namespace
 {
 
-const Vec3 up{ { 0.0, 1.0, 0.0 } };
 constexpr double roomWidth = 5.0;
 constexpr double roomDepth = 4.0;
 constexpr double roomHeight = 2.8;

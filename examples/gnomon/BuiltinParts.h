@@ -6,6 +6,9 @@
 namespace gnomon::tool
 {
 
+inline constexpr Vec3 origin{ { 0.0, 0.0, 0.0 } };
+inline constexpr Vec3 up{ { 0.0, 1.0, 0.0 } };
+
 /// A surface in one matt colour.
 SceneModel makeModel(
   const std::string& name, vtkSmartPointer<vtkPolyData> surface, const Vec3& color);

@@ -17,7 +17,6 @@ const Vec3 blue{ { 0.35, 0.5, 0.7 } };
 const Vec3 green{ { 0.45, 0.65, 0.4 } };
 const Vec3 red{ { 0.75, 0.4, 0.35 } };
 const Vec3 ochre{ { 0.8, 0.65, 0.35 } };
-const Vec3 origin{ { 0.0, 0.0, 0.0 } };
 
 SceneModel makePyramid(const Vec3& base, double side, double height)
 {

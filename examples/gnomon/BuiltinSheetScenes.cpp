@@ -20,9 +20,6 @@ namespace gnomon::tool
 namespace
 {
 
-const Vec3 up{ { 0.0, 1.0, 0.0 } };
-const Vec3 origin{ { 0.0, 0.0, 0.0 } };
-
 /// A bowl around an axis that leaves its origin upwards: a sphere below a fifth of its radius above
 /// its centre, which is one radius along the axis.
 void addCup(MeshBuilder& mesh, const Axis& axis, double radius)

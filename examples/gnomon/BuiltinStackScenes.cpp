@@ -19,8 +19,6 @@ namespace gnomon::tool
 namespace
 {
 
-const Vec3 origin{ { 0.0, 0.0, 0.0 } };
-
 /// An upright letter C, open towards +x: three quarters of a ring around the axis z, cut square.
 SceneModel makeLetter(const Vec3& center, double inner, double outer, double thickness)
 {

@@ -62,7 +62,6 @@ Vec3 scattered(int i, std::uint32_t kind)
 SceneModel makeTrees()
 {
   constexpr std::uint32_t kind = 100;
-  const Vec3 up{ { 0.0, 1.0, 0.0 } };
   MeshBuilder mesh;
   for (int i = 0; i < 400; ++i)
   {

@@ -21,6 +21,7 @@ struct NumberRange
 /// No coordinate or matrix element is larger; far beyond any real scene, far below the end of
 /// float.
 inline constexpr NumberRange anyCoordinate{ -1e12, 1e12 };
+inline constexpr NumberRange colorChannel{ 0.0, 1.0 };
 
 /// A place in a JSON document: it knows its source and its key path ("lights[1].cone_angle"), so
 /// that every error names them, says what stands there and what was expected. The place may be

@@ -19,8 +19,6 @@ namespace gnomon::tool
 namespace
 {
 
-constexpr NumberRange colorChannel{ 0.0, 1.0 };
-
 /// World from model: affine and invertible.
 std::array<double, 16> readMatrix(const JsonValue& value)
 {

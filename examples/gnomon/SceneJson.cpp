@@ -12,7 +12,6 @@ namespace gnomon::tool
 namespace
 {
 
-constexpr NumberRange colorChannel{ 0.0, 1.0 };
 constexpr NumberRange lightIntensity{ 0.0, 1e6 };
 constexpr NumberRange coneAngleDegrees{ 0.01, 89.9 };
 constexpr NumberRange fieldOfViewDegrees{ 0.01, 179.0 };

@@ -2,6 +2,7 @@
 
 #include "shadowtech/adaptive/JitteredDiscs.h"
 #include "shadowtech/base/GlState.h"
+#include "shadowtech/base/GlslText.h"
 #include "shadowtech/base/Kernel.h"
 #include "shadowtech/base/ShaderLibrary.h"
 #include "shadowtech/base/TextureMemory.h"
@@ -10,11 +11,6 @@ namespace gnomon
 {
 namespace
 {
-
-std::string define(const std::string& name, int value)
-{
-  return "#define " + name + " " + std::to_string(value) + "\n";
-}
 
 bool readsBounds(const ShadowLight& light)
 {
@@ -107,12 +103,12 @@ std::vector<Uniform> Adaptive::uniforms(const ReceiverSpace& space) const
 //------------------------------------------------------------------------------
 std::string Adaptive::estimatorGlsl(const ShadowLight& light) const
 {
-  return kernelDefines(light) + define("DISC_TEXELS_LIGHT", light.kernelTexels) +
-    define("DISC_RING_LIGHT", light.discGrid) +
-    define("DISC_POINTS_LIGHT", light.discGrid * light.discGrid) +
-    define("DISC_SETS_LIGHT", light.discSets) +
-    define("DISC_ASKS_RING_LIGHT", light.earlyOut == EarlyOut::Ring) +
-    define("DISC_ASKS_BOUNDS_LIGHT", readsBounds(light)) +
+  return kernelDefines(light) + glslDefine("DISC_TEXELS_LIGHT", light.kernelTexels) +
+    glslDefine("DISC_RING_LIGHT", light.discGrid) +
+    glslDefine("DISC_POINTS_LIGHT", light.discGrid * light.discGrid) +
+    glslDefine("DISC_SETS_LIGHT", light.discSets) +
+    glslDefine("DISC_ASKS_RING_LIGHT", light.earlyOut == EarlyOut::Ring) +
+    glslDefine("DISC_ASKS_BOUNDS_LIGHT", readsBounds(light)) +
     ShaderLibrary::source("shadowtech/adaptive/adaptive_estimator.glsl");
 }
 

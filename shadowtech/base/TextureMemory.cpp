@@ -10,7 +10,7 @@ namespace gnomon
 namespace
 {
 
-struct Shape
+struct TextureShape
 {
   TexelFormat format;
   int width;
@@ -42,7 +42,7 @@ double availableBytes()
   return std::numeric_limits<double>::infinity();
 }
 
-void define(const Shape& shape, GLenum target)
+void define(const TextureShape& shape, GLenum target)
 {
   const auto internalFormat = static_cast<GLint>(shape.format.internalFormat);
   if (shape.levels > 1)
@@ -63,7 +63,7 @@ void define(const Shape& shape, GLenum target)
 }
 
 /// Whether OpenGL and the machine say that there is room, before anything is taken.
-bool fits(const Shape& shape)
+bool fits(const TextureShape& shape)
 {
   if (shape.bytes() > largestTextureShare * availableBytes())
   {
@@ -84,7 +84,7 @@ void clearErrors()
   }
 }
 
-bool allocate(GlTexture& texture, const Shape& shape)
+bool allocate(GlTexture& texture, const TextureShape& shape)
 {
   texture.reset(); // what it had makes room
   clearErrors();
@@ -129,7 +129,7 @@ std::string describe(const std::string& what, int width, int height, int layers,
     std::to_string(static_cast<long>(bytes / 1e6)) + " MB of " + memory + ", which cannot be had";
 }
 
-std::string describe(const Shape& shape, const std::string& what)
+std::string describe(const TextureShape& shape, const std::string& what)
 {
   return describe(what, shape.width, shape.height, shape.layers, shape.bytes(), "texture memory");
 }
@@ -157,7 +157,7 @@ std::string offerSmaller(int sizeTexels, const IsRoom& isRoom)
 void allocateTexture(GlTexture& texture, const TexelFormat& format, int width, int height,
   int layers, const char* what, int levels)
 {
-  const Shape shape{ format, width, height, layers, levels };
+  const TextureShape shape{ format, width, height, layers, levels };
   if (!allocate(texture, shape))
   {
     throw TextureMemoryError(describe(shape, what));
@@ -168,7 +168,7 @@ void allocateTexture(GlTexture& texture, const TexelFormat& format, int width, i
 void allocateMap(
   GlTexture& texture, const TexelFormat& format, int sizeTexels, int layers, int levels)
 {
-  const Shape shape{ format, sizeTexels, sizeTexels, layers, levels };
+  const TextureShape shape{ format, sizeTexels, sizeTexels, layers, levels };
   if (allocate(texture, shape))
   {
     return;

@@ -49,12 +49,12 @@ TurnedBox rectangleAround(
   return result;
 }
 
-using Shape = std::array<glm::dvec2, 3>;
+using Triangle2 = std::array<glm::dvec2, 3>;
 
 /// A triangle, larger so that every side has moved outwards by enough; none where it would be more than twice as large, as of
 /// needles, or leave what is drawn: the specification does not say how exactly OpenGL cuts.
 /// @param half the extent of what is drawn, from its middle
-std::optional<Shape> grown(const std::vector<glm::dvec2>& corners, const glm::dvec2& longest,
+std::optional<Triangle2> grown(const std::vector<glm::dvec2>& corners, const glm::dvec2& longest,
   double reach, const glm::dvec2& half)
 {
   if (corners.size() != 3)
@@ -72,7 +72,7 @@ std::optional<Shape> grown(const std::vector<glm::dvec2>& corners, const glm::dv
   {
     return std::nullopt;
   }
-  Shape shape;
+  Triangle2 shape;
   for (std::size_t k = 0; k < 3; ++k)
   {
     shape[k] = centre + (1.0 + further) * (corners[k] - centre);
@@ -85,7 +85,7 @@ std::optional<Shape> grown(const std::vector<glm::dvec2>& corners, const glm::dv
 }
 
 /// A right angle around a rectangle: the box's part of what is drawn, or one along the longest side, as of needles.
-Shape rightAngleAround(const std::vector<glm::dvec2>& corners, const glm::dvec2& longest,
+Triangle2 rightAngleAround(const std::vector<glm::dvec2>& corners, const glm::dvec2& longest,
   double reach, const glm::dvec2& half)
 {
   TurnedBox box = rectangleAround(corners, { 1.0, 0.0 }, reach);
@@ -127,8 +127,8 @@ std::array<glm::vec2, 3> shapeAround(const MapPolygon& polygon, double reach, in
     const glm::dvec2 side = corners[(i + 1) % corners.size()] - corners[i];
     longest = glm::dot(side, side) > glm::dot(longest, longest) ? side : longest;
   }
-  const std::optional<Shape> triangle = grown(corners, longest, reach, half);
-  const Shape shape = triangle ? *triangle : rightAngleAround(corners, longest, reach, half);
+  const std::optional<Triangle2> triangle = grown(corners, longest, reach, half);
+  const Triangle2 shape = triangle ? *triangle : rightAngleAround(corners, longest, reach, half);
   return { { glm::vec2(shape[0] / half), glm::vec2(shape[1] / half), glm::vec2(shape[2] / half) } };
 }
 

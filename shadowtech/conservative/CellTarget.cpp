@@ -18,7 +18,7 @@ namespace
 {
 
 /// Bindings of buffers, as the shaders have them.
-enum Binding : GLuint
+enum CellBinding : GLuint
 {
   polygonsBinding,
   sidesBinding,
@@ -102,7 +102,7 @@ GLenum conservativeSwitch()
 
 /// Gives shaders a buffer of what there is; where there is nothing they do not look.
 template <typename Element>
-void bind(Binding binding, GlBuffer& buffer, const std::vector<Element>& elements)
+void bind(CellBinding binding, GlBuffer& buffer, const std::vector<Element>& elements)
 {
   if (!elements.empty())
   {

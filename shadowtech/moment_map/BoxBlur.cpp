@@ -9,7 +9,7 @@ namespace gnomon
 namespace
 {
 
-constexpr int groupSize = 64; // as in box_blur.comp.glsl
+constexpr int texelsPerGroup = 64; // as in box_blur.comp.glsl
 
 GLuint ceilDivide(int dividend, int divisor)
 {
@@ -52,7 +52,7 @@ void BoxBlur::apply(
     ShaderLibrary::setUniform(program, { "layer", sourceLayer });
     ShaderLibrary::setUniform(program, { "axis", axis });
     glDispatchCompute(
-      ceilDivide(this->sizeTexels_, groupSize), ceilDivide(this->sizeTexels_, widthTexels), 1);
+      ceilDivide(this->sizeTexels_, texelsPerGroup), ceilDivide(this->sizeTexels_, widthTexels), 1);
     // The next pass fetches this one's texels, and stores where this one has fetched.
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
   };

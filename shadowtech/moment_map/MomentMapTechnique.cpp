@@ -17,7 +17,7 @@ namespace gnomon
 namespace
 {
 
-TexelFormat formatOf(int moments)
+TexelFormat momentsFormat(int moments)
 {
   return moments == 2 ? TexelFormat{ GL_RG32F, GL_RG, 2 } : TexelFormat{ GL_RGBA32F, GL_RGBA, 4 };
 }
@@ -73,7 +73,7 @@ MapReach MomentMapTechnique::mapReach(const ShadowLight& light) const
 //------------------------------------------------------------------------------
 void MomentMapTechnique::allocate(const ShadowLight& light, int views)
 {
-  const TexelFormat format = formatOf(this->moments().count);
+  const TexelFormat format = momentsFormat(this->moments().count);
   const int sizeTexels = light.mapSizeTexels;
   const bool blurred = !this->summed_ && light.kernelTexels > 1;
   blurred ? this->blur_.allocate(format, sizeTexels) : this->blur_.release();

@@ -13,10 +13,10 @@ namespace gnomon
 namespace
 {
 
-constexpr int groupSize =
+constexpr int linesPerGroup =
   16; // as in sum_area.comp.glsl: lines are few, and should be on all processors
 
-TexelFormat formatOf(int channels)
+TexelFormat sumsFormat(int channels)
 {
   return channels == 2 ? TexelFormat{ GL_RG32UI, GL_RG_INTEGER, 2, GL_UNSIGNED_INT }
                        : TexelFormat{ GL_RGBA32UI, GL_RGBA_INTEGER, 4, GL_UNSIGNED_INT };
@@ -32,7 +32,7 @@ void SummedAreaTable::allocate(int channels, int sizeTexels, int layers)
     return;
   }
   this->release(); // in case that there is no memory
-  allocateMap(this->table_, formatOf(channels), sizeTexels, layers);
+  allocateMap(this->table_, sumsFormat(channels), sizeTexels, layers);
   this->channels_ = channels;
   this->sizeTexels_ = sizeTexels;
   this->layers_ = layers;
@@ -55,7 +55,7 @@ void SummedAreaTable::setUnits(const glm::vec4& largest, double widestTexels)
 //------------------------------------------------------------------------------
 void SummedAreaTable::sum(GLuint map, int mapLayer, int layer, ShaderLibrary& shaders)
 {
-  const TexelFormat format = formatOf(this->channels_);
+  const TexelFormat format = sumsFormat(this->channels_);
   const std::string layout = this->channels_ == 2 ? "rg32ui" : "rgba32ui";
   const std::string source = ShaderLibrary::source("shadowtech/moment_map/sum_area.comp.glsl");
   glActiveTexture(GL_TEXTURE0);
@@ -70,7 +70,8 @@ void SummedAreaTable::sum(GLuint map, int mapLayer, int layer, ShaderLibrary& sh
     ShaderLibrary::setUniform(program, { "source", 0 });
     ShaderLibrary::setUniform(program, { "layer", mapLayer });
     ShaderLibrary::setUniform(program, { "unitsOfOne", this->unitsOfOne_ });
-    glDispatchCompute(static_cast<GLuint>((this->sizeTexels_ + groupSize - 1) / groupSize), 1, 1);
+    glDispatchCompute(
+      static_cast<GLuint>((this->sizeTexels_ + linesPerGroup - 1) / linesPerGroup), 1, 1);
     // Columns load what rows have stored, and look-ups fetch it.
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
   }

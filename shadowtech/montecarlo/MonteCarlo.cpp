@@ -3,6 +3,7 @@
 #include "lights/LightSamples.h"
 #include "shadowtech/base/ChannelView.h"
 #include "shadowtech/base/GlState.h"
+#include "shadowtech/base/GlslText.h"
 #include "shadowtech/base/LightReach.h"
 #include "shadowtech/base/Occluders.h"
 #include "shadowtech/base/ReceiverTarget.h"
@@ -17,11 +18,6 @@ namespace gnomon
 {
 namespace
 {
-
-std::string element(const std::string& name, std::size_t index)
-{
-  return name + "[" + std::to_string(index) + "]";
-}
 
 /// The light's shape, of one that has none a point.
 LightArea areaOf(const ShadowLight& light)
@@ -41,7 +37,7 @@ int filterOf(const ShadowLight& light)
   return light.area ? light.mcFilter : 0;
 }
 
-std::string refused(const ShadowLight& light)
+std::string refusedByMonteCarlo(const ShadowLight& light)
 {
   if (light.projection != Projection::Uniform && light.projection != Projection::Cube)
   {
@@ -77,7 +73,7 @@ TechniqueInfo MonteCarlo::info()
   info.needsMap = true;
   info.lightPoints = LightPoints::Seeded;
   info.seesTextures = true;
-  info.refused = refused;
+  info.refused = refusedByMonteCarlo;
   info.classes = { { "no receiver", { 0, 0, 0 } }, { "turned away from the light", { 0, 140, 60 } },
     { "lit by the map's bounds", { 230, 230, 230 } },
     { "in shadow by the map's bounds", { 90, 90, 90 } },
@@ -189,8 +185,8 @@ std::vector<Uniform> MonteCarlo::uniformsOf(const LayerInput& input) const
   {
     const glm::dmat4 rayFromView =
       rayFromCentred(this->views_.views[i], light.mapSizeTexels, this->nearest_) * centredFromView;
-    uniforms.push_back({ element("rayFromView", i), glm::mat4(rayFromView) });
-    uniforms.push_back({ element("viewFromRay", i), glm::mat4(glm::inverse(rayFromView)) });
+    uniforms.push_back({ glslElement("rayFromView", i), glm::mat4(rayFromView) });
+    uniforms.push_back({ glslElement("viewFromRay", i), glm::mat4(glm::inverse(rayFromView)) });
   }
   return uniforms;
 }

@@ -10,7 +10,7 @@ namespace gnomon
 namespace
 {
 
-constexpr int groupSize = 8; // as in slab_bounds.comp.glsl
+constexpr int slabsPerGroup = 8; // as in slab_bounds.comp.glsl
 
 /// From a texel of an N-buffer's level to the first and to the last of those of the level below that it is made of.
 glm::ivec2 stepsTo(int level)
@@ -79,7 +79,7 @@ void SlabBounds::build(
       glBindImageTexture(0, this->texture_.name(), mips ? level : 0, GL_FALSE,
         mips ? view : firstLayer + level, GL_WRITE_ONLY, GL_RGBA32F);
       const int side = 1 << (mips ? this->topLevel_ - level : this->topLevel_);
-      const auto groups = static_cast<GLuint>((side + groupSize - 1) / groupSize);
+      const auto groups = static_cast<GLuint>((side + slabsPerGroup - 1) / slabsPerGroup);
       glDispatchCompute(groups, groups, 1);
       glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
     }

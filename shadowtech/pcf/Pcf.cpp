@@ -1,5 +1,6 @@
 #include "shadowtech/pcf/Pcf.h"
 
+#include "shadowtech/base/GlslText.h"
 #include "shadowtech/base/Kernel.h"
 #include "shadowtech/base/ShaderLibrary.h"
 #include "shadowtech/pcf/PoissonDisc.h"
@@ -8,11 +9,6 @@ namespace gnomon
 {
 namespace
 {
-
-std::string define(const std::string& name, int value)
-{
-  return "#define " + name + " " + std::to_string(value) + "\n";
-}
 
 std::string poissonDiscGlsl()
 {
@@ -93,11 +89,11 @@ std::string Pcf::estimatorGlsl(const ShadowLight& light) const
   const bool smooth = castano || light.kernel == FilterKernel::Bilinear;
   const bool rows = light.kernel == FilterKernel::Bilinear && units == KernelUnits::Texels;
   const bool weighted = smooth && !rows && units != KernelUnits::Across;
-  return kernelDefines(light) + define("PCF_TEXELS_LIGHT", light.kernelTexels) +
-    define("PCF_ROWS_LIGHT", rows) + define("PCF_WEIGHTED_LIGHT", weighted) +
-    define("PCF_POISSON_LIGHT", poisson) + define("PCF_POINTS_LIGHT", poissonPoints) +
-    define("PCF_BOX_LIGHT", light.kernel == FilterKernel::Box) +
-    define("PCF_CASTANO_LIGHT", castano) + (poisson ? poissonDiscGlsl() : "") +
+  return kernelDefines(light) + glslDefine("PCF_TEXELS_LIGHT", light.kernelTexels) +
+    glslDefine("PCF_ROWS_LIGHT", rows) + glslDefine("PCF_WEIGHTED_LIGHT", weighted) +
+    glslDefine("PCF_POISSON_LIGHT", poisson) + glslDefine("PCF_POINTS_LIGHT", poissonPoints) +
+    glslDefine("PCF_BOX_LIGHT", light.kernel == FilterKernel::Box) +
+    glslDefine("PCF_CASTANO_LIGHT", castano) + (poisson ? poissonDiscGlsl() : "") +
     (castano ? castanoGlsl(light.kernelTexels) : "") +
     ShaderLibrary::source("shadowtech/pcf/pcf_estimator.glsl");
 }

@@ -1,6 +1,7 @@
 #include "shadowtech/pcss/Pcss.h"
 
 #include "lights/LightViews.h"
+#include "shadowtech/base/GlslText.h"
 #include "shadowtech/base/ShaderLibrary.h"
 
 namespace gnomon
@@ -8,12 +9,7 @@ namespace gnomon
 namespace
 {
 
-std::string define(const std::string& name, int value)
-{
-  return "#define " + name + " " + std::to_string(value) + "\n";
-}
-
-std::string refused(const ShadowLight& light)
+std::string refusedByPcss(const ShadowLight& light)
 {
   return light.earlyOut == EarlyOut::Ring
     ? "'pcss' has no ring of points to believe, since its points are all over the light; its "
@@ -30,7 +26,7 @@ TechniqueInfo Pcss::info()
   info.name = "pcss";
   info.evaluation = Evaluation::Pointwise;
   info.needsMap = true;
-  info.refused = refused;
+  info.refused = refusedByPcss;
   info.asPublished = "pcss_as_published";
   info.classes = classesOfMaps();
   info.classes.insert(info.classes.end(),
@@ -103,9 +99,9 @@ std::string Pcss::estimatorGlsl(const ShadowLight& light) const
   const std::string around =
     viewLayout(light) == ViewLayout::Cube ? "#define LOOKS_AROUND_LIGHT\n" : "";
   const bool asksBounds = light.earlyOut == EarlyOut::Exact && !measuresAlongRay(light);
-  return around + define("PCSS_BALL_LIGHT", light.area->shape == LightArea::Shape::Ball) +
-    define("PCSS_RECTANGLE_LIGHT", light.area->shape == LightArea::Shape::Rectangle) +
-    pcssCountsDefines(light.pcssSamples) + define("PCSS_ASKS_BOUNDS_LIGHT", asksBounds) +
+  return around + glslDefine("PCSS_BALL_LIGHT", light.area->shape == LightArea::Shape::Ball) +
+    glslDefine("PCSS_RECTANGLE_LIGHT", light.area->shape == LightArea::Shape::Rectangle) +
+    pcssCountsDefines(light.pcssSamples) + glslDefine("PCSS_ASKS_BOUNDS_LIGHT", asksBounds) +
     ShaderLibrary::source("shadowtech/pcss/pcss_estimator.glsl");
 }
 

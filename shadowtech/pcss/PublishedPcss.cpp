@@ -11,7 +11,7 @@ namespace gnomon
 namespace
 {
 
-std::string refused(const ShadowLight& light)
+std::string refusedByPublishedPcss(const ShadowLight& light)
 {
   const bool isMeasured =
     !light.area || (light.kind == LightKind::Spot && viewLayout(light) == ViewLayout::Single);
@@ -37,7 +37,7 @@ TechniqueInfo PublishedPcss::info()
   info.asPublished = info.name;
   info.evaluation = Evaluation::Pointwise;
   info.needsMap = true;
-  info.refused = refused;
+  info.refused = refusedByPublishedPcss;
   return info;
 }
 

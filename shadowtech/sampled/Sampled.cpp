@@ -43,7 +43,7 @@ glm::dvec2 moveOfMap(std::size_t point)
   return glm::fract(0.5 + static_cast<double>(point) * step) - 0.5;
 }
 
-std::string refused(const ShadowLight& light)
+std::string refusedBySampled(const ShadowLight& light)
 {
   if (light.projection != Projection::Uniform && light.projection != Projection::Cube)
   {
@@ -69,7 +69,7 @@ TechniqueInfo Sampled::info()
   info.lightPoints = LightPoints::Sampled;
   info.refines = true;
   info.seesTextures = true;
-  info.refused = refused;
+  info.refused = refusedBySampled;
   return info;
 }
 

@@ -5,7 +5,7 @@ namespace gnomon
 namespace
 {
 
-std::string refused(const ShadowLight& light)
+std::string refusedByCoherence(const ShadowLight& light)
 {
   return light.coherenceTexels == 0
     ? "'coherence' decides pixels by texels that agree, and without that traces all of them, as "
@@ -21,7 +21,7 @@ TechniqueInfo Coherence::info()
   TechniqueInfo info = infoOf("coherence");
   info.lightPoints = LightPoints::Sampled;
   info.seesTextures = true;
-  info.refused = refused;
+  info.refused = refusedByCoherence;
   return info;
 }
 

@@ -5,7 +5,7 @@ namespace gnomon
 namespace
 {
 
-std::string refused(const ShadowLight& light)
+std::string refusedBySelective(const ShadowLight& light)
 {
   if (light.contourPixels == 0 && light.outside == OutsideContour::Check)
   {
@@ -25,7 +25,7 @@ std::string refused(const ShadowLight& light)
 TechniqueInfo Selective::info()
 {
   TechniqueInfo info = infoOf("selective");
-  info.refused = refused;
+  info.refused = refusedBySelective;
   return info;
 }
 

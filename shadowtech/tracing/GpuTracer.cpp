@@ -12,7 +12,7 @@ namespace
 {
 
 /// Bindings of buffers, as the shaders have them.
-enum Binding : GLuint
+enum TracerBinding : GLuint
 {
   nodesBinding,
   recordsBinding,
@@ -22,7 +22,7 @@ enum Binding : GLuint
   instancesBinding,
   cutoutsBinding,
   textureCoordinatesBinding,
-  bindings
+  tracerBindings
 };
 
 constexpr int raysPerGroup = 64;
@@ -52,7 +52,7 @@ void resend(const GlBuffer& buffer, const std::vector<Element>& elements)
   }
 }
 
-void bind(Binding binding, GLuint buffer)
+void bind(TracerBinding binding, GLuint buffer)
 {
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, buffer);
 }
@@ -144,8 +144,8 @@ std::string GpuTracer::whyUnsupported()
   }
   GLint buffers = 0;
   glGetIntegerv(GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS, &buffers);
-  return buffers >= static_cast<GLint>(bindings) ? std::string()
-                                                 : "compute shaders take too few buffers";
+  return buffers >= static_cast<GLint>(tracerBindings) ? std::string()
+                                                       : "compute shaders take too few buffers";
 }
 
 //------------------------------------------------------------------------------
@@ -244,7 +244,7 @@ void GpuTracer::trace(const TracedRay* rays, std::size_t count, ShaderLibrary& s
     return;
   }
   const GlStateGuard guard;
-  const StorageBindingsGuard bindingsGuard(bindings);
+  const StorageBindingsGuard bindingsGuard(tracerBindings);
   const GLuint program = this->useProgram(shaders);
   this->bindScene();
   const auto firstOf = [](std::size_t batch) { return batch * RayBatch::mostRays; };

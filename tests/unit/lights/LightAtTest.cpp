@@ -15,24 +15,25 @@ namespace gnomon::test
 namespace
 {
 
-const glm::dvec3 centre(100.0, -50.0, 7.0);
+const glm::dvec3 placesCentre(100.0, -50.0, 7.0);
 const Bounds scene{ { -3.0, -2.0, 0.0 }, { 3.0, 4.0, 2.5 } };
 
 ViewFitting fittingTo(const Bounds& bounds)
 {
   ViewFitting fitting;
-  fitting.centreWorld = centre;
+  fitting.centreWorld = placesCentre;
   fitting.castersCentred = bounds;
   fitting.receiversCentred = bounds;
   fitting.texels = { 64, 1 };
   return fitting;
 }
 
-ShadowLight lightOf(LightKind kind, const glm::dvec3& positionCentred, const glm::dvec3& direction)
+ShadowLight lightTowards(
+  LightKind kind, const glm::dvec3& positionCentred, const glm::dvec3& direction)
 {
   ShadowLight light;
   light.kind = kind;
-  light.positionWorld = centre + positionCentred;
+  light.positionWorld = placesCentre + positionCentred;
   light.directionWorld = glm::normalize(direction);
   light.coneAngleDegrees = 40.0;
   light.lightSamples = 12;
@@ -79,7 +80,7 @@ bool isSeen(const LightViews& views, const glm::dvec3& centred)
 
 bool isInCone(const ShadowLight& light, const glm::dvec3& centred)
 {
-  const glm::dvec3 p(lightFromCentred(light, centre) * glm::dvec4(centred, 1.0));
+  const glm::dvec3 p(lightFromCentred(light, placesCentre) * glm::dvec4(centred, 1.0));
   const double tangent = std::tan(glm::radians(light.coneAngleDegrees));
   return p.z > 0.0 && std::hypot(p.x, p.y) <= tangent * p.z;
 }
@@ -93,7 +94,7 @@ TEST(LightAt, seesFromAllPointsWhatTheCentreOfASpotReaches)
   {
     for (const double angle : { 20.0, 40.0, 75.0 })
     {
-      ShadowLight light = lightOf(LightKind::Spot, place, { 0.1, -0.3, -1.0 });
+      ShadowLight light = lightTowards(LightKind::Spot, place, { 0.1, -0.3, -1.0 });
       light.coneAngleDegrees = angle;
       std::size_t lit = 0;
       for (const glm::dvec3& offset : pairedLightSamples(light))
@@ -131,16 +132,16 @@ TEST(LightAt, laysOutAllPointsOfALightAlike)
   const std::vector<ViewLayout> single(12, ViewLayout::Single);
   const std::vector<ViewLayout> cube(12, ViewLayout::Cube);
   const glm::dvec3 down(0.0, 0.0, -1.0);
-  EXPECT_EQ(layouts(lightOf(LightKind::Spot, { 0.0, 0.0, 9.0 }, down)), single);
-  EXPECT_EQ(layouts(lightOf(LightKind::Spot, { 0.0, 0.0, 2.0 }, down)), cube)
+  EXPECT_EQ(layouts(lightTowards(LightKind::Spot, { 0.0, 0.0, 9.0 }, down)), single);
+  EXPECT_EQ(layouts(lightTowards(LightKind::Spot, { 0.0, 0.0, 2.0 }, down)), cube)
     << "receivers may be at the lamp";
-  EXPECT_EQ(layouts(lightOf(LightKind::Point, { 0.0, 0.0, 9.0 }, down)), cube);
-  EXPECT_EQ(layouts(lightOf(LightKind::Directional, {}, down)), single);
+  EXPECT_EQ(layouts(lightTowards(LightKind::Point, { 0.0, 0.0, 9.0 }, down)), cube);
+  EXPECT_EQ(layouts(lightTowards(LightKind::Directional, {}, down)), single);
 }
 
 TEST(LightAt, turnsParallelRaysToThePoint)
 {
-  const ShadowLight light = lightOf(LightKind::Directional, {}, { 0.2, 0.5, -1.0 });
+  const ShadowLight light = lightTowards(LightKind::Directional, {}, { 0.2, 0.5, -1.0 });
   for (const glm::dvec3& offset : pairedLightSamples(light))
   {
     const ShadowLight at = lightAt(light, offset, fittingTo(scene));
@@ -155,7 +156,7 @@ TEST(LightAt, standsABoxAroundAllRaysIntoTheCentresBox)
 {
   for (const glm::dvec3& up : { glm::dvec3(0.0, 1.0, 0.0), { 1.0, 0.2, 0.0 } })
   {
-    ShadowLight light = lightOf(LightKind::Directional, { 0.5, 0.2, 3.0 }, { 0.2, 0.5, -1.0 });
+    ShadowLight light = lightTowards(LightKind::Directional, { 0.5, 0.2, 3.0 }, { 0.2, 0.5, -1.0 });
     light.box = LightBox{ 2.0, 1.5, 4.0, up };
     // Up to a light of 80 degrees.
     for (const double size : { 0.01, 0.3, 1.7 })
@@ -165,8 +166,8 @@ TEST(LightAt, standsABoxAroundAllRaysIntoTheCentresBox)
       {
         const ShadowLight at = lightAt(light, offset, fittingTo(scene));
         ASSERT_TRUE(at.box);
-        const glm::dmat4 boxFromCentred = lightFromCentred(at, centre);
-        const glm::dmat4 centredFromLight = glm::inverse(lightFromCentred(light, centre));
+        const glm::dmat4 boxFromCentred = lightFromCentred(at, placesCentre);
+        const glm::dmat4 centredFromLight = glm::inverse(lightFromCentred(light, placesCentre));
         const Bounds whole{ { -1.0, -0.75, 0.0 }, { 1.0, 0.75, 4.0 } };
         for (const glm::dvec3& point : pointsIn(whole))
         {

@@ -17,7 +17,7 @@ namespace gnomon::test
 namespace
 {
 
-const glm::dvec3 centre(10.0, 20.0, 30.0);
+const glm::dvec3 samplesCentre(10.0, 20.0, 30.0);
 const glm::dvec3 travel = glm::normalize(glm::dvec3(1.0, -2.0, -0.5));
 constexpr double size = 0.5;
 
@@ -57,12 +57,12 @@ TEST(LightSamples, ofAHardLightAreItsPlace)
   {
     ShadowLight light = lightOf(kind);
     light.area.reset();
-    const std::vector<glm::dvec4> samples = lightSamples(light, centre);
+    const std::vector<glm::dvec4> samples = lightSamples(light, samplesCentre);
     ASSERT_EQ(samples.size(), 1u);
-    EXPECT_EQ(samples[0], lightPoint(light, centre));
+    EXPECT_EQ(samples[0], lightPoint(light, samplesCentre));
   }
-  EXPECT_EQ(lightPoint(lightOf(LightKind::Point), centre), glm::dvec4(1.0, 2.0, 3.0, 1.0));
-  const glm::dvec4 sun = lightPoint(lightOf(LightKind::Directional), centre);
+  EXPECT_EQ(lightPoint(lightOf(LightKind::Point), samplesCentre), glm::dvec4(1.0, 2.0, 3.0, 1.0));
+  const glm::dvec4 sun = lightPoint(lightOf(LightKind::Directional), samplesCentre);
   EXPECT_NEAR(glm::distance(glm::dvec3(sun), -travel), 0.0, 1e-15);
   EXPECT_EQ(sun.w, 0.0);
 }
@@ -87,10 +87,10 @@ TEST(LightSamples, fillADiscAcrossTheLight)
   for (const LightKind kind : { LightKind::Directional, LightKind::Spot })
   {
     const ShadowLight light = lightOf(kind);
-    const glm::dvec3 middle(lightPoint(light, centre));
+    const glm::dvec3 middle(lightPoint(light, samplesCentre));
     glm::dvec3 mean(0.0);
     int inner = 0;
-    for (const glm::dvec4& sample : lightSamples(light, centre))
+    for (const glm::dvec4& sample : lightSamples(light, samplesCentre))
     {
       glm::dvec3 offset = glm::dvec3(sample) - middle;
       if (kind == LightKind::Directional)
@@ -119,7 +119,7 @@ TEST(LightSamples, fillARectangleAlongItsUpDirection)
   EXPECT_GT(glm::dot(alongHeight, up), 0.0);
   glm::dvec2 low(1.0);
   glm::dvec2 high(-1.0);
-  for (const glm::dvec4& sample : lightSamples(light, centre))
+  for (const glm::dvec4& sample : lightSamples(light, samplesCentre))
   {
     const glm::dvec3 offset = glm::dvec3(sample) - glm::dvec3(1.0, 2.0, 3.0);
     const glm::dvec2 place(glm::dot(offset, alongWidth), glm::dot(offset, alongHeight));
@@ -141,7 +141,7 @@ TEST(LightSamples, ofALampLookLikeAnEvenDiscFromAllSides)
     for (const double share : { 0.1, 0.25, 0.5, 0.75, 0.9 })
     {
       int inside = 0;
-      for (const glm::dvec4& sample : lightSamples(light, centre))
+      for (const glm::dvec4& sample : lightSamples(light, samplesCentre))
       {
         const glm::dvec3 offset = glm::dvec3(sample) - glm::dvec3(1.0, 2.0, 3.0);
         inside +=
@@ -161,9 +161,9 @@ TEST(LightSamples, areTheSameAtEveryCallAndAllDiffer)
     {
       ShadowLight light = lightOf(kind);
       light.lightSamples = count;
-      const std::vector<glm::dvec4> samples = lightSamples(light, centre);
+      const std::vector<glm::dvec4> samples = lightSamples(light, samplesCentre);
       ASSERT_EQ(samples.size(), static_cast<std::size_t>(count));
-      EXPECT_EQ(samples, lightSamples(light, centre));
+      EXPECT_EQ(samples, lightSamples(light, samplesCentre));
       for (std::size_t i = 0; i < samples.size(); ++i)
       {
         EXPECT_TRUE(std::isfinite(glm::dot(samples[i], samples[i])));

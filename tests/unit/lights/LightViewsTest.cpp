@@ -13,19 +13,19 @@ namespace
 {
 
 constexpr int mapSize = 64;
-const glm::dvec3 centre(100.0, -50.0, 7.0);
+const glm::dvec3 viewsCentre(100.0, -50.0, 7.0);
 
 Bounds box(const glm::dvec3& lower, const glm::dvec3& upper)
 {
   return { lower, upper };
 }
 
-ShadowLight lightOf(LightKind kind, const glm::dvec3& positionCentred,
+ShadowLight lightAround(LightKind kind, const glm::dvec3& positionCentred,
   const glm::dvec3& direction = { 0.0, 0.0, -1.0 }, double coneAngleDegrees = 0.0)
 {
   ShadowLight light;
   light.kind = kind;
-  light.positionWorld = centre + positionCentred;
+  light.positionWorld = viewsCentre + positionCentred;
   light.directionWorld = glm::normalize(direction);
   light.coneAngleDegrees = coneAngleDegrees;
   return light;
@@ -33,11 +33,11 @@ ShadowLight lightOf(LightKind kind, const glm::dvec3& positionCentred,
 
 LightViews fit(const ShadowLight& light, const Bounds& casters)
 {
-  return fitLightViews(light, centre, casters, mapSize);
+  return fitLightViews(light, viewsCentre, casters, mapSize);
 }
 
 /// Points in the box, its corners and more.
-std::vector<glm::dvec3> pointsIn(const Bounds& bounds)
+std::vector<glm::dvec3> pointsInBox(const Bounds& bounds)
 {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
@@ -86,7 +86,7 @@ void expectSeen(const LightView* view, const glm::dvec3& point)
 void expectAllSeen(const ShadowLight& light, const Bounds& casters)
 {
   const LightViews views = fit(light, casters);
-  for (const glm::dvec3& point : pointsIn(casters))
+  for (const glm::dvec3& point : pointsInBox(casters))
   {
     expectSeen(viewOf(views, point), point);
   }
@@ -107,10 +107,10 @@ std::vector<int> facesOf(const LightViews& views)
 
 TEST(LightViews, LayoutFollowsFromTheLightAlone)
 {
-  EXPECT_EQ(viewLayout(lightOf(LightKind::Directional, {})), ViewLayout::Single);
-  EXPECT_EQ(viewLayout(lightOf(LightKind::Spot, {}, { 0, 0, 1 }, 60.0)), ViewLayout::Single);
-  EXPECT_EQ(viewLayout(lightOf(LightKind::Spot, {}, { 0, 0, 1 }, 60.1)), ViewLayout::Cube);
-  EXPECT_EQ(viewLayout(lightOf(LightKind::Point, {})), ViewLayout::Cube);
+  EXPECT_EQ(viewLayout(lightAround(LightKind::Directional, {})), ViewLayout::Single);
+  EXPECT_EQ(viewLayout(lightAround(LightKind::Spot, {}, { 0, 0, 1 }, 60.0)), ViewLayout::Single);
+  EXPECT_EQ(viewLayout(lightAround(LightKind::Spot, {}, { 0, 0, 1 }, 60.1)), ViewLayout::Cube);
+  EXPECT_EQ(viewLayout(lightAround(LightKind::Point, {})), ViewLayout::Cube);
 }
 
 TEST(LightViews, SeeAllCasters)
@@ -119,13 +119,13 @@ TEST(LightViews, SeeAllCasters)
   for (const glm::dvec3& direction :
     { glm::dvec3(0, 0, -1), { 0, 1, 0 }, { -1, 0, 0 }, { 0.3, -0.5, -0.7 } })
   {
-    expectAllSeen(lightOf(LightKind::Directional, {}, direction), casters);
+    expectAllSeen(lightAround(LightKind::Directional, {}, direction), casters);
   }
-  expectAllSeen(lightOf(LightKind::Spot, { 1.0, 0.0, 9.0 }, { 0, 0, -1 }, 50.0), casters);
+  expectAllSeen(lightAround(LightKind::Spot, { 1.0, 0.0, 9.0 }, { 0, 0, -1 }, 50.0), casters);
   for (const glm::dvec3& position :
     { glm::dvec3(1.0, 0.0, 9.0), { 6.0, 7.0, 8.0 }, { -20.0, 0.1, 0.2 }, { 1e6, 1e6, 0.0 } })
   {
-    expectAllSeen(lightOf(LightKind::Point, position), casters);
+    expectAllSeen(lightAround(LightKind::Point, position), casters);
   }
 }
 
@@ -142,10 +142,10 @@ TEST(LightViews, KeepTheBorderThatTheyAreAskedFor)
     };
     // The border of a cube's face lies at 45 degrees, that of a sun's view around the casters.
     const LightViews faces =
-      fitLightViews(lightOf(LightKind::Point, {}), centre, casters, mapSize, asked);
+      fitLightViews(lightAround(LightKind::Point, {}), viewsCentre, casters, mapSize, asked);
     ASSERT_EQ(faces.views.size(), 6u);
     const LightViews suns = fitLightViews(
-      lightOf(LightKind::Directional, {}, { 0, 0, -1 }), centre, casters, mapSize, asked);
+      lightAround(LightKind::Directional, {}, { 0, 0, -1 }), viewsCentre, casters, mapSize, asked);
     for (const LightView* view : { &faces.views[5], &suns.views[0] })
     {
       const glm::dvec2 corner = texelOf(*view, { 1.0, 1.0, -1.0 });
@@ -161,18 +161,18 @@ TEST(LightViews, FlatCastersAreSeen)
   const Bounds floor = box({ -3.0, -3.0, 0.0 }, { 3.0, 3.0, 0.0 });
   for (const LightKind kind : { LightKind::Directional, LightKind::Point })
   {
-    expectAllSeen(lightOf(kind, { 0.5, 0.2, 2.0 }), floor);
-    expectAllSeen(lightOf(kind, { 9.0, 0.2, 0.0 }, { -1.0, 0.0, 0.0 }), floor);
+    expectAllSeen(lightAround(kind, { 0.5, 0.2, 2.0 }), floor);
+    expectAllSeen(lightAround(kind, { 9.0, 0.2, 0.0 }, { -1.0, 0.0, 0.0 }), floor);
   }
 }
 
 TEST(LightViews, FromAmongTheCastersAPointLightLooksEverywhere)
 {
   const Bounds room = box({ -3.0, -2.0, -1.5 }, { 3.0, 2.0, 1.5 });
-  const LightViews views = fit(lightOf(LightKind::Point, { 0.4, 0.2, 0.9 }), room);
+  const LightViews views = fit(lightAround(LightKind::Point, { 0.4, 0.2, 0.9 }), room);
   EXPECT_EQ(views.views.size(), 6u);
   std::size_t seen = 0;
-  for (const glm::dvec3& point : pointsIn(room))
+  for (const glm::dvec3& point : pointsInBox(room))
   {
     // Those nearer than the near plane excepted.
     if (glm::length(point - glm::dvec3(0.4, 0.2, 0.9)) > 0.01)
@@ -187,7 +187,7 @@ TEST(LightViews, FromAmongTheCastersAPointLightLooksEverywhere)
 TEST(LightViews, FacesMeetAtTheirBorders)
 {
   const Bounds room = box(glm::dvec3(-3.0), glm::dvec3(3.0));
-  const LightViews views = fit(lightOf(LightKind::Point, glm::dvec3(0.0)), room);
+  const LightViews views = fit(lightAround(LightKind::Point, glm::dvec3(0.0)), room);
   ASSERT_EQ(views.views.size(), 6u);
   // On the border of two faces, and on a corner of three, each of them could answer.
   for (const glm::dvec3& point :
@@ -210,9 +210,9 @@ TEST(LightViews, FacesMeetAtTheirBorders)
 TEST(LightViews, FacesWithoutCastersAreLeftOut)
 {
   const Bounds below = box({ -0.5, -0.5, -3.0 }, { 0.5, 0.5, -2.0 });
-  EXPECT_EQ(facesOf(fit(lightOf(LightKind::Point, {}), below)), std::vector<int>({ 5 }));
+  EXPECT_EQ(facesOf(fit(lightAround(LightKind::Point, {}), below)), std::vector<int>({ 5 }));
   const Bounds beside = box({ 1.0, -5.0, -0.5 }, { 2.0, 0.5, 0.5 });
-  EXPECT_EQ(facesOf(fit(lightOf(LightKind::Point, {}), beside)), std::vector<int>({ 0, 3 }));
+  EXPECT_EQ(facesOf(fit(lightAround(LightKind::Point, {}), beside)), std::vector<int>({ 0, 3 }));
 }
 
 /// What a view's map spans, as slopes in the view's own space.
@@ -229,7 +229,7 @@ TEST(LightViews, FacesSeeCastersThatLieWithinTheBorderBeyondTheirEdge)
   const Bounds plate = box({ 1.0, -1.0, -2.0 }, { 1.99, 1.0, -2.0 });
   constexpr int border = 8;
   const LightViews wide =
-    fitLightViews(lightOf(LightKind::Point, {}), centre, plate, mapSize, border);
+    fitLightViews(lightAround(LightKind::Point, {}), viewsCentre, plate, mapSize, border);
   EXPECT_EQ(facesOf(wide), std::vector<int>({ 0, 5 }));
   // From the plate beyond the edge to the last point on this side from which it is read.
   const auto [lower, upper] = slopesOf(wide.views.at(0));
@@ -242,7 +242,7 @@ TEST(LightViews, FacesSeeCastersThatLieWithinTheBorderBeyondTheirEdge)
   EXPECT_LE((edge < 0.0 ? lower[axis] : -upper[axis]), -1.0 + border * texel[axis]);
   // Out of reach it is left out.
   EXPECT_EQ(
-    facesOf(fit(lightOf(LightKind::Point, {}), box({ 1.0, -1.0, -2.0 }, { 1.8, 1.0, -2.0 }))),
+    facesOf(fit(lightAround(LightKind::Point, {}), box({ 1.0, -1.0, -2.0 }, { 1.8, 1.0, -2.0 }))),
     std::vector<int>({ 5 }));
 }
 
@@ -250,7 +250,7 @@ TEST(LightViews, FacesThatShareAnEdgeWithCastersHaveTexelsOfASize)
 {
   // A floor that the face below sees whole, and the faces beside it in a sliver.
   const Bounds floor = box({ -2.02, -2.02, -2.0 }, { 2.02, 2.02, -2.0 });
-  const LightViews views = fit(lightOf(LightKind::Point, {}), floor);
+  const LightViews views = fit(lightAround(LightKind::Point, {}), floor);
   EXPECT_EQ(facesOf(views), std::vector<int>({ 0, 1, 2, 3, 5 }));
   double smallest = 1e300;
   double largest = 0.0;
@@ -266,10 +266,10 @@ TEST(LightViews, FacesThatShareAnEdgeWithCastersHaveTexelsOfASize)
 TEST(LightViews, WideSpotsDoNotLookBehindThemselves)
 {
   const Bounds room = box(glm::dvec3(-3.0), glm::dvec3(3.0));
-  const LightViews views = fit(lightOf(LightKind::Spot, {}, { 0.0, 0.0, -1.0 }, 75.0), room);
+  const LightViews views = fit(lightAround(LightKind::Spot, {}, { 0.0, 0.0, -1.0 }, 75.0), room);
   EXPECT_EQ(facesOf(views), std::vector<int>({ 0, 1, 2, 3, 4 }));
   EXPECT_NEAR(views.coneTangentSquared, std::pow(std::tan(glm::radians(75.0)), 2.0), 1e-12);
-  for (const glm::dvec3& point : pointsIn(box(glm::dvec3(-3.0), { 3.0, 3.0, 0.0 })))
+  for (const glm::dvec3& point : pointsInBox(box(glm::dvec3(-3.0), { 3.0, 3.0, 0.0 })))
   {
     if (glm::length(point) > 0.01)
     {
@@ -295,8 +295,8 @@ TEST(LightViews, MapsAreFittedToTheCasters)
   };
   const Bounds casters = box({ -1.0, -2.0, -9.5 }, { 3.0, 1.0, -8.0 });
   const double inner = 2.0 * (1.0 - 2.0 / mapSize);
-  for (const ShadowLight& light : { lightOf(LightKind::Directional, {}),
-         lightOf(LightKind::Spot, {}, { 0, 0, -1 }, 50.0), lightOf(LightKind::Point, {}) })
+  for (const ShadowLight& light : { lightAround(LightKind::Directional, {}),
+         lightAround(LightKind::Spot, {}, { 0, 0, -1 }, 50.0), lightAround(LightKind::Point, {}) })
   {
     const glm::dvec2 extent = extentOf(fit(light, casters), casters);
     EXPECT_NEAR(extent.x, inner, 1e-4);
@@ -306,27 +306,27 @@ TEST(LightViews, MapsAreFittedToTheCasters)
 
 TEST(LightViews, ThereAreNoneWithoutCastersToShineOn)
 {
-  EXPECT_TRUE(fit(lightOf(LightKind::Directional, {}), Bounds()).views.empty());
-  EXPECT_TRUE(fit(lightOf(LightKind::Point, {}), Bounds()).views.empty());
+  EXPECT_TRUE(fit(lightAround(LightKind::Directional, {}), Bounds()).views.empty());
+  EXPECT_TRUE(fit(lightAround(LightKind::Point, {}), Bounds()).views.empty());
   const Bounds behind = box({ -1.0, -1.0, 1.0 }, { 1.0, 1.0, 2.0 });
   for (const double cone : { 20.0, 60.0, 89.0 })
   {
-    EXPECT_TRUE(fit(lightOf(LightKind::Spot, {}, { 0, 0, -1 }, cone), behind).views.empty());
+    EXPECT_TRUE(fit(lightAround(LightKind::Spot, {}, { 0, 0, -1 }, cone), behind).views.empty());
   }
   const Bounds aside = box({ 5.0, -1.0, -2.0 }, { 6.0, 1.0, -1.0 });
-  EXPECT_TRUE(fit(lightOf(LightKind::Spot, {}, { 0, 0, -1 }, 30.0), aside).views.empty());
+  EXPECT_TRUE(fit(lightAround(LightKind::Spot, {}, { 0, 0, -1 }, 30.0), aside).views.empty());
 }
 
 TEST(LightViews, OfABoxHoldWhatIsInIt)
 {
-  ShadowLight light = lightOf(LightKind::Directional, { 0.0, 0.0, 5.0 });
+  ShadowLight light = lightAround(LightKind::Directional, { 0.0, 0.0, 5.0 });
   light.box = LightBox{ 2.0, 4.0, 4.0 };
   // Across the near face at z = 5 and past the far one at z = 1, and over its sides.
   const LightViews views = fit(light, box({ -9.0, -0.5, 0.0 }, { 9.0, 9.0, 8.0 }));
   ASSERT_EQ(views.views.size(), 1u);
   EXPECT_EQ(views.views[0].beginsAt, 0.0);
   EXPECT_EQ(views.box, glm::dvec3(1.0, 2.0, 4.0));
-  for (const glm::dvec3& point : pointsIn(box({ -1.0, -0.5, 1.0 }, { 1.0, 2.0, 5.0 })))
+  for (const glm::dvec3& point : pointsInBox(box({ -1.0, -0.5, 1.0 }, { 1.0, 2.0, 5.0 })))
   {
     expectSeen(&views.views[0], point);
   }
@@ -337,7 +337,7 @@ TEST(LightViews, OfABoxHoldWhatIsInIt)
 
 TEST(LightViews, ABoxThatTouchesCastersInAPointStaysFinite)
 {
-  ShadowLight light = lightOf(LightKind::Directional, { 0.0, 0.0, 5.0 });
+  ShadowLight light = lightAround(LightKind::Directional, { 0.0, 0.0, 5.0 });
   light.box = LightBox{ 2.0, 2.0, 4.0 };
   const LightViews views = fit(light, box({ 1.0, 1.0, -3.0 }, { 2.0, 2.0, 1.0 }));
   ASSERT_EQ(views.views.size(), 1u);
@@ -351,7 +351,7 @@ TEST(LightViews, ABoxThatTouchesCastersInAPointStaysFinite)
 TEST(LightView, LeavesOutOnlyWhatItCannotSee)
 {
   const Bounds room = box(glm::dvec3(-3.0), glm::dvec3(3.0));
-  const LightViews views = fit(lightOf(LightKind::Point, glm::dvec3(0.0)), room);
+  const LightViews views = fit(lightAround(LightKind::Point, glm::dvec3(0.0)), room);
   const auto seenBy = [&](const Bounds& part)
   {
     return std::count_if(views.views.begin(), views.views.end(),

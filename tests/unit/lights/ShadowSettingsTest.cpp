@@ -16,7 +16,7 @@ namespace
 
 TEST(ShadowSettings, takeWhatTheyGive)
 {
-  for (const Setting& setting : shadowSettings())
+  for (const gnomon::Setting& setting : shadowSettings())
   {
     ShadowSettings settings;
     const std::string text = setting.get(settings);
@@ -48,7 +48,7 @@ TEST(ShadowSettings, refuseWhatTheyDoNotTakeAndStayAsTheyAre)
 
 TEST(ShadowSettings, takeEveryChoiceAndGiveItBack)
 {
-  for (const Setting& setting : shadowSettings())
+  for (const gnomon::Setting& setting : shadowSettings())
   {
     const auto* choice = std::get_if<ChoiceSetting>(&setting.values);
     for (std::size_t i = 0; choice && i < choice->names.size(); ++i)

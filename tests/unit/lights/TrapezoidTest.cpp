@@ -17,7 +17,7 @@ glm::dmat3 trapezoidOf(const Setting& setting)
   return trapezoidFromAcross(setting.body().vertices(), setting.camera, setting.rays);
 }
 
-glm::dmat3 uniformOf(const Setting& setting)
+glm::dmat3 uniformUnderTrapezoid(const Setting& setting)
 {
   return uniformFromAcross(setting.rays.across(setting.body().vertices()));
 }
@@ -38,7 +38,7 @@ TEST(Trapezoid, TouchesAllSidesOfTheMap)
   const Setting setting = terrain(directionalRays({ 0.4, 0.3, -1.0 }));
   const auto across = setting.rays.across(setting.body().vertices());
   const glm::dmat3 map = trapezoidOf(setting);
-  ASSERT_NE(map, uniformOf(setting));
+  ASSERT_NE(map, uniformUnderTrapezoid(setting));
   const Rectangle range = rangeOf(map, across);
   EXPECT_LT(glm::length(range.lower + 1.0), 1e-9);
   EXPECT_LT(glm::length(range.upper - 1.0), 1e-9);
@@ -84,7 +84,7 @@ TEST(Trapezoid, TakesTheCornersOfTheTrapezoidToThoseOfTheMap)
       rightLeg = std::max(rightLeg, slope);
     }
     const glm::dmat3 map = trapezoidOf(setting);
-    ASSERT_NE(map, uniformOf(setting));
+    ASSERT_NE(map, uniformUnderTrapezoid(setting));
     for (const double x : { -1.0, 1.0 })
     {
       for (const double y : { -1.0, 1.0 })
@@ -113,7 +113,7 @@ TEST(Trapezoid, IsUniformForLightAlongTheViewEitherWay)
            glm::dvec3(0.05, 0.0, 0.0), glm::dvec3(0.0, 0.0, 0.05) })
     {
       const Setting setting = terrain(directionalRays(view + aside));
-      EXPECT_EQ(trapezoidOf(setting), uniformOf(setting));
+      EXPECT_EQ(trapezoidOf(setting), uniformUnderTrapezoid(setting));
     }
   }
 }
@@ -122,7 +122,7 @@ TEST(Trapezoid, IsUniformForAParallelCamera)
 {
   Setting setting = terrain(directionalRays({ 0.0, 0.0, -1.0 }));
   setting.camera.clipFromView = glm::ortho(-10.0, 10.0, -10.0, 10.0, 0.0, 3000.0);
-  EXPECT_EQ(trapezoidOf(setting), uniformOf(setting));
+  EXPECT_EQ(trapezoidOf(setting), uniformUnderTrapezoid(setting));
 }
 
 TEST(Trapezoid, IsHardlyWorseThanUniformForAnyLight)
@@ -138,7 +138,7 @@ TEST(Trapezoid, SpreadsTheTexelsOverATerrain)
     const Setting setting = terrain(directionalRays(light));
     const auto ground = groundSeen(setting);
     EXPECT_LE(worstTexel(ground, setting, trapezoidOf(setting)),
-      0.15 * worstTexel(ground, setting, uniformOf(setting)));
+      0.15 * worstTexel(ground, setting, uniformUnderTrapezoid(setting)));
   }
 }
 

@@ -102,9 +102,9 @@ vtkCompositeDataDisplayAttributes* attributesOf(vtkActor* actor)
 }
 
 /// One source at every point of a polydata.
-struct Glyphs
+struct PlacedGlyphs
 {
-  Glyphs(vtkPolyData* points, vtkPolyData* source)
+  PlacedGlyphs(vtkPolyData* points, vtkPolyData* source)
   {
     this->mapper->SetInputData(points);
     this->mapper->SetSourceData(source);
@@ -326,7 +326,7 @@ TEST(OccluderProps, TranslucentColoursMakeAPropTranslucent)
 TEST(OccluderProps, UnservedMappersAreNoted)
 {
   Scene scene;
-  const Glyphs glyphs(makeSquare(), makeSquare());
+  const PlacedGlyphs glyphs(makeSquare(), makeSquare());
   glyphs.mapper->SetCullingAndLOD(true);
   scene.renderer->AddActor(glyphs.actor);
   scene.collect();
@@ -381,7 +381,7 @@ TEST(OccluderGlyphs, AreReadAgainOnlyWhenTheyChange)
   Scene scene;
   const auto points = makeSquare();
   const auto source = makeSquare();
-  const Glyphs glyphs(points, source);
+  const PlacedGlyphs glyphs(points, source);
   scene.renderer->AddActor(glyphs.actor);
   scene.collect();
   EXPECT_EQ(scene.occluders().triangles.size(), 4u * 2u);
@@ -412,7 +412,7 @@ TEST(OccluderGlyphs, AreReadAgainOnlyWhenTheyChange)
 TEST(OccluderGlyphs, WhatVtkDoesNotDrawIsLeftOut)
 {
   Scene scene;
-  const Glyphs glyphs(makeSquare(), makeSquare());
+  const PlacedGlyphs glyphs(makeSquare(), makeSquare());
   scene.renderer->AddActor(glyphs.actor);
   vtkNew<vtkFloatArray> pairs;
   pairs->SetName("pairs");
@@ -450,7 +450,7 @@ TEST(OccluderGlyphs, MoreTrianglesThanTheBoundAreLeftOutAndNoted)
     corners.insert(corners.end(), { { 0, 0, i }, { 1, 0, i }, { 0, 1, i } });
     triangles.push_back({ 3 * i, 3 * i + 1, 3 * i + 2 });
   }
-  const Glyphs glyphs(points, makePolyData(corners, triangles));
+  const PlacedGlyphs glyphs(points, makePolyData(corners, triangles));
   scene.renderer->AddActor(glyphs.actor);
   scene.renderer->AddActor(makeActor(makeSquare()));
   for (int frame = 0; frame < 2; ++frame)
@@ -501,7 +501,7 @@ struct RowGlyphs
   }
 
   vtkSmartPointer<vtkPolyData> points = makePoints();
-  Glyphs glyphs{ this->points, makeRow() };
+  PlacedGlyphs glyphs{ this->points, makeRow() };
 };
 
 TEST(OccluderGlyphs, KeptAsInstancesAreThereOnce)

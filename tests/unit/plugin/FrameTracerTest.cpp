@@ -113,14 +113,14 @@ protected:
   FrameTracer tracer_{ this->buffers_, this->shaders_ };
 };
 
-const TracerChoice embree{ false, true, "asked for" };
-const TracerChoice gpu{ true, true, "asked for" };
+const TracerChoice embreeChoice{ false, true, "asked for" };
+const TracerChoice gpuChoice{ true, true, "asked for" };
 const TracerChoice gpuIfPossible{ true, false, "hardware" };
 
 TEST_F(FrameTracers, oneAtATimeHasAStructure)
 {
   EXPECT_EQ(this->tracer_.bytes() + this->tracer_.bytesOfTable() + this->tracer_.bytesOfRays(), 0u);
-  EXPECT_EQ(this->tracer_.update(embree, this->occluders_).builds, 2);
+  EXPECT_EQ(this->tracer_.update(embreeChoice, this->occluders_).builds, 2);
   EXPECT_FALSE(this->tracer_.taken().gpu);
   const std::vector<float> byEmbree = this->trace();
   EXPECT_GT(std::count(byEmbree.begin(), byEmbree.end(), 0.0f), 200);
@@ -128,17 +128,17 @@ TEST_F(FrameTracers, oneAtATimeHasAStructure)
   EXPECT_GT(bytesOfEmbree, 0u);
   EXPECT_GT(this->tracer_.bytesOfTable(), 0u);
   EXPECT_EQ(this->tracer_.bytesOfRays(), 0u);
-  EXPECT_EQ(this->tracer_.update(embree, this->occluders_).builds, 0);
+  EXPECT_EQ(this->tracer_.update(embreeChoice, this->occluders_).builds, 0);
 
-  EXPECT_EQ(this->tracer_.update(gpu, this->occluders_).builds, 1);
+  EXPECT_EQ(this->tracer_.update(gpuChoice, this->occluders_).builds, 1);
   EXPECT_TRUE(this->tracer_.taken().gpu);
   EXPECT_EQ(this->trace(), byEmbree);
   EXPECT_EQ(this->tracer_.bytesOfTable(), 0u);
   // 2 x 5 tiles of 64 x 16 pixels, a ray and an answer each.
   EXPECT_GE(this->tracer_.bytesOfRays(), 10u * 1024u * 32u);
-  EXPECT_EQ(this->tracer_.update(gpu, this->occluders_).builds, 0);
+  EXPECT_EQ(this->tracer_.update(gpuChoice, this->occluders_).builds, 0);
 
-  EXPECT_EQ(this->tracer_.update(embree, this->occluders_).builds, 2);
+  EXPECT_EQ(this->tracer_.update(embreeChoice, this->occluders_).builds, 2);
   EXPECT_EQ(this->tracer_.bytesOfRays(), 0u);
   EXPECT_EQ(this->trace(), byEmbree);
 }
@@ -148,10 +148,10 @@ TEST_F(FrameTracers, whatTheGpuHasNoRoomForIsAnErrorWhereItWasAskedFor)
   this->makeHuge();
   for (int frame = 0; frame < 2; ++frame)
   {
-    EXPECT_THROW(this->tracer_.update(gpu, this->occluders_), TextureMemoryError);
+    EXPECT_THROW(this->tracer_.update(gpuChoice, this->occluders_), TextureMemoryError);
     EXPECT_EQ(this->tracer_.bytes(), 0u);
   }
-  EXPECT_EQ(this->tracer_.update(embree, this->occluders_).builds, 2);
+  EXPECT_EQ(this->tracer_.update(embreeChoice, this->occluders_).builds, 2);
 }
 
 TEST_F(FrameTracers, embreeTakesOverWhatTheGpuHasNoRoomFor)
@@ -184,7 +184,7 @@ TEST_F(FrameTracers, embreeTakesOverWhatTheGpuHasNoRoomFor)
 TEST_F(FrameTracers, nothingIsTracedWhereNothingCasts)
 {
   this->occluders_ = makeOccluders({});
-  for (const TracerChoice& choice : { embree, gpu })
+  for (const TracerChoice& choice : { embreeChoice, gpuChoice })
   {
     EXPECT_EQ(this->tracer_.update(choice, this->occluders_).builds, 0);
     EXPECT_EQ(this->trace(), std::vector<float>(90 * 70, 1.0f));

@@ -23,32 +23,32 @@ namespace
 using testing::HasSubstr;
 using testing::StartsWith;
 
-const std::string geforce = "NVIDIA GeForce RTX 4090/PCIe/SSE2";
+const std::string geforceRenderer = "NVIDIA GeForce RTX 4090/PCIe/SSE2";
 const std::string llvmpipe = "llvmpipe (LLVM 15.0.6, 256 bits)";
 constexpr int automatic = vtkGnomonShadowPass::RASTERIZER_AUTO;
 constexpr int cpu = vtkGnomonShadowPass::RASTERIZER_CPU;
-constexpr int gpu = vtkGnomonShadowPass::RASTERIZER_GPU;
+constexpr int gpuWished = vtkGnomonShadowPass::RASTERIZER_GPU;
 
 TEST(RasterizerChoice, isWhatWasAskedFor)
 {
-  for (const std::string& renderer : { llvmpipe, geforce })
+  for (const std::string& renderer : { llvmpipe, geforceRenderer })
   {
     const RasterizerChoice asCpu = chooseRasterizer(cpu, "", "", renderer);
     EXPECT_FALSE(asCpu.gpu);
     EXPECT_TRUE(asCpu.asked);
     EXPECT_EQ(asCpu.reason, "asked for");
-    EXPECT_EQ(chooseRasterizer(gpu, "", "", renderer).gpu, CellPath::Extension);
-    EXPECT_EQ(chooseRasterizer(gpu, "", "no extension", renderer).gpu, CellPath::Compute);
+    EXPECT_EQ(chooseRasterizer(gpuWished, "", "", renderer).gpu, CellPath::Extension);
+    EXPECT_EQ(chooseRasterizer(gpuWished, "", "no extension", renderer).gpu, CellPath::Compute);
   }
 }
 
 TEST(RasterizerChoice, isTheGpuWhereOpenGlIsHardwareAndHasAnExtension)
 {
-  const RasterizerChoice hardware = chooseRasterizer(automatic, "", "", geforce);
+  const RasterizerChoice hardware = chooseRasterizer(automatic, "", "", geforceRenderer);
   EXPECT_EQ(hardware.gpu, CellPath::Extension);
   EXPECT_FALSE(hardware.asked);
-  EXPECT_EQ(hardware.reason, "OpenGL draws by hardware: " + geforce);
-  const RasterizerChoice without = chooseRasterizer(automatic, "", "no extension", geforce);
+  EXPECT_EQ(hardware.reason, "OpenGL draws by hardware: " + geforceRenderer);
+  const RasterizerChoice without = chooseRasterizer(automatic, "", "no extension", geforceRenderer);
   EXPECT_FALSE(without.gpu);
   EXPECT_EQ(without.reason, "no extension");
   const RasterizerChoice software = chooseRasterizer(automatic, "", "", llvmpipe);
@@ -58,11 +58,11 @@ TEST(RasterizerChoice, isTheGpuWhereOpenGlIsHardwareAndHasAnExtension)
 
 TEST(RasterizerChoice, tellsWhatTheGpuLacks)
 {
-  EXPECT_FALSE(chooseRasterizer(automatic, "it lacks this", "it lacks that", geforce).gpu);
-  EXPECT_FALSE(chooseRasterizer(cpu, "it lacks this", "it lacks that", geforce).gpu);
+  EXPECT_FALSE(chooseRasterizer(automatic, "it lacks this", "it lacks that", geforceRenderer).gpu);
+  EXPECT_FALSE(chooseRasterizer(cpu, "it lacks this", "it lacks that", geforceRenderer).gpu);
   try
   {
-    chooseRasterizer(gpu, "it lacks this", "it lacks that", geforce);
+    chooseRasterizer(gpuWished, "it lacks this", "it lacks that", geforceRenderer);
     FAIL() << "it cannot";
   }
   catch (const std::runtime_error& error)
@@ -176,7 +176,7 @@ TEST_F(Rasterizers, areInTheReport)
     whyUnsupported(CellPath::Extension), reinterpret_cast<const char*>(glGetString(GL_RENDERER)));
   EXPECT_EQ(first.rasterizer, choice.gpu ? std::string("gpu: ") + nameOf(*choice.gpu) : "cpu");
   EXPECT_EQ(first.rasterizerReason, choice.reason);
-  this->scene_.pass->SetRasterizer(gpu);
+  this->scene_.pass->SetRasterizer(gpuWished);
   EXPECT_THAT(this->render().rasterizer, StartsWith("gpu: "));
   EXPECT_EQ(this->render().rasterizerReason, "asked for");
   this->scene_.pass->SetTechnique("silhouette");
@@ -197,7 +197,7 @@ TEST_F(Rasterizers, drawMapsAnewOnlyWhereTheyChange)
   this->scene_.pass->SetRasterizer(cpu);
   this->render();
   EXPECT_EQ(this->scene_.report().mapBakes, 1);
-  this->scene_.pass->SetRasterizer(gpu);
+  this->scene_.pass->SetRasterizer(gpuWished);
   this->render();
   EXPECT_EQ(this->scene_.report().mapBakes, 1);
   this->render();
@@ -209,7 +209,7 @@ TEST_F(Rasterizers, areThereForTheReasonOfThisFrame)
 {
   const bool byCpu = this->render().rasterizer == "cpu";
   EXPECT_NE(this->scene_.report().lights.at(0).rasterizerReason, "asked for");
-  this->scene_.pass->SetRasterizer(byCpu ? cpu : gpu);
+  this->scene_.pass->SetRasterizer(byCpu ? cpu : gpuWished);
   EXPECT_EQ(this->render().rasterizerReason, "asked for");
   EXPECT_EQ(this->scene_.report().mapBakes, 0);
   this->scene_.pass->SetRasterizer(automatic);
@@ -219,7 +219,7 @@ TEST_F(Rasterizers, areThereForTheReasonOfThisFrame)
 
 TEST_F(Rasterizers, areTheCpuForMapsAsPublished)
 {
-  this->scene_.pass->SetRasterizer(gpu);
+  this->scene_.pass->SetRasterizer(gpuWished);
   this->scene_.pass->SetSetting("as_published", "on");
   for (const char* technique : { "crsm", "crsma" })
   {
@@ -234,12 +234,12 @@ TEST_F(Rasterizers, leaveNothingOnTheGpu)
 {
   this->scene_.pass->SetRasterizer(cpu);
   this->render();
-  this->scene_.pass->SetRasterizer(gpu);
+  this->scene_.pass->SetRasterizer(gpuWished);
   this->render(); // programs stay
   this->scene_.pass->SetRasterizer(cpu);
   this->render();
   const LiveObjects before = countLiveObjects(this->scene_.window);
-  for (const int rasterizer : { gpu, cpu, gpu })
+  for (const int rasterizer : { gpuWished, cpu, gpuWished })
   {
     this->scene_.pass->SetRasterizer(rasterizer);
     this->render();

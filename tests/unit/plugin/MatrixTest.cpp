@@ -185,7 +185,8 @@ protected:
   MatrixScene scene{ kind, look };
 };
 
-std::string nameOfPair(const testing::TestParamInfo<std::tuple<std::size_t, std::size_t>>& info)
+std::string nameOfKindAndLook(
+  const testing::TestParamInfo<std::tuple<std::size_t, std::size_t>>& info)
 {
   return std::string(matrixKinds().at(std::get<0>(info.param)).name) +
     matrixLooks().at(std::get<1>(info.param)).name;
@@ -194,10 +195,10 @@ std::string nameOfPair(const testing::TestParamInfo<std::tuple<std::size_t, std:
 INSTANTIATE_TEST_SUITE_P(All, Matrix,
   testing::Combine(testing::Range<std::size_t>(0, matrixKinds().size()),
     testing::Range<std::size_t>(0, imageBasedLook())),
-  nameOfPair);
+  nameOfKindAndLook);
 INSTANTIATE_TEST_SUITE_P(Some, Matrix,
   testing::Combine(testing::Values<std::size_t>(0, 3), testing::Values(imageBasedLook())),
-  nameOfPair);
+  nameOfKindAndLook);
 
 } // namespace
 

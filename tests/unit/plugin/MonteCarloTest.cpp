@@ -25,7 +25,7 @@ using gnomon::VisibilityImages;
 namespace
 {
 
-using Settings = std::vector<std::pair<const char*, const char*>>;
+using SettingList = std::vector<std::pair<const char*, const char*>>;
 
 struct Errors
 {
@@ -141,7 +141,7 @@ protected:
     return std::sqrt(squares / count);
   }
 
-  const VisibilityImages& draw(const char* technique, const Settings& settings)
+  const VisibilityImages& draw(const char* technique, const SettingList& settings)
   {
     this->scene.pass->SetTechnique(technique);
     for (const auto& [name, value] : settings)
@@ -150,7 +150,7 @@ protected:
     }
     return drawKept(this->scene);
   }
-  std::vector<float> visibility(const char* technique, const Settings& settings)
+  std::vector<float> visibility(const char* technique, const SettingList& settings)
   {
     return this->draw(technique, settings).visibility.at(0);
   }
@@ -283,7 +283,7 @@ TEST_F(MonteCarlo, decidesByBoundsWhatRaysWouldSay)
   this->scene.renderer->AddLight(this->lamp);
   for (const char* layers : { "peeled", "near_far", "near" })
   {
-    const Settings settings = { { "mc_filter", "0" }, { "mc_layers", layers } };
+    const SettingList settings = { { "mc_filter", "0" }, { "mc_layers", layers } };
     this->draw("montecarlo", settings);
     this->scene.pass->SetSetting("mc_classify", "off");
     const std::vector<float> searched = this->visibility("montecarlo", {});
@@ -403,7 +403,7 @@ TEST_F(MonteCarlo, bodiesAreSolidAlongTheLight)
   this->scene.addBox({ -0.1, -0.1, 0.0 }, { 0.1, 0.1, 4.0 });
   this->scene.lookFrom({ 0.0, -4.0, 3.0 });
   this->scene.addSun({ 0.0, 0.0, -1.0 });
-  const Settings settings = { { "light_radius", "12" }, { "mc_filter", "0" } };
+  const SettingList settings = { { "light_radius", "12" }, { "mc_filter", "0" } };
   this->draw("montecarlo", settings);
   const std::vector<float> truth = this->truth();
   const VisibilityImages& kept = this->draw("montecarlo", {});
@@ -759,7 +759,7 @@ TEST_F(MonteCarlo, pureReceiversLeaveTheLayersAlone)
   this->buildScene();
   this->scene.renderer->AddLight(this->lamp);
   const std::vector<float> truth = this->truth();
-  const Settings nearFar = { { "mc_layers", "near_far" }, { "mc_filter", "0" } };
+  const SettingList nearFar = { { "mc_layers", "near_far" }, { "mc_filter", "0" } };
   const double casting = errorsOf(this->visibility("montecarlo", nearFar), truth).meanAbsolute;
   vtkGnomonPropKeys::SetCasts(this->floor, false);
   const double pure = errorsOf(this->visibility("montecarlo", nearFar), truth).meanAbsolute;

@@ -107,7 +107,7 @@ std::vector<float> visibilityBy(PassScene& scene, const char* technique)
   return visibility;
 }
 
-double meanDifference(const std::vector<float>& a, const std::vector<float>& b)
+double meanVisibilityDifference(const std::vector<float>& a, const std::vector<float>& b)
 {
   double sum = 0.0;
   for (std::size_t i = 0; i < a.size(); ++i)
@@ -117,7 +117,7 @@ double meanDifference(const std::vector<float>& a, const std::vector<float>& b)
   return sum / static_cast<double>(a.size());
 }
 
-struct Named
+struct SampledLight
 {
   const char* name;
   AddLight add;
@@ -126,11 +126,11 @@ struct Named
 };
 
 /// For the tests' names.
-std::ostream& operator<<(std::ostream& stream, const Named& named)
+std::ostream& operator<<(std::ostream& stream, const SampledLight& named)
 {
   return stream << named.name;
 }
-std::string nameOfLight(const testing::TestParamInfo<Named>& info)
+std::string nameOfSampledLight(const testing::TestParamInfo<SampledLight>& info)
 {
   return info.param.name;
 }
@@ -141,7 +141,7 @@ std::string nameOfLight(const testing::TestParamInfo<Named>& info)
 
 constexpr double edgeHeight = 2.0;
 
-std::vector<Named> penumbras()
+std::vector<SampledLight> penumbras()
 {
   const double height = 10.0;
   const glm::dvec3 place(0.0, 0.0, height);
@@ -155,12 +155,12 @@ std::vector<Named> penumbras()
   };
 }
 
-class SampledPenumbras : public testing::TestWithParam<Named>
+class SampledPenumbras : public testing::TestWithParam<SampledLight>
 {
 };
 
 INSTANTIATE_TEST_SUITE_P(
-  OfHalfPlane, SampledPenumbras, testing::ValuesIn(penumbras()), nameOfLight);
+  OfHalfPlane, SampledPenumbras, testing::ValuesIn(penumbras()), nameOfSampledLight);
 
 /// A penumbra against geometry's.
 struct PenumbraError
@@ -180,7 +180,7 @@ struct PenumbraError
 
 /// Half a plane over a plane.
 PenumbraError errorOfHalfPlane(
-  const Named& light, int mapSize, int samples = 256, const char* fit = "off")
+  const SampledLight& light, int mapSize, int samples = 256, const char* fit = "off")
 {
   PassScene scene(160, 120);
   scene.addFloor(2.0);
@@ -269,7 +269,7 @@ TEST_P(SampledPenumbras, errHalfAsMuchByFourTimesThePoints)
 // A box, a sphere and a sheet over a floor
 //------------------------------------------------------------------------------
 
-void addThings(PassScene& scene)
+void addSampledThings(PassScene& scene)
 {
   scene.addFloor(4.0);
   scene.addBox({ -0.9, -0.7, 0.0 }, { 0.3, 0.5, 1.0 });
@@ -282,14 +282,14 @@ void addThings(PassScene& scene)
   scene.lookFrom({ 2.0, -8.0, 7.0 });
 }
 
-const glm::dvec3 slanting(0.7, 0.5, -2.0);
+const glm::dvec3 slantingDown(0.7, 0.5, -2.0);
 
-std::vector<Named> allLights()
+std::vector<SampledLight> allSampledLights()
 {
   const glm::dvec3 above(-2.0, -2.5, 6.0);
   return {
-    { "sun", sun(slanting, "6") },
-    { "sunInABox", sunInABox(slanting, "12", { 4.0, 3.0, 9.0 }) },
+    { "sun", sun(slantingDown, "6") },
+    { "sunInABox", sunInABox(slantingDown, "12", { 4.0, 3.0, 9.0 }) },
     // Whose near face cuts the sphere and the sheet.
     { "sunInALowBox", sunInABox({ 0.1, 0.1, -0.5 }, "20", { 5.0, 5.0, 2.0 }) },
     { "rectangle", rectangle(above, {}, 1.0, 35.0) },
@@ -303,12 +303,12 @@ std::vector<Named> allLights()
 
 class SampledLights
   : public PassTest
-  , public testing::WithParamInterface<Named>
+  , public testing::WithParamInterface<SampledLight>
 {
 protected:
   SampledLights()
   {
-    addThings(this->scene);
+    addSampledThings(this->scene);
     this->light = GetParam().add(this->scene);
     this->scene.pass->SetTechnique("sampled");
   }
@@ -317,7 +317,8 @@ protected:
   vtkLight* light;
 };
 
-INSTANTIATE_TEST_SUITE_P(Lights, SampledLights, testing::ValuesIn(allLights()), nameOfLight);
+INSTANTIATE_TEST_SUITE_P(
+  Lights, SampledLights, testing::ValuesIn(allSampledLights()), nameOfSampledLight);
 
 //------------------------------------------------------------------------------
 TEST_P(SampledLights, showWhatRaysShow)
@@ -328,11 +329,11 @@ TEST_P(SampledLights, showWhatRaysShow)
     std::count_if(truth.begin(), truth.end(), [](float v) { return v > 0.0f && v < 1.0f; }), 100);
   set(this->scene, "light_samples", 128);
   const std::vector<float> seen = visibilityOf(this->scene);
-  EXPECT_LT(meanDifference(seen, truth), 0.003);
+  EXPECT_LT(meanVisibilityDifference(seen, truth), 0.003);
   EXPECT_EQ(this->scene.report().lights[0].lightSamples, 128);
   // With views that are fitted to the camera, too.
   this->scene.pass->SetSetting("fit", "frame");
-  EXPECT_LT(meanDifference(visibilityOf(this->scene), truth), 0.003);
+  EXPECT_LT(meanVisibilityDifference(visibilityOf(this->scene), truth), 0.003);
 }
 
 //------------------------------------------------------------------------------
@@ -365,7 +366,7 @@ class Sampled : public PassTest
 protected:
   Sampled()
   {
-    addThings(this->scene);
+    addSampledThings(this->scene);
     this->light->SetPosition(-2.0, -2.5, 6.0);
     this->light->SetFocalPoint(0.0, 0.0, 0.0);
     this->light->SetConeAngle(50.0);
@@ -384,14 +385,14 @@ protected:
 TEST_F(Sampled, shadowsHardenAsTheLightShrinks)
 {
   const std::vector<float> hard = visibilityBy(this->scene, "nsm");
-  EXPECT_GT(meanDifference(visibilityOf(this->scene), hard), 0.004);
+  EXPECT_GT(meanVisibilityDifference(visibilityOf(this->scene), hard), 0.004);
   this->light->SetRadius(1e-5);
   const std::vector<float> small = visibilityOf(this->scene);
   this->light->SetRadius(0.0);
   EXPECT_EQ(visibilityOf(this->scene), hard);
   // Many maps round the edge to more places than the one of the hard shadow does.
   const std::vector<float> traced = visibilityBy(this->scene, "raytraced");
-  EXPECT_LT(meanDifference(small, traced), meanDifference(hard, traced));
+  EXPECT_LT(meanVisibilityDifference(small, traced), meanVisibilityDifference(hard, traced));
 }
 
 //------------------------------------------------------------------------------
@@ -500,7 +501,7 @@ TEST_F(Sampled, refinesFromTheHardShadowToTheWhole)
     EXPECT_EQ(this->report().lightSamples, 1);
     EXPECT_EQ(this->scene.pass->GetProgress(), 0.0);
     double progress = 0.0;
-    double distance = meanDifference(hard, whole);
+    double distance = meanVisibilityDifference(hard, whole);
     int frames = 0;
     while (progress < 1.0)
     {
@@ -509,8 +510,8 @@ TEST_F(Sampled, refinesFromTheHardShadowToTheWhole)
       EXPECT_EQ(this->report().lightSamples, std::min(samples, 8 * frames - samples % 2));
       EXPECT_GT(this->scene.pass->GetProgress(), progress);
       progress = this->scene.pass->GetProgress();
-      EXPECT_LT(meanDifference(seen, whole), distance);
-      distance = meanDifference(seen, whole);
+      EXPECT_LT(meanVisibilityDifference(seen, whole), distance);
+      distance = meanVisibilityDifference(seen, whole);
     }
     EXPECT_EQ(distance, 0.0);
     EXPECT_EQ(visibilityOf(this->scene), whole);
@@ -601,7 +602,7 @@ TEST_F(SampledPoints, areMeantOverInEachFrame)
     EXPECT_EQ(this->report().lightSamples, 8 * (static_cast<int>(frame) + 1));
     for (std::size_t other = 0; other < means.size(); ++other)
     {
-      const double difference = meanDifference(seen, means[other]);
+      const double difference = meanVisibilityDifference(seen, means[other]);
       if (other == frame)
       {
         EXPECT_LT(difference, 0.0015) << frame << ": the maps' texels";
@@ -919,7 +920,7 @@ TEST(SampledFloor, isNoCasterOnItself)
 TEST(SampledHardCases, areFinite)
 {
   PassScene scene(60, 40);
-  addThings(scene);
+  addSampledThings(scene);
   vtkNew<vtkGnomonAreaLight> light;
   scene.renderer->AddLight(light);
   scene.pass->SetTechnique("sampled");

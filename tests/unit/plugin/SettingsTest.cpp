@@ -30,7 +30,7 @@ class SettingsOfWay
 INSTANTIATE_TEST_SUITE_P(Ways, SettingsOfWay, allWays, nameOf);
 INSTANTIATE_TEST_SUITE_P(OnPlanes, SettingsOfWay, testing::Values(planarWay), nameOf);
 
-void fill(PassScene& scene)
+void fillUnderSun(PassScene& scene)
 {
   scene.addFloor(4.0);
   scene.addSphere({ 0.0, 0.0, 1.5 }, 0.7);
@@ -118,7 +118,7 @@ TEST_F(Settings, whatASettingDoesNotTakeIsAnErrorAndChangesNothing)
 TEST_F(Settings, anEmptyEstimatorIsTheTechniquesOwnAgain)
 {
   PassScene scene(100, 80);
-  fill(scene);
+  fillUnderSun(scene);
   scene.pass->SetSetting("estimator", "pcf");
   scene.render();
   EXPECT_EQ(scene.report().lights[0].estimator, "pcf");
@@ -165,7 +165,7 @@ TEST_F(Settings, numbersAreClamped)
 TEST_F(Settings, inlineRouteAskedOfAScreenTechniqueIsAnErrorAndTheImageRoute)
 {
   PassScene scene(200, 150);
-  fill(scene);
+  fillUnderSun(scene);
   scene.pass->SetTechnique("raytraced");
   const Picture image = scene.render();
   scene.pass->SetRoute(vtkGnomonShadowPass::ROUTE_INLINE);
@@ -180,7 +180,7 @@ TEST_F(Settings, inlineRouteAskedOfAScreenTechniqueIsAnErrorAndTheImageRoute)
 TEST_F(Settings, inlineRouteWithKeptVisibilityIsTheImageRoute)
 {
   PassScene scene(200, 150);
-  fill(scene);
+  fillUnderSun(scene);
   scene.pass->SetRoute(vtkGnomonShadowPass::ROUTE_INLINE);
   scene.pass->KeepVisibilityOn();
   scene.render();
@@ -197,7 +197,7 @@ TEST_F(Settings, inlineRouteWithKeptVisibilityIsTheImageRoute)
 TEST_P(SettingsOfWay, measuredStagesSumToTheFrame)
 {
   PassScene scene(200, 150);
-  fill(scene);
+  fillUnderSun(scene);
   scene.choose(GetParam());
   scene.render();
   EXPECT_TRUE(scene.report().stages.empty());
@@ -219,7 +219,7 @@ TEST_P(SettingsOfWay, measuredStagesSumToTheFrame)
 TEST_P(SettingsOfWay, useShadowsIsTheSwitchWhereItIsObeyed)
 {
   PassScene scene(200, 150);
-  fill(scene);
+  fillUnderSun(scene);
   scene.choose(GetParam());
   EXPECT_FALSE(scene.pass->GetObeyUseShadows());
   const Picture shadowed = scene.render();
@@ -240,7 +240,7 @@ TEST_P(SettingsOfWay, useShadowsIsTheSwitchWhereItIsObeyed)
 TEST_P(SettingsOfWay, useShadowsDoesNotBringVtksOwn)
 {
   PassScene scene(200, 150);
-  fill(scene);
+  fillUnderSun(scene);
   scene.choose(GetParam());
   const Picture own = scene.render();
   scene.renderer->UseShadowsOn();
@@ -262,7 +262,7 @@ TEST_P(SettingsOfWay, windowsOfOnePixel)
     { std::array<int, 2>{ { 1, 1 } }, { { 1, 40 } }, { { 40, 1 } } })
   {
     PassScene scene(size[0], size[1]);
-    fill(scene);
+    fillUnderSun(scene);
     scene.choose(GetParam());
     scene.pass->KeepVisibilityOn();
     EXPECT_EQ(scene.render().pixels(), static_cast<std::size_t>(size[0] * size[1]));
@@ -275,13 +275,13 @@ TEST_P(SettingsOfWay, windowsOfOnePixel)
 TEST_P(SettingsOfWay, viewportThatDoesNotFillTheWindow)
 {
   PassScene whole(120, 80);
-  fill(whole);
+  fillUnderSun(whole);
   whole.choose(GetParam());
   whole.pass->KeepVisibilityOn();
   const Picture expected = whole.render();
 
   PassScene part(300, 200);
-  fill(part);
+  fillUnderSun(part);
   part.choose(GetParam());
   part.pass->KeepVisibilityOn();
   part.renderer->SetViewport(0.5, 0.25, 0.9, 0.65); // 120 x 80 pixels at (150, 50)
@@ -306,10 +306,10 @@ TEST_P(SettingsOfWay, renderersSideBySide)
 {
   // Left with a pass of its own, right with another one, as in two windows.
   PassScene left(100, 80);
-  fill(left);
+  fillUnderSun(left);
   left.choose(GetParam());
   PassScene right(100, 80);
-  fill(right);
+  fillUnderSun(right);
   right.choose(GetParam());
   right.renderer->GetActiveCamera()->Azimuth(40.0);
   right.renderer->ResetCameraClippingRange();
@@ -323,7 +323,7 @@ TEST_P(SettingsOfWay, renderersSideBySide)
 TEST_P(SettingsOfWay, onePassForTwoRenderersSideBySide)
 {
   PassScene left(100, 80);
-  fill(left);
+  fillUnderSun(left);
   left.choose(GetParam());
   PassScene right(100, 80);
   right.addFloor(4.0);
@@ -353,7 +353,7 @@ TEST_F(OldOpenGL, isOneClearErrorAndThePictureOfPlainVtk)
 {
   PassScene scene(200, 150);
   scene.window->SetContextVersion(3, 3);
-  fill(scene);
+  fillUnderSun(scene);
   scene.usePlain();
   const Picture plain = scene.render();
   scene.window->MakeCurrent();

@@ -156,7 +156,7 @@ vtkLight* addRectangle(PassScene& scene)
 }
 
 /// Its near face cuts the sphere and the box.
-vtkLight* addSunInABox(PassScene& scene)
+vtkLight* addBoxedSun(PassScene& scene)
 {
   vtkLight* light = sun("8")(scene);
   const double up[3] = { 0.3, 1.0, 0.0 };
@@ -198,7 +198,7 @@ class SoftCoherenceLights
 INSTANTIATE_TEST_SUITE_P(Lights, SoftCoherenceLights,
   testing::Values(LightCase{ "sun", sun("6") }, LightCase{ "spot", lamp(50.0) },
     LightCase{ "wideSpot", lamp(75.0) }, LightCase{ "ball", lamp(allDirections) },
-    LightCase{ "rectangle", addRectangle }, LightCase{ "box", addSunInABox }),
+    LightCase{ "rectangle", addRectangle }, LightCase{ "box", addBoxedSun }),
   [](const testing::TestParamInfo<LightCase>& light) { return std::string(light.param.name); });
 
 TEST_P(SoftCoherenceLights, areWhatAllRaysShow)

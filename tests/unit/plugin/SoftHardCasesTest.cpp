@@ -86,10 +86,10 @@ vtkLight* addDisk(PassScene& scene, const glm::dvec3& place, const glm::dvec3& t
 }
 
 const glm::dvec3 down(0.0, 0.0, -1.0);
-const glm::dvec3 slanting(1.0, 0.4, -1.5);
+const glm::dvec3 slantingSoftly(1.0, 0.4, -1.5);
 const glm::dvec3 over(2.0, -2.0, 5.0);
 
-Build things(const Build& addLight)
+Build overThings(const Build& addLight)
 {
   return [=](PassScene& scene)
   {
@@ -132,101 +132,101 @@ const std::vector<SoftCase>& softCases()
 {
   static const std::vector<SoftCase> cases = {
     { "disk", 0.001, { { 0.0016, 0 }, { 0.0031, 3 }, { 0.00082, 0 }, { 0.001, 0 } },
-      things([](PassScene& scene) { return addDisk(scene, over, down, 0.5); }) },
+      overThings([](PassScene& scene) { return addDisk(scene, over, down, 0.5); }) },
     { "zeroSize", 0.0002, { { 0.0005, 0 }, { 0.0005, 0 }, { 0.0005, 0 }, { 0.0002, 0 } },
-      things([](PassScene& scene) { return addDisk(scene, over, down, 0.0); }) },
+      overThings([](PassScene& scene) { return addDisk(scene, over, down, 0.0); }) },
     // The hard shadow's edges are off by texels' shares: by 0.0002 to 0.0019 as the map lies, and by the mean of that where, of
     // "sampled", it lies in many ways.
     { "tinySun", 0.0002, { { 0.0009, 0 }, { 0.0009, 0 }, { 0.0013, 0 }, { 0.0002, 0 } },
-      things([](PassScene& scene) { return addSun(scene, slanting, "1e-6"); }) },
+      overThings([](PassScene& scene) { return addSun(scene, slantingSoftly, "1e-6"); }) },
     // On the box's top, in it and close to it; around, in and at casters.
     { "diskOnTheBox", 0.0002, { { 0.00054, 0 }, { 0.0056, 0 }, { 0.0002, 0 }, { 0.0002, 0 } },
-      things(
+      overThings(
         [](PassScene& scene) {
           return addDisk(scene, { -1.2, 0.0, 1.5001 }, down, 0.3);
         }) },
     { "diskInTheBoxesTop", 0.0002, { { 0.02, 100 }, { 0.019, 96 }, { 0.019, 100 }, { 0.0002, 0 } },
-      things(
+      overThings(
         [](PassScene& scene) {
           return addDisk(scene, { -1.2, 0.0, 1.5 }, down, 0.3);
         }) },
     { "diskUnderTheBoxesTop", 0.0002,
       { { 0.0034, 71 }, { 0.0002, 0 }, { 0.00045, 7 }, { 0.0002, 0 } },
-      things(
+      overThings(
         [](PassScene& scene) {
           return addDisk(scene, { -1.2, 0.0, 1.4999 }, down, 0.3);
         }) },
     { "diskOnTheFloor", 0.0005, { { 0.12, 130 }, { 0.12, 130 }, { 0.045, 130 }, { 0.0005, 0 } },
-      things(
+      overThings(
         [](PassScene& scene) {
           return addDisk(scene, { 0.5, -2.0, 0.001 }, down, 0.5);
         }) },
     { "ballThroughTheBoxesTop", 0.0049,
       { { 0.12, 3286 }, { 0.0059, 0 }, { 0.0031, 4 }, { 0.0049, 0 } },
-      things(
+      overThings(
         [](PassScene& scene) {
           return addBall(scene, { -1.2, 0.0, 1.6 }, "0.3");
         }) },
     { "ballInTheBox", 0.0002, { { 0.00019, 2 }, { 0.0002, 0 }, { 0.00022, 3 }, { 0.0002, 0 } },
-      things(
+      overThings(
         [](PassScene& scene) {
           return addBall(scene, { -1.2, 0.0, 0.8 }, "0.2");
         }) },
     { "ballAroundTheSphere", 0.024, { { 0.61, 0 }, { 0.036, 0 }, { 0.02, 0 }, { 0.024, 0 } },
-      things(
+      overThings(
         [](PassScene& scene) {
           return addBall(scene, { 1.5, 0.0, 1.2 }, "1.2");
         }) },
     { "ballTouchesTheFloor", 0.0004,
       { { 0.00069, 15 }, { 0.00072, 0 }, { 0.00024, 0 }, { 0.0004, 0 } },
-      things(
+      overThings(
         [](PassScene& scene) {
           return addBall(scene, { 0.5, -2.0, 0.3 }, "0.3");
         }) },
     // Receivers in the light's plane, and behind it.
     { "diskInTheFloor", 0.0002, { anything, anything, anything, { 0.0002, 0 } },
-      things(
+      overThings(
         [](PassScene& scene) {
           return addDisk(scene, { 0.5, -2.0, 0.0 }, down, 0.5);
         }) },
     { "diskInTheBoxesTopsPlane", 0.0017,
       { { 0.0034, 0 }, { 0.0032, 0 }, { 0.0014, 0 }, { 0.0017, 0 } },
-      things(
+      overThings(
         [](PassScene& scene) {
           return addDisk(scene, { 1.0, -2.0, 1.5 }, down, 0.5);
         }) },
     { "diskStandsOnTheFloor", 0.0035, { { 0.019, 0 }, { 0.0058, 0 }, { 0.0051, 0 }, { 0.0035, 0 } },
-      things(
+      overThings(
         [](PassScene& scene) {
           return addDisk(scene, { 2.5, -2.5, 0.5 }, { -1.0, 0.3, 0.0 }, 1.0);
         }) },
     { "receiversBehindTheDisk", 0.0022,
       { { 0.018, 0 }, { 0.0036, 0 }, { 0.0019, 0 }, { 0.0022, 0 } },
-      things(
+      overThings(
         [](PassScene& scene) {
           return addDisk(scene, { 0.5, -1.0, 1.0 }, { 1.0, 0.5, 0.0 }, 0.4);
         }) },
     // Grazing receivers.
     { "sunAlongTheFloor", 0.0004, { { 0.0013, 0 }, { 0.00098, 0 }, { 0.00036, 0 }, { 0.0004, 0 } },
-      things(
+      overThings(
         [](PassScene& scene) {
           return addSun(scene, { 1.0, 0.2, -0.02 }, "1");
         }) },
     { "sunAcrossTheHorizon", 0.0027, { { 0.0046, 0 }, { 0.0048, 0 }, { 0.0028, 0 }, { 0.0027, 0 } },
-      things(
+      overThings(
         [](PassScene& scene) {
           return addSun(scene, { 1.0, 0.2, -0.05 }, "20");
         }) },
     // Huge lights.
     { "sunOfHalfTheSky", 0.011, { { 0.049, 0 }, { 0.01, 0 }, { 0.011, 0 }, { 0.019, 0 } },
-      things([](PassScene& scene) { return addSun(scene, slanting, "120"); }) },
+      overThings([](PassScene& scene) { return addSun(scene, slantingSoftly, "120"); }) },
     { "ballOfTheScenesSize", 0.0061, { { 0.0092, 0 }, { 0.0075, 0 }, { 0.006, 0 }, { 0.0061, 0 } },
-      things(
+      overThings(
         [](PassScene& scene) {
           return addBall(scene, { 3.0, -3.0, 9.0 }, "5");
         }) },
     { "diskOfTenScenes", 0.019, { { 0.17, 0 }, { 0.014, 0 }, { 0.018, 0 }, { 0.043, 0 } },
-      things(
+      overThings(
         [](PassScene& scene) {
           return addDisk(scene, { 0.0, 0.0, 6.0 }, down, 80.0);
         }) },

@@ -33,7 +33,7 @@ class TextureMemory : public PassTest
 {
 };
 
-void fill(PassScene& scene)
+void fillRoundLamp(PassScene& scene)
 {
   scene.addFloor(4.0);
   scene.addSphere({ 0.0, 0.0, 1.5 }, 0.7);
@@ -122,7 +122,7 @@ private:
 TEST_P(MapsWithoutRoom, areAnErrorThatOffersSmallerOnesAndLeaveNothingBehind)
 {
   PassScene scene(100, 80);
-  fill(scene);
+  fillRoundLamp(scene);
   scene.usePlain();
   const Picture plain = scene.render();
   scene.useGnomon();
@@ -159,7 +159,7 @@ TEST_F(TextureMemory, oneLightOfSeveralIsNamed)
 {
   PassScene scene(100, 80);
   scene.addSun({ 1.0, 0.3, -1.5 });
-  fill(scene);
+  fillRoundLamp(scene);
   vtkGnomonLightKeys::SetMapSize(
     vtkLight::SafeDownCast(scene.renderer->GetLights()->GetItemAsObject(1)), hugeMap);
   scene.render();

@@ -24,9 +24,9 @@ ShadowLight adaptiveSun(int texels, int grid, EarlyOut earlyOut)
 }
 
 /// The textures that the technique would bake, from the twins.
-struct Baked
+struct BakedDiscs
 {
-  Baked(const ShadowLight& light, const Map& map)
+  BakedDiscs(const ShadowLight& light, const Map& map)
   {
     const int points = light.discGrid * light.discGrid;
     const int sets = light.discSets * light.discSets;
@@ -86,7 +86,7 @@ struct Baked
 std::vector<float> runAdaptive(
   const ShadowLight& light, const Map& map, const std::vector<glm::dvec2>& places)
 {
-  const Baked baked(light, map);
+  const BakedDiscs baked(light, map);
   return runGlsl(Adaptive(), light, sunViews(light), map, places, baked.uniforms());
 }
 
@@ -97,10 +97,10 @@ struct Answer
   int fetches = 0;
 };
 
-class Twin
+class AdaptiveTwin
 {
 public:
-  Twin(const ShadowLight& light, Map map)
+  AdaptiveTwin(const ShadowLight& light, Map map)
     : light_(light)
     , map_(std::move(map))
     , discs_(jitteredDiscs(light.discGrid, light.discSets * light.discSets))
@@ -204,7 +204,7 @@ TEST_F(AdaptiveGlsl, readsTheDiscOfItsPlace)
         const ShadowLight light = adaptiveSun(texels, 8, earlyOut);
         const std::vector<glm::dvec2> places = randomPlaces(texels);
         const std::vector<float> values = runAdaptive(light, map, places);
-        const Twin twin(light, map);
+        const AdaptiveTwin twin(light, map);
         std::size_t different = 0;
         for (std::size_t i = 0; i < places.size(); ++i)
         {
@@ -312,7 +312,7 @@ TEST(Adaptive, readsFewerTexelsThanABox)
   for (const EarlyOut earlyOut : { EarlyOut::Ring, EarlyOut::Exact })
   {
     const ShadowLight light = adaptiveSun(8, 11, earlyOut);
-    const Twin twin(light, block);
+    const AdaptiveTwin twin(light, block);
     double fetches = 0.0;
     const std::vector<glm::dvec2> places = randomPlaces(8);
     for (const glm::dvec2& place : places)

@@ -24,7 +24,7 @@ SurfaceEdges findCasterEdges(const Occluders& occluders, const Surface& surface)
   return edges;
 }
 
-std::vector<CasterEdge> edgesOf(const Mesh& mesh)
+std::vector<CasterEdge> casterEdgesOf(const Mesh& mesh)
 {
   const Occluders occluders = makeOccluders({ { mesh } });
   return findCasterEdges(occluders, occluders.surfaces.front()).edges;
@@ -63,7 +63,7 @@ TEST(CasterEdges, ofClosedMeshesHaveTwoTriangles)
   const Mesh sphere = makeClosedSphere(32, 64);
   for (const Mesh& mesh : { sphere, apart(sphere) })
   {
-    const std::vector<CasterEdge> edges = edgesOf(mesh);
+    const std::vector<CasterEdge> edges = casterEdgesOf(mesh);
     EXPECT_EQ(2 * edges.size(), 3 * mesh.triangles.size());
     EXPECT_EQ(countEnds(edges), 0u);
     for (const CasterEdge& edge : edges)
@@ -112,14 +112,14 @@ TEST(CasterEdges, leadFromEachSideToTheTriangleAcrossIt)
 
 TEST(CasterEdges, ofASheetEndAtItsBorder)
 {
-  const std::vector<CasterEdge> edges = edgesOf(makePlane(2.0, 3));
+  const std::vector<CasterEdge> edges = casterEdgesOf(makePlane(2.0, 3));
   EXPECT_EQ(countEnds(edges), 12u);
   EXPECT_EQ(edges.size(), 12u + 12u + 9u); // border, between cells, across cells
 }
 
 TEST(CasterEdges, ofABoxAreSharpWhereItsSidesMeet)
 {
-  const std::vector<CasterEdge> edges = edgesOf(makeBox(glm::dvec3(-1.0), glm::dvec3(1.0)));
+  const std::vector<CasterEdge> edges = casterEdgesOf(makeBox(glm::dvec3(-1.0), glm::dvec3(1.0)));
   EXPECT_EQ(edges.size(), 18u);
   // Its corners have sides all around them that are too far apart, and every edge leads to one.
   EXPECT_EQ(countSharp(edges), 18u);
@@ -131,7 +131,7 @@ TEST(CasterEdges, thatThreeTrianglesShareEndEachOfThem)
   mesh.points = { { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 1.0 }, { 1.0, 0.0, 0.0 }, { -1.0, 1.0, 0.0 },
     { -1.0, -1.0, 0.0 } };
   mesh.triangles = { { 0, 1, 2 }, { 0, 1, 3 }, { 0, 1, 4 } };
-  const std::vector<CasterEdge> edges = edgesOf(mesh);
+  const std::vector<CasterEdge> edges = casterEdgesOf(mesh);
   EXPECT_EQ(edges.size(), 9u);
   EXPECT_EQ(countEnds(edges), 9u);
 }
@@ -140,7 +140,7 @@ TEST(CasterEdges, ofTrianglesThatAreWoundDifferentlySaySo)
 {
   Mesh mesh = makePlane(1.0);
   std::swap(mesh.triangles[1].x, mesh.triangles[1].y);
-  const std::vector<CasterEdge> edges = edgesOf(mesh);
+  const std::vector<CasterEdge> edges = casterEdgesOf(mesh);
   ASSERT_EQ(countEnds(edges), 4u);
   const auto inner = std::find_if(edges.begin(), edges.end(),
     [](const CasterEdge& edge) { return edge.triangles[1] != CasterEdge::none; });
@@ -154,7 +154,7 @@ TEST(CasterEdges, ofNeedlesAreSharp)
   Mesh mesh;
   mesh.points = { { 0.0, 0.0, 0.0 }, { 1.0, 0.0, 0.0 }, { 0.5, 1e-6, 0.0 }, { 0.5, -1.0, 0.0 } };
   mesh.triangles = { { 0, 1, 2 }, { 1, 0, 3 } };
-  EXPECT_EQ(countSharp(edgesOf(mesh)), 5u);
+  EXPECT_EQ(countSharp(casterEdgesOf(mesh)), 5u);
 }
 
 TEST(CasterEdges, areKeptUntilTheSurfaceChanges)
@@ -170,7 +170,7 @@ TEST(CasterEdges, areKeptUntilTheSurfaceChanges)
   moveSurface(occluders, 1, { 0.0, 0.0, 1.0 });
   edges.update(occluders);
   EXPECT_EQ(edges.of(0).edges.data(), plane);
-  EXPECT_EQ(edges.of(1).edges.size(), edgesOf(makeSphere(4, 8)).size());
+  EXPECT_EQ(edges.of(1).edges.size(), casterEdgesOf(makeSphere(4, 8)).size());
 }
 
 /// Moves the vertices of a surface, and marks what changed.
@@ -431,7 +431,7 @@ std::vector<Mesh> squaresAtAngle(double degrees)
   return { flat, raised };
 }
 
-CasterEdges edgesOf(const Occluders& occluders)
+CasterEdges casterEdgesOf(const Occluders& occluders)
 {
   CasterEdges edges;
   edges.update(occluders);
@@ -442,7 +442,7 @@ TEST(CasterSeams, areWhereTwoSurfacesShareAnEdge)
 {
   const std::vector<Mesh> squares = squaresAtAngle(20.0);
   const Occluders occluders = makeOccluders({ { squares[0] }, { squares[1] } });
-  const CasterEdges edges = edgesOf(occluders);
+  const CasterEdges edges = casterEdgesOf(occluders);
   for (const std::uint32_t surface : { 0u, 1u })
   {
     ASSERT_EQ(edges.seams().of(surface).size(), 1u);
@@ -462,8 +462,8 @@ TEST(CasterSeams, areWhereTwoSurfacesShareAnEdge)
   Mesh turned = squares[1];
   turned.triangles = { { 0, 2, 1 }, { 0, 3, 2 } };
   const Occluders otherwise = makeOccluders({ { squares[0] }, { turned } });
-  EXPECT_TRUE(edgesOf(otherwise).seams().of(0).front().sameDirection);
-  EXPECT_FALSE(edgesOf(otherwise).seams().of(0).front().sharp);
+  EXPECT_TRUE(casterEdgesOf(otherwise).seams().of(0).front().sameDirection);
+  EXPECT_FALSE(casterEdgesOf(otherwise).seams().of(0).front().sharp);
 }
 
 TEST(CasterSeams, areSharpWhereShadowRaysMayStartBehindTheOtherSide)
@@ -472,7 +472,7 @@ TEST(CasterSeams, areSharpWhereShadowRaysMayStartBehindTheOtherSide)
   {
     const std::vector<Mesh> squares = squaresAtAngle(degrees);
     const Occluders occluders = makeOccluders({ { squares[0] }, { squares[1] } });
-    const CasterEdges edges = edgesOf(occluders);
+    const CasterEdges edges = casterEdgesOf(occluders);
     ASSERT_EQ(edges.seams().of(0).size(), 1u);
     EXPECT_EQ(edges.seams().of(0).front().sharp, std::abs(degrees) > 41.0) << degrees;
   }
@@ -486,7 +486,7 @@ TEST(CasterSeams, areSharpAtCornersWithOtherTrianglesTooFarApart)
   wing.points = { { 0.0, 0.0, 0.0 }, squares[1].points[1], { 0.5, -0.2, -1.0 } };
   wing.triangles = { { 0, 2, 1 } };
   const Occluders occluders = makeOccluders({ { squares[0] }, { squares[1] }, { wing } });
-  const CasterEdges edges = edgesOf(occluders);
+  const CasterEdges edges = casterEdgesOf(occluders);
   ASSERT_EQ(edges.seams().of(1).size(), 2u);
   for (const Seam& seam : edges.seams().of(1))
   {
@@ -540,7 +540,7 @@ double widestAngle(const std::vector<Prop>& triangles)
 
 std::size_t countSharpSeams(const std::vector<Prop>& props)
 {
-  const CasterEdges edges = edgesOf(makeOccluders(props));
+  const CasterEdges edges = casterEdgesOf(makeOccluders(props));
   std::size_t sharp = 0;
   for (std::size_t i = 0; i < props.size(); ++i)
   {
@@ -609,7 +609,7 @@ TEST(CasterSeams, areNotWhereAThirdSurfaceMeetsNorWhereOneIsDifferent)
   const std::vector<Mesh> others = squaresAtAngle(-50.0);
   const auto seams = [](const std::vector<Prop>& props)
   {
-    const CasterEdges edges = edgesOf(makeOccluders(props));
+    const CasterEdges edges = casterEdgesOf(makeOccluders(props));
     EXPECT_EQ(edges.partOf(1), 0u);
     EXPECT_EQ(edges.partOf(2), edges.seams().of(0).empty() ? 2u : 0u);
     return edges.seams().of(0).size();

@@ -17,7 +17,7 @@ namespace gnomon::test
 namespace
 {
 
-constexpr int side = 128;
+constexpr int mapSide = 128;
 
 std::vector<float> readLayer(GLuint texture, GLenum format, int size, int level, int channels)
 {
@@ -30,30 +30,30 @@ std::vector<float> readLayer(GLuint texture, GLenum format, int size, int level,
 
 /// The map and its view, baked for a light with a single view.
 template <typename Estimator>
-class Baked : public Estimator
+class BakedDepths : public Estimator
 {
 public:
-  Baked(ShadowLight asked, const std::vector<Prop>& props)
+  BakedDepths(ShadowLight asked, const std::vector<Prop>& props)
     : light(std::move(asked))
   {
-    this->light.mapSizeTexels = side;
+    this->light.mapSizeTexels = mapSide;
     const Occluders occluders = makeOccluders(props);
-    this->views = fitLightViews(this->light, occluders.centreWorld, occluders.allCentred, side,
+    this->views = fitLightViews(this->light, occluders.centreWorld, occluders.allCentred, mapSide,
       this->mapReach(this->light).borderTexels());
     OccluderBuffers buffers;
     buffers.update(occluders);
     ShaderLibrary shaders;
     this->bake({ this->light, this->views, occluders, buffers, shaders });
     this->centre = occluders.centreWorld;
-    this->depths = readLayer(this->map().name(), GL_DEPTH_COMPONENT, side, 0, 1);
+    this->depths = readLayer(this->map().name(), GL_DEPTH_COMPONENT, mapSide, 0, 1);
   }
 
   const LightView& view() const { return this->views.views.front(); }
-  float at(int x, int y) const { return this->depths[static_cast<std::size_t>(y * side + x)]; }
+  float at(int x, int y) const { return this->depths[static_cast<std::size_t>(y * mapSide + x)]; }
   /// The ray through a texel's centre, in the view's space, to distance 1.
   glm::dvec3 ray(int x, int y) const
   {
-    const glm::dmat3 acrossFromTexel = glm::inverse(texelFromAcross(this->view(), side));
+    const glm::dmat3 acrossFromTexel = glm::inverse(texelFromAcross(this->view(), mapSide));
     return { mapped(acrossFromTexel, glm::dvec2(x + 0.5, y + 0.5)), 1.0 };
   }
 
@@ -88,11 +88,11 @@ TEST_F(DepthMap, euclideanDepthIsTheDistanceWhateverNearAndFarAre)
       ShadowLight light = spotLight({ 0.0, 0.0, 4.0 }, glm::dvec3(0.0), 30.0);
       light.metric = DepthMetric::Euclidean;
       light.depth = surface;
-      const Baked<Compare> baked(light, props);
+      const BakedDepths<Compare> baked(light, props);
       int counted = 0;
-      for (int y = 0; y < side; y += 5)
+      for (int y = 0; y < mapSide; y += 5)
       {
-        for (int x = 0; x < side; x += 5)
+        for (int x = 0; x < mapSide; x += 5)
         {
           const glm::dvec3 ray = baked.ray(x, y);
           const glm::dvec2 onSheet = glm::dvec2(ray) * 4.0;
@@ -118,12 +118,12 @@ TEST_F(DepthMap, constantBiasIsAddedInWorldUnits)
                                    : directionalLight({ 0.3, 0.2, -1.0 });
     ShadowLight biased = plain;
     biased.biasConstant = 0.03;
-    const Baked<Compare> without(plain, floorAndBox());
-    const Baked<Compare> with(biased, floorAndBox());
+    const BakedDepths<Compare> without(plain, floorAndBox());
+    const BakedDepths<Compare> with(biased, floorAndBox());
     // Polygon offset pushes by the larger slope, the shader by half their sum.
     ShadowLight twice = biased;
     twice.biasConstant = 0.06;
-    const Baked<Compare> withTwice(twice, floorAndBox());
+    const BakedDepths<Compare> withTwice(twice, floorAndBox());
     int casters = 0;
     for (std::size_t i = 0; i < with.depths.size(); ++i)
     {
@@ -150,8 +150,8 @@ TEST_F(DepthMap, slopeBiasIsAFactorOnWhatASlopeSpans)
     ShadowLight light = plain;
     light.biasSlope = factor;
     light.biasConstant = 1e-9; // so that the shader pushes in all cases
-    const Baked<Compare> baked(light, { { makePlane(6.0) } });
-    return baked.at(side / 2, side / 2);
+    const BakedDepths<Compare> baked(light, { { makePlane(6.0) } });
+    return baked.at(mapSide / 2, mapSide / 2);
   };
   const double once = pushedBy(1.0) - pushedBy(0.0);
   EXPECT_GT(once, 1e-4);
@@ -165,14 +165,14 @@ TEST_F(DepthMap, holdsTheSurfaceThatIsAskedFor)
   {
     ShadowLight light = directionalLight({ 0.0, 0.0, -1.0 });
     light.depth = surface;
-    const Baked<Compare> baked(light, props);
+    const BakedDepths<Compare> baked(light, props);
     const auto height = [&](int x, int y)
     {
       const double depth = baked.at(x, y);
       return depth >= 1.0 ? -100.0
                           : 2.0 - (depth - baked.view().depthOffset) / baked.view().depthScale;
     };
-    return glm::dvec2(height(side / 2, side / 2), height(8, 8));
+    return glm::dvec2(height(mapSide / 2, mapSide / 2), height(8, 8));
   };
   const std::vector<Prop> props = floorAndBox();
   EXPECT_NEAR(glm::distance(heightsOf(DepthSurface::First, props), { 2.0, 0.0 }), 0.0, 1e-5);
@@ -203,7 +203,7 @@ GLuint fragmentsOf(
   GLuint query = 0;
   glGenQueries(1, &query);
   glBeginQuery(GL_SAMPLES_PASSED, query);
-  const Baked<Compare> baked(light, props);
+  const BakedDepths<Compare> baked(light, props);
   glEndQuery(GL_SAMPLES_PASSED);
   GLuint fragments = 0;
   glGetQueryObjectuiv(query, GL_QUERY_RESULT, &fragments);
@@ -222,16 +222,16 @@ TEST_F(DepthMap, secondSurfacesTakeNoMoreFragments)
   {
     const GLuint first = fragmentsOf(DepthSurface::First, direction, closed);
     const GLuint second = fragmentsOf(DepthSurface::Second, direction, closed);
-    EXPECT_GT(second, static_cast<GLuint>(side * side / 3));
+    EXPECT_GT(second, static_cast<GLuint>(mapSide * mapSide / 3));
     EXPECT_LE(second, first);
     EXPECT_GT(fragmentsOf(DepthSurface::Midpoint, direction, closed), first);
-    EXPECT_NEAR(second, side * side / 2, side * side / 6);
+    EXPECT_NEAR(second, mapSide * mapSide / 2, mapSide * mapSide / 6);
     most = std::max(most, first);
   }
-  EXPECT_GT(most, static_cast<GLuint>(side * side));
+  EXPECT_GT(most, static_cast<GLuint>(mapSide * mapSide));
   const std::vector<Prop> sheet = { { makePlane(3.0) } };
-  EXPECT_GT(
-    fragmentsOf(DepthSurface::First, directions[0], sheet), static_cast<GLuint>(side * side / 2));
+  EXPECT_GT(fragmentsOf(DepthSurface::First, directions[0], sheet),
+    static_cast<GLuint>(mapSide * mapSide / 2));
   EXPECT_EQ(fragmentsOf(DepthSurface::Second, directions[0], sheet), 0u);
 }
 

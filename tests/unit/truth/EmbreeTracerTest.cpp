@@ -47,7 +47,7 @@ std::vector<TestScene> smallScenes()
   };
 }
 
-std::vector<ShadowLight> lights()
+std::vector<ShadowLight> lightsOfSmallScenes()
 {
   return { directionalLight({ -1.0, 0.5, -1.5 }), directionalLight({ 0.0, 0.0, -1.0 }),
     spotLight({ 2.0, 1.0, 5.0 }, { 0.0, 0.0, 0.0 }, 25.0), pointLight({ -1.5, 0.7, 2.2 }),
@@ -81,7 +81,7 @@ TEST(EmbreeTracer, AgreesWithBruteForce)
   {
     const Occluders occluders = makeOccluders(scene.props);
     const ReceiverPixels receivers = makeReceivers(occluders, scene.camera);
-    for (const ShadowLight& light : lights())
+    for (const ShadowLight& light : lightsOfSmallScenes())
     {
       const std::vector<float> visibility = trace(light, occluders, receivers);
       const std::vector<float> expected = traceBruteForce(light, occluders, receivers);
@@ -109,7 +109,7 @@ TEST(EmbreeTracer, HalfAndTwiceTheOffsetGiveTheSameVisibility)
   {
     const Occluders occluders = makeOccluders(scene.props);
     const ReceiverPixels receivers = makeReceivers(occluders, scene.camera);
-    for (const ShadowLight& light : lights())
+    for (const ShadowLight& light : lightsOfSmallScenes())
     {
       const std::vector<float> visibility = trace(light, occluders, receivers);
       for (const float factor : { 0.5f, 2.0f })
@@ -161,7 +161,7 @@ TEST(EmbreeTracer, MovedAndScaledScenesGiveTheSameVisibility)
     const Occluders occluders = makeOccluders(scene.props);
     const auto allowed =
       1e-4 * static_cast<double>(countCovered(makeReceivers(occluders, scene.camera)));
-    for (const ShadowLight& light : lights())
+    for (const ShadowLight& light : lightsOfSmallScenes())
     {
       EXPECT_LE(differentWhenMoved(scene, light, at({ 4e6, -4e6, 4e6 })), allowed) << scene.name;
       EXPECT_LE(differentWhenMoved(scene, light, at({}, 1e-4)), allowed) << scene.name;
@@ -528,7 +528,7 @@ TEST(EmbreeTracer, ImagesOfAnyShape)
     EmbreeTracer tracer;
     tracer.update(occluders);
     std::vector<float> visibility;
-    for (const ShadowLight& light : lights())
+    for (const ShadowLight& light : lightsOfSmallScenes())
     {
       const std::size_t rays = tracer.trace(light, occluders, receivers, visibility);
       EXPECT_EQ(visibility, traceBruteForce(light, occluders, receivers));
@@ -553,7 +553,7 @@ TEST(EmbreeTracer, DegenerateTriangles)
   Camera camera;
   camera.position = { 3.0, -5.0, 4.0 };
   const ReceiverPixels receivers = makeReceivers(occluders, camera);
-  for (const ShadowLight& light : lights())
+  for (const ShadowLight& light : lightsOfSmallScenes())
   {
     const std::vector<float> visibility = trace(light, occluders, receivers);
     EXPECT_EQ(visibility, traceBruteForce(light, occluders, receivers));
@@ -583,7 +583,7 @@ TEST(EmbreeTracer, UpdatesWhatChanged)
   Occluders occluders = makeOccluders({ { makePlane(6.0, 5) }, cube, second });
   Camera camera;
   camera.position = { 3.0, -5.0, 4.0 };
-  const ShadowLight light = lights()[0];
+  const ShadowLight light = lightsOfSmallScenes()[0];
   EmbreeTracer tracer;
   std::vector<float> visibility;
   const auto expectUpdate = [&](int builds, int refits)
@@ -637,7 +637,7 @@ TEST(EmbreeTracer, CutoutsComeChangeAndGo)
   Camera camera;
   camera.position = { 3.0, -5.0, 4.0 };
   const ReceiverPixels receivers = makeReceivers(occluders, camera);
-  const ShadowLight light = lights()[0];
+  const ShadowLight light = lightsOfSmallScenes()[0];
   EmbreeTracer tracer;
   const auto darkAfter = [&](int builds)
   {

@@ -22,7 +22,7 @@ namespace gnomon::test
 namespace
 {
 
-constexpr int side = 128;
+constexpr int fittedSide = 128;
 
 /// A way to decide points.
 struct Way
@@ -59,7 +59,7 @@ void makeBoth(ShadowLight light, const Occluders& occluders, const CameraView& c
   fitting.centreWorld = occluders.centreWorld;
   fitting.castersCentred = occluders.allCentred;
   fitting.receiversCentred = occluders.allCentred;
-  fitting.texels = { side, borderTexels };
+  fitting.texels = { fittedSide, borderTexels };
   fitting.camera = camera;
   light.fittedToReceivers = true;
   both.awaiting = fitLightViews(light, fitting);
@@ -77,12 +77,12 @@ void makeBoth(ShadowLight light, const Occluders& occluders, const CameraView& c
       view.mapFromAcross = view.warps.at(15);
       view.warps.clear();
       const std::vector<glm::vec4> chosen =
-        chosenWarpRows(both.awaiting.views[i], view.mapFromAcross, side);
+        chosenWarpRows(both.awaiting.views[i], view.mapFromAcross, fittedSide);
       rows.insert(rows.end(), chosen.begin(), chosen.end());
     }
     view.mapFromAcross = fit.matrix() * view.mapFromAcross;
     rows[i] = glm::vec4(fit.scale, fit.offset);
-    rows[count + i] = glm::vec4(fit.scale, 0.5 * side * (fit.offset + 1.0 - fit.scale));
+    rows[count + i] = glm::vec4(fit.scale, 0.5 * fittedSide * (fit.offset + 1.0 - fit.scale));
   }
   ASSERT_GT(count, 0u);
   glBindTexture(GL_TEXTURE_2D, both.found.create());
@@ -125,7 +125,7 @@ std::vector<ShadowLight> lightsOfAllLayouts()
   {
     light.fit = ViewFit::Frame;
     light.splits = 3;
-    light.mapSizeTexels = side;
+    light.mapSizeTexels = fittedSide;
   }
   return result;
 }
@@ -240,12 +240,13 @@ protected:
     GlTexture picture;
     GlFramebuffer framebuffer;
     glBindTexture(GL_TEXTURE_2D, picture.create());
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, side, side, 0, GL_RGBA, GL_FLOAT, nullptr);
+    glTexImage2D(
+      GL_TEXTURE_2D, 0, GL_RGBA32F, fittedSide, fittedSide, 0, GL_RGBA, GL_FLOAT, nullptr);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    std::vector<glm::vec4> result(static_cast<std::size_t>(side) * side);
+    std::vector<glm::vec4> result(static_cast<std::size_t>(fittedSide) * fittedSide);
     const GlStateGuard guard;
     const glm::vec4 nothing(0.0f);
-    beginCasters(framebuffer.create(), side);
+    beginCasters(framebuffer.create(), fittedSide);
     glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, picture.name(), 0);
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_BLEND);
@@ -255,7 +256,7 @@ protected:
           "out vec4 shown;\nvoid main()\n{\n" + shown + "}\n",
         {} });
     glReadBuffer(GL_COLOR_ATTACHMENT0);
-    glReadPixels(0, 0, side, side, GL_RGBA, GL_FLOAT, result.data());
+    glReadPixels(0, 0, fittedSide, fittedSide, GL_RGBA, GL_FLOAT, result.data());
     return result;
   }
 };

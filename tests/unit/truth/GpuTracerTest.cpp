@@ -32,7 +32,7 @@ namespace
 constexpr float infinite = std::numeric_limits<float>::infinity();
 
 /// Receivers that are pixels of no image, in a row.
-class Receivers
+class RowOfReceivers
 {
 public:
   void add(const glm::vec3& position, const glm::vec3& normal, float offset)
@@ -69,12 +69,12 @@ private:
 /// Receivers anywhere around the casters, with normals that face the light more or less, and as many on
 /// triangles that are not instances', where shadow rays start.
 ReceiverPixels randomReceivers(
-  const ShadowLight& light, const Occluders& occluders, std::size_t count, Random& random)
+  const ShadowLight& light, const Occluders& occluders, std::size_t count, SignedRandom& random)
 {
   const ShadowRayLight rayLight(light, occluders.centreWorld);
   const double radius = occluders.allCentred.radius();
   const glm::dvec3 centre = occluders.allCentred.centre();
-  Receivers receivers;
+  RowOfReceivers receivers;
   while (receivers.count() < count)
   {
     const glm::vec3 position(centre + radius * random.vector());
@@ -139,8 +139,8 @@ std::vector<TracedRay> raysOf(
 bool isUndecided(EmbreeTracer& tracer, const ShadowLight& light, const Occluders& occluders,
   const ReceiverPixels& receivers, std::size_t pixel, double nearness)
 {
-  Random random(1);
-  Receivers around;
+  SignedRandom random(1);
+  RowOfReceivers around;
   for (int i = 0; i < 256; ++i)
   {
     const glm::dvec3 position(
@@ -156,7 +156,7 @@ bool isUndecided(EmbreeTracer& tracer, const ShadowLight& light, const Occluders
 }
 
 /// What was compared.
-struct Tally
+struct RayTally
 {
   std::size_t rays = 0;
   std::size_t blocked = 0;
@@ -192,7 +192,7 @@ protected:
   }
 
   /// Random rays against Embree.
-  Tally compare(const std::string& name, const Occluders& occluders, const ShadowLight& light,
+  RayTally compare(const std::string& name, const Occluders& occluders, const ShadowLight& light,
     const ReceiverPixels& receivers)
   {
     EmbreeTracer tracer;
@@ -201,7 +201,7 @@ protected:
     tracer.trace(light, occluders, receivers, visibility);
     const std::vector<TracedRay> rays = raysOf(light, occluders, receivers);
     const std::vector<std::uint8_t> blocked = this->trace(occluders, rays);
-    Tally tally;
+    RayTally tally;
     tally.rays = rays.size();
     for (std::size_t i = 0; i < rays.size(); ++i)
     {
@@ -227,14 +227,14 @@ protected:
   ShaderLibrary shaders_;
 };
 
-struct TestScene
+struct TracedScene
 {
   std::string name;
   Occluders occluders;
 };
 
 /// Casters of all kinds, in a world that is turned, moved and scaled.
-std::vector<TestScene> scenes(const glm::dmat4& world)
+std::vector<TracedScene> scenes(const glm::dmat4& world)
 {
   const auto make = [&](std::vector<Prop> props)
   {
@@ -271,7 +271,7 @@ std::vector<TestScene> scenes(const glm::dmat4& world)
   };
 }
 
-std::vector<ShadowLight> lights(const glm::dmat4& world)
+std::vector<ShadowLight> lightsOfWorld(const glm::dmat4& world)
 {
   const auto point = [&](const glm::dvec3& at) { return glm::dvec3(world * glm::dvec4(at, 1.0)); };
   const auto along = [&](const glm::dvec3& of) { return glm::dvec3(world * glm::dvec4(of, 0.0)); };
@@ -300,13 +300,13 @@ Occluders oneTriangle()
 
 TEST_F(GpuTracerTest, AnswersAsEmbreeDoes)
 {
-  Random random(3);
-  Tally all;
-  for (const TestScene& scene : scenes(glm::dmat4(1.0)))
+  SignedRandom random(3);
+  RayTally all;
+  for (const TracedScene& scene : scenes(glm::dmat4(1.0)))
   {
-    for (const ShadowLight& light : lights(glm::dmat4(1.0)))
+    for (const ShadowLight& light : lightsOfWorld(glm::dmat4(1.0)))
     {
-      const Tally tally = this->compare(
+      const RayTally tally = this->compare(
         scene.name, scene.occluders, light, randomReceivers(light, scene.occluders, 80000, random));
       EXPECT_GT(tally.rays, 5000u) << scene.name;
       EXPECT_GT(tally.blocked, 100u) << scene.name;
@@ -322,16 +322,16 @@ TEST_F(GpuTracerTest, AnswersAsEmbreeDoes)
 
 TEST_F(GpuTracerTest, AnswersAsEmbreeDoesAtAllScalesAndFarAway)
 {
-  Random random(5);
-  Tally all;
+  SignedRandom random(5);
+  RayTally all;
   const glm::dmat4 turned = glm::rotate(at({ 4e6, -4e6, 4e6 }), 0.7, { 1.0, 0.3, 0.2 });
   for (const glm::dmat4& world : { at({}, 1e-4), at({}, 1e4), turned })
   {
-    for (const TestScene& scene : scenes(world))
+    for (const TracedScene& scene : scenes(world))
     {
-      for (const ShadowLight& light : lights(world))
+      for (const ShadowLight& light : lightsOfWorld(world))
       {
-        const Tally tally = this->compare(scene.name, scene.occluders, light,
+        const RayTally tally = this->compare(scene.name, scene.occluders, light,
           randomReceivers(light, scene.occluders, 8000, random));
         all.rays += tally.rays;
         all.blocked += tally.blocked;
@@ -347,10 +347,10 @@ TEST_F(GpuTracerTest, AnswersAsEmbreeDoesAtAllScalesAndFarAway)
 /// Far from the origin floats are coarse, for boxes and triangles alike.
 TEST_F(GpuTracerTest, AnswersAsEmbreeDoesInACornerOfALargeScene)
 {
-  Random random(7);
+  SignedRandom random(7);
   const Occluders occluders = makeOccluders({ { makeSphere(60, 90, 0.2), at({ 3e3, 2e3, -1e3 }) },
     { makeBox(glm::dvec3(-1.0), glm::dvec3(1.0)), at({ -3e3, -2e3, 1e3 }) } });
-  Tally all;
+  RayTally all;
   for (const ShadowLight& light :
     { directionalLight({ -1.0, 0.5, -1.5 }), pointLight({ 3e3 + 0.3, 2e3 - 0.2, -1e3 + 4.0 }) })
   {
@@ -362,7 +362,7 @@ TEST_F(GpuTracerTest, AnswersAsEmbreeDoesInACornerOfALargeScene)
       sphere.allCentred.add(glm::dvec3(occluders.positionsCentred[i]));
     }
     const ReceiverPixels receivers = randomReceivers(light, sphere, 50000, random);
-    const Tally tally = this->compare("far", occluders, light, receivers);
+    const RayTally tally = this->compare("far", occluders, light, receivers);
     EXPECT_GT(tally.blocked, 5000u);
     all.rays += tally.rays;
     all.different += tally.different;
@@ -372,8 +372,8 @@ TEST_F(GpuTracerTest, AnswersAsEmbreeDoesInACornerOfALargeScene)
 
 TEST_F(GpuTracerTest, AnswersAsEmbreeDoesOfInstances)
 {
-  Random random(9);
-  Tally all;
+  SignedRandom random(9);
+  RayTally all;
   for (const bool mirrored : { false, true })
   {
     for (const bool oneSided : { false, true })
@@ -386,8 +386,8 @@ TEST_F(GpuTracerTest, AnswersAsEmbreeDoesOfInstances)
         { directionalLight({ 0.4, 0.3, -1.0 }), pointLight({ 1.0, 2.0, 9.0 }) })
       {
         const ReceiverPixels receivers = randomReceivers(light, occluders, 40000, random);
-        const Tally whole = this->compare("cups", occluders, light, receivers);
-        const Tally holes = this->compare("cups with holes", perforated, light, receivers);
+        const RayTally whole = this->compare("cups", occluders, light, receivers);
+        const RayTally holes = this->compare("cups with holes", perforated, light, receivers);
         EXPECT_LT(holes.blocked, whole.blocked);
         all.rays += whole.rays + holes.rays;
         all.blocked += whole.blocked + holes.blocked;
@@ -403,7 +403,7 @@ TEST_F(GpuTracerTest, AnswersAsEmbreeDoesOfInstances)
 /// large, however near the eye, however low the light.
 TEST_F(GpuTracerTest, LitPlanesHaveNoAcne)
 {
-  Random random(19);
+  SignedRandom random(19);
   for (const double tilt : { 0.0, 0.3, 1.1 })
   {
     const glm::dmat4 turn = glm::rotate(glm::dmat4(1.0), tilt, { 1.0, 0.2, 0.1 });
@@ -450,7 +450,7 @@ TEST_F(GpuTracerTest, LitPlanesHaveNoAcne)
 
 /// Rays from inside of a closed surface that are aimed at what may have cracks.
 std::vector<TracedRay> aimedRays(
-  const Occluders& occluders, const glm::dvec3& centre, double radius, Random& random)
+  const Occluders& occluders, const glm::dvec3& centre, double radius, SignedRandom& random)
 {
   std::vector<TracedRay> rays;
   const auto aim = [&](const glm::dvec3& target)
@@ -476,7 +476,7 @@ std::vector<TracedRay> aimedRays(
 
 TEST_F(GpuTracerTest, NoRayLeavesAClosedSurface)
 {
-  Random random(11);
+  SignedRandom random(11);
   for (const double scale : { 1e-4, 1.0, 1e4 })
   {
     for (const glm::dvec3& place : { glm::dvec3(0.0), glm::dvec3(900.0, -700.0, 400.0) })
@@ -556,7 +556,7 @@ TEST_F(GpuTracerTest, NoRayLeavesABoxThroughTheCornersOfItsGrid)
 /// ray, so that their boxes are met.
 TEST_F(GpuTracerTest, NeedlesThatPointAtARayDoNotBlockIt)
 {
-  Random random(17);
+  SignedRandom random(17);
   const glm::dvec3 direction(1.0, 1.9, 1.5);
   Occluders occluders = oneTriangle();
   occluders.positionsCentred.clear();
@@ -684,8 +684,8 @@ TEST_F(GpuTracerTest, NothingBlocksWhereNothingCasts)
 /// The answers follow from the rays and the triangles alone: other trees give the same, ray by ray.
 TEST_F(GpuTracerTest, TheTreeDoesNotMatter)
 {
-  Random random(13);
-  const ShadowLight light = lights(glm::dmat4(1.0))[3];
+  SignedRandom random(13);
+  const ShadowLight light = lightsOfWorld(glm::dmat4(1.0))[3];
   Occluders occluders = scenes(glm::dmat4(1.0))[2].occluders;
   const std::vector<TracedRay> rays =
     raysOf(light, occluders, randomReceivers(light, occluders, 100000, random));
@@ -698,8 +698,8 @@ TEST_F(GpuTracerTest, TheTreeDoesNotMatter)
 
 TEST_F(GpuTracerTest, FollowsWhatMoves)
 {
-  Random random(15);
-  const ShadowLight light = lights(glm::dmat4(1.0))[0];
+  SignedRandom random(15);
+  const ShadowLight light = lightsOfWorld(glm::dmat4(1.0))[0];
   Occluders occluders = makeOccluders({ { makePlane(4.0, 4), at({ 0.0, 0.0, -1.1 }) },
     { makeSphere(30, 40, 0.2), at({}, 0.7) }, { makeTriangleSoup(500, 3) } });
   OccluderBuffers buffers;

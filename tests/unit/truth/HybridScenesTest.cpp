@@ -95,7 +95,7 @@ Mesh makeIcosphere(int subdivisions, double noise, Random& random)
 /// Bodies over a plane that do not touch each other.
 /// @param radii of spheres around them, the least and the most
 /// @param make called for each of them; within the unit sphere
-std::vector<Prop> scattered(
+std::vector<Prop> scatteredMeshes(
   int count, const glm::dvec2& radii, Random& random, const std::function<Mesh()>& make)
 {
   std::vector<Prop> props{ { makePlane(2.0) } };
@@ -130,13 +130,13 @@ Mesh scaled(Mesh mesh, const glm::dvec3& by)
 std::vector<Prop> makeSpheres()
 {
   Random random(100);
-  return scattered(12, { 0.1, 0.24 }, random, [&] { return makeIcosphere(3, 0.02, random); });
+  return scatteredMeshes(12, { 0.1, 0.24 }, random, [&] { return makeIcosphere(3, 0.02, random); });
 }
 
 std::vector<Prop> makeSlivers()
 {
   Random random(101);
-  return scattered(60, { 0.06, 0.16 }, random,
+  return scatteredMeshes(60, { 0.06, 0.16 }, random,
     [&]
     {
       const double height = uniform(random, 0.15, 0.45);
@@ -147,7 +147,7 @@ std::vector<Prop> makeSlivers()
 std::vector<Prop> makeThinPlates()
 {
   Random random(102);
-  return scattered(16, { 0.18, 0.2 }, random,
+  return scatteredMeshes(16, { 0.18, 0.2 }, random,
     [&]
     {
       const double breadth = uniform(random, 0.1, 0.3);

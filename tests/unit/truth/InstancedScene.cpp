@@ -74,7 +74,7 @@ Occluders cupsOverFloor(bool mirrored, bool oneSided)
     occluders.positionsCentred[occluders.surfaces[1].firstVertex + i] = glm::vec3(cup.points[i]);
   }
   occluders.surfaces[1].oneSided = oneSided;
-  Random random(3);
+  SignedRandom random(3);
   std::vector<glm::dmat4> instances;
   for (int i = 0; i < 60; ++i)
   {

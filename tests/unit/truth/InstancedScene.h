@@ -15,10 +15,10 @@
 namespace gnomon::test
 {
 
-class Random
+class SignedRandom
 {
 public:
-  explicit Random(unsigned int seed)
+  explicit SignedRandom(unsigned int seed)
     : random_(seed)
   {
   }

@@ -116,7 +116,7 @@ TEST(Instances, VisibilityIsThatOfTheirTriangles)
 /// matrix stretches, shears (as far as it may) and moves it.
 TEST(Instances, TheOffsetHoldsThroughTheirMatrices)
 {
-  Random random(11);
+  SignedRandom random(11);
   EmbreeTracer tracer;
   int rays = 0;
   int dark = 0;

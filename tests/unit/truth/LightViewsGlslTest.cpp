@@ -26,7 +26,7 @@ namespace
 /// Runs light_views.glsl for a light on points of its own space, and returns for each three vec4: the
 /// point in its face, with the face; texel, view, and whether the point is in the light's reach; of a cube texel
 /// and view of who looks around.
-std::vector<glm::vec4> runGlsl(
+std::vector<glm::vec4> runLightViews(
   const ShadowLight& light, const LightViews& views, int size, const std::vector<glm::vec4>& points)
 {
   ShaderLibrary library;
@@ -107,7 +107,7 @@ TEST(LightViewsGlsl, FindsTheViewsThatTheMathematicsMade)
   ASSERT_GT(views.views.size(), 1u);
   ASSERT_LT(views.views.size(), 6u);
   const std::vector<glm::vec4> points = randomPoints();
-  const std::vector<glm::vec4> outputs = runGlsl(light, views, size, points);
+  const std::vector<glm::vec4> outputs = runLightViews(light, views, size, points);
   std::size_t found = 0;
   for (std::size_t i = 0; i < points.size(); ++i)
   {
@@ -153,7 +153,7 @@ TEST(LightViewsGlsl, WhoLooksAroundFindsNothingWhereThereAreNoCasters)
   const LightViews views = fitLightViews(light, glm::dvec3(0.0), Bounds(), 64);
   ASSERT_TRUE(views.views.empty());
   const std::vector<glm::vec4> points = randomPoints();
-  const std::vector<glm::vec4> outputs = runGlsl(light, views, 64, points);
+  const std::vector<glm::vec4> outputs = runLightViews(light, views, 64, points);
   for (std::size_t i = 0; i < points.size(); ++i)
   {
     EXPECT_EQ(outputs[3 * i + 2].z, -1.0f);
@@ -189,7 +189,7 @@ TEST(LightViewsGlsl, FindsTheFirstSplitThatHoldsAPointAndItsBorder)
   const LightViews views = fittedViews(light, Projection::Splits, size);
   ASSERT_EQ(views.views.size(), 4u);
   const std::vector<glm::vec4> points = randomPoints();
-  const std::vector<glm::vec4> outputs = runGlsl(light, views, size, points);
+  const std::vector<glm::vec4> outputs = runLightViews(light, views, size, points);
   std::array<int, 5> found{};
   for (std::size_t i = 0; i < points.size(); ++i)
   {
@@ -239,7 +239,7 @@ TEST(LightViewsGlsl, FindsTexelsOfAWarpedView)
     ASSERT_TRUE(views.views[0].warped());
     const glm::dmat3 matrix = texelFromAcross(views.views[0], size);
     const std::vector<glm::vec4> points = randomPoints();
-    const std::vector<glm::vec4> outputs = runGlsl(light, views, size, points);
+    const std::vector<glm::vec4> outputs = runLightViews(light, views, size, points);
     std::size_t found = 0;
     for (std::size_t i = 0; i < points.size(); ++i)
     {
@@ -276,7 +276,7 @@ TEST(LightViewsGlsl, AgreesOnWhatLiesInABox)
     fitLightViews(light, glm::dvec3(0.0), { glm::dvec3(-1.0), glm::dvec3(1.0) }, 64);
   const ShadowRayLight rayLight(light, glm::dvec3(0.0));
   const std::vector<glm::vec4> points = randomPoints();
-  const std::vector<glm::vec4> outputs = runGlsl(light, views, 64, points);
+  const std::vector<glm::vec4> outputs = runLightViews(light, views, 64, points);
   std::size_t inside = 0;
   for (std::size_t i = 0; i < points.size(); ++i)
   {

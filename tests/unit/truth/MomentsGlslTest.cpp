@@ -36,7 +36,7 @@ struct Covered
   double depth;
   double share;
 };
-using Depths = std::vector<Covered>;
+using CoveredDepths = std::vector<Covered>;
 
 double centred(double depth)
 {
@@ -44,7 +44,7 @@ double centred(double depth)
 }
 
 /// The mean of a function of the centred depths.
-double mean(const Depths& depths, const std::function<double(double)>& function)
+double mean(const CoveredDepths& depths, const std::function<double(double)>& function)
 {
   double sum = 0.0;
   for (const Covered& covered : depths)
@@ -62,23 +62,23 @@ struct Open : Technique
 };
 
 /// A technique over moments, and its twin.
-struct Twin
+struct MomentsTwin
 {
   const char* name;
   std::unique_ptr<Technique> (*create)();
   std::string (*momentsGlsl)();
   glm::vec4 (*empty)();
-  glm::dvec4 (*moments)(const Depths&); ///< as the map has them
+  glm::dvec4 (*moments)(const CoveredDepths&); ///< as the map has them
 };
 
 template <typename T>
-Twin twin(const char* name, glm::dvec4 (*moments)(const Depths&))
+MomentsTwin twin(const char* name, glm::dvec4 (*moments)(const CoveredDepths&))
 {
   return { name, [] { return std::unique_ptr<Technique>(new T); },
     [] { return Open<T>().moments().glsl; }, [] { return Open<T>().moments().empty; }, moments };
 }
 
-glm::dvec4 powers(const Depths& depths)
+glm::dvec4 powers(const CoveredDepths& depths)
 {
   glm::dvec4 result;
   for (int i = 0; i < 4; ++i)
@@ -88,7 +88,7 @@ glm::dvec4 powers(const Depths& depths)
   return result;
 }
 
-glm::dvec4 warpedPowers(const Depths& depths)
+glm::dvec4 warpedPowers(const CoveredDepths& depths)
 {
   const auto positive = [](double z) { return std::exp(Exponential::exponentPositive * z); };
   const auto negative = [](double z) { return -std::exp(-Exponential::exponentNegative * z); };
@@ -109,14 +109,14 @@ protected:
 
 class MomentsGlsl
   : public OnGpu
-  , public testing::WithParamInterface<Twin>
+  , public testing::WithParamInterface<MomentsTwin>
 {
 };
 
 INSTANTIATE_TEST_SUITE_P(Techniques, MomentsGlsl,
   testing::Values(twin<Variance>("variance", powers),
     twin<Exponential>("exponential", warpedPowers), twin<FourMoments>("moments", powers)),
-  [](const testing::TestParamInfo<Twin>& tested) { return std::string(tested.param.name); });
+  [](const testing::TestParamInfo<MomentsTwin>& tested) { return std::string(tested.param.name); });
 
 /// What a compute shader with `main` makes of each vec4.
 std::vector<glm::vec4> compute(const std::string& source, std::vector<glm::vec4> inputs,
@@ -158,7 +158,7 @@ ShadowLight sun(double bleeding, int kernelTexels = 1)
 }
 
 /// A receiver: where it is on the map in texels, and its depth.
-struct Receiver
+struct PlaneReceiver
 {
   glm::dvec2 place;
   double depth;
@@ -166,14 +166,14 @@ struct Receiver
 
 /// What the technique's shader answers at points of a map of a directional light, on planes across it.
 /// @param map the moments of each texel
-std::vector<float> estimate(const Twin& twin, const ShadowLight& light,
-  const std::vector<glm::vec4>& map, const std::vector<Receiver>& receivers)
+std::vector<float> estimate(const MomentsTwin& twin, const ShadowLight& light,
+  const std::vector<glm::vec4>& map, const std::vector<PlaneReceiver>& receivers)
 {
   const LightViews views =
     fitLightViews(light, glm::dvec3(0.0), { glm::dvec3(-1.0), glm::dvec3(1.0) }, mapSize);
   const glm::dmat4 centredFromClip = glm::inverse(views.views.front().clipFromCentred());
   std::vector<glm::vec4> points;
-  for (const Receiver& receiver : receivers)
+  for (const PlaneReceiver& receiver : receivers)
   {
     points.emplace_back(centredFromClip *
       glm::dvec4(2.0 * receiver.place / double(mapSize) - 1.0, 2.0 * receiver.depth - 1.0, 1.0));
@@ -200,10 +200,10 @@ std::vector<float> estimate(const Twin& twin, const ShadowLight& light,
 }
 
 /// At points of these depths, over a map that holds the same moments everywhere.
-std::vector<float> estimate(const Twin& twin, double bleeding, const Depths& depths,
+std::vector<float> estimate(const MomentsTwin& twin, double bleeding, const CoveredDepths& depths,
   const std::vector<double>& receiverDepths)
 {
-  std::vector<Receiver> receivers;
+  std::vector<PlaneReceiver> receivers;
   for (const double depth : receiverDepths)
   {
     receivers.push_back({ glm::dvec2(20.3, 40.6), depth });
@@ -220,7 +220,7 @@ TEST_P(MomentsGlsl, areExactForAPlaneThatAnotherOneShadows)
     const double covered = i / 20.0;
     for (const double caster : { 0.05, 0.3, 0.5 })
     {
-      const Depths depths = { { caster, covered }, { 0.8, 1.0 - covered } };
+      const CoveredDepths depths = { { caster, covered }, { 0.8, 1.0 - covered } };
       const float visibility = estimate(this->GetParam(), 0.0, depths, { 0.8 })[0];
       EXPECT_NEAR(visibility, 1.0 - covered, 1e-3) << "caster at " << caster;
     }
@@ -229,7 +229,7 @@ TEST_P(MomentsGlsl, areExactForAPlaneThatAnotherOneShadows)
 
 TEST_P(MomentsGlsl, lightAllThatLiesBeforeTheCasters)
 {
-  const Depths depths = { { 0.4, 0.5 }, { 0.7, 0.5 } };
+  const CoveredDepths depths = { { 0.4, 0.5 }, { 0.7, 0.5 } };
   for (const float visibility :
     estimate(this->GetParam(), 0.2, depths, { 0.0, 0.1, 0.2, 0.3, 0.39, 0.4 }))
   {
@@ -249,7 +249,7 @@ TEST_P(MomentsGlsl, areVisibilitiesForAllDepths)
   receivers.insert(receivers.end(), { -1e6, -0.1, 1.0 + 1e-7, 1.1, 1e6 });
   for (int trial = 0; trial < 40; ++trial)
   {
-    Depths depths;
+    CoveredDepths depths;
     double sum = 0.0;
     for (int i = 0; i <= trial % 5; ++i)
     {
@@ -297,7 +297,7 @@ TEST_P(MomentsGlsl, filterAsASquareAroundThePlaceDoes)
         map.emplace_back(this->GetParam().moments({ { 0.3, covered }, { 0.8, 1.0 - covered } }));
       }
     }
-    std::vector<Receiver> receivers;
+    std::vector<PlaneReceiver> receivers;
     for (double x = 24.0; x < 40.0; x += 0.03)
     {
       receivers.push_back({ { x, 20.0 + x / 7.0 }, 0.8 });
@@ -371,7 +371,7 @@ TEST_P(MomentsGlsl, ofNoCasterAreThoseOfDepthOne)
 
 /// How much light bleeds through casters at depths 0 and 1, half covered each, to a receiver at 1 + k,
 /// of which nothing should be lit.
-std::vector<float> bleedThrough(const Twin& twin, double bleeding)
+std::vector<float> bleedThrough(const MomentsTwin& twin, double bleeding)
 {
   constexpr double unit = 0.3;
   std::vector<double> receivers;
@@ -541,7 +541,7 @@ struct Summed
 };
 
 /// At sixteenths of texels, between two coordinates.
-std::vector<glm::vec4> randomPlaces(int count, double lower, double upper)
+std::vector<glm::vec4> randomPlacesBetween(int count, double lower, double upper)
 {
   std::mt19937 random(5);
   const auto coordinate = [&]
@@ -571,7 +571,7 @@ TEST_F(OnGpu, summedAreaTableIsTheMeanOverARectangle)
     for (const glm::vec2& sides :
       { glm::vec2(1.0f), { 3.0f, 3.0f }, { 1.5f, 9.25f }, { 32.0f, 32.0f }, { 40.0f, 8.0f } })
     {
-      const std::vector<glm::vec4> places = randomPlaces(300, -3.0, size + 3.0);
+      const std::vector<glm::vec4> places = randomPlacesBetween(300, -3.0, size + 3.0);
       for (int layer = 0; layer < layers; ++layer)
       {
         const std::vector<glm::vec4> answers = summed.means(places, sides, layer);
@@ -610,7 +610,7 @@ TEST_F(OnGpu, summedAreaTableOfALargeMapLosesNoDigits)
   {
     const glm::vec4 largest(1.0f, 2.0f, 4.0f, 8.0f);
     const Summed summed(size, 1, map, largest, width);
-    const std::vector<glm::vec4> places = randomPlaces(200, width, size - width);
+    const std::vector<glm::vec4> places = randomPlacesBetween(200, width, size - width);
     const std::vector<glm::vec4> answers = summed.means(places, glm::vec2(float(width)), 0);
     double worst = 0.0;
     for (std::size_t i = 0; i < places.size(); ++i)

@@ -132,7 +132,7 @@ TEST_F(MonteCarloGlsl, takesTheJitteredSamplesOfTheLight)
 }
 
 //------------------------------------------------------------------------------
-struct Line
+struct RayLine
 {
   glm::vec4 begin;
   glm::vec4 end;
@@ -266,7 +266,7 @@ public:
 
   /// Whether lines this near to one all meet a slab, or all do not: 1e-4 of a texel, and 1e-6 in depth. Others pass a texel's corner, or
   /// touch a slab, to within rounding.
-  bool isDecided(const Line& line)
+  bool isDecided(const RayLine& line)
   {
     const glm::dvec3 begin(line.begin);
     const glm::dvec3 end(line.end);
@@ -455,10 +455,10 @@ TEST_F(MonteCarloGlsl, boundsAreExtremaOfTheirTexels)
 
 //------------------------------------------------------------------------------
 /// Lines of any length from behind to before all slabs.
-std::vector<Line> randomLines(int side, std::size_t count, std::mt19937& random)
+std::vector<RayLine> randomLines(int side, std::size_t count, std::mt19937& random)
 {
   const auto number = [&] { return static_cast<float>(random() / 4294967296.0); };
-  std::vector<Line> lines;
+  std::vector<RayLine> lines;
   for (std::size_t i = 0; i < count; ++i)
   {
     const float reach = std::pow(number(), 3.0f);
@@ -472,10 +472,10 @@ std::vector<Line> randomLines(int side, std::size_t count, std::mt19937& random)
 }
 
 /// Which lines meet a slab.
-std::vector<bool> walksOf(SlabMap& map, const std::vector<Line>& lines)
+std::vector<bool> walksOf(SlabMap& map, const std::vector<RayLine>& lines)
 {
   std::vector<bool> met;
-  for (const Line& line : lines)
+  for (const RayLine& line : lines)
   {
     met.push_back(map.meets(glm::vec3(line.begin), glm::vec3(line.end)));
   }
@@ -484,7 +484,8 @@ std::vector<bool> walksOf(SlabMap& map, const std::vector<Line>& lines)
 
 /// What a search finds: x, whether there is a slab; y, how many cells it looked at (hierarchical ones tell).
 std::vector<glm::uvec2> search(ShaderLibrary& library, GLuint slabs, int side,
-  const SlabBounds& bounds, const std::vector<Line>& lines, const std::vector<std::string>& defines,
+  const SlabBounds& bounds, const std::vector<RayLine>& lines,
+  const std::vector<std::string>& defines,
   const std::vector<std::pair<std::string, std::string>>& replacements = {})
 {
   const bool isLinear = std::find(defines.begin(), defines.end(), "LINEAR_SEARCH") != defines.end();
@@ -524,7 +525,7 @@ TEST_F(MonteCarloGlsl, searchesAsAWalkFromTexelToTexel)
   for (const int boxes : { 6, 60 })
   {
     SlabMap map(128, boxes, this->random_);
-    const std::vector<Line> lines = randomLines(map.side(), 500000, this->random_);
+    const std::vector<RayLine> lines = randomLines(map.side(), 500000, this->random_);
     const std::vector<bool> truth = walksOf(map, lines);
     const auto hits = static_cast<std::size_t>(std::count(truth.begin(), truth.end(), true));
     EXPECT_GT(hits, lines.size() / 50);
@@ -563,14 +564,14 @@ TEST_F(MonteCarloGlsl, searchesAsAWalkFromTexelToTexel)
 TEST_F(MonteCarloGlsl, searchesThatBeginInsideASlabEndThere)
 {
   SlabMap map(128, 60, this->random_);
-  std::vector<Line> lines = randomLines(map.side(), 50000, this->random_);
-  for (Line& line : lines)
+  std::vector<RayLine> lines = randomLines(map.side(), 50000, this->random_);
+  for (RayLine& line : lines)
   {
     const glm::vec4 texel = map.at(static_cast<int>(line.begin.x), static_cast<int>(line.begin.y));
     line.begin.z = 0.5f * (texel.x + texel.y); // of an empty one 0, before all slabs
   }
-  lines.erase(std::remove_if(
-                lines.begin(), lines.end(), [](const Line& line) { return line.begin.z == 0.0f; }),
+  lines.erase(std::remove_if(lines.begin(), lines.end(),
+                [](const RayLine& line) { return line.begin.z == 0.0f; }),
     lines.end());
   ASSERT_GT(lines.size(), 10000u);
   for (const char* kind : { "MIPS", "NBUFFER" })
@@ -623,7 +624,7 @@ TEST_F(MonteCarloGlsl, searchesInScenesLookAtFewCells)
     return glm::vec4(glm::dvec3(place) / place.w, 0.0);
   };
   const glm::dvec3 lamp = light.positionWorld - occluders.centreWorld;
-  std::vector<Line> lines;
+  std::vector<RayLine> lines;
   for (std::size_t i = 0; i < receivers.size(); ++i)
   {
     const glm::dvec3 normal(receivers.normalX[i], receivers.normalY[i], receivers.normalZ[i]);
@@ -637,10 +638,10 @@ TEST_F(MonteCarloGlsl, searchesInScenesLookAtFewCells)
       continue;
     }
     // About two texels before the receiver, and as far as there are casters.
-    const Line line{ inRaySpace(position + 0.05 * normal), inRaySpace(point) };
+    const RayLine line{ inRaySpace(position + 0.05 * normal), inRaySpace(point) };
     const float first = -1.0f;
     const float share = std::min((first - line.begin.z) / (line.end.z - line.begin.z), 1.0f);
-    const Line cut{ line.begin, glm::mix(line.begin, line.end, share) };
+    const RayLine cut{ line.begin, glm::mix(line.begin, line.end, share) };
     const auto isOnMap = [](const glm::vec4& at)
     { return at.x >= 0.0f && at.y >= 0.0f && at.x < 512.0f && at.y < 512.0f; };
     if (isOnMap(cut.begin) && isOnMap(cut.end))
@@ -716,12 +717,12 @@ struct BoxesUnderALight
   }
 
   /// Cut where there are no casters, as `montecarlo` cuts its rays.
-  static std::vector<Line> rays(std::size_t count, std::mt19937& random)
+  static std::vector<RayLine> rays(std::size_t count, std::mt19937& random)
   {
     const auto place = [&] {
       return static_cast<float>(side) * glm::vec2(random() / 4294967296.0, random() / 4294967296.0);
     };
-    std::vector<Line> lines;
+    std::vector<RayLine> lines;
     for (std::size_t i = 0; i < count; ++i)
     {
       const glm::vec4 begin(place(), -1.0 / ground, 0.0f);
@@ -765,7 +766,7 @@ TEST_F(MonteCarloGlsl, linearSearchNeverHitsWhatIsNotThereAndMissesLittle)
       const BoxesUnderALight scene(each.boxes, each.least, each.greatest, this->random_);
       SlabMap map(
         BoxesUnderALight::side, [&](const glm::ivec2& texel) { return scene.slabAt(texel); });
-      const std::vector<Line> rays = BoxesUnderALight::rays(raysOfMap, this->random_);
+      const std::vector<RayLine> rays = BoxesUnderALight::rays(raysOfMap, this->random_);
       const std::vector<bool> truth = walksOf(map, rays);
       hits +=
         static_cast<double>(std::count(truth.begin(), truth.end(), true)) / (maps * raysOfMap);

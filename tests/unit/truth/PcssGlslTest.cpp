@@ -28,7 +28,7 @@ namespace gnomon::test
 namespace
 {
 
-constexpr double slack = 1e-6;
+constexpr double pcssSlack = 1e-6;
 
 /// A light of the cube [-1, 1]^3 and the name that tests call it by.
 struct AreaCase
@@ -107,10 +107,10 @@ struct Receiver
 };
 
 /// The estimator of the first view, written from Pcss.h.
-class Twin
+class PcssTwin
 {
 public:
-  Twin(const ShadowLight& light, LightViews views, Depths depths)
+  PcssTwin(const ShadowLight& light, LightViews views, Depths depths)
     : light_(light)
     , views_(std::move(views))
     , depths_(std::move(depths))
@@ -188,7 +188,7 @@ private:
     const glm::dvec2 width = this->isAround()
       ? (window.upper - window.lower) * glm::dvec2(texels[0].x, texels[1].y)
       : 2.0 * this->reach() * largest;
-    this->slack_ = slack * std::max(std::max(width.x, width.y), 1.0);
+    this->slack_ = pcssSlack * std::max(std::max(width.x, width.y), 1.0);
     const auto turned = [&](int number)
     {
       glm::dvec2 place =
@@ -600,7 +600,7 @@ std::vector<float> run(const Technique& technique, const ShadowLight& light,
   const glm::dmat3 lightFromUnit = glm::dmat3(views.lightFromCentred) * light.area->worldFromUnit;
   std::vector<Uniform> uniforms = lightViewsUniforms(views, mapSize, {});
   uniforms.push_back({ "depthMap_LIGHT", TextureBinding{ GL_TEXTURE_2D_ARRAY, map.name() } });
-  uniforms.push_back({ "depthSlacks_LIGHT", glm::vec2(slack, 0.0) });
+  uniforms.push_back({ "depthSlacks_LIGHT", glm::vec2(pcssSlack, 0.0) });
   uniforms.push_back(bounds.uniform());
   uniforms.push_back({ "lightPoints_LIGHT", TextureBinding{ GL_TEXTURE_2D, pointTexture.name() } });
   uniforms.push_back({ "lightFromUnit_LIGHT", glm::mat3(lightFromUnit) });
@@ -645,7 +645,7 @@ TEST_P(PcssGlsl, isItsTwin)
         const LightViews views = firstView(light);
         const std::vector<Receiver> receivers = receiversOf(views, tilt);
         const std::vector<float> values = run(light, views, depths, receivers);
-        Twin twin(light, views, depths);
+        PcssTwin twin(light, views, depths);
         std::size_t different = 0;
         for (std::size_t i = 0; i < values.size(); ++i)
         {
@@ -943,7 +943,7 @@ public:
     this->radiusTexels_ = 0.5 * mostTexelsAcross(this->views_, mapSize) * 0.4 / view.depthScale;
   }
 
-  Twin twin() const
+  PcssTwin twin() const
   {
     return { this->light_, this->views_,
       [](const glm::ivec2& texel) { return texel.x < mapSize / 2 ? 0.3f : 1.0f; } };
@@ -951,7 +951,7 @@ public:
 
   /// @param x across the penumbra, from -1 to 1
   /// @param cell along it
-  double visibility(Twin& twin, double x, int cell, bool patterned) const
+  double visibility(PcssTwin& twin, double x, int cell, bool patterned) const
   {
     const LightView& view = this->views_.views.front();
     const glm::dvec2 place(32.0 + x * this->radiusTexels_, 12.0 + 0.25 * cell);
@@ -978,7 +978,7 @@ struct Bands
   int columns = 0;
 };
 
-Bands bandsOf(Twin twin, bool patterned)
+Bands bandsOf(PcssTwin twin, bool patterned)
 {
   const EdgeOfSun edge;
   Bands bands;
@@ -1012,7 +1012,7 @@ TEST(Pcss, turningThePointsLeavesNoBands)
     const glm::vec2 place(0.5 * (i % 4) - 0.75, 0.5 * (i / 4 % 4) - 0.75);
     grid.push_back(diskPoint(place));
   }
-  Twin uniform = edge.twin();
+  PcssTwin uniform = edge.twin();
   uniform.setPoints(grid);
   const Bands regular = bandsOf(uniform, false);
   for (const auto& [name, bands] :
@@ -1033,7 +1033,7 @@ TEST(Pcss, turningThePointsLeavesNoBands)
 TEST(Pcss, noiseOfTurnedPointsIsHardlyCoarserThanWhite)
 {
   const EdgeOfSun edge;
-  Twin twin = edge.twin();
+  PcssTwin twin = edge.twin();
   constexpr int cells = 160;
   double power[cells / 2 + 1] = {};
   double square = 0.0;

@@ -22,7 +22,7 @@ namespace
 {
 
 constexpr glm::ivec2 pictureSize(1000, 700);
-constexpr int side = 256;
+constexpr int areaSide = 256;
 
 /// Answers with that number in place of a visibility.
 class TexelsOfPixel : public Technique
@@ -56,7 +56,7 @@ glm::dvec3 seenAt(const CameraView& camera, const glm::dvec2& pixel, const Plane
 /// How many texels a quadrangle of points covers on a view's map.
 double texelsOf(const LightView& view, const std::array<glm::dvec3, 4>& corners)
 {
-  const glm::dmat3 texels = texelFromAcross(view, side);
+  const glm::dmat3 texels = texelFromAcross(view, areaSide);
   std::array<glm::dvec2, 4> places;
   for (std::size_t i = 0; i < 4; ++i)
   {
@@ -95,12 +95,12 @@ TEST_F(PixelArea, isThatOfItsCornersOnTheMap)
         SCOPED_TRACE(std::string(projection) + ", kind " +
           std::to_string(static_cast<int>(light.kind)) + (parallel ? ", parallel" : ""));
         findSetting("projection")->set(light, projection);
-        light.mapSizeTexels = side;
+        light.mapSizeTexels = areaSide;
         light.mipMaps = true;
         ViewFitting fitting;
         fitting.castersCentred = { glm::dvec3(-5.0, -5.0, -2.5), glm::dvec3(5.0, 5.0, 2.8) };
         fitting.receiversCentred = fitting.castersCentred;
-        fitting.texels = { side, 2 };
+        fitting.texels = { areaSide, 2 };
         fitting.camera = camera;
         const LightViews views = fitLightViews(light, fitting);
         ASSERT_FALSE(views.views.empty());
@@ -130,7 +130,7 @@ TEST_F(PixelArea, isThatOfItsCornersOnTheMap)
         }
         const ReceiverSpace space{ glm::inverse(camera.viewFromCentred),
           camera.pixelSide(pictureSize) };
-        std::vector<Uniform> uniforms = lightViewsUniforms(views, side, space);
+        std::vector<Uniform> uniforms = lightViewsUniforms(views, areaSide, space);
         uniforms.push_back(depthSlacks());
         ShaderLibrary library;
         const std::vector<float> answers = visibilityAt(TexelsOfPixel(), light, library, pointsView,

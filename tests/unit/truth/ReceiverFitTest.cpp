@@ -28,7 +28,7 @@ namespace
 {
 
 constexpr float notANumber = std::numeric_limits<float>::quiet_NaN();
-constexpr float infinite = std::numeric_limits<float>::infinity();
+constexpr float infiniteFloat = std::numeric_limits<float>::infinity();
 
 /// The receivers' images, as the receivers stage draws them.
 struct Image
@@ -76,10 +76,11 @@ void addDebris(Image& image, std::mt19937& random)
         image.points[pixel][static_cast<int>(i / 6 % 3)] = notANumber;
         break;
       case 3:
-        image.points[pixel][static_cast<int>(i / 6 % 3)] = i % 12 < 6 ? infinite : -infinite;
+        image.points[pixel][static_cast<int>(i / 6 % 3)] =
+          i % 12 < 6 ? infiniteFloat : -infiniteFloat;
         break;
       case 4:
-        image.fragments[pixel].z = i % 12 < 6 ? notANumber : infinite;
+        image.fragments[pixel].z = i % 12 < 6 ? notANumber : infiniteFloat;
         break;
       default:
         image.set(pixel, image.points[pixel], { 0.0f, 0.0f, 1.0f }); // turned away from the light
@@ -368,7 +369,7 @@ TEST_F(ReceiverFitTest, withoutReceiversNothingIsOnTheMap)
   Image away = broken;
   for (std::size_t i = 0; i < broken.points.size(); ++i)
   {
-    broken.points[i].y = i % 2 == 0 ? notANumber : infinite;
+    broken.points[i].y = i % 2 == 0 ? notANumber : infiniteFloat;
     away.points[i].w = 1.0f;
   }
   for (const Image* image : { &background, &broken, &away })

@@ -152,7 +152,7 @@ TEST(ShadowRay, ConesAreSharpAtAnyAngle)
 }
 
 /// Runs shadow_ray.glsl on `inputs`, eight vec4 apart, and returns four floats each.
-std::vector<glm::vec4> runGlsl(const std::vector<glm::vec4>& inputs)
+std::vector<glm::vec4> runShadowRay(const std::vector<glm::vec4>& inputs)
 {
   ShaderLibrary library;
   const std::string source = ShaderLibrary::source("shadowtech/base/shadow_ray.glsl") +
@@ -214,7 +214,7 @@ TEST(ShadowRay, GlslAgrees)
     inputs.emplace_back(numbers.extent, numbers.doubleArea);
     inputs.emplace_back(random.vector(), tangentSquared);
   }
-  const std::vector<glm::vec4> outputs = runGlsl(inputs);
+  const std::vector<glm::vec4> outputs = runShadowRay(inputs);
   ASSERT_EQ(outputs.size(), triangles.size());
   const auto ulps = [](float value, float expected)
   {

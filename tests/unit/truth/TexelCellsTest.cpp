@@ -18,31 +18,31 @@ namespace gnomon::test
 namespace
 {
 
-constexpr int width = 32;
+constexpr int cellsWidth = 32;
 
 /// Less than the margin by more than rounding.
 constexpr double margin = 0.999 * marginTexels;
 
 // Of all that is drawn.
-constexpr double slack = 0.01;
-constexpr double noise = 0.02;
+constexpr double sheetSlack = 0.01;
+constexpr double sheetNoise = 0.02;
 
-constexpr Span allRows{ 0, width - 1 };
+constexpr Span allRows{ 0, cellsWidth - 1 };
 
 /// With the noise of those that do not lie along the light.
 std::vector<Cell> drawn(const std::vector<MapPolygon>& polygons)
 {
-  std::vector<Cell> cells(width * width);
+  std::vector<Cell> cells(cellsWidth * cellsWidth);
   for (const MapPolygon& polygon : polygons)
   {
     drawPolygon(
-      polygon, PolygonOnTexels(polygon, marginTexels, allRows), width, allRows, cells.data());
+      polygon, PolygonOnTexels(polygon, marginTexels, allRows), cellsWidth, allRows, cells.data());
   }
   for (const MapPolygon& polygon : polygons)
   {
     if (polygon.facing != 0)
     {
-      drawNoise(PolygonOnTexels(polygon, marginTexels, allRows), width, allRows, cells.data());
+      drawNoise(PolygonOnTexels(polygon, marginTexels, allRows), cellsWidth, allRows, cells.data());
     }
   }
   return cells;
@@ -51,8 +51,8 @@ std::vector<Cell> drawn(const std::vector<MapPolygon>& polygons)
 std::vector<Cell> drawn(const Corners& corners)
 {
   MapPolygon polygon = polygonWith(corners);
-  polygon.slack = slack;
-  polygon.noise = noise;
+  polygon.slack = sheetSlack;
+  polygon.noise = sheetNoise;
   return drawn({ polygon });
 }
 
@@ -63,7 +63,7 @@ void visitTriangles(int count, const Visit& visit)
   Random random(11);
   for (int i = 0; i < count; ++i)
   {
-    const Corners corners = randomTriangle(random, width);
+    const Corners corners = randomTriangle(random, cellsWidth);
     visit(corners, drawn(corners));
   }
 }
@@ -78,12 +78,12 @@ void visitCells(const Corners& corners, const Visit& visit)
     most = glm::max(most, glm::dvec2(corner));
   }
   const glm::ivec2 first(glm::max(glm::floor(least) - 2.0, 0.0));
-  const glm::ivec2 last(glm::min(glm::floor(most) + 2.0, width - 1.0));
+  const glm::ivec2 last(glm::min(glm::floor(most) + 2.0, cellsWidth - 1.0));
   for (int y = first.y; y <= last.y; ++y)
   {
     for (int x = first.x; x <= last.x; ++x)
     {
-      visit(glm::dvec2(x, y), static_cast<std::size_t>(y * width + x));
+      visit(glm::dvec2(x, y), static_cast<std::size_t>(y * cellsWidth + x));
     }
   }
 }
@@ -140,7 +140,7 @@ TEST(TexelCells, areNeverContainedWhereMovingTheSidesLeavesNothing)
   Random random(12);
   for (int i = 0; i < 100000; ++i)
   {
-    const Corners corners = randomTriangle(random, width);
+    const Corners corners = randomTriangle(random, cellsWidth);
     const glm::dvec2 a(corners[0]), b(corners[1]), c(corners[2]);
     const glm::dvec2 box = glm::max(a, glm::max(b, c)) - glm::min(a, glm::min(b, c));
     const double doubleArea = std::abs(doubleAreaOf(corners));
@@ -194,19 +194,19 @@ TEST(TexelCells, boundTheDepthsThatATriangleHasInThem)
             if (isInside(corners, point))
             {
               ++samples;
-              EXPECT_LE(cell.nearest, depthAt(point) - slack + rounding);
-              EXPECT_GE(cell.partAcross, depthAt(point) + slack - rounding);
+              EXPECT_LE(cell.nearest, depthAt(point) - sheetSlack + rounding);
+              EXPECT_GE(cell.partAcross, depthAt(point) + sheetSlack - rounding);
               if (std::isfinite(cell.first))
               {
                 ++layers;
-                EXPECT_GE(cell.climb, cell.first - depthAt(point) + slack - rounding);
+                EXPECT_GE(cell.climb, cell.first - depthAt(point) + sheetSlack - rounding);
               }
             }
           }
           // And are no wider than the triangle, and its plane in the texel.
-          EXPECT_GE(cell.nearest, std::max(least, middle - half) - slack - rounding);
-          EXPECT_LE(cell.partAcross, std::min(most, middle + half) + slack + rounding);
-          EXPECT_EQ(cell.noise, static_cast<float>(noise));
+          EXPECT_GE(cell.nearest, std::max(least, middle - half) - sheetSlack - rounding);
+          EXPECT_LE(cell.partAcross, std::min(most, middle + half) + sheetSlack + rounding);
+          EXPECT_EQ(cell.noise, static_cast<float>(sheetNoise));
           if (std::isfinite(cell.contained))
           {
             EXPECT_EQ(cell.contained, cell.partAcross);
@@ -220,7 +220,7 @@ TEST(TexelCells, boundTheDepthsThatATriangleHasInThem)
 /// What lies behind the one layer does not matter for how far off that rays have to start; what may come before its receivers does.
 TEST(TexelCells, haveTheNoiseOfWhatBeginsBeforeTheLastReceiver)
 {
-  constexpr std::size_t middle = 6 * width + 6;
+  constexpr std::size_t middle = 6 * cellsWidth + 6;
   // Three sheets over the texel, by depth in its middle, what that changes by to a texel, and noise.
   struct Sheet
   {
@@ -278,7 +278,7 @@ TEST(TexelCells, ofATriangleThatIsSeenAlongItsPlaneAreNone)
   Random random(13);
   for (int i = 0; i < 1000; ++i)
   {
-    MapPolygon polygon = polygonWith(randomTriangle(random, width));
+    MapPolygon polygon = polygonWith(randomTriangle(random, cellsWidth));
     polygon.facing = 0;
     polygon.role.covers = false;
     const std::vector<Cell> cells = drawn({ polygon });
@@ -298,7 +298,7 @@ TEST(TexelCells, doNotCountAsEntrancesWhatRaysOnlyLeaveBy)
     polygon.noise = ofNoise;
     return polygon;
   };
-  constexpr std::size_t middle = 6 * width + 6;
+  constexpr std::size_t middle = 6 * cellsWidth + 6;
   // Three layers: by the first rule they are lit up to the second, by this one up to where one may enter.
   const Cell cell = drawn(
     { sheetAt(0.2, true, 0.01), sheetAt(0.4, true, 0.02), sheetAt(0.7, false, 0.03) })[middle];
@@ -318,7 +318,7 @@ TEST(TexelCells, knowNothingWithinTheMarginOfATriangleThatSpoilsThem)
   std::size_t spoilt = 0;
   for (int i = 0; i < 5000; ++i)
   {
-    const Corners corners = randomTriangle(random, width);
+    const Corners corners = randomTriangle(random, cellsWidth);
     MapPolygon polygon = polygonWith(corners);
     polygon.facing = 0;
     polygon.role = { true, false, true };
@@ -346,16 +346,16 @@ TEST(TexelCells, ofAnEdgeHaveItsLeastDepth)
   std::size_t points = 0;
   for (int i = 0; i < 20000; ++i)
   {
-    const Corners corners = randomTriangle(random, width);
+    const Corners corners = randomTriangle(random, cellsWidth);
     const glm::dvec3 &from = corners[0], &to = corners[1];
     MapSegment segment;
     segment.ends = { { { from.x, from.y, from.z }, { to.x, to.y, to.z } } };
-    segment.slack = slack;
+    segment.slack = sheetSlack;
     segment.entranceSlack = 0.125f;
     segment.isEnd = i % 2 == 0;
-    std::vector<Cell> cells(width * width);
-    drawSegment(segment, marginTexels, width, { 0, width - 1 }, cells.data());
-    drawEndOfPart(segment, marginTexels, width, { 0, width - 1 }, cells.data());
+    std::vector<Cell> cells(cellsWidth * cellsWidth);
+    drawSegment(segment, marginTexels, cellsWidth, { 0, cellsWidth - 1 }, cells.data());
+    drawEndOfPart(segment, marginTexels, cellsWidth, { 0, cellsWidth - 1 }, cells.data());
     // Near it, too.
     const double near = margin + thinTexels;
     for (int k = 0; k < 64; ++k)
@@ -363,12 +363,12 @@ TEST(TexelCells, ofAnEdgeHaveItsLeastDepth)
       const glm::dvec3 at = from + k / 63.0 * (to - from);
       const glm::dvec2 point =
         glm::dvec2(at) + near * glm::dvec2((k & 1) ? 1.0 : -1.0, (k & 2) ? 1.0 : -1.0);
-      if (point.x >= 0.0 && point.y >= 0.0 && point.x < width && point.y < width)
+      if (point.x >= 0.0 && point.y >= 0.0 && point.x < cellsWidth && point.y < cellsWidth)
       {
         ++points;
         const Cell& cell = cells[static_cast<std::size_t>(
-          static_cast<int>(point.y) * width + static_cast<int>(point.x))];
-        EXPECT_LE(cell.sharpEnd, at.z - slack + 1e-6);
+          static_cast<int>(point.y) * cellsWidth + static_cast<int>(point.x))];
+        EXPECT_LE(cell.sharpEnd, at.z - sheetSlack + 1e-6);
         EXPECT_EQ(cell.nearest, segment.isEnd ? cell.sharpEnd : infinity);
         EXPECT_EQ(cell.partEnd, cell.sharpEnd);
         EXPECT_EQ(cell.entrance, cell.sharpEnd - segment.entranceSlack);
@@ -381,7 +381,7 @@ TEST(TexelCells, ofAnEdgeHaveItsLeastDepth)
         const double far = 1.01 * (marginTexels + thinTexels);
         const float depth = cells[at].sharpEnd;
         EXPECT_TRUE(depth == infinity || overlap(line, low - far, low + 1.0 + far));
-        EXPECT_GE(depth, std::min(from.z, to.z) - slack - 1e-6);
+        EXPECT_GE(depth, std::min(from.z, to.z) - sheetSlack - 1e-6);
       });
   }
   EXPECT_GT(points, 100000u);
@@ -392,29 +392,29 @@ TEST(TexelCells, areCoveredByAPartThatDoesNotEndThereWhateverOthersDo)
   // A square of two triangles at depth 0.5, and an edge before or behind it, of its own part or another one.
   const Corners halves[] = { { { { 2.0, 2.0, 0.5 }, { 9.0, 2.0, 0.5 }, { 9.0, 9.0, 0.5 } } },
     { { { 2.0, 2.0, 0.5 }, { 9.0, 9.0, 0.5 }, { 2.0, 9.0, 0.5 } } } };
-  constexpr std::size_t onDiagonal = 5 * width + 5;
+  constexpr std::size_t onDiagonal = 5 * cellsWidth + 5;
   const auto coveredFrom = [&](CasterPart square, CasterPart edge, double depthOfEdge)
   {
-    std::vector<Cell> cells(width * width);
+    std::vector<Cell> cells(cellsWidth * cellsWidth);
     MapSegment end;
     end.ends = { { { 5.2, 5.0, depthOfEdge }, { 5.3, 6.0, depthOfEdge } } };
     end.isEnd = true;
     end.part = edge;
-    drawEndOfPart(end, marginTexels, width, allRows, cells.data());
+    drawEndOfPart(end, marginTexels, cellsWidth, allRows, cells.data());
     for (const Corners& half : halves)
     {
       MapPolygon polygon = polygonWith(half);
       polygon.part = square;
-      polygon.slack = slack;
-      drawPolygon(
-        polygon, PolygonOnTexels(polygon, marginTexels, allRows), width, allRows, cells.data());
+      polygon.slack = sheetSlack;
+      drawPolygon(polygon, PolygonOnTexels(polygon, marginTexels, allRows), cellsWidth, allRows,
+        cells.data());
     }
     Cell cell = cells[onDiagonal];
     EXPECT_EQ(cell.contained, infinity);
     cell.turnTo(noPart);
     return cell.covered;
   };
-  const auto from = static_cast<float>(0.5 + 3.0 * slack);
+  const auto from = static_cast<float>(0.5 + 3.0 * sheetSlack);
   EXPECT_NEAR(coveredFrom(1, 1, 0.9), from, 1e-5f) << "what lies behind does not matter";
   EXPECT_NEAR(coveredFrom(1, 2, 0.3), from, 1e-5f) << "nor does another part's end";
   EXPECT_EQ(coveredFrom(1, 1, 0.3), infinity);
