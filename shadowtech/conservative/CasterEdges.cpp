@@ -276,7 +276,7 @@ std::size_t SurfaceEdges::bytes() const
 void CasterEdges::update(const Occluders& occluders)
 {
   if (this->topologyVersion_ == occluders.topologyVersion &&
-    this->positionsVersion_ == occluders.positionsVersion && this->solids_.areAllFound())
+    this->positionsVersion_ == occluders.positionsVersion)
   {
     return;
   }
@@ -288,7 +288,6 @@ void CasterEdges::update(const Occluders& occluders)
   }
   this->seams_.update(occluders, edges);
   this->joinParts(occluders);
-  this->solids_.update(occluders, edges, this->parts_);
   this->topologyVersion_ = occluders.topologyVersion;
   this->positionsVersion_ = occluders.positionsVersion;
 }
@@ -340,7 +339,7 @@ void CasterEdges::joinParts(const Occluders& occluders)
 //------------------------------------------------------------------------------
 std::size_t CasterEdges::bytes() const
 {
-  return this->seams_.bytes() + bytesOf(this->parts_) + this->solids_.bytes() + this->kept_.bytes();
+  return this->seams_.bytes() + bytesOf(this->parts_) + this->kept_.bytes();
 }
 
 } // namespace gnomon

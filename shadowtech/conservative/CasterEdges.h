@@ -3,7 +3,6 @@
 
 #include "shadowtech/base/Occluders.h"
 #include "shadowtech/conservative/CasterSeams.h"
-#include "shadowtech/conservative/CasterSolids.h"
 #include "shadowtech/conservative/KeptOfCasters.h"
 
 #include <glm/glm.hpp>
@@ -91,7 +90,7 @@ void updateCasterEdges(const Occluders& occluders, const Surface& surface, Surfa
 class CasterEdges
 {
 public:
-  /// Finds the edges of surfaces that are new, brings those of others up to date, and finds the seams, the parts and the solids.
+  /// Finds the edges of surfaces that are new, brings those of others up to date, and finds the seams and the parts.
   void update(const Occluders& occluders);
 
   /// Edges of a casting surface.
@@ -106,8 +105,6 @@ public:
   /// @return the least of those triangles
   std::uint32_t partOf(std::uint32_t triangle) const { return this->parts_[triangle]; }
 
-  const CasterSolids& solids() const { return this->solids_; }
-
   std::size_t bytes() const;
 
 private:
@@ -116,7 +113,6 @@ private:
   KeptOfCasters<SurfaceEdges> kept_;
   CasterSeams seams_;
   std::vector<std::uint32_t> parts_;
-  CasterSolids solids_;
   std::uint64_t topologyVersion_ = 0;
   std::uint64_t positionsVersion_ = 0;
 };

@@ -182,27 +182,7 @@ double largestTexelsPerAcross(const LightView& view, double size)
   return std::sqrt(2.0) * 0.5 * size * largest;
 }
 
-/// What rays and casters are rounded in proportion to: their coordinates, relative to a ray's origin. Without the light's.
-double largestOfRays(const Occluders& occluders)
-{
-  double largest = 0.0;
-  for (const glm::dvec3& corner : occluders.allCentred.corners())
-  {
-    largest = std::max(largest, glm::length(corner));
-  }
-  return 2.0 * largest;
-}
-
-/// How far beside a ray that is, as a power of two.
-constexpr int lateralBits = -18;
-
 } // namespace
-
-//------------------------------------------------------------------------------
-double leastClearance(const Occluders& occluders)
-{
-  return leastClearance(std::ldexp(largestOfRays(occluders), lateralBits), 0.0);
-}
 
 //------------------------------------------------------------------------------
 glm::dmat4 MapSpace::mapFromCentred(double constant) const
@@ -248,8 +228,13 @@ CasterScene casterScene(
   const double extent =
     std::max({ high - low, 1e-6 * std::max(std::abs(high), std::abs(low)), smallestDivisor });
 
-  const double largest =
-    largestOfRays(occluders) + (positional || hasBox ? glm::length(position) : 0.0);
+  // What rays and casters are rounded in proportion to: their coordinates, relative to a ray's origin.
+  double largest = 0.0;
+  for (const glm::dvec3& corner : occluders.allCentred.corners())
+  {
+    largest = std::max(largest, glm::length(corner));
+  }
+  largest = 2.0 * largest + (positional || hasBox ? glm::length(position) : 0.0);
 
   const glm::dmat3 texels = texelFromAcross(view, sizeTexels);
   const glm::dvec3 gradient(texels[0].z, texels[1].z, positional ? texels[2].z : 0.0);
@@ -258,7 +243,7 @@ CasterScene casterScene(
     : std::abs((viewFromCentred * glm::dvec4(occluders.allCentred.centre(), 1.0)).z) +
       occluders.allCentred.radius();
   // Off the view's axis, which ends at 60 degrees, rays are longer and texels' sides, too.
-  const double lateral = std::ldexp(largest, lateralBits) * (positional ? 2.0 : 1.0);
+  const double lateral = std::ldexp(largest, -18) * (positional ? 2.0 : 1.0);
   return { occluders,
     { positional, viewFromCentred, texels, 1.0 / extent, -low / extent,
       static_cast<double>(sizeTexels), glm::length(gradient), farthest },
@@ -319,7 +304,6 @@ MapPolygon polygonOf(
   }
 
   polygon.nearestZ = infinity;
-  polygon.farthestZ = -infinity;
   polygon.count = count;
   for (std::size_t i = 0; i < count; ++i)
   {
@@ -327,15 +311,11 @@ MapPolygon polygonOf(
     polygon.corners[i] = { p.X / p.W, p.Y / p.W, p.Q / p.W };
     polygon.sides[i] = points[i].side;
     polygon.nearestZ = std::min(polygon.nearestZ, p.z);
-    polygon.farthestZ = std::max(polygon.farthestZ, p.z);
     polygon.depthPerUnit = std::max(polygon.depthPerUnit, scene.space.depthPerUnit(p.W));
   }
   polygon.margin = atLight ? infinity : marginOf(scene, polygon.nearestZ);
   polygon.slack = noise.alongRay() * polygon.depthPerUnit;
   polygon.noise = noise.alongNormal;
-  polygon.cosineToLight = noise.cosineToLight;
-  polygon.entranceSlack =
-    static_cast<float>(scene.reachOnSolids(polygon.farthestZ) * polygon.depthPerUnit);
   // Twice the area, and how high that makes it over its longest side.
   double area = 0.0;
   double longest = 0.0;
@@ -428,15 +408,12 @@ bool segmentOf(const CasterScene& scene, const Surface& surface, std::uint32_t i
     }
   }
   double rate = 0.0;
-  double farthestZ = -infinity;
   segment.ends = { { corners[ends[0]], corners[ends[1]] } };
   for (const std::size_t end : ends)
   {
     const MapPoint& p = points[end];
     rate = std::max(rate, scene.space.depthPerUnit(p.W));
-    farthestZ = std::max(farthestZ, p.z);
   }
-  segment.entranceSlack = static_cast<float>(scene.reachOnSolids(farthestZ) * rate);
   segment.slack = kind == EdgeKind::Unsure ? infinity : rate * scene.lateral;
   segment.isEnd = kind != EdgeKind::Sharp;
   return true;

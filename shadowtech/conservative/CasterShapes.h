@@ -30,25 +30,6 @@ constexpr double largestMargin = 1.0;
 /// they do not start behind such a triangle's neighbour.
 constexpr double thinTexels = 1.0 / 128.0;
 
-/// The tangent of the angle between a side of a solid and the map up to which it may be one that rays can only leave the solid by: what a
-/// tracer is off across the light, it is off along the light times that.
-constexpr double steepestExit = 8.0;
-
-/// How much farther along the light than it is a tracer may see a side of a solid: what rays may be off across the light, and what
-/// noise adds, for which an eighth is enough.
-/// @param lateral how far beside a ray a tracer may look
-/// @param offset how far beside its receiver a ray may start
-inline double reachOnSolids(double lateral, double offset)
-{
-  return steepestExit * (1.125 * lateral + offset);
-}
-
-/// How clear (CasterSolids::clearanceOf()) an exit has to be.
-inline double leastClearance(double lateral, double offset)
-{
-  return 2.0 * (lateral + offset + reachOnSolids(lateral, offset));
-}
-
 /// A point as the map sees it, in homogeneous coordinates: texels X/W and Y/W, depth Q/W; z along the
 /// view.
 struct MapPoint
@@ -124,21 +105,7 @@ struct CasterScene
     return offsetTexels / (this->texelsPerUnit * (this->space.positional ? 2.0 : 1.0)) *
       (this->space.positional ? distance : 1.0);
   }
-
-  ///@{ In world units, at a distance from the light.
-  double reachOnSolids(double distance) const
-  {
-    return gnomon::reachOnSolids(this->lateral, this->largestOffset(distance));
-  }
-  double leastClearance(double distance) const
-  {
-    return gnomon::leastClearance(this->lateral, this->largestOffset(distance));
-  }
-  ///@}
 };
-
-/// How clear an exit has to be in any view of any light, at least.
-double leastClearance(const Occluders& occluders);
 
 /// How casters are to be looked at in a view of a light.
 /// @param hasBox whether the light begins at the near face of a box
@@ -176,18 +143,11 @@ struct MapPolygon
   std::array<std::uint8_t, mostCorners> sides;
   /// That rounding asks for, in texels; infinite where the caster is at the light.
   double margin = 0.0;
-  ///@{ Of what is drawn of it, along the view.
-  double nearestZ = 0.0;
-  double farthestZ = 0.0;
-  ///@}
+  double nearestZ = 0.0; ///< of what is drawn of it, along the view
   double depthPerUnit =
     0.0; ///< how much depth changes at most where a point of it moves by a unit of length
-  double slack = 0.0;         ///< depth that a tracer may see it off its plane
-  double noise = 0.0;         ///< and how far it may see it off, along its normal, in world units
-  double cosineToLight = 0.0; ///< of its normal as it is wound, the least by magnitude
-  bool isExit = false; ///< rays that start on the casters' surface can only leave a solid by it
-  /// How much nearer, beyond `slack`, it counts for Cell::entrance, if it is none.
-  float entranceSlack = 0.0f;
+  double slack = 0.0; ///< depth that a tracer may see it off its plane
+  double noise = 0.0; ///< and how far it may see it off, along its normal, in world units
 
   /// Between which rows it lies, in texels.
   std::pair<double, double> rows() const;
@@ -220,9 +180,8 @@ struct MapSegment
 {
   std::array<MapCorner, 2> ends;
   double slack = 0.0;
-  float entranceSlack = 0.0f; ///< as of MapPolygon
-  bool isEnd = false;         ///< the casters' surface ends here; else a sharp edge
-  CasterPart part = noPart;   ///< that its triangles belong to
+  bool isEnd = false;       ///< the casters' surface ends here; else a sharp edge
+  CasterPart part = noPart; ///< that its triangles belong to
 };
 
 /// What an edge is to its triangles, of which each faces one way on the map or the other (1, -1), lies

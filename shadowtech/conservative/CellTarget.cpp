@@ -46,7 +46,6 @@ enum Number
   second,
   climb,
   noise,
-  entrance,
   numbers
 };
 constexpr std::size_t bytesOfCell = numbers * sizeof(std::uint32_t);
@@ -72,7 +71,6 @@ Cell cellOf(const std::uint32_t* ordered)
   cell.second = numberOf(ordered[second]);
   cell.climb = std::max(0.0f, -numberOf(ordered[climb]));
   cell.noise = std::max(0.0f, -numberOf(ordered[noise]));
-  cell.entrance = numberOf(ordered[entrance]);
   return cell;
 }
 

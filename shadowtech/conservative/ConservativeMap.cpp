@@ -38,7 +38,8 @@ TexelBounds boundsOf(const Cell& cell)
 {
   TexelBounds bounds;
   bounds.litUpTo = below(cell.nearest);
-  bounds.litUpToOnCasters = std::max(bounds.litUpTo, below(cell.clearUpTo()));
+  // The one layer up to here is the receiver's.
+  bounds.litUpToOnCasters = std::max(bounds.litUpTo, below(cell.oneLayerUpTo()));
   bounds.leastOffsetOnCasters = cell.noise / static_cast<float>(sharpCosine);
   bounds.shadowFrom = above(std::min(cell.contained, cell.covered));
   return bounds;

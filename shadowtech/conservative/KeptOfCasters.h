@@ -22,9 +22,8 @@ public:
   /// Finds it for surfaces that are new, and brings it up to date for those that moved or have another place in the snapshot.
   /// @param bringUpToDate called with a snapshot, a surface of it, and what was found for the same triangles; a new Found, if nothing
   /// was
-  /// @param stays called alike for all others
-  template <typename BringUpToDate, typename Stays>
-  void update(const Occluders& occluders, const BringUpToDate& bringUpToDate, const Stays& stays)
+  template <typename BringUpToDate>
+  void update(const Occluders& occluders, const BringUpToDate& bringUpToDate)
   {
     // Should that fail, what is kept is whole, and the rest will be found again.
     std::unordered_map<std::uint64_t, Kept> earlier = std::exchange(this->kept_, {});
@@ -50,10 +49,6 @@ public:
         kept.firstVertex = surface.firstVertex;
         kept.firstTriangle = surface.firstTriangle;
       }
-      else
-      {
-        stays(occluders, surface, kept.found);
-      }
       this->kept_.emplace(surface.topologyVersion, std::move(kept));
     }
     for (std::size_t i = 0; i < occluders.surfaces.size(); ++i)
@@ -63,12 +58,6 @@ public:
         this->bySurface_[i] = &this->kept_.at(occluders.surfaces[i].topologyVersion).found;
       }
     }
-  }
-
-  template <typename BringUpToDate>
-  void update(const Occluders& occluders, const BringUpToDate& bringUpToDate)
-  {
-    this->update(occluders, bringUpToDate, [](const Occluders&, const Surface&, Found&) {});
   }
 
   /// Of a casting surface.

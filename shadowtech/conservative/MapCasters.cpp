@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <limits>
 
 namespace gnomon
@@ -136,19 +135,7 @@ MapPolygon MapCasters::polygon(const BandItem& triangle) const
   MapPolygon polygon = polygonOf(
     this->scene_, this->placements_.surfaceOf(placement), placement.instance, triangle.index);
   polygon.part = this->partOf(placement, triangle.index);
-  polygon.isExit = this->isExit(polygon, triangle.index);
   return polygon;
-}
-
-//------------------------------------------------------------------------------
-/// Whether it is a side of a solid that rays towards the light can only leave it by, and clear of others for farther than
-/// rounding and the rays' offsets reach.
-bool MapCasters::isExit(const MapPolygon& polygon, std::uint32_t triangle) const
-{
-  // Written so that NaN is none.
-  return polygon.role.covers && polygon.cosineToLight >= 1.0 / std::hypot(1.0, steepestExit) &&
-    polygon.noise <= this->scene_.lateral / 16.0 &&
-    this->edges_.solids().clearanceOf(triangle) >= this->scene_.leastClearance(polygon.farthestZ);
 }
 
 //------------------------------------------------------------------------------

@@ -66,7 +66,6 @@ private:
   EdgeKind kindWithinSurface(const Placement& placement, const CasterEdge& edge) const;
   EdgeKind kindOf(const Placement& placement, std::uint32_t number) const;
   CasterPart partOf(const Placement& placement, std::uint32_t triangle) const;
-  bool isExit(const MapPolygon& polygon, std::uint32_t triangle) const;
   std::uint32_t across(
     const Placement& placement, const CasterEdge& edge, std::uint32_t triangle) const;
   std::vector<std::uint32_t> fanOf(const Placement& placement, std::uint32_t triangle) const;

@@ -12,7 +12,7 @@ namespace
 {
 
 /// Visits the texels that an edge meets, in some rows.
-/// @param visit called with the cell, with the edge's least depth in it, and with the edge among the texels
+/// @param visit called with the cell, and with the edge's least depth in it
 template <typename Visit>
 void visitCells(
   const MapSegment& segment, double margin, int width, Span rows, Cell* cells, const Visit& visit)
@@ -21,7 +21,7 @@ void visitCells(
   for (int y = texels.rows().first; y <= texels.rows().last; ++y)
   {
     Cell* const cell = cells + static_cast<std::ptrdiff_t>(y - rows.first) * width;
-    texels.visitRow(y, width, [&](int x, float depth) { visit(cell[x], depth, texels); });
+    texels.visitRow(y, width, [&](int x, float depth) { visit(cell[x], depth); });
   }
 }
 
@@ -45,7 +45,7 @@ void drawPolygon(
       for (int x = row.touched.first; x <= row.touched.last; ++x)
       {
         cell[x].turnTo(polygon.part);
-        cell[x].nearest = cell[x].entrance = cell[x].partEnd = cell[x].sharpEnd =
+        cell[x].nearest = cell[x].partEnd = cell[x].sharpEnd =
           -std::numeric_limits<float>::infinity();
       }
       continue;
@@ -54,10 +54,6 @@ void drawPolygon(
     {
       const float nearest = texels.nearest(row, x);
       cell[x].nearest = std::min(cell[x].nearest, nearest);
-      if (!texels.isExit())
-      {
-        cell[x].entrance = std::min(cell[x].entrance, texels.entrance(nearest));
-      }
       if (nearest < cell[x].sharpEnd)
       {
         cell[x].climb = std::max(cell[x].climb, texels.climb());
@@ -93,7 +89,7 @@ void drawNoise(const PolygonOnTexels& texels, int width, Span rows, Cell* cells)
     const PolygonOnTexels::Row row = texels.row(y, width);
     for (int x = row.touched.first; x <= row.touched.last; ++x)
     {
-      if (texels.nearest(row, x) < cell[x].clearUpTo())
+      if (texels.nearest(row, x) < cell[x].oneLayerUpTo())
       {
         cell[x].noise = std::max(cell[x].noise, texels.noise());
       }
@@ -187,7 +183,7 @@ void drawRing(const MapRing& ring, double margin, int width, Span rows, Cell* ce
 void drawEndOfPart(const MapSegment& segment, double margin, int width, Span rows, Cell* cells)
 {
   visitCells(segment, margin, width, rows, cells,
-    [&](Cell& cell, float depth, const SegmentOnTexels&)
+    [&](Cell& cell, float depth)
     {
       cell.turnTo(segment.part);
       cell.partEnd = std::min(cell.partEnd, depth);
@@ -198,10 +194,9 @@ void drawEndOfPart(const MapSegment& segment, double margin, int width, Span row
 void drawSegment(const MapSegment& segment, double margin, int width, Span rows, Cell* cells)
 {
   visitCells(segment, margin, width, rows, cells,
-    [&](Cell& cell, float depth, const SegmentOnTexels& texels)
+    [&](Cell& cell, float depth)
     {
       cell.sharpEnd = std::min(cell.sharpEnd, depth);
-      cell.entrance = std::min(cell.entrance, texels.entrance(depth));
       if (segment.isEnd)
       {
         cell.nearest = std::min(cell.nearest, depth);

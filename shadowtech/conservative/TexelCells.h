@@ -20,11 +20,9 @@ namespace gnomon
 struct Cell
 {
   float nearest = std::numeric_limits<float>::infinity(); ///< the least depth of a caster
-  /// The least depth of an end, a sharp edge, or a caster but for exits (MapPolygon::isExit).
-  float entrance = std::numeric_limits<float>::infinity();
   float contained = std::numeric_limits<
     float>::infinity(); ///< the least, over casters that cover the texel, of their largest depths
-  /// The most that a tracer may see a triangle off its plane, of those that begin before clearUpTo(), in world units.
+  /// The most that a tracer may see a triangle off its plane, of those that begin before oneLayerUpTo(), in world units.
   float noise = 0.0f;
   float climb = 0.0f; ///< the most that depth changes from anywhere to the sample
   float sharpEnd =
@@ -65,9 +63,6 @@ struct Cell
   /// meet no end.
   float oneLayerUpTo() const { return std::min(this->second, this->sharpEnd) - this->climb; }
 
-  /// Up to what depth nothing but a receiver's own surface is before it: by either reason.
-  float clearUpTo() const { return std::max(this->oneLayerUpTo(), this->entrance); }
-
   void addLayer(float depth)
   {
     this->second = std::min(this->second, std::max(this->first, depth));
@@ -83,7 +78,7 @@ void drawPolygon(
   const MapPolygon& polygon, const PolygonOnTexels& texels, int width, Span rows, Cell* cells);
 
 /// Notes how far off its plane a tracer may see a polygon that does not lie along the light and begins before
-/// Cell::clearUpTo(): when all edges and polygons are drawn. Others are behind the receivers that are lit by that, wherever a
+/// Cell::oneLayerUpTo(): when all edges and polygons are drawn. Others are behind the receivers that are lit by that, wherever a
 /// tracer sees them.
 void drawNoise(const PolygonOnTexels& texels, int width, Span rows, Cell* cells);
 

@@ -46,8 +46,6 @@ PolygonOnTexels::PolygonOnTexels(const MapPolygon& polygon, double margin, Span 
     static_cast<float>((slope * (0.5 + sampleOffset + reach) + polygon.slack) * 1.000001);
   record.slack = static_cast<float>(polygon.slack);
   record.noise = static_cast<float>(polygon.noise);
-  record.entranceSlack = polygon.entranceSlack;
-  record.isExit = polygon.isExit ? 1 : 0;
   record.covers = polygon.role.covers ? 1 : 0;
   this->findSides(polygon, plane.area > 0.0 ? 1.0 : -1.0, reach);
 }
@@ -108,7 +106,6 @@ SegmentOnTexels::SegmentOnTexels(const MapSegment& segment, double margin, Span 
   record.perY = perTexel(b.y - a.y);
   record.margin = margin + thinTexels;
   record.slack = segment.slack;
-  record.entranceSlack = segment.entranceSlack;
   record.isEnd = segment.isEnd ? 1 : 0;
   const Span inside =
     spanOf(std::min(a.y, b.y) - record.margin, std::max(a.y, b.y) + record.margin, rows.last + 1);

@@ -48,13 +48,11 @@ struct PolygonRecord
   float climb;          ///< how much depth changes, at most, from anywhere in a texel to its sample
   float slack;          ///< depth that a tracer may see it off its plane
   float noise;          ///< and how far, in world units
-  float entranceSlack;  ///< MapPolygon::entranceSlack
   std::uint32_t covers; ///< whether it blocks all over
   std::uint32_t firstSide, sideCount;
   std::int32_t firstRow, lastRow; ///< those that it may meet
-  std::uint32_t isExit;           ///< MapPolygon::isExit
 };
-static_assert(sizeof(SideRecord) == 32 && sizeof(PolygonRecord) == 136, "as shaders read them");
+static_assert(sizeof(SideRecord) == 32 && sizeof(PolygonRecord) == 128, "as shaders read them");
 
 /// A convex polygon among the texels.
 class PolygonOnTexels
@@ -100,10 +98,6 @@ public:
   /// The most that its depth changes from anywhere in a texel to the sample.
   float climb() const { return this->record_.climb; }
 
-  /// What it lowers Cell::entrance to in a texel where its nearest is known, unless it is an exit.
-  float entrance(float nearest) const { return nearest - this->record_.entranceSlack; }
-  bool isExit() const { return this->record_.isExit != 0; }
-
   /// How far off its plane a tracer may see it, in world units.
   float noise() const { return this->record_.noise; }
 
@@ -130,7 +124,7 @@ struct SegmentRecord
   double slack;      ///< depth that it may be nearer; may be infinite
   std::uint32_t isEnd;
   std::int32_t firstRow, lastRow; ///< those that it may meet
-  float entranceSlack;            ///< MapSegment::entranceSlack
+  std::uint32_t unused = 0;
 };
 static_assert(sizeof(SegmentRecord) == 88, "as shaders read it");
 
@@ -171,9 +165,6 @@ public:
       }
     }
   }
-
-  /// As of PolygonOnTexels.
-  float entrance(float nearest) const { return nearest - this->record_.entranceSlack; }
 
   /// For shaders.
   const SegmentRecord& record() const { return this->record_; }

@@ -10,9 +10,8 @@ void drawTexel(PolygonRecord polygon, Row row, int x, int y)
 #ifdef POISON
   lower(cell + nearestInCell, -infinity);
   lower(cell + sharpEndInCell, -infinity);
-  lower(cell + entranceInCell, -infinity);
 #elif defined(NOISE)
-  if (nearestOf(polygon, depthAt(polygon, row, x)) < clearUpTo(cell))
+  if (nearestOf(polygon, depthAt(polygon, row, x)) < oneLayerUpTo(cell))
   {
     lower(cell + noiseInCell, -polygon.noise);
   }
@@ -20,11 +19,6 @@ void drawTexel(PolygonRecord polygon, Row row, int x, int y)
   double depth = depthAt(polygon, row, x);
   float nearest = nearestOf(polygon, depth);
   lower(cell + nearestInCell, nearest);
-  if (polygon.isExit == 0u)
-  {
-    precise float entrance = nearest - polygon.entranceSlack;
-    lower(cell + entranceInCell, entrance);
-  }
   if (orderedBits(nearest) < cells[cell + sharpEndInCell])
   {
     lower(cell + climbInCell, -polygon.climb);

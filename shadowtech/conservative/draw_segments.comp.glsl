@@ -25,9 +25,7 @@ void walkRow(uint shape, int y)
     {
       uint cell = cellAt(x, y);
       float nearest = nearestOf(segment, part);
-      precise float entrance = nearest - segment.entranceSlack;
       lower(cell + sharpEndInCell, nearest);
-      lower(cell + entranceInCell, entrance);
       if (segment.isEnd != 0u)
       {
         lower(cell + nearestInCell, nearest);

@@ -1,8 +1,8 @@
-// What is gathered of texels: eight minima of each, by atomic operations on bits that are ordered as the numbers
+// What is gathered of texels: seven minima of each, by atomic operations on bits that are ordered as the numbers
 // are. Of what is the most somewhere, they hold the least of the negative. As minima do not depend on the order, the
 // cells are those of the CPU (TexelCells.h), to the last bit, but for G and noise of spoilt texels, for which nothing asks.
 
-const uint numbersOfCell = 8u;
+const uint numbersOfCell = 7u;
 const uint nearestInCell = 0u;
 const uint containedInCell = 1u;
 const uint sharpEndInCell = 2u;
@@ -10,7 +10,6 @@ const uint firstInCell = 3u;
 const uint secondInCell = 4u;
 const uint climbInCell = 5u; // negative
 const uint noiseInCell = 6u; // negative
-const uint entranceInCell = 7u;
 
 const float infinity = uintBitsToFloat(0x7f800000u);
 
@@ -48,13 +47,13 @@ void lower(uint at, float number)
   lowerBits(at, orderedBits(number));
 }
 
-// Up to what depth nothing but a receiver's own surface is before it (Cell of TexelCells.h): when all of that is drawn.
-float clearUpTo(uint cell)
+// Up to what depth there is one layer, if any (Cell of TexelCells.h): when all of that is drawn.
+float oneLayerUpTo(uint cell)
 {
   precise float climb = max(0.0, -numberOf(cells[cell + climbInCell]));
-  precise float oneLayerUpTo =
+  precise float upTo =
     numberOf(min(cells[cell + secondInCell], cells[cell + sharpEndInCell])) - climb;
-  return max(oneLayerUpTo, numberOf(cells[cell + entranceInCell]));
+  return upTo;
 }
 
 // The two least of all. Whatever comes is in the end either the first, or was taken for the second when it, or what it gave

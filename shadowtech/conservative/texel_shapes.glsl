@@ -17,11 +17,10 @@ struct PolygonRecord
   double perX, perY;
   double toSample;
   double spread;
-  float least, most, climb, slack, noise, entranceSlack;
+  float least, most, climb, slack, noise;
   uint covers;
   uint firstSide, sideCount;
   int firstRow, lastRow;
-  uint isExit;
 };
 
 struct SegmentRecord
@@ -32,7 +31,7 @@ struct SegmentRecord
   double margin, slack;
   uint isEnd;
   int firstRow, lastRow;
-  float entranceSlack;
+  uint unused;
 };
 
 layout(std430, binding = 0) readonly buffer Polygons { PolygonRecord polygons[]; };

@@ -36,15 +36,15 @@ bool areSame(const Cell& a, const Cell& b)
   const bool spoilt = a.sharpEnd == -infinity && b.sharpEnd == -infinity;
   return a.nearest == b.nearest && a.contained == b.contained && a.sharpEnd == b.sharpEnd &&
     (spoilt || (a.climb == b.climb && a.noise == b.noise)) && a.first == b.first &&
-    a.second == b.second && a.entrance == b.entrance;
+    a.second == b.second;
 }
 
 std::string textOf(const Cell& cell)
 {
   std::ostringstream text;
   text << "N " << cell.nearest << ", C " << cell.contained << ", G " << cell.climb << ", noise "
-       << cell.noise << ", N' " << cell.entrance << ", E' " << cell.sharpEnd << ", layers "
-       << cell.first << " and " << cell.second;
+       << cell.noise << ", E' " << cell.sharpEnd << ", layers " << cell.first << " and "
+       << cell.second;
   return text.str();
 }
 
@@ -204,8 +204,6 @@ Shapes randomShapes(Random& random, int width)
     polygon.role.covers = random() % 4 != 0;
     polygon.slack = uniform(random, 0.0, 0.01);
     polygon.noise = uniform(random, 0.0, 0.1);
-    polygon.isExit = polygon.noise < 0.05;
-    polygon.entranceSlack = static_cast<float>(polygon.slack);
     return polygon;
   };
   for (int i = 0; i < 200; ++i)
@@ -230,7 +228,6 @@ Shapes randomShapes(Random& random, int width)
     MapSegment segment = segmentBetween(
       corners[0], i % 10 == 0 ? glm::dvec3(corners[0].x, corners[1].y, 0.5) : corners[1]);
     segment.slack = i % 10 == 1 ? infinity : 0.01;
-    segment.entranceSlack = 0.05f;
     segment.isEnd = random() % 2 == 0;
     shapes.segments.push_back(segment);
   }
@@ -535,7 +532,7 @@ TEST_P(CellsOnGpuBy, needRoom)
   {
     EXPECT_GE(CellTarget::mostRows(2048, room), 2048);
   }
-  EXPECT_EQ(CellTarget::mostRows(100, 2 * 32 * 100 + 1), 2);
+  EXPECT_EQ(CellTarget::mostRows(100, 2 * 28 * 100 + 1), 2);
   EXPECT_EQ(CellTarget::mostRows(100, 1), 1);
 }
 

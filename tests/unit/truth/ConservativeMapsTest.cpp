@@ -2,7 +2,6 @@
 
 #include "shadowtech/conservative/ConservativeMaps.h"
 
-#include "ChosenReceivers.h"
 #include "ExactRecord.h"
 #include "RandomScenes.h"
 
@@ -286,6 +285,29 @@ TEST_P(ConservativeMapsAnywhere, areNeverWrongFarAwayAndAtAnyScale)
 INSTANTIATE_TEST_SUITE_P(Rules, ConservativeMapsAnywhere,
   testing::Values(Covering::Triangle, Covering::Ring, Covering::Fan, Covering::Silhouette),
   [](const testing::TestParamInfo<Covering>& rule) { return nameOfCovering(rule.param); });
+
+/// Receivers that are put where a test wants them.
+struct ChosenReceivers
+{
+  ReceiverPixels pixels;
+
+  /// @param surface that they count as points of
+  explicit ChosenReceivers(int count, std::uint32_t surface)
+  {
+    this->pixels.resize(count, 1);
+    std::fill(this->pixels.surface.begin(), this->pixels.surface.end(), surface);
+  }
+  void set(std::size_t i, const glm::dvec3& centred, const glm::dvec3& normal, float offset)
+  {
+    this->pixels.positionX[i] = static_cast<float>(centred.x);
+    this->pixels.positionY[i] = static_cast<float>(centred.y);
+    this->pixels.positionZ[i] = static_cast<float>(centred.z);
+    this->pixels.normalX[i] = static_cast<float>(normal.x);
+    this->pixels.normalY[i] = static_cast<float>(normal.y);
+    this->pixels.normalZ[i] = static_cast<float>(normal.z);
+    this->pixels.offset[i] = offset;
+  }
+};
 
 Mesh oneTriangle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c)
 {

@@ -116,65 +116,6 @@ Mesh makeDuplicates(Random& random, int count)
   return mesh;
 }
 
-/// A sphere with waves on it.
-Mesh makeBlob(Random& random)
-{
-  const double waves = uniform(random, 2.0, 9.0);
-  const double height = uniform(random, 0.0, 0.25);
-  const glm::dvec3 along = unitVector(random);
-  const glm::dvec3 stretch(
-    uniform(random, 0.2, 1.0), uniform(random, 0.2, 1.0), uniform(random, 0.2, 1.0));
-  Mesh mesh =
-    makeClosedSphere(6 + static_cast<int>(random() % 20), 8 + static_cast<int>(random() % 30));
-  for (glm::dvec3& point : mesh.points)
-  {
-    point *= stretch * (1.0 + height * std::sin(waves * glm::dot(along, point)));
-  }
-  return mesh;
-}
-
-/// A sphere that is twisted and bent until, as a rule, it crosses itself.
-Mesh makeKnot(Random& random)
-{
-  const double bend = uniform(random, 1.0, 4.0);
-  const double twist = uniform(random, 0.0, 3.0);
-  Mesh mesh = makeClosedSphere(24, 20);
-  for (glm::dvec3& point : mesh.points)
-  {
-    // A sausage along z, laid around a circle that does not quite close or does more than that.
-    const double angle = bend * point.z;
-    const double turn = twist * point.z;
-    const glm::dvec2 across(std::cos(turn) * point.x - std::sin(turn) * point.y,
-      std::sin(turn) * point.x + std::cos(turn) * point.y);
-    const double radius = 0.6 + 0.4 * across.x;
-    point = { radius * std::cos(angle), radius * std::sin(angle), 0.3 * across.y + 0.05 * point.z };
-  }
-  return mesh;
-}
-
-/// A closed block with grooves across its top: of all widths, some of which come to a point at the bottom.
-Mesh makeGrooved(Random& random)
-{
-  std::vector<glm::dvec2> profile{ { -1.0, 0.3 } };
-  const int grooves = 1 + static_cast<int>(random() % 6);
-  for (int i = 0; i < grooves; ++i)
-  {
-    const double middle = -0.9 + 1.8 * (i + 0.5) / grooves;
-    const double halfWidth = std::pow(10.0, uniform(random, -6.0, -1.0)) * 0.8;
-    const double depth = uniform(random, -0.2, 0.7);
-    const double flat = random() % 2 ? uniform(random, 0.1, 0.9) * halfWidth : 0.0;
-    profile.emplace_back(middle - halfWidth, 0.3 + uniform(random, -0.1, 0.1));
-    profile.emplace_back(middle - flat, 0.3 - depth);
-    if (flat > 0.0)
-    {
-      profile.emplace_back(middle + flat, 0.3 - depth);
-    }
-    profile.emplace_back(middle + halfWidth, 0.3 + uniform(random, -0.1, 0.1));
-  }
-  profile.emplace_back(1.0, 0.3);
-  return makeBlock(profile);
-}
-
 /// The triangles of a mesh dealt out to some meshes, of which every other one is turned over.
 std::vector<Mesh> dealtOut(const Mesh& mesh, std::size_t count, Random& random)
 {
@@ -192,11 +133,6 @@ std::vector<Mesh> dealtOut(const Mesh& mesh, std::size_t count, Random& random)
   return dealt;
 }
 
-bool isOfSolids(const std::string& name)
-{
-  return name == "solids" || name == "knots" || name == "grooves";
-}
-
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -204,7 +140,7 @@ const std::vector<const char*>& randomSceneNames()
 {
   static const std::vector<const char*> names = { "one triangle", "spheres", "soup", "needles",
     "cups", "folds", "junctions", "duplicates", "touching boxes", "crossing boxes", "terrain",
-    "perforated", "one-sided", "sheets", "lamp", "patchwork", "solids", "knots", "grooves" };
+    "perforated", "one-sided", "sheets", "lamp", "patchwork" };
   return names;
 }
 
@@ -277,21 +213,7 @@ std::vector<Prop> makeRandomScene(const std::string& name, Random& random)
       props.push_back({ makePlane(1.5, 1 + i), at({ 0.1 * i, 0.0, height }) });
     }
   }
-  if (isOfSolids(name))
-  {
-    // Nothing else, so that they are large on the map: some wound inside out, mirrored, crossing or inside of each other.
-    props.clear();
-    for (int i = 0; i < 3; ++i)
-    {
-      Mesh mesh = name == "solids" ? makeBlob(random)
-        : name == "knots"          ? makeKnot(random)
-                                   : makeGrooved(random);
-      glm::dmat4 place = placed(random, 1.2, uniform(random, 0.3, 1.0));
-      place[0] *= random() % 4 ? 1.0 : -1.0;
-      props.push_back({ random() % 4 ? mesh : turnedOver(mesh), place });
-    }
-  }
-  else if (name == "one-sided")
+  if (name == "one-sided")
   {
     // The plane is seen from its back, where it casts nothing.
     props.front().worldFromMesh =
@@ -389,13 +311,6 @@ RandomPicture makeRandomPicture(const std::string& name, unsigned int seed, cons
     toWorld(3.5 * unitVector(random) * glm::dvec3(1.0, 1.0, 0.5) + glm::dvec3(0.0, 0.0, 2.0));
   camera.target = toWorld({ 0.0, 0.0, uniform(random, 0.0, 0.8) });
   camera.fovDegrees = uniform(random, 10.0, 60.0);
-  if (isOfSolids(name) && random() % 2)
-  {
-    // Among them, where it may see them from inside.
-    camera.position =
-      toWorld(uniform(random, 0.0, 1.2) * unitVector(random) + glm::dvec3(0.0, 0.0, 0.9));
-    camera.fovDegrees = uniform(random, 30.0, 100.0);
-  }
   picture.view = makeView(picture.occluders, camera);
 
   ShadowLight light = makeRandomLight(random);
@@ -418,8 +333,7 @@ RandomPicture makeRandomPicture(const std::string& name, unsigned int seed, cons
     findSetting("projection")->set(light, light.kind == LightKind::Point ? "cube" : "uniform");
   }
   light.fit = random() % 2 ? ViewFit::Frame : ViewFit::Off;
-  // What is known of solids takes fine texels.
-  const int sizes[] = { isOfSolids(name) ? 256 : 16, 64, 129, 512 };
+  const int sizes[] = { 16, 64, 129, 512 };
   light.mapSizeTexels = sizes[random() % 4];
 
   ViewFitting fitting;

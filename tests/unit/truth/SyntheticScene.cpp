@@ -16,7 +16,6 @@
 #include <random>
 #include <sstream>
 #include <stdexcept>
-#include <utility>
 
 namespace gnomon::test
 {
@@ -133,59 +132,6 @@ Mesh makeSphere(int rings, int segments, double bumps)
       }
     }
   }
-  return mesh;
-}
-
-//------------------------------------------------------------------------------
-Mesh makeClosedSphere(int rings, int segments)
-{
-  Mesh sphere = makeSphere(rings, segments);
-  for (glm::dvec3& point : sphere.points)
-  {
-    point = glm::round(1e6 * point) / 1e6;
-  }
-  return sphere;
-}
-
-//------------------------------------------------------------------------------
-Mesh turnedOver(Mesh mesh)
-{
-  for (glm::uvec3& triangle : mesh.triangles)
-  {
-    std::swap(triangle.y, triangle.z);
-  }
-  return mesh;
-}
-
-//------------------------------------------------------------------------------
-Mesh makeBlock(const std::vector<glm::dvec2>& profile)
-{
-  Mesh mesh;
-  const auto quad = [&](std::size_t a, std::size_t b, std::size_t c, std::size_t d)
-  {
-    mesh.triangles.emplace_back(a, b, c);
-    mesh.triangles.emplace_back(a, c, d);
-  };
-  // Of each place of the profile: top and bottom, at the near end and the far one.
-  for (const glm::dvec2& place : profile)
-  {
-    for (const double y : { -1.0, 1.0 })
-    {
-      mesh.points.emplace_back(place.x, y, place.y);
-      mesh.points.emplace_back(place.x, y, -0.6);
-    }
-  }
-  for (std::size_t i = 0; i + 1 < profile.size(); ++i)
-  {
-    const std::size_t a = 4 * i, b = a + 4;
-    quad(a, b, b + 2, a + 2);         // top
-    quad(a + 1, a + 3, b + 3, b + 1); // bottom
-    quad(a, a + 1, b + 1, b);         // near end
-    quad(a + 2, b + 2, b + 3, a + 3); // far end
-  }
-  const std::size_t last = 4 * (profile.size() - 1);
-  quad(0, 2, 3, 1);
-  quad(last, last + 1, last + 3, last + 2);
   return mesh;
 }
 

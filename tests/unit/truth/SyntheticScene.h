@@ -33,14 +33,6 @@ Mesh makeTerrain(double side, int cells, double height);
 Mesh makeBox(const glm::dvec3& lower, const glm::dvec3& upper);
 /// A unit sphere around the origin; `bumps` displaces it along its normals.
 Mesh makeSphere(int rings, int segments, double bumps = 0.0);
-
-/// A sphere whose seam and poles close, which else they do but for rounding.
-Mesh makeClosedSphere(int rings, int segments);
-/// A mesh, wound the other way round.
-Mesh turnedOver(Mesh mesh);
-/// A closed block, from y = -1 to 1 and down to z = -0.6.
-/// @param profile x and z of its top, from the least x to the greatest
-Mesh makeBlock(const std::vector<glm::dvec2>& profile);
 /// Triangles of all shapes and sizes in the unit cube, slivers among them.
 Mesh makeTriangleSoup(int count, unsigned int seed);
 /// The mesh of a Wavefront file; polygons are fanned.

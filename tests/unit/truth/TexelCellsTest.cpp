@@ -287,31 +287,6 @@ TEST(TexelCells, ofATriangleThatIsSeenAlongItsPlaneAreNone)
   }
 }
 
-TEST(TexelCells, doNotCountAsEntrancesWhatRaysOnlyLeaveBy)
-{
-  const auto sheetAt = [](double depth, bool isExit, double ofNoise)
-  {
-    MapPolygon polygon =
-      polygonWith({ { { 1.0, 1.0, depth }, { 25.0, 1.0, depth }, { 1.0, 25.0, depth } } });
-    polygon.isExit = isExit;
-    polygon.entranceSlack = 0.125f;
-    polygon.noise = ofNoise;
-    return polygon;
-  };
-  constexpr std::size_t middle = 6 * cellsWidth + 6;
-  // Three layers: by the first rule they are lit up to the second, by this one up to where one may enter.
-  const Cell cell = drawn(
-    { sheetAt(0.2, true, 0.01), sheetAt(0.4, true, 0.02), sheetAt(0.7, false, 0.03) })[middle];
-  EXPECT_EQ(cell.nearest, 0.2f);
-  EXPECT_EQ(cell.entrance, 0.7f - 0.125f);
-  EXPECT_EQ(cell.clearUpTo(), cell.entrance);
-  EXPECT_EQ(cell.noise, 0.02f) << "of what begins before that";
-  EXPECT_EQ(
-    drawn({ sheetAt(0.2, true, 0.01), sheetAt(0.4, false, 0.02) })[middle].clearUpTo(), 0.4f)
-    << "it is the second layer";
-  EXPECT_EQ(drawn({ sheetAt(0.2, true, 0.01) })[middle].entrance, static_cast<float>(infinity));
-}
-
 TEST(TexelCells, knowNothingWithinTheMarginOfATriangleThatSpoilsThem)
 {
   Random random(14);
@@ -333,7 +308,6 @@ TEST(TexelCells, knowNothingWithinTheMarginOfATriangleThatSpoilsThem)
           EXPECT_EQ(cells[at].nearest, -infinity);
           EXPECT_EQ(cells[at].partEnd, -infinity);
           EXPECT_EQ(cells[at].sharpEnd, -infinity);
-          EXPECT_EQ(cells[at].entrance, -infinity);
         }
       });
   }
@@ -351,7 +325,6 @@ TEST(TexelCells, ofAnEdgeHaveItsLeastDepth)
     MapSegment segment;
     segment.ends = { { { from.x, from.y, from.z }, { to.x, to.y, to.z } } };
     segment.slack = sheetSlack;
-    segment.entranceSlack = 0.125f;
     segment.isEnd = i % 2 == 0;
     std::vector<Cell> cells(cellsWidth * cellsWidth);
     drawSegment(segment, marginTexels, cellsWidth, { 0, cellsWidth - 1 }, cells.data());
@@ -371,7 +344,6 @@ TEST(TexelCells, ofAnEdgeHaveItsLeastDepth)
         EXPECT_LE(cell.sharpEnd, at.z - sheetSlack + 1e-6);
         EXPECT_EQ(cell.nearest, segment.isEnd ? cell.sharpEnd : infinity);
         EXPECT_EQ(cell.partEnd, cell.sharpEnd);
-        EXPECT_EQ(cell.entrance, cell.sharpEnd - segment.entranceSlack);
       }
     }
     const Corners line{ { from, to, to } };
