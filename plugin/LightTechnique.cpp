@@ -6,6 +6,7 @@
 #include "shadowtech/base/OccluderBuffers.h"
 #include "shadowtech/base/Occluders.h"
 #include "shadowtech/base/ReceiverTarget.h"
+#include "shadowtech/conservative/CellsOnGpu.h"
 
 #include <utility>
 
@@ -88,7 +89,7 @@ void LightTechnique::updateMaps(
   this->usesMap_ = true;
   if (this->baked_.serves(wanted))
   {
-    this->baked_.takeReasonOf(wanted);
+    this->baked_.rasterizer = wanted.rasterizer; // it may be the same for another reason
   }
   else
   {
@@ -125,7 +126,7 @@ void LightTechnique::updateOptionalMaps(
       break;
     case MapCost::Plan::Draw:
     {
-      if (wanted.drawnBy.gpu)
+      if (wanted.isDrawnOnGpu())
       {
         glFinish(); // else the map, whose cells are waited for, would wait for the receivers, too
       }
@@ -136,7 +137,7 @@ void LightTechnique::updateOptionalMaps(
       break;
     }
     case MapCost::Plan::Use:
-      this->baked_.takeReasonOf(wanted);
+      this->baked_.rasterizer = wanted.rasterizer; // it may be the same for another reason
       this->baked_.tell(report);
       break;
   }
@@ -195,8 +196,7 @@ LightTechnique::Bake LightTechnique::wantedIn(const ShadowLight& light, const Ma
   {
     wanted.rasterizer = this->info().onlyCpuDraws.empty()
       ? stage.rasterizer
-      : RasterizerChoice{ std::nullopt, false, this->info().onlyCpuDraws };
-    wanted.drawnBy = *wanted.rasterizer;
+      : RasterizerChoice{ false, this->info().onlyCpuDraws };
   }
   wanted.made = true;
   return wanted;
@@ -214,14 +214,14 @@ void LightTechnique::bake(const ShadowLight& light, const MapStage& stage, Bake 
         stage.receivers.height() },
       stage.centredFromView, stage.shaders);
   }
-  namingLight(light,
-    [&]
-    {
-      wanted.drawnBy = bakeMaps(*this->technique_,
-        { light, wanted.views, stage.occluders, stage.buffers, stage.shaders,
-          light.fittedToReceivers ? this->receiverFit_.fits() : TextureBinding() },
-        wanted.drawnBy);
-    });
+  MapInput input{ light, wanted.views, stage.occluders, stage.buffers, stage.shaders,
+    light.fittedToReceivers ? this->receiverFit_.fits() : TextureBinding() };
+  const CellsOnGpu cells(stage.shaders);
+  if (wanted.isDrawnOnGpu())
+  {
+    input.cellsOnGpu = &cells;
+  }
+  namingLight(light, [&] { this->technique_->bake(input); });
   wanted.castersLeftOut = stage.buffers.countUnseen(wanted.views.views);
   this->baked_ = std::move(wanted);
   ++stage.mapBakes;
@@ -232,9 +232,7 @@ bool LightTechnique::Bake::serves(const Bake& wanted) const
 {
   return this->made && this->views == wanted.views && this->reach == wanted.reach &&
     this->settings.mapSizeTexels == wanted.settings.mapSizeTexels &&
-    this->settings.storesAs(wanted.settings) &&
-    this->rasterizer.has_value() == wanted.rasterizer.has_value() &&
-    (!this->rasterizer || servesChoice(*this->rasterizer, this->drawnBy, *wanted.rasterizer)) &&
+    this->settings.storesAs(wanted.settings) && this->isDrawnOnGpu() == wanted.isDrawnOnGpu() &&
     this->topology == wanted.topology && this->positions == wanted.positions &&
     this->receivers == wanted.receivers;
 }
@@ -245,17 +243,7 @@ bool LightTechnique::Bake::costsAs(const Bake& wanted) const
   return this->made && this->reach == wanted.reach &&
     this->settings.mapSizeTexels == wanted.settings.mapSizeTexels &&
     this->settings.storesAs(wanted.settings) && this->views.layout == wanted.views.layout &&
-    this->drawnBy.gpu == wanted.drawnBy.gpu;
-}
-
-//------------------------------------------------------------------------------
-void LightTechnique::Bake::takeReasonOf(const Bake& wanted)
-{
-  if (wanted.rasterizer && this->drawnBy.gpu == wanted.rasterizer->gpu)
-  {
-    this->rasterizer = wanted.rasterizer;
-    this->drawnBy = *wanted.rasterizer;
-  }
+    this->isDrawnOnGpu() == wanted.isDrawnOnGpu();
 }
 
 //------------------------------------------------------------------------------
@@ -264,9 +252,8 @@ void LightTechnique::Bake::tell(LightReport& report) const
   report.castersLeftOut = this->castersLeftOut;
   if (this->rasterizer)
   {
-    report.rasterizer =
-      this->drawnBy.gpu ? std::string("gpu: ") + nameOf(*this->drawnBy.gpu) : "cpu";
-    report.rasterizerReason = this->drawnBy.reason;
+    report.rasterizer = this->rasterizer->gpu ? "gpu" : "cpu";
+    report.rasterizerReason = this->rasterizer->reason;
   }
 }
 

@@ -82,9 +82,8 @@ private:
     std::uint64_t topology = 0;
     std::uint64_t positions = 0;
     std::size_t receivers = 0; ///< a hash of what F of MapFit.h was found from on the GPU; else 0
-    /// Who is to draw a conservative map; none for other maps.
+    /// Who draws a conservative map; none for other maps.
     std::optional<RasterizerChoice> rasterizer;
-    RasterizerChoice drawnBy; ///< and who did; before that the same
     int castersLeftOut = 0;
     bool made = false; ///< false: it is none yet, or was given up half way
 
@@ -92,9 +91,8 @@ private:
     bool serves(const Bake& wanted) const;
     /// Whether it takes about as long to draw.
     bool costsAs(const Bake& wanted) const;
-    /// Whoever drew maps that serve may have been chosen anew, for another reason.
-    void takeReasonOf(const Bake& wanted);
     void tell(LightReport& report) const;
+    bool isDrawnOnGpu() const { return this->rasterizer && this->rasterizer->gpu; }
   };
 
   std::string reasonAgainstReceivers(

@@ -6,6 +6,7 @@
 #include "plugin/ShownView.h"
 #include "plugin/vtkGnomonShadowPass.h"
 #include "shadowtech/base/Bytes.h"
+#include "shadowtech/conservative/CellTarget.h"
 #include "shadowtech/tracing/GpuTracer.h"
 
 #include <vtkOpenGLRenderWindow.h>
@@ -184,8 +185,7 @@ void RenderManager::bakeMaps(int wishedRasterizer)
   RasterizerChoice rasterizer;
   if (this->lights_.anyTechnique([](const TechniqueInfo& info) { return info.conservativeMap; }))
   {
-    rasterizer = chooseRasterizer(wishedRasterizer, whyUnsupported(CellPath::Compute),
-      whyUnsupported(CellPath::Extension), rendererName());
+    rasterizer = chooseRasterizer(wishedRasterizer, CellTarget::whyUnsupported());
   }
   const MapStage stage{ this->camera_, this->collector_.occluders(), this->buffers_, rasterizer,
     this->library_, this->receiverTarget_, this->stageValues_.space.centredFromView,

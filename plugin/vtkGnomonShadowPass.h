@@ -140,10 +140,8 @@ public:
   ///@}
 
   /**
-   * Who draws conservative maps, for techniques that have them. CPU: all its cores. GPU: OpenGL, by
-   * GL_NV_conservative_raster or GL_INTEL_conservative_rasterization where it has one of these, else by compute
-   * shaders. AUTO: the GPU where OpenGL draws by hardware and has one of them, else the CPU. With either extension none of
-   * this has been tested or measured yet, for want of such hardware; CPU is what has been.
+   * Who draws conservative maps, for techniques that have them. CPU: all its cores. GPU: compute
+   * shaders of OpenGL 4.3. AUTO: the CPU, as compute shaders are not measured faster.
    */
   enum RasterizerType
   {
@@ -154,11 +152,11 @@ public:
 
   ///@{
   /**
-   * The rasterizer to take, for all lights alike. All of them draw the same maps. What GPU does not draw (`silhouette`, and
-   * what is drawn as published) the CPU draws, and the report says so.
+   * The rasterizer to take, for all lights alike. Both draw the same maps. The CPU draws what GPU
+   * does not (`silhouette`, and maps as published), and the report says so.
    *
-   * Asking for GPU where OpenGL cannot, fails, or has no room for the map, is an error, and the scene is drawn without
-   * shadows. With AUTO the CPU takes over there, and the report says why. Default RASTERIZER_AUTO.
+   * Asking for GPU where OpenGL cannot, fails, or has no room for the map, is an error, and the
+   * scene is drawn without shadows. Default RASTERIZER_AUTO.
    */
   vtkSetClampMacro(Rasterizer, int, RASTERIZER_AUTO, RASTERIZER_GPU);
   vtkGetMacro(Rasterizer, int);

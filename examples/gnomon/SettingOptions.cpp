@@ -73,8 +73,7 @@ void addRasterizerOption(CLI::App& command, int& rasterizer)
     { "cpu", vtkGnomonShadowPass::RASTERIZER_CPU }, { "gpu", vtkGnomonShadowPass::RASTERIZER_GPU }
   };
   addChoice(command, "--rasterizer", rasterizers, rasterizer,
-    "Who draws conservative maps: cpu, gpu (OpenGL), auto (the GPU where OpenGL draws by hardware "
-    "and has an extension for it)");
+    "Who draws conservative maps: cpu, gpu (compute shaders), auto (cpu)");
 }
 
 } // namespace gnomon::tool

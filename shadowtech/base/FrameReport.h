@@ -39,8 +39,8 @@ struct LightReport
   std::string fitReason; ///< why it is the frustum; empty when it is not
   /// Why its map is not used, of techniques that can do without; empty when it is.
   std::string mapReason;
-  /// Who drew its map, where that is a conservative one: "cpu", or "gpu" and by which OpenGL; empty where it is not, or not
-  /// used.
+  /// Who drew its map, where that is a conservative one: "cpu" or "gpu"; empty where it is not, or
+  /// not used.
   std::string rasterizer;
   std::string rasterizerReason; ///< why that one, as a clause
   int castersLeftOut = 0;       ///< casting surfaces that none of its views can see

@@ -17,15 +17,6 @@ namespace gnomon
 /// @file
 /// What some rows of a conservative map are drawn from on the GPU, as shaders read it.
 
-/// How the texels are found that a triangle may touch. Which of them it does touch, all ways ask alike.
-enum class CellPath
-{
-  Compute,    ///< an invocation walks its rows, or one of them where there are many texels
-  Rasterised, ///< a larger triangle is drawn, and each fragment asks for its texel
-  /// The same, but for the half texel that GL_NV_conservative_raster or GL_INTEL_conservative_rasterization adds.
-  Extension
-};
-
 /// How many invocations a work group has.
 constexpr int invocationsPerGroup = 64;
 
@@ -69,11 +60,8 @@ struct TriangleBatch
 {
   PolygonBatch polygons;
   RowWalks walks;
-  /// Three corners each of what is rasterised instead, in clip coordinates of the rows.
-  std::vector<glm::vec2> placesClip;
 
-  /// @param path nothing is rasterised by Compute
-  void add(const MapPolygon& polygon, double margin, int width, Span rows, CellPath path);
+  void add(const MapPolygon& polygon, double margin, int width, Span rows);
   std::size_t largestBytes() const;
 };
 

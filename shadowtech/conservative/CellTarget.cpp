@@ -11,6 +11,7 @@
 #include <limits>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 namespace gnomon
 {
@@ -90,14 +91,6 @@ const std::vector<std::string>& sampleDefines()
   return defines;
 }
 
-/// The extension's switch; 0 where there is none.
-GLenum conservativeSwitch()
-{
-  return GLEW_NV_conservative_raster        ? GL_CONSERVATIVE_RASTERIZATION_NV
-    : GLEW_INTEL_conservative_rasterization ? GL_CONSERVATIVE_RASTERIZATION_INTEL
-                                            : 0;
-}
-
 /// Gives shaders a buffer of what there is; where there is nothing they do not look.
 template <typename Element>
 void bind(CellBinding binding, GlBuffer& buffer, const std::vector<Element>& elements)
@@ -112,23 +105,7 @@ void bind(CellBinding binding, GlBuffer& buffer, const std::vector<Element>& ele
 } // namespace
 
 //------------------------------------------------------------------------------
-const char* nameOf(CellPath path)
-{
-  switch (path)
-  {
-    case CellPath::Compute:
-      return "compute";
-    case CellPath::Rasterised:
-      return "rasterised";
-    case CellPath::Extension:
-      return GLEW_NV_conservative_raster ? "GL_NV_conservative_raster"
-                                         : "GL_INTEL_conservative_rasterization";
-  }
-  return "";
-}
-
-//------------------------------------------------------------------------------
-std::string whyUnsupported(CellPath path)
+std::string CellTarget::whyUnsupported()
 {
   if (!GLEW_VERSION_4_3)
   {
@@ -137,29 +114,15 @@ std::string whyUnsupported(CellPath path)
                        "double precision, and this is ") +
       (version ? reinterpret_cast<const char*>(version) : "none");
   }
-  if (path == CellPath::Extension && conservativeSwitch() == 0)
-  {
-    return "OpenGL has neither GL_NV_conservative_raster nor GL_INTEL_conservative_rasterization";
-  }
-  // Compute shaders walk edges whatever finds the texels of triangles.
-  for (const GLenum limit :
-    { GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS, GL_MAX_FRAGMENT_SHADER_STORAGE_BLOCKS })
-  {
-    GLint buffers = 0;
-    glGetIntegerv(limit, &buffers);
-    if (buffers < static_cast<GLint>(bindings))
-    {
-      return "shaders take too few buffers";
-    }
-  }
-  return {};
+  GLint buffers = 0;
+  glGetIntegerv(GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS, &buffers);
+  return buffers < static_cast<GLint>(bindings) ? "shaders take too few buffers" : "";
 }
 
 //------------------------------------------------------------------------------
-CellTarget::CellTarget(ShaderLibrary& shaders, CellPath path, int width, Span rows)
+CellTarget::CellTarget(ShaderLibrary& shaders, int width, Span rows)
   : bindings_(bindings)
   , shaders_(shaders)
-  , path_(path)
   , width_(width)
   , rows_(rows)
 {
@@ -168,10 +131,6 @@ CellTarget::CellTarget(ShaderLibrary& shaders, CellPath path, int width, Span ro
   allocateStorage(this->cells_, texels * bytesOfCell, nullptr, "the cells of a conservative map");
   glClearBufferData(GL_SHADER_STORAGE_BUFFER, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &nothing);
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, cellsBinding, this->cells_.name());
-  if (path != CellPath::Compute)
-  {
-    this->prepareRasterising();
-  }
   this->requireNoError();
 }
 
@@ -195,22 +154,13 @@ void CellTarget::requireNoError() const
     return;
   }
   std::ostringstream what;
-  what << "a conservative map of " << this->width_ << " texels could not be drawn by "
-       << nameOf(this->path_) << ": ";
+  what << "a conservative map of " << this->width_ << " texels could not be drawn on the GPU: ";
   if (error == GL_OUT_OF_MEMORY)
   {
     throw TextureMemoryError(what.str() + "OpenGL is out of memory");
   }
   what << "OpenGL reports error 0x" << std::hex << error;
   throw std::runtime_error(what.str());
-}
-
-//------------------------------------------------------------------------------
-void CellTarget::use(GLuint program) const
-{
-  glUseProgram(program);
-  ShaderLibrary::setUniforms(
-    program, { { "width", this->width_ }, { "firstRow", this->rows_.first } }, 0, 0);
 }
 
 //------------------------------------------------------------------------------
@@ -232,7 +182,9 @@ void CellTarget::walk(const RowWalks& walks, const char* shader, std::vector<std
     bind(walksBinding, this->walks_, list);
     const GLuint program = this->shaders_.program(
       { { GL_COMPUTE_SHADER, ShaderLibrary::source(std::string(folder) + shader) } }, defines);
-    this->use(program);
+    glUseProgram(program);
+    ShaderLibrary::setUniforms(
+      program, { { "width", this->width_ }, { "firstRow", this->rows_.first } }, 0, 0);
     const std::size_t ofGroup = rowEach ? 1 : invocationsPerGroup;
     for (std::size_t from = 0; from < list.size(); from += mostGroups * ofGroup)
     {
@@ -261,90 +213,34 @@ void CellTarget::draw(const SegmentBatch& batch)
 }
 
 //------------------------------------------------------------------------------
-void CellTarget::spoil(const TriangleBatch& batch)
+void CellTarget::walkPolygons(const TriangleBatch& batch, std::vector<std::string> defines)
 {
   this->send(batch.polygons);
-  this->walk(batch.walks, "draw_polygons.comp.glsl", { "POISON" });
+  this->walk(batch.walks, "draw_polygons.comp.glsl", std::move(defines));
+}
+
+//------------------------------------------------------------------------------
+void CellTarget::spoil(const TriangleBatch& batch)
+{
+  this->walkPolygons(batch, { "POISON" });
+}
+
+//------------------------------------------------------------------------------
+void CellTarget::draw(const TriangleBatch& batch)
+{
+  this->walkPolygons(batch, {});
+}
+
+//------------------------------------------------------------------------------
+void CellTarget::drawNoise(const TriangleBatch& batch)
+{
+  this->walkPolygons(batch, { "NOISE" });
 }
 
 //------------------------------------------------------------------------------
 void CellTarget::endPass()
 {
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
-}
-
-//------------------------------------------------------------------------------
-void CellTarget::drawPolygons(const TriangleBatch& batch, const std::vector<std::string>& defines)
-{
-  this->send(batch.polygons);
-  if (this->path_ == CellPath::Compute)
-  {
-    this->walk(batch.walks, "draw_polygons.comp.glsl", defines);
-  }
-  else if (!batch.polygons.records.empty())
-  {
-    this->rasterise(batch, defines);
-  }
-}
-
-//------------------------------------------------------------------------------
-void CellTarget::draw(const TriangleBatch& batch)
-{
-  this->drawPolygons(batch, {});
-}
-
-//------------------------------------------------------------------------------
-void CellTarget::drawNoise(const TriangleBatch& batch)
-{
-  this->drawPolygons(batch, { "NOISE" });
-}
-
-//------------------------------------------------------------------------------
-void CellTarget::prepareRasterising()
-{
-  const int height = this->rows_.last - this->rows_.first + 1;
-  glBindFramebuffer(GL_FRAMEBUFFER, this->framebuffer_.create());
-  glFramebufferParameteri(GL_FRAMEBUFFER, GL_FRAMEBUFFER_DEFAULT_WIDTH, this->width_);
-  glFramebufferParameteri(GL_FRAMEBUFFER, GL_FRAMEBUFFER_DEFAULT_HEIGHT, height);
-  this->requireNoError(); // as of more texels than OpenGL rasterises
-  const GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
-  if (status != GL_FRAMEBUFFER_COMPLETE)
-  {
-    std::ostringstream what;
-    what << "a conservative map cannot be rasterised in " << this->width_ << " x " << height
-         << " texels: OpenGL says 0x" << std::hex << status << " of the framebuffer";
-    throw std::runtime_error(what.str());
-  }
-  glViewport(0, 0, this->width_, height);
-  for (const GLenum off : { GL_DEPTH_TEST, GL_STENCIL_TEST, GL_CULL_FACE, GL_SCISSOR_TEST,
-         GL_MULTISAMPLE, GL_CLIP_DISTANCE0, GL_CLIP_DISTANCE1 })
-  {
-    glDisable(off);
-  }
-  glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
-  glBindVertexArray(this->vertexArray_.create());
-  glEnableVertexAttribArray(0);
-}
-
-//------------------------------------------------------------------------------
-void CellTarget::rasterise(const TriangleBatch& batch, std::vector<std::string> defines)
-{
-  defines.insert(defines.end(), sampleDefines().begin(), sampleDefines().end());
-  allocateStorage(this->places_, batch.placesClip.size() * sizeof(glm::vec2),
-    batch.placesClip.data(), whatIsDrawnFrom);
-  glBindBuffer(GL_ARRAY_BUFFER, this->places_.name());
-  glVertexAttribPointer(0, 2, GL_FLOAT, GL_FALSE, 0, nullptr);
-  this->use(this->shaders_.program(
-    { { GL_VERTEX_SHADER, ShaderLibrary::source(std::string(folder) + "draw_polygons.vert.glsl") },
-      { GL_FRAGMENT_SHADER,
-        ShaderLibrary::source(std::string(folder) + "draw_polygons.frag.glsl") } },
-    defines));
-  const GLenum conservative = this->path_ == CellPath::Extension ? conservativeSwitch() : 0;
-  const bool switches = conservative && !glIsEnabled(conservative);
-  switches ? glEnable(conservative) : void();
-  glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(batch.placesClip.size()));
-  switches ? glDisable(conservative) : void();
-  this->requireNoError();
 }
 
 //------------------------------------------------------------------------------

@@ -17,19 +17,17 @@ namespace gnomon
 /// @file
 /// The cells of a conservative map on the GPU.
 
-const char* nameOf(CellPath path);
-
-/// Why the current context cannot draw in that way, as a clause; empty where it can.
-std::string whyUnsupported(CellPath path);
-
 /// Some rows of a map on the GPU. While one of these is alive OpenGL's state is its own; it is put back in the end.
 class CellTarget
 {
 public:
+  /// Why the current context cannot draw them, as a clause; empty where it can.
+  static std::string whyUnsupported();
+
   /// Empty cells.
   /// @throws TextureMemoryError where there is no room, std::runtime_error where OpenGL fails; so does all that follows: what
   /// was not drawn would pass for lit
-  CellTarget(ShaderLibrary& shaders, CellPath path, int width, Span rows);
+  CellTarget(ShaderLibrary& shaders, int width, Span rows);
 
   /// How many rows OpenGL takes at once; one at least.
   /// @param mostBytes that their cells may take
@@ -54,22 +52,15 @@ public:
 private:
   void send(const PolygonBatch& polygons);
   void walk(const RowWalks& walks, const char* shader, std::vector<std::string> defines);
-  void prepareRasterising();
-  void drawPolygons(const TriangleBatch& batch, const std::vector<std::string>& defines);
-  void rasterise(const TriangleBatch& batch, std::vector<std::string> defines);
+  void walkPolygons(const TriangleBatch& batch, std::vector<std::string> defines);
   void requireNoError() const;
-  void use(GLuint program) const;
 
   const GlStateGuard state_;
   const StorageBindingsGuard bindings_;
   ShaderLibrary& shaders_;
-  CellPath path_;
   int width_;
   Span rows_;
   GlBuffer polygons_, sides_, segments_, cells_, walks_, rings_;
-  GlBuffer places_;
-  GlVertexArray vertexArray_;
-  GlFramebuffer framebuffer_;
 };
 
 } // namespace gnomon

@@ -17,14 +17,13 @@ class RowsOnGpu
 {
 public:
   /// @param mostBytes of what is drawn from in one buffer (CollectedBatches)
-  RowsOnGpu(ShaderLibrary& shaders, CellPath path, std::size_t mostBytes, const MapCasters& casters,
-    int size, Span rows)
+  RowsOnGpu(
+    ShaderLibrary& shaders, std::size_t mostBytes, const MapCasters& casters, int size, Span rows)
     : casters_(casters)
-    , path_(path)
     , mostBytes_(mostBytes)
     , size_(size)
     , rows_(rows)
-    , target_(shaders, path, size, rows)
+    , target_(shaders, size, rows)
   {
   }
 
@@ -49,8 +48,7 @@ public:
     CollectedBatches<TriangleBatch> batches(this->mostBytes_);
     for (const BandItem& item : spoiling)
     {
-      batches.local().add(this->casters_.polygon(item), this->casters_.margin(), this->size_,
-        this->rows_, CellPath::Compute);
+      this->add(this->casters_.polygon(item), batches);
     }
     batches.drawAll([this](const TriangleBatch& batch) { this->target_.spoil(batch); });
     this->target_.endPass();
@@ -117,11 +115,10 @@ private:
 
   void add(const MapPolygon& polygon, CollectedBatches<TriangleBatch>& triangles) const
   {
-    triangles.local().add(polygon, this->casters_.margin(), this->size_, this->rows_, this->path_);
+    triangles.local().add(polygon, this->casters_.margin(), this->size_, this->rows_);
   }
 
   const MapCasters& casters_;
-  CellPath path_;
   std::size_t mostBytes_;
   int size_;
   Span rows_;
@@ -159,7 +156,7 @@ bool CellsOnGpu::draw(const CasterScene& scene, const CasterEdges& edges, int si
   const int most = CellTarget::mostRows(size, this->room_.cells);
   for (int first = 0; first < size; first += most)
   {
-    RowsOnGpu rows(this->shaders_, this->path_, this->room_.records, casters, size,
+    RowsOnGpu rows(this->shaders_, this->room_.records, casters, size,
       { first, std::min(first + most, size) - 1 });
     rows.drawSegments();
     rows.spoil(spoiling);

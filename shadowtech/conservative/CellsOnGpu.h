@@ -24,15 +24,14 @@ public:
     std::size_t records = std::size_t(1) << 23;
   };
 
+  /// The context must support them (CellTarget::whyUnsupported()).
   /// @param shaders must outlive this
-  /// @param path one that is supported
-  CellsOnGpu(ShaderLibrary& shaders, CellPath path)
-    : CellsOnGpu(shaders, path, Room())
+  explicit CellsOnGpu(ShaderLibrary& shaders)
+    : CellsOnGpu(shaders, Room())
   {
   }
-  CellsOnGpu(ShaderLibrary& shaders, CellPath path, const Room& room)
+  CellsOnGpu(ShaderLibrary& shaders, const Room& room)
     : shaders_(shaders)
-    , path_(path)
     , room_(room)
   {
   }
@@ -45,7 +44,6 @@ public:
 
 private:
   ShaderLibrary& shaders_;
-  CellPath path_;
   Room room_;
 };
 

@@ -1,6 +1,6 @@
-// What it costs to draw a conservative map on the CPU and, in all ways that there are, on the GPU: whole maps, from the
-// snapshot to what pixels ask. All take turns. And what it costs to find the casters' edges for it, or to bring them up to date
-// where all casters have moved.
+// What it costs to draw a conservative map on the CPU and on the GPU: whole maps, from the
+// snapshot to what pixels ask. They take turns. And what it costs to find the casters' edges for
+// it, or to bring them up to date where all casters have moved.
 
 #include "BenchmarkMain.h"
 #include "FrameTiming.h"
@@ -22,7 +22,6 @@
 #include <functional>
 #include <iomanip>
 #include <iostream>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -187,19 +186,15 @@ void runMaps(const Subject& subject, const std::string& name, int sizeTexels, Co
                     } });
   };
   add("cpu", nullptr);
-  std::vector<std::unique_ptr<CellsOnGpu>> onGpu;
-  for (const CellPath path : { CellPath::Compute, CellPath::Rasterised, CellPath::Extension })
+  const CellsOnGpu gpu(shaders);
+  const std::string why = CellTarget::whyUnsupported();
+  if (why.empty())
   {
-    const std::string why = whyUnsupported(path);
-    if (why.empty())
-    {
-      onGpu.push_back(std::make_unique<CellsOnGpu>(shaders, path));
-      add(nameOf(path), onGpu.back().get());
-    }
-    else
-    {
-      std::cout << "One way is not measured: " << why << "\n";
-    }
+    add("gpu", &gpu);
+  }
+  else
+  {
+    std::cout << "The GPU is not measured: " << why << "\n";
   }
   takeTurns(ways, repetitions);
   std::cout << name << ", " << CasterPlacements(subject.occluders()).triangleCount()

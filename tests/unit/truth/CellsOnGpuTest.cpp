@@ -68,34 +68,20 @@ std::size_t expectSame(
   return filled;
 }
 
-/// Drawn by each path.
-class CellsOnGpuBy : public testing::TestWithParam<CellPath>
+class CellsDrawnOnGpu : public testing::Test
 {
 protected:
   void SetUp() override
   {
     this->window_->Initialize();
     this->window_->MakeCurrent();
-    const std::string why = whyUnsupported(GetParam());
-    if (!why.empty())
-    {
-      GTEST_SKIP() << why;
-    }
+    ASSERT_EQ(CellTarget::whyUnsupported(), "");
   }
   void TearDown() override { EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR)); }
 
   vtkNew<vtkGnomonEGLRenderWindow> window_;
   ShaderLibrary shaders_;
 };
-
-std::string nameOfPath(const testing::TestParamInfo<CellPath>& path)
-{
-  const char* const names[] = { "Compute", "Rasterised", "Extension" };
-  return names[static_cast<int>(path.param)];
-}
-
-INSTANTIATE_TEST_SUITE_P(Paths, CellsOnGpuBy,
-  testing::Values(CellPath::Compute, CellPath::Rasterised, CellPath::Extension), nameOfPath);
 
 /// Shapes at random, drawn by the CPU and the GPU.
 struct Shapes
@@ -132,7 +118,7 @@ struct Shapes
     return cells;
   }
 
-  std::vector<Cell> onGpu(ShaderLibrary& shaders, CellPath path, int width, Span rows) const
+  std::vector<Cell> onGpu(ShaderLibrary& shaders, int width, Span rows) const
   {
     SegmentBatch segmentBatch;
     for (const MapSegment& segment : this->segments)
@@ -142,18 +128,18 @@ struct Shapes
     TriangleBatch spoilingBatch, triangleBatch;
     for (const MapPolygon& polygon : this->spoiling)
     {
-      spoilingBatch.add(polygon, this->margin, width, rows, CellPath::Compute);
+      spoilingBatch.add(polygon, this->margin, width, rows);
     }
     for (const MapPolygon& polygon : this->triangles)
     {
-      triangleBatch.add(polygon, this->margin, width, rows, path);
+      triangleBatch.add(polygon, this->margin, width, rows);
     }
     RingBatch ringBatch;
     for (const MapRing& ring : this->rings)
     {
       ringBatch.add(ring, this->margin, rows);
     }
-    CellTarget target(shaders, path, width, rows);
+    CellTarget target(shaders, width, rows);
     target.draw(segmentBatch);
     target.spoil(spoilingBatch);
     target.endPass();
@@ -254,7 +240,7 @@ Shapes randomShapes(Random& random, int width)
   return shapes;
 }
 
-TEST_P(CellsOnGpuBy, areThoseOfTheCpu)
+TEST_F(CellsDrawnOnGpu, areThoseOfTheCpu)
 {
   Random random(41);
   std::size_t filled = 0;
@@ -266,13 +252,13 @@ TEST_P(CellsOnGpuBy, areThoseOfTheCpu)
       ? Span{ first, first + static_cast<int>(random() % static_cast<unsigned int>(width - first)) }
       : Span{ 0, width - 1 };
     const Shapes shapes = randomShapes(random, width);
-    filled += expectSame(shapes.onGpu(this->shaders_, GetParam(), width, rows),
-      shapes.onCpu(width, rows), width, "picture " + std::to_string(picture));
+    filled += expectSame(shapes.onGpu(this->shaders_, width, rows), shapes.onCpu(width, rows),
+      width, "picture " + std::to_string(picture));
   }
   EXPECT_GT(filled, 100000u);
 }
 
-TEST_P(CellsOnGpuBy, ofTrianglesAreAllThatTheyMeetAndContainNoOthers)
+TEST_F(CellsDrawnOnGpu, ofTrianglesAreAllThatTheyMeetAndContainNoOthers)
 {
   // Each in a tile of its own.
   constexpr int tile = 96, tiles = 10, size = tile * tiles;
@@ -293,7 +279,7 @@ TEST_P(CellsOnGpuBy, ofTrianglesAreAllThatTheyMeetAndContainNoOthers)
       all.push_back(corners);
       shapes.triangles.push_back(polygonWith(corners));
     }
-    const std::vector<Cell> cells = shapes.onGpu(this->shaders_, GetParam(), size, { 0, size - 1 });
+    const std::vector<Cell> cells = shapes.onGpu(this->shaders_, size, { 0, size - 1 });
     for (int y = 0; y < size; ++y)
     {
       for (int x = 0; x < size; ++x)
@@ -319,53 +305,9 @@ TEST_P(CellsOnGpuBy, ofTrianglesAreAllThatTheyMeetAndContainNoOthers)
   EXPECT_GT(met, 20000u);
   EXPECT_LT(static_cast<double>(extra), 0.001 * static_cast<double>(met));
   EXPECT_LT(static_cast<double>(lost), 0.001 * static_cast<double>(contained));
-  std::cout << nameOf(GetParam()) << ": " << met << " texels, "
-            << 100.0 * static_cast<double>(extra) / static_cast<double>(met) << " % extra, "
-            << 100.0 * static_cast<double>(lost) / static_cast<double>(contained) << " % lost"
-            << std::endl;
-}
-
-TEST(CellBatches, holdTrianglesThatTouchAllTexelsThatAreMetWhereOpenGlFindsThose)
-{
-  // As GL_NV_conservative_raster finds them, after corners were moved to a grid of 4 bits below a texel.
-  constexpr double grid = 1.0 / 16.0;
-  constexpr double margin = 0.999 * marginTexels;
-  Random random(44);
-  std::size_t met = 0, missing = 0, touched = 0;
-  for (int i = 0; i < 5000; ++i)
-  {
-    const int width = 8 + static_cast<int>(random() % 40);
-    const Span rows{ static_cast<int>(random() % 4), width - 1 - static_cast<int>(random() % 4) };
-    const Corners corners = randomTriangle(random, width);
-    TriangleBatch batch;
-    batch.add(polygonWith(corners), marginTexels, width, rows, CellPath::Extension);
-    if (batch.placesClip.empty())
-    {
-      continue; // beside these rows
-    }
-    Corners shape;
-    const glm::dvec2 size(width, rows.last - rows.first + 1);
-    for (std::size_t k = 0; k < 3; ++k)
-    {
-      const glm::dvec2 place = 0.5 * (glm::dvec2(batch.placesClip[k]) + 1.0) * size;
-      shape[k] = glm::dvec3(place.x, place.y + rows.first, 0.0);
-    }
-    for (int y = rows.first; y <= rows.last; ++y)
-    {
-      for (int x = 0; x < width; ++x)
-      {
-        const glm::dvec2 low(x, y);
-        const bool isMet = overlap(corners, low - margin, low + 1.0 + margin);
-        met += isMet ? 1 : 0;
-        missing += isMet && !overlap(shape, low + grid, low + 1.0 - grid) ? 1 : 0;
-        touched += overlap(shape, low - grid, low + 1.0 + grid) ? 1 : 0;
-      }
-    }
-  }
-  EXPECT_EQ(missing, 0u) << "of " << met;
-  EXPECT_GT(met, 40000u);
-  EXPECT_LT(touched, 4 * met) << "and few others";
-  std::cout << touched << " texels touched for " << met << std::endl;
+  std::cout << met << " texels, " << 100.0 * static_cast<double>(extra) / static_cast<double>(met)
+            << " % extra, " << 100.0 * static_cast<double>(lost) / static_cast<double>(contained)
+            << " % lost" << std::endl;
 }
 
 /// One map's cells; none where a caster is at the light.
@@ -377,11 +319,11 @@ std::vector<Cell> drawnBy(int size, const Draw& draw)
                                                                          : std::vector<Cell>();
 }
 
-TEST_P(CellsOnGpuBy, areThoseOfTheCpuInRandomScenes)
+TEST_F(CellsDrawnOnGpu, areThoseOfTheCpuInRandomScenes)
 {
   std::size_t filled = 0;
-  const CellsOnGpu atOnce(this->shaders_, GetParam());
-  const CellsOnGpu inParts(this->shaders_, GetParam(), { 100000, 2000 });
+  const CellsOnGpu atOnce(this->shaders_);
+  const CellsOnGpu inParts(this->shaders_, { 100000, 2000 });
   for (const char* name : randomSceneNames())
   {
     for (unsigned int seed = 1; seed <= 6; ++seed)
@@ -442,7 +384,7 @@ void subdivide(Occluders& occluders)
 }
 
 /// Of a band of rows the CPU keeps so many triangles for their noise, and looks at the others again.
-TEST_P(CellsOnGpuBy, areThoseOfTheCpuWhereManyTrianglesLieInABand)
+TEST_F(CellsDrawnOnGpu, areThoseOfTheCpuWhereManyTrianglesLieInABand)
 {
   RandomPicture picture = makeRandomPicture("touching boxes", 3);
   while (picture.occluders.triangles.size() < 40000)
@@ -454,7 +396,7 @@ TEST_P(CellsOnGpuBy, areThoseOfTheCpuWhereManyTrianglesLieInABand)
   constexpr int size = 16;
   const LightView& view = picture.views.views.front();
   const CasterScene scene = casterScene(view, picture.views.box.z > 0.0, size, picture.occluders);
-  const CellsOnGpu gpu(this->shaders_, GetParam());
+  const CellsOnGpu gpu(this->shaders_);
   const std::vector<Cell> cells = drawnBy(size,
     [&](const TakeCell& take)
     { return drawCellsOnCpu(scene, edges, size, Covering::Triangle, take); });
@@ -466,64 +408,36 @@ TEST_P(CellsOnGpuBy, areThoseOfTheCpuWhereManyTrianglesLieInABand)
     std::any_of(cells.begin(), cells.end(), [](const Cell& cell) { return cell.noise > 0.0f; }));
 }
 
-TEST_P(CellsOnGpuBy, leaveNothingBehindAndOpenGlAsItWas)
+TEST_F(CellsDrawnOnGpu, leaveNothingBehindAndOpenGlAsItWas)
 {
   Random random(43);
   const Shapes shapes = randomShapes(random, 64);
-  shapes.onGpu(this->shaders_, GetParam(), 64, { 0, 63 }); // programs stay
+  shapes.onGpu(this->shaders_, 64, { 0, 63 }); // programs stay
   const LiveObjects before = countLiveObjects(this->window_);
-  GlBuffer mine, vertices;
-  GlVertexArray vertexArray;
-  GlFramebuffer framebuffer;
+  GlBuffer mine;
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, mine.create());
-  glBindVertexArray(vertexArray.create());
-  glBindBuffer(GL_ARRAY_BUFFER, vertices.create());
-  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.create());
-  glViewport(1, 2, 3, 4);
-  glEnable(GL_SCISSOR_TEST);
-  glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
   for (int i = 0; i < 3; ++i)
   {
-    shapes.onGpu(this->shaders_, GetParam(), 64, { 0, 63 });
+    shapes.onGpu(this->shaders_, 64, { 0, 63 });
   }
-  GLint bound = 0, viewport[4] = {}, program = -1, mode[2] = {};
+  GLint bound = 0, program = -1;
   glGetIntegeri_v(GL_SHADER_STORAGE_BUFFER_BINDING, 3, &bound);
   EXPECT_EQ(static_cast<GLuint>(bound), mine.name());
-  glGetIntegerv(GL_VERTEX_ARRAY_BINDING, &bound);
-  EXPECT_EQ(static_cast<GLuint>(bound), vertexArray.name());
-  glGetIntegerv(GL_ARRAY_BUFFER_BINDING, &bound);
-  EXPECT_EQ(static_cast<GLuint>(bound), vertices.name());
-  for (const GLenum binding : { GL_DRAW_FRAMEBUFFER_BINDING, GL_READ_FRAMEBUFFER_BINDING })
-  {
-    glGetIntegerv(binding, &bound);
-    EXPECT_EQ(static_cast<GLuint>(bound), framebuffer.name());
-  }
-  glGetIntegerv(GL_VIEWPORT, viewport);
-  EXPECT_EQ(viewport[0], 1);
-  EXPECT_EQ(viewport[3], 4);
   glGetIntegerv(GL_CURRENT_PROGRAM, &program);
   EXPECT_EQ(program, 0);
-  glGetIntegerv(GL_POLYGON_MODE, mode);
-  EXPECT_EQ(mode[0], GL_LINE);
-  EXPECT_TRUE(glIsEnabled(GL_SCISSOR_TEST));
-  glDisable(GL_SCISSOR_TEST);
-  glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
   mine.reset();
-  vertices.reset();
-  vertexArray.reset();
-  framebuffer.reset();
   EXPECT_EQ(countLiveObjects(this->window_), before);
 }
 
-TEST_P(CellsOnGpuBy, areEmptyWithoutCasters)
+TEST_F(CellsDrawnOnGpu, areEmptyWithoutCasters)
 {
-  for (const Cell& cell : Shapes().onGpu(this->shaders_, GetParam(), 7, { 2, 5 }))
+  for (const Cell& cell : Shapes().onGpu(this->shaders_, 7, { 2, 5 }))
   {
     EXPECT_TRUE(areSame(cell, Cell()));
   }
 }
 
-TEST_P(CellsOnGpuBy, needRoom)
+TEST_F(CellsDrawnOnGpu, needRoom)
 {
   const std::size_t room = CellsOnGpu::Room().cells;
   GLint64 block = 0;
@@ -551,14 +465,14 @@ std::string failureOf(const Call& call)
   }
 }
 
-TEST_P(CellsOnGpuBy, areNotThereWhereOpenGlFails)
+TEST_F(CellsDrawnOnGpu, areNotThereWhereOpenGlFails)
 {
   TriangleBatch batch;
   batch.add(polygonWith({ { { 1.0, 1.0, 0.5 }, { 6.0, 1.0, 0.5 }, { 1.0, 6.0, 0.5 } } }),
-    marginTexels, 8, { 0, 7 }, GetParam());
+    marginTexels, 8, { 0, 7 });
   const auto nothing = [](std::size_t, const Cell&) {};
   {
-    CellTarget target(this->shaders_, GetParam(), 8, { 0, 7 });
+    CellTarget target(this->shaders_, 8, { 0, 7 });
     target.draw(batch);
     // Cells that the CPU looks at cannot be read.
     GLint cells = 0;
@@ -566,33 +480,20 @@ TEST_P(CellsOnGpuBy, areNotThereWhereOpenGlFails)
     glBindBuffer(GL_SHADER_STORAGE_BUFFER, static_cast<GLuint>(cells));
     ASSERT_NE(glMapBuffer(GL_SHADER_STORAGE_BUFFER, GL_READ_ONLY), nullptr);
     EXPECT_EQ(failureOf([&] { target.read(nothing); }),
-      std::string("a conservative map of 8 texels could not be drawn by ") + nameOf(GetParam()) +
-        ": OpenGL reports error 0x502");
+      "a conservative map of 8 texels could not be drawn on the GPU: OpenGL reports error 0x502");
     glUnmapBuffer(GL_SHADER_STORAGE_BUFFER);
     EXPECT_EQ(failureOf([&] { target.read(nothing); }), "");
   }
-  if (GetParam() == CellPath::Compute)
-  {
-    return;
-  }
-  CellTarget target(this->shaders_, GetParam(), 8, { 0, 7 });
-  glFramebufferParameteri(GL_FRAMEBUFFER, GL_FRAMEBUFFER_DEFAULT_WIDTH, 0); // no longer complete
-  EXPECT_EQ(failureOf([&] { target.draw(batch); }),
-    std::string("a conservative map of 8 texels could not be drawn by ") + nameOf(GetParam()) +
-      ": OpenGL reports error 0x506");
-  GLint widest = 0;
-  glGetIntegerv(GL_MAX_FRAMEBUFFER_WIDTH, &widest);
-  EXPECT_NE(failureOf([&] { CellTarget(this->shaders_, GetParam(), widest + 1, { 0, 0 }); }), "");
 }
 
-TEST_P(CellsOnGpuBy, areNotDrawnBySilhouettes)
+TEST_F(CellsDrawnOnGpu, areNotDrawnBySilhouettes)
 {
   const RandomPicture picture = makeRandomPicture(randomSceneNames().front(), 1);
   CasterEdges edges;
   edges.update(picture.occluders);
   const CasterScene scene =
     casterScene(picture.views.views.front(), picture.views.box.z > 0.0, 16, picture.occluders);
-  EXPECT_THROW(CellsOnGpu(this->shaders_, GetParam())
+  EXPECT_THROW(CellsOnGpu(this->shaders_)
                  .draw(scene, edges, 16, Covering::Silhouette, [](std::size_t, const Cell&) {}),
     std::logic_error);
 }

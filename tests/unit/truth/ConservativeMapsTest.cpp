@@ -214,49 +214,35 @@ INSTANTIATE_TEST_SUITE_P(Scenes, ConservativeMapsIn,
     testing::Values(Covering::Triangle, Covering::Ring, Covering::Fan, Covering::Silhouette)),
   nameOfRun);
 
-std::string nameOfRunOnGpu(const testing::TestParamInfo<std::tuple<CellPath, Covering>>& onGpu)
-{
-  const char* const paths[] = { "Compute", "Rasterised", "Extension" };
-  return std::string(paths[static_cast<int>(std::get<0>(onGpu.param))]) +
-    nameOfCovering(std::get<1>(onGpu.param));
-}
-
-/// Drawn on the GPU, by its path and by what covers texels.
-class ConservativeMapsOnGpu : public testing::TestWithParam<std::tuple<CellPath, Covering>>
+/// Drawn on the GPU, by what covers texels.
+class ConservativeMapsOnGpu : public testing::TestWithParam<Covering>
 {
 };
 
 TEST_P(ConservativeMapsOnGpu, areNeverWrong)
 {
-  const auto& [path, covering] = GetParam();
   vtkNew<vtkGnomonEGLRenderWindow> window;
   window->Initialize();
   window->MakeCurrent();
-  const std::string why = whyUnsupported(path);
-  if (!why.empty())
-  {
-    GTEST_SKIP() << why;
-  }
+  ASSERT_EQ(CellTarget::whyUnsupported(), "");
   ShaderLibrary shaders;
-  const CellsOnGpu gpu(shaders, path);
+  const CellsOnGpu gpu(shaders);
   Tally sum;
   for (const char* name : randomSceneNames())
   {
     for (unsigned int seed = 200; seed < 200 + std::max(exactRuns() / 4, 1u); ++seed)
     {
-      sum.add(run(name, seed, certainRule(covering, &gpu)));
+      sum.add(run(name, seed, certainRule(GetParam(), &gpu)));
     }
   }
   EXPECT_EQ(sum.wrong, 0u);
   EXPECT_LT(sum.traced, sum.receivers * 3 / 4);
-  recordCompared(
-    techniqueOf(covering) + ", maps drawn on the GPU (" + nameOf(path) + ")", "all", sum);
+  recordCompared(techniqueOf(GetParam()) + ", maps drawn on the GPU", "all", sum);
 }
 
-INSTANTIATE_TEST_SUITE_P(Paths, ConservativeMapsOnGpu,
-  testing::Combine(testing::Values(CellPath::Compute, CellPath::Rasterised, CellPath::Extension),
-    testing::Values(Covering::Triangle, Covering::Ring, Covering::Fan)),
-  nameOfRunOnGpu);
+INSTANTIATE_TEST_SUITE_P(Rules, ConservativeMapsOnGpu,
+  testing::Values(Covering::Triangle, Covering::Ring, Covering::Fan),
+  [](const testing::TestParamInfo<Covering>& rule) { return nameOfCovering(rule.param); });
 
 class ConservativeMapsAnywhere : public testing::TestWithParam<Covering>
 {
