@@ -5,8 +5,6 @@
 #include "SettingOptions.h"
 #include "VtkMessages.h"
 
-#include "shadowtech/Registry.h"
-
 #include <CLI/CLI.hpp>
 
 #include <iostream>
@@ -26,49 +24,64 @@ struct CompareOptions
   std::string folder;
   ComparisonPlan plan;
   std::string size = "1024x1024";
-  std::string route = "all";
+  std::string route; ///< empty: inline of the usual techniques, all of others
+  bool all = false;  ///< whether to compare all techniques
   bool progress = false;
 };
 
-/// A line on stderr that fills up.
+/// How far a comparison is, on stderr: a line that fills up on a terminal, elsewhere a line for
+/// every tenth.
 class ProgressBar
 {
 public:
   ~ProgressBar()
   {
-    if (this->shown_ >= 0)
+    if (this->terminal_ && this->shown_ >= 0)
     {
       std::cerr << '\n';
     }
   }
-  void operator()(double share)
+  void operator()(double share, const std::string& step)
   {
     const int percent = static_cast<int>(100.0 * share);
-    if (percent == this->shown_)
+    if (this->terminal_)
     {
-      return;
+      const auto filled = static_cast<std::size_t>(percent / 4);
+      std::cerr << "\rcomparing [" << std::string(filled, '#') << std::string(25 - filled, '.')
+                << "] " << percent << " %, " << step << "\x1b[K" << std::flush; // erases the rest
+    }
+    else if (percent / 10 > this->shown_ / 10)
+    {
+      std::cerr << "comparing: " << percent << " %, " << step << std::endl;
     }
     this->shown_ = percent;
-    const auto filled = static_cast<std::size_t>(percent / 2);
-    std::cerr << "\rcomparing [" << std::string(filled, '#') << std::string(50 - filled, '.')
-              << "] " << percent << " %" << std::flush;
   }
 
 private:
+  bool terminal_ = isatty(STDERR_FILENO) != 0;
   int shown_ = -1;
 };
 
-ComparisonResults measure(const CompareOptions& options, const ComparisonPlan& plan)
+void writeFirstPicture(const std::vector<Panel>& panels, const std::string& folder)
 {
-  const Scene scene = loadScene(options.scene);
-  ProgressFunction progress;
+  const std::string path = folder + "/first.png";
+  writePicture(sideBySide(panels), path);
+  std::cout << "First picture: " << path << std::endl;
+}
+
+ComparisonResults measure(
+  const CompareOptions& options, const ComparisonPlan& plan, const Scene& scene)
+{
+  ComparisonEvents events;
   ProgressBar bar;
   if (options.progress || isatty(STDERR_FILENO))
   {
-    progress = [&bar](double share) { bar(share); };
+    events.progress = [&bar](double share, const std::string& step) { bar(share, step); };
   }
+  events.firstPanels = [&options](const std::vector<Panel>& panels)
+  { writeFirstPicture(panels, options.folder); };
   const VtkMessages messages;
-  ComparisonResults results = runComparison(scene, plan, progress);
+  ComparisonResults results = runComparison(scene, plan, events);
   if (!messages.errors().empty())
   {
     throw Failure("drawing " + scene.name + ": " + messages.errors().front());
@@ -76,16 +89,29 @@ ComparisonResults measure(const CompareOptions& options, const ComparisonPlan& p
   return results;
 }
 
-void compare(const CompareOptions& options)
+/// The plan with the options' techniques and routes.
+ComparisonPlan planOf(const CompareOptions& options, const Scene& scene)
 {
   ComparisonPlan plan = options.plan;
-  plan.inlineRoute = options.route != "image";
-  plan.imageRoute = options.route != "inline";
+  const bool usual = plan.techniques.empty() && !options.all;
+  if (plan.techniques.empty())
+  {
+    plan.techniques = usual ? usualTechniques(castsSoftShadows(plan, scene)) : allTechniques();
+  }
+  const std::string route = !options.route.empty() ? options.route : usual ? "inline" : "all";
+  plan.inlineRoute = route != "image";
+  plan.imageRoute = route != "inline";
+  return plan;
+}
+
+void compare(CompareOptions options)
+{
   const PictureSize size = parseSize(options.size);
-  plan.width = size.width;
-  plan.height = size.height;
+  options.plan.width = size.width;
+  options.plan.height = size.height;
   prepareReportFolder(options.folder);
-  const ComparisonResults results = measure(options, plan);
+  const Scene scene = loadScene(options.scene);
+  const ComparisonResults results = measure(options, planOf(options, scene), scene);
   writeReport(results, options.folder);
   for (const std::string& note : results.notes)
   {
@@ -95,14 +121,15 @@ void compare(const CompareOptions& options)
             << " compared: " << options.folder << "/report.html" << std::endl;
 }
 
-std::vector<std::string> allTechniques()
+/// "nsm, pcf, vsm".
+std::string listed(const std::vector<std::string>& names)
 {
-  std::vector<std::string> names;
-  for (const TechniqueEntry& entry : registry())
+  std::string text;
+  for (const std::string& name : names)
   {
-    names.push_back(entry.name);
+    text += (text.empty() ? "" : ", ") + name;
   }
-  return names;
+  return text;
 }
 
 } // namespace
@@ -112,21 +139,23 @@ void addCompareCommand(CLI::App& app)
 {
   CLI::App* const command = app.add_subcommand("compare",
     "Compare shadow techniques on a scene with ray tracing, plain VTK and vtkShadowMapPass, and "
-    "write "
-    "a report");
+    "write a report; first.png, in its folder, is there within seconds");
   const auto options = std::make_shared<CompareOptions>();
-  options->plan.techniques = allTechniques();
   options->plan.mapSizesTexels = { 1024 };
   command
     ->add_option("SCENE", options->scene, "Scene: a built-in name, a scene file or a model file")
     ->required();
   command->add_option("-o,--output", options->folder, "Folder for the report")->required();
-  command
-    ->add_option("--techniques", options->plan.techniques,
-      "Techniques, separated by commas; each may have settings, for example "
-      "nsm:fit=frame,pcf:kernel=box:projection=lispsm")
-    ->delimiter(',')
-    ->capture_default_str();
+  CLI::Option* const techniques =
+    command
+      ->add_option("--techniques", options->plan.techniques,
+        "Techniques, separated by commas; each may have settings, for example "
+        "nsm:fit=frame,pcf:kernel=box:projection=lispsm. By default " +
+          listed(usualTechniques(false)) + "; for lights with an area " +
+          listed(usualTechniques(true)))
+      ->delimiter(',');
+  command->add_flag("--all", options->all, "Compare all techniques, by all routes")
+    ->excludes(techniques);
   command
     ->add_option("--map-sizes", options->plan.mapSizesTexels,
       "Sides of the shadow maps in texels, separated by commas")
@@ -149,13 +178,12 @@ void addCompareCommand(CLI::App& app)
   command
     ->add_option("--route", options->route,
       "The routes of techniques that have both: inline (in VTK's shaders), image (from a prepass), "
-      "all")
-    ->check(CLI::IsMember({ "all", "inline", "image" }))
-    ->capture_default_str();
+      "all. By default all, but inline of the default techniques")
+    ->check(CLI::IsMember({ "all", "inline", "image" }));
   addTracerOption(*command, options->plan.tracer);
   addRasterizerOption(*command, options->plan.rasterizer);
   command->add_flag("--progress", options->progress,
-    "Show a progress bar even when the error output is not a terminal");
+    "Show the progress even when the error output is not a terminal");
   command->callback([options] { compare(*options); });
 }
 

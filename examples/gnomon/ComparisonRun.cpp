@@ -215,25 +215,39 @@ private:
 class StepCounter
 {
 public:
-  StepCounter(std::size_t total, const ProgressFunction& progress)
+  StepCounter(std::size_t total, const ComparisonEvents& events)
     : total_(total)
-    , progress_(progress)
+    , events_(events)
   {
   }
-  void advance()
+  /// @param step the step that is done, for people
+  void advance(const std::string& step)
   {
     ++this->done_;
-    if (this->progress_)
+    if (this->events_.progress)
     {
-      this->progress_(static_cast<double>(this->done_) / static_cast<double>(this->total_));
+      this->events_.progress(
+        static_cast<double>(this->done_) / static_cast<double>(this->total_), step);
     }
   }
 
 private:
   std::size_t total_;
   std::size_t done_ = 0;
-  const ProgressFunction& progress_;
+  const ComparisonEvents& events_;
 };
+
+/// "3 of 8 rows".
+std::string countOfRows(std::size_t count, std::size_t all)
+{
+  return std::to_string(count) + " of " + std::to_string(all) + " rows";
+}
+
+/// "timing 8 rows, camera moving".
+std::string timingStep(const Variants& variants, Motion motion)
+{
+  return "timing " + std::to_string(variants.size()) + " rows, " + motionName(motion);
+}
 
 /// Frames of each motion of which every stage is timed.
 int measuredFrames(const ComparisonPlan& plan)
@@ -256,7 +270,7 @@ void timeWholeFrames(
   std::transform(variants.begin(), variants.end(), std::back_inserter(drawn),
     [](const std::unique_ptr<Variant>& variant) { return variant.get(); });
   const std::vector<double> medians =
-    timeFrames(drawn, motion, plan.frames, [&steps] { steps.advance(); });
+    timeFrames(drawn, motion, plan.frames, [&] { steps.advance(timingStep(variants, motion)); });
   for (std::size_t i = 0; i < variants.size(); ++i)
   {
     variants[i]->result.timings[static_cast<std::size_t>(motion)].milliseconds = medians[i];
@@ -279,7 +293,7 @@ void timeStages(Variants& variants, Motion motion, const ComparisonPlan& plan, S
         pass->MeasureStagesOff();
       }
     }
-    steps.advance();
+    steps.advance(timingStep(variants, motion));
   }
   for (std::size_t i = 0; i < variants.size(); ++i)
   {
@@ -322,12 +336,16 @@ VisibilityImages keptVisibility(Variant& variant)
 }
 
 /// Whether one of the lights that cast is more than a point, and so has soft shadows.
-bool isSoft(const Variant& variant)
+bool hasSoftShadows(vtkRenderer* renderer, const ShadowSettings& settings)
 {
-  const std::vector<ShadowLight> lights =
-    LightManager().collect(variant.renderer(), settingsOf(variant.spec())).casting;
+  const std::vector<ShadowLight> lights = LightManager().collect(renderer, settings).casting;
   return std::any_of(
     lights.begin(), lights.end(), [](const ShadowLight& light) { return light.area.has_value(); });
+}
+
+bool isSoft(const Variant& variant)
+{
+  return hasSoftShadows(variant.renderer(), settingsOf(variant.spec()));
 }
 
 /// The first seed from 1 on that no variant has.
@@ -463,6 +481,7 @@ void takeClasses(VariantResult& result, const FrameReport& report, const Visibil
 void measureErrors(
   Variants& variants, const Scene& scene, const VisibilityImages& truth, StepCounter& steps)
 {
+  std::size_t done = 0;
   for (const std::unique_ptr<Variant>& variant : variants)
   {
     VariantResult& result = variant->result;
@@ -483,7 +502,7 @@ void measureErrors(
       traced = tracedMask(visibility);
     }
     result.errors = errorPicture(result.picture, verdicts, &traced);
-    steps.advance();
+    steps.advance(countOfRows(++done, variants.size()) + " done");
   }
 }
 
@@ -555,16 +574,78 @@ std::vector<std::pair<std::string, std::string>> listSettings(
   return settings;
 }
 
+std::string firstPanelTitle(const std::string& technique)
+{
+  return technique == plainTechnique ? technique + ": no shadows"
+    : technique == truthTechnique    ? "the truth: Gnomon's " + technique
+                                     : "VTK's own: " + technique;
+}
+
+/// The peers and the truth, small.
+std::vector<Panel> drawFirstPanels(const ComparisonPlan& plan, const Scene& scene)
+{
+  ComparisonPlan first = plan;
+  first.techniques = { truthTechnique };
+  first.mapSizesTexels.resize(std::min<std::size_t>(1, plan.mapSizesTexels.size()));
+  const double scale =
+    std::min(1.0, static_cast<double>(firstPanelPixels) / std::max(plan.width, plan.height));
+  first.width = std::max(1, static_cast<int>(plan.width * scale));
+  first.height = std::max(1, static_cast<int>(plan.height * scale));
+  std::vector<Panel> panels;
+  std::vector<std::string> leftOut;
+  for (const VariantSpec& spec : listVariants(first, scene, leftOut))
+  {
+    FrameVariant variant(spec, scene, first.width, first.height);
+    do
+    {
+      variant.drawFrame(Motion::Static, 0);
+    } while (variant.pass() && variant.pass()->GetProgress() < 1.0);
+    panels.push_back({ firstPanelTitle(spec.technique), capture(variant.window()) });
+  }
+  return panels;
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
+std::vector<std::string> allTechniques()
+{
+  std::vector<std::string> names;
+  for (const TechniqueEntry& entry : registry())
+  {
+    names.push_back(entry.name);
+  }
+  return names;
+}
+
+//------------------------------------------------------------------------------
+bool castsSoftShadows(const ComparisonPlan& plan, const Scene& scene)
+{
+  const Scene compared = sceneOf(plan, scene);
+  return hasSoftShadows(
+    makeRenderer(compared, static_cast<double>(plan.width) / plan.height), ShadowSettings());
+}
+
+//------------------------------------------------------------------------------
+std::vector<std::string> usualTechniques(bool soft)
+{
+  return soft
+    ? std::vector<std::string>{ "nsm", "pcf", "pcss", "sampled", "penumbra", truthTechnique }
+    : std::vector<std::string>{ "nsm", "pcf", "vsm", "pssm", "silhouette", truthTechnique };
+}
+
+//------------------------------------------------------------------------------
 ComparisonResults runComparison(
-  const Scene& original, const ComparisonPlan& plan, const ProgressFunction& progress)
+  const Scene& original, const ComparisonPlan& plan, const ComparisonEvents& events)
 {
   const Scene scene = sceneOf(plan, original);
   std::vector<std::string> leftOut;
   const std::vector<VariantSpec> specs = listVariants(plan, scene, leftOut);
-  StepCounter steps(2 * specs.size() + allMotions.size() * framesPerMotion(plan), progress);
+  StepCounter steps(2 * specs.size() + allMotions.size() * framesPerMotion(plan), events);
+  if (events.firstPanels)
+  {
+    events.firstPanels(drawFirstPanels(plan, scene));
+  }
 
   Variants variants;
   Variant* truthVariant = nullptr;
@@ -576,7 +657,7 @@ ComparisonResults runComparison(
     {
       truthVariant = variants.back().get();
     }
-    steps.advance();
+    steps.advance("set up " + countOfRows(variants.size(), specs.size()));
   }
   ComparisonResults results;
   requireCastingLights(scene, truthVariant->pass()->GetReport());

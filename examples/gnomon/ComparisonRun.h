@@ -2,6 +2,7 @@
 #define gnomon_examples_gnomon_ComparisonRun_h
 
 #include "Comparison.h"
+#include "Panels.h"
 #include "Scene.h"
 
 #include <functional>
@@ -34,8 +35,27 @@ struct ComparisonPlan
 /// The technique whose visibility is the truth: of area lights with ComparisonPlan::truthSamples, whatever it is timed with.
 inline constexpr const char* truthTechnique = "raytraced";
 
-/// Is told what share of the work, in [0, 1], is done.
-using ProgressFunction = std::function<void(double)>;
+/// What a comparison tells while it runs; each function may be empty.
+struct ComparisonEvents
+{
+  /// Gets the share of the work that is done, in [0, 1], and the present step, for people.
+  std::function<void(double share, const std::string& step)> progress;
+  /// Gets plain VTK, vtkShadowMapPass and the truth, before the rows are set up. A panel's longer
+  /// side has at most firstPanelPixels.
+  std::function<void(const std::vector<Panel>&)> firstPanels;
+};
+inline constexpr int firstPanelPixels = 640;
+
+/// All techniques of the registry.
+std::vector<std::string> allTechniques();
+
+/// Whether a casting light of the scene has an area, of the size that the plan gives it.
+bool castsSoftShadows(const ComparisonPlan& plan, const Scene& scene);
+
+/// The techniques to choose among. By one route and with one map size, they and the peers are at
+/// most ten rows.
+/// @param soft whether lights have an area
+std::vector<std::string> usualTechniques(bool soft);
 
 /// Draws the scene with every variant of the plan and with the peers (plain VTK, vtkShadowMapPass)
 /// and measures errors, times and memory. Frames of all variants are interleaved. What the scene's
@@ -44,7 +64,7 @@ using ProgressFunction = std::function<void(double)>;
 /// A technique whose settings make no sense for one of the lights is left out, which a note says.
 /// @throws BadInput when no light of the scene casts a shadow, Failure when drawing fails
 ComparisonResults runComparison(
-  const Scene& scene, const ComparisonPlan& plan, const ProgressFunction& progress);
+  const Scene& scene, const ComparisonPlan& plan, const ComparisonEvents& events);
 
 } // namespace gnomon::tool
 

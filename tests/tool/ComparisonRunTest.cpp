@@ -15,6 +15,7 @@
 #include <array>
 #include <map>
 #include <set>
+#include <sstream>
 
 namespace gnomon::tool
 {
@@ -94,10 +95,7 @@ TEST(ComparisonRun, MeasuresErrorsAgainstTheTruth)
 
 TEST(ComparisonRun, WithoutTimedFramesErrorsAreTheSame)
 {
-  double done = 0.0;
-  const ComparisonResults results =
-    runComparison(loadScene("cube"), cubePlan(), [&done](double share) { done = share; });
-  EXPECT_DOUBLE_EQ(done, 1.0);
+  const ComparisonResults results = runComparison(loadScene("cube"), cubePlan(), {});
   EXPECT_TRUE(timedMotions(results).empty());
   ASSERT_EQ(results.variants.size(), cubeResults().variants.size());
   for (const VariantResult& result : results.variants)
@@ -107,6 +105,99 @@ TEST(ComparisonRun, WithoutTimedFramesErrorsAreTheSame)
     EXPECT_EQ(result.error.falseShadow, timed.error.falseShadow) << result.name;
     EXPECT_EQ(result.picture.rgb, timed.picture.rgb) << result.name;
   }
+}
+
+TEST(ComparisonRun, ShowsThreePanelsFirst)
+{
+  ComparisonPlan plan = cubePlan();
+  plan.mapSizesTexels = { 256, 128 };
+  plan.width = 2 * firstPanelPixels; // twice as large as panels may be
+  plan.height = firstPanelPixels;
+  std::vector<Panel> panels;
+  struct Seen
+  {
+  };
+  ComparisonEvents events;
+  events.firstPanels = [&panels](const std::vector<Panel>& first)
+  {
+    panels = first;
+    throw Seen();
+  };
+  EXPECT_THROW(runComparison(loadScene("cube"), plan, events), Seen);
+  ASSERT_EQ(panels.size(), 3u);
+  EXPECT_THAT(panels[0].title, testing::StartsWith("plain VTK"));
+  EXPECT_THAT(panels[1].title, testing::HasSubstr("vtkShadowMapPass"));
+  EXPECT_THAT(panels[2].title, testing::HasSubstr("raytraced"));
+  for (const Panel& panel : panels)
+  {
+    EXPECT_EQ(panel.picture.width, firstPanelPixels) << panel.title;
+    EXPECT_EQ(panel.picture.height, firstPanelPixels / 2) << panel.title;
+    EXPECT_EQ(panel.picture.rgb.size(), 3 * panel.picture.pixelCount()) << panel.title;
+  }
+  EXPECT_NE(panels[0].picture.rgb, panels[1].picture.rgb);
+  EXPECT_NE(panels[0].picture.rgb, panels[2].picture.rgb);
+  EXPECT_NE(panels[1].picture.rgb, panels[2].picture.rgb);
+}
+
+TEST(ComparisonRun, FirstPanelsAreOfTheRowsPictures)
+{
+  std::vector<Panel> panels;
+  ComparisonEvents events;
+  events.firstPanels = [&panels](const std::vector<Panel>& first) { panels = first; };
+  ComparisonPlan plan = cubePlan();
+  plan.settings = { { "light_radius", "10" } };
+  plan.truthSamples = 4;
+  const ComparisonResults results = runComparison(loadScene("cube"), plan, events);
+  ASSERT_EQ(panels.size(), 3u);
+  EXPECT_EQ(panels[0].picture.rgb, variant(results, "plain VTK").picture.rgb);
+  EXPECT_EQ(panels[1].picture.rgb, variant(results, "vtkShadowMapPass 256").picture.rgb);
+  EXPECT_EQ(panels[2].picture.rgb, variant(results, "raytraced").picture.rgb);
+}
+
+TEST(ComparisonRun, TellsHowManyRowsAreDone)
+{
+  std::vector<double> shares;
+  std::vector<std::string> steps;
+  ComparisonEvents events;
+  events.progress = [&](double share, const std::string& step)
+  {
+    shares.push_back(share);
+    steps.push_back(step);
+  };
+  ComparisonPlan plan = cubePlan();
+  plan.frames = 1;
+  runComparison(loadScene("cube"), plan, events);
+  EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
+  EXPECT_GT(shares.at(0), 0.0);
+  EXPECT_DOUBLE_EQ(shares.back(), 1.0);
+  EXPECT_EQ(steps.at(0), "set up 1 of 5 rows");
+  EXPECT_THAT(steps, testing::Contains("timing 5 rows, camera moving"));
+  EXPECT_THAT(steps, testing::Contains("4 of 5 rows done"));
+  EXPECT_EQ(steps.back(), "5 of 5 rows done");
+}
+
+TEST(ComparisonRun, TechniquesToChooseAmongExistAndEndWithTheTruth)
+{
+  for (const bool soft : { false, true })
+  {
+    const std::vector<std::string> usual = usualTechniques(soft);
+    EXPECT_LE(usual.size() + 2, 10u) << "with the peers";
+    EXPECT_EQ(std::set<std::string>(usual.begin(), usual.end()).size(), usual.size());
+    EXPECT_EQ(usual.back(), truthTechnique);
+    for (const std::string& name : usual)
+    {
+      EXPECT_TRUE(findTechnique(name)) << name;
+    }
+  }
+}
+
+TEST(ComparisonRun, LightsOrThePlanMakeShadowsSoft)
+{
+  ComparisonPlan plan = cubePlan();
+  EXPECT_FALSE(castsSoftShadows(plan, loadScene("cube")));
+  EXPECT_TRUE(castsSoftShadows(plan, loadScene("soft-stack")));
+  plan.settings = { { "light_radius", "10" } };
+  EXPECT_TRUE(castsSoftShadows(plan, loadScene("cube")));
 }
 
 TEST(ComparisonRun, ThePlanSaysTheKernelAndNotTheScene)
@@ -564,6 +655,63 @@ TEST(PictureSize, BeyondTheLimitsOfOpenGlNamesThem)
   }
 }
 
+/// The names of the variants that a small comparison without timed frames has in its results.csv.
+std::vector<std::string> comparedRows(std::vector<std::string> arguments)
+{
+  const TestFolder folder;
+  for (const char* more :
+    { "-o", "", "--size", "32x32", "--map-sizes", "64", "--frames", "0", "--truth-samples", "4" })
+  {
+    arguments.push_back(*more ? more : folder.path());
+  }
+  compare(arguments);
+  std::istringstream table(readBytes(folder / "results.csv"));
+  std::vector<std::string> names;
+  std::string line;
+  std::getline(table, line);
+  while (std::getline(table, line))
+  {
+    names.push_back(line.substr(0, line.find(',')));
+  }
+  return names;
+}
+
+TEST(CompareCommand, ComparesWhatAUserWouldChooseAmong)
+{
+  EXPECT_THAT(comparedRows({ "cube" }),
+    testing::ElementsAre("plain VTK", "vtkShadowMapPass 64", "nsm 64 inline", "pcf 64 inline",
+      "vsm 64 inline", "pssm 64 inline", "silhouette 64", "raytraced"));
+  EXPECT_THAT(comparedRows({ "cube", "--light-radius", "5" }),
+    testing::ElementsAre("plain VTK", "vtkShadowMapPass 64", "nsm 64 inline", "pcf 64 inline",
+      "pcss 64 inline", "sampled 64", "penumbra", "raytraced"));
+  EXPECT_THAT(comparedRows({ "cube", "--techniques", "nsm" }),
+    testing::ElementsAre(
+      "plain VTK", "vtkShadowMapPass 64", "nsm 64 inline", "nsm 64 image", "raytraced"));
+}
+
+TEST(CompareCommand, ComparesAllIfAskedTo)
+{
+  std::vector<std::string> expected = { "plain VTK", "vtkShadowMapPass 64" };
+  for (const TechniqueEntry& entry : registry())
+  {
+    ShadowSettings settings;
+    settings.technique = entry.name;
+    const TechniqueInfo& info = estimatorOf(settings).info;
+    const std::string name = std::string(entry.name) + (info.needsMap ? " 64" : "");
+    if (info.isPointwise())
+    {
+      expected.push_back(name + " inline");
+      expected.push_back(name + " image");
+    }
+    else
+    {
+      expected.push_back(name);
+    }
+  }
+  EXPECT_THAT(expected, testing::SizeIs(testing::Gt(registry().size() + 2)));
+  EXPECT_THAT(comparedRows({ "cube", "--all" }), testing::ElementsAreArray(expected));
+}
+
 TEST(CompareCommand, RefusesBadInputBeforeDrawing)
 {
   const TestFolder folder;
@@ -578,6 +726,7 @@ TEST(CompareCommand, RefusesBadInputBeforeDrawing)
   EXPECT_THROW(compare({ "cube", "-o", report, "--route", "scenic" }), CLI::ParseError);
   EXPECT_THROW(compare({ "cube", "-o", report, "--tracer", "optix" }), CLI::ParseError);
   EXPECT_THROW(compare({ "cube", "-o", report, "--rasterizer", "pencil" }), CLI::ParseError);
+  EXPECT_THROW(compare({ "cube", "-o", report, "--all", "--techniques", "nsm" }), CLI::ParseError);
   EXPECT_THROW(compare({ "cube" }), CLI::ParseError);
 }
 
@@ -586,9 +735,10 @@ TEST(CompareCommand, WritesAReport)
   const TestFolder folder;
   compare({ "cube", "-o", folder / "report", "--techniques", "nsm", "--map-sizes", "64,128",
     "--size", "64x48", "--frames", "1", "--route", "image" });
-  for (const char* name : { "report/report.html", "report/results.csv", "report/results.json",
-         "report/chart.png", "report/nsm-64-image.png", "report/nsm-128-image-errors.png",
-         "report/vtkShadowMapPass-128.png", "report/raytraced.png" })
+  for (const char* name :
+    { "report/first.png", "report/report.html", "report/results.csv", "report/results.json",
+      "report/chart.png", "report/nsm-64-image.png", "report/nsm-128-image-errors.png",
+      "report/vtkShadowMapPass-128.png", "report/raytraced.png" })
   {
     EXPECT_TRUE(std::filesystem::exists(folder / name)) << name;
   }
