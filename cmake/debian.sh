@@ -35,6 +35,33 @@ install_packages()
 # build PRESET: configures and builds one of CMakePresets.json, in build/PRESET.
 build()
 {
-  cmake --preset "$1"
+  cmake --preset "$1" -DGNOMON_BUILD_TESTS=ON # as build_gnomon switches them off
   cmake --build --preset "$1"
+}
+
+# build_gnomon: builds the library and the program `gnomon` in build/release, without tests, and
+# shows how far it is: one line on a terminal, elsewhere a line for every tenth.
+build_gnomon()
+{
+  mkdir -p build
+  cmake --preset release -DGNOMON_BUILD_TESTS=OFF > build/configure.log || {
+    cat build/configure.log >&2
+    return 1
+  }
+  local compile=(env "NINJA_STATUS=[%f/%t, %e s] " cmake --build --preset release --target gnomon)
+  if [ -t 1 ]; then
+    "${compile[@]}"
+    return
+  fi
+  local line tenth shown=0
+  "${compile[@]}" | while IFS= read -r line; do
+    if [[ "$line" =~ ^\[([0-9]+)/([0-9]+), ]]; then
+      tenth=$((10 * BASH_REMATCH[1] / BASH_REMATCH[2]))
+      if [ "$tenth" -eq "$shown" ]; then
+        continue
+      fi
+      shown=$tenth
+    fi
+    printf '%s\n' "$line"
+  done
 }

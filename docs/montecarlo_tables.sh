@@ -8,7 +8,7 @@ source cmake/debian.sh
 source docs/comparisons.sh
 
 install_packages
-build release
+build_gnomon
 
 out=out/montecarlo
 mkdir -p "$out"

@@ -7,7 +7,7 @@ source cmake/debian.sh
 source docs/comparisons.sh
 
 install_packages
-build release
+build_gnomon
 
 out=out/soft
 mkdir -p "$out"

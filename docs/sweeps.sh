@@ -10,7 +10,7 @@ source cmake/debian.sh
 source docs/comparisons.sh
 
 install_packages python3-pandas
-build release
+build_gnomon
 
 views=(bench-with bench-side bench-against trees-with trees-side trees-against
   flowers-with flowers-side flowers-against atrium)
