@@ -1,4 +1,4 @@
-// A sphere over a plane, with shadows, as a PNG: the ten lines of README.md in a program.
+// A sphere over a plane, with shadows, as a PNG: README.md's two lines in a program.
 //
 //   shadows picture.png
 
