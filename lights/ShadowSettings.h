@@ -84,11 +84,11 @@ enum class AdjacencyRing
   Vertices ///< all around its corners
 };
 
-/// When a stale map is drawn that a technique can do without.
+/// When a stale map is baked that a technique can do without.
 enum class BakeTime
 {
-  Settled, ///< once what it depends on has been still for long enough to be worth it, and kept while it pays
-  Always ///< at once
+  Settled, ///< after some frames in which nothing that it depends on changed (BakeBackoff)
+  Always   ///< at once
 };
 
 /// Which neighbours of a triangle count as adjacent to it.

@@ -45,9 +45,9 @@
  *   levels of the map: "off" (the default) or "on";
  * - "adjacency_ring": of "crsma", which triangles around one may cover a texel together with it: "edges" (the default;
  *   those across its edges), or "vertices" (all around its corners, which decides more and takes longer);
- * - "bake": of exact techniques with a map ("crsm", "crsma", "silhouette"), when a stale one is drawn: "settled" (the default; the
- *   first once nothing has changed for a frame, others when tracing has taken as long as they are to, and none is kept that does
- *   not pay; else all is traced, with the same picture), or "always", at once;
+ * - "bake": of exact techniques with a map ("crsm", "crsma", "silhouette"), when a stale one is
+ *   baked: "settled" (the default; after 16 frames without a change, or more where maps went stale
+ *   soon; till then all is traced, with the same picture), or "always", at once;
  * - "light_samples", "light_seed": of area lights (vtkGnomonAreaLight) and techniques with soft shadows ("raytraced",
  *   "penumbra", "coherence", "sampled", "planar"), from how many points of the light, 1 to 65536 (default 64), and which ones (default 0);
  * - "light_sampling": of the same, "sobol" (the default; evenly spread points, whose errors cancel between neighbouring

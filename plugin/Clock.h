@@ -6,10 +6,7 @@
 namespace gnomon
 {
 
-/// What time it is, in milliseconds since some moment. Who decides by times gets it handed in, so that tests can say it.
-using Clock = double (*)();
-
-/// The clock of those who measure frames: it never goes back.
+/// The clock that frames are measured by: milliseconds since some moment. It never goes back.
 inline double steadyMilliseconds()
 {
   return std::chrono::duration<double, std::milli>(

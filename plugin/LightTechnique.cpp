@@ -2,7 +2,6 @@
 
 #include "lights/KernelShape.h"
 #include "plugin/Hash.h"
-#include "shadowtech/base/Gl.h"
 #include "shadowtech/base/OccluderBuffers.h"
 #include "shadowtech/base/Occluders.h"
 #include "shadowtech/base/ReceiverTarget.h"
@@ -82,11 +81,22 @@ void LightTechnique::updateMaps(
   Bake wanted = this->wantedIn(light, stage);
   if (this->info().mapIsOptional && light.bake != BakeTime::Always)
   {
-    this->updateOptionalMaps(light, stage, report, std::move(wanted));
+    this->usesMap_ =
+      this->backoff_.usesMap(this->wanted_.serves(wanted), this->baked_.serves(wanted));
+    report.mapReason = this->backoff_.reason();
+    this->wanted_ = wanted;
+  }
+  else
+  {
+    this->backoff_ = BakeBackoff();
+    this->usesMap_ = true;
+  }
+  if (!this->usesMap_)
+  {
+    this->baked_.made = false;
+    this->technique_->dropMaps();
     return;
   }
-  this->cost_ = MapCost();
-  this->usesMap_ = true;
   if (this->baked_.serves(wanted))
   {
     this->baked_.rasterizer = wanted.rasterizer; // it may be the same for another reason
@@ -96,51 +106,6 @@ void LightTechnique::updateMaps(
     this->bake(light, stage, std::move(wanted));
   }
   this->baked_.tell(report);
-}
-
-//------------------------------------------------------------------------------
-/// Maps that only save time are drawn and kept where they do.
-void LightTechnique::updateOptionalMaps(
-  const ShadowLight& light, const MapStage& stage, LightReport& report, Bake wanted)
-{
-  if (!this->wanted_.costsAs(wanted))
-  {
-    this->cost_ = MapCost();
-  }
-  const MapCost::Situation situation = this->baked_.serves(wanted) ? MapCost::Situation::Mapped
-    : this->wanted_.serves(wanted)                                 ? MapCost::Situation::Still
-                                                                   : MapCost::Situation::Changed;
-  const MapCost::Plan plan =
-    this->cost_.plan(situation, { stage.receivers.width(), stage.receivers.height() });
-  report.mapReason = this->cost_.reason();
-  this->usesMap_ = plan == MapCost::Plan::Draw || plan == MapCost::Plan::Use;
-  this->wanted_ = wanted;
-  switch (plan)
-  {
-    case MapCost::Plan::Trace:
-    case MapCost::Plan::Drop:
-      this->baked_.made = false;
-      this->technique_->dropMaps();
-      break;
-    case MapCost::Plan::Compare:
-      break;
-    case MapCost::Plan::Draw:
-    {
-      if (wanted.isDrawnOnGpu())
-      {
-        glFinish(); // else the map, whose cells are waited for, would wait for the receivers, too
-      }
-      const double start = stage.now();
-      this->bake(light, stage, std::move(wanted));
-      this->cost_.mapTook(stage.now() - start);
-      this->baked_.tell(report);
-      break;
-    }
-    case MapCost::Plan::Use:
-      this->baked_.rasterizer = wanted.rasterizer; // it may be the same for another reason
-      this->baked_.tell(report);
-      break;
-  }
 }
 
 //------------------------------------------------------------------------------
@@ -235,15 +200,6 @@ bool LightTechnique::Bake::serves(const Bake& wanted) const
     this->settings.storesAs(wanted.settings) && this->isDrawnOnGpu() == wanted.isDrawnOnGpu() &&
     this->topology == wanted.topology && this->positions == wanted.positions &&
     this->receivers == wanted.receivers;
-}
-
-//------------------------------------------------------------------------------
-bool LightTechnique::Bake::costsAs(const Bake& wanted) const
-{
-  return this->made && this->reach == wanted.reach &&
-    this->settings.mapSizeTexels == wanted.settings.mapSizeTexels &&
-    this->settings.storesAs(wanted.settings) && this->views.layout == wanted.views.layout &&
-    this->isDrawnOnGpu() == wanted.isDrawnOnGpu();
 }
 
 //------------------------------------------------------------------------------

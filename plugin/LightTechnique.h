@@ -5,8 +5,7 @@
 #include "lights/LightViews.h"
 #include "lights/MapReach.h"
 #include "lights/ShadowLight.h"
-#include "plugin/Clock.h"
-#include "plugin/MapCost.h"
+#include "plugin/BakeBackoff.h"
 #include "plugin/MapRasterizer.h"
 #include "plugin/Route.h"
 #include "shadowtech/Registry.h"
@@ -38,12 +37,11 @@ struct MapStage
   const glm::dmat4& centredFromView; ///< the camera's that they were drawn by
   std::size_t receiversShown;        ///< a hash of what their images depend on
   ///@}
-  Clock now;     ///< by which it is known what drawing maps takes
   int& mapBakes; ///< FrameReport::mapBakes
 };
 
-/// One light's technique, and its maps from frame to frame: what they were drawn from, and so whether they serve. Whether
-/// maps that there may be or not are worth drawing, MapCost says.
+/// One light's technique, and its maps from frame to frame: what they were drawn from, and so
+/// whether they serve. BakeBackoff decides when to bake maps that the technique can do without.
 class LightTechnique
 {
 public:
@@ -65,8 +63,6 @@ public:
   void updateMaps(const ShadowLight& light, const MapStage& stage, LightReport& report);
   /// Whether this frame's visibility is to be computed with the maps.
   bool usesMap() const { return this->usesMap_; }
-  /// What that took, on the CPU or waited for there: so it is known what maps save.
-  void visibilityTook(double milliseconds) { this->cost_.visibilityTook(milliseconds); }
 
   /// How the views were laid out in this frame, and others may be: whether or not maps were drawn.
   const ViewFitting& fitting() const { return this->fitting_; }
@@ -89,8 +85,6 @@ private:
 
     /// Whether maps that were baked from this serve where others are wanted.
     bool serves(const Bake& wanted) const;
-    /// Whether it takes about as long to draw.
-    bool costsAs(const Bake& wanted) const;
     void tell(LightReport& report) const;
     bool isDrawnOnGpu() const { return this->rasterizer && this->rasterizer->gpu; }
   };
@@ -99,16 +93,14 @@ private:
     const ShadowLight& light, Route route, bool translucentReceivers) const;
   LightViews layOut(const ShadowLight& light, const MapStage& stage, const MapReach& reach);
   Bake wantedIn(const ShadowLight& light, const MapStage& stage);
-  void updateOptionalMaps(
-    const ShadowLight& light, const MapStage& stage, LightReport& report, Bake wanted);
   void bake(const ShadowLight& light, const MapStage& stage, Bake wanted);
 
   const EstimatorEntry* estimator_;
   std::unique_ptr<Technique> technique_;
   ViewFitting fitting_;
   Bake baked_;
-  Bake wanted_;  ///< what maps that only save time were to be drawn from in the frame before
-  MapCost cost_; ///< of maps that only save time
+  Bake wanted_;         ///< what optional maps were to be baked from in the last frame
+  BakeBackoff backoff_; ///< of optional maps
   bool usesMap_ = true;
   ReceiverFit receiverFit_;
 };

@@ -189,7 +189,7 @@ void RenderManager::bakeMaps(int wishedRasterizer)
   }
   const MapStage stage{ this->camera_, this->collector_.occluders(), this->buffers_, rasterizer,
     this->library_, this->receiverTarget_, this->stageValues_.space.centredFromView,
-    this->receiversShown_, steadyMilliseconds, this->report_.mapBakes };
+    this->receiversShown_, this->report_.mapBakes };
   for (CastingLight& casting : this->lights_)
   {
     LightReport& report = reportOf(this->report_, casting.light);
@@ -293,7 +293,6 @@ void RenderManager::fillLayers(
     case Evaluation::ScreenCpu:
     {
       std::vector<float> visibility;
-      const double start = steadyMilliseconds();
       namingLight(light,
         [&]
         {
@@ -302,7 +301,6 @@ void RenderManager::fillLayers(
               casting.own.usesMap(), classes, this->report_.mapBakes },
             visibility, report);
         });
-      casting.own.visibilityTook(steadyMilliseconds() - start);
       this->endStageClock("visibility: trace");
       this->layers_.upload(casting.layer, visibility);
       this->endStageClock("visibility: upload");

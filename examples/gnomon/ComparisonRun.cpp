@@ -301,11 +301,23 @@ void timeStages(Variants& variants, Motion motion, const ComparisonPlan& plan, S
   }
 }
 
-/// The first frames: compiles, builds, and shows by how much the program grows.
+/// Whether a light's map is still to be baked, once nothing has changed for some frames.
+bool awaitsMap(vtkGnomonShadowPass* pass)
+{
+  if (!pass)
+  {
+    return false;
+  }
+  const std::vector<LightReport>& lights = pass->GetReport().lights;
+  return std::any_of(lights.begin(), lights.end(),
+    [](const LightReport& light) { return !light.mapReason.empty(); });
+}
+
+/// The first frames: compiles, builds, bakes all maps, and shows by how much the program grows.
 void warmUp(Variant& variant)
 {
   const std::int64_t before = residentBytes();
-  for (int frame = 0; frame < warmUpFrames; ++frame)
+  for (int frame = 0; frame < warmUpFrames || awaitsMap(variant.pass()); ++frame)
   {
     variant.drawFrame(Motion::Static, 0);
   }

@@ -1,7 +1,8 @@
-// What becomes of a light's map that only saves time, by what a clock says that is not the real one.
+// When a light's optional map is baked, used and dropped.
 
 #include "plugin/LightTechnique.h"
 
+#include "plugin/BakeBackoff.h"
 #include "plugin/vtkGnomonEGLRenderWindow.h"
 #include "shadowtech/base/OccluderBuffers.h"
 #include "shadowtech/base/Occluders.h"
@@ -21,32 +22,24 @@ namespace
 
 using testing::HasSubstr;
 
-double now = 0.0; ///< in milliseconds
-
-constexpr double mapMilliseconds = 8.0;
-
 /// Has a map or has none.
-class Timed : public Technique
+class Mapped : public Technique
 {
 public:
-  void bake(const MapInput&) override
-  {
-    now += mapMilliseconds;
-    this->hasMap = true;
-  }
+  void bake(const MapInput&) override { this->hasMap = true; }
   void dropMaps() override { this->hasMap = false; }
 
   bool hasMap = false;
 };
 
-EstimatorEntry timedEstimator(bool mapIsOptional)
+EstimatorEntry mappedEstimator(bool mapIsOptional)
 {
   TechniqueInfo info;
-  info.name = "timed";
+  info.name = "mapped";
   info.evaluation = Evaluation::ScreenCpu;
   info.needsMap = true;
   info.mapIsOptional = mapIsOptional;
-  return { info, []() -> std::unique_ptr<Technique> { return std::make_unique<Timed>(); } };
+  return { info, []() -> std::unique_ptr<Technique> { return std::make_unique<Mapped>(); } };
 }
 
 /// A sun over a box, and frames of it.
@@ -69,33 +62,35 @@ protected:
     this->bakes_ = 0;
     this->technique_.updateMaps(this->light_,
       { this->camera_, this->occluders_, this->buffers_, {}, this->shaders_, this->receivers_,
-        glm::dmat4(1.0), 0, [] { return now; }, this->bakes_ },
+        glm::dmat4(1.0), 0, this->bakes_ },
       report);
-    this->technique_.visibilityTook(this->technique_.usesMap() ? this->mapped_ : 1.0);
     EXPECT_EQ(this->technique_.usesMap(), report.mapReason.empty());
-    EXPECT_GE(this->hasMap(), this->technique_.usesMap());
+    EXPECT_EQ(this->hasMap(), this->technique_.usesMap());
     return report.mapReason;
   }
-  void drawFrames(int frames)
+  /// Draws a frame in which the light or its settings changed, and those until its map is baked.
+  void expectBakedAfter(int restingFrames)
   {
-    for (int frame = 0; frame < frames; ++frame)
+    for (int frame = 0; frame <= restingFrames; ++frame)
     {
-      this->draw();
+      EXPECT_THAT(this->draw(), HasSubstr("so far " + std::to_string(frame) + ")"));
+      EXPECT_EQ(this->bakes_, 0);
     }
+    EXPECT_EQ(this->draw(), "");
+    EXPECT_EQ(this->bakes_, 1);
   }
   void turnLight()
   {
     this->light_.directionWorld =
       glm::normalize(this->light_.directionWorld + glm::dvec3(0.1, 0.05, 0.0));
   }
-  bool hasMap() const { return static_cast<const Timed&>(this->technique_.technique()).hasMap; }
+  bool hasMap() const { return static_cast<const Mapped&>(this->technique_.technique()).hasMap; }
 
   vtkNew<vtkGnomonEGLRenderWindow> window_; // outlives what is in its context
-  const EstimatorEntry estimator_ = timedEstimator(true);
+  const EstimatorEntry estimator_ = mappedEstimator(true);
   LightTechnique technique_{ this->estimator_ };
   ShadowLight light_;
-  double mapped_ = 0.5; ///< what visibility takes with the map; without it takes 1
-  int bakes_ = 0;       ///< of the last frame
+  int bakes_ = 0; ///< of the last frame
 
 private:
   CameraView camera_;
@@ -105,52 +100,28 @@ private:
   ReceiverTarget receivers_;
 };
 
-/// A light that has moved has its map when tracing has taken as long as it takes to draw, and what the map before still owed.
-TEST_F(OptionalMap, isDrawnAgainWhenTracingHasTakenAsLong)
+TEST_F(OptionalMap, isBakedOnceNothingChanged)
 {
-  EXPECT_THAT(this->draw(), HasSubstr("once nothing has changed for a frame"));
-  EXPECT_EQ(this->draw(), "");
-  EXPECT_EQ(this->bakes_, 1);
-  this->turnLight();
-  EXPECT_THAT(this->draw(), HasSubstr("taken 16 ms"));
-  EXPECT_FALSE(this->hasMap());
-  for (int frame = 0; frame < 16; ++frame)
+  this->expectBakedAfter(BakeBackoff::leastPatience);
+  for (int frame = 0; frame < 100; ++frame)
   {
-    EXPECT_THAT(this->draw(), HasSubstr("all is traced")) << frame;
+    EXPECT_EQ(this->draw(), "");
+    EXPECT_EQ(this->bakes_, 0);
   }
-  EXPECT_EQ(this->draw(), "");
-  EXPECT_EQ(this->bakes_, 1);
 }
 
-TEST_F(OptionalMap, ofAnotherSizeIsDrawnAsIfItWereTheFirst)
+TEST_F(OptionalMap, isAwaitedForLongerWhereItWentStaleSoon)
 {
-  this->drawFrames(2);
+  this->expectBakedAfter(BakeBackoff::leastPatience);
+  this->turnLight();
+  this->expectBakedAfter(2 * BakeBackoff::leastPatience);
   this->light_.mapSizeTexels = 128;
-  EXPECT_THAT(this->draw(), HasSubstr("once nothing has changed for a frame"));
-  EXPECT_EQ(this->draw(), "");
-  EXPECT_EQ(this->bakes_, 1);
+  this->expectBakedAfter(4 * BakeBackoff::leastPatience);
 }
 
-TEST_F(OptionalMap, isGivenUpWhereItDoesNotPay)
-{
-  this->mapped_ = 1.02;
-  this->drawFrames(100);
-  EXPECT_THAT(this->draw(), HasSubstr("with it visibility took 1.02 ms, and without it 1.00 ms"));
-  EXPECT_FALSE(this->hasMap());
-  EXPECT_EQ(this->bakes_, 0);
-}
-
-TEST_F(OptionalMap, thatPaysIsKept)
-{
-  this->drawFrames(100);
-  EXPECT_EQ(this->draw(), "");
-  EXPECT_TRUE(this->hasMap());
-}
-
-TEST_F(OptionalMap, thatIsAlwaysDrawnIsNotQuestioned)
+TEST_F(OptionalMap, thatIsAlwaysBakedIsNeverAwaited)
 {
   this->light_.bake = BakeTime::Always;
-  this->mapped_ = 2.0;
   for (int frame = 0; frame < 100; ++frame)
   {
     if (frame % 2 == 0)
@@ -160,12 +131,16 @@ TEST_F(OptionalMap, thatIsAlwaysDrawnIsNotQuestioned)
     EXPECT_EQ(this->draw(), "");
     EXPECT_EQ(this->bakes_, frame % 2 == 0 ? 1 : 0);
   }
+  // What is there is used, and what went stale before was not the backoff's.
+  this->light_.bake = BakeTime::Settled;
+  EXPECT_EQ(this->draw(), "");
+  EXPECT_EQ(this->bakes_, 0);
 }
 
 /// Where the picture depends on the map.
-TEST(NeededMap, isNotQuestioned)
+TEST(NeededMap, isAlwaysUsed)
 {
-  const EstimatorEntry needed = timedEstimator(false);
+  const EstimatorEntry needed = mappedEstimator(false);
   const LightTechnique technique(needed);
   EXPECT_TRUE(technique.usesMap());
   for (const EstimatorEntry& entry : estimators())

@@ -1,0 +1,154 @@
+// When optional maps are baked, over sequences of frames that change and rest.
+
+#include "plugin/BakeBackoff.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <random>
+
+namespace gnomon::test
+{
+namespace
+{
+
+using testing::HasSubstr;
+
+constexpr int least = BakeBackoff::leastPatience;
+constexpr int most = BakeBackoff::mostPatience;
+
+/// A light, and the frames and bakes that it had.
+struct Light
+{
+  /// @return true if the frame used a map
+  bool draw(bool changes)
+  {
+    ++this->frames;
+    const bool baked = this->hasMap && !changes;
+    this->hasMap = this->backoff.usesMap(!changes, baked);
+    this->bakes += this->hasMap && !baked ? 1 : 0;
+    return this->hasMap;
+  }
+  /// A change, and frames in which nothing changes.
+  void moveAndRest(int restingFrames)
+  {
+    this->draw(true);
+    for (int frame = 0; frame < restingFrames; ++frame)
+    {
+      this->draw(false);
+    }
+  }
+
+  BakeBackoff backoff;
+  bool hasMap = false;
+  int frames = 0;
+  int bakes = 0;
+};
+
+TEST(BakeBackoff, bakesAfterAsManyRestingFramesAsThePatience)
+{
+  Light light;
+  EXPECT_FALSE(light.draw(true));
+  EXPECT_THAT(light.backoff.reason(), HasSubstr("after 16 frames without a change (so far 0)"));
+  for (int frame = 1; frame <= least; ++frame)
+  {
+    EXPECT_FALSE(light.draw(false)) << frame;
+    EXPECT_THAT(light.backoff.reason(), HasSubstr("(so far " + std::to_string(frame) + ")"));
+  }
+  for (int frame = 0; frame < 3 * most; ++frame)
+  {
+    EXPECT_TRUE(light.draw(false));
+    EXPECT_EQ(light.backoff.reason(), "");
+  }
+  EXPECT_EQ(light.bakes, 1);
+}
+
+TEST(BakeBackoff, countsRestingFramesInARowOnly)
+{
+  Light light;
+  for (int round = 0; round < 100; ++round)
+  {
+    light.moveAndRest(least);
+  }
+  EXPECT_EQ(light.bakes, 0);
+  EXPECT_EQ(light.backoff.patience(), least); // no map went stale
+}
+
+TEST(BakeBackoff, doublesThePatienceWhenAMapServedTooShortly)
+{
+  Light light;
+  for (int patience = least; patience <= 4 * most; patience *= 2)
+  {
+    const int bounded = std::min(patience, most);
+    EXPECT_EQ(light.backoff.patience(), bounded);
+    const int before = light.bakes;
+    light.moveAndRest(bounded + bounded - 1); // one frame less than it takes
+    EXPECT_EQ(light.bakes, before + 1);
+    light.draw(true);
+  }
+}
+
+TEST(BakeBackoff, halvesThePatienceWhenAMapServedForLongEnough)
+{
+  Light light;
+  while (light.backoff.patience() < 8 * least)
+  {
+    light.moveAndRest(light.backoff.patience() + 1);
+    light.draw(true);
+  }
+  for (int patience = 8 * least; patience > least; patience /= 2)
+  {
+    EXPECT_EQ(light.backoff.patience(), patience);
+    light.moveAndRest(2 * patience);
+    light.draw(true);
+  }
+  light.moveAndRest(2 * least);
+  light.draw(true);
+  EXPECT_EQ(light.backoff.patience(), least);
+}
+
+/// A pass that was told to bake at once may have left a map.
+TEST(BakeBackoff, usesAMapThatIsThere)
+{
+  BakeBackoff backoff;
+  EXPECT_TRUE(backoff.usesMap(false, true));
+  EXPECT_EQ(backoff.reason(), "");
+}
+
+TEST(BakeBackoff, isBoundedOverAnySequence)
+{
+  std::mt19937 random(1);
+  int bakes = 0;
+  for (int round = 0; round < 1000; ++round)
+  {
+    const double mean = std::exp(std::uniform_real_distribution<>(0.0, 6.0)(random));
+    std::lognormal_distribution<> rest(
+      std::log(mean), std::uniform_real_distribution<>(0.0, 2.0)(random));
+    Light light;
+    for (int moves = 0; moves < 100; ++moves)
+    {
+      light.moveAndRest(static_cast<int>(std::min(rest(random), 5000.0)));
+      ASSERT_LE(light.bakes, light.frames / (2.0 * least) + 0.5) << round;
+    }
+    bakes += light.bakes;
+  }
+  EXPECT_GT(bakes, 10000);
+}
+
+/// The worst sequences: a light moves once its map was baked, or once it served just long enough.
+TEST(BakeBackoff, isBoundedForALightThatMovesWhenItHurtsMost)
+{
+  for (const bool servesLongEnough : { false, true })
+  {
+    Light light;
+    while (light.frames < 100000)
+    {
+      light.moveAndRest(servesLongEnough ? 2 * least : light.backoff.patience() + 1);
+      ASSERT_LE(light.bakes, light.frames / (2.0 * least) + 0.5);
+    }
+    EXPECT_GT(light.bakes, servesLongEnough ? 3000 : 90);
+  }
+}
+
+} // namespace
+} // namespace gnomon::test
