@@ -2,12 +2,11 @@
 
 #include "shadowtech/base/Occluders.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
 
 namespace gnomon
@@ -22,8 +21,76 @@ constexpr double cornerNoise = 4.0 / (1 << 24);
 /// What evaluating n.p + d in float adds: four products and sums of a rounded plane and a rounded point.
 constexpr double evaluationNoise = 8.0 / (1 << 24);
 
-/// A plane near the border of cells may be spread over so many of them.
-constexpr double splitShare = 1.0 / 8.0;
+/// A receiving triangle of the snapshot.
+struct Triangle
+{
+  std::array<glm::dvec3, 3> corners;
+  glm::dvec3 areaVector; ///< normal, as long as the area
+
+  Triangle(const Occluders& occluders, std::size_t number)
+  {
+    const glm::uvec3& numbers = occluders.triangles[number];
+    this->corners = { occluders.positionsCentred[numbers.x], occluders.positionsCentred[numbers.y],
+      occluders.positionsCentred[numbers.z] };
+    this->areaVector =
+      0.5 * glm::cross(this->corners[1] - this->corners[0], this->corners[2] - this->corners[0]);
+  }
+  double area() const { return glm::length(this->areaVector); }
+  glm::dvec3 centroid() const
+  {
+    return (this->corners[0] + this->corners[1] + this->corners[2]) / 3.0;
+  }
+  glm::dvec3 largest() const
+  {
+    return glm::max(
+      glm::abs(this->corners[0]), glm::max(glm::abs(this->corners[1]), glm::abs(this->corners[2])));
+  }
+  double longestEdge() const
+  {
+    return std::max({ glm::distance(this->corners[0], this->corners[1]),
+      glm::distance(this->corners[1], this->corners[2]),
+      glm::distance(this->corners[2], this->corners[0]) });
+  }
+};
+
+/// A normal's cell in a cube map of directions; opposite ones are the same. The middle of a face is
+/// the middle of a cell, so that axis-parallel planes stay in one.
+constexpr int cellsPerSide = 63;
+constexpr int directionCells = 3 * cellsPerSide * cellsPerSide;
+
+int longestAxis(const glm::dvec3& normal)
+{
+  const glm::dvec3 magnitude = glm::abs(normal);
+  const int axis = magnitude.x >= magnitude.y ? 0 : 1;
+  return magnitude[axis] >= magnitude.z ? axis : 2;
+}
+
+/// -1 for a normal that counts as its opposite.
+double orientation(const glm::dvec3& normal)
+{
+  return normal[longestAxis(normal)] < 0.0 ? -1.0 : 1.0;
+}
+
+int directionCell(const glm::dvec3& normal)
+{
+  const int axis = longestAxis(normal);
+  const auto cell = [&](double component)
+  {
+    const double place = 0.5 * (component / normal[axis] + 1.0); // in [0, 1]
+    return std::min(static_cast<int>(place * cellsPerSide), cellsPerSide - 1);
+  };
+  return (axis * cellsPerSide + cell(normal[(axis + 1) % 3])) * cellsPerSide +
+    cell(normal[(axis + 2) % 3]);
+}
+
+/// Triangles whose planes are much alike, from which a plane may be grown.
+struct Candidate
+{
+  std::vector<std::size_t> triangles;
+  double area = 0.0;
+  double largestArea = 0.0;
+  std::size_t largest = 0; ///< the triangle
+};
 
 /// Sums up triangles that lie on one plane. Their area vectors add up to that of their common outline,
 /// so that the errors of small triangles do not.
@@ -33,19 +100,13 @@ struct PlaneSum
   glm::dvec3 moment{ 0.0 };
   double area = 0.0;
 
-  void add(const ReceivingTriangle& triangle, const glm::dvec3& along)
+  void add(const Triangle& triangle, const glm::dvec3& along)
   {
     const double weight = triangle.area();
     const double side = glm::dot(triangle.areaVector, along) < 0.0 ? -1.0 : 1.0;
     this->areaVector += side * triangle.areaVector;
     this->moment += weight * triangle.centroid();
     this->area += weight;
-  }
-  void add(const PlaneSum& other)
-  {
-    this->areaVector += other.areaVector;
-    this->moment += other.moment;
-    this->area += other.area;
   }
   glm::dvec4 plane() const
   {
@@ -65,36 +126,24 @@ double magnitudeAlong(const glm::dvec4& plane, const glm::dvec3& point)
   return glm::dot(glm::abs(glm::dvec3(plane)), glm::abs(point));
 }
 
-/// Whether no corner in a box lies as near to a plane as coplanar triangles' corners do.
-bool liesOff(const TriangleBox& box, const glm::dvec4& plane)
-{
-  const glm::dvec3 lower = box.lower;
-  const glm::dvec3 upper = box.upper;
-  const double extent = glm::dot(glm::abs(glm::dvec3(plane)), 0.5 * (upper - lower));
-  const glm::dvec3 largest = glm::max(glm::abs(lower), glm::abs(upper));
-  return distanceOff(plane, 0.5 * (lower + upper)) - extent >
-    cornerNoise * magnitudeAlong(plane, largest);
-}
-
-/// Searches a snapshot for planes.
+/// Searches a snapshot for planes: looks at every triangle for every plane.
 class PlaneSearch
 {
 public:
-  PlaneSearch(const Occluders& occluders, const TriangleCells& cells, std::size_t wanted)
+  PlaneSearch(const Occluders& occluders, std::size_t wanted)
     : occluders_(occluders)
-    , cells_(cells)
     , wanted_(wanted)
-    , leastArea_(ReceiverPlanes::smallestShare * cells.area())
-    , planeOfTriangle_(occluders.triangles.size(), 0)
   {
   }
 
+  double area() const { return this->area_; }
   /// By triangle of the snapshot: 0, or 1 + its plane.
   const std::vector<std::uint8_t>& planeOfTriangle() const { return this->planeOfTriangle_; }
 
   std::vector<ReceiverPlane> run()
   {
-    this->collectCandidates();
+    this->planeOfTriangle_.assign(this->occluders_.triangles.size(), 0);
+    this->collectFlat();
     std::vector<ReceiverPlane> planes;
     // Candidates fail where surfaces are almost flat. More of them than this are not worth the time.
     int tries = 2 * mostPlanes;
@@ -102,15 +151,15 @@ public:
     do
     {
       before = planes.size();
-      for (const Candidate* candidate : this->largestCandidates())
+      for (const Candidate& candidate : this->candidates())
       {
-        if (planes.size() == mostPlanes || tries-- <= 0 || this->hasLargerThan(*candidate, planes))
+        if (planes.size() == mostPlanes || tries-- <= 0 || this->hasLargerThan(candidate, planes))
         {
           break;
         }
-        if (this->planeOfTriangle_[candidate->largest] == 0)
+        if (this->planeOfTriangle_[candidate.largest] == 0)
         {
-          this->grow(*candidate, planes);
+          this->grow(candidate, planes);
         }
       }
       // What was like a plane that has been found may be another one.
@@ -120,128 +169,101 @@ public:
   }
 
 private:
-  /// A cell with enough area, from which a plane may be grown.
-  struct Candidate
+  /// Keeps the triangles in whose direction enough of the area looks.
+  void collectFlat()
   {
-    struct Part
+    std::vector<double> areaOfDirection(directionCells, 0.0);
+    const auto visitReceivers = [this](const auto& visit)
     {
-      const TriangleCells::PlacedBlock* block;
-      const TriangleBlock::Cell* cell;
-    };
-    std::vector<Part> parts;
-    // Of its triangles that lie on no plane yet:
-    std::size_t count = 0;
-    double area = 0.0;
-    double largestArea = 0.0;
-    std::size_t largest = 0; ///< the triangle
-  };
-
-  /// What a block has on a plane.
-  struct Share
-  {
-    std::vector<std::size_t> members;
-    double area = 0.0;
-    double farthestOff = 0.0; ///< of its corners from the plane
-    double magnitude = 0.0;   ///< magnitudeAlong()
-    Bounds boundsCentred;
-  };
-
-  /// Calls visit(number) for those of a part's triangles that lie on no plane yet.
-  template <typename Visit>
-  void visitFree(const Candidate::Part& part, const Visit& visit) const
-  {
-    for (std::uint32_t i = part.cell->begin; i < part.cell->end; ++i)
-    {
-      const std::size_t number = part.block->first() + part.block->block->triangles()[i];
-      if (this->planeOfTriangle_[number] == 0)
+      for (const Surface& surface : this->occluders_.surfaces)
       {
-        visit(number);
-      }
-    }
-  }
-
-  /// The cells that hold enough, of all blocks together.
-  void collectCandidates()
-  {
-    std::vector<Candidate::Part> parts;
-    for (const TriangleCells::PlacedBlock& placed : this->cells_.blocks())
-    {
-      for (const TriangleBlock::Cell& cell : placed.block->cells())
-      {
-        parts.push_back({ &placed, &cell });
-      }
-    }
-    std::stable_sort(parts.begin(), parts.end(),
-      [](const auto& a, const auto& b) { return a.cell->key < b.cell->key; });
-    for (auto begin = parts.begin(); begin != parts.end();)
-    {
-      Candidate candidate;
-      auto end = begin;
-      for (; end != parts.end() && end->cell->key == begin->cell->key; ++end)
-      {
-        candidate.count += end->cell->end - end->cell->begin;
-        candidate.area += end->cell->area;
-        if (end->cell->largestArea > candidate.largestArea)
+        const bool counts = surface.receives && !surface.isInstanced();
+        for (std::uint32_t i = 0; counts && i < surface.triangleCount; ++i)
         {
-          candidate.largestArea = end->cell->largestArea;
-          candidate.largest = end->block->first() + end->cell->largest;
+          const std::size_t number = surface.firstTriangle + i;
+          const Triangle triangle(this->occluders_, number);
+          const double area = triangle.area();
+          if (area > 0.0) // what has none has no direction
+          {
+            visit(number, triangle, area, directionCell(triangle.areaVector));
+          }
         }
       }
-      if (candidate.area >= splitShare * this->leastArea_)
+    };
+    for (const Surface& surface : this->occluders_.surfaces)
+    {
+      this->area_ +=
+        surface.receives && surface.isInstanced() ? this->areaOfInstances(surface) : 0.0;
+    }
+    visitReceivers(
+      [&](std::size_t, const Triangle&, double area, int cell)
       {
-        candidate.parts.assign(begin, end);
-        this->candidates_.push_back(std::move(candidate));
-      }
-      begin = end;
-    }
-  }
-
-  /// Counts again what lies on no plane yet, if that has changed.
-  void refresh(Candidate& candidate) const
-  {
-    std::size_t count = 0;
-    for (const auto& part : candidate.parts)
-    {
-      this->visitFree(part, [&](std::size_t) { ++count; });
-    }
-    if (count == candidate.count)
-    {
-      return;
-    }
-    candidate.count = count;
-    candidate.area = candidate.largestArea = 0.0;
-    for (const auto& part : candidate.parts)
-    {
-      this->visitFree(part,
-        [&](std::size_t number)
+        areaOfDirection[static_cast<std::size_t>(cell)] += area;
+        this->area_ += area;
+      });
+    visitReceivers(
+      [&](std::size_t number, const Triangle&, double, int cell)
+      {
+        if (areaOfDirection[static_cast<std::size_t>(cell)] >= this->leastArea() * splitShare)
         {
-          const double area = ReceivingTriangle(this->occluders_, number).area();
-          candidate.area += area;
-          if (area > candidate.largestArea)
-          {
-            candidate.largestArea = area;
-            candidate.largest = number;
-          }
-        });
-    }
+          this->flat_.push_back(number);
+        }
+      });
   }
 
-  /// Those that still hold enough, in order of their area.
-  std::vector<const Candidate*> largestCandidates()
+  /// As if each instance were scaled evenly.
+  double areaOfInstances(const Surface& surface) const
   {
-    tbb::parallel_for(std::size_t(0), this->candidates_.size(),
-      [&](std::size_t i) { this->refresh(this->candidates_[i]); });
-    std::vector<const Candidate*> result;
-    for (const Candidate& candidate : this->candidates_)
+    double areaSource = 0.0;
+    for (std::uint32_t i = 0; i < surface.triangleCount; ++i)
     {
-      if (candidate.area >= splitShare * this->leastArea_)
+      areaSource += Triangle(this->occluders_, surface.firstTriangle + i).area();
+    }
+    double scale = 0.0;
+    for (const glm::mat4x3& instance : surface.centredFromSource)
+    {
+      scale += std::pow(std::abs(glm::determinant(glm::dmat3(instance))), 2.0 / 3.0);
+    }
+    return scale * areaSource;
+  }
+
+  /// The cells of direction and offset that hold enough, in order of their area.
+  std::vector<Candidate> candidates() const
+  {
+    const double offsetCell =
+      std::max(this->occluders_.allCentred.radius() / 2048.0, std::numeric_limits<double>::min());
+    std::map<std::pair<int, long>, Candidate> cells;
+    for (const std::size_t number : this->flat_)
+    {
+      if (this->planeOfTriangle_[number] != 0)
       {
-        result.push_back(&candidate);
+        continue;
+      }
+      const Triangle triangle(this->occluders_, number);
+      const double area = triangle.area();
+      const int direction = directionCell(triangle.areaVector);
+      const double offset = orientation(triangle.areaVector) *
+        glm::dot(triangle.areaVector / area, triangle.centroid());
+      Candidate& cell = cells[{ direction, std::lround(offset / offsetCell) }];
+      cell.triangles.push_back(number);
+      cell.area += area;
+      if (area > cell.largestArea)
+      {
+        cell.largestArea = area;
+        cell.largest = number;
+      }
+    }
+    std::vector<Candidate> result;
+    for (const auto& [place, cell] : cells)
+    {
+      if (cell.area >= this->leastArea() * splitShare)
+      {
+        result.push_back(cell);
       }
     }
     std::sort(result.begin(), result.end(),
-      [](const Candidate* a, const Candidate* b)
-      { return a->area != b->area ? a->area > b->area : a->largest < b->largest; });
+      [](const Candidate& a, const Candidate& b)
+      { return a.area != b.area ? a.area > b.area : a.largest < b.largest; });
     return result;
   }
 
@@ -256,40 +278,33 @@ private:
   /// Finds the plane of a candidate's largest triangle, by what else of the candidate lies on it.
   void grow(const Candidate& candidate, std::vector<ReceiverPlane>& planes)
   {
-    const ReceivingTriangle seed(this->occluders_, candidate.largest);
+    const Triangle seed(this->occluders_, candidate.largest);
     PlaneSum one;
     one.add(seed, seed.areaVector);
     const glm::dvec4 seedPlane = one.plane();
     // Of a small triangle the corners' rounding turns the plane: the farther away, the farther off.
-    const double height = seed.height();
+    const double height = 2.0 * seed.area() / seed.longestEdge();
     const glm::dvec3 middle = seed.centroid();
-    std::vector<PlaneSum> sums(candidate.parts.size());
-    tbb::parallel_for(std::size_t(0), sums.size(),
-      [&](std::size_t i)
-      {
-        this->visitFree(candidate.parts[i],
-          [&](std::size_t number)
-          {
-            const ReceivingTriangle triangle(this->occluders_, number);
-            const auto near = [&](const glm::dvec3& corner)
-            {
-              const double noise =
-                cornerNoise * magnitudeAlong(seedPlane, glm::max(glm::abs(corner), seed.largest()));
-              return distanceOff(seedPlane, corner) <=
-                noise * (1.0 + glm::distance(corner, middle) / height);
-            };
-            if (std::all_of(triangle.corners.begin(), triangle.corners.end(), near))
-            {
-              sums[i].add(triangle, seed.areaVector);
-            }
-          });
-      });
     PlaneSum sum;
-    for (const PlaneSum& part : sums)
+    for (const std::size_t number : candidate.triangles)
     {
-      sum.add(part);
+      if (this->planeOfTriangle_[number] == 0)
+      {
+        const Triangle triangle(this->occluders_, number);
+        const auto near = [&](const glm::dvec3& corner)
+        {
+          const double noise =
+            cornerNoise * magnitudeAlong(seedPlane, glm::max(glm::abs(corner), seed.largest()));
+          return distanceOff(seedPlane, corner) <=
+            noise * (1.0 + glm::distance(corner, middle) / height);
+        };
+        if (std::all_of(triangle.corners.begin(), triangle.corners.end(), near))
+        {
+          sum.add(triangle, seed.areaVector);
+        }
+      }
     }
-    if (sum.area >= splitShare * this->leastArea_)
+    if (sum.area >= this->leastArea() * splitShare)
     {
       this->gather(sum.plane(), planes);
     }
@@ -298,102 +313,58 @@ private:
   /// Makes a plane of all that lies on it, if that is enough.
   void gather(const glm::dvec4& plane, std::vector<ReceiverPlane>& planes)
   {
-    // How wide a triangle can be that lies on the plane, by its direction.
-    const Bounds& all = this->occluders_.allCentred;
-    const double span =
-      2.0 * cornerNoise * magnitudeAlong(plane, glm::max(glm::abs(all.lower), glm::abs(all.upper)));
-    std::vector<double> mostHeights(TriangleCells::directionCount, 0.0);
-    for (int i = 0; i < TriangleCells::directionCount; ++i)
-    {
-      if (this->cells_.isWanted()[static_cast<std::size_t>(i)])
-      {
-        const double sine = TriangleCells::leastSine(glm::dvec3(plane), i);
-        mostHeights[static_cast<std::size_t>(i)] =
-          sine > 0.0 ? span / sine : std::numeric_limits<double>::infinity();
-      }
-    }
-    std::vector<Share> shares(this->cells_.blocks().size());
-    tbb::parallel_for(std::size_t(0), shares.size(),
-      [&](std::size_t i)
-      { shares[i] = this->shareOn(plane, mostHeights, this->cells_.blocks()[i]); });
     ReceiverPlane found;
     found.plane = plane;
     double farthestOff = 0.0;
     double magnitude = std::abs(plane.w);
-    for (const Share& share : shares)
+    std::vector<std::size_t> members;
+    for (const std::size_t number : this->flat_)
     {
-      found.area += share.area;
-      found.boundsCentred.add(share.boundsCentred);
-      farthestOff = std::max(farthestOff, share.farthestOff);
-      magnitude = std::max(magnitude, share.magnitude);
+      if (this->planeOfTriangle_[number] != 0)
+      {
+        continue;
+      }
+      if (!isNear(plane, number))
+      {
+        continue;
+      }
+      const Triangle triangle(this->occluders_, number);
+      const glm::dvec3 largest = triangle.largest();
+      const auto on = [&](const glm::dvec3& corner)
+      { return distanceOff(plane, corner) <= cornerNoise * magnitudeAlong(plane, largest); };
+      if (std::all_of(triangle.corners.begin(), triangle.corners.end(), on))
+      {
+        members.push_back(number);
+        found.area += triangle.area();
+        magnitude = std::max(magnitude, magnitudeAlong(plane, largest));
+        for (const glm::dvec3& corner : triangle.corners)
+        {
+          farthestOff = std::max(farthestOff, distanceOff(plane, corner));
+          found.boundsCentred.add(corner);
+        }
+      }
     }
-    if (found.area < this->leastArea_ || found.area == 0.0)
+    if (found.area < this->leastArea() || members.empty())
     {
       return;
     }
     found.thickness = farthestOff + evaluationNoise * magnitude;
     planes.push_back(found);
-    for (const Share& share : shares)
+    for (const std::size_t number : members)
     {
-      for (const std::size_t number : share.members)
-      {
-        this->planeOfTriangle_[number] = static_cast<std::uint8_t>(planes.size());
-      }
+      this->planeOfTriangle_[number] = static_cast<std::uint8_t>(planes.size());
     }
   }
 
-  /// @param mostHeights by direction: the largest height of a triangle that could lie on the plane
-  Share shareOn(const glm::dvec4& plane, const std::vector<double>& mostHeights,
-    const TriangleCells::PlacedBlock& placed) const
+  /// Whether a triangle's first corner lies on a plane as far as the scene's size can tell: sorts
+  /// out nearly all that do not, at little cost.
+  bool isNear(const glm::dvec4& plane, std::size_t number) const
   {
-    Share share;
-    const TriangleBlock& block = *placed.block;
-    for (const TriangleBlock::Direction& direction : block.directions())
-    {
-      if (direction.leastHeight > mostHeights[static_cast<std::size_t>(direction.number)])
-      {
-        continue;
-      }
-      std::uint32_t box = direction.firstBox;
-      for (std::uint32_t begin = direction.begin; begin < direction.end;
-           begin += TriangleBlock::trianglesPerBox, ++box)
-      {
-        if (liesOff(block.boxes()[box], plane))
-        {
-          continue;
-        }
-        const std::uint32_t end = std::min(begin + TriangleBlock::trianglesPerBox, direction.end);
-        for (std::uint32_t i = begin; i < end; ++i)
-        {
-          this->addIfOn(plane, placed.first() + block.triangles()[i], share);
-        }
-      }
-    }
-    return share;
-  }
-
-  /// Adds a triangle that lies on a plane, and on no other yet.
-  void addIfOn(const glm::dvec4& plane, std::size_t number, Share& share) const
-  {
-    if (this->planeOfTriangle_[number] != 0)
-    {
-      return;
-    }
-    const ReceivingTriangle triangle(this->occluders_, number);
-    const glm::dvec3 largest = triangle.largest();
-    const auto on = [&](const glm::dvec3& corner)
-    { return distanceOff(plane, corner) <= cornerNoise * magnitudeAlong(plane, largest); };
-    if (std::all_of(triangle.corners.begin(), triangle.corners.end(), on))
-    {
-      share.members.push_back(number);
-      share.area += triangle.area();
-      share.magnitude = std::max(share.magnitude, magnitudeAlong(plane, largest));
-      for (const glm::dvec3& corner : triangle.corners)
-      {
-        share.farthestOff = std::max(share.farthestOff, distanceOff(plane, corner));
-        share.boundsCentred.add(corner);
-      }
-    }
+    const glm::dvec3 corner =
+      this->occluders_.positionsCentred[this->occluders_.triangles[number].x];
+    const Bounds& all = this->occluders_.allCentred;
+    const glm::dvec3 largest = glm::max(glm::abs(all.lower), glm::abs(all.upper));
+    return distanceOff(plane, corner) <= cornerNoise * magnitudeAlong(plane, largest);
   }
 
   /// Puts the wanted planes in order of area, and forgets the others.
@@ -420,11 +391,14 @@ private:
     }
   }
 
+  double leastArea() const { return ReceiverPlanes::smallestShare * this->area_; }
+  /// A plane near the border of cells may be spread over so many of them.
+  static constexpr double splitShare = 1.0 / 8.0;
+
   const Occluders& occluders_;
-  const TriangleCells& cells_;
   std::size_t wanted_;
-  double leastArea_; ///< of a plane
-  std::vector<Candidate> candidates_;
+  double area_ = 0.0;
+  std::vector<std::size_t> flat_;
   std::vector<std::uint8_t> planeOfTriangle_;
 };
 
@@ -439,9 +413,9 @@ void ReceiverPlanes::update(const Occluders& occluders, std::size_t wanted)
   {
     return;
   }
-  this->cells_.update(occluders, splitShare * smallestShare);
-  PlaneSearch search(occluders, this->cells_, wanted);
+  PlaneSearch search(occluders, wanted);
   this->planes_ = search.run();
+  this->area_ = search.area();
   this->planeOfDrawn_.clear();
   this->drawnBegin_.clear();
   for (const Surface& surface : occluders.surfaces)

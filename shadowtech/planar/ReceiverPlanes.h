@@ -3,7 +3,6 @@
 
 #include "lights/Bounds.h"
 #include "lights/ShadowSettings.h"
-#include "shadowtech/planar/TriangleCells.h"
 
 #include <glm/glm.hpp>
 
@@ -39,23 +38,20 @@ class ReceiverPlanes
 public:
   static constexpr double smallestShare = 1.0 / 1024.0;
 
-  /// Finds them again if the snapshot or what is wanted has changed. What stays the same of a surface is
-  /// kept.
+  /// Finds them again if the snapshot or what is wanted has changed.
   /// @param wanted how many of the largest, at most mostPlanes
   void update(const Occluders& occluders, std::size_t wanted);
 
   /// In order of area, no more than wanted.
   const std::vector<ReceiverPlane>& planes() const { return this->planes_; }
   /// The area of all receiving triangles.
-  double area() const { return this->cells_.area(); }
+  double area() const { return this->area_; }
 
   /// For every triangle that VTK draws of a surface, from drawnBegin() on: 0, or 1 + the plane that it
   /// lies on.
   const std::vector<std::uint8_t>& planeOfDrawn() const { return this->planeOfDrawn_; }
   std::size_t drawnBegin(std::size_t surface) const { return this->drawnBegin_[surface]; }
 
-  /// How many triangles the last search has sorted: those of surfaces that had changed.
-  std::size_t sortedTriangles() const { return this->cells_.sortedTriangles(); }
   /// Changes when all this changes; 0 before the first update.
   std::uint64_t version() const { return this->version_; }
 
@@ -63,7 +59,7 @@ private:
   std::vector<ReceiverPlane> planes_;
   std::vector<std::uint8_t> planeOfDrawn_;
   std::vector<std::size_t> drawnBegin_;
-  TriangleCells cells_;
+  double area_ = 0.0;
   std::uint64_t version_ = 0;
   std::size_t wanted_ = 0;
   std::uint64_t topologyVersion_ = 0;

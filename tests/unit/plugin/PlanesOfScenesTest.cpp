@@ -1,4 +1,5 @@
-// The planes that `planar` finds in the built-in scenes, against a plain search.
+// The planes that `planar` finds in the built-in scenes: what lies on them is theirs, and no other
+// is as large.
 
 #include "BuiltinScenes.h"
 #include "Scene.h"
@@ -16,8 +17,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <map>
-#include <numeric>
+#include <random>
 #include <string>
 #include <utility>
 #include <vector>
@@ -27,388 +27,188 @@ namespace gnomon::test
 namespace
 {
 
-/// How far from their common plane the corners of coplanar triangles lie, as a share of
-/// sum |n_i| |p_i|: rounding moves a corner by up to one unit roundoff 2^-24 of that, the plane, which is
-/// found from such corners, by about as much again, and half of it is left over.
-constexpr double cornerNoise = 4.0 / (1 << 24);
-/// A receiving triangle of the snapshot.
-struct Triangle
+/// How far off their plane corners may lie, as a share of sum |n_i| |p_i|: rounding moves them, and
+/// the plane that is found from them, by up to 2^-24 each, and the search allows for as much again.
+constexpr double surelyOn = 2.0 / (1 << 24);
+constexpr double mayBeOn = 4.0 / (1 << 24);
+
+/// A triangle that receives and is drawn once.
+struct Receiver
 {
   std::array<glm::dvec3, 3> corners;
-  glm::dvec3 areaVector; ///< normal, as long as the area
+  glm::dvec3 areaVector{ 0.0 }; ///< normal, as long as the area
+  std::size_t ofPlane = 0;      ///< 0, or 1 + its plane
 
-  Triangle(const Occluders& occluders, std::size_t number)
-  {
-    for (int i = 0; i < 3; ++i)
-    {
-      this->corners[static_cast<std::size_t>(i)] =
-        occluders.positionsCentred[occluders.triangles[number][i]];
-    }
-    this->areaVector =
-      0.5 * glm::cross(this->corners[1] - this->corners[0], this->corners[2] - this->corners[0]);
-  }
   double area() const { return glm::length(this->areaVector); }
   glm::dvec3 centroid() const
   {
     return (this->corners[0] + this->corners[1] + this->corners[2]) / 3.0;
   }
-  glm::dvec3 largest() const
+  double height() const
   {
-    return glm::max(
+    return 2.0 * this->area() /
+      std::max({ glm::distance(this->corners[0], this->corners[1]),
+        glm::distance(this->corners[1], this->corners[2]),
+        glm::distance(this->corners[2], this->corners[0]) });
+  }
+  /// Whether all corners lie on a plane, as a share of the magnitudes that are added up.
+  /// @param growth how much that share grows with the distance from `middle`
+  bool liesOn(const glm::dvec4& plane, double share, const glm::dvec3& middle = glm::dvec3(0.0),
+    double growth = 0.0) const
+  {
+    const glm::dvec3 largest = glm::max(
       glm::abs(this->corners[0]), glm::max(glm::abs(this->corners[1]), glm::abs(this->corners[2])));
-  }
-  double longestEdge() const
-  {
-    return std::max({ glm::distance(this->corners[0], this->corners[1]),
-      glm::distance(this->corners[1], this->corners[2]),
-      glm::distance(this->corners[2], this->corners[0]) });
+    const double noise = share * glm::dot(glm::abs(glm::dvec3(plane)), largest);
+    return std::all_of(this->corners.begin(), this->corners.end(),
+      [&](const glm::dvec3& corner)
+      {
+        return std::abs(glm::dot(plane, glm::dvec4(corner, 1.0))) <=
+          noise * (1.0 + growth * glm::distance(corner, middle));
+      });
   }
 };
 
-/// A normal's cell in a cube map of directions; opposite ones are the same. The middle of a face is the
-/// middle of a cell, so that axis-parallel planes stay in one.
-constexpr int cellsPerSide = 63;
-constexpr int directionCells = 3 * cellsPerSide * cellsPerSide;
-
-int longestAxis(const glm::dvec3& normal)
+/// The plane of triangles' common outline.
+class PlaneOfAll
 {
-  const glm::dvec3 magnitude = glm::abs(normal);
-  const int axis = magnitude.x >= magnitude.y ? 0 : 1;
-  return magnitude[axis] >= magnitude.z ? axis : 2;
-}
-
-/// -1 for a normal that counts as its opposite.
-double orientation(const glm::dvec3& normal)
-{
-  return normal[longestAxis(normal)] < 0.0 ? -1.0 : 1.0;
-}
-
-int directionCell(const glm::dvec3& normal)
-{
-  const int axis = longestAxis(normal);
-  const auto cell = [&](double component)
+public:
+  void add(const Receiver& receiver)
   {
-    const double place = 0.5 * (component / normal[axis] + 1.0); // in [0, 1]
-    return std::min(static_cast<int>(place * cellsPerSide), cellsPerSide - 1);
-  };
-  return (axis * cellsPerSide + cell(normal[(axis + 1) % 3])) * cellsPerSide +
-    cell(normal[(axis + 2) % 3]);
-}
-
-/// Triangles whose planes are much alike, from which a plane may be grown.
-struct Candidate
-{
-  std::vector<std::size_t> triangles;
-  double area = 0.0;
-  double largestArea = 0.0;
-  std::size_t largest = 0; ///< the triangle
-};
-
-/// Sums up triangles that lie on one plane. Their area vectors add up to that of their common outline,
-/// so that the errors of small triangles do not.
-struct PlaneSum
-{
-  glm::dvec3 areaVector{ 0.0 };
-  glm::dvec3 moment{ 0.0 };
-  double area = 0.0;
-
-  void add(const Triangle& triangle, const glm::dvec3& along)
-  {
-    const double weight = triangle.area();
-    const double side = glm::dot(triangle.areaVector, along) < 0.0 ? -1.0 : 1.0;
-    this->areaVector += side * triangle.areaVector;
-    this->moment += weight * triangle.centroid();
-    this->area += weight;
+    const double side = glm::dot(receiver.areaVector, this->areaVector_) < 0.0 ? -1.0 : 1.0;
+    this->areaVector_ += side * receiver.areaVector;
+    this->moment_ += receiver.area() * receiver.centroid();
+    this->area_ += receiver.area();
   }
   glm::dvec4 plane() const
   {
-    const glm::dvec3 normal = glm::normalize(this->areaVector);
-    return { normal, -glm::dot(normal, this->moment) / this->area };
-  }
-};
-
-double distanceOff(const glm::dvec4& plane, const glm::dvec3& point)
-{
-  return std::abs(glm::dot(plane, glm::dvec4(point, 1.0)));
-}
-
-/// sum |n_i| |p_i|, which bounds the rounding of n.p.
-double magnitudeAlong(const glm::dvec4& plane, const glm::dvec3& point)
-{
-  return glm::dot(glm::abs(glm::dvec3(plane)), glm::abs(point));
-}
-
-/// Searches a snapshot for planes: the twin of ReceiverPlanes, which looks at every triangle for every
-/// plane, has cells of another size, and remembers nothing.
-class PlainSearch
-{
-public:
-  PlainSearch(const Occluders& occluders, std::size_t wanted)
-    : occluders_(occluders)
-    , wanted_(wanted)
-  {
-  }
-
-  double area() const { return this->area_; }
-  /// By triangle of the snapshot: 0, or 1 + its plane.
-  const std::vector<std::uint8_t>& planeOfTriangle() const { return this->planeOfTriangle_; }
-
-  std::vector<ReceiverPlane> run()
-  {
-    this->planeOfTriangle_.assign(this->occluders_.triangles.size(), 0);
-    this->collectFlat();
-    std::vector<ReceiverPlane> planes;
-    // Candidates fail where surfaces are almost flat. More of them than this are not worth the time.
-    int tries = 2 * mostPlanes;
-    std::size_t before = 0;
-    do
-    {
-      before = planes.size();
-      for (const Candidate& candidate : this->candidates())
-      {
-        if (planes.size() == mostPlanes || tries-- <= 0 || this->hasLargerThan(candidate, planes))
-        {
-          break;
-        }
-        if (this->planeOfTriangle_[candidate.largest] == 0)
-        {
-          this->grow(candidate, planes);
-        }
-      }
-      // What was like a plane that has been found may be another one.
-    } while (planes.size() > before && planes.size() < mostPlanes);
-    this->sortByArea(planes);
-    return planes;
+    const glm::dvec3 normal = glm::normalize(this->areaVector_);
+    return { normal, -glm::dot(normal, this->moment_) / this->area_ };
   }
 
 private:
-  /// Keeps the triangles in whose direction enough of the area looks.
-  void collectFlat()
+  glm::dvec3 areaVector_{ 0.0 };
+  glm::dvec3 moment_{ 0.0 };
+  double area_ = 0.0;
+};
+
+/// A built-in scene, and its planes.
+class SceneWithPlanes
+{
+public:
+  SceneWithPlanes(const std::string& name, std::size_t wanted)
+    : renderer_(tool::makeRenderer(tool::loadScene(name), 1.0))
   {
-    std::vector<double> areaOfDirection(directionCells, 0.0);
-    const auto visitReceivers = [this](const auto& visit)
+    this->collector_.collect(this->renderer_);
+    this->planes.update(this->occluders(), wanted);
+  }
+
+  const Occluders& occluders() const { return this->collector_.occluders(); }
+  double leastArea() const { return ReceiverPlanes::smallestShare * this->planes.area(); }
+
+  /// Calls visit(receiver) for each.
+  template <typename Visit>
+  void forEach(const Visit& visit) const
+  {
+    for (std::size_t i = 0; i < this->occluders().surfaces.size(); ++i)
     {
-      for (const Surface& surface : this->occluders_.surfaces)
+      const Surface& surface = this->occluders().surfaces[i];
+      for (std::uint32_t drawn = 0; drawn < surface.drawnCount(); ++drawn)
       {
-        const bool counts = surface.receives && !surface.isInstanced();
-        for (std::uint32_t i = 0; counts && i < surface.triangleCount; ++i)
+        const std::uint32_t triangle =
+          surface.triangleOfDrawn.empty() ? drawn : surface.triangleOfDrawn[drawn];
+        if (surface.receives && !surface.isInstanced() && triangle != Surface::noTriangle)
         {
-          const std::size_t number = surface.firstTriangle + i;
-          const Triangle triangle(this->occluders_, number);
-          const double area = triangle.area();
-          if (area > 0.0) // what has none has no direction
+          Receiver receiver = this->receiver(surface.firstTriangle + triangle);
+          receiver.ofPlane = this->planes.planeOfDrawn()[this->planes.drawnBegin(i) + drawn];
+          visit(receiver);
+        }
+      }
+    }
+  }
+  bool hasInstances() const
+  {
+    return std::any_of(this->occluders().surfaces.begin(), this->occluders().surfaces.end(),
+      [](const Surface& surface) { return surface.isInstanced(); });
+  }
+
+  ReceiverPlanes planes;
+
+private:
+  Receiver receiver(std::size_t triangle) const
+  {
+    const glm::uvec3& numbers = this->occluders().triangles[triangle];
+    const std::vector<glm::vec3>& positions = this->occluders().positionsCentred;
+    Receiver receiver;
+    receiver.corners = { positions[numbers.x], positions[numbers.y], positions[numbers.z] };
+    receiver.areaVector = 0.5 *
+      glm::cross(
+        receiver.corners[1] - receiver.corners[0], receiver.corners[2] - receiver.corners[0]);
+    return receiver;
+  }
+
+  vtkSmartPointer<vtkRenderer> renderer_;
+  OccluderCollector collector_;
+};
+
+/// Receivers on no plane that is served, drawn with a probability in proportion to their area.
+std::vector<Receiver> drawSeeds(const SceneWithPlanes& scene, std::size_t count)
+{
+  std::mt19937 random(1);
+  std::vector<Receiver> seeds(count);
+  double before = 0.0;
+  scene.forEach(
+    [&](const Receiver& receiver)
+    {
+      if (receiver.ofPlane == 0 && receiver.area() > 0.0)
+      {
+        before += receiver.area();
+        for (Receiver& seed : seeds)
+        {
+          if (std::uniform_real_distribution<>(0.0, before)(random) < receiver.area())
           {
-            visit(number, triangle, area, directionCell(triangle.areaVector));
+            seed = receiver;
           }
         }
       }
-    };
-    for (const Surface& surface : this->occluders_.surfaces)
+    });
+  return before > 0.0 ? seeds : std::vector<Receiver>();
+}
+
+/// For each seed, the area of what lies on its plane and on none that is served.
+std::vector<double> areasLeftOn(const SceneWithPlanes& scene, const std::vector<Receiver>& seeds)
+{
+  std::vector<glm::dvec4> ofSeeds;
+  for (const Receiver& seed : seeds)
+  {
+    PlaneOfAll alone;
+    alone.add(seed);
+    ofSeeds.push_back(alone.plane());
+  }
+  std::vector<PlaneOfAll> found(seeds.size());
+  scene.forEach(
+    [&](const Receiver& receiver)
     {
-      this->area_ +=
-        surface.receives && surface.isInstanced() ? this->areaOfInstances(surface) : 0.0;
-    }
-    visitReceivers(
-      [&](std::size_t, const Triangle&, double area, int cell)
+      for (std::size_t i = 0; receiver.ofPlane == 0 && receiver.area() > 0.0 && i < seeds.size();
+           ++i)
       {
-        areaOfDirection[static_cast<std::size_t>(cell)] += area;
-        this->area_ += area;
-      });
-    visitReceivers(
-      [&](std::size_t number, const Triangle&, double, int cell)
-      {
-        if (areaOfDirection[static_cast<std::size_t>(cell)] >= this->leastArea() * splitShare)
+        // The smaller the seed, the more its corners' rounding turns its plane.
+        if (receiver.liesOn(ofSeeds[i], mayBeOn, seeds[i].centroid(), 1.0 / seeds[i].height()))
         {
-          this->flat_.push_back(number);
-        }
-      });
-  }
-
-  /// As if each instance were scaled evenly.
-  double areaOfInstances(const Surface& surface) const
-  {
-    double areaSource = 0.0;
-    for (std::uint32_t i = 0; i < surface.triangleCount; ++i)
-    {
-      areaSource += Triangle(this->occluders_, surface.firstTriangle + i).area();
-    }
-    double scale = 0.0;
-    for (const glm::mat4x3& instance : surface.centredFromSource)
-    {
-      scale += std::pow(std::abs(glm::determinant(glm::dmat3(instance))), 2.0 / 3.0);
-    }
-    return scale * areaSource;
-  }
-
-  /// The cells of direction and offset that hold enough, in order of their area.
-  std::vector<Candidate> candidates() const
-  {
-    const double offsetCell =
-      std::max(this->occluders_.allCentred.radius() / 2048.0, std::numeric_limits<double>::min());
-    std::map<std::pair<int, long>, Candidate> cells;
-    for (const std::size_t number : this->flat_)
-    {
-      if (this->planeOfTriangle_[number] != 0)
-      {
-        continue;
-      }
-      const Triangle triangle(this->occluders_, number);
-      const double area = triangle.area();
-      const int direction = directionCell(triangle.areaVector);
-      const double offset = orientation(triangle.areaVector) *
-        glm::dot(triangle.areaVector / area, triangle.centroid());
-      Candidate& cell = cells[{ direction, std::lround(offset / offsetCell) }];
-      cell.triangles.push_back(number);
-      cell.area += area;
-      if (area > cell.largestArea)
-      {
-        cell.largestArea = area;
-        cell.largest = number;
-      }
-    }
-    std::vector<Candidate> result;
-    for (const auto& [place, cell] : cells)
-    {
-      if (cell.area >= this->leastArea() * splitShare)
-      {
-        result.push_back(cell);
-      }
-    }
-    std::sort(result.begin(), result.end(),
-      [](const Candidate& a, const Candidate& b)
-      { return a.area != b.area ? a.area > b.area : a.largest < b.largest; });
-    return result;
-  }
-
-  /// Whether as many planes as wanted are larger than any that a candidate could be a part of.
-  bool hasLargerThan(const Candidate& candidate, const std::vector<ReceiverPlane>& planes) const
-  {
-    const auto larger = std::count_if(planes.begin(), planes.end(),
-      [&](const ReceiverPlane& plane) { return plane.area * splitShare > candidate.area; });
-    return static_cast<std::size_t>(larger) >= this->wanted_;
-  }
-
-  /// Finds the plane of a candidate's largest triangle, by what else of the candidate lies on it.
-  void grow(const Candidate& candidate, std::vector<ReceiverPlane>& planes)
-  {
-    const Triangle seed(this->occluders_, candidate.largest);
-    PlaneSum one;
-    one.add(seed, seed.areaVector);
-    const glm::dvec4 seedPlane = one.plane();
-    // Of a small triangle the corners' rounding turns the plane: the farther away, the farther off.
-    const double height = 2.0 * seed.area() / seed.longestEdge();
-    const glm::dvec3 middle = seed.centroid();
-    PlaneSum sum;
-    for (const std::size_t number : candidate.triangles)
-    {
-      if (this->planeOfTriangle_[number] == 0)
-      {
-        const Triangle triangle(this->occluders_, number);
-        const auto near = [&](const glm::dvec3& corner)
-        {
-          const double noise =
-            cornerNoise * magnitudeAlong(seedPlane, glm::max(glm::abs(corner), seed.largest()));
-          return distanceOff(seedPlane, corner) <=
-            noise * (1.0 + glm::distance(corner, middle) / height);
-        };
-        if (std::all_of(triangle.corners.begin(), triangle.corners.end(), near))
-        {
-          sum.add(triangle, seed.areaVector);
+          found[i].add(receiver);
         }
       }
-    }
-    if (sum.area >= this->leastArea() * splitShare)
+    });
+  std::vector<double> areas(seeds.size(), 0.0);
+  scene.forEach(
+    [&](const Receiver& receiver)
     {
-      this->gather(sum.plane(), planes);
-    }
-  }
-
-  /// Makes a plane of all that lies on it, if that is enough.
-  void gather(const glm::dvec4& plane, std::vector<ReceiverPlane>& planes)
-  {
-    ReceiverPlane found;
-    found.plane = plane;
-    std::vector<std::size_t> members;
-    for (const std::size_t number : this->flat_)
-    {
-      if (this->planeOfTriangle_[number] != 0)
+      for (std::size_t i = 0; receiver.ofPlane == 0 && i < seeds.size(); ++i)
       {
-        continue;
+        areas[i] += receiver.liesOn(found[i].plane(), surelyOn) ? receiver.area() : 0.0;
       }
-      if (!isNear(plane, number))
-      {
-        continue;
-      }
-      const Triangle triangle(this->occluders_, number);
-      const glm::dvec3 largest = triangle.largest();
-      const auto on = [&](const glm::dvec3& corner)
-      { return distanceOff(plane, corner) <= cornerNoise * magnitudeAlong(plane, largest); };
-      if (std::all_of(triangle.corners.begin(), triangle.corners.end(), on))
-      {
-        members.push_back(number);
-        found.area += triangle.area();
-        for (const glm::dvec3& corner : triangle.corners)
-        {
-          found.boundsCentred.add(corner);
-        }
-      }
-    }
-    if (found.area < this->leastArea() || members.empty())
-    {
-      return;
-    }
-    planes.push_back(found);
-    for (const std::size_t number : members)
-    {
-      this->planeOfTriangle_[number] = static_cast<std::uint8_t>(planes.size());
-    }
-  }
-
-  /// Whether a triangle's first corner lies on a plane as far as the scene's size can tell: sorts out nearly
-  /// all that do not, at little cost.
-  bool isNear(const glm::dvec4& plane, std::size_t number) const
-  {
-    const glm::dvec3 corner =
-      this->occluders_.positionsCentred[this->occluders_.triangles[number].x];
-    const Bounds& all = this->occluders_.allCentred;
-    const glm::dvec3 largest = glm::max(glm::abs(all.lower), glm::abs(all.upper));
-    return distanceOff(plane, corner) <= cornerNoise * magnitudeAlong(plane, largest);
-  }
-
-  /// Puts the wanted planes in order of area, and forgets the others.
-  void sortByArea(std::vector<ReceiverPlane>& planes)
-  {
-    std::vector<std::size_t> order(planes.size());
-    std::iota(order.begin(), order.end(), std::size_t(0));
-    std::stable_sort(order.begin(), order.end(),
-      [&](std::size_t a, std::size_t b) { return planes[a].area > planes[b].area; });
-    std::vector<ReceiverPlane> sorted;
-    std::array<std::uint8_t, mostPlanes + 1> place{};
-    for (const std::size_t number : order)
-    {
-      if (sorted.size() < this->wanted_)
-      {
-        sorted.push_back(planes[number]);
-        place[number + 1] = static_cast<std::uint8_t>(sorted.size());
-      }
-    }
-    planes = std::move(sorted);
-    for (std::uint8_t& plane : this->planeOfTriangle_)
-    {
-      plane = place[plane];
-    }
-  }
-
-  double leastArea() const { return ReceiverPlanes::smallestShare * this->area_; }
-  /// A plane near the border of cells may be spread over so many of them.
-  static constexpr double splitShare = 1.0 / 8.0;
-
-  const Occluders& occluders_;
-  std::size_t wanted_;
-  double area_ = 0.0;
-  std::vector<std::size_t> flat_;
-  std::vector<std::uint8_t> planeOfTriangle_;
-};
+    });
+  return areas;
+}
 
 class PlanesOfScenes : public testing::TestWithParam<std::string>
 {
@@ -432,84 +232,85 @@ INSTANTIATE_TEST_SUITE_P(Builtin, PlanesOfScenes,
     return name;
   });
 
-/// For each plane of the plain search, which of the others has its triangles; `none` where none has.
-constexpr std::size_t none = mostPlanes;
-std::vector<std::size_t> partners(
-  const std::vector<std::uint8_t>& plain, const std::vector<std::uint8_t>& other, std::size_t count)
+/// The planes' triangles lie on them, no others do, and what is said of them is true.
+void expectWhole(const SceneWithPlanes& scene)
 {
-  std::vector<std::size_t> result(count, none);
-  for (std::size_t i = 0; i < plain.size(); ++i)
-  {
-    if (plain[i] != 0 && other[i] != 0)
+  const std::vector<ReceiverPlane>& planes = scene.planes.planes();
+  double all = 0.0;
+  std::vector<double> areas(planes.size(), 0.0), missed(planes.size(), 0.0);
+  std::vector<Bounds> bounds(planes.size());
+  std::size_t wrong = 0;
+  scene.forEach(
+    [&](const Receiver& receiver)
     {
-      result[plain[i] - 1u] = other[i] - 1u;
-    }
+      all += receiver.area();
+      if (receiver.ofPlane > 0)
+      {
+        const std::size_t number = receiver.ofPlane - 1;
+        const ReceiverPlane& plane = planes.at(number);
+        wrong += receiver.liesOn(plane.plane, mayBeOn) ? 0 : 1;
+        areas[number] += receiver.area();
+        for (const glm::dvec3& corner : receiver.corners)
+        {
+          bounds[number].add(corner);
+          const double off = std::abs(glm::dot(plane.plane, glm::dvec4(corner, 1.0)));
+          wrong += off > plane.thickness ? 1 : 0;
+        }
+      }
+      for (std::size_t i = 0; receiver.ofPlane == 0 && i < planes.size(); ++i)
+      {
+        missed[i] += receiver.liesOn(planes[i].plane, surelyOn) ? receiver.area() : 0.0;
+      }
+    });
+  EXPECT_EQ(wrong, 0u);
+  if (scene.hasInstances())
+  {
+    EXPECT_GE(scene.planes.area(), all);
   }
-  return result;
+  else
+  {
+    EXPECT_NEAR(scene.planes.area(), all, 1e-9 * all);
+  }
+  for (std::size_t i = 0; i < planes.size(); ++i)
+  {
+    EXPECT_NEAR(planes[i].area, areas[i], 1e-9 * areas[i]);
+    EXPECT_GE(planes[i].area, scene.leastArea());
+    EXPECT_GE(planes[i == 0 ? 0 : i - 1].area, planes[i].area);
+    EXPECT_EQ(planes[i].boundsCentred.lower, bounds[i].lower);
+    EXPECT_EQ(planes[i].boundsCentred.upper, bounds[i].upper);
+    // Slivers on a plane may look elsewhere.
+    EXPECT_LT(missed[i], 0.5 * scene.leastArea()) << i;
+  }
+}
+
+/// No triangle that is on none of the planes lies on one that is as large.
+void expectLargest(const SceneWithPlanes& scene, std::size_t wanted)
+{
+  const std::vector<ReceiverPlane>& planes = scene.planes.planes();
+  const double most = planes.size() == wanted ? planes.back().area : scene.leastArea();
+  for (const double area : areasLeftOn(scene, drawSeeds(scene, 16)))
+  {
+    EXPECT_LE(area, most * (1.0 + 1e-9));
+  }
 }
 
 } // namespace
 
 //------------------------------------------------------------------------------
-TEST_P(PlanesOfScenes, areThoseOfAPlainSearch)
+TEST_P(PlanesOfScenes, areWholeAndTheLargest)
 {
-  const vtkSmartPointer<vtkRenderer> renderer =
-    tool::makeRenderer(tool::loadScene(GetParam()), 1.0);
-  OccluderCollector collector;
-  collector.collect(renderer);
-  const Occluders& occluders = collector.occluders();
-  std::vector<std::size_t> numbers = { 8, mostPlanes };
-  if (occluders.triangles.size() > 1000000)
+  for (const std::size_t wanted : { std::size_t(8), std::size_t(mostPlanes) })
   {
-    numbers.pop_back(); // the plain search takes seconds
-  }
-  for (const std::size_t wanted : numbers)
-  {
-    PlainSearch plain(occluders, wanted);
-    const std::vector<ReceiverPlane> expected = plain.run();
-    ReceiverPlanes found;
-    found.update(occluders, wanted);
-    EXPECT_NEAR(found.area(), plain.area(), 1e-9 * plain.area());
-    ASSERT_EQ(found.planes().size(), expected.size());
-
-    // By triangle of the snapshot, as the plain search has it.
-    std::vector<std::uint8_t> planeOfTriangle(occluders.triangles.size(), 0);
-    for (std::size_t i = 0; i < occluders.surfaces.size(); ++i)
+    if (GetParam() == "city" && wanted > 8)
     {
-      const Surface& surface = occluders.surfaces[i];
-      for (std::uint32_t drawn = 0; drawn < surface.drawnCount(); ++drawn)
-      {
-        const std::uint32_t triangle =
-          surface.triangleOfDrawn.empty() ? drawn : surface.triangleOfDrawn[drawn];
-        if (triangle != Surface::noTriangle)
-        {
-          planeOfTriangle[surface.firstTriangle + triangle] =
-            found.planeOfDrawn()[found.drawnBegin(i) + drawn];
-        }
-      }
+      continue; // of ten million triangles
     }
-    // Planes of the same area may come in another order.
-    const std::vector<std::size_t> partner =
-      partners(plain.planeOfTriangle(), planeOfTriangle, expected.size());
-    std::size_t differing = 0;
-    for (std::size_t i = 0; i < planeOfTriangle.size(); ++i)
+    const SceneWithPlanes scene(GetParam(), wanted);
+    ASSERT_LE(scene.planes.planes().size(), wanted);
+    expectWhole(scene);
+    if (GetParam() != "city") // where the search gives up before it has tried all (planar.md)
     {
-      const std::uint8_t mine = planeOfTriangle[i];
-      const std::uint8_t its = plain.planeOfTriangle()[i];
-      differing += its == 0 ? mine != 0 : mine != partner[its - 1u] + 1;
-    }
-    EXPECT_EQ(differing, 0u);
-    for (std::size_t i = 0; i < expected.size(); ++i)
-    {
-      EXPECT_NEAR(found.planes()[i].area, expected[i].area, 1e-9 * expected[i].area);
-      ASSERT_NE(partner[i], none);
-      const ReceiverPlane& plane = found.planes()[partner[i]];
-      EXPECT_NEAR(plane.area, expected[i].area, 1e-9 * expected[i].area);
-      EXPECT_NEAR(
-        std::abs(glm::dot(glm::dvec3(plane.plane), glm::dvec3(expected[i].plane))), 1.0, 1e-12);
-      EXPECT_NEAR(std::abs(plane.plane.w), std::abs(expected[i].plane.w), plane.thickness);
-      EXPECT_EQ(plane.boundsCentred.lower, expected[i].boundsCentred.lower);
-      EXPECT_EQ(plane.boundsCentred.upper, expected[i].boundsCentred.upper);
+      expectLargest(scene, wanted);
     }
   }
 }
