@@ -16,16 +16,6 @@ protected:
   MapRule rule(const ShadowSettings& settings, const CellsOnGpu* gpu) const override;
 };
 
-/// `crsm` by the letter of its publication (Morais 2016, chapter 4): not exact (PublishedMap.h).
-class CrsmAsPublished : public ConservativeTechnique
-{
-public:
-  static TechniqueInfo info();
-
-protected:
-  MapRule rule(const ShadowSettings& settings, const CellsOnGpu* gpu) const override;
-};
-
 } // namespace gnomon
 
 #endif

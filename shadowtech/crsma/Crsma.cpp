@@ -1,7 +1,5 @@
 #include "shadowtech/crsma/Crsma.h"
 
-#include "shadowtech/conservative/PublishedMap.h"
-
 namespace gnomon
 {
 
@@ -17,23 +15,6 @@ TechniqueInfo Crsma::info()
 {
   TechniqueInfo info = infoOf("crsma");
   info.asPublished = "crsma_as_published";
-  return info;
-}
-
-//------------------------------------------------------------------------------
-MapRule CrsmaAsPublished::rule(const ShadowSettings&, const CellsOnGpu*) const
-{
-  return publishedRule(PublishedLayers::Crsma);
-}
-
-//------------------------------------------------------------------------------
-TechniqueInfo CrsmaAsPublished::info()
-{
-  TechniqueInfo info = infoOf("crsma_as_published");
-  info.asPublished = info.name;
-  info.exact = false;
-  info.mapIsOptional = false;
-  info.onlyCpuDraws = onlyCpuDrawsPublished;
   return info;
 }
 

@@ -3,7 +3,7 @@
 // construction is.
 
 #include "shadowtech/conservative/ConservativeMaps.h"
-#include "shadowtech/conservative/PublishedMap.h"
+#include "shadowtech/published/PublishedMap.h"
 
 #include "RandomScenes.h"
 

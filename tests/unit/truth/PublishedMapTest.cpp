@@ -1,7 +1,7 @@
 // The published construction of conservative shadow maps: its offset lines, the triangles that it erodes, and who counts
 // as a neighbour.
 
-#include "shadowtech/conservative/PublishedMap.h"
+#include "shadowtech/published/PublishedMap.h"
 
 #include "TexelPolygons.h"
 

@@ -1,4 +1,4 @@
-#include "shadowtech/conservative/PublishedMap.h"
+#include "shadowtech/published/PublishedMap.h"
 
 #include "shadowtech/conservative/CasterBands.h"
 #include "shadowtech/conservative/CasterEdges.h"

@@ -1,5 +1,5 @@
-#ifndef gnomon_shadowtech_pcss_PublishedPcss_h
-#define gnomon_shadowtech_pcss_PublishedPcss_h
+#ifndef gnomon_shadowtech_published_PublishedPcss_h
+#define gnomon_shadowtech_published_PublishedPcss_h
 
 #include "shadowtech/depth_map/DepthMapTechnique.h"
 #include "shadowtech/pcss/PcssPoints.h"

@@ -1,4 +1,4 @@
-#include "shadowtech/pcss/PublishedPcss.h"
+#include "shadowtech/published/PublishedPcss.h"
 
 #include "lights/LightViews.h"
 #include "shadowtech/base/ShaderLibrary.h"
@@ -94,7 +94,7 @@ std::string PublishedPcss::estimatorGlsl(const ShadowLight& light) const
     return ShaderLibrary::source("shadowtech/compare/compare_estimator.glsl");
   }
   return pcssCountsDefines(light.pcssSamples) +
-    ShaderLibrary::source("shadowtech/pcss/published_pcss_estimator.glsl");
+    ShaderLibrary::source("shadowtech/published/published_pcss_estimator.glsl");
 }
 
 } // namespace gnomon

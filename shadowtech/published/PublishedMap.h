@@ -1,5 +1,5 @@
-#ifndef gnomon_shadowtech_conservative_PublishedMap_h
-#define gnomon_shadowtech_conservative_PublishedMap_h
+#ifndef gnomon_shadowtech_published_PublishedMap_h
+#define gnomon_shadowtech_published_PublishedMap_h
 
 #include "shadowtech/conservative/CasterShapes.h"
 #include "shadowtech/conservative/ConservativeMap.h"
