@@ -101,11 +101,10 @@ const Technique* CastingLight::pointwiseOn(Route route, bool translucentReceiver
 }
 
 //------------------------------------------------------------------------------
-void CastingLights::collect(
-  vtkRenderer* renderer, const ShadowSettings& defaults, FrameReport& report)
+void CastingLights::collect(vtkRenderer* renderer, const ShadowSettings& defaults,
+  bool severalViews, TechniquesOfLights& ofView, FrameReport& report)
 {
   LightSet set = this->manager_.collect(renderer, defaults);
-  const bool severalViews = this->viewCount_.areSeveral(renderer);
 
   std::vector<const EstimatorEntry*> estimators;
   for (ShadowLight& light : set.casting)
@@ -124,25 +123,60 @@ void CastingLights::collect(
   int layer = 0;
   for (std::size_t i = 0; i < set.casting.size(); ++i)
   {
-    lights.push_back(this->take(std::move(set.casting[i]), *estimators[i]));
+    lights.push_back(this->take(std::move(set.casting[i]), *estimators[i], ofView));
     lights.back().layer = layer;
     layer += lights.back().channels;
   }
   this->lights_ = std::move(lights);
+  // What no light has taken is of lights that are gone, or have another technique.
+  this->ofAllViews_.clear();
+  ofView.clear();
 }
 
 //------------------------------------------------------------------------------
-/// A light with the techniques that the frame before had for it, or with new ones.
-CastingLight CastingLights::take(ShadowLight light, const EstimatorEntry& estimator)
+void CastingLights::giveBack(TechniquesOfLights& ofView)
 {
-  const auto kept = std::find_if(this->lights_.begin(), this->lights_.end(),
-    [&](const CastingLight& casting) { return casting.light.sceneIndex == light.sceneIndex; });
-  const int channels = channelsOf(estimator.info, light);
-  if (kept != this->lights_.end() && &kept->own.estimator() == &estimator)
+  for (CastingLight& casting : this->lights_)
   {
-    return { std::move(light), std::move(kept->own), std::move(kept->plain), 0, channels };
+    TechniquesOfLights& place = this->placeOf(casting.light, ofView);
+    KeptTechniques& kept = casting;
+    place.emplace(casting.light.sceneIndex, std::move(kept));
   }
-  return { std::move(light), LightTechnique(estimator), std::nullopt, 0, channels };
+  this->lights_.clear();
+}
+
+//------------------------------------------------------------------------------
+/// Where a light's techniques are kept: maps that are fitted to a camera in every frame are one
+/// view's own.
+TechniquesOfLights& CastingLights::placeOf(const ShadowLight& light, TechniquesOfLights& ofView)
+{
+  return isFittedToCamera(light) && light.fit != ViewFit::Once ? ofView : this->ofAllViews_;
+}
+
+//------------------------------------------------------------------------------
+/// A light with the techniques that an earlier frame had for it, or with new ones.
+CastingLight CastingLights::take(
+  ShadowLight light, const EstimatorEntry& estimator, TechniquesOfLights& ofView)
+{
+  const int channels = channelsOf(estimator.info, light);
+  auto kept = this->placeOf(light, ofView).extract(light.sceneIndex);
+  if (kept && &kept.mapped().own.estimator() == &estimator)
+  {
+    return { std::move(kept.mapped()), std::move(light), 0, channels };
+  }
+  return { { LightTechnique(estimator), std::nullopt }, std::move(light), 0, channels };
+}
+
+//------------------------------------------------------------------------------
+std::size_t bytesOfMaps(const TechniquesOfLights& techniques)
+{
+  std::size_t bytes = 0;
+  for (const auto& [sceneIndex, kept] : techniques)
+  {
+    bytes +=
+      kept.own.technique().bytesOfMaps() + (kept.plain ? kept.plain->technique().bytesOfMaps() : 0);
+  }
+  return bytes;
 }
 
 //------------------------------------------------------------------------------

@@ -3,10 +3,10 @@
 
 #include "lights/LightManager.h"
 #include "plugin/LightTechnique.h"
-#include "plugin/ShownView.h"
 #include "shadowtech/base/FrameReport.h"
 
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <stdexcept>
 #include <vector>
@@ -23,15 +23,25 @@ public:
   using std::runtime_error::runtime_error;
 };
 
-/// A light that casts in this frame, and what shades it.
-struct CastingLight
+/// What a light keeps from frame to frame.
+struct KeptTechniques
 {
-  ShadowLight light;
   LightTechnique own;
   /// Shades translucent surfaces where the light's own technique works on the screen; none without such.
   std::optional<LightTechnique> plain;
-  int layer = 0;    ///< of the visibility layers, its first
-  int channels = 1; ///< of its visibility, a layer each
+};
+/// By the lights' places in the scene.
+using TechniquesOfLights = std::map<int, KeptTechniques>;
+std::size_t bytesOfMaps(const TechniquesOfLights& techniques);
+
+/// A light that casts in this frame, and what shades it.
+struct CastingLight : KeptTechniques
+{
+  ShadowLight light;
+  int layer = 0;               ///< of the visibility layers, its first
+  int channels = 1;            ///< of its visibility, a layer each
+  bool shadesAtPoints = false; ///< whether shaders call a technique for it
+  bool isStale = true;         ///< image route: whether its visibility is computed in this frame
 
   /// What the shader computes the light's visibility with on a route; null if it only fetches. From here on there is a
   /// plain technique where one is needed.
@@ -46,9 +56,16 @@ class CastingLights
 public:
   /// Reads the lights as they are now, and says of each in the report what becomes of it.
   /// @throws FrameError for techniques that do not exist or make no sense; the lights stay those of the frame before then
-  void collect(vtkRenderer* renderer, const ShadowSettings& defaults, FrameReport& report);
+  /// @param severalViews whether the pass draws others beside this one
+  /// @param ofView what lights whose maps are fitted to a camera keep for this view
+  void collect(vtkRenderer* renderer, const ShadowSettings& defaults, bool severalViews,
+    TechniquesOfLights& ofView, FrameReport& report);
+
+  /// Ends a frame: what the lights have goes back to where collect() took it from.
+  void giveBack(TechniquesOfLights& ofView);
 
   bool empty() const { return this->lights_.empty(); }
+  std::size_t size() const { return this->lights_.size(); }
   std::vector<CastingLight>::iterator begin() { return this->lights_.begin(); }
   std::vector<CastingLight>::iterator end() { return this->lights_.end(); }
   std::vector<CastingLight>::const_iterator begin() const { return this->lights_.begin(); }
@@ -62,14 +79,18 @@ public:
       [&](const CastingLight& casting) { return isSuch(casting.own.info()); });
   }
 
+  /// Memory of the maps that serve all views.
+  std::size_t bytesOfMaps() const { return gnomon::bytesOfMaps(this->ofAllViews_); }
+
   /// How many visibility layers they fill.
   int layers() const;
 
 private:
-  CastingLight take(ShadowLight light, const EstimatorEntry& estimator);
+  TechniquesOfLights& placeOf(const ShadowLight& light, TechniquesOfLights& ofView);
+  CastingLight take(ShadowLight light, const EstimatorEntry& estimator, TechniquesOfLights& ofView);
 
   LightManager manager_;
-  ViewCount viewCount_;
+  TechniquesOfLights ofAllViews_;    ///< of lights whose maps serve all views
   std::vector<CastingLight> lights_; ///< by their place in the scene
 };
 

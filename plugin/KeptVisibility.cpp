@@ -80,20 +80,20 @@ void addLight(VisibilityImages& images, const CastingLight& casting, const Class
 
 //------------------------------------------------------------------------------
 VisibilityImages keepVisibility(const CastingLights& lights,
-  const std::vector<std::vector<std::uint8_t>>& classes, const VisibilityLayers& layers,
+  const std::vector<VisibilityValue>& values, const VisibilityLayers& layers,
   const ReceiverPixels& receivers, const glm::dvec3& centreWorld)
 {
   VisibilityImages images = imagesOf(receivers, centreWorld);
-  auto classesOfLight = classes.begin();
+  auto value = values.begin();
   for (const CastingLight& casting : lights)
   {
     ClassImage classImage{ casting.own.info().classes, {} };
     if (!classImage.classes.empty())
     {
-      classImage.ofPixels = topRowFirst(*classesOfLight, images.width, images.height);
+      classImage.ofPixels = topRowFirst(value->classes, images.width, images.height);
     }
     addLight(images, casting, classImage, layers);
-    ++classesOfLight;
+    ++value;
   }
   return images;
 }

@@ -2,23 +2,23 @@
 #define gnomon_plugin_KeptVisibility_h
 
 #include "plugin/CastingLights.h"
+#include "plugin/ViewValues.h"
 #include "plugin/VisibilityImages.h"
 #include "shadowtech/base/Receivers.h"
 #include "shadowtech/base/VisibilityLayers.h"
 
 #include <glm/glm.hpp>
 
-#include <cstdint>
 #include <vector>
 
 namespace gnomon
 {
 
 /// A frame's visibility and what it is of, as data for people: a copy, top row first.
-/// @param classes of each light's pixels in turn, indices into TechniqueInfo::classes; of no meaning where that is empty
+/// @param values of each light in turn, classified
 /// @param centreWorld Occluders::centreWorld
 VisibilityImages keepVisibility(const CastingLights& lights,
-  const std::vector<std::vector<std::uint8_t>>& classes, const VisibilityLayers& layers,
+  const std::vector<VisibilityValue>& values, const VisibilityLayers& layers,
   const ReceiverPixels& receivers, const glm::dvec3& centreWorld);
 
 } // namespace gnomon

@@ -1,19 +1,26 @@
 #include "plugin/ReceiverDrawing.h"
 
 #include "plugin/Hash.h"
-#include "plugin/ShownView.h"
 
+#include <vtkActor.h>
 #include <vtkActor2D.h>
+#include <vtkCommand.h>
 #include <vtkInformation.h>
 #include <vtkInformationObjectBaseVectorKey.h>
+#include <vtkMapper.h>
+#include <vtkNew.h>
 #include <vtkOpenGLRenderPass.h>
 #include <vtkOpenGLRenderWindow.h>
 #include <vtkOpenGLState.h>
 #include <vtkProp.h>
+#include <vtkPropCollection.h>
 #include <vtkRenderState.h>
 #include <vtkRenderer.h>
+#include <vtkShaderProperty.h>
 #include <vtkSmartPointer.h>
 #include <vtkVolume.h>
+
+#include <atomic>
 
 namespace gnomon
 {
@@ -51,14 +58,45 @@ private:
   vtkSmartPointer<vtkInformation> hidden_;
 };
 
+struct PropAccess : vtkProp
+{
+  /// Null where a prop has none; vtkProp's own function would make one.
+  static vtkShaderProperty* shaderProperty(vtkProp* prop)
+  {
+    return prop->*(&PropAccess::ShaderProperty);
+  }
+};
+
+/// Whether a part of a prop has shaders of a user's own: they may move vertices by values that
+/// nobody has times for.
+bool hasOwnShaders(vtkProp* prop)
+{
+  vtkNew<vtkPropCollection> actors;
+  prop->GetActors(actors);
+  vtkCollectionSimpleIterator iterator;
+  actors->InitTraversal(iterator);
+  while (vtkProp* part = actors->GetNextProp(iterator))
+  {
+    vtkShaderProperty* shaders = PropAccess::shaderProperty(part);
+    vtkMapper* mapper =
+      vtkActor::SafeDownCast(part) ? vtkActor::SafeDownCast(part)->GetMapper() : nullptr;
+    if ((shaders &&
+          (shaders->HasVertexShaderCode() || shaders->HasGeometryShaderCode() ||
+            shaders->HasFragmentShaderCode() || shaders->GetNumberOfShaderReplacements() > 0)) ||
+      (mapper && mapper->HasObserver(vtkCommand::UpdateShaderEvent)))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
-std::size_t hashOfReceivers(
-  const vtkRenderState* s, const CameraView& camera, const glm::ivec2& size)
+std::size_t hashOfShownProps(const vtkRenderState* s)
 {
   std::size_t seed = 0;
-  hashView(seed, camera, size);
   for (int i = 0; i < s->GetPropArrayCount(); ++i)
   {
     vtkProp* prop = s->GetPropArray()[i];
@@ -67,8 +105,14 @@ std::size_t hashOfReceivers(
     {
       hashCombine(seed, prop);
       hashCombine(seed, prop->GetRedrawMTime());
+      if (hasOwnShaders(prop))
+      {
+        static std::atomic<std::size_t> different{ 0 };
+        hashCombine(seed, ++different);
+      }
     }
   }
+  hashCombine(seed, vtkMapper::GetResolveCoincidentTopology()); // no prop has a time for it
   return seed;
 }
 

@@ -1,7 +1,6 @@
 #ifndef gnomon_plugin_ReceiverDrawing_h
 #define gnomon_plugin_ReceiverDrawing_h
 
-#include "lights/CameraView.h"
 #include "shadowtech/base/ReceiverTarget.h"
 
 #include <glm/glm.hpp>
@@ -14,9 +13,9 @@ class vtkRenderState;
 namespace gnomon
 {
 
-/// What a picture of receivers depends on, beside their places in the snapshot: the same numbers mean the same picture.
-std::size_t hashOfReceivers(
-  const vtkRenderState* s, const CameraView& camera, const glm::ivec2& size);
+/// What props in view show of themselves as receivers: the same number means the same, by one
+/// camera and snapshot. No two numbers are the same where a prop has shaders of a user's own.
+std::size_t hashOfShownProps(const vtkRenderState* s);
 
 /// Has VTK draw the opaque props into the target, whose size is set, each with the shaders of one pass alone.
 /// @param pass whose shaders write what the target takes

@@ -9,14 +9,12 @@
 #include "plugin/OccluderCollector.h"
 #include "plugin/Route.h"
 #include "plugin/ShaderManager.h"
+#include "plugin/ViewValues.h"
 #include "plugin/VisibilityImages.h"
 #include "shadowtech/base/FrameReport.h"
 #include "shadowtech/base/OccluderBuffers.h"
-#include "shadowtech/base/ReceiverTarget.h"
 #include "shadowtech/base/Receivers.h"
 #include "shadowtech/base/ShaderLibrary.h"
-#include "shadowtech/base/Technique.h"
-#include "shadowtech/base/VisibilityLayers.h"
 
 #include <glm/glm.hpp>
 
@@ -32,43 +30,63 @@ class vtkRenderer;
 namespace gnomon
 {
 
-/// The stages of a frame, in the order in which the pass calls them and they stand here: what each takes from those before
-/// it, keeps from frame to frame, and says in the report.
+/// What the pass is set to for a frame.
+struct FrameWishes
+{
+  int route = 0;               ///< a vtkGnomonShadowPass::RouteType
+  int tracer = 0;              ///< a vtkGnomonShadowPass::TracerType
+  int rasterizer = 0;          ///< a vtkGnomonShadowPass::RasterizerType
+  bool keepVisibility = false; ///< whether visibility is asked for as data
+  bool measureStages = false;
+};
+
+/// The programs of a pass: what its shaders do, and those compiled for Gnomon's own stages.
+struct PassPrograms
+{
+  ShaderManager shaders;
+  ShaderLibrary library;
+};
+
+/// The stages of one renderer's frame, in the order in which the pass calls them. Each takes values
+/// of the stages above it, and reuses its own last value while what that was made from is the same.
 class RenderManager
 {
 public:
+  /// @param programs of the pass, which serve all of its renderers
+  explicit RenderManager(PassPrograms& programs);
+
   /// Starts a frame's report and clock.
-  void beginFrame(bool measureStages);
+  void beginFrame(const FrameWishes& wishes);
 
   /// lights: which of the renderer's lights cast, with which technique.
+  /// @param severalViews whether the pass draws others beside this one
   /// @return false when none does
   /// @throws FrameError for techniques that do not exist or make no sense
-  bool collectLights(vtkRenderer* renderer, const ShadowSettings& defaults);
+  bool collectLights(vtkRenderer* renderer, const ShadowSettings& defaults, bool severalViews);
 
-  /// occluders: brings the snapshot up to date with the renderer's props. From here on it is known where the camera is in it.
+  /// snapshot: brings it up to date with the renderer's props. From here on it is known where the
+  /// camera is in it.
   void collectOccluders(const vtkRenderState* s);
 
   /// Chooses how visibility reaches the shader, and states it in the report.
-  /// @param wished a vtkGnomonShadowPass::RouteType
   /// @return false when the inline route is asked of a technique that works on the screen; it is
   /// the image route then, for the reason in the report
-  bool chooseRoute(int wished, bool keepVisibility);
+  bool chooseRoute();
   Route route() const { return this->route_; }
 
-  /// receivers (image route): has VTK draw the opaque props' triangle numbers, and points for
-  /// techniques that read them on the GPU.
+  /// receivers (image route): which triangle each pixel shows, and points for techniques that read
+  /// them on the GPU. Then it is known which lights' visibility is another one than the view has.
   /// @param pass whose hook the props' shaders have
-  void drawReceivers(const vtkRenderState* s, vtkGnomonShadowPass* pass);
+  void updateReceivers(const vtkRenderState* s, vtkGnomonShadowPass* pass);
 
-  /// maps: bakes what is stale.
-  /// @param wishedRasterizer a vtkGnomonShadowPass::RasterizerType; nobody asks for it where no map is conservative
+  /// maps: bakes what is stale, for lights whose visibility is computed in this frame.
   /// @throws std::runtime_error for a rasterizer that there is not
-  void bakeMaps(int wishedRasterizer);
+  void bakeMaps();
 
-  /// visibility (image route): fills one layer per light, and keeps a copy if asked to.
-  /// @param wishedTracer a vtkGnomonShadowPass::TracerType; nobody asks for it where nothing is traced
+  /// visibility (image route): fills the layers of the lights whose visibility is another one than
+  /// the view has, and keeps a copy if asked to.
   /// @throws std::runtime_error for a tracer that there is not, or has no room
-  void computeVisibility(int wishedTracer, bool keep);
+  void computeVisibility();
 
   /// shading: between the two calls VTK draws its props with the hook in place.
   void beginShading(const vtkRenderState* s);
@@ -84,19 +102,26 @@ public:
 
   /// For the hook: sets a program's parameters for the prop that is about to be drawn.
   void setShaderParameters(vtkShaderProgram* program, vtkAbstractMapper* mapper, vtkProp* prop);
-  ShaderManager& shaders() { return this->shaders_; }
-
   const FrameReport& report() const { return this->report_; }
   const VisibilityImages& visibility() const { return this->visibility_; }
 
 private:
   void endStageClock(const std::string& name);
-  void updateTracer(int wished);
-  void fillLayers(CastingLight& casting, Receivers& receivers, std::vector<std::uint8_t>* classes);
+  void tellReuse(const std::string& value, const std::string& changes);
   bool readsPoints() const;
+  bool classifies() const { return this->wishes_.keepVisibility || this->wishes_.measureStages; }
+  ValueKey receiversKey(const vtkRenderState* s) const;
+  ValueKey visibilityKey(const CastingLight& casting) const;
+  void drawReceivers(const vtkRenderState* s, vtkGnomonShadowPass* pass);
+  void findStaleVisibility();
+  void updateTracer();
+  void tellTracer();
+  Receivers& receiversOnCpu();
+  void fillLayers(CastingLight& casting, std::vector<std::uint8_t>* classes, LightReport& report);
+  void keepVisibility(bool isNew);
 
   FrameReport report_;
-  bool measureStages_ = false;
+  FrameWishes wishes_;
   double frameStart_ = 0.0; ///< by steadyMilliseconds()
   double stageStart_ = 0.0; ///< likewise
   int compilesBefore_ = 0;
@@ -108,15 +133,13 @@ private:
   OccluderCollector collector_;
   OccluderBuffers buffers_;
   Route route_ = Route::Inline;
-  ReceiverTarget receiverTarget_;
+  RendererViews views_;
+  ViewValues* view_ = nullptr;     ///< this frame's
   std::size_t receiversShown_ = 0; ///< a hash of what the receivers' images depend on
-  ReceiverImages receiverImages_;
-  ReceiverPixels receivers_; ///< where somebody asked for all of them
-  VisibilityLayers layers_;
-  ShaderLibrary library_;
-  FrameTracer tracer_{ buffers_, library_ };
-  ShaderManager shaders_;
+  PassPrograms& programs_;
+  FrameTracer tracer_{ buffers_, programs_.library };
   ShaderManager::StageValues stageValues_;
+  const ViewValues* keptOf_ = nullptr; ///< whose visibility is kept
   VisibilityImages visibility_;
 };
 

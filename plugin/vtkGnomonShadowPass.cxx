@@ -3,6 +3,7 @@
 #include "plugin/PassContext.h"
 #include "plugin/Progress.h"
 #include "plugin/RenderManager.h"
+#include "plugin/ShownView.h"
 #include "plugin/VisibilityImages.h"
 #include "shadowtech/Registry.h"
 #include "shadowtech/base/FrameReport.h"
@@ -19,8 +20,10 @@
 #include "vtkRenderState.h"
 #include "vtkRenderStepsPass.h"
 #include "vtkRenderer.h"
+#include "vtkWeakPointer.h"
 
 #include <algorithm>
+#include <list>
 
 vtkStandardNewMacro(vtkGnomonShadowPass);
 
@@ -46,15 +49,48 @@ bool drawsIntoOuterPass(const vtkRenderState* s)
 //------------------------------------------------------------------------------
 struct vtkGnomonShadowPass::Internals
 {
+  /// A renderer's frames: each renderer has values of its own.
+  struct RendererFrames
+  {
+    vtkWeakPointer<vtkRenderer> renderer;
+    std::unique_ptr<gnomon::RenderManager> manager;
+  };
+
   gnomon::ShadowSettings settings; ///< of lights that say nothing
-  std::unique_ptr<gnomon::RenderManager> manager = std::make_unique<gnomon::RenderManager>();
+  std::unique_ptr<gnomon::PassPrograms> programs = std::make_unique<gnomon::PassPrograms>();
+  std::list<RendererFrames> renderers;   ///< those drawn so far, the last one first
+  gnomon::VisibilityImages noVisibility; ///< of frames that were drawn without a manager
+  gnomon::ViewCount viewCount;
   vtkNew<vtkRenderStepsPass> steps; ///< draws into the framebuffers of outer passes
   gnomon::FrameReport plainReport;  ///< of frames that were drawn without the manager
   bool shadowed = false;            ///< whether the last frame was the manager's
   double progress = 1.0;            ///< of the last frame that was no selection's
 
-  gnomon::PassContext context; ///< which holds the manager's GL objects
+  gnomon::PassContext context; ///< which holds the managers' GL objects
+
+  gnomon::RenderManager& managerOf(vtkRenderer* renderer);
+  gnomon::RenderManager& manager() { return *this->renderers.front().manager; }
 };
+
+//------------------------------------------------------------------------------
+/// The manager of a renderer's frames, which becomes manager(). Those of renderers that are gone go,
+/// too; the context is current.
+gnomon::RenderManager& vtkGnomonShadowPass::Internals::managerOf(vtkRenderer* renderer)
+{
+  this->renderers.remove_if([](const RendererFrames& frames) { return !frames.renderer; });
+  const auto found = std::find_if(this->renderers.begin(), this->renderers.end(),
+    [renderer](const RendererFrames& frames) { return frames.renderer == renderer; });
+  if (found != this->renderers.end())
+  {
+    this->renderers.splice(this->renderers.begin(), this->renderers, found);
+  }
+  else
+  {
+    this->renderers.push_front(
+      { renderer, std::make_unique<gnomon::RenderManager>(*this->programs) });
+  }
+  return this->manager();
+}
 
 namespace
 {
@@ -149,24 +185,26 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
     return;
   }
 
-  gnomon::RenderManager& manager = *this->Internal->manager;
+  gnomon::RenderManager& manager = this->Internal->managerOf(renderer);
   bool marked = false;
   bool drawn = false;
   bool outOfTextureMemory = false;
   try
   {
-    manager.beginFrame(this->MeasureStages);
+    manager.beginFrame(
+      { this->Route, this->Tracer, this->Rasterizer, this->KeepVisibility, this->MeasureStages });
 
     // lights
     this->BeginView(s);
-    const bool casting = manager.collectLights(renderer, this->Internal->settings);
+    const bool casting = manager.collectLights(
+      renderer, this->Internal->settings, this->Internal->viewCount.areSeveral(renderer));
     if (casting)
     {
       // occluders
       manager.collectOccluders(s);
 
       // From here on, mappers call the hook.
-      if (!manager.chooseRoute(this->Route, this->KeepVisibility))
+      if (!manager.chooseRoute())
       {
         vtkErrorMacro("The inline route was asked for, but "
           << manager.report().routeReason << "; this frame takes the image route.");
@@ -177,16 +215,16 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
       // receivers
       if (manager.route() == gnomon::Route::Image)
       {
-        manager.drawReceivers(s, this);
+        manager.updateReceivers(s, this);
       }
 
       // maps
-      manager.bakeMaps(this->Rasterizer);
+      manager.bakeMaps();
 
       // visibility
       if (manager.route() == gnomon::Route::Image)
       {
-        manager.computeVisibility(this->Tracer, this->KeepVisibility);
+        manager.computeVisibility();
       }
 
       // shading
@@ -299,7 +337,9 @@ void vtkGnomonShadowPass::ReleaseGraphicsResources(vtkWindow* window)
         }
         this->Internal->steps->ReleaseGraphicsResources(drawnIn);
       }
-      this->Internal->manager = std::make_unique<gnomon::RenderManager>();
+      this->Internal->shadowed = false;
+      this->Internal->renderers.clear();
+      this->Internal->programs = std::make_unique<gnomon::PassPrograms>();
     });
 }
 
@@ -392,7 +432,8 @@ const char* vtkGnomonShadowPass::GetTechniqueSummary(int index)
 //------------------------------------------------------------------------------
 const gnomon::FrameReport& vtkGnomonShadowPass::GetReport() const
 {
-  return this->Internal->shadowed ? this->Internal->manager->report() : this->Internal->plainReport;
+  return this->Internal->shadowed ? this->Internal->manager().report()
+                                  : this->Internal->plainReport;
 }
 
 //------------------------------------------------------------------------------
@@ -404,7 +445,8 @@ double vtkGnomonShadowPass::GetProgress() const
 //------------------------------------------------------------------------------
 const gnomon::VisibilityImages& vtkGnomonShadowPass::GetVisibility() const
 {
-  return this->Internal->manager->visibility();
+  return this->Internal->shadowed ? this->Internal->manager().visibility()
+                                  : this->Internal->noVisibility;
 }
 
 //------------------------------------------------------------------------------
@@ -412,7 +454,7 @@ bool vtkGnomonShadowPass::PreReplaceShaderValues(std::string& vertexShader,
   std::string& geometryShader, std::string& fragmentShader, vtkAbstractMapper* vtkNotUsed(mapper),
   vtkProp* vtkNotUsed(prop))
 {
-  this->Internal->manager->shaders().markShader(vertexShader, geometryShader, fragmentShader);
+  this->Internal->programs->shaders.markShader(vertexShader, geometryShader, fragmentShader);
   return true;
 }
 
@@ -423,7 +465,7 @@ bool vtkGnomonShadowPass::PostReplaceShaderValues(std::string& vtkNotUsed(vertex
 {
   // Where other passes write outputs of their own, this is not the receivers stage.
   const bool alone = prop->GetPropertyKeys()->Length(vtkOpenGLRenderPass::RenderPasses()) == 1;
-  this->Internal->manager->shaders().fillShader(fragmentShader, alone);
+  this->Internal->programs->shaders.fillShader(fragmentShader, alone);
   return true;
 }
 
@@ -431,14 +473,17 @@ bool vtkGnomonShadowPass::PostReplaceShaderValues(std::string& vtkNotUsed(vertex
 bool vtkGnomonShadowPass::SetShaderParameters(vtkShaderProgram* program, vtkAbstractMapper* mapper,
   vtkProp* prop, vtkOpenGLVertexArrayObject* vtkNotUsed(vao))
 {
-  this->Internal->manager->setShaderParameters(program, mapper, prop);
+  if (!this->Internal->renderers.empty())
+  {
+    this->Internal->manager().setShaderParameters(program, mapper, prop);
+  }
   return true;
 }
 
 //------------------------------------------------------------------------------
 vtkMTimeType vtkGnomonShadowPass::GetShaderStageMTime()
 {
-  return this->Internal->manager->shaders().stageTime();
+  return this->Internal->programs->shaders.stageTime();
 }
 
 //------------------------------------------------------------------------------

@@ -23,7 +23,8 @@ struct ClassCount
   std::int64_t pixels = 0; ///< how many are of it
 };
 
-/// What became of one light.
+/// What became of one light. Of a light whose visibility is reused, it is what the frame that computed
+/// it says.
 struct LightReport
 {
   int sceneIndex = 0;     ///< place in the renderer's light collection
@@ -66,6 +67,15 @@ struct LightReport
   std::vector<ClassCount> classes;
 };
 
+/// Whether a stage's value was made in this frame.
+struct ValueReport
+{
+  std::string name;    ///< "receivers", "visibility of light 3"
+  bool reused = false; ///< it is that of an earlier frame
+  std::string
+    changes; ///< what changed since then, "the camera, the light"; empty where it is reused
+};
+
 /// What one frame did, for people and for tests. Counters count this frame only.
 struct FrameReport
 {
@@ -84,6 +94,11 @@ struct FrameReport
   std::vector<StageTime> stages;
   double wallMilliseconds = 0.0; ///< the whole pass, as seen by the caller
 
+  /// Of each value that a stage could reuse, whether it did.
+  std::vector<ValueReport> values;
+  int receiversDrawn = 0;        ///< pictures of receivers that VTK drew
+  int visibilityComputed = 0;    ///< lights whose visibility was computed for the picture's pixels
+  std::int64_t raysTraced = 0;   ///< for them
   int mapBakes = 0;              ///< maps drawn
   int programCompiles = 0;       ///< shader programs compiled, VTK's with the hook included
   int bvhBuilds = 0;             ///< acceleration structures built

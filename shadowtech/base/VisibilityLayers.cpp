@@ -11,7 +11,7 @@ namespace gnomon
 //------------------------------------------------------------------------------
 void VisibilityLayers::resize(int width, int height, int layers)
 {
-  if (width == this->width_ && height == this->height_ && layers == this->layers_)
+  if (this->have(width, height, layers))
   {
     return;
   }

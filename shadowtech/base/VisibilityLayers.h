@@ -19,7 +19,13 @@ class ReceiverTarget;
 class VisibilityLayers
 {
 public:
-  /// Makes room for `layers` images of this size.
+  /// Whether there are `layers` images of this size.
+  bool have(int width, int height, int layers) const
+  {
+    return width == this->width_ && height == this->height_ && layers == this->layers_;
+  }
+
+  /// Makes room for `layers` images of this size. What other ones show is lost.
   void resize(int width, int height, int layers);
 
   /// Fills a layer by a pointwise technique's GLSL, called for the receivers of all pixels.
