@@ -45,9 +45,11 @@ std::vector<Uniform> lightViewsUniforms(const LightViews& views, int sizeTexels,
     { "viewBorder_LIGHT", static_cast<float>(views.borderTexels) },
     { "lightCone_LIGHT", static_cast<float>(views.coneTangentSquared) },
     { "lightBox_LIGHT", glm::vec3(views.box) } };
-  if (viewFits.texture)
+  if (views.awaitFit)
   {
-    uniforms.push_back({ "viewFits_LIGHT", viewFits });
+    // Also where there is no view and so no fit: the sampler must not keep the unit of an earlier
+    // frame, which a sampler of another kind may have now.
+    uniforms.push_back({ "viewFits_LIGHT", TextureBinding{ GL_TEXTURE_2D, viewFits.texture } });
   }
   for (std::size_t i = 0; i < views.views.size(); ++i)
   {
