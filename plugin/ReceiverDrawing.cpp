@@ -67,8 +67,8 @@ struct PropAccess : vtkProp
   }
 };
 
-/// Whether a part of a prop has shaders of a user's own: they may move vertices by values that
-/// nobody has times for.
+/// True if a part of a prop has shaders of a user's own: they may move vertices by uniforms whose
+/// changes VTK does not time.
 bool hasOwnShaders(vtkProp* prop)
 {
   vtkNew<vtkPropCollection> actors;

@@ -233,7 +233,7 @@ bool RenderManager::readsPoints() const
 }
 
 //------------------------------------------------------------------------------
-/// What the picture of the receivers is made from.
+/// The key of the picture of the receivers.
 ValueKey RenderManager::receiversKey(const vtkRenderState* s) const
 {
   std::size_t view = 0;
@@ -251,7 +251,7 @@ ValueKey RenderManager::receiversKey(const vtkRenderState* s) const
 }
 
 //------------------------------------------------------------------------------
-/// What a light's visibility is made from: its maps follow from the same.
+/// The key of a light's visibility; its maps follow from the same parts.
 ValueKey RenderManager::visibilityKey(const CastingLight& casting) const
 {
   std::size_t technique = 0;
