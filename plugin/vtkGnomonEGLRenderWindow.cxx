@@ -1,6 +1,6 @@
 #include "vtkGnomonEGLRenderWindow.h"
 
-#include "plugin/EglContext.h"
+#include "plugin/window/EglContext.h"
 
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLFramebufferObject.h"

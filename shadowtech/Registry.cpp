@@ -2,13 +2,15 @@
 
 #include "lights/LightViews.h"
 #include "shadowtech/adaptive/Adaptive.h"
-#include "shadowtech/compare/Compare.h"
-#include "shadowtech/crsm/Crsm.h"
-#include "shadowtech/crsma/Crsma.h"
-#include "shadowtech/exponential/Exponential.h"
-#include "shadowtech/moments/FourMoments.h"
+#include "shadowtech/depth_map/Compare.h"
+#include "shadowtech/depth_map/Pcf.h"
+#include "shadowtech/exact/Crsm.h"
+#include "shadowtech/exact/Crsma.h"
+#include "shadowtech/exact/Silhouette.h"
+#include "shadowtech/moment_map/Exponential.h"
+#include "shadowtech/moment_map/FourMoments.h"
+#include "shadowtech/moment_map/Variance.h"
 #include "shadowtech/montecarlo/MonteCarlo.h"
-#include "shadowtech/pcf/Pcf.h"
 #include "shadowtech/pcss/Pcss.h"
 #include "shadowtech/penumbra/Penumbra.h"
 #include "shadowtech/planar/Planar.h"
@@ -18,8 +20,6 @@
 #include "shadowtech/sampled/Sampled.h"
 #include "shadowtech/selective/Coherence.h"
 #include "shadowtech/selective/Selective.h"
-#include "shadowtech/silhouette/Silhouette.h"
-#include "shadowtech/variance/Variance.h"
 
 #include <algorithm>
 #include <cmath>

@@ -94,7 +94,7 @@ std::string Pcss::estimatorGlsl(const ShadowLight& light) const
 {
   if (!light.area)
   {
-    return ShaderLibrary::source("shadowtech/compare/compare_estimator.glsl");
+    return ShaderLibrary::source("shadowtech/depth_map/compare_estimator.glsl");
   }
   const std::string around =
     viewLayout(light) == ViewLayout::Cube ? "#define LOOKS_AROUND_LIGHT\n" : "";

@@ -3,7 +3,7 @@
 
 #include "shadowtech/depth_map/DepthBounds.h"
 #include "shadowtech/depth_map/DepthMapTechnique.h"
-#include "shadowtech/pcss/PcssPoints.h"
+#include "shadowtech/depth_map/PcssPoints.h"
 
 namespace gnomon
 {

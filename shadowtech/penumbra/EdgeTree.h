@@ -3,8 +3,8 @@
 
 #include "lights/Bounds.h"
 #include "shadowtech/base/Occluders.h"
-#include "shadowtech/conservative/CasterEdges.h"
-#include "shadowtech/conservative/KeptOfCasters.h"
+#include "shadowtech/mesh/CasterEdges.h"
+#include "shadowtech/mesh/KeptOfCasters.h"
 #include "shadowtech/tracing/CasterBvh.h"
 
 #include <glm/glm.hpp>

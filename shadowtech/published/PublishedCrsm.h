@@ -1,7 +1,7 @@
 #ifndef gnomon_shadowtech_published_PublishedCrsm_h
 #define gnomon_shadowtech_published_PublishedCrsm_h
 
-#include "shadowtech/conservative/ConservativeTechnique.h"
+#include "shadowtech/exact/ConservativeTechnique.h"
 
 namespace gnomon
 {

@@ -1,7 +1,7 @@
 #include "shadowtech/published/PublishedMap.h"
 
-#include "shadowtech/conservative/CasterBands.h"
-#include "shadowtech/conservative/CasterEdges.h"
+#include "shadowtech/mesh/CasterBands.h"
+#include "shadowtech/mesh/CasterEdges.h"
 
 #include <algorithm>
 #include <atomic>

@@ -1,9 +1,9 @@
 #ifndef gnomon_shadowtech_published_PublishedMap_h
 #define gnomon_shadowtech_published_PublishedMap_h
 
-#include "shadowtech/conservative/CasterShapes.h"
-#include "shadowtech/conservative/ConservativeMap.h"
-#include "shadowtech/conservative/TexelRows.h"
+#include "shadowtech/exact/ConservativeMap.h"
+#include "shadowtech/mesh/CasterShapes.h"
+#include "shadowtech/mesh/TexelRows.h"
 
 #include <array>
 #include <cstddef>

@@ -91,7 +91,7 @@ std::string PublishedPcss::estimatorGlsl(const ShadowLight& light) const
 {
   if (!light.area)
   {
-    return ShaderLibrary::source("shadowtech/compare/compare_estimator.glsl");
+    return ShaderLibrary::source("shadowtech/depth_map/compare_estimator.glsl");
   }
   return pcssCountsDefines(light.pcssSamples) +
     ShaderLibrary::source("shadowtech/published/published_pcss_estimator.glsl");

@@ -2,7 +2,7 @@
 #define gnomon_shadowtech_published_PublishedPcss_h
 
 #include "shadowtech/depth_map/DepthMapTechnique.h"
-#include "shadowtech/pcss/PcssPoints.h"
+#include "shadowtech/depth_map/PcssPoints.h"
 
 namespace gnomon
 {

@@ -3,7 +3,7 @@
 
 #include "shadowtech/base/RunningSum.h"
 #include "shadowtech/base/Technique.h"
-#include "shadowtech/compare/Compare.h"
+#include "shadowtech/depth_map/Compare.h"
 
 #include <glm/glm.hpp>
 

@@ -6,8 +6,8 @@
 #include "shadowtech/base/PixelClass.h"
 #include "shadowtech/base/ShadowRay.h"
 #include "shadowtech/base/Technique.h"
+#include "shadowtech/mesh/TriangleFans.h"
 #include "shadowtech/selective/RimMaps.h"
-#include "shadowtech/selective/TriangleFans.h"
 #include "shadowtech/selective/TriangleMaps.h"
 #include "shadowtech/tracing/ShadowTracer.h"
 

@@ -2,8 +2,8 @@
 
 #include "shadowtech/base/Bytes.h"
 #include "shadowtech/base/PlacedTriangles.h"
-#include "shadowtech/conservative/CasterBands.h"
-#include "shadowtech/conservative/CasterShapes.h"
+#include "shadowtech/mesh/CasterBands.h"
+#include "shadowtech/mesh/CasterShapes.h"
 
 #include <glm/gtc/matrix_access.hpp>
 

@@ -8,10 +8,10 @@
 #include "Scene.h"
 #include "SyntheticScene.h"
 
-#include "plugin/OccluderCollector.h"
+#include "plugin/scene/OccluderCollector.h"
 #include "plugin/vtkGnomonEGLRenderWindow.h"
-#include "shadowtech/conservative/CellsOnGpu.h"
-#include "shadowtech/conservative/ConservativeMap.h"
+#include "shadowtech/exact/CellsOnGpu.h"
+#include "shadowtech/exact/ConservativeMap.h"
 
 #include <CLI/CLI.hpp>
 #include <glm/gtc/matrix_transform.hpp>

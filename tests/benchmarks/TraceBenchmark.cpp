@@ -5,7 +5,7 @@
 #include "SyntheticScene.h"
 
 #include "shadowtech/base/ShadowRay.h"
-#include "shadowtech/conservative/ConservativeMaps.h"
+#include "shadowtech/exact/ConservativeMaps.h"
 #include "shadowtech/tracing/EmbreeTracer.h"
 #include "shadowtech/tracing/GpuShadowTracer.h"
 

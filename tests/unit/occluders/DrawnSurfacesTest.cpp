@@ -1,8 +1,8 @@
 // Draws scenes with VTK, and checks at every pixel that the snapshot's triangle, found through
 // drawnSurfaces(), is the one that the pixel's ray hits.
 
-#include "plugin/OccluderCollector.h"
-#include "plugin/ShaderManager.h"
+#include "plugin/frame/ShaderManager.h"
+#include "plugin/scene/OccluderCollector.h"
 
 #include "TestData.h"
 

@@ -1,6 +1,6 @@
-#include "plugin/OccluderCollector.h"
+#include "plugin/scene/OccluderCollector.h"
 
-#include "plugin/KeptInstances.h"
+#include "plugin/scene/KeptInstances.h"
 
 #include "TestData.h"
 

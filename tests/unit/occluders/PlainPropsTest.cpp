@@ -1,7 +1,7 @@
 // What is remembered of plain props never hides a change: whatever changes, a collector that has followed
 // the scene holds what one that sees it for the first time holds.
 
-#include "plugin/OccluderCollector.h"
+#include "plugin/scene/OccluderCollector.h"
 
 #include "TestData.h"
 

@@ -1,6 +1,6 @@
 // When optional maps are baked, over sequences of frames that change and rest.
 
-#include "plugin/BakeBackoff.h"
+#include "plugin/frame/BakeBackoff.h"
 
 #include <gmock/gmock.h>
 

@@ -1,6 +1,6 @@
 // Which tracer a frame takes, and what becomes of the other.
 
-#include "plugin/FrameTracer.h"
+#include "plugin/frame/FrameTracer.h"
 
 #include "SyntheticScene.h"
 

@@ -1,8 +1,8 @@
 // When a light's optional map is baked, used and dropped.
 
-#include "plugin/LightTechnique.h"
+#include "plugin/frame/LightTechnique.h"
 
-#include "plugin/BakeBackoff.h"
+#include "plugin/frame/BakeBackoff.h"
 #include "plugin/vtkGnomonEGLRenderWindow.h"
 #include "shadowtech/base/OccluderBuffers.h"
 #include "shadowtech/base/Occluders.h"

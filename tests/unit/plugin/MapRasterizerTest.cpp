@@ -1,6 +1,6 @@
 // Who draws conservative maps, what the report says of it, and when they are drawn anew.
 
-#include "plugin/MapRasterizer.h"
+#include "plugin/frame/MapRasterizer.h"
 
 #include "LiveObjects.h"
 #include "PassScene.h"

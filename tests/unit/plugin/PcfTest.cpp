@@ -9,7 +9,7 @@
 #include "lights/vtkGnomonLightKeys.h"
 #include "plugin/VisibilityImages.h"
 #include "plugin/vtkGnomonPropKeys.h"
-#include "shadowtech/pcf/Pcf.h"
+#include "shadowtech/depth_map/Pcf.h"
 
 #include <vtkInformation.h>
 #include <vtkInformationStringKey.h>

@@ -4,7 +4,7 @@
 #include "BuiltinScenes.h"
 #include "Scene.h"
 
-#include "plugin/OccluderCollector.h"
+#include "plugin/scene/OccluderCollector.h"
 #include "shadowtech/base/Occluders.h"
 #include "shadowtech/planar/ReceiverPlanes.h"
 

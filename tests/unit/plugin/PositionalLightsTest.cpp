@@ -6,8 +6,8 @@
 
 #include "lights/LightSpace.h"
 #include "lights/vtkGnomonLightKeys.h"
-#include "plugin/OccluderCollector.h"
 #include "plugin/VisibilityImages.h"
+#include "plugin/scene/OccluderCollector.h"
 #include "plugin/vtkGnomonPropKeys.h"
 #include "shadowtech/tracing/EmbreeTracer.h"
 

@@ -2,7 +2,7 @@
 
 #include "PassScene.h"
 
-#include "plugin/ValueKey.h"
+#include "plugin/frame/ValueKey.h"
 
 #include <vtkSphereSource.h>
 #include <vtkTextActor.h>

@@ -1,9 +1,9 @@
-#include "shadowtech/conservative/CasterEdges.h"
+#include "shadowtech/mesh/CasterEdges.h"
 
 #include "RandomScenes.h"
 #include "SyntheticScene.h"
 
-#include "shadowtech/conservative/WeldedVertices.h"
+#include "shadowtech/mesh/WeldedVertices.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>

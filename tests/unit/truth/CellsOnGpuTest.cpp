@@ -1,13 +1,13 @@
 // Conservative maps drawn on the GPU: their cells are those of the CPU, to the last bit, whatever is drawn, and hold what
 // separating axes say of each texel.
 
-#include "shadowtech/conservative/CellsOnGpu.h"
+#include "shadowtech/exact/CellsOnGpu.h"
 
 #include "../plugin/LiveObjects.h"
 #include "RandomScenes.h"
 #include "TexelPolygons.h"
 
-#include "shadowtech/conservative/CellsOnCpu.h"
+#include "shadowtech/exact/CellsOnCpu.h"
 
 #include "vtkGnomonEGLRenderWindow.h"
 

@@ -1,12 +1,12 @@
 // Conservative maps against ray tracing: what they say for certain is never wrong.
 
-#include "shadowtech/conservative/ConservativeMaps.h"
+#include "shadowtech/exact/ConservativeMaps.h"
 
 #include "ExactRecord.h"
 #include "RandomScenes.h"
 
 #include "lights/ShadowSettings.h"
-#include "shadowtech/conservative/CellsOnGpu.h"
+#include "shadowtech/exact/CellsOnGpu.h"
 #include "shadowtech/tracing/EmbreeTracer.h"
 
 #include "vtkGnomonEGLRenderWindow.h"

@@ -7,7 +7,7 @@
 #include "shadowtech/adaptive/Adaptive.h"
 #include "shadowtech/base/OccluderBuffers.h"
 #include "shadowtech/base/ShaderLibrary.h"
-#include "shadowtech/compare/Compare.h"
+#include "shadowtech/depth_map/Compare.h"
 
 #include <algorithm>
 #include <cmath>

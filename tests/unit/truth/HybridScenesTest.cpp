@@ -2,7 +2,7 @@
 // at vertices, slivers, thin plates, open cups, poles. The exact ones are never wrong, those as published where their
 // construction is.
 
-#include "shadowtech/conservative/ConservativeMaps.h"
+#include "shadowtech/exact/ConservativeMaps.h"
 #include "shadowtech/published/PublishedMap.h"
 
 #include "RandomScenes.h"

@@ -3,7 +3,7 @@
 #include "EstimatorGlsl.h"
 
 #include "lights/KernelShape.h"
-#include "shadowtech/pcf/Pcf.h"
+#include "shadowtech/depth_map/Pcf.h"
 
 #include <algorithm>
 #include <cmath>

@@ -9,8 +9,8 @@
 #include "shadowtech/base/LightViewsGlsl.h"
 #include "shadowtech/base/ShaderLibrary.h"
 #include "shadowtech/depth_map/DepthBounds.h"
+#include "shadowtech/depth_map/PoissonSquare.h"
 #include "shadowtech/pcss/Pcss.h"
-#include "shadowtech/pcss/PoissonSquare.h"
 
 #include <glm/gtc/constants.hpp>
 

@@ -6,7 +6,7 @@
 #include "TexelPolygons.h"
 
 #include "shadowtech/base/Receivers.h"
-#include "shadowtech/conservative/CasterEdges.h"
+#include "shadowtech/mesh/CasterEdges.h"
 
 #include <gtest/gtest.h>
 

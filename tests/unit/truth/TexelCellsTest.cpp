@@ -1,7 +1,7 @@
 // The rasteriser of conservative maps, against cells and triangles compared one by one: which texels a triangle meets,
 // which it contains, and what depths it has there.
 
-#include "shadowtech/conservative/TexelCells.h"
+#include "shadowtech/exact/TexelCells.h"
 
 #include "RandomScenes.h"
 #include "TexelPolygons.h"

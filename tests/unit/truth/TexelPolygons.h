@@ -3,7 +3,7 @@
 
 #include "RandomScenes.h"
 
-#include "shadowtech/conservative/CasterShapes.h"
+#include "shadowtech/mesh/CasterShapes.h"
 
 #include <glm/glm.hpp>
 

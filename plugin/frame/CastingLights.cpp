@@ -1,0 +1,195 @@
+#include "plugin/frame/CastingLights.h"
+
+#include "shadowtech/base/TextureMemory.h"
+
+#include <iterator>
+#include <utility>
+
+namespace gnomon
+{
+namespace
+{
+
+/// The name of the kernel that an estimator reads a light's map with; empty: it reads it with none.
+std::string kernelOf(const TechniqueInfo& info, const ShadowLight& light)
+{
+  if (!info.filters)
+  {
+    return "";
+  }
+  return info.ownKernel.empty() ? findSetting("kernel")->get(light) : info.ownKernel;
+}
+
+/// Finds a light's estimator, and completes the light.
+const EstimatorEntry& composeIn(ShadowLight& light)
+{
+  try
+  {
+    return compose(light);
+  }
+  catch (const CompositionError& error)
+  {
+    throw FrameError(nameOf(light) + ": " + error.what());
+  }
+}
+
+/// Takes back what a light's technique cannot do here, and notes what it does instead.
+void settle(
+  ShadowLight& light, const TechniqueInfo& info, bool severalViews, std::vector<std::string>& notes)
+{
+  const int mostSamples = info.averagesMap ? mostMapSamples() : light.mapSamples;
+  if (light.mapSamples > mostSamples)
+  {
+    notes.push_back(nameOf(light) + ": OpenGL draws maps with at most " +
+      std::to_string(mostSamples) + " samples of a texel, not " + std::to_string(light.mapSamples));
+    light.mapSamples = mostSamples;
+  }
+  if (info.refines && light.progressiveSamples > 0 && severalViews)
+  {
+    notes.push_back(nameOf(light) +
+      ": 'progressive' refines one view, and the pass draws several (stereo, tiles, renderers): "
+      "all of the light's points are in every frame");
+    light.progressiveSamples = 0;
+  }
+  if (light.texture && !info.seesTextures)
+  {
+    notes.push_back(nameOf(light) + ": '" + light.technique +
+      "' shows an even light of its texture's mean colour");
+  }
+}
+
+LightReport reportOfSkipped(const SkippedLight& skipped)
+{
+  LightReport report;
+  report.sceneIndex = skipped.sceneIndex;
+  report.reason = skipped.reason;
+  return report;
+}
+
+LightReport reportOfCasting(const ShadowLight& light, const TechniqueInfo& info)
+{
+  LightReport report;
+  report.sceneIndex = light.sceneIndex;
+  report.casts = true;
+  report.technique = light.technique;
+  report.estimator = light.estimator;
+  report.projection = info.needsMap ? findSetting("projection")->get(light) : "";
+  report.mapSizeTexels = info.needsMap ? light.mapSizeTexels : 0;
+  report.kernel = kernelOf(info, light);
+  report.kernelTexels = info.filters ? light.kernelTexels : 0;
+  report.mapSamples = info.averagesMap ? light.mapSamples : 0;
+  return report;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+const Technique* CastingLight::pointwiseOn(Route route, bool translucentReceivers)
+{
+  const bool pointwise = this->own.info().isPointwise();
+  if (pointwise || !translucentReceivers)
+  {
+    this->plain.reset();
+    return pointwise && (translucentReceivers || route == Route::Inline) ? &this->own.technique()
+                                                                         : nullptr;
+  }
+  if (!this->plain)
+  {
+    this->plain.emplace(*findTechnique(plainTechnique)->estimator);
+  }
+  return &this->plain->technique();
+}
+
+//------------------------------------------------------------------------------
+void CastingLights::collect(vtkRenderer* renderer, const ShadowSettings& defaults,
+  bool severalViews, TechniquesOfLights& ofView, FrameReport& report)
+{
+  LightSet set = this->manager_.collect(renderer, defaults);
+
+  std::vector<const EstimatorEntry*> estimators;
+  for (ShadowLight& light : set.casting)
+  {
+    estimators.push_back(&composeIn(light));
+    settle(light, estimators.back()->info, severalViews, report.notes);
+    report.lights.push_back(reportOfCasting(light, estimators.back()->info));
+  }
+  std::transform(
+    set.skipped.begin(), set.skipped.end(), std::back_inserter(report.lights), reportOfSkipped);
+  std::sort(report.lights.begin(), report.lights.end(),
+    [](const LightReport& a, const LightReport& b) { return a.sceneIndex < b.sceneIndex; });
+
+  // Nothing below fails half way: what a light has kept goes on with it.
+  std::vector<CastingLight> lights;
+  int layer = 0;
+  for (std::size_t i = 0; i < set.casting.size(); ++i)
+  {
+    lights.push_back(this->take(std::move(set.casting[i]), *estimators[i], ofView));
+    lights.back().layer = layer;
+    layer += lights.back().channels;
+  }
+  this->lights_ = std::move(lights);
+  // What no light has taken is of lights that are gone, or have another technique.
+  this->ofAllViews_.clear();
+  ofView.clear();
+}
+
+//------------------------------------------------------------------------------
+void CastingLights::giveBack(TechniquesOfLights& ofView)
+{
+  for (CastingLight& casting : this->lights_)
+  {
+    TechniquesOfLights& place = this->placeOf(casting.light, ofView);
+    KeptTechniques& kept = casting;
+    place.emplace(casting.light.sceneIndex, std::move(kept));
+  }
+  this->lights_.clear();
+}
+
+//------------------------------------------------------------------------------
+/// Where a light's techniques are kept: maps that are fitted to a camera in every frame are one
+/// view's own.
+TechniquesOfLights& CastingLights::placeOf(const ShadowLight& light, TechniquesOfLights& ofView)
+{
+  return isFittedToCamera(light) && light.fit != ViewFit::Once ? ofView : this->ofAllViews_;
+}
+
+//------------------------------------------------------------------------------
+/// A light with the techniques that an earlier frame had for it, or with new ones.
+CastingLight CastingLights::take(
+  ShadowLight light, const EstimatorEntry& estimator, TechniquesOfLights& ofView)
+{
+  const int channels = channelsOf(estimator.info, light);
+  auto kept = this->placeOf(light, ofView).extract(light.sceneIndex);
+  if (kept && &kept.mapped().own.estimator() == &estimator)
+  {
+    return { std::move(kept.mapped()), std::move(light), 0, channels };
+  }
+  return { { LightTechnique(estimator), std::nullopt }, std::move(light), 0, channels };
+}
+
+//------------------------------------------------------------------------------
+std::size_t bytesOfMaps(const TechniquesOfLights& techniques)
+{
+  std::size_t bytes = 0;
+  for (const auto& [sceneIndex, kept] : techniques)
+  {
+    bytes +=
+      kept.own.technique().bytesOfMaps() + (kept.plain ? kept.plain->technique().bytesOfMaps() : 0);
+  }
+  return bytes;
+}
+
+//------------------------------------------------------------------------------
+int CastingLights::layers() const
+{
+  return this->lights_.empty() ? 0 : this->lights_.back().layer + this->lights_.back().channels;
+}
+
+//------------------------------------------------------------------------------
+LightReport& reportOf(FrameReport& report, const ShadowLight& light)
+{
+  return *std::find_if(report.lights.begin(), report.lights.end(),
+    [&](const LightReport& of) { return of.sceneIndex == light.sceneIndex; });
+}
+
+} // namespace gnomon

@@ -1,0 +1,102 @@
+#ifndef gnomon_plugin_frame_CastingLights_h
+#define gnomon_plugin_frame_CastingLights_h
+
+#include "lights/LightManager.h"
+#include "plugin/frame/LightTechnique.h"
+#include "shadowtech/base/FrameReport.h"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <vector>
+
+class vtkRenderer;
+
+namespace gnomon
+{
+
+/// A setting that cannot be served. The frame is drawn without shadows, with this as its error.
+class FrameError : public std::runtime_error
+{
+public:
+  using std::runtime_error::runtime_error;
+};
+
+/// What a light keeps from frame to frame.
+struct KeptTechniques
+{
+  LightTechnique own;
+  /// Shades translucent surfaces where the light's own technique works on the screen; none without such.
+  std::optional<LightTechnique> plain;
+};
+/// By the lights' places in the scene.
+using TechniquesOfLights = std::map<int, KeptTechniques>;
+std::size_t bytesOfMaps(const TechniquesOfLights& techniques);
+
+/// A light that casts in this frame, and what shades it.
+struct CastingLight : KeptTechniques
+{
+  ShadowLight light;
+  int layer = 0;               ///< of the visibility layers, its first
+  int channels = 1;            ///< of its visibility, a layer each
+  bool shadesAtPoints = false; ///< whether shaders call a technique for it
+  bool isStale = true;         ///< image route: whether its visibility is computed in this frame
+
+  /// What the shader computes the light's visibility with on a route; null if it only fetches. From here on there is a
+  /// plain technique where one is needed.
+  /// @param translucentReceivers whether translucent surfaces receive
+  const Technique* pointwiseOn(Route route, bool translucentReceivers);
+};
+
+/// The lights stage: which of a renderer's lights cast, in the scene's order, each with the technique that it keeps for as
+/// long as it asks for the same estimator.
+class CastingLights
+{
+public:
+  /// Reads the lights as they are now, and says of each in the report what becomes of it.
+  /// @throws FrameError for techniques that do not exist or make no sense; the lights stay those of the frame before then
+  /// @param severalViews whether the pass draws others beside this one
+  /// @param ofView what lights whose maps are fitted to a camera keep for this view
+  void collect(vtkRenderer* renderer, const ShadowSettings& defaults, bool severalViews,
+    TechniquesOfLights& ofView, FrameReport& report);
+
+  /// Ends a frame: what the lights have goes back to where collect() took it from.
+  void giveBack(TechniquesOfLights& ofView);
+
+  bool empty() const { return this->lights_.empty(); }
+  std::size_t size() const { return this->lights_.size(); }
+  std::vector<CastingLight>::iterator begin() { return this->lights_.begin(); }
+  std::vector<CastingLight>::iterator end() { return this->lights_.end(); }
+  std::vector<CastingLight>::const_iterator begin() const { return this->lights_.begin(); }
+  std::vector<CastingLight>::const_iterator end() const { return this->lights_.end(); }
+
+  /// Whether any of their techniques is such a one.
+  template <typename IsSuch>
+  bool anyTechnique(const IsSuch& isSuch) const
+  {
+    return std::any_of(this->lights_.begin(), this->lights_.end(),
+      [&](const CastingLight& casting) { return isSuch(casting.own.info()); });
+  }
+
+  /// Memory of the maps that serve all views.
+  std::size_t bytesOfMaps() const { return gnomon::bytesOfMaps(this->ofAllViews_); }
+
+  /// How many visibility layers they fill.
+  int layers() const;
+
+private:
+  TechniquesOfLights& placeOf(const ShadowLight& light, TechniquesOfLights& ofView);
+  CastingLight take(ShadowLight light, const EstimatorEntry& estimator, TechniquesOfLights& ofView);
+
+  LightManager manager_;
+  TechniquesOfLights ofAllViews_;    ///< of lights whose maps serve all views
+  std::vector<CastingLight> lights_; ///< by their place in the scene
+};
+
+/// What the report says of a light that it has.
+LightReport& reportOf(FrameReport& report, const ShadowLight& light);
+
+} // namespace gnomon
+
+#endif

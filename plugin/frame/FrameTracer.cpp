@@ -1,0 +1,92 @@
+#include "plugin/frame/FrameTracer.h"
+
+#include "plugin/vtkGnomonShadowPass.h"
+#include "shadowtech/tracing/EmbreeTracer.h"
+#include "shadowtech/tracing/GpuShadowTracer.h"
+
+#include <stdexcept>
+
+namespace gnomon
+{
+
+//------------------------------------------------------------------------------
+TracerChoice chooseTracer(int wished, const std::string& gpuLacks, const std::string& renderer)
+{
+  if (wished == vtkGnomonShadowPass::TRACER_EMBREE)
+  {
+    return { false, true, "asked for" };
+  }
+  if (wished == vtkGnomonShadowPass::TRACER_GPU)
+  {
+    if (!gpuLacks.empty())
+    {
+      throw std::runtime_error("the tracer on the GPU was asked for, but " + gpuLacks);
+    }
+    return { true, true, "asked for" };
+  }
+  if (!gpuLacks.empty())
+  {
+    return { false, false, gpuLacks };
+  }
+  return isSoftwareRenderer(renderer)
+    ? TracerChoice{ false, false, "OpenGL draws by software: " + renderer }
+    : TracerChoice{ true, false, "OpenGL draws by hardware: " + renderer };
+}
+
+//------------------------------------------------------------------------------
+FrameTracer::FrameTracer(OccluderBuffers& buffers, ShaderLibrary& shaders)
+  : buffers_(buffers)
+  , shaders_(shaders)
+{
+}
+
+//------------------------------------------------------------------------------
+ShadowTracer::Update FrameTracer::update(const TracerChoice& choice, const Occluders& occluders)
+{
+  const bool mayBeOther = choice.gpu && !choice.asked;
+  if (!mayBeOther || this->topologyOfFailure_ != occluders.topologyVersion)
+  {
+    this->gpuFailure_.clear();
+  }
+  if (this->gpuFailure_.empty())
+  {
+    try
+    {
+      return this->updateTaken(choice, occluders);
+    }
+    catch (const std::exception& error)
+    {
+      this->tracer_.reset();
+      if (!mayBeOther)
+      {
+        throw;
+      }
+      this->gpuFailure_ = error.what();
+      this->topologyOfFailure_ = occluders.topologyVersion;
+    }
+  }
+  return this->updateTaken(
+    { false, false, "tracing on the GPU failed: " + this->gpuFailure_ }, occluders);
+}
+
+//------------------------------------------------------------------------------
+ShadowTracer::Update FrameTracer::updateTaken(
+  const TracerChoice& choice, const Occluders& occluders)
+{
+  if (!this->tracer_ || this->taken_.gpu != choice.gpu)
+  {
+    this->tracer_.reset(); // its memory first
+    if (choice.gpu)
+    {
+      this->tracer_ = std::make_unique<GpuShadowTracer>(this->buffers_, this->shaders_);
+    }
+    else
+    {
+      this->tracer_ = std::make_unique<EmbreeTracer>();
+    }
+  }
+  this->taken_ = choice;
+  return this->tracer_->update(occluders);
+}
+
+} // namespace gnomon

@@ -1,0 +1,101 @@
+#include "plugin/frame/KeptVisibility.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace gnomon
+{
+namespace
+{
+
+template <typename Value>
+std::vector<Value> topRowFirst(const std::vector<Value>& image, int width, int height)
+{
+  std::vector<Value> flipped(image.size());
+  for (int y = 0; y < height; ++y)
+  {
+    const auto row = image.begin() + static_cast<std::ptrdiff_t>(y) * width;
+    std::copy(
+      row, row + width, flipped.begin() + static_cast<std::ptrdiff_t>(height - 1 - y) * width);
+  }
+  return flipped;
+}
+
+/// What the camera sees.
+VisibilityImages imagesOf(const ReceiverPixels& receivers, const glm::dvec3& centreWorld)
+{
+  VisibilityImages images;
+  images.width = receivers.width;
+  images.height = receivers.height;
+  images.origin = { { centreWorld.x, centreWorld.y, centreWorld.z } };
+  const auto flip = [&](const std::vector<float>& plane)
+  { return topRowFirst(plane, images.width, images.height); };
+  images.positionX = flip(receivers.positionX);
+  images.positionY = flip(receivers.positionY);
+  images.positionZ = flip(receivers.positionZ);
+  images.normalX = flip(receivers.normalX);
+  images.normalY = flip(receivers.normalY);
+  images.normalZ = flip(receivers.normalZ);
+  std::vector<float> coverage(receivers.size());
+  std::transform(receivers.surface.begin(), receivers.surface.end(), coverage.begin(),
+    [](std::uint32_t surface) { return surface == ReceiverPixels::notCovered ? 0.0f : 1.0f; });
+  images.coverage = flip(coverage);
+  return images;
+}
+
+/// Adds a light's visibility: one image, or three of a light with a texture, whether or not its technique sees it.
+void addLight(VisibilityImages& images, const CastingLight& casting, const ClassImage& classes,
+  const VisibilityLayers& layers)
+{
+  const auto add = [&](const std::vector<float>& visibility, LightChannel channel)
+  {
+    images.visibility.push_back(topRowFirst(visibility, images.width, images.height));
+    images.sceneIndices.push_back(casting.light.sceneIndex);
+    images.channels.push_back(channel);
+    images.classes.push_back(classes);
+  };
+  std::vector<float> visibility;
+  if (!casting.light.texture)
+  {
+    layers.read(casting.layer, visibility);
+    add(visibility, LightChannel::All);
+    return;
+  }
+  constexpr std::array<LightChannel, 3> channels = { LightChannel::Red, LightChannel::Green,
+    LightChannel::Blue };
+  for (int channel = 0; channel < 3; ++channel)
+  {
+    const bool seen = casting.channels == 3;
+    layers.read(casting.layer + (seen ? channel : 0), visibility);
+    const float lit = seen ? 1.0f : casting.light.texture->mean[channel];
+    std::transform(
+      visibility.begin(), visibility.end(), visibility.begin(), [&](float v) { return lit * v; });
+    add(visibility, channels[static_cast<std::size_t>(channel)]);
+  }
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+VisibilityImages keepVisibility(const CastingLights& lights,
+  const std::vector<VisibilityValue>& values, const VisibilityLayers& layers,
+  const ReceiverPixels& receivers, const glm::dvec3& centreWorld)
+{
+  VisibilityImages images = imagesOf(receivers, centreWorld);
+  auto value = values.begin();
+  for (const CastingLight& casting : lights)
+  {
+    ClassImage classImage{ casting.own.info().classes, {} };
+    if (!classImage.classes.empty())
+    {
+      classImage.ofPixels = topRowFirst(value->classes, images.width, images.height);
+    }
+    addLight(images, casting, classImage, layers);
+    ++value;
+  }
+  return images;
+}
+
+} // namespace gnomon

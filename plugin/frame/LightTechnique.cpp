@@ -1,0 +1,216 @@
+#include "plugin/frame/LightTechnique.h"
+
+#include "lights/KernelShape.h"
+#include "plugin/scene/Hash.h"
+#include "shadowtech/base/OccluderBuffers.h"
+#include "shadowtech/base/Occluders.h"
+#include "shadowtech/base/ReceiverTarget.h"
+#include "shadowtech/exact/CellsOnGpu.h"
+
+#include <utility>
+
+namespace gnomon
+{
+
+//------------------------------------------------------------------------------
+LightTechnique::LightTechnique(const EstimatorEntry& estimator)
+  : estimator_(&estimator)
+  , technique_(estimator.create())
+{
+}
+
+//------------------------------------------------------------------------------
+void LightTechnique::chooseFit(
+  ShadowLight& light, Route route, bool translucentReceivers, LightReport& report) const
+{
+  if (!this->info().needsMap)
+  {
+    return;
+  }
+  const bool fitted = isFittedToCamera(this->technique_->lightOfMap(light));
+  report.fitReason = fitted ? this->reasonAgainstReceivers(light, route, translucentReceivers) : "";
+  light.fittedToReceivers = fitted && report.fitReason.empty();
+  report.fit = light.fittedToReceivers ? "receivers" : fitted ? "frustum" : "off";
+}
+
+//------------------------------------------------------------------------------
+/// Why a light's views cannot be fitted to the receivers that are drawn; empty if they can.
+std::string LightTechnique::reasonAgainstReceivers(
+  const ShadowLight& light, Route route, bool translucentReceivers) const
+{
+  if (route == Route::Inline)
+  {
+    return "the inline route does not draw the receivers first";
+  }
+  if (!this->info().isPointwise())
+  {
+    return "the technique works on the screen, where the receivers are found after the maps";
+  }
+  if (light.fit == ViewFit::Off)
+  {
+    return "that takes the setting fit=frame";
+  }
+  if (light.projection == Projection::Splits && light.splitBlend > 0.0)
+  {
+    return "splits that are blended overlap, and each receiver is counted to one";
+  }
+  if (light.fit == ViewFit::Once)
+  {
+    return "a fit that is made once has to hold what will be seen later";
+  }
+  if (translucentReceivers)
+  {
+    return "translucent surfaces receive, which are not among the receivers that are drawn first";
+  }
+  if (this->technique_->mapReach(light).dependsOnViews())
+  {
+    return "a kernel of a width in world units, or as wide as penumbrae are, needs a border that "
+           "follows from the fit itself";
+  }
+  return {};
+}
+
+//------------------------------------------------------------------------------
+void LightTechnique::updateMaps(
+  const ShadowLight& light, const MapStage& stage, LightReport& report)
+{
+  if (!this->info().needsMap)
+  {
+    return;
+  }
+  Bake wanted = this->wantedIn(light, stage);
+  if (this->info().mapIsOptional && light.bake != BakeTime::Always)
+  {
+    this->usesMap_ =
+      this->backoff_.usesMap(this->wanted_.serves(wanted), this->baked_.serves(wanted));
+    report.mapReason = this->backoff_.reason();
+    this->wanted_ = wanted;
+  }
+  else
+  {
+    this->backoff_ = BakeBackoff();
+    this->usesMap_ = true;
+  }
+  if (!this->usesMap_)
+  {
+    this->baked_.made = false;
+    this->technique_->dropMaps();
+    return;
+  }
+  if (this->baked_.serves(wanted))
+  {
+    this->baked_.rasterizer = wanted.rasterizer; // it may be the same for another reason
+  }
+  else
+  {
+    this->bake(light, stage, std::move(wanted));
+  }
+  this->baked_.tell(report);
+}
+
+//------------------------------------------------------------------------------
+/// Lays out the light's views, and keeps how.
+LightViews LightTechnique::layOut(
+  const ShadowLight& light, const MapStage& stage, const MapReach& reach)
+{
+  ViewFitting& fitting = this->fitting_ = ViewFitting();
+  fitting.centreWorld = stage.occluders.centreWorld;
+  fitting.castersCentred = stage.occluders.castersCentred;
+  fitting.receiversCentred = stage.occluders.allCentred;
+  fitting.texels = { light.mapSizeTexels, reach.borderTexels() };
+  const ShadowLight seen = this->technique_->lightOfMap(light);
+  if (isFittedToCamera(seen))
+  {
+    const std::optional<CameraView>& first =
+      this->baked_.camera ? this->baked_.camera : this->wanted_.camera;
+    fitting.camera = seen.fit == ViewFit::Once && first ? first : stage.camera;
+  }
+  LightViews views = fitLightViews(seen, fitting);
+  if (reach.dependsOnViews())
+  {
+    // How many texels that is, only a view can tell. A wider border makes them fewer. The faces of a cube hold all
+    // casters together, and none needs what an area reaches beside it.
+    const double areaAcross = views.layout == ViewLayout::Cube
+      ? 0.0
+      : reachOfArea(reach.area, views, fitting.castersCentred, fitting.receiversCentred);
+    fitting.texels.border =
+      reach.borderTexels(mostTexelsAcross(views, light.mapSizeTexels), areaAcross);
+    views = fitLightViews(seen, fitting);
+  }
+  return views;
+}
+
+//------------------------------------------------------------------------------
+/// What maps of this frame are to be drawn from.
+LightTechnique::Bake LightTechnique::wantedIn(const ShadowLight& light, const MapStage& stage)
+{
+  Bake wanted;
+  wanted.reach = this->technique_->mapReach(light);
+  wanted.views = this->layOut(light, stage, wanted.reach);
+  wanted.camera = this->fitting_.camera;
+  wanted.settings = light;
+  wanted.topology = stage.occluders.topologyVersion;
+  wanted.positions = stage.occluders.positionsVersion;
+  if (light.fittedToReceivers)
+  {
+    wanted.receivers = stage.receiversShown;
+    hashCombine(wanted.receivers, light.snap);
+    hashCombine(wanted.receivers, light.splitLambda);
+  }
+  if (this->info().conservativeMap)
+  {
+    wanted.rasterizer = this->info().onlyCpuDraws.empty()
+      ? stage.rasterizer
+      : RasterizerChoice{ false, this->info().onlyCpuDraws };
+  }
+  wanted.made = true;
+  return wanted;
+}
+
+//------------------------------------------------------------------------------
+void LightTechnique::bake(const ShadowLight& light, const MapStage& stage, Bake wanted)
+{
+  this->baked_.made = false; // in case that there is no memory
+  stage.buffers.update(stage.occluders);
+  if (light.fittedToReceivers)
+  {
+    this->receiverFit_.compute(light, wanted.views,
+      { stage.receivers.fragments(), stage.receivers.points(), stage.receivers.width(),
+        stage.receivers.height() },
+      stage.centredFromView, stage.shaders);
+  }
+  MapInput input{ light, wanted.views, stage.occluders, stage.buffers, stage.shaders,
+    light.fittedToReceivers ? this->receiverFit_.fits() : TextureBinding() };
+  const CellsOnGpu cells(stage.shaders);
+  if (wanted.isDrawnOnGpu())
+  {
+    input.cellsOnGpu = &cells;
+  }
+  namingLight(light, [&] { this->technique_->bake(input); });
+  wanted.castersLeftOut = stage.buffers.countUnseen(wanted.views.views);
+  this->baked_ = std::move(wanted);
+  ++stage.mapBakes;
+}
+
+//------------------------------------------------------------------------------
+bool LightTechnique::Bake::serves(const Bake& wanted) const
+{
+  return this->made && this->views == wanted.views && this->reach == wanted.reach &&
+    this->settings.mapSizeTexels == wanted.settings.mapSizeTexels &&
+    this->settings.storesAs(wanted.settings) && this->isDrawnOnGpu() == wanted.isDrawnOnGpu() &&
+    this->topology == wanted.topology && this->positions == wanted.positions &&
+    this->receivers == wanted.receivers;
+}
+
+//------------------------------------------------------------------------------
+void LightTechnique::Bake::tell(LightReport& report) const
+{
+  report.castersLeftOut = this->castersLeftOut;
+  if (this->rasterizer)
+  {
+    report.rasterizer = this->rasterizer->gpu ? "gpu" : "cpu";
+    report.rasterizerReason = this->rasterizer->reason;
+  }
+}
+
+} // namespace gnomon

@@ -1,0 +1,24 @@
+#ifndef gnomon_plugin_frame_MapRasterizer_h
+#define gnomon_plugin_frame_MapRasterizer_h
+
+#include <string>
+
+namespace gnomon
+{
+
+/// Who draws conservative maps, and why.
+struct RasterizerChoice
+{
+  bool gpu = false;   ///< false: the CPU
+  std::string reason; ///< as a clause
+};
+
+/// Choose who draws the conservative maps of a frame.
+/// @param wished a vtkGnomonShadowPass::RasterizerType
+/// @param gpuLacks CellTarget::whyUnsupported()
+/// @throws std::runtime_error where the GPU is asked for and lacks something
+RasterizerChoice chooseRasterizer(int wished, const std::string& gpuLacks);
+
+} // namespace gnomon
+
+#endif

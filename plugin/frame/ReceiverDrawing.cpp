@@ -1,0 +1,150 @@
+#include "plugin/frame/ReceiverDrawing.h"
+
+#include "plugin/scene/Hash.h"
+
+#include <vtkActor.h>
+#include <vtkActor2D.h>
+#include <vtkCommand.h>
+#include <vtkInformation.h>
+#include <vtkInformationObjectBaseVectorKey.h>
+#include <vtkMapper.h>
+#include <vtkNew.h>
+#include <vtkOpenGLRenderPass.h>
+#include <vtkOpenGLRenderWindow.h>
+#include <vtkOpenGLState.h>
+#include <vtkProp.h>
+#include <vtkPropCollection.h>
+#include <vtkRenderState.h>
+#include <vtkRenderer.h>
+#include <vtkShaderProperty.h>
+#include <vtkSmartPointer.h>
+#include <vtkVolume.h>
+
+#include <atomic>
+
+namespace gnomon
+{
+namespace
+{
+
+/// Hides from a prop's shaders all render passes but one, for as long as it lives: other passes may
+/// write outputs of their own.
+class WithoutOtherPasses
+{
+public:
+  WithoutOtherPasses(vtkProp* prop, vtkObjectBase* pass)
+    : keys_(prop->GetPropertyKeys())
+  {
+    if (this->keys_ && this->keys_->Length(vtkOpenGLRenderPass::RenderPasses()) > 1)
+    {
+      this->hidden_ = vtkSmartPointer<vtkInformation>::New();
+      this->hidden_->CopyEntry(this->keys_, vtkOpenGLRenderPass::RenderPasses());
+      this->keys_->Remove(vtkOpenGLRenderPass::RenderPasses());
+      this->keys_->Append(vtkOpenGLRenderPass::RenderPasses(), pass);
+    }
+  }
+  ~WithoutOtherPasses()
+  {
+    if (this->hidden_)
+    {
+      this->keys_->CopyEntry(this->hidden_, vtkOpenGLRenderPass::RenderPasses());
+    }
+  }
+  WithoutOtherPasses(const WithoutOtherPasses&) = delete;
+  WithoutOtherPasses& operator=(const WithoutOtherPasses&) = delete;
+
+private:
+  vtkInformation* keys_;
+  vtkSmartPointer<vtkInformation> hidden_;
+};
+
+struct PropAccess : vtkProp
+{
+  /// Null where a prop has none; vtkProp's own function would make one.
+  static vtkShaderProperty* shaderProperty(vtkProp* prop)
+  {
+    return prop->*(&PropAccess::ShaderProperty);
+  }
+};
+
+/// True if a part of a prop has shaders of a user's own: they may move vertices by uniforms whose
+/// changes VTK does not time.
+bool hasOwnShaders(vtkProp* prop)
+{
+  vtkNew<vtkPropCollection> actors;
+  prop->GetActors(actors);
+  vtkCollectionSimpleIterator iterator;
+  actors->InitTraversal(iterator);
+  while (vtkProp* part = actors->GetNextProp(iterator))
+  {
+    vtkShaderProperty* shaders = PropAccess::shaderProperty(part);
+    vtkMapper* mapper =
+      vtkActor::SafeDownCast(part) ? vtkActor::SafeDownCast(part)->GetMapper() : nullptr;
+    if ((shaders &&
+          (shaders->HasVertexShaderCode() || shaders->HasGeometryShaderCode() ||
+            shaders->HasFragmentShaderCode() || shaders->GetNumberOfShaderReplacements() > 0)) ||
+      (mapper && mapper->HasObserver(vtkCommand::UpdateShaderEvent)))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+std::size_t hashOfShownProps(const vtkRenderState* s)
+{
+  std::size_t seed = 0;
+  for (int i = 0; i < s->GetPropArrayCount(); ++i)
+  {
+    vtkProp* prop = s->GetPropArray()[i];
+    // Annotations and volumes receive nothing: a text that tells the frame's time is no other picture.
+    if (!vtkActor2D::SafeDownCast(prop) && !vtkVolume::SafeDownCast(prop))
+    {
+      hashCombine(seed, prop);
+      hashCombine(seed, prop->GetRedrawMTime());
+      if (hasOwnShaders(prop))
+      {
+        static std::atomic<std::size_t> different{ 0 };
+        hashCombine(seed, ++different);
+      }
+    }
+  }
+  hashCombine(seed, vtkMapper::GetResolveCoincidentTopology()); // no prop has a time for it
+  return seed;
+}
+
+//------------------------------------------------------------------------------
+void drawReceivers(const vtkRenderState* s, vtkObjectBase* pass, const glm::ivec2& size,
+  bool withPoints, ReceiverTarget& target)
+{
+  // VTK draws here and keeps its own record of the state, so the state is changed through that
+  // record.
+  vtkRenderer* renderer = s->GetRenderer();
+  vtkOpenGLState* state =
+    vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow())->GetState();
+  const vtkOpenGLState::ScopedglViewport viewport(state);
+  const vtkOpenGLState::ScopedglScissor scissor(state);
+  const vtkOpenGLState::ScopedglDepthMask depthMask(state);
+  const vtkOpenGLState::ScopedglColorMask colorMask(state);
+  const vtkOpenGLState::ScopedglDepthFunc depthFunction(state);
+  const vtkOpenGLState::ScopedglEnableDisable depthTest(state, GL_DEPTH_TEST);
+  state->vtkglViewport(0, 0, size.x, size.y);
+  state->vtkglScissor(0, 0, size.x, size.y);
+  state->vtkglDepthMask(GL_TRUE);
+  state->vtkglColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  state->vtkglDepthFunc(GL_LEQUAL);
+  state->vtkglEnable(GL_DEPTH_TEST);
+
+  target.begin(size.x, size.y, withPoints);
+  for (int i = 0; i < s->GetPropArrayCount(); ++i)
+  {
+    const WithoutOtherPasses alone(s->GetPropArray()[i], pass);
+    s->GetPropArray()[i]->RenderOpaqueGeometry(renderer);
+  }
+  target.end(state->GetEnumState(GL_BLEND));
+}
+
+} // namespace gnomon

@@ -1,0 +1,29 @@
+#ifndef gnomon_plugin_frame_ReceiverDrawing_h
+#define gnomon_plugin_frame_ReceiverDrawing_h
+
+#include "shadowtech/base/ReceiverTarget.h"
+
+#include <glm/glm.hpp>
+
+#include <cstddef>
+
+class vtkObjectBase;
+class vtkRenderState;
+
+namespace gnomon
+{
+
+/// What props in view show of themselves as receivers: the same number means the same, by one
+/// camera and snapshot. No two numbers are the same where a prop has shaders of a user's own.
+std::size_t hashOfShownProps(const vtkRenderState* s);
+
+/// Has VTK draw the opaque props into the target, whose size is set, each with the shaders of one pass alone.
+/// @param pass whose shaders write what the target takes
+/// @param withPoints whether that is points, too
+/// @throws TextureMemoryError
+void drawReceivers(const vtkRenderState* s, vtkObjectBase* pass, const glm::ivec2& size,
+  bool withPoints, ReceiverTarget& target);
+
+} // namespace gnomon
+
+#endif

@@ -1,0 +1,569 @@
+#include "plugin/frame/RenderManager.h"
+
+#include "plugin/frame/KeptVisibility.h"
+#include "plugin/frame/ReceiverDrawing.h"
+#include "plugin/scene/Hash.h"
+#include "plugin/scene/ShownView.h"
+#include "plugin/vtkGnomonShadowPass.h"
+#include "plugin/window/PictureTarget.h"
+#include "shadowtech/exact/CellTarget.h"
+#include "shadowtech/tracing/GpuTracer.h"
+
+#include <vtkOpenGLRenderWindow.h>
+#include <vtkRenderState.h>
+#include <vtkRenderer.h>
+
+#include <algorithm>
+
+namespace gnomon
+{
+namespace
+{
+
+/// What draws, by the name that OpenGL gives it.
+std::string rendererName()
+{
+  const GLubyte* name = glGetString(GL_RENDERER);
+  return name ? reinterpret_cast<const char*>(name) : "";
+}
+
+vtkOpenGLRenderWindow* windowOf(const vtkRenderState* s)
+{
+  return vtkOpenGLRenderWindow::SafeDownCast(s->GetRenderer()->GetRenderWindow());
+}
+
+/// Where a light is, and what it is.
+std::size_t hashOfPlace(const ShadowLight& light)
+{
+  std::size_t seed = 0;
+  const auto add = [&seed](const glm::dvec3& vector)
+  {
+    for (int i = 0; i < 3; ++i)
+    {
+      hashCombine(seed, vector[i]);
+    }
+  };
+  hashCombine(seed, light.kind);
+  add(light.positionWorld);
+  add(light.directionWorld);
+  hashCombine(seed, light.coneAngleDegrees);
+  if (light.box)
+  {
+    add({ light.box->width, light.box->height, light.box->depth });
+    add(light.box->upWorld);
+  }
+  if (light.area)
+  {
+    hashCombine(seed, light.area->shape);
+    for (int column = 0; column < 3; ++column)
+    {
+      add(light.area->worldFromUnit[column]);
+    }
+  }
+  if (light.texture)
+  {
+    hashCombine(seed, light.texture->texture);
+    for (int column = 0; column < 3; ++column)
+    {
+      add(light.texture->pictureFromWorld[column]);
+    }
+  }
+  return seed;
+}
+
+std::size_t hashOfSettings(const ShadowSettings& settings)
+{
+  std::size_t seed = 0;
+  for (const Setting& setting : shadowSettings())
+  {
+    hashCombine(seed, setting.get(settings));
+  }
+  return seed;
+}
+
+/// How many pixels are of each class.
+std::vector<ClassCount> countClasses(
+  const std::vector<PixelClass>& classes, const std::vector<std::uint8_t>& ofPixels)
+{
+  std::vector<ClassCount> counts;
+  for (const PixelClass& pixelClass : classes)
+  {
+    counts.push_back({ pixelClass.name, 0 });
+  }
+  for (const std::uint8_t pixelClass : ofPixels)
+  {
+    ++counts[pixelClass].pixels;
+  }
+  return counts;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+RenderManager::RenderManager(PassPrograms& programs)
+  : programs_(programs)
+{
+}
+
+//------------------------------------------------------------------------------
+void RenderManager::beginFrame(const FrameWishes& wishes)
+{
+  this->report_ = FrameReport{};
+  this->wishes_ = wishes;
+  if (!wishes.keepVisibility)
+  {
+    this->visibility_ = VisibilityImages{};
+    this->keptOf_ = nullptr;
+  }
+  if (wishes.measureStages)
+  {
+    glFinish(); // what was pending before the frame is not the frame's
+  }
+  this->frameStart_ = this->stageStart_ = steadyMilliseconds();
+  this->compilesBefore_ = this->programs_.library.compiles() + this->programs_.shaders.rebuilds();
+}
+
+//------------------------------------------------------------------------------
+void RenderManager::endStageClock(const std::string& name)
+{
+  if (this->wishes_.measureStages)
+  {
+    glFinish();
+    this->report_.stages.push_back({ name, steadyMilliseconds() - this->stageStart_ });
+    this->stageStart_ = steadyMilliseconds();
+  }
+}
+
+//------------------------------------------------------------------------------
+/// Says in the report whether a value was reused.
+void RenderManager::tellReuse(const std::string& value, const std::string& changes)
+{
+  this->report_.values.push_back({ value, changes.empty(), changes });
+}
+
+//------------------------------------------------------------------------------
+bool RenderManager::collectLights(
+  vtkRenderer* renderer, const ShadowSettings& defaults, bool severalViews)
+{
+  this->view_ = &this->views_.of(renderer);
+  this->lights_.collect(renderer, defaults, severalViews, this->view_->techniques, this->report_);
+  this->endStageClock("lights");
+  if (this->lights_.empty())
+  {
+    this->report_.route = "none";
+    this->report_.routeReason = "no light casts a shadow";
+  }
+  return !this->lights_.empty();
+}
+
+//------------------------------------------------------------------------------
+void RenderManager::collectOccluders(const vtkRenderState* s)
+{
+  const OccluderCollector::Change change = this->collector_.collect(s->GetRenderer());
+  const Occluders& occluders = this->collector_.occluders();
+  this->report_.surfacesExtracted = change.extracted;
+  this->report_.surfacesRetransformed = change.retransformed;
+  this->report_.notes.insert(
+    this->report_.notes.end(), this->collector_.notes().begin(), this->collector_.notes().end());
+  for (const Surface& surface : occluders.surfaces)
+  {
+    const std::size_t instances = surface.centredFromSource.size();
+    this->report_.instances += instances;
+    this->report_.triangles += surface.triangleCount * std::max<std::size_t>(instances, 1);
+  }
+  this->report_.droppedNonFinite = occluders.droppedNonFinite;
+  this->report_.droppedZeroArea = occluders.droppedZeroArea;
+  this->size_ = sizeOf(s);
+  this->camera_ = cameraOf(s->GetRenderer(), occluders.centreWorld);
+  this->stageValues_.space = { centredFromView(s->GetRenderer(), occluders.centreWorld),
+    this->camera_.pixelSide(this->size_) };
+  this->endStageClock("occluders");
+}
+
+//------------------------------------------------------------------------------
+bool RenderManager::chooseRoute()
+{
+  std::string screenTechnique;
+  for (const CastingLight& casting : this->lights_)
+  {
+    if (!casting.own.info().isPointwise())
+    {
+      screenTechnique = casting.light.technique;
+    }
+  }
+  const RouteChoice choice =
+    gnomon::chooseRoute(this->wishes_.route, screenTechnique, this->wishes_.keepVisibility);
+  this->route_ = choice.route;
+  this->report_.route = choice.route == Route::Image ? "image" : "inline";
+  this->report_.routeReason = choice.reason;
+
+  const bool translucentReceivers = this->collector_.translucentReceivers() > 0;
+  if (!screenTechnique.empty() && translucentReceivers)
+  {
+    this->report_.notes.push_back("translucent surfaces show the plain shadow map ('" +
+      std::string(plainTechnique) + "') of lights with '" + screenTechnique + "'");
+  }
+  const int samples = samplesOfBoundFramebuffer();
+  if (this->route_ == Route::Image && samples > 1)
+  {
+    this->report_.notes.push_back("The window has " + std::to_string(samples) +
+      " samples per pixel, and the image route one visibility, that of the surface at the pixel's "
+      "centre: where another surface covers the rest of the pixel it is shaded with it, too.");
+  }
+
+  std::vector<ShadedLight> shaded;
+  for (CastingLight& casting : this->lights_)
+  {
+    casting.own.chooseFit(
+      casting.light, this->route_, translucentReceivers, reportOf(this->report_, casting.light));
+    const Technique* pointwise = casting.pointwiseOn(this->route_, translucentReceivers);
+    casting.shadesAtPoints = pointwise != nullptr;
+    shaded.push_back({ casting.light, casting.layer, casting.channels, pointwise });
+  }
+  this->programs_.shaders.configure({ this->route_, this->readsPoints(), samples > 1 }, shaded);
+  return this->wishes_.route != vtkGnomonShadowPass::ROUTE_INLINE || screenTechnique.empty();
+}
+
+//------------------------------------------------------------------------------
+/// Whether anything on the GPU asks for the receivers' points.
+bool RenderManager::readsPoints() const
+{
+  return this->lights_.anyTechnique(
+    [](const TechniqueInfo& info) { return info.evaluation != Evaluation::ScreenCpu; });
+}
+
+//------------------------------------------------------------------------------
+/// The key of the picture of the receivers.
+ValueKey RenderManager::receiversKey(const vtkRenderState* s) const
+{
+  std::size_t view = 0;
+  hashView(view, this->camera_, this->size_);
+  const Occluders& occluders = this->collector_.occluders();
+  std::size_t snapshot = 0;
+  hashCombine(snapshot, occluders.topologyVersion);
+  hashCombine(snapshot, occluders.positionsVersion);
+  ValueKey key;
+  key.add("the camera", view);
+  key.add("the props in view", hashOfShownProps(s));
+  key.add("the snapshot", snapshot);
+  key.add("what is read of receivers", this->readsPoints() ? 1 : 0);
+  return key;
+}
+
+//------------------------------------------------------------------------------
+/// The key of a light's visibility; its maps follow from the same parts.
+ValueKey RenderManager::visibilityKey(const CastingLight& casting) const
+{
+  std::size_t technique = 0;
+  hashCombine(technique, &casting.own.estimator());
+  hashCombine(technique, casting.light.fittedToReceivers);
+  ValueKey key = *this->view_->receivers.key;
+  key.add("the light", hashOfPlace(casting.light));
+  key.add("its settings", hashOfSettings(casting.light));
+  key.add("its technique", technique);
+  key.add("the tracer", static_cast<std::size_t>(this->wishes_.tracer));
+  key.add("the rasterizer", // pixels are the same, but the report says which one drew the map
+    casting.own.info().conservativeMap ? static_cast<std::size_t>(this->wishes_.rasterizer) : 0);
+  key.add("its layer", static_cast<std::size_t>(casting.layer));
+  return key;
+}
+
+//------------------------------------------------------------------------------
+void RenderManager::updateReceivers(const vtkRenderState* s, vtkGnomonShadowPass* pass)
+{
+  VisibilityLayers& layers = this->view_->layers;
+  if (!layers.have(this->size_.x, this->size_.y, this->lights_.layers()))
+  {
+    this->view_->visibility.clear();
+    layers.resize(this->size_.x, this->size_.y, this->lights_.layers());
+  }
+  this->stageValues_.layers = { GL_TEXTURE_2D_ARRAY, layers.texture() };
+  this->stageValues_.layersSize = this->size_;
+
+  ReceiversValue& value = this->view_->receivers;
+  const ValueKey key = this->receiversKey(s);
+  this->receiversShown_ = key.hash();
+  const std::string changes = value.key ? key.changesFrom(*value.key) : "there were none";
+  this->tellReuse("receivers", changes);
+  if (!changes.empty())
+  {
+    value.key.reset(); // in case of an error
+    value.onCpu.reset();
+    this->drawReceivers(s, pass);
+    value.key = key;
+  }
+  this->findStaleVisibility();
+  this->endStageClock("receivers");
+}
+
+//------------------------------------------------------------------------------
+void RenderManager::drawReceivers(const vtkRenderState* s, vtkGnomonShadowPass* pass)
+{
+  ReceiversValue& value = this->view_->receivers;
+  this->stageValues_.receiversStage = true;
+  this->programs_.shaders.beginStage(windowOf(s), this->stageValues_);
+  gnomon::drawReceivers(s, pass, this->size_, this->readsPoints(), value.target);
+  this->programs_.shaders.endStage();
+  value.drawnSurfaces = this->collector_.drawnSurfaces();
+  ++this->report_.receiversDrawn;
+}
+
+//------------------------------------------------------------------------------
+/// Says of each light whether its visibility is computed in this frame, or reused as it is.
+void RenderManager::findStaleVisibility()
+{
+  std::vector<VisibilityValue>& values = this->view_->visibility;
+  values.resize(this->lights_.size());
+  auto value = values.begin();
+  for (CastingLight& casting : this->lights_)
+  {
+    const ValueKey key = this->visibilityKey(casting);
+    std::string changes = value->key ? key.changesFrom(*value->key) : "there was none";
+    if (changes.empty() && value->report.progress < 1.0)
+    {
+      changes = "more of the light's points";
+    }
+    if (changes.empty() && this->classifies() && !value->classified)
+    {
+      changes = "how pixels were decided is asked for";
+    }
+    this->tellReuse("visibility of " + nameOf(casting.light), changes);
+    casting.isStale = !changes.empty();
+    if (!casting.isStale)
+    {
+      LightReport& report = reportOf(this->report_, casting.light);
+      report = value->report;
+      report.sceneIndex = casting.light.sceneIndex;
+    }
+    else
+    {
+      value->key.reset(); // in case of an error
+    }
+    ++value;
+  }
+}
+
+//------------------------------------------------------------------------------
+void RenderManager::bakeMaps()
+{
+  RasterizerChoice rasterizer;
+  if (this->lights_.anyTechnique([](const TechniqueInfo& info) { return info.conservativeMap; }))
+  {
+    rasterizer = chooseRasterizer(this->wishes_.rasterizer, CellTarget::whyUnsupported());
+  }
+  const MapStage stage{ this->camera_, this->collector_.occluders(), this->buffers_, rasterizer,
+    this->programs_.library, this->view_->receivers.target,
+    this->stageValues_.space.centredFromView, this->receiversShown_, this->report_.mapBakes };
+  for (CastingLight& casting : this->lights_)
+  {
+    LightReport& report = reportOf(this->report_, casting.light);
+    const bool shadesByOwn = casting.shadesAtPoints && !casting.plain;
+    if (this->route_ == Route::Inline || casting.isStale || shadesByOwn)
+    {
+      casting.own.updateMaps(casting.light, stage, report);
+    }
+    if (casting.plain)
+    {
+      casting.plain->updateMaps(casting.light, stage, report);
+    }
+  }
+  this->endStageClock("maps");
+}
+
+//------------------------------------------------------------------------------
+/// Brings a tracer up to date with the snapshot.
+void RenderManager::updateTracer()
+{
+  const TracerChoice choice =
+    chooseTracer(this->wishes_.tracer, GpuTracer::whyUnsupported(), rendererName());
+  const ShadowTracer::Update update = this->tracer_.update(choice, this->collector_.occluders());
+  this->report_.bvhBuilds = update.builds;
+  this->report_.bvhRefits = update.refits;
+  this->endStageClock("visibility: build");
+}
+
+//------------------------------------------------------------------------------
+/// States in the report which tracer the frame's visibility is from, and why.
+void RenderManager::tellTracer()
+{
+  this->report_.tracer = this->tracer_.taken().gpu ? "gpu" : "embree";
+  this->report_.tracerReason = this->tracer_.taken().reason;
+  if (!this->tracer_.gpuFailure().empty())
+  {
+    this->report_.notes.push_back(
+      "Embree traces rays, as tracing on the GPU failed: " + this->tracer_.gpuFailure() + ".");
+  }
+}
+
+//------------------------------------------------------------------------------
+/// The view's receivers on the CPU, read back once.
+Receivers& RenderManager::receiversOnCpu()
+{
+  ReceiversValue& value = this->view_->receivers;
+  if (!value.onCpu)
+  {
+    value.images.rays = pixelRays(this->camera_.clipFromView,
+      this->stageValues_.space.centredFromView, this->size_.x, this->size_.y);
+    value.target.read(value.images);
+    value.onCpu.emplace(
+      value.images, value.drawnSurfaces, this->collector_.occluders(), value.pixels);
+    this->endStageClock("visibility: read receivers");
+  }
+  return *value.onCpu;
+}
+
+//------------------------------------------------------------------------------
+void RenderManager::computeVisibility()
+{
+  const auto onCpu = [](const CastingLight& casting)
+  { return casting.own.info().evaluation == Evaluation::ScreenCpu; };
+  if (std::any_of(this->lights_.begin(), this->lights_.end(),
+        [&](const CastingLight& casting) { return casting.isStale && onCpu(casting); }))
+  {
+    this->updateTracer();
+  }
+  if (std::any_of(this->lights_.begin(), this->lights_.end(), onCpu))
+  {
+    this->tellTracer();
+  }
+  auto value = this->view_->visibility.begin();
+  for (CastingLight& casting : this->lights_)
+  {
+    if (casting.isStale)
+    {
+      LightReport& report = reportOf(this->report_, casting.light);
+      value->classified = this->classifies();
+      value->classes.clear();
+      this->fillLayers(casting, value->classified ? &value->classes : nullptr, report);
+      const std::vector<PixelClass>& named = casting.own.info().classes;
+      if (value->classified && !named.empty())
+      {
+        report.classes = countClasses(named, value->classes);
+      }
+      value->key = this->visibilityKey(casting);
+      value->report = report;
+      value->texture = casting.light.texture ? casting.light.texture->texture : nullptr;
+      ++this->report_.visibilityComputed;
+      this->report_.raysTraced += report.rays;
+    }
+    ++value;
+  }
+  if (this->wishes_.keepVisibility)
+  {
+    this->keepVisibility(this->report_.visibilityComputed > 0 || this->keptOf_ != this->view_ ||
+      this->visibility_.visibility.empty());
+  }
+}
+
+//------------------------------------------------------------------------------
+/// Keeps a copy of the view's visibility, where that is another one than is kept.
+void RenderManager::keepVisibility(bool isNew)
+{
+  if (isNew)
+  {
+    this->visibility_ = gnomon::keepVisibility(this->lights_, this->view_->visibility,
+      this->view_->layers, this->receiversOnCpu().all(), this->collector_.occluders().centreWorld);
+    this->keptOf_ = this->view_;
+  }
+}
+
+//------------------------------------------------------------------------------
+/// Has a light's technique fill its layers.
+/// @param classes where not null: each pixel's class, an index into TechniqueInfo::classes
+void RenderManager::fillLayers(
+  CastingLight& casting, std::vector<std::uint8_t>* classes, LightReport& report)
+{
+  const ShadowLight& light = casting.light;
+  const Occluders& occluders = this->collector_.occluders();
+  const ReceiversValue& receivers = this->view_->receivers;
+  VisibilityLayers& layers = this->view_->layers;
+  Technique& technique = casting.own.technique();
+  switch (casting.own.info().evaluation)
+  {
+    case Evaluation::Pointwise:
+      layers.estimate(casting.layer, technique, light, receivers.target, this->stageValues_.space,
+        this->programs_.library, casting.own.info().classes.empty() ? nullptr : classes);
+      this->endStageClock("visibility: estimate");
+      break;
+    case Evaluation::ScreenGpu:
+      this->buffers_.update(occluders);
+      namingLight(light,
+        [&]
+        {
+          technique.drawVisibility(
+            { light, casting.own.fitting(), this->camera_, this->stageValues_.space, occluders,
+              this->buffers_, receivers.target, this->receiversShown_, receivers.drawnSurfaces,
+              layers, casting.layer, this->programs_.library, classes != nullptr, classes,
+              this->report_.notes, this->report_.mapBakes },
+            report);
+        });
+      this->endStageClock("visibility: draw");
+      break;
+    case Evaluation::ScreenCpu:
+    {
+      Receivers& onCpu = this->receiversOnCpu();
+      std::vector<float> visibility;
+      namingLight(light,
+        [&]
+        {
+          technique.computeVisibility(
+            { light, casting.own.fitting(), occluders, onCpu, this->tracer_.tracer(),
+              casting.own.usesMap(), classes, this->report_.mapBakes },
+            visibility, report);
+        });
+      this->endStageClock("visibility: trace");
+      layers.upload(casting.layer, visibility);
+      this->endStageClock("visibility: upload");
+      break;
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+void RenderManager::beginShading(const vtkRenderState* s)
+{
+  this->stageValues_.receiversStage = false;
+  this->programs_.shaders.beginStage(windowOf(s), this->stageValues_);
+}
+
+//------------------------------------------------------------------------------
+bool RenderManager::endShading()
+{
+  const bool fitted = this->programs_.shaders.endStage();
+  this->endStageClock("shading");
+  return fitted;
+}
+
+//------------------------------------------------------------------------------
+void RenderManager::endFrame()
+{
+  FrameReport& report = this->report_;
+  report.programCompiles =
+    this->programs_.library.compiles() + this->programs_.shaders.rebuilds() - this->compilesBefore_;
+  report.bytesOccluders =
+    this->collector_.bytes() + this->buffers_.bytes() + this->tracer_.bytesOfTable();
+  report.bytesBvh = this->tracer_.bytes();
+  this->lights_.giveBack(this->view_->techniques);
+  report.bytesMaps = this->lights_.bytesOfMaps() + this->views_.bytesOfMaps();
+  if (this->route_ == Route::Image)
+  {
+    report.bytesImages = this->views_.bytesOfImages() + this->tracer_.bytesOfRays();
+  }
+  report.wallMilliseconds = steadyMilliseconds() - this->frameStart_;
+}
+
+//------------------------------------------------------------------------------
+void RenderManager::abandonFrame()
+{
+  this->lights_.giveBack(this->view_->techniques);
+  this->programs_.shaders.endStage();
+}
+
+//------------------------------------------------------------------------------
+void RenderManager::setShaderParameters(
+  vtkShaderProgram* program, vtkAbstractMapper* mapper, vtkProp* prop)
+{
+  this->programs_.shaders.setParameters(program, this->collector_.drawn(mapper, prop));
+}
+
+} // namespace gnomon

@@ -1,0 +1,148 @@
+#ifndef gnomon_plugin_frame_RenderManager_h
+#define gnomon_plugin_frame_RenderManager_h
+
+#include "lights/CameraView.h"
+#include "plugin/VisibilityImages.h"
+#include "plugin/frame/CastingLights.h"
+#include "plugin/frame/Clock.h"
+#include "plugin/frame/FrameTracer.h"
+#include "plugin/frame/MapRasterizer.h"
+#include "plugin/frame/Route.h"
+#include "plugin/frame/ShaderManager.h"
+#include "plugin/frame/ViewValues.h"
+#include "plugin/scene/OccluderCollector.h"
+#include "shadowtech/base/FrameReport.h"
+#include "shadowtech/base/OccluderBuffers.h"
+#include "shadowtech/base/Receivers.h"
+#include "shadowtech/base/ShaderLibrary.h"
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+class vtkAbstractMapper;
+class vtkGnomonShadowPass;
+class vtkRenderState;
+class vtkRenderer;
+
+namespace gnomon
+{
+
+/// What the pass is set to for a frame.
+struct FrameWishes
+{
+  int route = 0;               ///< a vtkGnomonShadowPass::RouteType
+  int tracer = 0;              ///< a vtkGnomonShadowPass::TracerType
+  int rasterizer = 0;          ///< a vtkGnomonShadowPass::RasterizerType
+  bool keepVisibility = false; ///< whether visibility is asked for as data
+  bool measureStages = false;
+};
+
+/// The programs of a pass: what its shaders do, and those compiled for Gnomon's own stages.
+struct PassPrograms
+{
+  ShaderManager shaders;
+  ShaderLibrary library;
+};
+
+/// The stages of one renderer's frame, in the order in which the pass calls them. Each takes values
+/// of the stages above it, and reuses its own last value while what that was made from is the same.
+class RenderManager
+{
+public:
+  /// @param programs of the pass, which serve all of its renderers
+  explicit RenderManager(PassPrograms& programs);
+
+  /// Starts a frame's report and clock.
+  void beginFrame(const FrameWishes& wishes);
+
+  /// lights: which of the renderer's lights cast, with which technique.
+  /// @param severalViews whether the pass draws others beside this one
+  /// @return false when none does
+  /// @throws FrameError for techniques that do not exist or make no sense
+  bool collectLights(vtkRenderer* renderer, const ShadowSettings& defaults, bool severalViews);
+
+  /// snapshot: brings it up to date with the renderer's props. From here on it is known where the
+  /// camera is in it.
+  void collectOccluders(const vtkRenderState* s);
+
+  /// Chooses how visibility reaches the shader, and states it in the report.
+  /// @return false when the inline route is asked of a technique that works on the screen; it is
+  /// the image route then, for the reason in the report
+  bool chooseRoute();
+  Route route() const { return this->route_; }
+
+  /// receivers (image route): which triangle each pixel shows, and points for techniques that read
+  /// them on the GPU. Then it is known which lights' visibility is another one than the view has.
+  /// @param pass whose hook the props' shaders have
+  void updateReceivers(const vtkRenderState* s, vtkGnomonShadowPass* pass);
+
+  /// maps: bakes what is stale, for lights whose visibility is computed in this frame.
+  /// @throws std::runtime_error for a rasterizer that there is not
+  void bakeMaps();
+
+  /// visibility (image route): fills the layers of the lights whose visibility is another one than
+  /// the view has, and keeps a copy if asked to.
+  /// @throws std::runtime_error for a tracer that there is not, or has no room
+  void computeVisibility();
+
+  /// shading: between the two calls VTK draws its props with the hook in place.
+  void beginShading(const vtkRenderState* s);
+  /// @return false if props were drawn at another resolution than the visibility layers have; they
+  /// show no shadows then
+  bool endShading();
+
+  /// Completes the report.
+  void endFrame();
+
+  /// Gives back what a stage holds that an error has ended early.
+  void abandonFrame();
+
+  /// For the hook: sets a program's parameters for the prop that is about to be drawn.
+  void setShaderParameters(vtkShaderProgram* program, vtkAbstractMapper* mapper, vtkProp* prop);
+  const FrameReport& report() const { return this->report_; }
+  const VisibilityImages& visibility() const { return this->visibility_; }
+
+private:
+  void endStageClock(const std::string& name);
+  void tellReuse(const std::string& value, const std::string& changes);
+  bool readsPoints() const;
+  bool classifies() const { return this->wishes_.keepVisibility || this->wishes_.measureStages; }
+  ValueKey receiversKey(const vtkRenderState* s) const;
+  ValueKey visibilityKey(const CastingLight& casting) const;
+  void drawReceivers(const vtkRenderState* s, vtkGnomonShadowPass* pass);
+  void findStaleVisibility();
+  void updateTracer();
+  void tellTracer();
+  Receivers& receiversOnCpu();
+  void fillLayers(CastingLight& casting, std::vector<std::uint8_t>* classes, LightReport& report);
+  void keepVisibility(bool isNew);
+
+  FrameReport report_;
+  FrameWishes wishes_;
+  double frameStart_ = 0.0; ///< by steadyMilliseconds()
+  double stageStart_ = 0.0; ///< likewise
+  int compilesBefore_ = 0;
+
+  glm::ivec2 size_{ 0 }; ///< of this frame's picture, in pixels
+  CameraView camera_;    ///< that it is drawn by
+
+  CastingLights lights_;
+  OccluderCollector collector_;
+  OccluderBuffers buffers_;
+  Route route_ = Route::Inline;
+  RendererViews views_;
+  ViewValues* view_ = nullptr;     ///< this frame's
+  std::size_t receiversShown_ = 0; ///< a hash of what the receivers' images depend on
+  PassPrograms& programs_;
+  FrameTracer tracer_{ buffers_, programs_.library };
+  ShaderManager::StageValues stageValues_;
+  const ViewValues* keptOf_ = nullptr; ///< whose visibility is kept
+  VisibilityImages visibility_;
+};
+
+} // namespace gnomon
+
+#endif

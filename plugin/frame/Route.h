@@ -1,0 +1,29 @@
+#ifndef gnomon_plugin_frame_Route_h
+#define gnomon_plugin_frame_Route_h
+
+#include <string>
+
+namespace gnomon
+{
+
+/// How visibility reaches the shader.
+enum class Route
+{
+  Inline, ///< VTK's fragment shader computes it
+  Image   ///< it is computed for all pixels beforehand, and fetched
+};
+
+/// Which route a frame takes, and why.
+struct RouteChoice
+{
+  Route route = Route::Inline;
+  std::string reason; ///< as a clause
+};
+
+/// @param wished a vtkGnomonShadowPass::RouteType; the inline one is none for techniques that work on the screen
+/// @param screenTechnique one of those, among the frame's; empty: there is none
+RouteChoice chooseRoute(int wished, const std::string& screenTechnique, bool keepVisibility);
+
+} // namespace gnomon
+
+#endif

@@ -1,0 +1,329 @@
+#include "plugin/frame/ShaderManager.h"
+
+#include "shadowtech/base/ShaderLibrary.h"
+
+#include <vtkOpenGLRenderWindow.h>
+#include <vtkOpenGLState.h>
+#include <vtkShaderProgram.h>
+#include <vtkTextureUnitManager.h>
+
+#include <algorithm>
+#include <map>
+
+namespace gnomon
+{
+
+const std::map<std::string, std::string>& hookShaders(); // generated from plugin/*.glsl
+
+namespace
+{
+
+const std::string declarationMarker = "//GNOMON::Light::Dec";
+const std::string normalMarker = "//GNOMON::Normal::Impl";
+const std::string beginMarker = "//GNOMON::Light::Begin";
+const std::string endMarker = "//GNOMON::Light::End";
+
+void replace(std::string& source, const std::string& search, const std::string& text)
+{
+  vtkShaderProgram::Substitute(source, search, text, false);
+}
+
+/// What glGet calls the binding of a texture target.
+GLenum bindingOf(GLenum target)
+{
+  return target == GL_TEXTURE_2D_ARRAY ? GL_TEXTURE_BINDING_2D_ARRAY : GL_TEXTURE_BINDING_2D;
+}
+
+/// The expression of what a light's colour is multiplied by where nothing hides it.
+std::string litOf(const ShadedLight& shaded, int light)
+{
+  return shaded.light.texture ? "gnomonLit" + std::to_string(light) : "1.0";
+}
+
+/// The expression of one light's visibility. On the image route, translucent surfaces compute theirs:
+/// the layers do not know them.
+std::string visibilityOf(Route route, const ShadedLight& shaded, int light)
+{
+  // What has one channel is seen as if the light were an even one.
+  const std::string even = shaded.light.texture ? litOf(shaded, light) + " * " : "";
+  const auto layer = [&](int channel)
+  { return "gnomonLayer(" + std::to_string(shaded.layer + channel) + ")"; };
+  const std::string fetched = shaded.channels == 3
+    ? "vec3(" + layer(0) + ", " + layer(1) + ", " + layer(2) + ")"
+    : even + layer(0);
+  const std::string computed =
+    even + "visibility_" + std::to_string(light) + "(gnomonPosition, gnomonNormal)";
+  if (route == Route::Inline)
+  {
+    return computed;
+  }
+  return shaded.pointwise ? "(gnomonTranslucent == 0 ? " + fetched + " : " + computed + ")"
+                          : fetched;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+void ShaderManager::configure(const HookVariant& variant, const std::vector<ShadedLight>& lights)
+{
+  const bool asksAtPoints = std::any_of(lights.begin(), lights.end(),
+    [](const ShadedLight& shaded) { return shaded.pointwise != nullptr; });
+  std::string declarations = hookShaders().at("plugin/frame/hook.glsl");
+  std::string position = "vertexVC.xyz";
+  std::string extensions;
+  if (variant.route == Route::Image)
+  {
+    declarations += hookShaders().at("plugin/frame/hook_image.glsl");
+  }
+  if (asksAtPoints && variant.multisampled)
+  {
+    declarations += hookShaders().at("plugin/frame/hook_multisample.glsl");
+    position = "gnomonCentroid(vertexVC.xyz, gnomonNormal, cameraParallel == 1)";
+    extensions = "#extension GL_ARB_gpu_shader5 : require\n"; // for interpolateAtCentroid
+  }
+  std::string multiplications = asksAtPoints ? "  vec3 gnomonPosition = " + position + ";\n" : "";
+  for (std::size_t i = 0; i < lights.size(); ++i)
+  {
+    const ShadedLight& shaded = lights[i];
+    const int number = static_cast<int>(i);
+    if (shaded.pointwise)
+    {
+      declarations += numberedForLight(shaded.pointwise->visibilityGlsl(shaded.light), number);
+    }
+    const std::string strength = "gnomonStrength" + std::to_string(i);
+    declarations += "uniform float " + strength + ";\n";
+    const std::string lit = litOf(shaded, number);
+    if (shaded.light.texture)
+    {
+      declarations += "uniform vec3 " + lit + ";\n";
+    }
+    const std::string colour = "lightColor" + std::to_string(shaded.light.shaderIndex);
+    multiplications += "  vec3 " + colour + " = " + colour + " * (gnomonReceives == 0 ? " + lit +
+      " : mix(" + lit + ", " + visibilityOf(variant.route, shaded, number) + ", " + strength +
+      "));\n";
+  }
+  if (declarations != this->declarations_ || multiplications != this->multiplications_ ||
+    variant.route != this->variant_.route ||
+    variant.receiverPoints != this->variant_.receiverPoints)
+  {
+    this->declarations_ = declarations;
+    this->multiplications_ = multiplications;
+    this->variant_ = variant;
+    this->extensions_ = extensions;
+    this->needsNormal_ = asksAtPoints || variant.receiverPoints;
+    this->stageTime_.Modified();
+  }
+  this->lights_ = lights;
+}
+
+//------------------------------------------------------------------------------
+bool passInstance(std::string& vertexShader, std::string& geometryShader)
+{
+  const std::string declaration = "//VTK::Glyph::Dec";
+  const std::string body = "//VTK::Glyph::Impl";
+  if (vertexShader.find(body) == std::string::npos)
+  {
+    return false;
+  }
+  replace(vertexShader, declaration, "flat out int gnomonInstanceVSOutput;\n" + declaration);
+  replace(vertexShader, body, "gnomonInstanceVSOutput = gl_InstanceID;\n  " + body);
+  // Where there is a geometry shader, VTK has the fragment shader read its outputs instead.
+  replace(geometryShader, "//VTK::PrimID::Dec",
+    "flat in int gnomonInstanceVSOutput[];\nflat out int gnomonInstanceGSOutput;\n"
+    "//VTK::PrimID::Dec");
+  replace(geometryShader, "//VTK::PrimID::Impl",
+    "gnomonInstanceGSOutput = gnomonInstanceVSOutput[i];\n    //VTK::PrimID::Impl");
+  return true;
+}
+
+//------------------------------------------------------------------------------
+void ShaderManager::markShader(
+  std::string& vertexShader, std::string& geometryShader, std::string& fragmentShader) const
+{
+  if (passInstance(vertexShader, geometryShader))
+  {
+    replace(fragmentShader, "//VTK::PrimID::Dec",
+      "flat in int gnomonInstanceVSOutput;\n//VTK::PrimID::Dec");
+  }
+  replace(fragmentShader, "//VTK::Light::Dec", "//VTK::Light::Dec\n" + declarationMarker);
+  replace(
+    fragmentShader, "//VTK::UniformFlow::Impl", normalMarker + "\n  //VTK::UniformFlow::Impl");
+  replace(
+    fragmentShader, "//VTK::Light::Impl", beginMarker + "\n  //VTK::Light::Impl\n  " + endMarker);
+}
+
+//------------------------------------------------------------------------------
+void ShaderManager::fillShader(std::string& fragmentShader, bool receiversStage)
+{
+  ++this->rebuilds_;
+  // Unlit surfaces have no view coordinates and no lights to shadow; they only hide what is behind.
+  const bool lit = fragmentShader.find("vec4 vertexVC") != std::string::npos;
+  std::string declarations;
+  std::string normal;
+  std::string begin;
+  std::string end;
+  if (lit)
+  {
+    declarations = this->declarations_;
+    begin = this->multiplications_;
+    if (this->needsNormal_)
+    {
+      normal = "vec3 gnomonNormal = gnomonFaceNormal(vertexVC.xyz, cameraParallel == 1);\n";
+    }
+  }
+  if (this->variant_.route == Route::Image && receiversStage)
+  {
+    const bool instanced = fragmentShader.find("gnomonInstanceVSOutput") != std::string::npos;
+    if (!lit)
+    {
+      declarations = "uniform int gnomonStage;\n";
+    }
+    // Of physically based materials alpha is the albedo texture's, which VTK reads while it lights.
+    const std::string albedo = "texture(albedoTex, tcoordVCVSOutput)";
+    const std::string alpha =
+      fragmentShader.find(albedo) != std::string::npos ? albedo + ".a" : "opacity";
+    begin = "if (gnomonStage == 1)\n  {\n    gl_FragData[0] = vec4(0.0, 0.0, 0.0, " + alpha +
+      ");\n" + this->writeReceiver(lit, instanced) + "  }\n  else\n  {\n" + begin;
+    end = "  }\n";
+  }
+  // VTK will put its #version line at this mark, which extensions must follow.
+  replace(fragmentShader, "//VTK::System::Dec", "//VTK::System::Dec\n" + this->extensions_);
+  replace(fragmentShader, declarationMarker, declarations);
+  replace(fragmentShader, normalMarker, normal);
+  replace(fragmentShader, beginMarker, begin);
+  replace(fragmentShader, endMarker, end);
+}
+
+//------------------------------------------------------------------------------
+std::string ShaderManager::writeReceiver(bool lit, bool instanced) const
+{
+  const std::string instance =
+    instanced ? " + gnomonInstanceVSOutput * gnomonPrimitivesPerInstance" : "";
+  const std::string fragment =
+    "vec2(gnomonDrawnSurface(), float(gl_PrimitiveID + PrimitiveIDOffset" + instance + "))";
+  if (!lit)
+  {
+    return "    gl_FragData[1] = vec4(0.0);\n"
+           "    gl_FragData[2] = vec4(0.0);\n";
+  }
+  if (!this->variant_.receiverPoints)
+  {
+    return "    gl_FragData[1] = vec4(" + fragment + ", 0.0, 0.0);\n";
+  }
+  return "    gl_FragData[1] = vec4(" + fragment + ", gnomonNormal.xy);\n" +
+    "    gl_FragData[2] = vec4(vertexVC.xyz, gnomonNormal.z);\n";
+}
+
+//------------------------------------------------------------------------------
+int ShaderManager::bindTexture(const TextureBinding& texture)
+{
+  const int unit = this->window_->GetState()->GetTextureUnitManager()->Allocate();
+  if (unit < 0)
+  {
+    throw ShaderError("no texture unit is left for a shadow map");
+  }
+  this->window_->GetState()->vtkglActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+  GLint previous = 0;
+  glGetIntegerv(bindingOf(texture.target), &previous);
+  glBindTexture(texture.target, texture.texture);
+  this->bound_.push_back({ unit, texture.target, static_cast<GLuint>(previous) });
+  return unit;
+}
+
+//------------------------------------------------------------------------------
+void ShaderManager::beginStage(vtkOpenGLRenderWindow* window, const StageValues& values)
+{
+  this->window_ = window;
+  this->layersSize_ = values.layersSize;
+  this->layersFit_ = true;
+  this->upToDate_.clear();
+  this->stageUniforms_.clear();
+  const auto add = [this](std::string name, const auto& value) {
+    this->stageUniforms_.push_back({ std::move(name), value });
+  };
+  if (this->variant_.route == Route::Image)
+  {
+    add("gnomonStage", values.receiversStage ? 1 : 0);
+    // The receivers stage does not read the layers, but a sampler needs a unit of its own kind.
+    add("gnomonLayers", this->bindTexture(values.layers));
+  }
+  for (std::size_t i = 0; i < this->lights_.size(); ++i)
+  {
+    const int light = static_cast<int>(i);
+    add("gnomonStrength" + std::to_string(i), static_cast<float>(this->lights_[i].light.strength));
+    if (const auto& texture = this->lights_[i].light.texture)
+    {
+      add(litOf(this->lights_[i], light), texture->mean);
+    }
+    if (this->lights_[i].pointwise)
+    {
+      for (Uniform uniform : this->lights_[i].pointwise->uniforms(values.space))
+      {
+        uniform.name = numberedForLight(uniform.name, light);
+        if (const auto* texture = std::get_if<TextureBinding>(&uniform.value))
+        {
+          uniform.value = this->bindTexture(*texture);
+        }
+        this->stageUniforms_.push_back(std::move(uniform));
+      }
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+bool ShaderManager::endStage()
+{
+  if (!this->window_)
+  {
+    return true;
+  }
+  for (const BoundTexture& texture : this->bound_)
+  {
+    this->window_->GetState()->vtkglActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(texture.unit));
+    // VTK may have deleted what a free unit still had bound.
+    glBindTexture(texture.target, glIsTexture(texture.previous) ? texture.previous : 0);
+    this->window_->GetState()->GetTextureUnitManager()->Free(texture.unit);
+  }
+  this->window_->GetState()->vtkglActiveTexture(GL_TEXTURE0);
+  this->bound_.clear();
+  this->upToDate_.clear();
+  this->window_ = nullptr;
+  return this->layersFit_;
+}
+
+//------------------------------------------------------------------------------
+bool ShaderManager::setLayersOrigin(GLuint program)
+{
+  // Where VTK draws now: passes between this one and the props may have a framebuffer of their own.
+  GLint viewport[4];
+  this->window_->GetState()->vtkglGetIntegerv(GL_VIEWPORT, viewport);
+  ShaderLibrary::setUniform(program, { "gnomonOrigin", glm::ivec2(viewport[0], viewport[1]) });
+  const bool fits = viewport[2] == this->layersSize_.x && viewport[3] == this->layersSize_.y;
+  this->layersFit_ = this->layersFit_ && fits;
+  return fits;
+}
+
+//------------------------------------------------------------------------------
+void ShaderManager::setParameters(vtkShaderProgram* program, const Drawn& drawn)
+{
+  const auto handle = static_cast<GLuint>(program->GetHandle());
+  if (this->upToDate_.insert(program).second)
+  {
+    for (const Uniform& uniform : this->stageUniforms_)
+    {
+      ShaderLibrary::setUniform(handle, uniform);
+    }
+  }
+  bool receives = drawn.receives;
+  if (this->variant_.route == Route::Image)
+  {
+    receives = this->setLayersOrigin(handle) && receives;
+  }
+  ShaderLibrary::setUniform(handle, { "gnomonReceives", receives ? 1 : 0 });
+  ShaderLibrary::setUniform(handle, { "gnomonDrawn", drawn.index });
+  ShaderLibrary::setUniform(handle, { "gnomonTranslucent", drawn.translucent ? 1 : 0 });
+  ShaderLibrary::setUniform(
+    handle, { "gnomonPrimitivesPerInstance", static_cast<int>(drawn.primitivesPerInstance) });
+}
+
+} // namespace gnomon

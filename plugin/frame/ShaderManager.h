@@ -1,0 +1,118 @@
+#ifndef gnomon_plugin_frame_ShaderManager_h
+#define gnomon_plugin_frame_ShaderManager_h
+
+#include "lights/ShadowLight.h"
+#include "plugin/frame/Route.h"
+#include "plugin/scene/DrawnLookup.h"
+#include "shadowtech/base/Technique.h"
+
+#include <vtkTimeStamp.h>
+
+#include <set>
+#include <string>
+#include <vector>
+
+class vtkOpenGLRenderWindow;
+class vtkShaderProgram;
+
+namespace gnomon
+{
+
+/// What the shaders of a frame have to do, besides their lights.
+struct HookVariant
+{
+  Route route = Route::Inline;
+  bool receiverPoints = false; ///< image route: the receivers stage draws points and normals, too
+  bool multisampled = false;   ///< pixels have several samples; points are their centroids
+};
+
+/// One casting light, as the shader hook needs it.
+struct ShadedLight
+{
+  ShadowLight light;
+  int layer = 0;    ///< image route: of the visibility layers, its first
+  int channels = 1; ///< of its visibility, a layer each (channelsOf())
+  /// What the shader computes visibility with: on the inline route for all surfaces, on the image
+  /// route for translucent ones, since the layers show what is opaque. Null where nothing needs it.
+  const Technique* pointwise = nullptr;
+};
+
+/// Has the shaders of VTK's glyphs pass the number of the instance on, as the fragment shader's
+/// `flat in int gnomonInstanceVSOutput`: gl_PrimitiveID counts within an instance. Called before
+/// VTK's replacements.
+/// @return false where nothing is drawn as instances
+bool passInstance(std::string& vertexShader, std::string& geometryShader);
+
+/// The hook into VTK's lighting. In front of VTK's light loop it puts, per casting light N,
+///     vec3 lightColorN = lightColorN * (visibility of light N);
+/// Of a light with a texture that is a colour, and what is lit has the texture's mean.
+/// The local variable hides VTK's uniform of the same name, so that the loop, of whatever shading
+/// model and kind of light, works with the shadowed colour. Only the uniforms' names are relied on.
+///
+/// On the image route the same programs also serve the receivers stage: a uniform chooses, so that
+/// VTK need not rebuild any shader between the stages.
+class ShaderManager
+{
+public:
+  /// States what the frame's shaders must do. When it differs from the last frame's, VTK's mappers
+  /// rebuild their shaders (stageTime() changes).
+  void configure(const HookVariant& variant, const std::vector<ShadedLight>& lights);
+  vtkMTimeType stageTime() const { return this->stageTime_.GetMTime(); }
+
+  /// First and second half of the hook, around VTK's own replacements.
+  /// @param receiversStage whether this prop's shader must be able to draw the receivers stage
+  void markShader(
+    std::string& vertexShader, std::string& geometryShader, std::string& fragmentShader) const;
+  void fillShader(std::string& fragmentShader, bool receiversStage);
+
+  /// The values that stay the same for all props of a stage.
+  struct StageValues
+  {
+    bool receiversStage = false;
+    ReceiverSpace space;
+    TextureBinding layers;      ///< image route: the visibility layers
+    glm::ivec2 layersSize{ 0 }; ///< and their size in pixels
+  };
+  /// Between beginStage and endStage VTK draws: textures are bound to units of their own. endStage
+  /// also ends a stage that has failed half way, and does nothing where there is none.
+  /// @return endStage: false if something was drawn at another size than the layers have
+  void beginStage(vtkOpenGLRenderWindow* window, const StageValues& values);
+  bool endStage();
+
+  /// Sets the hook's uniforms of a program that is about to draw.
+  void setParameters(vtkShaderProgram* program, const Drawn& drawn);
+
+  /// Shaders rebuilt by VTK since the start.
+  int rebuilds() const { return this->rebuilds_; }
+
+private:
+  std::string writeReceiver(bool lit, bool instanced) const;
+  int bindTexture(const TextureBinding& texture);
+  bool setLayersOrigin(GLuint program);
+
+  HookVariant variant_;
+  bool needsNormal_ = false;
+  std::string extensions_;
+  std::string declarations_;
+  std::string multiplications_;
+  vtkTimeStamp stageTime_;
+  int rebuilds_ = 0;
+
+  std::vector<ShadedLight> lights_;
+  vtkOpenGLRenderWindow* window_ = nullptr;
+  glm::ivec2 layersSize_{ 0 };
+  bool layersFit_ = true;
+  std::vector<Uniform> stageUniforms_; ///< with units in place of textures
+  struct BoundTexture
+  {
+    int unit;
+    GLenum target;
+    GLuint previous; ///< what was bound there before
+  };
+  std::vector<BoundTexture> bound_;
+  std::set<vtkShaderProgram*> upToDate_; ///< programs that have the stage's uniforms
+};
+
+} // namespace gnomon
+
+#endif

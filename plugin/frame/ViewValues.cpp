@@ -1,0 +1,63 @@
+#include "plugin/frame/ViewValues.h"
+
+#include "shadowtech/base/Bytes.h"
+
+#include <vtkCamera.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+
+#include <algorithm>
+
+namespace gnomon
+{
+
+//------------------------------------------------------------------------------
+std::size_t ViewValues::bytesOfImages() const
+{
+  return this->receivers.target.bytes() + bytesOf(this->receivers.images.fragments) +
+    this->receivers.pixels.bytes() + this->layers.bytes();
+}
+
+//------------------------------------------------------------------------------
+ViewValues& RendererViews::of(vtkRenderer* renderer)
+{
+  Name name{ renderer->GetActiveCamera()->GetLeftEye(), {} };
+  renderer->GetRenderWindow()->GetTileViewport(name.tile.data());
+  ++this->count_;
+  auto view = std::find_if(this->views_.begin(), this->views_.end(),
+    [&](const View& known) { return known.name == name; });
+  if (view == this->views_.end())
+  {
+    view = this->views_.emplace(this->views_.end());
+    view->name = name;
+  }
+  view->lastDrawn = this->count_;
+  constexpr std::uint64_t patience = 8; // both eyes of four tiles
+  this->views_.remove_if(
+    [this](const View& known) { return known.lastDrawn + patience <= this->count_; });
+  return view->values;
+}
+
+//------------------------------------------------------------------------------
+std::size_t RendererViews::bytesOfImages() const
+{
+  std::size_t bytes = 0;
+  for (const View& view : this->views_)
+  {
+    bytes += view.values.bytesOfImages();
+  }
+  return bytes;
+}
+
+//------------------------------------------------------------------------------
+std::size_t RendererViews::bytesOfMaps() const
+{
+  std::size_t bytes = 0;
+  for (const View& view : this->views_)
+  {
+    bytes += gnomon::bytesOfMaps(view.values.techniques);
+  }
+  return bytes;
+}
+
+} // namespace gnomon

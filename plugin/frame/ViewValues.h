@@ -1,0 +1,92 @@
+#ifndef gnomon_plugin_frame_ViewValues_h
+#define gnomon_plugin_frame_ViewValues_h
+
+#include "lights/ShadowLight.h"
+#include "plugin/frame/CastingLights.h"
+#include "plugin/frame/ValueKey.h"
+#include "shadowtech/base/FrameReport.h"
+#include "shadowtech/base/ReceiverTarget.h"
+#include "shadowtech/base/Receivers.h"
+#include "shadowtech/base/VisibilityLayers.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <list>
+#include <memory>
+#include <optional>
+#include <vector>
+
+class vtkRenderer;
+
+namespace gnomon
+{
+
+/// The receivers stage's value: which triangle each pixel shows.
+struct ReceiversValue
+{
+  std::optional<ValueKey> key; ///< none: there is no value
+  ReceiverTarget target;
+  std::vector<DrawnSurface> drawnSurfaces; ///< that the target's fragments name
+  ReceiverImages images;                   ///< the target's on the CPU, once somebody reads them
+  ReceiverPixels pixels;                   ///< where `onCpu` keeps them
+  std::optional<Receivers> onCpu;          ///< made with `images`
+};
+
+/// The visibility stage's value for one light. The picture itself is in the view's layers.
+struct VisibilityValue
+{
+  std::optional<ValueKey> key; ///< none: there is no value
+  LightReport report;          ///< what the frame that computed it says of the light
+  bool classified = false;
+  std::vector<std::uint8_t> classes; ///< each pixel's, where `classified`
+  /// Keeps the address alive that the key has: no other texture can come to lie there.
+  std::shared_ptr<const LightTexture> texture;
+};
+
+/// What one view of a renderer keeps from frame to frame.
+struct ViewValues
+{
+  ReceiversValue receivers;
+  TechniquesOfLights techniques; ///< whose maps are fitted to this view's camera
+  VisibilityLayers layers;
+  std::vector<VisibilityValue> visibility; ///< by casting light
+
+  std::size_t bytesOfImages() const;
+};
+
+/// The views of a renderer: an eye, a part of a window in tiles.
+class RendererViews
+{
+public:
+  /// The values of the view that a renderer is about to draw. Views that have not been drawn for a
+  /// while are given up, since each has images of the picture's size.
+  ViewValues& of(vtkRenderer* renderer);
+
+  std::size_t bytesOfImages() const;
+  std::size_t bytesOfMaps() const;
+
+private:
+  struct Name
+  {
+    int leftEye;
+    std::array<double, 4> tile; ///< of the window
+
+    bool operator==(const Name& other) const
+    {
+      return this->leftEye == other.leftEye && this->tile == other.tile;
+    }
+  };
+  struct View
+  {
+    Name name;
+    std::uint64_t lastDrawn = 0; ///< by count_
+    ViewValues values;
+  };
+  std::list<View> views_;
+  std::uint64_t count_ = 0; ///< of views drawn
+};
+
+} // namespace gnomon
+
+#endif

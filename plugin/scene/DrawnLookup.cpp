@@ -1,0 +1,214 @@
+#include "plugin/scene/DrawnLookup.h"
+
+#include "plugin/scene/DrawnProps.h"
+#include "plugin/scene/Hash.h"
+#include "plugin/scene/MapperInternals.h"
+
+#include "shadowtech/base/Bytes.h"
+#include "shadowtech/base/Occluders.h"
+
+#include "vtkActor.h"
+#include "vtkMapper.h"
+#include "vtkMatrix4x4.h"
+#include "vtkPolyData.h"
+#include "vtkProperty.h"
+
+#include <algorithm>
+#include <functional>
+#include <optional>
+#include <utility>
+
+namespace gnomon
+{
+namespace
+{
+
+bool isBefore(const DrawnLookup::HeldSurface& a, const DrawnLookup::HeldSurface& b)
+{
+  return std::less<const vtkPolyData*>()(a.data, b.data) || (a.data == b.data && a.cells < b.cells);
+}
+
+bool drawnAsSurface(vtkProp* prop)
+{
+  auto* actor = vtkActor::SafeDownCast(prop);
+  return actor && actor->GetProperty()->GetRepresentation() == VTK_SURFACE;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+std::size_t DrawnLookup::PlaceHash::operator()(const Place& place) const
+{
+  std::size_t seed = 0;
+  hashCombine(seed, place.drawer);
+  for (int column = 0; column < 4; ++column)
+  {
+    for (int row = 0; row < 4; ++row)
+    {
+      // std::hash gives 0.0 and -0.0, which are equal, the same value.
+      hashCombine(seed, place.worldFromModel[column][row]);
+    }
+  }
+  return seed;
+}
+
+//------------------------------------------------------------------------------
+std::size_t DrawnLookup::QuestionHash::operator()(const Question& question) const
+{
+  std::size_t seed = 0;
+  hashCombine(seed, question.held);
+  hashCombine(seed, question.mapper);
+  hashCombine(seed, static_cast<int>(question.cells));
+  return seed;
+}
+
+//------------------------------------------------------------------------------
+void DrawnLookup::clear()
+{
+  this->held_.clear();
+  this->heldAt_.clear();
+  this->answers_.clear();
+  this->taken_.clear();
+}
+
+//------------------------------------------------------------------------------
+void DrawnLookup::add(const vtkProp* actor, const vtkMapper* mapper,
+  const glm::dmat4& worldFromModel, std::vector<HeldSurface> held)
+{
+  const std::size_t number = this->held_.size();
+  this->heldAt_.emplace(Place{ actor, worldFromModel }, number);
+  if (held.front().isGlyph)
+  {
+    this->heldAt_.emplace(Place{ mapper, worldFromModel }, number);
+  }
+  else
+  {
+    std::sort(held.begin(), held.end(), isBefore);
+  }
+  this->held_.push_back(std::move(held));
+}
+
+//------------------------------------------------------------------------------
+void DrawnLookup::beginFrame(const std::vector<const vtkProp*>& translucentReceivers)
+{
+  this->answers_.clear();
+  this->taken_.clear();
+  this->drawnSurfaces_.clear();
+  this->translucentReceivers_.clear();
+  this->translucentReceivers_.insert(translucentReceivers.begin(), translucentReceivers.end());
+}
+
+//------------------------------------------------------------------------------
+std::size_t DrawnLookup::bytes() const
+{
+  std::size_t bytes = bytesOf(this->held_) + bytesOfTable(this->heldAt_) +
+    bytesOfTable(this->answers_) + bytesOfTable(this->translucentReceivers_) +
+    bytesOfTable(this->taken_) + bytesOf(this->drawnSurfaces_);
+  for (const HeldSurfaces& held : this->held_)
+  {
+    bytes += bytesOf(held);
+  }
+  for (const DrawnSurface& drawn : this->drawnSurfaces_)
+  {
+    bytes += bytesOf(drawn.blocks);
+  }
+  return bytes;
+}
+
+//------------------------------------------------------------------------------
+const DrawnLookup::HeldSurfaces* DrawnLookup::heldBy(vtkProp* prop) const
+{
+  vtkMatrix4x4* matrix = prop->GetMatrix();
+  auto* actor = vtkActor::SafeDownCast(prop);
+  if (!matrix || !actor)
+  {
+    return nullptr;
+  }
+  const glm::dmat4 worldFromModel = toGlm(matrix);
+  auto found = this->heldAt_.find({ actor, worldFromModel });
+  if (found == this->heldAt_.end())
+  {
+    // A glyph mapper draws the blocks of a composite data set for an actor that it makes anew.
+    found = this->heldAt_.find({ actor->GetMapper(), worldFromModel });
+  }
+  return found != this->heldAt_.end() ? &this->held_[found->second] : nullptr;
+}
+
+//------------------------------------------------------------------------------
+/// The surface that is made of these cells. A glyph mapper's helpers draw shallow copies of the
+/// sources. Where several share the cells, they are drawn in the order in which they are held.
+const DrawnLookup::HeldSurface* DrawnLookup::match(
+  const HeldSurfaces& held, vtkPolyData* data, SurfaceCells cells)
+{
+  if (!held.front().isGlyph)
+  {
+    const HeldSurface wanted{ data, cells };
+    const auto place = std::lower_bound(held.begin(), held.end(), wanted, isBefore);
+    return place == held.end() || isBefore(wanted, *place) ? nullptr : &*place;
+  }
+  const auto place = std::find_if(held.begin(), held.end(),
+    [&](const HeldSurface& surface)
+    {
+      return surface.cells == cells && surface.instances > 0 &&
+        sameCells(surface.data, data, cells) && this->taken_.count(&surface) == 0;
+    });
+  if (place == held.end())
+  {
+    return nullptr;
+  }
+  this->taken_.insert(&*place);
+  return &*place;
+}
+
+//------------------------------------------------------------------------------
+Drawn DrawnLookup::find(vtkAbstractMapper* mapper, vtkProp* prop, const Occluders& occluders)
+{
+  const std::optional<SurfaceCells> cells = cellsAboutToBeDrawn(mapper);
+  if (!cells || !drawnAsSurface(prop))
+  {
+    return {};
+  }
+  if (prop->IsRenderingTranslucentPolygonalGeometry())
+  {
+    Drawn drawn;
+    drawn.receives = this->translucentReceivers_.count(prop) > 0;
+    drawn.translucent = true;
+    return drawn;
+  }
+  const HeldSurfaces* held = this->heldBy(prop);
+  if (!held)
+  {
+    return {};
+  }
+  const auto [answer, isNew] = this->answers_.emplace(Question{ held, mapper, *cells }, Drawn());
+  if (!isNew)
+  {
+    return answer->second;
+  }
+
+  Drawn& drawn = answer->second;
+  // One that draws another level of detail than was foreseen receives as well.
+  drawn.receives = occluders.surfaces[held->front().surface].receives;
+  DrawnSurface drawnSurface;
+  for (const DrawCall& call : drawCalls(mapper, *cells))
+  {
+    const HeldSurface* found = this->match(*held, call.data, *cells);
+    if (!found)
+    {
+      continue; // a hidden or translucent block, or one without such cells
+    }
+    const Surface& surface = occluders.surfaces[found->surface];
+    const std::uint32_t drawnCount =
+      surface.drawnCount() * (surface.isInstanced() ? found->instances : 1);
+    drawnSurface.blocks.push_back({ call.firstPrimitive, drawnCount, found->surface });
+    drawn.primitivesPerInstance = found->isGlyph ? drawnCount / found->instances : 0;
+  }
+  if (!drawnSurface.blocks.empty())
+  {
+    drawn.index = static_cast<int>(this->drawnSurfaces_.size());
+    this->drawnSurfaces_.push_back(std::move(drawnSurface));
+  }
+  return drawn;
+}
+
+} // namespace gnomon

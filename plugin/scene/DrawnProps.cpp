@@ -1,0 +1,428 @@
+#include "plugin/scene/DrawnProps.h"
+
+#include "plugin/scene/ActorInternals.h"
+#include "plugin/scene/CompositeBlocks.h"
+#include "plugin/scene/GlyphInstances.h"
+#include "plugin/scene/PlainProps.h"
+#include "plugin/scene/TextureCutouts.h"
+#include "plugin/vtkGnomonPropKeys.h"
+
+#include "vtkActor.h"
+#include "vtkAlgorithm.h"
+#include "vtkAssembly.h"
+#include "vtkAssemblyNode.h"
+#include "vtkAssemblyPath.h"
+#include "vtkCompositePolyDataMapper2.h"
+#include "vtkGlyph3DMapper.h"
+#include "vtkInformation.h"
+#include "vtkInformationIntegerKey.h"
+#include "vtkLODProp3D.h"
+#include "vtkMatrix4x4.h"
+#include "vtkPlane.h"
+#include "vtkPlaneCollection.h"
+#include "vtkPolyData.h"
+#include "vtkPolyDataMapper.h"
+#include "vtkProp3DFollower.h"
+#include "vtkPropAssembly.h"
+#include "vtkPropCollection.h"
+#include "vtkProperty.h"
+#include "vtkRenderer.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+
+#include <glm/gtc/type_ptr.hpp>
+
+#include <algorithm>
+#include <cstring>
+#include <map>
+#include <unordered_set>
+#include <utility>
+
+namespace gnomon
+{
+namespace
+{
+
+/// A mapper's clipping planes, as many as VTK applies.
+std::vector<glm::dvec4> clipPlanesOf(vtkMapper* mapper)
+{
+  constexpr int mostPlanes = 6;
+  std::vector<glm::dvec4> planes;
+  const int count = std::min<int>(mapper->GetNumberOfClippingPlanes(), mostPlanes);
+  for (int i = 0; i < count; ++i)
+  {
+    vtkPlane* plane = mapper->GetClippingPlanes()->GetItem(i);
+    const glm::dvec3 normal = glm::make_vec3(plane->GetNormal());
+    planes.emplace_back(normal, -glm::dot(normal, glm::make_vec3(plane->GetOrigin())));
+  }
+  return planes;
+}
+
+/// How a mapper says what it draws.
+enum class MapperKind
+{
+  PlainPolyData, ///< vtkOpenGLPolyDataMapper itself: nearly every mapper
+  PolyData,      ///< a class derived from it
+  Composite,
+  Glyphs,
+  Impostors, ///< a polydata mapper by type, which draws something else in place of the polygons
+  Other
+};
+
+/// Asked once for each prop: IsA() and casts compare with all base classes.
+MapperKind kindOf(vtkMapper* mapper)
+{
+  if (std::strcmp(mapper->GetClassName(), "vtkOpenGLPolyDataMapper") == 0)
+  {
+    return MapperKind::PlainPolyData;
+  }
+  if (mapper->IsA("vtkCompositePolyDataMapper2"))
+  {
+    return MapperKind::Composite;
+  }
+  if (mapper->IsA("vtkPolyDataMapper"))
+  {
+    const bool impostors = mapper->IsA("vtkPointGaussianMapper") ||
+      mapper->IsA("vtkOpenGLSphereMapper") || mapper->IsA("vtkOpenGLStickMapper");
+    return impostors ? MapperKind::Impostors : MapperKind::PolyData;
+  }
+  return mapper->IsA("vtkGlyph3DMapper") ? MapperKind::Glyphs : MapperKind::Other;
+}
+
+/// Nearly every prop is one; IsA() and casts compare with all base classes.
+bool isPlainActor(vtkProp* prop)
+{
+  return std::strcmp(prop->GetClassName(), "vtkOpenGLActor") == 0;
+}
+
+/// Whether a prop was told to cast: a translucent one does so only then.
+bool askedToCast(vtkProp* viewProp)
+{
+  vtkInformation* keys = viewProp->GetPropertyKeys();
+  return keys && keys->Has(vtkGnomonPropKeys::CASTS()) && vtkGnomonPropKeys::GetCasts(viewProp);
+}
+
+/// Reads what a prop was told of shadows. Assemblies replace the property keys of their parts by their
+/// own when they draw.
+void takeKeys(DrawnProp& prop)
+{
+  if (prop.viewProp->GetPropertyKeys())
+  {
+    prop.casts = vtkGnomonPropKeys::GetCasts(prop.viewProp);
+    prop.receives = vtkGnomonPropKeys::GetReceives(prop.viewProp);
+    prop.oneSided = vtkGnomonPropKeys::GetOneSided(prop.viewProp);
+  }
+}
+
+class Finder
+{
+public:
+  Finder(vtkRenderer* renderer, TextureCutouts& cutouts, PlainProps& plainProps)
+    : renderer_(renderer)
+    , cutouts_(cutouts)
+    , plainProps_(plainProps)
+  {
+    const auto count = static_cast<std::size_t>(renderer->GetViewProps()->GetNumberOfItems());
+    this->drawn_.props.reserve(count);
+    this->drawn_.blocks.reserve(count);
+  }
+  void addViewProp(vtkProp* viewProp);
+  DrawnProps take();
+
+private:
+  void addPlain(const PlainProp& plain);
+  void addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatrix4x4* matrix);
+  bool serves(vtkMapper* mapper, MapperKind kind);
+  void addBlocks(vtkActor* actor, vtkMapper* mapper, MapperKind kind, bool translucent);
+  void updateInput(vtkMapper* mapper, MapperKind kind);
+  void skip(const std::string& what) { ++this->skipped_[what]; }
+
+  vtkRenderer* renderer_;
+  TextureCutouts& cutouts_;
+  PlainProps& plainProps_;
+  DrawnProps drawn_;
+  std::unordered_set<vtkMapper*> updated_;
+  std::map<std::string, int> skipped_; ///< what was left out, and how often
+  std::map<std::string, int> uncut_;   ///< why props cast as if textures had no holes, how often
+};
+
+//------------------------------------------------------------------------------
+void Finder::addViewProp(vtkProp* viewProp)
+{
+  const PlainProp* plain = this->plainProps_.next(viewProp);
+  if (!viewProp->GetVisibility())
+  {
+    return;
+  }
+  if (plain)
+  {
+    this->addPlain(*plain);
+    return;
+  }
+  if (isPlainActor(viewProp))
+  {
+    this->addLeaf(viewProp, 0, viewProp, viewProp->GetMatrix());
+    return;
+  }
+  auto* follower = vtkProp3DFollower::SafeDownCast(viewProp);
+  if (follower)
+  {
+    follower->GetBounds(); // has it place its prop, as before it is drawn
+  }
+  if (!follower && !viewProp->IsA("vtkAssembly") && !viewProp->IsA("vtkPropAssembly"))
+  {
+    this->addLeaf(viewProp, 0, viewProp, viewProp->GetMatrix());
+    return;
+  }
+  std::size_t number = 0;
+  viewProp->InitPathTraversal();
+  while (vtkAssemblyPath* path = viewProp->GetNextPath())
+  {
+    vtkAssemblyNode* node = path->GetLastNode();
+    // As when drawing, only the leaf's own visibility counts below the view prop.
+    if (node->GetViewProp()->GetVisibility())
+    {
+      this->addLeaf(viewProp, number, node->GetViewProp(), node->GetMatrix());
+    }
+    ++number;
+  }
+}
+
+//------------------------------------------------------------------------------
+/// Adds a prop as addLeaf() would, which was asked in an earlier frame.
+void Finder::addPlain(const PlainProp& plain)
+{
+  DrawnProp prop;
+  prop.viewProp = prop.actor = plain.actor;
+  prop.mapper = plain.mapper;
+  prop.worldFromModel = toGlm(plain.actor->GetMatrix());
+  takeKeys(prop);
+  prop.firstBlock = this->drawn_.blocks.size();
+  prop.blockCount = 1;
+  this->drawn_.blocks.push_back({ plain.data });
+  this->drawn_.props.push_back(std::move(prop));
+}
+
+//------------------------------------------------------------------------------
+void Finder::addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatrix4x4* matrix)
+{
+  const bool isPlain = isPlainActor(leaf);
+  auto* actor = isPlain ? static_cast<vtkActor*>(leaf) : vtkActor::SafeDownCast(leaf);
+  if (!actor)
+  {
+    if (auto* levels = vtkLODProp3D::SafeDownCast(leaf))
+    {
+      if (vtkProp3D* level = selectedLevel(levels))
+      {
+        this->addLeaf(viewProp, path, level, matrix); // it is drawn where its owner is
+      }
+    }
+    else if (leaf->IsA("vtkProp3D") && !leaf->IsA("vtkAssembly"))
+    {
+      this->skip(std::string(leaf->GetClassName()) + ": not an actor");
+    }
+    return;
+  }
+  if (!actor->GetMapper() || actor->GetProperty()->GetRepresentation() != VTK_SURFACE ||
+    (!isPlain && actor->IsA("vtkSkybox")))
+  {
+    return;
+  }
+  const ActorDrawing drawing =
+    actorDrawing(actor, matrix ? matrix : actor->GetMatrix(), this->renderer_);
+  if (!drawing.actor)
+  {
+    this->skip(std::string(actor->GetClassName()) + ": draws through an actor of its own");
+    return;
+  }
+  const MapperKind kind = kindOf(drawing.mapper);
+  if (!this->serves(drawing.mapper, kind) || drawing.mapper->GetNumberOfInputConnections(0) == 0)
+  {
+    return; // VTK complains of a mapper without input itself
+  }
+  this->updateInput(drawing.mapper, kind);
+  if (!drawing.mapper->GetInputDataObject(0, 0))
+  {
+    return;
+  }
+
+  DrawnProp prop;
+  prop.viewProp = viewProp;
+  prop.path = path;
+  prop.actor = drawing.actor;
+  prop.mapper = drawing.mapper;
+  prop.worldFromModel = toGlm(drawing.matrix);
+  prop.clipPlanes = clipPlanesOf(drawing.mapper);
+  takeKeys(prop);
+  const char* uncutReason = nullptr;
+  const TextureCutout cutout =
+    this->cutouts_.find(actor, drawing.mapper, viewProp->GetPropertyKeys(), uncutReason);
+  prop.cutout = cutout.mask;
+  prop.textureTransform = cutout.transform;
+  const auto add = [&](bool translucent)
+  {
+    prop.translucent = translucent;
+    prop.firstBlock = this->drawn_.blocks.size();
+    this->addBlocks(actor, drawing.mapper, kind, translucent);
+    prop.blockCount = this->drawn_.blocks.size() - prop.firstBlock;
+    for (std::size_t i = prop.firstBlock; prop.cutout && i < this->drawn_.blocks.size(); ++i)
+    {
+      DrawnBlock& block = this->drawn_.blocks[i];
+      block.textureCoordinates = textureCoordinates(drawing.mapper, cutout.texture, block.data);
+    }
+    this->drawn_.props.push_back(prop);
+  };
+  const std::size_t before = this->drawn_.props.size();
+  const bool opaque = actor->HasOpaqueGeometry();
+  // A plain prop is one or the other, and VTK takes as long to answer either.
+  const bool eitherOr = isPlain && kind == MapperKind::PlainPolyData;
+  const bool translucent = eitherOr ? !opaque : actor->HasTranslucentPolygonalGeometry() != 0;
+  if (opaque)
+  {
+    add(false);
+    if (eitherOr && viewProp == actor)
+    {
+      this->plainProps_.remember(actor);
+    }
+  }
+  if (translucent)
+  {
+    if (prop.receives)
+    {
+      this->drawn_.translucentReceivers.push_back(prop.actor);
+    }
+    if (askedToCast(viewProp))
+    {
+      add(true);
+    }
+  }
+  if (uncutReason && prop.casts && this->drawn_.props.size() > before)
+  {
+    ++this->uncut_[uncutReason];
+  }
+}
+
+//------------------------------------------------------------------------------
+/// Whether the snapshot can hold what a mapper draws; if not, it is noted.
+bool Finder::serves(vtkMapper* mapper, MapperKind kind)
+{
+  const char* reason = nullptr;
+  if (kind == MapperKind::Other || kind == MapperKind::Impostors)
+  {
+    reason = "mapper not served";
+  }
+  else if (kind == MapperKind::Glyphs)
+  {
+    reason = static_cast<vtkGlyph3DMapper*>(mapper)->GetCullingAndLOD()
+      ? "glyphs are culled and simplified on the GPU"
+      : nullptr;
+  }
+  else if (static_cast<vtkPolyDataMapper*>(mapper)->GetNumberOfSubPieces() > 1)
+  {
+    reason = "input drawn in several pieces";
+  }
+  if (reason)
+  {
+    this->skip(std::string(mapper->GetClassName()) + ": " + reason);
+  }
+  return !reason;
+}
+
+//------------------------------------------------------------------------------
+/// Lists what a mapper draws for an actor in one of the two passes.
+void Finder::addBlocks(vtkActor* actor, vtkMapper* mapper, MapperKind kind, bool translucent)
+{
+  std::vector<DrawnBlock>& blocks = this->drawn_.blocks;
+  if (kind == MapperKind::Composite)
+  {
+    auto* composite = static_cast<vtkCompositePolyDataMapper2*>(mapper);
+    for (vtkPolyData* data : drawnBlocks(actor, composite, translucent))
+    {
+      blocks.push_back({ data });
+    }
+  }
+  else if (kind == MapperKind::Glyphs)
+  {
+    for (const Glyph& glyph : drawnGlyphs(static_cast<vtkGlyph3DMapper*>(mapper)))
+    {
+      blocks.push_back({ glyph.data, glyph.points, glyph.source });
+    }
+  }
+  else if (vtkPolyData* data = static_cast<vtkPolyDataMapper*>(mapper)->GetInput())
+  {
+    blocks.push_back({ data });
+  }
+}
+
+//------------------------------------------------------------------------------
+void Finder::updateInput(vtkMapper* mapper, MapperKind kind)
+{
+  if (mapper->GetStatic() || !this->updated_.insert(mapper).second)
+  {
+    return;
+  }
+  if (kind == MapperKind::Glyphs)
+  {
+    mapper->Update(); // the points and the sources
+    return;
+  }
+  // A trivial producer stands for data that was set by hand: there is nothing to run.
+  vtkAlgorithm* input = mapper->GetInputAlgorithm();
+  if (input->IsA("vtkTrivialProducer"))
+  {
+    return;
+  }
+  if (kind != MapperKind::Composite)
+  {
+    auto* polyDataMapper = static_cast<vtkPolyDataMapper*>(mapper);
+    input->UpdateInformation();
+    vtkInformation* information = mapper->GetInputInformation();
+    using Pipeline = vtkStreamingDemandDrivenPipeline;
+    information->Set(Pipeline::UPDATE_PIECE_NUMBER(), polyDataMapper->GetPiece());
+    information->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), polyDataMapper->GetNumberOfPieces());
+    information->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), polyDataMapper->GetGhostLevel());
+  }
+  input->Update();
+}
+
+//------------------------------------------------------------------------------
+DrawnProps Finder::take()
+{
+  for (const auto& [what, count] : this->skipped_)
+  {
+    this->drawn_.notes.push_back(what + " (" + std::to_string(count) +
+      (count == 1 ? " prop neither casts nor receives)" : " props neither cast nor receive)"));
+  }
+  for (const auto& [why, count] : this->uncut_)
+  {
+    this->drawn_.notes.push_back("holes in textures are not cut out of shadows: " + why + " (" +
+      std::to_string(count) + (count == 1 ? " prop casts as a whole)" : " props cast as a whole)"));
+  }
+  return std::move(this->drawn_);
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+glm::dmat4 toGlm(vtkMatrix4x4* matrix)
+{
+  return glm::transpose(glm::make_mat4(&matrix->Element[0][0])); // VTK's go row by row
+}
+
+//------------------------------------------------------------------------------
+DrawnProps findDrawnProps(vtkRenderer* renderer, TextureCutouts& cutouts, PlainProps& plainProps)
+{
+  cutouts.beginFrame();
+  plainProps.beginFrame();
+  Finder finder(renderer, cutouts, plainProps);
+  vtkPropCollection* viewProps = renderer->GetViewProps();
+  vtkCollectionSimpleIterator cookie;
+  viewProps->InitTraversal(cookie);
+  while (vtkProp* viewProp = viewProps->GetNextProp(cookie))
+  {
+    finder.addViewProp(viewProp);
+  }
+  plainProps.endFrame();
+  return finder.take();
+}
+
+} // namespace gnomon

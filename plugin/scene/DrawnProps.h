@@ -1,0 +1,86 @@
+#ifndef gnomon_plugin_scene_DrawnProps_h
+#define gnomon_plugin_scene_DrawnProps_h
+
+#include <glm/glm.hpp>
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+class vtkActor;
+class vtkDataArray;
+class vtkDataSet;
+class vtkMapper;
+class vtkMatrix4x4;
+class vtkPolyData;
+class vtkProp;
+class vtkRenderer;
+
+namespace gnomon
+{
+
+class PlainProps;
+class TextureCutouts;
+struct CutoutMask;
+
+/// A VTK matrix as GLM's: the same transformation.
+glm::dmat4 toGlm(vtkMatrix4x4* matrix);
+
+/// One polydata of a prop, drawn once where the prop is, or as a glyph many times.
+struct DrawnBlock
+{
+  vtkPolyData* data = nullptr;
+  vtkDataSet* glyphPoints = nullptr; ///< for a glyph: the points that it is drawn at
+  int glyphSource = 0;               ///< and its place in the mapper's table of sources
+  /// Of the texture that cuts holes into it; null where none does.
+  vtkDataArray* textureCoordinates = nullptr;
+};
+
+/// One leaf prop on one path of a view prop, with the surfaces that VTK draws of it in the opaque
+/// pass, or in the translucent one. Pointers are valid until the scene is next changed.
+struct DrawnProp
+{
+  vtkProp* viewProp = nullptr; ///< the renderer's prop: the actor itself, or the assembly above it
+  std::size_t path = 0;        ///< the path's number among the view prop's paths
+  vtkActor* actor = nullptr;   ///< whom VTK hands to a render pass: followers and the like have one
+  vtkMapper* mapper = nullptr;
+  glm::dmat4 worldFromModel{ 1.0 };
+  /// The mapper's clipping planes in world coordinates: (n, d), n.x + d >= 0 where it draws.
+  std::vector<glm::dvec4> clipPlanes;
+
+  bool casts = true;
+  bool receives = true;
+  bool oneSided = false;
+  bool translucent = false; ///< it is here because it was asked to cast
+
+  std::shared_ptr<const CutoutMask> cutout; ///< what a texture leaves of its blocks; null for all
+  glm::mat4 textureTransform{ 1.0f };       ///< of the cut-out's coordinates (s, t, 0, 1)
+
+  std::size_t firstBlock = 0; ///< into DrawnProps::blocks
+  std::size_t blockCount = 0;
+};
+
+struct DrawnProps
+{
+  std::vector<DrawnProp> props;
+  /// What the props draw: one for vtkPolyDataMapper, any number for vtkCompositePolyDataMapper2,
+  /// where each polydata is there once, and for vtkGlyph3DMapper.
+  std::vector<DrawnBlock> blocks;
+  /// Actors whose translucent surfaces receive: whom VTK hands to a render pass.
+  std::vector<const vtkProp*> translucentReceivers;
+  /// What was left out although it may be opaque and visible, and why.
+  std::vector<std::string> notes;
+};
+
+/// Lists what a renderer's opaque pass draws as surfaces, and the translucent surfaces that are
+/// asked to cast, in the camera's view or not. Brings the inputs of mappers up to date first, as
+/// VTK does when it draws.
+///
+/// @param cutouts reads their textures, and keeps what it read from frame to frame
+/// @param plainProps keeps from frame to frame what need not be asked again
+DrawnProps findDrawnProps(vtkRenderer* renderer, TextureCutouts& cutouts, PlainProps& plainProps);
+
+} // namespace gnomon
+
+#endif

@@ -1,0 +1,40 @@
+#ifndef gnomon_plugin_scene_MapperInternals_h
+#define gnomon_plugin_scene_MapperInternals_h
+
+#include "plugin/scene/SurfaceExtraction.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+class vtkAbstractMapper;
+class vtkPolyData;
+
+namespace gnomon
+{
+
+/// One draw call of a mapper that is about to draw: the first of its triangles has the primitive
+/// number `firstPrimitive`, by gl_PrimitiveID + PrimitiveIDOffset.
+struct DrawCall
+{
+  vtkPolyData* data = nullptr;
+  std::uint32_t firstPrimitive = 0;
+};
+
+/// Which cells a polydata mapper, or a helper of vtkCompositePolyDataMapper2, is about to draw as
+/// triangles with the program that it has just handed to a render pass
+/// (vtkOpenGLRenderPass::SetShaderParameters). Nothing for lines, points, selections, and mappers
+/// that do not draw polydata.
+std::optional<SurfaceCells> cellsAboutToBeDrawn(vtkAbstractMapper* mapper);
+
+/// The draw calls for these cells, in order of firstPrimitive.
+std::vector<DrawCall> drawCalls(vtkAbstractMapper* mapper, SurfaceCells cells);
+
+/// The point array that a mapper was told to read a texture's coordinates from
+/// (vtkPolyDataMapper::MapDataArrayToMultiTextureAttribute); null for the data's own.
+const char* coordinatesArray(vtkAbstractMapper* mapper, const std::string& texture);
+
+} // namespace gnomon
+
+#endif

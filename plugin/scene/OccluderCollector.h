@@ -1,0 +1,78 @@
+#ifndef gnomon_plugin_scene_OccluderCollector_h
+#define gnomon_plugin_scene_OccluderCollector_h
+
+#include "plugin/scene/DrawnLookup.h"
+
+#include "shadowtech/base/Occluders.h"
+#include "shadowtech/base/Receivers.h"
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+class vtkAbstractMapper;
+class vtkProp;
+class vtkRenderer;
+
+namespace gnomon
+{
+
+/// Fills the snapshot from a renderer's visible props, in view or not, and keeps it up to date at
+/// the price of what changed.
+///
+/// It holds what VTK draws as triangles in its opaque pass: surfaces of vtkActors, alone or in
+/// assemblies, as followers or as levels of detail, whose mapper is a vtkPolyDataMapper, a
+/// vtkCompositePolyDataMapper2 or a vtkGlyph3DMapper; and translucent ones that are asked to cast.
+/// With them goes what a texture cuts out of them (TextureCutouts).
+/// A polydata with polygons and strips makes two surfaces; a glyph makes one surface, with its
+/// instances or with the triangles of all of them (KeptInstances.h). Front and back are OpenGL's: a
+/// triangle's front is
+/// the side that shows its corners counter-clockwise after the prop's matrix, so that a mirroring
+/// matrix swaps the sides just as it does for gl_FrontFacing and VTK's face culling.
+class OccluderCollector
+{
+public:
+  OccluderCollector();
+  ~OccluderCollector();
+
+  /// What one call did.
+  struct Change
+  {
+    int extracted = 0;     ///< surfaces whose mapper's input was read
+    int retransformed = 0; ///< surfaces whose centred positions were computed again
+  };
+
+  /// Brings the snapshot up to date with the renderer's props. Updates the mappers' inputs first,
+  /// as VTK would when drawing.
+  Change collect(vtkRenderer* renderer);
+
+  const Occluders& occluders() const;
+
+  /// What the last collect() left out although it may be visible and opaque (mappers that are not
+  /// served), and what it could not do for a surface, in words.
+  const std::vector<std::string>& notes() const;
+
+  /// The number of visible props with translucent surfaces that receive, as of the last collect().
+  std::size_t translucentReceivers() const;
+
+  /// Memory that all this holds: the snapshot, and what is remembered of each surface and prop.
+  std::size_t bytes() const;
+
+  /// Finds the surface that `mapper` (a mapper, or its helper) draws for `prop`, with the matrix that
+  /// the prop has at this moment. Called while VTK draws, from
+  /// vtkOpenGLRenderPass::SetShaderParameters.
+  Drawn drawn(vtkAbstractMapper* mapper, vtkProp* prop);
+
+  /// How primitive numbers of drawn surfaces lead to the snapshot (see projectReceivers). Entries
+  /// are added by drawn(), and stay until the next collect().
+  const std::vector<DrawnSurface>& drawnSurfaces() const;
+
+private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+} // namespace gnomon
+
+#endif

@@ -1,0 +1,258 @@
+#include "plugin/scene/SurfaceRecord.h"
+
+#include "plugin/scene/GlyphInstances.h"
+#include "plugin/scene/SurfaceClipping.h"
+
+#include "shadowtech/base/Instances.h"
+#include "shadowtech/base/Occluders.h"
+
+#include "vtkCompositeDataDisplayAttributes.h"
+#include "vtkDataArray.h"
+#include "vtkDataSet.h"
+#include "vtkGlyph3DMapper.h"
+#include "vtkPolyData.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+namespace gnomon
+{
+namespace
+{
+
+std::vector<glm::vec2> repeated(const std::vector<glm::vec2>& numbers, std::size_t times)
+{
+  std::vector<glm::vec2> result;
+  result.reserve(numbers.size() * times);
+  for (std::size_t i = 0; i < times; ++i)
+  {
+    result.insert(result.end(), numbers.begin(), numbers.end());
+  }
+  return result;
+}
+
+/// Repeats a glyph's triangles for each of its instances, each with vertices and texture coordinates of
+/// its own. None, if that would be too many.
+void expandInstances(FreshSurface& fresh)
+{
+  std::vector<glm::uvec3>& triangles = fresh.triangles;
+  const std::size_t count = triangles.size();
+  const std::size_t instances = fresh.record.modelFromInstance.size();
+  fresh.record.keptAsInstances = false;
+  if (fresh.record.tooManyTriangles)
+  {
+    triangles.clear();
+    fresh.textureCoordinates.clear();
+    fresh.vertexCount = 0;
+    return;
+  }
+  triangles.reserve(count * instances);
+  for (std::size_t instance = 1; instance < instances; ++instance)
+  {
+    const auto shift = static_cast<std::uint32_t>(instance * fresh.vertexCount);
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      const glm::uvec3 triangle = triangles[i];
+      const bool missing = triangle.x == DrawnTriangles::missingVertex;
+      triangles.push_back(missing ? triangle : triangle + shift);
+    }
+  }
+  triangles.resize(count * instances);
+  fresh.textureCoordinates = repeated(fresh.textureCoordinates, instances);
+}
+
+/// Takes the triangles that have a defect out of a fresh surface.
+void dropDefects(FreshSurface& fresh)
+{
+  const std::size_t drawnCount = fresh.triangles.size();
+  std::uint32_t keptCount = 0;
+  for (std::size_t drawn = 0; drawn < drawnCount; ++drawn)
+  {
+    const glm::uvec3 triangle = fresh.triangles[drawn];
+    const Defect defect = defectOf(triangle, fresh.positionsCentred.data());
+    if (defect != Defect::None)
+    {
+      if (fresh.triangleOfDrawn.empty())
+      {
+        fresh.triangleOfDrawn.resize(drawnCount);
+        std::iota(fresh.triangleOfDrawn.begin(), fresh.triangleOfDrawn.end(), 0u);
+      }
+      fresh.triangleOfDrawn[drawn] = Surface::noTriangle;
+      fresh.record.dropped.push_back({ triangle, defect });
+      continue;
+    }
+    if (!fresh.triangleOfDrawn.empty())
+    {
+      fresh.triangleOfDrawn[drawn] = keptCount;
+    }
+    fresh.triangles[keptCount++] = triangle;
+  }
+  fresh.triangles.resize(keptCount);
+}
+
+/// Computes what a surface that is kept as instances needs; false if it cannot be.
+bool placeSource(FreshSurface& fresh, const DrawnBlock& block, const glm::dvec3& centreWorld)
+{
+  SurfaceRecord& record = fresh.record;
+  std::optional<PlacedInstances> placed = placeKeptInstances(record, centreWorld);
+  if (!placed)
+  {
+    return false;
+  }
+  fresh.instances = std::move(*placed);
+  fresh.positionsCentred.resize(fresh.vertexCount);
+  glm::vec3* positions = fresh.positionsCentred.data();
+  placeVertices(block.data, record.pointOfVertex, fresh.vertexCount, glm::dmat4(1.0),
+    record.sourceCentre, positions);
+  dropDefects(fresh);
+  clearNonFinite(positions, fresh.vertexCount);
+  recordPlaces(fresh.instances, positions, fresh.vertexCount, record);
+  return true;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+Bounds transformed(const Bounds& box, const glm::dmat4& matrix)
+{
+  Bounds result;
+  if (!box.empty())
+  {
+    for (const glm::dvec3& corner : box.corners())
+    {
+      const glm::dvec4 image = matrix * glm::dvec4(corner, 1.0);
+      result.add(glm::dvec3(image) / image.w);
+    }
+  }
+  return result;
+}
+
+//------------------------------------------------------------------------------
+vtkMTimeType changeTime(const DrawnProp& prop, const DrawnBlock& block, SurfaceCells cells)
+{
+  vtkMTimeType time = shapeTime(block.data, cells);
+  if (block.glyphPoints)
+  {
+    // When VTK computes the instances again.
+    auto* mapper = static_cast<vtkGlyph3DMapper*>(prop.mapper);
+    vtkObject* attributes = mapper->GetBlockAttributes();
+    time = std::max({ time, mapper->GetMTime(), block.glyphPoints->GetMTime(),
+      attributes ? attributes->GetMTime() : 0 });
+  }
+  return time;
+}
+
+//------------------------------------------------------------------------------
+CoordinatesSource coordinatesSource(const DrawnProp& prop, const DrawnBlock& block)
+{
+  vtkDataArray* array = block.textureCoordinates;
+  return array ? CoordinatesSource{ array, array->GetMTime(), prop.textureTransform }
+               : CoordinatesSource{};
+}
+
+//------------------------------------------------------------------------------
+FreshSurface readSurface(const DrawnProp& prop, const DrawnBlock& block, SurfaceCells cells,
+  std::vector<std::uint32_t>& vertexOfPoint)
+{
+  DrawnTriangles drawn = triangulate(block.data, cells, vertexOfPoint);
+  FreshSurface fresh;
+  SurfaceRecord& record = fresh.record;
+  record.pointOfVertex = std::move(drawn.pointOfVertex);
+  record.boundsModel = drawn.boundsModel;
+  if (block.glyphPoints)
+  {
+    record.modelFromInstance = glyphInstances(
+      static_cast<vtkGlyph3DMapper*>(prop.mapper), block.glyphPoints, block.glyphSource);
+    record.boundsModel = Bounds();
+    for (const glm::mat4& instance : record.modelFromInstance)
+    {
+      record.boundsModel.add(transformed(drawn.boundsModel, glm::dmat4(instance)));
+    }
+    const std::size_t instances = record.modelFromInstance.size();
+    record.tooManyTriangles = drawn.triangles.size() * instances > mostGlyphTriangles;
+    record.keptAsInstances = !record.tooManyTriangles && prop.clipPlanes.empty() &&
+      !drawn.boundsModel.empty() && areInstancesCheaper(drawn.triangles.size(), instances);
+    if (record.keptAsInstances)
+    {
+      record.sourceCentre = drawn.boundsModel.centre();
+      record.boundsSource = { drawn.boundsModel.lower - record.sourceCentre,
+        drawn.boundsModel.upper - record.sourceCentre };
+    }
+  }
+  record.coordinates = coordinatesSource(prop, block);
+  if (record.coordinates.array)
+  {
+    fresh.textureCoordinates = readTextureCoordinates(
+      block.textureCoordinates, prop.textureTransform, record.pointOfVertex, drawn.vertexCount);
+  }
+  fresh.vertexCount = drawn.vertexCount;
+  fresh.triangles = std::move(drawn.triangles);
+  return fresh;
+}
+
+//------------------------------------------------------------------------------
+std::optional<PlacedInstances> placeKeptInstances(
+  const SurfaceRecord& record, const glm::dvec3& centreWorld)
+{
+  return placeKeptInstances(record.worldFromModel, record.modelFromInstance, record.sourceCentre,
+    record.boundsSource, centreWorld);
+}
+
+//------------------------------------------------------------------------------
+void recordPlaces(const PlacedInstances& placed, const glm::vec3* positionsSource,
+  std::size_t vertexCount, SurfaceRecord& record)
+{
+  record.leftOutNonFinite = placed.leftOutNonFinite;
+  record.leftOutVanished = placed.leftOutVanished;
+  record.boundsCentred = instancesBounds(positionsSource, vertexCount, placed.centredFromSource);
+}
+
+//------------------------------------------------------------------------------
+void placeInstances(const DrawnBlock& block, const SurfaceRecord& record, std::size_t vertexCount,
+  const glm::dvec3& centreWorld, glm::vec3* positionsCentred)
+{
+  const std::size_t instances = record.modelFromInstance.size();
+  const std::size_t step = instances > 0 ? vertexCount / instances : 0;
+  for (std::size_t i = 0; i < instances; ++i)
+  {
+    placeVertices(block.data, record.pointOfVertex, step,
+      record.worldFromModel * glm::dmat4(record.modelFromInstance[i]), centreWorld,
+      positionsCentred + i * step);
+  }
+}
+
+//------------------------------------------------------------------------------
+void placeSurface(FreshSurface& fresh, const DrawnProp& prop, const DrawnBlock& block,
+  const glm::dvec3& centreWorld)
+{
+  SurfaceRecord& record = fresh.record;
+  record.worldFromModel = prop.worldFromModel;
+  record.clipPlanes = prop.clipPlanes;
+  std::vector<glm::vec3>& positions = fresh.positionsCentred;
+  if (record.keptAsInstances && placeSource(fresh, block, centreWorld))
+  {
+    return;
+  }
+  if (block.glyphPoints)
+  {
+    expandInstances(fresh);
+  }
+  positions.resize(fresh.vertexCount * record.modelFromInstance.size());
+  placeInstances(block, record, positions.size(), centreWorld, positions.data());
+  dropDefects(fresh);
+  clearNonFinite(positions.data(), positions.size());
+  if (!record.clipPlanes.empty())
+  {
+    std::vector<glm::dvec4> planesCentred = record.clipPlanes;
+    for (glm::dvec4& plane : planesCentred)
+    {
+      plane.w += glm::dot(glm::dvec3(plane), centreWorld);
+    }
+    clipTriangles(
+      planesCentred, positions, fresh.textureCoordinates, fresh.triangles, fresh.triangleOfDrawn);
+  }
+  record.boundsCentred = boundsOf(fresh.triangles.begin(), fresh.triangles.end(), positions.data());
+}
+
+} // namespace gnomon

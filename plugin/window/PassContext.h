@@ -1,0 +1,42 @@
+#ifndef gnomon_plugin_window_PassContext_h
+#define gnomon_plugin_window_PassContext_h
+
+#include <vtkOpenGLRenderWindow.h>
+#include <vtkTimeStamp.h>
+#include <vtkWeakPointer.h>
+
+#include <functional>
+
+class vtkRenderPass;
+class vtkRenderer;
+
+namespace gnomon
+{
+
+/// The OpenGL context that a render pass keeps objects in.
+class PassContext
+{
+public:
+  /// Makes a renderer's context current. Where it is another one than in the frame before, the pass releases what it
+  /// holds in that one (vtkRenderPass::ReleaseGraphicsResources).
+  ///
+  /// @return whether Gnomon can draw there. Where it cannot, the pass has told its observers why: a context that does not
+  /// serve, the first time that it is met.
+  bool enter(vtkRenderPass* pass, vtkRenderer* renderer);
+
+  vtkOpenGLRenderWindow* window() const { return this->window_; }
+
+  /// Leaves the context for good.
+  /// @param release gives objects back, in the window whose context is current; null: it is gone, and names only are
+  /// forgotten
+  void leave(const std::function<void(vtkOpenGLRenderWindow*)>& release);
+
+private:
+  vtkWeakPointer<vtkOpenGLRenderWindow> window_;
+  vtkTimeStamp checked_;
+  bool serves_ = false;
+};
+
+} // namespace gnomon
+
+#endif

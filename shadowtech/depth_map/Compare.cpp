@@ -1,0 +1,24 @@
+#include "shadowtech/depth_map/Compare.h"
+
+#include "shadowtech/base/ShaderLibrary.h"
+
+namespace gnomon
+{
+
+//------------------------------------------------------------------------------
+TechniqueInfo Compare::info()
+{
+  TechniqueInfo info;
+  info.name = "compare";
+  info.evaluation = Evaluation::Pointwise;
+  info.needsMap = true;
+  return info;
+}
+
+//------------------------------------------------------------------------------
+std::string Compare::estimatorGlsl(const ShadowLight&) const
+{
+  return ShaderLibrary::source("shadowtech/depth_map/compare_estimator.glsl");
+}
+
+} // namespace gnomon

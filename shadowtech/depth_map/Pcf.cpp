@@ -1,0 +1,101 @@
+#include "shadowtech/depth_map/Pcf.h"
+
+#include "shadowtech/base/GlslText.h"
+#include "shadowtech/base/Kernel.h"
+#include "shadowtech/base/ShaderLibrary.h"
+#include "shadowtech/depth_map/PoissonDisc.h"
+
+namespace gnomon
+{
+namespace
+{
+
+std::string poissonDiscGlsl()
+{
+  std::string points;
+  for (const glm::dvec2& point : poissonDisc())
+  {
+    points += points.empty() ? "" : ", ";
+    points += "vec2(" + std::to_string(point.x) + ", " + std::to_string(point.y) + ")";
+  }
+  return "const vec2 poissonDisc_LIGHT[" + std::to_string(poissonPoints) + "] = vec2[](" + points +
+    ");\n";
+}
+
+/// The kernel's weights at 0, 1, 2, ... texels from the point, straight in between, and 0 at the end.
+/// Castano 2013 gives them as the places and weights of bilinear look-ups.
+std::vector<int> castanoWeights(int texels)
+{
+  switch (texels)
+  {
+    case 3:
+      return { 2, 1, 0 };
+    case 5:
+      return { 4, 3, 1, 0 };
+    default:
+      return { 16, 12, 5, 1, 0 };
+  }
+}
+
+std::string castanoGlsl(int texels)
+{
+  std::string weights;
+  for (const int weight : castanoWeights(texels))
+  {
+    weights += (weights.empty() ? "" : ", ") + std::to_string(weight) + ".0";
+  }
+  const std::string count = std::to_string(castanoWeights(texels).size());
+  return "const float castano_LIGHT[" + count + "] = float[](" + weights + ");\n";
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+TechniqueInfo Pcf::info()
+{
+  TechniqueInfo info;
+  info.name = "pcf";
+  info.evaluation = Evaluation::Pointwise;
+  info.needsMap = true;
+  info.filters = true;
+  return info;
+}
+
+//------------------------------------------------------------------------------
+MapReach Pcf::mapReach(const ShadowLight& light) const
+{
+  const KernelUnits units = kernelUnits(light);
+  const double width = light.kernelTexels;
+  switch (light.kernel)
+  {
+    case FilterKernel::Bilinear:
+    case FilterKernel::Castano:
+      return units == KernelUnits::Across ? kernelReach(light, { 1.0, 0.5 * (width - 1.0), 0.0 })
+                                          : kernelReach(light, { 0.0, 0.5 * (width + 1.0), 0.0 });
+    case FilterKernel::Box:
+      return kernelReach(light, { 0.5, 0.5 * (width - 1.0), 0.0 });
+    case FilterKernel::Poisson:
+      return kernelReach(light, { 0.5, 0.0, 0.5 * width });
+  }
+  return {};
+}
+
+//------------------------------------------------------------------------------
+std::string Pcf::estimatorGlsl(const ShadowLight& light) const
+{
+  const KernelUnits units = kernelUnits(light);
+  const bool poisson = light.kernel == FilterKernel::Poisson;
+  const bool castano = light.kernel == FilterKernel::Castano;
+  const bool smooth = castano || light.kernel == FilterKernel::Bilinear;
+  const bool rows = light.kernel == FilterKernel::Bilinear && units == KernelUnits::Texels;
+  const bool weighted = smooth && !rows && units != KernelUnits::Across;
+  return kernelDefines(light) + glslDefine("PCF_TEXELS_LIGHT", light.kernelTexels) +
+    glslDefine("PCF_ROWS_LIGHT", rows) + glslDefine("PCF_WEIGHTED_LIGHT", weighted) +
+    glslDefine("PCF_POISSON_LIGHT", poisson) + glslDefine("PCF_POINTS_LIGHT", poissonPoints) +
+    glslDefine("PCF_BOX_LIGHT", light.kernel == FilterKernel::Box) +
+    glslDefine("PCF_CASTANO_LIGHT", castano) + (poisson ? poissonDiscGlsl() : "") +
+    (castano ? castanoGlsl(light.kernelTexels) : "") +
+    ShaderLibrary::source("shadowtech/depth_map/pcf_estimator.glsl");
+}
+
+} // namespace gnomon

@@ -1,0 +1,23 @@
+#ifndef gnomon_shadowtech_depth_map_PoissonDisc_h
+#define gnomon_shadowtech_depth_map_PoissonDisc_h
+
+#include <glm/glm.hpp>
+
+#include <array>
+
+namespace gnomon
+{
+
+constexpr int poissonPoints = 16;
+
+/// The least distance of two points of the disc. The best that so many discs can have that fill the
+/// plane is 2 * sqrt(1 / (2 * sqrt(3) * 16 / pi)) = 0.476 (Lagae and Dutre 2008, section 2.2).
+constexpr double poissonDistance = 0.42;
+
+/// Points of the unit disc, no two of them nearer to each other than poissonDistance; the same ones
+/// at every call, on every machine.
+const std::array<glm::dvec2, poissonPoints>& poissonDisc();
+
+} // namespace gnomon
+
+#endif

@@ -1,0 +1,82 @@
+#include "shadowtech/exact/ConservativeMaps.h"
+
+#include "shadowtech/base/Bytes.h"
+#include "shadowtech/base/Receivers.h"
+#include "shadowtech/base/TextureMemory.h"
+
+#include <utility>
+
+namespace gnomon
+{
+
+//------------------------------------------------------------------------------
+void ConservativeMaps::bake(const ShadowLight& light, const LightViews& views,
+  const Occluders& occluders, const MapRule& rule)
+{
+  this->clear(); // what they had makes room
+  this->onCaster_.assign(1, 0);
+  for (const Surface& surface : occluders.surfaces)
+  {
+    this->onCaster_.push_back(surface.casts && !surface.oneSided ? 1 : 0);
+  }
+  requireRoomForMap(
+    4 * sizeof(TexelBounds) / 3, light.mapSizeTexels, static_cast<int>(views.views.size()));
+  this->edges_.update(occluders);
+  std::vector<ConservativeMap> maps; // all of them or none
+  for (const LightView& view : views.views)
+  {
+    maps.push_back(rule(view, views.box.z > 0.0, light.mapSizeTexels, occluders, this->edges_));
+  }
+  this->maps_ = std::move(maps);
+  this->triangles_ = TriangleDecisions(light, occluders, this->maps_);
+}
+
+//------------------------------------------------------------------------------
+void ConservativeMaps::clear()
+{
+  this->maps_.clear();
+  this->triangles_ = {};
+}
+
+//------------------------------------------------------------------------------
+Certainty ConservativeMaps::ofTriangle(const ReceiverTriangle& triangle) const
+{
+  return this->triangles_.of(triangle);
+}
+
+//------------------------------------------------------------------------------
+Certainty ConservativeMaps::ofSegment(const ReceiverSegment& segment) const
+{
+  // Whichever map knows is right, so that it does not matter which of them is the receivers' own.
+  for (const ConservativeMap& map : this->maps_)
+  {
+    const Certainty certainty = map.ask(segment, this->onCaster_[segment.surface + 1u] != 0);
+    if (certainty != Certainty::Uncertain)
+    {
+      return certainty;
+    }
+  }
+  return Certainty::Uncertain;
+}
+
+//------------------------------------------------------------------------------
+void ConservativeMaps::ofPixels(const ReceiverTile& tile, std::vector<Certainty>& certain) const
+{
+  for (const ConservativeMap& map : this->maps_)
+  {
+    map.ask(tile.receivers, this->onCaster_, certain);
+  }
+}
+
+//------------------------------------------------------------------------------
+std::size_t ConservativeMaps::bytes() const
+{
+  std::size_t bytes = this->edges_.bytes() + this->triangles_.bytes() + bytesOf(this->onCaster_);
+  for (const ConservativeMap& map : this->maps_)
+  {
+    bytes += map.bytes();
+  }
+  return bytes;
+}
+
+} // namespace gnomon

@@ -1,0 +1,211 @@
+#ifndef gnomon_shadowtech_mesh_CasterBands_h
+#define gnomon_shadowtech_mesh_CasterBands_h
+
+#include "shadowtech/base/Occluders.h"
+#include "shadowtech/mesh/TexelRows.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace gnomon
+{
+
+/// @file
+/// How maps are drawn on all cores: the casters are looked at once, to find in which bands of rows each lies, and then
+/// the bands are drawn, each by one core, so that their texels stay in the processor's cache.
+
+/// A casting surface, or one instance of it.
+struct Placement
+{
+  std::uint32_t surface;
+  std::uint32_t instance;
+  std::size_t firstTriangle; ///< of its triangles among those of all placements
+};
+
+/// All that casts in a snapshot.
+class CasterPlacements
+{
+public:
+  /// @param occluders must outlive this
+  explicit CasterPlacements(const Occluders& occluders);
+
+  std::size_t triangleCount() const { return this->triangleCount_; }
+  const Placement& operator[](std::uint32_t placement) const
+  {
+    return this->placements_[placement];
+  }
+  const Surface& surfaceOf(const Placement& placement) const
+  {
+    return this->occluders_.surfaces[placement.surface];
+  }
+  /// A triangle's number among those of all placements.
+  /// @param triangle of the snapshot
+  std::size_t numberOf(const Placement& placement, std::uint32_t triangle) const
+  {
+    return placement.firstTriangle + (triangle - this->surfaceOf(placement).firstTriangle);
+  }
+
+  /// The only placement of a casting surface without instances.
+  const Placement& placementOf(std::uint32_t surface) const
+  {
+    return this->placements_[this->firstOfSurface_[surface]];
+  }
+
+  /// Visits things of all placements, on all cores.
+  /// @param countOf how many of them a placement has
+  /// @param visit called with the placement's number and the thing's
+  template <typename CountOf, typename Visit>
+  void visitAll(const CountOf& countOf, const Visit& visit) const
+  {
+    tbb::parallel_for(std::uint32_t(0), static_cast<std::uint32_t>(this->placements_.size()),
+      [&](std::uint32_t placement)
+      {
+        const auto count = static_cast<std::uint32_t>(countOf(this->placements_[placement]));
+        tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, count, 1024),
+          [&](const tbb::blocked_range<std::uint32_t>& range)
+          {
+            for (std::uint32_t i = range.begin(); i != range.end(); ++i)
+            {
+              visit(placement, i);
+            }
+          });
+      });
+  }
+  /// The same, so many of them after one another that what is made of them need not be kept.
+  /// @param finishPart called by the calling thread when some, and at last all, have been visited
+  template <typename CountOf, typename Visit, typename FinishPart>
+  void visitInParts(const CountOf& countOf, const Visit& visit, const FinishPart& finishPart) const
+  {
+    constexpr std::uint32_t mostOfRange = 1024;
+    constexpr std::size_t rangesOfPart = 128;
+    struct Range
+    {
+      std::uint32_t placement, first, last;
+    };
+    std::vector<Range> part;
+    const auto visitPart = [&]
+    {
+      tbb::parallel_for(std::size_t(0), part.size(),
+        [&](std::size_t i)
+        {
+          for (std::uint32_t thing = part[i].first; thing < part[i].last; ++thing)
+          {
+            visit(part[i].placement, thing);
+          }
+        });
+      part.clear();
+      finishPart();
+    };
+    for (std::uint32_t placement = 0; placement < this->placements_.size(); ++placement)
+    {
+      const auto count = static_cast<std::uint32_t>(countOf(this->placements_[placement]));
+      for (std::uint32_t first = 0; first < count; first += mostOfRange)
+      {
+        part.push_back({ placement, first, std::min(first + mostOfRange, count) });
+        if (part.size() == rangesOfPart)
+        {
+          visitPart();
+        }
+      }
+    }
+    visitPart();
+  }
+  /// Visits all triangles, by their numbers in the snapshot.
+  template <typename Visit>
+  void visitTriangles(const Visit& visit) const
+  {
+    this->visitAll([this](const Placement& placement)
+      { return this->surfaceOf(placement).triangleCount; },
+      [&](std::uint32_t placement, std::uint32_t i)
+      { visit(placement, this->surfaceOf(this->placements_[placement]).firstTriangle + i); });
+  }
+
+private:
+  const Occluders& occluders_;
+  std::vector<Placement> placements_;
+  std::vector<std::uint32_t> firstOfSurface_; ///< of its placements, where it has any
+  std::size_t triangleCount_ = 0;
+};
+
+/// What lies in a band of rows.
+struct BandItem
+{
+  std::uint32_t placement;
+  std::uint32_t index; ///< a triangle of the snapshot, or an edge of the surface
+};
+
+/// Items by the bands of rows that they lie in. Takes them from several threads.
+class CasterBands
+{
+public:
+  static constexpr int rows = 16; ///< of a band
+
+  /// @param size of the map, in texels
+  explicit CasterBands(int size);
+
+  /// @param low, high between which rows it lies, in texels
+  void add(double low, double high, const BandItem& item);
+
+  template <typename Visit>
+  void visit(int band, const Visit& visitItem) const
+  {
+    for (const Lists& lists : this->lists_)
+    {
+      for (const BandItem& item : lists[static_cast<std::size_t>(band)])
+      {
+        visitItem(item);
+      }
+    }
+  }
+
+private:
+  using Lists = std::vector<std::vector<BandItem>>;
+  int size_;
+  tbb::enumerable_thread_specific<Lists> lists_;
+};
+
+/// Visits the bands of a map on all cores.
+/// @param visit called with the band's number and its rows
+template <typename Visit>
+void visitBands(int size, const Visit& visit)
+{
+  tbb::parallel_for(0, (size + CasterBands::rows - 1) / CasterBands::rows,
+    [&](int band)
+    {
+      const int first = band * CasterBands::rows;
+      visit(band, Span{ first, std::min(first + CasterBands::rows, size) - 1 });
+    });
+}
+
+/// Draws all rows of a map, band by band.
+/// @tparam Cell what is gathered of a texel
+/// @param drawBand called with the band's number, its rows, and their cells, row by row
+/// @param take called with each texel's number on the map and its cell, from several threads
+template <typename Cell, typename DrawBand, typename Take>
+void drawBands(int size, const DrawBand& drawBand, const Take& take)
+{
+  tbb::enumerable_thread_specific<std::vector<Cell>> cellsOfThread;
+  visitBands(size,
+    [&](int band, Span rows)
+    {
+      const auto width = static_cast<std::size_t>(size);
+      const std::size_t first = static_cast<std::size_t>(rows.first) * width;
+      std::vector<Cell>& cells = cellsOfThread.local();
+      cells.assign(static_cast<std::size_t>(rows.last - rows.first + 1) * width, Cell());
+      drawBand(band, rows, cells.data());
+      for (std::size_t i = 0; i < cells.size(); ++i)
+      {
+        take(first + i, cells[i]);
+      }
+    });
+}
+
+} // namespace gnomon
+
+#endif

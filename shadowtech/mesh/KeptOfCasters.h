@@ -1,0 +1,91 @@
+#ifndef gnomon_shadowtech_mesh_KeptOfCasters_h
+#define gnomon_shadowtech_mesh_KeptOfCasters_h
+
+#include "shadowtech/base/Bytes.h"
+#include "shadowtech/base/Occluders.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+namespace gnomon
+{
+
+/// Something that is found for each casting surface, and kept from snapshot to snapshot.
+/// @tparam Found with bytes(), what it holds elsewhere
+template <typename Found>
+class KeptOfCasters
+{
+public:
+  /// Finds it for surfaces that are new, and brings it up to date for those that moved or have another place in the snapshot.
+  /// @param bringUpToDate called with a snapshot, a surface of it, and what was found for the same triangles; a new Found, if nothing
+  /// was
+  template <typename BringUpToDate>
+  void update(const Occluders& occluders, const BringUpToDate& bringUpToDate)
+  {
+    // Should that fail, what is kept is whole, and the rest will be found again.
+    std::unordered_map<std::uint64_t, Kept> earlier = std::exchange(this->kept_, {});
+    this->bySurface_.assign(occluders.surfaces.size(), nullptr);
+    for (const Surface& surface : occluders.surfaces)
+    {
+      if (!surface.casts)
+      {
+        continue;
+      }
+      Kept kept;
+      const auto before = earlier.find(surface.topologyVersion);
+      const bool isNew = before == earlier.end();
+      if (!isNew)
+      {
+        kept = std::move(before->second);
+      }
+      if (isNew || kept.positionsVersion != surface.positionsVersion ||
+        kept.firstVertex != surface.firstVertex || kept.firstTriangle != surface.firstTriangle)
+      {
+        bringUpToDate(occluders, surface, kept.found);
+        kept.positionsVersion = surface.positionsVersion;
+        kept.firstVertex = surface.firstVertex;
+        kept.firstTriangle = surface.firstTriangle;
+      }
+      this->kept_.emplace(surface.topologyVersion, std::move(kept));
+    }
+    for (std::size_t i = 0; i < occluders.surfaces.size(); ++i)
+    {
+      if (occluders.surfaces[i].casts)
+      {
+        this->bySurface_[i] = &this->kept_.at(occluders.surfaces[i].topologyVersion).found;
+      }
+    }
+  }
+
+  /// Of a casting surface.
+  /// @param surface index into the snapshot's surfaces, as of the last update
+  const Found& of(std::size_t surface) const { return *this->bySurface_[surface]; }
+
+  std::size_t bytes() const
+  {
+    std::size_t bytes = bytesOfTable(this->kept_) + bytesOf(this->bySurface_);
+    for (const auto& entry : this->kept_)
+    {
+      bytes += entry.second.found.bytes();
+    }
+    return bytes;
+  }
+
+private:
+  struct Kept
+  {
+    std::uint64_t positionsVersion = 0;
+    std::uint32_t firstVertex = 0;
+    std::uint32_t firstTriangle = 0;
+    Found found;
+  };
+  std::unordered_map<std::uint64_t, Kept> kept_; ///< by the surface's topologyVersion
+  std::vector<const Found*> bySurface_;
+};
+
+} // namespace gnomon
+
+#endif

@@ -1,0 +1,66 @@
+#ifndef gnomon_shadowtech_mesh_TexelRows_h
+#define gnomon_shadowtech_mesh_TexelRows_h
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace gnomon
+{
+
+/// @file
+/// Which texels of a map's rows lie inside straight sides.
+
+/// Columns or rows, from the first to the last.
+struct Span
+{
+  int first, last;
+};
+
+/// The rows or columns below `limit` that a range of texel coordinates meets; none if first > last.
+inline Span spanOf(double low, double high, int limit)
+{
+  return { static_cast<int>(std::floor(std::clamp(low, 0.0, static_cast<double>(limit)))),
+    static_cast<int>(std::floor(std::clamp(high, -1.0, limit - 1.0))) };
+}
+
+/// How x where nx x + rest = 0 follows from the rest; 0 where a side runs along the row.
+inline double boundPerRest(double nx)
+{
+  return std::abs(nx) > 1e-12 ? -1.0 / nx : 0.0;
+}
+
+/// Texels of a row, those that a polygon's sides leave.
+struct RowRange
+{
+  double low, high; ///< of texels' centres
+
+  /// Leaves nx x + rest >= 0.
+  /// @param perRest boundPerRest(nx)
+  void cut(double perRest, double rest)
+  {
+    if (perRest < 0.0)
+    {
+      this->low = std::max(this->low, rest * perRest);
+    }
+    else if (perRest > 0.0)
+    {
+      this->high = std::min(this->high, rest * perRest);
+    }
+    else if (rest < 0.0)
+    {
+      this->high = -std::numeric_limits<double>::infinity();
+    }
+  }
+  /// The texels whose point at `at` in [0, 1) lies in the range.
+  Span texels(double at, int width) const
+  {
+    return { static_cast<int>(
+               std::ceil(std::clamp(this->low - at, 0.0, static_cast<double>(width)))),
+      static_cast<int>(std::floor(std::clamp(this->high - at, -1.0, width - 1.0))) };
+  }
+};
+
+} // namespace gnomon
+
+#endif

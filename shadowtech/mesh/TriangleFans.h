@@ -1,0 +1,84 @@
+#ifndef gnomon_shadowtech_mesh_TriangleFans_h
+#define gnomon_shadowtech_mesh_TriangleFans_h
+
+#include "lights/ShadowSettings.h"
+#include "shadowtech/base/Occluders.h"
+#include "shadowtech/mesh/KeptOfCasters.h"
+
+#include <glm/glm.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace gnomon
+{
+
+/// The triangles around each vertex of a surface, those at exactly the same place counting as one.
+struct SurfaceFans
+{
+  std::uint32_t firstTriangle = 0;  ///< of the surface
+  std::vector<glm::uvec3> corners;  ///< the vertices of each of its triangles, as they count here
+  std::vector<std::uint32_t> begin; ///< of each vertex' fan in `triangles`, and the end of the last
+  std::vector<std::uint32_t> triangles; ///< counted from firstTriangle
+
+  std::size_t bytes() const;
+};
+
+/// Brings the fans of a surface up to date: they stay where the same vertices as before are at the same place.
+/// @param fans of the same triangles at any other place; or empty, and then all is found
+void updateFans(const Occluders& occluders, const Surface& surface, SurfaceFans& fans);
+
+/// The fans of the casting surfaces, kept from snapshot to snapshot.
+class TriangleFans
+{
+public:
+  void update(const Occluders& occluders) { this->kept_.update(occluders, updateFans); }
+  /// @param surface index into the snapshot's surfaces, as of the last update
+  const SurfaceFans& of(std::size_t surface) const { return this->kept_.of(surface); }
+  std::size_t bytes() const { return this->kept_.bytes(); }
+
+private:
+  KeptOfCasters<SurfaceFans> kept_;
+};
+
+/// Visits a triangle and those that share an edge with it, or a vertex, each once: any number of triangles
+/// may meet in either.
+/// @param triangle of the snapshot, as are those visited
+/// @param visit returns whether that is enough
+/// @return whether it was
+template <typename Visit>
+bool visitAdjacent(
+  const SurfaceFans& fans, std::uint32_t triangle, Adjacency adjacency, const Visit& visit)
+{
+  if (visit(triangle))
+  {
+    return true;
+  }
+  const glm::uvec3& own = fans.corners[triangle - fans.firstTriangle];
+  const auto has = [](const glm::uvec3& corners, std::uint32_t vertex)
+  { return corners.x == vertex || corners.y == vertex || corners.z == vertex; };
+  for (int k = 0; k < 3; ++k)
+  {
+    for (std::uint32_t i = fans.begin[own[k]]; i != fans.begin[own[k] + 1]; ++i)
+    {
+      const std::uint32_t other = fans.triangles[i];
+      const glm::uvec3& corners = fans.corners[other];
+      const bool x = has(corners, own.x);
+      const bool y = has(corners, own.y);
+      const bool z = has(corners, own.z);
+      const bool isFirst = k == (x ? 0 : y ? 1 : 2); // else it has been visited in another fan
+      const bool sharesEdge = (x && y) || (y && z) || (z && x);
+      if (isFirst && other + fans.firstTriangle != triangle &&
+        (sharesEdge || adjacency == Adjacency::Vertices) && visit(other + fans.firstTriangle))
+      {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+} // namespace gnomon
+
+#endif

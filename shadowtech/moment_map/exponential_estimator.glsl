@@ -1,0 +1,38 @@
+// Exponential variance shadow maps (Lauritzen and McCool 2008). VARIANCE_FLOOR_LIGHT is a square of
+// depths in [0, 1].
+
+#include "shadowtech/moment_map/exponential_warps.glsl"
+#include "shadowtech/moment_map/moment_map.glsl"
+#include "shadowtech/moment_map/chebyshev.glsl"
+
+// The bound by one of the functions, with all of it over the function's value at the receiver, so
+// that small ones keep their digits. Where the mean is far beyond that value, the square may overflow;
+// the variance is of no meaning then.
+float warpedBound_LIGHT(vec2 moments, float warped, float exponent)
+{
+  float size = abs(warped);
+  float mean = moments.x / size;
+  float variance = moments.y / size / size - mean * mean;
+  float least = 4.0 * VARIANCE_FLOOR_LIGHT * exponent * exponent;
+  return chebyshevBound(mean, max(variance, least), sign(warped));
+}
+
+// How much nearer than the receiver the depth is whose value the second function has in the mean over
+// the receiver's own plane, at most (Exponential.h).
+float concaveBias_LIGHT(ViewPoint point)
+{
+  float exponent = 2.0 * exponentNegative; // of depths in [0, 1]
+  vec2 halfSpan = 0.5 * (kernelTexels_LIGHT(point) + 1.0) * exponent * planeSlope_LIGHT(point);
+  vec2 bias = min(halfSpan, halfSpan * halfSpan / 6.0) / exponent;
+  return bias.x + bias.y;
+}
+
+float estimate_LIGHT(ViewPoint point, float slack)
+{
+  vec4 moments = momentsAt_LIGHT(point);
+  float positive = exp(exponentPositive * centredDepth_LIGHT(point, slack));
+  float negative =
+    -exp(-exponentNegative * centredDepth_LIGHT(point, slack + concaveBias_LIGHT(point)));
+  return withoutBleeding_LIGHT(min(warpedBound_LIGHT(moments.xy, positive, exponentPositive),
+    warpedBound_LIGHT(moments.zw, negative, exponentNegative)));
+}
