@@ -41,6 +41,7 @@ struct LightArea
   {
     return this->shape == other.shape && this->worldFromUnit == other.worldFromUnit;
   }
+  bool operator!=(const LightArea& other) const { return !(*this == other); }
 };
 
 /// A rectangle.

@@ -1,6 +1,7 @@
 #include "shadowtech/selective/ChainTechnique.h"
 
 #include "lights/LightSpace.h"
+#include "shadowtech/selective/LightInCaster.h"
 
 namespace gnomon
 {
@@ -29,6 +30,7 @@ void ChainTechnique::bake(const MapInput& input)
 {
   const ShadowLight& light = input.light;
   this->rim_.clear();
+  this->inCaster_.reset();
   this->maps_.bake(input.views, light.mapSizeTexels, input.occluders,
     light.box ? std::optional(nearFaceCentred(light, input.occluders.centreWorld)) : std::nullopt);
 }
@@ -40,15 +42,41 @@ std::size_t ChainTechnique::bytesOfMaps() const
 }
 
 //------------------------------------------------------------------------------
+/// @param soft whether its area counts, not its centre alone
+bool ChainTechnique::lightLiesInCaster(const ScreenInput& input, bool soft)
+{
+  const ShadowLight& light = input.light;
+  if (light.kind == LightKind::Directional)
+  {
+    return false;
+  }
+  // Where the light is, the maps' views say: they are baked again when it moves.
+  const std::optional<LightArea> area = soft ? light.area : std::nullopt;
+  if (!this->inCaster_ || this->inCaster_->first != area)
+  {
+    this->inCaster_.emplace(area,
+      liesInCaster(light.positionWorld - input.occluders.centreWorld, area ? &*area : nullptr,
+        input.occluders));
+  }
+  return this->inCaster_->second;
+}
+
+//------------------------------------------------------------------------------
 void ChainTechnique::computeVisibility(
   const ScreenInput& input, std::vector<float>& visibility, LightReport& report)
 {
-  const ChainStages stages = this->stagesOf(input.light);
+  ChainStages stages = this->stagesOf(input.light);
+  const bool soft = input.light.area && stages.rimPoints > 0;
+  if (this->lightLiesInCaster(input, soft))
+  {
+    // No texel shows that caster, so that only proofs and rays count.
+    stages.contourPixels = 0;
+    stages.coherenceTexels = 0;
+  }
   if (stages.adjacency != Adjacency::Off)
   {
     this->fans_.update(input.occluders);
   }
-  const bool soft = input.light.area && stages.rimPoints > 0;
   if (soft)
   {
     input.mapBakes +=

@@ -5,7 +5,9 @@
 #include "shadowtech/selective/Chain.h"
 #include "shadowtech/selective/RimMaps.h"
 
+#include <optional>
 #include <string>
+#include <utility>
 
 namespace gnomon
 {
@@ -27,9 +29,13 @@ protected:
   static TechniqueInfo infoOf(const std::string& name);
 
 private:
+  bool lightLiesInCaster(const ScreenInput& input, bool soft);
+
   TriangleMaps maps_;
   RimMaps rim_; ///< of soft shadows
   TriangleFans fans_;
+  /// Of the maps' casters and light: its area, and whether it lies in a caster. None: not known.
+  std::optional<std::pair<std::optional<LightArea>, bool>> inCaster_;
 };
 
 } // namespace gnomon

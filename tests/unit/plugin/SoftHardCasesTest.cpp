@@ -150,6 +150,13 @@ const std::vector<SoftCase>& softCases()
         [](PassScene& scene) {
           return addDisk(scene, { -1.2, 0.0, 1.5 }, down, 0.3);
         }) },
+    { "diskInTheBoxesTopElsewhere", 0.0002, { anything, anything, anything, { 0.0002, 0 } },
+      [](PassScene& scene)
+      {
+        const glm::dvec3 offset(0.013, 0.027, 0.0371); // whose floats round
+        addThings(scene, 1.0, offset);
+        return addDisk(scene, offset + glm::dvec3(-1.2, 0.0, 1.5), down, 0.3);
+      } },
     { "diskUnderTheBoxesTop", 0.0002,
       { { 0.0034, 71 }, { 0.0002, 0 }, { 0.00045, 7 }, { 0.0002, 0 } },
       overThings(
@@ -188,6 +195,11 @@ const std::vector<SoftCase>& softCases()
       overThings(
         [](PassScene& scene) {
           return addDisk(scene, { 0.5, -2.0, 0.0 }, down, 0.5);
+        }) },
+    { "pointInTheFloor", 0.0002, { anything, anything, anything, { 0.0002, 0 } },
+      overThings(
+        [](PassScene& scene) {
+          return addDisk(scene, { 0.5, -2.0, 0.0 }, down, 0.0);
         }) },
     { "diskInTheBoxesTopsPlane", 0.0017,
       { { 0.0034, 0 }, { 0.0032, 0 }, { 0.0014, 0 }, { 0.0017, 0 } },

@@ -2,6 +2,7 @@
 
 #include "shadowtech/selective/CertainHit.h"
 #include "shadowtech/selective/Chain.h"
+#include "shadowtech/selective/LightInCaster.h"
 #include "shadowtech/selective/StatusContour.h"
 
 #include "ExactRecord.h"
@@ -35,6 +36,39 @@ std::optional<glm::dvec4> keptFromCentred(const RandomPicture& picture)
   return picture.light.box
     ? std::optional(nearFaceCentred(picture.light, picture.occluders.centreWorld))
     : std::nullopt;
+}
+
+//------------------------------------------------------------------------------
+// Lights in casters
+
+TEST(LightInCaster, IsOnATriangle)
+{
+  const Occluders occluders = makeOccluders({ { makePlane(4.0), at({ 10.1, 20.2, 30.3 }) } });
+  const auto liesIn = [&](const glm::dvec3& place, const LightArea* area = nullptr)
+  { return liesInCaster(place - occluders.centreWorld, area, occluders); };
+  EXPECT_TRUE(liesIn({ 10.9, 19.0, 30.3 }));
+  EXPECT_TRUE(liesIn({ 12.1, 22.2, 30.3 })) << "a corner";
+  EXPECT_FALSE(liesIn({ 12.2, 20.2, 30.3 })) << "in its plane, beside it";
+  EXPECT_FALSE(liesIn({ 10.9, 19.0, 30.301 }));
+  EXPECT_FALSE(liesIn({ 10.9, 19.0, 30.299 }));
+
+  const LightArea flat = diskArea({ 0.0, 0.0, -1.0 }, 0.5);
+  EXPECT_TRUE(liesIn({ 10.9, 19.0, 30.3 }, &flat));
+  EXPECT_TRUE(liesIn({ 12.5, 20.2, 30.3 }, &flat)) << "its rim does";
+  EXPECT_FALSE(liesIn({ 12.7, 20.2, 30.3 }, &flat));
+  const LightArea standing = diskArea({ 1.0, 0.0, 0.0 }, 0.5);
+  EXPECT_FALSE(liesIn({ 10.9, 19.0, 30.3 }, &standing)) << "it crosses the plane";
+  const LightArea ball = ballArea(0.5);
+  EXPECT_FALSE(liesIn({ 10.9, 19.0, 30.3 }, &ball)) << "likewise";
+}
+
+TEST(LightInCaster, IsOnWhatCastsAlone)
+{
+  Prop ground{ makePlane(4.0) };
+  EXPECT_TRUE(liesInCaster({ 0.0, 0.0, 0.0 }, nullptr, makeOccluders({ ground })));
+  ground.casts = false;
+  EXPECT_FALSE(liesInCaster({ 0.0, 0.0, 0.0 }, nullptr, makeOccluders({ ground })));
+  EXPECT_FALSE(liesInCaster({ 0.0, 0.0, 0.0 }, nullptr, Occluders()));
 }
 
 //------------------------------------------------------------------------------

@@ -1,0 +1,84 @@
+#include "shadowtech/selective/LightInCaster.h"
+
+#include "shadowtech/base/PlacedTriangles.h"
+#include "shadowtech/mesh/CasterBands.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <limits>
+
+namespace gnomon
+{
+namespace
+{
+
+/// How far off a caster's plane a ray's end may be by rounding, over the largest centred
+/// coordinate: the bound of planeNoise() (ShadowRay.h) for triangles that are no slivers.
+constexpr double rounding = 1.9073486328125e-6; // 2^-19
+
+using Corners = std::array<glm::dvec3, 3>;
+
+/// How far a point in a triangle's plane is from the triangle.
+/// @param normal of any length
+double distanceInPlane(const Corners& corners, const glm::dvec3& normal, const glm::dvec3& point)
+{
+  bool isInside = true;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    const glm::dvec3 edge = corners[(i + 1) % 3] - corners[i];
+    const glm::dvec3 way = point - corners[i];
+    isInside = isInside && glm::dot(glm::cross(edge, way), normal) >= 0.0;
+    const double share = std::clamp(glm::dot(way, edge) / glm::dot(edge, edge), 0.0, 1.0);
+    nearest = std::min(nearest, glm::distance(way, share * edge));
+  }
+  return isInside ? 0.0 : nearest;
+}
+
+/// @param noise how far off its plane a triangle's points may seem to lie
+bool liesIn(const Corners& corners, const glm::dvec3& position, const LightArea* area, double noise)
+{
+  const glm::dvec3 normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+  const double length = glm::length(normal);
+  // Of an instance, a triangle may have no area, and then no plane: it stops no ray.
+  if (!(length > 0.0) || std::abs(glm::dot(normal, position - corners[0])) > noise * length)
+  {
+    return false;
+  }
+  const bool isCoplanar = !area || area->extentAlong(normal / length) <= noise;
+  const double reach = area ? area->radius() : 0.0;
+  return isCoplanar && distanceInPlane(corners, normal, position) <= reach + noise;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+bool liesInCaster(
+  const glm::dvec3& positionCentred, const LightArea* area, const Occluders& occluders)
+{
+  glm::dvec3 largest = glm::abs(positionCentred);
+  for (const glm::dvec3& corner : occluders.allCentred.corners())
+  {
+    largest = glm::max(largest, glm::abs(corner));
+  }
+  const double noise = rounding * std::max(largest.x, std::max(largest.y, largest.z));
+  const CasterPlacements placements(occluders);
+  std::atomic<bool> found{ false };
+  placements.visitTriangles(
+    [&](std::uint32_t number, std::uint32_t triangle)
+    {
+      const Placement& placement = placements[number];
+      if (!found.load(std::memory_order_relaxed) &&
+        liesIn(
+          centredCorners(occluders, placements.surfaceOf(placement), placement.instance, triangle),
+          positionCentred, area, noise))
+      {
+        found = true;
+      }
+    });
+  return found;
+}
+
+} // namespace gnomon
