@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 
 namespace gnomon::test
 {
@@ -346,6 +347,10 @@ std::vector<double> columnMeans(const VisibilityImages& kept)
 //------------------------------------------------------------------------------
 glm::dvec3 positionOf(const VisibilityImages& kept, std::size_t pixel)
 {
+  if (kept.coverage[pixel] == 0.0f)
+  {
+    return glm::dvec3(std::numeric_limits<double>::quiet_NaN());
+  }
   return { kept.origin[0] + kept.positionX[pixel], kept.origin[1] + kept.positionY[pixel],
     kept.origin[2] + kept.positionZ[pixel] };
 }

@@ -173,7 +173,7 @@ const VisibilityImages& drawKept(PassScene& scene);
 /// The mean visibility of each column of a picture, of the first light.
 std::vector<double> columnMeans(const VisibilityImages& kept);
 
-/// Where a pixel's receiver is in the world.
+/// Where a pixel's receiver is in the world; not a number where nothing is seen.
 glm::dvec3 positionOf(const VisibilityImages& kept, std::size_t pixel);
 
 /// The cosine between a pixel's normal and the way from there to a light; 0 where it is in the light.
