@@ -57,7 +57,7 @@ private:
   };
 
   std::vector<WantedSurface> wantedSurfaces(const DrawnProps& drawn) const;
-  bool chooseCentre(const std::vector<WantedSurface>& wanted);
+  bool updateCentre(const std::vector<WantedSurface>& wanted);
   void read(WantedSurface& wanted, vtkMTimeType time);
   Outcome updateSurface(WantedSurface& wanted, bool recentred, Change& change);
   bool transformAgain(const WantedSurface& wanted);
@@ -110,7 +110,7 @@ OccluderCollector::Change OccluderCollector::Impl::collect(vtkRenderer* renderer
   bool trianglesChanged = otherList;
   if (otherList || moved || change.extracted > 0)
   {
-    const bool recentred = this->chooseCentre(wanted);
+    const bool recentred = this->updateCentre(wanted);
     for (WantedSurface& surface : wanted)
     {
       const Outcome outcome = this->updateSurface(surface, recentred, change);
@@ -189,9 +189,8 @@ std::vector<WantedSurface> OccluderCollector::Impl::wantedSurfaces(const DrawnPr
 }
 
 //------------------------------------------------------------------------------
-/// Chooses the centre for a new scene, and anew once the scene has left it; true if it moved. Far
-/// from the centre, in the scene's own measure, float positions would lose precision.
-bool OccluderCollector::Impl::chooseCentre(const std::vector<WantedSurface>& wanted)
+/// Sets the centre to that of the present box; true if it moved.
+bool OccluderCollector::Impl::updateCentre(const std::vector<WantedSurface>& wanted)
 {
   Bounds boundsWorld;
   for (const WantedSurface& surface : wanted)
@@ -200,19 +199,8 @@ bool OccluderCollector::Impl::chooseCentre(const std::vector<WantedSurface>& wan
       surface.fresh ? surface.fresh->record : this->records_[surface.old];
     boundsWorld.add(transformed(record.boundsModel, surface.prop->worldFromModel));
   }
-  const double radius = boundsWorld.radius();
-  const glm::dvec3 centre = boundsWorld.centre();
-  constexpr double largestDistance = 16.0; // in radii
-  const double distance = glm::distance(centre, this->occluders.centreWorld);
-  // Not a number for an empty box, and then not to be followed.
-  const bool left = distance > largestDistance * radius;
-  const bool isFirst = this->records_.empty() && distance > 0.0;
-  if (!left && !isFirst)
-  {
-    return false;
-  }
-  this->occluders.centreWorld = centre;
-  return true;
+  const glm::dvec3 old = std::exchange(this->occluders.centreWorld, snapshotCentre(boundsWorld));
+  return this->occluders.centreWorld != old;
 }
 
 //------------------------------------------------------------------------------

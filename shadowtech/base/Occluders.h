@@ -6,6 +6,7 @@
 
 #include <glm/glm.hpp>
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -66,6 +67,28 @@ struct Surface
   }
 };
 
+/// Return the point that positions of a scene with this box are relative to.
+///
+/// The centre is a function of the box alone, so that no picture depends on what the scene held
+/// in earlier frames. It lies on a grid whose step is 2 to 4 radii of the box, a power of two:
+/// - changes of the scene that are small beside it nearly always leave the centre;
+/// - centred coordinates are at most three radii large;
+/// - a box around the origin has the origin for its centre.
+///
+/// @param boundsWorld the box around all surfaces; empty: the centre is the origin
+inline glm::dvec3 snapshotCentre(const Bounds& boundsWorld)
+{
+  const double radius = boundsWorld.radius();
+  if (boundsWorld.empty() || !std::isfinite(radius)) // beyond 1e154, its square overflows
+  {
+    return glm::dvec3(0.0);
+  }
+  int exponent = 0; // 2^exponent is more than the radius, and no more than twice as much
+  std::frexp(radius, &exponent);
+  const double step = std::ldexp(2.0, exponent);
+  return glm::round(boundsWorld.centre() / step) * step;
+}
+
 /// The snapshot: every surface triangle that VTK draws, cast or only receive, in one list.
 ///
 /// Positions are *centred*: world coordinates less centreWorld, computed in double precision and
@@ -73,7 +96,7 @@ struct Surface
 /// with instances are source coordinates instead (Surface::centredFromSource).
 struct Occluders
 {
-  glm::dvec3 centreWorld{ 0.0 };
+  glm::dvec3 centreWorld{ 0.0 }; ///< the collector's is snapshotCentre()
   /// The memory goes on for at least 4 bytes behind the last position, so that every position can
   /// be read as 16 bytes (Embree does).
   std::vector<glm::vec3> positionsCentred;

@@ -30,6 +30,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -954,7 +955,7 @@ TEST(OccluderChanges, TheOthersStayWhenSurfacesComeAndGo)
   Scene scene;
   const auto first = makeActor(makeSquare());
   const auto second = makeActor(makeSquare());
-  second->SetPosition(2, 0, 0);
+  second->SetPosition(0.3, 0, 0); // near enough for the centre to stay
   scene.renderer->AddActor(first);
   scene.renderer->AddActor(second);
   scene.collect();
@@ -967,12 +968,12 @@ TEST(OccluderChanges, TheOthersStayWhenSurfacesComeAndGo)
   EXPECT_EQ(scene.surface(0).positionsVersion, before.positionsVersion);
   EXPECT_EQ(scene.surface(0).firstVertex, 0u);
   EXPECT_EQ(scene.triangle(0, 1), glm::uvec3(0, 2, 3));
-  expectNear(scene.positionWorld(0, 2), { 3, 1, 0 });
+  expectNear(scene.positionWorld(0, 2), { 1.3, 1, 0 });
   expectNothingDone(scene);
 
   scene.renderer->AddActor(first); // now behind the other one
   EXPECT_EQ(scene.collect().extracted, 1);
-  expectNear(scene.positionWorld(0, 2), { 3, 1, 0 });
+  expectNear(scene.positionWorld(0, 2), { 1.3, 1, 0 });
   expectNear(scene.positionWorld(1, 2), { 1, 1, 0 });
   expectNothingDone(scene);
 }
@@ -1018,21 +1019,51 @@ TEST(OccluderCentre, FarScenesKeepTheirPrecision)
   expectNear(scene.positionWorld(1, 0), far + glm::dvec3(1.001, 0, 0), 1e-6);
 }
 
-TEST(OccluderCentre, StaysUntilTheSceneLeavesIt)
+TEST(OccluderCentre, LiesOnAGridAsCoarseAsTheScene)
+{
+  const auto around = [](const glm::dvec3& middle, double half) {
+    return Bounds{ middle - half, middle + half };
+  };
+  for (const double half : { 1e-9, 0.3, 1.0, 1.7, 4e5, 1e20 })
+  {
+    const glm::dvec3 touching(half, -half, 0.9 * half);
+    EXPECT_EQ(snapshotCentre(around(touching, half)), glm::dvec3(0.0)) << "holds the origin";
+    for (const double away : { 3.0, 1e3, 1.234567e9 })
+    {
+      const Bounds box = around(away * touching, half);
+      const glm::dvec3 centre = snapshotCentre(box);
+      for (const glm::dvec3& corner : box.corners())
+      {
+        const glm::dvec3 largest = glm::abs(corner - centre);
+        EXPECT_LE(std::max({ largest.x, largest.y, largest.z }), 3.0 * box.radius());
+      }
+      // Some other box around the centre.
+      EXPECT_EQ(snapshotCentre(around(centre + 0.5 * half, half)), centre);
+    }
+  }
+  const double infinity = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(snapshotCentre(Bounds()), glm::dvec3(0.0));
+  EXPECT_EQ(snapshotCentre(around(glm::dvec3(0.0), infinity)), glm::dvec3(0.0));
+  EXPECT_EQ(snapshotCentre(around(glm::dvec3(1.0), 1e200)), glm::dvec3(0.0));
+  EXPECT_EQ(snapshotCentre(around(glm::dvec3(notANumber), 1.0)), glm::dvec3(0.0));
+  expectNear(snapshotCentre(around(glm::dvec3(7.0), 0.0)), glm::dvec3(8.0)); // a point
+}
+
+TEST(OccluderCentre, StaysWhileTheSceneChangesLittle)
 {
   Scene scene;
   const auto actor = makeActor(makeSquare());
+  actor->SetPosition(100, 0, 0);
   scene.renderer->AddActor(actor);
   scene.collect();
   const glm::dvec3 centre = scene.occluders().centreWorld;
-  expectNear(centre, { 0.5, 0.5, 0 });
-  actor->SetPosition(11, 0, 0); // radius 0.707: 16 radii are 11.3
-  scene.collect();
+  actor->SetPosition(100.2, 0.1, 0);
+  EXPECT_EQ(scene.collect().retransformed, 1);
   EXPECT_EQ(scene.occluders().centreWorld, centre);
-  actor->SetPosition(12, 0, 0);
+  actor->SetPosition(112, 0, 0);
   scene.collect();
-  expectNear(scene.occluders().centreWorld, { 12.5, 0.5, 0 });
-  expectNear(scene.positionWorld(0, 2), { 13, 1, 0 });
+  EXPECT_NE(scene.occluders().centreWorld, centre);
+  expectNear(scene.positionWorld(0, 2), { 113, 1, 0 });
 }
 
 TEST(OccluderCentre, MovesEverySurfaceWithIt)
@@ -1048,8 +1079,31 @@ TEST(OccluderCentre, MovesEverySurfaceWithIt)
   const OccluderCollector::Change change = scene.collect();
   EXPECT_EQ(change.extracted, 0);
   EXPECT_EQ(change.retransformed, 1);
-  expectNear(scene.occluders().centreWorld, { 1000.5, 0.5, 0 });
+  expectNear(scene.occluders().centreWorld, { 1000, 0, 0 });
   expectNear(scene.positionWorld(0, 2), { 1001, 1, 0 });
+}
+
+TEST(OccluderCentre, DoesNotRememberWhatIsGone)
+{
+  Scene scene;
+  const auto actor = makeActor(makeSquare());
+  actor->SetPosition(40.1, 3.3, 7.7);
+  const auto far = makeActor(makeSquare());
+  far->SetPosition(-1e5, 3e4, 0);
+  far->SetVisibility(false);
+  scene.renderer->AddActor(actor);
+  scene.renderer->AddActor(far);
+  scene.collect();
+  const Occluders before = scene.occluders();
+  far->SetVisibility(true);
+  scene.collect();
+  EXPECT_NE(scene.occluders().centreWorld, before.centreWorld);
+  far->SetVisibility(false);
+  scene.collect();
+  EXPECT_EQ(scene.occluders().centreWorld, before.centreWorld);
+  EXPECT_EQ(scene.occluders().positionsCentred, before.positionsCentred);
+  EXPECT_EQ(scene.occluders().allCentred.lower, before.allCentred.lower);
+  EXPECT_EQ(scene.occluders().allCentred.upper, before.allCentred.upper);
 }
 
 // ---- holes of textures -------------------------------------------------------

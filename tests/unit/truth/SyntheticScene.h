@@ -54,6 +54,7 @@ struct Prop
 Prop makePerforatedPlane(double side, int cells, const glm::dmat4& worldFromMesh = glm::dmat4(1.0));
 
 /// The snapshot of these props, as the collector makes it: doubles less the centre, then floats.
+/// The centre is the middle of their box, so that all coordinates round.
 Occluders makeOccluders(const std::vector<Prop>& props);
 
 /// Moves one surface of a snapshot, as a moved prop does, and marks what changed. Bounds stay.
