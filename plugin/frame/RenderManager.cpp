@@ -112,8 +112,7 @@ void RenderManager::beginFrame(const FrameWishes& wishes)
   this->wishes_ = wishes;
   if (!wishes.keepVisibility)
   {
-    this->visibility_ = VisibilityImages{};
-    this->keptOf_ = nullptr;
+    this->dropVisibility();
   }
   if (wishes.measureStages)
   {
@@ -152,6 +151,7 @@ bool RenderManager::collectLights(
   {
     this->report_.route = "none";
     this->report_.routeReason = "no light casts a shadow";
+    this->dropVisibility(); // that of an earlier frame
   }
   return !this->lights_.empty();
 }
@@ -465,6 +465,13 @@ void RenderManager::keepVisibility(bool isNew)
       this->view_->layers, this->receiversOnCpu().all(), this->collector_.occluders().centreWorld);
     this->keptOf_ = this->view_;
   }
+}
+
+//------------------------------------------------------------------------------
+void RenderManager::dropVisibility()
+{
+  this->visibility_ = VisibilityImages{};
+  this->keptOf_ = nullptr;
 }
 
 //------------------------------------------------------------------------------

@@ -119,6 +119,7 @@ private:
   Receivers& receiversOnCpu();
   void fillLayers(CastingLight& casting, std::vector<std::uint8_t>* classes, LightReport& report);
   void keepVisibility(bool isNew);
+  void dropVisibility();
 
   FrameReport report_;
   FrameWishes wishes_;
