@@ -113,7 +113,7 @@ std::ostream& operator<<(std::ostream& stream, const Change& change)
 {
   static const std::array<const char*, changeKinds> names = { "camera", "light", "matrix", "points",
     "clipping plane", "texture", "visibility", "level of detail", "window size", "stereo eye",
-    "renderer", "technique", "setting", "prop key", "translucency" };
+    "renderer", "technique", "setting", "prop key", "translucency", "far caster" };
   return stream << names.at(static_cast<std::size_t>(change.kind)) << " (" << change.numbers[0]
                 << ", " << change.numbers[1] << ", " << change.numbers[2] << ")";
 }
@@ -209,6 +209,9 @@ void ChangedScene::addProps()
   this->pane_->GetProperty()->SetOpacity(0.5);
   this->pane_->VisibilityOff();
 
+  this->far_ = box({ 0.0, 0.0, 0.0 }, 2.0);
+  this->far_->VisibilityOff();
+
   this->levels_->AutomaticLODSelectionOff();
   this->levelIds_ = { { this->levels_->AddLOD(sphereMapper(0.5, 12), 0.0),
     this->levels_->AddLOD(sphereMapper(0.5, 4), 0.0) } };
@@ -222,10 +225,7 @@ void ChangedScene::addProps()
       renderer->AddActor(actor);
     }
     renderer->AddActor(this->pane_);
-    // Specks that hold the scene's box, and so the snapshot's centre: it follows from the box of the
-    // first frame, and positions relative to another centre round otherwise.
-    renderer->AddActor(box({ -9.0, -9.0, -3.0 }, 0.01));
-    renderer->AddActor(box({ 9.0, 9.0, 9.0 }, 0.01));
+    renderer->AddActor(this->far_);
     renderer->AddViewProp(this->levels_);
   }
   // What only one renderer shows.
@@ -391,6 +391,9 @@ void ChangedScene::apply(const Change& change)
     case ChangeKind::Translucency:
       this->pane_->SetVisibility(first % 2 != 0);
       break;
+    case ChangeKind::FarCaster:
+      this->sendFarCaster(change);
+      break;
   }
 }
 
@@ -529,6 +532,17 @@ void ChangedScene::chooseStereo(const Change& change)
   {
     renderer->GetActiveCamera()->Modified();
   }
+}
+
+//------------------------------------------------------------------------------
+void ChangedScene::sendFarCaster(const Change& change)
+{
+  const std::array<double, 4> distances{ 12.0, 37.0, 350.0, 1e5 };
+  const auto& [first, second, third] = change.numbers;
+  this->far_->SetVisibility(!this->far_->GetVisibility());
+  const double distance = distances[first % distances.size()];
+  this->far_->SetPosition(second % 2 ? distance : -0.3 * distance, third % 2 ? 0.7 * distance : 0.0,
+    third / 2 % 2 ? 0.5 * distance : 3.0);
 }
 
 } // namespace gnomon::test

@@ -35,9 +35,10 @@ enum class ChangeKind
   Technique,
   Setting,
   PropKey,
-  Translucency
+  Translucency,
+  FarCaster ///< comes in or goes out, and takes the scene's box with it
 };
-inline constexpr std::size_t changeKinds = 15;
+inline constexpr std::size_t changeKinds = 16;
 
 /// One change. The numbers choose among what its kind offers, so that two equal scenes change alike.
 struct Change
@@ -76,6 +77,7 @@ private:
   void clip(const Change& change);
   void changeTexture(const Change& change);
   void chooseStereo(const Change& change);
+  void sendFarCaster(const Change& change);
   void set(const std::string& name, const std::string& value);
 
   vtkNew<vtkGnomonEGLRenderWindow> window_;
@@ -95,6 +97,7 @@ private:
   std::array<int, 2> levelIds_{};
   vtkSmartPointer<vtkActor> fence_;
   vtkSmartPointer<vtkActor> pane_;
+  vtkSmartPointer<vtkActor> far_;
 };
 
 } // namespace gnomon::test
