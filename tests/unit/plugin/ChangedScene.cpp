@@ -41,7 +41,7 @@ const std::vector<std::pair<std::string, std::vector<std::string>>> settingChoic
   { "progressive", { "0", "2" } },
   { "planes", { "1", "8" } },
   { "contour", { "2", "4", "image" } },
-  { "coherence", { "off", "4", "9" } },
+  { "coherence", { "4", "9" } }, // the technique `coherence` refuses `off`
   { "neighbours", { "off", "1", "9" } },
   { "adjacency", { "off", "edges", "vertices" } },
   { "adjacency_ring", { "edges", "vertices" } },
