@@ -1,6 +1,7 @@
 #include "lights/LightManager.h"
 
 #include "lights/OSPRayRadius.h"
+#include "lights/SettingsTable.h"
 #include "vtkGnomonAreaLight.h"
 #include "vtkGnomonLightKeys.h"
 
@@ -198,13 +199,14 @@ LitArea readArea(vtkLight* light, const ShadowSettings& settings,
 ShadowSettings readSettings(vtkLight* light, const ShadowSettings& defaults, std::string& reason)
 {
   ShadowSettings settings = defaults;
-  for (const Setting& setting : shadowSettings())
+  settings.named.clear(); // by the pass: the light's own names follow
+  for (const Setting* setting : shadowSettings())
   {
-    const char* const text = vtkGnomonLightKeys::GetSetting(light, setting.name.c_str());
-    if (text && !setting.set(settings, text) && reason.empty())
+    const char* const text = vtkGnomonLightKeys::GetSetting(light, setting->name.c_str());
+    if (text && !setting->set(settings, text) && reason.empty())
     {
       reason =
-        "its setting '" + setting.name + "' is '" + text + "', expected " + setting.expected();
+        "its setting '" + setting->name + "' is '" + text + "', expected " + setting->expected();
     }
   }
   return settings;
@@ -408,6 +410,13 @@ AreaLights LightManager::collectAreas(vtkRenderer* renderer, const ShadowSetting
 void LightManager::makePoint(vtkLight* light)
 {
   vtkGnomonLightKeys::SetSetting(light, "light_radius", "0"); // whatever the pass says
+  for (const SettingsTable* table : { &lightSampleSettings(), &lightSeedSettings() })
+  {
+    for (const Setting& setting : table->settings)
+    {
+      vtkGnomonLightKeys::SetSetting(light, setting.name.c_str(), nullptr);
+    }
+  }
   if (auto* key = ospRayRadiusKey())
   {
     light->GetInformation()->Remove(key);

@@ -2,6 +2,7 @@
 
 #include "lights/CasterViews.h"
 #include "lights/Lispsm.h"
+#include "lights/SettingsTable.h"
 #include "lights/Splits.h"
 #include "lights/Trapezoid.h"
 #include "lights/VisibleBody.h"

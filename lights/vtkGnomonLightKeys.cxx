@@ -1,6 +1,6 @@
 #include "vtkGnomonLightKeys.h"
 
-#include "lights/ShadowSettings.h"
+#include "lights/SettingsTable.h"
 
 #include "vtkInformation.h"
 #include "vtkInformationDoubleVectorKey.h"

@@ -24,6 +24,8 @@
 
 #include <algorithm>
 #include <list>
+#include <set>
+#include <string>
 
 vtkStandardNewMacro(vtkGnomonShadowPass);
 
@@ -61,10 +63,11 @@ struct vtkGnomonShadowPass::Internals
   std::list<RendererFrames> renderers;   ///< those drawn so far, the last one first
   gnomon::VisibilityImages noVisibility; ///< of frames that were drawn without a manager
   gnomon::ViewCount viewCount;
-  vtkNew<vtkRenderStepsPass> steps; ///< draws into the framebuffers of outer passes
-  gnomon::FrameReport plainReport;  ///< of frames that were drawn without the manager
-  bool shadowed = false;            ///< whether the last frame was the manager's
-  double progress = 1.0;            ///< of the last frame that was no selection's
+  vtkNew<vtkRenderStepsPass> steps;  ///< draws into the framebuffers of outer passes
+  gnomon::FrameReport plainReport;   ///< of frames that were drawn without the manager
+  bool shadowed = false;             ///< whether the last frame was the manager's
+  double progress = 1.0;             ///< of the last frame that was no selection's
+  std::set<std::string> toldMisfits; ///< FrameReport::misfits that were told already
 
   gnomon::PassContext context; ///< which holds the managers' GL objects
 
@@ -198,6 +201,7 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
     this->BeginView(s);
     const bool casting = manager.collectLights(
       renderer, this->Internal->settings, this->Internal->viewCount.areSeveral(renderer));
+    this->TellMisfits();
     if (casting)
     {
       // occluders
@@ -263,6 +267,18 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
   else
   {
     gnomon::tellProgress(this, progressBefore, this->Internal->progress);
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkGnomonShadowPass::TellMisfits()
+{
+  for (const std::string& misfit : this->Internal->manager().report().misfits)
+  {
+    if (this->Internal->toldMisfits.insert(misfit).second)
+    {
+      vtkErrorMacro(<< misfit << ".");
+    }
   }
 }
 
@@ -354,14 +370,17 @@ void vtkGnomonShadowPass::SetSetting(const char* name, const char* value)
     return;
   }
   const std::string text = value ? value : "";
-  if (!gnomon::takes(*setting, text))
+  const std::string before = setting->get(this->Internal->settings);
+  if (setting->name == "technique")
+  {
+    this->Internal->settings.named.clear(); // what was set for another technique is no mistake
+  }
+  if (!setting->set(this->Internal->settings, text))
   {
     vtkErrorMacro("The setting '" << name << "' was to be '" << text << "', expected "
-                                  << gnomon::expectedBy(*setting) << ".");
+                                  << setting->expected() << ".");
     return;
   }
-  const std::string before = setting->get(this->Internal->settings);
-  setting->set(this->Internal->settings, text);
   if (setting->get(this->Internal->settings) != before)
   {
     this->Modified();
@@ -493,9 +512,9 @@ void vtkGnomonShadowPass::PrintSelf(ostream& os, vtkIndent indent)
   const char* const routes[] = { "auto", "inline", "image" };
   const char* const tracers[] = { "auto", "embree", "gpu" };
   const char* const rasterizers[] = { "auto", "cpu", "gpu" };
-  for (const gnomon::Setting& setting : gnomon::shadowSettings())
+  for (const gnomon::Setting* setting : gnomon::shadowSettings())
   {
-    os << indent << "Setting " << setting.name << ": " << setting.get(this->Internal->settings)
+    os << indent << "Setting " << setting->name << ": " << setting->get(this->Internal->settings)
        << "\n";
   }
   os << indent << "Route: " << routes[this->Route] << "\n";

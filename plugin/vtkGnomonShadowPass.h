@@ -269,6 +269,7 @@ private:
   void BeginView(const vtkRenderState* s);
   void DrawScene(const vtkRenderState* s);
   void RenderPlain(const vtkRenderState* s, const char* reason);
+  void TellMisfits();
 
   vtkGnomonShadowPass(const vtkGnomonShadowPass&) = delete;
   void operator=(const vtkGnomonShadowPass&) = delete;

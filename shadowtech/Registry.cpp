@@ -4,9 +4,7 @@
 #include "shadowtech/adaptive/Adaptive.h"
 #include "shadowtech/depth_map/Compare.h"
 #include "shadowtech/depth_map/Pcf.h"
-#include "shadowtech/exact/Crsm.h"
-#include "shadowtech/exact/Crsma.h"
-#include "shadowtech/exact/Silhouette.h"
+#include "shadowtech/exact/ExactTechniques.h"
 #include "shadowtech/moment_map/Exponential.h"
 #include "shadowtech/moment_map/FourMoments.h"
 #include "shadowtech/moment_map/Variance.h"
@@ -22,8 +20,10 @@
 #include "shadowtech/selective/Selective.h"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
+#include <memory>
+#include <type_traits>
+#include <utility>
 
 namespace gnomon
 {
@@ -31,9 +31,27 @@ namespace
 {
 
 template <typename Estimator>
+constexpr Evaluation evaluationOf()
+{
+  return std::is_base_of_v<PointwiseTechnique, Estimator> ? Evaluation::Pointwise
+    : std::is_base_of_v<GpuScreenTechnique, Estimator>    ? Evaluation::ScreenGpu
+                                                          : Evaluation::ScreenCpu;
+}
+
+template <typename Estimator>
 EstimatorEntry entry()
 {
-  return { Estimator::info(), [] { return std::unique_ptr<Technique>(new Estimator); } };
+  TechniqueInfo info = Estimator::info();
+  info.evaluation = evaluationOf<Estimator>();
+  return { std::move(info), [] { return std::make_unique<Estimator>(); } };
+}
+
+EstimatorEntry entryOf(const ConservativeEntry& conservative)
+{
+  TechniqueInfo info = conservative.info;
+  info.evaluation = evaluationOf<ConservativeTechnique>();
+  return { std::move(info),
+    [rule = conservative.rule] { return std::make_unique<ConservativeTechnique>(rule); } };
 }
 
 const std::string& nameOf(const EstimatorEntry& entry)
@@ -55,22 +73,19 @@ const Entry* find(const std::vector<Entry>& entries, const std::string& name)
 }
 
 template <typename Entry>
-std::string namesOf(const std::vector<Entry>& entries)
+std::vector<std::string> namesOf(const std::vector<Entry>& entries)
 {
-  std::string names;
+  std::vector<std::string> names;
   for (const Entry& entry : entries)
   {
-    names += (names.empty() ? "" : ", ") + nameOf(entry);
+    names.push_back(nameOf(entry));
   }
   return names;
 }
 
-} // namespace
-
-//------------------------------------------------------------------------------
-const std::vector<EstimatorEntry>& estimators()
+std::vector<EstimatorEntry> makeEstimators()
 {
-  static const std::vector<EstimatorEntry> entries = {
+  std::vector<EstimatorEntry> entries = {
     entry<Adaptive>(),
     entry<Compare>(),
     entry<Pcf>(),
@@ -85,13 +100,21 @@ const std::vector<EstimatorEntry>& estimators()
     entry<Sampled>(),
     entry<Coherence>(),
     entry<Selective>(),
-    entry<Crsm>(),
-    entry<CrsmAsPublished>(),
-    entry<Crsma>(),
-    entry<CrsmaAsPublished>(),
-    entry<Silhouette>(),
     entry<Penumbra>(),
   };
+  for (const auto& table : { exactTechniques(), publishedCrsm() })
+  {
+    std::transform(table.begin(), table.end(), std::back_inserter(entries), entryOf);
+  }
+  return entries;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+const std::vector<EstimatorEntry>& estimators()
+{
+  static const std::vector<EstimatorEntry> entries = makeEstimators();
   return entries;
 }
 
@@ -161,7 +184,7 @@ const EstimatorEntry* findEstimator(const std::string& name)
 //------------------------------------------------------------------------------
 std::string estimatorNames()
 {
-  return namesOf(estimators());
+  return listOf(namesOf(estimators()));
 }
 
 //------------------------------------------------------------------------------
@@ -173,65 +196,94 @@ const TechniqueEntry* findTechnique(const std::string& name)
 //------------------------------------------------------------------------------
 std::string techniqueNames()
 {
-  return namesOf(registry());
-}
-
-//------------------------------------------------------------------------------
-bool takes(const Setting& setting, const std::string& text)
-{
-  ShadowSettings scratch;
-  return setting.set(scratch, text) && (setting.name != "technique" || findTechnique(text)) &&
-    (setting.name != "estimator" || text.empty() || findEstimator(text));
-}
-
-//------------------------------------------------------------------------------
-std::string expectedBy(const Setting& setting)
-{
-  return setting.name == "technique" ? "one of: " + techniqueNames()
-    : setting.name == "estimator"    ? "one of: " + estimatorNames()
-                                     : setting.expected();
-}
-
-//------------------------------------------------------------------------------
-bool concerns(const Setting& setting, const TechniqueInfo& info)
-{
-  switch (setting.about)
-  {
-    case SettingSubject::Map:
-      return info.needsMap;
-    case SettingSubject::LightSamples:
-      return info.lightPoints == LightPoints::Sampled;
-    case SettingSubject::LightSeed:
-      return info.lightPoints != LightPoints::Fixed;
-    case SettingSubject::Planes:
-      return info.servesPlanes;
-    case SettingSubject::Light:
-      return true;
-  }
-  return false;
+  return listOf(namesOf(registry()));
 }
 
 namespace
 {
 
-/// The estimator that `as_published` selects in place of one.
-/// @throws CompositionError where there is none
-const EstimatorEntry& publishedOf(const TechniqueInfo& info)
+/// What chooses a technique.
+const SettingsTable& choiceSettings()
 {
-  if (!info.asPublished.empty())
+  static const SettingsTable table = { "The technique",
+    {
+      oneOfNames("technique", "the shadow technique (see: gnomon techniques)",
+        &ShadowSettings::technique, namesOf(registry())),
+      oneOfNames("estimator", "what decides a point, in place of the technique's own estimator",
+        &ShadowSettings::estimator,
+        [] // an empty name: the technique's own
+        {
+          std::vector<std::string> names = namesOf(estimators());
+          names.emplace_back();
+          return names;
+        }()),
+    } };
+  return table;
+}
+
+/// The tables of all techniques, those of the first ones first.
+std::vector<const SettingsTable*> allTables()
+{
+  std::vector<const SettingsTable*> tables = { &choiceSettings(), &lightAreaSettings() };
+  for (const TechniqueEntry& technique : registry())
   {
-    return *findEstimator(info.asPublished);
+    for (const SettingsTable* table : technique.estimator->info.settings)
+    {
+      if (std::find(tables.begin(), tables.end(), table) == tables.end())
+      {
+        tables.push_back(table);
+      }
+    }
   }
-  std::vector<EstimatorEntry> withPublished;
-  std::copy_if(estimators().begin(), estimators().end(), std::back_inserter(withPublished),
-    [](const EstimatorEntry& entry)
-    { return !entry.info.asPublished.empty() && entry.info.asPublished != entry.info.name; });
-  throw CompositionError("'" + info.name +
-    "' has no variant by the letter of a publication; 'as_published' is for: " +
-    namesOf(withPublished));
+  return tables;
+}
+
+const bool tablesAreSet = setSettingsTables(allTables());
+
+bool contains(const SettingsTable& table, const std::string& settingName)
+{
+  return std::any_of(table.settings.begin(), table.settings.end(),
+    [&](const Setting& setting) { return setting.name == settingName; });
 }
 
 } // namespace
+
+//------------------------------------------------------------------------------
+bool has(const TechniqueInfo& info, const std::string& settingName)
+{
+  return contains(choiceSettings(), settingName) || contains(lightAreaSettings(), settingName) ||
+    std::any_of(info.settings.begin(), info.settings.end(),
+      [&](const SettingsTable* table) { return contains(*table, settingName); });
+}
+
+//------------------------------------------------------------------------------
+bool isOfLight(const Setting& setting)
+{
+  return contains(lightAreaSettings(), setting.name);
+}
+
+//------------------------------------------------------------------------------
+std::string techniquesWith(const SettingsTable& table)
+{
+  std::vector<std::string> names;
+  for (const TechniqueEntry& technique : registry())
+  {
+    if (has(technique.estimator->info, table.settings.front().name))
+    {
+      names.push_back(technique.name);
+    }
+  }
+  return names.size() == registry().size() ? "" : listOf(names);
+}
+
+//------------------------------------------------------------------------------
+std::string whoHas(const std::string& settingName)
+{
+  const auto& tables = settingsTables();
+  const auto found = std::find_if(tables.begin(), tables.end(),
+    [&](const SettingsTable* table) { return contains(*table, settingName); });
+  return "the setting '" + settingName + "' is for: " + techniquesWith(**found);
+}
 
 //------------------------------------------------------------------------------
 const EstimatorEntry& estimatorOf(const ShadowSettings& settings)
@@ -250,57 +302,10 @@ const EstimatorEntry& estimatorOf(const ShadowSettings& settings)
     throw CompositionError(
       "the estimator '" + settings.estimator + "' is asked for; there are: " + estimatorNames());
   }
-  return settings.asPublished ? publishedOf(estimator->info) : *estimator;
+  return settings.asPublished && !estimator->info.asPublished.empty()
+    ? *findEstimator(estimator->info.asPublished)
+    : *estimator;
 }
-
-namespace
-{
-
-/// Why a light's map cannot be averaged as its settings say; empty if it can.
-std::string refusedAverage(const ShadowLight& light, const TechniqueInfo& info)
-{
-  const bool sums = light.blur == MapBlur::Sat;
-  if (!info.needsMap)
-  {
-    return {};
-  }
-  if (!info.averagesMap)
-  {
-    const std::string asked = light.mapSamples > 1 ? "map_samples"
-      : sums                                       ? "blur"
-      : light.mipMaps                              ? "mip_maps"
-                                                   : "";
-    return asked.empty() ? ""
-                         : "'" + info.name + "' reads depths, which may not be averaged; '" +
-        asked + "' is for maps of moments";
-  }
-  if (sums && !info.sumsMap)
-  {
-    return "'" + info.name +
-      "' has moments beyond the range of the 32-bit integers that a summed-area table holds; it "
-      "takes 'blur' box";
-  }
-  if (sums && light.mipMaps)
-  {
-    return "a summed-area table has no levels; 'mip_maps' is for 'blur' box";
-  }
-  return {};
-}
-
-/// Why an area light cannot have samples as its settings say; empty if it can.
-std::string refusedSamples(const ShadowLight& light, const TechniqueInfo& info)
-{
-  const int side =
-    static_cast<int>(std::lround(std::sqrt(static_cast<double>(light.lightSamples))));
-  return info.lightPoints == LightPoints::Sampled && light.area &&
-      light.lightSampling == LightSampling::Jittered && side * side != light.lightSamples
-    ? "'light_sampling' jittered has one sample in each cell of a square grid, of which there are "
-      "no " +
-      std::to_string(light.lightSamples) + "; 'light_samples' takes squares then: 4, 9, 16, ..."
-    : "";
-}
-
-} // namespace
 
 //------------------------------------------------------------------------------
 const EstimatorEntry& compose(ShadowLight& light)
@@ -309,30 +314,26 @@ const EstimatorEntry& compose(ShadowLight& light)
   const TechniqueInfo& info = estimator.info;
   light.technique = light.technique.empty() ? defaultTechnique : light.technique;
   light.estimator = info.name;
-  if (light.projection == Projection::OfTechnique)
+  if (!info.bakesMap())
   {
-    light.projection =
-      info.needsMap ? findTechnique(light.technique)->projection : Projection::Uniform;
+    light.projection = Projection::Uniform;
   }
-  else if (!info.needsMap)
+  else if (light.projection == Projection::OfTechnique)
   {
-    throw CompositionError(
-      "'" + light.estimator + "' reads no map that a projection could lay out");
-  }
-  if (info.filters && info.ownKernel.empty() && light.kernel == FilterKernel::Castano &&
-    light.kernelTexels != 3 && light.kernelTexels != 5 && light.kernelTexels != 7)
-  {
-    throw CompositionError(
-      "the kernel 'castano' has the sizes 3, 5 and 7, not " + std::to_string(light.kernelTexels));
+    light.projection = findTechnique(light.technique)->projection;
   }
   // What an estimator never can comes before what it cannot with these numbers.
-  for (const std::string& refused :
-    { refusedAverage(light, info), info.refused ? info.refused(light) : std::string(),
-      refusedSamples(light, info), refusedProjection(light) })
+  std::vector<std::string> refusals = { info.refused ? info.refused(light) : std::string() };
+  for (const SettingsTable* table : info.settings)
   {
-    if (!refused.empty())
+    refusals.push_back(table->refused ? table->refused(light) : std::string());
+  }
+  refusals.push_back(refusedProjection(light));
+  for (const std::string& refusal : refusals)
+  {
+    if (!refusal.empty())
     {
-      throw CompositionError(refused);
+      throw CompositionError(refusal);
     }
   }
   return estimator;

@@ -4,7 +4,7 @@
 #include "lights/ShadowLight.h"
 #include "shadowtech/base/Technique.h"
 
-#include <memory>
+#include <functional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -17,7 +17,7 @@ namespace gnomon
 struct EstimatorEntry
 {
   TechniqueInfo info;
-  std::unique_ptr<Technique> (*create)();
+  std::function<AnyTechnique()> create;
 };
 
 /// All estimators.
@@ -54,15 +54,17 @@ inline constexpr const char* defaultTechnique = "nsm";
 /// only the opaque ones: a pointwise technique.
 inline constexpr const char* plainTechnique = "nsm";
 
-///@{
-/// Whether a setting takes a value, and what it takes, for error messages. The settings' own functions
-/// do not know the names in this registry.
-bool takes(const Setting& setting, const std::string& text);
-std::string expectedBy(const Setting& setting);
-///@}
+/// Whether an estimator has a setting. All have those that choose it, and the light's area.
+bool has(const TechniqueInfo& info, const std::string& settingName);
 
-/// Whether a technique may look at a setting. Of those about maps, any technique with a map may: which ones is theirs.
-bool concerns(const Setting& setting, const TechniqueInfo& info);
+/// Whether a setting says what the light is, whatever technique shadows it.
+bool isOfLight(const Setting& setting);
+
+/// "pcf, vsm": the techniques with a table's settings; empty where all have them.
+std::string techniquesWith(const SettingsTable& table);
+
+/// "the setting 'contour' is for: selective", for settings that a technique does not have.
+std::string whoHas(const std::string& settingName);
 
 /// A light's settings ask for what there is not, or for what makes no sense.
 class CompositionError : public std::runtime_error

@@ -5,6 +5,7 @@
 #include "FrameVariant.h"
 #include "Machine.h"
 #include "PictureVisibility.h"
+#include "SettingOptions.h"
 
 #include "lights/LightManager.h"
 #include "shadowtech/Registry.h"
@@ -23,24 +24,13 @@ namespace gnomon::tool
 namespace
 {
 
-ShadowSettings settingsOf(const VariantSpec& spec)
-{
-  ShadowSettings settings;
-  settings.technique = spec.technique;
-  for (const auto& [name, value] : spec.settings)
-  {
-    findSetting(name)->set(settings, value);
-  }
-  return settings;
-}
-
 /// The scene whose lights are what the plan says, and leave the rest to the variants.
 Scene sceneOf(const ComparisonPlan& plan, const Scene& original)
 {
   Scene scene = withoutShadowSettings(original);
   for (const auto& [name, value] : plan.settings)
   {
-    if (!value.empty() && findSetting(name)->about == SettingSubject::Light)
+    if (!value.empty() && isOfLight(*findSetting(name)))
     {
       for (SceneLight& light : scene.lights)
       {
@@ -74,14 +64,29 @@ const TechniqueInfo& addSettings(const ComparisonPlan& plan, VariantSpec& spec)
     for (const auto& [name, value] : plan.settings)
     {
       const Setting& setting = *findSetting(name);
-      if (!value.empty() && choosesEstimator(setting) == choosing &&
-        setting.about != SettingSubject::Light && concerns(setting, info))
+      if (!value.empty() && choosesEstimator(setting) == choosing && !isOfLight(setting) &&
+        has(info, name))
       {
         spec.settings.emplace(name, value);
       }
     }
   }
   return estimatorOf(settingsOf(spec)).info;
+}
+
+/// @throws BadInput for a setting of the plan that no variant has
+void requireUse(const ComparisonPlan& plan, const std::vector<VariantSpec>& specs)
+{
+  for (const auto& [name, value] : plan.settings)
+  {
+    const auto hasIt = [&name = name](const VariantSpec& spec)
+    { return spec.settings.count(name); };
+    if (!value.empty() && !isOfLight(*findSetting(name)) &&
+      std::none_of(specs.begin(), specs.end(), hasIt))
+    {
+      throw BadInput(optionOf(name) + ": " + whoHas(name) + ", none of which is compared");
+    }
+  }
 }
 
 /// @param leftOut filled with the reason for each technique that a light refuses
@@ -123,7 +128,7 @@ std::vector<VariantSpec> listVariants(
     spec.tracer = plan.tracer;
     spec.rasterizer = plan.rasterizer;
     spec.pointwise = info->isPointwise();
-    for (int size : info->needsMap ? plan.mapSizesTexels : std::vector<int>{ 0 })
+    for (int size : info->bakesMap() ? plan.mapSizesTexels : std::vector<int>{ 0 })
     {
       spec.mapSizeTexels = size;
       if (info->isPointwise() && plan.inlineRoute)
@@ -138,6 +143,7 @@ std::vector<VariantSpec> listVariants(
       }
     }
   }
+  requireUse(plan, specs);
   return specs;
 }
 
@@ -504,7 +510,7 @@ void measureErrors(
   for (const std::unique_ptr<Variant>& variant : variants)
   {
     VariantResult& result = variant->result;
-    if (variant->pass())
+    if (variant->pass() && has(estimatorOf(settingsOf(variant->spec())).info, "bake"))
     {
       // What is counted is what techniques do with their maps, whether or not those have paid.
       variant->pass()->SetSetting("bake", "always");
@@ -585,7 +591,7 @@ std::vector<std::pair<std::string, std::string>> listSettings(
   };
   for (const auto& [name, value] : plan.settings)
   {
-    if (!value.empty() && findSetting(name)->about == SettingSubject::Light)
+    if (!value.empty() && isOfLight(*findSetting(name)))
     {
       settings.emplace_back("Of all lights", name + " " + value);
     }

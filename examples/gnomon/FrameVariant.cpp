@@ -84,6 +84,18 @@ std::string VariantSpec::name() const
 }
 
 //------------------------------------------------------------------------------
+ShadowSettings settingsOf(const VariantSpec& spec)
+{
+  ShadowSettings settings;
+  settings.technique = spec.technique;
+  for (const auto& [name, value] : spec.settings)
+  {
+    findSetting(name)->set(settings, value);
+  }
+  return settings;
+}
+
+//------------------------------------------------------------------------------
 VariantSpec parseTechnique(const std::string& text)
 {
   std::istringstream parts(text);
@@ -105,19 +117,27 @@ VariantSpec parseTechnique(const std::string& text)
       throw BadInput("--techniques: " + text + ": found the setting \"" + name +
         "\", expected one of: " + settingNames() + " (but technique, map_size and light_radius)");
     }
-    if (setting->about == SettingSubject::Light)
+    if (isOfLight(*setting))
     {
       throw BadInput("--techniques: " + text + ": found the setting \"" + name +
         "\", which says what the lights are, expected for all techniques alike (of a light of the "
         "scene, or " +
         optionOf(name) + ")");
     }
-    if (!takes(*setting, value))
+    if (ShadowSettings scratch; !setting->set(scratch, value))
     {
       throw BadInput("--techniques: " + text + ": " + name + ": found \"" + value +
-        "\", expected " + expectedBy(*setting));
+        "\", expected " + setting->expected());
     }
     spec.settings[name] = value;
+  }
+  const TechniqueInfo& info = estimatorOf(settingsOf(spec)).info;
+  for (const auto& [name, value] : spec.settings)
+  {
+    if (!has(info, name))
+    {
+      throw BadInput("--techniques: " + text + ": " + whoHas(name));
+    }
   }
   return spec;
 }
@@ -140,7 +160,7 @@ Scene withoutShadowSettings(Scene scene)
     std::map<std::string, std::string> ofLight;
     std::copy_if(light.settings.begin(), light.settings.end(),
       std::inserter(ofLight, ofLight.end()),
-      [](const auto& entry) { return findSetting(entry.first)->about == SettingSubject::Light; });
+      [](const auto& entry) { return isOfLight(*findSetting(entry.first)); });
     light.settings = std::move(ofLight);
   }
   return scene;

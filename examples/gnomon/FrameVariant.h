@@ -4,6 +4,7 @@
 #include "Comparison.h"
 #include "Scene.h"
 
+#include "lights/SettingsTable.h"
 #include "plugin/vtkGnomonEGLRenderWindow.h"
 #include "plugin/vtkGnomonShadowPass.h"
 
@@ -40,6 +41,9 @@ struct VariantSpec
   /// For people: "nsm fit=frame 1024 inline".
   std::string name() const;
 };
+
+/// What it asks of lights' shadows.
+ShadowSettings settingsOf(const VariantSpec& spec);
 
 /// "pcf:kernel=box:projection=lispsm" as a variant without map size and route.
 /// @throws BadInput that names the technique or setting which there is not, or that is not a technique's

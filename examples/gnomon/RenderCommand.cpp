@@ -142,7 +142,7 @@ int mostOf(const char* name, const Scene& scene)
 {
   const Setting& setting = *findSetting(name);
   const auto valueOf = [&](const ShadowSettings& settings)
-  { return settings.*std::get<IntegerSetting>(setting.values).member; };
+  { return std::get<int>(setting.read(settings)); };
   std::optional<int> most;
   for (const SceneLight& light : scene.lights)
   {
@@ -336,7 +336,15 @@ void render(const RenderOptions& options)
 {
   check(options);
   const PictureSize size = parseSize(options.size);
-  const Scene scene = loadWithOptions(options);
+  Scene scene = loadWithOptions(options);
+  const int samplesPerFrame = mostOf("progressive", scene);
+  if (options.shadeSamples)
+  {
+    for (SceneLight& light : scene.lights)
+    {
+      light.settings.erase("progressive"); // is the sampling pass's then
+    }
+  }
   for (const std::string& note : scene.notes)
   {
     std::cerr << "gnomon: note: " << note << "\n";
@@ -356,12 +364,13 @@ void render(const RenderOptions& options)
   shadows->SetRasterizer(options.rasterizer);
   shadows->SetMeasureStages(!options.stats.empty() || !options.visibility.empty());
   shadows->SetKeepVisibility(!options.visibility.empty() || !options.classes.empty());
-  shadows->SetSetting(
-    "bake", "always"); // the only frame is to show what techniques do with their maps
+  // The only frame is to show what techniques do with their maps, if they have any.
+  shadows->SetSetting("bake", "always");
+  shadows->SetTechnique(vtkGnomonShadowPass::GetDefaultTechnique());
   vtkNew<vtkGnomonLightSamplingPass> sampling;
   sampling->SetDelegatePass(shadows);
   sampling->SetSamples(mostOf("light_samples", scene));
-  sampling->SetSamplesPerFrame(mostOf("progressive", scene));
+  sampling->SetSamplesPerFrame(samplesPerFrame);
   renderer->SetPass(options.shadeSamples ? static_cast<vtkRenderPass*>(sampling) : shadows);
   window->AddRenderer(renderer);
   PictureReport report;

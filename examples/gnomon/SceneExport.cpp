@@ -3,7 +3,7 @@
 #include "Errors.h"
 #include "Files.h"
 #include "Vec3.h"
-#include "lights/ShadowSettings.h"
+#include "lights/SettingsTable.h"
 
 #include <nlohmann/json.hpp>
 #include <vtkImageData.h>

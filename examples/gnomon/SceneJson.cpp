@@ -3,8 +3,7 @@
 #include "Errors.h"
 #include "TextureFile.h"
 #include "Vec3.h"
-#include "lights/ShadowSettings.h"
-#include "shadowtech/Registry.h"
+#include "lights/SettingsTable.h"
 
 namespace gnomon::tool
 {
@@ -72,13 +71,13 @@ std::string readSetting(const JsonValue& value, const Setting& setting)
   if (const auto* reals = std::get_if<RealSetting>(&setting.values))
   {
     ShadowSettings scratch;
-    scratch.*reals->member = value.number({ reals->smallest, reals->largest });
+    setting.write(scratch, value.number({ reals->smallest, reals->largest }));
     return setting.get(scratch);
   }
   const std::string text = value.text();
-  if (!takes(setting, text))
+  if (ShadowSettings scratch; !setting.set(scratch, text))
   {
-    value.fail(expectedBy(setting));
+    value.fail(setting.expected());
   }
   return text;
 }
@@ -87,9 +86,9 @@ std::string readSetting(const JsonValue& value, const Setting& setting)
 void requireLight(const JsonValue& value, std::vector<std::string> known)
 {
   known.insert(known.end(), { "type", "color", "intensity" });
-  for (const Setting& setting : shadowSettings())
+  for (const Setting* setting : shadowSettings())
   {
-    known.push_back(setting.name);
+    known.push_back(setting->name);
   }
   value.requireObject(known);
 }
@@ -105,11 +104,11 @@ void readCommon(const JsonValue& value, SceneLight& light)
   {
     light.intensity = intensity.number(lightIntensity);
   }
-  for (const Setting& setting : shadowSettings())
+  for (const Setting* setting : shadowSettings())
   {
-    if (const JsonValue wished = value.member(setting.name); wished.present())
+    if (const JsonValue wished = value.member(setting->name); wished.present())
     {
-      light.settings[setting.name] = readSetting(wished, setting);
+      light.settings[setting->name] = readSetting(wished, *setting);
     }
   }
 }

@@ -1,6 +1,6 @@
 #include "SettingOptions.h"
 
-#include "lights/ShadowSettings.h"
+#include "lights/SettingsTable.h"
 #include "plugin/vtkGnomonShadowPass.h"
 #include "shadowtech/Registry.h"
 
@@ -14,7 +14,23 @@ namespace
 /// What is wrong with a setting's value; empty if nothing is.
 std::string refuse(const Setting& setting, const std::string& text)
 {
-  return takes(setting, text) ? "" : "found \"" + text + "\", expected " + expectedBy(setting);
+  ShadowSettings scratch;
+  return setting.set(scratch, text) ? "" : "found \"" + text + "\", expected " + setting.expected();
+}
+
+/// What an option says of a setting: "the kernel's width in texels: an integer in [1, 32] (3)".
+std::string helpOf(const Setting& setting)
+{
+  const std::string byDefault = setting.get(ShadowSettings());
+  return setting.meaning + (setting.unit.empty() ? "" : " (" + setting.unit + ")") + ": " +
+    setting.expected() + (byDefault.empty() ? "" : "; default " + byDefault);
+}
+
+/// The heading of a table's options: "Kernel (pcf, vsm)".
+std::string groupOf(const SettingsTable& table)
+{
+  const std::string techniques = techniquesWith(table);
+  return techniques.empty() ? table.title : table.title + " (" + techniques + ")";
 }
 
 /// An option that takes one of these names.
@@ -41,17 +57,19 @@ std::string optionOf(std::string settingName)
 void addSettingOptions(CLI::App& command, std::map<std::string, std::string>& values,
   const std::vector<std::string>& without)
 {
-  for (const Setting& setting : shadowSettings())
+  for (const SettingsTable* table : settingsTables())
   {
-    if (std::find(without.begin(), without.end(), setting.name) != without.end())
+    for (const Setting& setting : table->settings)
     {
-      continue;
+      if (std::find(without.begin(), without.end(), setting.name) != without.end())
+      {
+        continue;
+      }
+      command.add_option(optionOf(setting.name), values[setting.name], helpOf(setting))
+        ->check([&setting](const std::string& text) { return refuse(setting, text); })
+        ->option_text(" ")
+        ->group(groupOf(*table));
     }
-    command
-      .add_option(
-        optionOf(setting.name), values[setting.name], setting.help + ": " + expectedBy(setting))
-      ->check([&setting](const std::string& text) { return refuse(setting, text); })
-      ->option_text(" ");
   }
 }
 

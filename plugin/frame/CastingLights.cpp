@@ -1,6 +1,10 @@
 #include "plugin/frame/CastingLights.h"
 
+#include "lights/SettingsTable.h"
+
+#include "shadowtech/base/Kernel.h"
 #include "shadowtech/base/TextureMemory.h"
+#include "shadowtech/moment_map/MomentMapTechnique.h"
 
 #include <iterator>
 #include <utility>
@@ -10,14 +14,10 @@ namespace gnomon
 namespace
 {
 
-/// The name of the kernel that an estimator reads a light's map with; empty: it reads it with none.
-std::string kernelOf(const TechniqueInfo& info, const ShadowLight& light)
+/// The value of a setting as text; empty where an estimator does not have it.
+std::string valueOf(const char* setting, const TechniqueInfo& info, const ShadowLight& light)
 {
-  if (!info.filters)
-  {
-    return "";
-  }
-  return info.ownKernel.empty() ? findSetting("kernel")->get(light) : info.ownKernel;
+  return has(info, setting) ? findSetting(setting)->get(light) : "";
 }
 
 /// Finds a light's estimator, and completes the light.
@@ -34,28 +34,49 @@ const EstimatorEntry& composeIn(ShadowLight& light)
 }
 
 /// Takes back what a light's technique cannot do here, and notes what it does instead.
-void settle(
-  ShadowLight& light, const TechniqueInfo& info, bool severalViews, std::vector<std::string>& notes)
+void settle(ShadowLight& light, const TechniqueInfo& info, std::vector<std::string>& notes)
 {
-  const int mostSamples = info.averagesMap ? mostMapSamples() : light.mapSamples;
-  if (light.mapSamples > mostSamples)
+  const int samples = light.of<MomentMapSettings>().samples;
+  const int mostSamples = info.has(momentMapSettings()) ? mostMapSamples() : samples;
+  if (samples > mostSamples)
   {
     notes.push_back(nameOf(light) + ": OpenGL draws maps with at most " +
-      std::to_string(mostSamples) + " samples of a texel, not " + std::to_string(light.mapSamples));
-    light.mapSamples = mostSamples;
-  }
-  if (info.refines && light.progressiveSamples > 0 && severalViews)
-  {
-    notes.push_back(nameOf(light) +
-      ": 'progressive' refines one view, and the pass draws several (stereo, tiles, renderers): "
-      "all of the light's points are in every frame");
-    light.progressiveSamples = 0;
+      std::to_string(mostSamples) + " samples of a texel, not " + std::to_string(samples));
+    light.of<MomentMapSettings>().samples = mostSamples;
   }
   if (light.texture && !info.seesTextures)
   {
     notes.push_back(nameOf(light) + ": '" + light.technique +
       "' shows an even light of its texture's mean colour");
   }
+}
+
+/// The settings that are named for lights whose technique does not have them: a light's own, and those
+/// of the pass that no light's technique has.
+std::vector<std::string> findMisfits(const std::vector<ShadowLight>& lights,
+  const std::vector<const EstimatorEntry*>& estimators, const ShadowSettings& defaults)
+{
+  std::vector<std::string> misfits;
+  for (std::size_t i = 0; i < lights.size(); ++i)
+  {
+    for (const std::string& name : lights[i].named)
+    {
+      if (!has(estimators[i]->info, name))
+      {
+        misfits.push_back(nameOf(lights[i]) + " has the technique '" + lights[i].technique +
+          "', and " + whoHas(name));
+      }
+    }
+  }
+  for (const std::string& name : defaults.named)
+  {
+    const auto isHad = [&](const EstimatorEntry* estimator) { return has(estimator->info, name); };
+    if (!lights.empty() && std::none_of(estimators.begin(), estimators.end(), isHad))
+    {
+      misfits.push_back("No light's technique has it: " + whoHas(name));
+    }
+  }
+  return misfits;
 }
 
 LightReport reportOfSkipped(const SkippedLight& skipped)
@@ -73,36 +94,35 @@ LightReport reportOfCasting(const ShadowLight& light, const TechniqueInfo& info)
   report.casts = true;
   report.technique = light.technique;
   report.estimator = light.estimator;
-  report.projection = info.needsMap ? findSetting("projection")->get(light) : "";
-  report.mapSizeTexels = info.needsMap ? light.mapSizeTexels : 0;
-  report.kernel = kernelOf(info, light);
-  report.kernelTexels = info.filters ? light.kernelTexels : 0;
-  report.mapSamples = info.averagesMap ? light.mapSamples : 0;
+  report.projection = valueOf("projection", info, light);
+  report.mapSizeTexels = info.bakesMap() ? light.mapSizeTexels : 0;
+  report.kernel = info.kernel.empty() ? valueOf("kernel", info, light) : info.kernel;
+  report.kernelTexels = info.has(kernelSettings()) ? light.of<KernelSettings>().sizeTexels : 0;
+  report.mapSamples = info.has(momentMapSettings()) ? light.of<MomentMapSettings>().samples : 0;
   return report;
 }
 
 } // namespace
 
 //------------------------------------------------------------------------------
-const Technique* CastingLight::pointwiseOn(Route route, bool translucentReceivers)
+const PointwiseTechnique* CastingLight::pointwiseOn(Route route, bool translucentReceivers)
 {
-  const bool pointwise = this->own.info().isPointwise();
-  if (pointwise || !translucentReceivers)
+  const PointwiseTechnique* own = this->own.as<PointwiseTechnique>();
+  if (own || !translucentReceivers)
   {
     this->plain.reset();
-    return pointwise && (translucentReceivers || route == Route::Inline) ? &this->own.technique()
-                                                                         : nullptr;
+    return translucentReceivers || route == Route::Inline ? own : nullptr;
   }
   if (!this->plain)
   {
     this->plain.emplace(*findTechnique(plainTechnique)->estimator);
   }
-  return &this->plain->technique();
+  return this->plain->as<PointwiseTechnique>();
 }
 
 //------------------------------------------------------------------------------
 void CastingLights::collect(vtkRenderer* renderer, const ShadowSettings& defaults,
-  bool severalViews, TechniquesOfLights& ofView, FrameReport& report)
+  TechniquesOfLights& ofView, FrameReport& report)
 {
   LightSet set = this->manager_.collect(renderer, defaults);
 
@@ -110,13 +130,15 @@ void CastingLights::collect(vtkRenderer* renderer, const ShadowSettings& default
   for (ShadowLight& light : set.casting)
   {
     estimators.push_back(&composeIn(light));
-    settle(light, estimators.back()->info, severalViews, report.notes);
+    settle(light, estimators.back()->info, report.notes);
     report.lights.push_back(reportOfCasting(light, estimators.back()->info));
   }
   std::transform(
     set.skipped.begin(), set.skipped.end(), std::back_inserter(report.lights), reportOfSkipped);
   std::sort(report.lights.begin(), report.lights.end(),
     [](const LightReport& a, const LightReport& b) { return a.sceneIndex < b.sceneIndex; });
+
+  report.misfits = findMisfits(set.casting, estimators, defaults);
 
   // Nothing below fails half way: what a light has kept goes on with it.
   std::vector<CastingLight> lights;

@@ -46,7 +46,7 @@ struct CastingLight : KeptTechniques
   /// What the shader computes the light's visibility with on a route; null if it only fetches. From here on there is a
   /// plain technique where one is needed.
   /// @param translucentReceivers whether translucent surfaces receive
-  const Technique* pointwiseOn(Route route, bool translucentReceivers);
+  const PointwiseTechnique* pointwiseOn(Route route, bool translucentReceivers);
 };
 
 /// The lights stage: which of a renderer's lights cast, in the scene's order, each with the technique that it keeps for as
@@ -56,10 +56,9 @@ class CastingLights
 public:
   /// Reads the lights as they are now, and says of each in the report what becomes of it.
   /// @throws FrameError for techniques that do not exist or make no sense; the lights stay those of the frame before then
-  /// @param severalViews whether the pass draws others beside this one
   /// @param ofView what lights whose maps are fitted to a camera keep for this view
-  void collect(vtkRenderer* renderer, const ShadowSettings& defaults, bool severalViews,
-    TechniquesOfLights& ofView, FrameReport& report);
+  void collect(vtkRenderer* renderer, const ShadowSettings& defaults, TechniquesOfLights& ofView,
+    FrameReport& report);
 
   /// Ends a frame: what the lights have goes back to where collect() took it from.
   void giveBack(TechniquesOfLights& ofView);

@@ -2,15 +2,33 @@
 
 #include "lights/KernelShape.h"
 #include "plugin/scene/Hash.h"
+#include "shadowtech/base/BakeSettings.h"
 #include "shadowtech/base/OccluderBuffers.h"
 #include "shadowtech/base/Occluders.h"
 #include "shadowtech/base/ReceiverTarget.h"
-#include "shadowtech/exact/CellsOnGpu.h"
 
 #include <utility>
 
 namespace gnomon
 {
+namespace
+{
+
+/// The values of the settings that maps are baked with.
+std::string bakedSettings(const TechniqueInfo& info, const ShadowLight& light)
+{
+  std::string values;
+  for (const SettingsTable* table : info.settings)
+  {
+    for (const Setting& setting : table->settings)
+    {
+      values += setting.isBaked ? setting.get(light) + "," : "";
+    }
+  }
+  return values;
+}
+
+} // namespace
 
 //------------------------------------------------------------------------------
 LightTechnique::LightTechnique(const EstimatorEntry& estimator)
@@ -23,11 +41,11 @@ LightTechnique::LightTechnique(const EstimatorEntry& estimator)
 void LightTechnique::chooseFit(
   ShadowLight& light, Route route, bool translucentReceivers, LightReport& report) const
 {
-  if (!this->info().needsMap)
+  if (!this->info().bakesMap())
   {
     return;
   }
-  const bool fitted = isFittedToCamera(this->technique_->lightOfMap(light));
+  const bool fitted = isFittedToCamera(this->technique().lightOfMap(light));
   report.fitReason = fitted ? this->reasonAgainstReceivers(light, route, translucentReceivers) : "";
   light.fittedToReceivers = fitted && report.fitReason.empty();
   report.fit = light.fittedToReceivers ? "receivers" : fitted ? "frustum" : "off";
@@ -62,7 +80,7 @@ std::string LightTechnique::reasonAgainstReceivers(
   {
     return "translucent surfaces receive, which are not among the receivers that are drawn first";
   }
-  if (this->technique_->mapReach(light).dependsOnViews())
+  if (this->technique().mapReach(light).dependsOnViews())
   {
     return "a kernel of a width in world units, or as wide as penumbrae are, needs a border that "
            "follows from the fit itself";
@@ -74,12 +92,12 @@ std::string LightTechnique::reasonAgainstReceivers(
 void LightTechnique::updateMaps(
   const ShadowLight& light, const MapStage& stage, LightReport& report)
 {
-  if (!this->info().needsMap)
+  if (!this->info().bakesMap())
   {
     return;
   }
   Bake wanted = this->wantedIn(light, stage);
-  if (this->info().mapIsOptional && light.bake != BakeTime::Always)
+  if (this->info().mapIsOptional && light.of<BakeSettings>().time != BakeTime::Always)
   {
     this->usesMap_ =
       this->backoff_.usesMap(this->wanted_.serves(wanted), this->baked_.serves(wanted));
@@ -94,7 +112,7 @@ void LightTechnique::updateMaps(
   if (!this->usesMap_)
   {
     this->baked_.made = false;
-    this->technique_->dropMaps();
+    this->technique().dropMaps();
     return;
   }
   if (this->baked_.serves(wanted))
@@ -118,7 +136,7 @@ LightViews LightTechnique::layOut(
   fitting.castersCentred = stage.occluders.castersCentred;
   fitting.receiversCentred = stage.occluders.allCentred;
   fitting.texels = { light.mapSizeTexels, reach.borderTexels() };
-  const ShadowLight seen = this->technique_->lightOfMap(light);
+  const ShadowLight seen = this->technique().lightOfMap(light);
   if (isFittedToCamera(seen))
   {
     const std::optional<CameraView>& first =
@@ -145,10 +163,10 @@ LightViews LightTechnique::layOut(
 LightTechnique::Bake LightTechnique::wantedIn(const ShadowLight& light, const MapStage& stage)
 {
   Bake wanted;
-  wanted.reach = this->technique_->mapReach(light);
+  wanted.reach = this->technique().mapReach(light);
   wanted.views = this->layOut(light, stage, wanted.reach);
   wanted.camera = this->fitting_.camera;
-  wanted.settings = light;
+  wanted.settings = bakedSettings(this->info(), light);
   wanted.topology = stage.occluders.topologyVersion;
   wanted.positions = stage.occluders.positionsVersion;
   if (light.fittedToReceivers)
@@ -181,12 +199,8 @@ void LightTechnique::bake(const ShadowLight& light, const MapStage& stage, Bake 
   }
   MapInput input{ light, wanted.views, stage.occluders, stage.buffers, stage.shaders,
     light.fittedToReceivers ? this->receiverFit_.fits() : TextureBinding() };
-  const CellsOnGpu cells(stage.shaders);
-  if (wanted.isDrawnOnGpu())
-  {
-    input.cellsOnGpu = &cells;
-  }
-  namingLight(light, [&] { this->technique_->bake(input); });
+  input.drawsOnGpu = wanted.isDrawnOnGpu();
+  namingLight(light, [&] { this->technique().bake(input); });
   wanted.castersLeftOut = stage.buffers.countUnseen(wanted.views.views);
   this->baked_ = std::move(wanted);
   ++stage.mapBakes;
@@ -196,8 +210,7 @@ void LightTechnique::bake(const ShadowLight& light, const MapStage& stage, Bake 
 bool LightTechnique::Bake::serves(const Bake& wanted) const
 {
   return this->made && this->views == wanted.views && this->reach == wanted.reach &&
-    this->settings.mapSizeTexels == wanted.settings.mapSizeTexels &&
-    this->settings.storesAs(wanted.settings) && this->isDrawnOnGpu() == wanted.isDrawnOnGpu() &&
+    this->settings == wanted.settings && this->isDrawnOnGpu() == wanted.isDrawnOnGpu() &&
     this->topology == wanted.topology && this->positions == wanted.positions &&
     this->receivers == wanted.receivers;
 }

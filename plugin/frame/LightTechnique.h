@@ -49,8 +49,14 @@ public:
 
   const EstimatorEntry& estimator() const { return *this->estimator_; }
   const TechniqueInfo& info() const { return this->estimator_->info; }
-  Technique& technique() { return *this->technique_; }
-  const Technique& technique() const { return *this->technique_; }
+  Technique& technique() const { return baseOf(this->technique_); }
+  /// The technique if it is of a kind; else null.
+  template <typename Kind>
+  Kind* as() const
+  {
+    const auto* technique = std::get_if<std::unique_ptr<Kind>>(&this->technique_);
+    return technique ? technique->get() : nullptr;
+  }
 
   /// States what the light's views are fitted to on a route, in the light and in the report: the receivers that are drawn,
   /// which are the tightest, unless there is a reason not to.
@@ -74,7 +80,7 @@ private:
     LightViews views;
     std::optional<CameraView> camera; ///< that the views were fitted to
     MapReach reach;
-    ShadowSettings settings;
+    std::string settings; ///< those that it is baked with
     std::uint64_t topology = 0;
     std::uint64_t positions = 0;
     std::size_t receivers = 0; ///< a hash of what F of MapFit.h was found from on the GPU; else 0
@@ -96,7 +102,7 @@ private:
   void bake(const ShadowLight& light, const MapStage& stage, Bake wanted);
 
   const EstimatorEntry* estimator_;
-  std::unique_ptr<Technique> technique_;
+  AnyTechnique technique_;
   ViewFitting fitting_;
   Bake baked_;
   Bake wanted_;         ///< what optional maps were to be baked from in the last frame

@@ -71,12 +71,16 @@ std::size_t hashOfPlace(const ShadowLight& light)
   return seed;
 }
 
-std::size_t hashOfSettings(const ShadowSettings& settings)
+/// Of the settings that a technique reads.
+std::size_t hashOfSettings(const TechniqueInfo& info, const ShadowSettings& settings)
 {
   std::size_t seed = 0;
-  for (const Setting& setting : shadowSettings())
+  for (const SettingsTable* table : info.settings)
   {
-    hashCombine(seed, setting.get(settings));
+    for (const Setting& setting : table->settings)
+    {
+      hashCombine(seed, setting.get(settings));
+    }
   }
   return seed;
 }
@@ -145,7 +149,8 @@ bool RenderManager::collectLights(
   vtkRenderer* renderer, const ShadowSettings& defaults, bool severalViews)
 {
   this->view_ = &this->views_.of(renderer);
-  this->lights_.collect(renderer, defaults, severalViews, this->view_->techniques, this->report_);
+  this->severalViews_ = severalViews;
+  this->lights_.collect(renderer, defaults, this->view_->techniques, this->report_);
   this->endStageClock("lights");
   if (this->lights_.empty())
   {
@@ -216,7 +221,7 @@ bool RenderManager::chooseRoute()
   {
     casting.own.chooseFit(
       casting.light, this->route_, translucentReceivers, reportOf(this->report_, casting.light));
-    const Technique* pointwise = casting.pointwiseOn(this->route_, translucentReceivers);
+    const PointwiseTechnique* pointwise = casting.pointwiseOn(this->route_, translucentReceivers);
     casting.shadesAtPoints = pointwise != nullptr;
     shaded.push_back({ casting.light, casting.layer, casting.channels, pointwise });
   }
@@ -259,7 +264,7 @@ ValueKey RenderManager::visibilityKey(const CastingLight& casting) const
   hashCombine(technique, casting.light.fittedToReceivers);
   ValueKey key = *this->view_->receivers.key;
   key.add("the light", hashOfPlace(casting.light));
-  key.add("its settings", hashOfSettings(casting.light));
+  key.add("its settings", hashOfSettings(casting.own.info(), casting.light));
   key.add("its technique", technique);
   key.add("the tracer", static_cast<std::size_t>(this->wishes_.tracer));
   key.add("the rasterizer", // pixels are the same, but the report says which one drew the map
@@ -484,45 +489,42 @@ void RenderManager::fillLayers(
   const Occluders& occluders = this->collector_.occluders();
   const ReceiversValue& receivers = this->view_->receivers;
   VisibilityLayers& layers = this->view_->layers;
-  Technique& technique = casting.own.technique();
-  switch (casting.own.info().evaluation)
+  if (auto* pointwise = casting.own.as<PointwiseTechnique>())
   {
-    case Evaluation::Pointwise:
-      layers.estimate(casting.layer, technique, light, receivers.target, this->stageValues_.space,
-        this->programs_.library, casting.own.info().classes.empty() ? nullptr : classes);
-      this->endStageClock("visibility: estimate");
-      break;
-    case Evaluation::ScreenGpu:
-      this->buffers_.update(occluders);
-      namingLight(light,
-        [&]
-        {
-          technique.drawVisibility(
-            { light, casting.own.fitting(), this->camera_, this->stageValues_.space, occluders,
-              this->buffers_, receivers.target, this->receiversShown_, receivers.drawnSurfaces,
-              layers, casting.layer, this->programs_.library, classes != nullptr, classes,
-              this->report_.notes, this->report_.mapBakes },
-            report);
-        });
-      this->endStageClock("visibility: draw");
-      break;
-    case Evaluation::ScreenCpu:
-    {
-      Receivers& onCpu = this->receiversOnCpu();
-      std::vector<float> visibility;
-      namingLight(light,
-        [&]
-        {
-          technique.computeVisibility(
-            { light, casting.own.fitting(), occluders, onCpu, this->tracer_.tracer(),
-              casting.own.usesMap(), classes, this->report_.mapBakes },
-            visibility, report);
-        });
-      this->endStageClock("visibility: trace");
-      layers.upload(casting.layer, visibility);
-      this->endStageClock("visibility: upload");
-      break;
-    }
+    layers.estimate(casting.layer, *pointwise, light, receivers.target, this->stageValues_.space,
+      this->programs_.library, casting.own.info().classes.empty() ? nullptr : classes);
+    this->endStageClock("visibility: estimate");
+  }
+  else if (auto* onGpu = casting.own.as<GpuScreenTechnique>())
+  {
+    this->buffers_.update(occluders);
+    namingLight(light,
+      [&]
+      {
+        onGpu->drawVisibility(
+          { light, casting.own.fitting(), this->camera_, this->stageValues_.space, occluders,
+            this->buffers_, receivers.target, this->receiversShown_, receivers.drawnSurfaces,
+            layers, casting.layer, this->severalViews_, this->programs_.library, classes != nullptr,
+            classes, this->report_.notes, this->report_.mapBakes },
+          report);
+      });
+    this->endStageClock("visibility: draw");
+  }
+  else
+  {
+    Receivers& onCpu = this->receiversOnCpu();
+    std::vector<float> visibility;
+    namingLight(light,
+      [&]
+      {
+        casting.own.as<CpuScreenTechnique>()->computeVisibility(
+          { light, casting.own.fitting(), occluders, onCpu, this->tracer_.tracer(),
+            casting.own.usesMap(), classes, this->report_.mapBakes },
+          visibility, report);
+      });
+    this->endStageClock("visibility: trace");
+    layers.upload(casting.layer, visibility);
+    this->endStageClock("visibility: upload");
   }
 }
 

@@ -130,6 +130,7 @@ private:
   glm::ivec2 size_{ 0 }; ///< of this frame's picture, in pixels
   CameraView camera_;    ///< that it is drawn by
 
+  bool severalViews_ = false; ///< whether the pass draws others beside this one
   CastingLights lights_;
   OccluderCollector collector_;
   OccluderBuffers buffers_;

@@ -34,7 +34,7 @@ struct ShadedLight
   int channels = 1; ///< of its visibility, a layer each (channelsOf())
   /// What the shader computes visibility with: on the inline route for all surfaces, on the image
   /// route for translucent ones, since the layers show what is opaque. Null where nothing needs it.
-  const Technique* pointwise = nullptr;
+  const PointwiseTechnique* pointwise = nullptr;
 };
 
 /// Has the shaders of VTK's glyphs pass the number of the instance on, as the fragment shader's

@@ -14,27 +14,40 @@ namespace
 
 bool readsBounds(const ShadowLight& light)
 {
-  return light.earlyOut == EarlyOut::Exact && !measuresAlongRay(light);
+  return light.of<EarlyOutSettings>().earlyOut == EarlyOut::Exact && !measuresAlongRay(light);
 }
 
 } // namespace
+
+//------------------------------------------------------------------------------
+const SettingsTable& adaptiveSettings()
+{
+  using S = AdaptiveSettings;
+  static const SettingsTable table = { "The disc",
+    {
+      bakedInto(integer(
+        "disc_grid", "a disc's points are the square of this", "", &S::discGrid, { 2, 16 })),
+      bakedInto(integer(
+        "disc_sets", "discs that differ are the square of this", "", &S::discSets, { 1, 32 })),
+    } };
+  return table;
+}
 
 //------------------------------------------------------------------------------
 TechniqueInfo Adaptive::info()
 {
   TechniqueInfo info;
   info.name = "adaptive";
-  info.evaluation = Evaluation::Pointwise;
-  info.needsMap = true;
-  info.filters = true;
-  info.ownKernel = "disc";
+  info.settings = { &viewSettings(), &kernelSettings(), &adaptiveSettings(), &earlyOutSettings(),
+    &depthMapSettings() };
+  info.kernel = "disc";
   return info;
 }
 
 //------------------------------------------------------------------------------
 MapReach Adaptive::mapReach(const ShadowLight& light) const
 {
-  return kernelReach(light, { 0.5, 0.0, 0.5 * light.kernelTexels });
+  return kernelReach(light, { 0.5, 0.0, 0.5 * light.of<KernelSettings>().sizeTexels });
 }
 
 //------------------------------------------------------------------------------
@@ -53,13 +66,14 @@ void Adaptive::bake(const MapInput& input)
 //------------------------------------------------------------------------------
 void Adaptive::bakeDiscs(const ShadowLight& light)
 {
-  if (this->discs_ && this->discGrid_ == light.discGrid && this->discSets_ == light.discSets)
+  if (this->discs_ && this->discGrid_ == light.of<AdaptiveSettings>().discGrid &&
+    this->discSets_ == light.of<AdaptiveSettings>().discSets)
   {
     return;
   }
-  const int points = light.discGrid * light.discGrid;
-  const int discs = light.discSets * light.discSets;
-  const std::vector<glm::vec2> byDisc = jitteredDiscs(light.discGrid, discs);
+  const int points = light.of<AdaptiveSettings>().discGrid * light.of<AdaptiveSettings>().discGrid;
+  const int discs = light.of<AdaptiveSettings>().discSets * light.of<AdaptiveSettings>().discSets;
+  const std::vector<glm::vec2> byDisc = jitteredDiscs(light.of<AdaptiveSettings>().discGrid, discs);
   std::vector<glm::vec2> byPoint;
   byPoint.reserve(byDisc.size());
   for (int point = 0; point < points; ++point)
@@ -69,14 +83,14 @@ void Adaptive::bakeDiscs(const ShadowLight& light)
       byPoint.push_back(byDisc[static_cast<std::size_t>(disc * points + point)]);
     }
   }
-  allocateTexture(this->discs_, { GL_RG32F, GL_RG, 2 }, light.discSets, light.discSets, points,
-    "a table of discs");
+  allocateTexture(this->discs_, { GL_RG32F, GL_RG, 2 }, light.of<AdaptiveSettings>().discSets,
+    light.of<AdaptiveSettings>().discSets, points, "a table of discs");
   glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-  glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, light.discSets, light.discSets, points, GL_RG,
-    GL_FLOAT, byPoint.data());
-  this->discGrid_ = light.discGrid;
-  this->discSets_ = light.discSets;
+  glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, light.of<AdaptiveSettings>().discSets,
+    light.of<AdaptiveSettings>().discSets, points, GL_RG, GL_FLOAT, byPoint.data());
+  this->discGrid_ = light.of<AdaptiveSettings>().discGrid;
+  this->discSets_ = light.of<AdaptiveSettings>().discSets;
 }
 
 //------------------------------------------------------------------------------
@@ -103,11 +117,13 @@ std::vector<Uniform> Adaptive::uniforms(const ReceiverSpace& space) const
 //------------------------------------------------------------------------------
 std::string Adaptive::estimatorGlsl(const ShadowLight& light) const
 {
-  return kernelDefines(light) + glslDefine("DISC_TEXELS_LIGHT", light.kernelTexels) +
-    glslDefine("DISC_RING_LIGHT", light.discGrid) +
-    glslDefine("DISC_POINTS_LIGHT", light.discGrid * light.discGrid) +
-    glslDefine("DISC_SETS_LIGHT", light.discSets) +
-    glslDefine("DISC_ASKS_RING_LIGHT", light.earlyOut == EarlyOut::Ring) +
+  return kernelDefines(light) +
+    glslDefine("DISC_TEXELS_LIGHT", light.of<KernelSettings>().sizeTexels) +
+    glslDefine("DISC_RING_LIGHT", light.of<AdaptiveSettings>().discGrid) +
+    glslDefine("DISC_POINTS_LIGHT",
+      light.of<AdaptiveSettings>().discGrid * light.of<AdaptiveSettings>().discGrid) +
+    glslDefine("DISC_SETS_LIGHT", light.of<AdaptiveSettings>().discSets) +
+    glslDefine("DISC_ASKS_RING_LIGHT", light.of<EarlyOutSettings>().earlyOut == EarlyOut::Ring) +
     glslDefine("DISC_ASKS_BOUNDS_LIGHT", readsBounds(light)) +
     ShaderLibrary::source("shadowtech/adaptive/adaptive_estimator.glsl");
 }

@@ -7,6 +7,14 @@
 namespace gnomon
 {
 
+/// The disc that is filtered over, in numbers whose squares count.
+struct AdaptiveSettings
+{
+  int discGrid = 8;  ///< points of a disc
+  int discSets = 16; ///< discs that differ
+};
+const SettingsTable& adaptiveSettings();
+
 /// `adaptive`: percentage closer filtering over a jittered disc (Uralsky, GPU Gems 2, chapter 17;
 /// Rzeczkowski, section 3.2.4), which reads few texels where all of the disc is lit or hidden.
 ///

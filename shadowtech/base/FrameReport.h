@@ -88,6 +88,9 @@ struct FrameReport
   bool outOfTextureMemory = false;
   std::vector<LightReport> lights; ///< every light of the renderer
   std::vector<std::string> notes;  ///< limits that this frame ran into, each a sentence
+  /// Settings that are named for lights whose technique does not have them, each a sentence. They are
+  /// ignored.
+  std::vector<std::string> misfits;
 
   /// Filled when stages are measured; each stage then ends with glFinish, which costs time of its
   /// own. Without it `stages` is empty and only wallMilliseconds counts.

@@ -7,9 +7,22 @@ namespace gnomon
 {
 
 //------------------------------------------------------------------------------
+const SettingsTable& kernelSettings()
+{
+  static const SettingsTable table = { "The filter's width",
+    { integer(
+        "kernel_size", "the kernel's width", "texels", &KernelSettings::sizeTexels, { 1, 32 }),
+      real("kernel_width",
+        "above 0: the kernel's width across the light (from a position: at distance 1), over which "
+        "as many taps are spread as kernel_size says",
+        "world units", &KernelSettings::widthAcross, { 0.0, 1e12 }) } };
+  return table;
+}
+
+//------------------------------------------------------------------------------
 KernelUnits kernelUnits(const ShadowLight& light)
 {
-  if (light.kernelWidth > 0.0)
+  if (light.of<KernelSettings>().widthAcross > 0.0)
   {
     return KernelUnits::Across;
   }
@@ -28,10 +41,11 @@ MapReach kernelReach(const ShadowLight& light, const KernelExtent& extent)
       reach.discTexels = extent.disc;
       return reach;
     case KernelUnits::Even:
-      reach.largestStretch = largestStretch(light.kernelTexels);
+      reach.largestStretch = largestStretch(light.of<KernelSettings>().sizeTexels);
       break;
     case KernelUnits::Across:
-      reach.unitAcross = light.kernelWidth / light.kernelTexels;
+      reach.unitAcross =
+        light.of<KernelSettings>().widthAcross / light.of<KernelSettings>().sizeTexels;
       break;
   }
   reach.kernelSquare = extent.square;

@@ -1,5 +1,7 @@
 #include "shadowtech/base/LightViewsGlsl.h"
 
+#include "lights/SettingsTable.h"
+
 #include "shadowtech/base/GlslText.h"
 
 namespace gnomon
@@ -16,7 +18,7 @@ glm::vec4 scaleAndOffset(const glm::dmat3& texelFromAcross)
 } // namespace
 
 //------------------------------------------------------------------------------
-std::string lightViewsDefines(const ShadowLight& light)
+std::string lightViewsDefines(const ShadowLight& light, bool asksPixels)
 {
   const ViewLayout layout = viewLayout(light);
   return glslDefine("VIEWS_SPOT_LIGHT", light.kind == LightKind::Spot) +
@@ -28,7 +30,7 @@ std::string lightViewsDefines(const ShadowLight& light)
     "#define SPLIT_BLEND_LIGHT float(" + findSetting("split_blend")->get(light) + ")\n" +
     glslDefine("VIEWS_WARPED_LIGHT", isWarped(light)) +
     glslDefine("VIEWS_FITTED_LIGHT", light.fittedToReceivers) +
-    glslDefine("VIEWS_PIXELS_LIGHT", light.mipMaps) +
+    glslDefine("VIEWS_PIXELS_LIGHT", asksPixels) +
     glslDefine("VIEWS_CHOSEN_LIGHT", choosesWarp(light)) +
     glslDefine("VIEWS_LIGHT", mostViews(light));
 }

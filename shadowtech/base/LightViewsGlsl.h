@@ -13,7 +13,8 @@ namespace gnomon
 {
 
 /// The definitions that light_views.glsl, included by a technique's source, needs in front of it.
-std::string lightViewsDefines(const ShadowLight& light);
+/// @param asksPixels whether the source asks how many texels a pixel covers
+std::string lightViewsDefines(const ShadowLight& light, bool asksPixels = false);
 
 /// The uniforms of light_views.glsl, also those that only other kinds of light use.
 /// @param sizeTexels the side of the map's layers

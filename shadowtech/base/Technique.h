@@ -4,6 +4,7 @@
 #include "lights/CameraView.h"
 #include "lights/LightViews.h"
 #include "lights/MapReach.h"
+#include "lights/SettingsTable.h"
 #include "lights/ShadowLight.h"
 #include "shadowtech/base/FrameReport.h"
 #include "shadowtech/base/Gl.h"
@@ -11,6 +12,7 @@
 
 #include <glm/glm.hpp>
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -21,7 +23,6 @@
 namespace gnomon
 {
 
-class CellsOnGpu;
 struct DrawnSurface;
 struct Occluders;
 class OccluderBuffers;
@@ -31,63 +32,51 @@ class ShaderLibrary;
 class ShadowTracer;
 class VisibilityLayers;
 
-/// How an estimator's visibility comes about, and so which of Technique's functions gives it.
+/// The three kinds of technique.
 enum class Evaluation
 {
-  Pointwise, ///< a function of the point (visibilityGlsl): serves both routes
-  ScreenGpu, ///< drawn on the GPU for all pixels at once (drawVisibility)
-  ScreenCpu  ///< computed on the CPU for all pixels at once (computeVisibility)
-};
-
-/// Which points of an area light an estimator asks about, and so which settings of points concern it (concerns(),
-/// Registry.h).
-enum class LightPoints
-{
-  Fixed,  ///< the centre, or points that no setting changes
-  Seeded, ///< points of its own, as ShadowSettings::lightSeed says
-  Sampled ///< those of LightSamples.h: lightSamples, lightSeed and lightSampling
+  Pointwise, ///< PointwiseTechnique: serves both routes
+  ScreenGpu, ///< GpuScreenTechnique
+  ScreenCpu  ///< CpuScreenTechnique
 };
 
 /// What an estimator is, before any instance of it exists: one line of the registry.
 struct TechniqueInfo
 {
   std::string name;
-  Evaluation evaluation = Evaluation::Pointwise;
-  bool exact = false; ///< equals the ray-traced visibility bit for bit
+  Evaluation evaluation = Evaluation::Pointwise; ///< as its class says (Registry.cpp)
+  bool exact = false;                            ///< equals the ray-traced visibility bit for bit
+  /// The settings that it reads, beside the light's area.
+  std::vector<const SettingsTable*> settings = {};
   /// The estimator by the letter of the publication, which `as_published` selects (a published one itself); empty:
   /// there is none.
   std::string asPublished = {};
-  bool needsMap = false; ///< bakes something from the light
-  bool mapIsOptional =
-    false; ///< shows the same without it: it only saves time where it serves several frames
+  /// Shows the same without its map, which saves time where it serves several frames.
+  bool mapIsOptional = false;
   bool conservativeMap = false; ///< its map is a conservative one
-  /// Why that is drawn on the CPU, whoever is to draw conservative maps, as a clause; empty: it need not be.
+  /// Why this map needs the CPU, as a clause; empty if the GPU can draw it.
   std::string onlyCpuDraws = {};
-  bool filters = false; ///< averages over a kernel, `kernel_size` wide
-  /// The kernel of an estimator that has one of its own; empty: what the setting `kernel` says.
-  std::string ownKernel = {};
-  bool averagesMap = false; ///< its map holds what may be averaged: moments, not depths
-  bool sumsMap = false;     ///< and which fixed-point numbers hold, so that tables may sum it
-
-  LightPoints lightPoints = LightPoints::Fixed;
-  /// Whether it shows shadows on planes only (ShadowSettings::planes).
-  bool servesPlanes = false;
+  /// What the report calls the kernel of a technique that filters; empty: as the setting `kernel`.
+  std::string kernel = {};
 
   /// Whether visibility has three channels in a light with a texture (channelsOf()). Of others the light is an even one of
   /// the texture's mean colour.
   bool seesTextures = false;
 
-  /// Whether its picture may come about over several frames (ShadowSettings::progressiveSamples).
-  bool refines = false;
-
   /// Why it cannot do what a light's settings say, whose projection is resolved; empty if it can. Null: it always can.
   std::string (*refused)(const ShadowLight&) = nullptr;
 
-  /// What the technique tells of its pixels; empty: nothing. A screen technique fills ScreenInput::classes, a pointwise one's
-  /// GLSL has `int pixelClass_LIGHT` after each call.
+  /// What the technique tells of its pixels; empty: nothing. A screen technique fills
+  /// ScreenInput::classes, a pointwise one's GLSL has `int pixelClass_LIGHT` after each call.
   std::vector<PixelClass> classes = {};
 
   bool isPointwise() const { return this->evaluation == Evaluation::Pointwise; }
+  bool has(const SettingsTable& table) const
+  {
+    return std::find(this->settings.begin(), this->settings.end(), &table) != this->settings.end();
+  }
+  /// Whether it bakes something from the light.
+  bool bakesMap() const { return this->has(viewSettings()); }
 };
 
 /// The channels of a light's visibility as a technique computes it: 1, or 3 (red, green, blue) where it sees the texture of
@@ -135,8 +124,8 @@ struct MapInput
   TextureBinding viewFits = {};
   /// A plane (n, d) in centred coordinates: of casters, only what has n.p + d >= 0 counts.
   std::optional<glm::dvec4> keptFromCentred = std::nullopt;
-  /// Who draws conservative maps; null: the CPU.
-  const CellsOnGpu* cellsOnGpu = nullptr;
+  /// Whether a conservative map is drawn by compute shaders rather than on the CPU.
+  bool drawsOnGpu = false;
 };
 
 /// What a screen technique gets to draw one light's visibility image from, on the GPU.
@@ -154,7 +143,8 @@ struct LayerInput
   std::size_t receiversShown;
   const std::vector<DrawnSurface>& drawnSurfaces; ///< that the receivers' fragments name
   VisibilityLayers& layers;
-  int layer; ///< of the layers: this light's, the first one of several channels
+  int layer;         ///< of the layers: this light's, the first one of several channels
+  bool severalViews; ///< whether the pass draws other views beside this one
   ShaderLibrary& shaders;
   bool counting; ///< whether the report is worth reading back what only the GPU knows
   /// Where not null: to be filled with each pixel's class, an index into TechniqueInfo::classes.
@@ -178,48 +168,68 @@ struct ScreenInput
   int& mapBakes; ///< FrameReport::mapBakes
 };
 
-/// One way to compute visibility, for one light. The render manager makes one per casting light
-/// from the registry and keeps it while the light keeps its technique.
-///
-/// A *pointwise* technique gives GLSL: a file that defines
-///     float visibility_LIGHT(vec3 positionView, vec3 normalView)
-/// in GLSL 1.50 and its uniforms. The normal is the geometric one on the camera's side, of any
-/// length. Every identifier that ends in _LIGHT is numbered per light. Both routes call that
-/// function: VTK's own shaders (inline) or a full-screen pass (image).
-///
-/// A *screen* technique works on the receivers of all pixels at once: on the GPU, where it reads nothing
-/// back, or on the CPU, where it may trace rays.
+/// One way to compute visibility, for one light: what all kinds share is the light's maps. The render
+/// manager makes one per casting light from the registry, and keeps it while the light keeps its
+/// technique.
 class Technique
 {
 public:
   virtual ~Technique() = default;
 
-  /// The light that the maps' views are laid out for, as the light's are (viewLayout()): another one of techniques that see an
-  /// area light from elsewhere than its centre, or read more of the map than what the camera's receivers are on.
+  /// The light that the maps' views are laid out for, as the light's are (viewLayout()). Another one
+  /// where a technique sees an area light from elsewhere than its centre, or reads more of the map
+  /// than what the camera's receivers are on.
   virtual ShadowLight lightOfMap(const ShadowLight& light) const { return light; }
   /// How far around a receiver's place on the map the technique reads. Views are fitted for it, and
   /// the maps are stale when it changes.
   virtual MapReach mapReach(const ShadowLight&) const { return {}; }
-  /// Draws the light's maps. Called only when they are stale.
+  /// Bakes the light's maps. Called only when they are stale.
   virtual void bake(const MapInput&) {}
-  /// Forgets the light's maps. Called where they are stale and not drawn (TechniqueInfo::mapIsOptional).
+  /// Drops the light's maps. Called where they are stale and not baked (TechniqueInfo::mapIsOptional).
   virtual void dropMaps() {}
-  /// Memory that the baked maps, or what else the technique keeps for the light, take on the GPU.
+  /// Memory on the GPU of the baked maps, and of what else the technique keeps for the light.
   virtual std::size_t bytesOfMaps() const { return 0; }
-
-  /// The GLSL source of a pointwise technique, for a light of this kind; empty for a screen technique.
-  virtual std::string visibilityGlsl(const ShadowLight&) const { return {}; }
-  /// The uniforms of that source, as of the last bake, for receivers in the view coordinates of a
-  /// camera.
-  virtual std::vector<Uniform> uniforms(const ReceiverSpace&) const { return {}; }
-
-  /// Draws a screen technique's visibility on the GPU into its layer, or one for each channel: in [0, 1] for every pixel.
-  virtual void drawVisibility(const LayerInput&, LightReport&) {}
-
-  /// Computes a screen technique's visibility on the CPU, one float in [0, 1] per pixel of the receivers; of several
-  /// channels one image after the other.
-  virtual void computeVisibility(const ScreenInput&, std::vector<float>&, LightReport&) {}
 };
+
+/// A function of the point, in GLSL. Both routes call it: VTK's own shaders (inline) or a full-screen
+/// pass (image).
+class PointwiseTechnique : public Technique
+{
+public:
+  /// A file that defines
+  ///     float visibility_LIGHT(vec3 positionView, vec3 normalView)
+  /// in GLSL 1.50 and its uniforms, for a light of this kind. The normal is the geometric one on the
+  /// camera's side, of any length. Every identifier that ends in _LIGHT is numbered per light.
+  virtual std::string visibilityGlsl(const ShadowLight&) const = 0;
+  /// The uniforms of that source, as of the last bake, for receivers in a camera's view coordinates.
+  virtual std::vector<Uniform> uniforms(const ReceiverSpace&) const = 0;
+};
+
+/// Draws the visibility of all pixels' receivers on the GPU, and reads nothing back.
+class GpuScreenTechnique : public Technique
+{
+public:
+  /// Fills the light's layer, or one for each channel: in [0, 1] for every pixel.
+  virtual void drawVisibility(const LayerInput&, LightReport&) = 0;
+};
+
+/// Computes the visibility of all pixels' receivers on the CPU, where it may trace rays.
+class CpuScreenTechnique : public Technique
+{
+public:
+  /// Fills one float in [0, 1] per pixel; of several channels one image after the other.
+  virtual void computeVisibility(const ScreenInput&, std::vector<float>&, LightReport&) = 0;
+};
+
+/// A technique of any kind, in the order of Evaluation.
+using AnyTechnique = std::variant<std::unique_ptr<PointwiseTechnique>,
+  std::unique_ptr<GpuScreenTechnique>, std::unique_ptr<CpuScreenTechnique>>;
+
+/// What all kinds share.
+inline Technique& baseOf(const AnyTechnique& technique)
+{
+  return std::visit([](const auto& any) -> Technique& { return *any; }, technique);
+}
 
 } // namespace gnomon
 

@@ -26,9 +26,9 @@ void VisibilityLayers::resize(int width, int height, int layers)
 }
 
 //------------------------------------------------------------------------------
-void VisibilityLayers::estimate(int layer, const Technique& technique, const ShadowLight& light,
-  const ReceiverTarget& receivers, const ReceiverSpace& space, ShaderLibrary& shaders,
-  std::vector<std::uint8_t>* classes)
+void VisibilityLayers::estimate(int layer, const PointwiseTechnique& technique,
+  const ShadowLight& light, const ReceiverTarget& receivers, const ReceiverSpace& space,
+  ShaderLibrary& shaders, std::vector<std::uint8_t>* classes)
 {
   const GlStateGuard guard;
   GlTexture ofPixels;

@@ -30,7 +30,7 @@ public:
 
   /// Fills a layer by a pointwise technique's GLSL, called for the receivers of all pixels.
   /// @param classes where not null, each pixel's class (TechniqueInfo::classes), of a technique that tells
-  void estimate(int layer, const Technique& technique, const ShadowLight& light,
+  void estimate(int layer, const PointwiseTechnique& technique, const ShadowLight& light,
     const ReceiverTarget& receivers, const ReceiverSpace& space, ShaderLibrary& shaders,
     std::vector<std::uint8_t>* classes = nullptr);
 

@@ -10,8 +10,7 @@ TechniqueInfo Compare::info()
 {
   TechniqueInfo info;
   info.name = "compare";
-  info.evaluation = Evaluation::Pointwise;
-  info.needsMap = true;
+  info.settings = { &viewSettings(), &depthMapSettings() };
   return info;
 }
 

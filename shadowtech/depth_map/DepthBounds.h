@@ -9,6 +9,19 @@
 namespace gnomon
 {
 
+/// What `adaptive` and `pcss` ask before they read their whole kernel.
+enum class EarlyOut
+{
+  None, ///< nothing
+  Ring, ///< the outermost points, and believe them where they agree
+  Exact ///< the least and the largest depth around the point, which never errs
+};
+struct EarlyOutSettings
+{
+  EarlyOut earlyOut = EarlyOut::Exact;
+};
+const SettingsTable& earlyOutSettings();
+
 /// The least and the largest depth of a map's blocks of 2, 4, 8, ... texels, up to the whole layer: a
 /// pyramid that tells what all texels of a region say without reading them (depth_bounds.glsl).
 ///

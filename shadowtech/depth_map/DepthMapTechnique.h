@@ -8,6 +8,31 @@ namespace gnomon
 
 class DepthBounds;
 
+/// Which of the surfaces on a light's ray a depth map holds.
+enum class DepthSurface
+{
+  First,   ///< the nearest
+  Second,  ///< the nearest that faces away from the light
+  Midpoint ///< between the nearest two
+};
+
+/// How a depth map measures.
+enum class DepthMetric
+{
+  Linear,   ///< along the view's axis
+  Euclidean ///< along the ray
+};
+
+/// What a depth map holds.
+struct DepthMapSettings
+{
+  DepthSurface surface = DepthSurface::First;
+  DepthMetric metric = DepthMetric::Linear;
+  double biasConstant = 0.0; ///< in world units
+  double biasSlope = 0.0;    ///< times what a caster's depth spans within the filter's reach
+};
+const SettingsTable& depthMapSettings();
+
 /// Whether a light's depth maps hold distances along the ray, which are not linear across the light.
 bool measuresAlongRay(const ShadowLight& light);
 
@@ -47,7 +72,7 @@ bool measuresAlongRay(const ShadowLight& light);
 /// Degenerate cases: a caster along the rays has an endless slope, and a plane in perspective may run
 /// on past the light's axis: what is pushed back ends behind all casters, but before the depth of
 /// texels without any.
-class DepthMapTechnique : public Technique
+class DepthMapTechnique : public PointwiseTechnique
 {
 public:
   void bake(const MapInput& input) override;

@@ -6,6 +6,22 @@
 namespace gnomon
 {
 
+/// Which texels around a receiver a filter reads, and with which weights.
+enum class FilterKernel
+{
+  Bilinear, ///< a square of any place: texels count by how far it covers them
+  Box,      ///< n x n texels of equal weight
+  Poisson,  ///< a few texels of equal weight, scattered over a disc that turns from place to place
+  Castano   ///< a square of any place whose texels count the less the farther they are
+};
+struct PcfSettings
+{
+  /// The default is the narrowest that shows no single texels (as a box does) and also smooths the
+  /// steps of an edge that runs across the texels.
+  FilterKernel kernel = FilterKernel::Bilinear;
+};
+const SettingsTable& pcfSettings();
+
 /// `pcf`: the plain shadow map with percentage closer filtering (Reeves, Salesin and Cook 1987). The
 /// visibility is a weighted mean of comparisons with the texels of the light's kernel. Shadows get
 /// smooth edges as wide as the kernel, which is no penumbra: they are as wide everywhere.

@@ -9,6 +9,17 @@ namespace gnomon
 {
 
 //------------------------------------------------------------------------------
+const SettingsTable& pcssSettings()
+{
+  static const SettingsTable table = { "Percentage closer soft shadows",
+    { bakedInto(choice("pcss_samples",
+      "points of the light to look for blockers with, and to filter with: 16 and 16, 36 and 64, 64 "
+      "and 256",
+      &PcssSettings::samples, { "low", "medium", "high" })) } };
+  return table;
+}
+
+//------------------------------------------------------------------------------
 PcssCounts pcssCounts(PcssSamples samples)
 {
   switch (samples)

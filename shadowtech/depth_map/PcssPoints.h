@@ -2,7 +2,6 @@
 #define gnomon_shadowtech_depth_map_PcssPoints_h
 
 #include "lights/LightArea.h"
-#include "lights/ShadowSettings.h"
 #include "shadowtech/base/Gl.h"
 #include "shadowtech/base/Technique.h"
 
@@ -14,6 +13,20 @@
 
 namespace gnomon
 {
+
+/// How many points of the light percentage closer soft shadows look for blockers with, and how many
+/// they filter with (Apelles, table 4.1).
+enum class PcssSamples
+{
+  Low,    ///< 4 x 4 and 4 x 4
+  Medium, ///< 6 x 6 and 8 x 8
+  High    ///< 8 x 8 and 16 x 16
+};
+struct PcssSettings
+{
+  PcssSamples samples = PcssSamples::Medium;
+};
+const SettingsTable& pcssSettings();
 
 /// How many points the blocker search and the filter take.
 struct PcssCounts

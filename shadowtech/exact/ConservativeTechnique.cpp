@@ -1,19 +1,20 @@
 #include "shadowtech/exact/ConservativeTechnique.h"
 
+#include "shadowtech/base/BakeSettings.h"
+#include "shadowtech/exact/CellsOnGpu.h"
 #include "shadowtech/tracing/ShadowTracer.h"
 
 namespace gnomon
 {
 
 //------------------------------------------------------------------------------
-TechniqueInfo ConservativeTechnique::infoOf(const std::string& name)
+TechniqueInfo infoOfExact(const std::string& name)
 {
   TechniqueInfo info;
   info.name = name;
-  info.evaluation = Evaluation::ScreenCpu;
   info.exact = true;
+  info.settings = { &viewSettings(), &bakeSettings() };
   info.classes = classesOfTracing();
-  info.needsMap = true;
   info.mapIsOptional = true;
   info.conservativeMap = true;
   return info;
@@ -22,8 +23,9 @@ TechniqueInfo ConservativeTechnique::infoOf(const std::string& name)
 //------------------------------------------------------------------------------
 void ConservativeTechnique::bake(const MapInput& input)
 {
-  this->maps_.bake(
-    input.light, input.views, input.occluders, this->rule(input.light, input.cellsOnGpu));
+  const CellsOnGpu cells(input.shaders);
+  this->maps_.bake(input.light, input.views, input.occluders,
+    this->rule_(input.light, input.drawsOnGpu ? &cells : nullptr));
 }
 
 //------------------------------------------------------------------------------

@@ -9,27 +9,42 @@
 namespace gnomon
 {
 
-/// What hybrid techniques share: conservative maps decide which receivers are lit or in shadow for
-/// certain, and the others get their shadow ray. A technique says how its maps are drawn.
-class ConservativeTechnique : public Technique
+class CellsOnGpu;
+
+/// How a technique's maps are drawn for a light's settings.
+/// @param gpu draws them, where they are not drawn by the CPU alone; null: the CPU
+using RuleOfSettings = MapRule (*)(const ShadowSettings& settings, const CellsOnGpu* gpu);
+
+/// Conservative maps decide which receivers are lit or in shadow for certain, and the others get their
+/// shadow ray.
+class ConservativeTechnique : public CpuScreenTechnique
 {
 public:
+  explicit ConservativeTechnique(RuleOfSettings rule)
+    : rule_(rule)
+  {
+  }
+
   void bake(const MapInput& input) override;
   void dropMaps() override;
   std::size_t bytesOfMaps() const override;
   void computeVisibility(
     const ScreenInput& input, std::vector<float>& visibility, LightReport& report) override;
 
-protected:
-  /// How its maps are drawn.
-  /// @param gpu who draws them, where they are not drawn by the CPU alone; null: the CPU
-  virtual MapRule rule(const ShadowSettings& settings, const CellsOnGpu* gpu) const = 0;
-  /// What its info() is, where its maps' rule is never wrong.
-  static TechniqueInfo infoOf(const std::string& name);
-
 private:
+  RuleOfSettings rule_;
   ConservativeMaps maps_;
 };
+
+/// A technique of this kind: a line of a table.
+struct ConservativeEntry
+{
+  TechniqueInfo info;
+  RuleOfSettings rule;
+};
+
+/// What such a technique is, where its rule is never wrong.
+TechniqueInfo infoOfExact(const std::string& name);
 
 } // namespace gnomon
 

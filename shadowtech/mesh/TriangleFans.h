@@ -1,7 +1,6 @@
 #ifndef gnomon_shadowtech_mesh_TriangleFans_h
 #define gnomon_shadowtech_mesh_TriangleFans_h
 
-#include "lights/ShadowSettings.h"
 #include "shadowtech/base/Occluders.h"
 #include "shadowtech/mesh/KeptOfCasters.h"
 
@@ -13,6 +12,14 @@
 
 namespace gnomon
 {
+
+/// Which neighbours of a triangle count as adjacent to it.
+enum class Adjacency
+{
+  Off,
+  Edges,   ///< those that share an edge with it
+  Vertices ///< those that share a vertex with it
+};
 
 /// The triangles around each vertex of a surface, those at exactly the same place counting as one.
 struct SurfaceFans

@@ -8,9 +8,7 @@ namespace gnomon
 //------------------------------------------------------------------------------
 TechniqueInfo FourMoments::info()
 {
-  TechniqueInfo info = infoOf("moments");
-  info.sumsMap = true;
-  return info;
+  return infoOf("moments");
 }
 
 //------------------------------------------------------------------------------

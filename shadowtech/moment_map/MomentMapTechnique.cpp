@@ -1,6 +1,7 @@
 #include "shadowtech/moment_map/MomentMapTechnique.h"
 
 #include "lights/KernelShape.h"
+#include "lights/SettingsTable.h"
 #include "shadowtech/base/CasterDrawing.h"
 #include "shadowtech/base/GlState.h"
 #include "shadowtech/base/Kernel.h"
@@ -37,37 +38,72 @@ std::string constant(const char* setting, const ShadowLight& light)
 int levelsOf(const ShadowLight& light)
 {
   int levels = 1;
-  while (light.mipMaps && light.mapSizeTexels >> levels > 0)
+  while (light.of<MomentMapSettings>().mipMaps && light.mapSizeTexels >> levels > 0)
   {
     ++levels;
   }
   return levels;
 }
 
+std::string refusedLevels(const ShadowLight& light)
+{
+  const auto& settings = light.of<MomentMapSettings>();
+  return settings.blur == MapBlur::Sat && settings.mipMaps
+    ? "a summed-area table has no levels; 'mip_maps' is for 'blur' box"
+    : "";
+}
+
 } // namespace
+
+//------------------------------------------------------------------------------
+const SettingsTable& momentMapSettings()
+{
+  using S = MomentMapSettings;
+  static const SettingsTable table = { "Maps of moments",
+    {
+      real("bleeding", "up to what visibility points are dark", "", &S::bleeding, { 0.0, 0.99 }),
+      bakedInto(choice("blur",
+        "averaged over the same box of texels everywhere, or over each point's own rectangle, by "
+        "summed-area tables (not evsm)",
+        &S::blur, { "box", "sat" })),
+      bakedInto(
+        choice("mip_maps", "with blur=box: whether pixels that see many texels read coarser levels",
+          &S::mipMaps, { "off", "on" })),
+      bakedInto(oneOf("map_samples", "how many samples of a texel are drawn and averaged", "",
+        &S::samples, { { "1", 1 }, { "2", 2 }, { "4", 4 }, { "8", 8 } })),
+    },
+    refusedLevels };
+  return table;
+}
+
+//------------------------------------------------------------------------------
+const SettingsTable& varianceSettings()
+{
+  static const SettingsTable table = { "Variance",
+    { real("variance_floor", "the least variance of depths",
+      "share of the map's depth range, squared", &VarianceSettings::floor, { 1e-9, 1.0 }) } };
+  return table;
+}
 
 //------------------------------------------------------------------------------
 TechniqueInfo MomentMapTechnique::infoOf(const char* name)
 {
   TechniqueInfo info;
   info.name = name;
-  info.evaluation = Evaluation::Pointwise;
-  info.needsMap = true;
-  info.filters = true;
-  info.ownKernel = "square";
-  info.averagesMap = true;
+  info.settings = { &viewSettings(), &kernelSettings(), &momentMapSettings() };
+  info.kernel = "square";
   return info;
 }
 
 //------------------------------------------------------------------------------
 MapReach MomentMapTechnique::mapReach(const ShadowLight& light) const
 {
-  if (light.blur == MapBlur::Sat)
+  if (light.of<MomentMapSettings>().blur == MapBlur::Sat)
   {
     // Along each axis the rectangle reaches as far as a disc would.
-    return kernelReach(light, { 0.5, 0.0, 0.5 * light.kernelTexels });
+    return kernelReach(light, { 0.5, 0.0, 0.5 * light.of<KernelSettings>().sizeTexels });
   }
-  return { 0.5 * (light.kernelTexels + 1.0), 0.0 };
+  return { 0.5 * (light.of<KernelSettings>().sizeTexels + 1.0), 0.0 };
 }
 
 //------------------------------------------------------------------------------
@@ -75,14 +111,14 @@ void MomentMapTechnique::allocate(const ShadowLight& light, int views)
 {
   const TexelFormat format = momentsFormat(this->moments().count);
   const int sizeTexels = light.mapSizeTexels;
-  const bool blurred = !this->summed_ && light.kernelTexels > 1;
+  const bool blurred = !this->summed_ && light.of<KernelSettings>().sizeTexels > 1;
   blurred ? this->blur_.allocate(format, sizeTexels) : this->blur_.release();
   this->summed_ ? this->table_.allocate(format.channels, sizeTexels, views)
                 : this->table_.release();
   const int layers = this->summed_ ? 1 : views;
   const int levels = levelsOf(light);
   if (this->sizeTexels_ == sizeTexels && this->layers_ == layers && this->levels_ == levels &&
-    this->samples_ == light.mapSamples)
+    this->samples_ == light.of<MomentMapSettings>().samples)
   {
     return;
   }
@@ -98,9 +134,9 @@ void MomentMapTechnique::allocate(const ShadowLight& light, int views)
   glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_BORDER);
   glTexParameterfv(
     GL_TEXTURE_2D_ARRAY, GL_TEXTURE_BORDER_COLOR, glm::value_ptr(this->moments().empty));
-  if (light.mapSamples > 1)
+  if (light.of<MomentMapSettings>().samples > 1)
   {
-    this->sampled_.allocate(format, sizeTexels, light.mapSamples);
+    this->sampled_.allocate(format, sizeTexels, light.of<MomentMapSettings>().samples);
   }
   else
   {
@@ -111,7 +147,7 @@ void MomentMapTechnique::allocate(const ShadowLight& light, int views)
   this->sizeTexels_ = sizeTexels;
   this->layers_ = layers;
   this->levels_ = levels;
-  this->samples_ = light.mapSamples;
+  this->samples_ = light.of<MomentMapSettings>().samples;
 }
 
 //------------------------------------------------------------------------------
@@ -119,7 +155,7 @@ void MomentMapTechnique::bake(const MapInput& input)
 {
   const GlStateGuard guard;
   const std::vector<LightView>& views = input.views.views;
-  this->summed_ = input.light.blur == MapBlur::Sat;
+  this->summed_ = input.light.of<MomentMapSettings>().blur == MapBlur::Sat;
   // A light without a view still needs a texture to bind.
   this->allocate(input.light, std::max(static_cast<int>(views.size()), 1));
   this->views_ = input.views;
@@ -169,10 +205,10 @@ void MomentMapTechnique::bake(const MapInput& input)
       this->table_.sum(this->map_.name(), 0, view, input.shaders);
     }
   }
-  if (!this->summed_ && input.light.kernelTexels > 1)
+  if (!this->summed_ && input.light.of<KernelSettings>().sizeTexels > 1)
   {
-    this->blur_.apply(this->map_.name(), static_cast<int>(views.size()), input.light.kernelTexels,
-      moments.empty, input.shaders);
+    this->blur_.apply(this->map_.name(), static_cast<int>(views.size()),
+      input.light.of<KernelSettings>().sizeTexels, moments.empty, input.shaders);
   }
   if (this->levels_ > 1)
   {
@@ -211,10 +247,10 @@ std::size_t MomentMapTechnique::bytesOfMaps() const
 //------------------------------------------------------------------------------
 std::string MomentMapTechnique::visibilityGlsl(const ShadowLight& light) const
 {
-  return lightViewsDefines(light) + kernelDefines(light) +
-    define("KERNEL_TEXELS_LIGHT", std::to_string(light.kernelTexels)) +
+  return lightViewsDefines(light, light.of<MomentMapSettings>().mipMaps) + kernelDefines(light) +
+    define("KERNEL_TEXELS_LIGHT", std::to_string(light.of<KernelSettings>().sizeTexels)) +
     define("MOMENT_LEVELS_LIGHT", std::to_string(levelsOf(light))) +
-    define("MOMENTS_SUMMED_LIGHT", light.blur == MapBlur::Sat ? "1" : "0") +
+    define("MOMENTS_SUMMED_LIGHT", light.of<MomentMapSettings>().blur == MapBlur::Sat ? "1" : "0") +
     define("BLEEDING_LIGHT", constant("bleeding", light)) +
     define("VARIANCE_FLOOR_LIGHT", constant("variance_floor", light)) + this->estimatorGlsl(light);
 }

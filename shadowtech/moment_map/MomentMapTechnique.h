@@ -9,6 +9,32 @@
 namespace gnomon
 {
 
+/// How maps of moments are averaged.
+enum class MapBlur
+{
+  Box, ///< when they are drawn, by a box that is the same on the whole map
+  Sat ///< when they are read, by a summed-area table, over a rectangle that each look-up has of its own
+};
+
+/// How a map of moments is made, and what its bound is taken for: moments bound the lit share from
+/// above, and a bound up to `bleeding` counts as shadow while the rest is spread over [0, 1].
+struct MomentMapSettings
+{
+  double bleeding = 0.2;
+  MapBlur blur = MapBlur::Box;
+  bool mipMaps = false; ///< whether pixels that see many texels read coarser levels of the map
+  int samples = 1;      ///< 1, 2, 4 or 8 samples of a texel, which are averaged
+};
+const SettingsTable& momentMapSettings();
+
+/// Of estimators by variance: no variance counts as less than the floor, in squares of the map's
+/// depth range (Variance.h).
+struct VarianceSettings
+{
+  double floor = 1e-6;
+};
+const SettingsTable& varianceSettings();
+
 /// What techniques with a map of moments share. Depths may not be averaged, but their moments may:
 /// the means of a few powers (or other functions) of depth over a part of the map say how its depths
 /// are distributed, and from that an estimator bounds the share of them that lies behind a receiver.
@@ -46,7 +72,7 @@ namespace gnomon
 /// within its width.
 ///
 /// What is left to a technique: how a depth becomes moments, and the estimator.
-class MomentMapTechnique : public Technique
+class MomentMapTechnique : public PointwiseTechnique
 {
 public:
   MapReach mapReach(const ShadowLight& light) const override;
@@ -70,7 +96,7 @@ protected:
   };
   virtual Moments moments() const = 0;
 
-  /// What an estimator of this name is, like all others over moments that no table can sum.
+  /// What an estimator of this name is, like all others over moments.
   static TechniqueInfo infoOf(const char* name);
 
   /// The source of float estimate_LIGHT(ViewPoint point, float slack), which includes moment_map.glsl.

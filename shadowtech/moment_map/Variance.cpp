@@ -9,7 +9,7 @@ namespace gnomon
 TechniqueInfo Variance::info()
 {
   TechniqueInfo info = infoOf("variance");
-  info.sumsMap = true;
+  info.settings.push_back(&varianceSettings());
   return info;
 }
 

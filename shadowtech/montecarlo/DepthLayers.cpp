@@ -3,6 +3,7 @@
 #include "shadowtech/base/CasterDrawing.h"
 #include "shadowtech/base/ShaderLibrary.h"
 #include "shadowtech/base/TextureMemory.h"
+#include "shadowtech/montecarlo/MonteCarloSettings.h"
 
 #include <utility>
 
@@ -26,7 +27,7 @@ CasterShader layerShader(const char* path, const LightView& view, double nearest
 
 bool isPeeled(const ShadowLight& light)
 {
-  return light.mcLayers == RayLayers::Peeled;
+  return light.of<MonteCarloSettings>().layers == RayLayers::Peeled;
 }
 
 } // namespace
@@ -106,7 +107,7 @@ void DepthLayers::drawPeeled(const MapInput& input, std::size_t view, double nea
 void DepthLayers::makeSlabs(const MapInput& input, std::size_t view)
 {
   std::vector<std::string> defines = { "PEELED " + std::to_string(peeledSurfaces) };
-  if (input.light.mcLayers == RayLayers::Near)
+  if (input.light.of<MonteCarloSettings>().layers == RayLayers::Near)
   {
     defines.emplace_back("ENDLESS");
   }

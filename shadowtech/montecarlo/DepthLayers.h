@@ -12,7 +12,7 @@ namespace gnomon
 
 /// What of the casters a light's map holds as solid: slabs between depths of ray space (RaySpace.h), up to four in a texel.
 ///
-/// Which slabs these are, RayLayers of the settings says (ShadowSettings.h): between the nearest and the farthest surface,
+/// Which slabs these are, RayLayers says (MonteCarloSettings.h): between the nearest and the farthest surface,
 /// or between peeled surfaces. All of a texel counts as what its centre sees.
 class DepthLayers
 {

@@ -1,6 +1,7 @@
 #include "shadowtech/montecarlo/MonteCarlo.h"
 
 #include "lights/LightSamples.h"
+#include "lights/SettingsTable.h"
 #include "shadowtech/base/ChannelView.h"
 #include "shadowtech/base/GlState.h"
 #include "shadowtech/base/GlslText.h"
@@ -28,13 +29,13 @@ LightArea areaOf(const ShadowLight& light)
 /// Rays along each side of the grid on the light: a point takes one.
 int raysOf(const ShadowLight& light)
 {
-  return light.area ? light.mcRays : 1;
+  return light.area ? light.of<MonteCarloSettings>().rays : 1;
 }
 
 /// Of the filter, in pixels: hard shadows have no noise.
 int filterOf(const ShadowLight& light)
 {
-  return light.area ? light.mcFilter : 0;
+  return light.area ? light.of<MonteCarloSettings>().filter : 0;
 }
 
 std::string refusedByMonteCarlo(const ShadowLight& light)
@@ -45,13 +46,13 @@ std::string refusedByMonteCarlo(const ShadowLight& light)
       findSetting("projection")->get(light) +
       "' is made for what a camera sees; it takes uniform and cube";
   }
-  const bool linear = light.mcSearch == RaySearch::Linear;
-  if (linear && light.mcLayers == RayLayers::Peeled)
+  const bool linear = light.of<MonteCarloSettings>().search == RaySearch::Linear;
+  if (linear && light.of<MonteCarloSettings>().layers == RayLayers::Peeled)
   {
     return "'mc_search' linear knows where a ray is by one solid in a texel, and 'mc_layers' "
            "peeled has up to four; it takes near_far, near and eye";
   }
-  if (!linear && light.mcLayers == RayLayers::Eye)
+  if (!linear && light.of<MonteCarloSettings>().layers == RayLayers::Eye)
   {
     return "'mc_layers' eye asks the camera about single points of a ray, and 'mc_search' "
            "hierarchical has none; it takes linear";
@@ -65,13 +66,43 @@ std::string refusedByMonteCarlo(const ShadowLight& light)
 } // namespace
 
 //------------------------------------------------------------------------------
+const SettingsTable& monteCarloSettings()
+{
+  using S = MonteCarloSettings;
+  static const SettingsTable table = { "Rays through depth layers",
+    {
+      integer("mc_rays",
+        "rays of a pixel along either side of a grid on the light, so that 3 makes 9", "", &S::rays,
+        { 1, 32 }),
+      bakedInto(choice("mc_layers",
+        "what is solid in a texel: each of up to four casters, all between the first and the last "
+        "surface, all behind the first, or (eye) between the first and the last what the camera "
+        "does not see to be empty",
+        &S::layers, { "peeled", "near_far", "near", "eye" })),
+      choice("mc_search",
+        "how rays are searched: from cell to cell of a hierarchy, or in steps of equal length, "
+        "which misses some",
+        &S::search, { "hierarchical", "linear" }),
+      choice("mc_classify",
+        "what bounds over the map decide without a search: nothing, pixels, or pixels and then "
+        "single rays",
+        &S::classify, { "off", "pixels", "rays" }),
+      bakedInto(choice("mc_pyramid",
+        "how the bounds over the map lie: on a grid, or around every texel, which takes ten times "
+        "the memory",
+        &S::pyramid, { "mips", "nbuffer" })),
+      integer("mc_filter", "radius of the filter that takes off the noise, on surfaces; 0: none",
+        "pixels", &S::filter, { 0, 32 }),
+    } };
+  return table;
+}
+
+//------------------------------------------------------------------------------
 TechniqueInfo MonteCarlo::info()
 {
   TechniqueInfo info;
   info.name = "montecarlo";
-  info.evaluation = Evaluation::ScreenGpu;
-  info.needsMap = true;
-  info.lightPoints = LightPoints::Seeded;
+  info.settings = { &viewSettings(), &lightSeedSettings(), &monteCarloSettings() };
   info.seesTextures = true;
   info.refused = refusedByMonteCarlo;
   info.classes = { { "no receiver", { 0, 0, 0 } }, { "turned away from the light", { 0, 140, 60 } },
@@ -104,7 +135,8 @@ void MonteCarlo::bake(const MapInput& input)
   this->layers_.draw(
     { input.light, this->views_, input.occluders, input.buffers, input.shaders }, this->nearest_);
   this->bounds_.build(this->layers_.slabs(), this->layers_.pages(), input.light.mapSizeTexels,
-    static_cast<int>(this->views_.views.size()), input.light.mcPyramid, input.shaders);
+    static_cast<int>(this->views_.views.size()), input.light.of<MonteCarloSettings>().pyramid,
+    input.shaders);
 }
 
 //------------------------------------------------------------------------------
@@ -238,13 +270,14 @@ void MonteCarlo::drawVisibility(const LayerInput& input, LightReport& report)
     }
   };
   defineWhere(textured, "TEXTURED");
-  defineWhere(light.mcPyramid == SlabHierarchy::NBuffer, "NBUFFER");
-  defineWhere(light.mcSearch == RaySearch::Linear, "LINEAR_SEARCH");
-  defineWhere(light.mcLayers == RayLayers::Eye, "EYE_LAYER");
+  defineWhere(light.of<MonteCarloSettings>().pyramid == SlabHierarchy::NBuffer, "NBUFFER");
+  defineWhere(light.of<MonteCarloSettings>().search == RaySearch::Linear, "LINEAR_SEARCH");
+  defineWhere(light.of<MonteCarloSettings>().layers == RayLayers::Eye, "EYE_LAYER");
   // A receiver's rays may cross the faces of a cube.
-  defineWhere(light.mcClassify != RayClasses::Off && viewLayout(light) == ViewLayout::Single,
+  defineWhere(light.of<MonteCarloSettings>().classify != RayClasses::Off &&
+      viewLayout(light) == ViewLayout::Single,
     "CLASSIFY_PIXELS");
-  defineWhere(light.mcClassify == RayClasses::Rays, "CLASSIFY_RAYS");
+  defineWhere(light.of<MonteCarloSettings>().classify == RayClasses::Rays, "CLASSIFY_RAYS");
   const GLuint program = ScreenPass::use(
     input.shaders, ShaderLibrary::source("shadowtech/montecarlo/montecarlo.frag.glsl"), defines);
   ShaderLibrary::setUniforms(program, this->uniformsOf(input), 0, 0);

@@ -20,7 +20,7 @@ namespace gnomon
 ///
 /// Instead of the casters' triangles, rays meet slabs between two depths in the texels of a map (DepthLayers.h), which a
 /// hierarchy of bounds leads them to (SlabBounds.h).
-class MonteCarlo : public Technique
+class MonteCarlo : public GpuScreenTechnique
 {
 public:
   static TechniqueInfo info();

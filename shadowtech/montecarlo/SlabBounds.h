@@ -1,8 +1,8 @@
 #ifndef gnomon_shadowtech_montecarlo_SlabBounds_h
 #define gnomon_shadowtech_montecarlo_SlabBounds_h
 
-#include "lights/ShadowSettings.h"
 #include "shadowtech/base/Gl.h"
+#include "shadowtech/montecarlo/MonteCarloSettings.h"
 
 #include <cstddef>
 #include <string>

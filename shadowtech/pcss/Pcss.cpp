@@ -2,6 +2,7 @@
 
 #include "lights/LightViews.h"
 #include "shadowtech/base/GlslText.h"
+#include "shadowtech/base/PublishedSettings.h"
 #include "shadowtech/base/ShaderLibrary.h"
 
 namespace gnomon
@@ -11,7 +12,7 @@ namespace
 
 std::string refusedByPcss(const ShadowLight& light)
 {
-  return light.earlyOut == EarlyOut::Ring
+  return light.of<EarlyOutSettings>().earlyOut == EarlyOut::Ring
     ? "'pcss' has no ring of points to believe, since its points are all over the light; its "
       "'early_out' is exact or none"
     : "";
@@ -24,8 +25,8 @@ TechniqueInfo Pcss::info()
 {
   TechniqueInfo info;
   info.name = "pcss";
-  info.evaluation = Evaluation::Pointwise;
-  info.needsMap = true;
+  info.settings = { &viewSettings(), &pcssSettings(), &earlyOutSettings(), &depthMapSettings(),
+    &publishedSettings() };
   info.refused = refusedByPcss;
   info.asPublished = "pcss_as_published";
   info.classes = classesOfMaps();
@@ -64,7 +65,7 @@ void Pcss::bake(const MapInput& input)
   if (input.light.area)
   {
     this->bakeBounds(this->bounds_, input.shaders);
-    this->points_.upload(input.light.pcssSamples, input.light.area->shape);
+    this->points_.upload(input.light.of<PcssSettings>().samples, input.light.area->shape);
   }
 }
 
@@ -98,10 +99,12 @@ std::string Pcss::estimatorGlsl(const ShadowLight& light) const
   }
   const std::string around =
     viewLayout(light) == ViewLayout::Cube ? "#define LOOKS_AROUND_LIGHT\n" : "";
-  const bool asksBounds = light.earlyOut == EarlyOut::Exact && !measuresAlongRay(light);
+  const bool asksBounds =
+    light.of<EarlyOutSettings>().earlyOut == EarlyOut::Exact && !measuresAlongRay(light);
   return around + glslDefine("PCSS_BALL_LIGHT", light.area->shape == LightArea::Shape::Ball) +
     glslDefine("PCSS_RECTANGLE_LIGHT", light.area->shape == LightArea::Shape::Rectangle) +
-    pcssCountsDefines(light.pcssSamples) + glslDefine("PCSS_ASKS_BOUNDS_LIGHT", asksBounds) +
+    pcssCountsDefines(light.of<PcssSettings>().samples) +
+    glslDefine("PCSS_ASKS_BOUNDS_LIGHT", asksBounds) +
     ShaderLibrary::source("shadowtech/pcss/pcss_estimator.glsl");
 }
 

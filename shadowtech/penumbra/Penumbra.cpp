@@ -1,8 +1,8 @@
 #include "shadowtech/penumbra/Penumbra.h"
 
 #include "shadowtech/penumbra/PenumbraChooser.h"
-#include "shadowtech/raytraced/Raytraced.h"
 #include "shadowtech/tracing/ShadowTracer.h"
+#include "shadowtech/tracing/TraceAll.h"
 
 namespace gnomon
 {
@@ -12,9 +12,8 @@ TechniqueInfo Penumbra::info()
 {
   TechniqueInfo info;
   info.name = "penumbra";
-  info.evaluation = Evaluation::ScreenCpu;
   info.exact = true;
-  info.lightPoints = LightPoints::Sampled;
+  info.settings = { &lightSampleSettings(), &lightSeedSettings() };
   info.seesTextures = true;
   info.classes = classesOfPenumbra();
   return info;
@@ -27,7 +26,7 @@ void Penumbra::computeVisibility(
   // Bounds count samples, whatever their colours.
   if (!input.light.area || input.light.texture)
   {
-    Raytraced().computeVisibility(input, visibility, report);
+    traceAllReceivers(input, visibility, report);
     return;
   }
   this->tree_.update(input.occluders);

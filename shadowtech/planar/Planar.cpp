@@ -115,13 +115,20 @@ struct Planar::Batch
 };
 
 //------------------------------------------------------------------------------
+const SettingsTable& planarSettings()
+{
+  static const SettingsTable table = { "Planes",
+    { integer("planes", "how many planes show shadows, at most: the largest", "",
+      &PlanarSettings::planes, { 1, mostPlanes }) } };
+  return table;
+}
+
+//------------------------------------------------------------------------------
 TechniqueInfo Planar::info()
 {
   TechniqueInfo info;
   info.name = "planar";
-  info.lightPoints = LightPoints::Sampled;
-  info.servesPlanes = true;
-  info.evaluation = Evaluation::ScreenGpu;
+  info.settings = { &planarSettings(), &lightSampleSettings(), &lightSeedSettings() };
   return info;
 }
 
@@ -129,7 +136,8 @@ TechniqueInfo Planar::info()
 void Planar::drawVisibility(const LayerInput& input, LightReport& report)
 {
   const GlStateGuard guard;
-  this->planes_.update(input.occluders, static_cast<std::size_t>(input.light.planes));
+  this->planes_.update(
+    input.occluders, static_cast<std::size_t>(input.light.of<PlanarSettings>().planes));
   this->centre_ = lightPoint(input.light, input.occluders.centreWorld);
   this->samples_ = lightSamples(input.light, input.occluders.centreWorld);
   report.lightSamples = static_cast<int>(this->samples_.size());

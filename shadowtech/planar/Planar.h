@@ -14,6 +14,12 @@
 namespace gnomon
 {
 
+struct PlanarSettings
+{
+  int planes = 8; ///< how many show shadows, at most
+};
+const SettingsTable& planarSettings();
+
 /// `planar`: casters are projected from the light onto the planes that receive shadows (Blinn 1988),
 /// and drawn there as the camera sees them. What lies on no such plane shows no cast shadow.
 ///
@@ -26,7 +32,7 @@ namespace gnomon
 /// Soft shadows are the mean of many such pictures from points of the light (LightSamples.h), 32 at a
 /// time: each sets a bit of its own, however many casters it draws over each other. Of a plane that runs through the
 /// light, samples behind it give way to those opposite, as for all techniques (docs/techniques/soft.md).
-class Planar : public Technique
+class Planar : public GpuScreenTechnique
 {
 public:
   static TechniqueInfo info();

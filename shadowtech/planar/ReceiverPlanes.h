@@ -2,7 +2,6 @@
 #define gnomon_shadowtech_planar_ReceiverPlanes_h
 
 #include "lights/Bounds.h"
-#include "lights/ShadowSettings.h"
 
 #include <glm/glm.hpp>
 
@@ -14,6 +13,9 @@ namespace gnomon
 {
 
 struct Occluders;
+
+/// The most planes that can be asked for.
+constexpr int mostPlanes = 64;
 
 /// A plane on which receiving triangles lie, in centred coordinates.
 struct ReceiverPlane

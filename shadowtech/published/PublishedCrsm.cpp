@@ -1,5 +1,6 @@
 #include "shadowtech/published/PublishedCrsm.h"
 
+#include "shadowtech/base/PublishedSettings.h"
 #include "shadowtech/published/PublishedMap.h"
 
 namespace gnomon
@@ -7,10 +8,11 @@ namespace gnomon
 namespace
 {
 
-/// @param info of maps whose rule is never wrong
-TechniqueInfo asPublished(TechniqueInfo info)
+TechniqueInfo infoOfPublished(const std::string& name)
 {
-  info.asPublished = info.name;
+  TechniqueInfo info = infoOfExact(name);
+  info.settings = { &viewSettings(), &publishedSettings() };
+  info.asPublished = name;
   info.exact = false;
   info.mapIsOptional = false;
   info.onlyCpuDraws = onlyCpuDrawsPublished;
@@ -20,27 +22,17 @@ TechniqueInfo asPublished(TechniqueInfo info)
 } // namespace
 
 //------------------------------------------------------------------------------
-MapRule CrsmAsPublished::rule(const ShadowSettings&, const CellsOnGpu*) const
+const std::vector<ConservativeEntry>& publishedCrsm()
 {
-  return publishedRule(PublishedLayers::Crsm);
-}
-
-//------------------------------------------------------------------------------
-TechniqueInfo CrsmAsPublished::info()
-{
-  return asPublished(infoOf("crsm_as_published"));
-}
-
-//------------------------------------------------------------------------------
-MapRule CrsmaAsPublished::rule(const ShadowSettings&, const CellsOnGpu*) const
-{
-  return publishedRule(PublishedLayers::Crsma);
-}
-
-//------------------------------------------------------------------------------
-TechniqueInfo CrsmaAsPublished::info()
-{
-  return asPublished(infoOf("crsma_as_published"));
+  static const std::vector<ConservativeEntry> entries = {
+    { infoOfPublished("crsm_as_published"),
+      [](const ShadowSettings&, const CellsOnGpu*)
+      { return publishedRule(PublishedLayers::Crsm); } },
+    { infoOfPublished("crsma_as_published"),
+      [](const ShadowSettings&, const CellsOnGpu*)
+      { return publishedRule(PublishedLayers::Crsma); } },
+  };
+  return entries;
 }
 
 } // namespace gnomon

@@ -1,6 +1,7 @@
 #include "shadowtech/published/PublishedPcss.h"
 
 #include "lights/LightViews.h"
+#include "shadowtech/base/PublishedSettings.h"
 #include "shadowtech/base/ShaderLibrary.h"
 
 #include <algorithm>
@@ -35,8 +36,7 @@ TechniqueInfo PublishedPcss::info()
   TechniqueInfo info;
   info.name = "pcss_as_published";
   info.asPublished = info.name;
-  info.evaluation = Evaluation::Pointwise;
-  info.needsMap = true;
+  info.settings = { &viewSettings(), &pcssSettings(), &depthMapSettings(), &publishedSettings() };
   info.refused = refusedByPublishedPcss;
   return info;
 }
@@ -48,7 +48,7 @@ MapReach PublishedPcss::mapReach(const ShadowLight& light) const
   if (light.area)
   {
     // The search's largest radius, with its half a step more.
-    const double step = 1.0 / std::sqrt(pcssCounts(light.pcssSamples).search);
+    const double step = 1.0 / std::sqrt(pcssCounts(light.of<PcssSettings>().samples).search);
     const double map = 2.0 * std::tan(glm::radians(light.coneAngleDegrees));
     reach.unbiasedAcross = widthOf(*light.area) * (1.0 + step) * map;
   }
@@ -63,7 +63,7 @@ void PublishedPcss::bake(const MapInput& input)
   this->widthLight_ = 0.0;
   if (input.light.area)
   {
-    this->points_.upload(input.light.pcssSamples, LightArea::Shape::Disk);
+    this->points_.upload(input.light.of<PcssSettings>().samples, LightArea::Shape::Disk);
     this->widthLight_ = widthOf(*input.light.area);
   }
 }
@@ -93,7 +93,7 @@ std::string PublishedPcss::estimatorGlsl(const ShadowLight& light) const
   {
     return ShaderLibrary::source("shadowtech/depth_map/compare_estimator.glsl");
   }
-  return pcssCountsDefines(light.pcssSamples) +
+  return pcssCountsDefines(light.of<PcssSettings>().samples) +
     ShaderLibrary::source("shadowtech/published/published_pcss_estimator.glsl");
 }
 

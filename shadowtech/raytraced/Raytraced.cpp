@@ -1,6 +1,7 @@
 #include "shadowtech/raytraced/Raytraced.h"
 
 #include "shadowtech/tracing/ShadowTracer.h"
+#include "shadowtech/tracing/TraceAll.h"
 
 namespace gnomon
 {
@@ -10,9 +11,8 @@ TechniqueInfo Raytraced::info()
 {
   TechniqueInfo info;
   info.name = "raytraced";
-  info.evaluation = Evaluation::ScreenCpu;
   info.exact = true;
-  info.lightPoints = LightPoints::Sampled;
+  info.settings = { &lightSampleSettings(), &lightSeedSettings() };
   info.seesTextures = true;
   info.classes = classesOfTracing();
   return info;
@@ -22,14 +22,7 @@ TechniqueInfo Raytraced::info()
 void Raytraced::computeVisibility(
   const ScreenInput& input, std::vector<float>& visibility, LightReport& report)
 {
-  const bool soft = input.light.area.has_value();
-  report.lightSamples = soft ? input.light.lightSamples : 1;
-  const std::size_t rays = soft ? input.tracer.traceArea(input.light, input.occluders,
-                                    input.receivers, visibility, nullptr, input.classes)
-                                : input.tracer.trace(input.light, input.occluders, input.receivers,
-                                    visibility, nullptr, input.classes);
-  report.rays = static_cast<std::int64_t>(rays);
-  report.tracedPixels = report.rays / report.lightSamples;
+  traceAllReceivers(input, visibility, report);
 }
 
 } // namespace gnomon

@@ -8,7 +8,7 @@ namespace gnomon
 
 /// `raytraced`: every pixel by one shadow ray, of area lights by one to each of `light_samples` points. The truth
 /// that the other techniques are measured by.
-class Raytraced : public Technique
+class Raytraced : public CpuScreenTechnique
 {
 public:
   static TechniqueInfo info();

@@ -3,6 +3,7 @@
 #include "lights/LightAt.h"
 #include "lights/LightSamples.h"
 #include "lights/LightSpace.h"
+#include "lights/SettingsTable.h"
 #include "shadowtech/base/ChannelView.h"
 #include "shadowtech/base/GlState.h"
 #include "shadowtech/base/Occluders.h"
@@ -60,14 +61,27 @@ std::string refusedBySampled(const ShadowLight& light)
 } // namespace
 
 //------------------------------------------------------------------------------
+const SettingsTable& sampledSettings()
+{
+  static const SettingsTable table = { "Maps of samples",
+    {
+      integer("batch", "how many points of the light have their maps held at a time", "",
+        &SampledSettings::batch, { 1, mostBatchSamples }),
+      integer("progressive",
+        "above 0: how many points of the light each frame adds while nothing changes, after a "
+        "first frame with hard shadows",
+        "", &SampledSettings::progressive, { 0, 65536 }),
+    } };
+  return table;
+}
+
+//------------------------------------------------------------------------------
 TechniqueInfo Sampled::info()
 {
   TechniqueInfo info;
   info.name = "sampled";
-  info.evaluation = Evaluation::ScreenGpu;
-  info.needsMap = true;
-  info.lightPoints = LightPoints::Sampled;
-  info.refines = true;
+  info.settings = { &viewSettings(), &lightSampleSettings(), &lightSeedSettings(),
+    &sampledSettings(), &depthMapSettings() };
   info.seesTextures = true;
   info.refused = refusedBySampled;
   return info;
@@ -98,7 +112,8 @@ void Sampled::drawVisibility(const LayerInput& input, LightReport& report)
   const bool stale = this->beginIfStale(input);
   const Points& points = this->shown_->points;
   const std::size_t all = points.offsets.size();
-  const bool begins = stale && all > 1 && input.light.progressiveSamples > 0;
+  const std::size_t progressive = this->progressiveIn(input);
+  const bool begins = stale && all > 1 && progressive > 0;
   if (begins || (all == 1 && this->shown_->channels == 1))
   {
     this->showCentre(input);
@@ -106,13 +121,12 @@ void Sampled::drawVisibility(const LayerInput& input, LightReport& report)
     report.progress = begins ? 0.0 : 1.0;
     return;
   }
-  const auto most = static_cast<std::size_t>(input.light.batchSamples);
+  const auto most = static_cast<std::size_t>(input.light.of<SampledSettings>().batch);
   if (this->batch_.size() > most)
   {
     this->batch_.clear(); // gives their memory back
   }
-  const std::size_t wanted = pairedPointsWanted(
-    all, this->summed_, static_cast<std::size_t>(input.light.progressiveSamples));
+  const std::size_t wanted = pairedPointsWanted(all, this->summed_, progressive);
   while (this->summed_ < wanted)
   {
     const std::size_t count = std::min(wanted - this->summed_, most);
@@ -122,6 +136,21 @@ void Sampled::drawVisibility(const LayerInput& input, LightReport& report)
   this->showMean(input, shineOf(points.shine, 0, this->summed_));
   report.lightSamples = static_cast<int>(this->summed_);
   report.progress = static_cast<double>(this->summed_) / static_cast<double>(all);
+}
+
+//------------------------------------------------------------------------------
+/// How many points this frame may add; 0: all. The sum is one view's.
+std::size_t Sampled::progressiveIn(const LayerInput& input) const
+{
+  const int progressive = input.light.of<SampledSettings>().progressive;
+  if (progressive > 0 && input.severalViews)
+  {
+    input.notes.push_back(nameOf(input.light) +
+      ": 'progressive' refines one view, and the pass draws several (stereo, tiles, renderers): "
+      "all of the light's points are in every frame");
+    return 0;
+  }
+  return static_cast<std::size_t>(progressive);
 }
 
 //------------------------------------------------------------------------------

@@ -15,6 +15,18 @@
 namespace gnomon
 {
 
+/// The most points whose maps are held at a time: one shader reads all of them.
+constexpr int mostBatchSamples = 8;
+
+struct SampledSettings
+{
+  int batch = mostBatchSamples; ///< points whose maps are held at a time
+  /// Points that each frame adds while nothing changes, the first one showing the hard shadow of the
+  /// centre; 0: all are in every frame.
+  int progressive = 0;
+};
+const SettingsTable& sampledSettings();
+
 /// `sampled`: soft shadows as the mean of the hard ones that many points of the light cast, each by a depth map of its
 /// own (Heckbert and Herf 1997 from shadow maps instead of projected casters).
 ///
@@ -35,7 +47,7 @@ namespace gnomon
 /// shows the centre's hard shadow, from the centre's map, which outlives the camera's moves, and each further frame
 /// adds points, from the middle of the light outwards. (Of a light with a texture the hard shadow is that of a point at the centre
 /// that has the texture's mean, as the sum shows it.)
-class Sampled : public Technique
+class Sampled : public GpuScreenTechnique
 {
 public:
   static TechniqueInfo info();
@@ -71,6 +83,7 @@ private:
     }
   };
 
+  std::size_t progressiveIn(const LayerInput& input) const;
   bool beginIfStale(const LayerInput& input);
   void beginSum(const LayerInput& input);
   void addBatch(

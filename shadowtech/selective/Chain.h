@@ -1,7 +1,6 @@
 #ifndef gnomon_shadowtech_selective_Chain_h
 #define gnomon_shadowtech_selective_Chain_h
 
-#include "lights/ShadowSettings.h"
 #include "shadowtech/base/Certainty.h"
 #include "shadowtech/base/PixelClass.h"
 #include "shadowtech/base/ShadowRay.h"
@@ -20,6 +19,21 @@ namespace gnomon
 {
 
 struct ReceiverTile;
+
+/// What becomes of pixels that nothing decides for certain.
+enum class Leftovers
+{
+  Trace,   ///< they get their shadow ray
+  Lit,     ///< they are lit: what nothing can prove to be in shadow mostly is
+  Majority ///< they get the status that most of the nine texels around them say
+};
+
+/// What becomes of pixels outside of a contour.
+enum class OutsideContour
+{
+  Map,  ///< they keep the status that the map says
+  Check ///< those whose nine texels do not agree are treated as if they were inside
+};
 
 /// Which stages a chain has, in their order.
 struct ChainStages

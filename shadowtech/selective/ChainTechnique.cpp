@@ -7,12 +7,20 @@ namespace gnomon
 {
 
 //------------------------------------------------------------------------------
+const SettingsTable& coherenceSettings()
+{
+  static const SettingsTable table = { "Coherence",
+    { oneOf("coherence", "how many texels have to agree for the map to be believed; off: it is not",
+      "texels", &CoherenceSettings::texels, { { "off", 0 }, { "4", 4 }, { "9", 9 } }) } };
+  return table;
+}
+
+//------------------------------------------------------------------------------
 TechniqueInfo ChainTechnique::infoOf(const std::string& name)
 {
   TechniqueInfo info;
   info.name = name;
-  info.evaluation = Evaluation::ScreenCpu;
-  info.needsMap = true;
+  info.settings = { &viewSettings(), &coherenceSettings() };
   info.classes = classesOfChain();
   return info;
 }

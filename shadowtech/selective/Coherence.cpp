@@ -7,7 +7,7 @@ namespace
 
 std::string refusedByCoherence(const ShadowLight& light)
 {
-  return light.coherenceTexels == 0
+  return light.of<CoherenceSettings>().texels == 0
     ? "'coherence' decides pixels by texels that agree, and without that traces all of them, as "
       "'raytraced' does; its setting 'coherence' takes 4 or 9"
     : "";
@@ -19,7 +19,8 @@ std::string refusedByCoherence(const ShadowLight& light)
 TechniqueInfo Coherence::info()
 {
   TechniqueInfo info = infoOf("coherence");
-  info.lightPoints = LightPoints::Sampled;
+  info.settings.push_back(&lightSampleSettings());
+  info.settings.push_back(&lightSeedSettings());
   info.seesTextures = true;
   info.refused = refusedByCoherence;
   return info;
@@ -29,7 +30,7 @@ TechniqueInfo Coherence::info()
 ChainStages Coherence::stagesOf(const ShadowSettings& settings) const
 {
   ChainStages stages;
-  stages.coherenceTexels = settings.coherenceTexels;
+  stages.coherenceTexels = settings.of<CoherenceSettings>().texels;
   stages.rimPoints = 7;
   return stages;
 }

@@ -5,6 +5,8 @@
 
 #include "SyntheticScene.h"
 
+#include "lights/SettingsTable.h"
+
 #include "plugin/vtkGnomonEGLRenderWindow.h"
 #include "shadowtech/base/OccluderBuffers.h"
 #include "shadowtech/base/ShaderLibrary.h"
@@ -150,9 +152,9 @@ void run(int side, int frames)
                      technique.bake({ plain, plainViews, occluders, buffers, shaders });
                    } });
   ShadowLight second = plain;
-  second.depth = DepthSurface::Second;
+  second.of<DepthMapSettings>().surface = DepthSurface::Second;
   ShadowLight midpoint = plain;
-  midpoint.depth = DepthSurface::Midpoint;
+  midpoint.of<DepthMapSettings>().surface = DepthSurface::Midpoint;
   Compare secondMap;
   Compare midpointMap;
   tasks.push_back({ "the same, second depths", [&] {

@@ -699,7 +699,7 @@ TEST(CompareCommand, ComparesAllIfAskedTo)
     ShadowSettings settings;
     settings.technique = entry.name;
     const TechniqueInfo& info = estimatorOf(settings).info;
-    const std::string name = std::string(entry.name) + (info.needsMap ? " 64" : "");
+    const std::string name = std::string(entry.name) + (info.bakesMap() ? " 64" : "");
     if (info.isPointwise())
     {
       expected.push_back(name + " inline");

@@ -65,7 +65,7 @@ TEST_P(ExactScenes, showWhatIsTraced)
   ASSERT_FALSE(truth.empty());
   for (const TechniqueEntry& technique : registry())
   {
-    if (!technique.estimator->info.exact || !technique.estimator->info.needsMap)
+    if (!technique.estimator->info.exact || !technique.estimator->info.bakesMap())
     {
       continue;
     }

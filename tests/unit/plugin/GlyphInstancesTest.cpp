@@ -228,6 +228,10 @@ TEST_P(GlyphInstances, withHolesAreSeenThrough)
 //------------------------------------------------------------------------------
 TEST_P(GlyphInstances, areOnMapsOfOtherSurfaces)
 {
+  if (!gnomon::has(gnomon::findTechnique(GetParam().technique)->estimator->info, "depth"))
+  {
+    return;
+  }
   for (const char* depth : { "second", "midpoint" })
   {
     this->scene.pass->SetSetting("depth", depth);
@@ -259,7 +263,7 @@ TEST_P(GlyphInstances, thatWouldLosePrecisionAreExpanded)
 TEST_P(GlyphInstances, changesCostWhatChanged)
 {
   const bool traced = std::string(GetParam().technique) == "raytraced";
-  const bool drawsMaps = gnomon::findTechnique(GetParam().technique)->estimator->info.needsMap;
+  const bool drawsMaps = gnomon::findTechnique(GetParam().technique)->estimator->info.bakesMap();
   std::vector<vtkActor*> boxes;
   for (int i = 0; i < 10; ++i)
   {

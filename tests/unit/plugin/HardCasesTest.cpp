@@ -222,7 +222,7 @@ std::vector<Trial> trials()
     for (const HardCase& hardCase : hardCases())
     {
       const bool warps = technique.projection != gnomon::Projection::Uniform;
-      if (technique.estimator->info.needsMap && (hardCase.singleView || !warps))
+      if (technique.estimator->info.bakesMap() && (hardCase.singleView || !warps))
       {
         result.push_back({ &technique, &hardCase });
       }

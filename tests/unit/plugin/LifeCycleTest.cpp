@@ -7,6 +7,7 @@
 
 #include "lights/vtkGnomonLightKeys.h"
 #include "plugin/vtkGnomonLightSamplingPass.h"
+#include "shadowtech/Registry.h"
 
 #include <vtkLightCollection.h>
 
@@ -179,6 +180,8 @@ TEST_P(LifeCycle, mapsResizedThousandTimes)
       this->scene_.pass->SetMapSize(16 + 8 * (time % 10));
       this->draw();
     }));
+  const bool bakes = gnomon::findTechnique(GetParam().technique)->estimator->info.bakesMap();
+  EXPECT_EQ(this->takeErrors().empty(), bakes) << "that there is no map to size";
 }
 
 //------------------------------------------------------------------------------

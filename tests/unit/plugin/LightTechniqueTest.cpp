@@ -4,6 +4,7 @@
 
 #include "plugin/frame/BakeBackoff.h"
 #include "plugin/vtkGnomonEGLRenderWindow.h"
+#include "shadowtech/base/BakeSettings.h"
 #include "shadowtech/base/OccluderBuffers.h"
 #include "shadowtech/base/Occluders.h"
 #include "shadowtech/base/ReceiverTarget.h"
@@ -23,11 +24,12 @@ namespace
 using testing::HasSubstr;
 
 /// Has a map or has none.
-class Mapped : public Technique
+class Mapped : public CpuScreenTechnique
 {
 public:
   void bake(const MapInput&) override { this->hasMap = true; }
   void dropMaps() override { this->hasMap = false; }
+  void computeVisibility(const ScreenInput&, std::vector<float>&, LightReport&) override {}
 
   bool hasMap = false;
 };
@@ -37,9 +39,9 @@ EstimatorEntry mappedEstimator(bool mapIsOptional)
   TechniqueInfo info;
   info.name = "mapped";
   info.evaluation = Evaluation::ScreenCpu;
-  info.needsMap = true;
+  info.settings = { &viewSettings(), &bakeSettings() };
   info.mapIsOptional = mapIsOptional;
-  return { info, []() -> std::unique_ptr<Technique> { return std::make_unique<Mapped>(); } };
+  return { info, [] { return std::make_unique<Mapped>(); } };
 }
 
 /// A sun over a box, and frames of it.
@@ -121,7 +123,7 @@ TEST_F(OptionalMap, isAwaitedForLongerWhereItWentStaleSoon)
 
 TEST_F(OptionalMap, thatIsAlwaysBakedIsNeverAwaited)
 {
-  this->light_.bake = BakeTime::Always;
+  this->light_.of<BakeSettings>().time = BakeTime::Always;
   for (int frame = 0; frame < 100; ++frame)
   {
     if (frame % 2 == 0)
@@ -132,7 +134,7 @@ TEST_F(OptionalMap, thatIsAlwaysBakedIsNeverAwaited)
     EXPECT_EQ(this->bakes_, frame % 2 == 0 ? 1 : 0);
   }
   // What is there is used, and what went stale before was not the backoff's.
-  this->light_.bake = BakeTime::Settled;
+  this->light_.of<BakeSettings>().time = BakeTime::Settled;
   EXPECT_EQ(this->draw(), "");
   EXPECT_EQ(this->bakes_, 0);
 }
@@ -145,7 +147,7 @@ TEST(NeededMap, isAlwaysUsed)
   EXPECT_TRUE(technique.usesMap());
   for (const EstimatorEntry& entry : estimators())
   {
-    EXPECT_TRUE(!entry.info.mapIsOptional || (entry.info.exact && entry.info.needsMap))
+    EXPECT_TRUE(!entry.info.mapIsOptional || (entry.info.exact && entry.info.bakesMap()))
       << entry.info.name;
   }
 }

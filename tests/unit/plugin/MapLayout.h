@@ -7,6 +7,7 @@
 
 #include <ostream>
 #include <string>
+#include <utility>
 
 namespace gnomon::test
 {
@@ -23,12 +24,17 @@ struct MapLayout
 
   void choose(PassScene& scene) const
   {
+    const TechniqueInfo& info = findTechnique(this->technique)->estimator->info;
     scene.pass->SetTechnique(this->technique);
-    scene.pass->SetSetting("projection", this->projection);
-    scene.pass->SetSetting("fit", this->fit);
-    scene.pass->SetSetting("snap", this->snap);
-    scene.pass->SetSetting("blur", this->blur);
-    scene.pass->SetSetting("mip_maps", this->mipMaps);
+    for (const auto& [name, value] :
+      { std::pair("projection", this->projection), { "fit", this->fit }, { "snap", this->snap },
+        { "blur", this->blur }, { "mip_maps", this->mipMaps } })
+    {
+      if (has(info, name))
+      {
+        scene.pass->SetSetting(name, value);
+      }
+    }
   }
   /// Warps and splits are for lights with a single view.
   bool takesCubes() const

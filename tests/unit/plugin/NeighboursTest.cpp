@@ -4,6 +4,7 @@
 #include "PassScene.h"
 
 #include "shadowtech/Registry.h"
+#include "shadowtech/base/Kernel.h"
 
 #include <vtkActor2D.h>
 #include <vtkColorTransferFunction.h>
@@ -256,7 +257,8 @@ TEST_P(Neighbours, translucentPropsKeepTheirColoursAndShowShadows)
           different += std::abs(own - ownInline) > 2.0 ? 1 : 0;
           overShadow += behind.red(x, y) != behindIdle.red(x, y) ? 1 : 0;
           dark += std::abs(own) <= 2.0 ? 1 : 0;
-          const bool between = info.filters && own > -2.0 && own < ownIdle + 2.0;
+          const bool between =
+            info.has(gnomon::kernelSettings()) && own > -2.0 && own < ownIdle + 2.0;
           different += std::abs(own) > 2.0 && std::abs(own - ownIdle) > 2.0 && !between ? 1 : 0;
         }
       }

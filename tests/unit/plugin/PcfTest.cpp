@@ -9,6 +9,7 @@
 #include "lights/vtkGnomonLightKeys.h"
 #include "plugin/VisibilityImages.h"
 #include "plugin/vtkGnomonPropKeys.h"
+#include "shadowtech/base/Kernel.h"
 #include "shadowtech/depth_map/Pcf.h"
 
 #include <vtkInformation.h>
@@ -57,7 +58,7 @@ protected:
   {
     gnomon::ShadowLight light;
     gnomon::findSetting("kernel")->set(light, GetParam().name);
-    light.kernelTexels = GetParam().texels;
+    light.of<gnomon::KernelSettings>().sizeTexels = GetParam().texels;
     return gnomon::Pcf().mapReach(light);
   }
 };

@@ -115,6 +115,36 @@ TEST_F(Settings, whatASettingDoesNotTakeIsAnErrorAndChangesNothing)
 }
 
 //------------------------------------------------------------------------------
+TEST_F(Settings, thatATechniqueLacksAreOneErrorEachAndShadowsStay)
+{
+  PassScene scene(100, 80);
+  fillUnderSun(scene);
+  auto* sun = vtkLight::SafeDownCast(scene.renderer->GetLights()->GetItemAsObject(0));
+  scene.pass->SetTechnique("pcf");
+  const Picture shadowed = scene.render();
+  scene.pass->SetSetting("map_samples", "4");
+  vtkGnomonLightKeys::SetSetting(sun, "contour", "6");
+  for (int frame = 0; frame < 3; ++frame)
+  {
+    EXPECT_EQ(differingPixels(shadowed, scene.render()), 0u);
+    EXPECT_EQ(scene.report().misfits.size(), 2u);
+  }
+  const std::string errors = this->takeErrors();
+  EXPECT_EQ(std::count(errors.begin(), errors.end(), '\n'), 2) << errors;
+  EXPECT_THAT(errors, HasSubstr("the setting 'map_samples' is for: "));
+  EXPECT_THAT(errors,
+    HasSubstr("light 0 has the technique 'pcf', and the setting 'contour' is for: selective."));
+  // What was set for another technique is no mistake, and has its effect again there.
+  scene.pass->SetTechnique("vsm");
+  vtkGnomonLightKeys::SetSetting(sun, "contour", "");
+  scene.render();
+  EXPECT_EQ(scene.report().lights[0].mapSamples, 4);
+  scene.pass->SetTechnique("nsm");
+  scene.render();
+  EXPECT_TRUE(scene.report().misfits.empty());
+}
+
+//------------------------------------------------------------------------------
 TEST_F(Settings, anEmptyEstimatorIsTheTechniquesOwnAgain)
 {
   PassScene scene(100, 80);

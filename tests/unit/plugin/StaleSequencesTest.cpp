@@ -6,7 +6,11 @@
 
 #include "ChangedScene.h"
 
+#include <gmock/gmock.h>
+
 #include <cstdlib>
+#include <sstream>
+#include <string>
 
 using namespace gnomon::test;
 
@@ -90,5 +94,11 @@ TEST_P(StaleSequences, showWhatANewPassShows)
     ASSERT_EQ(differences(longLived.pass()->GetVisibility(), renewed.pass()->GetVisibility()), "")
       << where;
     ASSERT_EQ(differingPixels(kept, fresh), 0u) << where;
+  }
+  // What a technique does not have is an error, and changes nothing.
+  std::istringstream errors(this->takeErrors());
+  for (std::string error; std::getline(errors, error);)
+  {
+    EXPECT_THAT(error, testing::HasSubstr("' is for: ")) << history;
   }
 }

@@ -232,6 +232,8 @@ TEST_P(Staleness, anotherMapSizeBakesOnce)
   Work expected;
   expected.bakes = this->traced() ? 0 : 1;
   EXPECT_EQ(this->render(), expected);
+  const std::string errors = this->takeErrors();
+  EXPECT_EQ(errors.empty(), !this->traced()) << errors;
   EXPECT_EQ(this->render(), Work{});
 }
 

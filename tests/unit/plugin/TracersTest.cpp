@@ -160,7 +160,7 @@ void expectTheSame(vtkGnomonShadowPass* pass, vtkRenderWindow* window)
   for (const gnomon::TechniqueEntry& technique : gnomon::registry())
   {
     const gnomon::TechniqueInfo& info = technique.estimator->info;
-    if (!info.exact || !info.needsMap)
+    if (!info.exact || !info.bakesMap())
     {
       continue;
     }

@@ -6,6 +6,8 @@
 #include "shadowtech/adaptive/Adaptive.h"
 #include "shadowtech/adaptive/JitteredDiscs.h"
 #include "shadowtech/base/Gl.h"
+#include "shadowtech/base/Kernel.h"
+#include "shadowtech/depth_map/DepthBounds.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,8 +20,8 @@ namespace
 ShadowLight adaptiveSun(int texels, int grid, EarlyOut earlyOut)
 {
   ShadowLight light = filteredSun("bilinear", texels);
-  light.discGrid = grid;
-  light.earlyOut = earlyOut;
+  light.of<AdaptiveSettings>().discGrid = grid;
+  light.of<EarlyOutSettings>().earlyOut = earlyOut;
   return light;
 }
 
@@ -28,9 +30,11 @@ struct BakedDiscs
 {
   BakedDiscs(const ShadowLight& light, const Map& map)
   {
-    const int points = light.discGrid * light.discGrid;
-    const int sets = light.discSets * light.discSets;
-    const std::vector<glm::vec2> byDisc = jitteredDiscs(light.discGrid, sets);
+    const int points =
+      light.of<AdaptiveSettings>().discGrid * light.of<AdaptiveSettings>().discGrid;
+    const int sets = light.of<AdaptiveSettings>().discSets * light.of<AdaptiveSettings>().discSets;
+    const std::vector<glm::vec2> byDisc =
+      jitteredDiscs(light.of<AdaptiveSettings>().discGrid, sets);
     std::vector<glm::vec2> byPoint;
     for (int point = 0; point < points; ++point)
     {
@@ -40,8 +44,8 @@ struct BakedDiscs
       }
     }
     glBindTexture(GL_TEXTURE_2D_ARRAY, this->discs.create());
-    glTexImage3D(GL_TEXTURE_2D_ARRAY, 0, GL_RG32F, light.discSets, light.discSets, points, 0, GL_RG,
-      GL_FLOAT, byPoint.data());
+    glTexImage3D(GL_TEXTURE_2D_ARRAY, 0, GL_RG32F, light.of<AdaptiveSettings>().discSets,
+      light.of<AdaptiveSettings>().discSets, points, 0, GL_RG, GL_FLOAT, byPoint.data());
     nearest(GL_NEAREST);
     glBindTexture(GL_TEXTURE_2D_ARRAY, this->bounds.create());
     int level = 0;
@@ -103,26 +107,30 @@ public:
   AdaptiveTwin(const ShadowLight& light, Map map)
     : light_(light)
     , map_(std::move(map))
-    , discs_(jitteredDiscs(light.discGrid, light.discSets * light.discSets))
+    , discs_(jitteredDiscs(light.of<AdaptiveSettings>().discGrid,
+        light.of<AdaptiveSettings>().discSets * light.of<AdaptiveSettings>().discSets))
   {
   }
 
   Answer at(const glm::dvec2& place) const
   {
     Answer answer;
-    const double radius = 0.5 * this->light_.kernelTexels;
-    if (this->light_.earlyOut == EarlyOut::Exact && this->decided(place, radius, answer))
+    const double radius = 0.5 * this->light_.of<KernelSettings>().sizeTexels;
+    if (this->light_.of<EarlyOutSettings>().earlyOut == EarlyOut::Exact &&
+      this->decided(place, radius, answer))
     {
       return answer;
     }
-    const glm::ivec2 cell = glm::ivec2(4.0 * place) % this->light_.discSets;
-    const int points = this->light_.discGrid * this->light_.discGrid;
-    const glm::vec2* disc =
-      this->discs_.data() + (cell.y * this->light_.discSets + cell.x) * points;
+    const glm::ivec2 cell = glm::ivec2(4.0 * place) % this->light_.of<AdaptiveSettings>().discSets;
+    const int points =
+      this->light_.of<AdaptiveSettings>().discGrid * this->light_.of<AdaptiveSettings>().discGrid;
+    const glm::vec2* disc = this->discs_.data() +
+      (cell.y * this->light_.of<AdaptiveSettings>().discSets + cell.x) * points;
     int hidden = 0;
     for (int i = 0; i < points; ++i)
     {
-      if (i == this->light_.discGrid && this->light_.earlyOut == EarlyOut::Ring &&
+      if (i == this->light_.of<AdaptiveSettings>().discGrid &&
+        this->light_.of<EarlyOutSettings>().earlyOut == EarlyOut::Ring &&
         (hidden == 0 || hidden == i))
       {
         answer.lit = hidden == 0 ? 1.0 : 0.0;
@@ -330,7 +338,7 @@ TEST(Adaptive, theNoiseRepeatsAfterAsManyCellsAsThereAreDiscs)
   for (const int sets : { 4, 8, 16, 24 })
   {
     ShadowLight light = adaptiveSun(10, 8, EarlyOut::None);
-    light.discSets = sets;
+    light.of<AdaptiveSettings>().discSets = sets;
     const std::vector<glm::vec2> discs = jitteredDiscs(8, sets * sets);
     std::vector<double> noise;
     for (int cell = 0; cell < 20 * sets; ++cell)

@@ -8,6 +8,7 @@
 #include "shadowtech/base/OccluderBuffers.h"
 #include "shadowtech/base/ShaderLibrary.h"
 #include "shadowtech/montecarlo/DepthLayers.h"
+#include "shadowtech/montecarlo/MonteCarloSettings.h"
 #include "shadowtech/montecarlo/RaySpace.h"
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -38,7 +39,7 @@ public:
     , occluders_(makeOccluders(props))
   {
     light.mapSizeTexels = side;
-    light.mcLayers = kind;
+    light.of<MonteCarloSettings>().layers = kind;
     LightViews views = fitLightViews(
       lightOfMap(light), this->occluders_.centreWorld, this->occluders_.castersCentred, side);
     this->view_ = views.views.at(0);

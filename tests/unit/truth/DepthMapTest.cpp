@@ -8,6 +8,7 @@
 #include "shadowtech/base/OccluderBuffers.h"
 #include "shadowtech/base/ShaderLibrary.h"
 #include "shadowtech/depth_map/Compare.h"
+#include "shadowtech/depth_map/DepthMapTechnique.h"
 
 #include <algorithm>
 #include <cmath>
@@ -86,8 +87,8 @@ TEST_F(DepthMap, euclideanDepthIsTheDistanceWhateverNearAndFarAre)
           { makePlane(0.5), at({ 0.0, 0.0, -1.0 - farther }) } };
       }
       ShadowLight light = spotLight({ 0.0, 0.0, 4.0 }, glm::dvec3(0.0), 30.0);
-      light.metric = DepthMetric::Euclidean;
-      light.depth = surface;
+      light.of<DepthMapSettings>().metric = DepthMetric::Euclidean;
+      light.of<DepthMapSettings>().surface = surface;
       const BakedDepths<Compare> baked(light, props);
       int counted = 0;
       for (int y = 0; y < mapSide; y += 5)
@@ -117,12 +118,12 @@ TEST_F(DepthMap, constantBiasIsAddedInWorldUnits)
     const ShadowLight plain = lamp ? spotLight({ 1.0, 0.5, 6.0 }, glm::dvec3(0.0), 40.0)
                                    : directionalLight({ 0.3, 0.2, -1.0 });
     ShadowLight biased = plain;
-    biased.biasConstant = 0.03;
+    biased.of<DepthMapSettings>().biasConstant = 0.03;
     const BakedDepths<Compare> without(plain, floorAndBox());
     const BakedDepths<Compare> with(biased, floorAndBox());
     // Polygon offset pushes by the larger slope, the shader by half their sum.
     ShadowLight twice = biased;
-    twice.biasConstant = 0.06;
+    twice.of<DepthMapSettings>().biasConstant = 0.06;
     const BakedDepths<Compare> withTwice(twice, floorAndBox());
     int casters = 0;
     for (std::size_t i = 0; i < with.depths.size(); ++i)
@@ -148,8 +149,8 @@ TEST_F(DepthMap, slopeBiasIsAFactorOnWhatASlopeSpans)
   const auto pushedBy = [&](double factor)
   {
     ShadowLight light = plain;
-    light.biasSlope = factor;
-    light.biasConstant = 1e-9; // so that the shader pushes in all cases
+    light.of<DepthMapSettings>().biasSlope = factor;
+    light.of<DepthMapSettings>().biasConstant = 1e-9; // so that the shader pushes in all cases
     const BakedDepths<Compare> baked(light, { { makePlane(6.0) } });
     return baked.at(mapSide / 2, mapSide / 2);
   };
@@ -164,7 +165,7 @@ TEST_F(DepthMap, holdsTheSurfaceThatIsAskedFor)
   const auto heightsOf = [](DepthSurface surface, const std::vector<Prop>& props)
   {
     ShadowLight light = directionalLight({ 0.0, 0.0, -1.0 });
-    light.depth = surface;
+    light.of<DepthMapSettings>().surface = surface;
     const BakedDepths<Compare> baked(light, props);
     const auto height = [&](int x, int y)
     {
@@ -199,7 +200,7 @@ GLuint fragmentsOf(
   DepthSurface surface, const glm::dvec3& direction, const std::vector<Prop>& props)
 {
   ShadowLight light = directionalLight(direction);
-  light.depth = surface;
+  light.of<DepthMapSettings>().surface = surface;
   GLuint query = 0;
   glGenQueries(1, &query);
   glBeginQuery(GL_SAMPLES_PASSED, query);

@@ -43,7 +43,7 @@ void replaceOnce(std::string& text, const std::string& from, const std::string& 
 }
 
 //------------------------------------------------------------------------------
-std::vector<float> visibilityAt(const Technique& technique, const ShadowLight& light,
+std::vector<float> visibilityAt(const PointwiseTechnique& technique, const ShadowLight& light,
   ShaderLibrary& library, std::vector<glm::vec4> pointsView, const glm::vec3& normalView,
   std::vector<Uniform> uniforms)
 {
@@ -83,7 +83,7 @@ void main()
 }
 
 //------------------------------------------------------------------------------
-std::vector<float> runGlsl(const Technique& technique, const ShadowLight& light,
+std::vector<float> runGlsl(const PointwiseTechnique& technique, const ShadowLight& light,
   const LightViews& views, const Map& map, const std::vector<glm::dvec2>& places,
   const std::vector<Uniform>& more)
 {

@@ -4,7 +4,9 @@
 // The GLSL of estimators on maps that are given, for comparison with twins.
 
 #include "lights/LightViews.h"
+#include "lights/SettingsTable.h"
 #include "shadowtech/base/Gl.h"
+#include "shadowtech/base/Kernel.h"
 #include "shadowtech/base/Technique.h"
 
 #include "vtkGnomonEGLRenderWindow.h"
@@ -42,13 +44,13 @@ void replaceOnce(std::string& text, const std::string& from, const std::string& 
 /// @param pointsView in the camera's view coordinates
 /// @param normalView of the plane
 /// @param uniforms of the technique
-std::vector<float> visibilityAt(const Technique& technique, const ShadowLight& light,
+std::vector<float> visibilityAt(const PointwiseTechnique& technique, const ShadowLight& light,
   ShaderLibrary& library, std::vector<glm::vec4> pointsView, const glm::vec3& normalView,
   std::vector<Uniform> uniforms);
 
 /// What the shader answers at places of the first view's map, on a plane across the light.
 /// @param more uniforms of the technique, which has baked nothing
-std::vector<float> runGlsl(const Technique& technique, const ShadowLight& light,
+std::vector<float> runGlsl(const PointwiseTechnique& technique, const ShadowLight& light,
   const LightViews& views, const Map& map, const std::vector<glm::dvec2>& places,
   const std::vector<Uniform>& more = {});
 
@@ -58,7 +60,7 @@ inline ShadowLight filteredSun(const char* kernel, int texels)
   ShadowLight light;
   light.directionWorld = { 0.0, 0.0, -1.0 };
   findSetting("kernel")->set(light, kernel);
-  light.kernelTexels = texels;
+  light.of<KernelSettings>().sizeTexels = texels;
   return light;
 }
 

@@ -143,7 +143,8 @@ protected:
     ShaderLibrary library;
     OccluderBuffers buffers;
     buffers.update(occluders);
-    const std::unique_ptr<Technique> technique = estimatorOf(light).create();
+    const AnyTechnique made = estimatorOf(light).create();
+    const auto& technique = std::get<std::unique_ptr<PointwiseTechnique>>(made);
     technique->bake({ light, views, occluders, buffers, library, viewFits });
 
     const glm::dmat4 viewFromCentred = glm::inverse(centredFromView);
@@ -202,7 +203,7 @@ TEST_P(FittedViews, decideAsIfTheFitWereInTheView)
     {
       findSetting(name)->set(light, value);
     }
-    const MapReach reach = estimatorOf(light).create()->mapReach(light);
+    const MapReach reach = baseOf(estimatorOf(light).create()).mapReach(light);
     BothViews both;
     ASSERT_NO_FATAL_FAILURE(makeBoth(light, occluders, camera, reach.borderTexels(20.0), both));
     light.fittedToReceivers = true;

@@ -3,6 +3,7 @@
 #include "EstimatorGlsl.h"
 
 #include "lights/KernelShape.h"
+#include "shadowtech/base/Kernel.h"
 #include "shadowtech/depth_map/Pcf.h"
 
 #include <algorithm>
@@ -233,12 +234,12 @@ TEST_F(KernelShapeGlsl, aWidthAcrossTheLightIsTheSameEverywhere)
   for (const char* kernel : { "bilinear", "castano", "box", "poisson" })
   {
     ShadowLight plain = filteredSun(kernel, 5);
-    plain.kernelWidth = width;
+    plain.of<KernelSettings>().widthAcross = width;
     const double expected = edgeAt(plain, sunViews(plain), { 0.0, 0.0 }, 0, 0.9).spread();
     EXPECT_GT(expected, 0.3 * width);
     EXPECT_LT(expected, 1.1 * width);
     ShadowLight warped = warpedSun(kernel, 5);
-    warped.kernelWidth = width;
+    warped.of<KernelSettings>().widthAcross = width;
     const LightViews views = warpedViews(warped, 0.6);
     for (const glm::dvec2& at : { glm::dvec2(0.0, -0.5), { 0.0, 0.3 } })
     {
@@ -261,7 +262,7 @@ TEST_F(KernelShapeGlsl, aBoxOfAnyWidthHasOneLevelMoreThanTaps)
     {
       ShadowLight light = filteredSun("box", texels);
       const double texelAcross = 1.0 / mostTexelsAcross(sunViews(light), mapSize);
-      light.kernelWidth = scale * texels * texelAcross;
+      light.of<KernelSettings>().widthAcross = scale * texels * texelAcross;
       std::vector<glm::dvec2> places;
       for (int i = 0; i < 6400; ++i)
       {

@@ -1,11 +1,13 @@
 // The estimators over moments and the blur against twins in double precision.
 
 #include "shadowtech/base/Gl.h"
+#include "shadowtech/base/Kernel.h"
 #include "shadowtech/base/LightViewsGlsl.h"
 #include "shadowtech/base/ShaderLibrary.h"
 #include "shadowtech/moment_map/BoxBlur.h"
 #include "shadowtech/moment_map/Exponential.h"
 #include "shadowtech/moment_map/FourMoments.h"
+#include "shadowtech/moment_map/MomentMapTechnique.h"
 #include "shadowtech/moment_map/SummedAreaTable.h"
 #include "shadowtech/moment_map/Variance.h"
 
@@ -65,7 +67,7 @@ struct Open : Technique
 struct MomentsTwin
 {
   const char* name;
-  std::unique_ptr<Technique> (*create)();
+  std::unique_ptr<PointwiseTechnique> (*create)();
   std::string (*momentsGlsl)();
   glm::vec4 (*empty)();
   glm::dvec4 (*moments)(const CoveredDepths&); ///< as the map has them
@@ -74,7 +76,7 @@ struct MomentsTwin
 template <typename T>
 MomentsTwin twin(const char* name, glm::dvec4 (*moments)(const CoveredDepths&))
 {
-  return { name, [] { return std::unique_ptr<Technique>(new T); },
+  return { name, [] { return std::unique_ptr<PointwiseTechnique>(new T); },
     [] { return Open<T>().moments().glsl; }, [] { return Open<T>().moments().empty; }, moments };
 }
 
@@ -152,8 +154,8 @@ ShadowLight sun(double bleeding, int kernelTexels = 1)
 {
   ShadowLight light;
   light.directionWorld = { 0.0, 0.0, -1.0 };
-  light.bleeding = bleeding;
-  light.kernelTexels = kernelTexels;
+  light.of<MomentMapSettings>().bleeding = bleeding;
+  light.of<KernelSettings>().sizeTexels = kernelTexels;
   return light;
 }
 

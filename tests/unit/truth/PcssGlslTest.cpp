@@ -9,6 +9,7 @@
 #include "shadowtech/base/LightViewsGlsl.h"
 #include "shadowtech/base/ShaderLibrary.h"
 #include "shadowtech/depth_map/DepthBounds.h"
+#include "shadowtech/depth_map/PcssPoints.h"
 #include "shadowtech/depth_map/PoissonSquare.h"
 #include "shadowtech/pcss/Pcss.h"
 
@@ -114,8 +115,8 @@ public:
     : light_(light)
     , views_(std::move(views))
     , depths_(std::move(depths))
-    , counts_(pcssCounts(light.pcssSamples))
-    , points_(pcssPoints(light.pcssSamples, light.area->shape))
+    , counts_(pcssCounts(light.of<PcssSettings>().samples))
+    , points_(pcssPoints(light.of<PcssSettings>().samples, light.area->shape))
   {
   }
 
@@ -583,7 +584,7 @@ std::vector<Receiver> receiversOf(const LightViews& views, const glm::dvec2& til
 }
 
 /// What a technique's GLSL answers at receivers on a map.
-std::vector<float> run(const Technique& technique, const ShadowLight& light,
+std::vector<float> run(const PointwiseTechnique& technique, const ShadowLight& light,
   const LightViews& views, const Depths& depths, const std::vector<Receiver>& receivers)
 {
   GlTexture map;
@@ -591,7 +592,8 @@ std::vector<float> run(const Technique& technique, const ShadowLight& light,
   ShaderLibrary library;
   DepthBounds bounds;
   bounds.bake(map.name(), mapSize, 1, library);
-  const std::vector<glm::vec2> lightPoints = pcssPoints(light.pcssSamples, light.area->shape);
+  const std::vector<glm::vec2> lightPoints =
+    pcssPoints(light.of<PcssSettings>().samples, light.area->shape);
   GlTexture pointTexture;
   glBindTexture(GL_TEXTURE_2D, pointTexture.create());
   glTexImage2D(GL_TEXTURE_2D, 0, GL_RG32F, static_cast<GLsizei>(lightPoints.size()), 1, 0, GL_RG,
@@ -641,7 +643,7 @@ TEST_P(PcssGlsl, isItsTwin)
       for (const glm::dvec2& tilt : tilts)
       {
         ShadowLight light = GetParam().light;
-        light.pcssSamples = samples;
+        light.of<PcssSettings>().samples = samples;
         const LightViews views = firstView(light);
         const std::vector<Receiver> receivers = receiversOf(views, tilt);
         const std::vector<float> values = run(light, views, depths, receivers);
@@ -671,7 +673,7 @@ TEST_P(PcssGlsl, theEarlyOutChangesNothing)
       const LightViews views = firstView(light);
       const std::vector<Receiver> receivers = receiversOf(views, tilt);
       const std::vector<float> early = run(light, views, depths, receivers);
-      light.earlyOut = EarlyOut::None;
+      light.of<EarlyOutSettings>().earlyOut = EarlyOut::None;
       EXPECT_EQ(early, run(light, views, depths, receivers)) << tilt.x;
     }
   }
@@ -730,9 +732,9 @@ TEST_F(PcssReads, areThoseOfItsPresets)
   for (int preset = 0; preset < 3; ++preset)
   {
     ShadowLight light = areaCases().front().light;
-    light.pcssSamples = static_cast<PcssSamples>(preset);
-    light.earlyOut = EarlyOut::None;
-    const auto [search, filter] = pcssCounts(light.pcssSamples);
+    light.of<PcssSettings>().samples = static_cast<PcssSamples>(preset);
+    light.of<EarlyOutSettings>().earlyOut = EarlyOut::None;
+    const auto [search, filter] = pcssCounts(light.of<PcssSettings>().samples);
     EXPECT_EQ(search, expected[preset].search);
     EXPECT_EQ(filter, expected[preset].filter);
     // The receiver's own texel, the search, and the filter; where that finds nothing it has searched.
@@ -748,7 +750,7 @@ TEST_F(PcssReads, areThoseOfItsPresets)
     EXPECT_GT(mixed.most, 1 + search + filter);
     EXPECT_LE(mixed.most, 1 + search + 3 * 5 * filter);
     // What bounds decide reads none of the map.
-    light.earlyOut = EarlyOut::Exact;
+    light.of<EarlyOutSettings>().earlyOut = EarlyOut::Exact;
     EXPECT_EQ(readsOf(light, cover, {}).most, 0);
     EXPECT_EQ(readsOf(light, nothing, {}).most, 0);
   }
@@ -762,12 +764,12 @@ TEST_F(PcssReads, growFromLowToHighAndShrinkByTheEarlyOut)
     for (const PcssSamples samples : { PcssSamples::Low, PcssSamples::Medium, PcssSamples::High })
     {
       ShadowLight light = each.light;
-      light.pcssSamples = samples;
-      light.earlyOut = EarlyOut::None;
+      light.of<PcssSettings>().samples = samples;
+      light.of<EarlyOutSettings>().earlyOut = EarlyOut::None;
       const double all = readsOf(light, blocks, tilts[1]).all;
       EXPECT_GT(all, 2.0 * previous) << each;
       previous = all;
-      light.earlyOut = EarlyOut::Exact;
+      light.of<EarlyOutSettings>().earlyOut = EarlyOut::Exact;
       EXPECT_LE(readsOf(light, blocks, tilts[1]).all, all) << each;
     }
   }
@@ -936,7 +938,7 @@ public:
   {
     this->light_.directionWorld = { 0.0, 0.0, -1.0 };
     this->light_.area = diskArea(this->light_.directionWorld, 0.5);
-    this->light_.pcssSamples = PcssSamples::Low;
+    this->light_.of<PcssSettings>().samples = PcssSamples::Low;
     this->views_ = firstView(this->light_);
     const LightView& view = this->views_.views.front();
     this->distance_ = (0.7 - view.depthOffset) / view.depthScale;

@@ -4,6 +4,7 @@
 #include "SyntheticScene.h"
 
 #include "lights/LightSpace.h"
+#include "lights/SettingsTable.h"
 #include "shadowtech/base/CasterDrawing.h"
 #include "shadowtech/base/LightViewsGlsl.h"
 #include "shadowtech/base/ShaderLibrary.h"
@@ -25,14 +26,16 @@ constexpr glm::ivec2 pictureSize(1000, 700);
 constexpr int areaSide = 256;
 
 /// Answers with that number in place of a visibility.
-class TexelsOfPixel : public Technique
+class TexelsOfPixel : public PointwiseTechnique
 {
 public:
   std::string visibilityGlsl(const ShadowLight& light) const override
   {
-    return lightViewsDefines(light) + ShaderLibrary::source("shadowtech/base/map_visibility.glsl") +
+    return lightViewsDefines(light, true) +
+      ShaderLibrary::source("shadowtech/base/map_visibility.glsl") +
       "float estimate_LIGHT(ViewPoint point, float slack) { return texelsOfPixel_LIGHT(point); }\n";
   }
+  std::vector<Uniform> uniforms(const ReceiverSpace&) const override { return {}; }
 };
 
 struct Plane
@@ -96,7 +99,6 @@ TEST_F(PixelArea, isThatOfItsCornersOnTheMap)
           std::to_string(static_cast<int>(light.kind)) + (parallel ? ", parallel" : ""));
         findSetting("projection")->set(light, projection);
         light.mapSizeTexels = areaSide;
-        light.mipMaps = true;
         ViewFitting fitting;
         fitting.castersCentred = { glm::dvec3(-5.0, -5.0, -2.5), glm::dvec3(5.0, 5.0, 2.8) };
         fitting.receiversCentred = fitting.castersCentred;

@@ -1,7 +1,7 @@
 #include "RandomScenes.h"
 
 #include "lights/LightViews.h"
-#include "lights/ShadowSettings.h"
+#include "lights/SettingsTable.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 

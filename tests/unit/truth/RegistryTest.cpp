@@ -3,6 +3,8 @@
 #include "shadowtech/Registry.h"
 
 #include "lights/ShadowLight.h"
+#include "shadowtech/depth_map/DepthBounds.h"
+#include "shadowtech/moment_map/MomentMapTechnique.h"
 
 #include <gtest/gtest.h>
 
@@ -68,7 +70,7 @@ TEST(Registry, hasEveryTechniqueOnceAndItsEstimator)
     EXPECT_EQ(findTechnique(technique.name), &technique);
     ASSERT_TRUE(technique.estimator) << technique.name;
     EXPECT_FALSE(technique.summary.empty());
-    EXPECT_TRUE(technique.estimator->create());
+    EXPECT_FALSE(baseOf(technique.estimator->create()).bytesOfMaps() > (1u << 20));
   }
   for (const EstimatorEntry& estimator : estimators())
   {
@@ -86,8 +88,12 @@ TEST(Registry, knowsWhichEstimatorsAreFunctionsOfThePoint)
     ShadowLight light = lightOf(LightKind::Directional);
     light.estimator = estimator.info.name;
     compose(light);
-    EXPECT_EQ(estimator.create()->visibilityGlsl(light).empty(), !estimator.info.isPointwise())
-      << estimator.info.name;
+    const AnyTechnique technique = estimator.create();
+    EXPECT_EQ(technique.index(), static_cast<std::size_t>(estimator.info.evaluation));
+    if (const auto* pointwise = std::get_if<std::unique_ptr<PointwiseTechnique>>(&technique))
+    {
+      EXPECT_NE((*pointwise)->visibilityGlsl(light), "") << estimator.info.name;
+    }
   }
   EXPECT_EQ(findEstimator("planar")->info.evaluation, Evaluation::ScreenGpu);
   EXPECT_EQ(findEstimator("montecarlo")->info.evaluation, Evaluation::ScreenGpu);
@@ -107,11 +113,10 @@ TEST(Registry, knowsWhomPointsOfLightsConcern)
     const bool samples = sampled.count(name) > 0;
     for (const char* setting : { "light_samples", "light_sampling" })
     {
-      EXPECT_EQ(concerns(*findSetting(setting), estimator.info), samples) << name << ' ' << setting;
+      EXPECT_EQ(has(estimator.info, setting), samples) << name << ' ' << setting;
     }
-    EXPECT_EQ(concerns(*findSetting("light_seed"), estimator.info), samples || seeded.count(name))
-      << name;
-    EXPECT_TRUE(concerns(*findSetting("light_radius"), estimator.info)) << name;
+    EXPECT_EQ(has(estimator.info, "light_seed"), samples || seeded.count(name)) << name;
+    EXPECT_TRUE(has(estimator.info, "light_radius")) << name;
   }
 }
 
@@ -124,24 +129,23 @@ TEST(Registry, takesOrRefusesEveryComposition)
   const Verdicts allCasters{ camera, camera, camera, camera };
   const char* points = "uniform and cube";
   const Verdicts uniform{ points, points, points, points };
-  const Verdicts noMap{ "no map", "no map", "no map", "no map" };
   for (const TechniqueEntry& technique : registry())
   {
     ShadowSettings settings;
     settings.technique = technique.name;
     const bool warps =
-      technique.estimator->info.needsMap && technique.projection != Projection::Uniform;
+      technique.estimator->info.bakesMap() && technique.projection != Projection::Uniform;
     expectVerdicts(settings, warps ? single : all, technique.name);
 
     for (const EstimatorEntry& estimator : estimators())
     {
       settings.estimator = estimator.info.name;
-      const bool map = estimator.info.needsMap;
+      const bool map = estimator.info.bakesMap();
       const std::string what = technique.name + " with " + settings.estimator;
       const auto expectOf = [&](Projection projection, const Verdicts& verdicts)
       {
         settings.projection = projection;
-        expectVerdicts(settings, map ? verdicts : noMap,
+        expectVerdicts(settings, map ? verdicts : all,
           what + ", projection " + findSetting("projection")->get(settings));
       };
       expectOf(Projection::Uniform, all);
@@ -156,66 +160,33 @@ TEST(Registry, takesOrRefusesEveryComposition)
   }
 }
 
-TEST(Registry, refusesToAverageDepths)
+TEST(Registry, saysWhoHasASetting)
 {
+  EXPECT_EQ(whoHas("map_samples"), "the setting 'map_samples' is for: vsm, evsm, msm");
+  EXPECT_EQ(whoHas("as_published"), "the setting 'as_published' is for: pcss, crsm, crsma");
   for (const EstimatorEntry& estimator : estimators())
   {
-    ShadowSettings settings;
-    settings.estimator = estimator.info.name;
-    settings.mapSamples = 4;
-    const bool depths = estimator.info.needsMap && !estimator.info.averagesMap;
-    const char* verdict = depths ? "map_samples" : "";
-    expectVerdicts(settings, { verdict, verdict, verdict, verdict }, settings.estimator);
-  }
-  for (const char* name : { "compare", "pcf", "adaptive", "pcss" })
-  {
-    EXPECT_FALSE(findEstimator(name)->info.averagesMap) << name;
-  }
-  for (const char* name : { "variance", "exponential", "moments" })
-  {
-    EXPECT_TRUE(findEstimator(name)->info.averagesMap) << name;
+    const TechniqueInfo& info = estimator.info;
+    EXPECT_TRUE(has(info, "technique") && has(info, "light_radius")) << info.name;
+    EXPECT_FALSE(has(info, "magic")) << info.name;
+    EXPECT_EQ(has(info, "map_size"), info.bakesMap()) << info.name;
+    EXPECT_EQ(has(info, "bake"), info.mapIsOptional) << info.name;
+    EXPECT_EQ(has(info, "as_published"), !info.asPublished.empty()) << info.name;
   }
 }
 
 TEST(Registry, sumsOnlyMomentsThatIntegersHold)
 {
-  for (const EstimatorEntry& estimator : estimators())
+  for (const char* name : { "variance", "exponential", "moments" })
   {
     ShadowSettings settings;
-    settings.estimator = estimator.info.name;
-    settings.blur = MapBlur::Sat;
-    const bool depths = estimator.info.needsMap && !estimator.info.averagesMap;
-    const char* verdict = depths                              ? "reads depths"
-      : estimator.info.averagesMap && !estimator.info.sumsMap ? "32-bit integers"
-                                                              : "";
-    expectVerdicts(settings, { verdict, verdict, verdict, verdict }, settings.estimator);
-  }
-  for (const char* name : { "compare", "pcf", "adaptive", "pcss", "exponential" })
-  {
-    EXPECT_FALSE(findEstimator(name)->info.sumsMap) << name;
-  }
-  for (const char* name : { "variance", "moments" })
-  {
-    EXPECT_TRUE(findEstimator(name)->info.sumsMap) << name;
-  }
-}
-
-TEST(Registry, buildsLevelsOfBlurredMomentsOnly)
-{
-  for (const EstimatorEntry& estimator : estimators())
-  {
-    ShadowSettings settings;
-    settings.estimator = estimator.info.name;
-    settings.mipMaps = true;
-    const bool depths = estimator.info.needsMap && !estimator.info.averagesMap;
-    const char* verdict = depths ? "'mip_maps' is for maps of moments" : "";
-    expectVerdicts(settings, { verdict, verdict, verdict, verdict }, settings.estimator);
-    if (estimator.info.sumsMap)
-    {
-      settings.blur = MapBlur::Sat;
-      expectVerdicts(settings, { "no levels", "no levels", "no levels", "no levels" },
-        settings.estimator + " with blur sat");
-    }
+    settings.estimator = name;
+    settings.of<MomentMapSettings>().blur = MapBlur::Sat;
+    const char* verdict = settings.estimator == "exponential" ? "32-bit integers" : "";
+    expectVerdicts(settings, { verdict, verdict, verdict, verdict }, name);
+    settings.of<MomentMapSettings>().mipMaps = true;
+    verdict = settings.estimator == "exponential" ? "32-bit integers" : "no levels";
+    expectVerdicts(settings, { verdict, verdict, verdict, verdict }, name);
   }
 }
 
@@ -225,10 +196,10 @@ TEST(Registry, refusesARingOfPointsThatThereIsNot)
   {
     ShadowSettings settings;
     settings.estimator = estimator.info.name;
-    settings.earlyOut = EarlyOut::Ring;
+    settings.of<EarlyOutSettings>().earlyOut = EarlyOut::Ring;
     const char* verdict = estimator.info.name == "pcss" ? "exact or none" : "";
     expectVerdicts(settings, { verdict, verdict, verdict, verdict }, settings.estimator);
-    settings.earlyOut = EarlyOut::None;
+    settings.of<EarlyOutSettings>().earlyOut = EarlyOut::None;
     expectVerdicts(settings, { "", "", "", "" }, settings.estimator);
   }
 }
@@ -347,15 +318,6 @@ TEST(Registry, putsSamplesIntoTheCellsOfSquareGridsOnly)
 
 TEST(Registry, followsAPublicationWhereThereIsOneThatIsNotExact)
 {
-  for (const EstimatorEntry& estimator : estimators())
-  {
-    ShadowSettings settings;
-    settings.estimator = estimator.info.name;
-    settings.asPublished = true;
-    const bool is = !estimator.info.asPublished.empty();
-    const char* verdict = is ? "" : "'as_published' is for: pcss, crsm, crsma";
-    expectVerdicts(settings, { verdict, verdict, verdict, verdict }, settings.estimator);
-  }
   for (const std::string name : { "crsm", "crsma" })
   {
     ShadowLight light = lightOf(LightKind::Directional);

@@ -1,6 +1,10 @@
-#include "lights/ShadowSettings.h"
+#include "lights/SettingsTable.h"
 
-#include "vtkGnomonLightKeys.h"
+#include "lights/vtkGnomonLightKeys.h"
+#include "shadowtech/Registry.h"
+#include "shadowtech/depth_map/Pcf.h"
+#include "shadowtech/moment_map/MomentMapTechnique.h"
+#include "shadowtech/selective/Selective.h"
 
 #include <gtest/gtest.h>
 #include <vtkLight.h>
@@ -16,14 +20,16 @@ namespace
 
 TEST(ShadowSettings, takeWhatTheyGive)
 {
-  for (const gnomon::Setting& setting : shadowSettings())
+  for (const gnomon::Setting* each : shadowSettings())
   {
+    const gnomon::Setting& setting = *each;
     ShadowSettings settings;
     const std::string text = setting.get(settings);
-    EXPECT_TRUE(setting.set(settings, text)) << setting.name;
+    // No technique means the registry's default.
+    EXPECT_EQ(setting.set(settings, text), setting.name != "technique") << setting.name;
     EXPECT_EQ(setting.get(settings), text) << setting.name;
     EXPECT_EQ(findSetting(setting.name), &setting);
-    EXPECT_FALSE(setting.help.empty()) << setting.name;
+    EXPECT_FALSE(setting.meaning.empty()) << setting.name;
   }
   EXPECT_EQ(findSetting("magic"), nullptr);
 }
@@ -40,16 +46,17 @@ TEST(ShadowSettings, refuseWhatTheyDoNotTakeAndStayAsTheyAre)
   for (const char* text : { "", "Box", "box ", "1" })
   {
     EXPECT_FALSE(findSetting("kernel")->set(settings, text)) << text;
-    EXPECT_EQ(settings.kernel, FilterKernel::Bilinear);
+    EXPECT_EQ(settings.of<PcfSettings>().kernel, FilterKernel::Bilinear);
   }
   EXPECT_TRUE(findSetting("kernel")->set(settings, "poisson"));
-  EXPECT_EQ(settings.kernel, FilterKernel::Poisson);
+  EXPECT_EQ(settings.of<PcfSettings>().kernel, FilterKernel::Poisson);
 }
 
 TEST(ShadowSettings, takeEveryChoiceAndGiveItBack)
 {
-  for (const gnomon::Setting& setting : shadowSettings())
+  for (const gnomon::Setting* each : shadowSettings())
   {
+    const gnomon::Setting& setting = *each;
     const auto* choice = std::get_if<ChoiceSetting>(&setting.values);
     for (std::size_t i = 0; choice && i < choice->names.size(); ++i)
     {
@@ -60,11 +67,11 @@ TEST(ShadowSettings, takeEveryChoiceAndGiveItBack)
   }
   ShadowSettings settings;
   EXPECT_TRUE(findSetting("contour")->set(settings, "6"));
-  EXPECT_EQ(settings.contourPixels, 6);
+  EXPECT_EQ(settings.of<ChainSettings>().contourPixels, 6);
   EXPECT_TRUE(findSetting("contour")->set(settings, "image"));
-  EXPECT_EQ(settings.contourPixels, 0);
+  EXPECT_EQ(settings.of<ChainSettings>().contourPixels, 0);
   EXPECT_TRUE(findSetting("map_samples")->set(settings, "8"));
-  EXPECT_EQ(settings.mapSamples, 8);
+  EXPECT_EQ(settings.of<MomentMapSettings>().samples, 8);
 }
 
 TEST(ShadowSettings, areALightsOwn)

@@ -1,0 +1,198 @@
+#include "lights/SettingsTable.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <optional>
+
+namespace gnomon
+{
+namespace
+{
+
+/// The whole text as a number; nothing where it is none.
+template <typename Number>
+std::optional<Number> parse(const std::string& text)
+{
+  Number number{};
+  const char* const end = text.data() + text.size();
+  const std::from_chars_result result = std::from_chars(text.data(), end, number);
+  return result.ec == std::errc() && result.ptr == end ? std::optional<Number>(number)
+                                                       : std::nullopt;
+}
+
+/// The shortest text that reads as that number.
+std::string shortest(double number)
+{
+  std::array<char, 32> text{};
+  const std::to_chars_result result = std::to_chars(text.data(), text.data() + text.size(), number);
+  return { text.data(), result.ptr };
+}
+
+/// The value that a text stands for; nothing where a setting does not take it.
+struct ReadText
+{
+  const std::string& text;
+
+  std::optional<SettingValue> operator()(const IntegerSetting& values) const
+  {
+    const std::optional<int> number = parse<int>(this->text);
+    return number && *number >= values.smallest && *number <= values.largest
+      ? std::optional<SettingValue>(*number)
+      : std::nullopt;
+  }
+  std::optional<SettingValue> operator()(const RealSetting& values) const
+  {
+    const std::optional<double> number = parse<double>(this->text); // it may be NaN
+    return number && *number >= values.smallest && *number <= values.largest
+      ? std::optional<SettingValue>(*number)
+      : std::nullopt;
+  }
+  std::optional<SettingValue> operator()(const ChoiceSetting& values) const
+  {
+    const auto found = std::find(values.names.begin(), values.names.end(), this->text);
+    return found == values.names.end()
+      ? std::nullopt
+      : std::optional<SettingValue>(static_cast<int>(found - values.names.begin()));
+  }
+};
+
+struct Expected
+{
+  std::string operator()(const IntegerSetting& values) const
+  {
+    return "an integer in [" + std::to_string(values.smallest) + ", " +
+      std::to_string(values.largest) + "]";
+  }
+  std::string operator()(const RealSetting& values) const
+  {
+    return "a number in [" + shortest(values.smallest) + ", " + shortest(values.largest) + "]";
+  }
+  std::string operator()(const ChoiceSetting& values) const
+  {
+    return "one of: " + listOf(values.names);
+  }
+};
+
+std::vector<const SettingsTable*>& tablesInPlace()
+{
+  static std::vector<const SettingsTable*> tables = { &viewSettings(), &lightAreaSettings(),
+    &lightSampleSettings(), &lightSeedSettings() };
+  return tables;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+std::string listOf(const std::vector<std::string>& names)
+{
+  std::string list;
+  for (const std::string& name : names)
+  {
+    list += (list.empty() || name.empty() ? "" : ", ") + name;
+  }
+  return list;
+}
+
+//------------------------------------------------------------------------------
+const std::vector<const SettingsTable*>& settingsTables()
+{
+  return tablesInPlace();
+}
+
+//------------------------------------------------------------------------------
+bool setSettingsTables(std::vector<const SettingsTable*> tables)
+{
+  tablesInPlace() = std::move(tables);
+  return true;
+}
+
+//------------------------------------------------------------------------------
+std::vector<const Setting*> shadowSettings()
+{
+  std::vector<const Setting*> all;
+  for (const SettingsTable* table : settingsTables())
+  {
+    for (const Setting& setting : table->settings)
+    {
+      all.push_back(&setting);
+    }
+  }
+  return all;
+}
+
+//------------------------------------------------------------------------------
+const Setting* findSetting(const std::string& name)
+{
+  const std::vector<const Setting*> settings = shadowSettings();
+  const auto found = std::find_if(settings.begin(), settings.end(),
+    [&](const Setting* setting) { return setting->name == name; });
+  return found == settings.end() ? nullptr : *found;
+}
+
+//------------------------------------------------------------------------------
+std::string settingNames()
+{
+  std::vector<std::string> names;
+  for (const Setting* setting : shadowSettings())
+  {
+    names.push_back(setting->name);
+  }
+  return listOf(names);
+}
+
+//------------------------------------------------------------------------------
+Setting oneOfNames(std::string name, std::string meaning, std::string ShadowSettings::*member,
+  std::vector<std::string> names)
+{
+  const ChoiceSetting values{ std::move(names) };
+  return { std::move(name), std::move(meaning), {}, values,
+    [member](const ShadowSettings& settings) { return settings.*member; },
+    [member, values](ShadowSettings& settings, const SettingValue& value)
+    { settings.*member = values.names[static_cast<std::size_t>(std::get<int>(value))]; } };
+}
+
+//------------------------------------------------------------------------------
+Setting bakedInto(Setting setting)
+{
+  setting.isBaked = true;
+  return setting;
+}
+
+//------------------------------------------------------------------------------
+bool Setting::set(ShadowSettings& settings, const std::string& text) const
+{
+  const std::optional<SettingValue> value = std::visit(ReadText{ text }, this->values);
+  if (!value)
+  {
+    return false;
+  }
+  this->write(settings, *value);
+  settings.named.insert(this->name);
+  return true;
+}
+
+//------------------------------------------------------------------------------
+std::string Setting::get(const ShadowSettings& settings) const
+{
+  const SettingValue value = this->read(settings);
+  if (const auto* text = std::get_if<std::string>(&value))
+  {
+    return *text;
+  }
+  if (const auto* number = std::get_if<double>(&value))
+  {
+    return shortest(*number);
+  }
+  const auto* choices = std::get_if<ChoiceSetting>(&this->values);
+  const int integer = std::get<int>(value);
+  return choices ? choices->names[static_cast<std::size_t>(integer)] : std::to_string(integer);
+}
+
+//------------------------------------------------------------------------------
+std::string Setting::expected() const
+{
+  return std::visit(Expected{}, this->values);
+}
+
+} // namespace gnomon

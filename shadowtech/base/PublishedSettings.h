@@ -1,0 +1,20 @@
+#ifndef gnomon_shadowtech_base_PublishedSettings_h
+#define gnomon_shadowtech_base_PublishedSettings_h
+
+#include "lights/SettingsTable.h"
+
+namespace gnomon
+{
+
+/// Of techniques with a variant by the letter of a publication (TechniqueInfo::asPublished).
+inline const SettingsTable& publishedSettings()
+{
+  static const SettingsTable table = { "Publications",
+    { choice("as_published", "by the letter of its publication, which is not right",
+      &ShadowSettings::asPublished, { "off", "on" }) } };
+  return table;
+}
+
+} // namespace gnomon
+
+#endif

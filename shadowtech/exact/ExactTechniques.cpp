@@ -1,0 +1,66 @@
+#include "shadowtech/exact/ExactTechniques.h"
+
+#include "shadowtech/base/PublishedSettings.h"
+
+namespace gnomon
+{
+namespace
+{
+
+TechniqueInfo infoOfCrsm()
+{
+  TechniqueInfo info = infoOfExact("crsm");
+  info.asPublished = "crsm_as_published";
+  info.settings.push_back(&publishedSettings());
+  return info;
+}
+
+TechniqueInfo infoOfCrsma()
+{
+  TechniqueInfo info = infoOfExact("crsma");
+  info.asPublished = "crsma_as_published";
+  info.settings.push_back(&crsmaSettings());
+  info.settings.push_back(&publishedSettings());
+  return info;
+}
+
+TechniqueInfo infoOfSilhouette()
+{
+  TechniqueInfo info = infoOfExact("silhouette");
+  info.onlyCpuDraws = "parts of the casters' surface are drawn one after another";
+  return info;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+const SettingsTable& crsmaSettings()
+{
+  static const SettingsTable table = { "Adjacency",
+    { bakedInto(choice("adjacency_ring",
+      "which triangles around one may cover a texel with it: across its edges, or all around its "
+      "vertices, which decides more and takes longer",
+      &CrsmaSettings::ring, { "edges", "vertices" })) } };
+  return table;
+}
+
+//------------------------------------------------------------------------------
+const std::vector<ConservativeEntry>& exactTechniques()
+{
+  static const std::vector<ConservativeEntry> entries = {
+    { infoOfCrsm(),
+      [](const ShadowSettings&, const CellsOnGpu* gpu)
+      { return certainRule(Covering::Triangle, gpu); } },
+    { infoOfCrsma(),
+      [](const ShadowSettings& settings, const CellsOnGpu* gpu)
+      {
+        const bool fan = settings.of<CrsmaSettings>().ring == AdjacencyRing::Vertices;
+        return certainRule(fan ? Covering::Fan : Covering::Ring, gpu);
+      } },
+    { infoOfSilhouette(),
+      [](const ShadowSettings&, const CellsOnGpu*) { return certainRule(Covering::Silhouette); } },
+  };
+  return entries;
+}
+
+} // namespace gnomon

@@ -1,0 +1,22 @@
+#include "shadowtech/tracing/TraceAll.h"
+
+#include "shadowtech/tracing/ShadowTracer.h"
+
+namespace gnomon
+{
+
+//------------------------------------------------------------------------------
+void traceAllReceivers(
+  const ScreenInput& input, std::vector<float>& visibility, LightReport& report)
+{
+  const bool soft = input.light.area.has_value();
+  report.lightSamples = soft ? input.light.lightSamples : 1;
+  const std::size_t rays = soft ? input.tracer.traceArea(input.light, input.occluders,
+                                    input.receivers, visibility, nullptr, input.classes)
+                                : input.tracer.trace(input.light, input.occluders, input.receivers,
+                                    visibility, nullptr, input.classes);
+  report.rays = static_cast<std::int64_t>(rays);
+  report.tracedPixels = report.rays / report.lightSamples;
+}
+
+} // namespace gnomon
