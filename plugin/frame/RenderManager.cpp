@@ -438,8 +438,7 @@ void RenderManager::computeVisibility()
     {
       LightReport& report = reportOf(this->report_, casting.light);
       value->classified = this->classifies();
-      value->classes.clear();
-      this->fillLayers(casting, value->classified ? &value->classes : nullptr, report);
+      this->fillLayers(casting, *value, report);
       const std::vector<PixelClass>& named = casting.own.info().classes;
       if (value->classified && !named.empty())
       {
@@ -451,6 +450,7 @@ void RenderManager::computeVisibility()
       ++this->report_.visibilityComputed;
       this->report_.raysTraced += report.rays;
     }
+    this->report_.notes.insert(this->report_.notes.end(), value->notes.begin(), value->notes.end());
     ++value;
   }
   if (this->wishes_.keepVisibility)
@@ -481,10 +481,12 @@ void RenderManager::dropVisibility()
 
 //------------------------------------------------------------------------------
 /// Has a light's technique fill its layers.
-/// @param classes where not null: each pixel's class, an index into TechniqueInfo::classes
-void RenderManager::fillLayers(
-  CastingLight& casting, std::vector<std::uint8_t>* classes, LightReport& report)
+/// @param value whose classes, if they are asked for, and notes are filled
+void RenderManager::fillLayers(CastingLight& casting, VisibilityValue& value, LightReport& report)
 {
+  value.classes.clear();
+  value.notes.clear();
+  std::vector<std::uint8_t>* const classes = value.classified ? &value.classes : nullptr;
   const ShadowLight& light = casting.light;
   const Occluders& occluders = this->collector_.occluders();
   const ReceiversValue& receivers = this->view_->receivers;
@@ -505,7 +507,7 @@ void RenderManager::fillLayers(
           { light, casting.own.fitting(), this->camera_, this->stageValues_.space, occluders,
             this->buffers_, receivers.target, this->receiversShown_, receivers.drawnSurfaces,
             layers, casting.layer, this->severalViews_, this->programs_.library, classes != nullptr,
-            classes, this->report_.notes, this->report_.mapBakes },
+            classes, value.notes, this->report_.mapBakes },
           report);
       });
     this->endStageClock("visibility: draw");

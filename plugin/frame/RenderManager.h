@@ -117,7 +117,7 @@ private:
   void updateTracer();
   void tellTracer();
   Receivers& receiversOnCpu();
-  void fillLayers(CastingLight& casting, std::vector<std::uint8_t>* classes, LightReport& report);
+  void fillLayers(CastingLight& casting, VisibilityValue& value, LightReport& report);
   void keepVisibility(bool isNew);
   void dropVisibility();
 

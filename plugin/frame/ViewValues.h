@@ -15,6 +15,7 @@
 #include <list>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 class vtkRenderer;
@@ -36,8 +37,9 @@ struct ReceiversValue
 /// The visibility stage's value for one light. The picture itself is in the view's layers.
 struct VisibilityValue
 {
-  std::optional<ValueKey> key; ///< none: there is no value
-  LightReport report;          ///< what the frame that computed it says of the light
+  std::optional<ValueKey> key;    ///< none: there is no value
+  LightReport report;             ///< what the frame that computed it says of the light
+  std::vector<std::string> notes; ///< and what it notes (FrameReport::notes)
   bool classified = false;
   std::vector<std::uint8_t> classes; ///< each pixel's, where `classified`
   /// Keeps the address alive that the key has: no other texture can come to lie there.
