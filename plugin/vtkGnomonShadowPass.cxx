@@ -195,7 +195,9 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
   try
   {
     manager.beginFrame(
-      { this->Route, this->Tracer, this->Rasterizer, this->KeepVisibility, this->MeasureStages });
+      { static_cast<gnomon::RouteWish>(this->Route), static_cast<gnomon::TracerWish>(this->Tracer),
+        static_cast<gnomon::RasterizerWish>(this->Rasterizer), this->KeepVisibility,
+        this->MeasureStages });
 
     // lights
     this->BeginView(s);

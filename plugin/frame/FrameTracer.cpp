@@ -1,6 +1,5 @@
 #include "plugin/frame/FrameTracer.h"
 
-#include "plugin/vtkGnomonShadowPass.h"
 #include "shadowtech/tracing/EmbreeTracer.h"
 #include "shadowtech/tracing/GpuShadowTracer.h"
 
@@ -10,13 +9,14 @@ namespace gnomon
 {
 
 //------------------------------------------------------------------------------
-TracerChoice chooseTracer(int wished, const std::string& gpuLacks, const std::string& renderer)
+TracerChoice chooseTracer(
+  TracerWish wished, const std::string& gpuLacks, const std::string& renderer)
 {
-  if (wished == vtkGnomonShadowPass::TRACER_EMBREE)
+  if (wished == TracerWish::Embree)
   {
     return { false, true, "asked for" };
   }
-  if (wished == vtkGnomonShadowPass::TRACER_GPU)
+  if (wished == TracerWish::Gpu)
   {
     if (!gpuLacks.empty())
     {

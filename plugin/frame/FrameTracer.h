@@ -1,6 +1,7 @@
 #ifndef gnomon_plugin_frame_FrameTracer_h
 #define gnomon_plugin_frame_FrameTracer_h
 
+#include "plugin/frame/FrameWishes.h"
 #include "shadowtech/base/OccluderBuffers.h"
 #include "shadowtech/base/ShaderLibrary.h"
 #include "shadowtech/tracing/ShadowTracer.h"
@@ -21,11 +22,11 @@ struct TracerChoice
   std::string reason; ///< as a clause
 };
 
-/// @param wished a vtkGnomonShadowPass::TracerType
 /// @param gpuLacks GpuTracer::whyUnsupported()
 /// @param renderer GL_RENDERER
 /// @throws std::runtime_error where the GPU is asked for and lacks something
-TracerChoice chooseTracer(int wished, const std::string& gpuLacks, const std::string& renderer);
+TracerChoice chooseTracer(
+  TracerWish wished, const std::string& gpuLacks, const std::string& renderer);
 
 /// The tracer of all techniques of a frame. It is made when somebody traces and kept while the choice stays the
 /// same, so that no more than one has an acceleration structure. All calls, the destructor included, want the

@@ -1,20 +1,18 @@
 #include "plugin/frame/MapRasterizer.h"
 
-#include "plugin/vtkGnomonShadowPass.h"
-
 #include <stdexcept>
 
 namespace gnomon
 {
 
 //------------------------------------------------------------------------------
-RasterizerChoice chooseRasterizer(int wished, const std::string& gpuLacks)
+RasterizerChoice chooseRasterizer(RasterizerWish wished, const std::string& gpuLacks)
 {
-  if (wished == vtkGnomonShadowPass::RASTERIZER_AUTO)
+  if (wished == RasterizerWish::Auto)
   {
     return { false, "drawing by compute shaders is not measured faster" };
   }
-  const bool gpu = wished == vtkGnomonShadowPass::RASTERIZER_GPU;
+  const bool gpu = wished == RasterizerWish::Gpu;
   if (gpu && !gpuLacks.empty())
   {
     throw std::runtime_error("the rasterizer on the GPU was asked for, but " + gpuLacks);

@@ -1,6 +1,8 @@
 #ifndef gnomon_plugin_frame_MapRasterizer_h
 #define gnomon_plugin_frame_MapRasterizer_h
 
+#include "plugin/frame/FrameWishes.h"
+
 #include <string>
 
 namespace gnomon
@@ -14,10 +16,9 @@ struct RasterizerChoice
 };
 
 /// Choose who draws the conservative maps of a frame.
-/// @param wished a vtkGnomonShadowPass::RasterizerType
 /// @param gpuLacks CellTarget::whyUnsupported()
 /// @throws std::runtime_error where the GPU is asked for and lacks something
-RasterizerChoice chooseRasterizer(int wished, const std::string& gpuLacks);
+RasterizerChoice chooseRasterizer(RasterizerWish wished, const std::string& gpuLacks);
 
 } // namespace gnomon
 

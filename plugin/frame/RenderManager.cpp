@@ -4,7 +4,6 @@
 #include "plugin/frame/ReceiverDrawing.h"
 #include "plugin/scene/Hash.h"
 #include "plugin/scene/ShownView.h"
-#include "plugin/vtkGnomonShadowPass.h"
 #include "plugin/window/PictureTarget.h"
 #include "shadowtech/exact/CellTarget.h"
 #include "shadowtech/tracing/GpuTracer.h"
@@ -226,7 +225,7 @@ bool RenderManager::chooseRoute()
     shaded.push_back({ casting.light, casting.layer, casting.channels, pointwise });
   }
   this->programs_.shaders.configure({ this->route_, this->readsPoints(), samples > 1 }, shaded);
-  return this->wishes_.route != vtkGnomonShadowPass::ROUTE_INLINE || screenTechnique.empty();
+  return this->wishes_.route != RouteWish::Inline || screenTechnique.empty();
 }
 
 //------------------------------------------------------------------------------
@@ -274,7 +273,7 @@ ValueKey RenderManager::visibilityKey(const CastingLight& casting) const
 }
 
 //------------------------------------------------------------------------------
-void RenderManager::updateReceivers(const vtkRenderState* s, vtkGnomonShadowPass* pass)
+void RenderManager::updateReceivers(const vtkRenderState* s, vtkObjectBase* pass)
 {
   VisibilityLayers& layers = this->view_->layers;
   if (!layers.have(this->size_.x, this->size_.y, this->lights_.layers()))
@@ -302,7 +301,7 @@ void RenderManager::updateReceivers(const vtkRenderState* s, vtkGnomonShadowPass
 }
 
 //------------------------------------------------------------------------------
-void RenderManager::drawReceivers(const vtkRenderState* s, vtkGnomonShadowPass* pass)
+void RenderManager::drawReceivers(const vtkRenderState* s, vtkObjectBase* pass)
 {
   ReceiversValue& value = this->view_->receivers;
   this->stageValues_.receiversStage = true;

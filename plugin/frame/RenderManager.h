@@ -6,6 +6,7 @@
 #include "plugin/frame/CastingLights.h"
 #include "plugin/frame/Clock.h"
 #include "plugin/frame/FrameTracer.h"
+#include "plugin/frame/FrameWishes.h"
 #include "plugin/frame/MapRasterizer.h"
 #include "plugin/frame/Route.h"
 #include "plugin/frame/ShaderManager.h"
@@ -23,22 +24,12 @@
 #include <vector>
 
 class vtkAbstractMapper;
-class vtkGnomonShadowPass;
+class vtkObjectBase;
 class vtkRenderState;
 class vtkRenderer;
 
 namespace gnomon
 {
-
-/// What the pass is set to for a frame.
-struct FrameWishes
-{
-  int route = 0;               ///< a vtkGnomonShadowPass::RouteType
-  int tracer = 0;              ///< a vtkGnomonShadowPass::TracerType
-  int rasterizer = 0;          ///< a vtkGnomonShadowPass::RasterizerType
-  bool keepVisibility = false; ///< whether visibility is asked for as data
-  bool measureStages = false;
-};
 
 /// The programs of a pass: what its shaders do, and those compiled for Gnomon's own stages.
 struct PassPrograms
@@ -77,7 +68,7 @@ public:
   /// receivers (image route): which triangle each pixel shows, and points for techniques that read
   /// them on the GPU. Then it is known which lights' visibility is another one than the view has.
   /// @param pass whose hook the props' shaders have
-  void updateReceivers(const vtkRenderState* s, vtkGnomonShadowPass* pass);
+  void updateReceivers(const vtkRenderState* s, vtkObjectBase* pass);
 
   /// maps: bakes what is stale, for lights whose visibility is computed in this frame.
   /// @throws std::runtime_error for a rasterizer that there is not
@@ -112,7 +103,7 @@ private:
   bool classifies() const { return this->wishes_.keepVisibility || this->wishes_.measureStages; }
   ValueKey receiversKey(const vtkRenderState* s) const;
   ValueKey visibilityKey(const CastingLight& casting) const;
-  void drawReceivers(const vtkRenderState* s, vtkGnomonShadowPass* pass);
+  void drawReceivers(const vtkRenderState* s, vtkObjectBase* pass);
   void findStaleVisibility();
   void updateTracer();
   void tellTracer();

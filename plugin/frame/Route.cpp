@@ -1,18 +1,16 @@
 #include "plugin/frame/Route.h"
 
-#include "plugin/vtkGnomonShadowPass.h"
-
 namespace gnomon
 {
 
 //------------------------------------------------------------------------------
-RouteChoice chooseRoute(int wished, const std::string& screenTechnique, bool keepVisibility)
+RouteChoice chooseRoute(RouteWish wished, const std::string& screenTechnique, bool keepVisibility)
 {
   if (!screenTechnique.empty())
   {
     return { Route::Image, "'" + screenTechnique + "' works on the whole screen" };
   }
-  if (wished == vtkGnomonShadowPass::ROUTE_IMAGE)
+  if (wished == RouteWish::Image)
   {
     return { Route::Image, "asked for" };
   }
@@ -21,7 +19,7 @@ RouteChoice chooseRoute(int wished, const std::string& screenTechnique, bool kee
     return { Route::Image, "the visibility is kept" };
   }
   return { Route::Inline,
-    wished == vtkGnomonShadowPass::ROUTE_INLINE
+    wished == RouteWish::Inline
       ? "asked for"
       : "all techniques are functions of the point, so that no prepass is needed" };
 }

@@ -1,6 +1,8 @@
 #ifndef gnomon_plugin_frame_Route_h
 #define gnomon_plugin_frame_Route_h
 
+#include "plugin/frame/FrameWishes.h"
+
 #include <string>
 
 namespace gnomon
@@ -20,9 +22,9 @@ struct RouteChoice
   std::string reason; ///< as a clause
 };
 
-/// @param wished a vtkGnomonShadowPass::RouteType; the inline one is none for techniques that work on the screen
+/// @param wished inline is not served for techniques that work on the screen
 /// @param screenTechnique one of those, among the frame's; empty: there is none
-RouteChoice chooseRoute(int wished, const std::string& screenTechnique, bool keepVisibility);
+RouteChoice chooseRoute(RouteWish wished, const std::string& screenTechnique, bool keepVisibility);
 
 } // namespace gnomon
 

@@ -31,10 +31,10 @@ TEST(TracerChoice, isWhatWasAskedFor)
 {
   for (const std::string& renderer : { std::string("llvmpipe (LLVM 15.0.6, 256 bits)"), geforce })
   {
-    for (const int wished : { vtkGnomonShadowPass::TRACER_EMBREE, vtkGnomonShadowPass::TRACER_GPU })
+    for (const TracerWish wished : { TracerWish::Embree, TracerWish::Gpu })
     {
       const TracerChoice choice = chooseTracer(wished, "", renderer);
-      EXPECT_EQ(choice.gpu, wished == vtkGnomonShadowPass::TRACER_GPU);
+      EXPECT_EQ(choice.gpu, wished == TracerWish::Gpu);
       EXPECT_TRUE(choice.asked);
       EXPECT_EQ(choice.reason, "asked for");
     }
@@ -43,26 +43,25 @@ TEST(TracerChoice, isWhatWasAskedFor)
 
 TEST(TracerChoice, isTheGpuWhereThereIsOneUnlessAskedOtherwise)
 {
-  const TracerChoice hardware = chooseTracer(vtkGnomonShadowPass::TRACER_AUTO, "", geforce);
+  const TracerChoice hardware = chooseTracer(TracerWish::Auto, "", geforce);
   EXPECT_TRUE(hardware.gpu);
   EXPECT_FALSE(hardware.asked);
   EXPECT_EQ(hardware.reason, "OpenGL draws by hardware: " + geforce);
   const TracerChoice software =
-    chooseTracer(vtkGnomonShadowPass::TRACER_AUTO, "", "llvmpipe (LLVM 15.0.6, 256 bits)");
+    chooseTracer(TracerWish::Auto, "", "llvmpipe (LLVM 15.0.6, 256 bits)");
   EXPECT_FALSE(software.gpu);
   EXPECT_THAT(software.reason, HasSubstr("by software: llvmpipe"));
 }
 
 TEST(TracerChoice, tellsWhatTheGpuLacks)
 {
-  const TracerChoice choice =
-    chooseTracer(vtkGnomonShadowPass::TRACER_AUTO, "it lacks this", geforce);
+  const TracerChoice choice = chooseTracer(TracerWish::Auto, "it lacks this", geforce);
   EXPECT_FALSE(choice.gpu);
   EXPECT_EQ(choice.reason, "it lacks this");
-  EXPECT_FALSE(chooseTracer(vtkGnomonShadowPass::TRACER_EMBREE, "it lacks this", geforce).gpu);
+  EXPECT_FALSE(chooseTracer(TracerWish::Embree, "it lacks this", geforce).gpu);
   try
   {
-    chooseTracer(vtkGnomonShadowPass::TRACER_GPU, "it lacks this", geforce);
+    chooseTracer(TracerWish::Gpu, "it lacks this", geforce);
     FAIL() << "it cannot";
   }
   catch (const std::runtime_error& error)

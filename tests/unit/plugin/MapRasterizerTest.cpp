@@ -26,10 +26,10 @@ constexpr int gpuWished = vtkGnomonShadowPass::RASTERIZER_GPU;
 
 TEST(RasterizerChoice, isWhatWasAskedFor)
 {
-  for (const int wished : { cpu, gpuWished })
+  for (const RasterizerWish wished : { RasterizerWish::Cpu, RasterizerWish::Gpu })
   {
     const RasterizerChoice choice = chooseRasterizer(wished, "");
-    EXPECT_EQ(choice.gpu, wished == gpuWished);
+    EXPECT_EQ(choice.gpu, wished == RasterizerWish::Gpu);
     EXPECT_EQ(choice.reason, "asked for");
   }
 }
@@ -38,7 +38,7 @@ TEST(RasterizerChoice, isTheCpuWhereNothingWasAskedFor)
 {
   for (const char* gpuLacks : { "", "it lacks this" })
   {
-    const RasterizerChoice choice = chooseRasterizer(automatic, gpuLacks);
+    const RasterizerChoice choice = chooseRasterizer(RasterizerWish::Auto, gpuLacks);
     EXPECT_FALSE(choice.gpu);
     EXPECT_EQ(choice.reason, "drawing by compute shaders is not measured faster");
   }
@@ -46,10 +46,10 @@ TEST(RasterizerChoice, isTheCpuWhereNothingWasAskedFor)
 
 TEST(RasterizerChoice, tellsWhatTheGpuLacks)
 {
-  EXPECT_FALSE(chooseRasterizer(cpu, "it lacks this").gpu);
+  EXPECT_FALSE(chooseRasterizer(RasterizerWish::Cpu, "it lacks this").gpu);
   try
   {
-    chooseRasterizer(gpuWished, "it lacks this");
+    chooseRasterizer(RasterizerWish::Gpu, "it lacks this");
     FAIL() << "it cannot";
   }
   catch (const std::runtime_error& error)

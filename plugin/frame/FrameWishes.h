@@ -1,0 +1,43 @@
+#ifndef gnomon_plugin_frame_FrameWishes_h
+#define gnomon_plugin_frame_FrameWishes_h
+
+namespace gnomon
+{
+
+/// How visibility is to reach the shader.
+enum class RouteWish
+{
+  Auto,
+  Inline,
+  Image
+};
+
+/// What traces rays.
+enum class TracerWish
+{
+  Auto,
+  Embree,
+  Gpu
+};
+
+/// What draws conservative maps.
+enum class RasterizerWish
+{
+  Auto,
+  Cpu,
+  Gpu
+};
+
+/// What the pass is set to for a frame.
+struct FrameWishes
+{
+  RouteWish route = RouteWish::Auto;
+  TracerWish tracer = TracerWish::Auto;
+  RasterizerWish rasterizer = RasterizerWish::Auto;
+  bool keepVisibility = false; ///< whether visibility is asked for as data
+  bool measureStages = false;
+};
+
+} // namespace gnomon
+
+#endif
