@@ -7,6 +7,7 @@
 #include "shadowtech/exact/ExactTechniques.h"
 #include "shadowtech/moment_map/Exponential.h"
 #include "shadowtech/moment_map/FourMoments.h"
+#include "shadowtech/moment_map/SingleExponential.h"
 #include "shadowtech/moment_map/Variance.h"
 #include "shadowtech/montecarlo/MonteCarlo.h"
 #include "shadowtech/pcss/Pcss.h"
@@ -91,6 +92,7 @@ std::vector<EstimatorEntry> makeEstimators()
     entry<Pcf>(),
     entry<Pcss>(),
     entry<PublishedPcss>(),
+    entry<SingleExponential>(),
     entry<Variance>(),
     entry<Exponential>(),
     entry<FourMoments>(),
@@ -128,6 +130,8 @@ const std::vector<TechniqueEntry>& registry()
       findEstimator("pcf"), Projection::Uniform },
     { "pcss", "soft: percentage closer soft shadows, penumbrae as wide as an area light makes them",
       findEstimator("pcss"), Projection::Uniform },
+    { "esm", "smoothed: exponential shadow map with one moment, as VTK's own pass has",
+      findEstimator("single_exponential"), Projection::Uniform },
     { "vsm", "smoothed: variance shadow map, filtered at a cost that does not depend on the width",
       findEstimator("variance"), Projection::Uniform },
     { "evsm", "smoothed: exponential variance shadow map, which lets less light bleed through",

@@ -35,7 +35,9 @@ void BoxBlur::allocate(const TexelFormat& format, int sizeTexels)
 void BoxBlur::apply(
   GLuint map, int layers, int widthTexels, const glm::vec4& empty, ShaderLibrary& shaders)
 {
-  const std::string format = this->format_.internalFormat == GL_RG32F ? "rg32f" : "rgba32f";
+  const std::string format = this->format_.channels == 1 ? "r32f"
+    : this->format_.channels == 2                        ? "rg32f"
+                                                         : "rgba32f";
   const GLuint program = shaders.program(
     { { GL_COMPUTE_SHADER, ShaderLibrary::source("shadowtech/moment_map/box_blur.comp.glsl") } },
     { "BLUR_TEXELS " + std::to_string(widthTexels), "FORMAT " + format });

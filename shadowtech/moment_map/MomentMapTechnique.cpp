@@ -20,7 +20,9 @@ namespace
 
 TexelFormat momentsFormat(int moments)
 {
-  return moments == 2 ? TexelFormat{ GL_RG32F, GL_RG, 2 } : TexelFormat{ GL_RGBA32F, GL_RGBA, 4 };
+  return moments == 1 ? TexelFormat{ GL_R32F, GL_RED, 1 }
+    : moments == 2    ? TexelFormat{ GL_RG32F, GL_RG, 2 }
+                      : TexelFormat{ GL_RGBA32F, GL_RGBA, 4 };
 }
 
 std::string define(const std::string& name, const std::string& value)
@@ -64,7 +66,7 @@ const SettingsTable& momentMapSettings()
       real("bleeding", "up to what visibility points are dark", "", &S::bleeding, { 0.0, 0.99 }),
       bakedInto(choice("blur",
         "averaged over the same box of texels everywhere, or over each point's own rectangle, by "
-        "summed-area tables (not evsm)",
+        "summed-area tables (not esm, evsm)",
         &S::blur, { "box", "sat" })),
       bakedInto(
         choice("mip_maps", "with blur=box: whether pixels that see many texels read coarser levels",

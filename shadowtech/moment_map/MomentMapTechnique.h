@@ -85,10 +85,10 @@ protected:
   /// How a depth becomes moments.
   struct Moments
   {
-    int count; ///< 2 or 4
+    int count; ///< 1, 2 or 4
     /// The source of vec4 momentsOf(float depth, float spread): the mean moments of depths around
-    /// `depth`, in [-1, 1], with the standard deviation `spread`, in [0, 1]. Of two moments, the
-    /// others are of no meaning.
+    /// `depth`, in [-1, 1], with the standard deviation `spread`, in [0, 1]. Only the
+    /// first `count` count.
     std::string glsl;
     glm::vec4 empty; ///< momentsOf(1, 0)
     /// What no moment's size exceeds, a power of two, for fixed-point numbers; 0: too much for them.

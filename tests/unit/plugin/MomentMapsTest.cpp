@@ -54,10 +54,11 @@ protected:
 };
 
 INSTANTIATE_TEST_SUITE_P(Layouts, MomentMaps,
-  testing::Values(MapLayout{ "vsm" }, MapLayout{ "vsm", "technique", "frame" },
-    MapLayout{ "vsm", "lispsm" }, MapLayout{ "vsm", "tsm" }, MapLayout{ "vsm", "pssm" },
-    MapLayout{ "evsm" }, MapLayout{ "evsm", "lispsm" }, MapLayout{ "evsm", "pssm" },
-    MapLayout{ "msm" }, MapLayout{ "msm", "lispsm" }, MapLayout{ "msm", "pssm" },
+  testing::Values(MapLayout{ "esm" }, MapLayout{ "esm", "pssm" }, MapLayout{ "vsm" },
+    MapLayout{ "vsm", "technique", "frame" }, MapLayout{ "vsm", "lispsm" },
+    MapLayout{ "vsm", "tsm" }, MapLayout{ "vsm", "pssm" }, MapLayout{ "evsm" },
+    MapLayout{ "evsm", "lispsm" }, MapLayout{ "evsm", "pssm" }, MapLayout{ "msm" },
+    MapLayout{ "msm", "lispsm" }, MapLayout{ "msm", "pssm" },
     MapLayout{ "vsm", "technique", "off", "on", "sat" },
     MapLayout{ "vsm", "technique", "frame", "on", "sat" },
     MapLayout{ "vsm", "lispsm", "off", "on", "sat" },

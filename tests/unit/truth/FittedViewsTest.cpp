@@ -183,6 +183,7 @@ INSTANTIATE_TEST_SUITE_P(Estimators, FittedViews,
       "variance_sat", { { "estimator", "variance" }, { "blur", "sat" }, { "kernel_size", "7" } } },
     Way{ "moments_sat", { { "estimator", "moments" }, { "blur", "sat" }, { "kernel_size", "4" } } },
     Way{ "mip_maps", { { "estimator", "moments" }, { "mip_maps", "on" } } },
+    Way{ "single_exponential", { { "estimator", "single_exponential" }, { "kernel_size", "5" } } },
     Way{ "exponential", { { "estimator", "exponential" }, { "kernel_size", "5" } } },
     Way{ "moments", { { "estimator", "moments" } } }),
   [](const testing::TestParamInfo<Way>& way) { return std::string(way.param.name); });

@@ -8,6 +8,7 @@
 #include "shadowtech/moment_map/Exponential.h"
 #include "shadowtech/moment_map/FourMoments.h"
 #include "shadowtech/moment_map/MomentMapTechnique.h"
+#include "shadowtech/moment_map/SingleExponential.h"
 #include "shadowtech/moment_map/SummedAreaTable.h"
 #include "shadowtech/moment_map/Variance.h"
 
@@ -98,6 +99,12 @@ glm::dvec4 warpedPowers(const CoveredDepths& depths)
     mean(depths, negative), mean(depths, [&](double z) { return std::pow(negative(z), 2); }) };
 }
 
+glm::dvec4 singleExponential(const CoveredDepths& depths)
+{
+  const auto warped = [](double z) { return std::exp(SingleExponential::exponent * z); };
+  return { mean(depths, warped), 0.0, 0.0, 0.0 };
+}
+
 class OnGpu : public testing::Test
 {
 protected:
@@ -116,8 +123,9 @@ class MomentsGlsl
 };
 
 INSTANTIATE_TEST_SUITE_P(Techniques, MomentsGlsl,
-  testing::Values(twin<Variance>("variance", powers),
-    twin<Exponential>("exponential", warpedPowers), twin<FourMoments>("moments", powers)),
+  testing::Values(twin<SingleExponential>("single_exponential", singleExponential),
+    twin<Variance>("variance", powers), twin<Exponential>("exponential", warpedPowers),
+    twin<FourMoments>("moments", powers)),
   [](const testing::TestParamInfo<MomentsTwin>& tested) { return std::string(tested.param.name); });
 
 /// What a compute shader with `main` makes of each vec4.
