@@ -2,6 +2,7 @@
 #include "Commands.h"
 #include "Errors.h"
 #include "SceneExport.h"
+#include "SettingOptions.h"
 
 #include "shadowtech/Registry.h"
 
@@ -18,6 +19,41 @@ namespace
 void printLine(const std::string& name, const std::string& summary)
 {
   std::cout << std::left << std::setw(20) << name << summary << "\n";
+}
+
+void printSettings()
+{
+  for (const SettingsTable* table : settingsTables())
+  {
+    std::cout << headingOf(*table) << "\n";
+    for (const Setting& setting : table->settings)
+    {
+      std::cout << "  ";
+      printLine(setting.name, helpOf(setting));
+    }
+  }
+}
+
+/// The page docs/guide/settings.md.
+void printSettingsPage()
+{
+  std::cout
+    << "# Settings\n\n"
+       "A light sets them by `vtkGnomonLightKeys::SetSetting`, the pass by `SetSetting` for "
+       "lights that do\nnot, a scene file as members of a light, the program `gnomon` as "
+       "options (`kernel_size` is\n`--kernel-size`). A technique that lacks a setting "
+       "ignores it, with an error that says which\ntechniques have it. `gnomon settings "
+       "--markdown` makes this page.\n";
+  for (const SettingsTable* table : settingsTables())
+  {
+    std::cout << "\n## " << headingOf(*table)
+              << "\n\n| setting | what it is | unit | values | default |\n|---|---|---|---|---|\n";
+    for (const Setting& setting : table->settings)
+    {
+      std::cout << "| `" << setting.name << "` | " << setting.meaning << " | " << setting.unit
+                << " | " << setting.expected() << " | " << defaultOf(setting) << " |\n";
+    }
+  }
 }
 
 /// @throws BadInput when there is no built-in scene of this name
@@ -49,6 +85,15 @@ void addTechniquesCommand(CLI::App& app)
           printLine(entry.name, entry.summary);
         }
       });
+}
+
+//------------------------------------------------------------------------------
+void addSettingsCommand(CLI::App& app)
+{
+  auto asPage = std::make_shared<bool>(false);
+  CLI::App* command = app.add_subcommand("settings", "List the settings of lights' shadows");
+  command->add_flag("--markdown", *asPage, "As a page for the documentation");
+  command->callback([asPage] { *asPage ? printSettingsPage() : printSettings(); });
 }
 
 //------------------------------------------------------------------------------

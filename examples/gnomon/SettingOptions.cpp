@@ -1,6 +1,5 @@
 #include "SettingOptions.h"
 
-#include "lights/SettingsTable.h"
 #include "plugin/vtkGnomonShadowPass.h"
 #include "shadowtech/Registry.h"
 
@@ -16,21 +15,6 @@ std::string refuse(const Setting& setting, const std::string& text)
 {
   ShadowSettings scratch;
   return setting.set(scratch, text) ? "" : "found \"" + text + "\", expected " + setting.expected();
-}
-
-/// What an option says of a setting: "the kernel's width in texels: an integer in [1, 32] (3)".
-std::string helpOf(const Setting& setting)
-{
-  const std::string byDefault = setting.get(ShadowSettings());
-  return setting.meaning + (setting.unit.empty() ? "" : " (" + setting.unit + ")") + ": " +
-    setting.expected() + (byDefault.empty() ? "" : "; default " + byDefault);
-}
-
-/// The heading of a table's options: "Kernel (pcf, vsm)".
-std::string groupOf(const SettingsTable& table)
-{
-  const std::string techniques = techniquesWith(table);
-  return techniques.empty() ? table.title : table.title + " (" + techniques + ")";
 }
 
 /// An option that takes one of these names.
@@ -54,6 +38,27 @@ std::string optionOf(std::string settingName)
 }
 
 //------------------------------------------------------------------------------
+std::string defaultOf(const Setting& setting)
+{
+  return setting.name == "technique" ? defaultTechnique : setting.get(ShadowSettings());
+}
+
+//------------------------------------------------------------------------------
+std::string helpOf(const Setting& setting)
+{
+  const std::string byDefault = defaultOf(setting);
+  return setting.meaning + (setting.unit.empty() ? "" : " (" + setting.unit + ")") + ": " +
+    setting.expected() + (byDefault.empty() ? "" : "; default " + byDefault);
+}
+
+//------------------------------------------------------------------------------
+std::string headingOf(const SettingsTable& table)
+{
+  const std::string techniques = techniquesWith(table);
+  return techniques.empty() ? table.title : table.title + " (" + techniques + ")";
+}
+
+//------------------------------------------------------------------------------
 void addSettingOptions(CLI::App& command, std::map<std::string, std::string>& values,
   const std::vector<std::string>& without)
 {
@@ -68,7 +73,7 @@ void addSettingOptions(CLI::App& command, std::map<std::string, std::string>& va
       command.add_option(optionOf(setting.name), values[setting.name], helpOf(setting))
         ->check([&setting](const std::string& text) { return refuse(setting, text); })
         ->option_text(" ")
-        ->group(groupOf(*table));
+        ->group(headingOf(*table));
     }
   }
 }

@@ -1,6 +1,8 @@
 #ifndef gnomon_examples_gnomon_SettingOptions_h
 #define gnomon_examples_gnomon_SettingOptions_h
 
+#include "lights/SettingsTable.h"
+
 #include <CLI/CLI.hpp>
 
 #include <map>
@@ -11,6 +13,15 @@ namespace gnomon::tool
 
 /// The option of a setting: "--kernel-size" for "kernel_size".
 std::string optionOf(std::string settingName);
+
+/// Its value by default; empty where there is none.
+std::string defaultOf(const Setting& setting);
+
+/// "the kernel's width (texels): an integer in [1, 32]; default 3"
+std::string helpOf(const Setting& setting);
+
+/// A table's title with the techniques that have it: "The filter's kernel (pcf)".
+std::string headingOf(const SettingsTable& table);
 
 /// Gives a command an option for every setting of a light's shadows, which refuses what the setting does not take.
 /// @param values by the settings' names; empty where the command line says nothing. Must outlive the

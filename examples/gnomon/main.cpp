@@ -27,6 +27,7 @@ int main(int argc, char** argv)
   gnomon::tool::addCompareCommand(app);
   gnomon::tool::addDiffCommand(app);
   gnomon::tool::addTechniquesCommand(app);
+  gnomon::tool::addSettingsCommand(app);
   gnomon::tool::addScenesCommand(app);
 
   try
