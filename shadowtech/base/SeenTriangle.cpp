@@ -1,0 +1,207 @@
+#include "shadowtech/base/SeenTriangle.h"
+
+#include "shadowtech/base/Occluders.h"
+#include "shadowtech/base/PlacedTriangles.h"
+#include "shadowtech/base/ShadowRay.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace gnomon
+{
+namespace
+{
+
+bool isFinite(const glm::dvec3& vector)
+{
+  return std::isfinite(vector.x + vector.y + vector.z);
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+bool isFinite(const PixelRays& rays)
+{
+  return isFinite(rays.firstOrigin) && isFinite(rays.originPerColumn) &&
+    isFinite(rays.originPerRow) && isFinite(rays.firstDirection) &&
+    isFinite(rays.directionPerColumn) && isFinite(rays.directionPerRow);
+}
+
+//------------------------------------------------------------------------------
+TriangleOfFragment findTriangle(float drawnPlusOne, float primitive,
+  const std::vector<DrawnSurface>& drawnSurfaces, const Occluders& occluders)
+{
+  // Written so that NaN fails.
+  if (!(drawnPlusOne >= 1.0f && drawnPlusOne <= static_cast<float>(drawnSurfaces.size()) &&
+        primitive >= 0.0f && primitive < primitiveLimit))
+  {
+    return {};
+  }
+  const std::vector<DrawnSurface::Block>& blocks =
+    drawnSurfaces[static_cast<std::size_t>(drawnPlusOne) - 1].blocks;
+  const auto number = static_cast<std::uint32_t>(primitive);
+  const auto after = std::upper_bound(blocks.begin(), blocks.end(), number,
+    [](std::uint32_t value, const DrawnSurface::Block& block)
+    { return value < block.firstPrimitive; });
+  if (after == blocks.begin())
+  {
+    return {};
+  }
+  const DrawnSurface::Block& block = *(after - 1);
+  std::uint32_t drawn = number - block.firstPrimitive;
+  if (drawn >= block.primitiveCount || block.surface >= occluders.surfaces.size())
+  {
+    return {};
+  }
+  const Surface& surface = occluders.surfaces[block.surface];
+  std::uint32_t instance = 0;
+  if (surface.isInstanced())
+  {
+    // Blocks without primitives were left above, so that there is a count to divide by.
+    instance = drawn / surface.drawnCount();
+    drawn %= surface.drawnCount();
+    if (instance >= surface.centredFromSource.size() ||
+      Surface::isLeftOut(surface.centredFromSource[instance]))
+    {
+      return {};
+    }
+  }
+  std::uint32_t triangle = drawn;
+  if (!surface.triangleOfDrawn.empty())
+  {
+    triangle =
+      drawn < surface.triangleOfDrawn.size() ? surface.triangleOfDrawn[drawn] : Surface::noTriangle;
+  }
+  if (triangle >= surface.triangleCount)
+  {
+    return {};
+  }
+  return { block.surface, surface.firstTriangle + triangle, instance };
+}
+
+//------------------------------------------------------------------------------
+void see(const Drawn& drawn, const TriangleOfFragment& found, SeenTriangle& seen)
+{
+  const Occluders& occluders = drawn.occluders;
+  const PixelRays& rays = drawn.images.rays;
+  const Surface& surface = occluders.surfaces[found.surface];
+  const auto noise = [&](const SeenTriangle& of, const glm::vec3& normal, double doubleArea)
+  {
+    return noiseOf(
+      occluders, surface, found.instance, found.triangle, of.corners, normal, doubleArea);
+  };
+  seen.surface = found.surface;
+  seen.known = Certainty::Uncertain;
+  seen.corners = centredCorners(occluders, surface, found.instance, found.triangle);
+  seen.finite = drawn.raysFinite && isFinite(seen.corners[0] + seen.corners[1] + seen.corners[2]);
+  glm::dvec3 areaVector =
+    glm::cross(seen.corners[1] - seen.corners[0], seen.corners[2] - seen.corners[0]);
+  const auto planeDistance = [&](const glm::dvec3& areaVectorSeen)
+  {
+    return AffineOverPixels{ glm::dot(areaVectorSeen, seen.corners[0] - rays.firstOrigin),
+      -glm::dot(areaVectorSeen, rays.originPerColumn),
+      -glm::dot(areaVectorSeen, rays.originPerRow) };
+  };
+  const auto alongNormal = [&](const glm::dvec3& areaVectorSeen)
+  {
+    return AffineOverPixels{ glm::dot(areaVectorSeen, rays.firstDirection),
+      glm::dot(areaVectorSeen, rays.directionPerColumn),
+      glm::dot(areaVectorSeen, rays.directionPerRow) };
+  };
+  // From the eye, the plane's distance has one sign everywhere; parallel rays pass it in one
+  // direction.
+  const double side =
+    rays.parallel() ? alongNormal(areaVector).first : planeDistance(areaVector).first;
+  if (!(std::abs(side) > 0.0 && std::isfinite(side)))
+  {
+    // No area, not finite, or seen along its plane: alongNormal stays 0, so that no ray meets it. No
+    // shadow ray either, as if its area were endless.
+    seen.planeDistance = seen.alongNormal = {};
+    seen.insideEdge = {};
+    seen.normal = glm::vec3(0.0f);
+    seen.noise = noise(seen, glm::vec3(1.0f), std::numeric_limits<double>::infinity());
+    return;
+  }
+  // The camera is on the side to which the area's vector does not point.
+  if (drawn.decider && !surface.isInstanced())
+  {
+    seen.known = drawn.decider->ofTriangle(
+      { found.triangle, side > 0.0, seen.corners, drawn.footprints.largest(seen.corners) });
+    if (isDecided(seen.known))
+    {
+      return;
+    }
+  }
+  const double orientation = side > 0.0 ? 1.0 : -1.0;
+  areaVector *= orientation;
+  seen.planeDistance = planeDistance(areaVector);
+  seen.alongNormal = alongNormal(areaVector);
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    const glm::dvec3 from = seen.corners[i] - rays.firstOrigin;
+    const glm::dvec3 edge = seen.corners[(i + 1) % 3] - seen.corners[i];
+    const glm::dvec3 across = orientation * glm::cross(from, edge);
+    const glm::dvec3 lever = orientation * glm::cross(edge, rays.firstDirection);
+    seen.insideEdge[i] = { glm::dot(across, rays.firstDirection),
+      glm::dot(across, rays.directionPerColumn) - glm::dot(lever, rays.originPerColumn),
+      glm::dot(across, rays.directionPerRow) - glm::dot(lever, rays.originPerRow) };
+  }
+  const double doubleArea = glm::length(areaVector);
+  seen.normal = -areaVector / doubleArea;
+  seen.noise = noise(seen, seen.normal, doubleArea);
+}
+
+//------------------------------------------------------------------------------
+glm::dvec3 closestToRay(const std::array<glm::dvec3, 3>& corners, const glm::dvec3& origin,
+  const glm::dvec3& direction, bool parallel)
+{
+  glm::dvec3 closest = corners[0];
+  double smallest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    const glm::dvec3 from = corners[i] - origin;
+    const glm::dvec3 edge = corners[(i + 1) % 3] - corners[i];
+    // The plane in which the camera sees the edge. The ray is turned or moved into it, and meets the
+    // edge at from + u edge. An edge seen end-on has no such plane; any of its points will do.
+    const glm::dvec3 across = parallel ? glm::cross(direction, edge) : glm::cross(from, edge);
+    const double acrossSquared = glm::dot(across, across);
+    double u = 0.0;
+    if (acrossSquared > 0.0)
+    {
+      const glm::dvec3 within = direction - glm::dot(direction, across) / acrossSquared * across;
+      const double denominator = glm::dot(glm::cross(within, edge), across);
+      u = denominator != 0.0 ? glm::dot(glm::cross(from, within), across) / denominator : 0.0;
+      u = glm::clamp(u, 0.0, 1.0);
+    }
+    const glm::dvec3 candidate = from + u * edge;
+    const glm::dvec3 off = glm::cross(candidate, direction);
+    double gap = glm::dot(off, off);
+    if (!parallel)
+    {
+      gap /= glm::dot(candidate, candidate);
+      if (!(glm::dot(candidate, direction) > 0.0))
+      {
+        gap = 2.0 * glm::dot(direction, direction); // behind the camera: beyond a right angle
+      }
+    }
+    if (gap < smallest)
+    {
+      smallest = gap;
+      closest = origin + candidate;
+    }
+  }
+  return closest;
+}
+
+//------------------------------------------------------------------------------
+glm::dvec3 inwards(
+  const glm::dvec3& edge, const std::array<glm::dvec3, 3>& corners, double footprint)
+{
+  const glm::dvec3 toMiddle = (corners[0] + corners[1] + corners[2]) / 3.0 - edge;
+  const double length = glm::length(toMiddle);
+  const double step = footprint / 256.0;
+  return length > 2.0 * step ? edge + step / length * toMiddle : edge + 0.5 * toMiddle;
+}
+
+} // namespace gnomon

@@ -1,0 +1,155 @@
+#ifndef gnomon_shadowtech_base_SeenTriangle_h
+#define gnomon_shadowtech_base_SeenTriangle_h
+
+#include "shadowtech/base/Certainty.h"
+#include "shadowtech/base/PixelRays.h"
+#include "shadowtech/base/Receivers.h"
+
+#include <glm/glm.hpp>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace gnomon
+{
+
+struct Occluders;
+
+constexpr std::uint32_t notFound = 0xffffffffu;
+
+/// Where a fragment's triangle is in the snapshot.
+struct TriangleOfFragment
+{
+  std::uint32_t surface = notFound;
+  std::uint32_t triangle = notFound;
+  std::uint32_t instance = 0;
+
+  bool operator==(const TriangleOfFragment& other) const
+  {
+    return this->triangle == other.triangle && this->instance == other.instance &&
+      this->surface == other.surface;
+  }
+};
+
+/// A number that is affine over a row of pixels.
+struct AffineOverRow
+{
+  double first;
+  double perColumn;
+
+  double at(double x) const { return this->first + x * this->perColumn; }
+};
+
+/// A number that is affine over the picture.
+struct AffineOverPixels
+{
+  double first = 0.0; ///< at pixel (0, 0)
+  double perColumn = 0.0;
+  double perRow = 0.0;
+
+  AffineOverRow row(double y) const { return { this->first + y * this->perRow, this->perColumn }; }
+};
+
+/// A triangle as the pixels' rays meet it.
+///
+/// Let O + t D be a ray, v0, v1, v2 the corners and N = (v1 - v0) x (v2 - v0). The ray meets the
+/// plane at t = N.(v0 - O) / N.D, and passes edge (vi, vj) on the side of the sign of
+/// D.((vi - O) x (vj - O)); the three of them add up to N.D. All of these are affine over the
+/// picture, as either O or D is the same for all pixels.
+struct SeenTriangle
+{
+  AffineOverPixels planeDistance; ///< N.(v0 - O)
+  AffineOverPixels alongNormal;   ///< N.D; both negated where the camera sees the triangle's back
+  std::array<AffineOverPixels, 3> insideEdge; ///< not negative inside
+  std::array<glm::dvec3, 3> corners;          ///< centred
+  glm::vec3 normal{ 0.0f }; ///< unit, on the camera's side; zero for a triangle without one
+  float noise = 0.0f;       ///< planeNoise()
+  std::uint32_t surface = notFound;
+  bool finite = false;
+  Certainty known =
+    Certainty::Uncertain; ///< of all its receivers; else the numbers above mean nothing
+};
+
+/// The largest primitive number that the images can hold exactly.
+constexpr float primitiveLimit = 16777216.0f;
+/// The triangle that a fragment names; `notFound` where there is none of that name.
+TriangleOfFragment findTriangle(float drawnPlusOne, float primitive,
+  const std::vector<DrawnSurface>& drawnSurfaces, const Occluders& occluders);
+
+/// Whether all of a picture's rays have finite numbers.
+bool isFinite(const PixelRays& rays);
+
+/// How large pixels are where a triangle is seen.
+class Footprints
+{
+public:
+  explicit Footprints(const PixelRays& rays)
+    : origin_(rays.firstOrigin)
+    , parallel_(glm::length(rays.originPerRow))
+    , perDistance_(0.0)
+  {
+    if (!rays.parallel())
+    {
+      // A pixel's side is t times that of directionPerRow where its ray, or the plane across it, has its receiver: at
+      // distance d of it t is no more than d over the shortest direction's length.
+      const glm::dvec3 across =
+        glm::normalize(glm::cross(rays.directionPerColumn, rays.directionPerRow));
+      this->perDistance_ =
+        glm::length(rays.directionPerRow) / std::abs(glm::dot(across, rays.firstDirection));
+    }
+  }
+
+  /// The most that a pixel's side measures at a receiver on a triangle, even one whose pixel's ray passes it by.
+  double largest(const std::array<glm::dvec3, 3>& corners) const
+  {
+    return this->parallel_ +
+      this->perDistance_ *
+      std::max({ glm::length(corners[0] - this->origin_), glm::length(corners[1] - this->origin_),
+        glm::length(corners[2] - this->origin_) });
+  }
+
+private:
+  glm::dvec3 origin_;
+  double parallel_;
+  double perDistance_; ///< from the origin
+};
+/// What the receivers stage drew, of what, and who knows something of it.
+struct Drawn
+{
+  const ReceiverImages& images;
+  const std::vector<DrawnSurface>& drawnSurfaces;
+  const Occluders& occluders;
+  const ReceiverDecider* decider; ///< may be null
+  Footprints footprints;
+  bool raysFinite;
+
+  Drawn(const ReceiverImages& ofImages, const std::vector<DrawnSurface>& surfaces,
+    const Occluders& snapshot, const ReceiverDecider* deciderOrNull)
+    : images(ofImages)
+    , drawnSurfaces(surfaces)
+    , occluders(snapshot)
+    , decider(deciderOrNull)
+    , footprints(ofImages.rays)
+    , raysFinite(isFinite(ofImages.rays))
+  {
+  }
+};
+/// Looks at a triangle as a picture's rays meet it.
+/// @param seen what it was before means nothing
+void see(const Drawn& drawn, const TriangleOfFragment& found, SeenTriangle& seen);
+
+/// The point of a triangle that a ray which passes it by comes closest to, as the camera sees it: by
+/// angle with perspective, by distance in parallel projection. Serves triangles without area, too.
+glm::dvec3 closestToRay(const std::array<glm::dvec3, 3>& corners, const glm::dvec3& origin,
+  const glm::dvec3& direction, bool parallel);
+
+/// A point on a triangle's edge, moved into the triangle by 1/256 of a pixel's side, which is how far
+/// off a rasteriser looks. On the edge itself it would lie on the neighbour's plane as well, and its
+/// shadow ray would meet the neighbour or not as rounding has it.
+glm::dvec3 inwards(
+  const glm::dvec3& edge, const std::array<glm::dvec3, 3>& corners, double footprint);
+
+} // namespace gnomon
+
+#endif

@@ -1,0 +1,158 @@
+#ifndef gnomon_shadowtech_tracing_AreaTile_h
+#define gnomon_shadowtech_tracing_AreaTile_h
+
+#include "lights/LightSamples.h"
+#include "shadowtech/base/ShadowRay.h"
+#include "shadowtech/tracing/TracedPicture.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace gnomon
+{
+
+/// Pixels whose rays to an area light are made together.
+constexpr std::size_t pixelsTogether = 16;
+static_assert(TracedTile::columns % pixelsTogether == 0, "they lie in one row");
+
+/// Numbers of those pixels.
+template <typename Number>
+using Together = std::array<Number, pixelsTogether>;
+
+/// How the rays of a tile's pixels go to an area light's samples.
+class AreaTile
+{
+public:
+  /// @param traced as prepared: with the rays to the light's centre
+  AreaTile(const ReceiverTile& tile, const TracedTile& traced, const ShadowRayLight& light,
+    const LightSamples& samples)
+    : samples_(samples)
+    , x_(static_cast<std::size_t>(samples.count()))
+    , y_(x_.size())
+    , z_(x_.size())
+  {
+    const auto columns = static_cast<std::size_t>(tile.receivers.width);
+    for (std::size_t pixel = 0; pixel < TracedTile::pixels; ++pixel)
+    {
+      if (traced.needed[pixel] == 0)
+      {
+        continue;
+      }
+      const std::size_t row = pixel / TracedTile::columns;
+      const std::size_t column = pixel % TracedTile::columns;
+      this->pixels_[pixel] = samples.pixel(static_cast<std::uint32_t>(tile.firstColumn + column),
+        static_cast<std::uint32_t>(tile.firstRow + row));
+      const ReceiverPixels& receivers = tile.receivers;
+      const std::size_t from = row * columns + column;
+      const AreaRays rays = areaRays(light,
+        { receivers.positionX[from], receivers.positionY[from], receivers.positionZ[from] },
+        { receivers.normalX[from], receivers.normalY[from], receivers.normalZ[from] },
+        { traced.directionX[pixel], traced.directionY[pixel], traced.directionZ[pixel] });
+      for (glm::length_t axis = 0; axis < 3; ++axis)
+      {
+        const auto i = static_cast<std::size_t>(axis);
+        this->normal_[i][pixel] = rays.normal[axis];
+        this->toCentre_[i][pixel] = rays.toCentre[axis];
+        this->ray_[i][pixel] = rays.ray[axis];
+      }
+      this->perUnit_[pixel] = rays.perUnit;
+    }
+  }
+
+  /// Where a pixel's rays to all samples go.
+  void directionsOf(std::size_t pixel, const LightSamples::Coordinates& directions) const
+  {
+    this->samples_.offsets(this->pixels_[pixel], directions);
+    const AreaRays rays = this->raysOf(pixel);
+    float *const x = directions.x, *const y = directions.y, *const z = directions.z;
+    const auto count = static_cast<std::size_t>(this->samples_.count());
+#pragma GCC ivdep
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      const glm::vec3 direction = directionToSample(rays, { x[i], y[i], z[i] });
+      x[i] = direction.x;
+      y[i] = direction.y;
+      z[i] = direction.z;
+    }
+  }
+
+  /// What of a texture a pixel's samples show, in sum: all of them, and those points that its rays go to.
+  struct Colours
+  {
+    glm::vec3 all{ 0.0f };
+    glm::vec3 lit{ 0.0f };
+  };
+  Colours coloursOf(std::size_t pixel, const PlacedTexture& texture)
+  {
+    this->samples_.offsets(
+      this->pixels_[pixel], { this->x_.data(), this->y_.data(), this->z_.data() });
+    const AreaRays rays = this->raysOf(pixel);
+    Colours sums;
+    for (std::size_t i = 0; i < this->x_.size(); ++i)
+    {
+      const glm::vec3 sample(this->x_[i], this->y_[i], this->z_[i]);
+      sums.all += texture.colourAt(sample);
+      sums.lit += texture.colourAt(sideOfSample(rays, sample) * sample);
+    }
+    return sums;
+  }
+
+  /// Turns the rays of some pixels to one sample each.
+  /// @param first of the pixels; those that need no ray get one that means nothing
+  void turn(std::size_t first, const Together<std::uint32_t>& samples, TracedTile& traced) const
+  {
+    Together<float> x, y, z;
+    this->samples_.offsets(
+      samples.data(), &this->pixels_[first], pixelsTogether, { x.data(), y.data(), z.data() });
+#pragma GCC ivdep
+    for (std::size_t i = 0; i < pixelsTogether; ++i)
+    {
+      const glm::vec3 towards = directionToSample(this->raysOf(first + i), { x[i], y[i], z[i] });
+      traced.directionX[first + i] = towards.x;
+      traced.directionY[first + i] = towards.y;
+      traced.directionZ[first + i] = towards.z;
+    }
+  }
+
+  /// Has these rays, where they are blocked, take off the colours of the points that they go to.
+  void colour(std::size_t first, const Together<std::uint32_t>& samples,
+    const PlacedTexture& texture, TracedTile& traced) const
+  {
+    Together<float> x, y, z;
+    this->samples_.offsets(
+      samples.data(), &this->pixels_[first], pixelsTogether, { x.data(), y.data(), z.data() });
+    for (std::size_t i = 0; i < pixelsTogether; ++i)
+    {
+      const glm::vec3 sample(x[i], y[i], z[i]);
+      const glm::vec3 colour =
+        texture.colourAt(sideOfSample(this->raysOf(first + i), sample) * sample);
+      for (std::size_t channel = 0; channel < 3; ++channel)
+      {
+        traced.samplesOfRay[channel][first + i] = colour[static_cast<glm::length_t>(channel)];
+      }
+    }
+  }
+
+private:
+  AreaRays raysOf(std::size_t pixel) const
+  {
+    return { { this->normal_[0][pixel], this->normal_[1][pixel], this->normal_[2][pixel] },
+      { this->toCentre_[0][pixel], this->toCentre_[1][pixel], this->toCentre_[2][pixel] },
+      { this->ray_[0][pixel], this->ray_[1][pixel], this->ray_[2][pixel] }, this->perUnit_[pixel] };
+  }
+
+  const LightSamples& samples_;
+  ///@{
+  /// Of pixels that need a ray, else 0.
+  TracedTile::Plane<SamplePixel> pixels_{};
+  std::array<TracedTile::Plane<float>, 3> normal_{}, toCentre_{}, ray_{};
+  TracedTile::Plane<float> perUnit_{};
+  ///@}
+  std::vector<float> x_, y_, z_; ///< a pixel's offsets
+};
+
+} // namespace gnomon
+
+#endif
