@@ -178,7 +178,8 @@ void ShaderManager::fillShader(std::string& fragmentShader, bool receiversStage)
     {
       declarations = "uniform int gnomonStage;\n";
     }
-    // Of physically based materials alpha is the albedo texture's, which VTK reads while it lights.
+    // The receivers stage writes alpha, so that VTK's own discard cuts the holes of textures. Alpha of
+    // physically based materials is the albedo texture's, which VTK reads while it lights.
     const std::string albedo = "texture(albedoTex, tcoordVCVSOutput)";
     const std::string alpha =
       fragmentShader.find(albedo) != std::string::npos ? albedo + ".a" : "opacity";

@@ -24,7 +24,8 @@ public:
     int refits = 0; ///< structures that were refitted to moved vertices or instances
   };
 
-  /// Brings the acceleration structure up to date with the snapshot; does nothing when neither
+  /// Brings the acceleration structure up to date with the snapshot, and takes the GPU's memory
+  /// for rays: no frame is traced half by one tracer and half by another. Does nothing when neither
   /// topologyVersion nor positionsVersion changed. The snapshot's vertex and index arrays and texture
   /// coordinates may be shared, not copied: they must stay where they are until the next update.
   /// @throws std::runtime_error where there is no structure to be had, TextureMemoryError included
