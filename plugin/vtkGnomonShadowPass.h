@@ -9,7 +9,7 @@
  *
  * The pass multiplies each light's colour by its visibility, a number in [0, 1] per point, while
  * VTK shades; materials, ambient light and everything else stay VTK's. A frame is: lights,
- * occluders, receivers, maps, visibility, shading (docs/architecture.md).
+ * occluders, receivers, maps, visibility, shading (docs/dev/architecture.md).
  *
  * Lights are the renderer's vtkLights. What one of them asks for is said with vtkGnomonLightKeys,
  * what one prop does (casts, receives, one-sided) with vtkGnomonPropKeys. Opaque surfaces of
