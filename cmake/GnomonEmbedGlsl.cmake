@@ -2,8 +2,9 @@
 #
 # Turns GLSL files into one C++ source that defines
 #     const std::map<std::string, std::string>& gnomon::<function>()
-# from each file's path relative to the project's root, e.g. "shadowtech/nsm/nsm_estimator.glsl", to
-# its text. The variable receives the generated source's path.
+# from each file's path relative to the project's root, e.g.
+# "shadowtech/depth_map/compare_estimator.glsl", to its text. The variable receives the generated
+# source's path.
 function(gnomon_embed_glsl output function)
   string(CONCAT body
     "// Generated from the .glsl files; do not edit.\n"
