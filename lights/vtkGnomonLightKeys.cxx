@@ -19,20 +19,6 @@ vtkInformationKeyMacro(vtkGnomonLightKeys, CASTS, Integer);
 vtkInformationKeyMacro(vtkGnomonLightKeys, SETTINGS, StringVector);
 vtkInformationKeyMacro(vtkGnomonLightKeys, BOX, DoubleVector);
 
-namespace
-{
-
-/// Sets an integer, clamped to what the setting takes; takes it away where the size is none.
-void SetSize(vtkLight* light, const char* name, int size)
-{
-  const auto& range = std::get<gnomon::IntegerSetting>(gnomon::findSetting(name)->values);
-  const std::string text =
-    size > 0 ? std::to_string(std::clamp(size, range.smallest, range.largest)) : "";
-  vtkGnomonLightKeys::SetSetting(light, name, text.c_str());
-}
-
-} // namespace
-
 //------------------------------------------------------------------------------
 void vtkGnomonLightKeys::SetCasts(vtkLight* light, bool casts)
 {
@@ -103,19 +89,11 @@ void vtkGnomonLightKeys::SetTechnique(vtkLight* light, const char* technique)
 //------------------------------------------------------------------------------
 void vtkGnomonLightKeys::SetMapSize(vtkLight* light, int mapSizeTexels)
 {
-  SetSize(light, "map_size", mapSizeTexels);
-}
-
-//------------------------------------------------------------------------------
-void vtkGnomonLightKeys::SetKernel(vtkLight* light, const char* kernel)
-{
-  SetSetting(light, "kernel", kernel);
-}
-
-//------------------------------------------------------------------------------
-void vtkGnomonLightKeys::SetKernelSize(vtkLight* light, int kernelSizeTexels)
-{
-  SetSize(light, "kernel_size", kernelSizeTexels);
+  const auto& range = std::get<gnomon::IntegerSetting>(gnomon::findSetting("map_size")->values);
+  const std::string text = mapSizeTexels > 0
+    ? std::to_string(std::clamp(mapSizeTexels, range.smallest, range.largest))
+    : "";
+  SetSetting(light, "map_size", text.c_str());
 }
 
 //------------------------------------------------------------------------------

@@ -50,8 +50,8 @@ protected:
   static void choose(PassScene& scene, vtkLight* light)
   {
     scene.pass->SetTechnique("pcf");
-    vtkGnomonLightKeys::SetKernel(light, GetParam().name);
-    vtkGnomonLightKeys::SetKernelSize(light, GetParam().texels);
+    vtkGnomonLightKeys::SetSetting(light, "kernel", GetParam().name);
+    vtkGnomonLightKeys::SetSetting(light, "kernel_size", std::to_string(GetParam().texels).c_str());
   }
 
   static gnomon::MapReach reach()
@@ -275,11 +275,11 @@ TEST_F(PassTest, penumbrasGoOnAcrossTheEdgesOfALampsFaces)
   vtkLight* lamp = scene.addSpot({ 0.0, 0.0, 4.0 }, glm::dvec3(0.0), allDirections);
   scene.pass->SetTechnique("pcf");
   scene.pass->SetMapSize(256);
-  vtkGnomonLightKeys::SetKernelSize(lamp, 32);
+  vtkGnomonLightKeys::SetSetting(lamp, "kernel_size", "32");
   scene.lookDown(0.1, 4.0);
   for (const char* kernel : { "bilinear", "box" })
   {
-    vtkGnomonLightKeys::SetKernel(lamp, kernel);
+    vtkGnomonLightKeys::SetSetting(lamp, "kernel", kernel);
     const VisibilityImages& kept = drawKept(scene);
     const auto lit = [&](int x)
     { return static_cast<double>(kept.visibility[0][20 * 400 + static_cast<std::size_t>(x)]); };
@@ -364,19 +364,19 @@ TEST_F(PassTest, anotherKernelIsBakedOnceAndReported)
   EXPECT_EQ(scene.report().lights[0].kernel, "bilinear");
   EXPECT_EQ(scene.report().lights[0].kernelTexels, 3);
   // The same border, but not the same reach.
-  vtkGnomonLightKeys::SetKernel(sun, "poisson");
+  vtkGnomonLightKeys::SetSetting(sun, "kernel", "poisson");
   scene.render();
   EXPECT_EQ(scene.report().mapBakes, 1);
   EXPECT_EQ(scene.report().lights[0].kernel, "poisson");
   scene.render();
   EXPECT_EQ(scene.report().mapBakes, 0);
   EXPECT_EQ(scene.report().programCompiles, 0);
-  vtkGnomonLightKeys::SetKernelSize(sun, 1000);
+  vtkGnomonLightKeys::SetSetting(sun, "kernel_size", "1000");
   scene.render();
   EXPECT_EQ(scene.report().mapBakes, 1);
   EXPECT_EQ(scene.report().lights[0].kernelTexels, 32);
-  vtkGnomonLightKeys::SetKernelSize(sun, 0);
-  vtkGnomonLightKeys::SetKernel(sun, nullptr);
+  vtkGnomonLightKeys::SetSetting(sun, "kernel_size", "0");
+  vtkGnomonLightKeys::SetSetting(sun, "kernel", nullptr);
   scene.render();
   EXPECT_EQ(scene.report().lights[0].kernel, "bilinear");
   EXPECT_EQ(scene.report().lights[0].kernelTexels, 3);
@@ -423,14 +423,14 @@ TEST_F(PassTest, thePassGivesLightsTheKernelThatTheyDoNotName)
   EXPECT_EQ(scene.report().mapBakes, 1);
   EXPECT_GT(differingPixels(narrow, wide), 20u);
 
-  vtkGnomonLightKeys::SetKernel(sun, "bilinear");
+  vtkGnomonLightKeys::SetSetting(sun, "kernel", "bilinear");
   scene.render();
   EXPECT_EQ(scene.report().lights[0].kernel, "bilinear");
   EXPECT_EQ(scene.report().lights[0].kernelTexels, 9);
-  vtkGnomonLightKeys::SetKernelSize(sun, 3);
+  vtkGnomonLightKeys::SetSetting(sun, "kernel_size", "3");
   EXPECT_EQ(differingPixels(narrow, scene.render()), 0u);
-  vtkGnomonLightKeys::SetKernel(sun, nullptr);
-  vtkGnomonLightKeys::SetKernelSize(sun, 0);
+  vtkGnomonLightKeys::SetSetting(sun, "kernel", nullptr);
+  vtkGnomonLightKeys::SetSetting(sun, "kernel_size", "0");
   EXPECT_EQ(differingPixels(wide, scene.render()), 0u);
 }
 
@@ -441,7 +441,7 @@ TEST_F(PassTest, unknownKernelIsAnErrorThatNamesTheOthers)
   scene.addFloor(4.0);
   vtkLight* sun = scene.addSun({ 1.0, 0.4, -1.5 });
   scene.lookFrom({ 0.0, -9.0, 7.0 });
-  vtkGnomonLightKeys::SetKernel(sun, "magic");
+  vtkGnomonLightKeys::SetSetting(sun, "kernel", "magic");
   EXPECT_THAT(
     this->takeErrors(), HasSubstr("'magic', expected one of: bilinear, box, poisson, castano"));
   scene.render();
@@ -465,8 +465,8 @@ TEST_F(PassTest, castanosKernelOfAnotherSizeIsAnErrorThatNamesItsSizes)
   vtkLight* sun = scene.addSun({ 1.0, 0.4, -1.5 });
   scene.pass->SetTechnique("pcf");
   scene.lookFrom({ 0.0, -9.0, 7.0 });
-  vtkGnomonLightKeys::SetKernel(sun, "castano");
-  vtkGnomonLightKeys::SetKernelSize(sun, 4);
+  vtkGnomonLightKeys::SetSetting(sun, "kernel", "castano");
+  vtkGnomonLightKeys::SetSetting(sun, "kernel_size", "4");
   scene.render();
   EXPECT_THAT(
     this->takeErrors(), HasSubstr("light 0: the kernel 'castano' has the sizes 3, 5 and 7, not 4"));

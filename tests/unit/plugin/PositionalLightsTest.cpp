@@ -166,8 +166,8 @@ TEST_F(PositionalLights, filtersHaveNoSeams)
   auto* light = vtkLight::SafeDownCast(renderer->GetLights()->GetItemAsObject(0));
   for (const char* kernel : { "bilinear", "box", "poisson", "castano" })
   {
-    vtkGnomonLightKeys::SetKernel(light, kernel);
-    vtkGnomonLightKeys::SetKernelSize(light, 7);
+    vtkGnomonLightKeys::SetSetting(light, "kernel", kernel);
+    vtkGnomonLightKeys::SetSetting(light, "kernel_size", "7");
     window->Render();
     const VisibilityImages& filtered = pass->GetVisibility();
     std::size_t smoothed = 0;

@@ -132,8 +132,8 @@ TEST_P(Routes, ofPcfDifferOnAtMostOnePixelInAHundredThousand)
     for (int i = 0; i < scene.renderer->GetLights()->GetNumberOfItems(); ++i)
     {
       auto* light = vtkLight::SafeDownCast(scene.renderer->GetLights()->GetItemAsObject(i));
-      vtkGnomonLightKeys::SetKernel(light, kernel);
-      vtkGnomonLightKeys::SetKernelSize(light, 5);
+      vtkGnomonLightKeys::SetSetting(light, "kernel", kernel);
+      vtkGnomonLightKeys::SetSetting(light, "kernel_size", "5");
     }
     scene.pass->SetRoute(vtkGnomonShadowPass::ROUTE_INLINE);
     const Picture direct = scene.render();
