@@ -60,8 +60,8 @@ inline Bounds affinelyTransformed(const Bounds& bounds, const glm::dmat4& matrix
   return result;
 }
 
-/// Whether a projection may show something of a box: false only if it shows nothing of it. What lies
-/// before the near plane or behind the far one counts as shown.
+/// Whether a projection may show something of a box: false only if it shows nothing of it. What
+/// lies before the near plane or behind the far one counts as shown.
 inline bool mayShow(const glm::dmat4& clipFromSpace, const Bounds& bounds)
 {
   if (bounds.empty())

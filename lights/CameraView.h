@@ -10,8 +10,9 @@
 namespace gnomon
 {
 
-/// The camera that the light's maps are fitted to, in centred coordinates (LightView.h) and OpenGL's
-/// conventions: it looks along -z of its view space, and clip space is [-1, 1]^3 after division.
+/// The camera that the light's maps are fitted to, in centred coordinates (LightView.h) and
+/// OpenGL's conventions: it looks along -z of its view space, and clip space is [-1, 1]^3 after
+/// division.
 struct CameraView
 {
   glm::dmat4 viewFromCentred{ 1.0 }; ///< rigid
@@ -35,8 +36,9 @@ struct CameraView
   /// Whether w does not depend on the distance, so that nothing looks smaller far away.
   bool isParallel() const { return this->clipFromView[2][3] == 0.0; }
 
-  /// How large a pixel of a picture of this size is across the view, in world units: the side of the
-  /// square with its area is x + y * distance, the distance being that along the direction of view.
+  /// How large a pixel of a picture of this size is across the view, in world units: the side of
+  /// the square with its area is x + y * distance, the distance being that along the direction of
+  /// view.
   glm::dvec2 pixelSide(const glm::ivec2& sizePixels) const
   {
     const double pixelsOfUnit = 0.5 *

@@ -10,11 +10,12 @@
 namespace gnomon
 {
 
-/// Random points of the unit square or cube, each by itself: of the pixel and its number, by reducedMd5(), half a word for each
-/// coordinate of the square (Curtis 2009, section 3.1).
+/// Random points of the unit square or cube, each by itself: of the pixel and its number, by
+/// reducedMd5(), half a word for each coordinate of the square (Curtis 2009, section 3.1).
 ///
-/// A cube's third coordinates are hashes of those hashes. Those of seeds that differ in a bit would not do: 16 steps leave them
-/// too much alike, so that the second and the third coordinate depended on each other with every other key.
+/// A cube's third coordinates are hashes of those hashes. Those of seeds that differ in a bit would
+/// not do: 16 steps leave them too much alike, so that the second and the third coordinate depended
+/// on each other with every other key.
 class HashedPoints
 {
 public:

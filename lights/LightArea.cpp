@@ -29,8 +29,8 @@ glm::dvec3 borderOfSquare(double share)
   }
 }
 
-/// One of the points of a spiral over the sphere of radius 1, each of which stands for as much of it: share is its
-/// place among them, in (0, 1).
+/// One of the points of a spiral over the sphere of radius 1, each of which stands for as much of
+/// it: share is its place among them, in (0, 1).
 glm::dvec3 pointOfSphere(double share, std::size_t number)
 {
   const double angle =

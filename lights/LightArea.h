@@ -12,8 +12,9 @@ namespace gnomon
 /// How far a light's area may reach from its centre, in world units.
 constexpr double largestAreaRadius = 1e12;
 
-/// What a light that is more than a point shines from: a shape around its centre. Its points shine alike unless it has a
-/// texture (LightTexture.h). It is symmetric about the centre, so that opposite every point there is another one.
+/// What a light that is more than a point shines from: a shape around its centre. Its points shine
+/// alike unless it has a texture (LightTexture.h). It is symmetric about the centre, so that
+/// opposite every point there is another one.
 struct LightArea
 {
   enum class Shape
@@ -32,8 +33,8 @@ struct LightArea
   /// How far from the centre it shines at most, in the units of worldFromUnit; 0: it is a point.
   double radius() const;
 
-  /// How far from the centre it goes along a direction, which is as far as it goes the opposite way, in the units of
-  /// worldFromUnit.
+  /// How far from the centre it goes along a direction, which is as far as it goes the opposite
+  /// way, in the units of worldFromUnit.
   /// @param direction a unit vector
   double extentAlong(const glm::dvec3& direction) const;
 
@@ -56,8 +57,8 @@ LightArea diskArea(const glm::dvec3& travel, double radius);
 
 LightArea ballArea(double radius);
 
-/// Points all around a light, as far from each other as they go: on a disk's rim, on a rectangle's border from a corner on,
-/// on a ball. From the centre, in the units of worldFromUnit.
+/// Points all around a light, as far from each other as they go: on a disk's rim, on a rectangle's
+/// border from a corner on, on a ball. From the centre, in the units of worldFromUnit.
 std::vector<glm::dvec3> rimOf(const LightArea& area, std::size_t points);
 
 } // namespace gnomon

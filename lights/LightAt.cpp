@@ -11,8 +11,8 @@ namespace gnomon
 namespace
 {
 
-/// Half the angle, in degrees, of a cone around a spot's axis that holds what its own holds of the scene, wherever on the
-/// light its apex is.
+/// Half the angle, in degrees, of a cone around a spot's axis that holds what its own holds of the
+/// scene, wherever on the light its apex is.
 double widenedConeDegrees(const ShadowLight& light, const ViewFitting& fitting)
 {
   const double tangent = std::tan(glm::radians(light.coneAngleDegrees));
@@ -34,8 +34,8 @@ double widenedConeDegrees(const ShadowLight& light, const ViewFitting& fitting)
   return glm::degrees(std::atan(widened));
 }
 
-/// Gives a directional light, whose direction has been turned to a point's, a box around all of that point's rays into the
-/// centre's box.
+/// Gives a directional light, whose direction has been turned to a point's, a box around all of
+/// that point's rays into the centre's box.
 void standBox(ShadowLight& at, const ShadowLight& light, const glm::dvec3& towardsPoint)
 {
   const LightBox& box = *light.box;

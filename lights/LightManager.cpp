@@ -45,8 +45,8 @@ bool isFinite(const glm::dvec3& point)
   return std::isfinite(point.x) && std::isfinite(point.y) && std::isfinite(point.z);
 }
 
-/// Whether an up direction is not along the light. A millionth of the right angle is where rounding begins to turn
-/// what it is up for.
+/// Whether an up direction is not along the light. A millionth of the right angle is where rounding
+/// begins to turn what it is up for.
 bool isAcross(const glm::dvec3& up, const glm::dvec3& travel)
 {
   return glm::length(glm::cross(up, travel)) > 1e-6 * glm::length(up) * glm::length(travel);
@@ -194,8 +194,8 @@ LitArea readArea(vtkLight* light, const ShadowSettings& settings,
 }
 
 /// What is asked of a light's shadows.
-/// @param reason to skip the light; filled, if it is empty, where a setting does not take its value,
-/// which SetSetting would have refused
+/// @param reason to skip the light; filled, if it is empty, where a setting does not take its
+/// value, which SetSetting would have refused
 ShadowSettings readSettings(vtkLight* light, const ShadowSettings& defaults, std::string& reason)
 {
   ShadowSettings settings = defaults;

@@ -30,7 +30,8 @@ struct LightSet
   std::vector<SkippedLight> skipped;
 };
 
-/// The frame's lights that shine from more than a point, and those that give light and would if their numbers said how.
+/// The frame's lights that shine from more than a point, and those that give light and would if
+/// their numbers said how.
 struct AreaLights
 {
   std::vector<ShadowLight> lights;
@@ -42,23 +43,24 @@ struct AreaLights
 /// Head and camera lights are taken through their transform, which the renderer's
 /// UpdateLightsGeometryToFollowCamera() must have set for this frame. Lights that cannot show a
 /// shadow are left out with a reason: switched off, black, no intensity, marked as not casting,
-/// strength 0, and those whose numbers give no light (a cone without angle, an empty box, an endless
-/// area). How large a light is follows from the setting `light_radius`, else from vtkGnomonAreaLight, else from
-/// OSPRay's key for it.
+/// strength 0, and those whose numbers give no light (a cone without angle, an empty box, an
+/// endless area). How large a light is follows from the setting `light_radius`, else from
+/// vtkGnomonAreaLight, else from OSPRay's key for it.
 ///
-/// Textures of lights are kept until the next frame: an image is read once, however many lights have it, and again when it
-/// has changed.
+/// Textures of lights are kept until the next frame: an image is read once, however many lights
+/// have it, and again when it has changed.
 class LightManager
 {
 public:
-  /// @param defaults what lights fall back on where they say nothing themselves (vtkGnomonLightKeys)
+  /// @param defaults what lights fall back on where they say nothing themselves
+  /// (vtkGnomonLightKeys)
   LightSet collect(vtkRenderer* renderer, const ShadowSettings& defaults);
 
   /// The renderer's lights that shine from more than a point, whether or not they cast shadows.
   AreaLights collectAreas(vtkRenderer* renderer, const ShadowSettings& defaults);
 
-  /// Takes from a light whatever it says of an area. (The area of vtkGnomonAreaLight is the class's: such a light is
-  /// exchanged.)
+  /// Takes from a light whatever it says of an area. (The area of vtkGnomonAreaLight is the
+  /// class's: such a light is exchanged.)
   static void makePoint(vtkLight* light);
 
 private:

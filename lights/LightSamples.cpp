@@ -18,7 +18,8 @@ inline float fractionOf(std::uint32_t word)
   return static_cast<float>(static_cast<std::int32_t>(word >> 8)) * 5.9604645e-8f; // 2^-24
 }
 
-/// Sines and cosines for |angle| <= pi / 2, to 1e-7: polynomials, which are the same on all machines.
+/// Sines and cosines for |angle| <= pi / 2, to 1e-7: polynomials, which are the same on all
+/// machines.
 inline float sineOf(float angle)
 {
   const float square = angle * angle;
@@ -56,14 +57,16 @@ inline glm::vec2 concentric(const glm::vec2& square)
   return { wide ? along : across, wide ? across : along };
 }
 
-/// Coordinates of points of the unit cube, as fractions of 2^32, those of the same axis side by side.
+/// Coordinates of points of the unit cube, as fractions of 2^32, those of the same axis side by
+/// side.
 struct Points
 {
   static constexpr std::size_t most = 64;
   std::array<std::uint32_t, most> x, y, z;
 };
 
-/// The places of points on a light of some shape. `unitOf` takes the fractions in [0, 1) of a point's coordinates to the shape.
+/// The places of points on a light of some shape. `unitOf` takes the fractions in [0, 1) of a
+/// point's coordinates to the shape.
 template <typename UnitOf>
 inline void placeAll(const Points& points, std::size_t count, const glm::mat3& worldFromUnit,
   const UnitOf& unitOf, const LightSamples::Coordinates& to)

@@ -16,7 +16,8 @@ namespace gnomon
 /// without a box, the centre. The x axis of a box lies along its width, y along its height.
 glm::dmat4 lightFromCentred(const ShadowLight& light, const glm::dvec3& centreWorld);
 
-/// The plane (n, d) of a box's near face, centred: what lies behind it along the light has n.p + d > 0.
+/// The plane (n, d) of a box's near face, centred: what lies behind it along the light has n.p + d
+/// > 0.
 glm::dvec4 nearFaceCentred(const ShadowLight& light, const glm::dvec3& centreWorld);
 
 /// The world axis that is least aligned with this direction.

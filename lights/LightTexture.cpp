@@ -30,8 +30,9 @@ double whiteOf(int scalarType)
   }
 }
 
-/// The mean colour over the part of the picture between the ends that `halfWidthAt` gives its lines, at heights from -1 to 1.
-/// What is white is 1 to the last bit: both of its sums have the same terms.
+/// The mean colour over the part of the picture between the ends that `halfWidthAt` gives its
+/// lines, at heights from -1 to 1. What is white is 1 to the last bit: both of its sums have the
+/// same terms.
 template <typename HalfWidthAt>
 glm::dvec3 meanOver(const LightTexture& texture, const HalfWidthAt& halfWidthAt)
 {

@@ -60,9 +60,10 @@ std::optional<LightView> fitted(
   return view;
 }
 
-/// What will be read of a map that is fitted to some of what is visible: that and its border. A snapped
-/// map is larger by up to 2^(1/4) and a texel, and a fit widens what is too small.
-/// @param coarsest how many times larger than on the uniform map the texels of the border may become
+/// What will be read of a map that is fitted to some of what is visible: that and its border. A
+/// snapped map is larger by up to 2^(1/4) and a texel, and a fit widens what is too small.
+/// @param coarsest how many times larger than on the uniform map the texels of the border may
+/// become
 Rectangle readableOf(const Rectangle& visible, const MapTexels& texels, double coarsest)
 {
   const glm::dvec2 centre = 0.5 * (visible.lower + visible.upper);

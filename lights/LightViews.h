@@ -39,17 +39,17 @@ struct LightViews
 
   static constexpr int noView = -1;
 
-  /// Whether the views still wait for the last fit, F of MapFit.h, which the receivers that are drawn
-  /// will give (ShadowLight::fittedToReceivers). Their maps are then in device coordinates before F:
-  /// around all casters of a uniform view or split, around what the camera can see of a warped one.
-  /// A view whose warp is to be chosen, too, is uniform until then.
+  /// Whether the views still wait for the last fit, F of MapFit.h, which the receivers that are
+  /// drawn will give (ShadowLight::fittedToReceivers). Their maps are then in device coordinates
+  /// before F: around all casters of a uniform view or split, around what the camera can see of a
+  /// warped one. A view whose warp is to be chosen, too, is uniform until then.
   bool awaitFit = false;
 
   /// Texels around a point that are read with it, which a split's view has to hold, too.
   int borderTexels = 1;
 
-  /// What the light shines on: the squared tangent of half a spot light's cone; half the width, half
-  /// the height and the depth of a box. 0 of lights without.
+  /// What the light shines on: the squared tangent of half a spot light's cone; half the width,
+  /// half the height and the depth of a box. 0 of lights without.
   double coneTangentSquared = 0.0;
   glm::dvec3 box{ 0.0 };
 
@@ -67,12 +67,12 @@ struct LightViews
 /// texels at the border stretched by 1 / cos^2: 4 times at 60 degrees, 3 at the corners of a cube.
 constexpr double largestSingleViewConeDegrees = 60.0;
 
-/// Point and wide spot lights have a cube's views, others a single one or splits. It is known from the
-/// light alone, so that shaders can be built before the casters are known.
+/// Point and wide spot lights have a cube's views, others a single one or splits. It is known from
+/// the light alone, so that shaders can be built before the casters are known.
 ViewLayout viewLayout(const ShadowLight& light);
 
-/// Whether the light's projection is a perspective towards the camera, so that texels are of different
-/// sizes across the light.
+/// Whether the light's projection is a perspective towards the camera, so that texels are of
+/// different sizes across the light.
 bool isWarped(const ShadowLight& light);
 
 /// Whether that perspective is chosen together with the last fit, by the receivers that are drawn
@@ -103,29 +103,29 @@ struct ViewFitting
 ///
 /// Without a camera a view covers the casters, and no more than the light reaches; projections are
 /// uniform. With one, it covers what the camera can see of that (VisibleBody.h): uniform views by
-/// scale and offset (MapFit.h), snapped to texels if the light asks for it; warped ones by their own
-/// mathematics (Lispsm.h, Trapezoid.h); splits each a part of the distance from the camera
+/// scale and offset (MapFit.h), snapped to texels if the light asks for it; warped ones by their
+/// own mathematics (Lispsm.h, Trapezoid.h); splits each a part of the distance from the camera
 /// (Splits.h). Depths always cover all casters, so that those between the light and what is visible
 /// are kept.
 ///
-/// For a light that is fitted to receivers, all of this is done but for the fit itself, and what the
-/// camera can see at most becomes the views' readable part.
+/// For a light that is fitted to receivers, all of this is done but for the fit itself, and what
+/// the camera can see at most becomes the views' readable part.
 ///
-/// A view keeps a border on every side, so that what a technique reads around a receiver lies in the
-/// same layer. The faces of a cube see 90 degrees between those borders, less where there are no
-/// casters.
+/// A view keeps a border on every side, so that what a technique reads around a receiver lies in
+/// the same layer. The faces of a cube see 90 degrees between those borders, less where there are
+/// no casters.
 ///
-/// Degenerate cases: no casters, or none that the light shines on, or nothing visible below them, give
-/// no view; bounds without extent along an axis are widened relative to the box's own size. Casters
-/// nearer to a positional light than nearestShare of the farthest one are not seen.
+/// Degenerate cases: no casters, or none that the light shines on, or nothing visible below them,
+/// give no view; bounds without extent along an axis are widened relative to the box's own size.
+/// Casters nearer to a positional light than nearestShare of the farthest one are not seen.
 LightViews fitLightViews(const ShadowLight& light, const ViewFitting& fitting);
 
 /// The same for all of the scene.
 LightViews fitLightViews(const ShadowLight& light, const glm::dvec3& centreWorld,
   const Bounds& castersCentred, int mapSizeTexels, int borderTexels = 1);
 
-/// Moves what all views show, by a share of a texel, so that maps of much the same view do not round a caster's edges to the same
-/// texels.
+/// Moves what all views show, by a share of a texel, so that maps of much the same view do not
+/// round a caster's edges to the same texels.
 /// @param texels up to half a texel: the views' border has to hold one more than is read of it
 /// @param sideTexels of the maps
 void moveTexels(LightViews& views, const glm::dvec2& texels, int sideTexels);

@@ -71,12 +71,12 @@ struct MapTexels
   Rectangle covered() const;
 };
 
-/// The least part of what is to be covered that a map is fitted to. At a side of 1024, the texels of a
-/// smaller one would be narrower than the spacing of floats there.
+/// The least part of what is to be covered that a map is fitted to. At a side of 1024, the texels
+/// of a smaller one would be narrower than the spacing of floats there.
 constexpr double leastVisibleShare = 1e-4;
 
-/// Fits what is visible into the map: [lower, upper] to [-1, 1] less the border, s = 2 / (max - min),
-/// o = -s (max + min) / 2. (Selected Real-Time Shadow Techniques, eqs 3.9 and 3.10.)
+/// Fits what is visible into the map: [lower, upper] to [-1, 1] less the border, s = 2 / (max -
+/// min), o = -s (max + min) / 2. (Selected Real-Time Shadow Techniques, eqs 3.9 and 3.10.)
 ///
 /// What is visible is cut to what is to be covered: the fit never looks beyond it. Less than
 /// leastVisibleShare of what is to be covered, or none at all, is widened to that.
@@ -87,14 +87,14 @@ constexpr double leastVisibleShare = 1e-4;
 std::optional<MapFit> fitTo(
   const Rectangle& visible, const MapTexels& texels, const Rectangle& covered = wholeMap);
 
-/// As fitTo(), but steady while the camera moves: the scale is one of a fixed series, and the offset
-/// a whole number of texels, so that the texels stay where they are in the projection before the
-/// fit. This must not depend on the camera (uniformFromAcross() of the whole scene does not).
+/// As fitTo(), but steady while the camera moves: the scale is one of a fixed series, and the
+/// offset a whole number of texels, so that the texels stay where they are in the projection before
+/// the fit. This must not depend on the camera (uniformFromAcross() of the whole scene does not).
 ///
-/// The series: the scale that fits `covered`, times 2^(k/4), k = 0, 1, 2, ... Steps of 2^(1/4) cost 8 %
-/// of the resolution on average and 16 % at most, and lie so far apart that what the camera sees has
-/// to change by 19 % from one to the next. Half a texel is kept free on either side for the
-/// offset's rounding.
+/// The series: the scale that fits `covered`, times 2^(k/4), k = 0, 1, 2, ... Steps of 2^(1/4) cost
+/// 8 % of the resolution on average and 16 % at most, and lie so far apart that what the camera
+/// sees has to change by 19 % from one to the next. Half a texel is kept free on either side for
+/// the offset's rounding.
 std::optional<MapFit> fitSnappedTo(
   const Rectangle& visible, const MapTexels& texels, const Rectangle& covered = wholeMap);
 

@@ -9,17 +9,17 @@
 namespace gnomon
 {
 
-/// How far around a receiver's place on the map its technique reads: texels whose centres lie within
-/// a square, a disc and a kernel, one after the other (their Minkowski sum). What a view keeps around
-/// its casters and how far a map is pushed back follow from it. The default is one look-up at the
-/// nearest texel.
+/// How far around a receiver's place on the map its technique reads: texels whose centres lie
+/// within a square, a disc and a kernel, one after the other (their Minkowski sum). What a view
+/// keeps around its casters and how far a map is pushed back follow from it. The default is one
+/// look-up at the nearest texel.
 ///
-/// The kernel is again a square and a disc, in units that lie on the map as its projection has it at
-/// the point (KernelShape.h).
+/// The kernel is again a square and a disc, in units that lie on the map as its projection has it
+/// at the point (KernelShape.h).
 ///
-/// A technique with soft shadows also reads the casters between the point and the light's area. How far
-/// that is follows from where the casters are (reachOfArea, KernelShape.h). Maps are not pushed back for
-/// it.
+/// A technique with soft shadows also reads the casters between the point and the light's area. How
+/// far that is follows from where the casters are (reachOfArea, KernelShape.h). Maps are not pushed
+/// back for it.
 struct MapReach
 {
   double squareTexels = 0.5; ///< half the square's side
@@ -43,8 +43,8 @@ struct MapReach
   bool hasKernel() const { return this->kernelSquare > 0.0 || this->kernelDisc > 0.0; }
 
   /// The farthest along either axis, but for the light's area.
-  /// @param texelsAcross the most texels to a unit across the light, which kernels of a width across the
-  /// light are measured by
+  /// @param texelsAcross the most texels to a unit across the light, which kernels of a width
+  /// across the light are measured by
   double largestTexels(double texelsAcross = 0.0) const
   {
     const double unitTexels =

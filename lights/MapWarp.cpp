@@ -54,8 +54,8 @@ std::optional<AxisImage> imageOfAxis(
     const glm::dvec2 along = glm::dvec2(direction) / length;
     return AxisImage{ along, along.y * eye.x - along.x * eye.y };
   }
-  // The plane through the light and the axis, dot(plane, (across, 1)) = 0. Along the axis the slopes
-  // change by (plane.y, -plane.x) / z^2, so that they grow that way on all of it.
+  // The plane through the light and the axis, dot(plane, (across, 1)) = 0. Along the axis the
+  // slopes change by (plane.y, -plane.x) / z^2, so that they grow that way on all of it.
   const glm::dvec3 plane = glm::cross(eye, direction);
   const double length = glm::length(glm::dvec2(plane));
   if (!(length > leastSine * glm::length(eye)))

@@ -18,8 +18,8 @@ struct Step
 constexpr int noWord = 4;
 constexpr int stepsOfGroup = 4;
 
-/// As printed: most of the constants of the first two groups are MD5's rounded up, where MD5 cuts them off. What would be
-/// words 4 to 15 of a message is 0.
+/// As printed: most of the constants of the first two groups are MD5's rounded up, where MD5 cuts
+/// them off. What would be words 4 to 15 of a message is 0.
 constexpr std::array<Step, 16> steps{ {
   { 0, 0xd76aa478u, 7 },
   { 1, 0xe8c7b757u, 12 },

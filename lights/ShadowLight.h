@@ -20,8 +20,8 @@ enum class LightKind
   Point        ///< all directions, from positionWorld
 };
 
-/// The box that a directional light fills. Its near face is centred on the light's positionWorld and
-/// stands across directionWorld; the light enters there and travels `depth` far.
+/// The box that a directional light fills. Its near face is centred on the light's positionWorld
+/// and stands across directionWorld; the light enters there and travels `depth` far.
 struct LightBox
 {
   double width = 0.0;  ///< across the light and across `up`
@@ -46,10 +46,11 @@ struct ShadowLight : ShadowSettings
   double coneAngleDegrees = 0.0;
   /// The box of a directional light that does not fill the whole scene.
   std::optional<LightBox> box;
-  /// What it shines from around its centre, of a light that is more than a point. Techniques with hard
-  /// shadows take the centre; only the centre says what the light reaches: its cone, its box.
+  /// What it shines from around its centre, of a light that is more than a point. Techniques with
+  /// hard shadows take the centre; only the centre says what the light reaches: its cone, its box.
   std::optional<LightArea> area;
-  /// How its colour is spread over the area; none: evenly. Where there is no area, its mean is what counts.
+  /// How its colour is spread over the area; none: evenly. Where there is no area, its mean is what
+  /// counts.
   std::optional<PlacedTexture> texture;
 
   /// Place in the renderer's light collection, counted over all lights.

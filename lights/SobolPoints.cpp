@@ -21,8 +21,8 @@ constexpr std::uint32_t direction(std::size_t bit)
   return 0x80000000u >> bit;
 }
 
-/// A direction number through a triangular matrix that is its own for each seed: a bit stays, and flips others
-/// behind it.
+/// A direction number through a triangular matrix that is its own for each seed: a bit stays, and
+/// flips others behind it.
 std::uint32_t scrambled(std::uint32_t from, std::uint32_t seed)
 {
   std::uint32_t to = 0;
@@ -47,7 +47,8 @@ std::uint32_t spread(std::uint32_t x)
   return (x | (x << 1)) & 0x55555555u;
 }
 
-/// A number on a Z curve whose parts, of any size, are swapped at random: each bit is flipped by a hash of those before it.
+/// A number on a Z curve whose parts, of any size, are swapped at random: each bit is flipped by a
+/// hash of those before it.
 #ifdef __x86_64__
 [[gnu::target_clones("avx2", "default")]]
 #endif
@@ -141,8 +142,8 @@ SamplePixel SobolPoints::pixel(std::uint32_t column, std::uint32_t row) const
   const std::uint32_t place = shuffled(spread(column) | (spread(row) << 1), this->orderSeed_);
   SamplePixel pixel;
   pixel.bits = this->sobol(place << this->numberBits_) ^ this->first_;
-  // Flipping bits moves parts of the square as wholes: what lies in part i came from part i ^ order. Without parts any
-  // order will do that chooses among the numbers.
+  // Flipping bits moves parts of the square as wholes: what lies in part i came from part i ^
+  // order. Without parts any order will do that chooses among the numbers.
   const std::uint32_t numbers = static_cast<std::uint32_t>(this->points_.size());
   pixel.order =
     this->hasParts_ ? this->partOf(pixel.bits) : hashOf(place + this->orderSeed_) & (numbers - 1u);

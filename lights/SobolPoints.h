@@ -12,17 +12,19 @@
 namespace gnomon
 {
 
-/// Points of the unit cube: Sobol's sequence (1967; direction numbers of Joe and Kuo 2008), scrambled by random
-/// triangular matrices (Matousek 1998). Each pixel gets the next points of the one sequence, in an order in which
-/// neighbours follow each other: along a Z curve whose parts are swapped at random (Ahmed and Wonka 2020). So
+/// Points of the unit cube: Sobol's sequence (1967; direction numbers of Joe and Kuo 2008),
+/// scrambled by random triangular matrices (Matousek 1998). Each pixel gets the next points of the
+/// one sequence, in an order in which neighbours follow each other: along a Z curve whose parts are
+/// swapped at random (Ahmed and Wonka 2020). So
 ///
-/// - of 2^m points a pixel has exactly one in each part of the unit square (the first two coordinates) that is 2^-a wide
-///   and 2^(a-m) high;
-/// - those of 2 x 2 pixels, 4 x 4 and so on are together as even as so many points of one pixel, so that errors of neighbours
-///   cancel each other: their noise is blue.
+/// - of 2^m points a pixel has exactly one in each part of the unit square (the first two
+///   coordinates) that is 2^-a wide and 2^(a-m) high;
+/// - those of 2 x 2 pixels, 4 x 4 and so on are together as even as so many points of one pixel, so
+///   that errors of neighbours cancel each other: their noise is blue.
 ///
-/// Scrambling and sequence are linear over bits, so that a pixel's points are the first pixel's with some bits flipped. Of other
-/// numbers of points a pixel leaves out some of its own of the sequence, another choice for each.
+/// Scrambling and sequence are linear over bits, so that a pixel's points are the first pixel's
+/// with some bits flipped. Of other numbers of points a pixel leaves out some of its own of the
+/// sequence, another choice for each.
 class SobolPoints
 {
 public:
@@ -30,8 +32,9 @@ public:
 
   SamplePixel pixel(std::uint32_t column, std::uint32_t row) const;
 
-  /// Point `i` of a pixel: fractions of 2^32. Of a power of two of points, point i of any pixel lies in the same one of as
-  /// many equal parts of the square: what pixels side by side trace together stays together.
+  /// Point `i` of a pixel: fractions of 2^32. Of a power of two of points, point i of any pixel
+  /// lies in the same one of as many equal parts of the square: what pixels side by side trace
+  /// together stays together.
   glm::uvec3 point(int i, const SamplePixel& pixel) const
   {
     return this->points_[static_cast<std::uint32_t>(i) ^ pixel.order] ^ pixel.bits;

@@ -22,8 +22,8 @@ struct DistanceInterval
 /// section 4: lambda n (f/n)^(i/m) + (1 - lambda) (n + (f - n) i/m). lambda 1: logarithmic, 0:
 /// uniform, between: the practical scheme.
 ///
-/// @param visible a nearest distance of 0 or less is taken as a thousandth of the farthest one by the
-/// logarithmic part, which has no split there; the first distance stays what it is
+/// @param visible a nearest distance of 0 or less is taken as a thousandth of the farthest one by
+/// the logarithmic part, which has no split there; the first distance stays what it is
 /// @param count 1 to mostSplits
 /// @param lambda in [0, 1]
 std::vector<double> splitDistances(const DistanceInterval& visible, int count, double lambda);

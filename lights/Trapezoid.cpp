@@ -11,8 +11,8 @@ namespace gnomon
 namespace
 {
 
-/// The focus region is taken to be at least this share of the depth, and this much less than what it
-/// gets on the map: the warp stays finite where the region has no length, or all.
+/// The focus region is taken to be at least this share of the depth, and this much less than what
+/// it gets on the map: the warp stays finite where the region has no length, or all.
 constexpr double leastFocus = 1e-3;
 
 /// How far the focus region reaches in the frame's y, as a share of its depth: delta' / lambda.
@@ -24,8 +24,8 @@ double focusOf(const WarpFrame& frame, const CameraView& camera, const LightRays
   const glm::dvec3 view(rays.viewFromCentred * glm::dvec4(centred, 1.0));
   if (rays.positional && !(view.z > 0.0))
   {
-    // The axis' image runs through infinity where it passes the light: beyond the far end of what is
-    // visible if it runs towards the light, before its near end if it comes from there.
+    // The axis' image runs through infinity where it passes the light: beyond the far end of what
+    // is visible if it runs towards the light, before its near end if it comes from there.
     const double directionZ = (glm::dmat3(rays.viewFromCentred) * camera.directionCentred()).z;
     return directionZ < 0.0 ? 1.0 : 0.0;
   }
@@ -50,8 +50,8 @@ glm::dmat3 trapezoidFromAcross(
     std::clamp(focusOf(*frame, camera, rays), leastFocus, trapezoidFocusLine - leastFocus);
   const double xi = 1.0 - 2.0 * trapezoidFocusLine;
   const double eta = focus * (1.0 + xi) / (1.0 - 2.0 * focus - xi);
-  // The published method has no fall-off, and is worse than uniform where one end of the frustum hides
-  // the other; that of LiSPSM serves.
+  // The published method has no fall-off, and is worse than uniform where one end of the frustum
+  // hides the other; that of LiSPSM serves.
   return warpedOrUniform(*frame, fallOff(*frame, eta), bodyView, camera, rays);
 }
 

@@ -40,11 +40,11 @@ private:
   std::vector<std::vector<glm::dvec3>> polygons_;
 };
 
-/// What a light shines on at most, as half spaces in its view space: nothing for a directional light
-/// that fills the scene.
+/// What a light shines on at most, as half spaces in its view space: nothing for a directional
+/// light that fills the scene.
 ///
-/// Of a cone eight planes around it; of a box five (the sixth, its near face, too); of a cube's face
-/// the pyramid. A positional light begins at z = `nearest` > 0, so that no slope is infinite.
+/// Of a cone eight planes around it; of a box five (the sixth, its near face, too); of a cube's
+/// face the pyramid. A positional light begins at z = `nearest` > 0, so that no slope is infinite.
 std::vector<HalfSpace> coneHalfSpaces(double coneTangent, double nearest);
 std::vector<HalfSpace> cubeFaceHalfSpaces(double nearest);
 /// @param box half the width, half the height and the depth
@@ -58,9 +58,9 @@ constexpr double nearestShare = 1e-5;
 double nearestOf(const Bounds& sceneCentred, const LightRays& rays);
 
 /// All that the camera may see of the scene in this light, in the light's view space: the camera's
-/// frustum, the scene's box and what the light reaches, intersected plane by plane. (The body
-/// L ∩ V ∩ S of Wimmer, Scherzer, Purgathofer: Light Space Perspective Shadow Maps, 2004, section 4;
-/// here the receivers alone, since casters between them and the light lie on the same rays.)
+/// frustum, the scene's box and what the light reaches, intersected plane by plane. (The body L ∩ V
+/// ∩ S of Wimmer, Scherzer, Purgathofer: Light Space Perspective Shadow Maps, 2004, section 4; here
+/// the receivers alone, since casters between them and the light lie on the same rays.)
 ///
 /// Built from the box inwards, so that a far plane much farther than the scene, or at infinity,
 /// costs no digits. Empty where nothing can be seen.

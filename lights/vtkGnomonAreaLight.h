@@ -11,30 +11,33 @@
  * lamp->SetHeight(0.5);
  * @endcode
  *
- * A rectangle or a disk around the light's Position, across the direction to its FocalPoint. All of its
- * points shine alike, unless it has a Texture. Which of them a surface sees is its visibility; shading is VTK's own, from the
- * centre, and so are the cone and the box (vtkGnomonLightKeys) that the light may have. Techniques with
- * hard shadows take the centre's. "raytraced", "penumbra", "coherence", "sampled" and "planar" take the whole area, by as many points
- * as the setting "light_samples" says (vtkGnomonLightKeys::SetSetting), and so do "pcss", by "pcss_samples", and "montecarlo", by "mc_rays".
- * vtkGnomonLightSamplingPass has VTK shade from all of its points instead.
+ * A rectangle or a disk around the light's Position, across the direction to its FocalPoint. All of
+ * its points shine alike, unless it has a Texture. Which of them a surface sees is its visibility;
+ * shading is VTK's own, from the centre, and so are the cone and the box (vtkGnomonLightKeys) that
+ * the light may have. Techniques with hard shadows take the centre's. "raytraced", "penumbra",
+ * "coherence", "sampled" and "planar" take the whole area, by as many points as the setting
+ * "light_samples" says (vtkGnomonLightKeys::SetSetting), and so do "pcss", by "pcss_samples", and
+ * "montecarlo", by "mc_rays". vtkGnomonLightSamplingPass has VTK shade from all of its points
+ * instead.
  *
  * It is positional and shines into all directions (ConeAngle 90) until it is told otherwise.
  *
  * <b>Units.</b> Sizes are in world units, whatever the light's transform. Of a directional light
- * (PositionalOff) they are angles in degrees: the whole angles that the light fills in the sky, which
- * for the sun's disk is 0.53. A rectangle's must be below 180 then, and a disk's too.
+ * (PositionalOff) they are angles in degrees: the whole angles that the light fills in the sky,
+ * which for the sun's disk is 0.53. A rectangle's must be below 180 then, and a disk's too.
  *
  * <b>OSPRay.</b> Radius is the same number as that of vtkOSPRayLightNode::SetRadius: of a positional
- * light the radius, of a directional one the angular diameter in degrees. SetRadius and SetShape give
- * a disk OSPRay's key, too, where OSPRay's module is loaded by then, so that it is as large to
- * vtkOSPRayPass, and take it off a rectangle, which is a point there. A vtkLight that has
- * OSPRay's key (RADIUS) gives soft shadows as well, without being of this class: a disk across
- * the direction of a spot light or directional light, and of a light that shines into all directions a
- * ball, which looks like a disk of that radius from all sides. The setting "light_radius", of a light or of
- * the pass, makes any light such a disk or ball.
+ * light the radius, of a directional one the angular diameter in degrees. SetRadius and SetShape
+ * give a disk OSPRay's key, too, where OSPRay's module is loaded by then, so that it is as large to
+ * vtkOSPRayPass, and take it off a rectangle, which is a point there. A vtkLight that has OSPRay's
+ * key (RADIUS) gives soft shadows as well, without being of this class: a disk across the direction
+ * of a spot light or directional light, and of a light that shines into all directions a ball,
+ * which looks like a disk of that radius from all sides. The setting "light_radius", of a light or
+ * of the pass, makes any light such a disk or ball.
  *
- * A light of size 0 is a point. One whose size is not finite or beyond 1e12, or which has no direction, or
- * of a rectangle an up direction along it, casts no shadow, which the frame's report says. So does one with a bad Texture.
+ * A light of size 0 is a point. One whose size is not finite or beyond 1e12, or which has no
+ * direction, or of a rectangle an up direction along it, casts no shadow, which the frame's report
+ * says. So does one with a bad Texture.
  */
 
 #ifndef vtkGnomonAreaLight_h
@@ -70,8 +73,8 @@ public:
 
   ///@{
   /**
-   * A disk's size, in the units of vtkOSPRayLightNode::SetRadius, see above. What is negative counts
-   * as 0. 0.5 by default.
+   * A disk's size, in the units of vtkOSPRayLightNode::SetRadius, see above. What is negative
+   * counts as 0. 0.5 by default.
    */
   virtual void SetRadius(double radius);
   vtkGetMacro(Radius, double);
@@ -79,7 +82,8 @@ public:
 
   ///@{
   /**
-   * A rectangle's size across Up and along it, see above. What is negative counts as 0. 1 by default.
+   * A rectangle's size across Up and along it, see above. What is negative counts as 0. 1 by
+   * default.
    */
   vtkSetClampMacro(Width, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(Width, double);
@@ -89,9 +93,9 @@ public:
 
   ///@{
   /**
-   * Which way is up in a rectangle, and in a disk with a Texture: not along the light, of any length, in the light's own coordinates
-   * as its Position is. The height lies in the plane of Up and the light's direction. (0, 1, 0) by
-   * default.
+   * Which way is up in a rectangle, and in a disk with a Texture: not along the light, of any
+   * length, in the light's own coordinates as its Position is. The height lies in the plane of Up
+   * and the light's direction. (0, 1, 0) by default.
    */
   vtkSetVector3Macro(Up, double);
   vtkGetVector3Macro(Up, double);
@@ -99,20 +103,24 @@ public:
 
   ///@{
   /**
-   * How the light's colour is spread over its area: a picture that its light comes through, as through the panes of a
-   * window. A point of the light shines with the light's colour times the colour of the texel there (the nearest one),
-   * channel by channel; null, the default, and all white: all points shine alike. What nothing hides the light from gets the
-   * light's colour times the picture's mean. Who looks at the light from where it shines to, with Up upwards, sees the picture
-   * as it is: its first row at the bottom, as images of VTK have it. A disk shows what of the picture lies inside of the circle
-   * that touches its sides.
+   * How the light's colour is spread over its area: a picture that its light comes through, as
+   * through the panes of a window. A point of the light shines with the light's colour times the
+   * colour of the texel there (the nearest one), channel by channel; null, the default, and all
+   * white: all points shine alike. What nothing hides the light from gets the light's colour times
+   * the picture's mean. Who looks at the light from where it shines to, with Up upwards, sees the
+   * picture as it is: its first row at the bottom, as images of VTK have it. A disk shows what of
+   * the picture lies inside of the circle that touches its sides.
    *
-   * The image has one slice, with 1 to 4 components a point: grey or colours, and an alpha, which means nothing. Values of
-   * unsigned char and unsigned short go from 0 to the type's greatest, of float and double from 0 to 1, each in 255 steps. They
-   * are taken as they stand, as light colours are: no colour space is converted. With anything else, or with the setting
-   * "light_radius", the light casts no shadow, for the reason that the frame's report gives, and is VTK's own, without texture.
+   * The image has one slice, with 1 to 4 components a point: grey or colours, and an alpha, which
+   * means nothing. Values of unsigned char and unsigned short go from 0 to the type's greatest, of
+   * float and double from 0 to 1, each in 255 steps. They are taken as they stand, as light colours
+   * are: no colour space is converted. With anything else, or with the setting "light_radius", the
+   * light casts no shadow, for the reason that the frame's report gives, and is VTK's own, without
+   * texture.
    *
-   * "raytraced", "penumbra", "coherence", "montecarlo" and "sampled" show it; of others visibility has one channel, and the light is
-   * an even one of the picture's mean. With vtkGnomonLightSamplingPass all of them show it.
+   * "raytraced", "penumbra", "coherence", "montecarlo" and "sampled" show it; of others visibility
+   * has one channel, and the light is an even one of the picture's mean. With
+   * vtkGnomonLightSamplingPass all of them show it.
    *
    * The light shares the image, and sees when it is modified. A pipeline is not updated.
    */
@@ -121,7 +129,8 @@ public:
   ///@}
 
   /**
-   * A light of this class with the same parameters; it shares the transform matrix and the texture, if there are any.
+   * A light of this class with the same parameters; it shares the transform matrix and the texture,
+   * if there are any.
    */
   vtkLight* ShallowClone() override;
 

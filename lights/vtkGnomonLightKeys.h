@@ -13,15 +13,15 @@
  *
  * <b>Settings.</b> What is asked of a light's shadows is a list of names with values, the same ones
  * that scene files and the program gnomon take. docs/guide/settings.md lists them, as does `gnomon
- * settings`. A setting that the light's technique does not have is an error of the frame, which names
- * the techniques that have it and draws the shadows without it.
+ * settings`. A setting that the light's technique does not have is an error of the frame, which
+ * names the techniques that have it and draws the shadows without it.
  *
  * <b>A directional light's box.</b> A directional light may be limited to a box, as the sun is that
  * comes in through a window: it begins at the box's near face, which stands across it with the
- * light's Position in its middle, and goes on for the box's depth. What lies outside gets nothing of
- * this light, whether or not it receives shadows from others, and what lies outside casts nothing
- * into the box; a caster that is partly inside casts with that part. The map then holds the box
- * alone, and is the finer for it. The limit is part of the visibility, so that a light without
+ * light's Position in its middle, and goes on for the box's depth. What lies outside gets nothing
+ * of this light, whether or not it receives shadows from others, and what lies outside casts
+ * nothing into the box; a caster that is partly inside casts with that part. The map then holds the
+ * box alone, and is the finer for it. The limit is part of the visibility, so that a light without
  * shadows (CASTS 0, ShadowAttenuation 0) has none, and a ShadowAttenuation between leaves its share
  * outside. Receivers that do not receive shadows (vtkGnomonPropKeys) are lit everywhere.
  */
@@ -46,11 +46,11 @@ public:
 
   ///@{
   /**
-   * The keys themselves, for code that fills information objects. CASTS is 0 or 1 (default 1). SETTINGS
-   * holds what SetSetting sets, names and values in turn. BOX limits a
-   * directional light to a box, see above: width, height and depth, each > 0, then the direction x,
-   * y, z that is up in the near face, not along the light. The up direction is in the light's own
-   * coordinates, as its Position is. Other kinds of light ignore it.
+   * The keys themselves, for code that fills information objects. CASTS is 0 or 1 (default 1).
+   * SETTINGS holds what SetSetting sets, names and values in turn. BOX limits a directional light
+   * to a box, see above: width, height and depth, each > 0, then the direction x, y, z that is up
+   * in the near face, not along the light. The up direction is in the light's own coordinates, as
+   * its Position is. Other kinds of light ignore it.
    */
   static vtkInformationIntegerKey* CASTS();
   static vtkInformationStringVectorKey* SETTINGS();
@@ -59,9 +59,10 @@ public:
 
   ///@{
   /**
-   * Set what is asked of a light's shadows, by name, see above. A null or empty value takes the setting
-   * away again, so that the pass's own counts. A setting that does not exist, and a value that it does
-   * not take, are an error and change nothing. GetSetting returns null where the light says nothing.
+   * Set what is asked of a light's shadows, by name, see above. A null or empty value takes the
+   * setting away again, so that the pass's own counts. A setting that does not exist, and a value
+   * that it does not take, are an error and change nothing. GetSetting returns null where the light
+   * says nothing.
    */
   static void SetSetting(vtkLight* light, const char* name, const char* value);
   static const char* GetSetting(vtkLight* light, const char* name);
@@ -74,7 +75,8 @@ public:
 
   ///@{
   /**
-   * Set one of the settings. The size is clamped to what the setting takes; 0 or less takes it away.
+   * Set one of the settings. The size is clamped to what the setting takes; 0 or less takes it
+   * away.
    */
   static void SetTechnique(vtkLight* light, const char* technique);
   static void SetMapSize(vtkLight* light, int mapSizeTexels);

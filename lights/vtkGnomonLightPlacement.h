@@ -8,9 +8,9 @@
  * vtkGnomonLightPlacement::ShineOnBox(sun, renderer->ComputeVisiblePropBounds());
  * @endcode
  *
- * Shadows do not need it: the maps are fitted to the casters wherever a directional light's position
- * is. It gives spot lights a place from which they light all of something, and directional lights a
- * position and focal point that mean something, for light widgets and for boxes
+ * Shadows do not need it: the maps are fitted to the casters wherever a directional light's
+ * position is. It gives spot lights a place from which they light all of something, and directional
+ * lights a position and focal point that mean something, for light widgets and for boxes
  * (vtkGnomonLightKeys::SetBox). All numbers are in the light's own coordinates, which are the
  * world's unless it has a transform matrix or is a head or camera light.
  *
@@ -38,8 +38,8 @@ public:
   /**
    * Make a light shine on a sphere, in the direction that it has. Its focal point becomes the
    * centre. A spot light moves to where its cone just holds the sphere, other lights to the point
-   * of the sphere that the light comes from; so a directional light's box of width, height and depth
-   * 2 * radius holds the sphere.
+   * of the sphere that the light comes from; so a directional light's box of width, height and
+   * depth 2 * radius holds the sphere.
    */
   static void ShineOnSphere(vtkLight* light, const double center[3], double radius);
 
@@ -56,8 +56,8 @@ public:
   static void ShineOnPoints(vtkLight* light, vtkPoints* points);
 
   /**
-   * Turn a light into a direction, in degrees. Pitch and yaw 0 is the way along -z. Yaw turns to the
-   * left, around +y; pitch then raises it, so that -90 shines straight down. A positional light
+   * Turn a light into a direction, in degrees. Pitch and yaw 0 is the way along -z. Yaw turns to
+   * the left, around +y; pitch then raises it, so that -90 shines straight down. A positional light
    * turns about its position, a directional one about its focal point, as far from it as before.
    * (vtkLight's SetDirectionAngle takes -pitch and yaw, but puts the focal point into the origin
    * and makes the light directional.)

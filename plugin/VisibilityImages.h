@@ -36,8 +36,8 @@ struct VisibilityImages
 
   /// visibility[k] belongs to the light with number sceneIndices[k] in the renderer's light
   /// collection: 1 lit, 0 in shadow, turned away or outside the cone. Lights that do not cast are
-  /// not listed. A light with a texture (vtkGnomonAreaLight::SetTexture) has three images in a row, and what is lit has the
-  /// texture's mean instead of 1.
+  /// not listed. A light with a texture (vtkGnomonAreaLight::SetTexture) has three images in a row,
+  /// and what is lit has the texture's mean instead of 1.
   std::vector<std::vector<float>> visibility;
   std::vector<int> sceneIndices;      ///< which light each image of `visibility` belongs to
   std::vector<LightChannel> channels; ///< and which part of its colour

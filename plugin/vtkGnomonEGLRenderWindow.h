@@ -130,8 +130,8 @@ public:
   ///@{
   /**
    * Bits per channel and of the depths of the framebuffer that the renderers draw into: there is no
-   * other. Hardware selection asks for the first, vtkRenderer::ResetCameraClippingRange for the second;
-   * before the first Render() that is 24, as in VTK's own windows.
+   * other. Hardware selection asks for the first, vtkRenderer::ResetCameraClippingRange for the
+   * second; before the first Render() that is 24, as in VTK's own windows.
    */
   int GetColorBufferSizes(int* rgba) override;
   int GetDepthBufferSize() override;

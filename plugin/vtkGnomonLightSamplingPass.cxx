@@ -270,7 +270,8 @@ double vtkGnomonLightSamplingPass::GammaOf(const vtkRenderState* s) const
 }
 
 //------------------------------------------------------------------------------
-/// What a picture from given points of the lights depends on: the same number means the same picture.
+/// What a picture from given points of the lights depends on: the same number means the same
+/// picture.
 std::size_t vtkGnomonLightSamplingPass::HashOfShown(const vtkRenderState* s)
 {
   vtkRenderer* renderer = s->GetRenderer();

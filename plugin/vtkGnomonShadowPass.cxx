@@ -32,8 +32,8 @@ vtkStandardNewMacro(vtkGnomonShadowPass);
 namespace
 {
 
-/// Whether an outer pass has the scene drawn into a framebuffer of its own. Not all of them say so in
-/// the render state.
+/// Whether an outer pass has the scene drawn into a framebuffer of its own. Not all of them say so
+/// in the render state.
 bool drawsIntoOuterPass(const vtkRenderState* s)
 {
   auto* window = vtkOpenGLRenderWindow::SafeDownCast(s->GetRenderer()->GetRenderWindow());
@@ -76,8 +76,8 @@ struct vtkGnomonShadowPass::Internals
 };
 
 //------------------------------------------------------------------------------
-/// The manager of a renderer's frames, which becomes manager(). Those of renderers that are gone go,
-/// too; the context is current.
+/// The manager of a renderer's frames, which becomes manager(). Those of renderers that are gone
+/// go, too; the context is current.
 gnomon::RenderManager& vtkGnomonShadowPass::Internals::managerOf(vtkRenderer* renderer)
 {
   this->renderers.remove_if([](const RendererFrames& frames) { return !frames.renderer; });

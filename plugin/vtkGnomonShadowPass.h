@@ -55,8 +55,8 @@ public:
 
   ///@{
   /**
-   * The technique of lights that name none: "nsm", "pcf", "raytraced" (see GetTechniqueName). An unknown
-   * name is an error and changes nothing. Default: GetDefaultTechnique().
+   * The technique of lights that name none: "nsm", "pcf", "raytraced" (see GetTechniqueName). An
+   * unknown name is an error and changes nothing. Default: GetDefaultTechnique().
    */
   virtual void SetTechnique(const char* name);
   const char* GetTechnique() const;
@@ -86,9 +86,10 @@ public:
 
   ///@{
   /**
-   * What lights fall back on that do not say it themselves: any of vtkGnomonLightKeys's settings, by
-   * name, technique and map size included. A setting that does not exist, and a value that it does not
-   * take, are an error and change nothing. GetSetting returns an empty string for what does not exist.
+   * What lights fall back on that do not say it themselves: any of vtkGnomonLightKeys's settings,
+   * by name, technique and map size included. A setting that does not exist, and a value that it
+   * does not take, are an error and change nothing. GetSetting returns an empty string for what
+   * does not exist.
    */
   virtual void SetSetting(const char* name, const char* value);
   std::string GetSetting(const char* name) const;
@@ -116,8 +117,8 @@ public:
   ///@}
 
   /**
-   * Who traces shadow rays for techniques that do. EMBREE: the CPU. GPU: compute shaders. AUTO: the GPU
-   * where OpenGL draws by hardware and has what it takes, else Embree.
+   * Who traces shadow rays for techniques that do. EMBREE: the CPU. GPU: compute shaders. AUTO: the
+   * GPU where OpenGL draws by hardware and has what it takes, else Embree.
    */
   enum TracerType
   {
@@ -128,12 +129,14 @@ public:
 
   ///@{
   /**
-   * The tracer to take, for all lights alike: exact techniques show the same to the last bit with one and
-   * the same tracer; of different ones, rays that pass an edge to within a rounding may differ, less than
-   * one in a million. Only the tracer that is taken has an acceleration structure.
+   * The tracer to take, for all lights alike: exact techniques show the same to the last bit with
+   * one and the same tracer; of different ones, rays that pass an edge to within a rounding may
+   * differ, less than one in a million. Only the tracer that is taken has an acceleration
+   * structure.
    *
-   * Asking for GPU where OpenGL cannot, or has no room for the scene, is an error, and the scene is drawn
-   * without shadows. With AUTO Embree takes over there, and the report says why. Default TRACER_AUTO.
+   * Asking for GPU where OpenGL cannot, or has no room for the scene, is an error, and the scene is
+   * drawn without shadows. With AUTO Embree takes over there, and the report says why. Default
+   * TRACER_AUTO.
    */
   vtkSetClampMacro(Tracer, int, TRACER_AUTO, TRACER_GPU);
   vtkGetMacro(Tracer, int);
@@ -186,9 +189,10 @@ public:
   /**
    * The pass that draws the scene while shadows are in place: vtkRenderStepsPass, or a chain of
    * passes that ends in it. It moves the camera, clears and draws; lights and shadows are prepared
-   * before. Without one, which is the default, the pass draws what the renderer draws by itself, with
-   * the renderer's own depth peeling, ambient occlusion and FXAA; where another pass is around this
-   * one and hands in a framebuffer, it draws by a vtkRenderStepsPass, and those are that pass's business.
+   * before. Without one, which is the default, the pass draws what the renderer draws by itself,
+   * with the renderer's own depth peeling, ambient occlusion and FXAA; where another pass is around
+   * this one and hands in a framebuffer, it draws by a vtkRenderStepsPass, and those are that
+   * pass's business.
    *
    * Techniques that work on the screen have one visibility per pixel of the renderer, so their
    * delegate must shade at the renderer's resolution. Where it does not (vtkSSAAPass) that is an
@@ -203,8 +207,8 @@ public:
    * Whether the renderer's UseShadows is the switch for this pass's shadows: on, a renderer with
    * UseShadows off is drawn without them, as OSPRay's pass does it; off, UseShadows says nothing.
    * Default off: UseShadows is off in a new renderer, and nobody can tell that from one in which it
-   * was switched off, so that who sets this pass would see no shadows and not know why. Switch it on
-   * in programs whose own shadow switch is UseShadows.
+   * was switched off, so that who sets this pass would see no shadows and not know why. Switch it
+   * on in programs whose own shadow switch is UseShadows.
    *
    * In either case VTK's own shadow maps, which UseShadows brings into the frame, are left out, so
    * that no shadow falls twice.
@@ -215,18 +219,20 @@ public:
   ///@}
 
   /**
-   * What the last frame did: lights and reasons, route, tracer, counters, times, memory (FrameReport.h).
+   * What the last frame did: lights and reasons, route, tracer, counters, times, memory
+   * (FrameReport.h).
    */
   const gnomon::FrameReport& GetReport() const;
 
   /**
-   * How much of what lights' techniques are to show the last frame showed, in [0, 1]: below 1 where they take
-   * several frames (the setting `progressive` of `sampled`), and further frames of the same scene bring
-   * more. It is the least of all lights'. Selections (vtkHardwareSelector) leave it as it is. Windows that show several
-   * views by one pass (stereo, tiles, several renderers) get all in every frame.
+   * How much of what lights' techniques are to show the last frame showed, in [0, 1]: below 1 where
+   * they take several frames (the setting `progressive` of `sampled`), and further frames of the
+   * same scene bring more. It is the least of all lights'. Selections (vtkHardwareSelector) leave
+   * it as it is. Windows that show several views by one pass (stereo, tiles, several renderers) get
+   * all in every frame.
    *
-   * A frame that brings more ends with a vtkCommand::ProgressEvent, whose call data is this number (a
-   * double), and the one that completes it, once, with a vtkCommand::EndEvent. Observers must
+   * A frame that brings more ends with a vtkCommand::ProgressEvent, whose call data is this number
+   * (a double), and the one that completes it, once, with a vtkCommand::EndEvent. Observers must
    * not draw; an application draws the next frame when it is idle, while this is below 1.
    */
   double GetProgress() const;

@@ -12,8 +12,8 @@
 namespace gnomon
 {
 
-/// An estimator's line in the registry: what decides the visibility of a point, with the map that it
-/// reads.
+/// An estimator's line in the registry: what decides the visibility of a point, with the map that
+/// it reads.
 struct EstimatorEntry
 {
   TechniqueInfo info;
@@ -77,8 +77,8 @@ public:
 /// @throws CompositionError for names that do not exist
 const EstimatorEntry& estimatorOf(const ShadowSettings& settings);
 
-/// The same for a light, whose settings must make sense together. Completes the light: its technique, its estimator
-/// and its projection say what they are.
+/// The same for a light, whose settings must make sense together. Completes the light: its
+/// technique, its estimator and its projection say what they are.
 /// @throws CompositionError with the reason
 const EstimatorEntry& compose(ShadowLight& light);
 

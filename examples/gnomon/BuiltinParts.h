@@ -29,8 +29,9 @@ SceneLight makeSun(const Vec3& travel);
 /// A white light that shines from a point into all directions.
 SceneLight makeLamp(const Vec3& position);
 
-/// The scene under a lamp in place of its sun: a square that hangs where the sun comes from, `distance` from
-/// what the camera looks at, its side a tenth of that. It is a spot light that lights all that the camera looks at.
+/// The scene under a lamp in place of its sun: a square that hangs where the sun comes from,
+/// `distance` from what the camera looks at, its side a tenth of that. It is a spot light that
+/// lights all that the camera looks at.
 /// @param scene with one sun
 Scene underLamp(Scene scene, const std::string& name, double distance);
 

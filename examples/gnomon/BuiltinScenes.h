@@ -39,7 +39,8 @@ Scene makeRoomScene();
 Scene makeLongCubeScene();
 /// A cube above a sphere above a plane, lit from above.
 Scene makeStackScene();
-/// The stack under a window of four panes, red, yellow, green and blue, with dark bars between them.
+/// The stack under a window of four panes, red, yellow, green and blue, with dark bars between
+/// them.
 Scene makeWindowScene();
 /// A concave letter C that stands on a plane: gaps between casters that lie above each other.
 Scene makeLetterScene();

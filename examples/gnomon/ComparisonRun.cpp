@@ -387,8 +387,9 @@ std::string unusedSeed(const Variants& variants)
   return std::to_string(seed);
 }
 
-/// What the others are measured against. Of area lights, whose ray-traced shadows have an error of their own, it has samples
-/// that are evenly spread, whatever those of the variants are, and other ones.
+/// What the others are measured against. Of area lights, whose ray-traced shadows have an error of
+/// their own, it has samples that are evenly spread, whatever those of the variants are, and other
+/// ones.
 VisibilityImages truthOf(
   Variant& variant, const Variants& variants, int samples, std::vector<std::string>& notes)
 {

@@ -18,8 +18,8 @@ struct ComparisonPlan
   /// Names of the registry, with settings if wished: "nsm", "pcf:kernel=box:projection=lispsm". The
   /// truth is added when missing.
   std::vector<std::string> techniques;
-  /// Settings of all lights and of all techniques that they concern and that do not say them themselves; empty ones are
-  /// none.
+  /// Settings of all lights and of all techniques that they concern and that do not say them
+  /// themselves; empty ones are none.
   std::map<std::string, std::string> settings;
   std::vector<int> mapSizesTexels; ///< for every variant that has a map
   bool inlineRoute = true;         ///< for pointwise techniques
@@ -32,7 +32,8 @@ struct ComparisonPlan
   int truthSamples = 4096; ///< of each area light for every pixel, by which errors are told
 };
 
-/// The technique whose visibility is the truth: of area lights with ComparisonPlan::truthSamples, whatever it is timed with.
+/// The technique whose visibility is the truth: of area lights with ComparisonPlan::truthSamples,
+/// whatever it is timed with.
 inline constexpr const char* truthTechnique = "raytraced";
 
 /// What a comparison tells while it runs; each function may be empty.
@@ -59,9 +60,9 @@ std::vector<std::string> usualTechniques(bool soft);
 
 /// Draws the scene with every variant of the plan and with the peers (plain VTK, vtkShadowMapPass)
 /// and measures errors, times and memory. Frames of all variants are interleaved. What the scene's
-/// lights ask for themselves (technique, map size) is set aside: the plan decides. What they say of their size stays,
-/// unless the plan has a `light_radius`.
-/// A technique whose settings make no sense for one of the lights is left out, which a note says.
+/// lights ask for themselves (technique, map size) is set aside: the plan decides. What they say of
+/// their size stays, unless the plan has a `light_radius`. A technique whose settings make no sense
+/// for one of the lights is left out, which a note says.
 /// @throws BadInput when no light of the scene casts a shadow, Failure when drawing fails
 ComparisonResults runComparison(
   const Scene& scene, const ComparisonPlan& plan, const ComparisonEvents& events);

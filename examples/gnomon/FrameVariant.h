@@ -46,14 +46,15 @@ struct VariantSpec
 ShadowSettings settingsOf(const VariantSpec& spec);
 
 /// "pcf:kernel=box:projection=lispsm" as a variant without map size and route.
-/// @throws BadInput that names the technique or setting which there is not, or that is not a technique's
+/// @throws BadInput that names the technique or setting which there is not, or that is not a
+/// technique's
 VariantSpec parseTechnique(const std::string& text);
 
 /// What draws this variant, for vtkRenderer::SetPass; null for plain VTK.
 vtkSmartPointer<vtkRenderPass> makePass(const VariantSpec& spec);
 
-/// The scene with lights that say how large they are, and leave to the pass, hence to the variant, how their shadows are
-/// made: technique, map size, kernel.
+/// The scene with lights that say how large they are, and leave to the pass, hence to the variant,
+/// how their shadows are made: technique, map size, kernel.
 Scene withoutShadowSettings(Scene scene);
 
 /// Turns a renderer's camera or lights a little, from the places that they had when this was made.

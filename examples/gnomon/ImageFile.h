@@ -67,11 +67,10 @@ Picture readPicture(const std::string& path);
 /// large
 ChannelImage readChannels(const std::string& path);
 
-/// Writes a visibility file: 32-bit float channels `visibility.N` (N counts the renderer's lights; of one with a texture
-/// `visibility.N.R/G/B`),
-/// `position.X/Y/Z` (world coordinates less the header attribute `origin`, a V3d), `normal.X/Y/Z`
-/// and `coverage`. `header` becomes text attributes; its keys must differ from the names of EXR's
-/// own attributes.
+/// Writes a visibility file: 32-bit float channels `visibility.N` (N counts the renderer's lights;
+/// of one with a texture `visibility.N.R/G/B`), `position.X/Y/Z` (world coordinates less the header
+/// attribute `origin`, a V3d), `normal.X/Y/Z` and `coverage`. `header` becomes text attributes; its
+/// keys must differ from the names of EXR's own attributes.
 /// @throws BadInput for a path that cannot be written or does not end in .exr, Failure when writing
 /// fails
 void writeVisibility(const VisibilityImages& images, const std::string& path,

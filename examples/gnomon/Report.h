@@ -27,9 +27,9 @@ std::string fileStem(const std::string& variantName);
 /// @throws BadInput
 void prepareReportFolder(const std::string& folder);
 
-/// Writes results.csv, results.json, report.html, chart.png (if frames were timed), and for each variant its picture and
-/// its errors (<variant>.png, <variant>-errors.png), and where it tells its pixels' classes those
-/// (<variant>-classes.png), into the folder.
+/// Writes results.csv, results.json, report.html, chart.png (if frames were timed), and for each
+/// variant its picture and its errors (<variant>.png, <variant>-errors.png), and where it tells its
+/// pixels' classes those (<variant>-classes.png), into the folder.
 /// @throws BadInput when the folder cannot be made, Failure when writing fails
 void writeReport(const ComparisonResults& results, const std::string& folder);
 

@@ -26,14 +26,15 @@ namespace gnomon::tool
 /// `direction` is the way the light travels, `fov` the full vertical angle in degrees, `cone_angle`
 /// half the cone. A directional light with a `box` begins at the box's near face, which stands
 /// across it around `position`, and reaches `depth` far; nothing else is lit by it or casts into it
-/// (vtkGnomonLightKeys). An area light lies around its `position`, across the way to its `target`; it is a
-/// rectangle unless it says otherwise, and shines into all directions unless it has a cone
-/// (vtkGnomonAreaLight). Its `texture` is a PNG or JPEG image that says how its colour is spread over it; a disk has an `up` with one
-/// only. Lights of all types take vtkGnomonLightKeys's settings by name, as `technique`,
-/// `map_size`, `kernel` and `kernel_size` here. Paths are relative to the scene file. Of a model only `file` must be given;
-/// its `color` replaces the colours and textures of the file, its `texture` (an image of the nearest
-/// texel, repeated; where its alpha is 0 the model has holes) the file's texture, and lights and cameras of the model
-/// file are not used. A scene without "camera" or "lights" gets those of a bare model.
+/// (vtkGnomonLightKeys). An area light lies around its `position`, across the way to its `target`;
+/// it is a rectangle unless it says otherwise, and shines into all directions unless it has a cone
+/// (vtkGnomonAreaLight). Its `texture` is a PNG or JPEG image that says how its colour is spread
+/// over it; a disk has an `up` with one only. Lights of all types take vtkGnomonLightKeys's
+/// settings by name, as `technique`, `map_size`, `kernel` and `kernel_size` here. Paths are
+/// relative to the scene file. Of a model only `file` must be given; its `color` replaces the
+/// colours and textures of the file, its `texture` (an image of the nearest texel, repeated; where
+/// its alpha is 0 the model has holes) the file's texture, and lights and cameras of the model file
+/// are not used. A scene without "camera" or "lights" gets those of a bare model.
 /// @throws BadInput
 Scene readSceneFile(const std::string& path);
 

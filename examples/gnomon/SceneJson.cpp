@@ -168,7 +168,8 @@ SceneLight readPointLight(const JsonValue& value)
   return light;
 }
 
-/// What an area light shines from. A rectangle lies along cross(travel, up), its width, and across that.
+/// What an area light shines from. A rectangle lies along cross(travel, up), its width, and across
+/// that.
 SceneLight::Area readArea(
   const JsonValue& value, const Vec3& travel, const std::filesystem::path& folder)
 {

@@ -23,9 +23,10 @@ std::string helpOf(const Setting& setting);
 /// A table's title with the techniques that have it: "The filter's kernel (pcf)".
 std::string headingOf(const SettingsTable& table);
 
-/// Gives a command an option for every setting of a light's shadows, which refuses what the setting does not take.
-/// @param values by the settings' names; empty where the command line says nothing. Must outlive the
-/// command
+/// Gives a command an option for every setting of a light's shadows, which refuses what the setting
+/// does not take.
+/// @param values by the settings' names; empty where the command line says nothing. Must outlive
+/// the command
 /// @param without settings that the command has its own options for
 void addSettingOptions(CLI::App& command, std::map<std::string, std::string>& values,
   const std::vector<std::string>& without = {});

@@ -51,8 +51,8 @@ void settle(ShadowLight& light, const TechniqueInfo& info, std::vector<std::stri
   }
 }
 
-/// The settings that are named for lights whose technique does not have them: a light's own, and those
-/// of the pass that no light's technique has.
+/// The settings that are named for lights whose technique does not have them: a light's own, and
+/// those of the pass that no light's technique has.
 std::vector<std::string> findMisfits(const std::vector<ShadowLight>& lights,
   const std::vector<const EstimatorEntry*>& estimators, const ShadowSettings& defaults)
 {

@@ -27,7 +27,8 @@ public:
 struct KeptTechniques
 {
   LightTechnique own;
-  /// Shades translucent surfaces where the light's own technique works on the screen; none without such.
+  /// Shades translucent surfaces where the light's own technique works on the screen; none without
+  /// such.
   std::optional<LightTechnique> plain;
 };
 /// By the lights' places in the scene.
@@ -43,19 +44,20 @@ struct CastingLight : KeptTechniques
   bool shadesAtPoints = false; ///< whether shaders call a technique for it
   bool isStale = true;         ///< image route: whether its visibility is computed in this frame
 
-  /// What the shader computes the light's visibility with on a route; null if it only fetches. From here on there is a
-  /// plain technique where one is needed.
+  /// What the shader computes the light's visibility with on a route; null if it only fetches. From
+  /// here on there is a plain technique where one is needed.
   /// @param translucentReceivers whether translucent surfaces receive
   const PointwiseTechnique* pointwiseOn(Route route, bool translucentReceivers);
 };
 
-/// The lights stage: which of a renderer's lights cast, in the scene's order, each with the technique that it keeps for as
-/// long as it asks for the same estimator.
+/// The lights stage: which of a renderer's lights cast, in the scene's order, each with the
+/// technique that it keeps for as long as it asks for the same estimator.
 class CastingLights
 {
 public:
   /// Reads the lights as they are now, and says of each in the report what becomes of it.
-  /// @throws FrameError for techniques that do not exist or make no sense; the lights stay those of the frame before then
+  /// @throws FrameError for techniques that do not exist or make no sense; the lights stay those of
+  /// the frame before then
   /// @param ofView what lights whose maps are fitted to a camera keep for this view
   void collect(vtkRenderer* renderer, const ShadowSettings& defaults, TechniquesOfLights& ofView,
     FrameReport& report);

@@ -28,17 +28,17 @@ struct TracerChoice
 TracerChoice chooseTracer(
   TracerWish wished, const std::string& gpuLacks, const std::string& renderer);
 
-/// The tracer of all techniques of a frame. It is made when somebody traces and kept while the choice stays the
-/// same, so that no more than one has an acceleration structure. All calls, the destructor included, want the
-/// context to be current.
+/// The tracer of all techniques of a frame. It is made when somebody traces and kept while the
+/// choice stays the same, so that no more than one has an acceleration structure. All calls, the
+/// destructor included, want the context to be current.
 class FrameTracer
 {
 public:
   /// @param buffers of the snapshot
   FrameTracer(OccluderBuffers& buffers, ShaderLibrary& shaders);
 
-  /// Brings the chosen tracer up to date with the snapshot. Where the GPU was not asked for and fails, Embree
-  /// takes over until the snapshot's topology changes.
+  /// Brings the chosen tracer up to date with the snapshot. Where the GPU was not asked for and
+  /// fails, Embree takes over until the snapshot's topology changes.
   /// @throws std::exception as ShadowTracer::update(); nothing is kept then
   ShadowTracer::Update update(const TracerChoice& choice, const Occluders& occluders);
 

@@ -45,7 +45,8 @@ VisibilityImages imagesOf(const ReceiverPixels& receivers, const glm::dvec3& cen
   return images;
 }
 
-/// Adds a light's visibility: one image, or three of a light with a texture, whether or not its technique sees it.
+/// Adds a light's visibility: one image, or three of a light with a texture, whether or not its
+/// technique sees it.
 void addLight(VisibilityImages& images, const CastingLight& casting, const ClassImage& classes,
   const VisibilityLayers& layers)
 {

@@ -146,8 +146,8 @@ LightViews LightTechnique::layOut(
   LightViews views = fitLightViews(seen, fitting);
   if (reach.dependsOnViews())
   {
-    // How many texels that is, only a view can tell. A wider border makes them fewer. The faces of a cube hold all
-    // casters together, and none needs what an area reaches beside it.
+    // How many texels that is, only a view can tell. A wider border makes them fewer. The faces of
+    // a cube hold all casters together, and none needs what an area reaches beside it.
     const double areaAcross = views.layout == ViewLayout::Cube
       ? 0.0
       : reachOfArea(reach.area, views, fitting.castersCentred, fitting.receiversCentred);

@@ -58,8 +58,8 @@ public:
     return technique ? technique->get() : nullptr;
   }
 
-  /// States what the light's views are fitted to on a route, in the light and in the report: the receivers that are drawn,
-  /// which are the tightest, unless there is a reason not to.
+  /// States what the light's views are fitted to on a route, in the light and in the report: the
+  /// receivers that are drawn, which are the tightest, unless there is a reason not to.
   /// @param translucentReceivers whether translucent surfaces receive
   void chooseFit(
     ShadowLight& light, Route route, bool translucentReceivers, LightReport& report) const;

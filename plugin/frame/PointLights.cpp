@@ -18,8 +18,8 @@ namespace gnomon
 namespace
 {
 
-/// Naming the member through a subclass gives access to it; the renderer's own function would tell all observers that
-/// the renderer was modified.
+/// Naming the member through a subclass gives access to it; the renderer's own function would tell
+/// all observers that the renderer was modified.
 struct RendererAccess : vtkRenderer
 {
   static vtkLightCollection*& lights(vtkRenderer* renderer)
@@ -28,8 +28,8 @@ struct RendererAccess : vtkRenderer
   }
 };
 
-/// A light that is black is none: shadow passes would leave it out, and have shaders built anew, for one picture. What is this
-/// dark cannot be told from it.
+/// A light that is black is none: shadow passes would leave it out, and have shaders built anew,
+/// for one picture. What is this dark cannot be told from it.
 constexpr double leastShine = 1e-9;
 
 /// Gives a point the colour of its light by a factor for each channel.
@@ -130,8 +130,8 @@ PointLights::PointLights(vtkRenderer* renderer, const std::vector<PointedLight>&
 PointLights::~PointLights()
 {
   RendererAccess::lights(this->renderer_) = this->own_;
-  // VTK sends lights to shaders again that are newer than what these have, by the times of the lights and of their
-  // collection.
+  // VTK sends lights to shaders again that are newer than what these have, by the times of the
+  // lights and of their collection.
   this->own_->Modified();
 }
 

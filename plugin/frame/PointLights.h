@@ -34,14 +34,17 @@ struct PointedLight
   std::vector<ShiningPoint> points;
 };
 
-/// The light with pairedLightSamples(). Of a channel that the texture has and none of the points, they have nothing.
+/// The light with pairedLightSamples(). Of a channel that the texture has and none of the points,
+/// they have nothing.
 PointedLight pointedLight(ShadowLight light);
 
-/// For as long as this lives, a renderer has lights without areas in place of its area lights, in the same order. They
-/// stand at the centres, until they move over their areas together. Then it has its own again, which nobody has touched.
+/// For as long as this lives, a renderer has lights without areas in place of its area lights, in
+/// the same order. They stand at the centres, until they move over their areas together. Then it
+/// has its own again, which nobody has touched.
 ///
-/// Each is as its area light is, but for where it shines from, and with what colour where the light has a texture. A spot's cone moves along with its point. A directional light turns about
-/// its position, and with it its box: about the middle of the near face.
+/// Each is as its area light is, but for where it shines from, and with what colour where the light
+/// has a texture. A spot's cone moves along with its point. A directional light turns about its
+/// position, and with it its box: about the middle of the near face.
 class PointLights
 {
 public:

@@ -7,8 +7,8 @@
 namespace gnomon
 {
 
-/// Tells a pass's observers of frames that refine what is shown: a ProgressEvent, whose call data is the share that is
-/// shown, with each of them, and an EndEvent with the one that completes it.
+/// Tells a pass's observers of frames that refine what is shown: a ProgressEvent, whose call data
+/// is the share that is shown, with each of them, and an EndEvent with the one that completes it.
 /// @param before, shown the shares in [0, 1] of the frame before and of this one
 inline void tellProgress(vtkObject* pass, double before, double shown)
 {

@@ -100,7 +100,8 @@ std::size_t hashOfShownProps(const vtkRenderState* s)
   for (int i = 0; i < s->GetPropArrayCount(); ++i)
   {
     vtkProp* prop = s->GetPropArray()[i];
-    // Annotations and volumes receive nothing: a text that tells the frame's time is no other picture.
+    // Annotations and volumes receive nothing: a text that tells the frame's time is no other
+    // picture.
     if (!vtkActor2D::SafeDownCast(prop) && !vtkVolume::SafeDownCast(prop))
     {
       hashCombine(seed, prop);

@@ -17,7 +17,8 @@ namespace gnomon
 /// camera and snapshot. No two numbers are the same where a prop has shaders of a user's own.
 std::size_t hashOfShownProps(const vtkRenderState* s);
 
-/// Has VTK draw the opaque props into the target, whose size is set, each with the shaders of one pass alone.
+/// Has VTK draw the opaque props into the target, whose size is set, each with the shaders of one
+/// pass alone.
 /// @param pass whose shaders write what the target takes
 /// @param withPoints whether that is points, too
 /// @throws TextureMemoryError

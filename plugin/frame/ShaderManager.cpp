@@ -40,8 +40,8 @@ std::string litOf(const ShadedLight& shaded, int light)
   return shaded.light.texture ? "gnomonLit" + std::to_string(light) : "1.0";
 }
 
-/// The expression of one light's visibility. On the image route, translucent surfaces compute theirs:
-/// the layers do not know them.
+/// The expression of one light's visibility. On the image route, translucent surfaces compute
+/// theirs: the layers do not know them.
 std::string visibilityOf(Route route, const ShadedLight& shaded, int light)
 {
   // What has one channel is seen as if the light were an even one.
@@ -178,8 +178,8 @@ void ShaderManager::fillShader(std::string& fragmentShader, bool receiversStage)
     {
       declarations = "uniform int gnomonStage;\n";
     }
-    // The receivers stage writes alpha, so that VTK's own discard cuts the holes of textures. Alpha of
-    // physically based materials is the albedo texture's, which VTK reads while it lights.
+    // The receivers stage writes alpha, so that VTK's own discard cuts the holes of textures. Alpha
+    // of physically based materials is the albedo texture's, which VTK reads while it lights.
     const std::string albedo = "texture(albedoTex, tcoordVCVSOutput)";
     const std::string alpha =
       fragmentShader.find(albedo) != std::string::npos ? albedo + ".a" : "opacity";

@@ -1,11 +1,12 @@
 // What the pass adds to the declarations of VTK's fragment shaders (GLSL 1.50). On the inline route
-// the lights' techniques follow, with their functions visibility_N; on the image route hook_image.glsl.
+// the lights' techniques follow, with their functions visibility_N; on the image route
+// hook_image.glsl.
 
 uniform int gnomonReceives; // 0: this prop shows no shadows
 
-// The geometric normal of the triangle under this fragment, on the side that the camera sees. Must be
-// called in uniform control flow. Where the position does not change over the quad (a triangle seen
-// exactly edge-on) there is no plane; the direction to the camera stands in.
+// The geometric normal of the triangle under this fragment, on the side that the camera sees. Must
+// be called in uniform control flow. Where the position does not change over the quad (a triangle
+// seen exactly edge-on) there is no plane; the direction to the camera stands in.
 vec3 gnomonFaceNormal(vec3 positionView, bool parallelProjection)
 {
   vec3 toCamera = parallelProjection ? vec3(0.0, 0.0, 1.0) : -positionView;

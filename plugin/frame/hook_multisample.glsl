@@ -1,11 +1,12 @@
 // The inline route's declarations where a pixel has several samples. A triangle that covers some of
-// them need not cover the pixel's centre, and beyond its edge its plane runs on behind its neighbours:
-// the point to ask for is the centroid of the covered samples.
+// them need not cover the pixel's centre, and beyond its edge its plane runs on behind its
+// neighbours: the point to ask for is the centroid of the covered samples.
 
-// The centroid in view coordinates: where its ray meets the triangle's plane, which the centre and the
-// normal give. On most drivers the interpolated point is there already. llvmpipe divides it by the
-// centre's depth, which moves it along the ray; and a mapper may have moved the centre (impostors).
-// Where the plane holds the ray (a triangle seen exactly edge-on) the centre stands in.
+// The centroid in view coordinates: where its ray meets the triangle's plane, which the centre and
+// the normal give. On most drivers the interpolated point is there already. llvmpipe divides it by
+// the centre's depth, which moves it along the ray; and a mapper may have moved the centre
+// (impostors). Where the plane holds the ray (a triangle seen exactly edge-on) the centre stands
+// in.
 vec3 gnomonCentroid(vec3 centreView, vec3 normalView, bool parallelProjection)
 {
   vec3 centroidView = interpolateAtCentroid(vertexVCVSOutput).xyz;

@@ -187,8 +187,8 @@ Drawn DrawnLookup::find(vtkAbstractMapper* mapper, vtkProp* prop, const Occluder
   }
 
   Drawn& drawn = answer->second;
-  // Another level of detail than was foreseen receives, too. Drawing the receivers changes the times
-  // by which VTK chooses levels, so it may shade another one than it drew there.
+  // Another level of detail than was foreseen receives, too. Drawing the receivers changes the
+  // times by which VTK chooses levels, so it may shade another one than it drew there.
   drawn.receives = occluders.surfaces[held->front().surface].receives;
   DrawnSurface drawnSurface;
   for (const DrawCall& call : drawCalls(mapper, *cells))

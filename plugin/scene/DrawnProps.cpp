@@ -101,8 +101,8 @@ bool askedToCast(vtkProp* viewProp)
   return keys && keys->Has(vtkGnomonPropKeys::CASTS()) && vtkGnomonPropKeys::GetCasts(viewProp);
 }
 
-/// Reads what a prop was told of shadows. Assemblies replace the property keys of their parts by their
-/// own when they draw.
+/// Reads what a prop was told of shadows. Assemblies replace the property keys of their parts by
+/// their own when they draw.
 void takeKeys(DrawnProp& prop)
 {
   if (prop.viewProp->GetPropertyKeys())

@@ -18,14 +18,14 @@ struct Surface;
 /// Which glyphs the snapshot keeps as instances (Surface::centredFromSource), and where they are.
 /// The others are kept as the triangles of all of them.
 
-/// The most triangles that all instances of a glyph may have, kept either way: their numbers have to fit
-/// a 32-bit float.
+/// The most triangles that all instances of a glyph may have, kept either way: their numbers have
+/// to fit a 32-bit float.
 inline constexpr std::size_t mostGlyphTriangles = 1u << 24;
 
-/// Whether instances are cheaper than their triangles (docs/measurements.md has the figures). They take
-/// little memory and hardly any time to build. But every ray takes longer, for small sources by half: so
-/// sources have to have 64 triangles, and all of their instances 2^18. Fewer are built in a tenth of a
-/// second and take 36 MB; of more, rays soon take as long either way.
+/// Whether instances are cheaper than their triangles (docs/measurements.md has the figures). They
+/// take little memory and hardly any time to build. But every ray takes longer, for small sources
+/// by half: so sources have to have 64 triangles, and all of their instances 2^18. Fewer are built
+/// in a tenth of a second and take 36 MB; of more, rays soon take as long either way.
 bool areInstancesCheaper(std::size_t trianglesOfSource, std::size_t instances);
 
 /// Where a surface's instances are.
@@ -41,9 +41,9 @@ struct PlacedInstances
   bool areMoved(const Surface& before) const;
 };
 
-/// Computes the instances' matrices in double precision, rounded once to float. Nothing where rays and
-/// maps cannot do with them: they have to be affine and regular (Instances.h), and all have to mirror or
-/// none. Those that are left out do not count.
+/// Computes the instances' matrices in double precision, rounded once to float. Nothing where rays
+/// and maps cannot do with them: they have to be affine and regular (Instances.h), and all have to
+/// mirror or none. Those that are left out do not count.
 ///
 /// @param sourceCentre the origin of source coordinates, in those of the polydata
 /// @param boundsSource box around what is drawn, in source coordinates

@@ -276,8 +276,8 @@ bool OccluderCollector::Impl::transformAgain(const WantedSurface& wanted)
 }
 
 //------------------------------------------------------------------------------
-/// Takes over where a surface's instances are now. False, and nothing is taken, if others are left out
-/// than before, or the other side is the front: then the surface counts as another.
+/// Takes over where a surface's instances are now. False, and nothing is taken, if others are left
+/// out than before, or the other side is the front: then the surface counts as another.
 bool OccluderCollector::Impl::moveInstances(std::size_t index, PlacedInstances& placed)
 {
   Surface& surface = this->occluders.surfaces[index];

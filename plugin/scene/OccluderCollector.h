@@ -59,8 +59,8 @@ public:
   /// Memory that all this holds: the snapshot, and what is remembered of each surface and prop.
   std::size_t bytes() const;
 
-  /// Finds the surface that `mapper` (a mapper, or its helper) draws for `prop`, with the matrix that
-  /// the prop has at this moment. Called while VTK draws, from
+  /// Finds the surface that `mapper` (a mapper, or its helper) draws for `prop`, with the matrix
+  /// that the prop has at this moment. Called while VTK draws, from
   /// vtkOpenGLRenderPass::SetShaderParameters.
   Drawn drawn(vtkAbstractMapper* mapper, vtkProp* prop);
 

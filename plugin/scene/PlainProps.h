@@ -18,11 +18,11 @@ namespace gnomon
 /// An actor that draws a polydata, which was set by hand, as an opaque surface without textures and
 /// clipping planes: what nearly every prop of a scene with many is.
 ///
-/// VTK takes thousands of instructions to say so, and leads through twenty objects. What it says follows
-/// from the actor, its property, its mapper with its colours and its list of planes, the producer that stands for the polydata,
-/// and the polydata with its arrays. Each has, or hands on, the time of its last change; times are never
-/// given twice, and whatever is exchanged changes who holds it. So while these are the same, so are the
-/// objects, and what VTK would say.
+/// VTK takes thousands of instructions to say so, and leads through twenty objects. What it says
+/// follows from the actor, its property, its mapper with its colours and its list of planes, the
+/// producer that stands for the polydata, and the polydata with its arrays. Each has, or hands on,
+/// the time of its last change; times are never given twice, and whatever is exchanged changes who
+/// holds it. So while these are the same, so are the objects, and what VTK would say.
 struct PlainProp
 {
   vtkActor* actor = nullptr;
@@ -34,8 +34,8 @@ struct PlainProp
   vtkMTimeType producerTime = 0;
 };
 
-/// Remembers from one frame to the next which props are plain ones. Pointers are followed only where
-/// times show that what holds them has not changed.
+/// Remembers from one frame to the next which props are plain ones. Pointers are followed only
+/// where times show that what holds them has not changed.
 class PlainProps
 {
 public:

@@ -11,7 +11,8 @@ class vtkRenderer;
 namespace gnomon
 {
 
-/// Tells whether a renderer's scene is as it was: its props, in the camera's view or not, its lights and its background.
+/// Tells whether a renderer's scene is as it was: its props, in the camera's view or not, its
+/// lights and its background.
 class ShownScene
 {
 public:

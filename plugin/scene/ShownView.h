@@ -27,7 +27,8 @@ CameraView cameraOf(vtkRenderer* renderer, const glm::dvec3& centreWorld);
 /// Adds a camera, and the size of its picture, to a hash.
 void hashView(std::size_t& seed, const CameraView& camera, const glm::ivec2& size);
 
-/// Whether a pass, which is asked in every frame, draws several views: one eye or tile at a time, or several renderers.
+/// Whether a pass, which is asked in every frame, draws several views: one eye or tile at a time,
+/// or several renderers.
 class ViewCount
 {
 public:

@@ -13,7 +13,8 @@ namespace gnomon
 /// negative sides. The pieces of a triangle follow one another, in its orientation; the vertices
 /// that they need are appended.
 ///
-/// @param textureCoordinates one for each position, or none at all; those of new vertices are appended
+/// @param textureCoordinates one for each position, or none at all; those of new vertices are
+/// appended
 /// @param planes (n, d) with n.x + d >= 0 on the side that stays, in the space of the positions
 /// @param triangleOfDrawn the surface's table (Surface::triangleOfDrawn), brought up to date: a cut
 /// triangle leads to its first piece, which lies in the same plane, one that is gone to noTriangle

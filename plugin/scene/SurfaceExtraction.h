@@ -82,9 +82,9 @@ void placeVertices(vtkPolyData* data, const std::vector<std::uint32_t>& pointOfV
   std::size_t vertexCount, const glm::dmat4& worldFromModel, const glm::dvec3& centreWorld,
   glm::vec3* positionsCentred);
 
-/// A surface's texture coordinates, one for each of its vertices, as VTK's vertex shader makes them of
-/// an array with one or two components: transform * (s, t, 0, 1) over its last component, in float.
-/// What is not finite, or not in the array, becomes 0.
+/// A surface's texture coordinates, one for each of its vertices, as VTK's vertex shader makes them
+/// of an array with one or two components: transform * (s, t, 0, 1) over its last component, in
+/// float. What is not finite, or not in the array, becomes 0.
 std::vector<glm::vec2> readTextureCoordinates(vtkDataArray* array, const glm::mat4& transform,
   const std::vector<std::uint32_t>& pointOfVertex, std::size_t vertexCount);
 

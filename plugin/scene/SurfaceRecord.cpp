@@ -32,8 +32,8 @@ std::vector<glm::vec2> repeated(const std::vector<glm::vec2>& numbers, std::size
   return result;
 }
 
-/// Repeats a glyph's triangles for each of its instances, each with vertices and texture coordinates of
-/// its own. None, if that would be too many.
+/// Repeats a glyph's triangles for each of its instances, each with vertices and texture
+/// coordinates of its own. None, if that would be too many.
 void expandInstances(FreshSurface& fresh)
 {
   std::vector<glm::uvec3>& triangles = fresh.triangles;

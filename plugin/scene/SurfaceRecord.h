@@ -135,15 +135,15 @@ Bounds transformed(const Bounds& box, const glm::dmat4& matrix);
 /// When the shape of a surface last changed, or the instances that it is drawn as.
 vtkMTimeType changeTime(const DrawnProp& prop, const DrawnBlock& block, SurfaceCells cells);
 
-/// Reads a surface from its polydata, without the positions; of glyphs, the source. These are to be kept
-/// as instances where that is cheaper and no clipping planes cut them.
+/// Reads a surface from its polydata, without the positions; of glyphs, the source. These are to be
+/// kept as instances where that is cheaper and no clipping planes cut them.
 ///
 /// @param vertexOfPoint as for triangulate()
 FreshSurface readSurface(const DrawnProp& prop, const DrawnBlock& block, SurfaceCells cells,
   std::vector<std::uint32_t>& vertexOfPoint);
 
-/// Computes a fresh surface's positions, and leaves out what the snapshot does not hold. Glyphs that
-/// are not kept as instances, or cannot be, are expanded to the triangles of all of them.
+/// Computes a fresh surface's positions, and leaves out what the snapshot does not hold. Glyphs
+/// that are not kept as instances, or cannot be, are expanded to the triangles of all of them.
 void placeSurface(FreshSurface& fresh, const DrawnProp& prop, const DrawnBlock& block,
   const glm::dvec3& centreWorld);
 

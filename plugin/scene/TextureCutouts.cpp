@@ -191,8 +191,8 @@ std::vector<NamedTexture> texturesWithAlpha(vtkActor* actor)
   return textures;
 }
 
-/// What VTK's vertex shader transforms texture coordinates by. The actor's own texture sets that key
-/// for as long as it is drawn.
+/// What VTK's vertex shader transforms texture coordinates by. The actor's own texture sets that
+/// key for as long as it is drawn.
 glm::mat4 transformOf(vtkActor* actor, vtkInformation* keys)
 {
   const double* rows = nullptr;

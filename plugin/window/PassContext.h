@@ -17,18 +17,18 @@ namespace gnomon
 class PassContext
 {
 public:
-  /// Makes a renderer's context current. Where it is another one than in the frame before, the pass releases what it
-  /// holds in that one (vtkRenderPass::ReleaseGraphicsResources).
+  /// Makes a renderer's context current. Where it is another one than in the frame before, the pass
+  /// releases what it holds in that one (vtkRenderPass::ReleaseGraphicsResources).
   ///
-  /// @return whether Gnomon can draw there. Where it cannot, the pass has told its observers why: a context that does not
-  /// serve, the first time that it is met.
+  /// @return whether Gnomon can draw there. Where it cannot, the pass has told its observers why: a
+  /// context that does not serve, the first time that it is met.
   bool enter(vtkRenderPass* pass, vtkRenderer* renderer);
 
   vtkOpenGLRenderWindow* window() const { return this->window_; }
 
   /// Leaves the context for good.
-  /// @param release gives objects back, in the window whose context is current; null: it is gone, and names only are
-  /// forgotten
+  /// @param release gives objects back, in the window whose context is current; null: it is gone,
+  /// and names only are forgotten
   void leave(const std::function<void(vtkOpenGLRenderWindow*)>& release);
 
 private:

@@ -18,8 +18,8 @@ namespace gnomon
 /// Of each pixel of the framebuffer that is bound; 0 where a pixel is not split.
 int samplesOfBoundFramebuffer();
 
-/// Where a render pass draws a picture of 32-bit floats in place of the framebuffer that it is given, with as many
-/// samples per pixel.
+/// Where a render pass draws a picture of 32-bit floats in place of the framebuffer that it is
+/// given, with as many samples per pixel.
 class PictureTarget
 {
 public:
@@ -27,8 +27,8 @@ public:
   /// @throws TextureMemoryError
   void resize(vtkOpenGLRenderWindow* window, const glm::ivec2& size);
 
-  /// Has a pass draw, in front of the colours that are in the framebuffer that is bound where the renderer keeps them. The state of
-  /// OpenGL is afterwards as it was.
+  /// Has a pass draw, in front of the colours that are in the framebuffer that is bound where the
+  /// renderer keeps them. The state of OpenGL is afterwards as it was.
   /// @param origin of the picture in that framebuffer
   void draw(vtkRenderPass* pass, const vtkRenderState* s, const glm::ivec2& origin);
 

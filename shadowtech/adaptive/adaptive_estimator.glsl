@@ -1,6 +1,6 @@
-// Percentage closer filtering over a jittered disc, which reads less of it where all of it is lit or
-// hidden (Adaptive.h). DISC_TEXELS_LIGHT is the disc's diameter, DISC_POINTS_LIGHT are its points, the
-// first DISC_RING_LIGHT of which lie on its rim.
+// Percentage closer filtering over a jittered disc, which reads less of it where all of it is lit
+// or hidden (Adaptive.h). DISC_TEXELS_LIGHT is the disc's diameter, DISC_POINTS_LIGHT are its
+// points, the first DISC_RING_LIGHT of which lie on its rim.
 
 #include "shadowtech/base/kernel_units.glsl"
 #include "shadowtech/depth_map/kernel.glsl"

@@ -13,9 +13,9 @@ namespace gnomon
 namespace
 {
 
-/// Depths are compared with this slack, too, as a share of the distance to the camera, which positions
-/// are rounded in proportion to: eight roundings. So is the receiver's plane, in proportion to how far
-/// it is followed.
+/// Depths are compared with this slack, too, as a share of the distance to the camera, which
+/// positions are rounded in proportion to: eight roundings. So is the receiver's plane, in
+/// proportion to how far it is followed.
 constexpr double distanceSlack = 1.0 / (1 << 21);
 
 /// The texture unit of a hole's mask; those behind it are the shader's.

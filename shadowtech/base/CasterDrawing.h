@@ -33,16 +33,17 @@ struct CasterPicture
   CasterSelection selection;
 };
 
-/// Makes OpenGL ready to draw casters into a framebuffer's layers of this size. A GlStateGuard is the
-/// caller's business.
+/// Makes OpenGL ready to draw casters into a framebuffer's layers of this size. A GlStateGuard is
+/// the caller's business.
 void beginCasters(GLuint framebuffer, int sizeTexels);
 
-/// Draws the casters into what is attached to the bound framebuffer. Those with holes are drawn by a
-/// shader of their own: main() ends with discardHoles() (cutout.glsl).
+/// Draws the casters into what is attached to the bound framebuffer. Those with holes are drawn by
+/// a shader of their own: main() ends with discardHoles() (cutout.glsl).
 void drawCasters(const CasterPicture& picture, const OccluderBuffers& buffers,
   ShaderLibrary& shaders, CasterShader shader);
 
-/// Draws the casters, as the view of this number sees them, into what is attached to the framebuffer.
+/// Draws the casters, as the view of this number sees them, into what is attached to the
+/// framebuffer.
 ///
 /// What a texel holds is the fragment shader's business. It is built with PERSPECTIVE or WARPED for
 /// such views. With DEPTH_LINEAR among its defines it gets the map's linear depth as

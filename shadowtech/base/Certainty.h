@@ -45,8 +45,8 @@ struct ReceiverSegment
   std::uint32_t surface;                ///< Occluders::surfaces index
 };
 
-/// Who knows something of receivers without their shadow rays. Asked about triangles first, then about
-/// lines, then about pixels; from several threads at once.
+/// Who knows something of receivers without their shadow rays. Asked about triangles first, then
+/// about lines, then about pixels; from several threads at once.
 class ReceiverDecider
 {
 public:
@@ -63,8 +63,8 @@ public:
   {
     return Certainty::Uncertain;
   }
-  /// Says what it knows of a tile's receivers, each Uncertain so far. Of those that need no shadow ray it may say
-  /// anything.
+  /// Says what it knows of a tile's receivers, each Uncertain so far. Of those that need no shadow
+  /// ray it may say anything.
   /// @param certain gets Lit or Shadow
   virtual void ofPixels(const ReceiverTile& tile, std::vector<Certainty>& certain) const = 0;
 };

@@ -6,8 +6,9 @@
 namespace gnomon
 {
 
-/// Has shaders find other channels of a texture in its first two, for as long as it lives: what reads an image of one channel
-/// reads one of several channels, too. A GlStateGuard is the caller's business.
+/// Has shaders find other channels of a texture in its first two, for as long as it lives: what
+/// reads an image of one channel reads one of several channels, too. A GlStateGuard is the caller's
+/// business.
 class ChannelView
 {
 public:

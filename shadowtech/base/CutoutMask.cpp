@@ -8,8 +8,8 @@ namespace gnomon
 namespace
 {
 
-/// A texture coordinate brought to where the texture is, with what lies next to it: into [0, 1], or,
-/// if there is a border, [-1, 2].
+/// A texture coordinate brought to where the texture is, with what lies next to it: into [0, 1],
+/// or, if there is a border, [-1, 2].
 float reduced(float coordinate, TextureWrap wrap)
 {
   float result = 0.0f;

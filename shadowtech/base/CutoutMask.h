@@ -23,9 +23,9 @@ enum class TextureWrap
 /// texture that shadows need. It never changes once made, so that surfaces may share it.
 ///
 /// Filtered alpha is 0 only where every texel with a weight above 0 has alpha 0. So an interpolated
-/// texture's holes are smaller than its empty texels, by half a texel all round. Mipmaps are left out:
-/// which level VTK reads depends on how far away the camera is, and a shadow cannot; the mask is that
-/// of the finest level.
+/// texture's holes are smaller than its empty texels, by half a texel all round. Mipmaps are left
+/// out: which level VTK reads depends on how far away the camera is, and a shadow cannot; the mask
+/// is that of the finest level.
 struct CutoutMask
 {
   int width = 0;  ///< texels
@@ -36,9 +36,9 @@ struct CutoutMask
   bool interpolated = false;              ///< bilinearly; else the nearest texel counts
   bool borderDrawn = false;               ///< ClampToBorder: whether the border has alpha above 0
 
-  /// Whether something is drawn at these texture coordinates, as OpenGL would filter the texels (core
-  /// profile 4.5, section 8.14), but with weights that are not rounded. Any coordinates have an answer,
-  /// NaN too.
+  /// Whether something is drawn at these texture coordinates, as OpenGL would filter the texels
+  /// (core profile 4.5, section 8.14), but with weights that are not rounded. Any coordinates have
+  /// an answer, NaN too.
   bool isDrawn(const glm::vec2& textureCoordinates) const;
 
   bool operator==(const CutoutMask& other) const

@@ -23,8 +23,8 @@ struct ClassCount
   std::int64_t pixels = 0; ///< how many are of it
 };
 
-/// What became of one light. Of a light whose visibility is reused, it is what the frame that computed
-/// it says.
+/// What became of one light. Of a light whose visibility is reused, it is what the frame that
+/// computed it says.
 struct LightReport
 {
   int sceneIndex = 0;     ///< place in the renderer's light collection
@@ -34,8 +34,8 @@ struct LightReport
   std::string estimator;  ///< what it decides points by
   std::string projection; ///< how its map is laid out; empty when it needs none
   int mapSizeTexels = 0;  ///< side of its map; 0 when it needs none
-  /// What its views are fitted to: "off" (all casters), "frustum" (what the camera can see at most) or
-  /// "receivers" (those that are drawn); empty when it needs no map.
+  /// What its views are fitted to: "off" (all casters), "frustum" (what the camera can see at most)
+  /// or "receivers" (those that are drawn); empty when it needs no map.
   std::string fit;
   std::string fitReason; ///< why it is the frustum; empty when it is not
   /// Why its map is not used, of techniques that can do without; empty when it is.
@@ -45,25 +45,26 @@ struct LightReport
   std::string rasterizer;
   std::string rasterizerReason; ///< why that one, as a clause
   int castersLeftOut = 0;       ///< casting surfaces that none of its views can see
-  /// What filters it: a value of the setting `kernel`, or "disc" (adaptive), "square" (maps of moments);
-  /// empty when nothing does.
+  /// What filters it: a value of the setting `kernel`, or "disc" (adaptive), "square" (maps of
+  /// moments); empty when nothing does.
   std::string kernel;
   int kernelTexels = 0;          ///< and how wide that is
   int mapSamples = 0;            ///< samples of its map's texels; 0 when they hold depths
   std::int64_t tracedPixels = 0; ///< pixels decided by a ray
-  /// Points of the light that its shadows come from: 1 where they are hard. A traced pixel has a ray to each.
+  /// Points of the light that its shadows come from: 1 where they are hard. A traced pixel has a
+  /// ray to each.
   int lightSamples = 1;
   /// The share of its points that are in the picture: below 1 where further frames are to add more.
   double progress = 1.0;
-  /// Rays that were traced. Of most techniques as many as tracedPixels times lightSamples; where rays decide others
-  /// (`penumbra`), tracedPixels have all of theirs, and other pixels some.
+  /// Rays that were traced. Of most techniques as many as tracedPixels times lightSamples; where
+  /// rays decide others (`penumbra`), tracedPixels have all of theirs, and other pixels some.
   std::int64_t rays = 0;
   int planes = 0; ///< of planar shadows: how many planes show them
-  /// Of planar shadows: pixels that lie on none of those and show no cast shadow. Counted only where
-  /// visibility is kept or stages are measured.
+  /// Of planar shadows: pixels that lie on none of those and show no cast shadow. Counted only
+  /// where visibility is kept or stages are measured.
   std::int64_t pixelsOffPlanes = 0;
-  /// How its pixels' visibility came about, of techniques that tell. Counted only where visibility is kept or stages
-  /// are measured.
+  /// How its pixels' visibility came about, of techniques that tell. Counted only where visibility
+  /// is kept or stages are measured.
   std::vector<ClassCount> classes;
 };
 
@@ -88,8 +89,8 @@ struct FrameReport
   bool outOfTextureMemory = false;
   std::vector<LightReport> lights; ///< every light of the renderer
   std::vector<std::string> notes;  ///< limits that this frame ran into, each a sentence
-  /// Settings that are named for lights whose technique does not have them, each a sentence. They are
-  /// ignored.
+  /// Settings that are named for lights whose technique does not have them, each a sentence. They
+  /// are ignored.
   std::vector<std::string> misfits;
 
   /// Filled when stages are measured; each stage then ends with glFinish, which costs time of its
@@ -115,8 +116,8 @@ struct FrameReport
   std::size_t droppedZeroArea = 0;  ///< triangles left out: no area
 
   /// The snapshot on the CPU and the GPU, with all that is remembered of its surfaces: no more than
-  /// 120 bytes a triangle and 1,500 a surface; of glyphs that are kept as instances 120 a triangle of
-  /// one, and 200 an instance. The ray tracer's own memory is apart.
+  /// 120 bytes a triangle and 1,500 a surface; of glyphs that are kept as instances 120 a triangle
+  /// of one, and 200 an instance. The ray tracer's own memory is apart.
   std::size_t bytesOccluders = 0;
   std::size_t bytesBvh = 0;    ///< as Embree reports it, or the GPU's with the copy on the CPU
   std::size_t bytesMaps = 0;   ///< what the techniques baked, and what they keep to bake again

@@ -41,7 +41,8 @@ private:
   std::array<GLint, textureUnits> texture2D_, texture2DArray_;
 };
 
-/// Remembers the buffers that compute shaders read and write, and puts them back at the end of its scope.
+/// Remembers the buffers that compute shaders read and write, and puts them back at the end of its
+/// scope.
 class StorageBindingsGuard
 {
 public:

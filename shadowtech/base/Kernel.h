@@ -14,15 +14,16 @@ namespace gnomon
 struct KernelSettings
 {
   int sizeTexels = 3; ///< the side of a kernel's square, the diameter of its disc
-  /// The width across the light, in world units, of a positional light at distance 1; 0: sizeTexels.
+  /// The width across the light, in world units, of a positional light at distance 1; 0:
+  /// sizeTexels.
   double widthAcross = 0.0;
 };
 const SettingsTable& kernelSettings();
 
 /// What a filter's kernel is measured in (kernel_units.glsl). One of `kernel_size` units is
 /// - a texel of a uniform projection;
-/// - of a warped one, whose texels are longer across the light one way than the other, as large as a
-///   texel, but of a shape that is even across the light (KernelShape.h);
+/// - of a warped one, whose texels are longer across the light one way than the other, as large as
+///   a texel, but of a shape that is even across the light (KernelShape.h);
 /// - the share of `kernel_width` across the light, if that is asked for.
 enum class KernelUnits
 {

@@ -184,7 +184,8 @@ void OccluderBuffers::sendAll(const Occluders& occluders)
 }
 
 //------------------------------------------------------------------------------
-/// Sends the matrices of all instances that are drawn, and gives them to the vertex array that is bound.
+/// Sends the matrices of all instances that are drawn, and gives them to the vertex array that is
+/// bound.
 void OccluderBuffers::sendInstances(const Occluders& occluders)
 {
   std::vector<glm::mat4x3> instances{ glm::mat4x3(1.0f) };
@@ -204,8 +205,8 @@ void OccluderBuffers::sendInstances(const Occluders& occluders)
 }
 
 //------------------------------------------------------------------------------
-/// Gives the surfaces with a cut-out their texture coordinates and masks. Masks that are still in use
-/// are not sent again.
+/// Gives the surfaces with a cut-out their texture coordinates and masks. Masks that are still in
+/// use are not sent again.
 void OccluderBuffers::sendCutouts(const Occluders& occluders)
 {
   std::map<std::shared_ptr<const CutoutMask>, GlTexture> masks;

@@ -42,9 +42,10 @@ public:
   /// Whether there are surfaces with a cut-out.
   bool hasCutouts() const { return !this->cutouts_.empty(); }
 
-  /// Draws the casting triangles of surfaces with a cut-out, otherwise like draw(). Texture coordinates
-  /// are attribute 1, a vec2; the 2D texture of the active unit is, surface by surface, its mask, which
-  /// is 0 exactly where the surface has a hole, filtered and repeated as VTK's texture is.
+  /// Draws the casting triangles of surfaces with a cut-out, otherwise like draw(). Texture
+  /// coordinates are attribute 1, a vec2; the 2D texture of the active unit is, surface by surface,
+  /// its mask, which is 0 exactly where the surface has a hole, filtered and repeated as VTK's
+  /// texture is.
   void drawCutouts(const CasterSelection& selection) const;
 
   /// The number of casting surfaces that none of the views can see.

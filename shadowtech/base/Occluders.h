@@ -35,8 +35,8 @@ struct Surface
   std::vector<glm::vec2> textureCoordinates;
 
   /// Changes when the triangles of this surface change (its mapper's input) or their texture
-  /// coordinates, not when it only gets another place in the list. Versions are never given twice within a snapshot, so that a surface
-  /// can be found again by this one.
+  /// coordinates, not when it only gets another place in the list. Versions are never given twice
+  /// within a snapshot, so that a surface can be found again by this one.
   std::uint64_t topologyVersion = 0;
   /// Changes when its centred positions change: with the topology, or because the prop moved.
   std::uint64_t positionsVersion = 0;
@@ -49,11 +49,11 @@ struct Surface
 
   static constexpr std::uint32_t noTriangle = 0xffffffffu;
 
-  /// Of a surface that is drawn many times, as glyphs are: the *instances*, in the order in which VTK
-  /// draws them. Its vertices and triangles are there once, in source coordinates, and each of these
-  /// takes them to centred coordinates; what is drawn is the exact image under the matrix. The zero
-  /// matrix stands for an instance that was left out; all others are regular, and either all or none
-  /// of them mirror. Empty: drawn once, and its vertices are centred.
+  /// Of a surface that is drawn many times, as glyphs are: the *instances*, in the order in which
+  /// VTK draws them. Its vertices and triangles are there once, in source coordinates, and each of
+  /// these takes them to centred coordinates; what is drawn is the exact image under the matrix.
+  /// The zero matrix stands for an instance that was left out; all others are regular, and either
+  /// all or none of them mirror. Empty: drawn once, and its vertices are centred.
   std::vector<glm::mat4x3> centredFromSource;
   bool mirrored = false; ///< whether they mirror, so that source coordinates show the other side
 
@@ -92,8 +92,8 @@ inline glm::dvec3 snapshotCentre(const Bounds& boundsWorld)
 /// The snapshot: every surface triangle that VTK draws, cast or only receive, in one list.
 ///
 /// Positions are *centred*: world coordinates less centreWorld, computed in double precision and
-/// then rounded to float, so that scenes far from the origin keep their precision. Those of a surface
-/// with instances are source coordinates instead (Surface::centredFromSource).
+/// then rounded to float, so that scenes far from the origin keep their precision. Those of a
+/// surface with instances are source coordinates instead (Surface::centredFromSource).
 struct Occluders
 {
   glm::dvec3 centreWorld{ 0.0 }; ///< the collector's is snapshotCentre()

@@ -12,7 +12,8 @@
 namespace gnomon
 {
 
-/// What a picture was drawn into: images of colours and depths, with one sample per pixel or several.
+/// What a picture was drawn into: images of colours and depths, with one sample per pixel or
+/// several.
 struct DrawnPicture
 {
   TextureBinding colours;
@@ -22,8 +23,9 @@ struct DrawnPicture
 
 /// The mean of pictures that are added one after another: colours, with their alpha.
 ///
-/// A picture's pixel is that of its samples which VTK's windows show. Its colours are taken for what light there is to
-/// the power of 1 / gamma: the mean is that of the light. The memory is that of two pictures, however many are added.
+/// A picture's pixel is that of its samples which VTK's windows show. Its colours are taken for
+/// what light there is to the power of 1 / gamma: the mean is that of the light. The memory is that
+/// of two pictures, however many are added.
 class PictureMean
 {
 public:
@@ -34,7 +36,8 @@ public:
   /// Adds the next picture.
   void add(const DrawnPicture& picture);
 
-  /// Shows the mean of what was added in a part of the framebuffer that is bound, in place of its colours and depths.
+  /// Shows the mean of what was added in a part of the framebuffer that is bound, in place of its
+  /// colours and depths.
   /// @param depths whose depths are shown, of each pixel the first sample's
   void show(const DrawnPicture& depths, const glm::ivec2& origin);
 

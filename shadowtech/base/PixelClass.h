@@ -17,7 +17,8 @@ struct PixelClass
   bool traced = false;                ///< whether a ray decided
 };
 
-/// The classes of pointwise techniques that tell them, behind which they have their own (map_visibility.glsl).
+/// The classes of pointwise techniques that tell them, behind which they have their own
+/// (map_visibility.glsl).
 inline std::vector<PixelClass> classesOfMaps()
 {
   return { { "no receiver", { 0, 0, 0 } }, { "turned away from the light", { 0, 140, 60 } },

@@ -6,7 +6,8 @@
 namespace gnomon
 {
 
-/// The camera's rays through the centres of its pixels, in centred coordinates and double precision.
+/// The camera's rays through the centres of its pixels, in centred coordinates and double
+/// precision.
 ///
 /// Pixel (x, y), row 0 at the bottom, looks along
 ///     origin(x, y) + t direction(x, y)

@@ -12,7 +12,8 @@ namespace gnomon
 {
 
 /// @file
-/// The snapshot's triangles where they stand, in double precision, whether their surface is there once or as instances.
+/// The snapshot's triangles where they stand, in double precision, whether their surface is there
+/// once or as instances.
 
 /// A vertex, centred.
 /// @param instance of a surface with instances; else of no meaning
@@ -35,7 +36,8 @@ inline std::array<glm::dvec3, 3> centredCorners(const Occluders& occluders, cons
     centredVertex(occluders, surface, instance, vertices.z) };
 }
 
-/// How far from its plane the points of a triangle may seem to lie: planeNoise(), and instanceNoise() where it is one.
+/// How far from its plane the points of a triangle may seem to lie: planeNoise(), and
+/// instanceNoise() where it is one.
 /// @param corners centred
 /// @param normal unit length
 /// @param doubleArea twice its area; > 0, infinite for the share that does not depend on it

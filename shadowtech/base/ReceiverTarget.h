@@ -9,8 +9,8 @@
 namespace gnomon
 {
 
-/// The framebuffer that the receivers stage draws into: images in 32-bit float, and a depth buffer of
-/// its own. Which triangle a pixel shows is always written; the point and its normal only where
+/// The framebuffer that the receivers stage draws into: images in 32-bit float, and a depth buffer
+/// of its own. Which triangle a pixel shows is always written; the point and its normal only where
 /// estimators will read them on the GPU.
 class ReceiverTarget
 {

@@ -20,8 +20,8 @@ namespace gnomon
 namespace
 {
 
-/// Triangles that a tile meets again and again, by the fragments that name them; one entry per primitive's number modulo
-/// the size.
+/// Triangles that a tile meets again and again, by the fragments that name them; one entry per
+/// primitive's number modulo the size.
 class SeenTriangles
 {
 public:
@@ -237,7 +237,8 @@ private:
       const float offset = shadowRayOffsetInside(seen.noise, static_cast<float>(footprint));
       segment.leastOffset = std::min(segment.leastOffset, offset * 0.999999f);
       segment.mostOffset = std::max(segment.mostOffset, offset * 1.000001f);
-      // Affine numbers that are not negative at both ends are not between them. Written so that NaN fails.
+      // Affine numbers that are not negative at both ends are not between them. Written so that NaN
+      // fails.
       return seen.insideEdge[0].row(y).at(x) >= 0.0 && seen.insideEdge[1].row(y).at(x) >= 0.0 &&
         seen.insideEdge[2].row(y).at(x) >= 0.0 && along > 0.0;
     };

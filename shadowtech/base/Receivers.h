@@ -57,8 +57,8 @@ struct ReceiverPixels
   std::size_t bytes() const { return 8 * bytesOf(this->positionX); }
 };
 
-/// What the receivers stage reads back: which triangle VTK drew in each pixel. Where on the triangle
-/// follows from the pixel's ray, more precisely than anything interpolated in float.
+/// What the receivers stage reads back: which triangle VTK drew in each pixel. Where on the
+/// triangle follows from the pixel's ray, more precisely than anything interpolated in float.
 struct ReceiverImages
 {
   int width = 0;
@@ -92,14 +92,14 @@ struct ReceiverTile
   std::size_t firstColumn, firstRow; ///< where it begins in the picture
   /// Its own receivers alone, which is fewer than the most at the picture's right and upper border.
   const ReceiverPixels& receivers;
-  /// What is decided of them by their triangles and lines; else Uncertain. Where it is, the receiver itself is
-  /// left out, as if nothing were covered.
+  /// What is decided of them by their triangles and lines; else Uncertain. Where it is, the
+  /// receiver itself is left out, as if nothing were covered.
   const std::vector<Certainty>& known;
 };
 
-/// The receivers of a picture, made of what the receivers stage read back when somebody asks for them: the
-/// points where the pixels' rays meet the triangles that were drawn there, with geometric normals and shadow
-/// ray offsets.
+/// The receivers of a picture, made of what the receivers stage read back when somebody asks for
+/// them: the points where the pixels' rays meet the triangles that were drawn there, with geometric
+/// normals and shadow ray offsets.
 ///
 /// Rasterisers move corners by up to 1/256 pixel, and so draw triangles in pixels whose rays pass
 /// them by. The receiver is then the point of the triangle that is closest to the ray as the camera
@@ -116,10 +116,11 @@ public:
   std::size_t width() const { return this->width_; }
   std::size_t height() const { return this->height_; }
 
-  /// The receivers of all tiles, each for as long as it is visited; tiles are visited by several threads at once.
-  /// They never leave the processor's cache, unless all() has been called: who works pixel by pixel asks here.
-  /// @param decider who knows something of triangles and lines; null: nobody. Of receivers that are there already it is
-  /// not asked.
+  /// The receivers of all tiles, each for as long as it is visited; tiles are visited by several
+  /// threads at once. They never leave the processor's cache, unless all() has been called: who
+  /// works pixel by pixel asks here.
+  /// @param decider who knows something of triangles and lines; null: nobody. Of receivers that are
+  /// there already it is not asked.
   void visitTiles(const std::function<void(const ReceiverTile&)>& visit,
     const ReceiverDecider* decider = nullptr) const;
 

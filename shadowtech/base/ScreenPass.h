@@ -12,7 +12,8 @@
 namespace gnomon
 {
 
-/// Calls a fragment shader once for every pixel of an image. A GlStateGuard is the caller's business.
+/// Calls a fragment shader once for every pixel of an image. A GlStateGuard is the caller's
+/// business.
 class ScreenPass
 {
 public:
@@ -28,8 +29,8 @@ public:
   /// Fills images with the outputs of the program in use, each with the one at its place.
   void fill(std::initializer_list<Image> images, int width, int height);
 
-  /// Fills a part of the framebuffer that is bound with the colours and depths (gl_FragDepth) that the program in use
-  /// gives.
+  /// Fills a part of the framebuffer that is bound with the colours and depths (gl_FragDepth) that
+  /// the program in use gives.
   void fillBound(const glm::ivec2& origin, const glm::ivec2& size);
 
 private:

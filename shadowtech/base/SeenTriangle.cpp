@@ -115,8 +115,8 @@ void see(const Drawn& drawn, const TriangleOfFragment& found, SeenTriangle& seen
     rays.parallel() ? alongNormal(areaVector).first : planeDistance(areaVector).first;
   if (!(std::abs(side) > 0.0 && std::isfinite(side)))
   {
-    // No area, not finite, or seen along its plane: alongNormal stays 0, so that no ray meets it. No
-    // shadow ray either, as if its area were endless.
+    // No area, not finite, or seen along its plane: alongNormal stays 0, so that no ray meets it.
+    // No shadow ray either, as if its area were endless.
     seen.planeDistance = seen.alongNormal = {};
     seen.insideEdge = {};
     seen.normal = glm::vec3(0.0f);
@@ -162,8 +162,8 @@ glm::dvec3 closestToRay(const std::array<glm::dvec3, 3>& corners, const glm::dve
   {
     const glm::dvec3 from = corners[i] - origin;
     const glm::dvec3 edge = corners[(i + 1) % 3] - corners[i];
-    // The plane in which the camera sees the edge. The ray is turned or moved into it, and meets the
-    // edge at from + u edge. An edge seen end-on has no such plane; any of its points will do.
+    // The plane in which the camera sees the edge. The ray is turned or moved into it, and meets
+    // the edge at from + u edge. An edge seen end-on has no such plane; any of its points will do.
     const glm::dvec3 across = parallel ? glm::cross(direction, edge) : glm::cross(from, edge);
     const double acrossSquared = glm::dot(across, across);
     double u = 0.0;

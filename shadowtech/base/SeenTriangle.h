@@ -91,8 +91,9 @@ public:
   {
     if (!rays.parallel())
     {
-      // A pixel's side is t times that of directionPerRow where its ray, or the plane across it, has its receiver: at
-      // distance d of it t is no more than d over the shortest direction's length.
+      // A pixel's side is t times that of directionPerRow where its ray, or the plane across it,
+      // has its receiver: at distance d of it t is no more than d over the shortest direction's
+      // length.
       const glm::dvec3 across =
         glm::normalize(glm::cross(rays.directionPerColumn, rays.directionPerRow));
       this->perDistance_ =
@@ -100,7 +101,8 @@ public:
     }
   }
 
-  /// The most that a pixel's side measures at a receiver on a triangle, even one whose pixel's ray passes it by.
+  /// The most that a pixel's side measures at a receiver on a triangle, even one whose pixel's ray
+  /// passes it by.
   double largest(const std::array<glm::dvec3, 3>& corners) const
   {
     return this->parallel_ +
@@ -139,14 +141,15 @@ struct Drawn
 /// @param seen what it was before means nothing
 void see(const Drawn& drawn, const TriangleOfFragment& found, SeenTriangle& seen);
 
-/// The point of a triangle that a ray which passes it by comes closest to, as the camera sees it: by
-/// angle with perspective, by distance in parallel projection. Serves triangles without area, too.
+/// The point of a triangle that a ray which passes it by comes closest to, as the camera sees it:
+/// by angle with perspective, by distance in parallel projection. Serves triangles without area,
+/// too.
 glm::dvec3 closestToRay(const std::array<glm::dvec3, 3>& corners, const glm::dvec3& origin,
   const glm::dvec3& direction, bool parallel);
 
-/// A point on a triangle's edge, moved into the triangle by 1/256 of a pixel's side, which is how far
-/// off a rasteriser looks. On the edge itself it would lie on the neighbour's plane as well, and its
-/// shadow ray would meet the neighbour or not as rounding has it.
+/// A point on a triangle's edge, moved into the triangle by 1/256 of a pixel's side, which is how
+/// far off a rasteriser looks. On the edge itself it would lie on the neighbour's plane as well,
+/// and its shadow ray would meet the neighbour or not as rounding has it.
 glm::dvec3 inwards(
   const glm::dvec3& edge, const std::array<glm::dvec3, 3>& corners, double footprint);
 

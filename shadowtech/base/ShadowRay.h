@@ -39,22 +39,23 @@ namespace gnomon
 /// come to 0.7 of it. The offset is twice that, so that half of it still holds.
 ///
 /// - Instances. A ray is taken into source coordinates, x_i = r_i.O + p_i with r_i the rows of the
-///   inverse of the matrix (L, T) and p_i = -r_i.T, all in float as Embree does; the test that follows
-///   is affine, so that what x_i is off by counts in the world by L's column c_i: along N by N.c_i. The
-///   sum of four terms rounds to 4u (|r_i|.|O| + |p_i|), p_i itself to 3u |r_i|.|T|: at most 8u |r_i|.M +
-///   8u |r_i|.|T|, component by component. The rows are off as well, alike in both of the sum's parts, and
-///   so by dr_i.(O - T), where O is no farther from T than the triangle's corners are. A cross product of
-///   two columns a, b is off by 2 sqrt(3) u |a||b|, for a skewness h (Instances.h) by 2 sqrt(3) h u of its
-///   length, the determinant by (3 + 2 sqrt(3)) h u of itself, and dividing by it costs 5u; with h <= 2
-///   together less than 32u. instanceNoise() is the sum of these, and the intersection's rounding
-///   with the extent of the box in source coordinates, X'Y'Z' |det L| / A.
+///   inverse of the matrix (L, T) and p_i = -r_i.T, all in float as Embree does; the test that
+///   follows is affine, so that what x_i is off by counts in the world by L's column c_i: along N
+///   by N.c_i. The sum of four terms rounds to 4u (|r_i|.|O| + |p_i|), p_i itself to 3u |r_i|.|T|:
+///   at most 8u |r_i|.M + 8u |r_i|.|T|, component by component. The rows are off as well, alike in
+///   both of the sum's parts, and so by dr_i.(O - T), where O is no farther from T than the
+///   triangle's corners are. A cross product of two columns a, b is off by 2 sqrt(3) u |a||b|, for
+///   a skewness h (Instances.h) by 2 sqrt(3) h u of its length, the determinant by (3 + 2 sqrt(3))
+///   h u of itself, and dividing by it costs 5u; with h <= 2 together less than 32u.
+///   instanceNoise() is the sum of these, and the intersection's rounding with the extent of the
+///   box in source coordinates, X'Y'Z' |det L| / A.
 ///
 /// - Footprint. A rasteriser snaps vertices to 1/256 pixel, so a fragment near an edge may lie past
 ///   it by as much, behind the next triangle of a concave surface. There the offset grows by 1/256
 ///   of the pixel's side. It moves a shadow's edge by as much times the cotangent of the light's
-///   elevation, which cannot be seen, but can be counted where edges are dense. So a receiver that is
-///   known to lie inside its triangle gets 1/256 of it, which only has to be more than nothing, as the
-///   noise of the centred frame's own planes is.
+///   elevation, which cannot be seen, but can be counted where edges are dense. So a receiver that
+///   is known to lie inside its triangle gets 1/256 of it, which only has to be more than nothing,
+///   as the noise of the centred frame's own planes is.
 
 /// How far from its plane the points of a triangle may seem to lie, in the unit of the coordinates.
 ///
@@ -244,7 +245,8 @@ inline ShadowRay shadowRaySpot(
   return ray;
 }
 
-/// What a receiver's shadow rays to the points of an area light have in common. They start and end as the centre's does.
+/// What a receiver's shadow rays to the points of an area light have in common. They start and end
+/// as the centre's does.
 struct AreaRays
 {
   glm::vec3 normal;   ///< the receiver's
@@ -264,14 +266,15 @@ inline AreaRays areaRays(const ShadowRayLight& light, const glm::vec3& position,
     directional && light.hasBox ? glm::dot(ray, light.toLight) : 1.0f };
 }
 
-/// Which point of an area light a receiver is asked about in place of a sample of it (LightSamples.h): 1 the sample, -1 the
-/// point opposite.
+/// Which point of an area light a receiver is asked about in place of a sample of it
+/// (LightSamples.h): 1 the sample, -1 the point opposite.
 ///
 /// VTK shades from the centre: N.L there is the mean over all of the light, of what lies behind the
-/// receiver's plane too, which then counts as negative. So that this is not taken off twice, and so that what nothing is
-/// in the way of is lit: a point behind the plane gives way to the one opposite, which is in front of it
-/// wherever the centre is. The mean of both cosines is the centre's. Where the light has a texture, it gives way with its colour:
-/// none of what is behind the plane reaches the receiver.
+/// receiver's plane too, which then counts as negative. So that this is not taken off twice, and so
+/// that what nothing is in the way of is lit: a point behind the plane gives way to the one
+/// opposite, which is in front of it wherever the centre is. The mean of both cosines is the
+/// centre's. Where the light has a texture, it gives way with its colour: none of what is behind
+/// the plane reaches the receiver.
 ///
 /// @param sample from the light's centre
 inline float sideOfSample(const AreaRays& rays, const glm::vec3& sample)

@@ -48,8 +48,8 @@ struct TechniqueInfo
   bool exact = false;                            ///< equals the ray-traced visibility bit for bit
   /// The settings that it reads, beside the light's area.
   std::vector<const SettingsTable*> settings = {};
-  /// The estimator by the letter of the publication, which `as_published` selects (a published one itself); empty:
-  /// there is none.
+  /// The estimator by the letter of the publication, which `as_published` selects (a published one
+  /// itself); empty: there is none.
   std::string asPublished = {};
   /// Shows the same without its map, which saves time where it serves several frames.
   bool mapIsOptional = false;
@@ -59,11 +59,12 @@ struct TechniqueInfo
   /// What the report calls the kernel of a technique that filters; empty: as the setting `kernel`.
   std::string kernel = {};
 
-  /// Whether visibility has three channels in a light with a texture (channelsOf()). Of others the light is an even one of
-  /// the texture's mean colour.
+  /// Whether visibility has three channels in a light with a texture (channelsOf()). Of others the
+  /// light is an even one of the texture's mean colour.
   bool seesTextures = false;
 
-  /// Why it cannot do what a light's settings say, whose projection is resolved; empty if it can. Null: it always can.
+  /// Why it cannot do what a light's settings say, whose projection is resolved; empty if it can.
+  /// Null: it always can.
   std::string (*refused)(const ShadowLight&) = nullptr;
 
   /// What the technique tells of its pixels; empty: nothing. A screen technique fills
@@ -79,8 +80,8 @@ struct TechniqueInfo
   bool bakesMap() const { return this->has(viewSettings()); }
 };
 
-/// The channels of a light's visibility as a technique computes it: 1, or 3 (red, green, blue) where it sees the texture of
-/// the light's area.
+/// The channels of a light's visibility as a technique computes it: 1, or 3 (red, green, blue)
+/// where it sees the texture of the light's area.
 inline int channelsOf(const TechniqueInfo& info, const ShadowLight& light)
 {
   return info.seesTextures && light.area && light.texture ? 3 : 1;
@@ -168,40 +169,42 @@ struct ScreenInput
   int& mapBakes; ///< FrameReport::mapBakes
 };
 
-/// One way to compute visibility, for one light: what all kinds share is the light's maps. The render
-/// manager makes one per casting light from the registry, and keeps it while the light keeps its
-/// technique.
+/// One way to compute visibility, for one light: what all kinds share is the light's maps. The
+/// render manager makes one per casting light from the registry, and keeps it while the light keeps
+/// its technique.
 class Technique
 {
 public:
   virtual ~Technique() = default;
 
-  /// The light that the maps' views are laid out for, as the light's are (viewLayout()). Another one
-  /// where a technique sees an area light from elsewhere than its centre, or reads more of the map
-  /// than what the camera's receivers are on.
+  /// The light that the maps' views are laid out for, as the light's are (viewLayout()). Another
+  /// one where a technique sees an area light from elsewhere than its centre, or reads more of the
+  /// map than what the camera's receivers are on.
   virtual ShadowLight lightOfMap(const ShadowLight& light) const { return light; }
   /// How far around a receiver's place on the map the technique reads. Views are fitted for it, and
   /// the maps are stale when it changes.
   virtual MapReach mapReach(const ShadowLight&) const { return {}; }
   /// Bakes the light's maps. Called only when they are stale.
   virtual void bake(const MapInput&) {}
-  /// Drops the light's maps. Called where they are stale and not baked (TechniqueInfo::mapIsOptional).
+  /// Drops the light's maps. Called where they are stale and not baked
+  /// (TechniqueInfo::mapIsOptional).
   virtual void dropMaps() {}
   /// Memory on the GPU of the baked maps, and of what else the technique keeps for the light.
   virtual std::size_t bytesOfMaps() const { return 0; }
 };
 
-/// A function of the point, in GLSL. Both routes call it: VTK's own shaders (inline) or a full-screen
-/// pass (image).
+/// A function of the point, in GLSL. Both routes call it: VTK's own shaders (inline) or a
+/// full-screen pass (image).
 class PointwiseTechnique : public Technique
 {
 public:
   /// A file that defines
   ///     float visibility_LIGHT(vec3 positionView, vec3 normalView)
-  /// in GLSL 1.50 and its uniforms, for a light of this kind. The normal is the geometric one on the
-  /// camera's side, of any length. Every identifier that ends in _LIGHT is numbered per light.
+  /// in GLSL 1.50 and its uniforms, for a light of this kind. The normal is the geometric one on
+  /// the camera's side, of any length. Every identifier that ends in _LIGHT is numbered per light.
   virtual std::string visibilityGlsl(const ShadowLight&) const = 0;
-  /// The uniforms of that source, as of the last bake, for receivers in a camera's view coordinates.
+  /// The uniforms of that source, as of the last bake, for receivers in a camera's view
+  /// coordinates.
   virtual std::vector<Uniform> uniforms(const ReceiverSpace&) const = 0;
 };
 

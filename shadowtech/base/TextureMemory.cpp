@@ -134,7 +134,8 @@ std::string describe(const TextureShape& shape, const std::string& what)
   return describe(what, shape.width, shape.height, shape.layers, shape.bytes(), "texture memory");
 }
 
-/// "; one of 8192 x 8192 can": the largest smaller power of two for which there is room, or the smallest map.
+/// "; one of 8192 x 8192 can": the largest smaller power of two for which there is room, or the
+/// smallest map.
 template <typename IsRoom>
 std::string offerSmaller(int sizeTexels, const IsRoom& isRoom)
 {

@@ -9,8 +9,8 @@
 namespace gnomon
 {
 
-/// A texture, or a buffer that shaders read, that is too large for OpenGL or for the machine. The message says how much was asked
-/// for, and for maps which size would fit.
+/// A texture, or a buffer that shaders read, that is too large for OpenGL or for the machine. The
+/// message says how much was asked for, and for maps which size would fit.
 class TextureMemoryError : public std::runtime_error
 {
 public:
@@ -46,7 +46,8 @@ void allocateMap(
 /// @throws TextureMemoryError, which offers the largest power of two that fits as its side
 void requireRoomForMap(std::size_t bytesOfTexel, int sizeTexels, int layers);
 
-/// The same question for a picture of colours and depths with samples of each pixel, which VTK makes.
+/// The same question for a picture of colours and depths with samples of each pixel, which VTK
+/// makes.
 /// @param samples 0 where a pixel is not split
 /// @throws TextureMemoryError
 void requireRoomForPicture(int width, int height, int samples);
@@ -64,8 +65,8 @@ void allocateSamples(
 /// @throws TextureMemoryError
 void requireRoomForStorage(std::size_t bytes, const char* what);
 
-/// Gives a buffer that shaders read its memory and contents; it is bound to GL_SHADER_STORAGE_BUFFER
-/// afterwards.
+/// Gives a buffer that shaders read its memory and contents; it is bound to
+/// GL_SHADER_STORAGE_BUFFER afterwards.
 /// @param bytes > 0
 /// @param data null: left open
 /// @throws TextureMemoryError; the buffer is then without memory

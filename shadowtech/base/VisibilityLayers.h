@@ -14,8 +14,8 @@ namespace gnomon
 
 class ReceiverTarget;
 
-/// The visibility images of the image route, one 32-bit float layer per casting light, or three (red, green, blue) where its
-/// texture is seen (channelsOf()). Row 0 is the bottom row.
+/// The visibility images of the image route, one 32-bit float layer per casting light, or three
+/// (red, green, blue) where its texture is seen (channelsOf()). Row 0 is the bottom row.
 class VisibilityLayers
 {
 public:
@@ -29,7 +29,8 @@ public:
   void resize(int width, int height, int layers);
 
   /// Fills a layer by a pointwise technique's GLSL, called for the receivers of all pixels.
-  /// @param classes where not null, each pixel's class (TechniqueInfo::classes), of a technique that tells
+  /// @param classes where not null, each pixel's class (TechniqueInfo::classes), of a technique
+  /// that tells
   void estimate(int layer, const PointwiseTechnique& technique, const ShadowLight& light,
     const ReceiverTarget& receivers, const ReceiverSpace& space, ShaderLibrary& shaders,
     std::vector<std::uint8_t>* classes = nullptr);

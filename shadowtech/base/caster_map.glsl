@@ -57,8 +57,8 @@ mat2 texelJacobian()
   return mat2(fit.xy * beforeFit[0], fit.xy * beforeFit[1]);
 }
 
-// The longer side of a texel across the light is one over the square of this, times (texel, 1), but for a
-// factor.
+// The longer side of a texel across the light is one over the square of this, times (texel, 1), but
+// for a factor.
 vec3 texelScale()
 {
   vec4 fit = lastFit();

@@ -1,4 +1,5 @@
-// Holes of a caster's texture, when casters are drawn (CasterDrawing.h). Without CUTOUT there are none.
+// Holes of a caster's texture, when casters are drawn (CasterDrawing.h). Without CUTOUT there are
+// none.
 
 #ifdef CUTOUT
 

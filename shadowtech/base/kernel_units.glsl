@@ -1,6 +1,6 @@
-// How a filter's kernel lies on the map around a point (lights/KernelShape.h). KERNEL_EVEN_LIGHT: its
-// shape is even across the light, its area counts in texels; KERNEL_ACROSS_LIGHT: its units are a length
-// across the light; neither: its units are texels.
+// How a filter's kernel lies on the map around a point (lights/KernelShape.h). KERNEL_EVEN_LIGHT:
+// its shape is even across the light, its area counts in texels; KERNEL_ACROSS_LIGHT: its units are
+// a length across the light; neither: its units are texels.
 
 #include "shadowtech/base/light_views.glsl"
 

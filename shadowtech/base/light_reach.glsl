@@ -1,5 +1,5 @@
-// Whether a light shines on a place of the scene at all, for shaders that draw all pixels of one light (LightReach.h). SPOT and
-// BOX say what bounds it.
+// Whether a light shines on a place of the scene at all, for shaders that draw all pixels of one
+// light (LightReach.h). SPOT and BOX say what bounds it.
 
 #include "shadowtech/base/shadow_ray.glsl"
 

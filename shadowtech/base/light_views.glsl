@@ -1,17 +1,19 @@
 // A point as a light sees it: whether the light reaches it, which of the light's views sees it, and
-// where on that view's layer of the map (lights/LightViews.h, LightViewsGlsl.h). Every technique with
-// a map starts here; what it does with the map is its own.
+// where on that view's layer of the map (lights/LightViews.h, LightViewsGlsl.h). Every technique
+// with a map starts here; what it does with the map is its own.
 //
-// What kind of light it is, is known when the shader is built: VIEWS_SPOT_LIGHT, VIEWS_BOX_LIGHT and
-// VIEWS_PERSPECTIVE_LIGHT are 0 or 1; and so is how its views lie: VIEWS_CUBE_LIGHT, VIEWS_SPLITS_LIGHT
-// (neither: a single one), VIEWS_WARPED_LIGHT. VIEWS_LIGHT is how many views there can be. With
-// VIEWS_BLENDED_LIGHT splits overlap. With VIEWS_PIXELS_LIGHT points know how much their pixel shows.
-// VIEWS_FITTED_LIGHT: the last fit of the views was found on the GPU, and is read from a texture;
-// texels "before the fit" are those of the map that would show all that there can be. With
-// VIEWS_CHOSEN_LIGHT so was the warp, which lies in the same texture (fit_rows.glsl).
+// What kind of light it is, is known when the shader is built: VIEWS_SPOT_LIGHT, VIEWS_BOX_LIGHT
+// and VIEWS_PERSPECTIVE_LIGHT are 0 or 1; and so is how its views lie: VIEWS_CUBE_LIGHT,
+// VIEWS_SPLITS_LIGHT (neither: a single one), VIEWS_WARPED_LIGHT. VIEWS_LIGHT is how many views
+// there can be. With VIEWS_BLENDED_LIGHT splits overlap. With VIEWS_PIXELS_LIGHT points know how
+// much their pixel shows. VIEWS_FITTED_LIGHT: the last fit of the views was found on the GPU, and
+// is read from a texture; texels "before the fit" are those of the map that would show all that
+// there can be. With VIEWS_CHOSEN_LIGHT so was the warp, which lies in the same texture
+// (fit_rows.glsl).
 //
-// A view's map is a homography of the plane of the light's rays, whose points are across coordinates:
-// x and y of parallel rays, their slopes of those from a position (lights/LightRays.h).
+// A view's map is a homography of the plane of the light's rays, whose points are across
+// coordinates: x and y of parallel rays, their slopes of those from a position
+// (lights/LightRays.h).
 
 #include "shadowtech/base/fit_rows.glsl"
 #include "shadowtech/base/kernel_shape.glsl"
@@ -196,9 +198,9 @@ mat2 texelJacobian_LIGHT(int view, vec2 across)
 }
 
 #if VIEWS_PIXELS_LIGHT
-// How many texels a pixel shows of a point's surface. Both the pixel and the map see it as large as they stand
-// across it, so that silhouettes, whose pixels have nothing to do with their neighbours', are as good as
-// any other point.
+// How many texels a pixel shows of a point's surface. Both the pixel and the map see it as large as
+// they stand across it, so that silhouettes, whose pixels have nothing to do with their
+// neighbours', are as good as any other point.
 float texelsOfPixel_LIGHT(ViewPoint point)
 {
   float texels = abs(determinant(texelJacobian_LIGHT(point.view, acrossOf_LIGHT(point.position))));
@@ -220,7 +222,8 @@ bool holds_LIGHT(vec2 texel, float border)
 }
 
 #if VIEWS_CUBE_LIGHT
-// A point that the light reaches in the space of the face that sees it, whether or not that has a view.
+// A point that the light reaches in the space of the face that sees it, whether or not that has a
+// view.
 ViewPoint onOwnFace_LIGHT(vec3 positionLight, vec3 normalLight)
 {
   int face = cubeFaceOf(positionLight);
@@ -229,9 +232,8 @@ ViewPoint onOwnFace_LIGHT(vec3 positionLight, vec3 normalLight)
 }
 #endif
 
-// Brings a point that the light reaches into the space of the view that may see it; of splits, which
-// have one space, into that.
-// Returns false where there is no view.
+// Brings a point that the light reaches into the space of the view that may see it; of splits,
+// which have one space, into that. Returns false where there is no view.
 bool enterView_LIGHT(vec3 positionLight, vec3 normalLight, out ViewPoint point)
 {
 #if VIEWS_CUBE_LIGHT
@@ -242,8 +244,8 @@ bool enterView_LIGHT(vec3 positionLight, vec3 normalLight, out ViewPoint point)
   return point.view >= 0;
 }
 
-// Finds the view of a point that the light reaches.
-// Returns false where no view sees it: the views hold all casters that could hide the light's centre from it.
+// Finds the view of a point that the light reaches. Returns false where no view sees it: the views
+// hold all casters that could hide the light's centre from it.
 bool findView_LIGHT(vec3 positionLight, vec3 normalLight, out ViewPoint point)
 {
   if (!enterView_LIGHT(positionLight, normalLight, point))
@@ -268,9 +270,9 @@ bool findView_LIGHT(vec3 positionLight, vec3 normalLight, out ViewPoint point)
 }
 
 #if VIEWS_CUBE_LIGHT
-// The same for those who look at other points of the light than its centre, and so at casters on any face: the point's own
-// face may have none, or be cut to casters elsewhere on it. The point then lies off its map; where a face has no view, texels
-// and depths are those of the first one.
+// The same for those who look at other points of the light than its centre, and so at casters on
+// any face: the point's own face may have none, or be cut to casters elsewhere on it. The point
+// then lies off its map; where a face has no view, texels and depths are those of the first one.
 // Returns false where there are no casters.
 bool findFace_LIGHT(vec3 positionLight, vec3 normalLight, out ViewPoint point)
 {
@@ -282,9 +284,9 @@ bool findFace_LIGHT(vec3 positionLight, vec3 normalLight, out ViewPoint point)
 #endif
 
 #if VIEWS_BLENDED_LIGHT
-// In what share a point that a split's view sees is the next one's, from 0 inside of the layer to 1 at
-// its edge; `next` is the point there. Splits reach as far into the one before as they are blended, so
-// that the next view sees what lies along the edge.
+// In what share a point that a split's view sees is the next one's, from 0 inside of the layer to 1
+// at its edge; `next` is the point there. Splits reach as far into the one before as they are
+// blended, so that the next view sees what lies along the edge.
 float blendIntoNext_LIGHT(ViewPoint point, out ViewPoint next)
 {
   next = point;
@@ -304,8 +306,8 @@ float blendIntoNext_LIGHT(ViewPoint point, out ViewPoint next)
 }
 #endif
 
-// How far from the light the receiver's plane is on the ray through a texel's centre. Where the plane runs past
-// that ray or away from it, it is farther than anything.
+// How far from the light the receiver's plane is on the ray through a texel's centre. Where the
+// plane runs past that ray or away from it, it is farther than anything.
 float planeDistance_LIGHT(ViewPoint point, vec2 texelCentre)
 {
   vec2 centre = acrossOf_LIGHT(point.view, texelCentre);

@@ -1,9 +1,11 @@
-// The frame of pointwise techniques with a map: it finds a point on the map and asks the technique's
-// estimator. With LOOKS_AROUND_LIGHT that looks from a cube's faces at more of the light than its centre.
+// The frame of pointwise techniques with a map: it finds a point on the map and asks the
+// technique's estimator. With LOOKS_AROUND_LIGHT that looks from a cube's faces at more of the
+// light than its centre.
 
 #include "shadowtech/base/light_views.glsl"
 
-// How a point's visibility comes about: classesOfMaps(), in their order, behind which techniques have their own.
+// How a point's visibility comes about: classesOfMaps(), in their order, behind which techniques
+// have their own.
 #ifndef GNOMON_MAP_CLASSES
 #define GNOMON_MAP_CLASSES
 #define MAP_TURNED_AWAY 1
@@ -30,8 +32,8 @@ float pixelArea_LIGHT(vec3 positionView, vec3 normalView)
 // The technique's estimator, for a point that findPoint_LIGHT() has found.
 float estimate_LIGHT(ViewPoint point, float slack);
 
-// The same with what rounding does to depths there. The position is rounded relative to its distance
-// from the camera, which the sum of its parts is never less than.
+// The same with what rounding does to depths there. The position is rounded relative to its
+// distance from the camera, which the sum of its parts is never less than.
 float estimateAt_LIGHT(ViewPoint point, vec3 positionView)
 {
   float distanceView = dot(abs(positionView), vec3(1.0));

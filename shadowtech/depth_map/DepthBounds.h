@@ -22,11 +22,11 @@ struct EarlyOutSettings
 };
 const SettingsTable& earlyOutSettings();
 
-/// The least and the largest depth of a map's blocks of 2, 4, 8, ... texels, up to the whole layer: a
-/// pyramid that tells what all texels of a region say without reading them (depth_bounds.glsl).
+/// The least and the largest depth of a map's blocks of 2, 4, 8, ... texels, up to the whole layer:
+/// a pyramid that tells what all texels of a region say without reading them (depth_bounds.glsl).
 ///
-/// A surface's linear depth is monotonic along every line of the map, so that blocks bound the depths of
-/// planes, too. Depths along the ray are not bounded by those of a block's corners.
+/// A surface's linear depth is monotonic along every line of the map, so that blocks bound the
+/// depths of planes, too. Depths along the ray are not bounded by those of a block's corners.
 class DepthBounds
 {
 public:

@@ -29,8 +29,8 @@ struct Layer
   GLuint frontDepths = 0; ///< a map of which only what lies behind is drawn; 0: all
 };
 
-/// Half the sum of a caster's slopes is never more than the larger one, which is what polygon offset
-/// pushes by. That is twice what is asked for in the worst case, and costs nothing.
+/// Half the sum of a caster's slopes is never more than the larger one, which is what polygon
+/// offset pushes by. That is twice what is asked for in the worst case, and costs nothing.
 bool polygonOffsetServes(const LightView& view, const MapReach& reach)
 {
   return view.depthIsAffine() && reach.squareTexels == MapReach().squareTexels &&

@@ -33,45 +33,46 @@ struct DepthMapSettings
 };
 const SettingsTable& depthMapSettings();
 
-/// Whether a light's depth maps hold distances along the ray, which are not linear across the light.
+/// Whether a light's depth maps hold distances along the ray, which are not linear across the
+/// light.
 bool measuresAlongRay(const ShadowLight& light);
 
 /// What techniques with a plain shadow map share: one layer of linear depth for each of the light's
 /// views. What is left to them is the estimator: GLSL that defines
 ///     float estimate_LIGHT(ViewPoint point, float slack)
-/// for a point that the light reaches and a view sees (map_visibility.glsl), and how far around the point
-/// it reads the map (mapReach).
+/// for a point that the light reaches and a view sees (map_visibility.glsl), and how far around the
+/// point it reads the map (mapReach).
 ///
-/// No bias is tuned. Let p be the receiver and c the centre of a texel that is read, both on the map,
-/// with |c - p| within the reach. The comparison (depth_map.glsl) is made at c, with the nearer of the
-/// depths that the receiver's plane has at c and that the point itself has. So what was drawn at c
-/// shadows the receiver unless it lies behind one of the two.
+/// No bias is tuned. Let p be the receiver and c the centre of a texel that is read, both on the
+/// map, with |c - p| within the reach. The comparison (depth_map.glsl) is made at c, with the
+/// nearer of the depths that the receiver's plane has at c and that the point itself has. So what
+/// was drawn at c shadows the receiver unless it lies behind one of the two.
 ///
-/// - A plane never shadows itself, however far c is: the plane's depth at c is what was drawn there.
-///   Nor does a convex surface, which lies behind each of its tangent planes.
-/// - In a concave corner c may lie on a neighbour that rises towards the light. Let s be the gradient
-///   of the neighbour's depth at c, and q the place where the crease cuts the way from p to c. From c
-///   back to q, which is no farther than p, the neighbour's depth grows by at most
+/// - A plane never shadows itself, however far c is: the plane's depth at c is what was drawn
+///   there. Nor does a convex surface, which lies behind each of its tangent planes.
+/// - In a concave corner c may lie on a neighbour that rises towards the light. Let s be the
+///   gradient of the neighbour's depth at c, and q the place where the crease cuts the way from p
+///   to c. From c back to q, which is no farther than p, the neighbour's depth grows by at most
 ///       h(s) = max of |s . (c - p)| over the reach
 ///            = square * (|s.x| + |s.y|) + disc * length(s),
-///   the support function of the reach. So a map that is pushed back by h is at c no nearer than the
-///   crease is at q, which lies on the receiver's plane, and that is nowhere between p and c nearer
-///   than at both of them. The bias grows with the kernel as the crease's distance does. A view in
-///   perspective has the same for 1 / depth, which is what is affine on a plane there: pushed back,
-///   depth is 1 / (1 / depth - h(gradient of 1 / depth)).
-/// - A warped view is a homography from the plane across the light, on which depth (in perspective its
-///   inverse) is affine, to the map. With k(t), affine on the map, the last coordinate of its inverse,
-///   the way from c to p across the light is the derivative's at c times k(c) / k(p), exactly. So h
-///   is multiplied by the greatest k(c) / k(p) within the reach, and once more since the slope at c is
-///   itself a difference from one texel to the next.
-/// - What is left are neighbours that end within the reach: of a step, the flat top is not pushed back,
-///   and darkens what lies below and within the reach of it.
-/// - For the same reason a shadow begins at most the reach away from the contact with its caster, if
-///   the receiver does not rise towards the light on the shadow's side.
+///   the support function of the reach. So a map that is pushed back by h is at c no nearer than
+///   the crease is at q, which lies on the receiver's plane, and that is nowhere between p and c
+///   nearer than at both of them. The bias grows with the kernel as the crease's distance does. A
+///   view in perspective has the same for 1 / depth, which is what is affine on a plane there:
+///   pushed back, depth is 1 / (1 / depth - h(gradient of 1 / depth)).
+/// - A warped view is a homography from the plane across the light, on which depth (in perspective
+///   its inverse) is affine, to the map. With k(t), affine on the map, the last coordinate of its
+///   inverse, the way from c to p across the light is the derivative's at c times k(c) / k(p),
+///   exactly. So h is multiplied by the greatest k(c) / k(p) within the reach, and once more since
+///   the slope at c is itself a difference from one texel to the next.
+/// - What is left are neighbours that end within the reach: of a step, the flat top is not pushed
+///   back, and darkens what lies below and within the reach of it.
+/// - For the same reason a shadow begins at most the reach away from the contact with its caster,
+///   if the receiver does not rise towards the light on the shadow's side.
 ///
-/// Degenerate cases: a caster along the rays has an endless slope, and a plane in perspective may run
-/// on past the light's axis: what is pushed back ends behind all casters, but before the depth of
-/// texels without any.
+/// Degenerate cases: a caster along the rays has an endless slope, and a plane in perspective may
+/// run on past the light's axis: what is pushed back ends behind all casters, but before the depth
+/// of texels without any.
 class DepthMapTechnique : public PointwiseTechnique
 {
 public:

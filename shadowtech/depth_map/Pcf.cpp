@@ -22,8 +22,8 @@ std::string poissonDiscGlsl()
     ");\n";
 }
 
-/// The kernel's weights at 0, 1, 2, ... texels from the point, straight in between, and 0 at the end.
-/// Castano 2013 gives them as the places and weights of bilinear look-ups.
+/// The kernel's weights at 0, 1, 2, ... texels from the point, straight in between, and 0 at the
+/// end. Castano 2013 gives them as the places and weights of bilinear look-ups.
 std::vector<int> castanoWeights(int texels)
 {
   switch (texels)

@@ -39,8 +39,8 @@ PcssCounts pcssCounts(PcssSamples samples);
 /// The same for shaders: PCSS_SEARCH_POINTS_LIGHT and PCSS_FILTER_POINTS_LIGHT.
 std::string pcssCountsDefines(PcssSamples samples);
 
-/// The points of both steps, one after the other, on the shape of radius or half side 1: Poisson sets (PoissonSquare.h), on
-/// disks by the concentric map.
+/// The points of both steps, one after the other, on the shape of radius or half side 1: Poisson
+/// sets (PoissonSquare.h), on disks by the concentric map.
 std::vector<glm::vec2> pcssPoints(PcssSamples samples, LightArea::Shape shape);
 
 /// These points on the GPU: one row of a texture, the shaders' `lightPoints_LIGHT`.

@@ -56,8 +56,9 @@ float largest_LIGHT(vec4 of)
   return max(max(of.x, of.y), max(of.z, of.w));
 }
 
-// What all texels of a window say: 1 lit, 0 hidden, -1 where the bounds of blocks of 2^level texels do
-// not tell. Rounding between the corners of a block and its texels is well below half of the slack.
+// What all texels of a window say: 1 lit, 0 hidden, -1 where the bounds of blocks of 2^level texels
+// do not tell. Rounding between the corners of a block and its texels is well below half of the
+// slack.
 // @param own the least and the largest that isLitBy_LIGHT() may be given
 float decided_LIGHT(ViewPoint point, TexelWindow_LIGHT window, int level, vec2 own, float slack)
 {
@@ -68,7 +69,8 @@ float decided_LIGHT(ViewPoint point, TexelWindow_LIGHT window, int level, vec2 o
     for (int x = window.first.x >> level; x <= window.last.x >> level; ++x)
     {
       vec2 bounds = texelFetch(depthBounds_LIGHT, ivec3(x, y, point.view), level - 1).rg;
-      // On the map a plane's depth is monotonic along every line, so that its bounds are at corners.
+      // On the map a plane's depth is monotonic along every line, so that its bounds are at
+      // corners.
       vec2 lower = vec2(max(ivec2(x, y) << level, window.first)) + 0.5;
       vec2 upper = vec2(min((ivec2(x, y) + 1) << level, window.last + 1)) - 0.5;
       vec4 plane = vec4(planeDistance_LIGHT(point, lower), planeDistance_LIGHT(point, upper),

@@ -1,11 +1,11 @@
-// Techniques with a plain shadow map: their estimators (map_visibility.glsl) compare a point with the
-// texels that they choose.
+// Techniques with a plain shadow map: their estimators (map_visibility.glsl) compare a point with
+// the texels that they choose.
 //
 // The map knows the caster at a texel's centre only. So the receiver's plane is followed to that
 // centre before depths are compared: a surface then never shadows itself, however steep it is and
-// however far the texel. Where another surface covers the centre, the nearer of the plane's depth and
-// the point's own depth counts: the plane is right on convex surfaces, the point in concave corners
-// (DepthMapTechnique.h).
+// however far the texel. Where another surface covers the centre, the nearer of the plane's depth
+// and the point's own depth counts: the plane is right on convex surfaces, the point in concave
+// corners (DepthMapTechnique.h).
 
 #include "shadowtech/base/map_visibility.glsl"
 

@@ -1,6 +1,6 @@
-// The map holds linear depth, pushed away from the light by what the caster's slope spans within the
-// reach of a look-up (DepthMapTechnique.h tells why). A parallel view's depth is linear as it is, and
-// polygon offset may push it; else both are done here.
+// The map holds linear depth, pushed away from the light by what the caster's slope spans within
+// the reach of a look-up (DepthMapTechnique.h tells why). A parallel view's depth is linear as it
+// is, and polygon offset may push it; else both are done here.
 //
 // PUSH is how many times that span it is pushed. EUCLIDEAN measures along the ray.
 // BEHIND draws what lies behind another map only.
@@ -60,8 +60,8 @@ float warp()
 float pushed()
 {
 #ifdef PERSPECTIVE
-  // Not the depth is affine across the light, but its inverse. Where it reaches 0, the plane runs past
-  // the rays.
+  // Not the depth is affine across the light, but its inverse. Where it reaches 0, the plane runs
+  // past the rays.
   float inverse = 1.0 / depthLinear; // where the light begins, depth is positive
   float left = inverse - PUSH * warp() * span(vec2(dFdx(inverse), dFdy(inverse)));
   return left * DEEPEST > 1.0 ? 1.0 / left : DEEPEST;

@@ -1,8 +1,8 @@
 // Percentage closer filtering (Reeves, Salesin and Cook 1987): the share of the light's kernel that
 // nothing hides. Pcf.h describes the kernels; PCF_TEXELS_LIGHT is their width. How the map is read:
-// PCF_ROWS_LIGHT: the bilinear kernel where its units are texels, PCF_WEIGHTED_LIGHT: all texels of a
-// bilinear or Castano's kernel, PCF_POISSON_LIGHT: points of a disc; else taps, of single texels where
-// PCF_BOX_LIGHT says so.
+// PCF_ROWS_LIGHT: the bilinear kernel where its units are texels, PCF_WEIGHTED_LIGHT: all texels of
+// a bilinear or Castano's kernel, PCF_POISSON_LIGHT: points of a disc; else taps, of single texels
+// where PCF_BOX_LIGHT says so.
 //
 // What is hidden is added up, not what is lit, so that a lit point's visibility is 1 exactly.
 
@@ -77,7 +77,8 @@ float estimate_LIGHT(ViewPoint point, float slack)
   mat2 inverseShape = mat2(shape[1].y, -shape[0].y, -shape[1].x, shape[0].x);
   float side = 0.5 * float(PCF_TEXELS_LIGHT + 1);
   vec2 reach = side * (abs(shape[0]) + abs(shape[1]));
-  // How far along a row either pair of the shape's sides is apart: without end where they run along it.
+  // How far along a row either pair of the shape's sides is apart: without end where they run along
+  // it.
   vec2 perTexel = inverseShape[0];
   perTexel = mix(perTexel, vec2(1e-6), lessThan(abs(perTexel), vec2(1e-6)));
   vec2 extent = side / abs(perTexel);
@@ -98,7 +99,8 @@ float estimate_LIGHT(ViewPoint point, float slack)
       all += weight;
     }
   }
-  // The limit of the stretch leaves a circle of the bilinear filter's radius, 1, which holds a texel.
+  // The limit of the stretch leaves a circle of the bilinear filter's radius, 1, which holds a
+  // texel.
   return max(1.0 - hidden / all, 0.0);
 }
 

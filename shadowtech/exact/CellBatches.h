@@ -90,7 +90,8 @@ template <typename Batch>
 class CollectedBatches
 {
 public:
-  /// @param mostBytes of a buffer, after which another batch begins; so it may become larger by what is added last
+  /// @param mostBytes of a buffer, after which another batch begins; so it may become larger by
+  /// what is added last
   explicit CollectedBatches(std::size_t mostBytes)
     : mostBytes_(mostBytes)
   {

@@ -17,7 +17,8 @@ namespace gnomon
 /// @file
 /// The cells of a conservative map on the GPU.
 
-/// Some rows of a map on the GPU. While one of these is alive OpenGL's state is its own; it is put back in the end.
+/// Some rows of a map on the GPU. While one of these is alive OpenGL's state is its own; it is put
+/// back in the end.
 class CellTarget
 {
 public:
@@ -25,8 +26,8 @@ public:
   static std::string whyUnsupported();
 
   /// Empty cells.
-  /// @throws TextureMemoryError where there is no room, std::runtime_error where OpenGL fails; so does all that follows: what
-  /// was not drawn would pass for lit
+  /// @throws TextureMemoryError where there is no room, std::runtime_error where OpenGL fails; so
+  /// does all that follows: what was not drawn would pass for lit
   CellTarget(ShaderLibrary& shaders, int width, Span rows);
 
   /// How many rows OpenGL takes at once; one at least.
@@ -42,7 +43,8 @@ public:
   void draw(const RingBatch& batch);
   /// Notes the noise of triangles.
   void drawNoise(const TriangleBatch& batch);
-  /// To be called between edges and what spoils texels, triangles, and their noise: each looks at what was drawn before.
+  /// To be called between edges and what spoils texels, triangles, and their noise: each looks at
+  /// what was drawn before.
   void endPass();
 
   /// Reads the cells, row by row.

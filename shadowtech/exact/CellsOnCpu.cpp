@@ -13,7 +13,8 @@ namespace
 /// The triangles of a band whose noise is still to be drawn.
 struct DrawnTriangles
 {
-  /// Of how many it is kept where they are among the texels, which takes as long to find as to draw them: some 10 MB.
+  /// Of how many it is kept where they are among the texels, which takes as long to find as to draw
+  /// them: some 10 MB.
   static constexpr std::size_t mostKept = std::size_t(1) << 14;
   std::vector<PolygonOnTexels> kept;
   std::vector<BandItem> others;
@@ -24,7 +25,8 @@ struct DrawnTriangles
   }
 };
 
-/// A map while it is drawn: first which rows each triangle and edge lies in, then the rows, band by band.
+/// A map while it is drawn: first which rows each triangle and edge lies in, then the rows, band by
+/// band.
 class CellDrawing
 {
 public:
@@ -74,8 +76,8 @@ private:
       });
   }
 
-  /// Ends first: what lies behind one does not matter for how far the layers before it climb. Noise last: what lies behind the one
-  /// layer does not matter for how far off that rays have to start.
+  /// Ends first: what lies behind one does not matter for how far the layers before it climb. Noise
+  /// last: what lies behind the one layer does not matter for how far off that rays have to start.
   void drawBand(int band, Span rows, Cell* cells) const
   {
     this->segments_.visit(band,

@@ -95,7 +95,8 @@ void lookAt(
     const float y = (m[0].y * px + m[1].y * py + m[2].y * pz + m[3].y) * perW;
     const float depth = (m[0].z * px + m[1].z * py + m[2].z * pz + m[3].z) * perW + map.depthOffset;
     const float distance = along.x * px + along.y * py + along.z * pz + along.w;
-    // Written so that NaN fails. A shadow ray may start no farther beside its receiver than margins say.
+    // Written so that NaN fails. A shadow ray may start no farther beside its receiver than margins
+    // say.
     const bool holds = (w > 0.0f) & (distance > 0.0f) & (x >= 0.0f) & (y >= 0.0f) & (x < size) &
       (y < size) & (offset[i] <= map.largestOffset * distance);
     const int column = static_cast<int>(holds ? x : 0.0f);
@@ -168,7 +169,8 @@ ConservativeMap::ConservativeMap(
 void ConservativeMap::buildLevels()
 {
   const std::vector<TexelBounds>* finer = &this->texels_;
-  // Lines are one tile long: they need no coarser level than that of a few texels for the whole map.
+  // Lines are one tile long: they need no coarser level than that of a few texels for the whole
+  // map.
   for (int size = this->lookUp_.size; size > 8;)
   {
     const int half = (size + 1) / 2;
@@ -207,8 +209,8 @@ CasterScene ConservativeMap::sceneOf(const Occluders& occluders) const
 Certainty ConservativeMap::ask(const CasterScene& scene, const MapPolygon& triangle,
   double leastOffset, double mostOffset, bool onCaster) const
 {
-  // Larger triangles are seldom all lit or all in shadow, and their pixels are many, so that it costs little to ask for
-  // each.
+  // Larger triangles are seldom all lit or all in shadow, and their pixels are many, so that it
+  // costs little to ask for each.
   constexpr double mostTexels = 4096.0;
   if (this->texels_.empty() || triangle.facing == 0 ||
     mostOffset > scene.largestOffset(triangle.nearestZ))

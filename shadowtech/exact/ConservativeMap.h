@@ -62,9 +62,9 @@ struct LookUp
 /// A map of one view of a light which says of a receiver that it is lit for certain, in shadow for
 /// certain, or neither.
 ///
-/// *Depth* is a number that is affine on planes across the map, grows along every ray, and spans about
-/// [0, 1] over the casters: with (X, Y, W) = texelFromAcross * across coordinates, z / W for parallel
-/// rays, and -1 / W for those from a position, then scaled.
+/// *Depth* is a number that is affine on planes across the map, grows along every ray, and spans
+/// about [0, 1] over the casters: with (X, Y, W) = texelFromAcross * across coordinates, z / W for
+/// parallel rays, and -1 / W for those from a position, then scaled.
 class ConservativeMap
 {
 public:
@@ -74,7 +74,8 @@ public:
     const LightView& view, bool hasBox, const LookUp& lookUp, std::vector<TexelBounds> texels);
 
   /// Decides receivers that are still uncertain.
-  /// @param onCaster by surface + 1, so that `notCovered` + 1 = 0 is the first: whether it casts, on both sides
+  /// @param onCaster by surface + 1, so that `notCovered` + 1 = 0 is the first: whether it casts,
+  /// on both sides
   void ask(const ReceiverPixels& receivers, const std::vector<std::uint8_t>& onCaster,
     std::vector<Certainty>& certain) const;
 
@@ -92,7 +93,8 @@ public:
   Certainty ask(const ReceiverSegment& segment, bool onCaster) const;
 
   ///@{
-  /// What it is made of, from which a test makes maps that have one of the two answers alone: texels row by row.
+  /// What it is made of, from which a test makes maps that have one of the two answers alone:
+  /// texels row by row.
   const LookUp& lookUp() const { return this->lookUp_; }
   const std::vector<TexelBounds>& texels() const { return this->texels_; }
   ///@}
@@ -105,7 +107,8 @@ private:
   bool hasBox_;
   LookUp lookUp_;
   std::vector<TexelBounds> texels_;
-  /// What is known of 2 x 2 texels at once, 4 x 4 and so on; each level by rows, half as many as before, rounded up.
+  /// What is known of 2 x 2 texels at once, 4 x 4 and so on; each level by rows, half as many as
+  /// before, rounded up.
   std::vector<std::vector<TexelBounds>> levels_;
 };
 
@@ -114,9 +117,10 @@ private:
 using MapRule = std::function<ConservativeMap(const LightView& view, bool hasBox, int sizeTexels,
   const Occluders& occluders, const CasterEdges& edges)>;
 
-/// The rules that are never wrong about a shadow ray, rounding included. docs/techniques/exact.md has them and why
-/// they hold.
-/// @param gpu who draws them; null: the CPU. Not for `Covering::Silhouette`, whose parts are drawn one after another
+/// The rules that are never wrong about a shadow ray, rounding included. docs/techniques/exact.md
+/// has them and why they hold.
+/// @param gpu who draws them; null: the CPU. Not for `Covering::Silhouette`, whose parts are drawn
+/// one after another
 MapRule certainRule(Covering covering, const CellsOnGpu* gpu = nullptr);
 
 /// How exact positions are looked up, with no slack for rounding.

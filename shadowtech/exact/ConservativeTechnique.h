@@ -15,8 +15,8 @@ class CellsOnGpu;
 /// @param gpu draws them, where they are not drawn by the CPU alone; null: the CPU
 using RuleOfSettings = MapRule (*)(const ShadowSettings& settings, const CellsOnGpu* gpu);
 
-/// Conservative maps decide which receivers are lit or in shadow for certain, and the others get their
-/// shadow ray.
+/// Conservative maps decide which receivers are lit or in shadow for certain, and the others get
+/// their shadow ray.
 class ConservativeTechnique : public CpuScreenTechnique
 {
 public:

@@ -21,10 +21,10 @@ struct CrsmaSettings
 const SettingsTable& crsmaSettings();
 
 /// Exact hard shadows, by what covers a texel of their map:
-/// - `crsm`: one triangle contains it (conservative shadow maps after Hertel et al. 2009, with depth
-///   bounds that hold);
-/// - `crsma`: a triangle and its neighbours contain it (with adjacency after Morais 2016, with a border
-///   and depth bounds that hold);
+/// - `crsm`: one triangle contains it (conservative shadow maps after Hertel et al. 2009, with
+///   depth bounds that hold);
+/// - `crsma`: a triangle and its neighbours contain it (with adjacency after Morais 2016, with a
+///   border and depth bounds that hold);
 /// - `silhouette`: no edge of the casters' surface is there.
 const std::vector<ConservativeEntry>& exactTechniques();
 

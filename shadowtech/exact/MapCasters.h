@@ -22,8 +22,9 @@ enum class Covering
   Silhouette ///< or, as of Ring: no end of a part of the casters' surface is there, so that it goes on everywhere
 };
 
-/// What is drawn into a conservative map, whoever draws it: the casters' triangles, their ends and sharp edges, and the rings
-/// around triangles. All of it is made when it is asked for, from what is looked at once: which way triangles face.
+/// What is drawn into a conservative map, whoever draws it: the casters' triangles, their ends and
+/// sharp edges, and the rings around triangles. All of it is made when it is asked for, from what
+/// is looked at once: which way triangles face.
 class MapCasters
 {
 public:
@@ -56,7 +57,8 @@ public:
   MapRing ring(const BandItem& triangle, const MapPolygon& middle) const;
 
   ///@{
-  /// The part of the casters' surface that a triangle or an edge belongs to; none where nobody asks for parts.
+  /// The part of the casters' surface that a triangle or an edge belongs to; none where nobody asks
+  /// for parts.
   CasterPart partOfTriangle(const BandItem& triangle) const;
   CasterPart partOfEdge(const BandItem& edge) const;
   ///@}

@@ -22,7 +22,8 @@ struct Cell
   float nearest = std::numeric_limits<float>::infinity(); ///< the least depth of a caster
   float contained = std::numeric_limits<
     float>::infinity(); ///< the least, over casters that cover the texel, of their largest depths
-  /// The most that a tracer may see a triangle off its plane, of those that begin before oneLayerUpTo(), in world units.
+  /// The most that a tracer may see a triangle off its plane, of those that begin before
+  /// oneLayerUpTo(), in world units.
   float noise = 0.0f;
   float climb = 0.0f; ///< the most that depth changes from anywhere to the sample
   float sharpEnd =
@@ -41,16 +42,17 @@ struct Cell
   /// The least depth from which a part covers the texel, of those that were drawn before.
   float covered = std::numeric_limits<float>::infinity();
 
-  /// Turns to a part. They are drawn one after another, each once: what is taken for one part may be several, which only
-  /// decides less, but of a part that is drawn in pieces a piece would not know where the others end.
+  /// Turns to a part. They are drawn one after another, each once: what is taken for one part may
+  /// be several, which only decides less, but of a part that is drawn in pieces a piece would not
+  /// know where the others end.
   void turnTo(CasterPart next)
   {
     if (next == this->part)
     {
       return;
     }
-    // From where the part is no deeper than partAcross it goes on all over the texel, as nothing ends it, and climbs no
-    // more than twice to the sample.
+    // From where the part is no deeper than partAcross it goes on all over the texel, as nothing
+    // ends it, and climbs no more than twice to the sample.
     const float everywhere = this->partAcross + 2.0f * this->partClimb;
     this->covered =
       this->partEnd > everywhere ? std::min(this->covered, everywhere) : this->covered;
@@ -59,8 +61,8 @@ struct Cell
     this->partClimb = 0.0f;
   }
 
-  /// Up to what depth there is one layer, if any: from anywhere before it walks come to the sample before the second, and
-  /// meet no end.
+  /// Up to what depth there is one layer, if any: from anywhere before it walks come to the sample
+  /// before the second, and meet no end.
   float oneLayerUpTo() const { return std::min(this->second, this->sharpEnd) - this->climb; }
 
   void addLayer(float depth)
@@ -70,25 +72,27 @@ struct Cell
   }
 };
 
-/// Draws a polygon into some rows. Of one that lies along the light (MapPolygon::facing) edges alone are drawn.
-/// @param texels where it is among the texels. Their margin is the same for all that is drawn: walks from texel to edge must not
-/// lose an edge that is taken to be farther away
+/// Draws a polygon into some rows. Of one that lies along the light (MapPolygon::facing) edges
+/// alone are drawn.
+/// @param texels where it is among the texels. Their margin is the same for all that is drawn:
+/// walks from texel to edge must not lose an edge that is taken to be farther away
 /// @param cells of those rows, `width` each
 void drawPolygon(
   const MapPolygon& polygon, const PolygonOnTexels& texels, int width, Span rows, Cell* cells);
 
-/// Notes how far off its plane a tracer may see a polygon that does not lie along the light and begins before
-/// Cell::oneLayerUpTo(): when all edges and polygons are drawn. Others are behind the receivers that are lit by that, wherever a
-/// tracer sees them.
+/// Notes how far off its plane a tracer may see a polygon that does not lie along the light and
+/// begins before Cell::oneLayerUpTo(): when all edges and polygons are drawn. Others are behind the
+/// receivers that are lit by that, wherever a tracer sees them.
 void drawNoise(const PolygonOnTexels& texels, int width, Span rows, Cell* cells);
 
-/// Asks `agrees` about each texel that a polygon touches, with bounds on its depth there, until it does not agree.
+/// Asks `agrees` about each texel that a polygon touches, with bounds on its depth there, until it
+/// does not agree.
 /// @return whether it always did
 bool allTexels(const MapPolygon& polygon, double margin, int width,
   const std::function<bool(int x, int y, float nearest, float farthest)>& agrees);
 
-/// A triangle and those that go on across its edges: a part of the casters' surface, which covers every
-/// texel that it meets but for those on its border.
+/// A triangle and those that go on across its edges: a part of the casters' surface, which covers
+/// every texel that it meets but for those on its border.
 struct MapRing
 {
   std::vector<MapPolygon> triangles; ///< the first is in the middle; all of them cover
@@ -98,8 +102,8 @@ struct MapRing
 /// Notes where a ring covers, for texels that its middle touches.
 void drawRing(const MapRing& ring, double margin, int width, Span rows, Cell* cells);
 
-/// Notes where a part of the casters' surface ends: before its triangles are drawn, of which those behind an end do not
-/// count for how far it climbs.
+/// Notes where a part of the casters' surface ends: before its triangles are drawn, of which those
+/// behind an end do not count for how far it climbs.
 void drawEndOfPart(const MapSegment& segment, double margin, int width, Span rows, Cell* cells);
 
 /// Draws an edge into some rows.

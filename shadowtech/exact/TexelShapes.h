@@ -13,12 +13,14 @@ namespace gnomon
 {
 
 /// @file
-/// What polygons and edges are to the texels of a map, row by row. Each is made ready once, on the CPU; which texels it meets
-/// is then found here or by the twins in texel_shapes.glsl, which read the records as they lie in memory. Neither
-/// divides or fuses, so that both get the same texels and depths to the last bit where OpenGL rounds to nearest even, which
-/// the tests check for each driver: GLSL leaves that open.
+/// What polygons and edges are to the texels of a map, row by row. Each is made ready once, on the
+/// CPU; which texels it meets is then found here or by the twins in texel_shapes.glsl, which read
+/// the records as they lie in memory. Neither divides or fuses, so that both get the same texels
+/// and depths to the last bit where OpenGL rounds to nearest even, which the tests check for each
+/// driver: GLSL leaves that open.
 
-/// Where layers are counted in a texel: off its centre, where the edges of regular casters often are.
+/// Where layers are counted in a texel: off its centre, where the edges of regular casters often
+/// are.
 constexpr double sampleOffset = 1.0 / 61.0;
 /// A sample on an edge is in both of its triangles: counted twice rather than not at all.
 constexpr double sampleOnEdge = 1e-6;

@@ -32,8 +32,8 @@ public:
   {
   }
 
-  /// 1 where all of a triangle faces the light, -1 where all of it is turned away, 0 where rounding may have it
-  /// either way (facesLight()).
+  /// 1 where all of a triangle faces the light, -1 where all of it is turned away, 0 where rounding
+  /// may have it either way (facesLight()).
   /// @param normal unit length
   int facing(const Corners& corners, const glm::dvec3& normal) const
   {
@@ -54,7 +54,8 @@ public:
     return along > least ? 1 : along < -least ? -1 : 0;
   }
 
-  /// Whether all of a triangle lies in the light's cone or box (insideCone(), insideBox()), which are convex.
+  /// Whether all of a triangle lies in the light's cone or box (insideCone(), insideBox()), which
+  /// are convex.
   bool holds(const Corners& corners) const
   {
     for (const glm::dvec3& corner : corners)

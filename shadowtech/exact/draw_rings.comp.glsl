@@ -1,4 +1,5 @@
-// Notes where rings cover, for texels that their middles touch, row by row (drawRing() of TexelCells.h).
+// Notes where rings cover, for texels that their middles touch, row by row (drawRing() of
+// TexelCells.h).
 
 #include "shadowtech/exact/texel_shapes.glsl"
 #include "shadowtech/exact/texel_cells.glsl"

@@ -1,6 +1,7 @@
-// What is gathered of texels: seven minima of each, by atomic operations on bits that are ordered as the numbers
-// are. Of what is the most somewhere, they hold the least of the negative. As minima do not depend on the order, the
-// cells are those of the CPU (TexelCells.h), to the last bit, but for G and noise of spoilt texels, for which nothing asks.
+// What is gathered of texels: seven minima of each, by atomic operations on bits that are ordered
+// as the numbers are. Of what is the most somewhere, they hold the least of the negative. As minima
+// do not depend on the order, the cells are those of the CPU (TexelCells.h), to the last bit, but
+// for G and noise of spoilt texels, for which nothing asks.
 
 const uint numbersOfCell = 7u;
 const uint nearestInCell = 0u;
@@ -56,8 +57,9 @@ float oneLayerUpTo(uint cell)
   return upTo;
 }
 
-// The two least of all. Whatever comes is in the end either the first, or was taken for the second when it, or what it gave
-// way to, met a smaller one: so the second is the least of all others, and one that comes twice counts twice.
+// The two least of all. Whatever comes is in the end either the first, or was taken for the second
+// when it, or what it gave way to, met a smaller one: so the second is the least of all others, and
+// one that comes twice counts twice.
 void addLayer(uint cell, float depth)
 {
   uint bits = orderedBits(depth);

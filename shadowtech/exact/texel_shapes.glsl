@@ -1,7 +1,8 @@
-// What polygons and edges are to the texels of a map, row by row: the twins of PolygonOnTexels and SegmentOnTexels
-// (TexelShapes.h), in double precision, and to the last bit where OpenGL rounds to nearest even, which the tests check for
-// each driver: GLSL leaves that open. Everything is `precise`, so that no products and sums are fused, and nothing is divided,
-// which need not be exact.
+// What polygons and edges are to the texels of a map, row by row: the twins of PolygonOnTexels and
+// SegmentOnTexels (TexelShapes.h), in double precision, and to the last bit where OpenGL rounds to
+// nearest even, which the tests check for each driver: GLSL leaves that open. Everything is
+// `precise`, so that no products and sums are fused, and nothing is divided, which need not be
+// exact.
 //
 // SAMPLE_OFFSET, SAMPLE_ON_EDGE: those of TexelShapes.h.
 

@@ -1,5 +1,5 @@
-// Who walks which rows of what is drawn. An invocation walks all rows of a shape; with ROW_EACH an invocation
-// of a work group has one row of a shape. GROUP: invocations of a work group.
+// Who walks which rows of what is drawn. An invocation walks all rows of a shape; with ROW_EACH an
+// invocation of a work group has one row of a shape. GROUP: invocations of a work group.
 
 layout(local_size_x = GROUP) in;
 

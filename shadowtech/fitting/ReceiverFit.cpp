@@ -12,9 +12,9 @@ namespace gnomon
 namespace
 {
 
-/// Neighbours that go along a row together, and the rows that they take: eight are as many as software
-/// OpenGL works on at once, and read memory in its order (of 8, 32 and 64 these took the least time, by
-/// half). Few enough groups that the atomic operations at their end do not count.
+/// Neighbours that go along a row together, and the rows that they take: eight are as many as
+/// software OpenGL works on at once, and read memory in its order (of 8, 32 and 64 these took the
+/// least time, by half). Few enough groups that the atomic operations at their end do not count.
 constexpr int invocationsPerGroup = 8;
 constexpr int rowsPerGroup = 8;
 constexpr int numbersPerBox = 6;
@@ -53,8 +53,8 @@ private:
   GLint image_ = 0, level_ = 0, layered_ = 0, layer_ = 0, access_ = 0, format_ = 0;
 };
 
-/// What there can be to see on the map before the last fit. A warp is laid around that, and has its border
-/// inside; other maps are laid around the casters.
+/// What there can be to see on the map before the last fit. A warp is laid around that, and has its
+/// border inside; other maps are laid around the casters.
 Rectangle coveredBeforeFit(const ShadowLight& light, const MapTexels& texels)
 {
   return isWarped(light) ? wholeMap : texels.covered();

@@ -24,25 +24,27 @@ struct ReceiverTextures
   int height = 0; ///< in pixels
 };
 
-/// Fits a light's views to the receivers that the camera sees, on the GPU; nothing of it is read back.
+/// Fits a light's views to the receivers that the camera sees, on the GPU; nothing of it is read
+/// back.
 ///
 /// A reduction over the receivers' images finds their bounds in each view; for splits, first their
 /// distances from the camera, which say where to split (Sample Distribution Shadow Maps, Lauritzen,
 /// Salvi, Lefohn 2011, section 3.1). Background, points that are not finite, and receivers that the
-/// light does not reach, or that lie where there are no casters, do not count. From the bounds follows
-/// the last fit F of each view (MapFit.h), which stays in a texture, for whoever draws and reads the
-/// map.
+/// light does not reach, or that lie where there are no casters, do not count. From the bounds
+/// follows the last fit F of each view (MapFit.h), which stays in a texture, for whoever draws and
+/// reads the map.
 ///
-/// Of a view that chooses its warp (LightView::warps), that comes first: the one under which texels are
-/// the smallest on the mean over what is seen, on pixels of a grid all over the picture. What counts is the
-/// mean of both sides that a texel has after the last fit, in world units across the light. The reason:
-/// edges of shadows are as long as what is seen is far, in the world, so that a pixel has as many of them as
-/// it is far; and an edge makes the wronger pixels the larger its texels look, which is less the farther it
-/// is. Both distances cancel. The published optimum of LiSPSM, the least of the worst texel, leaves a quarter
-/// more wrong pixels in views along the ground (docs/measurements.md).
+/// Of a view that chooses its warp (LightView::warps), that comes first: the one under which texels
+/// are the smallest on the mean over what is seen, on pixels of a grid all over the picture. What
+/// counts is the mean of both sides that a texel has after the last fit, in world units across the
+/// light. The reason: edges of shadows are as long as what is seen is far, in the world, so that a
+/// pixel has as many of them as it is far; and an edge makes the wronger pixels the larger its
+/// texels look, which is less the farther it is. Both distances cancel. The published optimum of
+/// LiSPSM, the least of the worst texel, leaves a quarter more wrong pixels in views along the
+/// ground (docs/measurements.md).
 ///
-/// A view without receivers gets an F that draws and finds nothing: what could be shadowed there, is
-/// not seen.
+/// A view without receivers gets an F that draws and finds nothing: what could be shadowed there,
+/// is not seen.
 class ReceiverFit
 {
 public:
@@ -59,8 +61,8 @@ public:
   std::vector<Bounds> readBounds() const;
   /// The same of the fits.
   std::vector<MapFit> readFits() const;
-  /// The same of the warp that was chosen, from the view's uniform map to its own, in device coordinates;
-  /// the identity where none was to be chosen.
+  /// The same of the warp that was chosen, from the view's uniform map to its own, in device
+  /// coordinates; the identity where none was to be chosen.
   glm::dmat3 readWarp() const;
   /// The same of the mean sides of texels that it was chosen by, one per warp of the view.
   std::vector<float> readTexelSides() const;
@@ -80,8 +82,9 @@ private:
   GlBuffer sides_; ///< of the texels under each of them
 };
 
-/// The mean side of the texels under a warp, as a share of that under the uniform map, up to which the warp
-/// is worth it: its texels move with the camera, and a mean over a grid is no more than that.
+/// The mean side of the texels under a warp, as a share of that under the uniform map, up to which
+/// the warp is worth it: its texels move with the camera, and a mean over a grid is no more than
+/// that.
 constexpr double largestSideShare = 0.95;
 
 /// What a view's column says of a warp that is chosen, from the row on that follows the fits

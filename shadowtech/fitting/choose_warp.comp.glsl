@@ -1,5 +1,5 @@
-// Takes the warp with the smallest texels, or the uniform map, which is the first one, where that is
-// about as good.
+// Takes the warp with the smallest texels, or the uniform map, which is the first one, where that
+// is about as good.
 
 #include "shadowtech/base/fit_rows.glsl"
 

@@ -1,12 +1,13 @@
-// The bounds of the receivers that the camera sees, in each of a light's views: x and y in texels of the
-// map before the fit, z the distance along the view. With DISTANCES: the box after them holds the
-// distance from the camera.
+// The bounds of the receivers that the camera sees, in each of a light's views: x and y in texels
+// of the map before the fit, z the distance along the view. With DISTANCES: the box after them
+// holds the distance from the camera.
 //
-// A group of invocations goes along a few rows of pixels, side by side, so that what is read lies side by
-// side, and each adds what it found to the boxes at the end. Nearly all receivers lie inside of what was
-// found before them. So an invocation first runs past pixels, some neighbours at a time, which share what
-// is read of the uniforms, until one lies outside; only then it asks whether they count. These are loops,
-// not branches, as software OpenGL runs through all of a branch, whether it is taken or not.
+// A group of invocations goes along a few rows of pixels, side by side, so that what is read lies
+// side by side, and each adds what it found to the boxes at the end. Nearly all receivers lie
+// inside of what was found before them. So an invocation first runs past pixels, some neighbours at
+// a time, which share what is read of the uniforms, until one lies outside; only then it asks
+// whether they count. These are loops, not branches, as software OpenGL runs through all of a
+// branch, whether it is taken or not.
 
 #include "shadowtech/fitting/bounds_buffer.glsl"
 #include "shadowtech/fitting/receivers.glsl"
@@ -27,8 +28,8 @@ const int firstBox = 0;
 const int boxes = VIEWS_LIGHT;
 #endif
 
-// Where a point is on the map of the view that may see it, in texels before the fit; z: the distance along
-// the view.
+// Where a point is on the map of the view that may see it, in texels before the fit; z: the
+// distance along the view.
 struct Place
 {
   int view;
@@ -114,15 +115,16 @@ int valueOf(vec4 point, out vec3 value)
 vec3 lower[boxes];
 vec3 upper[boxes];
 
-// Neighbours that are looked at together: every GROUP-th pixel of a row, the last one again beyond its end.
-// More of them share more, but need more registers.
+// Neighbours that are looked at together: every GROUP-th pixel of a row, the last one again beyond
+// its end. More of them share more, but need more registers.
 const int together = boxes == 1 ? 8 : 4;
 ivec2 neighbour(ivec2 first, int i, int width)
 {
   return ivec2(min(first.x + i * GROUP, width - 1), first.y);
 }
 
-// Whether any of some neighbours would make its box larger, if it counts. What is not a number does not.
+// Whether any of some neighbours would make its box larger, if it counts. What is not a number does
+// not.
 bool anyGrows(ivec2 first, int width)
 {
   bool result = false;

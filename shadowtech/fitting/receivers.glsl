@@ -18,7 +18,8 @@ vec3 lightFromView(vec3 positionView)
   return (lightFromView_LIGHT * vec4(positionView, 1.0)).xyz;
 }
 
-// False for background, what shows no shadows, what the light does not reach, and what is not finite.
+// False for background, what shows no shadows, what the light does not reach, and what is not
+// finite.
 bool isReached(ivec2 pixel, vec4 point)
 {
   vec4 fragment = texelFetch(receiverFragments, pixel, 0);

@@ -1,9 +1,10 @@
-// How large the texels of a warp would be on the receivers: the mean of both sides of a texel, across the
-// light and in world units, over pixels of a grid all over the picture (ReceiverFit.h says why that). One
-// work group per warp.
+// How large the texels of a warp would be on the receivers: the mean of both sides of a texel,
+// across the light and in world units, over pixels of a grid all over the picture (ReceiverFit.h
+// says why that). One work group per warp.
 //
-// The order of the sums is fixed, so that the same picture gives the same number. Pixels between those of
-// the grid change a mean by little, and the bounds that the map is fitted to in the end are those of all.
+// The order of the sums is fixed, so that the same picture gives the same number. Pixels between
+// those of the grid change a mean by little, and the bounds that the map is fitted to in the end
+// are those of all.
 
 #include "shadowtech/fitting/receivers.glsl"
 

@@ -17,8 +17,9 @@ namespace gnomon
 {
 
 /// @file
-/// How maps are drawn on all cores: the casters are looked at once, to find in which bands of rows each lies, and then
-/// the bands are drawn, each by one core, so that their texels stay in the processor's cache.
+/// How maps are drawn on all cores: the casters are looked at once, to find in which bands of rows
+/// each lies, and then the bands are drawn, each by one core, so that their texels stay in the
+/// processor's cache.
 
 /// A casting surface, or one instance of it.
 struct Placement

@@ -76,7 +76,8 @@ std::vector<Side> sortedSides(
   return sides;
 }
 
-/// Unit normals; zero of triangles that are too thin for shadow rays that start on their neighbours.
+/// Unit normals; zero of triangles that are too thin for shadow rays that start on their
+/// neighbours.
 std::vector<glm::dvec3> normalsOf(const Occluders& occluders, const Surface& surface)
 {
   std::vector<glm::dvec3> normals(surface.triangleCount);
@@ -115,8 +116,8 @@ std::vector<NormalCone> normalCones(const Occluders& occluders, const Surface& s
       }
     }
   };
-  // Which side a normal is on does not matter here, as triangles may be wound either way: where neighbours are no
-  // sharper than that, all around a corner are on one side, or far from the mean.
+  // Which side a normal is on does not matter here, as triangles may be wound either way: where
+  // neighbours are no sharper than that, all around a corner are on one side, or far from the mean.
   std::vector<glm::dvec3> axes(surface.vertexCount, glm::dvec3(0.0));
   visit([&](std::uint32_t vertex, const glm::dvec3& normal)
     { axes[vertex] += glm::dot(normal, axes[vertex]) < 0.0 ? -normal : normal; });
@@ -192,7 +193,8 @@ SurfaceEdges joinTriangles(
   return found;
 }
 
-/// Where a surface has another place in the snapshot, its vertices and triangles have other numbers.
+/// Where a surface has another place in the snapshot, its vertices and triangles have other
+/// numbers.
 void renumber(const Surface& surface, SurfaceEdges& found)
 {
   // Modulo 2^32, so that it may go either way.

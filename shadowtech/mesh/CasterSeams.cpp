@@ -170,11 +170,12 @@ private:
   double halfAngle_;
 };
 
-/// Whether triangles of cones may be too far apart for shadow rays that start off one of them: the normals do not fit into one
-/// cone.
+/// Whether triangles of cones may be too far apart for shadow rays that start off one of them: the
+/// normals do not fit into one cone.
 ///
-/// It is found as a sphere around points is by Ritter (An efficient bounding sphere, 1990): from two that are far apart, and
-/// widened by the others. So two cones alone are too far apart only if some of their normals are.
+/// It is found as a sphere around points is by Ritter (An efficient bounding sphere, 1990): from
+/// two that are far apart, and widened by the others. So two cones alone are too far apart only if
+/// some of their normals are.
 bool tooFarApart(const std::vector<WideCone>& cones)
 {
   const auto farthestFrom = [&](const WideCone& one)
@@ -188,7 +189,8 @@ bool tooFarApart(const std::vector<WideCone>& cones)
   {
     all.add(cone);
   }
-  // Rounding a cosine to float changes its angle by up to 4e-4. Written so that NaN is too far apart.
+  // Rounding a cosine to float changes its angle by up to 4e-4. Written so that NaN is too far
+  // apart.
   return !(all.halfAngle() < 0.5 * std::acos(sharpCosine) - 1e-3);
 }
 

@@ -25,9 +25,11 @@ struct Seam
   ///@}
 };
 
-/// Seams of the casting surfaces: edges of two of them, both ends of which are at exactly the same places, and of no third.
+/// Seams of the casting surfaces: edges of two of them, both ends of which are at exactly the same
+/// places, and of no third.
 ///
-/// Surfaces that are instances, one-sided or cut out have none: what is true of one side need not be of the other.
+/// Surfaces that are instances, one-sided or cut out have none: what is true of one side need not
+/// be of the other.
 class CasterSeams
 {
 public:

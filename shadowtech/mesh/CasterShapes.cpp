@@ -147,7 +147,8 @@ double marginOf(const CasterScene& scene, double nearestZ)
   return marginTexels + perUnit * scene.lateral;
 }
 
-/// Whether a triangle is so near to a positional light that its margin might be wider than what is drawn around the map.
+/// Whether a triangle is so near to a positional light that its margin might be wider than what is
+/// drawn around the map.
 bool isAtLight(const CasterScene& scene, const std::array<glm::dvec3, 3>& corners)
 {
   if (!scene.space.positional)
@@ -228,7 +229,8 @@ CasterScene casterScene(
   const double extent =
     std::max({ high - low, 1e-6 * std::max(std::abs(high), std::abs(low)), smallestDivisor });
 
-  // What rays and casters are rounded in proportion to: their coordinates, relative to a ray's origin.
+  // What rays and casters are rounded in proportion to: their coordinates, relative to a ray's
+  // origin.
   double largest = 0.0;
   for (const glm::dvec3& corner : occluders.allCentred.corners())
   {

@@ -16,22 +16,23 @@ namespace gnomon
 {
 
 /// @file
-/// Casters as a conservative map sees them: triangles and edges on the plane of its texels, with how far
-/// rounding may move them.
+/// Casters as a conservative map sees them: triangles and edges on the plane of its texels, with
+/// how far rounding may move them.
 
-/// How much larger than it is a texel counts, on each side, in texels: for what rounding moves shadow
-/// rays across the light, and for how far beside the receiver they start.
+/// How much larger than it is a texel counts, on each side, in texels: for what rounding moves
+/// shadow rays across the light, and for how far beside the receiver they start.
 constexpr double marginTexels = 1.0 / 128.0;
 /// The part of it that is there for where rays start.
 constexpr double offsetTexels = 1.0 / 256.0;
-/// With a larger margin a texel would not decide much: casters of which rounding asks for more make texels undecided.
+/// With a larger margin a texel would not decide much: casters of which rounding asks for more make
+/// texels undecided.
 constexpr double largestMargin = 1.0;
-/// Triangles that are no higher than this seem to be edges alone. Rays start less far beside their receivers, so that
-/// they do not start behind such a triangle's neighbour.
+/// Triangles that are no higher than this seem to be edges alone. Rays start less far beside their
+/// receivers, so that they do not start behind such a triangle's neighbour.
 constexpr double thinTexels = 1.0 / 128.0;
 
-/// A point as the map sees it, in homogeneous coordinates: texels X/W and Y/W, depth Q/W; z along the
-/// view.
+/// A point as the map sees it, in homogeneous coordinates: texels X/W and Y/W, depth Q/W; z along
+/// the view.
 struct MapPoint
 {
   double X, Y, W, Q, z;
@@ -65,7 +66,8 @@ struct MapSpace
   /// @param constant what Q / W has everywhere, in place of `depthOffset`
   glm::dmat4 mapFromCentred(double constant) const;
 
-  /// How much depth changes at most where a point moves by a unit of length in any direction: a / W + b / W^2.
+  /// How much depth changes at most where a point moves by a unit of length in any direction: a / W
+  /// + b / W^2.
   glm::dvec2 depthPerUnit() const
   {
     return this->positional
@@ -98,7 +100,8 @@ struct CasterScene
   /// Towards the light, of parallel rays; else the light's position, centred.
   glm::dvec3 towards;
 
-  /// How far a shadow ray may start beside its receiver, across the light, at a distance from it (of parallel rays: at any).
+  /// How far a shadow ray may start beside its receiver, across the light, at a distance from it
+  /// (of parallel rays: at any).
   double largestOffset(double distance) const
   {
     // Off the view's axis rays are longer, twice at most.
@@ -126,7 +129,8 @@ constexpr std::size_t mostCorners = 16;
 /// Of a polygon's side that is none of the triangle's.
 constexpr std::uint8_t noSide = 3;
 
-/// One of the parts that the casters' surface falls into (CasterEdges::partOf()), those of instances told apart.
+/// One of the parts that the casters' surface falls into (CasterEdges::partOf()), those of
+/// instances told apart.
 using CasterPart = std::uint64_t;
 constexpr CasterPart noPart = 0xffffffffffffffffu;
 
@@ -138,8 +142,8 @@ struct MapPolygon
   int facing = 0; ///< 1 or -1 by the way that it is wound on the map; 0: all its edges are ends
   std::size_t count = 0;
   std::array<MapCorner, mostCorners> corners;
-  /// Which side of the triangle runs from each corner to the next, by the corner of the triangle that it starts at;
-  /// `noSide` where the polygon was cut.
+  /// Which side of the triangle runs from each corner to the next, by the corner of the triangle
+  /// that it starts at; `noSide` where the polygon was cut.
   std::array<std::uint8_t, mostCorners> sides;
   /// That rounding asks for, in texels; infinite where the caster is at the light.
   double margin = 0.0;
@@ -184,8 +188,8 @@ struct MapSegment
   CasterPart part = noPart; ///< that its triangles belong to
 };
 
-/// What an edge is to its triangles, of which each faces one way on the map or the other (1, -1), lies
-/// along the light (0), or is not there at all (`absentFacing`).
+/// What an edge is to its triangles, of which each faces one way on the map or the other (1, -1),
+/// lies along the light (0), or is not there at all (`absentFacing`).
 constexpr std::int8_t absentFacing = 2;
 enum class EdgeKind
 {

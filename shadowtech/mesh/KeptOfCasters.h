@@ -19,9 +19,10 @@ template <typename Found>
 class KeptOfCasters
 {
 public:
-  /// Finds it for surfaces that are new, and brings it up to date for those that moved or have another place in the snapshot.
-  /// @param bringUpToDate called with a snapshot, a surface of it, and what was found for the same triangles; a new Found, if nothing
-  /// was
+  /// Finds it for surfaces that are new, and brings it up to date for those that moved or have
+  /// another place in the snapshot.
+  /// @param bringUpToDate called with a snapshot, a surface of it, and what was found for the same
+  /// triangles; a new Found, if nothing was
   template <typename BringUpToDate>
   void update(const Occluders& occluders, const BringUpToDate& bringUpToDate)
   {

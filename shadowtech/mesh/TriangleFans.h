@@ -32,7 +32,8 @@ struct SurfaceFans
   std::size_t bytes() const;
 };
 
-/// Brings the fans of a surface up to date: they stay where the same vertices as before are at the same place.
+/// Brings the fans of a surface up to date: they stay where the same vertices as before are at the
+/// same place.
 /// @param fans of the same triangles at any other place; or empty, and then all is found
 void updateFans(const Occluders& occluders, const Surface& surface, SurfaceFans& fans);
 
@@ -49,8 +50,8 @@ private:
   KeptOfCasters<SurfaceFans> kept_;
 };
 
-/// Visits a triangle and those that share an edge with it, or a vertex, each once: any number of triangles
-/// may meet in either.
+/// Visits a triangle and those that share an edge with it, or a vertex, each once: any number of
+/// triangles may meet in either.
 /// @param triangle of the snapshot, as are those visited
 /// @param visit returns whether that is enough
 /// @return whether it was

@@ -13,7 +13,8 @@
 namespace gnomon
 {
 
-/// A position as bits: in order even where it is not finite, and the same only for exactly the same place.
+/// A position as bits: in order even where it is not finite, and the same only for exactly the same
+/// place.
 using Place = std::array<std::uint32_t, 3>;
 
 inline Place placeOf(const glm::vec3& position)
@@ -25,15 +26,15 @@ inline Place placeOf(const glm::vec3& position)
 /// Well spread over all of its bits, the upper ones most.
 inline std::uint64_t hashOf(const Place& place)
 {
-  // Two rounds of multiplication by odd numbers (Knuth, The Art of Computer Programming 3, 6.4): coordinates of regular meshes
-  // differ in few bits.
+  // Two rounds of multiplication by odd numbers (Knuth, The Art of Computer Programming 3, 6.4):
+  // coordinates of regular meshes differ in few bits.
   std::uint64_t hash = (std::uint64_t(place[1]) << 32 | place[0]) * 0x9e3779b97f4a7c15u;
   hash = (hash ^ hash >> 32 ^ place[2]) * 0xd6e8feb86659fd93u;
   return hash ^ hash >> 32;
 }
 
-/// Of things that are numbered one by one, finds the first that is the same: a hash table of their numbers, with
-/// linear probing.
+/// Of things that are numbered one by one, finds the first that is the same: a hash table of their
+/// numbers, with linear probing.
 class FirstOfSame
 {
 public:
@@ -48,7 +49,8 @@ public:
   }
 
   /// @param hash the same for things that are the same
-  /// @param isSame whether a thing of that number, of those asked for before, is the same as this one
+  /// @param isSame whether a thing of that number, of those asked for before, is the same as this
+  /// one
   /// @return the number of the first one; this one, if there was none
   template <typename IsSame>
   std::uint32_t of(std::uint32_t number, std::uint64_t hash, const IsSame& isSame)
@@ -71,8 +73,8 @@ private:
   std::vector<std::uint32_t> slots_;
 };
 
-/// For each vertex of a surface, counted from its first, the first one at exactly the same place: surfaces
-/// that are drawn are split where their normals or texture coordinates break.
+/// For each vertex of a surface, counted from its first, the first one at exactly the same place:
+/// surfaces that are drawn are split where their normals or texture coordinates break.
 std::vector<std::uint32_t> weldedVertices(const Occluders& occluders, const Surface& surface);
 
 } // namespace gnomon

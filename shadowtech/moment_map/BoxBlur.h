@@ -13,11 +13,11 @@ namespace gnomon
 
 class ShaderLibrary;
 
-/// Replaces the texels of a map by their means over a square box, rows first, then columns. The cost
-/// does not depend on the box's width (box_blur.comp.glsl).
+/// Replaces the texels of a map by their means over a square box, rows first, then columns. The
+/// cost does not depend on the box's width (box_blur.comp.glsl).
 ///
-/// The box of texel i begins at i - width / 2: around the texel for an odd width, around the texel's
-/// lower corner for an even one. Outside of a layer there is nothing but empty texels.
+/// The box of texel i begins at i - width / 2: around the texel for an odd width, around the
+/// texel's lower corner for an even one. Outside of a layer there is nothing but empty texels.
 class BoxBlur
 {
 public:

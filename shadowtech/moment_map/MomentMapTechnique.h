@@ -36,37 +36,38 @@ struct VarianceSettings
 const SettingsTable& varianceSettings();
 
 /// What techniques with a map of moments share. Depths may not be averaged, but their moments may:
-/// the means of a few powers (or other functions) of depth over a part of the map say how its depths
-/// are distributed, and from that an estimator bounds the share of them that lies behind a receiver.
-/// So the map is filtered before it is read, like any picture: by a box as wide as the light's kernel,
-/// whose cost does not depend on its width (BoxBlur.h), and by the texture unit's bilinear filter.
-/// Together they are the bilinear kernel of `pcf` (Pcf.h).
+/// the means of a few powers (or other functions) of depth over a part of the map say how its
+/// depths are distributed, and from that an estimator bounds the share of them that lies behind a
+/// receiver. So the map is filtered before it is read, like any picture: by a box as wide as the
+/// light's kernel, whose cost does not depend on its width (BoxBlur.h), and by the texture unit's
+/// bilinear filter. Together they are the bilinear kernel of `pcf` (Pcf.h).
 ///
 /// The depth of moments is the map's linear depth, from [0, 1] to [-1, 1]. Texels without casters
 /// have the moments of depth 1, and so has what lies outside of a layer.
 ///
 /// **No bias is tuned.** A receiver is compared at its own depth, and where more than two moments
-/// demand it, at one that follows from its plane (Exponential.h, FourMoments.h). Of a plane, the mean over the
-/// kernel's square is the depth at the square's middle, which is the receiver's: parallel rays make
-/// depth linear on the map; in perspective it is convex along any line on the map, so that its mean
-/// only lies farther away, which is on the lit side; and so it is on convex surfaces. What is left is
-/// rounding of the positions on the map (the rasteriser's, and of the texture unit's weights, which
-/// may be multiples of 1/256 texel). It moves depth in proportion to the slope, as the square root of
-/// the variance is. A single texel has no variance of its own: its depths are taken to be spread by
-/// half of what they change by to the next texel (Donnelly and Lauritzen 2006, "derivative bias").
-/// Where there is no slope, the estimators have a floor to the variance.
+/// demand it, at one that follows from its plane (Exponential.h, FourMoments.h). Of a plane, the
+/// mean over the kernel's square is the depth at the square's middle, which is the receiver's:
+/// parallel rays make depth linear on the map; in perspective it is convex along any line on the
+/// map, so that its mean only lies farther away, which is on the lit side; and so it is on convex
+/// surfaces. What is left is rounding of the positions on the map (the rasteriser's, and of the
+/// texture unit's weights, which may be multiples of 1/256 texel). It moves depth in proportion to
+/// the slope, as the square root of the variance is. A single texel has no variance of its own: its
+/// depths are taken to be spread by half of what they change by to the next texel (Donnelly and
+/// Lauritzen 2006, "derivative bias"). Where there is no slope, the estimators have a floor to the
+/// variance.
 ///
-/// With `blur` sat the kernel is not in the map, which is then a summed-area table (SummedAreaTable.h): each
-/// look-up takes the mean over a rectangle of its own, as wide as the kernel is at that point
-/// (Kernel.h), so that warped maps blur as evenly as others.
+/// With `blur` sat the kernel is not in the map, which is then a summed-area table
+/// (SummedAreaTable.h): each look-up takes the mean over a rectangle of its own, as wide as the
+/// kernel is at that point (Kernel.h), so that warped maps blur as evenly as others.
 ///
-/// With `mip_maps` the blurred map has coarser levels, of which a look-up reads one whose texels cover what
-/// its pixel shows of the receiver, so that shadows that are far away do not flicker or look like
-/// their middle pixel. How much that is follows from the receiver's plane, the camera and the map's Jacobian
-/// (texelsOfPixel_LIGHT), and never from a pixel's neighbours.
+/// With `mip_maps` the blurred map has coarser levels, of which a look-up reads one whose texels
+/// cover what its pixel shows of the receiver, so that shadows that are far away do not flicker or
+/// look like their middle pixel. How much that is follows from the receiver's plane, the camera and
+/// the map's Jacobian (texelsOfPixel_LIGHT), and never from a pixel's neighbours.
 ///
-/// A texel may be drawn with several samples (`map_samples`), each of which has its own depth, spread as
-/// the part of the texel is that it stands for.
+/// A texel may be drawn with several samples (`map_samples`), each of which has its own depth,
+/// spread as the part of the texel is that it stands for.
 ///
 /// In concave corners the kernel's square holds what rises towards the light, and so darkens them
 /// within its width.
@@ -91,7 +92,8 @@ protected:
     /// first `count` count.
     std::string glsl;
     glm::vec4 empty; ///< momentsOf(1, 0)
-    /// What no moment's size exceeds, a power of two, for fixed-point numbers; 0: too much for them.
+    /// What no moment's size exceeds, a power of two, for fixed-point numbers; 0: too much for
+    /// them.
     glm::vec4 largest;
   };
   virtual Moments moments() const = 0;
@@ -99,7 +101,8 @@ protected:
   /// What an estimator of this name is, like all others over moments.
   static TechniqueInfo infoOf(const char* name);
 
-  /// The source of float estimate_LIGHT(ViewPoint point, float slack), which includes moment_map.glsl.
+  /// The source of float estimate_LIGHT(ViewPoint point, float slack), which includes
+  /// moment_map.glsl.
   virtual std::string estimatorGlsl(const ShadowLight& light) const = 0;
 
 private:

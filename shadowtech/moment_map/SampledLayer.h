@@ -9,7 +9,8 @@
 namespace gnomon
 {
 
-/// What a layer of a map is drawn into with several samples of each texel, before they are averaged.
+/// What a layer of a map is drawn into with several samples of each texel, before they are
+/// averaged.
 class SampledLayer
 {
 public:

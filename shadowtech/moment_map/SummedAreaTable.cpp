@@ -41,7 +41,8 @@ void SummedAreaTable::allocate(int channels, int sizeTexels, int layers)
 //------------------------------------------------------------------------------
 void SummedAreaTable::setUnits(const glm::vec4& largest, double widestTexels)
 {
-  // The shader cuts rectangles off at the layer's edge, and takes up to two texels more along an axis.
+  // The shader cuts rectangles off at the layer's edge, and takes up to two texels more along an
+  // axis.
   const double side = std::min(widestTexels + 2.0, static_cast<double>(this->sizeTexels_));
   for (int i = 0; i < 4; ++i)
   {

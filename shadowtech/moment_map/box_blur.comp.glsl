@@ -1,10 +1,11 @@
-// Means over BLUR_TEXELS texels in a row or a column, at a cost that does not depend on their number:
-// the block sums of van Herk (1992) and Gil and Werman (1993), with + in place of their maximum.
+// Means over BLUR_TEXELS texels in a row or a column, at a cost that does not depend on their
+// number: the block sums of van Herk (1992) and Gil and Werman (1993), with + in place of their
+// maximum.
 //
-// The line is cut into blocks as long as the box. A box that begins inside a block is the end of that
-// block and the beginning of the next: the sum of one suffix and one prefix, each of which takes one
-// addition from its neighbour's. Nothing is ever subtracted, so that no rounding gathers along the
-// line, as it does in a sum that slides, or in a summed-area table.
+// The line is cut into blocks as long as the box. A box that begins inside a block is the end of
+// that block and the beginning of the next: the sum of one suffix and one prefix, each of which
+// takes one addition from its neighbour's. Nothing is ever subtracted, so that no rounding gathers
+// along the line, as it does in a sum that slides, or in a summed-area table.
 
 layout(local_size_x = 64) in;
 

@@ -6,8 +6,8 @@
 #include "shadowtech/moment_map/chebyshev.glsl"
 
 // The bound by one of the functions, with all of it over the function's value at the receiver, so
-// that small ones keep their digits. Where the mean is far beyond that value, the square may overflow;
-// the variance is of no meaning then.
+// that small ones keep their digits. Where the mean is far beyond that value, the square may
+// overflow; the variance is of no meaning then.
 float warpedBound_LIGHT(vec2 moments, float warped, float exponent)
 {
   float size = abs(warped);
@@ -17,8 +17,8 @@ float warpedBound_LIGHT(vec2 moments, float warped, float exponent)
   return chebyshevBound(mean, max(variance, least), sign(warped));
 }
 
-// How much nearer than the receiver the depth is whose value the second function has in the mean over
-// the receiver's own plane, at most (Exponential.h).
+// How much nearer than the receiver the depth is whose value the second function has in the mean
+// over the receiver's own plane, at most (Exponential.h).
 float concaveBias_LIGHT(ViewPoint point)
 {
   float exponent = 2.0 * exponentNegative; // of depths in [0, 1]

@@ -1,8 +1,8 @@
 // Techniques with a map of moments: the mean moments around a point, and what their estimators do
 // with a bound on the share of the map's depths that lie behind the point (MomentMapTechnique.h).
 //
-// KERNEL_TEXELS_LIGHT is the kernel's width; MOMENTS_SUMMED_LIGHT: the map is a summed-area table, else
-// it was blurred. BLEEDING_LIGHT is the bound up to which a point is in full shadow.
+// KERNEL_TEXELS_LIGHT is the kernel's width; MOMENTS_SUMMED_LIGHT: the map is a summed-area table,
+// else it was blurred. BLEEDING_LIGHT is the bound up to which a point is in full shadow.
 
 #include "shadowtech/base/map_visibility.glsl"
 
@@ -14,9 +14,9 @@
 #include "shadowtech/moment_map/moments_blurred.glsl"
 #endif
 
-// The receiver's depth, nearer by its rounding and by a bias in depths of [0, 1], from [0, 1] to [-1, 1]
-// as that of the moments. Receivers that do not cast may lie behind all depths of the map: as far away
-// as empty texels.
+// The receiver's depth, nearer by its rounding and by a bias in depths of [0, 1], from [0, 1] to
+// [-1, 1] as that of the moments. Receivers that do not cast may lie behind all depths of the map:
+// as far away as empty texels.
 float centredDepth_LIGHT(ViewPoint point, float bias)
 {
   return 2.0 * clamp(viewDepth_LIGHT(point, point.position.z) - bias, 0.0, 1.0) - 1.0;

@@ -11,9 +11,9 @@
 const float momentBias = 3.0e-6;
 const vec4 momentsOfBias = vec4(0.0, 0.375, 0.0, 0.375);
 
-// The largest share of depths with these moments that can lie as far as `depth`. Of all distributions
-// with four given moments the one that has the least before `depth` consists of that depth and two
-// others, the roots of a quadratic polynomial c.x + c.y z + c.z z^2, where
+// The largest share of depths with these moments that can lie as far as `depth`. Of all
+// distributions with four given moments the one that has the least before `depth` consists of that
+// depth and two others, the roots of a quadratic polynomial c.x + c.y z + c.z z^2, where
 //     (1  b1 b2)
 //     (b1 b2 b3) c = (1, depth, depth^2)
 //     (b2 b3 b4)
@@ -68,8 +68,8 @@ float hamburgerBound(vec4 moments, float depth)
 
 #endif
 
-// The standard deviation of the depths of the receiver's own plane: of the kernel's texels, of its place
-// between them (the bilinear filter's two texels), and of the spread that each texel has.
+// The standard deviation of the depths of the receiver's own plane: of the kernel's texels, of its
+// place between them (the bilinear filter's two texels), and of the spread that each texel has.
 float planeDeviation_LIGHT(ViewPoint point)
 {
   vec2 texels = kernelTexels_LIGHT(point);

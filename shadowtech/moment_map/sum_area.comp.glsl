@@ -1,5 +1,6 @@
-// Summed-area tables (SummedAreaTable.h), in two passes: ROWS turns the texels of a layer into integers
-// and sums them along its rows, COLUMNS sums those sums along the columns. One invocation has a line.
+// Summed-area tables (SummedAreaTable.h), in two passes: ROWS turns the texels of a layer into
+// integers and sums them along its rows, COLUMNS sums those sums along the columns. One invocation
+// has a line.
 
 layout(local_size_x = 16) in;
 
@@ -20,7 +21,8 @@ void main()
     return;
   }
   uvec4 sum = uvec4(0u);
-  // What the texels so far have in excess of whole units. The rows' first ones are spread evenly over [0, 1).
+  // What the texels so far have in excess of whole units. The rows' first ones are spread evenly
+  // over [0, 1).
   vec4 rest = vec4(fract(0.6180339887 * float(line)));
   for (int i = 0; i < size.x; ++i)
   {

@@ -11,10 +11,10 @@ uvec4 sumBefore_LIGHT(ivec2 texel, int layer)
   return all(greaterThan(texel, ivec2(0))) ? sum : uvec4(0u);
 }
 
-// The mean over a rectangle of any place, in texels, which counts texels by how far it covers them. Along an
-// axis it is the part up to its last whole texel, and a share of that, less a share of the first:
-// three intervals with one beginning. Their products with those of the other axis are rectangles of
-// whole texels, whose sums do not wrap.
+// The mean over a rectangle of any place, in texels, which counts texels by how far it covers them.
+// Along an axis it is the part up to its last whole texel, and a share of that, less a share of the
+// first: three intervals with one beginning. Their products with those of the other axis are
+// rectangles of whole texels, whose sums do not wrap.
 vec4 meanOver_LIGHT(vec2 lower, vec2 upper, int layer)
 {
   ivec2 size = textureSize(momentTable_LIGHT, 0).xy;

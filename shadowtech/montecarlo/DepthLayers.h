@@ -10,10 +10,11 @@
 namespace gnomon
 {
 
-/// What of the casters a light's map holds as solid: slabs between depths of ray space (RaySpace.h), up to four in a texel.
+/// What of the casters a light's map holds as solid: slabs between depths of ray space
+/// (RaySpace.h), up to four in a texel.
 ///
-/// Which slabs these are, RayLayers says (MonteCarloSettings.h): between the nearest and the farthest surface,
-/// or between peeled surfaces. All of a texel counts as what its centre sees.
+/// Which slabs these are, RayLayers says (MonteCarloSettings.h): between the nearest and the
+/// farthest surface, or between peeled surfaces. All of a texel counts as what its centre sees.
 class DepthLayers
 {
 public:
@@ -21,7 +22,8 @@ public:
   /// @param nearest the z at which p is -1, of a positional light
   void draw(const MapInput& input, double nearest);
 
-  /// An array of RGBA textures: two slabs (begin, end, begin, end) to a page, the views' pages one after the other.
+  /// An array of RGBA textures: two slabs (begin, end, begin, end) to a page, the views' pages one
+  /// after the other.
   GLuint slabs() const { return this->slabs_.name(); }
   int pages() const { return this->pages_; }
   std::size_t bytes() const;

@@ -14,12 +14,12 @@
 namespace gnomon
 {
 
-/// `montecarlo`: soft shadows of area lights by a few random rays for each pixel, which are followed through the depth layers of
-/// the light's map, and a filter that takes off the noise (Curtis, *Real-Time Soft Shadows Using Monte Carlo Ray Tracing of
-/// Depth Maps*, 2009).
+/// `montecarlo`: soft shadows of area lights by a few random rays for each pixel, which are
+/// followed through the depth layers of the light's map, and a filter that takes off the noise
+/// (Curtis, *Real-Time Soft Shadows Using Monte Carlo Ray Tracing of Depth Maps*, 2009).
 ///
-/// Instead of the casters' triangles, rays meet slabs between two depths in the texels of a map (DepthLayers.h), which a
-/// hierarchy of bounds leads them to (SlabBounds.h).
+/// Instead of the casters' triangles, rays meet slabs between two depths in the texels of a map
+/// (DepthLayers.h), which a hierarchy of bounds leads them to (SlabBounds.h).
 class MonteCarlo : public GpuScreenTechnique
 {
 public:

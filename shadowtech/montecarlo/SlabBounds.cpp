@@ -12,7 +12,8 @@ namespace
 
 constexpr int slabsPerGroup = 8; // as in slab_bounds.comp.glsl
 
-/// From a texel of an N-buffer's level to the first and to the last of those of the level below that it is made of.
+/// From a texel of an N-buffer's level to the first and to the last of those of the level below
+/// that it is made of.
 glm::ivec2 stepsTo(int level)
 {
   const int half = level > 1 ? 1 << (level - 2) : 0;

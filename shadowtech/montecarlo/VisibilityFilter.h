@@ -12,8 +12,8 @@
 namespace gnomon
 {
 
-/// Takes the noise off a visibility image: a Gaussian in two passes, over pixels of the same surface
-/// (visibility_filter.frag.glsl).
+/// Takes the noise off a visibility image: a Gaussian in two passes, over pixels of the same
+/// surface (visibility_filter.frag.glsl).
 class VisibilityFilter
 {
 public:

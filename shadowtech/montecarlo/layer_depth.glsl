@@ -1,4 +1,5 @@
-// A caster's depth in ray space (RaySpace.h) at the texel's centre, and how far it spans within the texel.
+// A caster's depth in ray space (RaySpace.h) at the texel's centre, and how far it spans within the
+// texel.
 
 in float depthLinear;
 
@@ -16,8 +17,9 @@ float layerDepth()
 #endif
 }
 
-// Behind each surface, what its plane spans over the texel counts as solid: so a sheet has no gaps between the texels of a
-// slope. No more than the whole depth, where a triangle stands along the light.
+// Behind each surface, what its plane spans over the texel counts as solid: so a sheet has no gaps
+// between the texels of a slope. No more than the whole depth, where a triangle stands along the
+// light.
 float layerSpan(float depth)
 {
   return min(abs(dFdx(depth)) + abs(dFdy(depth)), 1.0);

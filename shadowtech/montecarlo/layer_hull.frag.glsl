@@ -1,5 +1,5 @@
-// The nearest and the farthest surface of a texel: with GL_MIN as the blend equation, in one pass over all casters and both
-// of their sides.
+// The nearest and the farthest surface of a texel: with GL_MIN as the blend equation, in one pass
+// over all casters and both of their sides.
 
 #include "shadowtech/base/cutout.glsl"
 #include "shadowtech/montecarlo/layer_depth.glsl"

@@ -1,5 +1,5 @@
-// The nearest surface of a texel behind the one that was peeled off before, of those that face the light or of those that
-// face away: a depth test finds it.
+// The nearest surface of a texel behind the one that was peeled off before, of those that face the
+// light or of those that face away: a depth test finds it.
 
 #include "shadowtech/base/cutout.glsl"
 #include "shadowtech/montecarlo/layer_depth.glsl"

@@ -1,5 +1,6 @@
-// Points of an area light: one in each cell of a grid of RAYS x RAYS, at random. The twin of LightSamples with `light_sampling`
-// jittered (lights/LightSamples.h), to within rounding. SHAPE is LightArea's.
+// Points of an area light: one in each cell of a grid of RAYS x RAYS, at random. The twin of
+// LightSamples with `light_sampling` jittered (lights/LightSamples.h), to within rounding. SHAPE is
+// LightArea's.
 
 #include "shadowtech/montecarlo/reduced_md5.glsl"
 
@@ -22,7 +23,8 @@ vec2 diskPoint(vec2 square)
   return wide ? point : point.yx;
 }
 
-// The hashes of four points of a pixel: where in their cells they lie, and, of a ball, how high (HashedPoints.h).
+// The hashes of four points of a pixel: where in their cells they lie, and, of a ball, how high
+// (HashedPoints.h).
 struct FourPoints
 {
   uvec4 across;

@@ -17,8 +17,9 @@ Shine shineAt(vec3 offset)
   return vec3(texelFetch(lightTexture, texel, 0).rgb);
 }
 
-// A few points seldom have the texture's mean: their colours are scaled so that they do. Of what nothing hides the light from,
-// visibility is the mean then, without noise. Points that gave way to brighter ones may come to more than all of the light.
+// A few points seldom have the texture's mean: their colours are scaled so that they do. Of what
+// nothing hides the light from, visibility is the mean then, without noise. Points that gave way to
+// brighter ones may come to more than all of the light.
 // @param seen sum over the points that are seen
 // @param all sum over all of the pixel's points
 Shine visibilityOf(Shine seen, Shine all)

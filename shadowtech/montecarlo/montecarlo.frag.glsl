@@ -1,5 +1,6 @@
-// What share of an area light each pixel's receiver sees: the mean over rays to points of the light, which are followed through
-// the light's map (Curtis 2009). Behind it the pixel's class (MonteCarlo::info()).
+// What share of an area light each pixel's receiver sees: the mean over rays to points of the
+// light, which are followed through the light's map (Curtis 2009). Behind it the pixel's class
+// (MonteCarlo::info()).
 
 #include "shadowtech/base/light_reach.glsl"
 #include "shadowtech/montecarlo/classes.glsl"
@@ -42,17 +43,17 @@ struct Segment
   bool any;
 };
 
-// The receiver's plane in ray space. Points (u, v, p, 1) are in it, above it or below by their product, which is their distance in
-// the world over w.
+// The receiver's plane in ray space. Points (u, v, p, 1) are in it, above it or below by their
+// product, which is their distance in the world over w.
 vec4 planeOf(Receiver receiver, int view)
 {
   return vec4(receiver.normal, -dot(receiver.normal, receiver.position)) * viewFromRay[view];
 }
 
-// Where surfaces bend, another triangle may be in the middle of the receiver's texel, whose depth is that of the whole texel, and
-// rise above the receiver's plane till there. What begins less than a quarter of a texel above the plane counts as the same
-// surface: one that bends up by 27 degrees does, within half a texel. Else smooth meshes with triangles of a texel's size have
-// dark pixels.
+// Where surfaces bend, another triangle may be in the middle of the receiver's texel, whose depth
+// is that of the whole texel, and rise above the receiver's plane till there. What begins less than
+// a quarter of a texel above the plane counts as the same surface: one that bends up by 27 degrees
+// does, within half a texel. Else smooth meshes with triangles of a texel's size have dark pixels.
 void findOwnSurface(inout Receiver receiver)
 {
   for (int view = 0; view < viewCount && receiver.view < 0; ++view)
@@ -97,7 +98,8 @@ Segment onMap(int view, Receiver receiver, vec3 way, float length, vec2 depths, 
   vec4 by = rayFromView[view] * vec4(way, 0.0);
   float rising = dot(receiver.normal, way); // > 0: the receiver faces where the ray goes
   vec2 range = vec2(receiver.offset / rising, length);
-  // Rounding must not end a ray just before what lies at those depths: 2^-18, of parallel rays in their range of [0, 1].
+  // Rounding must not end a ray just before what lies at those depths: 2^-18, of parallel rays in
+  // their range of [0, 1].
   vec2 beyond = 3.8146973e-6 * max(abs(depths), vec2(1.0 - lightView.w));
   depths += vec2(-beyond.x, beyond.y);
   cut(range, at.z - depths.x * at.w, by.z - depths.x * by.w);
@@ -119,9 +121,10 @@ Segment onMap(int view, Receiver receiver, vec3 way, float length, vec2 depths, 
   segment.begin = begin.xyz / begin.w;
   segment.end = end.xyz / end.w;
 
-  // The receiver may itself be in the map, as one depth for all of a texel. Rays count from where they are as far before its
-  // plane, or before what bends up from it, as that is off within half a texel, and for rounding: also of the corners of
-  // triangles, which are drawn to within 1/256 of a texel.
+  // The receiver may itself be in the map, as one depth for all of a texel. Rays count from where
+  // they are as far before its plane, or before what bends up from it, as that is off within half a
+  // texel, and for rounding: also of the corners of triangles, which are drawn to within 1/256 of a
+  // texel.
   vec4 plane = planeOf(receiver, view);
   float rounding = 7.6293945e-6 * max(abs(segment.begin.z), abs(segment.end.z)); // 2^-17
   float limit = 0.51 * (abs(plane.x) + abs(plane.y)) + rounding * abs(plane.z) +
@@ -139,8 +142,8 @@ Segment onMap(int view, Receiver receiver, vec3 way, float length, vec2 depths, 
   return segment;
 }
 
-// A point of the light that is behind the receiver's plane gives way to the opposite one: the twin of sideOfSample() in
-// ShadowRay.h.
+// A point of the light that is behind the receiver's plane gives way to the opposite one: the twin
+// of sideOfSample() in ShadowRay.h.
 vec3 inFront(Receiver receiver, vec3 toCentre, vec3 offset)
 {
   return facesLight(receiver.normal, toCentre + offset) ? offset : -offset;
@@ -171,8 +174,9 @@ vec3 cornerOfLight(int i)
   return viewFromUnit * corner;
 }
 
-// What all rays of a pixel can meet: they lie between those to the corners of a box around the light, and so does their part
-// behind the depth where the first slab begins (Curtis 2009, section 3.6, whose region this is for a square light).
+// What all rays of a pixel can meet: they lie between those to the corners of a box around the
+// light, and so does their part behind the depth where the first slab begins (Curtis 2009, section
+// 3.6, whose region this is for a square light).
 // @param depths of the map; on return, of the region
 // @return LIT, UMBRA or SEARCHED
 float classOf(Receiver receiver, vec3 toCentre, inout vec2 depths)
@@ -242,7 +246,8 @@ float classOf(Receiver receiver, vec3 toCentre, inout vec2 depths)
 
 #ifdef CLASSIFY_RAYS
 // The same of a single ray.
-// @param where it is in a slab if it is UMBRA, as near to the receiver as is known: from 0 there to 1
+// @param where it is in a slab if it is UMBRA, as near to the receiver as is known: from 0 there to
+// 1
 float classOf(int view, Segment segment, out float where)
 {
   where = 0.0;
@@ -315,8 +320,8 @@ bool isBlocked(
   return false;
 }
 
-// How visibility changes around a receiver in the penumbra of an edge, as its gradient in view coordinates: while the receiver
-// goes across the penumbra, the edge goes across the light.
+// How visibility changes around a receiver in the penumbra of an edge, as its gradient in view
+// coordinates: while the receiver goes across the penumbra, the edge goes across the light.
 // @param across from the middle of what is hidden of the light to the middle of what is seen
 // @param at where the edge is, in lengths of the way to the light
 vec3 slopeOf(vec3 toCentre, vec3 across, float at, float footprint)

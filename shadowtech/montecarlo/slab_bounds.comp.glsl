@@ -1,4 +1,5 @@
-// A level of the hierarchy over the slabs (SlabBounds.h) from the one below; level 0 from the slabs.
+// A level of the hierarchy over the slabs (SlabBounds.h) from the one below; level 0 from the
+// slabs.
 
 #include "shadowtech/montecarlo/slabs.glsl"
 
@@ -10,8 +11,8 @@ uniform int level;            // of the mip map that is read
 uniform ivec2 steps;          // from a texel to the first and to the last of those that it is made of
 layout(binding = 0, rgba32f) writeonly uniform image2D target;
 
-// x: the least depth at which a slab begins, y: the greatest at which one ends; z, w: the greatest and the
-// least of the thickest slab of every texel.
+// x: the least depth at which a slab begins, y: the greatest at which one ends; z, w: the greatest
+// and the least of the thickest slab of every texel.
 vec4 joined(vec4 a, vec4 b)
 {
   return vec4(min(a.x, b.x), max(a.y, b.y), max(a.z, b.z), min(a.w, b.w));

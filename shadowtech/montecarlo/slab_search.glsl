@@ -1,6 +1,7 @@
-// Whether a ray meets a slab of the light's map: a search from cell to cell of the hierarchy (SlabBounds.h), after Curtis 2009,
-// section 3.5, algorithm 2. A cell of a level is a square of 2^level texels; of an N-buffer it may lie anywhere. With
-// LINEAR_SEARCH it is a search in steps of equal length, with bisection (section 3.3), of maps with one slab in a texel.
+// Whether a ray meets a slab of the light's map: a search from cell to cell of the hierarchy
+// (SlabBounds.h), after Curtis 2009, section 3.5, algorithm 2. A cell of a level is a square of
+// 2^level texels; of an N-buffer it may lie anywhere. With LINEAR_SEARCH it is a search in steps of
+// equal length, with bisection (section 3.3), of maps with one slab in a texel.
 
 uniform sampler2DArray slabs; // the views' pages, one after the other
 uniform sampler2DArray slabBounds;
@@ -64,8 +65,8 @@ vec4 boundsOfRegion(int view, ivec2 lower, ivec2 upper)
 #ifdef EYE_LAYER
 uniform mat4 clipFromView;
 
-// Whether the camera sees that a point is in empty space: it is before the surface that is seen there (Curtis 2009, section
-// 3.4).
+// Whether the camera sees that a point is in empty space: it is before the surface that is seen
+// there (Curtis 2009, section 3.4).
 bool seenEmpty(int view, vec3 point)
 {
   vec4 place = viewFromRay[view] * vec4(point, 1.0);
@@ -175,7 +176,8 @@ bool meetsSlabs(int view, vec3 begin, vec3 end, out float where)
   int level = clamp(int(ceil(log2(longest + 1.0))), 0, topLevel);
   float t = 0.0;
   where = 0.0;
-  // Each step descends or leaves a cell, and each cell that is left was descended to: no line takes nearly so many.
+  // Each step descends or leaves a cell, and each cell that is left was descended to: no line takes
+  // nearly so many.
   for (int i = 0; i < 64 + 8 * mapSide; ++i)
   {
     ++cellsVisited;
@@ -207,7 +209,8 @@ bool meetsSlabs(int view, vec3 begin, vec3 end, out float where)
     {
       return false;
     }
-    // The next texel's number is not computed from a place, which may be rounded to either side of the border.
+    // The next texel's number is not computed from a place, which may be rounded to either side of
+    // the border.
     t = exit;
     ivec2 place = clamp(ivec2(floor(begin.xy + t * way.xy)), cell, cell + side - 1);
     bool leavesAlongX = leaving.x <= leaving.y;

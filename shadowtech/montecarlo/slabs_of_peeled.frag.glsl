@@ -1,5 +1,6 @@
-// The slabs of each texel, from its peeled surfaces in their order: what lies between a surface that faces the light and the
-// next one that faces away is solid, and all other surfaces are sheets, as thick as they span.
+// The slabs of each texel, from its peeled surfaces in their order: what lies between a surface
+// that faces the light and the next one that faces away is solid, and all other surfaces are
+// sheets, as thick as they span.
 
 #include "shadowtech/montecarlo/slabs.glsl"
 
@@ -17,8 +18,9 @@ vec2 surfaceAt(int number, int firstLayer)
                          : vec2(2.0, 0.0);
 }
 
-// Where a solid ends that begins at a surface which faces the light. On a slope, a body that is thinner than the surface spans
-// would have gaps between its texels: there it goes on to where the surface is in the next one.
+// Where a solid ends that begins at a surface which faces the light. On a slope, a body that is
+// thinner than the surface spans would have gaps between its texels: there it goes on to where the
+// surface is in the next one.
 float endOfSolid(vec2 front, float back)
 {
   float end = max(front.x, back);

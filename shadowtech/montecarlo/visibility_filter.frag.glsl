@@ -1,12 +1,14 @@
-// A Gaussian over the pixels around one along a row or a column, of those that show the same surface (Curtis 2009, section 3,
-// whose weights know depth alone), and whose visibility is the same as far as the rays tell: the edge between those that were blocked
-// and those that were not, and how far off it is, say which way visibility changes and over what length (Mehta, Wang and
-// Ramamoorthi 2012 take such lengths for the filter's width). So penumbrae keep their width, and noise is taken off along them as
-// far as the filter goes. Where rays tell nothing, as all or none are blocked, visibility may differ by no more than their noise makes
-// it. The first of the two passes goes along rows.
+// A Gaussian over the pixels around one along a row or a column, of those that show the same
+// surface (Curtis 2009, section 3, whose weights know depth alone), and whose visibility is the
+// same as far as the rays tell: the edge between those that were blocked and those that were not,
+// and how far off it is, say which way visibility changes and over what length (Mehta, Wang and
+// Ramamoorthi 2012 take such lengths for the filter's width). So penumbrae keep their width, and
+// noise is taken off along them as far as the filter goes. Where rays tell nothing, as all or none
+// are blocked, visibility may differ by no more than their noise makes it. The first of the two
+// passes goes along rows.
 //
-// What is turned away from the light is left as it is and gives nothing to others. A pixel with none in its square that rays have
-// decided keeps its visibility bit for bit.
+// What is turned away from the light is left as it is and gives nothing to others. A pixel with
+// none in its square that rays have decided keeps its visibility bit for bit.
 
 #include "shadowtech/montecarlo/classes.glsl"
 
@@ -23,13 +25,14 @@ layout(location = 0) out vec2 filtered;
 layout(location = 1) out vec3 slopeOfRow;
 
 #define SIGMA_PIXELS max(0.5 * float(FILTER_PIXELS), 0.5) // the Gaussian's deviation
-// The same as a share of a penumbra's width. The squared deviation of a ramp is width^2 / 12, and so the filter widens it by
-// sqrt(1 + 12 * 0.09^2): by less than 5 %.
+// The same as a share of a penumbra's width. The squared deviation of a ramp is width^2 / 12, and
+// so the filter widens it by sqrt(1 + 12 * 0.09^2): by less than 5 %.
 #define SIGMA_WIDTHS 0.09
 
-// How far two visibilities are apart, squared, in deviations of what counts as noise: sqrt(6) times what RAYS x RAYS jittered rays
-// err by. Squared, that is v (1 - v) / RAYS^3 where a line across the light leaves a share v of it: 1 / 6 RAYS^3 on the mean over
-// v, and nothing where it leaves all of the light or nothing. So in the middle of a penumbra three times the mean noise counts.
+// How far two visibilities are apart, squared, in deviations of what counts as noise: sqrt(6) times
+// what RAYS x RAYS jittered rays err by. Squared, that is v (1 - v) / RAYS^3 where a line across
+// the light leaves a share v of it: 1 / 6 RAYS^3 on the mean over v, and nothing where it leaves
+// all of the light or nothing. So in the middle of a penumbra three times the mean noise counts.
 float squaredDeviations(float a, float b)
 {
   float v = 0.5 * (a + b) / lit;
@@ -75,7 +78,8 @@ void main()
     vec4 otherPoint = texelFetch(receiverPoints, other, 0);
     vec3 otherNormal = vec3(texelFetch(receiverFragments, other, 0).zw, otherPoint.w);
     vec3 way = otherPoint.xyz - point.xyz;
-    // How many pixels the other point lies off the plane of this one: 0 all over a plane, however it is seen.
+    // How many pixels the other point lies off the plane of this one: 0 all over a plane, however
+    // it is seen.
     float off = abs(dot(normal, way)) / footprint;
     float alike = max(dot(normal, otherNormal), 0.0);
     float alike4 = alike * alike * alike * alike;

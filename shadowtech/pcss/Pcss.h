@@ -8,46 +8,50 @@
 namespace gnomon
 {
 
-/// `pcss`: percentage closer soft shadows (Fernando 2005; Apelles, section 3.4.1) of area lights, from one map
-/// that the light's centre sees.
+/// `pcss`: percentage closer soft shadows (Fernando 2005; Apelles, section 3.4.1) of area lights,
+/// from one map that the light's centre sees.
 ///
-/// All widths are metric, by similar triangles. What hides the light's point L (in the light's plane, from its
-/// centre) from a receiver at distance r lies, at distance z from the light, across the light by
+/// All widths are metric, by similar triangles. What hides the light's point L (in the light's
+/// plane, from its centre) from a receiver at distance r lies, at distance z from the light, across
+/// the light by
 ///     L s,   s = 1 / z - 1 / r   in slopes of a positional light's rays,
 ///            s = r - z           of a directional light, where L are tangents of angles,
 /// away from the receiver: s is its *separation*. So one kernel, the light's own shape, serves both
 /// steps and all projections; the map's Jacobian at the point takes it to texels.
 ///
-/// From the middle of a cube a light is looked at in three dimensions. Times r the separation is that of directions
+/// From the middle of a cube a light is looked at in three dimensions. Times r the separation is
+/// that of directions
 ///     P + L s,   s = r / z - 1,
-/// for the receiver at P: from the receiver at s = 0 towards L, each on the face that sees it (light_around.glsl).
+/// for the receiver at P: from the receiver at s = 0 towards L, each on the face that sees it
+/// (light_around.glsl).
 ///
-/// 1. Blocker search: `pcss_samples` points of the light, on the map at the largest separation S that a
-///    caster around has (from the map's pyramid of depths, DepthBounds.h), and the receiver's own texel.
-///    Blockers are texels in front of the receiver's plane that lie between it and some point of the
-///    light: L S = L' s for an L' of the light. Without the latter the floor of a concave corner would be
-///    hidden by the wall beside it.
-/// 2. Penumbra: the least of the blockers' separations, and their mean over the map. Fernando has the mean alone, which is too
-///    large for what is not flat and level: a ball's penumbra is that of its rim, which lies behind its middle.
-///    Where no blocker is found, the filter's points search, too.
-/// 3. Filter: the share of the light whose points, at the least separation or, where that is another depth, at the mean,
-///    find texels that hide the receiver. What is found at another separation hides another point, and is looked for again
-///    at its own, a few times at most.
+/// 1. Blocker search: `pcss_samples` points of the light, on the map at the largest separation S
+///    that a caster around has (from the map's pyramid of depths, DepthBounds.h), and the
+///    receiver's own texel. Blockers are texels in front of the receiver's plane that lie between
+///    it and some point of the light: L S = L' s for an L' of the light. Without the latter the
+///    floor of a concave corner would be hidden by the wall beside it.
+/// 2. Penumbra: the least of the blockers' separations, and their mean over the map. Fernando has
+///    the mean alone, which is too large for what is not flat and level: a ball's penumbra is that
+///    of its rim, which lies behind its middle. Where no blocker is found, the filter's points
+///    search, too.
+/// 3. Filter: the share of the light whose points, at the least separation or, where that is
+///    another depth, at the mean, find texels that hide the receiver. What is found at another
+///    separation hides another point, and is looked for again at its own, a few times at most.
 ///
-/// A point of the light that lies behind the receiver's plane gives way to the one opposite, as the truth has it
-/// (docs/techniques/soft.md). The points are Poisson sets: on a disk turned, on a rectangle shifted around
-/// its edges, from each cell of the map (a quarter of a texel) to the next, so that the pattern stays
-/// on the surface when the camera moves.
+/// A point of the light that lies behind the receiver's plane gives way to the one opposite, as the
+/// truth has it (docs/techniques/soft.md). The points are Poisson sets: on a disk turned, on a
+/// rectangle shifted around its edges, from each cell of the map (a quarter of a texel) to the
+/// next, so that the pattern stays on the surface when the camera moves.
 ///
-/// `early_out` `exact` asks the pyramid before the search whether all texels that it may read say the same, and
-/// changes no value. A light without area has the hard shadow of `compare`.
+/// `early_out` `exact` asks the pyramid before the search whether all texels that it may read say
+/// the same, and changes no value. A light without area has the hard shadow of `compare`.
 class Pcss : public DepthMapTechnique
 {
 public:
   static TechniqueInfo info();
 
-  /// Around a light with an area rays go over to other faces of the cube: none of them may be left out, or be cut to the
-  /// receivers on it.
+  /// Around a light with an area rays go over to other faces of the cube: none of them may be left
+  /// out, or be cut to the receivers on it.
   ShadowLight lightOfMap(const ShadowLight& light) const override;
   MapReach mapReach(const ShadowLight& light) const override;
   void bake(const MapInput& input) override;

@@ -1,7 +1,9 @@
-// An area light as a receiver sees it from the middle of a cube's faces. What hides the light's point L from the receiver at P,
-// both from the light's centre, lies on the way between them, and so on the centre's ray through
+// An area light as a receiver sees it from the middle of a cube's faces. What hides the light's
+// point L from the receiver at P, both from the light's centre, lies on the way between them, and
+// so on the centre's ray through
 //     P + L s,   s = |PX| / |XL| for the caster at X:
-// from P at the receiver to L at the light. The face is that of this ray, whatever face the receiver is on.
+// from P at the receiver to L at the light. The face is that of this ray, whatever face the
+// receiver is on.
 
 struct SeenLight_LIGHT
 {
@@ -14,8 +16,9 @@ struct SeenLight_LIGHT
 // How many texels there have to be between the ray of a separation and the light's rim.
 const float texelsToRim_LIGHT = 8.0;
 
-// A ball's outline: the disk across the way from its centre to the receiver, which is the same from whatever face that is
-// looked at. Its axes are those of the plane across the face, turned the shortest way.
+// A ball's outline: the disk across the way from its centre to the receiver, which is the same from
+// whatever face that is looked at. Its axes are those of the plane across the face, turned the
+// shortest way.
 mat2x3 ballAcross_LIGHT(float radius, vec3 position)
 {
   vec3 away = normalize(position); // not along -z: it is on the face
@@ -67,7 +70,8 @@ float slackOn_LIGHT(ViewPoint onFace, ViewPoint point, float slack)
   return slack * max(viewDepths_LIGHT[onFace.view].x / viewDepths_LIGHT[point.view].x, 1.0);
 }
 
-// The separation of what hides the point where a point of the light is looked for; -1 where nothing does.
+// The separation of what hides the point where a point of the light is looked for; -1 where nothing
+// does.
 // @param beside that point, times the separation that it is looked for at
 float separationAt_LIGHT(ViewPoint point, SeenLight_LIGHT light, vec2 beside, float slack)
 {
@@ -105,7 +109,8 @@ struct FaceWindow_LIGHT
   vec2 own; // the least and the largest distance that a ray has at the receiver
 };
 
-// The largest m from -1 to 1 for which x >= m z says the same of the corners, and so of all that lies between them.
+// The largest m from -1 to 1 for which x >= m z says the same of the corners, and so of all that
+// lies between them.
 float leastSlope_LIGHT(vec4 x, vec4 z)
 {
   vec2 range = vec2(-1.0, 1.0);
@@ -149,10 +154,11 @@ FaceWindow_LIGHT windowOn_LIGHT(
   return window;
 }
 
-// About the largest separation of casters which are no nearer along a face's axis than a depth of its map. That depth alone
-// bounds it, tightly where the light stands across the axis. Elsewhere the height over the light's plane says more, but that
-// is taken in the middle of where they are seen, and so is no bound: the least height would be one, and is next to 0 so often
-// that searches grow too wide to find what is near the receiver.
+// About the largest separation of casters which are no nearer along a face's axis than a depth of
+// its map. That depth alone bounds it, tightly where the light stands across the axis. Elsewhere
+// the height over the light's plane says more, but that is taken in the middle of where they are
+// seen, and so is no bound: the least height would be one, and is next to 0 so often that searches
+// grow too wide to find what is near the receiver.
 // @param slope the middle of where they are seen
 float separationEstimate_LIGHT(
   ViewPoint onFace, ViewPoint point, SeenLight_LIGHT light, vec2 slope, float depth)
@@ -198,8 +204,8 @@ float separationEstimate_LIGHT(
   return largest;
 }
 
-// About the largest separation that a caster has within the light's reach at that separation. What the first steps
-// find lies farther around than what the last one needs.
+// About the largest separation that a caster has within the light's reach at that separation. What
+// the first steps find lies farther around than what the last one needs.
 float largestSeparation_LIGHT(ViewPoint point, SeenLight_LIGHT light)
 {
   float separation = light.most;
@@ -230,7 +236,8 @@ float texelsAcross_LIGHT(ViewPoint point, SeenLight_LIGHT light, float separatio
   return 0.5 * max(texels.x, texels.y);
 }
 
-// What all say that may be looked up at a separation: 1 lit, 0 hidden, -1 where the map's bounds do not tell.
+// What all say that may be looked up at a separation: 1 lit, 0 hidden, -1 where the map's bounds do
+// not tell.
 float decidedWithin_LIGHT(ViewPoint point, SeenLight_LIGHT light, float separation, float slack)
 {
   bool lit = true;
@@ -277,9 +284,9 @@ float leastSeparation_LIGHT(ViewPoint point, SeenLight_LIGHT light, float separa
   return least;
 }
 
-// How a point of the light's shape is looked for in the search, and how much of the area around it that stands for. Points lie
-// denser in the middle, where low casters are found: as many to every angle, and so to casters of all distances from the light
-// to the receiver.
+// How a point of the light's shape is looked for in the search, and how much of the area around it
+// that stands for. Points lie denser in the middle, where low casters are found: as many to every
+// angle, and so to casters of all distances from the light to the receiver.
 // @param place on return, of the largest separation
 float spreadForSearch_LIGHT(inout vec2 place, SeenLight_LIGHT light, ViewPoint point, float largest)
 {

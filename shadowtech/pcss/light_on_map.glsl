@@ -1,5 +1,5 @@
-// An area light as a receiver sees it on the one map that holds all it looks up: the light's shape, laid on the map by
-// its Jacobian. light_around.glsl has the same of cubes.
+// An area light as a receiver sees it on the one map that holds all it looks up: the light's shape,
+// laid on the map by its Jacobian. light_around.glsl has the same of cubes.
 
 struct SeenLight_LIGHT
 {
@@ -8,7 +8,8 @@ struct SeenLight_LIGHT
   vec3 facing; // how its axes and its centre face the receiver's plane
 };
 
-// The light is seen on the plane across the view, through its centre. Of a directional light it is at distance 1.
+// The light is seen on the plane across the view, through its centre. Of a directional light it is
+// at distance 1.
 SeenLight_LIGHT seenLight_LIGHT(ViewPoint point)
 {
   mat2 across = mat2(lightFromUnit_LIGHT);
@@ -37,7 +38,8 @@ float separationOf_LIGHT(ViewPoint point, float depth)
 #endif
 }
 
-// The separation of what hides the point where a point of the light is looked for; -1 where nothing does.
+// The separation of what hides the point where a point of the light is looked for; -1 where nothing
+// does.
 // @param beside that point, times the separation that it is looked for at
 float separationAt_LIGHT(ViewPoint point, SeenLight_LIGHT light, vec2 beside, float slack)
 {
@@ -51,8 +53,8 @@ float separationAt_LIGHT(ViewPoint point, SeenLight_LIGHT light, vec2 beside, fl
   return separationOf_LIGHT(point, linearDepth_LIGHT(point.view, texel, depth));
 }
 
-// The largest separation that a caster has within the light's reach at that separation. What the first
-// steps find lies farther around than what the last one needs.
+// The largest separation that a caster has within the light's reach at that separation. What the
+// first steps find lies farther around than what the last one needs.
 float largestSeparation_LIGHT(ViewPoint point, SeenLight_LIGHT light)
 {
   vec2 reach = vec2(viewSize_LIGHT);
@@ -73,7 +75,8 @@ float texelsAcross_LIGHT(ViewPoint point, SeenLight_LIGHT light, float separatio
   return max(farthest.x, farthest.y);
 }
 
-// What all say that may be looked up at a separation: 1 lit, 0 hidden, -1 where the map's bounds do not tell.
+// What all say that may be looked up at a separation: 1 lit, 0 hidden, -1 where the map's bounds do
+// not tell.
 float decidedWithin_LIGHT(ViewPoint point, SeenLight_LIGHT light, float separation, float slack)
 {
   return decided_LIGHT(point, light.reach * separation, slack);
@@ -86,8 +89,8 @@ float leastSeparation_LIGHT(ViewPoint point, SeenLight_LIGHT light, float separa
   return separationOf_LIGHT(point, boundsOf_LIGHT(point, window).y);
 }
 
-// How a point of the light's shape is looked for in the search, and how much of the area around it that stands for: points
-// lie denser in the middle, where low casters are found.
+// How a point of the light's shape is looked for in the search, and how much of the area around it
+// that stands for: points lie denser in the middle, where low casters are found.
 // @param place on return, of the largest separation
 float spreadForSearch_LIGHT(inout vec2 place, SeenLight_LIGHT light, ViewPoint point, float largest)
 {

@@ -1,5 +1,6 @@
-// Percentage closer soft shadows (Fernando 2005): a search for blockers, a penumbra's width, a filter of that
-// width, all in separations (Pcss.h). The kernel of both steps is the light's shape, of radius or half side 1.
+// Percentage closer soft shadows (Fernando 2005): a search for blockers, a penumbra's width, a
+// filter of that width, all in separations (Pcss.h). The kernel of both steps is the light's shape,
+// of radius or half side 1.
 
 #include "shadowtech/depth_map/depth_bounds.glsl"
 #include "shadowtech/depth_map/kernel.glsl"
@@ -12,8 +13,8 @@
 
 uniform sampler2D lightPoints_LIGHT; // the search's, then the filter's
 
-// How far beside its own ray a surface may be found that is taken to hide a point of the light all the same, as a
-// share of that ray's way: surfaces slope.
+// How far beside its own ray a surface may be found that is taken to hide a point of the light all
+// the same, as a share of that ray's way: surfaces slope.
 const float leastShareOfSeparation_LIGHT = 0.75;
 
 // Behind those of all maps, those of Pcss::info(), in their order.
@@ -22,8 +23,8 @@ const float leastShareOfSeparation_LIGHT = 0.75;
 #define PCSS_NO_BLOCKER 6
 
 #if PCSS_ASKS_BOUNDS_LIGHT
-// What search and filter answer: 1 lit, 0 hidden, -1 where the map's bounds do not tell. Neither looks farther than the largest
-// separation.
+// What search and filter answer: 1 lit, 0 hidden, -1 where the map's bounds do not tell. Neither
+// looks farther than the largest separation.
 float decidedByBounds_LIGHT(ViewPoint point, SeenLight_LIGHT light, float largest, float slack)
 {
   float decided = decidedWithin_LIGHT(point, light, largest, slack);
@@ -36,7 +37,8 @@ float decidedByBounds_LIGHT(ViewPoint point, SeenLight_LIGHT light, float larges
 }
 #endif
 
-// How a cell of the map takes the points: a turn of the disk (its x axis), or a shift of the square.
+// How a cell of the map takes the points: a turn of the disk (its x axis), or a shift of the
+// square.
 vec2 patternOf_LIGHT(ViewPoint point)
 {
   ivec2 cell = ivec2(4.0 * point.texel);
@@ -64,7 +66,8 @@ vec2 lightPoint_LIGHT(int number, vec2 pattern, vec3 facing)
 // What is found no nearer than this share of where it is looked for is there.
 const float ownShareOfSeparation_LIGHT = 0.9;
 
-// How often that is done at most. It is rarely more than once; most where casters reach far towards the light.
+// How often that is done at most. It is rarely more than once; most where casters reach far towards
+// the light.
 #define PCSS_LOOKS_AGAIN_LIGHT 4
 
 // What hides points of the light, as a search finds it.
@@ -106,9 +109,9 @@ Blockers_LIGHT blockersOf_LIGHT(
   return blockers;
 }
 
-// The separation of what hides the receiver from a point of the light that is looked for at another one; -1: nothing. What
-// is found at another separation hides another point, and so is looked for again at its own: the wall of a corner, a surface
-// further down, or one nearer to the light.
+// The separation of what hides the receiver from a point of the light that is looked for at another
+// one; -1: nothing. What is found at another separation hides another point, and so is looked for
+// again at its own: the wall of a corner, a surface further down, or one nearer to the light.
 // @param largest that any caster has
 float hiderOf_LIGHT(ViewPoint point, SeenLight_LIGHT light, vec2 place, float separation,
   float largest, float slack)
@@ -152,7 +155,8 @@ float estimate_LIGHT(ViewPoint point, float slack)
 {
   SeenLight_LIGHT light = seenLight_LIGHT(point);
   float largest = largestSeparation_LIGHT(point, light);
-  // What rounding does to the receiver's plane grows with how far that is followed: half a texel so far.
+  // What rounding does to the receiver's plane grows with how far that is followed: half a texel so
+  // far.
   slack *= max(2.0 * texelsAcross_LIGHT(point, light, largest), 1.0);
 #if PCSS_ASKS_BOUNDS_LIGHT
   float decided = decidedByBounds_LIGHT(point, light, largest, slack);
@@ -174,8 +178,8 @@ float estimate_LIGHT(ViewPoint point, float slack)
     pixelClass_LIGHT = PCSS_NO_BLOCKER;
     return 1.0;
   }
-  // What is near the receiver hides the light along other ways than what is far above it; and what is round by its rim, which
-  // is farther from the light than its middle.
+  // What is near the receiver hides the light along other ways than what is far above it; and what
+  // is round by its rim, which is farther from the light than its middle.
   float least = blockers.least;
   float mean = clamp(blockers.sum / blockers.area, least, largest);
   bool several = least < leastShareOfSeparation_LIGHT * mean;

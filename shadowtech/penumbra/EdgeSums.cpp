@@ -4,7 +4,8 @@
 #include <cmath>
 #include <limits>
 
-// Rays side by side, as many as the processor takes. Whichever it takes, what is certain is the same.
+// Rays side by side, as many as the processor takes. Whichever it takes, what is certain is the
+// same.
 #ifdef __x86_64__
 #define GNOMON_SIDE_BY_SIDE [[gnu::target_clones("avx512f", "avx2", "default")]]
 #else

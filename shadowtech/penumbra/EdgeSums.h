@@ -12,7 +12,8 @@
 namespace gnomon
 {
 
-/// An edge as seen from where some rays start: a line of the plane z = 1, whose points are the rays' slopes (x, y).
+/// An edge as seen from where some rays start: a line of the plane z = 1, whose points are the
+/// rays' slopes (x, y).
 struct SeenEdge
 {
   glm::vec3 across;   ///< dot(across, (x, y, 1)) > 0 to the left of it, where x is less
@@ -28,7 +29,8 @@ struct SeenEdge
   ///@}
 };
 
-/// How many triangles each of a pixel's rays to an area light meets, up to a number that is the same for all of them.
+/// How many triangles each of a pixel's rays to an area light meets, up to a number that is the
+/// same for all of them.
 class EdgeSums
 {
 public:
@@ -40,7 +42,8 @@ public:
   /// Sums the edges.
   void add(const std::vector<SeenEdge>& edges);
 
-  /// Of those rays of which no rounding says on which side of an edge they pass, those that meet the fewest triangles.
+  /// Of those rays of which no rounding says on which side of an edge they pass, those that meet
+  /// the fewest triangles.
   struct Fewest
   {
     std::uint32_t first; ///< one of them
@@ -48,7 +51,8 @@ public:
   };
   Fewest fewest() const;
 
-  /// Appends the numbers of all other rays: where rounding may say on which side of an edge they pass.
+  /// Appends the numbers of all other rays: where rounding may say on which side of an edge they
+  /// pass.
   void appendUncertain(std::vector<std::uint32_t>& rays) const;
 
 private:

@@ -15,11 +15,13 @@ namespace gnomon
 namespace
 {
 
-/// Triangles that are more than so many times as long as high are needles: what a tracer makes of them is rounding.
+/// Triangles that are more than so many times as long as high are needles: what a tracer makes of
+/// them is rounding.
 constexpr double mostSlender = 16384.0;
 
-/// What the sign of v . N may be off by for a triangle's normal N and a vector from one of its corners, or a direction: ShadowRay.h's
-/// bound is 11u YZ for each x, with Y and Z the extent of its box. This is twice as much.
+/// What the sign of v . N may be off by for a triangle's normal N and a vector from one of its
+/// corners, or a direction: ShadowRay.h's bound is 11u YZ for each x, with Y and Z the extent of
+/// its box. This is twice as much.
 constexpr double noiseOfExtent = 22.0 / 16777216.0;
 
 /// Down to so many levels of the tree either half is fitted by itself.
@@ -187,8 +189,8 @@ void EdgeTree::addSurface(
   {
     return;
   }
-  // The edges of a triangle lie side by side: those that it is the first of. Needles have none: where they meet others,
-  // these end.
+  // The edges of a triangle lie side by side: those that it is the first of. Needles have none:
+  // where they meet others, these end.
   const auto trianglesOf = [&](const CasterEdge& edge)
   {
     std::array<std::uint32_t, 2> triangles{ { TreeEdge::none, TreeEdge::none } };
@@ -258,7 +260,8 @@ TreeEdge EdgeTree::treeEdge(const std::array<std::uint32_t, 2>& triangles, const
 }
 
 //------------------------------------------------------------------------------
-/// Finds where all triangles and those across their edges face; where that says nothing, an edge may have a weight from anywhere.
+/// Finds where all triangles and those across their edges face; where that says nothing, an edge
+/// may have a weight from anywhere.
 std::vector<EdgeTree::Cone> EdgeTree::conesOfTriangles() const
 {
   std::vector<Cone> cones(this->triangles_.size());

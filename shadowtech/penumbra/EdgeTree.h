@@ -31,12 +31,13 @@ struct EdgeTriangle
   float noise;
   bool oneSided; ///< blocks rays through its back alone, which then faces away from the light
 
-  /// What rounding makes of a direction's product with twice the triangle's area vector: so much of the direction's length times the
-  /// squared reach of its corners (docs/techniques/penumbra.md).
+  /// What rounding makes of a direction's product with twice the triangle's area vector: so much of
+  /// the direction's length times the squared reach of its corners (docs/techniques/penumbra.md).
   static constexpr double noiseAlong = 128.0 / 16777216.0;
 
-  /// Whether rays that start on one side of its plane go away from it for certain, so that none meets it, whatever rounding makes of
-  /// these two signs: as those from the surface that they start on.
+  /// Whether rays that start on one side of its plane go away from it for certain, so that none
+  /// meets it, whatever rounding makes of these two signs: as those from the surface that they
+  /// start on.
   /// @param behind the least and the most of their starts'
   /// @param reach of the corners from the starts, at most, axis by axis
   /// @param along the least and the most of dot(direction, normal)
@@ -51,7 +52,8 @@ struct EdgeTriangle
       (behind.x > unsureBehind && along.y < -unsureAlong);
   }
 
-  /// How far a point lies behind its plane, times its height. Behind is where its corners run clockwise.
+  /// How far a point lies behind its plane, times its height. Behind is where its corners run
+  /// clockwise.
   double behind(const glm::dvec3& point) const
   {
     return glm::dot(glm::dvec3(this->corner) - point, this->normal);
@@ -71,8 +73,8 @@ struct TreeEdge
   static constexpr std::uint32_t none = 0xffffffffu;
 };
 
-/// The edges and triangles of all casters in a bounding volume hierarchy, from which whoever stands somewhere may ask for the
-/// edges at which casters seem to end.
+/// The edges and triangles of all casters in a bounding volume hierarchy, from which whoever stands
+/// somewhere may ask for the edges at which casters seem to end.
 class EdgeTree
 {
 public:
@@ -123,7 +125,8 @@ public:
   /// How many records there are.
   std::size_t size() const { return this->records_.size(); }
   std::uint32_t root() const { return this->root_; }
-  /// Its box is that of what it holds, and of where shadow rays may start too close to that to say on which side.
+  /// Its box is that of what it holds, and of where shadow rays may start too close to that to say
+  /// on which side.
   const BvhNode& node(std::uint32_t number) const { return this->nodes_[number]; }
   const Cone& cone(std::uint32_t node) const { return this->cones_[node]; }
   const TreeEdge& edge(std::uint32_t number) const { return this->edges_[number]; }

@@ -10,12 +10,12 @@ namespace gnomon
 namespace
 {
 
-/// By how much what a start sees is larger than the light, as slopes, and shafts are larger than that. What is close to an
-/// edge by rounding may be wider: it is asked for by itself.
+/// By how much what a start sees is larger than the light, as slopes, and shafts are larger than
+/// that. What is close to an edge by rounding may be wider: it is asked for by itself.
 constexpr double moreSlope = 1.0 / 8192.0;
 
-/// How exactly is known where on its way a ray meets a triangle that is not seen from its side: this share of it
-/// (docs/techniques/penumbra.md).
+/// How exactly is known where on its way a ray meets a triangle that is not seen from its side:
+/// this share of it (docs/techniques/penumbra.md).
 constexpr double moreOfWay = 1.0 / 24.0;
 
 /// The steepest rays of a shaft.
@@ -96,7 +96,8 @@ std::optional<LightShaft> LightShaft::make(const ShaftLight& light, const RaySta
 }
 
 //------------------------------------------------------------------------------
-/// Lays the sides around whatever a start sees within slopes(), since edges are counted up to these.
+/// Lays the sides around whatever a start sees within slopes(), since edges are counted up to
+/// these.
 /// @return whether there is a shaft
 bool LightShaft::laySides(const Bounds& startsShaft)
 {
@@ -135,7 +136,8 @@ bool LightShaft::laySides(const Bounds& startsShaft)
 }
 
 //------------------------------------------------------------------------------
-/// Finds where rays end: in the plane of a flat light, or of a box's near face, else in the box around the light.
+/// Finds where rays end: in the plane of a flat light, or of a box's near face, else in the box
+/// around the light.
 /// @param area of the light, in the shaft's coordinates
 /// @return whether there is a shaft
 bool LightShaft::layEnds(const ShaftLight& light, const glm::dmat3& area, const Bounds& startsShaft)

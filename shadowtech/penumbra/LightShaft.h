@@ -28,8 +28,9 @@ struct ShaftLight
   }
 };
 
-/// The shaft of some shadow rays' starts: a space that holds all of their rays to an area light. Its own coordinates are
-/// turned and moved only: z grows towards the light's centre, x and y across.
+/// The shaft of some shadow rays' starts: a space that holds all of their rays to an area light.
+/// Its own coordinates are turned and moved only: z grows towards the light's centre, x and y
+/// across.
 class LightShaft
 {
 public:
@@ -55,7 +56,8 @@ public:
   /// @param start in the shaft's coordinates
   Slopes slopes(const glm::dvec3& start) const;
 
-  /// Whether a box may meet it. Larger than it is by as much as rays may be from what they meet by rounding.
+  /// Whether a box may meet it. Larger than it is by as much as rays may be from what they meet by
+  /// rounding.
   bool mayMeet(const Bounds& centred) const;
   /// The same of a triangle, and of an edge, in its coordinates.
   /// @param more by how much the shaft's slopes are larger than that
@@ -93,7 +95,8 @@ public:
   /// Not less than the length of (x, y, 1) for any ray's slopes.
   double longestSlope() const { return this->longestSlope_; }
 
-  /// Where rays end: none of them beyond `last`, none before `first`, as endDepth() has it. Infinite where they go on for ever.
+  /// Where rays end: none of them beyond `last`, none before `first`, as endDepth() has it.
+  /// Infinite where they go on for ever.
   double firstEnd() const { return this->firstEnd_; }
   double lastEnd() const { return this->lastEnd_; }
   double endDepth(const glm::dvec3& point) const { return glm::dot(this->end_, point); }
@@ -126,7 +129,8 @@ private:
   glm::dvec3 end_{ 0.0 };
   double firstEnd_ = std::numeric_limits<double>::infinity();
   double lastEnd_ = std::numeric_limits<double>::infinity();
-  /// Centred: the sides and the last end, with planes beyond which nothing is up to as many as are compared at once.
+  /// Centred: the sides and the last end, with planes beyond which nothing is up to as many as are
+  /// compared at once.
   struct Planes
   {
     std::array<double, 8> x{}, y{}, z{}, distance{};

@@ -18,12 +18,14 @@ namespace
 /// Pixels that are looked at together: squares of so many a side.
 constexpr std::size_t sideOfBlock = 8;
 
-/// Pixels that have something else than edges between them and the light are halved if they are at least so many.
+/// Pixels that have something else than edges between them and the light are halved if they are at
+/// least so many.
 constexpr std::size_t fewestToHalve = 8;
 
 ///@{
-/// More edges than so many times the samples are not counted, since tracing is faster: of pixels together, of one. Where so
-/// many pixels have too many of them, and none has few, their neighbours are not asked.
+/// More edges than so many times the samples are not counted, since tracing is faster: of pixels
+/// together, of one. Where so many pixels have too many of them, and none has few, their neighbours
+/// are not asked.
 constexpr std::size_t edgesPerSample = 4;
 constexpr std::size_t mostEdges = 8192;
 constexpr std::size_t seenPerSample = 2;
@@ -31,8 +33,8 @@ constexpr std::int64_t triesOfBlock = 4;
 ///@}
 
 ///@{
-/// Where pixels of a square see what is far apart, their starts lie in parts of so many along the longest side of their box, with at least
-/// so many empty ones between them.
+/// Where pixels of a square see what is far apart, their starts lie in parts of so many along the
+/// longest side of their box, with at least so many empty ones between them.
 constexpr std::size_t partsOfStarts = 8;
 constexpr std::size_t emptyOfStarts = 3;
 ///@}
@@ -87,7 +89,8 @@ private:
     double width; ///< of what is close to it by rounding; 1 where no triangle is seen from its side
     double
       height; ///< the least above their planes, over their longest side; 0 where one is seen from its side
-    /// Whether rays leave one triangle and may meet the other: rounding at the edge then says alone whether they do.
+    /// Whether rays leave one triangle and may meet the other: rounding at the edge then says alone
+    /// whether they do.
     bool oneIsLeft = false;
   };
 
@@ -321,8 +324,8 @@ private:
     return size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
   }
 
-  /// Sorts pixels into those before and those behind a gap, as where one surface ends before another: a shaft of
-  /// both would hold all that is between them.
+  /// Sorts pixels into those before and those behind a gap, as where one surface ends before
+  /// another: a shaft of both would hold all that is between them.
   /// @return how many of them come first; 0 where there is no gap
   std::size_t splitAtGap(std::uint16_t* pixels, std::size_t count) const
   {
@@ -385,8 +388,8 @@ private:
       [&](std::uint32_t place) { return this->tree_.isOn(start, this->tree_.record(place)); });
   }
 
-  /// Whether its rays end where the shaft's do: those that start closer to the near face of a light's box than their
-  /// offset is long go beyond it.
+  /// Whether its rays end where the shaft's do: those that start closer to the near face of a
+  /// light's box than their offset is long go beyond it.
   bool endsAsShaft(std::size_t pixel, const LightShaft& shaft) const
   {
     const glm::dvec3 direction(

@@ -14,13 +14,13 @@
 namespace gnomon
 {
 
-/// The class of a pixel whose visibility edges tell, beyond TracedClass: an index into classesOfPenumbra(). Those that one ray
-/// decides are Lit until it is known to be blocked.
+/// The class of a pixel whose visibility edges tell, beyond TracedClass: an index into
+/// classesOfPenumbra(). Those that one ray decides are Lit until it is known to be blocked.
 constexpr std::uint8_t penumbraClass = static_cast<std::uint8_t>(TracedClass::NoReceiver) + 1;
 std::vector<PixelClass> classesOfPenumbra();
 
-/// Chooses the rays to an area light that decide all of them, by the edges at which casters seem to end from where the
-/// rays start (docs/techniques/penumbra.md).
+/// Chooses the rays to an area light that decide all of them, by the edges at which casters seem to
+/// end from where the rays start (docs/techniques/penumbra.md).
 class PenumbraChooser : public SampleChooser
 {
 public:

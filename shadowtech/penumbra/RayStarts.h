@@ -28,7 +28,8 @@ public:
   auto end() const { return this->starts_.end(); }
   const Bounds& bounds() const { return this->bounds_; }
 
-  /// The least and the most of how far they lie behind a triangle's plane, as EdgeTriangle::behind() has it.
+  /// The least and the most of how far they lie behind a triangle's plane, as
+  /// EdgeTriangle::behind() has it.
   glm::dvec2 behind(const EdgeTriangle& triangle) const;
 
 private:

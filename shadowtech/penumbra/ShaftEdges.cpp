@@ -10,7 +10,8 @@ namespace gnomon
 namespace
 {
 
-/// So few triangles may all lie in one leaf of a tracer's, which asks them without looking at any box.
+/// So few triangles may all lie in one leaf of a tracer's, which asks them without looking at any
+/// box.
 constexpr std::size_t mostOfLeaf = 32;
 
 /// Triangles whose sight is kept while looking for edges: more than a square nearly always has.
@@ -148,7 +149,8 @@ ShaftEdges::Found ShaftEdges::take(const EdgeTree::Record& record)
   {
     return Found::All; // what is close to its sides matters to its neighbours alone
   }
-  // A ray that meets its box may seem to meet it close to the lines of its sides, far from where these are.
+  // A ray that meets its box may seem to meet it close to the lines of its sides, far from where
+  // these are.
   for (std::size_t side = 0; side < 3; ++side)
   {
     if (!meets ||

@@ -21,11 +21,12 @@ namespace EdgeRounding
 {
 /// The unit roundoff of float, 2^-24.
 constexpr double unit = 1.0 / 16777216.0;
-/// How exactly is known on which side of an edge a ray passes, in roundings of the length of the edge times the distance of
-/// its triangles' farthest corner.
+/// How exactly is known on which side of an edge a ray passes, in roundings of the length of the
+/// edge times the distance of its triangles' farthest corner.
 constexpr double ofSide = 40.0;
-/// From where a triangle's height times the height above its plane is less than so many roundings of the squared distance
-/// of its farthest corner, it is seen from its side, and all of it is close to its edges.
+/// From where a triangle's height times the height above its plane is less than so many roundings
+/// of the squared distance of its farthest corner, it is seen from its side, and all of it is close
+/// to its edges.
 constexpr double ofHeight = 1024.0;
 /// Where that is so, what is close to its edges is so many times as wide.
 constexpr double wider = 64.0;
@@ -54,8 +55,8 @@ inline float directionOf(const TreeEdge& edge, std::size_t triangle)
   return triangle == 0 || edge.sameDirection ? 1.0f : -1.0f;
 }
 
-/// The edges at which casters may seem to end from some starts of rays, as far as they are in these rays' shaft. In its
-/// coordinates.
+/// The edges at which casters may seem to end from some starts of rays, as far as they are in these
+/// rays' shaft. In its coordinates.
 class ShaftEdges
 {
 public:
@@ -64,11 +65,13 @@ public:
     const TreeEdge* edge;
     /// Its triangles, but for those that no ray meets: these are `none`.
     std::array<std::uint32_t, 2> triangles;
-    /// How many triangles more are met to its left than to its right, where that is the same from all starts; else NaN.
+    /// How many triangles more are met to its left than to its right, where that is the same from
+    /// all starts; else NaN.
     float weight;
     /// Then, the least height above the plane of its triangles, over their longest side.
     float height;
-    /// Whether only what is close to it by rounding matters: it is a side of its first triangle that is itself no edge here.
+    /// Whether only what is close to it by rounding matters: it is a side of its first triangle
+    /// that is itself no edge here.
     bool strip;
   };
 
@@ -155,7 +158,8 @@ private:
     ends_;                        ///< x, y, z of where edges begin, then of where they end
   std::vector<double> uncertain_; ///< the most that rounding may make of their side
   ///@{
-  /// So far beyond the rays' slopes they matter; infinite in the second where they do wherever they are.
+  /// So far beyond the rays' slopes they matter; infinite in the second where they do wherever they
+  /// are.
   std::vector<double> more_;
   std::vector<double> anywhere_;
   ///@}

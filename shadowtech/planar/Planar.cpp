@@ -21,8 +21,8 @@ namespace
 /// Samples that are drawn at a time: the bits of a texel.
 constexpr std::size_t samplesPerBatch = 32;
 
-/// What planes_of_pixels.frag.glsl calls pixels that lie on no plane that is served, and on the first
-/// one.
+/// What planes_of_pixels.frag.glsl calls pixels that lie on no plane that is served, and on the
+/// first one.
 constexpr unsigned int offPlanes = 1;
 constexpr int firstPlane = 2;
 
@@ -34,15 +34,16 @@ glm::dvec4 turnedTo(const CameraView& camera, const glm::dvec4& plane)
   return glm::dot(plane, eye) < 0.0 ? -plane : plane;
 }
 
-/// Whether a light stands before a plane, and not in it as far as rounding can tell. Parallel rays have
-/// facesLight()'s limit.
+/// Whether a light stands before a plane, and not in it as far as rounding can tell. Parallel rays
+/// have facesLight()'s limit.
 bool standsBefore(const glm::dvec4& plane, double thickness, const glm::dvec4& light)
 {
   return glm::dot(plane, light) > (light.w > 0.0 ? thickness : 9.5367431640625e-7); // 2^-20
 }
 
-/// The point of the light that a plane is drawn the shadows of in place of a sample: one that is behind it gives way to
-/// the one opposite (sideOfSample()), which stands before a plane that the light's centre stands before.
+/// The point of the light that a plane is drawn the shadows of in place of a sample: one that is
+/// behind it gives way to the one opposite (sideOfSample()), which stands before a plane that the
+/// light's centre stands before.
 glm::dvec4 sampleBefore(
   const glm::dvec4& plane, double thickness, const glm::dvec4& sample, const glm::dvec4& centre)
 {
@@ -88,8 +89,8 @@ void beginShadows(GLuint framebuffer, int width, int height)
 
 /// The planes that bound what can cast onto a plane: it lies above it, and behind the face where a
 /// box's light begins. What is beyond the light needs none: its images on the plane have w < 0
-/// (planarProjection()), and those that the camera would see in the plane's own pixels keep that sign,
-/// so that OpenGL clips them.
+/// (planarProjection()), and those that the camera would see in the plane's own pixels keep that
+/// sign, so that OpenGL clips them.
 std::vector<glm::dvec4> castingPart(const ShadowLight& light, const glm::dvec3& centreWorld,
   const glm::dvec4& plane, double thickness)
 {

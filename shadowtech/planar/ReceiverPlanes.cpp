@@ -14,11 +14,12 @@ namespace gnomon
 namespace
 {
 
-/// How far from their common plane the corners of coplanar triangles lie, as a share of
-/// sum |n_i| |p_i|: rounding moves a corner by up to one unit roundoff 2^-24 of that, the plane, which is
+/// How far from their common plane the corners of coplanar triangles lie, as a share of sum |n_i|
+/// |p_i|: rounding moves a corner by up to one unit roundoff 2^-24 of that, the plane, which is
 /// found from such corners, by about as much again, and half of it is left over.
 constexpr double cornerNoise = 4.0 / (1 << 24);
-/// What evaluating n.p + d in float adds: four products and sums of a rounded plane and a rounded point.
+/// What evaluating n.p + d in float adds: four products and sums of a rounded plane and a rounded
+/// point.
 constexpr double evaluationNoise = 8.0 / (1 << 24);
 
 /// A receiving triangle of the snapshot.
@@ -92,8 +93,8 @@ struct Candidate
   std::size_t largest = 0; ///< the triangle
 };
 
-/// Sums up triangles that lie on one plane. Their area vectors add up to that of their common outline,
-/// so that the errors of small triangles do not.
+/// Sums up triangles that lie on one plane. Their area vectors add up to that of their common
+/// outline, so that the errors of small triangles do not.
 struct PlaneSum
 {
   glm::dvec3 areaVector{ 0.0 };
@@ -145,7 +146,8 @@ public:
     this->planeOfTriangle_.assign(this->occluders_.triangles.size(), 0);
     this->collectFlat();
     std::vector<ReceiverPlane> planes;
-    // Candidates fail where surfaces are almost flat. More of them than this are not worth the time.
+    // Candidates fail where surfaces are almost flat. More of them than this are not worth the
+    // time.
     int tries = 2 * mostPlanes;
     std::size_t before = 0;
     do

@@ -28,13 +28,13 @@ struct ReceiverPlane
   Bounds boundsCentred;
 };
 
-/// The flat parts of what receives shadows: the largest planes on which triangles of the snapshot lie,
-/// wherever they are and whatever surface they belong to.
+/// The flat parts of what receives shadows: the largest planes on which triangles of the snapshot
+/// lie, wherever they are and whatever surface they belong to.
 ///
-/// Triangles lie on one plane if their corners do, to within what rounding to float has moved them by.
-/// A plane counts if its triangles have at least `smallestShare` of all receivers' area. So the planes
-/// follow from the scene alone, and stay the same when the camera moves. What is drawn as instances
-/// lies on no plane: many small shapes have none that are large.
+/// Triangles lie on one plane if their corners do, to within what rounding to float has moved them
+/// by. A plane counts if its triangles have at least `smallestShare` of all receivers' area. So the
+/// planes follow from the scene alone, and stay the same when the camera moves. What is drawn as
+/// instances lies on no plane: many small shapes have none that are large.
 class ReceiverPlanes
 {
 public:
@@ -49,8 +49,8 @@ public:
   /// The area of all receiving triangles.
   double area() const { return this->area_; }
 
-  /// For every triangle that VTK draws of a surface, from drawnBegin() on: 0, or 1 + the plane that it
-  /// lies on.
+  /// For every triangle that VTK draws of a surface, from drawnBegin() on: 0, or 1 + the plane that
+  /// it lies on.
   const std::vector<std::uint8_t>& planeOfDrawn() const { return this->planeOfDrawn_; }
   std::size_t drawnBegin(std::size_t surface) const { return this->drawnBegin_[surface]; }
 

@@ -1,6 +1,6 @@
-// The shadow of a caster on a plane: one bit, of the light's sample, in the pixels whose receiver lies
-// on that plane. So no shadow reaches beyond its receiver, and none is compared with the receiver's
-// depth.
+// The shadow of a caster on a plane: one bit, of the light's sample, in the pixels whose receiver
+// lies on that plane. So no shadow reaches beyond its receiver, and none is compared with the
+// receiver's depth.
 
 #include "shadowtech/base/cutout.glsl"
 

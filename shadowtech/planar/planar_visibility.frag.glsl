@@ -1,6 +1,6 @@
-// How many of a light's samples each pixel's receiver sees, by the shadows that were drawn on planes.
-// What lies on none sees all of the light if it faces its centre. Up to 32 samples at a time; after the last of
-// them, the share.
+// How many of a light's samples each pixel's receiver sees, by the shadows that were drawn on
+// planes. What lies on none sees all of the light if it faces its centre. Up to 32 samples at a
+// time; after the last of them, the share.
 
 #include "shadowtech/base/light_reach.glsl"
 #include "shadowtech/base/running_sum.glsl"

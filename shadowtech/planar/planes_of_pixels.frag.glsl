@@ -1,4 +1,5 @@
-// On which plane each pixel's receiver lies, from the triangle that VTK drew there (ReceiverPlanes.h).
+// On which plane each pixel's receiver lies, from the triangle that VTK drew there
+// (ReceiverPlanes.h).
 
 #include "shadowtech/planar/table.glsl"
 

@@ -17,7 +17,8 @@ namespace gnomon
 namespace
 {
 
-/// Casters of less area on the map than this, in square texels, count as seen edge on: they are not drawn.
+/// Casters of less area on the map than this, in square texels, count as seen edge on: they are not
+/// drawn.
 constexpr double edgeOnArea = 5e-7;
 
 /// A side of a polygon that has a length.
@@ -109,7 +110,8 @@ public:
     , casters_(this->placements_.triangleCount(), 0)
     , bands_(this->size_)
   {
-    // With a view whose z grows away from the light, what faces away is wound as it is in its own plane.
+    // With a view whose z grows away from the light, what faces away is wound as it is in its own
+    // plane.
     const double handedness = glm::determinant(glm::dmat3(scene.space.viewFromCentred));
     std::atomic<bool> blind{ false };
     this->placements_.visitTriangles(

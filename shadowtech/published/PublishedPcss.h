@@ -7,21 +7,24 @@
 namespace gnomon
 {
 
-/// `pcss` by the letter of Apelles' listings (4.8 to 4.11; its sections 3.4.1 and 4.1.3), to show its figures: what `as_published`
-/// makes of it. With w the light's width, z_r the receiver's distance from the light's centre, and K x K points of a step:
+/// `pcss` by the letter of Apelles' listings (4.8 to 4.11; its sections 3.4.1 and 4.1.3), to show
+/// its figures: what `as_published` makes of it. With w the light's width, z_r the receiver's
+/// distance from the light's centre, and K x K points of a step:
 ///
-/// 1. Blocker search within w (1 + 1 / K): that is (z_r - z_n) / z_r w for a near plane z_n at the light, where these maps' linear
-///    depths begin. Blockers are texels nearer than the receiver; without any it is lit.
+/// 1. Blocker search within w (1 + 1 / K): that is (z_r - z_n) / z_r w for a near plane z_n at the
+///    light, where these maps' linear depths begin. Blockers are texels nearer than the receiver;
+///    without any it is lit.
 /// 2. Penumbra: w_p = (z_r - z_b) / z_b w, z_b the blockers' mean distance.
 /// 3. Filter within w_p (1 + 1 / K): the share of the texels that are not nearer than the receiver.
 ///
-/// Both radii are shares of a map of the whole cone: not lengths, so that penumbrae widen with the cone, and not scaled
-/// by z_n / z_r as the text's equation 3.22 has it. One turn of the points for each pixel of the screen serves both steps.
-/// Texels are compared with the receiver's own distance, wherever they lie, so that lit surfaces darken (by their slope times the
-/// radius) unless `bias_slope` grows with the light: `pcss` is free of all that.
+/// Both radii are shares of a map of the whole cone: not lengths, so that penumbrae widen with the
+/// cone, and not scaled by z_n / z_r as the text's equation 3.22 has it. One turn of the points for
+/// each pixel of the screen serves both steps. Texels are compared with the receiver's own
+/// distance, wherever they lie, so that lit surfaces darken (by their slope times the radius)
+/// unless `bias_slope` grows with the light: `pcss` is free of all that.
 ///
-/// Of spot lights whose map is a single view, rectangles being taken for disks of their longer side. Lights without area have
-/// the hard shadow of `compare`.
+/// Of spot lights whose map is a single view, rectangles being taken for disks of their longer
+/// side. Lights without area have the hard shadow of `compare`.
 class PublishedPcss : public DepthMapTechnique
 {
 public:

@@ -1,12 +1,13 @@
-// Percentage closer soft shadows by the letter of Apelles' listings 4.8 to 4.11 (PublishedPcss.h). Distances are those from
-// the light's centre, radii shares of a map of the whole cone.
+// Percentage closer soft shadows by the letter of Apelles' listings 4.8 to 4.11 (PublishedPcss.h).
+// Distances are those from the light's centre, radii shares of a map of the whole cone.
 
 #include "shadowtech/depth_map/depth_map.glsl"
 
 uniform sampler2D lightPoints_LIGHT; // the search's, then the filter's
 uniform float widthLight_LIGHT;
 
-// How far from the light what is on the map lies at a place; beyond everything where there is nothing.
+// How far from the light what is on the map lies at a place; beyond everything where there is
+// nothing.
 float distanceAt_LIGHT(ViewPoint point, vec2 place)
 {
   ivec2 texel = ivec2(clamp(floor(place), vec2(0.0), vec2(viewSize_LIGHT - 1.0)));

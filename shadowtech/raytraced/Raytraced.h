@@ -6,8 +6,8 @@
 namespace gnomon
 {
 
-/// `raytraced`: every pixel by one shadow ray, of area lights by one to each of `light_samples` points. The truth
-/// that the other techniques are measured by.
+/// `raytraced`: every pixel by one shadow ray, of area lights by one to each of `light_samples`
+/// points. The truth that the other techniques are measured by.
 class Raytraced : public CpuScreenTechnique
 {
 public:

@@ -35,9 +35,11 @@ glm::vec3 shineOf(const std::vector<glm::vec3>& shine, std::size_t first, std::s
     begin + static_cast<std::ptrdiff_t>(end), glm::vec3(0.0f));
 }
 
-/// By how much of a texel the map of a light's point is moved. Else the maps of a directional light, or of a small one, would all round
-/// an edge to the same texels, as a scene's box keeps its place in them, and penumbrae would have steps as wide as texels. Points of
-/// Roberts' R2 sequence (The Unreasonable Effectiveness of Quasirandom Sequences, 2018), the first of which is not moved.
+/// By how much of a texel the map of a light's point is moved. Else the maps of a directional
+/// light, or of a small one, would all round an edge to the same texels, as a scene's box keeps its
+/// place in them, and penumbrae would have steps as wide as texels. Points of Roberts' R2 sequence
+/// (The Unreasonable Effectiveness of Quasirandom Sequences, 2018), the first of which is not
+/// moved.
 glm::dvec2 moveOfMap(std::size_t point)
 {
   const glm::dvec2 step(0.7548776662466927, 0.5698402909980532); // 1/g, 1/g^2, g^3 = g + 1

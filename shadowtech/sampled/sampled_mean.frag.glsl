@@ -1,5 +1,5 @@
-// The share of a light's points that each pixel's receiver sees, of those that were added so far; of a light with a texture one
-// channel of what they shine with, beside what is lit.
+// The share of a light's points that each pixel's receiver sees, of those that were added so far;
+// of a light with a texture one channel of what they shine with, beside what is lit.
 
 uniform sampler2D sum;
 uniform float whole; // the sum where v is 1

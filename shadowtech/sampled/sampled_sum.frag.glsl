@@ -1,5 +1,6 @@
-// Adds the points of a batch to the sum of a light's points that each pixel's receiver sees. The sources of the batch
-// stand in front of this one, and that of the light's centre, which says what the light reaches.
+// Adds the points of a batch to the sum of a light's points that each pixel's receiver sees. The
+// sources of the batch stand in front of this one, and that of the light's centre, which says what
+// the light reaches.
 
 #include "shadowtech/base/running_sum.glsl"
 #include "shadowtech/base/shine.glsl"

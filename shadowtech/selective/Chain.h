@@ -41,8 +41,8 @@ struct ChainStages
   int contourPixels = 0; ///< width of the contour; 0: the whole image
   OutsideContour outside = OutsideContour::Map;
   int coherenceTexels = 0; ///< 0, 4 or 9
-  /// Of an area light: how many points around it see maps that have to agree with the centre's; 0: its shadows are the hard
-  /// ones of its centre.
+  /// Of an area light: how many points around it see maps that have to agree with the centre's; 0:
+  /// its shadows are the hard ones of its centre.
   std::size_t rimPoints = 0;
   int neighbourTexels = 0; ///< 0, 1, 4 or 9
   Adjacency adjacency = Adjacency::Off;
@@ -70,15 +70,16 @@ enum class ChainClass : std::uint8_t
 };
 std::vector<PixelClass> classesOfChain();
 
-/// Moderno's chain (Shadow Mapping and Ray-Tracing, 3.6): pixels near a change of their status by the
-/// shadow map pass one stage after the other, cheapest first, until one decides them. Confirmed and
-/// corrected pixels are in shadow for certain; what is hinted, outside, left or by majority is taken at its word.
+/// Moderno's chain (Shadow Mapping and Ray-Tracing, 3.6): pixels near a change of their status by
+/// the shadow map pass one stage after the other, cheapest first, until one decides them. Confirmed
+/// and corrected pixels are in shadow for certain; what is hinted, outside, left or by majority is
+/// taken at its word.
 class Chain : public ReceiverDecider
 {
 public:
   /// All of these have to live as long as the chain. Finds the contour, if there is to be one.
-  /// @param rim of soft shadows, up to date: what is left is traced with all of the light's samples; null: with the ray to its
-  /// centre
+  /// @param rim of soft shadows, up to date: what is left is traced with all of the light's
+  /// samples; null: with the ray to its centre
   /// @param fans up to date with the occluders where there is a stage of adjacency
   Chain(const ChainStages& stages, const TriangleMaps& maps, const RimMaps* rim,
     const TriangleFans& fans, const ScreenInput& input);

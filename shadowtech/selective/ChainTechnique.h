@@ -12,16 +12,16 @@
 namespace gnomon
 {
 
-/// Of `coherence` and `selective`: how many texels around a pixel's place on the map have to agree for
-/// the map to be believed; 0: it is not.
+/// Of `coherence` and `selective`: how many texels around a pixel's place on the map have to agree
+/// for the map to be believed; 0: it is not.
 struct CoherenceSettings
 {
   int texels = 4;
 };
 const SettingsTable& coherenceSettings();
 
-/// What `coherence` and `selective` share: triangle maps, and a chain of tests that decides pixels by
-/// them. A technique says which stages its chain has.
+/// What `coherence` and `selective` share: triangle maps, and a chain of tests that decides pixels
+/// by them. A technique says which stages its chain has.
 class ChainTechnique : public CpuScreenTechnique
 {
 public:

@@ -14,8 +14,8 @@
 namespace gnomon
 {
 
-/// Triangle maps that points around an area light see, as well as its centre: where all of them say the same of a
-/// receiver, it is taken to be so for all of the light.
+/// Triangle maps that points around an area light see, as well as its centre: where all of them say
+/// the same of a receiver, it is taken to be so for all of the light.
 class RimMaps
 {
 public:
@@ -30,9 +30,10 @@ public:
   int update(const ShadowLight& light, const ViewFitting& fitting, const Occluders& occluders,
     std::size_t points);
 
-  /// Whether the texels of all points' maps say this of a receiver. A point behind the receiver's plane is not asked,
-  /// since it gives way to the opposite one (directionToSample()). Where the light has a texture, that changes the colour of what
-  /// nothing hides the light from: no map says of a receiver whose plane cuts the light that it is lit.
+  /// Whether the texels of all points' maps say this of a receiver. A point behind the receiver's
+  /// plane is not asked, since it gives way to the opposite one (directionToSample()). Where the
+  /// light has a texture, that changes the colour of what nothing hides the light from: no map says
+  /// of a receiver whose plane cuts the light that it is lit.
   /// @param origin where the receiver's shadow rays start, centred
   /// @param normal of the receiver, on the camera's side
   /// @param toCentre from the receiver to the light's centre; of a directional light of length 1

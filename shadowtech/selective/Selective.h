@@ -6,8 +6,8 @@
 namespace gnomon
 {
 
-/// The pixels that `selective` looks at more closely than at their texel, and what is done with them, in
-/// this order.
+/// The pixels that `selective` looks at more closely than at their texel, and what is done with
+/// them, in this order.
 struct ChainSettings
 {
   int contourPixels = 4;   ///< across the contour, half of it on either side; 0: the whole image
@@ -18,9 +18,10 @@ struct ChainSettings
 };
 const SettingsTable& chainSettings();
 
-/// `selective`: the contour between light and shadow is looked at closely, by one test after the other
-/// (D. L. Moderno, Shadow Mapping and Ray-Tracing), and what they leave is traced. Exact inside of the contour
-/// without the test of coherence; everywhere if the contour is the whole image.
+/// `selective`: the contour between light and shadow is looked at closely, by one test after the
+/// other (D. L. Moderno, Shadow Mapping and Ray-Tracing), and what they leave is traced. Exact
+/// inside of the contour without the test of coherence; everywhere if the contour is the whole
+/// image.
 class Selective : public ChainTechnique
 {
 public:

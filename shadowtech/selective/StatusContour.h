@@ -16,8 +16,9 @@ enum class PixelStatus : std::uint8_t
 };
 
 /// The contour between light and shadow on the screen: the pixels that have pixels of both statuses
-/// within some distance, in rows and in columns. So it is twice as wide as that across a border, half of it
-/// lit. (D. L. Moderno, Shadow Mapping and Ray-Tracing, 3.1.2: a contour of 2 pixels, dilated once and twice.)
+/// within some distance, in rows and in columns. So it is twice as wide as that across a border,
+/// half of it lit. (D. L. Moderno, Shadow Mapping and Ray-Tracing, 3.1.2: a contour of 2 pixels,
+/// dilated once and twice.)
 ///
 /// @param statuses row by row, width * height
 /// @param radiusPixels >= 1

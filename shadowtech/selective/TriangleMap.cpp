@@ -16,15 +16,16 @@ namespace gnomon
 namespace
 {
 
-/// What rounding to float moves depths on a plane by, over their magnitude and what they change by from texel to
-/// texel: four times half a unit in the last place.
+/// What rounding to float moves depths on a plane by, over their magnitude and what they change by
+/// from texel to texel: four times half a unit in the last place.
 constexpr double depthRounding = 2.384185791015625e-7; // 2^-22
 
-/// Depths are counted from the farthest caster's, that they are finest in float where most of what a light in the
-/// midst of a scene sees is: depths are in proportion to -1 / distance there.
+/// Depths are counted from the farthest caster's, that they are finest in float where most of what
+/// a light in the midst of a scene sees is: depths are in proportion to -1 / distance there.
 constexpr double farthestDepth = 1.0;
 
-/// A polygon's plane, where rounding does not take it beyond the corners' depths, which it would on slivers.
+/// A polygon's plane, where rounding does not take it beyond the corners' depths, which it would on
+/// slivers.
 struct BoundedPlane
 {
   MapPlane plane;

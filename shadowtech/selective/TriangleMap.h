@@ -56,8 +56,8 @@ struct MapPlace
   int column = 0, row = 0; ///< the texel that holds the point
   double x = 0.0, y = 0.0; ///< in texels
   double depth = 0.0;
-  /// The plane of the receiver, moved to where the ray starts: over (x, y, depth, 1), positive on the
-  /// side that the camera sees.
+  /// The plane of the receiver, moved to where the ray starts: over (x, y, depth, 1), positive on
+  /// the side that the camera sees.
   glm::dvec4 plane{ 0.0 };
 };
 
@@ -69,18 +69,18 @@ enum class Neighbourhood
   Nine    ///< with all that touch it
 };
 
-/// A shadow map of one view of a light that also says which triangle it saw: at the centre of each texel,
-/// as Williams' (1978). Drawn on the CPU, in double precision; both sides of casters count, but of those
-/// that are one-sided, and the holes of textures are left out.
+/// A shadow map of one view of a light that also says which triangle it saw: at the centre of each
+/// texel, as Williams' (1978). Drawn on the CPU, in double precision; both sides of casters count,
+/// but of those that are one-sided, and the holes of textures are left out.
 ///
-/// *Depth* is that of conservative maps (ConservativeMap.h), affine on planes across the map and growing
-/// along every ray, but that it ends at 0, behind all casters, so that floats hold it well.
+/// *Depth* is that of conservative maps (ConservativeMap.h), affine on planes across the map and
+/// growing along every ray, but that it ends at 0, behind all casters, so that floats hold it well.
 class TriangleMap
 {
 public:
   /// Draws the casters.
-  /// @param keptFromCentred of a light with a box: a plane (n, d) in centred coordinates, no deeper than the view's box;
-  /// of casters, only what has n.p + d >= 0 counts
+  /// @param keptFromCentred of a light with a box: a plane (n, d) in centred coordinates, no deeper
+  /// than the view's box; of casters, only what has n.p + d >= 0 counts
   TriangleMap(const LightView& view, const std::optional<glm::dvec4>& keptFromCentred,
     int sizeTexels, const Occluders& occluders);
 
@@ -96,9 +96,9 @@ public:
   /// passes between the receiver and the light, and at the centre, even pushed back by what it may
   /// be deeper on the way to the receiver's place, it lies before the receiver's plane.
   ///
-  /// No bias is tuned. A triangle does neither to its own points. Where a surface is convex, neighbours lie
-  /// behind the receiver's plane; where it is concave, the receiver lies before theirs. What is left are
-  /// surfaces that are both within a texel.
+  /// No bias is tuned. A triangle does neither to its own points. Where a surface is convex,
+  /// neighbours lie behind the receiver's plane; where it is concave, the receiver lies before
+  /// theirs. What is left are surfaces that are both within a texel.
   bool shadows(const TriangleTexel& texel, int column, int row, const MapPlace& place) const;
   bool shadows(int column, int row, const MapPlace& place) const
   {
@@ -115,7 +115,8 @@ private:
 };
 
 /// Visits the texels of a neighbourhood, the one that holds the place first.
-/// @param visit called with column and row, inside of the map or not; returns whether that is enough
+/// @param visit called with column and row, inside of the map or not; returns whether that is
+/// enough
 /// @return whether it was
 template <typename Visit>
 bool visitNeighbourhood(Neighbourhood neighbourhood, const MapPlace& place, const Visit& visit)

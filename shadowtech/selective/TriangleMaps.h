@@ -30,14 +30,14 @@ class TriangleMaps
 {
 public:
   /// Draws the casters into a map per view.
-  /// @param keptFromCentred of a light with a box: a plane (n, d) in centred coordinates; of casters, only what has
-  /// n.p + d >= 0 counts
+  /// @param keptFromCentred of a light with a box: a plane (n, d) in centred coordinates; of
+  /// casters, only what has n.p + d >= 0 counts
   /// @throws TextureMemoryError for maps without room; there are none then
   void bake(const LightViews& views, int sizeTexels, const Occluders& occluders,
     const std::optional<glm::dvec4>& keptFromCentred);
 
-  /// The place on the first map that holds it, which of splits is the finest; nothing where no caster
-  /// can be between the light and the receiver, as views see all casters.
+  /// The place on the first map that holds it, which of splits is the finest; nothing where no
+  /// caster can be between the light and the receiver, as views see all casters.
   std::optional<PlaceOnMaps> find(const glm::dvec3& origin, const glm::dvec3& normal) const;
 
   std::size_t bytes() const;

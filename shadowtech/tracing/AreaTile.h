@@ -78,7 +78,8 @@ public:
     }
   }
 
-  /// What of a texture a pixel's samples show, in sum: all of them, and those points that its rays go to.
+  /// What of a texture a pixel's samples show, in sum: all of them, and those points that its rays
+  /// go to.
   struct Colours
   {
     glm::vec3 all{ 0.0f };

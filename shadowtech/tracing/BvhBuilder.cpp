@@ -13,8 +13,8 @@ namespace gnomon
 namespace
 {
 
-/// Where Embree's builder gives up looking for the best cut. Forty cuts leave less than a millionth of a
-/// scene; it halves what is left.
+/// Where Embree's builder gives up looking for the best cut. Forty cuts leave less than a millionth
+/// of a scene; it halves what is left.
 constexpr unsigned int mostDepth = 48;
 
 /// A tree as Embree builds it.

@@ -12,8 +12,9 @@
 namespace gnomon
 {
 
-/// Builds binary trees by Embree's builder and appends them to nodes and records. Boxes are left out: whoever
-/// asked for a tree finds them from what lies in its leaves, of new trees as of old ones.
+/// Builds binary trees by Embree's builder and appends them to nodes and records. Boxes are left
+/// out: whoever asked for a tree finds them from what lies in its leaves, of new trees as of old
+/// ones.
 class BvhBuilder
 {
 public:

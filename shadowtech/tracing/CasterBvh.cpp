@@ -43,8 +43,9 @@ Bounds verticesBounds(const Occluders& occluders, const Surface& surface)
   return bounds;
 }
 
-/// The box around the image of a box. It is larger by what taking a ray into source coordinates may be off
-/// by: ShadowRay.h's bound for an instance's rows is 8u (|r_i|.|O| + |r_i|.|T|) each, times the column
+/// The box around the image of a box. It is larger by what taking a ray into source coordinates may
+/// be off by: ShadowRay.h's bound for an instance's rows is 8u (|r_i|.|O| + |r_i|.|T|) each, times
+/// the column
 /// |c_i|, with |c_i||r_i| <= 2 for the skewness that instances may have; summed over three axes less than
 /// 2^-17 (|O| + |T|). The share of the ray's origin is bvh.glsl's.
 Bounds imageBounds(const glm::mat4x3& centredFromSource, const Bounds& source)
@@ -155,8 +156,8 @@ void CasterBvh::build(const Occluders& occluders)
   this->firstNodeOfAll_ = this->nodes_.size();
   const BvhBuilder::Tree tree = builder.add(all, boundsOf);
   this->root_ = tree.root;
-  // Below the first link, which ends the walk, one waits at each node passed. Instances of a leaf wait
-  // together; below the one that is entered lies the link that leaves it.
+  // Below the first link, which ends the walk, one waits at each node passed. Instances of a leaf
+  // wait together; below the one that is entered lies the link that leaves it.
   this->stackSize_ = 1 + tree.depth;
   if (!this->instances_.empty())
   {
@@ -270,8 +271,8 @@ Bounds CasterBvh::linkBounds(std::uint32_t link, const Occluders& occluders) con
 }
 
 //------------------------------------------------------------------------------
-/// How many boxes of the upper level a ray through the whole meets on average (surface area heuristic). 0
-/// where there are none, or all lie in a line.
+/// How many boxes of the upper level a ray through the whole meets on average (surface area
+/// heuristic). 0 where there are none, or all lie in a line.
 double CasterBvh::cost() const
 {
   double sum = 0.0;

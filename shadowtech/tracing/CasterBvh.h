@@ -15,14 +15,15 @@ namespace gnomon
 {
 
 /// @file
-/// The bounding volume hierarchy of the casting surfaces in the form in which the GPU walks it; bvh.glsl
-/// is its other side.
+/// The bounding volume hierarchy of the casting surfaces in the form in which the GPU walks it;
+/// bvh.glsl is its other side.
 ///
-/// It is one binary tree over all casting triangles, whatever surface they belong to. Where a surface has
-/// instances, each of them is one more thing in that tree, and leads to a tree of the surface's own in
-/// source coordinates: two levels, as in Embree.
+/// It is one binary tree over all casting triangles, whatever surface they belong to. Where a
+/// surface has instances, each of them is one more thing in that tree, and leads to a tree of the
+/// surface's own in source coordinates: two levels, as in Embree.
 
-/// A box and what is in it. The two halves of a node lie side by side, first the one with the even number.
+/// A box and what is in it. The two halves of a node lie side by side, first the one with the even
+/// number.
 struct BvhNode
 {
   glm::vec3 lower;
@@ -33,7 +34,8 @@ struct BvhNode
 
 static_assert(sizeof(BvhNode) == 32, "as bvh.glsl reads it");
 
-/// Where to go on: the number of the first of two nodes, or a leaf, whose `count` records begin at `first`.
+/// Where to go on: the number of the first of two nodes, or a leaf, whose `count` records begin at
+/// `first`.
 namespace BvhLink
 {
 constexpr std::uint32_t leafBit = 0x80000000u;
@@ -59,8 +61,8 @@ constexpr std::uint32_t count(std::uint32_t link)
 }
 } // namespace BvhLink
 
-/// What lies in leaves: three vertices of a triangle (indices into the snapshot's positions) and its
-/// flags; or the number of an instance, 0, 0 and the flag that says so.
+/// What lies in leaves: three vertices of a triangle (indices into the snapshot's positions) and
+/// its flags; or the number of an instance, 0, 0 and the flag that says so.
 using BvhRecord = glm::uvec4;
 namespace BvhFlag
 {
@@ -94,8 +96,8 @@ public:
     Built
   };
 
-  /// Brings the tree up to date with the snapshot. Moved vertices and instances keep it and change its
-  /// boxes, unless these overlap so much by now that another tree would be better.
+  /// Brings the tree up to date with the snapshot. Moved vertices and instances keep it and change
+  /// its boxes, unless these overlap so much by now that another tree would be better.
   /// @throws std::runtime_error if there are more casters than a link can tell, or Embree fails
   Change update(const Occluders& occluders);
 
@@ -106,7 +108,8 @@ public:
   std::uint32_t root() const { return this->root_; }
   /// Box around everything, centred.
   const Bounds& bounds() const { return this->bounds_; }
-  /// The casting surfaces with holes, by the numbers that records give them: places in the snapshot.
+  /// The casting surfaces with holes, by the numbers that records give them: places in the
+  /// snapshot.
   const std::vector<std::size_t>& cutoutSurfaces() const { return this->cutoutSurfaces_; }
   /// How many links may have to wait while others are followed, on both levels together.
   int stackSize() const { return this->stackSize_; }

@@ -27,8 +27,8 @@ using Scene = EmbreeScene;
 using Geometry = EmbreeGeometry;
 
 /// Rejects hits on the back of a one-sided surface: those whose front does not face the light.
-/// Embree's geometric normal is that of counter-clockwise winding. Of an instance, ray and normal are
-/// in source coordinates, where a mirrored one shows its other side.
+/// Embree's geometric normal is that of counter-clockwise winding. Of an instance, ray and normal
+/// are in source coordinates, where a mirrored one shows its other side.
 template <bool mirrored>
 void rejectBackFaces(const RTCFilterFunctionNArguments* arguments)
 {
@@ -55,8 +55,8 @@ struct CutoutSurface
   std::uint32_t firstVertex = 0;
 };
 
-/// Rejects hits in the holes of a surface, so that the ray goes on behind it. Of an instance, the triangle
-/// is the source's, whose place on the texture all instances share.
+/// Rejects hits in the holes of a surface, so that the ray goes on behind it. Of an instance, the
+/// triangle is the source's, whose place on the texture all instances share.
 void rejectHoles(const RTCFilterFunctionNArguments* arguments)
 {
   const auto& surface = *static_cast<const CutoutSurface*>(arguments->geometryUserPtr);
@@ -108,8 +108,8 @@ struct Caster
   Geometry geometry;
   /// Of a surface with instances, the scene that holds its triangles once.
   Scene source;
-  /// What is attached to the tracer's scene, by Embree's numbers: the triangles, or those instances of
-  /// the source's scene that are not left out.
+  /// What is attached to the tracer's scene, by Embree's numbers: the triangles, or those instances
+  /// of the source's scene that are not left out.
   std::vector<unsigned int> attached;
   RTCFilterFunctionN filter = nullptr;
   std::unique_ptr<CutoutSurface> cutout; ///< stays where it is, since Embree is told
@@ -140,10 +140,11 @@ public:
     , rayFar_(rayFar)
   {
     rtcInitIntersectContext(&this->context_);
-    // Rays have their answers by themselves, whichever of their neighbours are traced as well. Coherent packets
-    // enter boxes together: whether a ray meets an edge that lies in its box's side, to within a rounding, then
-    // depends on the packet. In scenes with instances Embree 3.13.5 hangs on coherent packets of 16 that hit
-    // some, too: it keeps numbers in AVX-512 registers that the traversal of an instance overwrites.
+    // Rays have their answers by themselves, whichever of their neighbours are traced as well.
+    // Coherent packets enter boxes together: whether a ray meets an edge that lies in its box's
+    // side, to within a rounding, then depends on the packet. In scenes with instances Embree
+    // 3.13.5 hangs on coherent packets of 16 that hit some, too: it keeps numbers in AVX-512
+    // registers that the traversal of an instance overwrites.
     this->context_.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
     for (std::size_t lane = 0; lane < lanes; ++lane)
     {
@@ -301,7 +302,8 @@ EmbreeTracer::Impl::Impl()
   this->scene = Scene(rtcNewScene(this->device.get()));
   // Two levels, one structure per surface below: that is what these two settings mean together. A
   // moved surface then costs its own refit, and tracing 2 % more than in one level (with 400
-  // surfaces 7 %). The structures below are as good as ever: surfaces ask for refits, not for speed.
+  // surfaces 7 %). The structures below are as good as ever: surfaces ask for refits, not for
+  // speed.
   rtcSetSceneFlags(
     this->scene.get(), static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_DYNAMIC));
   rtcSetSceneBuildQuality(this->scene.get(), RTC_BUILD_QUALITY_LOW);
@@ -392,8 +394,8 @@ void EmbreeTracer::Impl::attachInstances(Caster& caster, const Surface& surface)
   this->move(caster, surface);
 }
 
-/// Refits a surface's structure to its moved vertices, or takes over its instances' matrices: as many
-/// as are attached, in their order.
+/// Refits a surface's structure to its moved vertices, or takes over its instances' matrices: as
+/// many as are attached, in their order.
 void EmbreeTracer::Impl::move(Caster& caster, const Surface& surface) const
 {
   if (!surface.isInstanced())

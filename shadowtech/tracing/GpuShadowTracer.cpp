@@ -9,8 +9,8 @@ namespace gnomon
 namespace
 {
 
-/// Rays that the GPU traces side by side come from squares of so many pixels a side: they stay closer together
-/// than those of a row.
+/// Rays that the GPU traces side by side come from squares of so many pixels a side: they stay
+/// closer together than those of a row.
 constexpr std::size_t side = 8;
 constexpr std::size_t squaresAcross = TracedTile::columns / side;
 static_assert(
@@ -73,7 +73,8 @@ ShadowTracer::Update GpuShadowTracer::update(const Occluders& occluders)
 }
 
 //------------------------------------------------------------------------------
-/// Fills the picture but for its rays, and collects these in the order of the tiles, whichever thread visits them.
+/// Fills the picture but for its rays, and collects these in the order of the tiles, whichever
+/// thread visits them.
 /// @return how many there are
 std::size_t GpuShadowTracer::collectRays(
   const TracedPicture& picture, const TracedPicture::SampleRange& samples)

@@ -11,9 +11,9 @@
 namespace gnomon
 {
 
-/// Shadow rays on the GPU (GpuTracer): those that a picture needs are collected first, and traced all together; of
-/// an area light some samples at a time. It has one structure for all surfaces. All calls, the destructor included, want
-/// the context to be current.
+/// Shadow rays on the GPU (GpuTracer): those that a picture needs are collected first, and traced
+/// all together; of an area light some samples at a time. It has one structure for all surfaces.
+/// All calls, the destructor included, want the context to be current.
 class GpuShadowTracer : public ShadowTracer
 {
 public:
@@ -32,8 +32,8 @@ private:
   OccluderBuffers& buffers_;
   ShaderLibrary& shaders_;
   GpuTracer tracer_;
-  /// Room for some samples' rays of all pixels. They begin tile by tile where all of a tile's would, and then
-  /// side by side.
+  /// Room for some samples' rays of all pixels. They begin tile by tile where all of a tile's
+  /// would, and then side by side.
   std::vector<TracedRay> rays_;
   std::vector<float> samplesOfRays_; ///< how many samples each of them stands for, by channel
   std::vector<std::uint8_t> blocked_;

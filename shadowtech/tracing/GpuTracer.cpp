@@ -57,7 +57,8 @@ void bind(TracerBinding binding, GLuint buffer)
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, buffer);
 }
 
-/// The numbers by which cutout_mask.glsl finds a surface's mask, and all masks as bits. Surfaces may share.
+/// The numbers by which cutout_mask.glsl finds a surface's mask, and all masks as bits. Surfaces
+/// may share.
 class CutoutTable
 {
 public:

@@ -31,12 +31,14 @@ enum class RayTransfer
   Copied  ///< through copies that OpenGL makes
 };
 
-/// A bounded number of rays on their way to the GPU, and their answers, a bit for each, on their way back.
-/// While one batch is on its way others can be filled. All calls want the context to be current.
+/// A bounded number of rays on their way to the GPU, and their answers, a bit for each, on their
+/// way back. While one batch is on its way others can be filled. All calls want the context to be
+/// current.
 class RayBatch
 {
 public:
-  /// 4 MB: enough to keep a GPU busy, and so few that no driver's watchdog finds it busy for too long.
+  /// 4 MB: enough to keep a GPU busy, and so few that no driver's watchdog finds it busy for too
+  /// long.
   static constexpr std::size_t mostRays = std::size_t(1) << 17;
 
   RayBatch() = default;
@@ -47,13 +49,14 @@ public:
   /// @throws TextureMemoryError
   void reserve(RayTransfer transfer);
 
-  /// Writes rays, at most `mostRays`, and binds them and their answers, all unblocked so far, for shaders.
-  /// Memory must have been reserved.
+  /// Writes rays, at most `mostRays`, and binds them and their answers, all unblocked so far, for
+  /// shaders. Memory must have been reserved.
   void send(const TracedRay* rays, std::size_t count, GLuint rayBinding, GLuint answerBinding);
   /// To be called when the work on what was sent has been given to OpenGL.
   void markSent();
 
-  /// Waits for the answers and writes them, in the order of the rays: 1 for one that is blocked, else 0.
+  /// Waits for the answers and writes them, in the order of the rays: 1 for one that is blocked,
+  /// else 0.
   /// @param blocked has room for as many as were sent
   /// @throws std::runtime_error if the context is lost
   void receive(std::uint8_t* blocked);

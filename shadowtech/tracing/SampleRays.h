@@ -18,7 +18,8 @@ struct PixelSamples
 {
   /// How many samples arrive unless rays are blocked.
   std::uint32_t lit = 0;
-  /// How many of these its first ray stands for: all of them are blocked if it is. The other rays stand for one each.
+  /// How many of these its first ray stands for: all of them are blocked if it is. The other rays
+  /// stand for one each.
   std::uint32_t ofFirstRay = 1;
   ///@{
   /// Its rays' samples, a part of SampleRays::samples.
@@ -46,7 +47,8 @@ public:
   /// Chooses the rays of a tile. Called by several threads at once.
   /// @param tile whose pixels that need a ray may get another class
   /// @param rays with all rays of these pixels
-  /// @param again whether it did so before, as where a picture's rays are traced in parts: what it counts is counted then
+  /// @param again whether it did so before, as where a picture's rays are traced in parts: what it
+  /// counts is counted then
   virtual void choose(
     TracedTile& tile, const DirectionsOf& directionsOf, SampleRays& rays, bool again) const = 0;
 };

@@ -10,8 +10,8 @@
 namespace gnomon
 {
 
-/// Shadow rays against the casting surfaces: the truth, and the one entry point for whoever traces. All
-/// techniques of a frame get the same one, so that what they trace is the same to the last bit.
+/// Shadow rays against the casting surfaces: the truth, and the one entry point for whoever traces.
+/// All techniques of a frame get the same one, so that what they trace is the same to the last bit.
 class ShadowTracer
 {
 public:
@@ -24,10 +24,11 @@ public:
     int refits = 0; ///< structures that were refitted to moved vertices or instances
   };
 
-  /// Brings the acceleration structure up to date with the snapshot, and takes the GPU's memory
-  /// for rays: no frame is traced half by one tracer and half by another. Does nothing when neither
-  /// topologyVersion nor positionsVersion changed. The snapshot's vertex and index arrays and texture
-  /// coordinates may be shared, not copied: they must stay where they are until the next update.
+  /// Brings the acceleration structure up to date with the snapshot, and takes the GPU's memory for
+  /// rays: no frame is traced half by one tracer and half by another. Does nothing when neither
+  /// topologyVersion nor positionsVersion changed. The snapshot's vertex and index arrays and
+  /// texture coordinates may be shared, not copied: they must stay where they are until the next
+  /// update.
   /// @throws std::runtime_error where there is no structure to be had, TextureMemoryError included
   virtual Update update(const Occluders& occluders) = 0;
 
@@ -48,12 +49,14 @@ public:
       { light, occluders, receivers, decider, visibility, classes, nullptr });
   }
 
-  /// The same of an area light, whose centre decides what it reaches: the share of its samples that the
-  /// receiver sees, each pixel with its own (sideOfSample()). Of a light with a texture it has three channels, one image
-  /// after the other: the share of its samples' colours that the receiver sees, times the texture's mean; where there is nothing
-  /// to trace and it is lit, the texture's mean.
+  /// The same of an area light, whose centre decides what it reaches: the share of its samples that
+  /// the receiver sees, each pixel with its own (sideOfSample()). Of a light with a texture it has
+  /// three channels, one image after the other: the share of its samples' colours that the receiver
+  /// sees, times the texture's mean; where there is nothing to trace and it is lit, the texture's
+  /// mean.
   /// @param light with an area
-  /// @param chooser who knows which of a pixel's rays decide the others; null: nobody. There is none for textures
+  /// @param chooser who knows which of a pixel's rays decide the others; null: nobody. There is
+  /// none for textures
   std::size_t traceArea(const ShadowLight& light, const Occluders& occluders,
     const Receivers& receivers, std::vector<float>& visibility,
     const ReceiverDecider* decider = nullptr, std::vector<std::uint8_t>* classes = nullptr,

@@ -68,7 +68,8 @@ void fillRow(TracedClass of, const std::array<float, 3>& lit, std::size_t column
   }
 }
 
-/// What becomes of the pixels of one row of a tile, and so which rays are needed, and what shows without any.
+/// What becomes of the pixels of one row of a tile, and so which rays are needed, and what shows
+/// without any.
 /// @param receives by surface + 1: 1 or 0
 /// @param certain null: nothing is
 /// @param lit the visibility of what is lit, by channel
@@ -400,7 +401,8 @@ void TracedPicture::finish() const
 }
 
 //------------------------------------------------------------------------------
-/// Has a pixel's sums of colours scaled so that all of its samples together have the texture's mean.
+/// Has a pixel's sums of colours scaled so that all of its samples together have the texture's
+/// mean.
 /// @param all the sum of their colours; channels that none of them has stay as they are
 void TracedPicture::scale(std::size_t pixel, const glm::vec3& all) const
 {

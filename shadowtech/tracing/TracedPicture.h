@@ -31,7 +31,8 @@ enum class TracedClass : std::uint8_t
 };
 std::vector<PixelClass> classesOfTracing();
 
-/// A tile of the picture: which of its pixels need their shadow ray, and what they show unless it is blocked.
+/// A tile of the picture: which of its pixels need their shadow ray, and what they show unless it
+/// is blocked.
 struct alignas(64) TracedTile
 {
   static constexpr std::size_t columns = ReceiverTile::mostColumns;
@@ -47,8 +48,8 @@ struct alignas(64) TracedTile
   Plane<float> directionX, directionY, directionZ;
   Plane<int> needed; ///< 1 or 0; 0 beyond the picture's border
   ///@{
-  /// How many of the light's samples are seen, and how many of them a blocked ray takes off; of a light with a texture the sums
-  /// of their colours in 255ths, channel by channel.
+  /// How many of the light's samples are seen, and how many of them a blocked ray takes off; of a
+  /// light with a texture the sums of their colours in 255ths, channel by channel.
   std::array<Plane<float>, 3> visibility;
   std::array<Plane<float>, 3> samplesOfRay;
   ///@}
@@ -66,9 +67,9 @@ struct alignas(64) TracedTile
   }
 };
 
-/// A picture's shadow rays in one light: what the tracers have in common is here, and which rays are blocked is
-/// theirs to say. Each pixel has one to the light's centre, or one to each of an area light's samples. Until
-/// finish(), visibility counts those that arrive.
+/// A picture's shadow rays in one light: what the tracers have in common is here, and which rays
+/// are blocked is theirs to say. Each pixel has one to the light's centre, or one to each of an
+/// area light's samples. Until finish(), visibility counts those that arrive.
 class TracedPicture
 {
 public:
@@ -78,11 +79,14 @@ public:
     int first, end;
   };
 
-  /// @param decider who knows something without rays; null: nobody. It is asked about a tile's pixels once, however often that is visited
-  /// @param visibility resized to one for each pixel of the picture; of several channels one image after the other
+  /// @param decider who knows something without rays; null: nobody. It is asked about a tile's
+  /// pixels once, however often that is visited
+  /// @param visibility resized to one for each pixel of the picture; of several channels one image
+  /// after the other
   /// @param classes where not null, resized to one for each pixel
   /// @param samples of the light's area, which it has a texture with if any; null: its centre
-  /// @param chooser who knows which of a pixel's rays decide the others; null: nobody. There is none for textures
+  /// @param chooser who knows which of a pixel's rays decide the others; null: nobody. There is
+  /// none for textures
   TracedPicture(const ShadowLight& light, const Occluders& occluders, const Receivers& receivers,
     const ReceiverDecider* decider, std::vector<float>& visibility,
     std::vector<std::uint8_t>* classes, const LightSamples* samples,
@@ -100,10 +104,11 @@ public:
   std::size_t channels() const { return this->texture_ ? 3 : 1; }
 
   /// Fills visibility and classes, tile by tile; several threads do so at once.
-  /// @param samples whose rays are traced; visibility and classes are filled with the first of them all
-  /// @param trace gets a tile with one ray for each pixel that needs one, for all samples in turn; at first as it shows
-  /// without any. It may take samplesOfRay off the visibility of pixels whose ray is blocked, and returns the number of
-  /// rays
+  /// @param samples whose rays are traced; visibility and classes are filled with the first of them
+  /// all
+  /// @param trace gets a tile with one ray for each pixel that needs one, for all samples in turn;
+  /// at first as it shows without any. It may take samplesOfRay off the visibility of pixels whose
+  /// ray is blocked, and returns the number of rays
   /// @return the sum of those
   std::size_t visitTiles(
     const SampleRange& samples, const std::function<std::size_t(TracedTile&)>& trace) const;
@@ -139,7 +144,8 @@ private:
   const LightSamples* samples_;
   const PlacedTexture* texture_; ///< null: all samples count alike
   const SampleChooser* chooser_;
-  /// What the decider has said of each tile's receivers, row by row; empty where it was not asked yet. Null without a decider.
+  /// What the decider has said of each tile's receivers, row by row; empty where it was not asked
+  /// yet. Null without a decider.
   std::unique_ptr<std::vector<Certainty>[]> certain_;
   /// What is lit, by channel, in the unit of TracedTile::visibility.
   std::array<float, 3> lit_;

@@ -1,5 +1,5 @@
-// The casters' bounding volume hierarchy, and rays against its boxes. CasterBvh.h is its other side and
-// says how it is laid out.
+// The casters' bounding volume hierarchy, and rays against its boxes. CasterBvh.h is its other side
+// and says how it is laid out.
 
 #ifndef GNOMON_BVH
 #define GNOMON_BVH
@@ -44,20 +44,22 @@ struct BoxRay
   float far;
 };
 
-// No box may be missed that holds a triangle that is met: only then the answer is that of all triangles,
-// whatever the tree. What has to be allowed for, with u = 2^-24:
+// No box may be missed that holds a triangle that is met: only then the answer is that of all
+// triangles, whatever the tree. What has to be allowed for, with u = 2^-24:
 //
-// - triangleIsMet() (watertight.glsl) takes corners relative to the origin, shears and rounds them: along
-//   one axis u |A| for the first rounding, on that and on A_z, 5u |A_z| for a shear whose division is off by
-//   2.5 units in the last place (as much as GLSL allows), u |A_z| for its product with A_z, and u (|A| +
+// - triangleIsMet() (watertight.glsl) takes corners relative to the origin, shears and rounds them:
+//   along one axis u |A| for the first rounding, on that and on A_z, 5u |A_z| for a shear whose
+//   division is off by 2.5 units in the last place (as much as GLSL allows), u |A_z| for its
+//   product with A_z, and u (|A| +
 //   |A_z|) for the difference: at most 10u of the corner's largest coordinate relative to the origin. So
-//   the triangle that is tested lies as near to the true one, and boxes grow by as much on all sides.
+//   the triangle that is tested lies as near to the true one, and boxes grow by as much on all
+//   sides.
 // - Moving the origin instead of the box rounds once more, u of the coordinate itself.
 // - An instance's box has to allow for rays in source coordinates (imageBounds(), CasterBvh.cpp).
 //
-// The distances to the sides are off by a rounding of the difference, one of the product and 5u of the
-// inverse: 7u, so that near and far ends are compared with 16u between them (Ize, Robust BVH Ray
-// Traversal, 2013, eq. 8).
+// The distances to the sides are off by a rounding of the difference, one of the product and 5u of
+// the inverse: 7u, so that near and far ends are compared with 16u between them (Ize, Robust BVH
+// Ray Traversal, 2013, eq. 8).
 #ifdef INSTANCES
 const float boxSlack = 7.6293945e-6; // 2^-17
 #else
@@ -65,8 +67,8 @@ const float boxSlack = 9.5367432e-7; // 2^-20
 #endif
 const float farSlack = 1.00000095; // 1 + 2^-20
 
-// Directions along an axis would divide by zero, and zero times infinity is no number. Their component
-// becomes so small that it takes the ray off by less than 2^-60 of its way.
+// Directions along an axis would divide by zero, and zero times infinity is no number. Their
+// component becomes so small that it takes the ray off by less than 2^-60 of its way.
 const float smallestShare = 8.6736174e-19; // 2^-60
 
 float largestOf(vec3 v)

@@ -1,11 +1,12 @@
-// Holes of casters' textures for ray tracing: the twin of CutoutMask.cpp, on masks in a buffer. Samplers
-// would filter with rounded weights, and there are few of them.
+// Holes of casters' textures for ray tracing: the twin of CutoutMask.cpp, on masks in a buffer.
+// Samplers would filter with rounded weights, and there are few of them.
 
 #ifndef GNOMON_CUTOUT_MASK
 #define GNOMON_CUTOUT_MASK
 
-// For each surface with holes (GpuTracer.cpp writes them): where its texture coordinates are, less its
-// first vertex; where its mask is; how that is to be read; width; height. Then all masks, a bit per texel.
+// For each surface with holes (GpuTracer.cpp writes them): where its texture coordinates are, less
+// its first vertex; where its mask is; how that is to be read; width; height. Then all masks, a bit
+// per texel.
 layout(std430, binding = 6) readonly buffer Cutouts { uint cutouts[]; };
 layout(std430, binding = 7) readonly buffer TextureCoordinates { vec2 textureCoordinates[]; };
 

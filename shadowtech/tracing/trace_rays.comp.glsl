@@ -1,11 +1,12 @@
 // Shadow rays against the casters: for each ray whether anything blocks it, a bit per ray.
 //
-// INSTANCES, CUTOUTS: the scene has such; STACK: how many links may wait; GROUP: rays of a work group.
+// INSTANCES, CUTOUTS: the scene has such; STACK: how many links may wait; GROUP: rays of a work
+// group.
 //
-// The walk goes down to leaves first and looks at triangles then, so that rays that go together do the same
-// at the same time (Aila, Laine: Understanding the Efficiency of Ray Traversal on GPUs, 2009). Whatever
-// blocks a ray ends it. As no box is missed that holds a triangle that is met, the answer depends neither on
-// the tree nor on the order.
+// The walk goes down to leaves first and looks at triangles then, so that rays that go together do
+// the same at the same time (Aila, Laine: Understanding the Efficiency of Ray Traversal on GPUs,
+// 2009). Whatever blocks a ray ends it. As no box is missed that holds a triangle that is met, the
+// answer depends neither on the tree nor on the order.
 
 #include "shadowtech/tracing/bvh.glsl"
 #include "shadowtech/tracing/watertight.glsl"
@@ -43,8 +44,8 @@ struct BvhInstance
 layout(std430, binding = 5) readonly buffer BvhInstances { BvhInstance bvhInstances[]; };
 #endif
 
-// Links beside those of the tree: where the walk ends, where an instance is left, and, with its number, an
-// instance to enter. Leaves have this bit unset.
+// Links beside those of the tree: where the walk ends, where an instance is left, and, with its
+// number, an instance to enter. Leaves have this bit unset.
 const uint enterBit = 0x40000000u;
 const uint walkEnd = 0xffffffffu;
 const uint instanceEnd = 0xfffffffeu;
