@@ -11,7 +11,7 @@ source docs/comparisons.sh
 install_packages
 build_gnomon
 
-hard=nsm,pcf,vsm,evsm,msm,adaptive,lispsm,tsm,pssm,planar,coherence,selective,crsm,crsma,silhouette,raytraced
+hard=nsm,pcf,esm,vsm,evsm,msm,adaptive,lispsm,tsm,pssm,planar,coherence,selective,crsm,crsma,silhouette,raytraced
 soft=pcss,montecarlo,sampled,penumbra,raytraced
 compareOnce out/figures/hard bunny --techniques "$hard" --route inline --frames 31
 compareOnce out/figures/soft bunny --techniques "$soft" --route inline --frames 11 --light-radius 5
