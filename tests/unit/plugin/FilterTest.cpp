@@ -1,16 +1,8 @@
-// Filters on all kinds of maps: no acne, on warped maps neither, and no kind of depth or early-out that
-// breaks them.
+// Filters on all kinds of maps, and kinds of depth and early-outs that show the same.
 
-#include "DegenerateViews.h"
-#include "LitPlane.h"
 #include "PassScene.h"
 
 #include "plugin/VisibilityImages.h"
-#include "plugin/vtkGnomonPropKeys.h"
-
-#include <vtkCellArray.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
 
 #include <gmock/gmock.h>
 
@@ -27,18 +19,6 @@ namespace
 
 using NamedSettings = std::map<std::string, std::string>;
 
-struct Filter
-{
-  const char* name;
-  const char* technique;
-  NamedSettings settings;
-};
-
-std::ostream& operator<<(std::ostream& stream, const Filter& filter)
-{
-  return stream << filter.name;
-}
-
 void choose(PassScene& scene, const char* technique, const NamedSettings& settings)
 {
   scene.pass->SetTechnique(technique);
@@ -48,147 +28,7 @@ void choose(PassScene& scene, const char* technique, const NamedSettings& settin
   }
 }
 
-class Filters
-  : public PassTest
-  , public testing::WithParamInterface<Filter>
-{
-protected:
-  static void choose(PassScene& scene)
-  {
-    ::choose(scene, GetParam().technique, GetParam().settings);
-  }
-};
-
-INSTANTIATE_TEST_SUITE_P(Kinds, Filters,
-  testing::Values(Filter{ "lispsm_bilinear3", "lispsm", { { "estimator", "pcf" } } },
-    Filter{ "lispsm_poisson8", "lispsm",
-      { { "estimator", "pcf" }, { "kernel", "poisson" }, { "kernel_size", "8" } } },
-    Filter{ "tsm_bilinear3", "tsm", { { "estimator", "pcf" } } },
-    Filter{ "tsm_castano7", "tsm",
-      { { "estimator", "pcf" }, { "kernel", "castano" }, { "kernel_size", "7" } } },
-    Filter{
-      "tsm_box9", "tsm", { { "estimator", "pcf" }, { "kernel", "box" }, { "kernel_size", "9" } } },
-    Filter{ "lispsm_box17", "lispsm",
-      { { "estimator", "pcf" }, { "kernel", "box" }, { "kernel_size", "17" } } },
-    Filter{ "width_bilinear", "pcf", { { "kernel_width", "0.1" } } },
-    Filter{ "width_lispsm_box", "lispsm",
-      { { "estimator", "pcf" }, { "kernel", "box" }, { "kernel_width", "0.1" } } },
-    Filter{ "width_wide_poisson", "pcf", { { "kernel", "poisson" }, { "kernel_width", "1" } } },
-    Filter{ "adaptive3", "adaptive", {} },
-    Filter{ "adaptive10", "adaptive", { { "kernel_size", "10" } } },
-    Filter{ "adaptive10_ring", "adaptive", { { "kernel_size", "10" }, { "early_out", "ring" } } },
-    Filter{ "adaptive_lispsm", "lispsm", { { "estimator", "adaptive" }, { "kernel_size", "6" } } },
-    Filter{ "pcss_lispsm", "lispsm", { { "estimator", "pcss" }, { "light_radius", "0.05" } } },
-    Filter{ "pcss_euclidean_tsm", "tsm",
-      { { "estimator", "pcss" }, { "light_radius", "0.05" }, { "metric", "euclidean" } } },
-    Filter{ "euclidean", "nsm", { { "metric", "euclidean" } } },
-    Filter{ "euclidean_pcf", "pcf", { { "metric", "euclidean" } } },
-    Filter{ "euclidean_tsm", "tsm", { { "metric", "euclidean" } } },
-    Filter{ "biased", "pcf", { { "bias_constant", "0.01" }, { "bias_slope", "2" } } }),
-  [](const testing::TestParamInfo<Filter>& filter) { return std::string(filter.param.name); });
-
 } // namespace
-
-//------------------------------------------------------------------------------
-TEST_P(Filters, litPlaneHasNoAcneUnderTheSun)
-{
-  expectNoAcneUnderTheSun(
-    [](PassScene& scene, vtkLight*) { choose(scene); }, { 0.0, 5.0, 45.0, 75.0, 85.0, 89.0 });
-}
-
-//------------------------------------------------------------------------------
-TEST_P(Filters, longPlaneHasNoAcneUnderTheSun)
-{
-  expectNoAcneAlongALongPlane(
-    [](PassScene& scene, vtkLight*) { choose(scene); }, { 5.0, 60.0, 85.0 });
-}
-
-//------------------------------------------------------------------------------
-TEST_P(Filters, litPlaneHasNoAcneUnderASpotLight)
-{
-  expectNoAcneUnderASpot([](PassScene& scene, vtkLight*) { choose(scene); }, { 60.0 });
-}
-
-//------------------------------------------------------------------------------
-TEST_P(Filters, concaveCornersAreLit)
-{
-  expectNoAcneInATrough([](PassScene& scene, vtkLight*) { choose(scene); }, { 64, 256 });
-}
-
-//------------------------------------------------------------------------------
-/// A hillside beyond a plain, seen along the plain: what a filter reads beyond the valley has other
-/// texels than the point, where views are warped.
-TEST_P(Filters, valleysAcrossTheViewAreLit)
-{
-  for (const double valley : { -90.0, -60.0, 0.0 })
-  {
-    vtkNew<vtkPoints> points;
-    vtkNew<vtkCellArray> strips;
-    strips->InsertNextCell(6);
-    for (const glm::dvec2& place :
-      { glm::dvec2(-100.0, 0.0), { valley, 0.0 }, { 100.0, 0.3 * (100.0 - valley) } })
-    {
-      for (const double x : { -100.0, 100.0 })
-      {
-        strips->InsertCellPoint(points->InsertNextPoint(x, place.x, place.y));
-      }
-    }
-    vtkNew<vtkPolyData> land;
-    land->SetPoints(points);
-    land->SetStrips(strips);
-    PassScene scene(150, 150);
-    this->choose(scene);
-    scene.add(land);
-    vtkLight* sun = scene.addSun({ 0.0, 0.0, -1.0 });
-    scene.lookFrom({ 3.0, -98.0, 2.0 }, { 0.0, 0.0, 10.0 });
-    for (const int mapSize : { 64, 256 })
-    {
-      scene.pass->SetMapSize(mapSize);
-      for (const glm::dvec3& direction : { glm::dvec3(0.0, 0.3, -1.0), { 0.0, -1.0, -1.0 },
-             { 1.0, 0.3, -0.5 }, { -1.0, -0.2, -0.6 } })
-      {
-        sun->SetPosition(-direction.x, -direction.y, -direction.z);
-        const Acne acne = countAcneOfSun(drawKept(scene), -direction);
-        EXPECT_GT(acne.facing, 5000u);
-        EXPECT_EQ(acne.dark, 0u) << "valley at " << valley << ", map " << mapSize << ", sun along "
-                                 << direction.x << ", " << direction.y;
-      }
-    }
-  }
-}
-
-//------------------------------------------------------------------------------
-TEST_P(Filters, degenerateViewsStayFinite)
-{
-  for (const int mapSize : { 16, 256 })
-  {
-    drawDegenerateViews(
-      { 1.0, 45.0 },
-      [mapSize](PassScene& scene, vtkLight*)
-      {
-        choose(scene);
-        scene.pass->SetMapSize(mapSize);
-      },
-      drawByBothRoutes);
-  }
-}
-
-//------------------------------------------------------------------------------
-TEST_P(Filters, bothRoutesShowTheSame)
-{
-  PassScene scene(256, 256);
-  this->choose(scene);
-  scene.addFloor(4.0);
-  scene.addSphere({ 0.0, 0.0, 1.5 }, 0.7);
-  scene.addSun({ 1.0, 0.4, -1.5 });
-  scene.lookFrom({ 0.0, -9.0, 7.0 });
-  scene.pass->SetRoute(vtkGnomonShadowPass::ROUTE_INLINE);
-  const Picture direct = scene.render();
-  scene.pass->SetRoute(vtkGnomonShadowPass::ROUTE_IMAGE);
-  const Picture image = scene.render();
-  EXPECT_EQ(scene.report().route, "image");
-  EXPECT_LE(differingPixels(direct, image, 1), 3u);
-}
 
 namespace
 {

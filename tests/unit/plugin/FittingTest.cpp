@@ -296,37 +296,6 @@ TEST_P(FittingOfKinds, leavesOutCastersWithoutChangingThePicture)
 }
 
 //------------------------------------------------------------------------------
-TEST_P(FittingOfKinds, cameraThatLooksAwayAndEmptySceneStayFinite)
-{
-  for (const std::string technique : { "nsm", "pcf", "lispsm" })
-  {
-    PassScene scene(64, 48);
-    this->fill(scene);
-    scene.renderer->RemoveAllViewProps();
-    vtkLight* light = GetParam().add(scene);
-    if (technique == "lispsm" && this->techniquesFor(light).size() < 2)
-    {
-      continue;
-    }
-    this->fit(scene, "frame");
-    scene.pass->SetTechnique(technique.c_str());
-    drawKept(scene); // nothing at all
-    this->addProps(scene);
-    // At the sky, at the floor's back, which faces no light, and back again.
-    vtkCamera* camera = scene.renderer->GetActiveCamera();
-    camera->SetFocalPoint(0.0, -8.0, 20.0);
-    drawKept(scene);
-    camera->SetFocalPoint(0.0, 0.0, 0.0);
-    camera->SetPosition(0.0, -4.0, -4.0);
-    drawKept(scene);
-    camera->SetPosition(0.0, -4.0, 4.0);
-    const VisibilityImages fitted = drawKept(scene);
-    const VisibilityImages truth = this->truthOf(scene);
-    EXPECT_GT(compareVisibility(fitted, truth).agreeing(), 0.98);
-  }
-}
-
-//------------------------------------------------------------------------------
 TEST_F(Fitting, warpOfAViewAlongTheGroundFollowsTheReceivers)
 {
   PassScene scene(320, 240);
@@ -373,24 +342,6 @@ TEST_F(Fitting, warpUnderLightAlongTheViewIsAsGoodAsNone)
     {
       ASSERT_TRUE(visibility >= 0.0f && visibility <= 1.0f);
     }
-  }
-}
-
-//------------------------------------------------------------------------------
-TEST_F(Fitting, routesAgreeWhereTheFitIsTheSame)
-{
-  // Fitted once, both are fitted to the frustum. In every frame, the image route has other texels.
-  for (const char* technique : { "nsm", "pcf", "lispsm", "tsm", "pssm" })
-  {
-    SCOPED_TRACE(technique);
-    PassScene scene(200, 150);
-    this->fill(scene);
-    scene.addSun({ 1.0, 0.4, -1.5 });
-    this->fit(scene, "once");
-    scene.choose({ technique, vtkGnomonShadowPass::ROUTE_INLINE });
-    const Picture inlined = scene.render();
-    scene.choose({ technique, vtkGnomonShadowPass::ROUTE_IMAGE });
-    EXPECT_LE(differingPixels(scene.render(), inlined, 1), 1u);
   }
 }
 

@@ -1,6 +1,5 @@
 // `montecarlo` in frames: against known penumbrae, against rays to the same points of the light, and what its settings change.
 
-#include "LitPlane.h"
 #include "PassScene.h"
 
 #include "lights/vtkGnomonAreaLight.h"
@@ -510,21 +509,6 @@ TEST_F(MonteCarlo, pointsBehindTheReceiverGiveWay)
   const std::vector<float> truth = this->truth();
   const Errors errors = errorsOf(this->visibility("montecarlo", { { "mc_filter", "0" } }), truth);
   EXPECT_LT(errors.meanAbsolute, 0.01);
-}
-
-//------------------------------------------------------------------------------
-TEST_F(MonteCarlo, hasNoAcne)
-{
-  const auto withRadius = [](const char* radius) -> Choose
-  {
-    return [radius](PassScene& tested, vtkLight*)
-    {
-      tested.pass->SetTechnique("montecarlo");
-      tested.pass->SetSetting("light_radius", radius);
-    };
-  };
-  expectNoAcneUnderTheSun(withRadius("0.5"), { 0.0, 30.0, 60.0, 80.0 });
-  expectNoAcneUnderASpot(withRadius("0.02"), { 20.0, 50.0 });
 }
 
 //------------------------------------------------------------------------------

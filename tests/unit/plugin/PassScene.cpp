@@ -382,8 +382,11 @@ Acne countAcne(const VisibilityImages& kept,
     {
       ++acne.facing;
       acne.dark += kept.visibility[0][i] < 1.0f ? 1 : 0;
+      acne.mean += kept.visibility[0][i];
+      acne.least = std::min(acne.least, kept.visibility[0][i]);
     }
   }
+  acne.mean /= std::max<double>(static_cast<double>(acne.facing), 1.0);
   return acne;
 }
 

@@ -184,6 +184,8 @@ struct Acne
 {
   std::size_t facing = 0;
   std::size_t dark = 0;
+  double mean = 0.0; ///< visibility
+  float least = 1.0f;
 };
 /// @param toLight from a receiver's position towards the light, of any length
 Acne countAcne(const VisibilityImages& kept,

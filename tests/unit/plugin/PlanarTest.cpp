@@ -651,25 +651,8 @@ TEST_F(Planar, softShadowsEndExactlyAtDarkAndLit)
 }
 
 //------------------------------------------------------------------------------
-TEST_F(Planar, degenerateViewsStayFinite)
+TEST_F(Planar, sunsAlongAxesAreWhatRaysSay)
 {
-  for (const glm::dvec3& position : { glm::dvec3(0.0, 0.0, 1.2), { 0.0, 0.0, -1.0 },
-         { 0.0, 0.0, 0.0 }, { 0.5, 0.5, 1.5 }, { 0.0, 0.0, 1e6 } })
-  {
-    for (const double cone : { 0.1, 45.0, 89.0, allDirections })
-    {
-      PassScene scene(64, 48);
-      addBoxes(scene);
-      scene.addSpot(position, { 0.1, 0.2, -3.0 }, cone);
-      scene.pass->SetTechnique("planar");
-      scene.lookFrom({ 0.0, -9.0, 7.0 });
-      drawKept(scene);
-      scene.lookFrom({ 0.0, 0.0, 1.2 }, { 1.0, 1.0, 0.0 }); // inside a caster
-      drawKept(scene);
-      scene.lookFrom({ 0.0, -9.0, 0.0 }); // in the floor's plane
-      drawKept(scene);
-    }
-  }
   for (const glm::dvec3& direction : { glm::dvec3(0.0, -1.0, 0.0), { 0.0, 1.0, 0.0 },
          { 1.0, 0.0, 0.0 }, { 0.0, 0.0, 1.0 }, { 0.0, 0.0, -1.0 }, { 1.0, 0.0, -1e-5 } })
   {

@@ -188,63 +188,6 @@ TEST_F(PositionalLights, filtersHaveNoSeams)
 }
 
 //------------------------------------------------------------------------------
-TEST_F(PositionalLights, litPlaneHasNoAcneAtAnyAngle)
-{
-  // At a corner of the floor the light stands at 89.3 degrees when it is lowest. Tilted, the plane
-  // is askew to the faces of the cube.
-  for (const double tilt : { 0.0, 35.0 })
-  {
-    for (const int mapSize : { 64, 1024 })
-    {
-      PassScene scene(200, 200);
-      vtkActor* floor = scene.addFloor(4.0);
-      scene.addBox({ -0.1, -0.1, 9.0 }, { 0.1, 0.1, 9.1 }); // so that there is more than a plane
-      vtkNew<vtkTransform> turn;
-      turn->RotateWXYZ(tilt, 1.0, 0.6, 0.2);
-      floor->SetUserTransform(turn);
-      vtkLight* lamp = scene.addSpot({ 0.0, 0.0, 1.0 }, glm::dvec3(0.0), allDirections);
-      scene.pass->SetMapSize(mapSize);
-      scene.lookFrom({ 1.0, -7.0, 12.0 });
-      for (const double height : { 8.0, 3.0, 1.0, 0.3, 0.07 })
-      {
-        const double along[3] = { 0.1, 0.2, height };
-        const double* point = turn->TransformDoublePoint(along);
-        const glm::dvec3 light(point[0], point[1], point[2]);
-        lamp->SetPosition(light.x, light.y, light.z);
-        const Acne acne = countAcneOfLamp(draw(scene), light);
-        EXPECT_GT(acne.facing, 5000u);
-        EXPECT_EQ(acne.dark, 0u) << "height " << height << ", map " << mapSize << ", " << tilt;
-      }
-    }
-  }
-}
-
-//------------------------------------------------------------------------------
-TEST_F(PositionalLights, insideAClosedBoxAllIsLit)
-{
-  // From its middle the borders of the faces run along the box's own edges.
-  for (const glm::dvec3& light : { glm::dvec3(0.0), { 0.7, -0.4, 0.9 }, { -1.9, 1.9, -1.9 } })
-  {
-    for (const int mapSize : { 32, 256 })
-    {
-      PassScene scene(200, 200);
-      scene.addBox(glm::dvec3(-2.0), glm::dvec3(2.0));
-      scene.addSpot(light, light - glm::dvec3(0.0, 0.0, 1.0), allDirections);
-      scene.pass->SetMapSize(mapSize);
-      for (const glm::dvec3& eye : { glm::dvec3(1.9, 1.8, 1.9), { -1.9, -1.8, -1.9 } })
-      {
-        scene.lookFrom(eye);
-        scene.renderer->GetActiveCamera()->SetViewAngle(100.0);
-        scene.renderer->GetActiveCamera()->SetClippingRange(0.01, 10.0);
-        const Acne acne = countAcneOfLamp(draw(scene), light);
-        EXPECT_EQ(acne.facing, 40000u);
-        EXPECT_EQ(acne.dark, 0u) << "map " << mapSize;
-      }
-    }
-  }
-}
-
-//------------------------------------------------------------------------------
 TEST_F(PositionalLights, wideConesAgreeWithTheTruth)
 {
   for (const double cone : { 55.0, 61.0, 75.0, 89.0, 89.9 })
@@ -323,31 +266,6 @@ TEST_F(PositionalLights, mapsHaveLayersOnlyForFacesWithCasters)
   lamp->SetPosition(0.0, 0.0, 0.5); // below, and to the four sides
   draw(scene);
   EXPECT_EQ(scene.report().bytesMaps, 5u * 64u * 64u * 4u);
-}
-
-//------------------------------------------------------------------------------
-TEST_F(PositionalLights, degeneratePlacesStayFinite)
-{
-  const glm::dvec3 eye(0.0, -9.0, 7.0);
-  // Inside a caster; on surfaces and on a corner; at the camera; far away; where there is nothing.
-  for (const glm::dvec3& position :
-    { glm::dvec3(0.0, 0.0, 1.5), { 0.0, 0.0, 0.0 }, { 0.7, 0.0, 1.5 }, { 4.0, 4.0, 0.0 }, eye,
-      { 1e6, 1e6, 1e6 }, { 1e6, 0.0, 1e6 }, { 0.0, 0.0, -50.0 } })
-  {
-    for (const double cone : { 75.0, allDirections })
-    {
-      PassScene scene(64, 48);
-      scene.addFloor(4.0);
-      scene.addSphere({ 0.0, 0.0, 1.5 }, 0.7);
-      scene.addSpot(position, position + glm::dvec3(0.1, 0.2, -3.0), cone);
-      scene.lookFrom(eye);
-      draw(scene, "raytraced");
-      draw(scene, "nsm");
-      scene.pass->KeepVisibilityOff();
-      scene.render();
-      EXPECT_EQ(scene.report().route, "inline");
-    }
-  }
 }
 
 //------------------------------------------------------------------------------

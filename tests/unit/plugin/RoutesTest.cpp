@@ -1,10 +1,10 @@
-// Both routes of `nsm` on the built-in scenes, and scenes far away and of other sizes.
+// Both routes, on the built-in scenes and of all techniques, and scenes far away and of other sizes.
 
 #include "PassScene.h"
+#include "Variant.h"
 
 #include "Scene.h"
 
-#include "lights/vtkGnomonLightKeys.h"
 #include "plugin/VisibilityImages.h"
 
 #include <vtkActorCollection.h>
@@ -12,6 +12,9 @@
 #include <vtkTransform.h>
 
 #include <cmath>
+#include <cstddef>
+#include <functional>
+#include <string>
 
 using namespace gnomon::test;
 using gnomon::VisibilityImages;
@@ -57,6 +60,30 @@ struct Placing
   double distance; ///< along all axes
   double scale;
 };
+
+/// The pixels that differ by more than `tolerance` of 255 between the two routes.
+std::size_t differenceOfRoutes(
+  vtkGnomonShadowPass* pass, const std::function<Picture()>& render, int tolerance)
+{
+  pass->SetRoute(vtkGnomonShadowPass::ROUTE_INLINE);
+  const Picture direct = render();
+  EXPECT_EQ(pass->GetReport().route, "inline");
+  pass->SetRoute(vtkGnomonShadowPass::ROUTE_IMAGE);
+  const Picture image = render();
+  EXPECT_EQ(pass->GetReport().route, "image");
+  return differingPixels(direct, image, tolerance);
+}
+
+class RoutesOfPointwise
+  : public PassTest
+  , public testing::WithParamInterface<Variant>
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(All, RoutesOfPointwise,
+  testing::ValuesIn(
+    variantsThat([](const Variant& variant) { return variant.info().isPointwise(); })),
+  [](const testing::TestParamInfo<Variant>& variant) { return variant.param.name(); });
 
 class PlacedScenes
   : public PassTest
@@ -105,46 +132,50 @@ void place(vtkRenderer* renderer, const Placing& placing)
 } // namespace
 
 //------------------------------------------------------------------------------
-TEST_P(Routes, ofNsmDifferOnAtMostOnePixelInAHundredThousand)
+TEST_P(Routes, differOnAtMostOnePixelInAHundredThousand)
 {
   ToolScene scene(GetParam(), 512);
-  scene.pass->SetTechnique("nsm");
-  scene.pass->SetRoute(vtkGnomonShadowPass::ROUTE_INLINE);
-  const Picture direct = scene.render();
-  EXPECT_EQ(scene.pass->GetReport().route, "inline");
-  scene.pass->SetRoute(vtkGnomonShadowPass::ROUTE_IMAGE);
-  const Picture image = scene.render();
-  EXPECT_EQ(scene.pass->GetReport().route, "image");
-  const std::size_t different = differingPixels(direct, image, 1);
-  RecordProperty("differentPixels", static_cast<int>(different));
-  EXPECT_LE(different, direct.pixels() / 100000);
   scene.renderer->SetPass(nullptr);
-  EXPECT_GT(differingPixels(direct, scene.render(), 32), 500u) << "no shadow";
+  const Picture plain = scene.render();
+  scene.renderer->SetPass(scene.pass);
+  for (const char* text : { "nsm", "pcf kernel_size=5", "pcf kernel=box kernel_size=5",
+         "pcf kernel=poisson kernel_size=5", "pcf kernel=castano kernel_size=5" })
+  {
+    const Variant variant{ text };
+    variant.choose(scene.pass);
+    const std::size_t different = differenceOfRoutes(
+      scene.pass, [&] { return scene.render(); }, 1);
+    RecordProperty("differentPixels_" + variant.name(), static_cast<int>(different));
+    EXPECT_LE(different, plain.pixels() / 100000) << text;
+    EXPECT_GT(differingPixels(plain, scene.render(), 32), 500u) << "no shadow";
+  }
 }
 
 //------------------------------------------------------------------------------
-TEST_P(Routes, ofPcfDifferOnAtMostOnePixelInAHundredThousand)
+TEST_P(RoutesOfPointwise, showTheSame)
 {
-  ToolScene scene(GetParam(), 512);
-  scene.pass->SetTechnique("pcf");
-  for (const char* kernel : { "bilinear", "box", "poisson", "castano" })
+  PassScene scene(256, 256);
+  scene.addFloor(4.0);
+  scene.addSphere({ 0.0, 0.0, 1.5 }, 0.7);
+  vtkLight* const sun = scene.addSun({ 1.0, 0.4, -1.5 });
+  scene.lookFrom({ 0.0, -9.0, 7.0 });
+  GetParam().choose(scene.pass);
+  const auto expectTheSame = [&]
   {
-    for (int i = 0; i < scene.renderer->GetLights()->GetNumberOfItems(); ++i)
-    {
-      auto* light = vtkLight::SafeDownCast(scene.renderer->GetLights()->GetItemAsObject(i));
-      vtkGnomonLightKeys::SetSetting(light, "kernel", kernel);
-      vtkGnomonLightKeys::SetSetting(light, "kernel_size", "5");
-    }
-    scene.pass->SetRoute(vtkGnomonShadowPass::ROUTE_INLINE);
-    const Picture direct = scene.render();
-    EXPECT_EQ(scene.pass->GetReport().route, "inline");
-    scene.pass->SetRoute(vtkGnomonShadowPass::ROUTE_IMAGE);
-    const Picture image = scene.render();
-    EXPECT_EQ(scene.pass->GetReport().route, "image");
-    const std::size_t different = differingPixels(direct, image, 1);
-    RecordProperty(std::string("differentPixels_") + kernel, static_cast<int>(different));
-    EXPECT_LE(different, direct.pixels() / 100000) << kernel;
-  }
+    const std::size_t different = differenceOfRoutes(
+      scene.pass, [&] { return scene.render(); }, 1);
+    EXPECT_LE(different, 3u);
+  };
+  // Of views that are fitted in every frame, the image route has other texels.
+  scene.pass->SetSetting("fit", "once");
+  expectTheSame();
+  scene.pass->SetSetting("fit", "off");
+  expectTheSame();
+  sun->SetPositional(true);
+  sun->SetConeAngle(GetParam().takesCubes() ? allDirections : 60.0);
+  sun->SetExponent(0.0);
+  sun->SetPosition(-2.0, -0.8, 3.0);
+  expectTheSame();
 }
 
 //------------------------------------------------------------------------------

@@ -232,15 +232,6 @@ TEST_P(SampledPenumbras, areThoseOfGeometry)
 }
 
 //------------------------------------------------------------------------------
-TEST_P(SampledPenumbras, areWithinAHundredthByAThousandPoints)
-{
-  const PenumbraError error = errorOfHalfPlane(GetParam(), 512, 1024);
-  RecordProperty("most_off", std::to_string(error.mostOff));
-  EXPECT_GT(error.pixels, 500u);
-  EXPECT_LT(error.mostOff, 0.01);
-}
-
-//------------------------------------------------------------------------------
 /// Though the texels of all maps would lie alike before the edge, were they not moved.
 TEST_P(SampledPenumbras, haveNoStepsOfTexelsThatTheyAreAFewOfWide)
 {
@@ -579,43 +570,6 @@ protected:
 };
 
 //------------------------------------------------------------------------------
-/// Each frame is the mean over its own points: what rays to these show, and not what rays to all of them do.
-TEST_F(SampledPoints, areMeantOverInEachFrame)
-{
-  this->takePoints(32);
-  std::vector<std::vector<float>> means; // over the first 8, 16, 24, 32
-  std::vector<float> sum(140 * 100, 0.0f);
-  for (std::size_t k = 0; k < this->traced.size(); ++k)
-  {
-    std::transform(
-      sum.begin(), sum.end(), this->traced[k].begin(), sum.begin(), std::plus<float>());
-    if (k % 8 == 7)
-    {
-      means.push_back(sum);
-      std::transform(sum.begin(), sum.end(), means.back().begin(),
-        [&](float v) { return v / static_cast<float>(k + 1); });
-    }
-  }
-  for (std::size_t frame = 0; frame < means.size(); ++frame)
-  {
-    const std::vector<float> seen = visibilityOf(this->scene);
-    EXPECT_EQ(this->report().lightSamples, 8 * (static_cast<int>(frame) + 1));
-    for (std::size_t other = 0; other < means.size(); ++other)
-    {
-      const double difference = meanVisibilityDifference(seen, means[other]);
-      if (other == frame)
-      {
-        EXPECT_LT(difference, 0.0015) << frame << ": the maps' texels";
-      }
-      else
-      {
-        EXPECT_GT(difference, 0.002) << frame << ", " << other;
-      }
-    }
-  }
-}
-
-//------------------------------------------------------------------------------
 /// Of the very same 512 points, what a frame adds is what rays to its points show, but where the shadows of these have an edge:
 /// a pixel may differ by as many points as have one beside it. Pixels are larger than texels.
 TEST_F(SampledPoints, showWhatRaysToThemShowButAtEdges)
@@ -913,51 +867,6 @@ TEST(SampledFloor, isNoCasterOnItself)
       }
     }
   }
-}
-
-//------------------------------------------------------------------------------
-/// drawKept() holds that numbers are finite and in [0, 1].
-TEST(SampledHardCases, areFinite)
-{
-  PassScene scene(60, 40);
-  addSampledThings(scene);
-  vtkNew<vtkGnomonAreaLight> light;
-  scene.renderer->AddLight(light);
-  scene.pass->SetTechnique("sampled");
-  set(scene, "map_size", 64);
-  set(scene, "light_samples", 8);
-  // Inside the box, in its top, inside the sphere, in the sheet, in the open, far away.
-  for (const glm::dvec3& place : { glm::dvec3(-0.5, -0.5, 0.5), { -0.5, 0.0, 1.0 },
-         { 1.3, 0.8, 0.9 }, { 0.0, 1.75, 1.45 }, { 0.0, 0.0, 3.0 }, { 1e5, 0.0, 1e5 } })
-  {
-    light->SetPosition(place.x, place.y, place.z);
-    light->SetFocalPoint(place.x, place.y + 0.1, place.z - 1.0);
-    for (const double cone : { 90.0, 80.0, 1.0 })
-    {
-      light->SetConeAngle(cone);
-      for (const double size : { 1e-3, 0.4, 100.0 })
-      {
-        light->SetRadius(size);
-        visibilityOf(scene);
-      }
-    }
-  }
-}
-
-//------------------------------------------------------------------------------
-/// Bodies shade themselves where their facets are turned away, and nowhere else: no acne.
-TEST(SampledHardCases, areFreeOfAcne)
-{
-  PassScene scene(120, 90);
-  scene.addBox({ -1.0, -1.0, 0.0 }, { 1.0, 1.0, 1.0 });
-  scene.lookFrom({ 3.0, -6.0, 5.0 });
-  const glm::dvec3 place(2.0, -3.0, 4.0);
-  lamp(place, "0.5", allDirections)(scene);
-  scene.pass->SetTechnique("sampled");
-  set(scene, "map_size", 128);
-  const Acne acne = countAcneOfLamp(drawKept(scene), place);
-  EXPECT_GT(acne.facing, 1000u);
-  EXPECT_EQ(acne.dark, 0u);
 }
 
 } // namespace

@@ -1,0 +1,182 @@
+// The views that are hardest to fit, by every technique: visibility is finite and in [0, 1], OpenGL has nothing
+// to complain about, and the inline route draws them, too.
+
+#include "PassScene.h"
+#include "Variant.h"
+
+#include "lights/vtkGnomonLightKeys.h"
+
+#include <functional>
+#include <utility>
+#include <vector>
+
+using namespace gnomon::test;
+
+namespace
+{
+
+class DegenerateScenes
+  : public PassTest
+  , public testing::WithParamInterface<Variant>
+{
+protected:
+  static void fill(PassScene& scene)
+  {
+    scene.addFloor(4.0);
+    scene.addBox({ 1.0, 1.0, 0.0 }, { 2.0, 2.0, 1.0 });
+    scene.addSphere({ 0.0, 0.0, 1.5 }, 0.7);
+    scene.lookFrom({ 0.0, -9.0, 7.0 });
+  }
+
+  static void draw(PassScene& scene)
+  {
+    drawKept(scene); // which holds that numbers are finite and in [0, 1]
+    scene.pass->KeepVisibilityOff();
+    scene.render();
+    EXPECT_EQ(scene.report().route, GetParam().info().isPointwise() ? "inline" : "image");
+  }
+
+  /// The widest that has a single view, and the one that sees all around.
+  static std::vector<double> cones()
+  {
+    return GetParam().takesCubes() ? std::vector<double>{ 0.1, 45.0, 89.0, allDirections }
+                                   : std::vector<double>{ 0.1, 45.0, 60.0 };
+  }
+
+  /// With maps of two sizes by turns, the smaller of which is smaller than some kernels.
+  void drawByTurns(PassScene& scene)
+  {
+    this->isSmall_ = !this->isSmall_;
+    GetParam().set(scene.pass, "map_size", this->isSmall_ ? "16" : "256");
+    draw(scene);
+  }
+
+  bool isSmall_ = false;
+};
+
+INSTANTIATE_TEST_SUITE_P(All, DegenerateScenes, testing::ValuesIn(variants()),
+  [](const testing::TestParamInfo<Variant>& variant) { return variant.param.name(); });
+
+/// Of techniques with soft shadows.
+class DegenerateSoftScenes : public DegenerateScenes
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(All, DegenerateSoftScenes,
+  testing::ValuesIn(variantsThat(
+    [](const Variant& variant)
+    {
+      return variant.technique() == variant.text &&
+        (has(variant.info(), "light_samples") || has(variant.info(), "pcss_samples"));
+    })),
+  [](const testing::TestParamInfo<Variant>& variant) { return variant.param.name(); });
+
+} // namespace
+
+//------------------------------------------------------------------------------
+/// Along the axes, in the floor's plane and nearly so.
+TEST_P(DegenerateScenes, underSuns)
+{
+  PassScene scene(64, 48);
+  this->fill(scene);
+  GetParam().choose(scene);
+  vtkLight* const sun = scene.addSun({ 0.0, 0.0, -1.0 });
+  for (const glm::dvec3& toLight : { glm::dvec3(0.0, 1.0, 0.0), { 0.0, -1.0, 0.0 },
+         { -1.0, 0.0, 0.0 }, { 0.0, 0.0, -1.0 }, { 0.0, 0.0, 1.0 }, { -1.0, 0.0, 1e-5 } })
+  {
+    sun->SetPosition(toLight.x, toLight.y, toLight.z);
+    this->drawByTurns(scene);
+  }
+}
+
+//------------------------------------------------------------------------------
+/// Inside a caster; below it; on surfaces and on a corner; at the camera; far away.
+TEST_P(DegenerateScenes, underLamps)
+{
+  PassScene scene(64, 48);
+  this->fill(scene);
+  GetParam().choose(scene);
+  vtkLight* const lamp = scene.addSpot(glm::dvec3(0.0), { 0.1, 0.2, -3.0 }, 45.0);
+  for (const glm::dvec3& place : { glm::dvec3(0.0, 0.0, 1.5), { 0.0, 0.0, -1.0 }, { 0.0, 0.0, 0.0 },
+         { 0.7, 0.0, 1.5 }, { 4.0, 4.0, 0.0 }, { 0.0, -9.0, 7.0 }, { 1e6, 0.0, 1e6 } })
+  {
+    lamp->SetPosition(place.x, place.y, place.z);
+    for (const double cone : this->cones())
+    {
+      lamp->SetConeAngle(cone);
+      this->drawByTurns(scene);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+/// Areas from a point's to far larger than the scene.
+TEST_P(DegenerateSoftScenes, underLightsOfAnySize)
+{
+  PassScene scene(64, 48);
+  this->fill(scene);
+  GetParam().choose(scene);
+  GetParam().set(scene.pass, "map_size", "64");
+  GetParam().set(scene.pass, "light_samples", "8");
+  const auto drawSizes = [&](const std::vector<const char*>& sizes)
+  {
+    for (const char* size : sizes)
+    {
+      scene.pass->SetSetting("light_radius", size);
+      draw(scene);
+    }
+  };
+  vtkLight* const lamp = scene.addSpot(glm::dvec3(0.0), { 0.1, 0.2, -3.0 }, 45.0);
+  for (const glm::dvec3& place : { glm::dvec3(0.0, 0.0, 1.5), { 0.7, 0.0, 1.5 }, { 0.0, 0.0, 0.0 },
+         { 3.0, 0.0, 1e-6 }, { 0.0, 0.0, -1.0 }, { 1e5, 0.0, 1e5 } })
+  {
+    lamp->SetPosition(place.x, place.y, place.z);
+    for (const double cone : { 45.0, this->cones().back() })
+    {
+      lamp->SetConeAngle(cone);
+      drawSizes({ "1e-6", "0.3", "1000" });
+    }
+  }
+  scene.renderer->RemoveAllLights();
+  scene.addSun({ 1.0, 0.4, -0.1 });
+  drawSizes({ "1e-6", "20", "170" });
+}
+
+//------------------------------------------------------------------------------
+/// Nothing at all; away from everything; from inside a caster; in the floor's plane; from below, where no receiver
+/// faces the light. What comes after is as if it had not been.
+TEST_P(DegenerateScenes, seenFromAnywhere)
+{
+  PassScene scene(64, 48);
+  GetParam().choose(scene);
+  const std::function<void()> lights[] = { [&] {
+                                            scene.addSun({ 1.0, 0.4, -1.5 });
+                                          },
+    [&]
+    {
+      const double up[3] = { 0.0, 1.0, 0.0 };
+      vtkGnomonLightKeys::SetBox(scene.addSun({ 2.0, 0.8, -3.0 }), 12.0, 12.0, 20.0, up);
+    },
+    [&] {
+      scene.addSpot({ -2.0, -0.8, 6.0 }, glm::dvec3(0.0), this->cones().back());
+    } };
+  const std::pair<glm::dvec3, glm::dvec3> views[] = { { { 0.0, -9.0, 7.0 }, { 0.0, -20.0, 20.0 } },
+    { { 0.0, 0.0, 1.5 }, { 1.0, 1.0, 0.0 } }, { { 0.0, -9.0, 0.0 }, glm::dvec3(0.0) },
+    { { 0.0, -4.0, -4.0 }, glm::dvec3(0.0) } };
+  for (const auto& addLight : lights)
+  {
+    scene.renderer->RemoveAllLights();
+    scene.renderer->RemoveAllViewProps();
+    addLight();
+    draw(scene);
+    this->fill(scene);
+    const Picture first = scene.render();
+    for (const auto& [eye, target] : views)
+    {
+      scene.lookFrom(eye, target);
+      draw(scene);
+    }
+    scene.lookFrom({ 0.0, -9.0, 7.0 });
+    EXPECT_EQ(differingPixels(scene.render(), first), 0u);
+  }
+}
