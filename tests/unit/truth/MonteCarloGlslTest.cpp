@@ -7,12 +7,9 @@
 #include "lights/LightSamples.h"
 #include "lights/LightViews.h"
 #include "lights/ReducedMd5.h"
-#include "shadowtech/base/GlState.h"
-#include "shadowtech/base/OccluderBuffers.h"
 #include "shadowtech/base/ScreenPass.h"
 #include "shadowtech/base/ShaderLibrary.h"
 #include "shadowtech/base/TextureMemory.h"
-#include "shadowtech/montecarlo/DepthLayers.h"
 #include "shadowtech/montecarlo/RaySpace.h"
 #include "shadowtech/montecarlo/SlabBounds.h"
 
@@ -297,83 +294,9 @@ private:
 };
 
 //------------------------------------------------------------------------------
-/// The extrema over squares of texels, at each texel's place less `offset`, as far as they are on the map: by windows that slide along rows,
-/// and then along columns.
-class SlidingBounds
-{
-public:
-  /// @param texels as slab_bounds.comp.glsl has them of level 0
-  SlidingBounds(std::vector<glm::vec4> texels, int side, int offset, int size)
-    : side_(side)
-    , offset_(offset)
-    , size_(size)
-    , texels_(std::move(texels))
-  {
-    this->slideAlongRows();
-    this->slideAlongRows();
-  }
-  const glm::vec4& at(int x, int y) const
-  {
-    return this->texels_[static_cast<std::size_t>(y) * static_cast<std::size_t>(this->side_) +
-      static_cast<std::size_t>(x)];
-  }
-
-private:
-  /// Turns rows into columns on the way.
-  void slideAlongRows()
-  {
-    const auto side = static_cast<std::size_t>(this->side_);
-    std::vector<glm::vec4> turned(this->texels_.size());
-    std::vector<glm::vec4> slid(side);
-    std::vector<int> queue(side); // of texels that none behind them outdoes
-    for (std::size_t row = 0; row < side; ++row)
-    {
-      const glm::vec4* const from = &this->texels_[row * side];
-      for (int channel = 0; channel < 4; ++channel)
-      {
-        const bool least = channel == 0 || channel == 3;
-        std::size_t first = 0;
-        std::size_t last = 0;
-        int next = 0;
-        for (int x = 0; x < this->side_; ++x)
-        {
-          const int begin = x - this->offset_;
-          for (; next < std::min(begin + this->size_, this->side_); ++next)
-          {
-            const float value = from[next][channel];
-            while (last > first &&
-              (least ? from[queue[last - 1]][channel] >= value
-                     : from[queue[last - 1]][channel] <= value))
-            {
-              --last;
-            }
-            queue[last++] = next;
-          }
-          while (queue[first] < begin)
-          {
-            ++first;
-          }
-          slid[static_cast<std::size_t>(x)][channel] = from[queue[first]][channel];
-        }
-      }
-      for (std::size_t x = 0; x < side; ++x)
-      {
-        turned[x * side + row] = slid[x];
-      }
-    }
-    this->texels_ = std::move(turned);
-  }
-
-  int side_;
-  int offset_;
-  int size_;
-  std::vector<glm::vec4> texels_;
-};
-
-/// All texels of all levels, for all maps up to 1,024 texels wide.
 TEST_F(MonteCarloGlsl, boundsAreExtremaOfTheirTexels)
 {
-  for (const int side : { 64, 100, 128, 256, 512, 1024 })
+  for (const int side : { 64, 100, 1024 })
   {
     SlabMap map(side, 12, this->random_);
     SlabBounds mips;
@@ -390,64 +313,51 @@ TEST_F(MonteCarloGlsl, boundsAreExtremaOfTheirTexels)
     glGetTexImage(GL_TEXTURE_2D_ARRAY, 0, GL_RGBA, GL_FLOAT, layers.data());
     glBindTexture(GL_TEXTURE_2D_ARRAY, mips.texture());
 
-    std::vector<glm::vec4> finest;
-    for (int y = 0; y < whole; ++y)
-    {
-      for (int x = 0; x < whole; ++x)
-      {
-        // Beyond the map there is no slab, which as one of many in the greatest begin counts.
-        finest.push_back(
-          map.holds(x, y) ? map.bounds(x, y, 1) : glm::vec4(2.0f, -2.0f, 2.0f, -2.0f));
-      }
-    }
+    // Beyond the map there is no slab, which as one of many in the greatest begin counts.
+    const glm::vec4 none(2.0f, -2.0f, 2.0f, -2.0f);
+    const auto finest = [&](int x, int y) { return map.holds(x, y) ? map.bounds(x, y, 1) : none; };
     for (int level = 0; level <= nBuffer.topLevel(); ++level)
     {
       const int size = 1 << level;
       const int offset = level == 0 ? 0 : size / 2 - 1;
-      const SlidingBounds expected(finest, whole, offset, size);
       const int cells = whole / size;
       std::vector<glm::vec4> ofMips(static_cast<std::size_t>(cells * cells));
       glGetTexImage(GL_TEXTURE_2D_ARRAY, level, GL_RGBA, GL_FLOAT, ofMips.data());
-      const glm::vec4* ofNBuffer = &layers[layer * static_cast<std::size_t>(level)];
-      std::size_t differing = 0;
-      for (int y = 0; y < whole; ++y)
+      /// Over the texels of a window, as far as they are on the whole.
+      const auto expected = [&](int left, int lower)
       {
-        for (int x = 0; x < whole; ++x)
+        glm::vec4 bounds(2.0f, -2.0f, -10.0f, 10.0f);
+        for (int y = std::max(lower, 0); y < std::min(lower + size, whole); ++y)
         {
-          differing += *ofNBuffer++ != expected.at(x, y) ? 1 : 0;
-        }
-      }
-      EXPECT_EQ(differing, 0u) << "N-buffer of " << side << ", level " << level;
-      differing = 0;
-      for (int y = 0; y < cells; ++y)
-      {
-        for (int x = 0; x < cells; ++x)
-        {
-          differing += ofMips[static_cast<std::size_t>(y * cells + x)] !=
-              expected.at(x * size + offset, y * size + offset)
-            ? 1
-            : 0;
-        }
-      }
-      EXPECT_EQ(differing, 0u) << "mips of " << side << ", level " << level;
-      // The windows themselves, by all of their texels.
-      for (int i = 0; i < 10; ++i)
-      {
-        const auto place = [&] { return static_cast<int>(this->random_() % unsigned(whole)); };
-        const int x = place();
-        const int y = place();
-        glm::vec4 slow(2.0f, -2.0f, -10.0f, 10.0f);
-        for (int row = std::max(y - offset, 0); row < std::min(y - offset + size, whole); ++row)
-        {
-          for (int column = std::max(x - offset, 0); column < std::min(x - offset + size, whole);
-               ++column)
+          for (int x = std::max(left, 0); x < std::min(left + size, whole); ++x)
           {
-            const glm::vec4 texel = finest[static_cast<std::size_t>(row * whole + column)];
-            slow = { std::min(slow.x, texel.x), std::max(slow.y, texel.y),
-              std::max(slow.z, texel.z), std::min(slow.w, texel.w) };
+            const glm::vec4 texel = finest(x, y);
+            bounds = { std::min(bounds.x, texel.x), std::max(bounds.y, texel.y),
+              std::max(bounds.z, texel.z), std::min(bounds.w, texel.w) };
           }
         }
-        ASSERT_EQ(expected.at(x, y), slow) << level << " at " << x << ", " << y;
+        return bounds;
+      };
+      const int trials = std::clamp(10000000 / (size * size), 10, 2000);
+      for (int i = 0; i < trials; ++i)
+      {
+        // The corners, too.
+        const auto place = [&](int end)
+        {
+          return i % 5 == 0 ? (this->random_() % 2 ? end - 1 : 0)
+                            : static_cast<int>(this->random_() % static_cast<unsigned>(end));
+        };
+        const int x = place(whole);
+        const int y = place(whole);
+        ASSERT_EQ(
+          layers[layer * static_cast<std::size_t>(level) + static_cast<std::size_t>(y * whole + x)],
+          expected(x - offset, y - offset))
+          << "N-buffer of " << side << ", level " << level << " at " << x << ", " << y;
+        const int column = place(cells);
+        const int row = place(cells);
+        ASSERT_EQ(ofMips[static_cast<std::size_t>(row * cells + column)],
+          expected(column * size, row * size))
+          << "mips of " << side << ", level " << level << " at " << column << ", " << row;
       }
     }
   }
@@ -590,82 +500,6 @@ TEST_F(MonteCarloGlsl, searchesThatBeginInsideASlabEndThere)
 }
 
 //------------------------------------------------------------------------------
-/// From what a camera sees of casters to points of a lamp, through the layers that they have.
-TEST_F(MonteCarloGlsl, searchesInScenesLookAtFewCells)
-{
-  const std::vector<Prop> props = { { makePlane(12.0) },
-    { makeBox({ -1.2, -1.0, 0.0 }, { 0.2, 0.3, 1.6 }) },
-    { makeSphere(24, 32), at({ 1.2, 0.8, 1.3 }, 0.8) },
-    { makeTriangleSoup(300, 5), at({ -2.5, 1.0, 1.0 }) } };
-  const Occluders occluders = makeOccluders(props);
-  Camera camera;
-  camera.position = { 4.0, -9.0, 6.0 };
-  camera.width = camera.height = 128;
-  const ReceiverPixels receivers = makeReceivers(occluders, camera);
-  ShadowLight light = spotLight({ -2.0, -2.5, 7.0 }, { 0.0, 0.0, 0.0 }, 40.0);
-  light.area = diskArea(light.directionWorld, 0.5);
-  light.mapSizeTexels = 512;
-  LightViews views =
-    fitLightViews(lightOfMap(light), occluders.centreWorld, occluders.castersCentred, 512);
-  LightView& view = views.views.at(0);
-  view.beginsAt = std::max(view.beginsAt, nearestOfArea(light));
-  OccluderBuffers buffers;
-  buffers.update(occluders);
-  DepthLayers layers;
-  {
-    const GlStateGuard guard;
-    layers.draw({ light, views, occluders, buffers, this->library_ }, view.beginsAt);
-  }
-
-  const glm::dmat4 rayFromCentred = gnomon::rayFromCentred(view, 512, view.beginsAt);
-  const auto inRaySpace = [&](const glm::dvec3& centred)
-  {
-    const glm::dvec4 place = rayFromCentred * glm::dvec4(centred, 1.0);
-    return glm::vec4(glm::dvec3(place) / place.w, 0.0);
-  };
-  const glm::dvec3 lamp = light.positionWorld - occluders.centreWorld;
-  std::vector<RayLine> lines;
-  for (std::size_t i = 0; i < receivers.size(); ++i)
-  {
-    const glm::dvec3 normal(receivers.normalX[i], receivers.normalY[i], receivers.normalZ[i]);
-    const glm::dvec3 position =
-      glm::dvec3(receivers.positionX[i], receivers.positionY[i], receivers.positionZ[i]);
-    const glm::dvec2 across(2.0 * this->uniform() - 1.0, 2.0 * this->uniform() - 1.0);
-    const glm::dvec3 point = lamp + light.area->worldFromUnit * glm::dvec3(across, 0.0);
-    if (receivers.surface[i] == ReceiverPixels::notCovered ||
-      glm::dot(normal, point - position) <= 0.0)
-    {
-      continue;
-    }
-    // About two texels before the receiver, and as far as there are casters.
-    const RayLine line{ inRaySpace(position + 0.05 * normal), inRaySpace(point) };
-    const float first = -1.0f;
-    const float share = std::min((first - line.begin.z) / (line.end.z - line.begin.z), 1.0f);
-    const RayLine cut{ line.begin, glm::mix(line.begin, line.end, share) };
-    const auto isOnMap = [](const glm::vec4& at)
-    { return at.x >= 0.0f && at.y >= 0.0f && at.x < 512.0f && at.y < 512.0f; };
-    if (isOnMap(cut.begin) && isOnMap(cut.end))
-    {
-      lines.push_back(cut);
-    }
-  }
-  ASSERT_GT(lines.size(), 5000u);
-  for (const char* kind : { "MIPS", "NBUFFER" })
-  {
-    SlabBounds bounds;
-    bounds.build(layers.slabs(), layers.pages(), 512, 1,
-      kind == std::string("MIPS") ? SlabHierarchy::Mips : SlabHierarchy::NBuffer, this->library_);
-    const auto found =
-      search(this->library_, layers.slabs(), 512, bounds, lines, { kind, "PAGES 2" });
-    const Visits visits = visitsOf(found);
-    EXPECT_LT(visits.mean, 8.0) << kind;
-    EXPECT_LT(visits.most, 64u + 4u * 9u) << kind;
-    RecordProperty(std::string("visits_") + kind,
-      std::to_string(visits.mean) + ", at most " + std::to_string(visits.most));
-  }
-}
-
-//------------------------------------------------------------------------------
 /// Boxes between depths of 5 and 20 under an eye, as a map with two layers has them, and rays from the ground at 20 to a light at 1
 /// that fills the map's frustum there: the geometry of the rates that the linear search was specified with.
 struct BoxesUnderALight
@@ -744,7 +578,6 @@ TEST_F(MonteCarloGlsl, linearSearchNeverHitsWhatIsNotThereAndMissesLittle)
     int steps;
     double specified; ///< the share of all rays that are missed
     double misses = 0.0;
-    double reversed = 0.0; ///< by the rule for lines that go from the light to the receiver
   };
   struct Case
   {
@@ -789,9 +622,6 @@ TEST_F(MonteCarloGlsl, linearSearchNeverHitsWhatIsNotThereAndMissesLittle)
         const std::pair<std::string, std::string> steps(
           "#define STEPS 32", "#define STEPS " + std::to_string(rate.steps));
         rate.misses += misses({ steps });
-        rate.reversed += misses({ steps,
-          { "(second == BEFORE && first != BEFORE) || (first == BEHIND && second != BEHIND)",
-            "(first == BEFORE && second != BEFORE) || (second == BEHIND && first != BEHIND)" } });
       }
     }
     EXPECT_NEAR(hits, each.hits, 0.1 * each.hits) << each.boxes << " boxes";
@@ -799,9 +629,7 @@ TEST_F(MonteCarloGlsl, linearSearchNeverHitsWhatIsNotThereAndMissesLittle)
     {
       const std::string name = std::to_string(each.boxes) + "_" + std::to_string(rate.steps);
       EXPECT_LE(rate.misses, 1.5 * rate.specified) << name;
-      EXPECT_GT(rate.reversed, 5.0 * rate.misses) << name;
-      RecordProperty(
-        "misses_" + name, std::to_string(rate.misses) + ", " + std::to_string(rate.reversed));
+      RecordProperty("misses_" + name, std::to_string(rate.misses));
     }
     RecordProperty("hits_" + std::to_string(each.boxes), std::to_string(hits));
   }
