@@ -350,7 +350,12 @@ private:
     {
       return;
     }
-    found.thickness = farthestOff + evaluationNoise * magnitude;
+    // Of a plane through the centre along the axes no number rounds, and its own triangles must not
+    // lie before it all the same.
+    const glm::dvec3 farthest =
+      glm::max(glm::abs(found.boundsCentred.lower), glm::abs(found.boundsCentred.upper));
+    const double size = std::max({ farthest.x, farthest.y, farthest.z });
+    found.thickness = farthestOff + evaluationNoise * std::max(magnitude, size);
     planes.push_back(found);
     for (const std::size_t number : members)
     {

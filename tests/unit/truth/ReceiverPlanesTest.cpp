@@ -108,6 +108,7 @@ TEST(ReceiverPlanes, joinWhatIsCoplanarAcrossSurfacesInOrderOfArea)
     EXPECT_NEAR(std::abs(glm::dot(glm::dvec3(plane.plane), normals[i])), 1.0, 1e-12);
     EXPECT_NEAR(std::abs(plane.plane.w), offsets[i], 1e-12);
     EXPECT_LT(plane.thickness, 1e-5);
+    EXPECT_GT(plane.thickness, 1e-8) << "also through the centre";
   }
   EXPECT_EQ(planes.planes()[0].boundsCentred.lower, glm::dvec3(-5.0, 0.0, 0.0));
   EXPECT_EQ(planes.planes()[0].boundsCentred.upper, glm::dvec3(3.0, 3.0, 0.0));
