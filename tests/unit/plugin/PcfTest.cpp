@@ -121,19 +121,6 @@ TEST_P(Pcf, shadowsBeginWithinTheKernelsReachOfTheirCasters)
 }
 
 //------------------------------------------------------------------------------
-TEST_P(Pcf, wideShadowsAreDarkInside)
-{
-  PassScene scene(300, 300);
-  scene.addFloor(4.0);
-  scene.addBox({ -1.5, -1.5, 1.0 }, { 1.5, 1.5, 1.5 });
-  choose(scene, scene.addSun({ 0.5, 0.2, -1.0 }));
-  scene.lookDown(4.0);
-  const Picture picture = scene.render();
-  EXPECT_EQ(scene.redAt(picture, 1.65, 0.4), 0);
-  EXPECT_GT(scene.redAt(picture, -3.0, 0.0), 200);
-}
-
-//------------------------------------------------------------------------------
 TEST_P(Pcf, edgesAreAsSmoothWhereTheMapEnds)
 {
   // The box alone casts, so that the map ends where the shadow does, but for the border.

@@ -653,6 +653,48 @@ TEST_F(Pcss, tellsWhatTheEarlyOutDecides)
 }
 
 //------------------------------------------------------------------------------
+/// Where nothing of the light is seen, `pcss` shows a little of it in some pixels.
+TEST_F(Pcss, fewLightLeaksGrowWithTheLight)
+{
+  PassScene scene(200, 150);
+  addThings(scene);
+  vtkLight* lamp = scene.addSpot({ -2.0, -2.5, 6.0 }, glm::dvec3(0.0), 50.0);
+  scene.pass->SetSetting("light_samples", "256");
+  struct Case
+  {
+    const char* radius;
+    int mostLit; ///< pixels
+  };
+  const Case cases[] = { { "0.1", 3 }, { "0.4", 3 }, { "1.2", 12 }, { "2", 16 } };
+  int litOfSmall = 0;
+  int litOfLarge = 0;
+  for (const auto& [radius, mostLit] : cases)
+  {
+    soft(radius)(scene, lamp);
+    const std::vector<float> truth = visibilityOf(scene, "raytraced");
+    const std::vector<float> softly = visibilityOf(scene, "pcss");
+    int dark = 0;
+    int lit = 0;
+    float most = 0.0f;
+    for (std::size_t i = 0; i < truth.size(); ++i)
+    {
+      if (truth[i] == 0.0f)
+      {
+        ++dark;
+        lit += softly[i] > 0.05f ? 1 : 0;
+        most = std::max(most, softly[i]);
+      }
+    }
+    RecordProperty(std::string("leaks_") + radius,
+      std::to_string(lit) + " of " + std::to_string(dark) + ", " + std::to_string(most));
+    EXPECT_GT(dark, 300) << radius;
+    EXPECT_LE(lit, mostLit) << radius;
+    (mostLit > 3 ? litOfLarge : litOfSmall) += lit;
+  }
+  EXPECT_GT(litOfLarge, litOfSmall); // of fewer pixels that are dark
+}
+
+//------------------------------------------------------------------------------
 /// The shadow of a post that stands on the floor, under a sun at 45 degrees: its penumbrae are as wide as the way to the post
 /// makes them.
 TEST_F(Pcss, shadowsHardenTowardsTheirContact)

@@ -258,58 +258,6 @@ TEST_F(CellsDrawnOnGpu, areThoseOfTheCpu)
   EXPECT_GT(filled, 100000u);
 }
 
-TEST_F(CellsDrawnOnGpu, ofTrianglesAreAllThatTheyMeetAndContainNoOthers)
-{
-  // Each in a tile of its own.
-  constexpr int tile = 96, tiles = 10, size = tile * tiles;
-  constexpr double margin = 0.999 * marginTexels;
-  Random random(42);
-  std::size_t met = 0, missing = 0, extra = 0, contained = 0, lost = 0, invented = 0;
-  for (int picture = 0; picture < 12; ++picture)
-  {
-    Shapes shapes;
-    std::vector<Corners> all;
-    for (int i = 0; i < tiles * tiles; ++i)
-    {
-      Corners corners = randomTriangle(random, 0);
-      for (glm::dvec3& corner : corners)
-      {
-        corner += glm::dvec3(tile * (i % tiles + 0.5), tile * (i / tiles + 0.5), 0.0);
-      }
-      all.push_back(corners);
-      shapes.triangles.push_back(polygonWith(corners));
-    }
-    const std::vector<Cell> cells = shapes.onGpu(this->shaders_, size, { 0, size - 1 });
-    for (int y = 0; y < size; ++y)
-    {
-      for (int x = 0; x < size; ++x)
-      {
-        const Corners& corners = all[static_cast<std::size_t>(y / tile * tiles + x / tile)];
-        const Cell& cell = cells[static_cast<std::size_t>(y * size + x)];
-        const glm::dvec2 low(x, y);
-        const bool isMet = overlap(corners, low - margin, low + 1.0 + margin);
-        const bool isContained = isMet && contains(corners, low - margin, low + 1.0 + margin);
-        const bool isTouched = std::isfinite(cell.nearest);
-        const bool isCovered = std::isfinite(cell.contained);
-        met += isMet ? 1 : 0;
-        missing += isMet && !isTouched ? 1 : 0;
-        extra += isTouched && !isMet ? 1 : 0;
-        contained += isContained ? 1 : 0;
-        lost += isContained && !isCovered ? 1 : 0;
-        invented += isCovered && !isContained ? 1 : 0;
-      }
-    }
-  }
-  EXPECT_EQ(missing, 0u) << "of " << met;
-  EXPECT_EQ(invented, 0u) << "of " << contained;
-  EXPECT_GT(met, 20000u);
-  EXPECT_LT(static_cast<double>(extra), 0.001 * static_cast<double>(met));
-  EXPECT_LT(static_cast<double>(lost), 0.001 * static_cast<double>(contained));
-  std::cout << met << " texels, " << 100.0 * static_cast<double>(extra) / static_cast<double>(met)
-            << " % extra, " << 100.0 * static_cast<double>(lost) / static_cast<double>(contained)
-            << " % lost" << std::endl;
-}
-
 /// One map's cells; none where a caster is at the light.
 template <typename Draw>
 std::vector<Cell> drawnBy(int size, const Draw& draw)

@@ -246,28 +246,6 @@ TEST(EmbreeTracer, LitPlanesHaveNoAcne)
   }
 }
 
-/// Convex surfaces never shadow themselves.
-TEST(EmbreeTracer, LitSidesOfConvexSurfacesHaveNoAcne)
-{
-  Camera camera;
-  camera.position = { 3.0, -5.0, 4.0 };
-  for (const Mesh& mesh : { makeSphere(40, 80), makeBox({ -1.0, -1.0, -1.0 }, { 1.0, 1.0, 1.0 }) })
-  {
-    const Occluders occluders =
-      makeOccluders({ { mesh, glm::rotate(at({ 0.1, 0.2, 0.3 }), 0.7, { 1.0, 2.0, 3.0 }) } });
-    const ReceiverPixels receivers = makeReceivers(occluders, camera);
-    int facing = 0;
-    for (const double angle : { 0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0 })
-    {
-      const ShadowLight light = directionalLight({ std::cos(angle), std::sin(angle), -0.4 });
-      const FacingPixels count = countFacing(light, occluders, receivers, 0);
-      EXPECT_EQ(count.dark, 0) << "angle " << angle;
-      facing += count.facing;
-    }
-    EXPECT_GT(facing, 30000);
-  }
-}
-
 /// One receiver pixel on the ground below a square roof at height 1, with the light straight above.
 struct Roof
 {

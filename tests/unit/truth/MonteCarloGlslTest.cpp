@@ -7,9 +7,12 @@
 #include "lights/LightSamples.h"
 #include "lights/LightViews.h"
 #include "lights/ReducedMd5.h"
+#include "shadowtech/base/GlState.h"
+#include "shadowtech/base/OccluderBuffers.h"
 #include "shadowtech/base/ScreenPass.h"
 #include "shadowtech/base/ShaderLibrary.h"
 #include "shadowtech/base/TextureMemory.h"
+#include "shadowtech/montecarlo/DepthLayers.h"
 #include "shadowtech/montecarlo/RaySpace.h"
 #include "shadowtech/montecarlo/SlabBounds.h"
 
@@ -496,6 +499,82 @@ TEST_F(MonteCarloGlsl, searchesThatBeginInsideASlabEndThere)
       ASSERT_EQ(each.x, 1u) << kind;
       ASSERT_LE(each.y, static_cast<unsigned int>(bounds.topLevel()) + 1u) << "it only descends";
     }
+  }
+}
+
+//------------------------------------------------------------------------------
+/// From what a camera sees of casters to points of a lamp, through the layers that they have.
+TEST_F(MonteCarloGlsl, searchesInScenesLookAtFewCells)
+{
+  const std::vector<Prop> props = { { makePlane(12.0) },
+    { makeBox({ -1.2, -1.0, 0.0 }, { 0.2, 0.3, 1.6 }) },
+    { makeSphere(24, 32), at({ 1.2, 0.8, 1.3 }, 0.8) },
+    { makeTriangleSoup(300, 5), at({ -2.5, 1.0, 1.0 }) } };
+  const Occluders occluders = makeOccluders(props);
+  Camera camera;
+  camera.position = { 4.0, -9.0, 6.0 };
+  camera.width = camera.height = 128;
+  const ReceiverPixels receivers = makeReceivers(occluders, camera);
+  ShadowLight light = spotLight({ -2.0, -2.5, 7.0 }, { 0.0, 0.0, 0.0 }, 40.0);
+  light.area = diskArea(light.directionWorld, 0.5);
+  light.mapSizeTexels = 512;
+  LightViews views =
+    fitLightViews(lightOfMap(light), occluders.centreWorld, occluders.castersCentred, 512);
+  LightView& view = views.views.at(0);
+  view.beginsAt = std::max(view.beginsAt, nearestOfArea(light));
+  OccluderBuffers buffers;
+  buffers.update(occluders);
+  DepthLayers layers;
+  {
+    const GlStateGuard guard;
+    layers.draw({ light, views, occluders, buffers, this->library_ }, view.beginsAt);
+  }
+
+  const glm::dmat4 rayFromCentred = gnomon::rayFromCentred(view, 512, view.beginsAt);
+  const auto inRaySpace = [&](const glm::dvec3& centred)
+  {
+    const glm::dvec4 place = rayFromCentred * glm::dvec4(centred, 1.0);
+    return glm::vec4(glm::dvec3(place) / place.w, 0.0);
+  };
+  const glm::dvec3 lamp = light.positionWorld - occluders.centreWorld;
+  std::vector<RayLine> lines;
+  for (std::size_t i = 0; i < receivers.size(); ++i)
+  {
+    const glm::dvec3 normal(receivers.normalX[i], receivers.normalY[i], receivers.normalZ[i]);
+    const glm::dvec3 position =
+      glm::dvec3(receivers.positionX[i], receivers.positionY[i], receivers.positionZ[i]);
+    const glm::dvec2 across(2.0 * this->uniform() - 1.0, 2.0 * this->uniform() - 1.0);
+    const glm::dvec3 point = lamp + light.area->worldFromUnit * glm::dvec3(across, 0.0);
+    if (receivers.surface[i] == ReceiverPixels::notCovered ||
+      glm::dot(normal, point - position) <= 0.0)
+    {
+      continue;
+    }
+    // About two texels before the receiver, and as far as there are casters.
+    const RayLine line{ inRaySpace(position + 0.05 * normal), inRaySpace(point) };
+    const float first = -1.0f;
+    const float share = std::min((first - line.begin.z) / (line.end.z - line.begin.z), 1.0f);
+    const RayLine cut{ line.begin, glm::mix(line.begin, line.end, share) };
+    const auto isOnMap = [](const glm::vec4& at)
+    { return at.x >= 0.0f && at.y >= 0.0f && at.x < 512.0f && at.y < 512.0f; };
+    if (isOnMap(cut.begin) && isOnMap(cut.end))
+    {
+      lines.push_back(cut);
+    }
+  }
+  ASSERT_GT(lines.size(), 5000u);
+  for (const char* kind : { "MIPS", "NBUFFER" })
+  {
+    SlabBounds bounds;
+    bounds.build(layers.slabs(), layers.pages(), 512, 1,
+      kind == std::string("MIPS") ? SlabHierarchy::Mips : SlabHierarchy::NBuffer, this->library_);
+    const auto found =
+      search(this->library_, layers.slabs(), 512, bounds, lines, { kind, "PAGES 2" });
+    const Visits visits = visitsOf(found);
+    EXPECT_LT(visits.mean, 8.0) << kind;
+    EXPECT_LT(visits.most, 64u + 4u * 9u) << kind;
+    RecordProperty(std::string("visits_") + kind,
+      std::to_string(visits.mean) + ", at most " + std::to_string(visits.most));
   }
 }
 

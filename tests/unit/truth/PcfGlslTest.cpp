@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 namespace gnomon::test
 {
@@ -93,16 +92,6 @@ double litBilinear(const Map& map, const glm::dvec2& place)
   return litShare(map, [&](const glm::ivec2& texel) { return covered(texel, place, 1.0); });
 }
 
-TEST_F(PcfGlsl, bilinearOfOneTexelIsTheTextureUnitsFilter)
-{
-  const std::vector<glm::dvec2> places = randomPlaces(1);
-  const std::vector<float> values = runPcf(filteredSun("bilinear", 1), scattered, places);
-  for (std::size_t i = 0; i < places.size(); ++i)
-  {
-    ASSERT_NEAR(values[i], litBilinear(scattered, places[i]), 1.0 / 256) << "place " << i;
-  }
-}
-
 TEST_F(PcfGlsl, castanoIsHisSumOfBilinearLookups)
 {
   for (const int texels : { 3, 5, 7 })
@@ -162,22 +151,6 @@ TEST_F(PcfGlsl, poissonReadsATurnedDisc)
     }
     EXPECT_LE(different, places.size() / 100) << texels << " texels"; // rounding at texels' borders
   }
-}
-
-TEST_F(PcfGlsl, anEdgeHasAsManyLevelsAsTheKernelAllows)
-{
-  const Map halfPlane = [](const glm::ivec2& texel) { return texel.x >= mapSize / 2; };
-  const auto levels = [&](const char* kernel, int texels)
-  {
-    const std::vector<float> values =
-      runPcf(filteredSun(kernel, texels), halfPlane, randomPlaces(texels));
-    return std::set<float>(values.begin(), values.end()).size();
-  };
-  for (const int texels : { 1, 3, 5, 11 })
-  {
-    EXPECT_EQ(levels("box", texels), static_cast<std::size_t>(texels) + 1);
-  }
-  EXPECT_GT(levels("bilinear", 3), 10 * levels("box", 3));
 }
 
 TEST_F(PcfGlsl, theMapsEndIsReadAgainWhereAKernelIsWider)

@@ -8,7 +8,6 @@
 
 #include <gtest/gtest.h>
 
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -99,25 +98,6 @@ TEST(Registry, knowsWhichEstimatorsAreFunctionsOfThePoint)
   EXPECT_EQ(findEstimator("montecarlo")->info.evaluation, Evaluation::ScreenGpu);
   EXPECT_EQ(findEstimator("sampled")->info.evaluation, Evaluation::ScreenGpu);
   EXPECT_EQ(findEstimator("raytraced")->info.evaluation, Evaluation::ScreenCpu);
-}
-
-/// Who reads what of a light's points is said by what an estimator is, and nothing else.
-TEST(Registry, knowsWhomPointsOfLightsConcern)
-{
-  const std::set<std::string> sampled = { "raytraced", "penumbra", "planar", "coherence",
-    "sampled" };
-  const std::set<std::string> seeded = { "montecarlo" };
-  for (const EstimatorEntry& estimator : estimators())
-  {
-    const std::string& name = estimator.info.name;
-    const bool samples = sampled.count(name) > 0;
-    for (const char* setting : { "light_samples", "light_sampling" })
-    {
-      EXPECT_EQ(has(estimator.info, setting), samples) << name << ' ' << setting;
-    }
-    EXPECT_EQ(has(estimator.info, "light_seed"), samples || seeded.count(name)) << name;
-    EXPECT_TRUE(has(estimator.info, "light_radius")) << name;
-  }
 }
 
 TEST(Registry, takesOrRefusesEveryComposition)

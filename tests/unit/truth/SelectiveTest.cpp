@@ -828,6 +828,62 @@ TEST(Chain, leavesWhatNothingDecidesLitOrToTheMajority)
   EXPECT_LT(wrongLit, wrongByMap);
 }
 
+TEST(Chain, withOneStageIsWrongWhereShadowIsNotConfirmedOrLightNotCorrected)
+{
+  std::vector<ChainStages> alone(5, provenStages(4));
+  for (std::size_t k = 0; k < alone.size(); ++k)
+  {
+    alone[k].leftovers = Leftovers::Lit;
+    alone[k].neighbourTexels = k < 3 ? std::array{ 1, 4, 9 }[k] : 0;
+    alone[k].adjacency = k < 3 ? Adjacency::Off : k < 4 ? Adjacency::Edges : Adjacency::Vertices;
+  }
+  ChainStages statusOnly;
+  statusOnly.contourPixels = 4;
+  std::vector<std::size_t> unconfirmed(alone.size()), uncorrected(alone.size());
+  std::size_t falseLight = 0, falseShadow = 0;
+  for (const char* name : randomSceneNames())
+  {
+    for (unsigned int seed = 1; seed <= 3; ++seed)
+    {
+      Chained chained(makeRandomPicture(name, seed));
+      const ChainRun status = chained.run(statusOnly);
+      for (std::size_t k = 0; k < alone.size(); ++k)
+      {
+        const ChainRun run = chained.run(alone[k]);
+        std::size_t wrong = 0, expected = 0;
+        for (std::size_t i = 0; i < run.classes.size(); ++i)
+        {
+          const bool byTexelLit = status.classes[i] == ChainClass::TracedLit;
+          const bool byTexelShadow = status.classes[i] == ChainClass::TracedShadow;
+          if (!byTexelLit && !byTexelShadow)
+          {
+            continue; // outside of the contour, or without a shadow ray
+          }
+          const bool isShadow = chained.truth()[i] == 0.0f;
+          const bool isConfirmed = run.isConfirmed(i) && run.classes[i] != ChainClass::Corrected;
+          const bool leftShadow = byTexelShadow && isShadow && !isConfirmed;
+          const bool leftLight = byTexelLit && isShadow && run.classes[i] != ChainClass::Corrected;
+          unconfirmed[k] += leftShadow ? 1 : 0;
+          uncorrected[k] += leftLight ? 1 : 0;
+          expected += leftShadow || leftLight ? 1 : 0;
+          wrong += run.visibility[i] != chained.truth()[i] ? 1 : 0;
+          falseLight += k == 0 && byTexelLit && isShadow ? 1 : 0;
+          falseShadow += k == 0 && byTexelShadow && !isShadow ? 1 : 0;
+        }
+        EXPECT_EQ(wrong, expected) << chained.description() << ", stage " << k;
+      }
+    }
+  }
+  for (std::size_t k = 0; k < alone.size(); ++k)
+  {
+    EXPECT_GT(unconfirmed[k], 0u);
+    EXPECT_GT(uncorrected[k], 0u);
+    // Neighbours alone are asked about what their texel calls lit.
+    EXPECT_EQ(uncorrected[k] < falseLight, k < 3);
+  }
+  EXPECT_GT(falseShadow, 0u);
+}
+
 TEST(Chain, hasNoAcneOnRidgesAndInValleys)
 {
   // A sheet with folds that are wider than texels, and steep, lit from above: nothing is in shadow.
