@@ -95,8 +95,8 @@ protected:
 
     this->truth->SetTechnique("raytraced");
     this->truth->KeepVisibilityOn();
+    this->scene.pass->SetSetting("bake", "always"); // of those that have it
     this->scene.pass->SetTechnique(GetParam().technique);
-    this->scene.pass->SetSetting("bake", "always");
     this->scene.pass->SetMapSize(256);
     for (const auto& [name, value] : GetParam().settings)
     {

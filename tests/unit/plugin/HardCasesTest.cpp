@@ -261,11 +261,15 @@ TEST_P(HardCases, stayFiniteAndNearTheTruth)
   ASSERT_GT(found.facing, 100u);
   const double share = static_cast<double>(found.wrong) / static_cast<double>(found.facing);
   RecordProperty("wrongPercent", std::to_string(100.0 * share));
-  const bool compares = technique.estimator->info.name == "compare";
+  const std::string& estimator = technique.estimator->info.name;
+  // Light leaks through one exponential moment within some percent of the map's depth range
+  // (SingleExponential.h): under a narrow cone over most of a contact's shadow.
+  constexpr double leaks = 0.03;
   EXPECT_LE(share,
-    technique.estimator->info.exact ? 0.0
-      : compares                    ? hardCase.hard
-                                    : hardCase.filtered);
+    technique.estimator->info.exact       ? 0.0
+      : estimator == "compare"            ? hardCase.hard
+      : estimator == "single_exponential" ? leaks
+                                          : hardCase.filtered);
 
   // The picture, by the technique's own route.
   scene.pass->SetTechnique(technique.name.c_str());

@@ -376,7 +376,7 @@ namespace
 {
 
 /// Three rows of thin posts on a floor of half side 20, under a slanting sun.
-void fillWithFences(PassScene& scene)
+void fillWithFences(PassScene& scene, const glm::dvec3& sun = { 0.25, 1.0, -0.8 })
 {
   scene.addFloor(20.0);
   vtkNew<vtkAppendPolyData> fences;
@@ -390,7 +390,7 @@ void fillWithFences(PassScene& scene)
     }
   }
   scene.add(fences);
-  scene.addSun({ 0.25, 1.0, -0.8 });
+  scene.addSun(sun);
 }
 
 /// What is lit of the floor in each pixel: 8 x 8 shadow rays. Less than 0 where it shows anything else, too.
@@ -412,7 +412,7 @@ std::vector<float> litShareOfFloor(PassScene& scene)
       {
         const int row = rays * y + i / rays;
         const auto pixel = static_cast<std::size_t>(row * rays * size.x + rays * x + i % rays);
-        floor = floor && traced.coverage[pixel] > 0.0f && traced.positionZ[pixel] < 1e-3f;
+        floor = floor && positionOf(traced, pixel).z < 1e-3;
         sum += traced.visibility[0][pixel];
       }
       share.push_back(floor ? sum / (rays * rays) : -1.0f);
@@ -447,7 +447,8 @@ TEST_F(PassTest, levelsBringFarShadowsNearerToWhatPixelsShow)
   for (const bool parallel : { false, true })
   {
     PassScene scene(120, 80);
-    fillWithFences(scene);
+    fillWithFences(
+      scene, { 0.25, -1.0, -0.8 }); // shadows fall before the fences, where the camera sees them
     scene.lookFrom({ 10.0, -140.0, 90.0 });
     vtkCamera* camera = scene.renderer->GetActiveCamera();
     camera->SetViewAngle(12.0);
@@ -468,7 +469,7 @@ TEST_F(PassTest, levelsBringFarShadowsNearerToWhatPixelsShow)
         EXPECT_EQ(scene.report().mapBakes, 1);
         const std::string name =
           std::string(technique) + "_" + projection + (parallel ? "_parallel" : "");
-        EXPECT_LE(with, 0.8 * without) << name;
+        EXPECT_LE(with, 0.4 * without) << name;
         this->RecordProperty(name, std::to_string(without) + " " + std::to_string(with));
       }
     }
