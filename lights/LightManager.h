@@ -59,7 +59,7 @@ public:
   /// The renderer's lights that shine from more than a point, whether or not they cast shadows.
   AreaLights collectAreas(vtkRenderer* renderer, const ShadowSettings& defaults);
 
-  /// Takes from a light whatever it says of an area. (The area of vtkGnomonAreaLight is the
+  /// Removes a light's area and its samples. (The area of vtkGnomonAreaLight is the
   /// class's: such a light is exchanged.)
   static void makePoint(vtkLight* light);
 

@@ -31,11 +31,11 @@ namespace gnomon
 glm::dmat3 lispsmFromAcross(
   const std::vector<glm::dvec3>& bodyView, const CameraView& camera, const LightRays& rays);
 
-/// What a warp of a view that is fitted to receivers is chosen from
+/// Inputs of the choice of a warp, for a view that is fitted to receivers
 /// (shadowtech/fitting/ReceiverFit.h): the uniform map first, then the perspectives with near
 /// distances that grow by equal factors from leastNearOfSeries to greatestNearOfSeries, in units of
-/// the depth that they warp. All of them take the body as lispsmFromAcross() does. Only the uniform
-/// one where that one has no perspective whatever it would gain.
+/// the depth that they warp. All of them take the body as lispsmFromAcross() does. Only the
+/// uniform one where lispsmFromAcross() allows no perspective.
 ///
 /// The published optimum is that of the worst texel, and knows the nearest and the farthest point
 /// only. Where most of what is seen lies far away, as in a view along the ground, it spends the map

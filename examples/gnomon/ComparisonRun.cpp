@@ -387,9 +387,8 @@ std::string unusedSeed(const Variants& variants)
   return std::to_string(seed);
 }
 
-/// What the others are measured against. Of area lights, whose ray-traced shadows have an error of
-/// their own, it has samples that are evenly spread, whatever those of the variants are, and other
-/// ones.
+/// The truth that all variants are compared with. Ray-traced shadows of area lights have an error of
+/// their own, so the truth takes evenly spread samples that no variant takes.
 VisibilityImages truthOf(
   Variant& variant, const Variants& variants, int samples, std::vector<std::string>& notes)
 {

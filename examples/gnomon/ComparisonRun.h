@@ -32,8 +32,8 @@ struct ComparisonPlan
   int truthSamples = 4096; ///< of each area light for every pixel, by which errors are told
 };
 
-/// The technique whose visibility is the truth: of area lights with ComparisonPlan::truthSamples,
-/// whatever it is timed with.
+/// The technique whose visibility is the truth. The truth of area lights takes
+/// ComparisonPlan::truthSamples, while its times are of the plan's samples.
 inline constexpr const char* truthTechnique = "raytraced";
 
 /// What a comparison tells while it runs; each function may be empty.

@@ -6,25 +6,12 @@
 
 namespace gnomon
 {
-namespace
-{
-
-std::string refusedByExponential(const ShadowLight& light)
-{
-  return light.of<MomentMapSettings>().blur == MapBlur::Sat
-    ? "'exponential' has moments beyond the range of the 32-bit integers that a summed-area table "
-      "holds; it takes 'blur' box"
-    : "";
-}
-
-} // namespace
-
 //------------------------------------------------------------------------------
 TechniqueInfo Exponential::info()
 {
   TechniqueInfo info = infoOf("exponential");
   info.settings.push_back(&varianceSettings());
-  info.refused = refusedByExponential;
+  info.refused = refusedSums;
   return info;
 }
 

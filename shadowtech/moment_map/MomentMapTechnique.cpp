@@ -88,6 +88,15 @@ const SettingsTable& varianceSettings()
 }
 
 //------------------------------------------------------------------------------
+std::string MomentMapTechnique::refusedSums(const ShadowLight& light)
+{
+  return light.of<MomentMapSettings>().blur == MapBlur::Sat ? "'" + light.estimator +
+      "' has moments beyond the range of the 32-bit integers that a summed-area table holds; it "
+      "takes 'blur' box"
+                                                            : "";
+}
+
+//------------------------------------------------------------------------------
 TechniqueInfo MomentMapTechnique::infoOf(const char* name)
 {
   TechniqueInfo info;

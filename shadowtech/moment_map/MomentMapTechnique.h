@@ -98,6 +98,10 @@ protected:
   };
   virtual Moments moments() const = 0;
 
+  /// Why `blur` sat is refused where moments exceed the integers of a summed-area table
+  /// (Moments::largest is 0); empty for other blurs.
+  static std::string refusedSums(const ShadowLight& light);
+
   /// What an estimator of this name is, like all others over moments.
   static TechniqueInfo infoOf(const char* name);
 

@@ -6,25 +6,11 @@
 
 namespace gnomon
 {
-namespace
-{
-
-std::string refusedBySingleExponential(const ShadowLight& light)
-{
-  return light.of<MomentMapSettings>().blur == MapBlur::Sat
-    ? "'single_exponential' has a moment beyond the range of the 32-bit integers that a "
-      "summed-area "
-      "table holds; it takes 'blur' box"
-    : "";
-}
-
-} // namespace
-
 //------------------------------------------------------------------------------
 TechniqueInfo SingleExponential::info()
 {
   TechniqueInfo info = infoOf("single_exponential");
-  info.refused = refusedBySingleExponential;
+  info.refused = refusedSums;
   return info;
 }
 

@@ -1,5 +1,5 @@
-// What fitting a light's views to the receivers costs, and a map of other surfaces, against drawing a plain
-// map: the bunny on a plane, taking turns frame by frame.
+// What fitting a light's views to the receivers costs, and a map of other surfaces, against drawing
+// a plain map: the bunny on a plane, taking turns frame by frame.
 //
 // gnomon_benchmark_fitting [SIDE [FRAMES]], the side of the receivers' image in pixels.
 

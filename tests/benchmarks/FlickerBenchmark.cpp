@@ -1,9 +1,10 @@
-// How much shadows flicker: the share of the pixels at shadows' edges that turn from right to wrong or
-// back from one frame to the next, while the camera or the light moves by small steps. The truth
+// How much shadows flicker: the share of the pixels at shadows' edges that turn from right to wrong
+// or back from one frame to the next, while the camera or the light moves by small steps. The truth
 // flickers by 0; a shadow that moves with its map's texels, by much.
 //
-// A picture that moves scans what is wrong in it at other points, and would flicker by that alone. So
-// for a moving camera the maps are fitted to where it is, and looked up from where it was at first.
+// A picture that moves scans what is wrong in it at other points, and would flicker by that alone.
+// So for a moving camera the maps are fitted to where it is, and looked up from where it was at
+// first.
 
 #include "BenchmarkMain.h"
 #include "Errors.h"
@@ -87,8 +88,8 @@ const std::vector<float>& draw(FrameVariant& variant, Motion motion, int step)
   return kept.visibility.front();
 }
 
-/// The first light's visibility, by maps that are fitted to where the camera is at this step, seen from
-/// where it was at first.
+/// The first light's visibility, by maps that are fitted to where the camera is at this step, seen
+/// from where it was at first.
 const std::vector<float>& drawFitted(FrameVariant& variant, Movement movement, int step)
 {
   variant.renderer()->SetPass(makePass(variant.spec())); // which is fitted once, here

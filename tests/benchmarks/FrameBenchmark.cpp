@@ -1,5 +1,5 @@
-// What a whole frame costs, by wall clock: plain VTK, VTK's own shadows, and the pass in its variants
-// take turns frame by frame on one scene.
+// What a whole frame costs, by wall clock: plain VTK, VTK's own shadows, and the pass in its
+// variants take turns frame by frame on one scene.
 
 #include "BenchmarkMain.h"
 #include "Commands.h"

@@ -1,5 +1,5 @@
-// What large scenes cost: time per stage, counters and memory, frame by frame, of one large surface,
-// of many props, or of many blocks of one prop.
+// What large scenes cost: time per stage, counters and memory, frame by frame, of one large
+// surface, of many props, or of many blocks of one prop.
 
 #include "BenchmarkMain.h"
 #include "Errors.h"

@@ -1,6 +1,6 @@
-// What the truth costs: the trace stage against a bare Embree loop over the same rays, and against the
-// GPU, the receivers' projection, and the acceleration structures. Bunny on a plane, directional light,
-// 1024 x 1024.
+// What the truth costs: the trace stage against a bare Embree loop over the same rays, and against
+// the GPU, the receivers' projection, and the acceleration structures. Bunny on a plane,
+// directional light, 1024 x 1024.
 
 #include "SyntheticScene.h"
 
@@ -229,8 +229,8 @@ void visitTilesOfAFrame(benchmark::State& state)
 }
 BENCHMARK(visitTilesOfAFrame)->UseRealTime()->Unit(benchmark::kMillisecond);
 
-/// From what the receivers stage read back to visibility, by rays alone and with a map that decides what it can: they
-/// take turns.
+/// From what the receivers stage read back to visibility, by rays alone and with a map that decides
+/// what it can: they take turns.
 void hybridAgainstTracing(benchmark::State& state)
 {
   const Subject& scene = subject();
@@ -312,8 +312,8 @@ std::string describe(const Gpu& gpu)
   return gpu.renderer + (isSoftwareRenderer(gpu.renderer) ? " (software)" : "");
 }
 
-/// From receivers to visibility by the GPU's tracer, rays and answers on their way included, and by Embree: they take
-/// turns.
+/// From receivers to visibility by the GPU's tracer, rays and answers on their way included, and by
+/// Embree: they take turns.
 void traceOnGpuAgainstEmbree(benchmark::State& state)
 {
   const Subject& scene = subject();

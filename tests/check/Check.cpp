@@ -213,9 +213,9 @@ private:
     return std::isfinite(error) ? error : std::numeric_limits<double>::infinity();
   }
 
-  /// Whether a position is where the pixel's ray meets or passes by a triangle other than the truth's,
-  /// within the tolerance, and a camera ray that a rasteriser cannot tell from the pixel's sees that
-  /// triangle first.
+  /// Whether a position is where the pixel's ray meets or passes by a triangle other than the
+  /// truth's, within the tolerance, and a camera ray that a rasteriser cannot tell from the pixel's
+  /// sees that triangle first.
   bool onOtherSurface(const Vec3& position, double x, double y, const Point& truth) const
   {
     const Ray ray = this->camera_.through(x, y);
@@ -257,8 +257,9 @@ private:
     return view.cross(ray.direction).length() <= looking + storedPrecision * view.length();
   }
 
-  /// The point of a triangle that a position and a normal on the camera's side are those of: the nearest
-  /// within the tolerance, if the pixel's ray passes it by more closely than a rasteriser can tell.
+  /// The point of a triangle that a position and a normal on the camera's side are those of: the
+  /// nearest within the tolerance, if the pixel's ray passes it by more closely than a rasteriser
+  /// can tell.
   std::optional<Point> drawn(const Vec3& position, const Vec3& normal, double x, double y) const
   {
     const Ray ray = this->camera_.through(x, y);
@@ -275,8 +276,8 @@ private:
     {
       return std::nullopt;
     }
-    // An edge belongs to both of its faces. What is meant lies inside this one, if only by as much as
-    // a position is stored to.
+    // An edge belongs to both of its faces. What is meant lies inside this one, if only by as much
+    // as a position is stored to.
     const Triangle& triangle = this->triangleOf(*hit);
     const Vec3 inwards = (triangle[0] + triangle[1] + triangle[2]) / 3.0 - hit->position;
     const double length = inwards.length();

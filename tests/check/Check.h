@@ -24,8 +24,8 @@ constexpr double visibilityDifference = 0.5; ///< more than this makes a pixel w
 /// Pixels, as y * width + x, row 0 on top; ascending.
 using Pixels = std::vector<std::size_t>;
 
-/// How one light's visibility compares. In pixels of another surface or face, visibility is compared at
-/// the point of that triangle, which is what the file shows.
+/// How one light's visibility compares. In pixels of another surface or face, visibility is
+/// compared at the point of that triangle, which is what the file shows.
 struct LightResult
 {
   std::size_t counted = 0; ///< pixels covered in both, facing the light, in its cone
@@ -45,10 +45,11 @@ struct Result
   double positionError = 0.0; ///< largest, as a share of the distance from the camera
   std::size_t positionErrorAt = 0;
   Pixels position; ///< where the error exceeds the tolerance
-  /// Covered in both, but by different triangles, at an edge that the pixel's ray passes more closely
-  /// than a rasteriser can tell: a difference in coverage, not in position.
+  /// Covered in both, but by different triangles, at an edge that the pixel's ray passes more
+  /// closely than a rasteriser can tell: a difference in coverage, not in position.
   Pixels otherSurface;
-  /// The same where the two meet in the edge, so that their positions agree and their normals do not.
+  /// The same where the two meet in the edge, so that their positions agree and their normals do
+  /// not.
   Pixels otherFace;
   Pixels normal; ///< normals of no triangle at the position, or not on the camera's side
   std::vector<LightResult> lights;

@@ -246,8 +246,8 @@ TEST(Check, FindsWrongPositionsAndNormals)
 /// A rasteriser may draw the plate's edge in a pixel whose ray passes it by to the ground.
 TEST(Check, AnotherSurfaceAtItsEdgeIsADifferenceInCoverage)
 {
-  // The plate's right edge looks at 8 of 10 times the border's tangent; the first pixel's ray beside
-  // it passes at the given distance, in pixels.
+  // The plate's right edge looks at 8 of 10 times the border's tangent; the first pixel's ray
+  // beside it passes at the given distance, in pixels.
   const auto compareWith = [](double pixels, double along, float visibility = 1.0f)
   {
     TrueFile image;
@@ -280,7 +280,8 @@ TEST(Check, AnotherSurfaceAtItsEdgeIsADifferenceInCoverage)
 }
 
 //------------------------------------------------------------------------------
-/// Two faces meet in an edge beside the pixel's ray: their positions there agree, their normals do not.
+/// Two faces meet in an edge beside the pixel's ray: their positions there agree, their normals do
+/// not.
 TEST(Check, TheOtherFaceAtAnEdgeHasItsOwnLight)
 {
   // The plate lies upon the ground and is tilted about its left edge, away from the light.

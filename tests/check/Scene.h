@@ -90,8 +90,8 @@ struct Scene
 /// @throws std::exception with a message that names the file
 Scene readScene(const std::string& path);
 
-/// Triangles of a model file in the file's own coordinates, without those that have no area. Texture
-/// coordinates are those of the file's points where it has an array of them.
+/// Triangles of a model file in the file's own coordinates, without those that have no area.
+/// Texture coordinates are those of the file's points where it has an array of them.
 /// @throws std::exception with a message that names the file
 Mesh readModel(const std::string& path);
 

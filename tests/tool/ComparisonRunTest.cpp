@@ -293,7 +293,8 @@ TEST(ComparisonRun, StagesAreNineTenthsOfAFrame)
   plan.frames = 3;
   for (const VariantResult& result : runComparison(loadScene("posts"), plan, {}).variants)
   {
-    // Of the motions the best: what else the machine does comes between stages and takes from their share.
+    // Of the motions the best: what else the machine does comes between stages and takes from their
+    // share.
     double share = 0.0;
     for (const MotionTiming& timing : result.timings)
     {
@@ -317,8 +318,8 @@ TEST(ComparisonRun, AllTechniquesCountTheSamePixels)
   const ComparisonResults results = runComparison(loadScene("posts"), plan, {});
   EXPECT_GE(results.variants.size(), registry().size() + 2) << "with the peers";
 
-  // By the classes of each technique that tells them: of those that only read maps `pcss`, whose shader decides as the
-  // others' do what the light reaches.
+  // By the classes of each technique that tells them: of those that only read maps `pcss`, whose
+  // shader decides as the others' do what the light reaches.
   std::set<std::string> tell;
   for (const VariantResult& result : results.variants)
   {
@@ -373,8 +374,8 @@ TEST(ComparisonRun, ColoursOfPicturesAreItsNumbers)
   std::int64_t falseLight = 0, falseShadow = 0, turnedAway = 0;
   for (const VariantResult& result : results.variants)
   {
-    // Blue: false light; red: false shadow; purple, through which the picture shines: traced and right, as all that is
-    // traced is. All else is grey.
+    // Blue: false light; red: false shadow; purple, through which the picture shines: traced and
+    // right, as all that is traced is. All else is grey.
     std::map<std::array<int, 3>, std::int64_t> errors = coloursOf(result.errors);
     EXPECT_EQ((errors[{ 64, 128, 255 }]), result.error.falseLight) << result.name;
     EXPECT_EQ((errors[{ 255, 48, 48 }]), result.error.falseShadow) << result.name;

@@ -499,7 +499,8 @@ TEST(Program, TellsWhoDrewAConservativeMap)
 }
 
 //------------------------------------------------------------------------------
-/// A text attribute of an OpenEXR file's header: name and type end in zeros, the length takes four bytes.
+/// A text attribute of an OpenEXR file's header: name and type end in zeros, the length takes four
+/// bytes.
 std::string textAttribute(const std::string& file, const std::string& name)
 {
   const std::string begin = name + std::string("\0string\0", 8);

@@ -105,8 +105,8 @@ struct Setting
   }
 };
 
-/// Cameras and lights of all kinds around a scene of any size, many of them awkward: light along the
-/// view, either way, along the axes, from the eye; cameras in the scene; flat scenes; parallel
+/// Cameras and lights of all kinds around a scene of any size, many of them awkward: light along
+/// the view, either way, along the axes, from the eye; cameras in the scene; flat scenes; parallel
 /// projections.
 inline Setting randomSetting(std::mt19937& random)
 {
@@ -222,8 +222,8 @@ inline Setting terrain(const LightRays& rays)
   return setting;
 }
 
-/// What every projection of a visible body has to be, in many settings: finite, without a horizon or a
-/// flip over the body, and all that is visible on the map.
+/// What every projection of a visible body has to be, in many settings: finite, without a horizon
+/// or a flip over the body, and all that is visible on the map.
 /// @param project from the body's vertices, the camera and the rays to mapFromAcross
 template <typename Project>
 void expectSoundProjections(const Project& project, unsigned seed)

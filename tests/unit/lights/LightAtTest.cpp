@@ -85,7 +85,8 @@ bool isInCone(const ShadowLight& light, const glm::dvec3& centred)
   return p.z > 0.0 && std::hypot(p.x, p.y) <= tangent * p.z;
 }
 
-/// All that a spot's centre lights, each of its points sees, from outside of the scene, from its edge and from inside.
+/// All that a spot's centre lights, each of its points sees, from outside of the scene, from its
+/// edge and from inside.
 TEST(LightAt, seesFromAllPointsWhatTheCentreOfASpotReaches)
 {
   const ViewFitting fitting = fittingTo(scene);
@@ -151,7 +152,8 @@ TEST(LightAt, turnsParallelRaysToThePoint)
   }
 }
 
-/// Every ray from the centre's box to a point of the light, as far as the centre's near face, lies in the point's box.
+/// Every ray from the centre's box to a point of the light, as far as the centre's near face, lies
+/// in the point's box.
 TEST(LightAt, standsABoxAroundAllRaysIntoTheCentresBox)
 {
   for (const glm::dvec3& up : { glm::dvec3(0.0, 1.0, 0.0), { 1.0, 0.2, 0.0 } })

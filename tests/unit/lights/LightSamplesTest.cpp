@@ -173,7 +173,8 @@ TEST(LightSamples, areTheSameAtEveryCallAndAllDiffer)
   }
 }
 
-/// Every way to cut the square into as many equal parts as there are points, of sides that are powers of two.
+/// Every way to cut the square into as many equal parts as there are points, of sides that are
+/// powers of two.
 TEST(LightSamples, ofEveryPixelHoldOnePointInEachPartOfEqualArea)
 {
   for (const int bits : { 0, 1, 2, 5, 8, 12 })
@@ -249,7 +250,8 @@ TEST(LightSamples, ofBlocksOfPixelsAreAsEvenAsThoseOfOne)
   }
 }
 
-/// RMS error of the share of a square that lies on one side of a slanted line, which moves from pixel to pixel.
+/// RMS error of the share of a square that lies on one side of a slanted line, which moves from
+/// pixel to pixel.
 /// @param side errors are averaged over as many times as many pixels
 double halfPlaneError(const LightSamples& samples, int side)
 {
@@ -317,8 +319,9 @@ TEST(LightSamples, errLeastByDefaultAndLeaveTheLeastNoiseToABlur)
   }
 }
 
-/// Curtis 2009, section 3.1: a straight edge along the grid, over all of its places. A cell that it cuts is
-/// lit by chance, its variance 1/6 on the mean, and the k x k grid has k such cells: sqrt(1/6 / k^3).
+/// Curtis 2009, section 3.1: a straight edge along the grid, over all of its places. A cell that it
+/// cuts is lit by chance, its variance 1/6 on the mean, and the k x k grid has k such cells:
+/// sqrt(1/6 / k^3).
 TEST(LightSamples, inTheCellsOfAGridErrAsTheyMust)
 {
   for (const int side : { 2, 3, 4 })
@@ -499,7 +502,8 @@ TEST(LightSamples, inPairsAreAsEvenAsWithout)
   light.area =
     rectangleArea(glm::dvec3(0.0, 0.0, -1.0), glm::dvec3(0.0, 1.0, 0.0), glm::dvec2(1.0));
   light.lightSamples = 256;
-  // One in each part of the square, however it is cut, but for cuts that leave it whole from bottom to top.
+  // One in each part of the square, however it is cut, but for cuts that leave it whole from bottom
+  // to top.
   for (int columnBits = 0; columnBits < 8; ++columnBits)
   {
     const int columns = 1 << columnBits;

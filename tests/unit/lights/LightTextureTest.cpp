@@ -1,4 +1,5 @@
-// Textures of area lights: what images are ones, where their texels lie, and when lights have them read.
+// Textures of area lights: what images are ones, where their texels lie, and when lights have them
+// read.
 
 #include "lights/LightTexture.h"
 
@@ -167,7 +168,8 @@ TEST(LightTexture, hasTheMeanOfItsShape)
   EXPECT_NEAR(glm::distance(four->meanOfRectangle, { 0.5, 0.5, 0.25 }), 0.0, 1e-12);
   EXPECT_NEAR(glm::distance(four->meanOfDisk, { 0.5, 0.5, 0.25 }), 0.0, 1e-9);
 
-  // Three columns, of which the middle one is lit: |x| < 1 / 3 of a disk, (2 / pi) (a sqrt(1 - a^2) + asin a).
+  // Three columns, of which the middle one is lit: |x| < 1 / 3 of a disk, (2 / pi) (a sqrt(1 - a^2)
+  // + asin a).
   const auto column = makeImage(3, 3, VTK_UNSIGNED_CHAR, 1, 0.0);
   for (int y = 0; y < 3; ++y)
   {

@@ -54,8 +54,9 @@ TEST(ReducedMd5, givesThePublishedNumbers)
   }
 }
 
-/// The hash is a function of the place alone, so that its statistics over a picture are fixed numbers. Bounds are those that the
-/// implementation behind the numbers above gave for seeds (x, y, 0, 0), as rounded there.
+/// The hash is a function of the place alone, so that its statistics over a picture are fixed
+/// numbers. Bounds are those that the implementation behind the numbers above gave for seeds (x, y,
+/// 0, 0), as rounded there.
 TEST(ReducedMd5, flipsHalfOfTheBitsWhateverBitOfThePlaceIsFlipped)
 {
   constexpr int rows = height / 8; // every eighth

@@ -46,8 +46,8 @@ TEST(Trapezoid, TouchesAllSidesOfTheMap)
 
 TEST(Trapezoid, TakesTheCornersOfTheTrapezoidToThoseOfTheMap)
 {
-  // The trapezoid by geometry of its own: parallel sides across the centre line, legs that touch what is visible from a
-  // point on it before the near side.
+  // The trapezoid by geometry of its own: parallel sides across the centre line, legs that touch
+  // what is visible from a point on it before the near side.
   for (const glm::dvec3& light : { glm::dvec3(0.0, 0.0, -1.0), glm::dvec3(1.0, 0.0, -1.0),
          glm::dvec3(0.0, 1.0, -1.0), glm::dvec3(0.0, -1.0, -1.0) })
   {
@@ -68,7 +68,8 @@ TEST(Trapezoid, TakesTheCornersOfTheTrapezoidToThoseOfTheMap)
       nearSide = std::min(nearSide, glm::dot(point, along));
       farSide = std::max(farSide, glm::dot(point, along));
     }
-    // Martin and Tan, section 5.2, with the focus on the line xi = -0.6 of a map whose near side is at 1.
+    // Martin and Tan, section 5.2, with the focus on the line xi = -0.6 of a map whose near side is
+    // at 1.
     const double lambda = farSide - nearSide;
     const double delta =
       glm::dot(onAxis(all.lower * std::pow(all.upper / all.lower, 0.8)), along) - nearSide;

@@ -276,8 +276,8 @@ protected:
   }
 
   /// Every pixel must be right, but for a few on edges: VTK transforms in float and the rasteriser
-  /// snaps vertices to 1/256 pixel, so that an edge may lie off by half of that. Silhouettes here are
-  /// some 500 pixels long, and 500/512 of their pixels have a centre so near.
+  /// snaps vertices to 1/256 pixel, so that an edge may lie off by half of that. Silhouettes here
+  /// are some 500 pixels long, and 500/512 of their pixels have a centre so near.
   void expectRight(const Count& count, int leastCovered = 2000)
   {
     EXPECT_GE(count.covered, leastCovered);
@@ -711,8 +711,8 @@ TEST_F(DrawnSurfaces, FarFromTheOrigin)
   const auto actor = makeActor(data);
   actor->SetPosition(4e6, 4e6, -4e6);
   this->renderer->AddActor(actor);
-  // VTK multiplies the actor's matrix with the camera's in double, where the distance cancels before
-  // anything becomes float: far away is as good as near.
+  // VTK multiplies the actor's matrix with the camera's in double, where the distance cancels
+  // before anything becomes float: far away is as good as near.
   this->expectRight(this->check());
 }
 

@@ -1,5 +1,5 @@
-// What is remembered of plain props never hides a change: whatever changes, a collector that has followed
-// the scene holds what one that sees it for the first time holds.
+// What is remembered of plain props never hides a change: whatever changes, a collector that has
+// followed the scene holds what one that sees it for the first time holds.
 
 #include "plugin/scene/OccluderCollector.h"
 

@@ -181,9 +181,9 @@ TEST_P(LitScenes, longPlane)
   vtkLight* const sun = scene.addSun({ 0.0, 0.0, -1.0 });
   this->chooseWithoutFloor(scene);
   scene.lookFrom({ 3.0, -98.0, 2.0 }, { 0.0, 0.0, 0.0 });
-  // A warp makes a hyperbola of the plane's depths, the mean over which may lie before the receiver: of
-  // a kernel that is a quarter as wide as the map, by 0.014 at most. The rectangle that keeps a kernel of
-  // 3 texels even is 6 texels long there.
+  // A warp makes a hyperbola of the plane's depths, the mean over which may lie before the
+  // receiver: of a kernel that is a quarter as wide as the map, by 0.014 at most. The rectangle
+  // that keeps a kernel of 3 texels even is 6 texels long there.
   const double mean = GetParam().hasSetting("kernel_size=16") ? 0.985
     : GetParam().hasSetting("blur=sat")                       ? 0.998
                                                               : 0.999;
@@ -270,8 +270,8 @@ TEST_P(LitScenesOfPlainKernels, planeUnderASpotLight)
 }
 
 //------------------------------------------------------------------------------
-/// At a corner of the floor the light stands at 89.3 degrees when it is lowest. Tilted, the plane is askew
-/// to the faces of the cube.
+/// At a corner of the floor the light stands at 89.3 degrees when it is lowest. Tilted, the plane
+/// is askew to the faces of the cube.
 TEST_P(LitScenesOfLamps, planeUnderAPointLight)
 {
   PassScene scene(200, 200);
@@ -406,9 +406,9 @@ TEST_P(LitRooms, insideOfASphere)
 }
 
 //------------------------------------------------------------------------------
-/// A floor and two walls without thickness, which the sun sees from within, from near and through a long lens:
-/// from so far that positions are rounded by a good part of a texel, and the receiver's plane is
-/// followed to the kernel's end from there.
+/// A floor and two walls without thickness, which the sun sees from within, from near and through a
+/// long lens: from so far that positions are rounded by a good part of a texel, and the receiver's
+/// plane is followed to the kernel's end from there.
 TEST_P(LitScenesOfDepths, trough)
 {
   PassScene scene(200, 200);

@@ -40,7 +40,8 @@ enum class ChangeKind
 };
 inline constexpr std::size_t changeKinds = 16;
 
-/// One change. The numbers choose among what its kind offers, so that two equal scenes change alike.
+/// One change. The numbers choose among what its kind offers, so that two equal scenes change
+/// alike.
 struct Change
 {
   ChangeKind kind;

@@ -47,8 +47,8 @@ struct Sampling
   bool interpolated = false;
 };
 
-/// The alpha at texture coordinates, in [0, 1]: the sum over all texels near there of their alpha times
-/// their weight.
+/// The alpha at texture coordinates, in [0, 1]: the sum over all texels near there of their alpha
+/// times their weight.
 double alphaAt(const Pattern& pattern, const Sampling& sampling, const glm::dvec2& coordinates)
 {
   const auto index = [&](int i, int size)
@@ -131,8 +131,8 @@ vtkSmartPointer<vtkTexture> makeTexture(const Pattern& pattern, const Sampling& 
   return texture;
 }
 
-/// The square of half side 2 around the z axis at height 5, its front up. Its texture coordinates go
-/// from `first` to `last`.
+/// The square of half side 2 around the z axis at height 5, its front up. Its texture coordinates
+/// go from `first` to `last`.
 vtkSmartPointer<vtkPolyData> makeSquare(const glm::dvec2& first = glm::dvec2(0.0),
   const glm::dvec2& last = glm::dvec2(1.0), const char* array = nullptr)
 {
@@ -163,8 +163,8 @@ vtkSmartPointer<vtkPolyData> makeSquare(const glm::dvec2& first = glm::dvec2(0.0
   return square;
 }
 
-/// The exact answer, or a negative one where it is another within a square of half side `band`: holes
-/// have corners.
+/// The exact answer, or a negative one where it is another within a square of half side `band`:
+/// holes have corners.
 ExactFloor awayFromEdges(const ExactFloor& exact, double band)
 {
   return [&exact, band](const glm::dvec2& point)
@@ -188,8 +188,8 @@ ExactFloor awayFromEdges(const ExactFloor& exact, double band)
 /// Where a floor point's ray to the light meets the square's plane: as a share of its sides.
 using PlaceOnSquare = std::function<glm::dvec2(const glm::dvec2&)>;
 
-/// A square with holes above a floor, under a sun at 45 degrees that moves its shadow by 5 along x, out
-/// of the square's way. The camera sees the shadow from straight above.
+/// A square with holes above a floor, under a sun at 45 degrees that moves its shadow by 5 along x,
+/// out of the square's way. The camera sees the shadow from straight above.
 class Cutouts
   : public PassTest
   , public testing::WithParamInterface<Way>

@@ -1,5 +1,5 @@
-// Exact techniques show what ray tracing shows while casters are deformed, moved, parted, taken away and put back: nothing that they
-// remember of casters is out of date.
+// Exact techniques show what ray tracing shows while casters are deformed, moved, parted, taken
+// away and put back: nothing that they remember of casters is out of date.
 
 #include "PassScene.h"
 

@@ -97,7 +97,8 @@ TEST_P(ExactScenes, showWhatIsTraced)
   }
 }
 
-/// Cameras and lights of which no scene's author has thought: from inside of things, too, and with lamps that touch them.
+/// Cameras and lights of which no scene's author has thought: from inside of things, too, and with
+/// lamps that touch them.
 class ExactScenesFromAnywhere : public testing::TestWithParam<const char*>
 {
 };
@@ -127,7 +128,8 @@ TEST_P(ExactScenesFromAnywhere, showWhatIsTraced)
   };
 
   scene.pass->SetSetting("bake", "always");
-  // Selective is exact where it looks at all of the picture, and believes no texel that others agree with.
+  // Selective is exact where it looks at all of the picture, and believes no texel that others
+  // agree with.
   scene.pass->SetSetting("contour", "image");
   scene.pass->SetSetting("coherence", "off");
   const std::array<std::string, 4> techniques = { "crsm", "crsma", "silhouette", "selective" };
@@ -196,8 +198,8 @@ TEST_P(ExactScenesFromAnywhere, showWhatIsTraced)
   }
 }
 
-/// A lit face's texels hold other layers, too: faces of its own solid that are turned away from the light, and the ground. Rays need
-/// not start off the noise of those.
+/// A lit face's texels hold other layers, too: faces of its own solid that are turned away from the
+/// light, and the ground. Rays need not start off the noise of those.
 TEST(ExactFaces, areDecidedWhateverTheNoiseOfWhatIsBehindThem)
 {
   for (const char* name : { "long-cube", "stack" })

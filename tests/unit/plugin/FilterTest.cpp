@@ -45,8 +45,8 @@ void addClosedWorld(PassScene& scene)
 } // namespace
 
 //------------------------------------------------------------------------------
-/// Along a shadow's edge that runs away from the camera, the texels of one split end and those of the
-/// next begin. Between them lie values of both.
+/// Along a shadow's edge that runs away from the camera, the texels of one split end and those of
+/// the next begin. Between them lie values of both.
 TEST_F(PassTest, blendedSplitsFadeIntoEachOther)
 {
   PassScene scene(200, 200);
@@ -79,8 +79,8 @@ TEST_F(PassTest, blendedSplitsFadeIntoEachOther)
   EXPECT_EQ(differingPixels(scene.render(), image, 1), 0u);
 }
 
-/// A filter's edges get as wide as a split's texels are. Where splits are blended, brightness changes by
-/// less from row to row of pixels than where one ends.
+/// A filter's edges get as wide as a split's texels are. Where splits are blended, brightness
+/// changes by less from row to row of pixels than where one ends.
 TEST_F(PassTest, blendedSplitsHaveNoBorder)
 {
   PassScene scene(200, 400);

@@ -1,5 +1,5 @@
-// The views that are hardest to fit, by every technique: visibility is finite and in [0, 1], OpenGL has nothing
-// to complain about, and the inline route draws them, too.
+// The views that are hardest to fit, by every technique: visibility is finite and in [0, 1], OpenGL
+// has nothing to complain about, and the inline route draws them, too.
 
 #include "PassScene.h"
 #include "Variant.h"
@@ -143,8 +143,8 @@ TEST_P(DegenerateSoftScenes, underLightsOfAnySize)
 }
 
 //------------------------------------------------------------------------------
-/// Nothing at all; away from everything; from inside a caster; in the floor's plane; from below, where no receiver
-/// faces the light. What comes after is as if it had not been.
+/// Nothing at all; away from everything; from inside a caster; in the floor's plane; from below,
+/// where no receiver faces the light. What comes after is as if it had not been.
 TEST_P(DegenerateScenes, seenFromAnywhere)
 {
   PassScene scene(64, 48);

@@ -1,5 +1,5 @@
-// Views that are fitted to the receivers that are drawn: what the report says of them, when they are
-// fitted again, and what the picture gains and keeps.
+// Views that are fitted to the receivers that are drawn: what the report says of them, when they
+// are fitted again, and what the picture gains and keeps.
 
 #include "PassScene.h"
 

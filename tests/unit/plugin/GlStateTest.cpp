@@ -232,8 +232,10 @@ int freeTextureUnits(vtkOpenGLRenderWindow* window)
 }
 
 /// Expects a pass to change state only where plain VTK does, too.
-/// @param choose gives the scene's pass its settings, and says which pass is to draw: that one, or one around it
-/// @param ofVtk what VTK leaves behind of its last drawing, which may be another one than that of the frame before
+/// @param choose gives the scene's pass its settings, and says which pass is to draw: that one, or
+/// one around it
+/// @param ofVtk what VTK leaves behind of its last drawing, which may be another one than that of
+/// the frame before
 void expectChangesOfPlainVtkOnly(
   const std::function<vtkRenderPass*(PassScene&)>& choose, const std::set<std::string>& ofVtk = {})
 {

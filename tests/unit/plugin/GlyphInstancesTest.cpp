@@ -86,8 +86,8 @@ protected:
     return array;
   }
 
-  /// Whether they are kept as instances is not to be seen. A clipping plane that cuts nothing has them
-  /// expanded.
+  /// Whether they are kept as instances is not to be seen. A clipping plane that cuts nothing has
+  /// them expanded.
   void expectSameAsExpanded(std::size_t instances)
   {
     const Picture kept = this->scene.render();
@@ -97,8 +97,8 @@ protected:
     const Picture expanded = this->scene.render();
     EXPECT_EQ(this->scene.report().instances, 0u);
     this->mapper->RemoveAllClippingPlanes();
-    // Rays that meet an edge to within rounding, and texels that an edge crosses so near. With holes
-    // there are several times as many edges.
+    // Rays that meet an edge to within rounding, and texels that an edge crosses so near. With
+    // holes there are several times as many edges.
     EXPECT_LE(differingPixels(kept, expanded, 2),
       kept.pixels() / (this->actor->GetTexture() ? 10000 : 20000));
     this->expectShadows(kept);

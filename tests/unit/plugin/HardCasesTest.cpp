@@ -1,6 +1,6 @@
-// Every technique with a map on the scenes that break shadow maps: the numbers stay finite, OpenGL has nothing to
-// complain about, and the visibility differs from the ray-traced one by no more than is stated here and
-// in docs/measurements.md.
+// Every technique with a map on the scenes that break shadow maps: the numbers stay finite, OpenGL
+// has nothing to complain about, and the visibility differs from the ray-traced one by no more than
+// is stated here and in docs/measurements.md.
 
 #include "PassScene.h"
 
@@ -50,8 +50,8 @@ vtkSmartPointer<vtkPolyData> triangles(const std::vector<glm::dvec3>& corners)
 
 const glm::dvec3 slanting(1.0, 0.4, -1.5);
 
-/// A box and a sphere over a slab, seen from a side, `unit` times as large as elsewhere and moved by
-/// `offset`.
+/// A box and a sphere over a slab, seen from a side, `unit` times as large as elsewhere and moved
+/// by `offset`.
 void addBoxAndSphere(
   PassScene& scene, double unit = 1.0, const glm::dvec3& offset = glm::dvec3(0.0))
 {
@@ -85,8 +85,8 @@ Build underSpot(const glm::dvec3& position, const glm::dvec3& target, double con
 struct HardCase
 {
   const char* name;
-  /// The share of the pixels that face the light which may be wrong, of techniques that compare and of
-  /// those that filter.
+  /// The share of the pixels that face the light which may be wrong, of techniques that compare and
+  /// of those that filter.
   double hard;
   double filtered;
   Build build;

@@ -1,6 +1,6 @@
 // What hundreds of changes leave behind: nothing. Live OpenGL objects stay the same in number, and
-// resident memory within 5 MB, which is what a thousand leaks of 5 kB would be. The longest loops also
-// run without the pass, so that what VTK and the driver keep for themselves is told apart.
+// resident memory within 5 MB, which is what a thousand leaks of 5 kB would be. The longest loops
+// also run without the pass, so that what VTK and the driver keep for themselves is told apart.
 
 #include "LiveObjects.h"
 #include "PassScene.h"
@@ -25,8 +25,8 @@ namespace
 constexpr int warmUp = 50;
 constexpr double mostGrowthMegabytes = 5.0;
 
-/// Memory of this process that is in use and not swapped out, in megabytes. Earlier cases leave free
-/// memory in malloc, which a leak would fill unseen: it is given back first.
+/// Memory of this process that is in use and not swapped out, in megabytes. Earlier cases leave
+/// free memory in malloc, which a leak would fill unseen: it is given back first.
 double residentMegabytes()
 {
   malloc_trim(0);

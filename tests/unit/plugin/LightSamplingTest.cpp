@@ -130,7 +130,8 @@ vtkSmartPointer<vtkGnomonAreaLight> rectangle(double coneAngleDegrees)
   return light;
 }
 
-/// Two rows of grey, red and dark, and of blue, white and black, with no mean that their middle has.
+/// Two rows of grey, red and dark, and of blue, white and black, with no mean that their middle
+/// has.
 vtkSmartPointer<vtkImageData> makePanes()
 {
   constexpr std::array<std::array<unsigned char, 3>, 6> panes = { { { 90, 90, 90 }, { 255, 20, 10 },
@@ -257,8 +258,8 @@ std::vector<Named> allLights()
   };
 }
 
-/// What the points of a light shine with: the colours of its texture there, brightened or darkened together until their
-/// mean is that of the texture.
+/// What the points of a light shine with: the colours of its texture there, brightened or darkened
+/// together until their mean is that of the texture.
 std::vector<glm::dvec3> shineByHand(
   const gnomon::ShadowLight& light, const std::vector<glm::dvec3>& offsets)
 {
@@ -306,8 +307,8 @@ protected:
     this->scene.renderer->AddLight(areaLight);
   }
 
-  /// Expects the delegate's picture from the centre, bit for bit; where the light has a texture, the delegate may have rounded
-  /// its mean elsewhere.
+  /// Expects the delegate's picture from the centre, bit for bit; where the light has a texture,
+  /// the delegate may have rounded its mean elsewhere.
   void expectHard(const Picture& picture, const Picture& hard)
   {
     auto* area = vtkGnomonAreaLight::SafeDownCast(this->light);
@@ -323,7 +324,8 @@ protected:
     return picture;
   }
 
-  /// Pictures of a pass, one for each point of the light, by a light of VTK's that is placed there by hand.
+  /// Pictures of a pass, one for each point of the light, by a light of VTK's that is placed there
+  /// by hand.
   /// @param add gets each of them
   void forEachPoint(vtkRenderPass* pass, const std::function<void(const Picture&)>& add)
   {
@@ -628,8 +630,8 @@ TEST_F(LightSampling, tellsOfItsProgress)
 }
 
 //------------------------------------------------------------------------------
-/// Lambert and 1 / d^2 under a large near light: the mean over a rectangle of h / d^3 is the solid angle that it
-/// fills, over its area.
+/// Lambert and 1 / d^2 under a large near light: the mean over a rectangle of h / d^3 is the solid
+/// angle that it fills, over its area.
 TEST_F(LightSampling, attenuatedCosinesAreThoseOfGeometry)
 {
   this->box->VisibilityOff();
@@ -997,7 +999,8 @@ TEST_F(LightSampling, refusesWhatItCannotShow)
 }
 
 //------------------------------------------------------------------------------
-/// Who looks up at a texture in the sky sees it as it is: what a plate over one half of the floor hides of it says which half is where.
+/// Who looks up at a texture in the sky sees it as it is: what a plate over one half of the floor
+/// hides of it says which half is where.
 TEST_F(LightSampling, aTextureInTheSkyLiesAsItIsSeen)
 {
   this->box->VisibilityOff();
@@ -1021,7 +1024,8 @@ TEST_F(LightSampling, aTextureInTheSkyLiesAsItIsSeen)
     {
       plates[other]->SetVisibility(other == axis);
     }
-    // Its left is at +x for who looks up with +y upwards, and its top at +y: what is seen from where the plate ends last.
+    // Its left is at +x for who looks up with +y upwards, and its top at +y: what is seen from
+    // where the plate ends last.
     vtkNew<vtkImageData> halves;
     halves->SetDimensions(axis == 0 ? 2 : 1, axis == 0 ? 1 : 2, 1);
     halves->AllocateScalars(VTK_UNSIGNED_CHAR, 3);

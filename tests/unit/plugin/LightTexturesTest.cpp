@@ -1,5 +1,5 @@
-// Lights with textures in frames: coloured visibility against what is known and against rays, and what of it all techniques and
-// routes show.
+// Lights with textures in frames: coloured visibility against what is known and against rays, and
+// what of it all techniques and routes show.
 
 #include "PassScene.h"
 #include "Scene.h"
@@ -97,7 +97,8 @@ protected:
     this->scene.lookDown(1.2);
   }
 
-  /// A plate halfway to the lamp that hides from the origin what of it is on one side of its middle.
+  /// A plate halfway to the lamp that hides from the origin what of it is on one side of its
+  /// middle.
   void addPlate(const glm::dvec3& lower, const glm::dvec3& upper)
   {
     this->scene.addBox(lower + glm::dvec3(0.0, 0.0, 5.0), upper + glm::dvec3(0.0, 0.0, 5.001));
@@ -194,7 +195,8 @@ TEST_F(LightTextures, areSeenHalfByHalf)
   this->addFloor();
   this->addPlate({ -8.0, -8.0, 0.0 }, { 0.0, 8.0, 0.0 });
   this->lamp->SetTexture(makeRedAndBlue());
-  // From x the lamp is seen where it is beyond -x. Its picture's right is -x for who looks up at it.
+  // From x the lamp is seen where it is beyond -x. Its picture's right is -x for who looks up at
+  // it.
   const auto expected = [](const glm::dvec3& place)
   {
     return Colour{ 0.5 * std::clamp(1.0 + place.x, 0.0, 1.0), 0.0,
@@ -227,7 +229,8 @@ TEST_F(LightTextures, standUpright)
 //------------------------------------------------------------------------------
 TEST_F(LightTextures, giveWayWithTheirColoursBehindTheReceiver)
 {
-  // The lowest quarter of a lamp beside the floor, in green, is below it. The highest one, in red, counts twice there.
+  // The lowest quarter of a lamp beside the floor, in green, is below it. The highest one, in red,
+  // counts twice there.
   this->addFloor();
   this->lamp->SetPosition(-5.0, 0.0, 0.5);
   this->lamp->SetFocalPoint(0.0, 0.0, 0.5);
@@ -250,7 +253,8 @@ TEST_F(LightTextures, giveWayWithTheirColoursBehindTheReceiver)
 //------------------------------------------------------------------------------
 TEST_F(LightTextures, giveWayWhereTheyAreCutBetweenTheRim)
 {
-  // Of a lamp as above on its corner, only that corner is below the floor. None of the rim points need be there.
+  // Of a lamp as above on its corner, only that corner is below the floor. None of the rim points
+  // need be there.
   this->addFloor();
   this->lamp->SetPosition(-5.0, 0.0, 1.3);
   this->lamp->SetFocalPoint(0.0, 0.0, 1.3);
@@ -544,8 +548,8 @@ TEST_F(LightTextures, areRefinedFromTheHardShadow)
 }
 
 //------------------------------------------------------------------------------
-/// On a matt floor under a window, shading from all points shows what rays to all of them see, but for the cosines, which are
-/// not those of the window's centre.
+/// On a matt floor under a window, shading from all points shows what rays to all of them see, but
+/// for the cosines, which are not those of the window's centre.
 TEST_F(PassTest, aWindowsPointsShadeAMattFloorAsRaysSeeIt)
 {
   const auto renderer = gnomon::tool::makeRenderer(gnomon::tool::loadScene("soft-window"), 1.0);

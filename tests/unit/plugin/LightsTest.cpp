@@ -51,9 +51,9 @@ bool isBetween(const glm::ivec3& colour, const glm::ivec3& a, const glm::ivec3& 
   return distance.r <= 1.5 && distance.g <= 1.5 && distance.b <= 1.5;
 }
 
-/// Each pixel must be what plain VTK draws with all lights, or without the one that casts, or where the
-/// technique filters a mixture: nothing but that light may ever be taken away. Returns how many pixels
-/// had it taken away.
+/// Each pixel must be what plain VTK draws with all lights, or without the one that casts, or where
+/// the technique filters a mixture: nothing but that light may ever be taken away. Returns how many
+/// pixels had it taken away.
 std::size_t shadowedPixels(
   const Picture& picture, const Picture& allLights, const Picture& withoutTheLight, bool filters)
 {

@@ -2,9 +2,9 @@
 // kept.
 //
 // Every mapper meets every look, with two lights and three ways in the whole window, and in every
-// window. In the windows the lights and ways take turns, so that any two of the five dimensions meet
-// in every pair of values (a test counts them), and any three of which two are mapper and look, or
-// those and the window.
+// window. In the windows the lights and ways take turns, so that any two of the five dimensions
+// meet in every pair of values (a test counts them), and any three of which two are mapper and
+// look, or those and the window.
 
 #include "MatrixScene.h"
 #include "MatrixWindows.h"
@@ -40,7 +40,8 @@ std::pair<double, double> expectedChannel(int unlit, int lit, double visibility,
   const auto linear = [&](int value) { return gamma ? std::pow(value, 2.2) : value; };
   const double mixed = linear(unlit) + visibility * (linear(lit) - linear(unlit));
   const double shown = gamma ? std::pow(mixed, 1.0 / 2.2) : mixed;
-  // A value that was rounded to 8 bits before it is mixed is half of one off, and a whole one after.
+  // A value that was rounded to 8 bits before it is mixed is half of one off, and a whole one
+  // after.
   const double tolerance = visibility == 0.0 || visibility == 1.0 ? 1.0 : 2.0;
   const bool clamped = visibility > 0.0 && lit == 255;
   return { shown - tolerance, clamped ? 255.0 : shown + tolerance };
@@ -51,8 +52,8 @@ class Matrix
   , public testing::WithParamInterface<std::tuple<std::size_t, std::size_t>>
 {
 protected:
-  /// The same view four times: as VTK draws it, without the light, the technique's visibility of the
-  /// light from the bottom row up, and the picture that is to be judged.
+  /// The same view four times: as VTK draws it, without the light, the technique's visibility of
+  /// the light from the bottom row up, and the picture that is to be judged.
   struct View
   {
     Picture lit;
@@ -163,8 +164,8 @@ protected:
         }
       }
     }
-    // The routes may differ where rounding decides; and a pixel may have a sample of something that no
-    // centre of a pixel shows.
+    // The routes may differ where rounding decides; and a pixel may have a sample of something that
+    // no centre of a pixel shows.
     EXPECT_LE(wrong, window.hasSeveralSamples() ? compared / 1000 : 1);
     EXPECT_GT(compared, visibility.size() / 2);
     const std::size_t some = window.hasSeveralSamples() ? 5 : 15;

@@ -169,8 +169,9 @@ private:
 };
 vtkStandardNewMacro(BorrowedContextWindow);
 
-/// As a toolkit's widget: VTK leaves the picture in the framebuffer that was bound before. The context
-/// stays the scene's: VTK 9.1 crashes where a vtkGlyph3DMapper with CullingAndLOD comes to another.
+/// As a toolkit's widget: VTK leaves the picture in the framebuffer that was bound before. The
+/// context stays the scene's: VTK 9.1 crashes where a vtkGlyph3DMapper with CullingAndLOD comes to
+/// another.
 class Widget : public MatrixWindow
 {
 public:

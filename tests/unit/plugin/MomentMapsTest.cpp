@@ -1,5 +1,5 @@
-// The quality of maps of moments of all techniques and projections, with their default settings: lit
-// surfaces are lit, shadows begin where they should, and no view breaks them.
+// The quality of maps of moments of all techniques and projections, with their default settings:
+// lit surfaces are lit, shadows begin where they should, and no view breaks them.
 
 #include "LiveObjects.h"
 #include "PassScene.h"
@@ -62,9 +62,9 @@ INSTANTIATE_TEST_SUITE_P(Layouts, MomentMaps,
 } // namespace
 
 //------------------------------------------------------------------------------
-/// Seen from far away, receivers are rounded by parts of a texel. Under a grazing sun that moves them
-/// along the light by more than their slack, and what lights them at the middle of a texel, where
-/// bilinear filtering leaves no variance, is the spread of the texel's own depths.
+/// Seen from far away, receivers are rounded by parts of a texel. Under a grazing sun that moves
+/// them along the light by more than their slack, and what lights them at the middle of a texel,
+/// where bilinear filtering leaves no variance, is the spread of the texel's own depths.
 TEST_F(PassTest, spreadOfTexelsLightsAPlaneThatIsSeenFromAfar)
 {
   for (const char* technique : { "vsm", "evsm" })
@@ -328,7 +328,8 @@ TEST_F(PassTest, tablesShowWhatBoxesShow)
 }
 
 //------------------------------------------------------------------------------
-/// A kernel of a width across the light is as wide on warped, split and fitted maps as on a fine uniform one.
+/// A kernel of a width across the light is as wide on warped, split and fitted maps as on a fine
+/// uniform one.
 TEST_F(PassTest, tablesBlurAllMapsAlike)
 {
   PassScene scene(300, 300);
@@ -393,7 +394,8 @@ void fillWithFences(PassScene& scene, const glm::dvec3& sun = { 0.25, 1.0, -0.8 
   scene.addSun(sun);
 }
 
-/// What is lit of the floor in each pixel: 8 x 8 shadow rays. Less than 0 where it shows anything else, too.
+/// What is lit of the floor in each pixel: 8 x 8 shadow rays. Less than 0 where it shows anything
+/// else, too.
 std::vector<float> litShareOfFloor(PassScene& scene)
 {
   constexpr int rays = 8;

@@ -1,4 +1,5 @@
-// `montecarlo` in frames: against known penumbrae, against rays to the same points of the light, and what its settings change.
+// `montecarlo` in frames: against known penumbrae, against rays to the same points of the light,
+// and what its settings change.
 
 #include "PassScene.h"
 
@@ -54,7 +55,8 @@ std::size_t differing(const std::vector<float>& a, const std::vector<float>& b)
   return count;
 }
 
-/// Whether a light's classes are those of its pixels, as many as are counted, and a decision is what its class says.
+/// Whether a light's classes are those of its pixels, as many as are counted, and a decision is
+/// what its class says.
 void expectClassesOfPixels(
   const VisibilityImages& kept, const std::vector<gnomon::ClassCount>& counted)
 {
@@ -107,7 +109,8 @@ protected:
     this->lamp->SetHeight(1.0);
   }
 
-  /// A plate that ends at x = 0 over a floor that casts nothing, seen from above, whose shadow ends around x = 1.
+  /// A plate that ends at x = 0 over a floor that casts nothing, seen from above, whose shadow ends
+  /// around x = 1.
   void buildHalfPlane()
   {
     this->floor = this->scene.addFloor(6.0);
@@ -217,7 +220,8 @@ TEST_F(MonteCarlo, hasThePenumbraOfAHalfPlane)
 }
 
 //------------------------------------------------------------------------------
-/// Visibility column by column, each of which has its own distance from the edge: an error that cancels over the penumbra shows.
+/// Visibility column by column, each of which has its own distance from the edge: an error that
+/// cancels over the penumbra shows.
 TEST_F(MonteCarlo, hasTheProfileOfAHalfPlane)
 {
   this->buildHalfPlane();
@@ -228,8 +232,9 @@ TEST_F(MonteCarlo, hasTheProfileOfAHalfPlane)
   {
     if (ofMany)
     {
-      // A caster outside of the picture, with its shadow: the plate no longer ends where its map does, but within a texel. Half of one,
-      // 8e-3 across the plate, moves the shadow by a quarter more, and visibility by 0.02.
+      // A caster outside of the picture, with its shadow: the plate no longer ends where its map
+      // does, but within a texel. Half of one, 8e-3 across the plate, moves the shadow by a quarter
+      // more, and visibility by 0.02.
       this->scene.addBox({ 3.0, 5.0, 1.0 }, { 4.1, 6.0, 1.001 });
     }
     const VisibilityImages& kept = this->draw("montecarlo", { { "mc_filter", "0" } });
@@ -323,7 +328,8 @@ TEST_F(MonteCarlo, findsTheSameInBothHierarchies)
     this->scene.pass->SetSetting("map_size", size);
     this->scene.pass->SetSetting("mc_filter", "0");
     EXPECT_LT(difference(), 2e-5) << size;
-    // Bounds that decide a ray say where it is blocked as nearly as they know, which the filter goes by.
+    // Bounds that decide a ray say where it is blocked as nearly as they know, which the filter
+    // goes by.
     this->scene.pass->SetSetting("mc_filter", "5");
     EXPECT_LT(difference(), 2e-4) << size;
   }
@@ -397,7 +403,8 @@ TEST_F(MonteCarlo, shadowsBeginAtTheirCasters)
 //------------------------------------------------------------------------------
 TEST_F(MonteCarlo, bodiesAreSolidAlongTheLight)
 {
-  // Rays enter a tower by one side and leave it by another, neither of which a sun from straight above sees.
+  // Rays enter a tower by one side and leave it by another, neither of which a sun from straight
+  // above sees.
   this->scene.addFloor(2.0);
   this->scene.addBox({ -0.1, -0.1, 0.0 }, { 0.1, 0.1, 4.0 });
   this->scene.lookFrom({ 0.0, -4.0, 3.0 });
@@ -422,8 +429,8 @@ TEST_F(MonteCarlo, bodiesAreSolidAlongTheLight)
 }
 
 //------------------------------------------------------------------------------
-/// The points that rays begin at are drawn on the GPU, in view coordinates. Those of the CPU's receivers, which they are compared with, are
-/// the camera's rays' hits (ReceiversTest.cpp).
+/// The points that rays begin at are drawn on the GPU, in view coordinates. Those of the CPU's
+/// receivers, which they are compared with, are the camera's rays' hits (ReceiversTest.cpp).
 TEST_F(MonteCarlo, raysBeginWhereTheCamerasRaysEnd)
 {
   this->buildScene();
@@ -431,7 +438,8 @@ TEST_F(MonteCarlo, raysBeginWhereTheCamerasRaysEnd)
   const VisibilityImages& kept = this->draw("montecarlo", {});
   const vtkMatrix4x4* const view =
     this->scene.renderer->GetActiveCamera()->GetViewTransformMatrix();
-  /// The greatest distance of a pixel's point in an image from its receiver, over that from the camera.
+  /// The greatest distance of a pixel's point in an image from its receiver, over that from the
+  /// camera.
   const auto worstOf = [&](const std::vector<glm::vec4>& points)
   {
     double worst = 0.0;
@@ -496,7 +504,8 @@ TEST_F(MonteCarlo, raysBeginWhereTheCamerasRaysEnd)
 //------------------------------------------------------------------------------
 TEST_F(MonteCarlo, pointsBehindTheReceiverGiveWay)
 {
-  // Half of the lamp is below the floor, and what is above it is hidden behind a wall that stands on nothing.
+  // Half of the lamp is below the floor, and what is above it is hidden behind a wall that stands
+  // on nothing.
   this->scene.addFloor(6.0);
   this->scene.addBox({ -2.2, -4.0, 0.05 }, { -2.0, 4.0, 4.0 });
   this->scene.lookFrom({ 1.0, -8.0, 7.0 });
@@ -512,7 +521,8 @@ TEST_F(MonteCarlo, pointsBehindTheReceiverGiveWay)
 }
 
 //------------------------------------------------------------------------------
-/// Of meshes with triangles of a texel's size, the middle of a receiver's texel may be in a triangle that rises from its own.
+/// Of meshes with triangles of a texel's size, the middle of a receiver's texel may be in a
+/// triangle that rises from its own.
 TEST_F(MonteCarlo, smoothMeshesHaveNoDarkSpecks)
 {
   vtkNew<vtkPlaneSource> plane;
@@ -548,8 +558,8 @@ TEST_F(MonteCarlo, smoothMeshesHaveNoDarkSpecks)
 }
 
 //------------------------------------------------------------------------------
-/// The foot of a sheet lies in texels whose centres may see the ground before it. What that lets through is at most as wide as
-/// a texel, and half of that on the mean.
+/// The foot of a sheet lies in texels whose centres may see the ground before it. What that lets
+/// through is at most as wide as a texel, and half of that on the mean.
 TEST_F(MonteCarlo, sheetsThatStandOnTheGroundLeakATexelAtMost)
 {
   this->scene.addFloor(4.0);
@@ -593,7 +603,8 @@ TEST_F(MonteCarlo, sheetsThatStandOnTheGroundLeakATexelAtMost)
 }
 
 //------------------------------------------------------------------------------
-/// Of Curtis' thesis, figure 4.2: a box whose length lies along the light, of which a map sees the upper end only.
+/// Of Curtis' thesis, figure 4.2: a box whose length lies along the light, of which a map sees the
+/// upper end only.
 TEST_F(MonteCarlo, elongatedBoxesShadeWhatIsBelowThem)
 {
   this->scene.addFloor(7.0);
@@ -715,8 +726,9 @@ TEST_F(MonteCarlo, oneLayerHasOuterPenumbraeOnly)
 {
   this->buildHalfPlane();
   this->scene.renderer->AddLight(this->lamp);
-  // What is behind the first surface is in its shadow, wherever rays go from there. From the eye behind the light, 0.816 above it,
-  // that is x < 0.907, of which the lamp lights what is above 0.75.
+  // What is behind the first surface is in its shadow, wherever rays go from there. From the eye
+  // behind the light, 0.816 above it, that is x < 0.907, of which the lamp lights what is above
+  // 0.75.
   const VisibilityImages& kept =
     this->draw("montecarlo", { { "mc_layers", "near" }, { "mc_filter", "0" } });
   std::size_t inside = 0;
@@ -739,7 +751,8 @@ TEST_F(MonteCarlo, oneLayerHasOuterPenumbraeOnly)
 //------------------------------------------------------------------------------
 TEST_F(MonteCarlo, pureReceiversLeaveTheLayersAlone)
 {
-  // Between the nearest and the farthest surface all is solid: over a floor that casts, everything down to it.
+  // Between the nearest and the farthest surface all is solid: over a floor that casts, everything
+  // down to it.
   this->buildScene();
   this->scene.renderer->AddLight(this->lamp);
   const std::vector<float> truth = this->truth();
@@ -754,7 +767,8 @@ TEST_F(MonteCarlo, pureReceiversLeaveTheLayersAlone)
 //------------------------------------------------------------------------------
 TEST_F(MonteCarlo, eyeLayerEmptiesWhatTheCameraSeesToBeEmpty)
 {
-  // Two plates and a wall that joins them: a C that opens towards the camera and the lamp. Two layers hold it for a solid body.
+  // Two plates and a wall that joins them: a C that opens towards the camera and the lamp. Two
+  // layers hold it for a solid body.
   this->floor = this->scene.addFloor(4.0);
   vtkGnomonPropKeys::SetCasts(this->floor, false);
   this->scene.addBox({ -1.2, -1.0, 0.1 }, { 1.2, 1.0, 0.3 });

@@ -137,8 +137,8 @@ vtkSmartPointer<vtkPolyData> makeHollow()
   return hollow;
 }
 
-/// A ball and a hollow above a floor. Nothing stands on anything: of a floor on which a box stands, a
-/// pixel's only fragment may have its centre inside the box.
+/// A ball and a hollow above a floor. Nothing stands on anything: of a floor on which a box stands,
+/// a pixel's only fragment may have its centre inside the box.
 std::unique_ptr<PassScene> makeSurfaces(bool parallel)
 {
   auto scene = std::make_unique<PassScene>(400, 300);
@@ -193,8 +193,8 @@ TEST_P(Multisample, surfacesHaveNoSpecks)
 }
 
 //------------------------------------------------------------------------------
-/// A fine mesh, most of whose pixels have an edge in them, with contacts at which nsm itself is wrong
-/// within a texel.
+/// A fine mesh, most of whose pixels have an edge in them, with contacts at which nsm itself is
+/// wrong within a texel.
 TEST_F(PassTest, multisamplingGivesTheBunnyNoSpecks)
 {
   constexpr int size = 256;

@@ -85,8 +85,8 @@ protected:
     EXPECT_GT(changedOutside, 100u) << "no shadow";
   }
 
-  /// Adds an opaque blue volume in the shadows' way. It must look as without shadows, and everything
-  /// as without the pass when no light casts.
+  /// Adds an opaque blue volume in the shadows' way. It must look as without shadows, and
+  /// everything as without the pass when no light casts.
   void expectVolumeKept(vtkVolumeMapper* mapper)
   {
     vtkNew<vtkImageData> image;
@@ -231,8 +231,8 @@ TEST_P(Neighbours, translucentPropsKeepTheirColoursAndShowShadows)
     };
     const auto [behind, both] = draw(1.0f);
     const auto [behindIdle, bothIdle] = draw(0.0f);
-    // What the shader computes where the pane is, of techniques that work on the screen from the plain
-    // map: what every way must show.
+    // What the shader computes where the pane is, of techniques that work on the screen from the
+    // plain map: what every way must show.
     const gnomon::TechniqueInfo& info =
       gnomon::findTechnique(GetParam().technique)->estimator->info;
     this->scene.choose(

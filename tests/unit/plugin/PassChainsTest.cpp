@@ -198,8 +198,8 @@ TEST_P(PassChains, WithoutShadowsTheyDrawTheSame)
 }
 
 //------------------------------------------------------------------------------
-/// A pass that shades at another resolution inside the shadow pass: fine for functions of the point,
-/// refused for what is per pixel.
+/// A pass that shades at another resolution inside the shadow pass: fine for functions of the
+/// point, refused for what is per pixel.
 TEST_F(ChainedScene, SupersamplingInsideIsForFunctionsOfThePoint)
 {
   this->scene.pass->SetDelegatePass(around<vtkSSAAPass>(steps()));

@@ -136,7 +136,8 @@ struct FloorCheck
 /// one where the floor is not seen.
 using ExactFloor = std::function<double(const glm::dvec2&)>;
 
-/// The scene that most exact answers are known for: a box over a floor, under one sun at 45 degrees.
+/// The scene that most exact answers are known for: a box over a floor, under one sun at 45
+/// degrees.
 struct Box
 {
   glm::dvec3 lower;
@@ -150,8 +151,8 @@ extern const double slantingSunValue; ///< a lit floor pixel's
 /// Whether a box hides a floor point from straight above.
 bool isUnder(const glm::dvec2& floor, const Box& box);
 
-/// The floor of half side `extent` under one sun; nothing is asked of the box itself, nor beyond the
-/// floor.
+/// The floor of half side `extent` under one sun; nothing is asked of the box itself, nor beyond
+/// the floor.
 ExactFloor floorUnderSun(const Box& box, double extent, const glm::dvec3& direction = slantingSun,
   double value = slantingSunValue);
 
@@ -176,7 +177,8 @@ std::vector<double> columnMeans(const VisibilityImages& kept);
 /// Where a pixel's receiver is in the world; not a number where nothing is seen.
 glm::dvec3 positionOf(const VisibilityImages& kept, std::size_t pixel);
 
-/// The cosine between a pixel's normal and the way from there to a light; 0 where it is in the light.
+/// The cosine between a pixel's normal and the way from there to a light; 0 where it is in the
+/// light.
 double cosineTowards(const VisibilityImages& kept, std::size_t pixel, vtkLight* light);
 
 /// Of the pixels that face the first light by more than a cosine, those that are not fully lit.

@@ -73,8 +73,8 @@ INSTANTIATE_TEST_SUITE_P(Kernels, Pcf,
 //------------------------------------------------------------------------------
 TEST_P(Pcf, shadowsBeginWithinTheKernelsReachOfTheirCasters)
 {
-  // A wall on a floor, thinner than a texel, so that it casts with the face that is pushed back; its
-  // shadow begins at x = 0.1.
+  // A wall on a floor, thinner than a texel, so that it casts with the face that is pushed back;
+  // its shadow begins at x = 0.1.
   constexpr int mapSize = 512;
   const glm::dvec3 lower(0.099, -3.0, 0.0);
   const glm::dvec3 upper(0.1, 3.0, 2.0);
@@ -145,8 +145,8 @@ TEST_P(Pcf, edgesAreAsSmoothWhereTheMapEnds)
   }
   EXPECT_LT(pixelTexels, 1.0);
   EXPECT_EQ(lit(399), 1.0);
-  // A texel's column at a time, of Castano's kernel the middle one at most; of a disc, the points in
-  // it, which differ from place to place.
+  // A texel's column at a time, of Castano's kernel the middle one at most; of a disc, the points
+  // in it, which differ from place to place.
   const std::string name = GetParam().name;
   const double castano = GetParam().texels == 3 ? 2.0 / 4.0 : 16.0 / 52.0; // of 3 and of 7
   const double column = name == "poisson" ? 0.35
@@ -158,8 +158,8 @@ TEST_P(Pcf, edgesAreAsSmoothWhereTheMapEnds)
 //------------------------------------------------------------------------------
 TEST_F(PassTest, penumbrasGoOnAcrossTheEdgesOfALampsFaces)
 {
-  // A plate whose shadow on the floor ends at x = 3.98, and an edge between faces of the lamp's cube
-  // at x = 4. Nothing else casts, so that the plate is on one face only.
+  // A plate whose shadow on the floor ends at x = 3.98, and an edge between faces of the lamp's
+  // cube at x = 4. Nothing else casts, so that the plate is on one face only.
   PassScene scene(400, 40);
   vtkGnomonPropKeys::SetCasts(scene.addFloor(10.0), false);
   scene.addBox({ 1.0, -1.0, 2.0 }, { 1.99, 1.0, 2.001 });
@@ -190,8 +190,8 @@ TEST_F(PassTest, penumbrasGoOnAcrossTheEdgesOfALampsFaces)
 //------------------------------------------------------------------------------
 TEST_P(Pcf, steepCastersStayCastersForWhatLiesBehindAllOfThem)
 {
-  // A sheet that stands steeply in the light, and nothing else that casts: pushed back far beyond the
-  // end of the map's depths, it still hides the floor.
+  // A sheet that stands steeply in the light, and nothing else that casts: pushed back far beyond
+  // the end of the map's depths, it still hides the floor.
   for (const bool lamp : { false, true })
   {
     PassScene scene(300, 300);

@@ -168,8 +168,9 @@ TEST_F(Penumbra, ofAPointLightIsThatOfItsBall)
 //------------------------------------------------------------------------------
 TEST_F(Penumbra, asPublishedIsAShareOfTheConesMap)
 {
-  // Receivers at 10, blockers at 8: the filter's disk is a quarter of the light's width wide and a 16th more, in
-  // shares of a map of the whole cone, which is 2 tan(cone) wide at distance 1. The floor would darken itself.
+  // Receivers at 10, blockers at 8: the filter's disk is a quarter of the light's width wide and a
+  // 16th more, in shares of a map of the whole cone, which is 2 tan(cone) wide at distance 1. The
+  // floor would darken itself.
   vtkGnomonPropKeys::SetCasts(this->floor, false);
   this->scene.pass->SetTechnique("pcss");
   this->scene.pass->SetSetting("as_published", "on");
@@ -200,8 +201,9 @@ TEST_F(Penumbra, isSmootherFromPresetToPreset)
   for (const char* preset : { "low", "medium", "high" })
   {
     this->scene.pass->SetSetting("pcss_samples", preset);
-    // A column's pixels have one answer in truth. With one pattern for all of them they would have it
-    // here, too, in steps; with patterns that turn, steps become noise of less than a level in 30 (medium).
+    // A column's pixels have one answer in truth. With one pattern for all of them they would have
+    // it here, too, in steps; with patterns that turn, steps become noise of less than a level in
+    // 30 (medium).
     const VisibilityImages& kept = drawKept(this->scene);
     const auto at = [&](int x, int y)
     { return kept.visibility[0][static_cast<std::size_t>(y * kept.width + x)]; };
@@ -328,8 +330,8 @@ TEST_F(Pcss, isNearTheTruthUnderEveryLightAndProjection)
 }
 
 //------------------------------------------------------------------------------
-/// A large lamp above a floor, and a caster so high that the faces of the lamp's cube that see the floor below do not
-/// see it: what it hides of the lamp is found on other faces.
+/// A large lamp above a floor, and a caster so high that the faces of the lamp's cube that see the
+/// floor below do not see it: what it hides of the lamp is found on other faces.
 TEST_F(Pcss, castersOnOtherFacesOfTheCubeAreFound)
 {
   PassScene scene(100, 100);
@@ -362,8 +364,9 @@ TEST_F(Pcss, castersOnOtherFacesOfTheCubeAreFound)
 }
 
 //------------------------------------------------------------------------------
-/// A floor that casts nothing under a large lamp, and a screen that stands close beside the lamp: the face of the lamp's cube
-/// that sees most of the floor holds no casters, others are cut to the screen, which lies elsewhere on them.
+/// A floor that casts nothing under a large lamp, and a screen that stands close beside the lamp:
+/// the face of the lamp's cube that sees most of the floor holds no casters, others are cut to the
+/// screen, which lies elsewhere on them.
 TEST_F(Pcss, castersAreFoundFromFacesWithout)
 {
   struct Case
@@ -489,8 +492,8 @@ TEST_F(PcssAllAround, isNotFittedToTheCamera)
 }
 
 //------------------------------------------------------------------------------
-/// Salt and pepper of searches: one that takes a large area, because of a caster near the lamp, has few points where the
-/// edge of a low caster is found.
+/// Salt and pepper of searches: one that takes a large area, because of a caster near the lamp, has
+/// few points where the edge of a low caster is found.
 TEST_F(Pcss, searchesLeaveNoSpecks)
 {
   PassScene scene(200, 200);
@@ -523,8 +526,8 @@ TEST_F(Pcss, searchesLeaveNoSpecks)
 }
 
 //------------------------------------------------------------------------------
-/// A ball of light beside a screen, whose shadow goes over from one face of the lamp's cube to the next at x = 1: what visibility
-/// is off by is the same on both sides.
+/// A ball of light beside a screen, whose shadow goes over from one face of the lamp's cube to the
+/// next at x = 1: what visibility is off by is the same on both sides.
 TEST_F(Pcss, hasNoSeamsWhereFacesOfTheCubeMeet)
 {
   PassScene scene(100, 100);
@@ -555,7 +558,8 @@ TEST_F(Pcss, hasNoSeamsWhereFacesOfTheCubeMeet)
 }
 
 //------------------------------------------------------------------------------
-/// The shadow of a box that stands on the floor, where a ball close to the lamp hides a part of it, too.
+/// The shadow of a box that stands on the floor, where a ball close to the lamp hides a part of it,
+/// too.
 TEST_F(Pcss, contactsAreSeenInWidePenumbrae)
 {
   PassScene scene(200, 150);
@@ -606,8 +610,8 @@ TEST_F(Pcss, roundCastersHaveThePenumbraOfTheirRims)
 }
 
 //------------------------------------------------------------------------------
-/// How pixels come to their visibility: every one of a class, what bounds decide neither searched nor filtered, and the more
-/// filtered the larger the light.
+/// How pixels come to their visibility: every one of a class, what bounds decide neither searched
+/// nor filtered, and the more filtered the larger the light.
 TEST_F(Pcss, tellsWhatTheEarlyOutDecides)
 {
   PassScene scene(200, 150);
@@ -695,8 +699,8 @@ TEST_F(Pcss, fewLightLeaksGrowWithTheLight)
 }
 
 //------------------------------------------------------------------------------
-/// The shadow of a post that stands on the floor, under a sun at 45 degrees: its penumbrae are as wide as the way to the post
-/// makes them.
+/// The shadow of a post that stands on the floor, under a sun at 45 degrees: its penumbrae are as
+/// wide as the way to the post makes them.
 TEST_F(Pcss, shadowsHardenTowardsTheirContact)
 {
   PassScene scene(320, 320);
@@ -742,7 +746,8 @@ TEST_F(Pcss, shadowsHardenTowardsTheirContact)
 //------------------------------------------------------------------------------
 TEST_F(Pcss, contactsAreAsSharpAsTheMap)
 {
-  // A wall thinner than a texel on the floor, under a large sun: what is dark begins within two texels.
+  // A wall thinner than a texel on the floor, under a large sun: what is dark begins within two
+  // texels.
   PassScene scene(400, 400);
   scene.addFloor(4.0);
   scene.addBox({ 0.099, -3.0, 0.0 }, { 0.1, 3.0, 2.0 });

@@ -108,7 +108,8 @@ protected:
   }
 };
 
-/// A floor with a box that hangs over it, and one that lies on it and is as high: all planes show shadows.
+/// A floor with a box that hangs over it, and one that lies on it and is as high: all planes show
+/// shadows.
 constexpr int boxesPlanes = 11;
 void addBoxes(PassScene& scene)
 {
@@ -174,7 +175,8 @@ TEST_F(Planar, fromBelowTheFloorIsDark)
 //------------------------------------------------------------------------------
 TEST_F(Planar, lightsBelowCastersMakeNoShadowOfThem)
 {
-  // The light is between the box and the floor: projected through it the box would be an anti-shadow.
+  // The light is between the box and the floor: projected through it the box would be an
+  // anti-shadow.
   for (const double cone : { allDirections, 80.0 })
   {
     PassScene scene(300, 300);
@@ -227,7 +229,8 @@ TEST_F(Planar, castersThatStraddleTheFloorCastFromItUp)
 //------------------------------------------------------------------------------
 TEST_F(Planar, shadowsEndWhereTheirReceiverEnds)
 {
-  // Two floors, one above the other, and a round one: the upper one's shadow must not be seen on them.
+  // Two floors, one above the other, and a round one: the upper one's shadow must not be seen on
+  // them.
   PassScene scene(400, 400);
   scene.addFloor(1.0, 0.0);
   scene.addFloor(4.0, -2.0);
@@ -595,7 +598,8 @@ TEST_F(Planar, softShadowsAreTheMeanOfTracedSamples)
 }
 
 //------------------------------------------------------------------------------
-/// Of a lamp or a sun that a receiver's plane runs through, what is behind it gives way to what is opposite, as for rays.
+/// Of a lamp or a sun that a receiver's plane runs through, what is behind it gives way to what is
+/// opposite, as for rays.
 TEST_F(Planar, lightsThatTheirReceiversPlaneCutsAreWhatRaysSay)
 {
   for (const int kind : { 0, 1, 2 })

@@ -39,9 +39,9 @@ protected:
   }
 };
 
-/// Whether an edge of a shadow is near a point, by rays of its own: in what the light sees within so
-/// many texels of the point, on the point's plane, not all is lit or dark. (The edge need not be in
-/// the picture: it may lie behind something, or be thinner than a pixel.)
+/// Whether an edge of a shadow is near a point, by rays of its own: in what the light sees within
+/// so many texels of the point, on the point's plane, not all is lit or dark. (The edge need not be
+/// in the picture: it may lie behind something, or be thinner than a pixel.)
 class EdgeFinder
 {
 public:
@@ -173,8 +173,9 @@ TEST_F(PositionalLights, filtersHaveNoSeams)
     std::size_t smoothed = 0;
     for (std::size_t i = 0; i < traced.coverage.size(); ++i)
     {
-      // Far from edges the whole kernel is lit or dark (but for a texel of a face that the light only grazes, which is pushed far back). The bilinear one reaches 4 texels along the
-      // axes, and the edge may itself be a texel away from where the map has it.
+      // Far from edges the whole kernel is lit or dark (but for a texel of a face that the light
+      // only grazes, which is pushed far back). The bilinear one reaches 4 texels along the axes,
+      // and the edge may itself be a texel away from where the map has it.
       if (std::abs(filtered.visibility[0][i] - traced.visibility[0][i]) > 0.05f)
       {
         ++smoothed;

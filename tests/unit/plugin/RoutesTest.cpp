@@ -1,4 +1,5 @@
-// Both routes, on the built-in scenes and of all techniques, and scenes far away and of other sizes.
+// Both routes, on the built-in scenes and of all techniques, and scenes far away and of other
+// sizes.
 
 #include "PassScene.h"
 #include "Variant.h"

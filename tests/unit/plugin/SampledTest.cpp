@@ -121,7 +121,8 @@ struct SampledLight
 {
   const char* name;
   AddLight add;
-  /// What is seen of it from (x, 0, 0) past the edge x = 0, z = 2 of a half plane that lies at x < 0.
+  /// What is seen of it from (x, 0, 0) past the edge x = 0, z = 2 of a half plane that lies at x <
+  /// 0.
   std::function<double(double x)> exact = {};
 };
 
@@ -418,8 +419,8 @@ TEST_F(Sampled, takesBoundedMemory)
 }
 
 //------------------------------------------------------------------------------
-/// What of a program's uniforms takes room in the fragment shader: components, where each element of an array takes a vector of
-/// four, as hardware has it, and textures.
+/// What of a program's uniforms takes room in the fragment shader: components, where each element
+/// of an array takes a vector of four, as hardware has it, and textures.
 struct UniformRoom
 {
   int components = 0;
@@ -444,7 +445,8 @@ UniformRoom roomOf(GLuint program)
   return room;
 }
 
-/// OpenGL promises 1,024 components and 16 textures, which nine lights that see all around have to do with.
+/// OpenGL promises 1,024 components and 16 textures, which nine lights that see all around have to
+/// do with.
 TEST_F(Sampled, batchesFitIntoTheUniformsThatOpenGlPromises)
 {
   constexpr int promisedComponents = 1024;
@@ -530,7 +532,8 @@ bool hasEdgeBeside(const std::vector<float>& image, int width, std::size_t pixel
   return false;
 }
 
-/// A disk of light that refines by 8 points in each frame, and hard shadows of lights at each of these points.
+/// A disk of light that refines by 8 points in each frame, and hard shadows of lights at each of
+/// these points.
 class SampledPoints : public Sampled
 {
 protected:
@@ -570,8 +573,9 @@ protected:
 };
 
 //------------------------------------------------------------------------------
-/// Of the very same 512 points, what a frame adds is what rays to its points show, but where the shadows of these have an edge:
-/// a pixel may differ by as many points as have one beside it. Pixels are larger than texels.
+/// Of the very same 512 points, what a frame adds is what rays to its points show, but where the
+/// shadows of these have an edge: a pixel may differ by as many points as have one beside it.
+/// Pixels are larger than texels.
 TEST_F(SampledPoints, showWhatRaysToThemShowButAtEdges)
 {
   this->scene.window->SetSize(80, 60);
@@ -832,7 +836,8 @@ TEST_F(Sampled, refinesEachLight)
 // Hard cases
 //------------------------------------------------------------------------------
 
-/// What nothing is in the way of is lit in every frame, by lights above the floor, in it and cut by it, of any size.
+/// What nothing is in the way of is lit in every frame, by lights above the floor, in it and cut by
+/// it, of any size.
 TEST(SampledFloor, isNoCasterOnItself)
 {
   PassScene scene(60, 40);
@@ -843,7 +848,8 @@ TEST(SampledFloor, isNoCasterOnItself)
   set(scene, "map_size", 128);
   set(scene, "light_samples", 9);
   set(scene, "progressive", 4);
-  // Of a light that lies flat and is large and near, rounding lets no receiver face any point but the centre.
+  // Of a light that lies flat and is large and near, rounding lets no receiver face any point but
+  // the centre.
   for (const double height : { 3.0, 0.001, 0.0, -0.1 })
   {
     for (const glm::dvec3& travel : { glm::dvec3(-0.1, 1.0, 0.0), { 0.0, 0.0, -1.0 } })

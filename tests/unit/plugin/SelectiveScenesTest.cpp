@@ -1,5 +1,5 @@
-// selective and coherence through the pass, in built-in scenes: exact where they say so, and every pixel
-// has its class.
+// selective and coherence through the pass, in built-in scenes: exact where they say so, and every
+// pixel has its class.
 
 #include "BuiltinScenes.h"
 #include "Scene.h"
@@ -221,7 +221,8 @@ class SelectiveStages : public testing::TestWithParam<StageCase>
 {
 };
 
-// The first are closed, smooth and finely cut; the last is so finely that its triangles are smaller than texels.
+// The first are closed, smooth and finely cut; the last is so finely that its triangles are smaller
+// than texels.
 INSTANTIATE_TEST_SUITE_P(Builtin, SelectiveStages,
   testing::Values(StageCase{ "primitives", 1024, 0.69, 0.98, 0.985, 0.35, 0.61 },
     StageCase{ "primitives", 2048, 0.69, 0.98, 0.99, 0.35, 0.61 },

@@ -276,7 +276,8 @@ TEST_F(SoftCoherence, ofNoSizeIsHard)
     std::count_if(hard.begin(), hard.end(), [](float v) { return v != 0.0f && v != 1.0f; }), 0);
 }
 
-/// Points of the light below a floor say nothing of it: where the others are hidden, all of the light is.
+/// Points of the light below a floor say nothing of it: where the others are hidden, all of the
+/// light is.
 TEST_F(SoftCoherence, asksPointsThatTheReceiverFaces)
 {
   PassScene scene(100, 80);

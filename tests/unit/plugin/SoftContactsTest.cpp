@@ -1,4 +1,5 @@
-// Soft shadows where casters stand on their receiver: of techniques with maps, they begin at the contact.
+// Soft shadows where casters stand on their receiver: of techniques with maps, they begin at the
+// contact.
 
 #include "PassScene.h"
 
@@ -28,8 +29,8 @@ INSTANTIATE_TEST_SUITE_P(Techniques, SoftContacts, testing::Values("pcss", "samp
   [](const testing::TestParamInfo<const char*>& technique)
   { return std::string(technique.param); });
 
-/// A box and a wall that is thinner than a texel, aslant to the map's rows. Behind them the floor sees nothing of the light, which is
-/// large, as far as 0.22.
+/// A box and a wall that is thinner than a texel, aslant to the map's rows. Behind them the floor
+/// sees nothing of the light, which is large, as far as 0.22.
 TEST_P(SoftContacts, areDarkBeyondTwoTexels)
 {
   const double turnDegrees = 20.0;

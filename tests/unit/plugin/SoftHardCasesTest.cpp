@@ -1,6 +1,6 @@
-// Techniques with soft shadows under area lights and on scenes that break such: the numbers stay finite, OpenGL has
-// nothing to complain about, and the visibility differs from the ray-traced one by no more than is stated here and in
-// docs/techniques/soft.md.
+// Techniques with soft shadows under area lights and on scenes that break such: the numbers stay
+// finite, OpenGL has nothing to complain about, and the visibility differs from the ray-traced one
+// by no more than is stated here and in docs/techniques/soft.md.
 
 #include "PassScene.h"
 
@@ -48,7 +48,8 @@ void addSheet(PassScene& scene, const glm::dvec2& lower, const glm::dvec2& upper
   scene.add(sheet);
 }
 
-/// A box that stands on a slab and a sphere that hangs over it, `unit` times as large as elsewhere and moved by `offset`.
+/// A box that stands on a slab and a sphere that hangs over it, `unit` times as large as elsewhere
+/// and moved by `offset`.
 void addThings(PassScene& scene, double unit = 1.0, const glm::dvec3& offset = glm::dvec3(0.0))
 {
   const auto place = [&](double x, double y, double z)
@@ -117,7 +118,8 @@ struct Bound
 /// The techniques with a map whose shadows are soft.
 constexpr const char* mapTechniques[] = { "pcss", "montecarlo", "sampled", "coherence" };
 
-/// Of lamps that lie in a caster: what such are on one side of, rounding says. Visibility is to be finite, no more.
+/// Of lamps that lie in a caster: what such are on one side of, rounding says. Visibility is to be
+/// finite, no more.
 constexpr Bound anything{ 1.0, 120 * 90 };
 
 struct SoftCase
@@ -135,8 +137,8 @@ const std::vector<SoftCase>& softCases()
       overThings([](PassScene& scene) { return addDisk(scene, over, down, 0.5); }) },
     { "zeroSize", 0.0002, { { 0.0005, 0 }, { 0.0005, 0 }, { 0.0005, 0 }, { 0.0002, 0 } },
       overThings([](PassScene& scene) { return addDisk(scene, over, down, 0.0); }) },
-    // The hard shadow's edges are off by texels' shares: by 0.0002 to 0.0019 as the map lies, and by the mean of that where, of
-    // "sampled", it lies in many ways.
+    // The hard shadow's edges are off by texels' shares: by 0.0002 to 0.0019 as the map lies, and
+    // by the mean of that where, of "sampled", it lies in many ways.
     { "tinySun", 0.0002, { { 0.0009, 0 }, { 0.0009, 0 }, { 0.0013, 0 }, { 0.0002, 0 } },
       overThings([](PassScene& scene) { return addSun(scene, slantingSoftly, "1e-6"); }) },
     // On the box's top, in it and close to it; around, in and at casters.
@@ -299,7 +301,8 @@ const std::vector<SoftCase>& softCases()
         scene.lookFrom({ 0.0, -9.0, 7.0 });
         return addBall(scene, { 0.0, 0.0, 2.0 }, "0.15");
       } },
-    // Faces of the lamp's cube that hold no casters, and others that are cut to a screen beside the lamp.
+    // Faces of the lamp's cube that hold no casters, and others that are cut to a screen beside the
+    // lamp.
     { "floorThatCastsNothing", 0.0076,
       { { 0.009, 0 }, { 0.0081, 0 }, { 0.0088, 0 }, { 0.0093, 0 } },
       [](PassScene& scene)
@@ -494,8 +497,8 @@ TEST(SoftReceivers, thatSeeAllOfTheLightHaveNoAcne)
 }
 
 //------------------------------------------------------------------------------
-/// Across the penumbra of a half plane: along lines on which the truth is the same, the mean visibility falls from
-/// column to column without steps, which would show as bands.
+/// Across the penumbra of a half plane: along lines on which the truth is the same, the mean
+/// visibility falls from column to column without steps, which would show as bands.
 TEST(SoftPenumbras, haveNoBandsByDefault)
 {
   PassScene scene(200, 100);

@@ -76,8 +76,8 @@ protected:
     this->pass_->SetSetting("light_seed", "0");
   }
 
-  /// Holds the mean absolute error to a bound, against rays to 1,024 other points of the light, over the pixels that face it; and
-  /// to a share of the hard shadow's, which may be small, too.
+  /// Holds the mean absolute error to a bound, against rays to 1,024 other points of the light,
+  /// over the pixels that face it; and to a share of the hard shadow's, which may be small, too.
   tool::VisibilityError expectNearTheTruth(
     const char* technique, const SceneSettings& settings, double bound)
   {
@@ -151,7 +151,8 @@ private:
 };
 
 //------------------------------------------------------------------------------
-/// A cube over a sphere over a plane, three panels, stacked plates, an elongated cube, the bunny, the atrium.
+/// A cube over a sphere over a plane, three panels, stacked plates, an elongated cube, the bunny,
+/// the atrium.
 using SoftScenes = SoftSceneTest;
 
 INSTANTIATE_TEST_SUITE_P(Builtin, SoftScenes,
@@ -180,7 +181,8 @@ using SoftStack = SoftSceneTest;
 INSTANTIATE_TEST_SUITE_P(
   Builtin, SoftStack, testing::Values(SoftScene{ "soft-stack" }), nameOfScene);
 
-/// The sphere from near by; its left half is dimmed by a part of the cube's penumbra (Apelles, figure 5.6).
+/// The sphere from near by; its left half is dimmed by a part of the cube's penumbra (Apelles,
+/// figure 5.6).
 TEST_P(SoftStack, dimsTheSphereAsRaysDoAndPcssLessWell)
 {
   tool::Scene scene = tool::loadScene(GetParam().name);
@@ -236,14 +238,15 @@ TEST_P(SoftScenesOnGrounds, filteredRaysThroughTwoLayersAreNearTheTruthWhereThey
 // Half a plane over a plane
 //------------------------------------------------------------------------------
 
-/// What is seen from (x, 0, z) of a sun of this angle past the edge of the scene `half-plane`, which is at x = 0, y = 2.5.
+/// What is seen from (x, 0, z) of a sun of this angle past the edge of the scene `half-plane`,
+/// which is at x = 0, y = 2.5.
 double halfPlaneAt(double x, double degrees)
 {
   const double height = 2.5;
   const glm::dvec3 toSun =
     glm::normalize(glm::dvec3(-tool::halfPlaneShadowEdge / height, 1.0, 0.3));
-  // A ray along r is at x + height r.x / r.y where it is as high as the edge. So those to the points of the sun, one unit away,
-  // pass it on one side of a line.
+  // A ray along r is at x + height r.x / r.y where it is as high as the edge. So those to the
+  // points of the sun, one unit away, pass it on one side of a line.
   const glm::dvec3 across(height, x, 0.0);
   const double along = glm::dot(across, toSun);
   const double radii =
@@ -269,7 +272,8 @@ TEST(SoftHalfPlane, montecarloLeavesThePenumbraAsWideAsItIs)
     window->SetSize(side, side);
     window->Render();
     const VisibilityImages& kept = pass->GetVisibility();
-    // Sums of what comes of the edge beyond the hard shadow's, by how far: as the square of the penumbra's width.
+    // Sums of what comes of the edge beyond the hard shadow's, by how far: as the square of the
+    // penumbra's width.
     double spread = 0.0;
     double exactSpread = 0.0;
     std::array<double, 10> offBy{}; // sums, by what is to be seen

@@ -1,5 +1,5 @@
-// Nothing stale is ever shown: after any sequence of changes a pass that has drawn all of them shows
-// what a new pass shows, to the last bit.
+// Nothing stale is ever shown: after any sequence of changes a pass that has drawn all of them
+// shows what a new pass shows, to the last bit.
 //
 // The first sequences run with every test. More of them on demand, by the environment variables
 // GNOMON_SEQUENCES (how many) and GNOMON_FIRST_SEQUENCE (where to begin).

@@ -348,7 +348,8 @@ TEST_F(NoCastingLight, numbersThatGiveNoLight)
 }
 
 //------------------------------------------------------------------------------
-/// A light whose settings make no sense takes the whole frame's shadows, but nothing that lights have kept.
+/// A light whose settings make no sense takes the whole frame's shadows, but nothing that lights
+/// have kept.
 TEST_F(PassTest, aLightThatCannotBeServedLeavesAllMapsAsTheyAre)
 {
   PassScene scene(200, 150);
@@ -472,8 +473,8 @@ TEST(OptionalMaps, thatAreFittedOnceNeedNoCameraThatRests)
 }
 
 //------------------------------------------------------------------------------
-/// Translucent surfaces show a plain map, to which it is nothing what the exact one beside it awaits: it is drawn at once, and
-/// goes on with the view that it was fitted to first.
+/// Translucent surfaces show a plain map, to which it is nothing what the exact one beside it
+/// awaits: it is drawn at once, and goes on with the view that it was fitted to first.
 TEST(OptionalMaps, leaveThePlainMapBesideThemAsItIs)
 {
   constexpr int mapSize = 64; // so coarse that pictures show where a view is

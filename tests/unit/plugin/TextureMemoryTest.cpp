@@ -57,7 +57,8 @@ struct MapsOf
   const char* name;
   Way way;
   std::vector<std::pair<const char*, const char*>> settings;
-  /// What the error goes on with; anything where that depends on which of several images has no room.
+  /// What the error goes on with; anything where that depends on which of several images has no
+  /// room.
   const char* asks;
 };
 std::ostream& operator<<(std::ostream& stream, const MapsOf& maps)
@@ -167,7 +168,8 @@ TEST_F(TextureMemory, oneLightOfSeveralIsNamed)
 }
 
 //------------------------------------------------------------------------------
-/// The centre's map has room, those of the light's other points have none when the picture is drawn.
+/// The centre's map has room, those of the light's other points have none when the picture is
+/// drawn.
 TEST_F(TextureMemory, mapsThatAreDrawnWithThePictureNameTheirLight)
 {
 #ifdef __SANITIZE_ADDRESS__

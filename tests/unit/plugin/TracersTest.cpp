@@ -84,8 +84,8 @@ std::int64_t rays(const Traced& frame)
   return count;
 }
 
-/// Whether a pixel's visibility changes as all lights move by a millionth of the scene: its ray passes an edge to
-/// within rounding.
+/// Whether a pixel's visibility changes as all lights move by a millionth of the scene: its ray
+/// passes an edge to within rounding.
 bool isUndecided(vtkGnomonShadowPass* pass, vtkRenderWindow* window, std::size_t light,
   std::size_t pixel, float visibility)
 {
@@ -121,7 +121,8 @@ bool isUndecided(vtkGnomonShadowPass* pass, vtkRenderWindow* window, std::size_t
   return changes;
 }
 
-/// Expects the GPU to say what Embree says, but for a ray in a million, and one, that pass an edge to within rounding.
+/// Expects the GPU to say what Embree says, but for a ray in a million, and one, that pass an edge
+/// to within rounding.
 void expectToAgree(
   vtkGnomonShadowPass* pass, vtkRenderWindow* window, const Traced& byGpu, const Traced& byEmbree)
 {
@@ -141,8 +142,8 @@ void expectToAgree(
   }
 }
 
-/// Expects all exact techniques to show on the GPU what is traced there, to the last bit, and that to be what
-/// Embree says.
+/// Expects all exact techniques to show on the GPU what is traced there, to the last bit, and that
+/// to be what Embree says.
 void expectTheSame(vtkGnomonShadowPass* pass, vtkRenderWindow* window)
 {
   pass->SetSetting("bake", "always");
@@ -332,7 +333,8 @@ TEST_F(Tracers, changeBackAndForthAndLeaveNothingBehind)
     this->render(embree);
     EXPECT_EQ(this->report().bvhBuilds, 0);
   }
-  // What the snapshot's vertices take on the GPU stays, as it does after a map: two buffers and what draws them.
+  // What the snapshot's vertices take on the GPU stays, as it does after a map: two buffers and
+  // what draws them.
   EXPECT_GT(liveOnGpu.buffers, countLiveObjects(this->scene.window).buffers + 6);
   EXPECT_LE(countLiveObjects(this->scene.window).buffers, live.buffers + 3);
 }

@@ -1,5 +1,5 @@
-// Windows of all kinds: the shadow is where the sun and the box put it, whatever the window's shape,
-// however it is cut up, and whoever owns it.
+// Windows of all kinds: the shadow is where the sun and the box put it, whatever the window's
+// shape, however it is cut up, and whoever owns it.
 
 #include "PassScene.h"
 

@@ -82,7 +82,8 @@ struct Penumbra
 {
   std::string name;
   ShadowLight light;
-  /// What is seen of it from (x, 0, 0) past the edge x = 0, z = 2 of a half plane that lies at x < 0.
+  /// What is seen of it from (x, 0, 0) past the edge x = 0, z = 2 of a half plane that lies at x <
+  /// 0.
   std::function<double(double x)> exact;
 };
 
@@ -147,7 +148,8 @@ private:
   std::size_t width_;
 };
 
-/// Traces an area light's samples in parts, as a tracer does that has room for no more, by rays that nothing stops.
+/// Traces an area light's samples in parts, as a tracer does that has room for no more, by rays
+/// that nothing stops.
 class TracerInParts : public ShadowTracer
 {
 public:
@@ -338,7 +340,8 @@ TEST(AreaShadows, ofALightInGeometryAndOfThinSheetsAreFinite)
   }
 }
 
-/// A convex body shows no shadow on itself that its plain shading does not: no acne at any of its facets.
+/// A convex body shows no shadow on itself that its plain shading does not: no acne at any of its
+/// facets.
 TEST(AreaShadows, ofABodyOnItselfAreOnlyWhereTheCentreIsHidden)
 {
   const Occluders occluders =

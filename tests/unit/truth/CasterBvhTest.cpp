@@ -1,4 +1,5 @@
-// The tree that the GPU walks: that everything is in it once, in boxes that hold it, and what updates do.
+// The tree that the GPU walks: that everything is in it once, in boxes that hold it, and what
+// updates do.
 
 #include "shadowtech/tracing/CasterBvh.h"
 

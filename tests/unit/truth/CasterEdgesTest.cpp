@@ -211,7 +211,8 @@ void turnSurface(Occluders& occluders, std::size_t index, Random& random)
     [&](const glm::dvec3& point) { return glm::dvec3(turned * glm::dvec4(point, 1.0)); });
 }
 
-/// That edges, seams and parts which have been kept are those that would be found anew, number by number.
+/// That edges, seams and parts which have been kept are those that would be found anew, number by
+/// number.
 void expectAsFoundAnew(
   const CasterEdges& kept, const Occluders& occluders, const std::string& after)
 {
@@ -597,7 +598,8 @@ TEST(CasterSeams, areSharpAtCornersWhereAnyTwoOfTheSurfacesAreTooFarApart)
       EXPECT_EQ(count, 2 * slopes.size()) << widest;
       ++sharp;
     }
-    // A circle around points that are so far apart need not be larger (Jung's theorem), nor one that is not the least.
+    // A circle around points that are so far apart need not be larger (Jung's theorem), nor one
+    // that is not the least.
     else if (widest < 30.0)
     {
       EXPECT_EQ(count, 0u) << widest;

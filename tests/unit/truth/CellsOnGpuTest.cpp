@@ -1,5 +1,5 @@
-// Conservative maps drawn on the GPU: their cells are those of the CPU, to the last bit, whatever is drawn, and hold what
-// separating axes say of each texel.
+// Conservative maps drawn on the GPU: their cells are those of the CPU, to the last bit, whatever
+// is drawn, and hold what separating axes say of each texel.
 
 #include "shadowtech/exact/CellsOnGpu.h"
 
@@ -331,7 +331,8 @@ void subdivide(Occluders& occluders)
   }
 }
 
-/// Of a band of rows the CPU keeps so many triangles for their noise, and looks at the others again.
+/// Of a band of rows the CPU keeps so many triangles for their noise, and looks at the others
+/// again.
 TEST_F(CellsDrawnOnGpu, areThoseOfTheCpuWhereManyTrianglesLieInABand)
 {
   RandomPicture picture = makeRandomPicture("touching boxes", 3);

@@ -117,7 +117,8 @@ TEST_P(ConservativeMapsIn, areNeverWrong)
             << " % of " << sum.receivers << std::endl;
 }
 
-/// The same maps with one of their two answers alone: what they call lit, or what they call in shadow.
+/// The same maps with one of their two answers alone: what they call lit, or what they call in
+/// shadow.
 MapRule onlyOf(Certainty answer, const MapRule& rule)
 {
   return [answer, rule](const LightView& view, bool hasBox, int sizeTexels,
@@ -163,7 +164,8 @@ class ConservativeMapsBy : public testing::TestWithParam<Covering>
 
 TEST_P(ConservativeMapsBy, neverCallAReceiverBothLitAndInShadow)
 {
-  // Each answer is asked for by itself: a map that says lit does not look whether it would say shadow, too.
+  // Each answer is asked for by itself: a map that says lit does not look whether it would say
+  // shadow, too.
   const MapRule rule = certainRule(GetParam());
   std::size_t both = 0, lit = 0, shadow = 0, other = 0;
   for (const char* name : randomSceneNames())
@@ -359,8 +361,8 @@ TEST_P(Valley, isNeverWrongInItsBottom)
 
 TEST_P(Valley, isNeverWrongWhereManySidesMeetInACorner)
 {
-  // Two steep sides, and two thin wedges between them that are less steep: each is flat enough against its neighbours,
-  // but the steep sides are not against each other, and meet in the corner.
+  // Two steep sides, and two thin wedges between them that are less steep: each is flat enough
+  // against its neighbours, but the steep sides are not against each other, and meet in the corner.
   for (const double halfWedge : { 0.01, 0.03, 0.1 })
   {
     const double steep = std::tan(glm::radians(55.0));
@@ -431,8 +433,8 @@ TEST(ConservativeMaps, knowNothingOfLinesWhoseRaysMayStartAboveASheet)
 
 TEST(ConservativeMaps, areNeverWrongWhereEdgesLieOnTexelsBorders)
 {
-  // A row of plates whose edges lie exactly between texels, high above receivers that lie there, too. The
-  // light's direction is rounded for shadow rays, which counts over the distance.
+  // A row of plates whose edges lie exactly between texels, high above receivers that lie there,
+  // too. The light's direction is rounded for shadow rays, which counts over the distance.
   ShadowLight light = directionalLight({ 0.3, -0.2, -1.0 });
   light.mapSizeTexels = 64;
   const std::vector<Prop> corners{ { makeBox(glm::dvec3(-500.0), glm::dvec3(-499.0)) },
@@ -484,9 +486,10 @@ TEST(ConservativeMaps, areNeverWrongWhereEdgesLieOnTexelsBorders)
 
 TEST_P(ConservativeMapsBy, areNeverWrongWhereDepthHardlyChangesFarFromALamp)
 {
-  // Depth runs as -1 / z from where the map begins, at the lamp if that is among the casters: farther off it hardly
-  // changes. What is far away moves the origin off, so that what is computed from places is rounded by more than that.
-  // Small plates have their ends all over the floor, so that little but its own triangle says anything of it.
+  // Depth runs as -1 / z from where the map begins, at the lamp if that is among the casters:
+  // farther off it hardly changes. What is far away moves the origin off, so that what is computed
+  // from places is rounded by more than that. Small plates have their ends all over the floor, so
+  // that little but its own triangle says anything of it.
   const MapRule rule = certainRule(GetParam());
   Random random(4);
   Tally sum, seen;
@@ -538,7 +541,8 @@ TEST_P(ConservativeMapsBy, areNeverWrongWhereDepthHardlyChangesFarFromALamp)
 
 TEST(ConservativeMaps, areNeverWrongWhereCastersTouchTheLight)
 {
-  // A lamp that lies in the ceiling, and a box of light that begins in a plate, where rays end to within rounding.
+  // A lamp that lies in the ceiling, and a box of light that begins in a plate, where rays end to
+  // within rounding.
   const glm::dmat4 turn = glm::rotate(glm::dmat4(1.0), 0.3, { 1.0, 0.5, 0.2 });
   for (const glm::dmat4& world : { glm::dmat4(1.0), turn })
   {
@@ -573,7 +577,8 @@ TEST(ConservativeMaps, areNeverWrongWhereCastersTouchTheLight)
   }
 }
 
-/// All pixels of a picture show the first triangle, as if they were pieces of it, wherever their rays pass.
+/// All pixels of a picture show the first triangle, as if they were pieces of it, wherever their
+/// rays pass.
 View viewOfFirstTriangle(const Occluders& occluders, const Camera& camera)
 {
   View view = makeView(occluders, camera);
@@ -614,8 +619,9 @@ Mesh makeRingOfTriangles(const glm::dvec3& place, Random& random)
 
 TEST(ConservativeMaps, areNeverWrongAboutTrianglesThatALampIsBeside)
 {
-  // Far from the origin, so that it is rounding that says on which side of a triangle's plane the lamp is. Maps say how
-  // much that is, where there are any: not without casters, or where none of them is in the cone.
+  // Far from the origin, so that it is rounding that says on which side of a triangle's plane the
+  // lamp is. Maps say how much that is, where there are any: not without casters, or where none of
+  // them is in the cone.
   Random random(7);
   Camera camera;
   camera.width = camera.height = 128;
@@ -650,7 +656,8 @@ TEST(ConservativeMaps, areNeverWrongAboutTrianglesThatALampIsBeside)
 
 TEST(ConservativeMaps, areNeverWrongOfPixelsWhoseRaysStartAboveASheet)
 {
-  // The larger the pixel, the farther off a triangle's edge does its ray start: above the sheet over it, at last.
+  // The larger the pixel, the farther off a triangle's edge does its ray start: above the sheet
+  // over it, at last.
   const Mesh triangle = oneTriangle({ -0.2, -0.2, 0.0 }, { 2.2, -0.1, 0.0 }, { -0.1, 0.2, 0.0 });
   constexpr int size = 16;
   constexpr double side = 8.0;
@@ -670,7 +677,8 @@ TEST(ConservativeMaps, areNeverWrongOfPixelsWhoseRaysStartAboveASheet)
   Tally sum;
   for (const double texels : { 0.3, 0.5, 0.7, 1.1, 1.25, 1.5, 2.0, 4.0 })
   {
-    // No ray may start farther beside its receiver than 1/256 of a texel; seen from above, it starts so far up.
+    // No ray may start farther beside its receiver than 1/256 of a texel; seen from above, it
+    // starts so far up.
     const Occluders occluders = makeOccluders(
       { { triangle }, { makePlane(side, 4), at({ 0.0, 0.0, texels * texel / 256.0 }) } });
     for (Camera camera : cameras)
@@ -716,8 +724,8 @@ TEST(ConservativeMaps, areNeverWrongOfTrianglesWhoseRoundingIsMoreThanTheSheetAb
 
 TEST(ConservativeMaps, areNeverWrongWhereTrianglesTouchTheConeOrTheBox)
 {
-  // Far from the origin, with a corner in the cone's or the box's side, so that rounding says whether the light reaches
-  // it; or well inside, so that maps decide it.
+  // Far from the origin, with a corner in the cone's or the box's side, so that rounding says
+  // whether the light reaches it; or well inside, so that maps decide it.
   const glm::dvec3 lamp(1000.4, 1000.3, 1000.9);
   const Prop opposite{ makeBox(-lamp - 1.0, -lamp), glm::dmat4(1.0), false };
   const Prop ground{ makePlane(320.0), at(lamp - glm::dvec3(0.0, 0.0, 160.0)) };
@@ -766,8 +774,8 @@ TEST(ConservativeMaps, areNeverWrongWhereTrianglesTouchTheConeOrTheBox)
 
 TEST(ConservativeMaps, areNeverWrongOfWhatDoesNotCastOrOnOneSide)
 {
-  // It is not a layer of the map, so that the nearest one is above it. The plate lies in the middle of the scene, where
-  // it has no rounding, as if all rays started far off it.
+  // It is not a layer of the map, so that the nearest one is above it. The plate lies in the middle
+  // of the scene, where it has no rounding, as if all rays started far off it.
   const Prop plate{ makePlane(1.5), at({ 0.0, 0.0, 0.5 }) };
   const Prop tower{ makeBox({ 2.0, 2.0, 0.9 }, { 2.5, 2.5, 1.0 }) };
   ShadowLight light = directionalLight({ 0.1, 0.2, -1.0 });
@@ -795,7 +803,8 @@ TEST(ConservativeMaps, areNeverWrongOfWhatDoesNotCastOrOnOneSide)
 
 TEST(ConservativeMaps, areNeverWrongInTheLastTexels)
 {
-  // Plates that reach over a map's borders, and lines of receivers that end there. Halves of these sides are odd.
+  // Plates that reach over a map's borders, and lines of receivers that end there. Halves of these
+  // sides are odd.
   const Bounds seen{ { -1.0, -1.0, -0.5 }, { 1.0, 1.0, 0.5 } };
   ShadowLight light = directionalLight({ 0.0, 0.0, -1.0 });
   Camera camera;

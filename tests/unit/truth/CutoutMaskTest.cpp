@@ -99,8 +99,8 @@ TEST(CutoutMask, AgreesWithTheFilteredAlpha)
   }
 }
 
-// Interpolated, alpha is 0 at a texel's centre only if the texel's is, and along the line between the
-// centres of empty texels.
+// Interpolated, alpha is 0 at a texel's centre only if the texel's is, and along the line between
+// the centres of empty texels.
 TEST(CutoutMask, TexelsWithoutWeightDoNotCount)
 {
   const CutoutMask mask = makeMask(TextureWrap::ClampToEdge, true);

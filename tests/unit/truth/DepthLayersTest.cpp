@@ -103,8 +103,8 @@ public:
                                        : (depth - this->view_.depthOffset) / this->view_.depthScale;
   }
 
-  /// What a texel's ray meets, in its order; nothing where the picture of a corner that is drawn a bit beside its place,
-  /// as rasterisers may, would be another.
+  /// What a texel's ray meets, in its order; nothing where the picture of a corner that is drawn a
+  /// bit beside its place, as rasterisers may, would be another.
   std::optional<std::vector<Hit>> hits(int x, int y) const
   {
     const glm::dvec2 centre(x + 0.5, y + 0.5);
@@ -182,7 +182,8 @@ private:
   std::vector<std::vector<glm::dvec2>> slabs_;
 };
 
-/// Corners are drawn to within 1/256 of a texel, and depths are rounded: a small part of what a plane spans in the texel.
+/// Corners are drawn to within 1/256 of a texel, and depths are rounded: a small part of what a
+/// plane spans in the texel.
 double tolerance(const Hit& hit)
 {
   return hit.span / 100.0 + 4e-6;
@@ -275,8 +276,9 @@ TEST_F(DepthLayersTest, endAtTheLastSurfaceAndWhatItSpans)
 }
 
 //------------------------------------------------------------------------------
-/// How deep at most what ends at a surface of a texel is solid. A sheet spans the texel; a body whose front spans more than the body is
-/// thick goes on to that front's depths in the texels beside it.
+/// How deep at most what ends at a surface of a texel is solid. A sheet spans the texel; a body
+/// whose front spans more than the body is thick goes on to that front's depths in the texels
+/// beside it.
 double reachOf(const Layers& layers, int x, int y, const std::vector<Hit>& hits, std::size_t i)
 {
   double reach = hits[i].depth + hits[i].span;

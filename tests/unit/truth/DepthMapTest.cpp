@@ -1,4 +1,5 @@
-// What a depth map holds, read back: its metrics, biases and surfaces, and the pyramid of its bounds.
+// What a depth map holds, read back: its metrics, biases and surfaces, and the pyramid of its
+// bounds.
 
 #include "EstimatorGlsl.h"
 #include "SyntheticScene.h"
@@ -73,8 +74,8 @@ using DepthMap = GlslTest;
 
 TEST_F(DepthMap, euclideanDepthIsTheDistanceWhateverNearAndFarAre)
 {
-  // A sheet across the axis, so that nothing is pushed back in the linear metric; and far casters that
-  // move the far plane.
+  // A sheet across the axis, so that nothing is pushed back in the linear metric; and far casters
+  // that move the far plane.
   for (const double farther : { 0.0, 10.0, 1000.0 })
   {
     for (const DepthSurface surface : { DepthSurface::First, DepthSurface::Second })

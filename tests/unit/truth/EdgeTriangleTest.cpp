@@ -38,7 +38,8 @@ struct Known
     }
     return reach;
   }
-  /// What T, or N . D for a direction in place of the reach, is off by at most: 11u (r_x YZ + r_y ZX + r_z XY).
+  /// What T, or N . D for a direction in place of the reach, is off by at most: 11u (r_x YZ + r_y
+  /// ZX + r_z XY).
   double rounding(const glm::dvec3& reach) const
   {
     const glm::dvec3& e = this->extent;
@@ -59,7 +60,8 @@ struct Known
   }
 };
 
-/// Triangles of all shapes, slivers among them, all around the middle of coordinates, and far from it.
+/// Triangles of all shapes, slivers among them, all around the middle of coordinates, and far from
+/// it.
 void forEachTriangle(const std::function<void(const Known&)>& visit)
 {
   for (const double away : { 0.0, 20.0 })
@@ -118,7 +120,8 @@ Found findInFloat(const Known& known, const glm::vec3& start, const glm::vec3& d
   return { glm::dot(a, normal), glm::dot(normal, direction) };
 }
 
-/// A number within [-most, most] that is more often small: what rounding comes to is mostly far from its bound.
+/// A number within [-most, most] that is more often small: what rounding comes to is mostly far
+/// from its bound.
 double mostlySmall(Random& random, double most)
 {
   return most * std::pow(uniform(random, -1.0, 1.0), 3);
@@ -146,7 +149,8 @@ void tryRay(const Known& known, const glm::vec3& start, const glm::vec3& directi
   tried.turned += meets && behind * along < 0.0 ? 1 : 0;
 }
 
-/// Starts in a triangle's box and within some roundings of its plane, with rays that go away from that.
+/// Starts in a triangle's box and within some roundings of its plane, with rays that go away from
+/// that.
 TEST(EdgeTriangle, isNotLeftWhereRoundingMayPutAStartOnItsOtherSide)
 {
   Random random(1);

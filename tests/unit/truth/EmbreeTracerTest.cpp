@@ -391,12 +391,12 @@ TEST(EmbreeTracer, SurfacesAreWatertight)
 /// triangles around it when the signs of all its edges, six here, come out the same, which rounding
 /// can bring about. By chance that is 2 in 64 of the rays so near that every sign is rounding's.
 ///
-/// How near: an edge's sign is that of (e x s) . D with e = b - a, s = a + b, a and b less the ray's
-/// origin. In units of u |e| |s| |D|, u = 2^-24, the roundings of a and b cost 2 in e's and s's
-/// direction each, those of e and s 1 each, the cross product 3, the dot product 3: less than 12.
-/// The volume is |e| |D| times twice the distance from the edge, so rounding decides within 12 u L,
-/// where L is the distance from the ray's origin to the corner; where edges meet at less than a
-/// right angle, somewhat farther.
+/// How near: an edge's sign is that of (e x s) . D with e = b - a, s = a + b, a and b less the
+/// ray's origin. In units of u |e| |s| |D|, u = 2^-24, the roundings of a and b cost 2 in e's and
+/// s's direction each, those of e and s 1 each, the cross product 3, the dot product 3: less than
+/// 12. The volume is |e| |D| times twice the distance from the edge, so rounding decides within 12
+/// u L, where L is the distance from the ray's origin to the corner; where edges meet at less than
+/// a right angle, somewhat farther.
 TEST(EmbreeTracer, RaysAtCornersSlipThroughOnlyByARounding)
 {
   const Sheet sheet;

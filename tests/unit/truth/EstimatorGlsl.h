@@ -37,7 +37,8 @@ void fillDepths(GlTexture& texture, const Depths& depths);
 /// The views of a sun around the cube [-1, 1]^3.
 LightViews sunViews(const ShadowLight& light);
 
-/// Replaces what must stand in a shader once, for tests that count what it does or have it do something else.
+/// Replaces what must stand in a shader once, for tests that count what it does or have it do
+/// something else.
 void replaceOnce(std::string& text, const std::string& from, const std::string& to);
 
 /// What a technique's GLSL answers at points, on a plane.
@@ -64,7 +65,8 @@ inline ShadowLight filteredSun(const char* kernel, int texels)
   return light;
 }
 
-/// Places of a map whose kernels stay inside the map. Exact in float, so that both sides round alike.
+/// Places of a map whose kernels stay inside the map. Exact in float, so that both sides round
+/// alike.
 inline std::vector<glm::dvec2> randomPlaces(int texels)
 {
   std::mt19937 random(5);

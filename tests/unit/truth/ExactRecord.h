@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <string>
 
-/// @file
-/// What tests of random pictures compared with the truth, for docs/exactness.sh, which reads it from their report.
+/// @file What tests of random pictures compared with the truth, for docs/exactness.sh, which reads
+/// it from their report.
 
 namespace gnomon::test
 {

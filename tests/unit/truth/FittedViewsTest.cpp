@@ -1,4 +1,5 @@
-// Estimators whose views have their last fit in a texture, against the same with the fit in their views.
+// Estimators whose views have their last fit in a texture, against the same with the fit in their
+// views.
 
 #include "EstimatorGlsl.h"
 #include "SyntheticScene.h"
@@ -222,14 +223,15 @@ TEST_P(FittedViews, decideAsIfTheFitWereInTheView)
     }
     EXPECT_GT(dark, points / 100);
     EXPECT_LT(dark, points / 2);
-    // A point on the border of texels, and a disc that is turned by the place, may round either way.
+    // A point on the border of texels, and a disc that is turned by the place, may round either
+    // way.
     EXPECT_LE(differing, points / 500);
   }
 }
 
 //------------------------------------------------------------------------------
-/// What caster_map.glsl says at the fragments of the casters: how far they are pushed follows from that,
-/// which shadows show too little of.
+/// What caster_map.glsl says at the fragments of the casters: how far they are pushed follows from
+/// that, which shadows show too little of.
 class FittedCasters : public GlslTest
 {
 protected:

@@ -66,8 +66,8 @@ private:
   std::vector<float> offsets_;
 };
 
-/// Receivers anywhere around the casters, with normals that face the light more or less, and as many on
-/// triangles that are not instances', where shadow rays start.
+/// Receivers anywhere around the casters, with normals that face the light more or less, and as
+/// many on triangles that are not instances', where shadow rays start.
 ReceiverPixels randomReceivers(
   const ShadowLight& light, const Occluders& occluders, std::size_t count, SignedRandom& random)
 {
@@ -134,8 +134,8 @@ std::vector<TracedRay> raysOf(
   return rays;
 }
 
-/// Whether rays right beside a receiver's are not all blocked or all unblocked: it passes an edge, of a
-/// triangle or a hole, or ends on a surface, to within rounding.
+/// Whether rays right beside a receiver's are not all blocked or all unblocked: it passes an edge,
+/// of a triangle or a hole, or ends on a surface, to within rounding.
 bool isUndecided(EmbreeTracer& tracer, const ShadowLight& light, const Occluders& occluders,
   const ReceiverPixels& receivers, std::size_t pixel, double nearness)
 {
@@ -384,8 +384,8 @@ TEST_F(GpuTracerTest, AnswersAsEmbreeDoesOfInstances)
   EXPECT_LE(all.different, all.rays / 1000000 + 1);
 }
 
-/// A lit plane does not shadow itself, from half of the shadow ray's offset on, wherever it lies, however
-/// large, however near the eye, however low the light.
+/// A lit plane does not shadow itself, from half of the shadow ray's offset on, wherever it lies,
+/// however large, however near the eye, however low the light.
 TEST_F(GpuTracerTest, LitPlanesHaveNoAcne)
 {
   SignedRandom random(19);
@@ -394,8 +394,8 @@ TEST_F(GpuTracerTest, LitPlanesHaveNoAcne)
     const glm::dmat4 turn = glm::rotate(glm::dmat4(1.0), tilt, { 1.0, 0.2, 0.1 });
     for (const double side : { 4.0, 20000.0 })
     {
-      // Level, it is one of the centred frame's own planes, without any noise; else something far off,
-      // below, moves the frame's origin away from it.
+      // Level, it is one of the centred frame's own planes, without any noise; else something far
+      // off, below, moves the frame's origin away from it.
       std::vector<Prop> props{ { makePlane(side, 3), turn } };
       if (tilt > 0.0)
       {
@@ -536,9 +536,9 @@ TEST_F(GpuTracerTest, NoRayLeavesABoxThroughTheCornersOfItsGrid)
   EXPECT_EQ(std::count(blocked.begin(), blocked.end(), 0), 0);
 }
 
-/// A needle that points at a ray has two edges whose lines pass it by a rounding, on either side. Whoever
-/// takes a sign that rounding ate for "on the edge" has it met, far beyond its tip. These slant along the
-/// ray, so that their boxes are met.
+/// A needle that points at a ray has two edges whose lines pass it by a rounding, on either side.
+/// Whoever takes a sign that rounding ate for "on the edge" has it met, far beyond its tip. These
+/// slant along the ray, so that their boxes are met.
 TEST_F(GpuTracerTest, NeedlesThatPointAtARayDoNotBlockIt)
 {
   SignedRandom random(17);

@@ -9,7 +9,8 @@
 namespace gnomon::test
 {
 
-/// The share of a disk, or of what looks like one, on one side of a line at this distance from its middle, in radii.
+/// The share of a disk, or of what looks like one, on one side of a line at this distance from its
+/// middle, in radii.
 inline double diskShare(double distance)
 {
   const double t = std::clamp(distance, -1.0, 1.0);
@@ -22,8 +23,8 @@ inline double squareShare(double distance)
   return std::clamp(0.5 + 0.5 * distance, 0.0, 1.0);
 }
 
-/// What is seen of a level lamp around (0, 0, lampHeight) from (x, 0, 0), past the edge x = 0, z = edgeHeight of a half
-/// plane that lies at x < 0. All in world units.
+/// What is seen of a level lamp around (0, 0, lampHeight) from (x, 0, 0), past the edge x = 0, z =
+/// edgeHeight of a half plane that lies at x < 0. All in world units.
 struct LampPastEdge
 {
   double edgeHeight;
@@ -32,7 +33,8 @@ struct LampPastEdge
 
   double square(double x) const { return squareShare(this->distance(x) / this->edgeHeight); }
   double disk(double x) const { return diskShare(this->distance(x) / this->edgeHeight); }
-  /// A ball's outline lies across the way to it, so that the plane through the receiver and the edge cuts it.
+  /// A ball's outline lies across the way to it, so that the plane through the receiver and the
+  /// edge cuts it.
   double ball(double x) const
   {
     return diskShare(this->distance(x) / std::hypot(x, this->edgeHeight));

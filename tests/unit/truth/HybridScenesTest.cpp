@@ -1,6 +1,6 @@
-// Hybrid techniques with conservative maps on scenes that show what they are about: seams between triangles, holes
-// at vertices, slivers, thin plates, open cups, poles. The exact ones are never wrong, those as published where their
-// construction is.
+// Hybrid techniques with conservative maps on scenes that show what they are about: seams between
+// triangles, holes at vertices, slivers, thin plates, open cups, poles. The exact ones are never
+// wrong, those as published where their construction is.
 
 #include "shadowtech/exact/ConservativeMaps.h"
 #include "shadowtech/published/PublishedMap.h"
@@ -30,7 +30,8 @@ namespace
 constexpr double pi = 3.14159265358979;
 constexpr int mapSizes[] = { 64, 256, 1024 };
 
-/// A sphere of triangles that are nearly alike, each point moved along its radius by up to half of `noise`.
+/// A sphere of triangles that are nearly alike, each point moved along its radius by up to half of
+/// `noise`.
 Mesh makeIcosphere(int subdivisions, double noise, Random& random)
 {
   const double t = 0.5 * (1.0 + std::sqrt(5.0));
@@ -170,8 +171,8 @@ std::vector<Prop> makeDomes()
   return props;
 }
 
-/// A plate that faces down, off the map's grid, of triangles around its middle or of two. It receives nothing, as its
-/// other side is seen.
+/// A plate that faces down, off the map's grid, of triangles around its middle or of two. It
+/// receives nothing, as its other side is seen.
 std::vector<Prop> makePlate(bool withMiddle)
 {
   Mesh plate;

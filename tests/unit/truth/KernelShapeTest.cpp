@@ -204,7 +204,8 @@ EdgeProfile edgeAt(const ShadowLight& light, const LightViews& views, const glm:
 
 TEST_F(KernelShapeGlsl, warpedMapsBlurAsEvenlyAsPlainOnes)
 {
-  // Near and far on a map whose texels are 1.6 to 3.5 times as high as wide, or the other way round.
+  // Near and far on a map whose texels are 1.6 to 3.5 times as high as wide, or the other way
+  // round.
   const ShadowLight plain = filteredSun("bilinear", 5);
   const double plainX = edgeAt(plain, sunViews(plain), { 0.0, 0.0 }, 0).width();
   const double plainY = edgeAt(plain, sunViews(plain), { 0.0, 0.0 }, 1).width();

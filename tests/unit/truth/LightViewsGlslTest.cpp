@@ -23,9 +23,9 @@ namespace gnomon::test
 namespace
 {
 
-/// Runs light_views.glsl for a light on points of its own space, and returns for each three vec4: the
-/// point in its face, with the face; texel, view, and whether the point is in the light's reach; of a cube texel
-/// and view of who looks around.
+/// Runs light_views.glsl for a light on points of its own space, and returns for each three vec4:
+/// the point in its face, with the face; texel, view, and whether the point is in the light's
+/// reach; of a cube texel and view of who looks around.
 std::vector<glm::vec4> runLightViews(
   const ShadowLight& light, const LightViews& views, int size, const std::vector<glm::vec4>& points)
 {

@@ -174,7 +174,8 @@ struct PlaneReceiver
   double depth;
 };
 
-/// What the technique's shader answers at points of a map of a directional light, on planes across it.
+/// What the technique's shader answers at points of a map of a directional light, on planes across
+/// it.
 /// @param map the moments of each texel
 std::vector<float> estimate(const MomentsTwin& twin, const ShadowLight& light,
   const std::vector<glm::vec4>& map, const std::vector<PlaneReceiver>& receivers)
@@ -390,8 +391,8 @@ TEST_P(MomentsGlsl, ofNoCasterAreThoseOfDepthOne)
   }
 }
 
-/// How much light bleeds through casters at depths 0 and 1, half covered each, to a receiver at 1 + k,
-/// of which nothing should be lit.
+/// How much light bleeds through casters at depths 0 and 1, half covered each, to a receiver at 1 +
+/// k, of which nothing should be lit.
 std::vector<float> bleedThrough(const MomentsTwin& twin, double bleeding)
 {
   constexpr double unit = 0.3;
@@ -614,8 +615,8 @@ TEST_F(OnGpu, summedAreaTableIsTheMeanOverARectangle)
   }
 }
 
-/// Sums over a map of 1024, of which floats would lose a thousandth: a plane, whose texels are all rounded
-/// the same way, and a noisy slope.
+/// Sums over a map of 1024, of which floats would lose a thousandth: a plane, whose texels are all
+/// rounded the same way, and a noisy slope.
 TEST_F(OnGpu, summedAreaTableOfALargeMapLosesNoDigits)
 {
   constexpr int size = 1024;

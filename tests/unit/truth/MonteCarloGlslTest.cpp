@@ -27,7 +27,8 @@ namespace gnomon::test
 namespace
 {
 
-/// Runs a compute shader with one invocation per input: `uniform int count`, buffer 0 in, buffer 1 out.
+/// Runs a compute shader with one invocation per input: `uniform int count`, buffer 0 in, buffer 1
+/// out.
 template <typename Out, typename In>
 std::vector<Out> runCompute(ShaderLibrary& library, const std::string& glsl,
   const std::vector<In>& in, const std::vector<std::string>& defines = {},
@@ -224,7 +225,8 @@ public:
     return result;
   }
 
-  /// Whether a line meets a slab, texel by texel in the order of its crossings, in double precision.
+  /// Whether a line meets a slab, texel by texel in the order of its crossings, in double
+  /// precision.
   bool meets(const glm::dvec3& begin, const glm::dvec3& end)
   {
     const glm::dvec3 way = end - begin;
@@ -264,8 +266,8 @@ public:
     return false;
   }
 
-  /// Whether lines this near to one all meet a slab, or all do not: 1e-4 of a texel, and 1e-6 in depth. Others pass a texel's corner, or
-  /// touch a slab, to within rounding.
+  /// Whether lines this near to one all meet a slab, or all do not: 1e-4 of a texel, and 1e-6 in
+  /// depth. Others pass a texel's corner, or touch a slab, to within rounding.
   bool isDecided(const RayLine& line)
   {
     const glm::dvec3 begin(line.begin);
@@ -395,7 +397,8 @@ std::vector<bool> walksOf(SlabMap& map, const std::vector<RayLine>& lines)
   return met;
 }
 
-/// What a search finds: x, whether there is a slab; y, how many cells it looked at (hierarchical ones tell).
+/// What a search finds: x, whether there is a slab; y, how many cells it looked at (hierarchical
+/// ones tell).
 std::vector<glm::uvec2> search(ShaderLibrary& library, GLuint slabs, int side,
   const SlabBounds& bounds, const std::vector<RayLine>& lines,
   const std::vector<std::string>& defines,
@@ -473,7 +476,8 @@ TEST_F(MonteCarloGlsl, searchesAsAWalkFromTexelToTexel)
 }
 
 //------------------------------------------------------------------------------
-/// Rays that begin inside of what is solid need no test of their own: the search sees it in the first texel.
+/// Rays that begin inside of what is solid need no test of their own: the search sees it in the
+/// first texel.
 TEST_F(MonteCarloGlsl, searchesThatBeginInsideASlabEndThere)
 {
   SlabMap map(128, 60, this->random_);
@@ -579,8 +583,9 @@ TEST_F(MonteCarloGlsl, searchesInScenesLookAtFewCells)
 }
 
 //------------------------------------------------------------------------------
-/// Boxes between depths of 5 and 20 under an eye, as a map with two layers has them, and rays from the ground at 20 to a light at 1
-/// that fills the map's frustum there: the geometry of the rates that the linear search was specified with.
+/// Boxes between depths of 5 and 20 under an eye, as a map with two layers has them, and rays from
+/// the ground at 20 to a light at 1 that fills the map's frustum there: the geometry of the rates
+/// that the linear search was specified with.
 struct BoxesUnderALight
 {
   static constexpr int side = 256;
@@ -648,8 +653,9 @@ struct BoxesUnderALight
   }
 };
 
-/// Rates are means over maps, since those of single ones lie between none and thrice as much. Boxes have sides that give the share of
-/// rays that meet something, 17.2 and 3.8 %, with which the rates were specified.
+/// Rates are means over maps, since those of single ones lie between none and thrice as much. Boxes
+/// have sides that give the share of rays that meet something, 17.2 and 3.8 %, with which the rates
+/// were specified.
 TEST_F(MonteCarloGlsl, linearSearchNeverHitsWhatIsNotThereAndMissesLittle)
 {
   struct Rate
@@ -861,7 +867,8 @@ TEST_F(MonteCarloGlsl, filterKeepsEdgesOfSurfacesAndOfShadows)
   expectKept(away, 0.4f, 0.6f, 1e-6f, "what is turned away gives nothing to others");
 }
 
-/// Where all rays agree there is little noise: narrow penumbrae do not spread over what is lit and what is dark.
+/// Where all rays agree there is little noise: narrow penumbrae do not spread over what is lit and
+/// what is dark.
 TEST_F(MonteCarloGlsl, filterKeepsNarrowPenumbrae)
 {
   constexpr int side = FilteredPicture::side;

@@ -63,8 +63,8 @@ TEST_F(PcfGlsl, boxCountsTheNearestTexels)
   }
 }
 
-/// Castano's filters of 3 x 3 and 5 x 5 texels as he gives them: bilinear look-ups in each direction,
-/// by where the point lies between two texels.
+/// Castano's filters of 3 x 3 and 5 x 5 texels as he gives them: bilinear look-ups in each
+/// direction, by where the point lies between two texels.
 struct Lookup
 {
   double place; ///< texels from the first of the two texels

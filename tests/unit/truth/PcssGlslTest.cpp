@@ -50,7 +50,8 @@ std::vector<AreaCase> areaCases()
   spot.positionWorld = -4.0 * travel;
   spot.directionWorld = travel;
   spot.coneAngleDegrees = 40.0;
-  // One face of their cubes sees all casters. Rectangles stand at a slant to it; the plane of a steep one cuts through it.
+  // One face of their cubes sees all casters. Rectangles stand at a slant to it; the plane of a
+  // steep one cuts through it.
   ShadowLight wide = spot;
   wide.coneAngleDegrees = 75.0;
   wide.positionWorld = { 1.5, -1.2, 4.0 };
@@ -218,7 +219,8 @@ TEST_P(PcssGlsl, theEarlyOutChangesNothing)
   }
 }
 
-/// The texels of the map that the shader itself reads for receivers, counted as it runs. They have a pixel each for themselves.
+/// The texels of the map that the shader itself reads for receivers, counted as it runs. They have
+/// a pixel each for themselves.
 class PcssReads : public GlslTest
 {
 protected:
@@ -276,7 +278,8 @@ TEST_F(PcssReads, areThoseOfItsPresets)
     const auto [search, filter] = pcssCounts(light.of<PcssSettings>().samples);
     EXPECT_EQ(search, expected[preset].search);
     EXPECT_EQ(filter, expected[preset].filter);
-    // The receiver's own texel, the search, and the filter; where that finds nothing it has searched.
+    // The receiver's own texel, the search, and the filter; where that finds nothing it has
+    // searched.
     for (const Depths& depths : { cover, nothing })
     {
       const Reads plain = readsOf(light, depths, {});
@@ -338,7 +341,8 @@ private:
   std::string expression_;
 };
 
-/// Turns of a disk, and shifts of a square whose edges meet, leave the points as far from each other as they are.
+/// Turns of a disk, and shifts of a square whose edges meet, leave the points as far from each
+/// other as they are.
 TEST_P(PcssGlsl, patternsKeepThePointsDistances)
 {
   const ShadowLight& light = GetParam().light;
@@ -450,8 +454,8 @@ TEST(Pcss, pointsOfADiskFillItEvenly)
     const std::vector<glm::vec2> points = pcssPoints(samples, LightArea::Shape::Disk);
     const PcssCounts counts = pcssCounts(samples);
     ASSERT_EQ(points.size(), static_cast<std::size_t>(counts.search + counts.filter));
-    // Four rings of equal area: chi-square with 3 degrees of freedom, which random points exceed once in
-    // twenty times.
+    // Four rings of equal area: chi-square with 3 degrees of freedom, which random points exceed
+    // once in twenty times.
     double chiSquare = 0.0;
     const double expected = 0.25 * counts.filter;
     std::vector<int> rings(4, 0);
@@ -550,7 +554,8 @@ TEST_F(PcssEdge, turningThePointsLeavesNoBands)
   EXPECT_GT(offBy(AlikePcss()), 2.0 * turned);
 }
 
-/// Noise along a penumbra, where the truth is the same, is white: cells have nothing to do with their neighbours.
+/// Noise along a penumbra, where the truth is the same, is white: cells have nothing to do with
+/// their neighbours.
 TEST_F(PcssEdge, noiseOfTurnedPointsIsWhite)
 {
   double square = 0.0;
@@ -572,8 +577,9 @@ TEST_F(PcssEdge, noiseOfTurnedPointsIsWhite)
 
 TEST(Pcss, widthsAreThoseOfSimilarTriangles)
 {
-  // Selected Real-Time Shadow Techniques, 2.9: a light of width 1, a receiver at 10 and a blocker at 5; a frustum
-  // that is 10 wide at the near plane 1. The penumbra is 0.1 of the map's plane there, the filter 0.01.
+  // Selected Real-Time Shadow Techniques, 2.9: a light of width 1, a receiver at 10 and a blocker
+  // at 5; a frustum that is 10 wide at the near plane 1. The penumbra is 0.1 of the map's plane
+  // there, the filter 0.01.
   ShadowLight light;
   light.kind = LightKind::Spot;
   light.directionWorld = { 0.0, 0.0, -1.0 };
@@ -583,8 +589,8 @@ TEST(Pcss, widthsAreThoseOfSimilarTriangles)
   const Bounds casters{ { -1.0, -1.0, 5.0 }, { 1.0, 1.0, 5.0 } };
   const Bounds receivers{ { -5.0, -5.0, 0.0 }, glm::dvec3(5.0) };
   LightViews views = fitLightViews(light, glm::dvec3(0.0), casters, 1024, 1);
-  // Half the light's diagonal times 1/5 - 1/10. Distances are cut 0.1 % short, so that rounding cuts no
-  // caster off.
+  // Half the light's diagonal times 1/5 - 1/10. Distances are cut 0.1 % short, so that rounding
+  // cuts no caster off.
   EXPECT_NEAR(reachOfArea(*light.area, views, casters, receivers), std::sqrt(0.5) * 0.1, 2e-4);
   EXPECT_EQ(reachOfArea(LightArea(), views, casters, receivers), 0.0);
   light.kind = LightKind::Directional;

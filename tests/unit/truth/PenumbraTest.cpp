@@ -113,8 +113,9 @@ TEST_P(RandomPenumbras, areThoseOfAllRays)
   recordCompared("penumbra", GetParam(), compared);
 }
 
-/// Receivers with a shadow ray each, wherever it starts. They fill squares of 8 x 8 pixels, one after another: those of a
-/// square should be close to each other, as what is far apart has too much in its way to be anything but traced.
+/// Receivers with a shadow ray each, wherever it starts. They fill squares of 8 x 8 pixels, one
+/// after another: those of a square should be close to each other, as what is far apart has too
+/// much in its way to be anything but traced.
 struct Starts
 {
   static constexpr std::size_t side = 8;
@@ -266,7 +267,8 @@ TEST(Penumbra, isThatOfAllRaysWhereTheseEndOnTriangles)
   }
 }
 
-/// A triangle whose edge nearly points at the starts, and a light beside it: so seen, rounding reaches far around its edges.
+/// A triangle whose edge nearly points at the starts, and a light beside it: so seen, rounding
+/// reaches far around its edges.
 TEST(Penumbra, isThatOfAllRaysWhereEdgesPointAtTheLight)
 {
   Random random(4);
@@ -358,8 +360,8 @@ TEST(Penumbra, isThatOfAllRaysWhereTheseGoAlongTriangles)
   }
 }
 
-/// Starts in the plane of a triangle of any slant, or on it, to within a rounding, and rays that go along it, to it or away
-/// from it.
+/// Starts in the plane of a triangle of any slant, or on it, to within a rounding, and rays that go
+/// along it, to it or away from it.
 TEST(Penumbra, isThatOfAllRaysWhereTheseLeaveTriangles)
 {
   Random random(7);

@@ -1,5 +1,5 @@
-// The published construction of conservative shadow maps: its offset lines, the triangles that it erodes, and who counts
-// as a neighbour.
+// The published construction of conservative shadow maps: its offset lines, the triangles that it
+// erodes, and who counts as a neighbour.
 
 #include "shadowtech/published/PublishedMap.h"
 
@@ -34,7 +34,8 @@ double areaOf(const Points& polygon)
   return area;
 }
 
-/// The corners that half planes leave of a square far around the map, without those that fall together.
+/// The corners that half planes leave of a square far around the map, without those that fall
+/// together.
 Points cornersOf(const TexelRegion& region)
 {
   const double far = 4.0 * width;
@@ -89,8 +90,8 @@ std::set<std::size_t> texelsOf(const TexelRegion& region)
   return texels;
 }
 
-/// The published corners of an eroded triangle, case by case: walking around it, each side stays or is moved, and
-/// between two that stay the corner goes.
+/// The published corners of an eroded triangle, case by case: walking around it, each side stays or
+/// is moved, and between two that stay the corner goes.
 Points publishedCorners(const Corners& corners, const SharedSides& shared, double offset)
 {
   const double inwards = doubleAreaOf(corners) > 0.0 ? 1.0 : -1.0;
@@ -231,7 +232,8 @@ TEST(PublishedMap, leavesNothingOfATriangleWhoseLinesMeetTurnedOver)
     const Points left = cornersOf(erodedRegion(polygonWith(corners), {}, offset));
     if (k <= 0.0)
     {
-      // Crossing its lines gives a triangle all the same, wound as the first was: its area is k * k of that.
+      // Crossing its lines gives a triangle all the same, wound as the first was: its area is k * k
+      // of that.
       const Corners crossed = withMovedSides(corners, [&](const glm::dvec2&) { return offset; });
       EXPECT_GE(doubleAreaOf(crossed) * doubleAreaOf(corners), 0.0);
       EXPECT_LT(left.size(), 3u);
@@ -279,7 +281,8 @@ TEST(PublishedMap, erodesTrianglesAsTheirNeighboursSay)
   }
 }
 
-/// A triangle in the middle of the map and one across each side, of which some face away from the light.
+/// A triangle in the middle of the map and one across each side, of which some face away from the
+/// light.
 struct Flaps
 {
   Occluders occluders;

@@ -289,7 +289,8 @@ ShadowLight makeRandomLight(Random& random)
 //------------------------------------------------------------------------------
 RandomPicture makeRandomPicture(const std::string& name, unsigned int seed, const glm::dmat4& world)
 {
-  // Of the name, too: else kinds that draw as many numbers for their scenes would share cameras and lights.
+  // Of the name, too: else kinds that draw as many numbers for their scenes would share cameras and
+  // lights.
   std::vector<unsigned int> parts(name.begin(), name.end());
   parts.push_back(seed);
   std::seed_seq sequence(parts.begin(), parts.end());

@@ -23,8 +23,8 @@ glm::dvec3 unitVector(Random& random);
 /// A sphere without its upper part.
 Mesh makeCup(int rings, int segments);
 
-/// Kinds of scenes that are hard in ways of their own: needles, open cups, folds, T-junctions, duplicates, crossing
-/// boxes, holes, one-sided casters, coincident sheets, a lamp in its shade.
+/// Kinds of scenes that are hard in ways of their own: needles, open cups, folds, T-junctions,
+/// duplicates, crossing boxes, holes, one-sided casters, coincident sheets, a lamp in its shade.
 const std::vector<const char*>& randomSceneNames();
 
 /// The name of a kind as a part of a test's name: letters alone.

@@ -1,4 +1,5 @@
-// The reduction over the receivers and the fit that follows from it, against their twins on the CPU.
+// The reduction over the receivers and the fit that follows from it, against their twins on the
+// CPU.
 
 #include "shadowtech/fitting/ReceiverFit.h"
 
@@ -56,7 +57,8 @@ struct Image
   std::vector<glm::vec4> points;
 };
 
-/// Whatever a driver may leave in pixels that mean nothing, or that went wrong: none of it may count.
+/// Whatever a driver may leave in pixels that mean nothing, or that went wrong: none of it may
+/// count.
 void addDebris(Image& image, std::mt19937& random)
 {
   std::uniform_int_distribution<std::size_t> anywhere(0, image.points.size() - 1);
@@ -269,8 +271,8 @@ TEST_F(ReceiverFitTest, boundsAreTheCpusExactlyOnRandomImagesOfAnySize)
 //------------------------------------------------------------------------------
 TEST_F(ReceiverFitTest, boundsOfTheLargestImage)
 {
-  // Two images of 1 GiB, which are made on the GPU; few points, in the corners and where pieces of the
-  // work meet.
+  // Two images of 1 GiB, which are made on the GPU; few points, in the corners and where pieces of
+  // the work meet.
   constexpr int side = 8192;
   const ExactSun sun;
   std::mt19937 random(42);

@@ -157,7 +157,8 @@ TEST(Receivers, AreWhereThePixelsRaysMeetTheirTriangles)
       ASSERT_LE(std::abs(glm::dot(position - corners[0], normal)),
         1.001 * glm::dot(glm::abs(normal), rounding));
       ASSERT_LE(outside(corners, position), glm::length(rounding));
-      // On the ray, but where the ray passes the triangle by: the view's jitter, and a step inwards.
+      // On the ray, but where the ray passes the triangle by: the view's jitter, and a step
+      // inwards.
       const double off = offRay(view, i, position);
       ASSERT_LT(off, (0.5 * std::sqrt(2.0) + 1.0) / 256.0 + 1e-4);
       clamped += off > 1e-4 ? 1 : 0;
@@ -186,9 +187,9 @@ TEST(Receivers, AreWhereThePixelsRaysMeetTheirTriangles)
   }
 }
 
-/// Whatever the rasteriser says is in a pixel: the receiver is a point inside of that triangle, and the
-/// closest to the pixel's ray but for a step away from the edge, where it would lie on the neighbour's
-/// plane, too.
+/// Whatever the rasteriser says is in a pixel: the receiver is a point inside of that triangle, and
+/// the closest to the pixel's ray but for a step away from the edge, where it would lie on the
+/// neighbour's plane, too.
 TEST(Receivers, OfTrianglesThatTheRayPassesByAreTheClosestPoints)
 {
   const Occluders occluders = turnedScene();

@@ -1,5 +1,5 @@
-// The rasteriser of conservative maps, against cells and triangles compared one by one: which texels a triangle meets,
-// which it contains, and what depths it has there.
+// The rasteriser of conservative maps, against cells and triangles compared one by one: which
+// texels a triangle meets, which it contains, and what depths it has there.
 
 #include "shadowtech/exact/TexelCells.h"
 
@@ -134,8 +134,9 @@ TEST(TexelCells, thatATriangleContainsAreNearlyAllOfThose)
 
 TEST(TexelCells, areNeverContainedWhereMovingTheSidesLeavesNothing)
 {
-  // With every side moved inwards by as much as a texel reaches along its normal, a triangle shrinks by the factor
-  // k = 1 - (width + height of its box) / (twice its area); from k = 0 on the lines meet again, turned over.
+  // With every side moved inwards by as much as a texel reaches along its normal, a triangle
+  // shrinks by the factor k = 1 - (width + height of its box) / (twice its area); from k = 0 on the
+  // lines meet again, turned over.
   std::size_t empty = 0, thinner = 0;
   Random random(12);
   for (int i = 0; i < 100000; ++i)
@@ -217,11 +218,13 @@ TEST(TexelCells, boundTheDepthsThatATriangleHasInThem)
   EXPECT_GT(layers, 100000u);
 }
 
-/// What lies behind the one layer does not matter for how far off that rays have to start; what may come before its receivers does.
+/// What lies behind the one layer does not matter for how far off that rays have to start; what may
+/// come before its receivers does.
 TEST(TexelCells, haveTheNoiseOfWhatBeginsBeforeTheLastReceiver)
 {
   constexpr std::size_t middle = 6 * cellsWidth + 6;
-  // Three sheets over the texel, by depth in its middle, what that changes by to a texel, and noise.
+  // Three sheets over the texel, by depth in its middle, what that changes by to a texel, and
+  // noise.
   struct Sheet
   {
     double depth, perTexel, noise;
@@ -361,7 +364,8 @@ TEST(TexelCells, ofAnEdgeHaveItsLeastDepth)
 
 TEST(TexelCells, areCoveredByAPartThatDoesNotEndThereWhateverOthersDo)
 {
-  // A square of two triangles at depth 0.5, and an edge before or behind it, of its own part or another one.
+  // A square of two triangles at depth 0.5, and an edge before or behind it, of its own part or
+  // another one.
   const Corners halves[] = { { { { 2.0, 2.0, 0.5 }, { 9.0, 2.0, 0.5 }, { 9.0, 9.0, 0.5 } } },
     { { { 2.0, 2.0, 0.5 }, { 9.0, 9.0, 0.5 }, { 2.0, 9.0, 0.5 } } } };
   constexpr std::size_t onDiagonal = 5 * cellsWidth + 5;

@@ -38,7 +38,8 @@ inline double doubleAreaOf(const Corners& corners)
   return perp(glm::dvec2(corners[1] - corners[0]), glm::dvec2(corners[2] - corners[0]));
 }
 
-/// A triangle of any size from a hundredth of a texel to the whole map, wound either way, each third one a sliver.
+/// A triangle of any size from a hundredth of a texel to the whole map, wound either way, each
+/// third one a sliver.
 inline Corners randomTriangle(Random& random, int width)
 {
   const double size = std::pow(10.0, uniform(random, -2.0, 1.5));

@@ -124,9 +124,9 @@ TEST_F(EGLRenderWindow, asksForOpenGL45AndTellsWhatItGot)
 }
 
 //------------------------------------------------------------------------------
-/// A renderer asks for the depths' bits when it first places the clipping planes. VTK's window asks the
-/// default framebuffer, which there is none of here: an error of OpenGL, and 0 bits, for which the
-/// nearer plane was put ten times as far away as it need be.
+/// A renderer asks for the depths' bits when it first places the clipping planes. VTK's window asks
+/// the default framebuffer, which there is none of here: an error of OpenGL, and 0 bits, for which
+/// the nearer plane was put ten times as far away as it need be.
 TEST_F(EGLRenderWindow, clippingPlanesArePlacedBetweenFramesAsBeforeTheFirst)
 {
   const auto rangeOf = [](vtkRenderer* renderer)

@@ -43,8 +43,8 @@ TEST(GlxWindow, showsTheSameBytesAsTheWindowWithoutADisplay)
 }
 
 //------------------------------------------------------------------------------
-// On the screen, and then through the window that QVTKOpenGLNativeWidget and other toolkits' widgets
-// draw through: one without a context of its own, here that of the window on the screen.
+// On the screen, and then through the window that QVTKOpenGLNativeWidget and other toolkits'
+// widgets draw through: one without a context of its own, here that of the window on the screen.
 TEST(GlxWindow, showsTheSameBytesOnTheScreenAndInAnotherToolkitsContext)
 {
   vtkNew<vtkRenderWindow> onDisplay;
