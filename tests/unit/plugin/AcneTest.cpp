@@ -71,65 +71,32 @@ protected:
   }
 };
 
-/// Where maps of moments have the kernel of their default.
-class LitScenesOfPlainKernels : public LitScenes
-{
-};
-
-/// Under lamps that see all around.
-class LitScenesOfLamps : public LitScenes
-{
-};
-
-/// Under lamps that see all around, of which walls hide nothing: without an area.
-class LitRooms : public LitScenes
-{
-};
-
-/// With corners, in which moments bleed, and which layers take for solid.
-class LitScenesOfDepths : public LitScenes
-{
-};
-
 bool hasPlainKernel(const Variant& variant)
 {
   return !variant.isMoments() || variant.text.find("kernel_size") == std::string::npos;
 }
 
-/// The largest lamps would lie in the floors that they light.
+/// Under lamps that see all around. The largest ones would lie in the floors that they light.
 bool isForLamps(const Variant& variant)
 {
   return variant.takesCubes() && hasPlainKernel(variant) && !variant.hasSetting("light_radius=4") &&
     !variant.hasSetting("light_radius=10") && variant.text != "montecarlo light_radius=0.5";
 }
 
-/// Layers take a closed room for solid.
+/// Under lamps of which walls hide nothing: without an area. Layers take a closed room for solid.
 bool isForRooms(const Variant& variant)
 {
   return isForLamps(variant) && variant.text.find("light_radius") == std::string::npos &&
     !has(variant.info(), "mc_layers");
 }
 
-/// The largest sun is behind their walls in part.
+/// In corners moments bleed, layers take what they enclose for solid, and walls hide a part of the
+/// largest sun.
 bool isForCorners(const Variant& variant)
 {
   return !variant.isMoments() && !variant.hasSetting("light_radius=10") &&
     !has(variant.info(), "mc_layers");
 }
-
-std::string nameOfVariant(const testing::TestParamInfo<Variant>& variant)
-{
-  return variant.param.name();
-}
-
-INSTANTIATE_TEST_SUITE_P(All, LitScenes, testing::ValuesIn(variants()), nameOfVariant);
-INSTANTIATE_TEST_SUITE_P(
-  All, LitScenesOfPlainKernels, testing::ValuesIn(variantsThat(hasPlainKernel)), nameOfVariant);
-INSTANTIATE_TEST_SUITE_P(
-  All, LitScenesOfLamps, testing::ValuesIn(variantsThat(isForLamps)), nameOfVariant);
-INSTANTIATE_TEST_SUITE_P(All, LitRooms, testing::ValuesIn(variantsThat(isForRooms)), nameOfVariant);
-INSTANTIATE_TEST_SUITE_P(
-  All, LitScenesOfDepths, testing::ValuesIn(variantsThat(isForCorners)), nameOfVariant);
 
 /// At degrees from the floor's normal, and turned around it.
 glm::dvec3 slantingBy(double degrees, double turnDegrees)
@@ -152,7 +119,7 @@ void placeSun(vtkLight* sun, const glm::dvec3& toLight)
 } // namespace
 
 //------------------------------------------------------------------------------
-TEST_P(LitScenes, planeUnderTheSun)
+TEST_BY_VARIANTS(LitScenes, PlaneUnderTheSun, isForAll)
 {
   PassScene scene(200, 200);
   scene.addFloor(4.0);
@@ -174,7 +141,7 @@ TEST_P(LitScenes, planeUnderTheSun)
 
 //------------------------------------------------------------------------------
 /// Seen along itself from its near end, where views are warped by much.
-TEST_P(LitScenes, longPlane)
+TEST_BY_VARIANTS(LitScenes, LongPlane, isForAll)
 {
   PassScene scene(150, 150);
   scene.addFloor(100.0);
@@ -205,7 +172,7 @@ TEST_P(LitScenes, longPlane)
 
 //------------------------------------------------------------------------------
 /// Receivers are rounded by parts of a texel, and levels of the map are coarse.
-TEST_P(LitScenes, planeFromFarAway)
+TEST_BY_VARIANTS(LitScenes, PlaneFromFarAway, isForAll)
 {
   PassScene scene(150, 150);
   scene.addFloor(4.0);
@@ -232,7 +199,7 @@ TEST_P(LitScenes, planeFromFarAway)
 }
 
 //------------------------------------------------------------------------------
-TEST_P(LitScenesOfPlainKernels, planeUnderASpotLight)
+TEST_BY_VARIANTS(LitScenes, PlaneUnderASpotLight, hasPlainKernel)
 {
   PassScene scene(200, 200);
   scene.addFloor(4.0);
@@ -272,7 +239,7 @@ TEST_P(LitScenesOfPlainKernels, planeUnderASpotLight)
 //------------------------------------------------------------------------------
 /// At a corner of the floor the light stands at 89.3 degrees when it is lowest. Tilted, the plane
 /// is askew to the faces of the cube.
-TEST_P(LitScenesOfLamps, planeUnderAPointLight)
+TEST_BY_VARIANTS(LitScenes, PlaneUnderAPointLight, isForLamps)
 {
   PassScene scene(200, 200);
   vtkActor* const floor = scene.addFloor(4.0);
@@ -303,7 +270,7 @@ TEST_P(LitScenesOfLamps, planeUnderAPointLight)
 
 //------------------------------------------------------------------------------
 /// Convex: all that faces the light is lit. Within a texel of the terminator, the map cannot tell.
-TEST_P(LitScenesOfPlainKernels, sphere)
+TEST_BY_VARIANTS(LitScenes, ConvexSphere, hasPlainKernel)
 {
   PassScene scene(300, 300);
   scene.addSphere(glm::dvec3(0.0), 1.0);
@@ -319,7 +286,7 @@ TEST_P(LitScenesOfPlainKernels, sphere)
 }
 
 //------------------------------------------------------------------------------
-TEST_P(LitScenesOfLamps, box)
+TEST_BY_VARIANTS(LitScenes, ConvexBox, isForLamps)
 {
   PassScene scene(120, 90);
   scene.addBox({ -1.0, -1.0, 0.0 }, { 1.0, 1.0, 1.0 });
@@ -332,7 +299,7 @@ TEST_P(LitScenesOfLamps, box)
 }
 
 //------------------------------------------------------------------------------
-TEST_P(LitScenes, singleTriangle)
+TEST_BY_VARIANTS(LitScenes, SingleTriangle, isForAll)
 {
   vtkNew<vtkPoints> points;
   points->InsertNextPoint(-1.0, -1.0, 0.0);
@@ -364,7 +331,7 @@ TEST_P(LitScenes, singleTriangle)
 
 //------------------------------------------------------------------------------
 /// From its middle the borders of the faces run along the box's own edges.
-TEST_P(LitRooms, insideOfABox)
+TEST_BY_VARIANTS(LitScenes, InsideOfABox, isForRooms)
 {
   PassScene scene(200, 200);
   scene.addBox(glm::dvec3(-2.0), glm::dvec3(2.0));
@@ -388,7 +355,7 @@ TEST_P(LitRooms, insideOfABox)
 
 //------------------------------------------------------------------------------
 /// The creases between its facets are concave.
-TEST_P(LitRooms, insideOfASphere)
+TEST_BY_VARIANTS(LitScenes, InsideOfASphere, isForRooms)
 {
   PassScene scene(300, 300);
   scene.addSphere(glm::dvec3(0.0), 2.0);
@@ -409,7 +376,7 @@ TEST_P(LitRooms, insideOfASphere)
 /// A floor and two walls without thickness, which the sun sees from within, from near and through a
 /// long lens: from so far that positions are rounded by a good part of a texel, and the receiver's
 /// plane is followed to the kernel's end from there.
-TEST_P(LitScenesOfDepths, trough)
+TEST_BY_VARIANTS(LitScenes, Trough, isForCorners)
 {
   PassScene scene(200, 200);
   scene.addFloor(2.0);
@@ -447,7 +414,7 @@ TEST_P(LitScenesOfDepths, trough)
 //------------------------------------------------------------------------------
 /// A hillside beyond a plain, seen along the plain: what a filter reads beyond the valley has other
 /// texels than the point, where views are warped.
-TEST_P(LitScenesOfDepths, valleyAcrossTheView)
+TEST_BY_VARIANTS(LitScenes, ValleyAcrossTheView, isForCorners)
 {
   for (const double valley : { -90.0, -60.0, 0.0 })
   {

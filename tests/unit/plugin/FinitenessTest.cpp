@@ -54,28 +54,17 @@ protected:
   bool isSmall_ = false;
 };
 
-INSTANTIATE_TEST_SUITE_P(All, DegenerateScenes, testing::ValuesIn(variants()),
-  [](const testing::TestParamInfo<Variant>& variant) { return variant.param.name(); });
-
-/// Of techniques with soft shadows.
-class DegenerateSoftScenes : public DegenerateScenes
+bool isSoft(const Variant& variant)
 {
-};
-
-INSTANTIATE_TEST_SUITE_P(All, DegenerateSoftScenes,
-  testing::ValuesIn(variantsThat(
-    [](const Variant& variant)
-    {
-      return variant.technique() == variant.text &&
-        (has(variant.info(), "light_samples") || has(variant.info(), "pcss_samples"));
-    })),
-  [](const testing::TestParamInfo<Variant>& variant) { return variant.param.name(); });
+  return variant.technique() == variant.text &&
+    (has(variant.info(), "light_samples") || has(variant.info(), "pcss_samples"));
+}
 
 } // namespace
 
 //------------------------------------------------------------------------------
 /// Along the axes, in the floor's plane and nearly so.
-TEST_P(DegenerateScenes, underSuns)
+TEST_BY_VARIANTS(DegenerateScenes, UnderAnySun, isForAll)
 {
   PassScene scene(64, 48);
   this->fill(scene);
@@ -91,7 +80,7 @@ TEST_P(DegenerateScenes, underSuns)
 
 //------------------------------------------------------------------------------
 /// Inside a caster; below it; on surfaces and on a corner; at the camera; far away.
-TEST_P(DegenerateScenes, underLamps)
+TEST_BY_VARIANTS(DegenerateScenes, UnderAnyLamp, isForAll)
 {
   PassScene scene(64, 48);
   this->fill(scene);
@@ -111,7 +100,7 @@ TEST_P(DegenerateScenes, underLamps)
 
 //------------------------------------------------------------------------------
 /// Areas from a point's to far larger than the scene.
-TEST_P(DegenerateSoftScenes, underLightsOfAnySize)
+TEST_BY_VARIANTS(DegenerateScenes, UnderLightsOfAnySize, isSoft)
 {
   PassScene scene(64, 48);
   this->fill(scene);
@@ -145,7 +134,7 @@ TEST_P(DegenerateSoftScenes, underLightsOfAnySize)
 //------------------------------------------------------------------------------
 /// Nothing at all; away from everything; from inside a caster; in the floor's plane; from below,
 /// where no receiver faces the light. What comes after is as if it had not been.
-TEST_P(DegenerateScenes, seenFromAnywhere)
+TEST_BY_VARIANTS(DegenerateScenes, SeenFromAnywhere, isForAll)
 {
   PassScene scene(64, 48);
   GetParam().choose(scene);

@@ -305,26 +305,23 @@ TEST_F(GlState, isChangedByMapsOfMomentsOnlyWherePlainVtkChangesIt)
 //------------------------------------------------------------------------------
 TEST_P(GlStateOfWay, isChangedByPicturesOfLightPointsOnlyWherePlainVtkChangesIt)
 {
-  for (const int samplesPerFrame : { 0, 2 })
+  for (const auto& [samplesPerFrame, multiSamples] : { std::pair(0, 0), { 2, 4 } })
   {
-    for (const int multiSamples : { 0, 4 })
-    {
-      vtkNew<vtkGnomonLightSamplingPass> sampling;
-      sampling->SetSamples(3);
-      sampling->SetSamplesPerFrame(samplesPerFrame);
-      expectChangesOfPlainVtkOnly(
-        [&](PassScene& scene)
-        {
-          this->choose(scene);
-          scene.window->SetMultiSamples(multiSamples);
-          vtkGnomonLightKeys::SetSetting(
-            vtkLight::SafeDownCast(scene.renderer->GetLights()->GetItemAsObject(1)), "light_radius",
-            "0.5");
-          sampling->SetDelegatePass(scene.pass);
-          return sampling.Get();
-        },
-        { "GL_CURRENT_PROGRAM", "GL_ARRAY_BUFFER_BINDING" });
-    }
+    vtkNew<vtkGnomonLightSamplingPass> sampling;
+    sampling->SetSamples(3);
+    sampling->SetSamplesPerFrame(samplesPerFrame);
+    expectChangesOfPlainVtkOnly(
+      [&](PassScene& scene)
+      {
+        this->choose(scene);
+        scene.window->SetMultiSamples(multiSamples);
+        vtkGnomonLightKeys::SetSetting(
+          vtkLight::SafeDownCast(scene.renderer->GetLights()->GetItemAsObject(1)), "light_radius",
+          "0.5");
+        sampling->SetDelegatePass(scene.pass);
+        return sampling.Get();
+      },
+      { "GL_CURRENT_PROGRAM", "GL_ARRAY_BUFFER_BINDING" });
   }
 }
 

@@ -75,16 +75,11 @@ std::size_t differenceOfRoutes(
   return differingPixels(direct, image, tolerance);
 }
 
-class RoutesOfPointwise
+class PointwiseScenes
   : public PassTest
   , public testing::WithParamInterface<Variant>
 {
 };
-
-INSTANTIATE_TEST_SUITE_P(All, RoutesOfPointwise,
-  testing::ValuesIn(
-    variantsThat([](const Variant& variant) { return variant.info().isPointwise(); })),
-  [](const testing::TestParamInfo<Variant>& variant) { return variant.param.name(); });
 
 class PlacedScenes
   : public PassTest
@@ -153,7 +148,7 @@ TEST_P(Routes, differOnAtMostOnePixelInAHundredThousand)
 }
 
 //------------------------------------------------------------------------------
-TEST_P(RoutesOfPointwise, showTheSame)
+TEST_BY_VARIANTS(PointwiseScenes, BothRoutes, &Variant::isPointwise)
 {
   PassScene scene(256, 256);
   scene.addFloor(4.0);

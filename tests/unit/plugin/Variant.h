@@ -5,6 +5,7 @@
 
 #include "shadowtech/Registry.h"
 
+#include <functional>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -31,6 +32,7 @@ struct Variant
   std::vector<int> mapSizes(std::vector<int> sizes) const;
   /// Whether lights that see all around have it: warps and splits are for a single view.
   bool takesCubes() const;
+  bool isPointwise() const { return this->info().isPointwise(); }
   bool isMoments() const { return has(this->info(), "bleeding"); }
   bool hasSetting(const std::string& nameAndValue) const;
   /// For the tests' names: "vsm_blur_sat_kernel_size_16".
@@ -46,19 +48,31 @@ inline std::ostream& operator<<(std::ostream& stream, const Variant& variant)
 const std::vector<Variant>& variants();
 
 /// Those of them that a predicate holds for.
-template <typename Predicate>
-std::vector<Variant> variantsThat(Predicate predicate)
+std::vector<Variant> variantsThat(const std::function<bool(const Variant&)>& isSuch);
+
+/// What a test draws: all techniques by their defaults, and a quarter of the other variants, which
+/// is another one for another test.
+std::vector<Variant> someVariants(
+  const std::string& test, const std::function<bool(const Variant&)>& isFor);
+
+inline bool isForAll(const Variant&)
 {
-  std::vector<Variant> result;
-  for (const Variant& variant : variants())
-  {
-    if (predicate(variant))
-    {
-      result.push_back(variant);
-    }
-  }
-  return result;
+  return true;
 }
+
+inline std::string nameOfVariant(const testing::TestParamInfo<Variant>& variant)
+{
+  return variant.param.name();
+}
+
+/// Defines a test of a fixture with a parameter of Variant, by some of those that `isFor` holds for.
+#define TEST_BY_VARIANTS(Fixture, Test, isFor)                                                     \
+  class Test : public Fixture                                                                      \
+  {                                                                                                \
+  };                                                                                               \
+  INSTANTIATE_TEST_SUITE_P(                                                                        \
+    All, Test, testing::ValuesIn(someVariants(#Test, isFor)), nameOfVariant);                      \
+  TEST_P(Test, by)
 
 } // namespace gnomon::test
 

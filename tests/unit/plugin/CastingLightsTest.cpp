@@ -22,7 +22,7 @@ namespace
 {
 
 /// A box and a sphere over a floor, seen at an angle.
-class Lights
+class CastingLights
   : public PassTest
   , public testing::WithParamInterface<Way>
 {
@@ -37,8 +37,8 @@ protected:
   static void look(PassScene& scene) { scene.lookFrom({ 1.0, -9.0, 7.0 }); }
 };
 
-INSTANTIATE_TEST_SUITE_P(Ways, Lights, allWays, nameOf);
-INSTANTIATE_TEST_SUITE_P(OnPlanes, Lights, testing::Values(planarWay), nameOf);
+INSTANTIATE_TEST_SUITE_P(Ways, CastingLights, allWays, nameOf);
+INSTANTIATE_TEST_SUITE_P(OnPlanes, CastingLights, testing::Values(planarWay), nameOf);
 
 /// Whether a colour lies on the way from one to another, as half a shadow does.
 bool isBetween(const glm::ivec3& colour, const glm::ivec3& a, const glm::ivec3& b)
@@ -83,7 +83,7 @@ std::size_t shadowedPixels(
 } // namespace
 
 //------------------------------------------------------------------------------
-TEST_P(Lights, onlyTheCastingLightIsEverTakenAway)
+TEST_P(CastingLights, onlyTheCastingLightIsEverTakenAway)
 {
   PassScene scene(240, 180);
   fill(scene);
@@ -138,7 +138,7 @@ TEST_P(Lights, onlyTheCastingLightIsEverTakenAway)
 }
 
 //------------------------------------------------------------------------------
-TEST_P(Lights, strengthOfOneHalfTakesHalfOfTheLight)
+TEST_P(CastingLights, strengthOfOneHalfTakesHalfOfTheLight)
 {
   PassScene scene(240, 180);
   fill(scene);
@@ -164,7 +164,7 @@ TEST_P(Lights, strengthOfOneHalfTakesHalfOfTheLight)
 }
 
 //------------------------------------------------------------------------------
-TEST_P(Lights, headLightIsALightAtTheCamera)
+TEST_P(CastingLights, headLightIsALightAtTheCamera)
 {
   PassScene scene(240, 180);
   fill(scene);
@@ -188,7 +188,7 @@ TEST_P(Lights, headLightIsALightAtTheCamera)
 }
 
 //------------------------------------------------------------------------------
-TEST_P(Lights, cameraLightFollowsTheCamera)
+TEST_P(CastingLights, cameraLightFollowsTheCamera)
 {
   PassScene scene(240, 180);
   fill(scene);
@@ -219,7 +219,7 @@ TEST_P(Lights, cameraLightFollowsTheCamera)
 }
 
 //------------------------------------------------------------------------------
-TEST_P(Lights, transformMatrixOfASceneLightCounts)
+TEST_P(CastingLights, transformMatrixOfASceneLightCounts)
 {
   for (const bool spot : { false, true })
   {
@@ -248,7 +248,7 @@ TEST_P(Lights, transformMatrixOfASceneLightCounts)
 }
 
 //------------------------------------------------------------------------------
-TEST_P(Lights, spotLightCastsWithinItsCone)
+TEST_P(CastingLights, spotLightCastsWithinItsCone)
 {
   PassScene scene(300, 300);
   const glm::dvec3 lower(-0.5, -0.5, 1.0);
@@ -280,7 +280,7 @@ TEST_P(Lights, spotLightCastsWithinItsCone)
 }
 
 //------------------------------------------------------------------------------
-TEST_P(Lights, eachLightHasItsOwnTechniqueInOneFrame)
+TEST_P(CastingLights, eachLightHasItsOwnTechniqueInOneFrame)
 {
   PassScene scene(240, 180);
   fill(scene);
@@ -320,7 +320,7 @@ TEST_P(Lights, eachLightHasItsOwnTechniqueInOneFrame)
 }
 
 //------------------------------------------------------------------------------
-TEST_P(Lights, unknownTechniqueOfALightIsAnErrorAndChangesNothing)
+TEST_P(CastingLights, unknownTechniqueOfALightIsAnErrorAndChangesNothing)
 {
   PassScene scene(120, 90);
   fill(scene);
@@ -337,7 +337,7 @@ TEST_P(Lights, unknownTechniqueOfALightIsAnErrorAndChangesNothing)
 }
 
 //------------------------------------------------------------------------------
-TEST_P(Lights, absurdMapSizesAreClamped)
+TEST_P(CastingLights, absurdMapSizesAreClamped)
 {
   PassScene scene(120, 90);
   fill(scene);
@@ -351,7 +351,7 @@ TEST_P(Lights, absurdMapSizesAreClamped)
 }
 
 //------------------------------------------------------------------------------
-TEST_P(Lights, removedAndAddedLightsKeepTheirPlaces)
+TEST_P(CastingLights, removedAndAddedLightsKeepTheirPlaces)
 {
   PassScene scene(240, 180);
   fill(scene);

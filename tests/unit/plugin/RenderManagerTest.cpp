@@ -53,10 +53,10 @@ std::vector<std::string> allTechniques()
 }
 
 /// A sphere over a floor.
-class Reuse : public PassTest
+class RenderManager : public PassTest
 {
 protected:
-  Reuse()
+  RenderManager()
   {
     this->scene.addFloor(4.0);
     this->sphere = this->scene.addSphere({ 0.0, 0.0, 1.5 }, 0.7);
@@ -97,21 +97,21 @@ protected:
   Picture picture; ///< of the last frame
 };
 
-class ReuseByTechnique
-  : public Reuse
+class RenderManagerByTechnique
+  : public RenderManager
   , public testing::WithParamInterface<std::string>
 {
 protected:
-  ReuseByTechnique() { this->scene.pass->SetTechnique(GetParam().c_str()); }
+  RenderManagerByTechnique() { this->scene.pass->SetTechnique(GetParam().c_str()); }
 };
 
-INSTANTIATE_TEST_SUITE_P(Techniques, ReuseByTechnique, testing::ValuesIn(allTechniques()),
+INSTANTIATE_TEST_SUITE_P(Techniques, RenderManagerByTechnique, testing::ValuesIn(allTechniques()),
   [](const auto& technique) { return technique.param; });
 
 } // namespace
 
 //------------------------------------------------------------------------------
-TEST_P(ReuseByTechnique, aFrameLikeTheLastOneMakesNothing)
+TEST_P(RenderManagerByTechnique, aFrameLikeTheLastOneMakesNothing)
 {
   this->settle();
   const Picture before = this->picture;
@@ -123,7 +123,7 @@ TEST_P(ReuseByTechnique, aFrameLikeTheLastOneMakesNothing)
 }
 
 //------------------------------------------------------------------------------
-TEST_P(ReuseByTechnique, visibilityThatIsKeptIsNotComputedAgain)
+TEST_P(RenderManagerByTechnique, visibilityThatIsKeptIsNotComputedAgain)
 {
   this->scene.pass->KeepVisibilityOn();
   this->settle();
@@ -138,7 +138,7 @@ TEST_P(ReuseByTechnique, visibilityThatIsKeptIsNotComputedAgain)
 }
 
 //------------------------------------------------------------------------------
-TEST_P(ReuseByTechnique, bothEyesKeepTheirOwn)
+TEST_P(RenderManagerByTechnique, bothEyesKeepTheirOwn)
 {
   this->scene.window->StereoCapableWindowOn();
   this->scene.window->SetStereoTypeToAnaglyph();
@@ -150,7 +150,7 @@ TEST_P(ReuseByTechnique, bothEyesKeepTheirOwn)
 }
 
 //------------------------------------------------------------------------------
-TEST_P(ReuseByTechnique, twoRenderersOfOnePassKeepTheirOwn)
+TEST_P(RenderManagerByTechnique, twoRenderersOfOnePassKeepTheirOwn)
 {
   vtkNew<vtkRenderer> other;
   other->AutomaticLightCreationOff();
@@ -169,7 +169,7 @@ TEST_P(ReuseByTechnique, twoRenderersOfOnePassKeepTheirOwn)
 }
 
 //------------------------------------------------------------------------------
-TEST_P(ReuseByTechnique, aLightThatMovedLeavesTheReceivers)
+TEST_P(RenderManagerByTechnique, aLightThatMovedLeavesTheReceivers)
 {
   this->settle();
   this->sun->SetPosition(1.0, 2.0, 3.0);
@@ -182,7 +182,7 @@ TEST_P(ReuseByTechnique, aLightThatMovedLeavesTheReceivers)
 }
 
 //------------------------------------------------------------------------------
-TEST_F(Reuse, oneOfEightLightsThatMovedIsTheOnlyOneComputed)
+TEST_F(RenderManager, oneOfEightLightsThatMovedIsTheOnlyOneComputed)
 {
   this->scene.pass->SetTechnique("raytraced");
   std::vector<vtkLight*> lights{ this->sun };
@@ -200,7 +200,7 @@ TEST_F(Reuse, oneOfEightLightsThatMovedIsTheOnlyOneComputed)
 }
 
 //------------------------------------------------------------------------------
-TEST_F(Reuse, aTextThatChangedMakesNothing)
+TEST_F(RenderManager, aTextThatChangedMakesNothing)
 {
   this->scene.pass->SetTechnique("raytraced");
   vtkNew<vtkTextActor> text;
@@ -212,7 +212,7 @@ TEST_F(Reuse, aTextThatChangedMakesNothing)
 }
 
 //------------------------------------------------------------------------------
-TEST_F(Reuse, aCameraThatMovedLeavesStructures)
+TEST_F(RenderManager, aCameraThatMovedLeavesStructures)
 {
   this->scene.pass->SetTechnique("raytraced");
   this->settle();
@@ -226,7 +226,7 @@ TEST_F(Reuse, aCameraThatMovedLeavesStructures)
 }
 
 //------------------------------------------------------------------------------
-TEST_F(Reuse, aColourThatChangedIsNoVisibilitysBusiness)
+TEST_F(RenderManager, aColourThatChangedIsNoVisibilitysBusiness)
 {
   this->scene.pass->SetTechnique("raytraced");
   this->settle();
