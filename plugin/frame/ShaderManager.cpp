@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <map>
+#include <regex>
 
 namespace gnomon
 {
@@ -61,6 +62,19 @@ std::string visibilityOf(Route route, const ShadedLight& shaded, int light)
                           : fetched;
 }
 
+/// The names of a source's samplers by their type.
+std::map<std::string, std::vector<std::string>> samplersOf(const std::string& source)
+{
+  static const std::regex declaration("uniform ([iu]?sampler\\w+) (\\w+);");
+  std::map<std::string, std::vector<std::string>> samplers;
+  for (std::sregex_iterator found(source.begin(), source.end(), declaration), end; found != end;
+       ++found)
+  {
+    samplers[(*found)[1]].push_back((*found)[2]);
+  }
+  return samplers;
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -107,6 +121,7 @@ void ShaderManager::configure(const HookVariant& variant, const std::vector<Shad
     variant.receiverPoints != this->variant_.receiverPoints)
   {
     this->declarations_ = declarations;
+    this->samplers_ = samplersOf(declarations);
     this->multiplications_ = multiplications;
     this->variant_ = variant;
     this->extensions_ = extensions;
@@ -239,13 +254,39 @@ void ShaderManager::beginStage(vtkOpenGLRenderWindow* window, const StageValues&
   this->layersFit_ = true;
   this->upToDate_.clear();
   this->stageUniforms_.clear();
+  if (this->variant_.route == Route::Image)
+  {
+    this->stageUniforms_.push_back({ "gnomonStage", values.receiversStage ? 1 : 0 });
+  }
+  values.receiversStage ? this->separateSamplers() : this->bindVisibility(values);
+}
+
+//------------------------------------------------------------------------------
+/// The receivers stage reads no texture, and maps need not be there yet. But samplers of different
+/// types must not share a unit, or OpenGL draws nothing.
+void ShaderManager::separateSamplers()
+{
+  for (const auto& [type, names] : this->samplers_)
+  {
+    const bool isArray = type.find("Array") != std::string::npos;
+    const GLenum target = isArray ? GL_TEXTURE_2D_ARRAY : GL_TEXTURE_2D;
+    const int unit = this->bindTexture({ target, 0 });
+    for (const std::string& name : names)
+    {
+      this->stageUniforms_.push_back({ name, unit });
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+/// Binds what the lights' visibility is fetched from or computed with.
+void ShaderManager::bindVisibility(const StageValues& values)
+{
   const auto add = [this](std::string name, const auto& value) {
     this->stageUniforms_.push_back({ std::move(name), value });
   };
   if (this->variant_.route == Route::Image)
   {
-    add("gnomonStage", values.receiversStage ? 1 : 0);
-    // The receivers stage does not read the layers, but a sampler needs a unit of its own kind.
     add("gnomonLayers", this->bindTexture(values.layers));
   }
   for (std::size_t i = 0; i < this->lights_.size(); ++i)

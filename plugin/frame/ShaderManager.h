@@ -8,6 +8,7 @@
 
 #include <vtkTimeStamp.h>
 
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -87,6 +88,8 @@ public:
 
 private:
   std::string writeReceiver(bool lit, bool instanced) const;
+  void separateSamplers();
+  void bindVisibility(const StageValues& values);
   int bindTexture(const TextureBinding& texture);
   bool setLayersOrigin(GLuint program);
 
@@ -94,6 +97,7 @@ private:
   bool needsNormal_ = false;
   std::string extensions_;
   std::string declarations_;
+  std::map<std::string, std::vector<std::string>> samplers_; ///< of the declarations, by type
   std::string multiplications_;
   vtkTimeStamp stageTime_;
   int rebuilds_ = 0;

@@ -1,0 +1,67 @@
+// The hook into VTK's shaders: what it must not ask of OpenGL.
+
+#include "PassScene.h"
+#include "Variant.h"
+
+#include <vtkActor.h>
+#include <vtkDataArray.h>
+#include <vtkImageData.h>
+#include <vtkPointData.h>
+#include <vtkProperty.h>
+#include <vtkTexture.h>
+
+#include <algorithm>
+
+using namespace gnomon::test;
+using gnomon::VisibilityImages;
+
+namespace
+{
+
+class ShaderManager
+  : public PassTest
+  , public testing::WithParamInterface<Variant>
+{
+};
+
+/// Each set of samplers once.
+bool hasSamplersOfItsOwn(const Variant& variant)
+{
+  return variant.isPointwise() &&
+    (variant.text == variant.technique() || variant.text == "vsm blur=sat");
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+/// The shaders that draw the receivers of the first frame know samplers of maps that are not there
+/// yet.
+TEST_BY_VARIANTS(ShaderManager, FirstFrameWithTranslucentReceivers, hasSamplersOfItsOwn)
+{
+  PassScene scene(64, 48);
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(2, 2, 1);
+  image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
+  image->GetPointData()->GetScalars()->Fill(200.0);
+  vtkNew<vtkTexture> texture;
+  texture->SetInputData(image);
+  scene.addFloor(4.0)->SetTexture(texture);
+  vtkActor* const pane = scene.addFloor(1.0);
+  pane->SetPosition(0.5, 0.0, 2.5);
+  pane->GetProperty()->SetOpacity(0.5);
+  scene.addSphere({ 0.0, 0.0, 1.5 }, 0.7);
+  scene.addSun({ 1.0, 0.4, -1.5 });
+  scene.lookFrom({ 0.0, -9.0, 7.0 });
+  GetParam().choose(scene);
+  GetParam().set(scene.pass, "light_radius", "2");
+  scene.pass->SetRoute(vtkGnomonShadowPass::ROUTE_IMAGE);
+  scene.pass->KeepVisibilityOn();
+
+  const Picture first = scene.render();
+  const VisibilityImages& kept = scene.pass->GetVisibility();
+  EXPECT_GT(std::count(kept.coverage.begin(), kept.coverage.end(), 1.0f), 1000);
+  scene.window->SetSize(65, 48);
+  scene.render();
+  scene.window->SetSize(64, 48);
+  EXPECT_EQ(differingPixels(scene.render(), first), 0u);
+}
