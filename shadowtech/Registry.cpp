@@ -261,6 +261,24 @@ bool has(const TechniqueInfo& info, const std::string& settingName)
 }
 
 //------------------------------------------------------------------------------
+std::vector<std::string> valuesOf(
+  const TechniqueInfo& info, SettingsOf of, const ShadowSettings& settings)
+{
+  std::vector<std::string> values;
+  for (const SettingsTable* table : info.settings)
+  {
+    for (const Setting& setting : table->settings)
+    {
+      if (of == SettingsOf::Estimator || setting.isBaked)
+      {
+        values.push_back(setting.get(settings));
+      }
+    }
+  }
+  return values;
+}
+
+//------------------------------------------------------------------------------
 bool isOfLight(const Setting& setting)
 {
   return contains(lightAreaSettings(), setting.name);

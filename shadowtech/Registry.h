@@ -57,6 +57,15 @@ inline constexpr const char* plainTechnique = "nsm";
 /// Whether an estimator has a setting. All have those that choose it, and the light's area.
 bool has(const TechniqueInfo& info, const std::string& settingName);
 
+/// The values of an estimator's settings: of all of them, or of those that its map is baked with.
+enum class SettingsOf
+{
+  Estimator,
+  Map
+};
+std::vector<std::string> valuesOf(
+  const TechniqueInfo& info, SettingsOf of, const ShadowSettings& settings);
+
 /// Whether a setting says what the light is, whatever technique shadows it.
 bool isOfLight(const Setting& setting);
 

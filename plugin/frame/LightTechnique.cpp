@@ -1,7 +1,6 @@
 #include "plugin/frame/LightTechnique.h"
 
 #include "lights/KernelShape.h"
-#include "plugin/scene/Hash.h"
 #include "shadowtech/base/BakeSettings.h"
 #include "shadowtech/base/OccluderBuffers.h"
 #include "shadowtech/base/Occluders.h"
@@ -11,24 +10,6 @@
 
 namespace gnomon
 {
-namespace
-{
-
-/// The values of the settings that maps are baked with.
-std::string bakedSettings(const TechniqueInfo& info, const ShadowLight& light)
-{
-  std::string values;
-  for (const SettingsTable* table : info.settings)
-  {
-    for (const Setting& setting : table->settings)
-    {
-      values += setting.isBaked ? setting.get(light) + "," : "";
-    }
-  }
-  return values;
-}
-
-} // namespace
 
 //------------------------------------------------------------------------------
 LightTechnique::LightTechnique(const EstimatorEntry& estimator)
@@ -99,8 +80,8 @@ void LightTechnique::updateMaps(
   Bake wanted = this->wantedIn(light, stage);
   if (this->info().mapIsOptional && light.of<BakeSettings>().time != BakeTime::Always)
   {
-    this->usesMap_ =
-      this->backoff_.usesMap(this->wanted_.serves(wanted), this->baked_.serves(wanted));
+    this->usesMap_ = this->backoff_.usesMap(
+      this->wanted_.changesTo(wanted).empty(), this->baked_.changesTo(wanted).empty());
     report.mapReason = this->backoff_.reason();
     this->wanted_ = wanted;
   }
@@ -111,11 +92,13 @@ void LightTechnique::updateMaps(
   }
   if (!this->usesMap_)
   {
-    this->baked_.made = false;
+    this->baked_.key.reset();
     this->technique().dropMaps();
     return;
   }
-  if (this->baked_.serves(wanted))
+  const std::string changes = this->baked_.changesTo(wanted);
+  stage.report.values.push_back({ "maps of " + nameOf(light), changes.empty(), changes });
+  if (changes.empty())
   {
     this->baked_.rasterizer = wanted.rasterizer; // it may be the same for another reason
   }
@@ -163,32 +146,34 @@ LightViews LightTechnique::layOut(
 LightTechnique::Bake LightTechnique::wantedIn(const ShadowLight& light, const MapStage& stage)
 {
   Bake wanted;
-  wanted.reach = this->technique().mapReach(light);
-  wanted.views = this->layOut(light, stage, wanted.reach);
+  const MapReach reach = this->technique().mapReach(light);
+  wanted.views = this->layOut(light, stage, reach);
   wanted.camera = this->fitting_.camera;
-  wanted.settings = bakedSettings(this->info(), light);
-  wanted.topology = stage.occluders.topologyVersion;
-  wanted.positions = stage.occluders.positionsVersion;
-  if (light.fittedToReceivers)
-  {
-    wanted.receivers = stage.receiversShown;
-    hashCombine(wanted.receivers, light.snap);
-    hashCombine(wanted.receivers, light.splitLambda);
-  }
   if (this->info().conservativeMap)
   {
     wanted.rasterizer = this->info().onlyCpuDraws.empty()
       ? stage.rasterizer
       : RasterizerChoice{ false, this->info().onlyCpuDraws };
   }
-  wanted.made = true;
+  wanted.key.emplace();
+  wanted.key->add("its views", wanted.views);
+  wanted.key->add("how far around a point they are read", reach);
+  wanted.key->add("its settings", valuesOf(this->info(), SettingsOf::Map, light));
+  wanted.key->add(
+    "the casters", std::pair(stage.occluders.topologyVersion, stage.occluders.positionsVersion));
+  wanted.key->add("who draws them", wanted.isDrawnOnGpu());
+  if (light.fittedToReceivers)
+  {
+    wanted.key->add("the receivers", stage.receiversNumber);
+    wanted.key->add("how they are fitted", std::pair(light.snap, light.splitLambda));
+  }
   return wanted;
 }
 
 //------------------------------------------------------------------------------
 void LightTechnique::bake(const ShadowLight& light, const MapStage& stage, Bake wanted)
 {
-  this->baked_.made = false; // in case that there is no memory
+  this->baked_.key.reset(); // in case that there is no memory
   stage.buffers.update(stage.occluders);
   if (light.fittedToReceivers)
   {
@@ -203,16 +188,13 @@ void LightTechnique::bake(const ShadowLight& light, const MapStage& stage, Bake 
   namingLight(light, [&] { this->technique().bake(input); });
   wanted.castersLeftOut = stage.buffers.countUnseen(wanted.views.views);
   this->baked_ = std::move(wanted);
-  ++stage.mapBakes;
+  ++stage.report.mapBakes;
 }
 
 //------------------------------------------------------------------------------
-bool LightTechnique::Bake::serves(const Bake& wanted) const
+std::string LightTechnique::Bake::changesTo(const Bake& wanted) const
 {
-  return this->made && this->views == wanted.views && this->reach == wanted.reach &&
-    this->settings == wanted.settings && this->isDrawnOnGpu() == wanted.isDrawnOnGpu() &&
-    this->topology == wanted.topology && this->positions == wanted.positions &&
-    this->receivers == wanted.receivers;
+  return this->key ? wanted.key->changesFrom(*this->key) : "there were none";
 }
 
 //------------------------------------------------------------------------------

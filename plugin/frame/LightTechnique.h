@@ -8,6 +8,7 @@
 #include "plugin/frame/BakeBackoff.h"
 #include "plugin/frame/MapRasterizer.h"
 #include "plugin/frame/Route.h"
+#include "plugin/frame/ValueKey.h"
 #include "shadowtech/Registry.h"
 #include "shadowtech/base/FrameReport.h"
 #include "shadowtech/base/Technique.h"
@@ -35,9 +36,9 @@ struct MapStage
   /// What views are fitted to that await it (ShadowLight::fittedToReceivers).
   const ReceiverTarget& receivers;
   const glm::dmat4& centredFromView; ///< the camera's that they were drawn by
-  std::size_t receiversShown;        ///< a hash of what their images depend on
+  std::size_t receiversNumber;       ///< ReceiversValue::number
   ///@}
-  int& mapBakes; ///< FrameReport::mapBakes
+  FrameReport& report;
 };
 
 /// One light's technique, and its maps from frame to frame: what they were drawn from, and so
@@ -74,23 +75,18 @@ public:
   const ViewFitting& fitting() const { return this->fitting_; }
 
 private:
-  /// What maps are drawn from.
+  /// The maps stage's value.
   struct Bake
   {
+    std::optional<ValueKey> key; ///< none: there are no maps, or they were given up half way
     LightViews views;
     std::optional<CameraView> camera; ///< that the views were fitted to
-    MapReach reach;
-    std::string settings; ///< those that it is baked with
-    std::uint64_t topology = 0;
-    std::uint64_t positions = 0;
-    std::size_t receivers = 0; ///< a hash of what F of MapFit.h was found from on the GPU; else 0
     /// Who draws a conservative map; none for other maps.
     std::optional<RasterizerChoice> rasterizer;
     int castersLeftOut = 0;
-    bool made = false; ///< false: it is none yet, or was given up half way
 
-    /// Whether maps that were baked from this serve where others are wanted.
-    bool serves(const Bake& wanted) const;
+    /// What is wanted otherwise than these maps were baked from; empty where they serve.
+    std::string changesTo(const Bake& wanted) const;
     void tell(LightReport& report) const;
     bool isDrawnOnGpu() const { return this->rasterizer && this->rasterizer->gpu; }
   };

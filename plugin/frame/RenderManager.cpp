@@ -2,7 +2,6 @@
 
 #include "plugin/frame/KeptVisibility.h"
 #include "plugin/frame/ReceiverDrawing.h"
-#include "plugin/scene/Hash.h"
 #include "plugin/scene/ShownView.h"
 #include "plugin/window/PictureTarget.h"
 #include "shadowtech/exact/CellTarget.h"
@@ -13,6 +12,9 @@
 #include <vtkRenderer.h>
 
 #include <algorithm>
+#include <optional>
+#include <tuple>
+#include <utility>
 
 namespace gnomon
 {
@@ -32,56 +34,15 @@ vtkOpenGLRenderWindow* windowOf(const vtkRenderState* s)
 }
 
 /// Where a light is, and what it is.
-std::size_t hashOfPlace(const ShadowLight& light)
+auto placeOf(const ShadowLight& light)
 {
-  std::size_t seed = 0;
-  const auto add = [&seed](const glm::dvec3& vector)
-  {
-    for (int i = 0; i < 3; ++i)
-    {
-      hashCombine(seed, vector[i]);
-    }
-  };
-  hashCombine(seed, light.kind);
-  add(light.positionWorld);
-  add(light.directionWorld);
-  hashCombine(seed, light.coneAngleDegrees);
-  if (light.box)
-  {
-    add({ light.box->width, light.box->height, light.box->depth });
-    add(light.box->upWorld);
-  }
-  if (light.area)
-  {
-    hashCombine(seed, light.area->shape);
-    for (int column = 0; column < 3; ++column)
-    {
-      add(light.area->worldFromUnit[column]);
-    }
-  }
-  if (light.texture)
-  {
-    hashCombine(seed, light.texture->texture);
-    for (int column = 0; column < 3; ++column)
-    {
-      add(light.texture->pictureFromWorld[column]);
-    }
-  }
-  return seed;
-}
-
-/// Of the settings that a technique reads.
-std::size_t hashOfSettings(const TechniqueInfo& info, const ShadowSettings& settings)
-{
-  std::size_t seed = 0;
-  for (const SettingsTable* table : info.settings)
-  {
-    for (const Setting& setting : table->settings)
-    {
-      hashCombine(seed, setting.get(settings));
-    }
-  }
-  return seed;
+  const auto box = [](const LightBox& of)
+  { return std::tuple(of.width, of.height, of.depth, of.upWorld); };
+  const auto texture = [](const PlacedTexture& of)
+  { return std::tuple(of.texture, of.pictureFromWorld); };
+  return std::tuple(light.kind, light.positionWorld, light.directionWorld, light.coneAngleDegrees,
+    light.area, light.box ? std::optional(box(*light.box)) : std::nullopt,
+    light.texture ? std::optional(texture(*light.texture)) : std::nullopt);
 }
 
 /// How many pixels are of each class.
@@ -243,14 +204,11 @@ ValueKey RenderManager::receiversKey(const vtkRenderState* s) const
   std::size_t view = 0;
   hashView(view, this->camera_, this->size_);
   const Occluders& occluders = this->collector_.occluders();
-  std::size_t snapshot = 0;
-  hashCombine(snapshot, occluders.topologyVersion);
-  hashCombine(snapshot, occluders.positionsVersion);
   ValueKey key;
   key.add("the camera", view);
   key.add("the props in view", hashOfShownProps(s));
-  key.add("the snapshot", snapshot);
-  key.add("what is read of receivers", this->readsPoints() ? 1 : 0);
+  key.add("the snapshot", std::pair(occluders.topologyVersion, occluders.positionsVersion));
+  key.add("what is read of receivers", this->readsPoints());
   return key;
 }
 
@@ -258,17 +216,20 @@ ValueKey RenderManager::receiversKey(const vtkRenderState* s) const
 /// The key of a light's visibility; its maps follow from the same parts.
 ValueKey RenderManager::visibilityKey(const CastingLight& casting) const
 {
-  std::size_t technique = 0;
-  hashCombine(technique, &casting.own.estimator());
-  hashCombine(technique, casting.light.fittedToReceivers);
+  const TechniqueInfo& info = casting.own.info();
   ValueKey key = *this->view_->receivers.key;
-  key.add("the light", hashOfPlace(casting.light));
-  key.add("its settings", hashOfSettings(casting.own.info(), casting.light));
-  key.add("its technique", technique);
-  key.add("the tracer", static_cast<std::size_t>(this->wishes_.tracer));
-  key.add("the rasterizer", // pixels are the same, but the report says which one drew the map
-    casting.own.info().conservativeMap ? static_cast<std::size_t>(this->wishes_.rasterizer) : 0);
-  key.add("its layer", static_cast<std::size_t>(casting.layer));
+  key.add("the light", placeOf(casting.light));
+  key.add("its technique", std::pair(&casting.own.estimator(), casting.light.fittedToReceivers));
+  key.add("its settings", valuesOf(info, SettingsOf::Estimator, casting.light));
+  key.add("its layer", casting.layer);
+  if (info.evaluation == Evaluation::ScreenCpu)
+  {
+    key.add("the tracer", this->wishes_.tracer);
+  }
+  if (info.conservativeMap)
+  {
+    key.add("the rasterizer", this->wishes_.rasterizer); // which the report names
+  }
   return key;
 }
 
@@ -286,7 +247,6 @@ void RenderManager::updateReceivers(const vtkRenderState* s, vtkObjectBase* pass
 
   ReceiversValue& value = this->view_->receivers;
   const ValueKey key = this->receiversKey(s);
-  this->receiversShown_ = key.hash();
   const std::string changes = value.key ? key.changesFrom(*value.key) : "there were none";
   this->tellReuse("receivers", changes);
   if (!changes.empty())
@@ -295,6 +255,7 @@ void RenderManager::updateReceivers(const vtkRenderState* s, vtkObjectBase* pass
     value.onCpu.reset();
     this->drawReceivers(s, pass);
     value.key = key;
+    value.number = ++this->receiversNumbered_;
   }
   this->findStaleVisibility();
   this->endStageClock("receivers");
@@ -357,7 +318,7 @@ void RenderManager::bakeMaps()
   }
   const MapStage stage{ this->camera_, this->collector_.occluders(), this->buffers_, rasterizer,
     this->programs_.library, this->view_->receivers.target,
-    this->stageValues_.space.centredFromView, this->receiversShown_, this->report_.mapBakes };
+    this->stageValues_.space.centredFromView, this->view_->receivers.number, this->report_ };
   for (CastingLight& casting : this->lights_)
   {
     LightReport& report = reportOf(this->report_, casting.light);
@@ -445,7 +406,6 @@ void RenderManager::computeVisibility()
       }
       value->key = this->visibilityKey(casting);
       value->report = report;
-      value->texture = casting.light.texture ? casting.light.texture->texture : nullptr;
       ++this->report_.visibilityComputed;
       this->report_.raysTraced += report.rays;
     }
@@ -504,9 +464,10 @@ void RenderManager::fillLayers(CastingLight& casting, VisibilityValue& value, Li
       {
         onGpu->drawVisibility(
           { light, casting.own.fitting(), this->camera_, this->stageValues_.space, occluders,
-            this->buffers_, receivers.target, this->receiversShown_, receivers.drawnSurfaces,
-            layers, casting.layer, this->severalViews_, this->programs_.library, classes != nullptr,
-            classes, value.notes, this->report_.mapBakes },
+            this->buffers_, receivers.target, this->view_->receivers.number,
+            receivers.drawnSurfaces, layers, casting.layer, this->severalViews_,
+            this->programs_.library, classes != nullptr, classes, value.notes,
+            this->report_.mapBakes },
           report);
       });
     this->endStageClock("visibility: draw");

@@ -127,8 +127,8 @@ private:
   OccluderBuffers buffers_;
   Route route_ = Route::Inline;
   RendererViews views_;
-  ViewValues* view_ = nullptr;     ///< this frame's
-  std::size_t receiversShown_ = 0; ///< a hash of what the receivers' images depend on
+  ViewValues* view_ = nullptr;        ///< this frame's
+  std::size_t receiversNumbered_ = 0; ///< how many images of receivers were drawn
   PassPrograms& programs_;
   FrameTracer tracer_{ buffers_, programs_.library };
   ShaderManager::StageValues stageValues_;

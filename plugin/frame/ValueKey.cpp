@@ -1,32 +1,27 @@
 #include "plugin/frame/ValueKey.h"
 
-#include "plugin/scene/Hash.h"
-
-#include <algorithm>
-
 namespace gnomon
 {
-
-//------------------------------------------------------------------------------
-std::size_t ValueKey::hash() const
-{
-  std::size_t seed = 0;
-  for (const Part& part : this->parts_)
-  {
-    hashCombine(seed, part.hash);
-  }
-  return seed;
-}
 
 //------------------------------------------------------------------------------
 std::string ValueKey::changesFrom(const ValueKey& other) const
 {
   std::string changes;
-  for (const Part& part : this->parts_)
+  const auto add = [&](const std::string& name)
+  { changes += (changes.empty() ? "" : ", ") + name; };
+  for (const auto& [name, part] : this->parts_)
   {
-    if (std::find(other.parts_.begin(), other.parts_.end(), part) == other.parts_.end())
+    const auto before = other.parts_.find(name);
+    if (before == other.parts_.end() || !part.areEqual(part.value, before->second.value))
     {
-      changes += (changes.empty() ? "" : ", ") + part.name;
+      add(name);
+    }
+  }
+  for (const auto& [name, part] : other.parts_)
+  {
+    if (this->parts_.count(name) == 0)
+    {
+      add(name);
     }
   }
   return changes;

@@ -1,49 +1,42 @@
 #ifndef gnomon_plugin_frame_ValueKey_h
 #define gnomon_plugin_frame_ValueKey_h
 
-#include <cstddef>
+#include <any>
+#include <map>
 #include <string>
-#include <vector>
+#include <utility>
 
 namespace gnomon
 {
 
-/// What a stage's value is made from: named parts, each with a hash. The same key means the same
-/// value, so a stage whose key is that of its last value reuses it.
+/// What a stage's value is made from: named parts. The same key means the same value, so a stage
+/// whose key is that of its last value reuses it.
 class ValueKey
 {
 public:
-  /// Adds a part.
+  /// Adds a part. Parts are the same if they are of the same type and equal by ==.
   /// @param name as the report says it: "the camera"
-  void add(const char* name, std::size_t hash) { this->parts_.push_back({ name, hash }); }
-
-  /// Adds all parts of another key.
-  void add(const ValueKey& other)
+  template <typename Part>
+  void add(const char* name, Part part)
   {
-    this->parts_.insert(this->parts_.end(), other.parts_.begin(), other.parts_.end());
+    this->parts_[name] = { std::move(part),
+      [](const std::any& a, const std::any& b)
+      {
+        const auto* of = std::any_cast<Part>(&b);
+        return of && *of == *std::any_cast<Part>(&a);
+      } };
   }
 
-  /// One number for all parts.
-  std::size_t hash() const;
-
-  /// The names of the parts that differ from another key's, "the camera, the props"; empty if none.
+  /// The names of the parts that are not as in another key, "the camera, the props"; empty if none.
   std::string changesFrom(const ValueKey& other) const;
 
-  bool operator==(const ValueKey& other) const { return this->parts_ == other.parts_; }
-  bool operator!=(const ValueKey& other) const { return !(*this == other); }
-
 private:
-  struct Part
+  struct AnyPart
   {
-    std::string name;
-    std::size_t hash;
-
-    bool operator==(const Part& other) const
-    {
-      return this->name == other.name && this->hash == other.hash;
-    }
+    std::any value;
+    bool (*areEqual)(const std::any& ofThis, const std::any& ofOther);
   };
-  std::vector<Part> parts_;
+  std::map<std::string, AnyPart> parts_; ///< by name
 };
 
 } // namespace gnomon

@@ -13,7 +13,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <list>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,6 +26,7 @@ namespace gnomon
 struct ReceiversValue
 {
   std::optional<ValueKey> key; ///< none: there is no value
+  std::size_t number = 0;      ///< of this image, among all that a renderer's views had
   ReceiverTarget target;
   std::vector<DrawnSurface> drawnSurfaces; ///< that the target's fragments name
   ReceiverImages images;                   ///< the target's on the CPU, once somebody reads them
@@ -42,8 +42,6 @@ struct VisibilityValue
   std::vector<std::string> notes; ///< and what it notes (FrameReport::notes)
   bool classified = false;
   std::vector<std::uint8_t> classes; ///< each pixel's, where `classified`
-  /// Keeps the address alive that the key has: no other texture can come to lie there.
-  std::shared_ptr<const LightTexture> texture;
 };
 
 /// What one view of a renderer keeps from frame to frame.

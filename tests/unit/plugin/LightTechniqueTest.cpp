@@ -61,10 +61,10 @@ protected:
   std::string draw()
   {
     LightReport report;
-    this->bakes_ = 0;
+    this->frame_ = FrameReport();
     this->technique_.updateMaps(this->light_,
       { this->camera_, this->occluders_, this->buffers_, {}, this->shaders_, this->receivers_,
-        glm::dmat4(1.0), 0, this->bakes_ },
+        glm::dmat4(1.0), 0, this->frame_ },
       report);
     EXPECT_EQ(this->technique_.usesMap(), report.mapReason.empty());
     EXPECT_EQ(this->hasMap(), this->technique_.usesMap());
@@ -76,10 +76,10 @@ protected:
     for (int frame = 0; frame <= restingFrames; ++frame)
     {
       EXPECT_THAT(this->draw(), HasSubstr("so far " + std::to_string(frame) + ")"));
-      EXPECT_EQ(this->bakes_, 0);
+      EXPECT_EQ(this->frame_.mapBakes, 0);
     }
     EXPECT_EQ(this->draw(), "");
-    EXPECT_EQ(this->bakes_, 1);
+    EXPECT_EQ(this->frame_.mapBakes, 1);
   }
   void turnLight()
   {
@@ -92,7 +92,7 @@ protected:
   const EstimatorEntry estimator_ = mappedEstimator(true);
   LightTechnique technique_{ this->estimator_ };
   ShadowLight light_;
-  int bakes_ = 0; ///< of the last frame
+  FrameReport frame_; ///< of the last frame
 
 private:
   CameraView camera_;
@@ -108,7 +108,7 @@ TEST_F(OptionalMap, isBakedOnceNothingChanged)
   for (int frame = 0; frame < 100; ++frame)
   {
     EXPECT_EQ(this->draw(), "");
-    EXPECT_EQ(this->bakes_, 0);
+    EXPECT_EQ(this->frame_.mapBakes, 0);
   }
 }
 
@@ -131,12 +131,12 @@ TEST_F(OptionalMap, thatIsAlwaysBakedIsNeverAwaited)
       this->turnLight();
     }
     EXPECT_EQ(this->draw(), "");
-    EXPECT_EQ(this->bakes_, frame % 2 == 0 ? 1 : 0);
+    EXPECT_EQ(this->frame_.mapBakes, frame % 2 == 0 ? 1 : 0);
   }
   // What is there is used, and what went stale before was not the backoff's.
   this->light_.of<BakeSettings>().time = BakeTime::Settled;
   EXPECT_EQ(this->draw(), "");
-  EXPECT_EQ(this->bakes_, 0);
+  EXPECT_EQ(this->frame_.mapBakes, 0);
 }
 
 /// Where the picture depends on the map.

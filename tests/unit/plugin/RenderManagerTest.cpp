@@ -177,7 +177,8 @@ TEST_P(RenderManagerByTechnique, aLightThatMovedLeavesTheReceivers)
   for (const gnomon::ValueReport& value : this->scene.report().values)
   {
     EXPECT_EQ(value.reused, value.name == "receivers");
-    EXPECT_EQ(value.changes, value.reused ? "" : "the light");
+    const char* const changes = value.name == "maps of light 0" ? "its views" : "the light";
+    EXPECT_THAT(value.changes, testing::HasSubstr(value.reused ? "" : changes)) << value.name;
   }
 }
 
@@ -245,10 +246,8 @@ TEST(ValueKey, NamesWhatChanged)
   other.add("the light", 3);
   EXPECT_EQ(key.changesFrom(key), "");
   EXPECT_EQ(other.changesFrom(key), "the light");
-  EXPECT_TRUE(key == key);
-  EXPECT_TRUE(key != other);
-  EXPECT_NE(key.hash(), other.hash());
-  gnomon::ValueKey both = key;
-  both.add(other);
-  EXPECT_EQ(both.changesFrom(gnomon::ValueKey()), "the camera, the light, the camera, the light");
+  EXPECT_EQ(key.changesFrom(gnomon::ValueKey()), "the camera, the light");
+  gnomon::ValueKey ofOtherType;
+  ofOtherType.add("the camera", 1.0);
+  EXPECT_EQ(ofOtherType.changesFrom(key), "the camera, the light");
 }
