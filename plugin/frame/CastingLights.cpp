@@ -2,9 +2,7 @@
 
 #include "lights/SettingsTable.h"
 
-#include "shadowtech/base/Kernel.h"
 #include "shadowtech/base/TextureMemory.h"
-#include "shadowtech/moment_map/MomentMapTechnique.h"
 
 #include <iterator>
 #include <utility>
@@ -18,6 +16,13 @@ namespace
 std::string valueOf(const char* setting, const TechniqueInfo& info, const ShadowLight& light)
 {
   return has(info, setting) ? findSetting(setting)->get(light) : "";
+}
+
+/// The same of a whole number; 0 where an estimator does not have it.
+int numberOf(const char* setting, const TechniqueInfo& info, const ShadowLight& light)
+{
+  const std::string value = valueOf(setting, info, light);
+  return value.empty() ? 0 : std::stoi(value);
 }
 
 /// Finds a light's estimator, and completes the light.
@@ -36,13 +41,13 @@ const EstimatorEntry& composeIn(ShadowLight& light)
 /// Takes back what a light's technique cannot do here, and notes what it does instead.
 void settle(ShadowLight& light, const TechniqueInfo& info, std::vector<std::string>& notes)
 {
-  const int samples = light.of<MomentMapSettings>().samples;
-  const int mostSamples = info.has(momentMapSettings()) ? mostMapSamples() : samples;
-  if (samples > mostSamples)
+  const int samples = numberOf("map_samples", info, light);
+  if (samples > 1 && samples > mostMapSamples())
   {
-    notes.push_back(nameOf(light) + ": OpenGL draws maps with at most " +
-      std::to_string(mostSamples) + " samples of a texel, not " + std::to_string(samples));
-    light.of<MomentMapSettings>().samples = mostSamples;
+    const std::string most = std::to_string(mostMapSamples());
+    notes.push_back(nameOf(light) + ": OpenGL draws maps with at most " + most +
+      " samples of a texel, not " + std::to_string(samples));
+    findSetting("map_samples")->set(light, most);
   }
   if (light.texture && !info.seesTextures)
   {
@@ -97,8 +102,8 @@ LightReport reportOfCasting(const ShadowLight& light, const TechniqueInfo& info)
   report.projection = valueOf("projection", info, light);
   report.mapSizeTexels = info.bakesMap() ? light.mapSizeTexels : 0;
   report.kernel = info.kernel.empty() ? valueOf("kernel", info, light) : info.kernel;
-  report.kernelTexels = info.has(kernelSettings()) ? light.of<KernelSettings>().sizeTexels : 0;
-  report.mapSamples = info.has(momentMapSettings()) ? light.of<MomentMapSettings>().samples : 0;
+  report.kernelTexels = numberOf("kernel_size", info, light);
+  report.mapSamples = numberOf("map_samples", info, light);
   return report;
 }
 
