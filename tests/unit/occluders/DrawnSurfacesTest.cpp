@@ -24,13 +24,11 @@
 #include "vtkOpenGLRenderPass.h"
 #include "vtkPlane.h"
 #include "vtkPointData.h"
-#include "vtkPolyDataNormals.h"
+#include "vtkPropAssembly.h"
 #include "vtkProperty.h"
 #include "vtkRenderState.h"
 #include "vtkRenderer.h"
 #include "vtkShaderProgram.h"
-#include "vtkSphereSource.h"
-#include "vtkStripper.h"
 #include "vtkUnsignedCharArray.h"
 
 #include <gtest/gtest.h>
@@ -141,6 +139,13 @@ protected:
   }
 
   const OccluderCollector& collector() const { return this->pass->collector; }
+
+  vtkActor* add(vtkPolyData* data)
+  {
+    const auto actor = makeActor(data);
+    this->renderer->AddActor(actor);
+    return actor;
+  }
 
   /// Turns the camera to the whole snapshot, a little from the side.
   void lookAtScene()
@@ -437,20 +442,17 @@ struct Glyphs
   vtkNew<vtkActor> actor;
 };
 
-void addPointScalars(vtkPolyData* data)
+void addScalars(vtkDataSetAttributes* attributes, vtkIdType count)
 {
   vtkNew<vtkFloatArray> scalars;
-  scalars->SetNumberOfTuples(data->GetNumberOfPoints());
+  scalars->SetNumberOfTuples(count);
   scalars->Fill(0.5);
-  data->GetPointData()->SetScalars(scalars);
+  attributes->SetScalars(scalars);
 }
 
 void addCellScalars(vtkPolyData* data)
 {
-  vtkNew<vtkFloatArray> scalars;
-  scalars->SetNumberOfTuples(data->GetNumberOfCells());
-  scalars->Fill(0.5);
-  data->GetCellData()->SetScalars(scalars);
+  addScalars(data->GetCellData(), data->GetNumberOfCells());
 }
 
 void addNormals(vtkDataSetAttributes* attributes, vtkIdType count)
@@ -478,54 +480,56 @@ vtkSmartPointer<vtkPolyData> moved(vtkPolyData* data, double x, double y)
 
 } // namespace
 
-TEST_F(DrawnSurfaces, Quads)
-{
-  this->renderer->AddActor(makeActor(makeBumps(8, 1)));
-  this->expectRight(this->check());
-}
-
 TEST_F(DrawnSurfaces, ConcavePolygons)
 {
-  this->renderer->AddActor(makeActor(makePolyData(
+  this->add(makePolyData(
     { { 0, 0, 0 }, { 2, 0, 0 }, { 2, 2, 0 }, { 1, 0.4, 0 }, { 0, 2, 0 }, { -1, 1, 0 } },
-    { { 1, 2, 3, 4, 5, 0 } })));
+    { { 1, 2, 3, 4, 5, 0 } }));
   this->expectRight(this->check());
 }
 
-TEST_F(DrawnSurfaces, Strips)
-{
-  vtkNew<vtkSphereSource> sphere;
-  vtkNew<vtkStripper> stripper;
-  stripper->SetInputConnection(sphere->GetOutputPort());
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputConnection(stripper->GetOutputPort());
-  vtkNew<vtkActor> actor;
-  actor->SetMapper(mapper);
-  this->renderer->AddActor(actor);
-  const Count count = this->check();
-  this->expectRight(count);
-  EXPECT_EQ(count.notHeld, 0);
-}
-
+/// Polygons, strips, lines and points, however VTK numbers and draws them.
 TEST_F(DrawnSurfaces, MixedCells)
 {
-  const auto actor = makeActor(makeMixed());
-  actor->GetProperty()->SetPointSize(4);
-  actor->GetProperty()->SetLineWidth(3);
-  this->renderer->AddActor(actor);
-  const Count count = this->check();
-  ASSERT_EQ(this->collector().occluders().surfaces.size(), 2u);
-  this->expectRight(count);
-  EXPECT_GT(count.notHeld, 0); // lines and points
-}
-
-TEST_F(DrawnSurfaces, MixedCellsThatAreCountedExactly)
-{
+  const auto asTheyAre = [](vtkActor* actor, vtkPolyData*)
+  { actor->GetProperty()->SetLineWidth(3); };
   // Cell colours make VTK count skipped triangles out, which shifts the strips' numbers.
-  const auto data = makeMixed();
-  addCellScalars(data);
-  this->renderer->AddActor(makeActor(data));
-  this->expectRight(this->check());
+  const auto countedExactly = [](vtkActor*, vtkPolyData* data) { addCellScalars(data); };
+  const auto withEdges = [](vtkActor* actor, vtkPolyData*)
+  {
+    actor->GetProperty()->EdgeVisibilityOn();
+    actor->GetProperty()->VertexVisibilityOn();
+  };
+  const auto flat = [](vtkActor* actor, vtkPolyData* data)
+  {
+    addNormals(data->GetCellData(), data->GetNumberOfCells());
+    actor->GetProperty()->SetInterpolationToFlat();
+  };
+  // VTK multiplies the actor's matrix with the camera's in double, where the distance cancels
+  // before anything becomes float: far away is as good as near.
+  const auto farAway = [](vtkActor* actor, vtkPolyData*) { actor->SetPosition(4e6, 4e6, -4e6); };
+  struct Case
+  {
+    const char* name;
+    void (*change)(vtkActor*, vtkPolyData*);
+    double tolerance = 1e-3;
+  };
+  for (const auto& [name, change, tolerance] :
+    { Case{ "as they are", asTheyAre }, { "counted exactly", countedExactly },
+      // To draw edges, VTK grows every triangle by half a line's width on the screen.
+      { "with edges and vertices", withEdges, 0.3 }, { "flat", flat }, { "far", farAway } })
+  {
+    SCOPED_TRACE(name);
+    const auto data = makeMixed();
+    vtkActor* const actor = this->add(data);
+    actor->GetProperty()->SetPointSize(4);
+    change(actor, data);
+    const Count count = this->check(tolerance);
+    EXPECT_EQ(this->collector().occluders().surfaces.size(), 2u);
+    this->expectRight(count);
+    EXPECT_GT(count.notHeld, 0); // lines and points
+    this->renderer->RemoveActor(actor);
+  }
 }
 
 TEST_F(DrawnSurfaces, StripsBehindPolygonsThatAreAllSkipped)
@@ -534,31 +538,10 @@ TEST_F(DrawnSurfaces, StripsBehindPolygonsThatAreAllSkipped)
     makePolyData({ { 0, 0, 0 }, { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 1, 1, 0.2 }, { 0, 2, 0 } },
       { { 0, 1, 0, 1, 0 } });
   data->SetStrips(makeCells({ { 0, 2, 3, 4, 5 } }));
-  this->renderer->AddActor(makeActor(data));
+  this->add(data);
   const Count count = this->check();
   EXPECT_EQ(count.lost + count.outside + count.wrong, 0);
   EXPECT_GT(count.covered, 2000);
-}
-
-TEST_F(DrawnSurfaces, EdgesAndVerticesDrawnToo)
-{
-  const auto actor = makeActor(makeMixed());
-  actor->GetProperty()->EdgeVisibilityOn();
-  actor->GetProperty()->VertexVisibilityOn();
-  actor->GetProperty()->SetPointSize(4);
-  this->renderer->AddActor(actor);
-  // To draw edges, VTK grows every triangle by half a line's width on the screen.
-  this->expectRight(this->check(0.3));
-}
-
-TEST_F(DrawnSurfaces, CellNormalsAndFlatShading)
-{
-  const auto data = makeMixed();
-  addNormals(data->GetCellData(), data->GetNumberOfCells());
-  const auto actor = makeActor(data);
-  actor->GetProperty()->SetInterpolationToFlat();
-  this->renderer->AddActor(actor);
-  this->expectRight(this->check());
 }
 
 TEST_F(DrawnSurfaces, DroppedTriangles)
@@ -570,7 +553,7 @@ TEST_F(DrawnSurfaces, DroppedTriangles)
   {
     points->SetPoint(i, (i % 7) / 6.0 + i / 1000.0, 0.5, 0.0); // a row of cells becomes a line
   }
-  this->renderer->AddActor(makeActor(data));
+  this->add(data);
   this->renderer->GetCullers()->RemoveAllItems(); // they take NaN bounds for out of view
   const Count count = this->check();
   EXPECT_GT(this->collector().occluders().droppedZeroArea, 0u);
@@ -582,7 +565,7 @@ TEST_F(DrawnSurfaces, DroppedTriangles)
 
 TEST_F(DrawnSurfaces, ClippingPlanes)
 {
-  const auto actor = makeActor(makeMixed());
+  vtkActor* const actor = this->add(makeMixed());
   actor->SetPosition(3, -2, 1);
   actor->RotateZ(10);
   for (const glm::dvec3& normal : { glm::dvec3(1, 0.3, 0.1), glm::dvec3(-0.2, -1, 0) })
@@ -592,7 +575,6 @@ TEST_F(DrawnSurfaces, ClippingPlanes)
     plane->SetNormal(normal.x, normal.y, normal.z);
     actor->GetMapper()->AddClippingPlane(plane);
   }
-  this->renderer->AddActor(actor);
   const Count count = this->check();
   EXPECT_GT(count.covered, 2000);
   // A cut triangle leads to its first piece: the ray meets the right plane, but maybe a sibling.
@@ -611,7 +593,7 @@ TEST_F(DrawnSurfaces, BlocksOfSeveralHelpers)
       moved(i % 3 == 0 ? makeMixed() : makeBumps(3 + int(i % 2), i), 1.4 * (i % 4), 1.2 * (i / 4));
     if (i % 2 == 0)
     {
-      addPointScalars(block);
+      addScalars(block->GetPointData(), block->GetNumberOfPoints());
     }
     if (i % 4 >= 2)
     {
@@ -635,27 +617,15 @@ TEST_F(DrawnSurfaces, BlocksOfSeveralHelpers)
   this->expectRight(count);
   EXPECT_GE(this->collector().drawnSurfaces().size(), 6u); // four helpers, two of them with strips
 
-  // The tree changes under the mapper.
+  // The tree changes under the mapper, and triangles are counted exactly.
   root->SetBlock(2, nullptr);
   blocks[3]->SetPolys(makeCells({ { 0, 1, 8, 7 } }));
-  attributes->SetBlockVisibility(blocks[5], true);
-  this->expectRight(this->check());
-}
-
-TEST_F(DrawnSurfaces, BlocksWithCellColours)
-{
-  vtkNew<vtkMultiBlockDataSet> root;
-  for (unsigned int i = 0; i < 6; ++i)
+  for (const auto& block : blocks)
   {
-    const auto block = moved(makeMixed(), 1.4 * (i % 3), 1.2 * (i / 3));
     addCellScalars(block);
-    root->SetBlock(i, block);
+    block->GetPointData()->SetScalars(nullptr);
   }
-  vtkNew<vtkCompositePolyDataMapper2> mapper;
-  mapper->SetInputDataObject(root);
-  vtkNew<vtkActor> actor;
-  actor->SetMapper(mapper);
-  this->renderer->AddActor(actor);
+  attributes->SetBlockVisibility(blocks[5], true);
   this->expectRight(this->check());
 }
 
@@ -675,53 +645,40 @@ TEST_F(DrawnSurfaces, AssembliesTellTheirCopiesApart)
   outer->AddPart(inner);
   outer->AddPart(copy);
   outer->RotateY(10);
-  this->renderer->AddViewProp(outer);
-  const Count count = this->check();
-  ASSERT_EQ(this->collector().occluders().surfaces.size(), 3u);
-  EXPECT_EQ(this->collector().drawnSurfaces().size(), 3u);
-  this->expectRight(count);
+  vtkNew<vtkPropAssembly> whole;
+  whole->AddPart(outer);
+  this->renderer->AddViewProp(whole);
+  for (int frame = 0; frame < 2; ++frame)
+  {
+    const Count count = this->check();
+    ASSERT_EQ(this->collector().occluders().surfaces.size(), 3u);
+    EXPECT_EQ(this->collector().drawnSurfaces().size(), 3u);
+    this->expectRight(count);
+    inner->RotateX(20); // a part that turns inside is noticed
+  }
 }
 
-TEST_F(DrawnSurfaces, ASharedMapperServesSeveralActors)
+/// Mirrored matrices swap the sides as in OpenGL.
+TEST_F(DrawnSurfaces, ASharedMapperServesActorsWithMatricesOfTheirOwn)
 {
-  const auto first = makeActor(makeMixed());
-  vtkNew<vtkActor> second;
-  second->SetMapper(first->GetMapper());
-  second->SetPosition(1.5, 0.2, 0);
-  second->RotateZ(40);
-  this->renderer->AddActor(first);
-  this->renderer->AddActor(second);
-  this->expectRight(this->check());
-}
-
-TEST_F(DrawnSurfaces, MirroredMatricesSwapTheSidesAsInOpenGL)
-{
-  const auto mirrored = makeActor(makeMixed());
-  mirrored->SetScale(-1, 1, 1);
-  this->renderer->AddActor(mirrored);
-  const auto plain = makeActor(makeMixed());
-  plain->SetPosition(0.2, 0, 0);
-  this->renderer->AddActor(plain);
-  this->expectRight(this->check());
-}
-
-TEST_F(DrawnSurfaces, FarFromTheOrigin)
-{
-  const auto data = makeMixed();
-  const auto actor = makeActor(data);
-  actor->SetPosition(4e6, 4e6, -4e6);
-  this->renderer->AddActor(actor);
-  // VTK multiplies the actor's matrix with the camera's in double, where the distance cancels
-  // before anything becomes float: far away is as good as near.
+  vtkActor* const first = this->add(makeMixed());
+  for (const double side : { 1.0, -1.0 })
+  {
+    vtkNew<vtkActor> other;
+    other->SetMapper(first->GetMapper());
+    other->SetPosition(1.5 * side, 0.2, 0);
+    other->SetScale(side, 1, 1);
+    other->RotateZ(40);
+    this->renderer->AddActor(other);
+  }
   this->expectRight(this->check());
 }
 
 TEST_F(DrawnSurfaces, TheSecondFrameIsRightWhenPartsMoved)
 {
-  const auto still = makeActor(makeBumps(4, 5));
+  this->add(makeBumps(4, 5)); // stays
   const auto mover = makeActor(makeMixed());
   mover->SetPosition(0, 0, 1);
-  this->renderer->AddActor(still);
   this->renderer->AddActor(mover);
   this->expectRight(this->check());
   mover->SetPosition(0.5, 0.4, 0.3);
@@ -729,54 +686,41 @@ TEST_F(DrawnSurfaces, TheSecondFrameIsRightWhenPartsMoved)
   this->expectRight(this->check());
 }
 
-TEST_F(DrawnSurfaces, Glyphs)
+TEST_F(DrawnSurfaces, GlyphsScaledAndTurned)
 {
   const Glyphs glyphs;
   this->renderer->AddActor(glyphs.actor);
   this->expectRight(this->check());
   EXPECT_EQ(this->collector().occluders().triangles.size(), 6u * 18u);
-}
-
-TEST_F(DrawnSurfaces, GlyphsScaledAndTurned)
-{
-  const Glyphs glyphs;
-  this->renderer->AddActor(glyphs.actor);
+  constexpr int byMagnitude = vtkGlyph3DMapper::SCALE_BY_MAGNITUDE;
+  constexpr int byComponents = vtkGlyph3DMapper::SCALE_BY_COMPONENTS;
+  constexpr int towards = vtkGlyph3DMapper::DIRECTION;
+  constexpr int byAngles = vtkGlyph3DMapper::ROTATION;
+  constexpr int byQuaternion = vtkGlyph3DMapper::QUATERNION;
   struct Setting
   {
     const char* scales;
-    void (*scale)(vtkGlyph3DMapper*);
+    int scaleMode;
     const char* orientations;
-    void (*orient)(vtkGlyph3DMapper*);
+    int orientationMode;
+    bool clamped = false;
+    bool scaled = true;
   };
-  const auto byMagnitude = [](vtkGlyph3DMapper* mapper)
-  { mapper->SetScaleModeToScaleByMagnitude(); };
-  const auto byComponents = [](vtkGlyph3DMapper* mapper)
-  { mapper->SetScaleModeToScaleByVectorComponents(); };
-  const auto clamped = [](vtkGlyph3DMapper* mapper)
-  {
-    mapper->SetScaleModeToScaleByMagnitude();
-    mapper->ClampingOn();
-    mapper->SetRange(0.3, 1.1);
-  };
-  const auto unscaled = [](vtkGlyph3DMapper* mapper) { mapper->ScalingOff(); };
-  const auto towards = [](vtkGlyph3DMapper* mapper) { mapper->SetOrientationModeToDirection(); };
-  const auto byAngles = [](vtkGlyph3DMapper* mapper) { mapper->SetOrientationModeToRotation(); };
-  const auto byQuaternion = [](vtkGlyph3DMapper* mapper)
-  { mapper->SetOrientationModeToQuaternion(); };
+  glyphs.mapper->SetScaleFactor(0.9);
+  glyphs.mapper->SetRange(0.3, 1.1);
   for (const Setting& setting : { Setting{ "sizes", byMagnitude, "directions", towards },
-         Setting{ "sizes3", byComponents, "angles", byAngles },
-         Setting{ "sizes3", byMagnitude, "turns", byQuaternion },
-         Setting{ "sizes", clamped, "directions", towards },
-         Setting{ "sizes", unscaled, "turns", byQuaternion } })
+         { "sizes3", byComponents, "angles", byAngles },
+         { "sizes3", byMagnitude, "turns", byQuaternion },
+         { "sizes", byMagnitude, "directions", towards, true },
+         { "sizes", byMagnitude, "turns", byQuaternion, false, false } })
   {
     SCOPED_TRACE(std::string(setting.scales) + " " + setting.orientations);
-    glyphs.mapper->ClampingOff();
-    glyphs.mapper->ScalingOn();
-    glyphs.mapper->SetScaleFactor(0.9);
+    glyphs.mapper->SetClamping(setting.clamped);
+    glyphs.mapper->SetScaling(setting.scaled);
     glyphs.mapper->SetScaleArray(setting.scales);
-    setting.scale(glyphs.mapper);
+    glyphs.mapper->SetScaleMode(setting.scaleMode);
     glyphs.mapper->SetOrientationArray(setting.orientations);
-    setting.orient(glyphs.mapper);
+    glyphs.mapper->SetOrientationMode(setting.orientationMode);
     this->expectRight(this->check(), 1000);
   }
 }

@@ -14,29 +14,31 @@
 #include "vtkFollower.h"
 #include "vtkGlyph3DMapper.h"
 #include "vtkImageData.h"
-#include "vtkMatrix4x4.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkPlane.h"
 #include "vtkPlaneSource.h"
 #include "vtkPointData.h"
-#include "vtkPropAssembly.h"
 #include "vtkProperty.h"
 #include "vtkRenderer.h"
 #include "vtkSOADataArrayTemplate.h"
 #include "vtkSphereSource.h"
 #include "vtkTexture.h"
-#include "vtkTransform.h"
 #include "vtkUnsignedCharArray.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
 
 using namespace gnomon;
 using namespace gnomon::test;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::UnorderedElementsAre;
 
 namespace
 {
@@ -49,7 +51,18 @@ struct Scene
   vtkNew<vtkRenderer> renderer;
   OccluderCollector collector;
 
+  vtkActor* add(vtkPolyData* data)
+  {
+    const auto actor = makeActor(data);
+    this->renderer->AddActor(actor);
+    return actor;
+  }
   OccluderCollector::Change collect() { return this->collector.collect(this->renderer); }
+  std::size_t collectSurfaces()
+  {
+    this->collect();
+    return this->surfaceCount();
+  }
   const Occluders& occluders() const { return this->collector.occluders(); }
   const Surface& surface(std::size_t i) const { return this->occluders().surfaces.at(i); }
   std::size_t surfaceCount() const { return this->occluders().surfaces.size(); }
@@ -85,7 +98,7 @@ void expectNothingDone(Scene& scene)
   EXPECT_EQ(scene.occluders().positionsVersion, positions);
 }
 
-vtkSmartPointer<vtkActor> makeCompositeActor(vtkMultiBlockDataSet* tree)
+vtkSmartPointer<vtkActor> makeCompositeActor(vtkDataObject* tree)
 {
   vtkNew<vtkCompositePolyDataMapper2> mapper;
   mapper->SetInputDataObject(tree);
@@ -94,12 +107,6 @@ vtkSmartPointer<vtkActor> makeCompositeActor(vtkMultiBlockDataSet* tree)
   const auto actor = vtkSmartPointer<vtkActor>::New();
   actor->SetMapper(mapper);
   return actor;
-}
-
-vtkCompositeDataDisplayAttributes* attributesOf(vtkActor* actor)
-{
-  return vtkCompositePolyDataMapper2::SafeDownCast(actor->GetMapper())
-    ->GetCompositeDataDisplayAttributes();
 }
 
 /// One source at every point of a polydata.
@@ -120,53 +127,12 @@ struct PlacedGlyphs
 
 // ---- triangles -------------------------------------------------------------
 
-TEST(OccluderTriangles, PolygonsAreFannedFromTheirFirstVertex)
-{
-  Scene scene;
-  scene.renderer->AddActor(makeActor(makePolyData(
-    { { 0, 0, 0 }, { 1, 0, 0 }, { 2, 1, 0 }, { 1, 2, 0 }, { 0, 1, 0 } }, { { 2, 3, 4, 0, 1 } })));
-  scene.collect();
-  ASSERT_EQ(scene.surface(0).triangleCount, 3u);
-  EXPECT_EQ(scene.triangle(0, 0), glm::uvec3(2, 3, 4));
-  EXPECT_EQ(scene.triangle(0, 1), glm::uvec3(2, 4, 0));
-  EXPECT_EQ(scene.triangle(0, 2), glm::uvec3(2, 0, 1));
-  EXPECT_TRUE(scene.surface(0).triangleOfDrawn.empty());
-}
-
-TEST(OccluderTriangles, StripsTurnEveryOtherTriangle)
-{
-  Scene scene;
-  const auto data =
-    makePolyData({ { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 1, 1, 0 }, { 0, 2, 0 } }, {});
-  data->SetStrips(makeCells({ { 0, 1, 2, 3, 4 } }));
-  scene.renderer->AddActor(makeActor(data));
-  scene.collect();
-  ASSERT_EQ(scene.surfaceCount(), 1u);
-  ASSERT_EQ(scene.surface(0).triangleCount, 3u);
-  EXPECT_EQ(scene.triangle(0, 0), glm::uvec3(0, 1, 2));
-  EXPECT_EQ(scene.triangle(0, 1), glm::uvec3(1, 3, 2));
-  EXPECT_EQ(scene.triangle(0, 2), glm::uvec3(2, 3, 4));
-}
-
-TEST(OccluderTriangles, PolygonsAndStripsAreSurfacesOfTheirOwn)
-{
-  Scene scene;
-  const auto data = makeSquare();
-  data->SetStrips(makeCells({ { 0, 1, 3, 2 } }));
-  scene.renderer->AddActor(makeActor(data));
-  scene.collect();
-  ASSERT_EQ(scene.surfaceCount(), 2u);
-  EXPECT_EQ(scene.surface(0).triangleCount, 2u);
-  EXPECT_EQ(scene.surface(1).triangleCount, 2u);
-  EXPECT_EQ(scene.surface(1).firstTriangle, 2u);
-}
-
 TEST(OccluderTriangles, EqualVerticesAreNeverDrawnAndTakeNoNumber)
 {
   // The second point equals the third: VTK draws one triangle of the quad, which is no drop.
   Scene scene;
-  scene.renderer->AddActor(makeActor(
-    makePolyData({ { 0, 0, 0 }, { 1, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } }, { { 0, 1, 2, 3 } })));
+  scene.add(
+    makePolyData({ { 0, 0, 0 }, { 1, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } }, { { 0, 1, 2, 3 } }));
   scene.collect();
   ASSERT_EQ(scene.surface(0).triangleCount, 1u);
   EXPECT_TRUE(scene.surface(0).triangleOfDrawn.empty());
@@ -174,61 +140,50 @@ TEST(OccluderTriangles, EqualVerticesAreNeverDrawnAndTakeNoNumber)
   EXPECT_EQ(scene.occluders().droppedNonFinite, 0u);
 }
 
+/// Or has a point that is not there.
 TEST(OccluderTriangles, DropsWhatHasNoAreaOrIsNotFinite)
 {
   Scene scene;
-  scene.renderer->AddActor(makeActor(
+  scene.add(
     makePolyData({ { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 2, 0, 0 }, { notANumber, 0, 0 } },
-      { { 0, 1, 2 }, { 0, 1, 3 }, { 0, 1, 4 }, { 1, 3, 2 } })));
+      { { 0, 1, 2 }, { 0, 1, 3 }, { 0, 1, 4 }, { 0, 1, 7 }, { 1, 3, 2 } }));
   scene.collect();
   EXPECT_EQ(scene.occluders().droppedZeroArea, 1u);
-  EXPECT_EQ(scene.occluders().droppedNonFinite, 1u);
-  const std::vector<std::uint32_t> table = { 0, Surface::noTriangle, Surface::noTriangle, 1 };
-  EXPECT_EQ(scene.surface(0).triangleOfDrawn, table);
+  EXPECT_EQ(scene.occluders().droppedNonFinite, 2u);
+  constexpr std::uint32_t none = Surface::noTriangle;
+  EXPECT_EQ(
+    scene.surface(0).triangleOfDrawn, (std::vector<std::uint32_t>{ 0, none, none, none, 1 }));
   ASSERT_EQ(scene.surface(0).triangleCount, 2u);
   expectNear(scene.positionWorld(0, scene.triangle(0, 1).y), { 2, 0, 0 });
   for (const glm::vec3& position : scene.occluders().positionsCentred)
   {
-    EXPECT_TRUE(
-      std::isfinite(position.x) && std::isfinite(position.y) && std::isfinite(position.z));
+    EXPECT_TRUE(std::isfinite(glm::dot(position, position)));
   }
 }
 
+/// And takes up again what another matrix does not.
 TEST(OccluderTriangles, DropsWhatAMatrixFlattensOrBlowsUp)
 {
   Scene scene;
-  const auto actor = makeActor(makeSquare());
-  actor->SetScale(1.0, 1e-80, 1.0);
-  scene.renderer->AddActor(actor);
-  scene.collect();
-  EXPECT_EQ(scene.occluders().droppedZeroArea, 2u);
-  EXPECT_EQ(scene.surface(0).triangleCount, 0u);
-
-  actor->SetScale(1.0, 1e80, 1.0); // too large for a float
-  scene.collect();
-  EXPECT_EQ(scene.occluders().droppedNonFinite, 2u);
-
-  actor->SetScale(1.0, 1.0, 1.0); // and back: nothing stays dropped
-  scene.collect();
-  EXPECT_EQ(scene.occluders().droppedZeroArea + scene.occluders().droppedNonFinite, 0u);
-  EXPECT_EQ(scene.surface(0).triangleCount, 2u);
-  EXPECT_TRUE(scene.surface(0).triangleOfDrawn.empty());
-
-  actor->SetScale(1e-80, 1.0, 1.0); // a move may drop what was kept
-  scene.collect();
-  EXPECT_EQ(scene.occluders().droppedZeroArea, 2u);
-  EXPECT_EQ(scene.surface(0).triangleCount, 0u);
-  expectNothingDone(scene);
-}
-
-TEST(OccluderTriangles, DropsTrianglesOfPointsThatAreNotThere)
-{
-  Scene scene;
-  scene.renderer->AddActor(makeActor(
-    makePolyData({ { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } }, { { 0, 1, 2 }, { 0, 1, 7 } })));
-  scene.collect();
-  EXPECT_EQ(scene.surface(0).triangleCount, 1u);
-  EXPECT_EQ(scene.occluders().droppedNonFinite, 1u);
+  vtkActor* const actor = scene.add(makeSquare());
+  struct Case
+  {
+    glm::dvec3 scale;
+    std::size_t zeroArea;
+    std::size_t nonFinite;
+  };
+  for (const auto& [scale, zeroArea, nonFinite] :
+    { Case{ { 1.0, 1e-80, 1.0 }, 2, 0 }, { { 1.0, 1e80, 1.0 }, 0, 2 }, // too large for a float
+      { { 1.0, 1.0, 1.0 }, 0, 0 }, { { 1e-80, 1.0, 1.0 }, 2, 0 } })
+  {
+    actor->SetScale(scale.x, scale.y, scale.z);
+    scene.collect();
+    EXPECT_EQ(scene.occluders().droppedZeroArea, zeroArea);
+    EXPECT_EQ(scene.occluders().droppedNonFinite, nonFinite);
+    EXPECT_EQ(scene.surface(0).triangleCount, 2 - zeroArea - nonFinite);
+    EXPECT_EQ(scene.surface(0).triangleOfDrawn.empty(), zeroArea + nonFinite == 0);
+    expectNothingDone(scene);
+  }
 }
 
 TEST(OccluderTriangles, PointsInAnyArrayAreRead)
@@ -250,9 +205,9 @@ TEST(OccluderTriangles, PointsInAnyArrayAreRead)
   {
     const auto data = makeSquare();
     data->GetPoints()->SetData(array);
-    scene.renderer->AddActor(makeActor(data));
+    scene.add(data);
   }
-  scene.renderer->AddActor(makeActor(makeSquare(VTK_DOUBLE)));
+  scene.add(makeSquare(VTK_DOUBLE));
   scene.collect();
   ASSERT_EQ(scene.surfaceCount(), 3u);
   for (std::size_t i = 0; i < 3; ++i)
@@ -264,81 +219,66 @@ TEST(OccluderTriangles, PointsInAnyArrayAreRead)
 TEST(OccluderTriangles, OnlyUsedPointsBecomeVertices)
 {
   Scene scene;
-  scene.renderer->AddActor(makeActor(
+  scene.add(
     makePolyData({ { 1e9, 0, 0 }, { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { notANumber, 0, 0 } },
-      { { 1, 2, 3 } })));
+      { { 1, 2, 3 } }));
   scene.collect();
   EXPECT_EQ(scene.surface(0).vertexCount, 3u);
   EXPECT_NEAR(scene.occluders().allCentred.radius(), std::sqrt(0.5), 1e-6);
-}
-
-TEST(OccluderTriangles, ThereIsRoomToReadTheLastPositionAs16Bytes)
-{
-  Scene scene;
-  scene.renderer->AddActor(makeActor(makeSquare()));
-  scene.collect();
-  EXPECT_GT(
-    scene.occluders().positionsCentred.capacity(), scene.occluders().positionsCentred.size());
+  EXPECT_GT(scene.occluders().positionsCentred.capacity(), 3u) << "the last is read as 16 bytes";
 }
 
 // ---- props -----------------------------------------------------------------
 
 TEST(OccluderProps, WhatIsNotAnOpaqueSurfaceIsLeftOut)
 {
-  Scene scene;
-  for (int i = 0; i < 5; ++i)
-  {
-    scene.renderer->AddActor(makeActor(makeSquare()));
-  }
-  vtkPropCollection* props = scene.renderer->GetViewProps();
-  const auto actor = [props](int i) { return vtkActor::SafeDownCast(props->GetItemAsObject(i)); };
-  actor(0)->SetVisibility(false);
-  actor(1)->GetProperty()->SetRepresentationToWireframe();
-  actor(2)->GetProperty()->SetRepresentationToPoints();
-  actor(3)->GetProperty()->SetOpacity(0.5);
-  scene.collect();
-  ASSERT_EQ(scene.surfaceCount(), 1u);
-
-  actor(3)->ForceOpaqueOn();
-  actor(4)->ForceTranslucentOn();
-  scene.collect();
-  EXPECT_EQ(scene.surfaceCount(), 1u);
-  actor(4)->ForceTranslucentOff();
-  scene.collect();
-  EXPECT_EQ(scene.surfaceCount(), 2u);
-}
-
-TEST(OccluderProps, TranslucentColoursMakeAPropTranslucent)
-{
-  Scene scene;
-  const auto square = makeSquare();
+  const auto translucent = makeSquare();
   vtkNew<vtkUnsignedCharArray> colours;
   colours->SetNumberOfComponents(4);
-  for (int i = 0; i < 4; ++i)
+  colours->SetNumberOfTuples(4);
+  colours->Fill(128);
+  translucent->GetPointData()->SetScalars(colours);
+  const auto nothing = [](vtkActor*) {};
+  const auto fade = [](vtkActor* actor) { actor->GetProperty()->SetOpacity(0.5); };
+  struct Case
   {
-    colours->InsertNextTuple4(255, 0, 0, 128);
+    vtkSmartPointer<vtkPolyData> data;
+    std::function<void(vtkActor*)> change;
+    std::size_t surfaces;
+  };
+  const Case cases[] = { { makeSquare(), nothing, 1 }, { translucent, nothing, 0 },
+    { makeSquare(), fade, 0 }, { vtkSmartPointer<vtkPolyData>::New(), nothing, 0 },
+    { makeSquare(), [](vtkActor* actor) { actor->SetVisibility(false); }, 0 },
+    { makeSquare(), [](vtkActor* actor) { actor->GetProperty()->SetRepresentationToWireframe(); },
+      0 },
+    { makeSquare(), [](vtkActor* actor) { actor->GetProperty()->SetRepresentationToPoints(); }, 0 },
+    { makeSquare(), [](vtkActor* actor) { actor->ForceTranslucentOn(); }, 0 },
+    { makeSquare(),
+      [&](vtkActor* actor)
+      {
+        fade(actor);
+        actor->ForceOpaqueOn();
+      },
+      1 },
+    { makeSquare(), [](vtkActor* actor) { actor->SetMapper(nullptr); }, 0 },
+    { makeSquare(), [](vtkActor* actor) { actor->SetMapper(vtkNew<vtkPolyDataMapper>()); }, 0 } };
+  int number = 0;
+  for (const auto& [data, change, surfaces] : cases)
+  {
+    Scene scene;
+    change(scene.add(data));
+    EXPECT_EQ(scene.collectSurfaces(), surfaces) << "case " << number++;
+    EXPECT_EQ(scene.occluders().allCentred.empty(), surfaces == 0);
   }
-  square->GetPointData()->SetScalars(colours);
-  scene.renderer->AddActor(makeActor(square));
-  scene.collect();
-  EXPECT_EQ(scene.surfaceCount(), 0u);
 }
 
-TEST(OccluderProps, UnservedMappersAreNoted)
+/// Mappers that are not served, and actors whose matrix is not known.
+TEST(OccluderProps, WhatIsNotServedIsNoted)
 {
   Scene scene;
   const PlacedGlyphs glyphs(makeSquare(), makeSquare());
   glyphs.mapper->SetCullingAndLOD(true);
   scene.renderer->AddActor(glyphs.actor);
-  scene.collect();
-  EXPECT_EQ(scene.surfaceCount(), 0u);
-  ASSERT_EQ(scene.collector.notes().size(), 1u);
-  EXPECT_NE(scene.collector.notes()[0].find("Glyph3DMapper"), std::string::npos);
-}
-
-TEST(OccluderProps, ActorsWhoseMatrixIsNotKnownAreNoted)
-{
-  Scene scene;
   vtkNew<vtkAssembly> assembly;
   for (int i = 0; i < 2; ++i)
   {
@@ -347,32 +287,27 @@ TEST(OccluderProps, ActorsWhoseMatrixIsNotKnownAreNoted)
     assembly->AddPart(follower);
   }
   scene.renderer->AddActor(assembly);
-  scene.collect();
-  EXPECT_EQ(scene.surfaceCount(), 0u);
-  ASSERT_EQ(scene.collector.notes().size(), 1u);
-  EXPECT_NE(scene.collector.notes()[0].find("Follower"), std::string::npos);
-  EXPECT_NE(scene.collector.notes()[0].find("2 props"), std::string::npos);
+  EXPECT_EQ(scene.collectSurfaces(), 0u);
+  EXPECT_THAT(scene.collector.notes(),
+    UnorderedElementsAre(
+      HasSubstr("Glyph3DMapper"), AllOf(HasSubstr("Follower"), HasSubstr("2 props"))));
 }
 
 TEST(OccluderProps, TranslucentOnesAreHeldIfAskedToCast)
 {
   Scene scene;
-  const auto pane = makeActor(makeSquare());
+  vtkActor* const pane = scene.add(makeSquare());
   pane->GetProperty()->SetOpacity(0.5);
-  scene.renderer->AddActor(pane);
-  scene.collect();
-  EXPECT_EQ(scene.surfaceCount(), 0u);
+  EXPECT_EQ(scene.collectSurfaces(), 0u);
   EXPECT_EQ(scene.collector.translucentReceivers(), 1u);
   vtkGnomonPropKeys::SetCasts(pane, true);
-  scene.collect();
-  ASSERT_EQ(scene.surfaceCount(), 1u);
-  EXPECT_TRUE(scene.occluders().surfaces[0].casts);
+  ASSERT_EQ(scene.collectSurfaces(), 1u);
+  EXPECT_TRUE(scene.surface(0).casts);
   vtkGnomonPropKeys::SetReceives(pane, false);
   scene.collect();
   EXPECT_EQ(scene.collector.translucentReceivers(), 0u);
   vtkGnomonPropKeys::SetCasts(pane, false);
-  scene.collect();
-  EXPECT_EQ(scene.surfaceCount(), 0u);
+  EXPECT_EQ(scene.collectSurfaces(), 0u);
 }
 
 // ---- glyphs ------------------------------------------------------------------
@@ -384,30 +319,29 @@ TEST(OccluderGlyphs, AreReadAgainOnlyWhenTheyChange)
   const auto source = makeSquare();
   const PlacedGlyphs glyphs(points, source);
   scene.renderer->AddActor(glyphs.actor);
-  scene.collect();
+  const auto expectAfter = [&](int extracted, int retransformed, const glm::dvec3& corner)
+  {
+    const OccluderCollector::Change change = scene.collect();
+    EXPECT_EQ(change.extracted, extracted);
+    EXPECT_EQ(change.retransformed, retransformed);
+    expectNear(scene.positionWorld(0, 5), corner); // the second glyph's second corner
+    expectNothingDone(scene);
+  };
+  const auto movePoint = [](vtkPolyData* data, double x)
+  {
+    data->GetPoints()->SetPoint(1, x, 0, 0);
+    data->GetPoints()->Modified();
+  };
+  expectAfter(1, 0, { 2, 0, 0 });
   EXPECT_EQ(scene.occluders().triangles.size(), 4u * 2u);
-  EXPECT_EQ(scene.collect().extracted, 0);
-
   glyphs.actor->SetPosition(1, 2, 3);
-  OccluderCollector::Change change = scene.collect();
-  EXPECT_EQ(change.extracted, 0);
-  EXPECT_EQ(change.retransformed, 1);
-  expectNear(scene.positionWorld(0, 5), glm::dvec3(3, 2, 3)); // the second glyph's second corner
-
-  points->GetPoints()->SetPoint(1, 5, 0, 0);
-  points->GetPoints()->Modified();
-  EXPECT_EQ(scene.collect().extracted, 1);
-  expectNear(scene.positionWorld(0, 5), glm::dvec3(7, 2, 3));
-
+  expectAfter(0, 1, { 3, 2, 3 });
+  movePoint(points, 5);
+  expectAfter(1, 0, { 7, 2, 3 });
   glyphs.mapper->SetScaleFactor(2.0);
-  EXPECT_EQ(scene.collect().extracted, 1);
-  expectNear(scene.positionWorld(0, 5), glm::dvec3(8, 2, 3));
-
-  source->GetPoints()->SetPoint(1, 3, 0, 0);
-  source->GetPoints()->Modified();
-  EXPECT_EQ(scene.collect().extracted, 1);
-  expectNear(scene.positionWorld(0, 5), glm::dvec3(12, 2, 3));
-  EXPECT_EQ(scene.collect().extracted, 0);
+  expectAfter(1, 0, { 8, 2, 3 });
+  movePoint(source, 3);
+  expectAfter(1, 0, { 12, 2, 3 });
 }
 
 TEST(OccluderGlyphs, WhatVtkDoesNotDrawIsLeftOut)
@@ -421,19 +355,20 @@ TEST(OccluderGlyphs, WhatVtkDoesNotDrawIsLeftOut)
   pairs->SetNumberOfTuples(4);
   pairs->Fill(1.0);
   vtkPolyData::SafeDownCast(glyphs.mapper->GetInput())->GetPointData()->AddArray(pairs);
+  const auto triangles = [&scene]
+  {
+    scene.collect();
+    return scene.occluders().triangles.size();
+  };
   glyphs.mapper->SetOrientationArray("pairs"); // not three components
-  scene.collect();
-  EXPECT_EQ(scene.occluders().triangles.size(), 0u);
+  EXPECT_EQ(triangles(), 0u);
   glyphs.mapper->OrientOff();
-  scene.collect();
-  EXPECT_EQ(scene.occluders().triangles.size(), 8u);
+  EXPECT_EQ(triangles(), 8u);
   glyphs.mapper->UseSourceTableTreeOn(); // without a tree
-  scene.collect();
-  EXPECT_EQ(scene.surfaceCount(), 0u);
+  EXPECT_EQ(triangles(), 0u);
   glyphs.mapper->UseSourceTableTreeOff();
   glyphs.mapper->RemoveAllInputConnections(1);
-  scene.collect();
-  EXPECT_EQ(scene.surfaceCount(), 0u);
+  EXPECT_EQ(triangles(), 0u);
 }
 
 TEST(OccluderGlyphs, MoreTrianglesThanTheBoundAreLeftOutAndNoted)
@@ -453,13 +388,12 @@ TEST(OccluderGlyphs, MoreTrianglesThanTheBoundAreLeftOutAndNoted)
   }
   const PlacedGlyphs glyphs(points, makePolyData(corners, triangles));
   scene.renderer->AddActor(glyphs.actor);
-  scene.renderer->AddActor(makeActor(makeSquare()));
+  scene.add(makeSquare());
   for (int frame = 0; frame < 2; ++frame)
   {
     scene.collect();
     EXPECT_EQ(scene.occluders().triangles.size(), 2u);
-    ASSERT_EQ(scene.collector.notes().size(), 1u);
-    EXPECT_NE(scene.collector.notes()[0].find("32769 glyphs"), std::string::npos);
+    EXPECT_THAT(scene.collector.notes(), testing::ElementsAre(HasSubstr("32769 glyphs")));
   }
 }
 
@@ -473,88 +407,29 @@ TEST(OccluderGlyphs, AreKeptAsInstancesWhereThatIsCheaper)
   EXPECT_FALSE(areInstancesCheaper(0, 1000000));
 }
 
-/// Sixty-four squares in a row, one of them without area, at 4,096 points on a line.
-struct RowGlyphs
-{
-  static vtkSmartPointer<vtkPolyData> makePoints()
-  {
-    const auto points = vtkSmartPointer<vtkPolyData>::New();
-    points->SetPoints(vtkNew<vtkPoints>());
-    for (int i = 0; i < 4096; ++i)
-    {
-      points->GetPoints()->InsertNextPoint(0.0, 2.0 * i, 0.0);
-    }
-    return points;
-  }
-  static vtkSmartPointer<vtkPolyData> makeRow()
-  {
-    std::vector<glm::dvec3> corners;
-    Cells triangles;
-    for (vtkIdType i = 0; i < 64; ++i)
-    {
-      const auto x = static_cast<double>(i);
-      corners.insert(
-        corners.end(), { { x, 0, 0 }, { x + 1, 0, 0 }, { x, i == 9 ? 0.0 : 1.0, 1e-9 } });
-      triangles.push_back({ 3 * i, 3 * i + 1, 3 * i + 2 });
-    }
-    corners[3 * 9 + 2] = { 11.0, 0, 0 };
-    return makePolyData(corners, triangles);
-  }
-
-  vtkSmartPointer<vtkPolyData> points = makePoints();
-  PlacedGlyphs glyphs{ this->points, makeRow() };
-};
-
-TEST(OccluderGlyphs, KeptAsInstancesAreThereOnce)
-{
-  Scene scene;
-  const RowGlyphs row;
-  row.glyphs.actor->SetPosition(1e6, 0, 5);
-  scene.renderer->AddActor(row.glyphs.actor);
-  scene.collect();
-  ASSERT_EQ(scene.surfaceCount(), 1u);
-  const Surface& surface = scene.surface(0);
-  EXPECT_EQ(surface.triangleCount, 63u);
-  EXPECT_EQ(surface.drawnCount(), 64u);
-  ASSERT_EQ(surface.centredFromSource.size(), 4096u);
-  EXPECT_FALSE(surface.mirrored);
-  EXPECT_EQ(scene.occluders().droppedZeroArea, 4096u);
-  const auto cornerWorld = [&](std::size_t instance, std::uint32_t vertex)
-  {
-    return glm::dvec3(glm::dmat4x3(surface.centredFromSource[instance]) *
-             glm::dvec4(glm::dvec3(scene.occluders().positionsCentred[vertex]), 1.0)) +
-      scene.occluders().centreWorld;
-  };
-  expectNear(cornerWorld(0, 1), { 1e6 + 1, 0, 5 }, 1e-3);
-  expectNear(cornerWorld(4095, 191), { 1e6 + 63, 8191, 5 }, 1e-3);
-  const Bounds& bounds = scene.occluders().castersCentred;
-  expectNear(bounds.lower + scene.occluders().centreWorld, { 1e6, 0, 5 }, 1e-3);
-  expectNear(bounds.upper + scene.occluders().centreWorld, { 1e6 + 64, 8191, 5 }, 1e-3);
-  expectNothingDone(scene);
-
-  row.glyphs.actor->SetPosition(1e6, 3, 5);
-  const OccluderCollector::Change change = scene.collect();
-  EXPECT_EQ(change.extracted, 0);
-  EXPECT_EQ(change.retransformed, 1);
-  expectNear(cornerWorld(4095, 191), { 1e6 + 63, 8194, 5 }, 1e-3);
-  expectNothingDone(scene);
-}
-
 /// VTK makes 1e-10 of a scale of 0; as triangles such glyphs have no area.
 TEST(OccluderGlyphs, InstancesThatCannotBeSeenAreLeftOut)
 {
   Scene scene;
-  const RowGlyphs row;
+  const auto points = vtkSmartPointer<vtkPolyData>::New();
+  points->SetPoints(vtkNew<vtkPoints>());
+  for (int i = 0; i < 4096; ++i)
+  {
+    points->GetPoints()->InsertNextPoint(0.0, i == 5 ? notANumber : 2.0 * i, 0.0);
+  }
+  vtkNew<vtkPlaneSource> source;
+  source->SetResolution(4, 8); // 64 triangles
+  source->Update();
+  const PlacedGlyphs glyphs(points, source->GetOutput());
   vtkNew<vtkFloatArray> sizes;
   sizes->SetName("sizes");
   sizes->SetNumberOfTuples(4096);
   sizes->Fill(1.0);
   sizes->SetTuple1(17, 0.0);
-  row.points->GetPointData()->AddArray(sizes);
-  row.glyphs.mapper->SetScaleArray("sizes");
-  row.glyphs.mapper->SetScaleModeToScaleByMagnitude();
-  row.points->GetPoints()->SetPoint(5, 0.0, notANumber, 0.0);
-  scene.renderer->AddActor(row.glyphs.actor);
+  points->GetPointData()->AddArray(sizes);
+  glyphs.mapper->SetScaleArray("sizes");
+  glyphs.mapper->SetScaleModeToScaleByMagnitude();
+  scene.renderer->AddActor(glyphs.actor);
   scene.collect();
   const std::vector<glm::mat4x3>& instances = scene.surface(0).centredFromSource;
   ASSERT_EQ(instances.size(), 4096u);
@@ -563,9 +438,9 @@ TEST(OccluderGlyphs, InstancesThatCannotBeSeenAreLeftOut)
     EXPECT_EQ(Surface::isLeftOut(instances[i]), i == 5 || i == 17) << i;
   }
   EXPECT_EQ(scene.occluders().droppedNonFinite, 64u);
-  EXPECT_EQ(scene.occluders().droppedZeroArea, 64u + 4094u);
+  EXPECT_EQ(scene.occluders().droppedZeroArea, 64u);
 
-  row.glyphs.actor->SetScale(0.0, 0.0, 0.0);
+  glyphs.actor->SetScale(0.0, 0.0, 0.0);
   scene.collect();
   EXPECT_EQ(scene.occluders().droppedNonFinite + scene.occluders().droppedZeroArea, 64u * 4096u);
   EXPECT_TRUE(scene.occluders().castersCentred.empty());
@@ -591,132 +466,36 @@ TEST(OccluderProps, AMappersPieceIsAskedFor)
   EXPECT_EQ(scene.surface(0).triangleCount, 2 * half);
 }
 
-TEST(OccluderProps, AMapperWithoutInputIsNoSurface)
-{
-  Scene scene;
-  vtkNew<vtkPolyDataMapper> mapper;
-  vtkNew<vtkActor> actor;
-  actor->SetMapper(mapper);
-  scene.renderer->AddActor(actor);
-  scene.renderer->AddActor(vtkSmartPointer<vtkActor>::New());
-  scene.renderer->AddActor(makeActor(vtkSmartPointer<vtkPolyData>::New()));
-  scene.collect();
-  EXPECT_EQ(scene.surfaceCount(), 0u);
-  EXPECT_TRUE(scene.occluders().allCentred.empty());
-}
-
-TEST(OccluderProps, AssembliesMultiplyTheMatricesOfAllTheirLevels)
-{
-  Scene scene;
-  const auto leaf = makeActor(makeSquare());
-  leaf->SetPosition(1, 0, 0);
-  leaf->RotateZ(30);
-  vtkNew<vtkMatrix4x4> user;
-  user->SetElement(0, 0, 2.0);
-  user->SetElement(1, 2, 0.5);
-  leaf->SetUserMatrix(user);
-  vtkNew<vtkAssembly> inner;
-  inner->AddPart(leaf);
-  inner->RotateX(50);
-  inner->SetScale(2, 3, 4);
-  vtkNew<vtkAssembly> outer;
-  outer->AddPart(inner);
-  outer->SetPosition(0, 5, 0);
-  vtkNew<vtkTransform> turn;
-  turn->RotateY(70);
-  outer->SetUserTransform(turn);
-  scene.renderer->AddViewProp(outer);
-  scene.collect();
-
-  vtkNew<vtkTransform> expected;
-  expected->Concatenate(outer->GetMatrix());
-  expected->Concatenate(inner->GetMatrix());
-  expected->Concatenate(leaf->GetMatrix());
-  ASSERT_EQ(scene.surfaceCount(), 1u);
-  for (vtkIdType i = 0; i < 4; ++i)
-  {
-    const double* p = expected->TransformDoublePoint(makeSquare()->GetPoint(i));
-    expectNear(scene.positionWorld(0, static_cast<std::uint32_t>(i)), { p[0], p[1], p[2] }, 1e-5);
-  }
-
-  inner->RotateX(10); // a part that turns inside is noticed
-  EXPECT_EQ(scene.collect().retransformed, 1);
-  expected->Identity();
-  expected->Concatenate(outer->GetMatrix());
-  expected->Concatenate(inner->GetMatrix());
-  expected->Concatenate(leaf->GetMatrix());
-  const double* p = expected->TransformDoublePoint(1, 1, 0);
-  expectNear(scene.positionWorld(0, 2), { p[0], p[1], p[2] }, 1e-5);
-}
-
-TEST(OccluderProps, OnePartMayHangInSeveralPlaces)
-{
-  Scene scene;
-  const auto leaf = makeActor(makeSquare());
-  vtkNew<vtkAssembly> left;
-  left->AddPart(leaf);
-  left->SetPosition(-10, 0, 0);
-  vtkNew<vtkAssembly> right;
-  right->AddPart(leaf);
-  right->SetPosition(10, 0, 0);
-  vtkNew<vtkPropAssembly> both;
-  both->AddPart(left);
-  both->AddPart(right);
-  scene.renderer->AddViewProp(both);
-  scene.collect();
-  ASSERT_EQ(scene.surfaceCount(), 2u);
-  expectNear(scene.positionWorld(0, 2), { -9, 1, 0 });
-  expectNear(scene.positionWorld(1, 2), { 11, 1, 0 });
-}
-
 TEST(OccluderProps, TheViewPropsKeysCountForItsParts)
 {
   Scene scene;
-  const auto plain = makeActor(makeSquare());
-  vtkGnomonPropKeys::SetOneSided(plain, true);
+  vtkGnomonPropKeys::SetOneSided(scene.add(makeSquare()), true);
   const auto part = makeActor(makeSquare());
   vtkGnomonPropKeys::SetCasts(part, false); // overwritten by the assembly's when drawn
   vtkNew<vtkAssembly> assembly;
   assembly->AddPart(part);
-  assembly->SetPosition(5, 0, 0);
   vtkGnomonPropKeys::SetReceives(assembly, false);
-  scene.renderer->AddActor(plain);
   scene.renderer->AddViewProp(assembly);
-  scene.collect();
-  ASSERT_EQ(scene.surfaceCount(), 2u);
-  EXPECT_TRUE(scene.surface(0).oneSided);
-  EXPECT_TRUE(scene.surface(0).casts && scene.surface(0).receives);
+  ASSERT_EQ(scene.collectSurfaces(), 2u);
+  EXPECT_TRUE(scene.surface(0).oneSided && scene.surface(0).casts && scene.surface(0).receives);
   EXPECT_TRUE(scene.surface(1).casts);
   EXPECT_FALSE(scene.surface(1).receives);
+  expectNothingDone(scene);
 }
 
-TEST(OccluderProps, CastersBoxLeavesOutWhatOnlyReceives)
-{
-  Scene scene;
-  const auto caster = makeActor(makeSquare());
-  const auto receiver = makeActor(makeSquare());
-  receiver->SetPosition(3, 0, 0);
-  vtkGnomonPropKeys::SetCasts(receiver, false);
-  scene.renderer->AddActor(caster);
-  scene.renderer->AddActor(receiver);
-  scene.collect();
-  const glm::dvec3 centre = scene.occluders().centreWorld;
-  expectNear(scene.occluders().castersCentred.upper + centre, { 1, 1, 0 });
-  expectNear(scene.occluders().allCentred.upper + centre, { 4, 1, 0 });
-}
-
+/// Which stay where they are in the world.
 TEST(OccluderProps, ClippingPlanesCutTheirSurfaces)
 {
   Scene scene;
-  const auto actor = makeActor(makeSquare());
+  vtkActor* const actor = scene.add(makeSquare());
   vtkNew<vtkPlane> plane;
-  plane->SetOrigin(0.5, 0, 0);
   plane->SetNormal(1, 0, 0);
   actor->GetMapper()->AddClippingPlane(plane);
-  scene.renderer->AddActor(actor);
-  scene.collect();
-  const auto area = [&scene]
+  const auto area = [&](double planeAt, double actorAt)
   {
+    plane->SetOrigin(planeAt, 0, 0);
+    actor->SetPosition(actorAt, 0, 0);
+    scene.collect();
     double sum = 0.0;
     for (std::uint32_t i = 0; i < scene.surface(0).triangleCount; ++i)
     {
@@ -726,26 +505,19 @@ TEST(OccluderProps, ClippingPlanesCutTheirSurfaces)
         glm::cross(scene.positionWorld(0, triangle.y) - a, scene.positionWorld(0, triangle.z) - a);
       sum += 0.5 * cross.z; // signed: the pieces keep their orientation
     }
+    EXPECT_EQ(scene.surface(0).triangleOfDrawn.size(), 2u);
+    EXPECT_EQ(scene.occluders().droppedZeroArea + scene.occluders().droppedNonFinite, 0u);
+    expectNothingDone(scene);
     return sum;
   };
-  EXPECT_NEAR(area(), 0.5, 1e-6);
-  ASSERT_EQ(scene.surface(0).triangleOfDrawn.size(), 2u);
+  EXPECT_NEAR(area(0.5, 0.0), 0.5, 1e-6);
   expectNear(scene.occluders().allCentred.lower + scene.occluders().centreWorld, { 0.5, 0, 0 });
-  expectNothingDone(scene);
-
-  actor->SetPosition(0.25, 0, 0); // the plane stays where it is in the world
-  scene.collect();
-  EXPECT_NEAR(area(), 0.75, 1e-6);
-  plane->SetOrigin(1, 0, 0);
-  scene.collect();
-  EXPECT_NEAR(area(), 0.25, 1e-6);
-  plane->SetOrigin(2, 0, 0);
-  scene.collect();
-  EXPECT_EQ(scene.surface(0).triangleCount, 0u);
-  EXPECT_EQ(scene.occluders().droppedZeroArea + scene.occluders().droppedNonFinite, 0u);
+  EXPECT_NEAR(area(0.5, 0.25), 0.75, 1e-6);
+  EXPECT_NEAR(area(1.0, 0.25), 0.25, 1e-6);
+  EXPECT_EQ(area(2.0, 0.25), 0.0);
   actor->GetMapper()->RemoveAllClippingPlanes();
   scene.collect();
-  EXPECT_NEAR(area(), 1.0, 1e-6);
+  EXPECT_EQ(scene.surface(0).triangleCount, 2u);
 }
 
 // ---- composite data --------------------------------------------------------
@@ -755,10 +527,9 @@ TEST(OccluderBlocks, FollowVisibilityAndOpacityAsDrawn)
   // root { a, none, branch { b, c }, a again }
   Scene scene;
   const auto a = makeSquare();
-  const auto b = makeSquare();
   const auto c = makeSquare();
   vtkNew<vtkMultiBlockDataSet> branch;
-  branch->SetBlock(0, b);
+  branch->SetBlock(0, makeSquare());
   branch->SetBlock(1, c);
   vtkNew<vtkMultiBlockDataSet> root;
   root->SetBlock(0, a);
@@ -766,26 +537,24 @@ TEST(OccluderBlocks, FollowVisibilityAndOpacityAsDrawn)
   root->SetBlock(2, branch);
   root->SetBlock(3, a);
   const auto actor = makeCompositeActor(root);
+  vtkCompositeDataDisplayAttributes* const attributes =
+    vtkCompositePolyDataMapper2::SafeDownCast(actor->GetMapper())
+      ->GetCompositeDataDisplayAttributes();
   scene.renderer->AddActor(actor);
-  scene.collect();
-  EXPECT_EQ(scene.surfaceCount(), 3u); // a is drawn once
+  EXPECT_EQ(scene.collectSurfaces(), 3u); // a is drawn once
 
   // A visible block below a hidden one is drawn.
-  attributesOf(actor)->SetBlockVisibility(branch, false);
-  attributesOf(actor)->SetBlockVisibility(c, true);
-  scene.collect();
-  EXPECT_EQ(scene.surfaceCount(), 2u);
+  attributes->SetBlockVisibility(branch, false);
+  attributes->SetBlockVisibility(c, true);
+  EXPECT_EQ(scene.collectSurfaces(), 2u);
+  attributes->SetBlockOpacity(c, 0.5);
+  EXPECT_EQ(scene.collectSurfaces(), 1u);
 
-  attributesOf(actor)->SetBlockOpacity(c, 0.5);
-  scene.collect();
-  EXPECT_EQ(scene.surfaceCount(), 1u);
-
-  attributesOf(actor)->RemoveBlockVisibilities();
-  attributesOf(actor)->RemoveBlockOpacities();
+  attributes->RemoveBlockVisibilities();
+  attributes->RemoveBlockOpacities();
   actor->GetProperty()->SetOpacity(0.5); // not drawn in the opaque pass, whatever its blocks say
-  attributesOf(actor)->SetBlockOpacity(a, 1.0);
-  scene.collect();
-  EXPECT_EQ(scene.surfaceCount(), 0u);
+  attributes->SetBlockOpacity(a, 1.0);
+  EXPECT_EQ(scene.collectSurfaces(), 0u);
 }
 
 TEST(OccluderBlocks, AnEditedBlockIsReadAlone)
@@ -802,46 +571,17 @@ TEST(OccluderBlocks, AnEditedBlockIsReadAlone)
   EXPECT_EQ(scene.collect().extracted, 1);
   root->SetBlock(2, makeSquare());
   EXPECT_EQ(scene.collect().extracted, 1);
-  EXPECT_EQ(scene.surfaceCount(), 3u);
-}
-
-TEST(OccluderBlocks, PlainPolyDataMayFeedACompositeMapper)
-{
-  Scene scene;
-  vtkNew<vtkCompositePolyDataMapper2> mapper;
-  mapper->SetInputDataObject(makeSquare());
-  vtkNew<vtkActor> actor;
-  actor->SetMapper(mapper);
-  scene.renderer->AddActor(actor);
-  scene.collect();
-  EXPECT_EQ(scene.surfaceCount(), 1u);
+  scene.renderer->AddActor(makeCompositeActor(makeSquare())); // without a tree
+  EXPECT_EQ(scene.collectSurfaces(), 4u);
 }
 
 // ---- what changes, and what it costs -----------------------------------------
 
-TEST(OccluderChanges, NothingChangedNothingDone)
-{
-  Scene scene;
-  vtkNew<vtkSphereSource> sphere;
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputConnection(sphere->GetOutputPort());
-  vtkNew<vtkActor> actor;
-  actor->SetMapper(mapper);
-  scene.renderer->AddActor(actor);
-  vtkNew<vtkAssembly> assembly;
-  assembly->AddPart(makeActor(makeSquare()));
-  scene.renderer->AddViewProp(assembly);
-  EXPECT_EQ(scene.collect().extracted, 2);
-  expectNothingDone(scene);
-  expectNothingDone(scene);
-}
-
 TEST(OccluderChanges, AMovedPropOnlyMovesItsVertices)
 {
   Scene scene;
-  scene.renderer->AddActor(makeActor(makeSquare()));
-  const auto mover = makeActor(makeSquare());
-  scene.renderer->AddActor(mover);
+  scene.add(makeSquare());
+  vtkActor* const mover = scene.add(makeSquare());
   scene.collect();
   const Occluders before = scene.occluders();
   mover->SetPosition(0, 0, 2);
@@ -862,23 +602,18 @@ TEST(OccluderChanges, EditedPointsAreNoticedHoweverTheyAreReported)
 {
   Scene scene;
   const auto square = makeSquare();
-  scene.renderer->AddActor(makeActor(square));
+  scene.add(square);
   scene.collect();
-  const auto edit = [&](double x) { square->GetPoints()->GetData()->SetComponent(2, 0, x); };
   const std::uint64_t topology = scene.occluders().topologyVersion;
-
-  edit(2);
-  square->GetPoints()->Modified();
-  EXPECT_EQ(scene.collect().extracted, 1);
-  expectNear(scene.positionWorld(0, 2), { 2, 1, 0 });
-  edit(3);
-  square->Modified();
-  scene.collect();
-  expectNear(scene.positionWorld(0, 2), { 3, 1, 0 });
-  edit(4);
-  square->GetPoints()->GetData()->Modified();
-  scene.collect();
-  expectNear(scene.positionWorld(0, 2), { 4, 1, 0 });
+  double x = 1.0;
+  for (vtkObject* edited : std::initializer_list<vtkObject*>{
+         square->GetPoints(), square, square->GetPoints()->GetData() })
+  {
+    square->GetPoints()->GetData()->SetComponent(2, 0, ++x);
+    edited->Modified();
+    EXPECT_EQ(scene.collect().extracted, 1);
+    expectNear(scene.positionWorld(0, 2), { x, 1, 0 });
+  }
 
   // The same triangles throughout: structures built on them need a refit only.
   EXPECT_EQ(scene.occluders().topologyVersion, topology);
@@ -888,24 +623,16 @@ TEST(OccluderChanges, EditedPointsAreNoticedHoweverTheyAreReported)
   EXPECT_EQ(scene.surface(0).triangleCount, 1u);
 }
 
-TEST(OccluderChanges, ModifiedWithoutAChangeChangesNoVersion)
+TEST(OccluderChanges, WhatLeavesTheShapeChangesNoVersion)
 {
   Scene scene;
   const auto square = makeSquare();
-  scene.renderer->AddActor(makeActor(square));
+  scene.add(square);
   scene.collect();
   const std::uint64_t positions = scene.occluders().positionsVersion;
   square->Modified();
   EXPECT_EQ(scene.collect().extracted, 1);
   EXPECT_EQ(scene.occluders().positionsVersion, positions);
-}
-
-TEST(OccluderChanges, NewColoursAreNoNewShape)
-{
-  Scene scene;
-  const auto square = makeSquare();
-  scene.renderer->AddActor(makeActor(square));
-  scene.collect();
   vtkNew<vtkFloatArray> scalars;
   scalars->SetNumberOfTuples(4);
   scalars->Fill(1.0);
@@ -935,8 +662,9 @@ TEST(OccluderChanges, UpstreamFiltersAndSwappedInputsAreNoticed)
 TEST(OccluderChanges, FlagsOnlyChangeFlags)
 {
   Scene scene;
-  const auto actor = makeActor(makeSquare());
-  scene.renderer->AddActor(actor);
+  vtkActor* const actor = scene.add(makeSquare());
+  actor->SetPosition(3, 0, 0);
+  scene.add(makeSquare());
   scene.collect();
   const Occluders before = scene.occluders();
   vtkGnomonPropKeys::SetCasts(actor, false);
@@ -946,18 +674,16 @@ TEST(OccluderChanges, FlagsOnlyChangeFlags)
   EXPECT_NE(scene.occluders().topologyVersion, before.topologyVersion);
   EXPECT_EQ(scene.surface(0).topologyVersion, before.surfaces[0].topologyVersion);
   EXPECT_EQ(scene.surface(0).positionsVersion, before.surfaces[0].positionsVersion);
-  EXPECT_TRUE(scene.occluders().castersCentred.empty());
-  EXPECT_FALSE(scene.occluders().allCentred.empty());
+  const glm::dvec3 centre = scene.occluders().centreWorld;
+  expectNear(scene.occluders().castersCentred.upper + centre, { 1, 1, 0 });
+  expectNear(scene.occluders().allCentred.upper + centre, { 4, 1, 0 });
 }
 
 TEST(OccluderChanges, TheOthersStayWhenSurfacesComeAndGo)
 {
   Scene scene;
-  const auto first = makeActor(makeSquare());
-  const auto second = makeActor(makeSquare());
-  second->SetPosition(0.3, 0, 0); // near enough for the centre to stay
-  scene.renderer->AddActor(first);
-  scene.renderer->AddActor(second);
+  const vtkSmartPointer<vtkActor> first = scene.add(makeSquare());
+  scene.add(makeSquare())->SetPosition(0.3, 0, 0); // near enough for the centre to stay
   scene.collect();
   const Surface before = scene.surface(1);
 
@@ -1008,12 +734,11 @@ TEST(OccluderCentre, FarScenesKeepTheirPrecision)
 {
   Scene scene;
   const glm::dvec3 far(4e6, -4e6, 4e6);
-  const auto byMatrix = makeActor(makeSquare());
+  vtkActor* const byMatrix = scene.add(makeSquare());
   byMatrix->SetPosition(far.x, far.y, far.z);
-  scene.renderer->AddActor(byMatrix);
-  scene.renderer->AddActor(makeActor(makePolyData(
+  scene.add(makePolyData(
     { far + glm::dvec3(1.001, 0, 0), far + glm::dvec3(2, 0, 0), far + glm::dvec3(1, 1, 0) },
-    { { 0, 1, 2 } }, VTK_DOUBLE)));
+    { { 0, 1, 2 } }, VTK_DOUBLE));
   scene.collect();
   expectNear(scene.positionWorld(0, 2), far + glm::dvec3(1, 1, 0), 1e-6);
   expectNear(scene.positionWorld(1, 0), far + glm::dvec3(1.001, 0, 0), 1e-6);
@@ -1052,9 +777,8 @@ TEST(OccluderCentre, LiesOnAGridAsCoarseAsTheScene)
 TEST(OccluderCentre, StaysWhileTheSceneChangesLittle)
 {
   Scene scene;
-  const auto actor = makeActor(makeSquare());
+  vtkActor* const actor = scene.add(makeSquare());
   actor->SetPosition(100, 0, 0);
-  scene.renderer->AddActor(actor);
   scene.collect();
   const glm::dvec3 centre = scene.occluders().centreWorld;
   actor->SetPosition(100.2, 0.1, 0);
@@ -1069,11 +793,8 @@ TEST(OccluderCentre, StaysWhileTheSceneChangesLittle)
 TEST(OccluderCentre, MovesEverySurfaceWithIt)
 {
   Scene scene;
-  const auto near = makeActor(makeSquare());
-  const auto far = makeActor(makeSquare());
-  far->SetPosition(1000, 0, 0);
-  scene.renderer->AddActor(near);
-  scene.renderer->AddActor(far);
+  vtkActor* const near = scene.add(makeSquare());
+  scene.add(makeSquare())->SetPosition(1000, 0, 0);
   scene.collect();
   near->SetVisibility(false);
   const OccluderCollector::Change change = scene.collect();
@@ -1086,13 +807,10 @@ TEST(OccluderCentre, MovesEverySurfaceWithIt)
 TEST(OccluderCentre, DoesNotRememberWhatIsGone)
 {
   Scene scene;
-  const auto actor = makeActor(makeSquare());
-  actor->SetPosition(40.1, 3.3, 7.7);
-  const auto far = makeActor(makeSquare());
+  scene.add(makeSquare())->SetPosition(40.1, 3.3, 7.7);
+  vtkActor* const far = scene.add(makeSquare());
   far->SetPosition(-1e5, 3e4, 0);
   far->SetVisibility(false);
-  scene.renderer->AddActor(actor);
-  scene.renderer->AddActor(far);
   scene.collect();
   const Occluders before = scene.occluders();
   far->SetVisibility(true);
@@ -1145,14 +863,17 @@ vtkSmartPointer<vtkPolyData> makeTexturedSquare()
 TEST(OccluderCutouts, AreHeldForTexturesWithHolesOnly)
 {
   Scene scene;
-  const auto actor = makeActor(makeTexturedSquare());
-  scene.renderer->AddActor(actor);
-  scene.renderer->AddActor(makeActor(makeSquare())); // without texture coordinates
+  vtkActor* const actor = scene.add(makeTexturedSquare());
+  scene.add(makeSquare()); // without texture coordinates
   scene.collect();
+  const auto expectNone = [&]
+  {
+    EXPECT_FALSE(scene.surface(0).cutout);
+    EXPECT_TRUE(scene.surface(0).textureCoordinates.empty());
+  };
   actor->SetTexture(makeTexture({ 255, 255, 255 }));
   expectNothingDone(scene);
-  EXPECT_FALSE(scene.surface(0).cutout);
-  EXPECT_TRUE(scene.surface(0).textureCoordinates.empty());
+  expectNone();
 
   actor->SetTexture(makeTexture({ 0, 255, 0 }));
   EXPECT_EQ(scene.collect().extracted, 1);
@@ -1163,59 +884,21 @@ TEST(OccluderCutouts, AreHeldForTexturesWithHolesOnly)
   EXPECT_FALSE(scene.surface(1).cutout);
   expectNothingDone(scene);
 
-  // Another mask is no other surface.
+  // Another mask is no other surface, nor is one that moves.
   const std::uint64_t topology = scene.occluders().topologyVersion;
   const std::uint64_t surface = scene.surface(0).topologyVersion;
   actor->SetTexture(makeTexture({ 255, 0, 0 }));
-  EXPECT_EQ(scene.collect().extracted, 0);
+  actor->SetPosition(1.0, 0.0, 0.0);
+  const OccluderCollector::Change change = scene.collect();
+  EXPECT_EQ(change.extracted, 0);
+  EXPECT_EQ(change.retransformed, 1);
   EXPECT_GT(scene.occluders().topologyVersion, topology);
   EXPECT_EQ(scene.surface(0).topologyVersion, surface);
   EXPECT_EQ(scene.surface(0).cutout->texels, (std::vector<std::uint8_t>{ 255, 0, 0 }));
-
-  // Nor is a surface that moves.
-  actor->SetPosition(1.0, 0.0, 0.0);
-  EXPECT_EQ(scene.collect().retransformed, 1);
   EXPECT_EQ(scene.surface(0).textureCoordinates.size(), 4u);
   actor->SetTexture(nullptr);
   scene.collect();
-  EXPECT_FALSE(scene.surface(0).cutout);
-  EXPECT_TRUE(scene.surface(0).textureCoordinates.empty());
-}
-
-TEST(OccluderCutouts, ShareTheMaskOfATexture)
-{
-  Scene scene;
-  const auto texture = makeTexture({ 0, 255 });
-  for (int i = 0; i < 2; ++i)
-  {
-    const auto actor = makeActor(makeTexturedSquare());
-    actor->SetTexture(texture);
-    scene.renderer->AddActor(actor);
-  }
-  scene.collect();
-  ASSERT_TRUE(scene.surface(0).cutout);
-  EXPECT_EQ(scene.surface(0).cutout, scene.surface(1).cutout);
-}
-
-TEST(OccluderCutouts, HaveCoordinatesAtTheCornersThatClippingMakes)
-{
-  Scene scene;
-  const auto actor = makeActor(makeTexturedSquare());
-  actor->SetTexture(makeTexture({ 0, 255 }));
-  vtkNew<vtkPlane> plane;
-  plane->SetOrigin(0.25, 0.0, 0.0);
-  plane->SetNormal(1.0, 0.5, 0.0);
-  actor->GetMapper()->AddClippingPlane(plane);
-  scene.renderer->AddActor(actor);
-  scene.collect();
-  const Surface& surface = scene.surface(0);
-  ASSERT_GT(surface.vertexCount, 4u);
-  ASSERT_EQ(surface.textureCoordinates.size(), surface.vertexCount);
-  for (std::uint32_t i = 0; i < surface.vertexCount; ++i)
-  {
-    expectNear(
-      glm::dvec3(surface.textureCoordinates[i], 0.0), scene.positionWorld(0, i)); // as everywhere
-  }
+  expectNone();
 }
 
 TEST(OccluderCutouts, CoordinatesThatAreNotFiniteOrNotThereAreZero)
@@ -1228,9 +911,8 @@ TEST(OccluderCutouts, CoordinatesThatAreNotFiniteOrNotThereAreZero)
   coordinates->InsertNextTuple2(0.5, std::numeric_limits<double>::infinity());
   coordinates->InsertNextTuple2(0.25, 0.5);
   square->GetPointData()->SetTCoords(coordinates);
-  const auto actor = makeActor(square);
+  vtkActor* const actor = scene.add(square);
   actor->SetTexture(makeTexture({ 0, 255 }));
-  scene.renderer->AddActor(actor);
   scene.collect();
   EXPECT_EQ(scene.surface(0).textureCoordinates,
     (std::vector<glm::vec2>{ { 0, 0 }, { 0, 0 }, { 0.25, 0.5 }, { 0, 0 } }));
