@@ -6,13 +6,10 @@
 #include "plugin/VisibilityImages.h"
 #include "plugin/vtkGnomonPropKeys.h"
 
-#include <vtkFloatArray.h>
+#include <vtkDataArray.h>
 #include <vtkImageData.h>
 #include <vtkPlaneSource.h>
 #include <vtkPointData.h>
-#include <vtkPolyDataMapper.h>
-#include <vtkProperty.h>
-#include <vtkSphereSource.h>
 #include <vtkTexture.h>
 #include <vtkTransform.h>
 
@@ -20,7 +17,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -106,6 +103,14 @@ protected:
     EXPECT_EQ(against.speckles, 0u);
     EXPECT_LE(against.wrong, against.covered / 5000);
   }
+
+  /// A sun, a spot light or a lamp.
+  static void addLight(PassScene& scene, int kind)
+  {
+    kind == 0     ? scene.addSun({ 1.0, 0.4, -1.0 })
+      : kind == 1 ? scene.addSpot({ -3.0, -2.0, 5.0 }, glm::dvec3(0.0), 35.0)
+                  : scene.addSpot({ -1.0, -2.0, 4.0 }, glm::dvec3(0.0), allDirections);
+  }
 };
 
 /// A floor with a box that hangs over it, and one that lies on it and is as high: all planes show
@@ -132,7 +137,124 @@ std::size_t visible(const VisibilityImages& kept, float visibility, float normal
   return count;
 }
 
+/// The mean difference of two images where something is covered, which must have a penumbra.
+double meanOff(const VisibilityImages& kept, const std::vector<float>& truth)
+{
+  double error = 0.0;
+  double covered = 0.0;
+  std::size_t penumbra = 0;
+  for (std::size_t i = 0; i < truth.size(); ++i)
+  {
+    if (kept.coverage[i] > 0.0f)
+    {
+      ++covered;
+      error += std::abs(kept.visibility[0][i] - truth[i]);
+      penumbra += truth[i] > 0.05f && truth[i] < 0.95f ? 1 : 0;
+    }
+  }
+  EXPECT_GT(penumbra, 500u);
+  return error / covered;
+}
+
+/// A scene whose planar shadows are those of rays.
+struct PlanarScene
+{
+  const char* name;
+  std::size_t leastShadowed;
+  void (*build)(PassScene&);
+};
+std::ostream& operator<<(std::ostream& stream, const PlanarScene& scene)
+{
+  return stream << scene.name;
+}
+
+void addSheetWithHoles(PassScene& scene)
+{
+  vtkNew<vtkPlaneSource> sheet;
+  sheet->SetOrigin(-1.5, -1.5, 2.0);
+  sheet->SetPoint1(1.5, -1.5, 2.0);
+  sheet->SetPoint2(-1.5, 1.5, 2.0);
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(4, 4, 1);
+  image->AllocateScalars(VTK_UNSIGNED_CHAR, 4);
+  image->GetPointData()->GetScalars()->Fill(255.0);
+  for (int i = 0; i < 16; ++i)
+  {
+    image->SetScalarComponentFromDouble(i % 4, i / 4, 0, 3, (i + i / 4) % 2 ? 255.0 : 0.0);
+  }
+  vtkNew<vtkTexture> texture;
+  texture->SetInputData(image);
+  texture->InterpolateOff();
+  scene.add(sheet)->SetTexture(texture);
+}
+
+const PlanarScene planarScenes[] = {
+  { "fromBelowTheFloor", 20000,
+    [](PassScene& scene)
+    {
+      addBoxes(scene);
+      scene.addSun({ 1.0, 0.4, -1.0 });
+      scene.lookFrom({ 2.0, -8.0, -7.0 });
+    } },
+  { "byAParallelCamera", 1000,
+    [](PassScene& scene)
+    {
+      addBoxes(scene);
+      scene.addSun({ 1.0, 0.4, -1.0 });
+      scene.lookDown(4.5);
+    } },
+  // The light stands at half the height of one.
+  { "castersOnBothSidesOfTheLight", 1000,
+    [](PassScene& scene)
+    {
+      scene.addFloor(4.0);
+      scene.addBox({ -1.0, -1.0, 0.5 }, { -0.6, 1.0, 3.0 });
+      scene.addBox({ 0.8, -0.5, 1.0 }, { 1.0, 0.5, 2.0 });
+      scene.addSpot({ 0.0, 0.0, 1.5 }, glm::dvec3(0.0), allDirections);
+    } },
+  { "lampInThePlane", 1000,
+    [](PassScene& scene)
+    {
+      addBoxes(scene);
+      scene.addSpot({ -6.0, -3.0, 0.0 }, { 0.0, 0.0, 0.5 }, allDirections);
+      scene.lookFrom({ -5.0, -8.0, 7.0 });
+    } },
+  { "holesOfTextures", 1000,
+    [](PassScene& scene)
+    {
+      scene.addFloor(4.0);
+      addSheetWithHoles(scene);
+      scene.addSpot({ -1.0, -2.0, 5.0 }, glm::dvec3(0.0), allDirections);
+    } },
+  { "whatDoesNotReceive", 0,
+    [](PassScene& scene)
+    {
+      vtkGnomonPropKeys::SetReceives(scene.addFloor(4.0), false);
+      scene.addBox({ -1.0, -1.0, 1.0 }, { 0.5, 0.5, 1.5 });
+      scene.addSun({ 1.0, 0.4, -1.0 });
+    } },
+};
+
+class PlanarScenes
+  : public Planar
+  , public testing::WithParamInterface<PlanarScene>
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(All, PlanarScenes, testing::ValuesIn(planarScenes),
+  [](const testing::TestParamInfo<PlanarScene>& scene) { return std::string(scene.param.name); });
+
 } // namespace
+
+//------------------------------------------------------------------------------
+TEST_P(PlanarScenes, areWhatRaysSay)
+{
+  PassScene scene(400, 300);
+  scene.lookFrom({ 2.0, -8.0, 7.0 });
+  GetParam().build(scene);
+  scene.renderer->ResetCameraClippingRange();
+  this->expectLikeRays(scene, GetParam().leastShadowed);
+}
 
 //------------------------------------------------------------------------------
 TEST_F(Planar, isWhatRaysSayForEveryKindOfLight)
@@ -141,9 +263,7 @@ TEST_F(Planar, isWhatRaysSayForEveryKindOfLight)
   {
     PassScene scene(400, 300);
     addBoxes(scene);
-    kind == 0     ? scene.addSun({ 1.0, 0.4, -1.0 })
-      : kind == 1 ? scene.addSpot({ -3.0, -2.0, 5.0 }, glm::dvec3(0.0), 35.0)
-                  : scene.addSpot({ -1.0, -2.0, 4.0 }, glm::dvec3(0.0), allDirections);
+    addLight(scene, kind);
     scene.lookFrom({ 2.0, -8.0, 7.0 });
     SCOPED_TRACE(kind);
     this->expectLikeRays(scene);
@@ -153,23 +273,21 @@ TEST_F(Planar, isWhatRaysSayForEveryKindOfLight)
 }
 
 //------------------------------------------------------------------------------
-TEST_F(Planar, ofAParallelCameraIsWhatRaysSay)
+TEST_F(Planar, sunsAlongAxesAreWhatRaysSay)
 {
-  PassScene scene(400, 400);
-  addBoxes(scene);
-  scene.addSun({ 1.0, 0.4, -1.0 });
-  scene.lookDown(4.5);
-  this->expectLikeRays(scene);
-}
-
-//------------------------------------------------------------------------------
-TEST_F(Planar, fromBelowTheFloorIsDark)
-{
-  PassScene scene(400, 300);
-  addBoxes(scene);
-  scene.addSun({ 1.0, 0.4, -1.0 });
-  scene.lookFrom({ 2.0, -8.0, -7.0 });
-  this->expectLikeRays(scene, 20000);
+  for (const glm::dvec3& direction : { glm::dvec3(0.0, -1.0, 0.0), { 0.0, 1.0, 0.0 },
+         { 1.0, 0.0, 0.0 }, { 0.0, 0.0, 1.0 }, { 0.0, 0.0, -1.0 }, { 1.0, 0.0, -1e-5 } })
+  {
+    PassScene scene(150, 100);
+    addBoxes(scene);
+    scene.addSun(direction);
+    scene.lookFrom({ -5.0, -8.0, 7.0 });
+    this->expectLikeRays(scene, 0);
+    if (direction.z == 0.0)
+    {
+      EXPECT_EQ(visible(scene.pass->GetVisibility(), 1.0f, 0.9f), 0u) << "along the floor";
+    }
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -195,18 +313,6 @@ TEST_F(Planar, lightsBelowCastersMakeNoShadowOfThem)
     }
     this->expectLikeRays(scene, 0);
   }
-}
-
-//------------------------------------------------------------------------------
-TEST_F(Planar, castersOnBothSidesOfTheLightCastWhatLiesBeforeIt)
-{
-  PassScene scene(400, 300);
-  scene.addFloor(4.0);
-  scene.addBox({ -1.0, -1.0, 0.5 }, { -0.6, 1.0, 3.0 }); // the light stands at half its height
-  scene.addBox({ 0.8, -0.5, 1.0 }, { 1.0, 0.5, 2.0 });
-  scene.addSpot({ 0.0, 0.0, 1.5 }, glm::dvec3(0.0), allDirections);
-  scene.lookFrom({ 2.0, -8.0, 7.0 });
-  this->expectLikeRays(scene);
 }
 
 //------------------------------------------------------------------------------
@@ -241,46 +347,23 @@ TEST_F(Planar, shadowsEndWhereTheirReceiverEnds)
   scene.pass->SetTechnique("raytraced");
   const VisibilityImages truth = drawKept(scene);
   scene.pass->SetTechnique("planar");
-  const VisibilityImages kept = drawKept(scene);
+  const VisibilityImages& kept = drawKept(scene);
   std::size_t falseShadow = 0;
-  std::size_t onSphere = 0;
   for (std::size_t i = 0; i < kept.coverage.size(); ++i)
   {
-    const glm::dvec3 position = positionOf(kept, i);
-    const bool sphere =
-      kept.coverage[i] > 0.0f && glm::distance(position, { 2.5, 2.5, -1.0 }) < 1.01;
-    const glm::dvec3 normal(kept.normalX[i], kept.normalY[i], kept.normalZ[i]);
-    if (sphere && glm::dot(normal, { -0.2, -0.5, 1.0 }) > 0.05)
-    {
-      ++onSphere;
-      EXPECT_EQ(kept.visibility[0][i], 1.0f);
-    }
     falseShadow += kept.visibility[0][i] < truth.visibility[0][i] - 0.5f ? 1 : 0;
   }
-  EXPECT_GT(onSphere, 500u);
   EXPECT_LE(falseShadow, 20u);
-}
-
-//------------------------------------------------------------------------------
-TEST_F(Planar, sunAlongThePlaneLeavesItDark)
-{
-  PassScene scene(300, 200);
-  addBoxes(scene);
-  scene.addSun({ 1.0, 0.0, 0.0 });
-  scene.lookFrom({ -5.0, -8.0, 7.0 });
-  this->expectLikeRays(scene);
-  scene.pass->SetTechnique("planar");
-  EXPECT_EQ(visible(drawKept(scene), 1.0f, 0.9f), 0u);
-}
-
-//------------------------------------------------------------------------------
-TEST_F(Planar, lampInThePlaneLeavesItDark)
-{
-  PassScene scene(300, 200);
-  addBoxes(scene);
-  scene.addSpot({ -6.0, -3.0, 0.0 }, { 0.0, 0.0, 0.5 }, allDirections);
-  scene.lookFrom({ -5.0, -8.0, 7.0 });
-  this->expectLikeRays(scene);
+  const Acne onSphere = countAcne(
+    kept,
+    [](const glm::dvec3& position)
+    {
+      const bool sphere = glm::distance(position, { 2.5, 2.5, -1.0 }) < 1.01;
+      return sphere ? glm::dvec3(-0.2, -0.5, 1.0) : glm::dvec3(0.0);
+    },
+    0.05);
+  EXPECT_GT(onSphere.facing, 500u);
+  EXPECT_EQ(onSphere.dark, 0u);
 }
 
 //------------------------------------------------------------------------------
@@ -362,46 +445,6 @@ TEST_F(Planar, planesStayWhenTheCameraMoves)
 }
 
 //------------------------------------------------------------------------------
-TEST_F(Planar, followsWhatMoves)
-{
-  struct Scene : PassScene
-  {
-    explicit Scene(const char* technique)
-      : PassScene(200, 150)
-    {
-      this->pass->SetTechnique(technique);
-      this->addFloor(4.0);
-      this->box = this->addBox({ -1.0, -1.0, 1.0 }, { 0.5, 0.5, 1.5 });
-      this->table = this->addFloor(1.5);
-      this->table->SetPosition(1.0, 1.0, 0.5);
-      this->sun = this->addSun({ 1.0, 0.4, -1.0 });
-      this->lookFrom({ 2.0, -8.0, 7.0 });
-    }
-    vtkActor* box;
-    vtkActor* table;
-    vtkLight* sun;
-  };
-  Scene planar("planar");
-  Scene traced("raytraced");
-  const std::vector<std::function<void(Scene&)>> steps = { [](Scene&) {},
-    [](Scene& scene) { scene.box->SetPosition(1.0, -0.5, 0.3); },
-    [](Scene& scene) { scene.table->RotateX(20.0); },
-    [](Scene& scene) { scene.table->SetPosition(0.5, 1.0, 0.9); },
-    [](Scene& scene) { scene.sun->SetPosition(-1.0, -2.0, 4.0); },
-    [](Scene& scene) { scene.renderer->RemoveActor(scene.box); } };
-  for (std::size_t step = 0; step < steps.size(); ++step)
-  {
-    steps[step](planar);
-    steps[step](traced);
-    const VisibilityImages truth = drawKept(traced);
-    const Against against = compare(drawKept(planar), truth);
-    EXPECT_GT(against.shadowed, 100u);
-    EXPECT_EQ(against.speckles, 0u) << "step " << step;
-    EXPECT_LE(against.wrong, 5u) << "step " << step;
-  }
-}
-
-//------------------------------------------------------------------------------
 TEST_F(Planar, isTheSameFarAwayAndAtEveryScale)
 {
   for (const double scale : { 1e-3, 1.0, 1e6 })
@@ -457,33 +500,6 @@ TEST_F(Planar, finelyCutFloorsAreOnePlane)
 }
 
 //------------------------------------------------------------------------------
-TEST_F(Planar, holesOfTexturesCastNoShadow)
-{
-  PassScene scene(400, 300);
-  scene.addFloor(4.0);
-  vtkNew<vtkPlaneSource> sheet;
-  sheet->SetOrigin(-1.5, -1.5, 2.0);
-  sheet->SetPoint1(1.5, -1.5, 2.0);
-  sheet->SetPoint2(-1.5, 1.5, 2.0);
-  vtkNew<vtkImageData> image;
-  image->SetDimensions(4, 4, 1);
-  image->AllocateScalars(VTK_UNSIGNED_CHAR, 4);
-  auto* texel = static_cast<unsigned char*>(image->GetScalarPointer());
-  for (int i = 0; i < 16; ++i, texel += 4)
-  {
-    std::fill_n(texel, 3, static_cast<unsigned char>(255));
-    texel[3] = (i + i / 4) % 2 ? 255 : 0;
-  }
-  vtkNew<vtkTexture> texture;
-  texture->SetInputData(image);
-  texture->InterpolateOff();
-  scene.add(sheet)->SetTexture(texture);
-  scene.addSpot({ -1.0, -2.0, 5.0 }, glm::dvec3(0.0), allDirections);
-  scene.lookFrom({ 2.0, -8.0, 7.0 });
-  this->expectLikeRays(scene);
-}
-
-//------------------------------------------------------------------------------
 TEST_F(Planar, oneSidedCastersCastWithTheirFrontsOnly)
 {
   for (const bool turned : { false, true })
@@ -499,37 +515,6 @@ TEST_F(Planar, oneSidedCastersCastWithTheirFrontsOnly)
     SCOPED_TRACE(turned);
     this->expectLikeRays(scene, turned ? 0 : 1000);
   }
-}
-
-//------------------------------------------------------------------------------
-TEST_F(Planar, whatDoesNotReceiveIsLit)
-{
-  PassScene scene(300, 200);
-  vtkGnomonPropKeys::SetReceives(scene.addFloor(4.0), false);
-  scene.addBox({ -1.0, -1.0, 1.0 }, { 0.5, 0.5, 1.5 });
-  scene.addSun({ 1.0, 0.4, -1.0 });
-  scene.lookFrom({ 2.0, -8.0, 7.0 });
-  this->expectLikeRays(scene, 0);
-}
-
-//------------------------------------------------------------------------------
-TEST_F(Planar, emptyAndRoundScenesAreLit)
-{
-  PassScene scene(64, 48);
-  scene.pass->SetTechnique("planar");
-  scene.addSun({ 1.0, 0.4, -1.5 });
-  scene.lookFrom({ 0.0, -9.0, 7.0 });
-  scene.render();
-  EXPECT_EQ(scene.report().lights[0].planes, 0);
-  vtkNew<vtkSphereSource> sphere; // whose facets are too small to be planes
-  sphere->SetRadius(2.0);
-  sphere->SetThetaResolution(96);
-  sphere->SetPhiResolution(64);
-  scene.add(sphere);
-  const Acne acne = countAcneOfSun(drawKept(scene), { -1.0, -0.4, 1.5 });
-  EXPECT_GT(acne.facing, 200u);
-  EXPECT_EQ(acne.dark, 0u);
-  EXPECT_EQ(scene.report().lights[0].planes, 0);
 }
 
 //------------------------------------------------------------------------------
@@ -580,20 +565,7 @@ TEST_F(Planar, softShadowsAreTheMeanOfTracedSamples)
         mean[i] += traced.visibility[0][i] / static_cast<double>(samples.size());
       }
     }
-    double error = 0.0;
-    std::size_t covered = 0;
-    std::size_t penumbra = 0;
-    for (std::size_t i = 0; i < mean.size(); ++i)
-    {
-      if (soft.coverage[i] > 0.0f)
-      {
-        ++covered;
-        error += std::abs(mean[i] - soft.visibility[0][i]);
-        penumbra += mean[i] > 0.05 && mean[i] < 0.95 ? 1 : 0;
-      }
-    }
-    EXPECT_GT(penumbra, 500u);
-    EXPECT_LT(error / static_cast<double>(covered), 2e-4);
+    EXPECT_LT(meanOff(soft, { mean.begin(), mean.end() }), 2e-4);
   }
 }
 
@@ -614,24 +586,9 @@ TEST_F(Planar, lightsThatTheirReceiversPlaneCutsAreWhatRaysSay)
     scene.pass->SetSetting("light_radius", kind == 0 ? "40" : "1");
     scene.pass->SetSetting("light_samples", "1024");
     scene.pass->SetTechnique("raytraced");
-    const VisibilityImages truth = drawKept(scene);
+    const std::vector<float> truth = drawKept(scene).visibility[0];
     scene.pass->SetTechnique("planar");
-    const VisibilityImages& planar = drawKept(scene);
-    double error = 0.0;
-    std::size_t covered = 0;
-    std::size_t penumbra = 0;
-    for (std::size_t i = 0; i < truth.coverage.size(); ++i)
-    {
-      if (truth.coverage[i] > 0.0f)
-      {
-        ++covered;
-        error += std::abs(planar.visibility[0][i] - truth.visibility[0][i]);
-        penumbra += truth.visibility[0][i] > 0.05f && truth.visibility[0][i] < 0.95f ? 1 : 0;
-      }
-    }
-    RecordProperty("error" + std::to_string(kind), std::to_string(error / covered));
-    EXPECT_GT(penumbra, 500u);
-    EXPECT_LT(error / static_cast<double>(covered), 0.002);
+    EXPECT_LT(meanOff(drawKept(scene), truth), 0.002);
   }
 }
 
@@ -651,19 +608,5 @@ TEST_F(Planar, softShadowsEndExactlyAtDarkAndLit)
     const VisibilityImages& kept = drawKept(scene);
     EXPECT_GT(visible(kept, 1.0f, 0.9f), 300u) << count;
     EXPECT_GT(visible(kept, 0.0f, 0.9f), 200u) << count;
-  }
-}
-
-//------------------------------------------------------------------------------
-TEST_F(Planar, sunsAlongAxesAreWhatRaysSay)
-{
-  for (const glm::dvec3& direction : { glm::dvec3(0.0, -1.0, 0.0), { 0.0, 1.0, 0.0 },
-         { 1.0, 0.0, 0.0 }, { 0.0, 0.0, 1.0 }, { 0.0, 0.0, -1.0 }, { 1.0, 0.0, -1e-5 } })
-  {
-    PassScene scene(64, 48);
-    addBoxes(scene);
-    scene.addSun(direction);
-    scene.lookFrom({ 0.0, -9.0, 7.0 });
-    this->expectLikeRays(scene, 0);
   }
 }

@@ -12,14 +12,17 @@
 #include <vtkActor.h>
 #include <vtkActorCollection.h>
 #include <vtkCallbackCommand.h>
+#include <vtkCollectionRange.h>
 #include <vtkCommand.h>
 #include <vtkHardwareSelector.h>
 #include <vtkImageData.h>
 #include <vtkPlaneSource.h>
+#include <vtkPointData.h>
 #include <vtkSelection.h>
 #include <vtkSmartPointer.h>
 #include <vtkTextActor.h>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,19 +30,23 @@
 #include <functional>
 #include <ostream>
 #include <string>
+#include <utility>
 #include <vector>
 
 using namespace gnomon::test;
 using gnomon::LightReport;
 using gnomon::VisibilityImages;
+using testing::Contains;
+using testing::HasSubstr;
+using testing::Not;
 
 namespace
 {
 
 /// Adds a light to a scene.
-using AddLight = std::function<vtkLight*(PassScene&)>;
+using AddSampledLight = std::function<void(PassScene&)>;
 
-AddLight rectangle(
+AddSampledLight rectangle(
   const glm::dvec3& place, const glm::dvec3& target, double size, double coneAngleDegrees)
 {
   return [=](PassScene& scene)
@@ -52,40 +59,32 @@ AddLight rectangle(
     light->SetWidth(size);
     light->SetHeight(0.6 * size);
     scene.renderer->AddLight(light);
-    return light.Get();
   };
 }
 
-AddLight lamp(const glm::dvec3& place, const char* radius, double coneAngleDegrees)
+AddSampledLight lamp(const glm::dvec3& place, const char* radius, double coneAngleDegrees)
 {
   return [=](PassScene& scene)
   {
-    vtkLight* light = scene.addSpot(place, { place.x, place.y, 0.0 }, coneAngleDegrees);
-    vtkGnomonLightKeys::SetSetting(light, "light_radius", radius);
-    return light;
+    vtkGnomonLightKeys::SetSetting(
+      scene.addSpot(place, { place.x, place.y, 0.0 }, coneAngleDegrees), "light_radius", radius);
   };
 }
 
-AddLight sun(const glm::dvec3& direction, const char* degrees)
+AddSampledLight sun(const glm::dvec3& direction, const char* degrees)
+{
+  return [=](PassScene& scene)
+  { vtkGnomonLightKeys::SetSetting(scene.addSun(direction), "light_radius", degrees); };
+}
+
+AddSampledLight sunInABox(const glm::dvec3& direction, const char* degrees, const glm::dvec3& box)
 {
   return [=](PassScene& scene)
   {
-    vtkLight* light = scene.addSun(direction);
+    vtkLight* light = scene.addSun(2.0 * direction);
     vtkGnomonLightKeys::SetSetting(light, "light_radius", degrees);
-    return light;
-  };
-}
-
-AddLight sunInABox(const glm::dvec3& direction, const char* degrees, const glm::dvec3& box)
-{
-  return [=](PassScene& scene)
-  {
-    vtkLight* light = sun(direction, degrees)(scene);
     const double up[3] = { 0.3, 1.0, 0.0 };
-    light->SetPosition(-2.0 * direction.x, -2.0 * direction.y, -2.0 * direction.z);
-    light->SetFocalPoint(0.0, 0.0, 0.0);
     vtkGnomonLightKeys::SetBox(light, box.x, box.y, box.z, up);
-    return light;
   };
 }
 
@@ -120,7 +119,7 @@ double meanVisibilityDifference(const std::vector<float>& a, const std::vector<f
 struct SampledLight
 {
   const char* name;
-  AddLight add;
+  AddSampledLight add;
   /// What is seen of it from (x, 0, 0) past the edge x = 0, z = 2 of a half plane that lies at x <
   /// 0.
   std::function<double(double x)> exact = {};
@@ -224,22 +223,22 @@ PenumbraError errorOfHalfPlane(
 //------------------------------------------------------------------------------
 TEST_P(SampledPenumbras, areThoseOfGeometry)
 {
-  const PenumbraError error = errorOfHalfPlane(GetParam(), 1024);
-  RecordProperty("most_off", std::to_string(error.mostOff));
-  EXPECT_GT(error.pixels, 500u);
-  EXPECT_NEAR(error.width, error.exactWidth, 0.01 * error.exactWidth);
-  EXPECT_LT(error.offBy, 0.01 * static_cast<double>(error.pixels));
-  EXPECT_LT(error.mostOff, 0.02); // of an edge that is no axis of the light's samples
-}
-
-//------------------------------------------------------------------------------
-/// Though the texels of all maps would lie alike before the edge, were they not moved.
-TEST_P(SampledPenumbras, haveNoStepsOfTexelsThatTheyAreAFewOfWide)
-{
-  const PenumbraError error = errorOfHalfPlane(GetParam(), 64);
-  EXPECT_NEAR(error.width, error.exactWidth, 0.03 * error.exactWidth);
-  EXPECT_LT(error.offBy, 0.01 * static_cast<double>(error.pixels));
-  EXPECT_LT(error.mostOff, 0.04);
+  struct Case
+  {
+    int mapSize;
+    double width; ///< what it may be off by, as a share
+    double mostOff;
+  };
+  // Though the texels of all small maps would lie alike before the edge, were they not moved. The
+  // edge is no axis of the light's samples.
+  for (const auto& [mapSize, width, mostOff] : { Case{ 1024, 0.01, 0.02 }, { 64, 0.03, 0.04 } })
+  {
+    const PenumbraError error = errorOfHalfPlane(GetParam(), mapSize);
+    EXPECT_GT(error.pixels, 500u) << mapSize;
+    EXPECT_NEAR(error.width, error.exactWidth, width * error.exactWidth) << mapSize;
+    EXPECT_LT(error.offBy, 0.01 * static_cast<double>(error.pixels)) << mapSize;
+    EXPECT_LT(error.mostOff, mostOff) << mapSize;
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -250,7 +249,6 @@ TEST_P(SampledPenumbras, errHalfAsMuchByFourTimesThePoints)
   for (const int samples : { 8, 32, 128, 512 })
   {
     const double error = errorOfHalfPlane(GetParam(), 512, samples, "frame").rootMeanSquare();
-    RecordProperty("rms_" + std::to_string(samples), std::to_string(error));
     EXPECT_LT(error, 0.5 * previous) << samples;
     previous = error;
   }
@@ -301,12 +299,11 @@ protected:
   SampledLights()
   {
     addSampledThings(this->scene);
-    this->light = GetParam().add(this->scene);
+    GetParam().add(this->scene);
     this->scene.pass->SetTechnique("sampled");
   }
 
   PassScene scene{ 140, 100 };
-  vtkLight* light;
 };
 
 INSTANTIATE_TEST_SUITE_P(
@@ -356,6 +353,14 @@ TEST_P(SampledLights, ofNoSizeShowTheHardShadow)
 class Sampled : public PassTest
 {
 protected:
+  void renderFrames(int frames)
+  {
+    for (int frame = 0; frame < frames; ++frame)
+    {
+      this->scene.render();
+    }
+  }
+
   Sampled()
   {
     addSampledThings(this->scene);
@@ -374,107 +379,68 @@ protected:
 };
 
 //------------------------------------------------------------------------------
-TEST_F(Sampled, shadowsHardenAsTheLightShrinks)
-{
-  const std::vector<float> hard = visibilityBy(this->scene, "nsm");
-  EXPECT_GT(meanVisibilityDifference(visibilityOf(this->scene), hard), 0.004);
-  this->light->SetRadius(1e-5);
-  const std::vector<float> small = visibilityOf(this->scene);
-  this->light->SetRadius(0.0);
-  EXPECT_EQ(visibilityOf(this->scene), hard);
-  // Many maps round the edge to more places than the one of the hard shadow does.
-  const std::vector<float> traced = visibilityBy(this->scene, "raytraced");
-  EXPECT_LT(meanVisibilityDifference(small, traced), meanVisibilityDifference(hard, traced));
-}
-
-//------------------------------------------------------------------------------
-TEST_F(Sampled, framesOfAStaticSceneDrawNothingAgain)
-{
-  const std::vector<float> seen = visibilityOf(this->scene);
-  EXPECT_EQ(this->scene.report().mapBakes, 33); // and the centre's
-  for (int frame = 0; frame < 3; ++frame)
-  {
-    EXPECT_EQ(visibilityOf(this->scene), seen);
-    EXPECT_EQ(this->scene.report().mapBakes, 0);
-    EXPECT_EQ(this->scene.report().programCompiles, 0);
-    EXPECT_EQ(this->report().lightSamples, 32);
-    EXPECT_EQ(this->report().progress, 1.0);
-  }
-}
-
-//------------------------------------------------------------------------------
 TEST_F(Sampled, takesBoundedMemory)
 {
-  set(this->scene, "map_size", 64);
-  set(this->scene, "light_samples", 1024);
-  this->scene.render();
   const std::size_t map = 64 * 64 * 4;
   const std::size_t images = 2 * 140 * 100 * 4;
-  EXPECT_EQ(this->scene.report().bytesMaps, 9 * map + images);
-  set(this->scene, "light_samples", 1023);
+  set(this->scene, "map_size", 64);
+  const auto expectMaps = [&](std::size_t maps, int samples)
+  {
+    set(this->scene, "light_samples", samples);
+    this->scene.render();
+    EXPECT_EQ(this->scene.report().bytesMaps, maps * map + images);
+    EXPECT_EQ(this->report().lightSamples, samples);
+  };
+  expectMaps(9, 64);
+  expectMaps(9, 256);
   set(this->scene, "batch", 2);
-  this->scene.render();
-  EXPECT_EQ(this->scene.report().bytesMaps, 3 * map + images);
-  EXPECT_EQ(this->report().lightSamples, 1023);
+  expectMaps(3, 255);
 }
 
 //------------------------------------------------------------------------------
-/// What of a program's uniforms takes room in the fragment shader: components, where each element
-/// of an array takes a vector of four, as hardware has it, and textures.
-struct UniformRoom
-{
-  int components = 0;
-  int textures = 0;
-};
-UniformRoom roomOf(GLuint program)
-{
-  UniformRoom room;
-  GLint uniforms = 0;
-  glGetProgramiv(program, GL_ACTIVE_UNIFORMS, &uniforms);
-  for (GLint i = 0; i < uniforms; ++i)
-  {
-    GLint size = 0;
-    GLenum type = GL_NONE;
-    GLchar name[64];
-    glGetActiveUniform(program, static_cast<GLuint>(i), sizeof(name), nullptr, &size, &type, name);
-    const bool isTexture = type == GL_SAMPLER_2D || type == GL_SAMPLER_2D_ARRAY;
-    const int vectors = type == GL_FLOAT_MAT4 ? 4 : type == GL_FLOAT_MAT3 ? 3 : 1;
-    room.textures += isTexture ? size : 0;
-    room.components += isTexture ? 0 : 4 * vectors * size;
-  }
-  return room;
-}
-
-/// OpenGL promises 1,024 components and 16 textures, which nine lights that see all around have to
-/// do with.
+/// OpenGL promises 1,024 components, where each element of an array takes a vector of four, as
+/// hardware has it, and 16 textures. Nine lights that see all around have to do with these.
 TEST_F(Sampled, batchesFitIntoTheUniformsThatOpenGlPromises)
 {
-  constexpr int promisedComponents = 1024;
-  constexpr int promisedTextures = 16;
   this->light->SetConeAngle(allDirections);
   this->light->SetPosition(0.3, -0.6, 1.5); // among the things, so that all faces see some
+  this->light->SetShapeToRectangle();
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(2, 2, 1);
+  image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
+  image->GetPointData()->GetScalars()->Fill(200.0);
   for (const bool textured : { false, true })
   {
-    vtkNew<vtkImageData> image;
-    image->SetDimensions(2, 2, 1);
-    image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
-    std::fill_n(static_cast<unsigned char*>(image->GetScalarPointer()), 12, 200);
-    this->light->SetShapeToRectangle();
     this->light->SetTexture(textured ? image.Get() : nullptr);
     this->scene.render();
     EXPECT_EQ(this->scene.report().mapBakes, textured ? 32 : 33);
     int programs = 0;
-    for (GLuint name = 1; name < 1000; ++name)
+    for (GLuint program = 1; program < 1000; ++program)
     {
-      if (!glIsProgram(name) || glGetUniformLocation(name, "batchShine") < 0)
+      if (!glIsProgram(program) || glGetUniformLocation(program, "batchShine") < 0)
       {
         continue;
       }
       ++programs;
-      const UniformRoom room = roomOf(name);
-      EXPECT_LE(room.components, promisedComponents) << textured;
-      EXPECT_LE(room.textures, promisedTextures) << textured;
-      EXPECT_GT(room.components, 9 * 4 * (4 + 6)) << "all lights' matrices and views";
+      int components = 0;
+      int textures = 0;
+      GLint uniforms = 0;
+      glGetProgramiv(program, GL_ACTIVE_UNIFORMS, &uniforms);
+      for (GLint i = 0; i < uniforms; ++i)
+      {
+        GLint size = 0;
+        GLenum type = GL_NONE;
+        GLchar name[64];
+        glGetActiveUniform(
+          program, static_cast<GLuint>(i), sizeof(name), nullptr, &size, &type, name);
+        const bool isTexture = type == GL_SAMPLER_2D || type == GL_SAMPLER_2D_ARRAY;
+        const int vectors = type == GL_FLOAT_MAT4 ? 4 : type == GL_FLOAT_MAT3 ? 3 : 1;
+        textures += isTexture ? size : 0;
+        components += isTexture ? 0 : 4 * vectors * size;
+      }
+      EXPECT_LE(components, 1024) << textured;
+      EXPECT_LE(textures, 16) << textured;
+      EXPECT_GT(components, 9 * 4 * (4 + 6)) << "all lights' matrices and views";
     }
     EXPECT_GE(programs, 1);
   }
@@ -509,6 +475,9 @@ TEST_F(Sampled, refinesFromTheHardShadowToTheWhole)
     EXPECT_EQ(distance, 0.0);
     EXPECT_EQ(visibilityOf(this->scene), whole);
     EXPECT_EQ(this->scene.report().mapBakes, 0);
+    this->light->SetRadius(0.0);
+    EXPECT_EQ(visibilityOf(this->scene), hard) << "without size";
+    this->light->SetRadius(0.5);
   }
 }
 
@@ -532,78 +501,57 @@ bool hasEdgeBeside(const std::vector<float>& image, int width, std::size_t pixel
   return false;
 }
 
-/// A disk of light that refines by 8 points in each frame, and hard shadows of lights at each of
-/// these points.
-class SampledPoints : public Sampled
+/// Of the very same 128 points of a disk, what a frame adds is what rays to its 8 points show, but
+/// where the shadows of these have an edge: a pixel may differ by as many points as have one beside
+/// it. Pixels are larger than texels.
+TEST_F(Sampled, showsWhatRaysToItsPointsShowButAtEdges)
 {
-protected:
-  void takePoints(int samples)
-  {
-    gnomon::ShadowLight sampled;
-    sampled.kind = gnomon::LightKind::Spot;
-    sampled.positionWorld = this->place;
-    sampled.directionWorld = glm::normalize(-this->place);
-    sampled.area = gnomon::diskArea(sampled.directionWorld, radius);
-    sampled.lightSamples = samples;
-    this->points = gnomon::pairedLightSamples(sampled);
-    ASSERT_EQ(this->points.size(), static_cast<std::size_t>(samples));
-
-    this->light->SetRadius(0.0);
-    this->scene.pass->SetTechnique("raytraced");
-    for (const glm::dvec3& point : this->points)
-    {
-      const glm::dvec3 at = this->place + point;
-      this->light->SetPosition(at.x, at.y, at.z);
-      this->light->SetFocalPoint(point.x, point.y, point.z);
-      this->traced.push_back(visibilityOf(this->scene));
-    }
-    this->light->SetPosition(this->place.x, this->place.y, this->place.z);
-    this->light->SetFocalPoint(0.0, 0.0, 0.0);
-    this->light->SetRadius(radius);
-    this->scene.pass->SetTechnique("sampled");
-    set(this->scene, "light_samples", samples);
-    set(this->scene, "progressive", 8);
-    visibilityOf(this->scene); // the hard shadow
-  }
-
-  static constexpr double radius = 1.0;
-  const glm::dvec3 place{ -2.0, -2.5, 6.0 };
-  std::vector<glm::dvec3> points; ///< from the light's place
-  std::vector<std::vector<float>> traced;
-};
-
-//------------------------------------------------------------------------------
-/// Of the very same 512 points, what a frame adds is what rays to its points show, but where the
-/// shadows of these have an edge: a pixel may differ by as many points as have one beside it.
-/// Pixels are larger than texels.
-TEST_F(SampledPoints, showWhatRaysToThemShowButAtEdges)
-{
+  constexpr std::size_t frames = 16;
+  const glm::dvec3 place(-2.0, -2.5, 6.0);
+  gnomon::ShadowLight disk;
+  disk.kind = gnomon::LightKind::Spot;
+  disk.positionWorld = place;
+  disk.directionWorld = glm::normalize(-place);
+  disk.area = gnomon::diskArea(disk.directionWorld, 1.0);
+  disk.lightSamples = 8 * frames;
   this->scene.window->SetSize(80, 60);
   this->scene.lookFrom({ 2.0, -8.0, 7.0 }, { 1.0, 0.6, 0.2 });
   this->scene.renderer->GetActiveCamera()->SetViewAngle(10.0);
   this->scene.pass->SetMapSize(512);
   this->scene.pass->SetSetting("fit", "frame");
-  this->takePoints(512);
-  const VisibilityImages kept = this->scene.pass->GetVisibility();
-  const std::size_t pixels = kept.coverage.size();
-  // Of 8 points each: how many see a pixel, and how many have an edge beside it.
-  std::vector<std::vector<int>> seeing(64, std::vector<int>(pixels, 0));
+
+  // Of the points of a frame: how many see a pixel, and how many have an edge beside it.
+  const std::size_t pixels = 80 * 60;
+  std::vector<std::vector<int>> seeing(frames, std::vector<int>(pixels, 0));
   std::vector<std::vector<int>> edges = seeing;
-  for (std::size_t k = 0; k < this->traced.size(); ++k)
+  const std::vector<glm::dvec3> points = gnomon::pairedLightSamples(disk);
+  ASSERT_EQ(points.size(), 8 * frames);
+  this->light->SetRadius(0.0);
+  this->scene.pass->SetTechnique("raytraced");
+  for (std::size_t k = 0; k < points.size(); ++k)
   {
-    const std::vector<float>& hard = this->traced[k];
+    const glm::dvec3 at = place + points[k];
+    this->light->SetPosition(at.x, at.y, at.z);
+    this->light->SetFocalPoint(points[k].x, points[k].y, points[k].z);
+    const std::vector<float> hard = visibilityOf(this->scene);
     for (std::size_t i = 0; i < pixels; ++i)
     {
       seeing[k / 8][i] += hard[i] == 1.0f ? 1 : 0;
-      edges[k / 8][i] += hasEdgeBeside(hard, kept.width, i) ? 1 : 0;
+      edges[k / 8][i] += hasEdgeBeside(hard, 80, i) ? 1 : 0;
     }
   }
+  this->light->SetPosition(place.x, place.y, place.z);
+  this->light->SetFocalPoint(0.0, 0.0, 0.0);
+  this->light->SetRadius(1.0);
+  this->scene.pass->SetTechnique("sampled");
+  set(this->scene, "light_samples", disk.lightSamples);
+  set(this->scene, "progressive", 8);
+  const VisibilityImages kept = drawKept(this->scene); // the hard shadow
   int compared = 0;
-  int differing = 0;
   int elsewhere = 0;
   int elsewhereOfOthers = 0; // against the points of another frame
   std::vector<float> before(pixels, 0.0f);
-  for (std::size_t frame = 0; frame < 64; ++frame)
+  for (std::size_t frame = 0; frame < frames; ++frame)
   {
     const std::vector<float> seen = visibilityOf(this->scene);
     ASSERT_EQ(this->report().lightSamples, 8 * (static_cast<int>(frame) + 1));
@@ -611,7 +559,7 @@ TEST_F(SampledPoints, showWhatRaysToThemShowButAtEdges)
     {
       // Where all of the light is in front of the receiver no point gives way to another.
       const glm::dvec3 normal(kept.normalX[i], kept.normalY[i], kept.normalZ[i]);
-      if (kept.coverage[i] == 0.0f || glm::dot(normal, this->place - positionOf(kept, i)) <= radius)
+      if (kept.coverage[i] == 0.0f || glm::dot(normal, place - positionOf(kept, i)) <= 1.0)
       {
         continue;
       }
@@ -620,19 +568,14 @@ TEST_F(SampledPoints, showWhatRaysToThemShowButAtEdges)
       const auto differsFrom = [&](std::size_t group)
       { return std::abs(added - seeing[group][i]) > edges[group][i]; };
       ++compared;
-      differing += added != seeing[frame][i] ? 1 : 0;
       elsewhere += differsFrom(frame) ? 1 : 0;
-      elsewhereOfOthers += differsFrom((frame + 32) % 64) ? 1 : 0;
+      elsewhereOfOthers += differsFrom((frame + frames / 2) % frames) ? 1 : 0;
     }
     before = seen;
   }
-  RecordProperty("compared", compared);
-  RecordProperty("differing", differing);
-  RecordProperty("elsewhere", elsewhere);
-  RecordProperty("elsewhere_of_others", elsewhereOfOthers);
-  EXPECT_GT(compared, 200000);
+  EXPECT_GT(compared, 50000);
   EXPECT_LE(elsewhere, compared / 50000); // edges of what is narrower than a pixel
-  EXPECT_GT(elsewhereOfOthers, 1000);
+  EXPECT_GT(elsewhereOfOthers, 250);
 }
 
 //------------------------------------------------------------------------------
@@ -686,10 +629,7 @@ TEST_F(Sampled, refinesAnewWhenSomethingChanges)
   };
   for (const auto& [what, change] : changes)
   {
-    for (int frame = 0; frame < 5; ++frame)
-    {
-      this->scene.render();
-    }
+    this->renderFrames(5);
     EXPECT_EQ(this->scene.pass->GetProgress(), 1.0) << what;
     change();
     this->scene.render();
@@ -706,46 +646,32 @@ TEST_F(Sampled, refinesAnewWhenSomethingChanges)
 //------------------------------------------------------------------------------
 TEST_F(Sampled, tellsOfProgress)
 {
-  struct Events
-  {
-    std::vector<double> progress;
-    int ends = 0;
-  } events;
+  static constexpr double end = 2.0;
+  std::vector<double> told;
   vtkNew<vtkCallbackCommand> observer;
-  observer->SetClientData(&events);
+  observer->SetClientData(&told);
   observer->SetCallback(
-    [](vtkObject*, unsigned long event, void* clientData, void* callData)
+    [](vtkObject*, unsigned long event, void* list, void* progress)
     {
-      auto& told = *static_cast<Events*>(clientData);
-      if (event == vtkCommand::ProgressEvent)
-      {
-        told.progress.push_back(*static_cast<double*>(callData));
-      }
-      told.ends += event == vtkCommand::EndEvent ? 1 : 0;
+      static_cast<std::vector<double>*>(list)->push_back(
+        event == vtkCommand::EndEvent ? end : *static_cast<double*>(progress));
     });
-  this->scene.pass->AddObserver(vtkCommand::AnyEvent, observer);
-  const auto render = [&](int frames)
-  {
-    for (int frame = 0; frame < frames; ++frame)
-    {
-      this->scene.render();
-    }
-  };
-  render(3);
-  EXPECT_TRUE(events.progress.empty()) << "in one frame";
+  this->scene.pass->AddObserver(vtkCommand::ProgressEvent, observer);
+  this->scene.pass->AddObserver(vtkCommand::EndEvent, observer);
+  this->renderFrames(3);
+  EXPECT_TRUE(told.empty()) << "in one frame";
   set(this->scene, "progressive", 16);
-  render(3);
-  EXPECT_TRUE(events.progress.empty()) << "all is there already";
+  this->renderFrames(3);
+  EXPECT_TRUE(told.empty()) << "all is there already";
   this->light->SetRadius(0.6);
-  render(6);
-  EXPECT_EQ(events.progress, (std::vector<double>{ 0.0, 0.5, 1.0 }));
-  EXPECT_EQ(events.ends, 1);
+  this->renderFrames(6);
+  EXPECT_EQ(told, (std::vector<double>{ 0.0, 0.5, 1.0, end }));
+  told.clear();
   this->light->SetRadius(0.7);
-  render(2);
+  this->renderFrames(2);
   this->light->SetRadius(0.8); // before the end
-  render(6);
-  EXPECT_EQ(events.progress, (std::vector<double>{ 0.0, 0.5, 1.0, 0.0, 0.5, 0.0, 0.5, 1.0 }));
-  EXPECT_EQ(events.ends, 2);
+  this->renderFrames(6);
+  EXPECT_EQ(told, (std::vector<double>{ 0.0, 0.5, 0.0, 0.5, 1.0, end }));
 }
 
 //------------------------------------------------------------------------------
@@ -771,24 +697,16 @@ TEST_F(Sampled, refinesOnAcrossSelectionsAndTexts)
 TEST_F(Sampled, takesAllPointsAtOnceWhereThePassDrawsSeveralViews)
 {
   set(this->scene, "progressive", 16);
-  const auto saysWhy = [&]
-  {
-    const std::vector<std::string>& notes = this->scene.report().notes;
-    return std::any_of(notes.begin(), notes.end(),
-      [](const std::string& note) { return note.find("draws several") != std::string::npos; });
-  };
+  const auto saysWhy = Contains(HasSubstr("draws several"));
   this->scene.render();
   EXPECT_EQ(this->scene.pass->GetProgress(), 0.0);
-  EXPECT_FALSE(saysWhy());
+  EXPECT_THAT(this->scene.report().notes, Not(saysWhy));
 
   vtkNew<vtkRenderer> other;
   other->SetPass(this->scene.pass);
   other->SetViewport(0.5, 0.0, 1.0, 1.0);
   other->SetActiveCamera(this->scene.renderer->GetActiveCamera());
-  vtkCollectionSimpleIterator cookie;
-  vtkActorCollection* actors = this->scene.renderer->GetActors();
-  actors->InitTraversal(cookie);
-  while (vtkActor* actor = actors->GetNextActor(cookie))
+  for (vtkActor* actor : vtk::Range(this->scene.renderer->GetActors()))
   {
     other->AddActor(actor);
   }
@@ -799,7 +717,7 @@ TEST_F(Sampled, takesAllPointsAtOnceWhereThePassDrawsSeveralViews)
     this->scene.window->Render();
     EXPECT_EQ(this->scene.pass->GetProgress(), 1.0);
     EXPECT_EQ(this->report().lightSamples, 32);
-    EXPECT_TRUE(saysWhy());
+    EXPECT_THAT(this->scene.report().notes, saysWhy);
   }
   this->scene.window->RemoveRenderer(other);
 
@@ -808,7 +726,7 @@ TEST_F(Sampled, takesAllPointsAtOnceWhereThePassDrawsSeveralViews)
   this->scene.window->StereoRenderOn();
   this->scene.window->Render();
   EXPECT_EQ(this->scene.pass->GetProgress(), 1.0);
-  EXPECT_TRUE(saysWhy());
+  EXPECT_THAT(this->scene.report().notes, saysWhy);
 }
 
 //------------------------------------------------------------------------------
@@ -833,9 +751,6 @@ TEST_F(Sampled, refinesEachLight)
 }
 
 //------------------------------------------------------------------------------
-// Hard cases
-//------------------------------------------------------------------------------
-
 /// What nothing is in the way of is lit in every frame, by lights above the floor, in it and cut by
 /// it, of any size.
 TEST(SampledFloor, isNoCasterOnItself)
@@ -852,24 +767,22 @@ TEST(SampledFloor, isNoCasterOnItself)
   // the centre.
   for (const double height : { 3.0, 0.001, 0.0, -0.1 })
   {
-    for (const glm::dvec3& travel : { glm::dvec3(-0.1, 1.0, 0.0), { 0.0, 0.0, -1.0 } })
+    for (const bool flat : { false, true })
     {
       light->SetPosition(0.5, 0.2, height);
-      light->SetFocalPoint(0.5 + travel.x, 0.2 + travel.y, height + travel.z);
-      for (const double cone : { 90.0, 30.0 })
+      light->SetFocalPoint(flat ? 0.5 : 0.4, flat ? 0.2 : 1.2, flat ? height - 1.0 : height);
+      for (const auto& [cone, size] :
+        { std::pair(90.0, 0.3), { 90.0, 1e4 }, { 30.0, 0.3 }, { 30.0, 1e4 } })
       {
         light->SetConeAngle(cone);
-        for (const double size : { 0.3, 1e4 })
+        light->SetRadius(size);
+        const std::vector<float> plain = visibilityBy(scene, "nsm");
+        for (int frame = 0; frame < 4; ++frame)
         {
-          light->SetRadius(size);
-          const std::vector<float> plain = visibilityBy(scene, "nsm");
-          for (int frame = 0; frame < 4; ++frame)
-          {
-            EXPECT_EQ(visibilityOf(scene), plain)
-              << height << " " << travel.z << " " << cone << " " << size;
-          }
-          EXPECT_EQ(scene.pass->GetProgress(), 1.0);
+          EXPECT_EQ(visibilityOf(scene), plain)
+            << height << " " << flat << " " << cone << " " << size;
         }
+        EXPECT_EQ(scene.pass->GetProgress(), 1.0);
       }
     }
   }

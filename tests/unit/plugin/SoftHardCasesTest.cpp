@@ -9,8 +9,7 @@
 #include "plugin/VisibilityImages.h"
 #include "plugin/vtkGnomonPropKeys.h"
 
-#include <vtkCellArray.h>
-#include <vtkPoints.h>
+#include <vtkPlaneSource.h>
 #include <vtkSphereSource.h>
 
 #include <algorithm>
@@ -33,18 +32,11 @@ using Build = std::function<vtkLight*(PassScene&)>;
 /// A horizontal sheet.
 void addSheet(PassScene& scene, const glm::dvec2& lower, const glm::dvec2& upper, double z)
 {
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  points->InsertNextPoint(lower.x, lower.y, z);
-  points->InsertNextPoint(upper.x, lower.y, z);
-  points->InsertNextPoint(upper.x, upper.y, z);
-  points->InsertNextPoint(lower.x, upper.y, z);
-  vtkNew<vtkCellArray> cells;
-  const vtkIdType corners[] = { 0, 1, 2, 3 };
-  cells->InsertNextCell(4, corners);
-  vtkNew<vtkPolyData> sheet;
-  sheet->SetPoints(points);
-  sheet->SetPolys(cells);
+  vtkNew<vtkPlaneSource> sheet;
+  sheet->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
+  sheet->SetOrigin(lower.x, lower.y, z);
+  sheet->SetPoint1(upper.x, lower.y, z);
+  sheet->SetPoint2(lower.x, upper.y, z);
   scene.add(sheet);
 }
 
@@ -60,33 +52,44 @@ void addThings(PassScene& scene, double unit = 1.0, const glm::dvec3& offset = g
   scene.lookFrom(place(0.0, -9.0, 7.0), place(0.0, 0.0, 0.0));
 }
 
-vtkLight* addSun(PassScene& scene, const glm::dvec3& direction, const char* degrees)
+/// Adds a light.
+Build softSun(const glm::dvec3& direction, const char* degrees)
 {
-  vtkLight* light = scene.addSun(direction);
-  vtkGnomonLightKeys::SetSetting(light, "light_radius", degrees);
-  return light;
+  return [=](PassScene& scene)
+  {
+    vtkLight* light = scene.addSun(direction);
+    vtkGnomonLightKeys::SetSetting(light, "light_radius", degrees);
+    return light;
+  };
 }
 
-vtkLight* addBall(PassScene& scene, const glm::dvec3& place, const char* radius)
+Build softBall(const glm::dvec3& place, const char* radius)
 {
-  vtkLight* light = scene.addSpot(place, place + glm::dvec3(-0.1, 0.2, -1.0), allDirections);
-  vtkGnomonLightKeys::SetSetting(light, "light_radius", radius);
-  return light;
-}
-
-vtkLight* addDisk(PassScene& scene, const glm::dvec3& place, const glm::dvec3& travel,
-  double radius, double coneAngleDegrees = 90.0)
-{
-  vtkNew<vtkGnomonAreaLight> light;
-  light->SetPosition(place.x, place.y, place.z);
-  light->SetFocalPoint(place.x + travel.x, place.y + travel.y, place.z + travel.z);
-  light->SetConeAngle(coneAngleDegrees);
-  light->SetRadius(radius);
-  scene.renderer->AddLight(light);
-  return light;
+  return [=](PassScene& scene)
+  {
+    vtkLight* light = scene.addSpot(place, place + glm::dvec3(-0.1, 0.2, -1.0), allDirections);
+    vtkGnomonLightKeys::SetSetting(light, "light_radius", radius);
+    return light;
+  };
 }
 
 const glm::dvec3 down(0.0, 0.0, -1.0);
+
+Build softDisk(const glm::dvec3& place, double radius, const glm::dvec3& travel = down,
+  double coneAngleDegrees = 90.0)
+{
+  return [=](PassScene& scene)
+  {
+    vtkNew<vtkGnomonAreaLight> light;
+    light->SetPosition(place.x, place.y, place.z);
+    light->SetFocalPoint(place.x + travel.x, place.y + travel.y, place.z + travel.z);
+    light->SetConeAngle(coneAngleDegrees);
+    light->SetRadius(radius);
+    scene.renderer->AddLight(light);
+    return light.Get();
+  };
+}
+
 const glm::dvec3 slantingSoftly(1.0, 0.4, -1.5);
 const glm::dvec3 over(2.0, -2.0, 5.0);
 
@@ -99,13 +102,36 @@ Build overThings(const Build& addLight)
   };
 }
 
+/// Other things on a floor that casts or not.
+Build overFloor(
+  const Build& addLight, const std::function<void(PassScene&)>& addOthers, bool casts = true)
+{
+  return [=](PassScene& scene)
+  {
+    vtkGnomonPropKeys::SetCasts(scene.addFloor(4.0), casts);
+    addOthers(scene);
+    scene.lookFrom({ 0.0, -9.0, 7.0 });
+    return addLight(scene);
+  };
+}
+
 Build thingsAt(double unit, const glm::dvec3& offset)
 {
   return [=](PassScene& scene)
   {
     addThings(scene, unit, offset);
-    return addDisk(scene, offset + unit * over, down, 0.5 * unit);
+    return softDisk(offset + unit * over, 0.5 * unit)(scene);
   };
+}
+
+vtkActor* addBowl(PassScene& scene, double radius, double endDegrees)
+{
+  vtkNew<vtkSphereSource> bowl;
+  bowl->SetRadius(radius);
+  bowl->SetThetaResolution(24);
+  bowl->SetPhiResolution(24);
+  bowl->SetEndPhi(endDegrees);
+  return scene.add(bowl);
 }
 
 /// By how much a technique may differ from the truth.
@@ -134,196 +160,123 @@ const std::vector<SoftCase>& softCases()
 {
   static const std::vector<SoftCase> cases = {
     { "disk", 0.001, { { 0.0016, 0 }, { 0.0031, 3 }, { 0.00082, 0 }, { 0.001, 0 } },
-      overThings([](PassScene& scene) { return addDisk(scene, over, down, 0.5); }) },
+      overThings(softDisk(over, 0.5)) },
     { "zeroSize", 0.0002, { { 0.0005, 0 }, { 0.0005, 0 }, { 0.0005, 0 }, { 0.0002, 0 } },
-      overThings([](PassScene& scene) { return addDisk(scene, over, down, 0.0); }) },
+      overThings(softDisk(over, 0.0)) },
     // The hard shadow's edges are off by texels' shares: by 0.0002 to 0.0019 as the map lies, and
     // by the mean of that where, of "sampled", it lies in many ways.
     { "tinySun", 0.0002, { { 0.0009, 0 }, { 0.0009, 0 }, { 0.0013, 0 }, { 0.0002, 0 } },
-      overThings([](PassScene& scene) { return addSun(scene, slantingSoftly, "1e-6"); }) },
+      overThings(softSun(slantingSoftly, "1e-6")) },
     // On the box's top, in it and close to it; around, in and at casters.
     { "diskOnTheBox", 0.0002, { { 0.00054, 0 }, { 0.0056, 0 }, { 0.0002, 0 }, { 0.0002, 0 } },
-      overThings(
-        [](PassScene& scene) {
-          return addDisk(scene, { -1.2, 0.0, 1.5001 }, down, 0.3);
-        }) },
+      overThings(softDisk({ -1.2, 0.0, 1.5001 }, 0.3)) },
     { "diskInTheBoxesTop", 0.0002, { { 0.02, 100 }, { 0.019, 96 }, { 0.019, 100 }, { 0.0002, 0 } },
-      overThings(
-        [](PassScene& scene) {
-          return addDisk(scene, { -1.2, 0.0, 1.5 }, down, 0.3);
-        }) },
+      overThings(softDisk({ -1.2, 0.0, 1.5 }, 0.3)) },
+    // Where floats round.
     { "diskInTheBoxesTopElsewhere", 0.0002, { anything, anything, anything, { 0.0002, 0 } },
       [](PassScene& scene)
       {
-        const glm::dvec3 offset(0.013, 0.027, 0.0371); // whose floats round
+        const glm::dvec3 offset(0.013, 0.027, 0.0371);
         addThings(scene, 1.0, offset);
-        return addDisk(scene, offset + glm::dvec3(-1.2, 0.0, 1.5), down, 0.3);
+        return softDisk(offset + glm::dvec3(-1.2, 0.0, 1.5), 0.3)(scene);
       } },
     { "diskUnderTheBoxesTop", 0.0002,
       { { 0.0034, 71 }, { 0.0002, 0 }, { 0.00045, 7 }, { 0.0002, 0 } },
-      overThings(
-        [](PassScene& scene) {
-          return addDisk(scene, { -1.2, 0.0, 1.4999 }, down, 0.3);
-        }) },
+      overThings(softDisk({ -1.2, 0.0, 1.4999 }, 0.3)) },
     { "diskOnTheFloor", 0.0005, { { 0.12, 130 }, { 0.12, 130 }, { 0.045, 130 }, { 0.0005, 0 } },
-      overThings(
-        [](PassScene& scene) {
-          return addDisk(scene, { 0.5, -2.0, 0.001 }, down, 0.5);
-        }) },
+      overThings(softDisk({ 0.5, -2.0, 0.001 }, 0.5)) },
     { "ballThroughTheBoxesTop", 0.0049,
       { { 0.12, 3286 }, { 0.0059, 0 }, { 0.0031, 4 }, { 0.0049, 0 } },
-      overThings(
-        [](PassScene& scene) {
-          return addBall(scene, { -1.2, 0.0, 1.6 }, "0.3");
-        }) },
+      overThings(softBall({ -1.2, 0.0, 1.6 }, "0.3")) },
     { "ballInTheBox", 0.0002, { { 0.00019, 2 }, { 0.0002, 0 }, { 0.00022, 3 }, { 0.0002, 0 } },
-      overThings(
-        [](PassScene& scene) {
-          return addBall(scene, { -1.2, 0.0, 0.8 }, "0.2");
-        }) },
+      overThings(softBall({ -1.2, 0.0, 0.8 }, "0.2")) },
     { "ballAroundTheSphere", 0.024, { { 0.61, 0 }, { 0.036, 0 }, { 0.02, 0 }, { 0.024, 0 } },
-      overThings(
-        [](PassScene& scene) {
-          return addBall(scene, { 1.5, 0.0, 1.2 }, "1.2");
-        }) },
+      overThings(softBall({ 1.5, 0.0, 1.2 }, "1.2")) },
     { "ballTouchesTheFloor", 0.0004,
       { { 0.00069, 15 }, { 0.00072, 0 }, { 0.00024, 0 }, { 0.0004, 0 } },
-      overThings(
-        [](PassScene& scene) {
-          return addBall(scene, { 0.5, -2.0, 0.3 }, "0.3");
-        }) },
+      overThings(softBall({ 0.5, -2.0, 0.3 }, "0.3")) },
     // Receivers in the light's plane, and behind it.
     { "diskInTheFloor", 0.0002, { anything, anything, anything, { 0.0002, 0 } },
-      overThings(
-        [](PassScene& scene) {
-          return addDisk(scene, { 0.5, -2.0, 0.0 }, down, 0.5);
-        }) },
+      overThings(softDisk({ 0.5, -2.0, 0.0 }, 0.5)) },
     { "pointInTheFloor", 0.0002, { anything, anything, anything, { 0.0002, 0 } },
-      overThings(
-        [](PassScene& scene) {
-          return addDisk(scene, { 0.5, -2.0, 0.0 }, down, 0.0);
-        }) },
+      overThings(softDisk({ 0.5, -2.0, 0.0 }, 0.0)) },
     { "diskInTheBoxesTopsPlane", 0.0017,
       { { 0.0034, 0 }, { 0.0032, 0 }, { 0.0014, 0 }, { 0.0017, 0 } },
-      overThings(
-        [](PassScene& scene) {
-          return addDisk(scene, { 1.0, -2.0, 1.5 }, down, 0.5);
-        }) },
+      overThings(softDisk({ 1.0, -2.0, 1.5 }, 0.5)) },
     { "diskStandsOnTheFloor", 0.0035, { { 0.019, 0 }, { 0.0058, 0 }, { 0.0051, 0 }, { 0.0035, 0 } },
-      overThings(
-        [](PassScene& scene) {
-          return addDisk(scene, { 2.5, -2.5, 0.5 }, { -1.0, 0.3, 0.0 }, 1.0);
-        }) },
+      overThings(softDisk({ 2.5, -2.5, 0.5 }, 1.0, { -1.0, 0.3, 0.0 })) },
     { "receiversBehindTheDisk", 0.0022,
       { { 0.018, 0 }, { 0.0036, 0 }, { 0.0019, 0 }, { 0.0022, 0 } },
-      overThings(
-        [](PassScene& scene) {
-          return addDisk(scene, { 0.5, -1.0, 1.0 }, { 1.0, 0.5, 0.0 }, 0.4);
-        }) },
+      overThings(softDisk({ 0.5, -1.0, 1.0 }, 0.4, { 1.0, 0.5, 0.0 })) },
     // Grazing receivers.
     { "sunAlongTheFloor", 0.0004, { { 0.0013, 0 }, { 0.00098, 0 }, { 0.00036, 0 }, { 0.0004, 0 } },
-      overThings(
-        [](PassScene& scene) {
-          return addSun(scene, { 1.0, 0.2, -0.02 }, "1");
-        }) },
+      overThings(softSun({ 1.0, 0.2, -0.02 }, "1")) },
     { "sunAcrossTheHorizon", 0.0027, { { 0.0046, 0 }, { 0.0048, 0 }, { 0.0028, 0 }, { 0.0027, 0 } },
-      overThings(
-        [](PassScene& scene) {
-          return addSun(scene, { 1.0, 0.2, -0.05 }, "20");
-        }) },
+      overThings(softSun({ 1.0, 0.2, -0.05 }, "20")) },
     // Huge lights.
     { "sunOfHalfTheSky", 0.011, { { 0.049, 0 }, { 0.01, 0 }, { 0.011, 0 }, { 0.019, 0 } },
-      overThings([](PassScene& scene) { return addSun(scene, slantingSoftly, "120"); }) },
+      overThings(softSun(slantingSoftly, "120")) },
     { "ballOfTheScenesSize", 0.0061, { { 0.0092, 0 }, { 0.0075, 0 }, { 0.006, 0 }, { 0.0061, 0 } },
-      overThings(
-        [](PassScene& scene) {
-          return addBall(scene, { 3.0, -3.0, 9.0 }, "5");
-        }) },
+      overThings(softBall({ 3.0, -3.0, 9.0 }, "5")) },
     { "diskOfTenScenes", 0.019, { { 0.17, 0 }, { 0.014, 0 }, { 0.018, 0 }, { 0.043, 0 } },
-      overThings(
-        [](PassScene& scene) {
-          return addDisk(scene, { 0.0, 0.0, 6.0 }, down, 80.0);
-        }) },
+      overThings(softDisk({ 0.0, 0.0, 6.0 }, 80.0)) },
     // Sheets, whose other side is lit as well, and open meshes.
     { "sheets", 0.0012, { { 0.0023, 0 }, { 0.0038, 3 }, { 0.0021, 31 }, { 0.0012, 0 } },
-      [](PassScene& scene)
-      {
-        scene.addFloor(4.0);
-        addSheet(scene, { -3.0, -1.0 }, { -1.0, 1.0 }, 0.001);
-        addSheet(scene, { -0.5, -1.0 }, { 1.0, 1.0 }, 0.5);
-        addSheet(scene, { 0.0, -1.0 }, { 1.5, 1.0 }, 0.501);
-        addSheet(scene, { 2.0, -2.0 }, { 3.0, 2.0 }, 1.5);
-        scene.lookFrom({ 0.0, -9.0, 7.0 });
-        return addDisk(scene, over, down, 0.5);
-      } },
+      overFloor(softDisk(over, 0.5),
+        [](PassScene& scene)
+        {
+          addSheet(scene, { -3.0, -1.0 }, { -1.0, 1.0 }, 0.001);
+          addSheet(scene, { -0.5, -1.0 }, { 1.0, 1.0 }, 0.5);
+          addSheet(scene, { 0.0, -1.0 }, { 1.5, 1.0 }, 0.501);
+          addSheet(scene, { 2.0, -2.0 }, { 3.0, 2.0 }, 1.5);
+        }) },
     { "sheetsAlongTheLight", 0.0013, { { 0.0057, 0 }, { 0.0087, 0 }, { 0.0017, 0 }, { 0.0013, 0 } },
-      [](PassScene& scene)
-      {
-        scene.addFloor(4.0);
-        for (int i = 0; i < 6; ++i)
+      overFloor(softDisk({ 0.5, 0.0, 6.0 }, 0.3),
+        [](PassScene& scene)
         {
-          vtkActor* sheet = scene.addFloor(1.0);
-          sheet->SetOrientation(0.0, 90.0, 0.0);
-          sheet->SetPosition(-2.5 + i, 0.0, 1.0);
-        }
-        scene.lookFrom({ 0.0, -9.0, 7.0 });
-        return addDisk(scene, { 0.5, 0.0, 6.0 }, down, 0.3);
-      } },
+          for (int i = 0; i < 6; ++i)
+          {
+            vtkActor* sheet = scene.addFloor(1.0);
+            sheet->SetOrientation(0.0, 90.0, 0.0);
+            sheet->SetPosition(-2.5 + i, 0.0, 1.0);
+          }
+        }) },
     { "halfSpheres", 0.0008, { { 0.0014, 0 }, { 0.0026, 0 }, { 0.00056, 0 }, { 0.0008, 0 } },
-      [](PassScene& scene)
-      {
-        scene.addFloor(4.0);
-        for (const double x : { -1.5, 1.5 })
+      overFloor(softDisk(over, 0.5),
+        [](PassScene& scene)
         {
-          vtkNew<vtkSphereSource> bowl;
-          bowl->SetRadius(1.0);
-          bowl->SetThetaResolution(24);
-          bowl->SetPhiResolution(24);
-          bowl->SetEndPhi(90.0);
-          vtkActor* actor = scene.add(bowl);
-          actor->SetPosition(x, 0.0, x > 0.0 ? 1.2 : 0.2);
-          actor->RotateX(x > 0.0 ? 180.0 : 0.0);
-        }
-        scene.lookFrom({ 0.0, -9.0, 7.0 });
-        return addDisk(scene, over, down, 0.5);
-      } },
+          addBowl(scene, 1.0, 90.0)->SetPosition(-1.5, 0.0, 0.2);
+          vtkActor* turned = addBowl(scene, 1.0, 90.0);
+          turned->SetPosition(1.5, 0.0, 1.2);
+          turned->RotateX(180.0);
+        }) },
     { "lampInAShade", 0.0093, { { 0.0096, 0 }, { 0.013, 0 }, { 0.0088, 0 }, { 0.0093, 0 } },
-      [](PassScene& scene)
-      {
-        scene.addFloor(4.0);
-        vtkNew<vtkSphereSource> shade;
-        shade->SetRadius(0.6);
-        shade->SetThetaResolution(24);
-        shade->SetPhiResolution(24);
-        shade->SetEndPhi(110.0);
-        scene.add(shade)->SetPosition(0.0, 0.0, 2.0);
-        scene.addBox({ 1.5, -0.5, 0.0 }, { 2.5, 0.5, 0.8 });
-        scene.lookFrom({ 0.0, -9.0, 7.0 });
-        return addBall(scene, { 0.0, 0.0, 2.0 }, "0.15");
-      } },
+      overFloor(softBall({ 0.0, 0.0, 2.0 }, "0.15"),
+        [](PassScene& scene)
+        {
+          addBowl(scene, 0.6, 110.0)->SetPosition(0.0, 0.0, 2.0);
+          scene.addBox({ 1.5, -0.5, 0.0 }, { 2.5, 0.5, 0.8 });
+        }) },
     // Faces of the lamp's cube that hold no casters, and others that are cut to a screen beside the
     // lamp.
     { "floorThatCastsNothing", 0.0076,
       { { 0.009, 0 }, { 0.0081, 0 }, { 0.0088, 0 }, { 0.0093, 0 } },
-      [](PassScene& scene)
-      {
-        vtkGnomonPropKeys::SetCasts(scene.addFloor(4.0), false);
-        scene.addBox({ 0.6, -0.8, 1.6 }, { 0.7, 0.8, 2.4 });
-        scene.lookFrom({ 0.0, -9.0, 7.0 });
-        return addBall(scene, { 0.0, 0.0, 2.0 }, "0.5");
-      } },
+      overFloor(
+        softBall({ 0.0, 0.0, 2.0 }, "0.5"),
+        [](PassScene& scene) {
+          scene.addBox({ 0.6, -0.8, 1.6 }, { 0.7, 0.8, 2.4 });
+        },
+        false) },
     { "postsOfATexel", 0.0008, { { 0.0012, 0 }, { 0.003, 0 }, { 0.0008, 0 }, { 0.0008, 0 } },
-      [](PassScene& scene)
-      {
-        scene.addFloor(4.0);
-        for (int i = 0; i < 15; ++i)
+      overFloor(softDisk({ 0.0, -3.0, 6.0 }, 0.3),
+        [](PassScene& scene)
         {
-          const double x = -3.5 + 0.5 * i;
-          scene.addBox({ x, -0.02, 0.0 }, { x + 0.04, 0.02, 1.5 });
-        }
-        scene.lookFrom({ 0.0, -9.0, 7.0 });
-        return addDisk(scene, { 0.0, -3.0, 6.0 }, down, 0.3);
-      } },
+          for (int i = 0; i < 15; ++i)
+          {
+            const double x = -3.5 + 0.5 * i;
+            scene.addBox({ x, -0.02, 0.0 }, { x + 0.04, 0.02, 1.5 });
+          }
+        }) },
     { "unitsOfAThousandth", 0.001, { { 0.0016, 0 }, { 0.0031, 3 }, { 0.00082, 0 }, { 0.001, 0 } },
       thingsAt(1e-3, glm::dvec3(0.0)) },
     { "unitsOfAMillion", 0.001, { { 0.0016, 0 }, { 0.0031, 3 }, { 0.00082, 0 }, { 0.001, 0 } },
@@ -341,7 +294,6 @@ constexpr double leastCosine = 1e-5;
 struct SoftError
 {
   double meanAbsolute = 0.0;
-  double rootMeanSquare = 0.0;
   /// Pixels that are not fully lit, or not dark, as are all around them in truth: acne and leaks.
   std::size_t spots = 0;
 };
@@ -378,10 +330,8 @@ SoftError errorOf(
       {
         continue;
       }
-      const double difference = visibility[i] - truth.visibility[0][i];
       count += 1.0;
-      error.meanAbsolute += std::abs(difference);
-      error.rootMeanSquare += difference * difference;
+      error.meanAbsolute += std::abs(visibility[i] - truth.visibility[0][i]);
       error.spots += (visibility[i] < 0.95f && isAmong(truth, x, y, 1.0f)) ||
           (visibility[i] > 0.05f && isAmong(truth, x, y, 0.0f))
         ? 1
@@ -389,7 +339,6 @@ SoftError errorOf(
     }
   }
   error.meanAbsolute /= count;
-  error.rootMeanSquare = std::sqrt(error.rootMeanSquare / count);
   return error;
 }
 
@@ -430,9 +379,6 @@ TEST_P(SoftHardCases, stayFiniteAndNearTheTruth)
                          const char* name, const std::vector<float>& visibility, const Bound& bound)
   {
     const SoftError error = errorOf(visibility, truth, light);
-    this->RecordProperty(name,
-      std::to_string(error.meanAbsolute) + " / " + std::to_string(error.rootMeanSquare) + ", " +
-        std::to_string(error.spots));
     EXPECT_LE(error.meanAbsolute, bound.meanAbsolute) << name;
     EXPECT_LE(error.spots, bound.spots) << name;
   };
@@ -452,8 +398,9 @@ TEST_P(SoftHardCases, stayFiniteAndNearTheTruth)
 /// What nothing is in the way of is fully lit, whatever the light's size and place.
 TEST(SoftReceivers, thatSeeAllOfTheLightHaveNoAcne)
 {
-  PassScene scene(90, 60);
+  PassScene scene(72, 48);
   scene.pass->SetMapSize(256);
+  scene.pass->SetSetting("light_samples", "16");
   scene.addBox({ -4.0, -4.0, -0.2 }, { 4.0, 4.0, 0.0 });
   scene.lookFrom({ 2.0, -8.0, 7.0 });
   struct Place
@@ -469,7 +416,7 @@ TEST(SoftReceivers, thatSeeAllOfTheLightHaveNoAcne)
     {
       for (const double radius : { 0.0, 1e-6, 0.3, 50.0 })
       {
-        vtkLight* const light = addDisk(scene, place.position, place.travel, radius, cone);
+        vtkLight* const light = softDisk(place.position, radius, place.travel, cone)(scene);
         scene.pass->SetTechnique("nsm");
         const VisibilityImages& kept = drawKept(scene);
         const std::vector<float> plain = kept.visibility[0];
@@ -480,7 +427,7 @@ TEST(SoftReceivers, thatSeeAllOfTheLightHaveNoAcne)
             static_cast<double>(std::count(kept.coverage.begin(), kept.coverage.end(), 1));
           EXPECT_GT(
             static_cast<double>(std::count(plain.begin(), plain.end(), 1.0f)), 0.9 * covered);
-          EXPECT_GT(covered, 1000.0);
+          EXPECT_GT(covered, 640.0);
         }
         for (const char* technique :
           { "pcss", "montecarlo", "sampled", "coherence", "penumbra", "raytraced" })
@@ -507,7 +454,7 @@ TEST(SoftPenumbras, haveNoBandsByDefault)
   scene.lookDown(0.5);
   scene.renderer->GetActiveCamera()->SetPosition(0.0, 0.0, 1.5); // below the half plane
   scene.renderer->GetActiveCamera()->SetClippingRange(0.1, 3.0);
-  addDisk(scene, { 0.0, 0.0, 10.0 }, down, 1.2, 50.0);
+  softDisk({ 0.0, 0.0, 10.0 }, 1.2, down, 50.0)(scene);
   // The penumbra is 60 columns wide, and steepest in its middle, where the light's diameter is cut.
   const double steepest = 4.0 / std::acos(-1.0) / 60.0;
   for (const char* technique :
@@ -525,7 +472,6 @@ TEST(SoftPenumbras, haveNoBandsByDefault)
     {
       step = std::max(step, std::abs(columns[x] - columns[x - 1]));
     }
-    RecordProperty(technique, std::to_string(step));
     EXPECT_LT(columns.front(), 0.01) << technique;
     EXPECT_GT(columns.back(), 0.99) << technique;
     EXPECT_LT(step, 1.4 * steepest) << technique;
