@@ -3,6 +3,7 @@
 #include "shadowtech/base/Kernel.h"
 #include "shadowtech/base/LightViewsGlsl.h"
 #include "shadowtech/base/ShaderLibrary.h"
+#include "shadowtech/base/TextureMemory.h"
 
 #include <utility>
 
@@ -43,43 +44,49 @@ void replaceOnce(std::string& text, const std::string& from, const std::string& 
 }
 
 //------------------------------------------------------------------------------
+std::string computeGlsl(const std::string& declarations, const std::string& in,
+  const std::string& out, const std::string& body)
+{
+  return numberedForLight(declarations, 0) +
+    "layout(local_size_x = 64) in;\nuniform int inputCount;\n"
+    "layout(std430, binding = 0) readonly buffer In { " +
+    in + " given[]; };\nlayout(std430, binding = 1) writeonly buffer Out { " + out +
+    " result[]; };\nvoid main()\n{\n  uint i = gl_GlobalInvocationID.x;\n"
+    "  if (i < uint(inputCount))\n  {\n" +
+    numberedForLight(body, 0) + "  }\n}\n";
+}
+
+//------------------------------------------------------------------------------
+void runCompute(ShaderLibrary& library, const std::string& glsl, std::size_t count,
+  const void* given, std::size_t givenBytes, void* result, std::size_t resultBytes,
+  const std::vector<Uniform>& uniforms, const std::vector<std::string>& defines)
+{
+  const GLuint program = library.program({ { GL_COMPUTE_SHADER, glsl } }, defines);
+  glUseProgram(program);
+  ShaderLibrary::setUniforms(program, uniforms, 0, 0);
+  ShaderLibrary::setUniform(program, { "inputCount", static_cast<int>(count) });
+  GlBuffer buffers[2];
+  allocateStorage(buffers[0], givenBytes, given, "a test's input");
+  allocateStorage(buffers[1], resultBytes, nullptr, "a test's output");
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, buffers[0].name());
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, buffers[1].name());
+  glDispatchCompute(static_cast<GLuint>((count + 63) / 64), 1, 1);
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  glGetBufferSubData(GL_SHADER_STORAGE_BUFFER, 0, static_cast<GLsizeiptr>(resultBytes), result);
+  glUseProgram(0);
+  EXPECT_EQ(glGetError(), GLenum(GL_NO_ERROR));
+}
+
+//------------------------------------------------------------------------------
 std::vector<float> visibilityAt(const PointwiseTechnique& technique, const ShadowLight& light,
   ShaderLibrary& library, std::vector<glm::vec4> pointsView, const glm::vec3& normalView,
   std::vector<Uniform> uniforms)
 {
-  const std::size_t count = pointsView.size();
-  pointsView.resize((count + 63) / 64 * 64);
-  const std::string source = numberedForLight(technique.visibilityGlsl(light) + R"(
-layout(local_size_x = 64) in;
-layout(std430, binding = 0) readonly buffer Inputs { vec4 inputs[]; };
-layout(std430, binding = 1) writeonly buffer Outputs { float outputs[]; };
-uniform vec3 normal;
-void main()
-{
-  uint i = gl_GlobalInvocationID.x;
-  outputs[i] = visibility_LIGHT(inputs[i].xyz, normal);
-}
-)",
-    0);
-  const GLuint program = library.program({ { GL_COMPUTE_SHADER, source } });
-  GlBuffer buffers[2];
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, buffers[0].create());
-  glBufferData(GL_SHADER_STORAGE_BUFFER,
-    static_cast<GLsizeiptr>(pointsView.size() * sizeof(glm::vec4)), pointsView.data(),
-    GL_STATIC_DRAW);
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, buffers[1].create());
-  std::vector<float> outputs(pointsView.size());
-  const auto bytes = static_cast<GLsizeiptr>(outputs.size() * sizeof(float));
-  glBufferData(GL_SHADER_STORAGE_BUFFER, bytes, nullptr, GL_DYNAMIC_READ);
-  glUseProgram(program);
   uniforms.push_back({ "normal", normalView });
-  ShaderLibrary::setUniforms(program, uniforms, 0, 0);
-  glDispatchCompute(static_cast<GLuint>(pointsView.size() / 64), 1, 1);
-  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-  glGetBufferSubData(GL_SHADER_STORAGE_BUFFER, 0, bytes, outputs.data());
-  glUseProgram(0);
-  outputs.resize(count);
-  return outputs;
+  return runCompute<float>(library,
+    computeGlsl(technique.visibilityGlsl(light) + "uniform vec3 normal;\n", "vec4", "float",
+      "result[i] = visibility_LIGHT(given[i].xyz, normal);\n"),
+    pointsView, uniforms);
 }
 
 //------------------------------------------------------------------------------
@@ -105,8 +112,8 @@ std::vector<float> runGlsl(const PointwiseTechnique& technique, const ShadowLigh
   uniforms.push_back(kernelUnit(technique.mapReach(light)));
   uniforms.insert(uniforms.end(), more.begin(), more.end());
   ShaderLibrary library;
-  return visibilityAt(technique, light, library, std::move(points),
-    glm::vec3(-light.directionWorld), std::move(uniforms));
+  return visibilityAt(
+    technique, light, library, points, glm::vec3(-light.directionWorld), std::move(uniforms));
 }
 
 } // namespace gnomon::test

@@ -41,6 +41,29 @@ LightViews sunViews(const ShadowLight& light);
 /// something else.
 void replaceOnce(std::string& text, const std::string& from, const std::string& to);
 
+/// The source of a compute shader that maps `given[i]` to `result[i]`.
+/// @param declarations before `main`
+/// @param in,out the types of `given` and `result`
+/// @param body statements that have `i`
+std::string computeGlsl(const std::string& declarations, const std::string& in,
+  const std::string& out, const std::string& body);
+
+/// Run a shader of computeGlsl().
+void runCompute(ShaderLibrary& library, const std::string& glsl, std::size_t count,
+  const void* given, std::size_t givenBytes, void* result, std::size_t resultBytes,
+  const std::vector<Uniform>& uniforms, const std::vector<std::string>& defines);
+
+template <typename Out, typename In>
+std::vector<Out> runCompute(ShaderLibrary& library, const std::string& glsl,
+  const std::vector<In>& in, const std::vector<Uniform>& uniforms = {},
+  const std::vector<std::string>& defines = {})
+{
+  std::vector<Out> out(in.size());
+  runCompute(library, glsl, in.size(), in.data(), in.size() * sizeof(In), out.data(),
+    out.size() * sizeof(Out), uniforms, defines);
+  return out;
+}
+
 /// What a technique's GLSL answers at points, on a plane.
 /// @param pointsView in the camera's view coordinates
 /// @param normalView of the plane
