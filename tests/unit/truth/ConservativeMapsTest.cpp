@@ -16,10 +16,9 @@
 #include <vtkNew.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
-#include <cctype>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <string>
 #include <utility>
@@ -42,10 +41,12 @@ struct Tally : Compared
   }
 };
 
-/// How a map and a full trace differ.
-Tally compareWithTruth(const ShadowLight& light, const LightViews& views,
-  const Occluders& occluders, const Receivers& receivers,
-  const MapRule& rule = certainRule(Covering::Silhouette))
+const MapRule bySilhouette = certainRule(Covering::Silhouette);
+
+/// Expect a trace with the map to equal a full trace.
+/// @param what the message of failures
+Tally compareWithTruth(const std::string& what, const ShadowLight& light, const LightViews& views,
+  const Occluders& occluders, const Receivers& receivers, const MapRule& rule = bySilhouette)
 {
   ConservativeMaps maps;
   maps.bake(light, views, occluders, rule);
@@ -57,6 +58,7 @@ Tally compareWithTruth(const ShadowLight& light, const LightViews& views,
   tally.receivers = tracer.trace(light, occluders, receivers, truth);
   tally.traced = tracer.trace(light, occluders, receivers, visibility, &maps);
   tally.wrong = countDifferent(truth, visibility);
+  EXPECT_EQ(tally.wrong, 0u) << what;
   std::atomic<std::size_t> leftOut{ 0 };
   receivers.visitTiles(
     [&](const ReceiverTile& tile)
@@ -69,22 +71,37 @@ Tally compareWithTruth(const ShadowLight& light, const LightViews& views,
   return tally;
 }
 
+/// The same without stored receivers, so that maps are asked about triangles and lines.
+Tally compareWithTruth(const std::string& what, const ShadowLight& light, const LightViews& views,
+  const Occluders& occluders, const View& view, const MapRule& rule = bySilhouette)
+{
+  ReceiverPixels stored;
+  return compareWithTruth(what, light, views, occluders,
+    Receivers(view.images, view.drawnSurfaces, occluders, stored), rule);
+}
+
 /// One picture of one scene in one light, by maps of one size.
 Tally run(const std::string& name, unsigned int seed, const MapRule& rule,
   const glm::dmat4& world = glm::dmat4(1.0))
 {
   const RandomPicture picture = makeRandomPicture(name, seed, world);
-  const ShadowLight& light = picture.light;
-  // Not yet made, so that maps are asked about triangles and lines, too.
-  ReceiverPixels stored;
-  const Receivers receivers(
-    picture.view.images, picture.view.drawnSurfaces, picture.occluders, stored);
-  const Tally tally = compareWithTruth(light, picture.views, picture.occluders, receivers, rule);
-  if (tally.wrong > 0)
+  return compareWithTruth(
+    picture.description, picture.light, picture.views, picture.occluders, picture.view, rule);
+}
+
+/// Pictures of all kinds of scenes.
+Tally runAll(unsigned int firstSeed, unsigned int count, const MapRule& rule,
+  const glm::dmat4& world = glm::dmat4(1.0))
+{
+  Tally sum;
+  for (const char* name : randomSceneNames())
   {
-    ADD_FAILURE() << tally.wrong << " wrong pixels of " << picture.description;
+    for (unsigned int seed = firstSeed; seed < firstSeed + std::max(count, 1u); ++seed)
+    {
+      sum.add(run(name, seed, rule, world));
+    }
   }
-  return tally;
+  return sum;
 }
 
 /// By which name and settings a map's rule is known.
@@ -95,9 +112,26 @@ std::string techniqueOf(Covering covering)
   return techniques[static_cast<int>(covering)];
 }
 
+std::string nameOfCovering(Covering covering)
+{
+  const char* const coverings[] = { "Triangle", "Ring", "Fan", "Silhouette" };
+  return coverings[static_cast<int>(covering)];
+}
+
+const auto nameOfRule = [](const testing::TestParamInfo<Covering>& rule)
+{ return nameOfCovering(rule.param); };
+
+const auto allCoverings =
+  testing::Values(Covering::Triangle, Covering::Ring, Covering::Fan, Covering::Silhouette);
+
 class ConservativeMapsIn : public testing::TestWithParam<std::tuple<const char*, Covering>>
 {
 };
+
+INSTANTIATE_TEST_SUITE_P(Scenes, ConservativeMapsIn,
+  testing::Combine(testing::ValuesIn(randomSceneNames()), allCoverings),
+  [](const testing::TestParamInfo<ConservativeMapsIn::ParamType>& run)
+  { return lettersOf(std::get<0>(run.param)) + nameOfCovering(std::get<1>(run.param)); });
 
 TEST_P(ConservativeMapsIn, areNeverWrong)
 {
@@ -108,13 +142,9 @@ TEST_P(ConservativeMapsIn, areNeverWrong)
     sum.add(run(name, seed, certainRule(covering)));
   }
   recordCompared(techniqueOf(covering), name, sum);
-  EXPECT_EQ(sum.wrong, 0u);
   EXPECT_GT(sum.leftOut, sum.receivers / 20) << "triangles and lines are asked about";
   EXPECT_GT(sum.receivers, exactRuns() * 300u);
   EXPECT_LT(sum.traced, sum.receivers * 3 / 4); // it does decide something
-  std::cout << name << ": left out " << sum.leftOut << ", traced "
-            << 100.0 * static_cast<double>(sum.traced) / static_cast<double>(sum.receivers)
-            << " % of " << sum.receivers << std::endl;
 }
 
 /// The same maps with one of their two answers alone: what they call lit, or what they call in
@@ -142,84 +172,36 @@ MapRule onlyOf(Certainty answer, const MapRule& rule)
   };
 }
 
-/// What maps make of each pixel of a picture.
-std::vector<std::uint8_t> classesOf(const RandomPicture& picture, const MapRule& rule)
-{
-  ConservativeMaps maps;
-  maps.bake(picture.light, picture.views, picture.occluders, rule);
-  EmbreeTracer tracer;
-  tracer.update(picture.occluders);
-  ReceiverPixels stored;
-  const Receivers receivers(
-    picture.view.images, picture.view.drawnSurfaces, picture.occluders, stored);
-  std::vector<float> visibility;
-  std::vector<std::uint8_t> classes;
-  tracer.trace(picture.light, picture.occluders, receivers, visibility, &maps, &classes);
-  return classes;
-}
-
 class ConservativeMapsBy : public testing::TestWithParam<Covering>
 {
 };
 
+INSTANTIATE_TEST_SUITE_P(Rules, ConservativeMapsBy, allCoverings, nameOfRule);
+
+/// A map that says lit does not ask for shadow. Each answer is right by itself, so no receiver has
+/// both.
 TEST_P(ConservativeMapsBy, neverCallAReceiverBothLitAndInShadow)
 {
-  // Each answer is asked for by itself: a map that says lit does not look whether it would say
-  // shadow, too.
   const MapRule rule = certainRule(GetParam());
-  std::size_t both = 0, lit = 0, shadow = 0, other = 0;
-  for (const char* name : randomSceneNames())
+  const auto decided = [](const MapRule& by)
   {
-    for (unsigned int seed = 1; seed <= std::max(exactRuns() / 12, 1u); ++seed)
-    {
-      const RandomPicture picture = makeRandomPicture(name, seed);
-      const std::vector<std::uint8_t> classes = classesOf(picture, rule);
-      const std::vector<std::uint8_t> byLight = classesOf(picture, onlyOf(Certainty::Lit, rule));
-      const std::vector<std::uint8_t> byShadow =
-        classesOf(picture, onlyOf(Certainty::Shadow, rule));
-      for (std::size_t i = 0; i < classes.size(); ++i)
-      {
-        const bool isLit = static_cast<TracedClass>(byLight[i]) == TracedClass::Lit;
-        const bool isShadow = static_cast<TracedClass>(byShadow[i]) == TracedClass::Shadow;
-        lit += isLit ? 1 : 0;
-        shadow += isShadow ? 1 : 0;
-        both += isLit && isShadow ? 1 : 0;
-        // And both together say what the maps say.
-        const std::uint8_t expected = isLit ? byLight[i] : byShadow[i];
-        other += classes[i] != expected ? 1 : 0;
-      }
-    }
-  }
-  EXPECT_EQ(both, 0u);
-  EXPECT_EQ(other, 0u);
+    const Tally tally = runAll(1, exactRuns() / 12, by);
+    return tally.receivers - tally.traced;
+  };
+  const std::size_t lit = decided(onlyOf(Certainty::Lit, rule));
+  const std::size_t shadow = decided(onlyOf(Certainty::Shadow, rule));
+  EXPECT_EQ(lit + shadow, decided(rule));
   EXPECT_GT(lit, 10000u);
   EXPECT_GT(shadow, 10000u);
 }
-
-std::string nameOfCovering(Covering covering)
-{
-  const char* const coverings[] = { "Triangle", "Ring", "Fan", "Silhouette" };
-  return coverings[static_cast<int>(covering)];
-}
-
-std::string nameOfRun(const testing::TestParamInfo<ConservativeMapsIn::ParamType>& run)
-{
-  return lettersOf(std::get<0>(run.param)) + nameOfCovering(std::get<1>(run.param));
-}
-
-INSTANTIATE_TEST_SUITE_P(Rules, ConservativeMapsBy,
-  testing::Values(Covering::Triangle, Covering::Ring, Covering::Fan, Covering::Silhouette),
-  [](const testing::TestParamInfo<Covering>& rule) { return nameOfCovering(rule.param); });
-
-INSTANTIATE_TEST_SUITE_P(Scenes, ConservativeMapsIn,
-  testing::Combine(testing::ValuesIn(randomSceneNames()),
-    testing::Values(Covering::Triangle, Covering::Ring, Covering::Fan, Covering::Silhouette)),
-  nameOfRun);
 
 /// Drawn on the GPU, by what covers texels.
 class ConservativeMapsOnGpu : public testing::TestWithParam<Covering>
 {
 };
+
+INSTANTIATE_TEST_SUITE_P(Rules, ConservativeMapsOnGpu,
+  testing::Values(Covering::Triangle, Covering::Ring, Covering::Fan), nameOfRule);
 
 TEST_P(ConservativeMapsOnGpu, areNeverWrong)
 {
@@ -229,88 +211,80 @@ TEST_P(ConservativeMapsOnGpu, areNeverWrong)
   ASSERT_EQ(CellTarget::whyUnsupported(), "");
   ShaderLibrary shaders;
   const CellsOnGpu gpu(shaders);
-  Tally sum;
-  for (const char* name : randomSceneNames())
-  {
-    for (unsigned int seed = 200; seed < 200 + std::max(exactRuns() / 4, 1u); ++seed)
-    {
-      sum.add(run(name, seed, certainRule(GetParam(), &gpu)));
-    }
-  }
-  EXPECT_EQ(sum.wrong, 0u);
+  const Tally sum = runAll(200, exactRuns(8) / 4, certainRule(GetParam(), &gpu));
+  EXPECT_GE(sum.receivers, 15000u);
   EXPECT_LT(sum.traced, sum.receivers * 3 / 4);
   recordCompared(techniqueOf(GetParam()) + ", maps drawn on the GPU", "all", sum);
 }
-
-INSTANTIATE_TEST_SUITE_P(Rules, ConservativeMapsOnGpu,
-  testing::Values(Covering::Triangle, Covering::Ring, Covering::Fan),
-  [](const testing::TestParamInfo<Covering>& rule) { return nameOfCovering(rule.param); });
 
 class ConservativeMapsAnywhere : public testing::TestWithParam<Covering>
 {
 };
 
+INSTANTIATE_TEST_SUITE_P(Rules, ConservativeMapsAnywhere, allCoverings, nameOfRule);
+
 TEST_P(ConservativeMapsAnywhere, areNeverWrongFarAwayAndAtAnyScale)
 {
-  const glm::dmat4 worlds[] = { at(glm::dvec3(1e6, -2e6, 1e6)), at(glm::dvec3(0.0), 1e-4),
-    at(glm::dvec3(0.0), 1e4), at(glm::dvec3(1e6), 1e4) };
   Tally sum;
-  for (const glm::dmat4& world : worlds)
+  for (const glm::dmat4& world : { at(glm::dvec3(1e6, -2e6, 1e6)), at(glm::dvec3(0.0), 1e-4),
+         at(glm::dvec3(0.0), 1e4), at(glm::dvec3(1e6), 1e4) })
   {
-    for (const char* name : randomSceneNames())
-    {
-      for (unsigned int seed = 100; seed < 100 + std::max(exactRuns() / 4, 1u); ++seed)
-      {
-        sum.add(run(name, seed, certainRule(GetParam()), world));
-      }
-    }
+    sum.add(runAll(100, exactRuns(12) / 4, certainRule(GetParam()), world));
   }
-  EXPECT_EQ(sum.wrong, 0u);
+  EXPECT_GE(sum.receivers, 90000u);
   EXPECT_LT(sum.traced, sum.receivers * 3 / 4);
   recordCompared(techniqueOf(GetParam()), "all, far away or at other scales", sum);
 }
 
-INSTANTIATE_TEST_SUITE_P(Rules, ConservativeMapsAnywhere,
-  testing::Values(Covering::Triangle, Covering::Ring, Covering::Fan, Covering::Silhouette),
-  [](const testing::TestParamInfo<Covering>& rule) { return nameOfCovering(rule.param); });
-
-/// Receivers that are put where a test wants them.
-struct ChosenReceivers
-{
-  ReceiverPixels pixels;
-
-  /// @param surface that they count as points of
-  explicit ChosenReceivers(int count, std::uint32_t surface)
-  {
-    this->pixels.resize(count, 1);
-    std::fill(this->pixels.surface.begin(), this->pixels.surface.end(), surface);
-  }
-  void set(std::size_t i, const glm::dvec3& centred, const glm::dvec3& normal, float offset)
-  {
-    this->pixels.positionX[i] = static_cast<float>(centred.x);
-    this->pixels.positionY[i] = static_cast<float>(centred.y);
-    this->pixels.positionZ[i] = static_cast<float>(centred.z);
-    this->pixels.normalX[i] = static_cast<float>(normal.x);
-    this->pixels.normalY[i] = static_cast<float>(normal.y);
-    this->pixels.normalZ[i] = static_cast<float>(normal.z);
-    this->pixels.offset[i] = offset;
-  }
-};
-
 Mesh oneTriangle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c)
 {
-  Mesh mesh;
-  for (const glm::dvec3& corner : { a, b, c })
-  {
-    mesh.points.push_back(corner);
-  }
-  mesh.triangles.emplace_back(0, 1, 2);
-  return mesh;
+  return { { a, b, c }, { { 0, 1, 2 } } };
 }
 
-/// Its sides are one surface, or two that meet in a seam.
+void addQuad(Mesh& mesh, const std::array<glm::dvec3, 4>& corners)
+{
+  const auto first = static_cast<unsigned int>(mesh.points.size());
+  mesh.points.insert(mesh.points.end(), corners.begin(), corners.end());
+  mesh.triangles.emplace_back(first, first + 1, first + 2);
+  mesh.triangles.emplace_back(first, first + 2, first + 3);
+}
+
+/// A valley that faces the light. Near its bottom, rays from one side start behind another side.
+/// The sides are one surface, or two that meet in a seam.
 class Valley : public testing::TestWithParam<bool>
 {
+protected:
+  /// @param near,far the triangles of the first and of the second surface
+  void makeOf(const std::vector<glm::dvec3>& points, std::vector<glm::uvec3> near,
+    const std::vector<glm::uvec3>& far)
+  {
+    if (!GetParam())
+    {
+      near.insert(near.end(), far.begin(), far.end());
+    }
+    std::vector<Prop> props{ { { points, near } } };
+    if (GetParam())
+    {
+      props.push_back({ { points, far } });
+    }
+    this->occluders_ = makeOccluders(props);
+  }
+  void add(const glm::dvec3& world, const glm::dvec3& normal, float offset)
+  {
+    this->receivers_.push_back(
+      { world - this->occluders_.centreWorld, glm::normalize(normal), offset });
+  }
+  Tally compare(ShadowLight light, int mapSize, double shape)
+  {
+    light.mapSizeTexels = mapSize;
+    const Tally tally = compareWithTruth(std::to_string(shape), light,
+      viewsOf(light, this->occluders_), this->occluders_, rowOf(this->receivers_));
+    this->receivers_.clear();
+    return tally;
+  }
+
+  Occluders occluders_;
+  std::vector<PlacedReceiver> receivers_;
 };
 
 INSTANTIATE_TEST_SUITE_P(ConservativeMaps, Valley, testing::Bool(),
@@ -318,43 +292,25 @@ INSTANTIATE_TEST_SUITE_P(ConservativeMaps, Valley, testing::Bool(),
 
 TEST_P(Valley, isNeverWrongInItsBottom)
 {
-  // Both sides face the light, and rays from one start behind the other near the bottom.
   for (const double steepness : { 0.5, 1.0, 3.0 })
   {
     const double side = 2.0;
-    Mesh valley;
+    std::vector<glm::dvec3> points;
     for (const double y : { -1.0, 1.0 })
     {
-      valley.points.emplace_back(-side, y, steepness * side);
-      valley.points.emplace_back(0.0, y, 0.0);
-      valley.points.emplace_back(side, y, steepness * side);
+      points.emplace_back(-side, y, steepness * side);
+      points.emplace_back(0.0, y, 0.0);
+      points.emplace_back(side, y, steepness * side);
     }
-    valley.triangles = { { 0, 1, 4 }, { 0, 4, 3 }, { 1, 2, 5 }, { 1, 5, 4 } };
-    std::vector<Prop> props{ { valley } };
-    if (this->GetParam())
-    {
-      props.push_back({ valley });
-      props[0].mesh.triangles.resize(2);
-      props[1].mesh.triangles.erase(
-        props[1].mesh.triangles.begin(), props[1].mesh.triangles.begin() + 2);
-    }
-    const Occluders occluders = makeOccluders(props);
-    ShadowLight light = directionalLight({ 0.05, 0.02, -1.0 });
-    light.mapSizeTexels = 32;
+    this->makeOf(points, { { 0, 1, 4 }, { 0, 4, 3 } }, { { 1, 2, 5 }, { 1, 5, 4 } });
     constexpr int count = 4000;
-    ChosenReceivers chosen(count, 0);
-    const glm::dvec3 normal = glm::normalize(glm::dvec3(steepness, 0.0, 1.0));
     for (int i = 0; i < count; ++i)
     {
       const double x = -std::pow(10.0, -8.0 + 8.0 * i / count);
       const double y = -0.9 + 1.8 * std::fmod(0.618 * i, 1.0);
-      chosen.set(static_cast<std::size_t>(i),
-        glm::dvec3(x, y, -steepness * x) - occluders.centreWorld, normal, 3e-5f);
+      this->add({ x, y, -steepness * x }, { steepness, 0.0, 1.0 }, 3e-5f);
     }
-    const Tally tally = compareWithTruth(light,
-      fitLightViews(light, occluders.centreWorld, occluders.castersCentred, light.mapSizeTexels),
-      occluders, chosen.pixels);
-    EXPECT_EQ(tally.wrong, 0u) << steepness;
+    const Tally tally = this->compare(directionalLight({ 0.05, 0.02, -1.0 }), 32, steepness);
     EXPECT_LT(tally.traced, tally.receivers) << steepness;
   }
 }
@@ -371,40 +327,23 @@ TEST_P(Valley, isNeverWrongWhereManySidesMeetInACorner)
     const double y = 2.0 * std::sin(halfWedge);
     const double border = y * steep;
     const double bottom = y * (steep - mild);
-    Mesh near;
-    near.points = { { 0.0, 0.0, 0.0 }, { 0.0, -2.0, 2.0 * steep }, { x, -y, border },
-      { 2.0, 0.0, bottom }, { x, y, border }, { 0.0, 2.0, 2.0 * steep }, { -x, y, border },
-      { -2.0, 0.0, bottom }, { -x, -y, border } };
-    Mesh far = near;
-    near.triangles = { { 0, 1, 2 }, { 0, 2, 3 }, { 0, 7, 8 }, { 0, 8, 1 } };
-    far.triangles = { { 0, 3, 4 }, { 0, 4, 5 }, { 0, 5, 6 }, { 0, 6, 7 } };
-    std::vector<Prop> props{ { near }, { far } };
-    if (!this->GetParam())
-    {
-      props[0].mesh.triangles.insert(
-        props[0].mesh.triangles.end(), far.triangles.begin(), far.triangles.end());
-      props.pop_back();
-    }
-    const Occluders occluders = makeOccluders(props);
-    ShadowLight light = directionalLight({ 0.03, 0.02, -1.0 });
-    light.mapSizeTexels = 33;
+    this->makeOf({ { 0.0, 0.0, 0.0 }, { 0.0, -2.0, 2.0 * steep }, { x, -y, border },
+                   { 2.0, 0.0, bottom }, { x, y, border }, { 0.0, 2.0, 2.0 * steep },
+                   { -x, y, border }, { -2.0, 0.0, bottom }, { -x, -y, border } },
+      { { 0, 1, 2 }, { 0, 2, 3 }, { 0, 7, 8 }, { 0, 8, 1 } },
+      { { 0, 3, 4 }, { 0, 4, 5 }, { 0, 5, 6 }, { 0, 6, 7 } });
     constexpr std::size_t count = 6000;
-    ChosenReceivers chosen(count, 0);
     Random random(3);
-    const glm::dvec3 normal = glm::normalize(glm::dvec3(0.0, steep, 1.0));
     for (std::size_t i = 0; i < count; ++i)
     {
       // On the near steep side, close to a wedge and the corner.
       const double along = std::pow(10.0, uniform(random, -6.0, -0.5));
       const double below =
         along * std::tan(halfWedge) * (1.0 + std::pow(10.0, uniform(random, -4.0, 0.5)));
-      const glm::dvec3 at(random() % 2 ? along : -along, -below, steep * below);
-      chosen.set(i, at - occluders.centreWorld, normal, 3e-4f);
+      this->add(
+        { random() % 2 ? along : -along, -below, steep * below }, { 0.0, steep, 1.0 }, 3e-4f);
     }
-    const Tally tally = compareWithTruth(light,
-      fitLightViews(light, occluders.centreWorld, occluders.castersCentred, light.mapSizeTexels),
-      occluders, chosen.pixels);
-    EXPECT_EQ(tally.wrong, 0u) << halfWedge;
+    const Tally tally = this->compare(directionalLight({ 0.03, 0.02, -1.0 }), 33, halfWedge);
     EXPECT_GT(tally.receivers, count / 2) << halfWedge;
   }
 }
@@ -417,9 +356,7 @@ TEST(ConservativeMaps, knowNothingOfLinesWhoseRaysMayStartAboveASheet)
   ShadowLight light = directionalLight({ 0.0, 0.0, -1.0 });
   light.mapSizeTexels = 16;
   ConservativeMaps maps;
-  maps.bake(light,
-    fitLightViews(light, occluders.centreWorld, occluders.castersCentred, light.mapSizeTexels),
-    occluders, certainRule(Covering::Silhouette));
+  maps.bake(light, viewsOf(light, occluders), occluders, bySilhouette);
   const auto known = [&](float mostOffset)
   {
     const ReceiverSegment line{ glm::dvec3(-1.3, 0.2, 0.0) - occluders.centreWorld,
@@ -440,8 +377,7 @@ TEST(ConservativeMaps, areNeverWrongWhereEdgesLieOnTexelsBorders)
   const std::vector<Prop> corners{ { makeBox(glm::dvec3(-500.0), glm::dvec3(-499.0)) },
     { makeBox(glm::dvec3(499.0), glm::dvec3(500.0)) } };
   const Occluders frame = makeOccluders(corners);
-  const LightViews views =
-    fitLightViews(light, frame.centreWorld, frame.castersCentred, light.mapSizeTexels);
+  const LightViews views = viewsOf(light, frame);
   const LightView& view = views.views.front();
   const glm::dmat4 centredFromView = glm::inverse(view.rays.viewFromCentred);
   const glm::dmat3 acrossFromTexel = glm::inverse(texelFromAcross(view, light.mapSizeTexels));
@@ -455,32 +391,24 @@ TEST(ConservativeMaps, areNeverWrongWhereEdgesLieOnTexelsBorders)
   Mesh plates;
   for (int x = 24; x < 40; x += 8)
   {
-    const auto first = static_cast<unsigned int>(plates.points.size());
-    for (const auto& [cornerX, cornerY] :
-      { std::pair(x, 24), { x + 4, 24 }, { x + 4, 40 }, { x, 40 } })
-    {
-      plates.points.push_back(centred(cornerX, cornerY, middle - 300.0) + frame.centreWorld);
-    }
-    plates.triangles.emplace_back(first, first + 1, first + 2);
-    plates.triangles.emplace_back(first, first + 2, first + 3);
+    const auto corner = [&](int cornerX, int cornerY)
+    { return centred(cornerX, cornerY, middle - 300.0) + frame.centreWorld; };
+    addQuad(plates, { corner(x, 24), corner(x + 4, 24), corner(x + 4, 40), corner(x, 40) });
   }
   // What receives is no caster, so that it may be anywhere.
   const Prop receiver{ makePlane(1.0), glm::dmat4(1.0), false };
   const Occluders occluders = makeOccluders({ corners[0], corners[1], { plates }, receiver });
   ASSERT_EQ(occluders.castersCentred.upper, frame.castersCentred.upper);
-  constexpr int count = 20000;
-  ChosenReceivers chosen(count, 3);
+  std::vector<PlacedReceiver> receivers;
   Random random(5);
-  for (int i = 0; i < count; ++i)
+  for (int i = 0; i < 20000; ++i)
   {
     const double beside = (i % 2 ? 1.0 : -1.0) * std::pow(10.0, uniform(random, -8.0, -0.4));
-    chosen.set(static_cast<std::size_t>(i),
-      centred(24.0 + static_cast<double>(random() % 16) + beside, uniform(random, 25.0, 39.0),
-        middle + 300.0),
-      -light.directionWorld, 1e-4f);
+    const double x = 24.0 + static_cast<double>(random() % 16) + beside;
+    receivers.push_back(
+      { centred(x, uniform(random, 25.0, 39.0), middle + 300.0), -light.directionWorld, 1e-4f });
   }
-  const Tally tally = compareWithTruth(light, views, occluders, chosen.pixels);
-  EXPECT_EQ(tally.wrong, 0u);
+  const Tally tally = compareWithTruth("", light, views, occluders, rowOf(receivers, 3));
   EXPECT_LT(tally.traced, tally.receivers);
 }
 
@@ -503,37 +431,28 @@ TEST_P(ConservativeMapsBy, areNeverWrongWhereDepthHardlyChangesFarFromALamp)
     {
       const glm::dvec3 corner(
         uniform(random, -2.0, 2.0), uniform(random, -2.0, 2.0), uniform(random, 0.01, 0.1));
-      plates.points.push_back(corner);
-      plates.points.push_back(corner + glm::dvec3(0.01, 0.0, 0.0));
-      plates.points.push_back(corner + glm::dvec3(0.0, 0.01, 0.0));
+      plates.points.insert(plates.points.end(),
+        { corner, corner + glm::dvec3(0.01, 0.0, 0.0), corner + glm::dvec3(0.0, 0.01, 0.0) });
       plates.triangles.emplace_back(k, k + 1, k + 2);
     }
     const glm::dvec3 away = 300.0 * glm::abs(unitVector(random));
     const Occluders occluders =
       makeOccluders({ { makePlane(6.0) }, { plates }, { makeBox(away - 1.0, away + 1.0) } });
-    constexpr int count = 4000;
-    ChosenReceivers chosen(count, 0);
-    for (std::size_t k = 0; k < count; ++k)
+    std::vector<PlacedReceiver> receivers;
+    for (int k = 0; k < 4000; ++k)
     {
       const glm::dvec3 place(uniform(random, -2.0, 2.0), uniform(random, -2.0, 2.0), 0.0);
-      chosen.set(k, place - occluders.centreWorld, { 0.0, 0.0, 1.0 }, 4e-6f);
+      receivers.push_back({ place - occluders.centreWorld, { 0.0f, 0.0f, 1.0f }, 4e-6f });
     }
-    const LightViews views =
-      fitLightViews(light, occluders.centreWorld, occluders.castersCentred, light.mapSizeTexels);
-    const Tally tally = compareWithTruth(light, views, occluders, chosen.pixels, rule);
-    EXPECT_EQ(tally.wrong, 0u) << i;
-    sum.add(tally);
+    const LightViews views = viewsOf(light, occluders);
+    sum.add(compareWithTruth(std::to_string(i), light, views, occluders, rowOf(receivers), rule));
 
     // And by triangles and lines, as a camera above the floor sees it.
     Camera camera;
     camera.width = camera.height = 96;
     camera.position = { uniform(random, -1.0, 1.0), -3.0, 2.0 };
-    const View view = makeView(occluders, camera);
-    ReceiverPixels stored;
-    const Tally picture = compareWithTruth(
-      light, views, occluders, Receivers(view.images, view.drawnSurfaces, occluders, stored), rule);
-    EXPECT_EQ(picture.wrong, 0u) << i;
-    seen.add(picture);
+    seen.add(compareWithTruth(
+      std::to_string(i), light, views, occluders, makeView(occluders, camera), rule));
   }
   EXPECT_LT(sum.traced, sum.receivers);
   EXPECT_GT(seen.leftOut, 0u) << "triangles and lines are asked about";
@@ -568,11 +487,9 @@ TEST(ConservativeMaps, areNeverWrongWhereCastersTouchTheLight)
     for (ShadowLight light : lights)
     {
       light.mapSizeTexels = 128;
-      const Tally tally = compareWithTruth(light,
-        fitLightViews(light, occluders.centreWorld, occluders.castersCentred, light.mapSizeTexels),
-        occluders, receivers);
+      const Tally tally = compareWithTruth("light " + std::to_string(static_cast<int>(light.kind)),
+        light, viewsOf(light, occluders), occluders, receivers);
       EXPECT_GT(tally.receivers, 500u);
-      EXPECT_EQ(tally.wrong, 0u) << static_cast<int>(light.kind) << " " << light.coneAngleDegrees;
     }
   }
 }
@@ -584,15 +501,6 @@ View viewOfFirstTriangle(const Occluders& occluders, const Camera& camera)
   View view = makeView(occluders, camera);
   std::fill(view.images.fragments.begin(), view.images.fragments.end(), glm::vec2(1.0f, 0.0f));
   return view;
-}
-
-Tally compareWithTruth(const ShadowLight& light, const Occluders& occluders, const View& view,
-  const MapRule& rule = certainRule(Covering::Silhouette))
-{
-  ReceiverPixels stored;
-  return compareWithTruth(light,
-    fitLightViews(light, occluders.centreWorld, occluders.castersCentred, light.mapSizeTexels),
-    occluders, Receivers(view.images, view.drawnSurfaces, occluders, stored), rule);
 }
 
 /// Triangles in a ring around a place, whose planes nearly pass through it.
@@ -646,9 +554,9 @@ TEST(ConservativeMaps, areNeverWrongAboutTrianglesThatALampIsBeside)
       for (const double height : { -2.0, 2.0 })
       {
         camera.position = lamp + glm::dvec3(0.0, 0.0, height);
-        const Tally tally = compareWithTruth(light, occluders, makeView(occluders, camera));
-        EXPECT_EQ(tally.wrong, 0u) << i << ", light " << static_cast<int>(light.kind) << ", props "
-                                   << props.size() << ", " << height;
+        compareWithTruth("light " + std::to_string(static_cast<int>(light.kind)) + ", props " +
+            std::to_string(props.size()),
+          light, viewsOf(light, occluders), occluders, makeView(occluders, camera));
       }
     }
   }
@@ -686,10 +594,8 @@ TEST(ConservativeMaps, areNeverWrongOfPixelsWhoseRaysStartAboveASheet)
       for (int pixels = 3; pixels < 40; ++pixels)
       {
         camera.width = camera.height = pixels;
-        const Tally tally =
-          compareWithTruth(light, occluders, viewOfFirstTriangle(occluders, camera));
-        EXPECT_EQ(tally.wrong, 0u) << texels << ", " << pixels;
-        sum.add(tally);
+        sum.add(compareWithTruth(std::to_string(texels) + ", " + std::to_string(pixels), light,
+          viewsOf(light, occluders), occluders, viewOfFirstTriangle(occluders, camera)));
       }
     }
   }
@@ -715,9 +621,8 @@ TEST(ConservativeMaps, areNeverWrongOfTrianglesWhoseRoundingIsMoreThanTheSheetAb
   {
     const Occluders occluders = makeOccluders(
       { { triangle, turn, false }, { makePlane(3.0), turn * at({ 0.0, 0.0, height }) } });
-    const Tally tally = compareWithTruth(light, occluders, viewOfFirstTriangle(occluders, camera));
-    EXPECT_EQ(tally.wrong, 0u) << height;
-    sum.add(tally);
+    sum.add(compareWithTruth(std::to_string(height), light, viewsOf(light, occluders), occluders,
+      viewOfFirstTriangle(occluders, camera)));
   }
   EXPECT_GT(sum.receivers, 1000u);
 }
@@ -765,9 +670,8 @@ TEST(ConservativeMaps, areNeverWrongWhereTrianglesTouchTheConeOrTheBox)
     camera.position = camera.target + glm::dvec3(0.1, 0.2, 3.0);
     camera.up = { 0.0, 1.0, 0.0 };
     camera.fovDegrees = 4.0;
-    const Tally tally = compareWithTruth(light, occluders, viewOfFirstTriangle(occluders, camera));
-    EXPECT_EQ(tally.wrong, 0u) << i;
-    sum.add(tally);
+    sum.add(compareWithTruth(std::to_string(i), light, viewsOf(light, occluders), occluders,
+      viewOfFirstTriangle(occluders, camera)));
   }
   EXPECT_GT(sum.leftOut, 100000u);
 }
@@ -794,9 +698,10 @@ TEST(ConservativeMaps, areNeverWrongOfWhatDoesNotCastOrOnOneSide)
       floor.worldFromMesh =
         casts ? glm::rotate(glm::dmat4(1.0), 3.14159265358979, { 1.0, 0.0, 0.0 }) : glm::dmat4(1.0);
       const Occluders occluders = makeOccluders({ floor, plate, tower });
-      const Tally tally = compareWithTruth(light, occluders, makeView(occluders, camera));
-      EXPECT_EQ(tally.wrong, 0u) << cells << (casts ? ", on one side" : "");
-      EXPECT_GT(tally.leftOut, 1000u) << cells << (casts ? ", on one side" : "");
+      const std::string what = std::to_string(cells) + (casts ? ", on one side" : "");
+      const Tally tally = compareWithTruth(
+        what, light, viewsOf(light, occluders), occluders, makeView(occluders, camera));
+      EXPECT_GT(tally.leftOut, 1000u) << what;
     }
   }
 }
@@ -823,15 +728,10 @@ TEST(ConservativeMaps, areNeverWrongInTheLastTexels)
       for (const glm::dvec2& along : { glm::dvec2(1.0, 0.0), glm::dvec2(0.0, 1.0),
              glm::dvec2(-1.0, 0.0), glm::dvec2(0.0, -1.0) })
       {
-        const glm::dvec2 across(-along.y, along.x);
-        const auto first = static_cast<unsigned int>(plates.points.size());
-        for (const glm::dvec2& corner : { glm::dvec2(from, -3.0), glm::dvec2(3.0, -3.0),
-               glm::dvec2(3.0, 3.0), glm::dvec2(from, 3.0) })
-        {
-          plates.points.emplace_back(corner.x * along + corner.y * across, 0.5);
-        }
-        plates.triangles.emplace_back(first, first + 1, first + 2);
-        plates.triangles.emplace_back(first, first + 2, first + 3);
+        const auto corner = [&](double x, double y)
+        { return glm::dvec3(x * along + y * glm::dvec2(-along.y, along.x), 0.5); };
+        addQuad(
+          plates, { corner(from, -3.0), corner(3.0, -3.0), corner(3.0, 3.0), corner(from, 3.0) });
       }
       // Decided by lines of a large triangle, along either axis, and by small triangles.
       for (const auto& [cells, up] : { std::pair(1, glm::dvec3(1.0, 0.0, 0.0)),
@@ -841,12 +741,8 @@ TEST(ConservativeMaps, areNeverWrongInTheLastTexels)
         const Occluders occluders = makeOccluders({ floor, { plates } });
         const LightViews views = fitLightViews(light, occluders.centreWorld, seen, size);
         camera.up = up;
-        const View view = makeView(occluders, camera);
-        ReceiverPixels stored;
-        const Tally tally = compareWithTruth(
-          light, views, occluders, Receivers(view.images, view.drawnSurfaces, occluders, stored));
-        EXPECT_EQ(tally.wrong, 0u) << "map " << size << ", " << texels;
-        sum.add(tally);
+        sum.add(compareWithTruth("map " + std::to_string(size) + ", " + std::to_string(texels),
+          light, views, occluders, makeView(occluders, camera)));
       }
     }
   }
@@ -872,8 +768,8 @@ TEST_P(ConservativeMapsBy, areNeverWrongWithMapsOf64To4096)
     for (const int size : { 64, 256, 1024, 4096 })
     {
       light.mapSizeTexels = size;
-      const Tally tally = compareWithTruth(light, occluders, view, certainRule(GetParam()));
-      EXPECT_EQ(tally.wrong, 0u) << name << ", map " << size;
+      const Tally tally = compareWithTruth(name + (", map " + std::to_string(size)), light,
+        viewsOf(light, occluders), occluders, view, certainRule(GetParam()));
       EXPECT_LT(tally.traced, tally.receivers) << name << ", map " << size;
     }
   }

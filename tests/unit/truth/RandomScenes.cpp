@@ -359,6 +359,12 @@ RandomPicture makeRandomPicture(const std::string& name, unsigned int seed, cons
 }
 
 //------------------------------------------------------------------------------
+LightViews viewsOf(const ShadowLight& light, const Occluders& occluders)
+{
+  return fitLightViews(light, occluders.centreWorld, occluders.castersCentred, light.mapSizeTexels);
+}
+
+//------------------------------------------------------------------------------
 unsigned int exactRuns(unsigned int few)
 {
   const char* const asked = std::getenv("GNOMON_EXACT_RUNS");

@@ -51,6 +51,9 @@ struct RandomPicture
 RandomPicture makeRandomPicture(
   const std::string& name, unsigned int seed, const glm::dmat4& world = glm::dmat4(1.0));
 
+/// The views of a light's map, fitted to all casters.
+LightViews viewsOf(const ShadowLight& light, const Occluders& occluders);
+
 /// How many pictures of each kind: as many as GNOMON_EXACT_RUNS says, and few where it is not set.
 unsigned int exactRuns(unsigned int few = 24);
 

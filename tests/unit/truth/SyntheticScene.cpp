@@ -389,6 +389,26 @@ ReceiverPixels makeReceivers(const Occluders& occluders, const Camera& camera)
 }
 
 //------------------------------------------------------------------------------
+ReceiverPixels rowOf(const std::vector<PlacedReceiver>& receivers, std::uint32_t surface)
+{
+  ReceiverPixels pixels;
+  pixels.resize(static_cast<int>(receivers.size()), 1);
+  std::fill(pixels.surface.begin(), pixels.surface.end(), surface);
+  for (std::size_t i = 0; i < receivers.size(); ++i)
+  {
+    const auto& [position, normal, offset] = receivers[i];
+    pixels.positionX[i] = position.x;
+    pixels.positionY[i] = position.y;
+    pixels.positionZ[i] = position.z;
+    pixels.normalX[i] = normal.x;
+    pixels.normalY[i] = normal.y;
+    pixels.normalZ[i] = normal.z;
+    pixels.offset[i] = offset;
+  }
+  return pixels;
+}
+
+//------------------------------------------------------------------------------
 ShadowLight directionalLight(const glm::dvec3& direction)
 {
   ShadowLight light;

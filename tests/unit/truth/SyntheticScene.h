@@ -84,6 +84,16 @@ View makeView(const Occluders& occluders, const Camera& camera);
 /// makeView() and projectReceivers().
 ReceiverPixels makeReceivers(const Occluders& occluders, const Camera& camera);
 
+/// A receiver that a test places, centred.
+struct PlacedReceiver
+{
+  glm::vec3 position;
+  glm::vec3 normal;
+  float offset; ///< of its shadow ray
+};
+/// A row of receivers of one surface.
+ReceiverPixels rowOf(const std::vector<PlacedReceiver>& receivers, std::uint32_t surface = 0);
+
 ShadowLight directionalLight(const glm::dvec3& direction);
 ShadowLight spotLight(
   const glm::dvec3& position, const glm::dvec3& target, double coneAngleDegrees);
