@@ -8,8 +8,8 @@
 namespace gnomon
 {
 
-/// What makes a pixel's samples of a light differ from those of others, for whoever makes them. As
-/// it is, those that all pixels may share.
+/// What makes a pixel's samples of a light differ from those of other pixels. The default gives the
+/// samples that all pixels may share.
 struct SamplePixel
 {
   glm::uvec3 bits{ 0u };

@@ -66,7 +66,7 @@ enum class SettingsOf
 std::vector<std::string> valuesOf(
   const TechniqueInfo& info, SettingsOf of, const ShadowSettings& settings);
 
-/// Whether a setting says what the light is, whatever technique shadows it.
+/// Whether a setting describes the light itself, so that all techniques have it.
 bool isOfLight(const Setting& setting);
 
 /// "pcf, vsm": the techniques with a table's settings; empty where all have them.

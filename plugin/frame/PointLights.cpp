@@ -28,8 +28,8 @@ struct RendererAccess : vtkRenderer
   }
 };
 
-/// A light that is black is none: shadow passes would leave it out, and have shaders built anew,
-/// for one picture. What is this dark cannot be told from it.
+/// In place of black: shadow passes leave black lights out and rebuild their shaders for it. The
+/// eye cannot tell a light of this strength from none.
 constexpr double leastShine = 1e-9;
 
 /// Gives a point the colour of its light by a factor for each channel.

@@ -39,8 +39,8 @@ struct PointedLight
 PointedLight pointedLight(ShadowLight light);
 
 /// For as long as this lives, a renderer has lights without areas in place of its area lights, in
-/// the same order. They stand at the centres, until they move over their areas together. Then it
-/// has its own again, which nobody has touched.
+/// the same order. They stand at the centres, until they move over their areas together. Then the
+/// renderer has its own lights again, unchanged.
 ///
 /// Each is as its area light is, but for where it shines from, and with what colour where the light
 /// has a texture. A spot's cone moves along with its point. A directional light turns about its

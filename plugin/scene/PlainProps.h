@@ -21,8 +21,8 @@ namespace gnomon
 /// VTK takes thousands of instructions to say so, and leads through twenty objects. What it says
 /// follows from the actor, its property, its mapper with its colours and its list of planes, the
 /// producer that stands for the polydata, and the polydata with its arrays. Each has, or hands on,
-/// the time of its last change; times are never given twice, and whatever is exchanged changes who
-/// holds it. So while these are the same, so are the objects, and what VTK would say.
+/// the time of its last change. No two times are the same, and an object that gets another part
+/// gets another time. So while these are the same, so are the objects, and what VTK would say.
 struct PlainProp
 {
   vtkActor* actor = nullptr;

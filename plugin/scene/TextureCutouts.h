@@ -37,9 +37,9 @@ public:
   /// Begins a frame: what was not asked for since the last call is forgotten.
   void beginFrame();
 
-  /// What VTK cuts out of an actor's surface. It may well take that for opaque: as long as no texel
-  /// is half transparent, and whatever the alpha of an albedo texture. Brings the texture's input
-  /// up to date, as VTK does when it draws.
+  /// What VTK cuts out of an actor's surface. VTK may call the surface opaque all the same: where
+  /// no texel is half transparent, and with any albedo texture. Brings the texture's input up to
+  /// date, as VTK does when it draws.
   ///
   /// @param keys those that the actor has while it is drawn
   /// @param reason set where a cut-out is not served, to the reason; the mask is null then

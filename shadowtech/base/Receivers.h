@@ -92,8 +92,8 @@ struct ReceiverTile
   std::size_t firstColumn, firstRow; ///< where it begins in the picture
   /// Its own receivers alone, which is fewer than the most at the picture's right and upper border.
   const ReceiverPixels& receivers;
-  /// What is decided of them by their triangles and lines; else Uncertain. Where it is, the
-  /// receiver itself is left out, as if nothing were covered.
+  /// What a decider says of each receiver by its triangle and line; Uncertain without one. A
+  /// receiver that is decided so is left out of `receivers`, as if its pixel showed nothing.
   const std::vector<Certainty>& known;
 };
 
@@ -119,8 +119,8 @@ public:
   /// The receivers of all tiles, each for as long as it is visited; tiles are visited by several
   /// threads at once. They never leave the processor's cache, unless all() has been called: who
   /// works pixel by pixel asks here.
-  /// @param decider who knows something of triangles and lines; null: nobody. Of receivers that are
-  /// there already it is not asked.
+  /// @param decider decides receivers by their triangles and lines; null: none is decided so. It is
+  /// not asked about receivers that all() has made.
   void visitTiles(const std::function<void(const ReceiverTile&)>& visit,
     const ReceiverDecider* decider = nullptr) const;
 

@@ -65,8 +65,8 @@ bool measuresAlongRay(const ShadowLight& light);
 ///   inverse, the way from c to p across the light is the derivative's at c times k(c) / k(p),
 ///   exactly. So h is multiplied by the greatest k(c) / k(p) within the reach, and once more since
 ///   the slope at c is itself a difference from one texel to the next.
-/// - What is left are neighbours that end within the reach: of a step, the flat top is not pushed
-///   back, and darkens what lies below and within the reach of it.
+/// - Neighbours that end within the reach are not accounted for: the flat top of a step is not
+///   pushed back, and darkens what lies below it within the reach.
 /// - For the same reason a shadow begins at most the reach away from the contact with its caster,
 ///   if the receiver does not rise towards the light on the shadow's side.
 ///

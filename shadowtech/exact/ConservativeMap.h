@@ -119,8 +119,8 @@ using MapRule = std::function<ConservativeMap(const LightView& view, bool hasBox
 
 /// The rules that are never wrong about a shadow ray, rounding included. docs/techniques/exact.md
 /// has them and why they hold.
-/// @param gpu who draws them; null: the CPU. Not for `Covering::Silhouette`, whose parts are drawn
-/// one after another
+/// @param gpu draws the maps; null: the CPU does. Not for `Covering::Silhouette`, whose parts are
+/// drawn one after another
 MapRule certainRule(Covering covering, const CellsOnGpu* gpu = nullptr);
 
 /// How exact positions are looked up, with no slack for rounding.

@@ -38,7 +38,7 @@ public:
   ///
   /// @param occluders the snapshot of the last update
   /// @param visibility resized to one for each pixel of the picture
-  /// @param decider who knows something without rays; null: nobody
+  /// @param decider decides receivers without rays; null: all are traced
   /// @param classes where not null, resized likewise, each pixel's TracedClass
   /// @return the number of rays traced
   std::size_t trace(const ShadowLight& light, const Occluders& occluders,

@@ -79,8 +79,8 @@ public:
     int first, end;
   };
 
-  /// @param decider who knows something without rays; null: nobody. It is asked about a tile's
-  /// pixels once, however often that is visited
+  /// @param decider decides receivers without rays; null: all are traced. It is asked about a
+  /// tile's pixels once, however often the tile is visited
   /// @param visibility resized to one for each pixel of the picture; of several channels one image
   /// after the other
   /// @param classes where not null, resized to one for each pixel

@@ -1,6 +1,6 @@
 // What hundreds of changes leave behind: nothing. Live OpenGL objects stay the same in number, and
-// resident memory within 3 MB, which is what 250 leaks of 12 kB would be. The longest loops also run
-// without the pass, so that what VTK and the driver keep for themselves is told apart.
+// resident memory within 3 MB, which is what 250 leaks of 12 kB would be. The longest loops also
+// run without the pass, so that what VTK and the driver keep for themselves is told apart.
 
 #include "LiveObjects.h"
 #include "PassScene.h"

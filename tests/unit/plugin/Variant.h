@@ -65,7 +65,7 @@ inline std::string nameOfVariant(const testing::TestParamInfo<Variant>& variant)
   return variant.param.name();
 }
 
-/// Defines a test of a fixture with a parameter of Variant, by some of those that `isFor` holds for.
+/// Defines a test of a fixture with a Variant as parameter, by some of those that `isFor` allows.
 #define TEST_BY_VARIANTS(Fixture, Test, isFor)                                                     \
   class Test : public Fixture                                                                      \
   {                                                                                                \
