@@ -124,7 +124,7 @@ bool RenderManager::collectLights(
 //------------------------------------------------------------------------------
 void RenderManager::collectOccluders(const vtkRenderState* s)
 {
-  const OccluderCollector::Change change = this->collector_.collect(s->GetRenderer());
+  const SnapshotChange change = this->collector_.collect(s->GetRenderer());
   const Occluders& occluders = this->collector_.occluders();
   this->report_.surfacesExtracted = change.extracted;
   this->report_.surfacesRetransformed = change.retransformed;

@@ -2,12 +2,13 @@
 #define gnomon_plugin_scene_OccluderCollector_h
 
 #include "plugin/scene/DrawnLookup.h"
+#include "plugin/scene/PlainProps.h"
+#include "plugin/scene/SnapshotSurfaces.h"
+#include "plugin/scene/TextureCutouts.h"
 
-#include "shadowtech/base/Occluders.h"
 #include "shadowtech/base/Receivers.h"
 
 #include <cstddef>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -27,34 +28,23 @@ namespace gnomon
 /// With them goes what a texture cuts out of them (TextureCutouts).
 /// A polydata with polygons and strips makes two surfaces; a glyph makes one surface, with its
 /// instances or with the triangles of all of them (KeptInstances.h). Front and back are OpenGL's: a
-/// triangle's front is
-/// the side that shows its corners counter-clockwise after the prop's matrix, so that a mirroring
-/// matrix swaps the sides just as it does for gl_FrontFacing and VTK's face culling.
+/// triangle's front is the side that shows its corners counter-clockwise after the prop's matrix, so
+/// that a mirroring matrix swaps the sides just as it does for gl_FrontFacing and VTK's face culling.
 class OccluderCollector
 {
 public:
-  OccluderCollector();
-  ~OccluderCollector();
-
-  /// What one call did.
-  struct Change
-  {
-    int extracted = 0;     ///< surfaces whose mapper's input was read
-    int retransformed = 0; ///< surfaces whose centred positions were computed again
-  };
-
   /// Brings the snapshot up to date with the renderer's props. Updates the mappers' inputs first,
   /// as VTK would when drawing.
-  Change collect(vtkRenderer* renderer);
+  SnapshotChange collect(vtkRenderer* renderer);
 
-  const Occluders& occluders() const;
+  const Occluders& occluders() const { return this->surfaces_.occluders(); }
 
   /// What the last collect() left out although it may be visible and opaque (mappers that are not
   /// served), and what it could not do for a surface, in words.
-  const std::vector<std::string>& notes() const;
+  const std::vector<std::string>& notes() const { return this->notes_; }
 
   /// The number of visible props with translucent surfaces that receive, as of the last collect().
-  std::size_t translucentReceivers() const;
+  std::size_t translucentReceivers() const { return this->translucentReceivers_; }
 
   /// Memory that all this holds: the snapshot, and what is remembered of each surface and prop.
   std::size_t bytes() const;
@@ -66,11 +56,18 @@ public:
 
   /// How primitive numbers of drawn surfaces lead to the snapshot (see projectReceivers). Entries
   /// are added by drawn(), and stay until the next collect().
-  const std::vector<DrawnSurface>& drawnSurfaces() const;
+  const std::vector<DrawnSurface>& drawnSurfaces() const { return this->lookup_.drawnSurfaces(); }
 
 private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  void indexProps(const std::vector<WantedSurface>& wanted);
+  void noteWhatIsTooLarge(const std::vector<WantedSurface>& wanted);
+
+  SnapshotSurfaces surfaces_;
+  DrawnLookup lookup_;
+  TextureCutouts cutouts_;
+  PlainProps plainProps_;
+  std::size_t translucentReceivers_ = 0;
+  std::vector<std::string> notes_;
 };
 
 } // namespace gnomon

@@ -57,7 +57,7 @@ struct Scene
     this->renderer->AddActor(actor);
     return actor;
   }
-  OccluderCollector::Change collect() { return this->collector.collect(this->renderer); }
+  SnapshotChange collect() { return this->collector.collect(this->renderer); }
   std::size_t collectSurfaces()
   {
     this->collect();
@@ -91,7 +91,7 @@ void expectNothingDone(Scene& scene)
 {
   const std::uint64_t topology = scene.occluders().topologyVersion;
   const std::uint64_t positions = scene.occluders().positionsVersion;
-  const OccluderCollector::Change change = scene.collect();
+  const SnapshotChange change = scene.collect();
   EXPECT_EQ(change.extracted, 0);
   EXPECT_EQ(change.retransformed, 0);
   EXPECT_EQ(scene.occluders().topologyVersion, topology);
@@ -321,7 +321,7 @@ TEST(OccluderGlyphs, AreReadAgainOnlyWhenTheyChange)
   scene.renderer->AddActor(glyphs.actor);
   const auto expectAfter = [&](int extracted, int retransformed, const glm::dvec3& corner)
   {
-    const OccluderCollector::Change change = scene.collect();
+    const SnapshotChange change = scene.collect();
     EXPECT_EQ(change.extracted, extracted);
     EXPECT_EQ(change.retransformed, retransformed);
     expectNear(scene.positionWorld(0, 5), corner); // the second glyph's second corner
@@ -585,7 +585,7 @@ TEST(OccluderChanges, AMovedPropOnlyMovesItsVertices)
   scene.collect();
   const Occluders before = scene.occluders();
   mover->SetPosition(0, 0, 2);
-  const OccluderCollector::Change change = scene.collect();
+  const SnapshotChange change = scene.collect();
   EXPECT_EQ(change.extracted, 0);
   EXPECT_EQ(change.retransformed, 1);
   EXPECT_EQ(scene.occluders().topologyVersion, before.topologyVersion);
@@ -668,7 +668,7 @@ TEST(OccluderChanges, FlagsOnlyChangeFlags)
   scene.collect();
   const Occluders before = scene.occluders();
   vtkGnomonPropKeys::SetCasts(actor, false);
-  const OccluderCollector::Change change = scene.collect();
+  const SnapshotChange change = scene.collect();
   EXPECT_EQ(change.extracted + change.retransformed, 0);
   EXPECT_FALSE(scene.surface(0).casts);
   EXPECT_NE(scene.occluders().topologyVersion, before.topologyVersion);
@@ -797,7 +797,7 @@ TEST(OccluderCentre, MovesEverySurfaceWithIt)
   scene.add(makeSquare())->SetPosition(1000, 0, 0);
   scene.collect();
   near->SetVisibility(false);
-  const OccluderCollector::Change change = scene.collect();
+  const SnapshotChange change = scene.collect();
   EXPECT_EQ(change.extracted, 0);
   EXPECT_EQ(change.retransformed, 1);
   expectNear(scene.occluders().centreWorld, { 1000, 0, 0 });
@@ -889,7 +889,7 @@ TEST(OccluderCutouts, AreHeldForTexturesWithHolesOnly)
   const std::uint64_t surface = scene.surface(0).topologyVersion;
   actor->SetTexture(makeTexture({ 255, 0, 0 }));
   actor->SetPosition(1.0, 0.0, 0.0);
-  const OccluderCollector::Change change = scene.collect();
+  const SnapshotChange change = scene.collect();
   EXPECT_EQ(change.extracted, 0);
   EXPECT_EQ(change.retransformed, 1);
   EXPECT_GT(scene.occluders().topologyVersion, topology);

@@ -1,0 +1,351 @@
+#include "plugin/scene/SnapshotSurfaces.h"
+
+#include "shadowtech/base/Bytes.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+namespace gnomon
+{
+
+//------------------------------------------------------------------------------
+SnapshotChange SnapshotSurfaces::update(std::vector<WantedSurface>& wanted)
+{
+  SnapshotChange change;
+  bool otherList = wanted.size() != this->records_.size();
+  bool moved = false;
+  for (std::size_t i = 0; i < wanted.size(); ++i)
+  {
+    WantedSurface& surface = wanted[i];
+    otherList = otherList || surface.old != i;
+    const SurfaceRecord* record =
+      surface.old != WantedSurface::none ? &this->records_[surface.old] : nullptr;
+    const vtkMTimeType time = changeTime(*surface.prop, surface.block, surface.key.cells);
+    if (!record || record->shapeTime != time || record->clipPlanes != surface.prop->clipPlanes ||
+      !(record->coordinates == coordinatesSource(*surface.prop, surface.block)))
+    {
+      this->read(surface, time);
+      ++change.extracted;
+    }
+    moved = moved || !record || record->worldFromModel != surface.prop->worldFromModel;
+  }
+
+  bool positionsChanged = false;
+  bool trianglesChanged = otherList;
+  change.any = otherList || moved || change.extracted > 0;
+  if (change.any)
+  {
+    const bool recentred = this->updateCentre(wanted);
+    for (WantedSurface& surface : wanted)
+    {
+      const Outcome outcome = this->updateSurface(surface, recentred, change);
+      positionsChanged = positionsChanged || outcome == Outcome::Moved;
+      trianglesChanged = trianglesChanged || outcome == Outcome::OtherTriangles;
+    }
+    if (trianglesChanged)
+    {
+      this->rebuild(wanted);
+    }
+    this->vertexOfPoint_.clear();
+    this->vertexOfPoint_.shrink_to_fit(); // as large as the largest input
+  }
+
+  const bool flagsChanged = this->updateFlags(wanted);
+  if (trianglesChanged || flagsChanged)
+  {
+    this->occluders_.topologyVersion = this->newVersion();
+  }
+  if (trianglesChanged || flagsChanged || positionsChanged)
+  {
+    this->occluders_.positionsVersion = this->newVersion();
+    this->summarise();
+  }
+  return change;
+}
+
+//------------------------------------------------------------------------------
+/// Sets the centre to that of the present box; true if it moved.
+bool SnapshotSurfaces::updateCentre(const std::vector<WantedSurface>& wanted)
+{
+  Bounds boundsWorld;
+  for (const WantedSurface& surface : wanted)
+  {
+    const SurfaceRecord& record =
+      surface.fresh ? surface.fresh->record : this->records_[surface.old];
+    boundsWorld.add(transformed(record.boundsModel, surface.prop->worldFromModel));
+  }
+  const glm::dvec3 old = std::exchange(this->occluders_.centreWorld, snapshotCentre(boundsWorld));
+  return this->occluders_.centreWorld != old;
+}
+
+//------------------------------------------------------------------------------
+void SnapshotSurfaces::read(WantedSurface& wanted, vtkMTimeType time)
+{
+  wanted.fresh = std::make_unique<FreshSurface>(
+    readSurface(*wanted.prop, wanted.block, wanted.key.cells, this->vertexOfPoint_));
+  wanted.fresh->record.key = wanted.key;
+  wanted.fresh->record.shapeTime = time;
+}
+
+//------------------------------------------------------------------------------
+SnapshotSurfaces::Outcome SnapshotSurfaces::updateSurface(
+  WantedSurface& wanted, bool recentred, SnapshotChange& change)
+{
+  bool maybeSame = wanted.old != WantedSurface::none; // the same triangles
+  if (!wanted.fresh)
+  {
+    const SurfaceRecord& record = this->records_[wanted.old];
+    if (!recentred && record.worldFromModel == wanted.prop->worldFromModel)
+    {
+      return Outcome::Same;
+    }
+    if (record.clipPlanes.empty()) // what is cut at planes has other triangles once it moves
+    {
+      ++change.retransformed;
+      if (this->transformAgain(wanted))
+      {
+        return Outcome::Moved;
+      }
+    }
+    this->read(wanted, record.shapeTime);
+    ++change.extracted;
+    maybeSame = false;
+  }
+  placeSurface(*wanted.fresh, *wanted.prop, wanted.block, this->occluders_.centreWorld);
+  return maybeSame ? this->overwrite(wanted) : Outcome::OtherTriangles;
+}
+
+//------------------------------------------------------------------------------
+/// Computes a surface's positions again where they are. False if another set of triangles would
+/// have to be dropped than before: then the surface must be read again.
+bool SnapshotSurfaces::transformAgain(const WantedSurface& wanted)
+{
+  Surface& surface = this->occluders_.surfaces[wanted.old];
+  SurfaceRecord& record = this->records_[wanted.old];
+  if (record.keptAsInstances)
+  {
+    record.worldFromModel = wanted.prop->worldFromModel;
+    std::optional<PlacedInstances> placed =
+      placeKeptInstances(record, this->occluders_.centreWorld);
+    return placed && this->moveInstances(wanted.old, *placed);
+  }
+  glm::vec3* all = this->occluders_.positionsCentred.data();
+  glm::vec3* own = all + surface.firstVertex;
+  record.worldFromModel = wanted.prop->worldFromModel;
+  placeInstances(wanted.block, record, surface.vertexCount, this->occluders_.centreWorld, own);
+
+  const auto first = this->occluders_.triangles.begin() + surface.firstTriangle;
+  const auto last = first + surface.triangleCount;
+  const bool keptStay = std::all_of(first, last,
+    [all](const glm::uvec3& triangle) { return defectOf(triangle, all) == Defect::None; });
+  const bool droppedStay = std::all_of(record.dropped.begin(), record.dropped.end(),
+    [own](const DroppedTriangle& dropped)
+    { return defectOf(dropped.vertices, own) == dropped.defect; });
+  if (!keptStay || !droppedStay)
+  {
+    return false;
+  }
+  record.boundsCentred = boundsOf(first, last, all);
+  clearNonFinite(own, surface.vertexCount);
+  surface.positionsVersion = this->newVersion();
+  return true;
+}
+
+//------------------------------------------------------------------------------
+/// Takes over where a surface's instances are now. False, and nothing is taken, if others are left
+/// out than before, or the other side is the front: then the surface counts as another.
+bool SnapshotSurfaces::moveInstances(std::size_t index, PlacedInstances& placed)
+{
+  Surface& surface = this->occluders_.surfaces[index];
+  if (!placed.areMoved(surface))
+  {
+    return false;
+  }
+  recordPlaces(placed, this->occluders_.positionsCentred.data() + surface.firstVertex,
+    surface.vertexCount, this->records_[index]);
+  surface.centredFromSource = std::move(placed.centredFromSource);
+  surface.positionsVersion = this->newVersion();
+  return true;
+}
+
+//------------------------------------------------------------------------------
+/// Writes a fresh surface over its old self if the triangles are the same.
+SnapshotSurfaces::Outcome SnapshotSurfaces::overwrite(WantedSurface& wanted)
+{
+  Surface& surface = this->occluders_.surfaces[wanted.old];
+  FreshSurface& fresh = *wanted.fresh;
+  const bool sameTriangles = surface.vertexCount == fresh.positionsCentred.size() &&
+    surface.triangleOfDrawn == fresh.triangleOfDrawn &&
+    surface.textureCoordinates == fresh.textureCoordinates &&
+    surface.triangleCount == fresh.triangles.size() &&
+    std::equal(fresh.triangles.begin(), fresh.triangles.end(),
+      this->occluders_.triangles.begin() + surface.firstTriangle,
+      [&surface](const glm::uvec3& own, const glm::uvec3& old)
+      { return own + surface.firstVertex == old; });
+  if (!sameTriangles)
+  {
+    return Outcome::OtherTriangles;
+  }
+
+  const auto positions = this->occluders_.positionsCentred.begin() + surface.firstVertex;
+  bool moved = !std::equal(fresh.positionsCentred.begin(), fresh.positionsCentred.end(), positions);
+  if (surface.isInstanced() || fresh.record.keptAsInstances)
+  {
+    const bool sameSource = !moved && surface.isInstanced() == fresh.record.keptAsInstances;
+    moved = surface.centredFromSource != fresh.instances.centredFromSource;
+    if (!sameSource || (moved && !this->moveInstances(wanted.old, fresh.instances)))
+    {
+      return Outcome::OtherTriangles;
+    }
+  }
+  else if (moved)
+  {
+    std::copy(fresh.positionsCentred.begin(), fresh.positionsCentred.end(), positions);
+    surface.positionsVersion = this->newVersion();
+  }
+  this->records_[wanted.old] = std::move(fresh.record);
+  wanted.fresh.reset();
+  return moved ? Outcome::Moved : Outcome::Same;
+}
+
+//------------------------------------------------------------------------------
+/// Lists the surfaces anew: fresh ones as they were read, the others copied.
+void SnapshotSurfaces::rebuild(std::vector<WantedSurface>& wanted)
+{
+  const Occluders& old = this->occluders_;
+  std::size_t vertexCount = 0;
+  std::size_t triangleCount = 0;
+  for (const WantedSurface& surface : wanted)
+  {
+    vertexCount += surface.fresh ? surface.fresh->positionsCentred.size()
+                                 : old.surfaces[surface.old].vertexCount;
+    triangleCount +=
+      surface.fresh ? surface.fresh->triangles.size() : old.surfaces[surface.old].triangleCount;
+  }
+
+  std::vector<glm::vec3> positions;
+  std::vector<glm::uvec3> triangles;
+  std::vector<Surface> surfaces;
+  std::vector<SurfaceRecord> records;
+  positions.reserve(vertexCount + 1); // the slack that Occluders promises
+  triangles.reserve(triangleCount);
+  surfaces.reserve(wanted.size());
+  records.reserve(wanted.size());
+  for (WantedSurface& surface : wanted)
+  {
+    Surface entry;
+    const auto firstVertex = static_cast<std::uint32_t>(positions.size());
+    const auto firstTriangle = static_cast<std::uint32_t>(triangles.size());
+    if (surface.fresh)
+    {
+      FreshSurface& fresh = *surface.fresh;
+      positions.insert(
+        positions.end(), fresh.positionsCentred.begin(), fresh.positionsCentred.end());
+      for (const glm::uvec3& triangle : fresh.triangles)
+      {
+        triangles.push_back(triangle + firstVertex);
+      }
+      entry.vertexCount = static_cast<std::uint32_t>(fresh.positionsCentred.size());
+      entry.triangleCount = static_cast<std::uint32_t>(fresh.triangles.size());
+      entry.triangleOfDrawn = std::move(fresh.triangleOfDrawn);
+      entry.textureCoordinates = std::move(fresh.textureCoordinates);
+      entry.centredFromSource = std::move(fresh.instances.centredFromSource);
+      entry.mirrored = fresh.instances.mirrored;
+      entry.topologyVersion = this->newVersion();
+      entry.positionsVersion = this->newVersion();
+      records.push_back(std::move(fresh.record));
+      surface.fresh.reset(); // its memory is not needed twice
+    }
+    else
+    {
+      entry = std::move(this->occluders_.surfaces[surface.old]);
+      const auto oldPositions = old.positionsCentred.begin() + entry.firstVertex;
+      positions.insert(positions.end(), oldPositions, oldPositions + entry.vertexCount);
+      const std::uint32_t shift = firstVertex - entry.firstVertex; // modulo 2^32
+      for (std::uint32_t i = 0; i < entry.triangleCount; ++i)
+      {
+        triangles.push_back(old.triangles[entry.firstTriangle + i] + shift);
+      }
+      records.push_back(std::move(this->records_[surface.old]));
+    }
+    entry.firstVertex = firstVertex;
+    entry.firstTriangle = firstTriangle;
+    surfaces.push_back(std::move(entry));
+  }
+  this->occluders_.positionsCentred = std::move(positions);
+  this->occluders_.triangles = std::move(triangles);
+  this->occluders_.surfaces = std::move(surfaces);
+  this->records_ = std::move(records);
+}
+
+//------------------------------------------------------------------------------
+/// Takes over the props' flags and what their textures cut out; true if one changed.
+bool SnapshotSurfaces::updateFlags(const std::vector<WantedSurface>& wanted)
+{
+  bool changed = false;
+  for (std::size_t i = 0; i < wanted.size(); ++i)
+  {
+    Surface& surface = this->occluders_.surfaces[i];
+    const DrawnProp& prop = *wanted[i].prop;
+    const auto cutout = wanted[i].block.textureCoordinates ? prop.cutout : nullptr;
+    changed = changed || surface.casts != prop.casts || surface.receives != prop.receives ||
+      surface.oneSided != prop.oneSided || surface.cutout != cutout;
+    surface.casts = prop.casts;
+    surface.receives = prop.receives;
+    surface.oneSided = prop.oneSided;
+    surface.cutout = cutout;
+  }
+  return changed;
+}
+
+//------------------------------------------------------------------------------
+/// Boxes and counts over all surfaces.
+void SnapshotSurfaces::summarise()
+{
+  this->occluders_.castersCentred = Bounds();
+  this->occluders_.allCentred = Bounds();
+  this->occluders_.droppedNonFinite = 0;
+  this->occluders_.droppedZeroArea = 0;
+  for (std::size_t i = 0; i < this->records_.size(); ++i)
+  {
+    const SurfaceRecord& record = this->records_[i];
+    this->occluders_.allCentred.add(record.boundsCentred);
+    if (this->occluders_.surfaces[i].casts)
+    {
+      this->occluders_.castersCentred.add(record.boundsCentred);
+    }
+    const Surface& surface = this->occluders_.surfaces[i];
+    const std::size_t leftOut = record.leftOutNonFinite + record.leftOutVanished;
+    const std::size_t times =
+      surface.isInstanced() ? surface.centredFromSource.size() - leftOut : 1;
+    for (const DroppedTriangle& dropped : record.dropped)
+    {
+      (dropped.defect == Defect::NonFinite ? this->occluders_.droppedNonFinite
+                                           : this->occluders_.droppedZeroArea) += times;
+    }
+    this->occluders_.droppedNonFinite += record.leftOutNonFinite * surface.drawnCount();
+    this->occluders_.droppedZeroArea += record.leftOutVanished * surface.drawnCount();
+  }
+}
+
+//------------------------------------------------------------------------------
+std::size_t SnapshotSurfaces::bytes() const
+{
+  std::size_t bytes = bytesOf(this->occluders_.positionsCentred) +
+    bytesOf(this->occluders_.triangles) + bytesOf(this->occluders_.surfaces) +
+    bytesOf(this->records_) + bytesOf(this->vertexOfPoint_);
+  for (const Surface& surface : this->occluders_.surfaces)
+  {
+    bytes += bytesOf(surface.triangleOfDrawn) + bytesOf(surface.textureCoordinates) +
+      bytesOf(surface.centredFromSource);
+  }
+  for (const SurfaceRecord& record : this->records_)
+  {
+    bytes += bytesOf(record.clipPlanes) + bytesOf(record.pointOfVertex) +
+      bytesOf(record.modelFromInstance) + bytesOf(record.dropped);
+  }
+  return bytes;
+}
+
+} // namespace gnomon

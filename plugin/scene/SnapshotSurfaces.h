@@ -1,0 +1,66 @@
+#ifndef gnomon_plugin_scene_SnapshotSurfaces_h
+#define gnomon_plugin_scene_SnapshotSurfaces_h
+
+#include "plugin/scene/WantedSurfaces.h"
+
+#include "shadowtech/base/Occluders.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace gnomon
+{
+
+/// What one update of the snapshot did.
+struct SnapshotChange
+{
+  int extracted = 0;     ///< surfaces whose mapper's input was read
+  int retransformed = 0; ///< surfaces whose centred positions were computed again
+  bool any = false;      ///< whether a surface is another than before, or elsewhere
+};
+
+/// The surfaces in the snapshot, and what is remembered of each. What rests is left alone, what
+/// moved is transformed where it lies, and the list is written anew only where triangles are
+/// others.
+class SnapshotSurfaces
+{
+public:
+  /// Makes the snapshot hold these surfaces, in this order.
+  SnapshotChange update(std::vector<WantedSurface>& wanted);
+
+  const Occluders& occluders() const { return this->occluders_; }
+  /// One for each of the snapshot's surfaces.
+  const std::vector<SurfaceRecord>& records() const { return this->records_; }
+  std::size_t bytes() const;
+
+private:
+  /// What became of a surface since the last frame.
+  enum class Outcome
+  {
+    Same,
+    Moved,         ///< the same triangles at other positions, already written to the snapshot
+    OtherTriangles ///< waits in WantedSurface::fresh
+  };
+
+  bool updateCentre(const std::vector<WantedSurface>& wanted);
+  void read(WantedSurface& wanted, vtkMTimeType time);
+  Outcome updateSurface(WantedSurface& wanted, bool recentred, SnapshotChange& change);
+  bool transformAgain(const WantedSurface& wanted);
+  bool moveInstances(std::size_t index, PlacedInstances& placed);
+  Outcome overwrite(WantedSurface& wanted);
+  void rebuild(std::vector<WantedSurface>& wanted);
+  bool updateFlags(const std::vector<WantedSurface>& wanted);
+  void summarise();
+
+  std::uint64_t newVersion() { return ++this->lastVersion_; }
+
+  std::uint64_t lastVersion_ = 0;
+  Occluders occluders_;
+  std::vector<SurfaceRecord> records_;
+  std::vector<std::uint32_t> vertexOfPoint_; ///< scratch memory for triangulate()
+};
+
+} // namespace gnomon
+
+#endif

@@ -1,0 +1,35 @@
+#ifndef gnomon_plugin_scene_WantedSurfaces_h
+#define gnomon_plugin_scene_WantedSurfaces_h
+
+#include "plugin/scene/DrawnProps.h"
+#include "plugin/scene/SurfaceRecord.h"
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+namespace gnomon
+{
+
+/// One surface that the snapshot shall hold after this frame.
+struct WantedSurface
+{
+  SurfaceKey key;
+  DrawnBlock block;
+  const DrawnProp* prop;
+  std::size_t old = none;              ///< its number in the snapshot so far
+  std::unique_ptr<FreshSurface> fresh; ///< set while it waits to be put into the snapshot
+
+  static constexpr std::size_t none = static_cast<std::size_t>(-1);
+};
+
+/// Lists the surfaces of drawn props, and which of them the snapshot has already.
+///
+/// @param drawn must outlive the list
+/// @param records of the snapshot's surfaces
+std::vector<WantedSurface> wantedSurfaces(
+  const DrawnProps& drawn, const std::vector<SurfaceRecord>& records);
+
+} // namespace gnomon
+
+#endif
