@@ -2,15 +2,16 @@
 # gnomon_quick_tests builds, and all of them. tests/main/QuickTier.h says which cases of GoogleTest
 # programs are quick; tests/slow_cases.txt names those that are slow in any case.
 
-# gnomon_run_test_program(<program> [NAME <name>] [SHARDS <number>] [SLOW_SHARDS <number>]
+# gnomon_run_test_program(<program> [NAME <name>] [SLOW] [SHARDS <number>] [SLOW_SHARDS <number>]
 #   [CASES <pattern>... | BUT <pattern>...] [ENVIRONMENT <name=value>...])
 #
 # Registers a GoogleTest program with CTest as <name>.1, <name>.2 and so on, each a process with a
 # share of the cases, and <name>.slow.1 and so on with the cases outside of the quick tier, if
-# SLOW_SHARDS is given. A process per case would cost more than most cases do. CASES and BUT are
-# patterns of --gtest_filter, for cases that need processes of their own.
+# SLOW_SHARDS is given. A process per case would cost more than most cases do. SLOW leaves the whole
+# program out of the quick tier. CASES and BUT are patterns of --gtest_filter, for cases that need
+# processes of their own.
 function(gnomon_run_test_program program)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "NAME;SHARDS;SLOW_SHARDS" "CASES;BUT;ENVIRONMENT")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "SLOW" "NAME;SHARDS;SLOW_SHARDS" "CASES;BUT;ENVIRONMENT")
   if(NOT DEFINED arg_NAME)
     set(arg_NAME ${program})
   endif()
@@ -32,7 +33,9 @@ function(gnomon_run_test_program program)
     list(APPEND arg_ENVIRONMENT GNOMON_TEST_TIER=quick "GNOMON_SLOW_CASES=${slow}")
   endif()
   gnomon_add_shards(names ${program} ${arg_NAME} ${arg_SHARDS} "${filter}" ${arg_ENVIRONMENT})
-  gnomon_quick_tests(${names} DEPENDS ${program})
+  if(NOT arg_SLOW)
+    gnomon_quick_tests(${names} DEPENDS ${program})
+  endif()
 endfunction()
 
 function(gnomon_add_shards names program name shards filter)
