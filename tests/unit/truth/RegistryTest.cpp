@@ -151,6 +151,7 @@ TEST(Registry, saysWhoHasASetting)
     EXPECT_FALSE(has(info, "magic")) << info.name;
     EXPECT_EQ(has(info, "map_size"), info.bakesMap()) << info.name;
     EXPECT_EQ(has(info, "bake"), info.mapIsOptional) << info.name;
+    EXPECT_TRUE(!info.mapIsOptional || (info.exact && info.bakesMap())) << info.name;
     EXPECT_EQ(has(info, "as_published"), !info.asPublished.empty()) << info.name;
   }
 }
