@@ -17,7 +17,6 @@
 #include "vtkCullerCollection.h"
 #include "vtkFloatArray.h"
 #include "vtkGlyph3DMapper.h"
-#include "vtkInformation.h"
 #include "vtkMatrix4x4.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkObjectFactory.h"
@@ -671,18 +670,6 @@ TEST_F(DrawnSurfaces, ASharedMapperServesActorsWithMatricesOfTheirOwn)
     other->RotateZ(40);
     this->renderer->AddActor(other);
   }
-  this->expectRight(this->check());
-}
-
-TEST_F(DrawnSurfaces, TheSecondFrameIsRightWhenPartsMoved)
-{
-  this->add(makeBumps(4, 5)); // stays
-  const auto mover = makeActor(makeMixed());
-  mover->SetPosition(0, 0, 1);
-  this->renderer->AddActor(mover);
-  this->expectRight(this->check());
-  mover->SetPosition(0.5, 0.4, 0.3);
-  mover->RotateX(20);
   this->expectRight(this->check());
 }
 

@@ -269,6 +269,7 @@ TEST(OccluderProps, WhatIsNotAnOpaqueSurfaceIsLeftOut)
     change(scene.add(data));
     EXPECT_EQ(scene.collectSurfaces(), surfaces) << "case " << number++;
     EXPECT_EQ(scene.occluders().allCentred.empty(), surfaces == 0);
+    EXPECT_THAT(scene.collector.notes(), testing::IsEmpty());
   }
 }
 

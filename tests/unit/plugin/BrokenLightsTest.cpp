@@ -96,6 +96,11 @@ const BrokenLight brokenLights[] = {
       setBox(l, { 1.0, 1.0, 9.0, 0.0, 0.0, 0.0 });
     },
     "its box has its up direction along the light" },
+  { "boxWithUpAlongTheLight",
+    [](vtkLight* l) {
+      setBox(l, { 1.0, 1.0, 9.0, 0.3, 0.2, -1.0 });
+    },
+    "its box has its up direction along the light" },
   { "boxWithNoNumberUp",
     [](vtkLight* l) {
       setBox(l, { 1.0, 1.0, 9.0, 0.0, nan, 0.0 });

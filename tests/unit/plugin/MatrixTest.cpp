@@ -3,18 +3,14 @@
 //
 // Every mapper meets every look, with two lights and three ways in the whole window, and in every
 // window. In the windows the lights and ways take turns, so that any two of the five dimensions
-// meet in every pair of values (a test counts them), and any three of which two are mapper and
-// look, or those and the window.
+// meet in every pair of values, and any three of which two are mapper and look, or those and the
+// window.
 
 #include "MatrixScene.h"
 #include "MatrixWindows.h"
 
-#include <gmock/gmock.h>
-
 #include <array>
 #include <cmath>
-#include <cstdlib>
-#include <set>
 #include <tuple>
 
 using namespace gnomon::test;
@@ -241,39 +237,4 @@ TEST_P(Matrix, everyWindowShowsTheVisibilityThatIsKept)
       << matrixWindows()[i].name << ", " << matrixLights()[light].name << ", " << ways.at(way));
     this->check(*matrixWindows()[i].make(this->scene), added, ways.at(way));
   }
-}
-
-//------------------------------------------------------------------------------
-TEST(MatrixDesign, anyTwoDimensionsMeetInEveryPairOfValues)
-{
-  const std::array<std::size_t, 5> sizes = { { matrixKinds().size(), imageBasedLook(),
-    matrixWindows().size(), matrixLights().size(), ways.size() } };
-  std::set<std::array<std::size_t, 4>> pairs; // dimension and value, twice
-  for (std::size_t kind = 0; kind < sizes[0]; ++kind)
-  {
-    for (std::size_t look = 0; look < sizes[1]; ++look)
-    {
-      for (std::size_t window = 0; window < sizes[2]; ++window)
-      {
-        const auto [light, way] = turnOf(kind, look, window);
-        const std::array<std::size_t, 5> values = { { kind, look, window, light, way } };
-        for (std::size_t a = 0; a < values.size(); ++a)
-        {
-          for (std::size_t b = 0; b < a; ++b)
-          {
-            pairs.insert({ { a, values[a], b, values[b] } });
-          }
-        }
-      }
-    }
-  }
-  std::size_t all = 0;
-  for (std::size_t a = 0; a < sizes.size(); ++a)
-  {
-    for (std::size_t b = 0; b < a; ++b)
-    {
-      all += sizes[a] * sizes[b];
-    }
-  }
-  EXPECT_EQ(pairs.size(), all);
 }

@@ -17,7 +17,6 @@
 
 #include <cmath>
 #include <memory>
-#include <string>
 
 using namespace gnomon::test;
 using gnomon::VisibilityImages;
@@ -249,21 +248,6 @@ TEST_F(PassTest, theNumberOfSamplesMayChange)
   EXPECT_EQ(differingPixels(scene->render(), single), 0u);
   scene->render();
   EXPECT_EQ(scene->report().programCompiles, 0);
-}
-
-//------------------------------------------------------------------------------
-/// Edges are drawn by a geometry shader, which renames what the fragment shader reads.
-TEST_F(PassTest, drawnEdgesAreShadowedWithSeveralSamples)
-{
-  const auto scene = makeSurfaces(false);
-  for (vtkActor* actor : vtk::Range(scene->renderer->GetActors()))
-  {
-    actor->GetProperty()->EdgeVisibilityOn();
-  }
-  scene->window->SetMultiSamples(samples);
-  const Picture shadowed = scene->render();
-  scene->usePlain();
-  EXPECT_GT(differingPixels(shadowed, scene->render(), 32), 5000u);
 }
 
 //------------------------------------------------------------------------------

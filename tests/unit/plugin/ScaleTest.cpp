@@ -3,10 +3,7 @@
 #include "PassScene.h"
 
 #include <vtkCellArray.h>
-#include <vtkCompositePolyDataMapper2.h>
-#include <vtkMultiBlockDataSet.h>
 #include <vtkPoints.h>
-#include <vtkPolyDataMapper.h>
 
 #include <cmath>
 
@@ -155,42 +152,4 @@ TEST_P(Scale, movedPropsShowTheSameAsInANewPass)
   EXPECT_GT(differingPixels(before, after), 100u);
   scene.pass->ReleaseGraphicsResources(scene.window);
   EXPECT_EQ(differingPixels(after, scene.render()), 0u);
-}
-
-//------------------------------------------------------------------------------
-TEST_P(Scale, oneChangedBlockOfThousandIsReadAlone)
-{
-  constexpr int blocks = 1000;
-  vtkNew<vtkMultiBlockDataSet> data;
-  std::vector<vtkSmartPointer<vtkPolyData>> parts;
-  for (int i = 0; i < blocks; ++i)
-  {
-    parts.push_back(makeTerrain(2, i % 40, i / 40, 0.8));
-    data->SetBlock(static_cast<unsigned int>(i), parts.back());
-  }
-  vtkNew<vtkCompositePolyDataMapper2> mapper;
-  mapper->SetInputDataObject(data);
-  vtkNew<vtkActor> actor;
-  actor->SetMapper(mapper);
-  PassScene scene(64, 64);
-  scene.renderer->AddActor(actor);
-  lookAtCorner(scene);
-  scene.choose(GetParam());
-  const bool traced = std::string(GetParam().technique) == "raytraced";
-
-  scene.render();
-  EXPECT_EQ(scene.report().surfacesExtracted, blocks);
-  EXPECT_EQ(scene.report().triangles, 8u * blocks);
-  scene.render();
-  EXPECT_EQ(scene.report().surfacesExtracted, 0);
-
-  vtkPoints* points = parts[500]->GetPoints();
-  points->SetPoint(4, points->GetPoint(4)[0], points->GetPoint(4)[1], 0.2);
-  points->Modified();
-  data->Modified();
-  scene.render();
-  EXPECT_EQ(scene.report().surfacesExtracted, 1);
-  EXPECT_EQ(scene.report().surfacesRetransformed, 0);
-  EXPECT_EQ(scene.report().bvhBuilds, 0);
-  EXPECT_EQ(scene.report().bvhRefits, traced ? 1 : 0);
 }

@@ -286,23 +286,6 @@ TEST_F(Tracers, showTheSameOfInstancesAndFollowThem)
 }
 
 //------------------------------------------------------------------------------
-TEST_F(Tracers, followWhatMoves)
-{
-  this->render(gpu);
-  for (int frame = 1; frame < 4; ++frame)
-  {
-    this->sphere->SetPosition(0.2 * frame, 0.1 * frame, 0.05 * frame);
-    const Traced moved = drawBy(this->scene.pass, this->scene.window, "raytraced", gpu);
-    EXPECT_EQ(moved.report.bvhRefits, 1);
-    EXPECT_EQ(moved.report.bvhBuilds, 0);
-    vtkNew<vtkGnomonShadowPass> other;
-    this->scene.renderer->SetPass(other);
-    EXPECT_EQ(differing(moved, drawBy(other, this->scene.window, "raytraced", embree)), 0u);
-    this->scene.useGnomon();
-  }
-}
-
-//------------------------------------------------------------------------------
 TEST_F(Tracers, changeBackAndForthAndLeaveNothingBehind)
 {
   const Picture picture = this->render(embree);
@@ -337,16 +320,6 @@ TEST_F(Tracers, changeBackAndForthAndLeaveNothingBehind)
   // what draws them.
   EXPECT_GT(liveOnGpu.buffers, countLiveObjects(this->scene.window).buffers + 6);
   EXPECT_LE(countLiveObjects(this->scene.window).buffers, live.buffers + 3);
-}
-
-//------------------------------------------------------------------------------
-TEST_F(Tracers, areOnlyThereForWhoTraces)
-{
-  this->scene.pass->SetTechnique("nsm");
-  this->render(gpu);
-  EXPECT_EQ(this->report().tracer, "");
-  EXPECT_EQ(this->report().tracerReason, "");
-  EXPECT_EQ(this->report().bytesBvh, 0u);
 }
 
 //------------------------------------------------------------------------------

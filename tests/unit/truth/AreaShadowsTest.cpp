@@ -375,19 +375,6 @@ TEST(AreaShadows, touchWhatCastsThem)
   }
 }
 
-TEST(AreaShadows, areTheSameEveryTimeAndOthersWithOtherSeeds)
-{
-  const Occluders occluders = makeThings();
-  const ReceiverPixels receivers = makeReceivers(occluders, cameraOfThings());
-  for (ShadowLight light : areaLights(16))
-  {
-    const std::vector<float> once = traceArea(light, occluders, receivers);
-    EXPECT_EQ(traceArea(light, occluders, receivers), once);
-    light.lightSeed = 1;
-    EXPECT_GT(countDifferent(traceArea(light, occluders, receivers), once), 50u);
-  }
-}
-
 TEST(AreaShadows, comeNearerTheTruthWithMoreSamples)
 {
   const Occluders occluders = makeThings();

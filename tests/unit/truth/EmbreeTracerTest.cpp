@@ -388,29 +388,6 @@ TEST(EmbreeTracer, RaysAtCornersSlipThroughOnlyByARounding)
   EXPECT_EQ(std::count(exact.begin(), exact.end(), 1.0f), 0);
 }
 
-TEST(EmbreeTracer, ConeOnAPlaneIsADisc)
-{
-  const Occluders occluders = makeOccluders({ { makePlane(10.0) } });
-  Camera camera;
-  camera.position = { 0.0, 0.0, 10.0 };
-  camera.up = { 0.0, 1.0, 0.0 };
-  const ReceiverPixels receivers = makeReceivers(occluders, camera);
-  for (const double degrees : { 0.5, 10.0, 40.0 })
-  {
-    const double height = 2.0 / std::tan(glm::radians(degrees));
-    const std::vector<float> visibility =
-      trace(spotLight({ 0.0, 0.0, height }, {}, degrees), occluders, receivers);
-    for (std::size_t i = 0; i < visibility.size(); ++i)
-    {
-      const double radius = std::hypot(receivers.positionX[i], receivers.positionY[i]);
-      if (std::abs(radius - 2.0) > 1e-3)
-      {
-        ASSERT_EQ(visibility[i], radius < 2.0 ? 1.0f : 0.0f) << degrees << " at " << radius;
-      }
-    }
-  }
-}
-
 TEST(EmbreeTracer, EmptyInputsGiveEmptyOrLitImages)
 {
   EmbreeTracer tracer;
