@@ -27,14 +27,29 @@ class CastingLights
   , public testing::WithParamInterface<Way>
 {
 protected:
-  static void fill(PassScene& scene)
+  CastingLights()
   {
-    scene.addFloor(4.0);
-    scene.addBox({ -2.0, -1.0, 0.0 }, { -1.0, 0.0, 1.5 });
-    scene.addSphere({ 0.7, 0.3, 1.5 }, 0.7);
-    scene.choose(GetParam());
+    this->scene.addFloor(4.0);
+    this->scene.addBox({ -2.0, -1.0, 0.0 }, { -1.0, 0.0, 1.5 });
+    this->scene.addSphere({ 0.7, 0.3, 1.5 }, 0.7);
+    this->scene.choose(GetParam());
+    this->scene.lookFrom({ 1.0, -9.0, 7.0 });
   }
-  static void look(PassScene& scene) { scene.lookFrom({ 1.0, -9.0, 7.0 }); }
+
+  /// Makes a light without a transform of one that is in the same place.
+  static void fix(vtkLight* light)
+  {
+    double position[3];
+    double focalPoint[3];
+    light->GetTransformedPosition(position);
+    light->GetTransformedFocalPoint(focalPoint);
+    light->SetLightTypeToSceneLight();
+    light->SetTransformMatrix(nullptr);
+    light->SetPosition(position);
+    light->SetFocalPoint(focalPoint);
+  }
+
+  PassScene scene{ 240, 180 };
 };
 
 INSTANTIATE_TEST_SUITE_P(Ways, CastingLights, allWays, nameOf);
@@ -85,10 +100,7 @@ std::size_t shadowedPixels(
 //------------------------------------------------------------------------------
 TEST_P(CastingLights, onlyTheCastingLightIsEverTakenAway)
 {
-  PassScene scene(240, 180);
-  fill(scene);
-  look(scene);
-  vtkActorCollection* actors = scene.renderer->GetActors();
+  vtkActorCollection* actors = this->scene.renderer->GetActors();
   actors->InitTraversal();
   while (vtkActor* actor = actors->GetNextActor())
   {
@@ -98,25 +110,25 @@ TEST_P(CastingLights, onlyTheCastingLightIsEverTakenAway)
     actor->GetProperty()->SetSpecular(0.3);
     actor->GetProperty()->SetSpecularPower(20.0);
   }
-  scene.renderer->SetBackground(0.1, 0.2, 0.3);
+  this->scene.renderer->SetBackground(0.1, 0.2, 0.3);
   // Each of the others is skipped for another reason, and all but the first give light.
-  scene.addSun({ 1.0, 0.0, -1.0 })->SwitchOff();
-  vtkLight* mute = scene.addSun({ 0.0, 1.0, -1.0 });
+  this->scene.addSun({ 1.0, 0.0, -1.0 })->SwitchOff();
+  vtkLight* mute = this->scene.addSun({ 0.0, 1.0, -1.0 });
   mute->SetColor(1.0, 0.2, 0.2);
   mute->SetIntensity(0.3);
   vtkGnomonLightKeys::SetCasts(mute, false);
-  vtkLight* sun = scene.addSun({ 1.0, 0.4, -1.5 });
+  vtkLight* sun = this->scene.addSun({ 1.0, 0.4, -1.5 });
   sun->SetColor(0.3, 1.0, 0.6);
   sun->SetIntensity(0.7);
-  vtkLight* empty = scene.addSpot({ -3.0, -3.0, 4.0 }, glm::dvec3(0.0), 0.0);
+  vtkLight* empty = this->scene.addSpot({ -3.0, -3.0, 4.0 }, glm::dvec3(0.0), 0.0);
   empty->SetIntensity(0.2);
-  vtkLight* weak = scene.addSun({ -1.0, 0.0, -1.0 });
+  vtkLight* weak = this->scene.addSun({ -1.0, 0.0, -1.0 });
   weak->SetShadowAttenuation(0.0f);
   weak->SetIntensity(0.1);
-  scene.addSun({ 1.0, 1.0, -1.0 })->SetIntensity(0.0);
+  this->scene.addSun({ 1.0, 1.0, -1.0 })->SetIntensity(0.0);
 
-  const Picture picture = scene.render();
-  const std::vector<gnomon::LightReport> lights = scene.report().lights;
+  const Picture picture = this->scene.render();
+  const std::vector<gnomon::LightReport> lights = this->scene.report().lights;
   ASSERT_EQ(lights.size(), 6u);
   const char* const reasons[] = { "switched off", "marked as not casting", "", "its cone is empty",
     "its shadow attenuation is 0", "gives no light" };
@@ -127,10 +139,10 @@ TEST_P(CastingLights, onlyTheCastingLightIsEverTakenAway)
     EXPECT_EQ(lights[i].reason, reasons[i]);
   }
 
-  scene.usePlain();
-  const Picture all = scene.render();
+  this->scene.usePlain();
+  const Picture all = this->scene.render();
   sun->SetIntensity(0.0);
-  const Picture without = scene.render();
+  const Picture without = this->scene.render();
   const std::size_t shadowed = shadowedPixels(picture, all, without,
     gnomon::findTechnique(GetParam().technique)->estimator->info.has(gnomon::kernelSettings()));
   EXPECT_GT(shadowed, 1000u);
@@ -140,16 +152,13 @@ TEST_P(CastingLights, onlyTheCastingLightIsEverTakenAway)
 //------------------------------------------------------------------------------
 TEST_P(CastingLights, strengthOfOneHalfTakesHalfOfTheLight)
 {
-  PassScene scene(240, 180);
-  fill(scene);
-  look(scene);
-  vtkLight* sun = scene.addSun({ 1.0, 0.4, -1.5 });
-  const Picture full = scene.render();
-  scene.usePlain();
-  const Picture lit = scene.render();
-  scene.useGnomon();
+  vtkLight* sun = this->scene.addSun({ 1.0, 0.4, -1.5 });
+  const Picture full = this->scene.render();
+  this->scene.usePlain();
+  const Picture lit = this->scene.render();
+  this->scene.useGnomon();
   sun->SetShadowAttenuation(0.5f);
-  const Picture half = scene.render();
+  const Picture half = this->scene.render();
   std::size_t shadowed = 0;
   for (int y = 0; y < full.height; ++y)
   {
@@ -164,58 +173,32 @@ TEST_P(CastingLights, strengthOfOneHalfTakesHalfOfTheLight)
 }
 
 //------------------------------------------------------------------------------
-TEST_P(CastingLights, headLightIsALightAtTheCamera)
+TEST_P(CastingLights, lightsThatFollowTheCameraAreWhereVtkHasThem)
 {
-  PassScene scene(240, 180);
-  fill(scene);
-  look(scene);
-  vtkNew<vtkLight> light;
-  light->SetLightTypeToHeadlight();
-  scene.renderer->AddLight(light);
-  scene.render();
-  scene.renderer->GetActiveCamera()->Azimuth(30.0);
-  scene.renderer->ResetCameraClippingRange();
-  const Picture head = scene.render();
-
-  vtkCamera* camera = scene.renderer->GetActiveCamera();
-  light->SetLightTypeToSceneLight();
-  light->SetTransformMatrix(nullptr);
-  light->SetPosition(camera->GetPosition());
-  light->SetFocalPoint(camera->GetFocalPoint());
-  EXPECT_LE(differingPixels(head, scene.render(), 2), 4u);
-  scene.usePlain();
-  EXPECT_GT(differingPixels(head, scene.render(), 64), 100u) << "it casts no shadow at all";
-}
-
-//------------------------------------------------------------------------------
-TEST_P(CastingLights, cameraLightFollowsTheCamera)
-{
-  PassScene scene(240, 180);
-  fill(scene);
-  look(scene);
-  vtkNew<vtkLight> light;
-  light->SetLightTypeToCameraLight();
-  light->SetPosition(-0.8, 0.5, 0.3);
-  light->SetFocalPoint(0.0, 0.0, 0.0);
-  scene.renderer->AddLight(light);
-  scene.render();
-  scene.renderer->GetActiveCamera()->Azimuth(30.0);
-  scene.renderer->ResetCameraClippingRange();
-  const Picture follows = scene.render();
-  double position[3];
-  double focalPoint[3];
-  light->GetTransformedPosition(position);
-  light->GetTransformedFocalPoint(focalPoint);
-
-  vtkNew<vtkLight> fixed;
-  fixed->SetLightTypeToSceneLight();
-  fixed->SetPosition(position);
-  fixed->SetFocalPoint(focalPoint);
-  scene.renderer->RemoveAllLights();
-  scene.renderer->AddLight(fixed);
-  EXPECT_LE(differingPixels(follows, scene.render(), 2), 4u);
-  scene.usePlain();
-  EXPECT_GT(differingPixels(follows, scene.render(), 64), 300u);
+  for (const bool head : { true, false })
+  {
+    this->scene.useGnomon();
+    this->scene.renderer->RemoveAllLights();
+    vtkNew<vtkLight> light;
+    light->SetLightType(head ? VTK_LIGHT_TYPE_HEADLIGHT : VTK_LIGHT_TYPE_CAMERA_LIGHT);
+    light->SetPosition(-0.8, 0.5, 0.3); // which a head light forgets
+    this->scene.renderer->AddLight(light);
+    this->scene.lookFrom({ 1.0, -9.0, 7.0 });
+    this->scene.render();
+    vtkCamera* camera = this->scene.renderer->GetActiveCamera();
+    camera->Azimuth(30.0);
+    this->scene.renderer->ResetCameraClippingRange();
+    const Picture follows = this->scene.render();
+    fix(light);
+    if (head)
+    {
+      light->SetPosition(camera->GetPosition());
+      light->SetFocalPoint(camera->GetFocalPoint());
+    }
+    EXPECT_LE(differingPixels(follows, this->scene.render(), 2), 4u);
+    this->scene.usePlain();
+    EXPECT_GT(differingPixels(follows, this->scene.render(), 64), head ? 100u : 300u);
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -223,27 +206,18 @@ TEST_P(CastingLights, transformMatrixOfASceneLightCounts)
 {
   for (const bool spot : { false, true })
   {
-    PassScene scene(240, 180);
-    fill(scene);
-    look(scene);
-    vtkLight* light = spot ? scene.addSpot({ -3.0, -1.0, 4.0 }, { 0.0, 0.0, 0.0 }, 40.0)
-                           : scene.addSun({ 1.0, 0.4, -1.5 });
-    const Picture before = scene.render();
+    this->scene.renderer->RemoveAllLights();
+    vtkLight* light = spot ? this->scene.addSpot({ -3.0, -1.0, 4.0 }, { 0.0, 0.0, 0.0 }, 40.0)
+                           : this->scene.addSun({ 1.0, 0.4, -1.5 });
+    const Picture before = this->scene.render();
     vtkNew<vtkTransform> turn;
     turn->RotateZ(60.0);
     turn->Translate(0.2, 0.1, 0.3);
     light->SetTransformMatrix(turn->GetMatrix());
-    const Picture turned = scene.render();
+    const Picture turned = this->scene.render();
     EXPECT_GT(differingPixels(before, turned, 64), 300u);
-
-    double position[3];
-    double focalPoint[3];
-    light->GetTransformedPosition(position);
-    light->GetTransformedFocalPoint(focalPoint);
-    light->SetTransformMatrix(nullptr);
-    light->SetPosition(position);
-    light->SetFocalPoint(focalPoint);
-    EXPECT_LE(differingPixels(turned, scene.render(), 2), 4u) << "spot: " << spot;
+    fix(light);
+    EXPECT_LE(differingPixels(turned, this->scene.render(), 2), 4u) << "spot: " << spot;
   }
 }
 
@@ -282,25 +256,22 @@ TEST_P(CastingLights, spotLightCastsWithinItsCone)
 //------------------------------------------------------------------------------
 TEST_P(CastingLights, eachLightHasItsOwnTechniqueInOneFrame)
 {
-  PassScene scene(240, 180);
-  fill(scene);
-  look(scene);
-  scene.pass->KeepVisibilityOn();
-  scene.pass->SetRoute(vtkGnomonShadowPass::ROUTE_AUTO);
-  vtkLight* first = scene.addSun({ 1.0, 0.4, -1.5 });
-  vtkLight* second = scene.addSun({ -1.0, 0.4, -1.5 });
-  scene.pass->SetTechnique("raytraced");
-  scene.render();
-  const gnomon::VisibilityImages traced = scene.pass->GetVisibility();
-  scene.pass->SetTechnique("nsm");
-  scene.render();
-  const gnomon::VisibilityImages mapped = scene.pass->GetVisibility();
+  this->scene.pass->KeepVisibilityOn();
+  this->scene.pass->SetRoute(vtkGnomonShadowPass::ROUTE_AUTO);
+  vtkLight* first = this->scene.addSun({ 1.0, 0.4, -1.5 });
+  vtkLight* second = this->scene.addSun({ -1.0, 0.4, -1.5 });
+  this->scene.pass->SetTechnique("raytraced");
+  this->scene.render();
+  const gnomon::VisibilityImages traced = this->scene.pass->GetVisibility();
+  this->scene.pass->SetTechnique("nsm");
+  this->scene.render();
+  const gnomon::VisibilityImages mapped = this->scene.pass->GetVisibility();
 
   vtkGnomonLightKeys::SetTechnique(first, "nsm");
   vtkGnomonLightKeys::SetTechnique(second, "raytraced");
   vtkGnomonLightKeys::SetMapSize(first, 256);
-  scene.render();
-  const gnomon::FrameReport& report = scene.report();
+  this->scene.render();
+  const gnomon::FrameReport& report = this->scene.report();
   EXPECT_EQ(report.route, "image");
   EXPECT_THAT(report.routeReason, HasSubstr("raytraced"));
   EXPECT_EQ(report.lights[0].technique, "nsm");
@@ -310,42 +281,36 @@ TEST_P(CastingLights, eachLightHasItsOwnTechniqueInOneFrame)
   EXPECT_EQ(report.lights[1].mapSizeTexels, 0);
   EXPECT_GT(report.lights[1].tracedPixels, 10000);
   EXPECT_EQ(report.bytesMaps, 256u * 256u * 4u);
-  const gnomon::VisibilityImages mixed = scene.pass->GetVisibility();
+  const gnomon::VisibilityImages mixed = this->scene.pass->GetVisibility();
   EXPECT_THAT(mixed.sceneIndices, ElementsAre(0, 1));
   EXPECT_EQ(mixed.visibility[1], traced.visibility[1]);
   vtkGnomonLightKeys::SetMapSize(first, 0); // the pass's own size again
-  scene.render();
-  EXPECT_EQ(scene.pass->GetVisibility().visibility[0], mapped.visibility[0]);
+  this->scene.render();
+  EXPECT_EQ(this->scene.pass->GetVisibility().visibility[0], mapped.visibility[0]);
   EXPECT_NE(mixed.visibility[0], mapped.visibility[0]);
 }
 
 //------------------------------------------------------------------------------
 TEST_P(CastingLights, unknownTechniqueOfALightIsAnErrorAndChangesNothing)
 {
-  PassScene scene(120, 90);
-  fill(scene);
-  look(scene);
-  scene.usePlain();
-  vtkLight* sun = scene.addSun({ 1.0, 0.4, -1.5 });
-  const Picture plain = scene.render();
-  scene.useGnomon();
-  const Picture shadowed = scene.render();
+  this->scene.usePlain();
+  vtkLight* sun = this->scene.addSun({ 1.0, 0.4, -1.5 });
+  const Picture plain = this->scene.render();
+  this->scene.useGnomon();
+  const Picture shadowed = this->scene.render();
   EXPECT_GT(differingPixels(plain, shadowed), 100u);
   vtkGnomonLightKeys::SetTechnique(sun, "magic");
   EXPECT_THAT(this->takeErrors(), HasSubstr("'magic', expected one of: nsm"));
-  EXPECT_EQ(differingPixels(shadowed, scene.render()), 0u);
+  EXPECT_EQ(differingPixels(shadowed, this->scene.render()), 0u);
 }
 
 //------------------------------------------------------------------------------
 TEST_P(CastingLights, absurdMapSizesAreClamped)
 {
-  PassScene scene(120, 90);
-  fill(scene);
-  look(scene);
-  vtkGnomonLightKeys::SetMapSize(scene.addSun({ 1.0, 0.4, -1.5 }), 1);
-  scene.render();
+  vtkGnomonLightKeys::SetMapSize(this->scene.addSun({ 1.0, 0.4, -1.5 }), 1);
+  this->scene.render();
   const bool bakes = gnomon::findTechnique(GetParam().technique)->estimator->info.bakesMap();
-  EXPECT_EQ(scene.report().lights[0].mapSizeTexels, bakes ? 16 : 0);
+  EXPECT_EQ(this->scene.report().lights[0].mapSizeTexels, bakes ? 16 : 0);
   const std::string errors = this->takeErrors();
   EXPECT_EQ(errors.empty(), bakes) << errors;
 }
@@ -353,22 +318,19 @@ TEST_P(CastingLights, absurdMapSizesAreClamped)
 //------------------------------------------------------------------------------
 TEST_P(CastingLights, removedAndAddedLightsKeepTheirPlaces)
 {
-  PassScene scene(240, 180);
-  fill(scene);
-  look(scene);
-  vtkLight* first = scene.addSun({ 1.0, 0.4, -1.5 });
+  vtkLight* first = this->scene.addSun({ 1.0, 0.4, -1.5 });
   first->SetIntensity(0.5);
-  vtkSmartPointer<vtkLight> second = scene.addSun({ -1.0, 0.4, -1.5 });
+  vtkSmartPointer<vtkLight> second = this->scene.addSun({ -1.0, 0.4, -1.5 });
   second->SetIntensity(0.5);
-  const Picture both = scene.render();
-  scene.renderer->RemoveLight(second);
-  const Picture one = scene.render();
+  const Picture both = this->scene.render();
+  this->scene.renderer->RemoveLight(second);
+  const Picture one = this->scene.render();
   EXPECT_GT(differingPixels(both, one, 64), 300u);
-  scene.renderer->AddLight(second);
-  EXPECT_EQ(differingPixels(both, scene.render()), 0u);
+  this->scene.renderer->AddLight(second);
+  EXPECT_EQ(differingPixels(both, this->scene.render()), 0u);
   first->SwitchOff();
-  scene.render();
-  EXPECT_EQ(scene.report().lights[1].casts, true);
+  this->scene.render();
+  EXPECT_EQ(this->scene.report().lights[1].casts, true);
   first->SwitchOn();
-  EXPECT_EQ(differingPixels(both, scene.render()), 0u);
+  EXPECT_EQ(differingPixels(both, this->scene.render()), 0u);
 }

@@ -68,6 +68,22 @@ INSTANTIATE_TEST_SUITE_P(Kernels, Pcf,
   [](const testing::TestParamInfo<Kernel>& kernel)
   { return kernel.param.name + std::to_string(kernel.param.texels); });
 
+/// A sphere over a floor under a sun.
+class KernelSettings : public PassTest
+{
+protected:
+  KernelSettings()
+  {
+    this->scene.addFloor(4.0);
+    this->scene.addSphere({ 0.0, 0.0, 1.5 }, 0.7);
+    this->scene.pass->SetTechnique("pcf");
+    this->scene.lookFrom({ 0.0, -9.0, 7.0 });
+  }
+
+  PassScene scene{ 100, 80 };
+  vtkLight* sun = this->scene.addSun({ 1.0, 0.4, -1.5 });
+};
+
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -227,122 +243,98 @@ TEST_P(Pcf, steepCastersStayCastersForWhatLiesBehindAllOfThem)
 }
 
 //------------------------------------------------------------------------------
-TEST_F(PassTest, anotherKernelIsBakedOnceAndReported)
+TEST_F(KernelSettings, anotherKernelIsBakedOnceAndReported)
 {
-  PassScene scene(100, 80);
-  scene.addFloor(4.0);
-  scene.addSphere({ 0.0, 0.0, 1.5 }, 0.7);
-  vtkLight* sun = scene.addSun({ 1.0, 0.4, -1.5 });
-  scene.pass->SetTechnique("pcf");
-  scene.lookFrom({ 0.0, -9.0, 7.0 });
-  scene.render();
-  EXPECT_EQ(scene.report().lights[0].kernel, "bilinear");
-  EXPECT_EQ(scene.report().lights[0].kernelTexels, 3);
+  this->scene.render();
+  EXPECT_EQ(this->scene.report().lights[0].kernel, "bilinear");
+  EXPECT_EQ(this->scene.report().lights[0].kernelTexels, 3);
   // The same border, but not the same reach.
-  vtkGnomonLightKeys::SetSetting(sun, "kernel", "poisson");
-  scene.render();
-  EXPECT_EQ(scene.report().mapBakes, 1);
-  EXPECT_EQ(scene.report().lights[0].kernel, "poisson");
-  scene.render();
-  EXPECT_EQ(scene.report().mapBakes, 0);
-  EXPECT_EQ(scene.report().programCompiles, 0);
-  vtkGnomonLightKeys::SetSetting(sun, "kernel_size", "32");
-  scene.render();
-  EXPECT_EQ(scene.report().mapBakes, 1);
-  EXPECT_EQ(scene.report().lights[0].kernelTexels, 32);
-  vtkGnomonLightKeys::SetSetting(sun, "kernel_size", nullptr);
-  vtkGnomonLightKeys::SetSetting(sun, "kernel", nullptr);
-  scene.render();
-  EXPECT_EQ(scene.report().lights[0].kernel, "bilinear");
-  EXPECT_EQ(scene.report().lights[0].kernelTexels, 3);
-  scene.pass->SetTechnique("nsm");
-  scene.render();
-  EXPECT_EQ(scene.report().lights[0].kernel, "");
-  EXPECT_EQ(scene.report().lights[0].kernelTexels, 0);
+  vtkGnomonLightKeys::SetSetting(this->sun, "kernel", "poisson");
+  this->scene.render();
+  EXPECT_EQ(this->scene.report().mapBakes, 1);
+  EXPECT_EQ(this->scene.report().lights[0].kernel, "poisson");
+  this->scene.render();
+  EXPECT_EQ(this->scene.report().mapBakes, 0);
+  EXPECT_EQ(this->scene.report().programCompiles, 0);
+  vtkGnomonLightKeys::SetSetting(this->sun, "kernel_size", "32");
+  this->scene.render();
+  EXPECT_EQ(this->scene.report().mapBakes, 1);
+  EXPECT_EQ(this->scene.report().lights[0].kernelTexels, 32);
+  vtkGnomonLightKeys::SetSetting(this->sun, "kernel_size", nullptr);
+  vtkGnomonLightKeys::SetSetting(this->sun, "kernel", nullptr);
+  this->scene.render();
+  EXPECT_EQ(this->scene.report().lights[0].kernel, "bilinear");
+  EXPECT_EQ(this->scene.report().lights[0].kernelTexels, 3);
+  this->scene.pass->SetTechnique("nsm");
+  this->scene.render();
+  EXPECT_EQ(this->scene.report().lights[0].kernel, "");
+  EXPECT_EQ(this->scene.report().lights[0].kernelTexels, 0);
 }
 
 //------------------------------------------------------------------------------
-TEST_F(PassTest, kernelsOfTechniquesThatHaveTheirOwnAreReported)
+TEST_F(KernelSettings, kernelsOfTechniquesThatHaveTheirOwnAreReported)
 {
-  PassScene scene(100, 80);
-  scene.addFloor(4.0);
-  scene.addSun({ 1.0, 0.4, -1.5 });
-  scene.lookFrom({ 0.0, -9.0, 7.0 });
-  scene.pass->SetSetting("kernel", "castano"); // of no meaning to them, nor that it has no size 6
-  scene.pass->SetSetting("kernel_size", "6");
+  this->scene.pass->SetSetting(
+    "kernel", "castano"); // of no meaning to them, nor that it has no size 6
+  this->scene.pass->SetSetting("kernel_size", "6");
   for (const auto& [technique, kernel] : std::map<std::string, std::string>{
          { "adaptive", "disc" }, { "vsm", "square" }, { "evsm", "square" }, { "msm", "square" } })
   {
-    scene.pass->SetTechnique(technique.c_str());
-    scene.render();
-    EXPECT_EQ(scene.report().lights[0].kernel, kernel) << technique;
-    EXPECT_EQ(scene.report().lights[0].kernelTexels, 6) << technique;
+    this->scene.pass->SetTechnique(technique.c_str());
+    this->scene.render();
+    EXPECT_EQ(this->scene.report().lights[0].kernel, kernel) << technique;
+    EXPECT_EQ(this->scene.report().lights[0].kernelTexels, 6) << technique;
   }
 }
 
 //------------------------------------------------------------------------------
-TEST_F(PassTest, thePassGivesLightsTheKernelThatTheyDoNotName)
+TEST_F(KernelSettings, thePassGivesLightsTheKernelThatTheyDoNotName)
 {
-  PassScene scene(100, 80);
-  scene.addFloor(4.0);
-  scene.addSphere({ 0.0, 0.0, 1.5 }, 0.7);
-  vtkLight* sun = scene.addSun({ 1.0, 0.4, -1.5 });
-  scene.pass->SetTechnique("pcf");
-  scene.lookFrom({ 0.0, -9.0, 7.0 });
-  const Picture narrow = scene.render();
-  scene.pass->SetSetting("kernel", "box");
-  scene.pass->SetSetting("kernel_size", "9");
-  const Picture wide = scene.render();
-  EXPECT_EQ(scene.report().lights[0].kernel, "box");
-  EXPECT_EQ(scene.report().lights[0].kernelTexels, 9);
-  EXPECT_EQ(scene.report().mapBakes, 1);
+  const Picture narrow = this->scene.render();
+  this->scene.pass->SetSetting("kernel", "box");
+  this->scene.pass->SetSetting("kernel_size", "9");
+  const Picture wide = this->scene.render();
+  EXPECT_EQ(this->scene.report().lights[0].kernel, "box");
+  EXPECT_EQ(this->scene.report().lights[0].kernelTexels, 9);
+  EXPECT_EQ(this->scene.report().mapBakes, 1);
   EXPECT_GT(differingPixels(narrow, wide), 20u);
 
-  vtkGnomonLightKeys::SetSetting(sun, "kernel", "bilinear");
-  scene.render();
-  EXPECT_EQ(scene.report().lights[0].kernel, "bilinear");
-  EXPECT_EQ(scene.report().lights[0].kernelTexels, 9);
-  vtkGnomonLightKeys::SetSetting(sun, "kernel_size", "3");
-  EXPECT_EQ(differingPixels(narrow, scene.render()), 0u);
-  vtkGnomonLightKeys::SetSetting(sun, "kernel", nullptr);
-  vtkGnomonLightKeys::SetSetting(sun, "kernel_size", nullptr);
-  EXPECT_EQ(differingPixels(wide, scene.render()), 0u);
+  vtkGnomonLightKeys::SetSetting(this->sun, "kernel", "bilinear");
+  this->scene.render();
+  EXPECT_EQ(this->scene.report().lights[0].kernel, "bilinear");
+  EXPECT_EQ(this->scene.report().lights[0].kernelTexels, 9);
+  vtkGnomonLightKeys::SetSetting(this->sun, "kernel_size", "3");
+  EXPECT_EQ(differingPixels(narrow, this->scene.render()), 0u);
+  vtkGnomonLightKeys::SetSetting(this->sun, "kernel", nullptr);
+  vtkGnomonLightKeys::SetSetting(this->sun, "kernel_size", nullptr);
+  EXPECT_EQ(differingPixels(wide, this->scene.render()), 0u);
 }
 
 //------------------------------------------------------------------------------
-TEST_F(PassTest, unknownKernelIsAnErrorThatNamesTheOthers)
+TEST_F(KernelSettings, unknownKernelIsAnErrorThatNamesTheOthers)
 {
-  PassScene scene(100, 80);
-  scene.addFloor(4.0);
-  vtkLight* sun = scene.addSun({ 1.0, 0.4, -1.5 });
-  scene.lookFrom({ 0.0, -9.0, 7.0 });
-  vtkGnomonLightKeys::SetSetting(sun, "kernel", "magic");
+  vtkGnomonLightKeys::SetSetting(this->sun, "kernel", "magic");
   EXPECT_THAT(
     this->takeErrors(), HasSubstr("'magic', expected one of: bilinear, box, poisson, castano"));
-  scene.render();
+  this->scene.render();
   EXPECT_EQ(this->takeErrors(), "");
   // Past the function that refuses it.
   for (const char* part : { "kernel", "magic" })
   {
-    sun->GetInformation()->Append(vtkGnomonLightKeys::SETTINGS(), part);
+    this->sun->GetInformation()->Append(vtkGnomonLightKeys::SETTINGS(), part);
   }
-  scene.render();
-  EXPECT_EQ(scene.report().route, "none");
-  EXPECT_EQ(scene.report().lights[0].reason,
+  this->scene.render();
+  EXPECT_EQ(this->scene.report().route, "none");
+  EXPECT_EQ(this->scene.report().lights[0].reason,
     "its setting 'kernel' is 'magic', expected one of: bilinear, box, poisson, castano");
 }
 
 //------------------------------------------------------------------------------
-TEST_F(PassTest, castanosKernelOfAnotherSizeIsAnErrorThatNamesItsSizes)
+TEST_F(KernelSettings, castanosKernelOfAnotherSizeIsAnErrorThatNamesItsSizes)
 {
-  PassScene scene(100, 80);
-  scene.addFloor(4.0);
-  vtkLight* sun = scene.addSun({ 1.0, 0.4, -1.5 });
-  scene.pass->SetTechnique("pcf");
-  scene.lookFrom({ 0.0, -9.0, 7.0 });
-  vtkGnomonLightKeys::SetSetting(sun, "kernel", "castano");
-  vtkGnomonLightKeys::SetSetting(sun, "kernel_size", "4");
-  scene.render();
+  vtkGnomonLightKeys::SetSetting(this->sun, "kernel", "castano");
+  vtkGnomonLightKeys::SetSetting(this->sun, "kernel_size", "4");
+  this->scene.render();
   EXPECT_THAT(
     this->takeErrors(), HasSubstr("light 0: the kernel 'castano' has the sizes 3, 5 and 7, not 4"));
 }

@@ -18,18 +18,6 @@ using testing::HasSubstr;
 namespace
 {
 
-class Settings : public PassTest
-{
-};
-
-class SettingsOfWay
-  : public PassTest
-  , public testing::WithParamInterface<Way>
-{
-};
-INSTANTIATE_TEST_SUITE_P(Ways, SettingsOfWay, allWays, nameOf);
-INSTANTIATE_TEST_SUITE_P(OnPlanes, SettingsOfWay, testing::Values(planarWay), nameOf);
-
 void fillUnderSun(PassScene& scene)
 {
   scene.addFloor(4.0);
@@ -38,40 +26,28 @@ void fillUnderSun(PassScene& scene)
   scene.lookFrom({ 0.0, -9.0, 7.0 });
 }
 
-/// Draws two scenes' renderers in the halves of one window, several times, and expects what their
-/// own windows show.
-void expectSideBySide(
-  PassScene& left, const Picture& leftAlone, PassScene& right, const Picture& rightAlone)
+class Settings : public PassTest
 {
-  const int width = leftAlone.width;
-  vtkNew<vtkGnomonEGLRenderWindow> window;
-  window->SetSize(2 * width, leftAlone.height);
-  left.window->RemoveRenderer(left.renderer);
-  right.window->RemoveRenderer(right.renderer);
-  left.renderer->SetViewport(0.0, 0.0, 0.5, 1.0);
-  right.renderer->SetViewport(0.5, 0.0, 1.0, 1.0);
-  window->AddRenderer(left.renderer);
-  window->AddRenderer(right.renderer);
-  for (int frame = 0; frame < 3; ++frame)
+protected:
+  Settings()
   {
-    // The two renderers share VTK's programs. Without this, VTK 9.1 leaves one renderer's lights in
-    // them for the other, with or without the pass.
-    vtkLight::SafeDownCast(left.renderer->GetLights()->GetItemAsObject(0))->Modified();
-    vtkLight::SafeDownCast(right.renderer->GetLights()->GetItemAsObject(0))->Modified();
-    window->Render();
-    const Picture both = readPicture(window);
-    std::size_t different = 0;
-    for (int y = 0; y < both.height; ++y)
-    {
-      for (int x = 0; x < width; ++x)
-      {
-        different += both.at(x, y) != leftAlone.at(x, y) ? 1 : 0;
-        different += both.at(x + width, y) != rightAlone.at(x, y) ? 1 : 0;
-      }
-    }
-    EXPECT_EQ(different, 0u) << "frame " << frame;
+    fillUnderSun(this->scene);
+    this->sun = vtkLight::SafeDownCast(this->scene.renderer->GetLights()->GetItemAsObject(0));
   }
-}
+
+  PassScene scene{ 200, 150 };
+  vtkLight* sun;
+};
+
+class SettingsOfWay
+  : public Settings
+  , public testing::WithParamInterface<Way>
+{
+protected:
+  SettingsOfWay() { this->scene.choose(GetParam()); }
+};
+INSTANTIATE_TEST_SUITE_P(Ways, SettingsOfWay, allWays, nameOf);
+INSTANTIATE_TEST_SUITE_P(OnPlanes, SettingsOfWay, testing::Values(planarWay), nameOf);
 
 } // namespace
 
@@ -117,17 +93,14 @@ TEST_F(Settings, whatASettingDoesNotTakeIsAnErrorAndChangesNothing)
 //------------------------------------------------------------------------------
 TEST_F(Settings, thatATechniqueLacksAreOneErrorEachAndShadowsStay)
 {
-  PassScene scene(100, 80);
-  fillUnderSun(scene);
-  auto* sun = vtkLight::SafeDownCast(scene.renderer->GetLights()->GetItemAsObject(0));
-  scene.pass->SetTechnique("pcf");
-  const Picture shadowed = scene.render();
-  scene.pass->SetSetting("map_samples", "4");
-  vtkGnomonLightKeys::SetSetting(sun, "contour", "6");
+  this->scene.pass->SetTechnique("pcf");
+  const Picture shadowed = this->scene.render();
+  this->scene.pass->SetSetting("map_samples", "4");
+  vtkGnomonLightKeys::SetSetting(this->sun, "contour", "6");
   for (int frame = 0; frame < 3; ++frame)
   {
-    EXPECT_EQ(differingPixels(shadowed, scene.render()), 0u);
-    EXPECT_EQ(scene.report().misfits.size(), 2u);
+    EXPECT_EQ(differingPixels(shadowed, this->scene.render()), 0u);
+    EXPECT_EQ(this->scene.report().misfits.size(), 2u);
   }
   const std::string errors = this->takeErrors();
   EXPECT_EQ(std::count(errors.begin(), errors.end(), '\n'), 2) << errors;
@@ -135,27 +108,25 @@ TEST_F(Settings, thatATechniqueLacksAreOneErrorEachAndShadowsStay)
   EXPECT_THAT(errors,
     HasSubstr("light 0 has the technique 'pcf', and the setting 'contour' is for: selective."));
   // What was set for another technique is no mistake, and has its effect again there.
-  scene.pass->SetTechnique("vsm");
-  vtkGnomonLightKeys::SetSetting(sun, "contour", "");
-  scene.render();
-  EXPECT_EQ(scene.report().lights[0].mapSamples, 4);
-  scene.pass->SetTechnique("nsm");
-  scene.render();
-  EXPECT_TRUE(scene.report().misfits.empty());
+  this->scene.pass->SetTechnique("vsm");
+  vtkGnomonLightKeys::SetSetting(this->sun, "contour", "");
+  this->scene.render();
+  EXPECT_EQ(this->scene.report().lights[0].mapSamples, 4);
+  this->scene.pass->SetTechnique("nsm");
+  this->scene.render();
+  EXPECT_TRUE(this->scene.report().misfits.empty());
 }
 
 //------------------------------------------------------------------------------
 TEST_F(Settings, anEmptyEstimatorIsTheTechniquesOwnAgain)
 {
-  PassScene scene(100, 80);
-  fillUnderSun(scene);
-  scene.pass->SetSetting("estimator", "pcf");
-  scene.render();
-  EXPECT_EQ(scene.report().lights[0].estimator, "pcf");
-  scene.pass->SetSetting("estimator", "");
-  scene.render();
-  EXPECT_EQ(scene.report().lights[0].estimator, "compare");
-  scene.pass->SetSetting("estimator", "magic");
+  this->scene.pass->SetSetting("estimator", "pcf");
+  this->scene.render();
+  EXPECT_EQ(this->scene.report().lights[0].estimator, "pcf");
+  this->scene.pass->SetSetting("estimator", "");
+  this->scene.render();
+  EXPECT_EQ(this->scene.report().lights[0].estimator, "compare");
+  this->scene.pass->SetSetting("estimator", "magic");
   EXPECT_THAT(this->takeErrors(), HasSubstr("one of: adaptive, compare, pcf, "));
 }
 
@@ -194,13 +165,11 @@ TEST_F(Settings, numbersAreClamped)
 //------------------------------------------------------------------------------
 TEST_F(Settings, inlineRouteAskedOfAScreenTechniqueIsAnErrorAndTheImageRoute)
 {
-  PassScene scene(200, 150);
-  fillUnderSun(scene);
-  scene.pass->SetTechnique("raytraced");
-  const Picture image = scene.render();
-  scene.pass->SetRoute(vtkGnomonShadowPass::ROUTE_INLINE);
-  EXPECT_EQ(differingPixels(image, scene.render()), 0u);
-  EXPECT_EQ(scene.report().route, "image");
+  this->scene.pass->SetTechnique("raytraced");
+  const Picture image = this->scene.render();
+  this->scene.pass->SetRoute(vtkGnomonShadowPass::ROUTE_INLINE);
+  EXPECT_EQ(differingPixels(image, this->scene.render()), 0u);
+  EXPECT_EQ(this->scene.report().route, "image");
   const std::string errors = this->takeErrors();
   EXPECT_THAT(errors, HasSubstr("inline"));
   EXPECT_THAT(errors, HasSubstr("raytraced"));
@@ -209,80 +178,68 @@ TEST_F(Settings, inlineRouteAskedOfAScreenTechniqueIsAnErrorAndTheImageRoute)
 //------------------------------------------------------------------------------
 TEST_F(Settings, inlineRouteWithKeptVisibilityIsTheImageRoute)
 {
-  PassScene scene(200, 150);
-  fillUnderSun(scene);
-  scene.pass->SetRoute(vtkGnomonShadowPass::ROUTE_INLINE);
-  scene.pass->KeepVisibilityOn();
-  scene.render();
-  EXPECT_EQ(scene.report().route, "image");
-  EXPECT_THAT(scene.report().routeReason, HasSubstr("kept"));
-  EXPECT_EQ(scene.pass->GetVisibility().visibility.size(), 1u);
-  scene.pass->KeepVisibilityOff();
-  scene.render();
-  EXPECT_EQ(scene.report().route, "inline");
-  EXPECT_TRUE(scene.pass->GetVisibility().visibility.empty());
+  this->scene.pass->SetRoute(vtkGnomonShadowPass::ROUTE_INLINE);
+  this->scene.pass->KeepVisibilityOn();
+  this->scene.render();
+  EXPECT_EQ(this->scene.report().route, "image");
+  EXPECT_THAT(this->scene.report().routeReason, HasSubstr("kept"));
+  EXPECT_EQ(this->scene.pass->GetVisibility().visibility.size(), 1u);
+  this->scene.pass->KeepVisibilityOff();
+  this->scene.render();
+  EXPECT_EQ(this->scene.report().route, "inline");
+  EXPECT_TRUE(this->scene.pass->GetVisibility().visibility.empty());
 }
 
 //------------------------------------------------------------------------------
 TEST_P(SettingsOfWay, measuredStagesSumToTheFrame)
 {
-  PassScene scene(200, 150);
-  fillUnderSun(scene);
-  scene.choose(GetParam());
-  scene.render();
-  EXPECT_TRUE(scene.report().stages.empty());
-  EXPECT_GT(scene.report().wallMilliseconds, 0.0);
-  scene.pass->MeasureStagesOn();
-  scene.render();
-  scene.render();
+  this->scene.render();
+  EXPECT_TRUE(this->scene.report().stages.empty());
+  EXPECT_GT(this->scene.report().wallMilliseconds, 0.0);
+  this->scene.pass->MeasureStagesOn();
+  this->scene.render();
+  this->scene.render();
   double sum = 0.0;
-  for (const gnomon::StageTime& stage : scene.report().stages)
+  for (const gnomon::StageTime& stage : this->scene.report().stages)
   {
     EXPECT_GE(stage.milliseconds, 0.0) << stage.name;
     sum += stage.milliseconds;
   }
-  EXPECT_GE(sum, 0.9 * scene.report().wallMilliseconds);
-  EXPECT_LE(sum, scene.report().wallMilliseconds);
+  EXPECT_GE(sum, 0.9 * this->scene.report().wallMilliseconds);
+  EXPECT_LE(sum, this->scene.report().wallMilliseconds);
 }
 
 //------------------------------------------------------------------------------
 TEST_P(SettingsOfWay, useShadowsIsTheSwitchWhereItIsObeyed)
 {
-  PassScene scene(200, 150);
-  fillUnderSun(scene);
-  scene.choose(GetParam());
-  EXPECT_FALSE(scene.pass->GetObeyUseShadows());
-  const Picture shadowed = scene.render();
-  scene.pass->ObeyUseShadowsOn();
-  const Picture unshadowed = scene.render();
-  EXPECT_EQ(scene.report().route, "none");
-  EXPECT_THAT(scene.report().routeReason, HasSubstr("UseShadows"));
-  scene.renderer->UseShadowsOn();
-  EXPECT_EQ(differingPixels(shadowed, scene.render()), 0u);
-  scene.renderer->UseShadowsOff();
-  EXPECT_EQ(differingPixels(unshadowed, scene.render()), 0u);
-  scene.usePlain();
-  EXPECT_EQ(differingPixels(unshadowed, scene.render()), 0u);
+  EXPECT_FALSE(this->scene.pass->GetObeyUseShadows());
+  const Picture shadowed = this->scene.render();
+  this->scene.pass->ObeyUseShadowsOn();
+  const Picture unshadowed = this->scene.render();
+  EXPECT_EQ(this->scene.report().route, "none");
+  EXPECT_THAT(this->scene.report().routeReason, HasSubstr("UseShadows"));
+  this->scene.renderer->UseShadowsOn();
+  EXPECT_EQ(differingPixels(shadowed, this->scene.render()), 0u);
+  this->scene.renderer->UseShadowsOff();
+  EXPECT_EQ(differingPixels(unshadowed, this->scene.render()), 0u);
+  this->scene.usePlain();
+  EXPECT_EQ(differingPixels(unshadowed, this->scene.render()), 0u);
   EXPECT_GT(differingPixels(shadowed, unshadowed), 300u);
 }
 
 //------------------------------------------------------------------------------
 TEST_P(SettingsOfWay, useShadowsDoesNotBringVtksOwn)
 {
-  PassScene scene(200, 150);
-  fillUnderSun(scene);
-  scene.choose(GetParam());
-  const Picture own = scene.render();
-  scene.renderer->UseShadowsOn();
-  const vtkMTimeType time = scene.renderer->GetMTime();
-  EXPECT_EQ(differingPixels(own, scene.render()), 0u);
-  EXPECT_EQ(scene.renderer->GetUseShadows(), 1);
-  EXPECT_EQ(scene.renderer->GetMTime(), time);
-  vtkGnomonLightKeys::SetCasts(
-    vtkLight::SafeDownCast(scene.renderer->GetLights()->GetItemAsObject(0)), false);
-  const Picture unshadowed = scene.render();
-  scene.renderer->UseShadowsOff();
-  EXPECT_EQ(differingPixels(unshadowed, scene.render()), 0u);
+  const Picture own = this->scene.render();
+  this->scene.renderer->UseShadowsOn();
+  const vtkMTimeType time = this->scene.renderer->GetMTime();
+  EXPECT_EQ(differingPixels(own, this->scene.render()), 0u);
+  EXPECT_EQ(this->scene.renderer->GetUseShadows(), 1);
+  EXPECT_EQ(this->scene.renderer->GetMTime(), time);
+  vtkGnomonLightKeys::SetCasts(this->sun, false);
+  const Picture unshadowed = this->scene.render();
+  this->scene.renderer->UseShadowsOff();
+  EXPECT_EQ(differingPixels(unshadowed, this->scene.render()), 0u);
 }
 
 //------------------------------------------------------------------------------
@@ -294,9 +251,7 @@ TEST_P(SettingsOfWay, windowsOfOnePixel)
     PassScene scene(size[0], size[1]);
     fillUnderSun(scene);
     scene.choose(GetParam());
-    scene.pass->KeepVisibilityOn();
-    EXPECT_EQ(scene.render().pixels(), static_cast<std::size_t>(size[0] * size[1]));
-    EXPECT_EQ(scene.pass->GetVisibility().width, size[0]);
+    EXPECT_EQ(drawKept(scene).width, size[0]);
     EXPECT_EQ(scene.pass->GetVisibility().height, size[1]);
   }
 }
@@ -332,47 +287,54 @@ TEST_P(SettingsOfWay, viewportThatDoesNotFillTheWindow)
 }
 
 //------------------------------------------------------------------------------
-TEST_P(SettingsOfWay, renderersSideBySide)
-{
-  // Left with a pass of its own, right with another one, as in two windows.
-  PassScene left(100, 80);
-  fillUnderSun(left);
-  left.choose(GetParam());
-  PassScene right(100, 80);
-  fillUnderSun(right);
-  right.choose(GetParam());
-  right.renderer->GetActiveCamera()->Azimuth(40.0);
-  right.renderer->ResetCameraClippingRange();
-  const Picture expectedLeft = left.render();
-  const Picture expectedRight = right.render();
-
-  expectSideBySide(left, expectedLeft, right, expectedRight);
-}
-
-//------------------------------------------------------------------------------
+/// In the halves of one window, they show what their own windows show.
 TEST_P(SettingsOfWay, onePassForTwoRenderersSideBySide)
 {
-  PassScene left(100, 80);
-  fillUnderSun(left);
-  left.choose(GetParam());
-  PassScene right(100, 80);
+  PassScene& left = this->scene;
+  PassScene right(200, 150);
   right.addFloor(4.0);
   right.addBox({ -1.0, -1.0, 0.0 }, { 0.0, 0.0, 2.0 });
-  right.addSun({ -1.0, 0.3, -1.5 });
+  vtkLight* const rightSun = right.addSun({ -1.0, 0.3, -1.5 });
   right.lookFrom({ 0.0, -9.0, 7.0 });
   right.choose(GetParam());
   const Picture expectedLeft = left.render();
   const Picture expectedRight = right.render();
 
   right.renderer->SetPass(left.pass);
-  expectSideBySide(left, expectedLeft, right, expectedRight);
+  vtkNew<vtkGnomonEGLRenderWindow> window;
+  window->SetSize(400, 150);
+  left.window->RemoveRenderer(left.renderer);
+  right.window->RemoveRenderer(right.renderer);
+  left.renderer->SetViewport(0.0, 0.0, 0.5, 1.0);
+  right.renderer->SetViewport(0.5, 0.0, 1.0, 1.0);
+  window->AddRenderer(left.renderer);
+  window->AddRenderer(right.renderer);
+  for (int frame = 0; frame < 3; ++frame)
+  {
+    // The two renderers share VTK's programs. Without this, VTK 9.1 leaves one renderer's lights in
+    // them for the other, with or without the pass.
+    this->sun->Modified();
+    rightSun->Modified();
+    window->Render();
+    const Picture both = readPicture(window);
+    std::size_t different = 0;
+    for (int y = 0; y < both.height; ++y)
+    {
+      for (int x = 0; x < 200; ++x)
+      {
+        different += both.at(x, y) != expectedLeft.at(x, y) ? 1 : 0;
+        different += both.at(x + 200, y) != expectedRight.at(x, y) ? 1 : 0;
+      }
+    }
+    EXPECT_EQ(different, 0u) << "frame " << frame;
+  }
 }
 
 namespace
 {
 
 /// Runs with a Mesa that claims OpenGL 3.3 (tests/unit/plugin/CMakeLists.txt).
-class OldOpenGL : public PassTest
+class OldOpenGL : public Settings
 {
 };
 
@@ -381,38 +343,35 @@ class OldOpenGL : public PassTest
 //------------------------------------------------------------------------------
 TEST_F(OldOpenGL, isOneClearErrorAndThePictureOfPlainVtk)
 {
-  PassScene scene(200, 150);
-  scene.window->SetContextVersion(3, 3);
-  fillUnderSun(scene);
-  scene.usePlain();
-  const Picture plain = scene.render();
-  scene.window->MakeCurrent();
+  this->scene.window->SetContextVersion(3, 3);
+  this->scene.usePlain();
+  const Picture plain = this->scene.render();
+  this->scene.window->MakeCurrent();
   int major = 0;
   int minor = 0;
-  scene.window->GetOpenGLVersion(major, minor);
+  this->scene.window->GetOpenGLVersion(major, minor);
   if (10 * major + minor >= 43)
   {
     GTEST_SKIP() << "this driver gives OpenGL " << major << "." << minor
                  << " when 3.3 is asked for";
   }
-  scene.useGnomon();
-  EXPECT_EQ(differingPixels(plain, scene.render()), 0u);
+  this->scene.useGnomon();
+  EXPECT_EQ(differingPixels(plain, this->scene.render()), 0u);
   const std::string errors = this->takeErrors();
   EXPECT_THAT(errors, HasSubstr("OpenGL 4.3"));
   EXPECT_THAT(errors, HasSubstr("3.3"));
   EXPECT_THAT(errors, HasSubstr("without shadows"));
   EXPECT_EQ(std::count(errors.begin(), errors.end(), '\n'), 1) << "one error";
-  EXPECT_EQ(scene.report().route, "none");
-  EXPECT_THAT(scene.report().routeReason, HasSubstr("OpenGL 4.3"));
-  scene.pass->SetTechnique("raytraced");
-  EXPECT_EQ(differingPixels(plain, scene.render()), 0u);
+  EXPECT_EQ(this->scene.report().route, "none");
+  EXPECT_THAT(this->scene.report().routeReason, HasSubstr("OpenGL 4.3"));
+  this->scene.pass->SetTechnique("raytraced");
+  EXPECT_EQ(differingPixels(plain, this->scene.render()), 0u);
   EXPECT_EQ(this->takeErrors(), "") << "said once";
   vtkNew<vtkGnomonLightSamplingPass> sampling;
-  vtkGnomonLightKeys::SetSetting(
-    vtkLight::SafeDownCast(scene.renderer->GetLights()->GetItemAsObject(0)), "light_radius", "2");
-  scene.renderer->SetPass(sampling);
-  EXPECT_EQ(differingPixels(plain, scene.render()), 0u);
-  EXPECT_EQ(differingPixels(plain, scene.render()), 0u);
+  vtkGnomonLightKeys::SetSetting(this->sun, "light_radius", "2");
+  this->scene.renderer->SetPass(sampling);
+  EXPECT_EQ(differingPixels(plain, this->scene.render()), 0u);
+  EXPECT_EQ(differingPixels(plain, this->scene.render()), 0u);
   const std::string errorsOfSampling = this->takeErrors();
   EXPECT_THAT(errorsOfSampling, HasSubstr("OpenGL 4.3"));
   EXPECT_EQ(std::count(errorsOfSampling.begin(), errorsOfSampling.end(), '\n'), 1) << "one error";
