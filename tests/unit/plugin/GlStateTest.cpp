@@ -8,12 +8,9 @@
 #include "lights/vtkGnomonLightKeys.h"
 #include "plugin/vtkGnomonLightSamplingPass.h"
 
-#include <vtkDataArray.h>
-#include <vtkImageData.h>
 #include <vtkLightCollection.h>
 #include <vtkObjectFactory.h>
 #include <vtkOpenGLState.h>
-#include <vtkPointData.h>
 #include <vtkRenderPass.h>
 #include <vtkRenderState.h>
 #include <vtkTextureUnitManager.h>
@@ -333,13 +330,9 @@ TEST_F(GlState, isChangedByTexturesOfLightsOnlyWherePlainVtkChangesIt)
     expectChangesOfPlainVtkOnly(
       [technique](PassScene& scene)
       {
-        vtkNew<vtkImageData> image;
-        image->SetDimensions(3, 1, 1);
-        image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
-        image->GetPointData()->GetScalars()->Fill(99.0);
         vtkNew<vtkGnomonAreaLight> lamp;
         lamp->SetPosition(2.0, 1.0, 6.0);
-        lamp->SetTexture(image);
+        lamp->SetTexture(makeImage(3, 1, [](int, int) { return glm::dvec3(0.4); }));
         scene.renderer->AddLight(lamp);
         scene.pass->SetTechnique(technique);
         return scene.pass.Get();

@@ -29,7 +29,6 @@
 #include <vtkSSAAPass.h>
 #include <vtkSSAOPass.h>
 #include <vtkSelection.h>
-#include <vtkSelectionNode.h>
 #include <vtkTextActor.h>
 #include <vtkToneMappingPass.h>
 #include <vtkTransform.h>
@@ -610,16 +609,7 @@ TEST_F(LightSampling, refinesAnewWhenSomethingChanges)
 TEST_F(LightSampling, tellsOfItsProgress)
 {
   std::vector<double> told;
-  vtkNew<vtkCallbackCommand> listen;
-  listen->SetClientData(&told);
-  listen->SetCallback(
-    [](vtkObject*, unsigned long event, void* list, void* data)
-    {
-      static_cast<std::vector<double>*>(list)->push_back(
-        event == vtkCommand::EndEvent ? 2.0 : *static_cast<double*>(data));
-    });
-  this->sampling->AddObserver(vtkCommand::ProgressEvent, listen);
-  this->sampling->AddObserver(vtkCommand::EndEvent, listen);
+  listenToProgress(this->sampling, told);
   this->scene.render();
   EXPECT_EQ(told, std::vector<double>());
   this->sampling->SetSamplesPerFrame(4);
@@ -962,13 +952,12 @@ TEST_F(LightSampling, aTextureInTheSkyLiesAsItIsSeen)
     vtkActor* const plate = this->scene.addBox({ -8.0, -8.0, height }, end);
     // Its left is at +x for who looks up with +y upwards, and its top at +y: what is seen from
     // where the plate ends last.
-    vtkNew<vtkImageData> halves;
-    halves->SetDimensions(axis == 0 ? 2 : 1, axis == 0 ? 1 : 2, 1);
-    halves->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
-    halves->GetPointData()->GetScalars()->Fill(0.0);
-    halves->SetScalarComponentFromDouble(0, axis, 0, 0, 255.0);     // the left or the top is red
-    halves->SetScalarComponentFromDouble(1 - axis, 0, 0, 2, 255.0); // the other one blue
-    sky->SetTexture(halves);
+    sky->SetTexture(makeImage(axis == 0 ? 2 : 1, axis == 0 ? 1 : 2,
+      [&](int x, int y)
+      {
+        const bool leftOrTop = axis == 0 ? x == 0 : y == 1;
+        return leftOrTop ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 0.0, 1.0);
+      }));
     const Picture seen = this->scene.render();
     for (int y = 0; y < seen.height; ++y)
     {
@@ -999,17 +988,13 @@ TEST_F(LightSampling, channelsThatNoPointHasStayDark)
   lamp->SwitchOff();
   const Picture without = this->scene.render();
   lamp->SwitchOn();
-  for (const unsigned char red : { 0, 255 })
+  for (const double red : { 0.0, 1.0 })
   {
-    vtkNew<vtkImageData> corner; // red at most, where neither of the two points is
-    corner->SetDimensions(16, 16, 1);
-    corner->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
-    auto* const bytes = static_cast<unsigned char*>(corner->GetScalarPointer());
-    std::fill(bytes, bytes + 3 * 16 * 16, static_cast<unsigned char>(0));
-    bytes[0] = red;
-    lamp->SetTexture(corner);
+    // Red at most, where neither of the two points is.
+    lamp->SetTexture(makeImage(
+      16, 16, [&](int x, int y) { return glm::dvec3(x + y == 0 ? red : 0.0, 0.0, 0.0); }));
     const Picture with = this->scene.render();
-    EXPECT_EQ(differingPixels(with, without, 1), 0u) << int(red);
+    EXPECT_EQ(differingPixels(with, without, 1), 0u) << red;
     EXPECT_TRUE(this->scene.render() == with);
     EXPECT_EQ(this->scene.report().programCompiles, 0) << "a light that is black is still one";
   }

@@ -22,7 +22,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <string>
@@ -41,32 +40,12 @@ namespace
 const std::vector<const char*> seeing = { "raytraced", "penumbra", "montecarlo", "sampled",
   "coherence" };
 
-using Colour = std::array<double, 3>;
-constexpr Colour red = { 1.0, 0.0, 0.0 };
-constexpr Colour green = { 0.0, 1.0, 0.0 };
-constexpr Colour blue = { 0.0, 0.0, 1.0 };
-constexpr Colour white = { 1.0, 1.0, 1.0 };
-constexpr Colour black = { 0.0, 0.0, 0.0 };
-
-vtkSmartPointer<vtkImageData> makeImage(
-  int width, int height, const std::function<Colour(int, int)>& colourOf)
-{
-  auto image = vtkSmartPointer<vtkImageData>::New();
-  image->SetDimensions(width, height, 1);
-  image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
-  for (int y = 0; y < height; ++y)
-  {
-    for (int x = 0; x < width; ++x)
-    {
-      for (int channel = 0; channel < 3; ++channel)
-      {
-        image->SetScalarComponentFromDouble(
-          x, y, 0, channel, 255.0 * colourOf(x, y)[static_cast<std::size_t>(channel)]);
-      }
-    }
-  }
-  return image;
-}
+using Colour = glm::dvec3;
+constexpr Colour red(1.0, 0.0, 0.0);
+constexpr Colour green(0.0, 1.0, 0.0);
+constexpr Colour blue(0.0, 0.0, 1.0);
+constexpr Colour white(1.0);
+constexpr Colour black(0.0);
 
 /// The left half red, the right half blue.
 vtkSmartPointer<vtkImageData> makeRedAndBlue()
@@ -143,7 +122,8 @@ protected:
         const glm::dvec3 place = positionOf(kept, i);
         if (kept.coverage[i] > 0.0f && std::abs(place.z) < 1e-4)
         {
-          const double off = std::abs(kept.visibility[channel][i] - expected(place)[channel]);
+          const double off =
+            std::abs(kept.visibility[channel][i] - expected(place)[static_cast<int>(channel)]);
           sum += off;
           worst = std::max(worst, off);
           ++count;

@@ -1,10 +1,10 @@
 #include "PassScene.h"
 
+#include <vtkCallbackCommand.h>
 #include <vtkCameraPass.h>
 #include <vtkCubeSource.h>
 #include <vtkPlaneSource.h>
 #include <vtkPolyDataMapper.h>
-#include <vtkProperty.h>
 #include <vtkRenderPassCollection.h>
 #include <vtkSequencePass.h>
 #include <vtkShadowMapBakerPass.h>
@@ -402,6 +402,41 @@ Acne countAcneOfLamp(const VisibilityImages& kept, const glm::dvec3& lightWorld,
 {
   return countAcne(
     kept, [&](const glm::dvec3& position) { return lightWorld - position; }, leastCosine);
+}
+
+//------------------------------------------------------------------------------
+vtkSmartPointer<vtkImageData> makeImage(
+  int width, int height, const std::function<glm::dvec3(int, int)>& colourOf)
+{
+  auto image = vtkSmartPointer<vtkImageData>::New();
+  image->SetDimensions(width, height, 1);
+  image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
+  for (int y = 0; y < height; ++y)
+  {
+    for (int x = 0; x < width; ++x)
+    {
+      for (int channel = 0; channel < 3; ++channel)
+      {
+        image->SetScalarComponentFromDouble(x, y, 0, channel, 255.0 * colourOf(x, y)[channel]);
+      }
+    }
+  }
+  return image;
+}
+
+//------------------------------------------------------------------------------
+void listenToProgress(vtkObject* teller, std::vector<double>& told)
+{
+  vtkNew<vtkCallbackCommand> listener;
+  listener->SetClientData(&told);
+  listener->SetCallback(
+    [](vtkObject*, unsigned long event, void* list, void* progress)
+    {
+      static_cast<std::vector<double>*>(list)->push_back(
+        event == vtkCommand::EndEvent ? 2.0 : *static_cast<double*>(progress));
+    });
+  teller->AddObserver(vtkCommand::ProgressEvent, listener);
+  teller->AddObserver(vtkCommand::EndEvent, listener);
 }
 
 //------------------------------------------------------------------------------

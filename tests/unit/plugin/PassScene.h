@@ -11,6 +11,7 @@
 #include <vtkActor.h>
 #include <vtkAlgorithm.h>
 #include <vtkCamera.h>
+#include <vtkImageData.h>
 #include <vtkLight.h>
 #include <vtkNew.h>
 #include <vtkPolyData.h>
@@ -164,6 +165,13 @@ FloorCheck checkFloor(
 /// Whether the ray from a floor point towards the light, p + t * toLight for t > 0, meets the box.
 bool hitsBox(const glm::dvec2& floor, const glm::dvec3& toLight, const glm::dvec3& lower,
   const glm::dvec3& upper);
+
+/// A picture of three channels, by texel.
+vtkSmartPointer<vtkImageData> makeImage(
+  int width, int height, const std::function<glm::dvec3(int, int)>& colourOf);
+
+/// Appends the progress that a pass tells of to `told`, and 2 at its end.
+void listenToProgress(vtkObject* teller, std::vector<double>& told);
 
 /// The cone angle of a light that shines everywhere.
 inline constexpr double allDirections = 180.0;

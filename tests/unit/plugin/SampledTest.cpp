@@ -11,13 +11,9 @@
 
 #include <vtkActor.h>
 #include <vtkActorCollection.h>
-#include <vtkCallbackCommand.h>
 #include <vtkCollectionRange.h>
-#include <vtkCommand.h>
 #include <vtkHardwareSelector.h>
-#include <vtkImageData.h>
 #include <vtkPlaneSource.h>
-#include <vtkPointData.h>
 #include <vtkSelection.h>
 #include <vtkSmartPointer.h>
 #include <vtkTextActor.h>
@@ -405,10 +401,7 @@ TEST_F(Sampled, batchesFitIntoTheUniformsThatOpenGlPromises)
   this->light->SetConeAngle(allDirections);
   this->light->SetPosition(0.3, -0.6, 1.5); // among the things, so that all faces see some
   this->light->SetShapeToRectangle();
-  vtkNew<vtkImageData> image;
-  image->SetDimensions(2, 2, 1);
-  image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
-  image->GetPointData()->GetScalars()->Fill(200.0);
+  const auto image = makeImage(2, 2, [](int, int) { return glm::dvec3(0.8); });
   for (const bool textured : { false, true })
   {
     this->light->SetTexture(textured ? image.Get() : nullptr);
@@ -646,18 +639,9 @@ TEST_F(Sampled, refinesAnewWhenSomethingChanges)
 //------------------------------------------------------------------------------
 TEST_F(Sampled, tellsOfProgress)
 {
-  static constexpr double end = 2.0;
+  constexpr double end = 2.0;
   std::vector<double> told;
-  vtkNew<vtkCallbackCommand> observer;
-  observer->SetClientData(&told);
-  observer->SetCallback(
-    [](vtkObject*, unsigned long event, void* list, void* progress)
-    {
-      static_cast<std::vector<double>*>(list)->push_back(
-        event == vtkCommand::EndEvent ? end : *static_cast<double*>(progress));
-    });
-  this->scene.pass->AddObserver(vtkCommand::ProgressEvent, observer);
-  this->scene.pass->AddObserver(vtkCommand::EndEvent, observer);
+  listenToProgress(this->scene.pass, told);
   this->renderFrames(3);
   EXPECT_TRUE(told.empty()) << "in one frame";
   set(this->scene, "progressive", 16);

@@ -4,9 +4,6 @@
 #include "Variant.h"
 
 #include <vtkActor.h>
-#include <vtkDataArray.h>
-#include <vtkImageData.h>
-#include <vtkPointData.h>
 #include <vtkProperty.h>
 #include <vtkTexture.h>
 
@@ -39,12 +36,8 @@ bool hasSamplersOfItsOwn(const Variant& variant)
 TEST_BY_VARIANTS(ShaderManager, FirstFrameWithTranslucentReceivers, hasSamplersOfItsOwn)
 {
   PassScene scene(64, 48);
-  vtkNew<vtkImageData> image;
-  image->SetDimensions(2, 2, 1);
-  image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
-  image->GetPointData()->GetScalars()->Fill(200.0);
   vtkNew<vtkTexture> texture;
-  texture->SetInputData(image);
+  texture->SetInputData(makeImage(2, 2, [](int, int) { return glm::dvec3(0.8); }));
   scene.addFloor(4.0)->SetTexture(texture);
   vtkActor* const pane = scene.addFloor(1.0);
   pane->SetPosition(0.5, 0.0, 2.5);
