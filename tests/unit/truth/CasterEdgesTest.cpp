@@ -35,22 +35,6 @@ Mesh makeClosedSphere(int rings, int segments)
   return sphere;
 }
 
-/// The same triangles, each with corners of its own.
-Mesh apart(const Mesh& mesh)
-{
-  Mesh result;
-  for (const glm::uvec3& triangle : mesh.triangles)
-  {
-    const auto first = static_cast<unsigned int>(result.points.size());
-    for (int k = 0; k < 3; ++k)
-    {
-      result.points.push_back(mesh.points[triangle[k]]);
-    }
-    result.triangles.emplace_back(first, first + 1, first + 2);
-  }
-  return result;
-}
-
 TEST(CasterEdges, areAsManyAndEndAndAreSharpAsTheMeshSays)
 {
   const Mesh sphere = makeClosedSphere(32, 64);

@@ -3,15 +3,13 @@
 #include "shadowtech/base/LightViewsGlsl.h"
 
 #include "lights/LightSpace.h"
-#include "shadowtech/base/Gl.h"
 #include "shadowtech/base/ShaderLibrary.h"
 #include "shadowtech/base/ShadowRay.h"
 
+#include "EstimatorGlsl.h"
 #include "SyntheticScene.h"
-#include "vtkGnomonEGLRenderWindow.h"
 
 #include <gtest/gtest.h>
-#include <vtkNew.h>
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -23,23 +21,28 @@ namespace gnomon::test
 namespace
 {
 
-/// Runs light_views.glsl for a light on points of its own space, and returns for each three vec4:
-/// the point in its face, with the face; texel, view, and whether the point is in the light's
-/// reach; of a cube texel and view of who looks around.
-std::vector<glm::vec4> runLightViews(
+class LightViewsGlsl : public GlslTest
+{
+};
+
+/// What light_views.glsl says of a point.
+struct FoundView
+{
+  glm::vec4 inFace;    ///< the point in its face, with the face
+  glm::vec4 seen;      ///< texel, view, and whether the point is in the light's reach
+  glm::vec4 onCubeMap; ///< of a cube texel, view and face of who looks around
+};
+
+/// Runs light_views.glsl for a light on points of its own space.
+std::vector<FoundView> runLightViews(
   const ShadowLight& light, const LightViews& views, int size, const std::vector<glm::vec4>& points)
 {
   ShaderLibrary library;
-  const std::string source = numberedForLight(lightViewsDefines(light) +
-      ShaderLibrary::source("shadowtech/base/light_views.glsl") +
-      R"(
-layout(local_size_x = 64) in;
-layout(std430, binding = 0) readonly buffer Inputs { vec4 inputs[]; };
-layout(std430, binding = 1) writeonly buffer Outputs { vec4 outputs[]; };
-void main()
-{
-  uint i = gl_GlobalInvocationID.x;
-  vec3 p = inputs[i].xyz;
+  const std::string declarations = lightViewsDefines(light) +
+    ShaderLibrary::source("shadowtech/base/light_views.glsl") +
+    "struct FoundView { vec4 inFace; vec4 seen; vec4 onCubeMap; };\n";
+  return runCompute<FoundView>(library, computeGlsl(declarations, "vec4", "FoundView", R"(
+  vec3 p = given[i].xyz;
   int face = cubeFaceOf(p);
   ViewPoint point;
   bool found = findView_LIGHT(p, -p, point);
@@ -47,32 +50,14 @@ void main()
 #if VIEWS_BOX_LIGHT
   inBox = insideBox(p, lightBox_LIGHT);
 #endif
-  outputs[3u * i] = vec4(cubeFaceFromLight(face, p), float(face));
-  outputs[3u * i + 1u] =
-    vec4(point.texel, found ? float(point.view) : -1.0, inBox ? 1.0 : 0.0);
+  result[i].inFace = vec4(cubeFaceFromLight(face, p), float(face));
+  result[i].seen = vec4(point.texel, found ? float(point.view) : -1.0, inBox ? 1.0 : 0.0);
 #if VIEWS_CUBE_LIGHT
   found = findFace_LIGHT(p, -p, point);
-  outputs[3u * i + 2u] = vec4(point.texel, found ? float(point.view) : -1.0, float(point.face));
+  result[i].onCubeMap = vec4(point.texel, found ? float(point.view) : -1.0, float(point.face));
 #endif
-}
-)",
-    0);
-  const GLuint program = library.program({ { GL_COMPUTE_SHADER, source } });
-  GlBuffer buffers[2];
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, buffers[0].create());
-  glBufferData(GL_SHADER_STORAGE_BUFFER, static_cast<GLsizeiptr>(points.size() * sizeof(glm::vec4)),
-    points.data(), GL_STATIC_DRAW);
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, buffers[1].create());
-  std::vector<glm::vec4> outputs(3 * points.size());
-  const auto bytes = static_cast<GLsizeiptr>(outputs.size() * sizeof(glm::vec4));
-  glBufferData(GL_SHADER_STORAGE_BUFFER, bytes, nullptr, GL_DYNAMIC_READ);
-  glUseProgram(program);
-  ShaderLibrary::setUniforms(program, lightViewsUniforms(views, size, {}), 0, 0);
-  glDispatchCompute(static_cast<GLuint>(points.size() / 64), 1, 1);
-  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-  glGetBufferSubData(GL_SHADER_STORAGE_BUFFER, 0, bytes, outputs.data());
-  glUseProgram(0);
-  return outputs;
+)"),
+    points, lightViewsUniforms(views, size, {}));
 }
 
 std::vector<glm::vec4> randomPoints()
@@ -93,12 +78,8 @@ std::vector<glm::vec4> randomPoints()
   return points;
 }
 
-TEST(LightViewsGlsl, FindsTheViewsThatTheMathematicsMade)
+TEST_F(LightViewsGlsl, FindsTheViewsThatTheMathematicsMade)
 {
-  vtkNew<vtkGnomonEGLRenderWindow> window;
-  window->Initialize();
-  window->MakeCurrent();
-
   constexpr int size = 64;
   const ShadowLight light = pointLight({ 0.0, 0.0, 0.0 });
   // Nothing above the light and to its left, so that there are faces without a view.
@@ -107,13 +88,13 @@ TEST(LightViewsGlsl, FindsTheViewsThatTheMathematicsMade)
   ASSERT_GT(views.views.size(), 1u);
   ASSERT_LT(views.views.size(), 6u);
   const std::vector<glm::vec4> points = randomPoints();
-  const std::vector<glm::vec4> outputs = runLightViews(light, views, size, points);
+  const std::vector<FoundView> outputs = runLightViews(light, views, size, points);
   std::size_t found = 0;
   for (std::size_t i = 0; i < points.size(); ++i)
   {
     const glm::dvec3 point(points[i]);
     const int face = cubeFaceOf(point);
-    EXPECT_EQ(outputs[3 * i], glm::vec4(cubeFaceFromLight(face) * point, face));
+    EXPECT_EQ(outputs[i].inFace, glm::vec4(cubeFaceFromLight(face) * point, face));
 
     const int view = views.viewOfFace[static_cast<std::size_t>(face)];
     glm::dvec2 texel(-1.0);
@@ -122,12 +103,12 @@ TEST(LightViewsGlsl, FindsTheViewsThatTheMathematicsMade)
       const glm::dvec4 clip =
         views.views[static_cast<std::size_t>(view)].clipFromCentred() * glm::dvec4(point, 1.0);
       texel = (glm::dvec2(clip) / clip.w * 0.5 + 0.5) * static_cast<double>(size);
-      EXPECT_NEAR(outputs[3 * i + 1].x, texel.x, 1e-4 * (1.0 + std::abs(texel.x)));
-      EXPECT_NEAR(outputs[3 * i + 1].y, texel.y, 1e-4 * (1.0 + std::abs(texel.y)));
+      EXPECT_NEAR(outputs[i].seen.x, texel.x, 1e-4 * (1.0 + std::abs(texel.x)));
+      EXPECT_NEAR(outputs[i].seen.y, texel.y, 1e-4 * (1.0 + std::abs(texel.y)));
     }
     const bool inside = glm::all(glm::greaterThanEqual(texel, glm::dvec2(0.0))) &&
       glm::all(glm::lessThan(texel, glm::dvec2(size)));
-    EXPECT_EQ(outputs[3 * i + 1].z, inside ? static_cast<float>(view) : -1.0f);
+    EXPECT_EQ(outputs[i].seen.z, inside ? static_cast<float>(view) : -1.0f);
     found += inside ? 1 : 0;
 
     // Who looks around has a place for every point, on a map or beside one.
@@ -135,28 +116,25 @@ TEST(LightViewsGlsl, FindsTheViewsThatTheMathematicsMade)
     const glm::dvec2 place =
       mapped(texelFromAcross(views.views[static_cast<std::size_t>(around)], size),
         views.views[static_cast<std::size_t>(around)].rays.across(cubeFaceFromLight(face) * point));
-    EXPECT_EQ(outputs[3 * i + 2].z, static_cast<float>(around));
-    EXPECT_EQ(outputs[3 * i + 2].w, static_cast<float>(face));
-    EXPECT_NEAR(outputs[3 * i + 2].x, place.x, 1e-4 * (1.0 + std::abs(place.x)));
-    EXPECT_NEAR(outputs[3 * i + 2].y, place.y, 1e-4 * (1.0 + std::abs(place.y)));
+    EXPECT_EQ(outputs[i].onCubeMap.z, static_cast<float>(around));
+    EXPECT_EQ(outputs[i].onCubeMap.w, static_cast<float>(face));
+    EXPECT_NEAR(outputs[i].onCubeMap.x, place.x, 1e-4 * (1.0 + std::abs(place.x)));
+    EXPECT_NEAR(outputs[i].onCubeMap.y, place.y, 1e-4 * (1.0 + std::abs(place.y)));
   }
   EXPECT_GT(found, 500u);
   EXPECT_LT(found, 5000u);
 }
 
-TEST(LightViewsGlsl, WhoLooksAroundFindsNothingWhereThereAreNoCasters)
+TEST_F(LightViewsGlsl, WhoLooksAroundFindsNothingWhereThereAreNoCasters)
 {
-  vtkNew<vtkGnomonEGLRenderWindow> window;
-  window->Initialize();
-  window->MakeCurrent();
   const ShadowLight light = pointLight({ 0.0, 0.0, 0.0 });
   const LightViews views = fitLightViews(light, glm::dvec3(0.0), Bounds(), 64);
   ASSERT_TRUE(views.views.empty());
   const std::vector<glm::vec4> points = randomPoints();
-  const std::vector<glm::vec4> outputs = runLightViews(light, views, 64, points);
+  const std::vector<FoundView> outputs = runLightViews(light, views, 64, points);
   for (std::size_t i = 0; i < points.size(); ++i)
   {
-    EXPECT_EQ(outputs[3 * i + 2].z, -1.0f);
+    EXPECT_EQ(outputs[i].onCubeMap.z, -1.0f);
   }
 }
 
@@ -178,18 +156,14 @@ LightViews fittedViews(ShadowLight& light, Projection projection, int size)
   return fitLightViews(light, fitting);
 }
 
-TEST(LightViewsGlsl, FindsTheFirstSplitThatHoldsAPointAndItsBorder)
+TEST_F(LightViewsGlsl, FindsTheFirstSplitThatHoldsAPointAndItsBorder)
 {
-  vtkNew<vtkGnomonEGLRenderWindow> window;
-  window->Initialize();
-  window->MakeCurrent();
-
   constexpr int size = 64;
   ShadowLight light;
   const LightViews views = fittedViews(light, Projection::Splits, size);
   ASSERT_EQ(views.views.size(), 4u);
   const std::vector<glm::vec4> points = randomPoints();
-  const std::vector<glm::vec4> outputs = runLightViews(light, views, size, points);
+  const std::vector<FoundView> outputs = runLightViews(light, views, size, points);
   std::array<int, 5> found{};
   for (std::size_t i = 0; i < points.size(); ++i)
   {
@@ -210,11 +184,11 @@ TEST(LightViewsGlsl, FindsTheFirstSplitThatHoldsAPointAndItsBorder)
     {
       continue;
     }
-    EXPECT_EQ(outputs[3 * i + 1].z, static_cast<float>(expected));
+    EXPECT_EQ(outputs[i].seen.z, static_cast<float>(expected));
     if (expected >= 0)
     {
-      EXPECT_NEAR(outputs[3 * i + 1].x, texel.x, 1e-3);
-      EXPECT_NEAR(outputs[3 * i + 1].y, texel.y, 1e-3);
+      EXPECT_NEAR(outputs[i].seen.x, texel.x, 1e-3);
+      EXPECT_NEAR(outputs[i].seen.y, texel.y, 1e-3);
     }
     ++found[static_cast<std::size_t>(expected + 1)];
   }
@@ -224,12 +198,8 @@ TEST(LightViewsGlsl, FindsTheFirstSplitThatHoldsAPointAndItsBorder)
   }
 }
 
-TEST(LightViewsGlsl, FindsTexelsOfAWarpedView)
+TEST_F(LightViewsGlsl, FindsTexelsOfAWarpedView)
 {
-  vtkNew<vtkGnomonEGLRenderWindow> window;
-  window->Initialize();
-  window->MakeCurrent();
-
   constexpr int size = 64;
   for (const Projection projection : { Projection::Lispsm, Projection::Trapezoid })
   {
@@ -239,7 +209,7 @@ TEST(LightViewsGlsl, FindsTexelsOfAWarpedView)
     ASSERT_TRUE(views.views[0].warped());
     const glm::dmat3 matrix = texelFromAcross(views.views[0], size);
     const std::vector<glm::vec4> points = randomPoints();
-    const std::vector<glm::vec4> outputs = runLightViews(light, views, size, points);
+    const std::vector<FoundView> outputs = runLightViews(light, views, size, points);
     std::size_t found = 0;
     for (std::size_t i = 0; i < points.size(); ++i)
     {
@@ -252,11 +222,11 @@ TEST(LightViewsGlsl, FindsTexelsOfAWarpedView)
         continue;
       }
       const bool seen = image.z > 0.0 && least > 0.0;
-      EXPECT_EQ(outputs[3 * i + 1].z, seen ? 0.0f : -1.0f);
+      EXPECT_EQ(outputs[i].seen.z, seen ? 0.0f : -1.0f);
       if (seen)
       {
-        EXPECT_NEAR(outputs[3 * i + 1].x, texel.x, 1e-3);
-        EXPECT_NEAR(outputs[3 * i + 1].y, texel.y, 1e-3);
+        EXPECT_NEAR(outputs[i].seen.x, texel.x, 1e-3);
+        EXPECT_NEAR(outputs[i].seen.y, texel.y, 1e-3);
         ++found;
       }
     }
@@ -265,23 +235,19 @@ TEST(LightViewsGlsl, FindsTexelsOfAWarpedView)
   }
 }
 
-TEST(LightViewsGlsl, AgreesOnWhatLiesInABox)
+TEST_F(LightViewsGlsl, AgreesOnWhatLiesInABox)
 {
-  vtkNew<vtkGnomonEGLRenderWindow> window;
-  window->Initialize();
-  window->MakeCurrent();
-
   const ShadowLight light = boxLight({ 0.0, 1.0, -0.5 }, { 0.0, 0.0, 0.0 }, { 1.1, 1.3, 0.7 });
   const LightViews views =
     fitLightViews(light, glm::dvec3(0.0), { glm::dvec3(-1.0), glm::dvec3(1.0) }, 64);
   const ShadowRayLight rayLight(light, glm::dvec3(0.0));
   const std::vector<glm::vec4> points = randomPoints();
-  const std::vector<glm::vec4> outputs = runLightViews(light, views, 64, points);
+  const std::vector<FoundView> outputs = runLightViews(light, views, 64, points);
   std::size_t inside = 0;
   for (std::size_t i = 0; i < points.size(); ++i)
   {
     const bool expected = insideBox(glm::vec3(points[i]), rayLight.box);
-    EXPECT_EQ(outputs[3 * i + 1].w != 0.0f, expected);
+    EXPECT_EQ(outputs[i].seen.w != 0.0f, expected);
     inside += expected ? 1 : 0;
   }
   EXPECT_GT(inside, 500u);

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <set>
 #include <vector>
 
@@ -281,6 +282,28 @@ TEST(PublishedMap, erodesTrianglesAsTheirNeighboursSay)
   }
 }
 
+/// Receivers at texels' centres, so far along the view.
+ReceiverPixels receiversAt(
+  const LightView& view, const std::function<double(const glm::dvec2&)>& depthAt)
+{
+  const glm::dmat4 centredFromView = glm::inverse(view.rays.viewFromCentred);
+  const glm::dmat3 acrossFromTexel = glm::inverse(texelFromAcross(view, width));
+  ReceiverPixels receivers;
+  receivers.resize(width, width);
+  for (int i = 0; i < width * width; ++i)
+  {
+    const glm::dvec2 texel(i % width + 0.5, i / width + 0.5);
+    const glm::dvec4 point =
+      centredFromView * glm::dvec4(mapped(acrossFromTexel, texel), depthAt(texel), 1.0);
+    const auto at = static_cast<std::size_t>(i);
+    receivers.positionX[at] = static_cast<float>(point.x);
+    receivers.positionY[at] = static_cast<float>(point.y);
+    receivers.positionZ[at] = static_cast<float>(point.z);
+    receivers.surface[at] = 0;
+  }
+  return receivers;
+}
+
 /// A triangle in the middle of the map and one across each side, of which some face away from the
 /// light.
 struct Flaps
@@ -316,21 +339,8 @@ struct Flaps
   /// The texels in which receivers far below are certain, by the map's rule.
   std::vector<Certainty> ask(PublishedLayers layers) const
   {
-    const glm::dmat4 centredFromView = glm::inverse(this->view.rays.viewFromCentred);
-    const glm::dmat3 acrossFromTexel = glm::inverse(texelFromAcross(this->view, width));
-    ReceiverPixels receivers;
-    receivers.resize(width, width);
-    for (int i = 0; i < width * width; ++i)
-    {
-      const glm::dvec3 across = acrossFromTexel * glm::dvec3(i % width + 0.5, i / width + 0.5, 1.0);
-      const glm::dvec4 point =
-        centredFromView * glm::dvec4(glm::dvec2(across) / across.z, 100.0, 1.0);
-      const auto at = static_cast<std::size_t>(i);
-      receivers.positionX[at] = static_cast<float>(point.x);
-      receivers.positionY[at] = static_cast<float>(point.y);
-      receivers.positionZ[at] = static_cast<float>(point.z);
-      receivers.surface[at] = 0;
-    }
+    const ReceiverPixels receivers =
+      receiversAt(this->view, [](const glm::dvec2&) { return 100.0; });
     CasterEdges edges;
     edges.update(this->occluders);
     std::vector<Certainty> certain(receivers.size(), Certainty::Uncertain);
@@ -414,23 +424,9 @@ struct Askew
   /// What is said of points at texels' centres, so far behind the triangle's plane.
   std::vector<Certainty> ask(double behind, bool onCaster) const
   {
-    const glm::dmat4 centredFromView = glm::inverse(this->view.rays.viewFromCentred);
-    const glm::dmat3 acrossFromTexel = glm::inverse(texelFromAcross(this->view, width));
     const auto depthAt = depthOf(this->corners);
-    ReceiverPixels receivers;
-    receivers.resize(width, width);
-    for (int i = 0; i < width * width; ++i)
-    {
-      const glm::dvec2 texel(i % width + 0.5, i / width + 0.5);
-      const glm::dvec3 across = acrossFromTexel * glm::dvec3(texel, 1.0);
-      const glm::dvec4 point =
-        centredFromView * glm::dvec4(glm::dvec2(across) / across.z, depthAt(texel) + behind, 1.0);
-      const auto at = static_cast<std::size_t>(i);
-      receivers.positionX[at] = static_cast<float>(point.x);
-      receivers.positionY[at] = static_cast<float>(point.y);
-      receivers.positionZ[at] = static_cast<float>(point.z);
-      receivers.surface[at] = 0;
-    }
+    const ReceiverPixels receivers =
+      receiversAt(this->view, [&](const glm::dvec2& texel) { return depthAt(texel) + behind; });
     std::vector<Certainty> certain(receivers.size(), Certainty::Uncertain);
     const std::uint8_t casts = onCaster ? 1 : 0;
     this->map().ask(receivers, { 0, casts }, certain);

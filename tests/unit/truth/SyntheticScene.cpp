@@ -163,6 +163,22 @@ Mesh makeTriangleSoup(int count, unsigned int seed)
 }
 
 //------------------------------------------------------------------------------
+Mesh apart(const Mesh& mesh)
+{
+  Mesh result;
+  for (const glm::uvec3& triangle : mesh.triangles)
+  {
+    const auto first = static_cast<unsigned int>(result.points.size());
+    for (int k = 0; k < 3; ++k)
+    {
+      result.points.push_back(mesh.points[triangle[k]]);
+    }
+    result.triangles.emplace_back(first, first + 1, first + 2);
+  }
+  return result;
+}
+
+//------------------------------------------------------------------------------
 Mesh readObj(const std::string& path)
 {
   std::ifstream file(path);

@@ -35,6 +35,8 @@ Mesh makeBox(const glm::dvec3& lower, const glm::dvec3& upper);
 Mesh makeSphere(int rings, int segments, double bumps = 0.0);
 /// Triangles of all shapes and sizes in the unit cube, slivers among them.
 Mesh makeTriangleSoup(int count, unsigned int seed);
+/// The same triangles, each with corners of its own, at exactly the same places.
+Mesh apart(const Mesh& mesh);
 /// The mesh of a Wavefront file; polygons are fanned.
 Mesh readObj(const std::string& path);
 
