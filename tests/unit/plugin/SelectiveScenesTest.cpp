@@ -17,7 +17,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <iostream>
 #include <map>
 #include <ostream>
 #include <string>
@@ -107,7 +106,7 @@ TEST_P(SelectiveScenes, haveAClassForEveryPixelAndAreTracedBitForBitWithoutCoher
 struct StageShares
 {
   std::size_t pixels = 0;                      ///< of the contour
-  std::size_t rightLight = 0, rightShadow = 0; ///< whose status is the truth
+  std::size_t rightShadow = 0;                 ///< whose status is the truth
   std::size_t falseLight = 0, falseShadow = 0; ///< whose status is not
   std::map<std::string, double> confirmed; ///< share of the shadow whose status is right, by stage
   std::map<std::string, double> corrected; ///< share of the false light, by stage
@@ -166,8 +165,9 @@ StageShares measureStages(const char* scene, int mapSize)
     {
       const bool isRight = inShadow == (statuses.visibility[0][i] == 0.0f);
       ++shares.pixels;
-      (inShadow ? (isRight ? shares.rightShadow : shares.falseShadow)
-                : (isRight ? shares.rightLight : shares.falseLight)) += 1;
+      shares.rightShadow += inShadow && isRight ? 1 : 0;
+      shares.falseShadow += inShadow && !isRight ? 1 : 0;
+      shares.falseLight += !inShadow && !isRight ? 1 : 0;
       wrongLeftLit += chain.visibility[0][i] != statuses.visibility[0][i] ? 1 : 0;
       for (const auto& [stage, images] : stages)
       {
@@ -188,16 +188,6 @@ StageShares measureStages(const char* scene, int mapSize)
   }
   shares.wrongLeftLit =
     static_cast<double>(wrongLeftLit) / static_cast<double>(shares.falseLight + shares.falseShadow);
-  std::cout << scene << ", map " << mapSize << ": contour " << shares.pixels << ", right "
-            << shares.rightLight << " + " << shares.rightShadow << ", false light "
-            << shares.falseLight << ", false shadow " << shares.falseShadow
-            << ", wrong with leftovers lit over status' " << shares.wrongLeftLit;
-  for (const auto& [stage, share] : shares.confirmed)
-  {
-    std::cout << "; " << stage << ": confirmed " << share << ", corrected "
-              << shares.corrected[stage];
-  }
-  std::cout << std::endl;
   return shares;
 }
 

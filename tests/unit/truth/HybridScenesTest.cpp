@@ -292,11 +292,6 @@ bool sameLight(const Verdict& a, const Verdict& b)
   return true;
 }
 
-std::string percent(double share)
-{
-  return std::to_string(0.01 * std::round(10000.0 * share)).substr(0, 5);
-}
-
 TEST(HybridScenes, areRightWithBoundsAndLessUncertainTheMoreIsKnownOfNeighbours)
 {
   for (const NamedScene& named : closedScenes)
@@ -322,13 +317,6 @@ TEST(HybridScenes, areRightWithBoundsAndLessUncertainTheMoreIsKnownOfNeighbours)
       const Verdict publishedRing = scene.ask(publishedCrsma, size);
       EXPECT_LE(publishedRing.uncertain, published.uncertain) << what;
       EXPECT_TRUE(sameLight(published, publishedRing)) << what;
-      std::cout << what << ": uncertain % (wrong) crsm " << percent(alone.uncertain) << " crsma "
-                << percent(ring.uncertain) << " fan " << percent(corners.uncertain)
-                << " silhouette " << percent(edges.uncertain) << ", published "
-                << percent(published.uncertain) << " (" << published.falseLight << " + "
-                << published.falseShadow << ") " << percent(publishedRing.uncertain) << " ("
-                << publishedRing.falseLight << " + " << publishedRing.falseShadow << ")"
-                << std::endl;
     }
   }
 }
