@@ -27,10 +27,8 @@
 #include <cmath>
 #include <fstream>
 #include <functional>
-#include <iomanip>
 #include <iostream>
 #include <string>
-#include <vector>
 
 namespace gnomon::tool
 {

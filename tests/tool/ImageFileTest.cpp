@@ -11,9 +11,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <cstdint>
-#include <limits>
 #include <random>
 
 namespace gnomon::tool

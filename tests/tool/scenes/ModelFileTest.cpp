@@ -7,7 +7,6 @@
 #include "Vec3.h"
 
 #include <gtest/gtest.h>
-#include <vtkCellArray.h>
 #include <vtkImageData.h>
 #include <vtkPointData.h>
 

@@ -3,7 +3,6 @@
 #include "lights/LightSamples.h"
 #include "lights/LightSpace.h"
 
-#include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -4,8 +4,6 @@
 
 #include "plugin/VisibilityImages.h"
 
-#include <gmock/gmock.h>
-
 #include <algorithm>
 #include <cmath>
 #include <map>

@@ -13,7 +13,6 @@
 #include <vtkPlane.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
-#include <vtkPolyDataMapper.h>
 #include <vtkSphereSource.h>
 #include <vtkTexture.h>
 
@@ -21,7 +20,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <random>
 #include <string>
 

@@ -11,7 +11,6 @@
 #include <vtkLight.h>
 #include <vtkPoints.h>
 
-#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <ostream>

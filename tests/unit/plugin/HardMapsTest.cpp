@@ -7,7 +7,6 @@
 #include "plugin/VisibilityImages.h"
 #include "plugin/vtkGnomonPropKeys.h"
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 

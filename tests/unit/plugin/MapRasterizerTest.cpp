@@ -11,7 +11,6 @@
 
 #include <sstream>
 #include <stdexcept>
-#include <string>
 
 namespace gnomon::test
 {

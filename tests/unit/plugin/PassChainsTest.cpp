@@ -20,7 +20,6 @@
 
 #include <gmock/gmock.h>
 
-#include <cmath>
 #include <tuple>
 
 using namespace gnomon::test;

@@ -16,10 +16,8 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <random>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace gnomon::test

@@ -4,10 +4,8 @@
 #include "PassScene.h"
 
 #include <vtkCubeSource.h>
-#include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
-#include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
 #include <vtkShadowMapBakerPass.h>
 #include <vtkShadowMapPass.h>

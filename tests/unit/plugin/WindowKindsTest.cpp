@@ -9,8 +9,6 @@
 #include <vtkUnsignedCharArray.h>
 #include <vtkWindowToImageFilter.h>
 
-#include <cmath>
-
 using namespace gnomon::test;
 
 namespace

@@ -11,7 +11,6 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <random>
