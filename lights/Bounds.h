@@ -1,5 +1,4 @@
-#ifndef gnomon_lights_Bounds_h
-#define gnomon_lights_Bounds_h
+#pragma once
 
 #include <glm/glm.hpp>
 
@@ -83,5 +82,3 @@ inline bool mayShow(const glm::dmat4& clipFromSpace, const Bounds& bounds)
 }
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_lights_CameraView_h
-#define gnomon_lights_CameraView_h
+#pragma once
 
 #include <glm/glm.hpp>
 
@@ -86,5 +85,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_lights_CasterViews_h
-#define gnomon_lights_CasterViews_h
+#pragma once
 
 #include "lights/Bounds.h"
 #include "lights/LightSpace.h"
@@ -43,5 +42,3 @@ std::array<std::optional<LightView>, cubeFaces> cubeCasterViews(
 ///@}
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_lights_HashedPoints_h
-#define gnomon_lights_HashedPoints_h
+#pragma once
 
 #include "lights/SamplePixel.h"
 
@@ -45,5 +44,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

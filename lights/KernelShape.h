@@ -1,5 +1,4 @@
-#ifndef gnomon_lights_KernelShape_h
-#define gnomon_lights_KernelShape_h
+#pragma once
 
 #include "lights/LightViews.h"
 
@@ -45,5 +44,3 @@ double reachOfArea(const LightArea& area, const LightViews& views, const Bounds&
 double longestRay(const LightView& view);
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_lights_LightArea_h
-#define gnomon_lights_LightArea_h
+#pragma once
 
 #include <glm/glm.hpp>
 
@@ -62,5 +61,3 @@ LightArea ballArea(double radius);
 std::vector<glm::dvec3> rimOf(const LightArea& area, std::size_t points);
 
 } // namespace gnomon
-
-#endif

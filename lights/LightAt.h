@@ -1,5 +1,4 @@
-#ifndef gnomon_lights_LightAt_h
-#define gnomon_lights_LightAt_h
+#pragma once
 
 #include "lights/LightViews.h"
 #include "lights/ShadowLight.h"
@@ -24,5 +23,3 @@ namespace gnomon
 ShadowLight lightAt(const ShadowLight& light, const glm::dvec3& offset, const ViewFitting& fitting);
 
 } // namespace gnomon
-
-#endif

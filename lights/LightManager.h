@@ -1,5 +1,4 @@
-#ifndef gnomon_lights_LightManager_h
-#define gnomon_lights_LightManager_h
+#pragma once
 
 #include "lights/ShadowLight.h"
 
@@ -80,5 +79,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

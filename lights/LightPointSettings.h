@@ -1,5 +1,4 @@
-#ifndef gnomon_lights_LightPointSettings_h
-#define gnomon_lights_LightPointSettings_h
+#pragma once
 
 #include <string>
 
@@ -36,5 +35,3 @@ const SettingsTable& lightSeedSettings();
 const SettingsTable& lightSampleSettings();
 
 } // namespace gnomon
-
-#endif

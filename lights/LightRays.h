@@ -1,5 +1,4 @@
-#ifndef gnomon_lights_LightRays_h
-#define gnomon_lights_LightRays_h
+#pragma once
 
 #include <glm/glm.hpp>
 
@@ -50,5 +49,3 @@ inline glm::dvec2 mapped(const glm::dmat3& homography, const glm::dvec2& point)
 }
 
 } // namespace gnomon
-
-#endif

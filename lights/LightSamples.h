@@ -1,5 +1,4 @@
-#ifndef gnomon_lights_LightSamples_h
-#define gnomon_lights_LightSamples_h
+#pragma once
 
 #include "lights/HashedPoints.h"
 #include "lights/ShadowLight.h"
@@ -91,5 +90,3 @@ std::vector<glm::dvec3> pairedLightSamples(const ShadowLight& light);
 std::size_t pairedPointsWanted(std::size_t all, std::size_t before, std::size_t perFrame);
 
 } // namespace gnomon
-
-#endif

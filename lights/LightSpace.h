@@ -1,5 +1,4 @@
-#ifndef gnomon_lights_LightSpace_h
-#define gnomon_lights_LightSpace_h
+#pragma once
 
 #include "lights/ShadowLight.h"
 
@@ -35,5 +34,3 @@ int cubeFaceOf(const glm::dvec3& positionLight);
 glm::dmat3 cubeFaceFromLight(int face);
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_lights_LightTexture_h
-#define gnomon_lights_LightTexture_h
+#pragma once
 
 #include "lights/LightArea.h"
 
@@ -66,5 +65,3 @@ PlacedTexture placeTexture(std::shared_ptr<const LightTexture> texture, LightAre
   const glm::dvec3& travel, const glm::dvec3& up, const glm::dvec2& halfSize);
 
 } // namespace gnomon
-
-#endif

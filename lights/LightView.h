@@ -1,5 +1,4 @@
-#ifndef gnomon_lights_LightView_h
-#define gnomon_lights_LightView_h
+#pragma once
 
 #include "lights/Bounds.h"
 #include "lights/LightRays.h"
@@ -75,5 +74,3 @@ glm::dmat3 texelFromAcross(const glm::dmat3& mapFromAcross, int sizeTexels);
 glm::dmat3 texelFromAcross(const LightView& view, int sizeTexels);
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_lights_LightViews_h
-#define gnomon_lights_LightViews_h
+#pragma once
 
 #include "lights/CameraView.h"
 #include "lights/LightSpace.h"
@@ -131,5 +130,3 @@ LightViews fitLightViews(const ShadowLight& light, const glm::dvec3& centreWorld
 void moveTexels(LightViews& views, const glm::dvec2& texels, int sideTexels);
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_lights_Lispsm_h
-#define gnomon_lights_Lispsm_h
+#pragma once
 
 #include "lights/CameraView.h"
 #include "lights/LightRays.h"
@@ -57,5 +56,3 @@ constexpr double coarsestOfSeries = (1.0 + leastNearOfSeries) / leastNearOfSerie
 double lispsmOptimum(double alpha);
 
 } // namespace gnomon
-
-#endif

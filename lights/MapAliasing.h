@@ -1,5 +1,4 @@
-#ifndef gnomon_lights_MapAliasing_h
-#define gnomon_lights_MapAliasing_h
+#pragma once
 
 #include "lights/CameraView.h"
 #include "lights/LightRays.h"
@@ -55,5 +54,3 @@ PerspectiveAliasing perspectiveAliasing(const std::vector<glm::dvec3>& bodyView,
   const CameraView& camera, const LightRays& rays, const glm::dmat3& mapFromAcross);
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_lights_MapFit_h
-#define gnomon_lights_MapFit_h
+#pragma once
 
 #include "lights/LightRays.h"
 
@@ -99,5 +98,3 @@ std::optional<MapFit> fitSnappedTo(
   const Rectangle& visible, const MapTexels& texels, const Rectangle& covered = wholeMap);
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_lights_MapReach_h
-#define gnomon_lights_MapReach_h
+#pragma once
 
 #include "lights/LightArea.h"
 
@@ -73,5 +72,3 @@ struct MapReach
 };
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_lights_MapWarp_h
-#define gnomon_lights_MapWarp_h
+#pragma once
 
 #include "lights/CameraView.h"
 #include "lights/LightRays.h"
@@ -89,5 +88,3 @@ glm::dmat3 warpedOrUniform(const WarpFrame& frame, double nearWarp,
   const std::vector<glm::dvec3>& bodyView, const CameraView& camera, const LightRays& rays);
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_lights_OSPRayRadius_h
-#define gnomon_lights_OSPRayRadius_h
+#pragma once
 
 class vtkInformationDoubleKey;
 
@@ -12,5 +11,3 @@ namespace gnomon
 vtkInformationDoubleKey* ospRayRadiusKey();
 
 } // namespace gnomon
-
-#endif

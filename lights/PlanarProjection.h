@@ -1,5 +1,4 @@
-#ifndef gnomon_lights_PlanarProjection_h
-#define gnomon_lights_PlanarProjection_h
+#pragma once
 
 #include <glm/glm.hpp>
 
@@ -24,5 +23,3 @@ inline glm::dmat4 planarProjection(const glm::dvec4& plane, const glm::dvec4& li
 }
 
 } // namespace gnomon
-
-#endif

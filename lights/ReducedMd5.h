@@ -1,5 +1,4 @@
-#ifndef gnomon_lights_ReducedMd5_h
-#define gnomon_lights_ReducedMd5_h
+#pragma once
 
 #include <glm/glm.hpp>
 
@@ -19,5 +18,3 @@ namespace gnomon
 glm::uvec4 reducedMd5(glm::uvec4 seed, std::uint32_t key);
 
 } // namespace gnomon
-
-#endif

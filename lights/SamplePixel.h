@@ -1,5 +1,4 @@
-#ifndef gnomon_lights_SamplePixel_h
-#define gnomon_lights_SamplePixel_h
+#pragma once
 
 #include <glm/glm.hpp>
 
@@ -17,5 +16,3 @@ struct SamplePixel
 };
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_lights_SettingsTable_h
-#define gnomon_lights_SettingsTable_h
+#pragma once
 
 #include "lights/ShadowSettings.h"
 
@@ -147,5 +146,3 @@ std::string settingNames();
 std::string listOf(const std::vector<std::string>& names);
 
 } // namespace gnomon
-
-#endif

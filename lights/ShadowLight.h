@@ -1,5 +1,4 @@
-#ifndef gnomon_lights_ShadowLight_h
-#define gnomon_lights_ShadowLight_h
+#pragma once
 
 #include "lights/LightArea.h"
 #include "lights/LightTexture.h"
@@ -74,5 +73,3 @@ inline std::string nameOf(const ShadowLight& light)
 }
 
 } // namespace gnomon
-
-#endif

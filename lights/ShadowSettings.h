@@ -1,5 +1,4 @@
-#ifndef gnomon_lights_ShadowSettings_h
-#define gnomon_lights_ShadowSettings_h
+#pragma once
 
 #include "lights/LightPointSettings.h"
 #include "lights/ViewSettings.h"
@@ -74,5 +73,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_lights_SobolPoints_h
-#define gnomon_lights_SobolPoints_h
+#pragma once
 
 #include "lights/SamplePixel.h"
 
@@ -63,5 +62,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

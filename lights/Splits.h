@@ -1,5 +1,4 @@
-#ifndef gnomon_lights_Splits_h
-#define gnomon_lights_Splits_h
+#pragma once
 
 #include <vector>
 
@@ -36,5 +35,3 @@ DistanceInterval splitInterval(
   const DistanceInterval& possible, double leastReceiver, double greatestReceiver);
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_lights_Trapezoid_h
-#define gnomon_lights_Trapezoid_h
+#pragma once
 
 #include "lights/CameraView.h"
 #include "lights/LightRays.h"
@@ -34,5 +33,3 @@ glm::dmat3 trapezoidFromAcross(
   const std::vector<glm::dvec3>& bodyView, const CameraView& camera, const LightRays& rays);
 
 } // namespace gnomon
-
-#endif

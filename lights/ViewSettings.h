@@ -1,5 +1,4 @@
-#ifndef gnomon_lights_ViewSettings_h
-#define gnomon_lights_ViewSettings_h
+#pragma once
 
 namespace gnomon
 {
@@ -47,5 +46,3 @@ struct ViewSettings
 const SettingsTable& viewSettings();
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_lights_VisibleBody_h
-#define gnomon_lights_VisibleBody_h
+#pragma once
 
 #include "lights/Bounds.h"
 #include "lights/CameraView.h"
@@ -84,5 +83,3 @@ DistanceRange distancesOf(
   const std::vector<glm::dvec3>& pointsView, const CameraView& camera, const LightRays& rays);
 
 } // namespace gnomon
-
-#endif

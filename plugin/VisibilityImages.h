@@ -1,5 +1,4 @@
-#ifndef gnomon_plugin_VisibilityImages_h
-#define gnomon_plugin_VisibilityImages_h
+#pragma once
 
 #include "PixelClass.h" // flat, as where it is installed
 
@@ -54,5 +53,3 @@ struct VisibilityImages
 };
 
 } // namespace gnomon
-
-#endif

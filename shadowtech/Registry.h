@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_Registry_h
-#define gnomon_shadowtech_Registry_h
+#pragma once
 
 #include "lights/ShadowLight.h"
 #include "shadowtech/base/Technique.h"
@@ -92,5 +91,3 @@ const EstimatorEntry& estimatorOf(const ShadowSettings& settings);
 const EstimatorEntry& compose(ShadowLight& light);
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_examples_gnomon_BuiltinParts_h
-#define gnomon_examples_gnomon_BuiltinParts_h
+#pragma once
 
 #include "Scene.h"
 
@@ -38,5 +37,3 @@ Scene underLamp(Scene scene, const std::string& name, double distance);
 SceneCamera makeCamera(const Vec3& position, const Vec3& target, double fovDegrees);
 
 } // namespace gnomon::tool
-
-#endif

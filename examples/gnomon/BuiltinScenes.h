@@ -1,5 +1,4 @@
-#ifndef gnomon_examples_gnomon_BuiltinScenes_h
-#define gnomon_examples_gnomon_BuiltinScenes_h
+#pragma once
 
 #include "Scene.h"
 
@@ -89,5 +88,3 @@ Scene makeGardenScene(const SceneView& view);
 Scene makeTerrainScene();
 
 } // namespace gnomon::tool
-
-#endif

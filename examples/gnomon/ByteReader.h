@@ -1,5 +1,4 @@
-#ifndef gnomon_examples_gnomon_ByteReader_h
-#define gnomon_examples_gnomon_ByteReader_h
+#pragma once
 
 #include "Errors.h"
 
@@ -82,5 +81,3 @@ private:
 };
 
 } // namespace gnomon::tool
-
-#endif

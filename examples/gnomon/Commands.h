@@ -1,5 +1,4 @@
-#ifndef gnomon_examples_gnomon_Commands_h
-#define gnomon_examples_gnomon_Commands_h
+#pragma once
 
 #include <CLI/CLI.hpp>
 
@@ -34,5 +33,3 @@ PictureSize parseSize(const std::string& text);
 void requireDrawable(const PictureSize& size, int mostTexels, int mostColumns, int mostRows);
 
 } // namespace gnomon::tool
-
-#endif

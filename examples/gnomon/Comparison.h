@@ -1,5 +1,4 @@
-#ifndef gnomon_examples_gnomon_Comparison_h
-#define gnomon_examples_gnomon_Comparison_h
+#pragma once
 
 #include "ImageFile.h"
 #include "Scene.h"
@@ -156,5 +155,3 @@ std::vector<std::string> classNames(const ComparisonResults& results);
 const std::int64_t* findClass(const VariantResult& variant, const std::string& name);
 
 } // namespace gnomon::tool
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_examples_gnomon_ComparisonRun_h
-#define gnomon_examples_gnomon_ComparisonRun_h
+#pragma once
 
 #include "Comparison.h"
 #include "Panels.h"
@@ -68,5 +67,3 @@ ComparisonResults runComparison(
   const Scene& scene, const ComparisonPlan& plan, const ComparisonEvents& events);
 
 } // namespace gnomon::tool
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_examples_gnomon_Errors_h
-#define gnomon_examples_gnomon_Errors_h
+#pragma once
 
 #include <stdexcept>
 
@@ -23,5 +22,3 @@ public:
 };
 
 } // namespace gnomon::tool
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_examples_gnomon_Files_h
-#define gnomon_examples_gnomon_Files_h
+#pragma once
 
 #include <cstddef>
 #include <string>
@@ -27,5 +26,3 @@ void requireWritableFile(
 std::string lowerExtension(const std::string& path);
 
 } // namespace gnomon::tool
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_examples_gnomon_FrameTiming_h
-#define gnomon_examples_gnomon_FrameTiming_h
+#pragma once
 
 #include "FrameVariant.h"
 
@@ -23,5 +22,3 @@ std::vector<double> timeFrames(const std::vector<FrameVariant*>& variants, Motio
   int frames, const std::function<void()>& roundDone);
 
 } // namespace gnomon::tool
-
-#endif

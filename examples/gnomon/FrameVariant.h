@@ -1,5 +1,4 @@
-#ifndef gnomon_examples_gnomon_FrameVariant_h
-#define gnomon_examples_gnomon_FrameVariant_h
+#pragma once
 
 #include "Comparison.h"
 #include "Scene.h"
@@ -106,5 +105,3 @@ private:
 };
 
 } // namespace gnomon::tool
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_examples_gnomon_GltfFile_h
-#define gnomon_examples_gnomon_GltfFile_h
+#pragma once
 
 #include "Scene.h"
 
@@ -25,5 +24,3 @@ struct GltfView
 GltfView readGltfView(const std::string& path);
 
 } // namespace gnomon::tool
-
-#endif

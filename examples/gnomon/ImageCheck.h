@@ -1,5 +1,4 @@
-#ifndef gnomon_examples_gnomon_ImageCheck_h
-#define gnomon_examples_gnomon_ImageCheck_h
+#pragma once
 
 #include <string>
 
@@ -14,5 +13,3 @@ std::string imageType(const std::string& bytes);
 bool isWholeImage(const std::string& bytes);
 
 } // namespace gnomon::tool
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_examples_gnomon_ImageDifference_h
-#define gnomon_examples_gnomon_ImageDifference_h
+#pragma once
 
 #include "ImageFile.h"
 
@@ -46,5 +45,3 @@ std::string describe(const ImageDifference& difference, double maxDifference);
 Picture differencePicture(const ImageDifference& difference, double maxDifference);
 
 } // namespace gnomon::tool
-
-#endif

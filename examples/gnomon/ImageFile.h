@@ -1,5 +1,4 @@
-#ifndef gnomon_examples_gnomon_ImageFile_h
-#define gnomon_examples_gnomon_ImageFile_h
+#pragma once
 
 #include "plugin/VisibilityImages.h"
 
@@ -77,5 +76,3 @@ void writeVisibility(const VisibilityImages& images, const std::string& path,
   const std::map<std::string, std::string>& header);
 
 } // namespace gnomon::tool
-
-#endif

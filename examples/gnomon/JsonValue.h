@@ -1,5 +1,4 @@
-#ifndef gnomon_examples_gnomon_JsonValue_h
-#define gnomon_examples_gnomon_JsonValue_h
+#pragma once
 
 #include <nlohmann/json.hpp>
 
@@ -82,5 +81,3 @@ nlohmann::json readJsonFile(const std::string& path);
 nlohmann::json parseJson(const std::string& text, const std::string& source);
 
 } // namespace gnomon::tool
-
-#endif

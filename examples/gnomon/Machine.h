@@ -1,5 +1,4 @@
-#ifndef gnomon_examples_gnomon_Machine_h
-#define gnomon_examples_gnomon_Machine_h
+#pragma once
 
 #include <cstdint>
 #include <string>
@@ -19,5 +18,3 @@ std::string processorName();
 std::string openGlName(vtkRenderWindow* window);
 
 } // namespace gnomon::tool
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_examples_gnomon_MeshBuilder_h
-#define gnomon_examples_gnomon_MeshBuilder_h
+#pragma once
 
 #include "Scene.h"
 
@@ -87,5 +86,3 @@ private:
 };
 
 } // namespace gnomon::tool
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_examples_gnomon_ModelChecks_h
-#define gnomon_examples_gnomon_ModelChecks_h
+#pragma once
 
 #include <string>
 
@@ -24,5 +23,3 @@ void check3dsFile(const std::string& path);
 inline constexpr std::size_t largestModelBytes = std::size_t{ 4 } << 30;
 
 } // namespace gnomon::tool
-
-#endif

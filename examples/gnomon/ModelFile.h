@@ -1,5 +1,4 @@
-#ifndef gnomon_examples_gnomon_ModelFile_h
-#define gnomon_examples_gnomon_ModelFile_h
+#pragma once
 
 #include "Scene.h"
 
@@ -30,5 +29,3 @@ bool isModelFile(const std::string& path);
 std::string modelFileTypes();
 
 } // namespace gnomon::tool
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_examples_gnomon_MtlFile_h
-#define gnomon_examples_gnomon_MtlFile_h
+#pragma once
 
 #include <vtkProperty.h>
 #include <vtkSmartPointer.h>
@@ -24,5 +23,3 @@ struct Material
 std::map<std::string, Material> readMaterials(const std::string& path);
 
 } // namespace gnomon::tool
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_examples_gnomon_Noise_h
-#define gnomon_examples_gnomon_Noise_h
+#pragma once
 
 #include <cstdint>
 
@@ -31,5 +30,3 @@ private:
 };
 
 } // namespace gnomon::tool
-
-#endif

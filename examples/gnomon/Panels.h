@@ -1,5 +1,4 @@
-#ifndef gnomon_examples_gnomon_Panels_h
-#define gnomon_examples_gnomon_Panels_h
+#pragma once
 
 #include "ImageFile.h"
 
@@ -27,5 +26,3 @@ inline constexpr int panelGapColumns = 8;
 Picture sideBySide(const std::vector<Panel>& panels);
 
 } // namespace gnomon::tool
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_examples_gnomon_PictureVisibility_h
-#define gnomon_examples_gnomon_PictureVisibility_h
+#pragma once
 
 #include "ImageFile.h"
 #include "Scene.h"
@@ -53,5 +52,3 @@ PictureVisibility measureVisibility(const Scene& scene, const VisibilityImages& 
   const std::function<void(vtkRenderer*)>& addShadows);
 
 } // namespace gnomon::tool
-
-#endif

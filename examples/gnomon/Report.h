@@ -1,5 +1,4 @@
-#ifndef gnomon_examples_gnomon_Report_h
-#define gnomon_examples_gnomon_Report_h
+#pragma once
 
 #include "Comparison.h"
 
@@ -34,5 +33,3 @@ void prepareReportFolder(const std::string& folder);
 void writeReport(const ComparisonResults& results, const std::string& folder);
 
 } // namespace gnomon::tool
-
-#endif

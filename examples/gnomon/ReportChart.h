@@ -1,5 +1,4 @@
-#ifndef gnomon_examples_gnomon_ReportChart_h
-#define gnomon_examples_gnomon_ReportChart_h
+#pragma once
 
 #include "Comparison.h"
 
@@ -44,5 +43,3 @@ private:
 Picture drawChart(const ComparisonResults& results);
 
 } // namespace gnomon::tool
-
-#endif

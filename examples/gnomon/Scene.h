@@ -1,5 +1,4 @@
-#ifndef gnomon_examples_gnomon_Scene_h
-#define gnomon_examples_gnomon_Scene_h
+#pragma once
 
 #include <vtkImageData.h>
 #include <vtkPolyData.h>
@@ -126,5 +125,3 @@ SceneCamera parseCamera(const std::string& spec, const SceneCamera& defaults);
 vtkSmartPointer<vtkRenderer> makeRenderer(const Scene& scene, double aspect);
 
 } // namespace gnomon::tool
-
-#endif

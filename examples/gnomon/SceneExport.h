@@ -1,5 +1,4 @@
-#ifndef gnomon_examples_gnomon_SceneExport_h
-#define gnomon_examples_gnomon_SceneExport_h
+#pragma once
 
 #include "Scene.h"
 
@@ -14,5 +13,3 @@ namespace gnomon::tool
 std::string exportScene(const Scene& scene, const std::string& folder);
 
 } // namespace gnomon::tool
-
-#endif

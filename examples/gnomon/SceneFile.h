@@ -1,5 +1,4 @@
-#ifndef gnomon_examples_gnomon_SceneFile_h
-#define gnomon_examples_gnomon_SceneFile_h
+#pragma once
 
 #include "Scene.h"
 
@@ -39,5 +38,3 @@ namespace gnomon::tool
 Scene readSceneFile(const std::string& path);
 
 } // namespace gnomon::tool
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_examples_gnomon_SceneFraming_h
-#define gnomon_examples_gnomon_SceneFraming_h
+#pragma once
 
 #include "Scene.h"
 
@@ -37,5 +36,3 @@ vtkSmartPointer<vtkProperty> defaultProperty();
 void paint(SceneModel& model, const Vec3& color);
 
 } // namespace gnomon::tool
-
-#endif

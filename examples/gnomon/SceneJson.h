@@ -1,5 +1,4 @@
-#ifndef gnomon_examples_gnomon_SceneJson_h
-#define gnomon_examples_gnomon_SceneJson_h
+#pragma once
 
 #include "JsonValue.h"
 #include "Scene.h"
@@ -20,5 +19,3 @@ SceneLight readLight(const JsonValue& value, const std::filesystem::path& folder
 SceneCamera readCamera(const JsonValue& value, const std::optional<SceneCamera>& defaults);
 
 } // namespace gnomon::tool
-
-#endif

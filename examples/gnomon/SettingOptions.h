@@ -1,5 +1,4 @@
-#ifndef gnomon_examples_gnomon_SettingOptions_h
-#define gnomon_examples_gnomon_SettingOptions_h
+#pragma once
 
 #include "lights/SettingsTable.h"
 
@@ -40,5 +39,3 @@ void addTracerOption(CLI::App& command, int& tracer);
 void addRasterizerOption(CLI::App& command, int& rasterizer);
 
 } // namespace gnomon::tool
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_examples_gnomon_Text_h
-#define gnomon_examples_gnomon_Text_h
+#pragma once
 
 #include <charconv>
 #include <optional>
@@ -37,5 +36,3 @@ std::string quoted(const std::string& text);
 std::string oneLine(const std::string& text);
 
 } // namespace gnomon::tool
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_examples_gnomon_TextureFile_h
-#define gnomon_examples_gnomon_TextureFile_h
+#pragma once
 
 #include <vtkImageData.h>
 #include <vtkSmartPointer.h>
@@ -19,5 +18,3 @@ vtkSmartPointer<vtkImageData> readImage(const std::string& path);
 vtkSmartPointer<vtkTexture> readTexture(const std::string& path);
 
 } // namespace gnomon::tool
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_examples_gnomon_Vec3_h
-#define gnomon_examples_gnomon_Vec3_h
+#pragma once
 
 #include "Scene.h"
 
@@ -51,5 +50,3 @@ inline Vec3 normalized(const Vec3& a)
 }
 
 } // namespace gnomon::tool
-
-#endif

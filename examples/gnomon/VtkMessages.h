@@ -1,5 +1,4 @@
-#ifndef gnomon_examples_gnomon_VtkMessages_h
-#define gnomon_examples_gnomon_VtkMessages_h
+#pragma once
 
 #include <vtkLogger.h>
 #include <vtkSmartPointer.h>
@@ -34,5 +33,3 @@ private:
 };
 
 } // namespace gnomon::tool
-
-#endif

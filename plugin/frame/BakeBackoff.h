@@ -1,5 +1,4 @@
-#ifndef gnomon_plugin_frame_BakeBackoff_h
-#define gnomon_plugin_frame_BakeBackoff_h
+#pragma once
 
 #include <string>
 
@@ -41,5 +40,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_plugin_frame_CastingLights_h
-#define gnomon_plugin_frame_CastingLights_h
+#pragma once
 
 #include "lights/LightManager.h"
 #include "plugin/frame/LightTechnique.h"
@@ -99,5 +98,3 @@ private:
 LightReport& reportOf(FrameReport& report, const ShadowLight& light);
 
 } // namespace gnomon
-
-#endif

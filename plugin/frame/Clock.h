@@ -1,5 +1,4 @@
-#ifndef gnomon_plugin_frame_Clock_h
-#define gnomon_plugin_frame_Clock_h
+#pragma once
 
 #include <chrono>
 
@@ -15,5 +14,3 @@ inline double steadyMilliseconds()
 }
 
 } // namespace gnomon
-
-#endif

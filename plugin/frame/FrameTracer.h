@@ -1,5 +1,4 @@
-#ifndef gnomon_plugin_frame_FrameTracer_h
-#define gnomon_plugin_frame_FrameTracer_h
+#pragma once
 
 #include "plugin/frame/FrameWishes.h"
 #include "shadowtech/base/OccluderBuffers.h"
@@ -67,5 +66,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

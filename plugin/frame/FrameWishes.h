@@ -1,5 +1,4 @@
-#ifndef gnomon_plugin_frame_FrameWishes_h
-#define gnomon_plugin_frame_FrameWishes_h
+#pragma once
 
 namespace gnomon
 {
@@ -39,5 +38,3 @@ struct FrameWishes
 };
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_plugin_frame_KeptVisibility_h
-#define gnomon_plugin_frame_KeptVisibility_h
+#pragma once
 
 #include "plugin/VisibilityImages.h"
 #include "plugin/frame/CastingLights.h"
@@ -22,5 +21,3 @@ VisibilityImages keepVisibility(const CastingLights& lights,
   const ReceiverPixels& receivers, const glm::dvec3& centreWorld);
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_plugin_frame_LightTechnique_h
-#define gnomon_plugin_frame_LightTechnique_h
+#pragma once
 
 #include "lights/CameraView.h"
 #include "lights/LightViews.h"
@@ -122,5 +121,3 @@ void namingLight(const ShadowLight& light, const Work& work)
 }
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_plugin_frame_MapRasterizer_h
-#define gnomon_plugin_frame_MapRasterizer_h
+#pragma once
 
 #include "plugin/frame/FrameWishes.h"
 
@@ -21,5 +20,3 @@ struct RasterizerChoice
 RasterizerChoice chooseRasterizer(RasterizerWish wished, const std::string& gpuLacks);
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_plugin_frame_PointLights_h
-#define gnomon_plugin_frame_PointLights_h
+#pragma once
 
 #include "lights/ShadowLight.h"
 
@@ -64,5 +63,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_plugin_frame_Progress_h
-#define gnomon_plugin_frame_Progress_h
+#pragma once
 
 #include <vtkCommand.h>
 #include <vtkObject.h>
@@ -23,5 +22,3 @@ inline void tellProgress(vtkObject* pass, double before, double shown)
 }
 
 } // namespace gnomon
-
-#endif

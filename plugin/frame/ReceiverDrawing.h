@@ -1,5 +1,4 @@
-#ifndef gnomon_plugin_frame_ReceiverDrawing_h
-#define gnomon_plugin_frame_ReceiverDrawing_h
+#pragma once
 
 #include "shadowtech/base/ReceiverTarget.h"
 
@@ -26,5 +25,3 @@ void drawReceivers(const vtkRenderState* s, vtkObjectBase* pass, const glm::ivec
   bool withPoints, ReceiverTarget& target);
 
 } // namespace gnomon
-
-#endif

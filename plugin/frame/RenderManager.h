@@ -1,5 +1,4 @@
-#ifndef gnomon_plugin_frame_RenderManager_h
-#define gnomon_plugin_frame_RenderManager_h
+#pragma once
 
 #include "lights/CameraView.h"
 #include "plugin/VisibilityImages.h"
@@ -137,5 +136,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

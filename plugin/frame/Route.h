@@ -1,5 +1,4 @@
-#ifndef gnomon_plugin_frame_Route_h
-#define gnomon_plugin_frame_Route_h
+#pragma once
 
 #include "plugin/frame/FrameWishes.h"
 
@@ -27,5 +26,3 @@ struct RouteChoice
 RouteChoice chooseRoute(RouteWish wished, const std::string& screenTechnique, bool keepVisibility);
 
 } // namespace gnomon
-
-#endif

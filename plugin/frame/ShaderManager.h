@@ -1,5 +1,4 @@
-#ifndef gnomon_plugin_frame_ShaderManager_h
-#define gnomon_plugin_frame_ShaderManager_h
+#pragma once
 
 #include "lights/ShadowLight.h"
 #include "plugin/frame/Route.h"
@@ -118,5 +117,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_plugin_frame_ValueKey_h
-#define gnomon_plugin_frame_ValueKey_h
+#pragma once
 
 #include <any>
 #include <map>
@@ -40,5 +39,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

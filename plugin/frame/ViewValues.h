@@ -1,5 +1,4 @@
-#ifndef gnomon_plugin_frame_ViewValues_h
-#define gnomon_plugin_frame_ViewValues_h
+#pragma once
 
 #include "lights/ShadowLight.h"
 #include "plugin/frame/CastingLights.h"
@@ -88,5 +87,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

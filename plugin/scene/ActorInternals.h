@@ -1,5 +1,4 @@
-#ifndef gnomon_plugin_scene_ActorInternals_h
-#define gnomon_plugin_scene_ActorInternals_h
+#pragma once
 
 class vtkActor;
 class vtkLODProp3D;
@@ -31,5 +30,3 @@ ActorDrawing actorDrawing(vtkActor* actor, vtkMatrix4x4* matrix, vtkRenderer* re
 vtkProp3D* selectedLevel(vtkLODProp3D* prop);
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_plugin_scene_CompositeBlocks_h
-#define gnomon_plugin_scene_CompositeBlocks_h
+#pragma once
 
 #include <vector>
 
@@ -16,5 +15,3 @@ std::vector<vtkPolyData*> drawnBlocks(
   vtkActor* actor, vtkCompositePolyDataMapper2* mapper, bool translucent);
 
 } // namespace gnomon
-
-#endif

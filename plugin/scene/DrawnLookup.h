@@ -1,5 +1,4 @@
-#ifndef gnomon_plugin_scene_DrawnLookup_h
-#define gnomon_plugin_scene_DrawnLookup_h
+#pragma once
 
 #include "plugin/scene/SurfaceExtraction.h"
 
@@ -113,5 +112,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_plugin_scene_DrawnProps_h
-#define gnomon_plugin_scene_DrawnProps_h
+#pragma once
 
 #include <glm/glm.hpp>
 
@@ -82,5 +81,3 @@ struct DrawnProps
 DrawnProps findDrawnProps(vtkRenderer* renderer, TextureCutouts& cutouts, PlainProps& plainProps);
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_plugin_scene_GlyphInstances_h
-#define gnomon_plugin_scene_GlyphInstances_h
+#pragma once
 
 #include <glm/glm.hpp>
 
@@ -31,5 +30,3 @@ std::vector<Glyph> drawnGlyphs(vtkGlyph3DMapper* mapper);
 std::vector<glm::mat4> glyphInstances(vtkGlyph3DMapper* mapper, vtkDataSet* points, int source);
 
 } // namespace gnomon
-
-#endif

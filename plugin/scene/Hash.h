@@ -1,5 +1,4 @@
-#ifndef gnomon_plugin_scene_Hash_h
-#define gnomon_plugin_scene_Hash_h
+#pragma once
 
 #include <glm/glm.hpp>
 #include <glm/gtc/type_ptr.hpp>
@@ -26,5 +25,3 @@ inline void hashMatrix(std::size_t& seed, const glm::dmat4& matrix)
 }
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_plugin_scene_KeptInstances_h
-#define gnomon_plugin_scene_KeptInstances_h
+#pragma once
 
 #include "lights/Bounds.h"
 
@@ -52,5 +51,3 @@ std::optional<PlacedInstances> placeKeptInstances(const glm::dmat4& worldFromMod
   const Bounds& boundsSource, const glm::dvec3& centreWorld);
 
 } // namespace gnomon
-
-#endif

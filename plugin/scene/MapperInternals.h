@@ -1,5 +1,4 @@
-#ifndef gnomon_plugin_scene_MapperInternals_h
-#define gnomon_plugin_scene_MapperInternals_h
+#pragma once
 
 #include "plugin/scene/SurfaceExtraction.h"
 
@@ -36,5 +35,3 @@ std::vector<DrawCall> drawCalls(vtkAbstractMapper* mapper, SurfaceCells cells);
 const char* coordinatesArray(vtkAbstractMapper* mapper, const std::string& texture);
 
 } // namespace gnomon
-
-#endif

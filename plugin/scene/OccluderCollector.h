@@ -1,5 +1,4 @@
-#ifndef gnomon_plugin_scene_OccluderCollector_h
-#define gnomon_plugin_scene_OccluderCollector_h
+#pragma once
 
 #include "plugin/scene/DrawnLookup.h"
 #include "plugin/scene/PlainProps.h"
@@ -71,5 +70,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

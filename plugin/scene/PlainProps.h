@@ -1,5 +1,4 @@
-#ifndef gnomon_plugin_scene_PlainProps_h
-#define gnomon_plugin_scene_PlainProps_h
+#pragma once
 
 #include "vtkType.h"
 
@@ -60,5 +59,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_plugin_scene_ShownScene_h
-#define gnomon_plugin_scene_ShownScene_h
+#pragma once
 
 #include "plugin/scene/PlainProps.h"
 #include "plugin/scene/TextureCutouts.h"
@@ -25,5 +24,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

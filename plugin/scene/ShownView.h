@@ -1,5 +1,4 @@
-#ifndef gnomon_plugin_scene_ShownView_h
-#define gnomon_plugin_scene_ShownView_h
+#pragma once
 
 #include "lights/CameraView.h"
 
@@ -40,5 +39,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

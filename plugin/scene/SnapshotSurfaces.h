@@ -1,5 +1,4 @@
-#ifndef gnomon_plugin_scene_SnapshotSurfaces_h
-#define gnomon_plugin_scene_SnapshotSurfaces_h
+#pragma once
 
 #include "plugin/scene/WantedSurfaces.h"
 
@@ -62,5 +61,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

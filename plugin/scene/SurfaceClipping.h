@@ -1,5 +1,4 @@
-#ifndef gnomon_plugin_scene_SurfaceClipping_h
-#define gnomon_plugin_scene_SurfaceClipping_h
+#pragma once
 
 #include <glm/glm.hpp>
 
@@ -23,5 +22,3 @@ void clipTriangles(const std::vector<glm::dvec4>& planes, std::vector<glm::vec3>
   std::vector<std::uint32_t>& triangleOfDrawn);
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_plugin_scene_SurfaceExtraction_h
-#define gnomon_plugin_scene_SurfaceExtraction_h
+#pragma once
 
 #include "lights/Bounds.h"
 
@@ -96,5 +95,3 @@ Defect defectOf(const glm::uvec3& triangle, const glm::vec3* positionsCentred);
 void clearNonFinite(glm::vec3* positionsCentred, std::size_t vertexCount);
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_plugin_scene_SurfaceRecord_h
-#define gnomon_plugin_scene_SurfaceRecord_h
+#pragma once
 
 #include "plugin/scene/DrawnProps.h"
 #include "plugin/scene/Hash.h"
@@ -164,5 +163,3 @@ void placeInstances(const DrawnBlock& block, const SurfaceRecord& record, std::s
   const glm::dvec3& centreWorld, glm::vec3* positionsCentred);
 
 } // namespace gnomon
-
-#endif

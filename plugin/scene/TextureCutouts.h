@@ -1,5 +1,4 @@
-#ifndef gnomon_plugin_scene_TextureCutouts_h
-#define gnomon_plugin_scene_TextureCutouts_h
+#pragma once
 
 #include "shadowtech/base/CutoutMask.h"
 
@@ -67,5 +66,3 @@ private:
 vtkDataArray* textureCoordinates(vtkMapper* mapper, const std::string& texture, vtkPolyData* data);
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_plugin_scene_WantedSurfaces_h
-#define gnomon_plugin_scene_WantedSurfaces_h
+#pragma once
 
 #include "plugin/scene/DrawnProps.h"
 #include "plugin/scene/SurfaceRecord.h"
@@ -31,5 +30,3 @@ std::vector<WantedSurface> wantedSurfaces(
   const DrawnProps& drawn, const std::vector<SurfaceRecord>& records);
 
 } // namespace gnomon
-
-#endif

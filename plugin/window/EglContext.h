@@ -1,5 +1,4 @@
-#ifndef gnomon_plugin_window_EglContext_h
-#define gnomon_plugin_window_EglContext_h
+#pragma once
 
 // Keeps Xlib's headers, and their macros, out of <EGL/egl.h>.
 #ifndef EGL_NO_X11
@@ -73,5 +72,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

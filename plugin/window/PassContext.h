@@ -1,5 +1,4 @@
-#ifndef gnomon_plugin_window_PassContext_h
-#define gnomon_plugin_window_PassContext_h
+#pragma once
 
 #include <vtkOpenGLRenderWindow.h>
 #include <vtkTimeStamp.h>
@@ -38,5 +37,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

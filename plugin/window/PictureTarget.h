@@ -1,5 +1,4 @@
-#ifndef gnomon_plugin_window_PictureTarget_h
-#define gnomon_plugin_window_PictureTarget_h
+#pragma once
 
 #include "shadowtech/base/PictureMean.h"
 
@@ -42,5 +41,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

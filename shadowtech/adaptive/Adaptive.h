@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_adaptive_Adaptive_h
-#define gnomon_shadowtech_adaptive_Adaptive_h
+#pragma once
 
 #include "shadowtech/depth_map/DepthBounds.h"
 #include "shadowtech/depth_map/DepthMapTechnique.h"
@@ -56,5 +55,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

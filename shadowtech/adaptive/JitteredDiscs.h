@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_adaptive_JitteredDiscs_h
-#define gnomon_shadowtech_adaptive_JitteredDiscs_h
+#pragma once
 
 #include <glm/glm.hpp>
 
@@ -19,5 +18,3 @@ namespace gnomon
 std::vector<glm::vec2> jitteredDiscs(int grid, int discs);
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_base_BakeSettings_h
-#define gnomon_shadowtech_base_BakeSettings_h
+#pragma once
 
 #include "lights/SettingsTable.h"
 
@@ -29,5 +28,3 @@ inline const SettingsTable& bakeSettings()
 }
 
 } // namespace gnomon
-
-#endif

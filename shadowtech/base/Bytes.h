@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_base_Bytes_h
-#define gnomon_shadowtech_base_Bytes_h
+#pragma once
 
 #include <cstddef>
 #include <vector>
@@ -26,5 +25,3 @@ std::size_t bytesOfTable(const Table& table)
 }
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_base_CasterDrawing_h
-#define gnomon_shadowtech_base_CasterDrawing_h
+#pragma once
 
 #include "shadowtech/base/OccluderBuffers.h"
 #include "shadowtech/base/Technique.h"
@@ -57,5 +56,3 @@ void drawCasters(std::size_t number, const MapInput& input, CasterShader shader)
 Uniform depthSlacks(double followed = 1.0);
 
 } // namespace gnomon
-
-#endif

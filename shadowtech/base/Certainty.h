@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_base_Certainty_h
-#define gnomon_shadowtech_base_Certainty_h
+#pragma once
 
 #include <glm/glm.hpp>
 
@@ -70,5 +69,3 @@ public:
 };
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_base_ChannelView_h
-#define gnomon_shadowtech_base_ChannelView_h
+#pragma once
 
 #include "shadowtech/base/Gl.h"
 
@@ -35,5 +34,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

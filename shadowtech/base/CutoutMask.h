@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_base_CutoutMask_h
-#define gnomon_shadowtech_base_CutoutMask_h
+#pragma once
 
 #include <glm/glm.hpp>
 
@@ -52,5 +51,3 @@ struct CutoutMask
 };
 
 } // namespace gnomon
-
-#endif

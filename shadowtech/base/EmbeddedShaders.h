@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_base_EmbeddedShaders_h
-#define gnomon_shadowtech_base_EmbeddedShaders_h
+#pragma once
 
 #include <map>
 #include <string>
@@ -12,5 +11,3 @@ namespace gnomon
 const std::map<std::string, std::string>& embeddedShaders();
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_base_FrameReport_h
-#define gnomon_shadowtech_base_FrameReport_h
+#pragma once
 
 #include <cstddef>
 #include <cstdint>
@@ -125,5 +124,3 @@ struct FrameReport
 };
 
 } // namespace gnomon
-
-#endif

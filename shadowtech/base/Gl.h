@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_base_Gl_h
-#define gnomon_shadowtech_base_Gl_h
+#pragma once
 
 // OpenGL as VTK loads it (vtk_glew.h is GLEW, VTK's own or the system's), and owners of GL names.
 #include <vtk_glew.h>
@@ -97,5 +96,3 @@ using GlVertexArray = GlHandle<glkind::VertexArray>;
 using GlProgram = GlHandle<glkind::Program>;
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_base_GlState_h
-#define gnomon_shadowtech_base_GlState_h
+#pragma once
 
 #include "shadowtech/base/Gl.h"
 
@@ -63,5 +62,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_base_GlslText_h
-#define gnomon_shadowtech_base_GlslText_h
+#pragma once
 
 #include <cstddef>
 #include <string>
@@ -20,5 +19,3 @@ inline std::string glslElement(const std::string& name, std::size_t index)
 }
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_base_Instances_h
-#define gnomon_shadowtech_base_Instances_h
+#pragma once
 
 #include "lights/Bounds.h"
 
@@ -35,5 +34,3 @@ Bounds instancesBounds(const glm::vec3* positionsSource, std::size_t vertexCount
   const std::vector<glm::mat4x3>& centredFromSource);
 
 } // namespace gnomon
-
-#endif

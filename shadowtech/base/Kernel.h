@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_base_Kernel_h
-#define gnomon_shadowtech_base_Kernel_h
+#pragma once
 
 #include "lights/MapReach.h"
 #include "lights/ShadowLight.h"
@@ -50,5 +49,3 @@ Uniform kernelUnit(const MapReach& reach);
 ///@}
 
 } // namespace gnomon
-
-#endif

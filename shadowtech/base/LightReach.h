@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_base_LightReach_h
-#define gnomon_shadowtech_base_LightReach_h
+#pragma once
 
 #include "lights/ShadowLight.h"
 #include "shadowtech/base/Technique.h"
@@ -22,5 +21,3 @@ std::vector<Uniform> lightReachUniforms(
   const ShadowLight& light, const glm::dvec3& centreWorld, const glm::dmat4& viewFromCentred);
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_base_LightViewsGlsl_h
-#define gnomon_shadowtech_base_LightViewsGlsl_h
+#pragma once
 
 #include "lights/LightViews.h"
 #include "shadowtech/base/Technique.h"
@@ -23,5 +22,3 @@ std::vector<Uniform> lightViewsUniforms(const LightViews& views, int sizeTexels,
   const ReceiverSpace& space, const TextureBinding& viewFits = {});
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_base_OccluderBuffers_h
-#define gnomon_shadowtech_base_OccluderBuffers_h
+#pragma once
 
 #include "lights/LightView.h"
 #include "shadowtech/base/Gl.h"
@@ -99,5 +98,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_base_Occluders_h
-#define gnomon_shadowtech_base_Occluders_h
+#pragma once
 
 #include "lights/Bounds.h"
 #include "shadowtech/base/CutoutMask.h"
@@ -116,5 +115,3 @@ struct Occluders
 };
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_base_PictureMean_h
-#define gnomon_shadowtech_base_PictureMean_h
+#pragma once
 
 #include "shadowtech/base/RunningSum.h"
 #include "shadowtech/base/ScreenPass.h"
@@ -55,5 +54,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_base_PixelClass_h
-#define gnomon_shadowtech_base_PixelClass_h
+#pragma once
 
 #include <array>
 #include <cstdint>
@@ -27,5 +26,3 @@ inline std::vector<PixelClass> classesOfMaps()
 }
 
 } // namespace gnomon
-
-#endif

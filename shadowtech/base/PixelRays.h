@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_base_PixelRays_h
-#define gnomon_shadowtech_base_PixelRays_h
+#pragma once
 
 #include <glm/glm.hpp>
 
@@ -45,5 +44,3 @@ PixelRays pixelRays(
   const glm::dmat4& clipFromView, const glm::dmat4& centredFromView, int width, int height);
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_base_PlacedTriangles_h
-#define gnomon_shadowtech_base_PlacedTriangles_h
+#pragma once
 
 #include "shadowtech/base/Occluders.h"
 
@@ -46,5 +45,3 @@ float noiseOf(const Occluders& occluders, const Surface& surface, std::uint32_t 
   double doubleArea);
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_base_PublishedSettings_h
-#define gnomon_shadowtech_base_PublishedSettings_h
+#pragma once
 
 #include "lights/SettingsTable.h"
 
@@ -16,5 +15,3 @@ inline const SettingsTable& publishedSettings()
 }
 
 } // namespace gnomon
-
-#endif

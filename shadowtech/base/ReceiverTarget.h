@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_base_ReceiverTarget_h
-#define gnomon_shadowtech_base_ReceiverTarget_h
+#pragma once
 
 #include "shadowtech/base/Gl.h"
 #include "shadowtech/base/Receivers.h"
@@ -52,5 +51,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

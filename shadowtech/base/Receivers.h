@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_base_Receivers_h
-#define gnomon_shadowtech_base_Receivers_h
+#pragma once
 
 #include "shadowtech/base/Bytes.h"
 #include "shadowtech/base/Certainty.h"
@@ -137,5 +136,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_base_RunningSum_h
-#define gnomon_shadowtech_base_RunningSum_h
+#pragma once
 
 #include "shadowtech/base/Gl.h"
 #include "shadowtech/base/ScreenPass.h"
@@ -53,5 +52,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_base_ScreenPass_h
-#define gnomon_shadowtech_base_ScreenPass_h
+#pragma once
 
 #include "shadowtech/base/Gl.h"
 #include "shadowtech/base/ShaderLibrary.h"
@@ -42,5 +41,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_base_SeenTriangle_h
-#define gnomon_shadowtech_base_SeenTriangle_h
+#pragma once
 
 #include "shadowtech/base/Certainty.h"
 #include "shadowtech/base/PixelRays.h"
@@ -154,5 +153,3 @@ glm::dvec3 inwards(
   const glm::dvec3& edge, const std::array<glm::dvec3, 3>& corners, double footprint);
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_base_ShaderLibrary_h
-#define gnomon_shadowtech_base_ShaderLibrary_h
+#pragma once
 
 #include "shadowtech/base/Gl.h"
 #include "shadowtech/base/Technique.h"
@@ -61,5 +60,3 @@ private:
 std::string numberedForLight(const std::string& text, int light);
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_base_ShadowRay_h
-#define gnomon_shadowtech_base_ShadowRay_h
+#pragma once
 
 #include "lights/LightSpace.h"
 #include "lights/ShadowLight.h"
@@ -317,5 +316,3 @@ auto visitShadowRays(const ShadowRayLight& light, const Visit& visit)
 }
 
 } // namespace gnomon
-
-#endif

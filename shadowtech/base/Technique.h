@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_base_Technique_h
-#define gnomon_shadowtech_base_Technique_h
+#pragma once
 
 #include "lights/CameraView.h"
 #include "lights/LightViews.h"
@@ -235,5 +234,3 @@ inline Technique& baseOf(const AnyTechnique& technique)
 }
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_base_TextureMemory_h
-#define gnomon_shadowtech_base_TextureMemory_h
+#pragma once
 
 #include "shadowtech/base/Gl.h"
 
@@ -80,5 +79,3 @@ void* allocateMappedStorage(
   GlBuffer& buffer, std::size_t bytes, GLbitfield access, const char* what);
 
 } // namespace gnomon
-
-#endif

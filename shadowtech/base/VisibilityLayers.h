@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_base_VisibilityLayers_h
-#define gnomon_shadowtech_base_VisibilityLayers_h
+#pragma once
 
 #include "shadowtech/base/Gl.h"
 #include "shadowtech/base/ScreenPass.h"
@@ -58,5 +57,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

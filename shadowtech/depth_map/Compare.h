@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_depth_map_Compare_h
-#define gnomon_shadowtech_depth_map_Compare_h
+#pragma once
 
 #include "shadowtech/depth_map/DepthMapTechnique.h"
 
@@ -17,5 +16,3 @@ protected:
 };
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_depth_map_DepthBounds_h
-#define gnomon_shadowtech_depth_map_DepthBounds_h
+#pragma once
 
 #include "shadowtech/base/Gl.h"
 #include "shadowtech/base/Technique.h"
@@ -47,5 +46,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

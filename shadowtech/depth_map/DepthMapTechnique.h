@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_depth_map_DepthMapTechnique_h
-#define gnomon_shadowtech_depth_map_DepthMapTechnique_h
+#pragma once
 
 #include "shadowtech/base/Technique.h"
 
@@ -107,5 +106,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_depth_map_Pcf_h
-#define gnomon_shadowtech_depth_map_Pcf_h
+#pragma once
 
 #include "shadowtech/depth_map/DepthMapTechnique.h"
 
@@ -57,5 +56,3 @@ protected:
 };
 
 } // namespace gnomon
-
-#endif

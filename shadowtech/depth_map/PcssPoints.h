@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_depth_map_PcssPoints_h
-#define gnomon_shadowtech_depth_map_PcssPoints_h
+#pragma once
 
 #include "lights/LightArea.h"
 #include "shadowtech/base/Gl.h"
@@ -58,5 +57,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_depth_map_PoissonDisc_h
-#define gnomon_shadowtech_depth_map_PoissonDisc_h
+#pragma once
 
 #include <glm/glm.hpp>
 
@@ -19,5 +18,3 @@ constexpr double poissonDistance = 0.42;
 const std::array<glm::dvec2, poissonPoints>& poissonDisc();
 
 } // namespace gnomon
-
-#endif

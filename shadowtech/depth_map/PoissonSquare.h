@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_depth_map_PoissonSquare_h
-#define gnomon_shadowtech_depth_map_PoissonSquare_h
+#pragma once
 
 #include <glm/glm.hpp>
 
@@ -22,5 +21,3 @@ double wrappedDistance(const glm::dvec2& a, const glm::dvec2& b);
 double largestPoissonDistance(int points);
 
 } // namespace gnomon
-
-#endif

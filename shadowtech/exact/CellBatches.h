@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_exact_CellBatches_h
-#define gnomon_shadowtech_exact_CellBatches_h
+#pragma once
 
 #include "shadowtech/exact/TexelCells.h"
 #include "shadowtech/exact/TexelShapes.h"
@@ -128,5 +127,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_exact_CellTarget_h
-#define gnomon_shadowtech_exact_CellTarget_h
+#pragma once
 
 #include "shadowtech/base/Gl.h"
 #include "shadowtech/base/GlState.h"
@@ -66,5 +65,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_exact_CellsOnCpu_h
-#define gnomon_shadowtech_exact_CellsOnCpu_h
+#pragma once
 
 #include "shadowtech/exact/MapCasters.h"
 
@@ -13,5 +12,3 @@ bool drawCellsOnCpu(const CasterScene& scene, const CasterEdges& edges, int size
   const TakeCell& take);
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_exact_CellsOnGpu_h
-#define gnomon_shadowtech_exact_CellsOnGpu_h
+#pragma once
 
 #include "shadowtech/exact/CellTarget.h"
 #include "shadowtech/exact/MapCasters.h"
@@ -48,5 +47,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

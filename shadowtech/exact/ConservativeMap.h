@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_exact_ConservativeMap_h
-#define gnomon_shadowtech_exact_ConservativeMap_h
+#pragma once
 
 #include "lights/LightView.h"
 #include "shadowtech/base/Certainty.h"
@@ -127,5 +126,3 @@ MapRule certainRule(Covering covering, const CellsOnGpu* gpu = nullptr);
 LookUp lookUpOf(const CasterScene& scene, const LightView& view);
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_exact_ConservativeMaps_h
-#define gnomon_shadowtech_exact_ConservativeMaps_h
+#pragma once
 
 #include "lights/LightViews.h"
 #include "shadowtech/base/Certainty.h"
@@ -40,5 +39,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

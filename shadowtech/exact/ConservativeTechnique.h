@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_exact_ConservativeTechnique_h
-#define gnomon_shadowtech_exact_ConservativeTechnique_h
+#pragma once
 
 #include "shadowtech/base/Technique.h"
 #include "shadowtech/exact/ConservativeMaps.h"
@@ -47,5 +46,3 @@ struct ConservativeEntry
 TechniqueInfo infoOfExact(const std::string& name);
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_exact_ExactTechniques_h
-#define gnomon_shadowtech_exact_ExactTechniques_h
+#pragma once
 
 #include "shadowtech/exact/ConservativeTechnique.h"
 
@@ -29,5 +28,3 @@ const SettingsTable& crsmaSettings();
 const std::vector<ConservativeEntry>& exactTechniques();
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_exact_MapCasters_h
-#define gnomon_shadowtech_exact_MapCasters_h
+#pragma once
 
 #include "shadowtech/exact/TexelCells.h"
 #include "shadowtech/mesh/CasterBands.h"
@@ -87,5 +86,3 @@ private:
 using TakeCell = std::function<void(std::size_t texel, const Cell& cell)>;
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_exact_TexelCells_h
-#define gnomon_shadowtech_exact_TexelCells_h
+#pragma once
 
 #include "shadowtech/exact/TexelShapes.h"
 #include "shadowtech/mesh/CasterShapes.h"
@@ -110,5 +109,3 @@ void drawEndOfPart(const MapSegment& segment, double margin, int width, Span row
 void drawSegment(const MapSegment& segment, double margin, int width, Span rows, Cell* cells);
 
 } // namespace gnomon
-
-#endif

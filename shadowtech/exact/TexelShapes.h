@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_exact_TexelShapes_h
-#define gnomon_shadowtech_exact_TexelShapes_h
+#pragma once
 
 #include "shadowtech/mesh/CasterShapes.h"
 #include "shadowtech/mesh/TexelRows.h"
@@ -199,5 +198,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

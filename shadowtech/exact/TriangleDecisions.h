@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_exact_TriangleDecisions_h
-#define gnomon_shadowtech_exact_TriangleDecisions_h
+#pragma once
 
 #include "lights/ShadowLight.h"
 #include "shadowtech/base/Bytes.h"
@@ -47,5 +46,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

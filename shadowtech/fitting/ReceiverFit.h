@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_fitting_ReceiverFit_h
-#define gnomon_shadowtech_fitting_ReceiverFit_h
+#pragma once
 
 #include "lights/Bounds.h"
 #include "lights/LightViews.h"
@@ -94,5 +93,3 @@ std::vector<glm::vec4> chosenWarpRows(
   const LightView& view, const glm::dmat3& mapFromAcross, int sizeTexels);
 
 } // namespace gnomon
-
-#endif

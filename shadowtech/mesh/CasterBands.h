@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_mesh_CasterBands_h
-#define gnomon_shadowtech_mesh_CasterBands_h
+#pragma once
 
 #include "shadowtech/base/Occluders.h"
 #include "shadowtech/mesh/TexelRows.h"
@@ -208,5 +207,3 @@ void drawBands(int size, const DrawBand& drawBand, const Take& take)
 }
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_mesh_CasterEdges_h
-#define gnomon_shadowtech_mesh_CasterEdges_h
+#pragma once
 
 #include "shadowtech/base/Occluders.h"
 #include "shadowtech/mesh/CasterSeams.h"
@@ -126,5 +125,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

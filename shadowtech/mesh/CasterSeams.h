@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_mesh_CasterSeams_h
-#define gnomon_shadowtech_mesh_CasterSeams_h
+#pragma once
 
 #include "shadowtech/base/Occluders.h"
 
@@ -50,5 +49,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

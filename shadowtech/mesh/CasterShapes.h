@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_mesh_CasterShapes_h
-#define gnomon_shadowtech_mesh_CasterShapes_h
+#pragma once
 
 #include "lights/LightView.h"
 #include "shadowtech/base/Occluders.h"
@@ -206,5 +205,3 @@ bool segmentOf(const CasterScene& scene, const Surface& surface, std::uint32_t i
   const CasterEdge& edge, EdgeKind kind, MapSegment& segment);
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_mesh_KeptOfCasters_h
-#define gnomon_shadowtech_mesh_KeptOfCasters_h
+#pragma once
 
 #include "shadowtech/base/Bytes.h"
 #include "shadowtech/base/Occluders.h"
@@ -88,5 +87,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_mesh_TexelRows_h
-#define gnomon_shadowtech_mesh_TexelRows_h
+#pragma once
 
 #include <algorithm>
 #include <cmath>
@@ -62,5 +61,3 @@ struct RowRange
 };
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_mesh_TriangleFans_h
-#define gnomon_shadowtech_mesh_TriangleFans_h
+#pragma once
 
 #include "shadowtech/base/Occluders.h"
 #include "shadowtech/mesh/KeptOfCasters.h"
@@ -88,5 +87,3 @@ bool visitAdjacent(
 }
 
 } // namespace gnomon
-
-#endif

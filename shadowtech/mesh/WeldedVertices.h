@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_mesh_WeldedVertices_h
-#define gnomon_shadowtech_mesh_WeldedVertices_h
+#pragma once
 
 #include "shadowtech/base/Occluders.h"
 
@@ -78,5 +77,3 @@ private:
 std::vector<std::uint32_t> weldedVertices(const Occluders& occluders, const Surface& surface);
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_moment_map_BoxBlur_h
-#define gnomon_shadowtech_moment_map_BoxBlur_h
+#pragma once
 
 #include "shadowtech/base/Gl.h"
 #include "shadowtech/base/TextureMemory.h"
@@ -37,5 +36,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_moment_map_Exponential_h
-#define gnomon_shadowtech_moment_map_Exponential_h
+#pragma once
 
 #include "shadowtech/moment_map/MomentMapTechnique.h"
 
@@ -37,5 +36,3 @@ protected:
 };
 
 } // namespace gnomon
-
-#endif

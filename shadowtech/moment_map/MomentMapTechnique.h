@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_moment_map_MomentMapTechnique_h
-#define gnomon_shadowtech_moment_map_MomentMapTechnique_h
+#pragma once
 
 #include "shadowtech/base/Technique.h"
 #include "shadowtech/moment_map/BoxBlur.h"
@@ -130,5 +129,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

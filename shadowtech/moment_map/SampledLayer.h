@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_moment_map_SampledLayer_h
-#define gnomon_shadowtech_moment_map_SampledLayer_h
+#pragma once
 
 #include "shadowtech/base/Gl.h"
 #include "shadowtech/base/TextureMemory.h"
@@ -35,5 +34,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

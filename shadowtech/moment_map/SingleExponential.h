@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_moment_map_SingleExponential_h
-#define gnomon_shadowtech_moment_map_SingleExponential_h
+#pragma once
 
 #include "shadowtech/moment_map/MomentMapTechnique.h"
 
@@ -28,5 +27,3 @@ protected:
 };
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_moment_map_SummedAreaTable_h
-#define gnomon_shadowtech_moment_map_SummedAreaTable_h
+#pragma once
 
 #include "shadowtech/base/Gl.h"
 #include "shadowtech/base/Technique.h"
@@ -57,5 +56,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

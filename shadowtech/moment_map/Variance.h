@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_moment_map_Variance_h
-#define gnomon_shadowtech_moment_map_Variance_h
+#pragma once
 
 #include "shadowtech/moment_map/MomentMapTechnique.h"
 
@@ -31,5 +30,3 @@ protected:
 };
 
 } // namespace gnomon
-
-#endif

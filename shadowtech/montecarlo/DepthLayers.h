@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_montecarlo_DepthLayers_h
-#define gnomon_shadowtech_montecarlo_DepthLayers_h
+#pragma once
 
 #include "shadowtech/base/Gl.h"
 #include "shadowtech/base/ScreenPass.h"
@@ -45,5 +44,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

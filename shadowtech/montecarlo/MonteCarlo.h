@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_montecarlo_MonteCarlo_h
-#define gnomon_shadowtech_montecarlo_MonteCarlo_h
+#pragma once
 
 #include "lights/LightViews.h"
 #include "shadowtech/base/ScreenPass.h"
@@ -55,5 +54,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

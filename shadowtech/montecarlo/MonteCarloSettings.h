@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_montecarlo_MonteCarloSettings_h
-#define gnomon_shadowtech_montecarlo_MonteCarloSettings_h
+#pragma once
 
 #include "lights/SettingsTable.h"
 
@@ -50,5 +49,3 @@ struct MonteCarloSettings
 const SettingsTable& monteCarloSettings();
 
 } // namespace gnomon
-
-#endif

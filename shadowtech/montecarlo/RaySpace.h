@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_montecarlo_RaySpace_h
-#define gnomon_shadowtech_montecarlo_RaySpace_h
+#pragma once
 
 #include "lights/LightView.h"
 #include "lights/ShadowLight.h"
@@ -40,5 +39,3 @@ double nearestOfArea(const ShadowLight& light);
 glm::dmat4 rayFromCentred(const LightView& view, int sizeTexels, double nearest);
 
 } // namespace gnomon
-
-#endif

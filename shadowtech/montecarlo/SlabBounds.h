@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_montecarlo_SlabBounds_h
-#define gnomon_shadowtech_montecarlo_SlabBounds_h
+#pragma once
 
 #include "shadowtech/base/Gl.h"
 #include "shadowtech/montecarlo/MonteCarloSettings.h"
@@ -46,5 +45,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

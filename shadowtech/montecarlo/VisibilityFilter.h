@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_montecarlo_VisibilityFilter_h
-#define gnomon_shadowtech_montecarlo_VisibilityFilter_h
+#pragma once
 
 #include "shadowtech/base/Gl.h"
 #include "shadowtech/base/ScreenPass.h"
@@ -41,5 +40,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_pcss_Pcss_h
-#define gnomon_shadowtech_pcss_Pcss_h
+#pragma once
 
 #include "shadowtech/depth_map/DepthBounds.h"
 #include "shadowtech/depth_map/DepthMapTechnique.h"
@@ -67,5 +66,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

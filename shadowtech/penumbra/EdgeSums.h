@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_penumbra_EdgeSums_h
-#define gnomon_shadowtech_penumbra_EdgeSums_h
+#pragma once
 
 #include "lights/LightSamples.h"
 
@@ -66,5 +65,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_penumbra_EdgeTree_h
-#define gnomon_shadowtech_penumbra_EdgeTree_h
+#pragma once
 
 #include "lights/Bounds.h"
 #include "shadowtech/base/Occluders.h"
@@ -178,5 +177,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_penumbra_LightShaft_h
-#define gnomon_shadowtech_penumbra_LightShaft_h
+#pragma once
 
 #include "lights/Bounds.h"
 #include "shadowtech/base/ShadowRay.h"
@@ -140,5 +139,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_penumbra_Penumbra_h
-#define gnomon_shadowtech_penumbra_Penumbra_h
+#pragma once
 
 #include "shadowtech/base/Technique.h"
 #include "shadowtech/penumbra/EdgeTree.h"
@@ -23,5 +22,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

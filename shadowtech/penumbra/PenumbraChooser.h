@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_penumbra_PenumbraChooser_h
-#define gnomon_shadowtech_penumbra_PenumbraChooser_h
+#pragma once
 
 #include "shadowtech/base/PixelClass.h"
 #include "shadowtech/penumbra/EdgeTree.h"
@@ -47,5 +46,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_penumbra_RayStarts_h
-#define gnomon_shadowtech_penumbra_RayStarts_h
+#pragma once
 
 #include "lights/Bounds.h"
 #include "shadowtech/penumbra/EdgeTree.h"
@@ -42,5 +41,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_penumbra_ShaftEdges_h
-#define gnomon_shadowtech_penumbra_ShaftEdges_h
+#pragma once
 
 #include "shadowtech/penumbra/EdgeTree.h"
 #include "shadowtech/penumbra/LightShaft.h"
@@ -168,5 +167,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_planar_IntegerTable_h
-#define gnomon_shadowtech_planar_IntegerTable_h
+#pragma once
 
 #include "shadowtech/base/Gl.h"
 #include "shadowtech/base/TextureMemory.h"
@@ -55,5 +54,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_planar_Planar_h
-#define gnomon_shadowtech_planar_Planar_h
+#pragma once
 
 #include "shadowtech/base/RunningSum.h"
 #include "shadowtech/base/ScreenPass.h"
@@ -72,5 +71,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_planar_ReceiverPlanes_h
-#define gnomon_shadowtech_planar_ReceiverPlanes_h
+#pragma once
 
 #include "lights/Bounds.h"
 
@@ -69,5 +68,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_published_PublishedCrsm_h
-#define gnomon_shadowtech_published_PublishedCrsm_h
+#pragma once
 
 #include "shadowtech/exact/ConservativeTechnique.h"
 
@@ -13,5 +12,3 @@ namespace gnomon
 const std::vector<ConservativeEntry>& publishedCrsm();
 
 } // namespace gnomon
-
-#endif

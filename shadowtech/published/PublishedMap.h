@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_published_PublishedMap_h
-#define gnomon_shadowtech_published_PublishedMap_h
+#pragma once
 
 #include "shadowtech/exact/ConservativeMap.h"
 #include "shadowtech/mesh/CasterShapes.h"
@@ -79,5 +78,3 @@ constexpr const char* onlyCpuDrawsPublished =
   "maps by the letter of the publication are drawn by the CPU alone";
 
 } // namespace gnomon
-
-#endif

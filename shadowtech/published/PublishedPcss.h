@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_published_PublishedPcss_h
-#define gnomon_shadowtech_published_PublishedPcss_h
+#pragma once
 
 #include "shadowtech/depth_map/DepthMapTechnique.h"
 #include "shadowtech/depth_map/PcssPoints.h"
@@ -44,5 +43,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_raytraced_Raytraced_h
-#define gnomon_shadowtech_raytraced_Raytraced_h
+#pragma once
 
 #include "shadowtech/base/Technique.h"
 
@@ -17,5 +16,3 @@ public:
 };
 
 } // namespace gnomon
-
-#endif

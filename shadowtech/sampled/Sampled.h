@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_sampled_Sampled_h
-#define gnomon_shadowtech_sampled_Sampled_h
+#pragma once
 
 #include "shadowtech/base/RunningSum.h"
 #include "shadowtech/base/Technique.h"
@@ -102,5 +101,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_selective_CertainHit_h
-#define gnomon_shadowtech_selective_CertainHit_h
+#pragma once
 
 #include "shadowtech/base/ShadowRay.h"
 #include "shadowtech/selective/TriangleMap.h"
@@ -31,5 +30,3 @@ bool certainlyStops(
   const Occluders& occluders, const CasterTriangle& caster, const ShadowRay& ray, float rayFar);
 
 } // namespace gnomon
-
-#endif

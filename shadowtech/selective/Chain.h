@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_selective_Chain_h
-#define gnomon_shadowtech_selective_Chain_h
+#pragma once
 
 #include "shadowtech/base/Certainty.h"
 #include "shadowtech/base/PixelClass.h"
@@ -109,5 +108,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_selective_ChainTechnique_h
-#define gnomon_shadowtech_selective_ChainTechnique_h
+#pragma once
 
 #include "shadowtech/base/Technique.h"
 #include "shadowtech/selective/Chain.h"
@@ -47,5 +46,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_selective_Coherence_h
-#define gnomon_shadowtech_selective_Coherence_h
+#pragma once
 
 #include "shadowtech/selective/ChainTechnique.h"
 
@@ -20,5 +19,3 @@ protected:
 };
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_selective_LightInCaster_h
-#define gnomon_shadowtech_selective_LightInCaster_h
+#pragma once
 
 #include "lights/LightArea.h"
 #include "shadowtech/base/Occluders.h"
@@ -21,5 +20,3 @@ bool liesInCaster(
   const glm::dvec3& positionCentred, const LightArea* area, const Occluders& occluders);
 
 } // namespace gnomon
-
-#endif

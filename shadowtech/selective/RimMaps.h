@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_selective_RimMaps_h
-#define gnomon_shadowtech_selective_RimMaps_h
+#pragma once
 
 #include "lights/LightViews.h"
 #include "lights/ShadowLight.h"
@@ -58,5 +57,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

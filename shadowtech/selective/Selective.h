@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_selective_Selective_h
-#define gnomon_shadowtech_selective_Selective_h
+#pragma once
 
 #include "shadowtech/selective/ChainTechnique.h"
 
@@ -32,5 +31,3 @@ protected:
 };
 
 } // namespace gnomon
-
-#endif

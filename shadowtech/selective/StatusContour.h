@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_selective_StatusContour_h
-#define gnomon_shadowtech_selective_StatusContour_h
+#pragma once
 
 #include <cstdint>
 #include <vector>
@@ -27,5 +26,3 @@ std::vector<std::uint8_t> contourOf(
   const std::vector<PixelStatus>& statuses, int width, int height, int radiusPixels);
 
 } // namespace gnomon
-
-#endif

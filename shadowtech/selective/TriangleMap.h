@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_selective_TriangleMap_h
-#define gnomon_shadowtech_selective_TriangleMap_h
+#pragma once
 
 #include "lights/LightView.h"
 #include "shadowtech/base/Occluders.h"
@@ -144,5 +143,3 @@ bool visitNeighbourhood(Neighbourhood neighbourhood, const MapPlace& place, cons
 }
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_selective_TriangleMaps_h
-#define gnomon_shadowtech_selective_TriangleMaps_h
+#pragma once
 
 #include "lights/LightViews.h"
 #include "shadowtech/selective/TriangleMap.h"
@@ -47,5 +46,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

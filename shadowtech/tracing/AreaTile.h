@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_tracing_AreaTile_h
-#define gnomon_shadowtech_tracing_AreaTile_h
+#pragma once
 
 #include "lights/LightSamples.h"
 #include "shadowtech/base/ShadowRay.h"
@@ -155,5 +154,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

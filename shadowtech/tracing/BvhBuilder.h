@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_tracing_BvhBuilder_h
-#define gnomon_shadowtech_tracing_BvhBuilder_h
+#pragma once
 
 #include "lights/Bounds.h"
 #include "shadowtech/tracing/CasterBvh.h"
@@ -40,5 +39,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

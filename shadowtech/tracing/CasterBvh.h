@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_tracing_CasterBvh_h
-#define gnomon_shadowtech_tracing_CasterBvh_h
+#pragma once
 
 #include "lights/Bounds.h"
 #include "shadowtech/base/Occluders.h"
@@ -139,5 +138,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

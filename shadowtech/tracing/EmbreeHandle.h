@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_tracing_EmbreeHandle_h
-#define gnomon_shadowtech_tracing_EmbreeHandle_h
+#pragma once
 
 #include <embree3/rtcore.h>
 
@@ -46,5 +45,3 @@ using EmbreeGeometry = EmbreeHandle<RTCGeometry, rtcReleaseGeometry>;
 using EmbreeBvh = EmbreeHandle<RTCBVH, rtcReleaseBVH>;
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_tracing_EmbreeTracer_h
-#define gnomon_shadowtech_tracing_EmbreeTracer_h
+#pragma once
 
 #include "shadowtech/tracing/ShadowTracer.h"
 
@@ -32,5 +31,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

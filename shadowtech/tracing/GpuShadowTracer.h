@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_tracing_GpuShadowTracer_h
-#define gnomon_shadowtech_tracing_GpuShadowTracer_h
+#pragma once
 
 #include "shadowtech/tracing/GpuTracer.h"
 #include "shadowtech/tracing/ShadowTracer.h"
@@ -40,5 +39,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_tracing_GpuTracer_h
-#define gnomon_shadowtech_tracing_GpuTracer_h
+#pragma once
 
 #include "shadowtech/base/Gl.h"
 #include "shadowtech/base/OccluderBuffers.h"
@@ -79,5 +78,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

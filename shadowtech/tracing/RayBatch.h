@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_tracing_RayBatch_h
-#define gnomon_shadowtech_tracing_RayBatch_h
+#pragma once
 
 #include "shadowtech/base/Gl.h"
 
@@ -76,5 +75,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

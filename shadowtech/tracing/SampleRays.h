@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_tracing_SampleRays_h
-#define gnomon_shadowtech_tracing_SampleRays_h
+#pragma once
 
 #include "lights/LightSamples.h"
 
@@ -54,5 +53,3 @@ public:
 };
 
 } // namespace gnomon
-
-#endif

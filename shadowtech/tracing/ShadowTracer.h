@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_tracing_ShadowTracer_h
-#define gnomon_shadowtech_tracing_ShadowTracer_h
+#pragma once
 
 #include "shadowtech/tracing/TracedPicture.h"
 
@@ -83,5 +82,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_tracing_TraceAll_h
-#define gnomon_shadowtech_tracing_TraceAll_h
+#pragma once
 
 #include "shadowtech/base/Technique.h"
 
@@ -13,5 +12,3 @@ void traceAllReceivers(
   const ScreenInput& input, std::vector<float>& visibility, LightReport& report);
 
 } // namespace gnomon
-
-#endif

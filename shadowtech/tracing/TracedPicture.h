@@ -1,5 +1,4 @@
-#ifndef gnomon_shadowtech_tracing_TracedPicture_h
-#define gnomon_shadowtech_tracing_TracedPicture_h
+#pragma once
 
 #include "lights/LightSamples.h"
 #include "lights/ShadowLight.h"
@@ -156,5 +155,3 @@ private:
 };
 
 } // namespace gnomon
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_tests_benchmarks_BenchmarkMain_h
-#define gnomon_tests_benchmarks_BenchmarkMain_h
+#pragma once
 
 #include <exception>
 #include <iostream>
@@ -23,5 +22,3 @@ int runBenchmark(const char* name, const Run& run)
 }
 
 } // namespace gnomon::tool
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_tests_check_Check_h
-#define gnomon_tests_check_Check_h
+#pragma once
 
 #include "Scene.h"
 #include "VisibilityFile.h"
@@ -66,5 +65,3 @@ Result compare(const Scene& scene, const VisibilityFile& file);
 std::string toJson(const Result& result, int width);
 
 } // namespace gnomon::check
-
-#endif

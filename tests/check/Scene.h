@@ -1,5 +1,4 @@
-#ifndef gnomon_tests_check_Scene_h
-#define gnomon_tests_check_Scene_h
+#pragma once
 
 #include <ImathVec.h>
 
@@ -103,5 +102,3 @@ Holes readHoles(const std::string& path);
 bool isDrawn(const Surface& surface, std::size_t triangle, const Vec3& point);
 
 } // namespace gnomon::check
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_tests_check_Tracer_h
-#define gnomon_tests_check_Tracer_h
+#pragma once
 
 #include "Scene.h"
 
@@ -65,5 +64,3 @@ private:
 };
 
 } // namespace gnomon::check
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_tests_check_VisibilityFile_h
-#define gnomon_tests_check_VisibilityFile_h
+#pragma once
 
 #include "Scene.h"
 
@@ -29,5 +28,3 @@ struct VisibilityFile
 VisibilityFile readVisibilityFile(const std::string& path);
 
 } // namespace gnomon::check
-
-#endif

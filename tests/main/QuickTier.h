@@ -1,5 +1,4 @@
-#ifndef gnomon_tests_main_QuickTier_h
-#define gnomon_tests_main_QuickTier_h
+#pragma once
 
 #include <string>
 
@@ -17,5 +16,3 @@ std::string filterOfTier(
   const std::string& tier, const std::string& slow, const std::string& filter);
 
 } // namespace gnomon::test
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_tests_tool_SyntheticResults_h
-#define gnomon_tests_tool_SyntheticResults_h
+#pragma once
 
 #include "Comparison.h"
 
@@ -123,5 +122,3 @@ inline ComparisonResults syntheticResults()
 }
 
 } // namespace gnomon::tool
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_tests_tool_TestFiles_h
-#define gnomon_tests_tool_TestFiles_h
+#pragma once
 
 #include <cstdlib>
 #include <filesystem>
@@ -66,5 +65,3 @@ std::string messageOf(const Work& work)
 }
 
 } // namespace gnomon::tool
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_tests_tool_scenes_SampleFiles_h
-#define gnomon_tests_tool_scenes_SampleFiles_h
+#pragma once
 
 #include <nlohmann/json.hpp>
 
@@ -39,5 +38,3 @@ std::map<std::string, std::string> sampleModels();
 nlohmann::json sampleScene();
 
 } // namespace gnomon::tool
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_tests_unit_lights_FittedViews_h
-#define gnomon_tests_unit_lights_FittedViews_h
+#pragma once
 
 #include "lights/LightSpace.h"
 #include "lights/MapAliasing.h"
@@ -324,5 +323,3 @@ void expectHardlyWorseThanUniform(const Project& project, double largestRatio)
 }
 
 } // namespace gnomon::test
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_tests_occluders_TestData_h
-#define gnomon_tests_occluders_TestData_h
+#pragma once
 
 #include "vtkActor.h"
 #include "vtkCellArray.h"
@@ -67,5 +66,3 @@ inline vtkSmartPointer<vtkActor> makeActor(vtkPolyData* data)
 }
 
 } // namespace gnomon::test
-
-#endif

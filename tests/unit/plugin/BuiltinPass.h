@@ -1,5 +1,4 @@
-#ifndef gnomon_tests_unit_plugin_BuiltinPass_h
-#define gnomon_tests_unit_plugin_BuiltinPass_h
+#pragma once
 
 #include "Scene.h"
 
@@ -42,5 +41,3 @@ inline std::string testNameOf(std::string scene)
 }
 
 } // namespace gnomon::test
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_tests_unit_plugin_ChangedScene_h
-#define gnomon_tests_unit_plugin_ChangedScene_h
+#pragma once
 
 #include "PassScene.h"
 
@@ -102,5 +101,3 @@ private:
 };
 
 } // namespace gnomon::test
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_tests_unit_plugin_LiveObjects_h
-#define gnomon_tests_unit_plugin_LiveObjects_h
+#pragma once
 
 #include <ostream>
 
@@ -38,5 +37,3 @@ std::ostream& operator<<(std::ostream& stream, const LiveObjects& live);
 LiveObjects countLiveObjects(vtkRenderWindow* window);
 
 } // namespace gnomon::test
-
-#endif

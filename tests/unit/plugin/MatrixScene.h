@@ -1,5 +1,4 @@
-#ifndef gnomon_tests_unit_plugin_MatrixScene_h
-#define gnomon_tests_unit_plugin_MatrixScene_h
+#pragma once
 
 #include "PassScene.h"
 
@@ -52,5 +51,3 @@ public:
 };
 
 } // namespace gnomon::test
-
-#endif

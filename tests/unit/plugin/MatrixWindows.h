@@ -1,5 +1,4 @@
-#ifndef gnomon_tests_unit_plugin_MatrixWindows_h
-#define gnomon_tests_unit_plugin_MatrixWindows_h
+#pragma once
 
 #include "PassScene.h"
 
@@ -37,5 +36,3 @@ struct MatrixWindowKind
 const std::vector<MatrixWindowKind>& matrixWindows();
 
 } // namespace gnomon::test
-
-#endif

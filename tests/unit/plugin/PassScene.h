@@ -1,5 +1,4 @@
-#ifndef gnomon_tests_unit_plugin_PassScene_h
-#define gnomon_tests_unit_plugin_PassScene_h
+#pragma once
 
 #include "VtkMessages.h"
 
@@ -233,5 +232,3 @@ protected:
 };
 
 } // namespace gnomon::test
-
-#endif

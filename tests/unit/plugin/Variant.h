@@ -1,5 +1,4 @@
-#ifndef gnomon_tests_unit_plugin_Variant_h
-#define gnomon_tests_unit_plugin_Variant_h
+#pragma once
 
 #include "PassScene.h"
 
@@ -75,5 +74,3 @@ inline std::string nameOfVariant(const testing::TestParamInfo<Variant>& variant)
   TEST_P(Test, by)
 
 } // namespace gnomon::test
-
-#endif

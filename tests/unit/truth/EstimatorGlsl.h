@@ -1,5 +1,4 @@
-#ifndef gnomon_tests_unit_truth_EstimatorGlsl_h
-#define gnomon_tests_unit_truth_EstimatorGlsl_h
+#pragma once
 
 // The GLSL of estimators on maps that are given, for comparison with twins.
 
@@ -151,5 +150,3 @@ protected:
 };
 
 } // namespace gnomon::test
-
-#endif

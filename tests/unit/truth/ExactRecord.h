@@ -1,5 +1,4 @@
-#ifndef gnomon_tests_ExactRecord_h
-#define gnomon_tests_ExactRecord_h
+#pragma once
 
 #include <gtest/gtest.h>
 
@@ -46,5 +45,3 @@ inline void recordCompared(const std::string& technique, const std::string& scen
 }
 
 } // namespace gnomon::test
-
-#endif

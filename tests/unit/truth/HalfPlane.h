@@ -1,5 +1,4 @@
-#ifndef gnomon_tests_unit_truth_HalfPlane_h
-#define gnomon_tests_unit_truth_HalfPlane_h
+#pragma once
 
 #include <glm/gtc/constants.hpp>
 
@@ -58,5 +57,3 @@ struct SunPastEdge
 };
 
 } // namespace gnomon::test
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_tests_unit_truth_InstancedScene_h
-#define gnomon_tests_unit_truth_InstancedScene_h
+#pragma once
 
 // Scenes with instances, and the same with the triangles of all of them.
 
@@ -57,5 +56,3 @@ Occluders cupsOverFloor(bool mirrored, bool oneSided);
 void perforate(Occluders& occluders);
 
 } // namespace gnomon::test
-
-#endif

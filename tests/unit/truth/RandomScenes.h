@@ -1,5 +1,4 @@
-#ifndef gnomon_tests_RandomScenes_h
-#define gnomon_tests_RandomScenes_h
+#pragma once
 
 #include "SyntheticScene.h"
 
@@ -58,5 +57,3 @@ LightViews viewsOf(const ShadowLight& light, const Occluders& occluders);
 unsigned int exactRuns(unsigned int few = 24);
 
 } // namespace gnomon::test
-
-#endif

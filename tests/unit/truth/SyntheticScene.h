@@ -1,5 +1,4 @@
-#ifndef gnomon_tests_SyntheticScene_h
-#define gnomon_tests_SyntheticScene_h
+#pragma once
 
 #include "lights/ShadowLight.h"
 #include "shadowtech/base/Occluders.h"
@@ -128,5 +127,3 @@ std::size_t countDifferent(const std::vector<float>& a, const std::vector<float>
 std::size_t countCovered(const ReceiverPixels& receivers);
 
 } // namespace gnomon::test
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef gnomon_tests_TexelPolygons_h
-#define gnomon_tests_TexelPolygons_h
+#pragma once
 
 #include "RandomScenes.h"
 
@@ -164,5 +163,3 @@ Corners withMovedSides(const Corners& corners, const By& by)
 }
 
 } // namespace gnomon::test
-
-#endif

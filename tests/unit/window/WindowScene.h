@@ -1,5 +1,4 @@
-#ifndef gnomon_tests_unit_window_WindowScene_h
-#define gnomon_tests_unit_window_WindowScene_h
+#pragma once
 
 #include "vtkGnomonShadowPass.h"
 
@@ -69,5 +68,3 @@ inline std::vector<unsigned char> readPicture(vtkRenderWindow* window)
 }
 
 } // namespace gnomon::test
-
-#endif
