@@ -46,12 +46,6 @@ struct CameraView
     return glm::dvec2(this->clipFromView[3][3], -this->clipFromView[2][3]) / pixelsOfUnit;
   }
 
-  /// The distance of a point along the direction of view, from the eye's plane.
-  double distanceOf(const glm::dvec3& centred) const
-  {
-    return -(this->viewFromCentred * glm::dvec4(centred, 1.0)).z;
-  }
-
   /// The frustum's corners; bits 0, 1 and 2 of the index choose right, top and far. Those of a far
   /// plane at infinity are not finite: what has to hold for all cameras uses the planes.
   std::array<glm::dvec3, 8> cornersCentred() const

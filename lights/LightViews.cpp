@@ -334,17 +334,6 @@ LightViews fitLightViews(const ShadowLight& light, const ViewFitting& fitting)
 }
 
 //------------------------------------------------------------------------------
-LightViews fitLightViews(const ShadowLight& light, const glm::dvec3& centreWorld,
-  const Bounds& castersCentred, int mapSizeTexels, int borderTexels)
-{
-  ViewFitting fitting;
-  fitting.centreWorld = centreWorld;
-  fitting.castersCentred = castersCentred;
-  fitting.texels = { mapSizeTexels, borderTexels };
-  return fitLightViews(light, fitting);
-}
-
-//------------------------------------------------------------------------------
 void moveTexels(LightViews& views, const glm::dvec2& texels, int sideTexels)
 {
   MapFit move;

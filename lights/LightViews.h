@@ -119,10 +119,6 @@ struct ViewFitting
 /// Casters nearer to a positional light than nearestShare of the farthest one are not seen.
 LightViews fitLightViews(const ShadowLight& light, const ViewFitting& fitting);
 
-/// The same for all of the scene.
-LightViews fitLightViews(const ShadowLight& light, const glm::dvec3& centreWorld,
-  const Bounds& castersCentred, int mapSizeTexels, int borderTexels = 1);
-
 /// Moves what all views show, by a share of a texel, so that maps of much the same view do not
 /// round a caster's edges to the same texels.
 /// @param texels up to half a texel: the views' border has to hold one more than is read of it

@@ -5,34 +5,14 @@
 
 #include <glm/glm.hpp>
 
-#include <optional>
 #include <vector>
 
 namespace gnomon
 {
 
-/// A point of a surface, in centred coordinates.
-struct SurfacePoint
-{
-  glm::dvec3 positionCentred;
-  glm::dvec3 normalCentred; ///< of any length but 0
-};
-
-/// The sides of a map's texel on a surface, in pixels of the camera's picture: the aliasing measure
-/// of both axes of the map (Apelles, eqs 3.17 and 3.18; Lloyd 2007, section 3.2). Above 1 the texel
-/// can be seen.
-///
-/// @param mapFromAcross the projection with its fit
-/// @return nothing where the measure has no meaning: the surface is edge-on to the light, or the
-/// point is not before the camera and in the light's view
-std::optional<glm::dvec2> texelPixels(const SurfacePoint& point, const CameraView& camera,
-  const glm::dvec2& viewportPixels, const LightRays& rays, const glm::dmat3& mapFromAcross,
-  int mapSizeTexels);
-
-/// The perspective part of the same measure, which knows no surfaces: how large the map looks from
-/// the camera where it looks largest, if it stood across the light's ray and across the line of
-/// sight. Only ratios between projections have a meaning. (Lloyd et al., Warping and Partitioning
-/// for Low Error Shadow Maps, 2006, section 3.)
+/// How large a map looks from the camera where it looks largest, if it stood across the light's ray
+/// and across the line of sight. Only ratios between projections have a meaning. (Lloyd et al.,
+/// Warping and Partitioning for Low Error Shadow Maps, 2006, section 3.)
 struct PerspectiveAliasing
 {
   /// Of a step of 1 in device coordinates, as the tangent of an angle, along the worse of both

@@ -4,9 +4,6 @@
 #include "shadowtech/base/LightViewsGlsl.h"
 #include "shadowtech/base/ShaderLibrary.h"
 
-#include <array>
-#include <cstdint>
-
 namespace gnomon
 {
 namespace
@@ -223,88 +220,6 @@ void ReceiverFit::compute(const ShadowLight& light, const LightViews& views,
   glBindImageTexture(0, this->fits_.name(), 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RGBA32F);
   glDispatchCompute(static_cast<GLuint>(count), 1, 1);
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
-}
-
-//------------------------------------------------------------------------------
-std::vector<Bounds> ReceiverFit::readBounds() const
-{
-  const GlStateGuard guard;
-  const ComputeBindingsGuard computeGuard;
-  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-  std::vector<std::array<std::uint32_t, numbersPerBox>> keys(
-    static_cast<std::size_t>(this->views_));
-  glBindBuffer(GL_SHADER_STORAGE_BUFFER, this->bounds_.name());
-  glGetBufferSubData(GL_SHADER_STORAGE_BUFFER, 0,
-    static_cast<GLsizeiptr>(keys.size() * sizeof(keys[0])), keys.data());
-  // ofKey() of bounds_buffer.glsl.
-  const auto number = [](std::uint32_t key)
-  {
-    const std::uint32_t bits = (key & 0x80000000u) ? key & 0x7fffffffu : ~key;
-    return static_cast<double>(glm::uintBitsToFloat(bits));
-  };
-  std::vector<Bounds> result(keys.size());
-  for (std::size_t i = 0; i < keys.size(); ++i)
-  {
-    if (keys[i][0] != 0xffffffffu)
-    {
-      result[i].lower = { number(keys[i][0]), number(keys[i][1]), number(keys[i][2]) };
-      result[i].upper = { -number(keys[i][3]), -number(keys[i][4]), -number(keys[i][5]) };
-    }
-  }
-  return result;
-}
-
-//------------------------------------------------------------------------------
-std::vector<glm::vec4> ReceiverFit::readRows() const
-{
-  const GlStateGuard guard;
-  glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
-  std::vector<glm::vec4> texels(static_cast<std::size_t>(this->views_ * this->rows_));
-  glActiveTexture(GL_TEXTURE0);
-  glBindTexture(GL_TEXTURE_2D, this->fits_.name());
-  glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
-  glGetTexImage(GL_TEXTURE_2D, 0, GL_RGBA, GL_FLOAT, texels.data());
-  return texels;
-}
-
-//------------------------------------------------------------------------------
-std::vector<MapFit> ReceiverFit::readFits() const
-{
-  const std::vector<glm::vec4> texels = this->readRows();
-  std::vector<MapFit> result;
-  for (int view = 0; view < this->views_; ++view)
-  {
-    const glm::dvec4 fit(texels[static_cast<std::size_t>(view)]);
-    result.push_back({ { fit.x, fit.y }, { fit.z, fit.w } });
-  }
-  return result;
-}
-
-//------------------------------------------------------------------------------
-glm::dmat3 ReceiverFit::readWarp() const
-{
-  const std::vector<glm::vec4> texels = this->readRows();
-  glm::dmat3 result(1.0);
-  for (int column = 0; column < 3 && this->rows_ == chosenRows; ++column)
-  {
-    const int row = chosenRows - 3 + column;
-    result[column] = glm::dvec3(texels[static_cast<std::size_t>(this->views_ * row)]);
-  }
-  return result;
-}
-
-//------------------------------------------------------------------------------
-std::vector<float> ReceiverFit::readTexelSides() const
-{
-  const GlStateGuard guard;
-  const ComputeBindingsGuard computeGuard;
-  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-  GLint bytes = 0;
-  glBindBuffer(GL_SHADER_STORAGE_BUFFER, this->sides_.name());
-  glGetBufferParameteriv(GL_SHADER_STORAGE_BUFFER, GL_BUFFER_SIZE, &bytes);
-  std::vector<float> result(static_cast<std::size_t>(bytes) / sizeof(float));
-  glGetBufferSubData(GL_SHADER_STORAGE_BUFFER, 0, bytes, result.data());
-  return result;
 }
 
 } // namespace gnomon

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "lights/Bounds.h"
 #include "lights/LightViews.h"
 #include "shadowtech/base/Gl.h"
 #include "shadowtech/base/Technique.h"
@@ -55,22 +54,16 @@ public:
   /// The fits: a column per view (fit_rows.glsl).
   TextureBinding fits() const { return { GL_TEXTURE_2D, this->fits_.name() }; }
 
-  /// Reads back the bounds of the receivers in each view, as of the last compute(): x and y in
-  /// texels before the fit, z the distance along the view. Waits for the GPU.
-  std::vector<Bounds> readBounds() const;
-  /// The same of the fits.
-  std::vector<MapFit> readFits() const;
-  /// The same of the warp that was chosen, from the view's uniform map to its own, in device
-  /// coordinates; the identity where none was to be chosen.
-  glm::dmat3 readWarp() const;
-  /// The same of the mean sides of texels that it was chosen by, one per warp of the view.
-  std::vector<float> readTexelSides() const;
+  /// A box per view, of the receivers in it: x and y in texels before the fit, z the distance along
+  /// the view (bounds_buffer.glsl).
+  GLuint bounds() const { return this->bounds_.name(); }
+  /// The mean sides of texels that a warp was chosen by, one per warp of the view.
+  GLuint texelSides() const { return this->sides_.name(); }
 
 private:
   void allocate(int views, int rows);
   void chooseWarp(const ShadowLight& light, const LightView& view, std::vector<Uniform> uniforms,
     ShaderLibrary& shaders);
-  std::vector<glm::vec4> readRows() const;
 
   GlBuffer bounds_;
   GlTexture fits_;

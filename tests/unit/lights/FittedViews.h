@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <random>
 #include <string>
 #include <vector>
@@ -28,6 +29,12 @@ inline CameraView perspectiveCamera(const glm::dvec3& eye, const glm::dvec3& foc
     std::abs(direction.z) < 0.9 ? glm::dvec3(0.0, 0.0, 1.0) : glm::dvec3(0.0, 1.0, 0.0);
   return { glm::lookAt(eye, focus, up),
     glm::perspective(glm::radians(fieldOfViewDegrees), 1.0, nearDistance, farDistance) };
+}
+
+/// The distance of a point along the direction of view, from the eye's plane.
+inline double distanceOf(const CameraView& camera, const glm::dvec3& centred)
+{
+  return -(camera.viewFromCentred * glm::dvec4(centred, 1.0)).z;
 }
 
 inline LightRays directionalRays(const glm::dvec3& direction)
@@ -166,6 +173,80 @@ inline Setting randomSetting(std::mt19937& random)
   setting.name = "spot";
   setting.reach = coneHalfSpaces(std::tan(glm::radians(0.1 + 59.9 * unit(random))), nearest);
   return setting;
+}
+
+/// A point of a surface, in centred coordinates.
+struct SurfacePoint
+{
+  glm::dvec3 positionCentred;
+  glm::dvec3 normalCentred; ///< of any length but 0
+};
+
+/// d(image)/d(u, v) of a projection, at a point that two tangents span a surface around.
+/// @param homogeneous the point's image and those of the tangents: (numerators, w)
+inline glm::dmat2 jacobian(
+  const glm::dvec3& homogeneous, const glm::dvec3& tangentU, const glm::dvec3& tangentV)
+{
+  // d(a/w) = (da - (a/w) dw) / w
+  const glm::dvec2 image = glm::dvec2(homogeneous) / homogeneous.z;
+  return { (glm::dvec2(tangentU) - image * tangentU.z) / homogeneous.z,
+    (glm::dvec2(tangentV) - image * tangentV.z) / homogeneous.z };
+}
+
+/// The rows of x, y and w alone.
+inline glm::dvec3 xyw(const glm::dvec4& clip)
+{
+  return { clip.x, clip.y, clip.w };
+}
+
+/// The sides of a map's texel on a surface, in pixels of the camera's picture: the aliasing measure
+/// of both axes of the map (Apelles, eqs 3.17 and 3.18; Lloyd 2007, section 3.2). Above 1 the texel
+/// can be seen.
+///
+/// @param mapFromAcross the projection with its fit
+/// @return nothing where the measure has no meaning: the surface is edge-on to the light, or the
+/// point is not before the camera and in the light's view
+inline std::optional<glm::dvec2> texelPixels(const SurfacePoint& point, const CameraView& camera,
+  const glm::dvec2& viewportPixels, const LightRays& rays, const glm::dmat3& mapFromAcross,
+  int mapSizeTexels)
+{
+  const glm::dvec3 normal = glm::normalize(point.normalCentred);
+  const glm::dvec3 magnitude = glm::abs(normal);
+  const glm::dvec3 aside =
+    magnitude.x < 0.6 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 1.0, 0.0);
+  const glm::dvec3 u = glm::normalize(glm::cross(aside, normal));
+  const glm::dvec3 v = glm::cross(normal, u);
+
+  const glm::dmat4 clipFromCentred = camera.clipFromCentred();
+  const glm::dvec3 screen = xyw(clipFromCentred * glm::dvec4(point.positionCentred, 1.0));
+  // Across coordinates are homogeneous, too: (x, y, z) of a positional light, else (x, y, 1).
+  const auto acrossOf = [&](const glm::dvec4& centred)
+  {
+    const glm::dvec4 view = rays.viewFromCentred * centred;
+    return mapFromAcross * glm::dvec3(view.x, view.y, rays.positional ? view.z : centred.w);
+  };
+  const glm::dvec4 position(point.positionCentred, 1.0);
+  const glm::dvec3 map = acrossOf(position);
+  if (!(screen.z > 0.0) || !(map.z > 0.0))
+  {
+    return std::nullopt;
+  }
+  const glm::dmat2 screenFromSurface = jacobian(
+    screen, xyw(clipFromCentred * glm::dvec4(u, 0.0)), xyw(clipFromCentred * glm::dvec4(v, 0.0)));
+  const glm::dmat2 mapFromSurface =
+    jacobian(map, acrossOf(glm::dvec4(u, 0.0)), acrossOf(glm::dvec4(v, 0.0)));
+  const double area = std::abs(glm::determinant(mapFromSurface));
+  const double size = glm::length(mapFromSurface[0]) * glm::length(mapFromSurface[0]) +
+    glm::length(mapFromSurface[1]) * glm::length(mapFromSurface[1]);
+  if (!(area > 1e-12 * size))
+  {
+    return std::nullopt;
+  }
+  const glm::dmat2 screenFromMap = screenFromSurface * glm::inverse(mapFromSurface);
+  // Both from device coordinates, of which each side has 2.
+  const glm::dvec2 texel(
+    glm::length(screenFromMap[0] * viewportPixels), glm::length(screenFromMap[1] * viewportPixels));
+  return texel / static_cast<double>(mapSizeTexels);
 }
 
 /// The points of the plane z = 0 that the camera sees in the scene, a grid of its pixels.

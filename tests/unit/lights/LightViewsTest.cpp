@@ -32,7 +32,7 @@ ShadowLight lightAround(LightKind kind, const glm::dvec3& positionCentred,
 
 LightViews fit(const ShadowLight& light, const Bounds& casters)
 {
-  return fitLightViews(light, viewsCentre, casters, mapSize);
+  return fitLightViews(light, { viewsCentre, casters, {}, { mapSize, 1 }, {} });
 }
 
 /// Points in the box, its corners and more.
@@ -140,11 +140,11 @@ TEST(LightViews, KeepTheBorderThatTheyAreAskedFor)
       return (glm::dvec2(clip) / clip.w * 0.5 + 0.5) * static_cast<double>(mapSize);
     };
     // The border of a cube's face lies at 45 degrees, that of a sun's view around the casters.
-    const LightViews faces =
-      fitLightViews(lightAround(LightKind::Point, {}), viewsCentre, casters, mapSize, asked);
+    const LightViews faces = fitLightViews(
+      lightAround(LightKind::Point, {}), { viewsCentre, casters, {}, { mapSize, asked }, {} });
     ASSERT_EQ(faces.views.size(), 6u);
-    const LightViews suns = fitLightViews(
-      lightAround(LightKind::Directional, {}, { 0, 0, -1 }), viewsCentre, casters, mapSize, asked);
+    const LightViews suns = fitLightViews(lightAround(LightKind::Directional, {}, { 0, 0, -1 }),
+      { viewsCentre, casters, {}, { mapSize, asked }, {} });
     for (const LightView* view : { &faces.views[5], &suns.views[0] })
     {
       const glm::dvec2 corner = texelOf(*view, { 1.0, 1.0, -1.0 });
@@ -227,8 +227,8 @@ TEST(LightViews, FacesSeeCastersThatLieWithinTheBorderBeyondTheirEdge)
   // Below the light, up to 0.995 of the slope that belongs to the face +x.
   const Bounds plate = box({ 1.0, -1.0, -2.0 }, { 1.99, 1.0, -2.0 });
   constexpr int border = 8;
-  const LightViews wide =
-    fitLightViews(lightAround(LightKind::Point, {}), viewsCentre, plate, mapSize, border);
+  const LightViews wide = fitLightViews(
+    lightAround(LightKind::Point, {}), { viewsCentre, plate, {}, { mapSize, border }, {} });
   EXPECT_EQ(facesOf(wide), std::vector<int>({ 0, 5 }));
   // From the plate beyond the edge to the last point on this side from which it is read.
   const auto [lower, upper] = slopesOf(wide.views.at(0));

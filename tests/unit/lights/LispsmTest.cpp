@@ -46,7 +46,7 @@ TEST(Lispsm, HasMoreTexelsNearTheCamera)
   std::vector<SurfacePoint> nearest;
   for (const SurfacePoint& point : groundSeen(setting))
   {
-    if (setting.camera.distanceOf(point.positionCentred) < 40.0)
+    if (distanceOf(setting.camera, point.positionCentred) < 40.0)
     {
       nearest.push_back(point);
     }
@@ -99,7 +99,7 @@ TEST(Lispsm, SpreadsTheTexelsOverATerrain)
       std::vector<SurfacePoint> points;
       for (const SurfacePoint& point : ground)
       {
-        const double distance = setting.camera.distanceOf(point.positionCentred);
+        const double distance = distanceOf(setting.camera, point.positionCentred);
         if (splits[i] <= distance && distance <= splits[i + 1])
         {
           points.push_back(point);

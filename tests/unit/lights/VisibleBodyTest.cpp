@@ -25,12 +25,12 @@ TEST(CameraView, KnowsItsEyeItsDirectionAndItsPlanes)
   EXPECT_LT(glm::length(camera.directionCentred() - glm::dvec3(0.0, 1.0, 0.0)), 1e-12);
   EXPECT_NEAR(camera.nearDistance(), 0.5, 1e-12);
   EXPECT_NEAR(camera.farDistance(), 20.0, 1e-9);
-  EXPECT_NEAR(camera.distanceOf({ 7.0, 6.0, -2.0 }), 4.0, 1e-12);
+  EXPECT_NEAR(distanceOf(camera, { 7.0, 6.0, -2.0 }), 4.0, 1e-12);
   EXPECT_FALSE(camera.isParallel());
   const auto corners = camera.cornersCentred();
   for (std::size_t i = 0; i < corners.size(); ++i)
   {
-    EXPECT_NEAR(camera.distanceOf(corners[i]), i < 4 ? 0.5 : 20.0, 1e-9);
+    EXPECT_NEAR(distanceOf(camera, corners[i]), i < 4 ? 0.5 : 20.0, 1e-9);
   }
 
   CameraView parallel = camera;

@@ -108,8 +108,8 @@ TEST_P(Pcf, shadowsBeginWithinTheKernelsReachOfTheirCasters)
     gnomon::ShadowLight sun;
     sun.directionWorld = glm::normalize(direction);
     gnomon::Bounds casters{ { -4.0, -4.0, 0.0 }, { 4.0, 4.0, 2.0 } };
-    const gnomon::LightViews views =
-      gnomon::fitLightViews(sun, glm::dvec3(0.0), casters, mapSize, reach().borderTexels());
+    const gnomon::LightViews views = gnomon::fitLightViews(
+      sun, { glm::dvec3(0.0), casters, {}, { mapSize, reach().borderTexels() }, {} });
     const auto texelOf = [&](double x)
     {
       const glm::dvec4 clip = views.views[0].clipFromCentred() * glm::dvec4(x, 0.0, 0.0, 1.0);

@@ -739,7 +739,8 @@ TEST(ConservativeMaps, areNeverWrongInTheLastTexels)
       {
         const Prop floor{ makePlane(6.0, cells), glm::dmat4(1.0), false };
         const Occluders occluders = makeOccluders({ floor, { plates } });
-        const LightViews views = fitLightViews(light, occluders.centreWorld, seen, size);
+        const LightViews views =
+          fitLightViews(light, { occluders.centreWorld, seen, {}, { size, 1 }, {} });
         camera.up = up;
         sum.add(compareWithTruth("map " + std::to_string(size) + ", " + std::to_string(texels),
           light, views, occluders, makeView(occluders, camera)));

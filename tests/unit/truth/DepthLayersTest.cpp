@@ -40,8 +40,8 @@ public:
   {
     light.mapSizeTexels = side;
     light.of<MonteCarloSettings>().layers = kind;
-    LightViews views = fitLightViews(
-      lightOfMap(light), this->occluders_.centreWorld, this->occluders_.castersCentred, side);
+    LightViews views = fitLightViews(lightOfMap(light),
+      { this->occluders_.centreWorld, this->occluders_.castersCentred, {}, { side, 1 }, {} });
     this->view_ = views.views.at(0);
     if (this->view_.rays.positional)
     {

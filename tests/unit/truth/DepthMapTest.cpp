@@ -40,8 +40,9 @@ public:
   {
     this->light.mapSizeTexels = mapSide;
     const Occluders occluders = makeOccluders(props);
-    this->views = fitLightViews(this->light, occluders.centreWorld, occluders.allCentred, mapSide,
-      this->mapReach(this->light).borderTexels());
+    this->views = fitLightViews(this->light,
+      { occluders.centreWorld, occluders.allCentred, {},
+        { mapSide, this->mapReach(this->light).borderTexels() }, {} });
     OccluderBuffers buffers;
     buffers.update(occluders);
     ShaderLibrary shaders;
@@ -245,8 +246,9 @@ TEST_F(DepthMap, pyramidBoundsEveryBlock)
     ShadowLight light = directionalLight({ 0.3, 0.2, -1.0 });
     light.mapSizeTexels = size;
     OpenAdaptive technique;
-    const LightViews views = fitLightViews(light, occluders.centreWorld, occluders.allCentred, size,
-      technique.mapReach(light).borderTexels());
+    const LightViews views = fitLightViews(light,
+      { occluders.centreWorld, occluders.allCentred, {},
+        { size, technique.mapReach(light).borderTexels() }, {} });
     OccluderBuffers buffers;
     buffers.update(occluders);
     ShaderLibrary shaders;

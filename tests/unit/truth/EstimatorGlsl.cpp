@@ -31,7 +31,8 @@ void fillDepths(GlTexture& texture, const Depths& depths)
 //------------------------------------------------------------------------------
 LightViews sunViews(const ShadowLight& light)
 {
-  return fitLightViews(light, glm::dvec3(0.0), { glm::dvec3(-1.0), glm::dvec3(1.0) }, mapSize);
+  return fitLightViews(
+    light, { glm::dvec3(0.0), { glm::dvec3(-1.0), glm::dvec3(1.0) }, {}, { mapSize, 1 }, {} });
 }
 
 //------------------------------------------------------------------------------

@@ -232,7 +232,8 @@ public:
     light.mapSizeTexels = size;
     ConservativeMaps maps;
     maps.bake(light,
-      fitLightViews(light, this->occluders_.centreWorld, this->occluders_.castersCentred, size),
+      fitLightViews(light,
+        { this->occluders_.centreWorld, this->occluders_.castersCentred, {}, { size, 1 }, {} }),
       this->occluders_, rule);
     Verdict verdict;
     std::vector<float> visibility;

@@ -83,8 +83,8 @@ TEST_F(LightViewsGlsl, FindsTheViewsThatTheMathematicsMade)
   constexpr int size = 64;
   const ShadowLight light = pointLight({ 0.0, 0.0, 0.0 });
   // Nothing above the light and to its left, so that there are faces without a view.
-  const LightViews views =
-    fitLightViews(light, glm::dvec3(0.0), { { 0.1, -1.0, -1.0 }, { 1.0, 1.0, -0.9 } }, size);
+  const LightViews views = fitLightViews(
+    light, { glm::dvec3(0.0), { { 0.1, -1.0, -1.0 }, { 1.0, 1.0, -0.9 } }, {}, { size, 1 }, {} });
   ASSERT_GT(views.views.size(), 1u);
   ASSERT_LT(views.views.size(), 6u);
   const std::vector<glm::vec4> points = randomPoints();
@@ -128,7 +128,7 @@ TEST_F(LightViewsGlsl, FindsTheViewsThatTheMathematicsMade)
 TEST_F(LightViewsGlsl, WhoLooksAroundFindsNothingWhereThereAreNoCasters)
 {
   const ShadowLight light = pointLight({ 0.0, 0.0, 0.0 });
-  const LightViews views = fitLightViews(light, glm::dvec3(0.0), Bounds(), 64);
+  const LightViews views = fitLightViews(light, { glm::dvec3(0.0), Bounds(), {}, { 64, 1 }, {} });
   ASSERT_TRUE(views.views.empty());
   const std::vector<glm::vec4> points = randomPoints();
   const std::vector<FoundView> outputs = runLightViews(light, views, 64, points);
@@ -238,8 +238,8 @@ TEST_F(LightViewsGlsl, FindsTexelsOfAWarpedView)
 TEST_F(LightViewsGlsl, AgreesOnWhatLiesInABox)
 {
   const ShadowLight light = boxLight({ 0.0, 1.0, -0.5 }, { 0.0, 0.0, 0.0 }, { 1.1, 1.3, 0.7 });
-  const LightViews views =
-    fitLightViews(light, glm::dvec3(0.0), { glm::dvec3(-1.0), glm::dvec3(1.0) }, 64);
+  const LightViews views = fitLightViews(
+    light, { glm::dvec3(0.0), { glm::dvec3(-1.0), glm::dvec3(1.0) }, {}, { 64, 1 }, {} });
   const ShadowRayLight rayLight(light, glm::dvec3(0.0));
   const std::vector<glm::vec4> points = randomPoints();
   const std::vector<FoundView> outputs = runLightViews(light, views, 64, points);

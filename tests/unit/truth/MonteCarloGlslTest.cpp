@@ -451,8 +451,8 @@ TEST_F(MonteCarloGlsl, searchesInScenesLookAtFewCells)
   ShadowLight light = spotLight({ -2.0, -2.5, 7.0 }, { 0.0, 0.0, 0.0 }, 40.0);
   light.area = diskArea(light.directionWorld, 0.5);
   light.mapSizeTexels = side;
-  LightViews views =
-    fitLightViews(lightOfMap(light), occluders.centreWorld, occluders.castersCentred, side);
+  LightViews views = fitLightViews(
+    lightOfMap(light), { occluders.centreWorld, occluders.castersCentred, {}, { side, 1 }, {} });
   LightView& view = views.views.at(0);
   view.beginsAt = std::max(view.beginsAt, nearestOfArea(light));
   OccluderBuffers buffers;
@@ -846,7 +846,8 @@ TEST(RaySpace, keepsLinesStraightAndDepthsInOrder)
   sun.directionWorld = glm::normalize(glm::dvec3(0.2, -0.3, -1.0));
   for (const ShadowLight& light : { lampOver(1.0, 40.0), sun })
   {
-    const LightViews views = fitLightViews(lightOfMap(light), glm::dvec3(0.0), casters, 256);
+    const LightViews views =
+      fitLightViews(lightOfMap(light), { glm::dvec3(0.0), casters, {}, { 256, 1 }, {} });
     ASSERT_EQ(views.views.size(), 1u);
     const LightView& view = views.views[0];
     const double nearest = 2.0;

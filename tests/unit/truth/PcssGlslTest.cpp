@@ -107,8 +107,8 @@ struct Receiver
 /// A light's first view of a cube that casts, as the only one.
 LightViews firstView(const ShadowLight& light)
 {
-  LightViews views =
-    fitLightViews(light, glm::dvec3(0.0), { glm::dvec3(-1.0), glm::dvec3(1.0) }, mapSize, 8);
+  LightViews views = fitLightViews(
+    light, { glm::dvec3(0.0), { glm::dvec3(-1.0), glm::dvec3(1.0) }, {}, { mapSize, 8 }, {} });
   views.views.resize(1);
   for (int& view : views.viewOfFace)
   {
@@ -553,18 +553,18 @@ TEST(Pcss, widthsAreThoseOfSimilarTriangles)
   light.area = rectangleArea(light.directionWorld, { 0.0, 1.0, 0.0 }, glm::dvec2(0.5));
   const Bounds casters{ { -1.0, -1.0, 5.0 }, { 1.0, 1.0, 5.0 } };
   const Bounds receivers{ { -5.0, -5.0, 0.0 }, glm::dvec3(5.0) };
-  LightViews views = fitLightViews(light, glm::dvec3(0.0), casters, 1024, 1);
+  LightViews views = fitLightViews(light, { glm::dvec3(0.0), casters, {}, { 1024, 1 }, {} });
   // Half the light's diagonal times 1/5 - 1/10. Distances are cut 0.1 % short, so that rounding
   // cuts no caster off.
   EXPECT_NEAR(reachOfArea(*light.area, views, casters, receivers), std::sqrt(0.5) * 0.1, 2e-4);
   EXPECT_EQ(reachOfArea(LightArea(), views, casters, receivers), 0.0);
   light.kind = LightKind::Directional;
-  views = fitLightViews(light, glm::dvec3(0.0), casters, 1024, 1);
+  views = fitLightViews(light, { glm::dvec3(0.0), casters, {}, { 1024, 1 }, {} });
   EXPECT_NEAR(reachOfArea(*light.area, views, casters, receivers), std::sqrt(0.5) * 5.0, 1e-3);
   // Nothing is nearer to a point light than the casters' box, whatever its faces' planes cut.
   light.kind = LightKind::Point;
   const Bounds wide{ glm::dvec3(-4.0), glm::dvec3(4.0) };
-  views = fitLightViews(light, glm::dvec3(0.0), wide, 1024, 1);
+  views = fitLightViews(light, { glm::dvec3(0.0), wide, {}, { 1024, 1 }, {} });
   EXPECT_LT(reachOfArea(ballArea(0.3), views, wide, receivers), 0.3);
 }
 

@@ -325,9 +325,9 @@ struct Flaps
       flap = away[k] ? flap : glm::uvec3(flap.y, flap.x, flap.z);
     }
     this->occluders = makeOccluders({ { mesh } });
-    this->view =
-      fitLightViews(this->light, this->occluders.centreWorld, this->occluders.castersCentred, width)
-        .views.front();
+    this->view = fitLightViews(this->light,
+      { this->occluders.centreWorld, this->occluders.castersCentred, {}, { width, 1 },
+        {} }).views.front();
   }
 
   MapPolygon polygon(std::uint32_t triangle) const
@@ -401,9 +401,9 @@ struct Askew
     mesh.points = { { -1.0, -0.9, 0.0 }, { 0.1, 1.0, 0.7 }, { 1.0, -0.8, 0.3 } };
     mesh.triangles = { { 0, 1, 2 } };
     this->occluders = makeOccluders({ { mesh } });
-    this->view =
-      fitLightViews(light, this->occluders.centreWorld, this->occluders.castersCentred, width)
-        .views.front();
+    this->view = fitLightViews(light,
+      { this->occluders.centreWorld, this->occluders.castersCentred, {}, { width, 1 },
+        {} }).views.front();
     const glm::dmat3 texels = texelFromAcross(this->view, width);
     for (std::size_t k = 0; k < 3; ++k)
     {

@@ -361,7 +361,8 @@ RandomPicture makeRandomPicture(const std::string& name, unsigned int seed, cons
 //------------------------------------------------------------------------------
 LightViews viewsOf(const ShadowLight& light, const Occluders& occluders)
 {
-  return fitLightViews(light, occluders.centreWorld, occluders.castersCentred, light.mapSizeTexels);
+  return fitLightViews(
+    light, { occluders.centreWorld, occluders.castersCentred, {}, { light.mapSizeTexels, 1 }, {} });
 }
 
 //------------------------------------------------------------------------------

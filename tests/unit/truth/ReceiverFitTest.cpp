@@ -3,9 +3,11 @@
 
 #include "shadowtech/fitting/ReceiverFit.h"
 
+#include "lights/Bounds.h"
 #include "lights/LightSpace.h"
 #include "lights/Splits.h"
 #include "shadowtech/base/Gl.h"
+#include "shadowtech/base/GlState.h"
 #include "shadowtech/base/ShaderLibrary.h"
 #include "shadowtech/base/ShadowRay.h"
 
@@ -18,6 +20,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <random>
 #include <string>
@@ -237,6 +240,96 @@ ShadowLight lightThatChoosesWarp(ShadowLight light)
   return light;
 }
 
+/// A buffer's contents.
+template <typename Number>
+std::vector<Number> readBuffer(GLuint buffer)
+{
+  const GlStateGuard guard;
+  const StorageBindingsGuard bindings(1);
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  GLint bytes = 0;
+  glBindBuffer(GL_SHADER_STORAGE_BUFFER, buffer);
+  glGetBufferParameteriv(GL_SHADER_STORAGE_BUFFER, GL_BUFFER_SIZE, &bytes);
+  std::vector<Number> result(static_cast<std::size_t>(bytes) / sizeof(Number));
+  glGetBufferSubData(GL_SHADER_STORAGE_BUFFER, 0, bytes, result.data());
+  return result;
+}
+
+/// The bounds of the receivers in each view, as of the last compute().
+std::vector<Bounds> readBounds(const ReceiverFit& fit)
+{
+  const std::vector<std::uint32_t> keys = readBuffer<std::uint32_t>(fit.bounds());
+  // ofKey() of bounds_buffer.glsl.
+  const auto number = [](std::uint32_t key)
+  {
+    const std::uint32_t bits = (key & 0x80000000u) ? key & 0x7fffffffu : ~key;
+    return static_cast<double>(glm::uintBitsToFloat(bits));
+  };
+  constexpr std::size_t keysOfBox = 6;
+  std::vector<Bounds> result(keys.size() / keysOfBox - 1); // the last box holds distances
+  for (std::size_t i = 0; i < result.size(); ++i)
+  {
+    const std::uint32_t* box = &keys[keysOfBox * i];
+    if (box[0] != 0xffffffffu)
+    {
+      result[i].lower = { number(box[0]), number(box[1]), number(box[2]) };
+      result[i].upper = { -number(box[3]), -number(box[4]), -number(box[5]) };
+    }
+  }
+  return result;
+}
+
+/// The texture of the fits, a row of which has a texel for each view.
+struct FitTexels
+{
+  explicit FitTexels(const ReceiverFit& fit)
+  {
+    const GlStateGuard guard;
+    glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
+    glActiveTexture(GL_TEXTURE0);
+    glBindTexture(GL_TEXTURE_2D, fit.fits().texture);
+    glGetTexLevelParameteriv(GL_TEXTURE_2D, 0, GL_TEXTURE_WIDTH, &this->views);
+    glGetTexLevelParameteriv(GL_TEXTURE_2D, 0, GL_TEXTURE_HEIGHT, &this->rows);
+    this->texels.resize(static_cast<std::size_t>(this->views * this->rows));
+    glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+    glGetTexImage(GL_TEXTURE_2D, 0, GL_RGBA, GL_FLOAT, this->texels.data());
+  }
+  const glm::vec4& at(int row, int view) const
+  {
+    return this->texels.at(static_cast<std::size_t>(row * this->views + view));
+  }
+
+  GLint views = 0;
+  GLint rows = 0;
+  std::vector<glm::vec4> texels;
+};
+
+std::vector<MapFit> readFits(const ReceiverFit& fit)
+{
+  const FitTexels texels(fit);
+  std::vector<MapFit> result;
+  for (int view = 0; view < texels.views; ++view)
+  {
+    const glm::dvec4 last(texels.at(0, view));
+    result.push_back({ { last.x, last.y }, { last.z, last.w } });
+  }
+  return result;
+}
+
+/// The warp that was chosen, from the view's uniform map to its own, in device coordinates; the
+/// identity where none was to be chosen.
+glm::dmat3 readWarp(const ReceiverFit& fit)
+{
+  const FitTexels texels(fit);
+  constexpr int chosenRows = 11; // fit_rows.glsl
+  glm::dmat3 result(1.0);
+  for (int column = 0; column < 3 && texels.rows == chosenRows; ++column)
+  {
+    result[column] = glm::dvec3(texels.at(chosenRows - 3 + column, 0));
+  }
+  return result;
+}
+
 void expectBounds(const Bounds& bounds, const Bounds& expected)
 {
   EXPECT_EQ(bounds.empty(), expected.empty());
@@ -261,10 +354,10 @@ TEST_F(ReceiverFitTest, boundsAreTheCpusExactlyOnRandomImagesOfAnySize)
     SCOPED_TRACE(std::to_string(size.x) + " x " + std::to_string(size.y));
     Image image = randomImage(size.x, size.y, random);
     this->compute(fit, sun.light, sun.views, image);
-    expectBounds(fit.readBounds().at(0), ExactSun::bounds(image));
+    expectBounds(readBounds(fit).at(0), ExactSun::bounds(image));
     addDebris(image, random);
     this->compute(fit, sun.light, sun.views, image);
-    expectBounds(fit.readBounds().at(0), ExactSun::bounds(image));
+    expectBounds(readBounds(fit).at(0), ExactSun::bounds(image));
   }
 }
 
@@ -304,7 +397,7 @@ TEST_F(ReceiverFitTest, boundsOfTheLargestImage)
   ReceiverFit fit;
   fit.compute(sun.light, sun.views, { textures[0].name(), textures[1].name(), side, side },
     glm::dmat4(1.0), this->library_);
-  expectBounds(fit.readBounds().at(0), expected);
+  expectBounds(readBounds(fit).at(0), expected);
 }
 
 //------------------------------------------------------------------------------
@@ -324,8 +417,8 @@ TEST_F(ReceiverFitTest, withoutReceiversNothingIsOnTheMap)
   for (const Image* image : { &background, &broken, &away })
   {
     this->compute(fit, sun.light, sun.views, *image);
-    EXPECT_TRUE(fit.readBounds().at(0).empty());
-    const MapFit last = fit.readFits().at(0);
+    EXPECT_TRUE(readBounds(fit).at(0).empty());
+    const MapFit last = readFits(fit).at(0);
     for (const double map : { -1.0, 0.0, 1.0 })
     {
       EXPECT_GT(last.scale.x * map + last.offset.x, 1.0);
@@ -366,7 +459,7 @@ TEST_F(ReceiverFitTest, fitsAreTheCpus)
     }
     const auto expected = sun.light.snap ? fitSnappedTo(seen, texels, texels.covered())
                                          : fitTo(seen, texels, texels.covered());
-    const MapFit last = fit.readFits().at(0);
+    const MapFit last = readFits(fit).at(0);
     if (!expected)
     {
       EXPECT_EQ(last.scale, glm::dvec2(0.0));
@@ -425,7 +518,7 @@ TEST_F(ReceiverFitTest, distancesSplitTheReceivers)
         }
         expected[split].add(glm::dvec3(point));
       }
-      const std::vector<Bounds> bounds = fit.readBounds();
+      const std::vector<Bounds> bounds = readBounds(fit);
       ASSERT_EQ(bounds.size(), expected.size());
       EXPECT_EQ(bounds.front().upper.z, all.upper.z);
       EXPECT_EQ(bounds.back().lower.z, all.lower.z);
@@ -517,7 +610,7 @@ TEST_F(ReceiverFitTest, boundsOfAllKindsOfLight)
         expected[static_cast<std::size_t>(view)].add(glm::dvec3((map + 1.0) * 256.0, pView.z));
       }
     }
-    const std::vector<Bounds> bounds = fit.readBounds();
+    const std::vector<Bounds> bounds = readBounds(fit);
     ASSERT_EQ(bounds.size(), expected.size());
     for (std::size_t i = 0; i < expected.size(); ++i)
     {
@@ -561,13 +654,13 @@ TEST_F(ReceiverFitTest, warpIsTheOneWithTheSmallestTexelsOnTheMean)
       ReceiverFit fit;
       this->compute(fit, light, views, ground.image, glm::inverse(ground.camera.viewFromCentred));
 
-      std::vector<float> sides = fit.readTexelSides();
+      std::vector<float> sides = readBuffer<float>(fit.texelSides());
       ASSERT_EQ(sides.size(), view.warps.size());
       std::size_t nearest = 0;
       std::vector<double> distances;
       for (const glm::dmat3& warp : view.warps)
       {
-        const glm::dmat3 difference = fit.readWarp() - warp * glm::inverse(view.mapFromAcross);
+        const glm::dmat3 difference = readWarp(fit) - warp * glm::inverse(view.mapFromAcross);
         distances.push_back(
           glm::length(difference[0]) + glm::length(difference[1]) + glm::length(difference[2]));
         nearest = distances.back() < distances[nearest] ? distances.size() - 1 : nearest;
@@ -593,8 +686,8 @@ TEST_F(ReceiverFitTest, fittedWarpHoldsAllReceivers)
   ReceiverFit fit;
   this->compute(fit, light, views, ground.image, glm::inverse(ground.camera.viewFromCentred));
   const LightView& view = views.views.at(0);
-  const glm::dmat3 warped = fit.readFits().at(0).matrix() * fit.readWarp() * view.mapFromAcross;
-  EXPECT_GT(std::abs(fit.readWarp()[0].z) + std::abs(fit.readWarp()[1].z), 0.1);
+  const glm::dmat3 warped = readFits(fit).at(0).matrix() * readWarp(fit) * view.mapFromAcross;
+  EXPECT_GT(std::abs(readWarp(fit)[0].z) + std::abs(readWarp(fit)[1].z), 0.1);
   const glm::dmat4 lightFromView =
     view.rays.viewFromCentred * glm::inverse(ground.camera.viewFromCentred);
   Rectangle seen;
@@ -625,7 +718,7 @@ TEST_F(ReceiverFitTest, warpIsTheUniformMapWhereThereIsNoneToChoose)
     EXPECT_EQ(views.views.size(), 1u);
     ReceiverFit fit;
     this->compute(fit, shining, views, image, glm::inverse(ground.camera.viewFromCentred));
-    return fit.readWarp();
+    return readWarp(fit);
   };
   Ground ground({ 0.0, 1.0, -0.1 }, 64, 64);
   const glm::dmat3 identity(1.0);
