@@ -5,10 +5,7 @@
 #include "shadowtech/depth_map/Compare.h"
 #include "shadowtech/depth_map/Pcf.h"
 #include "shadowtech/exact/ExactTechniques.h"
-#include "shadowtech/moment_map/Exponential.h"
-#include "shadowtech/moment_map/FourMoments.h"
-#include "shadowtech/moment_map/SingleExponential.h"
-#include "shadowtech/moment_map/Variance.h"
+#include "shadowtech/moment_map/MomentEstimators.h"
 #include "shadowtech/montecarlo/MonteCarlo.h"
 #include "shadowtech/pcss/Pcss.h"
 #include "shadowtech/penumbra/Penumbra.h"
@@ -21,7 +18,6 @@
 #include "shadowtech/selective/Selective.h"
 
 #include <algorithm>
-#include <iterator>
 #include <memory>
 #include <type_traits>
 #include <utility>
@@ -39,20 +35,23 @@ constexpr Evaluation evaluationOf()
                                                           : Evaluation::ScreenCpu;
 }
 
+/// @param of what instances are made of
+template <typename Estimator, typename... Of>
+EstimatorEntry makeEntry(TechniqueInfo info, const Of&... of)
+{
+  info.evaluation = evaluationOf<Estimator>();
+  return { std::move(info), [of...] { return std::make_unique<Estimator>(of...); } };
+}
+
 template <typename Estimator>
 EstimatorEntry entry()
 {
-  TechniqueInfo info = Estimator::info();
-  info.evaluation = evaluationOf<Estimator>();
-  return { std::move(info), [] { return std::make_unique<Estimator>(); } };
+  return makeEntry<Estimator>(Estimator::info());
 }
 
-EstimatorEntry entryOf(const ConservativeEntry& conservative)
+EstimatorEntry entryOf(const MomentEstimator& estimator)
 {
-  TechniqueInfo info = conservative.info;
-  info.evaluation = evaluationOf<ConservativeTechnique>();
-  return { std::move(info),
-    [rule = conservative.rule] { return std::make_unique<ConservativeTechnique>(rule); } };
+  return makeEntry<MomentMapTechnique>(estimator.info, estimator);
 }
 
 const std::string& nameOf(const EstimatorEntry& entry)
@@ -92,10 +91,10 @@ std::vector<EstimatorEntry> makeEstimators()
     entry<Pcf>(),
     entry<Pcss>(),
     entry<PublishedPcss>(),
-    entry<SingleExponential>(),
-    entry<Variance>(),
-    entry<Exponential>(),
-    entry<FourMoments>(),
+    entryOf(singleExponential()),
+    entryOf(variance()),
+    entryOf(exponential()),
+    entryOf(fourMoments()),
     entry<MonteCarlo>(),
     entry<Planar>(),
     entry<Raytraced>(),
@@ -106,7 +105,10 @@ std::vector<EstimatorEntry> makeEstimators()
   };
   for (const auto& table : { exactTechniques(), publishedCrsm() })
   {
-    std::transform(table.begin(), table.end(), std::back_inserter(entries), entryOf);
+    for (const ConservativeEntry& conservative : table)
+    {
+      entries.push_back(makeEntry<ConservativeTechnique>(conservative.info, conservative.rule));
+    }
   }
   return entries;
 }

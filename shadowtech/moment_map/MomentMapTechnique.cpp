@@ -4,6 +4,7 @@
 #include "lights/SettingsTable.h"
 #include "shadowtech/base/CasterDrawing.h"
 #include "shadowtech/base/GlState.h"
+#include "shadowtech/base/GlslText.h"
 #include "shadowtech/base/Kernel.h"
 #include "shadowtech/base/LightViewsGlsl.h"
 #include "shadowtech/base/ShaderLibrary.h"
@@ -25,15 +26,10 @@ TexelFormat momentsFormat(int moments)
                       : TexelFormat{ GL_RGBA32F, GL_RGBA, 4 };
 }
 
-std::string define(const std::string& name, const std::string& value)
+/// The line that gives a macro of GLSL a real setting of the light.
+std::string defineSetting(const std::string& name, const char* setting, const ShadowLight& light)
 {
-  return "#define " + name + " " + value + "\n";
-}
-
-/// A real setting of the light as a constant of GLSL.
-std::string constant(const char* setting, const ShadowLight& light)
-{
-  return "float(" + findSetting(setting)->get(light) + ")";
+  return "#define " + name + " float(" + findSetting(setting)->get(light) + ")\n";
 }
 
 /// How many levels a light's map has: down to a single texel, or only itself.
@@ -79,34 +75,6 @@ const SettingsTable& momentMapSettings()
 }
 
 //------------------------------------------------------------------------------
-const SettingsTable& varianceSettings()
-{
-  static const SettingsTable table = { "Variance",
-    { real("variance_floor", "the least variance of depths",
-      "share of the map's depth range, squared", &VarianceSettings::floor, { 1e-9, 1.0 }) } };
-  return table;
-}
-
-//------------------------------------------------------------------------------
-std::string MomentMapTechnique::refusedSums(const ShadowLight& light)
-{
-  return light.of<MomentMapSettings>().blur == MapBlur::Sat ? "'" + light.estimator +
-      "' has moments beyond the range of the 32-bit integers that a summed-area table holds; it "
-      "takes 'blur' box"
-                                                            : "";
-}
-
-//------------------------------------------------------------------------------
-TechniqueInfo MomentMapTechnique::infoOf(const char* name)
-{
-  TechniqueInfo info;
-  info.name = name;
-  info.settings = { &viewSettings(), &kernelSettings(), &momentMapSettings() };
-  info.kernel = "square";
-  return info;
-}
-
-//------------------------------------------------------------------------------
 MapReach MomentMapTechnique::mapReach(const ShadowLight& light) const
 {
   if (light.of<MomentMapSettings>().blur == MapBlur::Sat)
@@ -120,7 +88,7 @@ MapReach MomentMapTechnique::mapReach(const ShadowLight& light) const
 //------------------------------------------------------------------------------
 void MomentMapTechnique::allocate(const ShadowLight& light, int views)
 {
-  const TexelFormat format = momentsFormat(this->moments().count);
+  const TexelFormat format = momentsFormat(this->estimator_.count);
   const int sizeTexels = light.mapSizeTexels;
   const bool blurred = !this->summed_ && light.of<KernelSettings>().sizeTexels > 1;
   blurred ? this->blur_.allocate(format, sizeTexels) : this->blur_.release();
@@ -144,7 +112,7 @@ void MomentMapTechnique::allocate(const ShadowLight& light, int views)
   glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_BORDER);
   glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_BORDER);
   glTexParameterfv(
-    GL_TEXTURE_2D_ARRAY, GL_TEXTURE_BORDER_COLOR, glm::value_ptr(this->moments().empty));
+    GL_TEXTURE_2D_ARRAY, GL_TEXTURE_BORDER_COLOR, glm::value_ptr(this->estimator_.empty));
   if (light.of<MomentMapSettings>().samples > 1)
   {
     this->sampled_.allocate(format, sizeTexels, light.of<MomentMapSettings>().samples);
@@ -172,10 +140,9 @@ void MomentMapTechnique::bake(const MapInput& input)
   this->views_ = input.views;
   this->viewFits_ = input.viewFits;
   this->reach_ = this->mapReach(input.light);
-  const Moments moments = this->moments();
   if (this->summed_)
   {
-    this->table_.setUnits(moments.largest, this->widestKernel());
+    this->table_.setUnits(this->estimator_.largest, this->widestKernel());
   }
 
   const bool sampled = this->samples_ > 1;
@@ -197,7 +164,7 @@ void MomentMapTechnique::bake(const MapInput& input)
     glBindFramebuffer(GL_FRAMEBUFFER, target);
     const float farthest = 1.0f;
     glClearBufferfv(GL_DEPTH, 0, &farthest);
-    glClearBufferfv(GL_COLOR, 0, glm::value_ptr(moments.empty));
+    glClearBufferfv(GL_COLOR, 0, glm::value_ptr(this->estimator_.empty));
     std::vector<std::string> defines = { "DEPTH_LINEAR",
       "SAMPLES " + std::to_string(this->samples_) };
     if (!views[i].depthIsAffine())
@@ -205,7 +172,8 @@ void MomentMapTechnique::bake(const MapInput& input)
       defines.emplace_back("WRITES_DEPTH");
     }
     drawCasters(i, input,
-      { moments.glsl + ShaderLibrary::source("shadowtech/moment_map/moment_map_bake.frag.glsl"),
+      { ShaderLibrary::source(this->estimator_.momentsFile) +
+          ShaderLibrary::source("shadowtech/moment_map/moment_map_bake.frag.glsl"),
         defines });
     if (sampled)
     {
@@ -219,7 +187,7 @@ void MomentMapTechnique::bake(const MapInput& input)
   if (!this->summed_ && input.light.of<KernelSettings>().sizeTexels > 1)
   {
     this->blur_.apply(this->map_.name(), static_cast<int>(views.size()),
-      input.light.of<KernelSettings>().sizeTexels, moments.empty, input.shaders);
+      input.light.of<KernelSettings>().sizeTexels, this->estimator_.empty, input.shaders);
   }
   if (this->levels_ > 1)
   {
@@ -249,7 +217,7 @@ std::size_t MomentMapTechnique::bytesOfMaps() const
   {
     texels += (side >> level) * (side >> level);
   }
-  const auto channels = static_cast<std::size_t>(this->layers_ * this->moments().count);
+  const auto channels = static_cast<std::size_t>(this->layers_ * this->estimator_.count);
   const std::size_t depth = this->depth_ ? side * side : 0;
   return (texels * channels + depth) * sizeof(float) + this->sampled_.bytes() +
     this->blur_.bytes() + this->table_.bytes();
@@ -259,11 +227,12 @@ std::size_t MomentMapTechnique::bytesOfMaps() const
 std::string MomentMapTechnique::visibilityGlsl(const ShadowLight& light) const
 {
   return lightViewsDefines(light, light.of<MomentMapSettings>().mipMaps) + kernelDefines(light) +
-    define("KERNEL_TEXELS_LIGHT", std::to_string(light.of<KernelSettings>().sizeTexels)) +
-    define("MOMENT_LEVELS_LIGHT", std::to_string(levelsOf(light))) +
-    define("MOMENTS_SUMMED_LIGHT", light.of<MomentMapSettings>().blur == MapBlur::Sat ? "1" : "0") +
-    define("BLEEDING_LIGHT", constant("bleeding", light)) +
-    define("VARIANCE_FLOOR_LIGHT", constant("variance_floor", light)) + this->estimatorGlsl(light);
+    glslDefine("KERNEL_TEXELS_LIGHT", light.of<KernelSettings>().sizeTexels) +
+    glslDefine("MOMENT_LEVELS_LIGHT", levelsOf(light)) +
+    glslDefine("MOMENTS_SUMMED_LIGHT", light.of<MomentMapSettings>().blur == MapBlur::Sat) +
+    defineSetting("BLEEDING_LIGHT", "bleeding", light) +
+    defineSetting("VARIANCE_FLOOR_LIGHT", "variance_floor", light) +
+    ShaderLibrary::source(this->estimator_.estimatorFile);
 }
 
 //------------------------------------------------------------------------------
@@ -278,7 +247,7 @@ std::vector<Uniform> MomentMapTechnique::uniforms(const ReceiverSpace& space) co
       { "momentMap_LIGHT", TextureBinding{ GL_TEXTURE_2D_ARRAY, this->map_.name() } });
     return uniforms;
   }
-  const std::vector<Uniform> table = this->table_.uniforms(this->moments().empty);
+  const std::vector<Uniform> table = this->table_.uniforms(this->estimator_.empty);
   uniforms.insert(uniforms.end(), table.begin(), table.end());
   uniforms.push_back({ "widestKernel_LIGHT", static_cast<float>(this->widestKernel()) });
   uniforms.push_back(kernelUnit(this->reach_));

@@ -5,6 +5,8 @@
 #include "shadowtech/moment_map/SampledLayer.h"
 #include "shadowtech/moment_map/SummedAreaTable.h"
 
+#include <utility>
+
 namespace gnomon
 {
 
@@ -26,15 +28,24 @@ struct MomentMapSettings
 };
 const SettingsTable& momentMapSettings();
 
-/// Of estimators by variance: no variance counts as less than the floor, in squares of the map's
-/// depth range (Variance.h).
-struct VarianceSettings
+/// An estimator over moments.
+struct MomentEstimator
 {
-  double floor = 1e-6;
+  TechniqueInfo info;
+  int count; ///< of moments: 1, 2 or 4
+  /// The file of vec4 momentsOf(float depth, float spread): the mean moments of depths around
+  /// `depth`, in [-1, 1], with the standard deviation `spread`, in [0, 1]. Only the first `count`
+  /// count.
+  const char* momentsFile;
+  /// The file of float estimate_LIGHT(ViewPoint point, float slack), which includes
+  /// moment_map.glsl.
+  const char* estimatorFile;
+  glm::vec4 empty; ///< momentsOf(1, 0)
+  /// What no moment's size exceeds, a power of two, for fixed-point numbers; 0: too much for them.
+  glm::vec4 largest;
 };
-const SettingsTable& varianceSettings();
 
-/// What techniques with a map of moments share. Depths may not be averaged, but their moments may:
+/// All techniques with a map of moments. Depths may not be averaged, but their moments may:
 /// the means of a few powers (or other functions) of depth over a part of the map say how its
 /// depths are distributed, and from that an estimator bounds the share of them that lies behind a
 /// receiver. So the map is filtered before it is read, like any picture: by a box as wide as the
@@ -45,7 +56,7 @@ const SettingsTable& varianceSettings();
 /// have the moments of depth 1, and so has what lies outside of a layer.
 ///
 /// **No bias is tuned.** A receiver is compared at its own depth, and where more than two moments
-/// demand it, at one that follows from its plane (Exponential.h, FourMoments.h). Of a plane, the
+/// demand it, at one that follows from its plane (MomentEstimators.h). Of a plane, the
 /// mean over the kernel's square is the depth at the square's middle, which is the receiver's:
 /// parallel rays make depth linear on the map; in perspective it is convex along any line on the
 /// map, so that its mean only lies farther away, which is on the lit side; and so it is on convex
@@ -70,48 +81,25 @@ const SettingsTable& varianceSettings();
 ///
 /// In concave corners the kernel's square holds what rises towards the light, and so darkens them
 /// within its width.
-///
-/// What is left to a technique: how a depth becomes moments, and the estimator.
 class MomentMapTechnique : public PointwiseTechnique
 {
 public:
+  explicit MomentMapTechnique(MomentEstimator estimator)
+    : estimator_(std::move(estimator))
+  {
+  }
+
   MapReach mapReach(const ShadowLight& light) const override;
   void bake(const MapInput& input) override;
   std::size_t bytesOfMaps() const override;
   std::string visibilityGlsl(const ShadowLight& light) const override;
   std::vector<Uniform> uniforms(const ReceiverSpace& space) const override;
 
-protected:
-  /// How a depth becomes moments.
-  struct Moments
-  {
-    int count; ///< 1, 2 or 4
-    /// The source of vec4 momentsOf(float depth, float spread): the mean moments of depths around
-    /// `depth`, in [-1, 1], with the standard deviation `spread`, in [0, 1]. Only the
-    /// first `count` count.
-    std::string glsl;
-    glm::vec4 empty; ///< momentsOf(1, 0)
-    /// What no moment's size exceeds, a power of two, for fixed-point numbers; 0: too much for
-    /// them.
-    glm::vec4 largest;
-  };
-  virtual Moments moments() const = 0;
-
-  /// Why `blur` sat is refused where moments exceed the integers of a summed-area table
-  /// (Moments::largest is 0); empty for other blurs.
-  static std::string refusedSums(const ShadowLight& light);
-
-  /// What an estimator of this name is, like all others over moments.
-  static TechniqueInfo infoOf(const char* name);
-
-  /// The source of float estimate_LIGHT(ViewPoint point, float slack), which includes
-  /// moment_map.glsl.
-  virtual std::string estimatorGlsl(const ShadowLight& light) const = 0;
-
 private:
   void allocate(const ShadowLight& light, int views);
   double widestKernel() const;
 
+  MomentEstimator estimator_;
   GlTexture map_;   ///< a layer for each view, or one that is drawn before it is summed
   GlTexture depth_; ///< of the layer that is being drawn with one sample
   GlFramebuffer framebuffer_;

@@ -18,7 +18,7 @@ float warpedBound_LIGHT(vec2 moments, float warped, float exponent)
 }
 
 // How much nearer than the receiver the depth is whose value the second function has in the mean
-// over the receiver's own plane, at most (Exponential.h).
+// over the receiver's own plane, at most (MomentEstimators.h).
 float concaveBias_LIGHT(ViewPoint point)
 {
   float exponent = 2.0 * exponentNegative; // of depths in [0, 1]

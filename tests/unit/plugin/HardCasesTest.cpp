@@ -262,7 +262,7 @@ TEST_P(HardCases, stayFiniteAndNearTheTruth)
   RecordProperty("wrongPercent", std::to_string(100.0 * share));
   const std::string& estimator = technique.estimator->info.name;
   // Light leaks through one exponential moment within some percent of the map's depth range
-  // (SingleExponential.h): under a narrow cone over most of a contact's shadow.
+  // (MomentEstimators.h): under a narrow cone over most of a contact's shadow.
   constexpr double leaks = 0.03;
   EXPECT_LE(share,
     technique.estimator->info.exact       ? 0.0

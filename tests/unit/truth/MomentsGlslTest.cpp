@@ -5,12 +5,8 @@
 #include "shadowtech/base/LightViewsGlsl.h"
 #include "shadowtech/base/ShaderLibrary.h"
 #include "shadowtech/moment_map/BoxBlur.h"
-#include "shadowtech/moment_map/Exponential.h"
-#include "shadowtech/moment_map/FourMoments.h"
-#include "shadowtech/moment_map/MomentMapTechnique.h"
-#include "shadowtech/moment_map/SingleExponential.h"
+#include "shadowtech/moment_map/MomentEstimators.h"
 #include "shadowtech/moment_map/SummedAreaTable.h"
-#include "shadowtech/moment_map/Variance.h"
 
 #include <algorithm>
 #include <cmath>
@@ -49,31 +45,12 @@ double mean(const CoveredDepths& depths, const std::function<double(double)>& fu
   return sum;
 }
 
-/// Variance, Exponential or FourMoments, with what they keep to themselves.
-template <typename Technique>
-struct Open : Technique
-{
-  using Technique::moments;
-};
-
-/// A technique over moments, and what these are.
+/// An estimator over moments, and what these are.
 struct MomentsTwin
 {
-  const char* name;
-  std::unique_ptr<PointwiseTechnique> (*create)();
-  std::string (*momentsGlsl)();
-  glm::vec4 (*empty)();
-  int count;
+  MomentEstimator estimator;
   glm::dvec4 (*moments)(const CoveredDepths&); ///< as the map has them
 };
-
-template <typename T>
-MomentsTwin twin(const char* name, int count, glm::dvec4 (*moments)(const CoveredDepths&))
-{
-  return { name, [] { return std::unique_ptr<PointwiseTechnique>(new T); },
-    [] { return Open<T>().moments().glsl; }, [] { return Open<T>().moments().empty; }, count,
-    moments };
-}
 
 glm::dvec4 powers(const CoveredDepths& depths)
 {
@@ -87,15 +64,15 @@ glm::dvec4 powers(const CoveredDepths& depths)
 
 glm::dvec4 warpedPowers(const CoveredDepths& depths)
 {
-  const auto positive = [](double z) { return std::exp(Exponential::exponentPositive * z); };
-  const auto negative = [](double z) { return -std::exp(-Exponential::exponentNegative * z); };
+  const auto positive = [](double z) { return std::exp(exponentPositive * z); };
+  const auto negative = [](double z) { return -std::exp(-exponentNegative * z); };
   return { mean(depths, positive), mean(depths, [&](double z) { return std::pow(positive(z), 2); }),
     mean(depths, negative), mean(depths, [&](double z) { return std::pow(negative(z), 2); }) };
 }
 
-glm::dvec4 singleExponential(const CoveredDepths& depths)
+glm::dvec4 warpedMean(const CoveredDepths& depths)
 {
-  const auto warped = [](double z) { return std::exp(SingleExponential::exponent * z); };
+  const auto warped = [](double z) { return std::exp(exponentPositive * z); };
   return { mean(depths, warped), 0.0, 0.0, 0.0 };
 }
 
@@ -108,10 +85,10 @@ class MomentsGlsl
 };
 
 INSTANTIATE_TEST_SUITE_P(Techniques, MomentsGlsl,
-  testing::Values(twin<SingleExponential>("single_exponential", 1, singleExponential),
-    twin<Variance>("variance", 2, powers), twin<Exponential>("exponential", 4, warpedPowers),
-    twin<FourMoments>("moments", 4, powers)),
-  [](const testing::TestParamInfo<MomentsTwin>& tested) { return std::string(tested.param.name); });
+  testing::Values(MomentsTwin{ singleExponential(), warpedMean }, MomentsTwin{ variance(), powers },
+    MomentsTwin{ exponential(), warpedPowers }, MomentsTwin{ fourMoments(), powers }),
+  [](const testing::TestParamInfo<MomentsTwin>& tested)
+  { return tested.param.estimator.info.name; });
 
 GlTexture layersTexture(const std::vector<glm::vec4>& texels, int size, int layers, GLint filter)
 {
@@ -159,8 +136,8 @@ std::vector<float> estimate(const MomentsTwin& twin, const ShadowLight& light,
   uniforms.push_back({ "momentMap_LIGHT", TextureBinding{ GL_TEXTURE_2D_ARRAY, texture.name() } });
   uniforms.push_back({ "depthSlacks_LIGHT", glm::vec2(1e-6, 0.0) });
   ShaderLibrary library;
-  return visibilityAt(
-    *twin.create(), light, library, std::move(points), { 0.0f, 0.0f, 1.0f }, std::move(uniforms));
+  return visibilityAt(MomentMapTechnique(twin.estimator), light, library, std::move(points),
+    { 0.0f, 0.0f, 1.0f }, std::move(uniforms));
 }
 
 /// At points of these depths, over a map that holds the same moments everywhere.
@@ -281,11 +258,11 @@ TEST_P(MomentsGlsl, ofADepthAreTheMeansOverItsSpread)
   }
   ShaderLibrary library;
   const auto answers = runCompute<glm::vec4>(library,
-    computeGlsl(this->GetParam().momentsGlsl(), "vec4", "vec4",
+    computeGlsl(ShaderLibrary::source(this->GetParam().estimator.momentsFile), "vec4", "vec4",
       "result[i] = momentsOf(given[i].x, given[i].y);\n"),
     inputs);
-  const std::string name = this->GetParam().name;
-  const bool exponential = name != "variance" && name != "moments";
+  const std::string name = this->GetParam().estimator.info.name;
+  const bool isExponential = name != "variance" && name != "moments";
   for (std::size_t i = 0; i < inputs.size(); ++i)
   {
     for (int channel = 0; channel < 4; ++channel)
@@ -301,17 +278,17 @@ TEST_P(MomentsGlsl, ofADepthAreTheMeansOverItsSpread)
     const auto spreads = [&](double c) { return std::pow(std::min(c * inputs[i].y, 1.0), 2); };
     if (name == "single_exponential")
     {
-      expected.x = flat.x * (1.0 + 0.5 * spreads(SingleExponential::exponent));
+      expected.x = flat.x * (1.0 + 0.5 * spreads(exponentPositive));
     }
-    else if (exponential)
+    else if (isExponential)
     {
-      expected = { flat.x, flat.y * (1.0 + spreads(Exponential::exponentPositive)), flat.z,
-        flat.w * (1.0 + spreads(Exponential::exponentNegative)) };
+      expected = { flat.x, flat.y * (1.0 + spreads(exponentPositive)), flat.z,
+        flat.w * (1.0 + spreads(exponentNegative)) };
     }
-    for (int channel = 0; channel < this->GetParam().count; ++channel)
+    for (int channel = 0; channel < this->GetParam().estimator.count; ++channel)
     {
       EXPECT_NEAR(answers[i][channel], expected[channel],
-        1e-6 + 1e-4 * (exponential ? std::abs(expected[channel]) : 0.0))
+        1e-6 + 1e-4 * (isExponential ? std::abs(expected[channel]) : 0.0))
         << "moment " << channel << " of " << inputs[i].z << ", spread " << inputs[i].y;
     }
   }
@@ -320,8 +297,8 @@ TEST_P(MomentsGlsl, ofADepthAreTheMeansOverItsSpread)
 TEST_P(MomentsGlsl, ofNoCasterAreThoseOfDepthOne)
 {
   const glm::dvec4 expected = this->GetParam().moments({ { 1.0, 1.0 } });
-  const glm::vec4 empty = this->GetParam().empty();
-  for (int channel = 0; channel < this->GetParam().count; ++channel)
+  const glm::vec4 empty = this->GetParam().estimator.empty;
+  for (int channel = 0; channel < this->GetParam().estimator.count; ++channel)
   {
     EXPECT_NEAR(empty[channel] / expected[channel], 1.0, 1e-6) << channel;
   }
@@ -346,7 +323,7 @@ TEST_P(MomentsGlsl, bleedThroughTwoCastersAsChebyshevSays)
   const std::vector<float> cut = estimate(this->GetParam(), 0.3, casters, receivers);
   const std::vector<double> expected = { 0.4525, 0.4098, 0.3077, 0.2, 0.1, 0.0385 };
   const std::vector<double> expectedCut = { 0.218, 0.157, 0.011, 0.0, 0.0, 0.0 };
-  const std::string name = this->GetParam().name;
+  const std::string name = this->GetParam().estimator.info.name;
   for (std::size_t i = 0; i < expected.size(); ++i)
   {
     if (name == "variance")

@@ -1,0 +1,83 @@
+#include "shadowtech/moment_map/MomentEstimators.h"
+
+#include "lights/SettingsTable.h"
+#include "shadowtech/base/Kernel.h"
+
+#include <cmath>
+
+namespace gnomon
+{
+namespace
+{
+
+/// Why `blur` sat is refused where moments exceed the integers of a summed-area table
+/// (MomentEstimator::largest is 0); empty for other blurs.
+std::string refusedSums(const ShadowLight& light)
+{
+  return light.of<MomentMapSettings>().blur == MapBlur::Sat ? "'" + light.estimator +
+      "' has moments beyond the range of the 32-bit integers that a summed-area table holds; it "
+      "takes 'blur' box"
+                                                            : "";
+}
+
+/// What an estimator over moments is, like all others.
+TechniqueInfo infoOfMoments(const char* name)
+{
+  TechniqueInfo info;
+  info.name = name;
+  info.settings = { &viewSettings(), &kernelSettings(), &momentMapSettings() };
+  info.kernel = "square";
+  return info;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+const SettingsTable& varianceSettings()
+{
+  static const SettingsTable table = { "Variance",
+    { real("variance_floor", "the least variance of depths",
+      "share of the map's depth range, squared", &VarianceSettings::floor, { 1e-9, 1.0 }) } };
+  return table;
+}
+
+//------------------------------------------------------------------------------
+MomentEstimator singleExponential()
+{
+  TechniqueInfo info = infoOfMoments("single_exponential");
+  info.refused = refusedSums;
+  return { std::move(info), 1, "shadowtech/moment_map/single_exponential_moments.glsl",
+    "shadowtech/moment_map/single_exponential_estimator.glsl",
+    glm::vec4(std::exp(exponentPositive), 0.0, 0.0, 0.0), glm::vec4(0.0f) };
+}
+
+//------------------------------------------------------------------------------
+MomentEstimator variance()
+{
+  TechniqueInfo info = infoOfMoments("variance");
+  info.settings.push_back(&varianceSettings());
+  return { std::move(info), 2, "shadowtech/moment_map/variance_moments.glsl",
+    "shadowtech/moment_map/variance_estimator.glsl", glm::vec4(1.0f), { 1.0f, 2.0f, 1.0f, 1.0f } };
+}
+
+//------------------------------------------------------------------------------
+MomentEstimator exponential()
+{
+  TechniqueInfo info = infoOfMoments("exponential");
+  info.settings.push_back(&varianceSettings());
+  info.refused = refusedSums;
+  const double positive = std::exp(exponentPositive);
+  const double negative = -std::exp(-exponentNegative);
+  return { std::move(info), 4, "shadowtech/moment_map/exponential_moments.glsl",
+    "shadowtech/moment_map/exponential_estimator.glsl",
+    glm::vec4(positive, positive * positive, negative, negative * negative), glm::vec4(0.0f) };
+}
+
+//------------------------------------------------------------------------------
+MomentEstimator fourMoments()
+{
+  return { infoOfMoments("moments"), 4, "shadowtech/moment_map/four_moments.glsl",
+    "shadowtech/moment_map/moments_estimator.glsl", glm::vec4(1.0f), { 1.0f, 2.0f, 4.0f, 8.0f } };
+}
+
+} // namespace gnomon
