@@ -371,7 +371,6 @@ void addPots(Scene& scene, const std::vector<Bay>& bays)
 Scene makeAtriumScene()
 {
   Scene scene;
-  scene.name = "atrium";
   const std::vector<Bay> bays = makeBays();
   scene.models = { makeShell(), makeArcades(bays), makeBalustrades(bays), makeWallRelief(),
     makePaving(true), makePaving(false) };
@@ -379,10 +378,7 @@ Scene makeAtriumScene()
   addPots(scene, bays);
   const Vec3 eye{ { -83.72924, 222.06694, -2.89993 } };
   scene.camera = makeCamera(eye, eye + 500.0 * Vec3{ { 0.810612, -0.273794, 0.517634 } }, 60.0);
-  SceneLight sun = makeSun({ { -0.001881, -0.968051, 0.250748 } });
-  sun.color = { { 1.0, 0.96, 0.86 } };
-  sun.intensity = 1.2;
-  scene.lights = { sun };
+  scene.lights = { makeSun({ { -0.001881, -0.968051, 0.250748 } }, { { 1.0, 0.96, 0.86 } }, 1.2) };
   setAmbient(scene, 0.4);
   scene.background = { { 0.6, 0.75, 0.92 } };
   return scene;

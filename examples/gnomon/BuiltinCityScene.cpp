@@ -257,7 +257,6 @@ Scene makeCityScene()
   const Vec3 colors[] = { { { 0.78, 0.72, 0.62 } }, { { 0.6, 0.64, 0.7 } }, { { 0.7, 0.52, 0.43 } },
     { { 0.84, 0.83, 0.8 } } };
   Scene scene;
-  scene.name = "city";
   scene.models = { makePlane({ { 0.0, 0.0, 0.0 } }, (blocksPerSide + 8) * pitch) };
   scene.models[0].name = "streets";
   scene.models[0].property->SetColor(0.33, 0.34, 0.36);
@@ -279,10 +278,7 @@ Scene makeCityScene()
   }
   scene.models.push_back(makeModel("pavement", pavement.build(), { { 0.6, 0.6, 0.58 } }));
   scene.camera = makeCamera({ { 245.0, 175.0, 640.0 } }, { { -10.0, 50.0, -60.0 } }, 45.0);
-  SceneLight sun = makeSun({ { 0.75, -0.62, -0.4 } });
-  sun.color = { { 1.0, 0.95, 0.86 } };
-  sun.intensity = 1.4;
-  scene.lights = { sun };
+  scene.lights = { makeSun({ { 0.75, -0.62, -0.4 } }, { { 1.0, 0.95, 0.86 } }, 1.4) };
   setAmbient(scene, 0.3);
   scene.background = { { 0.72, 0.82, 0.93 } };
   return scene;

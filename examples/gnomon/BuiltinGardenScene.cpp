@@ -519,24 +519,24 @@ const std::vector<SceneView>& gardenViews()
   // Cameras of the thesis' section 5.1; "with" looks along the light, "against" towards it, "side"
   // across.
   static const std::vector<SceneView> views = {
-    { { "bench-with", "garden of two trees, lamp, flower box and bench, seen along the light" },
+    { "bench-with", "garden of two trees, lamp, flower box and bench, seen along the light",
       { { -37.034573, 35.208973, -8.597797 } }, { { 0.605439, -0.732089, 0.312232 } } },
-    { { "bench-side", "the garden, seen across the light" }, { { -23.277, 18.541, 30.143 } },
+    { "bench-side", "the garden, seen across the light", { { -23.277, 18.541, 30.143 } },
       { { 0.397, -0.644774, -0.652 } } },
-    { { "bench-against", "the garden, seen against the light" },
+    { "bench-against", "the garden, seen against the light",
       { { 27.214222, 27.875109, 27.032139 } }, { { -0.560848, -0.777942, -0.283293 } } },
-    { { "trees-with", "a tree's shadow on the garden's lawn: large triangles, along the light" },
+    { "trees-with", "a tree's shadow on the garden's lawn: large triangles, along the light",
       { { 42.947086, 24.103859, -27.831772 } }, { { 0.415959, -0.784187, 0.460467 } } },
-    { { "trees-side", "the tree's shadow, across the light" },
+    { "trees-side", "the tree's shadow, across the light",
       { { 101.010887, 30.839497, -23.4187145 } }, { { -0.235037, -0.802447, 0.548369 } } },
-    { { "trees-against", "the tree's shadow, against the light" },
+    { "trees-against", "the tree's shadow, against the light",
       { { 90.8069972, 35.846294, 24.138012 } }, { { -0.400057, -0.835954, 0.37568 } } },
-    { { "flowers-with", "the garden's flowers: small triangles, along the light" },
+    { "flowers-with", "the garden's flowers: small triangles, along the light",
       { { -17.561422, 24.968716, 4.010894 } }, { { 0.386402, -0.873032, 0.297505 } } },
-    { { "flowers-side", "the flowers, across the light" }, { { -0.260709, 22.376335, 6.046194 } },
+    { "flowers-side", "the flowers, across the light", { { -0.260709, 22.376335, 6.046194 } },
       { { -0.387214, -0.852832, 0.350347 } } },
-    { { "flowers-against", "the flowers, against the light" },
-      { { -3.263903, 24.423452, 12.998949 } }, { { -0.239566, -0.958412, -0.155095 } } },
+    { "flowers-against", "the flowers, against the light", { { -3.263903, 24.423452, 12.998949 } },
+      { { -0.239566, -0.958412, -0.155095 } } },
   };
   return views;
 }
@@ -545,12 +545,9 @@ const std::vector<SceneView>& gardenViews()
 Scene makeGardenScene(const SceneView& view)
 {
   Scene scene = makeGarden();
-  scene.name = view.line.name;
   scene.camera = makeCamera(view.position, view.position + 40.0 * view.direction, 60.0);
-  SceneLight sun = makeSun({ { 0.744, -0.408, 0.527 } });
-  sun.color = { { 1.0, 0.96, 0.88 } };
-  sun.intensity = 2.2; // low as it stands
-  scene.lights = { sun };
+  scene.lights = { makeSun(
+    { { 0.744, -0.408, 0.527 } }, { { 1.0, 0.96, 0.88 } }, 2.2) }; // low as it stands
   setAmbient(scene, 0.35);
   scene.background = { { 0.75, 0.85, 0.95 } };
   return scene;

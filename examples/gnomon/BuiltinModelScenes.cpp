@@ -30,11 +30,12 @@ Model readPackagedModel(const std::string& file)
   return readModelFile(path.string());
 }
 
-/// The model on its plane, which lies at the model's lowest point.
-Scene makeModelOnPlane(const std::string& name, const std::string& file, const Vec3& color)
+} // namespace
+
+//------------------------------------------------------------------------------
+Scene makeModelOnPlane(const std::string& file, const Vec3& color)
 {
   Scene scene;
-  scene.name = name;
   for (const SceneModel& part : readPackagedModel(file).surfaces)
   {
     scene.models.push_back(makeModel(part.name, part.surface, color));
@@ -42,6 +43,7 @@ Scene makeModelOnPlane(const std::string& name, const std::string& file, const V
   const std::array<double, 6> bounds = boundsWorld(scene);
   const double extent = std::max(bounds[1] - bounds[0], bounds[5] - bounds[4]);
   const double height = bounds[3] - bounds[2];
+  // The plane lies at the model's lowest point.
   const Vec3 foot{ { 0.5 * (bounds[0] + bounds[1]), bounds[2], 0.5 * (bounds[4] + bounds[5]) } };
   scene.models.push_back(makePlane(foot, 4.0 * extent));
 
@@ -51,26 +53,6 @@ Scene makeModelOnPlane(const std::string& name, const std::string& file, const V
   scene.camera = makeCamera(target + size * Vec3{ { -1.2, 1.6, 2.4 } }, target, 40.0);
   scene.lights = { makeSun({ { -1.0, -1.6, -1.0 } }) };
   return scene;
-}
-
-} // namespace
-
-//------------------------------------------------------------------------------
-Scene makeBunnyScene()
-{
-  return makeModelOnPlane("bunny", "bunny.obj", { { 0.8, 0.7, 0.55 } });
-}
-
-//------------------------------------------------------------------------------
-Scene makeHorseScene()
-{
-  return makeModelOnPlane("horse", "horse.3ds", { { 0.62, 0.45, 0.32 } });
-}
-
-//------------------------------------------------------------------------------
-Scene makeCatScene()
-{
-  return makeModelOnPlane("cat", "cat.3ds", { { 0.55, 0.57, 0.62 } });
 }
 
 } // namespace gnomon::tool

@@ -240,7 +240,6 @@ void addLamp(Scene& scene)
 Scene makeOfficeScene()
 {
   Scene scene;
-  scene.name = "office";
   scene.models = { makeBuilding(), makeDesks(),
     placed(makeChair(), { { 0.35, 0.0, -0.1 } }, 25.0) };
   addShelf(scene);

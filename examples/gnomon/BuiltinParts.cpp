@@ -53,11 +53,13 @@ void setAmbient(Scene& scene, double share)
 }
 
 //------------------------------------------------------------------------------
-SceneLight makeSun(const Vec3& travel)
+SceneLight makeSun(const Vec3& travel, const Vec3& color, double intensity)
 {
   SceneLight light;
   light.target = { { 0.0, 0.0, 0.0 } };
   light.position = -normalized(travel);
+  light.color = color;
+  light.intensity = intensity;
   return light;
 }
 
@@ -72,7 +74,7 @@ SceneLight makeLamp(const Vec3& position)
 }
 
 //------------------------------------------------------------------------------
-Scene underLamp(Scene scene, const std::string& name, double distance)
+Scene underLamp(Scene scene, double distance)
 {
   const SceneLight& sun = scene.lights.front();
   SceneLight lamp;
@@ -85,7 +87,6 @@ Scene underLamp(Scene scene, const std::string& name, double distance)
   lamp.area->width = lamp.area->height = 0.1 * distance;
   lamp.area->up = { { 0.0, 0.0, -1.0 } };
   scene.lights = { lamp };
-  scene.name = name;
   return scene;
 }
 

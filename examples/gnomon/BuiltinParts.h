@@ -22,8 +22,9 @@ SceneModel placed(SceneModel model, const Vec3& position, double degrees);
 /// or with bright walls.
 void setAmbient(Scene& scene, double share);
 
-/// A white directional light that travels that way.
-SceneLight makeSun(const Vec3& travel);
+/// A directional light that travels that way.
+SceneLight makeSun(
+  const Vec3& travel, const Vec3& color = { { 1.0, 1.0, 1.0 } }, double intensity = 1.0);
 
 /// A white light that shines from a point into all directions.
 SceneLight makeLamp(const Vec3& position);
@@ -32,7 +33,7 @@ SceneLight makeLamp(const Vec3& position);
 /// `distance` from what the camera looks at, its side a tenth of that. It is a spot light that
 /// lights all that the camera looks at.
 /// @param scene with one sun
-Scene underLamp(Scene scene, const std::string& name, double distance);
+Scene underLamp(Scene scene, double distance);
 
 SceneCamera makeCamera(const Vec3& position, const Vec3& target, double fovDegrees);
 

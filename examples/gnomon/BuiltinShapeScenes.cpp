@@ -96,7 +96,6 @@ vtkSmartPointer<vtkPolyData> makeHall(const Vec3& low, const Vec3& high)
 Scene makeCubeScene()
 {
   Scene scene;
-  scene.name = "cube";
   MeshBuilder cube;
   cube.addBox({ { -1.0, 0.0, -1.0 } }, { { 1.0, 2.0, 1.0 } });
   scene.models = { makeModel("cube", cube.build(), blue), makePlane(origin, 10.0) };
@@ -110,11 +109,11 @@ const std::vector<SceneView>& primitivesViews()
 {
   // Cameras of the thesis' section 4.1, named as the garden's; across the light: the name alone.
   static const std::vector<SceneView> views = {
-    { { "primitives", "torus, cylinder, pyramid and sphere on a plane, 4,944 triangles" },
+    { "primitives", "torus, cylinder, pyramid and sphere on a plane, 4,944 triangles",
       { { 35.0, 50.0, -43.0 } }, { { -1.0, -1.2, 1.0 } } },
-    { { "primitives-with", "the primitives, seen along the light" }, { { -28.0, 38.0, -40.0 } },
+    { "primitives-with", "the primitives, seen along the light", { { -28.0, 38.0, -40.0 } },
       { { 0.4, -0.7, 0.6 } } },
-    { { "primitives-against", "the primitives, seen against the light" }, { { 31.0, 54.0, 38.0 } },
+    { "primitives-against", "the primitives, seen against the light", { { 31.0, 54.0, 38.0 } },
       { { -0.4, -0.7, -0.5 } } },
   };
   return views;
@@ -124,7 +123,6 @@ const std::vector<SceneView>& primitivesViews()
 Scene makePrimitivesScene(const SceneView& view)
 {
   Scene scene;
-  scene.name = view.line.name;
   MeshBuilder cylinder;
   cylinder.addCone({ { -11.0, 0.0, 6.0 } }, 12.0, 3.0, 3.0, 32);
   MeshBuilder sphere;
@@ -141,7 +139,6 @@ Scene makePrimitivesScene(const SceneView& view)
 Scene makePostsScene()
 {
   Scene scene;
-  scene.name = "posts";
 
   // Posts from 2 cm to 12 cm across, in two rows.
   MeshBuilder posts;
@@ -181,7 +178,6 @@ Scene makePostsScene()
 Scene makePlatesScene()
 {
   Scene scene;
-  scene.name = "plates";
   MeshBuilder plates;
 
   // A pile that touches: every plate lies on the one below it.
@@ -218,7 +214,6 @@ Scene makePlatesScene()
 Scene makeRoomScene()
 {
   Scene scene;
-  scene.name = "room";
   const Vec3 low{ { -3.0, 0.0, -2.5 } };
   const Vec3 high{ { 3.0, 2.8, 2.5 } };
 

@@ -110,7 +110,6 @@ Scene makeHalfPlaneScene()
   constexpr double height = 2.5;
   constexpr double reach = 40.0; // beyond what the camera sees of it and of its shadow
   Scene scene;
-  scene.name = "half-plane";
   MeshBuilder half;
   half.addPolygon({ { { -reach, height, reach } }, { { 0.0, height, reach } },
     { { 0.0, height, -reach } }, { { -reach, height, -reach } } });
@@ -127,7 +126,6 @@ Scene makePanelsScene()
 {
   // Apelles' figures 5.5 and 5.7.
   Scene scene;
-  scene.name = "panels";
   scene.models = { withColor(makePlane({ { 0.0, 2.6, 0.0 } }, 2.0), "top", { { 0.85, 0.5, 0.4 } }),
     withColor(makePlane({ { 0.0, 1.3, 0.0 } }, 4.0), "middle", { { 0.5, 0.68, 0.48 } }),
     withColor(makePlane(origin, 11.0), "bottom", { { 0.75, 0.75, 0.72 } }) };
@@ -148,7 +146,6 @@ Scene makePanelsScene()
 Scene makeScreensScene()
 {
   Scene scene;
-  scene.name = "screens";
   const auto lattice = makeHoles(
     16, [](double u, double v) { return std::abs(u - 0.5) < 0.36 && std::abs(v - 0.5) < 0.36; });
   const auto discs =
@@ -180,7 +177,6 @@ Scene makeScreensScene()
 Scene makePoleScene()
 {
   Scene scene;
-  scene.name = "pole";
   MeshBuilder pole;
   pole.addCone(origin, 18.0, 0.08, 0.08, 24);
   scene.models = { makeModel("pole", pole.build(), { { 0.7, 0.3, 0.28 } }),
@@ -194,7 +190,6 @@ Scene makePoleScene()
 Scene makeCupsScene()
 {
   Scene scene;
-  scene.name = "cups";
   MeshBuilder standing;
   MeshBuilder hovering;
   for (int i = 0; i < 12; ++i)

@@ -92,7 +92,6 @@ Scene makeStackScene()
 {
   // Apelles' figures 3.8 and 5.6.
   Scene scene;
-  scene.name = "stack";
   MeshBuilder cube;
   cube.addBox({ { -0.6, 3.6, -0.6 } }, { { 0.6, 4.8, 0.6 } });
   MeshBuilder sphere;
@@ -107,7 +106,7 @@ Scene makeStackScene()
 //------------------------------------------------------------------------------
 Scene makeWindowScene()
 {
-  Scene scene = underLamp(makeStackScene(), "soft-window", 9.0);
+  Scene scene = underLamp(makeStackScene(), 9.0);
   SceneLight& window = scene.lights.front();
   window.area->width = window.area->height = 3.0;
   window.area->texture = makePanes();
@@ -121,7 +120,6 @@ Scene makeLongCubeScene()
   // The elongated cube of Curtis' thesis, figure 4.2. Its length lies nearly along the light, not
   // quite: sides that are parallel to the light are neither lit nor dark.
   Scene scene;
-  scene.name = "long-cube";
   MeshBuilder cube;
   cube.addBox({ { -0.7, 0.6, -0.7 } }, { { 0.7, 6.0, 0.7 } });
   scene.models = { makeModel("cube", cube.build(), { { 0.5, 0.62, 0.45 } }),
@@ -135,7 +133,6 @@ Scene makeLongCubeScene()
 Scene makeLetterScene()
 {
   Scene scene;
-  scene.name = "letter";
   scene.models = { makeLetter({ { 0.0, 2.0, 0.0 } }, 1.2, 2.0, 1.6), makePlane(origin, 16.0) };
   scene.camera = makeCamera({ { 6.0, 4.0, 7.0 } }, { { 0.3, 1.5, -0.2 } }, 40.0);
   scene.lights = { makeSun({ { -0.35, -1.0, -0.3 } }) };

@@ -105,15 +105,11 @@ SceneModel makePosts(const Vec3& start, const Vec3& direction)
 Scene makeTerrainScene()
 {
   Scene scene;
-  scene.name = "terrain";
   const Vec3 ahead = normalized({ { 0.15, 0.0, -1.0 } });
   const Vec3 eye = onGround(220.0, 440.0) + Vec3{ { 0.0, 2.0, 0.0 } };
   scene.models = { makeGround(), makeTrees(), makeRocks(), makePosts(eye, ahead) };
   scene.camera = makeCamera(eye, eye + 100.0 * (ahead + Vec3{ { 0.0, -0.05, 0.0 } }), 50.0);
-  SceneLight sun = makeSun({ { 0.9, -0.36, -0.1 } });
-  sun.color = { { 1.0, 0.95, 0.85 } };
-  sun.intensity = 1.8;
-  scene.lights = { sun };
+  scene.lights = { makeSun({ { 0.9, -0.36, -0.1 } }, { { 1.0, 0.95, 0.85 } }, 1.8) };
   scene.background = { { 0.75, 0.85, 0.95 } };
   return scene;
 }

@@ -5,6 +5,8 @@
 #include "SettingOptions.h"
 #include "VtkMessages.h"
 
+#include "lights/SettingsTable.h"
+
 #include <CLI/CLI.hpp>
 
 #include <iostream>
@@ -121,17 +123,6 @@ void compare(CompareOptions options)
             << " compared: " << options.folder << "/report.html" << std::endl;
 }
 
-/// "nsm, pcf, vsm".
-std::string listed(const std::vector<std::string>& names)
-{
-  std::string text;
-  for (const std::string& name : names)
-  {
-    text += (text.empty() ? "" : ", ") + name;
-  }
-  return text;
-}
-
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -151,8 +142,8 @@ void addCompareCommand(CLI::App& app)
       ->add_option("--techniques", options->plan.techniques,
         "Techniques, separated by commas; each may have settings, for example "
         "nsm:fit=frame,pcf:kernel=box:projection=lispsm. By default " +
-          listed(usualTechniques(false)) + "; for lights with an area " +
-          listed(usualTechniques(true)))
+          listOf(usualTechniques(false)) + "; for lights with an area " +
+          listOf(usualTechniques(true)))
       ->delimiter(',');
   command->add_flag("--all", options->all, "Compare all techniques, by all routes")
     ->excludes(techniques);

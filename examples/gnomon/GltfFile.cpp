@@ -207,11 +207,7 @@ Matrix readTransform(const JsonValue& node)
     vtkMatrix4x4::Transpose(columns.data(), matrix.data());
     return matrix;
   }
-  Vec3 scale{ { 1.0, 1.0, 1.0 } };
-  if (const JsonValue value = node.member("scale"); value.present())
-  {
-    scale = value.numbers<3>(anyCoordinate);
-  }
+  const Vec3 scale = node.member("scale").numbersOr(Vec3{ { 1.0, 1.0, 1.0 } }, anyCoordinate);
   double rotation[3][3];
   vtkMath::Identity3x3(rotation);
   if (const JsonValue value = node.member("rotation"); value.present())
@@ -224,11 +220,7 @@ Matrix readTransform(const JsonValue& node)
     }
     vtkMath::QuaternionToMatrix3x3(wxyz, rotation);
   }
-  Vec3 translation{ { 0.0, 0.0, 0.0 } };
-  if (const JsonValue value = node.member("translation"); value.present())
-  {
-    translation = value.numbers<3>(anyCoordinate);
-  }
+  const Vec3 translation = node.member("translation").numbersOr(Vec3{}, anyCoordinate);
   for (std::size_t row = 0; row < 3; ++row)
   {
     for (std::size_t column = 0; column < 3; ++column)
@@ -271,8 +263,7 @@ private:
   /// The elements of an array that may be missing.
   std::vector<JsonValue> list(const char* key) const
   {
-    const JsonValue value = this->root_.member(key);
-    return value.present() ? value.elements() : std::vector<JsonValue>();
+    return this->root_.member(key).elementsOrNone();
   }
 
   /// The number of elements of an array that may be missing.
@@ -538,15 +529,9 @@ private:
         pbr.keys();
         this->checkTextureInfo(pbr, "baseColorTexture");
         this->checkTextureInfo(pbr, "metallicRoughnessTexture");
-        if (const JsonValue color = pbr.member("baseColorFactor"); color.present())
-        {
-          color.numbers<4>({ 0.0, 1.0 });
-        }
+        pbr.member("baseColorFactor").numbersOr(std::array<double, 4>{}, { 0.0, 1.0 });
       }
-      if (const JsonValue emission = material.member("emissiveFactor"); emission.present())
-      {
-        emission.numbers<3>({ 0.0, 1.0 });
-      }
+      material.member("emissiveFactor").numbersOr(Vec3{}, { 0.0, 1.0 });
     }
   }
 
@@ -579,12 +564,9 @@ private:
     const JsonValue attributes = primitive.member("attributes");
     const std::size_t points = this->readAccessor(attributes.member("POSITION")).count;
     this->checkAttributes(attributes, points);
-    if (const JsonValue targets = primitive.member("targets"); targets.present())
+    for (const JsonValue& target : primitive.member("targets").elementsOrNone())
     {
-      for (const JsonValue& target : targets.elements())
-      {
-        this->checkAttributes(target, points);
-      }
+      this->checkAttributes(target, points);
     }
     checkOptionalIndex(primitive.member("material"), this->count("materials"), "materials");
 
@@ -693,12 +675,9 @@ private:
     // vtkGLTFImporter looks at every node and every scene.
     for (const JsonValue& other : scenes)
     {
-      if (const JsonValue list = other.member("nodes"); list.present())
+      for (const JsonValue& node : other.member("nodes").elementsOrNone())
       {
-        for (const JsonValue& node : list.elements())
-        {
-          readIndex(node, this->nodes_.size(), "nodes");
-        }
+        readIndex(node, this->nodes_.size(), "nodes");
       }
     }
     for (const JsonValue& node : this->nodes_)
@@ -714,12 +693,9 @@ private:
     checkOptionalIndex(node.member("mesh"), this->count("meshes"), "meshes");
     checkOptionalIndex(node.member("camera"), this->count("cameras"), "cameras");
     checkOptionalIndex(node.member("skin"), this->count("skins"), "skins");
-    if (const JsonValue children = node.member("children"); children.present())
+    for (const JsonValue& child : node.member("children").elementsOrNone())
     {
-      for (const JsonValue& child : children.elements())
-      {
-        readIndex(child, this->nodes_.size(), "nodes");
-      }
+      readIndex(child, this->nodes_.size(), "nodes");
     }
   }
 
@@ -753,12 +729,9 @@ private:
       this->view_.notes.push_back(this->document_.path + ": node " + std::to_string(number) +
         ": its skin is left out, the mesh is shown at rest");
     }
-    if (const JsonValue children = node.member("children"); children.present())
+    for (const JsonValue& child : node.member("children").elementsOrNone())
     {
-      for (const JsonValue& child : children.elements())
-      {
-        this->visitNode(child, worldFromNode, depth + 1);
-      }
+      this->visitNode(child, worldFromNode, depth + 1);
     }
   }
 
@@ -811,22 +784,15 @@ private:
     const std::string type = kind.text();
     light.position = transformed(worldFromNode, { { 0.0, 0.0, 0.0 } }, 1.0);
     light.target = light.position + readForward(value, worldFromNode);
-    if (const JsonValue color = value.member("color"); color.present())
-    {
-      light.color = color.numbers<3>({ 0.0, 1.0 });
-    }
-    if (const JsonValue intensity = value.member("intensity"); intensity.present())
-    {
-      light.intensity = intensity.number({ 0.0, 1e9 });
-    }
+    light.color = value.member("color").numbersOr(light.color, { 0.0, 1.0 });
+    light.intensity = value.member("intensity").numberOr(light.intensity, { 0.0, 1e9 });
     if (type == "spot")
     {
       light.type = SceneLight::Type::Spot;
       const JsonValue cone = value.member("spot").member("outerConeAngle");
       const double halfTurn = vtkMath::Pi() / 2.0;
       light.coneAngleDegrees = std::min(89.9,
-        vtkMath::DegreesFromRadians(
-          cone.present() ? cone.number({ 1e-3, halfTurn + 1e-6 }) : halfTurn / 2.0));
+        vtkMath::DegreesFromRadians(cone.numberOr(halfTurn / 2.0, { 1e-3, halfTurn + 1e-6 })));
     }
     else if (type == "point")
     {

@@ -3,6 +3,8 @@
 #include "Errors.h"
 #include "Files.h"
 
+#include "lights/SettingsTable.h"
+
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -110,12 +112,7 @@ void JsonValue::requireObject(const std::vector<std::string>& known) const
   {
     if (std::find(known.begin(), known.end(), key) == known.end())
     {
-      std::string list;
-      for (const std::string& name : known)
-      {
-        list += (list.empty() ? "" : ", ") + name;
-      }
-      this->refuse("unknown key " + describe(key) + ", expected one of: " + list);
+      this->refuse("unknown key " + describe(key) + ", expected one of: " + listOf(known));
     }
   }
 }
@@ -141,6 +138,12 @@ std::vector<JsonValue> JsonValue::elements() const
       JsonValue(this->source_, this->path_ + "[" + std::to_string(i) + "]", &(*this->value_)[i]));
   }
   return result;
+}
+
+//------------------------------------------------------------------------------
+std::vector<JsonValue> JsonValue::elementsOrNone() const
+{
+  return this->present() ? this->elements() : std::vector<JsonValue>();
 }
 
 //------------------------------------------------------------------------------

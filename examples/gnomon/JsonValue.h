@@ -45,6 +45,8 @@ public:
   std::size_t size() const;
   std::vector<JsonValue> elements() const;
 
+  /// The elements of an array; none where the place is empty.
+  std::vector<JsonValue> elementsOrNone() const;
   double number(const NumberRange& range) const;
   int integer(int low, int high) const;
   bool boolean() const;
@@ -56,6 +58,21 @@ public:
     this->readNumbers(result.data(), N, range);
     return result;
   }
+
+  ///@{
+  /// The same, or what is given where the place is empty.
+  double numberOr(double fallback, const NumberRange& range) const
+  {
+    return this->present() ? this->number(range) : fallback;
+  }
+  bool booleanOr(bool fallback) const { return this->present() ? this->boolean() : fallback; }
+  template <std::size_t N>
+  std::array<double, N> numbersOr(
+    const std::array<double, N>& fallback, const NumberRange& range) const
+  {
+    return this->present() ? this->numbers<N>(range) : fallback;
+  }
+  ///@}
 
   /// Ends with "SOURCE: PATH: found THIS, expected ...".
   [[noreturn]] void fail(const std::string& expected) const;

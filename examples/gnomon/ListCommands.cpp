@@ -56,21 +56,6 @@ void printSettingsPage()
   }
 }
 
-/// @throws BadInput when there is no built-in scene of this name
-Scene makeBuiltinScene(const std::string& name)
-{
-  std::string names;
-  for (const BuiltinSceneEntry& entry : builtinSceneEntries())
-  {
-    if (entry.line.name == name)
-    {
-      return entry.make();
-    }
-    names += (names.empty() ? "" : ", ") + entry.line.name;
-  }
-  throw BadInput("--export: found \"" + name + "\", expected one of: " + names);
-}
-
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -111,7 +96,12 @@ void addScenesCommand(CLI::App& app)
     {
       if (!exported->empty())
       {
-        std::cout << exportScene(makeBuiltinScene(exported->at(0)), exported->at(1)) << "\n";
+        if (!findBuiltinScene(exported->at(0)))
+        {
+          throw BadInput(
+            "--export: found \"" + exported->at(0) + "\", expected one of: " + builtinSceneNames());
+        }
+        std::cout << exportScene(loadScene(exported->at(0)), exported->at(1)) << "\n";
         return;
       }
       for (const BuiltinScene& scene : builtinScenes())

@@ -24,13 +24,10 @@ struct Statement
   /// The number at that place of the words, in [low, high].
   double number(std::size_t word, double low, double high) const
   {
-    const bool there = word < this->words.size();
-    const std::optional<double> value =
-      there ? parseNumber<double>(this->words[word]) : std::optional<double>();
+    const std::optional<double> value = parseWord<double>(this->words, word);
     if (!value || !(*value >= low && *value <= high))
     {
-      throw BadInput(this->place + "found " +
-        (there ? quoted(this->words[word]) : std::string("the line's end")) + ", expected " +
+      throw BadInput(this->place + "found " + quotedWord(this->words, word) + ", expected " +
         this->words[0] + " and a number from " + std::to_string(static_cast<int>(low)) + " to " +
         std::to_string(static_cast<int>(high)));
     }

@@ -4,6 +4,8 @@
 #include "Files.h"
 #include "Text.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace gnomon::tool
@@ -34,20 +36,12 @@ public:
       return;
     }
     const std::string& keyword = line.words[0];
-    if (keyword == "v")
+    const auto list = std::find_if(this->lists_.begin(), this->lists_.end(),
+      [&](const List& candidate) { return candidate.keyword == keyword; });
+    if (list != this->lists_.end())
     {
-      this->checkNumbers(line, 3);
-      ++this->points_;
-    }
-    else if (keyword == "vt")
-    {
-      this->checkNumbers(line, 2);
-      ++this->textureCoordinates_;
-    }
-    else if (keyword == "vn")
-    {
-      this->checkNumbers(line, 3);
-      ++this->normals_;
+      this->checkNumbers(line, list->numbers);
+      ++list->count;
     }
     else if (keyword == "f")
     {
@@ -73,10 +67,16 @@ public:
 
   void finish() const
   {
-    this->require(this->highestPoint_, this->points_, "vertices");
-    this->require(this->highestTextureCoordinate_, this->textureCoordinates_, "vt lines");
-    this->require(this->highestNormal_, this->normals_, "vn lines");
-    if (this->points_ == 0)
+    for (const List& list : this->lists_)
+    {
+      if (list.highest > list.count)
+      {
+        this->fail(list.lineOfHighest,
+          "found index " + std::to_string(list.highest) + ", but the file has " +
+            std::to_string(list.count) + " " + list.name + "; it may be truncated");
+      }
+    }
+    if (this->lists_[0].count == 0)
     {
       throw BadInput(this->path_ + ": no vertices, expected lines of the form v x y z");
     }
@@ -87,11 +87,15 @@ public:
   }
 
 private:
-  /// The highest index that a face names, and where.
-  struct Highest
+  /// Lines of one keyword, which corners of faces count.
+  struct List
   {
-    long index = 0;
-    std::size_t line = 0;
+    const char* keyword;
+    std::size_t numbers; ///< in a line
+    const char* name;
+    long count = 0;
+    long highest = 0; ///< index that a face names
+    std::size_t lineOfHighest = 0;
   };
 
   [[noreturn]] void fail(std::size_t line, const std::string& message) const
@@ -103,14 +107,12 @@ private:
   {
     for (std::size_t i = 1; i <= count; ++i)
     {
-      const bool there = i < line.words.size();
-      const std::optional<float> value =
-        there ? parseNumber<float>(line.words[i]) : std::optional<float>();
+      const std::optional<float> value = parseWord<float>(line.words, i);
       if (!value || !std::isfinite(*value))
       {
         this->fail(line.number,
-          "found " + (there ? quoted(line.words[i]) : std::string("the line's end")) +
-            ", expected " + line.words[0] + " and " + std::to_string(count) + " finite numbers");
+          "found " + quotedWord(line.words, i) + ", expected " + line.words[0] + " and " +
+            std::to_string(count) + " finite numbers");
       }
     }
   }
@@ -141,15 +143,13 @@ private:
       {
         continue;
       }
-      long& count = i == 0 ? this->points_ : i == 1 ? this->textureCoordinates_ : this->normals_;
-      Highest& highest = i == 0 ? this->highestPoint_
-        : i == 1                ? this->highestTextureCoordinate_
-                                : this->highestNormal_;
+      List& list = this->lists_[i];
       const std::optional<int> index = parseNumber<int>(parts[i]);
-      good = index && *index != 0 && *index >= -count;
-      if (good && *index > highest.index)
+      good = index && *index != 0 && *index >= -list.count;
+      if (good && *index > list.highest)
       {
-        highest = { *index, line.number };
+        list.highest = *index;
+        list.lineOfHighest = line.number;
       }
     }
     if (!good)
@@ -161,24 +161,11 @@ private:
     }
   }
 
-  void require(const Highest& highest, long count, const std::string& what) const
-  {
-    if (highest.index > count)
-    {
-      this->fail(highest.line,
-        "found index " + std::to_string(highest.index) + ", but the file has " +
-          std::to_string(count) + " " + what + "; it may be truncated");
-    }
-  }
-
   const std::string& path_;
-  long points_ = 0;
-  long textureCoordinates_ = 0;
-  long normals_ = 0;
+  /// In the order in which a corner names them.
+  std::array<List, 3> lists_ = { { { "v", 3, "vertices" }, { "vt", 2, "vt lines" },
+    { "vn", 3, "vn lines" } } };
   long faces_ = 0;
-  Highest highestPoint_;
-  Highest highestTextureCoordinate_;
-  Highest highestNormal_;
 };
 
 } // namespace

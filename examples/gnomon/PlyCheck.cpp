@@ -4,8 +4,9 @@
 #include "Files.h"
 #include "Text.h"
 
+#include <algorithm>
 #include <cstdint>
-#include <set>
+#include <map>
 
 namespace gnomon::tool
 {
@@ -32,16 +33,10 @@ struct Element
   long count = 0;
   std::vector<Property> properties;
 
-  const Property* find(const std::string& property) const
+  bool has(const std::string& property) const
   {
-    for (const Property& candidate : this->properties)
-    {
-      if (candidate.name == property)
-      {
-        return &candidate;
-      }
-    }
-    return nullptr;
+    return std::any_of(this->properties.begin(), this->properties.end(),
+      [&](const Property& candidate) { return candidate.name == property; });
   }
 };
 
@@ -52,12 +47,27 @@ enum class Encoding
   BigEndian
 };
 
+template <class Number>
+double readAs(ByteReader& reader, const char* what)
+{
+  return static_cast<double>(reader.read<Number>(what));
+}
+
+/// How the numbers of each type are read.
+const std::map<std::string, double (*)(ByteReader& reader, const char* what)> readersByType = {
+  { "char", readAs<std::int8_t> }, { "int8", readAs<std::int8_t> },
+  { "uchar", readAs<std::uint8_t> }, { "uint8", readAs<std::uint8_t> },
+  { "short", readAs<std::int16_t> }, { "int16", readAs<std::int16_t> },
+  { "ushort", readAs<std::uint16_t> }, { "uint16", readAs<std::uint16_t> },
+  { "int", readAs<std::int32_t> }, { "int32", readAs<std::int32_t> },
+  { "uint", readAs<std::uint32_t> }, { "uint32", readAs<std::uint32_t> },
+  { "float", readAs<float> }, { "float32", readAs<float> }, { "double", readAs<double> },
+  { "float64", readAs<double> }
+};
+
 bool isType(const std::string& name)
 {
-  static const std::set<std::string> types = { "char", "short", "int", "int8", "int16", "int32",
-    "uchar", "ushort", "uint", "uint8", "uint16", "uint32", "float", "float32", "double",
-    "float64" };
-  return types.count(name) > 0;
+  return readersByType.count(name) > 0;
 }
 
 bool isCornerList(const std::string& property)
@@ -162,24 +172,17 @@ private:
 
   void readFormat(const std::vector<std::string>& words)
   {
+    static const std::map<std::string, Encoding> encodings = { { "ascii", Encoding::Ascii },
+      { "binary_little_endian", Encoding::LittleEndian },
+      { "binary_big_endian", Encoding::BigEndian } };
     const std::string name = words.size() == 3 ? words[1] : "";
-    if (name == "ascii")
-    {
-      this->encoding_ = Encoding::Ascii;
-    }
-    else if (name == "binary_little_endian")
-    {
-      this->encoding_ = Encoding::LittleEndian;
-    }
-    else if (name == "binary_big_endian")
-    {
-      this->encoding_ = Encoding::BigEndian;
-    }
-    else
+    const auto found = encodings.find(name);
+    if (found == encodings.end())
     {
       this->failAtLine("found " + quoted(name) +
         ", expected format ascii, binary_little_endian or binary_big_endian, and 1.0");
     }
+    this->encoding_ = found->second;
   }
 
   void readElement(const std::vector<std::string>& words)
@@ -220,14 +223,12 @@ private:
     const Element& face = this->elements_[1];
     for (const char* axis : { "x", "y", "z" })
     {
-      if (!vertex.find(axis))
+      if (!vertex.has(axis))
       {
         this->fail("element vertex has no property " + std::string(axis));
       }
     }
-    const Property* corners =
-      face.find("vertex_indices") ? face.find("vertex_indices") : face.find("vertex_index");
-    if (!corners)
+    if (!face.has("vertex_indices") && !face.has("vertex_index"))
     {
       this->fail("element face has no property vertex_indices");
     }
@@ -286,13 +287,10 @@ private:
         std::size_t word = 0;
         const auto next = [&]
         {
-          const std::optional<double> number =
-            word < words.size() ? parseNumber<double>(words[word]) : std::optional<double>();
+          const std::optional<double> number = parseWord<double>(words, word);
           if (!number)
           {
-            this->failAtLine("found " +
-              (word < words.size() ? quoted(words[word]) : std::string("the line's end")) +
-              ", expected a number of " + what);
+            this->failAtLine("found " + quotedWord(words, word) + ", expected a number of " + what);
           }
           ++word;
           return *number;
@@ -312,7 +310,8 @@ private:
       for (long i = 0; i < element.count; ++i)
       {
         this->checkProperties(element,
-          [&](const std::string& type) { return readBinary(reader, type, element.name.c_str()); });
+          [&](const std::string& type)
+          { return readersByType.at(type)(reader, element.name.c_str()); });
       }
     }
   }
@@ -339,39 +338,6 @@ private:
         }
       }
     }
-  }
-
-  static double readBinary(ByteReader& reader, const std::string& type, const char* what)
-  {
-    if (type == "char" || type == "int8")
-    {
-      return reader.read<std::int8_t>(what);
-    }
-    if (type == "uchar" || type == "uint8")
-    {
-      return reader.read<std::uint8_t>(what);
-    }
-    if (type == "short" || type == "int16")
-    {
-      return reader.read<std::int16_t>(what);
-    }
-    if (type == "ushort" || type == "uint16")
-    {
-      return reader.read<std::uint16_t>(what);
-    }
-    if (type == "int" || type == "int32")
-    {
-      return reader.read<std::int32_t>(what);
-    }
-    if (type == "uint" || type == "uint32")
-    {
-      return reader.read<std::uint32_t>(what);
-    }
-    if (type == "float" || type == "float32")
-    {
-      return static_cast<double>(reader.read<float>(what));
-    }
-    return reader.read<double>(what);
   }
 
   const std::string& path_;

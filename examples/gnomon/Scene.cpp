@@ -45,16 +45,6 @@ Scene makeModelScene(const std::string& path)
   return scene;
 }
 
-std::string builtinSceneNames()
-{
-  std::string names;
-  for (const BuiltinScene& scene : builtinScenes())
-  {
-    names += (names.empty() ? "" : ", ") + scene.name;
-  }
-  return names;
-}
-
 vtkSmartPointer<vtkActor> makeActor(const SceneModel& model)
 {
   vtkNew<vtkPolyDataMapper> mapper;
@@ -149,12 +139,11 @@ void setClippingRange(vtkRenderer* renderer, const Scene& scene, double aspect)
 //------------------------------------------------------------------------------
 Scene loadScene(const std::string& nameOrPath)
 {
-  for (const BuiltinSceneEntry& entry : builtinSceneEntries())
+  if (const BuiltinScene* builtin = findBuiltinScene(nameOrPath))
   {
-    if (entry.line.name == nameOrPath)
-    {
-      return entry.make();
-    }
+    Scene scene = builtin->make();
+    scene.name = builtin->name;
+    return scene;
   }
   const std::string extension = lowerExtension(nameOrPath);
   if (extension == ".json")

@@ -97,14 +97,6 @@ struct Scene
 /// @throws BadInput
 Scene loadScene(const std::string& nameOrPath);
 
-/// Names and one-line summaries of the built-in scenes.
-struct BuiltinScene
-{
-  std::string name;
-  std::string summary;
-};
-std::vector<BuiltinScene> builtinScenes();
-
 /// Reads the argument of --light, `type:key=value;key=value...`, with a scene file's types and
 /// keys:
 ///     directional:direction=-1,-2,-1;color=1,1,1;intensity=1;technique=nsm;map_size=1024

@@ -98,18 +98,9 @@ std::vector<SceneModel> readModel(const JsonValue& value, const std::filesystem:
       }
       surface.texture = texture;
     }
-    if (const JsonValue casts = value.member("casts"); casts.present())
-    {
-      surface.casts = casts.boolean();
-    }
-    if (const JsonValue receives = value.member("receives"); receives.present())
-    {
-      surface.receives = receives.boolean();
-    }
-    if (const JsonValue oneSided = value.member("one_sided"); oneSided.present())
-    {
-      surface.oneSided = oneSided.boolean();
-    }
+    surface.casts = value.member("casts").booleanOr(surface.casts);
+    surface.receives = value.member("receives").booleanOr(surface.receives);
+    surface.oneSided = value.member("one_sided").booleanOr(surface.oneSided);
   }
   return surfaces;
 }
@@ -134,17 +125,11 @@ Scene readSceneFile(const std::string& path)
     scene.camera = readCamera(camera, std::nullopt);
   }
   const JsonValue lights = root.member("lights");
-  if (lights.present())
+  for (const JsonValue& value : lights.elementsOrNone())
   {
-    for (const JsonValue& value : lights.elements())
-    {
-      scene.lights.push_back(readLight(value, folder));
-    }
+    scene.lights.push_back(readLight(value, folder));
   }
-  if (const JsonValue background = root.member("background"); background.present())
-  {
-    scene.background = background.numbers<3>(colorChannel);
-  }
+  scene.background = root.member("background").numbersOr(scene.background, colorChannel);
 
   const JsonValue models = root.member("models");
   const std::vector<JsonValue> entries = models.elements();

@@ -15,8 +15,6 @@ constexpr NumberRange lightIntensity{ 0.0, 1e6 };
 constexpr NumberRange coneAngleDegrees{ 0.01, 89.9 };
 constexpr NumberRange fieldOfViewDegrees{ 0.01, 179.0 };
 constexpr NumberRange extent{ 1e-6, 1e12 };
-constexpr int smallestMapTexels = 16;
-constexpr int largestMapTexels = 16384;
 
 Vec3 readPoint(const JsonValue& value)
 {
@@ -96,14 +94,8 @@ void requireLight(const JsonValue& value, std::vector<std::string> known)
 /// What all kinds of light share.
 void readCommon(const JsonValue& value, SceneLight& light)
 {
-  if (const JsonValue color = value.member("color"); color.present())
-  {
-    light.color = color.numbers<3>(colorChannel);
-  }
-  if (const JsonValue intensity = value.member("intensity"); intensity.present())
-  {
-    light.intensity = intensity.number(lightIntensity);
-  }
+  light.color = value.member("color").numbersOr(light.color, colorChannel);
+  light.intensity = value.member("intensity").numberOr(light.intensity, lightIntensity);
   for (const Setting* setting : shadowSettings())
   {
     if (const JsonValue wished = value.member(setting->name); wished.present())
@@ -149,10 +141,8 @@ SceneLight readSpot(const JsonValue& value)
   light.type = SceneLight::Type::Spot;
   light.position = readPoint(value.member("position"));
   light.target = readTarget(value.member("target"), light.position);
-  if (const JsonValue angle = value.member("cone_angle"); angle.present())
-  {
-    light.coneAngleDegrees = angle.number(coneAngleDegrees);
-  }
+  light.coneAngleDegrees =
+    value.member("cone_angle").numberOr(light.coneAngleDegrees, coneAngleDegrees);
   readCommon(value, light);
   return light;
 }
@@ -288,10 +278,7 @@ SceneCamera readCamera(const JsonValue& value, const std::optional<SceneCamera>&
     position.fail("a position that is not the scene's target");
   }
   camera.up = readUp(value.member("up"), camera.up, camera.target - camera.position);
-  if (const JsonValue fov = value.member("fov"); fov.present())
-  {
-    camera.fovDegrees = fov.number(fieldOfViewDegrees);
-  }
+  camera.fovDegrees = value.member("fov").numberOr(camera.fovDegrees, fieldOfViewDegrees);
   return camera;
 }
 

@@ -37,6 +37,12 @@ std::vector<std::string> splitWords(const std::string& text)
 }
 
 //------------------------------------------------------------------------------
+std::string quotedWord(const std::vector<std::string>& words, std::size_t number)
+{
+  return number < words.size() ? quoted(words[number]) : "the line's end";
+}
+
+//------------------------------------------------------------------------------
 std::string quoted(const std::string& text)
 {
   constexpr std::size_t longest = 60;

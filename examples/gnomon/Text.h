@@ -14,6 +14,8 @@ std::vector<std::string> split(const std::string& text, char separator);
 /// The words of a text between white space.
 std::vector<std::string> splitWords(const std::string& text);
 
+/// The word of that number in quotation marks, or what stands in its place.
+std::string quotedWord(const std::vector<std::string>& words, std::size_t number);
 /// A number that is the whole text and that the type can hold; "nan" and "inf" count for floats. It
 /// does not depend on the locale.
 template <class Number>
@@ -29,6 +31,12 @@ std::optional<Number> parseNumber(const std::string& text)
                                                        : std::nullopt;
 }
 
+/// The same of a word, which may be missing.
+template <class Number>
+std::optional<Number> parseWord(const std::vector<std::string>& words, std::size_t number)
+{
+  return number < words.size() ? parseNumber<Number>(words[number]) : std::nullopt;
+}
 /// The text in quotation marks, cut short where it is long.
 std::string quoted(const std::string& text);
 

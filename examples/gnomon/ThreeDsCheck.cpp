@@ -3,7 +3,10 @@
 #include "ByteReader.h"
 #include "Files.h"
 
+#include <algorithm>
 #include <cstdint>
+#include <functional>
+#include <map>
 #include <set>
 
 namespace gnomon::tool
@@ -29,14 +32,8 @@ public:
       this->reader_.seek(0);
       this->reader_.fail("not a .3ds file, expected it to start with the main chunk 4D4D");
     }
-    this->forEachChunk(main.end,
-      [this](const Chunk& chunk)
-      {
-        if (chunk.tag == 0x3D3D)
-        {
-          this->checkEditor(chunk);
-        }
-      });
+    this->visitChunks(
+      main.end, { { 0x3D3D, [this](const Chunk& editor) { this->checkEditor(editor); } } });
     for (const std::string& name : this->usedMaterials_)
     {
       if (this->materials_.count(name) == 0)
@@ -69,62 +66,44 @@ private:
     return { tag, begin + bytes };
   }
 
-  template <class Visit>
-  void forEachChunk(std::size_t end, const Visit& visit)
+  /// Calls what is given for a chunk's tag, for all chunks up to an end.
+  void visitChunks(
+    std::size_t end, const std::map<unsigned, std::function<void(const Chunk&)>>& visits)
   {
     while (this->reader_.position() < end)
     {
       const Chunk chunk = this->readChunk(end);
-      visit(chunk);
+      if (const auto visit = visits.find(chunk.tag); visit != visits.end())
+      {
+        visit->second(chunk);
+      }
       this->reader_.seek(chunk.end);
     }
   }
 
   void checkEditor(const Chunk& editor)
   {
-    this->forEachChunk(editor.end,
-      [this](const Chunk& chunk)
-      {
-        if (chunk.tag == 0xAFFF)
-        {
-          this->checkMaterial(chunk);
-        }
-        else if (chunk.tag == 0x4000)
-        {
-          this->readName("an object");
-          this->forEachChunk(chunk.end,
-            [this](const Chunk& part)
-            {
-              if (part.tag == 0x4100)
-              {
-                this->checkMesh(part);
-              }
-            });
-        }
-      });
+    const auto checkObject = [this](const Chunk& object)
+    {
+      this->readName("an object");
+      this->visitChunks(
+        object.end, { { 0x4100, [this](const Chunk& mesh) { this->checkMesh(mesh); } } });
+    };
+    this->visitChunks(editor.end,
+      { { 0xAFFF, [this](const Chunk& material) { this->checkMaterial(material); } },
+        { 0x4000, checkObject } });
   }
 
   void checkMaterial(const Chunk& material)
   {
-    this->forEachChunk(material.end,
-      [this](const Chunk& chunk)
-      {
-        if (chunk.tag == 0xA000)
-        {
-          this->materials_.insert(this->readName("a material"));
-        }
-        else if (chunk.tag == 0xA200 || chunk.tag == 0xA230)
-        {
-          this->forEachChunk(chunk.end,
-            [this](const Chunk& part)
-            {
-              if (part.tag == 0xA300)
-              {
-                this->readName("a texture");
-              }
-            });
-        }
-      });
+    const auto checkMap = [this](const Chunk& map)
+    {
+      this->visitChunks(
+        map.end, { { 0xA300, [this](const Chunk&) { this->readName("a texture"); } } });
+    };
+    this->visitChunks(material.end,
+      { { 0xA000, [this](const Chunk&) { this->materials_.insert(this->readName("a material")); } },
+        { 0xA200, checkMap }, { 0xA230, checkMap } });
   }
 
   void checkMesh(const Chunk& mesh)
@@ -132,36 +111,27 @@ private:
     std::size_t vertices = 0;
     std::size_t highest = 0;
     std::size_t faces = 0;
-    this->forEachChunk(mesh.end,
-      [&](const Chunk& chunk)
+    const auto checkVertices = [&](const Chunk&)
+    {
+      vertices = this->reader_.read<std::uint16_t>("the number of vertices");
+      this->reader_.skip(vertices * 3 * sizeof(float), "vertices");
+    };
+    const auto checkFaces = [&](const Chunk& chunk)
+    {
+      faces = this->reader_.read<std::uint16_t>("the number of faces");
+      for (std::size_t i = 0; i < faces; ++i)
       {
-        if (chunk.tag == 0x4110)
+        for (int corner = 0; corner < 3; ++corner)
         {
-          vertices = this->reader_.read<std::uint16_t>("the number of vertices");
-          this->reader_.skip(vertices * 3 * sizeof(float), "vertices");
+          const std::size_t index = this->reader_.read<std::uint16_t>("a face");
+          highest = std::max(highest, index);
         }
-        else if (chunk.tag == 0x4120)
-        {
-          faces = this->reader_.read<std::uint16_t>("the number of faces");
-          for (std::size_t i = 0; i < faces; ++i)
-          {
-            for (int corner = 0; corner < 3; ++corner)
-            {
-              const std::size_t index = this->reader_.read<std::uint16_t>("a face");
-              highest = std::max(highest, index);
-            }
-            this->reader_.skip(sizeof(std::uint16_t), "a face");
-          }
-          this->forEachChunk(chunk.end,
-            [&](const Chunk& group)
-            {
-              if (group.tag == 0x4130)
-              {
-                this->checkMaterialGroup(faces);
-              }
-            });
-        }
-      });
+        this->reader_.skip(sizeof(std::uint16_t), "a face");
+      }
+      this->visitChunks(
+        chunk.end, { { 0x4130, [&](const Chunk&) { this->checkMaterialGroup(faces); } } });
+    };
+    this->visitChunks(mesh.end, { { 0x4110, checkVertices }, { 0x4120, checkFaces } });
     if (faces > 0 && highest >= vertices)
     {
       this->reader_.fail("found a face with vertex number " + std::to_string(highest) +

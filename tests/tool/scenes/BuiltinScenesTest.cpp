@@ -200,11 +200,11 @@ TEST(BuiltinScenes, HaveTheTrianglesThatTheyPromise)
   EXPECT_NEAR(static_cast<double>(countTriangles(loadScene("atrium"))), 260000.0, 2000.0);
   for (const SceneView& view : gardenViews())
   {
-    EXPECT_EQ(countTriangles(loadScene(view.line.name)), 55026) << view.line.name;
+    EXPECT_EQ(countTriangles(loadScene(view.name)), 55026) << view.name;
   }
   for (const SceneView& view : primitivesViews())
   {
-    EXPECT_EQ(countTriangles(loadScene(view.line.name)), 4944) << view.line.name;
+    EXPECT_EQ(countTriangles(loadScene(view.name)), 4944) << view.name;
   }
   const Scene primitives = loadScene("primitives");
   const std::map<std::string, vtkIdType> parts = { { "plane", 2 }, { "pyramid", 6 },
@@ -386,8 +386,8 @@ TEST(BuiltinScenes, TheGardensLawnFillsEveryView)
 {
   for (const SceneView& view : gardenViews())
   {
-    SCOPED_TRACE(view.line.name);
-    const Scene scene = loadScene(view.line.name);
+    SCOPED_TRACE(view.name);
+    const Scene scene = loadScene(view.name);
     Scene lawn = scene;
     lawn.models = { findModel(scene, "lawn, light stripes"),
       findModel(scene, "lawn, dark stripes") };
