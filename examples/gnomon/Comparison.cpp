@@ -50,24 +50,18 @@ void requireSameImages(const VisibilityImages& technique, const VisibilityImages
   }
 }
 
-PixelVerdict worse(PixelVerdict a, PixelVerdict b)
+/// Adds the names of numbers that are not among them yet.
+template <typename Number>
+void addNames(
+  const std::vector<std::pair<std::string, Number>>& numbers, std::vector<std::string>& names)
 {
-  const auto rank = [](PixelVerdict verdict)
+  for (const auto& [name, number] : numbers)
   {
-    switch (verdict)
+    if (std::find(names.begin(), names.end(), name) == names.end())
     {
-      case PixelVerdict::FalseLight:
-        return 3;
-      case PixelVerdict::FalseShadow:
-        return 2;
-      case PixelVerdict::Right:
-        return 1;
-      case PixelVerdict::NotCounted:
-        break;
+      names.push_back(name);
     }
-    return 0;
-  };
-  return rank(a) >= rank(b) ? a : b;
+  }
 }
 
 /// Whether a point lies in the box of a light, if that has one.
@@ -157,7 +151,7 @@ VisibilityError measureError(const VisibilityImages& technique, const Visibility
       sumOfSquares += static_cast<double>(difference) * difference;
       if (verdicts)
       {
-        (*verdicts)[i] = worse((*verdicts)[i], verdict);
+        (*verdicts)[i] = std::max((*verdicts)[i], verdict);
       }
     }
   }
@@ -216,31 +210,16 @@ Picture errorPicture(const Picture& picture, const std::vector<PixelVerdict>& ve
 //------------------------------------------------------------------------------
 const char* motionName(Motion motion)
 {
-  switch (motion)
-  {
-    case Motion::Camera:
-      return "camera moving";
-    case Motion::Light:
-      return "light moving";
-    case Motion::Static:
-      break;
-  }
-  return "static";
+  static constexpr std::array names = { "static", "camera moving", "light moving" };
+  return names[static_cast<std::size_t>(motion)];
 }
 
 //------------------------------------------------------------------------------
-const char* motionKey(Motion motion)
+std::string motionKey(Motion motion)
 {
-  switch (motion)
-  {
-    case Motion::Camera:
-      return "camera_moving";
-    case Motion::Light:
-      return "light_moving";
-    case Motion::Static:
-      break;
-  }
-  return "static";
+  std::string key = motionName(motion);
+  std::replace(key.begin(), key.end(), ' ', '_');
+  return key;
 }
 
 //------------------------------------------------------------------------------
@@ -256,23 +235,24 @@ std::vector<std::string> classNames(const ComparisonResults& results)
   std::vector<std::string> names;
   for (const VariantResult& variant : results.variants)
   {
-    for (const auto& [name, pixels] : variant.classes)
-    {
-      if (std::find(names.begin(), names.end(), name) == names.end())
-      {
-        names.push_back(name);
-      }
-    }
+    addNames(variant.classes, names);
   }
   return names;
 }
 
 //------------------------------------------------------------------------------
-const std::int64_t* findClass(const VariantResult& variant, const std::string& name)
+std::vector<std::string> stageNames(
+  const ComparisonResults& results, const std::vector<Motion>& motions)
 {
-  const auto found = std::find_if(variant.classes.begin(), variant.classes.end(),
-    [&](const auto& entry) { return entry.first == name; });
-  return found == variant.classes.end() ? nullptr : &found->second;
+  std::vector<std::string> names;
+  for (const VariantResult& variant : results.variants)
+  {
+    for (const Motion motion : motions)
+    {
+      addNames(variant.timings[static_cast<std::size_t>(motion)].stages, names);
+    }
+  }
+  return names;
 }
 
 } // namespace gnomon::tool

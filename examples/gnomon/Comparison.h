@@ -5,6 +5,7 @@
 
 #include "plugin/VisibilityImages.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -42,13 +43,14 @@ struct VisibilityError
   }
 };
 
-/// What one pixel has to say about one or more lights, for a picture of the errors.
+/// What one pixel has to say about one or more lights, for a picture of the errors; of several
+/// lights the last of these.
 enum class PixelVerdict : unsigned char
 {
   NotCounted, ///< covered by nothing, turned away, or outside the cone
   Right,
-  FalseLight,
-  FalseShadow
+  FalseShadow,
+  FalseLight
 };
 
 /// 1 per pixel that counts for this light: covered, facing it, inside its cone or box.
@@ -56,8 +58,7 @@ std::vector<unsigned char> facingPixels(const VisibilityImages& images, const Sc
 
 /// A technique's error against the truth, over all lights that the truth lists.
 /// @param lights the scene's lights; `truth.sceneIndices` counts them
-/// @param verdicts if given, receives one verdict per pixel: wrong where any light is, false light
-/// before false shadow
+/// @param verdicts if given, receives one verdict per pixel
 /// @throws std::invalid_argument when the two differ in size or lights
 VisibilityError measureError(const VisibilityImages& technique, const VisibilityImages& truth,
   const std::vector<SceneLight>& lights, std::vector<PixelVerdict>* verdicts = nullptr);
@@ -79,7 +80,7 @@ inline constexpr std::array<Motion, 3> allMotions = { Motion::Static, Motion::Ca
 /// "static", "camera moving", "light moving".
 const char* motionName(Motion motion);
 /// The same as a key of tables: "static", "camera_moving", "light_moving".
-const char* motionKey(Motion motion);
+std::string motionKey(Motion motion);
 
 /// Times of one variant under one motion.
 struct MotionTiming
@@ -151,7 +152,17 @@ std::vector<Motion> timedMotions(const ComparisonResults& results);
 
 /// The names of all classes that any variant tells, in order of appearance.
 std::vector<std::string> classNames(const ComparisonResults& results);
-/// A variant's pixels of a class; null where it does not tell them.
-const std::int64_t* findClass(const VariantResult& variant, const std::string& name);
+/// The names of all stages that any variant has under these motions, in order of appearance.
+std::vector<std::string> stageNames(
+  const ComparisonResults& results, const std::vector<Motion>& motions);
+/// The number of that name; null where there is none.
+template <typename Number>
+const Number* findNamed(
+  const std::vector<std::pair<std::string, Number>>& numbers, const std::string& name)
+{
+  const auto found = std::find_if(
+    numbers.begin(), numbers.end(), [&](const auto& entry) { return entry.first == name; });
+  return found == numbers.end() ? nullptr : &found->second;
+}
 
 } // namespace gnomon::tool

@@ -2,12 +2,15 @@
 
 #include "ReportTemplate.h" // generated from ReportTemplate.html
 
+#include <vtkBase64Utilities.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <map>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace gnomon::tool
@@ -42,31 +45,12 @@ std::string escape(const std::string& text)
   return result;
 }
 
-std::string base64(const std::vector<unsigned char>& bytes)
-{
-  static constexpr char letters[] =
-    "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3)
-  {
-    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
-    unsigned int group = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-    {
-      group = group << 8 | (k < count ? bytes[i + k] : 0u);
-    }
-    for (std::size_t k = 0; k < 4; ++k)
-    {
-      text += k <= count ? letters[group >> (18 - 6 * k) & 63u] : '=';
-    }
-  }
-  return text;
-}
-
 std::string dataUri(const Picture& picture)
 {
-  return "data:image/png;base64," + base64(encodePng(picture));
+  const std::vector<unsigned char> png = encodePng(picture);
+  std::vector<unsigned char> text((png.size() + 2) / 3 * 4);
+  vtkBase64Utilities::Encode(png.data(), static_cast<unsigned long>(png.size()), text.data());
+  return "data:image/png;base64," + std::string(text.begin(), text.end());
 }
 
 /// A number with so many digits after the point.
@@ -163,20 +147,8 @@ constexpr const char* notTimed = "<p>No frames were timed.</p>";
 
 std::string stageTable(const ComparisonResults& results)
 {
-  std::vector<std::string> names;
-  for (const VariantResult& variant : results.variants)
-  {
-    for (const MotionTiming& timing : variant.timings)
-    {
-      for (const auto& [name, milliseconds] : timing.stages)
-      {
-        if (std::find(names.begin(), names.end(), name) == names.end())
-        {
-          names.push_back(name);
-        }
-      }
-    }
-  }
+  const std::vector<std::string> names =
+    stageNames(results, { allMotions.begin(), allMotions.end() });
   if (names.empty())
   {
     return results.frames > 0 ? "<p>No variant has stages.</p>" : notTimed;
@@ -197,9 +169,8 @@ std::string stageTable(const ComparisonResults& results)
       html += "<tr>" + cell(variant.name) + cell(motionName(motion));
       for (const std::string& name : names)
       {
-        const auto stage = std::find_if(timing.stages.begin(), timing.stages.end(),
-          [&name](const auto& candidate) { return candidate.first == name; });
-        html += cell(stage != timing.stages.end() ? fixed(stage->second, 2) : std::string());
+        const double* const milliseconds = findNamed(timing.stages, name);
+        html += cell(milliseconds ? fixed(*milliseconds, 2) : std::string());
       }
       html += cell(fixed(100.0 * timing.stageShare, 0) + " %") + "</tr>\n";
     }
@@ -228,7 +199,7 @@ std::string classTable(const ComparisonResults& results)
     html += "<tr>" + cell(variant.name);
     for (const std::string& name : names)
     {
-      const std::int64_t* const pixels = findClass(variant, name);
+      const std::int64_t* const pixels = findNamed(variant.classes, name);
       html += pixels
         ? cell(percent(static_cast<double>(*pixels) / pixelsOfAll), std::to_string(*pixels))
         : cell(std::string());
@@ -238,24 +209,26 @@ std::string classTable(const ComparisonResults& results)
   return html + "</tbody>\n</table>";
 }
 
-std::string sourceTable(const ComparisonResults& results)
+using Rows = std::vector<std::pair<std::string, std::string>>;
+
+std::string textTable(const Rows& rows)
 {
   std::string html = "<table class=\"text\">\n<tbody>\n";
-  for (const VariantResult& variant : results.variants)
+  for (const auto& [name, text] : rows)
   {
-    html += "<tr>" + cell(variant.name) + cell(variant.errorSource) + "</tr>\n";
+    html += "<tr>" + cell(name) + cell(text) + "</tr>\n";
   }
   return html + "</tbody>\n</table>";
 }
 
-std::string settingsTable(const ComparisonResults& results)
+std::string sourceTable(const ComparisonResults& results)
 {
-  std::string html = "<table class=\"text\">\n<tbody>\n";
-  for (const auto& [name, value] : results.settings)
+  Rows rows;
+  for (const VariantResult& variant : results.variants)
   {
-    html += "<tr>" + cell(name) + cell(value) + "</tr>\n";
+    rows.emplace_back(variant.name, variant.errorSource);
   }
-  return html + "</tbody>\n</table>";
+  return textTable(rows);
 }
 
 std::string noteList(const ComparisonResults& results)
@@ -348,7 +321,7 @@ std::string toHtml(const ComparisonResults& results, const Picture& chart)
       { "stages", stageTable(results) },
       { "classes", classTable(results) },
       { "sources", sourceTable(results) },
-      { "settings", settingsTable(results) },
+      { "settings", textTable(results.settings) },
     });
 }
 

@@ -19,23 +19,6 @@ const MotionTiming& timing(const VariantResult& variant, Motion motion)
   return variant.timings[static_cast<std::size_t>(motion)];
 }
 
-/// The names of all stages that any variant has under a motion, in order of appearance.
-std::vector<std::string> stageNames(const ComparisonResults& results, Motion motion)
-{
-  std::vector<std::string> names;
-  for (const VariantResult& variant : results.variants)
-  {
-    for (const auto& [name, milliseconds] : timing(variant, motion).stages)
-    {
-      if (std::find(names.begin(), names.end(), name) == names.end())
-      {
-        names.push_back(name);
-      }
-    }
-  }
-  return names;
-}
-
 /// One line of a CSV file, quoted where needed.
 class CsvRow
 {
@@ -91,7 +74,7 @@ CsvRow csvHeading(const ComparisonResults& results)
   {
     const std::string key = motionKey(motion);
     row << key + "_ms";
-    for (const std::string& stage : stageNames(results, motion))
+    for (const std::string& stage : stageNames(results, { motion }))
     {
       row << key + "_" + stage + "_ms";
     }
@@ -122,11 +105,10 @@ CsvRow csvRow(const ComparisonResults& results, const VariantResult& variant)
   {
     const MotionTiming& times = timing(variant, motion);
     row << times.milliseconds;
-    for (const std::string& name : stageNames(results, motion))
+    for (const std::string& name : stageNames(results, { motion }))
     {
-      const auto stage = std::find_if(times.stages.begin(), times.stages.end(),
-        [&name](const auto& candidate) { return candidate.first == name; });
-      stage != times.stages.end() ? row << stage->second : row.empty();
+      const double* const milliseconds = findNamed(times.stages, name);
+      milliseconds ? row << *milliseconds : row.empty();
     }
     times.stages.empty() ? row.empty() : row << times.stageShare;
   }
@@ -134,7 +116,7 @@ CsvRow csvRow(const ComparisonResults& results, const VariantResult& variant)
       << variant.memory.images << variant.memory.residentGrowth;
   for (const std::string& name : classNames(results))
   {
-    const std::int64_t* const pixels = findClass(variant, name);
+    const std::int64_t* const pixels = findNamed(variant.classes, name);
     pixels ? row << *pixels : row.empty();
   }
   return row;

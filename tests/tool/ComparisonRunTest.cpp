@@ -321,8 +321,8 @@ TEST(ComparisonRun, AllTechniquesCountTheSamePixels)
     {
       all += pixels;
     }
-    const std::int64_t* const away = findClass(result, "turned away from the light");
-    const std::int64_t* const none = findClass(result, "no receiver");
+    const std::int64_t* const away = findNamed(result.classes, "turned away from the light");
+    const std::int64_t* const none = findNamed(result.classes, "no receiver");
     ASSERT_TRUE(away && none) << result.name;
     EXPECT_GT(*away, 0) << result.name;
     EXPECT_GT(*none, 0) << result.name;
@@ -330,8 +330,8 @@ TEST(ComparisonRun, AllTechniquesCountTheSamePixels)
     // By the truth's normals.
     EXPECT_EQ(all - *away - *none, result.error.facingPixels) << result.name;
     const VariantResult& truth = variant(results, "raytraced");
-    EXPECT_EQ(*away, *findClass(truth, "turned away from the light")) << result.name;
-    EXPECT_EQ(*none, *findClass(truth, "no receiver")) << result.name;
+    EXPECT_EQ(*away, *findNamed(truth.classes, "turned away from the light")) << result.name;
+    EXPECT_EQ(*none, *findNamed(truth.classes, "no receiver")) << result.name;
     tell.insert(result.name.substr(0, result.name.find(' ')));
   }
   EXPECT_THAT(tell,
@@ -386,7 +386,7 @@ TEST(ComparisonRun, ColoursOfPicturesAreItsNumbers)
     std::int64_t ofClasses = 0;
     for (const PixelClass& each : findTechnique(technique)->estimator->info.classes)
     {
-      const std::int64_t* const counted = findClass(result, each.name);
+      const std::int64_t* const counted = findNamed(result.classes, each.name);
       const std::int64_t drawn = colours[{ each.colour[0], each.colour[1], each.colour[2] }];
       EXPECT_EQ(drawn, counted ? *counted : 0) << each.name << " of " << result.name;
       ofClasses += drawn;
