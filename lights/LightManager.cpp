@@ -118,13 +118,13 @@ struct LitArea
 };
 
 /// @param texture null: its points shine alike
-/// @param reason to skip the light; filled, if it is empty, where its numbers give no area
+/// @param reason to skip the light; filled where its numbers give no area
 LitArea readArea(vtkLight* light, const ShadowSettings& settings,
   const std::shared_ptr<const LightTexture>& texture, std::string& reason)
 {
   const auto skip = [&](const char* why)
   {
-    reason = reason.empty() ? why : reason;
+    reason = why;
     return LitArea();
   };
   if (texture && settings.lightRadius > 0.0)
@@ -339,6 +339,19 @@ ShadowLight readLight(vtkLight* light, const ShadowSettings& settings, LitArea l
 //------------------------------------------------------------------------------
 LightSet LightManager::collect(vtkRenderer* renderer, const ShadowSettings& defaults)
 {
+  return this->read(renderer, defaults, false);
+}
+
+//------------------------------------------------------------------------------
+LightSet LightManager::collectAreas(vtkRenderer* renderer, const ShadowSettings& defaults)
+{
+  return this->read(renderer, defaults, true);
+}
+
+//------------------------------------------------------------------------------
+/// @param onlyAreas whether lights are asked for that are more than a point, or those that cast
+LightSet LightManager::read(vtkRenderer* renderer, const ShadowSettings& defaults, bool onlyAreas)
+{
   LightSet set;
   ReadTextures textures;
   int sceneIndex = 0;
@@ -348,17 +361,23 @@ LightSet LightManager::collect(vtkRenderer* renderer, const ShadowSettings& defa
   lights->InitTraversal(iterator);
   while (vtkLight* light = lights->GetNextLight(iterator))
   {
-    std::string reason = firstReason(light, { whyDark, whyWithoutShadow, whyWithoutPlace });
+    std::string reason = onlyAreas
+      ? whyWithoutPlace(light)
+      : firstReason(light, { whyDark, whyWithoutShadow, whyWithoutPlace });
     const ShadowSettings settings = readSettings(light, defaults, reason);
     const std::shared_ptr<const LightTexture> texture = this->textureOf(light, textures, reason);
-    LitArea lit = readArea(light, settings, texture, reason);
-    if (reason.empty())
+    std::string reasonOfArea;
+    LitArea lit = readArea(light, settings, texture, reasonOfArea);
+    const bool wantsArea = !reasonOfArea.empty() || (lit.area && lit.area->radius() > 0.0);
+    reason = reason.empty() ? reasonOfArea : reason;
+    const bool isAsked = !onlyAreas || (wantsArea && whyDark(light).empty());
+    if (isAsked && reason.empty())
     {
-      set.casting.push_back(readLight(light, settings, std::move(lit)));
-      set.casting.back().sceneIndex = sceneIndex;
-      set.casting.back().shaderIndex = shaderIndex;
+      set.lights.push_back(readLight(light, settings, std::move(lit)));
+      set.lights.back().sceneIndex = sceneIndex;
+      set.lights.back().shaderIndex = shaderIndex;
     }
-    else
+    else if (isAsked)
     {
       set.skipped.push_back({ sceneIndex, reason });
     }
@@ -368,42 +387,6 @@ LightSet LightManager::collect(vtkRenderer* renderer, const ShadowSettings& defa
   }
   this->textures_ = std::move(textures);
   return set;
-}
-
-//------------------------------------------------------------------------------
-AreaLights LightManager::collectAreas(vtkRenderer* renderer, const ShadowSettings& defaults)
-{
-  AreaLights areas;
-  ReadTextures textures;
-  int sceneIndex = 0;
-  vtkLightCollection* lights = renderer->GetLights();
-  vtkCollectionSimpleIterator iterator;
-  lights->InitTraversal(iterator);
-  while (vtkLight* light = lights->GetNextLight(iterator))
-  {
-    std::string reason = whyWithoutPlace(light);
-    std::string reasonOfArea;
-    const ShadowSettings settings = readSettings(light, defaults, reason);
-    const std::shared_ptr<const LightTexture> texture = this->textureOf(light, textures, reason);
-    LitArea lit = readArea(light, settings, texture, reasonOfArea);
-    const bool wantsArea = !reasonOfArea.empty() || (lit.area && lit.area->radius() > 0.0);
-    reason = reason.empty() ? reasonOfArea : reason;
-    if (wantsArea && whyDark(light).empty())
-    {
-      if (reason.empty())
-      {
-        areas.lights.push_back(readLight(light, settings, std::move(lit)));
-        areas.lights.back().sceneIndex = sceneIndex;
-      }
-      else
-      {
-        areas.skipped.push_back({ sceneIndex, reason });
-      }
-    }
-    ++sceneIndex;
-  }
-  this->textures_ = std::move(textures);
-  return areas;
 }
 
 //------------------------------------------------------------------------------

@@ -22,16 +22,8 @@ struct SkippedLight
   std::string reason; ///< a whole clause for people, e.g. "switched off"
 };
 
-/// The frame's lights: those that cast, and those that do not with the reason.
+/// The frame's lights that are asked for, and those that are left out.
 struct LightSet
-{
-  std::vector<ShadowLight> casting;
-  std::vector<SkippedLight> skipped;
-};
-
-/// The frame's lights that shine from more than a point, and those that give light and would if
-/// their numbers said how.
-struct AreaLights
 {
   std::vector<ShadowLight> lights;
   std::vector<SkippedLight> skipped;
@@ -55,8 +47,9 @@ public:
   /// (vtkGnomonLightKeys)
   LightSet collect(vtkRenderer* renderer, const ShadowSettings& defaults);
 
-  /// The renderer's lights that shine from more than a point, whether or not they cast shadows.
-  AreaLights collectAreas(vtkRenderer* renderer, const ShadowSettings& defaults);
+  /// The renderer's lights that shine from more than a point, whether or not they cast shadows, and
+  /// those that give light and would if their numbers said how.
+  LightSet collectAreas(vtkRenderer* renderer, const ShadowSettings& defaults);
 
   /// Removes a light's area and its samples. (The area of vtkGnomonAreaLight is the
   /// class's: such a light is exchanged.)
@@ -72,6 +65,7 @@ private:
   };
   using ReadTextures = std::map<vtkImageData*, ReadTexture>;
 
+  LightSet read(vtkRenderer* renderer, const ShadowSettings& defaults, bool onlyAreas);
   std::shared_ptr<const LightTexture> textureOf(
     vtkLight* light, ReadTextures& current, std::string& reason);
 

@@ -1,5 +1,7 @@
 #include "lights/VisibleBody.h"
 
+#include "lights/LightSpace.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -38,12 +40,8 @@ Polygon ordered(std::vector<glm::dvec3> corners, const glm::dvec3& normal)
   {
     centre += corner / static_cast<double>(corners.size());
   }
-  // Any two axes in the plane; the least aligned axis of space makes sure that they are two.
-  const glm::dvec3 magnitude = glm::abs(normal);
-  const glm::dvec3 aside = magnitude.x <= magnitude.y && magnitude.x <= magnitude.z
-    ? glm::dvec3(1.0, 0.0, 0.0)
-    : (magnitude.y <= magnitude.z ? glm::dvec3(0.0, 1.0, 0.0) : glm::dvec3(0.0, 0.0, 1.0));
-  const glm::dvec3 u = glm::cross(normal, aside);
+  // Any two axes in the plane.
+  const glm::dvec3 u = glm::cross(normal, axisAcross(normal));
   const glm::dvec3 v = glm::cross(normal, u) / glm::length(normal);
   std::vector<std::pair<double, glm::dvec3>> byAngle;
   byAngle.reserve(corners.size());

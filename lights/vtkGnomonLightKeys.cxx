@@ -124,9 +124,3 @@ void vtkGnomonLightKeys::RemoveBox(vtkLight* light)
 {
   light->GetInformation()->Remove(BOX());
 }
-
-//------------------------------------------------------------------------------
-void vtkGnomonLightKeys::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-}

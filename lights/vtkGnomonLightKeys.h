@@ -42,7 +42,6 @@ class GNOMONLIGHTS_EXPORT vtkGnomonLightKeys : public vtkObject
 public:
   static vtkGnomonLightKeys* New();
   vtkTypeMacro(vtkGnomonLightKeys, vtkObject);
-  void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{
   /**

@@ -133,9 +133,3 @@ void vtkGnomonLightPlacement::SetPitchAndYaw(
   light->GetPositional() ? place(light, position, position + arm)
                          : place(light, focalPoint - arm, focalPoint);
 }
-
-//------------------------------------------------------------------------------
-void vtkGnomonLightPlacement::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-}

@@ -33,7 +33,6 @@ class GNOMONLIGHTS_EXPORT vtkGnomonLightPlacement : public vtkObject
 public:
   static vtkGnomonLightPlacement* New();
   vtkTypeMacro(vtkGnomonLightPlacement, vtkObject);
-  void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /**
    * Make a light shine on a sphere, in the direction that it has. Its focal point becomes the

@@ -37,7 +37,7 @@ namespace
 constexpr double gammaOfPbr = 2.2;
 
 /// The renderer's area lights with the points that stand for them.
-std::vector<gnomon::PointedLight> pointedLights(gnomon::AreaLights areas, int samples)
+std::vector<gnomon::PointedLight> pointedLights(gnomon::LightSet areas, int samples)
 {
   if (!areas.skipped.empty())
   {

@@ -67,9 +67,3 @@ bool vtkGnomonPropKeys::GetOneSided(vtkProp* prop)
 {
   return getKey(prop, ONE_SIDED(), false);
 }
-
-//------------------------------------------------------------------------------
-void vtkGnomonPropKeys::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-}

@@ -24,7 +24,6 @@ class GNOMONPLUGIN_EXPORT vtkGnomonPropKeys : public vtkObject
 public:
   static vtkGnomonPropKeys* New();
   vtkTypeMacro(vtkGnomonPropKeys, vtkObject);
-  void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{
   /**

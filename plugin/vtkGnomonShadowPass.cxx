@@ -143,14 +143,7 @@ double leastProgress(const gnomon::FrameReport& report)
 
 //------------------------------------------------------------------------------
 vtkGnomonShadowPass::vtkGnomonShadowPass()
-  : Route(ROUTE_AUTO)
-  , Tracer(TRACER_AUTO)
-  , Rasterizer(RASTERIZER_AUTO)
-  , MeasureStages(false)
-  , KeepVisibility(false)
-  , DelegatePass(nullptr)
-  , ObeyUseShadows(false)
-  , Internal(new Internals)
+  : Internal(new Internals)
 {
   this->Internal->settings.technique = gnomon::defaultTechnique;
 }

@@ -262,13 +262,13 @@ protected:
   vtkGnomonShadowPass();
   ~vtkGnomonShadowPass() override;
 
-  int Route;
-  int Tracer;
-  int Rasterizer;
-  bool MeasureStages;
-  bool KeepVisibility;
-  vtkRenderPass* DelegatePass;
-  bool ObeyUseShadows;
+  int Route = ROUTE_AUTO;
+  int Tracer = TRACER_AUTO;
+  int Rasterizer = RASTERIZER_AUTO;
+  bool MeasureStages = false;
+  bool KeepVisibility = false;
+  vtkRenderPass* DelegatePass = nullptr;
+  bool ObeyUseShadows = false;
 
 private:
   vtkRenderPass* FindDelegate(const vtkRenderState* s);

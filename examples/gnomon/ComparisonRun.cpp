@@ -44,7 +44,7 @@ Scene sceneOf(const ComparisonPlan& plan, const Scene& original)
 /// @throws CompositionError where one of the scene's lights refuses a variant's settings
 void requireComposition(const VariantSpec& spec, vtkRenderer* renderer)
 {
-  for (ShadowLight light : LightManager().collect(renderer, settingsOf(spec)).casting)
+  for (ShadowLight light : LightManager().collect(renderer, settingsOf(spec)).lights)
   {
     compose(light);
   }
@@ -363,7 +363,7 @@ VisibilityImages keptVisibility(Variant& variant)
 /// Whether one of the lights that cast is more than a point, and so has soft shadows.
 bool hasSoftShadows(vtkRenderer* renderer, const ShadowSettings& settings)
 {
-  const std::vector<ShadowLight> lights = LightManager().collect(renderer, settings).casting;
+  const std::vector<ShadowLight> lights = LightManager().collect(renderer, settings).lights;
   return std::any_of(
     lights.begin(), lights.end(), [](const ShadowLight& light) { return light.area.has_value(); });
 }

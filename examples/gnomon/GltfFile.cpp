@@ -187,16 +187,6 @@ Matrix multiplied(const Matrix& a, const Matrix& b)
   return result;
 }
 
-Vec3 transformed(const Matrix& m, const Vec3& v, double w)
-{
-  Vec3 result;
-  for (std::size_t i = 0; i < 3; ++i)
-  {
-    result[i] = m[4 * i] * v[0] + m[4 * i + 1] * v[1] + m[4 * i + 2] * v[2] + m[4 * i + 3] * w;
-  }
-  return result;
-}
-
 /// A node's matrix: "matrix", column-major, or translation, rotation and scale.
 Matrix readTransform(const JsonValue& node)
 {

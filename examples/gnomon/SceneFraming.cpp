@@ -19,17 +19,6 @@ namespace gnomon::tool
 namespace
 {
 
-Vec3 transformed(const std::array<double, 16>& matrix, const Vec3& point)
-{
-  Vec3 result;
-  for (std::size_t row = 0; row < 3; ++row)
-  {
-    const double* m = matrix.data() + 4 * row;
-    result[row] = m[0] * point[0] + m[1] * point[1] + m[2] * point[2] + m[3];
-  }
-  return result;
-}
-
 bool isFinite(const Vec3& point)
 {
   return std::isfinite(point[0]) && std::isfinite(point[1]) && std::isfinite(point[2]);
@@ -91,7 +80,7 @@ std::array<double, 6> boundsWorld(const Scene& scene)
     {
       Vec3 point;
       model.surface->GetPoint(i, point.data());
-      point = transformed(model.matrix, point);
+      point = transformed(model.matrix, point, 1.0);
       if (!isFinite(point))
       {
         continue;
@@ -157,7 +146,7 @@ DepthRange visibleDepths(const Scene& scene, double aspect)
     for (std::size_t i = 0; i < points.size(); ++i)
     {
       model.surface->GetPoint(static_cast<vtkIdType>(i), points[i].data());
-      points[i] = transformed(model.matrix, points[i]) - eye;
+      points[i] = transformed(model.matrix, points[i], 1.0) - eye;
       for (std::size_t side = 0; side < std::size(sides); ++side)
       {
         outsides[i] |= dot(sides[side], points[i]) >= 0.0 ? 0u : 1u << side;

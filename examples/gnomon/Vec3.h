@@ -49,4 +49,16 @@ inline Vec3 normalized(const Vec3& a)
   return size > 0.0 ? (1.0 / size) * a : a;
 }
 
+/// A point (w = 1) or a direction (w = 0) by a matrix whose rows follow one another.
+inline Vec3 transformed(const std::array<double, 16>& matrix, const Vec3& v, double w)
+{
+  Vec3 result;
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    const double* row = matrix.data() + 4 * i;
+    result[i] = row[0] * v[0] + row[1] * v[1] + row[2] * v[2] + row[3] * w;
+  }
+  return result;
+}
+
 } // namespace gnomon::tool

@@ -132,7 +132,7 @@ void CastingLights::collect(vtkRenderer* renderer, const ShadowSettings& default
   LightSet set = this->manager_.collect(renderer, defaults);
 
   std::vector<const EstimatorEntry*> estimators;
-  for (ShadowLight& light : set.casting)
+  for (ShadowLight& light : set.lights)
   {
     estimators.push_back(&composeIn(light));
     settle(light, estimators.back()->info, report.notes);
@@ -143,14 +143,14 @@ void CastingLights::collect(vtkRenderer* renderer, const ShadowSettings& default
   std::sort(report.lights.begin(), report.lights.end(),
     [](const LightReport& a, const LightReport& b) { return a.sceneIndex < b.sceneIndex; });
 
-  report.misfits = findMisfits(set.casting, estimators, defaults);
+  report.misfits = findMisfits(set.lights, estimators, defaults);
 
   // Nothing below fails half way: what a light has kept goes on with it.
   std::vector<CastingLight> lights;
   int layer = 0;
-  for (std::size_t i = 0; i < set.casting.size(); ++i)
+  for (std::size_t i = 0; i < set.lights.size(); ++i)
   {
-    lights.push_back(this->take(std::move(set.casting[i]), *estimators[i], ofView));
+    lights.push_back(this->take(std::move(set.lights[i]), *estimators[i], ofView));
     lights.back().layer = layer;
     layer += lights.back().channels;
   }

@@ -412,21 +412,12 @@ void RenderManager::computeVisibility()
     this->report_.notes.insert(this->report_.notes.end(), value->notes.begin(), value->notes.end());
     ++value;
   }
-  if (this->wishes_.keepVisibility)
+  const bool isKept = this->report_.visibilityComputed == 0 && this->keptOf_ == this->view_ &&
+    !this->visibility_.visibility.empty();
+  if (this->wishes_.keepVisibility && !isKept)
   {
-    this->keepVisibility(this->report_.visibilityComputed > 0 || this->keptOf_ != this->view_ ||
-      this->visibility_.visibility.empty());
-  }
-}
-
-//------------------------------------------------------------------------------
-/// Keeps a copy of the view's visibility, where that is another one than is kept.
-void RenderManager::keepVisibility(bool isNew)
-{
-  if (isNew)
-  {
-    this->visibility_ = gnomon::keepVisibility(this->lights_, this->view_->visibility,
-      this->view_->layers, this->receiversOnCpu().all(), this->collector_.occluders().centreWorld);
+    this->visibility_ = keepVisibility(this->lights_, this->view_->visibility, this->view_->layers,
+      this->receiversOnCpu().all(), this->collector_.occluders().centreWorld);
     this->keptOf_ = this->view_;
   }
 }

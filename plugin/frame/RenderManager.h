@@ -108,7 +108,6 @@ private:
   void tellTracer();
   Receivers& receiversOnCpu();
   void fillLayers(CastingLight& casting, VisibilityValue& value, LightReport& report);
-  void keepVisibility(bool isNew);
   void dropVisibility();
 
   FrameReport report_;

@@ -304,35 +304,23 @@ int EglContext::numberOfDevices()
 //------------------------------------------------------------------------------
 std::string EglContext::lastError()
 {
-  switch (const EGLint error = eglGetError())
-  {
-    case EGL_SUCCESS:
-      return "EGL gives no reason";
-    case EGL_NOT_INITIALIZED:
-      return "EGL_NOT_INITIALIZED";
-    case EGL_BAD_ACCESS:
-      return "EGL_BAD_ACCESS";
-    case EGL_BAD_ALLOC:
-      return "EGL_BAD_ALLOC";
-    case EGL_BAD_ATTRIBUTE:
-      return "EGL_BAD_ATTRIBUTE";
-    case EGL_BAD_CONFIG:
-      return "EGL_BAD_CONFIG";
-    case EGL_BAD_CONTEXT:
-      return "EGL_BAD_CONTEXT";
-    case EGL_BAD_DISPLAY:
-      return "EGL_BAD_DISPLAY";
-    case EGL_BAD_MATCH:
-      return "EGL_BAD_MATCH";
-    case EGL_BAD_PARAMETER:
-      return "EGL_BAD_PARAMETER";
-    case EGL_BAD_SURFACE:
-      return "EGL_BAD_SURFACE";
-    case EGL_CONTEXT_LOST:
-      return "EGL_CONTEXT_LOST";
-    default:
-      return "EGL error " + std::to_string(error);
-  }
+  static const std::map<EGLint, const char*> names = {
+    { EGL_SUCCESS, "EGL gives no reason" },
+    { EGL_NOT_INITIALIZED, "EGL_NOT_INITIALIZED" },
+    { EGL_BAD_ACCESS, "EGL_BAD_ACCESS" },
+    { EGL_BAD_ALLOC, "EGL_BAD_ALLOC" },
+    { EGL_BAD_ATTRIBUTE, "EGL_BAD_ATTRIBUTE" },
+    { EGL_BAD_CONFIG, "EGL_BAD_CONFIG" },
+    { EGL_BAD_CONTEXT, "EGL_BAD_CONTEXT" },
+    { EGL_BAD_DISPLAY, "EGL_BAD_DISPLAY" },
+    { EGL_BAD_MATCH, "EGL_BAD_MATCH" },
+    { EGL_BAD_PARAMETER, "EGL_BAD_PARAMETER" },
+    { EGL_BAD_SURFACE, "EGL_BAD_SURFACE" },
+    { EGL_CONTEXT_LOST, "EGL_CONTEXT_LOST" },
+  };
+  const EGLint error = eglGetError();
+  const auto name = names.find(error);
+  return name != names.end() ? name->second : "EGL error " + std::to_string(error);
 }
 
 //------------------------------------------------------------------------------

@@ -2,6 +2,7 @@
 
 #include "lights/KernelShape.h"
 #include "lights/LightViews.h"
+#include "shadowtech/base/GlslText.h"
 
 namespace gnomon
 {
@@ -57,10 +58,8 @@ MapReach kernelReach(const ShadowLight& light, const KernelExtent& extent)
 std::string kernelDefines(const ShadowLight& light)
 {
   const KernelUnits units = kernelUnits(light);
-  const auto define = [](const std::string& name, bool value)
-  { return "#define " + name + (value ? " 1\n" : " 0\n"); };
-  return define("KERNEL_EVEN_LIGHT", units == KernelUnits::Even) +
-    define("KERNEL_ACROSS_LIGHT", units == KernelUnits::Across);
+  return glslDefine("KERNEL_EVEN_LIGHT", units == KernelUnits::Even) +
+    glslDefine("KERNEL_ACROSS_LIGHT", units == KernelUnits::Across);
 }
 
 //------------------------------------------------------------------------------

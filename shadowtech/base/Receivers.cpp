@@ -258,11 +258,9 @@ void leaveUncovered(const Span& span, ReceiverPixels& receivers)
 {
   const std::size_t first = span.first;
   const std::size_t count = span.count();
-  for (std::vector<float>* numbers :
-    { &receivers.positionX, &receivers.positionY, &receivers.positionZ, &receivers.normalX,
-      &receivers.normalY, &receivers.normalZ, &receivers.offset })
+  for (const auto plane : ReceiverPixels::planes)
   {
-    std::fill_n(&(*numbers)[first], count, 0.0f);
+    std::fill_n(&(receivers.*plane)[first], count, 0.0f);
   }
   std::fill_n(&receivers.surface[first], count, ReceiverPixels::notCovered);
 }
@@ -321,14 +319,6 @@ void projectTile(const Drawn& drawn, const Rectangle& tile, SeenTriangles& cache
   }
 }
 
-/// One row of numbers of a tile, from the picture's.
-template <typename Number>
-void copyRow(const std::vector<Number>& picture, std::size_t from, std::size_t count,
-  std::vector<Number>& tile, std::size_t to)
-{
-  std::copy_n(&picture[from], count, &tile[to]);
-}
-
 void copyTile(const ReceiverPixels& picture, const Rectangle& tile, ReceiverPixels& receivers)
 {
   const auto width = static_cast<std::size_t>(picture.width);
@@ -337,14 +327,11 @@ void copyTile(const ReceiverPixels& picture, const Rectangle& tile, ReceiverPixe
     const std::size_t from = (tile.firstRow + row) * width + tile.firstColumn;
     const std::size_t to = row * tile.columns;
     const auto copy = [&](auto array)
-    { copyRow(picture.*array, from, tile.columns, receivers.*array, to); };
-    copy(&ReceiverPixels::positionX);
-    copy(&ReceiverPixels::positionY);
-    copy(&ReceiverPixels::positionZ);
-    copy(&ReceiverPixels::normalX);
-    copy(&ReceiverPixels::normalY);
-    copy(&ReceiverPixels::normalZ);
-    copy(&ReceiverPixels::offset);
+    { std::copy_n(&(picture.*array)[from], tile.columns, &(receivers.*array)[to]); };
+    for (const auto plane : ReceiverPixels::planes)
+    {
+      copy(plane);
+    }
     copy(&ReceiverPixels::surface);
   }
 }

@@ -6,6 +6,7 @@
 
 #include <glm/glm.hpp>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -37,6 +38,9 @@ struct ReceiverPixels
 
   static constexpr std::uint32_t notCovered = 0xffffffffu;
 
+  /// All arrays of floats.
+  static const std::array<std::vector<float> ReceiverPixels::*, 7> planes;
+
   std::size_t size() const
   {
     return static_cast<std::size_t>(this->width) * static_cast<std::size_t>(this->height);
@@ -45,15 +49,19 @@ struct ReceiverPixels
   {
     this->width = newWidth;
     this->height = newHeight;
-    for (std::vector<float>* plane : { &this->positionX, &this->positionY, &this->positionZ,
-           &this->normalX, &this->normalY, &this->normalZ, &this->offset })
+    for (const auto plane : planes)
     {
-      plane->resize(this->size());
+      (this->*plane).resize(this->size());
     }
     this->surface.resize(this->size());
   }
   /// Memory that this holds: all eight arrays have the same type size, and grow alike.
   std::size_t bytes() const { return 8 * bytesOf(this->positionX); }
+};
+inline constexpr std::array<std::vector<float> ReceiverPixels::*, 7> ReceiverPixels::planes = {
+  &ReceiverPixels::positionX, &ReceiverPixels::positionY, &ReceiverPixels::positionZ,
+  &ReceiverPixels::normalX, &ReceiverPixels::normalY, &ReceiverPixels::normalZ,
+  &ReceiverPixels::offset
 };
 
 /// What the receivers stage reads back: which triangle VTK drew in each pixel. Where on the

@@ -31,7 +31,8 @@ void ScreenPass::fill(std::initializer_list<Image> images, int width, int height
     }
     else
     {
-      glFramebufferTextureLayer(GL_DRAW_FRAMEBUFFER, buffers.back(), image.texture, 0, image.layer);
+      glFramebufferTextureLayer(
+        GL_DRAW_FRAMEBUFFER, buffers.back(), image.texture, image.level, image.layer);
     }
   }
   // Those of earlier calls beyond these are no longer attached.

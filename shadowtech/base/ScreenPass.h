@@ -24,6 +24,7 @@ public:
   {
     GLuint texture;
     int layer = -1; ///< of an array; negative for a texture that is none
+    int level = 0;  ///< of an array with several
   };
   /// Fills images with the outputs of the program in use, each with the one at its place.
   void fill(std::initializer_list<Image> images, int width, int height);

@@ -52,33 +52,13 @@ void DepthBounds::bake(GLuint map, int sizeTexels, int layers, ShaderLibrary& sh
       static_cast<std::size_t>(layers) * sizeof(glm::vec2);
   }
 
-  const GLuint program = shaders.program(
-    { { GL_VERTEX_SHADER, ShaderLibrary::source("shadowtech/base/screen_visibility.vert.glsl") },
-      { GL_FRAGMENT_SHADER,
-        ShaderLibrary::source("shadowtech/depth_map/depth_bounds.frag.glsl") } });
-  glUseProgram(program);
-  glBindFramebuffer(GL_FRAMEBUFFER, this->framebuffer_.create());
-  glDrawBuffer(GL_COLOR_ATTACHMENT0);
-  glDisable(GL_DEPTH_TEST);
-  glDisable(GL_SCISSOR_TEST);
-  glDisable(GL_STENCIL_TEST);
-  glDisable(GL_CULL_FACE);
-  glDisable(GL_CLIP_DISTANCE0);
-  glDisable(GL_MULTISAMPLE);
-  glDisable(GL_FRAMEBUFFER_SRGB);
-  glDisablei(GL_BLEND, 0);
-  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-  glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
-  GlVertexArray noAttributes;
-  glBindVertexArray(noAttributes.create());
+  const GLuint program =
+    ScreenPass::use(shaders, ShaderLibrary::source("shadowtech/depth_map/depth_bounds.frag.glsl"));
   for (int level = 0; level < levels; ++level)
   {
     const int blocks = side >> level;
-    glViewport(0, 0, blocks, blocks);
     for (int layer = 0; layer < layers; ++layer)
     {
-      glFramebufferTextureLayer(
-        GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, this->bounds_.name(), level, layer);
       // Only what is finished may be read.
       glBindTexture(GL_TEXTURE_2D_ARRAY, this->bounds_.name());
       glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAX_LEVEL, std::max(level - 1, 0));
@@ -87,7 +67,7 @@ void DepthBounds::bake(GLuint map, int sizeTexels, int layers, ShaderLibrary& sh
           { "bounds", TextureBinding{ GL_TEXTURE_2D_ARRAY, this->bounds_.name() } },
           { "level", level }, { "layer", layer } },
         0, 0);
-      glDrawArrays(GL_TRIANGLES, 0, 3);
+      this->screenPass_.fill({ { this->bounds_.name(), layer, level } }, blocks, blocks);
     }
   }
   glBindTexture(GL_TEXTURE_2D_ARRAY, this->bounds_.name());

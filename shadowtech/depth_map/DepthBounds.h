@@ -1,6 +1,7 @@
 #pragma once
 
 #include "shadowtech/base/Gl.h"
+#include "shadowtech/base/ScreenPass.h"
 #include "shadowtech/base/Technique.h"
 
 #include <cstddef>
@@ -41,7 +42,7 @@ public:
 
 private:
   GlTexture bounds_;
-  GlFramebuffer framebuffer_;
+  ScreenPass screenPass_;
   std::size_t bytes_ = 0;
 };
 

@@ -4,8 +4,10 @@
 #include "lights/KernelShape.h"
 #include "shadowtech/base/CasterDrawing.h"
 #include "shadowtech/base/GlState.h"
+#include "shadowtech/base/GlslText.h"
 #include "shadowtech/base/Kernel.h"
 #include "shadowtech/base/LightViewsGlsl.h"
+#include "shadowtech/base/ScreenPass.h"
 #include "shadowtech/base/ShaderLibrary.h"
 #include "shadowtech/base/TextureMemory.h"
 #include "shadowtech/depth_map/DepthBounds.h"
@@ -223,11 +225,8 @@ void DepthMapTechnique::bakeMidpoints(const MapInput& input)
     drawInto(this->map_, i);
     drawView(i, this->reach_, {}, input);
 
-    const GLuint program = input.shaders.program(
-      { { GL_VERTEX_SHADER, ShaderLibrary::source("shadowtech/base/screen_visibility.vert.glsl") },
-        { GL_FRAGMENT_SHADER,
-          ShaderLibrary::source("shadowtech/depth_map/depth_map_between.frag.glsl") } });
-    glUseProgram(program);
+    const GLuint program = ScreenPass::use(
+      input.shaders, ShaderLibrary::source("shadowtech/depth_map/depth_map_between.frag.glsl"));
     ShaderLibrary::setUniforms(program,
       { { "frontDepths", TextureBinding{ GL_TEXTURE_2D_ARRAY, front.name() } },
         { "backDepths", TextureBinding{ GL_TEXTURE_2D_ARRAY, back.name() } },
@@ -257,8 +256,8 @@ std::size_t DepthMapTechnique::bytesOfMaps() const
 //------------------------------------------------------------------------------
 std::string DepthMapTechnique::visibilityGlsl(const ShadowLight& light) const
 {
-  return lightViewsDefines(light) + "#define MAP_EUCLIDEAN_LIGHT " +
-    (measuresAlongRay(light) ? "1\n" : "0\n") + this->estimatorGlsl(light);
+  return lightViewsDefines(light) + glslDefine("MAP_EUCLIDEAN_LIGHT", measuresAlongRay(light)) +
+    this->estimatorGlsl(light);
 }
 
 //------------------------------------------------------------------------------

@@ -2,6 +2,7 @@
 
 #include "lights/LightSamples.h"
 #include "shadowtech/base/GlState.h"
+#include "shadowtech/base/GlslText.h"
 #include "shadowtech/base/TextureMemory.h"
 #include "shadowtech/depth_map/PoissonSquare.h"
 
@@ -38,8 +39,8 @@ PcssCounts pcssCounts(PcssSamples samples)
 std::string pcssCountsDefines(PcssSamples samples)
 {
   const PcssCounts counts = pcssCounts(samples);
-  return "#define PCSS_SEARCH_POINTS_LIGHT " + std::to_string(counts.search) +
-    "\n#define PCSS_FILTER_POINTS_LIGHT " + std::to_string(counts.filter) + "\n";
+  return glslDefine("PCSS_SEARCH_POINTS_LIGHT", counts.search) +
+    glslDefine("PCSS_FILTER_POINTS_LIGHT", counts.filter);
 }
 
 //------------------------------------------------------------------------------

@@ -40,8 +40,8 @@ LightSet read(vtkLight* light)
 LightArea areaOf(vtkLight* light)
 {
   const LightSet set = read(light);
-  EXPECT_EQ(set.casting.size(), 1u);
-  return set.casting.empty() || !set.casting[0].area ? LightArea{} : *set.casting[0].area;
+  EXPECT_EQ(set.lights.size(), 1u);
+  return set.lights.empty() || !set.lights[0].area ? LightArea{} : *set.lights[0].area;
 }
 
 std::string reasonOf(vtkLight* light)
@@ -104,8 +104,8 @@ TEST(AreaLight, isAFlatDiskUntilItIsToldOtherwise)
 {
   vtkNew<vtkGnomonAreaLight> light;
   const LightSet set = read(light);
-  ASSERT_EQ(set.casting.size(), 1u);
-  EXPECT_EQ(set.casting[0].kind, LightKind::Point);
+  ASSERT_EQ(set.lights.size(), 1u);
+  EXPECT_EQ(set.lights[0].kind, LightKind::Point);
   const LightArea area = areaOf(light);
   EXPECT_EQ(area.shape, LightArea::Shape::Disk);
   EXPECT_NEAR(glm::length(area.worldFromUnit[0]), 0.5, 1e-12);
@@ -116,11 +116,11 @@ TEST(AreaLight, isAFlatDiskUntilItIsToldOtherwise)
 TEST(AreaLight, withoutSizeIsAPoint)
 {
   const auto light = makeRectangle(0.0, 0.0);
-  EXPECT_FALSE(read(light).casting.at(0).area.has_value());
+  EXPECT_FALSE(read(light).lights.at(0).area.has_value());
   light->SetWidth(-3.0);
   EXPECT_EQ(light->GetWidth(), 0.0);
   light->SetHeight(1.0);
-  EXPECT_TRUE(read(light).casting.at(0).area.has_value()) << "a tube";
+  EXPECT_TRUE(read(light).lights.at(0).area.has_value()) << "a tube";
 }
 
 /// As far as the light reaches, everywhere around its centre, and no two at one place.
@@ -196,7 +196,7 @@ TEST(AreaLight, hasAnExtent)
 TEST(AreaLight, takesOSPRaysRadius)
 {
   vtkNew<vtkLight> sun;
-  EXPECT_FALSE(read(sun).casting.at(0).area.has_value());
+  EXPECT_FALSE(read(sun).lights.at(0).area.has_value());
   sun->GetInformation()->Set(ospRayKey(), 90.0);
   EXPECT_EQ(areaOf(sun).shape, LightArea::Shape::Disk);
   EXPECT_NEAR(glm::length(areaOf(sun).worldFromUnit[0]), 1.0, 1e-12);

@@ -82,8 +82,8 @@ protected:
   ShadowLight read()
   {
     const LightSet set = this->manager.collect(this->renderer, {});
-    EXPECT_EQ(set.casting.size(), 1u);
-    return set.casting.empty() ? ShadowLight() : set.casting[0];
+    EXPECT_EQ(set.lights.size(), 1u);
+    return set.lights.empty() ? ShadowLight() : set.lights[0];
   }
   std::string reason()
   {
@@ -265,10 +265,10 @@ TEST_F(TexturedLight, sharesAnImageThatIsReadOnce)
   for (int frame = 0; frame < 2; ++frame)
   {
     const gnomon::LightSet set = this->manager.collect(this->renderer, {});
-    ASSERT_EQ(set.casting.size(), 2u);
-    EXPECT_EQ(set.casting[1].texture->texture, set.casting[0].texture->texture);
-    first = first ? first : set.casting[0].texture->texture;
-    EXPECT_EQ(set.casting[0].texture->texture, first);
+    ASSERT_EQ(set.lights.size(), 2u);
+    EXPECT_EQ(set.lights[1].texture->texture, set.lights[0].texture->texture);
+    first = first ? first : set.lights[0].texture->texture;
+    EXPECT_EQ(set.lights[0].texture->texture, first);
   }
 }
 
