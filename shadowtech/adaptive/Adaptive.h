@@ -15,23 +15,14 @@ struct AdaptiveSettings
 const SettingsTable& adaptiveSettings();
 
 /// `adaptive`: percentage closer filtering over a jittered disc (Uralsky, GPU Gems 2, chapter 17;
-/// Rzeczkowski, section 3.2.4), which reads few texels where all of the disc is lit or hidden.
+/// Rzeczkowski, section 3.2.4), which reads few texels where all of the disc is lit or hidden
+/// (docs/techniques/pcf.md).
 ///
-/// The disc's diameter is `kernel_size` (or `kernel_width`), its points are `disc_grid` squared.
-/// There are `disc_sets` squared discs; which of them a place of the map gets repeats every
-/// `disc_sets` cells, a quarter of a texel wide, along either axis. Since the disc belongs to the
-/// place and not to the pixel, the noise stays on the surface when the camera moves.
-///
-/// What is asked before the whole disc is read (`early_out`):
-/// - `ring`: the first `disc_grid` points, which lie on the outermost ring. Where they agree they
-///   are believed. Lit gaps amid shadow, and casters amid light, are missed where the ring does not
-///   touch them.
-/// - `exact`: the least and the largest depth that the map has in blocks around the point. Where
-///   the receiver's plane is in front of all of a block's casters, or behind them, each of the
-///   disc's points would say so. First blocks as large as the disc, at most 2 x 2 of them; then,
-///   since a plane's own depths differ by more than the map is pushed back within such blocks,
-///   those of a quarter to half of that, at most 5 x 5. The result is that of the whole disc.
-///   Euclidean depths are not bounded by those of a block's corners: there the whole disc is read.
+/// `early_out` `exact` asks the least and the largest depth that the map has in blocks around the
+/// point. Where the receiver's plane is in front of all of a block's casters, or behind them, each
+/// of the disc's points would say so. First blocks as large as the disc; then, since a plane's own
+/// depths differ by more than the map is pushed back within such blocks, those of a quarter to half
+/// of that.
 class Adaptive : public DepthMapTechnique
 {
 public:

@@ -21,26 +21,13 @@ struct PcfSettings
 };
 const SettingsTable& pcfSettings();
 
-/// `pcf`: the plain shadow map with percentage closer filtering (Reeves, Salesin and Cook 1987).
-/// The visibility is a weighted mean of comparisons with the texels of the light's kernel. Shadows
-/// get smooth edges as wide as the kernel, which is no penumbra: they are as wide everywhere.
+/// `pcf`: the plain shadow map with percentage closer filtering (Reeves, Salesin and Cook 1987;
+/// docs/techniques/pcf.md). The visibility is a weighted mean of comparisons with the texels of the
+/// light's kernel, each made where its texel was sampled (DepthMapTechnique.h).
 ///
-/// | kernel of width n | texels read | reach |
-/// |---|---|---|
-/// | bilinear | (n + 1) x (n + 1), weighted by how far an n x n square around the point covers them; n = 1 is the usual bilinear filter | square, (n + 1) / 2 |
-/// | box | n x n, nearest to the point | square, n / 2 |
-/// | castano | (n + 1) x (n + 1), weighted by their distance along either axis (Castano 2013, "Shadow Mapping Summary", The Witness); n is 3, 5 or 7 | square, (n + 1) / 2 |
-/// | poisson | 16, nearest to points of a disc of diameter n | square, 1/2, and disc, n / 2 |
-///
-/// Those are kernels on uniform maps. On warped ones, and with `kernel_width`, n counts kernel
-/// units (shadowtech/base/Kernel.h): bilinear and castano weigh all texels in the kernel's shape,
-/// and with `kernel_width` n x n bilinear look-ups, a unit apart; box and poisson read the texel at
-/// each of their points.
-///
-/// Each comparison is made where its texel was sampled, so that no kernel makes a surface shadow
-/// itself (DepthMapTechnique.h). The disc turns by a random angle from each cell of the map to the
-/// next, a quarter of a texel wide; since the angle belongs to the place and not to the pixel, the
-/// pattern stays on the surface when the camera moves.
+/// On warped maps, and with `kernel_width`, a kernel's size counts kernel units (Kernel.h):
+/// bilinear and castano weigh all texels in the kernel's shape, and with `kernel_width` n x n
+/// bilinear look-ups, a unit apart; box and poisson read the texel at each of their points.
 ///
 /// Texels outside of the layer hold no casters, unless the kernel is larger than the border that
 /// the view could keep (half of the map at most): then the layer's last texel stands in.

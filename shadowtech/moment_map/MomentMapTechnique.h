@@ -45,12 +45,10 @@ struct MomentEstimator
   glm::vec4 largest;
 };
 
-/// All techniques with a map of moments. Depths may not be averaged, but their moments may:
-/// the means of a few powers (or other functions) of depth over a part of the map say how its
-/// depths are distributed, and from that an estimator bounds the share of them that lies behind a
-/// receiver. So the map is filtered before it is read, like any picture: by a box as wide as the
-/// light's kernel, whose cost does not depend on its width (BoxBlur.h), and by the texture unit's
-/// bilinear filter. Together they are the bilinear kernel of `pcf` (Pcf.h).
+/// All techniques with a map of moments, which is filtered before it is read
+/// (docs/techniques/vsm.md): by a box as wide as the light's kernel (BoxBlur.h), or with `blur` sat
+/// by each look-up (SummedAreaTable.h), and by the texture unit's bilinear filter. Together they
+/// are the bilinear kernel of `pcf` (Pcf.h).
 ///
 /// The depth of moments is the map's linear depth, from [0, 1] to [-1, 1]. Texels without casters
 /// have the moments of depth 1, and so has what lies outside of a layer.
@@ -66,21 +64,6 @@ struct MomentEstimator
 /// depths are taken to be spread by half of what they change by to the next texel (Donnelly and
 /// Lauritzen 2006, "derivative bias"). Where there is no slope, the estimators have a floor to the
 /// variance.
-///
-/// With `blur` sat the kernel is not in the map, which is then a summed-area table
-/// (SummedAreaTable.h): each look-up takes the mean over a rectangle of its own, as wide as the
-/// kernel is at that point (Kernel.h), so that warped maps blur as evenly as others.
-///
-/// With `mip_maps` the blurred map has coarser levels, of which a look-up reads one whose texels
-/// cover what its pixel shows of the receiver, so that shadows that are far away do not flicker or
-/// look like their middle pixel. How much that is follows from the receiver's plane, the camera and
-/// the map's Jacobian (texelsOfPixel_LIGHT), and never from a pixel's neighbours.
-///
-/// A texel may be drawn with several samples (`map_samples`), each of which has its own depth,
-/// spread as the part of the texel is that it stands for.
-///
-/// In concave corners the kernel's square holds what rises towards the light, and so darkens them
-/// within its width.
 class MomentMapTechnique : public PointwiseTechnique
 {
 public:

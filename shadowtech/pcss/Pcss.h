@@ -27,23 +27,14 @@ namespace gnomon
 /// 1. Blocker search: `pcss_samples` points of the light, on the map at the largest separation S
 ///    that a caster around has (from the map's pyramid of depths, DepthBounds.h), and the
 ///    receiver's own texel. Blockers are texels in front of the receiver's plane that lie between
-///    it and some point of the light: L S = L' s for an L' of the light. Without the latter the
-///    floor of a concave corner would be hidden by the wall beside it.
-/// 2. Penumbra: the least of the blockers' separations, and their mean over the map. Fernando has
-///    the mean alone, which is too large for what is not flat and level: a ball's penumbra is that
-///    of its rim, which lies behind its middle. Where no blocker is found, the filter's points
-///    search, too.
+///    it and some point of the light: L S = L' s for an L' of the light.
+/// 2. Penumbra: the least of the blockers' separations, and their mean over the map. Where no
+///    blocker is found, the filter's points search, too.
 /// 3. Filter: the share of the light whose points, at the least separation or, where that is
 ///    another depth, at the mean, find texels that hide the receiver. What is found at another
 ///    separation hides another point, and is looked for again at its own, a few times at most.
 ///
-/// A point of the light that lies behind the receiver's plane gives way to the one opposite, as the
-/// truth has it (docs/techniques/soft.md). The points are Poisson sets: on a disk turned, on a
-/// rectangle shifted around its edges, from each cell of the map (a quarter of a texel) to the
-/// next, so that the pattern stays on the surface when the camera moves.
-///
-/// `early_out` `exact` asks the pyramid before the search whether all texels that it may read say
-/// the same, and changes no value. A light without area has the hard shadow of `compare`.
+/// docs/techniques/soft.md says why. A light without area has the hard shadow of `compare`.
 class Pcss : public DepthMapTechnique
 {
 public:

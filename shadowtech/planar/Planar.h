@@ -20,18 +20,8 @@ struct PlanarSettings
 const SettingsTable& planarSettings();
 
 /// `planar`: casters are projected from the light onto the planes that receive shadows (Blinn
-/// 1988), and drawn there as the camera sees them. What lies on no such plane shows no cast shadow.
-///
-/// Which plane a pixel's receiver lies on follows from the triangle that VTK drew there. A shadow
-/// is drawn into the pixels of its own plane only, without a depth test: it ends where the receiver
-/// ends, and there is no depth for it to fight with. Casters are clipped to what lies before the
-/// plane, so that planes cast no shadow on themselves, and what is beyond the light casts none at
-/// all (anti-shadows).
-///
-/// Soft shadows are the mean of many such pictures from points of the light (LightSamples.h), 32 at
-/// a time: each sets a bit of its own, however many casters it draws over each other. Of a plane
-/// that runs through the light, samples behind it give way to those opposite, as for all techniques
-/// (docs/techniques/soft.md).
+/// 1988), and drawn there as the camera sees them (docs/techniques/planar.md). What lies on no such
+/// plane shows no cast shadow.
 class Planar : public GpuScreenTechnique
 {
 public:

@@ -16,14 +16,9 @@ namespace gnomon
 /// 2. Penumbra: w_p = (z_r - z_b) / z_b w, z_b the blockers' mean distance.
 /// 3. Filter within w_p (1 + 1 / K): the share of the texels that are not nearer than the receiver.
 ///
-/// Both radii are shares of a map of the whole cone: not lengths, so that penumbrae widen with the
-/// cone, and not scaled by z_n / z_r as the text's equation 3.22 has it. One turn of the points for
-/// each pixel of the screen serves both steps. Texels are compared with the receiver's own
-/// distance, wherever they lie, so that lit surfaces darken (by their slope times the radius)
-/// unless `bias_slope` grows with the light: `pcss` is free of all that.
-///
-/// Of spot lights whose map is a single view, rectangles being taken for disks of their longer
-/// side. Lights without area have the hard shadow of `compare`.
+/// docs/techniques/soft.md says what becomes of that. Of spot lights whose map is a single view,
+/// rectangles being taken for disks of their longer side. Lights without area have the hard shadow
+/// of `compare`.
 class PublishedPcss : public DepthMapTechnique
 {
 public:

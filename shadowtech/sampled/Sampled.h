@@ -27,27 +27,14 @@ struct SampledSettings
 const SettingsTable& sampledSettings();
 
 /// `sampled`: soft shadows as the mean of the hard ones that many points of the light cast, each by
-/// a depth map of its own (Heckbert and Herf 1997 from shadow maps instead of projected casters).
+/// a depth map of its own (Heckbert and Herf 1997 from shadow maps instead of projected casters;
+/// docs/techniques/soft.md).
 ///
 /// Maps are drawn a batch at a time, and one shader compares each receiver with all maps of the
-/// batch and adds what it sees to a running sum. Sums are whole numbers below 2^24, which floats
-/// hold: neither the batches' size nor the frames that the points are spread over change a bit of
-/// the mean. (Splits that blend would; they are refused.)
-///
-/// Visibility means what it means to shadow rays (sideOfSample): a point behind the receiver's
-/// plane gives way to the opposite one. Points come in opposite pairs (pairedLightSamples), so that
-/// this is a matter of weights: a point counts twice where the receiver faces it and not its
-/// opposite. A pair's weights always sum to 2, so that a pair is the least that may be shown.
-///
-/// Of a light with a texture the sum has three channels: each point counts with its colour
-/// (LightTexture.h). A few points seldom have the texture's mean, and so the sum is divided by what
-/// makes theirs the mean: of what nothing hides the light from, visibility is the mean.
-///
-/// The sum is kept while nothing changes that it depends on: then nothing more is drawn. In
-/// progressive mode a change shows the centre's hard shadow, from the centre's map, which outlives
-/// the camera's moves, and each further frame adds points, from the middle of the light outwards.
-/// (Of a light with a texture the hard shadow is that of a point at the centre that has the
-/// texture's mean, as the sum shows it.)
+/// batch and adds what it sees to a running sum, in whole numbers below 2^24. (Splits that blend
+/// would add others; they are refused.) The sum is kept while nothing changes that it depends on.
+/// In progressive mode the hard shadow that a change shows at once comes from the centre's map,
+/// which outlives the camera's moves.
 class Sampled : public GpuScreenTechnique
 {
 public:
