@@ -1,12 +1,9 @@
 #pragma once
 
-#include <string>
-
 namespace gnomon
 {
 
 struct SettingsTable;
-struct ShadowLight;
 
 /// Which points of an area light are taken, by each pixel for itself or by all alike.
 enum class LightSampling

@@ -12,7 +12,6 @@
 
 #include <cstdlib>
 #include <stdexcept>
-#include <string>
 
 vtkStandardNewMacro(vtkGnomonEGLRenderWindow);
 

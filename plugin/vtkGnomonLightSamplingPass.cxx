@@ -24,7 +24,6 @@
 #include "vtkRenderer.h"
 #include "vtk_glew.h"
 
-#include <algorithm>
 #include <optional>
 #include <stdexcept>
 

@@ -33,8 +33,6 @@
 
 #include <memory> // For std::unique_ptr
 
-class vtkRenderer;
-
 namespace gnomon
 {
 struct FrameReport;

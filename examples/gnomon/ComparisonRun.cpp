@@ -17,7 +17,6 @@
 #include <iterator>
 #include <map>
 #include <memory>
-#include <sstream>
 
 namespace gnomon::tool
 {

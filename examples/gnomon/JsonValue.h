@@ -3,7 +3,6 @@
 #include <nlohmann/json.hpp>
 
 #include <array>
-#include <initializer_list>
 #include <string>
 #include <vector>
 

@@ -3,7 +3,6 @@
 #include "plugin/vtkGnomonEGLRenderWindow.h"
 
 #include <vtkAxis.h>
-#include <vtkBrush.h>
 #include <vtkChartXY.h>
 #include <vtkContext2D.h>
 #include <vtkContextActor.h>

@@ -2,12 +2,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
 #include <locale>
 #include <sstream>
 #include <string>
-#include <utility>
-#include <vector>
 
 namespace gnomon::tool
 {

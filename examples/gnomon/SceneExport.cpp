@@ -11,7 +11,6 @@
 #include <vtkPNGWriter.h>
 #include <vtkXMLPolyDataWriter.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <variant>

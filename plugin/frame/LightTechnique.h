@@ -15,7 +15,6 @@
 #include "shadowtech/fitting/ReceiverFit.h"
 
 #include <cstddef>
-#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>

@@ -9,7 +9,6 @@
 #include <cstddef>
 #include <vector>
 
-class vtkLight;
 class vtkLightCollection;
 class vtkRenderer;
 

@@ -18,9 +18,7 @@
 
 #include <glm/glm.hpp>
 
-#include <cstdint>
 #include <string>
-#include <vector>
 
 class vtkAbstractMapper;
 class vtkObjectBase;

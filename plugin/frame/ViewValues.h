@@ -1,6 +1,5 @@
 #pragma once
 
-#include "lights/ShadowLight.h"
 #include "plugin/frame/CastingLights.h"
 #include "plugin/frame/ValueKey.h"
 #include "shadowtech/base/FrameReport.h"

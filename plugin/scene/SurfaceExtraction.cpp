@@ -10,7 +10,6 @@
 #include "vtkSmartPointer.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 

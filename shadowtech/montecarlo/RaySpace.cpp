@@ -2,7 +2,6 @@
 
 #include "lights/LightViews.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace gnomon

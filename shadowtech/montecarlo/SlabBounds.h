@@ -4,7 +4,6 @@
 #include "shadowtech/montecarlo/MonteCarloSettings.h"
 
 #include <cstddef>
-#include <string>
 
 namespace gnomon
 {

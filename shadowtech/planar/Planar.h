@@ -7,7 +7,6 @@
 #include "shadowtech/planar/ReceiverPlanes.h"
 
 #include <cstddef>
-#include <string>
 #include <vector>
 
 namespace gnomon

@@ -8,7 +8,6 @@
 #include <glm/gtc/matrix_access.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace gnomon
