@@ -263,16 +263,8 @@ bool isFittedToCamera(const ShadowLight& light)
 //------------------------------------------------------------------------------
 int mostViews(const ShadowLight& light)
 {
-  switch (viewLayout(light))
-  {
-    case ViewLayout::Cube:
-      return cubeFaces;
-    case ViewLayout::Splits:
-      return light.splits;
-    case ViewLayout::Single:
-      break;
-  }
-  return 1;
+  const ViewLayout layout = viewLayout(light);
+  return layout == ViewLayout::Cube ? cubeFaces : layout == ViewLayout::Splits ? light.splits : 1;
 }
 
 //------------------------------------------------------------------------------

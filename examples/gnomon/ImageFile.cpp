@@ -46,18 +46,10 @@ void requireReasonableSize(
 /// What the name of an image's channel ends in.
 const char* suffixOf(LightChannel channel)
 {
-  switch (channel)
-  {
-    case LightChannel::Red:
-      return ".R";
-    case LightChannel::Green:
-      return ".G";
-    case LightChannel::Blue:
-      return ".B";
-    case LightChannel::All:
-      break;
-  }
-  return "";
+  return channel == LightChannel::Red ? ".R"
+    : channel == LightChannel::Green  ? ".G"
+    : channel == LightChannel::Blue   ? ".B"
+                                      : "";
 }
 
 /// libpng's description of an image, with what it holds given back at the end.

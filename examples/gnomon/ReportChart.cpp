@@ -45,16 +45,9 @@ Colour variantColour(std::size_t index)
 
 int motionMarker(Motion motion)
 {
-  switch (motion)
-  {
-    case Motion::Camera:
-      return vtkPlotPoints::DIAMOND;
-    case Motion::Light:
-      return vtkPlotPoints::SQUARE;
-    case Motion::Static:
-      break;
-  }
-  return vtkPlotPoints::CIRCLE;
+  return motion == Motion::Camera ? vtkPlotPoints::DIAMOND
+    : motion == Motion::Light     ? vtkPlotPoints::SQUARE
+                                  : vtkPlotPoints::CIRCLE;
 }
 
 /// The largest (direction < 0) or smallest (direction > 0) of ..., 0.1, 0.2, 0.5, 1, 2, 5, 10, ...

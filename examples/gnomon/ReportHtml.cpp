@@ -20,26 +20,14 @@ namespace
 /// Text as HTML and XML show it. Bytes that no XML may hold become '?'.
 std::string escape(const std::string& text)
 {
+  static const std::map<char, std::string> entities = { { '&', "&amp;" }, { '<', "&lt;" },
+    { '>', "&gt;" }, { '"', "&quot;" } };
   std::string result;
-  for (char letter : text)
+  for (const char letter : text)
   {
-    switch (letter)
-    {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += static_cast<unsigned char>(letter) < 0x20 ? '?' : letter;
-    }
+    const auto entity = entities.find(letter);
+    const bool isControl = static_cast<unsigned char>(letter) < 0x20;
+    result += entity != entities.end() ? entity->second : std::string(1, isControl ? '?' : letter);
   }
   return result;
 }

@@ -44,18 +44,10 @@ void send(GLenum target, const std::vector<Element>& elements, std::size_t first
 
 GLint wrapOf(TextureWrap wrap)
 {
-  switch (wrap)
-  {
-    case TextureWrap::ClampToEdge:
-      return GL_CLAMP_TO_EDGE;
-    case TextureWrap::MirroredRepeat:
-      return GL_MIRRORED_REPEAT;
-    case TextureWrap::ClampToBorder:
-      return GL_CLAMP_TO_BORDER;
-    case TextureWrap::Repeat:
-      break;
-  }
-  return GL_REPEAT;
+  return wrap == TextureWrap::ClampToEdge ? GL_CLAMP_TO_EDGE
+    : wrap == TextureWrap::MirroredRepeat ? GL_MIRRORED_REPEAT
+    : wrap == TextureWrap::ClampToBorder  ? GL_CLAMP_TO_BORDER
+                                          : GL_REPEAT;
 }
 
 /// A mask as the red channel of a texture that is read as VTK reads its own.

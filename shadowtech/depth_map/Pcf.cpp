@@ -24,28 +24,12 @@ std::string poissonDiscGlsl()
 
 /// The kernel's weights at 0, 1, 2, ... texels from the point, straight in between, and 0 at the
 /// end. Castano 2013 gives them as the places and weights of bilinear look-ups.
-std::vector<int> castanoWeights(int texels)
-{
-  switch (texels)
-  {
-    case 3:
-      return { 2, 1, 0 };
-    case 5:
-      return { 4, 3, 1, 0 };
-    default:
-      return { 16, 12, 5, 1, 0 };
-  }
-}
-
 std::string castanoGlsl(int texels)
 {
-  std::string weights;
-  for (const int weight : castanoWeights(texels))
-  {
-    weights += (weights.empty() ? "" : ", ") + std::to_string(weight) + ".0";
-  }
-  const std::string count = std::to_string(castanoWeights(texels).size());
-  return "const float castano_LIGHT[" + count + "] = float[](" + weights + ");\n";
+  const std::string weights = texels == 3 ? "2.0, 1.0, 0.0"
+    : texels == 5                         ? "4.0, 3.0, 1.0, 0.0"
+                                          : "16.0, 12.0, 5.0, 1.0, 0.0";
+  return "const float castano_LIGHT[] = float[](" + weights + ");\n";
 }
 
 std::string refusedKernel(const ShadowLight& light)

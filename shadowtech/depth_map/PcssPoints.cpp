@@ -6,6 +6,8 @@
 #include "shadowtech/base/TextureMemory.h"
 #include "shadowtech/depth_map/PoissonSquare.h"
 
+#include <array>
+
 namespace gnomon
 {
 
@@ -23,16 +25,9 @@ const SettingsTable& pcssSettings()
 //------------------------------------------------------------------------------
 PcssCounts pcssCounts(PcssSamples samples)
 {
-  switch (samples)
-  {
-    case PcssSamples::Low:
-      return { 4 * 4, 4 * 4 };
-    case PcssSamples::Medium:
-      return { 6 * 6, 8 * 8 };
-    case PcssSamples::High:
-      break;
-  }
-  return { 8 * 8, 16 * 16 };
+  static constexpr std::array<PcssCounts, 3> counts = { { { 4 * 4, 4 * 4 }, { 6 * 6, 8 * 8 },
+    { 8 * 8, 16 * 16 } } };
+  return counts[static_cast<std::size_t>(samples)];
 }
 
 //------------------------------------------------------------------------------
