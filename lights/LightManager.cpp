@@ -297,20 +297,6 @@ std::string whyWithoutPlace(vtkLight* light)
   return {};
 }
 
-std::string firstReason(
-  vtkLight* light, std::initializer_list<std::string (*)(vtkLight*)> reasonsOf)
-{
-  for (const auto reasonOf : reasonsOf)
-  {
-    std::string reason = reasonOf(light);
-    if (!reason.empty())
-    {
-      return reason;
-    }
-  }
-  return {};
-}
-
 ShadowLight readLight(vtkLight* light, const ShadowSettings& settings, LitArea lit)
 {
   ShadowLight result;
@@ -339,18 +325,24 @@ ShadowLight readLight(vtkLight* light, const ShadowSettings& settings, LitArea l
 //------------------------------------------------------------------------------
 LightSet LightManager::collect(vtkRenderer* renderer, const ShadowSettings& defaults)
 {
-  return this->read(renderer, defaults, false);
+  return this->read(renderer, defaults,
+    [](vtkLight* light, bool)
+    {
+      const std::string dark = whyDark(light);
+      return std::optional(dark.empty() ? whyWithoutShadow(light) : dark);
+    });
 }
 
 //------------------------------------------------------------------------------
 LightSet LightManager::collectAreas(vtkRenderer* renderer, const ShadowSettings& defaults)
 {
-  return this->read(renderer, defaults, true);
+  return this->read(renderer, defaults,
+    [](vtkLight* light, bool isArea)
+    { return isArea && whyDark(light).empty() ? std::optional(std::string()) : std::nullopt; });
 }
 
 //------------------------------------------------------------------------------
-/// @param onlyAreas whether lights are asked for that are more than a point, or those that cast
-LightSet LightManager::read(vtkRenderer* renderer, const ShadowSettings& defaults, bool onlyAreas)
+LightSet LightManager::read(vtkRenderer* renderer, const ShadowSettings& defaults, WhyNot whyNot)
 {
   LightSet set;
   ReadTextures textures;
@@ -361,23 +353,21 @@ LightSet LightManager::read(vtkRenderer* renderer, const ShadowSettings& default
   lights->InitTraversal(iterator);
   while (vtkLight* light = lights->GetNextLight(iterator))
   {
-    std::string reason = onlyAreas
-      ? whyWithoutPlace(light)
-      : firstReason(light, { whyDark, whyWithoutShadow, whyWithoutPlace });
+    std::string reason = whyWithoutPlace(light);
     const ShadowSettings settings = readSettings(light, defaults, reason);
     const std::shared_ptr<const LightTexture> texture = this->textureOf(light, textures, reason);
     std::string reasonOfArea;
     LitArea lit = readArea(light, settings, texture, reasonOfArea);
-    const bool wantsArea = !reasonOfArea.empty() || (lit.area && lit.area->radius() > 0.0);
-    reason = reason.empty() ? reasonOfArea : reason;
-    const bool isAsked = !onlyAreas || (wantsArea && whyDark(light).empty());
-    if (isAsked && reason.empty())
+    const bool isArea = !reasonOfArea.empty() || (lit.area && lit.area->radius() > 0.0);
+    const std::optional<std::string> why = whyNot(light, isArea);
+    reason = why && !why->empty() ? *why : reason.empty() ? reasonOfArea : reason;
+    if (why && reason.empty())
     {
       set.lights.push_back(readLight(light, settings, std::move(lit)));
       set.lights.back().sceneIndex = sceneIndex;
       set.lights.back().shaderIndex = shaderIndex;
     }
-    else if (isAsked)
+    else if (why)
     {
       set.skipped.push_back({ sceneIndex, reason });
     }

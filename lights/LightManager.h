@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,7 +23,7 @@ struct SkippedLight
   std::string reason; ///< a whole clause for people, e.g. "switched off"
 };
 
-/// The frame's lights that are asked for, and those that are left out.
+/// The frame's lights that were asked for, and those of them that are left out.
 struct LightSet
 {
   std::vector<ShadowLight> lights;
@@ -65,7 +66,12 @@ private:
   };
   using ReadTextures = std::map<vtkImageData*, ReadTexture>;
 
-  LightSet read(vtkRenderer* renderer, const ShadowSettings& defaults, bool onlyAreas);
+  /// Why a light is left out whatever its numbers say; empty if it is not, nothing if it is not
+  /// asked for.
+  /// @param isArea whether it shines from more than a point, or would if its numbers said how
+  using WhyNot = std::optional<std::string> (*)(vtkLight* light, bool isArea);
+
+  LightSet read(vtkRenderer* renderer, const ShadowSettings& defaults, WhyNot whyNot);
   std::shared_ptr<const LightTexture> textureOf(
     vtkLight* light, ReadTextures& current, std::string& reason);
 

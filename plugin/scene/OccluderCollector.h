@@ -27,8 +27,8 @@ namespace gnomon
 /// With them goes what a texture cuts out of them (TextureCutouts).
 /// A polydata with polygons and strips makes two surfaces; a glyph makes one surface, with its
 /// instances or with the triangles of all of them (KeptInstances.h). Front and back are OpenGL's: a
-/// triangle's front is the side that shows its corners counter-clockwise after the prop's matrix, so
-/// that a mirroring matrix swaps the sides just as it does for gl_FrontFacing and VTK's face culling.
+/// triangle's front is the side that shows its corners counter-clockwise after the prop's matrix.
+/// So a mirroring matrix swaps the sides, as it does for gl_FrontFacing and VTK's face culling.
 class OccluderCollector
 {
 public:

@@ -210,7 +210,7 @@ SnapshotSurfaces::Outcome SnapshotSurfaces::overwrite(WantedSurface& wanted)
 }
 
 //------------------------------------------------------------------------------
-/// Lists the surfaces anew: fresh ones as they were read, the others copied.
+/// Rebuilds the list from fresh surfaces and copies of the unchanged ones.
 void SnapshotSurfaces::rebuild(std::vector<WantedSurface>& wanted)
 {
   const Occluders& old = this->occluders_;

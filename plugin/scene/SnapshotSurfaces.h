@@ -16,12 +16,11 @@ struct SnapshotChange
 {
   int extracted = 0;     ///< surfaces whose mapper's input was read
   int retransformed = 0; ///< surfaces whose centred positions were computed again
-  bool any = false;      ///< whether a surface is another than before, or elsewhere
+  bool any = false;      ///< whether any surface is new, gone, changed or moved
 };
 
-/// The surfaces in the snapshot, and what is remembered of each. What rests is left alone, what
-/// moved is transformed where it lies, and the list is written anew only where triangles are
-/// others.
+/// The surfaces in the snapshot, with a record of each. An update leaves unchanged surfaces alone,
+/// transforms moved ones in place, and rebuilds the list only if triangles changed.
 class SnapshotSurfaces
 {
 public:

@@ -22,7 +22,7 @@ struct WantedSurface
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
 };
 
-/// Lists the surfaces of drawn props, and which of them the snapshot has already.
+/// Lists the surfaces of drawn props, each with its number in the snapshot if it is there already.
 ///
 /// @param drawn must outlive the list
 /// @param records of the snapshot's surfaces

@@ -1,7 +1,7 @@
 // What hundreds of changes leave behind: nothing. Live OpenGL objects stay the same in number, and
 // resident memory grows by less than 1.5 MB from the first half of the changes to the second, which
-// is what 125 leaks of 12 kB would be. The longest loops also run without the pass, so that what VTK
-// and the driver keep for themselves is told apart.
+// is what 125 leaks of 12 kB would be. The longest loops also run without the pass, to tell apart
+// what VTK and the driver keep for themselves.
 
 #include "LiveObjects.h"
 #include "PassScene.h"
@@ -59,9 +59,9 @@ struct LeftBehind
   double growthMegabytes = 0.0;
 };
 
-/// Repeats something. Objects are compared at the end and after the first few times. Memory moves
-/// by megabytes either way, as more or fewer threads share a build of the tracer; its least and its
-/// most over a half of the times both grow if there is a leak.
+/// Repeats something, and compares live objects after the first few times and at the end. Memory
+/// goes up and down by megabytes with the number of threads that build the tracer. A leak raises
+/// both the least and the most of the second half over those of the first: the lesser rise counts.
 LeftBehind repeat(vtkRenderWindow* window, int times, const std::function<void(int)>& action)
 {
   for (int time = 0; time < warmUp; ++time)
