@@ -249,6 +249,29 @@ std::string whyWithoutShadow(vtkLight* light)
   return {};
 }
 
+/// The renderer's only light, if that is a headlight of which nobody has said whether it casts;
+/// else null.
+const vtkLight* loneHeadlight(vtkRenderer* renderer)
+{
+  vtkLight* only = nullptr;
+  vtkCollectionSimpleIterator iterator;
+  renderer->GetLights()->InitTraversal(iterator);
+  while (vtkLight* light = renderer->GetLights()->GetNextLight(iterator))
+  {
+    if (!whyDark(light).empty())
+    {
+      continue;
+    }
+    if (only)
+    {
+      return nullptr;
+    }
+    only = light;
+  }
+  const bool isSilent = only && !only->GetInformation()->Has(vtkGnomonLightKeys::CASTS());
+  return isSilent && only->LightTypeIsHeadlight() ? only : nullptr;
+}
+
 /// Why this light's numbers say not where it shines from and to; empty when they do.
 std::string whyWithoutPlace(vtkLight* light)
 {
@@ -325,12 +348,17 @@ ShadowLight readLight(vtkLight* light, const ShadowSettings& settings, LitArea l
 //------------------------------------------------------------------------------
 LightSet LightManager::collect(vtkRenderer* renderer, const ShadowSettings& defaults)
 {
-  return this->read(renderer, defaults,
-    [](vtkLight* light, bool)
+  const vtkLight* const alone = loneHeadlight(renderer);
+  LightSet set = this->read(renderer, defaults,
+    [alone](vtkLight* light, bool)
     {
       const std::string dark = whyDark(light);
-      return std::optional(dark.empty() ? whyWithoutShadow(light) : dark);
+      return std::optional(!dark.empty() ? dark
+          : light == alone               ? "a headlight, and the only light"
+                                         : whyWithoutShadow(light));
     });
+  set.headlightIsAlone = alone != nullptr;
+  return set;
 }
 
 //------------------------------------------------------------------------------
@@ -342,7 +370,8 @@ LightSet LightManager::collectAreas(vtkRenderer* renderer, const ShadowSettings&
 }
 
 //------------------------------------------------------------------------------
-LightSet LightManager::read(vtkRenderer* renderer, const ShadowSettings& defaults, WhyNot whyNot)
+LightSet LightManager::read(
+  vtkRenderer* renderer, const ShadowSettings& defaults, const WhyNot& whyNot)
 {
   LightSet set;
   ReadTextures textures;

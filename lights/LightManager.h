@@ -3,6 +3,7 @@
 #include "lights/ShadowLight.h"
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -28,6 +29,7 @@ struct LightSet
 {
   std::vector<ShadowLight> lights;
   std::vector<SkippedLight> skipped;
+  bool headlightIsAlone = false; ///< a headlight is among the skipped because there is no other
 };
 
 /// Reads the renderer's vtkLights as they are at this moment.
@@ -36,7 +38,8 @@ struct LightSet
 /// UpdateLightsGeometryToFollowCamera() must have set for this frame. Lights that cannot show a
 /// shadow are left out with a reason: switched off, black, no intensity, marked as not casting,
 /// strength 0, and those whose numbers give no light (a cone without angle, an empty box, an
-/// endless area). How large a light is follows from the setting `light_radius`, else from
+/// endless area). So is a headlight that is the only light, as the one that VTK makes where there
+/// is none, unless it is marked as casting: its shadows hide behind what casts them. How large a light is follows from the setting `light_radius`, else from
 /// vtkGnomonAreaLight, else from OSPRay's key for it.
 ///
 /// Textures of lights are kept until the next frame: an image is read once, however many lights
@@ -69,9 +72,9 @@ private:
   /// Why a light is left out whatever its numbers say; empty if it is not, nothing if it is not
   /// asked for.
   /// @param isArea whether it shines from more than a point, or would if its numbers said how
-  using WhyNot = std::optional<std::string> (*)(vtkLight* light, bool isArea);
+  using WhyNot = std::function<std::optional<std::string>(vtkLight* light, bool isArea)>;
 
-  LightSet read(vtkRenderer* renderer, const ShadowSettings& defaults, WhyNot whyNot);
+  LightSet read(vtkRenderer* renderer, const ShadowSettings& defaults, const WhyNot& whyNot);
   std::shared_ptr<const LightTexture> textureOf(
     vtkLight* light, ReadTextures& current, std::string& reason);
 

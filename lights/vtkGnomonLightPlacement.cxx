@@ -2,7 +2,9 @@
 
 #include "lights/Bounds.h"
 
+#include "vtkCamera.h"
 #include "vtkLight.h"
+#include "vtkMatrix4x4.h"
 #include "vtkObjectFactory.h"
 #include "vtkPoints.h"
 
@@ -20,6 +22,11 @@ namespace
 glm::dvec3 toGlm(const double point[3])
 {
   return { point[0], point[1], point[2] };
+}
+
+gnomon::Bounds toBounds(const double bounds[6])
+{
+  return { { bounds[0], bounds[2], bounds[4] }, { bounds[1], bounds[3], bounds[5] } };
 }
 
 bool isFinite(const glm::dvec3& point)
@@ -47,14 +54,24 @@ void place(vtkLight* light, const glm::dvec3& position, const glm::dvec3& focalP
   light->SetFocalPoint(focalPoint.x, focalPoint.y, focalPoint.z);
 }
 
-void shineOnSphere(vtkLight* light, const glm::dvec3& centre, double radius)
+/// Whether a sphere can be shone on; if not, with an error.
+bool isThere(vtkLight* light, const glm::dvec3& centre, double radius)
 {
-  if (!isFinite(centre) || !(radius > 0.0) || !std::isfinite(radius))
+  const bool isThere = isFinite(centre) && radius > 0.0 && std::isfinite(radius);
+  if (!isThere)
   {
     vtkErrorWithObjectMacro(light,
       "The light cannot be placed: a sphere of radius " << radius << " around " << centre.x << ", "
                                                         << centre.y << ", " << centre.z
                                                         << " is nothing to shine on.");
+  }
+  return isThere;
+}
+
+void shineOnSphere(vtkLight* light, const glm::dvec3& centre, double radius)
+{
+  if (!isThere(light, centre, radius))
+  {
     return;
   }
   const std::optional<glm::dvec3> travel = travelOf(light);
@@ -79,8 +96,7 @@ void vtkGnomonLightPlacement::ShineOnSphere(vtkLight* light, const double center
 //------------------------------------------------------------------------------
 void vtkGnomonLightPlacement::ShineOnBox(vtkLight* light, const double bounds[6])
 {
-  const gnomon::Bounds box{ { bounds[0], bounds[2], bounds[4] },
-    { bounds[1], bounds[3], bounds[5] } };
+  const gnomon::Bounds box = toBounds(bounds);
   shineOnSphere(light, box.centre(), box.radius()); // of radius 0 where the box is empty
 }
 
@@ -107,6 +123,36 @@ void vtkGnomonLightPlacement::ShineOnPoints(vtkLight* light, vtkPoints* points)
     radius = std::max(radius, glm::length(toGlm(points->GetPoint(i)) - centre));
   }
   shineOnSphere(light, centre, radius);
+}
+
+//------------------------------------------------------------------------------
+void vtkGnomonLightPlacement::MakeKeyLight(
+  vtkLight* light, vtkCamera* camera, const double bounds[6])
+{
+  constexpr double left = glm::radians(35.0);
+  constexpr double above = glm::radians(40.0);
+  const glm::dvec3 fromView(
+    -std::cos(above) * std::sin(left), std::sin(above), std::cos(above) * std::cos(left));
+  const auto& rows = camera->GetViewTransformMatrix()->Element; // right, up and back
+  glm::dvec3 from(0.0);
+  for (int row = 0; row < 3; ++row)
+  {
+    from += fromView[row] * toGlm(rows[row]);
+  }
+  if (!isFinite(from))
+  {
+    vtkErrorWithObjectMacro(light, "The light cannot be placed: the camera looks nowhere.");
+    return;
+  }
+  const gnomon::Bounds box = toBounds(bounds);
+  if (!isThere(light, box.centre(), box.radius()))
+  {
+    return;
+  }
+  light->SetLightTypeToSceneLight();
+  light->SetTransformMatrix(nullptr);
+  light->PositionalOff();
+  place(light, box.centre() + box.radius() * from, box.centre());
 }
 
 //------------------------------------------------------------------------------

@@ -1,6 +1,6 @@
 /**
  * @class   vtkGnomonLightPlacement
- * @brief   places a vtkLight by what it is to shine on, and turns it by pitch and yaw
+ * @brief   places a vtkLight by what it is to shine on, or turns it by pitch and yaw
  *
  * @code
  * vtkNew<vtkLight> sun;
@@ -25,6 +25,7 @@
 #include "GnomonLightsModule.h" // For export macro
 #include "vtkObject.h"
 
+class vtkCamera;
 class vtkLight;
 class vtkPoints;
 
@@ -53,6 +54,21 @@ public:
    * is at most as large as the one around those bounds.
    */
   static void ShineOnPoints(vtkLight* light, vtkPoints* points);
+
+  /**
+   * Make a light the key light of a scene that a camera looks at: a directional one that shines on
+   * the box, as above, over the camera's left shoulder, from 35 degrees to the left of the camera
+   * and 40 degrees above it. It becomes a light of the scene, which stays when the camera moves. An
+   * error of the light where the camera looks nowhere.
+   *
+   * @code
+   * vtkNew<vtkLight> key;
+   * vtkGnomonLightPlacement::MakeKeyLight(
+   *   key, renderer->GetActiveCamera(), renderer->ComputeVisiblePropBounds());
+   * renderer->AddLight(key);
+   * @endcode
+   */
+  static void MakeKeyLight(vtkLight* light, vtkCamera* camera, const double bounds[6]);
 
   /**
    * Turn a light into a direction, in degrees. Pitch and yaw 0 is the way along -z. Yaw turns to

@@ -63,11 +63,11 @@ struct vtkGnomonShadowPass::Internals
   std::list<RendererFrames> renderers;   ///< those drawn so far, the last one first
   gnomon::VisibilityImages noVisibility; ///< of frames that were drawn without a manager
   gnomon::ViewCount viewCount;
-  vtkNew<vtkRenderStepsPass> steps;  ///< draws into the framebuffers of outer passes
-  gnomon::FrameReport plainReport;   ///< of frames that were drawn without the manager
-  bool shadowed = false;             ///< whether the last frame was the manager's
-  double progress = 1.0;             ///< of the last frame that was no selection's
-  std::set<std::string> toldMisfits; ///< FrameReport::misfits that were told already
+  vtkNew<vtkRenderStepsPass> steps; ///< draws into the framebuffers of outer passes
+  gnomon::FrameReport plainReport;  ///< of frames that were drawn without the manager
+  bool shadowed = false;            ///< whether the last frame was the manager's
+  double progress = 1.0;            ///< of the last frame that was no selection's
+  std::set<std::string> told;       ///< what was told already, and is not told again
 
   gnomon::PassContext context; ///< which holds the managers' GL objects
 
@@ -196,11 +196,12 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
     this->BeginView(s);
     const bool casting = manager.collectLights(
       renderer, this->Internal->settings, this->Internal->viewCount.areSeveral(renderer));
-    this->TellMisfits();
+    this->TellOfLights();
     if (casting)
     {
       // occluders
       manager.collectOccluders(s);
+      this->TellWhatIsLeftOut();
 
       // From here on, mappers call the hook.
       if (!manager.chooseRoute())
@@ -266,14 +267,40 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
 }
 
 //------------------------------------------------------------------------------
-void vtkGnomonShadowPass::TellMisfits()
+void vtkGnomonShadowPass::TellOfLights()
 {
-  for (const std::string& misfit : this->Internal->manager().report().misfits)
+  const gnomon::FrameReport& report = this->Internal->manager().report();
+  for (const std::string& misfit : report.misfits)
   {
-    if (this->Internal->toldMisfits.insert(misfit).second)
+    if (this->Internal->told.insert(misfit).second)
     {
       vtkErrorMacro(<< misfit << ".");
     }
+  }
+  if (report.headlightIsAlone && this->Internal->told.insert("a headlight alone").second)
+  {
+    vtkWarningMacro(
+      "The only light is a headlight, which casts no shadow that could be seen. Add a "
+      "light, as vtkGnomonLightPlacement::MakeKeyLight() makes it, or have the "
+      "headlight cast by vtkGnomonLightKeys::SetCasts().");
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkGnomonShadowPass::TellWhatIsLeftOut()
+{
+  std::string kinds;
+  for (const std::string& kind : this->Internal->manager().report().leftOut)
+  {
+    if (this->Internal->told.insert(kind).second)
+    {
+      kinds += (kinds.empty() ? "" : ", ") + kind;
+    }
+  }
+  if (!kinds.empty())
+  {
+    vtkWarningMacro("Visible and lit, but without shadows: "
+      << kinds << ". See docs/guide/what_casts.md for what casts and receives.");
   }
 }
 

@@ -12,11 +12,11 @@
  * occluders, receivers, maps, visibility, shading (docs/dev/architecture.md).
  *
  * Lights are the renderer's vtkLights. What one of them asks for is said with vtkGnomonLightKeys,
- * what one prop does (casts, receives, one-sided) with vtkGnomonPropKeys. Opaque surfaces of
- * vtkPolyDataMapper, vtkCompositePolyDataMapper2 and vtkGlyph3DMapper cast and receive, under
- * actors, assemblies, followers and props with levels of detail. Translucent surfaces receive, and
- * cast only if asked. Everything else is drawn as VTK draws it; what was left out although it may
- * be opaque is in the report's notes.
+ * what one prop does (casts, receives, one-sided) with vtkGnomonPropKeys. Opaque surfaces cast and
+ * receive, by mappers of polydata, data sets, composite data and glyphs, under actors, assemblies,
+ * followers and props with levels of detail (docs/guide/what_casts.md). Translucent surfaces
+ * receive, and cast only if asked. Everything else is drawn as VTK draws it; a warning names, once,
+ * what is lit and left out. A headlight that is the only light casts only if asked.
  *
  * Other passes may stand around it, or inside it as its delegate (docs/pass_chains.md).
  *
@@ -273,7 +273,8 @@ private:
   void BeginView(const vtkRenderState* s);
   void DrawScene(const vtkRenderState* s);
   void RenderPlain(const vtkRenderState* s, const char* reason);
-  void TellMisfits();
+  void TellOfLights();
+  void TellWhatIsLeftOut();
 
   vtkGnomonShadowPass(const vtkGnomonShadowPass&) = delete;
   void operator=(const vtkGnomonShadowPass&) = delete;

@@ -25,8 +25,9 @@ int numberOf(const char* setting, const TechniqueInfo& info, const ShadowLight& 
   return value.empty() ? 0 : std::stoi(value);
 }
 
-/// Finds a light's estimator, and completes the light.
-const EstimatorEntry& composeIn(ShadowLight& light)
+/// Finds a light's estimator, and completes the light. One whose settings make no sense together has
+/// the plain technique with the default settings.
+const EstimatorEntry& composeIn(ShadowLight& light, std::vector<std::string>& misfits)
 {
   try
   {
@@ -34,8 +35,14 @@ const EstimatorEntry& composeIn(ShadowLight& light)
   }
   catch (const CompositionError& error)
   {
-    throw FrameError(nameOf(light) + ": " + error.what());
+    misfits.push_back(
+      nameOf(light) + ": " + error.what() + ". It has '" + plainTechnique + "' instead");
   }
+  const int mapSizeTexels = light.mapSizeTexels;
+  static_cast<ShadowSettings&>(light) = {};
+  light.technique = plainTechnique;
+  light.mapSizeTexels = mapSizeTexels;
+  return compose(light);
 }
 
 /// Takes back what a light's technique cannot do here, and notes what it does instead.
@@ -58,25 +65,25 @@ void settle(ShadowLight& light, const TechniqueInfo& info, std::vector<std::stri
 
 /// The settings that are named for lights whose technique does not have them: a light's own, and
 /// those of the pass that no light's technique has.
-std::vector<std::string> findMisfits(const std::vector<ShadowLight>& lights,
-  const std::vector<const EstimatorEntry*>& estimators, const ShadowSettings& defaults)
+std::vector<std::string> findMisfits(
+  const std::vector<ShadowLight>& lights, const ShadowSettings& defaults)
 {
   std::vector<std::string> misfits;
-  for (std::size_t i = 0; i < lights.size(); ++i)
+  for (const ShadowLight& light : lights)
   {
-    for (const std::string& name : lights[i].named)
+    for (const std::string& name : light.named)
     {
-      if (!has(estimators[i]->info, name))
+      if (!has(estimatorOf(light).info, name))
       {
-        misfits.push_back(nameOf(lights[i]) + " has the technique '" + lights[i].technique +
-          "', and " + whoHas(name));
+        misfits.push_back(
+          nameOf(light) + " has the technique '" + light.technique + "', and " + whoHas(name));
       }
     }
   }
   for (const std::string& name : defaults.named)
   {
-    const auto isHad = [&](const EstimatorEntry* estimator) { return has(estimator->info, name); };
-    if (!lights.empty() && std::none_of(estimators.begin(), estimators.end(), isHad))
+    const auto isHad = [&](const ShadowLight& light) { return has(estimatorOf(light).info, name); };
+    if (!lights.empty() && std::none_of(lights.begin(), lights.end(), isHad))
     {
       misfits.push_back("No light's technique has it: " + whoHas(name));
     }
@@ -130,11 +137,13 @@ void CastingLights::collect(vtkRenderer* renderer, const ShadowSettings& default
   TechniquesOfLights& ofView, FrameReport& report)
 {
   LightSet set = this->manager_.collect(renderer, defaults);
+  report.headlightIsAlone = set.headlightIsAlone;
+  report.misfits = findMisfits(set.lights, defaults);
 
   std::vector<const EstimatorEntry*> estimators;
   for (ShadowLight& light : set.lights)
   {
-    estimators.push_back(&composeIn(light));
+    estimators.push_back(&composeIn(light, report.misfits));
     settle(light, estimators.back()->info, report.notes);
     report.lights.push_back(reportOfCasting(light, estimators.back()->info));
   }
@@ -142,8 +151,6 @@ void CastingLights::collect(vtkRenderer* renderer, const ShadowSettings& default
     set.skipped.begin(), set.skipped.end(), std::back_inserter(report.lights), reportOfSkipped);
   std::sort(report.lights.begin(), report.lights.end(),
     [](const LightReport& a, const LightReport& b) { return a.sceneIndex < b.sceneIndex; });
-
-  report.misfits = findMisfits(set.lights, estimators, defaults);
 
   // Nothing below fails half way: what a light has kept goes on with it.
   std::vector<CastingLight> lights;

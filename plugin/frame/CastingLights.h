@@ -7,20 +7,12 @@
 #include <algorithm>
 #include <map>
 #include <optional>
-#include <stdexcept>
 #include <vector>
 
 class vtkRenderer;
 
 namespace gnomon
 {
-
-/// A setting that cannot be served. The frame is drawn without shadows, with this as its error.
-class FrameError : public std::runtime_error
-{
-public:
-  using std::runtime_error::runtime_error;
-};
 
 /// What a light keeps from frame to frame.
 struct KeptTechniques
@@ -55,8 +47,6 @@ class CastingLights
 {
 public:
   /// Reads the lights as they are now, and says of each in the report what becomes of it.
-  /// @throws FrameError for techniques that do not exist or make no sense; the lights stay those of
-  /// the frame before then
   /// @param ofView what lights whose maps are fitted to a camera keep for this view
   void collect(vtkRenderer* renderer, const ShadowSettings& defaults, TechniquesOfLights& ofView,
     FrameReport& report);

@@ -130,6 +130,7 @@ void RenderManager::collectOccluders(const vtkRenderState* s)
   this->report_.surfacesRetransformed = change.retransformed;
   this->report_.notes.insert(
     this->report_.notes.end(), this->collector_.notes().begin(), this->collector_.notes().end());
+  this->report_.leftOut = this->collector_.leftOut();
   for (const Surface& surface : occluders.surfaces)
   {
     const std::size_t instances = surface.centredFromSource.size();

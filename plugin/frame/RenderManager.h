@@ -49,7 +49,6 @@ public:
   /// lights: which of the renderer's lights cast, with which technique.
   /// @param severalViews whether the pass draws others beside this one
   /// @return false when none does
-  /// @throws FrameError for techniques that do not exist or make no sense
   bool collectLights(vtkRenderer* renderer, const ShadowSettings& defaults, bool severalViews);
 
   /// snapshot: brings it up to date with the renderer's props. From here on it is known where the

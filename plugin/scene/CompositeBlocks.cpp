@@ -2,6 +2,9 @@
 
 #include "vtkActor.h"
 #include "vtkCompositeDataDisplayAttributes.h"
+#include "vtkCompositeDataSet.h"
+#include "vtkCompositeDataSetRange.h"
+#include "vtkCompositePolyDataMapper.h"
 #include "vtkCompositePolyDataMapper2.h"
 #include "vtkDataObjectTree.h"
 #include "vtkDataObjectTreeRange.h"
@@ -12,11 +15,35 @@
 
 #include <cstddef>
 #include <unordered_map>
+#include <unordered_set>
 
 namespace gnomon
 {
 namespace
 {
+
+/// What a mapper's scalars are coloured by, ready to be asked; null where it shows none.
+vtkScalarsToColors* coloursOf(vtkMapper* mapper)
+{
+  vtkScalarsToColors* colours = mapper->GetScalarVisibility() ? mapper->GetLookupTable() : nullptr;
+  if (colours)
+  {
+    colours->Build();
+  }
+  return colours;
+}
+
+vtkDataArray* scalarsOf(vtkMapper* mapper, vtkPolyData* data)
+{
+  int cellFlag = 0;
+  return vtkAbstractMapper::GetScalars(data, mapper->GetScalarMode(), mapper->GetArrayAccessMode(),
+    mapper->GetArrayId(), mapper->GetArrayName(), cellFlag);
+}
+
+bool areOpaque(vtkMapper* mapper, vtkScalarsToColors* colours, vtkDataArray* scalars)
+{
+  return colours->IsOpaque(scalars, mapper->GetColorMode(), mapper->GetArrayComponent());
+}
 
 /// Walks a composite data set as vtkCompositePolyDataMapper2::BuildRenderValues does: the innermost
 /// setting on the way to a block counts, so that a visible block may hang below a hidden one. A
@@ -27,14 +54,10 @@ public:
   BlockWalk(vtkActor* actor, vtkCompositePolyDataMapper2* mapper)
     : mapper_(mapper)
     , attributes_(mapper->GetCompositeDataDisplayAttributes())
-    , colors_(mapper->GetScalarVisibility() ? mapper->GetLookupTable() : nullptr)
+    , colours_(coloursOf(mapper))
     , forceOpaque_(actor->GetForceOpaque())
     , textureOpaque_(!actor->GetTexture() || !actor->GetTexture()->IsTranslucent())
   {
-    if (this->colors_)
-    {
-      this->colors_->Build();
-    }
     this->walk(mapper->GetInputDataObject(0, 0), true, actor->GetProperty()->GetOpacity());
   }
 
@@ -79,8 +102,10 @@ private:
     }
     else if (auto* data = vtkPolyData::SafeDownCast(object))
     {
-      const bool opaque =
-        this->forceOpaque_ || (opacity >= 1.0 && this->textureOpaque_ && this->opaque(data));
+      const bool opaque = this->forceOpaque_ ||
+        (opacity >= 1.0 && this->textureOpaque_ &&
+          (!this->colours_ ||
+            areOpaque(this->mapper_, this->colours_, scalarsOf(this->mapper_, data))));
       const auto [place, isNew] = this->placeOf_.emplace(data, this->blocks_.size());
       if (isNew)
       {
@@ -90,23 +115,9 @@ private:
     }
   }
 
-  bool opaque(vtkPolyData* data) const
-  {
-    if (!this->colors_)
-    {
-      return true;
-    }
-    int cellFlag = 0;
-    vtkDataArray* scalars = vtkAbstractMapper::GetScalars(data, this->mapper_->GetScalarMode(),
-      this->mapper_->GetArrayAccessMode(), this->mapper_->GetArrayId(),
-      this->mapper_->GetArrayName(), cellFlag);
-    return this->colors_->IsOpaque(
-      scalars, this->mapper_->GetColorMode(), this->mapper_->GetArrayComponent());
-  }
-
   vtkCompositePolyDataMapper2* mapper_;
   vtkCompositeDataDisplayAttributes* attributes_;
-  vtkScalarsToColors* colors_;
+  vtkScalarsToColors* colours_;
   bool forceOpaque_;
   bool textureOpaque_;
   std::vector<Block> blocks_;
@@ -120,6 +131,37 @@ std::vector<vtkPolyData*> drawnBlocks(
   vtkActor* actor, vtkCompositePolyDataMapper2* mapper, bool translucent)
 {
   return BlockWalk(actor, mapper).drawn(translucent);
+}
+
+//------------------------------------------------------------------------------
+std::vector<vtkPolyData*> drawnParts(vtkCompositePolyDataMapper* mapper, bool translucent)
+{
+  std::vector<vtkPolyData*> parts;
+  vtkScalarsToColors* colours = coloursOf(mapper);
+  std::unordered_set<vtkPolyData*> seen;
+  const auto add = [&](vtkDataObject* object)
+  {
+    auto* data = vtkPolyData::SafeDownCast(object);
+    vtkDataArray* scalars = data && colours ? scalarsOf(mapper, data) : nullptr;
+    const bool opaque = !scalars || areOpaque(mapper, colours, scalars);
+    if (data && opaque != translucent && seen.insert(data).second)
+    {
+      parts.push_back(data);
+    }
+  };
+  vtkDataObject* input = mapper->GetInputDataObject(0, 0);
+  if (auto* tree = vtkCompositeDataSet::SafeDownCast(input))
+  {
+    for (vtkDataObject* leaf : vtk::Range(tree, vtk::CompositeDataSetOptions::SkipEmptyNodes))
+    {
+      add(leaf);
+    }
+  }
+  else
+  {
+    add(input);
+  }
+  return parts;
 }
 
 } // namespace gnomon

@@ -3,6 +3,7 @@
 #include <vector>
 
 class vtkActor;
+class vtkCompositePolyDataMapper;
 class vtkCompositePolyDataMapper2;
 class vtkPolyData;
 
@@ -13,5 +14,9 @@ namespace gnomon
 /// tree: what the opaque pass draws, or what the translucent pass draws.
 std::vector<vtkPolyData*> drawnBlocks(
   vtkActor* actor, vtkCompositePolyDataMapper2* mapper, bool translucent);
+
+/// The same of the older mapper, which has a polydata mapper with a shallow copy for each. There,
+/// the colours alone say in which pass a polydata is drawn.
+std::vector<vtkPolyData*> drawnParts(vtkCompositePolyDataMapper* mapper, bool translucent);
 
 } // namespace gnomon

@@ -14,7 +14,6 @@
 #include "vtkProperty.h"
 
 #include <algorithm>
-#include <functional>
 #include <optional>
 #include <utility>
 
@@ -23,9 +22,15 @@ namespace gnomon
 namespace
 {
 
+/// Names a surface among those of a prop, by a shallow copy of its data as well.
+auto identityOf(const DrawnLookup::HeldSurface& surface)
+{
+  return std::pair(surface.cells, identityOf(surface.data, surface.cells));
+}
+
 bool isBefore(const DrawnLookup::HeldSurface& a, const DrawnLookup::HeldSurface& b)
 {
-  return std::less<const vtkPolyData*>()(a.data, b.data) || (a.data == b.data && a.cells < b.cells);
+  return identityOf(a) < identityOf(b);
 }
 
 bool drawnAsSurface(vtkProp* prop)
@@ -135,22 +140,23 @@ const DrawnLookup::HeldSurfaces* DrawnLookup::heldBy(vtkProp* prop) const
 }
 
 //------------------------------------------------------------------------------
-/// The surface that is made of these cells. A glyph mapper's helpers draw shallow copies of the
-/// sources. Where several share the cells, they are drawn in the order in which they are held.
+/// The surface that is made of these cells. Helpers and parts of mappers draw shallow copies of
+/// what is held. Where several glyphs share the cells, they are drawn in the order in which they are
+/// held.
 const DrawnLookup::HeldSurface* DrawnLookup::match(
   const HeldSurfaces& held, vtkPolyData* data, SurfaceCells cells)
 {
+  const HeldSurface wanted{ data, cells };
   if (!held.front().isGlyph)
   {
-    const HeldSurface wanted{ data, cells };
     const auto place = std::lower_bound(held.begin(), held.end(), wanted, isBefore);
     return place == held.end() || isBefore(wanted, *place) ? nullptr : &*place;
   }
   const auto place = std::find_if(held.begin(), held.end(),
     [&](const HeldSurface& surface)
     {
-      return surface.cells == cells && surface.instances > 0 &&
-        sameCells(surface.data, data, cells) && this->taken_.count(&surface) == 0;
+      return surface.instances > 0 && identityOf(surface) == identityOf(wanted) &&
+        this->taken_.count(&surface) == 0;
     });
   if (place == held.end())
   {

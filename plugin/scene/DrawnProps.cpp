@@ -3,6 +3,7 @@
 #include "plugin/scene/ActorInternals.h"
 #include "plugin/scene/CompositeBlocks.h"
 #include "plugin/scene/GlyphInstances.h"
+#include "plugin/scene/MapperInternals.h"
 #include "plugin/scene/PlainProps.h"
 #include "plugin/scene/TextureCutouts.h"
 #include "plugin/vtkGnomonPropKeys.h"
@@ -12,8 +13,12 @@
 #include "vtkAssembly.h"
 #include "vtkAssemblyNode.h"
 #include "vtkAssemblyPath.h"
+#include "vtkCompositePolyDataMapper.h"
 #include "vtkCompositePolyDataMapper2.h"
+#include "vtkDataSetMapper.h"
 #include "vtkGlyph3DMapper.h"
+#include "vtkImageProperty.h"
+#include "vtkImageSlice.h"
 #include "vtkInformation.h"
 #include "vtkInformationIntegerKey.h"
 #include "vtkLODProp3D.h"
@@ -27,11 +32,13 @@
 #include "vtkPropCollection.h"
 #include "vtkProperty.h"
 #include "vtkRenderer.h"
+#include "vtkShaderProperty.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <glm/gtc/type_ptr.hpp>
 
 #include <algorithm>
+#include <cstddef>
 #include <cstring>
 #include <map>
 #include <unordered_set>
@@ -62,7 +69,9 @@ enum class MapperKind
 {
   PlainPolyData, ///< vtkOpenGLPolyDataMapper itself: nearly every mapper
   PolyData,      ///< a class derived from it
+  DataSet,       ///< by a polydata mapper inside
   Composite,
+  Parts, ///< vtkCompositePolyDataMapper: by one polydata mapper a block
   Glyphs,
   Impostors, ///< a polydata mapper by type, which draws something else in place of the polygons
   Other
@@ -85,13 +94,68 @@ MapperKind kindOf(vtkMapper* mapper)
       mapper->IsA("vtkOpenGLSphereMapper") || mapper->IsA("vtkOpenGLStickMapper");
     return impostors ? MapperKind::Impostors : MapperKind::PolyData;
   }
-  return mapper->IsA("vtkGlyph3DMapper") ? MapperKind::Glyphs : MapperKind::Other;
+  return mapper->IsA("vtkDataSetMapper")        ? MapperKind::DataSet
+    : mapper->IsA("vtkGlyph3DMapper")           ? MapperKind::Glyphs
+    : mapper->IsA("vtkCompositePolyDataMapper") ? MapperKind::Parts
+                                                : MapperKind::Other;
+}
+
+/// Runs the pipeline before a mapper, as when it draws.
+void runInput(vtkMapper* mapper, MapperKind kind)
+{
+  if (kind != MapperKind::PlainPolyData && kind != MapperKind::PolyData &&
+    kind != MapperKind::Composite)
+  {
+    mapper->Update(); // all of its inputs
+    return;
+  }
+  // A trivial producer stands for data that was set by hand: there is nothing to run.
+  vtkAlgorithm* input = mapper->GetInputAlgorithm();
+  if (input->IsA("vtkTrivialProducer"))
+  {
+    return;
+  }
+  if (kind != MapperKind::Composite)
+  {
+    auto* polyDataMapper = static_cast<vtkPolyDataMapper*>(mapper);
+    input->UpdateInformation();
+    vtkInformation* information = mapper->GetInputInformation();
+    using Pipeline = vtkStreamingDemandDrivenPipeline;
+    information->Set(Pipeline::UPDATE_PIECE_NUMBER(), polyDataMapper->GetPiece());
+    information->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), polyDataMapper->GetNumberOfPieces());
+    information->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), polyDataMapper->GetGhostLevel());
+  }
+  input->Update();
 }
 
 /// Nearly every prop is one; IsA() and casts compare with all base classes.
 bool isPlainActor(vtkProp* prop)
 {
   return std::strcmp(prop->GetClassName(), "vtkOpenGLActor") == 0;
+}
+
+/// Whether VTK draws other than surfaces of a polydata.
+bool hasLinesOrPoints(const DrawnBlock& block)
+{
+  return block.data->GetNumberOfVerts() + block.data->GetNumberOfLines() > 0;
+}
+
+bool hasSurfaces(const DrawnBlock& block)
+{
+  return cellCount(block.data, SurfaceCells::Polygons) > 0 ||
+    cellCount(block.data, SurfaceCells::Strips) > 0;
+}
+
+/// Whether a user's code changes the shaders that place an actor's vertices.
+bool mayMoveVertices(vtkActor* actor)
+{
+  vtkShaderProperty* code = actor->GetShaderProperty();
+  bool may = code->HasVertexShaderCode() || code->HasGeometryShaderCode();
+  for (int i = 0; i < code->GetNumberOfShaderReplacements(); ++i)
+  {
+    may = may || code->GetNthShaderReplacementTypeAsString(i) != "Fragment";
+  }
+  return may;
 }
 
 /// Whether a prop was told to cast: a translucent one does so only then.
@@ -111,6 +175,17 @@ void takeKeys(DrawnProp& prop)
     prop.receives = vtkGnomonPropKeys::GetReceives(prop.viewProp);
     prop.oneSided = vtkGnomonPropKeys::GetOneSided(prop.viewProp);
   }
+}
+
+/// Whether a prop that is no actor could show a shadow, or was told to cast one.
+bool isLitOrCasts(vtkProp* leaf, vtkProp* viewProp)
+{
+  if (auto* slice = vtkImageSlice::SafeDownCast(leaf))
+  {
+    return slice->GetProperty()->GetDiffuse() > 0.0 || askedToCast(viewProp);
+  }
+  const bool isText = leaf->IsA("vtkTextActor3D") || leaf->IsA("vtkBillboardTextActor3D");
+  return leaf->IsA("vtkProp3D") && !leaf->IsA("vtkAssembly") && !isText;
 }
 
 class Finder
@@ -133,8 +208,11 @@ private:
   void addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatrix4x4* matrix);
   bool serves(vtkMapper* mapper, MapperKind kind);
   void addBlocks(vtkActor* actor, vtkMapper* mapper, MapperKind kind, bool translucent);
-  void updateInput(vtkMapper* mapper, MapperKind kind);
-  void skip(const std::string& what) { ++this->skipped_[what]; }
+  bool updateInput(vtkMapper* mapper, MapperKind kind);
+  void skip(vtkObjectBase* what, const char* why)
+  {
+    ++this->skipped_[std::string(what->GetClassName()) + " (" + why + ")"];
+  }
 
   vtkRenderer* renderer_;
   TextureCutouts& cutouts_;
@@ -143,6 +221,7 @@ private:
   std::unordered_set<vtkMapper*> updated_;
   std::map<std::string, int> skipped_; ///< what was left out, and how often
   std::map<std::string, int> uncut_;   ///< why props cast as if textures had no holes, how often
+  int moved_ = 0;                      ///< props whose vertices shader code may move
 };
 
 //------------------------------------------------------------------------------
@@ -216,40 +295,51 @@ void Finder::addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatr
         this->addLeaf(viewProp, path, level, matrix); // it is drawn where its owner is
       }
     }
-    else if (leaf->IsA("vtkProp3D") && !leaf->IsA("vtkAssembly"))
+    else if (isLitOrCasts(leaf, viewProp))
     {
-      this->skip(std::string(leaf->GetClassName()) + ": not an actor");
+      this->skip(leaf, leaf->IsA("vtkVolume") ? "a volume" : "draws through props of its own");
     }
     return;
   }
-  if (!actor->GetMapper() || actor->GetProperty()->GetRepresentation() != VTK_SURFACE ||
-    (!isPlain && actor->IsA("vtkSkybox")))
+  if (!actor->GetMapper() || (!isPlain && actor->IsA("vtkSkybox")))
   {
+    return;
+  }
+  const bool isLit = actor->GetProperty()->GetLighting();
+  if (actor->GetProperty()->GetRepresentation() != VTK_SURFACE)
+  {
+    if (isLit)
+    {
+      const bool asPoints = actor->GetProperty()->GetRepresentation() == VTK_POINTS;
+      this->skip(actor, asPoints ? "as points" : "as a wireframe");
+    }
     return;
   }
   const ActorDrawing drawing =
     actorDrawing(actor, matrix ? matrix : actor->GetMatrix(), this->renderer_);
   if (!drawing.actor)
   {
-    this->skip(std::string(actor->GetClassName()) + ": draws through an actor of its own");
+    this->skip(actor, "draws through an actor of its own");
     return;
   }
-  const MapperKind kind = kindOf(drawing.mapper);
-  if (!this->serves(drawing.mapper, kind) || drawing.mapper->GetNumberOfInputConnections(0) == 0)
+  vtkMapper* mapper = drawing.mapper;
+  MapperKind kind = kindOf(mapper);
+  if (!this->serves(mapper, kind) || !this->updateInput(mapper, kind))
   {
     return; // VTK complains of a mapper without input itself
   }
-  this->updateInput(drawing.mapper, kind);
-  if (!drawing.mapper->GetInputDataObject(0, 0))
+  if (kind == MapperKind::DataSet)
   {
-    return;
+    mapper = innerMapper(static_cast<vtkDataSetMapper*>(mapper));
+    kind = MapperKind::PolyData;
+    this->updateInput(mapper, kind);
   }
 
   DrawnProp prop;
   prop.viewProp = viewProp;
   prop.path = path;
   prop.actor = drawing.actor;
-  prop.mapper = drawing.mapper;
+  prop.mapper = mapper;
   prop.worldFromModel = toGlm(drawing.matrix);
   prop.clipPlanes = clipPlanesOf(drawing.mapper);
   takeKeys(prop);
@@ -262,12 +352,22 @@ void Finder::addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatr
   {
     prop.translucent = translucent;
     prop.firstBlock = this->drawn_.blocks.size();
-    this->addBlocks(actor, drawing.mapper, kind, translucent);
+    this->addBlocks(actor, mapper, kind, translucent);
     prop.blockCount = this->drawn_.blocks.size() - prop.firstBlock;
+    const auto first = this->drawn_.blocks.begin() + static_cast<std::ptrdiff_t>(prop.firstBlock);
+    if (std::none_of(first, this->drawn_.blocks.end(), hasSurfaces))
+    {
+      if (isLit && std::any_of(first, this->drawn_.blocks.end(), hasLinesOrPoints))
+      {
+        this->skip(mapper, "lines or points");
+      }
+      this->drawn_.blocks.resize(prop.firstBlock);
+      return;
+    }
     for (std::size_t i = prop.firstBlock; prop.cutout && i < this->drawn_.blocks.size(); ++i)
     {
       DrawnBlock& block = this->drawn_.blocks[i];
-      block.textureCoordinates = textureCoordinates(drawing.mapper, cutout.texture, block.data);
+      block.textureCoordinates = textureCoordinates(mapper, cutout.texture, block.data);
     }
     this->drawn_.props.push_back(prop);
   };
@@ -279,7 +379,7 @@ void Finder::addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatr
   if (opaque)
   {
     add(false);
-    if (eitherOr && viewProp == actor)
+    if (eitherOr && viewProp == actor && this->drawn_.props.size() > before)
     {
       this->plainProps_.remember(actor);
     }
@@ -295,9 +395,13 @@ void Finder::addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatr
       add(true);
     }
   }
-  if (uncutReason && prop.casts && this->drawn_.props.size() > before)
+  if (prop.casts && this->drawn_.props.size() > before)
   {
-    ++this->uncut_[uncutReason];
+    this->moved_ += mayMoveVertices(actor) ? 1 : 0;
+    if (uncutReason)
+    {
+      ++this->uncut_[uncutReason];
+    }
   }
 }
 
@@ -316,13 +420,14 @@ bool Finder::serves(vtkMapper* mapper, MapperKind kind)
       ? "glyphs are culled and simplified on the GPU"
       : nullptr;
   }
-  else if (static_cast<vtkPolyDataMapper*>(mapper)->GetNumberOfSubPieces() > 1)
+  else if (auto* polyDataMapper = vtkPolyDataMapper::SafeDownCast(mapper);
+           polyDataMapper && polyDataMapper->GetNumberOfSubPieces() > 1)
   {
     reason = "input drawn in several pieces";
   }
   if (reason)
   {
-    this->skip(std::string(mapper->GetClassName()) + ": " + reason);
+    this->skip(mapper, reason);
   }
   return !reason;
 }
@@ -336,6 +441,14 @@ void Finder::addBlocks(vtkActor* actor, vtkMapper* mapper, MapperKind kind, bool
   {
     auto* composite = static_cast<vtkCompositePolyDataMapper2*>(mapper);
     for (vtkPolyData* data : drawnBlocks(actor, composite, translucent))
+    {
+      blocks.push_back({ data });
+    }
+  }
+  else if (kind == MapperKind::Parts)
+  {
+    auto* parts = static_cast<vtkCompositePolyDataMapper*>(mapper);
+    for (vtkPolyData* data : drawnParts(parts, translucent))
     {
       blocks.push_back({ data });
     }
@@ -354,34 +467,19 @@ void Finder::addBlocks(vtkActor* actor, vtkMapper* mapper, MapperKind kind, bool
 }
 
 //------------------------------------------------------------------------------
-void Finder::updateInput(vtkMapper* mapper, MapperKind kind)
+/// Brings what a mapper draws up to date.
+/// @return whether there is anything
+bool Finder::updateInput(vtkMapper* mapper, MapperKind kind)
 {
-  if (mapper->GetStatic() || !this->updated_.insert(mapper).second)
+  if (mapper->GetNumberOfInputConnections(0) == 0)
   {
-    return;
+    return false;
   }
-  if (kind == MapperKind::Glyphs)
+  if (!mapper->GetStatic() && this->updated_.insert(mapper).second)
   {
-    mapper->Update(); // the points and the sources
-    return;
+    runInput(mapper, kind);
   }
-  // A trivial producer stands for data that was set by hand: there is nothing to run.
-  vtkAlgorithm* input = mapper->GetInputAlgorithm();
-  if (input->IsA("vtkTrivialProducer"))
-  {
-    return;
-  }
-  if (kind != MapperKind::Composite)
-  {
-    auto* polyDataMapper = static_cast<vtkPolyDataMapper*>(mapper);
-    input->UpdateInformation();
-    vtkInformation* information = mapper->GetInputInformation();
-    using Pipeline = vtkStreamingDemandDrivenPipeline;
-    information->Set(Pipeline::UPDATE_PIECE_NUMBER(), polyDataMapper->GetPiece());
-    information->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), polyDataMapper->GetNumberOfPieces());
-    information->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), polyDataMapper->GetGhostLevel());
-  }
-  input->Update();
+  return mapper->GetInputDataObject(0, 0) != nullptr;
 }
 
 //------------------------------------------------------------------------------
@@ -389,6 +487,7 @@ DrawnProps Finder::take()
 {
   for (const auto& [what, count] : this->skipped_)
   {
+    this->drawn_.leftOut.push_back(what);
     this->drawn_.notes.push_back(what + " (" + std::to_string(count) +
       (count == 1 ? " prop neither casts nor receives)" : " props neither cast nor receive)"));
   }
@@ -396,6 +495,13 @@ DrawnProps Finder::take()
   {
     this->drawn_.notes.push_back("holes in textures are not cut out of shadows: " + why + " (" +
       std::to_string(count) + (count == 1 ? " prop casts as a whole)" : " props cast as a whole)"));
+  }
+  if (this->moved_ > 0)
+  {
+    this->drawn_.notes.push_back(
+      "vertices cast from where the data has them, not from where shader "
+      "code may move them (" +
+      std::to_string(this->moved_) + (this->moved_ == 1 ? " prop)" : " props)"));
   }
   return std::move(this->drawn_);
 }

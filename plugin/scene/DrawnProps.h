@@ -63,12 +63,14 @@ struct DrawnProp
 struct DrawnProps
 {
   std::vector<DrawnProp> props;
-  /// What the props draw: one for vtkPolyDataMapper, any number for vtkCompositePolyDataMapper2,
-  /// where each polydata is there once, and for vtkGlyph3DMapper.
+  /// What the props draw: one for vtkPolyDataMapper and vtkDataSetMapper, any number for mappers of
+  /// composite data, where each polydata is there once, and for vtkGlyph3DMapper.
   std::vector<DrawnBlock> blocks;
   /// Actors whose translucent surfaces receive: whom VTK hands to a render pass.
   std::vector<const vtkProp*> translucentReceivers;
-  /// What was left out although it may be opaque and visible, and why.
+  /// Kinds of props that are visible and lit, and yet left out, each once.
+  std::vector<std::string> leftOut;
+  /// The same with how many they are, and what shadows do not show of the others, each a sentence.
   std::vector<std::string> notes;
 };
 

@@ -5,6 +5,9 @@
 #include <vtk_glew.h>
 
 #include "vtkCompositeMapperHelper2.h"
+#include "vtkDataSet.h"
+#include "vtkDataSetMapper.h"
+#include "vtkDataSetSurfaceFilter.h"
 #include "vtkOpenGLCellToVTKCellMap.h"
 #include "vtkOpenGLHelper.h"
 #include "vtkOpenGLPolyDataMapper.h"
@@ -60,6 +63,32 @@ struct HelperAccess : vtkCompositeMapperHelper2
   }
 };
 
+struct DataSetMapperAccess : vtkDataSetMapper
+{
+  /// What vtkDataSetMapper::Render() does before the inner mapper is told of colours and planes.
+  static vtkPolyDataMapper* inner(vtkDataSetMapper* mapper)
+  {
+    vtkPolyDataMapper*& inner = mapper->*(&DataSetMapperAccess::PolyDataMapper);
+    vtkDataSetSurfaceFilter*& surface = mapper->*(&DataSetMapperAccess::GeometryExtractor);
+    if (!inner)
+    {
+      inner = vtkPolyDataMapper::New();
+      surface = vtkDataSetSurfaceFilter::New();
+    }
+    vtkDataSet* input = mapper->GetInput();
+    if (input->GetDataObjectType() == VTK_POLY_DATA)
+    {
+      inner->SetInputConnection(mapper->GetInputConnection(0, 0));
+    }
+    else
+    {
+      surface->SetInputData(input);
+      inner->SetInputConnection(surface->GetOutputPort());
+    }
+    return inner;
+  }
+};
+
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -92,6 +121,12 @@ std::vector<DrawCall> drawCalls(vtkAbstractMapper* mapper, SurfaceCells cells)
       { openGl->CurrentInput, static_cast<std::uint32_t>(MapperAccess::primitiveOffset(openGl)) });
   }
   return calls;
+}
+
+//------------------------------------------------------------------------------
+vtkPolyDataMapper* innerMapper(vtkDataSetMapper* mapper)
+{
+  return DataSetMapperAccess::inner(mapper);
 }
 
 //------------------------------------------------------------------------------

@@ -8,7 +8,9 @@
 #include <vector>
 
 class vtkAbstractMapper;
+class vtkDataSetMapper;
 class vtkPolyData;
+class vtkPolyDataMapper;
 
 namespace gnomon
 {
@@ -29,6 +31,10 @@ std::optional<SurfaceCells> cellsAboutToBeDrawn(vtkAbstractMapper* mapper);
 
 /// The draw calls for these cells, in order of firstPrimitive.
 std::vector<DrawCall> drawCalls(vtkAbstractMapper* mapper, SurfaceCells cells);
+
+/// The polydata mapper by which a vtkDataSetMapper draws, with the input that it draws then. VTK
+/// makes it when the other first draws; a pass may ask before. The other has an input.
+vtkPolyDataMapper* innerMapper(vtkDataSetMapper* mapper);
 
 /// The point array that a mapper was told to read a texture's coordinates from
 /// (vtkPolyDataMapper::MapDataArrayToMultiTextureAttribute); null for the data's own.

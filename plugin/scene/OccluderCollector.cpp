@@ -15,6 +15,7 @@ SnapshotChange OccluderCollector::collect(vtkRenderer* renderer)
   DrawnProps drawn = findDrawnProps(renderer, this->cutouts_, this->plainProps_);
   this->lookup_.beginFrame(drawn.translucentReceivers);
   this->notes_ = std::move(drawn.notes);
+  this->leftOut_ = std::move(drawn.leftOut);
   this->translucentReceivers_ = drawn.translucentReceivers.size();
   std::vector<WantedSurface> wanted = wantedSurfaces(drawn, this->surfaces_.records());
   const SnapshotChange change = this->surfaces_.update(wanted);

@@ -23,7 +23,8 @@ namespace gnomon
 ///
 /// It holds what VTK draws as triangles in its opaque pass: surfaces of vtkActors, alone or in
 /// assemblies, as followers or as levels of detail, whose mapper is a vtkPolyDataMapper, a
-/// vtkCompositePolyDataMapper2 or a vtkGlyph3DMapper; and translucent ones that are asked to cast.
+/// vtkDataSetMapper, a vtkCompositePolyDataMapper (2 or not) or a vtkGlyph3DMapper; and translucent
+/// ones that are asked to cast.
 /// With them goes what a texture cuts out of them (TextureCutouts).
 /// A polydata with polygons and strips makes two surfaces; a glyph makes one surface, with its
 /// instances or with the triangles of all of them (KeptInstances.h). Front and back are OpenGL's: a
@@ -41,6 +42,8 @@ public:
   /// What the last collect() left out although it may be visible and opaque (mappers that are not
   /// served), and what it could not do for a surface, in words.
   const std::vector<std::string>& notes() const { return this->notes_; }
+  /// As in DrawnProps, of the last collect().
+  const std::vector<std::string>& leftOut() const { return this->leftOut_; }
 
   /// The number of visible props with translucent surfaces that receive, as of the last collect().
   std::size_t translucentReceivers() const { return this->translucentReceivers_; }
@@ -67,6 +70,7 @@ private:
   PlainProps plainProps_;
   std::size_t translucentReceivers_ = 0;
   std::vector<std::string> notes_;
+  std::vector<std::string> leftOut_;
 };
 
 } // namespace gnomon

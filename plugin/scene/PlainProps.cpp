@@ -6,6 +6,7 @@
 #include "vtkMapper.h"
 #include "vtkPolyData.h"
 #include "vtkProperty.h"
+#include "vtkShaderProperty.h"
 #include "vtkTrivialProducer.h"
 
 namespace gnomon
@@ -22,7 +23,7 @@ const PlainProp* PlainProps::next(vtkProp* prop)
   // In the order in which they hold each other: one that has not changed still holds the next.
   const bool same = known.actor == prop && known.actor->GetMTime() == known.actorTime &&
     known.mapper->GetMTime() == known.mapperTime &&
-    known.producer->GetMTime() == known.producerTime;
+    known.producer->GetMTime() == known.producerTime && known.code->GetMTime() == known.codeTime;
   if (!same)
   {
     known = {};
@@ -36,14 +37,17 @@ void PlainProps::remember(vtkActor* actor)
   vtkMapper* mapper = actor->GetMapper();
   auto* producer = vtkTrivialProducer::SafeDownCast(mapper->GetInputAlgorithm());
   const bool textured = actor->GetTexture() || actor->GetProperty()->GetNumberOfTextures() > 0;
-  if (!producer || textured || mapper->GetNumberOfClippingPlanes() > 0)
+  vtkShaderProperty* code = actor->GetShaderProperty();
+  const bool hasCode = code->HasVertexShaderCode() || code->HasGeometryShaderCode() ||
+    code->GetNumberOfShaderReplacements() > 0;
+  if (!producer || textured || hasCode || mapper->GetNumberOfClippingPlanes() > 0)
   {
     return;
   }
   if (auto* data = vtkPolyData::SafeDownCast(producer->GetOutputDataObject(0)))
   {
-    this->props_[this->next_ - 1] = { actor, mapper, producer, data, actor->GetMTime(),
-      mapper->GetMTime(), producer->GetMTime() };
+    this->props_[this->next_ - 1] = { actor, mapper, producer, data, code, actor->GetMTime(),
+      mapper->GetMTime(), producer->GetMTime(), code->GetMTime() };
   }
 }
 

@@ -10,15 +10,16 @@ class vtkAlgorithm;
 class vtkMapper;
 class vtkPolyData;
 class vtkProp;
+class vtkShaderProperty;
 
 namespace gnomon
 {
 
-/// An actor that draws a polydata, which was set by hand, as an opaque surface without textures and
-/// clipping planes: what nearly every prop of a scene with many is.
+/// An actor that draws a polydata, which was set by hand, as an opaque surface without textures,
+/// clipping planes and shader code: what nearly every prop of a scene with many is.
 ///
 /// VTK takes thousands of instructions to say so, and leads through twenty objects. What it says
-/// follows from the actor, its property, its mapper with its colours and its list of planes, the
+/// follows from the actor, its property, its shader code, its mapper with its colours and its list of planes, the
 /// producer that stands for the polydata, and the polydata with its arrays. Each has, or hands on,
 /// the time of its last change. No two times are the same, and an object that gets another part
 /// gets another time. So while these are the same, so are the objects, and what VTK would say.
@@ -28,9 +29,11 @@ struct PlainProp
   vtkMapper* mapper = nullptr;
   vtkAlgorithm* producer = nullptr;
   vtkPolyData* data = nullptr;
+  vtkShaderProperty* code = nullptr;
   vtkMTimeType actorTime = 0;
   vtkMTimeType mapperTime = 0;
   vtkMTimeType producerTime = 0;
+  vtkMTimeType codeTime = 0;
 };
 
 /// Remembers from one frame to the next which props are plain ones. Pointers are followed only

@@ -177,9 +177,9 @@ vtkIdType cellCount(vtkPolyData* data, SurfaceCells cells)
 }
 
 //------------------------------------------------------------------------------
-bool sameCells(vtkPolyData* a, vtkPolyData* b, SurfaceCells cells)
+std::pair<const void*, const void*> identityOf(vtkPolyData* data, SurfaceCells cells)
 {
-  return a->GetPoints() == b->GetPoints() && cellArray(a, cells) == cellArray(b, cells);
+  return { data->GetPoints(), cellArray(data, cells) };
 }
 
 //------------------------------------------------------------------------------

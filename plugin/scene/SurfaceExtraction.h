@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 class vtkDataArray;
@@ -27,8 +28,8 @@ enum class SurfaceCells
 /// The number of cells of a kind.
 vtkIdType cellCount(vtkPolyData* data, SurfaceCells cells);
 
-/// Whether two polydata have the very same points and cells of a kind, as shallow copies do.
-bool sameCells(vtkPolyData* a, vtkPolyData* b, SurfaceCells cells);
+/// Names the points and the cells of a kind: those of a shallow copy are the same.
+std::pair<const void*, const void*> identityOf(vtkPolyData* data, SurfaceCells cells);
 
 /// When the points or the cells last changed. Unlike vtkPolyData::GetMTime() it leaves out the
 /// point and cell data: new colours are no new shape.

@@ -88,9 +88,13 @@ struct FrameReport
   bool outOfTextureMemory = false;
   std::vector<LightReport> lights; ///< every light of the renderer
   std::vector<std::string> notes;  ///< limits that this frame ran into, each a sentence
-  /// Settings that are named for lights whose technique does not have them, each a sentence. They
-  /// are ignored.
+  /// Settings that are named for lights whose technique does not have them, or that make no sense
+  /// together, each a sentence. They are ignored.
   std::vector<std::string> misfits;
+  /// The only light is a headlight, which casts no shadow then.
+  bool headlightIsAlone = false;
+  /// Kinds of props that are visible and lit, and neither cast nor receive.
+  std::vector<std::string> leftOut;
 
   /// Filled when stages are measured; each stage then ends with glFinish, which costs time of its
   /// own. Without it `stages` is empty and only wallMilliseconds counts.

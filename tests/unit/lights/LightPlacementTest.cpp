@@ -5,7 +5,9 @@
 #include <glm/glm.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <vtkCamera.h>
 #include <vtkLight.h>
+#include <vtkMatrix4x4.h>
 #include <vtkNew.h>
 #include <vtkPoints.h>
 
@@ -80,6 +82,28 @@ TEST_F(LightPlacement, BoxesAndPointsHaveTheirSpheres)
   EXPECT_NEAR(glm::length(this->position() - this->focalPoint()), 3.0, 1e-12);
 }
 
+TEST_F(LightPlacement, AKeyLightComesOverTheCamerasLeftShoulder)
+{
+  vtkNew<vtkCamera> camera; // looks along +x, with z up: y is to its left
+  camera->SetPosition(-5.0, 0.0, 0.0);
+  camera->SetFocalPoint(0.0, 0.0, 0.0);
+  camera->SetViewUp(0.0, 0.0, 1.0);
+  this->light->SetLightTypeToHeadlight();
+  this->light->PositionalOn();
+  this->light->SetTransformMatrix(vtkNew<vtkMatrix4x4>());
+  const double bounds[6] = { 0.0, 2.0, 1.0, 3.0, 2.0, 4.0 };
+  vtkGnomonLightPlacement::MakeKeyLight(this->light, camera, bounds);
+  expectNear(this->focalPoint(), { 1.0, 2.0, 3.0 });
+  const double cosine = std::cos(glm::radians(40.0));
+  expectNear(this->travel(),
+    { cosine * std::cos(glm::radians(35.0)), -cosine * std::sin(glm::radians(35.0)),
+      -std::sin(glm::radians(40.0)) });
+  EXPECT_NEAR(glm::distance(this->position(), this->focalPoint()), std::sqrt(3.0), 1e-12);
+  EXPECT_TRUE(this->light->LightTypeIsSceneLight());
+  EXPECT_FALSE(this->light->GetPositional());
+  EXPECT_EQ(this->light->GetTransformMatrix(), nullptr);
+}
+
 TEST_F(LightPlacement, PitchAndYawAreThoseOfAHead)
 {
   this->light->SetPosition(0.0, 0.0, 5.0);
@@ -132,6 +156,13 @@ TEST_F(LightPlacement, WhatCannotBeDoneIsAnErrorAndChangesNothing)
   const double empty[6] = { 1.0, -1.0, 1.0, -1.0, 1.0, -1.0 }; // VTK's uninitialised bounds
   vtkGnomonLightPlacement::ShineOnBox(this->light, empty);
   expectError("radius 0");
+  vtkNew<vtkCamera> camera;
+  vtkGnomonLightPlacement::MakeKeyLight(this->light, camera, empty);
+  expectError("radius 0");
+  camera->SetPosition(nan, 0.0, 0.0);
+  const double unit[6] = { 0.0, 1.0, 0.0, 1.0, 0.0, 1.0 };
+  vtkGnomonLightPlacement::MakeKeyLight(this->light, camera, unit);
+  expectError("looks nowhere");
   vtkNew<vtkPoints> points;
   vtkGnomonLightPlacement::ShineOnPoints(this->light, points);
   expectError("nothing to shine on");

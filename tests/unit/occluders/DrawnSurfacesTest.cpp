@@ -13,10 +13,13 @@
 #include "vtkCamera.h"
 #include "vtkCellData.h"
 #include "vtkCompositeDataDisplayAttributes.h"
+#include "vtkCompositePolyDataMapper.h"
 #include "vtkCompositePolyDataMapper2.h"
 #include "vtkCullerCollection.h"
+#include "vtkDataSetMapper.h"
 #include "vtkFloatArray.h"
 #include "vtkGlyph3DMapper.h"
+#include "vtkImageData.h"
 #include "vtkMatrix4x4.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkObjectFactory.h"
@@ -626,6 +629,63 @@ TEST_F(DrawnSurfaces, BlocksOfSeveralHelpers)
   }
   attributes->SetBlockVisibility(blocks[5], true);
   this->expectRight(this->check());
+}
+
+/// The mapper that VTK names is one inside the actor's, and may not be there before it draws.
+TEST_F(DrawnSurfaces, OfMappersInsideOthers)
+{
+  vtkNew<vtkImageData> grid;
+  grid->SetDimensions(4, 3, 5);
+  grid->SetSpacing(0.3, 0.4, 0.2);
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  for (unsigned int i = 0; i < 3; ++i)
+  {
+    blocks->SetBlock(2 * i, moved(i == 0 ? makeMixed() : makeBumps(3, i), 1.4 * i, 0.0));
+  }
+  blocks->SetBlock(5, blocks->GetBlock(4)); // drawn twice
+  const auto glass = moved(makeBumps(4, 5), 0.0, 1.2);
+  vtkNew<vtkUnsignedCharArray> colours;
+  colours->SetNumberOfComponents(4);
+  colours->SetNumberOfTuples(glass->GetNumberOfPoints());
+  colours->Fill(100);
+  glass->GetPointData()->SetScalars(colours);
+  blocks->SetBlock(7, glass);
+  const auto ofDataSet = [](vtkDataSet* data)
+  {
+    vtkNew<vtkDataSetMapper> mapper;
+    mapper->SetInputData(data);
+    return vtkSmartPointer<vtkMapper>(mapper);
+  };
+  vtkNew<vtkCompositePolyDataMapper> parts;
+  parts->SetInputDataObject(blocks);
+  vtkNew<vtkCompositePolyDataMapper> whole;
+  whole->SetInputDataObject(makeBumps(4, 8));
+
+  struct Case
+  {
+    vtkSmartPointer<vtkMapper> mapper;
+    std::size_t surfaces;
+  };
+  const Case cases[] = { { ofDataSet(grid), 1 }, { ofDataSet(makeMixed()), 2 }, { parts.Get(), 4 },
+    { whole.Get(), 1 } };
+  for (const auto& [mapper, surfaces] : cases)
+  {
+    SCOPED_TRACE(mapper->GetInputDataObject(0, 0)->GetClassName());
+    vtkNew<vtkActor> actor;
+    actor->SetMapper(mapper);
+    actor->SetPosition(3, -2, 1);
+    actor->RotateZ(10);
+    this->renderer->AddActor(actor);
+    this->expectRight(this->check());
+    EXPECT_EQ(this->collector().occluders().surfaces.size(), surfaces);
+    vtkNew<vtkPlane> plane;
+    plane->SetOrigin(actor->GetCenter());
+    plane->SetNormal(1, 0.3, 0.1);
+    mapper->AddClippingPlane(plane);
+    const Count clipped = this->check();
+    EXPECT_LE(clipped.lost + clipped.wrong + clipped.missed, 4);
+    this->renderer->RemoveActor(actor);
+  }
 }
 
 TEST_F(DrawnSurfaces, AssembliesTellTheirCopiesApart)

@@ -14,6 +14,7 @@
 #include "vtkFollower.h"
 #include "vtkGlyph3DMapper.h"
 #include "vtkImageData.h"
+#include "vtkImageSlice.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkPlane.h"
 #include "vtkPlaneSource.h"
@@ -21,9 +22,12 @@
 #include "vtkProperty.h"
 #include "vtkRenderer.h"
 #include "vtkSOADataArrayTemplate.h"
+#include "vtkShaderProperty.h"
 #include "vtkSphereSource.h"
+#include "vtkTextActor3D.h"
 #include "vtkTexture.h"
 #include "vtkUnsignedCharArray.h"
+#include "vtkVolume.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -249,9 +253,6 @@ TEST(OccluderProps, WhatIsNotAnOpaqueSurfaceIsLeftOut)
   const Case cases[] = { { makeSquare(), nothing, 1 }, { translucent, nothing, 0 },
     { makeSquare(), fade, 0 }, { vtkSmartPointer<vtkPolyData>::New(), nothing, 0 },
     { makeSquare(), [](vtkActor* actor) { actor->SetVisibility(false); }, 0 },
-    { makeSquare(), [](vtkActor* actor) { actor->GetProperty()->SetRepresentationToWireframe(); },
-      0 },
-    { makeSquare(), [](vtkActor* actor) { actor->GetProperty()->SetRepresentationToPoints(); }, 0 },
     { makeSquare(), [](vtkActor* actor) { actor->ForceTranslucentOn(); }, 0 },
     { makeSquare(),
       [&](vtkActor* actor)
@@ -271,6 +272,60 @@ TEST(OccluderProps, WhatIsNotAnOpaqueSurfaceIsLeftOut)
     EXPECT_EQ(scene.occluders().allCentred.empty(), surfaces == 0);
     EXPECT_THAT(scene.collector.notes(), testing::IsEmpty());
   }
+}
+
+/// By class, if it is lit.
+TEST(OccluderProps, WhatIsNoSurfaceIsNoted)
+{
+  Scene scene;
+  vtkProperty* const wires = scene.add(makeSquare())->GetProperty();
+  vtkProperty* const points = scene.add(makeSquare())->GetProperty();
+  const auto lines = makeSquare();
+  lines->SetLines(lines->GetPolys());
+  lines->SetPolys(nullptr);
+  vtkProperty* const outline = scene.add(lines)->GetProperty();
+  wires->SetRepresentationToWireframe();
+  points->SetRepresentationToPoints();
+  vtkNew<vtkVolume> volume;
+  vtkNew<vtkImageSlice> image;
+  scene.renderer->AddViewProp(volume);
+  scene.renderer->AddViewProp(image);
+  scene.renderer->AddViewProp(vtkNew<vtkTextActor3D>());
+  for (int frame = 0; frame < 2; ++frame)
+  {
+    EXPECT_EQ(scene.collectSurfaces(), 0u);
+    EXPECT_TRUE(scene.occluders().allCentred.empty());
+    EXPECT_THAT(scene.collector.leftOut(),
+      UnorderedElementsAre("vtkOpenGLActor (as a wireframe)", "vtkOpenGLActor (as points)",
+        "vtkOpenGLPolyDataMapper (lines or points)", "vtkVolume (a volume)"));
+  }
+  for (vtkProperty* property : { wires, points, outline })
+  {
+    property->LightingOff();
+  }
+  volume->VisibilityOff();
+  vtkGnomonPropKeys::SetCasts(image, true);
+  scene.collect();
+  EXPECT_THAT(scene.collector.leftOut(), UnorderedElementsAre(HasSubstr("vtkImageSlice")));
+}
+
+TEST(OccluderProps, VerticesThatShaderCodeMayMoveAreNoted)
+{
+  Scene scene;
+  vtkShaderProperty* const code = scene.add(makeSquare())->GetShaderProperty();
+  const auto isNoted = [&]
+  {
+    scene.collect();
+    return !scene.collector.notes().empty();
+  };
+  EXPECT_FALSE(isNoted());
+  code->AddFragmentShaderReplacement("//VTK::Light::Impl", true, "// lit", false);
+  EXPECT_FALSE(isNoted());
+  code->AddVertexShaderReplacement("//VTK::PositionVC::Impl", true, "// moved", false);
+  EXPECT_TRUE(isNoted());
+  EXPECT_TRUE(isNoted());
+  code->ClearAllShaderReplacements();
+  EXPECT_FALSE(isNoted());
 }
 
 /// Mappers that are not served, and actors whose matrix is not known.

@@ -12,7 +12,10 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
+#include <string>
+#include <vector>
 
 using namespace gnomon::test;
 using testing::ElementsAre;
@@ -182,6 +185,7 @@ TEST_P(CastingLights, lightsThatFollowTheCameraAreWhereVtkHasThem)
     vtkNew<vtkLight> light;
     light->SetLightType(head ? VTK_LIGHT_TYPE_HEADLIGHT : VTK_LIGHT_TYPE_CAMERA_LIGHT);
     light->SetPosition(-0.8, 0.5, 0.3); // which a head light forgets
+    vtkGnomonLightKeys::SetCasts(light, true);
     this->scene.renderer->AddLight(light);
     this->scene.lookFrom({ 1.0, -9.0, 7.0 });
     this->scene.render();
@@ -198,6 +202,55 @@ TEST_P(CastingLights, lightsThatFollowTheCameraAreWhereVtkHasThem)
     EXPECT_LE(differingPixels(follows, this->scene.render(), 2), 4u);
     this->scene.usePlain();
     EXPECT_GT(differingPixels(follows, this->scene.render(), 64), head ? 100u : 300u);
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_P(CastingLights, aHeadlightAloneCastsIfAsked)
+{
+  vtkNew<vtkLight> head;
+  head->SetLightTypeToHeadlight();
+  this->scene.renderer->AddLight(head);
+  vtkLight* const other = this->scene.addSun({ 1.0, 0.4, -1.5 });
+  other->SwitchOff();
+  const auto castingLights = [&]
+  {
+    this->scene.render();
+    const std::vector<gnomon::LightReport>& lights = this->scene.report().lights;
+    return std::count_if(lights.begin(), lights.end(), [](const auto& of) { return of.casts; });
+  };
+  EXPECT_EQ(castingLights(), 0);
+  EXPECT_EQ(castingLights(), 0);
+  ASSERT_EQ(this->messages_.warnings().size(), 1u) << "said once";
+  EXPECT_THAT(this->messages_.warnings().front(), HasSubstr("MakeKeyLight"));
+  other->SwitchOn();
+  EXPECT_EQ(castingLights(), 2);
+  other->SwitchOff();
+  vtkGnomonLightKeys::SetCasts(head, true);
+  EXPECT_EQ(castingLights(), 1);
+  EXPECT_EQ(this->messages_.warnings().size(), 1u);
+}
+
+//------------------------------------------------------------------------------
+/// A projection that a lamp cannot have leaves the sun its own.
+TEST_P(CastingLights, oneLightsTroubleIsItsOwn)
+{
+  this->scene.addSun({ 1.0, 0.4, -1.5 });
+  const auto sunAlone = this->scene.render();
+  this->scene.addSpot({ -3.0, -1.0, 4.0 }, { 0.0, 0.0, 0.0 }, 90.0); // on all sides
+  for (const char* technique : { "pssm", "lispsm", "tsm" })
+  {
+    this->scene.pass->SetRoute(vtkGnomonShadowPass::ROUTE_AUTO);
+    this->scene.pass->SetTechnique(technique);
+    const Picture both = this->scene.render();
+    this->scene.render();
+    EXPECT_EQ(this->scene.report().lights[0].technique, technique);
+    EXPECT_EQ(this->scene.report().lights[1].technique, "nsm");
+    EXPECT_TRUE(this->scene.report().lights[1].casts);
+    const std::string errors = this->takeErrors();
+    EXPECT_EQ(std::count(errors.begin(), errors.end(), '\n'), 1) << errors;
+    EXPECT_THAT(errors, HasSubstr("light 1: the projection '"));
+    EXPECT_GT(differingPixels(sunAlone, both), 300u);
   }
 }
 

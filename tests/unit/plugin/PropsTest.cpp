@@ -6,10 +6,13 @@
 
 #include <vtkAssembly.h>
 #include <vtkCompositeDataDisplayAttributes.h>
+#include <vtkCompositePolyDataMapper.h>
 #include <vtkCompositePolyDataMapper2.h>
 #include <vtkCubeSource.h>
+#include <vtkDataSetMapper.h>
 #include <vtkFollower.h>
 #include <vtkGlyph3DMapper.h>
+#include <vtkImageData.h>
 #include <vtkLODActor.h>
 #include <vtkLODProp3D.h>
 #include <vtkMultiBlockDataSet.h>
@@ -218,6 +221,56 @@ TEST_P(Props, blocksOfACompositeCastAndReceiveUnlessHidden)
   EXPECT_EQ(this->scene.redAt(picture, -0.3, -3.0), 0);
   EXPECT_NEAR(this->scene.redAt(picture, 0.3, -3.0), 180, 1);
   EXPECT_NEAR(this->scene.redAt(picture, -0.3, 3.0), 180, 1);
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Props, dataSetsAndPartsCastAndReceive)
+{
+  vtkNew<vtkImageData> grid; // the cube [-1, 1] at height 2
+  grid->SetDimensions(2, 2, 2);
+  grid->SetSpacing(2.0, 2.0, 2.0);
+  grid->SetOrigin(-1.0, -1.0, 2.0);
+  vtkNew<vtkDataSetMapper> ofGrid;
+  ofGrid->SetInputData(grid);
+  vtkNew<vtkCubeSource> cube;
+  cube->SetBounds(-1.0, 1.0, -1.0, 1.0, 2.0, 4.0);
+  vtkNew<vtkCompositePolyDataMapper> ofParts;
+  ofParts->SetInputConnection(cube->GetOutputPort());
+  for (vtkMapper* mapper : { static_cast<vtkMapper*>(ofGrid), static_cast<vtkMapper*>(ofParts) })
+  {
+    vtkNew<vtkActor> actor;
+    actor->SetMapper(mapper);
+    this->scene.renderer->AddActor(actor);
+    for (int frame = 0; frame < 2; ++frame) // VTK makes the mappers inside in the first
+    {
+      const Picture picture = this->scene.render();
+      EXPECT_EQ(this->scene.redAt(picture, 3.0, 0.0), 0) << "shaded floor";
+      EXPECT_GT(this->scene.redAt(picture, -3.0, 0.0), 150) << "lit floor";
+      EXPECT_GT(this->scene.redAt(picture, 0.0, 0.0), 150) << "lit top";
+    }
+    vtkActor* const above = this->addSquare(true);
+    above->SetPosition(-2.0, 0.0, 4.0);
+    EXPECT_LT(this->scene.redAt(this->scene.render(), -0.5, 0.0), 120) << "shaded top";
+    this->scene.renderer->RemoveActor(above);
+    this->scene.renderer->RemoveActor(actor);
+  }
+  EXPECT_TRUE(this->messages_.warnings().empty());
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Props, whatIsLitAndLeftOutIsWarnedOfOnce)
+{
+  this->addSquare(true)->GetProperty()->SetRepresentationToWireframe();
+  this->addSquare(true, 2.0)->GetProperty()->SetRepresentationToWireframe();
+  vtkActor* const points = this->addSquare(true);
+  this->scene.render();
+  points->GetProperty()->SetRepresentationToPoints();
+  this->scene.render();
+  this->scene.render();
+  ASSERT_EQ(this->messages_.warnings().size(), 2u);
+  EXPECT_THAT(
+    this->messages_.warnings()[0], testing::HasSubstr(": vtkOpenGLActor (as a wireframe). See"));
+  EXPECT_THAT(this->messages_.warnings()[1], testing::HasSubstr(": vtkOpenGLActor (as points)."));
 }
 
 //------------------------------------------------------------------------------
