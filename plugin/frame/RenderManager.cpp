@@ -157,13 +157,22 @@ bool RenderManager::chooseRoute()
       screenTechnique = casting.light.technique;
     }
   }
-  const RouteChoice choice =
-    gnomon::chooseRoute(this->wishes_.route, screenTechnique, this->wishes_.keepVisibility);
+  const RouteChoice choice = gnomon::chooseRoute(
+    this->wishes_.route, screenTechnique, this->wishes_.keepVisibility, this->lights_.size());
   this->route_ = choice.route;
   this->report_.route = choice.route == Route::Image ? "image" : "inline";
   this->report_.routeReason = choice.reason;
 
-  const bool translucentReceivers = this->collector_.translucentReceivers() > 0;
+  const bool askTranslucent = this->collector_.translucentReceivers() > 0;
+  const bool translucentReceivers =
+    askTranslucent && (this->route_ == Route::Inline || this->lights_.size() <= mostInlineLights);
+  this->shadesTranslucent_ = translucentReceivers;
+  if (askTranslucent && !translucentReceivers)
+  {
+    this->report_.notes.push_back("translucent surfaces show no shadows of " +
+      std::to_string(this->lights_.size()) + " lights; " + std::to_string(mostInlineLights) +
+      " are the most");
+  }
   if (!screenTechnique.empty() && translucentReceivers)
   {
     this->report_.notes.push_back("translucent surfaces show the plain shadow map ('" +
@@ -526,7 +535,9 @@ void RenderManager::abandonFrame()
 void RenderManager::setShaderParameters(
   vtkShaderProgram* program, vtkAbstractMapper* mapper, vtkProp* prop)
 {
-  this->programs_.shaders.setParameters(program, this->collector_.drawn(mapper, prop));
+  Drawn drawn = this->collector_.drawn(mapper, prop);
+  drawn.receives = drawn.receives && (!drawn.translucent || this->shadesTranslucent_);
+  this->programs_.shaders.setParameters(program, drawn);
 }
 
 } // namespace gnomon

@@ -121,6 +121,7 @@ private:
   OccluderCollector collector_;
   OccluderBuffers buffers_;
   Route route_ = Route::Inline;
+  bool shadesTranslucent_ = false; ///< whether translucent surfaces show shadows in this frame
   RendererViews views_;
   ViewValues* view_ = nullptr;        ///< this frame's
   std::size_t receiversNumbered_ = 0; ///< how many images of receivers were drawn

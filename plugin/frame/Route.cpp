@@ -4,7 +4,8 @@ namespace gnomon
 {
 
 //------------------------------------------------------------------------------
-RouteChoice chooseRoute(RouteWish wished, const std::string& screenTechnique, bool keepVisibility)
+RouteChoice chooseRoute(
+  RouteWish wished, const std::string& screenTechnique, bool keepVisibility, std::size_t lights)
 {
   if (!screenTechnique.empty())
   {
@@ -18,10 +19,18 @@ RouteChoice chooseRoute(RouteWish wished, const std::string& screenTechnique, bo
   {
     return { Route::Image, "the visibility is kept" };
   }
+  if (wished == RouteWish::Inline)
+  {
+    return { Route::Inline, "asked for" };
+  }
+  if (lights > mostInlineLights)
+  {
+    return { Route::Image,
+      "shaders would call the techniques of " + std::to_string(lights) + " lights, and " +
+        std::to_string(mostInlineLights) + " are the most" };
+  }
   return { Route::Inline,
-    wished == RouteWish::Inline
-      ? "asked for"
-      : "all techniques are functions of the point, so that no prepass is needed" };
+    "all techniques are functions of the point, so that no prepass is needed" };
 }
 
 } // namespace gnomon

@@ -2,6 +2,7 @@
 
 #include "plugin/frame/FrameWishes.h"
 
+#include <cstddef>
 #include <string>
 
 namespace gnomon
@@ -21,8 +22,14 @@ struct RouteChoice
   std::string reason; ///< as a clause
 };
 
+/// The most lights whose techniques VTK's shaders call. Programs grow with each of them, and so
+/// does the time to compile them; each has maps in texture units, of which OpenGL has 32.
+inline constexpr std::size_t mostInlineLights = 8;
+
 /// @param wished inline is not served for techniques that work on the screen
 /// @param screenTechnique one of those, among the frame's; empty: there is none
-RouteChoice chooseRoute(RouteWish wished, const std::string& screenTechnique, bool keepVisibility);
+/// @param lights that cast
+RouteChoice chooseRoute(
+  RouteWish wished, const std::string& screenTechnique, bool keepVisibility, std::size_t lights);
 
 } // namespace gnomon

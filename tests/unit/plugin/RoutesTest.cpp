@@ -10,12 +10,18 @@
 
 #include <vtkActorCollection.h>
 #include <vtkLightCollection.h>
+#include <vtkOpenGLState.h>
+#include <vtkProperty.h>
+#include <vtkTextureUnitManager.h>
 #include <vtkTransform.h>
+
+#include <gmock/gmock.h>
 
 #include <cmath>
 #include <cstddef>
 #include <functional>
 #include <string>
+#include <vector>
 
 using namespace gnomon::test;
 using gnomon::VisibilityImages;
@@ -224,6 +230,49 @@ TEST_P(PlacedScenes, haveTheSameVisibility)
   EXPECT_GT(agreement.covered, 50000u);
   EXPECT_GE(agreement.agreeing(), 0.9999) << agreement.wrong << " wrong, " << agreement.coverage
                                           << " covered otherwise, of " << agreement.covered;
+}
+
+//------------------------------------------------------------------------------
+/// More than there are texture units for, as forty lights have it.
+TEST_F(PassTest, lightsByTheDozenShowAllTheirShadows)
+{
+  PassScene scene(80, 60);
+  scene.addFloor(4.0);
+  scene.addSphere({ 0.0, 0.0, 1.2 }, 0.7);
+  vtkActor* const pane = scene.addFloor(1.0, 0.1);
+  pane->GetProperty()->SetOpacity(0.5);
+  pane->SetPosition(3.0, 0.0, 0.0);
+  scene.lookFrom({ 0.0, -9.0, 7.0 });
+  constexpr int count = 10;
+  for (int i = 0; i < count; ++i)
+  {
+    const double angle = 6.2832 * i / count;
+    scene.addSun({ std::cos(angle), std::sin(angle), -1.5 })->SetIntensity(1.5 / count);
+  }
+  scene.window->Initialize();
+  vtkTextureUnitManager* units = scene.window->GetState()->GetTextureUnitManager();
+  std::vector<int> taken;
+  for (int unit = units->Allocate(); unit >= 0; unit = units->Allocate())
+  {
+    taken.push_back(unit);
+  }
+  for (int i = 0; i < count / 2; ++i)
+  {
+    units->Free(taken.back());
+    taken.pop_back();
+  }
+  const Picture mapped = scene.render();
+  EXPECT_EQ(scene.report().route, "image");
+  EXPECT_THAT(scene.report().notes, testing::Contains(testing::HasSubstr("translucent surfaces")));
+  scene.pass->SetTechnique("raytraced");
+  const Picture traced = scene.render();
+  EXPECT_LE(differingPixels(mapped, traced, 8), 20u);
+  scene.usePlain();
+  EXPECT_GT(differingPixels(scene.render(), traced, 8), 100u);
+  for (const int unit : taken)
+  {
+    units->Free(unit);
+  }
 }
 
 //------------------------------------------------------------------------------
