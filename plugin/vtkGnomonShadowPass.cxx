@@ -194,10 +194,10 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
 
     // lights
     this->BeginView(s);
-    const bool casting = manager.collectLights(
+    const bool goesOn = manager.collectLights(
       renderer, this->Internal->settings, this->Internal->viewCount.areSeveral(renderer));
     this->TellOfLights();
-    if (casting)
+    if (goesOn)
     {
       // occluders
       manager.collectOccluders(s);
@@ -232,7 +232,7 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
     }
     drawn = true;
     this->DrawScene(s);
-    if (casting && !manager.endShading())
+    if (goesOn && !manager.endShading())
     {
       const vtkRenderPass* delegate = this->FindDelegate(s);
       vtkErrorMacro("Props were drawn without shadows: "

@@ -236,8 +236,8 @@ public:
   double GetProgress() const;
 
   /**
-   * The last frame's visibility and receivers (VisibilityImages.h); empty unless KeepVisibility was
-   * on while it was drawn.
+   * The last frame's visibility and receivers (VisibilityImages.h); the receivers alone where no
+   * light casts. Empty unless KeepVisibility was on while it was drawn.
    */
   const gnomon::VisibilityImages& GetVisibility() const;
 

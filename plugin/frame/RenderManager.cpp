@@ -118,7 +118,7 @@ bool RenderManager::collectLights(
     this->report_.routeReason = "no light casts a shadow";
     this->dropVisibility(); // that of an earlier frame
   }
-  return !this->lights_.empty();
+  return !this->lights_.empty() || this->wishes_.keepVisibility;
 }
 
 //------------------------------------------------------------------------------
@@ -247,10 +247,11 @@ ValueKey RenderManager::visibilityKey(const CastingLight& casting) const
 void RenderManager::updateReceivers(const vtkRenderState* s, vtkObjectBase* pass)
 {
   VisibilityLayers& layers = this->view_->layers;
-  if (!layers.have(this->size_.x, this->size_.y, this->lights_.layers()))
+  const int count = this->lights_.layers();
+  if (count > 0 && !layers.have(this->size_.x, this->size_.y, count))
   {
     this->view_->visibility.clear();
-    layers.resize(this->size_.x, this->size_.y, this->lights_.layers());
+    layers.resize(this->size_.x, this->size_.y, count);
   }
   this->stageValues_.layers = { GL_TEXTURE_2D_ARRAY, layers.texture() };
   this->stageValues_.layersSize = this->size_;

@@ -48,7 +48,7 @@ public:
 
   /// lights: which of the renderer's lights cast, with which technique.
   /// @param severalViews whether the pass draws others beside this one
-  /// @return false when none does
+  /// @return whether the frame goes on: to shadows, or to receivers that are kept
   bool collectLights(vtkRenderer* renderer, const ShadowSettings& defaults, bool severalViews);
 
   /// snapshot: brings it up to date with the renderer's props. From here on it is known where the

@@ -172,12 +172,14 @@ void ShaderManager::fillShader(std::string& fragmentShader, bool receiversStage)
 {
   ++this->rebuilds_;
   // Unlit surfaces have no view coordinates and no lights to shadow; they only hide what is behind.
-  const bool lit = fragmentShader.find("vec4 vertexVC") != std::string::npos;
+  // Where no light casts, receivers alone are asked for, and need neither.
+  const bool receives =
+    this->lights_.empty() || fragmentShader.find("vec4 vertexVC") != std::string::npos;
   std::string declarations;
   std::string normal;
   std::string begin;
   std::string end;
-  if (lit)
+  if (receives)
   {
     declarations = this->declarations_;
     begin = this->multiplications_;
@@ -189,7 +191,7 @@ void ShaderManager::fillShader(std::string& fragmentShader, bool receiversStage)
   if (this->variant_.route == Route::Image && receiversStage)
   {
     const bool instanced = fragmentShader.find("gnomonInstanceVSOutput") != std::string::npos;
-    if (!lit)
+    if (!receives)
     {
       declarations = "uniform int gnomonStage;\n";
     }
@@ -199,7 +201,7 @@ void ShaderManager::fillShader(std::string& fragmentShader, bool receiversStage)
     const std::string alpha =
       fragmentShader.find(albedo) != std::string::npos ? albedo + ".a" : "opacity";
     begin = "if (gnomonStage == 1)\n  {\n    gl_FragData[0] = vec4(0.0, 0.0, 0.0, " + alpha +
-      ");\n" + this->writeReceiver(lit, instanced) + "  }\n  else\n  {\n" + begin;
+      ");\n" + this->writeReceiver(receives, instanced) + "  }\n  else\n  {\n" + begin;
     end = "  }\n";
   }
   // VTK will put its #version line at this mark, which extensions must follow.
@@ -211,13 +213,13 @@ void ShaderManager::fillShader(std::string& fragmentShader, bool receiversStage)
 }
 
 //------------------------------------------------------------------------------
-std::string ShaderManager::writeReceiver(bool lit, bool instanced) const
+std::string ShaderManager::writeReceiver(bool receives, bool instanced) const
 {
   const std::string instance =
     instanced ? " + gnomonInstanceVSOutput * gnomonPrimitivesPerInstance" : "";
   const std::string fragment =
     "vec2(gnomonDrawnSurface(), float(gl_PrimitiveID + PrimitiveIDOffset" + instance + "))";
-  if (!lit)
+  if (!receives)
   {
     return "    gl_FragData[1] = vec4(0.0);\n"
            "    gl_FragData[2] = vec4(0.0);\n";

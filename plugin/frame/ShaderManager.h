@@ -86,7 +86,7 @@ public:
   int rebuilds() const { return this->rebuilds_; }
 
 private:
-  std::string writeReceiver(bool lit, bool instanced) const;
+  std::string writeReceiver(bool receives, bool instanced) const;
   void separateSamplers();
   void bindVisibility(const StageValues& values);
   int bindTexture(const TextureBinding& texture);
