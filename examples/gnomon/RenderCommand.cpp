@@ -6,6 +6,7 @@
 #include "SettingOptions.h"
 #include "VtkMessages.h"
 
+#include "lights/LightManager.h"
 #include "plugin/VisibilityImages.h"
 #include "plugin/vtkGnomonEGLRenderWindow.h"
 #include "plugin/vtkGnomonLightSamplingPass.h"
@@ -154,6 +155,23 @@ int mostOf(const char* name, const Scene& scene)
     }
   }
   return most.value_or(valueOf({}));
+}
+
+/// Refuses lights whose settings make no sense together.
+void requireComposition(vtkRenderer* renderer)
+{
+  for (ShadowLight light : LightManager().collect(renderer, {}).lights)
+  {
+    try
+    {
+      compose(light);
+    }
+    catch (const CompositionError& error)
+    {
+      throw BadInput(
+        nameOf(light) + " with the technique " + light.technique + ": " + error.what());
+    }
+  }
 }
 
 /// Refuses pictures that are larger than the window's OpenGL draws.
@@ -351,11 +369,12 @@ void render(const RenderOptions& options)
   }
 
   VtkMessages messages;
+  const vtkSmartPointer<vtkRenderer> renderer = makeRenderer(scene, size.aspect());
+  requireComposition(renderer);
   vtkNew<vtkGnomonEGLRenderWindow> window;
   window->SetSize(1, 1);
   requireDrawable(size, window);
   window->SetSize(size.width, size.height);
-  const vtkSmartPointer<vtkRenderer> renderer = makeRenderer(scene, size.aspect());
   vtkNew<vtkGnomonShadowPass> shadows;
   shadows->SetRoute(options.route == "inline" ? vtkGnomonShadowPass::ROUTE_INLINE
       : options.route == "image"              ? vtkGnomonShadowPass::ROUTE_IMAGE
@@ -384,7 +403,7 @@ void render(const RenderOptions& options)
   {
     std::cerr << "gnomon: warning: " << warning << "\n";
   }
-  if (report.sum().outOfTextureMemory)
+  if (report.sum().outOfTextureMemory || !report.sum().misfits.empty())
   {
     throw BadInput("rendering: " + messages.errors().front());
   }

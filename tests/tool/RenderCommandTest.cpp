@@ -71,5 +71,47 @@ TEST_F(RenderCommand, VisibilityWithoutCastingLightsHoldsTheReceivers)
   EXPECT_GT(std::count(coverage.begin(), coverage.end(), 1.0f), 500);
 }
 
+//------------------------------------------------------------------------------
+TEST_F(RenderCommand, RefusesWhatMakesNoSense)
+{
+  this->scene["lights"] = { { { "type", "point" }, { "position", { 3, 4, 5 } },
+    { "technique", "tsm" } } };
+  const std::string scene = this->sceneFile();
+  const std::string lamp = " --light point:position=3,4,5";
+  struct Case
+  {
+    std::string file;
+    std::string options;
+    std::vector<std::string> named; ///< by the message
+  };
+  const std::vector<Case> cases = {
+    { "cube", lamp + " --technique pssm", { "light 0", "pssm", "point light" } },
+    { "cube", lamp + lamp + ";technique=lispsm", { "light 1", "lispsm" } },
+    { scene, "", { "light 0", "tsm" } },
+    { "cube", "--technique silhouette --map-samples 4",
+      { "light 0", "silhouette", "map_samples" } },
+  };
+  for (const Case& wrong : cases)
+  {
+    std::string message = messageOf<BadInput>(
+      [&]
+      {
+        try
+        {
+          this->pictureOf(wrong.file, wrong.options);
+        }
+        catch (const CLI::ValidationError& error) // main() gives it the same exit code
+        {
+          throw BadInput(error.what());
+        }
+      });
+    for (const std::string& name : wrong.named)
+    {
+      EXPECT_NE(message.find(name), std::string::npos) << wrong.options << ": " << message;
+    }
+    EXPECT_FALSE(std::filesystem::exists(this->folder / "out.png")) << wrong.options;
+  }
+}
+
 } // namespace
 } // namespace gnomon::tool

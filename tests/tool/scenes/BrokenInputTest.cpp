@@ -336,6 +336,9 @@ std::vector<BrokenInput> brokenInputs()
     option("light_type", "--light", { "render", "cube", "-o", "out.png", "--light", "laser:a=1" }),
     option(
       "light_without_type", "--light", { "render", "cube", "-o", "out.png", "--light", "a=1" }),
+    option("light_of_the_technique", "light 0 with the technique pssm",
+      { "render", "cube", "-o", "out.png", "--technique", "pssm", "--light",
+        "point:position=3,4,5" }),
     option("light_area", "height",
       { "render", "cube", "-o", "out.png", "--light",
         "area:position=1,2,3;target=0,0,0;width=1;height=-1" }),
