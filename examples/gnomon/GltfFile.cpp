@@ -739,22 +739,24 @@ private:
   void readCamera(const JsonValue& value, const Matrix& worldFromNode)
   {
     const std::string type = value.member("type").text();
-    if (type == "orthographic")
+    SceneCamera camera;
+    if (type == "perspective")
     {
-      this->view_.notes.push_back(
-        this->document_.path + ": an orthographic camera is left out, perspective ones only");
-      return;
+      camera.fovDegrees = vtkMath::DegreesFromRadians(
+        value.member("perspective").member("yfov").number({ 1e-4, 3.12 }));
     }
-    if (type != "perspective")
+    else if (type == "orthographic")
+    {
+      camera.parallelScale = value.member("orthographic").member("ymag").number({ 1e-6, 1e12 });
+    }
+    else
     {
       value.member("type").fail("perspective or orthographic");
     }
-    const double yfov = value.member("perspective").member("yfov").number({ 1e-4, 3.12 });
     if (this->view_.camera)
     {
       return;
     }
-    SceneCamera camera;
     camera.position = transformed(worldFromNode, { { 0.0, 0.0, 0.0 } }, 1.0);
     const Vec3 forward = readForward(value, worldFromNode);
     camera.target = camera.position + forward;
@@ -763,7 +765,6 @@ private:
     {
       value.refuse("the matrices of its nodes are singular, so that it has no up direction");
     }
-    camera.fovDegrees = vtkMath::DegreesFromRadians(yfov);
     this->view_.camera = camera;
   }
 

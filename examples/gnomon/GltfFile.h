@@ -13,7 +13,7 @@ struct GltfView
   /// Of KHR_lights_punctual, in the order of the nodes; the intensity of those that have a position
   /// is in candela.
   std::vector<SceneLight> lights;
-  std::optional<SceneCamera> camera; ///< the first perspective camera of the default scene
+  std::optional<SceneCamera> camera; ///< the first camera of the default scene
   std::vector<std::string> notes;    ///< see Scene::notes
 };
 

@@ -12,7 +12,7 @@ struct Model
 {
   std::vector<SceneModel> surfaces;  ///< at least one, with at least one triangle
   std::vector<SceneLight> lights;    ///< glTF only
-  std::optional<SceneCamera> camera; ///< glTF only: its first perspective camera
+  std::optional<SceneCamera> camera; ///< glTF only: its first camera
   std::vector<std::string> notes;    ///< see Scene::notes
 };
 

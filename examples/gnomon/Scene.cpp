@@ -184,6 +184,8 @@ vtkSmartPointer<vtkRenderer> makeRenderer(const Scene& scene, double aspect)
   camera->SetFocalPoint(scene.camera.target.data());
   camera->SetViewUp(scene.camera.up.data());
   camera->SetViewAngle(scene.camera.fovDegrees);
+  camera->SetParallelProjection(scene.camera.parallelScale.has_value());
+  camera->SetParallelScale(scene.camera.parallelScale.value_or(1.0));
   renderer->SetActiveCamera(camera);
 
   setClippingRange(renderer, scene, aspect);

@@ -77,7 +77,9 @@ struct SceneCamera
   Vec3 position{ { 0, 0, 1 } };
   Vec3 target{ { 0, 0, 0 } };
   Vec3 up{ { 0, 1, 0 } };
-  double fovDegrees = 30.0; ///< full vertical angle
+  double fovDegrees = 30.0; ///< full vertical angle, of a perspective camera
+  /// Half of the picture's height in world units, of a parallel camera.
+  std::optional<double> parallelScale;
 };
 
 /// A scene as data: what a scene file, a model file or a built-in name leads to.
@@ -108,6 +110,7 @@ SceneLight parseLight(const std::string& spec);
 /// Reads the argument of --camera, `key=value;key=value...`, with a scene file's keys. What it
 /// leaves out comes from `defaults`:
 ///     position=0,1,5;target=0,0,0;up=0,1,0;fov=45
+///     parallel_scale=2
 /// @throws BadInput
 SceneCamera parseCamera(const std::string& spec, const SceneCamera& defaults);
 

@@ -133,7 +133,15 @@ std::string exportScene(const Scene& scene, const std::string& folder)
   requireWritableFile(path, "--export", { ".json" });
   Json json;
   json["camera"] = { { "position", scene.camera.position }, { "target", scene.camera.target },
-    { "up", scene.camera.up }, { "fov", scene.camera.fovDegrees } };
+    { "up", scene.camera.up } };
+  if (scene.camera.parallelScale)
+  {
+    json["camera"]["parallel_scale"] = *scene.camera.parallelScale;
+  }
+  else
+  {
+    json["camera"]["fov"] = scene.camera.fovDegrees;
+  }
   json["models"] = Json::array();
   for (const SceneModel& model : scene.models)
   {

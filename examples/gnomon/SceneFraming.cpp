@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <limits>
 
 namespace gnomon::tool
@@ -24,16 +23,43 @@ bool isFinite(const Vec3& point)
   return std::isfinite(point[0]) && std::isfinite(point[1]) && std::isfinite(point[2]);
 }
 
-/// The part of a polygon on the inner side of a plane through the origin.
-std::vector<Vec3> clipped(const std::vector<Vec3>& polygon, const Vec3& inward)
+/// A border of the picture: points are in it where the sum is not negative.
+struct Side
+{
+  Vec3 inward;
+  double offset;
+
+  double operator()(const Vec3& point) const { return dot(this->inward, point) + this->offset; }
+};
+
+/// What encloses the points that a camera shows, which are counted from its eye.
+std::vector<Side> sidesOf(const SceneCamera& camera, double aspect)
+{
+  const Vec3 forward = normalized(camera.target - camera.position);
+  const Vec3 right = normalized(cross(forward, camera.up));
+  const Vec3 up = cross(right, forward);
+  if (camera.parallelScale)
+  {
+    const double height = *camera.parallelScale;
+    const double width = aspect * height;
+    return { { -up, height }, { up, height }, { -right, width }, { right, width },
+      { forward, 0.0 } };
+  }
+  const double tangent = std::tan(0.5 * vtkMath::RadiansFromDegrees(camera.fovDegrees));
+  return { { tangent * forward - up, 0.0 }, { tangent * forward + up, 0.0 },
+    { aspect * tangent * forward - right, 0.0 }, { aspect * tangent * forward + right, 0.0 } };
+}
+
+/// The part of a polygon on the inner side of a border.
+std::vector<Vec3> clipped(const std::vector<Vec3>& polygon, const Side& side)
 {
   std::vector<Vec3> result;
   for (std::size_t i = 0; i < polygon.size(); ++i)
   {
     const Vec3& from = polygon[i];
     const Vec3& to = polygon[(i + 1) % polygon.size()];
-    const double start = dot(inward, from);
-    const double end = dot(inward, to);
+    const double start = side(from);
+    const double end = side(to);
     if (start >= 0.0)
     {
       result.push_back(from);
@@ -121,11 +147,7 @@ DepthRange visibleDepths(const Scene& scene, double aspect)
 {
   const Vec3& eye = scene.camera.position;
   const Vec3 forward = normalized(scene.camera.target - eye);
-  const Vec3 right = normalized(cross(forward, scene.camera.up));
-  const Vec3 up = cross(right, forward);
-  const double tangent = std::tan(0.5 * vtkMath::RadiansFromDegrees(scene.camera.fovDegrees));
-  const Vec3 sides[] = { tangent * forward - up, tangent * forward + up,
-    aspect * tangent * forward - right, aspect * tangent * forward + right };
+  const std::vector<Side> sides = sidesOf(scene.camera, aspect);
 
   DepthRange range{ std::numeric_limits<double>::infinity(), 0.0 };
   const auto include = [&](const Vec3& point)
@@ -147,9 +169,9 @@ DepthRange visibleDepths(const Scene& scene, double aspect)
     {
       model.surface->GetPoint(static_cast<vtkIdType>(i), points[i].data());
       points[i] = transformed(model.matrix, points[i], 1.0) - eye;
-      for (std::size_t side = 0; side < std::size(sides); ++side)
+      for (std::size_t side = 0; side < sides.size(); ++side)
       {
-        outsides[i] |= dot(sides[side], points[i]) >= 0.0 ? 0u : 1u << side;
+        outsides[i] |= sides[side](points[i]) >= 0.0 ? 0u : 1u << side;
       }
     }
     visitCells(model.surface,
@@ -172,9 +194,9 @@ DepthRange visibleDepths(const Scene& scene, double aspect)
           const Vec3& point = points[static_cast<std::size_t>(ids[i])];
           anywhere == 0u ? include(point) : polygon.push_back(point);
         }
-        for (std::size_t side = 0; side < std::size(sides) && !polygon.empty(); ++side)
+        for (const Side& side : sides)
         {
-          polygon = clipped(polygon, sides[side]);
+          polygon = clipped(polygon, side);
         }
         std::for_each(polygon.begin(), polygon.end(), include);
       });

@@ -261,7 +261,7 @@ SceneLight readLight(const JsonValue& value, const std::filesystem::path& folder
 //------------------------------------------------------------------------------
 SceneCamera readCamera(const JsonValue& value, const std::optional<SceneCamera>& defaults)
 {
-  value.requireObject({ "position", "target", "up", "fov" });
+  value.requireObject({ "position", "target", "up", "fov", "parallel_scale" });
   SceneCamera camera = defaults.value_or(SceneCamera{});
   const JsonValue position = value.member("position");
   const JsonValue target = value.member("target");
@@ -278,7 +278,21 @@ SceneCamera readCamera(const JsonValue& value, const std::optional<SceneCamera>&
     position.fail("a position that is not the scene's target");
   }
   camera.up = readUp(value.member("up"), camera.up, camera.target - camera.position);
-  camera.fovDegrees = value.member("fov").numberOr(camera.fovDegrees, fieldOfViewDegrees);
+  const JsonValue angle = value.member("fov");
+  const JsonValue scale = value.member("parallel_scale");
+  if (angle.present() && scale.present())
+  {
+    angle.refuse("means nothing for a parallel camera, which \"parallel_scale\" makes");
+  }
+  if (angle.present())
+  {
+    camera.fovDegrees = angle.number(fieldOfViewDegrees);
+    camera.parallelScale.reset();
+  }
+  else if (scale.present())
+  {
+    camera.parallelScale = scale.number(extent);
+  }
   return camera;
 }
 

@@ -5,6 +5,7 @@
 #include "TestFiles.h"
 
 #include <gtest/gtest.h>
+#include <vtkCamera.h>
 #include <vtkDataArray.h>
 #include <vtkImageData.h>
 #include <vtkPointData.h>
@@ -103,6 +104,18 @@ TEST(SceneExport, KeepsTheHolesOfTextures)
       scene.models[i].surface->GetPointData()->GetTCoords()->GetRange(0)[1]);
   }
   EXPECT_FALSE(read.models[2].texture);
+}
+
+//------------------------------------------------------------------------------
+TEST(SceneExport, KeepsAParallelCamera)
+{
+  Scene scene;
+  scene.name = "exported";
+  scene.models = { makePlane({ { 0.0, 0.0, 0.0 } }, 1.0) };
+  scene.camera = parseCamera("position=0,1,2;target=0,0,0;parallel_scale=1.5", {});
+  const TestFolder folder;
+  const auto renderer = makeRenderer(loadScene(exportScene(scene, folder.path())), 1.0);
+  EXPECT_EQ(renderer->GetActiveCamera()->GetParallelScale(), 1.5);
 }
 
 //------------------------------------------------------------------------------

@@ -151,6 +151,26 @@ TEST_F(SceneFile, ClippingPlanesEncloseWhatIsInFrontOfTheCamera)
 }
 
 //------------------------------------------------------------------------------
+/// Of a perspective camera the second plate is beside the picture; of a parallel one it is in it, and
+/// what lies behind the camera is not.
+TEST_F(SceneFile, ClippingPlanesOfAParallelCameraEncloseWhatIsInItsPicture)
+{
+  writeBytes(this->folder / "model.obj",
+    "v -1 -1 -7\nv 1 -1 -7\nv 0 1 -7\nf 1 2 3\nv 3 -1 -2\nv 4 -1 -2\nv 3 1 -2\nf 4 5 6\n"
+    "v -1 -1 5\nv 1 -1 5\nv 0 1 5\nf 7 8 9\n");
+  nlohmann::json document = sampleScene();
+  document["models"][0].erase("matrix");
+  document["camera"] = { { "position", { 0, 0, 0 } }, { "target", { 0, 0, -1 } },
+    { "parallel_scale", 5 } };
+  const vtkSmartPointer<vtkRenderer> renderer = makeRenderer(this->load(document), 1.0);
+  vtkCamera* camera = renderer->GetActiveCamera();
+  EXPECT_TRUE(camera->GetParallelProjection());
+  EXPECT_DOUBLE_EQ(camera->GetParallelScale(), 5.0);
+  EXPECT_NEAR(camera->GetClippingRange()[0], 2.0, 0.1);
+  EXPECT_NEAR(camera->GetClippingRange()[1], 7.0, 0.1);
+}
+
+//------------------------------------------------------------------------------
 TEST_F(SceneFile, ClippingPlanesAreSoundWhenAllIsBehindTheCamera)
 {
   nlohmann::json document = sampleScene();
