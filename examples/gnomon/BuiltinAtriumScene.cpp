@@ -2,6 +2,7 @@
 #include "BuiltinScenes.h"
 #include "MeshBuilder.h"
 #include "Noise.h"
+#include "SceneFraming.h"
 #include "Vec3.h"
 
 #include <vtkMath.h>

@@ -1,6 +1,7 @@
 #include "BuiltinParts.h"
 #include "BuiltinScenes.h"
 #include "Noise.h"
+#include "SceneFraming.h"
 #include "Vec3.h"
 
 #include <vtkCellArray.h>

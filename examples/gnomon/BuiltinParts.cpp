@@ -44,15 +44,6 @@ SceneModel placed(SceneModel model, const Vec3& position, double degrees)
 }
 
 //------------------------------------------------------------------------------
-void setAmbient(Scene& scene, double share)
-{
-  for (SceneModel& model : scene.models)
-  {
-    model.property->SetAmbient(share);
-  }
-}
-
-//------------------------------------------------------------------------------
 SceneLight makeSun(const Vec3& travel, const Vec3& color, double intensity)
 {
   SceneLight light;

@@ -18,10 +18,6 @@ SceneModel makePlane(const Vec3& center, double side);
 /// The model turned around the vertical axis, counter-clockwise seen from above, then moved.
 SceneModel placed(SceneModel model, const Vec3& position, double degrees);
 
-/// Every surface with that share of its colour where no light falls, for scenes under a bright sky
-/// or with bright walls.
-void setAmbient(Scene& scene, double share);
-
 /// A directional light that travels that way.
 SceneLight makeSun(
   const Vec3& travel, const Vec3& color = { { 1.0, 1.0, 1.0 } }, double intensity = 1.0);

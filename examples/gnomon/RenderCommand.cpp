@@ -1,9 +1,13 @@
+#include "BuiltinScenes.h"
 #include "Commands.h"
 #include "Errors.h"
 #include "Files.h"
 #include "ImageFile.h"
 #include "Scene.h"
+#include "SceneFraming.h"
 #include "SettingOptions.h"
+#include "Text.h"
+#include "Vec3.h"
 #include "VtkMessages.h"
 
 #include "lights/LightManager.h"
@@ -15,11 +19,14 @@
 #include "shadowtech/base/FrameReport.h"
 
 #include <nlohmann/json.hpp>
+#include <vtkMath.h>
 #include <vtkNew.h>
 #include <vtkOpenGLState.h>
 #include <vtk_glew.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -48,6 +55,9 @@ struct RenderOptions
   bool shadeSamples = false;
   std::vector<std::string> lights;
   std::string camera;
+  bool parallel = false;
+  std::optional<bool> ground;    ///< none: what the scene says
+  std::optional<double> ambient; ///< none: what surfaces say
   std::string visibility;
   std::string stats;
   std::string classes;
@@ -98,6 +108,12 @@ void check(const RenderOptions& options)
         ": is of one picture, and --shade-samples shows the mean of many, expected one of them");
     }
   }
+  if (options.ground && findBuiltinScene(options.scene))
+  {
+    throw BadInput(std::string(*options.ground ? "--ground" : "--no-ground") + ": found " +
+      options.scene + ", a built-in scene, whose ground is its own; expected a model or a scene " +
+      "file");
+  }
   // The options have refused what there is not.
   ShadowSettings settings;
   settings.technique = options.settings.at("technique");
@@ -110,9 +126,21 @@ void check(const RenderOptions& options)
   }
 }
 
+/// Makes a camera parallel that shows what it looks at in the same size.
+void makeParallel(SceneCamera& camera)
+{
+  const double halfAngle = 0.5 * vtkMath::RadiansFromDegrees(camera.fovDegrees);
+  camera.parallelScale =
+    camera.parallelScale.value_or(length(camera.target - camera.position) * std::tan(halfAngle));
+}
+
 Scene loadWithOptions(const RenderOptions& options)
 {
-  Scene scene = loadScene(options.scene);
+  Scene scene = loadScene(options.scene, options.ground);
+  if (options.ambient)
+  {
+    setAmbient(scene, *options.ambient);
+  }
   if (!options.lights.empty())
   {
     scene.lights.clear();
@@ -124,6 +152,10 @@ Scene loadWithOptions(const RenderOptions& options)
   if (!options.camera.empty())
   {
     scene.camera = parseCamera(options.camera, scene.camera);
+  }
+  if (options.parallel)
+  {
+    makeParallel(scene.camera);
   }
   for (SceneLight& light : scene.lights)
   {
@@ -505,7 +537,26 @@ void addRenderCommand(CLI::App& app)
     ->allow_extra_args(false);
   command->add_option("--camera", options->camera,
     "What differs from the scene's camera, for example "
-    "position=0,1,5;target=0,0,0;up=0,1,0;fov=45");
+    "position=0,1,5;target=0,0,0;up=0,1,0;fov=45, or parallel_scale=2 for a parallel camera whose "
+    "picture is 4 high");
+  command->add_flag("--parallel", options->parallel,
+    "Look along parallel rays, with what the camera looks at in the same size");
+  command->add_flag_function(
+    "--ground,!--no-ground",
+    [&ground = options->ground](std::int64_t count) { ground = count > 0; },
+    "Whether models stand on a ground; by default those of model files do, those of scene files if "
+    "the file says so");
+  command
+    ->add_option("--ambient", options->ambient,
+      "The share of its colour, in [0, 1], that each surface shows where no light falls")
+    ->check(
+      [](const std::string& text)
+      {
+        const std::optional<double> share = parseNumber<double>(text);
+        return share && *share >= 0.0 && *share <= 1.0
+          ? ""
+          : "found \"" + text + "\", expected a number between 0 and 1";
+      });
   command->add_option("--visibility", options->visibility,
     "Also write every light's visibility and the receivers, .exr");
   command->add_option("--stats", options->stats,

@@ -29,18 +29,23 @@ namespace
 {
 
 /// A bare model as a scene.
-Scene makeModelScene(const std::string& path)
+Scene makeModelScene(const std::string& path, bool ground)
 {
   Model model = readModelFile(path);
   Scene scene;
   scene.name = std::filesystem::path(path).stem().string();
   scene.models = std::move(model.surfaces);
   scene.notes = std::move(model.notes);
-  scene.camera = model.camera ? *model.camera : framingCamera(scene);
+  scene.camera = model.camera ? *model.camera : framingCamera(scene, ground);
+  if (ground)
+  {
+    addGround(scene);
+  }
   scene.lights = std::move(model.lights);
   if (scene.lights.empty())
   {
     scene.lights = { defaultLight() };
+    setAmbient(scene, defaultAmbient);
   }
   return scene;
 }
@@ -137,7 +142,7 @@ void setClippingRange(vtkRenderer* renderer, const Scene& scene, double aspect)
 } // namespace
 
 //------------------------------------------------------------------------------
-Scene loadScene(const std::string& nameOrPath)
+Scene loadScene(const std::string& nameOrPath, std::optional<bool> ground)
 {
   if (const BuiltinScene* builtin = findBuiltinScene(nameOrPath))
   {
@@ -148,11 +153,11 @@ Scene loadScene(const std::string& nameOrPath)
   const std::string extension = lowerExtension(nameOrPath);
   if (extension == ".json")
   {
-    return readSceneFile(nameOrPath);
+    return readSceneFile(nameOrPath, ground);
   }
   if (isModelFile(nameOrPath))
   {
-    return makeModelScene(nameOrPath);
+    return makeModelScene(nameOrPath, ground.value_or(true));
   }
   std::error_code error;
   if (!std::filesystem::exists(nameOrPath, error))

@@ -95,9 +95,10 @@ struct Scene
 };
 
 /// Reads a built-in scene's name, a scene file (.json) or a model file (.obj .ply .stl .vtp .3ds
-/// .glb .gltf). A model gets a camera and a light where its file has none.
+/// .glb .gltf). A model gets a ground, and a camera and a light where its file has none.
+/// @param ground whether models stand on a ground, whatever their file says; not of built-in scenes
 /// @throws BadInput
-Scene loadScene(const std::string& nameOrPath);
+Scene loadScene(const std::string& nameOrPath, std::optional<bool> ground = std::nullopt);
 
 /// Reads the argument of --light, `type:key=value;key=value...`, with a scene file's types and
 /// keys:

@@ -108,11 +108,11 @@ std::vector<SceneModel> readModel(const JsonValue& value, const std::filesystem:
 } // namespace
 
 //------------------------------------------------------------------------------
-Scene readSceneFile(const std::string& path)
+Scene readSceneFile(const std::string& path, std::optional<bool> ground)
 {
   const nlohmann::json document = readJsonFile(path);
   const JsonValue root(path, document);
-  root.requireObject({ "camera", "models", "lights", "background" });
+  root.requireObject({ "camera", "models", "lights", "background", "ground", "ambient" });
 
   Scene scene;
   scene.name = std::filesystem::path(path).stem().string();
@@ -130,6 +130,9 @@ Scene readSceneFile(const std::string& path)
     scene.lights.push_back(readLight(value, folder));
   }
   scene.background = root.member("background").numbersOr(scene.background, colorChannel);
+  const bool onGround = ground.value_or(root.member("ground").booleanOr(false));
+  const JsonValue ambient = root.member("ambient");
+  const double ambientShare = ambient.numberOr(0.0, { 0.0, 1.0 });
 
   const JsonValue models = root.member("models");
   const std::vector<JsonValue> entries = models.elements();
@@ -148,11 +151,19 @@ Scene readSceneFile(const std::string& path)
 
   if (!camera.present())
   {
-    scene.camera = framingCamera(scene);
+    scene.camera = framingCamera(scene, onGround);
+  }
+  if (onGround)
+  {
+    addGround(scene);
   }
   if (!lights.present())
   {
     scene.lights = { defaultLight() };
+  }
+  if (ambient.present())
+  {
+    setAmbient(scene, ambientShare);
   }
   return scene;
 }

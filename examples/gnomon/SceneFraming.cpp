@@ -1,5 +1,6 @@
 #include "SceneFraming.h"
 
+#include "BuiltinParts.h"
 #include "Vec3.h"
 
 #include <vtkCellArray.h>
@@ -125,7 +126,7 @@ std::array<double, 6> boundsWorld(const Scene& scene)
 }
 
 //------------------------------------------------------------------------------
-SceneCamera framingCamera(const Scene& scene)
+SceneCamera framingCamera(const Scene& scene, bool withShadow)
 {
   const std::array<double, 6> bounds = boundsWorld(scene);
   const Vec3 low{ { bounds[0], bounds[2], bounds[4] } };
@@ -136,10 +137,24 @@ SceneCamera framingCamera(const Scene& scene)
 
   SceneCamera camera;
   camera.target = 0.5 * (low + high);
+  const double margin = withShadow ? 1.5 : 1.05;
   const double distance =
-    1.05 * radius / std::sin(0.5 * vtkMath::RadiansFromDegrees(camera.fovDegrees));
+    margin * radius / std::sin(0.5 * vtkMath::RadiansFromDegrees(camera.fovDegrees));
   camera.position = camera.target + distance * normalized(Vec3{ { 0.3, 0.35, 1.0 } });
   return camera;
+}
+
+//------------------------------------------------------------------------------
+void addGround(Scene& scene)
+{
+  const std::array<double, 6> bounds = boundsWorld(scene);
+  const double size =
+    std::max({ bounds[1] - bounds[0], bounds[3] - bounds[2], bounds[5] - bounds[4] });
+  // A hair below the models, so that a floor of their own hides it.
+  const Vec3 centre{ { 0.5 * (bounds[0] + bounds[1]), bounds[2] - 1e-4 * size,
+    0.5 * (bounds[4] + bounds[5]) } };
+  scene.models.push_back(makePlane(centre, 4.0 * size));
+  scene.models.back().name = "ground";
 }
 
 //------------------------------------------------------------------------------
@@ -213,11 +228,20 @@ SceneLight defaultLight()
 }
 
 //------------------------------------------------------------------------------
+void setAmbient(Scene& scene, double share)
+{
+  for (SceneModel& model : scene.models)
+  {
+    model.property->SetAmbient(share);
+  }
+}
+
+//------------------------------------------------------------------------------
 vtkSmartPointer<vtkProperty> defaultProperty()
 {
   auto property = vtkSmartPointer<vtkProperty>::New();
   property->SetColor(0.8, 0.8, 0.8);
-  property->SetAmbient(0.2);
+  property->SetAmbient(defaultAmbient);
   property->SetDiffuse(0.8);
   return property;
 }

@@ -11,7 +11,11 @@ std::array<double, 6> boundsWorld(const Scene& scene);
 
 /// A camera that shows the whole scene in a square picture, from the front and slightly above (y
 /// up).
-SceneCamera framingCamera(const Scene& scene);
+/// @param withShadow whether there is room for the shadow of the default light on a ground, too
+SceneCamera framingCamera(const Scene& scene, bool withShadow);
+
+/// Adds a horizontal square under the scene's models, four times as wide as they are large.
+void addGround(Scene& scene);
 
 /// Depths along the scene camera's view, in front of the eye.
 struct DepthRange
@@ -28,7 +32,13 @@ DepthRange visibleDepths(const Scene& scene, double aspect);
 /// The light of models that bring none: directional, from the upper left in front.
 SceneLight defaultLight();
 
-/// The look of surfaces that bring none: light grey and matt, with some ambient light.
+/// The share of its colour that a surface shows where no light falls, if nothing else is said.
+inline constexpr double defaultAmbient = 0.2;
+
+/// Gives every surface that share of its colour where no light falls.
+void setAmbient(Scene& scene, double share);
+
+/// The look of surfaces that bring none: light grey and matt, with the default ambient light.
 vtkSmartPointer<vtkProperty> defaultProperty();
 
 /// Gives a surface the default look in that colour, in place of its own colours and textures. What

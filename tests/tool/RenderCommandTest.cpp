@@ -54,6 +54,18 @@ protected:
   nlohmann::json scene;
 };
 
+int darkest(const Picture& picture)
+{
+  return *std::min_element(picture.rgb.begin(), picture.rgb.end());
+}
+
+/// Whether the background, which is white, shows in the middle of the lowest row.
+bool showsBackgroundBelow(const Picture& picture)
+{
+  const auto pixel = picture.rgb.end() - 3 * (picture.width / 2);
+  return std::all_of(pixel, pixel + 3, [](unsigned char value) { return value == 255; });
+}
+
 //------------------------------------------------------------------------------
 TEST_F(RenderCommand, VisibilityWithoutCastingLightsHoldsTheReceivers)
 {
@@ -69,6 +81,64 @@ TEST_F(RenderCommand, VisibilityWithoutCastingLightsHoldsTheReceivers)
   EXPECT_EQ(none.channels.count("visibility.0"), 0u);
   const std::vector<float>& coverage = none.channels.at("coverage");
   EXPECT_GT(std::count(coverage.begin(), coverage.end(), 1.0f), 500);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(RenderCommand, ShowsAModelOnAGroundUnderAKeyLightAndALittleAmbient)
+{
+  const ChannelImage image = this->visibilityOf(this->model);
+  int inShadow = 0;
+  for (std::size_t i = 0; i < image.channels.at("coverage").size(); ++i)
+  {
+    const bool ground = image.channels.at("normal.Y")[i] > 0.99f;
+    inShadow += ground && image.channels.at("visibility.0")[i] == 0.0f;
+  }
+  EXPECT_GT(inShadow, 10);
+  const Picture picture = readPicture(this->folder / "out.png");
+  EXPECT_FALSE(showsBackgroundBelow(picture));
+  EXPECT_GT(darkest(picture), 20);
+  EXPECT_LT(darkest(picture), 80);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(RenderCommand, GroundIsThereIfAskedFor)
+{
+  EXPECT_TRUE(showsBackgroundBelow(this->pictureOf(this->model, "--no-ground")));
+  EXPECT_TRUE(showsBackgroundBelow(this->pictureOf(this->sceneFile())));
+  EXPECT_FALSE(showsBackgroundBelow(this->pictureOf(this->sceneFile(), "--ground")));
+  this->scene["ground"] = true;
+  EXPECT_FALSE(showsBackgroundBelow(this->pictureOf(this->sceneFile())));
+  EXPECT_TRUE(showsBackgroundBelow(this->pictureOf(this->sceneFile(), "--no-ground")));
+}
+
+//------------------------------------------------------------------------------
+TEST_F(RenderCommand, AmbientIsTheShareOfColourInShadow)
+{
+  // The darkest colour is the ground's blue, 0.72.
+  EXPECT_EQ(darkest(this->pictureOf(this->model, "--ambient 0")), 0);
+  EXPECT_NEAR(darkest(this->pictureOf(this->model, "--ambient 0.5")), 0.5 * 0.72 * 255, 1.0);
+  this->scene["ambient"] = 0.5; // of 0.8, the colour of models
+  EXPECT_NEAR(darkest(this->pictureOf(this->sceneFile())), 0.5 * 0.8 * 255, 1.0);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(RenderCommand, ParallelCameraShowsSizesAsTheyAre)
+{
+  // The picture is 4 high: the pyramid, 2 wide where it stands, takes half of a row there.
+  const std::string camera = "--no-ground --camera position=0,1,10;target=0,1,0";
+  const std::vector<float> coverage =
+    this->visibilityOf(this->model, camera + ";parallel_scale=2").channels.at("coverage");
+  const auto row = coverage.begin() + 64 * 47;
+  EXPECT_NEAR(std::count(row, row + 64, 1.0f), 32, 1);
+  EXPECT_EQ(std::count(row + 64, coverage.end(), 1.0f), 0);
+
+  // --parallel keeps the size of what the camera looks at: half a height is 2 at a distance of 10.
+  EXPECT_EQ(
+    this->visibilityOf(this->model, camera + ";fov=22.61986495 --parallel").channels.at("coverage"),
+    coverage);
+  this->scene["camera"] = { { "position", { 0, 1, 10 } }, { "target", { 0, 1, 0 } },
+    { "parallel_scale", 2 } };
+  EXPECT_EQ(this->visibilityOf(this->sceneFile()).channels.at("coverage"), coverage);
 }
 
 //------------------------------------------------------------------------------
@@ -90,6 +160,11 @@ TEST_F(RenderCommand, RefusesWhatMakesNoSense)
     { scene, "", { "light 0", "tsm" } },
     { "cube", "--technique silhouette --map-samples 4",
       { "light 0", "silhouette", "map_samples" } },
+    { "cube", "--no-ground", { "--no-ground", "cube" } },
+    { this->model, "--camera fov=30;parallel_scale=2", { "--camera", "fov", "parallel_scale" } },
+    { this->model, "--camera parallel_scale=-1", { "--camera", "parallel_scale", "-1" } },
+    { this->model, "--ambient 1.5", { "--ambient", "1.5", "between 0 and 1" } },
+    { this->model, "--ambient nan", { "--ambient", "nan", "between 0 and 1" } },
   };
   for (const Case& wrong : cases)
   {

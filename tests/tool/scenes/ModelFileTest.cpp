@@ -7,6 +7,7 @@
 #include "Vec3.h"
 
 #include <gtest/gtest.h>
+#include <vtkCamera.h>
 #include <vtkImageData.h>
 #include <vtkPointData.h>
 
@@ -171,7 +172,7 @@ TEST(ModelFile, GltfNodesPassTheirTransformsOn)
 }
 
 //------------------------------------------------------------------------------
-TEST(ModelFile, ABareModelGetsACameraAndALight)
+TEST(ModelFile, ABareModelGetsAGroundACameraAndALight)
 {
   TestFolder folder;
   writeBytes(folder / "m.obj", sampleObj());
@@ -183,6 +184,44 @@ TEST(ModelFile, ABareModelGetsACameraAndALight)
   EXPECT_LT(travel[1], 0.0); // from above,
   EXPECT_LT(travel[2], 0.0); // from the front
   EXPECT_LT(length(scene.camera.target - Vec3{ { 0, 1, 0 } }), 1e-6);
+  ASSERT_EQ(scene.models.size(), 2u);
+  const double* ground = scene.models[1].surface->GetBounds();
+  const double* model = scene.models[0].surface->GetBounds();
+  EXPECT_DOUBLE_EQ(ground[0], 4.0 * model[0]);
+  EXPECT_DOUBLE_EQ(ground[5], 4.0 * model[5]);
+  EXPECT_LT(ground[3], model[2]); // a floor of the model's own hides it
+  EXPECT_NEAR(ground[3], model[2], 0.001);
+}
+
+//------------------------------------------------------------------------------
+/// VTK's importers give materials without ambient light, and files with lights of their own are lit
+/// by those.
+TEST(ModelFile, ABareModelGetsAmbientLightWithItsLight)
+{
+  TestFolder folder;
+  nlohmann::json document = sampleGltfWithBuffer();
+  for (const double expected : { 0.0, 0.2 })
+  {
+    writeBytes(folder / "m.gltf", document.dump());
+    EXPECT_EQ(loadScene(folder / "m.gltf").models[0].property->GetAmbient(), expected);
+    document["scenes"][0]["nodes"] = { 0, 1 }; // the others are the lights
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST(ModelFile, GltfCamerasMayBeOrthographic)
+{
+  TestFolder folder;
+  nlohmann::json document = sampleGltfWithBuffer();
+  document["cameras"][0] = { { "type", "orthographic" },
+    { "orthographic", { { "xmag", 3 }, { "ymag", 2 }, { "znear", 0.1 }, { "zfar", 50 } } } };
+  writeBytes(folder / "m.gltf", document.dump());
+  const Scene scene = loadScene(folder / "m.gltf");
+  EXPECT_TRUE(scene.notes.empty());
+  const vtkSmartPointer<vtkRenderer> renderer = makeRenderer(scene, 1.0);
+  vtkCamera* camera = renderer->GetActiveCamera();
+  EXPECT_TRUE(camera->GetParallelProjection());
+  EXPECT_DOUBLE_EQ(camera->GetParallelScale(), 2.0);
 }
 
 //------------------------------------------------------------------------------
