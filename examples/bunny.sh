@@ -20,7 +20,7 @@ install_packages
 say "2 of 4: compiling the library and the program gnomon on $(nproc) processors"
 build_gnomon
 say "3 of 4: drawing the first picture"
-build/release/bin/gnomon compare bunny -o "$PWD/out/bunny" --progress "$@" |
+build/release/bin/gnomon compare bunny -o "$PWD/out/bunny" "$@" |
   while read -r line; do
     say "$line"
     case "$line" in

@@ -1,6 +1,7 @@
 #include "Commands.h"
 #include "ComparisonRun.h"
 #include "Errors.h"
+#include "Progress.h"
 #include "Report.h"
 #include "SettingOptions.h"
 #include "VtkMessages.h"
@@ -12,8 +13,6 @@
 #include <iostream>
 #include <memory>
 #include <string>
-
-#include <unistd.h>
 
 namespace gnomon::tool
 {
@@ -28,60 +27,22 @@ struct CompareOptions
   std::string size = "1024x1024";
   std::string route; ///< empty: inline of the usual techniques, all of others
   bool all = false;  ///< whether to compare all techniques
-  bool progress = false;
 };
 
-/// How far a comparison is, on stderr: a line that fills up on a terminal, elsewhere a line for
-/// every tenth.
-class ProgressBar
-{
-public:
-  ~ProgressBar()
-  {
-    if (this->terminal_ && this->shown_ >= 0)
-    {
-      std::cerr << '\n';
-    }
-  }
-  void operator()(double share, const std::string& step)
-  {
-    const int percent = static_cast<int>(100.0 * share);
-    if (this->terminal_)
-    {
-      const auto filled = static_cast<std::size_t>(percent / 4);
-      std::cerr << "\rcomparing [" << std::string(filled, '#') << std::string(25 - filled, '.')
-                << "] " << percent << " %, " << step << "\x1b[K" << std::flush; // erases the rest
-    }
-    else if (percent / 10 > this->shown_ / 10)
-    {
-      std::cerr << "comparing: " << percent << " %, " << step << std::endl;
-    }
-    this->shown_ = percent;
-  }
-
-private:
-  bool terminal_ = isatty(STDERR_FILENO) != 0;
-  int shown_ = -1;
-};
-
-void writeFirstPicture(const std::vector<Panel>& panels, const std::string& folder)
+std::string writeFirstPicture(const std::vector<Panel>& panels, const std::string& folder)
 {
   const std::string path = folder + "/first.png";
   writePicture(sideBySide(panels), path);
-  std::cout << "First picture: " << path << std::endl;
+  return path;
 }
 
 ComparisonResults measure(
-  const CompareOptions& options, const ComparisonPlan& plan, const Scene& scene)
+  const CompareOptions& options, const ComparisonPlan& plan, const Scene& scene, Progress& progress)
 {
   ComparisonEvents events;
-  ProgressBar bar;
-  if (options.progress || isatty(STDERR_FILENO))
-  {
-    events.progress = [&bar](double share, const std::string& step) { bar(share, step); };
-  }
-  events.firstPanels = [&options](const std::vector<Panel>& panels)
-  { writeFirstPicture(panels, options.folder); };
+  events.progress = [&](double share, const std::string& step) { progress.begin(step, share); };
+  events.firstPanels = [&](const std::vector<Panel>& panels)
+  { progress.print("First picture: " + writeFirstPicture(panels, options.folder), std::cout); };
   const VtkMessages messages;
   ComparisonResults results = runComparison(scene, plan, events);
   if (!messages.errors().empty())
@@ -112,15 +73,18 @@ void compare(CompareOptions options)
   options.plan.width = size.width;
   options.plan.height = size.height;
   prepareReportFolder(options.folder);
+  Progress progress("reading " + options.scene);
   const Scene scene = loadScene(options.scene);
-  const ComparisonResults results = measure(options, planOf(options, scene), scene);
+  const ComparisonResults results = measure(options, planOf(options, scene), scene, progress);
+  progress.begin("writing the report");
   writeReport(results, options.folder);
   for (const std::string& note : results.notes)
   {
-    std::cout << note << "\n";
+    progress.print(note, std::cout);
   }
-  std::cout << results.variants.size() << " variants of " << results.scene
-            << " compared: " << options.folder << "/report.html" << std::endl;
+  progress.print(std::to_string(results.variants.size()) + " variants of " + results.scene +
+      " compared: " + options.folder + "/report.html",
+    std::cout);
 }
 
 } // namespace
@@ -173,8 +137,6 @@ void addCompareCommand(CLI::App& app)
     ->check(CLI::IsMember({ "all", "inline", "image" }));
   addTracerOption(*command, options->plan.tracer);
   addRasterizerOption(*command, options->plan.rasterizer);
-  command->add_flag("--progress", options->progress,
-    "Show the progress even when the error output is not a terminal");
   command->callback([options] { compare(*options); });
 }
 

@@ -1,6 +1,7 @@
 #include "BuiltinScenes.h"
 #include "Commands.h"
 #include "Errors.h"
+#include "Progress.h"
 #include "SceneExport.h"
 #include "SettingOptions.h"
 
@@ -101,7 +102,8 @@ void addScenesCommand(CLI::App& app)
           throw BadInput(
             "--export: found \"" + exported->at(0) + "\", expected one of: " + builtinSceneNames());
         }
-        std::cout << exportScene(loadScene(exported->at(0)), exported->at(1)) << "\n";
+        Progress progress("exporting " + exported->at(0));
+        progress.print(exportScene(loadScene(exported->at(0)), exported->at(1)), std::cout);
         return;
       }
       for (const BuiltinScene& scene : builtinScenes())

@@ -3,6 +3,7 @@
 #include "Errors.h"
 #include "Files.h"
 #include "ImageFile.h"
+#include "Progress.h"
 #include "Scene.h"
 #include "SceneFraming.h"
 #include "SettingOptions.h"
@@ -29,7 +30,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
-#include <iostream>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -386,6 +386,7 @@ void render(const RenderOptions& options)
 {
   check(options);
   const PictureSize size = parseSize(options.size);
+  Progress progress("reading " + options.scene);
   Scene scene = loadWithOptions(options);
   const int samplesPerFrame = mostOf("progressive", scene);
   if (options.shadeSamples)
@@ -397,9 +398,10 @@ void render(const RenderOptions& options)
   }
   for (const std::string& note : scene.notes)
   {
-    std::cerr << "gnomon: note: " << note << "\n";
+    progress.print("gnomon: note: " + note);
   }
 
+  progress.begin("rendering");
   VtkMessages messages;
   const vtkSmartPointer<vtkRenderer> renderer = makeRenderer(scene, size.aspect());
   requireComposition(renderer);
@@ -425,15 +427,17 @@ void render(const RenderOptions& options)
   renderer->SetPass(options.shadeSamples ? static_cast<vtkRenderPass*>(sampling) : shadows);
   window->AddRenderer(renderer);
   PictureReport report;
-  do
+  for (double share = 0.0; share < 1.0; progress.begin("rendering", share))
   {
     window->Render();
     report.add(shadows->GetReport());
-  } while (std::min(shadows->GetProgress(), sampling->GetProgress()) < 1.0);
+    share = std::min(shadows->GetProgress(), sampling->GetProgress());
+  }
 
+  progress.begin("writing " + options.picture);
   for (const std::string& warning : messages.warnings())
   {
-    std::cerr << "gnomon: warning: " << warning << "\n";
+    progress.print("gnomon: warning: " + warning);
   }
   if (report.sum().outOfTextureMemory || !report.sum().misfits.empty())
   {

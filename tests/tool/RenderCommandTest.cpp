@@ -5,9 +5,15 @@
 #include "SampleFiles.h"
 #include "TestFiles.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
+#include <future>
+#include <thread>
 
 namespace gnomon::tool
 {
@@ -186,6 +192,36 @@ TEST_F(RenderCommand, RefusesWhatMakesNoSense)
     }
     EXPECT_FALSE(std::filesystem::exists(this->folder / "out.png")) << wrong.options;
   }
+}
+
+//------------------------------------------------------------------------------
+/// The picture's file is a pipe that is full until the reader begins, so the work takes that long.
+TEST_F(RenderCommand, SaysAfterTwoSecondsWhatItDoes)
+{
+  const std::string pipe = this->folder / "pipe.png";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  const int reader = open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
+  ASSERT_GE(fcntl(reader, F_SETPIPE_SZ, 4096), 4096);
+  std::future<std::size_t> reading = std::async(std::launch::async,
+    [reader]
+    {
+      std::this_thread::sleep_for(std::chrono::milliseconds(2600));
+      fcntl(reader, F_SETFL, 0); // waits for more
+      char buffer[4096];
+      std::size_t bytes = 0;
+      for (ssize_t count = 0; (count = read(reader, buffer, sizeof(buffer))) > 0;)
+      {
+        bytes += static_cast<std::size_t>(count);
+      }
+      return bytes;
+    });
+  testing::internal::CaptureStderr();
+  this->render("primitives", "--technique raytraced --size 256x256 -o " + pipe);
+  const std::string said = testing::internal::GetCapturedStderr();
+  ASSERT_GT(reading.get(), 4096u);
+  close(reader);
+  EXPECT_EQ(said.rfind("gnomon: ", 0), 0u) << said;
+  EXPECT_NE(said.find(" s\n"), std::string::npos) << said;
 }
 
 } // namespace

@@ -1,0 +1,91 @@
+#include "Progress.h"
+
+#include <cmath>
+#include <utility>
+
+#include <unistd.h>
+
+namespace gnomon::tool
+{
+
+//------------------------------------------------------------------------------
+Progress::Progress(std::string step)
+  : Progress(std::move(step), std::cerr, isatty(STDERR_FILENO) != 0, silence)
+{
+}
+
+//------------------------------------------------------------------------------
+Progress::Progress(std::string step, std::ostream& stream, bool isTerminal, Duration silence)
+  : stream_(stream)
+  , isTerminal_(isTerminal)
+  , silence_(silence)
+  , step_(std::move(step))
+  , thread_([this] { this->show(); })
+{
+}
+
+//------------------------------------------------------------------------------
+Progress::~Progress()
+{
+  {
+    const std::lock_guard<std::mutex> lock(this->mutex_);
+    this->isDone_ = true;
+    this->erase();
+  }
+  this->done_.notify_one();
+  this->thread_.join();
+}
+
+//------------------------------------------------------------------------------
+void Progress::begin(const std::string& step, std::optional<double> share)
+{
+  const std::lock_guard<std::mutex> lock(this->mutex_);
+  this->step_ = step;
+  this->share_ = share;
+}
+
+//------------------------------------------------------------------------------
+void Progress::print(const std::string& line, std::ostream& stream)
+{
+  const std::lock_guard<std::mutex> lock(this->mutex_);
+  this->erase();
+  stream << line << std::endl;
+}
+
+//------------------------------------------------------------------------------
+/// The thread's work: shows lines until all is done.
+void Progress::show()
+{
+  // A terminal follows the steps, a log grows slowly.
+  const Duration period = this->isTerminal_ ? this->silence_ / 10 : this->silence_;
+  Duration pause = this->silence_;
+  std::unique_lock<std::mutex> lock(this->mutex_);
+  while (!this->done_.wait_for(lock, pause, [this] { return this->isDone_; }))
+  {
+    pause = period;
+    this->erase();
+    this->stream_ << "gnomon: " << this->step_;
+    if (this->share_)
+    {
+      this->stream_ << ", " << std::lround(100.0 * *this->share_) << " %";
+    }
+    const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(
+      std::chrono::steady_clock::now() - this->start_);
+    this->stream_ << ", " << seconds.count() << " s" << (this->isTerminal_ ? "" : "\n")
+                  << std::flush;
+    this->isShown_ = this->isTerminal_;
+  }
+}
+
+//------------------------------------------------------------------------------
+/// Clears the terminal's line.
+void Progress::erase()
+{
+  if (this->isShown_)
+  {
+    this->stream_ << "\r\x1b[K" << std::flush;
+    this->isShown_ = false;
+  }
+}
+
+} // namespace gnomon::tool
