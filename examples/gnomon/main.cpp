@@ -2,6 +2,8 @@
 #include "Errors.h"
 #include "Text.h"
 
+#include <vtkVersion.h>
+
 #include <exception>
 #include <iostream>
 
@@ -23,6 +25,8 @@ int main(int argc, char** argv)
 {
   CLI::App app{ "Shadows for VTK scenes, from fast to exact", "gnomon" };
   app.require_subcommand(0, 1);
+  app.set_version_flag(
+    "--version", std::string("gnomon " GNOMON_VERSION ", VTK ") + vtkVersion::GetVTKVersion());
   gnomon::tool::addRenderCommand(app);
   gnomon::tool::addCompareCommand(app);
   gnomon::tool::addDiffCommand(app);
@@ -41,8 +45,8 @@ int main(int argc, char** argv)
   }
   catch (const CLI::ParseError& error)
   {
-    const bool help = error.get_exit_code() == 0;
-    return help ? app.exit(error) : report(error.what(), badInput);
+    const bool wasAsked = error.get_exit_code() == 0; // for help or the version
+    return wasAsked ? app.exit(error) : report(error.what(), badInput);
   }
   catch (const gnomon::tool::BadInput& error)
   {

@@ -29,6 +29,7 @@ struct Outcome
   bool exited = false; ///< false: a signal ended it
   int code = 0;        ///< exit code, or the signal
   std::string errors;  ///< what it wrote to stderr
+  std::string output;  ///< and to stdout
 };
 
 /// Runs the program with these arguments in that folder.
@@ -43,13 +44,14 @@ Outcome run(const TestFolder& folder, const std::vector<std::string>& arguments)
   }
   argv.push_back(nullptr);
 
-  const std::string output = folder / "stderr.txt";
+  const std::string errors = folder / "stderr.txt";
+  const std::string output = folder / "stdout.txt";
+  constexpr int anew = O_WRONLY | O_CREAT | O_TRUNC;
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_addchdir_np(&actions, folder.path().c_str());
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  posix_spawn_file_actions_addopen(
-    &actions, STDERR_FILENO, output.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, output.c_str(), anew, 0600);
+  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, errors.c_str(), anew, 0600);
   pid_t process = 0;
   const int failure =
     posix_spawn(&process, GNOMON_PROGRAM, &actions, nullptr, argv.data(), environ);
@@ -61,7 +63,7 @@ Outcome run(const TestFolder& folder, const std::vector<std::string>& arguments)
   int status = 0;
   waitpid(process, &status, 0);
   return { WIFEXITED(status), WIFEXITED(status) ? WEXITSTATUS(status) : WTERMSIG(status),
-    readBytes(output) };
+    readBytes(errors), readBytes(output) };
 }
 
 /// What a good run of `gnomon render` says of itself. It writes out.png and stats.json.
@@ -579,6 +581,8 @@ TEST(Program, HelpsAndLists)
     EXPECT_TRUE(outcome.exited && outcome.code == 0) << arguments[0];
     EXPECT_EQ(outcome.errors, "");
   }
+  const std::string version = run(folder, { "--version" }).output;
+  EXPECT_EQ(version.rfind("gnomon " GNOMON_VERSION ", VTK 9.", 0), 0u) << version;
 }
 
 } // namespace
