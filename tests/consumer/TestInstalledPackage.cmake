@@ -1,5 +1,5 @@
-# Installs Gnomon into an empty prefix, looks at what lies there, and builds and runs a project that
-# uses it.
+# Installs Gnomon into an empty prefix, looks at what lies there, and builds and runs README.md's
+# program by README.md's CMakeLists.txt.
 #
 #   cmake -D BUILD_DIR=... -D CONSUMER_DIR=... -D README=... -D WORK_DIR=... -D CXX=... -D CC=... -P
 cmake_minimum_required(VERSION 3.25)
@@ -45,11 +45,17 @@ if(block STREQUAL "" OR place EQUAL -1)
   message(FATAL_ERROR "README.md's first C++ block is not in examples/shadows.cxx:\n${lines}")
 endif()
 
-run("${CMAKE_COMMAND}" -S "${CONSUMER_DIR}" -B "${WORK_DIR}/build" -G Ninja
+# The project is README.md's, and has every public header stand on its own.
+string(REGEX MATCH "```cmake\n([^`]*)```" block "${readme}")
+file(WRITE "${WORK_DIR}/project/CMakeLists.txt"
+  "${CMAKE_MATCH_1}target_sources(my_program PRIVATE publicHeaders.cxx)\n")
+file(COPY "${CONSUMER_DIR}/publicHeaders.cxx" "${CONSUMER_DIR}/../../examples/shadows.cxx"
+  DESTINATION "${WORK_DIR}/project")
+run("${CMAKE_COMMAND}" -S "${WORK_DIR}/project" -B "${WORK_DIR}/build" -G Ninja
   "-DCMAKE_PREFIX_PATH=${WORK_DIR}/prefix" -DCMAKE_BUILD_TYPE=Release
   "-DCMAKE_C_COMPILER=${CC}" "-DCMAKE_CXX_COMPILER=${CXX}")
 run("${CMAKE_COMMAND}" --build "${WORK_DIR}/build")
-run("${CMAKE_COMMAND}" -E env --unset=DISPLAY "${WORK_DIR}/build/consumer" "${WORK_DIR}/picture.png")
+run("${CMAKE_COMMAND}" -E env --unset=DISPLAY "${WORK_DIR}/build/my_program" "${WORK_DIR}/picture.png")
 file(SIZE "${WORK_DIR}/picture.png" bytes)
 if(bytes LESS 1000)
   message(FATAL_ERROR "The consumer's picture has only ${bytes} bytes.")
