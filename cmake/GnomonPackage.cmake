@@ -18,3 +18,12 @@ install(FILES "${PROJECT_SOURCE_DIR}/cmake/GnomonImageTest.cmake"
   DESTINATION "${gnomon_cmake_destination}" OPTIONAL)
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE"
   DESTINATION "${CMAKE_INSTALL_DATAROOTDIR}/licenses/Gnomon")
+
+# The pages and what they link to, in the same folders as here.
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/docs" DESTINATION "${CMAKE_INSTALL_DOCDIR}"
+  FILES_MATCHING PATTERN "*.md" PATTERN "*.png")
+foreach(page README.md CHANGELOG.md LICENSE cmake/debian-packages.txt examples/shadows.cxx
+    examples/headless_figure.cxx)
+  get_filename_component(folder "${page}" DIRECTORY)
+  install(FILES "${PROJECT_SOURCE_DIR}/${page}" DESTINATION "${CMAKE_INSTALL_DOCDIR}/${folder}")
+endforeach()

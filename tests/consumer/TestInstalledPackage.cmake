@@ -35,6 +35,10 @@ if(NOT headers STREQUAL expected)
   message(FATAL_ERROR "Installed headers:\n  ${headers}\nExpected:\n  ${expected}")
 endif()
 
+# The pages' links hold where they are installed.
+run("${CMAKE_COMMAND}" -D "SOURCE_DIR=${WORK_DIR}/prefix/share/doc/Gnomon"
+  -P "${CONSUMER_DIR}/../project/TestPages.cmake")
+
 # README.md shows the program's own lines.
 file(READ "${README}" readme)
 string(REGEX MATCH "```cpp\n([^`]*)```" block "${readme}")

@@ -2,6 +2,7 @@
 #include "Errors.h"
 #include "SampleFiles.h"
 #include "Scene.h"
+#include "Text.h"
 #include "Vec3.h"
 
 #include "lights/vtkGnomonAreaLight.h"
@@ -474,6 +475,31 @@ TEST(SceneSpecs, CamerasTakeTheRestFromTheScene)
   EXPECT_EQ(camera.target, (Vec3{ { 1, 0, 0 } }));
   EXPECT_EQ(camera.up, (Vec3{ { 1, 0, 0 } }));
   EXPECT_DOUBLE_EQ(camera.fovDegrees, 50.0);
+}
+
+//------------------------------------------------------------------------------
+/// The page's examples are one scene, and two more lights.
+TEST_F(SceneFile, PageOfTheFormatShowsWhatIsRead)
+{
+  const std::string page = tool::readBytes(GNOMON_SOURCE_DIR "/docs/guide/scene_files.md");
+  std::vector<std::string> examples = split(page, '`');
+  examples.erase(std::remove_if(examples.begin(), examples.end(),
+                   [](const std::string& text) { return text.rfind("json\n", 0) != 0; }),
+    examples.end());
+  ASSERT_EQ(examples.size(), 2u);
+  nlohmann::json document = nlohmann::json::parse(examples[0].substr(5));
+  for (const nlohmann::json& light : nlohmann::json::parse(examples[1].substr(5)))
+  {
+    document["lights"].push_back(light);
+  }
+  writeBytes(this->folder / "bunny.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  writeBytes(this->folder / "screen.obj",
+    "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n");
+  writeBytes(this->folder / "lattice.png", samplePng());
+  writeBytes(this->folder / "panes.png", samplePng());
+  const Scene scene = this->load(document);
+  EXPECT_EQ(scene.models.size(), 3u); // with the ground
+  EXPECT_EQ(scene.lights.size(), document["lights"].size());
 }
 
 } // namespace
