@@ -183,7 +183,7 @@ bool RenderManager::chooseRoute()
   {
     this->report_.notes.push_back("The window has " + std::to_string(samples) +
       " samples per pixel, and the image route one visibility, that of the surface at the pixel's "
-      "centre: where another surface covers the rest of the pixel it is shaded with it, too.");
+      "centre: what covers other samples has that of the nearest surface at a centre around.");
   }
 
   std::vector<ShadedLight> shaded;
@@ -268,6 +268,7 @@ void RenderManager::updateReceivers(const vtkRenderState* s, vtkObjectBase* pass
     value.key = key;
     value.number = ++this->receiversNumbered_;
   }
+  this->stageValues_.depths = { GL_TEXTURE_2D, value.target.depths() };
   this->findStaleVisibility();
   this->endStageClock("receivers");
 }

@@ -20,7 +20,7 @@ namespace
 {
 
 const std::string declarationMarker = "//GNOMON::Light::Dec";
-const std::string normalMarker = "//GNOMON::Normal::Impl";
+const std::string uniformFlowMarker = "//GNOMON::UniformFlow::Impl";
 const std::string beginMarker = "//GNOMON::Light::Begin";
 const std::string endMarker = "//GNOMON::Light::End";
 
@@ -85,9 +85,26 @@ void ShaderManager::configure(const HookVariant& variant, const std::vector<Shad
   std::string declarations = hookShaders().at("plugin/frame/hook.glsl");
   std::string position = "vertexVC.xyz";
   std::string extensions;
+  std::string uniformFlow;
+  if (asksAtPoints || variant.receiverPoints)
+  {
+    uniformFlow = "vec3 gnomonNormal = gnomonFaceNormal(vertexVC.xyz, cameraParallel == 1);\n";
+  }
+  std::string multiplications;
   if (variant.route == Route::Image)
   {
     declarations += hookShaders().at("plugin/frame/hook_image.glsl");
+    if (variant.multisampled)
+    {
+      declarations += hookShaders().at("plugin/frame/hook_layer_multisample.glsl");
+      uniformFlow +=
+        "vec2 gnomonDepthPerPixel = vec2(dFdx(gl_FragCoord.z), dFdy(gl_FragCoord.z));\n";
+      multiplications = "  gnomonFindPixel(gnomonDepthPerPixel);\n";
+    }
+    else
+    {
+      declarations += hookShaders().at("plugin/frame/hook_layer.glsl");
+    }
   }
   if (asksAtPoints && variant.multisampled)
   {
@@ -95,7 +112,10 @@ void ShaderManager::configure(const HookVariant& variant, const std::vector<Shad
     position = "gnomonCentroid(vertexVC.xyz, gnomonNormal, cameraParallel == 1)";
     extensions = "#extension GL_ARB_gpu_shader5 : require\n"; // for interpolateAtCentroid
   }
-  std::string multiplications = asksAtPoints ? "  vec3 gnomonPosition = " + position + ";\n" : "";
+  if (asksAtPoints)
+  {
+    multiplications += "  vec3 gnomonPosition = " + position + ";\n";
+  }
   for (std::size_t i = 0; i < lights.size(); ++i)
   {
     const ShadedLight& shaded = lights[i];
@@ -125,7 +145,7 @@ void ShaderManager::configure(const HookVariant& variant, const std::vector<Shad
     this->multiplications_ = multiplications;
     this->variant_ = variant;
     this->extensions_ = extensions;
-    this->needsNormal_ = asksAtPoints || variant.receiverPoints;
+    this->uniformFlow_ = uniformFlow;
     this->stageTime_.Modified();
   }
   this->lights_ = lights;
@@ -162,7 +182,7 @@ void ShaderManager::markShader(
   }
   replace(fragmentShader, "//VTK::Light::Dec", "//VTK::Light::Dec\n" + declarationMarker);
   replace(
-    fragmentShader, "//VTK::UniformFlow::Impl", normalMarker + "\n  //VTK::UniformFlow::Impl");
+    fragmentShader, "//VTK::UniformFlow::Impl", uniformFlowMarker + "\n  //VTK::UniformFlow::Impl");
   replace(
     fragmentShader, "//VTK::Light::Impl", beginMarker + "\n  //VTK::Light::Impl\n  " + endMarker);
 }
@@ -176,17 +196,14 @@ void ShaderManager::fillShader(std::string& fragmentShader, bool receiversStage)
   const bool receives =
     this->lights_.empty() || fragmentShader.find("vec4 vertexVC") != std::string::npos;
   std::string declarations;
-  std::string normal;
+  std::string uniformFlow;
   std::string begin;
   std::string end;
   if (receives)
   {
     declarations = this->declarations_;
+    uniformFlow = this->uniformFlow_;
     begin = this->multiplications_;
-    if (this->needsNormal_)
-    {
-      normal = "vec3 gnomonNormal = gnomonFaceNormal(vertexVC.xyz, cameraParallel == 1);\n";
-    }
   }
   if (this->variant_.route == Route::Image && receiversStage)
   {
@@ -207,7 +224,7 @@ void ShaderManager::fillShader(std::string& fragmentShader, bool receiversStage)
   // VTK will put its #version line at this mark, which extensions must follow.
   replace(fragmentShader, "//VTK::System::Dec", "//VTK::System::Dec\n" + this->extensions_);
   replace(fragmentShader, declarationMarker, declarations);
-  replace(fragmentShader, normalMarker, normal);
+  replace(fragmentShader, uniformFlowMarker, uniformFlow);
   replace(fragmentShader, beginMarker, begin);
   replace(fragmentShader, endMarker, end);
 }
@@ -290,6 +307,10 @@ void ShaderManager::bindVisibility(const StageValues& values)
   if (this->variant_.route == Route::Image)
   {
     add("gnomonLayers", this->bindTexture(values.layers));
+    if (this->variant_.multisampled)
+    {
+      add("gnomonDepths", this->bindTexture(values.depths));
+    }
   }
   for (std::size_t i = 0; i < this->lights_.size(); ++i)
   {

@@ -23,7 +23,7 @@ struct HookVariant
 {
   Route route = Route::Inline;
   bool receiverPoints = false; ///< image route: the receivers stage draws points and normals, too
-  bool multisampled = false;   ///< pixels have several samples; points are their centroids
+  bool multisampled = false;   ///< pixels have several samples, of which a surface may have some
 };
 
 /// One casting light, as the shader hook needs it.
@@ -72,6 +72,7 @@ public:
     ReceiverSpace space;
     TextureBinding layers;      ///< image route: the visibility layers
     glm::ivec2 layersSize{ 0 }; ///< and their size in pixels
+    TextureBinding depths;      ///< of the receivers that the layers are of
   };
   /// Between beginStage and endStage VTK draws: textures are bound to units of their own. endStage
   /// also ends a stage that has failed half way, and does nothing where there is none.
@@ -93,11 +94,11 @@ private:
   bool setLayersOrigin(GLuint program);
 
   HookVariant variant_;
-  bool needsNormal_ = false;
   std::string extensions_;
   std::string declarations_;
   std::map<std::string, std::vector<std::string>> samplers_; ///< of the declarations, by type
-  std::string multiplications_;
+  std::string uniformFlow_;     ///< statements that must be in uniform control flow
+  std::string multiplications_; ///< and those in front of VTK's light loop
   vtkTimeStamp stageTime_;
   int rebuilds_ = 0;
 

@@ -1,4 +1,5 @@
-// The image route's declarations: one visibility layer per casting light.
+// The image route's declarations: one visibility layer per casting light. Their fetch follows, in
+// hook_layer.glsl or hook_layer_multisample.glsl.
 
 uniform sampler2DArray gnomonLayers;
 uniform ivec2 gnomonOrigin; // the window pixel that the layers' first pixel belongs to
@@ -6,11 +7,6 @@ uniform int gnomonStage;    // 1: this is the receivers stage
 uniform int gnomonDrawn;    // the drawn surface's number, -1 if the snapshot does not hold it
 uniform int gnomonTranslucent; // 1: drawn in the translucent pass, and not on the layers
 uniform int gnomonPrimitivesPerInstance; // of a surface that is drawn as instances
-
-float gnomonLayer(int layer)
-{
-  return texelFetch(gnomonLayers, ivec3(ivec2(gl_FragCoord.xy) - gnomonOrigin, layer), 0).r;
-}
 
 // What the receivers stage says of the surface: its number + 1, negative if it shows no shadows.
 float gnomonDrawnSurface()

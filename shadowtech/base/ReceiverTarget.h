@@ -32,6 +32,7 @@ public:
 
   GLuint fragments() const { return this->fragments_.name(); }
   GLuint points() const { return this->points_.name(); }
+  GLuint depths() const { return this->depth_.name(); }
   int width() const { return this->width_; }
   int height() const { return this->height_; }
   std::size_t bytes() const;

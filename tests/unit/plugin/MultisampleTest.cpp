@@ -1,13 +1,18 @@
 // Windows with several samples per pixel, which is what VTK's own windows have by default.
 
+#include "BuiltinPass.h"
 #include "PassScene.h"
 
 #include "Scene.h"
+
+#include "shadowtech/base/Gl.h"
 
 #include <vtkActor.h>
 #include <vtkActorCollection.h>
 #include <vtkCellArray.h>
 #include <vtkCollectionRange.h>
+#include <vtkOpenGLFramebufferObject.h>
+#include <vtkOpenGLState.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkProperty.h>
@@ -15,8 +20,11 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
+#include <string>
+#include <vector>
 
 using namespace gnomon::test;
 using gnomon::VisibilityImages;
@@ -161,6 +169,98 @@ std::unique_ptr<PassScene> makeSurfaces(bool parallel)
   return scene;
 }
 
+/// Leaves a scene's surfaces a colour each, times the light that arrives.
+void makeMatt(vtkRenderer* renderer)
+{
+  renderer->SetBackground(0.0, 0.0, 0.0);
+  for (vtkActor* actor : vtk::Range(renderer->GetActors()))
+  {
+    actor->GetProperty()->SetAmbient(0.0);
+    actor->GetProperty()->SetSpecular(0.0);
+  }
+}
+
+/// Where a window has a pixel's samples, in pixels from its centre.
+std::vector<glm::dvec2> samplesOf(vtkOpenGLRenderWindow* window)
+{
+  window->GetState()->PushFramebufferBindings();
+  window->GetRenderFramebuffer()->Bind();
+  GLint count = 0;
+  glGetIntegerv(GL_SAMPLES, &count);
+  std::vector<glm::dvec2> found;
+  for (GLint i = 0; i < count; ++i)
+  {
+    glm::vec2 position;
+    glGetMultisamplefv(GL_SAMPLE_POSITION, static_cast<GLuint>(i), &position.x);
+    found.push_back(glm::dvec2(position) - 0.5);
+  }
+  window->GetState()->PopFramebufferBindings();
+  return found;
+}
+
+/// A frame of one sample per pixel.
+struct Sample
+{
+  Picture plain; ///< without shadows
+  VisibilityImages kept;
+
+  /// Where `kept`, whose first row is the top one, has a pixel of `plain`.
+  std::size_t indexOf(int x, int y) const
+  {
+    return static_cast<std::size_t>(this->kept.height - 1 - y) *
+      static_cast<std::size_t>(this->kept.width) +
+      static_cast<std::size_t>(x);
+  }
+  /// What is not covered reads as lit.
+  double visibility(std::size_t i) const
+  {
+    return this->kept.coverage[i] > 0.0f ? this->kept.visibility[0][i] : 1.0;
+  }
+  glm::dvec3 normal(std::size_t i) const
+  {
+    return { this->kept.normalX[i], this->kept.normalY[i], this->kept.normalZ[i] };
+  }
+  /// Whether another sample of a pixel shows another plane.
+  bool differs(const Sample& other, std::size_t i) const
+  {
+    if (this->kept.coverage[i] == 0.0f || other.kept.coverage[i] == 0.0f)
+    {
+      return this->kept.coverage[i] != other.kept.coverage[i];
+    }
+    const glm::dvec3 between = positionOf(other.kept, i) - positionOf(this->kept, i);
+    return glm::dot(this->normal(i), other.normal(i)) < 0.9999 ||
+      std::abs(glm::dot(this->normal(i), between)) > 1e-3;
+  }
+};
+
+/// The mean of what the samples of a pixel show, as VTK takes it: of the light, by a gamma of 2.2.
+template <typename ShownBy>
+double resolve(const std::vector<Sample>& samplesOfPixel, const ShownBy& shownBy)
+{
+  double light = 0.0;
+  for (const Sample& sample : samplesOfPixel)
+  {
+    light += std::pow(shownBy(sample), 2.2);
+  }
+  return std::pow(light / static_cast<double>(samplesOfPixel.size()), 1.0 / 2.2);
+}
+
+/// Draws what is at a place of each pixel.
+/// @param place in pixels from its centre
+Sample drawSample(BuiltinPass& scene, const glm::dvec2& place)
+{
+  scene.window->SetMultiSamples(0);
+  const int* size = scene.window->GetSize();
+  scene.renderer->GetActiveCamera()->SetWindowCenter(
+    2.0 * place.x / size[0], 2.0 * place.y / size[1]);
+  scene.window->Render();
+  const VisibilityImages kept = scene.pass->GetVisibility();
+  scene.renderer->SetPass(nullptr);
+  scene.window->Render();
+  scene.renderer->SetPass(scene.pass);
+  return { readPicture(scene.window), kept };
+}
+
 class Multisample
   : public PassTest
   , public testing::WithParamInterface<bool>
@@ -201,12 +301,7 @@ TEST_F(PassTest, multisamplingGivesTheBunnyNoSpecks)
   const auto draw = [](const char* technique, int pixels, int multiSamples, VisibilityImages* kept)
   {
     const auto renderer = gnomon::tool::makeRenderer(gnomon::tool::loadScene("bunny"), 1.0);
-    renderer->SetBackground(0.0, 0.0, 0.0);
-    for (vtkActor* actor : vtk::Range(renderer->GetActors()))
-    {
-      actor->GetProperty()->SetAmbient(0.0);
-      actor->GetProperty()->SetSpecular(0.0);
-    }
+    makeMatt(renderer);
     vtkNew<vtkGnomonEGLRenderWindow> window;
     window->SetSize(pixels, pixels);
     window->SetMultiSamples(multiSamples);
@@ -232,6 +327,82 @@ TEST_F(PassTest, multisamplingGivesTheBunnyNoSpecks)
   RecordProperty("dark", static_cast<int>(specks.dark));
   EXPECT_GT(specks.lit, 30000u);
   EXPECT_LE(specks.dark, specks.lit / 10000);
+}
+
+//------------------------------------------------------------------------------
+/// Outlines are pixels whose centres show something else, or nothing.
+TEST_F(PassTest, outlinesAreLitAsTheirSurfaces)
+{
+  const auto scene = makeSurfaces(true);
+  for (double x = -2.0; x < 2.0; x += 0.11)
+  {
+    scene->addBox({ x, -1.6, 0.1 }, { x + 0.01, -1.59, 1.0 });
+  }
+  const double* const along = scene->renderer->GetActiveCamera()->GetDirectionOfProjection();
+  scene->renderer->RemoveAllLights();
+  scene->addSun({ along[0], along[1], along[2] }); // lights all that is seen
+  scene->pass->SetTechnique("raytraced");
+  scene->window->SetMultiSamples(samples);
+  const Picture lit = scene->render();
+  EXPECT_EQ(scene->report().route, "image");
+  scene->usePlain();
+  EXPECT_EQ(differingPixels(lit, scene->render(), 1), 0u);
+
+  scene->useGnomon();
+  scene->addBox({ -20.0, -9.1, -20.0 }, { 20.0, -9.0, 20.0 }); // behind the camera
+  const Picture shaded = scene->render();
+  EXPECT_EQ(std::count_if(shaded.rgb.begin(), shaded.rgb.end(), [](int v) { return v > 1; }), 0);
+}
+
+//------------------------------------------------------------------------------
+/// Against what the samples show, each by itself, in pixels that show several surfaces; and against
+/// the same with the visibility of the pixel's centre for all of them.
+TEST_F(PassTest, outlinesHaveTheVisibilityOfTheirSurfaces)
+{
+  BuiltinPass scene("posts", 256);
+  makeMatt(scene.renderer);
+  for (vtkActor* actor : vtk::Range(scene.renderer->GetActors()))
+  {
+    actor->GetProperty()->SetInterpolationToFlat(); // so that a fragment's samples look alike
+  }
+  scene.pass->SetTechnique("raytraced");
+  scene.window->SetMultiSamples(samples);
+  scene.window->Render();
+  const Picture drawn = readPicture(scene.window);
+  const std::vector<glm::dvec2> places = samplesOf(scene.window);
+  const Sample centre = drawSample(scene, glm::dvec2(0.0));
+  std::vector<Sample> all;
+  for (const glm::dvec2& place : places)
+  {
+    all.push_back(drawSample(scene, place));
+  }
+
+  double squared = 0.0;
+  double squaredOfCentre = 0.0;
+  int pixels = 0;
+  for (int y = 0; y < drawn.height; ++y)
+  {
+    for (int x = 0; x < drawn.width; ++x)
+    {
+      const std::size_t i = centre.indexOf(x, y);
+      if (std::none_of(all.begin(), all.end(),
+            [&](const Sample& sample) { return sample.differs(all.front(), i); }))
+      {
+        continue;
+      }
+      const double truth = resolve(
+        all, [&](const Sample& sample) { return sample.plain.red(x, y) * sample.visibility(i); });
+      const double ofCentre = resolve(
+        all, [&](const Sample& sample) { return sample.plain.red(x, y) * centre.visibility(i); });
+      squared += std::pow(drawn.red(x, y) - truth, 2.0);
+      squaredOfCentre += std::pow(ofCentre - truth, 2.0);
+      ++pixels;
+    }
+  }
+  RecordProperty("rms", std::to_string(std::sqrt(squared / pixels)));
+  RecordProperty("rms_of_centre", std::to_string(std::sqrt(squaredOfCentre / pixels)));
+  EXPECT_GT(pixels, 2000);
+  EXPECT_LE(std::sqrt(squared), 0.5 * std::sqrt(squaredOfCentre));
 }
 
 //------------------------------------------------------------------------------

@@ -1,0 +1,39 @@
+// The image route's fetch where a pixel has several samples. The layers hold the visibility of what
+// the pixels' centres show. A surface that covers other samples of a pixel may show at the centre
+// of a neighbour: the fetch is from whichever pixel shows what is nearest to the fragment's plane.
+
+uniform sampler2D gnomonDepths; // the receivers stage's depth buffer
+
+const ivec2 gnomonAround[5] =
+  ivec2[5](ivec2(0), ivec2(-1, 0), ivec2(1, 0), ivec2(0, -1), ivec2(0, 1));
+
+ivec2 gnomonPixel;
+
+// Depth is affine over the picture of a plane, so its slope leads to the neighbours' centres.
+void gnomonFindPixel(vec2 depthPerPixel)
+{
+  ivec2 own = ivec2(gl_FragCoord.xy) - gnomonOrigin;
+  ivec2 last = textureSize(gnomonDepths, 0) - 1;
+  // What is on the plane is off by depth's rounding, or by the plane's rise in 1/64 pixel.
+  float onPlane = 2.4e-7 + (abs(depthPerPixel.x) + abs(depthPerPixel.y)) / 64.0;
+  // What the snapshot does not hold is on no layer, and its plane may be an impostor's.
+  float least = gnomonDrawn < 0 ? 0.0 : 1e30;
+  gnomonPixel = own;
+  for (int i = 0; i < 5; ++i)
+  {
+    ivec2 pixel = clamp(own + gnomonAround[i], ivec2(0), last);
+    float shown = texelFetch(gnomonDepths, pixel, 0).r;
+    float depth = gl_FragCoord.z + dot(depthPerPixel, vec2(pixel - own));
+    float off = max(abs(shown - depth), onPlane);
+    if (off < least && shown < 1.0) // 1: nothing is there
+    {
+      least = off;
+      gnomonPixel = pixel;
+    }
+  }
+}
+
+float gnomonLayer(int layer)
+{
+  return texelFetch(gnomonLayers, ivec3(gnomonPixel, layer), 0).r;
+}
