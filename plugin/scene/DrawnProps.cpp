@@ -4,8 +4,7 @@
 #include "plugin/scene/CompositeBlocks.h"
 #include "plugin/scene/GlyphInstances.h"
 #include "plugin/scene/MapperInternals.h"
-#include "plugin/scene/PlainProps.h"
-#include "plugin/scene/TextureCutouts.h"
+#include "plugin/scene/PropMemory.h"
 #include "plugin/vtkGnomonPropKeys.h"
 
 #include "vtkActor.h"
@@ -17,6 +16,7 @@
 #include "vtkCompositePolyDataMapper2.h"
 #include "vtkDataSetMapper.h"
 #include "vtkGlyph3DMapper.h"
+#include "vtkImageMapper3D.h"
 #include "vtkImageProperty.h"
 #include "vtkImageSlice.h"
 #include "vtkInformation.h"
@@ -50,7 +50,7 @@ namespace
 {
 
 /// A mapper's clipping planes, as many as VTK applies.
-std::vector<glm::dvec4> clipPlanesOf(vtkMapper* mapper)
+std::vector<glm::dvec4> clipPlanesOf(vtkAbstractMapper* mapper)
 {
   constexpr int mostPlanes = 6;
   std::vector<glm::dvec4> planes;
@@ -177,12 +177,12 @@ void takeKeys(DrawnProp& prop)
   }
 }
 
-/// Whether a prop that is no actor could show a shadow, or was told to cast one.
-bool isLitOrCasts(vtkProp* leaf, vtkProp* viewProp)
+/// Whether a prop that is no actor could show a shadow.
+bool isLit(vtkProp* leaf)
 {
   if (auto* slice = vtkImageSlice::SafeDownCast(leaf))
   {
-    return slice->GetProperty()->GetDiffuse() > 0.0 || askedToCast(viewProp);
+    return slice->GetProperty()->GetDiffuse() > 0.0;
   }
   const bool isText = leaf->IsA("vtkTextActor3D") || leaf->IsA("vtkBillboardTextActor3D");
   return leaf->IsA("vtkProp3D") && !leaf->IsA("vtkAssembly") && !isText;
@@ -191,10 +191,9 @@ bool isLitOrCasts(vtkProp* leaf, vtkProp* viewProp)
 class Finder
 {
 public:
-  Finder(vtkRenderer* renderer, TextureCutouts& cutouts, PlainProps& plainProps)
+  Finder(vtkRenderer* renderer, PropMemory& memory)
     : renderer_(renderer)
-    , cutouts_(cutouts)
-    , plainProps_(plainProps)
+    , memory_(memory)
   {
     const auto count = static_cast<std::size_t>(renderer->GetViewProps()->GetNumberOfItems());
     this->drawn_.props.reserve(count);
@@ -206,6 +205,7 @@ public:
 private:
   void addPlain(const PlainProp& plain);
   void addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatrix4x4* matrix);
+  void addImage(vtkProp* viewProp, std::size_t path, vtkImageSlice* slice, vtkMatrix4x4* matrix);
   bool serves(vtkMapper* mapper, MapperKind kind);
   void addBlocks(vtkActor* actor, vtkMapper* mapper, MapperKind kind, bool translucent);
   bool updateInput(vtkMapper* mapper, MapperKind kind);
@@ -215,8 +215,7 @@ private:
   }
 
   vtkRenderer* renderer_;
-  TextureCutouts& cutouts_;
-  PlainProps& plainProps_;
+  PropMemory& memory_;
   DrawnProps drawn_;
   std::unordered_set<vtkMapper*> updated_;
   std::map<std::string, int> skipped_; ///< what was left out, and how often
@@ -227,7 +226,7 @@ private:
 //------------------------------------------------------------------------------
 void Finder::addViewProp(vtkProp* viewProp)
 {
-  const PlainProp* plain = this->plainProps_.next(viewProp);
+  const PlainProp* plain = this->memory_.plainProps.next(viewProp);
   if (!viewProp->GetVisibility())
   {
     return;
@@ -295,9 +294,16 @@ void Finder::addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatr
         this->addLeaf(viewProp, path, level, matrix); // it is drawn where its owner is
       }
     }
-    else if (isLitOrCasts(leaf, viewProp))
+    else if (auto* slice = vtkImageSlice::SafeDownCast(leaf); slice && askedToCast(viewProp))
     {
-      this->skip(leaf, leaf->IsA("vtkVolume") ? "a volume" : "draws through props of its own");
+      this->addImage(viewProp, path, slice, matrix);
+    }
+    else if (isLit(leaf))
+    {
+      this->skip(leaf,
+        leaf->IsA("vtkVolume")         ? "a volume"
+          : leaf->IsA("vtkImageSlice") ? "not asked to cast"
+                                       : "draws through props of its own");
     }
     return;
   }
@@ -305,10 +311,10 @@ void Finder::addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatr
   {
     return;
   }
-  const bool isLit = actor->GetProperty()->GetLighting();
+  const bool lit = actor->GetProperty()->GetLighting();
   if (actor->GetProperty()->GetRepresentation() != VTK_SURFACE)
   {
-    if (isLit)
+    if (lit)
     {
       const bool asPoints = actor->GetProperty()->GetRepresentation() == VTK_POINTS;
       this->skip(actor, asPoints ? "as points" : "as a wireframe");
@@ -345,7 +351,7 @@ void Finder::addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatr
   takeKeys(prop);
   const char* uncutReason = nullptr;
   const TextureCutout cutout =
-    this->cutouts_.find(actor, drawing.mapper, viewProp->GetPropertyKeys(), uncutReason);
+    this->memory_.cutouts.find(actor, drawing.mapper, viewProp->GetPropertyKeys(), uncutReason);
   prop.cutout = cutout.mask;
   prop.textureTransform = cutout.transform;
   const auto add = [&](bool translucent)
@@ -357,7 +363,7 @@ void Finder::addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatr
     const auto first = this->drawn_.blocks.begin() + static_cast<std::ptrdiff_t>(prop.firstBlock);
     if (std::none_of(first, this->drawn_.blocks.end(), hasSurfaces))
     {
-      if (isLit && std::any_of(first, this->drawn_.blocks.end(), hasLinesOrPoints))
+      if (lit && std::any_of(first, this->drawn_.blocks.end(), hasLinesOrPoints))
       {
         this->skip(mapper, "lines or points");
       }
@@ -381,7 +387,7 @@ void Finder::addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatr
     add(false);
     if (eitherOr && viewProp == actor && this->drawn_.props.size() > before)
     {
-      this->plainProps_.remember(actor);
+      this->memory_.plainProps.remember(actor);
     }
   }
   if (translucent)
@@ -403,6 +409,38 @@ void Finder::addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatr
       ++this->uncut_[uncutReason];
     }
   }
+}
+
+//------------------------------------------------------------------------------
+/// Adds the rectangle of an image that is asked to cast; VTK draws it in the opaque pass.
+void Finder::addImage(
+  vtkProp* viewProp, std::size_t path, vtkImageSlice* slice, vtkMatrix4x4* matrix)
+{
+  if (!slice->GetMapper())
+  {
+    return;
+  }
+  const ImageRectangle rectangle = this->memory_.images.find(slice);
+  if (!rectangle.actor)
+  {
+    this->skip(slice->GetMapper(), "mapper not served");
+    return;
+  }
+  DrawnProp prop;
+  prop.viewProp = viewProp;
+  prop.path = path;
+  prop.actor = rectangle.actor;
+  prop.mapper = rectangle.actor->GetMapper();
+  prop.worldFromModel = toGlm(matrix ? matrix : slice->GetMatrix());
+  prop.clipPlanes = clipPlanesOf(slice->GetMapper());
+  takeKeys(prop);
+  prop.firstBlock = this->drawn_.blocks.size();
+  prop.blockCount = 1;
+  DrawnBlock block;
+  block.data = rectangle.data;
+  block.drawnAs = rectangle.drawn;
+  this->drawn_.blocks.push_back(block);
+  this->drawn_.props.push_back(std::move(prop));
 }
 
 //------------------------------------------------------------------------------
@@ -515,11 +553,12 @@ glm::dmat4 toGlm(vtkMatrix4x4* matrix)
 }
 
 //------------------------------------------------------------------------------
-DrawnProps findDrawnProps(vtkRenderer* renderer, TextureCutouts& cutouts, PlainProps& plainProps)
+DrawnProps findDrawnProps(vtkRenderer* renderer, PropMemory& memory)
 {
-  cutouts.beginFrame();
-  plainProps.beginFrame();
-  Finder finder(renderer, cutouts, plainProps);
+  memory.plainProps.beginFrame();
+  memory.cutouts.beginFrame();
+  memory.images.beginFrame();
+  Finder finder(renderer, memory);
   vtkPropCollection* viewProps = renderer->GetViewProps();
   vtkCollectionSimpleIterator cookie;
   viewProps->InitTraversal(cookie);
@@ -527,7 +566,7 @@ DrawnProps findDrawnProps(vtkRenderer* renderer, TextureCutouts& cutouts, PlainP
   {
     finder.addViewProp(viewProp);
   }
-  plainProps.endFrame();
+  memory.plainProps.endFrame();
   return finder.take();
 }
 

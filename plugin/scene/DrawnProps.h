@@ -19,9 +19,8 @@ class vtkRenderer;
 namespace gnomon
 {
 
-class PlainProps;
-class TextureCutouts;
 struct CutoutMask;
+struct PropMemory;
 
 /// A VTK matrix as GLM's: the same transformation.
 glm::dmat4 toGlm(vtkMatrix4x4* matrix);
@@ -32,6 +31,7 @@ struct DrawnBlock
   vtkPolyData* data = nullptr;
   vtkDataSet* glyphPoints = nullptr; ///< for a glyph: the points that it is drawn at
   int glyphSource = 0;               ///< and its place in the mapper's table of sources
+  vtkPolyData* drawnAs = nullptr;    ///< what VTK draws in its place; null: the data itself
   /// Of the texture that cuts holes into it; null where none does.
   vtkDataArray* textureCoordinates = nullptr;
 };
@@ -78,8 +78,7 @@ struct DrawnProps
 /// asked to cast, in the camera's view or not. Brings the inputs of mappers up to date first, as
 /// VTK does when it draws.
 ///
-/// @param cutouts reads their textures, and keeps what it read from frame to frame
-/// @param plainProps keeps from frame to frame what need not be asked again
-DrawnProps findDrawnProps(vtkRenderer* renderer, TextureCutouts& cutouts, PlainProps& plainProps);
+/// @param memory the same for all frames of the renderer
+DrawnProps findDrawnProps(vtkRenderer* renderer, PropMemory& memory);
 
 } // namespace gnomon

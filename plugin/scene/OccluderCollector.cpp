@@ -12,7 +12,7 @@ namespace gnomon
 //------------------------------------------------------------------------------
 SnapshotChange OccluderCollector::collect(vtkRenderer* renderer)
 {
-  DrawnProps drawn = findDrawnProps(renderer, this->cutouts_, this->plainProps_);
+  DrawnProps drawn = findDrawnProps(renderer, this->propMemory_);
   this->lookup_.beginFrame(drawn.translucentReceivers);
   this->notes_ = std::move(drawn.notes);
   this->leftOut_ = std::move(drawn.leftOut);
@@ -39,8 +39,10 @@ void OccluderCollector::indexProps(const std::vector<WantedSurface>& wanted)
     for (; i < wanted.size() && wanted[i].prop == &prop; ++i)
     {
       const std::size_t instances = this->surfaces_.records()[i].modelFromInstance.size();
-      held.push_back({ wanted[i].block.data, wanted[i].key.cells, static_cast<std::uint32_t>(i),
-        wanted[i].block.glyphPoints != nullptr, static_cast<std::uint32_t>(instances) });
+      const DrawnBlock& block = wanted[i].block;
+      held.push_back({ block.drawnAs ? block.drawnAs : block.data, wanted[i].key.cells,
+        static_cast<std::uint32_t>(i), block.glyphPoints != nullptr,
+        static_cast<std::uint32_t>(instances) });
     }
     if (!prop.translucent)
     {
@@ -67,8 +69,7 @@ void OccluderCollector::noteWhatIsTooLarge(const std::vector<WantedSurface>& wan
 //------------------------------------------------------------------------------
 std::size_t OccluderCollector::bytes() const
 {
-  return this->surfaces_.bytes() + this->lookup_.bytes() + this->cutouts_.bytes() +
-    this->plainProps_.bytes();
+  return this->surfaces_.bytes() + this->lookup_.bytes() + this->propMemory_.bytes();
 }
 
 //------------------------------------------------------------------------------

@@ -1,9 +1,8 @@
 #pragma once
 
 #include "plugin/scene/DrawnLookup.h"
-#include "plugin/scene/PlainProps.h"
+#include "plugin/scene/PropMemory.h"
 #include "plugin/scene/SnapshotSurfaces.h"
-#include "plugin/scene/TextureCutouts.h"
 
 #include "shadowtech/base/Receivers.h"
 
@@ -25,7 +24,8 @@ namespace gnomon
 /// assemblies, as followers or as levels of detail, whose mapper is a vtkPolyDataMapper, a
 /// vtkDataSetMapper, a vtkCompositePolyDataMapper (2 or not) or a vtkGlyph3DMapper; and translucent
 /// ones that are asked to cast.
-/// With them goes what a texture cuts out of them (TextureCutouts).
+/// With them goes what a texture cuts out of them (TextureCutouts). Image slices that are asked to
+/// cast are held as their rectangles.
 /// A polydata with polygons and strips makes two surfaces; a glyph makes one surface, with its
 /// instances or with the triangles of all of them (KeptInstances.h). Front and back are OpenGL's: a
 /// triangle's front is the side that shows its corners counter-clockwise after the prop's matrix.
@@ -66,8 +66,7 @@ private:
 
   SnapshotSurfaces surfaces_;
   DrawnLookup lookup_;
-  TextureCutouts cutouts_;
-  PlainProps plainProps_;
+  PropMemory propMemory_;
   std::size_t translucentReceivers_ = 0;
   std::vector<std::string> notes_;
   std::vector<std::string> leftOut_;

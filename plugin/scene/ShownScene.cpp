@@ -117,7 +117,7 @@ std::size_t ShownScene::hash(vtkRenderer* renderer)
 {
   std::size_t seed = 0;
   hashSurroundings(seed, renderer);
-  hashDrawn(seed, findDrawnProps(renderer, this->cutouts_, this->plainProps_));
+  hashDrawn(seed, findDrawnProps(renderer, this->propMemory_));
   vtkCollectionSimpleIterator iterator;
   vtkPropCollection* props = renderer->GetViewProps();
   props->InitTraversal(iterator);

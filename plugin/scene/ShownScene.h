@@ -1,7 +1,6 @@
 #pragma once
 
-#include "plugin/scene/PlainProps.h"
-#include "plugin/scene/TextureCutouts.h"
+#include "plugin/scene/PropMemory.h"
 
 #include <cstddef>
 
@@ -19,8 +18,7 @@ public:
   std::size_t hash(vtkRenderer* renderer);
 
 private:
-  TextureCutouts cutouts_;
-  PlainProps plainProps_;
+  PropMemory propMemory_;
 };
 
 } // namespace gnomon

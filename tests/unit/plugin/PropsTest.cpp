@@ -12,13 +12,16 @@
 #include <vtkDataSetMapper.h>
 #include <vtkFollower.h>
 #include <vtkGlyph3DMapper.h>
+#include <vtkImageActor.h>
 #include <vtkImageData.h>
+#include <vtkImageProperty.h>
 #include <vtkLODActor.h>
 #include <vtkLODProp3D.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkObjectFactory.h>
 #include <vtkOpenGLPolyDataMapper.h>
 #include <vtkPlaneSource.h>
+#include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProp3DFollower.h>
@@ -255,6 +258,37 @@ TEST_P(Props, dataSetsAndPartsCastAndReceive)
     this->scene.renderer->RemoveActor(actor);
   }
   EXPECT_TRUE(this->messages_.warnings().empty());
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Props, imagesCastAndReceiveIfAsked)
+{
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(5, 5, 1);
+  image->SetSpacing(0.5, 0.5, 1.0);
+  image->AllocateScalars(VTK_UNSIGNED_CHAR, 1);
+  image->GetPointData()->GetScalars()->Fill(255.0);
+  vtkNew<vtkImageActor> slice; // the square [-1.25, 1.25] at height 2
+  slice->SetInputData(image);
+  slice->SetPosition(-1.0, -1.0, 2.0);
+  slice->GetProperty()->SetAmbient(0.0);
+  slice->GetProperty()->SetDiffuse(1.0);
+  this->scene.renderer->AddViewProp(slice);
+  EXPECT_GT(this->scene.redAt(this->scene.render(), 2.5, 0.0), 150) << "not asked yet";
+  EXPECT_EQ(this->messages_.warnings().size(), 1u);
+  vtkGnomonPropKeys::SetCasts(slice, true);
+  const Picture picture = this->scene.render();
+  EXPECT_EQ(this->scene.redAt(picture, 2.5, 0.0), 0) << "shaded floor";
+  EXPECT_GT(this->scene.redAt(picture, 3.4, 0.0), 150) << "lit floor beyond";
+  EXPECT_GT(this->scene.redAt(picture, 0.5, 0.0), 150) << "lit image";
+  EXPECT_EQ(differingPixels(picture, this->scene.render()), 0u);
+  EXPECT_EQ(this->scene.report().surfacesExtracted, 0) << "a frame like the last one";
+  this->addSquare(true)->SetPosition(-4.0, 0.0, 4.0);
+  const Picture shaded = this->scene.render();
+  EXPECT_EQ(this->scene.redAt(shaded, 0.5, 0.0), 0) << "shaded image";
+  EXPECT_GT(this->scene.redAt(shaded, -1.1, 1.1), 150) << "lit image";
+  slice->SetPosition(-1.0, 2.0, 2.0);
+  EXPECT_EQ(this->scene.redAt(this->scene.render(), 2.5, 3.0), 0) << "moved";
 }
 
 //------------------------------------------------------------------------------

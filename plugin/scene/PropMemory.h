@@ -1,0 +1,25 @@
+#pragma once
+
+#include "plugin/scene/ImageRectangles.h"
+#include "plugin/scene/PlainProps.h"
+#include "plugin/scene/TextureCutouts.h"
+
+#include <cstddef>
+
+namespace gnomon
+{
+
+/// What findDrawnProps() keeps of a renderer's props from frame to frame.
+struct PropMemory
+{
+  PlainProps plainProps;
+  TextureCutouts cutouts;
+  ImageRectangles images;
+
+  std::size_t bytes() const
+  {
+    return this->plainProps.bytes() + this->cutouts.bytes() + this->images.bytes();
+  }
+};
+
+} // namespace gnomon
