@@ -249,8 +249,8 @@ std::string whyWithoutShadow(vtkLight* light)
   return {};
 }
 
-/// The renderer's only light, if that is a headlight of which nobody has said whether it casts;
-/// else null.
+/// The only light that gives light, if it is a headlight that would cast by default
+/// (vtkGnomonLightKeys::CASTS is not set); else null.
 const vtkLight* loneHeadlight(vtkRenderer* renderer)
 {
   vtkLight* only = nullptr;
@@ -268,8 +268,9 @@ const vtkLight* loneHeadlight(vtkRenderer* renderer)
     }
     only = light;
   }
-  const bool isSilent = only && !only->GetInformation()->Has(vtkGnomonLightKeys::CASTS());
-  return isSilent && only->LightTypeIsHeadlight() ? only : nullptr;
+  const bool castsByDefault = only && whyWithoutShadow(only).empty() &&
+    !only->GetInformation()->Has(vtkGnomonLightKeys::CASTS());
+  return castsByDefault && only->LightTypeIsHeadlight() ? only : nullptr;
 }
 
 /// Why this light's numbers say not where it shines from and to; empty when they do.

@@ -29,7 +29,7 @@ struct LightSet
 {
   std::vector<ShadowLight> lights;
   std::vector<SkippedLight> skipped;
-  bool headlightIsAlone = false; ///< a headlight is among the skipped because there is no other
+  bool headlightIsAlone = false; ///< a headlight was skipped because it is the only light
 };
 
 /// Reads the renderer's vtkLights as they are at this moment.
@@ -38,9 +38,9 @@ struct LightSet
 /// UpdateLightsGeometryToFollowCamera() must have set for this frame. Lights that cannot show a
 /// shadow are left out with a reason: switched off, black, no intensity, marked as not casting,
 /// strength 0, and those whose numbers give no light (a cone without angle, an empty box, an
-/// endless area). So is a headlight that is the only light, as the one that VTK makes where there
-/// is none, unless it is marked as casting: its shadows hide behind what casts them. How large a light is follows from the setting `light_radius`, else from
-/// vtkGnomonAreaLight, else from OSPRay's key for it.
+/// endless area). A headlight that is the only light is left out unless it is marked as casting:
+/// its shadows hide behind what casts them. How large a light is follows from the setting
+/// `light_radius`, else from vtkGnomonAreaLight, else from OSPRay's key for it.
 ///
 /// Textures of lights are kept until the next frame: an image is read once, however many lights
 /// have it, and again when it has changed.

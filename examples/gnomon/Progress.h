@@ -29,7 +29,7 @@ public:
   Progress& operator=(const Progress&) = delete;
 
   /// What is done now.
-  /// @param share how much of all work is done, in [0, 1]; none where nobody knows
+  /// @param share how much of all work is done, in [0, 1]; none if that is not known
   void begin(const std::string& step, std::optional<double> share = std::nullopt);
 
   /// Writes a line of another kind.

@@ -96,7 +96,8 @@ struct Scene
 
 /// Reads a built-in scene's name, a scene file (.json) or a model file (.obj .ply .stl .vtp .3ds
 /// .glb .gltf). A model gets a ground, and a camera and a light where its file has none.
-/// @param ground whether models stand on a ground, whatever their file says; not of built-in scenes
+/// @param ground whether models stand on a ground; without it their file decides. Built-in scenes
+/// take no ground.
 /// @throws BadInput
 Scene loadScene(const std::string& nameOrPath, std::optional<bool> ground = std::nullopt);
 

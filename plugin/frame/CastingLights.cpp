@@ -25,8 +25,8 @@ int numberOf(const char* setting, const TechniqueInfo& info, const ShadowLight& 
   return value.empty() ? 0 : std::stoi(value);
 }
 
-/// Finds a light's estimator, and completes the light. One whose settings make no sense together has
-/// the plain technique with the default settings.
+/// Finds a light's estimator, and completes the light. If its settings make no sense together, it
+/// gets the plain technique with the default settings.
 const EstimatorEntry& composeIn(ShadowLight& light, std::vector<std::string>& misfits)
 {
   try

@@ -22,8 +22,9 @@ struct RouteChoice
   std::string reason; ///< as a clause
 };
 
-/// The most lights whose techniques VTK's shaders call. Programs grow with each of them, and so
-/// does the time to compile them; each has maps in texture units, of which OpenGL has 32.
+/// The most lights whose techniques VTK's shaders call. Each makes the program longer, which takes
+/// longer to compile, and binds its map to a texture unit. OpenGL promises 16 of them, and VTK's
+/// materials take some.
 inline constexpr std::size_t mostInlineLights = 8;
 
 /// @param wished inline is not served for techniques that work on the screen

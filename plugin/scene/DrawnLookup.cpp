@@ -141,8 +141,8 @@ const DrawnLookup::HeldSurfaces* DrawnLookup::heldBy(vtkProp* prop) const
 
 //------------------------------------------------------------------------------
 /// The surface that is made of these cells. Helpers and parts of mappers draw shallow copies of
-/// what is held. Where several glyphs share the cells, they are drawn in the order in which they are
-/// held.
+/// what is held. Where several glyphs share the cells, VTK draws them in the order in which they
+/// are held.
 const DrawnLookup::HeldSurface* DrawnLookup::match(
   const HeldSurfaces& held, vtkPolyData* data, SurfaceCells cells)
 {

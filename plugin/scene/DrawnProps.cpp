@@ -134,7 +134,7 @@ bool isPlainActor(vtkProp* prop)
   return std::strcmp(prop->GetClassName(), "vtkOpenGLActor") == 0;
 }
 
-/// Whether VTK draws other than surfaces of a polydata.
+/// Whether VTK draws lines or points of a polydata.
 bool hasLinesOrPoints(const DrawnBlock& block)
 {
   return block.data->GetNumberOfVerts() + block.data->GetNumberOfLines() > 0;
@@ -377,6 +377,7 @@ void Finder::addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatr
     }
     this->drawn_.props.push_back(prop);
   };
+  const bool moves = mayMoveVertices(actor);
   const std::size_t before = this->drawn_.props.size();
   const bool opaque = actor->HasOpaqueGeometry();
   // A plain prop is one or the other, and VTK takes as long to answer either.
@@ -385,7 +386,7 @@ void Finder::addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatr
   if (opaque)
   {
     add(false);
-    if (eitherOr && viewProp == actor && this->drawn_.props.size() > before)
+    if (eitherOr && !moves && viewProp == actor && this->drawn_.props.size() > before)
     {
       this->memory_.plainProps.remember(actor);
     }
@@ -403,7 +404,7 @@ void Finder::addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatr
   }
   if (prop.casts && this->drawn_.props.size() > before)
   {
-    this->moved_ += mayMoveVertices(actor) ? 1 : 0;
+    this->moved_ += moves ? 1 : 0;
     if (uncutReason)
     {
       ++this->uncut_[uncutReason];

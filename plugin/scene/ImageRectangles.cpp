@@ -1,5 +1,7 @@
 #include "plugin/scene/ImageRectangles.h"
 
+#include "plugin/scene/ForgetUnasked.h"
+
 #include "shadowtech/base/Bytes.h"
 
 #include "vtkActor.h"
@@ -12,16 +14,14 @@
 #include "vtkPolyDataMapper.h"
 
 #include <array>
-#include <iterator>
-#include <utility>
 
 namespace gnomon
 {
 namespace
 {
 
-// The mapper draws by an actor of its own, and says nothing of it: its members are read. Naming them
-// through a subclass gives access to them without a cast.
+// The mapper draws by an actor of its own, which is a protected member. Naming it through a
+// subclass gives access to it without a cast.
 struct SliceMapperAccess : vtkOpenGLImageSliceMapper
 {
   static vtkActor* actor(vtkOpenGLImageSliceMapper* mapper)
@@ -76,11 +76,7 @@ void place(vtkPoints* points, const std::array<double, 12>& corners)
 //------------------------------------------------------------------------------
 void ImageRectangles::beginFrame()
 {
-  for (auto entry = this->known_.begin(); entry != this->known_.end();)
-  {
-    entry =
-      std::exchange(entry->second.asked, false) ? std::next(entry) : this->known_.erase(entry);
-  }
+  forgetUnasked(this->known_);
 }
 
 //------------------------------------------------------------------------------

@@ -16,7 +16,7 @@ namespace gnomon
 struct ImageRectangle
 {
   vtkActor* actor = nullptr;    ///< whom VTK hands to a render pass; null: it is not served
-  vtkPolyData* drawn = nullptr; ///< what that actor draws, written anew in every frame
+  vtkPolyData* drawn = nullptr; ///< what that actor draws; VTK writes it again in every frame
   vtkPolyData* data = nullptr;  ///< the same cells, which change only when the rectangle does
 };
 

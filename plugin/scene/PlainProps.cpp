@@ -37,15 +37,13 @@ void PlainProps::remember(vtkActor* actor)
   vtkMapper* mapper = actor->GetMapper();
   auto* producer = vtkTrivialProducer::SafeDownCast(mapper->GetInputAlgorithm());
   const bool textured = actor->GetTexture() || actor->GetProperty()->GetNumberOfTextures() > 0;
-  vtkShaderProperty* code = actor->GetShaderProperty();
-  const bool hasCode = code->HasVertexShaderCode() || code->HasGeometryShaderCode() ||
-    code->GetNumberOfShaderReplacements() > 0;
-  if (!producer || textured || hasCode || mapper->GetNumberOfClippingPlanes() > 0)
+  if (!producer || textured || mapper->GetNumberOfClippingPlanes() > 0)
   {
     return;
   }
   if (auto* data = vtkPolyData::SafeDownCast(producer->GetOutputDataObject(0)))
   {
+    vtkShaderProperty* code = actor->GetShaderProperty();
     this->props_[this->next_ - 1] = { actor, mapper, producer, data, code, actor->GetMTime(),
       mapper->GetMTime(), producer->GetMTime(), code->GetMTime() };
   }

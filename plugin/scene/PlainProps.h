@@ -16,13 +16,15 @@ namespace gnomon
 {
 
 /// An actor that draws a polydata, which was set by hand, as an opaque surface without textures,
-/// clipping planes and shader code: what nearly every prop of a scene with many is.
+/// clipping planes and shader code that moves vertices: what nearly every prop of a scene with many
+/// is.
 ///
 /// VTK takes thousands of instructions to say so, and leads through twenty objects. What it says
-/// follows from the actor, its property, its shader code, its mapper with its colours and its list of planes, the
-/// producer that stands for the polydata, and the polydata with its arrays. Each has, or hands on,
-/// the time of its last change. No two times are the same, and an object that gets another part
-/// gets another time. So while these are the same, so are the objects, and what VTK would say.
+/// follows from the actor, its property, its shader code, its mapper with its colours and its list
+/// of planes, the producer that stands for the polydata, and the polydata with its arrays. Each
+/// has, or hands on, the time of its last change. No two times are the same, and an object that
+/// gets another part gets another time. So while these are the same, so are the objects, and what
+/// VTK would say.
 struct PlainProp
 {
   vtkActor* actor = nullptr;

@@ -1,5 +1,7 @@
 #include "plugin/scene/TextureCutouts.h"
 
+#include "plugin/scene/ForgetUnasked.h"
+
 #include "plugin/scene/MapperInternals.h"
 
 #include "shadowtech/base/Bytes.h"
@@ -231,11 +233,7 @@ const char* unservedReason(vtkActor* actor, vtkMapper* mapper)
 //------------------------------------------------------------------------------
 void TextureCutouts::beginFrame()
 {
-  for (auto entry = this->known_.begin(); entry != this->known_.end();)
-  {
-    entry =
-      std::exchange(entry->second.asked, false) ? std::next(entry) : this->known_.erase(entry);
-  }
+  forgetUnasked(this->known_);
 }
 
 //------------------------------------------------------------------------------

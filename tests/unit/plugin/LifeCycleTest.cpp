@@ -127,7 +127,7 @@ protected:
   PassScene scene_;
 };
 
-INSTANTIATE_TEST_SUITE_P(Ways, LifeCycle, allWays, nameOf);
+INSTANTIATE_TEST_SUITE_P(Ways, LifeCycle, fewWays, nameOf);
 INSTANTIATE_TEST_SUITE_P(OnPlanes, LifeCycle, testing::Values(planarWay), nameOf);
 INSTANTIATE_TEST_SUITE_P(ThroughLayers, LifeCycle, testing::Values(layersWay), nameOf);
 

@@ -224,6 +224,11 @@ std::vector<Named> allLights()
     transform->Translate(0.3, 0.2, 0.1);
     light->SetTransformMatrix(transform->GetMatrix());
   };
+  const auto castingHeadlight = [](vtkLight* light)
+  {
+    light->SetLightTypeToHeadlight();
+    vtkGnomonLightKeys::SetCasts(light, true); // which one that is alone is asked for
+  };
   const auto ofTheCamera = [](vtkGnomonAreaLight* light)
   {
     light->SetLightTypeToCameraLight();
@@ -241,8 +246,7 @@ std::vector<Named> allLights()
     { "windowOfTheSky", [=] { return rectangle(90.0, windowOfTheSky); } },
     { "ball", [=] { return withRadius("0.7", lamp); } },
     { "placedByAMatrix", [=] { return rectangle(60.0, byAMatrix); } },
-    { "headlight",
-      [] { return withRadius("20", [](vtkLight* light) { light->SetLightTypeToHeadlight(); }); } },
+    { "headlight", [=] { return withRadius("20", castingHeadlight); } },
     { "cameraLight", [=] { return rectangle(80.0, ofTheCamera); } },
   };
 }

@@ -65,6 +65,10 @@ inline const auto allWays = testing::Values(Way{ "nsm", vtkGnomonShadowPass::ROU
   Way{ "nsm", vtkGnomonShadowPass::ROUTE_IMAGE }, Way{ "pcf", vtkGnomonShadowPass::ROUTE_INLINE },
   Way{ "pcf", vtkGnomonShadowPass::ROUTE_IMAGE },
   Way{ "raytraced", vtkGnomonShadowPass::ROUTE_IMAGE });
+/// A map by both routes, and rays: for what does not depend on how a map is read.
+inline const auto fewWays = testing::Values(Way{ "nsm", vtkGnomonShadowPass::ROUTE_INLINE },
+  Way{ "nsm", vtkGnomonShadowPass::ROUTE_IMAGE },
+  Way{ "raytraced", vtkGnomonShadowPass::ROUTE_IMAGE });
 /// Of scenes whose receivers are planes.
 inline const Way planarWay{ "planar", vtkGnomonShadowPass::ROUTE_IMAGE };
 /// With a map and on the screen.
