@@ -38,6 +38,8 @@ function(gnomon_run_test_program program)
   endif()
 endfunction()
 
+# Pictures are small and programs many: llvmpipe spends a fifth of the time optimising shaders, which
+# GALLIVM_PERF=nopt saves. All other tests, and what users run, optimise.
 function(gnomon_add_shards names program name shards filter)
   set(added "")
   foreach(shard RANGE 1 ${shards})
@@ -45,7 +47,8 @@ function(gnomon_add_shards names program name shards filter)
     math(EXPR index "${shard} - 1")
     add_test(NAME ${test} COMMAND ${program} --gtest_brief=1 "--gtest_filter=${filter}")
     set_tests_properties(${test} PROPERTIES
-      ENVIRONMENT "GTEST_TOTAL_SHARDS=${shards};GTEST_SHARD_INDEX=${index};${ARGN}"
+      ENVIRONMENT
+        "GTEST_TOTAL_SHARDS=${shards};GTEST_SHARD_INDEX=${index};GALLIVM_PERF=nopt;${ARGN}"
       ENVIRONMENT_MODIFICATION "DISPLAY=unset:")
     list(APPEND added ${test})
   endforeach()

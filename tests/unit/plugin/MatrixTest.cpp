@@ -2,9 +2,8 @@
 // kept.
 //
 // Every mapper meets every look, with two lights and three ways in the whole window, and in every
-// window. In the windows the lights and ways take turns, so that any two of the five dimensions
-// meet in every pair of values, and any three of which two are mapper and look, or those and the
-// window.
+// other window. In the windows the lights and ways take turns, so that any two of the five
+// dimensions meet in every pair of values.
 
 #include "MatrixScene.h"
 #include "MatrixWindows.h"
@@ -226,11 +225,12 @@ TEST_P(Matrix, pictureShowsTheVisibilityThatIsKept)
 }
 
 //------------------------------------------------------------------------------
-TEST_P(Matrix, everyWindowShowsTheVisibilityThatIsKept)
+TEST_P(Matrix, windowsShowTheVisibilityThatIsKept)
 {
-  for (std::size_t i = 0; i < matrixWindows().size(); ++i)
+  const auto [kind, look] = GetParam();
+  for (std::size_t i = (kind + look) % 2; i < matrixWindows().size(); i += 2)
   {
-    const auto [light, way] = turnOf(std::get<0>(GetParam()), std::get<1>(GetParam()), i);
+    const auto [light, way] = turnOf(kind, look, i);
     this->scene.renderer->RemoveAllLights();
     vtkLight* added = matrixLights().at(light).add(this->scene);
     SCOPED_TRACE(testing::Message()
