@@ -6,6 +6,8 @@ find_package(VTK 9.1 REQUIRED COMPONENTS
   CommonExecutionModel
   CommonMath
   CommonTransforms
+  DomainsChemistry
+  DomainsChemistryOpenGL2
   FiltersCore
   FiltersGeneral
   FiltersModeling

@@ -38,8 +38,8 @@ function(gnomon_run_test_program program)
   endif()
 endfunction()
 
-# Pictures are small and programs many: llvmpipe spends a fifth of the time optimising shaders, which
-# GALLIVM_PERF=nopt saves. All other tests, and what users run, optimise.
+# Pictures are small and programs many, so that optimising the shaders takes llvmpipe longer than it
+# saves: GALLIVM_PERF=nopt leaves it out. All other tests, and what users run, optimise.
 function(gnomon_add_shards names program name shards filter)
   set(added "")
   foreach(shard RANGE 1 ${shards})

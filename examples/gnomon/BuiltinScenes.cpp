@@ -43,6 +43,7 @@ std::vector<BuiltinScene> makeScenes()
     { "room", "a furnished room with all six walls, lit by a point light inside", makeRoomScene },
     { "terrain", "a square kilometre of rolling terrain seen from 2 m above it, low sun",
       makeTerrainScene },
+    { "props", "a prop of every kind that VTK has, on a ground", makePropsScene },
   };
   const auto addSoft = [&](const char* name, const char* summary, Scene (*make)(), double distance)
   {

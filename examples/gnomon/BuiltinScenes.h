@@ -57,6 +57,8 @@ Scene makeOfficeScene();
 Scene makeAtriumScene();
 Scene makeCityScene();
 Scene makeTerrainScene();
+/// A prop of every kind that VTK has, on a ground.
+Scene makePropsScene();
 
 /// A view of a scene that is listed once for each of its views.
 struct SceneView

@@ -129,6 +129,11 @@ void setClippingRange(vtkRenderer* renderer, const Scene& scene, double aspect)
   // The nearer the near plane, the coarser the depths behind it, and surfaces that meet show
   // through each other along their edges. So it stands as far off as the scene allows.
   constexpr double margin = 0.01;
+  if (!scene.props.empty())
+  {
+    renderer->ResetCameraClippingRange(); // which asks them where they are
+    return;
+  }
   const DepthRange depths = visibleDepths(scene, aspect);
   if (depths.farthest < depths.nearest || depths.farthest == 0.0)
   {
@@ -177,6 +182,10 @@ vtkSmartPointer<vtkRenderer> makeRenderer(const Scene& scene, double aspect)
   for (const SceneModel& model : scene.models)
   {
     renderer->AddActor(makeActor(model));
+  }
+  for (const SceneProp& prop : scene.props)
+  {
+    renderer->AddViewProp(prop.make());
   }
   renderer->AutomaticLightCreationOff();
   for (const SceneLight& light : scene.lights)

@@ -2,12 +2,15 @@
 
 #include <vtkImageData.h>
 #include <vtkPolyData.h>
+#include <vtkProp3D.h>
 #include <vtkProperty.h>
 #include <vtkRenderer.h>
 #include <vtkSmartPointer.h>
 #include <vtkTexture.h>
 
 #include <array>
+#include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,6 +33,13 @@ struct SceneModel
   bool receives = true;
   bool oneSided = false;
   bool translucent = false; ///< drawn as translucent although its opacity is 1 (glTF's BLEND, MASK)
+};
+
+/// A prop that is more than a surface in a matt colour, in world coordinates. No file describes it.
+struct SceneProp
+{
+  std::string name;
+  std::function<vtkSmartPointer<vtkProp3D>()> make;
 };
 
 /// One light of a scene, in world coordinates.
@@ -87,6 +97,7 @@ struct Scene
 {
   std::string name;
   std::vector<SceneModel> models;
+  std::vector<SceneProp> props;
   std::vector<SceneLight> lights;
   SceneCamera camera;
   Vec3 background{ { 1, 1, 1 } };
@@ -116,8 +127,8 @@ SceneLight parseLight(const std::string& spec);
 /// @throws BadInput
 SceneCamera parseCamera(const std::string& spec, const SceneCamera& defaults);
 
-/// A renderer with the scene's actors, lights, camera (clipping range set) and background. Surfaces
-/// are shared with the scene and with other renderers made from it, mappers and actors are its own.
+/// A renderer with the scene's actors, props, lights, camera (clipping range set) and background.
+/// Surfaces are shared with the scene and with other renderers made from it, all else is its own.
 /// @param aspect the picture's width over its height
 vtkSmartPointer<vtkRenderer> makeRenderer(const Scene& scene, double aspect);
 

@@ -123,6 +123,11 @@ void writeSurface(vtkPolyData* surface, const std::string& path)
 //------------------------------------------------------------------------------
 std::string exportScene(const Scene& scene, const std::string& folder)
 {
+  if (!scene.props.empty())
+  {
+    throw BadInput("--export: " + scene.name + " has props that no scene file describes, as \"" +
+      scene.props.front().name + "\"");
+  }
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error)

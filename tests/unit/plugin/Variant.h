@@ -49,8 +49,8 @@ const std::vector<Variant>& variants();
 /// Those of them that a predicate holds for.
 std::vector<Variant> variantsThat(const std::function<bool(const Variant&)>& isSuch);
 
-/// What a test draws: half of the techniques by their defaults, and an eighth of the other variants.
-/// Another test has others.
+/// What a test draws: half of the techniques by their defaults, and an eighth of the other
+/// variants. Another test has others.
 std::vector<Variant> someVariants(
   const std::string& test, const std::function<bool(const Variant&)>& isFor);
 

@@ -1,0 +1,130 @@
+// Every kind of prop that VTK has, side by side (the built-in scene `props`): each casts and
+// receives, or the report lists it.
+
+#include "BuiltinPass.h"
+#include "PassScene.h"
+
+#include "shadowtech/base/FrameReport.h"
+
+#include <vtkActor.h>
+#include <vtkPlaneSource.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkPropCollection.h>
+
+#include <algorithm>
+#include <string>
+
+using namespace gnomon;
+using namespace gnomon::test;
+
+namespace
+{
+
+class KindsOfProps
+  : public PassTest
+  , public testing::WithParamInterface<const char*>
+{
+protected:
+  /// What ambient light alone shows of it.
+  static constexpr glm::ivec3 darkGroundColour{ 38, 38, 37 };
+
+  KindsOfProps()
+  {
+    this->scene.pass->SetTechnique(GetParam());
+    this->scene.pass->KeepVisibilityOff();
+  }
+
+  /// What a frame shows.
+  struct Shown
+  {
+    std::size_t darkGround = 0;   ///< pixels of the picture with the ground's colour in shadow
+    std::size_t brightPixels = 0; ///< brighter than that
+    std::string leftOut;          ///< the notes on props that neither cast nor receive
+  };
+
+  Shown draw()
+  {
+    this->scene.window->Render();
+    Shown shown;
+    const Picture picture = readPicture(this->scene.window);
+    for (int y = 0; y < picture.height; ++y)
+    {
+      for (int x = 0; x < picture.width; ++x)
+      {
+        const glm::ivec3 colour = picture.at(x, y);
+        const glm::ivec3 off = glm::abs(colour - darkGroundColour);
+        shown.darkGround += std::max({ off.r, off.g, off.b }) <= 1 ? 1 : 0;
+        shown.brightPixels += std::max({ colour.r, colour.g, colour.b }) > 60 ? 1 : 0;
+      }
+    }
+    for (const std::string& note : this->scene.pass->GetReport().notes)
+    {
+      shown.leftOut += note.find("neither cast") != std::string::npos ? note + "\n" : "";
+    }
+    return shown;
+  }
+
+  /// Draws without one prop after the other, and calls `check` with its name and what is shown.
+  template <typename Check>
+  void hideEach(const Check& check)
+  {
+    const std::vector<tool::SceneProp> props = tool::loadScene("props").props;
+    ASSERT_EQ(props.size(), 28u);
+    vtkPropCollection* all = this->scene.renderer->GetViewProps();
+    for (std::size_t i = 0; i < props.size(); ++i)
+    {
+      SCOPED_TRACE(props[i].name);
+      auto* prop = vtkProp::SafeDownCast(all->GetItemAsObject(static_cast<int>(i) + 1)); // a ground
+      prop->VisibilityOff();
+      check(props[i].name, this->draw());
+      prop->VisibilityOn();
+    }
+  }
+
+  BuiltinPass scene{ "props", 320 };
+};
+
+INSTANTIATE_TEST_SUITE_P(By, KindsOfProps,
+  testing::Values("nsm", "silhouette", "raytraced", "penumbra"),
+  [](const testing::TestParamInfo<const char*>& technique)
+  { return std::string(technique.param); });
+
+} // namespace
+
+//------------------------------------------------------------------------------
+TEST_P(KindsOfProps, castOrAreListed)
+{
+  const Shown all = this->draw();
+  this->hideEach(
+    [&](const std::string& name, const Shown& without)
+    {
+      // Other bounds are other texels: a few pixels at edges of other shadows change with them.
+      const bool casts = without.darkGround + 30 < all.darkGround;
+      const bool isListed = without.leftOut != all.leftOut;
+      EXPECT_EQ(casts, !isListed && name != "text"); // which VTK does not light
+    });
+}
+
+//------------------------------------------------------------------------------
+/// Below a plate that hides the sun from everything and the camera from nothing.
+TEST_P(KindsOfProps, receiveOrAreListed)
+{
+  vtkNew<vtkPlaneSource> plate;
+  plate->SetOrigin(-40.0, 20.0, -40.0);
+  plate->SetPoint1(40.0, 20.0, -40.0);
+  plate->SetPoint2(-40.0, 20.0, 40.0);
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputConnection(plate->GetOutputPort());
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  this->scene.renderer->AddActor(actor);
+  this->scene.renderer->SetBackground(0.0, 0.0, 0.0);
+  const Shown all = this->draw();
+  this->hideEach(
+    [&](const std::string& name, const Shown& without)
+    {
+      const bool isLit = without.brightPixels < all.brightPixels;
+      const bool isListed = without.leftOut != all.leftOut;
+      EXPECT_EQ(isLit, isListed || name == "unlit" || name == "text");
+    });
+}
