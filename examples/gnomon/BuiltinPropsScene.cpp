@@ -167,16 +167,14 @@ Pointer<vtkProp3D> moleculeProp()
 {
   vtkNew<vtkMolecule> water;
   const vtkAtom oxygen = water->AppendAtom(8, 0.0, 0.0, 0.0);
-  for (const double x : { -0.75, 0.75 })
+  for (const double x : { -0.6, 0.6 })
   {
-    water->AppendBond(oxygen, water->AppendAtom(1, x, 0.6, 0.0), 1);
+    water->AppendBond(oxygen, water->AppendAtom(1, x, 0.5, 0.0), 1);
   }
   vtkNew<vtkMoleculeMapper> mapper;
   mapper->SetInputData(water);
   mapper->UseBallAndStickSettings();
-  Pointer<vtkActor> actor = actorOf(mapper);
-  actor->SetScale(0.8);
-  return actor;
+  return actorOf(mapper);
 }
 
 Pointer<vtkProp3D> gaussianProp()

@@ -44,6 +44,7 @@ std::vector<BuiltinScene> makeScenes()
     { "terrain", "a square kilometre of rolling terrain seen from 2 m above it, low sun",
       makeTerrainScene },
     { "props", "a prop of every kind that VTK has, on a ground", makePropsScene },
+    { "molecule", "100,000 atoms and their bonds, drawn as spheres and sticks", makeMoleculeScene },
   };
   const auto addSoft = [&](const char* name, const char* summary, Scene (*make)(), double distance)
   {

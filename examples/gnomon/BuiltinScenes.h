@@ -59,6 +59,8 @@ Scene makeCityScene();
 Scene makeTerrainScene();
 /// A prop of every kind that VTK has, on a ground.
 Scene makePropsScene();
+/// 100,000 atoms as balls, and their bonds as sticks.
+Scene makeMoleculeScene();
 
 /// A view of a scene that is listed once for each of its views.
 struct SceneView

@@ -78,7 +78,13 @@ void LightTechnique::updateMaps(
     return;
   }
   Bake wanted = this->wantedIn(light, stage);
-  if (this->info().mapIsOptional && light.of<BakeSettings>().time != BakeTime::Always)
+  if (this->info().mapIsOptional && stage.occluders.castsSolids())
+  {
+    this->backoff_ = BakeBackoff();
+    this->usesMap_ = false;
+    report.mapReason = "it would not know casters that are spheres or cylinders";
+  }
+  else if (this->info().mapIsOptional && light.of<BakeSettings>().time != BakeTime::Always)
   {
     this->usesMap_ = this->backoff_.usesMap(
       this->wanted_.changesTo(wanted).empty(), this->baked_.changesTo(wanted).empty());

@@ -62,6 +62,22 @@ std::string visibilityOf(Route route, const ShadedLight& shaded, int light)
                           : fetched;
 }
 
+/// What a mapper of impostors has to set again of these statements, once it has moved the point from
+/// its sprite to a solid.
+std::string moveToSolid(const std::string& uniformFlow)
+{
+  std::string moves;
+  if (uniformFlow.find("gnomonNormal") != std::string::npos)
+  {
+    moves += "  gnomonNormal = normalize(normalVCVSOutput);\n";
+  }
+  if (uniformFlow.find("gnomonDepth") != std::string::npos)
+  {
+    moves += "  gnomonDepth = gl_FragDepth;\n  gnomonDepthPerPixel = vec2(0.0);\n";
+  }
+  return moves;
+}
+
 /// The names of a source's samplers by their type.
 std::map<std::string, std::vector<std::string>> samplersOf(const std::string& source)
 {
@@ -98,8 +114,9 @@ void ShaderManager::configure(const HookVariant& variant, const std::vector<Shad
     {
       declarations += hookShaders().at("plugin/frame/hook_layer_multisample.glsl");
       uniformFlow +=
+        "float gnomonDepth = gl_FragCoord.z;\n"
         "vec2 gnomonDepthPerPixel = vec2(dFdx(gl_FragCoord.z), dFdy(gl_FragCoord.z));\n";
-      multiplications = "  gnomonFindPixel(gnomonDepthPerPixel);\n";
+      multiplications = "  gnomonFindPixel(gnomonDepth, gnomonDepthPerPixel);\n";
     }
     else
     {
@@ -197,6 +214,7 @@ void ShaderManager::fillShader(std::string& fragmentShader, bool receiversStage)
     this->lights_.empty() || fragmentShader.find("vec4 vertexVC") != std::string::npos;
   std::string declarations;
   std::string uniformFlow;
+  std::string move;
   std::string begin;
   std::string end;
   if (receives)
@@ -204,6 +222,10 @@ void ShaderManager::fillShader(std::string& fragmentShader, bool receiversStage)
     declarations = this->declarations_;
     uniformFlow = this->uniformFlow_;
     begin = this->multiplications_;
+    if (fragmentShader.find("centerVCVSOutput") != std::string::npos)
+    {
+      move = moveToSolid(uniformFlow);
+    }
   }
   if (this->variant_.route == Route::Image && receiversStage)
   {
@@ -225,7 +247,7 @@ void ShaderManager::fillShader(std::string& fragmentShader, bool receiversStage)
   replace(fragmentShader, "//VTK::System::Dec", "//VTK::System::Dec\n" + this->extensions_);
   replace(fragmentShader, declarationMarker, declarations);
   replace(fragmentShader, uniformFlowMarker, uniformFlow);
-  replace(fragmentShader, beginMarker, begin);
+  replace(fragmentShader, beginMarker, move + begin);
   replace(fragmentShader, endMarker, end);
 }
 

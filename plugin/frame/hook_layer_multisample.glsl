@@ -10,7 +10,7 @@ const ivec2 gnomonAround[5] =
 ivec2 gnomonPixel;
 
 // Depth is affine over the picture of a plane, so its slope leads to the neighbours' centres.
-void gnomonFindPixel(vec2 depthPerPixel)
+void gnomonFindPixel(float ownDepth, vec2 depthPerPixel)
 {
   ivec2 own = ivec2(gl_FragCoord.xy) - gnomonOrigin;
   ivec2 last = textureSize(gnomonDepths, 0) - 1;
@@ -23,7 +23,7 @@ void gnomonFindPixel(vec2 depthPerPixel)
   {
     ivec2 pixel = clamp(own + gnomonAround[i], ivec2(0), last);
     float shown = texelFetch(gnomonDepths, pixel, 0).r;
-    float depth = gl_FragCoord.z + dot(depthPerPixel, vec2(pixel - own));
+    float depth = ownDepth + dot(depthPerPixel, vec2(pixel - own));
     float off = max(abs(shown - depth), onPlane);
     if (off < least && shown < 1.0) // 1: nothing is there
     {

@@ -23,6 +23,7 @@
 #include "vtkInformationIntegerKey.h"
 #include "vtkLODProp3D.h"
 #include "vtkMatrix4x4.h"
+#include "vtkOpenGLMoleculeMapper.h"
 #include "vtkPlane.h"
 #include "vtkPlaneCollection.h"
 #include "vtkPolyData.h"
@@ -35,12 +36,15 @@
 #include "vtkShaderProperty.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
+#include <glm/gtc/matrix_access.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstring>
 #include <map>
+#include <optional>
 #include <unordered_set>
 #include <utility>
 
@@ -73,7 +77,9 @@ enum class MapperKind
   Composite,
   Parts, ///< vtkCompositePolyDataMapper: by one polydata mapper a block
   Glyphs,
-  Impostors, ///< a polydata mapper by type, which draws something else in place of the polygons
+  Solids,   ///< a polydata mapper by type, which draws a solid at each point in place of the cells
+  Molecule, ///< by mappers of solids
+  Splats,   ///< a polydata mapper by type, which draws flat pictures in place of the cells
   Other
 };
 
@@ -90,13 +96,15 @@ MapperKind kindOf(vtkMapper* mapper)
   }
   if (mapper->IsA("vtkPolyDataMapper"))
   {
-    const bool impostors = mapper->IsA("vtkPointGaussianMapper") ||
-      mapper->IsA("vtkOpenGLSphereMapper") || mapper->IsA("vtkOpenGLStickMapper");
-    return impostors ? MapperKind::Impostors : MapperKind::PolyData;
+    const bool solids = mapper->IsA("vtkOpenGLSphereMapper") || mapper->IsA("vtkOpenGLStickMapper");
+    return solids                             ? MapperKind::Solids
+      : mapper->IsA("vtkPointGaussianMapper") ? MapperKind::Splats
+                                              : MapperKind::PolyData;
   }
   return mapper->IsA("vtkDataSetMapper")        ? MapperKind::DataSet
     : mapper->IsA("vtkGlyph3DMapper")           ? MapperKind::Glyphs
     : mapper->IsA("vtkCompositePolyDataMapper") ? MapperKind::Parts
+    : mapper->IsA("vtkOpenGLMoleculeMapper")    ? MapperKind::Molecule
                                                 : MapperKind::Other;
 }
 
@@ -104,7 +112,7 @@ MapperKind kindOf(vtkMapper* mapper)
 void runInput(vtkMapper* mapper, MapperKind kind)
 {
   if (kind != MapperKind::PlainPolyData && kind != MapperKind::PolyData &&
-    kind != MapperKind::Composite)
+    kind != MapperKind::Composite && kind != MapperKind::Solids)
   {
     mapper->Update(); // all of its inputs
     return;
@@ -142,8 +150,26 @@ bool hasLinesOrPoints(const DrawnBlock& block)
 
 bool hasSurfaces(const DrawnBlock& block)
 {
-  return cellCount(block.data, SurfaceCells::Polygons) > 0 ||
-    cellCount(block.data, SurfaceCells::Strips) > 0;
+  const std::vector<SurfaceCells>& cells = cellsOf(block);
+  return std::any_of(cells.begin(), cells.end(),
+    [&block](SurfaceCells kind) { return cellCount(block.data, kind) > 0; });
+}
+
+/// Whether a matrix keeps lengths: VTK draws solids at the lengths that they have before it.
+bool keepsLengths(const glm::dmat4& matrix)
+{
+  const glm::dmat3 linear(matrix);
+  const glm::dmat3 off = glm::transpose(linear) * linear - glm::dmat3(1.0);
+  constexpr double tolerance = 1e-5;
+  bool keeps = glm::row(matrix, 3) == glm::dvec4(0.0, 0.0, 0.0, 1.0);
+  for (int column = 0; column < 3; ++column)
+  {
+    for (int row = 0; row < 3; ++row)
+    {
+      keeps = keeps && std::abs(off[column][row]) < tolerance;
+    }
+  }
+  return keeps;
 }
 
 /// Whether a user's code changes the shaders that place an actor's vertices.
@@ -207,7 +233,9 @@ private:
   void addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatrix4x4* matrix);
   void addImage(vtkProp* viewProp, std::size_t path, vtkImageSlice* slice, vtkMatrix4x4* matrix);
   bool serves(vtkMapper* mapper, MapperKind kind);
-  void addBlocks(vtkActor* actor, vtkMapper* mapper, MapperKind kind, bool translucent);
+  void addBlocks(vtkActor* actor, vtkMapper* mapper, MapperKind kind,
+    const glm::dmat4& worldFromModel, bool translucent);
+  void addSolids(vtkMapper* mapper, const glm::dmat4& worldFromModel);
   bool updateInput(vtkMapper* mapper, MapperKind kind);
   void skip(vtkObjectBase* what, const char* why)
   {
@@ -358,7 +386,7 @@ void Finder::addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatr
   {
     prop.translucent = translucent;
     prop.firstBlock = this->drawn_.blocks.size();
-    this->addBlocks(actor, mapper, kind, translucent);
+    this->addBlocks(actor, mapper, kind, prop.worldFromModel, translucent);
     prop.blockCount = this->drawn_.blocks.size() - prop.firstBlock;
     const auto first = this->drawn_.blocks.begin() + static_cast<std::ptrdiff_t>(prop.firstBlock);
     if (std::none_of(first, this->drawn_.blocks.end(), hasSurfaces))
@@ -449,7 +477,7 @@ void Finder::addImage(
 bool Finder::serves(vtkMapper* mapper, MapperKind kind)
 {
   const char* reason = nullptr;
-  if (kind == MapperKind::Other || kind == MapperKind::Impostors)
+  if (kind == MapperKind::Other || kind == MapperKind::Splats)
   {
     reason = "mapper not served";
   }
@@ -473,7 +501,8 @@ bool Finder::serves(vtkMapper* mapper, MapperKind kind)
 
 //------------------------------------------------------------------------------
 /// Lists what a mapper draws for an actor in one of the two passes.
-void Finder::addBlocks(vtkActor* actor, vtkMapper* mapper, MapperKind kind, bool translucent)
+void Finder::addBlocks(vtkActor* actor, vtkMapper* mapper, MapperKind kind,
+  const glm::dmat4& worldFromModel, bool translucent)
 {
   std::vector<DrawnBlock>& blocks = this->drawn_.blocks;
   if (kind == MapperKind::Composite)
@@ -482,6 +511,20 @@ void Finder::addBlocks(vtkActor* actor, vtkMapper* mapper, MapperKind kind, bool
     for (vtkPolyData* data : drawnBlocks(actor, composite, translucent))
     {
       blocks.push_back({ data });
+    }
+  }
+  else if (kind == MapperKind::Solids)
+  {
+    this->addSolids(mapper, worldFromModel);
+  }
+  else if (kind == MapperKind::Molecule)
+  {
+    for (vtkMapper* solids : solidMappers(static_cast<vtkOpenGLMoleculeMapper*>(mapper)))
+    {
+      if (this->updateInput(solids, MapperKind::Solids))
+      {
+        this->addSolids(solids, worldFromModel);
+      }
     }
   }
   else if (kind == MapperKind::Parts)
@@ -503,6 +546,28 @@ void Finder::addBlocks(vtkActor* actor, vtkMapper* mapper, MapperKind kind, bool
   {
     blocks.push_back({ data });
   }
+}
+
+//------------------------------------------------------------------------------
+/// Adds the solids that a mapper draws, where they are solids to VTK as well.
+void Finder::addSolids(vtkMapper* mapper, const glm::dmat4& worldFromModel)
+{
+  const std::optional<DrawnSolids> drawn = drawnSolids(mapper);
+  const char* reason = !drawn                 ? "its arrays are not of floats"
+    : mapper->GetNumberOfClippingPlanes() > 0 ? "clipped"
+    : drawn->cells == SurfaceCells::Sticks && !keepsLengths(worldFromModel)
+    ? "its actor is scaled, which VTK draws distorted"
+    : nullptr;
+  if (reason)
+  {
+    this->skip(mapper, reason);
+    return;
+  }
+  DrawnBlock block;
+  block.data = static_cast<vtkPolyDataMapper*>(mapper)->GetInput();
+  block.solids = mapper;
+  block.solidCells = drawn->cells;
+  this->drawn_.blocks.push_back(block);
 }
 
 //------------------------------------------------------------------------------
@@ -551,6 +616,16 @@ DrawnProps Finder::take()
 glm::dmat4 toGlm(vtkMatrix4x4* matrix)
 {
   return glm::transpose(glm::make_mat4(&matrix->Element[0][0])); // VTK's go row by row
+}
+
+//------------------------------------------------------------------------------
+const std::vector<SurfaceCells>& cellsOf(const DrawnBlock& block)
+{
+  static const std::vector<SurfaceCells> triangles = { SurfaceCells::Polygons,
+    SurfaceCells::Strips };
+  static const std::vector<SurfaceCells> spheres = { SurfaceCells::Spheres };
+  static const std::vector<SurfaceCells> sticks = { SurfaceCells::Sticks };
+  return !block.solids ? triangles : block.solidCells == SurfaceCells::Spheres ? spheres : sticks;
 }
 
 //------------------------------------------------------------------------------

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "plugin/scene/SurfaceExtraction.h"
+
 #include <glm/glm.hpp>
 
 #include <cstddef>
@@ -32,6 +34,8 @@ struct DrawnBlock
   vtkDataSet* glyphPoints = nullptr; ///< for a glyph: the points that it is drawn at
   int glyphSource = 0;               ///< and its place in the mapper's table of sources
   vtkPolyData* drawnAs = nullptr;    ///< what VTK draws in its place; null: the data itself
+  vtkMapper* solids = nullptr; ///< who draws a solid at each point, in place of the cells; or null
+  SurfaceCells solidCells = SurfaceCells::Spheres; ///< and which
   /// Of the texture that cuts holes into it; null where none does.
   vtkDataArray* textureCoordinates = nullptr;
 };
@@ -64,7 +68,8 @@ struct DrawnProps
 {
   std::vector<DrawnProp> props;
   /// What the props draw: one for vtkPolyDataMapper and vtkDataSetMapper, any number for mappers of
-  /// composite data, where each polydata is there once, and for vtkGlyph3DMapper.
+  /// composite data, where each polydata is there once, and for vtkGlyph3DMapper; atoms and bonds
+  /// for vtkMoleculeMapper.
   std::vector<DrawnBlock> blocks;
   /// Actors whose translucent surfaces receive: whom VTK hands to a render pass.
   std::vector<const vtkProp*> translucentReceivers;
@@ -73,6 +78,9 @@ struct DrawnProps
   /// The same with how many they are, and what shadows do not show of the others, each a sentence.
   std::vector<std::string> notes;
 };
+
+/// What VTK draws of a block.
+const std::vector<SurfaceCells>& cellsOf(const DrawnBlock& block);
 
 /// Lists what a renderer's opaque pass draws as surfaces, and the translucent surfaces that are
 /// asked to cast, in the camera's view or not. Brings the inputs of mappers up to date first, as

@@ -8,17 +8,36 @@
 #include "vtkDataSet.h"
 #include "vtkDataSetMapper.h"
 #include "vtkDataSetSurfaceFilter.h"
+#include "vtkFloatArray.h"
 #include "vtkOpenGLCellToVTKCellMap.h"
 #include "vtkOpenGLHelper.h"
+#include "vtkOpenGLMoleculeMapper.h"
 #include "vtkOpenGLPolyDataMapper.h"
+#include "vtkOpenGLSphereMapper.h"
+#include "vtkOpenGLStickMapper.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
 
 #include <algorithm>
+#include <cstring>
 #include <map>
 
 namespace gnomon
 {
 namespace
 {
+
+/// What a mapper draws by the program that is for triangles.
+SurfaceCells cellsOfTriangles(vtkOpenGLPolyDataMapper* mapper)
+{
+  if (std::strcmp(mapper->GetClassName(), "vtkOpenGLPolyDataMapper") == 0) // nearly always
+  {
+    return SurfaceCells::Polygons;
+  }
+  return mapper->IsA("vtkOpenGLSphereMapper") ? SurfaceCells::Spheres
+    : mapper->IsA("vtkOpenGLStickMapper")     ? SurfaceCells::Sticks
+                                              : SurfaceCells::Polygons;
+}
 
 // VTK tells a render pass neither which primitives a program draws nor where their numbers start,
 // and the numbers depend on what happened before: a mapper that has cell colours or was picked
@@ -33,7 +52,7 @@ struct MapperAccess : vtkOpenGLPolyDataMapper
     const auto& primitives = mapper->*(&MapperAccess::Primitives);
     if (drawing == &primitives[PrimitiveTris])
     {
-      return SurfaceCells::Polygons;
+      return cellsOfTriangles(mapper);
     }
     if (drawing == &primitives[PrimitiveTriStrips])
     {
@@ -62,6 +81,57 @@ struct HelperAccess : vtkCompositeMapperHelper2
     return helper->*(&HelperAccess::Data);
   }
 };
+
+struct SphereMapperAccess : vtkOpenGLSphereMapper
+{
+  static const char* scales(vtkOpenGLSphereMapper* mapper)
+  {
+    return mapper->*(&SphereMapperAccess::ScaleArray);
+  }
+  static float radius(vtkOpenGLSphereMapper* mapper)
+  {
+    return mapper->*(&SphereMapperAccess::Radius);
+  }
+};
+
+struct StickMapperAccess : vtkOpenGLStickMapper
+{
+  static const char* scales(vtkOpenGLStickMapper* mapper)
+  {
+    return mapper->*(&StickMapperAccess::ScaleArray);
+  }
+  static const char* directions(vtkOpenGLStickMapper* mapper)
+  {
+    return mapper->*(&StickMapperAccess::OrientationArray);
+  }
+};
+
+struct MoleculeMapperAccess : vtkOpenGLMoleculeMapper
+{
+  static std::vector<vtkMapper*> solids(vtkOpenGLMoleculeMapper* mapper)
+  {
+    (mapper->*(&MoleculeMapperAccess::UpdateGlyphPolyData))();
+    std::vector<vtkMapper*> mappers;
+    if (mapper->GetRenderAtoms())
+    {
+      mappers.push_back((mapper->*(&MoleculeMapperAccess::FastAtomMapper)).Get());
+    }
+    if (mapper->GetRenderBonds())
+    {
+      mappers.push_back((mapper->*(&MoleculeMapperAccess::FastBondMapper)).Get());
+    }
+    return mappers;
+  }
+};
+
+/// A point array that VTK reads as floats without looking at its type; null for another one.
+vtkFloatArray* floatsOf(vtkPolyData* data, const char* name, int components)
+{
+  vtkDataArray* array = name ? data->GetPointData()->GetArray(name) : nullptr;
+  const bool fits = array && array->GetNumberOfComponents() == components &&
+    array->GetNumberOfTuples() == data->GetNumberOfPoints();
+  return fits ? vtkFloatArray::SafeDownCast(array) : nullptr;
+}
 
 struct DataSetMapperAccess : vtkDataSetMapper
 {
@@ -127,6 +197,35 @@ std::vector<DrawCall> drawCalls(vtkAbstractMapper* mapper, SurfaceCells cells)
 vtkPolyDataMapper* innerMapper(vtkDataSetMapper* mapper)
 {
   return DataSetMapperAccess::inner(mapper);
+}
+
+//------------------------------------------------------------------------------
+std::optional<DrawnSolids> drawnSolids(vtkMapper* mapper)
+{
+  if (auto* spheres = vtkOpenGLSphereMapper::SafeDownCast(mapper))
+  {
+    const char* scales = SphereMapperAccess::scales(spheres);
+    vtkPolyData* data = spheres->GetInput();
+    const bool hasScales = scales && data->GetPointData()->HasArray(scales);
+    const DrawnSolids drawn{ SurfaceCells::Spheres, SphereMapperAccess::radius(spheres),
+      floatsOf(data, scales, 1) };
+    return drawn.scales || !hasScales ? std::optional(drawn) : std::nullopt;
+  }
+  if (auto* sticks = vtkOpenGLStickMapper::SafeDownCast(mapper))
+  {
+    vtkPolyData* data = sticks->GetInput();
+    const DrawnSolids drawn{ SurfaceCells::Sticks, 0.0f,
+      floatsOf(data, StickMapperAccess::scales(sticks), 3),
+      floatsOf(data, StickMapperAccess::directions(sticks), 3) };
+    return drawn.scales && drawn.directions ? std::optional(drawn) : std::nullopt;
+  }
+  return std::nullopt;
+}
+
+//------------------------------------------------------------------------------
+std::vector<vtkMapper*> solidMappers(vtkOpenGLMoleculeMapper* mapper)
+{
+  return MoleculeMapperAccess::solids(mapper);
 }
 
 //------------------------------------------------------------------------------

@@ -9,6 +9,9 @@
 
 class vtkAbstractMapper;
 class vtkDataSetMapper;
+class vtkFloatArray;
+class vtkMapper;
+class vtkOpenGLMoleculeMapper;
 class vtkPolyData;
 class vtkPolyDataMapper;
 
@@ -35,6 +38,22 @@ std::vector<DrawCall> drawCalls(vtkAbstractMapper* mapper, SurfaceCells cells);
 /// The polydata mapper by which a vtkDataSetMapper draws, with the input that it draws then. VTK
 /// makes it when the other first draws; a pass may ask before. The other has an input.
 vtkPolyDataMapper* innerMapper(vtkDataSetMapper* mapper);
+
+/// How a mapper of impostors draws a solid at each point.
+struct DrawnSolids
+{
+  SurfaceCells cells;
+  float radius = 0.0f;             ///< where no array says it
+  vtkFloatArray* scales = nullptr; ///< spheres: radii, or null; sticks: (length, radius, unused)
+  vtkFloatArray* directions = nullptr; ///< of sticks
+};
+/// Nothing for a mapper that draws no solids, or whose arrays VTK cannot read.
+/// @param mapper whose input is up to date
+std::optional<DrawnSolids> drawnSolids(vtkMapper* mapper);
+
+/// The mappers by which a molecule mapper draws atoms and bonds, up to date, as far as it draws
+/// them.
+std::vector<vtkMapper*> solidMappers(vtkOpenGLMoleculeMapper* mapper);
 
 /// The point array that a mapper was told to read a texture's coordinates from
 /// (vtkPolyDataMapper::MapDataArrayToMultiTextureAttribute); null for the data's own.

@@ -38,8 +38,10 @@ void OccluderCollector::indexProps(const std::vector<WantedSurface>& wanted)
     std::vector<DrawnLookup::HeldSurface> held;
     for (; i < wanted.size() && wanted[i].prop == &prop; ++i)
     {
-      const std::size_t instances = this->surfaces_.records()[i].modelFromInstance.size();
       const DrawnBlock& block = wanted[i].block;
+      const std::size_t instances = block.solids
+        ? this->occluders().surfaces[i].centredFromSource.size()
+        : this->surfaces_.records()[i].modelFromInstance.size();
       held.push_back({ block.drawnAs ? block.drawnAs : block.data, wanted[i].key.cells,
         static_cast<std::uint32_t>(i), block.glyphPoints != nullptr,
         static_cast<std::uint32_t>(instances) });

@@ -127,7 +127,7 @@ bool SnapshotSurfaces::transformAgain(const WantedSurface& wanted)
   {
     record.worldFromModel = wanted.prop->worldFromModel;
     std::optional<PlacedInstances> placed =
-      placeKeptInstances(record, this->occluders_.centreWorld);
+      placeKeptInstances(record, wanted.block, this->occluders_.centreWorld);
     return placed && this->moveInstances(wanted.old, *placed);
   }
   glm::vec3* all = this->occluders_.positionsCentred.data();
@@ -252,6 +252,7 @@ void SnapshotSurfaces::rebuild(std::vector<WantedSurface>& wanted)
       entry.textureCoordinates = std::move(fresh.textureCoordinates);
       entry.centredFromSource = std::move(fresh.instances.centredFromSource);
       entry.mirrored = fresh.instances.mirrored;
+      entry.solid = solidOf(fresh.record.key.cells);
       entry.topologyVersion = this->newVersion();
       entry.positionsVersion = this->newVersion();
       records.push_back(std::move(fresh.record));

@@ -171,20 +171,37 @@ void compact(
 } // namespace
 
 //------------------------------------------------------------------------------
+Solid solidOf(SurfaceCells cells)
+{
+  return cells == SurfaceCells::Spheres ? Solid::Sphere
+    : cells == SurfaceCells::Sticks     ? Solid::Cylinder
+                                        : Solid::None;
+}
+
+//------------------------------------------------------------------------------
 vtkIdType cellCount(vtkPolyData* data, SurfaceCells cells)
 {
+  if (solidOf(cells) != Solid::None)
+  {
+    return data->GetNumberOfPoints();
+  }
   return data->GetPoints() ? cellArray(data, cells)->GetNumberOfCells() : 0;
 }
 
 //------------------------------------------------------------------------------
 std::pair<const void*, const void*> identityOf(vtkPolyData* data, SurfaceCells cells)
 {
-  return { data->GetPoints(), cellArray(data, cells) };
+  const bool areCells = solidOf(cells) == Solid::None;
+  return { data->GetPoints(), areCells ? cellArray(data, cells) : nullptr };
 }
 
 //------------------------------------------------------------------------------
 vtkMTimeType shapeTime(vtkPolyData* data, SurfaceCells cells)
 {
+  if (solidOf(cells) != Solid::None)
+  {
+    return data->GetMTime();
+  }
   // The object's own time, which Modified() and every Set method raise; the override adds point and
   // cell data.
   return std::max({ data->vtkObject::GetMTime(), data->GetPoints()->GetMTime(),

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "lights/Bounds.h"
+#include "shadowtech/base/Solid.h"
 
 #include "vtkType.h"
 
@@ -17,22 +18,28 @@ class vtkPolyData;
 namespace gnomon
 {
 
-/// The cells of a polydata that VTK draws as triangles. Each kind has an index buffer and a range
-/// of primitive numbers of its own, and becomes a surface of its own in the snapshot.
+/// What VTK draws of a polydata as surfaces. Each kind has a range of primitive numbers of its own,
+/// and becomes a surface of its own in the snapshot.
 enum class SurfaceCells
 {
   Polygons,
-  Strips
+  Strips,
+  Spheres, ///< one at each point, whatever cells there are
+  Sticks   ///< the same
 };
 
-/// The number of cells of a kind.
+/// What the points of a kind are drawn as; none where cells are drawn as triangles.
+Solid solidOf(SurfaceCells cells);
+
+/// The number of cells of a kind, or points.
 vtkIdType cellCount(vtkPolyData* data, SurfaceCells cells);
 
 /// Names the points and the cells of a kind: those of a shallow copy are the same.
 std::pair<const void*, const void*> identityOf(vtkPolyData* data, SurfaceCells cells);
 
 /// When the points or the cells last changed. Unlike vtkPolyData::GetMTime() it leaves out the
-/// point and cell data: new colours are no new shape.
+/// point and cell data: new colours are no new shape. Of solids it does not, since arrays hold their
+/// sizes.
 vtkMTimeType shapeTime(vtkPolyData* data, SurfaceCells cells);
 
 /// The triangles that VTK draws of a polydata, in its order: polygons fanned from their first

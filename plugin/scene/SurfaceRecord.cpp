@@ -1,6 +1,7 @@
 #include "plugin/scene/SurfaceRecord.h"
 
 #include "plugin/scene/GlyphInstances.h"
+#include "plugin/scene/PlacedSolids.h"
 #include "plugin/scene/SurfaceClipping.h"
 
 #include "shadowtech/base/Instances.h"
@@ -10,6 +11,7 @@
 #include "vtkDataArray.h"
 #include "vtkDataSet.h"
 #include "vtkGlyph3DMapper.h"
+#include "vtkMapper.h"
 #include "vtkPolyData.h"
 
 #include <algorithm>
@@ -95,7 +97,7 @@ void dropDefects(FreshSurface& fresh)
 bool placeSource(FreshSurface& fresh, const DrawnBlock& block, const glm::dvec3& centreWorld)
 {
   SurfaceRecord& record = fresh.record;
-  std::optional<PlacedInstances> placed = placeKeptInstances(record, centreWorld);
+  std::optional<PlacedInstances> placed = placeKeptInstances(record, block, centreWorld);
   if (!placed)
   {
     return false;
@@ -109,6 +111,20 @@ bool placeSource(FreshSurface& fresh, const DrawnBlock& block, const glm::dvec3&
   clearNonFinite(positions, fresh.vertexCount);
   recordPlaces(fresh.instances, positions, fresh.vertexCount, record);
   return true;
+}
+
+/// The mesh of solids, and the box around them before their actor's matrix.
+FreshSurface readSolids(const DrawnSolids& drawn, vtkPolyData* data)
+{
+  const auto count = static_cast<std::size_t>(data->GetNumberOfPoints());
+  SolidMesh mesh = meshOf(solidOf(drawn.cells), count);
+  FreshSurface fresh;
+  fresh.vertexCount = mesh.positions.size();
+  fresh.positionsCentred = std::move(mesh.positions);
+  fresh.triangles = std::move(mesh.triangles);
+  fresh.record.keptAsInstances = true;
+  fresh.record.boundsModel = boundsOfSolids(drawn, data);
+  return fresh;
 }
 
 } // namespace
@@ -132,6 +148,10 @@ Bounds transformed(const Bounds& box, const glm::dmat4& matrix)
 vtkMTimeType changeTime(const DrawnProp& prop, const DrawnBlock& block, SurfaceCells cells)
 {
   vtkMTimeType time = shapeTime(block.data, cells);
+  if (block.solids)
+  {
+    time = std::max(time, block.solids->GetMTime()); // which says which arrays hold the sizes
+  }
   if (block.glyphPoints)
   {
     // When VTK computes the instances again.
@@ -155,6 +175,10 @@ CoordinatesSource coordinatesSource(const DrawnProp& prop, const DrawnBlock& blo
 FreshSurface readSurface(const DrawnProp& prop, const DrawnBlock& block, SurfaceCells cells,
   std::vector<std::uint32_t>& vertexOfPoint)
 {
+  if (block.solids)
+  {
+    return readSolids(*drawnSolids(block.solids), block.data);
+  }
   DrawnTriangles drawn = triangulate(block.data, cells, vertexOfPoint);
   FreshSurface fresh;
   SurfaceRecord& record = fresh.record;
@@ -193,8 +217,12 @@ FreshSurface readSurface(const DrawnProp& prop, const DrawnBlock& block, Surface
 
 //------------------------------------------------------------------------------
 std::optional<PlacedInstances> placeKeptInstances(
-  const SurfaceRecord& record, const glm::dvec3& centreWorld)
+  const SurfaceRecord& record, const DrawnBlock& block, const glm::dvec3& centreWorld)
 {
+  if (block.solids)
+  {
+    return placeSolids(*drawnSolids(block.solids), block.data, record.worldFromModel, centreWorld);
+  }
   return placeKeptInstances(record.worldFromModel, record.modelFromInstance, record.sourceCentre,
     record.boundsSource, centreWorld);
 }
@@ -205,6 +233,11 @@ void recordPlaces(const PlacedInstances& placed, const glm::vec3* positionsSourc
 {
   record.leftOutNonFinite = placed.leftOutNonFinite;
   record.leftOutVanished = placed.leftOutVanished;
+  if (const Solid solid = solidOf(record.key.cells); solid != Solid::None)
+  {
+    record.boundsCentred = solidsBounds(solid, placed.centredFromSource);
+    return;
+  }
   record.boundsCentred = instancesBounds(positionsSource, vertexCount, placed.centredFromSource);
 }
 
@@ -230,6 +263,12 @@ void placeSurface(FreshSurface& fresh, const DrawnProp& prop, const DrawnBlock& 
   record.worldFromModel = prop.worldFromModel;
   record.clipPlanes = prop.clipPlanes;
   std::vector<glm::vec3>& positions = fresh.positionsCentred;
+  if (block.solids)
+  {
+    fresh.instances = *placeKeptInstances(record, block, centreWorld);
+    recordPlaces(fresh.instances, positions.data(), positions.size(), record);
+    return;
+  }
   if (record.keptAsInstances && placeSource(fresh, block, centreWorld))
   {
     return;

@@ -149,7 +149,7 @@ void placeSurface(FreshSurface& fresh, const DrawnProp& prop, const DrawnBlock& 
 /// Computes the matrices of the instances that a surface is kept as, where its record says that its
 /// prop is; nothing as above.
 std::optional<PlacedInstances> placeKeptInstances(
-  const SurfaceRecord& record, const glm::dvec3& centreWorld);
+  const SurfaceRecord& record, const DrawnBlock& block, const glm::dvec3& centreWorld);
 
 /// Takes over to a record where its instances are.
 ///

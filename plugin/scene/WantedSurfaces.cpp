@@ -19,7 +19,7 @@ std::vector<WantedSurface> wantedSurfaces(
     for (std::size_t block = 0; block < prop.blockCount; ++block)
     {
       const DrawnBlock& drawnBlock = drawn.blocks[prop.firstBlock + block];
-      for (const SurfaceCells cells : { SurfaceCells::Polygons, SurfaceCells::Strips })
+      for (const SurfaceCells cells : cellsOf(drawnBlock))
       {
         if (cellCount(drawnBlock.data, cells) > 0)
         {

@@ -2,9 +2,11 @@
 
 #include "lights/Bounds.h"
 #include "shadowtech/base/CutoutMask.h"
+#include "shadowtech/base/Solid.h"
 
 #include <glm/glm.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -55,14 +57,17 @@ struct Surface
   /// all or none of them mirror. Empty: drawn once, and its vertices are centred.
   std::vector<glm::mat4x3> centredFromSource;
   bool mirrored = false; ///< whether they mirror, so that source coordinates show the other side
+  /// What an instance is. Of solids each is one primitive to VTK, and the triangles are meshOf().
+  Solid solid = Solid::None;
 
   bool isInstanced() const { return !this->centredFromSource.empty(); }
   static bool isLeftOut(const glm::mat4x3& instance) { return instance == glm::mat4x3(0.0f); }
-  /// How many triangles VTK draws of it, or of each of its instances, dropped ones included.
+  /// How many primitives VTK draws of it, or of each of its instances, dropped ones included.
   std::uint32_t drawnCount() const
   {
-    return this->triangleOfDrawn.empty() ? this->triangleCount
-                                         : static_cast<std::uint32_t>(this->triangleOfDrawn.size());
+    return this->solid != Solid::None ? 1
+      : this->triangleOfDrawn.empty() ? this->triangleCount
+                                      : static_cast<std::uint32_t>(this->triangleOfDrawn.size());
   }
 };
 
@@ -107,6 +112,13 @@ struct Occluders
 
   std::size_t droppedNonFinite = 0;
   std::size_t droppedZeroArea = 0;
+
+  /// Whether any caster is a solid, whose triangles do not tell exactly what it blocks.
+  bool castsSolids() const
+  {
+    return std::any_of(this->surfaces.begin(), this->surfaces.end(),
+      [](const Surface& surface) { return surface.casts && surface.solid != Solid::None; });
+  }
 
   /// Changes when surfaces come, go, change their triangles, their flags or their cut-outs.
   std::uint64_t topologyVersion = 0;

@@ -147,6 +147,36 @@ void projectSpan(
   }
 }
 
+/// The receivers of a span that shows a solid.
+void projectSolid(
+  const SeenTriangle& seen, const PixelRays& rays, const Span& span, ReceiverPixels& receivers)
+{
+  for (std::size_t j = 0; j < span.count(); ++j)
+  {
+    const auto x = static_cast<double>(span.firstColumn + j);
+    const auto y = static_cast<double>(span.y);
+    const glm::dvec3 origin = rays.origin(x, y);
+    const glm::dvec3 direction = rays.direction(x, y);
+    const SolidPoint point = seenPoint(*seen.solid, origin, direction);
+    const double t = glm::dot(point.position - origin, direction) / glm::dot(direction, direction);
+    const auto footprint =
+      static_cast<float>(glm::length(rays.originPerRow + t * rays.directionPerRow));
+    const glm::vec3 position(point.position);
+    const glm::vec3 normal(point.normal);
+    const float noise = noiseOf(*seen.solid, point);
+    const std::size_t i = span.first + j;
+    receivers.positionX[i] = position.x;
+    receivers.positionY[i] = position.y;
+    receivers.positionZ[i] = position.z;
+    receivers.normalX[i] = normal.x;
+    receivers.normalY[i] = normal.y;
+    receivers.normalZ[i] = normal.z;
+    receivers.offset[i] =
+      point.isMet ? shadowRayOffsetInside(noise, footprint) : shadowRayOffset(noise, footprint);
+    receivers.surface[i] = seen.surface;
+  }
+}
+
 /// A span's part from one column to before another.
 Span partOf(const Span& span, std::size_t firstColumn, std::size_t lastColumn)
 {
@@ -170,7 +200,11 @@ public:
 
   void make(const SeenTriangle& seen, const Span& span)
   {
-    if (this->known_ && isDecided(seen.known))
+    if (seen.solid)
+    {
+      projectSolid(seen, this->rays_, span, this->receivers_);
+    }
+    else if (this->known_ && isDecided(seen.known))
     {
       this->leaveOut(span, seen.known);
     }

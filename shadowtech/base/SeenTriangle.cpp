@@ -93,6 +93,13 @@ void see(const Drawn& drawn, const TriangleOfFragment& found, SeenTriangle& seen
   };
   seen.surface = found.surface;
   seen.known = Certainty::Uncertain;
+  seen.solid.reset();
+  if (surface.solid != Solid::None)
+  {
+    seen.solid = placedSolid(surface.solid, surface.centredFromSource[found.instance]);
+    seen.finite = drawn.raysFinite;
+    return;
+  }
   seen.corners = centredCorners(occluders, surface, found.instance, found.triangle);
   seen.finite = drawn.raysFinite && isFinite(seen.corners[0] + seen.corners[1] + seen.corners[2]);
   glm::dvec3 areaVector =

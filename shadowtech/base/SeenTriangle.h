@@ -3,11 +3,13 @@
 #include "shadowtech/base/Certainty.h"
 #include "shadowtech/base/PixelRays.h"
 #include "shadowtech/base/Receivers.h"
+#include "shadowtech/base/Solid.h"
 
 #include <glm/glm.hpp>
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace gnomon
@@ -68,6 +70,8 @@ struct SeenTriangle
   bool finite = false;
   Certainty known =
     Certainty::Uncertain; ///< of all its receivers; else the numbers above mean nothing
+  /// What is seen in a triangle's place; of the numbers above, only the surface means anything then.
+  std::optional<PlacedSolid> solid;
 };
 
 /// The largest primitive number that the images can hold exactly.

@@ -49,12 +49,27 @@ namespace gnomon
 ///   instanceNoise() is the sum of these, and the intersection's rounding with the extent of the
 ///   box in source coordinates, X'Y'Z' |det L| / A.
 ///
+/// - Solids (Solid.h). Their rays are tested in double precision, so that storage is all that is
+///   left. It moves a receiver along the surface as well, which is curved: off it by M^2 u^2 / 2R,
+///   less than the storage along the normal unless the radius R is below float's spacing.
+///
 /// - Footprint. A rasteriser snaps vertices to 1/256 pixel, so a fragment near an edge may lie past
 ///   it by as much, behind the next triangle of a concave surface. There the offset grows by 1/256
 ///   of the pixel's side. It moves a shadow's edge by as much times the cotangent of the light's
 ///   elevation, which cannot be seen, but can be counted where edges are dense. So a receiver that
 ///   is known to lie inside its triangle gets 1/256 of it, which only has to be more than nothing,
 ///   as the noise of the centred frame's own planes is.
+
+/// How far off a surface storing a receiver on it in float, and the ray's origin, may move them.
+///
+/// @param normal unit normal of the surface
+/// @param largest largest magnitude of the receiver's centred coordinates, by axis; of any sign
+inline float storageNoise(const glm::vec3& normal, const glm::vec3& largest)
+{
+  return 1.1920929e-7f * // 2^-23
+    (std::abs(normal.x * largest.x) + std::abs(normal.y * largest.y) +
+      std::abs(normal.z * largest.z));
+}
 
 /// How far from its plane the points of a triangle may seem to lie, in the unit of the coordinates.
 ///
@@ -65,11 +80,9 @@ namespace gnomon
 inline float planeNoise(
   const glm::vec3& normal, const glm::vec3& largest, const glm::vec3& extent, float doubleArea)
 {
-  const float storage = std::abs(normal.x) * largest.x + std::abs(normal.y) * largest.y +
-    std::abs(normal.z) * largest.z;
   const float longest = std::max(extent.x, std::max(extent.y, extent.z));
   const float intersection = extent.x * (extent.y * extent.z / doubleArea);
-  return 1.1920929e-7f * storage +                                  // 2^-23
+  return storageNoise(normal, largest) +
     std::min(1.9073486e-6f * intersection, 9.765625e-4f * longest); // 2^-19, 2^-10
 }
 

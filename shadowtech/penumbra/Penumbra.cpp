@@ -23,8 +23,8 @@ TechniqueInfo Penumbra::info()
 void Penumbra::computeVisibility(
   const ScreenInput& input, std::vector<float>& visibility, LightReport& report)
 {
-  // Bounds count samples, whatever their colours.
-  if (!input.light.area || input.light.texture)
+  // Bounds count samples, whatever their colours, and know edges of triangles alone.
+  if (!input.light.area || input.light.texture || input.occluders.castsSolids())
   {
     traceAllReceivers(input, visibility, report);
     return;

@@ -101,6 +101,62 @@ RTCFilterFunctionN filterOf(const Surface& surface)
   return surface.mirrored ? rejectBackFaces<true> : rejectBackFaces<false>;
 }
 
+/// The solids of a surface that are not left out, for Embree's calls back.
+struct CastingSolids
+{
+  std::vector<PlacedSolid> solids;
+  bool oneSided = false;
+
+  void place(const Surface& surface)
+  {
+    this->oneSided = surface.oneSided;
+    this->solids.clear();
+    for (const glm::mat4x3& instance : surface.centredFromSource)
+    {
+      if (!Surface::isLeftOut(instance))
+      {
+        this->solids.push_back(placedSolid(surface.solid, instance));
+      }
+    }
+  }
+};
+
+void boundSolid(const RTCBoundsFunctionArguments* arguments)
+{
+  const auto& casters = *static_cast<const CastingSolids*>(arguments->geometryUserPtr);
+  const Bounds bounds = boundsOf(casters.solids[arguments->primID]);
+  RTCBounds& box = *arguments->bounds_o;
+  box.lower_x = static_cast<float>(bounds.lower.x);
+  box.lower_y = static_cast<float>(bounds.lower.y);
+  box.lower_z = static_cast<float>(bounds.lower.z);
+  box.upper_x = static_cast<float>(bounds.upper.x);
+  box.upper_y = static_cast<float>(bounds.upper.y);
+  box.upper_z = static_cast<float>(bounds.upper.z);
+}
+
+/// Ray by ray, so that each has the same answer alone as in a packet.
+void occludeBySolid(const RTCOccludedFunctionNArguments* arguments)
+{
+  const auto& casters = *static_cast<const CastingSolids*>(arguments->geometryUserPtr);
+  const unsigned int count = arguments->N;
+  for (unsigned int i = 0; i < count; ++i)
+  {
+    if (!arguments->valid[i])
+    {
+      continue;
+    }
+    const glm::dvec3 origin(RTCRayN_org_x(arguments->ray, count, i),
+      RTCRayN_org_y(arguments->ray, count, i), RTCRayN_org_z(arguments->ray, count, i));
+    const glm::dvec3 direction(RTCRayN_dir_x(arguments->ray, count, i),
+      RTCRayN_dir_y(arguments->ray, count, i), RTCRayN_dir_z(arguments->ray, count, i));
+    float& far = RTCRayN_tfar(arguments->ray, count, i);
+    if (blocks(casters.solids[arguments->primID], casters.oneSided, origin, direction, far))
+    {
+      far = -std::numeric_limits<float>::infinity();
+    }
+  }
+}
+
 /// One casting surface in the scene.
 struct Caster
 {
@@ -112,6 +168,7 @@ struct Caster
   std::vector<unsigned int> attached;
   RTCFilterFunctionN filter = nullptr;
   std::unique_ptr<CutoutSurface> cutout; ///< stays where it is, since Embree is told
+  std::unique_ptr<CastingSolids> solids; ///< likewise
   std::uint64_t positionsVersion = 0;
   /// Where Embree was told to look.
   const glm::vec3* positions = nullptr;
@@ -266,6 +323,7 @@ struct EmbreeTracer::Impl
 
   void setBuffers(Caster& caster, const Surface& surface, const Occluders& occluders) const;
   Caster makeCaster(const Surface& surface, const Occluders& occluders) const;
+  Caster makeSolids(const Surface& surface) const;
   void attachInstances(Caster& caster, const Surface& surface) const;
   void move(Caster& caster, const Surface& surface) const;
   void check(const char* what) const;
@@ -323,6 +381,10 @@ void EmbreeTracer::Impl::check(const char* what) const
 void EmbreeTracer::Impl::setBuffers(
   Caster& caster, const Surface& surface, const Occluders& occluders) const
 {
+  if (caster.solids)
+  {
+    return;
+  }
   const glm::uvec3* triangles = occluders.triangles.data() + surface.firstTriangle;
   if (caster.triangles != triangles)
   {
@@ -346,8 +408,32 @@ void EmbreeTracer::Impl::setBuffers(
   }
 }
 
+Caster EmbreeTracer::Impl::makeSolids(const Surface& surface) const
+{
+  Caster caster;
+  caster.geometry = Geometry(rtcNewGeometry(this->device.get(), RTC_GEOMETRY_TYPE_USER));
+  caster.solids = std::make_unique<CastingSolids>();
+  caster.solids->place(surface);
+  caster.filter = filterOf(surface);
+  caster.positionsVersion = surface.positionsVersion;
+  const RTCGeometry geometry = caster.geometry.get();
+  rtcSetGeometryUserPrimitiveCount(
+    geometry, static_cast<unsigned int>(caster.solids->solids.size()));
+  rtcSetGeometryUserData(geometry, caster.solids.get());
+  rtcSetGeometryBoundsFunction(geometry, boundSolid, nullptr);
+  rtcSetGeometryOccludedFunction(geometry, occludeBySolid);
+  rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_REFIT);
+  rtcCommitGeometry(geometry);
+  caster.attached = { rtcAttachGeometry(this->scene.get(), geometry) };
+  return caster;
+}
+
 Caster EmbreeTracer::Impl::makeCaster(const Surface& surface, const Occluders& occluders) const
 {
+  if (surface.solid != Solid::None)
+  {
+    return this->makeSolids(surface);
+  }
   Caster caster;
   caster.geometry = Geometry(rtcNewGeometry(this->device.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
   caster.filter = filterOf(surface);
@@ -397,6 +483,12 @@ void EmbreeTracer::Impl::attachInstances(Caster& caster, const Surface& surface)
 /// many as are attached, in their order.
 void EmbreeTracer::Impl::move(Caster& caster, const Surface& surface) const
 {
+  if (caster.solids)
+  {
+    caster.solids->place(surface); // as many as before
+    rtcCommitGeometry(caster.geometry.get());
+    return;
+  }
   if (!surface.isInstanced())
   {
     rtcUpdateGeometryBuffer(caster.geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0);
@@ -504,7 +596,9 @@ std::size_t EmbreeTracer::bytesOfTable() const
   std::size_t bytes = gnomon::bytesOfTable(this->impl_->casters);
   for (const auto& entry : this->impl_->casters)
   {
-    bytes += bytesOf(entry.second.attached) + (entry.second.cutout ? sizeof(CutoutSurface) : 0);
+    const Caster& caster = entry.second;
+    bytes += bytesOf(caster.attached) + (caster.cutout ? sizeof(CutoutSurface) : 0) +
+      (caster.solids ? bytesOf(caster.solids->solids) : 0);
   }
   return bytes;
 }

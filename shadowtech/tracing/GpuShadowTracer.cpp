@@ -3,6 +3,7 @@
 #include "shadowtech/base/Bytes.h"
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace gnomon
 {
@@ -62,6 +63,10 @@ GpuShadowTracer::GpuShadowTracer(OccluderBuffers& buffers, ShaderLibrary& shader
 //------------------------------------------------------------------------------
 ShadowTracer::Update GpuShadowTracer::update(const Occluders& occluders)
 {
+  if (occluders.castsSolids())
+  {
+    throw std::runtime_error("it does not know spheres and cylinders (impostors)");
+  }
   this->buffers_.update(occluders);
   const CasterBvh::Change change = this->tracer_.update(occluders, this->buffers_);
   if (this->tracer_.empty())

@@ -126,7 +126,7 @@ TEST(BuiltinScenes, AreListedOnceEach)
     EXPECT_FALSE(line.summary.empty()) << line.name;
     EXPECT_LT(line.summary.size(), 80u) << line.name;
   }
-  EXPECT_EQ(names.size(), 37u);
+  EXPECT_EQ(names.size(), 38u);
 }
 
 //------------------------------------------------------------------------------

@@ -1,0 +1,256 @@
+#include "shadowtech/base/Solid.h"
+
+#include "shadowtech/base/Occluders.h"
+#include "shadowtech/base/ShadowRay.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+
+namespace gnomon
+{
+namespace
+{
+
+constexpr double endless = std::numeric_limits<double>::infinity();
+
+/// Where the line o + t d is within a distance of the origin; both lie in a plane or in space.
+std::optional<Crossing> crossBall(const glm::dvec3& o, const glm::dvec3& d, double radius)
+{
+  const double lengthSquared = glm::dot(d, d);
+  if (!(lengthSquared > 0.0))
+  {
+    return glm::dot(o, o) <= radius * radius ? std::optional(Crossing{ -endless, endless })
+                                             : std::nullopt;
+  }
+  const double middle = -glm::dot(o, d) / lengthSquared;
+  const glm::dvec3 nearest = o + middle * d;
+  const double rest = radius * radius - glm::dot(nearest, nearest);
+  if (!(rest >= 0.0))
+  {
+    return std::nullopt;
+  }
+  const double half = std::sqrt(rest / lengthSquared);
+  return Crossing{ middle - half, middle + half };
+}
+
+/// Where the line is between a cylinder's ends.
+std::optional<Crossing> crossSlab(double o, double d, double halfLength)
+{
+  if (d == 0.0)
+  {
+    return std::abs(o) <= halfLength ? std::optional(Crossing{ -endless, endless }) : std::nullopt;
+  }
+  const double toLower = (-halfLength - o) / d;
+  const double toUpper = (halfLength - o) / d;
+  return Crossing{ std::min(toLower, toUpper), std::max(toLower, toUpper) };
+}
+
+glm::dvec3 across(const glm::dvec3& vector, const glm::dvec3& axis)
+{
+  return vector - glm::dot(vector, axis) * axis;
+}
+
+/// Any unit vector across a unit vector.
+glm::dvec3 anyAcross(const glm::dvec3& axis)
+{
+  const glm::dvec3 other = std::abs(axis.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+  return glm::normalize(glm::cross(axis, other));
+}
+
+/// The point of a solid's surface below a point outside, or above one inside; of a point on it,
+/// that point.
+SolidPoint surfacePoint(const PlacedSolid& solid, const glm::dvec3& point)
+{
+  const glm::dvec3 from = point - solid.centre;
+  if (solid.kind == Solid::Sphere)
+  {
+    const double length = glm::length(from);
+    const glm::dvec3 normal = length > 0.0 ? from / length : glm::dvec3(0, 0, 1);
+    return { solid.centre + solid.radius * normal, normal };
+  }
+  const double along = glm::dot(from, solid.axis);
+  const glm::dvec3 off = across(from, solid.axis);
+  const double length = glm::length(off);
+  if (solid.radius - length <= solid.halfLength - std::abs(along))
+  {
+    const glm::dvec3 normal = length > 0.0 ? off / length : anyAcross(solid.axis);
+    const double kept = glm::clamp(along, -solid.halfLength, solid.halfLength);
+    return { solid.centre + kept * solid.axis + solid.radius * normal, normal };
+  }
+  const glm::dvec3 normal = along < 0.0 ? -solid.axis : solid.axis;
+  const double kept = length > solid.radius ? solid.radius / length : 1.0;
+  return { solid.centre + solid.halfLength * normal + kept * off, normal };
+}
+
+/// A sphere's mesh: an octahedron whose triangles are cut in four, again and again.
+SolidMesh sphereMesh(int cuts)
+{
+  SolidMesh mesh;
+  mesh.positions = { { 1, 0, 0 }, { -1, 0, 0 }, { 0, 1, 0 }, { 0, -1, 0 }, { 0, 0, 1 },
+    { 0, 0, -1 } };
+  mesh.triangles = { { 0, 2, 4 }, { 2, 1, 4 }, { 1, 3, 4 }, { 3, 0, 4 }, { 2, 0, 5 }, { 1, 2, 5 },
+    { 3, 1, 5 }, { 0, 3, 5 } };
+  for (int cut = 0; cut < cuts; ++cut)
+  {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
+    const auto middle = [&](std::uint32_t a, std::uint32_t b)
+    {
+      const auto [found, isNew] =
+        middles.emplace(std::minmax(a, b), static_cast<std::uint32_t>(mesh.positions.size()));
+      if (isNew)
+      {
+        mesh.positions.push_back(glm::normalize(mesh.positions[a] + mesh.positions[b]));
+      }
+      return found->second;
+    };
+    std::vector<glm::uvec3> finer;
+    for (const glm::uvec3& t : mesh.triangles)
+    {
+      const glm::uvec3 m(middle(t.x, t.y), middle(t.y, t.z), middle(t.z, t.x));
+      finer.insert(finer.end(),
+        { { t.x, m.x, m.z }, { m.x, t.y, m.y }, { m.z, m.y, t.z }, { m.x, m.y, m.z } });
+    }
+    mesh.triangles = std::move(finer);
+  }
+  return mesh;
+}
+
+/// A cylinder's mesh: a prism.
+SolidMesh cylinderMesh(std::uint32_t sides)
+{
+  SolidMesh mesh;
+  for (std::uint32_t i = 0; i < sides; ++i)
+  {
+    const double angle = 2.0 * 3.14159265358979 * i / sides;
+    for (const float z : { -1.0f, 1.0f })
+    {
+      mesh.positions.emplace_back(std::cos(angle), std::sin(angle), z);
+    }
+    const std::uint32_t lower = 2 * i;
+    const std::uint32_t nextLower = 2 * ((i + 1) % sides);
+    mesh.triangles.emplace_back(lower, nextLower, nextLower + 1);
+    mesh.triangles.emplace_back(lower, nextLower + 1, lower + 1);
+    if (i > 0 && i + 1 < sides)
+    {
+      mesh.triangles.emplace_back(0, nextLower, lower);
+      mesh.triangles.emplace_back(1, lower + 1, nextLower + 1);
+    }
+  }
+  return mesh;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+PlacedSolid placedSolid(Solid kind, const glm::mat4x3& centredFromSource)
+{
+  const glm::dmat4x3 matrix(centredFromSource);
+  PlacedSolid solid{ kind, matrix[3], glm::length(matrix[0]) };
+  if (solid.kind == Solid::Cylinder)
+  {
+    solid.halfLength = glm::length(matrix[2]);
+    solid.axis = matrix[2] / solid.halfLength;
+  }
+  return solid;
+}
+
+//------------------------------------------------------------------------------
+Bounds boundsOf(const PlacedSolid& solid)
+{
+  glm::dvec3 reach(solid.radius);
+  if (solid.kind == Solid::Cylinder)
+  {
+    for (int i = 0; i < 3; ++i)
+    {
+      const double along = solid.axis[i];
+      reach[i] = solid.halfLength * std::abs(along) +
+        solid.radius * std::sqrt(std::max(0.0, 1.0 - along * along));
+    }
+  }
+  // Two roundings of the box's sides, and as much again for a ray that enters it in float.
+  reach += std::ldexp(1.0, -22) * (glm::abs(solid.centre) + reach);
+  return { solid.centre - reach, solid.centre + reach };
+}
+
+//------------------------------------------------------------------------------
+Bounds solidsBounds(Solid kind, const std::vector<glm::mat4x3>& centredFromSource)
+{
+  Bounds bounds;
+  for (const glm::mat4x3& instance : centredFromSource)
+  {
+    if (!Surface::isLeftOut(instance))
+    {
+      bounds.add(boundsOf(placedSolid(kind, instance)));
+    }
+  }
+  return bounds;
+}
+
+//------------------------------------------------------------------------------
+std::optional<Crossing> crossingOf(
+  const PlacedSolid& solid, const glm::dvec3& origin, const glm::dvec3& direction)
+{
+  const glm::dvec3 from = origin - solid.centre;
+  if (solid.kind == Solid::Sphere)
+  {
+    return crossBall(from, direction, solid.radius);
+  }
+  const auto around =
+    crossBall(across(from, solid.axis), across(direction, solid.axis), solid.radius);
+  const auto between =
+    crossSlab(glm::dot(from, solid.axis), glm::dot(direction, solid.axis), solid.halfLength);
+  if (!around || !between)
+  {
+    return std::nullopt;
+  }
+  const Crossing both{ std::max(around->enters, between->enters),
+    std::min(around->leaves, between->leaves) };
+  return both.enters <= both.leaves ? std::optional(both) : std::nullopt;
+}
+
+//------------------------------------------------------------------------------
+bool blocks(const PlacedSolid& solid, bool oneSided, const glm::dvec3& origin,
+  const glm::dvec3& direction, double far)
+{
+  const auto crossing = crossingOf(solid, origin, direction);
+  const auto isAhead = [far](double t) { return t >= 0.0 && t <= far; };
+  return crossing && (isAhead(crossing->enters) || (!oneSided && isAhead(crossing->leaves)));
+}
+
+//------------------------------------------------------------------------------
+SolidPoint seenPoint(
+  const PlacedSolid& solid, const glm::dvec3& origin, const glm::dvec3& direction)
+{
+  const auto crossing = crossingOf(solid, origin, direction);
+  const bool isMet = crossing && std::isfinite(crossing->enters);
+  const double t = isMet
+    ? crossing->enters
+    : glm::dot(solid.centre - origin, direction) / glm::dot(direction, direction);
+  SolidPoint point = surfacePoint(solid, origin + t * direction);
+  point.isMet = isMet;
+  return point;
+}
+
+//------------------------------------------------------------------------------
+float noiseOf(const PlacedSolid& solid, const SolidPoint& point)
+{
+  return 2.0f * storageNoise(point.normal, glm::abs(point.position) + solid.halfLength);
+}
+
+//------------------------------------------------------------------------------
+SolidMesh meshOf(Solid kind, std::size_t count)
+{
+  constexpr std::size_t mostTriangles = 1u << 20;
+  const std::size_t each = mostTriangles / std::max<std::size_t>(count, 1);
+  if (kind == Solid::Cylinder)
+  {
+    return cylinderMesh(each >= 128 ? 32 : 16);
+  }
+  return sphereMesh(each >= 2048 ? 4 : each >= 512 ? 3 : 2);
+}
+
+} // namespace gnomon

@@ -1,0 +1,592 @@
+// Mappers of impostors: their spheres and sticks cast and receive as what they look like.
+
+#include "PassScene.h"
+
+#include <vtkCellArray.h>
+#include <vtkFloatArray.h>
+#include <vtkMatrix4x4.h>
+#include <vtkMolecule.h>
+#include <vtkOpenGLMoleculeMapper.h>
+#include <vtkOpenGLSphereMapper.h>
+#include <vtkOpenGLStickMapper.h>
+#include <vtkPlane.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <random>
+#include <string>
+#include <vector>
+
+using namespace gnomon::test;
+using gnomon::VisibilityImages;
+
+namespace
+{
+
+/// Where a line meets something first, from its origin on.
+struct Hit
+{
+  double t;
+  glm::dvec3 normal;  ///< outwards
+  bool isEnd = false; ///< of a stick
+};
+using MaybeHit = std::optional<Hit>;
+
+MaybeHit meetBall(const glm::dvec3& o, const glm::dvec3& d, const glm::dvec3& centre, double radius)
+{
+  const double a = glm::dot(d, d);
+  const double b = glm::dot(o - centre, d);
+  const double c = glm::dot(o - centre, o - centre) - radius * radius;
+  const double root = b * b - a * c;
+  const double t = root >= 0.0 ? (-b - std::sqrt(root)) / a : -1.0;
+  return t > 0.0 ? MaybeHit(Hit{ t, (o + t * d - centre) / radius }) : std::nullopt;
+}
+
+MaybeHit meetStick(const glm::dvec3& o, const glm::dvec3& d, const glm::dvec3& centre,
+  const glm::dvec3& axis, double length, double radius)
+{
+  MaybeHit first;
+  const auto take = [&](const Hit& hit)
+  {
+    if (hit.t > 0.0 && (!first || hit.t < first->t))
+    {
+      first = hit;
+    }
+  };
+  const auto off = [&](const glm::dvec3& v) { return v - glm::dot(v, axis) * axis; };
+  const glm::dvec3 oOff = off(o - centre);
+  const glm::dvec3 dOff = off(d);
+  const double a = glm::dot(dOff, dOff);
+  const double b = glm::dot(oOff, dOff);
+  const double root = b * b - a * (glm::dot(oOff, oOff) - radius * radius);
+  if (root >= 0.0)
+  {
+    const double t = (-b - std::sqrt(root)) / a;
+    if (std::abs(glm::dot(o + t * d - centre, axis)) <= 0.5 * length)
+    {
+      take({ t, (oOff + t * dOff) / radius });
+    }
+  }
+  for (const double side : { -1.0, 1.0 })
+  {
+    const double t = (side * 0.5 * length - glm::dot(o - centre, axis)) / glm::dot(d, axis);
+    if (glm::length(oOff + t * dOff) <= radius && side * glm::dot(d, axis) < 0.0)
+    {
+      take({ t, side * axis, true });
+    }
+  }
+  return first;
+}
+
+struct Ball
+{
+  glm::dvec3 centre;
+  double radius;
+};
+struct Stick
+{
+  glm::dvec3 centre, axis;
+  double length, radius;
+};
+
+vtkFloatArray* addArray(vtkPolyData* data, const char* name, int components)
+{
+  vtkNew<vtkFloatArray> array;
+  array->SetName(name);
+  array->SetNumberOfComponents(components);
+  data->GetPointData()->AddArray(array);
+  return array;
+}
+
+/// With a vertex: VTK takes a mapper's bounds from cells, and draws nothing without.
+void addPoint(vtkPolyData* data, const glm::dvec3& position)
+{
+  const vtkIdType point = data->GetPoints()->InsertNextPoint(&position.x);
+  data->GetVerts()->InsertNextCell(1, &point);
+}
+
+/// Balls and sticks above a floor, at random places.
+class SolidsScene : public PassScene
+{
+public:
+  static constexpr double floorSize = 12.0;
+
+  explicit SolidsScene(int seed = 1, int count = 40, int side = 240)
+    : PassScene(side, side)
+  {
+    this->addFloor(floorSize);
+    std::mt19937 random(static_cast<unsigned int>(seed));
+    const auto uniform = [&](double lower, double upper)
+    { return std::uniform_real_distribution<double>(lower, upper)(random); };
+    const auto round = [](double value) { return static_cast<double>(static_cast<float>(value)); };
+    const auto place = [&]
+    { return glm::dvec3(round(uniform(-5, 5)), round(uniform(-5, 5)), round(uniform(0.2, 4))); };
+    for (int i = 0; i < count; ++i)
+    {
+      this->balls.push_back({ place(), round(std::exp2(uniform(-3.0, 0.0))) });
+      this->sticks.push_back(
+        { place(), glm::normalize(glm::dvec3(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1))),
+          round(uniform(0.3, 3.0)), round(std::exp2(uniform(-4.0, -1.0))) });
+    }
+    for (vtkPolyData* data : { this->ballData.Get(), this->stickData.Get() })
+    {
+      data->SetPoints(vtkNew<vtkPoints>());
+      data->SetVerts(vtkNew<vtkCellArray>());
+    }
+    this->radii = addArray(this->ballData, "radii", 1);
+    vtkFloatArray* sizes = addArray(this->stickData, "sizes", 3);
+    vtkFloatArray* axes = addArray(this->stickData, "axes", 3);
+    for (const Ball& ball : this->balls)
+    {
+      addPoint(this->ballData, ball.centre);
+      this->radii->InsertNextTuple1(ball.radius);
+    }
+    for (const Stick& stick : this->sticks)
+    {
+      addPoint(this->stickData, stick.centre);
+      sizes->InsertNextTuple3(stick.length, stick.radius, 0.0);
+      axes->InsertNextTuple3(stick.axis.x, stick.axis.y, stick.axis.z);
+    }
+    // Without colours of points VTK's sticks crash.
+    vtkNew<vtkUnsignedCharArray> white;
+    white->SetNumberOfComponents(3);
+    white->SetNumberOfTuples(count);
+    white->Fill(255.0);
+    this->stickData->GetPointData()->SetScalars(white);
+    this->ballMapper->SetInputData(this->ballData);
+    this->ballMapper->SetScaleArray("radii");
+    this->ballActor->SetMapper(this->ballMapper);
+    this->stickMapper->SetInputData(this->stickData);
+    this->stickMapper->SetScaleArray("sizes");
+    this->stickMapper->SetOrientationArray("axes");
+    this->stickActor->SetMapper(this->stickMapper);
+    this->renderer->AddActor(this->ballActor);
+    this->renderer->AddActor(this->stickActor);
+    this->lookFrom({ 6.0, -9.0, 8.0 }, { 0.0, 0.0, 1.0 });
+  }
+
+  MaybeHit meet(const glm::dvec3& o, const glm::dvec3& d) const
+  {
+    MaybeHit first;
+    const auto take = [&](const MaybeHit& hit)
+    {
+      if (hit && (!first || hit->t < first->t))
+      {
+        first = hit;
+      }
+    };
+    for (const Ball& ball : this->balls)
+    {
+      take(meetBall(o, d, ball.centre, ball.radius));
+    }
+    for (const Stick& stick : this->sticks)
+    {
+      take(meetStick(o, d, stick.centre, stick.axis, stick.length, stick.radius));
+    }
+    const double t = -o.z / d.z;
+    const glm::dvec3 onFloor = o + t * d;
+    if (t > 0.0 && std::max(std::abs(onFloor.x), std::abs(onFloor.y)) <= floorSize)
+    {
+      take(Hit{ t, { 0.0, 0.0, d.z < 0.0 ? 1.0 : -1.0 } });
+    }
+    return first;
+  }
+
+  std::vector<Ball> balls;
+  std::vector<Stick> sticks;
+  vtkNew<vtkPolyData> ballData, stickData;
+  vtkFloatArray* radii = nullptr;
+  vtkNew<vtkOpenGLSphereMapper> ballMapper;
+  vtkNew<vtkOpenGLStickMapper> stickMapper;
+  vtkNew<vtkActor> ballActor, stickActor;
+};
+
+/// What rays of the test's own say of a pixel.
+struct PixelTruth
+{
+  bool certain = false; ///< it is the same a little to all sides
+  float visibility = 1.0f;
+  glm::dvec3 position{ 0.0 }, normal{ 0.0 };
+};
+
+class Truth
+{
+public:
+  Truth(SolidsScene& scene, vtkLight* light)
+    : scene_(scene)
+    , light_(light)
+  {
+    vtkNew<vtkMatrix4x4> inverse;
+    inverse->DeepCopy(scene.renderer->GetActiveCamera()->GetCompositeProjectionTransformMatrix(
+      scene.renderer->GetTiledAspectRatio(), -1.0, 1.0));
+    vtkNew<vtkMatrix4x4> view;
+    view->DeepCopy(scene.renderer->GetActiveCamera()->GetViewTransformMatrix());
+    for (int row = 0; row < 4; ++row)
+    {
+      for (int column = 0; column < 4; ++column)
+      {
+        this->viewFromWorld_[column][row] = view->GetElement(row, column);
+      }
+    }
+    inverse->Invert();
+    for (int row = 0; row < 4; ++row)
+    {
+      for (int column = 0; column < 4; ++column)
+      {
+        this->worldFromClip_[column][row] = inverse->GetElement(row, column);
+      }
+    }
+  }
+
+  /// @param y from the top
+  PixelTruth at(int x, int y, const glm::ivec2& size) const
+  {
+    PixelTruth middle;
+    for (const glm::dvec2 off : { glm::dvec2(0.0), glm::dvec2(0.02, 0.01), glm::dvec2(-0.02, 0.01),
+           glm::dvec2(0.01, -0.02), glm::dvec2(-0.01, -0.02) })
+    {
+      const glm::dvec2 clip(
+        2.0 * (x + 0.5 + off.x) / size.x - 1.0, 2.0 * (size.y - y - 0.5 + off.y) / size.y - 1.0);
+      const PixelTruth here = this->along(clip);
+      if (off == glm::dvec2(0.0))
+      {
+        middle = here;
+      }
+      middle.certain = middle.certain && here.certain && here.visibility == middle.visibility;
+    }
+    return middle;
+  }
+
+private:
+  PixelTruth along(const glm::dvec2& clip) const
+  {
+    const auto unproject = [&](double depth)
+    {
+      const glm::dvec4 point = this->worldFromClip_ * glm::dvec4(clip, depth, 1.0);
+      return glm::dvec3(point) / point.w;
+    };
+    const glm::dvec3 origin = unproject(-1.0);
+    const glm::dvec3 direction = unproject(1.0) - origin;
+    const MaybeHit hit = this->scene_.meet(origin, direction);
+    PixelTruth truth;
+    // VTK's shader draws the end of a stick that faces the picture's plane, and no other.
+    const glm::dvec3 normalView =
+      glm::dmat3(this->viewFromWorld_) * (hit ? hit->normal : glm::dvec3(0.0));
+    truth.certain = hit && (!hit->isEnd || normalView.z > 0.0);
+    if (hit)
+    {
+      truth.position = origin + hit->t * direction;
+      truth.normal = hit->normal;
+      const bool lit = this->isLit(truth);
+      truth.visibility = lit ? 1.0f : 0.0f;
+    }
+    return truth;
+  }
+
+  bool isLit(PixelTruth& truth) const
+  {
+    const glm::dvec3 position(this->light_->GetPosition()[0], this->light_->GetPosition()[1],
+      this->light_->GetPosition()[2]);
+    const glm::dvec3 target(this->light_->GetFocalPoint()[0], this->light_->GetFocalPoint()[1],
+      this->light_->GetFocalPoint()[2]);
+    const bool positional = this->light_->GetPositional();
+    const glm::dvec3 way = positional ? position - truth.position : position - target;
+    const double cosine = glm::dot(truth.normal, glm::normalize(way));
+    truth.certain = truth.certain && std::abs(cosine) > 1e-3;
+    if (cosine <= 0.0)
+    {
+      return false;
+    }
+    const MaybeHit blocker = this->scene_.meet(truth.position + 1e-5 * truth.normal, way);
+    return !blocker || (positional && blocker->t > 1.0);
+  }
+
+  SolidsScene& scene_;
+  vtkLight* light_;
+  glm::dmat4 worldFromClip_, viewFromWorld_;
+};
+
+void setTechnique(SolidsScene& scene, const char* technique)
+{
+  scene.pass->SetTechnique(technique);
+  scene.pass->SetRoute(vtkGnomonShadowPass::ROUTE_IMAGE);
+}
+
+/// The fixture's window is drawn with its first light's visibility kept.
+class SolidsTest : public PassTest
+{
+protected:
+  static std::vector<float> visibility(SolidsScene& scene) { return drawKept(scene).visibility[0]; }
+};
+
+} // namespace
+
+//------------------------------------------------------------------------------
+TEST_F(SolidsTest, agreeWithClosedForms)
+{
+  for (const bool parallel : { false, true })
+  {
+    for (const bool sun : { true, false })
+    {
+      SCOPED_TRACE(testing::Message() << parallel << sun);
+      SolidsScene scene(sun ? 1 : 2);
+      vtkLight* light =
+        sun ? scene.addSun({ 0.5, 0.3, -1.0 }) : scene.addSpot({ 3, 4, 9 }, { 0, 0, 0 }, 80.0);
+      scene.renderer->GetActiveCamera()->SetParallelProjection(parallel);
+      scene.renderer->GetActiveCamera()->SetParallelScale(5.0);
+      setTechnique(scene, "raytraced");
+      const VisibilityImages& kept = drawKept(scene);
+      EXPECT_EQ(scene.report().instances, 80u);
+      EXPECT_THAT(scene.report().notes, testing::IsEmpty());
+      const Truth truth(scene, light);
+      std::size_t certain = 0;
+      std::size_t dark = 0;
+      std::size_t wrong = 0;
+      std::size_t holes = 0;
+      for (int y = 0; y < kept.height; ++y)
+      {
+        for (int x = 0; x < kept.width; ++x)
+        {
+          const PixelTruth expected = truth.at(x, y, { kept.width, kept.height });
+          if (!expected.certain)
+          {
+            continue;
+          }
+          const auto i = static_cast<std::size_t>(y * kept.width + x);
+          if (glm::length(positionOf(kept, i) - expected.position) > 1e-3)
+          {
+            ++holes; // VTK's shader drops pixels of a stick's rim
+            continue;
+          }
+          ++certain;
+          dark += expected.visibility == 0.0f ? 1 : 0;
+          wrong += kept.visibility[0][i] != expected.visibility ? 1 : 0;
+          ASSERT_GT(glm::dot(expected.normal,
+                      glm::dvec3(kept.normalX[i], kept.normalY[i], kept.normalZ[i])),
+            0.999);
+        }
+      }
+      EXPECT_GT(certain, 40000u);
+      EXPECT_GT(dark, 8000u);
+      EXPECT_EQ(wrong, 0u);
+      EXPECT_LT(holes, certain / 2000);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(SolidsTest, exactTechniquesAgree)
+{
+  for (int seed = 3; seed < 6; ++seed)
+  {
+    SolidsScene scene(seed);
+    scene.addSun({ 0.5, 0.3, -1.0 });
+    setTechnique(scene, "raytraced");
+    const std::vector<float> truth = this->visibility(scene);
+    for (const char* technique : { "crsm", "crsma", "silhouette", "penumbra" })
+    {
+      SCOPED_TRACE(technique);
+      setTechnique(scene, technique);
+      EXPECT_EQ(this->visibility(scene), truth);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+/// What a map holds are meshes inside of the solids: no solid is dark by its own.
+TEST_F(SolidsTest, mapsShowThemWithoutAcne)
+{
+  SolidsScene scene(6, 1);
+  scene.balls[0] = { { -1.5, 0.0, 2.0 }, 1.0 };
+  scene.sticks[0] = { { 1.5, 0.0, 2.0 }, { 0.6, 0.0, 0.8 }, 2.0, 0.5 };
+  scene.ballData->GetPoints()->SetPoint(0, -1.5, 0.0, 2.0);
+  scene.radii->SetTuple1(0, 1.0);
+  scene.stickData->GetPoints()->SetPoint(0, 1.5, 0.0, 2.0);
+  scene.stickData->GetPointData()->GetArray("sizes")->SetTuple3(0, 2.0, 0.5, 0.0);
+  scene.stickData->GetPointData()->GetArray("axes")->SetTuple3(0, 0.6, 0.0, 0.8);
+  vtkLight* light = scene.addSun({ 0.5, 0.3, -1.0 });
+  scene.lookFrom({ 1.0, -5.0, 8.0 }, { 0.0, 0.0, 1.5 });
+  const glm::dvec3 toLight(-0.5, -0.3, 1.0);
+  setTechnique(scene, "raytraced");
+  const VisibilityImages truth = drawKept(scene);
+  const auto inShadow = std::count(truth.visibility[0].begin(), truth.visibility[0].end(), 0.0f);
+  EXPECT_GT(inShadow, 3000);
+  for (const char* technique : { "nsm", "pcf", "vsm", "pssm", "selective", "montecarlo" })
+  {
+    SCOPED_TRACE(technique);
+    setTechnique(scene, technique);
+    const VisibilityImages& kept = drawKept(scene);
+    std::size_t darkSolids = 0;
+    std::size_t wrong = 0;
+    for (std::size_t i = 0; i < kept.coverage.size(); ++i)
+    {
+      const bool ofSolid = positionOf(kept, i).z > 0.5;
+      const bool faces = cosineTowards(kept, i, light) > 0.05;
+      darkSolids += ofSolid && faces && kept.visibility[0][i] < 0.5f ? 1 : 0;
+      wrong += std::abs(kept.visibility[0][i] - truth.visibility[0][i]) > 0.5f ? 1 : 0;
+    }
+    EXPECT_EQ(darkSolids, 0u);
+    EXPECT_LT(wrong, kept.coverage.size() / 100);
+  }
+  EXPECT_EQ(countAcneOfSun(truth, toLight, 0.05).facing > 0, true);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(SolidsTest, bothRoutesAgree)
+{
+  SolidsScene scene(7);
+  scene.addSun({ 0.5, 0.3, -1.0 });
+  for (const char* technique : { "nsm", "pcf" })
+  {
+    scene.pass->SetTechnique(technique);
+    scene.pass->SetRoute(vtkGnomonShadowPass::ROUTE_INLINE);
+    const Picture within = scene.render();
+    scene.pass->SetRoute(vtkGnomonShadowPass::ROUTE_IMAGE);
+    const Picture fetched = scene.render();
+    EXPECT_LE(differingPixels(within, fetched, 2), within.pixels() / 5000) << technique;
+  }
+}
+
+//------------------------------------------------------------------------------
+/// A pass that has seen what was there before shows the same as a new one.
+TEST_F(SolidsTest, changesAreSeen)
+{
+  SolidsScene scene(8);
+  scene.addSun({ 0.5, 0.3, -1.0 });
+  setTechnique(scene, "raytraced");
+  std::vector<float> before = this->visibility(scene);
+  const auto expectChange = [&](const char* what)
+  {
+    SCOPED_TRACE(what);
+    const std::vector<float> after = this->visibility(scene);
+    EXPECT_NE(after, before);
+    vtkNew<vtkGnomonShadowPass> fresh;
+    fresh->SetTechnique("raytraced");
+    fresh->KeepVisibilityOn();
+    scene.renderer->SetPass(fresh);
+    scene.window->Render();
+    EXPECT_EQ(fresh->GetVisibility().visibility[0], after);
+    scene.useGnomon();
+    before = after;
+  };
+  scene.radii->SetValue(3, 1.5f);
+  scene.radii->Modified();
+  expectChange("a radius");
+  scene.ballData->GetPoints()->SetPoint(5, 0.0, 0.0, 5.0);
+  scene.ballData->GetPoints()->Modified();
+  expectChange("a place");
+  scene.stickActor->SetPosition(0.5, 0.2, 0.3);
+  expectChange("a prop's place");
+  EXPECT_EQ(scene.report().bvhRefits, 1);
+  scene.stickActor->RotateZ(40.0);
+  expectChange("a prop's turn");
+  scene.ballActor->SetScale(1.2); // moves balls apart, as VTK does, and leaves their size
+  expectChange("a scale");
+  scene.ballMapper->SetScaleArray(nullptr);
+  scene.ballMapper->SetRadius(0.4f);
+  expectChange("one radius for all");
+  addPoint(scene.ballData, { 0.0, 0.0, 3.0 });
+  scene.ballData->GetPoints()->Modified();
+  expectChange("another one");
+  scene.stickActor->VisibilityOff();
+  expectChange("fewer");
+}
+
+//------------------------------------------------------------------------------
+TEST_F(SolidsTest, whatIsNotServedIsListed)
+{
+  SolidsScene scene(9, 4);
+  scene.addSun({ 0.5, 0.3, -1.0 });
+  const auto notes = [&]
+  {
+    scene.render();
+    std::string all;
+    for (const std::string& note : scene.report().notes)
+    {
+      all += note;
+    }
+    return all;
+  };
+  EXPECT_EQ(notes(), "");
+  scene.stickActor->SetScale(2.0);
+  EXPECT_THAT(notes(), testing::HasSubstr("vtkOpenGLStickMapper (its actor is scaled"));
+  scene.stickActor->SetScale(1.0);
+  scene.ballMapper->AddClippingPlane(vtkNew<vtkPlane>());
+  EXPECT_THAT(notes(), testing::HasSubstr("vtkOpenGLSphereMapper (clipped)"));
+  scene.ballMapper->RemoveAllClippingPlanes();
+  EXPECT_EQ(notes(), "");
+}
+
+//------------------------------------------------------------------------------
+TEST_F(SolidsTest, theTracerOnTheGpuSaysNo)
+{
+  SolidsScene scene(10, 4);
+  scene.addSun({ 0.5, 0.3, -1.0 });
+  scene.choose(gpuTracedWay);
+  scene.window->Render();
+  EXPECT_THAT(this->takeErrors(), testing::HasSubstr("does not know spheres and cylinders"));
+}
+
+//------------------------------------------------------------------------------
+TEST_F(SolidsTest, atomsAndBondsCast)
+{
+  PassScene scene(200, 200);
+  scene.addFloor(8.0, -2.0);
+  scene.addSun({ 0.0, 0.0, -1.0 });
+  vtkNew<vtkMolecule> molecule;
+  const vtkAtom carbon = molecule->AppendAtom(6, -2.0, 0.0, 0.0);
+  molecule->AppendBond(carbon, molecule->AppendAtom(8, 2.0, 0.0, 0.0), 1);
+  vtkNew<vtkOpenGLMoleculeMapper> mapper;
+  mapper->SetInputData(molecule);
+  mapper->UseBallAndStickSettings();
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  scene.renderer->AddActor(actor);
+  // From the side, so that the molecule hides none of its shadow.
+  scene.lookFrom({ 0.0, -9.0, 2.0 }, { 0.0, 0.0, -2.0 });
+  scene.pass->SetTechnique("raytraced");
+  const auto inShadow = [&]
+  {
+    const VisibilityImages& kept = drawKept(scene);
+    std::size_t dark = 0;
+    for (std::size_t i = 0; i < kept.coverage.size(); ++i)
+    {
+      dark += positionOf(kept, i).z < -1.9 && kept.visibility[0][i] == 0.0f ? 1 : 0;
+    }
+    return dark;
+  };
+  const std::size_t all = inShadow();
+  mapper->RenderBondsOff();
+  const std::size_t atoms = inShadow();
+  mapper->RenderBondsOn();
+  mapper->RenderAtomsOff();
+  const std::size_t bonds = inShadow();
+  EXPECT_GT(atoms, 50u);
+  EXPECT_GT(bonds, 50u);
+  EXPECT_GT(all, std::max(atoms, bonds));
+  EXPECT_LE(all, atoms + bonds);
+}
+
+//------------------------------------------------------------------------------
+/// In a window with several samples a pixel: all of them in another prop's shadow.
+TEST_F(SolidsTest, outlinesAreAsDarkAsWhatTheyAreOf)
+{
+  SolidsScene scene(11);
+  scene.addBox({ -20.0, -20.0, 30.0 }, { 20.0, 20.0, 31.0 });
+  scene.addSun({ 0.2, 0.1, -1.0 });
+  scene.window->SetMultiSamples(4);
+  for (const char* technique : { "raytraced", "nsm" })
+  {
+    SCOPED_TRACE(technique);
+    setTechnique(scene, technique);
+    const Picture picture = scene.render();
+    EXPECT_EQ(*std::max_element(picture.rgb.begin(), picture.rgb.end()), 0);
+  }
+}

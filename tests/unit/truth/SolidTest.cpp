@@ -1,0 +1,410 @@
+// Spheres and cylinders of impostors: where rays meet them, and that none shadows itself.
+
+#include "SyntheticScene.h"
+
+#include "shadowtech/base/ShadowRay.h"
+#include "shadowtech/base/Solid.h"
+#include "shadowtech/tracing/EmbreeTracer.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <random>
+#include <utility>
+#include <vector>
+
+using namespace gnomon;
+using namespace gnomon::test;
+
+namespace
+{
+
+class RandomSolids
+{
+public:
+  explicit RandomSolids(unsigned int seed)
+    : random_(seed)
+  {
+  }
+
+  double uniform(double lower, double upper)
+  {
+    return std::uniform_real_distribution<double>(lower, upper)(this->random_);
+  }
+  glm::dvec3 vector(double most = 1.0)
+  {
+    return { this->uniform(-most, most), this->uniform(-most, most), this->uniform(-most, most) };
+  }
+  glm::dvec3 direction()
+  {
+    glm::dvec3 vector(0.0);
+    while (glm::length(vector) < 0.1 || glm::length(vector) > 1.0)
+    {
+      vector = this->vector();
+    }
+    return glm::normalize(vector);
+  }
+
+  /// As the snapshot keeps it.
+  glm::mat4x3 matrix(Solid kind, double reach)
+  {
+    const double radius = std::exp2(this->uniform(-8.0, 2.0));
+    glm::dmat4x3 matrix(radius);
+    if (kind == Solid::Cylinder)
+    {
+      matrix = alongAxis(this->direction() * std::exp2(this->uniform(-8.0, 2.0)), radius);
+    }
+    matrix[3] = this->vector(reach);
+    return glm::mat4x3(matrix);
+  }
+
+  static glm::dmat4x3 alongAxis(const glm::dvec3& halfAxis, double radius)
+  {
+    const glm::dvec3 axis = glm::normalize(halfAxis);
+    const glm::dvec3 x = glm::normalize(
+      glm::cross(axis, std::abs(axis.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(0, 1, 0)));
+    return { radius * x, radius * glm::cross(axis, x), halfAxis, glm::dvec3(0.0) };
+  }
+
+private:
+  std::mt19937 random_;
+};
+
+/// How far inside a solid a point is: negative outside.
+double depthIn(const PlacedSolid& solid, const glm::dvec3& point)
+{
+  const glm::dvec3 from = point - solid.centre;
+  if (solid.kind == Solid::Sphere)
+  {
+    return solid.radius - glm::length(from);
+  }
+  const double along = glm::dot(from, solid.axis);
+  return std::min(
+    solid.radius - glm::length(from - along * solid.axis), solid.halfLength - std::abs(along));
+}
+
+/// Solids as a snapshot has them, one surface for each kind.
+Occluders occludersOf(const std::vector<std::pair<Solid, std::vector<glm::mat4x3>>>& kinds)
+{
+  Occluders occluders;
+  for (const auto& [kind, matrices] : kinds)
+  {
+    const SolidMesh mesh = meshOf(kind, matrices.size());
+    Surface surface;
+    surface.solid = kind;
+    surface.firstVertex = static_cast<std::uint32_t>(occluders.positionsCentred.size());
+    surface.vertexCount = static_cast<std::uint32_t>(mesh.positions.size());
+    surface.firstTriangle = static_cast<std::uint32_t>(occluders.triangles.size());
+    surface.triangleCount = static_cast<std::uint32_t>(mesh.triangles.size());
+    surface.centredFromSource = matrices;
+    surface.topologyVersion = surface.positionsVersion = occluders.surfaces.size() + 1;
+    for (const glm::vec3& position : mesh.positions)
+    {
+      occluders.positionsCentred.push_back(position);
+    }
+    for (const glm::uvec3& triangle : mesh.triangles)
+    {
+      occluders.triangles.push_back(triangle + surface.firstVertex);
+    }
+    occluders.castersCentred.add(solidsBounds(kind, matrices));
+    occluders.surfaces.push_back(std::move(surface));
+  }
+  occluders.allCentred = occluders.castersCentred;
+  occluders.topologyVersion = occluders.positionsVersion = 1;
+  return occluders;
+}
+
+class Solids : public testing::TestWithParam<Solid>
+{
+};
+INSTANTIATE_TEST_SUITE_P(Of, Solids, testing::Values(Solid::Sphere, Solid::Cylinder),
+  [](const testing::TestParamInfo<Solid>& kind)
+  { return kind.param == Solid::Sphere ? "spheres" : "cylinders"; });
+
+} // namespace
+
+//------------------------------------------------------------------------------
+TEST_P(Solids, linesCrossThemWhereTheyAreInside)
+{
+  RandomSolids random(1);
+  int crossed = 0;
+  for (int i = 0; i < 20000; ++i)
+  {
+    const PlacedSolid solid = placedSolid(GetParam(), random.matrix(GetParam(), 10.0));
+    const double size = solid.radius + solid.halfLength;
+    const glm::dvec3 origin = solid.centre + 3.0 * size * random.vector();
+    const glm::dvec3 direction =
+      random.uniform(0.1, 10.0) * (solid.centre + 1.2 * size * random.vector() - origin);
+    const auto crossing = crossingOf(solid, origin, direction);
+    // The deepest point is where depth, which is concave along the line, stops growing.
+    double lower = -30.0;
+    double upper = 30.0;
+    for (int step = 0; step < 200; ++step)
+    {
+      const double a = lower + (upper - lower) / 3.0;
+      const double b = upper - (upper - lower) / 3.0;
+      (depthIn(solid, origin + a * direction) < depthIn(solid, origin + b * direction) ? lower
+                                                                                       : upper) =
+        depthIn(solid, origin + a * direction) < depthIn(solid, origin + b * direction) ? a : b;
+    }
+    const double deepest = depthIn(solid, origin + lower * direction);
+    if (std::abs(deepest) < 1e-9 * size)
+    {
+      continue; // it touches
+    }
+    ASSERT_EQ(crossing.has_value(), deepest > 0.0) << i;
+    if (crossing)
+    {
+      ++crossed;
+      EXPECT_NEAR(depthIn(solid, origin + crossing->enters * direction), 0.0, 1e-9 * size);
+      EXPECT_NEAR(depthIn(solid, origin + crossing->leaves * direction), 0.0, 1e-9 * size);
+      EXPECT_LE(crossing->enters, lower);
+      EXPECT_GE(crossing->leaves, lower);
+    }
+  }
+  EXPECT_GT(crossed, 4000);
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Solids, aRayMeetsTheirSurfaceOrPassesByIt)
+{
+  RandomSolids random(2);
+  int met = 0;
+  for (int i = 0; i < 20000; ++i)
+  {
+    const PlacedSolid solid = placedSolid(GetParam(), random.matrix(GetParam(), 10.0));
+    const double size = solid.radius + solid.halfLength;
+    const glm::dvec3 origin = solid.centre + 4.0 * size * random.direction();
+    const glm::dvec3 direction = solid.centre + 1.2 * size * random.vector() - origin;
+    const SolidPoint point = seenPoint(solid, origin, direction);
+    EXPECT_NEAR(depthIn(solid, point.position), 0.0, 1e-12 * size);
+    EXPECT_NEAR(glm::length(point.normal), 1.0, 1e-12);
+    // Along the normal it goes outwards, against it inwards.
+    EXPECT_LT(depthIn(solid, point.position + 1e-6 * size * point.normal), 0.0);
+    EXPECT_GT(depthIn(solid, point.position - 1e-6 * std::min(solid.radius, size) * point.normal),
+      -1e-12 * size);
+    if (point.isMet)
+    {
+      ++met;
+      EXPECT_LE(glm::dot(point.normal, direction), 1e-9 * glm::length(direction));
+      EXPECT_NEAR(
+        glm::length(glm::cross(point.position - origin, direction)) / glm::length(direction), 0.0,
+        1e-9 * size);
+    }
+  }
+  EXPECT_GT(met, 3000);
+  EXPECT_LT(met, 19000);
+}
+
+//------------------------------------------------------------------------------
+/// Whatever the light that a receiver faces, at half the offset and twice as much, near the origin
+/// and far away.
+TEST_P(Solids, noneShadowsItself)
+{
+  for (const double reach : { 1.0, 100.0, 10000.0 })
+  {
+    SCOPED_TRACE(reach);
+    RandomSolids random(3);
+    int dark = 0;
+    for (int i = 0; i < 50000; ++i)
+    {
+      const PlacedSolid solid = placedSolid(GetParam(), random.matrix(GetParam(), reach));
+      const double size = solid.radius + solid.halfLength;
+      const glm::dvec3 origin = solid.centre + 4.0 * size * random.direction();
+      const SolidPoint seen =
+        seenPoint(solid, origin, solid.centre + size * random.vector() - origin);
+      const glm::vec3 position(seen.position);
+      const glm::vec3 normal(seen.normal);
+      const glm::vec3 light =
+        glm::normalize(seen.normal + random.uniform(0.9, 1.1) * random.direction());
+      const float noise = noiseOf(solid, seen);
+      for (const float share : { 0.5f, 1.0f, 2.0f })
+      {
+        const glm::vec3 start = position + share * shadowRayOffsetInside(noise, 0.0f) * normal;
+        dark += facesLight(normal, light) && blocks(solid, false, start, light, INFINITY) ? 1 : 0;
+      }
+    }
+    EXPECT_EQ(dark, 0);
+  }
+}
+
+//------------------------------------------------------------------------------
+/// Molecules show a bond as two sticks, one for each atom's colour, each rounded for itself.
+TEST(SolidPairs, halvesOfABondDoNotShadowEachOther)
+{
+  RandomSolids random(4);
+  int dark = 0;
+  int facing = 0;
+  for (int i = 0; i < 50000; ++i)
+  {
+    const double radius = std::exp2(random.uniform(-6.0, 0.0));
+    const glm::dvec3 halfAxis = random.direction() * std::exp2(random.uniform(-4.0, 1.0));
+    const glm::dvec3 middle = random.vector(1000.0);
+    PlacedSolid halves[2];
+    for (const int half : { 0, 1 })
+    {
+      glm::dmat4x3 matrix = RandomSolids::alongAxis(halfAxis, radius);
+      matrix[3] = middle + (half == 0 ? -1.0 : 1.0) * halfAxis;
+      halves[half] = placedSolid(Solid::Cylinder, glm::mat4x3(matrix));
+    }
+    const glm::dvec3 target = halves[0].centre + random.uniform(0.0, 1.0) * halfAxis;
+    const glm::dvec3 origin = target + 5.0 * random.direction();
+    const SolidPoint seen = seenPoint(halves[0], origin, target - origin);
+    const glm::vec3 position(seen.position);
+    const glm::vec3 normal(seen.normal);
+    if (std::abs(glm::dot(seen.normal, halves[0].axis)) > 0.5)
+    {
+      continue; // an end
+    }
+    const float noise = noiseOf(halves[0], seen);
+    const glm::vec3 start = position + shadowRayOffsetInside(noise, 0.0f) * normal;
+    const glm::vec3 light =
+      glm::normalize(seen.normal + random.uniform(0.95, 1.05) * random.direction());
+    if (facesLight(normal, light))
+    {
+      ++facing;
+      dark += blocks(halves[1], false, start, light, INFINITY) ? 1 : 0;
+    }
+  }
+  EXPECT_GT(facing, 20000);
+  EXPECT_EQ(dark, 0);
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Solids, boxesHoldThem)
+{
+  RandomSolids random(5);
+  for (int i = 0; i < 5000; ++i)
+  {
+    const glm::mat4x3 matrix = random.matrix(GetParam(), 100.0);
+    const PlacedSolid solid = placedSolid(GetParam(), matrix);
+    const Bounds box = boundsOf(solid);
+    glm::dvec3 least(INFINITY);
+    for (int j = 0; j < 200; ++j)
+    {
+      const glm::dvec3 from =
+        solid.centre + 10.0 * (solid.radius + solid.halfLength) * random.direction();
+      const glm::dvec3 point = seenPoint(solid, from, solid.centre - from).position;
+      ASSERT_TRUE(glm::all(glm::lessThanEqual(box.lower, point)));
+      ASSERT_TRUE(glm::all(glm::lessThanEqual(point, box.upper)));
+      least = glm::min(least, point - box.lower);
+    }
+    if (GetParam() == Solid::Sphere)
+    {
+      EXPECT_LT(std::max(least.x, std::max(least.y, least.z)), 0.2 * solid.radius); // no larger
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_P(Solids, meshesAreClosedAndInscribed)
+{
+  for (const std::size_t count : { 1u, 1000u, 5000u, 100000u })
+  {
+    const SolidMesh mesh = meshOf(GetParam(), count);
+    EXPECT_LE(mesh.triangles.size() * count, std::max<std::size_t>(1u << 20, 128 * count));
+    const PlacedSolid solid = placedSolid(GetParam(), glm::mat4x3(1.0f));
+    for (const glm::vec3& position : mesh.positions)
+    {
+      EXPECT_NEAR(depthIn(solid, position), 0.0, 1e-6);
+    }
+    std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
+    double volume = 0.0;
+    for (const glm::uvec3& triangle : mesh.triangles)
+    {
+      for (int i = 0; i < 3; ++i)
+      {
+        ++edges[{ triangle[i], triangle[(i + 1) % 3] }];
+      }
+      const auto corner = [&](int i) { return glm::dvec3(mesh.positions[triangle[i]]); };
+      volume += glm::dot(corner(0), glm::cross(corner(1), corner(2))) / 6.0;
+    }
+    for (const auto& [edge, times] : edges)
+    {
+      EXPECT_EQ(times, 1);
+      EXPECT_EQ(edges.count({ edge.second, edge.first }), 1u);
+    }
+    const double pi = 3.14159265358979;
+    const double whole = GetParam() == Solid::Sphere ? 4.0 / 3.0 * pi : 2.0 * pi;
+    EXPECT_LT(volume, whole);
+    EXPECT_GT(volume, (count < 5000 ? 0.95 : 0.9) * whole);
+  }
+}
+
+//------------------------------------------------------------------------------
+/// In packets and alone, built and refitted, from the side that casts and from any.
+TEST(SolidTracing, theTracerAnswersAsTheyDo)
+{
+  RandomSolids random(6);
+  std::vector<glm::mat4x3> spheres, cylinders;
+  for (int i = 0; i < 300; ++i)
+  {
+    spheres.push_back(random.matrix(Solid::Sphere, 30.0));
+    cylinders.push_back(random.matrix(Solid::Cylinder, 30.0));
+  }
+  spheres[7] = glm::mat4x3(0.0f); // left out
+  Occluders occluders = occludersOf({ { Solid::Sphere, spheres }, { Solid::Cylinder, cylinders } });
+  std::vector<PlacedReceiver> placed;
+  for (int i = 0; i < 4000; ++i)
+  {
+    placed.push_back({ glm::vec3(random.vector(30.0)), glm::vec3(random.direction()), 0.001f });
+  }
+  const ReceiverPixels receivers = rowOf(placed);
+  EmbreeTracer tracer;
+  for (const bool oneSided : { false, true })
+  {
+    for (Surface& surface : occluders.surfaces)
+    {
+      surface.oneSided = oneSided;
+      surface.positionsVersion += 10;
+      for (glm::mat4x3& matrix : surface.centredFromSource)
+      {
+        matrix[3].x += Surface::isLeftOut(matrix) ? 0.0f : 1.0f;
+      }
+    }
+    ++occluders.topologyVersion;
+    ++occluders.positionsVersion;
+    tracer.update(occluders);
+    for (const ShadowLight& light :
+      { directionalLight({ 0.3, -0.4, -1.0 }), pointLight({ 5.0, 5.0, 35.0 }) })
+    {
+      std::vector<float> together;
+      tracer.trace(light, occluders, receivers, together);
+      const ShadowRayLight rayLight(light, occluders.centreWorld);
+      int dark = 0;
+      for (std::size_t i = 0; i < placed.size(); ++i)
+      {
+        const PlacedReceiver& receiver = placed[i];
+        const float expected = visitShadowRays(rayLight,
+          [&](const auto& makeRay, float far)
+          {
+            const ShadowRay ray = makeRay(receiver.position, receiver.normal, receiver.offset);
+            bool blocked = !ray.traced;
+            for (const Surface& surface : occluders.surfaces)
+            {
+              for (const glm::mat4x3& matrix : surface.centredFromSource)
+              {
+                blocked = blocked ||
+                  (!Surface::isLeftOut(matrix) &&
+                    blocks(placedSolid(surface.solid, matrix), oneSided, ray.origin, ray.direction,
+                      far));
+              }
+            }
+            return blocked ? 0.0f : 1.0f;
+          });
+        ASSERT_EQ(together[i], expected) << i;
+        dark += expected == 0.0f && facesLight(receiver.normal, rayLight.toLight) ? 1 : 0;
+        if (i < 300)
+        {
+          std::vector<float> alone;
+          tracer.trace(light, occluders, rowOf({ receiver }), alone);
+          ASSERT_EQ(alone[0], expected) << i;
+        }
+      }
+      EXPECT_GT(dark, 200);
+      EXPECT_LT(dark, 2000);
+    }
+  }
+}
