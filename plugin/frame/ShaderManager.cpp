@@ -62,14 +62,29 @@ std::string visibilityOf(Route route, const ShadedLight& shaded, int light)
                           : fetched;
 }
 
-/// What a mapper of impostors has to set again of these statements, once it has moved the point from
-/// its sprite to a solid.
-std::string moveToSolid(const std::string& uniformFlow)
+/// What these statements have set for a sprite, and has to be set again for the solid that VTK's
+/// shader has found on it by then; nothing where triangles are drawn.
+std::string moveToSolid(const std::string& fragmentShader, const std::string& uniformFlow)
 {
+  const auto has = [&](const char* text) { return fragmentShader.find(text) != std::string::npos; };
+  const bool isImpostor = has("centerVCVSOutput");
+  const bool isSizedInPixels = has("ZCalcR"); // points and lines
   std::string moves;
+  if (!isImpostor && !isSizedInPixels)
+  {
+    return moves;
+  }
   if (uniformFlow.find("gnomonNormal") != std::string::npos)
   {
     moves += "  gnomonNormal = normalize(normalVCVSOutput);\n";
+    // Of points and lines VTK keeps the middle. The radius is as many pixels everywhere.
+    moves += isImpostor
+      ? "  gnomonPoint = vertexVC.xyz;\n"
+      : "  gnomonPoint += gnomonNormal * ZCalcR * (cameraParallel == 1 ? 1.0 : -vertexVC.z);\n";
+  }
+  if (isSizedInPixels && uniformFlow.find("gnomonAtCentroid") != std::string::npos)
+  {
+    moves += "  gnomonAtCentroid = gnomonPoint;\n";
   }
   if (uniformFlow.find("gnomonDepth") != std::string::npos)
   {
@@ -99,12 +114,13 @@ void ShaderManager::configure(const HookVariant& variant, const std::vector<Shad
   const bool asksAtPoints = std::any_of(lights.begin(), lights.end(),
     [](const ShadedLight& shaded) { return shaded.pointwise != nullptr; });
   std::string declarations = hookShaders().at("plugin/frame/hook.glsl");
-  std::string position = "vertexVC.xyz";
+  std::string position = "gnomonPoint";
   std::string extensions;
   std::string uniformFlow;
   if (asksAtPoints || variant.receiverPoints)
   {
-    uniformFlow = "vec3 gnomonNormal = gnomonFaceNormal(vertexVC.xyz, cameraParallel == 1);\n";
+    uniformFlow = "vec3 gnomonPoint = vertexVC.xyz;\n"
+                  "vec3 gnomonNormal = gnomonFaceNormal(gnomonPoint, cameraParallel == 1);\n";
   }
   std::string multiplications;
   if (variant.route == Route::Image)
@@ -126,7 +142,8 @@ void ShaderManager::configure(const HookVariant& variant, const std::vector<Shad
   if (asksAtPoints && variant.multisampled)
   {
     declarations += hookShaders().at("plugin/frame/hook_multisample.glsl");
-    position = "gnomonCentroid(vertexVC.xyz, gnomonNormal, cameraParallel == 1)";
+    uniformFlow += "vec3 gnomonAtCentroid = interpolateAtCentroid(vertexVCVSOutput).xyz;\n";
+    position = "gnomonCentroid(gnomonAtCentroid, gnomonPoint, gnomonNormal, cameraParallel == 1)";
     extensions = "#extension GL_ARB_gpu_shader5 : require\n"; // for interpolateAtCentroid
   }
   if (asksAtPoints)
@@ -222,10 +239,7 @@ void ShaderManager::fillShader(std::string& fragmentShader, bool receiversStage)
     declarations = this->declarations_;
     uniformFlow = this->uniformFlow_;
     begin = this->multiplications_;
-    if (fragmentShader.find("centerVCVSOutput") != std::string::npos)
-    {
-      move = moveToSolid(uniformFlow);
-    }
+    move = moveToSolid(fragmentShader, uniformFlow);
   }
   if (this->variant_.route == Route::Image && receiversStage)
   {
@@ -268,7 +282,7 @@ std::string ShaderManager::writeReceiver(bool receives, bool instanced) const
     return "    gl_FragData[1] = vec4(" + fragment + ", 0.0, 0.0);\n";
   }
   return "    gl_FragData[1] = vec4(" + fragment + ", gnomonNormal.xy);\n" +
-    "    gl_FragData[2] = vec4(vertexVC.xyz, gnomonNormal.z);\n";
+    "    gl_FragData[2] = vec4(gnomonPoint, gnomonNormal.z);\n";
 }
 
 //------------------------------------------------------------------------------

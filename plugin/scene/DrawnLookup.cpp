@@ -33,10 +33,17 @@ bool isBefore(const DrawnLookup::HeldSurface& a, const DrawnLookup::HeldSurface&
   return identityOf(a) < identityOf(b);
 }
 
-bool drawnAsSurface(vtkProp* prop)
+bool drawnAsSurface(vtkProp* prop, SurfaceCells cells)
 {
   auto* actor = vtkActor::SafeDownCast(prop);
-  return actor && actor->GetProperty()->GetRepresentation() == VTK_SURFACE;
+  if (!actor)
+  {
+    return false;
+  }
+  vtkProperty* property = actor->GetProperty();
+  return cells == SurfaceCells::PointSpheres ? property->GetRenderPointsAsSpheres()
+    : cells == SurfaceCells::LineTubes       ? property->GetRenderLinesAsTubes()
+                                             : property->GetRepresentation() == VTK_SURFACE;
 }
 
 } // namespace
@@ -170,7 +177,7 @@ const DrawnLookup::HeldSurface* DrawnLookup::match(
 Drawn DrawnLookup::find(vtkAbstractMapper* mapper, vtkProp* prop, const Occluders& occluders)
 {
   const std::optional<SurfaceCells> cells = cellsAboutToBeDrawn(mapper);
-  if (!cells || !drawnAsSurface(prop))
+  if (!cells || !drawnAsSurface(prop, *cells))
   {
     return {};
   }

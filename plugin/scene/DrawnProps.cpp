@@ -12,6 +12,7 @@
 #include "vtkAssembly.h"
 #include "vtkAssemblyNode.h"
 #include "vtkAssemblyPath.h"
+#include "vtkCamera.h"
 #include "vtkCompositePolyDataMapper.h"
 #include "vtkCompositePolyDataMapper2.h"
 #include "vtkDataSetMapper.h"
@@ -40,6 +41,7 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstring>
@@ -155,6 +157,12 @@ bool hasSurfaces(const DrawnBlock& block)
     [&block](SurfaceCells kind) { return cellCount(block.data, kind) > 0; });
 }
 
+/// As vtkOpenGLPolyDataMapper::DrawingTubes() says.
+bool drawsTubes(vtkProperty* property)
+{
+  return property->GetRenderLinesAsTubes() && property->GetLineWidth() > 1.0f;
+}
+
 /// Whether a matrix keeps lengths: VTK draws solids at the lengths that they have before it.
 bool keepsLengths(const glm::dmat4& matrix)
 {
@@ -236,6 +244,7 @@ private:
   void addBlocks(vtkActor* actor, vtkMapper* mapper, MapperKind kind,
     const glm::dmat4& worldFromModel, bool translucent);
   void addSolids(vtkMapper* mapper, const glm::dmat4& worldFromModel);
+  void takePixelSizes(vtkActor* actor, std::size_t firstBlock);
   bool updateInput(vtkMapper* mapper, MapperKind kind);
   void skip(vtkObjectBase* what, const char* why)
   {
@@ -340,11 +349,13 @@ void Finder::addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatr
     return;
   }
   const bool lit = actor->GetProperty()->GetLighting();
-  if (actor->GetProperty()->GetRepresentation() != VTK_SURFACE)
+  const bool asPoints = actor->GetProperty()->GetRepresentation() == VTK_POINTS;
+  const bool pointsAreSpheres = actor->GetProperty()->GetRenderPointsAsSpheres();
+  const bool sizedInPixels = pointsAreSpheres || drawsTubes(actor->GetProperty());
+  if (actor->GetProperty()->GetRepresentation() != VTK_SURFACE && !(asPoints && pointsAreSpheres))
   {
     if (lit)
     {
-      const bool asPoints = actor->GetProperty()->GetRepresentation() == VTK_POINTS;
       this->skip(actor, asPoints ? "as points" : "as a wireframe");
     }
     return;
@@ -388,6 +399,10 @@ void Finder::addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatr
     prop.firstBlock = this->drawn_.blocks.size();
     this->addBlocks(actor, mapper, kind, prop.worldFromModel, translucent);
     prop.blockCount = this->drawn_.blocks.size() - prop.firstBlock;
+    if (sizedInPixels && (kind == MapperKind::PlainPolyData || kind == MapperKind::PolyData))
+    {
+      this->takePixelSizes(actor, prop.firstBlock);
+    }
     const auto first = this->drawn_.blocks.begin() + static_cast<std::ptrdiff_t>(prop.firstBlock);
     if (std::none_of(first, this->drawn_.blocks.end(), hasSurfaces))
     {
@@ -414,7 +429,8 @@ void Finder::addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatr
   if (opaque)
   {
     add(false);
-    if (eitherOr && !moves && viewProp == actor && this->drawn_.props.size() > before)
+    if (eitherOr && !moves && !sizedInPixels && viewProp == actor &&
+      this->drawn_.props.size() > before)
     {
       this->memory_.plainProps.remember(actor);
     }
@@ -571,6 +587,41 @@ void Finder::addSolids(vtkMapper* mapper, const glm::dmat4& worldFromModel)
 }
 
 //------------------------------------------------------------------------------
+/// Notes how large spheres at vertices and tubes along lines are in the last blocks, as the shader
+/// of vtkOpenGLPolyDataMapper has them.
+void Finder::takePixelSizes(vtkActor* actor, std::size_t firstBlock)
+{
+  vtkCamera* camera = this->renderer_->GetActiveCamera();
+  int size[2], corner[2];
+  this->renderer_->GetTiledSizeAndOrigin(&size[0], &size[1], &corner[0], &corner[1]);
+  const glm::dmat4 clipFromView =
+    toGlm(camera->GetProjectionTransformMatrix(this->renderer_->GetTiledAspectRatio(), -1.0, 1.0));
+  const glm::dvec4 scale = camera->GetParallelProjection()
+    ? glm::dvec4(0.0, 0.0, 0.0, 1.0)
+    : -glm::row(toGlm(camera->GetViewTransformMatrix()), 2); // the depth
+  const glm::dvec4 radiusOfOne = scale / (size[0] * clipFromView[0][0]);
+  vtkProperty* property = actor->GetProperty();
+  const bool surface = property->GetRepresentation() == VTK_SURFACE;
+  for (std::size_t i = firstBlock; i < this->drawn_.blocks.size(); ++i)
+  {
+    DrawnBlock& block = this->drawn_.blocks[i];
+    if (property->GetRenderPointsAsSpheres())
+    {
+      block.pointRadiusFromWorld = static_cast<double>(property->GetPointSize()) * radiusOfOne;
+    }
+    if (surface && drawsTubes(property))
+    {
+      block.lineRadiusFromWorld = static_cast<double>(property->GetLineWidth()) * radiusOfOne;
+    }
+    block.drawsTriangles = surface;
+    if (!surface && block.data->GetNumberOfCells() > block.data->GetNumberOfVerts())
+    {
+      this->skip(actor, "corners of lines and polygons as points");
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
 /// Brings what a mapper draws up to date.
 /// @return whether there is anything
 bool Finder::updateInput(vtkMapper* mapper, MapperKind kind)
@@ -621,11 +672,43 @@ glm::dmat4 toGlm(vtkMatrix4x4* matrix)
 //------------------------------------------------------------------------------
 const std::vector<SurfaceCells>& cellsOf(const DrawnBlock& block)
 {
-  static const std::vector<SurfaceCells> triangles = { SurfaceCells::Polygons,
-    SurfaceCells::Strips };
   static const std::vector<SurfaceCells> spheres = { SurfaceCells::Spheres };
   static const std::vector<SurfaceCells> sticks = { SurfaceCells::Sticks };
-  return !block.solids ? triangles : block.solidCells == SurfaceCells::Spheres ? spheres : sticks;
+  static const auto mixtures = []
+  {
+    std::array<std::vector<SurfaceCells>, 8> lists;
+    for (std::size_t i = 0; i < lists.size(); ++i)
+    {
+      if (i & 1)
+      {
+        lists[i] = { SurfaceCells::Polygons, SurfaceCells::Strips };
+      }
+      if (i & 2)
+      {
+        lists[i].push_back(SurfaceCells::PointSpheres);
+      }
+      if (i & 4)
+      {
+        lists[i].push_back(SurfaceCells::LineTubes);
+      }
+    }
+    return lists;
+  }();
+  if (block.solids)
+  {
+    return block.solidCells == SurfaceCells::Spheres ? spheres : sticks;
+  }
+  return mixtures[(block.drawsTriangles ? 1u : 0u) |
+    (block.pointRadiusFromWorld != glm::dvec4(0.0) ? 2u : 0u) |
+    (block.lineRadiusFromWorld != glm::dvec4(0.0) ? 4u : 0u)];
+}
+
+//------------------------------------------------------------------------------
+glm::dvec4 radiusFromWorld(const DrawnBlock& block, SurfaceCells cells)
+{
+  return cells == SurfaceCells::PointSpheres ? block.pointRadiusFromWorld
+    : cells == SurfaceCells::LineTubes       ? block.lineRadiusFromWorld
+                                             : glm::dvec4(0.0);
 }
 
 //------------------------------------------------------------------------------

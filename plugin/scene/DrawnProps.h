@@ -36,6 +36,13 @@ struct DrawnBlock
   vtkPolyData* drawnAs = nullptr;    ///< what VTK draws in its place; null: the data itself
   vtkMapper* solids = nullptr; ///< who draws a solid at each point, in place of the cells; or null
   SurfaceCells solidCells = SurfaceCells::Spheres; ///< and which
+  ///@{
+  /// Where vertex cells are drawn as spheres, or lines as tubes: their radius, which is affine over
+  /// the world, as the camera sees all in the same number of pixels. Zero where they are not.
+  glm::dvec4 pointRadiusFromWorld{ 0.0 };
+  glm::dvec4 lineRadiusFromWorld{ 0.0 };
+  ///@}
+  bool drawsTriangles = true; ///< whether polygons and strips are drawn as such
   /// Of the texture that cuts holes into it; null where none does.
   vtkDataArray* textureCoordinates = nullptr;
 };
@@ -78,6 +85,9 @@ struct DrawnProps
   /// The same with how many they are, and what shadows do not show of the others, each a sentence.
   std::vector<std::string> notes;
 };
+
+/// The radius of what is sized in pixels; zero of all else.
+glm::dvec4 radiusFromWorld(const DrawnBlock& block, SurfaceCells cells);
 
 /// What VTK draws of a block.
 const std::vector<SurfaceCells>& cellsOf(const DrawnBlock& block);

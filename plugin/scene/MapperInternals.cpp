@@ -50,6 +50,14 @@ struct MapperAccess : vtkOpenGLPolyDataMapper
   {
     const vtkOpenGLHelper* drawing = mapper->*(&MapperAccess::LastBoundBO);
     const auto& primitives = mapper->*(&MapperAccess::Primitives);
+    if (drawing == &primitives[PrimitivePoints])
+    {
+      return SurfaceCells::PointSpheres;
+    }
+    if (drawing == &primitives[PrimitiveLines])
+    {
+      return SurfaceCells::LineTubes;
+    }
     if (drawing == &primitives[PrimitiveTris])
     {
       return cellsOfTriangles(mapper);

@@ -39,7 +39,7 @@ void OccluderCollector::indexProps(const std::vector<WantedSurface>& wanted)
     for (; i < wanted.size() && wanted[i].prop == &prop; ++i)
     {
       const DrawnBlock& block = wanted[i].block;
-      const std::size_t instances = block.solids
+      const std::size_t instances = solidOf(wanted[i].key.cells) != Solid::None
         ? this->occluders().surfaces[i].centredFromSource.size()
         : this->surfaces_.records()[i].modelFromInstance.size();
       held.push_back({ block.drawnAs ? block.drawnAs : block.data, wanted[i].key.cells,

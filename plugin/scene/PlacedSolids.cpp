@@ -1,12 +1,19 @@
 #include "plugin/scene/PlacedSolids.h"
 
+#include "plugin/scene/MapperInternals.h"
 #include "shadowtech/base/Occluders.h"
 
+#include "vtkCellArray.h"
+#include "vtkCellArrayIterator.h"
 #include "vtkFloatArray.h"
 #include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
+#include <optional>
 
 namespace gnomon
 {
@@ -29,7 +36,7 @@ glm::dmat3 alongAxis(const glm::dvec3& halfAxis, double radius)
   return { radius * x, radius * glm::cross(axis, x), halfAxis };
 }
 
-/// What takes the unit solid to a point's, but for its place.
+/// What takes the unit solid of a mapper to a point's, but for its place.
 glm::dmat3 linearOf(const DrawnSolids& drawn, const glm::dmat3& turn, vtkIdType point)
 {
   if (drawn.cells == SurfaceCells::Spheres)
@@ -38,6 +45,87 @@ glm::dmat3 linearOf(const DrawnSolids& drawn, const glm::dmat3& turn, vtkIdType 
   }
   const glm::dvec3 size = tupleOf(drawn.scales, point); // length, radius
   return alongAxis(turn * (0.5 * size.x * tupleOf(drawn.directions, point)), size.y);
+}
+
+/// The points of a block in the world.
+class WorldPoints
+{
+public:
+  WorldPoints(vtkPolyData* data, const glm::dmat4& worldFromModel)
+    : data_(data)
+    , worldFromModel_(worldFromModel)
+  {
+  }
+  /// Not a number for a point that is not there.
+  glm::dvec3 operator[](vtkIdType point) const
+  {
+    glm::dvec3 model(std::numeric_limits<double>::quiet_NaN());
+    if (point >= 0 && point < this->data_->GetNumberOfPoints())
+    {
+      this->data_->GetPoint(point, &model.x);
+    }
+    const glm::dvec4 world = this->worldFromModel_ * glm::dvec4(model, 1.0);
+    return glm::dvec3(world) / world.w;
+  }
+
+private:
+  vtkPolyData* data_;
+  const glm::dmat4& worldFromModel_;
+};
+
+/// A unit solid's image: its matrix, and where its middle is.
+glm::dmat4x3 placed(const glm::dmat3& linear, const glm::dvec3& middle)
+{
+  return { linear[0], linear[1], linear[2], middle };
+}
+
+/// Calls visit(matrix to the world) for each solid of a mapper of solids.
+template <typename Visit>
+void visitMapperSolids(
+  const DrawnBlock& block, const glm::dmat4& worldFromModel, const Visit& visit)
+{
+  const WorldPoints points(block.data, worldFromModel);
+  const DrawnSolids drawn = *drawnSolids(block.solids);
+  for (vtkIdType point = 0; point < block.data->GetNumberOfPoints(); ++point)
+  {
+    visit(placed(linearOf(drawn, glm::dmat3(worldFromModel), point), points[point]));
+  }
+}
+
+/// The same for each that is sized in pixels.
+template <typename Visit>
+void visitPixelSolids(
+  const DrawnBlock& block, SurfaceCells cells, const glm::dmat4& worldFromModel, const Visit& visit)
+{
+  const WorldPoints points(block.data, worldFromModel);
+  const glm::dvec4 radius = radiusFromWorld(block, cells);
+  // Behind the camera there is none.
+  const auto radiusAt = [&](const glm::dvec3& world)
+  { return std::max(0.0, glm::dot(radius, glm::dvec4(world, 1.0))); };
+  const bool spheres = cells == SurfaceCells::PointSpheres;
+  vtkCellArray* array = spheres ? block.data->GetVerts() : block.data->GetLines();
+  const auto iterator = vtk::TakeSmartPointer(array->NewIterator());
+  for (iterator->GoToFirstCell(); !iterator->IsDoneWithTraversal(); iterator->GoToNextCell())
+  {
+    vtkIdType size;
+    const vtkIdType* ids;
+    iterator->GetCurrentCell(size, ids);
+    for (vtkIdType i = spheres ? 0 : 1; i < size; ++i)
+    {
+      const glm::dvec3 end = points[ids[i]];
+      const glm::dvec3 start = spheres ? end : points[ids[i - 1]];
+      const glm::dvec3 middle = 0.5 * (start + end);
+      visit(placed(
+        spheres ? glm::dmat3(radiusAt(middle)) : alongAxis(0.5 * (end - start), radiusAt(middle)),
+        middle));
+    }
+  }
+}
+
+bool isKept(const std::vector<glm::dvec4>& clipPlanes, const glm::dvec3& world)
+{
+  return std::all_of(clipPlanes.begin(), clipPlanes.end(),
+    [&](const glm::dvec4& plane) { return glm::dot(plane, glm::dvec4(world, 1.0)) >= 0.0; });
 }
 
 /// Of numbers that are not finite, the sum is not either.
@@ -55,34 +143,53 @@ bool hasSize(const glm::mat4x3& matrix)
 } // namespace
 
 //------------------------------------------------------------------------------
-PlacedInstances placeSolids(const DrawnSolids& drawn, vtkPolyData* data,
-  const glm::dmat4& worldFromModel, const glm::dvec3& centreWorld)
+PlacedInstances placeSolids(const DrawnBlock& block, SurfaceCells cells,
+  const glm::dmat4& worldFromModel, const std::vector<glm::dvec4>& clipPlanes,
+  const glm::dvec3& centreWorld)
 {
-  PlacedInstances placed;
-  const vtkIdType count = data->GetNumberOfPoints();
-  placed.centredFromSource.reserve(static_cast<std::size_t>(count));
-  for (vtkIdType point = 0; point < count; ++point)
+  PlacedInstances result;
+  result.centredFromSource.reserve(static_cast<std::size_t>(cellCount(block.data, cells)));
+  const auto add = [&](glm::dmat4x3 matrix)
   {
-    glm::dvec3 model;
-    data->GetPoint(point, &model.x);
-    const glm::dvec4 world = worldFromModel * glm::dvec4(model, 1.0);
-    glm::dmat4x3 matrix(linearOf(drawn, glm::dmat3(worldFromModel), point));
-    matrix[3] = glm::dvec3(world) / world.w - centreWorld;
+    const bool isInside = isKept(clipPlanes, matrix[3]);
+    matrix[3] -= centreWorld;
     const glm::mat4x3 rounded(matrix);
     const bool finite = hasFiniteNumbers(rounded);
-    const bool kept = finite && hasSize(rounded);
-    placed.leftOutNonFinite += finite ? 0 : 1;
-    placed.leftOutVanished += finite && !kept ? 1 : 0;
-    placed.centredFromSource.push_back(kept ? rounded : glm::mat4x3(0.0f));
+    const bool kept = finite && isInside && hasSize(rounded);
+    result.leftOutNonFinite += finite ? 0 : 1;
+    result.leftOutVanished += finite && !kept ? 1 : 0;
+    result.centredFromSource.push_back(kept ? rounded : glm::mat4x3(0.0f));
+  };
+  if (areSizedInPixels(cells))
+  {
+    visitPixelSolids(block, cells, worldFromModel, add);
   }
-  return placed;
+  else
+  {
+    visitMapperSolids(block, worldFromModel, add);
+  }
+  return result;
 }
 
 //------------------------------------------------------------------------------
-Bounds boundsOfSolids(const DrawnSolids& drawn, vtkPolyData* data)
+Bounds boundsOfSolids(const DrawnBlock& block, SurfaceCells cells)
 {
-  return solidsBounds(solidOf(drawn.cells),
-    placeSolids(drawn, data, glm::dmat4(1.0), glm::dvec3(0.0)).centredFromSource);
+  if (!areSizedInPixels(cells))
+  {
+    return solidsBounds(solidOf(cells),
+      placeSolids(block, cells, glm::dmat4(1.0), {}, glm::dvec3(0.0)).centredFromSource);
+  }
+  Bounds bounds;
+  visitPixelSolids(block, cells, glm::dmat4(1.0),
+    [&bounds](const glm::dmat4x3& matrix)
+    {
+      const glm::dvec3 middle = matrix[3];
+      if (std::isfinite(middle.x + middle.y + middle.z))
+      {
+        bounds.add(middle);
+      }
+    });
+  return bounds;
 }
 
 } // namespace gnomon

@@ -1,10 +1,12 @@
 #pragma once
 
 #include "lights/Bounds.h"
+#include "plugin/scene/DrawnProps.h"
 #include "plugin/scene/KeptInstances.h"
-#include "plugin/scene/MapperInternals.h"
 
 #include <glm/glm.hpp>
+
+#include <vector>
 
 namespace gnomon
 {
@@ -13,11 +15,16 @@ namespace gnomon
 /// Where the solids of impostor mappers are, as VTK's shaders place them: an actor's matrix moves
 /// and turns them, and leaves their radii and lengths as they are.
 
-/// The solids of a polydata, one for each of its points. Those without a size are left out.
-PlacedInstances placeSolids(const DrawnSolids& drawn, vtkPolyData* data,
-  const glm::dmat4& worldFromModel, const glm::dvec3& centreWorld);
+/// The solids of a block, in the order in which VTK draws them. Those without a size are left out,
+/// and those whose middle a plane cuts off. A tube has the radius of its middle all along.
+/// @param cells solids
+/// @param clipPlanes in world coordinates, as DrawnProp has them
+PlacedInstances placeSolids(const DrawnBlock& block, SurfaceCells cells,
+  const glm::dmat4& worldFromModel, const std::vector<glm::dvec4>& clipPlanes,
+  const glm::dvec3& centreWorld);
 
-/// The box around them where no matrix moves them.
-Bounds boundsOfSolids(const DrawnSolids& drawn, vtkPolyData* data);
+/// The box around them where no matrix moves them; around their middles alone where the camera says
+/// how large they are.
+Bounds boundsOfSolids(const DrawnBlock& block, SurfaceCells cells);
 
 } // namespace gnomon

@@ -28,7 +28,7 @@ SnapshotChange SnapshotSurfaces::update(std::vector<WantedSurface>& wanted)
       this->read(surface, time);
       ++change.extracted;
     }
-    moved = moved || !record || record->worldFromModel != surface.prop->worldFromModel;
+    moved = moved || !record || !isWhere(*record, *surface.prop, surface.block);
   }
 
   bool positionsChanged = false;
@@ -96,7 +96,7 @@ SnapshotSurfaces::Outcome SnapshotSurfaces::updateSurface(
   if (!wanted.fresh)
   {
     const SurfaceRecord& record = this->records_[wanted.old];
-    if (!recentred && record.worldFromModel == wanted.prop->worldFromModel)
+    if (!recentred && isWhere(record, *wanted.prop, wanted.block))
     {
       return Outcome::Same;
     }
@@ -126,6 +126,7 @@ bool SnapshotSurfaces::transformAgain(const WantedSurface& wanted)
   if (record.keptAsInstances)
   {
     record.worldFromModel = wanted.prop->worldFromModel;
+    record.radiusFromWorld = radiusFromWorld(wanted.block, record.key.cells);
     std::optional<PlacedInstances> placed =
       placeKeptInstances(record, wanted.block, this->occluders_.centreWorld);
     return placed && this->moveInstances(wanted.old, *placed);

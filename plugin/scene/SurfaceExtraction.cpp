@@ -20,7 +20,10 @@ namespace
 
 vtkCellArray* cellArray(vtkPolyData* data, SurfaceCells cells)
 {
-  return cells == SurfaceCells::Polygons ? data->GetPolys() : data->GetStrips();
+  return cells == SurfaceCells::Polygons ? data->GetPolys()
+    : cells == SurfaceCells::Strips      ? data->GetStrips()
+    : cells == SurfaceCells::LineTubes   ? data->GetLines()
+                                         : data->GetVerts();
 }
 
 bool finite(const glm::vec3& v)
@@ -173,32 +176,58 @@ void compact(
 //------------------------------------------------------------------------------
 Solid solidOf(SurfaceCells cells)
 {
-  return cells == SurfaceCells::Spheres ? Solid::Sphere
-    : cells == SurfaceCells::Sticks     ? Solid::Cylinder
-                                        : Solid::None;
+  switch (cells)
+  {
+    case SurfaceCells::Spheres:
+    case SurfaceCells::PointSpheres:
+      return Solid::Sphere;
+    case SurfaceCells::Sticks:
+      return Solid::Cylinder;
+    case SurfaceCells::LineTubes:
+      return Solid::Tube;
+    case SurfaceCells::Polygons:
+    case SurfaceCells::Strips:
+      break;
+  }
+  return Solid::None;
 }
 
 //------------------------------------------------------------------------------
 vtkIdType cellCount(vtkPolyData* data, SurfaceCells cells)
 {
-  if (solidOf(cells) != Solid::None)
+  if (!data->GetPoints())
   {
-    return data->GetNumberOfPoints();
+    return 0;
   }
-  return data->GetPoints() ? cellArray(data, cells)->GetNumberOfCells() : 0;
+  vtkCellArray* array = cellArray(data, cells);
+  switch (cells)
+  {
+    case SurfaceCells::Spheres:
+    case SurfaceCells::Sticks:
+      return data->GetNumberOfPoints();
+    case SurfaceCells::PointSpheres:
+      return array->GetNumberOfConnectivityIds();
+    case SurfaceCells::LineTubes:
+      return std::max<vtkIdType>(
+        0, array->GetNumberOfConnectivityIds() - array->GetNumberOfCells());
+    case SurfaceCells::Polygons:
+    case SurfaceCells::Strips:
+      break;
+  }
+  return array->GetNumberOfCells();
 }
 
 //------------------------------------------------------------------------------
 std::pair<const void*, const void*> identityOf(vtkPolyData* data, SurfaceCells cells)
 {
-  const bool areCells = solidOf(cells) == Solid::None;
+  const bool areCells = cells != SurfaceCells::Spheres && cells != SurfaceCells::Sticks;
   return { data->GetPoints(), areCells ? cellArray(data, cells) : nullptr };
 }
 
 //------------------------------------------------------------------------------
 vtkMTimeType shapeTime(vtkPolyData* data, SurfaceCells cells)
 {
-  if (solidOf(cells) != Solid::None)
+  if (cells == SurfaceCells::Spheres || cells == SurfaceCells::Sticks)
   {
     return data->GetMTime();
   }

@@ -24,22 +24,30 @@ enum class SurfaceCells
 {
   Polygons,
   Strips,
-  Spheres, ///< one at each point, whatever cells there are
-  Sticks   ///< the same
+  Spheres,      ///< one at each point, whatever cells there are
+  Sticks,       ///< the same
+  PointSpheres, ///< one at each point of the vertex cells, sized in pixels
+  LineTubes     ///< one along each part of a line, likewise
 };
+
+/// Whether the camera says how large they are.
+inline bool areSizedInPixels(SurfaceCells cells)
+{
+  return cells == SurfaceCells::PointSpheres || cells == SurfaceCells::LineTubes;
+}
 
 /// What the points of a kind are drawn as; none where cells are drawn as triangles.
 Solid solidOf(SurfaceCells cells);
 
-/// The number of cells of a kind, or points.
+/// The number of cells of a kind, or of solids.
 vtkIdType cellCount(vtkPolyData* data, SurfaceCells cells);
 
 /// Names the points and the cells of a kind: those of a shallow copy are the same.
 std::pair<const void*, const void*> identityOf(vtkPolyData* data, SurfaceCells cells);
 
 /// When the points or the cells last changed. Unlike vtkPolyData::GetMTime() it leaves out the
-/// point and cell data: new colours are no new shape. Of solids it does not, since arrays hold their
-/// sizes.
+/// point and cell data: new colours are no new shape. Of spheres and sticks it does not,
+/// since arrays hold their sizes.
 vtkMTimeType shapeTime(vtkPolyData* data, SurfaceCells cells);
 
 /// The triangles that VTK draws of a polydata, in its order: polygons fanned from their first

@@ -114,16 +114,16 @@ bool placeSource(FreshSurface& fresh, const DrawnBlock& block, const glm::dvec3&
 }
 
 /// The mesh of solids, and the box around them before their actor's matrix.
-FreshSurface readSolids(const DrawnSolids& drawn, vtkPolyData* data)
+FreshSurface readSolids(const DrawnBlock& block, SurfaceCells cells)
 {
-  const auto count = static_cast<std::size_t>(data->GetNumberOfPoints());
-  SolidMesh mesh = meshOf(solidOf(drawn.cells), count);
+  const auto count = static_cast<std::size_t>(cellCount(block.data, cells));
+  SolidMesh mesh = meshOf(solidOf(cells), count);
   FreshSurface fresh;
   fresh.vertexCount = mesh.positions.size();
   fresh.positionsCentred = std::move(mesh.positions);
   fresh.triangles = std::move(mesh.triangles);
   fresh.record.keptAsInstances = true;
-  fresh.record.boundsModel = boundsOfSolids(drawn, data);
+  fresh.record.boundsModel = boundsOfSolids(block, cells);
   return fresh;
 }
 
@@ -164,6 +164,13 @@ vtkMTimeType changeTime(const DrawnProp& prop, const DrawnBlock& block, SurfaceC
 }
 
 //------------------------------------------------------------------------------
+bool isWhere(const SurfaceRecord& record, const DrawnProp& prop, const DrawnBlock& block)
+{
+  return record.worldFromModel == prop.worldFromModel &&
+    record.radiusFromWorld == radiusFromWorld(block, record.key.cells);
+}
+
+//------------------------------------------------------------------------------
 CoordinatesSource coordinatesSource(const DrawnProp& prop, const DrawnBlock& block)
 {
   vtkDataArray* array = block.textureCoordinates;
@@ -175,9 +182,9 @@ CoordinatesSource coordinatesSource(const DrawnProp& prop, const DrawnBlock& blo
 FreshSurface readSurface(const DrawnProp& prop, const DrawnBlock& block, SurfaceCells cells,
   std::vector<std::uint32_t>& vertexOfPoint)
 {
-  if (block.solids)
+  if (solidOf(cells) != Solid::None)
   {
-    return readSolids(*drawnSolids(block.solids), block.data);
+    return readSolids(block, cells);
   }
   DrawnTriangles drawn = triangulate(block.data, cells, vertexOfPoint);
   FreshSurface fresh;
@@ -219,9 +226,10 @@ FreshSurface readSurface(const DrawnProp& prop, const DrawnBlock& block, Surface
 std::optional<PlacedInstances> placeKeptInstances(
   const SurfaceRecord& record, const DrawnBlock& block, const glm::dvec3& centreWorld)
 {
-  if (block.solids)
+  if (solidOf(record.key.cells) != Solid::None)
   {
-    return placeSolids(*drawnSolids(block.solids), block.data, record.worldFromModel, centreWorld);
+    return placeSolids(
+      block, record.key.cells, record.worldFromModel, record.clipPlanes, centreWorld);
   }
   return placeKeptInstances(record.worldFromModel, record.modelFromInstance, record.sourceCentre,
     record.boundsSource, centreWorld);
@@ -263,7 +271,8 @@ void placeSurface(FreshSurface& fresh, const DrawnProp& prop, const DrawnBlock& 
   record.worldFromModel = prop.worldFromModel;
   record.clipPlanes = prop.clipPlanes;
   std::vector<glm::vec3>& positions = fresh.positionsCentred;
-  if (block.solids)
+  record.radiusFromWorld = radiusFromWorld(block, record.key.cells);
+  if (solidOf(record.key.cells) != Solid::None)
   {
     fresh.instances = *placeKeptInstances(record, block, centreWorld);
     recordPlaces(fresh.instances, positions.data(), positions.size(), record);

@@ -82,6 +82,7 @@ struct SurfaceRecord
   vtkMTimeType shapeTime = 0;
   glm::dmat4 worldFromModel{ 1.0 };
   std::vector<glm::dvec4> clipPlanes;
+  glm::dvec4 radiusFromWorld{ 0.0 }; ///< of what is sized in pixels
   CoordinatesSource coordinates;
   std::vector<std::uint32_t> pointOfVertex; ///< as in DrawnTriangles, of one instance
   /// Where the polydata is drawn in its prop's model coordinates: once as it is, or as a glyph at
@@ -140,6 +141,9 @@ vtkMTimeType changeTime(const DrawnProp& prop, const DrawnBlock& block, SurfaceC
 /// @param vertexOfPoint as for triangulate()
 FreshSurface readSurface(const DrawnProp& prop, const DrawnBlock& block, SurfaceCells cells,
   std::vector<std::uint32_t>& vertexOfPoint);
+
+/// Whether a surface that was not read anew is where its record says, and as large.
+bool isWhere(const SurfaceRecord& record, const DrawnProp& prop, const DrawnBlock& block);
 
 /// Computes a fresh surface's positions, and leaves out what the snapshot does not hold. Glyphs
 /// that are not kept as instances, or cannot be, are expanded to the triangles of all of them.

@@ -49,9 +49,35 @@ std::optional<Crossing> crossSlab(double o, double d, double halfLength)
   return Crossing{ std::min(toLower, toUpper), std::max(toLower, toUpper) };
 }
 
+std::optional<Crossing> united(const std::optional<Crossing>& a, const std::optional<Crossing>& b)
+{
+  if (!a || !b)
+  {
+    return a ? a : b;
+  }
+  return Crossing{ std::min(a->enters, b->enters), std::max(a->leaves, b->leaves) };
+}
+
 glm::dvec3 across(const glm::dvec3& vector, const glm::dvec3& axis)
 {
   return vector - glm::dot(vector, axis) * axis;
+}
+
+/// @param from the line's origin, from the cylinder's centre
+std::optional<Crossing> crossCylinder(
+  const PlacedSolid& solid, const glm::dvec3& from, const glm::dvec3& direction)
+{
+  const auto around =
+    crossBall(across(from, solid.axis), across(direction, solid.axis), solid.radius);
+  const auto between =
+    crossSlab(glm::dot(from, solid.axis), glm::dot(direction, solid.axis), solid.halfLength);
+  if (!around || !between)
+  {
+    return std::nullopt;
+  }
+  const Crossing both{ std::max(around->enters, between->enters),
+    std::min(around->leaves, between->leaves) };
+  return both.enters <= both.leaves ? std::optional(both) : std::nullopt;
 }
 
 /// Any unit vector across a unit vector.
@@ -75,7 +101,7 @@ SolidPoint surfacePoint(const PlacedSolid& solid, const glm::dvec3& point)
   const double along = glm::dot(from, solid.axis);
   const glm::dvec3 off = across(from, solid.axis);
   const double length = glm::length(off);
-  if (solid.radius - length <= solid.halfLength - std::abs(along))
+  if (solid.kind == Solid::Tube || solid.radius - length <= solid.halfLength - std::abs(along))
   {
     const glm::dvec3 normal = length > 0.0 ? off / length : anyAcross(solid.axis);
     const double kept = glm::clamp(along, -solid.halfLength, solid.halfLength);
@@ -119,8 +145,8 @@ SolidMesh sphereMesh(int cuts)
   return mesh;
 }
 
-/// A cylinder's mesh: a prism.
-SolidMesh cylinderMesh(std::uint32_t sides)
+/// A cylinder's mesh: a prism. A tube's has no ends, and no balls around them.
+SolidMesh cylinderMesh(std::uint32_t sides, bool isTube)
 {
   SolidMesh mesh;
   for (std::uint32_t i = 0; i < sides; ++i)
@@ -134,7 +160,7 @@ SolidMesh cylinderMesh(std::uint32_t sides)
     const std::uint32_t nextLower = 2 * ((i + 1) % sides);
     mesh.triangles.emplace_back(lower, nextLower, nextLower + 1);
     mesh.triangles.emplace_back(lower, nextLower + 1, lower + 1);
-    if (i > 0 && i + 1 < sides)
+    if (!isTube && i > 0 && i + 1 < sides)
     {
       mesh.triangles.emplace_back(0, nextLower, lower);
       mesh.triangles.emplace_back(1, lower + 1, nextLower + 1);
@@ -150,7 +176,7 @@ PlacedSolid placedSolid(Solid kind, const glm::mat4x3& centredFromSource)
 {
   const glm::dmat4x3 matrix(centredFromSource);
   PlacedSolid solid{ kind, matrix[3], glm::length(matrix[0]) };
-  if (solid.kind == Solid::Cylinder)
+  if (solid.kind != Solid::Sphere)
   {
     solid.halfLength = glm::length(matrix[2]);
     solid.axis = matrix[2] / solid.halfLength;
@@ -162,13 +188,14 @@ PlacedSolid placedSolid(Solid kind, const glm::mat4x3& centredFromSource)
 Bounds boundsOf(const PlacedSolid& solid)
 {
   glm::dvec3 reach(solid.radius);
-  if (solid.kind == Solid::Cylinder)
+  if (solid.kind != Solid::Sphere)
   {
     for (int i = 0; i < 3; ++i)
     {
       const double along = solid.axis[i];
       reach[i] = solid.halfLength * std::abs(along) +
-        solid.radius * std::sqrt(std::max(0.0, 1.0 - along * along));
+        solid.radius *
+          (solid.kind == Solid::Tube ? 1.0 : std::sqrt(std::max(0.0, 1.0 - along * along)));
     }
   }
   // Two roundings of the box's sides, and as much again for a ray that enters it in float.
@@ -199,17 +226,16 @@ std::optional<Crossing> crossingOf(
   {
     return crossBall(from, direction, solid.radius);
   }
-  const auto around =
-    crossBall(across(from, solid.axis), across(direction, solid.axis), solid.radius);
-  const auto between =
-    crossSlab(glm::dot(from, solid.axis), glm::dot(direction, solid.axis), solid.halfLength);
-  if (!around || !between)
+  std::optional<Crossing> crossing = crossCylinder(solid, from, direction);
+  if (solid.kind == Solid::Tube)
   {
-    return std::nullopt;
+    // All three together are convex, so that a line is inside of them only once.
+    for (const double side : { -solid.halfLength, solid.halfLength })
+    {
+      crossing = united(crossing, crossBall(from - side * solid.axis, direction, solid.radius));
+    }
   }
-  const Crossing both{ std::max(around->enters, between->enters),
-    std::min(around->leaves, between->leaves) };
-  return both.enters <= both.leaves ? std::optional(both) : std::nullopt;
+  return crossing;
 }
 
 //------------------------------------------------------------------------------
@@ -218,20 +244,27 @@ bool blocks(const PlacedSolid& solid, bool oneSided, const glm::dvec3& origin,
 {
   const auto crossing = crossingOf(solid, origin, direction);
   const auto isAhead = [far](double t) { return t >= 0.0 && t <= far; };
-  return crossing && (isAhead(crossing->enters) || (!oneSided && isAhead(crossing->leaves)));
+  const bool onlyOutside = oneSided || solid.kind == Solid::Tube;
+  return crossing && (isAhead(crossing->enters) || (!onlyOutside && isAhead(crossing->leaves)));
 }
 
 //------------------------------------------------------------------------------
 SolidPoint seenPoint(
   const PlacedSolid& solid, const glm::dvec3& origin, const glm::dvec3& direction)
 {
-  const auto crossing = crossingOf(solid, origin, direction);
-  const bool isMet = crossing && std::isfinite(crossing->enters);
-  const double t = isMet
+  const bool isTube = solid.kind == Solid::Tube;
+  const auto crossing = isTube
+    ? crossBall(across(origin - solid.centre, solid.axis), across(direction, solid.axis),
+        solid.radius) // as if it went on
+    : crossingOf(solid, origin, direction);
+  const bool meets = crossing && std::isfinite(crossing->enters);
+  const double t = meets
     ? crossing->enters
     : glm::dot(solid.centre - origin, direction) / glm::dot(direction, direction);
-  SolidPoint point = surfacePoint(solid, origin + t * direction);
-  point.isMet = isMet;
+  const glm::dvec3 onRay = origin + t * direction;
+  SolidPoint point = surfacePoint(solid, onRay);
+  point.isMet =
+    meets && (!isTube || std::abs(glm::dot(onRay - solid.centre, solid.axis)) <= solid.halfLength);
   return point;
 }
 
@@ -246,9 +279,9 @@ SolidMesh meshOf(Solid kind, std::size_t count)
 {
   constexpr std::size_t mostTriangles = 1u << 20;
   const std::size_t each = mostTriangles / std::max<std::size_t>(count, 1);
-  if (kind == Solid::Cylinder)
+  if (kind != Solid::Sphere)
   {
-    return cylinderMesh(each >= 128 ? 32 : 16);
+    return cylinderMesh(each >= 128 ? 32 : 16, kind == Solid::Tube);
   }
   return sphereMesh(each >= 2048 ? 4 : each >= 512 ? 3 : 2);
 }

@@ -20,9 +20,13 @@ namespace gnomon
 /// What each instance of a surface is.
 enum class Solid : std::uint8_t
 {
-  None,    ///< the surface's triangles
-  Sphere,  ///< the image of the unit ball, under a matrix that scales all axes alike
-  Cylinder ///< the image of x^2 + y^2 <= 1, |z| <= 1, whose ends are flat
+  None,     ///< the surface's triangles
+  Sphere,   ///< the image of the unit ball, under a matrix that scales all axes alike
+  Cylinder, ///< the image of x^2 + y^2 <= 1, |z| <= 1, whose ends are flat
+  /// A part of a line: a cylinder with a ball around either end, so that bends have no gaps. Where
+  /// a line bends, parts reach into each other. Hence a ray that begins inside of one is not blocked
+  /// by it, and what is seen of one is its cylinder alone.
+  Tube
 };
 
 /// A solid where it stands, centred.
@@ -31,7 +35,7 @@ struct PlacedSolid
   Solid kind;
   glm::dvec3 centre;
   double radius;
-  glm::dvec3 axis{ 0.0 };  ///< of a cylinder: unit
+  glm::dvec3 axis{ 0.0 };  ///< of a cylinder or tube: unit
   double halfLength = 0.0; ///< likewise
 };
 
