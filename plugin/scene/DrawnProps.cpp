@@ -4,15 +4,15 @@
 #include "plugin/scene/CompositeBlocks.h"
 #include "plugin/scene/GlyphInstances.h"
 #include "plugin/scene/MapperInternals.h"
+#include "plugin/scene/MapperKind.h"
 #include "plugin/scene/PropMemory.h"
+#include "plugin/scene/SolidSizes.h"
 #include "plugin/vtkGnomonPropKeys.h"
 
 #include "vtkActor.h"
-#include "vtkAlgorithm.h"
 #include "vtkAssembly.h"
 #include "vtkAssemblyNode.h"
 #include "vtkAssemblyPath.h"
-#include "vtkCamera.h"
 #include "vtkCompositePolyDataMapper.h"
 #include "vtkCompositePolyDataMapper2.h"
 #include "vtkDataSetMapper.h"
@@ -25,8 +25,6 @@
 #include "vtkLODProp3D.h"
 #include "vtkMatrix4x4.h"
 #include "vtkOpenGLMoleculeMapper.h"
-#include "vtkPlane.h"
-#include "vtkPlaneCollection.h"
 #include "vtkPolyData.h"
 #include "vtkPolyDataMapper.h"
 #include "vtkProp3DFollower.h"
@@ -35,9 +33,7 @@
 #include "vtkProperty.h"
 #include "vtkRenderer.h"
 #include "vtkShaderProperty.h"
-#include "vtkStreamingDemandDrivenPipeline.h"
 
-#include <glm/gtc/matrix_access.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
 #include <algorithm>
@@ -54,89 +50,6 @@ namespace gnomon
 {
 namespace
 {
-
-/// A mapper's clipping planes, as many as VTK applies.
-std::vector<glm::dvec4> clipPlanesOf(vtkAbstractMapper* mapper)
-{
-  constexpr int mostPlanes = 6;
-  std::vector<glm::dvec4> planes;
-  const int count = std::min<int>(mapper->GetNumberOfClippingPlanes(), mostPlanes);
-  for (int i = 0; i < count; ++i)
-  {
-    vtkPlane* plane = mapper->GetClippingPlanes()->GetItem(i);
-    const glm::dvec3 normal = glm::make_vec3(plane->GetNormal());
-    planes.emplace_back(normal, -glm::dot(normal, glm::make_vec3(plane->GetOrigin())));
-  }
-  return planes;
-}
-
-/// How a mapper says what it draws.
-enum class MapperKind
-{
-  PlainPolyData, ///< vtkOpenGLPolyDataMapper itself: nearly every mapper
-  PolyData,      ///< a class derived from it
-  DataSet,       ///< by a polydata mapper inside
-  Composite,
-  Parts, ///< vtkCompositePolyDataMapper: by one polydata mapper a block
-  Glyphs,
-  Solids,   ///< a polydata mapper by type, which draws a solid at each point in place of the cells
-  Molecule, ///< by mappers of solids
-  Splats,   ///< a polydata mapper by type, which draws flat pictures in place of the cells
-  Other
-};
-
-/// Asked once for each prop: IsA() and casts compare with all base classes.
-MapperKind kindOf(vtkMapper* mapper)
-{
-  if (std::strcmp(mapper->GetClassName(), "vtkOpenGLPolyDataMapper") == 0)
-  {
-    return MapperKind::PlainPolyData;
-  }
-  if (mapper->IsA("vtkCompositePolyDataMapper2"))
-  {
-    return MapperKind::Composite;
-  }
-  if (mapper->IsA("vtkPolyDataMapper"))
-  {
-    const bool solids = mapper->IsA("vtkOpenGLSphereMapper") || mapper->IsA("vtkOpenGLStickMapper");
-    return solids                             ? MapperKind::Solids
-      : mapper->IsA("vtkPointGaussianMapper") ? MapperKind::Splats
-                                              : MapperKind::PolyData;
-  }
-  return mapper->IsA("vtkDataSetMapper")        ? MapperKind::DataSet
-    : mapper->IsA("vtkGlyph3DMapper")           ? MapperKind::Glyphs
-    : mapper->IsA("vtkCompositePolyDataMapper") ? MapperKind::Parts
-    : mapper->IsA("vtkOpenGLMoleculeMapper")    ? MapperKind::Molecule
-                                                : MapperKind::Other;
-}
-
-/// Runs the pipeline before a mapper, as when it draws.
-void runInput(vtkMapper* mapper, MapperKind kind)
-{
-  if (kind != MapperKind::PlainPolyData && kind != MapperKind::PolyData &&
-    kind != MapperKind::Composite && kind != MapperKind::Solids)
-  {
-    mapper->Update(); // all of its inputs
-    return;
-  }
-  // A trivial producer stands for data that was set by hand: there is nothing to run.
-  vtkAlgorithm* input = mapper->GetInputAlgorithm();
-  if (input->IsA("vtkTrivialProducer"))
-  {
-    return;
-  }
-  if (kind != MapperKind::Composite)
-  {
-    auto* polyDataMapper = static_cast<vtkPolyDataMapper*>(mapper);
-    input->UpdateInformation();
-    vtkInformation* information = mapper->GetInputInformation();
-    using Pipeline = vtkStreamingDemandDrivenPipeline;
-    information->Set(Pipeline::UPDATE_PIECE_NUMBER(), polyDataMapper->GetPiece());
-    information->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), polyDataMapper->GetNumberOfPieces());
-    information->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), polyDataMapper->GetGhostLevel());
-  }
-  input->Update();
-}
 
 /// Nearly every prop is one; IsA() and casts compare with all base classes.
 bool isPlainActor(vtkProp* prop)
@@ -155,29 +68,6 @@ bool hasSurfaces(const DrawnBlock& block)
   const std::vector<SurfaceCells>& cells = cellsOf(block);
   return std::any_of(cells.begin(), cells.end(),
     [&block](SurfaceCells kind) { return cellCount(block.data, kind) > 0; });
-}
-
-/// As vtkOpenGLPolyDataMapper::DrawingTubes() says.
-bool drawsTubes(vtkProperty* property)
-{
-  return property->GetRenderLinesAsTubes() && property->GetLineWidth() > 1.0f;
-}
-
-/// Whether a matrix keeps lengths: VTK draws solids at the lengths that they have before it.
-bool keepsLengths(const glm::dmat4& matrix)
-{
-  const glm::dmat3 linear(matrix);
-  const glm::dmat3 off = glm::transpose(linear) * linear - glm::dmat3(1.0);
-  constexpr double tolerance = 1e-5;
-  bool keeps = glm::row(matrix, 3) == glm::dvec4(0.0, 0.0, 0.0, 1.0);
-  for (int column = 0; column < 3; ++column)
-  {
-    for (int row = 0; row < 3; ++row)
-    {
-      keeps = keeps && std::abs(off[column][row]) < tolerance;
-    }
-  }
-  return keeps;
 }
 
 /// Whether a user's code changes the shaders that place an actor's vertices.
@@ -492,22 +382,7 @@ void Finder::addImage(
 /// Whether the snapshot can hold what a mapper draws; if not, it is noted.
 bool Finder::serves(vtkMapper* mapper, MapperKind kind)
 {
-  const char* reason = nullptr;
-  if (kind == MapperKind::Other || kind == MapperKind::Splats)
-  {
-    reason = "mapper not served";
-  }
-  else if (kind == MapperKind::Glyphs)
-  {
-    reason = static_cast<vtkGlyph3DMapper*>(mapper)->GetCullingAndLOD()
-      ? "glyphs are culled and simplified on the GPU"
-      : nullptr;
-  }
-  else if (auto* polyDataMapper = vtkPolyDataMapper::SafeDownCast(mapper);
-           polyDataMapper && polyDataMapper->GetNumberOfSubPieces() > 1)
-  {
-    reason = "input drawn in several pieces";
-  }
+  const char* reason = reasonAgainst(mapper, kind);
   if (reason)
   {
     this->skip(mapper, reason);
@@ -565,16 +440,11 @@ void Finder::addBlocks(vtkActor* actor, vtkMapper* mapper, MapperKind kind,
 }
 
 //------------------------------------------------------------------------------
-/// Adds the solids that a mapper draws, where they are solids to VTK as well.
+/// Adds the solids that a mapper draws, where the snapshot can hold them.
 void Finder::addSolids(vtkMapper* mapper, const glm::dmat4& worldFromModel)
 {
   const std::optional<DrawnSolids> drawn = drawnSolids(mapper);
-  const char* reason = !drawn                 ? "its arrays are not of floats"
-    : mapper->GetNumberOfClippingPlanes() > 0 ? "clipped"
-    : drawn->cells == SurfaceCells::Sticks && !keepsLengths(worldFromModel)
-    ? "its actor is scaled, which VTK draws distorted"
-    : nullptr;
-  if (reason)
+  if (const char* reason = reasonAgainstSolids(drawn, mapper, worldFromModel))
   {
     this->skip(mapper, reason);
     return;
@@ -587,32 +457,16 @@ void Finder::addSolids(vtkMapper* mapper, const glm::dmat4& worldFromModel)
 }
 
 //------------------------------------------------------------------------------
-/// Notes how large spheres at vertices and tubes along lines are in the last blocks, as the shader
-/// of vtkOpenGLPolyDataMapper has them.
+/// Notes how large spheres at vertices and tubes along lines are in the last blocks.
 void Finder::takePixelSizes(vtkActor* actor, std::size_t firstBlock)
 {
-  vtkCamera* camera = this->renderer_->GetActiveCamera();
-  int size[2], corner[2];
-  this->renderer_->GetTiledSizeAndOrigin(&size[0], &size[1], &corner[0], &corner[1]);
-  const glm::dmat4 clipFromView =
-    toGlm(camera->GetProjectionTransformMatrix(this->renderer_->GetTiledAspectRatio(), -1.0, 1.0));
-  const glm::dvec4 scale = camera->GetParallelProjection()
-    ? glm::dvec4(0.0, 0.0, 0.0, 1.0)
-    : -glm::row(toGlm(camera->GetViewTransformMatrix()), 2); // the depth
-  const glm::dvec4 radiusOfOne = scale / (size[0] * clipFromView[0][0]);
-  vtkProperty* property = actor->GetProperty();
-  const bool surface = property->GetRepresentation() == VTK_SURFACE;
+  const PixelSizes sizes = pixelSizes(actor->GetProperty(), this->renderer_);
+  const bool surface = actor->GetProperty()->GetRepresentation() == VTK_SURFACE;
   for (std::size_t i = firstBlock; i < this->drawn_.blocks.size(); ++i)
   {
     DrawnBlock& block = this->drawn_.blocks[i];
-    if (property->GetRenderPointsAsSpheres())
-    {
-      block.pointRadiusFromWorld = static_cast<double>(property->GetPointSize()) * radiusOfOne;
-    }
-    if (surface && drawsTubes(property))
-    {
-      block.lineRadiusFromWorld = static_cast<double>(property->GetLineWidth()) * radiusOfOne;
-    }
+    block.pointRadiusFromWorld = sizes.pointRadiusFromWorld;
+    block.lineRadiusFromWorld = surface ? sizes.lineRadiusFromWorld : glm::dvec4(0.0);
     block.drawsTriangles = surface;
     if (!surface && block.data->GetNumberOfCells() > block.data->GetNumberOfVerts())
     {

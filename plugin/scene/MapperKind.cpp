@@ -1,0 +1,107 @@
+#include "plugin/scene/MapperKind.h"
+
+#include "vtkAlgorithm.h"
+#include "vtkGlyph3DMapper.h"
+#include "vtkInformation.h"
+#include "vtkMapper.h"
+#include "vtkPlane.h"
+#include "vtkPlaneCollection.h"
+#include "vtkPolyDataMapper.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+
+#include <glm/gtc/type_ptr.hpp>
+
+#include <algorithm>
+#include <cstring>
+
+namespace gnomon
+{
+
+//------------------------------------------------------------------------------
+MapperKind kindOf(vtkMapper* mapper)
+{
+  if (std::strcmp(mapper->GetClassName(), "vtkOpenGLPolyDataMapper") == 0)
+  {
+    return MapperKind::PlainPolyData;
+  }
+  if (mapper->IsA("vtkCompositePolyDataMapper2"))
+  {
+    return MapperKind::Composite;
+  }
+  if (mapper->IsA("vtkPolyDataMapper"))
+  {
+    const bool solids = mapper->IsA("vtkOpenGLSphereMapper") || mapper->IsA("vtkOpenGLStickMapper");
+    return solids                             ? MapperKind::Solids
+      : mapper->IsA("vtkPointGaussianMapper") ? MapperKind::Splats
+                                              : MapperKind::PolyData;
+  }
+  return mapper->IsA("vtkDataSetMapper")        ? MapperKind::DataSet
+    : mapper->IsA("vtkGlyph3DMapper")           ? MapperKind::Glyphs
+    : mapper->IsA("vtkCompositePolyDataMapper") ? MapperKind::Parts
+    : mapper->IsA("vtkOpenGLMoleculeMapper")    ? MapperKind::Molecule
+                                                : MapperKind::Other;
+}
+
+//------------------------------------------------------------------------------
+void runInput(vtkMapper* mapper, MapperKind kind)
+{
+  if (kind != MapperKind::PlainPolyData && kind != MapperKind::PolyData &&
+    kind != MapperKind::Composite && kind != MapperKind::Solids)
+  {
+    mapper->Update(); // all of its inputs
+    return;
+  }
+  // A trivial producer stands for data that was set by hand: there is nothing to run.
+  vtkAlgorithm* input = mapper->GetInputAlgorithm();
+  if (input->IsA("vtkTrivialProducer"))
+  {
+    return;
+  }
+  if (kind != MapperKind::Composite)
+  {
+    auto* polyDataMapper = static_cast<vtkPolyDataMapper*>(mapper);
+    input->UpdateInformation();
+    vtkInformation* information = mapper->GetInputInformation();
+    using Pipeline = vtkStreamingDemandDrivenPipeline;
+    information->Set(Pipeline::UPDATE_PIECE_NUMBER(), polyDataMapper->GetPiece());
+    information->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), polyDataMapper->GetNumberOfPieces());
+    information->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), polyDataMapper->GetGhostLevel());
+  }
+  input->Update();
+}
+
+//------------------------------------------------------------------------------
+const char* reasonAgainst(vtkMapper* mapper, MapperKind kind)
+{
+  if (kind == MapperKind::Other || kind == MapperKind::Splats)
+  {
+    return "mapper not served";
+  }
+  if (kind == MapperKind::Glyphs)
+  {
+    return static_cast<vtkGlyph3DMapper*>(mapper)->GetCullingAndLOD()
+      ? "glyphs are culled and simplified on the GPU"
+      : nullptr;
+  }
+  auto* polyDataMapper = vtkPolyDataMapper::SafeDownCast(mapper);
+  return polyDataMapper && polyDataMapper->GetNumberOfSubPieces() > 1
+    ? "input drawn in several pieces"
+    : nullptr;
+}
+
+//------------------------------------------------------------------------------
+std::vector<glm::dvec4> clipPlanesOf(vtkAbstractMapper* mapper)
+{
+  constexpr int mostPlanes = 6;
+  std::vector<glm::dvec4> planes;
+  const int count = std::min<int>(mapper->GetNumberOfClippingPlanes(), mostPlanes);
+  for (int i = 0; i < count; ++i)
+  {
+    vtkPlane* plane = mapper->GetClippingPlanes()->GetItem(i);
+    const glm::dvec3 normal = glm::make_vec3(plane->GetNormal());
+    planes.emplace_back(normal, -glm::dot(normal, glm::make_vec3(plane->GetOrigin())));
+  }
+  return planes;
+}
+
+} // namespace gnomon

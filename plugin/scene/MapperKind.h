@@ -1,0 +1,41 @@
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include <vector>
+
+class vtkAbstractMapper;
+class vtkMapper;
+
+namespace gnomon
+{
+
+/// How a mapper says what it draws.
+enum class MapperKind
+{
+  PlainPolyData, ///< vtkOpenGLPolyDataMapper itself: nearly every mapper
+  PolyData,      ///< a class derived from it
+  DataSet,       ///< by a polydata mapper inside
+  Composite,
+  Parts, ///< vtkCompositePolyDataMapper: by one polydata mapper a block
+  Glyphs,
+  Solids,   ///< a polydata mapper by type, which draws a solid at each point in place of the cells
+  Molecule, ///< by mappers of solids
+  Splats,   ///< a polydata mapper by type, which draws flat pictures in place of the cells
+  Other
+};
+
+/// Asked once for each prop: VTK's casts compare with all base classes.
+MapperKind kindOf(vtkMapper* mapper);
+
+/// Runs the pipeline before a mapper, as when it draws.
+void runInput(vtkMapper* mapper, MapperKind kind);
+
+/// Why the snapshot cannot hold what a mapper draws; null if it can.
+const char* reasonAgainst(vtkMapper* mapper, MapperKind kind);
+
+/// A mapper's clipping planes, as many as VTK applies: in world coordinates, (n, d), n.x + d >= 0
+/// where it draws.
+std::vector<glm::dvec4> clipPlanesOf(vtkAbstractMapper* mapper);
+
+} // namespace gnomon
