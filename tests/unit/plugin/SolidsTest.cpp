@@ -1,9 +1,14 @@
 // Mappers of impostors: their spheres and sticks cast and receive as what they look like.
 
 #include "PassScene.h"
+#include "RandomScenes.h"
+
+#include "plugin/vtkGnomonPropKeys.h"
 
 #include <vtkCellArray.h>
 #include <vtkFloatArray.h>
+#include <vtkImageActor.h>
+#include <vtkImageProperty.h>
 #include <vtkLightCollection.h>
 #include <vtkMatrix4x4.h>
 #include <vtkMolecule.h>
@@ -384,21 +389,57 @@ TEST_F(SolidsTest, agreeWithClosedForms)
 }
 
 //------------------------------------------------------------------------------
+/// With an image among them, which casts and receives as its rectangle.
 TEST_F(SolidsTest, exactTechniquesAgree)
 {
-  for (int seed = 3; seed < 6; ++seed)
+  const auto runs = static_cast<int>(exactRuns(3));
+  for (int seed = 3; seed < 3 + runs; ++seed)
   {
-    SolidsScene scene(seed);
-    scene.addSun({ 0.5, 0.3, -1.0 });
+    SolidsScene scene(seed, 20, 160);
+    std::mt19937 random(static_cast<unsigned int>(seed));
+    const auto uniform = [&](double lower, double upper)
+    { return std::uniform_real_distribution<double>(lower, upper)(random); };
+    vtkNew<vtkImageActor> image;
+    image->SetInputData(makeImage(8, 8, [](int x, int y) { return glm::dvec3((x + y) % 2); }));
+    image->SetPosition(uniform(-3, 3), uniform(-3, 3), uniform(0, 3));
+    image->SetScale(0.5);
+    image->RotateWXYZ(uniform(0, 360), uniform(-1, 1), uniform(-1, 1), uniform(0, 1));
+    image->GetProperty()->SetDiffuse(1.0);
+    vtkGnomonPropKeys::SetCasts(image, true);
+    scene.renderer->AddActor(image);
+    seed % 2 ? scene.addSun({ uniform(-1, 1), uniform(-1, 1), -1.0 })
+             : scene.addSpot({ uniform(-4, 4), uniform(-4, 4), 9.0 }, { 0, 0, 0 }, 80.0);
+    scene.lookFrom({ uniform(-8, 8), uniform(-8, 8), uniform(3, 9) }, { 0.0, 0.0, 1.0 });
     setTechnique(scene, "raytraced");
     const std::vector<float> truth = this->visibility(scene);
+    EXPECT_EQ(scene.report().leftOut.size(), 0u);
     for (const char* technique : { "crsm", "crsma", "silhouette", "penumbra" })
     {
-      SCOPED_TRACE(technique);
+      SCOPED_TRACE(testing::Message() << technique << " " << seed);
       setTechnique(scene, technique);
       EXPECT_EQ(this->visibility(scene), truth);
     }
   }
+}
+
+//------------------------------------------------------------------------------
+/// A map of triangles alone would say that solids are not there.
+TEST_F(SolidsTest, conservativeMapsAreNotAsked)
+{
+  SolidsScene scene(3);
+  scene.addSun({ 0.5, 0.3, -1.0 });
+  setTechnique(scene, "raytraced");
+  const std::vector<float> truth = this->visibility(scene);
+  scene.pass->SetSetting("bake", "always");
+  setTechnique(scene, "crsm");
+  EXPECT_EQ(this->visibility(scene), truth);
+  EXPECT_EQ(scene.report().mapBakes, 0);
+  EXPECT_THAT(scene.report().lights[0].mapReason, testing::HasSubstr("spheres or cylinders"));
+  scene.ballActor->VisibilityOff();
+  scene.stickActor->VisibilityOff();
+  scene.addBox({ -1.0, -1.0, 1.0 }, { 1.0, 1.0, 2.0 });
+  scene.render();
+  EXPECT_EQ(scene.report().mapBakes, 1);
 }
 
 //------------------------------------------------------------------------------
