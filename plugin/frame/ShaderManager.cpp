@@ -93,6 +93,21 @@ std::string moveToSolid(const std::string& fragmentShader, const std::string& un
   return moves;
 }
 
+/// With so many layers software OpenGL takes as long to compile either way, and each frame a little
+/// less with fetches of their own.
+constexpr int mostFetchesOneByOne = 4;
+
+/// How many layers lights have.
+int layersOf(const std::vector<ShadedLight>& lights)
+{
+  int layers = 0;
+  for (const ShadedLight& shaded : lights)
+  {
+    layers = std::max(layers, shaded.layer + shaded.channels);
+  }
+  return layers;
+}
+
 /// The names of a source's samplers by their type.
 std::map<std::string, std::vector<std::string>> samplersOf(const std::string& source)
 {
@@ -128,11 +143,22 @@ void ShaderManager::configure(const HookVariant& variant, const std::vector<Shad
     declarations += hookShaders().at("plugin/frame/hook_image.glsl");
     if (variant.multisampled)
     {
-      declarations += hookShaders().at("plugin/frame/hook_layer_multisample.glsl");
+      declarations += hookShaders().at("plugin/frame/hook_pixel_multisample.glsl");
       uniformFlow +=
         "float gnomonDepth = gl_FragCoord.z;\n"
         "vec2 gnomonDepthPerPixel = vec2(dFdx(gl_FragCoord.z), dFdy(gl_FragCoord.z));\n";
       multiplications = "  gnomonFindPixel(gnomonDepth, gnomonDepthPerPixel);\n";
+    }
+    else
+    {
+      declarations += hookShaders().at("plugin/frame/hook_pixel.glsl");
+    }
+    const int layers = layersOf(lights);
+    if (layers > mostFetchesOneByOne)
+    {
+      declarations += "const int gnomonMostLayers = " + std::to_string(layers) + ";\n" +
+        hookShaders().at("plugin/frame/hook_layers.glsl");
+      multiplications += "  gnomonFetchLayers();\n";
     }
     else
     {
@@ -343,6 +369,7 @@ void ShaderManager::bindVisibility(const StageValues& values)
   if (this->variant_.route == Route::Image)
   {
     add("gnomonLayers", this->bindTexture(values.layers));
+    add("gnomonLayerCount", layersOf(this->lights_));
     if (this->variant_.multisampled)
     {
       add("gnomonDepths", this->bindTexture(values.depths));

@@ -1,6 +1,6 @@
-// The image route's fetch where a pixel has one sample.
+// The image route's fetch of a light's visibility.
 
 float gnomonLayer(int layer)
 {
-  return texelFetch(gnomonLayers, ivec3(ivec2(gl_FragCoord.xy) - gnomonOrigin, layer), 0).r;
+  return texelFetch(gnomonLayers, ivec3(gnomonLayerPixel(), layer), 0).r;
 }

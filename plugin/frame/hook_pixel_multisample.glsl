@@ -1,4 +1,4 @@
-// The image route's fetch where a pixel has several samples. The layers hold the visibility of what
+// Which pixel's visibility is fetched, where a pixel has several samples. The layers hold the visibility of what
 // the pixels' centres show. A surface that covers other samples of a pixel may show at the centre
 // of a neighbour: the fetch is from whichever pixel shows what is nearest to the fragment's plane.
 
@@ -33,7 +33,7 @@ void gnomonFindPixel(float ownDepth, vec2 depthPerPixel)
   }
 }
 
-float gnomonLayer(int layer)
+ivec2 gnomonLayerPixel()
 {
-  return texelFetch(gnomonLayers, ivec3(gnomonPixel, layer), 0).r;
+  return gnomonPixel;
 }
