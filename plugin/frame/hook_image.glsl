@@ -1,6 +1,6 @@
-// The image route's declarations: one visibility layer per casting light. Their fetch follows, from
-// a pixel (hook_pixel.glsl, hook_pixel_multisample.glsl), one by one or all at once (hook_layer.glsl,
-// hook_layers.glsl).
+// The image route's declarations: one visibility layer per casting light. What follows says which
+// pixel is fetched (hook_pixel.glsl, hook_pixel_multisample.glsl), and fetches its layers one by
+// one (hook_layer.glsl) or in a loop (hook_layers.glsl).
 
 uniform sampler2DArray gnomonLayers;
 uniform ivec2 gnomonOrigin; // the window pixel that the layers' first pixel belongs to

@@ -1,6 +1,6 @@
-// The image route's fetch of many lights' visibility: all at once, in a loop that no compiler
-// unrolls, as it does not know its end. Software OpenGL makes machine code of every fetch anew,
-// which takes ten times as long as all else of a program with twenty.
+// The image route's fetch of many lights' visibility, in one loop. Its end is a uniform, so that
+// compilers cannot unroll it: llvmpipe compiles each fetch anew, and twenty of them take most of
+// the first frame.
 
 uniform int gnomonLayerCount;
 

@@ -3,10 +3,10 @@
 // neighbours: the point to ask for is the centroid of the covered samples.
 
 // The centroid in view coordinates: where its ray meets the triangle's plane, which the centre and
-// the normal give, given what VTK interpolates there. On most drivers the interpolated point is there already. llvmpipe divides it by
-// the centre's depth, which moves it along the ray; and a mapper may have moved the centre
-// (impostors). Where the plane holds the ray (a triangle seen exactly edge-on) the centre stands
-// in.
+// the normal give. The first argument is what VTK interpolates there. On most drivers that is the
+// centroid already. llvmpipe divides it by the centre's depth, which moves it along the ray; and a
+// mapper may have moved the centre (impostors). Where the plane holds the ray (a triangle seen
+// exactly edge-on) the centre stands in.
 vec3 gnomonCentroid(
   vec3 centroidView, vec3 centreView, vec3 normalView, bool parallelProjection)
 {

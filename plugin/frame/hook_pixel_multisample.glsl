@@ -1,6 +1,7 @@
-// Which pixel's visibility is fetched, where a pixel has several samples. The layers hold the visibility of what
-// the pixels' centres show. A surface that covers other samples of a pixel may show at the centre
-// of a neighbour: the fetch is from whichever pixel shows what is nearest to the fragment's plane.
+// Which pixel's visibility is fetched, where a pixel has several samples. The layers hold the
+// visibility of what the pixels' centres show. A surface that covers other samples of a pixel may
+// show at the centre of a neighbour: the fetch is from whichever pixel shows what is nearest to the
+// fragment's plane.
 
 uniform sampler2D gnomonDepths; // the receivers stage's depth buffer
 

@@ -34,7 +34,7 @@ struct DrawnBlock
   vtkDataSet* glyphPoints = nullptr; ///< for a glyph: the points that it is drawn at
   int glyphSource = 0;               ///< and its place in the mapper's table of sources
   vtkPolyData* drawnAs = nullptr;    ///< what VTK draws in its place; null: the data itself
-  vtkMapper* solids = nullptr; ///< who draws a solid at each point, in place of the cells; or null
+  vtkMapper* solids = nullptr;       ///< the mapper, if it draws a solid at each point and no cells
   SurfaceCells solidCells = SurfaceCells::Spheres; ///< and which
   ///@{
   /// Where vertex cells are drawn as spheres, or lines as tubes: their radius, which is affine over

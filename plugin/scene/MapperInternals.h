@@ -28,8 +28,8 @@ struct DrawCall
 
 /// Which cells a polydata mapper, or a helper of vtkCompositePolyDataMapper2, is about to draw as
 /// triangles with the program that it has just handed to a render pass
-/// (vtkOpenGLRenderPass::SetShaderParameters), or its vertices and lines, as solids or not. Nothing for
-/// selections and mappers that do not draw polydata.
+/// (vtkOpenGLRenderPass::SetShaderParameters), or its vertices and lines, as solids or not.
+/// Nothing for selections and mappers that do not draw polydata.
 std::optional<SurfaceCells> cellsAboutToBeDrawn(vtkAbstractMapper* mapper);
 
 /// The draw calls for these cells, in order of firstPrimitive.

@@ -1,5 +1,6 @@
 #include "plugin/scene/PlacedSolids.h"
 
+#include "lights/LightSpace.h"
 #include "plugin/scene/MapperInternals.h"
 #include "shadowtech/base/Occluders.h"
 
@@ -31,8 +32,7 @@ glm::dvec3 tupleOf(vtkFloatArray* array, vtkIdType point)
 glm::dmat3 alongAxis(const glm::dvec3& halfAxis, double radius)
 {
   const glm::dvec3 axis = glm::normalize(halfAxis);
-  const glm::dvec3 other = std::abs(axis.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
-  const glm::dvec3 x = glm::normalize(glm::cross(axis, other));
+  const glm::dvec3 x = glm::normalize(glm::cross(axis, axisAcross(axis)));
   return { radius * x, radius * glm::cross(axis, x), halfAxis };
 }
 
@@ -157,7 +157,9 @@ PlacedInstances placeSolids(const DrawnBlock& block, SurfaceCells cells,
     const bool finite = hasFiniteNumbers(rounded);
     const bool kept = finite && isInside && hasSize(rounded);
     result.leftOutNonFinite += finite ? 0 : 1;
-    result.leftOutVanished += finite && !kept ? 1 : 0;
+    // What a plane cuts off, or lies behind the camera, is no fault of the data.
+    const bool isFault = isInside && !areSizedInPixels(cells);
+    result.leftOutVanished += finite && !kept && isFault ? 1 : 0;
     result.centredFromSource.push_back(kept ? rounded : glm::mat4x3(0.0f));
   };
   if (areSizedInPixels(cells))

@@ -24,8 +24,8 @@ enum class SurfaceCells
 {
   Polygons,
   Strips,
-  Spheres,      ///< one at each point, whatever cells there are
-  Sticks,       ///< the same
+  Spheres,      ///< one at each point; cells do not count
+  Sticks,       ///< likewise
   PointSpheres, ///< one at each point of the vertex cells, sized in pixels
   LineTubes     ///< one along each part of a line, likewise
 };

@@ -142,7 +142,7 @@ vtkMTimeType changeTime(const DrawnProp& prop, const DrawnBlock& block, SurfaceC
 FreshSurface readSurface(const DrawnProp& prop, const DrawnBlock& block, SurfaceCells cells,
   std::vector<std::uint32_t>& vertexOfPoint);
 
-/// Whether a surface that was not read anew is where its record says, and as large.
+/// Whether VTK draws a surface where its record says, and as large.
 bool isWhere(const SurfaceRecord& record, const DrawnProp& prop, const DrawnBlock& block);
 
 /// Computes a fresh surface's positions, and leaves out what the snapshot does not hold. Glyphs

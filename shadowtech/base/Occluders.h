@@ -57,7 +57,7 @@ struct Surface
   /// all or none of them mirror. Empty: drawn once, and its vertices are centred.
   std::vector<glm::mat4x3> centredFromSource;
   bool mirrored = false; ///< whether they mirror, so that source coordinates show the other side
-  /// What an instance is. Of solids each is one primitive to VTK, and the triangles are meshOf().
+  /// What an instance is. VTK draws a solid as one primitive; the triangles are those of meshOf().
   Solid solid = Solid::None;
 
   bool isInstanced() const { return !this->centredFromSource.empty(); }

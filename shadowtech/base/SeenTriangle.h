@@ -70,7 +70,7 @@ struct SeenTriangle
   bool finite = false;
   Certainty known =
     Certainty::Uncertain; ///< of all its receivers; else the numbers above mean nothing
-  /// What is seen in a triangle's place; of the numbers above, only the surface means anything then.
+  /// What is seen in place of a triangle. Then the numbers above mean nothing, but for the surface.
   std::optional<PlacedSolid> solid;
 };
 

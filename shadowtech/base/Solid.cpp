@@ -1,5 +1,6 @@
 #include "shadowtech/base/Solid.h"
 
+#include "lights/LightSpace.h"
 #include "shadowtech/base/Occluders.h"
 #include "shadowtech/base/ShadowRay.h"
 
@@ -80,13 +81,6 @@ std::optional<Crossing> crossCylinder(
   return both.enters <= both.leaves ? std::optional(both) : std::nullopt;
 }
 
-/// Any unit vector across a unit vector.
-glm::dvec3 anyAcross(const glm::dvec3& axis)
-{
-  const glm::dvec3 other = std::abs(axis.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
-  return glm::normalize(glm::cross(axis, other));
-}
-
 /// The point of a solid's surface below a point outside, or above one inside; of a point on it,
 /// that point.
 SolidPoint surfacePoint(const PlacedSolid& solid, const glm::dvec3& point)
@@ -103,7 +97,8 @@ SolidPoint surfacePoint(const PlacedSolid& solid, const glm::dvec3& point)
   const double length = glm::length(off);
   if (solid.kind == Solid::Tube || solid.radius - length <= solid.halfLength - std::abs(along))
   {
-    const glm::dvec3 normal = length > 0.0 ? off / length : anyAcross(solid.axis);
+    const glm::dvec3 normal =
+      length > 0.0 ? off / length : glm::normalize(glm::cross(solid.axis, axisAcross(solid.axis)));
     const double kept = glm::clamp(along, -solid.halfLength, solid.halfLength);
     return { solid.centre + kept * solid.axis + solid.radius * normal, normal };
   }

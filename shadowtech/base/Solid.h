@@ -23,9 +23,9 @@ enum class Solid : std::uint8_t
   None,     ///< the surface's triangles
   Sphere,   ///< the image of the unit ball, under a matrix that scales all axes alike
   Cylinder, ///< the image of x^2 + y^2 <= 1, |z| <= 1, whose ends are flat
-  /// A part of a line: a cylinder with a ball around either end, so that bends have no gaps. Where
-  /// a line bends, parts reach into each other. Hence a ray that begins inside of one is not blocked
-  /// by it, and what is seen of one is its cylinder alone.
+  /// A part of a line: a cylinder with a ball around either end, so that bends have no gaps. At a
+  /// bend, parts reach into each other. Hence a tube blocks no ray that begins inside of it, and
+  /// receivers lie on its cylinder, never on a ball.
   Tube
 };
 
@@ -73,13 +73,13 @@ struct SolidPoint
   bool isMet = false; ///< by the ray that it was asked of
 };
 
-/// Where a ray enters a solid; of a ray that passes it by, which a rasteriser may see otherwise, the
-/// surface's point below the ray's closest one to the centre.
+/// Where a ray enters a solid. VTK's shader, in float, may draw a pixel whose ray passes it by:
+/// then the surface's point below the ray's closest one to the centre.
 SolidPoint seenPoint(
   const PlacedSolid& solid, const glm::dvec3& origin, const glm::dvec3& direction);
 
-/// How far off its surface rounding may move a receiver on a solid (ShadowRay.h). The other half of a
-/// bond is a stick of its own, whose place and axis are rounded as well: so it is twice the storage.
+/// How far off its surface rounding may move a receiver on a solid: twice storageNoise(), since the
+/// other half of a bond is a stick of its own, whose place and axis are rounded as well.
 float noiseOf(const PlacedSolid& solid, const SolidPoint& point);
 
 /// A mesh inscribed in a solid, in source coordinates, its fronts (counter-clockwise) outwards.
@@ -89,8 +89,8 @@ struct SolidMesh
   std::vector<glm::uvec3> triangles;
 };
 
-/// @param count how many there are: a surface has no more than a million triangles in all, where 128
-/// triangles are not too many each
+/// @param count how many solids share it. It has as many triangles as keep all of them below a
+/// million, but no fewer than a sphere's 128
 SolidMesh meshOf(Solid kind, std::size_t count);
 
 } // namespace gnomon

@@ -5,6 +5,7 @@
 
 #include <vtkActor.h>
 #include <vtkProperty.h>
+#include <vtkShaderProperty.h>
 #include <vtkTexture.h>
 
 #include <algorithm>
@@ -57,4 +58,37 @@ TEST_BY_VARIANTS(ShaderManager, FirstFrameWithTranslucentReceivers, hasSamplersO
   scene.render();
   scene.window->SetSize(64, 48);
   EXPECT_EQ(differingPixels(scene.render(), first), 0u);
+}
+
+//------------------------------------------------------------------------------
+/// Code of a user's own behind VTK's lighting goes on with what that has computed.
+TEST(ShaderManagerWithCode, ReadsVtksLightingByBothRoutes)
+{
+  PassScene scene(64, 48);
+  scene.addFloor(4.0);
+  vtkActor* const sphere = scene.addSphere({ 0.0, 0.0, 1.5 }, 0.7);
+  scene.addSun({ 1.0, 0.4, -1.5 });
+  scene.lookFrom({ 0.0, -9.0, 7.0 });
+  const auto render = [&](const char* technique, int route)
+  {
+    scene.pass->SetTechnique(technique);
+    scene.pass->SetRoute(route);
+    return scene.render();
+  };
+  const Picture before = render("raytraced", vtkGnomonShadowPass::ROUTE_IMAGE);
+  sphere->GetShaderProperty()->AddFragmentShaderReplacement("//VTK::Light::Impl", true,
+    "//VTK::Light::Impl\n"
+    "  gl_FragData[0] = vec4(ambientColor + vec3(diffuse.r, 0.0, 0.0) + specular, 1.0);\n",
+    false);
+  const Picture traced = render("raytraced", vtkGnomonShadowPass::ROUTE_IMAGE);
+  std::size_t red = 0;
+  for (std::size_t i = 0; i < traced.pixels(); ++i)
+  {
+    red += traced.rgb[3 * i] > 100 && traced.rgb[3 * i + 1] == 0 ? 1 : 0;
+    EXPECT_EQ(traced.rgb[3 * i], before.rgb[3 * i]); // shadows are the same
+  }
+  EXPECT_GT(red, 30u);
+  EXPECT_LE(differingPixels(render("nsm", vtkGnomonShadowPass::ROUTE_INLINE),
+              render("nsm", vtkGnomonShadowPass::ROUTE_IMAGE), 2),
+    1u);
 }

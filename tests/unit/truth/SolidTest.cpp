@@ -208,8 +208,8 @@ TEST_P(Solids, aRayMeetsTheirSurfaceOrPassesByIt)
 }
 
 //------------------------------------------------------------------------------
-/// Whatever the light that a receiver faces, at half the offset and twice as much, near the origin
-/// and far away.
+/// In any light that the receiver faces; at half, once and twice the offset; near the origin and
+/// far away.
 TEST_P(Solids, noneShadowsItself)
 {
   for (const double reach : { 1.0, 100.0, 10000.0 })
