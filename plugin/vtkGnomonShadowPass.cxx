@@ -190,7 +190,7 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
     manager.beginFrame(
       { static_cast<gnomon::RouteWish>(this->Route), static_cast<gnomon::TracerWish>(this->Tracer),
         static_cast<gnomon::RasterizerWish>(this->Rasterizer), this->KeepVisibility,
-        this->MeasureStages });
+        this->MeasureStages, this->SmoothTerminators });
 
     // lights
     this->BeginView(s);
@@ -542,6 +542,7 @@ void vtkGnomonShadowPass::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Route: " << routes[this->Route] << "\n";
   os << indent << "Tracer: " << tracers[this->Tracer] << "\n";
   os << indent << "Rasterizer: " << rasterizers[this->Rasterizer] << "\n";
+  os << indent << "SmoothTerminators: " << (this->SmoothTerminators ? "on" : "off") << "\n";
   os << indent << "MeasureStages: " << (this->MeasureStages ? "on" : "off") << "\n";
   os << indent << "KeepVisibility: " << (this->KeepVisibility ? "on" : "off") << "\n";
   os << indent

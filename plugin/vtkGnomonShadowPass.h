@@ -165,6 +165,18 @@ public:
 
   ///@{
   /**
+   * Whether shadow rays start on the curved surface that normals of points imply, where facets are
+   * coarse: the shadow's edge on a smooth-shaded sphere of few triangles is then smooth, too. It is
+   * for techniques that trace from the CPU (`silhouette`, `raytraced` and the like) by Embree, on
+   * opaque surfaces without clipping planes. Off, receivers are on the triangles. Default on.
+   */
+  vtkSetMacro(SmoothTerminators, bool);
+  vtkGetMacro(SmoothTerminators, bool);
+  vtkBooleanMacro(SmoothTerminators, bool);
+  ///@}
+
+  ///@{
+  /**
    * Measure the stages of a frame: each then ends with glFinish, so that its time is its own; that
    * makes frames slower. Default off.
    */
@@ -263,6 +275,7 @@ protected:
   int Route = ROUTE_AUTO;
   int Tracer = TRACER_AUTO;
   int Rasterizer = RASTERIZER_AUTO;
+  bool SmoothTerminators = true;
   bool MeasureStages = false;
   bool KeepVisibility = false;
   vtkRenderPass* DelegatePass = nullptr;

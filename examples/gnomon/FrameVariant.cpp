@@ -49,6 +49,7 @@ vtkSmartPointer<vtkRenderPass> makeGnomonPass(const VariantSpec& spec)
   pass->SetRoute(spec.route);
   pass->SetTracer(spec.tracer);
   pass->SetRasterizer(spec.rasterizer);
+  pass->SmoothTerminatorsOff(); // all techniques are compared on the triangles
   if (spec.mapSizeTexels > 0)
   {
     pass->SetMapSize(spec.mapSizeTexels);

@@ -416,7 +416,9 @@ void render(const RenderOptions& options)
   shadows->SetTracer(options.tracer);
   shadows->SetRasterizer(options.rasterizer);
   shadows->SetMeasureStages(!options.stats.empty() || !options.visibility.empty());
-  shadows->SetKeepVisibility(!options.visibility.empty() || !options.classes.empty());
+  const bool givesVisibility = !options.visibility.empty() || !options.classes.empty();
+  shadows->SetKeepVisibility(givesVisibility);
+  shadows->SetSmoothTerminators(!givesVisibility); // visibility is compared, on the triangles
   // The only frame is to show what techniques do with their maps, if they have any.
   shadows->SetSetting("bake", "always");
   shadows->SetTechnique(vtkGnomonShadowPass::GetDefaultTechnique());

@@ -3,6 +3,7 @@
 #include "shadowtech/tracing/EmbreeTracer.h"
 #include "shadowtech/tracing/GpuShadowTracer.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace gnomon
@@ -38,6 +39,19 @@ FrameTracer::FrameTracer(OccluderBuffers& buffers, ShaderLibrary& shaders)
   : buffers_(buffers)
   , shaders_(shaders)
 {
+}
+
+//------------------------------------------------------------------------------
+void FrameTracer::areFree(
+  std::size_t count, const PointArrays& from, const PointArrays& to, std::uint8_t* free) const
+{
+  const FreeSegments* const own = this->tracer_ ? this->tracer_->freeSegments() : nullptr;
+  if (own)
+  {
+    own->areFree(count, from, to, free);
+    return;
+  }
+  std::fill_n(free, count, 0); // another tracer has taken over
 }
 
 //------------------------------------------------------------------------------

@@ -30,7 +30,7 @@ TracerChoice chooseTracer(
 /// The tracer of all techniques of a frame. It is made when somebody traces and kept while the
 /// choice stays the same, so that no more than one has an acceleration structure. All calls, the
 /// destructor included, want the context to be current.
-class FrameTracer
+class FrameTracer : public FreeSegments
 {
 public:
   /// @param buffers of the snapshot
@@ -44,6 +44,13 @@ public:
   /// What update() took.
   ShadowTracer& tracer() { return *this->tracer_; }
   const TracerChoice& taken() const { return this->taken_; }
+  /// Itself, where update() took a tracer that says whether segments are free; else null.
+  const FreeSegments* freeSegments() const
+  {
+    return this->tracer_ && this->tracer_->freeSegments() ? this : nullptr;
+  }
+  void areFree(std::size_t count, const PointArrays& from, const PointArrays& to,
+    std::uint8_t* free) const override;
   /// Why Embree has taken over; empty where it has not.
   const std::string& gpuFailure() const { return this->gpuFailure_; }
 

@@ -35,6 +35,7 @@ struct FrameWishes
   RasterizerWish rasterizer = RasterizerWish::Auto;
   bool keepVisibility = false; ///< whether visibility is asked for as data
   bool measureStages = false;
+  bool smoothTerminators = true; ///< whether receivers may be on the surface that normals imply
 };
 
 } // namespace gnomon

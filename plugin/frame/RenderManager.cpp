@@ -45,6 +45,12 @@ auto placeOf(const ShadowLight& light)
     light.texture ? std::optional(texture(*light.texture)) : std::nullopt);
 }
 
+/// Whether a light's technique traces from receivers on the CPU.
+bool isOnCpu(const CastingLight& casting)
+{
+  return casting.own.info().evaluation == Evaluation::ScreenCpu;
+}
+
 /// How many pixels are of each class.
 std::vector<ClassCount> countClasses(
   const std::vector<PixelClass>& classes, const std::vector<std::uint8_t>& ofPixels)
@@ -124,7 +130,8 @@ bool RenderManager::collectLights(
 //------------------------------------------------------------------------------
 void RenderManager::collectOccluders(const vtkRenderState* s)
 {
-  const SnapshotChange change = this->collector_.collect(s->GetRenderer());
+  const SnapshotChange change =
+    this->collector_.collect(s->GetRenderer(), this->wishes_.smoothTerminators);
   const Occluders& occluders = this->collector_.occluders();
   this->report_.surfacesExtracted = change.extracted;
   this->report_.surfacesRetransformed = change.retransformed;
@@ -377,29 +384,37 @@ void RenderManager::tellTracer()
 Receivers& RenderManager::receiversOnCpu()
 {
   ReceiversValue& value = this->view_->receivers;
-  if (!value.onCpu)
+  // A tracer that nobody asks in this frame may know an older snapshot.
+  const FreeSegments* const freeSegments =
+    this->tracesOnCpu() ? this->tracer_.freeSegments() : nullptr;
+  if (!value.onCpu || value.onCpu->freeSegments() != freeSegments)
   {
     value.images.rays = pixelRays(this->camera_.clipFromView,
       this->stageValues_.space.centredFromView, this->size_.x, this->size_.y);
     value.target.read(value.images);
     value.onCpu.emplace(
-      value.images, value.drawnSurfaces, this->collector_.occluders(), value.pixels);
+      value.images, value.drawnSurfaces, this->collector_.occluders(), value.pixels, freeSegments);
     this->endStageClock("visibility: read receivers");
   }
   return *value.onCpu;
 }
 
 //------------------------------------------------------------------------------
+/// Whether any light's technique does.
+bool RenderManager::tracesOnCpu() const
+{
+  return std::any_of(this->lights_.begin(), this->lights_.end(), isOnCpu);
+}
+
+//------------------------------------------------------------------------------
 void RenderManager::computeVisibility()
 {
-  const auto onCpu = [](const CastingLight& casting)
-  { return casting.own.info().evaluation == Evaluation::ScreenCpu; };
   if (std::any_of(this->lights_.begin(), this->lights_.end(),
-        [&](const CastingLight& casting) { return casting.isStale && onCpu(casting); }))
+        [](const CastingLight& casting) { return casting.isStale && isOnCpu(casting); }))
   {
     this->updateTracer();
   }
-  if (std::any_of(this->lights_.begin(), this->lights_.end(), onCpu))
+  if (this->tracesOnCpu())
   {
     this->tellTracer();
   }

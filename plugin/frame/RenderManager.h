@@ -101,6 +101,7 @@ private:
   ValueKey visibilityKey(const CastingLight& casting) const;
   void drawReceivers(const vtkRenderState* s, vtkObjectBase* pass);
   void findStaleVisibility();
+  bool tracesOnCpu() const;
   void updateTracer();
   void tellTracer();
   Receivers& receiversOnCpu();

@@ -25,6 +25,7 @@
 #include "vtkLODProp3D.h"
 #include "vtkMatrix4x4.h"
 #include "vtkOpenGLMoleculeMapper.h"
+#include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkPolyDataMapper.h"
 #include "vtkProp3DFollower.h"
@@ -87,6 +88,16 @@ bool askedToCast(vtkProp* viewProp)
 {
   vtkInformation* keys = viewProp->GetPropertyKeys();
   return keys && keys->Has(vtkGnomonPropKeys::CASTS()) && vtkGnomonPropKeys::GetCasts(viewProp);
+}
+
+/// Has blocks say which normals VTK shades their triangles with: not where it is told to shade them
+/// flat, nor where shader code of a user's own moves them.
+void takeNormals(vtkActor* actor, DrawnBlock& block)
+{
+  if (actor->GetProperty()->GetInterpolation() != VTK_FLAT && actor->GetProperty()->GetLighting())
+  {
+    block.normals = block.data->GetPointData()->GetNormals();
+  }
 }
 
 /// Reads what a prop was told of shadows. Assemblies replace the property keys of their parts by
@@ -204,6 +215,7 @@ void Finder::addPlain(const PlainProp& plain)
   prop.firstBlock = this->drawn_.blocks.size();
   prop.blockCount = 1;
   this->drawn_.blocks.push_back({ plain.data });
+  takeNormals(plain.actor, this->drawn_.blocks.back());
   this->drawn_.props.push_back(std::move(prop));
 }
 
@@ -283,6 +295,7 @@ void Finder::addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatr
     this->memory_.cutouts.find(actor, drawing.mapper, viewProp->GetPropertyKeys(), uncutReason);
   prop.cutout = cutout.mask;
   prop.textureTransform = cutout.transform;
+  const bool moves = mayMoveVertices(actor);
   const auto add = [&](bool translucent)
   {
     prop.translucent = translucent;
@@ -308,9 +321,12 @@ void Finder::addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatr
       DrawnBlock& block = this->drawn_.blocks[i];
       block.textureCoordinates = textureCoordinates(mapper, cutout.texture, block.data);
     }
+    for (std::size_t i = prop.firstBlock; !moves && i < this->drawn_.blocks.size(); ++i)
+    {
+      takeNormals(actor, this->drawn_.blocks[i]);
+    }
     this->drawn_.props.push_back(prop);
   };
-  const bool moves = mayMoveVertices(actor);
   const std::size_t before = this->drawn_.props.size();
   const bool opaque = actor->HasOpaqueGeometry();
   // A plain prop is one or the other, and VTK takes as long to answer either.

@@ -10,7 +10,7 @@ namespace gnomon
 {
 
 //------------------------------------------------------------------------------
-SnapshotChange OccluderCollector::collect(vtkRenderer* renderer)
+SnapshotChange OccluderCollector::collect(vtkRenderer* renderer, bool readsNormals)
 {
   DrawnProps drawn = findDrawnProps(renderer, this->propMemory_);
   this->lookup_.beginFrame(drawn.translucentReceivers);
@@ -18,6 +18,10 @@ SnapshotChange OccluderCollector::collect(vtkRenderer* renderer)
   this->leftOut_ = std::move(drawn.leftOut);
   this->translucentReceivers_ = drawn.translucentReceivers.size();
   std::vector<WantedSurface> wanted = wantedSurfaces(drawn, this->surfaces_.records());
+  for (WantedSurface& surface : wanted)
+  {
+    surface.block.normals = readsNormals ? surface.block.normals : nullptr;
+  }
   const SnapshotChange change = this->surfaces_.update(wanted);
   if (change.any)
   {

@@ -35,7 +35,8 @@ class OccluderCollector
 public:
   /// Brings the snapshot up to date with the renderer's props. Updates the mappers' inputs first,
   /// as VTK would when drawing.
-  SnapshotChange collect(vtkRenderer* renderer);
+  /// @param readsNormals whether surfaces get the normals that VTK shades them with
+  SnapshotChange collect(vtkRenderer* renderer, bool readsNormals = false);
 
   const Occluders& occluders() const { return this->surfaces_.occluders(); }
 

@@ -23,7 +23,8 @@ SnapshotChange SnapshotSurfaces::update(std::vector<WantedSurface>& wanted)
       surface.old != WantedSurface::none ? &this->records_[surface.old] : nullptr;
     const vtkMTimeType time = changeTime(*surface.prop, surface.block, surface.key.cells);
     if (!record || record->shapeTime != time || record->clipPlanes != surface.prop->clipPlanes ||
-      !(record->coordinates == coordinatesSource(*surface.prop, surface.block)))
+      !(record->coordinates == coordinatesSource(*surface.prop, surface.block)) ||
+      !(record->normals == normalsSource(*surface.prop, surface.block)))
     {
       this->read(surface, time);
       ++change.extracted;
@@ -148,6 +149,7 @@ bool SnapshotSurfaces::transformAgain(const WantedSurface& wanted)
     return false;
   }
   record.boundsCentred = boundsOf(first, last, all);
+  surface.centredFromNormals = glm::mat3(record.worldFromModel);
   clearNonFinite(own, surface.vertexCount);
   surface.positionsVersion = this->newVersion();
   return true;
@@ -205,6 +207,15 @@ SnapshotSurfaces::Outcome SnapshotSurfaces::overwrite(WantedSurface& wanted)
     std::copy(fresh.positionsCentred.begin(), fresh.positionsCentred.end(), positions);
     surface.positionsVersion = this->newVersion();
   }
+  const glm::mat3 centredFromNormals(fresh.record.worldFromModel);
+  if (surface.pointNormals != fresh.pointNormals ||
+    surface.centredFromNormals != centredFromNormals)
+  {
+    surface.pointNormals = std::move(fresh.pointNormals);
+    surface.centredFromNormals = centredFromNormals;
+    surface.positionsVersion = this->newVersion();
+    moved = true;
+  }
   this->records_[wanted.old] = std::move(fresh.record);
   wanted.fresh.reset();
   return moved ? Outcome::Moved : Outcome::Same;
@@ -251,6 +262,8 @@ void SnapshotSurfaces::rebuild(std::vector<WantedSurface>& wanted)
       entry.triangleCount = static_cast<std::uint32_t>(fresh.triangles.size());
       entry.triangleOfDrawn = std::move(fresh.triangleOfDrawn);
       entry.textureCoordinates = std::move(fresh.textureCoordinates);
+      entry.pointNormals = std::move(fresh.pointNormals);
+      entry.centredFromNormals = glm::mat3(fresh.record.worldFromModel);
       entry.centredFromSource = std::move(fresh.instances.centredFromSource);
       entry.mirrored = fresh.instances.mirrored;
       entry.solid = solidOf(fresh.record.key.cells);
@@ -340,7 +353,7 @@ std::size_t SnapshotSurfaces::bytes() const
   for (const Surface& surface : this->occluders_.surfaces)
   {
     bytes += bytesOf(surface.triangleOfDrawn) + bytesOf(surface.textureCoordinates) +
-      bytesOf(surface.centredFromSource);
+      bytesOf(surface.pointNormals) + bytesOf(surface.centredFromSource);
   }
   for (const SurfaceRecord& record : this->records_)
   {

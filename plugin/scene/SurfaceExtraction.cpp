@@ -5,6 +5,7 @@
 #include "vtkCellArrayIterator.h"
 #include "vtkDataArray.h"
 #include "vtkDataArrayRange.h"
+#include "vtkFloatArray.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
@@ -272,6 +273,29 @@ void placeVertices(vtkPolyData* data, const std::vector<std::uint32_t>& pointOfV
       const glm::dvec4 world = worldFromModel * glm::dvec4(position, 1.0);
       positionsCentred[vertex] = glm::vec3(glm::dvec3(world) / world.w - centreWorld);
     });
+}
+
+//------------------------------------------------------------------------------
+std::vector<glm::vec3> readNormals(
+  vtkDataArray* array, const std::vector<std::uint32_t>& pointOfVertex, std::size_t vertexCount)
+{
+  std::vector<glm::vec3> normals(vertexCount);
+  const auto* const floats = vtkFloatArray::FastDownCast(array);
+  for (std::size_t vertex = 0; vertex < vertexCount; ++vertex)
+  {
+    const auto point =
+      static_cast<vtkIdType>(pointOfVertex.empty() ? vertex : pointOfVertex[vertex]);
+    if (point >= array->GetNumberOfTuples())
+    {
+      return {};
+    }
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      normals[vertex][axis] = floats ? floats->GetTypedComponent(point, axis)
+                                     : static_cast<float>(array->GetComponent(point, axis));
+    }
+  }
+  return normals;
 }
 
 //------------------------------------------------------------------------------

@@ -103,6 +103,11 @@ void placeVertices(vtkPolyData* data, const std::vector<std::uint32_t>& pointOfV
 std::vector<glm::vec2> readTextureCoordinates(vtkDataArray* array, const glm::mat4& transform,
   const std::vector<std::uint32_t>& pointOfVertex, std::size_t vertexCount);
 
+/// A surface's normals, one for each of its vertices, in model coordinates; none if the array has
+/// too few.
+std::vector<glm::vec3> readNormals(
+  vtkDataArray* array, const std::vector<std::uint32_t>& pointOfVertex, std::size_t vertexCount);
+
 /// What is wrong with a triangle at these positions.
 Defect defectOf(const glm::uvec3& triangle, const glm::vec3* positionsCentred);
 

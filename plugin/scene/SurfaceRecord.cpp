@@ -6,6 +6,7 @@
 
 #include "shadowtech/base/Instances.h"
 #include "shadowtech/base/Occluders.h"
+#include "shadowtech/base/SmoothFacet.h"
 
 #include "vtkCompositeDataDisplayAttributes.h"
 #include "vtkDataArray.h"
@@ -34,6 +35,23 @@ std::vector<glm::vec2> repeated(const std::vector<glm::vec2>& numbers, std::size
   return result;
 }
 
+/// Normals as each of these matrices turns them.
+std::vector<glm::vec3> turned(
+  const std::vector<glm::vec3>& normals, const std::vector<glm::mat4>& matrices)
+{
+  std::vector<glm::vec3> result;
+  result.reserve(normals.size() * matrices.size());
+  for (const glm::mat4& matrix : matrices)
+  {
+    const glm::dmat3 turn = normalMatrix(glm::dmat3(matrix));
+    for (const glm::vec3& normal : normals)
+    {
+      result.emplace_back(turn * glm::dvec3(normal));
+    }
+  }
+  return result;
+}
+
 /// Repeats a glyph's triangles for each of its instances, each with vertices and texture
 /// coordinates of its own. None, if that would be too many.
 void expandInstances(FreshSurface& fresh)
@@ -46,6 +64,7 @@ void expandInstances(FreshSurface& fresh)
   {
     triangles.clear();
     fresh.textureCoordinates.clear();
+    fresh.pointNormals.clear();
     fresh.vertexCount = 0;
     return;
   }
@@ -62,6 +81,7 @@ void expandInstances(FreshSurface& fresh)
   }
   triangles.resize(count * instances);
   fresh.textureCoordinates = repeated(fresh.textureCoordinates, instances);
+  fresh.pointNormals = turned(fresh.pointNormals, fresh.record.modelFromInstance);
 }
 
 /// Takes the triangles that have a defect out of a fresh surface.
@@ -179,6 +199,14 @@ CoordinatesSource coordinatesSource(const DrawnProp& prop, const DrawnBlock& blo
 }
 
 //------------------------------------------------------------------------------
+NormalsSource normalsSource(const DrawnProp& prop, const DrawnBlock& block)
+{
+  // Clipping makes other vertices.
+  vtkDataArray* array = prop.receives && prop.clipPlanes.empty() ? block.normals : nullptr;
+  return array ? NormalsSource{ array, array->GetMTime() } : NormalsSource{};
+}
+
+//------------------------------------------------------------------------------
 FreshSurface readSurface(const DrawnProp& prop, const DrawnBlock& block, SurfaceCells cells,
   std::vector<std::uint32_t>& vertexOfPoint)
 {
@@ -216,6 +244,11 @@ FreshSurface readSurface(const DrawnProp& prop, const DrawnBlock& block, Surface
   {
     fresh.textureCoordinates = readTextureCoordinates(
       block.textureCoordinates, prop.textureTransform, record.pointOfVertex, drawn.vertexCount);
+  }
+  record.normals = normalsSource(prop, block);
+  if (record.normals.array)
+  {
+    fresh.pointNormals = readNormals(block.normals, record.pointOfVertex, drawn.vertexCount);
   }
   fresh.vertexCount = drawn.vertexCount;
   fresh.triangles = std::move(drawn.triangles);

@@ -75,6 +75,19 @@ struct CoordinatesSource
 };
 CoordinatesSource coordinatesSource(const DrawnProp& prop, const DrawnBlock& block);
 
+/// What a surface's normals were read from. The array only names.
+struct NormalsSource
+{
+  const vtkDataArray* array = nullptr; ///< null where they are not read
+  vtkMTimeType time = 0;
+
+  bool operator==(const NormalsSource& other) const
+  {
+    return this->array == other.array && this->time == other.time;
+  }
+};
+NormalsSource normalsSource(const DrawnProp& prop, const DrawnBlock& block);
+
 /// What is remembered of a surface beside its place in the snapshot.
 struct SurfaceRecord
 {
@@ -84,6 +97,7 @@ struct SurfaceRecord
   std::vector<glm::dvec4> clipPlanes;
   glm::dvec4 radiusFromWorld{ 0.0 }; ///< of what is sized in pixels
   CoordinatesSource coordinates;
+  NormalsSource normals;
   std::vector<std::uint32_t> pointOfVertex; ///< as in DrawnTriangles, of one instance
   /// Where the polydata is drawn in its prop's model coordinates: once as it is, or as a glyph at
   /// any number of places.
@@ -109,6 +123,7 @@ struct FreshSurface
   std::size_t vertexCount = 0;               ///< of one instance
   std::vector<glm::vec3> positionsCentred;   ///< in source coordinates if it is kept as instances
   std::vector<glm::vec2> textureCoordinates; ///< as in Surface; of one instance until it is placed
+  std::vector<glm::vec3> pointNormals;       ///< as in Surface
   PlacedInstances instances;
   std::vector<glm::uvec3> triangles;
   std::vector<std::uint32_t> triangleOfDrawn;

@@ -35,11 +35,19 @@ struct Surface
   /// Of a surface with a cut-out, one for each of its vertices. A triangle's are affine on it.
   std::vector<glm::vec2> textureCoordinates;
 
+  /// Of a surface that VTK shades with normals of its points, one for each of its vertices, of any
+  /// length; empty for all others (SmoothFacet.h).
+  std::vector<glm::vec3> pointNormals;
+  /// Takes vertices from where these normals are to centred coordinates, but for the place; of a
+  /// surface with instances each instance's matrix does.
+  glm::mat3 centredFromNormals{ 1.0f };
+
   /// Changes when the triangles of this surface change (its mapper's input) or their texture
   /// coordinates, not when it only gets another place in the list. Versions are never given twice
   /// within a snapshot, so that a surface can be found again by this one.
   std::uint64_t topologyVersion = 0;
-  /// Changes when its centred positions change: with the topology, or because the prop moved.
+  /// Changes when its centred positions or its normals change: with the topology, or because the
+  /// prop moved.
   std::uint64_t positionsVersion = 0;
 
   /// For the n-th triangle that VTK draws of this surface, the triangle in the snapshot, counted

@@ -3,6 +3,7 @@
 #include "shadowtech/base/Occluders.h"
 #include "shadowtech/base/SeenTriangle.h"
 #include "shadowtech/base/ShadowRay.h"
+#include "shadowtech/base/SmoothFacet.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
@@ -118,6 +119,7 @@ void projectSpan(
   std::fill_n(&receivers.normalY[first], count, seen.normal.y);
   std::fill_n(&receivers.normalZ[first], count, seen.normal.z);
   std::fill_n(&receivers.surface[first], count, seen.surface);
+  std::fill_n(&receivers.lifted[first], count, 0);
   for (std::size_t j = 0; j < count; ++j)
   {
     if (inside[j])
@@ -143,6 +145,50 @@ void projectSpan(
       receivers.normalX[i] = toCamera.x;
       receivers.normalY[i] = toCamera.y;
       receivers.normalZ[i] = toCamera.z;
+    }
+  }
+}
+
+/// Moves a span's receivers from their triangle to the curved surface, where nothing is in between.
+/// They start off that as far as off the triangle.
+void liftSpan(const SeenTriangle& seen, const FreeSegments& freeSegments, const Span& span,
+  ReceiverPixels& receivers)
+{
+  using Row = std::array<float, ReceiverTile::mostColumns>;
+  struct Points
+  {
+    Row x, y, z;
+    PointArrays arrays() { return { this->x.data(), this->y.data(), this->z.data() }; }
+  };
+  const std::size_t first = span.first;
+  const std::size_t count = span.count();
+  Points lifted, normals, from, to;
+  std::copy_n(&receivers.positionX[first], count, lifted.x.data());
+  std::copy_n(&receivers.positionY[first], count, lifted.y.data());
+  std::copy_n(&receivers.positionZ[first], count, lifted.z.data());
+  SmoothFacet(seen.corners, *seen.smoothNormals).lift(count, lifted.arrays(), normals.arrays());
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const float offset = receivers.offset[first + i];
+    from.x[i] = receivers.positionX[first + i] + offset * seen.normal.x;
+    from.y[i] = receivers.positionY[first + i] + offset * seen.normal.y;
+    from.z[i] = receivers.positionZ[first + i] + offset * seen.normal.z;
+    to.x[i] = lifted.x[i] + offset * normals.x[i];
+    to.y[i] = lifted.y[i] + offset * normals.y[i];
+    to.z[i] = lifted.z[i] + offset * normals.z[i];
+  }
+  std::uint8_t* const isLifted = &receivers.lifted[first];
+  freeSegments.areFree(count, from.arrays(), to.arrays(), isLifted);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    if (isLifted[i] != 0)
+    {
+      receivers.positionX[first + i] = lifted.x[i];
+      receivers.positionY[first + i] = lifted.y[i];
+      receivers.positionZ[first + i] = lifted.z[i];
+      receivers.normalX[first + i] = normals.x[i];
+      receivers.normalY[first + i] = normals.y[i];
+      receivers.normalZ[first + i] = normals.z[i];
     }
   }
 }
@@ -174,6 +220,7 @@ void projectSolid(
     receivers.offset[i] =
       point.isMet ? shadowRayOffsetInside(noise, footprint) : shadowRayOffset(noise, footprint);
     receivers.surface[i] = seen.surface;
+    receivers.lifted[i] = 0;
   }
 }
 
@@ -188,13 +235,12 @@ class SpanMaking
 {
 public:
   /// @param known where not null, gets what is decided of each receiver
-  /// @param decider may be null, and is where `known` is
-  SpanMaking(const PixelRays& rays, ReceiverPixels& receivers, std::vector<Certainty>* known,
-    const ReceiverDecider* decider)
-    : rays_(rays)
+  SpanMaking(const Drawn& drawn, ReceiverPixels& receivers, std::vector<Certainty>* known)
+    : rays_(drawn.images.rays)
     , receivers_(receivers)
     , known_(known)
-    , decider_(decider)
+    , decider_(drawn.decider)
+    , freeSegments_(drawn.freeSegments)
   {
   }
 
@@ -225,6 +271,10 @@ private:
   void project(const SeenTriangle& seen, const Span& span)
   {
     projectSpan(seen, this->rays_, span, this->receivers_);
+    if (seen.smoothNormals)
+    {
+      liftSpan(seen, *this->freeSegments_, span, this->receivers_);
+    }
   }
 
   /// Leaves out receivers of which everything is known: their numbers mean nothing.
@@ -286,6 +336,7 @@ private:
   ReceiverPixels& receivers_;
   std::vector<Certainty>* known_;
   const ReceiverDecider* decider_;
+  const FreeSegments* freeSegments_;
 };
 
 void leaveUncovered(const Span& span, ReceiverPixels& receivers)
@@ -297,6 +348,7 @@ void leaveUncovered(const Span& span, ReceiverPixels& receivers)
     std::fill_n(&(receivers.*plane)[first], count, 0.0f);
   }
   std::fill_n(&receivers.surface[first], count, ReceiverPixels::notCovered);
+  std::fill_n(&receivers.lifted[first], count, 0);
 }
 
 /// A tile's place in the picture.
@@ -330,7 +382,7 @@ void projectTile(const Drawn& drawn, const Rectangle& tile, SeenTriangles& cache
       see(drawn, found, seen);
     }
   };
-  SpanMaking spans(drawn.images.rays, receivers, known, drawn.decider);
+  SpanMaking spans(drawn, receivers, known);
   for (std::size_t row = 0; row < tile.rows; ++row)
   {
     const std::size_t y = tile.firstRow + row;
@@ -367,6 +419,7 @@ void copyTile(const ReceiverPixels& picture, const Rectangle& tile, ReceiverPixe
       copy(plane);
     }
     copy(&ReceiverPixels::surface);
+    copy(&ReceiverPixels::lifted);
   }
 }
 
@@ -406,10 +459,11 @@ struct TileMaking
 
 //------------------------------------------------------------------------------
 Receivers::Receivers(const ReceiverImages& images, const std::vector<DrawnSurface>& drawnSurfaces,
-  const Occluders& occluders, ReceiverPixels& stored)
+  const Occluders& occluders, ReceiverPixels& stored, const FreeSegments* freeSegments)
   : images_(&images)
   , drawnSurfaces_(&drawnSurfaces)
   , occluders_(&occluders)
+  , freeSegments_(freeSegments)
   , toFill_(&stored)
   , width_(static_cast<std::size_t>(images.width))
   , height_(static_cast<std::size_t>(images.height))
@@ -431,8 +485,8 @@ void Receivers::visitTiles(
 {
   const std::optional<Drawn> drawn = this->stored_
     ? std::nullopt
-    : std::optional<Drawn>(
-        std::in_place, *this->images_, *this->drawnSurfaces_, *this->occluders_, decider);
+    : std::optional<Drawn>(std::in_place, *this->images_, *this->drawnSurfaces_, *this->occluders_,
+        decider, this->freeSegments_);
   visitRectangles<TileMaking>(this->width_, this->height_,
     [&](const Rectangle& tile, TileMaking& making)
     {
@@ -457,7 +511,8 @@ const ReceiverPixels& Receivers::all()
   if (!this->stored_)
   {
     this->toFill_->resize(this->images_->width, this->images_->height);
-    const Drawn drawn(*this->images_, *this->drawnSurfaces_, *this->occluders_, nullptr);
+    const Drawn drawn(
+      *this->images_, *this->drawnSurfaces_, *this->occluders_, nullptr, this->freeSegments_);
     visitRectangles<SeenTriangles>(this->width_, this->height_,
       [&](const Rectangle& tile, SeenTriangles& cache)
       {

@@ -3,6 +3,7 @@
 #include "shadowtech/base/Bytes.h"
 #include "shadowtech/base/Certainty.h"
 #include "shadowtech/base/PixelRays.h"
+#include "shadowtech/base/SmoothFacet.h"
 
 #include <glm/glm.hpp>
 
@@ -26,7 +27,7 @@ struct ReceiverPixels
   int width = 0;
   int height = 0;
 
-  /// The receiver, on its triangle, centred (relative to Occluders::centreWorld).
+  /// The receiver, on its triangle (but see `lifted`), centred (relative to Occluders::centreWorld).
   std::vector<float> positionX, positionY, positionZ;
   /// The triangle's geometric normal, unit length, on the side that the camera sees.
   std::vector<float> normalX, normalY, normalZ;
@@ -35,6 +36,9 @@ struct ReceiverPixels
   std::vector<float> offset;
   /// Occluders::surfaces index; `notCovered` where the camera sees no surface of the snapshot.
   std::vector<std::uint32_t> surface;
+  /// 1 where the receiver is off its triangle, on the curved surface that the corners' normals
+  /// imply, and the normal is that surface's (SmoothFacet.h); else 0.
+  std::vector<std::uint8_t> lifted;
 
   static constexpr std::uint32_t notCovered = 0xffffffffu;
 
@@ -54,9 +58,11 @@ struct ReceiverPixels
       (this->*plane).resize(this->size());
     }
     this->surface.resize(this->size());
+    this->lifted.resize(this->size());
   }
-  /// Memory that this holds: all eight arrays have the same type size, and grow alike.
-  std::size_t bytes() const { return 8 * bytesOf(this->positionX); }
+  /// Memory that this holds: the floats' arrays and the surfaces' have the same type size, and grow
+  /// alike.
+  std::size_t bytes() const { return 8 * bytesOf(this->positionX) + bytesOf(this->lifted); }
 };
 inline constexpr std::array<std::vector<float> ReceiverPixels::*, 7> ReceiverPixels::planes = {
   &ReceiverPixels::positionX, &ReceiverPixels::positionY, &ReceiverPixels::positionZ,
@@ -90,6 +96,17 @@ struct DrawnSurface
   std::vector<Block> blocks; ///< in order of firstPrimitive
 };
 
+/// Who knows whether anything that casts is between two points. Asked from several threads at once.
+class FreeSegments
+{
+public:
+  virtual ~FreeSegments() = default;
+  /// @param from, to centred
+  /// @param free gets 1 for each pair with nothing in between, else 0
+  virtual void areFree(std::size_t count, const PointArrays& from, const PointArrays& to,
+    std::uint8_t* free) const = 0;
+};
+
 /// A part of the picture and its receivers.
 struct ReceiverTile
 {
@@ -111,15 +128,21 @@ struct ReceiverTile
 /// Rasterisers move corners by up to 1/256 pixel, and so draw triangles in pixels whose rays pass
 /// them by. The receiver is then the point of the triangle that is closest to the ray as the camera
 /// sees it. Pixels whose triangle cannot be found count as not covered.
+///
+/// Receivers on facets that are shaded as if they were curved move to the curved surface, if
+/// somebody can say that nothing is in between: what is there may be on the light's side of another
+/// surface.
 class Receivers
 {
 public:
   /// @param stored where all() keeps the receivers; empty until then
+  /// @param freeSegments of the same snapshot; null: all receivers stay on their triangles
   Receivers(const ReceiverImages& images, const std::vector<DrawnSurface>& drawnSurfaces,
-    const Occluders& occluders, ReceiverPixels& stored);
+    const Occluders& occluders, ReceiverPixels& stored, const FreeSegments* freeSegments = nullptr);
   /// Receivers that are there: they may stand for themselves.
   Receivers(const ReceiverPixels& stored);
 
+  const FreeSegments* freeSegments() const { return this->freeSegments_; }
   std::size_t width() const { return this->width_; }
   std::size_t height() const { return this->height_; }
 
@@ -138,6 +161,7 @@ private:
   const ReceiverImages* images_ = nullptr; ///< these three: null where the receivers are there
   const std::vector<DrawnSurface>* drawnSurfaces_ = nullptr;
   const Occluders* occluders_ = nullptr;
+  const FreeSegments* freeSegments_ = nullptr;
   ReceiverPixels* toFill_ = nullptr;
   const ReceiverPixels* stored_ = nullptr; ///< null until they are there
   std::size_t width_, height_;

@@ -3,6 +3,7 @@
 #include "shadowtech/base/Occluders.h"
 #include "shadowtech/base/PlacedTriangles.h"
 #include "shadowtech/base/ShadowRay.h"
+#include "shadowtech/base/SmoothFacet.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,6 +13,10 @@ namespace gnomon
 {
 namespace
 {
+
+/// The least that a facet's curved surface is above it, in pixels' sides, for its receivers to be
+/// on that. Below it the steps of a terminator are no longer than a few pixels.
+constexpr double leastLiftPixels = 0.25;
 
 bool isFinite(const glm::dvec3& vector)
 {
@@ -94,6 +99,7 @@ void see(const Drawn& drawn, const TriangleOfFragment& found, SeenTriangle& seen
   seen.surface = found.surface;
   seen.known = Certainty::Uncertain;
   seen.solid.reset();
+  seen.smoothNormals.reset();
   if (surface.solid != Solid::None)
   {
     seen.solid = placedSolid(surface.solid, surface.centredFromSource[found.instance]);
@@ -131,7 +137,19 @@ void see(const Drawn& drawn, const TriangleOfFragment& found, SeenTriangle& seen
     return;
   }
   // The camera is on the side to which the area's vector does not point.
-  if (drawn.decider && !surface.isInstanced())
+  if (drawn.freeSegments)
+  {
+    seen.smoothNormals = cornerNormals(
+      occluders, found, glm::normalize(areaVector) * (side > 0.0 ? -1.0 : 1.0), side > 0.0);
+    if (seen.smoothNormals &&
+      SmoothFacet(seen.corners, *seen.smoothNormals).largestLift() <=
+        leastLiftPixels * drawn.footprints.largest(seen.corners))
+    {
+      seen.smoothNormals.reset();
+    }
+  }
+  // Deciders know triangles, and not what is above them.
+  if (drawn.decider && !surface.isInstanced() && !seen.smoothNormals)
   {
     seen.known = drawn.decider->ofTriangle(
       { found.triangle, side > 0.0, seen.corners, drawn.footprints.largest(seen.corners) });

@@ -70,6 +70,8 @@ struct SeenTriangle
   bool finite = false;
   Certainty known =
     Certainty::Uncertain; ///< of all its receivers; else the numbers above mean nothing
+  /// The corners' normals (SmoothFacet), where its receivers are to be on the curved surface.
+  std::optional<std::array<glm::vec3, 3>> smoothNormals;
   /// What is seen in place of a triangle. Then the numbers above mean nothing, but for the surface.
   std::optional<PlacedSolid> solid;
 };
@@ -125,16 +127,19 @@ struct Drawn
   const ReceiverImages& images;
   const std::vector<DrawnSurface>& drawnSurfaces;
   const Occluders& occluders;
-  const ReceiverDecider* decider; ///< may be null
+  const ReceiverDecider* decider;   ///< may be null
+  const FreeSegments* freeSegments; ///< null: all receivers are on flat triangles
   Footprints footprints;
   bool raysFinite;
 
   Drawn(const ReceiverImages& ofImages, const std::vector<DrawnSurface>& surfaces,
-    const Occluders& snapshot, const ReceiverDecider* deciderOrNull)
+    const Occluders& snapshot, const ReceiverDecider* deciderOrNull,
+    const FreeSegments* freeSegmentsOrNull)
     : images(ofImages)
     , drawnSurfaces(surfaces)
     , occluders(snapshot)
     , decider(deciderOrNull)
+    , freeSegments(freeSegmentsOrNull)
     , footprints(ofImages.rays)
     , raysFinite(isFinite(ofImages.rays))
   {

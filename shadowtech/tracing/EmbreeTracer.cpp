@@ -314,6 +314,42 @@ private:
   std::array<std::uint16_t, lanes> pixels_{}; ///< of the tile, whose rays they are
 };
 
+/// Says of segments whether they are free. They are packets in their order.
+template <typename Packet>
+void findFree(RTCScene scene, std::size_t count, const PointArrays& from, const PointArrays& to,
+  std::uint8_t* free)
+{
+  constexpr std::size_t lanes = std::extent_v<decltype(Packet::tfar)>;
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT; // as in TileTracer
+  for (std::size_t first = 0; first < count; first += lanes)
+  {
+    Packet packet{};
+    alignas(64) std::array<int, lanes> valid;
+    for (std::size_t lane = 0; lane < lanes; ++lane)
+    {
+      const bool taken = first + lane < count;
+      const std::size_t i = taken ? first + lane : first;
+      packet.org_x[lane] = from.x[i];
+      packet.org_y[lane] = from.y[i];
+      packet.org_z[lane] = from.z[i];
+      packet.dir_x[lane] = to.x[i] - from.x[i];
+      packet.dir_y[lane] = to.y[i] - from.y[i];
+      packet.dir_z[lane] = to.z[i] - from.z[i];
+      packet.tnear[lane] = shadowRayNear;
+      packet.tfar[lane] = taken ? shadowRayFarAtLight : -std::numeric_limits<float>::infinity();
+      packet.mask[lane] = 0xffffffffu;
+      valid[lane] = taken ? -1 : 0;
+    }
+    occluded(valid.data(), scene, &context, &packet);
+    for (std::size_t i = first; i < std::min(count, first + lanes); ++i)
+    {
+      free[i] = packet.tfar[i - first] < 0.0f ? 0 : 1;
+    }
+  }
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -582,6 +618,14 @@ std::size_t EmbreeTracer::tracePicture(const TracedPicture& picture)
   }
   return this->impl_->lanes16 ? this->impl_->trace<RTCRay16>(picture)
                               : this->impl_->trace<RTCRay8>(picture);
+}
+
+//------------------------------------------------------------------------------
+void EmbreeTracer::areFree(
+  std::size_t count, const PointArrays& from, const PointArrays& to, std::uint8_t* free) const
+{
+  this->impl_->lanes16 ? findFree<RTCRay16>(this->impl_->scene.get(), count, from, to, free)
+                       : findFree<RTCRay8>(this->impl_->scene.get(), count, from, to, free);
 }
 
 //------------------------------------------------------------------------------

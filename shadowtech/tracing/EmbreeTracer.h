@@ -8,7 +8,9 @@ namespace gnomon
 {
 
 /// Shadow rays on the CPU, by Embree in robust mode. It has a structure for each surface.
-class EmbreeTracer : public ShadowTracer
+class EmbreeTracer
+  : public ShadowTracer
+  , public FreeSegments
 {
 public:
   /// @throws std::runtime_error where Embree cannot be started
@@ -18,6 +20,10 @@ public:
   EmbreeTracer& operator=(const EmbreeTracer&) = delete;
 
   Update update(const Occluders& occluders) override;
+
+  const FreeSegments* freeSegments() const override { return this; }
+  void areFree(std::size_t count, const PointArrays& from, const PointArrays& to,
+    std::uint8_t* free) const override;
 
   /// As Embree reports it.
   std::size_t bytes() const override;

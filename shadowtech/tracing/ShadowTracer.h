@@ -69,6 +69,9 @@ public:
     return rays;
   }
 
+  /// Who says whether segments of the last update's snapshot are free; null: this tracer does not.
+  virtual const FreeSegments* freeSegments() const { return nullptr; }
+
   /// Memory of the acceleration structure, on the CPU and the GPU.
   virtual std::size_t bytes() const = 0;
   /// Memory that is kept to find each surface's structure again.

@@ -29,6 +29,7 @@ struct BuiltinPass
     this->window->SetSize(sidePixels, sidePixels);
     this->window->AddRenderer(this->renderer);
     this->pass->KeepVisibilityOn();
+    this->pass->SmoothTerminatorsOff(); // techniques are compared on the triangles
     this->renderer->SetPass(this->pass);
   }
 };

@@ -88,6 +88,7 @@ PassScene::PassScene(int width, int height)
   this->renderer->AutomaticLightCreationOff();
   this->pass->SetSetting("bake", "always"); // so that what one frame shows is what maps say
   this->pass->SetTechnique(vtkGnomonShadowPass::GetDefaultTechnique());
+  this->pass->SmoothTerminatorsOff(); // techniques are compared on the triangles
   this->useGnomon();
 }
 

@@ -1,0 +1,130 @@
+#include "shadowtech/base/SmoothFacet.h"
+
+#include "shadowtech/base/Occluders.h"
+#include "shadowtech/base/SeenTriangle.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gnomon
+{
+//------------------------------------------------------------------------------
+std::optional<std::array<glm::vec3, 3>> cornerNormals(
+  const Occluders& occluders, const TriangleOfFragment& found, const glm::dvec3& normal, bool back)
+{
+  const Surface& surface = occluders.surfaces[found.surface];
+  if (surface.pointNormals.empty())
+  {
+    return std::nullopt;
+  }
+  const glm::dmat3 linear = surface.isInstanced()
+    ? glm::dmat3(glm::dmat4(surface.centredFromSource[found.instance]))
+    : glm::dmat3(surface.centredFromNormals);
+  const glm::dmat3 turn = normalMatrix(linear) * (back ? -1.0 : 1.0);
+  constexpr double leastCosine = 0.17364818; // of 80 degrees
+  const glm::uvec3 vertices = occluders.triangles[found.triangle] - surface.firstVertex;
+  std::array<glm::vec3, 3> normals;
+  for (int i = 0; i < 3; ++i)
+  {
+    const glm::dvec3 centred = turn * glm::dvec3(surface.pointNormals[vertices[i]]);
+    const double length = glm::length(centred);
+    // Written so that NaN fails.
+    if (!(glm::dot(centred, normal) > leastCosine * length))
+    {
+      return std::nullopt;
+    }
+    normals[static_cast<std::size_t>(i)] = centred / length;
+  }
+  return normals;
+}
+
+//------------------------------------------------------------------------------
+SmoothFacet::SmoothFacet(
+  const std::array<glm::dvec3, 3>& corners, const std::array<glm::vec3, 3>& normals)
+  : first_(corners[0])
+  , normals_(normals)
+{
+  const glm::dvec3 areaVector = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+  const double perArea = 1.0 / glm::dot(areaVector, areaVector);
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    const glm::dvec3 opposite = corners[(i + 2) % 3] - corners[(i + 1) % 3];
+    this->gradients_[i] = glm::cross(areaVector, opposite) * perArea;
+    this->corners_[i] = corners[i] - corners[0];
+    this->below_[i] = -glm::dot(this->normals_[i], this->corners_[i]);
+  }
+}
+
+//------------------------------------------------------------------------------
+#ifdef __x86_64__
+[[gnu::target_clones("avx2", "default")]]
+#endif
+void
+SmoothFacet::lift(std::size_t count, const PointArrays& points, const PointArrays& normals) const
+{
+  const glm::vec3 first = this->first_;
+  const std::array<glm::vec3, 3> gradients = this->gradients_;
+  const std::array<glm::vec3, 3> ofCorners = this->normals_;
+  const std::array<float, 3> below = this->below_;
+#pragma GCC ivdep
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const float x = points.x[i] - first.x, y = points.y[i] - first.y, z = points.z[i] - first.z;
+    float liftX = 0.0f, liftY = 0.0f, liftZ = 0.0f;
+    float normalX = 0.0f, normalY = 0.0f, normalZ = 0.0f;
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      const glm::vec3 normal = ofCorners[k];
+      const float share = std::max(0.0f,
+        gradients[k].x * x + gradients[k].y * y + gradients[k].z * z + (k == 0 ? 1.0f : 0.0f));
+      const float above = normal.x * x + normal.y * y + normal.z * z + below[k];
+      const float height = share * std::max(0.0f, -above);
+      liftX += height * normal.x;
+      liftY += height * normal.y;
+      liftZ += height * normal.z;
+      normalX += share * normal.x;
+      normalY += share * normal.y;
+      normalZ += share * normal.z;
+    }
+    const float perLength =
+      1.0f / std::sqrt(normalX * normalX + normalY * normalY + normalZ * normalZ);
+    points.x[i] += liftX;
+    points.y[i] += liftY;
+    points.z[i] += liftZ;
+    normals.x[i] = normalX * perLength;
+    normals.y[i] = normalY * perLength;
+    normals.z[i] = normalZ * perLength;
+  }
+}
+
+//------------------------------------------------------------------------------
+float SmoothFacet::largestLift() const
+{
+  std::array<std::array<float, 4>, 3> places;
+  std::array<std::array<float, 4>, 3> lifted;
+  std::array<std::array<float, 4>, 3> normals;
+  for (glm::length_t axis = 0; axis < 3; ++axis)
+  {
+    const float a = this->corners_[0][axis], b = this->corners_[1][axis],
+                c = this->corners_[2][axis];
+    const auto of = static_cast<std::size_t>(axis);
+    places[of] = { (a + b + c) / 3.0f, 0.5f * (a + b), 0.5f * (b + c), 0.5f * (c + a) };
+    for (std::size_t i = 0; i < 4; ++i)
+    {
+      lifted[of][i] = places[of][i] + this->first_[axis];
+    }
+  }
+  places = lifted;
+  this->lift(4, { lifted[0].data(), lifted[1].data(), lifted[2].data() },
+    { normals[0].data(), normals[1].data(), normals[2].data() });
+  float largest = 0.0f;
+  for (std::size_t i = 0; i < 4; ++i)
+  {
+    largest = std::max(largest,
+      glm::length(glm::vec3(
+        lifted[0][i] - places[0][i], lifted[1][i] - places[1][i], lifted[2][i] - places[2][i])));
+  }
+  return largest;
+}
+
+} // namespace gnomon

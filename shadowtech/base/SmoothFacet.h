@@ -1,0 +1,79 @@
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include <array>
+#include <cstddef>
+#include <optional>
+
+namespace gnomon
+{
+
+struct Occluders;
+struct Surface;
+struct TriangleOfFragment;
+
+/// @file
+/// Triangles that are shaded with the normals of their corners, as if they were curved. Their light
+/// ends where the curved surface turns away, but the shadow of a flat triangle ends at its edges:
+/// the *shadow terminator* of a coarse mesh is jagged. Shadow rays that start on the curved surface
+/// have no such steps.
+
+/// Coordinates of points, one array for each axis.
+struct PointArrays
+{
+  float* x;
+  float* y;
+  float* z;
+};
+
+/// A triangle with the normals of its corners, in float and relative to its first corner: there
+/// the numbers are small.
+class SmoothFacet
+{
+public:
+  /// @param corners centred
+  /// @param normals of the corners, unit length, on the camera's side
+  SmoothFacet(const std::array<glm::dvec3, 3>& corners, const std::array<glm::vec3, 3>& normals);
+
+  /// Takes points of the triangle to those of the curved surface above: the mean, by barycentric
+  /// coordinates, of the points of the corners' tangent planes above it; a tangent plane below it
+  /// counts as being there (Hanika, "Hacking the Shadow Terminator", Ray Tracing Gems II, 2021,
+  /// listing 4-1). So nothing is moved where a surface is hollow.
+  /// @param points centred, in and out
+  /// @param normals get the means of the corners' normals, unit length
+  void lift(std::size_t count, const PointArrays& points, const PointArrays& normals) const;
+
+  /// How far the curved surface is above the triangle: at its centre and in the middles of its
+  /// edges, at most.
+  float largestLift() const;
+
+private:
+  glm::vec3 first_; ///< the first corner, centred
+  ///@{
+  /// For each corner: its share of a point p is dot(gradient, p) + the share at the first corner,
+  /// and dot(normal, p) + below is how far above its tangent plane p is.
+  std::array<glm::vec3, 3> gradients_;
+  std::array<glm::vec3, 3> normals_;
+  std::array<float, 3> below_;
+  ///@}
+  std::array<glm::vec3, 3> corners_; ///< relative
+};
+
+/// What takes normals along with points that a matrix takes: its inverse, transposed, times the
+/// size of its determinant, so that it is there for every matrix.
+inline glm::dmat3 normalMatrix(const glm::dmat3& matrix)
+{
+  const glm::dmat3 cofactors(glm::cross(matrix[1], matrix[2]), glm::cross(matrix[2], matrix[0]),
+    glm::cross(matrix[0], matrix[1]));
+  return glm::determinant(matrix) < 0.0 ? -cofactors : cofactors;
+}
+
+/// The normals of a triangle's corners, centred: unit length, on the camera's side.
+/// @param normal of the triangle, unit length, on the camera's side
+/// @param back whether the camera sees the side from which the corners run clockwise
+/// @return none where the surface has none, or where one is more than 80 degrees off the triangle's
+std::optional<std::array<glm::vec3, 3>> cornerNormals(
+  const Occluders& occluders, const TriangleOfFragment& found, const glm::dvec3& normal, bool back);
+
+} // namespace gnomon

@@ -1,0 +1,318 @@
+// Shadow terminators of coarse smooth-shaded meshes: no steps between facets, and no light that
+// another surface blocks.
+
+#include "PassScene.h"
+
+#include <vtkActorCollection.h>
+#include <vtkFloatArray.h>
+#include <vtkGlyph3DMapper.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+#include <vtkSphereSource.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <random>
+#include <string>
+#include <vector>
+
+using namespace gnomon::test;
+
+namespace
+{
+
+glm::dvec3 randomDirection(std::mt19937& random)
+{
+  std::normal_distribution<double> normal;
+  return glm::normalize(glm::dvec3(normal(random), normal(random), normal(random)));
+}
+
+/// VTK's default sphere, alone in front of a black background.
+class SphereScene : public PassScene
+{
+public:
+  SphereScene()
+    : PassScene(256, 256)
+  {
+    this->renderer->SetBackground(0.0, 0.0, 0.0);
+    this->sphere = this->add(vtkNew<vtkSphereSource>());
+    this->pass->SetTechnique("raytraced");
+    this->lookFrom({ 1.0, 1.4, 2.4 });
+    this->sun = this->addSun({ 0.0, 0.0, -1.0 });
+  }
+
+  Picture underSun(const glm::dvec3& towards)
+  {
+    this->sun->SetPosition(100.0 * towards.x, 100.0 * towards.y, 100.0 * towards.z);
+    return this->render();
+  }
+
+  /// Which pixels show something.
+  std::vector<bool> covered()
+  {
+    this->sphere->GetProperty()->SetAmbient(1.0);
+    const Picture picture = this->render();
+    this->sphere->GetProperty()->SetAmbient(0.0);
+    std::vector<bool> shows(picture.pixels());
+    for (std::size_t i = 0; i < shows.size(); ++i)
+    {
+      shows[i] = picture.rgb[3 * i] > 0;
+    }
+    return shows;
+  }
+
+  vtkActor* sphere = nullptr;
+  vtkLight* sun = nullptr;
+};
+
+/// The largest step between neighbours that both show something, of 255, on top of what the picture
+/// without shadows has there.
+int largestStep(const Picture& picture, const Picture& plain, const std::vector<bool>& covered)
+{
+  int largest = 0;
+  const auto compare = [&](int x, int y, int otherX, int otherY)
+  {
+    const auto at = [&](int column, int row)
+    { return covered[static_cast<std::size_t>(row * picture.width + column)]; };
+    const auto step = [&](const Picture& of)
+    { return std::abs(of.red(x, y) - of.red(otherX, otherY)); };
+    if (at(x, y) && at(otherX, otherY))
+    {
+      largest = std::max(largest, step(picture) - step(plain));
+    }
+  };
+  for (int y = 0; y + 1 < picture.height; ++y)
+  {
+    for (int x = 0; x + 1 < picture.width; ++x)
+    {
+      compare(x, y, x + 1, y);
+      compare(x, y, x, y + 1);
+    }
+  }
+  return largest;
+}
+
+std::size_t litPixels(const Picture& picture)
+{
+  std::size_t lit = 0;
+  for (std::size_t i = 0; i < picture.pixels(); ++i)
+  {
+    lit += picture.rgb[3 * i] > 0 ? 1 : 0;
+  }
+  return lit;
+}
+
+/// The mean over directions of the largest step.
+double meanStep(SphereScene& scene, int directions)
+{
+  const std::vector<bool> covered = scene.covered();
+  std::mt19937 random(24);
+  double sum = 0.0;
+  for (int i = 0; i < directions; ++i)
+  {
+    const Picture picture = scene.underSun(randomDirection(random));
+    scene.usePlain();
+    const Picture plain = scene.render();
+    scene.useGnomon();
+    sum += largestStep(picture, plain, covered);
+  }
+  return sum / directions;
+}
+
+/// Mean steps without and with smooth terminators.
+struct Steps
+{
+  double flat, smooth;
+};
+Steps meanSteps(SphereScene& scene, int directions)
+{
+  scene.pass->SmoothTerminatorsOff();
+  const double flat = meanStep(scene, directions);
+  scene.pass->SmoothTerminatorsOn();
+  return { flat, meanStep(scene, directions) };
+}
+
+using SmoothTerminatorsTest = PassTest;
+
+} // namespace
+
+TEST_F(SmoothTerminatorsTest, stepsOfVtksSphereAreAThird)
+{
+  SphereScene scene;
+  const Steps steps = meanSteps(scene, 100);
+  RecordProperty("flat", std::to_string(steps.flat));
+  RecordProperty("smooth", std::to_string(steps.smooth));
+  EXPECT_GT(steps.flat, 30.0);
+  EXPECT_LE(steps.smooth, steps.flat / 3.0) << steps.flat;
+}
+
+// Normals turn with the prop, and are not scaled with it.
+TEST_F(SmoothTerminatorsTest, followAPropThatIsTurnedAndScaled)
+{
+  SphereScene scene;
+  scene.sphere->SetScale(1.0, 0.5, 1.3);
+  scene.sphere->SetOrientation(20.0, 50.0, 70.0);
+  const Steps steps = meanSteps(scene, 10);
+  EXPECT_GT(steps.flat, 30.0);
+  EXPECT_LE(steps.smooth, steps.flat / 3.0) << steps.flat;
+}
+
+TEST_F(SmoothTerminatorsTest, followInstances)
+{
+  SphereScene scene;
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkFloatArray> sizes;
+  sizes->SetNumberOfComponents(3);
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> coordinate(-0.6, 0.6);
+  for (int i = 0; i < 200; ++i)
+  {
+    points->InsertNextPoint(coordinate(random), coordinate(random), -0.4);
+    sizes->InsertNextTuple3(0.1, 0.05, 0.07);
+  }
+  vtkNew<vtkPolyData> places;
+  places->SetPoints(points);
+  places->GetPointData()->SetVectors(sizes);
+  vtkNew<vtkSphereSource> source;
+  vtkNew<vtkGlyph3DMapper> mapper;
+  mapper->SetInputData(places);
+  mapper->SetSourceConnection(source->GetOutputPort());
+  mapper->SetScaleArray(vtkDataSetAttributes::VECTORS);
+  mapper->SetScaleModeToScaleByVectorComponents();
+  mapper->OrientOff();
+  scene.sphere->SetMapper(mapper);
+  scene.sphere->SetOrientation(0.0, 0.0, 0.0);
+  scene.lookFrom({ 0.3, 0.4, 2.0 });
+
+  scene.pass->SmoothTerminatorsOff();
+  const glm::dvec3 towards = glm::normalize(glm::dvec3(1.0, 0.4, 0.2));
+  const std::size_t flat = litPixels(scene.underSun(towards));
+  scene.pass->SmoothTerminatorsOn();
+  const Picture smooth = scene.underSun(towards);
+  // Facets cut off light that the ellipsoids do not.
+  EXPECT_GT(litPixels(smooth), flat + flat / 20);
+  mapper->SetScaleModeToNoDataScaling(); // instances of another size
+  mapper->SetScaleFactor(0.05);
+  EXPECT_FALSE(scene.underSun(towards) == smooth);
+}
+
+// What is wholly in another prop's shadow stays dark, also where that touches it or nearly does, and
+// where the curved surface reaches through it.
+TEST_F(SmoothTerminatorsTest, addNoLightInShadow)
+{
+  std::mt19937 random(3);
+  for (const double height : { 0.5, 0.495, 0.45, 3.0 })
+  {
+    SphereScene scene;
+    scene.addFloor(200.0, height)->GetProperty()->SetLighting(false);
+    scene.renderer->GetActors()->GetLastActor()->GetProperty()->SetColor(0.0, 0.0, 0.0);
+    scene.lookFrom({ 1.0, 1.2, -1.4 });
+    for (int i = 0; i < 25; ++i)
+    {
+      glm::dvec3 towards = randomDirection(random);
+      towards.z = std::abs(towards.z) + 0.1;
+      EXPECT_EQ(litPixels(scene.underSun(towards)), 0u) << height << ", " << i;
+    }
+  }
+}
+
+TEST_F(SmoothTerminatorsTest, leaveFlatShadingAsItIs)
+{
+  SphereScene scene;
+  scene.addBox({ -2.0, -2.0, -1.0 }, { 2.0, 2.0, -0.6 });
+  scene.sphere->GetProperty()->SetInterpolationToFlat();
+  const glm::dvec3 towards = glm::normalize(glm::dvec3(1.0, 0.4, 0.3));
+  scene.pass->SmoothTerminatorsOff();
+  const Picture off = scene.underSun(towards);
+  scene.pass->SmoothTerminatorsOn();
+  EXPECT_TRUE(scene.underSun(towards) == off);
+  scene.sphere->GetProperty()->SetInterpolationToGouraud();
+  EXPECT_FALSE(scene.underSun(towards) == off);
+}
+
+// A ball whose facets are a pixel large is the same to the last bit.
+TEST_F(SmoothTerminatorsTest, leaveFineMeshesAsTheyAre)
+{
+  SphereScene scene;
+  vtkNew<vtkSphereSource> fine;
+  fine->SetThetaResolution(400);
+  fine->SetPhiResolution(200);
+  scene.sphere->GetMapper()->SetInputConnection(fine->GetOutputPort());
+  const glm::dvec3 towards = glm::normalize(glm::dvec3(1.0, 0.4, 0.3));
+  scene.pass->SmoothTerminatorsOff();
+  const Picture off = scene.underSun(towards);
+  scene.pass->SmoothTerminatorsOn();
+  EXPECT_TRUE(scene.underSun(towards) == off);
+}
+
+TEST_F(SmoothTerminatorsTest, followNormalsThatChangeAlone)
+{
+  SphereScene scene;
+  vtkNew<vtkSphereSource> source;
+  source->Update();
+  vtkNew<vtkPolyData> data;
+  data->DeepCopy(source->GetOutput());
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(data);
+  scene.sphere->SetMapper(mapper);
+  const glm::dvec3 towards = glm::normalize(glm::dvec3(1.0, 0.4, 0.3));
+  scene.pass->SmoothTerminatorsOn();
+  scene.pass->KeepVisibilityOn();
+  scene.underSun(towards);
+  const std::vector<float> before = scene.pass->GetVisibility().normalX;
+  vtkDataArray* normals = data->GetPointData()->GetNormals();
+  for (vtkIdType i = 0; i < normals->GetNumberOfTuples(); ++i)
+  {
+    std::array<double, 3> normal{};
+    normals->GetTuple(i, normal.data());
+    normals->SetTuple3(i, normal[0], normal[1], normal[2] + 0.3);
+  }
+  normals->Modified();
+  data->Modified();
+  scene.render();
+  EXPECT_NE(scene.pass->GetVisibility().normalX, before);
+}
+
+// All that traces does so from the same points, whatever it knows beforehand.
+TEST_F(SmoothTerminatorsTest, exactTechniquesAgree)
+{
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> coordinate(-1.0, 1.0);
+  for (int i = 0; i < 12; ++i)
+  {
+    PassScene scene(200, 160);
+    scene.addFloor(4.0, -0.8);
+    for (int ball = 0; ball < 6; ++ball)
+    {
+      vtkNew<vtkSphereSource> source;
+      source->SetCenter(coordinate(random), coordinate(random), coordinate(random) - 0.2);
+      source->SetThetaResolution(3 + 3 * ball);
+      source->SetPhiResolution(4 + 2 * ball);
+      source->SetRadius(0.35);
+      scene.add(source);
+    }
+    scene.lookFrom({ 2.0 * coordinate(random), -3.0, 1.5 });
+    i % 3 == 0 ? scene.addSun({ coordinate(random), coordinate(random), -0.6 })
+               : scene.addSpot({ coordinate(random), coordinate(random), 2.5 }, { 0.0, 0.0, -0.3 },
+                   i % 3 == 1 ? 60.0 : 40.0);
+    scene.pass->SmoothTerminatorsOn();
+    scene.pass->KeepVisibilityOn();
+    const bool isArea = i % 2 == 1;
+    scene.pass->SetSetting("light_radius", isArea ? "0.2" : "0");
+    scene.pass->SetTechnique("raytraced");
+    scene.render();
+    const std::vector<float> truth = scene.pass->GetVisibility().visibility.at(0);
+    const std::vector<const char*> others = isArea
+      ? std::vector<const char*>{ "penumbra" }
+      : std::vector<const char*>{ "crsm", "crsma", "silhouette" };
+    for (const char* technique : others)
+    {
+      scene.pass->SetTechnique(technique);
+      scene.render();
+      EXPECT_EQ(scene.pass->GetVisibility().visibility.at(0), truth) << i << ", " << technique;
+    }
+  }
+}

@@ -1,0 +1,187 @@
+// The curved surface above a facet that is shaded with normals of its corners.
+
+#include "shadowtech/base/SmoothFacet.h"
+#include "shadowtech/base/Occluders.h"
+#include "shadowtech/base/SeenTriangle.h"
+
+#include <glm/gtc/constants.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <random>
+
+using namespace gnomon;
+
+namespace
+{
+
+using Corners = std::array<glm::dvec3, 3>;
+using Normals = std::array<glm::vec3, 3>;
+
+struct Lifted
+{
+  glm::vec3 position, normal;
+};
+
+Lifted lift(const Corners& corners, const Normals& normals, const glm::dvec3& point)
+{
+  Lifted lifted{ point, glm::vec3(0.0f) };
+  SmoothFacet(corners, normals)
+    .lift(1, { &lifted.position.x, &lifted.position.y, &lifted.position.z },
+      { &lifted.normal.x, &lifted.normal.y, &lifted.normal.z });
+  return lifted;
+}
+
+glm::dvec3 onUnitSphere(double angle, double azimuth)
+{
+  return { std::sin(angle) * std::cos(azimuth), std::sin(angle) * std::sin(azimuth),
+    std::cos(angle) };
+}
+
+/// A facet of the unit ball: its corners are at this angle from z.
+struct FacetOfBall
+{
+  Corners corners;
+  Normals normals;
+
+  explicit FacetOfBall(double angle)
+  {
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      this->corners[i] = onUnitSphere(angle, static_cast<double>(i) * glm::two_pi<double>() / 3.0);
+      this->normals[i] = this->corners[i];
+    }
+  }
+};
+
+/// One triangle, as a surface with normals under a matrix; seen from its front, unless told.
+std::optional<Normals> normalsUnder(const glm::dmat4& matrix, const FacetOfBall& facet, bool back)
+{
+  Occluders occluders;
+  Surface surface;
+  surface.vertexCount = 3;
+  surface.triangleCount = 1;
+  surface.pointNormals.assign(facet.normals.begin(), facet.normals.end());
+  surface.centredFromNormals = glm::mat3(glm::dmat3(matrix));
+  occluders.surfaces.push_back(surface);
+  occluders.triangles.emplace_back(0, 1, 2);
+  Corners centred;
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    centred[i] = matrix * glm::dvec4(facet.corners[i], 1.0);
+  }
+  const glm::dvec3 normal =
+    glm::normalize(glm::cross(centred[1] - centred[0], centred[2] - centred[0]));
+  return cornerNormals(occluders, { 0, 0, 0 }, back ? -normal : normal, back);
+}
+
+} // namespace
+
+TEST(SmoothFacet, keepsCorners)
+{
+  const FacetOfBall facet(0.4);
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    const Lifted lifted = lift(facet.corners, facet.normals, facet.corners[i]);
+    EXPECT_LT(glm::distance(lifted.position, glm::vec3(facet.corners[i])), 1e-6f);
+    EXPECT_LT(glm::distance(lifted.normal, facet.normals[i]), 1e-6f);
+  }
+}
+
+// At the middle, each tangent plane is sin^2(angle) away along its normal.
+TEST(SmoothFacet, liftsTheMiddleOfABallsFacet)
+{
+  for (const double angle : { 0.01, 0.1, 0.4, 1.0 })
+  {
+    const FacetOfBall facet(angle);
+    const double sine = std::sin(angle);
+    const double cosine = std::cos(angle);
+    const Lifted lifted = lift(facet.corners, facet.normals, { 0.0, 0.0, cosine });
+    EXPECT_NEAR(lifted.position.z, cosine * (1.0 + sine * sine), 1e-6) << angle;
+    EXPECT_NEAR(lifted.normal.z, 1.0, 1e-6);
+    EXPECT_NEAR(SmoothFacet(facet.corners, facet.normals).largestLift(), cosine * sine * sine,
+      0.34 * cosine * sine * sine);
+  }
+}
+
+TEST(SmoothFacet, movesNothingTowardsTheInside)
+{
+  FacetOfBall facet(0.4);
+  for (glm::vec3& normal : facet.normals)
+  {
+    normal = -normal; // the camera is inside of the ball
+  }
+  const glm::dvec3 point(0.05, -0.02, std::cos(0.4));
+  EXPECT_LT(
+    glm::distance(lift(facet.corners, facet.normals, point).position, glm::vec3(point)), 1e-6f);
+  EXPECT_LT(SmoothFacet(facet.corners, facet.normals).largestLift(), 1e-6f);
+}
+
+// Far from the origin only the place is rounded, not the lift.
+TEST(SmoothFacet, isAsHighWhereverItIs)
+{
+  const FacetOfBall facet(0.2);
+  const glm::dvec3 far(3000.0, -5000.0, 7000.0);
+  Corners moved;
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    moved[i] = facet.corners[i] + far;
+  }
+  const glm::dvec3 point(0.03, 0.01, std::cos(0.2));
+  const Lifted near = lift(facet.corners, facet.normals, point);
+  const Lifted there = lift(moved, facet.normals, point + far);
+  EXPECT_LT(glm::distance(glm::dvec3(there.position) - far, glm::dvec3(near.position)), 2e-3);
+  EXPECT_LT(glm::distance(there.normal, near.normal), 0.02f);
+}
+
+// The normals of a mapped ball are those of the ellipsoid, also if the matrix mirrors.
+TEST(SmoothFacet, takesNormalsAlong)
+{
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  const FacetOfBall facet(0.3);
+  for (int i = 0; i < 50; ++i)
+  {
+    glm::dmat4 matrix = glm::rotate(
+      glm::dmat4(1.0), 3.0 * uniform(random), glm::dvec3(uniform(random), uniform(random), 1.0));
+    matrix = glm::scale(matrix, glm::dvec3(1.5 + uniform(random), 1.2, 1.0));
+    const bool mirrors = i % 2 == 1;
+    if (mirrors)
+    {
+      matrix = glm::scale(matrix, glm::dvec3(-1.0, 1.0, 1.0));
+    }
+    // A mirrored ball shows its outside as the back.
+    const std::optional<Normals> normals = normalsUnder(matrix, facet, mirrors);
+    const glm::dmat3 inverse = glm::inverse(glm::dmat3(matrix));
+    for (std::size_t corner = 0; corner < 3; ++corner)
+    {
+      const glm::dvec3 outward =
+        glm::normalize(glm::transpose(inverse) * glm::dvec3(facet.normals[corner]));
+      if (mirrors)
+      {
+        EXPECT_FALSE(normals.has_value()); // VTK turns them inwards
+      }
+      else
+      {
+        ASSERT_TRUE(normals.has_value());
+        EXPECT_LT(glm::distance(glm::dvec3((*normals)[corner]), outward), 1e-6);
+      }
+    }
+  }
+}
+
+TEST(SmoothFacet, wantsNormalsThatGoWithTheFacet)
+{
+  const glm::dmat4 identity(1.0);
+  FacetOfBall facet(0.3);
+  EXPECT_TRUE(normalsUnder(identity, facet, false).has_value());
+  EXPECT_TRUE(normalsUnder(identity, facet, true).has_value()); // both sides are seen
+  facet.normals[1] = glm::vec3(1.0f, 0.0f, 0.01f);
+  EXPECT_FALSE(normalsUnder(identity, facet, false).has_value());
+  facet.normals[1] = glm::vec3(0.0f);
+  EXPECT_FALSE(normalsUnder(identity, facet, false).has_value());
+  facet.normals[1] = glm::vec3(std::nanf(""));
+  EXPECT_FALSE(normalsUnder(identity, facet, false).has_value());
+}
