@@ -340,7 +340,7 @@ ShadowLight readLight(vtkLight* light, const ShadowSettings& settings, LitArea l
   result.area = lit.area;
   result.texture = std::move(lit.texture);
   result.strength = glm::clamp(static_cast<double>(light->GetShadowAttenuation()), 0.0, 1.0);
-
+  result.isHeadlight = light->LightTypeIsHeadlight() != 0;
   return result;
 }
 

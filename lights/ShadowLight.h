@@ -61,6 +61,10 @@ struct ShadowLight : ShadowSettings
   /// mix(lit, v, strength), where lit is 1 or the texture's mean.
   double strength = 1.0;
 
+  /// Whether it stands at the camera, so that it lights whatever is seen, but for what a perspective
+  /// shows from the side.
+  bool isHeadlight = false;
+
   /// Whether this frame fits the light's views to the receivers that are drawn, on the GPU
   /// (shadowtech/fitting/), rather than to what the camera's frustum leaves of the scene.
   bool fittedToReceivers = false;

@@ -156,16 +156,20 @@ void RenderManager::collectOccluders(const vtkRenderState* s)
 //------------------------------------------------------------------------------
 bool RenderManager::chooseRoute()
 {
-  std::string screenTechnique;
+  const int samples = samplesOfBoundFramebuffer();
+  RouteNeeds needs;
+  needs.keepVisibility = this->wishes_.keepVisibility;
+  needs.lights = this->lights_.size();
   for (const CastingLight& casting : this->lights_)
   {
     if (!casting.own.info().isPointwise())
     {
-      screenTechnique = casting.light.technique;
+      needs.screenTechnique = casting.light.technique;
     }
+    needs.headlightOnSamples |= casting.light.isHeadlight && samples > 1;
   }
-  const RouteChoice choice = gnomon::chooseRoute(
-    this->wishes_.route, screenTechnique, this->wishes_.keepVisibility, this->lights_.size());
+  const std::string& screenTechnique = needs.screenTechnique;
+  const RouteChoice choice = gnomon::chooseRoute(this->wishes_.route, needs);
   this->route_ = choice.route;
   this->report_.route = choice.route == Route::Image ? "image" : "inline";
   this->report_.routeReason = choice.reason;
@@ -185,7 +189,6 @@ bool RenderManager::chooseRoute()
     this->report_.notes.push_back("translucent surfaces show the plain shadow map ('" +
       std::string(plainTechnique) + "') of lights with '" + screenTechnique + "'");
   }
-  const int samples = samplesOfBoundFramebuffer();
   if (this->route_ == Route::Image && samples > 1)
   {
     this->report_.notes.push_back("The window has " + std::to_string(samples) +

@@ -4,18 +4,17 @@ namespace gnomon
 {
 
 //------------------------------------------------------------------------------
-RouteChoice chooseRoute(
-  RouteWish wished, const std::string& screenTechnique, bool keepVisibility, std::size_t lights)
+RouteChoice chooseRoute(RouteWish wished, const RouteNeeds& needs)
 {
-  if (!screenTechnique.empty())
+  if (!needs.screenTechnique.empty())
   {
-    return { Route::Image, "'" + screenTechnique + "' works on the whole screen" };
+    return { Route::Image, "'" + needs.screenTechnique + "' works on the whole screen" };
   }
   if (wished == RouteWish::Image)
   {
     return { Route::Image, "asked for" };
   }
-  if (keepVisibility)
+  if (needs.keepVisibility)
   {
     return { Route::Image, "the visibility is kept" };
   }
@@ -23,11 +22,17 @@ RouteChoice chooseRoute(
   {
     return { Route::Inline, "asked for" };
   }
-  if (lights > mostInlineLights)
+  if (needs.lights > mostInlineLights)
   {
     return { Route::Image,
-      "shaders would call the techniques of " + std::to_string(lights) + " lights, and " +
+      "shaders would call the techniques of " + std::to_string(needs.lights) + " lights, and " +
         std::to_string(mostInlineLights) + " are the most" };
+  }
+  if (needs.headlightOnSamples)
+  {
+    return { Route::Image,
+      "a headlight casts in a window with several samples per pixel, and edges would be dark where "
+      "a surface covers a pixel whose centre another one hides" };
   }
   return { Route::Inline,
     "all techniques are functions of the point, so that no prepass is needed" };

@@ -27,10 +27,20 @@ struct RouteChoice
 /// materials take some.
 inline constexpr std::size_t mostInlineLights = 8;
 
+/// What a frame's route depends on.
+struct RouteNeeds
+{
+  std::string screenTechnique; ///< one that works on the screen; empty: there is none
+  bool keepVisibility = false;
+  std::size_t lights = 0; ///< that cast
+  /// Whether a headlight casts in a window with several samples per pixel. The inline route asks
+  /// for the centroid of the samples that a triangle covers, whether or not they are seen. Where
+  /// another surface hides the centroid from the camera, it hides it from a headlight, too: edges
+  /// would be dark in front of surfaces that are all lit.
+  bool headlightOnSamples = false;
+};
+
 /// @param wished inline is not served for techniques that work on the screen
-/// @param screenTechnique one of those, among the frame's; empty: there is none
-/// @param lights that cast
-RouteChoice chooseRoute(
-  RouteWish wished, const std::string& screenTechnique, bool keepVisibility, std::size_t lights);
+RouteChoice chooseRoute(RouteWish wished, const RouteNeeds& needs);
 
 } // namespace gnomon

@@ -175,7 +175,9 @@ void ShaderManager::configure(const HookVariant& variant, const std::vector<Shad
   }
   if (asksAtPoints)
   {
-    multiplications += "  vec3 gnomonPosition = " + position + ";\n";
+    // What is translucent hides no light from itself, so that VTK's normal says what faces the light.
+    multiplications += "  vec3 gnomonPosition = " + position +
+      ";\n  gnomonNormal = gnomonTranslucent == 1 ? normalVCVSOutput : gnomonNormal;\n";
   }
   for (std::size_t i = 0; i < lights.size(); ++i)
   {

@@ -2,7 +2,8 @@
 // the lights' techniques follow, with their functions visibility_N; on the image route
 // hook_image.glsl.
 
-uniform int gnomonReceives; // 0: this prop shows no shadows
+uniform int gnomonReceives;    // 0: this prop shows no shadows
+uniform int gnomonTranslucent; // 1: drawn in the translucent pass, and on no layer
 
 // The geometric normal of the triangle under this fragment, on the side that the camera sees. Must
 // be called in uniform control flow. Where the position does not change over the quad (a triangle

@@ -281,6 +281,15 @@ void Finder::addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatr
     kind = MapperKind::PolyData;
     this->updateInput(mapper, kind);
   }
+  const bool isPolyData = kind == MapperKind::PlainPolyData || kind == MapperKind::PolyData;
+  if (asPoints && !isPolyData)
+  {
+    if (lit)
+    {
+      this->skip(actor, "as points");
+    }
+    return;
+  }
 
   DrawnProp prop;
   prop.viewProp = viewProp;
@@ -302,7 +311,7 @@ void Finder::addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatr
     prop.firstBlock = this->drawn_.blocks.size();
     this->addBlocks(actor, mapper, kind, prop.worldFromModel, translucent);
     prop.blockCount = this->drawn_.blocks.size() - prop.firstBlock;
-    if (sizedInPixels && (kind == MapperKind::PlainPolyData || kind == MapperKind::PolyData))
+    if (sizedInPixels && isPolyData)
     {
       this->takePixelSizes(actor, prop.firstBlock);
     }

@@ -8,6 +8,7 @@
 
 #include "vtkAssembly.h"
 #include "vtkCompositeDataDisplayAttributes.h"
+#include "vtkCompositePolyDataMapper.h"
 #include "vtkCompositePolyDataMapper2.h"
 #include "vtkDataArray.h"
 #include "vtkFloatArray.h"
@@ -306,6 +307,35 @@ TEST(OccluderProps, WhatIsNoSurfaceIsNoted)
   volume->VisibilityOff();
   scene.collect();
   EXPECT_THAT(scene.collector.leftOut(), testing::IsEmpty());
+}
+
+/// Of these mappers the snapshot holds triangles only, which are not what is seen.
+TEST(OccluderProps, PointsAsSpheresOfOtherMappersAreNoted)
+{
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  blocks->SetBlock(0, makeSquare());
+  vtkNew<vtkCompositePolyDataMapper> parts;
+  vtkNew<vtkCompositePolyDataMapper2> composite;
+  parts->SetInputDataObject(blocks);
+  composite->SetInputDataObject(blocks);
+  vtkNew<vtkGlyph3DMapper> glyphs;
+  glyphs->SetInputData(makeSquare());
+  glyphs->SetSourceData(makeSquare());
+  for (vtkMapper* mapper : std::initializer_list<vtkMapper*>{ parts, composite, glyphs })
+  {
+    SCOPED_TRACE(mapper->GetClassName());
+    Scene scene;
+    vtkActor* const actor = scene.add(makeSquare());
+    actor->SetMapper(mapper);
+    EXPECT_EQ(scene.collectSurfaces(), 1u);
+    actor->GetProperty()->SetRepresentationToPoints();
+    actor->GetProperty()->RenderPointsAsSpheresOn();
+    EXPECT_EQ(scene.collectSurfaces(), 0u);
+    EXPECT_THAT(scene.collector.leftOut(), testing::ElementsAre("vtkOpenGLActor (as points)"));
+    actor->GetProperty()->LightingOff();
+    EXPECT_EQ(scene.collectSurfaces(), 0u);
+    EXPECT_THAT(scene.collector.leftOut(), testing::IsEmpty());
+  }
 }
 
 TEST(OccluderProps, VerticesThatShaderCodeMayMoveAreNoted)

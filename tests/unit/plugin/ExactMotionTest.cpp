@@ -95,6 +95,7 @@ protected:
 
     this->truth->SetTechnique("raytraced");
     this->truth->KeepVisibilityOn();
+    this->truth->SmoothTerminatorsOff();
     this->scene.pass->SetSetting("bake", "always"); // of those that have it
     this->scene.pass->SetTechnique(GetParam().technique);
     this->scene.pass->SetMapSize(256);

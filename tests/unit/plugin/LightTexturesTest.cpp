@@ -553,6 +553,7 @@ TEST_F(PassTest, aWindowsPointsShadeAMattFloorAsRaysSeeIt)
     return readPicture(window);
   };
   vtkNew<vtkGnomonShadowPass> shadows;
+  shadows->SmoothTerminatorsOff();
   shadows->SetTechnique("raytraced");
   shadows->SetSetting("light_samples", "1024");
   shadows->KeepVisibilityOn();

@@ -5,12 +5,15 @@
 
 #include "Scene.h"
 
+#include "lights/vtkGnomonLightKeys.h"
 #include "shadowtech/base/Gl.h"
 
 #include <vtkActor.h>
 #include <vtkActorCollection.h>
 #include <vtkCellArray.h>
 #include <vtkCollectionRange.h>
+#include <vtkConeSource.h>
+#include <vtkGlyph3D.h>
 #include <vtkOpenGLFramebufferObject.h>
 #include <vtkOpenGLState.h>
 #include <vtkPoints.h>
@@ -271,6 +274,22 @@ INSTANTIATE_TEST_SUITE_P(Projections, Multisample, testing::Bool(),
   [](const testing::TestParamInfo<bool>& parallel)
   { return parallel.param ? "parallel" : "perspective"; });
 
+/// A sphere with a spike at each of its points. Surfaces run through each other.
+void addMace(PassScene& scene)
+{
+  vtkNew<vtkSphereSource> sphere;
+  scene.add(sphere);
+  vtkNew<vtkConeSource> cone;
+  vtkNew<vtkGlyph3D> spikes;
+  spikes->SetInputConnection(sphere->GetOutputPort());
+  spikes->SetSourceConnection(cone->GetOutputPort());
+  spikes->SetVectorModeToUseNormal();
+  spikes->SetScaleModeToScaleByVector();
+  spikes->SetScaleFactor(0.25);
+  scene.add(spikes);
+  scene.renderer->ResetCamera();
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -307,6 +326,7 @@ TEST_F(PassTest, multisamplingGivesTheBunnyNoSpecks)
     window->SetMultiSamples(multiSamples);
     window->AddRenderer(renderer);
     vtkNew<vtkGnomonShadowPass> pass;
+    pass->SmoothTerminatorsOff();
     if (technique)
     {
       pass->SetTechnique(technique);
@@ -403,6 +423,35 @@ TEST_F(PassTest, outlinesHaveTheVisibilityOfTheirSurfaces)
   RecordProperty("rms_of_centre", std::to_string(std::sqrt(squaredOfCentre / pixels)));
   EXPECT_GT(pixels, 2000);
   EXPECT_LE(std::sqrt(squared), 0.5 * std::sqrt(squaredOfCentre));
+}
+
+//------------------------------------------------------------------------------
+/// Of two surfaces that run through each other, each covers pixels whose centres the other hides.
+TEST_F(PassTest, headlightsLeaveLitWhatIsSeenInSeveralSamples)
+{
+  PassScene scene(300, 300);
+  addMace(scene);
+  vtkNew<vtkLight> headlight;
+  headlight->SetLightTypeToHeadlight();
+  vtkGnomonLightKeys::SetCasts(headlight, true);
+  scene.renderer->AddLight(headlight);
+  const auto changedByShadows = [&](const char* technique)
+  {
+    scene.pass->SetTechnique(technique);
+    scene.useGnomon();
+    const Picture shadowed = scene.render();
+    scene.usePlain();
+    return differingPixels(shadowed, scene.render());
+  };
+  EXPECT_LT(changedByShadows("nsm"), 5u);
+  EXPECT_EQ(scene.report().route, "inline");
+  scene.window->SetMultiSamples(8);
+  for (const char* technique : { "nsm", "crsm" })
+  {
+    EXPECT_LT(changedByShadows(technique), 5u) << technique;
+    EXPECT_EQ(scene.report().route, "image");
+  }
+  EXPECT_GT(scene.window->GetMultiSamples(), 1);
 }
 
 //------------------------------------------------------------------------------

@@ -3,6 +3,7 @@
 
 #include "PassScene.h"
 
+#include "plugin/vtkGnomonPropKeys.h"
 #include "shadowtech/Registry.h"
 #include "shadowtech/base/Kernel.h"
 
@@ -22,6 +23,7 @@
 #include <vtkProperty2D.h>
 #include <vtkSelection.h>
 #include <vtkSelectionNode.h>
+#include <vtkSphereSource.h>
 #include <vtkTextActor.h>
 #include <vtkTextProperty.h>
 #include <vtkVolume.h>
@@ -281,6 +283,41 @@ TEST_P(Neighbours, translucentPropsKeepTheirColoursAndShowShadows)
   EXPECT_EQ(this->scene.report().notes.size(), isPlain ? 1u : 0u);
   EXPECT_EQ(this->scene.report().programCompiles, 0);
   EXPECT_EQ(this->scene.report().mapBakes, 0);
+}
+
+//------------------------------------------------------------------------------
+/// VTK shades coarse spheres by the normals of their corners. Facets that are turned away from the
+/// light may then be bright, and nothing hides the light where the sphere casts nothing.
+TEST_P(Neighbours, translucentFacetsAreDarkOnlyWhereTheLightIsHidden)
+{
+  this->floor->VisibilityOff();
+  this->sphere->VisibilityOff();
+  vtkNew<vtkSphereSource> coarse; // of 8 by 8 facets
+  coarse->SetCenter(0.0, 0.0, 1.5);
+  coarse->SetRadius(1.5);
+  vtkActor* const actor = this->scene.add(coarse);
+  actor->GetProperty()->SetOpacity(0.5);
+  vtkLight* const spot = this->scene.addSpot({ -4.0, -1.2, 7.5 }, { 0.0, 0.0, 1.5 }, 60.0);
+  for (const bool isSun : { false, true })
+  {
+    this->sun->SetSwitch(isSun);
+    spot->SetSwitch(!isSun);
+    this->scene.usePlain();
+    const Picture plain = this->scene.render();
+    this->scene.useGnomon();
+    EXPECT_EQ(differingPixels(this->scene.render(), plain, 2), 0u) << "sun: " << isSun;
+    EXPECT_NE(this->scene.report().route, "none");
+
+    vtkGnomonPropKeys::SetCasts(actor, true); // its facets hide their own light
+    EXPECT_GT(differingPixels(this->scene.render(), plain, 2), 20u) << "sun: " << isSun;
+    vtkGnomonPropKeys::SetCasts(actor, false);
+    EXPECT_EQ(differingPixels(this->scene.render(), plain, 2), 0u) << "sun: " << isSun;
+  }
+
+  this->scene.addBox({ -12.0, -6.4, 13.4 }, { -4.0, 1.6, 13.6 }); // out of view
+  const Picture hidden = this->scene.render();
+  this->sun->SetIntensity(0.0);
+  EXPECT_EQ(differingPixels(this->scene.render(), hidden, 2), 0u);
 }
 
 //------------------------------------------------------------------------------

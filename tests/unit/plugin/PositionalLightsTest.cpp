@@ -112,6 +112,7 @@ TEST_F(PositionalLights, theRoomHasNoSeams)
   window->SetSize(320, 320);
   window->AddRenderer(renderer);
   vtkNew<vtkGnomonShadowPass> pass;
+  pass->SmoothTerminatorsOff();
   renderer->SetPass(pass);
   pass->KeepVisibilityOn();
   const auto drawWith = [&](const char* technique)
@@ -154,6 +155,7 @@ TEST_F(PositionalLights, filtersHaveNoSeams)
   window->SetSize(320, 320);
   window->AddRenderer(renderer);
   vtkNew<vtkGnomonShadowPass> pass;
+  pass->SmoothTerminatorsOff();
   renderer->SetPass(pass);
   pass->KeepVisibilityOn();
   pass->SetMapSize(320);

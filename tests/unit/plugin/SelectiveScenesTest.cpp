@@ -37,6 +37,7 @@ protected:
     this->window_->SetSize(256, 256);
     this->window_->AddRenderer(this->renderer_);
     this->pass_->KeepVisibilityOn();
+    this->pass_->SmoothTerminatorsOff();
     this->renderer_->SetPass(this->pass_);
   }
 
@@ -123,6 +124,7 @@ StageShares measureStages(const char* scene, int mapSize)
   window->SetSize(1024, 1024);
   window->AddRenderer(renderer);
   vtkNew<vtkGnomonShadowPass> pass;
+  pass->SmoothTerminatorsOff();
   pass->KeepVisibilityOn();
   pass->SetMapSize(mapSize);
   renderer->SetPass(pass);

@@ -233,6 +233,7 @@ TEST_P(SoftCoherenceLights, followWhatMoves)
   {
     const std::vector<float> followed = drawKept(scene).visibility.at(0);
     vtkNew<vtkGnomonShadowPass> fresh; // which has drawn nothing before
+    fresh->SmoothTerminatorsOff();
     fresh->SetMapSize(128);
     fresh->SetSetting("light_samples", "16");
     fresh->SetTechnique("coherence");

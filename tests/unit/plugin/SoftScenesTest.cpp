@@ -68,6 +68,7 @@ protected:
     this->window_->SetSize(128, 128);
     this->window_->AddRenderer(this->renderer_);
     this->pass_->KeepVisibilityOn();
+    this->pass_->SmoothTerminatorsOff();
     if (GetParam().sunDegrees)
     {
       this->pass_->SetSetting("light_radius", GetParam().sunDegrees);
@@ -263,6 +264,7 @@ TEST(SoftHalfPlane, montecarloLeavesThePenumbraAsWideAsItIs)
   window->SetMultiSamples(0);
   window->AddRenderer(renderer);
   vtkNew<vtkGnomonShadowPass> pass;
+  pass->SmoothTerminatorsOff();
   pass->KeepVisibilityOn();
   pass->SetTechnique("montecarlo");
   pass->SetSetting("light_radius", "6");

@@ -330,6 +330,7 @@ void setTechnique(SolidsScene& scene, const char* technique)
 std::vector<float> visibilityByFreshPass(PassScene& scene)
 {
   vtkNew<vtkGnomonShadowPass> fresh;
+  fresh->SmoothTerminatorsOff();
   fresh->SetTechnique("raytraced");
   fresh->KeepVisibilityOn();
   scene.renderer->SetPass(fresh);

@@ -262,6 +262,7 @@ TEST_P(Staleness, withoutACastingLightNothingIsDone)
   for (const bool isNew : { false, true })
   {
     vtkNew<vtkGnomonShadowPass> pass;
+    pass->SmoothTerminatorsOff();
     choose(pass, GetParam());
     this->scene.renderer->SetPass(isNew ? pass.Get() : this->scene.pass.Get());
     const Picture gnomon = this->scene.render();

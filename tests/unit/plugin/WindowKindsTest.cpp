@@ -181,6 +181,7 @@ TEST_P(WindowKinds, LayersOfRenderers)
   // Another renderer on top, with shadows of its own, over a part of the window.
   vtkNew<vtkRenderer> above;
   vtkNew<vtkGnomonShadowPass> shadows;
+  shadows->SmoothTerminatorsOff();
   shadows->SetTechnique(GetParam().technique);
   shadows->SetRoute(GetParam().route);
   above->SetPass(shadows);
