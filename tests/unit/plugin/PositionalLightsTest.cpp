@@ -92,6 +92,7 @@ private:
     pixels.normalZ.push_back(direction.z);
     pixels.offset.push_back(1e-5f);
     pixels.surface.push_back(0);
+    pixels.lifted.push_back(0);
     pixels.width = static_cast<int>(pixels.surface.size());
     pixels.height = 1;
   }
