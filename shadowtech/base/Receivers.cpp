@@ -149,46 +149,42 @@ void projectSpan(
   }
 }
 
-/// Moves a span's receivers from their triangle to the curved surface, where nothing is in between.
-/// They start off that as far as off the triangle.
+/// Has a span's shadow rays start above the curved surface rather than its triangle, where nothing is
+/// in between, and face the light by its normal.
 void liftSpan(const SeenTriangle& seen, const FreeSegments& freeSegments, const Span& span,
   ReceiverPixels& receivers)
 {
   using Row = std::array<float, ReceiverTile::mostColumns>;
-  struct Points
-  {
-    Row x, y, z;
-    PointArrays arrays() { return { this->x.data(), this->y.data(), this->z.data() }; }
-  };
   const std::size_t first = span.first;
   const std::size_t count = span.count();
-  Points lifted, normals, from, to;
-  std::copy_n(&receivers.positionX[first], count, lifted.x.data());
-  std::copy_n(&receivers.positionY[first], count, lifted.y.data());
-  std::copy_n(&receivers.positionZ[first], count, lifted.z.data());
-  SmoothFacet(seen.corners, *seen.smoothNormals).lift(count, lifted.arrays(), normals.arrays());
+  const PointArrays points{ &receivers.positionX[first], &receivers.positionY[first],
+    &receivers.positionZ[first] };
+  float* const offsets = &receivers.offset[first];
+  Row heights, normalX, normalY, normalZ;
+  SmoothFacet(seen.corners, *seen.smoothNormals)
+    .look(count, points, heights.data(), { normalX.data(), normalY.data(), normalZ.data() });
+  Row fromX, fromY, fromZ, toX, toY, toZ;
   for (std::size_t i = 0; i < count; ++i)
   {
-    const float offset = receivers.offset[first + i];
-    from.x[i] = receivers.positionX[first + i] + offset * seen.normal.x;
-    from.y[i] = receivers.positionY[first + i] + offset * seen.normal.y;
-    from.z[i] = receivers.positionZ[first + i] + offset * seen.normal.z;
-    to.x[i] = lifted.x[i] + offset * normals.x[i];
-    to.y[i] = lifted.y[i] + offset * normals.y[i];
-    to.z[i] = lifted.z[i] + offset * normals.z[i];
+    fromX[i] = points.x[i] + offsets[i] * seen.normal.x;
+    fromY[i] = points.y[i] + offsets[i] * seen.normal.y;
+    fromZ[i] = points.z[i] + offsets[i] * seen.normal.z;
+    heights[i] += offsets[i];
+    toX[i] = points.x[i] + heights[i] * normalX[i];
+    toY[i] = points.y[i] + heights[i] * normalY[i];
+    toZ[i] = points.z[i] + heights[i] * normalZ[i];
   }
   std::uint8_t* const isLifted = &receivers.lifted[first];
-  freeSegments.areFree(count, from.arrays(), to.arrays(), isLifted);
+  freeSegments.areFree(count, { fromX.data(), fromY.data(), fromZ.data() },
+    { toX.data(), toY.data(), toZ.data() }, isLifted);
   for (std::size_t i = 0; i < count; ++i)
   {
     if (isLifted[i] != 0)
     {
-      receivers.positionX[first + i] = lifted.x[i];
-      receivers.positionY[first + i] = lifted.y[i];
-      receivers.positionZ[first + i] = lifted.z[i];
-      receivers.normalX[first + i] = normals.x[i];
-      receivers.normalY[first + i] = normals.y[i];
-      receivers.normalZ[first + i] = normals.z[i];
+      receivers.normalX[first + i] = normalX[i];
+      receivers.normalY[first + i] = normalY[i];
+      receivers.normalZ[first + i] = normalZ[i];
+      offsets[i] = heights[i];
     }
   }
 }

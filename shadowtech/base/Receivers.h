@@ -27,7 +27,7 @@ struct ReceiverPixels
   int width = 0;
   int height = 0;
 
-  /// The receiver, on its triangle (but see `lifted`), centred (relative to Occluders::centreWorld).
+  /// The receiver, on its triangle, centred (relative to Occluders::centreWorld).
   std::vector<float> positionX, positionY, positionZ;
   /// The triangle's geometric normal, unit length, on the side that the camera sees.
   std::vector<float> normalX, normalY, normalZ;
@@ -36,8 +36,8 @@ struct ReceiverPixels
   std::vector<float> offset;
   /// Occluders::surfaces index; `notCovered` where the camera sees no surface of the snapshot.
   std::vector<std::uint32_t> surface;
-  /// 1 where the receiver is off its triangle, on the curved surface that the corners' normals
-  /// imply, and the normal is that surface's (SmoothFacet.h); else 0.
+  /// 1 where the normal is that of the curved surface above the triangle that the corners' normals
+  /// imply, and the offset goes beyond it (SmoothFacet.h); else 0.
   std::vector<std::uint8_t> lifted;
 
   static constexpr std::uint32_t notCovered = 0xffffffffu;
@@ -129,7 +129,7 @@ struct ReceiverTile
 /// them by. The receiver is then the point of the triangle that is closest to the ray as the camera
 /// sees it. Pixels whose triangle cannot be found count as not covered.
 ///
-/// Receivers on facets that are shaded as if they were curved move to the curved surface, if
+/// Shadow rays of facets that are shaded as if they were curved start above the curved surface, if
 /// somebody can say that nothing is in between: what is there may be on the light's side of another
 /// surface.
 class Receivers

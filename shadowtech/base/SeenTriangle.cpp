@@ -16,7 +16,7 @@ namespace
 
 /// The least that a facet's curved surface is above it, in pixels' sides, for its receivers to be
 /// on that. Below it the steps of a terminator are no longer than a few pixels.
-constexpr double leastLiftPixels = 0.25;
+constexpr double leastHeightPixels = 0.25;
 
 bool isFinite(const glm::dvec3& vector)
 {
@@ -142,8 +142,8 @@ void see(const Drawn& drawn, const TriangleOfFragment& found, SeenTriangle& seen
     seen.smoothNormals = cornerNormals(
       occluders, found, glm::normalize(areaVector) * (side > 0.0 ? -1.0 : 1.0), side > 0.0);
     if (seen.smoothNormals &&
-      SmoothFacet(seen.corners, *seen.smoothNormals).largestLift() <=
-        leastLiftPixels * drawn.footprints.largest(seen.corners))
+      SmoothFacet(seen.corners, *seen.smoothNormals).largestHeight() <=
+        leastHeightPixels * drawn.footprints.largest(seen.corners))
     {
       seen.smoothNormals.reset();
     }

@@ -60,71 +60,55 @@ SmoothFacet::SmoothFacet(
 [[gnu::target_clones("avx2", "default")]]
 #endif
 void
-SmoothFacet::lift(std::size_t count, const PointArrays& points, const PointArrays& normals) const
+SmoothFacet::look(std::size_t count, const PointArrays& points, float* heights,
+  const std::array<float*, 3>& normals) const
 {
   const glm::vec3 first = this->first_;
   const std::array<glm::vec3, 3> gradients = this->gradients_;
   const std::array<glm::vec3, 3> ofCorners = this->normals_;
   const std::array<float, 3> below = this->below_;
+  float *const normalX = normals[0], *const normalY = normals[1], *const normalZ = normals[2];
 #pragma GCC ivdep
   for (std::size_t i = 0; i < count; ++i)
   {
     const float x = points.x[i] - first.x, y = points.y[i] - first.y, z = points.z[i] - first.z;
-    float liftX = 0.0f, liftY = 0.0f, liftZ = 0.0f;
-    float normalX = 0.0f, normalY = 0.0f, normalZ = 0.0f;
+    float height = 0.0f;
+    float sumX = 0.0f, sumY = 0.0f, sumZ = 0.0f;
     for (std::size_t k = 0; k < 3; ++k)
     {
       const glm::vec3 normal = ofCorners[k];
       const float share = std::max(0.0f,
         gradients[k].x * x + gradients[k].y * y + gradients[k].z * z + (k == 0 ? 1.0f : 0.0f));
       const float above = normal.x * x + normal.y * y + normal.z * z + below[k];
-      const float height = share * std::max(0.0f, -above);
-      liftX += height * normal.x;
-      liftY += height * normal.y;
-      liftZ += height * normal.z;
-      normalX += share * normal.x;
-      normalY += share * normal.y;
-      normalZ += share * normal.z;
+      height += share * std::max(0.0f, -above);
+      sumX += share * normal.x;
+      sumY += share * normal.y;
+      sumZ += share * normal.z;
     }
-    const float perLength =
-      1.0f / std::sqrt(normalX * normalX + normalY * normalY + normalZ * normalZ);
-    points.x[i] += liftX;
-    points.y[i] += liftY;
-    points.z[i] += liftZ;
-    normals.x[i] = normalX * perLength;
-    normals.y[i] = normalY * perLength;
-    normals.z[i] = normalZ * perLength;
+    const float perLength = 1.0f / std::sqrt(sumX * sumX + sumY * sumY + sumZ * sumZ);
+    heights[i] = height;
+    normalX[i] = sumX * perLength;
+    normalY[i] = sumY * perLength;
+    normalZ[i] = sumZ * perLength;
   }
 }
 
 //------------------------------------------------------------------------------
-float SmoothFacet::largestLift() const
+float SmoothFacet::largestHeight() const
 {
-  std::array<std::array<float, 4>, 3> places;
-  std::array<std::array<float, 4>, 3> lifted;
-  std::array<std::array<float, 4>, 3> normals;
+  std::array<std::array<float, 4>, 3> places, normals;
   for (glm::length_t axis = 0; axis < 3; ++axis)
   {
     const float a = this->corners_[0][axis], b = this->corners_[1][axis],
                 c = this->corners_[2][axis];
-    const auto of = static_cast<std::size_t>(axis);
-    places[of] = { (a + b + c) / 3.0f, 0.5f * (a + b), 0.5f * (b + c), 0.5f * (c + a) };
-    for (std::size_t i = 0; i < 4; ++i)
-    {
-      lifted[of][i] = places[of][i] + this->first_[axis];
-    }
+    const float first = this->first_[axis];
+    places[static_cast<std::size_t>(axis)] = { first + (a + b + c) / 3.0f, first + 0.5f * (a + b),
+      first + 0.5f * (b + c), first + 0.5f * (c + a) };
   }
-  places = lifted;
-  this->lift(4, { lifted[0].data(), lifted[1].data(), lifted[2].data() },
+  std::array<float, 4> heights;
+  this->look(4, { places[0].data(), places[1].data(), places[2].data() }, heights.data(),
     { normals[0].data(), normals[1].data(), normals[2].data() });
-  float largest = 0.0f;
-  for (std::size_t i = 0; i < 4; ++i)
-  {
-    largest = std::max(largest,
-      glm::length(glm::vec3(
-        lifted[0][i] - places[0][i], lifted[1][i] - places[1][i], lifted[2][i] - places[2][i])));
-  }
-  return largest;
+  return *std::max_element(heights.begin(), heights.end());
 }
 
 } // namespace gnomon

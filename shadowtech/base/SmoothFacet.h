@@ -22,9 +22,9 @@ struct TriangleOfFragment;
 /// Coordinates of points, one array for each axis.
 struct PointArrays
 {
-  float* x;
-  float* y;
-  float* z;
+  const float* x;
+  const float* y;
+  const float* z;
 };
 
 /// A triangle with the normals of its corners, in float and relative to its first corner: there
@@ -36,17 +36,18 @@ public:
   /// @param normals of the corners, unit length, on the camera's side
   SmoothFacet(const std::array<glm::dvec3, 3>& corners, const std::array<glm::vec3, 3>& normals);
 
-  /// Takes points of the triangle to those of the curved surface above: the mean, by barycentric
-  /// coordinates, of the points of the corners' tangent planes above it; a tangent plane below it
-  /// counts as being there (Hanika, "Hacking the Shadow Terminator", Ray Tracing Gems II, 2021,
-  /// listing 4-1). So nothing is moved where a surface is hollow.
-  /// @param points centred, in and out
-  /// @param normals get the means of the corners' normals, unit length
-  void lift(std::size_t count, const PointArrays& points, const PointArrays& normals) const;
+  /// How high the curved surface is above points of the triangle, along its normal there: the mean,
+  /// by barycentric coordinates, of the corners' tangent planes; one that is below a point counts as
+  /// being there. These are the points of Hanika, "Hacking the Shadow Terminator", Ray Tracing Gems
+  /// II, 2021, listing 4-1, but for their parts along the surface, which would move the light's cone
+  /// on it. Where a surface is hollow, nothing is above.
+  /// @param points centred
+  /// @param normals three arrays; get the means of the corners' normals, unit length
+  void look(std::size_t count, const PointArrays& points, float* heights,
+    const std::array<float*, 3>& normals) const;
 
-  /// How far the curved surface is above the triangle: at its centre and in the middles of its
-  /// edges, at most.
-  float largestLift() const;
+  /// How high it is: at its centre and in the middles of its edges, at most.
+  float largestHeight() const;
 
 private:
   glm::vec3 first_; ///< the first corner, centred

@@ -150,6 +150,26 @@ TEST_F(SmoothTerminatorsTest, stepsOfVtksSphereAreAThird)
   EXPECT_LE(steps.smooth, steps.flat / 3.0) << steps.flat;
 }
 
+// Nothing is in a ball's light, wherever that comes from, and its cone is where VTK has it.
+TEST_F(SmoothTerminatorsTest, leaveABallAloneAsVtkShadesIt)
+{
+  SphereScene scene;
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> distance(0.7, 3.0);
+  scene.sun->SwitchOff();
+  vtkLight* spot = scene.addSpot({ 0.0, 0.0, 1.0 }, glm::dvec3(0.0), 30.0);
+  for (int i = 0; i < 40; ++i)
+  {
+    const glm::dvec3 position = distance(random) * randomDirection(random);
+    spot->SetPosition(position.x, position.y, position.z);
+    spot->SetConeAngle(i % 2 == 0 ? 90.0 : 20.0);
+    const Picture picture = scene.render();
+    scene.usePlain();
+    EXPECT_EQ(differingPixels(picture, scene.render(), 1), 0u) << i;
+    scene.useGnomon();
+  }
+}
+
 // Normals turn with the prop, and are not scaled with it.
 TEST_F(SmoothTerminatorsTest, followAPropThatIsTurnedAndScaled)
 {

@@ -20,18 +20,20 @@ namespace
 using Corners = std::array<glm::dvec3, 3>;
 using Normals = std::array<glm::vec3, 3>;
 
-struct Lifted
+struct Above
 {
-  glm::vec3 position, normal;
+  float height;
+  glm::vec3 normal;
 };
 
-Lifted lift(const Corners& corners, const Normals& normals, const glm::dvec3& point)
+Above lookAbove(const Corners& corners, const Normals& normals, const glm::dvec3& point)
 {
-  Lifted lifted{ point, glm::vec3(0.0f) };
+  const glm::vec3 position(point);
+  Above above{};
   SmoothFacet(corners, normals)
-    .lift(1, { &lifted.position.x, &lifted.position.y, &lifted.position.z },
-      { &lifted.normal.x, &lifted.normal.y, &lifted.normal.z });
-  return lifted;
+    .look(1, { &position.x, &position.y, &position.z }, &above.height,
+      { &above.normal.x, &above.normal.y, &above.normal.z });
+  return above;
 }
 
 glm::dvec3 onUnitSphere(double angle, double azimuth)
@@ -79,47 +81,43 @@ std::optional<Normals> normalsUnder(const glm::dmat4& matrix, const FacetOfBall&
 
 } // namespace
 
-TEST(SmoothFacet, keepsCorners)
+TEST(SmoothFacet, meetsTheCorners)
 {
   const FacetOfBall facet(0.4);
   for (std::size_t i = 0; i < 3; ++i)
   {
-    const Lifted lifted = lift(facet.corners, facet.normals, facet.corners[i]);
-    EXPECT_LT(glm::distance(lifted.position, glm::vec3(facet.corners[i])), 1e-6f);
-    EXPECT_LT(glm::distance(lifted.normal, facet.normals[i]), 1e-6f);
+    const Above above = lookAbove(facet.corners, facet.normals, facet.corners[i]);
+    EXPECT_NEAR(above.height, 0.0f, 1e-6f);
+    EXPECT_LT(glm::distance(above.normal, facet.normals[i]), 1e-6f);
   }
 }
 
 // At the middle, each tangent plane is sin^2(angle) away along its normal.
-TEST(SmoothFacet, liftsTheMiddleOfABallsFacet)
+TEST(SmoothFacet, isAboveTheMiddleOfABallsFacet)
 {
   for (const double angle : { 0.01, 0.1, 0.4, 1.0 })
   {
     const FacetOfBall facet(angle);
-    const double sine = std::sin(angle);
-    const double cosine = std::cos(angle);
-    const Lifted lifted = lift(facet.corners, facet.normals, { 0.0, 0.0, cosine });
-    EXPECT_NEAR(lifted.position.z, cosine * (1.0 + sine * sine), 1e-6) << angle;
-    EXPECT_NEAR(lifted.normal.z, 1.0, 1e-6);
-    EXPECT_NEAR(SmoothFacet(facet.corners, facet.normals).largestLift(), cosine * sine * sine,
-      0.34 * cosine * sine * sine);
+    const double height = std::sin(angle) * std::sin(angle);
+    const Above above = lookAbove(facet.corners, facet.normals, { 0.0, 0.0, std::cos(angle) });
+    EXPECT_NEAR(above.height, height, 1e-6) << angle;
+    EXPECT_NEAR(above.normal.z, 1.0, 1e-6);
+    EXPECT_NEAR(SmoothFacet(facet.corners, facet.normals).largestHeight(), height, 1e-6);
   }
 }
 
-TEST(SmoothFacet, movesNothingTowardsTheInside)
+TEST(SmoothFacet, isNotAboveAHollow)
 {
   FacetOfBall facet(0.4);
   for (glm::vec3& normal : facet.normals)
   {
     normal = -normal; // the camera is inside of the ball
   }
-  const glm::dvec3 point(0.05, -0.02, std::cos(0.4));
-  EXPECT_LT(
-    glm::distance(lift(facet.corners, facet.normals, point).position, glm::vec3(point)), 1e-6f);
-  EXPECT_LT(SmoothFacet(facet.corners, facet.normals).largestLift(), 1e-6f);
+  EXPECT_LT(lookAbove(facet.corners, facet.normals, { 0.05, -0.02, std::cos(0.4) }).height, 1e-6f);
+  EXPECT_LT(SmoothFacet(facet.corners, facet.normals).largestHeight(), 1e-6f);
 }
 
-// Far from the origin only the place is rounded, not the lift.
+// Far from the origin only the place is rounded.
 TEST(SmoothFacet, isAsHighWhereverItIs)
 {
   const FacetOfBall facet(0.2);
@@ -130,9 +128,9 @@ TEST(SmoothFacet, isAsHighWhereverItIs)
     moved[i] = facet.corners[i] + far;
   }
   const glm::dvec3 point(0.03, 0.01, std::cos(0.2));
-  const Lifted near = lift(facet.corners, facet.normals, point);
-  const Lifted there = lift(moved, facet.normals, point + far);
-  EXPECT_LT(glm::distance(glm::dvec3(there.position) - far, glm::dvec3(near.position)), 2e-3);
+  const Above near = lookAbove(facet.corners, facet.normals, point);
+  const Above there = lookAbove(moved, facet.normals, point + far);
+  EXPECT_NEAR(there.height, near.height, 1e-3);
   EXPECT_LT(glm::distance(there.normal, near.normal), 0.02f);
 }
 
