@@ -36,7 +36,8 @@ some data, as remarks say.
 
 `docs/vtk_programs.tsv` names what each program shows. Its column `shadows` says whether a surface
 is in the way of another's light. The pictures, with and without shadows, decided that column. So
-the share of programs with shadows is no blind test.
+the share of programs with shadows is no blind test. Where only `nsm` changes pixels, it cuts off
+the light of coarse facets at the [terminator](../guide/what_casts.md).
 
 ## How the table is made
 
