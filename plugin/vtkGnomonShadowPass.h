@@ -167,8 +167,9 @@ public:
   /**
    * Whether shadow rays start on the curved surface that normals of points imply, where facets are
    * coarse: the shadow's edge on a smooth-shaded sphere of few triangles is then smooth, too. It is
-   * for techniques that trace from the CPU (`silhouette`, `raytraced` and the like) by Embree, on
-   * opaque surfaces without clipping planes. Off, receivers are on the triangles. Default on.
+   * for techniques that trace from the CPU (`silhouette`, `raytraced` and the like) by Embree, and
+   * for maps on the inline route, on opaque surfaces without clipping planes. Off, receivers are on
+   * the triangles. Default on.
    */
   vtkSetMacro(SmoothTerminators, bool);
   vtkGetMacro(SmoothTerminators, bool);

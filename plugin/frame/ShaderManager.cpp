@@ -177,7 +177,8 @@ void ShaderManager::configure(const HookVariant& variant, const std::vector<Shad
   {
     // What is translucent hides no light from itself, so that VTK's normal says what faces the light.
     multiplications += "  vec3 gnomonPosition = " + position +
-      ";\n  gnomonNormal = gnomonTranslucent == 1 ? normalVCVSOutput : gnomonNormal;\n";
+      ";\n  gnomonNormal = gnomonTranslucent == 1 ? normalVCVSOutput : gnomonNormal;\n"
+      "  curvedView = vec4(normalVCVSOutput, gnomonFacetHeight);\n";
   }
   for (std::size_t i = 0; i < lights.size(); ++i)
   {
@@ -446,6 +447,7 @@ void ShaderManager::setParameters(vtkShaderProgram* program, const Drawn& drawn)
   ShaderLibrary::setUniform(handle, { "gnomonReceives", receives ? 1 : 0 });
   ShaderLibrary::setUniform(handle, { "gnomonDrawn", drawn.index });
   ShaderLibrary::setUniform(handle, { "gnomonTranslucent", drawn.translucent ? 1 : 0 });
+  ShaderLibrary::setUniform(handle, { "gnomonFacetHeight", drawn.facetHeight });
   ShaderLibrary::setUniform(
     handle, { "gnomonPrimitivesPerInstance", static_cast<int>(drawn.primitivesPerInstance) });
 }

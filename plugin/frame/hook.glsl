@@ -4,6 +4,7 @@
 
 uniform int gnomonReceives;    // 0: this prop shows no shadows
 uniform int gnomonTranslucent; // 1: drawn in the translucent pass, and on no layer
+uniform float gnomonFacetHeight; // how high curved surfaces are above the prop's facets, at most
 
 // The geometric normal of the triangle under this fragment, on the side that the camera sees. Must
 // be called in uniform control flow. Where the position does not change over the quad (a triangle

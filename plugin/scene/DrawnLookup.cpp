@@ -215,6 +215,7 @@ Drawn DrawnLookup::find(vtkAbstractMapper* mapper, vtkProp* prop, const Occluder
     const std::uint32_t drawnCount =
       surface.drawnCount() * (surface.isInstanced() ? found->instances : 1);
     drawnSurface.blocks.push_back({ call.firstPrimitive, drawnCount, found->surface });
+    drawn.facetHeight = std::max(drawn.facetHeight, surface.facetHeight);
     drawn.primitivesPerInstance = found->isGlyph ? drawnCount / found->instances : 0;
   }
   if (!drawnSurface.blocks.empty())

@@ -28,6 +28,7 @@ struct Drawn
   int index = -1; ///< into the drawn surfaces; -1 when the snapshot does not hold it
   bool receives = false;
   bool translucent = false;
+  float facetHeight = 0.0f;                ///< the largest of its surfaces'
   std::uint32_t primitivesPerInstance = 0; ///< for a surface that is drawn as instances
 };
 

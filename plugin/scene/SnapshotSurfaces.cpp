@@ -1,6 +1,7 @@
 #include "plugin/scene/SnapshotSurfaces.h"
 
 #include "shadowtech/base/Bytes.h"
+#include "shadowtech/base/SmoothFacet.h"
 
 #include <algorithm>
 #include <optional>
@@ -8,6 +9,22 @@
 
 namespace gnomon
 {
+namespace
+{
+
+/// Takes over where a surface's normals are now, and how high its facets.
+void takeFacets(const SurfaceRecord& record, Surface& surface)
+{
+  surface.centredFromNormals = glm::mat3(record.worldFromModel);
+  double scale = surface.isInstanced() ? 0.0 : largestScale(glm::dmat3(record.worldFromModel));
+  for (std::size_t i = 0; record.facetHeight > 0.0f && i < surface.centredFromSource.size(); ++i)
+  {
+    scale = std::max(scale, largestScale(glm::dmat3(glm::dmat4(surface.centredFromSource[i]))));
+  }
+  surface.facetHeight = static_cast<float>(scale * record.facetHeight);
+}
+
+} // namespace
 
 //------------------------------------------------------------------------------
 SnapshotChange SnapshotSurfaces::update(std::vector<WantedSurface>& wanted)
@@ -149,7 +166,7 @@ bool SnapshotSurfaces::transformAgain(const WantedSurface& wanted)
     return false;
   }
   record.boundsCentred = boundsOf(first, last, all);
-  surface.centredFromNormals = glm::mat3(record.worldFromModel);
+  takeFacets(record, surface);
   clearNonFinite(own, surface.vertexCount);
   surface.positionsVersion = this->newVersion();
   return true;
@@ -168,6 +185,7 @@ bool SnapshotSurfaces::moveInstances(std::size_t index, PlacedInstances& placed)
   recordPlaces(placed, this->occluders_.positionsCentred.data() + surface.firstVertex,
     surface.vertexCount, this->records_[index]);
   surface.centredFromSource = std::move(placed.centredFromSource);
+  takeFacets(this->records_[index], surface);
   surface.positionsVersion = this->newVersion();
   return true;
 }
@@ -207,12 +225,12 @@ SnapshotSurfaces::Outcome SnapshotSurfaces::overwrite(WantedSurface& wanted)
     std::copy(fresh.positionsCentred.begin(), fresh.positionsCentred.end(), positions);
     surface.positionsVersion = this->newVersion();
   }
-  const glm::mat3 centredFromNormals(fresh.record.worldFromModel);
-  if (surface.pointNormals != fresh.pointNormals ||
-    surface.centredFromNormals != centredFromNormals)
+  const bool sameNormals = surface.pointNormals == fresh.pointNormals &&
+    surface.centredFromNormals == glm::mat3(fresh.record.worldFromModel);
+  surface.pointNormals = std::move(fresh.pointNormals);
+  takeFacets(fresh.record, surface);
+  if (!sameNormals)
   {
-    surface.pointNormals = std::move(fresh.pointNormals);
-    surface.centredFromNormals = centredFromNormals;
     surface.positionsVersion = this->newVersion();
     moved = true;
   }
@@ -263,9 +281,9 @@ void SnapshotSurfaces::rebuild(std::vector<WantedSurface>& wanted)
       entry.triangleOfDrawn = std::move(fresh.triangleOfDrawn);
       entry.textureCoordinates = std::move(fresh.textureCoordinates);
       entry.pointNormals = std::move(fresh.pointNormals);
-      entry.centredFromNormals = glm::mat3(fresh.record.worldFromModel);
       entry.centredFromSource = std::move(fresh.instances.centredFromSource);
       entry.mirrored = fresh.instances.mirrored;
+      takeFacets(fresh.record, entry);
       entry.solid = solidOf(fresh.record.key.cells);
       entry.topologyVersion = this->newVersion();
       entry.positionsVersion = this->newVersion();

@@ -313,6 +313,8 @@ void placeSurface(FreshSurface& fresh, const DrawnProp& prop, const DrawnBlock& 
   }
   if (record.keptAsInstances && placeSource(fresh, block, centreWorld))
   {
+    record.facetHeight =
+      largestHeightOf(positions, fresh.triangles, fresh.pointNormals, glm::dmat3(1.0));
     return;
   }
   if (block.glyphPoints)
@@ -334,6 +336,9 @@ void placeSurface(FreshSurface& fresh, const DrawnProp& prop, const DrawnBlock& 
       planesCentred, positions, fresh.textureCoordinates, fresh.triangles, fresh.triangleOfDrawn);
   }
   record.boundsCentred = boundsOf(fresh.triangles.begin(), fresh.triangles.end(), positions.data());
+  const glm::dmat3 linear(record.worldFromModel);
+  record.facetHeight = static_cast<float>(
+    largestHeightOf(positions, fresh.triangles, fresh.pointNormals, linear) / largestScale(linear));
 }
 
 } // namespace gnomon

@@ -98,6 +98,7 @@ struct SurfaceRecord
   glm::dvec4 radiusFromWorld{ 0.0 }; ///< of what is sized in pixels
   CoordinatesSource coordinates;
   NormalsSource normals;
+  float facetHeight = 0.0f;                 ///< Surface::facetHeight, where the normals are
   std::vector<std::uint32_t> pointOfVertex; ///< as in DrawnTriangles, of one instance
   /// Where the polydata is drawn in its prop's model coordinates: once as it is, or as a glyph at
   /// any number of places.

@@ -41,6 +41,9 @@ struct Surface
   /// Takes vertices from where these normals are to centred coordinates, but for the place; of a
   /// surface with instances each instance's matrix does.
   glm::mat3 centredFromNormals{ 1.0f };
+  /// How high the curved surface that these normals imply is above its triangles, at most, in
+  /// centred coordinates; 0 where there are no normals, or so many triangles that it does not matter.
+  float facetHeight = 0.0f;
 
   /// Changes when the triangles of this surface change (its mapper's input) or their texture
   /// coordinates, not when it only gets another place in the list. Versions are never given twice

@@ -8,6 +8,32 @@
 
 namespace gnomon
 {
+namespace
+{
+
+/// The normals of a triangle's corners; none where one does not go with the triangle's.
+/// @param turn to centred coordinates and the camera's side
+std::optional<std::array<glm::vec3, 3>> turnedNormals(const glm::dmat3& turn,
+  const glm::vec3* normals, const glm::uvec3& vertices, const glm::dvec3& normal)
+{
+  constexpr double leastCosine = 0.17364818; // of 80 degrees
+  std::array<glm::vec3, 3> turned;
+  for (int i = 0; i < 3; ++i)
+  {
+    const glm::dvec3 centred = turn * glm::dvec3(normals[vertices[i]]);
+    const double length = glm::length(centred);
+    // Written so that NaN fails.
+    if (!(glm::dot(centred, normal) > leastCosine * length))
+    {
+      return std::nullopt;
+    }
+    turned[static_cast<std::size_t>(i)] = centred / length;
+  }
+  return turned;
+}
+
+} // namespace
+
 //------------------------------------------------------------------------------
 std::optional<std::array<glm::vec3, 3>> cornerNormals(
   const Occluders& occluders, const TriangleOfFragment& found, const glm::dvec3& normal, bool back)
@@ -20,22 +46,33 @@ std::optional<std::array<glm::vec3, 3>> cornerNormals(
   const glm::dmat3 linear = surface.isInstanced()
     ? glm::dmat3(glm::dmat4(surface.centredFromSource[found.instance]))
     : glm::dmat3(surface.centredFromNormals);
-  const glm::dmat3 turn = normalMatrix(linear) * (back ? -1.0 : 1.0);
-  constexpr double leastCosine = 0.17364818; // of 80 degrees
-  const glm::uvec3 vertices = occluders.triangles[found.triangle] - surface.firstVertex;
-  std::array<glm::vec3, 3> normals;
-  for (int i = 0; i < 3; ++i)
+  return turnedNormals(normalMatrix(linear) * (back ? -1.0 : 1.0), surface.pointNormals.data(),
+    occluders.triangles[found.triangle] - surface.firstVertex, normal);
+}
+
+//------------------------------------------------------------------------------
+float largestHeightOf(const std::vector<glm::vec3>& positions,
+  const std::vector<glm::uvec3>& triangles, const std::vector<glm::vec3>& normals,
+  const glm::dmat3& positionsFromNormals)
+{
+  if (normals.empty() || triangles.size() > mostFacets)
   {
-    const glm::dvec3 centred = turn * glm::dvec3(surface.pointNormals[vertices[i]]);
-    const double length = glm::length(centred);
-    // Written so that NaN fails.
-    if (!(glm::dot(centred, normal) > leastCosine * length))
-    {
-      return std::nullopt;
-    }
-    normals[static_cast<std::size_t>(i)] = centred / length;
+    return 0.0f;
   }
-  return normals;
+  const glm::dmat3 turn = normalMatrix(positionsFromNormals);
+  float largest = 0.0f;
+  for (const glm::uvec3& triangle : triangles)
+  {
+    const std::array<glm::dvec3, 3> corners{ positions[triangle.x], positions[triangle.y],
+      positions[triangle.z] };
+    const glm::dvec3 normal =
+      glm::normalize(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
+    if (const auto turned = turnedNormals(turn, normals.data(), triangle, normal))
+    {
+      largest = std::max(largest, SmoothFacet(corners, *turned).largestHeight());
+    }
+  }
+  return largest;
 }
 
 //------------------------------------------------------------------------------

@@ -2,9 +2,11 @@
 
 #include <glm/glm.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <vector>
 
 namespace gnomon
 {
@@ -76,5 +78,22 @@ inline glm::dmat3 normalMatrix(const glm::dmat3& matrix)
 /// @return none where the surface has none, or where one is more than 80 degrees off the triangle's
 std::optional<std::array<glm::vec3, 3>> cornerNormals(
   const Occluders& occluders, const TriangleOfFragment& found, const glm::dvec3& normal, bool back);
+
+/// The largest height of some triangles; 0 where all are hollow, or more than `mostFacets`.
+/// @param positions of all vertices
+/// @param normals one for each of them, of any length
+/// @param positionsFromNormals what took positions from where the normals are
+float largestHeightOf(const std::vector<glm::vec3>& positions,
+  const std::vector<glm::uvec3>& triangles, const std::vector<glm::vec3>& normals,
+  const glm::dmat3& positionsFromNormals);
+
+/// Of more triangles than these each is small in any picture.
+inline constexpr std::size_t mostFacets = 65536;
+
+/// How much a matrix makes of what has length 1 along an axis, at most.
+inline double largestScale(const glm::dmat3& matrix)
+{
+  return std::max({ glm::length(matrix[0]), glm::length(matrix[1]), glm::length(matrix[2]) });
+}
 
 } // namespace gnomon

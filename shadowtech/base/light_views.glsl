@@ -92,14 +92,20 @@ vec3 lightFromCubeFace(int face, vec3 v)
 
 #endif
 
+// Towards the light, of any length.
+vec3 toLight_LIGHT(vec3 positionLight)
+{
+#if VIEWS_PERSPECTIVE_LIGHT
+  return -positionLight;
+#else
+  return vec3(0.0, 0.0, -1.0);
+#endif
+}
+
 // Whether the light shines on a surface at all: it faces the light and lies in its cone or box.
 bool lightReaches_LIGHT(vec3 positionLight, vec3 normalLight)
 {
-#if VIEWS_PERSPECTIVE_LIGHT
-  bool reaches = facesLight(normalLight, -positionLight);
-#else
-  bool reaches = facesLight(normalLight, vec3(0.0, 0.0, -1.0));
-#endif
+  bool reaches = facesLight(normalLight, toLight_LIGHT(positionLight));
 #if VIEWS_SPOT_LIGHT
   reaches = reaches && insideCone(-positionLight, vec3(0.0, 0.0, -1.0), lightCone_LIGHT);
 #endif

@@ -11,6 +11,10 @@
 #define MAP_TURNED_AWAY 1
 #define MAP_NO_CASTER 2
 #define MAP_BY_TEXELS 3
+
+// What a facet stands for where it is shaded as if it were curved (SmoothFacet.h): the curved
+// surface's normal in view coordinates, and how high it is at most, in world units; 0: nothing.
+vec4 curvedView = vec4(0.0);
 #endif
 int pixelClass_LIGHT; // of the last point that visibility_LIGHT() was asked for
 
@@ -83,6 +87,17 @@ float visibility_LIGHT(vec3 positionView, vec3 normalView)
 {
   vec3 p = (lightFromView_LIGHT * vec4(positionView, 1.0)).xyz;
   vec3 n = mat3(lightFromView_LIGHT) * normalView;
+  // A facet that is turned away may stand for a surface that is not. What is asked about then is a
+  // point above all facets around, on no plane.
+  vec3 toLight = toLight_LIGHT(p);
+  vec3 curved = mat3(lightFromView_LIGHT) * curvedView.xyz;
+  bool above = curvedView.w > 0.0 && !facesLight(n, toLight);
   pixelClass_LIGHT = MAP_TURNED_AWAY;
-  return lightReaches_LIGHT(p, n) ? visibilityOnMap_LIGHT(p, n, positionView, normalView) : 0.0;
+  if (!lightReaches_LIGHT(p, above ? curved : n))
+  {
+    return 0.0;
+  }
+  p += above ? curvedView.w * curved : vec3(0.0);
+  n = above ? normalize(toLight) : n;
+  return visibilityOnMap_LIGHT(p, n, positionView, normalView);
 }

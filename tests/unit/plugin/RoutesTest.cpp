@@ -48,6 +48,7 @@ struct ToolScene
     this->window->SetSize(size, size);
     this->window->AddRenderer(this->renderer);
     this->renderer->SetPass(this->pass);
+    this->pass->SmoothTerminatorsOff(); // shaders ask above facets, and the image route does not
   }
   Picture render()
   {

@@ -396,3 +396,58 @@ TEST_F(SmoothTerminatorsTest, exactTechniquesAgreeOnASheetSeenFromItsBack)
     }
   }
 }
+
+// Maps ask above the facets that are turned away, where VTK's shader does the asking.
+TEST_F(SmoothTerminatorsTest, mapsInShadersCutOffATenthAsMuch)
+{
+  for (const char* technique : { "nsm", "pcf", "vsm", "lispsm" })
+  {
+    SphereScene scene;
+    scene.pass->SetTechnique(technique);
+    const auto cutOff = [&]()
+    {
+      std::mt19937 random(24);
+      std::size_t pixels = 0;
+      for (int i = 0; i < 20; ++i)
+      {
+        const Picture picture = scene.underSun(randomDirection(random));
+        EXPECT_EQ(scene.report().route, "inline");
+        scene.usePlain();
+        pixels += differingPixels(picture, scene.render(), 8);
+        scene.useGnomon();
+      }
+      return pixels;
+    };
+    const std::size_t smooth = cutOff();
+    scene.pass->SmoothTerminatorsOff();
+    const std::size_t flat = cutOff();
+    RecordProperty(std::string(technique) + "Smooth", static_cast<int>(smooth));
+    RecordProperty(std::string(technique) + "Flat", static_cast<int>(flat));
+    EXPECT_GT(flat, 2000u) << technique;
+    EXPECT_LE(smooth, flat / 10) << technique << ", " << flat;
+  }
+}
+
+// Another prop's shadow falls on them from as far as the facets are high.
+TEST_F(SmoothTerminatorsTest, mapsInShadersAddNoLightInShadow)
+{
+  SphereScene scene;
+  scene.pass->SetTechnique("nsm");
+  scene.addFloor(6.0, 0.9)->GetProperty()->SetLighting(false);
+  scene.renderer->GetActors()->GetLastActor()->GetProperty()->SetColor(0.0, 0.0, 0.0);
+  scene.lookFrom({ 1.6, 1.8, 0.3 });
+  std::mt19937 random(3);
+  std::size_t dark = 0;
+  for (int i = 0; i < 25; ++i)
+  {
+    glm::dvec3 towards = randomDirection(random);
+    towards.z = std::abs(towards.z) + 0.6;
+    scene.pass->SmoothTerminatorsOn();
+    const std::size_t smooth = litPixels(scene.underSun(towards));
+    scene.pass->SmoothTerminatorsOff();
+    // A facet along the light may be lit within a texel of its plane.
+    EXPECT_EQ(smooth, litPixels(scene.underSun(towards))) << i;
+    dark += smooth == 0 ? 1 : 0;
+  }
+  EXPECT_GE(dark, 20u);
+}
