@@ -16,10 +16,15 @@ namespace
 void takeFacets(const SurfaceRecord& record, Surface& surface)
 {
   surface.centredFromNormals = glm::mat3(record.worldFromModel);
-  double scale = surface.isInstanced() ? 0.0 : largestScale(glm::dmat3(record.worldFromModel));
-  for (std::size_t i = 0; record.facetHeight > 0.0f && i < surface.centredFromSource.size(); ++i)
+  double scale = 0.0;
+  if (record.facetHeight > 0.0f)
   {
-    scale = std::max(scale, largestScale(glm::dmat3(glm::dmat4(surface.centredFromSource[i]))));
+    // A function of where the surface is now alone, as all of the snapshot.
+    for (const glm::mat4& instance : record.modelFromInstance)
+    {
+      scale =
+        std::max(scale, largestScale(glm::dmat3(record.worldFromModel * glm::dmat4(instance))));
+    }
   }
   surface.facetHeight = static_cast<float>(scale * record.facetHeight);
 }

@@ -52,6 +52,20 @@ std::vector<glm::vec3> turned(
   return result;
 }
 
+/// The largest height of a polydata's facets, in its own coordinates.
+float facetHeight(vtkPolyData* data, const DrawnTriangles& drawn,
+  const std::vector<glm::vec3>& normals, const std::vector<std::uint32_t>& pointOfVertex)
+{
+  if (normals.empty() || drawn.triangles.size() > mostFacets)
+  {
+    return 0.0f;
+  }
+  std::vector<glm::vec3> positions(drawn.vertexCount);
+  placeVertices(
+    data, pointOfVertex, positions.size(), glm::dmat4(1.0), glm::dvec3(0.0), positions.data());
+  return largestHeightOf(positions, drawn.triangles, normals);
+}
+
 /// Repeats a glyph's triangles for each of its instances, each with vertices and texture
 /// coordinates of its own. None, if that would be too many.
 void expandInstances(FreshSurface& fresh)
@@ -249,6 +263,7 @@ FreshSurface readSurface(const DrawnProp& prop, const DrawnBlock& block, Surface
   if (record.normals.array)
   {
     fresh.pointNormals = readNormals(block.normals, record.pointOfVertex, drawn.vertexCount);
+    record.facetHeight = facetHeight(block.data, drawn, fresh.pointNormals, record.pointOfVertex);
   }
   fresh.vertexCount = drawn.vertexCount;
   fresh.triangles = std::move(drawn.triangles);
@@ -313,8 +328,6 @@ void placeSurface(FreshSurface& fresh, const DrawnProp& prop, const DrawnBlock& 
   }
   if (record.keptAsInstances && placeSource(fresh, block, centreWorld))
   {
-    record.facetHeight =
-      largestHeightOf(positions, fresh.triangles, fresh.pointNormals, glm::dmat3(1.0));
     return;
   }
   if (block.glyphPoints)
@@ -336,9 +349,6 @@ void placeSurface(FreshSurface& fresh, const DrawnProp& prop, const DrawnBlock& 
       planesCentred, positions, fresh.textureCoordinates, fresh.triangles, fresh.triangleOfDrawn);
   }
   record.boundsCentred = boundsOf(fresh.triangles.begin(), fresh.triangles.end(), positions.data());
-  const glm::dmat3 linear(record.worldFromModel);
-  record.facetHeight = static_cast<float>(
-    largestHeightOf(positions, fresh.triangles, fresh.pointNormals, linear) / largestScale(linear));
 }
 
 } // namespace gnomon

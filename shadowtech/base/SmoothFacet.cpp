@@ -52,22 +52,24 @@ std::optional<std::array<glm::vec3, 3>> cornerNormals(
 
 //------------------------------------------------------------------------------
 float largestHeightOf(const std::vector<glm::vec3>& positions,
-  const std::vector<glm::uvec3>& triangles, const std::vector<glm::vec3>& normals,
-  const glm::dmat3& positionsFromNormals)
+  const std::vector<glm::uvec3>& triangles, const std::vector<glm::vec3>& normals)
 {
-  if (normals.empty() || triangles.size() > mostFacets)
-  {
-    return 0.0f;
-  }
-  const glm::dmat3 turn = normalMatrix(positionsFromNormals);
+  const auto isThere = [&](const glm::uvec3& triangle) {
+    return std::max({ triangle.x, triangle.y, triangle.z }) < positions.size();
+  };
   float largest = 0.0f;
   for (const glm::uvec3& triangle : triangles)
   {
+    if (!isThere(triangle))
+    {
+      continue;
+    }
     const std::array<glm::dvec3, 3> corners{ positions[triangle.x], positions[triangle.y],
       positions[triangle.z] };
+    // NaN without area, and then so are the normals.
     const glm::dvec3 normal =
       glm::normalize(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
-    if (const auto turned = turnedNormals(turn, normals.data(), triangle, normal))
+    if (const auto turned = turnedNormals(glm::dmat3(1.0), normals.data(), triangle, normal))
     {
       largest = std::max(largest, SmoothFacet(corners, *turned).largestHeight());
     }

@@ -79,13 +79,11 @@ inline glm::dmat3 normalMatrix(const glm::dmat3& matrix)
 std::optional<std::array<glm::vec3, 3>> cornerNormals(
   const Occluders& occluders, const TriangleOfFragment& found, const glm::dvec3& normal, bool back);
 
-/// The largest height of some triangles; 0 where all are hollow, or more than `mostFacets`.
-/// @param positions of all vertices
-/// @param normals one for each of them, of any length
-/// @param positionsFromNormals what took positions from where the normals are
+/// The largest height of some triangles; 0 where all are hollow.
+/// @param triangles those with a vertex that is not there do not count
+/// @param normals one for each vertex, of any length
 float largestHeightOf(const std::vector<glm::vec3>& positions,
-  const std::vector<glm::uvec3>& triangles, const std::vector<glm::vec3>& normals,
-  const glm::dmat3& positionsFromNormals);
+  const std::vector<glm::uvec3>& triangles, const std::vector<glm::vec3>& normals);
 
 /// Of more triangles than these each is small in any picture.
 inline constexpr std::size_t mostFacets = 65536;
