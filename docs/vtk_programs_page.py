@@ -36,8 +36,7 @@ some data, as remarks say.
 
 `docs/vtk_programs.tsv` names what each program shows. Its column `shadows` says whether a surface
 is in the way of another's light. The pictures, with and without shadows, decided that column. So
-the share of programs with shadows is no blind test. Where only `nsm` changes pixels, it cuts off
-the light of coarse facets at the [terminator](../guide/what_casts.md).
+the share of programs with shadows is no blind test.
 
 ## How the table is made
 
