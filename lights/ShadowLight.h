@@ -61,8 +61,7 @@ struct ShadowLight : ShadowSettings
   /// mix(lit, v, strength), where lit is 1 or the texture's mean.
   double strength = 1.0;
 
-  /// Whether it stands at the camera, so that it lights whatever is seen, but for what a perspective
-  /// shows from the side.
+  /// Whether it is a headlight: it stands at the camera, and lights what the camera sees.
   bool isHeadlight = false;
 
   /// Whether this frame fits the light's views to the receivers that are drawn, on the GPU

@@ -387,7 +387,7 @@ void RenderManager::tellTracer()
 Receivers& RenderManager::receiversOnCpu()
 {
   ReceiversValue& value = this->view_->receivers;
-  // A tracer that nobody asks in this frame may know an older snapshot.
+  // Where no technique traces, the tracer is not updated, and may hold an older snapshot.
   const FreeSegments* const freeSegments =
     this->tracesOnCpu() ? this->tracer_.freeSegments() : nullptr;
   if (!value.onCpu || value.onCpu->freeSegments() != freeSegments)

@@ -175,7 +175,8 @@ void ShaderManager::configure(const HookVariant& variant, const std::vector<Shad
   }
   if (asksAtPoints)
   {
-    // What is translucent hides no light from itself, so that VTK's normal says what faces the light.
+    // Maps hold no translucent surface, unless it was asked to cast: so it hides no light from
+    // itself, and faces the light where VTK's own normal does.
     multiplications += "  vec3 gnomonPosition = " + position +
       ";\n  gnomonNormal = gnomonTranslucent == 1 ? normalVCVSOutput : gnomonNormal;\n"
       "  curvedView = vec4(normalVCVSOutput, gnomonFacetHeight);\n";

@@ -1,6 +1,6 @@
 // The image route's fetch of many lights' visibility, in one loop. Its end is a uniform, so that
-// compilers cannot unroll it: llvmpipe compiles each fetch anew, and twenty of them take most of
-// the first frame.
+// compilers cannot unroll it. llvmpipe compiles each fetch by itself: with twenty lights that would
+// be most of the first frame.
 
 uniform int gnomonLayerCount;
 

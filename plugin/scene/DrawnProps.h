@@ -43,7 +43,7 @@ struct DrawnBlock
   glm::dvec4 lineRadiusFromWorld{ 0.0 };
   ///@}
   bool drawsTriangles = true; ///< whether polygons and strips are drawn as such
-  /// The points' normals, where VTK shades triangles with them as its shaders place them; else null.
+  /// The points' normals, where VTK shades triangles with them; else null.
   vtkDataArray* normals = nullptr;
   /// Of the texture that cuts holes into it; null where none does.
   vtkDataArray* textureCoordinates = nullptr;

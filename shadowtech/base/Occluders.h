@@ -42,7 +42,7 @@ struct Surface
   /// surface with instances each instance's matrix does.
   glm::mat3 centredFromNormals{ 1.0f };
   /// How high the curved surface that these normals imply is above its triangles, at most, in
-  /// centred coordinates; 0 where there are no normals, or so many triangles that it does not matter.
+  /// centred coordinates; 0 without normals, or of more than `mostFacets` triangles.
   float facetHeight = 0.0f;
 
   /// Changes when the triangles of this surface change (its mapper's input) or their texture

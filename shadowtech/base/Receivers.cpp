@@ -149,8 +149,8 @@ void projectSpan(
   }
 }
 
-/// Has a span's shadow rays start above the curved surface rather than its triangle, where nothing is
-/// in between, and face the light by its normal.
+/// Has a span's shadow rays start above the curved surface rather than its triangle, and gives its
+/// receivers that surface's normal, where nothing is in between.
 void liftSpan(const SeenTriangle& seen, const FreeSegments& freeSegments, const Span& span,
   ReceiverPixels& receivers)
 {

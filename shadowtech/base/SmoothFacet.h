@@ -39,10 +39,10 @@ public:
   SmoothFacet(const std::array<glm::dvec3, 3>& corners, const std::array<glm::vec3, 3>& normals);
 
   /// How high the curved surface is above points of the triangle, along its normal there: the mean,
-  /// by barycentric coordinates, of the corners' tangent planes; one that is below a point counts as
-  /// being there. These are the points of Hanika, "Hacking the Shadow Terminator", Ray Tracing Gems
-  /// II, 2021, listing 4-1, but for their parts along the surface, which would move the light's cone
-  /// on it. Where a surface is hollow, nothing is above.
+  /// by barycentric coordinates, of the heights of the corners' tangent planes, where one below the
+  /// point counts as 0. Hanika ("Hacking the Shadow Terminator", Ray Tracing Gems II, 2021, listing
+  /// 4-1) moves the point itself; here it stays, since VTK ends a light's cone there. A hollow
+  /// surface has height 0.
   /// @param points centred
   /// @param normals three arrays; get the means of the corners' normals, unit length
   void look(std::size_t count, const PointArrays& points, float* heights,

@@ -23,7 +23,7 @@ TechniqueInfo Penumbra::info()
 void Penumbra::computeVisibility(
   const ScreenInput& input, std::vector<float>& visibility, LightReport& report)
 {
-  // Bounds count samples, whatever their colours; and the tree holds edges of triangles, no solids.
+  // Bounds count samples without their colours, and the tree holds edges of triangles alone.
   if (!input.light.area || input.light.texture || input.occluders.castsSolids())
   {
     traceAllReceivers(input, visibility, report);

@@ -204,7 +204,7 @@ private:
 };
 vtkStandardNewMacro(Window);
 
-// An interactor nobody uses: Start shows the scene and returns.
+// Start() draws the scene and returns: nobody interacts.
 class Interactor : public vtkGenericRenderWindowInteractor
 {
 public:

@@ -323,7 +323,7 @@ TEST_F(SmoothTerminatorsTest, followNormalsThatChangeAlone)
   EXPECT_NE(scene.pass->GetVisibility().normalX, before);
 }
 
-// All that traces does so from the same points, whatever it knows beforehand. Visibility is not kept,
+// All exact techniques trace from the same points. Visibility is not kept here,
 // as that would make all receivers before maps are asked about their triangles.
 TEST_F(SmoothTerminatorsTest, exactTechniquesAgree)
 {
