@@ -76,18 +76,6 @@ void requireToBeInPlace(vtkRenderer* renderer)
   }
 }
 
-/// Where the renderer's picture is in the framebuffer that is bound.
-glm::ivec2 originOf(const vtkRenderState* s)
-{
-  glm::ivec2 size(0);
-  glm::ivec2 origin(0);
-  if (!s->GetFrameBuffer())
-  {
-    s->GetRenderer()->GetTiledSizeAndOrigin(&size.x, &size.y, &origin.x, &origin.y);
-  }
-  return origin;
-}
-
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -213,7 +201,7 @@ double vtkGnomonLightSamplingPass::DrawMean(const vtkRenderState* s)
   this->AddPictures(s,
     gnomon::pairedPointsWanted(all, internal.mean->pictures(),
       refines ? static_cast<std::size_t>(this->SamplesPerFrame) : 0));
-  const glm::ivec2 origin = originOf(s);
+  const glm::ivec2 origin = gnomon::originOf(s);
   const glm::ivec2 size = gnomon::sizeOf(s);
   internal.mean->show(internal.target->picture(), origin);
   // As the renderer leaves them that draws for itself.
@@ -237,7 +225,7 @@ void vtkGnomonLightSamplingPass::AddPictures(const vtkRenderState* s, std::size_
   while (internal.mean->pictures() < wanted)
   {
     lights.moveTo(internal.mean->pictures());
-    internal.target->draw(this->Delegate(), s, originOf(s));
+    internal.target->draw(this->Delegate(), s, gnomon::originOf(s));
     internal.mean->add(internal.target->picture());
   }
   this->NumberOfRenderedProps = this->Delegate()->GetNumberOfRenderedProps();

@@ -2,8 +2,10 @@
 
 #include "plugin/VisibilityImages.h"
 #include "plugin/frame/Progress.h"
+#include "plugin/frame/ReceiverDrawing.h"
 #include "plugin/frame/RenderManager.h"
 #include "plugin/scene/ShownView.h"
+#include "plugin/window/AroundOpaque.h"
 #include "plugin/window/PassContext.h"
 #include "shadowtech/Registry.h"
 #include "shadowtech/base/FrameReport.h"
@@ -184,6 +186,7 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
   gnomon::RenderManager& manager = this->Internal->managerOf(renderer);
   bool marked = false;
   bool drawn = false;
+  bool failed = false;
   bool outOfTextureMemory = false;
   try
   {
@@ -204,34 +207,46 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
       this->TellWhatIsLeftOut();
 
       // From here on, mappers call the hook.
-      if (!manager.chooseRoute())
+      const vtkRenderPass* delegate = this->FindDelegate(s);
+      if (!manager.chooseRoute(s, !delegate || delegate == this->Internal->steps))
       {
-        vtkErrorMacro("The inline route was asked for, but "
-          << manager.report().routeReason << "; this frame takes the image route.");
+        vtkErrorMacro("The " << (this->Route == ROUTE_INLINE ? "inline" : "deferred")
+                             << " route was asked for, but " << manager.report().routeReason
+                             << "; this frame takes the image route.");
       }
       this->PreRender(s);
       marked = true;
-
-      // receivers
-      if (manager.route() == gnomon::Route::Image)
-      {
-        manager.updateReceivers(s, this);
-      }
-
-      // maps
-      manager.bakeMaps();
-
-      // visibility
-      if (manager.route() == gnomon::Route::Image)
-      {
-        manager.computeVisibility();
-      }
-
-      // shading
-      manager.beginShading(s);
     }
-    drawn = true;
-    this->DrawScene(s);
+    if (goesOn && manager.route() == gnomon::Route::Deferred)
+    {
+      drawn = true;
+      this->DrawDeferred(s);
+    }
+    else
+    {
+      if (goesOn)
+      {
+        // receivers
+        if (manager.route() == gnomon::Route::Image)
+        {
+          manager.updateReceivers(s, this);
+        }
+
+        // maps
+        manager.bakeMaps();
+
+        // visibility
+        if (manager.route() == gnomon::Route::Image)
+        {
+          manager.computeVisibility();
+        }
+
+        // shading
+        manager.beginShading(s);
+      }
+      drawn = true;
+      this->DrawScene(s);
+    }
     if (goesOn && !manager.endShading())
     {
       const vtkRenderPass* delegate = this->FindDelegate(s);
@@ -249,21 +264,54 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
   {
     vtkErrorMacro("The scene is drawn without shadows: " << error.what());
     manager.abandonFrame();
+    failed = true;
     outOfTextureMemory = dynamic_cast<const gnomon::TextureMemoryError*>(&error) != nullptr;
   }
   if (marked)
   {
     this->PostRender(s);
   }
-  if (!drawn)
+  if (failed)
   {
-    this->RenderPlain(s, "an error was met");
+    this->TellPlain("an error was met");
     this->Internal->plainReport.outOfTextureMemory = outOfTextureMemory;
+    if (!drawn)
+    {
+      this->DrawPlain(s);
+    }
   }
   else
   {
     gnomon::tellProgress(this, progressBefore, this->Internal->progress);
   }
+}
+
+//------------------------------------------------------------------------------
+void vtkGnomonShadowPass::DrawDeferred(const vtkRenderState* s)
+{
+  gnomon::RenderManager& manager = this->Internal->manager();
+
+  // shading and receivers
+  const auto before = [&] { manager.beginOpaque(s); };
+  const auto afterwards = [&]
+  {
+    manager.endOpaque();
+
+    // maps
+    manager.bakeMaps();
+
+    // visibility
+    manager.computeVisibility();
+
+    // shading
+    manager.drawShadows();
+    manager.beginShading(s); // of the props that are left
+  };
+  const auto isAmong = [](vtkProp* prop)
+  { return gnomon::drawnByPasses(prop) == gnomon::ByPasses::All; };
+  const gnomon::AroundOpaque around(s, isAmong, before, afterwards);
+  this->DrawScene(around.state());
+  around.end();
 }
 
 //------------------------------------------------------------------------------
@@ -349,15 +397,26 @@ void vtkGnomonShadowPass::DrawScene(const vtkRenderState* s)
 }
 
 //------------------------------------------------------------------------------
-void vtkGnomonShadowPass::RenderPlain(const vtkRenderState* s, const char* reason)
+void vtkGnomonShadowPass::TellPlain(const char* reason)
 {
   this->Internal->shadowed = false;
   this->Internal->plainReport = gnomon::FrameReport{};
   this->Internal->plainReport.route = "none";
   this->Internal->plainReport.routeReason = reason;
+}
 
+//------------------------------------------------------------------------------
+void vtkGnomonShadowPass::DrawPlain(const vtkRenderState* s)
+{
   this->BeginView(s);
   this->DrawScene(s);
+}
+
+//------------------------------------------------------------------------------
+void vtkGnomonShadowPass::RenderPlain(const vtkRenderState* s, const char* reason)
+{
+  this->TellPlain(reason);
+  this->DrawPlain(s);
 }
 
 //------------------------------------------------------------------------------
@@ -531,7 +590,7 @@ vtkMTimeType vtkGnomonShadowPass::GetShaderStageMTime()
 void vtkGnomonShadowPass::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  const char* const routes[] = { "auto", "inline", "image" };
+  const char* const routes[] = { "auto", "inline", "image", "deferred" };
   const char* const tracers[] = { "auto", "embree", "gpu" };
   const char* const rasterizers[] = { "auto", "cpu", "gpu" };
   for (const gnomon::Setting* setting : gnomon::shadowSettings())

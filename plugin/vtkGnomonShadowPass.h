@@ -94,23 +94,27 @@ public:
   ///@}
 
   /**
-   * How visibility reaches the shader. INLINE: VTK's fragment shader computes it; only pointwise
-   * techniques can. IMAGE: it is computed for all pixels beforehand, from a prepass. AUTO: the
-   * cheaper one that every light's technique can.
+   * How visibility reaches the picture. INLINE: VTK's fragment shader computes it; only pointwise
+   * techniques can. IMAGE: it is computed for all pixels beforehand, from a prepass. DEFERRED: VTK
+   * draws the picture once, with what each pixel shows and its colour in shadow, and visibility
+   * chooses afterwards; only for the hard shadows of one light, by exact techniques, where pixels
+   * have one sample. AUTO: the cheapest one that can be taken.
    */
   enum RouteType
   {
     ROUTE_AUTO = 0,
     ROUTE_INLINE = 1,
-    ROUTE_IMAGE = 2
+    ROUTE_IMAGE = 2,
+    ROUTE_DEFERRED = 3
   };
 
   ///@{
   /**
-   * The route to take. Asking for INLINE with a technique that works on the screen is an error; the
-   * frame then takes the image route. Default ROUTE_AUTO.
+   * The route to take. Asking for INLINE with a technique that works on the screen, or for DEFERRED
+   * where there is a reason against it, is an error; the frame then takes the image route. Default
+   * ROUTE_AUTO.
    */
-  vtkSetClampMacro(Route, int, ROUTE_AUTO, ROUTE_IMAGE);
+  vtkSetClampMacro(Route, int, ROUTE_AUTO, ROUTE_DEFERRED);
   vtkGetMacro(Route, int);
   ///@}
 
@@ -286,6 +290,9 @@ private:
   vtkRenderPass* FindDelegate(const vtkRenderState* s);
   void BeginView(const vtkRenderState* s);
   void DrawScene(const vtkRenderState* s);
+  void DrawDeferred(const vtkRenderState* s);
+  void TellPlain(const char* reason);
+  void DrawPlain(const vtkRenderState* s);
   void RenderPlain(const vtkRenderState* s, const char* reason);
   void TellOfLights();
   void TellWhatIsLeftOut();

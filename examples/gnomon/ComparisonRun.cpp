@@ -137,7 +137,8 @@ std::vector<VariantSpec> listVariants(
       }
       if (!info->isPointwise() || plan.imageRoute)
       {
-        spec.route = vtkGnomonShadowPass::ROUTE_IMAGE;
+        spec.route =
+          info->isPointwise() ? vtkGnomonShadowPass::ROUTE_IMAGE : vtkGnomonShadowPass::ROUTE_AUTO;
         specs.push_back(spec);
       }
     }

@@ -412,6 +412,7 @@ void render(const RenderOptions& options)
   vtkNew<vtkGnomonShadowPass> shadows;
   shadows->SetRoute(options.route == "inline" ? vtkGnomonShadowPass::ROUTE_INLINE
       : options.route == "image"              ? vtkGnomonShadowPass::ROUTE_IMAGE
+      : options.route == "deferred"           ? vtkGnomonShadowPass::ROUTE_DEFERRED
                                               : vtkGnomonShadowPass::ROUTE_AUTO);
   shadows->SetTracer(options.tracer);
   shadows->SetRasterizer(options.rasterizer);
@@ -525,9 +526,9 @@ void addRenderCommand(CLI::App& app)
     ->capture_default_str();
   addSettingOptions(*command, options->settings);
   command
-    ->add_option(
-      "--route", options->route, "How visibility reaches the shader: inline, image, auto")
-    ->check(CLI::IsMember({ "inline", "image", "auto" }))
+    ->add_option("--route", options->route,
+      "How visibility reaches the picture: inline, image, deferred, auto")
+    ->check(CLI::IsMember({ "inline", "image", "deferred", "auto" }))
     ->capture_default_str();
   addTracerOption(*command, options->tracer);
   addRasterizerOption(*command, options->rasterizer);

@@ -3,12 +3,13 @@
 namespace gnomon
 {
 
-/// How visibility is to reach the shader.
+/// How visibility is to reach the picture.
 enum class RouteWish
 {
   Auto,
   Inline,
-  Image
+  Image,
+  Deferred
 };
 
 /// What traces rays.

@@ -4,6 +4,8 @@
 
 #include <vtkActor.h>
 #include <vtkActor2D.h>
+#include <vtkAssemblyNode.h>
+#include <vtkAssemblyPath.h>
 #include <vtkCommand.h>
 #include <vtkInformation.h>
 #include <vtkInformationObjectBaseVectorKey.h>
@@ -20,6 +22,7 @@
 #include <vtkSmartPointer.h>
 #include <vtkVolume.h>
 
+#include <algorithm>
 #include <atomic>
 
 namespace gnomon
@@ -115,6 +118,43 @@ std::size_t hashOfShownProps(const vtkRenderState* s)
   }
   hashCombine(seed, vtkMapper::GetResolveCoincidentTopology()); // no prop has a time for it
   return seed;
+}
+
+//------------------------------------------------------------------------------
+bool anyPropHasOwnShaders(const vtkRenderState* s)
+{
+  return std::any_of(s->GetPropArray(), s->GetPropArray() + s->GetPropArrayCount(),
+    [](vtkProp* prop)
+    {
+      vtkInformation* keys = prop->GetPropertyKeys();
+      return (keys && keys->Has(vtkOpenGLRenderPass::RenderPasses())) || hasOwnShaders(prop);
+    });
+}
+
+//------------------------------------------------------------------------------
+ByPasses drawnByPasses(vtkProp* prop)
+{
+  const auto isLeafDrawnByPasses = [](vtkProp* leaf)
+  {
+    auto* actor = vtkActor::SafeDownCast(leaf);
+    return actor
+      ? actor->GetMapper() != nullptr
+      : leaf->IsA("vtkImageSlice") || leaf->IsA("vtkLODProp3D") || leaf->IsA("vtkProp3DFollower");
+  };
+  if (!prop->IsA("vtkAssembly") && !prop->IsA("vtkPropAssembly"))
+  {
+    return isLeafDrawnByPasses(prop) ? ByPasses::All : ByPasses::Nothing;
+  }
+  bool any = false;
+  bool all = true;
+  prop->InitPathTraversal();
+  while (vtkAssemblyPath* path = prop->GetNextPath())
+  {
+    const bool is = isLeafDrawnByPasses(path->GetLastNode()->GetViewProp());
+    any = any || is;
+    all = all && is;
+  }
+  return all ? ByPasses::All : any ? ByPasses::Some : ByPasses::Nothing;
 }
 
 //------------------------------------------------------------------------------

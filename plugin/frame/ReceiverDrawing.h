@@ -7,6 +7,7 @@
 #include <cstddef>
 
 class vtkObjectBase;
+class vtkProp;
 class vtkRenderState;
 
 namespace gnomon
@@ -15,6 +16,18 @@ namespace gnomon
 /// What props in view show of themselves as receivers: the same number means the same, by one
 /// camera and snapshot. No two numbers are the same where a prop has shaders of a user's own.
 std::size_t hashOfShownProps(const vtkRenderState* s);
+
+/// Whether a prop has shaders of a user's own, or other render passes add to its shaders.
+bool anyPropHasOwnShaders(const vtkRenderState* s);
+
+/// What of a prop VTK draws by shaders that render passes add to.
+enum class ByPasses
+{
+  All,
+  Nothing, ///< annotations and widgets, whose parts VTK does not tell of the passes
+  Some     ///< an assembly of both
+};
+ByPasses drawnByPasses(vtkProp* prop);
 
 /// Has VTK draw the opaque props into the target, whose size is set, each with the shaders of one
 /// pass alone.

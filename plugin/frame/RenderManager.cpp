@@ -154,7 +154,42 @@ void RenderManager::collectOccluders(const vtkRenderState* s)
 }
 
 //------------------------------------------------------------------------------
-bool RenderManager::chooseRoute()
+/// Why a frame cannot be drawn before its visibility is known, as a clause; empty if it can.
+std::string RenderManager::whyNotDeferred(const vtkRenderState* s, bool drawnPlainly) const
+{
+  if (this->lights_.size() != 1)
+  {
+    return "the picture is drawn without one light's shadows, and " +
+      std::to_string(this->lights_.size()) + " lights cast";
+  }
+  const CastingLight& casting = *this->lights_.begin();
+  if (!isOnCpu(casting) || !casting.own.info().exact || casting.light.area)
+  {
+    return "'" + casting.light.technique + "' may leave pixels between light and shadow";
+  }
+  if (samplesOfBoundFramebuffer() > 1)
+  {
+    return "pixels have several samples";
+  }
+  vtkRenderer* renderer = s->GetRenderer();
+  if (!drawnPlainly || renderer->GetUseSSAO() || renderer->GetUseHiddenLineRemoval())
+  {
+    return "a render pass draws the props in its own way";
+  }
+  if (anyPropHasOwnShaders(s))
+  {
+    return "a prop has shaders of its own, which may not light twice";
+  }
+  if (std::any_of(s->GetPropArray(), s->GetPropArray() + s->GetPropArrayCount(),
+        [](vtkProp* prop) { return drawnByPasses(prop) == ByPasses::Some; }))
+  {
+    return "an assembly has parts that passes cannot reach";
+  }
+  return DeferredPicture::whyUnsupported();
+}
+
+//------------------------------------------------------------------------------
+bool RenderManager::chooseRoute(const vtkRenderState* s, bool drawnPlainly)
 {
   const int samples = samplesOfBoundFramebuffer();
   RouteNeeds needs;
@@ -168,10 +203,11 @@ bool RenderManager::chooseRoute()
     }
     needs.headlightOnSamples |= casting.light.isHeadlight && samples > 1;
   }
+  needs.whyNotDeferred = this->whyNotDeferred(s, drawnPlainly);
   const std::string& screenTechnique = needs.screenTechnique;
   const RouteChoice choice = gnomon::chooseRoute(this->wishes_.route, needs);
   this->route_ = choice.route;
-  this->report_.route = choice.route == Route::Image ? "image" : "inline";
+  this->report_.route = nameOf(choice.route);
   this->report_.routeReason = choice.reason;
 
   const bool askTranslucent = this->collector_.translucentReceivers() > 0;
@@ -205,8 +241,24 @@ bool RenderManager::chooseRoute()
     casting.shadesAtPoints = pointwise != nullptr;
     shaded.push_back({ casting.light, casting.layer, casting.channels, pointwise });
   }
-  this->programs_.shaders.configure({ this->route_, this->readsPoints(), samples > 1 }, shaded);
-  return this->wishes_.route != RouteWish::Inline || screenTechnique.empty();
+  this->programs_.shaders.configure({ this->route_, this->readsPoints(), samples > 1,
+                                      this->route_ != Route::Deferred || this->namesTriangles(s) },
+    shaded);
+  return (this->wishes_.route != RouteWish::Inline || screenTechnique.empty()) &&
+    (this->wishes_.route != RouteWish::Deferred || needs.whyNotDeferred.empty());
+}
+
+//------------------------------------------------------------------------------
+/// Whether shaders of the deferred route are to say which triangles they draw, which costs where
+/// OpenGL draws by software. Receivers that rest need it no more; but VTK makes its props' shaders
+/// anew for it, so that it takes a while of rest, and few props.
+bool RenderManager::namesTriangles(const vtkRenderState* s)
+{
+  constexpr int patience = 8;               // frames
+  constexpr std::size_t mostSurfaces = 100; // some 0.2 ms each
+  this->restingFrames_ = this->receiversAreStale(s) ? 0 : this->restingFrames_ + 1;
+  return this->restingFrames_ < patience || this->severalViews_ ||
+    this->collector_.occluders().surfaces.size() > mostSurfaces;
 }
 
 //------------------------------------------------------------------------------
@@ -229,6 +281,7 @@ ValueKey RenderManager::receiversKey(const vtkRenderState* s) const
   key.add("the props in view", hashOfShownProps(s));
   key.add("the snapshot", std::pair(occluders.topologyVersion, occluders.positionsVersion));
   key.add("what is read of receivers", this->readsPoints());
+  key.add("where they are drawn", std::tuple(this->route_, originOf(s)));
   return key;
 }
 
@@ -254,7 +307,7 @@ ValueKey RenderManager::visibilityKey(const CastingLight& casting) const
 }
 
 //------------------------------------------------------------------------------
-void RenderManager::updateReceivers(const vtkRenderState* s, vtkObjectBase* pass)
+void RenderManager::makeRoomForLayers()
 {
   VisibilityLayers& layers = this->view_->layers;
   const int count = this->lights_.layers();
@@ -265,34 +318,56 @@ void RenderManager::updateReceivers(const vtkRenderState* s, vtkObjectBase* pass
   }
   this->stageValues_.layers = { GL_TEXTURE_2D_ARRAY, layers.texture() };
   this->stageValues_.layersSize = this->size_;
-
-  ReceiversValue& value = this->view_->receivers;
-  const ValueKey key = this->receiversKey(s);
-  const std::string changes = value.key ? key.changesFrom(*value.key) : "there were none";
-  this->tellReuse("receivers", changes);
-  if (!changes.empty())
-  {
-    value.key.reset(); // in case of an error
-    value.onCpu.reset();
-    this->drawReceivers(s, pass);
-    value.key = key;
-    value.number = ++this->receiversNumbered_;
-  }
-  this->stageValues_.depths = { GL_TEXTURE_2D, value.target.depths() };
-  this->findStaleVisibility();
-  this->endStageClock("receivers");
 }
 
 //------------------------------------------------------------------------------
-void RenderManager::drawReceivers(const vtkRenderState* s, vtkObjectBase* pass)
+/// Whether receivers are to be drawn, as what they follow from has changed; if so, those that there
+/// are are given up.
+bool RenderManager::receiversAreStale(const vtkRenderState* s)
 {
   ReceiversValue& value = this->view_->receivers;
-  this->stageValues_.receiversStage = true;
-  this->programs_.shaders.beginStage(windowOf(s), this->stageValues_);
-  gnomon::drawReceivers(s, pass, this->size_, this->readsPoints(), value.target);
-  this->programs_.shaders.endStage();
-  value.drawnSurfaces = this->collector_.drawnSurfaces();
-  ++this->report_.receiversDrawn;
+  ValueKey key = this->receiversKey(s);
+  const std::string changes = value.key ? key.changesFrom(*value.key) : "there were none";
+  this->tellReuse("receivers", changes);
+  this->receiversDue_.reset();
+  if (!changes.empty())
+  {
+    this->receiversDue_ = std::move(key);
+    value.key.reset(); // in case of an error
+    value.onCpu.reset();
+  }
+  return this->receiversDue_.has_value();
+}
+
+//------------------------------------------------------------------------------
+/// Takes the receivers that were drawn, if they were due.
+void RenderManager::takeReceivers()
+{
+  if (this->receiversDue_)
+  {
+    ReceiversValue& value = this->view_->receivers;
+    value.drawnSurfaces = this->collector_.drawnSurfaces();
+    value.key = std::move(this->receiversDue_);
+    value.number = ++this->receiversNumbered_;
+    ++this->report_.receiversDrawn;
+  }
+  this->findStaleVisibility();
+}
+
+//------------------------------------------------------------------------------
+void RenderManager::updateReceivers(const vtkRenderState* s, vtkObjectBase* pass)
+{
+  this->makeRoomForLayers();
+  if (this->receiversAreStale(s))
+  {
+    this->stageValues_.receiversStage = true;
+    this->programs_.shaders.beginStage(windowOf(s), this->stageValues_);
+    drawReceivers(s, pass, this->size_, this->readsPoints(), this->view_->receivers.target);
+    this->programs_.shaders.endStage();
+  }
+  this->takeReceivers();
+  this->stageValues_.depths = { GL_TEXTURE_2D, this->view_->receivers.target.depths() };
+  this->endStageClock("receivers");
 }
 
 //------------------------------------------------------------------------------
@@ -394,7 +469,14 @@ Receivers& RenderManager::receiversOnCpu()
   {
     value.images.rays = pixelRays(this->camera_.clipFromView,
       this->stageValues_.space.centredFromView, this->size_.x, this->size_.y);
-    value.target.read(value.images);
+    if (this->route_ == Route::Deferred)
+    {
+      value.deferred.read(value.images);
+    }
+    else
+    {
+      value.target.read(value.images);
+    }
     value.onCpu.emplace(
       value.images, value.drawnSurfaces, this->collector_.occluders(), value.pixels, freeSegments);
     this->endStageClock("visibility: read receivers");
@@ -496,7 +578,7 @@ void RenderManager::fillLayers(CastingLight& casting, VisibilityValue& value, Li
   else
   {
     Receivers& onCpu = this->receiversOnCpu();
-    std::vector<float> visibility;
+    std::vector<float>& visibility = this->visibilityOnCpu_;
     namingLight(light,
       [&]
       {
@@ -507,8 +589,41 @@ void RenderManager::fillLayers(CastingLight& casting, VisibilityValue& value, Li
       });
     this->endStageClock("visibility: trace");
     layers.upload(casting.layer, visibility);
+    if (this->route_ == Route::Deferred)
+    {
+      this->view_->receivers.deferred.findTiles(visibility);
+    }
     this->endStageClock("visibility: upload");
   }
+}
+
+//------------------------------------------------------------------------------
+void RenderManager::beginOpaque(const vtkRenderState* s)
+{
+  this->makeRoomForLayers();
+  this->stageValues_.receiversStage = true;
+  this->programs_.shaders.beginStage(windowOf(s), this->stageValues_);
+  this->view_->receivers.deferred.attach(this->receiversDue_.has_value());
+}
+
+//------------------------------------------------------------------------------
+void RenderManager::endOpaque()
+{
+  this->programs_.shaders.endStage();
+  this->view_->receivers.deferred.detach();
+  if (this->view_->receivers.deferred.size() != this->size_)
+  {
+    throw std::runtime_error("it is drawn at another size than its viewport has");
+  }
+  this->endStageClock("shading: lit and in shadow");
+  this->takeReceivers();
+}
+
+//------------------------------------------------------------------------------
+void RenderManager::drawShadows()
+{
+  this->view_->receivers.deferred.darken(this->stageValues_.layers, this->programs_.library);
+  this->endStageClock("shading: shadows");
 }
 
 //------------------------------------------------------------------------------
@@ -522,7 +637,7 @@ void RenderManager::beginShading(const vtkRenderState* s)
 bool RenderManager::endShading()
 {
   const bool fitted = this->programs_.shaders.endStage();
-  this->endStageClock("shading");
+  this->endStageClock(this->route_ == Route::Deferred ? "shading: the rest" : "shading");
   return fitted;
 }
 
@@ -537,7 +652,7 @@ void RenderManager::endFrame()
   report.bytesBvh = this->tracer_.bytes();
   this->lights_.giveBack(this->view_->techniques);
   report.bytesMaps = this->lights_.bytesOfMaps() + this->views_.bytesOfMaps();
-  if (this->route_ == Route::Image)
+  if (this->route_ != Route::Inline)
   {
     report.bytesImages = this->views_.bytesOfImages() + this->tracer_.bytesOfRays();
   }

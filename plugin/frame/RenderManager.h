@@ -18,7 +18,9 @@
 
 #include <glm/glm.hpp>
 
+#include <optional>
 #include <string>
+#include <vector>
 
 class vtkAbstractMapper;
 class vtkObjectBase;
@@ -55,14 +57,16 @@ public:
   /// camera is in it.
   void collectOccluders(const vtkRenderState* s);
 
-  /// Chooses how visibility reaches the shader, and states it in the report.
-  /// @return false when the inline route is asked of a technique that works on the screen; it is
-  /// the image route then, for the reason in the report
-  bool chooseRoute();
+  /// Chooses how visibility reaches the picture, and states it in the report.
+  /// @param drawnPlainly whether nobody but the renderer, or passes that do as it does, draws props
+  /// @return false when a route is asked for that cannot be taken; it is the image route then, for
+  /// the reason in the report
+  bool chooseRoute(const vtkRenderState* s, bool drawnPlainly);
   Route route() const { return this->route_; }
 
-  /// receivers (image route): which triangle each pixel shows, and points for techniques that read
-  /// them on the GPU. Then it is known which lights' visibility is another one than the view has.
+  /// receivers (image route): draws which triangle each pixel shows, and points for techniques that
+  /// read them on the GPU. Then it is known which lights' visibility is another one than the view
+  /// has.
   /// @param pass whose hook the props' shaders have
   void updateReceivers(const vtkRenderState* s, vtkObjectBase* pass);
 
@@ -75,7 +79,17 @@ public:
   /// @throws std::runtime_error for a tracer that there is not, or has no room
   void computeVisibility();
 
-  /// shading: between the two calls VTK draws its props with the hook in place.
+  /// shading and receivers (deferred route): between the two calls VTK draws its opaque props, lit
+  /// and in shadow. Afterwards it is known which lights' visibility is another one than the view
+  /// has.
+  void beginOpaque(const vtkRenderState* s);
+  void endOpaque();
+
+  /// shading (deferred route): gives what is in shadow its colour.
+  void drawShadows();
+
+  /// shading: between the two calls VTK draws its props with the hook in place; on the deferred
+  /// route those that are left.
   void beginShading(const vtkRenderState* s);
   /// @return false if props were drawn at another resolution than the visibility layers have; they
   /// show no shadows then
@@ -99,7 +113,11 @@ private:
   bool classifies() const { return this->wishes_.keepVisibility || this->wishes_.measureStages; }
   ValueKey receiversKey(const vtkRenderState* s) const;
   ValueKey visibilityKey(const CastingLight& casting) const;
-  void drawReceivers(const vtkRenderState* s, vtkObjectBase* pass);
+  std::string whyNotDeferred(const vtkRenderState* s, bool drawnPlainly) const;
+  void makeRoomForLayers();
+  bool namesTriangles(const vtkRenderState* s);
+  bool receiversAreStale(const vtkRenderState* s);
+  void takeReceivers();
   void findStaleVisibility();
   bool tracesOnCpu() const;
   void updateTracer();
@@ -124,11 +142,14 @@ private:
   Route route_ = Route::Inline;
   bool shadesTranslucent_ = false; ///< whether translucent surfaces show shadows in this frame
   RendererViews views_;
-  ViewValues* view_ = nullptr;        ///< this frame's
-  std::size_t receiversNumbered_ = 0; ///< how many images of receivers were drawn
+  ViewValues* view_ = nullptr;           ///< this frame's
+  std::size_t receiversNumbered_ = 0;    ///< how many images of receivers were drawn
+  std::optional<ValueKey> receiversDue_; ///< of those that this frame has drawn
+  int restingFrames_ = 0;                ///< deferred route: in a row that kept their receivers
   PassPrograms& programs_;
   FrameTracer tracer_{ buffers_, programs_.library };
   ShaderManager::StageValues stageValues_;
+  std::vector<float> visibilityOnCpu_; ///< a light's; kept, as new memory costs more than old
   const ViewValues* keptOf_ = nullptr; ///< whose visibility is kept
   VisibilityImages visibility_;
 };

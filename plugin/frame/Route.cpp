@@ -4,15 +4,30 @@ namespace gnomon
 {
 
 //------------------------------------------------------------------------------
+const char* nameOf(Route route)
+{
+  constexpr const char* names[] = { "inline", "image", "deferred" };
+  return names[static_cast<std::size_t>(route)];
+}
+
+//------------------------------------------------------------------------------
 RouteChoice chooseRoute(RouteWish wished, const RouteNeeds& needs)
 {
-  if (!needs.screenTechnique.empty())
+  if (wished == RouteWish::Deferred)
   {
-    return { Route::Image, "'" + needs.screenTechnique + "' works on the whole screen" };
+    return needs.whyNotDeferred.empty() ? RouteChoice{ Route::Deferred, "asked for" }
+                                        : RouteChoice{ Route::Image, needs.whyNotDeferred };
   }
   if (wished == RouteWish::Image)
   {
     return { Route::Image, "asked for" };
+  }
+  if (!needs.screenTechnique.empty())
+  {
+    const std::string onScreen = "'" + needs.screenTechnique + "' works on the whole screen";
+    return needs.whyNotDeferred.empty() && wished == RouteWish::Auto
+      ? RouteChoice{ Route::Deferred, onScreen + ", and all shadows are hard and of one light" }
+      : RouteChoice{ Route::Image, onScreen };
   }
   if (needs.keepVisibility)
   {

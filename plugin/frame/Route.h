@@ -8,11 +8,14 @@
 namespace gnomon
 {
 
-/// How visibility reaches the shader.
+/// How visibility reaches the picture.
 enum class Route
 {
   Inline, ///< VTK's fragment shader computes it
-  Image   ///< it is computed for all pixels beforehand, and fetched
+  Image,  ///< it is computed for all pixels beforehand, and fetched
+  /// VTK's fragment shader gives each pixel's colour in light and in shadow, and which triangle it
+  /// shows; visibility, computed afterwards, chooses.
+  Deferred
 };
 
 /// Which route a frame takes, and why.
@@ -38,9 +41,14 @@ struct RouteNeeds
   /// another surface hides the centroid from the camera, it hides it from a headlight, too: edges
   /// would be dark in front of surfaces that are all lit.
   bool headlightOnSamples = false;
+  std::string whyNotDeferred; ///< as a clause; empty: the deferred route can be taken
 };
 
-/// @param wished inline is not served for techniques that work on the screen
+/// As people call it: "inline", "image", "deferred".
+const char* nameOf(Route route);
+
+/// @param wished inline is not served for techniques that work on the screen, deferred not where
+/// there is a reason against it
 RouteChoice chooseRoute(RouteWish wished, const RouteNeeds& needs);
 
 } // namespace gnomon

@@ -42,16 +42,16 @@ std::string litOf(const ShadedLight& shaded, int light)
 }
 
 /// The expression of one light's visibility. On the image route, translucent surfaces compute
-/// theirs: the layers do not know them.
+/// theirs: the layers do not know them. On the deferred route opaque ones are drawn as lit.
 std::string visibilityOf(Route route, const ShadedLight& shaded, int light)
 {
   // What has one channel is seen as if the light were an even one.
   const std::string even = shaded.light.texture ? litOf(shaded, light) + " * " : "";
   const auto layer = [&](int channel)
   { return "gnomonLayer(" + std::to_string(shaded.layer + channel) + ")"; };
-  const std::string fetched = shaded.channels == 3
-    ? "vec3(" + layer(0) + ", " + layer(1) + ", " + layer(2) + ")"
-    : even + layer(0);
+  const std::string fetched = route == Route::Deferred ? litOf(shaded, light)
+    : shaded.channels == 3 ? "vec3(" + layer(0) + ", " + layer(1) + ", " + layer(2) + ")"
+                           : even + layer(0);
   const std::string computed =
     even + "visibility_" + std::to_string(light) + "(gnomonPosition, gnomonNormal)";
   if (route == Route::Inline)
@@ -60,6 +60,24 @@ std::string visibilityOf(Route route, const ShadedLight& shaded, int light)
   }
   return shaded.pointwise ? "(gnomonTranslucent == 0 ? " + fetched + " : " + computed + ")"
                           : fetched;
+}
+
+/// The declaration that multiplies a light's colour by its visibility, for what receives.
+std::string multiplicationOf(const ShadedLight& shaded, int light, const std::string& visibility)
+{
+  const std::string colour = "lightColor" + std::to_string(shaded.light.shaderIndex);
+  const std::string lit = litOf(shaded, light);
+  return "  vec3 " + colour + " = " + colour + " * (gnomonReceives == 0 ? " + lit + " : mix(" +
+    lit + ", " + visibility + ", gnomonStrength" + std::to_string(light) + "));\n";
+}
+
+/// The declaration of a light's colour where it is hidden from what receives. Black as a constant
+/// spares the shader most of its second lighting.
+std::string darkeningOf(const ShadedLight& shaded, int light)
+{
+  return shaded.light.strength < 1.0
+    ? multiplicationOf(shaded, light, "0.0")
+    : "  vec3 lightColor" + std::to_string(shaded.light.shaderIndex) + " = vec3(0.0);\n";
 }
 
 /// Statements in front of VTK's lighting, where its shader draws a solid on a sprite: they set
@@ -139,6 +157,11 @@ void ShaderManager::configure(const HookVariant& variant, const std::vector<Shad
                   "vec3 gnomonNormal = gnomonFaceNormal(gnomonPoint, cameraParallel == 1);\n";
   }
   std::string multiplications;
+  std::string darkenings;
+  if (variant.route != Route::Inline)
+  {
+    declarations += hookShaders().at("plugin/frame/hook_receiver.glsl");
+  }
   if (variant.route == Route::Image)
   {
     declarations += hookShaders().at("plugin/frame/hook_image.glsl");
@@ -189,25 +212,25 @@ void ShaderManager::configure(const HookVariant& variant, const std::vector<Shad
     {
       declarations += numberedForLight(shaded.pointwise->visibilityGlsl(shaded.light), number);
     }
-    const std::string strength = "gnomonStrength" + std::to_string(i);
-    declarations += "uniform float " + strength + ";\n";
-    const std::string lit = litOf(shaded, number);
+    declarations += "uniform float gnomonStrength" + std::to_string(i) + ";\n";
     if (shaded.light.texture)
     {
-      declarations += "uniform vec3 " + lit + ";\n";
+      declarations += "uniform vec3 " + litOf(shaded, number) + ";\n";
     }
-    const std::string colour = "lightColor" + std::to_string(shaded.light.shaderIndex);
-    multiplications += "  vec3 " + colour + " = " + colour + " * (gnomonReceives == 0 ? " + lit +
-      " : mix(" + lit + ", " + visibilityOf(variant.route, shaded, number) + ", " + strength +
-      "));\n";
+    multiplications +=
+      multiplicationOf(shaded, number, visibilityOf(variant.route, shaded, number));
+    darkenings += darkeningOf(shaded, number);
   }
   if (declarations != this->declarations_ || multiplications != this->multiplications_ ||
+    (variant.route == Route::Deferred && darkenings != this->darkenings_) ||
     variant.route != this->variant_.route ||
-    variant.receiverPoints != this->variant_.receiverPoints)
+    variant.receiverPoints != this->variant_.receiverPoints ||
+    variant.namesTriangles != this->variant_.namesTriangles)
   {
     this->declarations_ = declarations;
     this->samplers_ = samplersOf(declarations);
     this->multiplications_ = multiplications;
+    this->darkenings_ = darkenings;
     this->variant_ = variant;
     this->extensions_ = extensions;
     this->uniformFlow_ = uniformFlow;
@@ -248,12 +271,16 @@ void ShaderManager::markShader(
   replace(fragmentShader, "//VTK::Light::Dec", "//VTK::Light::Dec\n" + declarationMarker);
   replace(
     fragmentShader, "//VTK::UniformFlow::Impl", uniformFlowMarker + "\n  //VTK::UniformFlow::Impl");
-  replace(
-    fragmentShader, "//VTK::Light::Impl", beginMarker + "\n  //VTK::Light::Impl\n  " + endMarker);
+  // VTK lights, then multiplies by textures. A user's own shaders need not have the latter's mark.
+  const std::string light = "//VTK::Light::Impl";
+  const std::string texture = "//VTK::TCoord::Impl";
+  const std::string& last = fragmentShader.find(texture) != std::string::npos ? texture : light;
+  replace(fragmentShader, last, last + "\n  " + endMarker);
+  replace(fragmentShader, light, beginMarker + "\n  " + light);
 }
 
 //------------------------------------------------------------------------------
-void ShaderManager::fillShader(std::string& fragmentShader, bool receiversStage)
+void ShaderManager::fillShader(std::string& fragmentShader, bool drawsReceivers)
 {
   ++this->rebuilds_;
   // Unlit surfaces have no view coordinates and no lights to shadow; they only hide what is behind.
@@ -270,16 +297,25 @@ void ShaderManager::fillShader(std::string& fragmentShader, bool receiversStage)
     uniformFlow = this->uniformFlow_;
     begin = moveToSolid(fragmentShader, uniformFlow) + this->multiplications_;
   }
-  if (this->variant_.route == Route::Image && receiversStage)
+  if (this->variant_.route != Route::Inline && drawsReceivers)
   {
     const bool instanced = fragmentShader.find("gnomonInstanceVSOutput") != std::string::npos;
-    if (!receives)
+    end = this->writeReceiver(receives, instanced);
+    if (this->variant_.route == Route::Image)
     {
-      declarations = "uniform int gnomonStage;\n";
+      if (!receives)
+      {
+        declarations = "uniform int gnomonStage;\n";
+      }
+      // VTK lights in both stages: code of a user's own may go on with what it computes, and VTK's
+      // discard cuts holes of textures by its alpha. The receivers stage draws no colour.
+      end = "if (gnomonStage == 1)\n  {\n" + end + "  }\n";
     }
-    // VTK lights in both stages: code of a user's own may go on with what it computes, and VTK's
-    // discard cuts holes of textures by its alpha. The receivers stage draws no colour.
-    end = "if (gnomonStage == 1)\n  {\n" + this->writeReceiver(receives, instanced) + "  }\n";
+    else if (receives)
+    {
+      begin = this->lightInShadow(fragmentShader) + begin;
+      end += "    gl_FragData[2] = gnomonInShadow;\n";
+    }
   }
   // VTK will put its #version line at this mark, which extensions must follow.
   replace(fragmentShader, "//VTK::System::Dec", "//VTK::System::Dec\n" + this->extensions_);
@@ -290,13 +326,25 @@ void ShaderManager::fillShader(std::string& fragmentShader, bool receiversStage)
 }
 
 //------------------------------------------------------------------------------
+/// Statements that light the fragment as VTK does, with what shadows leave of the lights: the
+/// colour is in gnomonInShadow afterwards. Between the marks is VTK's lighting, which gives its
+/// result anew each time.
+std::string ShaderManager::lightInShadow(const std::string& fragmentShader) const
+{
+  const std::size_t begin = fragmentShader.find(beginMarker) + beginMarker.size();
+  const std::size_t end = fragmentShader.find(endMarker);
+  return "  vec4 gnomonInShadow;\n  {\n" + this->darkenings_ +
+    fragmentShader.substr(begin, end - begin) + "\n  gnomonInShadow = gl_FragData[0];\n  }\n";
+}
+
+//------------------------------------------------------------------------------
 std::string ShaderManager::writeReceiver(bool receives, bool instanced) const
 {
   const std::string instance =
     instanced ? " + gnomonInstanceVSOutput * gnomonPrimitivesPerInstance" : "";
   const std::string fragment =
     "vec2(gnomonDrawnSurface(), float(gl_PrimitiveID + PrimitiveIDOffset" + instance + "))";
-  if (!receives)
+  if (!receives || !this->variant_.namesTriangles)
   {
     return "    gl_FragData[1] = vec4(0.0);\n"
            "    gl_FragData[2] = vec4(0.0);\n";
@@ -337,6 +385,17 @@ void ShaderManager::beginStage(vtkOpenGLRenderWindow* window, const StageValues&
   {
     this->stageUniforms_.push_back({ "gnomonStage", values.receiversStage ? 1 : 0 });
   }
+  for (std::size_t i = 0; i < this->lights_.size(); ++i)
+  {
+    const ShadowLight& light = this->lights_[i].light;
+    this->stageUniforms_.push_back(
+      { "gnomonStrength" + std::to_string(i), static_cast<float>(light.strength) });
+    if (light.texture)
+    {
+      this->stageUniforms_.push_back(
+        { litOf(this->lights_[i], static_cast<int>(i)), light.texture->mean });
+    }
+  }
   values.receiversStage ? this->separateSamplers() : this->bindVisibility(values);
 }
 
@@ -376,11 +435,6 @@ void ShaderManager::bindVisibility(const StageValues& values)
   for (std::size_t i = 0; i < this->lights_.size(); ++i)
   {
     const int light = static_cast<int>(i);
-    add("gnomonStrength" + std::to_string(i), static_cast<float>(this->lights_[i].light.strength));
-    if (const auto& texture = this->lights_[i].light.texture)
-    {
-      add(litOf(this->lights_[i], light), texture->mean);
-    }
     if (this->lights_[i].pointwise)
     {
       for (Uniform uniform : this->lights_[i].pointwise->uniforms(values.space))

@@ -24,6 +24,7 @@ struct HookVariant
   Route route = Route::Inline;
   bool receiverPoints = false; ///< image route: the receivers stage draws points and normals, too
   bool multisampled = false;   ///< pixels have several samples, of which a surface may have some
+  bool namesTriangles = true;  ///< not on the inline route: what pixels show may be drawn
 };
 
 /// One casting light, as the shader hook needs it.
@@ -50,7 +51,8 @@ bool passInstance(std::string& vertexShader, std::string& geometryShader);
 /// model and kind of light, works with the shadowed colour. Only the uniforms' names are relied on.
 ///
 /// On the image route the same programs also serve the receivers stage: a uniform chooses, so that
-/// VTK need not rebuild any shader between the stages.
+/// VTK need not rebuild any shader between the stages. On the deferred route they light each
+/// fragment twice, as if all of it were lit and as if none were, and say what it shows.
 class ShaderManager
 {
 public:
@@ -60,15 +62,15 @@ public:
   vtkMTimeType stageTime() const { return this->stageTime_.GetMTime(); }
 
   /// First and second half of the hook, around VTK's own replacements.
-  /// @param receiversStage whether this prop's shader must be able to draw the receivers stage
+  /// @param drawsReceivers whether this prop's shader must be able to say what receives
   void markShader(
     std::string& vertexShader, std::string& geometryShader, std::string& fragmentShader) const;
-  void fillShader(std::string& fragmentShader, bool receiversStage);
+  void fillShader(std::string& fragmentShader, bool drawsReceivers);
 
   /// The values that stay the same for all props of a stage.
   struct StageValues
   {
-    bool receiversStage = false;
+    bool receiversStage = false; ///< receivers are drawn, alone or with the picture
     ReceiverSpace space;
     TextureBinding layers;      ///< image route: the visibility layers
     glm::ivec2 layersSize{ 0 }; ///< and their size in pixels
@@ -87,6 +89,7 @@ public:
   int rebuilds() const { return this->rebuilds_; }
 
 private:
+  std::string lightInShadow(const std::string& fragmentShader) const;
   std::string writeReceiver(bool receives, bool instanced) const;
   void separateSamplers();
   void bindVisibility(const StageValues& values);
@@ -99,6 +102,7 @@ private:
   std::map<std::string, std::vector<std::string>> samplers_; ///< of the declarations, by type
   std::string uniformFlow_;     ///< statements that must be in uniform control flow
   std::string multiplications_; ///< and those in front of VTK's light loop
+  std::string darkenings_;      ///< deferred route: what stands there for the colour in shadow
   vtkTimeStamp stageTime_;
   int rebuilds_ = 0;
 

@@ -14,8 +14,9 @@ namespace gnomon
 //------------------------------------------------------------------------------
 std::size_t ViewValues::bytesOfImages() const
 {
-  return this->receivers.target.bytes() + bytesOf(this->receivers.images.fragments) +
-    this->receivers.pixels.bytes() + this->layers.bytes();
+  return this->receivers.target.bytes() + this->receivers.deferred.bytes() +
+    bytesOf(this->receivers.images.fragments) + this->receivers.pixels.bytes() +
+    this->layers.bytes();
 }
 
 //------------------------------------------------------------------------------

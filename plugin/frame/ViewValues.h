@@ -2,6 +2,7 @@
 
 #include "plugin/frame/CastingLights.h"
 #include "plugin/frame/ValueKey.h"
+#include "shadowtech/base/DeferredPicture.h"
 #include "shadowtech/base/FrameReport.h"
 #include "shadowtech/base/ReceiverTarget.h"
 #include "shadowtech/base/Receivers.h"
@@ -23,11 +24,12 @@ namespace gnomon
 /// The receivers stage's value: which triangle each pixel shows.
 struct ReceiversValue
 {
-  std::optional<ValueKey> key; ///< none: there is no value
-  std::size_t number = 0;      ///< of this image, among all that a renderer's views had
-  ReceiverTarget target;
-  std::vector<DrawnSurface> drawnSurfaces; ///< that the target's fragments name
-  ReceiverImages images;                   ///< the target's on the CPU, once somebody reads them
+  std::optional<ValueKey> key;             ///< none: there is no value
+  std::size_t number = 0;                  ///< of this image, among all that a renderer's views had
+  ReceiverTarget target;                   ///< image route
+  DeferredPicture deferred;                ///< deferred route
+  std::vector<DrawnSurface> drawnSurfaces; ///< that the fragments name
+  ReceiverImages images;                   ///< on the CPU, once somebody reads them
   ReceiverPixels pixels;                   ///< where `onCpu` keeps them
   std::optional<Receivers> onCpu;          ///< made with `images`
 };

@@ -1,6 +1,6 @@
 // What the pass adds to the declarations of VTK's fragment shaders (GLSL 1.50). On the inline route
-// the lights' techniques follow, with their functions visibility_N; on the image route
-// hook_image.glsl.
+// the lights' techniques follow, with their functions visibility_N; on the others
+// hook_receiver.glsl, and on the image route hook_image.glsl.
 
 uniform int gnomonReceives;    // 0: this prop shows no shadows
 uniform int gnomonTranslucent; // 1: drawn in the translucent pass, and on no layer

@@ -30,6 +30,18 @@ glm::ivec2 sizeOf(const vtkRenderState* s)
 }
 
 //------------------------------------------------------------------------------
+glm::ivec2 originOf(const vtkRenderState* s)
+{
+  glm::ivec2 size(0);
+  glm::ivec2 origin(0);
+  if (!s->GetFrameBuffer())
+  {
+    s->GetRenderer()->GetTiledSizeAndOrigin(&size.x, &size.y, &origin.x, &origin.y);
+  }
+  return origin;
+}
+
+//------------------------------------------------------------------------------
 glm::dmat4 centredFromView(vtkRenderer* renderer, const glm::dvec3& centreWorld)
 {
   glm::dmat4 matrix =

@@ -16,6 +16,9 @@ namespace gnomon
 /// whole framebuffer that an outer pass hands in.
 glm::ivec2 sizeOf(const vtkRenderState* s);
 
+/// Where that is in the framebuffer that is bound.
+glm::ivec2 originOf(const vtkRenderState* s);
+
 ///@{
 /// A renderer's camera, with places relative to a point before anything becomes float.
 /// @param centreWorld the origin of centred coordinates

@@ -79,7 +79,8 @@ struct ValueReport
 /// What one frame did, for people and for tests. Counters count this frame only.
 struct FrameReport
 {
-  std::string route;        ///< "inline", "image" or "none" (no light casts: plain VTK)
+  /// "inline", "image", "deferred" or "none" (no light casts: plain VTK)
+  std::string route;
   std::string routeReason;  ///< why this route, as a clause
   std::string tracer;       ///< "embree" or "gpu"; empty where no light's technique traces rays
   std::string tracerReason; ///< why this one, as a clause

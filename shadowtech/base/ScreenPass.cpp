@@ -59,7 +59,7 @@ void ScreenPass::fillBound(const glm::ivec2& origin, const glm::ivec2& size)
 }
 
 //------------------------------------------------------------------------------
-void ScreenPass::draw(GLuint outputs)
+void ScreenPass::openState(GLuint outputs)
 {
   glDisable(GL_SCISSOR_TEST);
   glDisable(GL_STENCIL_TEST);
@@ -75,6 +75,12 @@ void ScreenPass::draw(GLuint outputs)
   }
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+}
+
+//------------------------------------------------------------------------------
+void ScreenPass::draw(GLuint outputs)
+{
+  openState(outputs);
   glBindVertexArray(this->noAttributes_.create());
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }

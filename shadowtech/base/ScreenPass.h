@@ -33,6 +33,9 @@ public:
   /// the program in use gives.
   void fillBound(const glm::ivec2& origin, const glm::ivec2& size);
 
+  /// Has every fragment reach its pixels as it is, of outputs from 0 on; the depth test is apart.
+  static void openState(GLuint outputs);
+
 private:
   void draw(GLuint outputs);
 

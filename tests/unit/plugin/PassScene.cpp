@@ -62,7 +62,9 @@ std::size_t differingPixels(const Picture& a, const Picture& b, int tolerance)
 std::string nameOf(const testing::TestParamInfo<Way>& way)
 {
   return std::string(way.param.technique) +
-    (way.param.route == vtkGnomonShadowPass::ROUTE_INLINE ? "Inline" : "Image") +
+    (way.param.route == vtkGnomonShadowPass::ROUTE_INLINE     ? "Inline"
+        : way.param.route == vtkGnomonShadowPass::ROUTE_IMAGE ? "Image"
+                                                              : "") +
     (way.param.tracer == vtkGnomonShadowPass::TRACER_GPU ? "Gpu" : "");
 }
 

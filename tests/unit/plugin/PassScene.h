@@ -64,7 +64,7 @@ std::string nameOf(const testing::TestParamInfo<Way>& way);
 inline const auto allWays = testing::Values(Way{ "nsm", vtkGnomonShadowPass::ROUTE_INLINE },
   Way{ "nsm", vtkGnomonShadowPass::ROUTE_IMAGE }, Way{ "pcf", vtkGnomonShadowPass::ROUTE_INLINE },
   Way{ "pcf", vtkGnomonShadowPass::ROUTE_IMAGE },
-  Way{ "raytraced", vtkGnomonShadowPass::ROUTE_IMAGE });
+  Way{ "raytraced", vtkGnomonShadowPass::ROUTE_AUTO });
 /// A map by both routes, and rays: for what does not depend on how a map is read.
 inline const auto fewWays = testing::Values(Way{ "nsm", vtkGnomonShadowPass::ROUTE_INLINE },
   Way{ "nsm", vtkGnomonShadowPass::ROUTE_IMAGE },

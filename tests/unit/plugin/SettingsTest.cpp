@@ -156,7 +156,7 @@ TEST_F(Settings, numbersAreClamped)
   pass->SetMapSize(1 << 20);
   EXPECT_EQ(pass->GetMapSize(), 16384);
   pass->SetRoute(7);
-  EXPECT_EQ(pass->GetRoute(), static_cast<int>(vtkGnomonShadowPass::ROUTE_IMAGE));
+  EXPECT_EQ(pass->GetRoute(), static_cast<int>(vtkGnomonShadowPass::ROUTE_DEFERRED));
   std::ostringstream text;
   pass->Print(text);
   EXPECT_THAT(text.str(), HasSubstr("Setting map_size: 16384"));

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <vtkRenderState.h>
+
+#include <exception>
+#include <functional>
+#include <memory>
+#include <vector>
+
+class vtkProp;
+class vtkRenderer;
+
+namespace gnomon
+{
+
+/// As long as it lives, has a function called before some of a renderer's opaque props are drawn,
+/// and one afterwards, whoever has them drawn: it puts props of its own around them, which draw
+/// nothing. The renderer's other props follow. Both groups keep their order.
+class AroundOpaque
+{
+public:
+  /// Each function is called once. It may throw; the one that follows is not called then.
+  /// @param isAmong whether a prop is one of the some
+  AroundOpaque(const vtkRenderState* s, const std::function<bool(vtkProp*)>& isAmong,
+    std::function<void()> before, std::function<void()> afterwards);
+  ~AroundOpaque();
+  AroundOpaque(const AroundOpaque&) = delete;
+  AroundOpaque& operator=(const AroundOpaque&) = delete;
+
+  /// What to draw instead of the given state. The renderer itself draws the same.
+  const vtkRenderState* state() const { return &this->state_; }
+
+  /// Says that the scene is drawn.
+  /// @throws what one of the functions has thrown, or std::runtime_error if they were not called
+  void end() const;
+
+private:
+  void call(std::size_t which);
+
+  vtkRenderer* renderer_;
+  vtkProp** propsBefore_;
+  int countBefore_;
+  std::function<void()> functions_[2];
+  std::size_t called_ = 0; ///< how many of them
+  std::exception_ptr error_;
+  std::vector<vtkProp*> own_;   ///< what it puts around
+  std::vector<vtkProp*> props_; ///< the renderer's and its own, as they are drawn
+  vtkRenderState state_;
+};
+
+} // namespace gnomon

@@ -1,0 +1,276 @@
+#include "shadowtech/base/DeferredPicture.h"
+
+#include "shadowtech/base/GlState.h"
+#include "shadowtech/base/ScreenPass.h"
+#include "shadowtech/base/ShaderLibrary.h"
+#include "shadowtech/base/TextureMemory.h"
+
+#include <algorithm>
+#include <array>
+
+namespace gnomon
+{
+namespace
+{
+
+/// Small enough to leave most of the lit pixels alone, large enough to be few.
+constexpr int tileSide = 16;
+
+/// What a tile's pixels are.
+enum KindOfTile
+{
+  inPart, ///< some are in shadow
+  whole,  ///< all are
+  lit     ///< none is
+};
+
+constexpr std::array<GLenum, 3> outputs = { GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1,
+  GL_COLOR_ATTACHMENT2 };
+
+GLint ofAttachment(GLenum attachment, GLenum parameter)
+{
+  GLint value = 0;
+  glGetFramebufferAttachmentParameteriv(GL_DRAW_FRAMEBUFFER, attachment, parameter, &value);
+  return value;
+}
+
+/// Whether the picture's colours are plain 8-bit fixed-point numbers.
+bool isEightBit()
+{
+  return ofAttachment(outputs[0], GL_FRAMEBUFFER_ATTACHMENT_RED_SIZE) == 8 &&
+    ofAttachment(outputs[0], GL_FRAMEBUFFER_ATTACHMENT_ALPHA_SIZE) == 8 &&
+    ofAttachment(outputs[0], GL_FRAMEBUFFER_ATTACHMENT_COMPONENT_TYPE) == GL_UNSIGNED_NORMALIZED &&
+    ofAttachment(outputs[0], GL_FRAMEBUFFER_ATTACHMENT_COLOR_ENCODING) == GL_LINEAR;
+}
+
+void attachTo(GLenum target, GLenum attachment, GLuint texture)
+{
+  glFramebufferTexture2D(target, attachment, GL_TEXTURE_2D, texture, 0);
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+std::string DeferredPicture::whyUnsupported()
+{
+  GLint framebuffer = 0;
+  glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &framebuffer);
+  GLint first = GL_NONE;
+  GLint second = GL_NONE;
+  glGetIntegerv(GL_DRAW_BUFFER0, &first);
+  glGetIntegerv(GL_DRAW_BUFFER1, &second);
+  if (framebuffer == 0 || static_cast<GLenum>(first) != outputs[0])
+  {
+    return "the picture is not drawn into a framebuffer's first image";
+  }
+  if (second != GL_NONE || ofAttachment(outputs[1], GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE) ||
+    ofAttachment(outputs[2], GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE))
+  {
+    return "the framebuffer has more images than the picture";
+  }
+  return "";
+}
+
+//------------------------------------------------------------------------------
+void DeferredPicture::attach(bool withFragments)
+{
+  GLint viewport[4];
+  glGetIntegerv(GL_VIEWPORT, viewport);
+  this->origin_ = { viewport[0], viewport[1] };
+  this->size_ = { viewport[2], viewport[3] };
+  this->allocate(this->origin_ + this->size_, isEightBit());
+  this->copyPicture();
+
+  attachTo(GL_DRAW_FRAMEBUFFER, outputs[1], withFragments ? this->fragments_.name() : 0);
+  attachTo(GL_DRAW_FRAMEBUFFER, outputs[2], this->inShadow_.name());
+  std::array<GLenum, 3> buffers = outputs;
+  buffers[1] = withFragments ? outputs[1] : GL_NONE;
+  glDrawBuffers(static_cast<GLsizei>(buffers.size()), buffers.data());
+  this->blending_ = glIsEnabledi(GL_BLEND, 1) == GL_TRUE;
+  glDisablei(GL_BLEND, 1); // numbers, not colours
+  if (withFragments)
+  {
+    const GlStateGuard guard;
+    glDisable(GL_SCISSOR_TEST);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    const float nothing[4] = { 0.0f, 0.0f, 0.0f, 0.0f };
+    glClearBufferfv(GL_COLOR, 1, nothing);
+  }
+}
+
+//------------------------------------------------------------------------------
+void DeferredPicture::allocate(const glm::ivec2& extent, bool eightBit)
+{
+  const bool isSameExtent = this->extent_ == extent;
+  if (isSameExtent && this->eightBit_ == eightBit)
+  {
+    return;
+  }
+  const GlStateGuard guard;
+  this->extent_ = glm::ivec2(0); // in case that there is no memory
+  if (!isSameExtent)
+  {
+    allocateTexture(this->fragments_, { GL_RG32F, GL_RG, 2 }, extent.x, extent.y, 0,
+      "the image of what pixels show");
+  }
+  const TexelFormat colours = eightBit ? TexelFormat{ GL_RGBA8, GL_RGBA, 4, GL_UNSIGNED_BYTE }
+                                       : TexelFormat{ GL_RGBA32F, GL_RGBA, 4 };
+  allocateTexture(this->inShadow_, colours, extent.x, extent.y, 0, "the colours in shadow");
+  glBindFramebuffer(GL_FRAMEBUFFER, this->framebuffer_.create());
+  attachTo(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, this->fragments_.name());
+  attachTo(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT1, this->inShadow_.name());
+  this->extent_ = extent;
+  this->eightBit_ = eightBit;
+}
+
+//------------------------------------------------------------------------------
+/// Gives the colours in shadow what the picture has so far: what is not opaque will be blended over
+/// it.
+void DeferredPicture::copyPicture() const
+{
+  const glm::ivec2& from = this->origin_;
+  const glm::ivec2& to = this->extent_;
+  if (this->eightBit_)
+  {
+    // Copies bytes, where a blit of software OpenGL would draw.
+    const bool isTexture =
+      ofAttachment(outputs[0], GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE) == GL_TEXTURE;
+    const auto picture =
+      static_cast<GLuint>(ofAttachment(outputs[0], GL_FRAMEBUFFER_ATTACHMENT_OBJECT_NAME));
+    glCopyImageSubData(picture, isTexture ? GL_TEXTURE_2D : GL_RENDERBUFFER, 0, from.x, from.y, 0,
+      this->inShadow_.name(), GL_TEXTURE_2D, 0, from.x, from.y, 0, this->size_.x, this->size_.y, 1);
+    return;
+  }
+  const GlStateGuard guard;
+  GLint picture = 0;
+  glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &picture);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(picture));
+  glReadBuffer(outputs[0]);
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, this->framebuffer_.name());
+  glDisable(GL_SCISSOR_TEST);
+  const GLenum inShadow[] = { GL_NONE, GL_COLOR_ATTACHMENT1 };
+  glDrawBuffers(2, inShadow);
+  glBlitFramebuffer(
+    from.x, from.y, to.x, to.y, from.x, from.y, to.x, to.y, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+}
+
+//------------------------------------------------------------------------------
+void DeferredPicture::detach()
+{
+  if (this->blending_)
+  {
+    glEnablei(GL_BLEND, 1);
+  }
+  attachTo(GL_DRAW_FRAMEBUFFER, outputs[1], 0);
+  attachTo(GL_DRAW_FRAMEBUFFER, outputs[2], 0);
+  glDrawBuffers(1, outputs.data());
+}
+
+//------------------------------------------------------------------------------
+void DeferredPicture::read(ReceiverImages& images) const
+{
+  images.width = this->size_.x;
+  images.height = this->size_.y;
+  images.fragments.resize(
+    static_cast<std::size_t>(this->size_.x) * static_cast<std::size_t>(this->size_.y));
+  const GlStateGuard guard;
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, this->framebuffer_.name());
+  glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+  glPixelStorei(GL_PACK_ALIGNMENT, 4);
+  glReadBuffer(GL_COLOR_ATTACHMENT0);
+  glReadPixels(this->origin_.x, this->origin_.y, this->size_.x, this->size_.y, GL_RG, GL_FLOAT,
+    images.fragments.data());
+}
+
+//------------------------------------------------------------------------------
+void DeferredPicture::findTiles(const std::vector<float>& visibility)
+{
+  std::array<std::vector<glm::vec2>, 2> corners; // of tiles in part and wholly in shadow
+  std::vector<int> dark(
+    static_cast<std::size_t>((this->size_.x + tileSide - 1) / tileSide)); // pixels, by tile
+  for (int bottom = 0; bottom < this->size_.y; bottom += tileSide)
+  {
+    const int top = std::min(bottom + tileSide, this->size_.y);
+    std::fill(dark.begin(), dark.end(), 0);
+    for (int y = bottom; y < top; ++y)
+    {
+      const float* row =
+        visibility.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(this->size_.x);
+      for (int x = 0; x < this->size_.x; x += tileSide)
+      {
+        const auto isDark = [](float of) { return of == 0.0f; };
+        dark[static_cast<std::size_t>(x / tileSide)] += static_cast<int>(
+          std::count_if(row + x, row + std::min(x + tileSide, this->size_.x), isDark));
+      }
+    }
+    for (int x = 0; x < this->size_.x;)
+    {
+      const auto right = [this](int left) { return std::min(left + tileSide, this->size_.x); };
+      const auto kindAt = [&](int left)
+      {
+        const int pixels = dark[static_cast<std::size_t>(left / tileSide)];
+        return pixels == 0 ? lit : pixels < (right(left) - left) * (top - bottom) ? inPart : whole;
+      };
+      const int kind = kindAt(x);
+      const glm::vec2 low(x, bottom);
+      for (x = right(x); x < this->size_.x && kindAt(x) == kind;) // neighbours are one rectangle
+      {
+        x = right(x);
+      }
+      if (kind != lit)
+      {
+        const glm::vec2 high(x, top);
+        std::vector<glm::vec2>& of = corners[static_cast<std::size_t>(kind)];
+        of.insert(of.end(), { low, { high.x, low.y }, high, low, high, { low.x, high.y } });
+      }
+    }
+  }
+
+  const GlStateGuard guard;
+  this->cornersInPart_ = static_cast<GLsizei>(corners[inPart].size());
+  this->cornersWhole_ = static_cast<GLsizei>(corners[whole].size());
+  corners[inPart].insert(corners[inPart].end(), corners[whole].begin(), corners[whole].end());
+  glBindVertexArray(this->tiles_.create());
+  glBindBuffer(GL_ARRAY_BUFFER, this->corners_.create());
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(corners[inPart].size() * sizeof(glm::vec2)),
+    corners[inPart].data(), GL_STREAM_DRAW);
+  glEnableVertexAttribArray(0);
+  glVertexAttribPointer(0, 2, GL_FLOAT, GL_FALSE, 0, nullptr);
+}
+
+//------------------------------------------------------------------------------
+void DeferredPicture::darken(const TextureBinding& layers, ShaderLibrary& shaders)
+{
+  const GlStateGuard guard;
+  ScreenPass::openState(1);
+  glViewport(this->origin_.x, this->origin_.y, this->size_.x, this->size_.y);
+  glDisable(GL_DEPTH_TEST);
+  glBindVertexArray(this->tiles_.name());
+  const auto draw = [&](const std::vector<std::string>& defines, GLint first, GLsizei count)
+  {
+    const GLuint program = shaders.program(
+      { { GL_VERTEX_SHADER, ShaderLibrary::source("shadowtech/base/shadowed_tiles.vert.glsl") },
+        { GL_FRAGMENT_SHADER,
+          ShaderLibrary::source("shadowtech/base/colour_in_shadow.frag.glsl") } },
+      defines);
+    glUseProgram(program);
+    ShaderLibrary::setUniforms(program,
+      { { "size", this->size_ }, { "origin", this->origin_ }, { "visibility", layers },
+        { "inShadow", TextureBinding{ GL_TEXTURE_2D, this->inShadow_.name() } } },
+      0, 0);
+    glDrawArrays(GL_TRIANGLES, first, count);
+  };
+  draw({ "SOME_ARE_LIT" }, 0, this->cornersInPart_);
+  draw({}, this->cornersInPart_, this->cornersWhole_);
+}
+
+//------------------------------------------------------------------------------
+std::size_t DeferredPicture::bytes() const
+{
+  // Fragments of two floats, and a colour.
+  const std::size_t bytesOfPixel = 2 * sizeof(float) + 4 * (this->eightBit_ ? 1 : sizeof(float));
+  return static_cast<std::size_t>(this->extent_.x) * static_cast<std::size_t>(this->extent_.y) *
+    bytesOfPixel;
+}
+
+} // namespace gnomon

@@ -1,0 +1,402 @@
+// The deferred route: the picture is drawn once, lit and in shadow, and visibility chooses. It must
+// show what the image route shows, to the byte.
+
+#include "PassScene.h"
+
+#include "Scene.h"
+
+#include <vtkAnnotatedCubeActor.h>
+#include <vtkAxesActor.h>
+#include <vtkImageData.h>
+#include <vtkOpenGLFramebufferObject.h>
+#include <vtkOpenGLRenderWindow.h>
+#include <vtkPropAssembly.h>
+#include <vtkProperty.h>
+#include <vtkRenderStepsPass.h>
+#include <vtkShaderProperty.h>
+#include <vtkTextActor.h>
+#include <vtkTextProperty.h>
+#include <vtkTexture.h>
+#include <vtkToneMappingPass.h>
+#include <vtk_glew.h>
+
+#include <gmock/gmock.h>
+
+#include <string>
+#include <tuple>
+
+using namespace gnomon::test;
+using testing::HasSubstr;
+
+namespace
+{
+
+class DeferredScenes
+  : public PassTest
+  , public testing::WithParamInterface<const char*>
+{
+};
+
+// Holes that textures cut, open sheets, a point light, and spheres and sticks that shaders draw.
+INSTANTIATE_TEST_SUITE_P(Scenes, DeferredScenes,
+  testing::Values("bunny", "screens", "posts", "cups", "room", "terrain", "molecule", "primitives"),
+  [](const testing::TestParamInfo<const char*>& scene) { return std::string(scene.param); });
+
+/// A sphere over a floor under a sun, which the deferred route can draw.
+class Deferred : public PassTest
+{
+protected:
+  Deferred()
+  {
+    this->floor = this->scene.addFloor(4.0);
+    this->sphere = this->scene.addSphere({ 0.0, 0.0, 1.5 }, 0.7);
+    this->sun = this->scene.addSun({ 1.0, 0.4, -1.5 });
+    this->scene.lookFrom({ 0.0, -9.0, 7.0 });
+    this->scene.pass->SetTechnique("raytraced");
+  }
+
+  Picture draw(int route)
+  {
+    this->scene.pass->SetRoute(route);
+    return this->scene.render();
+  }
+
+  /// Draws by both routes, the deferred one twice, and with another camera in between.
+  void expectTheSame(const std::string& what)
+  {
+    SCOPED_TRACE(what);
+    const Picture image = this->draw(vtkGnomonShadowPass::ROUTE_IMAGE);
+    EXPECT_EQ(this->scene.report().route, "image");
+    const Picture deferred = this->draw(vtkGnomonShadowPass::ROUTE_AUTO);
+    EXPECT_EQ(this->scene.report().route, "deferred") << this->scene.report().routeReason;
+    EXPECT_EQ(differingPixels(image, deferred), 0u);
+    EXPECT_EQ(differingPixels(image, this->scene.render()), 0u) << "nothing changed";
+    this->scene.renderer->GetActiveCamera()->Azimuth(20.0);
+    const Picture moved = this->scene.render();
+    EXPECT_GT(differingPixels(image, moved), 100u);
+    EXPECT_EQ(differingPixels(this->draw(vtkGnomonShadowPass::ROUTE_IMAGE), moved), 0u) << "moved";
+    this->scene.renderer->GetActiveCamera()->Azimuth(-20.0);
+  }
+
+  /// Says what the automatic route is, and why.
+  std::string autoRoute()
+  {
+    this->draw(vtkGnomonShadowPass::ROUTE_AUTO);
+    return this->scene.report().route;
+  }
+
+  PassScene scene{ 203, 157 }; ///< no whole tiles
+  vtkActor* floor;
+  vtkActor* sphere;
+  vtkLight* sun;
+};
+
+} // namespace
+
+//------------------------------------------------------------------------------
+TEST_P(DeferredScenes, showTheBytesOfTheImageRoute)
+{
+  vtkNew<vtkGnomonEGLRenderWindow> window;
+  const auto renderer = gnomon::tool::makeRenderer(gnomon::tool::loadScene(GetParam()), 1.0);
+  vtkNew<vtkGnomonShadowPass> pass;
+  window->SetSize(400, 300);
+  window->AddRenderer(renderer);
+  renderer->SetPass(pass);
+  const auto draw = [&](int route)
+  {
+    pass->SetRoute(route);
+    window->Render();
+    return readPicture(window);
+  };
+  std::size_t dark = 0;
+  for (const char* technique : { "raytraced", "silhouette" })
+  {
+    pass->SetTechnique(technique);
+    for (int view = 0; view < 3; ++view)
+    {
+      renderer->GetActiveCamera()->Azimuth(7.0);
+      const Picture deferred = draw(vtkGnomonShadowPass::ROUTE_AUTO);
+      EXPECT_EQ(pass->GetReport().route, "deferred") << pass->GetReport().routeReason;
+      EXPECT_EQ(differingPixels(draw(vtkGnomonShadowPass::ROUTE_IMAGE), deferred), 0u)
+        << technique << ", view " << view;
+      renderer->SetPass(nullptr);
+      window->Render();
+      dark += differingPixels(readPicture(window), deferred, 32);
+      renderer->SetPass(pass);
+    }
+  }
+  EXPECT_GT(dark, 500u) << "no shadow";
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Deferred, AllOfVtksShadingIsLitTwice)
+{
+  vtkProperty* property = this->sphere->GetProperty();
+  this->expectTheSame("matt");
+  property->SetSpecular(0.8);
+  property->SetSpecularPower(20.0);
+  property->SetAmbient(0.2);
+  this->expectTheSame("with a highlight");
+  property->SetInterpolationToPBR();
+  property->SetMetallic(0.4);
+  property->SetRoughness(0.3);
+  this->expectTheSame("physically based");
+  property->SetInterpolationToFlat();
+  this->expectTheSame("flat");
+  property->EdgeVisibilityOn();
+  this->expectTheSame("with edges");
+  property->EdgeVisibilityOff();
+  property->LightingOff();
+  this->expectTheSame("unlit");
+  property->LightingOn();
+
+  // VTK multiplies by the texture after it has lit.
+  vtkActor* textured = this->scene.addFloor(1.5, 0.5);
+  vtkNew<vtkTexture> texture;
+  texture->SetInputData(
+    makeImage(8, 8, [](int x, int y) { return glm::dvec3(0.1 * x, 0.1 * y, (x + y) % 2); }));
+  textured->SetTexture(texture);
+  textured->GetProperty()->SetAmbient(0.4);
+  this->expectTheSame("with a texture");
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Deferred, LightsOfAllKindsAndStrengths)
+{
+  this->sun->SetShadowAttenuation(0.3f);
+  this->expectTheSame("a shadow that is not black");
+  this->sun->SetShadowAttenuation(1.0f);
+  vtkLight* fill = this->scene.addSun({ -1.0, 1.0, -1.0 });
+  fill->SetIntensity(0.4);
+  fill->SetShadowAttenuation(0.0f);
+  this->expectTheSame("beside one that casts nothing");
+  this->sun->SetPositional(true);
+  this->sun->SetConeAngle(allDirections);
+  this->sun->SetPosition(-2.0, -0.8, 3.0);
+  this->expectTheSame("a lamp");
+  this->sun->SetIntensity(40.0);
+  this->expectTheSame("far too bright");
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Deferred, WhatIsNotOpaqueComesAfterwards)
+{
+  this->scene.renderer->GradientBackgroundOn();
+  this->scene.renderer->SetBackground2(0.2, 0.4, 0.9);
+  this->expectTheSame("in front of a gradient");
+  vtkActor* pane = this->scene.addFloor(1.0, 2.5);
+  pane->GetProperty()->SetOpacity(0.5);
+  this->expectTheSame("a pane that receives");
+  this->scene.renderer->UseDepthPeelingOn();
+  this->expectTheSame("by depth peeling");
+  vtkNew<vtkTextActor> text;
+  text->SetInput("text");
+  this->scene.renderer->AddActor(text);
+  this->expectTheSame("text on top");
+  this->scene.renderer->UseFXAAOn();
+  this->expectTheSame("smoothed");
+}
+
+//------------------------------------------------------------------------------
+/// Annotations' parts have shaders of their own, which say nothing of shadows: in front of a shadow
+/// they are as bright as VTK draws them, behind something they are hidden.
+TEST_F(Deferred, WhatPassesDoNotReachIsAsVtkDrawsIt)
+{
+  vtkNew<vtkAnnotatedCubeActor> cube;
+  cube->SetPosition(1.5, 0.9, 0.5); // in the sphere's shadow
+  vtkNew<vtkAxesActor> axes;
+  axes->SetTotalLength(2.0, 2.0, 2.0);
+  vtkNew<vtkTextActor> below;
+  below->SetInput("below");
+  vtkNew<vtkTextActor> above;
+  above->SetInput("above");
+  above->GetTextProperty()->SetColor(1.0, 0.0, 0.0);
+  this->scene.renderer->AddActor(below);
+  this->scene.renderer->AddActor(cube);
+  this->scene.renderer->AddActor(axes);
+  this->scene.addBox({ -2.0, -1.0, 0.0 }, { -1.5, -0.5, 1.0 });
+  this->scene.renderer->AddActor(above);
+  this->expectTheSame("annotations");
+
+  vtkNew<vtkPropAssembly> together;
+  together->AddPart(cube);
+  together->AddPart(this->sphere);
+  this->scene.renderer->RemoveActor(cube);
+  this->scene.renderer->RemoveActor(this->sphere);
+  this->scene.renderer->AddActor(together);
+  EXPECT_EQ(this->autoRoute(), "image");
+  EXPECT_THAT(this->scene.report().routeReason, HasSubstr("works on the whole screen"));
+}
+
+//------------------------------------------------------------------------------
+/// The part of an opaque prop that is half transparent is blended over what is behind it, in light
+/// and in shadow.
+TEST_F(Deferred, OpaquePropsThatBlend)
+{
+  this->scene.renderer->GradientBackgroundOn();
+  this->scene.renderer->SetBackground2(0.2, 0.4, 0.9);
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(4, 4, 1);
+  image->AllocateScalars(VTK_UNSIGNED_CHAR, 4);
+  auto* texels = static_cast<unsigned char*>(image->GetScalarPointer());
+  for (int i = 0; i < 16; ++i, texels += 4)
+  {
+    texels[0] = texels[1] = texels[2] = 255;
+    texels[3] = static_cast<unsigned char>(60 + 12 * i);
+  }
+  vtkNew<vtkTexture> texture;
+  texture->SetInputData(image);
+  vtkActor* veil = this->scene.addFloor(2.5, 0.6);
+  veil->SetTexture(texture);
+  veil->ForceOpaqueOn();
+  veil->GetProperty()->SetAmbient(0.2);
+  this->floor->VisibilityOff(); // so that the background is behind the shadow
+  this->scene.window->SetSize(200, 200);
+  this->expectTheSame("a veil");
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Deferred, WhereverThePictureIs)
+{
+  this->scene.renderer->SetViewport(0.3, 0.2, 0.9, 0.8);
+  this->expectTheSame("in a part of the window");
+  this->scene.renderer->SetViewport(0.35, 0.2, 0.95, 0.8); // as large, elsewhere
+  this->expectTheSame("in another part");
+  const Picture there = this->draw(vtkGnomonShadowPass::ROUTE_AUTO);
+  this->scene.renderer->SetViewport(0.3, 0.2, 0.9, 0.8);
+  const Picture back = this->scene.render();
+  EXPECT_GT(differingPixels(there, back), 100u);
+  this->scene.pass->SetTracer(vtkGnomonShadowPass::TRACER_GPU); // which reads the receivers again
+  EXPECT_EQ(differingPixels(this->scene.render(), back), 0u);
+  this->scene.pass->SetTracer(vtkGnomonShadowPass::TRACER_AUTO);
+  EXPECT_EQ(differingPixels(this->draw(vtkGnomonShadowPass::ROUTE_IMAGE), back), 0u);
+  vtkNew<vtkRenderer> below;
+  below->SetBackground(0.5, 0.0, 0.0);
+  this->scene.window->AddRenderer(below);
+  this->scene.window->SetNumberOfLayers(2);
+  this->scene.renderer->SetLayer(1);
+  this->expectTheSame("in front of another renderer");
+  this->scene.window->SetSize(120, 300);
+  this->expectTheSame("in a window of another size");
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Deferred, IntoColoursOfFloats)
+{
+  vtkNew<vtkToneMappingPass> toneMapping;
+  toneMapping->SetToneMappingType(vtkToneMappingPass::Reinhard);
+  toneMapping->SetDelegatePass(this->scene.pass);
+  this->scene.renderer->SetPass(toneMapping);
+  this->sun->SetIntensity(3.0); // above what eight bits hold
+  this->expectTheSame("tone mapping");
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Deferred, DrawsOnceAndComputesWhatChanged)
+{
+  EXPECT_EQ(this->autoRoute(), "deferred");
+  const auto counts = [&]
+  {
+    this->scene.render();
+    const gnomon::FrameReport& report = this->scene.report();
+    return std::tuple(report.receiversDrawn, report.visibilityComputed, report.programCompiles);
+  };
+  counts();
+  EXPECT_EQ(counts(), std::tuple(0, 0, 0)) << "nothing changed";
+  this->sun->SetPosition(-1.0, -0.6, 1.5);
+  EXPECT_EQ(counts(), std::tuple(0, 1, 0)) << "the light moved";
+  this->scene.renderer->GetActiveCamera()->Azimuth(5.0);
+  EXPECT_EQ(counts(), std::tuple(1, 1, 0)) << "the camera moved";
+  this->sphere->SetPosition(0.3, 0.0, 0.0);
+  EXPECT_EQ(counts(), std::tuple(1, 1, 0)) << "a prop moved";
+  this->sphere->GetProperty()->SetColor(1.0, 0.0, 0.0);
+  counts();
+  EXPECT_EQ(counts(), std::tuple(0, 0, 0));
+}
+
+//------------------------------------------------------------------------------
+/// Shaders are made anew when the picture has rested for a while, and when it moves again.
+TEST_F(Deferred, ShowsTheSameAtRest)
+{
+  this->scene.pass->SetRoute(vtkGnomonShadowPass::ROUTE_AUTO);
+  const Picture first = this->scene.render();
+  int compiles = 0;
+  for (int frame = 0; frame < 12; ++frame)
+  {
+    EXPECT_EQ(differingPixels(first, this->scene.render()), 0u) << "frame " << frame;
+    compiles += this->scene.report().programCompiles;
+  }
+  EXPECT_EQ(compiles, 2) << "of two props, once";
+  const auto expectImageRoute = [&](const Picture& deferred)
+  {
+    EXPECT_EQ(this->scene.report().route, "deferred");
+    EXPECT_EQ(differingPixels(this->draw(vtkGnomonShadowPass::ROUTE_IMAGE), deferred), 0u);
+    this->scene.pass->SetRoute(vtkGnomonShadowPass::ROUTE_AUTO);
+  };
+  this->sun->SetPosition(-1.0, -0.6, 1.5);
+  expectImageRoute(this->scene.render());
+  for (int frame = 0; frame < 12; ++frame)
+  {
+    this->scene.render();
+  }
+  EXPECT_EQ(this->scene.report().programCompiles, 0);
+  this->scene.renderer->GetActiveCamera()->Azimuth(5.0);
+  expectImageRoute(this->scene.render());
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Deferred, LeavesTheFramebufferAsItWas)
+{
+  EXPECT_EQ(this->autoRoute(), "deferred");
+  this->scene.window->GetRenderFramebuffer()->Bind();
+  GLint buffer = 0;
+  glGetIntegerv(GL_DRAW_BUFFER0, &buffer);
+  EXPECT_EQ(buffer, GL_COLOR_ATTACHMENT0);
+  glGetIntegerv(GL_DRAW_BUFFER1, &buffer);
+  EXPECT_EQ(buffer, GL_NONE);
+  for (const GLenum attachment : { GL_COLOR_ATTACHMENT1, GL_COLOR_ATTACHMENT2 })
+  {
+    GLint kind = 0;
+    glGetFramebufferAttachmentParameteriv(
+      GL_DRAW_FRAMEBUFFER, attachment, GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE, &kind);
+    EXPECT_EQ(kind, GL_NONE);
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Deferred, OtherFramesTakeTheImageRouteAndSayWhy)
+{
+  const auto expectReason = [&](const std::string& reason)
+  {
+    this->draw(vtkGnomonShadowPass::ROUTE_DEFERRED);
+    EXPECT_EQ(this->scene.report().route, "image");
+    EXPECT_THAT(this->scene.report().routeReason, HasSubstr(reason));
+    EXPECT_THAT(this->takeErrors(), HasSubstr(reason));
+    EXPECT_EQ(this->autoRoute(), "image");
+  };
+  this->draw(vtkGnomonShadowPass::ROUTE_DEFERRED);
+  EXPECT_EQ(this->scene.report().route, "deferred");
+  vtkLight* second = this->scene.addSun({ -1.0, 1.0, -1.0 });
+  expectReason("2 lights");
+  second->SwitchOff();
+  this->scene.renderer->UseSSAOOn();
+  expectReason("a render pass draws");
+  this->scene.renderer->UseSSAOOff();
+  vtkNew<vtkRenderStepsPass> steps;
+  this->scene.pass->SetDelegatePass(steps);
+  expectReason("a render pass draws");
+  this->scene.pass->SetDelegatePass(nullptr);
+  this->sphere->GetShaderProperty()->AddFragmentShaderReplacement(
+    "//VTK::Light::Impl", true, "//VTK::Light::Impl\n  gl_FragData[0].r *= 0.5;\n", false);
+  expectReason("shaders of its own");
+  this->sphere->GetShaderProperty()->ClearAllFragmentShaderReplacements();
+  EXPECT_EQ(this->autoRoute(), "deferred");
+
+  this->scene.pass->SetSetting("light_radius", "0.1");
+  expectReason("between light and shadow");
+  this->scene.pass->SetSetting("light_radius", "0");
+  this->scene.pass->SetTechnique("nsm");
+  this->draw(vtkGnomonShadowPass::ROUTE_DEFERRED);
+  EXPECT_THAT(this->takeErrors(), HasSubstr("between light and shadow"));
+  EXPECT_EQ(this->autoRoute(), "inline");
+}
