@@ -249,16 +249,17 @@ bool RenderManager::chooseRoute(const vtkRenderState* s, bool drawnPlainly)
 }
 
 //------------------------------------------------------------------------------
-/// Whether shaders of the deferred route are to say which triangles they draw, which costs where
-/// OpenGL draws by software. Receivers that rest need it no more; but VTK makes its props' shaders
-/// anew for it, so that it takes a while of rest, and few props.
+/// Whether shaders of the deferred route are to say which triangles they draw. Where OpenGL draws by
+/// software that takes some 25 ns of a triangle. Receivers that rest need it no more; but VTK makes
+/// its props' shaders anew for it, in some 0.2 ms of a surface. So it takes a little rest, and
+/// enough triangles for eight frames to pay.
 bool RenderManager::namesTriangles(const vtkRenderState* s)
 {
-  constexpr int patience = 8;               // frames
-  constexpr std::size_t mostSurfaces = 100; // some 0.2 ms each
+  constexpr int patience = 3; // frames
+  constexpr std::size_t leastTriangles = 1000;
   this->restingFrames_ = this->receiversAreStale(s) ? 0 : this->restingFrames_ + 1;
   return this->restingFrames_ < patience || this->severalViews_ ||
-    this->collector_.occluders().surfaces.size() > mostSurfaces;
+    this->report_.triangles < leastTriangles * this->collector_.occluders().surfaces.size();
 }
 
 //------------------------------------------------------------------------------
