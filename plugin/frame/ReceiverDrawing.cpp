@@ -94,6 +94,21 @@ bool hasOwnShaders(vtkProp* prop)
   return false;
 }
 
+/// Whether VTK draws a prop that has no parts by shaders that render passes add to.
+bool isLeafDrawnByPasses(vtkProp* leaf)
+{
+  // These draw by others of their own, which they do not tell of the passes.
+  if (leaf->IsA("vtkAxisFollower") || leaf->IsA("vtkProp3DAxisFollower") ||
+    leaf->IsA("vtkImageStack"))
+  {
+    return false;
+  }
+  auto* actor = vtkActor::SafeDownCast(leaf);
+  return actor
+    ? actor->GetMapper() != nullptr
+    : leaf->IsA("vtkImageSlice") || leaf->IsA("vtkLODProp3D") || leaf->IsA("vtkProp3DFollower");
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -134,13 +149,6 @@ bool anyPropHasOwnShaders(const vtkRenderState* s)
 //------------------------------------------------------------------------------
 ByPasses drawnByPasses(vtkProp* prop)
 {
-  const auto isLeafDrawnByPasses = [](vtkProp* leaf)
-  {
-    auto* actor = vtkActor::SafeDownCast(leaf);
-    return actor
-      ? actor->GetMapper() != nullptr
-      : leaf->IsA("vtkImageSlice") || leaf->IsA("vtkLODProp3D") || leaf->IsA("vtkProp3DFollower");
-  };
   if (!prop->IsA("vtkAssembly") && !prop->IsA("vtkPropAssembly"))
   {
     return isLeafDrawnByPasses(prop) ? ByPasses::All : ByPasses::Nothing;

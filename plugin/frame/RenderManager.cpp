@@ -592,7 +592,7 @@ void RenderManager::fillLayers(CastingLight& casting, VisibilityValue& value, Li
     layers.upload(casting.layer, visibility);
     if (this->route_ == Route::Deferred)
     {
-      this->view_->receivers.deferred.findTiles(visibility);
+      this->view_->receivers.deferred.keepShadows(visibility);
     }
     this->endStageClock("visibility: upload");
   }

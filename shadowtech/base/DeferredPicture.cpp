@@ -3,26 +3,15 @@
 #include "shadowtech/base/GlState.h"
 #include "shadowtech/base/ScreenPass.h"
 #include "shadowtech/base/ShaderLibrary.h"
+#include "shadowtech/base/ShadowedTiles.h"
 #include "shadowtech/base/TextureMemory.h"
 
-#include <algorithm>
 #include <array>
 
 namespace gnomon
 {
 namespace
 {
-
-/// Small enough to leave most of the lit pixels alone, large enough to be few.
-constexpr int tileSide = 16;
-
-/// What a tile's pixels are.
-enum KindOfTile
-{
-  inPart, ///< some are in shadow
-  whole,  ///< all are
-  lit     ///< none is
-};
 
 constexpr std::array<GLenum, 3> outputs = { GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1,
   GL_COLOR_ATTACHMENT2 };
@@ -183,57 +172,27 @@ void DeferredPicture::read(ReceiverImages& images) const
 }
 
 //------------------------------------------------------------------------------
-void DeferredPicture::findTiles(const std::vector<float>& visibility)
+void DeferredPicture::keepShadows(const std::vector<float>& visibility)
 {
-  std::array<std::vector<glm::vec2>, 2> corners; // of tiles in part and wholly in shadow
-  std::vector<int> dark(
-    static_cast<std::size_t>((this->size_.x + tileSide - 1) / tileSide)); // pixels, by tile
-  for (int bottom = 0; bottom < this->size_.y; bottom += tileSide)
+  const ShadowedTiles tiles = findShadowedTiles(visibility, this->size_);
+  std::vector<glm::vec2> corners;
+  for (const auto* kind : { &tiles.inPart, &tiles.whole })
   {
-    const int top = std::min(bottom + tileSide, this->size_.y);
-    std::fill(dark.begin(), dark.end(), 0);
-    for (int y = bottom; y < top; ++y)
+    for (const auto& [lower, upper] : *kind)
     {
-      const float* row =
-        visibility.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(this->size_.x);
-      for (int x = 0; x < this->size_.x; x += tileSide)
-      {
-        const auto isDark = [](float of) { return of == 0.0f; };
-        dark[static_cast<std::size_t>(x / tileSide)] += static_cast<int>(
-          std::count_if(row + x, row + std::min(x + tileSide, this->size_.x), isDark));
-      }
-    }
-    for (int x = 0; x < this->size_.x;)
-    {
-      const auto right = [this](int left) { return std::min(left + tileSide, this->size_.x); };
-      const auto kindAt = [&](int left)
-      {
-        const int pixels = dark[static_cast<std::size_t>(left / tileSide)];
-        return pixels == 0 ? lit : pixels < (right(left) - left) * (top - bottom) ? inPart : whole;
-      };
-      const int kind = kindAt(x);
-      const glm::vec2 low(x, bottom);
-      for (x = right(x); x < this->size_.x && kindAt(x) == kind;) // neighbours are one rectangle
-      {
-        x = right(x);
-      }
-      if (kind != lit)
-      {
-        const glm::vec2 high(x, top);
-        std::vector<glm::vec2>& of = corners[static_cast<std::size_t>(kind)];
-        of.insert(of.end(), { low, { high.x, low.y }, high, low, high, { low.x, high.y } });
-      }
+      const glm::vec2 low(lower);
+      const glm::vec2 high(upper);
+      corners.insert(corners.end(), { low, { high.x, low.y }, high, low, high, { low.x, high.y } });
     }
   }
+  this->cornersInPart_ = static_cast<GLsizei>(6 * tiles.inPart.size());
+  this->cornersWhole_ = static_cast<GLsizei>(6 * tiles.whole.size());
 
   const GlStateGuard guard;
-  this->cornersInPart_ = static_cast<GLsizei>(corners[inPart].size());
-  this->cornersWhole_ = static_cast<GLsizei>(corners[whole].size());
-  corners[inPart].insert(corners[inPart].end(), corners[whole].begin(), corners[whole].end());
   glBindVertexArray(this->tiles_.create());
   glBindBuffer(GL_ARRAY_BUFFER, this->corners_.create());
-  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(corners[inPart].size() * sizeof(glm::vec2)),
-    corners[inPart].data(), GL_STREAM_DRAW);
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(corners.size() * sizeof(glm::vec2)),
+    corners.data(), GL_STREAM_DRAW);
   glEnableVertexAttribArray(0);
   glVertexAttribPointer(0, 2, GL_FLOAT, GL_FALSE, 0, nullptr);
 }

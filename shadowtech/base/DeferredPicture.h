@@ -39,12 +39,12 @@ public:
   /// Reads the fragments back.
   void read(ReceiverImages& images) const;
 
-  /// Finds the tiles of the picture that have shadows. Called with what darken() will read of.
+  /// Keeps where the picture has shadows.
   /// @param visibility one of the values 0 and 1 per pixel of the viewport
-  void findTiles(const std::vector<float>& visibility);
+  void keepShadows(const std::vector<float>& visibility);
 
   /// Gives the pixels in shadow their colours, in the framebuffer that is bound.
-  /// @param layers whose layer 0 is the visibility
+  /// @param layers whose layer 0 is the visibility that was kept
   void darken(const TextureBinding& layers, ShaderLibrary& shaders);
 
   /// The viewport's size in pixels.

@@ -7,9 +7,16 @@
 
 #include <vtkAnnotatedCubeActor.h>
 #include <vtkAxesActor.h>
+#include <vtkAxisActor.h>
+#include <vtkAxisFollower.h>
 #include <vtkImageData.h>
+#include <vtkImageProperty.h>
+#include <vtkImageSlice.h>
+#include <vtkImageSliceMapper.h>
+#include <vtkImageStack.h>
 #include <vtkOpenGLFramebufferObject.h>
 #include <vtkOpenGLRenderWindow.h>
+#include <vtkPolyDataMapper.h>
 #include <vtkPropAssembly.h>
 #include <vtkProperty.h>
 #include <vtkRenderStepsPass.h>
@@ -218,6 +225,32 @@ TEST_F(Deferred, WhatPassesDoNotReachIsAsVtkDrawsIt)
   this->scene.addBox({ -2.0, -1.0, 0.0 }, { -1.5, -0.5, 1.0 });
   this->scene.renderer->AddActor(above);
   this->expectTheSame("annotations");
+
+  vtkNew<vtkImageSlice> slice;
+  vtkNew<vtkImageSliceMapper> image;
+  image->SetInputData(
+    makeImage(8, 8, [](int x, int y) { return glm::dvec3(0.1 * x, 0.1 * y, 1); }));
+  slice->SetMapper(image);
+  slice->GetProperty()->SetAmbient(1.0);
+  slice->SetScale(0.2);
+  slice->SetPosition(1.0, 0.5, 0.4);
+  vtkNew<vtkImageStack> stack;
+  stack->AddImage(slice);
+  this->scene.renderer->AddViewProp(stack);
+  this->expectTheSame("a stack of images");
+
+  vtkNew<vtkSphereSource> sphere;
+  sphere->SetRadius(0.3);
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputConnection(sphere->GetOutputPort());
+  vtkNew<vtkAxisActor> axis;
+  vtkNew<vtkAxisFollower> follower;
+  follower->SetAxis(axis);
+  follower->SetMapper(mapper);
+  follower->SetPosition(1.0, 0.2, 0.4);
+  follower->SetCamera(this->scene.renderer->GetActiveCamera());
+  this->scene.renderer->AddActor(follower);
+  this->expectTheSame("an axis follower");
 
   vtkNew<vtkPropAssembly> together;
   together->AddPart(cube);
