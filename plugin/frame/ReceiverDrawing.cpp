@@ -1,6 +1,7 @@
 #include "plugin/frame/ReceiverDrawing.h"
 
 #include "plugin/scene/Hash.h"
+#include "plugin/scene/MapperKind.h"
 
 #include <vtkActor.h>
 #include <vtkActor2D.h>
@@ -70,9 +71,10 @@ struct PropAccess : vtkProp
   }
 };
 
-/// True if a part of a prop has shaders of a user's own: they may move vertices by uniforms whose
-/// changes VTK does not time.
-bool hasOwnShaders(vtkProp* prop)
+/// Whether any of a prop's parts is such a one.
+/// @param isSuch gets the part and its mapper, which may be null
+template <typename IsSuch>
+bool anyPart(vtkProp* prop, const IsSuch& isSuch)
 {
   vtkNew<vtkPropCollection> actors;
   prop->GetActors(actors);
@@ -80,18 +82,37 @@ bool hasOwnShaders(vtkProp* prop)
   actors->InitTraversal(iterator);
   while (vtkProp* part = actors->GetNextProp(iterator))
   {
-    vtkShaderProperty* shaders = PropAccess::shaderProperty(part);
-    vtkMapper* mapper =
-      vtkActor::SafeDownCast(part) ? vtkActor::SafeDownCast(part)->GetMapper() : nullptr;
-    if ((shaders &&
-          (shaders->HasVertexShaderCode() || shaders->HasGeometryShaderCode() ||
-            shaders->HasFragmentShaderCode() || shaders->GetNumberOfShaderReplacements() > 0)) ||
-      (mapper && mapper->HasObserver(vtkCommand::UpdateShaderEvent)))
+    auto* actor = vtkActor::SafeDownCast(part);
+    if (isSuch(part, actor ? actor->GetMapper() : nullptr))
     {
       return true;
     }
   }
   return false;
+}
+
+/// True if a part of a prop has shaders of a user's own: they may move vertices by uniforms whose
+/// changes VTK does not time.
+bool hasOwnShaders(vtkProp* prop)
+{
+  return anyPart(prop,
+    [](vtkProp* part, vtkMapper* mapper)
+    {
+      vtkShaderProperty* shaders = PropAccess::shaderProperty(part);
+      return (shaders &&
+               (shaders->HasVertexShaderCode() || shaders->HasGeometryShaderCode() ||
+                 shaders->HasFragmentShaderCode() ||
+                 shaders->GetNumberOfShaderReplacements() > 0)) ||
+        (mapper && mapper->HasObserver(vtkCommand::UpdateShaderEvent));
+    });
+}
+
+/// True if a part of a prop has a mapper of a class that is not VTK's usual one, and may have
+/// shaders of its own.
+bool hasUnusualMapper(vtkProp* prop)
+{
+  return anyPart(prop,
+    [](vtkProp*, vtkMapper* mapper) { return mapper && kindOf(mapper) == MapperKind::PolyData; });
 }
 
 /// Whether VTK draws a prop that has no parts by shaders that render passes add to.
@@ -142,7 +163,8 @@ bool anyPropHasOwnShaders(const vtkRenderState* s)
     [](vtkProp* prop)
     {
       vtkInformation* keys = prop->GetPropertyKeys();
-      return (keys && keys->Has(vtkOpenGLRenderPass::RenderPasses())) || hasOwnShaders(prop);
+      return (keys && keys->Has(vtkOpenGLRenderPass::RenderPasses())) || hasOwnShaders(prop) ||
+        hasUnusualMapper(prop);
     });
 }
 

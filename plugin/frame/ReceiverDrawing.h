@@ -17,7 +17,8 @@ namespace gnomon
 /// camera and snapshot. No two numbers are the same where a prop has shaders of a user's own.
 std::size_t hashOfShownProps(const vtkRenderState* s);
 
-/// Whether a prop has shaders of a user's own, or other render passes add to its shaders.
+/// Whether a prop has shaders of a user's own, a mapper that may have some, or shaders that other
+/// render passes add to.
 bool anyPropHasOwnShaders(const vtkRenderState* s);
 
 /// What of a prop VTK draws by shaders that render passes add to.

@@ -178,7 +178,7 @@ std::string RenderManager::whyNotDeferred(const vtkRenderState* s, bool drawnPla
   }
   if (anyPropHasOwnShaders(s))
   {
-    return "a prop has shaders of its own, which may not light twice";
+    return "a prop may have shaders of its own, which need not light twice";
   }
   if (std::any_of(s->GetPropArray(), s->GetPropArray() + s->GetPropArrayCount(),
         [](vtkProp* prop) { return drawnByPasses(prop) == ByPasses::Some; }))

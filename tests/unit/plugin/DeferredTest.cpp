@@ -14,7 +14,9 @@
 #include <vtkImageSlice.h>
 #include <vtkImageSliceMapper.h>
 #include <vtkImageStack.h>
+#include <vtkObjectFactory.h>
 #include <vtkOpenGLFramebufferObject.h>
+#include <vtkOpenGLPolyDataMapper.h>
 #include <vtkOpenGLRenderWindow.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkPropAssembly.h>
@@ -49,6 +51,15 @@ class DeferredScenes
 INSTANTIATE_TEST_SUITE_P(Scenes, DeferredScenes,
   testing::Values("bunny", "screens", "posts", "cups", "room", "terrain", "molecule", "primitives"),
   [](const testing::TestParamInfo<const char*>& scene) { return std::string(scene.param); });
+
+/// As a mapper is that draws in its own way.
+class UnusualMapper : public vtkOpenGLPolyDataMapper
+{
+public:
+  static UnusualMapper* New();
+  vtkTypeMacro(UnusualMapper, vtkOpenGLPolyDataMapper);
+};
+vtkStandardNewMacro(UnusualMapper);
 
 /// A sphere over a floor under a sun, which the deferred route can draw.
 class Deferred : public PassTest
@@ -429,6 +440,12 @@ TEST_F(Deferred, OtherFramesTakeTheImageRouteAndSayWhy)
     "//VTK::Light::Impl", true, "//VTK::Light::Impl\n  gl_FragData[0].r *= 0.5;\n", false);
   expectReason("shaders of its own");
   this->sphere->GetShaderProperty()->ClearAllFragmentShaderReplacements();
+  const vtkSmartPointer<vtkMapper> usual = this->sphere->GetMapper();
+  vtkNew<UnusualMapper> unusual;
+  unusual->SetInputConnection(usual->GetInputConnection(0, 0));
+  this->sphere->SetMapper(unusual);
+  expectReason("shaders of its own");
+  this->sphere->SetMapper(usual);
   EXPECT_EQ(this->autoRoute(), "deferred");
 
   this->scene.pass->SetSetting("light_radius", "0.1");
