@@ -226,23 +226,7 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
     {
       if (goesOn)
       {
-        // receivers
-        if (manager.route() == gnomon::Route::Image)
-        {
-          manager.updateReceivers(s, this);
-        }
-
-        // maps
-        manager.bakeMaps();
-
-        // visibility
-        if (manager.route() == gnomon::Route::Image)
-        {
-          manager.computeVisibility();
-        }
-
-        // shading
-        manager.beginShading(s);
+        this->ComputeShadows(s);
       }
       drawn = true;
       this->DrawScene(s);
@@ -284,6 +268,31 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
   {
     gnomon::tellProgress(this, progressBefore, this->Internal->progress);
   }
+}
+
+//------------------------------------------------------------------------------
+void vtkGnomonShadowPass::ComputeShadows(const vtkRenderState* s)
+{
+  gnomon::RenderManager& manager = this->Internal->manager();
+  const bool onImage = manager.route() == gnomon::Route::Image;
+
+  // receivers
+  if (onImage)
+  {
+    manager.updateReceivers(s, this);
+  }
+
+  // maps
+  manager.bakeMaps();
+
+  // visibility
+  if (onImage)
+  {
+    manager.computeVisibility();
+  }
+
+  // shading
+  manager.beginShading(s);
 }
 
 //------------------------------------------------------------------------------

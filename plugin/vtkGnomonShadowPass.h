@@ -290,6 +290,7 @@ private:
   vtkRenderPass* FindDelegate(const vtkRenderState* s);
   void BeginView(const vtkRenderState* s);
   void DrawScene(const vtkRenderState* s);
+  void ComputeShadows(const vtkRenderState* s);
   void DrawDeferred(const vtkRenderState* s);
   void TellPlain(const char* reason);
   void DrawPlain(const vtkRenderState* s);

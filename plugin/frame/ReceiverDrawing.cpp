@@ -1,7 +1,6 @@
 #include "plugin/frame/ReceiverDrawing.h"
 
 #include "plugin/scene/Hash.h"
-#include "plugin/scene/MapperKind.h"
 
 #include <vtkActor.h>
 #include <vtkActor2D.h>
@@ -24,7 +23,9 @@
 #include <vtkVolume.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
+#include <cstring>
 
 namespace gnomon
 {
@@ -71,10 +72,10 @@ struct PropAccess : vtkProp
   }
 };
 
-/// Whether any of a prop's parts is such a one.
-/// @param isSuch gets the part and its mapper, which may be null
-template <typename IsSuch>
-bool anyPart(vtkProp* prop, const IsSuch& isSuch)
+/// True if a predicate holds for any of a prop's parts.
+/// @param holds called with the part and its mapper, which may be null
+template <typename Predicate>
+bool anyPart(vtkProp* prop, const Predicate& holds)
 {
   vtkNew<vtkPropCollection> actors;
   prop->GetActors(actors);
@@ -83,7 +84,7 @@ bool anyPart(vtkProp* prop, const IsSuch& isSuch)
   while (vtkProp* part = actors->GetNextProp(iterator))
   {
     auto* actor = vtkActor::SafeDownCast(part);
-    if (isSuch(part, actor ? actor->GetMapper() : nullptr))
+    if (holds(part, actor ? actor->GetMapper() : nullptr))
     {
       return true;
     }
@@ -107,18 +108,22 @@ bool hasOwnShaders(vtkProp* prop)
     });
 }
 
-/// True if a part of a prop has a mapper of a class that is not VTK's usual one, and may have
-/// shaders of its own.
-bool hasUnusualMapper(vtkProp* prop)
+/// True if a mapper may have shaders that differ from VTK's template: its class is not one of those
+/// listed. Derived classes write outputs of their own (vtkSurfaceLICMapper) or draw labels.
+bool mayHaveOwnShaders(vtkMapper* mapper)
 {
-  return anyPart(prop,
-    [](vtkProp*, vtkMapper* mapper) { return mapper && kindOf(mapper) == MapperKind::PolyData; });
+  constexpr std::array<const char*, 9> usual = { "vtkOpenGLPolyDataMapper", "vtkDataSetMapper",
+    "vtkCompositePolyDataMapper", "vtkCompositePolyDataMapper2", "vtkOpenGLGlyph3DMapper",
+    "vtkOpenGLMoleculeMapper", "vtkOpenGLSphereMapper", "vtkOpenGLStickMapper",
+    "vtkOpenGLPointGaussianMapper" };
+  return std::none_of(usual.begin(), usual.end(),
+    [mapper](const char* name) { return std::strcmp(name, mapper->GetClassName()) == 0; });
 }
 
-/// Whether VTK draws a prop that has no parts by shaders that render passes add to.
+/// True if render passes can add to the shaders of a prop without parts.
 bool isLeafDrawnByPasses(vtkProp* leaf)
 {
-  // These draw by others of their own, which they do not tell of the passes.
+  // These draw internal props without passing their property keys on.
   if (leaf->IsA("vtkAxisFollower") || leaf->IsA("vtkProp3DAxisFollower") ||
     leaf->IsA("vtkImageStack"))
   {
@@ -164,7 +169,8 @@ bool anyPropHasOwnShaders(const vtkRenderState* s)
     {
       vtkInformation* keys = prop->GetPropertyKeys();
       return (keys && keys->Has(vtkOpenGLRenderPass::RenderPasses())) || hasOwnShaders(prop) ||
-        hasUnusualMapper(prop);
+        anyPart(
+          prop, [](vtkProp*, vtkMapper* mapper) { return mapper && mayHaveOwnShaders(mapper); });
     });
 }
 

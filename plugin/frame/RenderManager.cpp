@@ -241,23 +241,28 @@ bool RenderManager::chooseRoute(const vtkRenderState* s, bool drawnPlainly)
     casting.shadesAtPoints = pointwise != nullptr;
     shaded.push_back({ casting.light, casting.layer, casting.channels, pointwise });
   }
-  this->programs_.shaders.configure({ this->route_, this->readsPoints(), samples > 1,
-                                      this->route_ != Route::Deferred || this->namesTriangles(s) },
-    shaded);
+  bool namesTriangles = true;
+  if (this->route_ == Route::Deferred)
+  {
+    this->findStaleReceivers(s);
+    namesTriangles = this->namesTriangles();
+  }
+  this->programs_.shaders.configure(
+    { this->route_, this->readsPoints(), samples > 1, namesTriangles }, shaded);
   return (this->wishes_.route != RouteWish::Inline || screenTechnique.empty()) &&
     (this->wishes_.route != RouteWish::Deferred || needs.whyNotDeferred.empty());
 }
 
 //------------------------------------------------------------------------------
-/// Whether shaders of the deferred route are to say which triangles they draw. Where OpenGL draws by
-/// software that takes some 25 ns of a triangle. Receivers that rest need it no more; but VTK makes
-/// its props' shaders anew for it, in some 0.2 ms of a surface. So it takes a little rest, and
-/// enough triangles for eight frames to pay.
-bool RenderManager::namesTriangles(const vtkRenderState* s)
+/// True if shaders of the deferred route write triangle numbers. On llvmpipe these cost 25 ns a
+/// triangle or more, even where no image takes them. Switching them off makes VTK rebuild shaders,
+/// which costs some 0.2 ms a surface. So it waits until receivers rest, and for scenes where eight
+/// frames pay for it.
+bool RenderManager::namesTriangles()
 {
   constexpr int patience = 3; // frames
   constexpr std::size_t leastTriangles = 1000;
-  this->restingFrames_ = this->receiversAreStale(s) ? 0 : this->restingFrames_ + 1;
+  this->restingFrames_ = this->receiversDue_ ? 0 : this->restingFrames_ + 1;
   return this->restingFrames_ < patience || this->severalViews_ ||
     this->report_.triangles < leastTriangles * this->collector_.occluders().surfaces.size();
 }
@@ -322,9 +327,9 @@ void RenderManager::makeRoomForLayers()
 }
 
 //------------------------------------------------------------------------------
-/// Whether receivers are to be drawn, as what they follow from has changed; if so, those that there
-/// are are given up.
-bool RenderManager::receiversAreStale(const vtkRenderState* s)
+/// Compares the receivers' key with the cached one. If it differs, the cached receivers are dropped
+/// and new ones are due.
+void RenderManager::findStaleReceivers(const vtkRenderState* s)
 {
   ReceiversValue& value = this->view_->receivers;
   ValueKey key = this->receiversKey(s);
@@ -337,11 +342,10 @@ bool RenderManager::receiversAreStale(const vtkRenderState* s)
     value.key.reset(); // in case of an error
     value.onCpu.reset();
   }
-  return this->receiversDue_.has_value();
 }
 
 //------------------------------------------------------------------------------
-/// Takes the receivers that were drawn, if they were due.
+/// Caches the receivers that were drawn, if they were due.
 void RenderManager::takeReceivers()
 {
   if (this->receiversDue_)
@@ -359,7 +363,8 @@ void RenderManager::takeReceivers()
 void RenderManager::updateReceivers(const vtkRenderState* s, vtkObjectBase* pass)
 {
   this->makeRoomForLayers();
-  if (this->receiversAreStale(s))
+  this->findStaleReceivers(s);
+  if (this->receiversDue_)
   {
     this->stageValues_.receiversStage = true;
     this->programs_.shaders.beginStage(windowOf(s), this->stageValues_);

@@ -58,7 +58,7 @@ public:
   void collectOccluders(const vtkRenderState* s);
 
   /// Chooses how visibility reaches the picture, and states it in the report.
-  /// @param drawnPlainly whether nobody but the renderer, or passes that do as it does, draws props
+  /// @param drawnPlainly true if no render pass of the user's draws the props
   /// @return false when a route is asked for that cannot be taken; it is the image route then, for
   /// the reason in the report
   bool chooseRoute(const vtkRenderState* s, bool drawnPlainly);
@@ -115,8 +115,8 @@ private:
   ValueKey visibilityKey(const CastingLight& casting) const;
   std::string whyNotDeferred(const vtkRenderState* s, bool drawnPlainly) const;
   void makeRoomForLayers();
-  bool namesTriangles(const vtkRenderState* s);
-  bool receiversAreStale(const vtkRenderState* s);
+  bool namesTriangles();
+  void findStaleReceivers(const vtkRenderState* s);
   void takeReceivers();
   void findStaleVisibility();
   bool tracesOnCpu() const;
@@ -144,7 +144,7 @@ private:
   RendererViews views_;
   ViewValues* view_ = nullptr;           ///< this frame's
   std::size_t receiversNumbered_ = 0;    ///< how many images of receivers were drawn
-  std::optional<ValueKey> receiversDue_; ///< of those that this frame has drawn
+  std::optional<ValueKey> receiversDue_; ///< the key of receivers that this frame draws
   int restingFrames_ = 0;                ///< deferred route: in a row that kept their receivers
   PassPrograms& programs_;
   FrameTracer tracer_{ buffers_, programs_.library };

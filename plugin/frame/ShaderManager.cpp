@@ -326,9 +326,8 @@ void ShaderManager::fillShader(std::string& fragmentShader, bool drawsReceivers)
 }
 
 //------------------------------------------------------------------------------
-/// Statements that light the fragment as VTK does, with what shadows leave of the lights: the
-/// colour is in gnomonInShadow afterwards. Between the marks is VTK's lighting, which gives its
-/// result anew each time.
+/// Statements that compute gnomonInShadow, the fragment's colour with the light hidden. They are a
+/// copy of VTK's lighting between the marks, in a scope of its own.
 std::string ShaderManager::lightInShadow(const std::string& fragmentShader) const
 {
   const std::size_t begin = fragmentShader.find(beginMarker) + beginMarker.size();

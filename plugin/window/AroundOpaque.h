@@ -13,9 +13,9 @@ class vtkRenderer;
 namespace gnomon
 {
 
-/// As long as it lives, has a function called before some of a renderer's opaque props are drawn,
-/// and one afterwards, whoever has them drawn: it puts props of its own around them, which draw
-/// nothing. The renderer's other props follow. Both groups keep their order.
+/// While it lives, calls one function before a renderer draws a group of its opaque props, and
+/// another after them. Two props that draw nothing stand around the group, so this works for any
+/// render pass. The renderer's other props follow. Both groups keep their order.
 class AroundOpaque
 {
 public:

@@ -113,8 +113,7 @@ void DeferredPicture::allocate(const glm::ivec2& extent, bool eightBit)
 }
 
 //------------------------------------------------------------------------------
-/// Gives the colours in shadow what the picture has so far: what is not opaque will be blended over
-/// it.
+/// Copies the picture so far into the colours in shadow, for fragments that blend.
 void DeferredPicture::copyPicture() const
 {
   const glm::ivec2& from = this->origin_;
