@@ -7,6 +7,7 @@
 #include "plugin/scene/MapperKind.h"
 #include "plugin/scene/PropMemory.h"
 #include "plugin/scene/SolidSizes.h"
+#include "plugin/scene/SplatSpheres.h"
 #include "plugin/vtkGnomonPropKeys.h"
 
 #include "vtkActor.h"
@@ -26,6 +27,7 @@
 #include "vtkMatrix4x4.h"
 #include "vtkOpenGLMoleculeMapper.h"
 #include "vtkPointData.h"
+#include "vtkPointGaussianMapper.h"
 #include "vtkPolyData.h"
 #include "vtkPolyDataMapper.h"
 #include "vtkProp3DFollower.h"
@@ -69,6 +71,16 @@ bool hasSurfaces(const DrawnBlock& block)
   const std::vector<SurfaceCells>& cells = cellsOf(block);
   return std::any_of(cells.begin(), cells.end(),
     [&block](SurfaceCells kind) { return cellCount(block.data, kind) > 0; });
+}
+
+/// A block of solids at the points of a polydata.
+DrawnBlock solidsBlock(vtkMapper* mapper, vtkPolyData* data, SurfaceCells cells)
+{
+  DrawnBlock block;
+  block.data = data;
+  block.solids = mapper;
+  block.solidCells = cells;
+  return block;
 }
 
 /// Whether a user's code changes the shaders that place an actor's vertices.
@@ -299,6 +311,7 @@ void Finder::addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatr
   prop.worldFromModel = toGlm(drawing.matrix);
   prop.clipPlanes = clipPlanesOf(drawing.mapper);
   takeKeys(prop);
+  prop.receives = prop.receives && kind != MapperKind::Splats; // which VTK does not light
   const char* uncutReason = nullptr;
   const TextureCutout cutout =
     this->memory_.cutouts.find(actor, drawing.mapper, viewProp->GetPropertyKeys(), uncutReason);
@@ -443,6 +456,13 @@ void Finder::addBlocks(vtkActor* actor, vtkMapper* mapper, MapperKind kind,
       }
     }
   }
+  else if (kind == MapperKind::Splats)
+  {
+    for (vtkPolyData* data : splatBlocks(static_cast<vtkPointGaussianMapper*>(mapper)))
+    {
+      blocks.push_back(solidsBlock(mapper, data, SurfaceCells::Spheres));
+    }
+  }
   else if (kind == MapperKind::Parts)
   {
     auto* parts = static_cast<vtkCompositePolyDataMapper*>(mapper);
@@ -474,11 +494,8 @@ void Finder::addSolids(vtkMapper* mapper, const glm::dmat4& worldFromModel)
     this->skip(mapper, reason);
     return;
   }
-  DrawnBlock block;
-  block.data = static_cast<vtkPolyDataMapper*>(mapper)->GetInput();
-  block.solids = mapper;
-  block.solidCells = drawn->cells;
-  this->drawn_.blocks.push_back(block);
+  this->drawn_.blocks.push_back(
+    solidsBlock(mapper, static_cast<vtkPolyDataMapper*>(mapper)->GetInput(), drawn->cells));
 }
 
 //------------------------------------------------------------------------------

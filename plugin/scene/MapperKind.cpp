@@ -1,11 +1,14 @@
 #include "plugin/scene/MapperKind.h"
 
+#include "plugin/scene/SplatSpheres.h"
+
 #include "vtkAlgorithm.h"
 #include "vtkGlyph3DMapper.h"
 #include "vtkInformation.h"
 #include "vtkMapper.h"
 #include "vtkPlane.h"
 #include "vtkPlaneCollection.h"
+#include "vtkPointGaussianMapper.h"
 #include "vtkPolyDataMapper.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
@@ -73,9 +76,13 @@ void runInput(vtkMapper* mapper, MapperKind kind)
 //------------------------------------------------------------------------------
 const char* reasonAgainst(vtkMapper* mapper, MapperKind kind)
 {
-  if (kind == MapperKind::Other || kind == MapperKind::Splats)
+  if (kind == MapperKind::Other)
   {
     return "mapper not served";
+  }
+  if (kind == MapperKind::Splats)
+  {
+    return reasonAgainstSplats(static_cast<vtkPointGaussianMapper*>(mapper));
   }
   if (kind == MapperKind::Glyphs)
   {

@@ -21,7 +21,7 @@ enum class MapperKind
   Glyphs,
   Solids,   ///< a polydata mapper by type, which draws a solid at each point in place of the cells
   Molecule, ///< by mappers of solids
-  Splats,   ///< a polydata mapper by type, which draws flat pictures in place of the cells
+  Splats,   ///< a polydata mapper by type, which draws flat pictures at points
   Other
 };
 

@@ -2,11 +2,13 @@
 
 #include "lights/LightSpace.h"
 #include "plugin/scene/MapperInternals.h"
+#include "plugin/scene/SplatSpheres.h"
 #include "shadowtech/base/Occluders.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellArrayIterator.h"
 #include "vtkFloatArray.h"
+#include "vtkPointGaussianMapper.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 
@@ -92,6 +94,18 @@ void visitMapperSolids(
   }
 }
 
+/// The same for each sphere that a mapper's splats show.
+template <typename Visit>
+void visitSplats(const DrawnBlock& block, const glm::dmat4& worldFromModel, const Visit& visit)
+{
+  const WorldPoints points(block.data, worldFromModel);
+  auto* mapper = static_cast<vtkPointGaussianMapper*>(block.solids);
+  for (const SplatSphere& sphere : splatSpheres(mapper, block.data))
+  {
+    visit(placed(glm::dmat3(sphere.radius), points[sphere.point]));
+  }
+}
+
 /// The same for each that is sized in pixels.
 template <typename Visit>
 void visitPixelSolids(
@@ -165,6 +179,10 @@ PlacedInstances placeSolids(const DrawnBlock& block, SurfaceCells cells,
   if (areSizedInPixels(cells))
   {
     visitPixelSolids(block, cells, worldFromModel, add);
+  }
+  else if (block.solids->IsA("vtkPointGaussianMapper"))
+  {
+    visitSplats(block, worldFromModel, add);
   }
   else
   {

@@ -2,6 +2,7 @@
 
 #include "plugin/scene/GlyphInstances.h"
 #include "plugin/scene/PlacedSolids.h"
+#include "plugin/scene/SplatSpheres.h"
 #include "plugin/scene/SurfaceClipping.h"
 
 #include "shadowtech/base/Instances.h"
@@ -184,7 +185,7 @@ vtkMTimeType changeTime(const DrawnProp& prop, const DrawnBlock& block, SurfaceC
   vtkMTimeType time = shapeTime(block.data, cells);
   if (block.solids)
   {
-    time = std::max(time, block.solids->GetMTime()); // which says which arrays hold the sizes
+    time = std::max(time, sizesTime(block.solids));
   }
   if (block.glyphPoints)
   {

@@ -6,17 +6,21 @@
 #include "plugin/vtkGnomonPropKeys.h"
 
 #include <vtkCellArray.h>
+#include <vtkDoubleArray.h>
 #include <vtkFloatArray.h>
 #include <vtkImageActor.h>
 #include <vtkImageProperty.h>
 #include <vtkLightCollection.h>
 #include <vtkMatrix4x4.h>
 #include <vtkMolecule.h>
+#include <vtkMultiBlockDataSet.h>
 #include <vtkOpenGLMoleculeMapper.h>
 #include <vtkOpenGLSphereMapper.h>
 #include <vtkOpenGLStickMapper.h>
+#include <vtkPiecewiseFunction.h>
 #include <vtkPlane.h>
 #include <vtkPointData.h>
+#include <vtkPointGaussianMapper.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkProperty.h>
@@ -878,4 +882,173 @@ TEST_F(SolidsTest, pixelSizedSolidsReceiveByBothRoutes)
       EXPECT_EQ(*std::max_element(dark.rgb.begin(), dark.rgb.end()), 0) << route;
     }
   }
+}
+
+namespace
+{
+
+/// Points over a floor, drawn by a mapper.
+class PointsScene : public PassScene
+{
+public:
+  PointsScene()
+    : PassScene(300, 300)
+  {
+    this->addFloor(12.0);
+    this->addSun({ 0.4, 0.2, -1.0 });
+    this->data->SetPoints(vtkNew<vtkPoints>());
+    this->data->SetVerts(vtkNew<vtkCellArray>());
+    for (int i = 0; i < 40; ++i)
+    {
+      const double angle = 2.0 * 3.14159265358979 * i / 40.0;
+      addPoint(this->data, { 3.0 * std::cos(angle), 3.0 * std::sin(angle), 1.5 });
+    }
+    this->actor = this->add(this->data);
+    this->actor->SetPosition(0.1, 0.2, 0.3);
+    this->lookFrom({ 1.0, -9.0, 7.0 }, { 0.5, 0.0, 0.5 });
+    this->pass->SetTechnique("raytraced");
+  }
+
+  /// The mapper of splats that looks like spheres.
+  void showSplats(vtkDataObject* input)
+  {
+    vtkNew<vtkPointGaussianMapper> mapper;
+    mapper->SetInputDataObject(input);
+    mapper->EmissiveOff();
+    mapper->SetScaleFactor(0.5);
+    mapper->SetScaleArray("sizes");
+    mapper->SetScaleArrayComponent(1);
+    mapper->SetSplatShaderCode("//VTK::Color::Impl\n"
+                               "if (length(offsetVCVSOutput.xy) > 1.0) { discard; }\n");
+    this->splats = mapper;
+    this->actor->SetMapper(mapper);
+  }
+
+  vtkNew<vtkPolyData> data;
+  vtkSmartPointer<vtkPointGaussianMapper> splats;
+  vtkActor* actor;
+};
+
+/// What the floor shows where two pictures show it.
+struct FloorDifference
+{
+  std::size_t dark = 0;
+  std::size_t different = 0;
+};
+FloorDifference differenceOnFloor(const VisibilityImages& a, const VisibilityImages& b)
+{
+  FloorDifference result;
+  for (std::size_t i = 0; i < a.coverage.size(); ++i)
+  {
+    const auto isFloor = [i](const VisibilityImages& images)
+    { return images.coverage[i] == 1.0f && positionOf(images, i).z < 0.1; };
+    if (isFloor(a) && isFloor(b))
+    {
+      result.dark += a.visibility[0][i] == 0.0f ? 1 : 0;
+      result.different += a.visibility[0][i] != b.visibility[0][i] ? 1 : 0;
+    }
+  }
+  return result;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+/// Sized by one component of an array, by a function of it, and block by block.
+TEST_F(SolidsTest, splatsWithDiscsCastAsSpheres)
+{
+  PointsScene scene;
+  vtkNew<vtkDoubleArray> sizes;
+  sizes->SetName("sizes");
+  sizes->SetNumberOfComponents(2);
+  vtkFloatArray* radii = addArray(scene.data, "radii", 1);
+  const int count = static_cast<int>(scene.data->GetNumberOfPoints());
+  for (int i = 0; i < count; ++i)
+  {
+    sizes->InsertNextTuple2(0.0, 0.2 + 0.6 * i / count);
+  }
+  scene.data->GetPointData()->AddArray(sizes);
+  const auto expectSpheres = [&](const auto& radiusOf)
+  {
+    const VisibilityImages drawn = drawKept(scene);
+    EXPECT_THAT(scene.report().notes, testing::IsEmpty());
+    for (int i = 0; i < count; ++i)
+    {
+      radii->InsertValue(i, static_cast<float>(radiusOf(sizes->GetComponent(i, 1))));
+    }
+    radii->Modified();
+    vtkNew<vtkOpenGLSphereMapper> spheres;
+    spheres->SetInputData(scene.data);
+    spheres->SetScaleArray("radii");
+    scene.actor->SetMapper(spheres);
+    const FloorDifference difference = differenceOnFloor(drawKept(scene), drawn);
+    EXPECT_GT(difference.dark, 1000u);
+    EXPECT_EQ(difference.different, 0u);
+    scene.actor->SetMapper(scene.splats);
+  };
+  scene.showSplats(scene.data);
+  expectSpheres([](double size) { return 0.5 * size; });
+
+  vtkNew<vtkPiecewiseFunction> function;
+  function->AddPoint(0.4, 1.0);
+  function->AddPoint(0.6, 0.5);
+  scene.splats->SetScaleFunction(function);
+  const auto byFunction = [](double last)
+  {
+    return [last](double size)
+    {
+      return 0.5 *
+        glm::clamp(
+          glm::mix(1.0, last, (size - 0.4) / 0.2), std::min(1.0, last), std::max(1.0, last));
+    };
+  };
+  expectSpheres(byFunction(0.5));
+  drawKept(scene);
+  function->RemovePoint(0.6);
+  function->AddPoint(0.6, 0.2); // of which the mapper is not told
+  const std::vector<float> after = drawKept(scene).visibility[0];
+  EXPECT_EQ(visibilityByFreshPass(scene), after);
+  expectSpheres(byFunction(0.2));
+
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  for (const int first : { 0, 1 })
+  {
+    // Vertex cells choose points.
+    vtkNew<vtkPolyData> half;
+    half->ShallowCopy(scene.data);
+    half->SetVerts(vtkNew<vtkCellArray>());
+    for (vtkIdType i = first; i < count; i += 2)
+    {
+      half->GetVerts()->InsertNextCell(1, &i);
+    }
+    blocks->SetBlock(first, half);
+  }
+  scene.showSplats(blocks);
+  expectSpheres([](double size) { return 0.5 * size; });
+}
+
+//------------------------------------------------------------------------------
+TEST_F(SolidsTest, splatsWithoutDiscsAreListed)
+{
+  PointsScene scene;
+  scene.showSplats(scene.data);
+  const auto expectListed = [&](const char* reason)
+  {
+    scene.window->Render();
+    EXPECT_THAT(scene.report().notes,
+      testing::ElementsAre(
+        testing::HasSubstr("vtkOpenGLPointGaussianMapper (" + std::string(reason))));
+  };
+  scene.window->Render();
+  EXPECT_THAT(scene.report().notes, testing::IsEmpty());
+  scene.splats->EmissiveOn();
+  expectListed("its splats glow");
+  scene.splats->EmissiveOff();
+  scene.splats->SetOpacityArray("sizes");
+  expectListed("its splats are blended");
+  scene.splats->SetOpacityArray(nullptr);
+  scene.splats->SetSplatShaderCode(nullptr);
+  expectListed("its shader code cuts out no discs");
+  scene.splats->SetScaleFactor(0.0);
+  expectListed("points");
 }
