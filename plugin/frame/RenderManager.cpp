@@ -5,6 +5,7 @@
 #include "plugin/scene/ShownView.h"
 #include "plugin/window/PictureTarget.h"
 #include "shadowtech/exact/CellTarget.h"
+#include "shadowtech/tracing/EdgeSettings.h"
 #include "shadowtech/tracing/GpuTracer.h"
 
 #include <vtkOpenGLRenderWindow.h>
@@ -49,6 +50,13 @@ auto placeOf(const ShadowLight& light)
 bool isOnCpu(const CastingLight& casting)
 {
   return casting.own.info().evaluation == Evaluation::ScreenCpu;
+}
+
+/// How many shadow rays a pixel at an edge gets. Area lights have no edges.
+std::size_t edgeSamplesOf(const CastingLight& casting)
+{
+  const bool smooths = casting.own.info().has(edgeSettings()) && !casting.light.area;
+  return smooths ? static_cast<std::size_t>(casting.light.of<EdgeSettings>().samples) : 1;
 }
 
 /// How many pixels are of each class.
@@ -583,17 +591,23 @@ void RenderManager::fillLayers(CastingLight& casting, VisibilityValue& value, Li
   }
   else
   {
-    Receivers& onCpu = this->receiversOnCpu();
+    auto& technique = *casting.own.as<CpuScreenTechnique>();
     std::vector<float>& visibility = this->visibilityOnCpu_;
-    namingLight(light,
-      [&]
-      {
-        casting.own.as<CpuScreenTechnique>()->computeVisibility(
-          { light, casting.own.fitting(), occluders, onCpu, this->tracer_.tracer(),
-            casting.own.usesMap(), classes, this->report_.mapBakes },
-          visibility, report);
-      });
+    const std::size_t edgeSamples = edgeSamplesOf(casting);
+    std::vector<std::uint8_t> classesForEdges;
+    const ScreenInput input{ light, casting.own.fitting(), occluders, this->receiversOnCpu(),
+      this->tracer_.tracer(), casting.own.usesMap(),
+      classes || edgeSamples == 1 ? classes : &classesForEdges, this->report_.mapBakes };
+    namingLight(light, [&] { technique.computeVisibility(input, visibility, report); });
     this->endStageClock("visibility: trace");
+    if (edgeSamples > 1)
+    {
+      namingLight(light,
+        [&] {
+          this->edges_.smooth(technique, input, *input.classes, edgeSamples, visibility, report);
+        });
+      this->endStageClock("visibility: edges");
+    }
     layers.upload(casting.layer, visibility);
     if (this->route_ == Route::Deferred)
     {
@@ -660,7 +674,8 @@ void RenderManager::endFrame()
   report.bytesMaps = this->lights_.bytesOfMaps() + this->views_.bytesOfMaps();
   if (this->route_ != Route::Inline)
   {
-    report.bytesImages = this->views_.bytesOfImages() + this->tracer_.bytesOfRays();
+    report.bytesImages =
+      this->views_.bytesOfImages() + this->tracer_.bytesOfRays() + this->edges_.bytes();
   }
   report.wallMilliseconds = steadyMilliseconds() - this->frameStart_;
 }

@@ -15,6 +15,7 @@
 #include "shadowtech/base/OccluderBuffers.h"
 #include "shadowtech/base/Receivers.h"
 #include "shadowtech/base/ShaderLibrary.h"
+#include "shadowtech/tracing/EdgeSamples.h"
 
 #include <glm/glm.hpp>
 
@@ -150,6 +151,7 @@ private:
   FrameTracer tracer_{ buffers_, programs_.library };
   ShaderManager::StageValues stageValues_;
   std::vector<float> visibilityOnCpu_; ///< a light's; kept, as new memory costs more than old
+  EdgeSamples edges_;
   const ViewValues* keptOf_ = nullptr; ///< whose visibility is kept
   VisibilityImages visibility_;
 };

@@ -186,6 +186,7 @@ void DeferredPicture::keepShadows(const std::vector<float>& visibility)
   }
   this->cornersInPart_ = static_cast<GLsizei>(6 * tiles.inPart.size());
   this->cornersWhole_ = static_cast<GLsizei>(6 * tiles.whole.size());
+  this->mixes_ = tiles.mixes;
 
   const GlStateGuard guard;
   glBindVertexArray(this->tiles_.create());
@@ -218,8 +219,16 @@ void DeferredPicture::darken(const TextureBinding& layers, ShaderLibrary& shader
       0, 0);
     glDrawArrays(GL_TRIANGLES, first, count);
   };
-  draw({ "SOME_ARE_LIT" }, 0, this->cornersInPart_);
   draw({}, this->cornersInPart_, this->cornersWhole_);
+  if (!this->mixes_)
+  {
+    draw({ "SOME_ARE_LIT" }, 0, this->cornersInPart_);
+    return;
+  }
+  glEnable(GL_BLEND);
+  glBlendEquation(GL_FUNC_ADD);
+  glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
+  draw({ "SOME_ARE_LIT", "MIXES" }, 0, this->cornersInPart_);
 }
 
 //------------------------------------------------------------------------------

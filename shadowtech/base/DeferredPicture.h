@@ -40,10 +40,11 @@ public:
   void read(ReceiverImages& images) const;
 
   /// Keeps where the picture has shadows.
-  /// @param visibility one of the values 0 and 1 per pixel of the viewport
+  /// @param visibility of each pixel of the viewport
   void keepShadows(const std::vector<float>& visibility);
 
-  /// Gives the pixels in shadow their colours, in the framebuffer that is bound.
+  /// Gives the pixels in shadow their colours, in the framebuffer that is bound. Those between
+  /// light and shadow get a mixture of both colours, as the framebuffer's format rounds it.
   /// @param layers whose layer 0 is the visibility that was kept
   void darken(const TextureBinding& layers, ShaderLibrary& shaders);
 
@@ -68,6 +69,7 @@ private:
   GlVertexArray tiles_;
   GLsizei cornersInPart_ = 0; ///< of tiles of which some is lit, which come first
   GLsizei cornersWhole_ = 0;  ///< and of others
+  bool mixes_ = false;        ///< whether some pixels are between light and shadow
 };
 
 } // namespace gnomon

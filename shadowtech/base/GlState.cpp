@@ -44,6 +44,10 @@ GlStateGuard::GlStateGuard()
   glGetIntegerv(GL_SCISSOR_BOX, this->scissor_);
   glGetIntegerv(GL_BLEND_EQUATION_RGB, &this->blendEquationRgb_);
   glGetIntegerv(GL_BLEND_EQUATION_ALPHA, &this->blendEquationAlpha_);
+  glGetIntegerv(GL_BLEND_SRC_RGB, &this->blendSourceRgb_);
+  glGetIntegerv(GL_BLEND_DST_RGB, &this->blendDestinationRgb_);
+  glGetIntegerv(GL_BLEND_SRC_ALPHA, &this->blendSourceAlpha_);
+  glGetIntegerv(GL_BLEND_DST_ALPHA, &this->blendDestinationAlpha_);
   glGetIntegerv(GL_DEPTH_FUNC, &this->depthFunction_);
   glGetIntegerv(GL_LOGIC_OP_MODE, &this->logicOperation_);
   glGetIntegerv(GL_CULL_FACE_MODE, &this->cullFace_);
@@ -87,6 +91,9 @@ GlStateGuard::~GlStateGuard()
   glDepthFunc(static_cast<GLenum>(this->depthFunction_));
   glBlendEquationSeparate(
     static_cast<GLenum>(this->blendEquationRgb_), static_cast<GLenum>(this->blendEquationAlpha_));
+  glBlendFuncSeparate(static_cast<GLenum>(this->blendSourceRgb_),
+    static_cast<GLenum>(this->blendDestinationRgb_), static_cast<GLenum>(this->blendSourceAlpha_),
+    static_cast<GLenum>(this->blendDestinationAlpha_));
   glScissor(this->scissor_[0], this->scissor_[1], this->scissor_[2], this->scissor_[3]);
   glViewport(this->viewport_[0], this->viewport_[1], this->viewport_[2], this->viewport_[3]);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(this->readFramebuffer_));

@@ -33,6 +33,7 @@ private:
   GLint drawFramebuffer_, readFramebuffer_, renderbuffer_;
   GLint viewport_[4], scissor_[4];
   GLint blendEquationRgb_, blendEquationAlpha_;
+  GLint blendSourceRgb_, blendDestinationRgb_, blendSourceAlpha_, blendDestinationAlpha_;
   GLint depthFunction_, logicOperation_, cullFace_, frontFace_, polygonMode_[2];
   GLint packAlignment_, unpackAlignment_;
   GLfloat offsetFactor_, offsetUnits_;

@@ -16,6 +16,7 @@
 namespace gnomon
 {
 
+struct Drawn;
 struct Occluders;
 
 /// The points that a camera sees, one per pixel, on the CPU and ready for shadow rays.
@@ -153,6 +154,9 @@ public:
   /// not asked about receivers that all() has made.
   void visitTiles(const std::function<void(const ReceiverTile&)>& visit,
     const ReceiverDecider* decider = nullptr) const;
+
+  /// What receivers are made of. Not for receivers that stand for themselves.
+  Drawn drawn(const ReceiverDecider* decider = nullptr) const;
 
   /// The whole picture, for who looks at a pixel's neighbours. Made once.
   const ReceiverPixels& all();

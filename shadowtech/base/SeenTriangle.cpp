@@ -229,4 +229,26 @@ glm::dvec3 inwards(
   return length > 2.0 * step ? edge + step / length * toMiddle : edge + 0.5 * toMiddle;
 }
 
+//------------------------------------------------------------------------------
+const SeenTriangle& SeenTriangles::find(const Drawn& drawn, const glm::vec2& fragment)
+{
+  const float primitive = std::abs(fragment.y);
+  const std::size_t slot =
+    (primitive < primitiveLimit ? static_cast<std::size_t>(primitive) : 0) % size;
+  SeenTriangle& seen = this->seen_[slot];
+  if (!this->filled_[slot] || this->fragments_[slot] != fragment)
+  {
+    this->filled_[slot] = true;
+    this->fragments_[slot] = fragment;
+    seen.finite = false;
+    const TriangleOfFragment found =
+      findTriangle(std::abs(fragment.x), fragment.y, drawn.drawnSurfaces, drawn.occluders);
+    if (found.triangle != notFound)
+    {
+      see(drawn, found, seen);
+    }
+  }
+  return seen;
+}
+
 } // namespace gnomon

@@ -8,6 +8,7 @@
 #include <glm/glm.hpp>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -148,6 +149,21 @@ struct Drawn
 /// Looks at a triangle as a picture's rays meet it.
 /// @param seen what it was before means nothing
 void see(const Drawn& drawn, const TriangleOfFragment& found, SeenTriangle& seen);
+
+/// Triangles that a part of a picture shows again and again, by the fragments that name them; one
+/// entry per primitive's number modulo the size.
+class SeenTriangles
+{
+public:
+  /// @return valid until the next call; not finite where the snapshot has no such triangle
+  const SeenTriangle& find(const Drawn& drawn, const glm::vec2& fragment);
+
+private:
+  static constexpr std::size_t size = 256;
+  std::array<bool, size> filled_{};
+  std::array<glm::vec2, size> fragments_;
+  std::array<SeenTriangle, size> seen_;
+};
 
 /// The point of a triangle that a ray which passes it by comes closest to, as the camera sees it:
 /// by angle with perspective, by distance in parallel projection. Serves triangles without area,

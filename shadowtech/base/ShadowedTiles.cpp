@@ -10,19 +10,31 @@ namespace
 
 constexpr int tileSide = 16; // pixels
 
-/// How many pixels of each of a row's tiles are in shadow.
-void countDark(
-  const std::vector<float>& visibility, int width, int bottom, int top, std::vector<int>& dark)
+/// How many pixels of a tile are not lit all.
+struct Darkness
 {
-  std::fill(dark.begin(), dark.end(), 0);
+  int dark = 0; ///< in shadow
+  int dim = 0;  ///< the same, or between light and shadow
+};
+
+/// Looks at each of a row's tiles.
+void countDark(const std::vector<float>& visibility, int width, int bottom, int top,
+  std::vector<Darkness>& tiles)
+{
+  std::fill(tiles.begin(), tiles.end(), Darkness{});
   for (int y = bottom; y < top; ++y)
   {
     const float* row =
       visibility.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(width);
-    for (int x = 0; x < width; x += tileSide)
+    for (int left = 0; left < width; left += tileSide)
     {
-      dark[static_cast<std::size_t>(x / tileSide)] += static_cast<int>(std::count_if(
-        row + x, row + std::min(x + tileSide, width), [](float of) { return of == 0.0f; }));
+      Darkness& tile = tiles[static_cast<std::size_t>(left / tileSide)];
+      const int right = std::min(left + tileSide, width);
+      for (int x = left; x < right; ++x)
+      {
+        tile.dark += row[x] == 0.0f ? 1 : 0;
+        tile.dim += row[x] < 1.0f ? 1 : 0;
+      }
     }
   }
 }
@@ -33,19 +45,20 @@ void countDark(
 ShadowedTiles findShadowedTiles(const std::vector<float>& visibility, const glm::ivec2& size)
 {
   ShadowedTiles tiles;
-  std::vector<int> dark(static_cast<std::size_t>((size.x + tileSide - 1) / tileSide));
+  std::vector<Darkness> ofRow(static_cast<std::size_t>((size.x + tileSide - 1) / tileSide));
   for (int bottom = 0; bottom < size.y; bottom += tileSide)
   {
     const int top = std::min(bottom + tileSide, size.y);
-    countDark(visibility, size.x, bottom, top, dark);
+    countDark(visibility, size.x, bottom, top, ofRow);
     std::vector<ShadowedTiles::Rectangle>* before = nullptr; // of the tile to the left
     for (int left = 0; left < size.x; left += tileSide)
     {
       const int right = std::min(left + tileSide, size.x);
-      const int pixels = dark[static_cast<std::size_t>(left / tileSide)];
-      std::vector<ShadowedTiles::Rectangle>* const kind = pixels == 0 ? nullptr
-        : pixels < (right - left) * (top - bottom)                    ? &tiles.inPart
-                                                                      : &tiles.whole;
+      const Darkness& tile = ofRow[static_cast<std::size_t>(left / tileSide)];
+      std::vector<ShadowedTiles::Rectangle>* const kind = tile.dim == 0 ? nullptr
+        : tile.dark < (right - left) * (top - bottom)                   ? &tiles.inPart
+                                                                        : &tiles.whole;
+      tiles.mixes |= tile.dim > tile.dark;
       if (kind && kind == before)
       {
         kind->back().upper.x = right;

@@ -21,11 +21,13 @@ struct ShadowedTiles
       return this->lower == other.lower && this->upper == other.upper;
     }
   };
-  std::vector<Rectangle> inPart; ///< some of their pixels are in shadow
-  std::vector<Rectangle> whole;  ///< all of their pixels are
+  std::vector<Rectangle> inPart; ///< some of their pixels are not lit, or not all
+  std::vector<Rectangle> whole;  ///< all of their pixels are in shadow
+  bool mixes = false;            ///< some pixels are between light and shadow
 };
 
-/// @param visibility of a picture's pixels, row by row: in shadow where it is 0
+/// @param visibility of a picture's pixels, row by row: in shadow where it is 0, lit
+/// where it is 1
 ShadowedTiles findShadowedTiles(const std::vector<float>& visibility, const glm::ivec2& size);
 
 } // namespace gnomon

@@ -6,16 +6,21 @@ uniform sampler2DArray visibility;
 uniform ivec2 origin; // of the picture in its framebuffer
 #endif
 
-out vec4 colour;
+out vec4 colour; // MIXES: with the share of shadow as alpha, for blending
 
 void main()
 {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
+  colour = texelFetch(inShadow, pixel, 0);
 #ifdef SOME_ARE_LIT
-  if (texelFetch(visibility, ivec3(pixel - origin, 0), 0).r > 0.0)
+  float lit = texelFetch(visibility, ivec3(pixel - origin, 0), 0).r;
+#ifdef MIXES
+  colour.a = 1.0 - lit;
+#else
+  if (lit > 0.0)
   {
     discard;
   }
 #endif
-  colour = texelFetch(inShadow, pixel, 0);
+#endif
 }

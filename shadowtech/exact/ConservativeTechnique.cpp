@@ -2,6 +2,7 @@
 
 #include "shadowtech/base/BakeSettings.h"
 #include "shadowtech/exact/CellsOnGpu.h"
+#include "shadowtech/tracing/EdgeSettings.h"
 #include "shadowtech/tracing/ShadowTracer.h"
 
 namespace gnomon
@@ -13,7 +14,7 @@ TechniqueInfo infoOfExact(const std::string& name)
   TechniqueInfo info;
   info.name = name;
   info.exact = true;
-  info.settings = { &viewSettings(), &bakeSettings() };
+  info.settings = { &viewSettings(), &bakeSettings(), &edgeSettings() };
   info.classes = classesOfTracing();
   info.mapIsOptional = true;
   info.conservativeMap = true;

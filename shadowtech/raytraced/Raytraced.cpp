@@ -1,5 +1,6 @@
 #include "shadowtech/raytraced/Raytraced.h"
 
+#include "shadowtech/tracing/EdgeSettings.h"
 #include "shadowtech/tracing/ShadowTracer.h"
 #include "shadowtech/tracing/TraceAll.h"
 
@@ -12,7 +13,7 @@ TechniqueInfo Raytraced::info()
   TechniqueInfo info;
   info.name = "raytraced";
   info.exact = true;
-  info.settings = { &lightSampleSettings(), &lightSeedSettings() };
+  info.settings = { &edgeSettings(), &lightSampleSettings(), &lightSeedSettings() };
   info.seesTextures = true;
   info.classes = classesOfTracing();
   return info;

@@ -284,6 +284,22 @@ TEST_P(GlStateOfWay, isChangedOnlyWherePlainVtkChangesIt)
 }
 
 //------------------------------------------------------------------------------
+TEST_F(GlState, isChangedByTheDeferredRouteOnlyWherePlainVtkChangesIt)
+{
+  for (const char* edgeSamples : { "1", "16" })
+  {
+    expectChangesOfPlainVtkOnly(
+      [&](PassScene& scene)
+      {
+        vtkLight::SafeDownCast(scene.renderer->GetLights()->GetItemAsObject(1))->SwitchOff();
+        scene.choose({ "raytraced", vtkGnomonShadowPass::ROUTE_DEFERRED });
+        scene.pass->SetSetting("edge_samples", edgeSamples);
+        return scene.pass.Get();
+      });
+  }
+}
+
+//------------------------------------------------------------------------------
 TEST_F(GlState, isChangedByMapsOfMomentsOnlyWherePlainVtkChangesIt)
 {
   for (const auto& [name, value] : std::multimap<std::string, const char*>{

@@ -89,3 +89,18 @@ TEST(ShadowedTiles, HoldEveryPixelInShadow)
     }
   }
 }
+
+//------------------------------------------------------------------------------
+TEST(ShadowedTiles, TellOfPixelsBetweenLightAndShadow)
+{
+  const glm::ivec2 size(32, 16);
+  std::vector<float> visibility = litBut(size, { { { 0, 0 }, { 16, 16 } } });
+  EXPECT_FALSE(findShadowedTiles(visibility, size).mixes);
+  visibility[20] = 0.5f;
+  const ShadowedTiles lit = findShadowedTiles(visibility, size);
+  EXPECT_TRUE(lit.mixes);
+  EXPECT_EQ(lit.inPart, (Rectangles{ { { 16, 0 }, { 32, 16 } } }));
+  EXPECT_EQ(lit.whole, (Rectangles{ { { 0, 0 }, { 16, 16 } } }));
+  visibility[5] = 0.5f;
+  EXPECT_EQ(findShadowedTiles(visibility, size).inPart, (Rectangles{ { { 0, 0 }, { 32, 16 } } }));
+}

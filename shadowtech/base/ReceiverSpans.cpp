@@ -1,0 +1,198 @@
+#include "shadowtech/base/ReceiverSpans.h"
+
+#include "shadowtech/base/ShadowRay.h"
+#include "shadowtech/base/SmoothFacet.h"
+
+#include <algorithm>
+#include <array>
+
+namespace gnomon
+{
+namespace
+{
+
+/// Where the rays meet the triangle; of those that pass it by, inside is 0.
+#ifdef __x86_64__
+[[gnu::target_clones("avx2", "default")]]
+#endif
+void meetSpan(const SeenTriangle& seen,
+  const PixelRays& rays, const Span& span, ReceiverPixels& receivers, std::uint8_t* inside)
+{
+  const double y = span.y;
+  const auto component = [&](const glm::dvec3& first, const glm::dvec3& perColumn,
+                           const glm::dvec3& perRow, int axis) {
+    return AffineOverRow{ first[axis] + y * perRow[axis], perColumn[axis] };
+  };
+  const auto origin = [&](int axis)
+  { return component(rays.firstOrigin, rays.originPerColumn, rays.originPerRow, axis); };
+  const auto direction = [&](int axis)
+  { return component(rays.firstDirection, rays.directionPerColumn, rays.directionPerRow, axis); };
+  const AffineOverRow originX = origin(0), originY = origin(1), originZ = origin(2);
+  const AffineOverRow directionX = direction(0), directionY = direction(1),
+                      directionZ = direction(2);
+  const AffineOverRow planeDistance = seen.planeDistance.row(y);
+  const AffineOverRow alongNormal = seen.alongNormal.row(y);
+  const AffineOverRow edge0 = seen.insideEdge[0].row(y);
+  const AffineOverRow edge1 = seen.insideEdge[1].row(y);
+  const AffineOverRow edge2 = seen.insideEdge[2].row(y);
+  // A pixel's side is one of these times 1 or t; the other is 0.
+  const double sideParallel = glm::length(rays.originPerRow);
+  const double sidePerDepth = glm::length(rays.directionPerRow);
+
+  float* const positionX = &receivers.positionX[span.first];
+  float* const positionY = &receivers.positionY[span.first];
+  float* const positionZ = &receivers.positionZ[span.first];
+  float* const offset = &receivers.offset[span.first];
+  const double firstX = span.x;
+  const auto count = static_cast<int>(span.count);
+  const float noise = seen.noise;
+#pragma GCC ivdep
+  for (int i = 0; i < count; ++i)
+  {
+    const double x = firstX + i;
+    const double along = alongNormal.at(x);
+    const double t = planeDistance.at(x) / along;
+    positionX[i] = static_cast<float>(originX.at(x) + t * directionX.at(x));
+    positionY[i] = static_cast<float>(originY.at(x) + t * directionY.at(x));
+    positionZ[i] = static_cast<float>(originZ.at(x) + t * directionZ.at(x));
+    offset[i] = shadowRayOffsetInside(noise, static_cast<float>(sideParallel + t * sidePerDepth));
+    // Written so that NaN fails.
+    inside[i] = (edge0.at(x) >= 0.0) & (edge1.at(x) >= 0.0) & (edge2.at(x) >= 0.0) & (along > 0.0);
+  }
+}
+
+/// The receivers of a span on its triangle.
+void projectFlat(
+  const SeenTriangle& seen, const PixelRays& rays, const Span& span, ReceiverPixels& receivers)
+{
+  std::array<std::uint8_t, ReceiverTile::mostColumns> inside;
+  meetSpan(seen, rays, span, receivers, inside.data());
+  const std::size_t first = span.first;
+  const std::size_t count = span.count;
+  std::fill_n(&receivers.normalX[first], count, seen.normal.x);
+  std::fill_n(&receivers.normalY[first], count, seen.normal.y);
+  std::fill_n(&receivers.normalZ[first], count, seen.normal.z);
+  std::fill_n(&receivers.surface[first], count, seen.surface);
+  std::fill_n(&receivers.lifted[first], count, 0);
+  for (std::size_t j = 0; j < count; ++j)
+  {
+    if (inside[j])
+    {
+      continue;
+    }
+    const double x = span.x + static_cast<double>(j);
+    const glm::dvec3 origin = rays.origin(x, span.y);
+    const glm::dvec3 direction = rays.direction(x, span.y);
+    const glm::dvec3 edge = closestToRay(seen.corners, origin, direction, rays.parallel());
+    const double t = glm::dot(edge - origin, direction) / glm::dot(direction, direction);
+    const double footprint = glm::length(rays.originPerRow + t * rays.directionPerRow);
+    const glm::dvec3 position = inwards(edge, seen.corners, footprint);
+    const std::size_t i = first + j;
+    receivers.positionX[i] = static_cast<float>(position.x);
+    receivers.positionY[i] = static_cast<float>(position.y);
+    receivers.positionZ[i] = static_cast<float>(position.z);
+    receivers.offset[i] = shadowRayOffset(seen.noise, static_cast<float>(footprint));
+    if (seen.normal == glm::vec3(0.0f))
+    {
+      const glm::vec3 toCamera = -glm::normalize(direction);
+      receivers.normalX[i] = toCamera.x;
+      receivers.normalY[i] = toCamera.y;
+      receivers.normalZ[i] = toCamera.z;
+    }
+  }
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+void liftSpan(const SeenTriangle& seen, const FreeSegments& freeSegments, const Span& span,
+  ReceiverPixels& receivers)
+{
+  using Row = std::array<float, ReceiverTile::mostColumns>;
+  const std::size_t first = span.first;
+  const std::size_t count = span.count;
+  const PointArrays points{ &receivers.positionX[first], &receivers.positionY[first],
+    &receivers.positionZ[first] };
+  float* const offsets = &receivers.offset[first];
+  Row heights, normalX, normalY, normalZ;
+  SmoothFacet(seen.corners, *seen.smoothNormals)
+    .look(count, points, heights.data(), { normalX.data(), normalY.data(), normalZ.data() });
+  Row fromX, fromY, fromZ, toX, toY, toZ;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    fromX[i] = points.x[i] + offsets[i] * seen.normal.x;
+    fromY[i] = points.y[i] + offsets[i] * seen.normal.y;
+    fromZ[i] = points.z[i] + offsets[i] * seen.normal.z;
+    heights[i] += offsets[i];
+    toX[i] = points.x[i] + heights[i] * normalX[i];
+    toY[i] = points.y[i] + heights[i] * normalY[i];
+    toZ[i] = points.z[i] + heights[i] * normalZ[i];
+  }
+  std::uint8_t* const isLifted = &receivers.lifted[first];
+  freeSegments.areFree(count, { fromX.data(), fromY.data(), fromZ.data() },
+    { toX.data(), toY.data(), toZ.data() }, isLifted);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    if (isLifted[i] != 0)
+    {
+      receivers.normalX[first + i] = normalX[i];
+      receivers.normalY[first + i] = normalY[i];
+      receivers.normalZ[first + i] = normalZ[i];
+      offsets[i] = heights[i];
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+void projectSolid(
+  const SeenTriangle& seen, const PixelRays& rays, const Span& span, ReceiverPixels& receivers)
+{
+  for (std::size_t j = 0; j < span.count; ++j)
+  {
+    const double x = span.x + static_cast<double>(j);
+    const glm::dvec3 origin = rays.origin(x, span.y);
+    const glm::dvec3 direction = rays.direction(x, span.y);
+    const SolidPoint point = seenPoint(*seen.solid, origin, direction);
+    const double t = glm::dot(point.position - origin, direction) / glm::dot(direction, direction);
+    const auto footprint =
+      static_cast<float>(glm::length(rays.originPerRow + t * rays.directionPerRow));
+    const glm::vec3 position(point.position);
+    const glm::vec3 normal(point.normal);
+    const float noise = noiseOf(*seen.solid, point);
+    const std::size_t i = span.first + j;
+    receivers.positionX[i] = position.x;
+    receivers.positionY[i] = position.y;
+    receivers.positionZ[i] = position.z;
+    receivers.normalX[i] = normal.x;
+    receivers.normalY[i] = normal.y;
+    receivers.normalZ[i] = normal.z;
+    receivers.offset[i] =
+      point.isMet ? shadowRayOffsetInside(noise, footprint) : shadowRayOffset(noise, footprint);
+    receivers.surface[i] = seen.surface;
+    receivers.lifted[i] = 0;
+  }
+}
+
+//------------------------------------------------------------------------------
+void projectSpan(const SeenTriangle& seen, const PixelRays& rays, const FreeSegments* freeSegments,
+  const Span& span, ReceiverPixels& receivers)
+{
+  projectFlat(seen, rays, span, receivers);
+  if (seen.smoothNormals)
+  {
+    liftSpan(seen, *freeSegments, span, receivers);
+  }
+}
+
+//------------------------------------------------------------------------------
+void leaveUncovered(const Span& span, ReceiverPixels& receivers)
+{
+  for (const auto plane : ReceiverPixels::planes)
+  {
+    std::fill_n(&(receivers.*plane)[span.first], span.count, 0.0f);
+  }
+  std::fill_n(&receivers.surface[span.first], span.count, ReceiverPixels::notCovered);
+  std::fill_n(&receivers.lifted[span.first], span.count, 0);
+}
+
+} // namespace gnomon

@@ -1,0 +1,62 @@
+#pragma once
+
+#include "shadowtech/base/PixelRays.h"
+#include "shadowtech/base/Receivers.h"
+#include "shadowtech/base/SeenTriangle.h"
+#include "shadowtech/base/ShadowRay.h"
+
+#include <glm/glm.hpp>
+
+#include <cstddef>
+
+namespace gnomon
+{
+
+/// Places in a row of the picture, one pixel's side apart, that show the same triangle.
+struct Span
+{
+  double x, y;       ///< of the first one, in the picture; whole numbers are pixels' centres
+  std::size_t count; ///< at most ReceiverTile::mostColumns
+  std::size_t first; ///< where the first one's receiver goes
+};
+
+/// Where a ray meets a triangle's plane.
+struct TrianglePoint
+{
+  double t;            ///< along the ray (PixelRays)
+  glm::dvec3 position; ///< centred
+  float offset;        ///< of the shadow ray
+  bool isInside;       ///< the triangle; false where a number is not finite
+};
+inline TrianglePoint meetTriangle(
+  const SeenTriangle& seen, const PixelRays& rays, double x, double y)
+{
+  const double along = seen.alongNormal.row(y).at(x);
+  const double t = seen.planeDistance.row(y).at(x) / along;
+  const double footprint = glm::length(rays.originPerRow) + t * glm::length(rays.directionPerRow);
+  // Written so that NaN fails.
+  return { t, rays.origin(x, y) + t * rays.direction(x, y),
+    shadowRayOffsetInside(seen.noise, static_cast<float>(footprint)),
+    seen.insideEdge[0].row(y).at(x) >= 0.0 && seen.insideEdge[1].row(y).at(x) >= 0.0 &&
+      seen.insideEdge[2].row(y).at(x) >= 0.0 && along > 0.0 };
+}
+
+/// Makes the receivers of a span that shows a triangle.
+/// @param freeSegments not null where the triangle has smooth normals
+void projectSpan(const SeenTriangle& seen, const PixelRays& rays, const FreeSegments* freeSegments,
+  const Span& span, ReceiverPixels& receivers);
+
+/// Makes the receivers of a span that shows a solid.
+void projectSolid(
+  const SeenTriangle& seen, const PixelRays& rays, const Span& span, ReceiverPixels& receivers);
+
+/// Has the shadow rays of receivers on a triangle start above the curved surface, and gives these
+/// receivers that surface's normal, where nothing is in between.
+/// @param span only the receivers' places in the arrays count
+void liftSpan(const SeenTriangle& seen, const FreeSegments& freeSegments, const Span& span,
+  ReceiverPixels& receivers);
+
+/// Leaves a span without receivers.
+void leaveUncovered(const Span& span, ReceiverPixels& receivers);
+
+} // namespace gnomon

@@ -1,0 +1,365 @@
+// Smooth edges of hard shadows (the setting `edge_samples`), against 256 samples of every pixel.
+
+#include "BuiltinPass.h"
+#include "PassScene.h"
+
+#include "lights/vtkGnomonLightKeys.h"
+
+#include <vtkCamera.h>
+#include <vtkCellArray.h>
+#include <vtkLightCollection.h>
+#include <vtkOpenGLSphereMapper.h>
+#include <vtkPoints.h>
+
+#include <glm/gtc/type_ptr.hpp>
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <ostream>
+#include <string>
+#include <vector>
+
+using namespace gnomon::test;
+using gnomon::VisibilityImages;
+
+namespace
+{
+
+glm::dvec3 normalOf(const VisibilityImages& kept, std::size_t pixel)
+{
+  return { kept.normalX[pixel], kept.normalY[pixel], kept.normalZ[pixel] };
+}
+
+/// A built-in scene, drawn at any size.
+class SampledScene
+{
+public:
+  explicit SampledScene(const char* name)
+    : scene_(name, side)
+  {
+    this->scene_.pass->SetTechnique("raytraced");
+  }
+
+  static constexpr int side = 256;   // pixels
+  static constexpr int perSide = 16; // samples of the truth
+
+  VisibilityImages draw(const char* samples, int sizePixels = side)
+  {
+    this->scene_.window->SetSize(sizePixels, sizePixels);
+    this->scene_.pass->SetSetting("edge_samples", samples);
+    this->scene_.window->Render();
+    return this->scene_.pass->GetVisibility();
+  }
+
+  /// The mean visibility of what a pixel shows: of 256 places those on the plane and the side of
+  /// what its centre shows; negative where that is turned away from the light.
+  std::vector<double> truth(const VisibilityImages& centres)
+  {
+    const VisibilityImages fine = this->draw("1", perSide * side);
+    auto* light = vtkLight::SafeDownCast(
+      this->scene_.renderer->GetLights()->GetItemAsObject(centres.sceneIndices[0]));
+    vtkCamera* camera = this->scene_.renderer->GetActiveCamera();
+    std::vector<double> means;
+    for (std::size_t i = 0; i < centres.coverage.size(); ++i)
+    {
+      const glm::dvec3 normal = normalOf(centres, i);
+      const glm::dvec3 position = positionOf(centres, i);
+      if (centres.coverage[i] == 0.0f || cosineTowards(centres, i, light) <= 1e-6)
+      {
+        means.push_back(-1.0);
+        continue;
+      }
+      const double depth = glm::dot(position - glm::make_vec3(camera->GetPosition()),
+        glm::make_vec3(camera->GetDirectionOfProjection()));
+      const double pixelSide =
+        2.0 * depth * std::tan(glm::radians(0.5 * camera->GetViewAngle())) / side;
+      double sum = 0.0;
+      int count = 0;
+      for (int y = 0; y < perSide; ++y)
+      {
+        for (int x = 0; x < perSide; ++x)
+        {
+          const std::size_t sample =
+            (i / side * perSide + static_cast<std::size_t>(y)) * side * perSide +
+            i % side * perSide + static_cast<std::size_t>(x);
+          const bool isSame = fine.coverage[sample] == 1.0f &&
+            glm::dot(normalOf(fine, sample), normal) > 0.7071 &&
+            std::abs(glm::dot(positionOf(fine, sample) - position, normal)) <= pixelSide &&
+            cosineTowards(fine, sample, light) > 0.0;
+          sum += isSame ? static_cast<double>(fine.visibility[0][sample]) : 0.0;
+          count += isSame ? 1 : 0;
+        }
+      }
+      means.push_back(count > 0 ? sum / count : -1.0);
+    }
+    return means;
+  }
+
+private:
+  BuiltinPass scene_;
+};
+
+struct Error
+{
+  double rms = 0.0;
+  int missed = 0; ///< pixels between light and shadow that are said to be one of both
+};
+Error errorOf(const VisibilityImages& images, const std::vector<double>& truth)
+{
+  Error error;
+  double count = 0.0;
+  for (std::size_t i = 0; i < truth.size(); ++i)
+  {
+    if (truth[i] >= 0.0)
+    {
+      const double visibility = static_cast<double>(images.visibility[0][i]);
+      error.rms += std::pow(visibility - truth[i], 2.0);
+      error.missed += std::abs(truth[i] - 0.5) < 0.25 && std::abs(visibility - 0.5) == 0.5 ? 1 : 0;
+      count += 1.0;
+    }
+  }
+  error.rms = std::sqrt(error.rms / count);
+  return error;
+}
+
+struct Case
+{
+  const char* scene;
+  double factor; ///< by which 16 samples are closer to the truth than one
+};
+
+std::ostream& operator<<(std::ostream& stream, const Case& of)
+{
+  return stream << of.scene;
+}
+
+class EdgeSamplesOf
+  : public PassTest
+  , public testing::WithParamInterface<Case>
+{
+protected:
+  const char* scene() const { return GetParam().scene; }
+};
+
+// The bunny's triangles are smaller than pixels here: few samples lie on those that pixels show.
+INSTANTIATE_TEST_SUITE_P(Scenes, EdgeSamplesOf,
+  testing::Values(Case{ "bunny", 2.4 }, Case{ "posts", 3.0 }, Case{ "cups", 3.0 },
+    Case{ "plates", 3.0 }, Case{ "stack", 3.0 }),
+  [](const testing::TestParamInfo<Case>& of) { return std::string(of.param.scene); });
+
+/// A sphere over a floor under a sun.
+class EdgeSamples : public PassTest
+{
+protected:
+  EdgeSamples()
+  {
+    this->floor = this->scene.addFloor(4.0);
+    this->sphere = this->scene.addSphere({ 0.0, 0.0, 1.5 }, 0.7);
+    this->sun = this->scene.addSun({ 1.0, 0.4, -1.5 });
+    this->scene.lookFrom({ 0.0, -9.0, 7.0 });
+    this->scene.pass->SetTechnique("silhouette");
+    this->set("16");
+  }
+
+  void set(const char* samples) { this->scene.pass->SetSetting("edge_samples", samples); }
+
+  /// How many pixels are between light and shadow.
+  std::size_t countMixed()
+  {
+    std::size_t mixed = 0;
+    for (const float of : drawKept(this->scene).visibility[0])
+    {
+      mixed += of > 0.0f && of < 1.0f ? 1 : 0;
+    }
+    return mixed;
+  }
+
+  PassScene scene{ 203, 157 };
+  vtkActor* floor;
+  vtkActor* sphere;
+  vtkLight* sun;
+};
+
+} // namespace
+
+//------------------------------------------------------------------------------
+TEST_P(EdgeSamplesOf, areCloserToTheTruth)
+{
+  SampledScene scene(this->scene());
+  const VisibilityImages one = scene.draw("1");
+  const std::vector<double> truth = scene.truth(one);
+  const auto error = [&](const char* samples) { return errorOf(scene.draw(samples), truth); };
+  const Error ofOne = errorOf(one, truth);
+  const Error ofSixteen = error("16");
+  EXPECT_GT(ofOne.missed, 100) << "no edge";
+  EXPECT_LT(ofSixteen.missed, ofOne.missed / 10);
+  EXPECT_LT(error("4").rms, ofOne.rms);
+  EXPECT_LT(ofSixteen.rms, ofOne.rms / GetParam().factor);
+  EXPECT_LT(error("64").rms, ofSixteen.rms);
+}
+
+//------------------------------------------------------------------------------
+/// Where all nine pixels around show one surface in one light, nothing changes.
+TEST_P(EdgeSamplesOf, changeNothingAwayFromEdges)
+{
+  SampledScene scene(this->scene());
+  const VisibilityImages one = scene.draw("1");
+  const VisibilityImages sixteen = scene.draw("16");
+  std::size_t away = 0;
+  std::size_t changed = 0;
+  for (int y = 1; y < one.height - 1; ++y)
+  {
+    for (int x = 1; x < one.width - 1; ++x)
+    {
+      const auto at = [&](int dx, int dy)
+      { return static_cast<std::size_t>((y + dy) * one.width + x + dx); };
+      bool isEdge = false;
+      for (int i = 0; i < 9; ++i)
+      {
+        const std::size_t other = at(i % 3 - 1, i / 3 - 1);
+        isEdge |= one.visibility[0][other] != one.visibility[0][at(0, 0)] ||
+          one.coverage[other] != one.coverage[at(0, 0)] ||
+          glm::dot(normalOf(one, other), normalOf(one, at(0, 0))) < 0.99;
+      }
+      away += isEdge ? 0 : 1;
+      changed += !isEdge && one.visibility[0][at(0, 0)] != sixteen.visibility[0][at(0, 0)] ? 1 : 0;
+    }
+  }
+  EXPECT_GT(away, 20000u);
+  EXPECT_EQ(changed, 0u);
+}
+
+//------------------------------------------------------------------------------
+/// The picture mixes the bytes of light and shadow, where the image route rounds once.
+TEST_P(EdgeSamplesOf, lookAlikeByBothRoutes)
+{
+  const auto renderer = gnomon::tool::makeRenderer(gnomon::tool::loadScene(this->scene()), 1.0);
+  vtkNew<vtkGnomonEGLRenderWindow> window;
+  vtkNew<vtkGnomonShadowPass> pass;
+  window->SetSize(301, 203);
+  window->AddRenderer(renderer);
+  renderer->SetPass(pass);
+  pass->SetTechnique("silhouette");
+  const auto draw = [&](int route, const char* samples)
+  {
+    pass->SetRoute(route);
+    pass->SetSetting("edge_samples", samples);
+    window->Render();
+    return readPicture(window);
+  };
+  const Picture hard = draw(vtkGnomonShadowPass::ROUTE_DEFERRED, "1");
+  const Picture deferred = draw(vtkGnomonShadowPass::ROUTE_DEFERRED, "16");
+  EXPECT_EQ(pass->GetReport().route, "deferred");
+  const Picture image = draw(vtkGnomonShadowPass::ROUTE_IMAGE, "16");
+  EXPECT_GT(differingPixels(hard, deferred, 8), 100u);
+  EXPECT_EQ(differingPixels(image, deferred, 1), 0u);
+  EXPECT_EQ(differingPixels(hard, draw(vtkGnomonShadowPass::ROUTE_DEFERRED, "1")), 0u);
+}
+
+//------------------------------------------------------------------------------
+/// A lit plate over ground that is all in its shadow, and ground in light before a dark wall.
+TEST_F(EdgeSamples, haveNoFringesAtOutlines)
+{
+  this->scene.renderer->RemoveActor(this->sphere);
+  this->scene.addFloor(1.0, 1.0);
+  this->floor->SetScale(0.2); // within the plate's shadow of an upright sun
+  this->sun->SetPosition(0.0, 0.0, 5.0);
+  this->sun->SetFocalPoint(0.0, 0.0, 0.0);
+  for (const glm::dvec3& from : { glm::dvec3(0.0, -9.0, 7.0), { 3.0, -9.0, -1.0 } })
+  {
+    this->scene.lookFrom(from);
+    const VisibilityImages& kept = drawKept(this->scene);
+    std::size_t plate = 0;
+    std::size_t wrong = 0;
+    for (std::size_t i = 0; i < kept.coverage.size(); ++i)
+    {
+      if (kept.coverage[i] == 1.0f && cosineTowards(kept, i, this->sun) > 0.0)
+      {
+        const bool isPlate = positionOf(kept, i).z > 0.5;
+        plate += isPlate ? 1 : 0;
+        wrong += kept.visibility[0][i] != (isPlate ? 1.0f : 0.0f) ? 1 : 0;
+      }
+    }
+    EXPECT_EQ(plate > 1000, from.z > 0.0);
+    EXPECT_EQ(wrong, 0u);
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(EdgeSamples, areThereForAllLightsCamerasAndShapes)
+{
+  const std::size_t ofSun = this->countMixed();
+  EXPECT_GT(ofSun, 60u);
+  EXPECT_EQ(this->countMixed(), ofSun) << "at rest";
+  this->scene.renderer->GetActiveCamera()->ParallelProjectionOn();
+  this->scene.renderer->GetActiveCamera()->SetParallelScale(3.0);
+  EXPECT_GT(this->countMixed(), 60u) << "parallel";
+  this->scene.renderer->GetActiveCamera()->ParallelProjectionOff();
+  this->sun->SwitchOff();
+  vtkLight* spot = this->scene.addSpot({ -3.0, 0.0, 5.0 }, { 0.0, 0.0, 1.0 }, 40.0);
+  EXPECT_GT(this->countMixed(), 60u) << "spot";
+  spot->SetConeAngle(allDirections);
+  EXPECT_GT(this->countMixed(), 60u) << "point";
+  for (const char* technique : { "raytraced", "crsm", "crsma" })
+  {
+    this->scene.pass->SetTechnique(technique);
+    EXPECT_GT(this->countMixed(), 60u) << technique;
+  }
+  this->scene.pass->SetTechnique("raytraced");
+  this->scene.pass->SetTracer(vtkGnomonShadowPass::TRACER_GPU);
+  EXPECT_GT(this->countMixed(), 60u) << "GPU";
+}
+
+//------------------------------------------------------------------------------
+/// The same number of rays decides, and so does the map, whoever decides.
+TEST_F(EdgeSamples, agreeBetweenExactTechniques)
+{
+  this->scene.pass->SetSetting("bake", "always");
+  this->scene.pass->SetTechnique("raytraced");
+  const std::vector<float> truth = drawKept(this->scene).visibility[0];
+  for (const char* technique : { "silhouette", "crsm", "crsma" })
+  {
+    this->scene.pass->SetTechnique(technique);
+    EXPECT_EQ(drawKept(this->scene).visibility[0], truth) << technique;
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(EdgeSamples, lieOnSolids)
+{
+  this->scene.renderer->RemoveActor(this->sphere);
+  vtkNew<vtkPolyData> centres;
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkCellArray> vertices;
+  for (const glm::dvec3& centre : { glm::dvec3(0.0, 0.0, 1.2), { -0.8, -0.3, 2.4 } })
+  {
+    const vtkIdType point = points->InsertNextPoint(&centre.x);
+    vertices->InsertNextCell(1, &point);
+  }
+  centres->SetPoints(points);
+  centres->SetVerts(vertices);
+  vtkNew<vtkOpenGLSphereMapper> mapper;
+  mapper->SetInputData(centres);
+  mapper->SetRadius(0.7);
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  this->scene.renderer->AddActor(actor);
+  const VisibilityImages& kept = drawKept(this->scene);
+  std::size_t mixed = 0;
+  for (std::size_t i = 0; i < kept.coverage.size(); ++i)
+  {
+    const float of = kept.visibility[0][i];
+    mixed += kept.coverage[i] == 1.0f && positionOf(kept, i).z > 0.1 && of > 0.0f && of < 1.0f;
+  }
+  EXPECT_GT(mixed, 5u) << "the upper sphere's shadow on the lower one";
+}
+
+//------------------------------------------------------------------------------
+TEST_F(EdgeSamples, areNotOfAreaLights)
+{
+  this->scene.pass->SetTechnique("raytraced");
+  vtkGnomonLightKeys::SetSetting(this->sun, "light_radius", "3");
+  const std::vector<float> sixteen = drawKept(this->scene).visibility[0];
+  this->set("1");
+  EXPECT_EQ(drawKept(this->scene).visibility[0], sixteen);
+}
