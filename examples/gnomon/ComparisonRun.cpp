@@ -307,18 +307,6 @@ void timeStages(Variants& variants, Motion motion, const ComparisonPlan& plan, S
   }
 }
 
-/// Whether a light's map is still to be baked, once nothing has changed for some frames.
-bool awaitsMap(vtkGnomonShadowPass* pass)
-{
-  if (!pass)
-  {
-    return false;
-  }
-  const std::vector<LightReport>& lights = pass->GetReport().lights;
-  return std::any_of(lights.begin(), lights.end(),
-    [](const LightReport& light) { return !light.mapReason.empty(); });
-}
-
 /// The first frames: compiles, builds, bakes all maps, and shows by how much the program grows.
 void warmUp(Variant& variant)
 {
@@ -329,7 +317,7 @@ void warmUp(Variant& variant)
   }
   // Maps are awaited by frames that compute visibility. Those fitted to a moving camera never come.
   constexpr int mostFrames = 64;
-  for (int frame = 1; frame <= mostFrames && awaitsMap(variant.pass()); ++frame)
+  for (int frame = 1; frame <= mostFrames && variant.awaitsMap(); ++frame)
   {
     variant.drawFrame(Motion::Camera, frame);
   }

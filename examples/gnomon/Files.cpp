@@ -103,6 +103,19 @@ void requireWritableFile(
 }
 
 //------------------------------------------------------------------------------
+void writeText(const std::string& path, const std::string& text)
+{
+  errno = 0;
+  std::ofstream file(path, std::ios::binary | std::ios::trunc);
+  file << text;
+  file.close();
+  if (!file)
+  {
+    throw Failure(path + ": writing failed: " + std::strerror(errno));
+  }
+}
+
+//------------------------------------------------------------------------------
 std::string lowerExtension(const std::string& path)
 {
   std::string extension = std::filesystem::path(path).extension().string();

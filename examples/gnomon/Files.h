@@ -22,6 +22,10 @@ std::string readWholeFile(const std::string& path, std::size_t largestBytes);
 void requireWritableFile(
   const std::string& path, const std::string& option, const std::vector<std::string>& extensions);
 
+/// Writes a file in place of what stood there.
+/// @throws Failure
+void writeText(const std::string& path, const std::string& text);
+
 /// The extension of a path with its dot, in lower case.
 std::string lowerExtension(const std::string& path);
 

@@ -4,6 +4,7 @@
 #include "SettingOptions.h"
 
 #include "shadowtech/Registry.h"
+#include "shadowtech/base/FrameReport.h"
 
 #include <vtkCameraPass.h>
 #include <vtkLight.h>
@@ -239,6 +240,15 @@ FrameVariant::FrameVariant(const VariantSpec& spec, const Scene& scene, int widt
   this->renderer_->SetPass(makePass(spec));
   this->window_->SetSize(width, height);
   this->window_->AddRenderer(this->renderer_);
+}
+
+//------------------------------------------------------------------------------
+bool FrameVariant::awaitsMap() const
+{
+  const auto awaits = [](const LightReport& light) { return !light.mapReason.empty(); };
+  return this->pass() &&
+    std::any_of(
+      this->pass()->GetReport().lights.begin(), this->pass()->GetReport().lights.end(), awaits);
 }
 
 //------------------------------------------------------------------------------

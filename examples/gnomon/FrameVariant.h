@@ -94,6 +94,9 @@ public:
   vtkRenderer* renderer() const { return this->renderer_; }
   vtkRenderWindow* window() const { return this->window_; }
 
+  /// Whether a light's map is still to be baked, once nothing has changed for some frames.
+  bool awaitsMap() const;
+
   /// Draws one frame to its end and returns its wall clock time in milliseconds.
   double drawFrame(Motion motion, int step);
 

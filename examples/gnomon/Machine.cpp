@@ -27,6 +27,13 @@ std::string valueOf(std::istream& text, const std::string& key)
   return {};
 }
 
+std::string processorModel()
+{
+  std::ifstream file("/proc/cpuinfo");
+  const std::string model = valueOf(file, "model name");
+  return model.empty() ? "unknown" : model;
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -42,10 +49,7 @@ std::int64_t residentBytes()
 //------------------------------------------------------------------------------
 std::string processorName()
 {
-  std::ifstream file("/proc/cpuinfo");
-  const std::string model = valueOf(file, "model name");
-  return (model.empty() ? "unknown" : model) + ", " +
-    std::to_string(std::thread::hardware_concurrency()) + " threads";
+  return processorModel() + ", " + std::to_string(std::thread::hardware_concurrency()) + " threads";
 }
 
 //------------------------------------------------------------------------------
@@ -56,6 +60,14 @@ std::string openGlName(vtkRenderWindow* window)
   std::istringstream forVersion(capabilities);
   return valueOf(forRenderer, "OpenGL renderer string") + ", version " +
     valueOf(forVersion, "OpenGL version string");
+}
+
+//------------------------------------------------------------------------------
+std::string machineLine(vtkRenderWindow* window)
+{
+  const std::string renderer = openGlName(window);
+  return processorModel() + ", " + std::to_string(std::thread::hardware_concurrency()) +
+    " processors; OpenGL by " + (renderer.find("llvmpipe") == 0 ? "software (llvmpipe)" : renderer);
 }
 
 } // namespace gnomon::tool

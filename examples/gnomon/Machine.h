@@ -17,4 +17,7 @@ std::string processorName();
 /// Renderer and version of a window's OpenGL.
 std::string openGlName(vtkRenderWindow* window);
 
+/// What pages say they were measured on: "AMD EPYC, 2 processors; OpenGL by software (llvmpipe)".
+std::string machineLine(vtkRenderWindow* window);
+
 } // namespace gnomon::tool

@@ -1,6 +1,7 @@
 #include "Report.h"
 
 #include "Errors.h"
+#include "Files.h"
 #include "ReportChart.h"
 
 #include <cerrno>
@@ -11,23 +12,6 @@
 
 namespace gnomon::tool
 {
-namespace
-{
-
-void writeText(const std::filesystem::path& path, const std::string& text)
-{
-  errno = 0;
-  std::ofstream file(path, std::ios::binary | std::ios::trunc);
-  file << text;
-  file.close();
-  if (!file)
-  {
-    throw Failure(path.string() + ": writing failed: " + std::strerror(errno));
-  }
-}
-
-} // namespace
-
 //------------------------------------------------------------------------------
 std::string fileStem(const std::string& variantName)
 {
@@ -42,7 +26,7 @@ std::string fileStem(const std::string& variantName)
 }
 
 //------------------------------------------------------------------------------
-void prepareReportFolder(const std::string& folder)
+void prepareReportFolder(const std::string& folder, const std::string& file)
 {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
@@ -54,10 +38,10 @@ void prepareReportFolder(const std::string& folder)
   {
     throw BadInput(folder + ": is not a folder, expected one for the report");
   }
-  const std::filesystem::path probe = std::filesystem::path(folder) / "report.html";
+  const std::filesystem::path probe = std::filesystem::path(folder) / file;
   errno = 0;
-  const std::ofstream file(probe, std::ios::app);
-  if (!file)
+  const std::ofstream opened(probe, std::ios::app);
+  if (!opened)
   {
     throw BadInput(probe.string() + ": cannot be written: " + std::strerror(errno));
   }
@@ -84,9 +68,9 @@ void writeReport(const ComparisonResults& results, const std::string& folder)
     chart = drawChart(results);
     writePicture(chart, (base / "chart.png").string());
   }
-  writeText(base / "results.csv", toCsv(results));
-  writeText(base / "results.json", toJson(results));
-  writeText(base / "report.html", toHtml(results, chart));
+  writeText((base / "results.csv").string(), toCsv(results));
+  writeText((base / "results.json").string(), toJson(results));
+  writeText((base / "report.html").string(), toHtml(results, chart));
 }
 
 } // namespace gnomon::tool

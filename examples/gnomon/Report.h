@@ -23,8 +23,9 @@ std::string toHtml(const ComparisonResults& results, const Picture& chart);
 std::string fileStem(const std::string& variantName);
 
 /// Fails early when a report cannot be written there; makes the folder if need be.
+/// @param file of the report
 /// @throws BadInput
-void prepareReportFolder(const std::string& folder);
+void prepareReportFolder(const std::string& folder, const std::string& file = "report.html");
 
 /// Writes results.csv, results.json, report.html, chart.png (if frames were timed), and for each
 /// variant its picture and its errors (<variant>.png, <variant>-errors.png), and where it tells its

@@ -31,6 +31,8 @@ namespace
 
 constexpr int chartWidth = 1100;
 constexpr int chartHeight = 640;
+constexpr int panelWidth = 640;
+constexpr int panelHeight = 560;
 
 using Colour = std::array<unsigned char, 3>;
 
@@ -219,6 +221,45 @@ void setUpAxis(vtkAxis* axis, const LogScale& scale, const char* title)
   axis->GetGridPen()->SetColor(225, 225, 225);
 }
 
+void addLine(
+  vtkChart* chart, const std::vector<std::array<double, 2>>& points, const Colour& colour)
+{
+  if (points.size() < 2)
+  {
+    return; // VTK calls a line of one point an error
+  }
+  vtkPlot* const line = chart->AddPlot(vtkChart::LINE);
+  line->SetInputData(pointTable(points), 0, 1);
+  line->SetColor(colour[0], colour[1], colour[2], 130);
+  line->SetWidth(1.5f);
+}
+
+void addMarkers(vtkChart* chart, const std::vector<std::array<double, 2>>& points, int style,
+  const Colour& colour)
+{
+  auto* const marker = vtkPlotPoints::SafeDownCast(chart->AddPlot(vtkChart::POINTS));
+  marker->SetInputData(pointTable(points), 0, 1);
+  marker->SetMarkerStyle(style);
+  marker->SetMarkerSize(11.0f);
+  marker->SetColor(colour[0], colour[1], colour[2], 255);
+}
+
+Picture draw(vtkChart* chart, PointLabels* labels, int width, int height)
+{
+  vtkNew<vtkContextActor> actor;
+  vtkNew<vtkRenderer> renderer;
+  renderer->SetBackground(1.0, 1.0, 1.0);
+  renderer->AddActor(actor);
+  actor->GetScene()->SetRenderer(renderer);
+  actor->GetScene()->AddItem(chart);
+  actor->GetScene()->AddItem(labels);
+  vtkNew<vtkGnomonEGLRenderWindow> window;
+  window->SetSize(width, height);
+  window->AddRenderer(renderer);
+  window->Render();
+  return capture(window);
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -319,34 +360,60 @@ Picture drawChart(const ComparisonResults& results)
     std::vector<std::array<double, 2>> inOrder = points;
     std::sort(inOrder.begin(), inOrder.end());
 
-    vtkPlot* const line = chart->AddPlot(vtkChart::LINE);
-    line->SetInputData(pointTable(inOrder), 0, 1);
-    line->SetColor(colour[0], colour[1], colour[2], 130);
-    line->SetWidth(1.5f);
+    addLine(chart, inOrder, colour);
     for (Motion motion : allMotions)
     {
-      auto* const marker = vtkPlotPoints::SafeDownCast(chart->AddPlot(vtkChart::POINTS));
-      marker->SetInputData(pointTable({ points[static_cast<std::size_t>(motion)] }), 0, 1);
-      marker->SetMarkerStyle(motionMarker(motion));
-      marker->SetMarkerSize(11.0f);
-      marker->SetColor(colour[0], colour[1], colour[2], 255);
+      addMarkers(chart, { points[static_cast<std::size_t>(motion)] }, motionMarker(motion), colour);
     }
     labels->points.insert(labels->points.end(), points.begin(), points.end());
     labels->labels.push_back({ variant.name, colour, inOrder.back()[0], y });
   }
 
-  vtkNew<vtkContextActor> actor;
-  vtkNew<vtkRenderer> renderer;
-  renderer->SetBackground(1.0, 1.0, 1.0);
-  renderer->AddActor(actor);
-  actor->GetScene()->SetRenderer(renderer);
-  actor->GetScene()->AddItem(chart);
-  actor->GetScene()->AddItem(labels);
-  vtkNew<vtkGnomonEGLRenderWindow> window;
-  window->SetSize(chartWidth, chartHeight);
-  window->AddRenderer(renderer);
-  window->Render();
-  return capture(window);
+  return draw(chart, labels, chartWidth, chartHeight);
+}
+
+//------------------------------------------------------------------------------
+Picture drawTimes(const std::vector<ChartLine>& lines)
+{
+  std::vector<double> quantities;
+  std::vector<double> times;
+  for (const ChartLine& line : lines)
+  {
+    for (const auto& [x, y] : line.points)
+    {
+      quantities.push_back(x);
+      times.push_back(y);
+    }
+  }
+  const LogScale xScale(quantities, "");
+  const LogScale yScale(times, " ms");
+
+  vtkNew<vtkChartXY> chart;
+  chart->SetShowLegend(false);
+  setUpAxis(chart->GetAxis(vtkAxis::BOTTOM), xScale, "");
+  setUpAxis(chart->GetAxis(vtkAxis::LEFT), yScale, "time per frame");
+  const double roomForNames = 0.25 * (xScale.upper() - xScale.lower());
+  chart->GetAxis(vtkAxis::BOTTOM)->SetRange(xScale.lower(), xScale.upper() + roomForNames);
+  vtkNew<PointLabels> labels;
+  labels->xAxis = chart->GetAxis(vtkAxis::BOTTOM);
+  labels->yAxis = chart->GetAxis(vtkAxis::LEFT);
+  for (std::size_t i = 0; i < lines.size(); ++i)
+  {
+    std::vector<std::array<double, 2>> points;
+    for (const auto& [x, y] : lines[i].points)
+    {
+      points.push_back({ { xScale.position(x), yScale.position(y) } });
+    }
+    if (!points.empty())
+    {
+      addLine(chart, points, variantColour(i));
+      addMarkers(chart, points, vtkPlotPoints::CIRCLE, variantColour(i));
+      labels->points.insert(labels->points.end(), points.begin(), points.end());
+      labels->labels.push_back(
+        { lines[i].name, variantColour(i), points.back()[0], points.back()[1] });
+    }
+  }
+  return draw(chart, labels, panelWidth, panelHeight);
 }
 
 } // namespace gnomon::tool

@@ -2,6 +2,7 @@
 
 #include "Comparison.h"
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,18 @@ private:
   double zero_ = 0.0;
   std::vector<LogTick> ticks_;
 };
+
+/// A line of a chart.
+struct ChartLine
+{
+  std::string name;
+  std::vector<std::array<double, 2>> points;
+};
+
+/// Frames' milliseconds (y) over a quantity (x), both logarithmic: a line for each that has points,
+/// its name at the last one.
+/// @throws Failure when no OpenGL context can be made
+Picture drawTimes(const std::vector<ChartLine>& lines);
 
 /// Error against time, both logarithmic: every variant has a colour, a label and one point per
 /// motion, joined by a line. Drawn with VTK's charts in a window without a display.
