@@ -1,0 +1,510 @@
+// How a frame's time grows with triangles, with lights, with pixels, and with what moves. Each axis
+// varies one of these from a base scene. Plain VTK, vtkShadowMapPass and Gnomon's techniques draw
+// their frames in turns, so that what else the machine does touches all alike.
+
+#include "BenchmarkMain.h"
+#include "BuiltinParts.h"
+#include "Commands.h"
+#include "Errors.h"
+#include "FrameVariant.h"
+#include "GrowthReport.h"
+#include "Machine.h"
+#include "MeshBuilder.h"
+#include "Progress.h"
+#include "Report.h"
+#include "VtkMessages.h"
+
+#include "plugin/frame/BakeBackoff.h"
+#include "plugin/vtkGnomonEGLRenderWindow.h"
+#include "shadowtech/Registry.h"
+
+#include <vtkActor.h>
+#include <vtkActorCollection.h>
+#include <vtkMath.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <filesystem>
+#include <functional>
+#include <iostream>
+#include <memory>
+#include <numeric>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gnomon::tool
+{
+namespace
+{
+
+constexpr int mapSizeTexels = 1024;
+constexpr int baseTriangles = 100000;
+constexpr int propColumns = 40;
+constexpr int propRows = 25;
+constexpr int fewestFrames = 3;
+/// The time that the frames of a case may take, but for the fewest.
+constexpr double secondsPerCase = 60.0;
+
+const std::vector<std::string> axisKeys = { "triangles", "lights", "pixels", "movement" };
+
+struct Options
+{
+  std::string folder;
+  std::vector<std::string> axes = axisKeys;
+  std::vector<std::string> techniques = { "nsm", "silhouette", "raytraced" };
+  int frames = 25;
+  int mostTriangles = 10000000;
+  int sidePixels = 1024;
+};
+
+using Variants = std::vector<std::unique_ptr<FrameVariant>>;
+
+struct Case
+{
+  std::string name;
+  double x = 0.0; ///< its place on the axis; 0: the axis has no scale
+  int triangles = baseTriangles;
+  int lights = 1;
+  bool isCut = false; ///< into props
+  PictureSize size;
+  Motion motion = Motion::Camera;
+  /// Moves what is neither the camera nor a light, before each round of frames.
+  std::function<void(const Scene&, const Variants&, int step)> move = {};
+};
+
+struct Axis
+{
+  std::string key;
+  std::vector<Case> cases;
+};
+
+//------------------------------------------------------------------------------
+// Scenes
+
+double hillHeight(double x, double z, double time)
+{
+  return 0.03 * std::sin(40.0 * x + time) * std::cos(31.0 * z);
+}
+
+/// A rectangle of hills of about that many triangles, its corner at (x, z).
+SceneModel makeHills(double triangles, double x, double z, double width, double depth)
+{
+  const int cells = std::max(1, static_cast<int>(std::lround(std::sqrt(0.5 * triangles))));
+  MeshBuilder mesh;
+  mesh.addPatch(cells, cells,
+    [&](double u, double v)
+    {
+      const double placeX = x + u * width;
+      const double placeZ = z - v * depth;
+      return SurfacePoint{ { { placeX, hillHeight(placeX, placeZ, 0.0), placeZ } }, up };
+    });
+  SceneModel model = makeModel("hills", mesh.build(), { { 0.6, 0.62, 0.4 } });
+  model.surface->GetPointData()->SetNormals(nullptr); // VTK shades facets, also of moved vertices
+  return model;
+}
+
+/// A square of hills under suns that stand around it.
+Scene makeScene(const Case& drawn)
+{
+  Scene scene;
+  const int columns = drawn.isCut ? propColumns : 1;
+  const int rows = drawn.isCut ? propRows : 1;
+  const double width = 1.0 / columns;
+  const double depth = 1.0 / rows;
+  for (int i = 0; i < columns * rows; ++i)
+  {
+    scene.models.push_back(makeHills(drawn.triangles * width * depth, i % columns * width - 0.5,
+      0.5 - i / columns * depth, width, depth));
+  }
+  for (int i = 0; i < drawn.lights; ++i)
+  {
+    const double turn = 0.6 + 2.0 * vtkMath::Pi() * i / drawn.lights;
+    scene.lights.push_back(makeSun(
+      { { std::cos(turn), -0.6, std::sin(turn) } }, { { 1.0, 1.0, 1.0 } }, 1.0 / drawn.lights));
+  }
+  scene.camera = makeCamera({ { 0.0, 0.75, 1.1 } }, { { 0.0, -0.05, 0.0 } }, 45.0);
+  return scene;
+}
+
+void liftOneProp(const Scene& /*scene*/, const Variants& variants, int step)
+{
+  for (const std::unique_ptr<FrameVariant>& variant : variants)
+  {
+    vtkObject* const middle =
+      variant->renderer()->GetActors()->GetItemAsObject(propColumns * propRows / 2);
+    vtkActor::SafeDownCast(middle)->SetPosition(0.0, 1e-3 * step, 0.0);
+  }
+}
+
+/// Lets a wave of hills travel along x.
+void moveAllVertices(const Scene& scene, const Variants& /*variants*/, int step)
+{
+  vtkPoints* const points = scene.models.front().surface->GetPoints();
+  for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
+  {
+    Vec3 place;
+    points->GetPoint(i, place.data());
+    points->SetPoint(i, place[0], hillHeight(place[0], place[2], 0.1 * step), place[2]);
+  }
+  points->Modified();
+}
+
+//------------------------------------------------------------------------------
+// Cases
+
+/// "1,000,000".
+std::string grouped(int number)
+{
+  std::string text = std::to_string(number);
+  for (int end = static_cast<int>(text.size()) - 3; end > 0; end -= 3)
+  {
+    text.insert(static_cast<std::size_t>(end), ",");
+  }
+  return text;
+}
+
+/// All axes, in the order of axisKeys.
+std::vector<Axis> makeAxes(const Options& options)
+{
+  Case base;
+  base.triangles = std::min(baseTriangles, options.mostTriangles);
+  base.size = { options.sidePixels, options.sidePixels };
+  const auto named = [&](const std::string& name, double x)
+  {
+    Case varied = base;
+    varied.name = name;
+    varied.x = x;
+    return varied;
+  };
+
+  Axis triangles{ "triangles", {} };
+  for (const int count : { 10000, 100000, 1000000, 10000000 })
+  {
+    if (count <= options.mostTriangles || triangles.cases.empty())
+    {
+      const int drawn = std::min(count, options.mostTriangles);
+      triangles.cases.push_back(named(grouped(drawn), drawn));
+      triangles.cases.back().triangles = drawn;
+    }
+  }
+  Axis lights{ "lights", {} };
+  for (const int count : { 1, 2, 4, 8 })
+  {
+    lights.cases.push_back(named(grouped(count), count));
+    lights.cases.back().lights = count;
+  }
+  Axis pixels{ "pixels", {} };
+  for (const auto& [width, height] :
+    { std::pair(512, 512), { 1024, 1024 }, { 1920, 1080 }, { 3840, 2160 } })
+  {
+    // Of a base of 1024 x 1024; of another, in proportion.
+    const PictureSize size{ width * options.sidePixels / 1024, height * options.sidePixels / 1024 };
+    pixels.cases.push_back(named(std::to_string(size.width) + " x " + std::to_string(size.height),
+      static_cast<double>(size.width) * size.height));
+    pixels.cases.back().size = size;
+  }
+  base.motion = Motion::Static;
+  Axis movement{ "movement",
+    { named("1,000 props at rest", 0.0), named("one of them moving", 0.0),
+      named("one surface at rest", 0.0), named("all its vertices moving", 0.0) } };
+  movement.cases[0].isCut = movement.cases[1].isCut = true;
+  movement.cases[1].move = liftOneProp;
+  movement.cases[3].move = moveAllVertices;
+  return { triangles, lights, pixels, movement };
+}
+
+//------------------------------------------------------------------------------
+// Measuring
+
+/// Why the last frame is broken or lacks shadows; empty where it is fine.
+std::string whyNotDrawn(const FrameVariant& variant, const VtkMessages& messages)
+{
+  if (!messages.errors().empty())
+  {
+    return messages.errors().front();
+  }
+  if (!variant.pass())
+  {
+    return {};
+  }
+  const FrameReport& report = variant.pass()->GetReport();
+  if (report.outOfTextureMemory)
+  {
+    return "maps or images are too large for the texture memory";
+  }
+  const auto dark = std::find_if(report.lights.begin(), report.lights.end(),
+    [](const LightReport& light) { return !light.casts; });
+  return dark == report.lights.end() ? std::string() : dark->reason;
+}
+
+/// A case as all contenders draw it.
+class CaseRun
+{
+public:
+  CaseRun(const Case& drawn, const std::vector<VariantSpec>& contenders)
+    : case_(drawn)
+    , scene_(makeScene(drawn))
+    , results_(contenders.size())
+  {
+    for (const VariantSpec& spec : contenders)
+    {
+      this->variants_.push_back(
+        std::make_unique<FrameVariant>(spec, this->scene_, drawn.size.width, drawn.size.height));
+    }
+  }
+
+  /// Draws the first frames, and those that do not count.
+  void warmUp()
+  {
+    this->drawRound();
+    for (GrowthMeasurement& result : this->results_)
+    {
+      result.firstMilliseconds = median(result.times);
+    }
+    for (int round = 0; round < warmUpFrames; ++round)
+    {
+      this->drawRound();
+    }
+    if (this->case_.motion == Motion::Camera) // what else moves makes maps stale
+    {
+      this->awaitMaps();
+    }
+    for (GrowthMeasurement& result : this->results_)
+    {
+      result.times.clear();
+    }
+  }
+
+  /// Draws a frame of each contender.
+  void drawRound()
+  {
+    this->move();
+    for (std::size_t i = 0; i < this->variants_.size(); ++i)
+    {
+      this->drawFrame(i);
+    }
+  }
+
+  /// The time of all frames since warmUp().
+  double seconds() const
+  {
+    double milliseconds = 0.0;
+    for (const GrowthMeasurement& result : this->results_)
+    {
+      milliseconds += std::accumulate(result.times.begin(), result.times.end(), 0.0);
+    }
+    return 1e-3 * milliseconds;
+  }
+
+  GrowthRow results()
+  {
+    for (std::size_t i = 0; i < this->results_.size(); ++i)
+    {
+      if (vtkGnomonShadowPass* const pass = this->variants_[i]->pass())
+      {
+        this->results_[i].report = pass->GetReport();
+      }
+    }
+    return { this->case_.name, this->case_.x, this->results_ };
+  }
+
+private:
+  /// Lets maps that must pay be baked, so that all frames that count are of one kind.
+  void awaitMaps()
+  {
+    for (std::size_t i = 0; i < this->variants_.size(); ++i)
+    {
+      for (int frame = 0; frame <= BakeBackoff::leastPatience && this->variants_[i]->awaitsMap() &&
+           this->seconds() < 2.0 * secondsPerCase;
+           ++frame)
+      {
+        this->move();
+        this->drawFrame(i);
+      }
+    }
+  }
+
+  void move()
+  {
+    ++this->step_;
+    if (this->case_.move)
+    {
+      this->case_.move(this->scene_, this->variants_, this->step_);
+    }
+  }
+
+  void drawFrame(std::size_t contender)
+  {
+    GrowthMeasurement& result = this->results_[contender];
+    if (!result.isDrawn())
+    {
+      return;
+    }
+    const VtkMessages messages;
+    try
+    {
+      FrameVariant& variant = *this->variants_[contender];
+      result.times.push_back(variant.drawFrame(this->case_.motion, this->step_));
+      result.notDrawn = whyNotDrawn(variant, messages);
+    }
+    catch (const std::exception& error)
+    {
+      result.notDrawn = error.what();
+    }
+  }
+
+  const Case& case_;
+  const Scene scene_;
+  Variants variants_;
+  std::vector<GrowthMeasurement> results_;
+  int step_ = 0;
+};
+
+/// Draws all cases of an axis in turns.
+GrowthAxis measure(const Axis& axis, const std::vector<VariantSpec>& contenders, int frames,
+  const std::function<void(const std::string&)>& stepBegins)
+{
+  std::vector<std::unique_ptr<CaseRun>> runs;
+  for (const Case& drawn : axis.cases)
+  {
+    stepBegins(axis.key + ", first frames of " + drawn.name);
+    runs.push_back(std::make_unique<CaseRun>(drawn, contenders));
+    runs.back()->warmUp();
+  }
+  for (int round = 0; round < frames; ++round)
+  {
+    stepBegins(axis.key + ", round " + std::to_string(round + 1) + " of " + std::to_string(frames));
+    for (const std::unique_ptr<CaseRun>& run : runs)
+    {
+      // Slow cases pause now and then.
+      if (round < fewestFrames || run->seconds() < secondsPerCase * round / frames)
+      {
+        run->drawRound();
+      }
+    }
+  }
+  GrowthAxis results{ axis.key, {} };
+  for (const std::unique_ptr<CaseRun>& run : runs)
+  {
+    results.rows.push_back(run->results());
+  }
+  return results;
+}
+
+//------------------------------------------------------------------------------
+// The program
+
+/// What is drawn and timed, for the page.
+std::string describe(const Options& options)
+{
+  const std::string side = std::to_string(options.sidePixels);
+  std::ostringstream text;
+  text
+    << "Every axis varies one quantity of a base scene: a square of hills with "
+    << grouped(std::min(baseTriangles, options.mostTriangles)) << " triangles,\none sun, " << side
+    << " x " << side << " pixels, maps of " << mapSizeTexels << " x " << mapSizeTexels
+    << " texels. The camera turns by " << Mover::stepDegrees
+    << " degrees a\nframe; it rests where something else moves.\n\n"
+    << "Frames of all cases and contenders of an axis are drawn in turns. Times are medians of up "
+       "to "
+    << options.frames
+    << "\nframes; in brackets, multiples of plain VTK's. Bytes are those of the triangles' copy on "
+       "the CPU and\nthe GPU, and of Embree's structure.";
+  return text.str();
+}
+
+/// The command line, without the program's folder.
+std::string commandOf(int argc, char** argv)
+{
+  std::string text = std::filesystem::path(argv[0]).filename().string();
+  for (int i = 1; i < argc; ++i)
+  {
+    text += std::string(" ") + argv[i];
+  }
+  return text;
+}
+
+/// Initialises OpenGL, too, which the first contender would pay for.
+std::string describeMachine()
+{
+  vtkNew<vtkGnomonEGLRenderWindow> window;
+  window->Render();
+  return machineLine(window);
+}
+
+int run(int argc, char** argv)
+{
+  CLI::App app{ "Measures how a frame's time grows with triangles, lights, pixels and what moves",
+    "gnomon_benchmark_growth" };
+  Options options;
+  app.add_option("-o,--output", options.folder, "Folder for growth.md, growth.json and growth.png")
+    ->required();
+  app.add_option("--axes", options.axes, "What to vary, separated by commas")
+    ->delimiter(',')
+    ->check(CLI::IsMember(axisKeys))
+    ->capture_default_str();
+  app.add_option("--techniques", options.techniques, "As of gnomon compare")
+    ->delimiter(',')
+    ->capture_default_str();
+  app
+    .add_option(
+      "--frames", options.frames, "Timed frames of each contender and case; fewer of slow cases")
+    ->check(CLI::Range(1, 1000))
+    ->capture_default_str();
+  app.add_option("--most-triangles", options.mostTriangles, "Triangles of the largest scene")
+    ->check(CLI::Range(2, 100000000))
+    ->capture_default_str();
+  app.add_option("--size", options.sidePixels, "Side of the base picture in pixels")
+    ->check(CLI::Range(16, 4096))
+    ->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
+
+  const VtkMessages messages;
+  Growth growth;
+  growth.contenders = { plainTechnique, shadowMapPassTechnique };
+  std::vector<VariantSpec> specs = { { plainTechnique },
+    { shadowMapPassTechnique, mapSizeTexels } };
+  for (const std::string& text : options.techniques)
+  {
+    growth.contenders.push_back(text);
+    specs.push_back(parseTechnique(text));
+    const bool bakes = estimatorOf(settingsOf(specs.back())).info.bakesMap();
+    specs.back().mapSizeTexels = bakes ? mapSizeTexels : 0;
+  }
+  prepareReportFolder(options.folder, "growth.md");
+  growth.command = commandOf(argc, argv);
+  growth.machine = describeMachine();
+  growth.scene = describe(options);
+  Progress progress("starting");
+  for (const Axis& axis : makeAxes(options))
+  {
+    if (std::count(options.axes.begin(), options.axes.end(), axis.key))
+    {
+      growth.axes.push_back(measure(
+        axis, specs, options.frames, [&](const std::string& step) { progress.begin(step); }));
+      writeGrowth(growth, options.folder);
+    }
+  }
+  if (!messages.errors().empty())
+  {
+    throw Failure("drawing the charts: " + messages.errors().front());
+  }
+  progress.print(options.folder + "/growth.md", std::cout);
+  return 0;
+}
+
+} // namespace
+} // namespace gnomon::tool
+
+int main(int argc, char** argv)
+{
+  return gnomon::tool::runBenchmark(
+    "gnomon_benchmark_growth", [&] { return gnomon::tool::run(argc, argv); });
+}

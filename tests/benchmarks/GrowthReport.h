@@ -1,0 +1,55 @@
+#pragma once
+
+#include "FrameTiming.h"
+
+#include "shadowtech/base/FrameReport.h"
+
+#include <string>
+#include <vector>
+
+namespace gnomon::tool
+{
+
+/// One contender in one case.
+struct GrowthMeasurement
+{
+  std::string notDrawn; ///< why; empty where it is drawn
+  double firstMilliseconds = 0.0;
+  std::vector<double> times; ///< of the frames that count, in milliseconds
+  FrameReport report;        ///< of the last frame; empty of the peers
+
+  bool isDrawn() const { return this->notDrawn.empty(); }
+  double milliseconds() const { return median(this->times); }
+};
+
+/// A case of an axis.
+struct GrowthRow
+{
+  std::string name;
+  double x;                                ///< its place on the axis; 0: the axis has no scale
+  std::vector<GrowthMeasurement> measured; ///< by contender
+};
+
+struct GrowthAxis
+{
+  std::string key;
+  std::vector<GrowthRow> rows;
+
+  bool hasScale() const { return this->rows.front().x > 0.0; }
+};
+
+/// Everything that a report of GrowthBenchmark.cpp says.
+struct Growth
+{
+  std::string command;
+  std::string machine;
+  std::string scene;                   ///< what the axes start from, as a sentence
+  std::vector<std::string> contenders; ///< plain VTK, vtkShadowMapPass, Gnomon's
+  std::vector<GrowthAxis> axes;
+};
+
+/// Writes growth.json, growth.md and, where an axis has a scale, growth.png into the folder.
+/// @throws Failure when writing fails
+void writeGrowth(const Growth& growth, const std::string& folder);
+
+} // namespace gnomon::tool
