@@ -153,7 +153,7 @@ double vtkGnomonLightSamplingPass::DrawMeanOrAlone(const vtkRenderState* s)
   vtkRenderer* renderer = s->GetRenderer();
   try
   {
-    if (internal.context.enter(this, renderer))
+    if (internal.context.enter(this, renderer, { 4, 3 }))
     {
       this->UpdateLightGeometry(renderer); // head lights follow the camera
       internal.lights =

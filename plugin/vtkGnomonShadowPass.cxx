@@ -177,9 +177,9 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
     this->RenderPlain(s, "the renderer's UseShadows is off");
     return;
   }
-  if (!this->Internal->context.enter(this, renderer))
+  if (!this->Internal->context.enter(this, renderer, { 3, 2 }))
   {
-    this->RenderPlain(s, "OpenGL 4.3 is not available");
+    this->RenderPlain(s, "OpenGL 3.2 is not available");
     return;
   }
 

@@ -21,8 +21,11 @@
  * Other passes may stand around it, or inside it as its delegate (docs/pass_chains.md).
  *
  * The pass steps aside for hardware selection, and draws the scene as plain VTK does, without a map
- * or a ray, when no light casts. It leaves the OpenGL state as it found it. OpenGL below 4.3 is an
- * error (vtkErrorMacro), and the scene is drawn without shadows.
+ * or a ray, when no light casts. It leaves the OpenGL state as it found it.
+ *
+ * Techniques take OpenGL 4.3. Those that trace from the CPU (raytraced, silhouette, crsm, crsma,
+ * penumbra) take 3.2; below 4.3 lights with others have raytraced instead, after an error
+ * (vtkErrorMacro). Below 3.2 the scene is drawn without shadows, after an error.
  */
 
 #ifndef vtkGnomonShadowPass_h

@@ -25,22 +25,44 @@ int numberOf(const char* setting, const TechniqueInfo& info, const ShadowLight& 
   return value.empty() ? 0 : std::stoi(value);
 }
 
-/// Finds a light's estimator, and completes the light. If its settings make no sense together, it
-/// gets the plain technique with the default settings.
+/// The technique of lights that cannot have theirs.
+const char* fallbackTechnique()
+{
+  return canDrawMaps() ? plainTechnique : "raytraced";
+}
+
+/// Finds the estimator of a completed light.
+/// @throws CompositionError also where OpenGL is too old for it
+const EstimatorEntry& composeHere(ShadowLight& light)
+{
+  const EstimatorEntry& estimator = compose(light);
+  const TechniqueInfo& info = estimator.info;
+  const bool drawsMaps = info.bakesMap() && !info.conservativeMap; // else the CPU can
+  if (!canDrawMaps() && (drawsMaps || info.evaluation != Evaluation::ScreenCpu))
+  {
+    throw CompositionError("'" + light.technique +
+      "' takes OpenGL 4.3, and this context has less; what the CPU traces takes 3.2: 'raytraced', "
+      "'silhouette', 'penumbra'");
+  }
+  return estimator;
+}
+
+/// Finds a light's estimator, and completes the light. If its settings make no sense together or
+/// here, it gets the fallback technique with the default settings.
 const EstimatorEntry& composeIn(ShadowLight& light, std::vector<std::string>& misfits)
 {
   try
   {
-    return compose(light);
+    return composeHere(light);
   }
   catch (const CompositionError& error)
   {
     misfits.push_back(
-      nameOf(light) + ": " + error.what() + ". It has '" + plainTechnique + "' instead");
+      nameOf(light) + ": " + error.what() + ". It has '" + fallbackTechnique() + "' instead");
   }
   const int mapSizeTexels = light.mapSizeTexels;
   static_cast<ShadowSettings&>(light) = {};
-  light.technique = plainTechnique;
+  light.technique = fallbackTechnique();
   light.mapSizeTexels = mapSizeTexels;
   return compose(light);
 }
@@ -115,6 +137,12 @@ LightReport reportOfCasting(const ShadowLight& light, const TechniqueInfo& info)
 }
 
 } // namespace
+
+//------------------------------------------------------------------------------
+bool canDrawMaps()
+{
+  return GLEW_VERSION_4_3;
+}
 
 //------------------------------------------------------------------------------
 const PointwiseTechnique* CastingLight::pointwiseOn(Route route, bool translucentReceivers)

@@ -41,6 +41,9 @@ struct CastingLight : KeptTechniques
   const PointwiseTechnique* pointwiseOn(Route route, bool translucentReceivers);
 };
 
+/// Whether OpenGL is new enough (4.3) for techniques that work on the GPU; the context is current.
+bool canDrawMaps();
+
 /// The lights stage: which of a renderer's lights cast, in the scene's order, each with the
 /// technique that it keeps for as long as it asks for the same estimator.
 class CastingLights

@@ -180,7 +180,11 @@ LightTechnique::Bake LightTechnique::wantedIn(const ShadowLight& light, const Ma
 void LightTechnique::bake(const ShadowLight& light, const MapStage& stage, Bake wanted)
 {
   this->baked_.key.reset(); // in case that there is no memory
-  stage.buffers.update(stage.occluders);
+  const bool onCpu = wanted.rasterizer && !wanted.isDrawnOnGpu();
+  if (!onCpu)
+  {
+    stage.buffers.update(stage.occluders);
+  }
   if (light.fittedToReceivers)
   {
     this->receiverFit_.compute(light, wanted.views,
@@ -192,7 +196,7 @@ void LightTechnique::bake(const ShadowLight& light, const MapStage& stage, Bake 
     light.fittedToReceivers ? this->receiverFit_.fits() : TextureBinding() };
   input.drawsOnGpu = wanted.isDrawnOnGpu();
   namingLight(light, [&] { this->technique().bake(input); });
-  wanted.castersLeftOut = stage.buffers.countUnseen(wanted.views.views);
+  wanted.castersLeftOut = onCpu ? 0 : stage.buffers.countUnseen(wanted.views.views);
   this->baked_ = std::move(wanted);
   ++stage.report.mapBakes;
 }

@@ -219,14 +219,15 @@ bool RenderManager::chooseRoute(const vtkRenderState* s, bool drawnPlainly)
   this->report_.routeReason = choice.reason;
 
   const bool askTranslucent = this->collector_.translucentReceivers() > 0;
-  const bool translucentReceivers =
-    askTranslucent && (this->route_ == Route::Inline || this->lights_.size() <= mostInlineLights);
+  const bool fewLights = this->route_ == Route::Inline || this->lights_.size() <= mostInlineLights;
+  const bool translucentReceivers = askTranslucent && fewLights && canDrawMaps();
   this->shadesTranslucent_ = translucentReceivers;
   if (askTranslucent && !translucentReceivers)
   {
-    this->report_.notes.push_back("translucent surfaces show no shadows of " +
-      std::to_string(this->lights_.size()) + " lights; " + std::to_string(mostInlineLights) +
-      " are the most");
+    this->report_.notes.push_back(!fewLights
+        ? "translucent surfaces show no shadows of " + std::to_string(this->lights_.size()) +
+          " lights; " + std::to_string(mostInlineLights) + " are the most"
+        : "translucent surfaces show no shadows: their maps take OpenGL 4.3");
   }
   if (!screenTechnique.empty() && translucentReceivers)
   {

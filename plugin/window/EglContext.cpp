@@ -15,7 +15,7 @@ namespace gnomon
 namespace
 {
 
-/// Versions to fall back on, best first. VTK needs 3.2, vtkGnomonShadowPass 4.3.
+/// Versions to fall back on, best first. VTK needs 3.2, maps 4.3.
 constexpr std::array<std::pair<int, int>, 8> coreVersions{ { { 4, 5 }, { 4, 4 }, { 4, 3 }, { 4, 2 },
   { 4, 1 }, { 4, 0 }, { 3, 3 }, { 3, 2 } } };
 

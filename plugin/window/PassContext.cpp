@@ -9,7 +9,7 @@ namespace gnomon
 {
 
 //------------------------------------------------------------------------------
-bool PassContext::enter(vtkRenderPass* pass, vtkRenderer* renderer)
+bool PassContext::enter(vtkRenderPass* pass, vtkRenderer* renderer, std::pair<int, int> least)
 {
   auto* window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
   if (!window)
@@ -23,15 +23,15 @@ bool PassContext::enter(vtkRenderPass* pass, vtkRenderer* renderer)
     pass->ReleaseGraphicsResources(this->window_);
     this->window_ = window;
     this->checked_.Modified();
-    int major = 0;
-    int minor = 0;
-    window->GetOpenGLVersion(major, minor);
-    this->serves_ = major > 4 || (major == 4 && minor >= 3);
+    std::pair<int, int> version;
+    window->GetOpenGLVersion(version.first, version.second);
+    this->serves_ = version >= least;
     if (!this->serves_)
     {
       vtkErrorWithObjectMacro(pass,
-        "Shadows need OpenGL 4.3, and this context has "
-          << major << "." << minor << ". The scene is drawn without shadows.");
+        "Shadows need OpenGL " << least.first << "." << least.second << ", and this context has "
+                               << version.first << "." << version.second
+                               << ". The scene is drawn without shadows.");
     }
   }
   return this->serves_;

@@ -19,9 +19,10 @@ public:
   /// Makes a renderer's context current. Where it is another one than in the frame before, the pass
   /// releases what it holds in that one (vtkRenderPass::ReleaseGraphicsResources).
   ///
+  /// @param least the version of OpenGL that the pass takes: major, minor
   /// @return whether Gnomon can draw there. Where it cannot, the pass has told its observers why: a
   /// context that does not serve, the first time that it is met.
-  bool enter(vtkRenderPass* pass, vtkRenderer* renderer);
+  bool enter(vtkRenderPass* pass, vtkRenderer* renderer, std::pair<int, int> least);
 
   vtkOpenGLRenderWindow* window() const { return this->window_; }
 

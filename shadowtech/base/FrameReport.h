@@ -43,7 +43,8 @@ struct LightReport
   /// not used.
   std::string rasterizer;
   std::string rasterizerReason; ///< why that one, as a clause
-  int castersLeftOut = 0;       ///< casting surfaces that none of its views can see
+  /// Casting surfaces that none of its views can see; 0 where the CPU draws the map.
+  int castersLeftOut = 0;
   /// What filters it: a value of the setting `kernel`, or "disc" (adaptive), "square" (maps of
   /// moments); empty when nothing does.
   std::string kernel;

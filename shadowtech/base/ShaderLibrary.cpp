@@ -100,11 +100,25 @@ std::string numberedForLight(const std::string& text, int light)
   return std::regex_replace(text, suffix, "_" + std::to_string(light));
 }
 
+namespace
+{
+
+/// What is compiled below OpenGL 4.3 asks for no more than places of attributes.
+const char* versionLine()
+{
+  return GLEW_VERSION_4_3 ? "#version 430 core\n"
+    : GLEW_VERSION_3_3    ? "#version 330 core\n"
+                          : "#version 150 core\n"
+                            "#extension GL_ARB_explicit_attrib_location : require\n";
+}
+
+} // namespace
+
 //------------------------------------------------------------------------------
 GLuint ShaderLibrary::program(
   const std::vector<Stage>& stages, const std::vector<std::string>& defines)
 {
-  std::string header = "#version 430 core\n";
+  std::string header = versionLine();
   for (const std::string& define : defines)
   {
     header += "#define " + define + "\n";
