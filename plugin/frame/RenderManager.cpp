@@ -7,6 +7,7 @@
 #include "shadowtech/exact/CellTarget.h"
 #include "shadowtech/tracing/EdgeSettings.h"
 #include "shadowtech/tracing/GpuTracer.h"
+#include "shadowtech/tracing/RefinementSettings.h"
 
 #include <vtkOpenGLRenderWindow.h>
 #include <vtkRenderState.h>
@@ -57,6 +58,14 @@ std::size_t edgeSamplesOf(const CastingLight& casting)
 {
   const bool smooths = casting.own.info().has(edgeSettings()) && !casting.light.area;
   return smooths ? static_cast<std::size_t>(casting.light.of<EdgeSettings>().samples) : 1;
+}
+
+/// How many samples an area light has in this frame.
+/// @param before in the frame before; 0 where that showed something else
+int samplesOf(const CastingLight& casting, int before)
+{
+  const bool refines = casting.own.info().has(refinementSettings()) && casting.light.area;
+  return refines ? samplesOfStep(casting.light, before) : casting.light.lightSamples;
 }
 
 /// How many pixels are of each class.
@@ -396,6 +405,7 @@ void RenderManager::findStaleVisibility()
   {
     const ValueKey key = this->visibilityKey(casting);
     std::string changes = value->key ? key.changesFrom(*value->key) : "there was none";
+    value->samples = changes.empty() ? value->samples : 0;
     if (changes.empty() && value->report.progress < 1.0)
     {
       changes = "more of the light's points";
@@ -596,10 +606,14 @@ void RenderManager::fillLayers(CastingLight& casting, VisibilityValue& value, Li
     std::vector<float>& visibility = this->visibilityOnCpu_;
     const std::size_t edgeSamples = edgeSamplesOf(casting);
     std::vector<std::uint8_t> classesForEdges;
-    const ScreenInput input{ light, casting.own.fitting(), occluders, this->receiversOnCpu(),
+    ShadowLight traced = light;
+    traced.lightSamples = samplesOf(casting, value.samples);
+    const ScreenInput input{ traced, casting.own.fitting(), occluders, this->receiversOnCpu(),
       this->tracer_.tracer(), casting.own.usesMap(),
       classes || edgeSamples == 1 ? classes : &classesForEdges, this->report_.mapBakes };
     namingLight(light, [&] { technique.computeVisibility(input, visibility, report); });
+    value.samples = traced.lightSamples;
+    report.progress = static_cast<double>(traced.lightSamples) / light.lightSamples;
     this->endStageClock("visibility: trace");
     if (edgeSamples > 1)
     {

@@ -38,6 +38,7 @@ struct ReceiversValue
 struct VisibilityValue
 {
   std::optional<ValueKey> key;    ///< none: there is no value
+  int samples = 0;                ///< of an area light that it was traced by, while it refines
   LightReport report;             ///< what the frame that computed it says of the light
   std::vector<std::string> notes; ///< and what it notes (FrameReport::notes)
   bool classified = false;

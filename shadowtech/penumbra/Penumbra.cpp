@@ -1,6 +1,7 @@
 #include "shadowtech/penumbra/Penumbra.h"
 
 #include "shadowtech/penumbra/PenumbraChooser.h"
+#include "shadowtech/tracing/RefinementSettings.h"
 #include "shadowtech/tracing/ShadowTracer.h"
 #include "shadowtech/tracing/TraceAll.h"
 
@@ -13,7 +14,7 @@ TechniqueInfo Penumbra::info()
   TechniqueInfo info;
   info.name = "penumbra";
   info.exact = true;
-  info.settings = { &lightSampleSettings(), &lightSeedSettings() };
+  info.settings = { &lightSampleSettings(), &lightSeedSettings(), &refinementSettings() };
   info.seesTextures = true;
   info.classes = classesOfPenumbra();
   return info;
@@ -23,8 +24,11 @@ TechniqueInfo Penumbra::info()
 void Penumbra::computeVisibility(
   const ScreenInput& input, std::vector<float>& visibility, LightReport& report)
 {
-  // Bounds count samples without their colours, and the tree holds edges of triangles alone.
-  if (!input.light.area || input.light.texture || input.occluders.castsSolids())
+  // Bounds count samples without their colours, and the tree holds edges of triangles alone. A few
+  // rays take less time than looking for edges.
+  constexpr int fewSamples = 8;
+  if (!input.light.area || input.light.texture || input.occluders.castsSolids() ||
+    input.light.lightSamples <= fewSamples)
   {
     traceAllReceivers(input, visibility, report);
     return;

@@ -1,6 +1,7 @@
 #include "shadowtech/raytraced/Raytraced.h"
 
 #include "shadowtech/tracing/EdgeSettings.h"
+#include "shadowtech/tracing/RefinementSettings.h"
 #include "shadowtech/tracing/ShadowTracer.h"
 #include "shadowtech/tracing/TraceAll.h"
 
@@ -13,7 +14,8 @@ TechniqueInfo Raytraced::info()
   TechniqueInfo info;
   info.name = "raytraced";
   info.exact = true;
-  info.settings = { &edgeSettings(), &lightSampleSettings(), &lightSeedSettings() };
+  info.settings = { &edgeSettings(), &lightSampleSettings(), &lightSeedSettings(),
+    &refinementSettings() };
   info.seesTextures = true;
   info.classes = classesOfTracing();
   return info;

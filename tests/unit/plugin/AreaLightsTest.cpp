@@ -5,7 +5,7 @@
 #include "lights/vtkGnomonAreaLight.h"
 #include "shadowtech/Registry.h"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <algorithm>
 #include <vector>
@@ -111,3 +111,70 @@ TEST_F(AreaLights, countTheirRays)
 }
 
 } // namespace
+
+//------------------------------------------------------------------------------
+/// Four times as many points in each frame, until the picture is that of all of them.
+TEST_F(AreaLights, refineWhileNothingChanges)
+{
+  for (const char* technique : { "raytraced", "penumbra" })
+  {
+    SCOPED_TRACE(technique);
+    this->scene.pass->SetTechnique(technique);
+    this->light->SetWidth(1.0);
+    this->scene.pass->SetSetting("light_samples", "100");
+    this->scene.pass->SetSetting("moving_samples", "0");
+    const std::vector<float> whole = this->visibility();
+    EXPECT_EQ(this->scene.pass->GetProgress(), 1.0);
+    this->scene.pass->SetSetting("moving_samples", "4");
+    const auto expectSteps = [&](std::size_t steps)
+    {
+      const int samples[] = { 4, 16, 64, 100 };
+      double distance = 1.0;
+      for (std::size_t step = 0; step < steps; ++step)
+      {
+        const std::vector<float> seen = this->visibility();
+        EXPECT_EQ(this->scene.report().lights[0].lightSamples, samples[step]);
+        EXPECT_NEAR(this->scene.pass->GetProgress(), samples[step] / 100.0, 1e-9);
+        const double closer = meanVisibilityDifference(seen, whole);
+        EXPECT_LT(closer, distance);
+        distance = closer;
+      }
+    };
+    expectSteps(4);
+    EXPECT_EQ(this->visibility(), whole);
+    EXPECT_EQ(this->visibility(), whole) << "at rest";
+    EXPECT_EQ(this->scene.report().visibilityComputed, 0);
+    this->light->SetWidth(0.9);
+    this->visibility();
+    this->light->SetWidth(1.0);
+    expectSteps(2);
+    this->scene.renderer->GetActiveCamera()->Azimuth(1.0);
+    this->visibility();
+    EXPECT_EQ(this->scene.report().lights[0].lightSamples, 4) << "the camera has moved";
+    this->scene.renderer->GetActiveCamera()->Azimuth(-1.0);
+    expectSteps(4);
+    this->scene.pass->SetSetting("light_samples", "3");
+    this->visibility();
+    EXPECT_EQ(this->scene.report().lights[0].lightSamples, 3) << "fewer than the first frame's";
+    EXPECT_EQ(this->scene.pass->GetProgress(), 1.0);
+    this->light->SetRadius(0.0);
+    this->light->SetShapeToDisk();
+    this->visibility();
+    EXPECT_EQ(this->scene.pass->GetProgress(), 1.0) << "a point";
+    this->light->SetShapeToRectangle();
+    this->light->SetRadius(0.5);
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(AreaLights, refineJitteredSamplesBySquares)
+{
+  this->scene.pass->SetTechnique("raytraced");
+  this->scene.pass->SetSetting("light_sampling", "jittered");
+  this->scene.pass->SetSetting("moving_samples", "5");
+  this->scene.window->Render();
+  EXPECT_THAT(this->takeErrors(), testing::HasSubstr("'moving_samples' 5 is no square"));
+  this->scene.pass->SetSetting("moving_samples", "9");
+  this->scene.window->Render();
+  EXPECT_EQ(this->scene.report().lights[0].lightSamples, 9);
+}

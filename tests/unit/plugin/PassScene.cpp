@@ -464,6 +464,17 @@ Agreement compareVisibility(const VisibilityImages& a, const VisibilityImages& b
 }
 
 //------------------------------------------------------------------------------
+double meanVisibilityDifference(const std::vector<float>& a, const std::vector<float>& b)
+{
+  double sum = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+  {
+    sum += std::abs(a[i] - b[i]);
+  }
+  return sum / static_cast<double>(a.size());
+}
+
+//------------------------------------------------------------------------------
 void PassTest::TearDown()
 {
   EXPECT_EQ(this->takeErrors(), "");

@@ -223,6 +223,9 @@ struct Agreement
 Agreement compareVisibility(
   const VisibilityImages& a, const VisibilityImages& b, std::size_t light = 0);
 
+/// How far apart the visibilities of pixels are on average.
+double meanVisibilityDifference(const std::vector<float>& a, const std::vector<float>& b);
+
 /// Every test must leave VTK with nothing to complain about, but for the errors that it takes.
 class PassTest : public testing::Test
 {

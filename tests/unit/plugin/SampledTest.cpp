@@ -102,16 +102,6 @@ std::vector<float> visibilityBy(PassScene& scene, const char* technique)
   return visibility;
 }
 
-double meanVisibilityDifference(const std::vector<float>& a, const std::vector<float>& b)
-{
-  double sum = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i)
-  {
-    sum += std::abs(a[i] - b[i]);
-  }
-  return sum / static_cast<double>(a.size());
-}
-
 struct SampledLight
 {
   const char* name;

@@ -1,0 +1,49 @@
+#pragma once
+
+#include "lights/SettingsTable.h"
+#include "lights/ShadowLight.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace gnomon
+{
+
+/// How soft shadows that are traced on the CPU refine while nothing moves.
+struct RefinementSettings
+{
+  int movingSamples = 0; ///< of an area light, in the first frame after a change; 0: all
+};
+
+/// How many of an area light's samples a frame takes.
+/// @param before samples of the frame before; 0 where that showed something else
+inline int samplesOfStep(const ShadowLight& light, int before)
+{
+  constexpr int growth = 4; // keeps square numbers square
+  const int wanted = before > 0 ? growth * before : light.of<RefinementSettings>().movingSamples;
+  return wanted > 0 ? std::min(wanted, light.lightSamples) : light.lightSamples;
+}
+
+/// Of techniques that take any number of samples.
+inline const SettingsTable& refinementSettings()
+{
+  constexpr auto refused = [](const ShadowLight& light) -> std::string
+  {
+    const int samples = light.of<RefinementSettings>().movingSamples;
+    const int side = static_cast<int>(std::lround(std::sqrt(static_cast<double>(samples))));
+    return light.area && light.lightSampling == LightSampling::Jittered && side * side != samples
+      ? "'moving_samples' " + std::to_string(samples) +
+        " is no square, which 'light_sampling' jittered asks for"
+      : "";
+  };
+  static const SettingsTable table = { "Refinement of area lights' shadows",
+    { integer("moving_samples",
+      "above 0: how many points of the light cast shadows in the first frame after a change; "
+      "while nothing changes, each frame takes four times as many, until all do",
+      "", &RefinementSettings::movingSamples, { 0, 65536 }) },
+    refused };
+  return table;
+}
+
+} // namespace gnomon
