@@ -89,18 +89,54 @@ float decided_LIGHT(ViewPoint point, TexelWindow_LIGHT window, int level, vec2 o
   return lit ? 1.0 : 0.0;
 }
 
-// The same: from large blocks, then from smaller ones.
+// The same by the texels themselves.
+float decidedByTexels_LIGHT(ViewPoint point, TexelWindow_LIGHT window, vec2 own, float slack)
+{
+  bool lit = true;
+  bool hidden = true;
+  for (int y = window.first.y; y <= window.last.y; ++y)
+  {
+    for (int x = window.first.x; x <= window.last.x; ++x)
+    {
+      float depth = depthAt_LIGHT(point.view, ivec2(x, y));
+      float plane = planeDistance_LIGHT(point, vec2(x, y) + 0.5);
+      float nearest = viewDepth_LIGHT(point, min(plane, own.x));
+      float farthest = viewDepth_LIGHT(point, min(plane, own.y));
+      lit = lit && (depth >= 1.0 || farthest <= depth + 0.5 * slack);
+      hidden = hidden && depth < 1.0 && nearest > depth + 1.5 * slack;
+      if (!lit && !hidden)
+      {
+        return -1.0;
+      }
+    }
+  }
+  return lit ? 1.0 : 0.0;
+}
+
+// At up to which level of their window texels are asked one by one: at most 4 x 4 of them. Most of
+// a surface that nothing is in front of has windows of one or two, and a block's least depth is
+// that of its nearest texel, in front of the surface at the others.
+const int levelOfTexels_LIGHT = 2;
+
+// The same: from large blocks, then from smaller ones, then by texels.
 float decided_LIGHT(ViewPoint point, TexelWindow_LIGHT window, vec2 own, float slack)
 {
   float decided = decided_LIGHT(point, window, window.level, own, slack);
   int finer = max(window.level - 2, 1);
-  return decided >= 0.0 || finer == window.level
-    ? decided
-    : decided_LIGHT(point, window, finer, own, slack);
+  if (decided < 0.0 && finer < window.level)
+  {
+    decided = decided_LIGHT(point, window, finer, own, slack);
+  }
+  if (decided < 0.0 && window.level <= levelOfTexels_LIGHT)
+  {
+    decided = decidedByTexels_LIGHT(point, window, own, slack);
+  }
+  return decided;
 }
 
-// The same of all texels within a reach.
+// The same of all texels within a reach, and of those to which rounding may take a place.
 float decided_LIGHT(ViewPoint point, vec2 reach, float slack)
 {
-  return decided_LIGHT(point, windowAround_LIGHT(point, reach), point.position.zz, slack);
+  return decided_LIGHT(
+    point, windowAround_LIGHT(point, reach + 0.01), point.position.zz, slack);
 }

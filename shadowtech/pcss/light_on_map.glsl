@@ -62,7 +62,12 @@ float largestSeparation_LIGHT(ViewPoint point, SeenLight_LIGHT light)
   for (int i = 0; i < 4; ++i)
   {
     float nearest = boundsOf_LIGHT(point, windowAround_LIGHT(point, reach)).x;
-    separation = min(separation, separationOf_LIGHT(point, nearest));
+    float found = separationOf_LIGHT(point, nearest);
+    if (found >= separation)
+    {
+      break; // a step finds no less than what the next one would
+    }
+    separation = found;
     reach = light.reach * separation;
   }
   return separation;
@@ -85,7 +90,7 @@ float decidedWithin_LIGHT(ViewPoint point, SeenLight_LIGHT light, float separati
 // The least separation of casters where the map's bounds call all of that hidden.
 float leastSeparation_LIGHT(ViewPoint point, SeenLight_LIGHT light, float separation)
 {
-  TexelWindow_LIGHT window = windowAround_LIGHT(point, light.reach * separation);
+  TexelWindow_LIGHT window = windowAround_LIGHT(point, light.reach * separation + 0.01);
   return separationOf_LIGHT(point, boundsOf_LIGHT(point, window).y);
 }
 
