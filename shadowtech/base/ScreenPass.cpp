@@ -1,7 +1,5 @@
 #include "shadowtech/base/ScreenPass.h"
 
-#include <vector>
-
 namespace gnomon
 {
 
@@ -9,16 +7,22 @@ namespace gnomon
 GLuint ScreenPass::use(
   ShaderLibrary& shaders, const std::string& fragmentGlsl, const std::vector<std::string>& defines)
 {
+  return use(shaders, ShaderLibrary::source("shadowtech/base/screen_visibility.vert.glsl"),
+    fragmentGlsl, defines);
+}
+
+//------------------------------------------------------------------------------
+GLuint ScreenPass::use(ShaderLibrary& shaders, const std::string& vertexGlsl,
+  const std::string& fragmentGlsl, const std::vector<std::string>& defines)
+{
   const GLuint program = shaders.program(
-    { { GL_VERTEX_SHADER, ShaderLibrary::source("shadowtech/base/screen_visibility.vert.glsl") },
-      { GL_FRAGMENT_SHADER, fragmentGlsl } },
-    defines);
+    { { GL_VERTEX_SHADER, vertexGlsl }, { GL_FRAGMENT_SHADER, fragmentGlsl } }, defines);
   glUseProgram(program);
   return program;
 }
 
 //------------------------------------------------------------------------------
-void ScreenPass::fill(std::initializer_list<Image> images, int width, int height)
+void ScreenPass::attach(const std::vector<Image>& images, int width, int height)
 {
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, this->framebuffer_.create());
   std::vector<GLenum> buffers;
@@ -45,7 +49,22 @@ void ScreenPass::fill(std::initializer_list<Image> images, int width, int height
   glDrawBuffers(static_cast<GLsizei>(outputs), buffers.data());
   glViewport(0, 0, width, height);
   glDisable(GL_DEPTH_TEST);
-  this->draw(outputs);
+}
+
+//------------------------------------------------------------------------------
+void ScreenPass::fill(const std::vector<Image>& images, int width, int height)
+{
+  this->attach(images, width, height);
+  this->draw(static_cast<GLuint>(images.size()));
+}
+
+//------------------------------------------------------------------------------
+void ScreenPass::fillQuads(const std::vector<Image>& images, int width, int height, int quads)
+{
+  this->attach(images, width, height);
+  openState(static_cast<GLuint>(images.size()));
+  glBindVertexArray(this->noAttributes_.create());
+  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, quads);
 }
 
 //------------------------------------------------------------------------------

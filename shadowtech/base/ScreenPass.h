@@ -5,8 +5,8 @@
 
 #include <glm/glm.hpp>
 
-#include <initializer_list>
 #include <string>
+#include <vector>
 
 namespace gnomon
 {
@@ -19,6 +19,9 @@ public:
   /// The program of a fragment shader's source, made the one in use.
   static GLuint use(ShaderLibrary& shaders, const std::string& fragmentGlsl,
     const std::vector<std::string>& defines = {});
+  /// The same with a vertex shader that places quads (fillQuads()).
+  static GLuint use(ShaderLibrary& shaders, const std::string& vertexGlsl,
+    const std::string& fragmentGlsl, const std::vector<std::string>& defines);
 
   struct Image
   {
@@ -27,7 +30,11 @@ public:
     int level = 0;  ///< of an array with several
   };
   /// Fills images with the outputs of the program in use, each with the one at its place.
-  void fill(std::initializer_list<Image> images, int width, int height);
+  void fill(const std::vector<Image>& images, int width, int height);
+
+  /// Fills parts of images: the vertex shader of the program in use places four corners of each
+  /// quad, in rows (gl_VertexID, gl_InstanceID).
+  void fillQuads(const std::vector<Image>& images, int width, int height, int quads);
 
   /// Fills a part of the framebuffer that is bound with the colours and depths (gl_FragDepth) that
   /// the program in use gives.
@@ -37,6 +44,7 @@ public:
   static void openState(GLuint outputs);
 
 private:
+  void attach(const std::vector<Image>& images, int width, int height);
   void draw(GLuint outputs);
 
   GlFramebuffer framebuffer_;

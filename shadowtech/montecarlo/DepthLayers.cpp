@@ -115,16 +115,14 @@ void DepthLayers::makeSlabs(const MapInput& input, std::size_t view)
     ShaderLibrary::source(isPeeled(input.light) ? "shadowtech/montecarlo/slabs_of_peeled.frag.glsl"
                                                 : "shadowtech/montecarlo/slabs_of_hull.frag.glsl"),
     defines);
+  ShaderLibrary::setUniforms(
+    program, { { "layers", TextureBinding{ GL_TEXTURE_2D_ARRAY, this->layers_.name() } } }, 0, 0);
+  std::vector<ScreenPass::Image> pages;
   for (int page = 0; page < this->pages_; ++page)
   {
-    ShaderLibrary::setUniforms(program,
-      { { "layers", TextureBinding{ GL_TEXTURE_2D_ARRAY, this->layers_.name() } },
-        { "page", page } },
-      0, 0);
-    this->screenPass_.fill(
-      { { this->slabs_.name(), static_cast<int>(view) * this->pages_ + page } }, this->sizeTexels_,
-      this->sizeTexels_);
+    pages.push_back({ this->slabs_.name(), static_cast<int>(view) * this->pages_ + page });
   }
+  this->screenPass_.fill(pages, this->sizeTexels_, this->sizeTexels_);
 }
 
 //------------------------------------------------------------------------------

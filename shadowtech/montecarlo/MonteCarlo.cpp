@@ -2,7 +2,6 @@
 
 #include "lights/LightSamples.h"
 #include "lights/SettingsTable.h"
-#include "shadowtech/base/ChannelView.h"
 #include "shadowtech/base/GlState.h"
 #include "shadowtech/base/GlslText.h"
 #include "shadowtech/base/LightReach.h"
@@ -144,7 +143,8 @@ std::size_t MonteCarlo::bytesOfMaps() const
 {
   const auto pixels =
     static_cast<std::size_t>(this->width_) * static_cast<std::size_t>(this->height_);
-  return this->layers_.bytes() + this->bounds_.bytes() + this->filter_.bytes() +
+  return this->layers_.bytes() + this->bounds_.bytes() + this->undecided_.bytes() +
+    this->filter_.bytes() +
     (static_cast<std::size_t>(this->channels_) + 5) * pixels * sizeof(float) +
     (this->uploaded_ ? sizeof(glm::u8vec3) * this->uploaded_->texels.size() : 0);
 }
@@ -244,6 +244,75 @@ void MonteCarlo::readClasses(const LayerInput& input) const
 }
 
 //------------------------------------------------------------------------------
+/// Fills the light's layers and all that the filter needs. Where bounds decide pixels, they do so
+/// first, and rays are followed in the tiles that they leave.
+void MonteCarlo::followRays(const LayerInput& input)
+{
+  const ShadowLight& light = input.light;
+  const bool textured = this->channels_ == 3;
+  std::vector<std::string> defines = lightReachDefines(light);
+  defines.push_back("VIEWS " + std::to_string(mostViews(light)));
+  defines.push_back("RAYS " + std::to_string(raysOf(light)));
+  defines.push_back("SHAPE " + std::to_string(static_cast<int>(areaOf(light).shape)));
+  defines.push_back("PAGES " + std::to_string(this->layers_.pages()));
+  const auto defineWhere = [&](bool holds, const char* name)
+  {
+    if (holds)
+    {
+      defines.emplace_back(name);
+    }
+  };
+  // A receiver's rays may cross the faces of a cube.
+  const bool decides = light.of<MonteCarloSettings>().classify != RayClasses::Off &&
+    viewLayout(light) == ViewLayout::Single;
+  defineWhere(textured, "TEXTURED");
+  defineWhere(light.of<MonteCarloSettings>().pyramid == SlabHierarchy::NBuffer, "NBUFFER");
+  defineWhere(light.of<MonteCarloSettings>().search == RaySearch::Linear, "LINEAR_SEARCH");
+  defineWhere(light.of<MonteCarloSettings>().layers == RayLayers::Eye, "EYE_LAYER");
+  defineWhere(decides, "CLASSIFY_PIXELS");
+  defineWhere(light.of<MonteCarloSettings>().classify == RayClasses::Rays, "CLASSIFY_RAYS");
+
+  std::vector<ScreenPass::Image> images = { { this->unfiltered_.name() },
+    { this->slopes_.name() } };
+  for (int channel = 0; channel < this->channels_; ++channel)
+  {
+    images.push_back({ input.layers.texture(), input.layer + channel });
+  }
+  const std::string source = ShaderLibrary::source("shadowtech/montecarlo/montecarlo.frag.glsl");
+  const std::vector<Uniform> uniforms = this->uniformsOf(input);
+  const auto fill = [&](const std::vector<std::string>& all)
+  {
+    const GLuint program = ScreenPass::use(input.shaders, source, all);
+    ShaderLibrary::setUniforms(program, uniforms, 0, 0);
+    this->screenPass_.fill(images, this->width_, this->height_);
+  };
+  if (!decides)
+  {
+    fill(defines);
+    return;
+  }
+  std::vector<std::string> deciding = defines;
+  deciding.emplace_back("DECIDES");
+  fill(deciding);
+  {
+    const ChannelView view = this->viewOf(0);
+    this->undecided_.find(this->unfiltered_.name(), { this->width_, this->height_ }, input.shaders);
+  }
+  const GLuint program = UndecidedTiles::use(input.shaders, source, defines);
+  const int freeUnit = ShaderLibrary::setUniforms(program, uniforms, 0, 0);
+  ShaderLibrary::setUniforms(program, this->undecided_.uniforms({ 0, 0 }), 0, freeUnit);
+  this->undecided_.fill(images);
+}
+
+//------------------------------------------------------------------------------
+/// @param channel of visibility
+ChannelView MonteCarlo::viewOf(int channel) const
+{
+  return ChannelView(this->unfiltered_.name(), GL_RED + static_cast<GLenum>(channel),
+    this->channels_ == 3 ? GL_ALPHA : GL_GREEN);
+}
+
+//------------------------------------------------------------------------------
 void MonteCarlo::drawVisibility(const LayerInput& input, LightReport& report)
 {
   const GlStateGuard guard;
@@ -256,42 +325,17 @@ void MonteCarlo::drawVisibility(const LayerInput& input, LightReport& report)
   {
     this->upload(light.texture->texture);
   }
-
-  std::vector<std::string> defines = lightReachDefines(light);
-  defines.push_back("VIEWS " + std::to_string(mostViews(light)));
-  defines.push_back("RAYS " + std::to_string(rays));
-  defines.push_back("SHAPE " + std::to_string(static_cast<int>(areaOf(light).shape)));
-  defines.push_back("PAGES " + std::to_string(this->layers_.pages()));
-  const auto defineWhere = [&](bool holds, const char* name)
+  this->followRays(input);
+  for (int channel = 0; channel < this->channels_ && filterOf(light) > 0; ++channel)
   {
-    if (holds)
-    {
-      defines.emplace_back(name);
-    }
-  };
-  defineWhere(textured, "TEXTURED");
-  defineWhere(light.of<MonteCarloSettings>().pyramid == SlabHierarchy::NBuffer, "NBUFFER");
-  defineWhere(light.of<MonteCarloSettings>().search == RaySearch::Linear, "LINEAR_SEARCH");
-  defineWhere(light.of<MonteCarloSettings>().layers == RayLayers::Eye, "EYE_LAYER");
-  // A receiver's rays may cross the faces of a cube.
-  defineWhere(light.of<MonteCarloSettings>().classify != RayClasses::Off &&
-      viewLayout(light) == ViewLayout::Single,
-    "CLASSIFY_PIXELS");
-  defineWhere(light.of<MonteCarloSettings>().classify == RayClasses::Rays, "CLASSIFY_RAYS");
-  const GLuint program = ScreenPass::use(
-    input.shaders, ShaderLibrary::source("shadowtech/montecarlo/montecarlo.frag.glsl"), defines);
-  ShaderLibrary::setUniforms(program, this->uniformsOf(input), 0, 0);
-  this->screenPass_.fill(
-    { { this->unfiltered_.name() }, { this->slopes_.name() } }, this->width_, this->height_);
-  for (int channel = 0; channel < this->channels_; ++channel)
-  {
-    const ChannelView view(this->unfiltered_.name(), GL_RED + static_cast<GLenum>(channel),
-      textured ? GL_ALPHA : GL_GREEN);
+    const ChannelView view = this->viewOf(channel);
+    this->undecided_.find(this->unfiltered_.name(), { this->width_, this->height_ }, input.shaders);
     // A colour that the light has not is 0 everywhere, and has no noise.
     const float mean = textured ? light.texture->mean[channel] : 1.0f;
     const float lit = mean > 0.0f ? mean : 1.0f;
     this->filter_.apply(input, input.layer + channel,
-      { this->unfiltered_.name(), this->slopes_.name(), rays, lit }, filterOf(light));
+      { this->unfiltered_.name(), this->slopes_.name(), rays, lit }, this->undecided_,
+      filterOf(light));
   }
   this->readClasses(input);
 }

@@ -1,10 +1,12 @@
 #pragma once
 
 #include "lights/LightViews.h"
+#include "shadowtech/base/ChannelView.h"
 #include "shadowtech/base/ScreenPass.h"
 #include "shadowtech/base/Technique.h"
 #include "shadowtech/montecarlo/DepthLayers.h"
 #include "shadowtech/montecarlo/SlabBounds.h"
+#include "shadowtech/montecarlo/UndecidedTiles.h"
 #include "shadowtech/montecarlo/VisibilityFilter.h"
 
 #include <cstddef>
@@ -34,6 +36,8 @@ private:
   void allocate(int width, int height, int channels);
   void upload(const std::shared_ptr<const LightTexture>& texture);
   std::vector<Uniform> uniformsOf(const LayerInput& input) const;
+  void followRays(const LayerInput& input);
+  ChannelView viewOf(int channel) const;
   void readClasses(const LayerInput& input) const;
 
   LightViews views_;
@@ -46,6 +50,7 @@ private:
 
   GlTexture unfiltered_; ///< visibility in one channel or three, and class
   GlTexture slopes_;     ///< of visibility
+  UndecidedTiles undecided_;
   VisibilityFilter filter_;
   ScreenPass screenPass_;
   int width_ = 0;

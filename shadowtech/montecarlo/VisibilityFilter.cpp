@@ -4,13 +4,14 @@
 #include "shadowtech/base/ShaderLibrary.h"
 #include "shadowtech/base/TextureMemory.h"
 #include "shadowtech/base/VisibilityLayers.h"
+#include "shadowtech/montecarlo/UndecidedTiles.h"
 
 namespace gnomon
 {
 
 //------------------------------------------------------------------------------
-void VisibilityFilter::apply(
-  const LayerInput& input, int layer, const Noisy& noisy, int radiusPixels)
+void VisibilityFilter::apply(const LayerInput& input, int layer, const Noisy& noisy,
+  UndecidedTiles& undecided, int radiusPixels)
 {
   const int width = input.receivers.width();
   const int height = input.receivers.height();
@@ -23,12 +24,14 @@ void VisibilityFilter::apply(
     this->width_ = width;
     this->height_ = height;
   }
-  const GLuint program = ScreenPass::use(input.shaders,
+  const GLuint program = UndecidedTiles::use(input.shaders,
     ShaderLibrary::source("shadowtech/montecarlo/visibility_filter.frag.glsl"),
-    { "FILTER_PIXELS " + std::to_string(radiusPixels), "RAYS " + std::to_string(noisy.rays) });
-  const auto set = [&](GLuint source, GLuint slopes, const glm::ivec2& axis)
+    { "FILTER_PIXELS " + std::to_string(radiusPixels), "RAYS " + std::to_string(noisy.rays),
+      "MIXED" });
+  const auto set = [&](
+                     GLuint source, GLuint slopes, const glm::ivec2& axis, const glm::ivec2& reach)
   {
-    ShaderLibrary::setUniforms(program,
+    const int freeUnit = ShaderLibrary::setUniforms(program,
       { { "receiverFragments", TextureBinding{ GL_TEXTURE_2D, input.receivers.fragments() } },
         { "receiverPoints", TextureBinding{ GL_TEXTURE_2D, input.receivers.points() } },
         { "unfiltered", TextureBinding{ GL_TEXTURE_2D, noisy.visibility } },
@@ -37,11 +40,14 @@ void VisibilityFilter::apply(
         { "lit", noisy.lit },
         { "pixelSide", glm::vec2(input.camera.pixelSide({ width, height })) } },
       0, 0);
+    ShaderLibrary::setUniforms(program, undecided.uniforms(reach), 0, freeUnit);
   };
-  set(noisy.visibility, noisy.slopes, { 1, 0 });
-  this->screenPass_.fill({ { this->rows_.name() }, { this->slopesOfRows_.name() } }, width, height);
-  set(this->rows_.name(), this->slopesOfRows_.name(), { 0, 1 });
-  input.layers.fill(layer);
+  // Columns read rows above and below.
+  const int reach = UndecidedTiles::tilesOf(radiusPixels);
+  set(noisy.visibility, noisy.slopes, { 1, 0 }, { reach, 2 * reach });
+  undecided.fill({ { this->rows_.name() }, { this->slopesOfRows_.name() } });
+  set(this->rows_.name(), this->slopesOfRows_.name(), { 0, 1 }, { reach, reach });
+  undecided.fill({ { input.layers.texture(), layer } });
 }
 
 //------------------------------------------------------------------------------

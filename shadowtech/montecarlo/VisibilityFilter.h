@@ -1,7 +1,6 @@
 #pragma once
 
 #include "shadowtech/base/Gl.h"
-#include "shadowtech/base/ScreenPass.h"
 #include "shadowtech/base/Technique.h"
 
 #include <glm/glm.hpp>
@@ -10,6 +9,8 @@
 
 namespace gnomon
 {
+
+class UndecidedTiles;
 
 /// Takes the noise off a visibility image: a Gaussian in two passes, over pixels of the same
 /// surface (visibility_filter.frag.glsl).
@@ -25,16 +26,17 @@ public:
     float lit;         ///< the visibility of what nothing hides the light from, > 0
   };
 
-  /// Fills a layer of the light.
-  /// @param radiusPixels the Gaussian's deviation is half of it at most; 0: nothing is changed
-  void apply(const LayerInput& input, int layer, const Noisy& noisy, int radiusPixels);
+  /// Fills a layer of the light where it may change: it holds the visibility as it is.
+  /// @param undecided tiles of the picture
+  /// @param radiusPixels the Gaussian's deviation is half of it at most; > 0
+  void apply(const LayerInput& input, int layer, const Noisy& noisy, UndecidedTiles& undecided,
+    int radiusPixels);
 
   std::size_t bytes() const;
 
 private:
   GlTexture rows_;
   GlTexture slopesOfRows_;
-  ScreenPass screenPass_;
   int width_ = 0;
   int height_ = 0;
 };

@@ -1,6 +1,6 @@
 // What share of an area light each pixel's receiver sees: the mean over rays to points of the
 // light, which are followed through the light's map (Curtis 2009). Behind it the pixel's class
-// (MonteCarlo::info()).
+// (MonteCarlo::info()). With DECIDES no ray is followed, and what takes one is SEARCHED.
 
 #include "shadowtech/base/light_reach.glsl"
 #include "shadowtech/montecarlo/classes.glsl"
@@ -24,6 +24,12 @@ uniform mat4 viewFromRay[VIEWS];
 #endif
 layout(location = 0) out VisibilityAndClass visibilityAndClass;
 layout(location = 1) out vec3 visibilitySlope; // slopeOf() where some rays are blocked, but not all; else 0
+// The same visibility for the light's layers.
+layout(location = 2) out float layer;
+#ifdef TEXTURED
+layout(location = 3) out float layerGreen;
+layout(location = 4) out float layerBlue;
+#endif
 
 // A receiver of the light.
 struct Receiver
@@ -32,7 +38,7 @@ struct Receiver
   vec3 normal;
   float offset; // how far above the surface rays begin to count, in world units
   int view;     // the first that has it on its map; negative: none
-  float own;    // how far above its plane its texel there holds its own surface, in planeOf()'s measure
+  float own;    // how far above its plane its texel there holds its own surface, in the measure of Place::plane
 };
 
 // The part of a ray that is on a view's map, in ray space.
@@ -43,11 +49,18 @@ struct Segment
   bool any;
 };
 
-// The receiver's plane in ray space. Points (u, v, p, 1) are in it, above it or below by their
-// product, which is their distance in the world over w.
-vec4 planeOf(Receiver receiver, int view)
+// A receiver in a view's ray space.
+struct Place
 {
-  return vec4(receiver.normal, -dot(receiver.normal, receiver.position)) * viewFromRay[view];
+  vec4 at;
+  // Points (u, v, p, 1) are in its plane, above it or below by their product with this, which is
+  // their distance in the world over w.
+  vec4 plane;
+};
+Place placeOf(Receiver receiver, int view)
+{
+  vec4 plane = vec4(receiver.normal, -dot(receiver.normal, receiver.position));
+  return Place(rayFromView[view] * vec4(receiver.position, 1.0), plane * viewFromRay[view]);
 }
 
 // Where surfaces bend, another triangle may be in the middle of the receiver's texel, whose depth
@@ -58,23 +71,22 @@ void findOwnSurface(inout Receiver receiver)
 {
   for (int view = 0; view < viewCount && receiver.view < 0; ++view)
   {
-    vec4 at = rayFromView[view] * vec4(receiver.position, 1.0);
-    vec2 texel = floor(at.xy / at.w);
-    if (at.w <= 0.0 || any(lessThan(texel, vec2(0.0))) ||
+    Place place = placeOf(receiver, view);
+    vec2 texel = floor(place.at.xy / place.at.w);
+    if (place.at.w <= 0.0 || any(lessThan(texel, vec2(0.0))) ||
       any(greaterThanEqual(texel, vec2(mapSide))))
     {
       continue;
     }
     receiver.view = view;
-    vec4 plane = planeOf(receiver, view);
     vec3 along = viewFromRay[view][0].xyz;
     vec3 across = viewFromRay[view][1].xyz;
     float most = 0.25 * min(sqrt(dot(along, along)), sqrt(dot(across, across)));
     for (int i = 0; i < PAGES; ++i)
     {
       vec4 page = texelFetch(slabs, ivec3(texel, view * PAGES + i), 0);
-      vec2 above = vec2(dot(plane, vec4(texel + 0.5, page.x, 1.0)),
-        dot(plane, vec4(texel + 0.5, page.z, 1.0)));
+      vec2 above = vec2(dot(place.plane, vec4(texel + 0.5, page.x, 1.0)),
+        dot(place.plane, vec4(texel + 0.5, page.z, 1.0)));
       receiver.own = max(receiver.own, above.x < most ? above.x : 0.0);
       receiver.own = max(receiver.own, above.y < most ? above.y : 0.0);
     }
@@ -90,11 +102,14 @@ void cut(inout vec2 range, float position, float way)
   range.y = way == 0.0 && position < 0.0 ? -1.0 : range.y; // along the plane, on its other side
 }
 
+// @param place the receiver's in the view
 // @param depths of the map, between which there may be slabs
 // @param cutAtBorders whether what is beside the map is cut off, too
-Segment onMap(int view, Receiver receiver, vec3 way, float length, vec2 depths, bool cutAtBorders)
+Segment onMap(int view, Receiver receiver, Place place, vec3 way, float length, vec2 depths,
+  bool cutAtBorders)
 {
-  vec4 at = rayFromView[view] * vec4(receiver.position, 1.0);
+  vec4 at = place.at;
+  vec4 plane = place.plane;
   vec4 by = rayFromView[view] * vec4(way, 0.0);
   float rising = dot(receiver.normal, way); // > 0: the receiver faces where the ray goes
   vec2 range = vec2(receiver.offset / rising, length);
@@ -125,7 +140,6 @@ Segment onMap(int view, Receiver receiver, vec3 way, float length, vec2 depths, 
   // they are as far before its plane, or before what bends up from it, as that is off within half a
   // texel, and for rounding: also of the corners of triangles, which are drawn to within 1/256 of a
   // texel.
-  vec4 plane = planeOf(receiver, view);
   float rounding = 7.6293945e-6 * max(abs(segment.begin.z), abs(segment.end.z)); // 2^-17
   float limit = 0.51 * (abs(plane.x) + abs(plane.y)) + rounding * abs(plane.z) +
     (view == receiver.view ? receiver.own : 0.0);
@@ -166,6 +180,8 @@ vec2 depthsOf(int view)
 }
 
 #ifdef CLASSIFY_PIXELS
+#define REGIONS 4 // how often the region is narrowed, at most
+
 // A corner of a box around the light, from its centre.
 vec3 cornerOfLight(int i)
 {
@@ -174,73 +190,112 @@ vec3 cornerOfLight(int i)
   return viewFromUnit * corner;
 }
 
+// Whether no slab of some texels rises above the receiver's plane by as much as rays do where they
+// begin to count (onMap()). In its measure a slab is highest where it begins, at the texel's corner.
+bool liesBelow(Receiver receiver, vec4 plane, ivec2 lower, ivec2 upper, float deepest)
+{
+  if (plane.z >= 0.0)
+  {
+    return false; // it does not face the map's eye
+  }
+  // Half of what onMap() takes for rounding is room for the rounding of both.
+  float highest = 0.01 * (abs(plane.x) + abs(plane.y)) - 3.8146973e-6 * deepest * plane.z +
+    receiver.own;
+  for (int y = lower.y; y <= upper.y; ++y)
+  {
+    for (int x = lower.x; x <= upper.x; ++x)
+    {
+      float begins = boundsOfCell(0, ivec2(x, y), 0).x;
+      if (begins <= 1.0 && dot(plane, vec4(vec2(x, y) + 0.5, begins, 1.0)) > highest)
+      {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
 // What all rays of a pixel can meet: they lie between those to the corners of a box around the
 // light, and so does their part behind the depth where the first slab begins (Curtis 2009, section
-// 3.6, whose region this is for a square light).
+// 3.6, whose region this is for a square light). A region whose slabs begin deeper is smaller: where
+// nothing is in front of a surface, each is a fraction of the one before, down to the receiver's own
+// texels, which are asked one by one.
 // @param depths of the map; on return, of the region
 // @return LIT, UMBRA or SEARCHED
-float classOf(Receiver receiver, vec3 toCentre, inout vec2 depths)
+float classOf(Receiver receiver, Place place, vec3 toCentre, inout vec2 depths)
 {
   const int corners = SHAPE == BALL ? 8 : 4;
+  vec3 begin[corners];
+  vec3 way[corners]; // from there to the light's end
+  vec2 begins = vec2(1e30, -1e30); // the least and the greatest depth at the receiver's end
+  bool blockable = true;           // whether all of them have a part on the map that counts
   for (int i = 0; i < corners; ++i)
   {
-    if (!facesLight(receiver.normal, toCentre + cornerOfLight(i)))
+    vec3 corner = cornerOfLight(i);
+    if (!facesLight(receiver.normal, toCentre + corner))
     {
       return SEARCHED; // some of the light is behind the receiver's plane
     }
+    Segment segment = onMap(
+      0, receiver, place, toCentre + corner, lengthOfRays(receiver), vec2(depths.x, 2.0), false);
+    blockable = blockable && segment.any;
+    begin[i] = segment.any ? segment.begin : place.at.xyz / place.at.w;
+    way[i] = segment.any ? segment.end - segment.begin : vec3(0.0);
+    begins = vec2(min(begins.x, begin[i].z), max(begins.y, begin[i].z));
   }
   if (viewCount == 0)
   {
     return LIT;
   }
-  for (int iteration = 0; iteration < 2; ++iteration)
+  float last = float(mapSide - 1);
+  vec2 lower;
+  vec2 upper;
+  for (int iteration = 0; iteration < REGIONS; ++iteration)
   {
-    vec2 lower = vec2(1e30);
-    vec2 upper = vec2(-1e30);
-    vec2 begins = vec2(1e30, -1e30); // the least and the greatest depth at the receiver's end
-    float ends = -1e30;              // the greatest at the light's
-    bool blockable = true;           // whether all of them have a part on the map that counts
+    lower = vec2(1e30);
+    upper = vec2(-1e30);
+    float ends = -1e30; // the greatest depth at the light's end
     for (int i = 0; i < corners; ++i)
     {
-      Segment segment = onMap(0, receiver, toCentre + cornerOfLight(i), lengthOfRays(receiver),
-        vec2(depths.x, 2.0), false);
-      if (!segment.any)
-      {
-        blockable = false;
-        vec4 at = rayFromView[0] * vec4(receiver.position, 1.0);
-        segment.begin = at.xyz / at.w;
-        segment.end = segment.begin;
-      }
-      lower = min(lower, min(segment.begin.xy, segment.end.xy));
-      upper = max(upper, max(segment.begin.xy, segment.end.xy));
-      begins = vec2(min(begins.x, segment.begin.z), max(begins.y, segment.begin.z));
-      ends = max(ends, segment.end.z);
+      // Towards the light depths fall, or do not change.
+      float part = way[i].z < 0.0 ? clamp((depths.x - begin[i].z) / way[i].z, 0.0, 1.0) : 1.0;
+      vec3 end = begin[i] + part * way[i];
+      lower = min(lower, min(begin[i].xy, end.xy));
+      upper = max(upper, max(begin[i].xy, end.xy));
+      ends = max(ends, end.z);
     }
     // Rounding may take a place to the texel beside it.
     lower = floor(lower - 0.01);
     upper = floor(upper + 0.01);
-    float last = float(mapSide - 1);
     if (any(greaterThan(lower, vec2(last))) || any(lessThan(upper, vec2(0.0))))
     {
       return LIT;
     }
-    vec4 bounds =
-      boundsOfRegion(0, ivec2(max(lower, vec2(0.0))), ivec2(min(upper, vec2(last))));
+    bool inside = all(greaterThanEqual(lower, vec2(0.0))) && all(lessThanEqual(upper, vec2(last)));
+    lower = max(lower, vec2(0.0));
+    upper = min(upper, vec2(last));
+    vec4 bounds = boundsOfRegion(0, ivec2(lower), ivec2(upper));
     if (begins.y < bounds.x)
     {
       return LIT;
     }
 #ifndef EYE_LAYER
     // A depth that is inside a slab of every texel.
-    bool inside = all(greaterThanEqual(lower, vec2(0.0))) && all(lessThanEqual(upper, vec2(last)));
     if (blockable && inside && bounds.z <= min(begins.x, bounds.w) && ends <= bounds.z)
     {
       return UMBRA;
     }
 #endif
+    bool isSame = bounds.x <= depths.x;
     depths = vec2(max(depths.x, bounds.x), min(depths.y, bounds.y));
+    if (isSame)
+    {
+      break;
+    }
   }
-  return SEARCHED;
+  bool asked = all(lessThan(upper - lower, vec2(4.0))) &&
+    liesBelow(receiver, place.plane, ivec2(lower), ivec2(upper), max(abs(begins.x), abs(begins.y)));
+  return asked ? LIT : SEARCHED;
 }
 #endif
 
@@ -282,17 +337,22 @@ float lengthTo(int view, Receiver receiver, vec3 way, vec3 point)
   return max(dot(place.xyz / place.w - receiver.position, way), 0.0) / dot(way, way);
 }
 
+// @param first the receiver's place in the first view
 // @param depths of a single view, between which there may be slabs
 // @param searched becomes true where that took a search
 // @param at where it is blocked, in lengths of its way
-bool isBlocked(
-  Receiver receiver, vec3 way, float length, vec2 depths, inout bool searched, out float at)
+bool isBlocked(Receiver receiver, Place first, vec3 way, float length, vec2 depths,
+  inout bool searched, out float at)
 {
   at = 0.0;
   for (int view = 0; view < viewCount; ++view)
   {
+    Place place = first;
+#if VIEWS > 1
+    place = placeOf(receiver, view);
+#endif
     Segment segment =
-      onMap(view, receiver, way, length, VIEWS == 1 ? depths : depthsOf(view), true);
+      onMap(view, receiver, place, way, length, VIEWS == 1 ? depths : depthsOf(view), true);
     if (!segment.any)
     {
       continue;
@@ -348,6 +408,18 @@ vec3 slopeOf(vec3 toCentre, vec3 across, float at, float footprint)
   return direction / max(width, 1e-6 * footprint); // what touches the receiver has none
 }
 
+void answer(Shine visibility, float pixelClass)
+{
+  visibilityAndClass = VisibilityAndClass(visibility, pixelClass);
+#ifdef TEXTURED
+  layer = visibility.r;
+  layerGreen = visibility.g;
+  layerBlue = visibility.b;
+#else
+  layer = visibility;
+#endif
+}
+
 void main()
 {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
@@ -355,7 +427,7 @@ void main()
   vec4 fragment = texelFetch(receiverFragments, pixel, 0);
   if (fragment.x <= 0.0)
   {
-    visibilityAndClass = VisibilityAndClass(lit, NO_RECEIVER);
+    answer(lit, NO_RECEIVER);
     return;
   }
   vec4 point = texelFetch(receiverPoints, pixel, 0);
@@ -365,20 +437,24 @@ void main()
   vec3 toCentre = lightView.xyz - lightView.w * receiver.position;
   if (!facesLight(receiver.normal, toCentre) || !lightReaches(receiver.position))
   {
-    visibilityAndClass = VisibilityAndClass(Shine(0.0), TURNED_AWAY);
+    answer(Shine(0.0), TURNED_AWAY);
     return;
   }
 
   findOwnSurface(receiver);
+  Place place = placeOf(receiver, 0); // of no consequence where there is no view
   vec2 depths = viewCount > 0 ? depthsOf(0) : vec2(0.0);
 #ifdef CLASSIFY_PIXELS
-  float pixelClass = classOf(receiver, toCentre, depths);
+  float pixelClass = classOf(receiver, place, toCentre, depths);
   if (pixelClass != SEARCHED)
   {
-    visibilityAndClass = VisibilityAndClass(pixelClass == LIT ? lit : Shine(0.0), pixelClass);
+    answer(pixelClass == LIT ? lit : Shine(0.0), pixelClass);
     return;
   }
 #endif
+#ifdef DECIDES
+  answer(lit, SEARCHED);
+#else
 
   Shine seen = Shine(0.0);
   Shine all = Shine(0.0);
@@ -387,27 +463,27 @@ void main()
   float blockedAt = 0.0;         // sum, in lengths of their ways
   vec3 hiddenPoints = vec3(0.0); // sum
   vec3 seenPoints = vec3(0.0);   // likewise
-  FourPoints points;
-  for (int i = 0; i < RAYS * RAYS; ++i)
+  for (int first = 0; first < RAYS * RAYS; first += 4)
   {
-    if (i % 4 == 0)
+    FourPoints points = fourPoints(pixel, first);
+    for (int i = first; i < min(first + 4, RAYS * RAYS); ++i)
     {
-      points = fourPoints(pixel, i);
-    }
-    vec3 offset = lightPoint(points, i);
-    all += shineAt(offset);
-    offset = inFront(receiver, toCentre, offset);
-    float at;
-    if (isBlocked(receiver, toCentre + offset, lengthOfRays(receiver), depths, searched, at))
-    {
-      blocked += 1.0;
-      blockedAt += at;
-      hiddenPoints += offset;
-    }
-    else
-    {
-      seen += shineAt(offset);
-      seenPoints += offset;
+      vec3 offset = lightPoint(points, i);
+      all += shineAt(offset);
+      offset = inFront(receiver, toCentre, offset);
+      float at;
+      if (isBlocked(
+            receiver, place, toCentre + offset, lengthOfRays(receiver), depths, searched, at))
+      {
+        blocked += 1.0;
+        blockedAt += at;
+        hiddenPoints += offset;
+      }
+      else
+      {
+        seen += shineAt(offset);
+        seenPoints += offset;
+      }
     }
   }
   float free = float(RAYS * RAYS) - blocked;
@@ -416,6 +492,6 @@ void main()
     vec3 across = seenPoints / free - hiddenPoints / blocked;
     visibilitySlope = slopeOf(toCentre, across, blockedAt / blocked, footprint);
   }
-  visibilityAndClass =
-    VisibilityAndClass(visibilityOf(seen, all), searched ? SEARCHED : BY_RAYS);
+  answer(visibilityOf(seen, all), searched ? SEARCHED : BY_RAYS);
+#endif
 }

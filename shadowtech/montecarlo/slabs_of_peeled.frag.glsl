@@ -5,9 +5,9 @@
 #include "shadowtech/montecarlo/slabs.glsl"
 
 uniform sampler2DArray layers; // x: depth, y: span; PEELED that face the light, then as many that face away
-uniform int page;              // of the two
 
-out vec4 slabs;
+layout(location = 0) out vec4 firstPage;
+layout(location = 1) out vec4 secondPage;
 
 // Two surfaces that lie in each other are as far apart as rounding has it.
 #define ROUNDING 3.8146973e-6 // 2^-18
@@ -84,5 +84,6 @@ void main()
   {
     found[count++] = vec2(front.x, front.x + front.y);
   }
-  slabs = page == 0 ? vec4(found[0], found[1]) : vec4(found[2], found[3]);
+  firstPage = vec4(found[0], found[1]);
+  secondPage = vec4(found[2], found[3]);
 }

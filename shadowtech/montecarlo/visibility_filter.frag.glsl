@@ -70,11 +70,11 @@ void main()
     {
       continue;
     }
-    if (texelFetch(unfiltered, other, 0).y < LIT)
-    {
-      continue;
-    }
     vec2 visibility = texelFetch(source, other, 0).xy;
+    if (visibility.y < LIT)
+    {
+      continue; // a row's greatest class is its pixel's own where that is turned away
+    }
     vec4 otherPoint = texelFetch(receiverPoints, other, 0);
     vec3 otherNormal = vec3(texelFetch(receiverFragments, other, 0).zw, otherPoint.w);
     vec3 way = otherPoint.xyz - point.xyz;

@@ -1,0 +1,76 @@
+#include "shadowtech/montecarlo/UndecidedTiles.h"
+
+#include "shadowtech/base/ShaderLibrary.h"
+#include "shadowtech/base/TextureMemory.h"
+
+namespace gnomon
+{
+namespace
+{
+
+constexpr int tileSide = 16; // pixels
+
+const std::string& tileDefine()
+{
+  static const std::string define = "TILE_PIXELS " + std::to_string(tileSide);
+  return define;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+int UndecidedTiles::tilesOf(int pixels)
+{
+  return (pixels + tileSide - 1) / tileSide;
+}
+
+//------------------------------------------------------------------------------
+void UndecidedTiles::find(GLuint visibilityAndClass, const glm::ivec2& size, ShaderLibrary& shaders)
+{
+  if (this->size_ != size)
+  {
+    this->size_ = glm::ivec2(0); // in case that there is no memory
+    this->tiles_ = { tilesOf(size.x), tilesOf(size.y) };
+    allocateTexture(this->contents_, { GL_RGBA32F, GL_RGBA, 4 }, this->tiles_.x, this->tiles_.y, 0,
+      "what there is in tiles");
+    this->size_ = size;
+  }
+  const GLuint program = ScreenPass::use(shaders,
+    ShaderLibrary::source("shadowtech/montecarlo/undecided_tiles.frag.glsl"), { tileDefine() });
+  ShaderLibrary::setUniforms(program,
+    { { "visibilityAndClass", TextureBinding{ GL_TEXTURE_2D, visibilityAndClass } } }, 0, 0);
+  this->screenPass_.fill({ { this->contents_.name() } }, this->tiles_.x, this->tiles_.y);
+}
+
+//------------------------------------------------------------------------------
+GLuint UndecidedTiles::use(
+  ShaderLibrary& shaders, const std::string& fragmentGlsl, const std::vector<std::string>& defines)
+{
+  std::vector<std::string> all = defines;
+  all.push_back(tileDefine());
+  return ScreenPass::use(shaders,
+    ShaderLibrary::source("shadowtech/montecarlo/undecided_tiles.vert.glsl"), fragmentGlsl, all);
+}
+
+//------------------------------------------------------------------------------
+std::vector<Uniform> UndecidedTiles::uniforms(const glm::ivec2& reachTiles) const
+{
+  return { { "tiles", TextureBinding{ GL_TEXTURE_2D, this->contents_.name() } },
+    { "pictureSize", this->size_ }, { "reachTiles", reachTiles } };
+}
+
+//------------------------------------------------------------------------------
+void UndecidedTiles::fill(const std::vector<ScreenPass::Image>& images)
+{
+  this->screenPass_.fillQuads(
+    images, this->size_.x, this->size_.y, this->tiles_.x * this->tiles_.y);
+}
+
+//------------------------------------------------------------------------------
+std::size_t UndecidedTiles::bytes() const
+{
+  return static_cast<std::size_t>(this->tiles_.x) * static_cast<std::size_t>(this->tiles_.y) * 4 *
+    sizeof(float);
+}
+
+} // namespace gnomon
