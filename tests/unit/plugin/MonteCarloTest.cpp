@@ -333,6 +333,54 @@ TEST_F(MonteCarlo, decidesByBoundsWhatRaysWouldSay)
 }
 
 //------------------------------------------------------------------------------
+/// A ground that casts lies in the map beside its own rays. Bounds decide most of it all the same,
+/// under lights of all kinds and sizes, with and without a texture, to the map's border.
+TEST_F(MonteCarlo, decidesGroundsThatCast)
+{
+  this->buildScene();
+  this->scene.pass->SetSetting("mc_filter", "0");
+  this->scene.pass->SetMapSize(512);
+  const auto expectDecided = [&](const std::string& what, bool mostly)
+  {
+    const VisibilityImages searched = this->draw("montecarlo", { { "mc_classify", "off" } });
+    const VisibilityImages& kept = this->draw("montecarlo", { { "mc_classify", "rays" } });
+    ASSERT_EQ(kept.visibility.size(), searched.visibility.size());
+    for (std::size_t channel = 0; channel < kept.visibility.size(); ++channel)
+    {
+      EXPECT_LE(differing(kept.visibility[channel], searched.visibility[channel], 1e-6f),
+        kept.visibility[0].size() / 10000)
+        << what << channel;
+    }
+    const auto& classes = this->scene.report().lights[0].classes;
+    const std::int64_t undecided = classes[4].pixels + classes[5].pixels;
+    EXPECT_GT(classes[2].pixels, mostly ? 2 * undecided : 0) << what << ": lit by bounds";
+  };
+  expectDecided("a rectangle", true);
+  for (const double size : { 0.1, 0.4 })
+  {
+    this->lamp->SetWidth(size);
+    this->lamp->SetHeight(size);
+    expectDecided("a small rectangle", true);
+  }
+  this->lamp->SetTexture(
+    makeImage(4, 4, [](int x, int y) { return glm::dvec3(0.2 * x, 0.3 * y, 1.0); }));
+  expectDecided("a texture", true);
+  this->lamp->SetTexture(nullptr);
+  this->lamp->SetShapeToDisk();
+  this->lamp->SetRadius(0.3);
+  expectDecided("a disk", true);
+  this->lamp->SetPosition(-6.0, -2.5, 0.6); // low: some of it is below walls' and floor's horizon
+  expectDecided("a low disk", false);
+  this->lamp->PositionalOff();
+  this->lamp->SetPosition(-2.0, -2.5, 6.0);
+  for (const double degrees : { 0.5, 5.0 })
+  {
+    this->lamp->SetRadius(degrees);
+    expectDecided("a sun", true);
+  }
+}
+
+//------------------------------------------------------------------------------
 TEST_F(MonteCarlo, findsTheSameInBothHierarchies)
 {
   this->scene.window->SetSize(120, 90);

@@ -391,6 +391,35 @@ TEST_P(SoftHardCases, stayFiniteAndNearTheTruth)
 }
 
 //------------------------------------------------------------------------------
+/// What bounds decide without a search is what the search would say.
+TEST_P(SoftHardCases, showTheSameByBounds)
+{
+  PassScene scene(120, 90);
+  scene.pass->SetMapSize(512);
+  GetParam().build(scene);
+  const auto draw = [&](const char* technique, const char* setting, const char* value)
+  {
+    scene.pass->SetTechnique(technique);
+    scene.pass->SetSetting(setting, value);
+    return drawKept(scene).visibility[0];
+  };
+  const std::vector<float> asked = draw("pcss", "early_out", "exact");
+  EXPECT_EQ(draw("pcss", "early_out", "none"), asked);
+  scene.pass->SetSetting("mc_filter", "0");
+  const std::vector<float> searched = draw("montecarlo", "mc_classify", "off");
+  for (const char* classify : { "pixels", "rays" })
+  {
+    const std::vector<float> decided = draw("montecarlo", "mc_classify", classify);
+    int different = 0;
+    for (std::size_t i = 0; i < searched.size(); ++i)
+    {
+      different += decided[i] != searched[i] ? 1 : 0;
+    }
+    EXPECT_LE(different, 1) << classify << ": rays that rounding cuts elsewhere, 1 in 10,000";
+  }
+}
+
+//------------------------------------------------------------------------------
 /// What nothing is in the way of is fully lit, whatever the light's size and place.
 TEST(SoftReceivers, thatSeeAllOfTheLightHaveNoAcne)
 {

@@ -15,6 +15,7 @@
 #include "shadowtech/montecarlo/DepthLayers.h"
 #include "shadowtech/montecarlo/RaySpace.h"
 #include "shadowtech/montecarlo/SlabBounds.h"
+#include "shadowtech/montecarlo/UndecidedTiles.h"
 
 #include <algorithm>
 #include <cmath>
@@ -629,7 +630,7 @@ TEST_F(MonteCarloGlsl, linearSearchNeverHitsWhatIsNotThereAndMissesLittle)
 /// Pixels of surfaces across the view, for the filter.
 struct FilteredPicture
 {
-  static constexpr int side = 32;
+  static constexpr int side = 70;   ///< some tiles of 16 and a part of one
   std::vector<glm::vec4> fragments; ///< as ReceiverTarget has them
   std::vector<glm::vec4> points;
   std::vector<glm::vec4> visibility; ///< x, and y: the class
@@ -651,7 +652,8 @@ struct FilteredPicture
     return static_cast<float>(static_cast<int>(pixel) % side - side / 2) + 0.5f;
   }
   /// Both passes of visibility_filter.frag.glsl, for 3 x 3 rays and 5 pixels. Pixels are of side 1.
-  std::vector<float> filtered(ShaderLibrary& library) const
+  /// @param inTiles in those that are not left out, as VisibilityFilter does
+  std::vector<float> filtered(ShaderLibrary& library, bool inTiles = false) const
   {
     GlTexture textures[7];
     const auto allocated = [&](int i, const void* texels = nullptr)
@@ -667,24 +669,45 @@ struct FilteredPicture
     const TextureBinding places = allocated(1, this->points.data());
     const TextureBinding unfiltered = allocated(2, this->visibility.data());
     const TextureBinding ofPixels = allocated(3, this->slopes.data());
-    const TextureBinding rows = allocated(4), ofRows = allocated(5), result = allocated(6);
-    const GLuint program = ScreenPass::use(library,
-      ShaderLibrary::source("shadowtech/montecarlo/visibility_filter.frag.glsl"),
-      { "FILTER_PIXELS 5", "RAYS 3" });
+    // What is left out of the rows must not be read.
+    const std::vector<glm::vec4> nothing(this->visibility.size(), glm::vec4(std::nanf("")));
+    const TextureBinding rows = allocated(4, nothing.data()), ofRows = allocated(5, nothing.data());
+    const TextureBinding result = allocated(6, this->visibility.data());
+    const std::string source =
+      ShaderLibrary::source("shadowtech/montecarlo/visibility_filter.frag.glsl");
+    std::vector<std::string> defines = { "FILTER_PIXELS 5", "RAYS 3" };
+    UndecidedTiles tiles;
+    GLuint program = 0;
+    if (inTiles)
+    {
+      tiles.find(unfiltered.texture, glm::ivec2(side), library);
+      defines.emplace_back("MIXED");
+      program = UndecidedTiles::use(library, source, defines);
+    }
+    else
+    {
+      program = ScreenPass::use(library, source, defines);
+    }
     ScreenPass pass;
-    const auto use =
-      [&](const TextureBinding& source, const TextureBinding& slopesOfIt, const glm::ivec2& axis)
+    const auto draw = [&](const TextureBinding& read, const TextureBinding& slopesOfIt,
+                        const glm::ivec2& axis, const glm::ivec2& reachTiles,
+                        const std::vector<ScreenPass::Image>& images)
     {
       ShaderLibrary::setUniforms(program,
         { { "receiverFragments", receivers }, { "receiverPoints", places },
-          { "unfiltered", unfiltered }, { "source", source }, { "slopes", slopesOfIt },
+          { "unfiltered", unfiltered }, { "source", read }, { "slopes", slopesOfIt },
           { "axis", axis }, { "pixelSide", glm::vec2(1.0f, 0.0f) }, { "lit", 1.0f } },
         0, 0);
+      if (!inTiles)
+      {
+        pass.fill(images, side, side);
+        return;
+      }
+      ShaderLibrary::setUniforms(program, tiles.uniforms(reachTiles), 0, 5);
+      tiles.fill(images);
     };
-    use(unfiltered, ofPixels, { 1, 0 });
-    pass.fill({ { rows.texture }, { ofRows.texture } }, side, side);
-    use(rows, ofRows, { 0, 1 });
-    pass.fill({ { result.texture } }, side, side);
+    draw(unfiltered, ofPixels, { 1, 0 }, { 1, 2 }, { { rows.texture }, { ofRows.texture } });
+    draw(rows, ofRows, { 0, 1 }, { 1, 1 }, { { result.texture } });
     std::vector<float> values(this->visibility.size());
     glBindTexture(GL_TEXTURE_2D, result.texture);
     glGetTexImage(GL_TEXTURE_2D, 0, GL_RED, GL_FLOAT, values.data());
@@ -789,6 +812,41 @@ TEST_F(MonteCarloGlsl, filterGoesAlongPenumbraeWhoseSlopeRaysTell)
   { return [=](std::size_t i) { return std::abs(FilteredPicture::across(i)) < pixels; }; };
   EXPECT_LT(offFrom(ramp.filtered(this->library_), ramp.visibility, within(12.0f)).rms, 0.007);
   EXPECT_LT(offFrom(noisy.filtered(this->library_), ramp.visibility, within(3.6f)).rms, 0.017);
+}
+
+/// Tiles that are left out would not change, and are not read: pictures are all lit or all dark by
+/// bounds but for a few pixels that rays have decided, near the tiles' sides and corners.
+TEST_F(MonteCarloGlsl, filterLeavesOutOnlyTilesThatStayAsTheyAre)
+{
+  int changed = 0;
+  for (const float decided : { 1.0f, 0.0f })
+  {
+    for (int picture = 0; picture < 40; ++picture)
+    {
+      FilteredPicture seen;
+      for (glm::vec4& pixel : seen.visibility)
+      {
+        pixel = glm::vec4(decided, decided == 1.0f ? 2.0f : 3.0f, 0.0f, 0.0f);
+      }
+      const int corner = 16 * (1 + picture % 3);
+      for (int i = 0; i < 3; ++i)
+      {
+        const int x = std::clamp(
+          corner - 6 + static_cast<int>(12.0f * this->uniform()), 0, FilteredPicture::side - 1);
+        const int y = std::clamp(
+          corner - 6 + static_cast<int>(12.0f * this->uniform()), 0, FilteredPicture::side - 1);
+        glm::vec4& pixel = seen.visibility[static_cast<std::size_t>(y * FilteredPicture::side + x)];
+        pixel = glm::vec4(picture % 4 == 0 ? decided : this->uniform(), 5.0f, 0.0f, 0.0f);
+      }
+      const std::vector<float> whole = seen.filtered(this->library_);
+      EXPECT_EQ(seen.filtered(this->library_, true), whole) << decided << " " << picture;
+      for (std::size_t i = 0; i < whole.size(); ++i)
+      {
+        changed += whole[i] != seen.visibility[i].x ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(changed, 1000);
 }
 
 //------------------------------------------------------------------------------
