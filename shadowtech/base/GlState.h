@@ -28,7 +28,7 @@ private:
     GL_DEPTH_CLAMP, GL_STENCIL_TEST, GL_MULTISAMPLE, GL_SAMPLE_ALPHA_TO_COVERAGE,
     GL_FRAMEBUFFER_SRGB };
   std::array<GLboolean, switches_.size()> enabled_;
-  std::array<GLboolean, 3> blend_;
+  std::array<GLboolean, 5> blend_;
   GLint program_, vertexArray_, arrayBuffer_, packBuffer_, unpackBuffer_, activeTexture_;
   GLint drawFramebuffer_, readFramebuffer_, renderbuffer_;
   GLint viewport_[4], scissor_[4];

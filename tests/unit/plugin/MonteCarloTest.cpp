@@ -356,6 +356,11 @@ TEST_F(MonteCarlo, decidesGroundsThatCast)
     EXPECT_GT(classes[2].pixels, mostly ? 2 * undecided : 0) << what << ": lit by bounds";
   };
   expectDecided("a rectangle", true);
+  // What rises above the ground by a texel, 0.02, shades as much of it.
+  this->scene.addBox({ 1.5, -2.5, 0.0 }, { 2.0, -2.0, 0.02 });
+  this->scene.lookDown(0.1, 2.0, -2.25);
+  expectDecided("a low step", false);
+  this->scene.lookFrom({ 2.0, -8.0, 7.0 });
   for (const double size : { 0.1, 0.4 })
   {
     this->lamp->SetWidth(size);
