@@ -219,6 +219,10 @@ bool RenderManager::chooseRoute(const vtkRenderState* s, bool drawnPlainly)
       needs.screenTechnique = casting.light.technique;
     }
     needs.headlightOnSamples |= casting.light.isHeadlight && samples > 1;
+    if (casting.own.info().isSlow && samples <= 1)
+    {
+      needs.slowTechnique = casting.light.technique;
+    }
   }
   needs.whyNotDeferred = this->whyNotDeferred(s, drawnPlainly);
   const std::string& screenTechnique = needs.screenTechnique;

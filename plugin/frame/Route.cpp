@@ -49,6 +49,11 @@ RouteChoice chooseRoute(RouteWish wished, const RouteNeeds& needs)
       "a headlight casts in a window with several samples per pixel, and edges would be dark where "
       "a surface covers a pixel whose centre another one hides" };
   }
+  if (!needs.slowTechnique.empty())
+  {
+    return { Route::Image,
+      "'" + needs.slowTechnique + "' takes longer for a point than receivers take to be drawn" };
+  }
   return { Route::Inline,
     "all techniques are functions of the point, so that no prepass is needed" };
 }

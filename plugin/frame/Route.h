@@ -41,6 +41,8 @@ struct RouteNeeds
   /// another surface hides the centroid from the camera, it hides it from a headlight, too: edges
   /// would be dark in front of surfaces that are all lit.
   bool headlightOnSamples = false;
+  std::string slowTechnique;  ///< one whose points take long (TechniqueInfo::isSlow), in a window
+                              ///< with one sample per pixel; empty: there is none
   std::string whyNotDeferred; ///< as a clause; empty: the deferred route can be taken
 };
 

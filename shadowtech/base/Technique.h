@@ -50,6 +50,9 @@ struct TechniqueInfo
   /// The estimator by the letter of the publication, which `as_published` selects (a published one
   /// itself); empty: there is none.
   std::string asPublished = {};
+  /// Takes longer for a point than VTK takes to shade it: each pixel is to be asked once, and again
+  /// only after a change.
+  bool isSlow = false;
   /// Shows the same without its map, which saves time where it serves several frames.
   bool mapIsOptional = false;
   bool conservativeMap = false; ///< its map is a conservative one

@@ -28,6 +28,7 @@ TechniqueInfo Pcss::info()
   info.settings = { &viewSettings(), &pcssSettings(), &earlyOutSettings(), &depthMapSettings(),
     &publishedSettings() };
   info.refused = refusedByPcss;
+  info.isSlow = true;
   info.asPublished = "pcss_as_published";
   info.classes = classesOfMaps();
   info.classes.insert(info.classes.end(),

@@ -38,6 +38,7 @@ TechniqueInfo PublishedPcss::info()
   info.asPublished = info.name;
   info.settings = { &viewSettings(), &pcssSettings(), &depthMapSettings(), &publishedSettings() };
   info.refused = refusedByPublishedPcss;
+  info.isSlow = true;
   return info;
 }
 

@@ -444,8 +444,7 @@ int run(int argc, char** argv)
   CLI::App app{ "Measures how a frame's time grows with triangles, lights, pixels and what moves",
     "gnomon_benchmark_growth" };
   Options options;
-  app.add_option("-o,--output", options.folder, "Folder for growth.md, growth.json and growth.png")
-    ->required();
+  app.add_option("-o,--output", options.folder, "Folder for growth.md and growth.png")->required();
   app.add_option("--axes", options.axes, "What to vary, separated by commas")
     ->delimiter(',')
     ->check(CLI::IsMember(axisKeys))

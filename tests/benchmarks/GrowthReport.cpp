@@ -7,8 +7,6 @@
 
 #include <vtkVersion.h>
 
-#include <nlohmann/json.hpp>
-
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -195,7 +193,9 @@ std::string sectionOf(const Growth& growth, const GrowthAxis& axis)
   { return fixed(bytesPerTriangle(measured.report), 1); };
   return "\n## " + titleOf(axis) + "\n\n" + caseTable(growth, axis, 0, time) + "\n" +
     listOfNotDrawn(growth, axis) + "First frame:\n\n" + caseTable(growth, axis, 0, firstTime) +
-    "\nBytes per triangle:\n\n" + caseTable(growth, axis, peerCount, bytes);
+    (axis.key == "triangles"
+        ? "\nBytes per triangle:\n\n" + caseTable(growth, axis, peerCount, bytes)
+        : "");
 }
 
 std::string toPage(const Growth& growth)
@@ -217,69 +217,6 @@ std::string toPage(const Growth& growth)
     text += sectionOf(growth, axis);
   }
   return text + "\nMeasured on: " + growth.machine + ".\n";
-}
-
-nlohmann::ordered_json jsonOf(const std::string& contender, const GrowthMeasurement& measured)
-{
-  if (!measured.isDrawn())
-  {
-    return { { "contender", contender }, { "not_drawn", measured.notDrawn } };
-  }
-  nlohmann::ordered_json json = {
-    { "contender", contender },
-    { "frame_ms", measured.milliseconds() },
-    { "frames", measured.times.size() },
-    { "first_frame_ms", measured.firstMilliseconds },
-  };
-  if (const FrameReport& report = measured.report; !report.route.empty())
-  {
-    json["route"] = report.route;
-    json["map_reason"] = report.lights.front().mapReason;
-    json["triangles"] = report.triangles;
-    json["memory_bytes"] = { { "occluders", report.bytesOccluders }, { "bvh", report.bytesBvh },
-      { "maps", report.bytesMaps }, { "images", report.bytesImages } };
-  }
-  return json;
-}
-
-nlohmann::ordered_json jsonOf(const Growth& growth, const GrowthAxis& axis)
-{
-  nlohmann::ordered_json json = { { "axis", axis.key } };
-  for (const GrowthRow& row : axis.rows)
-  {
-    nlohmann::ordered_json measured;
-    for (std::size_t i = 0; i < growth.contenders.size(); ++i)
-    {
-      measured.push_back(jsonOf(growth.contenders[i], row.measured[i]));
-    }
-    json["cases"].push_back({ { "name", row.name }, { "x", row.x }, { "measured", measured } });
-  }
-  for (std::size_t i = 0; axis.hasScale() && i < growth.contenders.size(); ++i)
-  {
-    const Points points = pointsOf(axis, i);
-    if (const auto exponent = exponentOf(points))
-    {
-      json["exponents"][growth.contenders[i]] = { { "all", *exponent },
-        { "last_two", lastExponentOf(points).value_or(*exponent) } };
-    }
-  }
-  return json;
-}
-
-std::string toJson(const Growth& growth)
-{
-  nlohmann::ordered_json json = {
-    { "command", growth.command },
-    { "machine", growth.machine },
-    { "scene", growth.scene },
-    { "gnomon", GNOMON_VERSION },
-    { "vtk", vtkVersion::GetVTKVersion() },
-  };
-  for (const GrowthAxis& axis : growth.axes)
-  {
-    json["axes"].push_back(jsonOf(growth, axis));
-  }
-  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 Panel panelOf(const Growth& growth, const GrowthAxis& axis)
@@ -309,7 +246,6 @@ void writeGrowth(const Growth& growth, const std::string& folder)
   {
     writePicture(sideBySide(panels), folder + "/growth.png");
   }
-  writeText(folder + "/growth.json", toJson(growth));
   writeText(folder + "/growth.md", toPage(growth));
 }
 

@@ -48,7 +48,7 @@ struct Growth
   std::vector<GrowthAxis> axes;
 };
 
-/// Writes growth.json, growth.md and, where an axis has a scale, growth.png into the folder.
+/// Writes growth.md and, where an axis has a scale, growth.png into the folder.
 /// @throws Failure when writing fails
 void writeGrowth(const Growth& growth, const std::string& folder);
 
