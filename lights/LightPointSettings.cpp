@@ -15,10 +15,8 @@ using S = LightPointSettings;
 /// Jittered samples come in the cells of a square grid.
 std::string refusedSamples(const ShadowLight& light)
 {
-  const int side =
-    static_cast<int>(std::lround(std::sqrt(static_cast<double>(light.lightSamples))));
   return light.area && light.lightSampling == LightSampling::Jittered &&
-      side * side != light.lightSamples
+      !isSquare(light.lightSamples)
     ? "'light_sampling' jittered has one sample in each cell of a square grid, of which there are "
       "no " +
       std::to_string(light.lightSamples) + "; 'light_samples' takes squares then: 4, 9, 16, ..."
@@ -26,6 +24,13 @@ std::string refusedSamples(const ShadowLight& light)
 }
 
 } // namespace
+
+//------------------------------------------------------------------------------
+bool isSquare(int samples)
+{
+  const int side = static_cast<int>(std::lround(std::sqrt(static_cast<double>(samples))));
+  return side * side == samples;
+}
 
 //------------------------------------------------------------------------------
 const SettingsTable& lightAreaSettings()

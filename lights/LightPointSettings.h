@@ -24,6 +24,9 @@ struct LightPointSettings
   LightSampling lightSampling = LightSampling::Sobol;
 };
 
+/// Whether a number of samples fills a square grid, as jittered ones do.
+bool isSquare(int samples);
+
 /// How large lights are: of every technique, since it says what the light is.
 const SettingsTable& lightAreaSettings();
 /// Which points these are: of techniques that take random ones.

@@ -15,7 +15,7 @@ namespace gnomon
 
 /// The tiles of a picture, 16 x 16 pixels each, that have pixels which bounds do not decide. Passes
 /// that are for these pixels draw these tiles alone: the vertex shader drops all others, so that
-/// nothing is read back. (Software OpenGL runs both sides of a branch, and so saves nothing by one.)
+/// nothing is read back. Software OpenGL runs both sides of a branch, so a branch saves nothing.
 class UndecidedTiles
 {
 public:

@@ -38,7 +38,7 @@ struct Receiver
   vec3 normal;
   float offset; // how far above the surface rays begin to count, in world units
   int view;     // the first that has it on its map; negative: none
-  float own;    // how far above its plane its texel there holds its own surface, in the measure of Place::plane
+  float own;    // how far above its plane its texel holds its own surface, as Place::plane measures
 };
 
 // The part of a ray that is on a view's map, in ray space.
@@ -191,7 +191,7 @@ vec3 cornerOfLight(int i)
 }
 
 // Whether no slab of some texels rises above the receiver's plane by as much as rays do where they
-// begin to count (onMap()). In its measure a slab is highest where it begins, at the texel's corner.
+// begin to count (onMap()). A slab is highest where it begins, at the texel's corner.
 bool liesBelow(Receiver receiver, vec4 plane, ivec2 lower, ivec2 upper, float deepest)
 {
   if (plane.z >= 0.0)
@@ -217,9 +217,9 @@ bool liesBelow(Receiver receiver, vec4 plane, ivec2 lower, ivec2 upper, float de
 
 // What all rays of a pixel can meet: they lie between those to the corners of a box around the
 // light, and so does their part behind the depth where the first slab begins (Curtis 2009, section
-// 3.6, whose region this is for a square light). A region whose slabs begin deeper is smaller: where
-// nothing is in front of a surface, each is a fraction of the one before, down to the receiver's own
-// texels, which are asked one by one.
+// 3.6, whose region this is for a square light). A region whose slabs begin deeper is smaller.
+// Where nothing is in front of a surface, each is a fraction of the one before, down to the
+// receiver's own texels, which are asked one by one.
 // @param depths of the map; on return, of the region
 // @return LIT, UMBRA or SEARCHED
 float classOf(Receiver receiver, Place place, vec3 toCentre, inout vec2 depths)

@@ -18,7 +18,8 @@ struct Drawn;
 /// or several surfaces. A sample is a place in an edge pixel. Its receiver lies on the pixel's own
 /// triangle or on a neighbour's, where that goes on with the surface that the pixel shows: the same
 /// drawn surface, turned by less than 45 degrees, within a pixel's side of the own triangle's
-/// plane. So what is behind an outline does not colour it. Samples count that face the light.
+/// plane. So what is behind an outline does not colour it. Samples count that face the light and, at
+/// outlines, are seen by the camera, if the tracer can say so (FreeSegments).
 ///
 /// Between surfaces most pixels are evenly lit: four samples tell which ones need all.
 class EdgeSamples

@@ -1,10 +1,10 @@
 #pragma once
 
+#include "lights/LightPointSettings.h"
 #include "lights/SettingsTable.h"
 #include "lights/ShadowLight.h"
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 
 namespace gnomon
@@ -31,8 +31,7 @@ inline const SettingsTable& refinementSettings()
   constexpr auto refused = [](const ShadowLight& light) -> std::string
   {
     const int samples = light.of<RefinementSettings>().movingSamples;
-    const int side = static_cast<int>(std::lround(std::sqrt(static_cast<double>(samples))));
-    return light.area && light.lightSampling == LightSampling::Jittered && side * side != samples
+    return light.area && light.lightSampling == LightSampling::Jittered && !isSquare(samples)
       ? "'moving_samples' " + std::to_string(samples) +
         " is no square, which 'light_sampling' jittered asks for"
       : "";

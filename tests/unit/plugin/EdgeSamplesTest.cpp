@@ -311,7 +311,7 @@ TEST_F(EdgeSamples, areThereForAllLightsCamerasAndShapes)
 }
 
 //------------------------------------------------------------------------------
-/// The same number of rays decides, and so does the map, whoever decides.
+/// Maps decide samples as rays do.
 TEST_F(EdgeSamples, agreeBetweenExactTechniques)
 {
   this->scene.pass->SetSetting("bake", "always");

@@ -277,8 +277,8 @@ TEST_F(PassTest, lightsByTheDozenShowAllTheirShadows)
 }
 
 //------------------------------------------------------------------------------
-/// Which keeps its pixels while nothing moves. With several samples a pixel the inline route asks at
-/// the samples.
+/// The image route reuses its pixels while nothing moves. Windows with several samples per pixel
+/// keep the inline route, which shades samples.
 TEST_F(PassTest, slowTechniquesTakeTheImageRoute)
 {
   for (const int samples : { 0, 4 })
