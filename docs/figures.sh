@@ -14,7 +14,7 @@ build_gnomon
 hard=nsm,pcf,esm,vsm,evsm,msm,adaptive,lispsm,tsm,pssm,planar,coherence,selective,crsm,crsma,silhouette,raytraced
 soft=pcss,montecarlo,sampled,penumbra,raytraced
 compareOnce out/figures/hard bunny --techniques "$hard" --route inline --frames 31
-compareOnce out/figures/soft bunny --techniques "$soft" --route inline --frames 11 --light-radius 5
+compareOnce out/figures/soft bunny --techniques "$soft" --route image --frames 11 --light-radius 5
 
 mkdir -p docs/figures
 # copy FOLDER VARIANT NAME : one of the pictures
@@ -27,7 +27,7 @@ copy hard vtkShadowMapPass-1024 vtkShadowMapPass-1024
 copy hard nsm-1024-inline nsm-1024-inline
 copy hard raytraced raytraced
 copy hard chart chart
-copy soft pcss-1024-inline pcss
+copy soft pcss-1024-image pcss
 copy soft montecarlo-1024 montecarlo
 copy soft penumbra penumbra
 

@@ -3,6 +3,7 @@
 #include "lights/SettingsTable.h"
 
 #include "shadowtech/base/TextureMemory.h"
+#include "shadowtech/tracing/EdgeSettings.h"
 
 #include <iterator>
 #include <utility>
@@ -139,6 +140,19 @@ LightReport reportOfCasting(const ShadowLight& light, const TechniqueInfo& info)
 } // namespace
 
 //------------------------------------------------------------------------------
+bool isOnCpu(const CastingLight& casting)
+{
+  return casting.own.info().evaluation == Evaluation::ScreenCpu;
+}
+
+//------------------------------------------------------------------------------
+std::size_t edgeSamplesOf(const CastingLight& casting)
+{
+  const bool smooths = casting.own.info().has(edgeSettings()) && !casting.light.area;
+  return smooths ? static_cast<std::size_t>(casting.light.of<EdgeSettings>().samples) : 1;
+}
+
+//------------------------------------------------------------------------------
 bool canDrawMaps()
 {
   return GLEW_VERSION_4_3;
@@ -182,17 +196,42 @@ void CastingLights::collect(vtkRenderer* renderer, const ShadowSettings& default
 
   // Nothing below fails half way: what a light has kept goes on with it.
   std::vector<CastingLight> lights;
-  int layer = 0;
   for (std::size_t i = 0; i < set.lights.size(); ++i)
   {
     lights.push_back(this->take(std::move(set.lights[i]), *estimators[i], ofView));
-    lights.back().layer = layer;
-    layer += lights.back().channels;
   }
   this->lights_ = std::move(lights);
+  this->placeVisibility();
   // What no light has taken is of lights that are gone, or have another technique.
   this->ofAllViews_.clear();
   ofView.clear();
+}
+
+//------------------------------------------------------------------------------
+/// Shares out layers, and bits among lights with hard shadows. A single one of these gains nothing
+/// by a bit.
+void CastingLights::placeVisibility()
+{
+  const auto isHard = [](const CastingLight& casting)
+  {
+    return isOnCpu(casting) && casting.own.info().exact && !casting.light.area &&
+      edgeSamplesOf(casting) == 1;
+  };
+  const bool takesBits = std::count_if(this->lights_.begin(), this->lights_.end(), isHard) > 1;
+  this->layers_ = 0;
+  this->bits_ = 0;
+  for (CastingLight& casting : this->lights_)
+  {
+    if (takesBits && isHard(casting) && this->bits_ < VisibilityLayers::mostBits)
+    {
+      casting.bit = this->bits_++;
+    }
+    else
+    {
+      casting.layer = this->layers_;
+      this->layers_ += casting.channels;
+    }
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -224,9 +263,9 @@ CastingLight CastingLights::take(
   auto kept = this->placeOf(light, ofView).extract(light.sceneIndex);
   if (kept && &kept.mapped().own.estimator() == &estimator)
   {
-    return { std::move(kept.mapped()), std::move(light), 0, channels };
+    return { std::move(kept.mapped()), std::move(light), channels };
   }
-  return { { LightTechnique(estimator), std::nullopt }, std::move(light), 0, channels };
+  return { { LightTechnique(estimator), std::nullopt }, std::move(light), channels };
 }
 
 //------------------------------------------------------------------------------
@@ -239,12 +278,6 @@ std::size_t bytesOfMaps(const TechniquesOfLights& techniques)
       kept.own.technique().bytesOfMaps() + (kept.plain ? kept.plain->technique().bytesOfMaps() : 0);
   }
   return bytes;
-}
-
-//------------------------------------------------------------------------------
-int CastingLights::layers() const
-{
-  return this->lights_.empty() ? 0 : this->lights_.back().layer + this->lights_.back().channels;
 }
 
 //------------------------------------------------------------------------------

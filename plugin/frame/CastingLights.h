@@ -3,8 +3,10 @@
 #include "lights/LightManager.h"
 #include "plugin/frame/LightTechnique.h"
 #include "shadowtech/base/FrameReport.h"
+#include "shadowtech/base/VisibilityLayers.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <map>
 #include <optional>
 #include <vector>
@@ -30,16 +32,23 @@ std::size_t bytesOfMaps(const TechniquesOfLights& techniques);
 struct CastingLight : KeptTechniques
 {
   ShadowLight light;
-  int layer = 0;               ///< of the visibility layers, its first
   int channels = 1;            ///< of its visibility, a layer each
+  int layer = 0;               ///< of the visibility layers, its first
+  int bit = noBit;             ///< or of their image of bits
   bool shadesAtPoints = false; ///< whether shaders call a technique for it
   bool isStale = true;         ///< image route: whether its visibility is computed in this frame
+  bool mayKeepTiles = false;   ///< and whether nothing changed but what may leave some tiles
 
   /// What the shader computes the light's visibility with on a route; null if it only fetches. From
   /// here on there is a plain technique where one is needed.
   /// @param translucentReceivers whether translucent surfaces receive
   const PointwiseTechnique* pointwiseOn(Route route, bool translucentReceivers);
 };
+
+/// Whether a light's technique traces from receivers on the CPU.
+bool isOnCpu(const CastingLight& casting);
+/// How many shadow rays a pixel at an edge gets. Area lights have no edges.
+std::size_t edgeSamplesOf(const CastingLight& casting);
 
 /// Whether OpenGL is new enough (4.3) for techniques that work on the GPU; the context is current.
 bool canDrawMaps();
@@ -75,16 +84,22 @@ public:
   /// Memory of the maps that serve all views.
   std::size_t bytesOfMaps() const { return gnomon::bytesOfMaps(this->ofAllViews_); }
 
-  /// How many visibility layers they fill.
-  int layers() const;
+  ///@{
+  /// How many visibility layers they fill, and how many bits.
+  int layers() const { return this->layers_; }
+  int bits() const { return this->bits_; }
+  ///@}
 
 private:
+  void placeVisibility();
   TechniquesOfLights& placeOf(const ShadowLight& light, TechniquesOfLights& ofView);
   CastingLight take(ShadowLight light, const EstimatorEntry& estimator, TechniquesOfLights& ofView);
 
   LightManager manager_;
   TechniquesOfLights ofAllViews_;    ///< of lights whose maps serve all views
   std::vector<CastingLight> lights_; ///< by their place in the scene
+  int layers_ = 0;
+  int bits_ = 0;
 };
 
 /// What the report says of a light that it has.

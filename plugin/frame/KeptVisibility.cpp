@@ -60,7 +60,8 @@ void addLight(VisibilityImages& images, const CastingLight& casting, const Class
   std::vector<float> visibility;
   if (!casting.light.texture)
   {
-    layers.read(casting.layer, visibility);
+    casting.bit == noBit ? layers.read(casting.layer, visibility)
+                         : layers.readBit(casting.bit, visibility);
     add(visibility, LightChannel::All);
     return;
   }

@@ -5,7 +5,6 @@
 #include "plugin/scene/ShownView.h"
 #include "plugin/window/PictureTarget.h"
 #include "shadowtech/exact/CellTarget.h"
-#include "shadowtech/tracing/EdgeSettings.h"
 #include "shadowtech/tracing/GpuTracer.h"
 #include "shadowtech/tracing/RefinementSettings.h"
 
@@ -35,6 +34,12 @@ vtkOpenGLRenderWindow* windowOf(const vtkRenderState* s)
   return vtkOpenGLRenderWindow::SafeDownCast(s->GetRenderer()->GetRenderWindow());
 }
 
+///@{
+/// Parts of a visibility's key.
+constexpr const char* propsPart = "the props in view";
+constexpr const char* snapshotPart = "the snapshot";
+///@}
+
 /// Where a light is, and what it is.
 auto placeOf(const ShadowLight& light)
 {
@@ -47,25 +52,19 @@ auto placeOf(const ShadowLight& light)
     light.texture ? std::optional(texture(*light.texture)) : std::nullopt);
 }
 
-/// Whether a light's technique traces from receivers on the CPU.
-bool isOnCpu(const CastingLight& casting)
-{
-  return casting.own.info().evaluation == Evaluation::ScreenCpu;
-}
-
-/// How many shadow rays a pixel at an edge gets. Area lights have no edges.
-std::size_t edgeSamplesOf(const CastingLight& casting)
-{
-  const bool smooths = casting.own.info().has(edgeSettings()) && !casting.light.area;
-  return smooths ? static_cast<std::size_t>(casting.light.of<EdgeSettings>().samples) : 1;
-}
-
 /// How many samples an area light has in this frame.
 /// @param before in the frame before; 0 where that showed something else
 int samplesOf(const CastingLight& casting, int before)
 {
   const bool refines = casting.own.info().has(refinementSettings()) && casting.light.area;
   return refines ? samplesOfStep(casting.light, before) : casting.light.lightSamples;
+}
+
+/// Whether parts of a key whose change leaves some tiles as they are, of all that changed.
+bool leavesTiles(const std::set<std::string>& changedParts)
+{
+  return std::all_of(changedParts.begin(), changedParts.end(),
+    [](const std::string& name) { return name == propsPart || name == snapshotPart; });
 }
 
 /// How many pixels are of each class.
@@ -261,7 +260,7 @@ bool RenderManager::chooseRoute(const vtkRenderState* s, bool drawnPlainly)
       casting.light, this->route_, translucentReceivers, reportOf(this->report_, casting.light));
     const PointwiseTechnique* pointwise = casting.pointwiseOn(this->route_, translucentReceivers);
     casting.shadesAtPoints = pointwise != nullptr;
-    shaded.push_back({ casting.light, casting.layer, casting.channels, pointwise });
+    shaded.push_back({ casting.light, casting.channels, casting.layer, casting.bit, pointwise });
   }
   bool namesTriangles = true;
   if (this->route_ == Route::Deferred)
@@ -306,8 +305,8 @@ ValueKey RenderManager::receiversKey(const vtkRenderState* s) const
   const Occluders& occluders = this->collector_.occluders();
   ValueKey key;
   key.add("the camera", view);
-  key.add("the props in view", hashOfShownProps(s));
-  key.add("the snapshot", std::pair(occluders.topologyVersion, occluders.positionsVersion));
+  key.add(propsPart, hashOfShownProps(s));
+  key.add(snapshotPart, std::pair(occluders.topologyVersion, occluders.positionsVersion));
   key.add("what is read of receivers", this->readsPoints());
   key.add("where they are drawn", std::tuple(this->route_, originOf(s)));
   return key;
@@ -322,7 +321,7 @@ ValueKey RenderManager::visibilityKey(const CastingLight& casting) const
   key.add("the light", placeOf(casting.light));
   key.add("its technique", std::pair(&casting.own.estimator(), casting.light.fittedToReceivers));
   key.add("its settings", valuesOf(info, SettingsOf::Estimator, casting.light));
-  key.add("its layer", casting.layer);
+  key.add("its layer", std::pair(casting.layer, casting.bit));
   if (info.evaluation == Evaluation::ScreenCpu)
   {
     key.add("the tracer", this->wishes_.tracer);
@@ -339,12 +338,14 @@ void RenderManager::makeRoomForLayers()
 {
   VisibilityLayers& layers = this->view_->layers;
   const int count = this->lights_.layers();
-  if (count > 0 && !layers.have(this->size_.x, this->size_.y, count))
+  const int bits = this->lights_.bits();
+  if (count + bits > 0 && !layers.have(this->size_.x, this->size_.y, count, bits))
   {
     this->view_->visibility.clear();
-    layers.resize(this->size_.x, this->size_.y, count);
+    layers.resize(this->size_.x, this->size_.y, count, bits);
   }
   this->stageValues_.layers = { GL_TEXTURE_2D_ARRAY, layers.texture() };
+  this->stageValues_.bits = { GL_TEXTURE_2D, layers.bits() };
   this->stageValues_.layersSize = this->size_;
 }
 
@@ -363,6 +364,7 @@ void RenderManager::findStaleReceivers(const vtkRenderState* s)
     this->receiversDue_ = std::move(key);
     value.key.reset(); // in case of an error
     value.onCpu.reset();
+    value.framesTraced = 0;
   }
 }
 
@@ -373,7 +375,11 @@ void RenderManager::takeReceivers()
   if (this->receiversDue_)
   {
     ReceiversValue& value = this->view_->receivers;
-    value.drawnSurfaces = this->collector_.drawnSurfaces();
+    if (value.drawnSurfaces != this->collector_.drawnSurfaces())
+    {
+      value.drawnSurfaces = this->collector_.drawnSurfaces();
+      value.numberOfImages = 0; // the fragments that were read have other names
+    }
     value.key = std::move(this->receiversDue_);
     value.number = ++this->receiversNumbered_;
     ++this->report_.receiversDrawn;
@@ -409,6 +415,7 @@ void RenderManager::findStaleVisibility()
   {
     const ValueKey key = this->visibilityKey(casting);
     std::string changes = value->key ? key.changesFrom(*value->key) : "there was none";
+    casting.mayKeepTiles = value->key && leavesTiles(key.changedParts(*value->key));
     value->samples = changes.empty() ? value->samples : 0;
     if (changes.empty() && value->report.progress < 1.0)
     {
@@ -496,6 +503,11 @@ Receivers& RenderManager::receiversOnCpu()
     this->tracesOnCpu() ? this->tracer_.freeSegments() : nullptr;
   if (!value.onCpu || value.onCpu->freeSegments() != freeSegments)
   {
+    if (value.numberOfImages != value.number)
+    {
+      value.fragmentsBefore.swap(value.images.fragments);
+      value.numberBefore = std::exchange(value.numberOfImages, value.number);
+    }
     value.images.rays = pixelRays(this->camera_.clipFromView,
       this->stageValues_.space.centredFromView, this->size_.x, this->size_.y);
     if (this->route_ == Route::Deferred)
@@ -514,6 +526,18 @@ Receivers& RenderManager::receiversOnCpu()
 }
 
 //------------------------------------------------------------------------------
+/// Stores receivers that lights move over, which takes half as long as tracing from them. From then
+/// on a light's image takes a fifth less.
+void RenderManager::storeResting()
+{
+  constexpr int patience = 2; // frames
+  if (++this->view_->receivers.framesTraced > patience)
+  {
+    this->receiversOnCpu().all();
+  }
+}
+
+//------------------------------------------------------------------------------
 /// Whether any light's technique does.
 bool RenderManager::tracesOnCpu() const
 {
@@ -527,6 +551,7 @@ void RenderManager::computeVisibility()
         [](const CastingLight& casting) { return casting.isStale && isOnCpu(casting); }))
   {
     this->updateTracer();
+    this->storeResting();
   }
   if (this->tracesOnCpu())
   {
@@ -553,6 +578,7 @@ void RenderManager::computeVisibility()
     this->report_.notes.insert(this->report_.notes.end(), value->notes.begin(), value->notes.end());
     ++value;
   }
+  this->view_->layers.uploadBits();
   const bool isKept = this->report_.visibilityComputed == 0 && this->keptOf_ == this->view_ &&
     !this->visibility_.visibility.empty();
   if (this->wishes_.keepVisibility && !isKept)
@@ -571,12 +597,46 @@ void RenderManager::dropVisibility()
 }
 
 //------------------------------------------------------------------------------
+/// Begins a light's image where tiles of the one before may stay.
+/// @param traced the light, with as many samples as the image has
+/// @return null where all tiles are computed
+TracedTiles* RenderManager::beginTiles(
+  const CastingLight& casting, const ShadowLight& traced, VisibilityValue& value)
+{
+  const Occluders& occluders = this->collector_.occluders();
+  const ReceiversValue& receivers = this->view_->receivers;
+  const TechniqueInfo& info = casting.own.info();
+  const bool isDecidedByMap = info.conservativeMap && casting.own.usesMap();
+  if (!info.exact || isDecidedByMap || edgeSamplesOf(casting) > 1 || this->tracer_.taken().gpu ||
+    occluders.surfaces.size() < 2)
+  {
+    value.classes.clear();
+    value.tiles.forget();
+    value.onCpu = {};
+    return nullptr;
+  }
+  const bool isFollowed = casting.mayKeepTiles && value.receivers == receivers.numberBefore &&
+    (!value.classified || !value.classes.empty());
+  if (!isFollowed || !value.classified)
+  {
+    value.classes.clear();
+  }
+  value.tiles.begin(
+    occluders, traced, receivers.images, isFollowed ? &receivers.fragmentsBefore : nullptr);
+  value.receivers = receivers.number;
+  return &value.tiles;
+}
+
+//------------------------------------------------------------------------------
 /// Has a light's technique fill its layers.
 /// @param value whose classes, if they are asked for, and notes are filled
 void RenderManager::fillLayers(CastingLight& casting, VisibilityValue& value, LightReport& report)
 {
-  value.classes.clear();
   value.notes.clear();
+  if (!isOnCpu(casting))
+  {
+    value.classes.clear();
+  }
   std::vector<std::uint8_t>* const classes = value.classified ? &value.classes : nullptr;
   const ShadowLight& light = casting.light;
   const Occluders& occluders = this->collector_.occluders();
@@ -607,14 +667,16 @@ void RenderManager::fillLayers(CastingLight& casting, VisibilityValue& value, Li
   else
   {
     auto& technique = *casting.own.as<CpuScreenTechnique>();
-    std::vector<float>& visibility = this->visibilityOnCpu_;
     const std::size_t edgeSamples = edgeSamplesOf(casting);
     std::vector<std::uint8_t> classesForEdges;
     ShadowLight traced = light;
     traced.lightSamples = samplesOf(casting, value.samples);
-    const ScreenInput input{ traced, casting.own.fitting(), occluders, this->receiversOnCpu(),
+    Receivers& onCpu = this->receiversOnCpu();
+    TracedTiles* const tiles = this->beginTiles(casting, traced, value);
+    std::vector<float>& visibility = tiles ? value.onCpu : this->visibilityOnCpu_;
+    const ScreenInput input{ traced, casting.own.fitting(), occluders, onCpu,
       this->tracer_.tracer(), casting.own.usesMap(),
-      classes || edgeSamples == 1 ? classes : &classesForEdges, this->report_.mapBakes };
+      classes || edgeSamples == 1 ? classes : &classesForEdges, tiles, this->report_.mapBakes };
     namingLight(light, [&] { technique.computeVisibility(input, visibility, report); });
     value.samples = traced.lightSamples;
     report.progress = static_cast<double>(traced.lightSamples) / light.lightSamples;
@@ -627,7 +689,8 @@ void RenderManager::fillLayers(CastingLight& casting, VisibilityValue& value, Li
         });
       this->endStageClock("visibility: edges");
     }
-    layers.upload(casting.layer, visibility);
+    casting.bit == noBit ? layers.upload(casting.layer, visibility)
+                         : layers.fillBit(casting.bit, visibility);
     if (this->route_ == Route::Deferred)
     {
       this->view_->receivers.deferred.keepShadows(visibility);

@@ -124,6 +124,9 @@ private:
   void updateTracer();
   void tellTracer();
   Receivers& receiversOnCpu();
+  void storeResting();
+  TracedTiles* beginTiles(
+    const CastingLight& casting, const ShadowLight& traced, VisibilityValue& value);
   void fillLayers(CastingLight& casting, VisibilityValue& value, LightReport& report);
   void dropVisibility();
 

@@ -50,6 +50,7 @@ std::string visibilityOf(Route route, const ShadedLight& shaded, int light)
   const auto layer = [&](int channel)
   { return "gnomonLayer(" + std::to_string(shaded.layer + channel) + ")"; };
   const std::string fetched = route == Route::Deferred ? litOf(shaded, light)
+    : shaded.bit != noBit  ? "gnomonBit(" + std::to_string(shaded.bit) + ")"
     : shaded.channels == 3 ? "vec3(" + layer(0) + ", " + layer(1) + ", " + layer(2) + ")"
                            : even + layer(0);
   const std::string computed =
@@ -122,9 +123,15 @@ int layersOf(const std::vector<ShadedLight>& lights)
   int layers = 0;
   for (const ShadedLight& shaded : lights)
   {
-    layers = std::max(layers, shaded.layer + shaded.channels);
+    layers = shaded.bit != noBit ? layers : std::max(layers, shaded.layer + shaded.channels);
   }
   return layers;
+}
+
+bool haveBits(const std::vector<ShadedLight>& lights)
+{
+  return std::any_of(
+    lights.begin(), lights.end(), [](const ShadedLight& shaded) { return shaded.bit != noBit; });
 }
 
 /// The names of a source's samplers by their type.
@@ -187,6 +194,11 @@ void ShaderManager::configure(const HookVariant& variant, const std::vector<Shad
     else
     {
       declarations += hookShaders().at("plugin/frame/hook_layer.glsl");
+    }
+    if (haveBits(lights))
+    {
+      declarations += hookShaders().at("plugin/frame/hook_bits.glsl");
+      multiplications += "  gnomonFetchBits();\n";
     }
   }
   if (asksAtPoints && variant.multisampled)
@@ -426,6 +438,10 @@ void ShaderManager::bindVisibility(const StageValues& values)
   {
     add("gnomonLayers", this->bindTexture(values.layers));
     add("gnomonLayerCount", layersOf(this->lights_));
+    if (haveBits(this->lights_))
+    {
+      add("gnomonBits", this->bindTexture(values.bits));
+    }
     if (this->variant_.multisampled)
     {
       add("gnomonDepths", this->bindTexture(values.depths));

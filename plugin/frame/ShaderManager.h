@@ -4,6 +4,7 @@
 #include "plugin/frame/Route.h"
 #include "plugin/scene/DrawnLookup.h"
 #include "shadowtech/base/Technique.h"
+#include "shadowtech/base/VisibilityLayers.h"
 
 #include <vtkTimeStamp.h>
 
@@ -31,8 +32,9 @@ struct HookVariant
 struct ShadedLight
 {
   ShadowLight light;
-  int layer = 0;    ///< image route: of the visibility layers, its first
   int channels = 1; ///< of its visibility, a layer each (channelsOf())
+  int layer = 0;    ///< image route: of the visibility layers, its first
+  int bit = noBit;  ///< or of their image of bits
   /// What the shader computes visibility with: on the inline route for all surfaces, on the image
   /// route for translucent ones, since the layers show what is opaque. Null where nothing needs it.
   const PointwiseTechnique* pointwise = nullptr;
@@ -73,6 +75,7 @@ public:
     bool receiversStage = false; ///< receivers are drawn, alone or with the picture
     ReceiverSpace space;
     TextureBinding layers;      ///< image route: the visibility layers
+    TextureBinding bits;        ///< and their image of bits
     glm::ivec2 layersSize{ 0 }; ///< and their size in pixels
     TextureBinding depths;      ///< of the receivers that the layers are of
   };

@@ -4,25 +4,34 @@ namespace gnomon
 {
 
 //------------------------------------------------------------------------------
-std::string ValueKey::changesFrom(const ValueKey& other) const
+std::set<std::string> ValueKey::changedParts(const ValueKey& other) const
 {
-  std::string changes;
-  const auto add = [&](const std::string& name)
-  { changes += (changes.empty() ? "" : ", ") + name; };
+  std::set<std::string> changed;
   for (const auto& [name, part] : this->parts_)
   {
     const auto before = other.parts_.find(name);
     if (before == other.parts_.end() || !part.areEqual(part.value, before->second.value))
     {
-      add(name);
+      changed.insert(name);
     }
   }
   for (const auto& [name, part] : other.parts_)
   {
     if (this->parts_.count(name) == 0)
     {
-      add(name);
+      changed.insert(name);
     }
+  }
+  return changed;
+}
+
+//------------------------------------------------------------------------------
+std::string ValueKey::changesFrom(const ValueKey& other) const
+{
+  std::string changes;
+  for (const std::string& name : this->changedParts(other))
+  {
+    changes += (changes.empty() ? "" : ", ") + name;
   }
   return changes;
 }

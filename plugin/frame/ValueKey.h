@@ -2,6 +2,7 @@
 
 #include <any>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -26,7 +27,9 @@ public:
       } };
   }
 
-  /// The names of the parts that are not as in another key, "the camera, the props"; empty if none.
+  /// The names of the parts that are not as in another key.
+  std::set<std::string> changedParts(const ValueKey& other) const;
+  /// The same as text: "the camera, the props"; empty if none.
   std::string changesFrom(const ValueKey& other) const;
 
 private:

@@ -12,11 +12,22 @@ namespace gnomon
 {
 
 //------------------------------------------------------------------------------
+std::size_t VisibilityValue::bytes() const
+{
+  return bytesOf(this->classes) + bytesOf(this->onCpu) + this->tiles.bytes();
+}
+
+//------------------------------------------------------------------------------
 std::size_t ViewValues::bytesOfImages() const
 {
-  return this->receivers.target.bytes() + this->receivers.deferred.bytes() +
-    bytesOf(this->receivers.images.fragments) + this->receivers.pixels.bytes() +
-    this->layers.bytes();
+  std::size_t bytes = this->receivers.target.bytes() + this->receivers.deferred.bytes() +
+    bytesOf(this->receivers.images.fragments) + bytesOf(this->receivers.fragmentsBefore) +
+    this->receivers.pixels.bytes() + this->layers.bytes();
+  for (const VisibilityValue& value : this->visibility)
+  {
+    bytes += value.bytes();
+  }
+  return bytes;
 }
 
 //------------------------------------------------------------------------------

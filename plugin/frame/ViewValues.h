@@ -7,6 +7,7 @@
 #include "shadowtech/base/ReceiverTarget.h"
 #include "shadowtech/base/Receivers.h"
 #include "shadowtech/base/VisibilityLayers.h"
+#include "shadowtech/tracing/TracedTiles.h"
 
 #include <array>
 #include <cstddef>
@@ -30,8 +31,12 @@ struct ReceiversValue
   DeferredPicture deferred;                ///< deferred route
   std::vector<DrawnSurface> drawnSurfaces; ///< that the fragments name
   ReceiverImages images;                   ///< on the CPU, once somebody reads them
+  std::size_t numberOfImages = 0;          ///< of which number these are
+  std::vector<glm::vec2> fragmentsBefore;  ///< of those that were read before
+  std::size_t numberBefore = 0;            ///< of which number these are
   ReceiverPixels pixels;                   ///< where `onCpu` keeps them
   std::optional<Receivers> onCpu;          ///< made with `images`
+  int framesTraced = 0;                    ///< in which lights were traced from them
 };
 
 /// The visibility stage's value for one light. The picture itself is in the view's layers.
@@ -43,6 +48,14 @@ struct VisibilityValue
   std::vector<std::string> notes; ///< and what it notes (FrameReport::notes)
   bool classified = false;
   std::vector<std::uint8_t> classes; ///< each pixel's, where `classified`
+  ///@{
+  /// Of a light whose image may keep tiles.
+  std::vector<float> onCpu;
+  TracedTiles tiles;
+  std::size_t receivers = 0; ///< the number of those that it was traced from
+  ///@}
+
+  std::size_t bytes() const;
 };
 
 /// What one view of a renderer keeps from frame to frame.

@@ -348,12 +348,13 @@ void SnapshotSurfaces::summarise()
   for (std::size_t i = 0; i < this->records_.size(); ++i)
   {
     const SurfaceRecord& record = this->records_[i];
-    this->occluders_.allCentred.add(record.boundsCentred);
-    if (this->occluders_.surfaces[i].casts)
+    Surface& surface = this->occluders_.surfaces[i];
+    surface.boundsCentred = record.boundsCentred;
+    this->occluders_.allCentred.add(surface.boundsCentred);
+    if (surface.casts)
     {
-      this->occluders_.castersCentred.add(record.boundsCentred);
+      this->occluders_.castersCentred.add(surface.boundsCentred);
     }
-    const Surface& surface = this->occluders_.surfaces[i];
     const std::size_t leftOut = record.leftOutNonFinite + record.leftOutVanished;
     const std::size_t times =
       surface.isInstanced() ? surface.centredFromSource.size() - leftOut : 1;

@@ -45,6 +45,8 @@ struct Surface
   /// centred coordinates; 0 without normals, or of more than `mostFacets` triangles.
   float facetHeight = 0.0f;
 
+  Bounds boundsCentred; ///< box around all that is drawn of it
+
   /// Changes when the triangles of this surface change (its mapper's input) or their texture
   /// coordinates, not when it only gets another place in the list. Versions are never given twice
   /// within a snapshot, so that a surface can be found again by this one.

@@ -188,9 +188,11 @@ void copyTile(const ReceiverPixels& picture, const Rectangle& tile, ReceiverPixe
 }
 
 /// All tiles of a picture, by several threads at once.
+/// @param skipped by tile: 1 for those that are left out; null: none
 /// @param visitTile with something of the thread's own
 template <typename Local, typename VisitTile>
-void visitRectangles(std::size_t width, std::size_t height, const VisitTile& visitTile)
+void visitRectangles(std::size_t width, std::size_t height,
+  const std::vector<std::uint8_t>* skipped, const VisitTile& visitTile)
 {
   const std::size_t tilesX = (width + ReceiverTile::mostColumns - 1) / ReceiverTile::mostColumns;
   const std::size_t tilesY = (height + ReceiverTile::mostRows - 1) / ReceiverTile::mostRows;
@@ -202,6 +204,10 @@ void visitRectangles(std::size_t width, std::size_t height, const VisitTile& vis
       Local& local = locals.local();
       for (std::size_t i = range.begin(); i != range.end(); ++i)
       {
+        if (skipped && (*skipped)[i] != 0)
+        {
+          continue;
+        }
         Rectangle tile{ i % tilesX * ReceiverTile::mostColumns, i / tilesX * ReceiverTile::mostRows,
           0, 0 };
         tile.columns = std::min(ReceiverTile::mostColumns, width - tile.firstColumn);
@@ -250,12 +256,12 @@ Drawn Receivers::drawn(const ReceiverDecider* decider) const
 }
 
 //------------------------------------------------------------------------------
-void Receivers::visitTiles(
-  const std::function<void(const ReceiverTile&)>& visit, const ReceiverDecider* decider) const
+void Receivers::visitTiles(const std::function<void(const ReceiverTile&)>& visit,
+  const ReceiverDecider* decider, const std::vector<std::uint8_t>* skipped) const
 {
   const std::optional<Drawn> drawn =
     this->stored_ ? std::nullopt : std::optional<Drawn>(this->drawn(decider));
-  visitRectangles<TileMaking>(this->width_, this->height_,
+  visitRectangles<TileMaking>(this->width_, this->height_, skipped,
     [&](const Rectangle& tile, TileMaking& making)
     {
       making.receivers.resize(static_cast<int>(tile.columns), static_cast<int>(tile.rows));
@@ -280,7 +286,7 @@ const ReceiverPixels& Receivers::all()
   {
     this->toFill_->resize(this->images_->width, this->images_->height);
     const Drawn drawn = this->drawn();
-    visitRectangles<SeenTriangles>(this->width_, this->height_,
+    visitRectangles<SeenTriangles>(this->width_, this->height_, nullptr,
       [&](const Rectangle& tile, SeenTriangles& cache)
       {
         projectTile(drawn, tile, cache, *this->toFill_, nullptr,

@@ -93,8 +93,16 @@ struct DrawnSurface
     std::uint32_t firstPrimitive = 0; ///< VTK's number of the block's first triangle
     std::uint32_t primitiveCount = 0;
     std::uint32_t surface = 0; ///< Occluders::surfaces index
+
+    bool operator==(const Block& other) const
+    {
+      return this->firstPrimitive == other.firstPrimitive &&
+        this->primitiveCount == other.primitiveCount && this->surface == other.surface;
+    }
   };
   std::vector<Block> blocks; ///< in order of firstPrimitive
+
+  bool operator==(const DrawnSurface& other) const { return this->blocks == other.blocks; }
 };
 
 /// Who knows whether anything that casts is between two points. Asked from several threads at once.
@@ -152,8 +160,10 @@ public:
   /// works pixel by pixel asks here.
   /// @param decider decides receivers by their triangles and lines; null: none is decided so. It is
   /// not asked about receivers that all() has made.
+  /// @param skipped by tile, row by row: 1 for those that are not visited; null: all are
   void visitTiles(const std::function<void(const ReceiverTile&)>& visit,
-    const ReceiverDecider* decider = nullptr) const;
+    const ReceiverDecider* decider = nullptr,
+    const std::vector<std::uint8_t>* skipped = nullptr) const;
 
   /// What receivers are made of. Not for receivers that stand for themselves.
   Drawn drawn(const ReceiverDecider* decider = nullptr) const;

@@ -29,6 +29,7 @@ class Receivers;
 class ReceiverTarget;
 class ShaderLibrary;
 class ShadowTracer;
+class TracedTiles;
 class VisibilityLayers;
 
 /// The three kinds of technique.
@@ -168,6 +169,9 @@ struct ScreenInput
   bool usesMap; ///< false: what the light baked is not to be used (TechniqueInfo::mapIsOptional)
   /// Where not null: to be filled with each pixel's class, an index into TechniqueInfo::classes.
   std::vector<std::uint8_t>* classes;
+  /// Which tiles keep what the visibility and the classes hold; null: all are computed. Only exact
+  /// techniques without a map need to heed it.
+  TracedTiles* tiles;
   int& mapBakes; ///< FrameReport::mapBakes
 };
 

@@ -5,24 +5,38 @@
 #include "shadowtech/base/ShaderLibrary.h"
 #include "shadowtech/base/TextureMemory.h"
 
+#include <algorithm>
+#include <utility>
+
 namespace gnomon
 {
 
 //------------------------------------------------------------------------------
-void VisibilityLayers::resize(int width, int height, int layers)
+void VisibilityLayers::resize(int width, int height, int layers, int bits)
 {
-  if (this->have(width, height, layers))
+  if (this->have(width, height, layers, bits))
   {
     return;
   }
   const GlStateGuard guard;
   glActiveTexture(GL_TEXTURE0);
   this->width_ = 0; // in case that there is no memory
-  allocateTexture(
-    this->texture_, { GL_R32F, GL_RED, 1 }, width, height, layers, "the lights' visibility");
+  if (layers > 0)
+  {
+    allocateTexture(
+      this->texture_, { GL_R32F, GL_RED, 1 }, width, height, layers, "the lights' visibility");
+  }
+  if (bits > 0)
+  {
+    allocateTexture(this->textureOfBits_, { GL_R32UI, GL_RED_INTEGER, 1, GL_UNSIGNED_INT }, width,
+      height, 0, "the lights' visibility");
+  }
+  this->bitsOfPixels_.assign(
+    bits > 0 ? static_cast<std::size_t>(width) * static_cast<std::size_t>(height) : 0, 0);
   this->width_ = width;
   this->height_ = height;
   this->layers_ = layers;
+  this->bits_ = bits;
 }
 
 //------------------------------------------------------------------------------
@@ -85,6 +99,42 @@ void VisibilityLayers::upload(int firstLayer, const std::vector<float>& visibili
 }
 
 //------------------------------------------------------------------------------
+void VisibilityLayers::fillBit(int bit, const std::vector<float>& visibility)
+{
+  const std::uint32_t lit = std::uint32_t(1) << bit;
+  for (std::size_t i = 0; i < this->bitsOfPixels_.size(); ++i)
+  {
+    std::uint32_t& bits = this->bitsOfPixels_[i];
+    bits = (bits & ~lit) | (visibility[i] != 0.0f ? lit : 0);
+  }
+  this->bitsChanged_ = true;
+}
+
+//------------------------------------------------------------------------------
+void VisibilityLayers::uploadBits()
+{
+  if (!std::exchange(this->bitsChanged_, false))
+  {
+    return;
+  }
+  const GlStateGuard guard;
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D, this->textureOfBits_.name());
+  glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, this->width_, this->height_, GL_RED_INTEGER,
+    GL_UNSIGNED_INT, this->bitsOfPixels_.data());
+}
+
+//------------------------------------------------------------------------------
+void VisibilityLayers::readBit(int bit, std::vector<float>& visibility) const
+{
+  visibility.resize(this->bitsOfPixels_.size());
+  std::transform(this->bitsOfPixels_.begin(), this->bitsOfPixels_.end(), visibility.begin(),
+    [bit](std::uint32_t bits) { return static_cast<float>(bits >> bit & 1); });
+}
+
+//------------------------------------------------------------------------------
 void VisibilityLayers::read(int layer, std::vector<float>& visibility) const
 {
   const GlStateGuard guard;
@@ -103,8 +153,9 @@ void VisibilityLayers::read(int layer, std::vector<float>& visibility) const
 //------------------------------------------------------------------------------
 std::size_t VisibilityLayers::bytes() const
 {
-  return static_cast<std::size_t>(this->width_) * static_cast<std::size_t>(this->height_) *
-    static_cast<std::size_t>(this->layers_) * sizeof(float);
+  const std::size_t images = static_cast<std::size_t>(this->layers_) + (this->bits_ > 0 ? 2 : 0);
+  return static_cast<std::size_t>(this->width_) * static_cast<std::size_t>(this->height_) * images *
+    sizeof(float);
 }
 
 } // namespace gnomon

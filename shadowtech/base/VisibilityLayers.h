@@ -13,19 +13,27 @@ namespace gnomon
 
 class ReceiverTarget;
 
+/// What has no bit in the image of bits.
+inline constexpr int noBit = -1;
+
 /// The visibility images of the image route, one 32-bit float layer per casting light, or three
-/// (red, green, blue) where its texture is seen (channelsOf()). Row 0 is the bottom row.
+/// (red, green, blue) where its texture is seen (channelsOf()). Hard shadows of several lights are
+/// bits of one more image instead, so that shaders fetch them at once. Row 0 is the bottom row.
 class VisibilityLayers
 {
 public:
-  /// Whether there are `layers` images of this size.
-  bool have(int width, int height, int layers) const
+  /// How many bits there can be.
+  static constexpr int mostBits = 32;
+
+  /// Whether there are `layers` images of this size, and one of bits if there are `bits`.
+  bool have(int width, int height, int layers, int bits) const
   {
-    return width == this->width_ && height == this->height_ && layers == this->layers_;
+    return width == this->width_ && height == this->height_ && layers == this->layers_ &&
+      bits == this->bits_;
   }
 
-  /// Makes room for `layers` images of this size. What other ones show is lost.
-  void resize(int width, int height, int layers);
+  /// Makes room for them. What other ones show is lost.
+  void resize(int width, int height, int layers, int bits);
 
   /// Fills a layer by a pointwise technique's GLSL, called for the receivers of all pixels.
   /// @param classes where not null, each pixel's class (TechniqueInfo::classes), of a technique
@@ -42,10 +50,19 @@ public:
   /// @param visibility of as many layers as it has values for, one after the other
   void upload(int firstLayer, const std::vector<float>& visibility);
 
-  /// Reads a layer back.
+  /// Fills a bit with what a screen technique has computed on the CPU: 1 or 0 everywhere.
+  void fillBit(int bit, const std::vector<float>& visibility);
+  /// To be called once all bits are filled.
+  void uploadBits();
+
+  ///@{
+  /// Reads a layer or a bit back.
   void read(int layer, std::vector<float>& visibility) const;
+  void readBit(int bit, std::vector<float>& visibility) const;
+  ///@}
 
   GLuint texture() const { return this->texture_.name(); }
+  GLuint bits() const { return this->textureOfBits_.name(); }
   std::size_t bytes() const;
 
 private:
@@ -54,6 +71,10 @@ private:
   int width_ = 0;
   int height_ = 0;
   int layers_ = 0;
+  int bits_ = 0;
+  GlTexture textureOfBits_;
+  std::vector<std::uint32_t> bitsOfPixels_;
+  bool bitsChanged_ = false; ///< since the upload
 };
 
 } // namespace gnomon

@@ -36,8 +36,8 @@ void Penumbra::computeVisibility(
   this->tree_.update(input.occluders);
   const PenumbraChooser chooser(this->tree_, input.light, input.occluders.centreWorld);
   report.lightSamples = input.light.lightSamples;
-  report.rays = static_cast<std::int64_t>(input.tracer.traceArea(
-    input.light, input.occluders, input.receivers, visibility, nullptr, input.classes, &chooser));
+  report.rays = static_cast<std::int64_t>(input.tracer.traceArea(input.light, input.occluders,
+    input.receivers, visibility, nullptr, input.classes, &chooser, input.tiles));
   report.tracedPixels = chooser.tracedPixels();
   if (input.classes)
   {

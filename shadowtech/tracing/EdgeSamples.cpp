@@ -469,8 +469,9 @@ void EdgeSamples::smooth(CpuScreenTechnique& technique, const ScreenInput& input
     this->place(drawn, hiders, pixels, count);
     Receivers samples(this->receivers_);
     LightReport ofSamples;
-    technique.computeVisibility({ input.light, input.fitting, input.occluders, samples,
-                                  input.tracer, input.usesMap, &this->classes_, input.mapBakes },
+    technique.computeVisibility(
+      { input.light, input.fitting, input.occluders, samples, input.tracer, input.usesMap,
+        &this->classes_, nullptr, input.mapBakes },
       this->visibility_, ofSamples);
     report.rays += ofSamples.rays;
   };

@@ -39,13 +39,16 @@ public:
   /// @param visibility resized to one for each pixel of the picture
   /// @param decider decides receivers without rays; null: all are traced
   /// @param classes where not null, resized likewise, each pixel's TracedClass
+  /// @param tiles which of them keep what visibility and classes hold, and what becomes known of
+  /// the others; null: all are traced. Not with a decider, which leaves receivers out
   /// @return the number of rays traced
   std::size_t trace(const ShadowLight& light, const Occluders& occluders,
     const Receivers& receivers, std::vector<float>& visibility,
-    const ReceiverDecider* decider = nullptr, std::vector<std::uint8_t>* classes = nullptr)
+    const ReceiverDecider* decider = nullptr, std::vector<std::uint8_t>* classes = nullptr,
+    TracedTiles* tiles = nullptr)
   {
     return this->tracePicture(
-      { light, occluders, receivers, decider, visibility, classes, nullptr });
+      { light, occluders, receivers, decider, visibility, classes, tiles, nullptr });
   }
 
   /// The same of an area light, whose centre decides what it reaches: the share of its samples that
@@ -59,11 +62,11 @@ public:
   std::size_t traceArea(const ShadowLight& light, const Occluders& occluders,
     const Receivers& receivers, std::vector<float>& visibility,
     const ReceiverDecider* decider = nullptr, std::vector<std::uint8_t>* classes = nullptr,
-    const SampleChooser* chooser = nullptr)
+    const SampleChooser* chooser = nullptr, TracedTiles* tiles = nullptr)
   {
     const LightSamples samples(light);
     const TracedPicture picture(
-      light, occluders, receivers, decider, visibility, classes, &samples, chooser);
+      light, occluders, receivers, decider, visibility, classes, tiles, &samples, chooser);
     const std::size_t rays = this->tracePicture(picture);
     picture.finish();
     return rays;

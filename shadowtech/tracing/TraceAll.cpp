@@ -11,10 +11,11 @@ void traceAllReceivers(
 {
   const bool soft = input.light.area.has_value();
   report.lightSamples = soft ? input.light.lightSamples : 1;
-  const std::size_t rays = soft ? input.tracer.traceArea(input.light, input.occluders,
-                                    input.receivers, visibility, nullptr, input.classes)
-                                : input.tracer.trace(input.light, input.occluders, input.receivers,
-                                    visibility, nullptr, input.classes);
+  const std::size_t rays = soft
+    ? input.tracer.traceArea(input.light, input.occluders, input.receivers, visibility, nullptr,
+        input.classes, nullptr, input.tiles)
+    : input.tracer.trace(input.light, input.occluders, input.receivers, visibility, nullptr,
+        input.classes, input.tiles);
   report.rays = static_cast<std::int64_t>(rays);
   report.tracedPixels = report.rays / report.lightSamples;
 }

@@ -143,11 +143,13 @@ std::vector<PixelClass> classesOfTracing()
 //------------------------------------------------------------------------------
 TracedPicture::TracedPicture(const ShadowLight& light, const Occluders& occluders,
   const Receivers& receivers, const ReceiverDecider* decider, std::vector<float>& visibility,
-  std::vector<std::uint8_t>* classes, const LightSamples* samples, const SampleChooser* chooser)
+  std::vector<std::uint8_t>* classes, TracedTiles* tiles, const LightSamples* samples,
+  const SampleChooser* chooser)
   : receivers_(receivers)
   , decider_(decider)
   , visibility_(visibility)
   , classes_(classes)
+  , tiles_(tiles)
   , light_(light, occluders.centreWorld)
   , samples_(samples)
   , texture_(samples && light.texture ? &*light.texture : nullptr)
@@ -363,6 +365,10 @@ std::size_t TracedPicture::visitTiles(
       this->receivers_.visitTiles(
         [&](const ReceiverTile& tile)
         {
+          if (this->tiles_ && samples.first == 0)
+          {
+            this->tiles_->note(tile);
+          }
           TracedTile traced; // 56 KB that are not cleared
           this->prepare(tile, makeRay, traced);
           if (!this->samples_)
@@ -379,7 +385,7 @@ std::size_t TracedPicture::visitTiles(
             this->keep(tile, traced);
           }
         },
-        this->decider_);
+        this->decider_, this->tiles_ ? &this->tiles_->kept() : nullptr);
     });
   return rays;
 }
@@ -392,11 +398,28 @@ void TracedPicture::finish() const
     return;
   }
   const auto count = static_cast<float>(this->samples_->count());
-  for (std::size_t i = 0; i < this->visibility_.size(); ++i)
+  const std::size_t width = this->receivers_.width();
+  const std::size_t across = tilesAcross(width, TracedTile::columns);
+  const auto finishRow = [&](std::size_t first, std::size_t columns)
   {
-    // Samples that gave way to brighter ones may come to more than all of the light.
-    const float whole = this->texture_ ? this->wholes_[i] : count;
-    this->visibility_[i] = std::min(this->visibility_[i] / whole, 1.0f);
+    for (std::size_t i = first; i < first + columns; ++i)
+    {
+      // Samples that gave way to brighter ones may come to more than all of the light.
+      const float whole = this->texture_ ? this->wholes_[i] : count;
+      this->visibility_[i] = std::min(this->visibility_[i] / whole, 1.0f);
+    }
+  };
+  for (std::size_t row = 0; row < this->channels() * this->receivers_.height(); ++row)
+  {
+    const std::size_t y = row % this->receivers_.height();
+    for (std::size_t tile = 0; tile < across; ++tile)
+    {
+      if (!this->isKept(y / TracedTile::rows * across + tile))
+      {
+        const std::size_t x = tile * TracedTile::columns;
+        finishRow(row * width + x, std::min(TracedTile::columns, width - x));
+      }
+    }
   }
 }
 

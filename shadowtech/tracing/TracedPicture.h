@@ -8,6 +8,7 @@
 #include "shadowtech/base/Receivers.h"
 #include "shadowtech/base/ShadowRay.h"
 #include "shadowtech/tracing/SampleRays.h"
+#include "shadowtech/tracing/TracedTiles.h"
 
 #include <array>
 #include <cstddef>
@@ -82,13 +83,14 @@ public:
   /// tile's pixels once, however often the tile is visited
   /// @param visibility resized to one for each pixel of the picture; of several channels one image
   /// after the other
+  /// @param tiles which of them keep what visibility and classes hold; null: none
   /// @param classes where not null, resized to one for each pixel
   /// @param samples of the light's area, which it has a texture with if any; null: its centre
   /// @param chooser who knows which of a pixel's rays decide the others; null: nobody. There is
   /// none for textures
   TracedPicture(const ShadowLight& light, const Occluders& occluders, const Receivers& receivers,
     const ReceiverDecider* decider, std::vector<float>& visibility,
-    std::vector<std::uint8_t>* classes, const LightSamples* samples,
+    std::vector<std::uint8_t>* classes, TracedTiles* tiles, const LightSamples* samples,
     const SampleChooser* chooser = nullptr);
 
   /// How many tiles it has.
@@ -134,11 +136,13 @@ private:
   void keep(const ReceiverTile& tile, const TracedTile& traced) const;
   std::size_t pixels() const { return this->receivers_.width() * this->receivers_.height(); }
   void scale(std::size_t pixel, const glm::vec3& all) const;
+  bool isKept(std::size_t tile) const { return this->tiles_ && this->tiles_->kept()[tile] != 0; }
 
   const Receivers& receivers_;
   const ReceiverDecider* decider_;
   std::vector<float>& visibility_;
   std::vector<std::uint8_t>* classes_;
+  TracedTiles* tiles_;
   ShadowRayLight light_;
   const LightSamples* samples_;
   const PlacedTexture* texture_; ///< null: all samples count alike

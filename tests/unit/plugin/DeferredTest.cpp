@@ -395,6 +395,22 @@ TEST_F(Deferred, ShowsTheSameAtRest)
 }
 
 //------------------------------------------------------------------------------
+/// Receivers are stored while a light moves on.
+TEST_F(Deferred, ShowsTheSameWhileALightMoves)
+{
+  this->autoRoute();
+  const std::size_t before = this->scene.report().bytesImages;
+  for (int frame = 1; frame <= 6; ++frame)
+  {
+    this->sun->SetPosition(-1.0, -0.1 * frame, 1.5);
+    this->scene.render();
+  }
+  EXPECT_GT(this->scene.report().bytesImages, before);
+  const Picture moved = this->scene.render();
+  EXPECT_EQ(differingPixels(this->draw(vtkGnomonShadowPass::ROUTE_IMAGE), moved), 0u);
+}
+
+//------------------------------------------------------------------------------
 TEST_F(Deferred, LeavesTheFramebufferAsItWas)
 {
   EXPECT_EQ(this->autoRoute(), "deferred");

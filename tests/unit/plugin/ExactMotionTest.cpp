@@ -155,6 +155,10 @@ protected:
   /// Holds the technique to ray tracing.
   void expectTruth(const std::string& after)
   {
+    // What asks for another tracer traces all anew.
+    this->truth->SetTracer(this->truth->GetTracer() == vtkGnomonShadowPass::TRACER_AUTO
+        ? vtkGnomonShadowPass::TRACER_EMBREE
+        : vtkGnomonShadowPass::TRACER_AUTO);
     this->scene.renderer->SetPass(this->truth);
     this->scene.window->Render();
     const std::vector<std::vector<float>> traced = this->truth->GetVisibility().visibility;

@@ -17,6 +17,7 @@
 
 #include <gmock/gmock.h>
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <functional>
@@ -273,6 +274,57 @@ TEST_F(PassTest, lightsByTheDozenShowAllTheirShadows)
   for (const int unit : taken)
   {
     units->Free(unit);
+  }
+}
+
+//------------------------------------------------------------------------------
+/// More than there are bits for. Each light's hard shadow shows with that light's brightness.
+TEST_F(PassTest, hardShadowsOfManyLightsAreThoseOfEach)
+{
+  PassScene scene(80, 60);
+  scene.addFloor(4.0);
+  scene.addBox({ -0.5, -0.5, 1.0 }, { 0.5, 0.5, 2.0 });
+  scene.lookDown(3.0);
+  scene.pass->SetTechnique("raytraced");
+  constexpr int count = 36;
+  std::array<vtkLight*, count> lights;
+  std::array<double, count> cosines;
+  std::array<double, count> intensities;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const double angle = 6.2832 * static_cast<double>(i) / count;
+    const glm::dvec3 direction(std::cos(angle), std::sin(angle), -1.5);
+    cosines[i] = 1.5 / glm::length(direction);
+    intensities[i] = static_cast<double>(1 + i % 5) / (3.0 * count);
+    lights[i] = scene.addSun(direction);
+    lights[i]->SetIntensity(intensities[i]);
+  }
+  for (const bool oneLess : { false, true })
+  {
+    const VisibilityImages kept = drawKept(scene);
+    const Picture picture = scene.render();
+    ASSERT_EQ(kept.visibility.size(), oneLess ? count - 1u : count);
+    int dark = 0;
+    for (int y = 0; y < picture.height; ++y)
+    {
+      for (int x = 0; x < picture.width; ++x)
+      {
+        const std::size_t pixel = static_cast<std::size_t>((59 - y) * 80 + x);
+        if (kept.positionZ[pixel] + kept.origin[2] < 0.5 && kept.coverage[pixel] != 0.0f)
+        {
+          double value = 0.0;
+          for (std::size_t i = 0; i < kept.visibility.size(); ++i)
+          {
+            const auto light = static_cast<std::size_t>(kept.sceneIndices[i]);
+            value += kept.visibility[i][pixel] * cosines[light] * intensities[light];
+          }
+          EXPECT_NEAR(picture.red(x, y), 255.0 * value, 1.0) << x << ", " << y;
+          dark += value < 0.75 ? 1 : 0;
+        }
+      }
+    }
+    EXPECT_GT(dark, 100);
+    lights[0]->SwitchOff(); // so that the others have other bits
   }
 }
 

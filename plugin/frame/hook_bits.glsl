@@ -1,0 +1,16 @@
+// The image route's fetch of hard shadows: a bit for each light, 1 where it arrives. Fetching a
+// layer for each of eight lights takes llvmpipe as long as drawing the picture.
+
+uniform usampler2D gnomonBits;
+
+uint gnomonFetchedBits;
+
+void gnomonFetchBits()
+{
+  gnomonFetchedBits = texelFetch(gnomonBits, gnomonLayerPixel(), 0).r;
+}
+
+float gnomonBit(int bit)
+{
+  return float(gnomonFetchedBits >> bit & 1u);
+}

@@ -1,0 +1,252 @@
+#include "shadowtech/tracing/TracedTiles.h"
+
+#include "shadowtech/base/Bytes.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+namespace gnomon
+{
+namespace
+{
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// More boxes of moved surfaces than these take longer than they save.
+constexpr std::size_t mostBoxes = 32;
+
+/// By how much a box of triangles is larger than they are, as a share of the largest coordinate:
+/// rays and their hits are computed in float.
+constexpr double rounding = 1.0 / 131072.0; // 2^-17
+
+Bounds everything()
+{
+  return { glm::dvec3(-infinity), glm::dvec3(infinity) };
+}
+
+Bounds inflated(const Bounds& bounds, double by)
+{
+  return { bounds.lower - by, bounds.upper + by };
+}
+
+bool haveCommonPoint(const Bounds& a, const Bounds& b)
+{
+  return glm::all(glm::lessThanEqual(a.lower, b.upper)) &&
+    glm::all(glm::lessThanEqual(b.lower, a.upper));
+}
+
+/// The part of t in [first, last] where a + b t <= 0.
+void clip(double a, double b, double& first, double& last)
+{
+  if (b > 0.0)
+  {
+    last = std::min(last, -a / b);
+  }
+  else if (b < 0.0)
+  {
+    first = std::max(first, -a / b);
+  }
+  else if (a > 0.0)
+  {
+    last = -infinity;
+  }
+}
+
+/// Whether two pictures show the same triangles in a tile.
+bool showSame(const ReceiverImages& images, const std::vector<glm::vec2>& before,
+  std::size_t firstColumn, std::size_t firstRow)
+{
+  const auto width = static_cast<std::size_t>(images.width);
+  const auto height = static_cast<std::size_t>(images.height);
+  const std::size_t columns = std::min(ReceiverTile::mostColumns, width - firstColumn);
+  const std::size_t rows = std::min(ReceiverTile::mostRows, height - firstRow);
+  for (std::size_t y = 0; y < rows; ++y)
+  {
+    const std::size_t first = (firstRow + y) * width + firstColumn;
+    if (std::memcmp(&images.fragments[first], &before[first], columns * sizeof(glm::vec2)) != 0)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+SweptBox::SweptBox(const Bounds& from, const ShadowLight& light, const glm::dvec3& centreWorld)
+  : from_(from)
+{
+  glm::dvec3 half(0.0);
+  if (light.area)
+  {
+    const glm::dmat3& axes = light.area->worldFromUnit;
+    half = glm::abs(axes[0]) + glm::abs(axes[1]) + glm::abs(axes[2]);
+  }
+  if (light.kind == LightKind::Directional)
+  {
+    const glm::dvec3 toLight = -glm::normalize(light.directionWorld);
+    this->lower_ = toLight - half;
+    this->upper_ = toLight + half;
+    this->last_ = infinity;
+  }
+  else
+  {
+    const glm::dvec3 position = light.positionWorld - centreWorld;
+    this->lower_ = position - half - from.lower;
+    this->upper_ = position + half - from.upper;
+    this->last_ = 1.0;
+  }
+}
+
+//------------------------------------------------------------------------------
+bool SweptBox::meets(const Bounds& centred) const
+{
+  double first = 0.0;
+  double last = this->last_;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    clip(this->from_.lower[axis] - centred.upper[axis], this->lower_[axis], first, last);
+    clip(centred.lower[axis] - this->from_.upper[axis], -this->upper_[axis], first, last);
+  }
+  return first <= last;
+}
+
+//------------------------------------------------------------------------------
+void TracedTiles::forget()
+{
+  *this = TracedTiles();
+}
+
+//------------------------------------------------------------------------------
+/// Boxes around where surfaces that have moved since the last image were and are.
+std::vector<Bounds> TracedTiles::movedSince(const Occluders& occluders) const
+{
+  const glm::dvec3 largest =
+    glm::max(glm::abs(occluders.allCentred.lower), glm::abs(occluders.allCentred.upper));
+  const double more = rounding * std::max(largest.x, std::max(largest.y, largest.z));
+  std::vector<Bounds> moved;
+  Bounds all;
+  for (std::size_t i = 0; i < occluders.surfaces.size(); ++i)
+  {
+    const Surface& surface = occluders.surfaces[i];
+    if (surface.positionsVersion == this->places_[i].positionsVersion)
+    {
+      continue;
+    }
+    for (const Bounds& place : { this->places_[i].centred, surface.boundsCentred })
+    {
+      if (!place.empty())
+      {
+        moved.push_back(inflated(place, more));
+        all.add(moved.back());
+      }
+    }
+  }
+  if (moved.size() > mostBoxes)
+  {
+    moved = { all };
+  }
+  return moved;
+}
+
+//------------------------------------------------------------------------------
+void TracedTiles::begin(const Occluders& occluders, const ShadowLight& light,
+  const ReceiverImages& images, const std::vector<glm::vec2>* before)
+{
+  const auto across = [](int pixels, std::size_t ofTile)
+  { return (static_cast<std::size_t>(pixels) + ofTile - 1) / ofTile; };
+  const std::size_t columns = across(images.width, ReceiverTile::mostColumns);
+  const std::size_t tiles = columns * across(images.height, ReceiverTile::mostRows);
+  const bool isLike = before && before->size() == images.fragments.size() &&
+    this->boxes_.size() == tiles && this->tilesAcross_ == columns &&
+    this->lightSamples_ == light.lightSamples &&
+    this->topologyVersion_ == occluders.topologyVersion &&
+    this->centreWorld_ == occluders.centreWorld;
+  this->kept_.assign(tiles, 0);
+  this->boxes_.resize(tiles, everything());
+  if (isLike)
+  {
+    const std::vector<Bounds> moved = this->movedSince(occluders);
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tiles),
+      [&](const tbb::blocked_range<std::size_t>& range)
+      {
+        for (std::size_t tile = range.begin(); tile != range.end(); ++tile)
+        {
+          const Bounds& box = this->boxes_[tile];
+          bool isKept = showSame(images, *before, tile % columns * ReceiverTile::mostColumns,
+            tile / columns * ReceiverTile::mostRows);
+          if (isKept && !box.empty())
+          {
+            const SweptBox swept(box, light, occluders.centreWorld);
+            isKept = std::none_of(moved.begin(), moved.end(),
+              [&](const Bounds& surface)
+              { return haveCommonPoint(box, surface) || swept.meets(surface); });
+          }
+          this->kept_[tile] = isKept ? 1 : 0;
+        }
+      });
+  }
+  for (std::size_t tile = 0; tile < tiles; ++tile)
+  {
+    if (this->kept_[tile] == 0)
+    {
+      this->boxes_[tile] = everything();
+    }
+  }
+  this->tilesAcross_ = columns;
+  this->lightSamples_ = light.lightSamples;
+  this->topologyVersion_ = occluders.topologyVersion;
+  this->centreWorld_ = occluders.centreWorld;
+  this->places_.clear();
+  this->lifts_.clear();
+  for (const Surface& surface : occluders.surfaces)
+  {
+    this->places_.push_back({ surface.positionsVersion, surface.boundsCentred });
+    this->lifts_.push_back(surface.facetHeight);
+  }
+}
+
+//------------------------------------------------------------------------------
+void TracedTiles::note(const ReceiverTile& tile)
+{
+  const ReceiverPixels& receivers = tile.receivers;
+  constexpr float most = std::numeric_limits<float>::max();
+  glm::vec3 lower(most);
+  glm::vec3 upper(-most);
+  float offset = 0.0f;
+  float lift = 0.0f;
+  for (std::size_t i = 0; i < receivers.size(); ++i)
+  {
+    const std::uint32_t surface = receivers.surface[i];
+    if (surface != ReceiverPixels::notCovered)
+    {
+      const glm::vec3 position(
+        receivers.positionX[i], receivers.positionY[i], receivers.positionZ[i]);
+      lower = glm::min(lower, position);
+      upper = glm::max(upper, position);
+      offset = std::max(offset, receivers.offset[i]);
+      lift = std::max(lift, this->lifts_[surface]);
+    }
+  }
+  // Rays start at the offset, or would at the lift's height more if nothing were in between.
+  const std::size_t number = tile.firstRow / ReceiverTile::mostRows * this->tilesAcross_ +
+    tile.firstColumn / ReceiverTile::mostColumns;
+  this->boxes_[number] = lower.x > upper.x
+    ? Bounds()
+    : inflated({ glm::dvec3(lower), glm::dvec3(upper) }, static_cast<double>(offset) + lift);
+}
+
+//------------------------------------------------------------------------------
+std::size_t TracedTiles::bytes() const
+{
+  return bytesOf(this->places_) + bytesOf(this->lifts_) + bytesOf(this->boxes_) +
+    bytesOf(this->kept_);
+}
+
+} // namespace gnomon

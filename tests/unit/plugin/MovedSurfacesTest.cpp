@@ -1,0 +1,173 @@
+// Surfaces that move among many: only the tiles of a picture that they may change are traced, and
+// the picture is the one that a new pass shows.
+
+#include "PassScene.h"
+
+#include "lights/vtkGnomonAreaLight.h"
+#include "plugin/vtkGnomonPropKeys.h"
+
+#include <vtkProperty.h>
+#include <vtkSphereSource.h>
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <random>
+#include <string>
+#include <vector>
+
+using namespace gnomon::test;
+
+namespace
+{
+
+/// A technique, and what it draws the light as.
+struct LitBy
+{
+  const char* name;
+  const char* technique;
+  std::function<void(vtkGnomonAreaLight*)> place;
+};
+
+std::string nameOfLight(const testing::TestParamInfo<LitBy>& info)
+{
+  return info.param.name;
+}
+
+void placeSun(vtkGnomonAreaLight* light)
+{
+  light->SetRadius(0.0);
+  light->SetPositional(0);
+  light->SetPosition(3.0, -2.0, 6.0);
+}
+void placeLamp(vtkGnomonAreaLight* light)
+{
+  light->SetRadius(0.0);
+  light->SetPositional(1);
+  light->SetConeAngle(allDirections);
+  light->SetPosition(2.0, -1.0, 4.0);
+}
+void placeSpot(vtkGnomonAreaLight* light)
+{
+  placeLamp(light);
+  light->SetConeAngle(50.0);
+}
+void makeWide(vtkGnomonAreaLight* light)
+{
+  light->SetShapeToDisk();
+  light->SetRadius(light->GetPositional() ? 0.3 : 3.0);
+}
+
+/// Balls and boxes over a floor, in rows.
+class MovedSurfaces
+  : public PassTest
+  , public testing::WithParamInterface<LitBy>
+{
+protected:
+  static constexpr int side = 6; ///< props in a row
+
+  MovedSurfaces()
+  {
+    this->scene.addFloor(8.0);
+    for (int i = 0; i < side * side; ++i)
+    {
+      this->props_.push_back(i % 2 == 0 ? this->scene.addBox(glm::dvec3(-0.3), glm::dvec3(0.3))
+                                        : this->scene.addSphere(glm::dvec3(0.0), 0.35));
+      this->props_.back()->SetPosition(
+        1.5 * (i % side) - 3.75, 1.5 * (i / side) - 3.75, 0.5 + 0.05 * i);
+      this->props_.back()->GetProperty()->SetInterpolationToPhong();
+    }
+    vtkGnomonPropKeys::SetCasts(this->props_[8], false);
+    vtkGnomonPropKeys::SetReceives(this->props_[9], false);
+    this->scene.renderer->AddLight(this->light_);
+    this->light_->SetFocalPoint(0.0, 0.0, 0.0);
+    GetParam().place(this->light_);
+    this->scene.pass->SetTechnique(GetParam().technique);
+    if (this->light_->GetRadius() > 0.0)
+    {
+      this->scene.pass->SetSetting("light_samples", "16");
+    }
+    this->scene.lookFrom({ 0.0, -9.0, 9.0 });
+  }
+
+  /// The visibility that a pass shows that has drawn nothing before.
+  gnomon::VisibilityImages drawAnew()
+  {
+    this->scene.pass->ReleaseGraphicsResources(this->scene.window);
+    return drawKept(this->scene);
+  }
+
+  PassScene scene{ 500, 330 }; ///< 8 x 21 tiles, of which the last ones are cut off
+  vtkNew<vtkGnomonAreaLight> light_;
+  std::vector<vtkActor*> props_;
+};
+
+class RecolouredSurfaces : public MovedSurfaces
+{
+};
+
+const LitBy sun{ "sun", "raytraced", placeSun };
+const LitBy wideSun{ "wideSun", "raytraced",
+  [](vtkGnomonAreaLight* light)
+  {
+    placeSun(light);
+    makeWide(light);
+  } };
+
+INSTANTIATE_TEST_SUITE_P(Lights, RecolouredSurfaces, testing::Values(sun, wideSun), nameOfLight);
+INSTANTIATE_TEST_SUITE_P(Lights, MovedSurfaces,
+  testing::Values(sun, wideSun, LitBy{ "lamp", "raytraced", placeLamp },
+    LitBy{ "spot", "silhouette", placeSpot },
+    LitBy{ "wideLamp", "penumbra",
+      [](vtkGnomonAreaLight* light)
+      {
+        placeLamp(light);
+        makeWide(light);
+      } },
+    LitBy{ "pictureOfLight", "raytraced",
+      [](vtkGnomonAreaLight* light)
+      {
+        placeLamp(light);
+        makeWide(light);
+        light->SetTexture(makeImage(
+          2, 1, [](int x, int) { return x == 0 ? glm::dvec3(1.0, 0.2, 0.0) : glm::dvec3(0.5); }));
+      } }),
+  nameOfLight);
+
+} // namespace
+
+//------------------------------------------------------------------------------
+TEST_P(MovedSurfaces, areTracedAlone)
+{
+  std::mt19937 random(7);
+  const auto number = [&] { return std::uniform_real_distribution<double>(-0.4, 0.4)(random); };
+  PassScene& scene = this->scene;
+  drawKept(scene);
+  const std::int64_t all = scene.report().raysTraced;
+  for (int step = 0; step < 8; ++step)
+  {
+    vtkActor* const moved = this->props_[random() % this->props_.size()];
+    moved->AddPosition(number(), number(), number());
+    moved->RotateX(60.0 * number());
+    const gnomon::VisibilityImages kept = drawKept(scene);
+    const Picture picture = scene.render();
+    EXPECT_LT(scene.report().raysTraced, all / 2) << step;
+    const gnomon::VisibilityImages anew = this->drawAnew();
+    EXPECT_EQ(kept.visibility, anew.visibility) << step;
+    if (std::string(GetParam().technique) != "penumbra") // it also looks at what is near its rays
+    {
+      EXPECT_EQ(kept.classes[0].ofPixels, anew.classes[0].ofPixels) << step;
+    }
+    EXPECT_EQ(differingPixels(picture, scene.render()), 0u) << step;
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_P(RecolouredSurfaces, areNotTraced)
+{
+  drawKept(this->scene);
+  const gnomon::VisibilityImages before = drawKept(this->scene);
+  this->props_[3]->GetProperty()->SetColor(1.0, 0.0, 0.0);
+  EXPECT_EQ(drawKept(this->scene).visibility, before.visibility);
+  EXPECT_EQ(this->scene.report().raysTraced, 0);
+}
