@@ -1,21 +1,13 @@
 #pragma once
 
-#include "lights/CameraView.h"
 #include "plugin/VisibilityImages.h"
-#include "plugin/frame/CastingLights.h"
-#include "plugin/frame/Clock.h"
-#include "plugin/frame/FrameTracer.h"
-#include "plugin/frame/FrameWishes.h"
+#include "plugin/frame/Frame.h"
 #include "plugin/frame/MapRasterizer.h"
-#include "plugin/frame/Route.h"
 #include "plugin/frame/ShaderManager.h"
-#include "plugin/frame/ViewValues.h"
+#include "plugin/frame/VisibilityStage.h"
 #include "plugin/scene/OccluderCollector.h"
-#include "shadowtech/base/FrameReport.h"
 #include "shadowtech/base/OccluderBuffers.h"
-#include "shadowtech/base/Receivers.h"
 #include "shadowtech/base/ShaderLibrary.h"
-#include "shadowtech/tracing/EdgeSamples.h"
 
 #include <glm/glm.hpp>
 
@@ -63,7 +55,7 @@ public:
   /// @return false when a route is asked for that cannot be taken; it is the image route then, for
   /// the reason in the report
   bool chooseRoute(const vtkRenderState* s, bool drawnPlainly);
-  Route route() const { return this->route_; }
+  Route route() const { return this->frame_.route; }
 
   /// receivers (image route): draws which triangle each pixel shows, and points for techniques that
   /// read them on the GPU. Then it is known which lights' visibility is another one than the view
@@ -78,7 +70,7 @@ public:
   /// visibility (image route): fills the layers of the lights whose visibility is another one than
   /// the view has, and keeps a copy if asked to.
   /// @throws std::runtime_error for a tracer that there is not, or has no room
-  void computeVisibility();
+  void computeVisibility() { this->visibility_.compute(); }
 
   /// shading and receivers (deferred route): between the two calls VTK draws its opaque props, lit
   /// and in shadow. Afterwards it is known which lights' visibility is another one than the view
@@ -104,59 +96,30 @@ public:
 
   /// For the hook: sets a program's parameters for the prop that is about to be drawn.
   void setShaderParameters(vtkShaderProgram* program, vtkAbstractMapper* mapper, vtkProp* prop);
-  const FrameReport& report() const { return this->report_; }
-  const VisibilityImages& visibility() const { return this->visibility_; }
+  const FrameReport& report() const { return this->frame_.report; }
+  const VisibilityImages& visibility() const { return this->visibility_.images(); }
 
 private:
-  void endStageClock(const std::string& name);
-  void tellReuse(const std::string& value, const std::string& changes);
   bool readsPoints() const;
-  bool classifies() const { return this->wishes_.keepVisibility || this->wishes_.measureStages; }
   ValueKey receiversKey(const vtkRenderState* s) const;
-  ValueKey visibilityKey(const CastingLight& casting) const;
   std::string whyNotDeferred(const vtkRenderState* s, bool drawnPlainly) const;
   void makeRoomForLayers();
   bool namesTriangles();
   void findStaleReceivers(const vtkRenderState* s);
   void takeReceivers();
-  void findStaleVisibility();
-  bool tracesOnCpu() const;
-  void updateTracer();
-  void tellTracer();
-  Receivers& receiversOnCpu();
-  void storeResting();
-  TracedTiles* beginTiles(
-    const CastingLight& casting, const ShadowLight& traced, VisibilityValue& value);
-  void fillLayers(CastingLight& casting, VisibilityValue& value, LightReport& report);
-  void dropVisibility();
 
-  FrameReport report_;
-  FrameWishes wishes_;
-  double frameStart_ = 0.0; ///< by steadyMilliseconds()
-  double stageStart_ = 0.0; ///< likewise
-  int compilesBefore_ = 0;
-
-  glm::ivec2 size_{ 0 }; ///< of this frame's picture, in pixels
-  CameraView camera_;    ///< that it is drawn by
-
-  bool severalViews_ = false; ///< whether the pass draws others beside this one
-  CastingLights lights_;
+  Frame frame_;
   OccluderCollector collector_;
   OccluderBuffers buffers_;
-  Route route_ = Route::Inline;
-  bool shadesTranslucent_ = false; ///< whether translucent surfaces show shadows in this frame
+  PassPrograms& programs_;
+  VisibilityStage visibility_{ frame_, collector_.occluders(), buffers_, programs_.library };
   RendererViews views_;
-  ViewValues* view_ = nullptr;           ///< this frame's
-  std::size_t receiversNumbered_ = 0;    ///< how many images of receivers were drawn
+  ShaderManager::StageValues stageValues_;
+  bool shadesTranslucent_ = false;    ///< whether translucent surfaces show shadows in this frame
+  std::size_t receiversNumbered_ = 0; ///< how many images of receivers were drawn
   std::optional<ValueKey> receiversDue_; ///< the key of receivers that this frame draws
   int restingFrames_ = 0;                ///< deferred route: in a row that kept their receivers
-  PassPrograms& programs_;
-  FrameTracer tracer_{ buffers_, programs_.library };
-  ShaderManager::StageValues stageValues_;
-  std::vector<float> visibilityOnCpu_; ///< a light's; kept, as new memory costs more than old
-  EdgeSamples edges_;
-  const ViewValues* keptOf_ = nullptr; ///< whose visibility is kept
-  VisibilityImages visibility_;
+  int compilesBefore_ = 0;               ///< the frame
 };
 
 } // namespace gnomon

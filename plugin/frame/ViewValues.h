@@ -22,6 +22,12 @@ class vtkRenderer;
 namespace gnomon
 {
 
+///@{
+/// Parts of the receivers' key.
+inline constexpr const char* propsPart = "the props in view";
+inline constexpr const char* snapshotPart = "the snapshot";
+///@}
+
 /// The receivers stage's value: which triangle each pixel shows.
 struct ReceiversValue
 {

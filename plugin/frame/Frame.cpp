@@ -1,0 +1,25 @@
+#include "plugin/frame/Frame.h"
+
+#include "shadowtech/base/Gl.h"
+
+namespace gnomon
+{
+
+//------------------------------------------------------------------------------
+void Frame::endStage(const std::string& name)
+{
+  if (this->wishes.measureStages)
+  {
+    glFinish();
+    this->report.stages.push_back({ name, steadyMilliseconds() - this->stageStart });
+    this->stageStart = steadyMilliseconds();
+  }
+}
+
+//------------------------------------------------------------------------------
+void Frame::tellReuse(const std::string& value, const std::string& changes)
+{
+  this->report.values.push_back({ value, changes.empty(), changes });
+}
+
+} // namespace gnomon

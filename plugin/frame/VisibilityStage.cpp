@@ -1,0 +1,380 @@
+#include "plugin/frame/VisibilityStage.h"
+
+#include "plugin/frame/KeptVisibility.h"
+#include "shadowtech/tracing/GpuTracer.h"
+#include "shadowtech/tracing/RefinementSettings.h"
+
+#include <algorithm>
+#include <optional>
+#include <set>
+#include <string>
+#include <tuple>
+#include <utility>
+
+namespace gnomon
+{
+namespace
+{
+
+/// What draws, by the name that OpenGL gives it.
+std::string rendererName()
+{
+  const GLubyte* name = glGetString(GL_RENDERER);
+  return name ? reinterpret_cast<const char*>(name) : "";
+}
+
+/// Where a light is, and what it is.
+auto placeOf(const ShadowLight& light)
+{
+  const auto box = [](const LightBox& of)
+  { return std::tuple(of.width, of.height, of.depth, of.upWorld); };
+  const auto texture = [](const PlacedTexture& of)
+  { return std::tuple(of.texture, of.pictureFromWorld); };
+  return std::tuple(light.kind, light.positionWorld, light.directionWorld, light.coneAngleDegrees,
+    light.area, light.box ? std::optional(box(*light.box)) : std::nullopt,
+    light.texture ? std::optional(texture(*light.texture)) : std::nullopt);
+}
+
+/// How many samples an area light has in this frame.
+/// @param before in the frame before; 0 where that showed something else
+int samplesOf(const CastingLight& casting, int before)
+{
+  const bool refines = casting.own.info().has(refinementSettings()) && casting.light.area;
+  return refines ? samplesOfStep(casting.light, before) : casting.light.lightSamples;
+}
+
+/// Whether parts of a key whose change leaves some tiles as they are, of all that changed.
+bool leavesTiles(const std::set<std::string>& changedParts)
+{
+  return std::all_of(changedParts.begin(), changedParts.end(),
+    [](const std::string& name) { return name == propsPart || name == snapshotPart; });
+}
+
+/// How many pixels are of each class.
+std::vector<ClassCount> countClasses(
+  const std::vector<PixelClass>& classes, const std::vector<std::uint8_t>& ofPixels)
+{
+  std::vector<ClassCount> counts;
+  for (const PixelClass& pixelClass : classes)
+  {
+    counts.push_back({ pixelClass.name, 0 });
+  }
+  for (const std::uint8_t pixelClass : ofPixels)
+  {
+    ++counts[pixelClass].pixels;
+  }
+  return counts;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+VisibilityStage::VisibilityStage(
+  Frame& frame, const Occluders& occluders, OccluderBuffers& buffers, ShaderLibrary& shaders)
+  : frame_(frame)
+  , occluders_(occluders)
+  , buffers_(buffers)
+  , shaders_(shaders)
+  , tracer_(buffers, shaders)
+{
+}
+
+//------------------------------------------------------------------------------
+/// The key of a light's visibility; its maps follow from the same parts.
+ValueKey VisibilityStage::keyOf(const CastingLight& casting) const
+{
+  const TechniqueInfo& info = casting.own.info();
+  ValueKey key = *this->frame_.view->receivers.key;
+  key.add("the light", placeOf(casting.light));
+  key.add("its technique", std::pair(&casting.own.estimator(), casting.light.fittedToReceivers));
+  key.add("its settings", valuesOf(info, SettingsOf::Estimator, casting.light));
+  key.add("its layer", std::pair(casting.layer, casting.bit));
+  if (info.evaluation == Evaluation::ScreenCpu)
+  {
+    key.add("the tracer", this->frame_.wishes.tracer);
+  }
+  if (info.conservativeMap)
+  {
+    key.add("the rasterizer", this->frame_.wishes.rasterizer); // which the report names
+  }
+  return key;
+}
+
+//------------------------------------------------------------------------------
+/// Whether it is asked for how pixels were decided.
+bool VisibilityStage::classifies() const
+{
+  return this->frame_.wishes.keepVisibility || this->frame_.wishes.measureStages;
+}
+
+//------------------------------------------------------------------------------
+void VisibilityStage::findStale()
+{
+  std::vector<VisibilityValue>& values = this->frame_.view->visibility;
+  values.resize(this->frame_.lights.size());
+  auto value = values.begin();
+  for (CastingLight& casting : this->frame_.lights)
+  {
+    const ValueKey key = this->keyOf(casting);
+    std::string changes = value->key ? key.changesFrom(*value->key) : "there was none";
+    casting.mayKeepTiles = value->key && leavesTiles(key.changedParts(*value->key));
+    value->samples = changes.empty() ? value->samples : 0;
+    if (changes.empty() && value->report.progress < 1.0)
+    {
+      changes = "more of the light's points";
+    }
+    if (changes.empty() && this->classifies() && !value->classified)
+    {
+      changes = "how pixels were decided is asked for";
+    }
+    this->frame_.tellReuse("visibility of " + nameOf(casting.light), changes);
+    casting.isStale = !changes.empty();
+    if (!casting.isStale)
+    {
+      LightReport& report = reportOf(this->frame_.report, casting.light);
+      report = value->report;
+      report.sceneIndex = casting.light.sceneIndex;
+    }
+    else
+    {
+      value->key.reset(); // in case of an error
+    }
+    ++value;
+  }
+}
+
+//------------------------------------------------------------------------------
+/// Brings a tracer up to date with the snapshot.
+void VisibilityStage::updateTracer()
+{
+  const TracerChoice choice =
+    chooseTracer(this->frame_.wishes.tracer, GpuTracer::whyUnsupported(), rendererName());
+  const ShadowTracer::Update update = this->tracer_.update(choice, this->occluders_);
+  this->frame_.report.bvhBuilds = update.builds;
+  this->frame_.report.bvhRefits = update.refits;
+  this->frame_.endStage("visibility: build");
+}
+
+//------------------------------------------------------------------------------
+/// States in the report which tracer the frame's visibility is from, and why.
+void VisibilityStage::tellTracer()
+{
+  this->frame_.report.tracer = this->tracer_.taken().gpu ? "gpu" : "embree";
+  this->frame_.report.tracerReason = this->tracer_.taken().reason;
+  if (!this->tracer_.gpuFailure().empty())
+  {
+    this->frame_.report.notes.push_back(
+      "Embree traces rays, as tracing on the GPU failed: " + this->tracer_.gpuFailure() + ".");
+  }
+}
+
+//------------------------------------------------------------------------------
+/// Whether any light's technique does.
+bool VisibilityStage::tracesOnCpu() const
+{
+  return std::any_of(this->frame_.lights.begin(), this->frame_.lights.end(), isOnCpu);
+}
+
+//------------------------------------------------------------------------------
+/// The view's receivers on the CPU, read back once.
+Receivers& VisibilityStage::receiversOnCpu()
+{
+  ReceiversValue& value = this->frame_.view->receivers;
+  // Where no technique traces, the tracer is not updated, and may hold an older snapshot.
+  const FreeSegments* const freeSegments =
+    this->tracesOnCpu() ? this->tracer_.freeSegments() : nullptr;
+  if (!value.onCpu || value.onCpu->freeSegments() != freeSegments)
+  {
+    if (value.numberOfImages != value.number)
+    {
+      value.fragmentsBefore.swap(value.images.fragments);
+      value.numberBefore = std::exchange(value.numberOfImages, value.number);
+    }
+    value.images.rays = pixelRays(this->frame_.camera.clipFromView,
+      this->frame_.space.centredFromView, this->frame_.size.x, this->frame_.size.y);
+    if (this->frame_.route == Route::Deferred)
+    {
+      value.deferred.read(value.images);
+    }
+    else
+    {
+      value.target.read(value.images);
+    }
+    value.onCpu.emplace(
+      value.images, value.drawnSurfaces, this->occluders_, value.pixels, freeSegments);
+    this->frame_.endStage("visibility: read receivers");
+  }
+  return *value.onCpu;
+}
+
+//------------------------------------------------------------------------------
+/// Stores receivers that lights move over, which takes half as long as tracing from them. From then
+/// on a light's image takes a fifth less.
+void VisibilityStage::storeResting()
+{
+  constexpr int patience = 2; // frames
+  if (++this->frame_.view->receivers.framesTraced > patience)
+  {
+    this->receiversOnCpu().all();
+  }
+}
+
+//------------------------------------------------------------------------------
+void VisibilityStage::compute()
+{
+  FrameReport& frameReport = this->frame_.report;
+  ViewValues& view = *this->frame_.view;
+  if (std::any_of(this->frame_.lights.begin(), this->frame_.lights.end(),
+        [](const CastingLight& casting) { return casting.isStale && isOnCpu(casting); }))
+  {
+    this->updateTracer();
+    this->storeResting();
+  }
+  if (this->tracesOnCpu())
+  {
+    this->tellTracer();
+  }
+  auto value = view.visibility.begin();
+  for (CastingLight& casting : this->frame_.lights)
+  {
+    if (casting.isStale)
+    {
+      LightReport& report = reportOf(frameReport, casting.light);
+      value->classified = this->classifies();
+      this->fill(casting, *value, report);
+      const std::vector<PixelClass>& named = casting.own.info().classes;
+      if (value->classified && !named.empty())
+      {
+        report.classes = countClasses(named, value->classes);
+      }
+      value->key = this->keyOf(casting);
+      value->report = report;
+      ++frameReport.visibilityComputed;
+      frameReport.raysTraced += report.rays;
+    }
+    frameReport.notes.insert(frameReport.notes.end(), value->notes.begin(), value->notes.end());
+    ++value;
+  }
+  view.layers.uploadBits();
+  const bool isKept = frameReport.visibilityComputed == 0 && this->imagesOf_ == &view &&
+    !this->images_.visibility.empty();
+  if (this->frame_.wishes.keepVisibility && !isKept)
+  {
+    this->images_ = keepVisibility(this->frame_.lights, view.visibility, view.layers,
+      this->receiversOnCpu().all(), this->occluders_.centreWorld);
+    this->imagesOf_ = &view;
+  }
+}
+
+//------------------------------------------------------------------------------
+void VisibilityStage::dropImages()
+{
+  this->images_ = VisibilityImages{};
+  this->imagesOf_ = nullptr;
+}
+
+//------------------------------------------------------------------------------
+/// Begins a light's image where tiles of the one before may stay.
+/// @param traced the light, with as many samples as the image has
+/// @return null where all tiles are computed
+TracedTiles* VisibilityStage::beginTiles(
+  const CastingLight& casting, const ShadowLight& traced, VisibilityValue& value)
+{
+  const Occluders& occluders = this->occluders_;
+  const ReceiversValue& receivers = this->frame_.view->receivers;
+  const TechniqueInfo& info = casting.own.info();
+  const bool isDecidedByMap = info.conservativeMap && casting.own.usesMap();
+  if (!info.exact || isDecidedByMap || edgeSamplesOf(casting) > 1 || this->tracer_.taken().gpu ||
+    occluders.surfaces.size() < 2)
+  {
+    value.classes.clear();
+    value.tiles.forget();
+    value.onCpu = {};
+    return nullptr;
+  }
+  const bool isFollowed = casting.mayKeepTiles && value.receivers == receivers.numberBefore &&
+    (!value.classified || !value.classes.empty());
+  if (!isFollowed || !value.classified)
+  {
+    value.classes.clear();
+  }
+  value.tiles.begin(
+    occluders, traced, receivers.images, isFollowed ? &receivers.fragmentsBefore : nullptr);
+  value.receivers = receivers.number;
+  return &value.tiles;
+}
+
+//------------------------------------------------------------------------------
+/// Has a light's technique fill its layers.
+/// @param value whose classes, if they are asked for, and notes are filled
+void VisibilityStage::fill(CastingLight& casting, VisibilityValue& value, LightReport& report)
+{
+  value.notes.clear();
+  if (!isOnCpu(casting))
+  {
+    value.classes.clear();
+  }
+  std::vector<std::uint8_t>* const classes = value.classified ? &value.classes : nullptr;
+  const ShadowLight& light = casting.light;
+  const Occluders& occluders = this->occluders_;
+  const ReceiversValue& receivers = this->frame_.view->receivers;
+  VisibilityLayers& layers = this->frame_.view->layers;
+  if (auto* pointwise = casting.own.as<PointwiseTechnique>())
+  {
+    layers.estimate(casting.layer, *pointwise, light, receivers.target, this->frame_.space,
+      this->shaders_, casting.own.info().classes.empty() ? nullptr : classes);
+    this->frame_.endStage("visibility: estimate");
+  }
+  else if (auto* onGpu = casting.own.as<GpuScreenTechnique>())
+  {
+    this->buffers_.update(occluders);
+    namingLight(light,
+      [&]
+      {
+        onGpu->drawVisibility(
+          { light, casting.own.fitting(), this->frame_.camera, this->frame_.space, occluders,
+            this->buffers_, receivers.target, this->frame_.view->receivers.number,
+            receivers.drawnSurfaces, layers, casting.layer, this->frame_.severalViews,
+            this->shaders_, classes != nullptr, classes, value.notes,
+            this->frame_.report.mapBakes },
+          report);
+      });
+    this->frame_.endStage("visibility: draw");
+  }
+  else
+  {
+    auto& technique = *casting.own.as<CpuScreenTechnique>();
+    const std::size_t edgeSamples = edgeSamplesOf(casting);
+    std::vector<std::uint8_t> classesForEdges;
+    ShadowLight traced = light;
+    traced.lightSamples = samplesOf(casting, value.samples);
+    Receivers& onCpu = this->receiversOnCpu();
+    TracedTiles* const tiles = this->beginTiles(casting, traced, value);
+    std::vector<float>& visibility = tiles ? value.onCpu : this->onCpu_;
+    const ScreenInput input{ traced, casting.own.fitting(), occluders, onCpu,
+      this->tracer_.tracer(), casting.own.usesMap(),
+      classes || edgeSamples == 1 ? classes : &classesForEdges, tiles,
+      this->frame_.report.mapBakes };
+    namingLight(light, [&] { technique.computeVisibility(input, visibility, report); });
+    value.samples = traced.lightSamples;
+    report.progress = static_cast<double>(traced.lightSamples) / light.lightSamples;
+    this->frame_.endStage("visibility: trace");
+    if (edgeSamples > 1)
+    {
+      namingLight(light,
+        [&] {
+          this->edges_.smooth(technique, input, *input.classes, edgeSamples, visibility, report);
+        });
+      this->frame_.endStage("visibility: edges");
+    }
+    casting.bit == noBit ? layers.upload(casting.layer, visibility)
+                         : layers.fillBit(casting.bit, visibility);
+    if (this->frame_.route == Route::Deferred)
+    {
+      this->frame_.view->receivers.deferred.keepShadows(visibility);
+    }
+    this->frame_.endStage("visibility: upload");
+  }
+}
+
+} // namespace gnomon

@@ -1,0 +1,70 @@
+#pragma once
+
+#include "plugin/VisibilityImages.h"
+#include "plugin/frame/Frame.h"
+#include "plugin/frame/FrameTracer.h"
+#include "plugin/frame/ValueKey.h"
+#include "shadowtech/base/OccluderBuffers.h"
+#include "shadowtech/base/Occluders.h"
+#include "shadowtech/base/Receivers.h"
+#include "shadowtech/base/ShaderLibrary.h"
+#include "shadowtech/tracing/EdgeSamples.h"
+#include "shadowtech/tracing/TracedTiles.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace gnomon
+{
+
+/// The visibility stage of a renderer's frames: one image for each light, or three, in the view's
+/// layers.
+class VisibilityStage
+{
+public:
+  /// @param occluders the snapshot, which lives as long as this
+  /// @param buffers of the snapshot
+  VisibilityStage(
+    Frame& frame, const Occluders& occluders, OccluderBuffers& buffers, ShaderLibrary& shaders);
+
+  /// Says of each light whether its visibility is computed in this frame, or reused as it is. The
+  /// receivers are there.
+  void findStale();
+
+  /// Computes what is stale, and keeps a copy of all if asked to.
+  /// @throws std::runtime_error for a tracer that there is not, or has no room
+  void compute();
+
+  ///@{
+  /// The copy of the last frame that was asked for one.
+  const VisibilityImages& images() const { return this->images_; }
+  void dropImages();
+  ///@}
+
+  const FrameTracer& tracer() const { return this->tracer_; }
+  std::size_t bytesOfRays() const { return this->tracer_.bytesOfRays() + this->edges_.bytes(); }
+
+private:
+  ValueKey keyOf(const CastingLight& casting) const;
+  bool classifies() const;
+  void updateTracer();
+  void tellTracer();
+  bool tracesOnCpu() const;
+  Receivers& receiversOnCpu();
+  void storeResting();
+  TracedTiles* beginTiles(
+    const CastingLight& casting, const ShadowLight& traced, VisibilityValue& value);
+  void fill(CastingLight& casting, VisibilityValue& value, LightReport& report);
+
+  Frame& frame_;
+  const Occluders& occluders_;
+  OccluderBuffers& buffers_;
+  ShaderLibrary& shaders_;
+  FrameTracer tracer_;
+  EdgeSamples edges_;
+  std::vector<float> onCpu_; ///< a light's; kept, as new memory costs more than old
+  VisibilityImages images_;
+  const ViewValues* imagesOf_ = nullptr; ///< the view that they are of
+};
+
+} // namespace gnomon
