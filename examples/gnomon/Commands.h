@@ -14,6 +14,7 @@ void addRenderCommand(CLI::App& app);
 void addTechniquesCommand(CLI::App& app);
 void addScenesCommand(CLI::App& app);
 void addSettingsCommand(CLI::App& app);
+void addStudyCommand(CLI::App& app);
 ///@}
 
 /// A window's size as the command line says it: WIDTHxHEIGHT, each from 1 to 16384.

@@ -110,9 +110,14 @@ std::vector<unsigned char> facingPixels(const VisibilityImages& images, const Sc
 
 //------------------------------------------------------------------------------
 VisibilityError measureError(const VisibilityImages& technique, const VisibilityImages& truth,
-  const std::vector<SceneLight>& lights, std::vector<PixelVerdict>* verdicts)
+  const std::vector<SceneLight>& lights, std::vector<PixelVerdict>* verdicts,
+  std::vector<float>* differences)
 {
   requireSameImages(technique, truth);
+  if (differences)
+  {
+    differences->assign(truth.coverage.size(), 0.0f);
+  }
   if (verdicts)
   {
     verdicts->assign(truth.coverage.size(), PixelVerdict::NotCounted);
@@ -149,6 +154,10 @@ VisibilityError measureError(const VisibilityImages& technique, const Visibility
         value > VisibilityError::darkBelow && value < VisibilityError::litAbove;
       sumOfAbsolutes += std::fabs(difference);
       sumOfSquares += static_cast<double>(difference) * difference;
+      if (differences)
+      {
+        (*differences)[i] = std::max((*differences)[i], std::fabs(difference));
+      }
       if (verdicts)
       {
         (*verdicts)[i] = std::max((*verdicts)[i], verdict);

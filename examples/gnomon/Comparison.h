@@ -2,6 +2,7 @@
 
 #include "ImageFile.h"
 #include "Scene.h"
+#include "WorstPlace.h"
 
 #include "plugin/VisibilityImages.h"
 
@@ -9,6 +10,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -59,9 +61,12 @@ std::vector<unsigned char> facingPixels(const VisibilityImages& images, const Sc
 /// A technique's error against the truth, over all lights that the truth lists.
 /// @param lights the scene's lights; `truth.sceneIndices` counts them
 /// @param verdicts if given, receives one verdict per pixel
+/// @param differences if given, receives each pixel's greatest difference from the truth; 0 where
+/// it does not count
 /// @throws std::invalid_argument when the two differ in size or lights
 VisibilityError measureError(const VisibilityImages& technique, const VisibilityImages& truth,
-  const std::vector<SceneLight>& lights, std::vector<PixelVerdict>* verdicts = nullptr);
+  const std::vector<SceneLight>& lights, std::vector<PixelVerdict>* verdicts = nullptr,
+  std::vector<float>* differences = nullptr);
 
 /// The dimmed picture with false light in blue and false shadow in red; where `traced` is given and
 /// not 0, the pixels that a ray decided and that are right in purple.
@@ -126,7 +131,8 @@ struct VariantResult
   VariantMemory memory;
   std::vector<std::string> notes; ///< limits that it ran into, each a sentence
   Picture picture;
-  Picture errors; ///< see errorPicture
+  Picture errors;             ///< see errorPicture
+  std::optional<Place> worst; ///< where it is most wrong; nowhere if it is right everywhere
   /// The classes in their colours, of the first light that tells; without pixels where none does.
   Picture classPicture;
 };

@@ -217,6 +217,9 @@ private:
   std::vector<double> shares_;
 };
 
+/// Of the places that are shown of variants.
+constexpr int worstPlacePixels = 64;
+
 /// Counts steps of work that take about as long as each other.
 class StepCounter
 {
@@ -507,7 +510,9 @@ void measureErrors(
     result.picture = capture(variant->window());
     const VisibilityImages visibility = visibilityOf(*variant, scene, truth);
     std::vector<PixelVerdict> verdicts;
-    result.error = measureError(visibility, truth, scene.lights, &verdicts);
+    std::vector<float> differences;
+    result.error = measureError(visibility, truth, scene.lights, &verdicts, &differences);
+    result.worst = worstPlace(differences, truth.width, truth.height, worstPlacePixels);
     std::vector<unsigned char> traced(verdicts.size(), 0);
     if (variant->pass() && result.route != "inline")
     {

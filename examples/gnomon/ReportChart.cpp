@@ -373,6 +373,45 @@ Picture drawChart(const ComparisonResults& results)
 }
 
 //------------------------------------------------------------------------------
+Picture drawFront(const std::vector<ChartWay>& ways, const std::string& timeTitle,
+  const std::string& timeUnit, const std::string& errorTitle, const std::string& errorUnit)
+{
+  std::vector<ErrorAndTime> numbers;
+  std::vector<double> times;
+  std::vector<double> errors;
+  for (const ChartWay& way : ways)
+  {
+    numbers.push_back(way.of);
+    times.push_back(way.of.time);
+    errors.push_back(way.of.error);
+  }
+  const LogScale timeScale(times, timeUnit);
+  const LogScale errorScale(errors, errorUnit);
+  vtkNew<vtkChartXY> chart;
+  chart->SetShowLegend(false);
+  setUpAxis(chart->GetAxis(vtkAxis::BOTTOM), timeScale, timeTitle.c_str());
+  setUpAxis(chart->GetAxis(vtkAxis::LEFT), errorScale, errorTitle.c_str());
+  vtkNew<PointLabels> labels;
+  labels->xAxis = chart->GetAxis(vtkAxis::BOTTOM);
+  labels->yAxis = chart->GetAxis(vtkAxis::LEFT);
+  for (const ErrorAndTime& of : numbers)
+  {
+    labels->points.push_back({ { timeScale.position(of.time), errorScale.position(of.error) } });
+  }
+  addMarkers(chart, labels->points, vtkPlotPoints::CIRCLE, { { 190, 190, 190 } });
+  const Colour colour = variantColour(0);
+  std::vector<std::array<double, 2>> front;
+  for (const std::size_t way : paretoFront(numbers))
+  {
+    front.push_back(labels->points[way]);
+    labels->labels.push_back({ ways[way].name, colour, front.back()[0], front.back()[1] });
+  }
+  addLine(chart, front, colour);
+  addMarkers(chart, front, vtkPlotPoints::CIRCLE, colour);
+  return draw(chart, labels, panelWidth, panelHeight);
+}
+
+//------------------------------------------------------------------------------
 Picture drawTimes(const std::vector<ChartLine>& lines)
 {
   std::vector<double> quantities;

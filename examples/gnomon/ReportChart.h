@@ -1,6 +1,7 @@
 #pragma once
 
 #include "Comparison.h"
+#include "ErrorFront.h"
 
 #include <array>
 #include <string>
@@ -49,6 +50,21 @@ struct ChartLine
 /// its name at the last one.
 /// @throws Failure when no OpenGL context can be made
 Picture drawTimes(const std::vector<ChartLine>& lines);
+
+/// One way to draw shadows in a chart of error over time.
+struct ChartWay
+{
+  std::string name;
+  ErrorAndTime of;
+};
+
+/// Error over time, both logarithmic. The Pareto front is coloured, joined and labelled; other ways
+/// are grey points.
+/// @param timeTitle, errorTitle what the axes say
+/// @param timeUnit, errorUnit appended to their labels, e.g. " %"
+/// @throws Failure when no OpenGL context can be made
+Picture drawFront(const std::vector<ChartWay>& ways, const std::string& timeTitle,
+  const std::string& timeUnit, const std::string& errorTitle, const std::string& errorUnit);
 
 /// Error against time, both logarithmic: every variant has a colour, a label and one point per
 /// motion, joined by a line. Drawn with VTK's charts in a window without a display.

@@ -29,6 +29,7 @@ int main(int argc, char** argv)
     "--version", std::string("gnomon " GNOMON_VERSION ", VTK ") + vtkVersion::GetVTKVersion());
   gnomon::tool::addRenderCommand(app);
   gnomon::tool::addCompareCommand(app);
+  gnomon::tool::addStudyCommand(app);
   gnomon::tool::addDiffCommand(app);
   gnomon::tool::addTechniquesCommand(app);
   gnomon::tool::addSettingsCommand(app);
