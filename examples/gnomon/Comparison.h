@@ -146,6 +146,7 @@ struct ComparisonResults
   int frames = 0; ///< timed frames per variant and motion; 0: no motion was timed
   std::size_t triangles = 0;
   int lights = 0;    ///< that cast
+  bool soft = false; ///< whether one of them has an area
   std::string truth; ///< the name of the variant that the others are measured against
   /// What the numbers depend on, for people: name and value, in order.
   std::vector<std::pair<std::string, std::string>> settings;

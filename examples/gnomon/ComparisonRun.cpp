@@ -695,6 +695,7 @@ ComparisonResults runComparison(
   results.width = plan.width;
   results.height = plan.height;
   results.truth = truthVariant->result.name;
+  results.soft = isSoft(*truthVariant);
   results.settings = listSettings(plan, truthVariant->pass()->GetReport(), truthVariant->window());
   for (const std::unique_ptr<Variant>& variant : variants)
   {

@@ -2,7 +2,7 @@
 
 #include "Errors.h"
 #include "Files.h"
-#include "ReportChart.h"
+#include "StudyParts.h"
 
 #include <cerrno>
 #include <cstring>
@@ -65,7 +65,8 @@ void writeReport(const ComparisonResults& results, const std::string& folder)
   Picture chart;
   if (results.frames > 0)
   {
-    chart = drawChart(results);
+    const StudyCase of{ results.scene, -1, results.soft };
+    chart = frontChart(summarise(rowsOf(of, results)), results.soft, Motion::Camera);
     writePicture(chart, (base / "chart.png").string());
   }
   writeText((base / "results.csv").string(), toCsv(results));

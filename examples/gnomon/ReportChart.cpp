@@ -29,10 +29,8 @@ namespace gnomon::tool
 namespace
 {
 
-constexpr int chartWidth = 1100;
-constexpr int chartHeight = 640;
-constexpr int panelWidth = 640;
-constexpr int panelHeight = 560;
+constexpr int chartWidth = 640;
+constexpr int chartHeight = 560;
 
 using Colour = std::array<unsigned char, 3>;
 
@@ -43,13 +41,6 @@ Colour variantColour(std::size_t index)
     { { 44, 160, 44 } }, { { 148, 103, 189 } }, { { 255, 127, 14 } }, { { 23, 190, 207 } },
     { { 140, 86, 75 } }, { { 227, 119, 194 } }, { { 127, 127, 127 } }, { { 188, 189, 34 } } } };
   return palette[index % palette.size()];
-}
-
-int motionMarker(Motion motion)
-{
-  return motion == Motion::Camera ? vtkPlotPoints::DIAMOND
-    : motion == Motion::Light     ? vtkPlotPoints::SQUARE
-                                  : vtkPlotPoints::CIRCLE;
 }
 
 /// The largest (direction < 0) or smallest (direction > 0) of ..., 0.1, 0.2, 0.5, 1, 2, 5, 10, ...
@@ -234,17 +225,17 @@ void addLine(
   line->SetWidth(1.5f);
 }
 
-void addMarkers(vtkChart* chart, const std::vector<std::array<double, 2>>& points, int style,
-  const Colour& colour)
+void addMarkers(
+  vtkChart* chart, const std::vector<std::array<double, 2>>& points, const Colour& colour)
 {
   auto* const marker = vtkPlotPoints::SafeDownCast(chart->AddPlot(vtkChart::POINTS));
   marker->SetInputData(pointTable(points), 0, 1);
-  marker->SetMarkerStyle(style);
+  marker->SetMarkerStyle(vtkPlotPoints::CIRCLE);
   marker->SetMarkerSize(11.0f);
   marker->SetColor(colour[0], colour[1], colour[2], 255);
 }
 
-Picture draw(vtkChart* chart, PointLabels* labels, int width, int height)
+Picture draw(vtkChart* chart, PointLabels* labels)
 {
   vtkNew<vtkContextActor> actor;
   vtkNew<vtkRenderer> renderer;
@@ -254,7 +245,7 @@ Picture draw(vtkChart* chart, PointLabels* labels, int width, int height)
   actor->GetScene()->AddItem(chart);
   actor->GetScene()->AddItem(labels);
   vtkNew<vtkGnomonEGLRenderWindow> window;
-  window->SetSize(width, height);
+  window->SetSize(chartWidth, chartHeight);
   window->AddRenderer(renderer);
   window->Render();
   return capture(window);
@@ -319,60 +310,6 @@ double LogScale::position(double value) const
 }
 
 //------------------------------------------------------------------------------
-Picture drawChart(const ComparisonResults& results)
-{
-  std::vector<double> times;
-  std::vector<double> errors;
-  const auto errorPercent = [](const VariantResult& variant)
-  { return 100.0 * variant.error.share(variant.error.wrongPixels()); };
-  for (const VariantResult& variant : results.variants)
-  {
-    errors.push_back(errorPercent(variant));
-    for (const MotionTiming& timing : variant.timings)
-    {
-      times.push_back(timing.milliseconds);
-    }
-  }
-  const LogScale timeScale(times, " ms");
-  const LogScale errorScale(errors, " %");
-
-  vtkNew<vtkChartXY> chart;
-  chart->SetTitle("Wrong pixels against time per frame\n"
-                  "circle: static, diamond: camera moving, square: light moving");
-  chart->GetTitleProperties()->SetFontSize(16);
-  chart->SetShowLegend(false);
-  setUpAxis(chart->GetAxis(vtkAxis::BOTTOM), timeScale, "time per frame");
-  setUpAxis(chart->GetAxis(vtkAxis::LEFT), errorScale, "wrong pixels");
-
-  vtkNew<PointLabels> labels;
-  labels->xAxis = chart->GetAxis(vtkAxis::BOTTOM);
-  labels->yAxis = chart->GetAxis(vtkAxis::LEFT);
-  for (std::size_t i = 0; i < results.variants.size(); ++i)
-  {
-    const VariantResult& variant = results.variants[i];
-    const Colour colour = variantColour(i);
-    const double y = errorScale.position(errorPercent(variant));
-    std::vector<std::array<double, 2>> points;
-    for (const MotionTiming& timing : variant.timings)
-    {
-      points.push_back({ { timeScale.position(timing.milliseconds), y } });
-    }
-    std::vector<std::array<double, 2>> inOrder = points;
-    std::sort(inOrder.begin(), inOrder.end());
-
-    addLine(chart, inOrder, colour);
-    for (Motion motion : allMotions)
-    {
-      addMarkers(chart, { points[static_cast<std::size_t>(motion)] }, motionMarker(motion), colour);
-    }
-    labels->points.insert(labels->points.end(), points.begin(), points.end());
-    labels->labels.push_back({ variant.name, colour, inOrder.back()[0], y });
-  }
-
-  return draw(chart, labels, chartWidth, chartHeight);
-}
-
-//------------------------------------------------------------------------------
 Picture drawFront(const std::vector<ChartWay>& ways, const std::string& timeTitle,
   const std::string& timeUnit, const std::string& errorTitle, const std::string& errorUnit)
 {
@@ -398,7 +335,7 @@ Picture drawFront(const std::vector<ChartWay>& ways, const std::string& timeTitl
   {
     labels->points.push_back({ { timeScale.position(of.time), errorScale.position(of.error) } });
   }
-  addMarkers(chart, labels->points, vtkPlotPoints::CIRCLE, { { 190, 190, 190 } });
+  addMarkers(chart, labels->points, { { 190, 190, 190 } });
   const Colour colour = variantColour(0);
   std::vector<std::array<double, 2>> front;
   for (const std::size_t way : paretoFront(numbers))
@@ -407,8 +344,8 @@ Picture drawFront(const std::vector<ChartWay>& ways, const std::string& timeTitl
     labels->labels.push_back({ ways[way].name, colour, front.back()[0], front.back()[1] });
   }
   addLine(chart, front, colour);
-  addMarkers(chart, front, vtkPlotPoints::CIRCLE, colour);
-  return draw(chart, labels, panelWidth, panelHeight);
+  addMarkers(chart, front, colour);
+  return draw(chart, labels);
 }
 
 //------------------------------------------------------------------------------
@@ -446,13 +383,13 @@ Picture drawTimes(const std::vector<ChartLine>& lines)
     if (!points.empty())
     {
       addLine(chart, points, variantColour(i));
-      addMarkers(chart, points, vtkPlotPoints::CIRCLE, variantColour(i));
+      addMarkers(chart, points, variantColour(i));
       labels->points.insert(labels->points.end(), points.begin(), points.end());
       labels->labels.push_back(
         { lines[i].name, variantColour(i), points.back()[0], points.back()[1] });
     }
   }
-  return draw(chart, labels, panelWidth, panelHeight);
+  return draw(chart, labels);
 }
 
 } // namespace gnomon::tool

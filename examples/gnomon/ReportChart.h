@@ -1,7 +1,7 @@
 #pragma once
 
-#include "Comparison.h"
 #include "ErrorFront.h"
+#include "ImageFile.h"
 
 #include <array>
 #include <string>
@@ -65,10 +65,5 @@ struct ChartWay
 /// @throws Failure when no OpenGL context can be made
 Picture drawFront(const std::vector<ChartWay>& ways, const std::string& timeTitle,
   const std::string& timeUnit, const std::string& errorTitle, const std::string& errorUnit);
-
-/// Error against time, both logarithmic: every variant has a colour, a label and one point per
-/// motion, joined by a line. Drawn with VTK's charts in a window without a display.
-/// @throws Failure when no OpenGL context can be made
-Picture drawChart(const ComparisonResults& results);
 
 } // namespace gnomon::tool

@@ -2,6 +2,7 @@
 
 #include "Html.h"
 #include "ReportTemplate.h" // generated from ReportTemplate.html
+#include "StudyParts.h"
 
 #include <algorithm>
 #include <map>
@@ -22,12 +23,29 @@ std::string pixelCell(const VisibilityError& error, std::int64_t pixels)
 
 std::string errorTable(const ComparisonResults& results)
 {
+  std::string html = "<table>\n" +
+    heading({ "Variant", "Wrong pixels", "False light", "False shadow", "Mean error", "RMS error",
+      "Neither lit nor dark", "Traced" }) +
+    "<tbody>\n";
+  for (const VariantResult& variant : results.variants)
+  {
+    const VisibilityError& error = variant.error;
+    html += "<tr>" + cell(variant.name) + pixelCell(error, error.wrongPixels()) +
+      pixelCell(error, error.falseLight) + pixelCell(error, error.falseShadow) +
+      cell(threeDigits(error.meanAbsolute)) + cell(threeDigits(error.rootMeanSquare)) +
+      pixelCell(error, error.betweenPixels) + pixelCell(error, variant.tracedPixels) + "</tr>\n";
+  }
+  return html + "</tbody>\n</table>";
+}
+
+/// Times and memory.
+std::string costTable(const ComparisonResults& results)
+{
   const auto plain = std::find_if(results.variants.begin(), results.variants.end(),
     [](const VariantResult& variant) { return variant.technique == plainTechnique; });
   const std::vector<Motion> motions = timedMotions(results);
-  std::vector<std::string> columns = { "Variant", "Wrong pixels", "False light", "False shadow",
-    "Mean error", "RMS error", "Neither lit nor dark", "Traced" };
-  for (Motion motion : motions)
+  std::vector<std::string> columns = { "Variant" };
+  for (const Motion motion : motions)
   {
     columns.push_back(std::string("Frame, ") + motionName(motion));
   }
@@ -35,12 +53,8 @@ std::string errorTable(const ComparisonResults& results)
   std::string html = "<table>\n" + heading(columns) + "<tbody>\n";
   for (const VariantResult& variant : results.variants)
   {
-    const VisibilityError& error = variant.error;
-    html += "<tr>" + cell(variant.name) + pixelCell(error, error.wrongPixels()) +
-      pixelCell(error, error.falseLight) + pixelCell(error, error.falseShadow) +
-      cell(threeDigits(error.meanAbsolute)) + cell(threeDigits(error.rootMeanSquare)) +
-      pixelCell(error, error.betweenPixels) + pixelCell(error, variant.tracedPixels);
-    for (Motion motion : motions)
+    html += "<tr>" + cell(variant.name);
+    for (const Motion motion : motions)
     {
       const auto index = static_cast<std::size_t>(motion);
       const double milliseconds = variant.timings[index].milliseconds;
@@ -61,68 +75,64 @@ std::string errorTable(const ComparisonResults& results)
 
 constexpr const char* notTimed = "<p>No frames were timed.</p>";
 
+/// "maps 8.25, shading 26.50".
+template <typename Number, typename Write>
+std::string listOf(const std::vector<std::pair<std::string, Number>>& numbers, const Write& write)
+{
+  std::string text;
+  for (const auto& [name, number] : numbers)
+  {
+    text += (text.empty() ? "" : ", ") + name + " " + write(number);
+  }
+  return text;
+}
+
 std::string stageTable(const ComparisonResults& results)
 {
-  const std::vector<std::string> names =
-    stageNames(results, { allMotions.begin(), allMotions.end() });
-  if (names.empty())
+  std::string rows;
+  for (const VariantResult& variant : results.variants)
+  {
+    for (const Motion motion : allMotions)
+    {
+      const MotionTiming& timing = variant.timings[static_cast<std::size_t>(motion)];
+      if (!timing.stages.empty())
+      {
+        rows += "<tr>" + cell(variant.name) + cell(motionName(motion)) +
+          cell(listOf(timing.stages, [](double ms) { return fixed(ms, 2); })) +
+          cell(fixed(100.0 * timing.stageShare, 0) + " %") + "</tr>\n";
+      }
+    }
+  }
+  if (rows.empty())
   {
     return results.frames > 0 ? "<p>No variant has stages.</p>" : notTimed;
   }
-  std::vector<std::string> columns = { "Variant", "Motion" };
-  columns.insert(columns.end(), names.begin(), names.end());
-  columns.push_back("Explained");
-  std::string html = "<table>\n" + heading(columns) + "<tbody>\n";
-  for (const VariantResult& variant : results.variants)
-  {
-    for (Motion motion : allMotions)
-    {
-      const MotionTiming& timing = variant.timings[static_cast<std::size_t>(motion)];
-      if (timing.stages.empty())
-      {
-        continue;
-      }
-      html += "<tr>" + cell(variant.name) + cell(motionName(motion));
-      for (const std::string& name : names)
-      {
-        const double* const milliseconds = findNamed(timing.stages, name);
-        html += cell(milliseconds ? fixed(*milliseconds, 2) : std::string());
-      }
-      html += cell(fixed(100.0 * timing.stageShare, 0) + " %") + "</tr>\n";
-    }
-  }
-  return html + "</tbody>\n</table>";
+  return "<table class=\"text\">\n" + heading({ "Variant", "Motion", "Stages", "Explained" }) +
+    "<tbody>\n" + rows + "</tbody>\n</table>";
 }
 
 /// How pixels were decided, with the classes' shares of all pixels of all lights.
 std::string classTable(const ComparisonResults& results)
 {
-  const std::vector<std::string> names = classNames(results);
-  if (names.empty())
+  const double pixelsOfAll = static_cast<double>(results.width) * results.height * results.lights;
+  std::string rows;
+  for (const VariantResult& variant : results.variants)
+  {
+    if (!variant.classes.empty())
+    {
+      rows += "<tr>" + cell(variant.name) +
+        cell(listOf(variant.classes,
+          [&](std::int64_t pixels)
+          { return percent(static_cast<double>(pixels) / pixelsOfAll); })) +
+        "</tr>\n";
+    }
+  }
+  if (rows.empty())
   {
     return "<p>No variant tells its pixels' classes.</p>";
   }
-  std::vector<std::string> columns = { "Variant" };
-  columns.insert(columns.end(), names.begin(), names.end());
-  std::string html = "<table>\n" + heading(columns) + "<tbody>\n";
-  const double pixelsOfAll = static_cast<double>(results.width) * results.height * results.lights;
-  for (const VariantResult& variant : results.variants)
-  {
-    if (variant.classes.empty())
-    {
-      continue;
-    }
-    html += "<tr>" + cell(variant.name);
-    for (const std::string& name : names)
-    {
-      const std::int64_t* const pixels = findNamed(variant.classes, name);
-      html += pixels
-        ? cell(percent(static_cast<double>(*pixels) / pixelsOfAll), std::to_string(*pixels))
-        : cell(std::string());
-    }
-    html += "</tr>\n";
-  }
-  return html + "</tbody>\n</table>";
+  return "<table class=\"text\">\n" + heading({ "Variant", "Pixels" }) + "<tbody>\n" + rows +
+    "</tbody>\n</table>";
 }
 
 using Rows = std::vector<std::pair<std::string, std::string>>;
@@ -166,31 +176,62 @@ std::string noteList(const ComparisonResults& results)
 
 std::string chartFigure(const Picture& chart)
 {
-  return chart.pixelCount() > 0
-    ? "<figure><img alt=\"Chart: wrong pixels against time per frame\" src=\"" + dataUri(chart) +
-      "\" /></figure>"
-    : notTimed;
+  return chart.pixelCount() > 0 ? "<figure><img alt=\"Chart: error over time per frame\" src=\"" +
+      dataUri(chart) + "\" /></figure>"
+                                : notTimed;
 }
 
 std::string pictureGrid(const ComparisonResults& results)
 {
+  constexpr int mostPixels = 400;
   std::string html;
   for (const VariantResult& variant : results.variants)
   {
-    const std::string name = escape(variant.name);
-    const std::string wrong = percent(variant.error.share(variant.error.wrongPixels()));
-    html += "<div class=\"pair\">\n<h3>" + name + "</h3>\n<figure><img alt=\"" + name +
-      "\" src=\"" + dataUri(variant.picture) + "\" /></figure>\n<figure><img alt=\"" + name +
-      ": errors\" src=\"" + dataUri(variant.errors) + "\" /><figcaption>" + wrong +
-      " wrong pixels</figcaption></figure>\n";
+    const auto figure = [&](const Picture& picture, const std::string& caption)
+    {
+      return "<figure><img alt=\"" + escape(variant.name + ": " + caption) + "\" src=\"" +
+        dataUri(reduced(picture, mostPixels)) + "\" /><figcaption>" + escape(caption) +
+        "</figcaption></figure>\n";
+    };
+    html += "<h3>" + escape(variant.name) + "</h3>\n<div class=\"pictures\">\n" +
+      figure(variant.picture, "picture") +
+      figure(variant.errors,
+        percent(variant.error.share(variant.error.wrongPixels())) + " wrong pixels");
     if (variant.classPicture.pixelCount() > 0)
     {
-      html += "<figure><img alt=\"" + name + ": classes\" src=\"" + dataUri(variant.classPicture) +
-        "\" /><figcaption>How pixels were decided</figcaption></figure>\n";
+      html += figure(variant.classPicture, "how pixels were decided");
     }
     html += "</div>\n";
   }
   return html;
+}
+
+/// What the page says first: what to use when, five rows and the worst places.
+std::string firstScreen(const ComparisonResults& results)
+{
+  constexpr std::size_t most = 5;
+  const std::vector<StudyRow> rows = rowsOf({ results.scene, -1, results.soft }, results);
+  std::vector<StudySummary> summaries = summarise(rows);
+  if (results.frames == 0)
+  {
+    std::stable_sort(summaries.begin(), summaries.end(),
+      [](const StudySummary& a, const StudySummary& b) { return a.error > b.error; });
+    return notTimed + worstPlaces(rows, summaries, most);
+  }
+  std::vector<StudySummary> shown = frontOf(summaries, Motion::Camera);
+  const std::size_t ofFront = shown.size();
+  for (const StudySummary& summary : summaries)
+  {
+    const bool isThere =
+      std::any_of(shown.begin(), shown.begin() + static_cast<std::ptrdiff_t>(ofFront),
+        [&](const StudySummary& of) { return of.variant == summary.variant; });
+    if (!isThere)
+    {
+      shown.push_back(summary);
+    }
+  }
+  return conclusionOf(summaries, results.soft) + frontTable(summaries, results.soft, most) +
+    "<div class=\"places\">\n" + worstPlaces(rows, shown, most) + "</div>\n";
 }
 
 std::string summary(const ComparisonResults& results)
@@ -210,8 +251,10 @@ std::string toHtml(const ComparisonResults& results, const Picture& chart)
     {
       { "scene", escape(results.scene) },
       { "summary", escape(summary(results)) },
+      { "first", firstScreen(results) },
       { "truth", escape(results.truth) },
-      { "table", errorTable(results) },
+      { "errors", errorTable(results) },
+      { "costs", costTable(results) },
       { "notes", noteList(results) },
       { "dark", fixed(static_cast<double>(VisibilityError::darkBelow), 1) },
       { "lit", fixed(static_cast<double>(VisibilityError::litAbove), 1) },

@@ -14,9 +14,7 @@
 #include <vtkTransform.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
-#include <map>
 
 namespace gnomon::tool
 {
@@ -27,9 +25,6 @@ using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
 constexpr const char* rowsFile = "rows.json";
-
-/// How large a pixel is in the pictures of the worst places.
-constexpr int enlargement = 3;
 
 /// A scene's camera, turned about its target: 25 degrees to one side, to the other side, 50 degrees,
 /// and so on.
@@ -60,67 +55,12 @@ fs::path folderOf(const std::string& folder, const StudyCase& of)
   return fs::path(folder) / fileStem(of.name());
 }
 
-/// Two pictures of one height with a white strip between them.
-Picture joined(const Picture& left, const Picture& right)
-{
-  constexpr int gap = 6;
-  Picture result;
-  result.width = left.width + gap + right.width;
-  result.height = left.height;
-  for (int y = 0; y < result.height; ++y)
-  {
-    const auto addRow = [&](const Picture& from)
-    {
-      const auto row = from.rgb.begin() + static_cast<std::ptrdiff_t>(3 * y * from.width);
-      result.rgb.insert(result.rgb.end(), row, row + 3 * from.width);
-    };
-    addRow(left);
-    result.rgb.insert(result.rgb.end(), 3 * gap, 255);
-    addRow(right);
-  }
-  return result;
-}
-
 /// All pointwise techniques of a study take the inline route.
 std::string withoutRoute(const VariantResult& variant)
 {
   const std::string ending = " " + variant.route;
   return variant.route.empty() ? variant.name
                                : variant.name.substr(0, variant.name.size() - ending.size());
-}
-
-std::vector<StudyRow> rowsOf(const StudyCase& of, const ComparisonResults& results)
-{
-  const auto find = [&](const std::string& name) -> const VariantResult&
-  {
-    return *std::find_if(results.variants.begin(), results.variants.end(),
-      [&](const VariantResult& variant) { return variant.name == name; });
-  };
-  const VariantResult& plain = find(plainTechnique);
-  const VariantResult& truth = find(results.truth);
-  std::vector<StudyRow> rows;
-  for (const VariantResult& variant : results.variants)
-  {
-    StudyRow row;
-    row.of = of;
-    row.variant = withoutRoute(variant);
-    row.technique = variant.technique;
-    row.wrongShare = variant.error.share(variant.error.wrongPixels());
-    row.rootMeanSquare = variant.error.rootMeanSquare;
-    row.meanAbsolute = variant.error.meanAbsolute;
-    for (std::size_t motion = 0; motion < allMotions.size(); ++motion)
-    {
-      row.milliseconds[motion] = variant.timings[motion].milliseconds;
-      row.overPlain[motion] = row.milliseconds[motion] / plain.timings[motion].milliseconds;
-    }
-    if (variant.worst)
-    {
-      row.worst = joined(enlarged(truth.picture, *variant.worst, enlargement),
-        enlarged(variant.picture, *variant.worst, enlargement));
-    }
-    rows.push_back(row);
-  }
-  return rows;
 }
 
 std::string worstFile(const StudyRow& row)
@@ -241,16 +181,15 @@ std::vector<StudyRow> runCase(const StudyCase& of, const ComparisonPlan& plan,
   {
     throw Failure("drawing " + of.name() + ": " + messages.errors().front());
   }
-  return rowsOf(of, results);
+  std::vector<StudyRow> rows = rowsOf(of, results);
+  for (std::size_t i = 0; i < rows.size(); ++i)
+  {
+    rows[i].variant = withoutRoute(results.variants[i]);
+  }
+  return rows;
 }
 
 } // namespace
-
-//------------------------------------------------------------------------------
-std::string StudyCase::name() const
-{
-  return this->scene + ", view " + std::to_string(this->view + 1);
-}
 
 //------------------------------------------------------------------------------
 std::vector<StudyRow> runStudy(const StudyPlan& plan, const std::string& folder,
@@ -279,56 +218,12 @@ std::vector<StudyRow> runStudy(const StudyPlan& plan, const std::string& folder,
 }
 
 //------------------------------------------------------------------------------
-std::vector<StudySummary> summarise(const std::vector<StudyRow>& rows)
-{
-  std::vector<std::string> order;
-  std::map<std::string, std::vector<const StudyRow*>> ofVariants;
-  std::size_t cases = 0;
-  for (const StudyRow& row : rows)
-  {
-    std::vector<const StudyRow*>& ofVariant = ofVariants[row.variant];
-    if (ofVariant.empty())
-    {
-      order.push_back(row.variant);
-    }
-    ofVariant.push_back(&row);
-    cases = std::max(cases, ofVariant.size());
-  }
-  std::vector<StudySummary> summaries;
-  for (const std::string& variant : order)
-  {
-    const std::vector<const StudyRow*>& ofVariant = ofVariants[variant];
-    if (ofVariant.size() < cases)
-    {
-      continue;
-    }
-    StudySummary summary{ variant, ofVariant.front()->technique };
-    const auto count = static_cast<double>(cases);
-    for (const StudyRow* row : ofVariant)
-    {
-      summary.error += row->error() / count;
-    }
-    for (std::size_t motion = 0; motion < allMotions.size(); ++motion)
-    {
-      double logarithms = 0.0;
-      for (const StudyRow* row : ofVariant)
-      {
-        logarithms += std::log(row->overPlain[motion]);
-      }
-      summary.overPlain[motion] = std::exp(logarithms / count);
-    }
-    summaries.push_back(summary);
-  }
-  return summaries;
-}
-
-//------------------------------------------------------------------------------
 std::string toCsv(const std::vector<StudyRow>& rows)
 {
   CsvRow head;
-  head << std::string("scene") << std::string("view") << std::string("variant")
-       << std::string("technique") << std::string("wrong_share") << std::string("rms_error")
-       << std::string("mean_absolute_error");
+  head << std::string("scene") << std::string("shadows") << std::string("view")
+       << std::string("variant") << std::string("technique") << std::string("wrong_share")
+       << std::string("rms_error") << std::string("mean_absolute_error");
   for (const Motion motion : allMotions)
   {
     head << motionKey(motion) + "_ms" << motionKey(motion) + "_over_plain";
@@ -337,8 +232,9 @@ std::string toCsv(const std::vector<StudyRow>& rows)
   for (const StudyRow& row : rows)
   {
     CsvRow line;
-    line << row.of.scene << std::int64_t(row.of.view + 1) << row.variant << row.technique
-         << row.wrongShare << row.rootMeanSquare << row.meanAbsolute;
+    line << row.of.scene << std::string(row.of.soft ? "soft" : "hard")
+         << std::int64_t(row.of.view + 1) << row.variant << row.technique << row.wrongShare
+         << row.rootMeanSquare << row.meanAbsolute;
     for (std::size_t motion = 0; motion < allMotions.size(); ++motion)
     {
       line << row.milliseconds[motion] << row.overPlain[motion];

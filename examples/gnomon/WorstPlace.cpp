@@ -55,6 +55,37 @@ std::optional<Place> worstPlace(
 }
 
 //------------------------------------------------------------------------------
+Picture reduced(const Picture& picture, int mostPixels)
+{
+  const int block =
+    std::max(1, (std::max(picture.width, picture.height) + mostPixels - 1) / mostPixels);
+  Picture result;
+  result.width = std::max(1, picture.width / block);
+  result.height = std::max(1, picture.height / block);
+  const int columns = std::min(block, picture.width);
+  const int rows = std::min(block, picture.height);
+  for (int y = 0; y < result.height; ++y)
+  {
+    for (int x = 0; x < result.width; ++x)
+    {
+      for (std::size_t channel = 0; channel < 3; ++channel)
+      {
+        int sum = 0;
+        for (int i = 0; i < rows * columns; ++i)
+        {
+          sum +=
+            picture
+              .rgb[3 * pixelOf(block * x + i % columns, block * y + i / columns, picture.width) +
+                channel];
+        }
+        result.rgb.push_back(static_cast<unsigned char>(sum / (rows * columns)));
+      }
+    }
+  }
+  return result;
+}
+
+//------------------------------------------------------------------------------
 Picture enlarged(const Picture& picture, const Place& place, int pixelSide)
 {
   Picture result;

@@ -29,6 +29,9 @@ struct Place
 std::optional<Place> worstPlace(
   const std::vector<float>& differences, int width, int height, int side);
 
+/// A picture made smaller by a whole number, so that its sides have at most so many pixels.
+Picture reduced(const Picture& picture, int mostPixels);
+
 /// A place of a picture, whose pixels are squares of `pixelSide`.
 Picture enlarged(const Picture& picture, const Place& place, int pixelSide);
 

@@ -107,6 +107,21 @@ TEST(WorstPlace, isShownEnlarged)
 }
 
 //------------------------------------------------------------------------------
+TEST(Reduced, isTheMeanOfBlocks)
+{
+  Picture picture = greyPicture(7, 4);
+  picture.rgb[0] = 100;
+  const Picture small = reduced(picture, 4);
+  EXPECT_EQ(small.width, 3);
+  EXPECT_EQ(small.height, 2);
+  EXPECT_EQ(small.rgb.size(), 18u);
+  EXPECT_EQ(small.rgb[0], 175);
+  EXPECT_EQ(small.rgb[1], 200);
+  EXPECT_EQ(reduced(picture, 100).rgb, picture.rgb);
+  EXPECT_EQ(reduced(greyPicture(9, 1), 3).rgb.size(), 9u);
+}
+
+//------------------------------------------------------------------------------
 TEST(WorstPlace, isAmongThePixelsThatCount)
 {
   const VisibilityImages truth = floorTruth();
