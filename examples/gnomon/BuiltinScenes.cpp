@@ -1,6 +1,7 @@
 #include "BuiltinScenes.h"
 
 #include "BuiltinParts.h"
+#include "HardScenes.h"
 
 #include "lights/SettingsTable.h"
 
@@ -82,6 +83,12 @@ const std::vector<BuiltinScene>& builtinScenes()
 //------------------------------------------------------------------------------
 const BuiltinScene* findBuiltinScene(const std::string& name)
 {
+  const auto hard = std::find_if(hardScenes().begin(), hardScenes().end(),
+    [&](const HardScene& of) { return of.scene.name == name; });
+  if (hard != hardScenes().end())
+  {
+    return &hard->scene;
+  }
   const auto found = std::find_if(builtinScenes().begin(), builtinScenes().end(),
     [&](const BuiltinScene& scene) { return scene.name == name; });
   return found == builtinScenes().end() ? nullptr : &*found;

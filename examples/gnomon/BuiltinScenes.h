@@ -15,8 +15,9 @@ struct BuiltinScene
   std::string summary; ///< a line
   std::function<Scene()> make;
 };
-/// All of them, in the order in which they are listed to people.
+/// All of them but the hard ones (HardScenes.h), in the order in which they are listed to people.
 const std::vector<BuiltinScene>& builtinScenes();
+/// Finds a hard one, too.
 /// @return null if there is none of that name
 const BuiltinScene* findBuiltinScene(const std::string& name);
 /// "bunny, horse, ...": for messages.

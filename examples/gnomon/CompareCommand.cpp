@@ -25,7 +25,7 @@ struct CompareOptions
   std::string folder;
   ComparisonPlan plan;
   std::string size = "1024x1024";
-  std::string route; ///< empty: inline of the usual techniques, all of others
+  std::string route; ///< empty: the usual one of the usual techniques, all of others
   bool all = false;  ///< whether to compare all techniques
 };
 
@@ -61,9 +61,9 @@ ComparisonPlan planOf(const CompareOptions& options, const Scene& scene)
   {
     plan.techniques = usual ? usualTechniques(castsSoftShadows(plan, scene)) : allTechniques();
   }
-  const std::string route = !options.route.empty() ? options.route : usual ? "inline" : "all";
-  plan.inlineRoute = route != "image";
-  plan.imageRoute = route != "inline";
+  plan.usualRoute = usual && options.route.empty();
+  plan.inlineRoute = options.route != "image";
+  plan.imageRoute = options.route != "inline";
   return plan;
 }
 
@@ -133,7 +133,8 @@ void addCompareCommand(CLI::App& app)
   command
     ->add_option("--route", options->route,
       "The routes of techniques that have both: inline (in VTK's shaders), image (from a prepass), "
-      "all. By default all, but inline of the default techniques")
+      "all. By default all, but of the default techniques the usual one: inline, or image of slow "
+      "ones")
     ->check(CLI::IsMember({ "all", "inline", "image" }));
   addTracerOption(*command, options->plan.tracer);
   addRasterizerOption(*command, options->plan.rasterizer);

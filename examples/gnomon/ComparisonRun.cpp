@@ -130,12 +130,14 @@ std::vector<VariantSpec> listVariants(
     for (int size : info->bakesMap() ? plan.mapSizesTexels : std::vector<int>{ 0 })
     {
       spec.mapSizeTexels = size;
-      if (info->isPointwise() && plan.inlineRoute)
+      const bool takesInline = plan.usualRoute ? !info->isSlow : plan.inlineRoute;
+      const bool takesImage = plan.usualRoute ? info->isSlow : plan.imageRoute;
+      if (info->isPointwise() && takesInline)
       {
         spec.route = vtkGnomonShadowPass::ROUTE_INLINE;
         specs.push_back(spec);
       }
-      if (!info->isPointwise() || plan.imageRoute)
+      if (!info->isPointwise() || takesImage)
       {
         spec.route =
           info->isPointwise() ? vtkGnomonShadowPass::ROUTE_IMAGE : vtkGnomonShadowPass::ROUTE_AUTO;
@@ -217,7 +219,7 @@ private:
   std::vector<double> shares_;
 };
 
-/// Of the places that are shown of variants.
+/// Side of the place that is shown of a variant, in pixels.
 constexpr int worstPlacePixels = 64;
 
 /// Counts steps of work that take about as long as each other.

@@ -21,10 +21,13 @@ struct ComparisonPlan
   /// themselves; empty ones are none.
   std::map<std::string, std::string> settings;
   std::vector<int> mapSizesTexels; ///< for every variant that has a map
-  bool inlineRoute = true;         ///< for pointwise techniques
-  bool imageRoute = true;          ///< for pointwise techniques
-  int tracer = 0;                  ///< a vtkGnomonShadowPass::TracerType, for all that trace
-  int rasterizer = 0;              ///< a vtkGnomonShadowPass::RasterizerType, for conservative maps
+  /// Pointwise techniques take the one route that they usually take: inline, or image if they are
+  /// slow. Else those below.
+  bool usualRoute = false;
+  bool inlineRoute = true; ///< for pointwise techniques
+  bool imageRoute = true;  ///< for pointwise techniques
+  int tracer = 0;          ///< a vtkGnomonShadowPass::TracerType, for all that trace
+  int rasterizer = 0;      ///< a vtkGnomonShadowPass::RasterizerType, for conservative maps
   int width = 1024;
   int height = 1024;
   int frames = 21;         ///< timed frames per variant and motion; 0: only errors are asked for

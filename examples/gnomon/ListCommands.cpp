@@ -1,6 +1,7 @@
 #include "BuiltinScenes.h"
 #include "Commands.h"
 #include "Errors.h"
+#include "HardScenes.h"
 #include "Progress.h"
 #include "SceneExport.h"
 #include "SettingOptions.h"
@@ -19,7 +20,7 @@ namespace
 
 void printLine(const std::string& name, const std::string& summary)
 {
-  std::cout << std::left << std::setw(20) << name << summary << "\n";
+  std::cout << std::left << std::setw(28) << name << summary << "\n";
 }
 
 void printSettings()
@@ -92,9 +93,20 @@ void addScenesCommand(CLI::App& app)
       "Write a scene as DIR/NAME.json with its models, for other programs to read")
     ->type_name("NAME DIR")
     ->expected(2);
+  auto hard = std::make_shared<bool>(false);
+  command->add_flag(
+    "--hard", *hard, "List the scenes of numerical hard cases, which all commands take as well");
   command->callback(
-    [exported]
+    [exported, hard]
     {
+      if (*hard)
+      {
+        for (const HardScene& of : hardScenes())
+        {
+          printLine(of.scene.name, of.scene.summary + " (" + listOf(of.cases) + ")");
+        }
+        return;
+      }
       if (!exported->empty())
       {
         if (!findBuiltinScene(exported->at(0)))

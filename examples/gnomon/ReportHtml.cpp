@@ -216,7 +216,8 @@ std::string firstScreen(const ComparisonResults& results)
   {
     std::stable_sort(summaries.begin(), summaries.end(),
       [](const StudySummary& a, const StudySummary& b) { return a.error > b.error; });
-    return notTimed + worstPlaces(rows, summaries, most);
+    return std::string(notTimed) + "<div class=\"places\">\n" + worstPlaces(rows, summaries, most) +
+      "</div>\n";
   }
   std::vector<StudySummary> shown = frontOf(summaries, Motion::Camera);
   const std::size_t ofFront = shown.size();

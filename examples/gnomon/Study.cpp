@@ -41,13 +41,14 @@ SceneCamera cameraOf(const SceneCamera& camera, int view)
   return turned;
 }
 
-/// What a case's numbers depend on, beside the case.
-Json describe(const ComparisonPlan& plan)
+/// What a case's numbers depend on.
+Json describe(const StudyCase& of, const ComparisonPlan& plan)
 {
-  return { { "version", GNOMON_VERSION }, { "techniques", plan.techniques },
-    { "settings", plan.settings }, { "map_sizes", plan.mapSizesTexels }, { "width", plan.width },
-    { "height", plan.height }, { "frames", plan.frames }, { "truth_samples", plan.truthSamples },
-    { "tracer", plan.tracer }, { "rasterizer", plan.rasterizer } };
+  return { { "scene", of.scene }, { "view", of.view }, { "version", GNOMON_VERSION },
+    { "techniques", plan.techniques }, { "settings", plan.settings },
+    { "map_sizes", plan.mapSizesTexels }, { "width", plan.width }, { "height", plan.height },
+    { "frames", plan.frames }, { "truth_samples", plan.truthSamples }, { "tracer", plan.tracer },
+    { "rasterizer", plan.rasterizer } };
 }
 
 fs::path folderOf(const std::string& folder, const StudyCase& of)
@@ -55,7 +56,7 @@ fs::path folderOf(const std::string& folder, const StudyCase& of)
   return fs::path(folder) / fileStem(of.name());
 }
 
-/// All pointwise techniques of a study take the inline route.
+/// Techniques of a study take the route that they usually take.
 std::string withoutRoute(const VariantResult& variant)
 {
   const std::string ending = " " + variant.route;
@@ -88,17 +89,14 @@ void writeCase(const fs::path& folder, const std::vector<StudyRow>& rows, const 
   writeText((folder / rowsFile).string(), json.dump(2) + "\n");
 }
 
-/// The rows of a case that was made before in the same way; none if it was not.
+/// The rows of a case that was made in the same way; none if it was made in another way.
+/// @throws Json::exception, BadInput where a file is missing or damaged
 std::vector<StudyRow> readCase(const fs::path& folder, const StudyCase& of, const Json& how)
 {
   constexpr std::size_t largestBytes = 1 << 24;
   const fs::path file = folder / rowsFile;
-  if (!fs::exists(file))
-  {
-    return {};
-  }
-  const Json json = Json::parse(readWholeFile(file.string(), largestBytes), nullptr, false);
-  if (json.is_discarded() || json.value("how", Json()) != how)
+  const Json json = Json::parse(readWholeFile(file.string(), largestBytes));
+  if (json.at("how") != how)
   {
     return {};
   }
@@ -123,6 +121,23 @@ std::vector<StudyRow> readCase(const fs::path& folder, const StudyCase& of, cons
   return rows;
 }
 
+/// The same; none where a file is missing or damaged, too, as after an interruption.
+std::vector<StudyRow> rowsMadeBefore(const fs::path& folder, const StudyCase& of, const Json& how)
+{
+  try
+  {
+    return readCase(folder, of, how);
+  }
+  catch (const Json::exception&)
+  {
+    return {};
+  }
+  catch (const BadInput&)
+  {
+    return {};
+  }
+}
+
 std::vector<StudyCase> casesOf(const StudyPlan& plan)
 {
   std::vector<StudyCase> cases;
@@ -141,8 +156,7 @@ std::vector<StudyCase> casesOf(const StudyPlan& plan)
 ComparisonPlan comparisonOf(const StudyPlan& plan, const StudyCase& of)
 {
   ComparisonPlan comparison = plan.comparison;
-  comparison.inlineRoute = true;
-  comparison.imageRoute = false;
+  comparison.usualRoute = true;
   if (!of.soft)
   {
     comparison.techniques = plan.hardTechniques;
@@ -179,7 +193,7 @@ std::vector<StudyRow> runCase(const StudyCase& of, const ComparisonPlan& plan,
   const ComparisonResults results = runComparison(scene, plan, events);
   if (!messages.errors().empty())
   {
-    throw Failure("drawing " + of.name() + ": " + messages.errors().front());
+    throw Failure(messages.errors().front());
   }
   std::vector<StudyRow> rows = rowsOf(of, results);
   for (std::size_t i = 0; i < rows.size(); ++i)
@@ -187,6 +201,24 @@ std::vector<StudyRow> runCase(const StudyCase& of, const ComparisonPlan& plan,
     rows[i].variant = withoutRoute(results.variants[i]);
   }
   return rows;
+}
+
+/// runCase() whose errors name the case.
+std::vector<StudyRow> runNamed(const StudyCase& of, const ComparisonPlan& plan,
+  const std::function<void(double, const std::string&)>& progress)
+{
+  try
+  {
+    return runCase(of, plan, progress);
+  }
+  catch (const BadInput& error)
+  {
+    throw BadInput(of.name() + ": " + error.what());
+  }
+  catch (const Failure& error)
+  {
+    throw Failure(of.name() + ": " + error.what());
+  }
 }
 
 } // namespace
@@ -201,12 +233,12 @@ std::vector<StudyRow> runStudy(const StudyPlan& plan, const std::string& folder,
   for (const StudyCase& of : cases)
   {
     const ComparisonPlan comparison = comparisonOf(plan, of);
-    const Json how = describe(comparison);
+    const Json how = describe(of, comparison);
     const fs::path caseFolder = folderOf(folder, of);
-    std::vector<StudyRow> ofCase = readCase(caseFolder, of, how);
+    std::vector<StudyRow> ofCase = rowsMadeBefore(caseFolder, of, how);
     if (ofCase.empty())
     {
-      ofCase = runCase(of, comparison,
+      ofCase = runNamed(of, comparison,
         [&](double share, const std::string& step)
         { progress((done + share) / static_cast<double>(cases.size()), of.name() + ", " + step); });
       writeCase(caseFolder, ofCase, how);

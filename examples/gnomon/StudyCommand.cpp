@@ -66,8 +66,22 @@ std::string timeLeft(std::chrono::steady_clock::time_point start, double share)
                         : ", about " + std::to_string(std::lround(seconds / 60.0)) + " min left";
 }
 
+/// A list's values once each.
+template <typename Value>
+void dropRepeated(std::vector<Value>& values)
+{
+  std::set<Value> seen;
+  values.erase(std::remove_if(values.begin(), values.end(),
+                 [&](const Value& value) { return !seen.insert(value).second; }),
+    values.end());
+}
+
 void study(StudyOptions options)
 {
+  dropRepeated(options.plan.scenes);
+  dropRepeated(options.plan.lightSamples);
+  dropRepeated(options.plan.comparison.mapSizesTexels);
+  dropRepeated(options.techniques);
   if (options.quick)
   {
     makeQuick(options);

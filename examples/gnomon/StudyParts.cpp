@@ -5,6 +5,7 @@
 #include "ReportChart.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace gnomon::tool
 {
@@ -62,7 +63,10 @@ std::string conclusionOf(const std::vector<StudySummary>& summaries, bool soft)
 {
   const auto named = [](const StudySummary& summary)
   { return "<b>" + escape(summary.variant) + "</b>"; };
-  const std::vector<StudySummary> front = frontOf(summaries, Motion::Camera);
+  std::vector<StudySummary> shadowed;
+  std::copy_if(summaries.begin(), summaries.end(), std::back_inserter(shadowed),
+    [](const StudySummary& summary) { return summary.technique != plainTechnique; });
+  const std::vector<StudySummary> front = frontOf(shadowed, Motion::Camera);
   const StudySummary& best = front.back();
   const double enough = std::max(soft ? mostRootMeanSquare : mostWrongShare, best.error);
   const StudySummary& quick = *std::find_if(

@@ -215,7 +215,7 @@ void CastingLights::placeVisibility()
   const auto isHard = [](const CastingLight& casting)
   {
     return isOnCpu(casting) && casting.own.info().exact && !casting.light.area &&
-      edgeSamplesOf(casting) == 1;
+      !casting.light.texture && edgeSamplesOf(casting) == 1;
   };
   const bool takesBits = std::count_if(this->lights_.begin(), this->lights_.end(), isHard) > 1;
   this->layers_ = 0;

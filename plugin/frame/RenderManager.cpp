@@ -254,7 +254,7 @@ void RenderManager::makeRoomForLayers()
     layers.resize(size.x, size.y, count, bits);
   }
   this->stageValues_.layers = { GL_TEXTURE_2D_ARRAY, layers.texture() };
-  this->stageValues_.bits = { GL_TEXTURE_2D, layers.bits() };
+  this->stageValues_.bits = { GL_TEXTURE_2D, layers.textureOfBits() };
   this->stageValues_.layersSize = size;
 }
 

@@ -12,6 +12,14 @@ namespace gnomon
 {
 
 //------------------------------------------------------------------------------
+void VisibilityValue::dropTiles()
+{
+  this->classes.clear();
+  this->tiles.forget();
+  this->onCpu = {};
+}
+
+//------------------------------------------------------------------------------
 std::size_t VisibilityValue::bytes() const
 {
   return bytesOf(this->classes) + bytesOf(this->onCpu) + this->tiles.bytes();

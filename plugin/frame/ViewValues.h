@@ -58,9 +58,11 @@ struct VisibilityValue
   /// Of a light whose image may keep tiles.
   std::vector<float> onCpu;
   TracedTiles tiles;
-  std::size_t receivers = 0; ///< the number of those that it was traced from
+  std::size_t receiversNumber = 0; ///< ReceiversValue::number of those that it was traced from
   ///@}
 
+  /// Drops classes and tiles of the last image.
+  void dropTiles();
   std::size_t bytes() const;
 };
 

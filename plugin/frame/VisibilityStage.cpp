@@ -43,7 +43,7 @@ int samplesOf(const CastingLight& casting, int before)
   return refines ? samplesOfStep(casting.light, before) : casting.light.lightSamples;
 }
 
-/// Whether parts of a key whose change leaves some tiles as they are, of all that changed.
+/// True if no other part changed than the props and the snapshot.
 bool leavesTiles(const std::set<std::string>& changedParts)
 {
   return std::all_of(changedParts.begin(), changedParts.end(),
@@ -117,7 +117,8 @@ void VisibilityStage::findStale()
   {
     const ValueKey key = this->keyOf(casting);
     std::string changes = value->key ? key.changesFrom(*value->key) : "there was none";
-    casting.mayKeepTiles = value->key && leavesTiles(key.changedParts(*value->key));
+    casting.mayKeepTiles =
+      value->key && !changes.empty() && leavesTiles(key.changedParts(*value->key));
     value->samples = changes.empty() ? value->samples : 0;
     if (changes.empty() && value->report.progress < 1.0)
     {
@@ -284,15 +285,14 @@ TracedTiles* VisibilityStage::beginTiles(
   const ReceiversValue& receivers = this->frame_.view->receivers;
   const TechniqueInfo& info = casting.own.info();
   const bool isDecidedByMap = info.conservativeMap && casting.own.usesMap();
+  // Of a single surface nothing stays where it was.
   if (!info.exact || isDecidedByMap || edgeSamplesOf(casting) > 1 || this->tracer_.taken().gpu ||
     occluders.surfaces.size() < 2)
   {
-    value.classes.clear();
-    value.tiles.forget();
-    value.onCpu = {};
+    value.dropTiles();
     return nullptr;
   }
-  const bool isFollowed = casting.mayKeepTiles && value.receivers == receivers.numberBefore &&
+  const bool isFollowed = casting.mayKeepTiles && value.receiversNumber == receivers.numberBefore &&
     (!value.classified || !value.classes.empty());
   if (!isFollowed || !value.classified)
   {
@@ -300,7 +300,7 @@ TracedTiles* VisibilityStage::beginTiles(
   }
   value.tiles.begin(
     occluders, traced, receivers.images, isFollowed ? &receivers.fragmentsBefore : nullptr);
-  value.receivers = receivers.number;
+  value.receiversNumber = receivers.number;
   return &value.tiles;
 }
 
@@ -312,7 +312,7 @@ void VisibilityStage::fill(CastingLight& casting, VisibilityValue& value, LightR
   value.notes.clear();
   if (!isOnCpu(casting))
   {
-    value.classes.clear();
+    value.dropTiles();
   }
   std::vector<std::uint8_t>* const classes = value.classified ? &value.classes : nullptr;
   const ShadowLight& light = casting.light;

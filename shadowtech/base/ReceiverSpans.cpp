@@ -140,6 +140,7 @@ void liftSpan(const SeenTriangle& seen, const FreeSegments& freeSegments, const 
       receivers.normalZ[first + i] = normalZ[i];
       offsets[i] = heights[i];
     }
+    isLifted[i] = isLifted[i] != 0 ? ReceiverPixels::isLifted : ReceiverPixels::isBlocked;
   }
 }
 

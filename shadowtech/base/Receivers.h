@@ -37,9 +37,12 @@ struct ReceiverPixels
   std::vector<float> offset;
   /// Occluders::surfaces index; `notCovered` where the camera sees no surface of the snapshot.
   std::vector<std::uint32_t> surface;
-  /// 1 where the normal is that of the curved surface above the triangle that the corners' normals
-  /// imply, and the offset goes beyond it (SmoothFacet.h); else 0.
+  /// `isLifted` where the normal is that of the curved surface above the triangle that the corners'
+  /// normals imply, and the offset goes beyond it (SmoothFacet.h); `isBlocked` where something is in
+  /// between; else 0.
   std::vector<std::uint8_t> lifted;
+  static constexpr std::uint8_t isLifted = 1;
+  static constexpr std::uint8_t isBlocked = 2;
 
   static constexpr std::uint32_t notCovered = 0xffffffffu;
 

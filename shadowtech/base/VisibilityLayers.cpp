@@ -21,12 +21,20 @@ void VisibilityLayers::resize(int width, int height, int layers, int bits)
   const GlStateGuard guard;
   glActiveTexture(GL_TEXTURE0);
   this->width_ = 0; // in case that there is no memory
-  if (layers > 0)
+  if (layers == 0)
+  {
+    this->texture_ = GlTexture();
+  }
+  else
   {
     allocateTexture(
       this->texture_, { GL_R32F, GL_RED, 1 }, width, height, layers, "the lights' visibility");
   }
-  if (bits > 0)
+  if (bits == 0)
+  {
+    this->textureOfBits_ = GlTexture();
+  }
+  else
   {
     allocateTexture(this->textureOfBits_, { GL_R32UI, GL_RED_INTEGER, 1, GL_UNSIGNED_INT }, width,
       height, 0, "the lights' visibility");

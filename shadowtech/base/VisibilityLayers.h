@@ -13,7 +13,7 @@ namespace gnomon
 
 class ReceiverTarget;
 
-/// What has no bit in the image of bits.
+/// CastingLight::bit of a light that has layers.
 inline constexpr int noBit = -1;
 
 /// The visibility images of the image route, one 32-bit float layer per casting light, or three
@@ -32,7 +32,7 @@ public:
       bits == this->bits_;
   }
 
-  /// Makes room for them. What other ones show is lost.
+  /// Allocates them. A change of size or number clears them.
   void resize(int width, int height, int layers, int bits);
 
   /// Fills a layer by a pointwise technique's GLSL, called for the receivers of all pixels.
@@ -62,7 +62,7 @@ public:
   ///@}
 
   GLuint texture() const { return this->texture_.name(); }
-  GLuint bits() const { return this->textureOfBits_.name(); }
+  GLuint textureOfBits() const { return this->textureOfBits_.name(); }
   std::size_t bytes() const;
 
 private:

@@ -83,8 +83,8 @@ public:
   /// tile's pixels once, however often the tile is visited
   /// @param visibility resized to one for each pixel of the picture; of several channels one image
   /// after the other
-  /// @param tiles which of them keep what visibility and classes hold; null: none
   /// @param classes where not null, resized to one for each pixel
+  /// @param tiles which of them keep what visibility and classes hold; null: none
   /// @param samples of the light's area, which it has a texture with if any; null: its centre
   /// @param chooser who knows which of a pixel's rays decide the others; null: nobody. There is
   /// none for textures

@@ -6,7 +6,6 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <limits>
 
@@ -124,14 +123,11 @@ void TracedTiles::forget()
 }
 
 //------------------------------------------------------------------------------
-/// Boxes around where surfaces that have moved since the last image were and are.
+/// Old and new boxes of surfaces that moved since the last image.
 std::vector<Bounds> TracedTiles::movedSince(const Occluders& occluders) const
 {
-  const glm::dvec3 largest =
-    glm::max(glm::abs(occluders.allCentred.lower), glm::abs(occluders.allCentred.upper));
-  const double more = rounding * std::max(largest.x, std::max(largest.y, largest.z));
   std::vector<Bounds> moved;
-  Bounds all;
+  Bounds all = occluders.allCentred;
   for (std::size_t i = 0; i < occluders.surfaces.size(); ++i)
   {
     const Surface& surface = occluders.surfaces[i];
@@ -143,14 +139,25 @@ std::vector<Bounds> TracedTiles::movedSince(const Occluders& occluders) const
     {
       if (!place.empty())
       {
-        moved.push_back(inflated(place, more));
-        all.add(moved.back());
+        moved.push_back(place);
+        all.add(place);
       }
     }
   }
+  const glm::dvec3 largest = glm::max(glm::abs(all.lower), glm::abs(all.upper));
+  const double more = rounding * std::max(largest.x, std::max(largest.y, largest.z));
   if (moved.size() > mostBoxes)
   {
-    moved = { all };
+    Bounds together;
+    for (const Bounds& place : moved)
+    {
+      together.add(place);
+    }
+    moved = { together };
+  }
+  for (Bounds& place : moved)
+  {
+    place = inflated(place, more);
   }
   return moved;
 }
@@ -204,11 +211,9 @@ void TracedTiles::begin(const Occluders& occluders, const ShadowLight& light,
   this->topologyVersion_ = occluders.topologyVersion;
   this->centreWorld_ = occluders.centreWorld;
   this->places_.clear();
-  this->lifts_.clear();
   for (const Surface& surface : occluders.surfaces)
   {
     this->places_.push_back({ surface.positionsVersion, surface.boundsCentred });
-    this->lifts_.push_back(surface.facetHeight);
   }
 }
 
@@ -220,33 +225,36 @@ void TracedTiles::note(const ReceiverTile& tile)
   glm::vec3 lower(most);
   glm::vec3 upper(-most);
   float offset = 0.0f;
-  float lift = 0.0f;
+  bool isBlocked = false;
   for (std::size_t i = 0; i < receivers.size(); ++i)
   {
-    const std::uint32_t surface = receivers.surface[i];
-    if (surface != ReceiverPixels::notCovered)
+    if (receivers.surface[i] != ReceiverPixels::notCovered)
     {
       const glm::vec3 position(
         receivers.positionX[i], receivers.positionY[i], receivers.positionZ[i]);
       lower = glm::min(lower, position);
       upper = glm::max(upper, position);
       offset = std::max(offset, receivers.offset[i]);
-      lift = std::max(lift, this->lifts_[surface]);
+      isBlocked = isBlocked || receivers.lifted[i] == ReceiverPixels::isBlocked;
     }
   }
-  // Rays start at the offset, or would at the lift's height more if nothing were in between.
   const std::size_t number = tile.firstRow / ReceiverTile::mostRows * this->tilesAcross_ +
     tile.firstColumn / ReceiverTile::mostColumns;
-  this->boxes_[number] = lower.x > upper.x
+  Bounds& box = this->boxes_[number];
+  if (isBlocked)
+  {
+    box = everything();
+    return;
+  }
+  box = lower.x > upper.x
     ? Bounds()
-    : inflated({ glm::dvec3(lower), glm::dvec3(upper) }, static_cast<double>(offset) + lift);
+    : inflated({ glm::dvec3(lower), glm::dvec3(upper) }, static_cast<double>(offset));
 }
 
 //------------------------------------------------------------------------------
 std::size_t TracedTiles::bytes() const
 {
-  return bytesOf(this->places_) + bytesOf(this->lifts_) + bytesOf(this->boxes_) +
-    bytesOf(this->kept_);
+  return bytesOf(this->places_) + bytesOf(this->boxes_) + bytesOf(this->kept_);
 }
 
 } // namespace gnomon

@@ -74,9 +74,8 @@ private:
   std::uint64_t topologyVersion_ = 0;
   glm::dvec3 centreWorld_{ 0.0 };
   std::vector<Place> places_; ///< by surface
-  std::vector<float> lifts_;  ///< by surface: Surface::facetHeight
-  /// By tile, around its receivers and where their rays start; one that is not known is without
-  /// end.
+  /// By tile, around its receivers and the starts of their rays; without end if that is not known,
+  /// or if a receiver may start elsewhere once something moves (ReceiverPixels::isBlocked).
   std::vector<Bounds> boxes_;
   std::vector<std::uint8_t> kept_;
 };

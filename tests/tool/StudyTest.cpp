@@ -167,9 +167,19 @@ TEST(Study, goesOnWhereItWasInterrupted)
   EXPECT_EQ(toCsv(again), toCsv(rows));
   EXPECT_EQ(again[0].worst.rgb, rows[0].worst.rgb);
 
-  std::filesystem::remove(folder / "cube--view-2/rows.json");
+  const std::string file = folder / "cube--view-2/rows.json";
+  for (const char* damage : { "", "[1, 2]", "{\"how\": ", "{}", "null" })
+  {
+    std::ofstream(file) << damage;
+    EXPECT_EQ(run(plan, folder, steps).size(), rows.size());
+    EXPECT_GT(steps, 0) << damage;
+  }
+  std::filesystem::remove(file);
   run(plan, folder, steps);
   EXPECT_GT(steps, 0) << "a case is gone";
+  std::filesystem::remove(folder / "cube--view-2/nsm-64.png");
+  run(plan, folder, steps);
+  EXPECT_GT(steps, 0) << "a picture is gone";
   plan.comparison.mapSizesTexels = { 32 };
   run(plan, folder, steps);
   EXPECT_GT(steps, 0) << "another plan";
@@ -209,6 +219,34 @@ TEST(Study, namesTheSceneThatItCannotRead)
     EXPECT_THAT(error.what(), HasSubstr("no-such-scene"));
   }
   EXPECT_EQ(steps, 0) << "before any work is done";
+}
+
+//------------------------------------------------------------------------------
+TEST(Study, neverAdvisesToDrawNoShadows)
+{
+  const std::vector<StudyRow> rows = { row("a", plainTechnique, 0.001, 1.0),
+    row("a", "nsm", 0.0005, 1.5), row("a", "raytraced", 0.0, 2.0) };
+  EXPECT_THAT(studyPage(rows, "a machine"),
+    testing::AllOf(HasSubstr("<b>nsm</b> shows"), testing::Not(HasSubstr("<b>plain VTK</b>"))));
+}
+
+//------------------------------------------------------------------------------
+TEST(Study, tellsOfSoftShadowsApart)
+{
+  std::vector<StudyRow> rows = { row("a", plainTechnique, 0.3, 1.0),
+    row("a", "raytraced", 0.0, 2.0) };
+  for (const char* variant : { "pcss", "penumbra" })
+  {
+    rows.push_back(row("b", variant, 0.0, variant == std::string("pcss") ? 2.0 : 5.0));
+    rows.back().of.soft = true;
+    rows.back().rootMeanSquare = variant == std::string("pcss") ? 0.02 : 0.003;
+  }
+  const std::string page = studyPage(rows, "a machine");
+  EXPECT_THAT(page,
+    HasSubstr("<b>penumbra</b> is the most accurate for soft shadows, with an RMS "
+              "error of 0.00300"));
+  EXPECT_THAT(page, HasSubstr("<b>pcss</b> shows an RMS error of 0.0200"));
+  EXPECT_THAT(page, HasSubstr("all scenes with soft shadows"));
 }
 
 //------------------------------------------------------------------------------

@@ -266,6 +266,28 @@ TEST_F(LightTextures, areFilteredAsLightIsWithout)
 }
 
 //------------------------------------------------------------------------------
+/// A light with a texture and without size is hard, and coloured by the texture's mean.
+TEST_F(LightTextures, ofPointsStandBesideOtherHardLights)
+{
+  this->addFloor();
+  this->addPlate({ -0.5, -0.5, 0.0 }, { 0.5, 0.5, 0.0 });
+  this->lamp->SetTexture(makeRedAndBlue());
+  this->lamp->SetWidth(0.0);
+  this->lamp->SetHeight(0.0);
+  this->scene.addSun({ 0.3, 0.0, -1.0 })->SetIntensity(0.3);
+  this->scene.addSun({ -0.3, 0.2, -1.0 })->SetIntensity(0.3);
+  this->scene.pass->SetTechnique("raytraced");
+  const Picture picture = this->scene.render();
+  EXPECT_EQ(this->scene.report().route, "image");
+  EXPECT_GT(picture.at(5, 5).r, picture.at(5, 5).g + 20) << "the texture's mean has no green";
+  const VisibilityImages& kept = drawKept(this->scene);
+  ASSERT_EQ(kept.visibility.size(), 5u) << "three channels, and two lights of one";
+  EXPECT_THAT(kept.visibility[0], testing::Contains(0.0f)) << "the plate's shadow";
+  EXPECT_THAT(kept.visibility[0], testing::Contains(0.5f)) << "the mean of red";
+  EXPECT_THAT(kept.visibility[1], testing::Each(0.0f)) << "of green";
+}
+
+//------------------------------------------------------------------------------
 TEST_F(LightTextures, ofWhiteAreNone)
 {
   this->buildScene();
