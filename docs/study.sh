@@ -1,7 +1,8 @@
 #!/bin/bash
 # Measures what accuracy costs (`gnomon study`) and writes docs/guide/cost-of-accuracy.md from it,
-# with docs/results/study.csv: ten scenes, seen by their own cameras, 512 x 512 pixels, maps of 512
-# and 2048 texels, area lights by 16 and 64 samples. It goes on where it was interrupted.
+# with docs/results/study.csv: ten scenes, seen by their own cameras, 512 x 512 pixels, maps of 1024
+# texels, area lights by 16 and 64 samples. It goes on where it was interrupted, unless the program
+# is another one.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source cmake/debian.sh
@@ -10,7 +11,13 @@ source docs/comparisons.sh
 install_packages
 build_gnomon
 
-build/release/bin/gnomon study -o out/study --views 1 --size 512x512 --map-sizes 512,2048 \
+program=$(cat build/release/bin/gnomon build/release/lib/libGnomon*.so | cksum)
+if [ "$(cat out/study/program.txt 2> /dev/null)" != "$program" ]; then
+  rm -rf out/study
+  mkdir -p out/study
+  echo "$program" > out/study/program.txt
+fi
+build/release/bin/gnomon study -o out/study --views 1 --size 512x512 --map-sizes 1024 \
   --frames 7 --truth-samples 1024
 mkdir -p docs/results
 tr -d '\r' < out/study/study.csv > docs/results/study.csv

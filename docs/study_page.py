@@ -12,15 +12,15 @@ ERRORS = {"hard": "wrong_share", "soft": "rms_error"}
 
 # What for, whose shadows, and which variant of the study.
 CHOICES = [
-    ("hard shadows, exact; the picture rests most of the time", "hard", "silhouette 512"),
+    ("hard shadows, exact; the picture rests most of the time", "hard", "silhouette 1024"),
     ("the same, while much moves and maps do not pay", "hard", "raytraced"),
-    ("fast hard shadows of small scenes", "hard", "nsm 2048"),
-    ("fast hard shadows of large scenes", "hard", "pssm 2048"),
-    ("smooth edges, whatever is in the light's way", "hard", "pcf 2048"),
-    ("what VTK has", "hard", "vtkShadowMapPass 2048"),
+    ("fast hard shadows of small scenes", "hard", "nsm 1024"),
+    ("fast hard shadows of large scenes", "hard", "pssm 1024"),
+    ("smooth edges, whatever is in the light's way", "hard", "pcf 1024"),
+    ("what VTK has", "hard", "vtkShadowMapPass 1024"),
     ("soft shadows, as exact as 64 rays", "soft", "penumbra"),
     ("the same with few rays, which show noise", "soft", "penumbra light_samples=16"),
-    ("soft shadows that look right while much moves", "soft", "pcss 2048"),
+    ("soft shadows that look right while much moves", "soft", "pcss 1024"),
 ]
 
 PAGE = """# What accuracy costs
