@@ -12,8 +12,8 @@ build_gnomon
 
 scenes=(bunny terrain atrium city)
 for scene in "${scenes[@]}"; do
-  compareOnce "out/exact_price/$scene" "$scene" --techniques nsm,silhouette,raytraced --route inline \
-    --frames 15
+  compareOnce "out/exact_price/$scene" "$scene" --techniques nsm,silhouette,raytraced \
+    --route inline --frames 15
 done
 python3 docs/exact_price_page.py out/exact_price "$(machine)" "${scenes[@]}" \
   > docs/results/exact_price.md

@@ -12,9 +12,9 @@ EXACT = ("silhouette 1024", "raytraced")
 
 PAGE = """# What exact hard shadows cost
 
-`silhouette` and `raytraced` show the same shadows: each pixel is what its shadow ray says. Times are
-medians of whole frames, as multiples of plain VTK's, whose own time is in ms. Frames of all columns
-are drawn in turns. `docs/exact_price.sh` measures this and writes this page.
+`silhouette` and `raytraced` show the same shadows: each pixel is what its shadow ray says. Times
+are medians of whole frames, as multiples of plain VTK's, whose own time is in ms. Frames of all
+columns are drawn in turns. `docs/exact_price.sh` measures this and writes this page.
 
 One sun, 1024 x 1024 pixels, maps of 1024 x 1024 texels.
 
@@ -32,9 +32,8 @@ def rows_of(folder: Path, scene: str):
     variants = {variant["name"]: variant for variant in results["variants"]}
     nsm = next(name for name in variants if name.startswith("nsm"))
     shown = (VTK_SHADOWS, nsm, *EXACT)
-    wrong = ", ".join(
-        f"{100 * variants[name]['error']['wrong_share']:.3f} %" for name in (VTK_SHADOWS, nsm, EXACT[0])
-    )
+    shares = [variants[name]["error"]["wrong_share"] for name in (VTK_SHADOWS, nsm, EXACT[0])]
+    wrong = ", ".join(f"{100 * share:.3f} %" for share in shares)
     for motion, moving in MOTIONS.items():
         times = {name: of["times"][motion]["frame_ms"] for name, of in variants.items()}
         ratios = [f"{times[name] / times[PLAIN]:.2f}" for name in shown]

@@ -12,22 +12,23 @@ ERRORS = {"hard": "wrong_share", "soft": "rms_error"}
 
 # What for, whose shadows, and which variant of the study.
 CHOICES = [
-    ("hard shadows, exact; the picture rests most of the time", "hard", "silhouette 1024"),
-    ("the same, while much moves and maps do not pay", "hard", "raytraced"),
-    ("fast hard shadows of small scenes", "hard", "nsm 1024"),
-    ("fast hard shadows of large scenes", "hard", "pssm 1024"),
-    ("smooth edges, whatever is in the light's way", "hard", "pcf 1024"),
-    ("what VTK has", "hard", "vtkShadowMapPass 1024"),
+    ("hard shadows, exact", "hard", "silhouette 1024"),
+    ("the same without a map", "hard", "raytraced"),
+    ("fast hard shadows", "hard", "nsm 1024"),
+    ("smooth edges", "hard", "pcf 1024"),
+    ("VTK's own", "hard", "vtkShadowMapPass 1024"),
     ("soft shadows, as exact as 64 rays", "soft", "penumbra"),
     ("the same with few rays, which show noise", "soft", "penumbra light_samples=16"),
-    ("soft shadows that look right while much moves", "soft", "pcss 1024"),
+    ("soft shadows without rays", "soft", "pcss 1024"),
 ]
 
 PAGE = """# What accuracy costs
 
-Exact hard shadows cost about a quarter of a frame while the picture rests, and another frame while
-something moves. Fast ones are wrong in a few pixels of a thousand, at contacts and along edges, and
-cost half a frame. So take the exact ones unless frames must follow a moving light or camera at once.
+Exact hard shadows (`silhouette`) take {exact[0]:.2f} times plain VTK's frame while the picture
+rests, {exact[1]:.2f} times with the camera moving and {exact[2]:.2f} times with the light moving.
+The plain map (`nsm`) takes {fast[0]:.2f}, {fast[1]:.2f} and {fast[2]:.2f}, and {wrong:.2f} % of its
+pixels are wrong, at contacts and along edges. So take the exact ones, unless frames must follow a
+moving camera at once.
 
 `gnomon study` measures this and draws it: error over time, the ways that no other one beats, and
 the places where they are most wrong. `docs/study.sh` makes this page and
@@ -37,34 +38,36 @@ the places where they are most wrong. `docs/study.sh` makes this page and
 |---|---|---|---|---|---|
 {rows}
 
-Errors are those of all pixels that face a light, in the mean over {hard} scenes with hard shadows
-and {soft} with soft ones: pixels that are lit in place of dark or dark in place of lit, and the root
-mean square of soft visibility. Times are those of frames over plain VTK's without shadows, in the
-geometric mean.
+Errors are means over {hard} scenes with hard shadows and {soft} with soft ones, of the pixels that
+face a light: the share that is lit in place of dark or dark in place of lit, and the root mean
+square of soft visibility. Times are multiples of plain VTK's without shadows, in the geometric mean.
 
-## With hard shadows
+## Hard shadows
 
-- Nothing moves: visibility is kept, so all techniques that compute images cost the same. Take an
-  exact one.
-- The camera moves: `silhouette` traces only what its map leaves open. `raytraced` needs no map, and
-  beats it where casters change in every frame.
-- The light moves: both trace all pixels, which takes less time than drawing a map of a large scene.
-- Maps: what is wrong falls with the texel's size, not with filters. `pcf` and the filtered maps
-  (`vsm`, `evsm`, `msm`) make edges smooth, and blur what is right as well.
-- Several lights: [times grow](../results/growth.md#lights) by less than maps' do, since shaders fetch
-  all exact hard shadows at once.
+- Nothing moves: exact visibility is reused, so exact frames are faster than those of maps, which
+  are looked up in every frame.
+- The camera moves: `silhouette` traces what its map leaves open. `raytraced` has no map to draw.
+- The light moves: exact techniques trace all pixels, which takes less time than drawing maps of
+  large scenes.
+- A few props of many move: exact techniques trace again only where these may have changed
+  something.
+- Large scenes under a sun: `pssm` has finer texels near the camera
+  ([hard maps](../techniques/hard_maps.md)).
+- Maps: texels decide what is wrong, not filters. `pcf` and the filtered maps (`vsm`, `evsm`, `msm`)
+  make edges smooth, and blur what is right as well.
+- Several lights: shaders fetch all exact hard shadows at once
+  ([growth](../results/growth.md#lights)).
 
-## With soft shadows
+## Soft shadows
 
 - `penumbra` shows what ray tracing shows, by the edges that each pixel sees of the light.
 - `moving_samples` has it take few samples while something moves, and all of them at rest.
-- `pcss` and the filtered maps are wrong by ten times as much. They look right where one caster
-  hides the light, and wrong where several do.
+- `pcss` is wrong by {pcss:.0f} times as much: it takes all casters for one.
 
 ## On what machine
 
-Measured on: {machine}. Where OpenGL draws by hardware, maps and shading cost less and rays on the
-processor as much as here; rays go to the GPU there (`TRACER_AUTO`). No GPU has measured this page.
+Measured on: {machine}. No GPU has measured this page. Where OpenGL draws by hardware, rays go to
+the GPU (`TRACER_AUTO`).
 """
 
 
@@ -72,30 +75,52 @@ def mean(values):
     return sum(values) / len(values)
 
 
-def main():
-    table, machine = sys.argv[1], sys.argv[2]
-    rows = defaultdict(list)
-    scenes = defaultdict(set)
-    with open(table, newline="", encoding="utf-8") as file:
-        for row in csv.DictReader(file):
-            rows[row["shadows"], row["variant"]].append(row)
-            scenes[row["shadows"]].add(row["scene"])
-    lines = []
-    for wish, shadows, variant in CHOICES:
-        of = rows[shadows, variant]
-        error = mean([float(row[ERRORS[shadows]]) for row in of])
-        times = [
-            math.exp(mean([math.log(float(row[f"{motion}_over_plain"])) for row in of]))
+class Study:
+    """The rows of a study by the kind of shadows and the variant."""
+
+    def __init__(self, table):
+        self.rows = defaultdict(list)
+        self.cases = defaultdict(set)
+        with open(table, newline="", encoding="utf-8") as file:
+            for row in csv.DictReader(file):
+                self.rows[row["shadows"], row["variant"]].append(row)
+                self.cases[row["shadows"]].add((row["scene"], row["view"]))
+
+    def of(self, shadows, variant):
+        rows = self.rows[shadows, variant]
+        if not rows or len(rows) != len(self.cases[shadows]):
+            sys.exit(f"{variant} took part in {len(rows)} of {len(self.cases[shadows])} cases")
+        return rows
+
+    def error(self, shadows, variant):
+        return mean([float(row[ERRORS[shadows]]) for row in self.of(shadows, variant)])
+
+    def times(self, shadows, variant):
+        rows = self.of(shadows, variant)
+        return [
+            math.exp(mean([math.log(float(row[f"{motion}_over_plain"])) for row in rows]))
             for motion in MOTIONS
         ]
-        text = f"{100 * error:.2f} %" if shadows == "hard" else f"{error:.4f} RMS"
-        cells = [wish, f"`{variant}`", text, *(f"{time:.2f}" for time in times)]
-        lines.append(f"| {' | '.join(cells)} |")
+
+
+def line(study, wish, shadows, variant):
+    error = study.error(shadows, variant)
+    text = f"{100 * error:.2f} %" if shadows == "hard" else f"{error:.4f} RMS"
+    times = [f"{time:.2f}" for time in study.times(shadows, variant)]
+    return f"| {' | '.join([wish, f'`{variant}`', text, *times])} |"
+
+
+def main():
+    study, machine = Study(sys.argv[1]), sys.argv[2]
     print(
         PAGE.format(
-            rows="\n".join(lines),
-            hard=len(scenes["hard"]),
-            soft=len(scenes["soft"]),
+            exact=study.times("hard", "silhouette 1024"),
+            fast=study.times("hard", "nsm 1024"),
+            wrong=100 * study.error("hard", "nsm 1024"),
+            pcss=study.error("soft", "pcss 1024") / study.error("soft", "penumbra"),
+            rows="\n".join(line(study, *choice) for choice in CHOICES),
+            hard=len(study.cases["hard"]),
+            soft=len(study.cases["soft"]),
             machine=machine,
         ),
         end="",
