@@ -1,6 +1,15 @@
 # shellcheck shell=bash
 # Comparisons by `build/release` that pages are written from. The scripts of this folder source it.
 
+source cmake/debian.sh
+
+# prepare PACKAGE... : installs what Gnomon takes and these packages, and builds it
+prepare()
+{
+  install_packages "$@"
+  build_gnomon
+}
+
 # compareOnce FOLDER SCENE OPTION... : `gnomon compare` into the folder, unless the same program did just that before
 compareOnce()
 {

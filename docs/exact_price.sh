@@ -4,11 +4,8 @@
 # has measured in the same way before, in out/exact_price, is not measured again.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-source cmake/debian.sh
 source docs/comparisons.sh
-
-install_packages
-build_gnomon
+prepare
 
 scenes=(bunny terrain atrium city)
 for scene in "${scenes[@]}"; do

@@ -5,11 +5,8 @@
 # out/figures, is not measured again.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-source cmake/debian.sh
 source docs/comparisons.sh
-
-install_packages
-build_gnomon
+prepare
 
 hard=nsm,pcf,esm,vsm,evsm,msm,adaptive,lispsm,tsm,pssm,planar,coherence,selective,crsm,crsma,silhouette,raytraced
 soft=pcss,montecarlo,sampled,penumbra,raytraced

@@ -4,11 +4,8 @@
 # measured again.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-source cmake/debian.sh
 source docs/comparisons.sh
-
-install_packages
-build_gnomon
+prepare
 
 out=out/montecarlo
 mkdir -p "$out"

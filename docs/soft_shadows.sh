@@ -3,11 +3,8 @@
 # what the same program has measured in the same way before, in out/soft, is not measured again.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-source cmake/debian.sh
 source docs/comparisons.sh
-
-install_packages
-build_gnomon
+prepare
 
 out=out/soft
 mkdir -p "$out"

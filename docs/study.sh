@@ -5,11 +5,8 @@
 # is another one.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-source cmake/debian.sh
 source docs/comparisons.sh
-
-install_packages
-build_gnomon
+prepare
 
 program=$(cat build/release/bin/gnomon build/release/lib/libGnomon*.so | cksum)
 if [ "$(cat out/study/program.txt 2> /dev/null)" != "$program" ]; then

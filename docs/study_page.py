@@ -40,7 +40,7 @@ the places where they are most wrong. `docs/study.sh` makes this page and
 
 Errors are means over {hard} scenes with hard shadows and {soft} with soft ones, of the pixels that
 face a light: the share that is lit in place of dark or dark in place of lit, and the root mean
-square of soft visibility. Times are multiples of plain VTK's without shadows, in the geometric mean.
+square of soft visibility. Times are geometric means of multiples of plain VTK's without shadows.
 
 ## Hard shadows
 
@@ -66,8 +66,8 @@ square of soft visibility. Times are multiples of plain VTK's without shadows, i
 
 ## On what machine
 
-Measured on: {machine}. No GPU has measured this page. Where OpenGL draws by hardware, rays go to
-the GPU (`TRACER_AUTO`).
+Measured on: {machine}.
+No GPU has measured this page. Where OpenGL draws by hardware, rays go to the GPU (`TRACER_AUTO`).
 """
 
 

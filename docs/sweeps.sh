@@ -6,11 +6,8 @@
 # With `counts` nothing is timed, for which alone a machine needs to be quiet; the page, without times, is out/sweeps/page.md.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-source cmake/debian.sh
 source docs/comparisons.sh
-
-install_packages python3-pandas
-build_gnomon
+prepare python3-pandas
 
 views=(bench-with bench-side bench-against trees-with trees-side trees-against
   flowers-with flowers-side flowers-against atrium)

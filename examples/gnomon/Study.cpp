@@ -26,8 +26,8 @@ namespace fs = std::filesystem;
 
 constexpr const char* rowsFile = "rows.json";
 
-/// A scene's camera, turned about its target: 25 degrees to one side, to the other side, 50 degrees,
-/// and so on.
+/// A scene's camera, turned about its target: 25 degrees to one side, to the other side, 50
+/// degrees, and so on.
 SceneCamera cameraOf(const SceneCamera& camera, int view)
 {
   constexpr double stepDegrees = 25.0;

@@ -38,7 +38,7 @@ struct ReceiverPixels
   /// Occluders::surfaces index; `notCovered` where the camera sees no surface of the snapshot.
   std::vector<std::uint32_t> surface;
   /// `isLifted` where the normal is that of the curved surface above the triangle that the corners'
-  /// normals imply, and the offset goes beyond it (SmoothFacet.h); `isBlocked` where something is in
+  /// normals imply, and the offset goes beyond it (SmoothFacet.h); `isBlocked` where a caster is in
   /// between; else 0.
   std::vector<std::uint8_t> lifted;
   static constexpr std::uint8_t isLifted = 1;

@@ -155,7 +155,7 @@ protected:
   /// Holds the technique to ray tracing.
   void expectTruth(const std::string& after)
   {
-    // What asks for another tracer traces all anew.
+    // A pass that changes its tracer reuses nothing.
     this->truth->SetTracer(this->truth->GetTracer() == vtkGnomonShadowPass::TRACER_AUTO
         ? vtkGnomonShadowPass::TRACER_EMBREE
         : vtkGnomonShadowPass::TRACER_AUTO);

@@ -94,7 +94,7 @@ protected:
     this->scene.lookFrom({ 0.0, -9.0, 9.0 });
   }
 
-  /// Draws by another pass, which traces all anew since it is asked for another tracer each time.
+  /// Draws by another pass, which reuses nothing, since it changes its tracer each time.
   gnomon::VisibilityImages drawAnew()
   {
     this->anew_->SetTracer(this->anew_->GetTracer() == vtkGnomonShadowPass::TRACER_AUTO
