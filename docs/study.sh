@@ -2,7 +2,7 @@
 # Measures what accuracy costs (`gnomon study`) and writes docs/guide/cost-of-accuracy.md from it,
 # with docs/results/study.csv: ten scenes, seen by their own cameras, 512 x 512 pixels, maps of 1024
 # texels, area lights by 16 and 64 samples. It goes on where it was interrupted, unless the program
-# is another one.
+# is another one. Last it replays the publications' conclusions (docs/conclusions.sh).
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source docs/comparisons.sh
@@ -19,3 +19,4 @@ build/release/bin/gnomon study -o out/study --views 1 --size 512x512 --map-sizes
 mkdir -p docs/results
 tr -d '\r' < out/study/study.csv > docs/results/study.csv
 python3 docs/study_page.py docs/results/study.csv "$(machine)" > docs/guide/cost-of-accuracy.md
+docs/conclusions.sh

@@ -18,11 +18,13 @@
 #include <vtkNew.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <ctime>
 #include <functional>
 #include <iomanip>
 #include <iostream>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -107,7 +109,9 @@ struct Images
       const glm::dvec3 normal(receivers.normalX[i], receivers.normalY[i], receivers.normalZ[i]);
       const glm::vec3 normalView = glm::dmat3(viewFromCentred) * normal;
       fragmentTexels[i] = glm::vec4(1.0f, 0.0f, normalView.x, normalView.y);
-      pointTexels[i] = glm::vec4(glm::vec3(viewFromCentred * position), normalView.z);
+      const glm::vec3 pointView(viewFromCentred * position);
+      pointTexels[i] = glm::vec4(pointView, normalView.z);
+      this->pointsView.push_back(pointView);
     }
     fill(this->fragments, camera.width, fragmentTexels);
     fill(this->points, camera.width, pointTexels);
@@ -115,7 +119,21 @@ struct Images
 
   GlTexture fragments;
   GlTexture points;
+  std::vector<glm::vec3> pointsView; ///< of the pixels that show a receiver
 };
+
+/// The corners of the box around the points, by one thread of the CPU.
+std::array<glm::vec3, 2> boundsOnCpu(const std::vector<glm::vec3>& points, const glm::mat4x3& to)
+{
+  std::array<glm::vec3, 2> corners{ glm::vec3(std::numeric_limits<float>::max()),
+    glm::vec3(std::numeric_limits<float>::lowest()) };
+  for (const glm::vec3& point : points)
+  {
+    const glm::vec3 moved = to * glm::vec4(point, 1.0f);
+    corners = { glm::min(corners[0], moved), glm::max(corners[1], moved) };
+  }
+  return corners;
+}
 
 /// Needs a context.
 void run(int side, int frames)
@@ -179,6 +197,11 @@ void run(int side, int frames)
       } });
   };
   add("fit of a sun", plain, "uniform");
+  const glm::mat4x3 across(glm::lookAt(glm::dvec3(0.0), plain.directionWorld, camera.up) *
+    glm::inverse(view.viewFromCentred));
+  std::array<glm::vec3, 2> corners{};
+  tasks.push_back(
+    { "its bounds on the CPU", [&] { corners = boundsOnCpu(images.pointsView, across); } });
   add("fit of a sun, lispsm", plain, "lispsm");
   add("fit of a sun, pssm", plain, "pssm");
   add("fit of a spot", spotLight({ 4.0, -2.0, 5.0 }, glm::dvec3(0.0), 40.0), "uniform");
@@ -207,6 +230,7 @@ void run(int side, int frames)
               << std::setw(8) << time.wall / map.wall << std::setw(16) << time.processor
               << std::setw(8) << time.processor / map.processor << "\n";
   }
+  std::cout << "the box is " << glm::length(corners[1] - corners[0]) << " across\n";
 }
 
 } // namespace
