@@ -21,7 +21,7 @@ struct Surface;
 /// to fit a 32-bit float.
 inline constexpr std::size_t mostGlyphTriangles = 1u << 24;
 
-/// Whether instances are cheaper than their triangles (docs/measurements.md has the figures). They
+/// Whether instances are cheaper than their triangles (docs/dev/decisions.md has the figures). They
 /// take little memory and hardly any time to build. But every ray takes longer, for small sources
 /// by half: so sources have to have 64 triangles, and all of their instances 2^18. Fewer are built
 /// in a tenth of a second and take 36 MB; of more, rays soon take as long either way.

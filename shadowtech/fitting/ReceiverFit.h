@@ -39,7 +39,7 @@ struct ReceiverTextures
 /// pixel has as many of them as it is far; and an edge makes the wronger pixels the larger its
 /// texels look, which is less the farther it is. Both distances cancel. The published optimum of
 /// LiSPSM, the least of the worst texel, leaves a quarter more wrong pixels in views along the
-/// ground (docs/measurements.md).
+/// ground.
 ///
 /// A view without receivers gets an F that draws and finds nothing: what could be shadowed there,
 /// is not seen.

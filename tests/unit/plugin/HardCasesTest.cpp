@@ -1,6 +1,6 @@
 // Every technique with a map on the scenes that break shadow maps: the numbers stay finite, OpenGL
 // has nothing to complain about, and the visibility differs from the ray-traced one by no more than
-// is stated here and in docs/measurements.md.
+// is stated here.
 
 #include "PassScene.h"
 
