@@ -53,15 +53,13 @@ run soft "$soft" "soft-stack soft-panels soft-plates soft-long-cube" --route ima
   --size 256x256 --frames 5 --truth-samples 1024
 
 # Curtis' dragon is the bunny here.
-montecarlo=
-for rays in 2 3; do
-  for way in layers={near,near_far}:mc_pyramid=nbuffer layers=eye:mc_search=linear layers=peeled; do
-    montecarlo+="montecarlo:mc_rays=$rays:mc_$way,"
-  done
+montecarlo=montecarlo:mc_layers=near:mc_pyramid=nbuffer,montecarlo
+for way in layers=near_far:mc_pyramid=nbuffer layers=eye:mc_search=linear; do
+  montecarlo+=",montecarlo:mc_rays=2:mc_$way,montecarlo:mc_$way"
 done
-curtis=(--map-sizes "512,1024" --size 512x384 --frames 3 --truth-samples 256)
-run montecarlo "${montecarlo%,}" bunny "${curtis[@]}" --light-radius 5
-run montecarlo "${montecarlo%,}" soft-long-cube "${curtis[@]}"
+curtis=(--map-sizes "512,1024" --size 384x288 --frames 3 --truth-samples 256)
+run montecarlo "$montecarlo" bunny "${curtis[@]}" --light-radius 5
+run montecarlo "$montecarlo" soft-long-cube "${curtis[@]}"
 
 build/release/bin/gnomon_benchmark_fitting 2048 21 > "$out/fitting.txt"
 build/release/bin/gnomon_test_lights --gtest_filter='ReducedMd5.*' > "$out/md5.txt"
