@@ -1,7 +1,7 @@
 #!/bin/bash
 # Replays the conclusions of the publications that the techniques come from, and writes
 # docs/results/conclusions.md and .csv, of which docs/conclusions_page.py makes rows and verdicts.
-# It takes some ten minutes. What the same program has measured in the same way before, in
+ What the same program has measured in the same way before, in
 # out/conclusions, is not measured again.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -57,7 +57,7 @@ montecarlo=montecarlo:mc_layers=near:mc_pyramid=nbuffer,montecarlo
 for way in layers=near_far:mc_pyramid=nbuffer layers=eye:mc_search=linear; do
   montecarlo+=",montecarlo:mc_rays=2:mc_$way,montecarlo:mc_$way"
 done
-curtis=(--map-sizes "512,1024" --size 384x288 --frames 3 --truth-samples 256)
+curtis=(--map-sizes "512,1024" --size 384x288 --frames 7 --truth-samples 256)
 run montecarlo "$montecarlo" bunny "${curtis[@]}" --light-radius 5
 run montecarlo "$montecarlo" soft-long-cube "${curtis[@]}"
 
