@@ -1,7 +1,7 @@
 #!/bin/bash
 # Replays the conclusions of the publications that the techniques come from, and writes
 # docs/results/conclusions.md and .csv, of which docs/conclusions_page.py makes rows and verdicts.
- What the same program has measured in the same way before, in
+# It takes a quarter of an hour. What the same program has measured in the same way before, in
 # out/conclusions, is not measured again.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
