@@ -21,7 +21,7 @@ install(FILES "${PROJECT_SOURCE_DIR}/LICENSE"
 
 # The pages and what they link to, in the same folders as here.
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/docs" DESTINATION "${CMAKE_INSTALL_DOCDIR}"
-  FILES_MATCHING PATTERN "*.md" PATTERN "*.png" PATTERN "*.csv")
+  FILES_MATCHING PATTERN "*.md" PATTERN "*.png" PATTERN "*.csv" PATTERN "*.svg")
 foreach(page README.md CHANGELOG.md LICENSE cmake/debian-packages.txt examples/shadows.cxx
     examples/headless_figure.cxx)
   get_filename_component(folder "${page}" DIRECTORY)

@@ -1,5 +1,7 @@
 #include "Comparison.h"
 
+#include "shadowtech/base/ShadowRay.h"
+
 #include <glm/glm.hpp>
 
 #include <cmath>
@@ -103,7 +105,7 @@ std::vector<unsigned char> facingPixels(const VisibilityImages& images, const Sc
     const bool reached =
       light.type != SceneLight::Type::Spot || glm::dot(-toLight, axis) >= cosineOfCone;
     facing[i] =
-      reached && inBox(light, axis, position - lightPosition) && glm::dot(normal, toLight) > 0.0;
+      reached && inBox(light, axis, position - lightPosition) && facesLight(normal, toLight);
   }
   return facing;
 }

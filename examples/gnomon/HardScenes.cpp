@@ -4,8 +4,12 @@
 #include "MeshBuilder.h"
 #include "Vec3.h"
 
+#include <vtkActor.h>
 #include <vtkCellArray.h>
+#include <vtkFloatArray.h>
 #include <vtkMath.h>
+#include <vtkOpenGLSphereMapper.h>
+#include <vtkPointData.h>
 #include <vtkPoints.h>
 
 #include <cmath>
@@ -295,6 +299,86 @@ Scene makeSmallOnLarge()
   return scene;
 }
 
+/// Sheets of which each casts with one side alone: one shows it to the sun, one does not.
+Scene makeOneSidedSheets()
+{
+  std::vector<SceneModel> sheets;
+  for (int i = 0; i < 4; ++i)
+  {
+    const Vec3 right = vec(1.2, 0.0, 0.0);
+    const Vec3 forward = vec(0.0, 0.0, 1.6);
+    const bool isFlipped = i % 2 == 1;
+    const Vec3 corner = vec(-3.0 + 1.5 * i, 1.0, -0.8);
+    sheets.push_back(makeSheet(corner, isFlipped ? forward : right, isFlipped ? right : forward));
+    sheets.back().oneSided = i < 2;
+  }
+  return overFloor(std::move(sheets));
+}
+
+/// Balls that are drawn as impostors: on the floor, above it and in each other.
+Scene makeImpostors()
+{
+  Scene scene = overFloor({});
+  scene.props.push_back({ "balls",
+    []() -> vtkSmartPointer<vtkProp3D>
+    {
+      vtkNew<vtkPoints> points;
+      vtkNew<vtkCellArray> vertices;
+      vtkNew<vtkFloatArray> radii;
+      radii->SetName("radius");
+      for (int i = 0; i < 6; ++i)
+      {
+        const float radius = 0.3f + 0.1f * static_cast<float>(i);
+        const vtkIdType point =
+          points->InsertNextPoint(-2.5 + 0.9 * i, i % 2 == 0 ? radius : 1.6, 0.3 * (i % 3));
+        vertices->InsertNextCell(1, &point);
+        radii->InsertNextValue(radius);
+      }
+      vtkNew<vtkPolyData> centres;
+      centres->SetPoints(points);
+      centres->SetVerts(vertices);
+      centres->GetPointData()->AddArray(radii);
+      vtkNew<vtkOpenGLSphereMapper> mapper;
+      mapper->SetInputData(centres);
+      mapper->SetScaleArray("radius");
+      mapper->ScalarVisibilityOff();
+      vtkNew<vtkActor> actor;
+      actor->SetMapper(mapper);
+      return actor.Get();
+    } });
+  return scene;
+}
+
+/// A plain from which things rise up to its end, seen along it: warps are strong here.
+Scene makePlain()
+{
+  std::vector<SceneModel> boxes;
+  for (const double z : { 94.0, 85.0, 70.0, 40.0, -10.0, -80.0 })
+  {
+    const double size = 0.1 * (104.0 - z);
+    boxes.push_back(makeBox(vec(-size, 0.0, z), vec(0.0, 2.0 * size, z + size)));
+  }
+  Scene scene = overFloor(std::move(boxes), vec(1.0, -0.8, -0.3));
+  scene.models.back() = makeFloor(100.0);
+  scene.camera = makeCamera(vec(3.0, 2.0, 98.0), origin, 45.0);
+  return scene;
+}
+
+Scene makeCameraInsideACaster()
+{
+  Scene scene = underSun(vec(1.0, -1.5, -0.4));
+  scene.models.push_back(makeBox(vec(-3.0, 5.0, 8.0), vec(3.0, 9.0, 10.0)));
+  return scene;
+}
+
+Scene makeOneTriangle()
+{
+  Scene scene = underSun(vec(1.0, -1.5, -0.4));
+  scene.models = { makeTriangles(
+    "triangle", { vec(-2.0, 0.0, 2.0), vec(2.0, 0.0, 2.0), vec(0.0, 0.0, -2.0) }) };
+  return scene;
+}
+
 /// The lamp touches the ball.
 Scene makeLampOnBall()
 {
@@ -366,6 +450,19 @@ std::vector<HardScene> makeHardScenes()
       { "apelles N11", "selective 5.2.3" } },
     { { "hard-small-on-large", "a box on a floor of forty kilometres", makeSmallOnLarge },
       { "crsm N8", "selective 5.2.2" } },
+    { { "hard-sun-along-floor", "the sun shines along the floor",
+        [] { return underSun(vec(1.0, 0.0, 0.0)); } },
+      { "survey 1" } },
+    { { "hard-camera-inside", "the camera is inside of a caster", makeCameraInsideACaster },
+      { "survey 7.12f" } },
+    { { "hard-one-triangle", "one triangle and nothing else", makeOneTriangle }, { "apelles N6" } },
+    { { "hard-plain", "a plain that the camera sees along, and what rises from it", makePlain },
+      { "apelles N1" } },
+    { { "hard-one-sided", "sheets that cast with one side alone, and with both",
+        makeOneSidedSheets },
+      { "selective 5.2.6" } },
+    { { "hard-impostors", "balls that VTK draws without triangles", makeImpostors },
+      { "apelles N13" } },
     { { "hard-wide-lamp", "stack under a lamp of three times its size",
         []
         {
@@ -412,7 +509,7 @@ const std::vector<HardCaseElsewhere>& hardCasesElsewhere()
     { "selective 5.1.1", "maps hold both faces" },
     { "selective 5.1.2", "ShadowRay.FacingIsAMatterOfMoreThanRounding" },
     { "selective 5.1.4", "DepthMap.slopeBiasIsAFactorOnWhatASlopeSpans" },
-    { "selective 5.1.5", "gnomon_benchmark_flicker" },
+    { "selective 5.1.5", "the movements among the rows" },
     { "selective 5.1.6", "Embree intersects" },
     { "selective 5.1.7", "PlaneNoise.BoundsWhatRoundingDoes" },
     { "selective 5.2.1", "all techniques of a frame have one tracer" },
@@ -424,7 +521,7 @@ const std::vector<HardCaseElsewhere>& hardCasesElsewhere()
     { "survey 6", "AdaptiveGlsl.theRingIsBlindToAHoleThatTheExactEarlyOutSees" },
     { "survey 7", "AdaptiveGlsl.theNoiseRepeatsAfterAsManyCellsAsThereAreDiscs" },
     { "survey 10", "MomentsGlsl.filterAsASquareAroundThePlaceDoes" },
-    { "survey 11", "gnomon_benchmark_flicker" },
+    { "survey 11", "the movements among the rows" },
     { "survey 15", "Planar.shadowsEndWhereTheirReceiverEnds" },
     { "survey 17", "pages state milliseconds" },
   };

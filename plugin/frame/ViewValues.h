@@ -55,7 +55,7 @@ struct VisibilityValue
   bool classified = false;
   std::vector<std::uint8_t> classes; ///< each pixel's, where `classified`
   ///@{
-  /// Of a light whose image may keep tiles.
+  /// Of a light whose image may keep tiles. The image itself, unless it is a bit of the layers.
   std::vector<float> onCpu;
   TracedTiles tiles;
   std::size_t receiversNumber = 0; ///< ReceiversValue::number of those that it was traced from

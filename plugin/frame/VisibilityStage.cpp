@@ -350,7 +350,12 @@ void VisibilityStage::fill(CastingLight& casting, VisibilityValue& value, LightR
     traced.lightSamples = samplesOf(casting, value.samples);
     Receivers& onCpu = this->receiversOnCpu();
     TracedTiles* const tiles = this->beginTiles(casting, traced, value);
-    std::vector<float>& visibility = tiles ? value.onCpu : this->onCpu_;
+    const bool hasBit = casting.bit != noBit;
+    std::vector<float>& visibility = tiles && !hasBit ? value.onCpu : this->onCpu_;
+    if (tiles && hasBit && casting.mayKeepTiles)
+    {
+      layers.readBit(casting.bit, visibility);
+    }
     const ScreenInput input{ traced, casting.own.fitting(), occluders, onCpu,
       this->tracer_.tracer(), casting.own.usesMap(),
       classes || edgeSamples == 1 ? classes : &classesForEdges, tiles,
@@ -367,8 +372,7 @@ void VisibilityStage::fill(CastingLight& casting, VisibilityValue& value, LightR
         });
       this->frame_.endStage("visibility: edges");
     }
-    casting.bit == noBit ? layers.upload(casting.layer, visibility)
-                         : layers.fillBit(casting.bit, visibility);
+    hasBit ? layers.fillBit(casting.bit, visibility) : layers.upload(casting.layer, visibility);
     if (this->frame_.route == Route::Deferred)
     {
       this->frame_.view->receivers.deferred.keepShadows(visibility);

@@ -24,6 +24,7 @@
 #include "vtkInformation.h"
 #include "vtkInformationIntegerKey.h"
 #include "vtkLODProp3D.h"
+#include "vtkMath.h"
 #include "vtkMatrix4x4.h"
 #include "vtkOpenGLMoleculeMapper.h"
 #include "vtkPointData.h"
@@ -133,6 +134,16 @@ bool isLit(vtkProp* leaf)
   }
   const bool isText = leaf->IsA("vtkTextActor3D") || leaf->IsA("vtkBillboardTextActor3D");
   return leaf->IsA("vtkProp3D") && !leaf->IsA("vtkAssembly") && !isText;
+}
+
+/// Whether VTK draws nothing of a prop because it has no bounds: a mapper of solids takes them from
+/// cells, and draws points.
+bool isCulled(vtkProp* viewProp, vtkMapper* mapper, MapperKind kind)
+{
+  vtkPolyData* data =
+    kind == MapperKind::Solids ? static_cast<vtkPolyDataMapper*>(mapper)->GetInput() : nullptr;
+  return data && data->GetNumberOfCells() == 0 &&
+    !vtkMath::AreBoundsInitialized(viewProp->GetBounds());
 }
 
 class Finder
@@ -286,6 +297,10 @@ void Finder::addLeaf(vtkProp* viewProp, std::size_t path, vtkProp* leaf, vtkMatr
   if (!this->serves(mapper, kind) || !this->updateInput(mapper, kind))
   {
     return; // VTK complains of a mapper without input itself
+  }
+  if (isCulled(viewProp, mapper, kind))
+  {
+    return;
   }
   if (kind == MapperKind::DataSet)
   {

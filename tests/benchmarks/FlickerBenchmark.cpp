@@ -1,10 +1,4 @@
-// How much shadows flicker: the share of the pixels at shadows' edges that turn from right to wrong
-// or back from one frame to the next, while the camera or the light moves by small steps. The truth
-// flickers by 0; a shadow that moves with its map's texels, by much.
-//
-// A picture that moves scans what is wrong in it at other points, and would flicker by that alone.
-// So for a moving camera the maps are fitted to where it is, and looked up from where it was at
-// first.
+// Prints how much shadows flicker (tests/hard/Flicker.h).
 
 #include "BenchmarkMain.h"
 #include "Errors.h"
@@ -12,16 +6,11 @@
 #include "Scene.h"
 #include "VtkMessages.h"
 
-#include "plugin/VisibilityImages.h"
-#include "shadowtech/Registry.h"
-
-#include <vtkCamera.h>
-#include <vtkMath.h>
+#include "tests/hard/Flicker.h"
 
 #include <CLI/CLI.hpp>
 
-#include <array>
-#include <cmath>
+#include <cstddef>
 #include <iomanip>
 #include <iostream>
 #include <string>
@@ -41,124 +30,6 @@ struct Options
   int mapSizeTexels = 1024;
   int frames = 20;
 };
-
-/// What moves, and by how much per step.
-enum class Movement
-{
-  CameraAside, ///< by a tenth of a texel of a map of the whole scene
-  CameraTurned,
-  LightTurned
-};
-constexpr std::array<Movement, 3> allMovements = { Movement::CameraAside, Movement::CameraTurned,
-  Movement::LightTurned };
-
-void moveAside(FrameVariant& variant, double texels)
-{
-  double bounds[6];
-  variant.renderer()->ComputeVisiblePropBounds(bounds);
-  const double diagonal =
-    std::hypot(bounds[1] - bounds[0], bounds[3] - bounds[2], bounds[5] - bounds[4]);
-  const double distance = texels * diagonal / variant.spec().mapSizeTexels;
-  vtkCamera* const camera = variant.renderer()->GetActiveCamera();
-  std::array<double, 3> position;
-  std::array<double, 3> target;
-  std::array<double, 3> aside;
-  camera->GetPosition(position.data());
-  camera->GetFocalPoint(target.data());
-  vtkMath::Cross(camera->GetDirectionOfProjection(), camera->GetViewUp(), aside.data());
-  vtkMath::Normalize(aside.data());
-  for (std::size_t k = 0; k < 3; ++k)
-  {
-    position[k] += distance * aside[k];
-    target[k] += distance * aside[k];
-  }
-  camera->SetPosition(position.data());
-  camera->SetFocalPoint(target.data());
-}
-
-const std::vector<float>& draw(FrameVariant& variant, Motion motion, int step)
-{
-  variant.pass()->KeepVisibilityOn();
-  variant.drawFrame(motion, step);
-  const VisibilityImages& kept = variant.pass()->GetVisibility();
-  if (kept.visibility.empty())
-  {
-    throw Failure(variant.spec().name() + ": no light casts a shadow");
-  }
-  return kept.visibility.front();
-}
-
-/// The first light's visibility, by maps that are fitted to where the camera is at this step, seen
-/// from where it was at first.
-const std::vector<float>& drawFitted(FrameVariant& variant, Movement movement, int step)
-{
-  variant.renderer()->SetPass(makePass(variant.spec())); // which is fitted once, here
-  if (movement == Movement::CameraTurned)
-  {
-    draw(variant, Motion::Camera, step);
-  }
-  else
-  {
-    moveAside(variant, 0.1 * step);
-    draw(variant, Motion::Static, 0);
-    moveAside(variant, -0.1 * step);
-  }
-  return draw(variant, Motion::Static, 0);
-}
-
-/// The first light's visibility in every frame of a movement.
-std::vector<std::vector<float>> drawAll(
-  VariantSpec spec, const Scene& scene, const Options& options, Movement movement)
-{
-  const bool fits =
-    spec.settings.count("fit") || findTechnique(spec.technique)->projection != Projection::Uniform;
-  if (fits && movement != Movement::LightTurned)
-  {
-    spec.settings["fit"] = "once";
-  }
-  FrameVariant variant(spec, scene, options.sidePixels, options.sidePixels);
-  std::vector<std::vector<float>> frames;
-  for (int step = 0; step <= options.frames; ++step)
-  {
-    frames.push_back(movement == Movement::LightTurned ? draw(variant, Motion::Light, step)
-        : fits                                         ? drawFitted(variant, movement, step)
-                                                       : draw(variant, Motion::Static, 0));
-  }
-  return frames;
-}
-
-/// Pixels whose neighbour to the right or below is lit otherwise.
-std::size_t countEdges(const std::vector<float>& truth, int side)
-{
-  std::size_t edges = 0;
-  for (int y = 0; y + 1 < side; ++y)
-  {
-    for (int x = 0; x + 1 < side; ++x)
-    {
-      const auto i = static_cast<std::size_t>(y * side + x);
-      edges += truth[i] != truth[i + 1] || truth[i] != truth[i + static_cast<std::size_t>(side)];
-    }
-  }
-  return edges;
-}
-
-double flicker(const std::vector<std::vector<float>>& frames,
-  const std::vector<std::vector<float>>& truth, int side)
-{
-  const auto isWrong = [&](std::size_t frame, std::size_t pixel)
-  { return std::abs(frames[frame][pixel] - truth[frame][pixel]) > 0.5f; };
-  std::size_t turned = 0;
-  std::size_t edges = 0;
-  for (std::size_t frame = 1; frame < frames.size(); ++frame)
-  {
-    edges += countEdges(truth[frame], side);
-    for (std::size_t pixel = 0; pixel < truth[frame].size(); ++pixel)
-    {
-      turned += isWrong(frame, pixel) != isWrong(frame - 1, pixel);
-    }
-  }
-  return edges == 0 ? 0.0 : static_cast<double>(turned) / static_cast<double>(edges);
-}
 
 int run(int argc, char** argv)
 {
@@ -185,10 +56,15 @@ int run(int argc, char** argv)
 
   const VtkMessages messages;
   const Scene scene = withoutShadowSettings(loadScene(options.scene));
-  std::vector<std::vector<std::vector<float>>> truths;
-  for (const Movement movement : allMovements)
+  const auto draw = [&](const VariantSpec& spec, hard::Movement movement)
   {
-    truths.push_back(drawAll(parseTechnique("raytraced"), scene, options, movement));
+    return hard::drawMovement(
+      spec, scene, options.sidePixels, options.sidePixels, movement, options.frames);
+  };
+  std::vector<hard::Frames> truths;
+  for (const hard::Movement movement : hard::allMovements)
+  {
+    truths.push_back(draw(parseTechnique("raytraced"), movement));
   }
   std::cout
     << "| | camera moved by 0.1 texel | camera turned by 0.05 degrees | light turned by 0.05 "
@@ -199,10 +75,10 @@ int run(int argc, char** argv)
     VariantSpec spec = parseTechnique(text);
     spec.mapSizeTexels = options.mapSizeTexels;
     std::cout << "| `" << text << "` |";
-    for (std::size_t k = 0; k < allMovements.size(); ++k)
+    for (std::size_t k = 0; k < hard::allMovements.size(); ++k)
     {
-      const auto frames = drawAll(spec, scene, options, allMovements[k]);
-      std::cout << " " << 100.0 * flicker(frames, truths[k], options.sidePixels) << " |"
+      const hard::Frames frames = draw(spec, hard::allMovements[k]);
+      std::cout << " " << 100.0 * hard::flicker(frames, truths[k], options.sidePixels) << " |"
                 << std::flush;
     }
     std::cout << "\n";

@@ -128,7 +128,7 @@ ShadowRay shadowRay(const Light& light, const Point& point)
       return result;
     }
   }
-  if (point.normal.dot(result.ray.direction) > 0.0)
+  if (point.normal.dot(result.ray.direction) > tolerance::facingCosine)
   {
     result.lighting = Lighting::Open;
   }

@@ -17,6 +17,9 @@ constexpr double coverageShare = 5e-4;       ///< of all pixels; also for `other
 constexpr double positionError = 1e-4;       ///< of the distance from the camera
 constexpr double normalShare = 5e-4;         ///< of the pixels covered in both
 constexpr double visibilityShare = 1e-4;     ///< of the pixels that face the light
+/// The cosine up to which a surface counts as turned away from the light: rounding to float says
+/// which side of it the light is on.
+constexpr double facingCosine = 1.0 / 1048576.0; // 2^-20
 constexpr double visibilityDifference = 0.5; ///< more than this makes a pixel wrong
 } // namespace tolerance
 

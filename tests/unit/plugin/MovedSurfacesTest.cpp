@@ -27,6 +27,7 @@ struct LitBy
   const char* name;
   const char* technique;
   std::function<void(vtkGnomonAreaLight*)> place;
+  int others = 0; ///< lamps beside it
 };
 
 std::string nameOfLight(const testing::TestParamInfo<LitBy>& info)
@@ -82,6 +83,10 @@ protected:
     this->scene.renderer->AddLight(this->light_);
     this->light_->SetFocalPoint(0.0, 0.0, 0.0);
     GetParam().place(this->light_);
+    for (int i = 0; i < GetParam().others; ++i)
+    {
+      this->scene.addSpot({ 2.0 * i - 3.0, 3.0, 4.0 }, { 0.0, 0.0, 0.0 }, allDirections);
+    }
     for (vtkGnomonShadowPass* pass : { this->scene.pass.Get(), this->anew_.Get() })
     {
       pass->SetTechnique(GetParam().technique);
@@ -127,7 +132,7 @@ const LitBy wideSun{ "wideSun", "raytraced",
 INSTANTIATE_TEST_SUITE_P(Lights, RecolouredSurfaces, testing::Values(sun, wideSun), nameOfLight);
 INSTANTIATE_TEST_SUITE_P(Lights, MovedSurfaces,
   testing::Values(sun, wideSun, LitBy{ "lamp", "raytraced", placeLamp },
-    LitBy{ "spot", "silhouette", placeSpot },
+    LitBy{ "spot", "silhouette", placeSpot }, LitBy{ "lamps", "raytraced", placeLamp, 2 },
     LitBy{ "wideLamp", "penumbra",
       [](vtkGnomonAreaLight* light)
       {

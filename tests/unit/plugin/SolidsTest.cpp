@@ -1052,3 +1052,26 @@ TEST_F(SolidsTest, splatsWithoutDiscsAreListed)
   scene.splats->SetScaleFactor(0.0);
   expectListed("points");
 }
+
+//------------------------------------------------------------------------------
+TEST_F(SolidsTest, withoutCellsCastNothing)
+{
+  // VTK takes bounds from cells and draws nothing without.
+  SolidsScene scene;
+  scene.addSun({ 0.3, 0.2, -1.0 });
+  const std::vector<float> shown = drawKept(scene).visibility[0];
+  const auto pointsOf = [](vtkPolyData* data)
+  {
+    vtkNew<vtkPolyData> points;
+    points->SetPoints(data->GetPoints());
+    points->GetPointData()->ShallowCopy(data->GetPointData());
+    return points;
+  };
+  scene.ballMapper->SetInputData(pointsOf(scene.ballData));
+  scene.stickMapper->SetInputData(pointsOf(scene.stickData));
+  const std::vector<float> withoutCells = drawKept(scene).visibility[0];
+  scene.ballActor->VisibilityOff();
+  scene.stickActor->VisibilityOff();
+  EXPECT_EQ(drawKept(scene).visibility[0], withoutCells);
+  EXPECT_NE(shown, withoutCells);
+}

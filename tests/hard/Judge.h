@@ -1,0 +1,72 @@
+#pragma once
+
+#include "Scene.h"
+
+#include "plugin/VisibilityImages.h"
+#include "tests/check/Scene.h"
+#include "tests/check/Tracer.h"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace gnomon::hard
+{
+
+/// One pixel of a picture's visibility.
+struct Receiver
+{
+  check::Vec3 positionWorld;
+  check::Vec3 normal; ///< geometric, unit, on the camera's side
+};
+Receiver receiverAt(const VisibilityImages& images, std::size_t pixel);
+
+/// Says by rays of its own, which share no code with Gnomon, where the shadows of a scene have
+/// edges.
+class Judge
+{
+public:
+  explicit Judge(const tool::Scene& scene);
+
+  const check::Scene& scene() const { return this->scene_; }
+
+  /// The side of a texel at a receiver across the light's rays, in world units, in a map of the
+  /// whole scene.
+  double texelAt(const Receiver& receiver, std::size_t light, int mapSizeTexels) const;
+
+  /// The side of a pixel at a receiver across the camera's rays, in world units.
+  double pixelAt(const Receiver& receiver, int height) const;
+
+  /// How far off a receiver rays start that need not start where the truth's do: more than storing
+  /// positions in float costs.
+  double storedOffset() const { return 1e-6 * this->size_; }
+
+  /// Whether nothing is between the light and the point that is so far off the receiver.
+  bool isLit(const Receiver& receiver, std::size_t light, double offset) const;
+
+  /// Whether there are lit and dark points in the receiver's plane within a distance from it, across
+  /// the light's rays.
+  bool isNearEdge(const Receiver& receiver, std::size_t light, double distance) const;
+
+  /// The offset of the truth's rays (shadowtech/base/ShadowRay.h), for a receiver anywhere in its
+  /// pixel.
+  /// @param origin of the coordinates in which rays are traced
+  double offsetOf(const Receiver& receiver, const check::Vec3& origin, int height) const;
+
+  /// Whether a receiver lies on the scene's floor.
+  bool isOnFloor(const Receiver& receiver) const;
+
+private:
+  check::Vec3 towards(const Receiver& receiver, std::size_t light) const;
+
+  check::Scene scene_;
+  std::vector<std::string> names_; ///< of the surfaces
+  double size_ = 0.0;              ///< the diagonal of all surfaces' box
+  std::vector<double> widths_;     ///< of all surfaces across each light's direction
+  check::Tracer tracer_;
+};
+
+/// The scene as the check's own reader would read it.
+check::Scene checkSceneOf(const tool::Scene& scene);
+
+} // namespace gnomon::hard

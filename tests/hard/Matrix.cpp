@@ -1,0 +1,537 @@
+#include "Matrix.h"
+
+#include "Flicker.h"
+#include "Judge.h"
+
+#include "BuiltinScenes.h"
+#include "Comparison.h"
+#include "FrameVariant.h"
+#include "HardScenes.h"
+#include "VtkMessages.h"
+
+#include "lights/LightManager.h"
+#include "plugin/VisibilityImages.h"
+#include "shadowtech/Registry.h"
+#include "shadowtech/base/Gl.h"
+#include "tests/check/Check.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+
+namespace gnomon::hard
+{
+namespace
+{
+
+using tool::FrameVariant;
+using tool::Motion;
+using tool::VariantSpec;
+
+constexpr std::array<const char*, 4> easyScenes = { "soft-stack", "soft-panels", "soft-plates",
+  "soft-long-cube" };
+
+/// Where shadows move (Flicker.h).
+constexpr const char* flickerScene = "terrain";
+constexpr int flickerSteps = 5;
+
+/// A share of a lamp's distance from what it points at that makes it soft, and degrees of a sun.
+constexpr double softLampShare = 0.05;
+constexpr double softSunDegrees = 5.0;
+
+/// A technique on a map or without, ready to be drawn at once.
+VariantSpec specOf(const std::string& technique)
+{
+  VariantSpec spec = tool::parseTechnique(technique);
+  const TechniqueInfo& info = estimatorOf(tool::settingsOf(spec)).info;
+  spec.mapSizeTexels = info.bakesMap() ? bounds::mapSizeTexels : 0;
+  spec.route = vtkGnomonShadowPass::ROUTE_IMAGE;
+  if (has(info, "bake"))
+  {
+    spec.settings["bake"] = "always"; // so that it is the map that is judged
+  }
+  return spec;
+}
+
+/// Why lights of the scene refuse a variant's settings; empty where they do not.
+std::string refusal(const VariantSpec& spec, vtkRenderer* renderer)
+{
+  try
+  {
+    for (ShadowLight light : LightManager().collect(renderer, tool::settingsOf(spec)).lights)
+    {
+      compose(light);
+    }
+    return {};
+  }
+  catch (const CompositionError& error)
+  {
+    return error.what();
+  }
+}
+
+/// The first thing that is wrong with a picture's numbers; empty where nothing is.
+std::string strangeNumber(const VisibilityImages& images)
+{
+  for (const std::vector<float>& image : images.visibility)
+  {
+    for (const float value : image)
+    {
+      if (!(value >= 0.0f && value <= 1.0f))
+      {
+        return "a visibility of " + std::to_string(value);
+      }
+    }
+  }
+  return images.visibility.empty() ? "no visibility" : "";
+}
+
+std::string openGlError()
+{
+  const GLenum error = glGetError();
+  return error == GL_NO_ERROR ? "" : "OpenGL error " + std::to_string(error);
+}
+
+/// What is asked of all techniques whatever they draw.
+void keepSound(Cell& cell, const VisibilityImages& images, const tool::VtkMessages& messages)
+{
+  std::string message = strangeNumber(images);
+  if (message.empty())
+  {
+    message = openGlError();
+  }
+  if (message.empty() && !messages.errors().empty())
+  {
+    message = messages.errors().front();
+  }
+  if (!message.empty())
+  {
+    cell.outcome = Outcome::Broken;
+    cell.message = message;
+  }
+}
+
+VisibilityImages drawn(FrameVariant& variant)
+{
+  variant.pass()->KeepVisibilityOn();
+  do
+  {
+    variant.drawFrame(Motion::Static, 0);
+  } while (variant.pass()->GetProgress() < 1.0);
+  return variant.pass()->GetVisibility();
+}
+
+/// The scene with lights that are points or shine from one direction.
+tool::Scene hardened(tool::Scene scene)
+{
+  for (tool::SceneLight& light : scene.lights)
+  {
+    light.area.reset();
+  }
+  return scene;
+}
+
+/// The scene with lights that have an area.
+tool::Scene softened(tool::Scene scene)
+{
+  for (tool::SceneLight& light : scene.lights)
+  {
+    if (light.area)
+    {
+      continue;
+    }
+    tool::Vec3 way;
+    std::transform(light.target.begin(), light.target.end(), light.position.begin(), way.begin(),
+      std::minus<>());
+    const bool isSun = light.type == tool::SceneLight::Type::Directional;
+    const double radius =
+      isSun ? softSunDegrees : softLampShare * std::hypot(way[0], way[1], way[2]);
+    light.settings["light_radius"] = std::to_string(radius);
+  }
+  return scene;
+}
+
+/// The pixels of a light that are counted and wrong.
+std::vector<std::size_t> wrongPixels(const VisibilityImages& images, const VisibilityImages& truth,
+  std::size_t image, const tool::Scene& scene)
+{
+  const auto light = static_cast<std::size_t>(truth.sceneIndices[image]);
+  const std::vector<unsigned char> facing = tool::facingPixels(truth, scene.lights[light]);
+  std::vector<std::size_t> wrong;
+  for (std::size_t i = 0; i < facing.size(); ++i)
+  {
+    if (facing[i] && !(std::abs(images.visibility[image][i] - truth.visibility[image][i]) <= 0.5f))
+    {
+      wrong.push_back(i);
+    }
+  }
+  return wrong;
+}
+
+void judgeExact(Cell& cell, const VisibilityImages& images, const VisibilityImages& truth)
+{
+  for (std::size_t image = 0; image < truth.visibility.size(); ++image)
+  {
+    for (std::size_t i = 0; i < truth.coverage.size(); ++i)
+    {
+      cell.beyond += images.visibility[image][i] != truth.visibility[image][i] ? 1 : 0;
+    }
+  }
+}
+
+void judgeMap(Cell& cell, const VisibilityImages& images, const VisibilityImages& truth,
+  const tool::Scene& scene, const Judge& judge, bool onFloorAlone)
+{
+  for (std::size_t image = 0; image < truth.visibility.size(); ++image)
+  {
+    const auto light = static_cast<std::size_t>(truth.sceneIndices[image]);
+    for (const std::size_t pixel : wrongPixels(images, truth, image, scene))
+    {
+      const Receiver receiver = receiverAt(truth, pixel);
+      const double distance =
+        bounds::edgeTexels * judge.texelAt(receiver, light, bounds::mapSizeTexels);
+      const bool counts = !onFloorAlone || judge.isOnFloor(receiver);
+      cell.beyond += counts && !judge.isNearEdge(receiver, light, distance) ? 1 : 0;
+    }
+  }
+}
+
+/// Against the independent check, which knows triangles alone.
+void judgeTruth(Cell& cell, const VisibilityImages& truth, const Judge& judge)
+{
+  check::VisibilityFile file;
+  file.width = truth.width;
+  file.height = truth.height;
+  file.origin = { truth.origin[0], truth.origin[1], truth.origin[2] };
+  file.channels = { { "coverage", truth.coverage }, { "position.X", truth.positionX },
+    { "position.Y", truth.positionY }, { "position.Z", truth.positionZ },
+    { "normal.X", truth.normalX }, { "normal.Y", truth.normalY }, { "normal.Z", truth.normalZ } };
+  for (std::size_t i = 0; i < truth.visibility.size(); ++i)
+  {
+    file.channels["visibility." + std::to_string(truth.sceneIndices[i])] = truth.visibility[i];
+  }
+  const check::Result result = check::compare(judge.scene(), file);
+  for (const check::LightResult& light : result.lights)
+  {
+    cell.wrong += static_cast<std::int64_t>(
+      light.falseLight.size() + light.falseShadow.size() + light.unlit.size());
+  }
+  const std::vector<std::string> failures = result.failures();
+  if (!failures.empty())
+  {
+    cell.outcome = Outcome::Broken;
+    cell.message = failures.front();
+  }
+}
+
+/// Pixels that face a light and for which the truth turns into something else; these are beyond the
+/// bound where no edge is near.
+/// @param turns asked for each receiver and light
+template <typename Turns>
+void judgeTurning(Cell& cell, const VisibilityImages& truth, const tool::Scene& scene,
+  const Judge& judge, const Turns& turns)
+{
+  for (std::size_t image = 0; image < truth.visibility.size(); ++image)
+  {
+    const auto light = static_cast<std::size_t>(truth.sceneIndices[image]);
+    const std::vector<unsigned char> facing = tool::facingPixels(truth, scene.lights[light]);
+    for (std::size_t pixel = 0; pixel < facing.size(); ++pixel)
+    {
+      const Receiver receiver = receiverAt(truth, pixel);
+      if (facing[pixel] && turns(receiver, light, truth.visibility[image][pixel] > 0.5f))
+      {
+        ++cell.wrong;
+        const double distance = bounds::truthEdgePixels * judge.pixelAt(receiver, truth.height);
+        cell.beyond += judge.isNearEdge(receiver, light, distance) ? 0 : 1;
+      }
+    }
+  }
+}
+
+/// Against rays that meet balls of fine triangles.
+void judgeTruthOfBalls(
+  Cell& cell, const VisibilityImages& truth, const tool::Scene& scene, const Judge& judge)
+{
+  judgeTurning(cell, truth, scene, judge,
+    [&](const Receiver& receiver, std::size_t light, bool isLit)
+    { return judge.isLit(receiver, light, judge.storedOffset()) != isLit; });
+}
+
+void judgeOffset(
+  Cell& cell, const VisibilityImages& truth, const tool::Scene& scene, const Judge& judge)
+{
+  const check::Vec3 origin(truth.origin[0], truth.origin[1], truth.origin[2]);
+  judgeTurning(cell, truth, scene, judge,
+    [&](const Receiver& receiver, std::size_t light, bool)
+    {
+      const double offset = judge.offsetOf(receiver, origin, truth.height);
+      const bool isLit = judge.isLit(receiver, light, offset);
+      return judge.isLit(receiver, light, 0.5 * offset) != isLit ||
+        judge.isLit(receiver, light, 2.0 * offset) != isLit;
+    });
+}
+
+void judgeSoft(Cell& cell, const Column& column, double error)
+{
+  cell.error = error;
+  cell.bound = bounds::softFactor * bounds::easyErrors().at(column.name);
+  if (cell.error > cell.bound)
+  {
+    cell.outcome = Outcome::Broken;
+  }
+}
+
+/// A scene's cells.
+class SceneRow
+{
+public:
+  SceneRow(const Row& row, const tool::Scene& scene)
+    : row_(row)
+    , hard_(hardened(tool::withoutShadowSettings(scene)))
+    , soft_(softened(tool::withoutShadowSettings(scene)))
+    , judge_(this->hard_)
+  {
+  }
+
+  /// @param column one of columns()
+  Cell draw(const Column& column)
+  {
+    const bool isSoft = this->isSoft(column);
+    const tool::Scene& scene = isSoft ? this->soft_ : this->hard_;
+    const int width = isSoft ? bounds::softWidth : bounds::width;
+    const int height = isSoft ? bounds::softHeight : bounds::height;
+    Cell cell{ &this->row_, &column };
+    const tool::VtkMessages messages;
+    const VariantSpec spec = specOf(column.technique);
+    FrameVariant variant(spec, scene, width, height);
+    cell.message = refusal(spec, variant.renderer());
+    if (!cell.message.empty())
+    {
+      cell.outcome = Outcome::Refused;
+      return cell;
+    }
+    cell.outcome = Outcome::Kept;
+    const VisibilityImages images = drawn(variant);
+    this->judge(cell, column, images, scene);
+    keepSound(cell, images, messages);
+    return cell;
+  }
+
+private:
+  static bool isSoft(const Column& column)
+  {
+    return column.kind == Kind::Soft || column.technique == "penumbra";
+  }
+
+  /// What a column's visibility is compared with.
+  const VisibilityImages& truthOf(const Column& column)
+  {
+    if (column.kind == Kind::Soft)
+    {
+      return truth(this->manySamples_,
+        "raytraced:light_seed=1:light_samples=" + std::to_string(bounds::truthSamples), this->soft_,
+        bounds::softWidth, bounds::softHeight);
+    }
+    if (this->isSoft(column))
+    {
+      return truth(
+        this->sameSamples_, "raytraced", this->soft_, bounds::softWidth, bounds::softHeight);
+    }
+    return truth(this->oneRay_, "raytraced", this->hard_, bounds::width, bounds::height);
+  }
+  static const VisibilityImages& truth(std::optional<VisibilityImages>& kept,
+    const std::string& technique, const tool::Scene& scene, int width, int height)
+  {
+    if (!kept)
+    {
+      FrameVariant variant(specOf(technique), scene, width, height);
+      kept = drawn(variant);
+    }
+    return *kept;
+  }
+
+  void judge(
+    Cell& cell, const Column& column, const VisibilityImages& images, const tool::Scene& scene)
+  {
+    const VisibilityImages& truth = this->truthOf(column);
+    const tool::VisibilityError error = tool::measureError(images, truth, scene.lights);
+    cell.counted = error.facingPixels;
+    cell.wrong = error.wrongPixels();
+    switch (column.kind)
+    {
+      case Kind::Truth:
+        scene.props.empty() ? judgeTruth(cell, images, this->judge_)
+                            : judgeTruthOfBalls(cell, images, scene, this->judge_);
+        break;
+      case Kind::Offset:
+        judgeOffset(cell, truth, scene, this->judge_);
+        break;
+      case Kind::Exact:
+        judgeExact(cell, images, truth);
+        break;
+      case Kind::Map:
+        judgeMap(cell, images, truth, scene, this->judge_, false);
+        break;
+      case Kind::Plane:
+        judgeMap(cell, images, truth, scene, this->judge_, true);
+        break;
+      case Kind::Soft:
+        judgeSoft(cell, column, error.meanAbsolute);
+        break;
+    }
+    if (cell.beyond > 0)
+    {
+      cell.outcome = Outcome::Broken;
+    }
+  }
+
+  const Row& row_;
+  tool::Scene hard_;
+  tool::Scene soft_;
+  Judge judge_;
+  std::optional<VisibilityImages> oneRay_;
+  std::optional<VisibilityImages> manySamples_;
+  std::optional<VisibilityImages> sameSamples_; ///< as many as techniques have
+};
+
+/// The cells of a movement.
+class MovementRow
+{
+public:
+  explicit MovementRow(const Row& row)
+    : row_(row)
+    , scene_(hardened(tool::withoutShadowSettings(tool::loadScene(flickerScene))))
+  {
+  }
+
+  /// @param column one of columns()
+  Cell draw(const Column& column)
+  {
+    Cell cell{ &this->row_, &column };
+    const bool isHard = column.kind == Kind::Map || column.kind == Kind::Exact;
+    if (!isHard || column.technique == "penumbra")
+    {
+      return cell;
+    }
+    cell.outcome = Outcome::Kept;
+    cell.error = this->flickerOf(column.technique, *this->row_.movement, this->truth_);
+    cell.bound = column.kind == Kind::Exact ? 0.0 : bounds::flickerFactor * this->plain();
+    if (cell.error > cell.bound)
+    {
+      cell.outcome = Outcome::Broken;
+    }
+    return cell;
+  }
+
+private:
+  /// How much `nsm` flickers when the light turns.
+  double plain()
+  {
+    if (!this->plain_)
+    {
+      std::optional<Frames> truth;
+      this->plain_ = this->flickerOf("nsm", Movement::LightTurned, truth);
+    }
+    return *this->plain_;
+  }
+
+  double flickerOf(
+    const std::string& technique, Movement movement, std::optional<Frames>& truth) const
+  {
+    const auto frames = [&](const std::string& of)
+    {
+      return drawMovement(
+        specOf(of), this->scene_, bounds::width, bounds::height, movement, flickerSteps);
+    };
+    if (!truth)
+    {
+      truth = frames("raytraced");
+    }
+    return flicker(frames(technique), *truth, bounds::width);
+  }
+
+  const Row& row_;
+  tool::Scene scene_;
+  std::optional<Frames> truth_;
+  std::optional<double> plain_;
+};
+
+template <typename RowOfCells>
+std::vector<Cell> drawAll(RowOfCells&& row, const std::vector<const Column*>& columns)
+{
+  std::vector<Cell> cells;
+  for (const Column* column : columns)
+  {
+    cells.push_back(row.draw(*column));
+  }
+  return cells;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+const std::vector<Column>& columns()
+{
+  static const std::vector<Column> all = []
+  {
+    std::vector<Column> of = { { "raytraced", "raytraced", Kind::Truth },
+      { "ray offset", "raytraced", Kind::Offset } };
+    for (const TechniqueEntry& entry : registry())
+    {
+      const bool isSoft =
+        entry.name == "pcss" || entry.name == "sampled" || entry.name == "montecarlo";
+      if (entry.name != "raytraced")
+      {
+        of.push_back({ entry.name, entry.name,
+          isSoft                          ? Kind::Soft
+            : entry.estimator->info.exact ? Kind::Exact
+            : entry.name == "planar"      ? Kind::Plane
+                                          : Kind::Map });
+      }
+    }
+    return of;
+  }();
+  return all;
+}
+
+//------------------------------------------------------------------------------
+const std::vector<Row>& rows()
+{
+  static const std::vector<Row> all = []
+  {
+    std::vector<Row> of;
+    for (const tool::HardScene& scene : tool::hardScenes())
+    {
+      of.push_back({ scene.scene.name, scene.cases, std::nullopt });
+    }
+    of.push_back({ "camera-moves-aside", { "survey 11" }, Movement::CameraAside });
+    of.push_back({ "camera-turns", { "selective 5.1.5" }, Movement::CameraTurned });
+    of.push_back({ "light-turns", { "selective 5.1.5" }, Movement::LightTurned });
+    return of;
+  }();
+  return all;
+}
+
+//------------------------------------------------------------------------------
+std::vector<Cell> drawRow(const Row& row, const std::vector<const Column*>& columns)
+{
+  return columns.empty() ? std::vector<Cell>()
+    : row.movement       ? drawAll(MovementRow(row), columns)
+                         : drawAll(SceneRow(row, tool::loadScene(row.name)), columns);
+}
+
+//------------------------------------------------------------------------------
+double easyError(const Column& column)
+{
+  double sum = 0.0;
+  for (const char* name : easyScenes)
+  {
+    const Row row{ name, {}, std::nullopt };
+    sum += SceneRow(row, tool::loadScene(name)).draw(column).error;
+  }
+  return sum / static_cast<double>(easyScenes.size());
+}
+
+} // namespace gnomon::hard

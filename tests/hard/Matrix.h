@@ -1,0 +1,63 @@
+#pragma once
+
+#include "Bounds.h"
+#include "Flicker.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gnomon::hard
+{
+
+/// A column of the matrix: a technique, and how it is judged.
+struct Column
+{
+  std::string name;      ///< for people
+  std::string technique; ///< with settings, as of `gnomon compare`
+  Kind kind;
+};
+const std::vector<Column>& columns();
+
+/// A row: a scene, or a movement.
+struct Row
+{
+  std::string name;
+  std::vector<std::string> cases; ///< the hard cases that it stands for
+  std::optional<Movement> movement;
+};
+const std::vector<Row>& rows();
+
+enum class Outcome
+{
+  Kept,
+  Broken,
+  Refused, ///< the technique has no such projection, which it says
+  None     ///< the row says nothing of this column
+};
+
+/// What was found in one cell.
+struct Cell
+{
+  const Row* row = nullptr;       ///< one of rows()
+  const Column* column = nullptr; ///< one of columns()
+  Outcome outcome = Outcome::None;
+  std::int64_t counted = 0; ///< pixels that face a light
+  std::int64_t wrong = 0;   ///< of these
+  std::int64_t beyond = 0;  ///< wrong ones where no wrong one may be
+  double error = 0.0;       ///< mean absolute error of soft shadows; share of edges that flicker
+  double bound = 0.0;       ///< of the error
+  std::string message = {}; ///< why it is broken or refused
+};
+
+/// One row's cells of some columns.
+/// @param row,columns of rows() and columns()
+/// @throws tool::Failure where nothing can be drawn
+std::vector<Cell> drawRow(const Row& row, const std::vector<const Column*>& columns);
+
+/// The mean absolute error of a soft technique on the easy scenes, by which Bounds.h bounds that on
+/// hard ones.
+double easyError(const Column& column);
+
+} // namespace gnomon::hard
