@@ -327,6 +327,31 @@ test::Picture FuzzScene::render()
 }
 
 //------------------------------------------------------------------------------
+/// Whether a light is more than a point.
+bool FuzzScene::isWide(std::size_t light) const
+{
+  for (const NamedSettings* settings : { &this->settingsOfLights_[light], &this->settings_ })
+  {
+    const auto radius = std::find_if(settings->rbegin(), settings->rend(),
+      [](const auto& setting) { return setting.first == "light_radius"; });
+    if (radius != settings->rend())
+    {
+      if (std::stod(radius->second) > 0.0)
+      {
+        return true;
+      }
+      break; // The light's own area counts.
+    }
+  }
+  auto* const area = vtkGnomonAreaLight::SafeDownCast(this->lights_[light]);
+  const bool isDisk = area && area->GetShape() == vtkGnomonAreaLight::DISK;
+  const double size = !area ? 0.0
+    : isDisk                ? area->GetRadius()
+                            : area->GetWidth() + area->GetHeight();
+  return size > 0.0;
+}
+
+//------------------------------------------------------------------------------
 void FuzzScene::traceInstead(const std::set<int>& hard)
 {
   const TechniqueInfo& rays = findTechnique("raytraced")->estimator->info;
@@ -339,9 +364,10 @@ void FuzzScene::traceInstead(const std::set<int>& hard)
     {
       vtkGnomonLightKeys::SetSetting(light, name.c_str(), isKept(name) ? value.c_str() : nullptr);
     }
-    if (hard.count(static_cast<int>(i)) > 0)
+    if (hard.count(static_cast<int>(i)) > 0 && this->isWide(i))
     {
       vtkGnomonLightKeys::SetSetting(light, "light_radius", "0");
+      vtkGnomonLightKeys::SetSetting(light, "edge_samples", "1"); // Area lights have no edges.
       if (auto* const area = vtkGnomonAreaLight::SafeDownCast(light))
       {
         area->SetShapeToDisk();

@@ -103,6 +103,7 @@ private:
   void setPropKey(Random& random);
   void sendFarProp(Random& random);
 
+  bool isWide(std::size_t light) const;
   std::string allowed(const std::string& value) const;
   vtkProp3D* someProp(Random& random) const;
   vtkActor* someActor(Random& random) const; ///< null if the prop is none

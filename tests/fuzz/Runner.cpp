@@ -23,6 +23,9 @@ namespace
 /// What a child may allocate: no good case takes as much.
 constexpr rlim_t mostBytes = rlim_t(8) << 30;
 
+/// Cases of a child: OpenGL in software keeps some memory of each context.
+constexpr unsigned mostCases = 100;
+
 double secondsNow()
 {
   using namespace std::chrono;
@@ -154,7 +157,7 @@ unsigned run(const CaseKind& kind, const Run& run)
       child = std::make_unique<Child>(kind, place);
     }
     std::string wrong;
-    if (!child->finish(run.secondsPerCase, wrong))
+    if (!child->finish(run.secondsPerCase, wrong) || done % mostCases == mostCases - 1)
     {
       child.reset();
     }
