@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <sstream>
 
@@ -59,6 +60,19 @@ std::string drawValue(const Setting& setting, Random& random)
   return pick(std::get<ChoiceSetting>(setting.values).names, random);
 }
 
+/// Any technique, and more often those that can be held to rays.
+const TechniqueEntry& drawTechnique(Random& random)
+{
+  static const std::vector<TechniqueEntry> exact = []
+  {
+    std::vector<TechniqueEntry> found;
+    std::copy_if(registry().begin(), registry().end(), std::back_inserter(found),
+      [](const TechniqueEntry& technique) { return technique.estimator->info.exact; });
+    return found;
+  }();
+  return pick(chance(random, 0.3) ? exact : registry(), random);
+}
+
 /// The tables of what a technique or estimator reads.
 std::vector<const SettingsTable*> tablesOf(const TechniqueInfo& info)
 {
@@ -72,7 +86,7 @@ std::vector<const SettingsTable*> tablesOf(const TechniqueInfo& info)
 //------------------------------------------------------------------------------
 NamedSettings drawSettings(Random& random)
 {
-  const TechniqueEntry& technique = pick(registry(), random);
+  const TechniqueEntry& technique = drawTechnique(random);
   NamedSettings settings{ { "technique", technique.name } };
   const EstimatorEntry* estimator = technique.estimator;
   if (chance(random, 0.1))
