@@ -1,17 +1,22 @@
 #include "Runner.h"
 
 #include "Files.h"
+#include "TestFiles.h"
 
 #include <poll.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <iostream>
+#include <memory>
 #include <stdexcept>
 #include <vector>
 
@@ -53,7 +58,8 @@ void send(int pipe, const std::string& text)
 class Child
 {
 public:
-  Child(const CaseKind& kind, Place place)
+  /// @param folder for temporary files
+  Child(const CaseKind& kind, Place place, const std::string& folder)
   {
     int ends[2];
     if (::pipe(ends) != 0 || (this->process_ = ::fork()) < 0)
@@ -63,6 +69,7 @@ public:
     if (this->process_ == 0)
     {
       ::close(ends[0]);
+      ::setenv("TMPDIR", folder.c_str(), 1);
       const rlimit limit{ mostBytes, mostBytes };
       ::setrlimit(RLIMIT_AS, &limit);
       for (;; ++place.index)
@@ -146,6 +153,7 @@ private:
 unsigned run(const CaseKind& kind, const Run& run)
 {
   const double end = run.seconds > 0.0 ? secondsNow() + run.seconds : 0.0;
+  const tool::TestFolder temporary; // also for what crashed cases leave behind
   std::unique_ptr<Child> child;
   unsigned finds = 0;
   unsigned done = 0;
@@ -154,7 +162,7 @@ unsigned run(const CaseKind& kind, const Run& run)
     const Place place{ run.first.seed, run.first.index + done };
     if (!child)
     {
-      child = std::make_unique<Child>(kind, place);
+      child = std::make_unique<Child>(kind, place, temporary.path());
     }
     std::string wrong;
     if (!child->finish(run.secondsPerCase, wrong) || done % mostCases == mostCases - 1)
