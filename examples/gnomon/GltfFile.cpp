@@ -417,11 +417,28 @@ private:
         bytesOfComponent.at(accessor.componentType) * componentsOfType.at(accessor.type);
       accessor.view = this->readView(value.member("bufferView"));
       requireInside(value, accessor.view, accessor.offset, accessor.count, elementBytes);
+      checkBounds(value.member("min"), accessor);
+      checkBounds(value.member("max"), accessor);
       if (const JsonValue sparse = value.member("sparse"); sparse.present())
       {
         this->checkSparse(sparse, accessor, elementBytes);
       }
       this->accessors_.push_back(accessor);
+    }
+  }
+
+  /// VTK reads as many numbers as the type has components, whether they are there or not.
+  static void checkBounds(const JsonValue& bounds, const Accessor& accessor)
+  {
+    const std::vector<JsonValue> numbers = bounds.elementsOrNone();
+    if (bounds.present() && numbers.size() != componentsOfType.at(accessor.type))
+    {
+      bounds.refuse("found " + std::to_string(numbers.size()) + " numbers, but " + accessor.type +
+        " has " + std::to_string(componentsOfType.at(accessor.type)));
+    }
+    for (const JsonValue& number : numbers)
+    {
+      number.number({ -std::numeric_limits<double>::max(), std::numeric_limits<double>::max() });
     }
   }
 

@@ -35,11 +35,13 @@ auto placeOf(const ShadowLight& light)
     light.texture ? std::optional(texture(*light.texture)) : std::nullopt);
 }
 
-/// How many samples an area light has in this frame.
+/// How many samples an area light has in this frame. With several views it has all of them: the
+/// pass's progress is that of the last view alone.
 /// @param before in the frame before; 0 where that showed something else
-int samplesOf(const CastingLight& casting, int before)
+int samplesOf(const CastingLight& casting, int before, bool severalViews)
 {
-  const bool refines = casting.own.info().has(refinementSettings()) && casting.light.area;
+  const bool refines =
+    !severalViews && casting.own.info().has(refinementSettings()) && casting.light.area;
   return refines ? samplesOfStep(casting.light, before) : casting.light.lightSamples;
 }
 
@@ -347,7 +349,7 @@ void VisibilityStage::fill(CastingLight& casting, VisibilityValue& value, LightR
     const std::size_t edgeSamples = edgeSamplesOf(casting);
     std::vector<std::uint8_t> classesForEdges;
     ShadowLight traced = light;
-    traced.lightSamples = samplesOf(casting, value.samples);
+    traced.lightSamples = samplesOf(casting, value.samples, this->frame_.severalViews);
     Receivers& onCpu = this->receiversOnCpu();
     TracedTiles* const tiles = this->beginTiles(casting, traced, value);
     const bool hasBit = casting.bit != noBit;

@@ -134,6 +134,16 @@ vtkProp3D* selectedLevel(vtkLODProp3D* prop)
   const vtkLODProp3DEntry* first = LodPropAccess::entries(prop);
   const vtkLODProp3DEntry* last = first + LodPropAccess::entryCount(prop);
   constexpr int notInUse = -1;
+  if (!prop->GetAutomaticLODSelection())
+  {
+    // VTK looks the ID up for props in view only, and those out of view cast, too.
+    const vtkLODProp3DEntry* const chosen = std::find_if(first, last,
+      [prop](const vtkLODProp3DEntry& entry) { return entry.ID == prop->GetSelectedLODID(); });
+    if (chosen != last)
+    {
+      return chosen->Prop3D;
+    }
+  }
   const int selected = LodPropAccess::selected(prop);
   if (selected >= 0 && selected < last - first && first[selected].ID != notInUse)
   {

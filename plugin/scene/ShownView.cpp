@@ -8,9 +8,31 @@
 #include <vtkRenderState.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
+#include <vtkRendererCollection.h>
 
 namespace gnomon
 {
+namespace
+{
+
+/// Whether a window's other renderers are drawn by the same pass.
+bool sharesPass(vtkRenderer* renderer)
+{
+  vtkRendererCollection* const all = renderer->GetRenderWindow()->GetRenderers();
+  vtkCollectionSimpleIterator it;
+  all->InitTraversal(it);
+  while (vtkRenderer* other = all->GetNextRenderer(it))
+  {
+    if (other != renderer && other->GetDraw() && renderer->GetPass() &&
+      other->GetPass() == renderer->GetPass())
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+} // namespace
 
 //------------------------------------------------------------------------------
 glm::ivec2 sizeOf(const vtkRenderState* s)
@@ -76,7 +98,8 @@ bool ViewCount::areSeveral(vtkRenderer* renderer)
   renderer->GetRenderWindow()->GetTileScale(tiles);
   const bool other = this->before_ && this->before_ != renderer;
   this->before_ = renderer;
-  return other || renderer->GetRenderWindow()->GetStereoRender() || tiles[0] > 1 || tiles[1] > 1;
+  return other || sharesPass(renderer) || renderer->GetRenderWindow()->GetStereoRender() ||
+    tiles[0] > 1 || tiles[1] > 1;
 }
 
 } // namespace gnomon

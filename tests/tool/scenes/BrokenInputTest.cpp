@@ -246,6 +246,8 @@ std::vector<BrokenInput> brokenInputs()
     gltfWith("gltf_accessor", "meshes[0].primitives[0].attributes.POSITION",
       "/meshes/0/primitives/0/attributes/POSITION", 99),
     gltfWith("gltf_accessor_count", "accessors[0]", "/accessors/0/count", 2000000000),
+    gltfWith("gltf_accessor_bounds", "accessors[0].max", "/accessors/0/max", { 1, 2 }),
+    gltfWith("gltf_accessor_bound", "accessors[0].min[1]", "/accessors/0/min/1", nullptr),
     gltfWith("gltf_indices", "accessors[1]", "/accessors/1/count", 19),
     gltfWith(
       "gltf_index_value", "meshes[0].primitives[0].indices", "/bufferViews/1/byteOffset", 61),

@@ -5,6 +5,8 @@
 #include "lights/vtkGnomonAreaLight.h"
 #include "shadowtech/Registry.h"
 
+#include <vtkCollectionRange.h>
+
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -164,6 +166,27 @@ TEST_F(AreaLights, refineWhileNothingChanges)
     this->light->SetShapeToRectangle();
     this->light->SetRadius(0.5);
   }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(AreaLights, haveAllSamplesAtOnceWhereThePassDrawsSeveralViews)
+{
+  this->scene.pass->SetTechnique("raytraced");
+  this->scene.pass->SetSetting("moving_samples", "4");
+  vtkNew<vtkRenderer> other;
+  other->SetPass(this->scene.pass);
+  other->SetViewport(0.5, 0.0, 1.0, 1.0);
+  this->scene.renderer->SetViewport(0.0, 0.0, 0.5, 1.0);
+  other->SetActiveCamera(this->scene.renderer->GetActiveCamera());
+  for (vtkActor* actor : vtk::Range(this->scene.renderer->GetActors()))
+  {
+    other->AddActor(actor);
+  }
+  other->AddLight(this->light);
+  this->scene.window->AddRenderer(other);
+  const Picture first = this->scene.render();
+  EXPECT_EQ(this->scene.pass->GetProgress(), 1.0);
+  EXPECT_EQ(differingPixels(this->scene.render(), first), 0u);
 }
 
 //------------------------------------------------------------------------------

@@ -11,7 +11,6 @@
 #include <vtkShadowMapPass.h>
 #include <vtkSphereSource.h>
 #include <vtkTrivialProducer.h>
-#include <vtkUnsignedCharArray.h>
 #include <vtk_glew.h>
 
 #include <algorithm>
@@ -21,42 +20,6 @@
 
 namespace gnomon::test
 {
-
-//------------------------------------------------------------------------------
-glm::ivec3 Picture::at(int x, int y) const
-{
-  const std::size_t first = 3 *
-    (static_cast<std::size_t>(y) * static_cast<std::size_t>(this->width) +
-      static_cast<std::size_t>(x));
-  return { this->rgb.at(first), this->rgb.at(first + 1), this->rgb.at(first + 2) };
-}
-
-//------------------------------------------------------------------------------
-Picture readPicture(vtkRenderWindow* window)
-{
-  vtkNew<vtkUnsignedCharArray> values;
-  const int* size = window->GetActualSize(); // of a tiled window the tile's
-  window->GetPixelData(0, 0, size[0] - 1, size[1] - 1, 1, values);
-  const unsigned char* first = values->GetPointer(0);
-  return { size[0], size[1], { first, first + values->GetNumberOfValues() } };
-}
-
-//------------------------------------------------------------------------------
-std::size_t differingPixels(const Picture& a, const Picture& b, int tolerance)
-{
-  if (a.rgb.size() != b.rgb.size())
-  {
-    ADD_FAILURE() << "pictures of different sizes";
-    return std::max(a.pixels(), b.pixels());
-  }
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < a.rgb.size(); i += 3)
-  {
-    const auto differs = [&](std::size_t k) { return std::abs(a.rgb[k] - b.rgb[k]) > tolerance; };
-    count += differs(i) || differs(i + 1) || differs(i + 2) ? 1 : 0;
-  }
-  return count;
-}
 
 //------------------------------------------------------------------------------
 std::string nameOf(const testing::TestParamInfo<Way>& way)

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "Picture.h"
+
 #include "VtkMessages.h"
 
 #include "plugin/VisibilityImages.h"
@@ -30,28 +32,6 @@
 
 namespace gnomon::test
 {
-
-/// A window's picture; row 0 is the bottom row.
-struct Picture
-{
-  int width = 0;
-  int height = 0;
-  std::vector<unsigned char> rgb;
-
-  std::size_t pixels() const { return this->rgb.size() / 3; }
-  glm::ivec3 at(int x, int y) const;
-  int red(int x, int y) const { return this->at(x, y).r; }
-  bool operator==(const Picture& other) const
-  {
-    return this->width == other.width && this->height == other.height && this->rgb == other.rgb;
-  }
-};
-
-/// Reads the whole window.
-Picture readPicture(vtkRenderWindow* window);
-
-/// Pixels in which some channel differs by more than `tolerance` of 255.
-std::size_t differingPixels(const Picture& a, const Picture& b, int tolerance = 0);
 
 /// The techniques and the routes to the shader that they can take.
 struct Way

@@ -434,6 +434,28 @@ TEST_P(Props, levelsOfDetailCastAsDrawn)
 }
 
 //------------------------------------------------------------------------------
+/// VTK culls the prop, and leaves it to itself which level it is to draw.
+TEST_P(Props, selectedLevelsOfDetailCastThoughTheyWereNeverInView)
+{
+  vtkNew<vtkLODProp3D> prop;
+  prop->AutomaticLODSelectionOff();
+  const auto addLevelAt = [&](double height)
+  {
+    vtkNew<vtkCubeSource> box;
+    box->SetBounds(-0.5, 0.5, -0.5, 0.5, height - 0.5, height + 0.5);
+    vtkNew<vtkPolyDataMapper> mapper;
+    mapper->SetInputConnection(box->GetOutputPort());
+    return prop->AddLOD(mapper, 0.0);
+  };
+  addLevelAt(6.0);
+  prop->SetSelectedLODID(addLevelAt(10.0));
+  prop->SetPosition(-10.0, 0.0, 0.0);
+  this->scene.renderer->AddViewProp(prop);
+  EXPECT_TRUE(this->dark(0.0, 0.0));
+  EXPECT_FALSE(this->dark(-4.0, 0.0));
+}
+
+//------------------------------------------------------------------------------
 TEST_P(Props, quadricLevelsOfDetailCastAsDrawn)
 {
   vtkNew<QuietInteractor> interactor;
