@@ -25,12 +25,6 @@ compareOnce()
   mv "$folder.part" "$folder"
 }
 
-# results FOLDER : its results without the commas that are in names, so that awk splits them
-results()
-{
-  sed -e 's/\r$//' -e '1s/"\([^",]*\),\([^",]*\)"/\1\2/g' "$1/results.csv"
-}
-
 # What was measured on.
 machine()
 {

@@ -19,9 +19,9 @@ namespace gnomon::tool
 {
 
 /// How far a technique's visibility is from the truth, over the pixels that count: covered, facing
-/// the light (facesLight() of ShadowRay.h) and, where it has one, inside its cone or box. Of several
-/// lights, every pair of a pixel and a light counts once; a light with a texture counts as three,
-/// one for each channel.
+/// the light (facesLight() of ShadowRay.h) and, where it has one, inside its cone or box. Of
+/// several lights, every pair of a pixel and a light counts once; a light with a texture counts as
+/// three, one for each channel.
 struct VisibilityError
 {
   std::int64_t facingPixels = 0;  ///< pixels that count

@@ -299,7 +299,8 @@ Scene makeSmallOnLarge()
   return scene;
 }
 
-/// Sheets of which each casts with one side alone: one shows it to the sun, one does not.
+/// Two sheets that cast with one side alone, of which one shows it to the sun, and two that cast with
+/// both.
 Scene makeOneSidedSheets()
 {
   std::vector<SceneModel> sheets;

@@ -33,8 +33,8 @@ std::string errorText(double error, bool soft)
   return soft ? "an RMS error of " + threeDigits(error) : percent(error) + " wrong pixels";
 }
 
-/// What to take of a front where its end is too slow: the first that is accurate enough, or else the
-/// one before the end.
+/// What to take of a front where its end is too slow: the first that is accurate enough, or else
+/// the one before the end.
 const StudySummary& quickerOf(const std::vector<StudySummary>& front, bool soft)
 {
   const double enough = soft ? mostRootMeanSquare : mostWrongShare;

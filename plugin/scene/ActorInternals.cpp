@@ -138,7 +138,8 @@ vtkProp3D* selectedLevel(vtkLODProp3D* prop)
   {
     // VTK looks the ID up for props in view only, and those out of view cast, too.
     const vtkLODProp3DEntry* const chosen = std::find_if(first, last,
-      [prop](const vtkLODProp3DEntry& entry) { return entry.ID == prop->GetSelectedLODID(); });
+      [prop](const vtkLODProp3DEntry& entry)
+      { return entry.ID != notInUse && entry.ID == prop->GetSelectedLODID(); });
     if (chosen != last)
     {
       return chosen->Prop3D;

@@ -25,8 +25,8 @@ struct ActorDrawing
 /// @param matrix the actor's, or that of its path below an assembly
 ActorDrawing actorDrawing(vtkActor* actor, vtkMatrix4x4* matrix, vtkRenderer* renderer);
 
-/// The level that a vtkLODProp3D draws in this frame. For one that chooses by itself and was never in
-/// view, the best of its levels; null if it has none.
+/// The level that a vtkLODProp3D draws in this frame. For one that chooses by itself and was never
+/// in view, the best of its levels; null if it has none.
 vtkProp3D* selectedLevel(vtkLODProp3D* prop);
 
 } // namespace gnomon

@@ -142,8 +142,9 @@ bool isCulled(vtkProp* viewProp, vtkMapper* mapper, MapperKind kind)
 {
   vtkPolyData* data =
     kind == MapperKind::Solids ? static_cast<vtkPolyDataMapper*>(mapper)->GetInput() : nullptr;
-  return data && data->GetNumberOfCells() == 0 &&
-    !vtkMath::AreBoundsInitialized(viewProp->GetBounds());
+  const double* const bounds =
+    data && data->GetNumberOfCells() == 0 ? viewProp->GetBounds() : nullptr;
+  return bounds && !vtkMath::AreBoundsInitialized(bounds);
 }
 
 class Finder

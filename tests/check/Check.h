@@ -13,14 +13,14 @@ namespace gnomon::check
 /// What a visibility file may differ in.
 namespace tolerance
 {
-constexpr double coverageShare = 5e-4;       ///< of all pixels; also for `otherSurface`
-constexpr double positionError = 1e-4;       ///< of the distance from the camera
-constexpr double normalShare = 5e-4;         ///< of the pixels covered in both
-constexpr double visibilityShare = 1e-4;     ///< of the pixels that face the light
+constexpr double coverageShare = 5e-4;   ///< of all pixels; also for `otherSurface`
+constexpr double positionError = 1e-4;   ///< of the distance from the camera
+constexpr double normalShare = 5e-4;     ///< of the pixels covered in both
+constexpr double visibilityShare = 1e-4; ///< of the pixels that face the light
 /// The cosine up to which a surface counts as turned away from the light: rounding to float says
 /// which side of it the light is on.
 constexpr double facingCosine = 1.0 / 1048576.0; // 2^-20
-constexpr double visibilityDifference = 0.5; ///< more than this makes a pixel wrong
+constexpr double visibilityDifference = 0.5;     ///< more than this makes a pixel wrong
 } // namespace tolerance
 
 /// Pixels, as y * width + x, row 0 on top; ascending.

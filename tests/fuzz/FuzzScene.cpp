@@ -311,7 +311,7 @@ test::Picture FuzzScene::render()
   const tool::VtkMessages messages;
   for (int frame = 0; frame < mostFrames; ++frame)
   {
-    // VTK 9.1 by itself draws a renderer at rest by the lights' places in the view of the other one.
+    // VTK 9.1 by itself draws a renderer at rest by the lights' places in the other one's view.
     for (vtkLight* light : this->lights_)
     {
       light->Modified();

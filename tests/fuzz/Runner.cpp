@@ -70,8 +70,10 @@ public:
     {
       ::close(ends[0]);
       ::setenv("TMPDIR", folder.c_str(), 1);
+#ifndef __SANITIZE_ADDRESS__ // which reserves terabytes of addresses
       const rlimit limit{ mostBytes, mostBytes };
       ::setrlimit(RLIMIT_AS, &limit);
+#endif
       for (;; ++place.index)
       {
         send(ends[1], whatIsWrong(kind, place));
@@ -98,13 +100,14 @@ public:
   {
     std::uint32_t length = 0;
     const double end = secondsNow() + seconds;
-    if (!this->receive(&length, sizeof(length), end))
+    bool isThere = this->receive(&length, sizeof(length), end);
+    wrong.resize(length);
+    isThere = isThere && this->receive(wrong.data(), length, end);
+    if (!isThere)
     {
       wrong = this->whyItStopped(seconds);
-      return false;
     }
-    wrong.resize(length);
-    return this->receive(wrong.data(), length, end);
+    return isThere;
   }
 
 private:

@@ -123,7 +123,7 @@ void compareWithVtk(const FuzzScene& scene, const Picture& shadowed, const Pictu
 //------------------------------------------------------------------------------
 void runScene(Random random, std::string& description)
 {
-  const Random start = random;
+  const Random start(random());
   FuzzScene scene(start, Purpose::Picture);
   description = scene.description();
   const Picture picture = scene.render();

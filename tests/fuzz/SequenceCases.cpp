@@ -81,7 +81,7 @@ bool vtkRemembers(const Random& start, const std::vector<Change>& changes)
 //------------------------------------------------------------------------------
 void runSequence(Random random, std::string& description)
 {
-  const Random start = random;
+  const Random start(random());
   FuzzScene kept(start, Purpose::Changes);
   FuzzScene renewed(start, Purpose::Changes);
   description = kept.description();

@@ -34,12 +34,11 @@ constexpr int mapSizeTexels = 512;
 /// Of soft shadows.
 constexpr int softWidth = 96;
 constexpr int softHeight = 72;
-constexpr int samples = 64;        ///< of techniques
-constexpr int truthSamples = 1024; ///< of the truth
+constexpr int truthSamples = 1024; ///< of the truth; techniques have as many as by default
 ///@}
 
 /// Wrong pixels of maps lie within so many texels of a shadow's edge: of texels of a uniform map of
-/// the whole scene.
+/// the whole scene. A surface that is no wider in the map, at any size, is all edge.
 constexpr double edgeTexels = 2.0;
 
 /// With another offset, and for another tracer on round balls, the truth changes within so many

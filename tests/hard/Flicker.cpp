@@ -111,7 +111,7 @@ Frames drawMovement(tool::VariantSpec spec, const tool::Scene& scene, int width,
 double flicker(const Frames& frames, const Frames& truth, int width)
 {
   const auto isWrong = [&](std::size_t frame, std::size_t pixel)
-  { return std::abs(frames[frame][pixel] - truth[frame][pixel]) > 0.5f; };
+  { return !(std::abs(frames[frame][pixel] - truth[frame][pixel]) <= 0.5f); };
   std::size_t turned = 0;
   std::size_t edges = 0;
   for (std::size_t frame = 1; frame < frames.size(); ++frame)

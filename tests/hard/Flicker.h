@@ -10,9 +10,9 @@ namespace gnomon::hard
 {
 
 /// @file
-/// How much shadows flicker: the share of the pixels at shadows' edges that turn from right to wrong
-/// or back from one frame to the next, while the camera or the light moves by small steps. The truth
-/// flickers by 0; a shadow that moves with its map's texels, by much.
+/// How much shadows flicker: the share of the pixels at shadows' edges that turn from right to
+/// wrong or back from one frame to the next, while the camera or the light moves by small steps.
+/// The truth flickers by 0; a shadow that moves with its map's texels, by much.
 ///
 /// A picture that moves scans what is wrong in it at other points, and would flicker by that alone.
 /// So for a moving camera the maps are fitted to where it is, and looked up from where it was at

@@ -68,7 +68,7 @@ TEST(Judge, findsWhatIsThinOrSmallForTheDistance)
 }
 
 //------------------------------------------------------------------------------
-TEST(HardCases, areBrokenByWhatIsWrong)
+TEST(Matrix, areBrokenByWhatIsWrong)
 {
   const std::string row = "hard-stacked-plates";
   EXPECT_EQ(outcomeOf(row, { "leaks", "nsm:bias_constant=0.3", Kind::Map }), Outcome::Broken);
@@ -81,7 +81,7 @@ TEST(HardCases, areBrokenByWhatIsWrong)
 }
 
 //------------------------------------------------------------------------------
-TEST(HardCases, surpriseWhereTheyAreNotAsTheTableSays)
+TEST(Matrix, surpriseWhereTheyAreNotAsTheTableSays)
 {
   const tool::TestFolder folder;
   const std::string path = folder / "cells.tsv";

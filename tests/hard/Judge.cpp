@@ -129,8 +129,8 @@ double extentAlong(const check::Scene& scene, const Vec3& axis)
   return high - low;
 }
 
-/// Points of a disc: rings of all sizes, which find most edges at once and things that are small for
-/// the disc, then a grid that finds what is thin.
+/// Points of a disc: rings of all sizes, which find most edges at once and things that are small
+/// for the disc, then a grid that finds what is thin.
 const std::vector<std::array<double, 2>>& discPoints()
 {
   static const std::vector<std::array<double, 2>> points = []
@@ -230,6 +230,12 @@ Vec3 Judge::towards(const Receiver& receiver, std::size_t light) const
 }
 
 //------------------------------------------------------------------------------
+double Judge::cosineAt(const Receiver& receiver, std::size_t light) const
+{
+  return receiver.normal.dot(this->towards(receiver, light).normalized());
+}
+
+//------------------------------------------------------------------------------
 double Judge::texelAt(const Receiver& receiver, std::size_t light, int mapSizeTexels) const
 {
   const check::Light& of = this->scene_.lights[light];
@@ -273,17 +279,25 @@ bool Judge::isNearEdge(const Receiver& receiver, std::size_t light, double dista
   const Vec3 direction = this->towards(receiver, light).normalized();
   const std::array<Vec3, 2> axes = across(direction);
   const double cosine = direction.dot(receiver.normal);
-  const auto isLitAt = [&](const std::array<double, 2>& at)
+  const auto placeAt = [&](const std::array<double, 2>& at) -> Vec3
   {
     const Vec3 aside = distance * (at[0] * axes[0] + at[1] * axes[1]);
-    const Vec3 inPlane = aside - (aside.dot(receiver.normal) / cosine) * direction;
-    return this->isLit(
-      { receiver.positionWorld + inPlane, receiver.normal }, light, this->storedOffset());
+    return receiver.positionWorld + aside - (aside.dot(receiver.normal) / cosine) * direction;
+  };
+  const auto isLitAt = [&](const std::array<double, 2>& at) {
+    return this->isLit({ placeAt(at), receiver.normal }, light, this->storedOffset());
   };
   const bool isLit = isLitAt({ 0.0, 0.0 });
   const auto& points = discPoints();
+  // In the air beside a surface there is no edge of what falls on it.
+  const auto isOnSurface = [&](const std::array<double, 2>& at)
+  {
+    return this->tracer_
+      .nearestTo(placeAt(at), distance, [](const check::Triangle&) { return true; })
+      .has_value();
+  };
   return std::any_of(points.begin(), points.end(),
-    [&](const std::array<double, 2>& at) { return isLitAt(at) != isLit; });
+    [&](const std::array<double, 2>& at) { return isLitAt(at) != isLit && isOnSurface(at); });
 }
 
 //------------------------------------------------------------------------------

@@ -41,11 +41,14 @@ public:
   /// positions in float costs.
   double storedOffset() const { return 1e-6 * this->size_; }
 
+  /// Between the receiver's normal and the direction to the light.
+  double cosineAt(const Receiver& receiver, std::size_t light) const;
+
   /// Whether nothing is between the light and the point that is so far off the receiver.
   bool isLit(const Receiver& receiver, std::size_t light, double offset) const;
 
-  /// Whether there are lit and dark points in the receiver's plane within a distance from it, across
-  /// the light's rays.
+  /// Whether there are lit and dark points in the receiver's plane within a distance from it,
+  /// across the light's rays.
   bool isNearEdge(const Receiver& receiver, std::size_t light, double distance) const;
 
   /// The offset of the truth's rays (shadowtech/base/ShadowRay.h), for a receiver anywhere in its

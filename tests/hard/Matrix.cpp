@@ -72,10 +72,10 @@ std::string refusal(const VariantSpec& spec, vtkRenderer* renderer)
   }
 }
 
-/// The first thing that is wrong with a picture's numbers; empty where nothing is.
-std::string strangeNumber(const VisibilityImages& images)
+/// The first thing that is wrong with pictures' numbers; empty where nothing is.
+std::string strangeNumber(const std::vector<std::vector<float>>& images)
 {
-  for (const std::vector<float>& image : images.visibility)
+  for (const std::vector<float>& image : images)
   {
     for (const float value : image)
     {
@@ -85,7 +85,7 @@ std::string strangeNumber(const VisibilityImages& images)
       }
     }
   }
-  return images.visibility.empty() ? "no visibility" : "";
+  return images.empty() ? "no visibility" : "";
 }
 
 std::string openGlError()
@@ -95,7 +95,8 @@ std::string openGlError()
 }
 
 /// What is asked of all techniques whatever they draw.
-void keepSound(Cell& cell, const VisibilityImages& images, const tool::VtkMessages& messages)
+void keepSound(
+  Cell& cell, const std::vector<std::vector<float>>& images, const tool::VtkMessages& messages)
 {
   std::string message = strangeNumber(images);
   if (message.empty())
@@ -181,21 +182,31 @@ void judgeExact(Cell& cell, const VisibilityImages& images, const VisibilityImag
   }
 }
 
+/// @param onFloor whether the floor's pixels count alone
 void judgeMap(Cell& cell, const VisibilityImages& images, const VisibilityImages& truth,
-  const tool::Scene& scene, const Judge& judge, bool onFloorAlone)
+  const tool::Scene& scene, const Judge& judge, bool onFloor)
 {
+  bool isSeen = false;
   for (std::size_t image = 0; image < truth.visibility.size(); ++image)
   {
     const auto light = static_cast<std::size_t>(truth.sceneIndices[image]);
+    const std::vector<unsigned char> facing = tool::facingPixels(truth, scene.lights[light]);
+    for (std::size_t pixel = 0; pixel < facing.size() && !isSeen; ++pixel)
+    {
+      isSeen = facing[pixel] && (!onFloor || judge.isOnFloor(receiverAt(truth, pixel)));
+    }
     for (const std::size_t pixel : wrongPixels(images, truth, image, scene))
     {
       const Receiver receiver = receiverAt(truth, pixel);
       const double distance =
         bounds::edgeTexels * judge.texelAt(receiver, light, bounds::mapSizeTexels);
-      const bool counts = !onFloorAlone || judge.isOnFloor(receiver);
+      const bool isAllEdge =
+        judge.cosineAt(receiver, light) * bounds::mapSizeTexels <= bounds::edgeTexels;
+      const bool counts = !isAllEdge && (!onFloor || judge.isOnFloor(receiver));
       cell.beyond += counts && !judge.isNearEdge(receiver, light, distance) ? 1 : 0;
     }
   }
+  cell.outcome = isSeen ? cell.outcome : Outcome::None;
 }
 
 /// Against the independent check, which knows triangles alone.
@@ -309,13 +320,22 @@ public:
     cell.message = refusal(spec, variant.renderer());
     if (!cell.message.empty())
     {
-      cell.outcome = Outcome::Refused;
+      variant.drawFrame(Motion::Static, 0);
+      const std::vector<std::string>& said = messages.errors();
+      const bool isSaid = std::any_of(said.begin(), said.end(),
+        [&](const std::string& text) { return text.find(cell.message) != std::string::npos; });
+      cell.outcome = isSaid ? Outcome::Refused : Outcome::Broken;
       return cell;
     }
     cell.outcome = Outcome::Kept;
     const VisibilityImages images = drawn(variant);
     this->judge(cell, column, images, scene);
-    keepSound(cell, images, messages);
+    keepSound(cell, images.visibility, messages);
+    if (cell.outcome == Outcome::Kept && cell.counted == 0)
+    {
+      cell.outcome = Outcome::Broken;
+      cell.message = "nothing is seen that faces a light";
+    }
     return cell;
   }
 
@@ -416,12 +436,21 @@ public:
       return cell;
     }
     cell.outcome = Outcome::Kept;
-    cell.error = this->flickerOf(column.technique, *this->row_.movement, this->truth_);
+    const tool::VtkMessages messages;
+    const Movement movement = *this->row_.movement;
+    const bool isFitted = movement != Movement::LightTurned; // else no map moves with the camera
+    const Frames frames = this->framesOf(column.technique, movement, isFitted);
+    if (!this->truth_)
+    {
+      this->truth_ = this->framesOf("raytraced", movement, false);
+    }
+    cell.error = flicker(frames, *this->truth_, bounds::width);
     cell.bound = column.kind == Kind::Exact ? 0.0 : bounds::flickerFactor * this->plain();
     if (cell.error > cell.bound)
     {
       cell.outcome = Outcome::Broken;
     }
+    keepSound(cell, frames, messages);
     return cell;
   }
 
@@ -431,25 +460,23 @@ private:
   {
     if (!this->plain_)
     {
-      std::optional<Frames> truth;
-      this->plain_ = this->flickerOf("nsm", Movement::LightTurned, truth);
+      constexpr Movement turned = Movement::LightTurned;
+      this->plain_ = flicker(this->framesOf("nsm", turned, false),
+        this->framesOf("raytraced", turned, false), bounds::width);
     }
     return *this->plain_;
   }
 
-  double flickerOf(
-    const std::string& technique, Movement movement, std::optional<Frames>& truth) const
+  /// @param isFitted whether uniform maps are fitted to what the camera sees
+  Frames framesOf(const std::string& technique, Movement movement, bool isFitted) const
   {
-    const auto frames = [&](const std::string& of)
+    VariantSpec spec = specOf(technique);
+    const bool isUniform = findTechnique(technique)->projection == Projection::Uniform;
+    if (isFitted && isUniform && spec.mapSizeTexels > 0)
     {
-      return drawMovement(
-        specOf(of), this->scene_, bounds::width, bounds::height, movement, flickerSteps);
-    };
-    if (!truth)
-    {
-      truth = frames("raytraced");
+      spec.settings["fit"] = "frame";
     }
-    return flicker(frames(technique), *truth, bounds::width);
+    return drawMovement(spec, this->scene_, bounds::width, bounds::height, movement, flickerSteps);
   }
 
   const Row& row_;

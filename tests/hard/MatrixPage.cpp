@@ -134,10 +134,11 @@ std::string pageOf(const std::vector<Cell>& cells, const KnownCells& known)
   page
     << "# Hard cases\n\n"
     << "The literature names " << cases.size() << " cases in which shadow techniques break. "
-    << rows().size() << " scenes and\nmovements stand for them (`gnomon scenes --hard`), and all "
-    << "techniques draw each. Green: the bound\nis kept (" << count(Outcome::Kept)
-    << " cells). Red: it is not (" << count(Outcome::Broken)
-    << "). Grey: the technique refuses such a light, and\nsays so (" << count(Outcome::Refused)
+    << rows().size() << " scenes and\nmovements stand for them (`gnomon scenes --hard`). "
+    << "Green: a technique keeps its bound (" << count(Outcome::Kept)
+    << "\ncells). Red: it does not (" << count(Outcome::Broken)
+    << "). Grey: it refuses such a light, and says so (" << count(Outcome::Refused)
+    << ").\nLight grey: it has no part in this (" << count(Outcome::None)
     << "). `docs/hard_cases.sh` makes this page, its picture and\n"
     << "[its table](hard_cases.csv).\n\n"
     << "![Hard cases by techniques](hard_cases.svg)\n\n"

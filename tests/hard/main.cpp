@@ -4,6 +4,7 @@
 #include "MatrixPage.h"
 
 #include "BenchmarkMain.h"
+#include "Errors.h"
 
 #include <CLI/CLI.hpp>
 
@@ -62,6 +63,17 @@ std::vector<const Column*> chosenColumns(const Options& options, const Row& row)
   return chosen;
 }
 
+template <typename Named>
+std::vector<std::string> namesOf(const std::vector<Named>& all)
+{
+  std::vector<std::string> names;
+  for (const Named& one : all)
+  {
+    names.push_back(one.name);
+  }
+  return names;
+}
+
 int run(int argc, char** argv)
 {
   CLI::App app{ "Draws the numerical hard cases of the literature with all techniques and judges "
@@ -69,22 +81,31 @@ int run(int argc, char** argv)
     "gnomon_hard_cases" };
   Options options;
   std::vector<std::string> names;
-  app.add_option("ROW", names, "Scenes and movements; without them all");
-  app.add_option("--technique", options.only, "One column alone");
+  app.add_option("ROW", names, "Scenes and movements; without them all")
+    ->check(CLI::IsMember(namesOf(rows())));
+  app.add_option("--technique", options.only, "One column alone")
+    ->check(CLI::IsMember(namesOf(columns())));
   app
     .add_option("--known", options.known,
       "A table of cells that are known to be broken: any other is an error, and so is one that is "
       "not broken any more")
     ->check(CLI::ExistingFile);
   app.add_option("-o", options.folder, "Where hard_cases.csv, .svg and .md are written");
-  app.add_option("--tenth", options.tenth, "Draw a tenth of the cells, chosen by this seed");
+  CLI::Option* const tenth =
+    app.add_option("--tenth", options.tenth, "Draw a tenth of the cells, chosen by this seed");
   app.add_option("--part", options.part, "Of --parts, draw rows of this number, from 0");
   app.add_option("--parts", options.parts, "Parts that the rows are divided into")
     ->check(CLI::PositiveNumber);
-  app.add_flag("--others", options.butTenth, "Draw all cells but those of the tenth");
+  app.add_flag("--others", options.butTenth, "Draw all cells but those of the tenth")->needs(tenth);
   app.add_flag(
     "--easy", options.easy, "Print the errors of soft techniques on easy scenes instead");
   CLI11_PARSE(app, argc, argv);
+  if (options.part >= options.parts)
+  {
+    throw tool::BadInput("--part: found " + std::to_string(options.part) + ", expected less than " +
+      std::to_string(options.parts));
+  }
+  const KnownCells known = options.known.empty() ? KnownCells() : readKnownCells(options.known);
 
   if (options.easy)
   {
@@ -113,7 +134,6 @@ int run(int argc, char** argv)
       }
     }
   }
-  const KnownCells known = options.known.empty() ? KnownCells() : readKnownCells(options.known);
   if (!options.folder.empty())
   {
     writePage(options.folder, cells, known);

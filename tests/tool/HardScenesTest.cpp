@@ -39,7 +39,7 @@ std::set<std::string> allCases()
 } // namespace
 
 //------------------------------------------------------------------------------
-TEST(HardCases, allHaveASceneOrSayWhereTheyAreHeld)
+TEST(HardScenes, allHaveASceneOrSayWhereTheyAreHeld)
 {
   std::set<std::string> named;
   for (const HardScene& scene : hardScenes())
