@@ -38,7 +38,7 @@ run chain "$chains" "$views" "${counts[@]}"
 
 box=pcf:kernel=box:kernel_size
 disc=adaptive:early_out=ring:kernel_size
-filters="nsm,pcf:kernel_size=1,$box=3,$box=4,$box=11"
+filters="nsm,nsm:depth=second,pcf:kernel_size=1,$box=3,$box=4,$box=11"
 filters+=",pcf:kernel=poisson:kernel_size=4,$disc=3:disc_grid=3,$disc=11:disc_grid=11"
 run filters "$filters,vsm:kernel_size=23" "bunny posts plates terrain" --route inline --frames 5
 

@@ -279,7 +279,8 @@ CONCLUSIONS = [
         on_mean=True),
     Conclusion(
         "distances need less bias than depths: false shadow without any", "Moschig, 5.2.8",
-        "a plot", "metric", lambda of: of.ratio("false_shadow", EUCLIDEAN, PCF.format(11)), most=0.9,
+        "a plot", "metric",
+        lambda of: of.ratio("false_shadow", EUCLIDEAN, PCF.format(11)), most=0.9,
         why="neither needs a bias, as the receiver's plane is followed to each texel"),
     Conclusion(
         "a reduction takes less time on the GPU than on the CPU", "Moschig, 5.2.6", "0.07",
@@ -335,7 +336,8 @@ def rows_of(folder):
                            (folder / "fitting.txt").read_text(), re.MULTILINE):
         yield {"run": "fitting", "scene": "bunny", "variant": task[0], "maps_ms": task[1]}
     tests = (folder / "md5.txt").read_text()
-    yield {"run": "md5", "variant": "ReducedMd5", "wrong": len(re.findall(r"^\[  FAILED  \] \S+ \(", tests, re.MULTILINE)),
+    failed = re.findall(r"^\[  FAILED  \] \S+ \(", tests, re.MULTILINE)
+    yield {"run": "md5", "variant": "ReducedMd5", "wrong": len(failed),
            "facing": tests.count("[       OK ]")}
 
 

@@ -299,8 +299,8 @@ Scene makeSmallOnLarge()
   return scene;
 }
 
-/// Two sheets that cast with one side alone, of which one shows it to the sun, and two that cast with
-/// both.
+/// Two sheets that cast with one side alone, of which one shows it to the sun, and two that cast
+/// with both.
 Scene makeOneSidedSheets()
 {
   std::vector<SceneModel> sheets;

@@ -20,7 +20,7 @@ public:
 ///@{
 /// Runs a case.
 /// @param random of which the case is a function
-/// @param description set to what the case is, as far as it is known, for people
+/// @param description set to the case in words, step by step, so that a find has it
 /// @throws Find
 void runScene(Random random, std::string& description);
 void runSequence(Random random, std::string& description);

@@ -48,7 +48,7 @@ void send(int pipe, const std::string& text)
     const ssize_t written = ::write(pipe, bytes.data() + sent, bytes.size() - sent);
     if (written <= 0)
     {
-      _exit(1); // nobody listens
+      _exit(1); // the parent has ended
     }
     sent += static_cast<std::size_t>(written);
   }

@@ -94,7 +94,7 @@ std::string openGlError()
   return error == GL_NO_ERROR ? "" : "OpenGL error " + std::to_string(error);
 }
 
-/// What is asked of all techniques whatever they draw.
+/// Breaks a cell whose numbers are strange, or in which OpenGL or VTK reports an error.
 void keepSound(
   Cell& cell, const std::vector<std::vector<float>>& images, const tool::VtkMessages& messages)
 {

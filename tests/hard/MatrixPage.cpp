@@ -19,36 +19,19 @@ namespace
 
 constexpr std::size_t largestTableBytes = 1 << 20;
 
-const char* nameOf(Outcome outcome)
+/// How an outcome is shown.
+struct Look
 {
-  switch (outcome)
-  {
-    case Outcome::Kept:
-      return "kept";
-    case Outcome::Broken:
-      return "broken";
-    case Outcome::Refused:
-      return "refused";
-    case Outcome::None:
-      return "none";
-  }
-  return "";
-}
+  const char* name;
+  const char* colour;
+};
 
-const char* colourOf(Outcome outcome)
+Look lookOf(Outcome outcome)
 {
-  switch (outcome)
-  {
-    case Outcome::Kept:
-      return "#5aa864";
-    case Outcome::Broken:
-      return "#d03b3b";
-    case Outcome::Refused:
-      return "#c9c9c9";
-    case Outcome::None:
-      return "#f0f0f0";
-  }
-  return "";
+  static const std::map<Outcome, Look> looks = { { Outcome::Kept, { "kept", "#5aa864" } },
+    { Outcome::Broken, { "broken", "#d03b3b" } }, { Outcome::Refused, { "refused", "#c9c9c9" } },
+    { Outcome::None, { "none", "#f0f0f0" } } };
+  return looks.at(outcome);
 }
 
 std::string join(const std::vector<std::string>& parts)
@@ -64,7 +47,7 @@ std::string join(const std::vector<std::string>& parts)
 /// What a cell found, for people.
 std::string findingOf(const Cell& cell)
 {
-  std::string text = cell.row->name + ", " + cell.column->name + ": " + nameOf(cell.outcome);
+  std::string text = cell.row->name + ", " + cell.column->name + ": " + lookOf(cell.outcome).name;
   if (cell.counted > 0)
   {
     text += "; " + std::to_string(cell.wrong) + " of " + std::to_string(cell.counted) +
@@ -107,7 +90,7 @@ std::string svgOf(const std::vector<Cell>& cells)
   {
     svg << "<rect x=\"" << left + side * static_cast<int>(cell.column - columns().data())
         << "\" y=\"" << top + side * static_cast<int>(cell.row - rows().data()) << "\" width=\""
-        << side - 1 << "\" height=\"" << side - 1 << "\" fill=\"" << colourOf(cell.outcome)
+        << side - 1 << "\" height=\"" << side - 1 << "\" fill=\"" << lookOf(cell.outcome).colour
         << "\"><title>" << tool::escape(findingOf(cell)) << "</title></rect>\n";
   }
   svg << "</svg>\n";
@@ -193,8 +176,9 @@ std::string csvHeading()
 std::string csvLine(const Cell& cell)
 {
   tool::CsvRow line;
-  line << cell.row->name << cell.column->name << std::string(nameOf(cell.outcome)) << cell.counted
-       << cell.wrong << cell.beyond << cell.error << cell.bound << tool::oneLine(cell.message);
+  line << cell.row->name << cell.column->name << std::string(lookOf(cell.outcome).name)
+       << cell.counted << cell.wrong << cell.beyond << cell.error << cell.bound
+       << tool::oneLine(cell.message);
   return line.line();
 }
 

@@ -23,6 +23,7 @@
 #include <vtkPointGaussianMapper.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
+#include <vtkPropAssembly.h>
 #include <vtkProperty.h>
 #include <vtkUnsignedCharArray.h>
 
@@ -1074,4 +1075,14 @@ TEST_F(SolidsTest, withoutCellsCastNothing)
   scene.stickActor->VisibilityOff();
   EXPECT_EQ(drawKept(scene).visibility[0], withoutCells);
   EXPECT_NE(shown, withoutCells);
+
+  // An assembly of parts whose bounds do not count has none at all, and is drawn.
+  vtkNew<vtkPropAssembly> assembly;
+  scene.ballActor->VisibilityOn();
+  scene.ballActor->UseBoundsOff();
+  scene.renderer->RemoveActor(scene.ballActor);
+  assembly->AddPart(scene.ballActor);
+  ASSERT_EQ(assembly->GetBounds(), nullptr);
+  scene.renderer->AddActor(assembly);
+  EXPECT_NE(drawKept(scene).visibility[0], withoutCells);
 }
