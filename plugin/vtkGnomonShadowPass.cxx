@@ -1,6 +1,7 @@
 #include "vtkGnomonShadowPass.h"
 
 #include "plugin/VisibilityImages.h"
+#include "plugin/frame/Motion.h"
 #include "plugin/frame/Progress.h"
 #include "plugin/frame/ReceiverDrawing.h"
 #include "plugin/frame/RenderManager.h"
@@ -25,7 +26,9 @@
 #include "vtkWeakPointer.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <list>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -70,6 +73,9 @@ struct vtkGnomonShadowPass::Internals
   bool shadowed = false;            ///< whether the last frame was the manager's
   double progress = 1.0;            ///< of the last frame that was no selection's
   std::set<std::string> told;       ///< what was told already, and is not told again
+
+  std::optional<gnomon::CostFactors> factors; ///< none: the default ones
+  gnomon::RestingFrame restingFrame;          ///< that follows those that move
 
   gnomon::PassContext context; ///< which holds the managers' GL objects
 
@@ -148,6 +154,10 @@ vtkGnomonShadowPass::vtkGnomonShadowPass()
   : Internal(new Internals)
 {
   this->Internal->settings.technique = gnomon::defaultTechnique;
+  if (const char* const path = std::getenv("GNOMON_FACTORS"))
+  {
+    this->ReadCostFactors(path);
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -184,6 +194,8 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
   }
 
   gnomon::RenderManager& manager = this->Internal->managerOf(renderer);
+  const bool moves = this->Moves(renderer->GetRenderWindow());
+  this->Internal->restingFrame.drawn(renderer->GetRenderWindow(), moves);
   bool marked = false;
   bool drawn = false;
   bool failed = false;
@@ -193,7 +205,8 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
     manager.beginFrame(
       { static_cast<gnomon::RouteWish>(this->Route), static_cast<gnomon::TracerWish>(this->Tracer),
         static_cast<gnomon::RasterizerWish>(this->Rasterizer), this->KeepVisibility,
-        this->MeasureStages, this->SmoothTerminators });
+        this->MeasureStages, this->SmoothTerminators, moves, this->MaximumError,
+        this->MaximumSoftError, this->TimeBudget, this->Internal->factors });
 
     // lights
     this->BeginView(s);
@@ -205,6 +218,9 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
       // occluders
       manager.collectOccluders(s);
       this->TellWhatIsLeftOut();
+
+      // choice
+      manager.chooseTechniques();
 
       // From here on, mappers call the hook.
       const vtkRenderPass* delegate = this->FindDelegate(s);
@@ -389,6 +405,17 @@ void vtkGnomonShadowPass::BeginView(const vtkRenderState* s)
 }
 
 //------------------------------------------------------------------------------
+bool vtkGnomonShadowPass::Moves(vtkRenderWindow* window)
+{
+  if (this->Internal->restingFrame.isDue())
+  {
+    return false;
+  }
+  return this->Interactive == INTERACTIVE_AUTO ? gnomon::isDragged(window)
+                                               : this->Interactive == INTERACTIVE_ON;
+}
+
+//------------------------------------------------------------------------------
 void vtkGnomonShadowPass::DrawScene(const vtkRenderState* s)
 {
   vtkRenderer* renderer = s->GetRenderer();
@@ -447,6 +474,19 @@ void vtkGnomonShadowPass::ReleaseGraphicsResources(vtkWindow* window)
       this->Internal->renderers.clear();
       this->Internal->programs = std::make_unique<gnomon::PassPrograms>();
     });
+}
+
+//------------------------------------------------------------------------------
+void vtkGnomonShadowPass::ReadCostFactors(const char* path)
+{
+  try
+  {
+    this->Internal->factors = gnomon::readFactors(path ? path : "");
+  }
+  catch (const std::exception& error)
+  {
+    vtkErrorMacro("Cost factors: " << error.what() << ".");
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -568,13 +608,14 @@ bool vtkGnomonShadowPass::PreReplaceShaderValues(std::string& vertexShader,
 }
 
 //------------------------------------------------------------------------------
-bool vtkGnomonShadowPass::PostReplaceShaderValues(std::string& vtkNotUsed(vertexShader),
-  std::string& vtkNotUsed(geometryShader), std::string& fragmentShader,
+bool vtkGnomonShadowPass::PostReplaceShaderValues(std::string& vertexShader,
+  std::string& geometryShader, std::string& fragmentShader,
   vtkAbstractMapper* vtkNotUsed(mapper), vtkProp* prop)
 {
   // Where other passes write outputs of their own, this is not the receivers stage.
   const bool alone = prop->GetPropertyKeys()->Length(vtkOpenGLRenderPass::RenderPasses()) == 1;
-  this->Internal->programs->shaders.fillShader(fragmentShader, alone);
+  this->Internal->programs->shaders.fillShader(
+    vertexShader, geometryShader, fragmentShader, alone);
   return true;
 }
 
@@ -611,6 +652,11 @@ void vtkGnomonShadowPass::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Tracer: " << tracers[this->Tracer] << "\n";
   os << indent << "Rasterizer: " << rasterizers[this->Rasterizer] << "\n";
   os << indent << "SmoothTerminators: " << (this->SmoothTerminators ? "on" : "off") << "\n";
+  const char* const interactives[] = { "auto", "off", "on" };
+  os << indent << "Interactive: " << interactives[this->Interactive] << "\n";
+  os << indent << "MaximumError: " << this->MaximumError << "\n";
+  os << indent << "MaximumSoftError: " << this->MaximumSoftError << "\n";
+  os << indent << "TimeBudget: " << this->TimeBudget << " ms\n";
   os << indent << "MeasureStages: " << (this->MeasureStages ? "on" : "off") << "\n";
   os << indent << "KeepVisibility: " << (this->KeepVisibility ? "on" : "off") << "\n";
   os << indent

@@ -36,6 +36,8 @@
 
 #include <memory> // For std::unique_ptr
 
+class vtkRenderWindow;
+
 namespace gnomon
 {
 struct FrameReport;
@@ -56,8 +58,14 @@ public:
 
   ///@{
   /**
-   * The technique of lights that name none: "nsm", "pcf", "raytraced" (see GetTechniqueName). An
-   * unknown name is an error and changes nothing. Default: GetDefaultTechnique().
+   * The technique of lights that name none: "auto", or one by name: "nsm", "pcf", "raytraced" (see
+   * GetTechniqueName). An unknown name is an error and changes nothing. Default:
+   * GetDefaultTechnique(), which is "auto".
+   *
+   * "auto" shows exact shadows in every picture at rest: `silhouette`, of area lights `penumbra`.
+   * While the picture moves (see Interactive) it takes what MaximumError, MaximumSoftError and
+   * TimeBudget allow: plain maps in place of rays for hard shadows, fewer samples of area lights.
+   * GetReport() says what it took, and why.
    */
   virtual void SetTechnique(const char* name);
   const char* GetTechnique() const;
@@ -70,7 +78,7 @@ public:
 
   ///@{
   /**
-   * All techniques, by number in [0, GetNumberOfTechniques()).
+   * All techniques that can be named beside "auto", by number in [0, GetNumberOfTechniques()).
    */
   static int GetNumberOfTechniques();
   static const char* GetTechniqueName(int index);
@@ -183,6 +191,61 @@ public:
   vtkBooleanMacro(SmoothTerminators, bool);
   ///@}
 
+  /**
+   * Whether a frame is one of a picture that moves. AUTO: while a window with an interactor is
+   * asked for a higher update rate than the interactor's StillUpdateRate (and 0.01), as interactor
+   * styles do while their user drags. Pictures without an interactor are at rest: off-screen ones,
+   * movies, image tests.
+   */
+  enum InteractiveType
+  {
+    INTERACTIVE_AUTO = 0,
+    INTERACTIVE_OFF = 1,
+    INTERACTIVE_ON = 2
+  };
+
+  ///@{
+  /**
+   * For lights whose technique is "auto". Where no picture at rest follows a moving one within half
+   * a second, the interactor's timer draws one. Default INTERACTIVE_AUTO.
+   */
+  vtkSetClampMacro(Interactive, int, INTERACTIVE_AUTO, INTERACTIVE_ON);
+  vtkGetMacro(Interactive, int);
+  ///@}
+
+  ///@{
+  /**
+   * The errors that "auto" allows while the picture moves: of hard shadows, the share of wrong
+   * pixels among those that face the light, in [0, 1]; of soft ones, the root mean square error of
+   * visibility, in [0, 1]. Some 4,000 pixels are compared with rays before a map is shown and again
+   * from time to time. 0: exact. Default 0.005 and 0.03.
+   */
+  vtkSetClampMacro(MaximumError, double, 0.0, 1.0);
+  vtkGetMacro(MaximumError, double);
+  vtkSetClampMacro(MaximumSoftError, double, 0.0, 1.0);
+  vtkGetMacro(MaximumSoftError, double);
+  ///@}
+
+  ///@{
+  /**
+   * Milliseconds that a frame is to take at most while the picture moves. "auto" then takes the most
+   * accurate way that fits, and where none does the fastest one that keeps the errors. 0: none, and
+   * it takes the fastest one that keeps the errors. With a budget, choices depend on measured times.
+   * Default 0.
+   */
+  vtkSetClampMacro(TimeBudget, double, 0.0, VTK_DOUBLE_MAX);
+  vtkGetMacro(TimeBudget, double);
+  ///@}
+
+  /**
+   * Have "auto" go by what frames cost on this machine, in a file that `gnomon calibrate` wrote. A
+   * file that is none is an error and changes nothing. A new pass reads the file that the
+   * environment variable GNOMON_FACTORS names; without it, llvmpipe's factors on two cores serve
+   * where OpenGL draws by software, and a guess where hardware does. Pictures at rest do not depend
+   * on factors.
+   */
+  virtual void ReadCostFactors(const char* path);
+
   ///@{
   /**
    * Measure the stages of a frame: each then ends with glFinish, so that its time is its own; that
@@ -284,6 +347,10 @@ protected:
   int Tracer = TRACER_AUTO;
   int Rasterizer = RASTERIZER_AUTO;
   bool SmoothTerminators = true;
+  int Interactive = INTERACTIVE_AUTO;
+  double MaximumError = 0.005;
+  double MaximumSoftError = 0.03;
+  double TimeBudget = 0.0;
   bool MeasureStages = false;
   bool KeepVisibility = false;
   vtkRenderPass* DelegatePass = nullptr;
@@ -291,6 +358,7 @@ protected:
 
 private:
   vtkRenderPass* FindDelegate(const vtkRenderState* s);
+  bool Moves(vtkRenderWindow* window);
   void BeginView(const vtkRenderState* s);
   void DrawScene(const vtkRenderState* s);
   void ComputeShadows(const vtkRenderState* s);

@@ -27,6 +27,12 @@ namespace gnomon
 namespace
 {
 
+///@{
+/// The exact techniques that lights have at rest which leave it to the pass.
+constexpr const char* restingHard = "silhouette";
+constexpr const char* restingSoft = "penumbra";
+///@}
+
 template <typename Estimator>
 constexpr Evaluation evaluationOf()
 {
@@ -199,10 +205,23 @@ const TechniqueEntry* findTechnique(const std::string& name)
   return find(registry(), name);
 }
 
+namespace
+{
+
+/// What the setting `technique` takes.
+std::vector<std::string> choosableNames()
+{
+  std::vector<std::string> names = namesOf(registry());
+  names.insert(names.begin(), automaticTechnique);
+  return names;
+}
+
+} // namespace
+
 //------------------------------------------------------------------------------
 std::string techniqueNames()
 {
-  return listOf(namesOf(registry()));
+  return listOf(choosableNames());
 }
 
 namespace
@@ -214,7 +233,7 @@ const SettingsTable& choiceSettings()
   static const SettingsTable table = { "The technique",
     {
       oneOfNames("technique", "the shadow technique (see: gnomon techniques)",
-        &ShadowSettings::technique, namesOf(registry())),
+        &ShadowSettings::technique, choosableNames()),
       oneOfNames("estimator", "what decides a point, in place of the technique's own estimator",
         &ShadowSettings::estimator,
         [] // an empty name: the technique's own
@@ -309,10 +328,29 @@ std::string whoHas(const std::string& settingName)
   return "the setting '" + settingName + "' is for: " + techniquesWith(**found);
 }
 
+namespace
+{
+
+/// The registry's name of the technique that settings lead to.
+std::string nameOfTechnique(const ShadowSettings& settings)
+{
+  const std::string name = settings.technique.empty() ? defaultTechnique : settings.technique;
+  return isAutomatic(settings) ? restingHard : name == automaticTechnique ? plainTechnique : name;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+bool isAutomatic(const ShadowSettings& settings)
+{
+  const std::string name = settings.technique.empty() ? defaultTechnique : settings.technique;
+  return name == automaticTechnique && settings.estimator.empty();
+}
+
 //------------------------------------------------------------------------------
 const EstimatorEntry& estimatorOf(const ShadowSettings& settings)
 {
-  const std::string name = settings.technique.empty() ? defaultTechnique : settings.technique;
+  const std::string name = nameOfTechnique(settings);
   const TechniqueEntry* technique = findTechnique(name);
   if (!technique)
   {
@@ -334,9 +372,10 @@ const EstimatorEntry& estimatorOf(const ShadowSettings& settings)
 //------------------------------------------------------------------------------
 const EstimatorEntry& compose(ShadowLight& light)
 {
+  const bool isSoft = light.area || light.texture;
+  light.technique = isAutomatic(light) && isSoft ? restingSoft : nameOfTechnique(light);
   const EstimatorEntry& estimator = estimatorOf(light);
   const TechniqueInfo& info = estimator.info;
-  light.technique = light.technique.empty() ? defaultTechnique : light.technique;
   light.estimator = info.name;
   if (!info.bakesMap())
   {

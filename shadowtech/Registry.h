@@ -43,11 +43,17 @@ const std::vector<TechniqueEntry>& registry();
 /// The technique of that name; nullptr when there is none.
 const TechniqueEntry* findTechnique(const std::string& name);
 
-/// "nsm, pcf, ...": for error messages.
+/// "auto, nsm, pcf, ...": for error messages.
 std::string techniqueNames();
 
+/// The name by which lights leave their technique to the pass: exact while the picture rests, and
+/// what is fast enough while it moves (plugin/frame/TechniqueChoice.h).
+inline constexpr const char* automaticTechnique = "auto";
+inline constexpr const char* automaticSummary =
+  "any: exact while the picture rests, as fast as an error allows while it moves";
+
 /// The technique of lights and passes that name none. Stated here and nowhere else.
-inline constexpr const char* defaultTechnique = "nsm";
+inline constexpr const char* defaultTechnique = automaticTechnique;
 
 /// What shades translucent surfaces where a light's own technique works on the screen, which shows
 /// only the opaque ones: a pointwise technique.
@@ -81,12 +87,17 @@ public:
   using std::runtime_error::runtime_error;
 };
 
-/// The estimator that settings lead to, for lights of any kind.
+/// Whether they leave the technique to the pass. Settings that name an estimator do not: what makes
+/// up for the technique is the plain one then.
+bool isAutomatic(const ShadowSettings& settings);
+
+/// The estimator that settings lead to, for lights of any kind; where they leave it to the pass,
+/// that of hard shadows at rest.
 /// @throws CompositionError for names that do not exist
 const EstimatorEntry& estimatorOf(const ShadowSettings& settings);
 
-/// The same for a light, whose settings must make sense together. Completes the light: its
-/// technique, its estimator and its projection say what they are.
+/// The same for a light, whose settings must make sense together, of a resting picture. Completes
+/// the light: its technique, its estimator and its projection say what they are.
 /// @throws CompositionError with the reason
 const EstimatorEntry& compose(ShadowLight& light);
 

@@ -8,6 +8,7 @@ namespace gnomon::tool
 ///@{
 /// Each adds one subcommand. Its work runs while the command line is parsed, in the subcommand's
 /// callback, and throws BadInput or Failure.
+void addCalibrateCommand(CLI::App& app);
 void addCompareCommand(CLI::App& app);
 void addDiffCommand(CLI::App& app);
 void addRenderCommand(CLI::App& app);

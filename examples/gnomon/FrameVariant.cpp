@@ -103,7 +103,7 @@ VariantSpec parseTechnique(const std::string& text)
   std::istringstream parts(text);
   VariantSpec spec;
   std::getline(parts, spec.technique, ':');
-  if (!findTechnique(spec.technique))
+  if (!findTechnique(spec.technique) && spec.technique != automaticTechnique)
   {
     throw BadInput(
       "--techniques: found \"" + spec.technique + "\", expected some of: " + techniqueNames());
@@ -255,6 +255,11 @@ bool FrameVariant::awaitsMap() const
 double FrameVariant::drawFrame(Motion motion, int step)
 {
   this->mover_.apply(motion, step);
+  if (this->pass())
+  {
+    this->pass()->SetInteractive(motion == Motion::Static ? vtkGnomonShadowPass::INTERACTIVE_OFF
+                                                          : vtkGnomonShadowPass::INTERACTIVE_ON);
+  }
   this->window_->MakeCurrent();
   const auto start = std::chrono::steady_clock::now();
   this->window_->Render();

@@ -67,6 +67,7 @@ void addTechniquesCommand(CLI::App& app)
     ->callback(
       []
       {
+        printLine(automaticTechnique, automaticSummary);
         for (const TechniqueEntry& entry : registry())
         {
           printLine(entry.name, entry.summary);

@@ -232,6 +232,8 @@ nlohmann::ordered_json toJson(const FrameReport& report)
   nlohmann::ordered_json json;
   json["route"] = report.route;
   json["route_reason"] = report.routeReason;
+  json["choice"] = report.choice;
+  json["probes"] = report.probes;
   json["tracer"] = report.tracer;
   json["tracer_reason"] = report.tracerReason;
   json["lights"] = nlohmann::ordered_json::array();

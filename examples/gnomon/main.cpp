@@ -32,6 +32,7 @@ int main(int argc, char** argv)
   gnomon::tool::addStudyCommand(app);
   gnomon::tool::addDiffCommand(app);
   gnomon::tool::addTechniquesCommand(app);
+  gnomon::tool::addCalibrateCommand(app);
   gnomon::tool::addSettingsCommand(app);
   gnomon::tool::addScenesCommand(app);
 

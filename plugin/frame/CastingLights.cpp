@@ -114,6 +114,15 @@ std::vector<std::string> findMisfits(
   return misfits;
 }
 
+/// Has a light that a map shades what it has at rest.
+void putBack(CastingLight& casting)
+{
+  casting.plain = std::move(casting.own);
+  casting.own = std::move(casting.resting->technique);
+  casting.light = std::move(casting.resting->light);
+  casting.resting.reset();
+}
+
 LightReport reportOfSkipped(const SkippedLight& skipped)
 {
   LightReport report;
@@ -164,7 +173,10 @@ const PointwiseTechnique* CastingLight::pointwiseOn(Route route, bool translucen
   const PointwiseTechnique* own = this->own.as<PointwiseTechnique>();
   if (own || !translucentReceivers)
   {
-    this->plain.reset();
+    if (!this->asked)
+    {
+      this->plain.reset();
+    }
     return translucentReceivers || route == Route::Inline ? own : nullptr;
   }
   if (!this->plain)
@@ -183,8 +195,10 @@ void CastingLights::collect(vtkRenderer* renderer, const ShadowSettings& default
   report.misfits = findMisfits(set.lights, defaults);
 
   std::vector<const EstimatorEntry*> estimators;
+  std::vector<std::optional<ShadowLight>> asked;
   for (ShadowLight& light : set.lights)
   {
+    asked.push_back(isAutomatic(light) ? std::optional(light) : std::nullopt);
     estimators.push_back(&composeIn(light, report.misfits));
     settle(light, estimators.back()->info, report.notes);
     report.lights.push_back(reportOfCasting(light, estimators.back()->info));
@@ -199,6 +213,7 @@ void CastingLights::collect(vtkRenderer* renderer, const ShadowSettings& default
   for (std::size_t i = 0; i < set.lights.size(); ++i)
   {
     lights.push_back(this->take(std::move(set.lights[i]), *estimators[i], ofView));
+    lights.back().asked = std::move(asked[i]);
   }
   this->lights_ = std::move(lights);
   this->placeVisibility();
@@ -235,10 +250,56 @@ void CastingLights::placeVisibility()
 }
 
 //------------------------------------------------------------------------------
+std::string CastingLights::takeMap(CastingLight& casting, int mapSizeTexels, FrameReport& report)
+{
+  ShadowLight light = *casting.asked;
+  light.technique = plainTechnique;
+  light.mapSizeTexels = mapSizeTexels;
+  const EstimatorEntry* estimator = nullptr;
+  try
+  {
+    estimator = &composeHere(light);
+  }
+  catch (const CompositionError& error)
+  {
+    return error.what();
+  }
+  if (!casting.resting)
+  {
+    casting.resting.emplace(
+      CastingLight::Resting{ std::move(casting.light), std::move(casting.own) });
+    casting.own = casting.plain ? std::move(*casting.plain) : LightTechnique(*estimator);
+    casting.plain.reset();
+  }
+  casting.light = std::move(light);
+  casting.channels = channelsOf(estimator->info, casting.light);
+  reportOf(report, casting.light) = reportOfCasting(casting.light, estimator->info);
+  this->placeVisibility();
+  return {};
+}
+
+//------------------------------------------------------------------------------
+void CastingLights::takeResting(CastingLight& casting, FrameReport& report)
+{
+  if (!casting.resting)
+  {
+    return;
+  }
+  putBack(casting);
+  casting.channels = channelsOf(casting.own.info(), casting.light);
+  reportOf(report, casting.light) = reportOfCasting(casting.light, casting.own.info());
+  this->placeVisibility();
+}
+
+//------------------------------------------------------------------------------
 void CastingLights::giveBack(TechniquesOfLights& ofView)
 {
   for (CastingLight& casting : this->lights_)
   {
+    if (casting.resting)
+    {
+      putBack(casting);
+    }
     TechniquesOfLights& place = this->placeOf(casting.light, ofView);
     KeptTechniques& kept = casting;
     place.emplace(casting.light.sceneIndex, std::move(kept));

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <map>
 #include <optional>
+#include <string>
 #include <vector>
 
 class vtkRenderer;
@@ -20,8 +21,8 @@ namespace gnomon
 struct KeptTechniques
 {
   LightTechnique own;
-  /// Shades translucent surfaces where the light's own technique works on the screen; none without
-  /// such.
+  /// Shades translucent surfaces where the light's own technique works on the screen, and all of
+  /// them in frames that move where the light leaves its technique to the pass; else none.
   std::optional<LightTechnique> plain;
 };
 /// By the lights' places in the scene.
@@ -38,6 +39,15 @@ struct CastingLight : KeptTechniques
   bool shadesAtPoints = false; ///< whether shaders call a technique for it
   bool isStale = true;         ///< image route: whether its visibility is computed in this frame
   bool mayKeepTiles = false;   ///< and whether nothing changed but what may leave some tiles
+  /// Of a light that leaves its technique to the pass, what it asks for; none of others.
+  std::optional<ShadowLight> asked = std::nullopt;
+  /// What such a light has at rest, while a map shades it.
+  struct Resting
+  {
+    ShadowLight light;
+    LightTechnique technique;
+  };
+  std::optional<Resting> resting = std::nullopt;
 
   /// What the shader computes the light's visibility with on a route; null if it only fetches. From
   /// here on there is a plain technique where one is needed.
@@ -62,6 +72,14 @@ public:
   /// @param ofView what lights whose maps are fitted to a camera keep for this view
   void collect(vtkRenderer* renderer, const ShadowSettings& defaults, TechniquesOfLights& ofView,
     FrameReport& report);
+
+  ///@{
+  /// For this frame, has a light that leaves its technique to the pass shaded by a plain map, or
+  /// again by what it has at rest.
+  /// @return takeMap: why it cannot be, as a clause; empty if it is
+  std::string takeMap(CastingLight& casting, int mapSizeTexels, FrameReport& report);
+  void takeResting(CastingLight& casting, FrameReport& report);
+  ///@}
 
   /// Ends a frame: what the lights have goes back to where collect() took it from.
   void giveBack(TechniquesOfLights& ofView);

@@ -1,5 +1,9 @@
 #pragma once
 
+#include "plugin/frame/CostModel.h"
+
+#include <optional>
+
 namespace gnomon
 {
 
@@ -37,6 +41,14 @@ struct FrameWishes
   bool keepVisibility = false; ///< whether visibility is asked for as data
   bool measureStages = false;
   bool smoothTerminators = true; ///< whether receivers may be on the surface that normals imply
+  ///@{
+  /// Of lights that leave their technique to the pass.
+  bool moves = false;             ///< whether the picture moves; at rest they are exact
+  double maximumError = 0.005;    ///< share of wrong pixels of hard shadows, in frames that move
+  double maximumSoftError = 0.03; ///< root mean square error of soft ones
+  double timeBudget = 0.0;        ///< milliseconds for a frame that moves; 0: none
+  std::optional<CostFactors> factors; ///< of this machine; none: the default ones
+  ///@}
 };
 
 } // namespace gnomon

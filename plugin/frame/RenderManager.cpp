@@ -46,7 +46,9 @@ void RenderManager::beginFrame(const FrameWishes& wishes)
     glFinish(); // what was pending before the frame is not the frame's
   }
   this->frame_.start = this->frame_.stageStart = steadyMilliseconds();
-  this->compilesBefore_ = this->programs_.library.compiles() + this->programs_.shaders.rebuilds();
+  const PassPrograms& programs = this->programs_;
+  this->compilesBefore_ = programs.library.compiles() + programs.shaders.rebuilds();
+  this->newProgramsBefore_ = programs.library.compiles() + programs.shaders.newPrograms();
 }
 
 //------------------------------------------------------------------------------
@@ -93,6 +95,18 @@ void RenderManager::collectOccluders(const vtkRenderState* s)
     this->frame_.camera.pixelSide(this->frame_.size) };
   this->stageValues_.space = this->frame_.space;
   this->frame_.endStage("occluders");
+}
+
+//------------------------------------------------------------------------------
+void RenderManager::chooseTechniques()
+{
+  this->choice_.choose(
+    [this](CastingLight& casting)
+    {
+      casting.own.updateMaps(
+        casting.light, this->mapStage(), reportOf(this->frame_.report, casting.light));
+    });
+  this->frame_.endStage("choice");
 }
 
 //------------------------------------------------------------------------------
@@ -315,7 +329,8 @@ void RenderManager::updateReceivers(const vtkRenderState* s, vtkObjectBase* pass
 }
 
 //------------------------------------------------------------------------------
-void RenderManager::bakeMaps()
+/// What the lights' maps are drawn from.
+MapStage RenderManager::mapStage()
 {
   RasterizerChoice rasterizer;
   if (this->frame_.lights.anyTechnique(
@@ -323,18 +338,24 @@ void RenderManager::bakeMaps()
   {
     rasterizer = chooseRasterizer(this->frame_.wishes.rasterizer, CellTarget::whyUnsupported());
   }
-  const MapStage stage{ this->frame_.camera, this->collector_.occluders(), this->buffers_,
-    rasterizer, this->programs_.library, this->frame_.view->receivers.target,
+  return { this->frame_.camera, this->collector_.occluders(), this->buffers_, rasterizer,
+    this->programs_.library, this->frame_.view->receivers.target,
     this->frame_.space.centredFromView, this->frame_.view->receivers.number, this->frame_.report };
+}
+
+//------------------------------------------------------------------------------
+void RenderManager::bakeMaps()
+{
+  const MapStage stage = this->mapStage();
   for (CastingLight& casting : this->frame_.lights)
   {
     LightReport& report = reportOf(this->frame_.report, casting.light);
-    const bool shadesByOwn = casting.shadesAtPoints && !casting.plain;
+    const bool shadesByOwn = casting.shadesAtPoints && casting.own.info().isPointwise();
     if (this->frame_.route == Route::Inline || casting.isStale || shadesByOwn)
     {
       casting.own.updateMaps(casting.light, stage, report);
     }
-    if (casting.plain)
+    if (casting.plain && casting.shadesAtPoints)
     {
       casting.plain->updateMaps(casting.light, stage, report);
     }
@@ -390,8 +411,11 @@ bool RenderManager::endShading()
 void RenderManager::endFrame()
 {
   FrameReport& report = this->frame_.report;
+  const PassPrograms& programs = this->programs_;
   report.programCompiles =
-    this->programs_.library.compiles() + this->programs_.shaders.rebuilds() - this->compilesBefore_;
+    programs.library.compiles() + programs.shaders.rebuilds() - this->compilesBefore_;
+  report.newPrograms =
+    programs.library.compiles() + programs.shaders.newPrograms() - this->newProgramsBefore_;
   report.bytesOccluders =
     this->collector_.bytes() + this->buffers_.bytes() + this->visibility_.tracer().bytesOfTable();
   report.bytesBvh = this->visibility_.tracer().bytes();
@@ -401,7 +425,12 @@ void RenderManager::endFrame()
   {
     report.bytesImages = this->views_.bytesOfImages() + this->visibility_.bytesOfRays();
   }
+  if (this->frame_.wishes.moves && this->frame_.wishes.timeBudget > 0.0)
+  {
+    glFinish(); // so that the frame's time is known
+  }
   report.wallMilliseconds = steadyMilliseconds() - this->frame_.start;
+  this->choice_.endFrame(report.wallMilliseconds);
 }
 
 //------------------------------------------------------------------------------

@@ -4,6 +4,7 @@
 #include "plugin/frame/Frame.h"
 #include "plugin/frame/MapRasterizer.h"
 #include "plugin/frame/ShaderManager.h"
+#include "plugin/frame/TechniqueChoice.h"
 #include "plugin/frame/VisibilityStage.h"
 #include "plugin/scene/OccluderCollector.h"
 #include "shadowtech/base/OccluderBuffers.h"
@@ -49,6 +50,10 @@ public:
   /// snapshot: brings it up to date with the renderer's props. From here on it is known where the
   /// camera is in it.
   void collectOccluders(const vtkRenderState* s);
+
+  /// Chooses for lights that leave their technique to the pass; maps that it takes are baked.
+  /// @throws std::runtime_error as bakeMaps() and computeVisibility()
+  void chooseTechniques();
 
   /// Chooses how visibility reaches the picture, and states it in the report.
   /// @param drawnPlainly true if no render pass of the user's draws the props
@@ -100,6 +105,7 @@ public:
   const VisibilityImages& visibility() const { return this->visibility_.images(); }
 
 private:
+  MapStage mapStage();
   bool readsPoints() const;
   ValueKey receiversKey(const vtkRenderState* s) const;
   std::string whyNotDeferred(const vtkRenderState* s, bool drawnPlainly) const;
@@ -113,13 +119,18 @@ private:
   OccluderBuffers buffers_;
   PassPrograms& programs_;
   VisibilityStage visibility_{ frame_, collector_.occluders(), buffers_, programs_.library };
+  TechniqueChoice choice_{ frame_, collector_.occluders(), visibility_, programs_.library };
   RendererViews views_;
   ShaderManager::StageValues stageValues_;
   bool shadesTranslucent_ = false;    ///< whether translucent surfaces show shadows in this frame
   std::size_t receiversNumbered_ = 0; ///< how many images of receivers were drawn
   std::optional<ValueKey> receiversDue_; ///< the key of receivers that this frame draws
   int restingFrames_ = 0;                ///< deferred route: in a row that kept their receivers
-  int compilesBefore_ = 0;               ///< the frame
+  ///@{
+  /// Before the frame.
+  int compilesBefore_ = 0;
+  int newProgramsBefore_ = 0;
+  ///@}
 };
 
 } // namespace gnomon

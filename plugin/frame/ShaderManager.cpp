@@ -8,6 +8,7 @@
 #include <vtkTextureUnitManager.h>
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <regex>
 
@@ -292,7 +293,8 @@ void ShaderManager::markShader(
 }
 
 //------------------------------------------------------------------------------
-void ShaderManager::fillShader(std::string& fragmentShader, bool drawsReceivers)
+void ShaderManager::fillShader(const std::string& vertexShader, const std::string& geometryShader,
+  std::string& fragmentShader, bool drawsReceivers)
 {
   ++this->rebuilds_;
   // Unlit surfaces have no view coordinates and no lights to shadow; they only hide what is behind.
@@ -335,6 +337,8 @@ void ShaderManager::fillShader(std::string& fragmentShader, bool drawsReceivers)
   replace(fragmentShader, uniformFlowMarker, uniformFlow);
   replace(fragmentShader, beginMarker, begin);
   replace(fragmentShader, endMarker, end);
+  this->programs_.insert(
+    std::hash<std::string>()(vertexShader + geometryShader + fragmentShader));
 }
 
 //------------------------------------------------------------------------------

@@ -67,7 +67,8 @@ public:
   /// @param drawsReceivers whether this prop's shader must be able to say what receives
   void markShader(
     std::string& vertexShader, std::string& geometryShader, std::string& fragmentShader) const;
-  void fillShader(std::string& fragmentShader, bool drawsReceivers);
+  void fillShader(const std::string& vertexShader, const std::string& geometryShader,
+    std::string& fragmentShader, bool drawsReceivers);
 
   /// The values that stay the same for all props of a stage.
   struct StageValues
@@ -90,6 +91,8 @@ public:
 
   /// Shaders rebuilt by VTK since the start.
   int rebuilds() const { return this->rebuilds_; }
+  /// Of these, programs that were not there before.
+  int newPrograms() const { return static_cast<int>(this->programs_.size()); }
 
 private:
   std::string lightInShadow(const std::string& fragmentShader) const;
@@ -108,6 +111,7 @@ private:
   std::string darkenings_;      ///< deferred route: what stands there for the colour in shadow
   vtkTimeStamp stageTime_;
   int rebuilds_ = 0;
+  std::set<std::size_t> programs_; ///< hashes of all programs' sources
 
   std::vector<ShadedLight> lights_;
   vtkOpenGLRenderWindow* window_ = nullptr;

@@ -147,14 +147,13 @@ void VisibilityStage::findStale()
 }
 
 //------------------------------------------------------------------------------
-/// Brings a tracer up to date with the snapshot.
 void VisibilityStage::updateTracer()
 {
   const TracerChoice choice =
     chooseTracer(this->frame_.wishes.tracer, GpuTracer::whyUnsupported(), rendererName());
   const ShadowTracer::Update update = this->tracer_.update(choice, this->occluders_);
-  this->frame_.report.bvhBuilds = update.builds;
-  this->frame_.report.bvhRefits = update.refits;
+  this->frame_.report.bvhBuilds += update.builds;
+  this->frame_.report.bvhRefits += update.refits;
   this->frame_.endStage("visibility: build");
 }
 

@@ -41,13 +41,15 @@ public:
   void dropImages();
   ///@}
 
+  /// Brings the tracer up to date with the snapshot; compute() does so where anything is traced.
+  void updateTracer();
   const FrameTracer& tracer() const { return this->tracer_; }
+  ShadowTracer& shadowTracer() { return this->tracer_.tracer(); } ///< of the last update
   std::size_t bytesOfRays() const { return this->tracer_.bytesOfRays() + this->edges_.bytes(); }
 
 private:
   ValueKey keyOf(const CastingLight& casting) const;
   bool classifies() const;
-  void updateTracer();
   void tellTracer();
   bool tracesOnCpu() const;
   Receivers& receiversOnCpu();

@@ -85,6 +85,10 @@ struct FrameReport
   std::string routeReason;  ///< why this route, as a clause
   std::string tracer;       ///< "embree" or "gpu"; empty where no light's technique traces rays
   std::string tracerReason; ///< why this one, as a clause
+  /// What lights have that leave their technique to the pass, and why, as a clause; empty where
+  /// none does.
+  std::string choice;
+  std::int64_t probes = 0; ///< pixels at which maps or samples of theirs were compared with rays
   /// Whether the frame was drawn without shadows because a map or an image is too large for the
   /// texture memory.
   bool outOfTextureMemory = false;
@@ -109,7 +113,8 @@ struct FrameReport
   int visibilityComputed = 0;    ///< lights whose visibility was computed for the picture's pixels
   std::int64_t raysTraced = 0;   ///< for them
   int mapBakes = 0;              ///< maps drawn
-  int programCompiles = 0;       ///< shader programs compiled, VTK's with the hook included
+  int programCompiles = 0; ///< shader programs made, VTK's with the hook included
+  int newPrograms = 0;     ///< of these, what OpenGL had to compile: VTK keeps those of earlier frames
   int bvhBuilds = 0;             ///< acceleration structures built
   int bvhRefits = 0;             ///< acceleration structures refitted
   int surfacesExtracted = 0;     ///< mapper inputs read into the snapshot

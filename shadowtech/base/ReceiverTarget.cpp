@@ -67,6 +67,27 @@ void ReceiverTarget::end(bool blending)
 }
 
 //------------------------------------------------------------------------------
+void ReceiverTarget::fill(int width, int height, const std::vector<glm::vec4>& fragments,
+  const std::vector<glm::vec4>& points)
+{
+  if (width != this->width_ || height != this->height_ || !this->withPoints_)
+  {
+    this->allocate(width, height, true);
+  }
+  const GlStateGuard guard;
+  glActiveTexture(GL_TEXTURE0);
+  glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+  const auto upload = [&](const GlTexture& texture, const std::vector<glm::vec4>& texels)
+  {
+    glBindTexture(GL_TEXTURE_2D, texture.name());
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width, height, GL_RGBA, GL_FLOAT, texels.data());
+  };
+  upload(this->fragments_, fragments);
+  upload(this->points_, points);
+}
+
+//------------------------------------------------------------------------------
 void ReceiverTarget::read(ReceiverImages& images) const
 {
   images.width = this->width_;

@@ -3,7 +3,10 @@
 #include "shadowtech/base/Gl.h"
 #include "shadowtech/base/Receivers.h"
 
+#include <glm/glm.hpp>
+
 #include <cstddef>
+#include <vector>
 
 namespace gnomon
 {
@@ -26,6 +29,10 @@ public:
   /// Binds what was bound before.
   /// @param blending whether blending is switched on outside
   void end(bool blending);
+
+  /// Fills it with receivers that nobody drew, row by row from the bottom, as begin() says.
+  void fill(int width, int height, const std::vector<glm::vec4>& fragments,
+    const std::vector<glm::vec4>& points);
 
   /// Reads the fragments back.
   void read(ReceiverImages& images) const;

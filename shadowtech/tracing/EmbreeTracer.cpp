@@ -5,6 +5,10 @@
 
 #include <embree3/rtcore.h>
 
+#include <glm/gtc/matrix_inverse.hpp>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -15,6 +19,7 @@
 #include <string>
 #include <unordered_map>
 #include <utility>
+#include <vector>
 
 namespace gnomon
 {
@@ -362,6 +367,8 @@ struct EmbreeTracer::Impl
   Caster makeSolids(const Surface& surface) const;
   void attachInstances(Caster& caster, const Surface& surface) const;
   void move(Caster& caster, const Surface& surface) const;
+  void nameSurfaces(const Occluders& occluders);
+  glm::vec3 normalOf(const RTCHit& hit) const;
   void check(const char* what) const;
   template <typename Packet>
   std::size_t trace(const TracedPicture& picture) const;
@@ -371,6 +378,9 @@ struct EmbreeTracer::Impl
   Scene scene;
   bool lanes16 = false; ///< packets of 16; else of 8, whose answers are the same
   std::unordered_map<std::uint64_t, Caster> casters; ///< by the surface's topologyVersion
+  /// Occluders::surfaces index by Embree's number of what is attached to the scene.
+  std::vector<std::uint32_t> surfaces;
+  bool hasSolids = false; ///< whether any caster is a solid, which rays ask for occlusion alone
   std::uint64_t topologyVersion = 0;
   std::uint64_t positionsVersion = 0;
 };
@@ -480,6 +490,7 @@ Caster EmbreeTracer::Impl::makeCaster(const Surface& surface, const Occluders& o
   }
   if (surface.cutout)
   {
+    rtcSetGeometryIntersectFilterFunction(caster.geometry.get(), rejectHoles);
     caster.cutout = std::make_unique<CutoutSurface>();
     rtcSetGeometryUserData(caster.geometry.get(), caster.cutout.get());
   }
@@ -543,6 +554,40 @@ void EmbreeTracer::Impl::move(Caster& caster, const Surface& surface) const
   }
 }
 
+void EmbreeTracer::Impl::nameSurfaces(const Occluders& occluders)
+{
+  this->hasSolids = occluders.castsSolids();
+  this->surfaces.clear();
+  for (std::size_t i = 0; i < occluders.surfaces.size(); ++i)
+  {
+    const auto caster = this->casters.find(occluders.surfaces[i].topologyVersion);
+    if (caster == this->casters.end())
+    {
+      continue;
+    }
+    for (const unsigned int attached : caster->second.attached)
+    {
+      this->surfaces.resize(std::max<std::size_t>(this->surfaces.size(), attached + 1u));
+      this->surfaces[attached] = static_cast<std::uint32_t>(i);
+    }
+  }
+}
+
+/// The normal of the triangle that was hit, in centred coordinates.
+glm::vec3 EmbreeTracer::Impl::normalOf(const RTCHit& hit) const
+{
+  const glm::vec3 normal(hit.Ng_x, hit.Ng_y, hit.Ng_z);
+  if (hit.instID[0] == RTC_INVALID_GEOMETRY_ID)
+  {
+    return normal;
+  }
+  glm::mat4x3 centredFromSource;
+  rtcGetGeometryTransform(rtcGetGeometry(this->scene.get(), hit.instID[0]), 0.0f,
+    RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, &centredFromSource[0][0]);
+  // Regular (Surface::centredFromSource).
+  return glm::normalize(glm::inverseTranspose(glm::mat3(centredFromSource)) * normal);
+}
+
 //------------------------------------------------------------------------------
 EmbreeTracer::EmbreeTracer()
   : impl_(std::make_unique<Impl>())
@@ -592,6 +637,7 @@ ShadowTracer::Update EmbreeTracer::update(const Occluders& occluders)
     }
   }
   impl.casters = std::move(casters);
+  impl.nameSurfaces(occluders);
   rtcCommitScene(impl.scene.get());
   impl.check("building the acceleration structure");
   impl.topologyVersion = occluders.topologyVersion;
@@ -629,6 +675,49 @@ void EmbreeTracer::areFree(
 }
 
 //------------------------------------------------------------------------------
+const FirstHitFinder* EmbreeTracer::firstHits() const
+{
+  return this->impl_->hasSolids ? nullptr : this;
+}
+
+//------------------------------------------------------------------------------
+void EmbreeTracer::find(std::size_t count, const PointArrays& origins,
+  const PointArrays& directions, FirstHits& hits) const
+{
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  hits.distance.assign(count, infinity);
+  hits.normalCentred.resize(count);
+  hits.surface.resize(count);
+  const Impl& impl = *this->impl_;
+  if (impl.casters.empty())
+  {
+    return;
+  }
+  const auto trace = [&](const tbb::blocked_range<std::size_t>& range)
+  {
+    for (std::size_t i = range.begin(); i != range.end(); ++i)
+    {
+      RTCIntersectContext context;
+      rtcInitIntersectContext(&context);
+      RTCRayHit ray{};
+      ray.ray = { origins.x[i], origins.y[i], origins.z[i], 0.0f, directions.x[i], directions.y[i],
+        directions.z[i], 0.0f, infinity, 0xffffffffu, 0, 0 };
+      ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+      ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+      rtcIntersect1(impl.scene.get(), &context, &ray);
+      if (ray.hit.geomID != RTC_INVALID_GEOMETRY_ID)
+      {
+        const bool isInstance = ray.hit.instID[0] != RTC_INVALID_GEOMETRY_ID;
+        hits.distance[i] = ray.ray.tfar;
+        hits.normalCentred[i] = impl.normalOf(ray.hit);
+        hits.surface[i] = impl.surfaces[isInstance ? ray.hit.instID[0] : ray.hit.geomID];
+      }
+    }
+  };
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count), trace);
+}
+
+//------------------------------------------------------------------------------
 std::size_t EmbreeTracer::bytes() const
 {
   return static_cast<std::size_t>(std::max<std::ptrdiff_t>(this->impl_->bytes, 0));
@@ -637,7 +726,7 @@ std::size_t EmbreeTracer::bytes() const
 //------------------------------------------------------------------------------
 std::size_t EmbreeTracer::bytesOfTable() const
 {
-  std::size_t bytes = gnomon::bytesOfTable(this->impl_->casters);
+  std::size_t bytes = gnomon::bytesOfTable(this->impl_->casters) + bytesOf(this->impl_->surfaces);
   for (const auto& entry : this->impl_->casters)
   {
     const Caster& caster = entry.second;

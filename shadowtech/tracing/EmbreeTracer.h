@@ -11,6 +11,7 @@ namespace gnomon
 class EmbreeTracer
   : public ShadowTracer
   , public FreeSegments
+  , public FirstHitFinder
 {
 public:
   /// @throws std::runtime_error where Embree cannot be started
@@ -24,6 +25,10 @@ public:
   const FreeSegments* freeSegments() const override { return this; }
   void areFree(std::size_t count, const PointArrays& from, const PointArrays& to,
     std::uint8_t* free) const override;
+
+  const FirstHitFinder* firstHits() const override;
+  void find(std::size_t count, const PointArrays& origins, const PointArrays& directions,
+    FirstHits& hits) const override;
 
   /// As Embree reports it.
   std::size_t bytes() const override;

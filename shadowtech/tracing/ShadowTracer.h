@@ -1,5 +1,6 @@
 #pragma once
 
+#include "shadowtech/tracing/FirstHits.h"
 #include "shadowtech/tracing/TracedPicture.h"
 
 #include <cstddef>
@@ -74,6 +75,9 @@ public:
 
   /// Who says whether segments of the last update's snapshot are free; null: this tracer does not.
   virtual const FreeSegments* freeSegments() const { return nullptr; }
+  /// Who says what rays meet first of that snapshot; null: this tracer does not, or the snapshot
+  /// has casters that are solids.
+  virtual const FirstHitFinder* firstHits() const { return nullptr; }
 
   /// Memory of the acceleration structure, on the CPU and the GPU.
   virtual std::size_t bytes() const = 0;

@@ -5,7 +5,6 @@
 #include "lights/vtkGnomonAreaLight.h"
 #include "lights/vtkGnomonLightKeys.h"
 #include "plugin/vtkGnomonPropKeys.h"
-#include "shadowtech/Registry.h"
 
 #include <vtkCamera.h>
 #include <vtkImageData.h>
@@ -352,6 +351,20 @@ bool FuzzScene::isWide(std::size_t light) const
 }
 
 //------------------------------------------------------------------------------
+const EstimatorEntry& FuzzScene::estimatorOfLight(std::size_t light) const
+{
+  ShadowSettings asked;
+  for (const NamedSettings* settings : { &this->settings_, &this->settingsOfLights_[light] })
+  {
+    for (const auto& [name, value] : *settings)
+    {
+      findSetting(name)->set(asked, value);
+    }
+  }
+  return estimatorOf(asked);
+}
+
+//------------------------------------------------------------------------------
 void FuzzScene::traceInstead(const std::set<int>& hard)
 {
   const TechniqueInfo& rays = findTechnique("raytraced")->estimator->info;
@@ -363,6 +376,10 @@ void FuzzScene::traceInstead(const std::set<int>& hard)
     for (const auto& [name, value] : this->settingsOfLights_[i])
     {
       vtkGnomonLightKeys::SetSetting(light, name.c_str(), isKept(name) ? value.c_str() : nullptr);
+    }
+    if (!has(this->estimatorOfLight(i).info, "edge_samples"))
+    {
+      vtkGnomonLightKeys::SetSetting(light, "edge_samples", "1"); // whatever the pass says
     }
     if (hard.count(static_cast<int>(i)) > 0 && this->isWide(i))
     {

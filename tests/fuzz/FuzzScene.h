@@ -8,6 +8,7 @@
 #include "plugin/VisibilityImages.h"
 #include "plugin/vtkGnomonEGLRenderWindow.h"
 #include "plugin/vtkGnomonShadowPass.h"
+#include "shadowtech/Registry.h"
 #include "shadowtech/base/FrameReport.h"
 
 #include <vtkActor.h>
@@ -104,6 +105,7 @@ private:
   void sendFarProp(Random& random);
 
   bool isWide(std::size_t light) const;
+  const EstimatorEntry& estimatorOfLight(std::size_t light) const;
   std::string allowed(const std::string& value) const;
   vtkProp3D* someProp(Random& random) const;
   vtkActor* someActor(Random& random) const; ///< null if the prop is none

@@ -76,7 +76,7 @@ TEST(Registry, hasEveryTechniqueOnceAndItsEstimator)
     EXPECT_EQ(findEstimator(estimator.info.name), &estimator);
   }
   EXPECT_EQ(findTechnique("magic"), nullptr);
-  EXPECT_TRUE(findTechnique(defaultTechnique));
+  EXPECT_EQ(findTechnique(automaticTechnique), nullptr) << "it stands for others";
   EXPECT_TRUE(findTechnique(plainTechnique)->estimator->info.isPointwise());
 }
 
@@ -319,9 +319,37 @@ TEST(Registry, followsAPublicationWhereThereIsOneThatIsNotExact)
   EXPECT_TRUE(findEstimator("silhouette")->info.asPublished.empty());
 }
 
+// Of a resting picture: exact, unless an estimator is named.
+TEST(Registry, completesLightsThatLeaveTheirTechniqueToThePass)
+{
+  for (const char* const name : { "", "auto" })
+  {
+    ShadowLight hard = lightOf(LightKind::Directional);
+    hard.technique = name;
+    EXPECT_TRUE(isAutomatic(hard));
+    EXPECT_EQ(&compose(hard), findEstimator("silhouette"));
+    EXPECT_EQ(hard.technique, "silhouette");
+    EXPECT_FALSE(isAutomatic(hard));
+
+    ShadowLight soft = lightOf(LightKind::Point);
+    soft.technique = name;
+    soft.area = ballArea(0.1);
+    EXPECT_EQ(&compose(soft), findEstimator("penumbra"));
+    EXPECT_EQ(soft.technique, "penumbra");
+
+    ShadowLight filtered = lightOf(LightKind::Directional);
+    filtered.technique = name;
+    filtered.estimator = "pcf";
+    EXPECT_FALSE(isAutomatic(filtered));
+    EXPECT_EQ(&compose(filtered), findEstimator("pcf"));
+    EXPECT_EQ(filtered.technique, "nsm");
+  }
+}
+
 TEST(Registry, completesTheLight)
 {
   ShadowLight light = lightOf(LightKind::Directional);
+  light.technique = "nsm";
   EXPECT_EQ(&compose(light), findEstimator("compare"));
   EXPECT_EQ(light.technique, "nsm");
   EXPECT_EQ(light.estimator, "compare");

@@ -86,7 +86,7 @@ TEST(QtWidget, showsTheSameBytesAsTheWindowWithoutADisplay)
   processEvents();
   const auto shadowed = readPicture(widget);
   const auto* pass = vtkGnomonShadowPass::SafeDownCast(renderer->GetPass());
-  EXPECT_EQ(pass->GetReport().route, "inline") << pass->GetReport().routeReason;
+  EXPECT_EQ(pass->GetReport().route, "deferred") << pass->GetReport().routeReason;
   EXPECT_EQ(shadowed.size(), expected.size());
   EXPECT_TRUE(shadowed == expected);
 

@@ -1,0 +1,61 @@
+"""Writes docs/results/auto.md from the lines of gnomon_benchmark_auto.
+
+python3 docs/auto_page.py auto.csv MACHINE
+"""
+
+import csv
+import statistics
+import sys
+
+ALLOWED = 0.005
+DEAREST = 1.3
+
+
+def share(rows, keeps):
+    return f"{100 * sum(keeps(row) for row in rows) / len(rows):.1f} %"
+
+
+def line(name, rows):
+    kept = [row for row in rows if row["best"]]
+    over = [float(row["over best"]) for row in kept]
+    maps = [row for row in rows if row["technique"] == "nsm"]
+    return (
+        f"| {name} | {len(rows)} | {len(maps)} "
+        f"| {share(rows, lambda row: float(row['wrong share']) <= ALLOWED)} "
+        f"| {100 * max(float(row['wrong share']) for row in rows):.2f} % "
+        f"| {share(kept, lambda row: float(row['over best']) <= DEAREST)} "
+        f"| {statistics.median(over):.2f} | {max(over):.2f} |"
+    )
+
+
+def main():
+    with open(sys.argv[1], newline="", encoding="utf-8") as table:
+        rows = list(csv.DictReader(table))
+    scenes = list(dict.fromkeys(row["scene"] for row in rows))
+    print("# How well `auto` chooses")
+    print()
+    print(
+        "From random places in a scene, the camera moves by small steps. The error is the share of\n"
+        "wrong pixels, of those that face the light, in the last of these frames; 0.50 % is allowed.\n"
+        "The best single technique is known only afterwards: the fastest of `nsm`, `lispsm`, `tsm` and\n"
+        "`pssm` with maps of several sizes, `silhouette` and `raytraced` that keeps the error there,\n"
+        "with maps that are drawn already. Times are medians of ten frames, of all ways in turns."
+    )
+    print()
+    print(
+        "| scene | places | with maps | error kept | largest error | at most 1.3 times the best "
+        "| over the best: median | most |"
+    )
+    print("|---|---|---|---|---|---|---|---|")
+    for scene in scenes:
+        print(line(f"`{scene}`", [row for row in rows if row["scene"] == scene]))
+    print(line("all", rows))
+    print()
+    print(
+        "`docs/auto.sh` measures this and writes this page; [the table](auto.csv) has a line a place."
+    )
+    print()
+    print(f"Measured on: {sys.argv[2]}.")
+
+
+main()

@@ -1,0 +1,162 @@
+#include "plugin/frame/CostModel.h"
+
+#include <cmath>
+#include <fstream>
+#include <initializer_list>
+#include <set>
+#include <sstream>
+#include <stdexcept>
+
+namespace gnomon
+{
+namespace
+{
+
+constexpr double millisecondsOfNanoseconds = 1e-6;
+
+double costOfPlain(const FrameCounters& counters, const CostFactors& factors)
+{
+  return static_cast<double>(counters.triangles) * factors.drawTriangle +
+    static_cast<double>(counters.pixels) * factors.drawPixel;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+CostFactors defaultFactors(bool software)
+{
+  CostFactors factors;
+  factors.drawTriangle = 40.0;
+  factors.drawPixel = 20.0;
+  factors.askPixel = 9.5;
+  factors.bakeTriangle = 54.0;
+  factors.bakeTexel = 7.0;
+  factors.fetchPixel = 4.6;
+  factors.receiverTriangle = 26.0;
+  factors.receiverPixel = 12.0;
+  factors.tracePixel = 15.0;
+  factors.refitTriangle = 20.0;
+  if (!software)
+  {
+    constexpr double faster = 1.0 / 20.0;
+    for (double CostFactors::*drawn : { &CostFactors::drawTriangle, &CostFactors::drawPixel,
+           &CostFactors::askPixel, &CostFactors::bakeTriangle, &CostFactors::bakeTexel,
+           &CostFactors::fetchPixel, &CostFactors::receiverTriangle, &CostFactors::receiverPixel })
+    {
+      factors.*drawn *= faster;
+    }
+  }
+  return factors;
+}
+
+//------------------------------------------------------------------------------
+const std::array<NamedFactor, 10>& namedFactors()
+{
+  static const std::array<NamedFactor, 10> factors = { {
+    { "draw_triangle", &CostFactors::drawTriangle },
+    { "draw_pixel", &CostFactors::drawPixel },
+    { "ask_pixel", &CostFactors::askPixel },
+    { "bake_triangle", &CostFactors::bakeTriangle },
+    { "bake_texel", &CostFactors::bakeTexel },
+    { "fetch_pixel", &CostFactors::fetchPixel },
+    { "receiver_triangle", &CostFactors::receiverTriangle },
+    { "receiver_pixel", &CostFactors::receiverPixel },
+    { "trace_pixel", &CostFactors::tracePixel },
+    { "refit_triangle", &CostFactors::refitTriangle },
+  } };
+  return factors;
+}
+
+//------------------------------------------------------------------------------
+std::string textOf(const CostFactors& factors)
+{
+  std::ostringstream text;
+  for (const NamedFactor& factor : namedFactors())
+  {
+    text << factor.name << ' ' << factors.*factor.member << '\n';
+  }
+  return text.str();
+}
+
+//------------------------------------------------------------------------------
+CostFactors readFactors(const std::string& path)
+{
+  std::ifstream file(path);
+  if (!file)
+  {
+    throw std::runtime_error(path + " cannot be read");
+  }
+  CostFactors factors{};
+  std::set<std::string> read;
+  std::string line;
+  for (int number = 1; std::getline(file, line); ++number)
+  {
+    if (line.empty() || line[0] == '#')
+    {
+      continue;
+    }
+    const auto refuse = [&](const std::string& why)
+    { throw std::runtime_error(path + ", line " + std::to_string(number) + ": " + why); };
+    std::istringstream words(line);
+    std::string name;
+    std::string rest;
+    double value = -1.0;
+    words >> name >> value;
+    if (!words || words >> rest || !(value >= 0.0) || !std::isfinite(value))
+    {
+      refuse("found \"" + line + "\", expected a name and a number that is not negative");
+    }
+    bool isKnown = false;
+    for (const NamedFactor& factor : namedFactors())
+    {
+      if (name == factor.name)
+      {
+        isKnown = true;
+        factors.*factor.member = value;
+      }
+    }
+    if (!isKnown || !read.insert(name).second)
+    {
+      refuse("found " + name + (isKnown ? " again" : ", which is no factor"));
+    }
+  }
+  for (const NamedFactor& factor : namedFactors())
+  {
+    if (read.count(factor.name) == 0)
+    {
+      throw std::runtime_error(path + ": " + factor.name + " is missing");
+    }
+  }
+  return factors;
+}
+
+//------------------------------------------------------------------------------
+double costByMaps(const FrameCounters& counters, const CostFactors& factors)
+{
+  const auto triangles = static_cast<double>(counters.triangles);
+  const double asked = static_cast<double>(counters.pixels) * factors.askPixel;
+  const double baked =
+    triangles * factors.bakeTriangle + static_cast<double>(counters.texels) * factors.bakeTexel;
+  return millisecondsOfNanoseconds *
+    (costOfPlain(counters, factors) + static_cast<double>(counters.lights) * asked +
+      static_cast<double>(counters.movedLights) * baked);
+}
+
+//------------------------------------------------------------------------------
+double costByRays(const FrameCounters& counters, const CostFactors& factors)
+{
+  const auto triangles = static_cast<double>(counters.triangles);
+  const auto pixels = static_cast<double>(counters.pixels);
+  double nanoseconds = costOfPlain(counters, factors) + pixels * factors.fetchPixel;
+  if (counters.viewMoved)
+  {
+    nanoseconds += triangles * factors.receiverTriangle + pixels * factors.receiverPixel;
+  }
+  const auto traced =
+    static_cast<double>(counters.viewMoved ? counters.lights : counters.movedLights);
+  nanoseconds += pixels * traced * factors.tracePixel;
+  nanoseconds += counters.castersMoved ? triangles * factors.refitTriangle : 0.0;
+  return millisecondsOfNanoseconds * nanoseconds;
+}
+
+} // namespace gnomon

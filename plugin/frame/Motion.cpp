@@ -1,0 +1,79 @@
+#include "plugin/frame/Motion.h"
+
+#include <vtkRenderWindow.h>
+#include <vtkRenderWindowInteractor.h>
+
+namespace gnomon
+{
+
+//------------------------------------------------------------------------------
+bool isDragged(vtkRenderWindow* window)
+{
+  // VTK's own rate of windows that nobody has asked anything of is below this.
+  constexpr double slowest = 0.01; // frames a second
+  vtkRenderWindowInteractor* const interactor = window ? window->GetInteractor() : nullptr;
+  return interactor && window->GetDesiredUpdateRate() > slowest &&
+    window->GetDesiredUpdateRate() > interactor->GetStillUpdateRate();
+}
+
+//------------------------------------------------------------------------------
+RestingFrame::RestingFrame()
+{
+  this->command_->SetCallback(onTimer);
+  this->command_->SetClientData(this);
+}
+
+//------------------------------------------------------------------------------
+RestingFrame::~RestingFrame()
+{
+  this->stop();
+}
+
+//------------------------------------------------------------------------------
+void RestingFrame::drawn(vtkRenderWindow* window, bool moves)
+{
+  this->stop();
+  vtkRenderWindowInteractor* const interactor = window ? window->GetInteractor() : nullptr;
+  if (!moves || !interactor || !interactor->GetInitialized())
+  {
+    return; // nobody's timers run
+  }
+  constexpr unsigned long patience = 500; // milliseconds
+  this->timer_ = interactor->CreateOneShotTimer(patience);
+  if (this->timer_ != 0)
+  {
+    this->window_ = window;
+    this->interactor_ = interactor;
+    interactor->AddObserver(vtkCommand::TimerEvent, this->command_);
+  }
+}
+
+//------------------------------------------------------------------------------
+void RestingFrame::stop()
+{
+  if (this->timer_ != 0 && this->interactor_)
+  {
+    this->interactor_->RemoveObserver(this->command_);
+    this->interactor_->DestroyTimer(this->timer_);
+  }
+  this->timer_ = 0;
+}
+
+//------------------------------------------------------------------------------
+void RestingFrame::onTimer(vtkObject*, unsigned long, void* self, void* timerId)
+{
+  auto& of = *static_cast<RestingFrame*>(self);
+  if (of.timer_ == 0 || *static_cast<int*>(timerId) != of.timer_)
+  {
+    return;
+  }
+  of.stop();
+  if (of.window_)
+  {
+    of.isDue_ = true;
+    of.window_->Render();
+    of.isDue_ = false;
+  }
+}
+
+} // namespace gnomon

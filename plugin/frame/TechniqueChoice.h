@@ -1,0 +1,89 @@
+#pragma once
+
+#include "plugin/frame/CostModel.h"
+#include "plugin/frame/Frame.h"
+#include "plugin/frame/VisibilityStage.h"
+#include "shadowtech/base/Occluders.h"
+#include "shadowtech/base/ShaderLibrary.h"
+#include "shadowtech/probing/Probes.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace gnomon
+{
+
+/// Chooses for lights that leave their technique to the pass (`auto`), between the lights and the
+/// route: exact ones while the picture rests, and while it moves what FrameWishes asks for.
+///
+/// While it moves, area lights take as few samples as the error allows. Lights with hard shadows
+/// take maps if all of them can, and if rays would take more than 1.3 times as long (CostModel.h).
+/// A map is asked at some pixels whose visibility is traced as well (Probes.h) before it is shown,
+/// and again from time to time; it grows until its error is kept, and where that is not enough all
+/// lights take rays. Then maps are tried again after 30 frames at the earliest.
+class TechniqueChoice
+{
+public:
+  /// @param occluders the snapshot, which lives as long as this
+  TechniqueChoice(
+    Frame& frame, const Occluders& occluders, VisibilityStage& visibility, ShaderLibrary& shaders);
+
+  /// Chooses for this frame.
+  /// @param bake has a light's map drawn, if it is stale
+  void choose(const std::function<void(CastingLight&)>& bake);
+
+  /// Takes note of how long the frame took. OpenGL has finished it.
+  void endFrame(double milliseconds);
+
+  std::size_t bytes() const { return this->probes_.bytes(); }
+
+private:
+  /// Where a light is: position, direction, half the cone.
+  using Place = std::tuple<glm::dvec3, glm::dvec3, double>;
+  /// What is known of a light's way while the picture moves.
+  struct LightChoice
+  {
+    int step = 0;        ///< of its map's side or its samples: times 2 or 4 each
+    int sinceProbed = 0; ///< frames
+    bool isProbed = false;
+    Place place{}; ///< in the frame before
+  };
+
+  FrameCounters takeChanges(const std::vector<CastingLight*>& lights);
+  void rest();
+  std::string whyRays(const FrameCounters& counters);
+  std::string whyRaysInTime(double byMaps, double byRays) const;
+  std::string whyNoMap(CastingLight& casting, const std::function<void(CastingLight&)>& bake);
+  std::optional<WrongProbes> probe(const CastingLight& casting, double limit);
+  void takeSamples(CastingLight& casting);
+  bool look();
+
+  Frame& frame_;
+  const Occluders& occluders_;
+  VisibilityStage& visibility_;
+  ShaderLibrary& shaders_;
+  std::map<int, LightChoice> lights_;               ///< by their places in the scene
+  std::size_t view_ = 0;                            ///< of the frame before, as a hash
+  std::pair<std::uint64_t, std::uint64_t> casters_; ///< of the frame before: their versions
+  int byRays_ = 0;                                  ///< frames in a row that took rays
+  int byMaps_ = 0;                                  ///< and maps
+  int patience_ = 0;                                ///< how many frames of rays come before maps
+  Probes probes_;
+  bool looked_ = false; ///< in this frame
+  std::uint32_t looks_ = 0;
+  double modelled_ = 0.0; ///< milliseconds of this frame; 0: it was not
+  ///@{
+  /// Of the last frames each way: how long they took over what was modelled.
+  std::deque<double> slownessByMaps_, slownessByRays_;
+  ///@}
+};
+
+} // namespace gnomon

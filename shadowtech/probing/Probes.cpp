@@ -1,0 +1,195 @@
+#include "shadowtech/probing/Probes.h"
+
+#include "shadowtech/base/Bytes.h"
+#include "shadowtech/base/Occluders.h"
+#include "shadowtech/base/PixelRays.h"
+#include "shadowtech/base/ShadowRay.h"
+#include "shadowtech/tracing/ShadowTracer.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gnomon
+{
+namespace
+{
+
+constexpr std::size_t probeCount = static_cast<std::size_t>(Probes::across) * Probes::across;
+
+/// A number in [0, 1) that is spread evenly over the numbers' sequence (Roberts 2018).
+double spread(std::uint32_t number, double step)
+{
+  const double value = number * step;
+  return value - std::floor(value);
+}
+
+/// Rays as Embree takes them, with their lines in double precision.
+struct CameraRays
+{
+  std::vector<float> origin[3], direction[3];
+  std::vector<glm::dvec3> originCentred, directionCentred;
+
+  CameraRays(const PixelRays& rays, const glm::ivec2& sizePixels, std::uint32_t number)
+  {
+    const glm::dvec2 moved(spread(number, 0.7548776662466927), spread(number, 0.5698402909980532));
+    for (int y = 0; y < Probes::across; ++y)
+    {
+      for (int x = 0; x < Probes::across; ++x)
+      {
+        const glm::dvec2 pixel =
+          glm::floor((glm::dvec2(x, y) + moved) / double(Probes::across) * glm::dvec2(sizePixels));
+        this->originCentred.push_back(rays.origin(pixel.x, pixel.y));
+        this->directionCentred.push_back(rays.direction(pixel.x, pixel.y));
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          this->origin[axis].push_back(static_cast<float>(this->originCentred.back()[axis]));
+          this->direction[axis].push_back(static_cast<float>(this->directionCentred.back()[axis]));
+        }
+      }
+    }
+  }
+};
+
+PointArrays arraysOf(const std::vector<float> (&numbers)[3])
+{
+  return { numbers[0].data(), numbers[1].data(), numbers[2].data() };
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+double WrongProbes::mostShare() const
+{
+  if (this->asked == 0)
+  {
+    return 1.0;
+  }
+  constexpr double z2 = 4.0;
+  const auto n = static_cast<double>(this->asked);
+  const auto k = static_cast<double>(this->wrong);
+  return std::min((k + 0.5 * z2 + std::sqrt(z2 * (k * (1.0 - k / n) + 0.25 * z2))) / (n + z2), 1.0);
+}
+
+//------------------------------------------------------------------------------
+void Probes::look(const CameraView& camera, const glm::ivec2& sizePixels,
+  const Occluders& occluders, const FirstHitFinder& finder, std::uint32_t number)
+{
+  const glm::dmat4 centredFromView = glm::inverse(camera.viewFromCentred);
+  const PixelRays rays =
+    pixelRays(camera.clipFromView, centredFromView, sizePixels.x, sizePixels.y);
+  const CameraRays lines(rays, sizePixels, number);
+  finder.find(probeCount, arraysOf(lines.origin), arraysOf(lines.direction), this->hits_);
+
+  const glm::dvec2 pixelSide = camera.pixelSide(sizePixels);
+  const glm::dvec3 eyeCentred = camera.eyeCentred();
+  const glm::dvec3 lookCentred = camera.directionCentred();
+  this->receivers_.resize(across, across);
+  for (std::size_t i = 0; i < probeCount; ++i)
+  {
+    const auto distance = static_cast<double>(this->hits_.distance[i]);
+    const bool isSeen =
+      std::isfinite(distance) && occluders.surfaces[this->hits_.surface[i]].receives;
+    this->receivers_.surface[i] = isSeen ? this->hits_.surface[i] : ReceiverPixels::notCovered;
+    this->receivers_.lifted[i] = 0;
+    this->receivers_.offset[i] = 0.0f;
+    if (!isSeen)
+    {
+      continue;
+    }
+    const glm::vec3 position(lines.originCentred[i] + distance * lines.directionCentred[i]);
+    const glm::vec3 unturned = glm::normalize(this->hits_.normalCentred[i]);
+    const glm::vec3 normal =
+      glm::dot(unturned, glm::vec3(lines.directionCentred[i])) > 0.0f ? -unturned : unturned;
+    const double depth = glm::dot(glm::dvec3(position) - eyeCentred, lookCentred);
+    // What rounding does to the ray and to its length is of the size of the noise of storing.
+    const float noise = 4.0f * storageNoise(normal, glm::abs(position) + glm::vec3(eyeCentred));
+    this->receivers_.positionX[i] = position.x;
+    this->receivers_.positionY[i] = position.y;
+    this->receivers_.positionZ[i] = position.z;
+    this->receivers_.normalX[i] = normal.x;
+    this->receivers_.normalY[i] = normal.y;
+    this->receivers_.normalZ[i] = normal.z;
+    this->receivers_.offset[i] =
+      shadowRayOffset(noise, static_cast<float>(pixelSide.x + pixelSide.y * depth));
+  }
+}
+
+//------------------------------------------------------------------------------
+WrongProbes Probes::wrongOf(const PointwiseTechnique& technique, const ShadowLight& light,
+  const ReceiverSpace& space, const Occluders& occluders, ShadowTracer& tracer,
+  ShaderLibrary& shaders)
+{
+  std::vector<glm::vec4> fragments(probeCount, glm::vec4(0.0f));
+  std::vector<glm::vec4> points(probeCount, glm::vec4(0.0f));
+  const glm::dmat4 viewFromCentred = glm::inverse(space.centredFromView);
+  for (std::size_t i = 0; i < probeCount; ++i)
+  {
+    if (this->receivers_.surface[i] != ReceiverPixels::notCovered)
+    {
+      const glm::dvec4 position(this->receivers_.positionX[i], this->receivers_.positionY[i],
+        this->receivers_.positionZ[i], 1.0);
+      const glm::dvec4 normal(
+        this->receivers_.normalX[i], this->receivers_.normalY[i], this->receivers_.normalZ[i], 0.0);
+      const glm::vec3 positionView(viewFromCentred * position);
+      const glm::vec3 normalView(viewFromCentred * normal);
+      fragments[i] = glm::vec4(1.0f, 0.0f, normalView.x, normalView.y);
+      points[i] = glm::vec4(positionView, normalView.z);
+    }
+  }
+  this->target_.fill(across, across, fragments, points);
+  this->layers_.resize(across, across, 1, 0);
+  this->layers_.estimate(0, technique, light, this->target_, space, shaders);
+  this->layers_.read(0, this->asked_);
+  tracer.trace(
+    light, occluders, Receivers(this->receivers_), this->traced_, nullptr, &this->classes_);
+
+  WrongProbes probes;
+  for (std::size_t i = 0; i < probeCount; ++i)
+  {
+    if (this->classes_[i] == static_cast<std::uint8_t>(TracedClass::Traced))
+    {
+      ++probes.asked;
+      probes.wrong += std::abs(this->asked_[i] - this->traced_[i]) > 0.5f ? 1 : 0;
+    }
+  }
+  return probes;
+}
+
+//------------------------------------------------------------------------------
+double Probes::rmsOf(
+  int few, const ShadowLight& light, const Occluders& occluders, ShadowTracer& tracer)
+{
+  // Each has all of the light's rays: every fourth point is enough.
+  ReceiverPixels some = this->receivers_;
+  for (std::size_t i = 0; i < probeCount; ++i)
+  {
+    const bool isTaken = i % 2 == 0 && i / across % 2 == 0;
+    some.surface[i] = isTaken ? some.surface[i] : ReceiverPixels::notCovered;
+  }
+  const Receivers receivers(some);
+  tracer.traceArea(light, occluders, receivers, this->traced_, nullptr, &this->classes_);
+  ShadowLight sparse = light;
+  sparse.lightSamples = few;
+  tracer.traceArea(sparse, occluders, receivers, this->asked_);
+  double squares = 0.0;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < this->traced_.size(); ++i)
+  {
+    if (this->classes_[i % probeCount] == static_cast<std::uint8_t>(TracedClass::Traced))
+    {
+      const auto off = static_cast<double>(this->asked_[i] - this->traced_[i]);
+      squares += off * off;
+      ++count;
+    }
+  }
+  return count > 0 ? std::sqrt(squares / static_cast<double>(count)) : 0.0;
+}
+
+//------------------------------------------------------------------------------
+std::size_t Probes::bytes() const
+{
+  return this->receivers_.bytes() + this->target_.bytes() + this->layers_.bytes() +
+    bytesOf(this->traced_) + bytesOf(this->asked_) + bytesOf(this->classes_);
+}
+
+} // namespace gnomon

@@ -1,0 +1,342 @@
+// How well `auto` chooses, as lines of CSV. From random places in a scene, the camera moves by small
+// steps, and `auto` is compared with single techniques, of which the best one that keeps the error
+// is known only afterwards. Or it flies around the scene with a time budget.
+
+#include "BenchmarkMain.h"
+#include "Errors.h"
+#include "FrameTiming.h"
+#include "FrameVariant.h"
+#include "Scene.h"
+#include "VtkMessages.h"
+
+#include "shadowtech/Registry.h"
+#include "shadowtech/base/FrameReport.h"
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <iostream>
+#include <map>
+#include <memory>
+#include <random>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace gnomon::tool
+{
+namespace
+{
+
+struct Options
+{
+  std::vector<std::string> scenes;
+  int places = 20;
+  unsigned int seed = 1;
+  int sidePixels = 512;
+  double budget = 0.0; ///< of plain VTK's frame; 0: none
+};
+
+/// Frames of a place that are timed, and that are drawn before.
+constexpr int timedFrames = 10;
+constexpr int framesBefore = 3;
+constexpr double stepDegrees = 0.2;
+
+/// The error that the pass allows by default.
+constexpr double allowedShare = 0.005;
+
+/// What `auto` is compared with, of the study's techniques for hard shadows.
+std::vector<VariantSpec> singles()
+{
+  std::vector<VariantSpec> specs;
+  const auto addMaps = [&](const char* technique, const std::vector<int>& sizes)
+  {
+    for (const int size : sizes)
+    {
+      VariantSpec spec{ technique, size, vtkGnomonShadowPass::ROUTE_INLINE, true };
+      specs.push_back(spec);
+    }
+  };
+  addMaps("nsm", { 512, 1024, 2048, 4096 });
+  addMaps("lispsm", { 1024, 2048 });
+  addMaps("tsm", { 1024, 2048 });
+  addMaps("pssm", { 1024, 2048 });
+  specs.push_back({ "silhouette", 1024 });
+  specs.push_back({ "raytraced" });
+  return specs;
+}
+
+/// A way to draw the scene, and what it came to at the present place.
+struct Runner
+{
+  FrameVariant variant;
+  std::vector<double> milliseconds = {};
+
+  Runner(const VariantSpec& spec, const Scene& scene, int side)
+    : variant(spec, scene, side, side)
+  {
+  }
+  void place(vtkCamera* camera, double degrees)
+  {
+    vtkCamera* const own = this->variant.renderer()->GetActiveCamera();
+    own->SetPosition(camera->GetPosition());
+    own->SetFocalPoint(camera->GetFocalPoint());
+    own->SetViewUp(camera->GetViewUp());
+    own->Azimuth(degrees);
+    own->OrthogonalizeViewUp();
+    this->variant.renderer()->ResetCameraClippingRange();
+  }
+  /// @return milliseconds
+  double draw()
+  {
+    this->variant.window()->MakeCurrent();
+    const auto start = std::chrono::steady_clock::now();
+    this->variant.window()->Render();
+    this->variant.window()->WaitForCompletion();
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
+      .count();
+  }
+  VisibilityImages visibility()
+  {
+    this->variant.pass()->KeepVisibilityOn();
+    this->draw();
+    VisibilityImages images = this->variant.pass()->GetVisibility();
+    this->variant.pass()->KeepVisibilityOff();
+    return images;
+  }
+};
+
+/// Somewhere around what the scene's camera looks at.
+void wander(vtkCamera* camera, std::mt19937& random)
+{
+  const auto between = [&](double least, double most)
+  { return std::uniform_real_distribution<double>(least, most)(random); };
+  camera->Azimuth(between(-180.0, 180.0));
+  camera->Elevation(between(-25.0, 25.0));
+  camera->OrthogonalizeViewUp();
+  camera->Dolly(between(0.6, 1.8));
+}
+
+/// All ways to draw a scene; `auto` is the last one, before it the rays that tell what is wrong.
+class Ways
+{
+public:
+  Ways(const Scene& scene, int sidePixels)
+    : scene_(scene)
+  {
+    for (const VariantSpec& spec : singles())
+    {
+      this->runners_.push_back(std::make_unique<Runner>(spec, scene, sidePixels));
+    }
+    this->runners_.push_back(
+      std::make_unique<Runner>(VariantSpec{ automaticTechnique, 1024 }, scene, sidePixels));
+  }
+
+  Runner& automatic() { return *this->runners_.back(); }
+
+  /// Draws frames of all in turns, in which the camera moves by small steps.
+  void move(vtkCamera* camera)
+  {
+    for (const auto& runner : this->runners_)
+    {
+      runner->milliseconds.clear();
+      runner->place(camera, 0.0);
+      runner->draw();
+    }
+    this->interactive(vtkGnomonShadowPass::INTERACTIVE_ON);
+    for (int step = 1; step <= framesBefore + timedFrames; ++step)
+    {
+      for (const auto& runner : this->runners_)
+      {
+        runner->place(camera, step * stepDegrees);
+        const double milliseconds = runner->draw();
+        if (step > framesBefore)
+        {
+          runner->milliseconds.push_back(milliseconds);
+        }
+      }
+    }
+    this->report_ = this->automatic().variant.pass()->GetReport();
+    this->interactive(vtkGnomonShadowPass::INTERACTIVE_OFF);
+  }
+
+  /// Prints how the last frame of move() was chosen, against the single techniques there.
+  void print(int place)
+  {
+    LightReport chosen;
+    for (const LightReport& light : this->report_.lights)
+    {
+      chosen = light.casts ? light : chosen;
+    }
+    const VisibilityImages truth = this->runners_[this->runners_.size() - 2]->visibility();
+    double best = 0.0;
+    std::string bestName;
+    double error = 0.0;
+    for (std::size_t i = 0; i + 1 < this->runners_.size(); ++i)
+    {
+      Runner& runner = *this->runners_[i];
+      const VisibilityError off = measureError(runner.visibility(), truth, this->scene_.lights);
+      const double share = off.share(off.wrongPixels());
+      const double milliseconds = median(runner.milliseconds);
+      if (share <= allowedShare && (bestName.empty() || milliseconds < best))
+      {
+        best = milliseconds;
+        bestName = runner.variant.spec().name();
+      }
+      const VariantSpec& spec = runner.variant.spec();
+      const bool isChosen = spec.technique == chosen.technique &&
+        (spec.technique != "nsm" || spec.mapSizeTexels == chosen.mapSizeTexels);
+      error = isChosen ? share : error;
+    }
+    const double own = median(this->automatic().milliseconds);
+    std::cout << this->scene_.name << "," << place << "," << chosen.technique << ","
+              << chosen.mapSizeTexels << "," << error << "," << own << "," << best << ","
+              << own / best << "," << bestName << ",\"" << this->report_.choice << "\""
+              << std::endl;
+  }
+
+private:
+  void interactive(int wish) { this->automatic().variant.pass()->SetInteractive(wish); }
+
+  const Scene& scene_;
+  std::vector<std::unique_ptr<Runner>> runners_;
+  FrameReport report_; ///< of auto's last frame that moved
+};
+
+void compareWithSingles(const Scene& scene, const Options& options)
+{
+  std::mt19937 random(options.seed);
+  Ways ways(scene, options.sidePixels);
+  vtkNew<vtkCamera> start;
+  start->DeepCopy(ways.automatic().variant.renderer()->GetActiveCamera());
+  for (int place = 0; place < options.places; ++place)
+  {
+    vtkNew<vtkCamera> camera;
+    camera->DeepCopy(start);
+    wander(camera, random);
+    ways.move(camera);
+    ways.print(place);
+  }
+}
+
+/// Keeps all processors busy while it lives.
+class Load
+{
+public:
+  Load()
+  {
+    for (unsigned int i = 0; i < std::max(std::thread::hardware_concurrency(), 1u); ++i)
+    {
+      this->threads_.emplace_back(
+        [this]
+        {
+          while (!this->isOver_)
+          {
+          }
+        });
+    }
+  }
+  ~Load()
+  {
+    this->isOver_ = true;
+    for (std::thread& thread : this->threads_)
+    {
+      thread.join();
+    }
+  }
+
+private:
+  std::atomic<bool> isOver_{ false };
+  std::vector<std::thread> threads_;
+};
+
+/// Flies once around a scene with a time budget, a multiple of plain VTK's frame. In the middle
+/// third the machine has other work, too; plain VTK's frames tell how much slower it is then.
+void fly(const Scene& scene, const Options& options)
+{
+  constexpr int frames = 180;
+  constexpr int third = frames / 3;
+  Runner plain({ plainTechnique }, scene, options.sidePixels);
+  Runner automatic({ automaticTechnique, 1024 }, scene, options.sidePixels);
+  automatic.variant.pass()->SetInteractive(vtkGnomonShadowPass::INTERACTIVE_ON);
+  vtkNew<vtkCamera> camera;
+  camera->DeepCopy(plain.variant.renderer()->GetActiveCamera());
+  std::vector<double> plainTimes;
+  for (int frame = 0; frame < framesBefore + timedFrames; ++frame)
+  {
+    plain.place(camera, frame * stepDegrees);
+    plainTimes.push_back(plain.draw());
+  }
+  const double budget = options.budget * median(plainTimes);
+  automatic.variant.pass()->SetTimeBudget(budget);
+  std::unique_ptr<Load> load;
+  int late = 0;
+  int lateUnderLoad = 0;
+  int changes = 0;
+  std::map<std::string, int> taken;
+  std::string before;
+  for (int frame = 0; frame < frames; ++frame)
+  {
+    if (frame % third == 0)
+    {
+      load = frame == third ? std::make_unique<Load>() : nullptr;
+    }
+    automatic.place(camera, 360.0 * frame / frames);
+    const double milliseconds = automatic.draw();
+    const std::string technique = automatic.variant.pass()->GetReport().lights[0].technique;
+    if (frame < framesBefore) // compile and build
+    {
+      continue;
+    }
+    (load ? lateUnderLoad : late) += milliseconds > 1.2 * budget ? 1 : 0;
+    changes += !before.empty() && before != technique ? 1 : 0;
+    before = technique;
+    ++taken[technique];
+  }
+  std::cout << scene.name << "," << budget << "," << frames - third - framesBefore << "," << late
+            << "," << third << "," << lateUnderLoad << "," << changes << "," << taken["nsm"] << ","
+            << taken["silhouette"] << std::endl;
+}
+
+int run(int argc, char** argv)
+{
+  CLI::App app{ "Prints how well auto chooses while the camera moves: a line a place",
+    "gnomon_benchmark_auto" };
+  Options options;
+  app.add_option("SCENES", options.scenes, "Scenes: built-in names or scene files")->required();
+  app.add_option("--places", options.places, "Places of the camera in each scene")
+    ->check(CLI::Range(1, 100000))
+    ->capture_default_str();
+  app.add_option("--seed", options.seed, "Of the places")->capture_default_str();
+  app.add_option("--size", options.sidePixels, "Side of the window in pixels")
+    ->check(CLI::Range(1, 16384))
+    ->capture_default_str();
+  app
+    .add_option("--budget", options.budget,
+      "Fly around each scene instead, with this multiple of plain VTK's time as a budget")
+    ->check(CLI::Range(0.0, 1e6))
+    ->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
+
+  const VtkMessages messages;
+  std::cout << (options.budget > 0.0
+      ? "scene,budget ms,frames,late,frames under load,late,changes,by maps,by rays\n"
+      : "scene,place,technique,map texels,wrong share,ms,best ms,over best,best,why\n");
+  for (const std::string& name : options.scenes)
+  {
+    const Scene scene = withoutShadowSettings(loadScene(name));
+    options.budget > 0.0 ? fly(scene, options) : compareWithSingles(scene, options);
+  }
+  return 0;
+}
+
+} // namespace
+} // namespace gnomon::tool
+
+int main(int argc, char** argv)
+{
+  return gnomon::tool::runBenchmark(
+    "gnomon_benchmark_auto", [&] { return gnomon::tool::run(argc, argv); });
+}

@@ -1,0 +1,97 @@
+#include "plugin/frame/CostModel.h"
+
+#include "plugin/vtkGnomonShadowPass.h"
+
+#include "PassScene.h"
+
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+
+using namespace gnomon;
+using testing::HasSubstr;
+
+namespace
+{
+
+class CostFactorsFile : public gnomon::test::PassTest
+{
+protected:
+  /// Why a text is no such file; empty if it is one.
+  std::string refusal(const std::string& text)
+  {
+    std::ofstream(this->path_) << text;
+    try
+    {
+      readFactors(this->path_);
+      return "";
+    }
+    catch (const std::runtime_error& error)
+    {
+      return error.what();
+    }
+  }
+
+  const std::string path_ =
+    (std::filesystem::path(testing::TempDir()) / "gnomon_factors.txt").string();
+};
+
+} // namespace
+
+TEST_F(CostFactorsFile, isReadAsItWasWritten)
+{
+  CostFactors factors = defaultFactors(true);
+  factors.bakeTexel = 0.125;
+  EXPECT_EQ(this->refusal("# a comment\n" + textOf(factors)), "");
+  const CostFactors read = readFactors(this->path_);
+  for (const NamedFactor& factor : namedFactors())
+  {
+    EXPECT_EQ(read.*factor.member, factors.*factor.member) << factor.name;
+  }
+}
+
+TEST_F(CostFactorsFile, isRefusedWithTheLine)
+{
+  const std::string good = textOf(defaultFactors(false));
+  EXPECT_THAT(this->refusal(good + "draw_pixel 3\n"), HasSubstr("line 11: found draw_pixel again"));
+  EXPECT_THAT(this->refusal("draw_pixel -1\n"), HasSubstr("line 1: found \"draw_pixel -1\""));
+  EXPECT_THAT(this->refusal("draw_pixel nan\n"), HasSubstr("line 1"));
+  EXPECT_THAT(this->refusal("draw_pixel 1 2\n"), HasSubstr("line 1"));
+  EXPECT_THAT(this->refusal("\nmagic 1\n"), HasSubstr("line 2: found magic, which is no factor"));
+  EXPECT_THAT(this->refusal("draw_pixel 1\n"), HasSubstr("draw_triangle is missing"));
+  EXPECT_THROW(readFactors(this->path_ + ".none"), std::runtime_error);
+}
+
+TEST_F(CostFactorsFile, ofAPassThatIsNoneIsAnError)
+{
+  vtkNew<vtkGnomonShadowPass> pass;
+  pass->ReadCostFactors("/nowhere");
+  EXPECT_THAT(this->takeErrors(), HasSubstr("/nowhere cannot be read"));
+  pass->ReadCostFactors(nullptr);
+  EXPECT_THAT(this->takeErrors(), HasSubstr("cannot be read"));
+}
+
+// What may be chosen follows from them: where maps cost nothing, they are taken.
+TEST(CostModel, costsGrowWithWhatThereIs)
+{
+  const CostFactors factors = defaultFactors(true);
+  FrameCounters counters;
+  counters.triangles = 70000;
+  counters.pixels = 1 << 20;
+  counters.texels = 1 << 20;
+  counters.lights = 1;
+  const double atRest = costByRays(counters, factors);
+  EXPECT_LT(atRest, costByMaps(counters, factors)) << "what is exact is fetched, maps are asked";
+  counters.viewMoved = true;
+  EXPECT_GT(costByRays(counters, factors), 1.3 * costByMaps(counters, factors));
+  counters.viewMoved = false;
+  counters.movedLights = 1;
+  EXPECT_LT(costByRays(counters, factors), costByMaps(counters, factors))
+    << "a map is drawn anew";
+  counters.castersMoved = true;
+  counters.triangles = 10000000;
+  EXPECT_GT(costByMaps(counters, factors), 800.0) << "ms";
+}

@@ -1,0 +1,178 @@
+#include "shadowtech/probing/Probes.h"
+
+#include "EstimatorGlsl.h"
+#include "InstancedScene.h"
+#include "SyntheticScene.h"
+
+#include "shadowtech/base/ShaderLibrary.h"
+#include "shadowtech/tracing/EmbreeTracer.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <cmath>
+
+namespace gnomon::test
+{
+namespace
+{
+
+constexpr int sidePixels = 256;
+
+/// Says the same everywhere.
+class Constant : public PointwiseTechnique
+{
+public:
+  explicit Constant(const char* visibility)
+    : visibility_(visibility)
+  {
+  }
+  std::string visibilityGlsl(const ShadowLight&) const override
+  {
+    return std::string("float visibility_LIGHT(vec3 p, vec3 n) { return ") + this->visibility_ +
+      "; }\n";
+  }
+  std::vector<Uniform> uniforms(const ReceiverSpace&) const override { return {}; }
+
+private:
+  const char* visibility_;
+};
+
+/// A scene, its camera, and what the picture's own receivers show.
+struct ProbedScene
+{
+  Occluders occluders;
+  Camera camera;
+  CameraView view;
+  EmbreeTracer tracer;
+
+  explicit ProbedScene(Occluders of)
+    : occluders(std::move(of))
+  {
+    this->camera.position = { 3.0, -5.0, 4.0 };
+    this->camera.target = { 0.0, 0.0, 0.4 };
+    this->camera.width = this->camera.height = sidePixels;
+    this->view.viewFromCentred = glm::lookAt(this->camera.position - this->occluders.centreWorld,
+      this->camera.target - this->occluders.centreWorld, this->camera.up);
+    this->view.clipFromView =
+      glm::perspective(glm::radians(this->camera.fovDegrees), 1.0, 0.1, 100.0);
+    this->tracer.update(this->occluders);
+  }
+  ReceiverSpace space() const
+  {
+    return { glm::inverse(this->view.viewFromCentred),
+      this->view.pixelSide({ sidePixels, sidePixels }) };
+  }
+  void look(Probes& probes, std::uint32_t number)
+  {
+    probes.look(
+      this->view, { sidePixels, sidePixels }, this->occluders, *this->tracer.firstHits(), number);
+  }
+  /// The share of what faces the light that is in shadow.
+  double shadowShare(const ShadowLight& light)
+  {
+    std::vector<float> visibility;
+    std::vector<std::uint8_t> classes;
+    const Occluders triangles = expanded(this->occluders);
+    const ReceiverPixels receivers = makeReceivers(triangles, this->camera);
+    EmbreeTracer tracerOfTriangles;
+    tracerOfTriangles.update(triangles);
+    tracerOfTriangles.trace(light, triangles, Receivers(receivers), visibility, nullptr, &classes);
+    double facing = 0.0;
+    double hidden = 0.0;
+    for (std::size_t i = 0; i < visibility.size(); ++i)
+    {
+      const bool isTraced = classes[i] == static_cast<std::uint8_t>(TracedClass::Traced);
+      facing += isTraced ? 1.0 : 0.0;
+      hidden += isTraced && visibility[i] == 0.0f ? 1.0 : 0.0;
+    }
+    return hidden / facing;
+  }
+};
+
+std::vector<Occluders> probedScenes()
+{
+  const Prop plane{ makePlane(6.0) };
+  Prop unseen{ makePlane(1.0), at({ 0.0, 0.0, 2.0 }) };
+  unseen.receives = false;
+  return { makeOccluders({ plane, { makeSphere(12, 24), at({ 0.0, 0.0, 1.0 }) } }),
+    makeOccluders({ plane, makePerforatedPlane(1.6, 3, at({ 0.0, 0.0, 1.0 })), unseen }),
+    cupsOverFloor(true, false) };
+}
+
+class ProbesTest : public GlslTest
+{
+protected:
+  Probes probes_;
+  ShaderLibrary library_;
+};
+
+} // namespace
+
+// What is asked are the picture's own pixels, and their visibility is the picture's.
+TEST_F(ProbesTest, areASampleOfThePicture)
+{
+  const ShadowLight lights[] = { directionalLight({ -1.0, 0.5, -1.5 }),
+    spotLight({ 2.0, 1.0, 5.0 }, { 0.0, 0.0, 0.0 }, 25.0), pointLight({ -1.5, 0.7, 2.2 }) };
+  for (const Occluders& occluders : probedScenes())
+  {
+    ProbedScene scene(occluders);
+    for (const ShadowLight& light : lights)
+    {
+      WrongProbes lit;
+      for (std::uint32_t number = 0; number < 4; ++number)
+      {
+        scene.look(this->probes_, number);
+        const auto wrongOf = [&](const char* visibility)
+        {
+          return this->probes_.wrongOf(Constant(visibility), light, scene.space(), scene.occluders,
+            scene.tracer, this->library_);
+        };
+        const WrongProbes ofLit = wrongOf("1.0");
+        const WrongProbes ofDark = wrongOf("0.0");
+        EXPECT_EQ(ofLit.asked, ofDark.asked);
+        EXPECT_EQ(ofLit.wrong + ofDark.wrong, ofLit.asked);
+        EXPECT_EQ(wrongOf("0.5").wrong, 0u) << "half is not more than a half off";
+        lit.asked += ofLit.asked;
+        lit.wrong += ofLit.wrong;
+      }
+      const double share = scene.shadowShare(light);
+      const double deviation =
+        std::sqrt(share * (1.0 - share) / static_cast<double>(lit.asked)) + 0.002;
+      EXPECT_GT(lit.asked, 1000u);
+      EXPECT_GT(lit.wrong, 20u);
+      EXPECT_NEAR(lit.share(), share, 3.0 * deviation) << lit.asked;
+    }
+  }
+}
+
+TEST_F(ProbesTest, fewerSamplesHaveALargerError)
+{
+  ProbedScene scene(probedScenes()[0]);
+  ShadowLight light = pointLight({ -1.5, 0.7, 2.9 });
+  light.area = ballArea(0.5);
+  light.lightSamples = 64;
+  scene.look(this->probes_, 0);
+  const double of4 = this->probes_.rmsOf(4, light, scene.occluders, scene.tracer);
+  const double of16 = this->probes_.rmsOf(16, light, scene.occluders, scene.tracer);
+  EXPECT_GT(of16, 0.001);
+  EXPECT_GT(of4, 1.5 * of16);
+  EXPECT_LT(of4, 0.2);
+}
+
+// The bound is the share of which what was found is two standard deviations too little.
+TEST(WrongProbes, mostShareIsWilsonsBound)
+{
+  for (const std::size_t asked : { 100u, 4096u })
+  {
+    for (const std::size_t wrong : { 0u, 1u, 20u, 99u })
+    {
+      const WrongProbes probes{ asked, wrong };
+      const double most = probes.mostShare();
+      const double deviation = std::sqrt(most * (1.0 - most) / static_cast<double>(asked));
+      EXPECT_NEAR((most - probes.share()) / deviation, 2.0, 1e-9);
+    }
+  }
+  EXPECT_EQ(WrongProbes().mostShare(), 1.0);
+}
+
+} // namespace gnomon::test
