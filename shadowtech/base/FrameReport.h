@@ -59,6 +59,16 @@ struct LightReport
   /// Rays that were traced. Of most techniques as many as tracedPixels times lightSamples; where
   /// rays decide others (`penumbra`), tracedPixels have all of theirs, and other pixels some.
   std::int64_t rays = 0;
+  ///@{
+  /// Of exact techniques, how many tiles of 64 x 16 pixels are lit, or dark, for certain and as a
+  /// whole, and in how many the others are traced. Counted where several lights share receivers;
+  /// else all are 0.
+  int tilesLit = 0;
+  int tilesDark = 0;
+  int tilesTraced = 0;
+  ///@}
+  /// Why no shadow ray was needed, where tiles were counted, as a clause; empty if any was.
+  std::string skipReason;
   int planes = 0; ///< of planar shadows: how many planes show them
   /// Of planar shadows: pixels that lie on none of those and show no cast shadow. Counted only
   /// where visibility is kept or stages are measured.

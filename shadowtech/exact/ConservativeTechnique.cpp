@@ -47,7 +47,7 @@ void ConservativeTechnique::computeVisibility(
 {
   report.tracedPixels =
     static_cast<std::int64_t>(input.tracer.trace(input.light, input.occluders, input.receivers,
-      visibility, input.usesMap ? &this->maps_ : nullptr, input.classes, input.tiles));
+      visibility, input.usesMap ? &this->maps_ : nullptr, input.classes, input.tiles, input.verdicts));
   report.rays = report.tracedPixels;
 }
 

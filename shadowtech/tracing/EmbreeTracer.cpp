@@ -87,6 +87,15 @@ void rejectBackFacesAndHoles(const RTCFilterFunctionNArguments* arguments)
   rejectHoles(arguments);
 }
 
+/// Of what cannot be proved to hide a light (CasterHits).
+void rejectAll(const RTCFilterFunctionNArguments* arguments)
+{
+  std::fill_n(arguments->valid, arguments->N, 0);
+}
+
+/// The same of solids.
+void meetNoSolid(const RTCIntersectFunctionNArguments* /*arguments*/) {}
+
 /// What has to agree to a hit on a surface; null where every hit counts.
 RTCFilterFunctionN filterOf(const Surface& surface)
 {
@@ -362,6 +371,7 @@ struct EmbreeTracer::Impl
   Caster makeSolids(const Surface& surface) const;
   void attachInstances(Caster& caster, const Surface& surface) const;
   void move(Caster& caster, const Surface& surface) const;
+  void tellFirstTriangle(const Caster& caster, std::uint32_t firstTriangle);
   void check(const char* what) const;
   template <typename Packet>
   std::size_t trace(const TracedPicture& picture) const;
@@ -371,6 +381,8 @@ struct EmbreeTracer::Impl
   Scene scene;
   bool lanes16 = false; ///< packets of 16; else of 8, whose answers are the same
   std::unordered_map<std::uint64_t, Caster> casters; ///< by the surface's topologyVersion
+  /// By Embree's number of what is attached: the surface's first triangle in the snapshot.
+  std::vector<std::uint32_t> firstTriangles;
   std::uint64_t topologyVersion = 0;
   std::uint64_t positionsVersion = 0;
 };
@@ -410,6 +422,19 @@ void EmbreeTracer::Impl::check(const char* what) const
     throw std::runtime_error(std::string("Embree failed while ") + what + ": " +
       (error == RTC_ERROR_OUT_OF_MEMORY ? "out of memory"
                                         : "error " + std::to_string(static_cast<int>(error))));
+  }
+}
+
+/// Says where a surface's triangles begin in the snapshot, for what finds them (CasterHits).
+void EmbreeTracer::Impl::tellFirstTriangle(const Caster& caster, std::uint32_t firstTriangle)
+{
+  for (const unsigned int attached : caster.attached)
+  {
+    if (this->firstTriangles.size() <= attached)
+    {
+      this->firstTriangles.resize(attached + 1);
+    }
+    this->firstTriangles[attached] = firstTriangle;
   }
 }
 
@@ -458,6 +483,7 @@ Caster EmbreeTracer::Impl::makeSolids(const Surface& surface) const
   rtcSetGeometryUserData(geometry, caster.solids.get());
   rtcSetGeometryBoundsFunction(geometry, boundSolid, nullptr);
   rtcSetGeometryOccludedFunction(geometry, occludeBySolid);
+  rtcSetGeometryIntersectFunction(geometry, meetNoSolid);
   rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_REFIT);
   rtcCommitGeometry(geometry);
   caster.attached = { rtcAttachGeometry(this->scene.get(), geometry) };
@@ -477,6 +503,10 @@ Caster EmbreeTracer::Impl::makeCaster(const Surface& surface, const Occluders& o
   if (caster.filter)
   {
     rtcSetGeometryOccludedFilterFunction(caster.geometry.get(), caster.filter);
+  }
+  if (surface.cutout || surface.isInstanced())
+  {
+    rtcSetGeometryIntersectFilterFunction(caster.geometry.get(), rejectAll);
   }
   if (surface.cutout)
   {
@@ -592,6 +622,14 @@ ShadowTracer::Update EmbreeTracer::update(const Occluders& occluders)
     }
   }
   impl.casters = std::move(casters);
+  for (const Surface& surface : occluders.surfaces)
+  {
+    const auto found = impl.casters.find(surface.topologyVersion);
+    if (found != impl.casters.end())
+    {
+      impl.tellFirstTriangle(found->second, surface.firstTriangle);
+    }
+  }
   rtcCommitScene(impl.scene.get());
   impl.check("building the acceleration structure");
   impl.topologyVersion = occluders.topologyVersion;
@@ -629,6 +667,29 @@ void EmbreeTracer::areFree(
 }
 
 //------------------------------------------------------------------------------
+std::optional<CasterHits::Hit> EmbreeTracer::nearest(
+  const glm::vec3& from, const glm::vec3& along, float after) const
+{
+  if (this->impl_->casters.empty())
+  {
+    return std::nullopt;
+  }
+  RTCRayHit query{};
+  query.ray = { from.x, from.y, from.z, after, along.x, along.y, along.z, 0.0f, 1.0f, 0xffffffffu,
+    0, 0 };
+  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcIntersect1(this->impl_->scene.get(), &context, &query);
+  if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID)
+  {
+    return std::nullopt;
+  }
+  return Hit{ this->impl_->firstTriangles[query.hit.geomID] + query.hit.primID, query.ray.tfar };
+}
+
+//------------------------------------------------------------------------------
 std::size_t EmbreeTracer::bytes() const
 {
   return static_cast<std::size_t>(std::max<std::ptrdiff_t>(this->impl_->bytes, 0));
@@ -637,7 +698,8 @@ std::size_t EmbreeTracer::bytes() const
 //------------------------------------------------------------------------------
 std::size_t EmbreeTracer::bytesOfTable() const
 {
-  std::size_t bytes = gnomon::bytesOfTable(this->impl_->casters);
+  std::size_t bytes =
+    gnomon::bytesOfTable(this->impl_->casters) + bytesOf(this->impl_->firstTriangles);
   for (const auto& entry : this->impl_->casters)
   {
     const Caster& caster = entry.second;

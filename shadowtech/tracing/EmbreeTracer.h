@@ -3,6 +3,7 @@
 #include "shadowtech/tracing/ShadowTracer.h"
 
 #include <memory>
+#include <optional>
 
 namespace gnomon
 {
@@ -11,6 +12,7 @@ namespace gnomon
 class EmbreeTracer
   : public ShadowTracer
   , public FreeSegments
+  , public CasterHits
 {
 public:
   /// @throws std::runtime_error where Embree cannot be started
@@ -24,6 +26,10 @@ public:
   const FreeSegments* freeSegments() const override { return this; }
   void areFree(std::size_t count, const PointArrays& from, const PointArrays& to,
     std::uint8_t* free) const override;
+
+  const CasterHits* casterHits() const override { return this; }
+  std::optional<Hit> nearest(
+    const glm::vec3& from, const glm::vec3& along, float after) const override;
 
   /// As Embree reports it.
   std::size_t bytes() const override;
