@@ -89,7 +89,7 @@ void LightTechnique::updateMaps(
   {
     this->backoff_ = BakeBackoff();
     this->usesMap_ = false;
-    report.mapReason = "the light took no shadow rays in the last frame";
+    report.mapReason = "the light needs few shadow rays or none without it";
   }
   else if (this->info().mapIsOptional && light.of<BakeSettings>().time != BakeTime::Always)
   {

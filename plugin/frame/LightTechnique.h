@@ -69,9 +69,9 @@ public:
   /// Whether this frame's visibility is to be computed with the maps.
   bool usesMap() const { return this->usesMap_; }
 
-  /// Tells whether the last visibility took shadow rays, without or with a map: a light that takes
-  /// none gains nothing by a new map.
-  void tellRays(bool tookAny) { this->takesRays_ = tookAny; }
+  /// Tells whether the last visibility would take shadow rays in much of the picture without a map:
+  /// other lights gain nothing by a new one.
+  void tellRays(bool tookMany) { this->takesRays_ = tookMany; }
 
   /// How the views were laid out in this frame, and others may be: whether or not maps were drawn.
   const ViewFitting& fitting() const { return this->fitting_; }
@@ -106,7 +106,7 @@ private:
   Bake wanted_;         ///< what optional maps were to be baked from in the last frame
   BakeBackoff backoff_; ///< of optional maps
   bool usesMap_ = true;
-  bool takesRays_ = true; ///< as far as is known
+  bool takesRays_ = true; ///< many, as far as is known
   ReceiverFit receiverFit_;
 };
 

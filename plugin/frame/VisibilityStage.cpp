@@ -7,7 +7,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
+#include <cstring>
 #include <optional>
 #include <set>
 #include <string>
@@ -59,23 +59,22 @@ bool leavesTiles(const std::set<std::string>& changedParts)
 std::vector<ClassCount> countClasses(
   const std::vector<PixelClass>& classes, const std::vector<std::uint8_t>& ofPixels)
 {
-  // Pixels take turns among counters: neighbours mostly are of one class, and would wait for each
-  // other's.
-  constexpr std::size_t turns = 8;
-  std::array<std::array<std::int64_t, 256>, turns> pixels{};
-  for (std::size_t i = 0; i < ofPixels.size(); ++i)
-  {
-    ++pixels[i % turns][ofPixels[i]];
-  }
   std::vector<ClassCount> counts;
   for (const PixelClass& pixelClass : classes)
   {
-    const std::size_t of = counts.size();
     counts.push_back({ pixelClass.name, 0 });
-    for (const auto& ofTurn : pixels)
+  }
+  constexpr std::size_t run = 64; // pixels, which mostly are all of one class
+  for (std::size_t first = 0; first < ofPixels.size(); first += run)
+  {
+    const std::uint8_t* const pixels = &ofPixels[first];
+    const std::size_t count = std::min(run, ofPixels.size() - first);
+    if (std::memcmp(pixels, pixels + 1, count - 1) == 0)
     {
-      counts.back().pixels += ofTurn[of];
+      counts[*pixels].pixels += static_cast<std::int64_t>(count);
+      continue;
     }
+    std::for_each(pixels, pixels + count, [&](std::uint8_t of) { ++counts[of].pixels; });
   }
   return counts;
 }
@@ -241,7 +240,7 @@ void VisibilityStage::storeReceivers()
   if (++value.framesTraced > patience || images > 1)
   {
     const ReceiverPixels& pixels = receivers.all();
-    if (!value.boxes)
+    if (!value.boxes && this->tracer_.casterHits())
     {
       value.boxes.emplace(pixels, this->occluders_);
     }
@@ -434,7 +433,7 @@ void VisibilityStage::trace(
   {
     verdicts->tell(light, report);
   }
-  casting.own.tellRays(report.skipReason.empty());
+  casting.own.tellRays(!verdicts || verdicts->needManyRays());
   if (verdicts && hasBit && verdicts->areAllDark())
   {
     value.dropTiles();

@@ -7,46 +7,12 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
 #include <limits>
 
 namespace gnomon
 {
 namespace
 {
-
-constexpr float most = std::numeric_limits<float>::max();
-
-/// The range of one coordinate in each column of a part.
-struct Ranges
-{
-  std::array<float, ReceiverTile::mostColumns> lower, upper;
-
-  Ranges()
-  {
-    this->lower.fill(most);
-    this->upper.fill(-most);
-  }
-
-  void add(const float* row, const std::uint32_t* surface, std::size_t columns)
-  {
-    for (std::size_t x = 0; x < columns; ++x)
-    {
-      const bool covered = surface[x] != ReceiverPixels::notCovered;
-      this->lower[x] = std::min(this->lower[x], covered ? row[x] : most);
-      this->upper[x] = std::max(this->upper[x], covered ? row[x] : -most);
-    }
-  }
-
-  float least(std::size_t columns) const
-  {
-    return *std::min_element(this->lower.begin(), &this->lower[columns]);
-  }
-  float greatest(std::size_t columns) const
-  {
-    return *std::max_element(this->upper.begin(), &this->upper[columns]);
-  }
-};
 
 std::size_t upTo(std::size_t count, std::size_t perGroup)
 {
@@ -72,24 +38,28 @@ ReceiverBoxes::Level groupsOf(const ReceiverBoxes::Level& level)
 Bounds boxOf(
   const ReceiverPixels& receivers, std::size_t first, std::size_t columns, std::size_t rows)
 {
-  Ranges x, y, z, offset;
+  constexpr float most = std::numeric_limits<float>::max();
+  glm::vec3 lower(most);
+  glm::vec3 upper(-most);
+  float offset = 0.0f;
   for (std::size_t row = 0; row < rows; ++row)
   {
     const std::size_t from = first + row * static_cast<std::size_t>(receivers.width);
-    const std::uint32_t* const surface = &receivers.surface[from];
-    x.add(&receivers.positionX[from], surface, columns);
-    y.add(&receivers.positionY[from], surface, columns);
-    z.add(&receivers.positionZ[from], surface, columns);
-    offset.add(&receivers.offset[from], surface, columns);
+    for (std::size_t i = from; i < from + columns; ++i)
+    {
+      if (receivers.surface[i] != ReceiverPixels::notCovered)
+      {
+        const glm::vec3 position(
+          receivers.positionX[i], receivers.positionY[i], receivers.positionZ[i]);
+        lower = glm::min(lower, position);
+        upper = glm::max(upper, position);
+        offset = std::max(offset, receivers.offset[i]);
+      }
+    }
   }
-  const float offsetMost = offset.greatest(columns);
-  if (offsetMost < 0.0f) // nothing is covered
-  {
-    return {};
-  }
-  return inflated({ glm::dvec3(x.least(columns), y.least(columns), z.least(columns)),
-                    glm::dvec3(x.greatest(columns), y.greatest(columns), z.greatest(columns)) },
-    static_cast<double>(offsetMost));
+  return lower.x > upper.x
+    ? Bounds()
+    : inflated({ glm::dvec3(lower), glm::dvec3(upper) }, static_cast<double>(offset));
 }
 
 //------------------------------------------------------------------------------

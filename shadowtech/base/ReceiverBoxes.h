@@ -13,7 +13,6 @@ namespace gnomon
 /// The box around what a part of some receivers' picture shows, and the starts of its shadow rays,
 /// to within the rounding of float. Centred; empty if nothing is covered there.
 /// @param first the part's first pixel
-/// @param columns of the part, at most ReceiverTile::mostColumns
 Bounds boxOf(
   const ReceiverPixels& receivers, std::size_t first, std::size_t columns, std::size_t rows);
 

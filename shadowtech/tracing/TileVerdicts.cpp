@@ -243,6 +243,14 @@ bool TileVerdicts::areAllDark() const
 }
 
 //------------------------------------------------------------------------------
+bool TileVerdicts::needManyRays() const
+{
+  const auto open = static_cast<std::size_t>(
+    std::count(this->cells_.begin(), this->cells_.end(), Certainty::Uncertain));
+  return 8 * open > this->cells_.size();
+}
+
+//------------------------------------------------------------------------------
 void TileVerdicts::ofPixels(const ReceiverTile& tile, std::vector<Certainty>& certain) const
 {
   const auto columns = static_cast<std::size_t>(tile.receivers.width);
@@ -268,24 +276,30 @@ void TileVerdicts::visitRows(std::size_t tile, const Visit& visit) const
   const std::size_t endRow = std::min(firstRow + ReceiverTile::mostRows, this->boxes_.height());
   for (std::size_t row = firstRow; row < endRow; ++row)
   {
-    for (std::size_t column = firstColumn; column < endColumn; column += ReceiverBoxes::cellColumns)
+    const std::size_t middle = std::min(firstColumn + ReceiverBoxes::cellColumns, endColumn);
+    const Certainty left = this->ofPixel(firstColumn, row);
+    const Certainty right = this->ofPixel(endColumn - 1, row);
+    if (left == right)
     {
-      const std::size_t end = std::min(column + ReceiverBoxes::cellColumns, endColumn);
-      visit(row * width + column, row * width + end, this->ofPixel(column, row));
+      visit(row * width + firstColumn, row * width + endColumn, left);
+      continue;
     }
+    visit(row * width + firstColumn, row * width + middle, left);
+    visit(row * width + middle, row * width + endColumn, right);
   }
 }
 
 //------------------------------------------------------------------------------
 void TileVerdicts::fillDark(std::size_t tile, float lit, std::vector<float>& visibility) const
 {
-  const std::uint8_t* const receives = this->boxes_.receives().data();
   this->visitRows(tile,
-    [&](std::size_t first, std::size_t end, Certainty)
+    [&, lit](std::size_t first, std::size_t end, Certainty)
     {
+      const std::uint8_t* const receives = this->boxes_.receives().data();
+      float* const to = visibility.data();
       for (std::size_t i = first; i < end; ++i)
       {
-        visibility[i] = receives[i] != 0 ? 0.0f : lit;
+        to[i] = receives[i] != 0 ? 0.0f : lit;
       }
     });
 }
@@ -293,15 +307,17 @@ void TileVerdicts::fillDark(std::size_t tile, float lit, std::vector<float>& vis
 //------------------------------------------------------------------------------
 void TileVerdicts::classifyDark(std::size_t tile, std::vector<std::uint8_t>& classes) const
 {
-  const std::uint8_t* const receives = this->boxes_.receives().data();
   constexpr auto noReceiver = static_cast<std::uint8_t>(TracedClass::NoReceiver);
   this->visitRows(tile,
     [&](std::size_t first, std::size_t end, Certainty certainty)
     {
       const auto dark = static_cast<std::uint8_t>(certainty);
+      const std::uint8_t* const receives = this->boxes_.receives().data();
+      std::uint8_t* const to = classes.data();
+#pragma GCC ivdep
       for (std::size_t i = first; i < end; ++i)
       {
-        classes[i] = receives[i] != 0 ? dark : noReceiver;
+        to[i] = receives[i] != 0 ? dark : noReceiver;
       }
     });
 }

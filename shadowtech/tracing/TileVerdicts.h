@@ -40,6 +40,8 @@ public:
   /// By tile, row by row: 1 if all of its receivers are dark.
   const std::vector<std::uint8_t>& darkTiles() const { return this->darkTiles_; }
   bool areAllDark() const;
+  /// Whether rays are needed in more than an eighth of the cells.
+  bool needManyRays() const;
 
   ///@{
   /// Fills what tracing a dark tile would: the visibility, and each pixel's TracedClass. That is

@@ -26,7 +26,7 @@ constexpr double productNoise = 1.0 / 262144.0; // 2^-18
 constexpr std::size_t mostTriangles = 8;
 
 /// Nor more along a ray.
-constexpr int mostHits = 4;
+constexpr int mostHits = 8;
 
 const Surface& surfaceOf(const Occluders& occluders, std::uint32_t triangle)
 {
