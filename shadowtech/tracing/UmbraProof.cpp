@@ -268,8 +268,6 @@ bool UmbraProof::isBlockedBy(std::uint32_t first) const
   {
     glm::dvec3 from, to;
   };
-  std::vector<glm::dvec3> rim;
-  std::vector<Edge> unproven;
   const auto mayBlock = [&](const Triangle& triangle, std::uint32_t number)
   {
     return !(triangle.isBack && surfaceOf(this->occluders_, number).oneSided) &&
@@ -288,8 +286,7 @@ bool UmbraProof::isBlockedBy(std::uint32_t first) const
     return false;
   }
   const auto& [a, b, c] = triangle.corners;
-  rim = { a, b, c };
-  unproven = { { a, b }, { b, c }, { c, a } };
+  std::vector<Edge> unproven{ { a, b }, { b, c }, { c, a } };
   std::size_t triangles = 1;
   while (!unproven.empty())
   {
@@ -303,13 +300,10 @@ bool UmbraProof::isBlockedBy(std::uint32_t first) const
     const auto growTo = [&](std::uint32_t number)
     {
       Triangle next(this->occluders_, number);
-      // A corner that is there already would leave one inside the rim.
-      if (!next.beginWith(edge.to, edge.from) || !mayBlock(next, number) ||
-        std::find(rim.begin(), rim.end(), next.corners[2]) != rim.end())
+      if (!next.beginWith(edge.to, edge.from) || !mayBlock(next, number))
       {
         return false;
       }
-      rim.push_back(next.corners[2]);
       unproven.push_back({ edge.from, next.corners[2] });
       unproven.push_back({ next.corners[2], edge.to });
       return true;

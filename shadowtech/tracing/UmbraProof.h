@@ -43,10 +43,10 @@ struct RayEnds
 /// point, so that it is positive for all rays if it is for those between corners, and by more than
 /// rounding. So are the distances to the triangle's plane that t follows from.
 ///
-/// A blocker is one triangle, or several that share edges bit by bit, whose corners all lie on its
-/// rim. If all rays pass the rim's edges on their left, each hits one of its n triangles: it passes
-/// each of the n - 1 edges inside on the right of one triangle at most, as F(B, A) rounds to
-/// -F(A, B), so that one triangle has none. A blocker need be neither flat nor convex.
+/// A blocker is one triangle, or n that are joined along n - 1 edges that they share bit by bit. If
+/// all rays pass all other edges on their left, each hits one of the triangles: it passes a joint on
+/// the right as one triangle sees it at most, as F(B, A) rounds to -F(A, B), so that for one
+/// triangle it passes none so. A blocker need be neither flat nor convex.
 class UmbraProof
 {
 public:
