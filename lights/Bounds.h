@@ -48,6 +48,19 @@ struct Bounds
   }
 };
 
+/// Return the largest magnitude of a coordinate in a box; minus infinity in an empty one.
+inline double largestCoordinate(const Bounds& bounds)
+{
+  const glm::dvec3 largest = glm::max(-bounds.lower, bounds.upper);
+  return std::max(largest.x, std::max(largest.y, largest.z));
+}
+
+/// Return the box that reaches farther by as much on all sides; an empty one stays empty.
+inline Bounds inflated(const Bounds& bounds, double by)
+{
+  return { bounds.lower - by, bounds.upper + by };
+}
+
 /// Return the box round an affinely transformed box.
 inline Bounds affinelyTransformed(const Bounds& bounds, const glm::dmat4& matrix)
 {

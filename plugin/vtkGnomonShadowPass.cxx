@@ -609,13 +609,12 @@ bool vtkGnomonShadowPass::PreReplaceShaderValues(std::string& vertexShader,
 
 //------------------------------------------------------------------------------
 bool vtkGnomonShadowPass::PostReplaceShaderValues(std::string& vertexShader,
-  std::string& geometryShader, std::string& fragmentShader,
-  vtkAbstractMapper* vtkNotUsed(mapper), vtkProp* prop)
+  std::string& geometryShader, std::string& fragmentShader, vtkAbstractMapper* vtkNotUsed(mapper),
+  vtkProp* prop)
 {
   // Where other passes write outputs of their own, this is not the receivers stage.
   const bool alone = prop->GetPropertyKeys()->Length(vtkOpenGLRenderPass::RenderPasses()) == 1;
-  this->Internal->programs->shaders.fillShader(
-    vertexShader, geometryShader, fragmentShader, alone);
+  this->Internal->programs->shaders.fillShader(vertexShader, geometryShader, fragmentShader, alone);
   return true;
 }
 

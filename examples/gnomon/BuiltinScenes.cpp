@@ -66,6 +66,10 @@ std::vector<BuiltinScene> makeScenes()
   }
   scenes.push_back({ "atrium",
     "two storeys of arcades around a court with open cloth, 260,000 triangles", makeAtriumScene });
+  scenes.push_back({ "building", "64 rooms with doors and a lamp each, most of them out of sight",
+    makeBuildingScene });
+  scenes.push_back(
+    { "building-lit", "building with only the lamps in sight", makeLitBuildingScene });
   scenes.push_back({ "city",
     "streets and towers of 10 million triangles; ray traced in 2 GB of memory", makeCityScene });
   return scenes;

@@ -57,6 +57,10 @@ Scene makeOfficeScene();
 /// triangles; size, light and camera are those of Sponza in Morais' thesis.
 Scene makeAtriumScene();
 Scene makeCityScene();
+/// 64 rooms with a lamp each, of which a few light what the camera sees in one of them.
+Scene makeBuildingScene();
+/// The same with those few alone.
+Scene makeLitBuildingScene();
 Scene makeTerrainScene();
 /// A prop of every kind that VTK has, on a ground.
 Scene makePropsScene();

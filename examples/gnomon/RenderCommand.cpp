@@ -249,6 +249,8 @@ nlohmann::ordered_json toJson(const FrameReport& report)
         { "kernel_size_texels", light.kernelTexels }, { "map_samples", light.mapSamples },
         { "traced_pixels", light.tracedPixels }, { "rays", light.rays },
         { "light_samples", light.lightSamples }, { "progress", light.progress },
+        { "tiles_lit", light.tilesLit }, { "tiles_dark", light.tilesDark },
+        { "tiles_traced", light.tilesTraced }, { "skip_reason", light.skipReason },
         { "planes", light.planes }, { "pixels_off_planes", light.pixelsOffPlanes },
         { "classes", classesToJson(light.classes) } });
   }

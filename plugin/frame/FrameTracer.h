@@ -49,6 +49,11 @@ public:
   {
     return this->tracer_ && this->tracer_->freeSegments() ? this : nullptr;
   }
+  /// The tracer's; null also where nobody has traced.
+  const CasterHits* casterHits() const
+  {
+    return this->tracer_ ? this->tracer_->casterHits() : nullptr;
+  }
   void areFree(std::size_t count, const PointArrays& from, const PointArrays& to,
     std::uint8_t* free) const override;
   /// Why Embree has taken over; empty where it has not.

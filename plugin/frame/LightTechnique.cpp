@@ -84,6 +84,13 @@ void LightTechnique::updateMaps(
     this->usesMap_ = false;
     report.mapReason = "it would not know casters that are spheres or cylinders";
   }
+  else if (this->info().mapIsOptional && light.of<BakeSettings>().time != BakeTime::Always &&
+    !this->takesRays_ && !this->baked_.changesTo(wanted).empty())
+  {
+    this->backoff_ = BakeBackoff();
+    this->usesMap_ = false;
+    report.mapReason = "the light needs few shadow rays or none without it";
+  }
   else if (this->info().mapIsOptional && light.of<BakeSettings>().time != BakeTime::Always)
   {
     this->usesMap_ = this->backoff_.usesMap(

@@ -69,6 +69,10 @@ public:
   /// Whether this frame's visibility is to be computed with the maps.
   bool usesMap() const { return this->usesMap_; }
 
+  /// Tells whether the last visibility would take shadow rays in much of the picture without a map:
+  /// other lights gain nothing by a new one.
+  void tellRays(bool tookMany) { this->takesRays_ = tookMany; }
+
   /// How the views were laid out in this frame, and others may be: whether or not maps were drawn.
   const ViewFitting& fitting() const { return this->fitting_; }
 
@@ -102,6 +106,7 @@ private:
   Bake wanted_;         ///< what optional maps were to be baked from in the last frame
   BakeBackoff backoff_; ///< of optional maps
   bool usesMap_ = true;
+  bool takesRays_ = true; ///< many, as far as is known
   ReceiverFit receiverFit_;
 };
 

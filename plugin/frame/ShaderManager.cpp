@@ -337,8 +337,7 @@ void ShaderManager::fillShader(const std::string& vertexShader, const std::strin
   replace(fragmentShader, uniformFlowMarker, uniformFlow);
   replace(fragmentShader, beginMarker, begin);
   replace(fragmentShader, endMarker, end);
-  this->programs_.insert(
-    std::hash<std::string>()(vertexShader + geometryShader + fragmentShader));
+  this->programs_.insert(std::hash<std::string>()(vertexShader + geometryShader + fragmentShader));
 }
 
 //------------------------------------------------------------------------------

@@ -340,7 +340,7 @@ void TechniqueChoice::takeSamples(CastingLight& casting)
   LightChoice& choice = this->lights_[casting.light.sceneIndex];
   const auto samplesOf = [](int step) { return fewestSamples << (2 * step); }; // square numbers
   const int all = casting.light.lightSamples;
-  if (this->frame_.wishes.maximumSoftError == 0.0)
+  if (this->frame_.wishes.maximumSoftError == 0.0 || this->occluders_.castsSolids())
   {
     return;
   }
@@ -369,13 +369,13 @@ bool TechniqueChoice::look()
   if (!this->looked_)
   {
     this->visibility_.updateTracer();
-    const FirstHitFinder* const finder = this->visibility_.shadowTracer().firstHits();
-    if (!finder)
+    const CasterHits* const hits = this->visibility_.shadowTracer().casterHits();
+    if (!hits)
     {
       return false;
     }
     this->probes_.look(
-      this->frame_.camera, this->frame_.size, this->occluders_, *finder, this->looks_++);
+      this->frame_.camera, this->frame_.size, this->occluders_, *hits, this->looks_++);
     this->looked_ = true;
   }
   return true;

@@ -4,6 +4,7 @@
 #include "plugin/frame/ValueKey.h"
 #include "shadowtech/base/DeferredPicture.h"
 #include "shadowtech/base/FrameReport.h"
+#include "shadowtech/base/ReceiverBoxes.h"
 #include "shadowtech/base/ReceiverTarget.h"
 #include "shadowtech/base/Receivers.h"
 #include "shadowtech/base/VisibilityLayers.h"
@@ -42,6 +43,7 @@ struct ReceiversValue
   std::size_t numberBefore = 0;            ///< of which number these are
   ReceiverPixels pixels;                   ///< where `onCpu` keeps them
   std::optional<Receivers> onCpu;          ///< made with `images`
+  std::optional<ReceiverBoxes> boxes;      ///< of `onCpu`, where it stores them
   int framesTraced = 0;                    ///< in which lights were traced from them
 };
 

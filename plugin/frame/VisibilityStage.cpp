@@ -4,7 +4,10 @@
 #include "shadowtech/tracing/GpuTracer.h"
 #include "shadowtech/tracing/RefinementSettings.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
+#include <cstring>
 #include <optional>
 #include <set>
 #include <string>
@@ -61,9 +64,17 @@ std::vector<ClassCount> countClasses(
   {
     counts.push_back({ pixelClass.name, 0 });
   }
-  for (const std::uint8_t pixelClass : ofPixels)
+  constexpr std::size_t run = 64; // pixels, which mostly are all of one class
+  for (std::size_t first = 0; first < ofPixels.size(); first += run)
   {
-    ++counts[pixelClass].pixels;
+    const std::uint8_t* const pixels = &ofPixels[first];
+    const std::size_t count = std::min(run, ofPixels.size() - first);
+    if (std::memcmp(pixels, pixels + 1, count - 1) == 0)
+    {
+      counts[*pixels].pixels += static_cast<std::int64_t>(count);
+      continue;
+    }
+    std::for_each(pixels, pixels + count, [&](std::uint8_t of) { ++counts[of].pixels; });
   }
   return counts;
 }
@@ -202,6 +213,7 @@ Receivers& VisibilityStage::receiversOnCpu()
     {
       value.target.read(value.images);
     }
+    value.boxes.reset();
     value.onCpu.emplace(
       value.images, value.drawnSurfaces, this->occluders_, value.pixels, freeSegments);
     this->frame_.endStage("visibility: read receivers");
@@ -210,15 +222,52 @@ Receivers& VisibilityStage::receiversOnCpu()
 }
 
 //------------------------------------------------------------------------------
-/// Stores receivers that lights move over, which takes half as long as tracing from them. From then
-/// on a light's image takes a fifth less.
-void VisibilityStage::storeResting()
+/// Stores receivers that serve several images: those of several lights, or of a light that moves
+/// over them. Storing them takes half as long as tracing from them. From then on an image takes a
+/// fifth less, and there are boxes by which tiles need no rays.
+void VisibilityStage::storeReceivers()
 {
   constexpr int patience = 2; // frames
-  if (++this->frame_.view->receivers.framesTraced > patience)
+  Receivers& receivers = this->receiversOnCpu();
+  ReceiversValue& value = this->frame_.view->receivers;
+  const auto images = std::count_if(this->frame_.lights.begin(), this->frame_.lights.end(),
+    [](const CastingLight& casting)
+    {
+      const bool isDecidedByMap = casting.own.info().conservativeMap && casting.own.usesMap();
+      return casting.isStale && isOnCpu(casting) && !isDecidedByMap;
+    });
+  if (++value.framesTraced > patience || images > 1)
   {
-    this->receiversOnCpu().all();
+    const ReceiverPixels& pixels = receivers.all();
+    if (!value.boxes && this->tracer_.casterHits())
+    {
+      value.boxes.emplace(pixels, this->occluders_);
+    }
+    this->frame_.endStage("visibility: store receivers");
   }
+}
+
+//------------------------------------------------------------------------------
+/// Finds what is known of lights' tiles, of those whose techniques heed it.
+void VisibilityStage::judge()
+{
+  const std::optional<ReceiverBoxes>& boxes = this->frame_.view->receivers.boxes;
+  const CasterHits* const hits = this->tracer_.casterHits();
+  if (!boxes || !hits)
+  {
+    return;
+  }
+  tbb::parallel_for(std::size_t(0), this->verdicts_.size(),
+    [&](std::size_t i)
+    {
+      const CastingLight& casting = this->frame_.lights.begin()[static_cast<std::ptrdiff_t>(i)];
+      if (casting.isStale && isOnCpu(casting) && casting.own.info().exact &&
+        !casting.light.texture && edgeSamplesOf(casting) == 1)
+      {
+        this->verdicts_[i].emplace(casting.light, this->occluders_, *boxes, *hits);
+      }
+    });
+  this->frame_.endStage("visibility: judge tiles");
 }
 
 //------------------------------------------------------------------------------
@@ -226,24 +275,29 @@ void VisibilityStage::compute()
 {
   FrameReport& frameReport = this->frame_.report;
   ViewValues& view = *this->frame_.view;
+  this->verdicts_.clear();
+  this->verdicts_.resize(this->frame_.lights.size());
   if (std::any_of(this->frame_.lights.begin(), this->frame_.lights.end(),
         [](const CastingLight& casting) { return casting.isStale && isOnCpu(casting); }))
   {
     this->updateTracer();
-    this->storeResting();
+    this->storeReceivers();
+    this->judge();
   }
   if (this->tracesOnCpu())
   {
     this->tellTracer();
   }
+  this->darkBits_.clear();
   auto value = view.visibility.begin();
+  auto verdicts = this->verdicts_.begin();
   for (CastingLight& casting : this->frame_.lights)
   {
     if (casting.isStale)
     {
       LightReport& report = reportOf(frameReport, casting.light);
       value->classified = this->classifies();
-      this->fill(casting, *value, report);
+      this->fill(casting, verdicts->has_value() ? &**verdicts : nullptr, *value, report);
       const std::vector<PixelClass>& named = casting.own.info().classes;
       if (value->classified && !named.empty())
       {
@@ -256,6 +310,11 @@ void VisibilityStage::compute()
     }
     frameReport.notes.insert(frameReport.notes.end(), value->notes.begin(), value->notes.end());
     ++value;
+    ++verdicts;
+  }
+  if (!this->darkBits_.empty())
+  {
+    view.layers.darkenBits(this->darkBits_, view.receivers.boxes->receives());
   }
   view.layers.uploadBits();
   const bool isKept = frameReport.visibilityComputed == 0 && this->imagesOf_ == &view &&
@@ -307,8 +366,10 @@ TracedTiles* VisibilityStage::beginTiles(
 
 //------------------------------------------------------------------------------
 /// Has a light's technique fill its layers.
+/// @param verdicts null: nothing is known of its tiles
 /// @param value whose classes, if they are asked for, and notes are filled
-void VisibilityStage::fill(CastingLight& casting, VisibilityValue& value, LightReport& report)
+void VisibilityStage::fill(
+  CastingLight& casting, const TileVerdicts* verdicts, VisibilityValue& value, LightReport& report)
 {
   value.notes.clear();
   if (!isOnCpu(casting))
@@ -344,42 +405,70 @@ void VisibilityStage::fill(CastingLight& casting, VisibilityValue& value, LightR
   }
   else
   {
-    auto& technique = *casting.own.as<CpuScreenTechnique>();
-    const std::size_t edgeSamples = edgeSamplesOf(casting);
-    std::vector<std::uint8_t> classesForEdges;
-    ShadowLight traced = light;
-    traced.lightSamples = samplesOf(casting, value.samples, this->frame_.severalViews);
-    Receivers& onCpu = this->receiversOnCpu();
-    TracedTiles* const tiles = this->beginTiles(casting, traced, value);
-    const bool hasBit = casting.bit != noBit;
-    std::vector<float>& visibility = tiles && !hasBit ? value.onCpu : this->onCpu_;
-    if (tiles && hasBit && casting.mayKeepTiles)
-    {
-      layers.readBit(casting.bit, visibility);
-    }
-    const ScreenInput input{ traced, casting.own.fitting(), occluders, onCpu,
-      this->tracer_.tracer(), casting.own.usesMap(),
-      classes || edgeSamples == 1 ? classes : &classesForEdges, tiles,
-      this->frame_.report.mapBakes };
-    namingLight(light, [&] { technique.computeVisibility(input, visibility, report); });
-    value.samples = traced.lightSamples;
-    report.progress = static_cast<double>(traced.lightSamples) / light.lightSamples;
-    this->frame_.endStage("visibility: trace");
-    if (edgeSamples > 1)
-    {
-      namingLight(light,
-        [&] {
-          this->edges_.smooth(technique, input, *input.classes, edgeSamples, visibility, report);
-        });
-      this->frame_.endStage("visibility: edges");
-    }
-    hasBit ? layers.fillBit(casting.bit, visibility) : layers.upload(casting.layer, visibility);
-    if (this->frame_.route == Route::Deferred)
-    {
-      this->frame_.view->receivers.deferred.keepShadows(visibility);
-    }
-    this->frame_.endStage("visibility: upload");
+    this->trace(casting, verdicts, value, report);
   }
+}
+
+//------------------------------------------------------------------------------
+/// Has a technique that traces fill a light's layers or bit.
+/// @param verdicts null: nothing is known of its tiles
+void VisibilityStage::trace(
+  CastingLight& casting, const TileVerdicts* verdicts, VisibilityValue& value, LightReport& report)
+{
+  const ShadowLight& light = casting.light;
+  VisibilityLayers& layers = this->frame_.view->layers;
+  std::vector<std::uint8_t>* const classes = value.classified ? &value.classes : nullptr;
+  auto& technique = *casting.own.as<CpuScreenTechnique>();
+  const std::size_t edgeSamples = edgeSamplesOf(casting);
+  std::vector<std::uint8_t> classesForEdges;
+  ShadowLight traced = light;
+  traced.lightSamples = samplesOf(casting, value.samples, this->frame_.severalViews);
+  value.samples = traced.lightSamples;
+  report.progress = static_cast<double>(traced.lightSamples) / light.lightSamples;
+  Receivers& onCpu = this->receiversOnCpu();
+  const bool hasBit = casting.bit != noBit;
+
+  if (verdicts)
+  {
+    verdicts->tell(light, report);
+  }
+  casting.own.tellRays(!verdicts || verdicts->needManyRays());
+  if (verdicts && hasBit && verdicts->areAllDark())
+  {
+    value.dropTiles();
+    this->darkBits_.push_back(casting.bit);
+    if (classes)
+    {
+      verdicts->classifyAllDark(*classes);
+    }
+    this->frame_.endStage("visibility: trace");
+    return;
+  }
+  TracedTiles* const tiles = this->beginTiles(casting, traced, value);
+  std::vector<float>& visibility = tiles && !hasBit ? value.onCpu : this->onCpu_;
+  if (tiles && hasBit && casting.mayKeepTiles)
+  {
+    layers.readBit(casting.bit, visibility);
+  }
+  const ScreenInput input{ traced, casting.own.fitting(), this->occluders_, onCpu,
+    this->tracer_.tracer(), casting.own.usesMap(),
+    classes || edgeSamples == 1 ? classes : &classesForEdges, tiles, verdicts,
+    this->frame_.report.mapBakes };
+  namingLight(light, [&] { technique.computeVisibility(input, visibility, report); });
+  this->frame_.endStage("visibility: trace");
+  if (edgeSamples > 1)
+  {
+    namingLight(light,
+      [&]
+      { this->edges_.smooth(technique, input, *input.classes, edgeSamples, visibility, report); });
+    this->frame_.endStage("visibility: edges");
+  }
+  hasBit ? layers.fillBit(casting.bit, visibility) : layers.upload(casting.layer, visibility);
+  if (this->frame_.route == Route::Deferred)
+  {
+    this->frame_.view->receivers.deferred.keepShadows(visibility);
+  }
+  this->frame_.endStage("visibility: upload");
 }
 
 } // namespace gnomon

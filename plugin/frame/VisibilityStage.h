@@ -9,9 +9,11 @@
 #include "shadowtech/base/Receivers.h"
 #include "shadowtech/base/ShaderLibrary.h"
 #include "shadowtech/tracing/EdgeSamples.h"
+#include "shadowtech/tracing/TileVerdicts.h"
 #include "shadowtech/tracing/TracedTiles.h"
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace gnomon
@@ -53,10 +55,14 @@ private:
   void tellTracer();
   bool tracesOnCpu() const;
   Receivers& receiversOnCpu();
-  void storeResting();
+  void storeReceivers();
+  void judge();
   TracedTiles* beginTiles(
     const CastingLight& casting, const ShadowLight& traced, VisibilityValue& value);
-  void fill(CastingLight& casting, VisibilityValue& value, LightReport& report);
+  void fill(CastingLight& casting, const TileVerdicts* verdicts, VisibilityValue& value,
+    LightReport& report);
+  void trace(CastingLight& casting, const TileVerdicts* verdicts, VisibilityValue& value,
+    LightReport& report);
 
   Frame& frame_;
   const Occluders& occluders_;
@@ -65,6 +71,11 @@ private:
   FrameTracer tracer_;
   EdgeSamples edges_;
   std::vector<float> onCpu_; ///< a light's; kept, as new memory costs more than old
+  ///@{
+  /// Of this frame: what is known of its lights' tiles, and the bits of those that are dark.
+  std::vector<std::optional<TileVerdicts>> verdicts_;
+  std::vector<int> darkBits_;
+  ///@}
   VisibilityImages images_;
   const ViewValues* imagesOf_ = nullptr; ///< the view that they are of
 };

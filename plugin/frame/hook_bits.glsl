@@ -3,14 +3,14 @@
 
 uniform usampler2D gnomonBits;
 
-uint gnomonFetchedBits;
+uvec2 gnomonFetchedBits; // 32 lights each
 
 void gnomonFetchBits()
 {
-  gnomonFetchedBits = texelFetch(gnomonBits, gnomonLayerPixel(), 0).r;
+  gnomonFetchedBits = texelFetch(gnomonBits, gnomonLayerPixel(), 0).rg;
 }
 
 float gnomonBit(int bit)
 {
-  return float(gnomonFetchedBits >> bit & 1u);
+  return float(gnomonFetchedBits[bit / 32] >> bit % 32 & 1u);
 }

@@ -59,6 +59,16 @@ struct LightReport
   /// Rays that were traced. Of most techniques as many as tracedPixels times lightSamples; where
   /// rays decide others (`penumbra`), tracedPixels have all of theirs, and other pixels some.
   std::int64_t rays = 0;
+  ///@{
+  /// Of exact techniques, how many tiles of 64 x 16 pixels are lit, or dark, for certain and as a
+  /// whole, and in how many the others are traced. Counted where several lights share receivers;
+  /// else all are 0.
+  int tilesLit = 0;
+  int tilesDark = 0;
+  int tilesTraced = 0;
+  ///@}
+  /// Why no shadow ray was needed, where tiles were counted, as a clause; empty if any was.
+  std::string skipReason;
   int planes = 0; ///< of planar shadows: how many planes show them
   /// Of planar shadows: pixels that lie on none of those and show no cast shadow. Counted only
   /// where visibility is kept or stages are measured.
@@ -109,14 +119,14 @@ struct FrameReport
 
   /// Of each value that a stage could reuse, whether it did.
   std::vector<ValueReport> values;
-  int receiversDrawn = 0;        ///< pictures of receivers that VTK drew
-  int visibilityComputed = 0;    ///< lights whose visibility was computed for the picture's pixels
-  std::int64_t raysTraced = 0;   ///< for them
-  int mapBakes = 0;              ///< maps drawn
-  int programCompiles = 0; ///< shader programs made, VTK's with the hook included
-  int newPrograms = 0;     ///< of these, what OpenGL had to compile: VTK keeps those of earlier frames
-  int bvhBuilds = 0;             ///< acceleration structures built
-  int bvhRefits = 0;             ///< acceleration structures refitted
+  int receiversDrawn = 0;      ///< pictures of receivers that VTK drew
+  int visibilityComputed = 0;  ///< lights whose visibility was computed for the picture's pixels
+  std::int64_t raysTraced = 0; ///< for them
+  int mapBakes = 0;            ///< maps drawn
+  int programCompiles = 0;     ///< shader programs made, VTK's with the hook included
+  int newPrograms = 0; ///< of these, what OpenGL had to compile: VTK keeps those of earlier frames
+  int bvhBuilds = 0;   ///< acceleration structures built
+  int bvhRefits = 0;   ///< acceleration structures refitted
   int surfacesExtracted = 0;     ///< mapper inputs read into the snapshot
   int surfacesRetransformed = 0; ///< surfaces whose world positions were computed again
 

@@ -29,6 +29,7 @@ class Receivers;
 class ReceiverTarget;
 class ShaderLibrary;
 class ShadowTracer;
+class TileVerdicts;
 class TracedTiles;
 class VisibilityLayers;
 
@@ -172,6 +173,8 @@ struct ScreenInput
   /// Which tiles keep what the visibility and the classes hold; null: all are computed. Only exact
   /// techniques without a map need to heed it.
   TracedTiles* tiles;
+  /// What is known of tiles without rays; null: nothing. Only exact techniques need to heed it.
+  const TileVerdicts* verdicts;
   int& mapBakes; ///< FrameReport::mapBakes
 };
 

@@ -10,6 +10,23 @@
 
 namespace gnomon
 {
+namespace
+{
+
+constexpr int bitsOfWord = 32;
+
+/// The word of a pixel that a bit is in.
+std::size_t wordOf(int bit)
+{
+  return static_cast<std::size_t>(bit / bitsOfWord);
+}
+
+std::uint32_t maskOf(int bit)
+{
+  return std::uint32_t(1) << bit % bitsOfWord;
+}
+
+} // namespace
 
 //------------------------------------------------------------------------------
 void VisibilityLayers::resize(int width, int height, int layers, int bits)
@@ -30,17 +47,20 @@ void VisibilityLayers::resize(int width, int height, int layers, int bits)
     allocateTexture(
       this->texture_, { GL_R32F, GL_RED, 1 }, width, height, layers, "the lights' visibility");
   }
+  this->wordsOfPixel_ = static_cast<std::size_t>((bits + bitsOfWord - 1) / bitsOfWord);
   if (bits == 0)
   {
     this->textureOfBits_ = GlTexture();
   }
   else
   {
-    allocateTexture(this->textureOfBits_, { GL_R32UI, GL_RED_INTEGER, 1, GL_UNSIGNED_INT }, width,
-      height, 0, "the lights' visibility");
+    allocateTexture(this->textureOfBits_,
+      this->wordsOfPixel_ == 1 ? TexelFormat{ GL_R32UI, GL_RED_INTEGER, 1, GL_UNSIGNED_INT }
+                               : TexelFormat{ GL_RG32UI, GL_RG_INTEGER, 2, GL_UNSIGNED_INT },
+      width, height, 0, "the lights' visibility");
   }
   this->bitsOfPixels_.assign(
-    bits > 0 ? static_cast<std::size_t>(width) * static_cast<std::size_t>(height) : 0, 0);
+    this->wordsOfPixel_ * static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0);
   this->width_ = width;
   this->height_ = height;
   this->layers_ = layers;
@@ -109,13 +129,39 @@ void VisibilityLayers::upload(int firstLayer, const std::vector<float>& visibili
 //------------------------------------------------------------------------------
 void VisibilityLayers::fillBit(int bit, const std::vector<float>& visibility)
 {
-  const std::uint32_t lit = std::uint32_t(1) << bit;
-  for (std::size_t i = 0; i < this->bitsOfPixels_.size(); ++i)
+  const std::uint32_t lit = maskOf(bit);
+  const std::size_t words = this->wordsOfPixel_;
+  std::uint32_t* const bits = this->bitsOfPixels_.data() + wordOf(bit);
+  for (std::size_t i = 0; i < visibility.size(); ++i)
   {
-    std::uint32_t& bits = this->bitsOfPixels_[i];
-    bits = (bits & ~lit) | (visibility[i] != 0.0f ? lit : 0);
+    bits[words * i] = (bits[words * i] & ~lit) | (visibility[i] != 0.0f ? lit : 0);
   }
   this->bitsChanged_ = true;
+}
+
+//------------------------------------------------------------------------------
+void VisibilityLayers::darkenBits(
+  const std::vector<int>& bits, const std::vector<std::uint8_t>& receives)
+{
+  for (std::size_t word = 0; word < this->wordsOfPixel_; ++word)
+  {
+    std::uint32_t dark = 0;
+    for (const int bit : bits)
+    {
+      dark |= wordOf(bit) == word ? maskOf(bit) : 0;
+    }
+    if (dark == 0)
+    {
+      continue;
+    }
+    const std::size_t words = this->wordsOfPixel_;
+    std::uint32_t* const ofPixels = this->bitsOfPixels_.data() + word;
+    for (std::size_t i = 0; i < receives.size(); ++i)
+    {
+      ofPixels[words * i] = (ofPixels[words * i] & ~dark) | (receives[i] != 0 ? 0 : dark);
+    }
+    this->bitsChanged_ = true;
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -130,16 +176,21 @@ void VisibilityLayers::uploadBits()
   glBindTexture(GL_TEXTURE_2D, this->textureOfBits_.name());
   glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, this->width_, this->height_, GL_RED_INTEGER,
-    GL_UNSIGNED_INT, this->bitsOfPixels_.data());
+  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, this->width_, this->height_,
+    this->wordsOfPixel_ == 1 ? GL_RED_INTEGER : GL_RG_INTEGER, GL_UNSIGNED_INT,
+    this->bitsOfPixels_.data());
 }
 
 //------------------------------------------------------------------------------
 void VisibilityLayers::readBit(int bit, std::vector<float>& visibility) const
 {
-  visibility.resize(this->bitsOfPixels_.size());
-  std::transform(this->bitsOfPixels_.begin(), this->bitsOfPixels_.end(), visibility.begin(),
-    [bit](std::uint32_t bits) { return static_cast<float>(bits >> bit & 1); });
+  const std::size_t words = this->wordsOfPixel_;
+  const std::uint32_t* const bits = this->bitsOfPixels_.data() + wordOf(bit);
+  visibility.resize(this->bitsOfPixels_.size() / words);
+  for (std::size_t i = 0; i < visibility.size(); ++i)
+  {
+    visibility[i] = (bits[words * i] & maskOf(bit)) != 0 ? 1.0f : 0.0f;
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -161,7 +212,7 @@ void VisibilityLayers::read(int layer, std::vector<float>& visibility) const
 //------------------------------------------------------------------------------
 std::size_t VisibilityLayers::bytes() const
 {
-  const std::size_t images = static_cast<std::size_t>(this->layers_) + (this->bits_ > 0 ? 2 : 0);
+  const std::size_t images = static_cast<std::size_t>(this->layers_) + 2 * this->wordsOfPixel_;
   return static_cast<std::size_t>(this->width_) * static_cast<std::size_t>(this->height_) * images *
     sizeof(float);
 }

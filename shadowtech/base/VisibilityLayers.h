@@ -22,8 +22,8 @@ inline constexpr int noBit = -1;
 class VisibilityLayers
 {
 public:
-  /// How many bits there can be.
-  static constexpr int mostBits = 32;
+  /// How many bits there can be: those of two numbers a texel, of which 32 bits take one.
+  static constexpr int mostBits = 64;
 
   /// Whether there are `layers` images of this size, and one of bits if there are `bits`.
   bool have(int width, int height, int layers, int bits) const
@@ -52,6 +52,9 @@ public:
 
   /// Fills a bit with what a screen technique has computed on the CPU: 1 or 0 everywhere.
   void fillBit(int bit, const std::vector<float>& visibility);
+  /// Fills bits of lights that are dark as a whole: 0 where a pixel shows a receiver, else 1.
+  /// @param receives by pixel: 1 or 0
+  void darkenBits(const std::vector<int>& bits, const std::vector<std::uint8_t>& receives);
   /// To be called once all bits are filled.
   void uploadBits();
 
@@ -73,6 +76,7 @@ private:
   int layers_ = 0;
   int bits_ = 0;
   GlTexture textureOfBits_;
+  std::size_t wordsOfPixel_ = 0; ///< numbers of 32 bits
   std::vector<std::uint32_t> bitsOfPixels_;
   bool bitsChanged_ = false; ///< since the upload
 };

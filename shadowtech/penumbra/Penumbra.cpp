@@ -37,7 +37,7 @@ void Penumbra::computeVisibility(
   const PenumbraChooser chooser(this->tree_, input.light, input.occluders.centreWorld);
   report.lightSamples = input.light.lightSamples;
   report.rays = static_cast<std::int64_t>(input.tracer.traceArea(input.light, input.occluders,
-    input.receivers, visibility, nullptr, input.classes, &chooser, input.tiles));
+    input.receivers, visibility, nullptr, input.classes, &chooser, input.tiles, input.verdicts));
   report.tracedPixels = chooser.tracedPixels();
   if (input.classes)
   {

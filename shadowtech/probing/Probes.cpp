@@ -6,8 +6,12 @@
 #include "shadowtech/base/ShadowRay.h"
 #include "shadowtech/tracing/ShadowTracer.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 namespace gnomon
 {
@@ -21,38 +25,6 @@ double spread(std::uint32_t number, double step)
 {
   const double value = number * step;
   return value - std::floor(value);
-}
-
-/// Rays as Embree takes them, with their lines in double precision.
-struct CameraRays
-{
-  std::vector<float> origin[3], direction[3];
-  std::vector<glm::dvec3> originCentred, directionCentred;
-
-  CameraRays(const PixelRays& rays, const glm::ivec2& sizePixels, std::uint32_t number)
-  {
-    const glm::dvec2 moved(spread(number, 0.7548776662466927), spread(number, 0.5698402909980532));
-    for (int y = 0; y < Probes::across; ++y)
-    {
-      for (int x = 0; x < Probes::across; ++x)
-      {
-        const glm::dvec2 pixel =
-          glm::floor((glm::dvec2(x, y) + moved) / double(Probes::across) * glm::dvec2(sizePixels));
-        this->originCentred.push_back(rays.origin(pixel.x, pixel.y));
-        this->directionCentred.push_back(rays.direction(pixel.x, pixel.y));
-        for (int axis = 0; axis < 3; ++axis)
-        {
-          this->origin[axis].push_back(static_cast<float>(this->originCentred.back()[axis]));
-          this->direction[axis].push_back(static_cast<float>(this->directionCentred.back()[axis]));
-        }
-      }
-    }
-  }
-};
-
-PointArrays arraysOf(const std::vector<float> (&numbers)[3])
-{
-  return { numbers[0].data(), numbers[1].data(), numbers[2].data() };
 }
 
 } // namespace
@@ -72,37 +44,39 @@ double WrongProbes::mostShare() const
 
 //------------------------------------------------------------------------------
 void Probes::look(const CameraView& camera, const glm::ivec2& sizePixels,
-  const Occluders& occluders, const FirstHitFinder& finder, std::uint32_t number)
+  const Occluders& occluders, const CasterHits& hits, std::uint32_t number)
 {
-  const glm::dmat4 centredFromView = glm::inverse(camera.viewFromCentred);
-  const PixelRays rays =
-    pixelRays(camera.clipFromView, centredFromView, sizePixels.x, sizePixels.y);
-  const CameraRays lines(rays, sizePixels, number);
-  finder.find(probeCount, arraysOf(lines.origin), arraysOf(lines.direction), this->hits_);
-
+  const PixelRays rays = pixelRays(
+    camera.clipFromView, glm::inverse(camera.viewFromCentred), sizePixels.x, sizePixels.y);
   const glm::dvec2 pixelSide = camera.pixelSide(sizePixels);
   const glm::dvec3 eyeCentred = camera.eyeCentred();
   const glm::dvec3 lookCentred = camera.directionCentred();
+  const glm::dvec2 moved(spread(number, 0.7548776662466927), spread(number, 0.5698402909980532));
   this->receivers_.resize(across, across);
-  for (std::size_t i = 0; i < probeCount; ++i)
+  const auto lookAt = [&](std::size_t i)
   {
-    const auto distance = static_cast<double>(this->hits_.distance[i]);
-    const bool isSeen =
-      std::isfinite(distance) && occluders.surfaces[this->hits_.surface[i]].receives;
-    this->receivers_.surface[i] = isSeen ? this->hits_.surface[i] : ReceiverPixels::notCovered;
+    const glm::dvec2 part(i % across, i / across);
+    const glm::dvec2 pixel =
+      glm::floor((part + moved) / static_cast<double>(across) * glm::dvec2(sizePixels));
+    const glm::dvec3 origin = rays.origin(pixel.x, pixel.y);
+    const glm::dvec3 direction = rays.direction(pixel.x, pixel.y);
+    const std::optional<CasterHits::Hit> hit = hits.nearest(
+      glm::vec3(origin), glm::vec3(direction), 0.0f, std::numeric_limits<float>::infinity());
+    this->receivers_.surface[i] = ReceiverPixels::notCovered;
     this->receivers_.lifted[i] = 0;
     this->receivers_.offset[i] = 0.0f;
-    if (!isSeen)
+    if (!hit || !occluders.surfaces[hit->surface].receives)
     {
-      continue;
+      return;
     }
-    const glm::vec3 position(lines.originCentred[i] + distance * lines.directionCentred[i]);
-    const glm::vec3 unturned = glm::normalize(this->hits_.normalCentred[i]);
-    const glm::vec3 normal =
-      glm::dot(unturned, glm::vec3(lines.directionCentred[i])) > 0.0f ? -unturned : unturned;
+    const glm::vec3 position(origin + static_cast<double>(hit->at) * direction);
+    const glm::vec3 unturned = glm::normalize(hit->normalCentred);
+    const glm::vec3 normal = glm::dot(unturned, glm::vec3(direction)) > 0.0f ? -unturned : unturned;
     const double depth = glm::dot(glm::dvec3(position) - eyeCentred, lookCentred);
     // What rounding does to the ray and to its length is of the size of the noise of storing.
-    const float noise = 4.0f * storageNoise(normal, glm::abs(position) + glm::vec3(eyeCentred));
+    const float noise =
+      4.0f * storageNoise(normal, glm::abs(position) + glm::abs(glm::vec3(eyeCentred)));
+    this->receivers_.surface[i] = hit->surface;
     this->receivers_.positionX[i] = position.x;
     this->receivers_.positionY[i] = position.y;
     this->receivers_.positionZ[i] = position.z;
@@ -111,7 +85,8 @@ void Probes::look(const CameraView& camera, const glm::ivec2& sizePixels,
     this->receivers_.normalZ[i] = normal.z;
     this->receivers_.offset[i] =
       shadowRayOffset(noise, static_cast<float>(pixelSide.x + pixelSide.y * depth));
-  }
+  };
+  tbb::parallel_for(std::size_t(0), probeCount, lookAt);
 }
 
 //------------------------------------------------------------------------------

@@ -6,7 +6,7 @@
 #include "shadowtech/base/Receivers.h"
 #include "shadowtech/base/Technique.h"
 #include "shadowtech/base/VisibilityLayers.h"
-#include "shadowtech/tracing/FirstHits.h"
+#include "shadowtech/tracing/CasterHits.h"
 
 #include <glm/glm.hpp>
 
@@ -41,7 +41,7 @@ struct WrongProbes
 /// Some points of the picture, seen by rays from the camera, at which visibility is traced to know
 /// how wrong a cheaper way to it is. The picture need not be drawn.
 ///
-/// Surfaces that do not cast are not seen; what is behind them stands in.
+/// Surfaces that do not cast are not seen, and neither are solids; what is behind them stands in.
 class Probes
 {
 public:
@@ -49,7 +49,7 @@ public:
 
   /// Finds the points: one in each part of the picture, at a place that another number moves.
   void look(const CameraView& camera, const glm::ivec2& sizePixels, const Occluders& occluders,
-    const FirstHitFinder& finder, std::uint32_t number);
+    const CasterHits& hits, std::uint32_t number);
 
   /// How wrong a map is.
   /// @param technique whose map is baked
@@ -70,7 +70,6 @@ private:
   VisibilityLayers layers_;
   std::vector<float> traced_, asked_;
   std::vector<std::uint8_t> classes_;
-  FirstHits hits_;
 };
 
 } // namespace gnomon

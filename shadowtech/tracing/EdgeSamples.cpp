@@ -471,7 +471,7 @@ void EdgeSamples::smooth(CpuScreenTechnique& technique, const ScreenInput& input
     LightReport ofSamples;
     technique.computeVisibility(
       { input.light, input.fitting, input.occluders, samples, input.tracer, input.usesMap,
-        &this->classes_, nullptr, input.mapBakes },
+        &this->classes_, nullptr, nullptr, input.mapBakes },
       this->visibility_, ofSamples);
     report.rays += ofSamples.rays;
   };

@@ -6,8 +6,6 @@
 #include <embree3/rtcore.h>
 
 #include <glm/gtc/matrix_inverse.hpp>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
@@ -91,6 +89,9 @@ void rejectBackFacesAndHoles(const RTCFilterFunctionNArguments* arguments)
   rejectBackFaces<mirrored>(arguments);
   rejectHoles(arguments);
 }
+
+/// Solids are asked for occlusion alone.
+void meetNoSolid(const RTCIntersectFunctionNArguments* /*arguments*/) {}
 
 /// What has to agree to a hit on a surface; null where every hit counts.
 RTCFilterFunctionN filterOf(const Surface& surface)
@@ -378,9 +379,13 @@ struct EmbreeTracer::Impl
   Scene scene;
   bool lanes16 = false; ///< packets of 16; else of 8, whose answers are the same
   std::unordered_map<std::uint64_t, Caster> casters; ///< by the surface's topologyVersion
-  /// Occluders::surfaces index by Embree's number of what is attached to the scene.
-  std::vector<std::uint32_t> surfaces;
-  bool hasSolids = false; ///< whether any caster is a solid, which rays ask for occlusion alone
+  /// What is attached, by Embree's numbers.
+  struct Named
+  {
+    std::uint32_t surface;       ///< Occluders::surfaces index
+    std::uint32_t firstTriangle; ///< of the surface in the snapshot
+  };
+  std::vector<Named> named;
   std::uint64_t topologyVersion = 0;
   std::uint64_t positionsVersion = 0;
 };
@@ -468,6 +473,7 @@ Caster EmbreeTracer::Impl::makeSolids(const Surface& surface) const
   rtcSetGeometryUserData(geometry, caster.solids.get());
   rtcSetGeometryBoundsFunction(geometry, boundSolid, nullptr);
   rtcSetGeometryOccludedFunction(geometry, occludeBySolid);
+  rtcSetGeometryIntersectFunction(geometry, meetNoSolid);
   rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_REFIT);
   rtcCommitGeometry(geometry);
   caster.attached = { rtcAttachGeometry(this->scene.get(), geometry) };
@@ -554,21 +560,22 @@ void EmbreeTracer::Impl::move(Caster& caster, const Surface& surface) const
   }
 }
 
+/// Takes note of what each of Embree's numbers is.
 void EmbreeTracer::Impl::nameSurfaces(const Occluders& occluders)
 {
-  this->hasSolids = occluders.castsSolids();
-  this->surfaces.clear();
+  this->named.clear();
   for (std::size_t i = 0; i < occluders.surfaces.size(); ++i)
   {
-    const auto caster = this->casters.find(occluders.surfaces[i].topologyVersion);
+    const Surface& surface = occluders.surfaces[i];
+    const auto caster = this->casters.find(surface.topologyVersion);
     if (caster == this->casters.end())
     {
       continue;
     }
     for (const unsigned int attached : caster->second.attached)
     {
-      this->surfaces.resize(std::max<std::size_t>(this->surfaces.size(), attached + 1u));
-      this->surfaces[attached] = static_cast<std::uint32_t>(i);
+      this->named.resize(std::max<std::size_t>(this->named.size(), attached + 1u));
+      this->named[attached] = { static_cast<std::uint32_t>(i), surface.firstTriangle };
     }
   }
 }
@@ -675,46 +682,30 @@ void EmbreeTracer::areFree(
 }
 
 //------------------------------------------------------------------------------
-const FirstHitFinder* EmbreeTracer::firstHits() const
+std::optional<CasterHits::Hit> EmbreeTracer::nearest(
+  const glm::vec3& origin, const glm::vec3& direction, float after, float until) const
 {
-  return this->impl_->hasSolids ? nullptr : this;
-}
-
-//------------------------------------------------------------------------------
-void EmbreeTracer::find(std::size_t count, const PointArrays& origins,
-  const PointArrays& directions, FirstHits& hits) const
-{
-  constexpr float infinity = std::numeric_limits<float>::infinity();
-  hits.distance.assign(count, infinity);
-  hits.normalCentred.resize(count);
-  hits.surface.resize(count);
   const Impl& impl = *this->impl_;
   if (impl.casters.empty())
   {
-    return;
+    return std::nullopt;
   }
-  const auto trace = [&](const tbb::blocked_range<std::size_t>& range)
+  RTCRayHit query{};
+  query.ray = { origin.x, origin.y, origin.z, after, direction.x, direction.y, direction.z, 0.0f,
+    until, 0xffffffffu, 0, 0 };
+  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcIntersect1(impl.scene.get(), &context, &query);
+  if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID)
   {
-    for (std::size_t i = range.begin(); i != range.end(); ++i)
-    {
-      RTCIntersectContext context;
-      rtcInitIntersectContext(&context);
-      RTCRayHit ray{};
-      ray.ray = { origins.x[i], origins.y[i], origins.z[i], 0.0f, directions.x[i], directions.y[i],
-        directions.z[i], 0.0f, infinity, 0xffffffffu, 0, 0 };
-      ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-      ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-      rtcIntersect1(impl.scene.get(), &context, &ray);
-      if (ray.hit.geomID != RTC_INVALID_GEOMETRY_ID)
-      {
-        const bool isInstance = ray.hit.instID[0] != RTC_INVALID_GEOMETRY_ID;
-        hits.distance[i] = ray.ray.tfar;
-        hits.normalCentred[i] = impl.normalOf(ray.hit);
-        hits.surface[i] = impl.surfaces[isInstance ? ray.hit.instID[0] : ray.hit.geomID];
-      }
-    }
-  };
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count), trace);
+    return std::nullopt;
+  }
+  const bool isInstance = query.hit.instID[0] != RTC_INVALID_GEOMETRY_ID;
+  const Impl::Named& named = impl.named[isInstance ? query.hit.instID[0] : query.hit.geomID];
+  return Hit{ named.surface, named.firstTriangle + query.hit.primID, query.ray.tfar,
+    impl.normalOf(query.hit) };
 }
 
 //------------------------------------------------------------------------------
@@ -726,7 +717,7 @@ std::size_t EmbreeTracer::bytes() const
 //------------------------------------------------------------------------------
 std::size_t EmbreeTracer::bytesOfTable() const
 {
-  std::size_t bytes = gnomon::bytesOfTable(this->impl_->casters) + bytesOf(this->impl_->surfaces);
+  std::size_t bytes = gnomon::bytesOfTable(this->impl_->casters) + bytesOf(this->impl_->named);
   for (const auto& entry : this->impl_->casters)
   {
     const Caster& caster = entry.second;

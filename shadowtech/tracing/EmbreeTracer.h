@@ -3,6 +3,7 @@
 #include "shadowtech/tracing/ShadowTracer.h"
 
 #include <memory>
+#include <optional>
 
 namespace gnomon
 {
@@ -11,7 +12,7 @@ namespace gnomon
 class EmbreeTracer
   : public ShadowTracer
   , public FreeSegments
-  , public FirstHitFinder
+  , public CasterHits
 {
 public:
   /// @throws std::runtime_error where Embree cannot be started
@@ -26,9 +27,9 @@ public:
   void areFree(std::size_t count, const PointArrays& from, const PointArrays& to,
     std::uint8_t* free) const override;
 
-  const FirstHitFinder* firstHits() const override;
-  void find(std::size_t count, const PointArrays& origins, const PointArrays& directions,
-    FirstHits& hits) const override;
+  const CasterHits* casterHits() const override { return this; }
+  std::optional<Hit> nearest(
+    const glm::vec3& origin, const glm::vec3& direction, float after, float until) const override;
 
   /// As Embree reports it.
   std::size_t bytes() const override;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "shadowtech/tracing/FirstHits.h"
+#include "shadowtech/tracing/CasterHits.h"
 #include "shadowtech/tracing/TracedPicture.h"
 
 #include <cstddef>
@@ -42,14 +42,15 @@ public:
   /// @param classes where not null, resized likewise, each pixel's TracedClass
   /// @param tiles which of them keep what visibility and classes hold, and what becomes known of
   /// the others; null: all are traced. Not with a decider, which leaves receivers out
+  /// @param verdicts what is known of tiles without rays; null: nothing
   /// @return the number of rays traced
   std::size_t trace(const ShadowLight& light, const Occluders& occluders,
     const Receivers& receivers, std::vector<float>& visibility,
     const ReceiverDecider* decider = nullptr, std::vector<std::uint8_t>* classes = nullptr,
-    TracedTiles* tiles = nullptr)
+    TracedTiles* tiles = nullptr, const TileVerdicts* verdicts = nullptr)
   {
     return this->tracePicture(
-      { light, occluders, receivers, decider, visibility, classes, tiles, nullptr });
+      { light, occluders, receivers, decider, visibility, classes, tiles, verdicts, nullptr });
   }
 
   /// The same of an area light, whose centre decides what it reaches: the share of its samples that
@@ -60,14 +61,16 @@ public:
   /// @param light with an area
   /// @param chooser who knows which of a pixel's rays decide the others; null: nobody. There is
   /// none for textures
+  /// @param verdicts not for textures either
   std::size_t traceArea(const ShadowLight& light, const Occluders& occluders,
     const Receivers& receivers, std::vector<float>& visibility,
     const ReceiverDecider* decider = nullptr, std::vector<std::uint8_t>* classes = nullptr,
-    const SampleChooser* chooser = nullptr, TracedTiles* tiles = nullptr)
+    const SampleChooser* chooser = nullptr, TracedTiles* tiles = nullptr,
+    const TileVerdicts* verdicts = nullptr)
   {
     const LightSamples samples(light);
-    const TracedPicture picture(
-      light, occluders, receivers, decider, visibility, classes, tiles, &samples, chooser);
+    const TracedPicture picture(light, occluders, receivers, decider, visibility, classes, tiles,
+      verdicts, &samples, chooser);
     const std::size_t rays = this->tracePicture(picture);
     picture.finish();
     return rays;
@@ -75,9 +78,8 @@ public:
 
   /// Who says whether segments of the last update's snapshot are free; null: this tracer does not.
   virtual const FreeSegments* freeSegments() const { return nullptr; }
-  /// Who says what rays meet first of that snapshot; null: this tracer does not, or the snapshot
-  /// has casters that are solids.
-  virtual const FirstHitFinder* firstHits() const { return nullptr; }
+  /// Who finds the casting triangles on rays, of that snapshot; null: this tracer does not.
+  virtual const CasterHits* casterHits() const { return nullptr; }
 
   /// Memory of the acceleration structure, on the CPU and the GPU.
   virtual std::size_t bytes() const = 0;

@@ -13,9 +13,9 @@ void traceAllReceivers(
   report.lightSamples = soft ? input.light.lightSamples : 1;
   const std::size_t rays = soft
     ? input.tracer.traceArea(input.light, input.occluders, input.receivers, visibility, nullptr,
-        input.classes, nullptr, input.tiles)
+        input.classes, nullptr, input.tiles, input.verdicts)
     : input.tracer.trace(input.light, input.occluders, input.receivers, visibility, nullptr,
-        input.classes, input.tiles);
+        input.classes, input.tiles, input.verdicts);
   report.rays = static_cast<std::int64_t>(rays);
   report.tracedPixels = report.rays / report.lightSamples;
 }

@@ -143,13 +143,14 @@ std::vector<PixelClass> classesOfTracing()
 //------------------------------------------------------------------------------
 TracedPicture::TracedPicture(const ShadowLight& light, const Occluders& occluders,
   const Receivers& receivers, const ReceiverDecider* decider, std::vector<float>& visibility,
-  std::vector<std::uint8_t>* classes, TracedTiles* tiles, const LightSamples* samples,
-  const SampleChooser* chooser)
+  std::vector<std::uint8_t>* classes, TracedTiles* tiles, const TileVerdicts* verdicts,
+  const LightSamples* samples, const SampleChooser* chooser)
   : receivers_(receivers)
   , decider_(decider)
   , visibility_(visibility)
   , classes_(classes)
   , tiles_(tiles)
+  , verdicts_(verdicts)
   , light_(light, occluders.centreWorld)
   , samples_(samples)
   , texture_(samples && light.texture ? &*light.texture : nullptr)
@@ -160,7 +161,7 @@ TracedPicture::TracedPicture(const ShadowLight& light, const Occluders& occluder
   {
     this->classes_->resize(this->pixels());
   }
-  if (this->decider_)
+  if (this->decider_ || this->verdicts_)
   {
     this->certain_ = std::make_unique<std::vector<Certainty>[]>(this->tiles());
   }
@@ -174,6 +175,12 @@ TracedPicture::TracedPicture(const ShadowLight& light, const Occluders& occluder
     {
       this->lit_[static_cast<std::size_t>(channel)] = whole * this->texture_->mean[channel];
     }
+  }
+  this->skipped_.assign(this->tiles(), 0);
+  for (std::size_t tile = 0; tile < this->tiles(); ++tile)
+  {
+    const bool isDark = this->verdicts_ && this->verdicts_->darkTiles()[tile] != 0;
+    this->skipped_[tile] = this->isKept(tile) || isDark ? 1 : 0;
   }
   this->receives_.push_back(0);
   for (const Surface& surface : occluders.surfaces)
@@ -199,7 +206,7 @@ float TracedPicture::rayFar() const
 /// What is known of a tile's receivers; null: nothing.
 const Certainty* TracedPicture::certaintiesOf(const ReceiverTile& tile, std::size_t number) const
 {
-  if (!this->decider_)
+  if (!this->certain_)
   {
     return nullptr;
   }
@@ -207,9 +214,33 @@ const Certainty* TracedPicture::certaintiesOf(const ReceiverTile& tile, std::siz
   if (certain.empty())
   {
     certain.assign(tile.receivers.size(), Certainty::Uncertain);
-    this->decider_->ofPixels(tile, certain);
+    if (this->decider_)
+    {
+      this->decider_->ofPixels(tile, certain);
+    }
+    if (this->verdicts_)
+    {
+      this->verdicts_->ofPixels(tile, certain);
+    }
   }
   return certain.data();
+}
+
+//------------------------------------------------------------------------------
+/// Fills the tiles that are dark and not kept.
+void TracedPicture::fillDarkTiles() const
+{
+  for (std::size_t tile = 0; tile < this->tiles(); ++tile)
+  {
+    if (this->verdicts_->darkTiles()[tile] != 0 && !this->isKept(tile))
+    {
+      this->verdicts_->fillDark(tile, this->lit_[0], this->visibility_);
+      if (this->classes_)
+      {
+        this->verdicts_->classifyDark(tile, *this->classes_);
+      }
+    }
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -358,6 +389,10 @@ std::size_t TracedPicture::visitSamples(const SampleRange& samples, const Receiv
 std::size_t TracedPicture::visitTiles(
   const SampleRange& samples, const std::function<std::size_t(TracedTile&)>& trace) const
 {
+  if (this->verdicts_ && samples.first == 0)
+  {
+    this->fillDarkTiles();
+  }
   std::atomic<std::size_t> rays{ 0 };
   visitShadowRays(this->light_,
     [&](const auto& makeRay, float)
@@ -385,7 +420,7 @@ std::size_t TracedPicture::visitTiles(
             this->keep(tile, traced);
           }
         },
-        this->decider_, this->tiles_ ? &this->tiles_->kept() : nullptr);
+        this->decider_, &this->skipped_);
     });
   return rays;
 }

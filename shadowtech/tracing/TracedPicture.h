@@ -8,6 +8,7 @@
 #include "shadowtech/base/Receivers.h"
 #include "shadowtech/base/ShadowRay.h"
 #include "shadowtech/tracing/SampleRays.h"
+#include "shadowtech/tracing/TileVerdicts.h"
 #include "shadowtech/tracing/TracedTiles.h"
 
 #include <array>
@@ -85,13 +86,14 @@ public:
   /// after the other
   /// @param classes where not null, resized to one for each pixel
   /// @param tiles which of them keep what visibility and classes hold; null: none
+  /// @param verdicts what is known of tiles without rays; null: nothing. There are none for textures
   /// @param samples of the light's area, which it has a texture with if any; null: its centre
   /// @param chooser who knows which of a pixel's rays decide the others; null: nobody. There is
   /// none for textures
   TracedPicture(const ShadowLight& light, const Occluders& occluders, const Receivers& receivers,
     const ReceiverDecider* decider, std::vector<float>& visibility,
-    std::vector<std::uint8_t>* classes, TracedTiles* tiles, const LightSamples* samples,
-    const SampleChooser* chooser = nullptr);
+    std::vector<std::uint8_t>* classes, TracedTiles* tiles, const TileVerdicts* verdicts,
+    const LightSamples* samples, const SampleChooser* chooser = nullptr);
 
   /// How many tiles it has.
   std::size_t tiles() const;
@@ -129,6 +131,7 @@ public:
 
 private:
   const Certainty* certaintiesOf(const ReceiverTile& tile, std::size_t number) const;
+  void fillDarkTiles() const;
   template <typename MakeRay>
   void prepare(const ReceiverTile& tile, const MakeRay& makeRay, TracedTile& traced) const;
   std::size_t visitSamples(const SampleRange& samples, const ReceiverTile& tile, TracedTile& traced,
@@ -143,17 +146,20 @@ private:
   std::vector<float>& visibility_;
   std::vector<std::uint8_t>* classes_;
   TracedTiles* tiles_;
+  const TileVerdicts* verdicts_;
   ShadowRayLight light_;
   const LightSamples* samples_;
   const PlacedTexture* texture_; ///< null: all samples count alike
   const SampleChooser* chooser_;
-  /// What the decider has said of each tile's receivers, row by row; empty where it was not asked
-  /// yet. Null without a decider.
+  /// What verdicts and the decider have said of each tile's receivers, row by row; empty where they
+  /// were not asked yet. Null without any.
   std::unique_ptr<std::vector<Certainty>[]> certain_;
   /// What is lit, by channel, in the unit of TracedTile::visibility.
   std::array<float, 3> lit_;
   /// What the sums are divided by, as `visibility_` is laid out; null without texture.
   std::unique_ptr<float[]> wholes_;
+  /// By tile: 1 for those that are kept or known to be dark, whose receivers are not asked for.
+  std::vector<std::uint8_t> skipped_;
   /// By surface + 1, so that `notCovered` + 1 = 0 is the first: 1 or 0.
   std::vector<std::uint8_t> receives_;
 };

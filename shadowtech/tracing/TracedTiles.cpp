@@ -1,6 +1,7 @@
 #include "shadowtech/tracing/TracedTiles.h"
 
 #include "shadowtech/base/Bytes.h"
+#include "shadowtech/base/ReceiverBoxes.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -19,18 +20,9 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// More boxes of moved surfaces than these take longer than they save.
 constexpr std::size_t mostBoxes = 32;
 
-/// By how much a box of triangles is larger than they are, as a share of the largest coordinate:
-/// rays and their hits are computed in float.
-constexpr double rounding = 1.0 / 131072.0; // 2^-17
-
 Bounds everything()
 {
   return { glm::dvec3(-infinity), glm::dvec3(infinity) };
-}
-
-Bounds inflated(const Bounds& bounds, double by)
-{
-  return { bounds.lower - by, bounds.upper + by };
 }
 
 bool haveCommonPoint(const Bounds& a, const Bounds& b)
@@ -144,8 +136,7 @@ std::vector<Bounds> TracedTiles::movedSince(const Occluders& occluders) const
       }
     }
   }
-  const glm::dvec3 largest = glm::max(glm::abs(all.lower), glm::abs(all.upper));
-  const double more = rounding * std::max(largest.x, std::max(largest.y, largest.z));
+  const double more = floatNoise * largestCoordinate(all);
   if (moved.size() > mostBoxes)
   {
     Bounds together;
@@ -221,34 +212,13 @@ void TracedTiles::begin(const Occluders& occluders, const ShadowLight& light,
 void TracedTiles::note(const ReceiverTile& tile)
 {
   const ReceiverPixels& receivers = tile.receivers;
-  constexpr float most = std::numeric_limits<float>::max();
-  glm::vec3 lower(most);
-  glm::vec3 upper(-most);
-  float offset = 0.0f;
-  bool isBlocked = false;
-  for (std::size_t i = 0; i < receivers.size(); ++i)
-  {
-    if (receivers.surface[i] != ReceiverPixels::notCovered)
-    {
-      const glm::vec3 position(
-        receivers.positionX[i], receivers.positionY[i], receivers.positionZ[i]);
-      lower = glm::min(lower, position);
-      upper = glm::max(upper, position);
-      offset = std::max(offset, receivers.offset[i]);
-      isBlocked = isBlocked || receivers.lifted[i] == ReceiverPixels::isBlocked;
-    }
-  }
   const std::size_t number = tile.firstRow / ReceiverTile::mostRows * this->tilesAcross_ +
     tile.firstColumn / ReceiverTile::mostColumns;
-  Bounds& box = this->boxes_[number];
-  if (isBlocked)
-  {
-    box = everything();
-    return;
-  }
-  box = lower.x > upper.x
-    ? Bounds()
-    : inflated({ glm::dvec3(lower), glm::dvec3(upper) }, static_cast<double>(offset));
+  const bool isBlocked = std::find(receivers.lifted.begin(), receivers.lifted.end(),
+                           ReceiverPixels::isBlocked) != receivers.lifted.end();
+  this->boxes_[number] = isBlocked ? everything()
+                                   : boxOf(receivers, 0, static_cast<std::size_t>(receivers.width),
+                                       static_cast<std::size_t>(receivers.height));
 }
 
 //------------------------------------------------------------------------------

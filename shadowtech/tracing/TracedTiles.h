@@ -14,6 +14,10 @@
 namespace gnomon
 {
 
+/// By how much a box of triangles or receivers is larger than they are, as a share of the largest
+/// coordinate: rays and their hits are computed in float.
+inline constexpr double floatNoise = 1.0 / 131072.0; // 2^-17
+
 /// Where rays from one box to a light pass: the convex hull of the box and one around the light, or
 /// what a box sweeps along all of a directional light's directions.
 class SweptBox

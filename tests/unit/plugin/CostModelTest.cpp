@@ -89,8 +89,7 @@ TEST(CostModel, costsGrowWithWhatThereIs)
   EXPECT_GT(costByRays(counters, factors), 1.3 * costByMaps(counters, factors));
   counters.viewMoved = false;
   counters.movedLights = 1;
-  EXPECT_LT(costByRays(counters, factors), costByMaps(counters, factors))
-    << "a map is drawn anew";
+  EXPECT_LT(costByRays(counters, factors), costByMaps(counters, factors)) << "a map is drawn anew";
   counters.castersMoved = true;
   counters.triangles = 10000000;
   EXPECT_GT(costByMaps(counters, factors), 800.0) << "ms";

@@ -156,7 +156,9 @@ void expectTheSame(vtkGnomonShadowPass* pass, vtkRenderWindow* window)
   }
   EXPECT_GT(dark, 100);
   EXPECT_GT(rays(byGpu), 1000);
-  EXPECT_EQ(rays(byGpu), rays(byEmbree));
+  // By Embree alone several lights leave out tiles of which all is known without rays.
+  const bool skipsTiles = byEmbree.images.visibility.size() > 1;
+  EXPECT_TRUE(skipsTiles ? rays(byGpu) >= rays(byEmbree) : rays(byGpu) == rays(byEmbree));
   expectToAgree(pass, window, byGpu, byEmbree);
   for (const gnomon::TechniqueEntry& technique : gnomon::registry())
   {
@@ -170,8 +172,9 @@ void expectTheSame(vtkGnomonShadowPass* pass, vtkRenderWindow* window)
     EXPECT_LT(rays(hybrid), rays(byGpu)) << technique.name;
     const Traced other = drawBy(pass, window, technique.name, embree);
     EXPECT_EQ(differing(other, byEmbree), 0u) << technique.name;
-    EXPECT_EQ(rays(hybrid), rays(other)) << technique.name;
-    for (std::size_t light = 0; light < hybrid.images.classes.size(); ++light)
+    EXPECT_TRUE(skipsTiles ? rays(hybrid) >= rays(other) : rays(hybrid) == rays(other))
+      << technique.name;
+    for (std::size_t light = 0; !skipsTiles && light < hybrid.images.classes.size(); ++light)
     {
       EXPECT_EQ(hybrid.images.classes[light].ofPixels, other.images.classes[light].ofPixels)
         << technique.name;
@@ -313,8 +316,8 @@ TEST_F(Tracers, changeBackAndForthAndLeaveNothingBehind)
     EXPECT_EQ(this->report().tracer, "embree");
     EXPECT_EQ(this->report().bvhBuilds, 3);
     EXPECT_EQ(this->report().bytesBvh, bytesOfEmbree);
-    // From the third image on receivers are stored, which rest.
-    EXPECT_EQ(this->report().bytesImages, bytesOfImages + 110u * 150u * 33u);
+    // Receivers are stored from the first image on, as there are several lights.
+    EXPECT_EQ(this->report().bytesImages, bytesOfImages);
     this->render(embree);
     EXPECT_EQ(this->report().bvhBuilds, 0);
   }

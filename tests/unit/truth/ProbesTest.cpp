@@ -65,7 +65,7 @@ struct ProbedScene
   void look(Probes& probes, std::uint32_t number)
   {
     probes.look(
-      this->view, { sidePixels, sidePixels }, this->occluders, *this->tracer.firstHits(), number);
+      this->view, { sidePixels, sidePixels }, this->occluders, *this->tracer.casterHits(), number);
   }
   /// The share of what faces the light that is in shadow.
   double shadowShare(const ShadowLight& light)

@@ -479,7 +479,7 @@ public:
     int mapBakes = 0;
     const std::size_t classCount = classesOfChain().size();
     const ScreenInput input{ this->picture_.light, fitting, this->picture_.occluders,
-      this->receivers_, this->tracer_, true, &classes, nullptr, mapBakes };
+      this->receivers_, this->tracer_, true, &classes, nullptr, nullptr, mapBakes };
     run.traced = Chain(stages, this->maps_, nullptr, this->fans_, input).run(run.visibility);
     for (std::size_t i = 0; i < classes.size(); ++i)
     {

@@ -214,6 +214,21 @@ Mesh readObj(const std::string& path)
   return mesh;
 }
 
+namespace
+{
+
+Bounds boundsOf(const Occluders& occluders, const Surface& surface)
+{
+  Bounds bounds;
+  for (std::uint32_t i = 0; i < surface.vertexCount; ++i)
+  {
+    bounds.add(glm::dvec3(occluders.positionsCentred[surface.firstVertex + i]));
+  }
+  return bounds;
+}
+
+} // namespace
+
 //------------------------------------------------------------------------------
 Occluders makeOccluders(const std::vector<Prop>& props)
 {
@@ -255,11 +270,12 @@ Occluders makeOccluders(const std::vector<Prop>& props)
     occluders.positionsCentred.emplace_back(point - occluders.centreWorld);
     occluders.allCentred.add(glm::dvec3(occluders.positionsCentred.back()));
   }
-  for (const Surface& surface : occluders.surfaces)
+  for (Surface& surface : occluders.surfaces)
   {
-    for (std::uint32_t i = 0; surface.casts && i < surface.vertexCount; ++i)
+    surface.boundsCentred = boundsOf(occluders, surface);
+    if (surface.casts)
     {
-      occluders.castersCentred.add(glm::dvec3(occluders.positionsCentred[surface.firstVertex + i]));
+      occluders.castersCentred.add(surface.boundsCentred);
     }
   }
   occluders.topologyVersion = occluders.positionsVersion = ++version;
@@ -275,6 +291,7 @@ void moveSurface(Occluders& occluders, std::size_t index, const glm::dvec3& by)
     glm::vec3& position = occluders.positionsCentred[surface.firstVertex + i];
     position = glm::vec3(glm::dvec3(position) + by);
   }
+  surface.boundsCentred = boundsOf(occluders, surface);
   surface.positionsVersion = occluders.positionsVersion += 1000000;
 }
 

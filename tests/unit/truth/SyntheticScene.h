@@ -58,7 +58,8 @@ Prop makePerforatedPlane(double side, int cells, const glm::dmat4& worldFromMesh
 /// The centre is the middle of their box, so that all coordinates round.
 Occluders makeOccluders(const std::vector<Prop>& props);
 
-/// Moves one surface of a snapshot, as a moved prop does, and marks what changed. Bounds stay.
+/// Moves one surface of a snapshot, as a moved prop does, and marks what changed. The boxes around
+/// all surfaces stay.
 void moveSurface(Occluders& occluders, std::size_t surface, const glm::dvec3& by);
 
 /// A camera in world coordinates.

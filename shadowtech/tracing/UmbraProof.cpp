@@ -1,0 +1,321 @@
+#include "shadowtech/tracing/UmbraProof.h"
+
+#include "shadowtech/base/Occluders.h"
+#include "shadowtech/base/ShadowRay.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <utility>
+
+namespace gnomon
+{
+namespace
+{
+
+/// The share of (longest edge + farthest corner) times the other lengths of a product that its
+/// rounding does not reach. Let u = 2^-24, E be the longest edge, R the farthest corner from a
+/// ray's start and D the longest direction. Corners relative to the start are off by u R, edges by
+/// u (E + 2R), directions by 4 u D. The cross product of two products and a subtraction adds
+/// 7 u E R, the dot product 3 u, so that F is off by less than 40 u (E + R) R D. Distances to the
+/// plane are, likewise, by less than 40 u (E + R) E R. This is 64 u.
+constexpr double productNoise = 1.0 / 262144.0; // 2^-18
+
+/// More triangles are not looked at for one blocker.
+constexpr std::size_t mostTriangles = 8;
+
+/// Nor more along a ray.
+constexpr int mostHits = 8;
+
+const Surface& surfaceOf(const Occluders& occluders, std::uint32_t triangle)
+{
+  const auto next = std::upper_bound(occluders.surfaces.begin(), occluders.surfaces.end(), triangle,
+    [](std::uint32_t of, const Surface& surface) { return of < surface.firstTriangle; });
+  return *std::prev(next);
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+RayEnds::RayEnds(const ShadowLight& light, const Occluders& occluders)
+  : isDirectional(light.kind == LightKind::Directional)
+  , hasFace(light.box)
+  , castersCentred(occluders.castersCentred)
+{
+  const ShadowRayLight rays(light, occluders.centreWorld);
+  this->onFace = rays.position;
+  this->toLight = rays.toLight;
+  this->middle = this->isDirectional ? this->toLight : this->onFace;
+  if (!light.area)
+  {
+    this->corners = { this->middle };
+    return;
+  }
+  for (const glm::dvec3& corner : Bounds{ glm::dvec3(-1.0), glm::dvec3(1.0) }.corners())
+  {
+    this->corners.push_back(this->middle + light.area->worldFromUnit * corner);
+  }
+}
+
+//------------------------------------------------------------------------------
+double RayEnds::lengthFrom(const glm::dvec3& start) const
+{
+  return this->hasFace
+    ? glm::dot(this->onFace - start, this->toLight)
+    : glm::distance(start, this->castersCentred.centre()) + this->castersCentred.radius();
+}
+
+//------------------------------------------------------------------------------
+/// A triangle as the light sees it.
+struct UmbraProof::Triangle
+{
+  std::array<glm::dvec3, 3> corners; ///< counter-clockwise
+  bool isBack;                       ///< whether the light sees its back
+
+  /// As the snapshot has it.
+  Triangle(const Occluders& occluders, std::uint32_t triangle)
+    : isBack(false)
+  {
+    for (glm::length_t i = 0; i < 3; ++i)
+    {
+      this->corners[static_cast<std::size_t>(i)] =
+        occluders.positionsCentred[occluders.triangles[triangle][i]];
+    }
+  }
+
+  glm::dvec3 normal() const
+  {
+    return glm::cross(this->corners[1] - this->corners[0], this->corners[2] - this->corners[0]);
+  }
+
+  void turnOver()
+  {
+    std::swap(this->corners[1], this->corners[2]);
+    this->isBack = !this->isBack;
+  }
+
+  /// Has the corners begin with an edge, if it is one of the triangle.
+  bool beginWith(const glm::dvec3& from, const glm::dvec3& to)
+  {
+    for (int side = 0; side < 2; ++side)
+    {
+      for (int i = 0; i < 3; ++i)
+      {
+        if (this->corners[0] == from && this->corners[1] == to)
+        {
+          return true;
+        }
+        std::rotate(this->corners.begin(), this->corners.begin() + 1, this->corners.end());
+      }
+      this->turnOver();
+    }
+    return false;
+  }
+};
+
+//------------------------------------------------------------------------------
+UmbraProof::UmbraProof(
+  const Bounds& from, const RayEnds& ends, const Occluders& occluders, const CasterHits& hits)
+  : ends_(ends)
+  , occluders_(occluders)
+  , hits_(hits)
+  , starts_(from.corners())
+  , middle_(from.centre())
+  , radius_(from.radius())
+  , longest_(0.0)
+{
+  for (const glm::dvec3& corner : ends.corners)
+  {
+    this->longest_ =
+      std::max(this->longest_, ends.isDirectional ? glm::length(corner) : this->farthest(corner));
+  }
+}
+
+//------------------------------------------------------------------------------
+/// How far a point is from the start of a ray, at most.
+double UmbraProof::farthest(const glm::dvec3& corner) const
+{
+  return glm::distance(corner, this->middle_) + this->radius_;
+}
+
+//------------------------------------------------------------------------------
+bool UmbraProof::finds(std::optional<std::uint32_t>& triangle) const
+{
+  if (triangle && this->isBlockedBy(*triangle))
+  {
+    return true;
+  }
+  return this->visitHits({ this->middle_, this->ends_.middle },
+    [&](std::uint32_t hit)
+    {
+      const bool blocks = this->isBlockedBy(hit);
+      triangle = blocks ? hit : triangle;
+      return blocks;
+    });
+}
+
+//------------------------------------------------------------------------------
+/// Calls `visit` with triangles on a ray, from the light's end on, until it returns true: those
+/// next to a lamp hide it from most.
+/// @return whether it did
+template <typename Visit>
+bool UmbraProof::visitHits(const Ray& ray, const Visit& visit) const
+{
+  const glm::dvec3 from =
+    this->ends_.isDirectional ? ray.start + this->ends_.lengthFrom(ray.start) * ray.end : ray.end;
+  float after = 0.0f;
+  for (int i = 0; i < mostHits; ++i)
+  {
+    const std::optional<CasterHits::Hit> hit =
+      this->hits_.nearest(glm::vec3(from), glm::vec3(ray.start - from), after, 1.0f);
+    if (!hit)
+    {
+      return false;
+    }
+    const Surface& surface = this->occluders_.surfaces[hit->surface];
+    const bool isWhole = !surface.cutout && !surface.isInstanced();
+    if (isWhole && visit(hit->triangle))
+    {
+      return true;
+    }
+    after = std::nextafter(hit->at, 2.0f);
+  }
+  return false;
+}
+
+//------------------------------------------------------------------------------
+/// F(A, B) of a ray: positive if it passes the edge on its left.
+double UmbraProof::leftOf(const glm::dvec3& a, const glm::dvec3& b, const Ray& ray) const
+{
+  const glm::dvec3 direction = this->ends_.isDirectional ? ray.end : ray.end - ray.start;
+  return glm::dot(glm::cross(b - a, direction), a - ray.start);
+}
+
+//------------------------------------------------------------------------------
+/// Looks for rays that do not surely pass the edge from a to b on its left.
+/// @return a ray that passes it closely on its right, to find what is there; none if all rays
+/// surely pass it on its left
+std::optional<UmbraProof::Ray> UmbraProof::rayBeside(const glm::dvec3& a, const glm::dvec3& b) const
+{
+  const double far = std::max(this->farthest(a), this->farthest(b));
+  const double sure = productNoise * (glm::distance(a, b) + far) * far * this->longest_;
+  const Ray middle{ this->middle_, this->ends_.middle };
+  double least = sure;
+  Ray rightmost = middle;
+  for (const glm::dvec3& end : this->ends_.corners)
+  {
+    for (const glm::dvec3& start : this->starts_)
+    {
+      const double left = this->leftOf(a, b, { start, end });
+      if (!(left > least))
+      {
+        least = left;
+        rightmost = { start, end };
+      }
+    }
+  }
+  if (least == sure)
+  {
+    return std::nullopt;
+  }
+  // As F is affine, or nearly so between rays to an area.
+  const double ofMiddle = this->leftOf(a, b, middle);
+  const double share =
+    ofMiddle > least ? std::clamp(ofMiddle / (ofMiddle - least) + 0.05, 0.0, 2.0) : 1.0;
+  return Ray{ glm::mix(middle.start, rightmost.start, share),
+    glm::mix(middle.end, rightmost.end, share) };
+}
+
+//------------------------------------------------------------------------------
+/// Whether all rays surely start behind a triangle's plane and end in front of it, as the light
+/// sees it.
+bool UmbraProof::isBetween(const Triangle& triangle) const
+{
+  const auto& [a, b, c] = triangle.corners;
+  const glm::dvec3 normal = triangle.normal();
+  const double longestEdge =
+    std::max(glm::distance(a, b), std::max(glm::distance(b, c), glm::distance(c, a)));
+  const double far = std::max(this->farthest(a), std::max(this->farthest(b), this->farthest(c)));
+  const double noise = productNoise * (longestEdge + far) * longestEdge; // for a unit of length
+  const auto isBehind = [&, a = a](const glm::dvec3& start)
+  { return glm::dot(normal, a - start) > noise * far; };
+  const auto endsInFront = [&, a = a](const glm::dvec3& end)
+  {
+    if (!this->ends_.isDirectional)
+    {
+      return glm::dot(normal, end - a) > noise * (far + this->longest_);
+    }
+    // Rays from the face itself go on for a little, which takes them farther to the front.
+    return glm::dot(normal, end) > noise * this->longest_ &&
+      (!this->ends_.hasFace ||
+        std::all_of(this->starts_.begin(), this->starts_.end(),
+          [&](const glm::dvec3& start)
+          {
+            const double length = this->ends_.lengthFrom(start);
+            return glm::dot(normal, start + length * end - a) >
+              noise * (far + std::abs(length) * this->longest_);
+          }));
+  };
+  return std::all_of(this->starts_.begin(), this->starts_.end(), isBehind) &&
+    std::all_of(this->ends_.corners.begin(), this->ends_.corners.end(), endsInFront);
+}
+
+//------------------------------------------------------------------------------
+/// Whether a triangle blocks all rays, or a blocker that it grows to: over edges that rays pass on
+/// the wrong side, to the triangles beside them.
+bool UmbraProof::isBlockedBy(std::uint32_t first) const
+{
+  struct Edge
+  {
+    glm::dvec3 from, to;
+  };
+  const auto mayBlock = [&](const Triangle& triangle, std::uint32_t number)
+  {
+    return !(triangle.isBack && surfaceOf(this->occluders_, number).oneSided) &&
+      this->isBetween(triangle);
+  };
+
+  Triangle triangle(this->occluders_, first);
+  const glm::dvec3 direction =
+    this->ends_.isDirectional ? this->ends_.middle : this->ends_.middle - this->middle_;
+  if (glm::dot(triangle.normal(), direction) < 0.0)
+  {
+    triangle.turnOver();
+  }
+  if (!mayBlock(triangle, first))
+  {
+    return false;
+  }
+  const auto& [a, b, c] = triangle.corners;
+  std::vector<Edge> unproven{ { a, b }, { b, c }, { c, a } };
+  std::size_t triangles = 1;
+  while (!unproven.empty())
+  {
+    const Edge edge = unproven.back();
+    unproven.pop_back();
+    const std::optional<Ray> beside = this->rayBeside(edge.from, edge.to);
+    if (!beside)
+    {
+      continue;
+    }
+    const auto growTo = [&](std::uint32_t number)
+    {
+      Triangle next(this->occluders_, number);
+      if (!next.beginWith(edge.to, edge.from) || !mayBlock(next, number))
+      {
+        return false;
+      }
+      unproven.push_back({ edge.from, next.corners[2] });
+      unproven.push_back({ next.corners[2], edge.to });
+      return true;
+    };
+    if (++triangles > mostTriangles || !this->visitHits(*beside, growTo))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+} // namespace gnomon

@@ -1,0 +1,86 @@
+#pragma once
+
+#include "lights/Bounds.h"
+#include "lights/ShadowLight.h"
+#include "shadowtech/tracing/CasterHits.h"
+
+#include <glm/glm.hpp>
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace gnomon
+{
+
+struct Occluders;
+
+/// Where a light's shadow rays go: to the convex hull of some points, or along that of some
+/// directions.
+struct RayEnds
+{
+  RayEnds(const ShadowLight& light, const Occluders& occluders);
+
+  /// How long a ray of a directional light is, in lengths of its direction: as far as its box's
+  /// near face, or beyond all casters.
+  double lengthFrom(const glm::dvec3& start) const;
+
+  bool isDirectional;
+  bool hasFace;                    ///< of a directional light: whether it has a box
+  glm::dvec3 middle;               ///< centred; of a directional light a direction
+  std::vector<glm::dvec3> corners; ///< likewise
+  glm::dvec3 onFace, toLight;      ///< a point of the face, centred, and its unit normal
+  Bounds castersCentred;
+};
+
+/// Proves that casters block all shadow rays from a box to a light, so that tracing them would find
+/// the same.
+///
+/// Embree's robust test says that a ray O + t D passes a directed edge from A to B on its left if
+/// F(A, B) = (B - A) x D . (A - O) is not negative, and that it hits a triangle if it passes all
+/// three edges on one side, and t is in the ray's interval. F is affine in O and in the light's
+/// point, so that it is positive for all rays if it is for those between corners, and by more than
+/// rounding. So are the distances to the triangle's plane that t follows from.
+///
+/// A blocker is one triangle, or n that are joined along n - 1 edges that they share bit by bit. If
+/// all rays pass all other edges on their left, each hits one of the triangles: it passes a joint on
+/// the right as one triangle sees it at most, as F(B, A) rounds to -F(A, B), so that for one
+/// triangle it passes none so. A blocker need be neither flat nor convex.
+class UmbraProof
+{
+public:
+  /// @param from around the starts of all rays, centred; not empty
+  /// @param hits of the same snapshot; finds a blocker's triangles
+  UmbraProof(
+    const Bounds& from, const RayEnds& ends, const Occluders& occluders, const CasterHits& hits);
+
+  /// Whether a blocker is found that blocks all rays.
+  /// @param triangle that may be one of it, which is looked at first; gets one that is
+  bool finds(std::optional<std::uint32_t>& triangle) const;
+
+private:
+  struct Ray
+  {
+    glm::dvec3 start, end;
+  };
+  struct Triangle;
+
+  bool isBlockedBy(std::uint32_t triangle) const;
+  double leftOf(const glm::dvec3& a, const glm::dvec3& b, const Ray& ray) const;
+  std::optional<Ray> rayBeside(const glm::dvec3& a, const glm::dvec3& b) const;
+  bool isBetween(const Triangle& triangle) const;
+  template <typename Visit>
+  bool visitHits(const Ray& ray, const Visit& visit) const;
+  double farthest(const glm::dvec3& corner) const;
+
+  const RayEnds& ends_;
+  const Occluders& occluders_;
+  const CasterHits& hits_;
+  std::array<glm::dvec3, 8> starts_;
+  glm::dvec3 middle_;
+  double radius_;
+  double longest_; ///< of the directions
+};
+
+} // namespace gnomon
