@@ -156,7 +156,7 @@ vtkGnomonShadowPass::vtkGnomonShadowPass()
   this->Internal->settings.technique = gnomon::defaultTechnique;
   if (const char* const path = std::getenv("GNOMON_FACTORS"))
   {
-    this->ReadCostFactors(path);
+    this->vtkGnomonShadowPass::ReadCostFactors(path);
   }
 }
 
@@ -195,7 +195,6 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
 
   gnomon::RenderManager& manager = this->Internal->managerOf(renderer);
   const bool moves = this->Moves(renderer->GetRenderWindow());
-  this->Internal->restingFrame.drawn(renderer->GetRenderWindow(), moves);
   bool marked = false;
   bool drawn = false;
   bool failed = false;
@@ -221,6 +220,9 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
 
       // choice
       manager.chooseTechniques();
+      const bool mayFollow =
+        this->Interactive == INTERACTIVE_AUTO && !manager.report().choice.empty();
+      this->Internal->restingFrame.drawn(renderer->GetRenderWindow(), moves && mayFollow);
 
       // From here on, mappers call the hook.
       const vtkRenderPass* delegate = this->FindDelegate(s);
@@ -407,10 +409,6 @@ void vtkGnomonShadowPass::BeginView(const vtkRenderState* s)
 //------------------------------------------------------------------------------
 bool vtkGnomonShadowPass::Moves(vtkRenderWindow* window)
 {
-  if (this->Internal->restingFrame.isDue())
-  {
-    return false;
-  }
   return this->Interactive == INTERACTIVE_AUTO ? gnomon::isDragged(window)
                                                : this->Interactive == INTERACTIVE_ON;
 }
@@ -477,11 +475,47 @@ void vtkGnomonShadowPass::ReleaseGraphicsResources(vtkWindow* window)
 }
 
 //------------------------------------------------------------------------------
+void vtkGnomonShadowPass::SetMaximumError(double share)
+{
+  this->SetNumber("MaximumError", share, 1.0, this->MaximumError);
+}
+
+//------------------------------------------------------------------------------
+void vtkGnomonShadowPass::SetMaximumSoftError(double rootMeanSquare)
+{
+  this->SetNumber("MaximumSoftError", rootMeanSquare, 1.0, this->MaximumSoftError);
+}
+
+//------------------------------------------------------------------------------
+void vtkGnomonShadowPass::SetTimeBudget(double milliseconds)
+{
+  this->SetNumber("TimeBudget", milliseconds, VTK_DOUBLE_MAX, this->TimeBudget);
+}
+
+//------------------------------------------------------------------------------
+/// Sets a number in [0, most]; anything else is an error and changes nothing.
+void vtkGnomonShadowPass::SetNumber(const char* name, double value, double most, double& number)
+{
+  if (!(value >= 0.0 && value <= most))
+  {
+    vtkErrorMacro(<< name << " was to be " << value << ", expected a number in [0, " << most
+                  << "].");
+    return;
+  }
+  if (number != value)
+  {
+    number = value;
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
 void vtkGnomonShadowPass::ReadCostFactors(const char* path)
 {
   try
   {
-    this->Internal->factors = gnomon::readFactors(path ? path : "");
+    this->Internal->factors =
+      path && *path ? std::optional(gnomon::readFactors(path)) : std::nullopt;
   }
   catch (const std::exception& error)
   {
@@ -656,6 +690,7 @@ void vtkGnomonShadowPass::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "MaximumError: " << this->MaximumError << "\n";
   os << indent << "MaximumSoftError: " << this->MaximumSoftError << "\n";
   os << indent << "TimeBudget: " << this->TimeBudget << " ms\n";
+  os << indent << "CostFactors: " << (this->Internal->factors ? "read" : "default") << "\n";
   os << indent << "MeasureStages: " << (this->MeasureStages ? "on" : "off") << "\n";
   os << indent << "KeepVisibility: " << (this->KeepVisibility ? "on" : "off") << "\n";
   os << indent

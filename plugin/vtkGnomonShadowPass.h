@@ -65,7 +65,7 @@ public:
    * "auto" shows exact shadows in every picture at rest: `silhouette`, of area lights `penumbra`.
    * While the picture moves (see Interactive) it takes what MaximumError, MaximumSoftError and
    * TimeBudget allow: plain maps in place of rays for hard shadows, fewer samples of area lights.
-   * GetReport() says what it took, and why.
+   * Where the GPU traces, moving pictures have rays, too. GetReport() says what it took, and why.
    */
   virtual void SetTechnique(const char* name);
   const char* GetTechnique() const;
@@ -218,11 +218,12 @@ public:
    * The errors that "auto" allows while the picture moves: of hard shadows, the share of wrong
    * pixels among those that face the light, in [0, 1]; of soft ones, the root mean square error of
    * visibility, in [0, 1]. Some 4,000 pixels are compared with rays before a map is shown and again
-   * from time to time. 0: exact. Default 0.005 and 0.03.
+   * from time to time, so that errors below 0.00025 cannot be shown to be kept, and are exact as 0
+   * is. What is no number in [0, 1] is an error and changes nothing. Default 0.005 and 0.03.
    */
-  vtkSetClampMacro(MaximumError, double, 0.0, 1.0);
+  virtual void SetMaximumError(double share);
   vtkGetMacro(MaximumError, double);
-  vtkSetClampMacro(MaximumSoftError, double, 0.0, 1.0);
+  virtual void SetMaximumSoftError(double rootMeanSquare);
   vtkGetMacro(MaximumSoftError, double);
   ///@}
 
@@ -233,13 +234,13 @@ public:
    * it takes the fastest one that keeps the errors. With a budget, choices depend on measured times.
    * Default 0.
    */
-  vtkSetClampMacro(TimeBudget, double, 0.0, VTK_DOUBLE_MAX);
+  virtual void SetTimeBudget(double milliseconds);
   vtkGetMacro(TimeBudget, double);
   ///@}
 
   /**
    * Have "auto" go by what frames cost on this machine, in a file that `gnomon calibrate` wrote. A
-   * file that is none is an error and changes nothing. A new pass reads the file that the
+   * file that is none is an error and changes nothing; null is the default ones. A new pass reads the file that the
    * environment variable GNOMON_FACTORS names; without it, llvmpipe's factors on two cores serve
    * where OpenGL draws by software, and a guess where hardware does. Pictures at rest do not depend
    * on factors.
@@ -358,6 +359,7 @@ protected:
 
 private:
   vtkRenderPass* FindDelegate(const vtkRenderState* s);
+  void SetNumber(const char* name, double value, double most, double& number);
   bool Moves(vtkRenderWindow* window);
   void BeginView(const vtkRenderState* s);
   void DrawScene(const vtkRenderState* s);

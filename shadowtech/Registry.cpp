@@ -370,11 +370,18 @@ const EstimatorEntry& estimatorOf(const ShadowSettings& settings)
 }
 
 //------------------------------------------------------------------------------
-const EstimatorEntry& compose(ShadowLight& light)
+const EstimatorEntry& estimatorOfLight(const ShadowLight& light)
 {
   const bool isSoft = light.area || light.texture;
+  return isAutomatic(light) && isSoft ? *findTechnique(restingSoft)->estimator : estimatorOf(light);
+}
+
+//------------------------------------------------------------------------------
+const EstimatorEntry& compose(ShadowLight& light)
+{
+  const EstimatorEntry& estimator = estimatorOfLight(light);
+  const bool isSoft = light.area || light.texture;
   light.technique = isAutomatic(light) && isSoft ? restingSoft : nameOfTechnique(light);
-  const EstimatorEntry& estimator = estimatorOf(light);
   const TechniqueInfo& info = estimator.info;
   light.estimator = info.name;
   if (!info.bakesMap())

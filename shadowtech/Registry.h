@@ -96,6 +96,10 @@ bool isAutomatic(const ShadowSettings& settings);
 /// @throws CompositionError for names that do not exist
 const EstimatorEntry& estimatorOf(const ShadowSettings& settings);
 
+/// The same of a light as it is, whose shadows may be soft.
+/// @throws CompositionError for names that do not exist
+const EstimatorEntry& estimatorOfLight(const ShadowLight& light);
+
 /// The same for a light, whose settings must make sense together, of a resting picture. Completes
 /// the light: its technique, its estimator and its projection say what they are.
 /// @throws CompositionError with the reason

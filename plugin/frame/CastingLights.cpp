@@ -86,6 +86,14 @@ void settle(ShadowLight& light, const TechniqueInfo& info, std::vector<std::stri
   }
 }
 
+/// Whether a light's technique has a setting; that of a light which leaves it to the pass at rest,
+/// or in frames that move.
+bool mayHave(const ShadowLight& light, const std::string& settingName)
+{
+  return has(estimatorOfLight(light).info, settingName) ||
+    (isAutomatic(light) && has(findTechnique(plainTechnique)->estimator->info, settingName));
+}
+
 /// The settings that are named for lights whose technique does not have them: a light's own, and
 /// those of the pass that no light's technique has.
 std::vector<std::string> findMisfits(
@@ -96,7 +104,7 @@ std::vector<std::string> findMisfits(
   {
     for (const std::string& name : light.named)
     {
-      if (!has(estimatorOf(light).info, name))
+      if (!mayHave(light, name))
       {
         misfits.push_back(
           nameOf(light) + " has the technique '" + light.technique + "', and " + whoHas(name));
@@ -105,7 +113,7 @@ std::vector<std::string> findMisfits(
   }
   for (const std::string& name : defaults.named)
   {
-    const auto isHad = [&](const ShadowLight& light) { return has(estimatorOf(light).info, name); };
+    const auto isHad = [&](const ShadowLight& light) { return mayHave(light, name); };
     if (!lights.empty() && std::none_of(lights.begin(), lights.end(), isHad))
     {
       misfits.push_back("No light's technique has it: " + whoHas(name));
@@ -237,6 +245,8 @@ void CastingLights::placeVisibility()
   this->bits_ = 0;
   for (CastingLight& casting : this->lights_)
   {
+    casting.layer = 0;
+    casting.bit = noBit;
     if (takesBits && isHard(casting) && this->bits_ < VisibilityLayers::mostBits)
     {
       casting.bit = this->bits_++;
@@ -266,10 +276,11 @@ std::string CastingLights::takeMap(CastingLight& casting, int mapSizeTexels, Fra
   }
   if (!casting.resting)
   {
+    LightTechnique map = casting.plain ? std::move(*casting.plain) : LightTechnique(*estimator);
+    casting.plain.reset();
     casting.resting.emplace(
       CastingLight::Resting{ std::move(casting.light), std::move(casting.own) });
-    casting.own = casting.plain ? std::move(*casting.plain) : LightTechnique(*estimator);
-    casting.plain.reset();
+    casting.own = std::move(map);
   }
   casting.light = std::move(light);
   casting.channels = channelsOf(estimator->info, casting.light);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <fstream>
 #include <initializer_list>
+#include <locale>
 #include <set>
 #include <sstream>
 #include <stdexcept>
@@ -71,6 +72,7 @@ const std::array<NamedFactor, 10>& namedFactors()
 std::string textOf(const CostFactors& factors)
 {
   std::ostringstream text;
+  text.imbue(std::locale::classic());
   for (const NamedFactor& factor : namedFactors())
   {
     text << factor.name << ' ' << factors.*factor.member << '\n';
@@ -98,6 +100,7 @@ CostFactors readFactors(const std::string& path)
     const auto refuse = [&](const std::string& why)
     { throw std::runtime_error(path + ", line " + std::to_string(number) + ": " + why); };
     std::istringstream words(line);
+    words.imbue(std::locale::classic());
     std::string name;
     std::string rest;
     double value = -1.0;

@@ -2,6 +2,7 @@
 
 #include <vtkRenderWindow.h>
 #include <vtkRenderWindowInteractor.h>
+#include <vtkSmartPointer.h>
 
 namespace gnomon
 {
@@ -32,6 +33,10 @@ RestingFrame::~RestingFrame()
 //------------------------------------------------------------------------------
 void RestingFrame::drawn(vtkRenderWindow* window, bool moves)
 {
+  if (!moves && window != this->window_)
+  {
+    return; // another window's frames go on
+  }
   this->stop();
   vtkRenderWindowInteractor* const interactor = window ? window->GetInteractor() : nullptr;
   if (!moves || !interactor || !interactor->GetInitialized())
@@ -63,16 +68,21 @@ void RestingFrame::stop()
 void RestingFrame::onTimer(vtkObject*, unsigned long, void* self, void* timerId)
 {
   auto& of = *static_cast<RestingFrame*>(self);
-  if (of.timer_ == 0 || *static_cast<int*>(timerId) != of.timer_)
+  // Recorded events are played without a number.
+  if (of.timer_ == 0 || !timerId || *static_cast<int*>(timerId) != of.timer_)
   {
     return;
   }
   of.stop();
-  if (of.window_)
+  const vtkSmartPointer<vtkRenderWindow> window = of.window_.GetPointer();
+  const vtkSmartPointer<vtkRenderWindowInteractor> interactor = of.interactor_.GetPointer();
+  if (window && interactor)
   {
-    of.isDue_ = true;
-    of.window_->Render();
-    of.isDue_ = false;
+    // From here on `of` may be gone: the frame's observers may do anything.
+    const double rate = window->GetDesiredUpdateRate();
+    window->SetDesiredUpdateRate(interactor->GetStillUpdateRate());
+    interactor->Render();
+    window->SetDesiredUpdateRate(rate);
   }
 }
 

@@ -14,8 +14,8 @@ namespace gnomon
 /// asks it to be at rest. Windows without one are always at rest.
 bool isDragged(vtkRenderWindow* window);
 
-/// Sees to it that a picture at rest follows frames that move: interactor styles draw one when
-/// their user lets go, but a program that draws by itself while something moves may not.
+/// Draws a picture at rest after frames that move. Interactor styles draw one when their user lets
+/// go, but a program that draws by itself while something moves may not.
 class RestingFrame
 {
 public:
@@ -24,12 +24,9 @@ public:
   RestingFrame(const RestingFrame&) = delete;
   RestingFrame& operator=(const RestingFrame&) = delete;
 
-  /// A frame of a window was drawn. After one that moves, and half a second without another frame,
-  /// the window's interactor is asked for one more.
+  /// To be called in each frame of a window. After one that moves, and half a second without
+  /// another frame, the window's interactor draws one, at its update rate at rest.
   void drawn(vtkRenderWindow* window, bool moves);
-
-  /// Whether the frame that is drawn now is that one. It is at rest whatever the window asks for.
-  bool isDue() const { return this->isDue_; }
 
 private:
   static void onTimer(vtkObject*, unsigned long, void* self, void* timerId);
@@ -37,9 +34,8 @@ private:
 
   vtkNew<vtkCallbackCommand> command_;
   vtkWeakPointer<vtkRenderWindowInteractor> interactor_;
-  vtkWeakPointer<vtkRenderWindow> window_;
-  int timer_ = 0; ///< by the interactor's numbers; 0: none runs
-  bool isDue_ = false;
+  vtkWeakPointer<vtkRenderWindow> window_; ///< whose frame the timer follows
+  int timer_ = 0;                          ///< by the interactor's numbers; 0: none runs
 };
 
 } // namespace gnomon

@@ -425,6 +425,7 @@ void RenderManager::endFrame()
   {
     report.bytesImages = this->views_.bytesOfImages() + this->visibility_.bytesOfRays();
   }
+  report.bytesImages += this->choice_.bytes();
   if (this->frame_.wishes.moves && this->frame_.wishes.timeBudget > 0.0)
   {
     glFinish(); // so that the frame's time is known

@@ -21,9 +21,12 @@ constexpr double nearlyAsFast = 1.3;
 constexpr int leastPatience = 30;
 constexpr int mostPatience = 960;
 
-/// How many frames a map is shown until it is probed again: as it is, and while it is drawn anew.
+/// How many frames a map is shown until it is probed again: as it is, and while it is baked anew.
 constexpr int framesPerProbe = 16;
 constexpr int framesPerProbeOfMoved = 4;
+
+/// How often other pixels are looked at, until it is clear whether a map keeps the error.
+constexpr int mostLooks = 4;
 
 /// The largest map that is taken for an error's sake.
 constexpr int mostTexels = 4096;
@@ -37,19 +40,18 @@ std::string percent(double share)
   return text.substr(0, text.find('.') + 3) + " %";
 }
 
-double medianOf(std::deque<double> numbers)
-{
-  const auto middle = numbers.begin() + static_cast<std::ptrdiff_t>(numbers.size() / 2);
-  std::nth_element(numbers.begin(), middle, numbers.end());
-  return *middle;
-}
-
 CostFactors factorsOf(const FrameWishes& wishes)
 {
   const GLubyte* const name = glGetString(GL_RENDERER);
   return wishes.factors
     ? *wishes.factors
     : defaultFactors(isSoftwareRenderer(name ? reinterpret_cast<const char*>(name) : ""));
+}
+
+/// Whether a surface shows shadows that no camera ray finds, as these meet what casts.
+bool isUnseenReceiver(const Surface& surface)
+{
+  return surface.receives && !surface.casts && surface.triangleCount > 0;
 }
 
 } // namespace
@@ -68,7 +70,6 @@ TechniqueChoice::TechniqueChoice(
 void TechniqueChoice::choose(const std::function<void(CastingLight&)>& bake)
 {
   this->looked_ = false;
-  this->modelled_ = 0.0;
   std::vector<CastingLight*> hard;
   std::vector<CastingLight*> soft;
   for (CastingLight& casting : this->frame_.lights)
@@ -83,50 +84,28 @@ void TechniqueChoice::choose(const std::function<void(CastingLight&)>& bake)
     return;
   }
   const FrameCounters counters = this->takeChanges(hard);
-  std::string& reason = this->frame_.report.choice;
+  std::string& choice = this->frame_.report.choice;
   if (!this->frame_.wishes.moves)
   {
     this->rest();
-    reason = "the picture rests: exact";
+    choice = "the picture rests: exact";
     return;
   }
   for (CastingLight* const casting : soft)
   {
     this->takeSamples(*casting);
   }
-  reason = soft.empty() ? this->whyRays(counters) : "area lights are traced in any case";
-  for (std::size_t i = 0; i < hard.size() && reason.empty(); ++i)
+  if (!soft.empty())
   {
-    reason = this->whyNoMap(*hard[i], bake);
-    if (!reason.empty())
-    {
-      this->patience_ = std::clamp(2 * this->patience_, leastPatience, mostPatience);
-      this->byRays_ = 0;
-    }
-  }
-  const bool takesMaps = reason.empty() && !hard.empty();
-  this->byMaps_ = takesMaps ? this->byMaps_ + 1 : 0;
-  this->byRays_ = takesMaps ? 0 : this->byRays_ + 1;
-  this->patience_ = this->byMaps_ >= leastPatience ? 0 : this->patience_;
-  const CostFactors factors = factorsOf(this->frame_.wishes);
-  if (takesMaps)
-  {
-    reason = "the picture moves: maps, which keep the error of " +
-      percent(this->frame_.wishes.maximumError);
-    this->modelled_ = costByMaps(counters, factors);
+    choice = "the picture moves: rays, as area lights are traced in any case";
     return;
   }
-  for (CastingLight* const casting : hard)
-  {
-    this->frame_.lights.takeResting(*casting, this->frame_.report);
-  }
-  reason = "the picture moves, and rays are taken: " + reason;
-  this->modelled_ = costByRays(counters, factors);
+  this->chooseMoving(hard, counters, bake);
 }
 
 //------------------------------------------------------------------------------
 /// What changed since the frame before, and what there is.
-FrameCounters TechniqueChoice::takeChanges(const std::vector<CastingLight*>& lights)
+FrameCounters TechniqueChoice::takeChanges(const std::vector<CastingLight*>& hard)
 {
   std::size_t view = 0;
   hashView(view, this->frame_.camera, this->frame_.size);
@@ -138,25 +117,30 @@ FrameCounters TechniqueChoice::takeChanges(const std::vector<CastingLight*>& lig
   counters.triangles = this->frame_.report.triangles;
   counters.pixels =
     static_cast<std::size_t>(this->frame_.size.x) * static_cast<std::size_t>(this->frame_.size.y);
-  counters.lights = lights.size();
+  counters.lights = hard.size();
+
   std::map<int, LightChoice> known;
-  for (const CastingLight* const casting : lights)
-  {
-    const ShadowLight& light = casting->light;
-    const auto side = static_cast<std::size_t>(light.mapSizeTexels);
-    counters.texels = std::max(
-      counters.texels, side * side * static_cast<std::size_t>(std::max(mostViews(light), 1)));
-    const bool isKnown = this->lights_.count(light.sceneIndex) != 0;
-    LightChoice& choice = known[light.sceneIndex] = this->lights_[light.sceneIndex];
-    const Place place(light.positionWorld, light.directionWorld, light.coneAngleDegrees);
-    const bool moved = counters.castersMoved || (isKnown && choice.place != place);
-    counters.movedLights += moved ? 1 : 0;
-    choice.place = place;
-    choice.sinceProbed += moved ? framesPerProbe / framesPerProbeOfMoved : 1;
-  }
   for (const CastingLight& casting : this->frame_.lights)
   {
-    known.try_emplace(casting.light.sceneIndex, this->lights_[casting.light.sceneIndex]);
+    const ShadowLight& light = casting.light;
+    LightChoice choice = this->lights_[light.sceneIndex];
+    const Asked asked(light.area.has_value(), light.mapSizeTexels, light.lightSamples,
+      light.area ? this->frame_.wishes.maximumSoftError : this->frame_.wishes.maximumError);
+    const bool isAlike = choice.asked == asked;
+    choice = isAlike ? choice : LightChoice{};
+    const Place place(light.positionWorld, light.directionWorld, light.coneAngleDegrees);
+    const bool moved = counters.castersMoved || (isAlike && choice.place != place);
+    choice.asked = asked;
+    choice.place = place;
+    choice.sinceProbed += moved ? framesPerProbe / framesPerProbeOfMoved : 1;
+    if (casting.asked && !light.area)
+    {
+      const auto side = static_cast<std::size_t>(light.mapSizeTexels) << choice.step;
+      const std::size_t views = static_cast<std::size_t>(std::max(mostViews(light), 1));
+      counters.texels = std::max(counters.texels, side * side * views);
+      counters.movedLights += moved ? 1 : 0;
+    }
+    known[light.sceneIndex] = choice;
   }
   this->lights_ = std::move(known); // those of lights that are gone go, too
   this->view_ = view;
@@ -165,7 +149,7 @@ FrameCounters TechniqueChoice::takeChanges(const std::vector<CastingLight*>& lig
 }
 
 //------------------------------------------------------------------------------
-/// The next motion begins anew.
+/// The next motion begins anew, with less where less will do.
 void TechniqueChoice::rest()
 {
   this->patience_ = 0;
@@ -173,27 +157,86 @@ void TechniqueChoice::rest()
   this->byMaps_ = 0;
   for (auto& [sceneIndex, choice] : this->lights_)
   {
+    choice.step -= choice.isProbed && choice.mayBeCoarser ? 1 : 0;
     choice.isProbed = false;
   }
 }
 
 //------------------------------------------------------------------------------
-/// Why lights with hard shadows take rays whatever their maps say, as a clause; empty if they need
-/// not.
-std::string TechniqueChoice::whyRays(const FrameCounters& counters)
+/// Chooses between maps and rays for lights with hard shadows.
+void TechniqueChoice::chooseMoving(const std::vector<CastingLight*>& hard,
+  const FrameCounters& counters, const std::function<void(CastingLight&)>& bake)
+{
+  const FrameWishes& wishes = this->frame_.wishes;
+  const double byMaps = costByMaps(counters, factorsOf(wishes));
+  const double byRays = costByRays(counters, factorsOf(wishes));
+  std::string whyRays = this->whyNoMaps();
+  if (whyRays.empty())
+  {
+    whyRays = this->whyRaysAreFast(byMaps, byRays);
+    if (!whyRays.empty() && wishes.timeBudget == 0.0)
+    {
+      this->patience_ = std::max(this->patience_, leastPatience);
+      this->byRays_ = 0;
+    }
+  }
+  for (std::size_t i = 0; i < hard.size() && whyRays.empty(); ++i)
+  {
+    whyRays = this->tryMap(*hard[i], bake);
+    if (!whyRays.empty())
+    {
+      this->patience_ = std::clamp(2 * this->patience_, leastPatience, mostPatience);
+      this->byRays_ = 0;
+    }
+  }
+  const bool takesMaps = whyRays.empty();
+  this->byMaps_ = takesMaps ? this->byMaps_ + 1 : 0;
+  this->byRays_ = takesMaps ? 0 : this->byRays_ + 1;
+  this->patience_ = this->byMaps_ >= leastPatience ? 0 : this->patience_;
+  std::string& choice = this->frame_.report.choice;
+  if (takesMaps)
+  {
+    choice = "the picture moves: maps, which keep the error of " + percent(wishes.maximumError);
+  }
+  else
+  {
+    for (CastingLight* const casting : hard)
+    {
+      this->frame_.lights.takeResting(*casting, this->frame_.report);
+    }
+    choice = "the picture moves: rays, as " + whyRays;
+  }
+  if (wishes.timeBudget > 0.0)
+  {
+    const double expected =
+      takesMaps ? this->slowness_.ofMaps() * byMaps : this->slowness_.ofRays() * byRays;
+    choice += expected > wishes.timeBudget ? "; the time budget is not kept" : "";
+    this->slowness_.begin(takesMaps, takesMaps ? byMaps : byRays);
+  }
+}
+
+//------------------------------------------------------------------------------
+/// Why lights with hard shadows cannot take maps in this frame, as a clause; empty if they may.
+std::string TechniqueChoice::whyNoMaps() const
 {
   const FrameWishes& wishes = this->frame_.wishes;
   if (wishes.route == RouteWish::Image || wishes.route == RouteWish::Deferred)
   {
     return "the route is asked for";
   }
-  if (wishes.maximumError == 0.0)
-  {
-    return "no error is allowed";
-  }
   if (wishes.keepVisibility)
   {
     return "the visibility is kept";
+  }
+  constexpr std::size_t mostProbes =
+    static_cast<std::size_t>(mostLooks) * Probes::across * Probes::across;
+  if (WrongProbes{ mostProbes, 0 }.mostShare() > wishes.maximumError)
+  {
+    return "probes cannot show that so small an error is kept";
+  }
+  if (this->frame_.severalViews)
+  {
+    return "several views are drawn, which are to look alike";
   }
   if (this->frame_.lights.size() > mostInlineLights)
   {
@@ -210,49 +253,43 @@ std::string TechniqueChoice::whyRays(const FrameCounters& counters)
   {
     return "maps do not know casters that are spheres or cylinders";
   }
-  if (this->byRays_ > 0 && this->byRays_ < this->patience_)
+  if (std::any_of(
+        this->occluders_.surfaces.begin(), this->occluders_.surfaces.end(), isUnseenReceiver))
   {
-    return "they were a few frames ago";
+    return "a surface shows shadows and casts none, which probes do not see";
   }
-  const double byMaps = costByMaps(counters, factorsOf(wishes));
-  const double byRays = costByRays(counters, factorsOf(wishes));
-  if (wishes.timeBudget > 0.0)
+  if (this->visibility_.tracerChoice().gpu)
   {
-    return this->whyRaysInTime(byMaps, byRays);
+    return "the GPU traces, which does not say what pixels show, so that no map can be probed";
   }
-  if (byRays <= nearlyAsFast * byMaps)
-  {
-    this->patience_ = leastPatience;
-    this->byRays_ = 0;
-    return "they take nearly as little time as maps";
-  }
-  return {};
+  return this->byRays_ > 0 && this->byRays_ < this->patience_ ? "they were a few frames ago" : "";
 }
 
 //------------------------------------------------------------------------------
-/// The same where there is a time budget.
+/// Why rays are taken though maps may be, as a clause; empty if they are not.
 /// @param byMaps, byRays modelled milliseconds
-std::string TechniqueChoice::whyRaysInTime(double byMaps, double byRays) const
+std::string TechniqueChoice::whyRaysAreFast(double byMaps, double byRays) const
 {
-  const std::deque<double>& slownesses =
-    this->slownessByRays_.empty() ? this->slownessByMaps_ : this->slownessByRays_;
-  const double slowness = slownesses.empty() ? 1.0 : medianOf(slownesses);
   const double budget = this->frame_.wishes.timeBudget;
+  if (budget == 0.0)
+  {
+    return byRays <= nearlyAsFast * byMaps ? "they take nearly as little time as maps" : "";
+  }
   // Once maps have been taken, rays come back where there is time to spare, and not at once.
   constexpr double spared = 0.85;
   const bool stay = this->byMaps_ > 0 && this->byMaps_ < leastPatience;
   const double least = this->byMaps_ > 0 ? spared * budget : budget;
-  return !stay && (slowness * byRays <= least || byRays <= byMaps) ? "they keep the time budget"
-                                                                   : "";
+  const bool fits = this->slowness_.ofRays() * byRays <= least || byRays <= byMaps;
+  return !stay && fits ? "they keep the time budget" : "";
 }
 
 //------------------------------------------------------------------------------
-/// Has a light take a map, the coarsest that keeps the error.
+/// Has a light take a map, the coarsest from the present step on that keeps the error.
 /// @return why there is none, as a clause; empty where it has one
-std::string TechniqueChoice::whyNoMap(
+std::string TechniqueChoice::tryMap(
   CastingLight& casting, const std::function<void(CastingLight&)>& bake)
 {
-  FrameReport& report = this->frame_.report;
+  const double limit = this->frame_.wishes.maximumError;
   LightChoice& choice = this->lights_[casting.light.sceneIndex];
   const int asked = casting.asked->mapSizeTexels;
   int mostSteps = 0;
@@ -260,10 +297,10 @@ std::string TechniqueChoice::whyNoMap(
   {
     ++mostSteps;
   }
-  choice.step = std::min(choice.step, mostSteps);
   for (;;)
   {
-    const std::string refusal = this->frame_.lights.takeMap(casting, asked << choice.step, report);
+    const std::string refusal =
+      this->frame_.lights.takeMap(casting, asked << choice.step, this->frame_.report);
     if (!refusal.empty())
     {
       return refusal;
@@ -272,33 +309,35 @@ std::string TechniqueChoice::whyNoMap(
     {
       return {};
     }
+    std::optional<WrongProbes> wrong;
     try
     {
       bake(casting);
+      wrong = this->probe(casting, limit);
     }
     catch (const TextureMemoryError& error)
     {
       return error.what();
     }
-    const double limit = this->frame_.wishes.maximumError;
-    const std::optional<WrongProbes> probed = this->probe(casting, limit);
-    if (!probed)
+    if (!wrong)
     {
-      return "the tracer does not say what pixels show, so that no map can be checked";
+      return "the tracer does not say what pixels show, so that no map can be probed";
     }
-    const WrongProbes& wrong = *probed;
-    choice.isProbed = wrong.mostShare() <= limit;
+    // Where nothing that is seen faces the light, nothing can be wrong.
+    choice.isProbed = wrong->asked == 0 || wrong->mostShare() <= limit;
+    choice.mayBeCoarser =
+      choice.step > 0 && WrongProbes{ wrong->asked, 4 * wrong->wrong }.mostShare() <= limit;
     choice.sinceProbed = 0;
-    if (choice.isProbed || wrong.asked == 0) // what is seen faces no light
+    if (choice.isProbed)
     {
       return {};
     }
     // Wrong pixels are along edges, where they are as many as texels are wide.
-    const double factor = std::max(wrong.share() / limit, 2.0);
+    const double factor = std::max(wrong->share() / limit, 2.0);
     const int step = choice.step + static_cast<int>(std::log2(factor));
     if (step > mostSteps)
     {
-      return "of " + std::to_string(wrong.asked) + " pixels " + std::to_string(wrong.wrong) +
+      return "of " + std::to_string(wrong->asked) + " pixels " + std::to_string(wrong->wrong) +
         " are wrong with a map of " + std::to_string(casting.light.mapSizeTexels) + " texels";
     }
     choice.step = step;
@@ -310,7 +349,6 @@ std::string TechniqueChoice::whyNoMap(
 /// @return nothing where the tracer does not see the pixels
 std::optional<WrongProbes> TechniqueChoice::probe(const CastingLight& casting, double limit)
 {
-  constexpr int mostLooks = 4;
   WrongProbes all;
   for (int looks = 0; looks < mostLooks; ++looks)
   {
@@ -334,17 +372,17 @@ std::optional<WrongProbes> TechniqueChoice::probe(const CastingLight& casting, d
 }
 
 //------------------------------------------------------------------------------
-/// Has an area light take the fewest samples that keep the error.
+/// Has an area light take the fewest samples, from the present step on, that keep the error.
 void TechniqueChoice::takeSamples(CastingLight& casting)
 {
-  LightChoice& choice = this->lights_[casting.light.sceneIndex];
-  const auto samplesOf = [](int step) { return fewestSamples << (2 * step); }; // square numbers
-  const int all = casting.light.lightSamples;
-  if (this->frame_.wishes.maximumSoftError == 0.0 || this->occluders_.castsSolids())
+  const double limit = this->frame_.wishes.maximumSoftError;
+  if (!casting.light.area || limit == 0.0 || this->occluders_.castsSolids())
   {
     return;
   }
-  choice.sinceProbed += choice.isProbed ? 1 : 0;
+  LightChoice& choice = this->lights_[casting.light.sceneIndex];
+  const auto samplesOf = [](int step) { return fewestSamples << (2 * step); }; // square numbers
+  const int all = casting.light.lightSamples;
   while (samplesOf(choice.step) < all && !(choice.isProbed && choice.sinceProbed < framesPerProbe))
   {
     if (!this->look())
@@ -355,14 +393,15 @@ void TechniqueChoice::takeSamples(CastingLight& casting)
       samplesOf(choice.step), casting.light, this->occluders_, this->visibility_.shadowTracer());
     this->frame_.report.probes += Probes::across * Probes::across / 4;
     choice.sinceProbed = 0;
-    choice.isProbed = error <= this->frame_.wishes.maximumSoftError;
+    choice.isProbed = error <= limit;
+    choice.mayBeCoarser = choice.step > 0 && 2.0 * error <= limit;
     choice.step += choice.isProbed ? 0 : 1;
   }
   casting.light.lightSamples = std::min(samplesOf(choice.step), all);
 }
 
 //------------------------------------------------------------------------------
-/// Finds points to probe; the same ones for all who ask in a frame, unless `looked_` says otherwise.
+/// Finds pixels to probe: the same ones for all who ask in a frame, unless `looked_` says otherwise.
 /// @return false where the tracer does not see them
 bool TechniqueChoice::look()
 {
@@ -384,17 +423,12 @@ bool TechniqueChoice::look()
 //------------------------------------------------------------------------------
 void TechniqueChoice::endFrame(double milliseconds)
 {
-  constexpr std::size_t frames = 30;
-  if (this->modelled_ > 0.0)
+  const FrameReport& report = this->frame_.report;
+  if (report.newPrograms > 0 || report.bvhBuilds > 0)
   {
-    std::deque<double>& slowness =
-      this->byMaps_ > 0 ? this->slownessByMaps_ : this->slownessByRays_;
-    slowness.push_back(milliseconds / this->modelled_);
-    if (slowness.size() > frames)
-    {
-      slowness.pop_front();
-    }
+    this->slowness_.drop();
   }
+  this->slowness_.end(milliseconds);
 }
 
 } // namespace gnomon

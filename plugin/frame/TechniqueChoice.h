@@ -2,6 +2,7 @@
 
 #include "plugin/frame/CostModel.h"
 #include "plugin/frame/Frame.h"
+#include "plugin/frame/Slowness.h"
 #include "plugin/frame/VisibilityStage.h"
 #include "shadowtech/base/Occluders.h"
 #include "shadowtech/base/ShaderLibrary.h"
@@ -9,7 +10,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <deque>
 #include <functional>
 #include <map>
 #include <optional>
@@ -26,9 +26,9 @@ namespace gnomon
 ///
 /// While it moves, area lights take as few samples as the error allows. Lights with hard shadows
 /// take maps if all of them can, and if rays would take more than 1.3 times as long (CostModel.h).
-/// A map is asked at some pixels whose visibility is traced as well (Probes.h) before it is shown,
-/// and again from time to time; it grows until its error is kept, and where that is not enough all
-/// lights take rays. Then maps are tried again after 30 frames at the earliest.
+/// A map is compared with rays at some pixels (Probes.h) before it is shown, and again from time to
+/// time. It grows until its error is kept. If no map keeps it, all lights take rays, and maps are
+/// tried again after 30 frames at the earliest.
 class TechniqueChoice
 {
 public:
@@ -37,10 +37,10 @@ public:
     Frame& frame, const Occluders& occluders, VisibilityStage& visibility, ShaderLibrary& shaders);
 
   /// Chooses for this frame.
-  /// @param bake has a light's map drawn, if it is stale
+  /// @param bake bakes a light's map if it is stale
   void choose(const std::function<void(CastingLight&)>& bake);
 
-  /// Takes note of how long the frame took. OpenGL has finished it.
+  /// Takes note of how long a frame took that has a time budget. OpenGL has finished it.
   void endFrame(double milliseconds);
 
   std::size_t bytes() const { return this->probes_.bytes(); }
@@ -48,20 +48,26 @@ public:
 private:
   /// Where a light is: position, direction, half the cone.
   using Place = std::tuple<glm::dvec3, glm::dvec3, double>;
+  /// What a light is asked for: whether it is soft, its map's side, its samples, the error.
+  using Asked = std::tuple<bool, int, int, double>;
   /// What is known of a light's way while the picture moves.
   struct LightChoice
   {
-    int step = 0;        ///< of its map's side or its samples: times 2 or 4 each
-    int sinceProbed = 0; ///< frames
-    bool isProbed = false;
-    Place place{}; ///< in the frame before
+    int step = 0;              ///< times 2 of its map's side, or 4 of its samples
+    bool isProbed = false;     ///< whether that keeps the error
+    bool mayBeCoarser = false; ///< whether one step less would, too
+    int sinceProbed = 0;       ///< frames
+    Place place{};             ///< in the frame before
+    Asked asked{};             ///< likewise
   };
 
-  FrameCounters takeChanges(const std::vector<CastingLight*>& lights);
+  FrameCounters takeChanges(const std::vector<CastingLight*>& hard);
   void rest();
-  std::string whyRays(const FrameCounters& counters);
-  std::string whyRaysInTime(double byMaps, double byRays) const;
-  std::string whyNoMap(CastingLight& casting, const std::function<void(CastingLight&)>& bake);
+  void chooseMoving(const std::vector<CastingLight*>& hard, const FrameCounters& counters,
+    const std::function<void(CastingLight&)>& bake);
+  std::string whyNoMaps() const;
+  std::string whyRaysAreFast(double byMaps, double byRays) const;
+  std::string tryMap(CastingLight& casting, const std::function<void(CastingLight&)>& bake);
   std::optional<WrongProbes> probe(const CastingLight& casting, double limit);
   void takeSamples(CastingLight& casting);
   bool look();
@@ -77,13 +83,9 @@ private:
   int byMaps_ = 0;                                  ///< and maps
   int patience_ = 0;                                ///< how many frames of rays come before maps
   Probes probes_;
-  bool looked_ = false; ///< in this frame
+  bool looked_ = false; ///< whether the probes are this frame's
   std::uint32_t looks_ = 0;
-  double modelled_ = 0.0; ///< milliseconds of this frame; 0: it was not
-  ///@{
-  /// Of the last frames each way: how long they took over what was modelled.
-  std::deque<double> slownessByMaps_, slownessByRays_;
-  ///@}
+  Slowness slowness_;
 };
 
 } // namespace gnomon

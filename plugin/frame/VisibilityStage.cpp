@@ -158,10 +158,15 @@ void VisibilityStage::findStale()
 }
 
 //------------------------------------------------------------------------------
+TracerChoice VisibilityStage::tracerChoice() const
+{
+  return chooseTracer(this->frame_.wishes.tracer, GpuTracer::whyUnsupported(), rendererName());
+}
+
+//------------------------------------------------------------------------------
 void VisibilityStage::updateTracer()
 {
-  const TracerChoice choice =
-    chooseTracer(this->frame_.wishes.tracer, GpuTracer::whyUnsupported(), rendererName());
+  const TracerChoice choice = this->tracerChoice();
   const ShadowTracer::Update update = this->tracer_.update(choice, this->occluders_);
   this->frame_.report.bvhBuilds += update.builds;
   this->frame_.report.bvhRefits += update.refits;

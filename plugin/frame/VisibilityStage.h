@@ -43,6 +43,9 @@ public:
   void dropImages();
   ///@}
 
+  /// Which tracer traces in this frame.
+  /// @throws std::runtime_error for a tracer that there is not
+  TracerChoice tracerChoice() const;
   /// Brings the tracer up to date with the snapshot; compute() does so where anything is traced.
   void updateTracer();
   const FrameTracer& tracer() const { return this->tracer_; }

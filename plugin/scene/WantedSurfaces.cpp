@@ -1,5 +1,6 @@
 #include "plugin/scene/WantedSurfaces.h"
 
+#include "vtkActor.h"
 #include "vtkPolyData.h"
 
 #include <algorithm>

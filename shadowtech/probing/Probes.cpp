@@ -52,6 +52,9 @@ void Probes::look(const CameraView& camera, const glm::ivec2& sizePixels,
   const glm::dvec3 eyeCentred = camera.eyeCentred();
   const glm::dvec3 lookCentred = camera.directionCentred();
   const glm::dvec2 moved(spread(number, 0.7548776662466927), spread(number, 0.5698402909980532));
+  // In lengths of the direction, as those are distances across the view (PixelRays).
+  const auto nearest = static_cast<float>(camera.nearDistance());
+  const auto farthest = static_cast<float>(camera.farDistance());
   this->receivers_.resize(across, across);
   const auto lookAt = [&](std::size_t i)
   {
@@ -60,8 +63,8 @@ void Probes::look(const CameraView& camera, const glm::ivec2& sizePixels,
       glm::floor((part + moved) / static_cast<double>(across) * glm::dvec2(sizePixels));
     const glm::dvec3 origin = rays.origin(pixel.x, pixel.y);
     const glm::dvec3 direction = rays.direction(pixel.x, pixel.y);
-    const std::optional<CasterHits::Hit> hit = hits.nearest(
-      glm::vec3(origin), glm::vec3(direction), 0.0f, std::numeric_limits<float>::infinity());
+    const std::optional<CasterHits::Hit> hit =
+      hits.nearest(glm::vec3(origin), glm::vec3(direction), nearest, farthest);
     this->receivers_.surface[i] = ReceiverPixels::notCovered;
     this->receivers_.lifted[i] = 0;
     this->receivers_.offset[i] = 0.0f;

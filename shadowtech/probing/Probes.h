@@ -34,7 +34,8 @@ struct WrongProbes
   }
 
   /// The most that the share of wrong pixels is, of which these are a sample, but for one case in
-  /// forty: the upper bound of Wilson's interval (Wilson 1927) with z = 2. Of no points it is 1.
+  /// forty: the upper bound of Wilson's interval (Wilson 1927) with z = 2. Of no points it is 1. Who
+  /// samples on until it is low enough is wrong more often.
   double mostShare() const;
 };
 

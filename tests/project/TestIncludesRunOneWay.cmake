@@ -24,6 +24,7 @@ folder(shadowtech/depth_map lights shadowtech/base)
 folder(shadowtech/moment_map lights shadowtech/base)
 folder(shadowtech/mesh lights shadowtech/base)
 folder(shadowtech/tracing lights shadowtech/base)
+folder(shadowtech/probing lights shadowtech/base shadowtech/tracing)
 folder(shadowtech/fitting lights shadowtech/base)
 folder(shadowtech/exact lights shadowtech/base shadowtech/mesh shadowtech/tracing)
 # All other folders are techniques: none includes another's.

@@ -2,14 +2,19 @@
 
 #include "PassScene.h"
 
+#include "lights/vtkGnomonAreaLight.h"
 #include "lights/vtkGnomonLightKeys.h"
 #include "plugin/frame/CostModel.h"
+#include "plugin/frame/Slowness.h"
+#include "plugin/vtkGnomonPropKeys.h"
 
 #include <vtkObjectFactory.h>
 #include <vtkRenderWindowInteractor.h>
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -80,6 +85,13 @@ protected:
   {
     this->pass->SetInteractive(vtkGnomonShadowPass::INTERACTIVE_AUTO);
     return this->render();
+  }
+  void readFactors(const gnomon::CostFactors& factors)
+  {
+    const std::string path =
+      (std::filesystem::path(testing::TempDir()) / "gnomon_auto_factors.txt").string();
+    std::ofstream(path) << gnomon::textOf(factors);
+    this->pass->ReadCostFactors(path.c_str());
   }
   std::string technique() const { return this->report().lights[0].technique; }
   /// The picture by another technique.
@@ -202,10 +214,10 @@ TEST_F(Auto, mapsGrowUntilTheErrorIsKept)
 }
 
 //------------------------------------------------------------------------------
+// A caster far away makes the texels of every map half a unit wide.
 TEST_F(Auto, raysAreTakenWhereNoMapKeepsTheError)
 {
-  this->pass->SetMapSize(16);
-  this->pass->SetMaximumError(1e-5); // less than one of the probes
+  this->addBox({ 3000.0, 0.0, 0.0 }, { 3001.0, 1.0, 1.0 });
   this->rest();
   this->move();
   EXPECT_EQ(this->technique(), "silhouette");
@@ -213,6 +225,145 @@ TEST_F(Auto, raysAreTakenWhereNoMapKeepsTheError)
   this->move();
   EXPECT_THAT(this->report().choice, HasSubstr("a few frames ago"));
   EXPECT_EQ(this->report().probes, 0);
+  for (int i = 0; i < 29; ++i)
+  {
+    this->move();
+  }
+  EXPECT_GT(this->report().probes, 0) << "tried again";
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Auto, errorsThatNoSampleCanShowAreExact)
+{
+  this->pass->SetMaximumError(1e-5);
+  this->rest();
+  this->move();
+  EXPECT_EQ(this->technique(), "silhouette");
+  EXPECT_THAT(this->report().choice, HasSubstr("probes cannot show"));
+  EXPECT_EQ(this->report().mapBakes, 0);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Auto, numbersOutOfRangeAreErrorsAndChangeNothing)
+{
+  for (const double wrong : { -0.1, 1.1, std::nan("") })
+  {
+    this->pass->SetMaximumError(wrong);
+    EXPECT_THAT(this->takeErrors(), HasSubstr("MaximumError was to be"));
+    this->pass->SetMaximumSoftError(wrong);
+    EXPECT_THAT(this->takeErrors(), HasSubstr("MaximumSoftError was to be"));
+  }
+  this->pass->SetTimeBudget(-1.0);
+  EXPECT_THAT(this->takeErrors(), HasSubstr("TimeBudget was to be"));
+  EXPECT_EQ(this->pass->GetMaximumError(), 0.005);
+  EXPECT_EQ(this->pass->GetMaximumSoftError(), 0.03);
+  EXPECT_EQ(this->pass->GetTimeBudget(), 0.0);
+}
+
+//------------------------------------------------------------------------------
+// A map that a close view made larger is smaller again in one of the next motions.
+TEST_F(Auto, mapsShrinkWhereSmallerOnesWillDo)
+{
+  this->pass->SetMapSize(16);
+  this->rest();
+  this->move();
+  ASSERT_EQ(this->technique(), "nsm") << this->report().choice;
+  const int large = this->report().lights[0].mapSizeTexels;
+  this->pass->SetMaximumError(0.2);
+  this->move();
+  EXPECT_EQ(this->report().lights[0].mapSizeTexels, 16) << "another error is asked for";
+  this->pass->SetMaximumError(0.005);
+  this->move();
+  EXPECT_EQ(this->report().lights[0].mapSizeTexels, large);
+  this->lookFrom({ -12.0, -9.0, 7.0 }, { -12.0, 0.0, 0.0 }); // far from the shadow
+  this->move();
+  for (int motion = 0; motion < 12; ++motion)
+  {
+    this->rest();
+    this->move();
+  }
+  EXPECT_LT(this->report().lights[0].mapSizeTexels, large);
+}
+
+//------------------------------------------------------------------------------
+// Such windows draw a headlight's shadows by the image route, whatever the technique.
+TEST_F(Auto, severalSamplesAndAHeadlight)
+{
+  gnomon::CostFactors factors = gnomon::defaultFactors(true);
+  factors.tracePixel = 1e4; // the headlight's map is baked in each frame
+  this->readFactors(factors);
+  this->window->SetMultiSamples(4);
+  vtkNew<vtkLight> headlight;
+  headlight->SetLightTypeToHeadlight();
+  headlight->SetIntensity(0.5);
+  vtkGnomonLightKeys::SetCasts(headlight, true);
+  this->renderer->AddLight(headlight);
+  this->rest();
+  const Picture moving = this->move();
+  ASSERT_EQ(this->technique(), "nsm") << this->report().choice;
+  EXPECT_EQ(this->report().route, "image");
+  const Picture exact = this->by("raytraced");
+  EXPECT_LE(differingPixels(moving, exact, 16), exact.pixels() / 100);
+}
+
+//------------------------------------------------------------------------------
+// Of an area light without extent, only the texture's mean is left.
+TEST_F(Auto, texturesWithoutAnAreaAreExact)
+{
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(2, 2, 1);
+  image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
+  std::fill_n(static_cast<unsigned char*>(image->GetScalarPointer()), 12, 200);
+  vtkNew<vtkGnomonAreaLight> light;
+  light->SetLightTypeToSceneLight();
+  light->SetPosition(-4.0, 0.0, 5.0);
+  light->SetFocalPoint(0.0, 0.0, 0.0);
+  light->PositionalOn();
+  light->SetShapeToDisk();
+  light->SetRadius(0.0);
+  light->SetTexture(image);
+  this->renderer->AddLight(light);
+  this->rest();
+  const Picture moving = this->move();
+  EXPECT_THAT(this->report().choice, HasSubstr("area lights"));
+  EXPECT_TRUE(moving == this->rest());
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Auto, settingsOfWhatItMayTakeAreNoMistakes)
+{
+  this->pass->SetSetting("light_radius", "3");
+  this->pass->SetSetting("light_samples", "16");
+  this->pass->SetSetting("bias_constant", "0.001"); // of maps
+  this->rest();
+  EXPECT_EQ(this->report().lights[0].lightSamples, 16);
+  this->pass->SetSetting("mc_rays", "4");
+  this->render();
+  EXPECT_THAT(this->takeErrors(), HasSubstr("mc_rays"));
+}
+
+//------------------------------------------------------------------------------
+// Probes meet what casts: a floor that only receives is not among it.
+TEST_F(Auto, surfacesThatProbesDoNotSeeTakeRays)
+{
+  vtkActor* const shelf = this->addFloor(2.0, 4.0);
+  vtkGnomonPropKeys::SetCasts(shelf, false);
+  this->rest();
+  this->move();
+  EXPECT_EQ(this->technique(), "silhouette");
+  EXPECT_THAT(this->report().choice, HasSubstr("casts none"));
+}
+
+//------------------------------------------------------------------------------
+TEST_F(Auto, bothEyesHaveTheSame)
+{
+  this->window->SetStereoTypeToAnaglyph();
+  this->window->StereoRenderOn();
+  this->rest();
+  this->move();
+  this->move();
+  EXPECT_EQ(this->technique(), "silhouette");
+  EXPECT_THAT(this->report().choice, HasSubstr("several views"));
 }
 
 //------------------------------------------------------------------------------
@@ -262,12 +413,9 @@ TEST_F(Auto, theSameFramesAreChosenAlike)
 TEST_F(Auto, restingPicturesDoNotDependOnTheMachine)
 {
   const Picture expected = this->rest();
-  const std::string path =
-    (std::filesystem::path(testing::TempDir()) / "gnomon_free_rays.txt").string();
   gnomon::CostFactors factors = gnomon::defaultFactors(true);
   factors.receiverPixel = factors.receiverTriangle = factors.tracePixel = 0.0;
-  std::ofstream(path) << gnomon::textOf(factors);
-  this->pass->ReadCostFactors(path.c_str());
+  this->readFactors(factors);
   this->move();
   EXPECT_EQ(this->technique(), "silhouette");
   this->renderer->GetActiveCamera()->Azimuth(-1.0);
@@ -302,6 +450,7 @@ TEST_F(Auto, aTimeBudgetChoosesWhatIsMostAccurateInIt)
   this->pass->SetTimeBudget(1e-6);
   this->move();
   EXPECT_EQ(this->technique(), "nsm") << this->report().choice;
+  EXPECT_THAT(this->report().choice, HasSubstr("not kept"));
   this->pass->SetTimeBudget(1e6);
   int frames = 0;
   while (frames < 100 && this->technique() == "nsm")
@@ -310,6 +459,35 @@ TEST_F(Auto, aTimeBudgetChoosesWhatIsMostAccurateInIt)
     ++frames;
   }
   EXPECT_EQ(frames, 30);
+}
+
+//------------------------------------------------------------------------------
+TEST(Slowness, forgetsWhatIsNotTaken)
+{
+  gnomon::Slowness slowness;
+  EXPECT_EQ(slowness.ofRays(), 1.0);
+  const auto take = [&](bool byMaps, double factor, int frames)
+  {
+    for (int i = 0; i < frames; ++i)
+    {
+      slowness.begin(byMaps, 10.0);
+      slowness.end(10.0 * factor);
+    }
+  };
+  take(false, 2.0, 40);
+  EXPECT_EQ(slowness.ofRays(), 2.0);
+  EXPECT_EQ(slowness.ofMaps(), 2.0) << "nothing else is known";
+  take(false, 50.0, 1);
+  EXPECT_EQ(slowness.ofRays(), 2.0) << "one frame changes nothing";
+  take(true, 3.0, 10);
+  EXPECT_EQ(slowness.ofMaps(), 3.0);
+  EXPECT_EQ(slowness.ofRays(), 2.0);
+  take(true, 1.0, 25);
+  EXPECT_EQ(slowness.ofRays(), 1.0) << "what is known of maps";
+  slowness.begin(true, 10.0);
+  slowness.drop();
+  slowness.end(1e9);
+  EXPECT_EQ(slowness.ofMaps(), 1.0);
 }
 
 //------------------------------------------------------------------------------
@@ -326,6 +504,9 @@ TEST_F(Auto, framesMoveWhileTheInteractorAsksForMoreThanAtRest)
   EXPECT_EQ(this->technique(), "nsm") << this->report().choice;
   EXPECT_NE(interactor->timer, 0);
   EXPECT_EQ(interactor->patience, 500u);
+
+  interactor->InvokeEvent(vtkCommand::TimerEvent, nullptr); // as recorded ones are played
+  EXPECT_EQ(this->technique(), "nsm");
 
   // A frame at rest that nobody asked for.
   interactor->run();
@@ -345,6 +526,12 @@ TEST_F(Auto, framesMoveWhileTheInteractorAsksForMoreThanAtRest)
   this->pass->SetInteractive(vtkGnomonShadowPass::INTERACTIVE_OFF);
   this->render();
   EXPECT_EQ(this->technique(), "silhouette");
+
+  // Pictures that would be the same at rest need none.
+  this->pass->SetInteractive(vtkGnomonShadowPass::INTERACTIVE_AUTO);
+  this->pass->SetTechnique("nsm");
+  this->render();
+  EXPECT_EQ(interactor->timer, 0);
   this->window->SetInteractor(nullptr);
 }
 

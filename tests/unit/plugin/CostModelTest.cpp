@@ -70,8 +70,7 @@ TEST_F(CostFactorsFile, ofAPassThatIsNoneIsAnError)
   vtkNew<vtkGnomonShadowPass> pass;
   pass->ReadCostFactors("/nowhere");
   EXPECT_THAT(this->takeErrors(), HasSubstr("/nowhere cannot be read"));
-  pass->ReadCostFactors(nullptr);
-  EXPECT_THAT(this->takeErrors(), HasSubstr("cannot be read"));
+  pass->ReadCostFactors(nullptr); // the default ones
 }
 
 // What may be chosen follows from them: where maps cost nothing, they are taken.

@@ -64,7 +64,7 @@ TEST_F(Settings, unknownTechniqueIsAnErrorAndChangesNothing)
   for (const char* name : { "magic", "", "NSM", static_cast<const char*>(nullptr) })
   {
     pass->SetTechnique(name);
-    EXPECT_THAT(this->takeErrors(), HasSubstr("expected one of: nsm, "));
+    EXPECT_THAT(this->takeErrors(), HasSubstr("expected one of: auto, nsm, "));
     EXPECT_STREQ(pass->GetTechnique(), "raytraced");
     EXPECT_EQ(pass->GetMTime(), time);
   }

@@ -124,6 +124,7 @@ std::vector<ShadowLight> lightsOfAllLayouts()
   result.push_back(pointLight({ -0.9, 0.4, 3.0 }));
   for (ShadowLight& light : result)
   {
+    light.technique = "nsm"; // or what the way's estimator is
     light.fit = ViewFit::Frame;
     light.splits = 3;
     light.mapSizeTexels = fittedSide;
