@@ -7,8 +7,9 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source docs/comparisons.sh
 prepare
 
-scenes="${SCENES:-bunny horse cat posts plates panels screens pole stack long-cube letter cups office \
-terrain props trees-side atrium}"
+scenes="${SCENES:-bunny horse cat posts plates panels screens pole stack long-cube letter cups \
+office terrain props trees-side atrium}"
+cmake --preset release -DGNOMON_BUILD_TESTS=ON > build/configure.log
 cmake --build --preset release --target gnomon_benchmark_auto
 # shellcheck disable=SC2086
 build/release/bin/gnomon_benchmark_auto $scenes --places "${PLACES:-12}" > out/auto.csv

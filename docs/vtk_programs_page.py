@@ -16,7 +16,7 @@ PAGE = """# VTK's own programs with Gnomon
 
 {summary}
 
-Columns: pixels that `nsm`, the default, and `raytraced` change by more than {least}/255 against
+Columns: pixels that `nsm` and `raytraced` change by more than {least}/255 against
 plain VTK, as darker, and lighter where there are any; messages that plain VTK does not give, where
 "left out" is the one warning of the pass.
 

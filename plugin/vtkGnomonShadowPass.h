@@ -229,10 +229,10 @@ public:
 
   ///@{
   /**
-   * Milliseconds that a frame is to take at most while the picture moves. "auto" then takes the most
-   * accurate way that fits, and where none does the fastest one that keeps the errors. 0: none, and
-   * it takes the fastest one that keeps the errors. With a budget, choices depend on measured times.
-   * Default 0.
+   * Milliseconds that a frame is to take at most while the picture moves. "auto" then takes the
+   * most accurate way that fits, and where none does the fastest one that keeps the errors. 0:
+   * none, and it takes the fastest one that keeps the errors. With a budget, choices depend on
+   * measured times. What is no such number is an error and changes nothing. Default 0.
    */
   virtual void SetTimeBudget(double milliseconds);
   vtkGetMacro(TimeBudget, double);
@@ -240,10 +240,10 @@ public:
 
   /**
    * Have "auto" go by what frames cost on this machine, in a file that `gnomon calibrate` wrote. A
-   * file that is none is an error and changes nothing; null is the default ones. A new pass reads the file that the
-   * environment variable GNOMON_FACTORS names; without it, llvmpipe's factors on two cores serve
-   * where OpenGL draws by software, and a guess where hardware does. Pictures at rest do not depend
-   * on factors.
+   * file that is none is an error and changes nothing. Null: the default factors, those of llvmpipe
+   * on two cores where OpenGL draws by software, and a guess where hardware does. A new pass reads
+   * the file that the environment variable GNOMON_FACTORS names. Pictures at rest do not depend on
+   * factors.
    */
   virtual void ReadCostFactors(const char* path);
 

@@ -401,7 +401,8 @@ void TechniqueChoice::takeSamples(CastingLight& casting)
 }
 
 //------------------------------------------------------------------------------
-/// Finds pixels to probe: the same ones for all who ask in a frame, unless `looked_` says otherwise.
+/// Finds pixels to probe: the same ones for all who ask in a frame, unless `looked_` says
+/// otherwise.
 /// @return false where the tracer does not see them
 bool TechniqueChoice::look()
 {

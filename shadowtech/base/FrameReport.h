@@ -60,9 +60,9 @@ struct LightReport
   /// rays decide others (`penumbra`), tracedPixels have all of theirs, and other pixels some.
   std::int64_t rays = 0;
   ///@{
-  /// Of exact techniques, how many tiles of 64 x 16 pixels are lit, or dark, for certain and as a
-  /// whole, and in how many the others are traced. Counted where several lights share receivers;
-  /// else all are 0.
+  /// Of exact techniques traced by Embree, how many tiles of 64 x 16 pixels are dark for certain,
+  /// in how many there are rays, and how many others there are. Counted where several lights share
+  /// receivers, or receivers rest; else all are 0.
   int tilesLit = 0;
   int tilesDark = 0;
   int tilesTraced = 0;

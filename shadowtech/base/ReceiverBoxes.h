@@ -22,8 +22,8 @@ class ReceiverBoxes
 {
 public:
   ///@{
-  /// A cell's pixels; tiles are groups of 2 x 2 cells. Smaller cells take longer to ask about than to
-  /// trace.
+  /// A cell's pixels; tiles are groups of 2 x 2 cells. Smaller cells take longer to ask about than
+  /// to trace.
   static constexpr std::size_t cellColumns = ReceiverTile::mostColumns / 2;
   static constexpr std::size_t cellRows = ReceiverTile::mostRows / 2;
   static constexpr std::size_t levelOfTiles = 1;

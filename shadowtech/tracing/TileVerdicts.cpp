@@ -335,7 +335,6 @@ void TileVerdicts::classifyAllDark(std::vector<std::uint8_t>& classes) const
 //------------------------------------------------------------------------------
 void TileVerdicts::tell(const ShadowLight& light, LightReport& report) const
 {
-  std::vector<std::uint8_t> lit(this->darkTiles_.size(), 0);
   std::vector<std::uint8_t> traced(this->darkTiles_.size(), 0);
   bool hides = false;
   bool reaches = false;
@@ -343,7 +342,6 @@ void TileVerdicts::tell(const ShadowLight& light, LightReport& report) const
   {
     const bool shows = !this->boxes_.levels()[0].boxesCentred[i].empty();
     const std::size_t tile = this->tileOf(i);
-    lit[tile] |= this->cells_[i] == Certainty::Lit ? 1 : 0;
     traced[tile] |= this->cells_[i] == Certainty::Uncertain ? 1 : 0;
     hides |= shows && this->cells_[i] == Certainty::Shadow;
     reaches |= shows && this->cells_[i] != Certainty::Unreached;

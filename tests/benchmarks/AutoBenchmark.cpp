@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <iostream>
 #include <map>
 #include <memory>
@@ -173,7 +174,7 @@ public:
     const VisibilityImages truth = this->runners_[this->runners_.size() - 2]->visibility();
     double best = 0.0;
     std::string bestName;
-    double error = 0.0;
+    double error = std::nan(""); // unless the way that was chosen is among the single ones
     for (std::size_t i = 0; i + 1 < this->runners_.size(); ++i)
     {
       Runner& runner = *this->runners_[i];
