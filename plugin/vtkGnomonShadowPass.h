@@ -215,11 +215,11 @@ public:
 
   ///@{
   /**
-   * The errors that "auto" allows while the picture moves: of hard shadows, the share of wrong
-   * pixels among those that face the light, in [0, 1]; of soft ones, the root mean square error of
-   * visibility, in [0, 1]. Some 4,000 pixels are compared with rays before a map is shown and again
-   * from time to time, so that errors below 0.00025 cannot be shown to be kept, and are exact as 0
-   * is. What is no number in [0, 1] is an error and changes nothing. Default 0.005 and 0.03.
+   * The errors that "auto" allows while the picture moves. MaximumError is the share of wrong pixels
+   * of hard shadows, among pixels that face the light. MaximumSoftError is the root mean square
+   * error of the visibility of area lights. 0 is exact. Rays check maps at 4,096 to 16,384 pixels,
+   * so a MaximumError below 0.00025 cannot be proved and is exact, too. Numbers outside of [0, 1]
+   * are an error and change nothing. Default 0.005 and 0.03.
    */
   virtual void SetMaximumError(double share);
   vtkGetMacro(MaximumError, double);
@@ -229,10 +229,10 @@ public:
 
   ///@{
   /**
-   * Milliseconds that a frame is to take at most while the picture moves. "auto" then takes the
-   * most accurate way that fits, and where none does the fastest one that keeps the errors. 0:
-   * none, and it takes the fastest one that keeps the errors. With a budget, choices depend on
-   * measured times. What is no such number is an error and changes nothing. Default 0.
+   * The most milliseconds for a frame while the picture moves. "auto" then takes rays if they fit,
+   * else maps that keep MaximumError; if neither fits, the report says so. Choices then depend on
+   * measured times. 0 means no budget: "auto" takes the fastest way that keeps the errors. Negative
+   * numbers are an error and change nothing. Default 0.
    */
   virtual void SetTimeBudget(double milliseconds);
   vtkGetMacro(TimeBudget, double);

@@ -338,6 +338,12 @@ std::string nameOfTechnique(const ShadowSettings& settings)
   return isAutomatic(settings) ? restingHard : name == automaticTechnique ? plainTechnique : name;
 }
 
+/// Whether a light leaves its technique to the pass, and its shadows may be soft.
+bool restsSoftly(const ShadowLight& light)
+{
+  return isAutomatic(light) && (light.area || light.texture);
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -372,16 +378,14 @@ const EstimatorEntry& estimatorOf(const ShadowSettings& settings)
 //------------------------------------------------------------------------------
 const EstimatorEntry& estimatorOfLight(const ShadowLight& light)
 {
-  const bool isSoft = light.area || light.texture;
-  return isAutomatic(light) && isSoft ? *findTechnique(restingSoft)->estimator : estimatorOf(light);
+  return restsSoftly(light) ? *findTechnique(restingSoft)->estimator : estimatorOf(light);
 }
 
 //------------------------------------------------------------------------------
 const EstimatorEntry& compose(ShadowLight& light)
 {
   const EstimatorEntry& estimator = estimatorOfLight(light);
-  const bool isSoft = light.area || light.texture;
-  light.technique = isAutomatic(light) && isSoft ? restingSoft : nameOfTechnique(light);
+  light.technique = restsSoftly(light) ? restingSoft : nameOfTechnique(light);
   const TechniqueInfo& info = estimator.info;
   light.estimator = info.name;
   if (!info.bakesMap())

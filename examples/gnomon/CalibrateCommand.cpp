@@ -17,7 +17,6 @@
 #include <vtkSphereSource.h>
 
 #include <algorithm>
-#include <chrono>
 #include <iostream>
 #include <iterator>
 #include <memory>
@@ -96,12 +95,7 @@ public:
     this->renderer_->ResetCameraClippingRange();
     this->light_->SetPosition(1.0 + turned(Moved::Light), -0.5, 2.0);
     this->ball_->SetPosition(turned(Moved::Caster), 0.0, 0.0);
-    this->window_->MakeCurrent();
-    const auto start = std::chrono::steady_clock::now();
-    this->window_->Render();
-    this->window_->WaitForCompletion();
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
-      .count();
+    return drawTimed(this->window_);
   }
 
 private:

@@ -252,6 +252,17 @@ bool FrameVariant::awaitsMap() const
 }
 
 //------------------------------------------------------------------------------
+double drawTimed(vtkRenderWindow* window)
+{
+  window->MakeCurrent();
+  const auto start = std::chrono::steady_clock::now();
+  window->Render();
+  window->WaitForCompletion();
+  const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
+  return time.count();
+}
+
+//------------------------------------------------------------------------------
 double FrameVariant::drawFrame(Motion motion, int step)
 {
   this->mover_.apply(motion, step);
@@ -260,12 +271,7 @@ double FrameVariant::drawFrame(Motion motion, int step)
     this->pass()->SetInteractive(motion == Motion::Static ? vtkGnomonShadowPass::INTERACTIVE_OFF
                                                           : vtkGnomonShadowPass::INTERACTIVE_ON);
   }
-  this->window_->MakeCurrent();
-  const auto start = std::chrono::steady_clock::now();
-  this->window_->Render();
-  this->window_->WaitForCompletion();
-  const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
-  return time.count();
+  return drawTimed(this->window_);
 }
 
 } // namespace gnomon::tool

@@ -78,6 +78,9 @@ private:
   double lightDegrees_ = 0.0;
 };
 
+/// Draws a frame to its end and returns its wall clock time in milliseconds.
+double drawTimed(vtkRenderWindow* window);
+
 /// A variant with a window, a renderer and a pass of its own.
 class FrameVariant
 {

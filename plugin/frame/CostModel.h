@@ -7,28 +7,28 @@
 namespace gnomon
 {
 
-/// What the parts of a frame take on a machine, in nanoseconds for each triangle, pixel or texel.
+/// Costs of a frame on a machine, in nanoseconds for each triangle, pixel or texel.
 struct CostFactors
 {
   ///@{
-  /// Plain VTK.
+  /// Plain VTK's frame.
   double drawTriangle, drawPixel;
   ///@}
   ///@{
-  /// A light's map: asked by VTK's shader, and drawn anew.
+  /// One light's map: VTK's shader looks it up, or it is baked.
   double askPixel, bakeTriangle, bakeTexel;
   ///@}
-  double fetchPixel; ///< exact visibility of all lights together, fetched by VTK's shader
+  double fetchPixel; ///< VTK's shader fetches the exact visibility of all lights
   ///@{
-  /// What pixels show, drawn anew.
+  /// VTK draws triangle numbers for the receivers.
   double receiverTriangle, receiverPixel;
   ///@}
-  double tracePixel;    ///< a light's shadow ray
-  double refitTriangle; ///< of the structure for rays
+  double tracePixel;    ///< one shadow ray
+  double refitTriangle; ///< Embree refits its structure to moved casters
 };
 
-/// Of llvmpipe on two cores; of hardware a guess until somebody measures one: what is drawn takes a
-/// twentieth, what the CPU traces as long. `gnomon calibrate` measures a machine.
+/// The factors of llvmpipe on two cores. For hardware OpenGL they are a guess, not measured: drawing
+/// costs a twentieth, tracing on the CPU costs the same. `gnomon calibrate` measures a machine.
 CostFactors defaultFactors(bool software);
 
 ///@{
@@ -40,25 +40,25 @@ struct NamedFactor
 };
 const std::array<NamedFactor, 10>& namedFactors();
 std::string textOf(const CostFactors& factors);
-/// @throws std::runtime_error that names the file and the line, for what is not such a file:
-/// factors that are missing, named twice, unknown, negative or no finite numbers
+/// @throws std::runtime_error that names the file and the line, if a factor is missing, named twice,
+/// unknown, negative or not finite
 CostFactors readFactors(const std::string& path);
 ///@}
 
-/// What there is in a frame.
+/// Counts that the costs of a frame depend on.
 struct FrameCounters
 {
   std::size_t triangles = 0;
   std::size_t pixels = 0;
-  std::size_t texels = 0;      ///< of a light's map
-  std::size_t lights = 0;      ///< whose shadows are hard
-  std::size_t movedLights = 0; ///< of these, whose maps would be drawn anew
+  std::size_t texels = 0;      ///< of one light's map
+  std::size_t lights = 0;      ///< with hard shadows
+  std::size_t movedLights = 0; ///< lights whose maps are stale
   bool viewMoved = false;      ///< the camera or what it sees
   bool castersMoved = false;
 };
 
 ///@{
-/// A frame's time in milliseconds: if maps shade its lights, and if rays do.
+/// The time of a frame in milliseconds, with maps or with rays for its lights.
 double costByMaps(const FrameCounters& counters, const CostFactors& factors);
 double costByRays(const FrameCounters& counters, const CostFactors& factors);
 ///@}

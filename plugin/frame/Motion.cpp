@@ -10,7 +10,7 @@ namespace gnomon
 //------------------------------------------------------------------------------
 bool isDragged(vtkRenderWindow* window)
 {
-  // VTK's own rate of windows that nobody has asked anything of is below this.
+  // VTK's default rate (0.0001) is below this.
   constexpr double slowest = 0.01; // frames a second
   vtkRenderWindowInteractor* const interactor = window ? window->GetInteractor() : nullptr;
   return interactor && window->GetDesiredUpdateRate() > slowest &&
@@ -35,13 +35,13 @@ void RestingFrame::drawn(vtkRenderWindow* window, bool moves)
 {
   if (!moves && window != this->window_)
   {
-    return; // another window's frames go on
+    return; // the timer belongs to another window
   }
   this->stop();
   vtkRenderWindowInteractor* const interactor = window ? window->GetInteractor() : nullptr;
   if (!moves || !interactor || !interactor->GetInitialized())
   {
-    return; // nobody's timers run
+    return; // timers need an initialized interactor
   }
   constexpr unsigned long patience = 500; // milliseconds
   this->timer_ = interactor->CreateOneShotTimer(patience);
@@ -78,7 +78,7 @@ void RestingFrame::onTimer(vtkObject*, unsigned long, void* self, void* timerId)
   const vtkSmartPointer<vtkRenderWindowInteractor> interactor = of.interactor_.GetPointer();
   if (window && interactor)
   {
-    // From here on `of` may be gone: the frame's observers may do anything.
+    // Observers of this frame may delete the pass, and `of` with it.
     const double rate = window->GetDesiredUpdateRate();
     window->SetDesiredUpdateRate(interactor->GetStillUpdateRate());
     interactor->Render();

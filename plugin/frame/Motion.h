@@ -10,12 +10,12 @@ class vtkRenderWindowInteractor;
 namespace gnomon
 {
 
-/// Whether a user drags something: the window has an interactor and is asked to be faster than this
-/// asks it to be at rest. Windows without one are always at rest.
+/// Return true while a user drags: the window's desired update rate exceeds the StillUpdateRate of
+/// its interactor. Windows without an interactor are always at rest.
 bool isDragged(vtkRenderWindow* window);
 
-/// Draws a picture at rest after frames that move. Interactor styles draw one when their user lets
-/// go, but a program that draws by itself while something moves may not.
+/// Draws a picture at rest after frames that move. Interactor styles draw one when the user lets go;
+/// programs that animate by themselves may not.
 class RestingFrame
 {
 public:
@@ -24,8 +24,8 @@ public:
   RestingFrame(const RestingFrame&) = delete;
   RestingFrame& operator=(const RestingFrame&) = delete;
 
-  /// To be called in each frame of a window. After one that moves, and half a second without
-  /// another frame, the window's interactor draws one, at its update rate at rest.
+  /// Restart the timer in each frame of a window. Half a second after a moving frame, the window's
+  /// interactor renders once at its StillUpdateRate.
   void drawn(vtkRenderWindow* window, bool moves);
 
 private:

@@ -21,11 +21,11 @@ constexpr double nearlyAsFast = 1.3;
 constexpr int leastPatience = 30;
 constexpr int mostPatience = 960;
 
-/// How many frames a map is shown until it is probed again: as it is, and while it is baked anew.
+/// Frames between probes of a map, if it is reused and if each frame bakes it.
 constexpr int framesPerProbe = 16;
 constexpr int framesPerProbeOfMoved = 4;
 
-/// How often other pixels are looked at, until it is clear whether a map keeps the error.
+/// The most sets of pixels that are probed to decide whether a map keeps the error.
 constexpr int mostLooks = 4;
 
 /// The largest map that is taken for an error's sake.
@@ -149,7 +149,7 @@ FrameCounters TechniqueChoice::takeChanges(const std::vector<CastingLight*>& har
 }
 
 //------------------------------------------------------------------------------
-/// The next motion begins anew, with less where less will do.
+/// Resets the hysteresis. Maps and samples that were finer than needed go one step down.
 void TechniqueChoice::rest()
 {
   this->patience_ = 0;

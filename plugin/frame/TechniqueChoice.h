@@ -48,9 +48,9 @@ public:
 private:
   /// Where a light is: position, direction, half the cone.
   using Place = std::tuple<glm::dvec3, glm::dvec3, double>;
-  /// What a light is asked for: whether it is soft, its map's side, its samples, the error.
+  /// The request that a choice answers: soft or hard, map side in texels, samples, error limit.
   using Asked = std::tuple<bool, int, int, double>;
-  /// What is known of a light's way while the picture moves.
+  /// The state of one light's choice while the picture moves.
   struct LightChoice
   {
     int step = 0;              ///< times 2 of its map's side, or 4 of its samples

@@ -30,7 +30,8 @@ public:
   /// @param blending whether blending is switched on outside
   void end(bool blending);
 
-  /// Fills it with receivers that nobody drew, row by row from the bottom, as begin() says.
+  /// Uploads receivers in place of drawing them: one texel a pixel, bottom row first, with the
+  /// channels that begin() lists.
   void fill(int width, int height, const std::vector<glm::vec4>& fragments,
     const std::vector<glm::vec4>& points);
 

@@ -34,15 +34,14 @@ struct WrongProbes
   }
 
   /// The most that the share of wrong pixels is, of which these are a sample, but for one case in
-  /// forty: the upper bound of Wilson's interval (Wilson 1927) with z = 2. Of no points it is 1. Who
-  /// samples on until it is low enough is wrong more often.
+  /// forty: the upper bound of Wilson's interval (Wilson 1927) with z = 2. Without points it is 1.
+  /// Sampling until the bound is low enough makes it wrong more often.
   double mostShare() const;
 };
 
-/// Some points of the picture, seen by rays from the camera, at which visibility is traced to know
-/// how wrong a cheaper way to it is. The picture need not be drawn.
-///
-/// Surfaces that do not cast are not seen, and neither are solids; what is behind them stands in.
+/// Compares a cheap visibility with traced visibility at some pixels, before the picture is drawn.
+/// Camera rays find the receivers. They miss surfaces that do not cast, and solids, and hit the
+/// surface behind.
 class Probes
 {
 public:

@@ -8,8 +8,8 @@
 namespace gnomon
 {
 
-/// Who finds the casting triangles on a ray, on both of their sides, also of one-sided surfaces.
-/// Holes that textures cut are not met, and neither are solids.
+/// Finds the casting triangles on a ray, front and back faces alike. Rays pass through holes that
+/// textures cut, and through solids.
 class CasterHits
 {
 public:

@@ -78,7 +78,7 @@ public:
 
   /// Who says whether segments of the last update's snapshot are free; null: this tracer does not.
   virtual const FreeSegments* freeSegments() const { return nullptr; }
-  /// Who finds the casting triangles on rays, of that snapshot; null: this tracer does not.
+  /// The finder of casting triangles of that snapshot; null if this tracer has none.
   virtual const CasterHits* casterHits() const { return nullptr; }
 
   /// Memory of the acceleration structure, on the CPU and the GPU.

@@ -86,7 +86,8 @@ public:
   /// after the other
   /// @param classes where not null, resized to one for each pixel
   /// @param tiles which of them keep what visibility and classes hold; null: none
-  /// @param verdicts what is known of tiles without rays; null: nothing. There are none for textures
+  /// @param verdicts what is known of tiles without rays; null: nothing. Lights with textures have
+  /// none
   /// @param samples of the light's area, which it has a texture with if any; null: its centre
   /// @param chooser who knows which of a pixel's rays decide the others; null: nobody. There is
   /// none for textures

@@ -1,5 +1,5 @@
-// How well `auto` chooses, as lines of CSV. From random places in a scene, the camera moves by small
-// steps, and `auto` is compared with single techniques, of which the best one that keeps the error
+// How well `auto` chooses, as lines of CSV. From random places in a scene, the camera moves by
+// small steps, and `auto` is compared with single techniques, of which the best one that keeps the error
 // is known only afterwards. Or it flies around the scene with a time budget.
 
 #include "BenchmarkMain.h"
@@ -16,7 +16,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <cmath>
 #include <iostream>
 #include <map>
@@ -90,15 +89,7 @@ struct Runner
     this->variant.renderer()->ResetCameraClippingRange();
   }
   /// @return milliseconds
-  double draw()
-  {
-    this->variant.window()->MakeCurrent();
-    const auto start = std::chrono::steady_clock::now();
-    this->variant.window()->Render();
-    this->variant.window()->WaitForCompletion();
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
-      .count();
-  }
+  double draw() { return drawTimed(this->variant.window()); }
   VisibilityImages visibility()
   {
     this->variant.pass()->KeepVisibilityOn();

@@ -379,7 +379,7 @@ void FuzzScene::traceInstead(const std::set<int>& hard)
     }
     if (!has(this->estimatorOfLight(i).info, "edge_samples"))
     {
-      vtkGnomonLightKeys::SetSetting(light, "edge_samples", "1"); // whatever the pass says
+      vtkGnomonLightKeys::SetSetting(light, "edge_samples", "1"); // overrides the pass
     }
     if (hard.count(static_cast<int>(i)) > 0 && this->isWide(i))
     {

@@ -162,7 +162,7 @@ TEST_F(Auto, movingPicturesHaveMapsThatAreNotDrawnAgain)
 }
 
 //------------------------------------------------------------------------------
-// The map is drawn anew in each frame while the light moves, which takes as long as rays.
+// A moving light bakes its map in each frame, which takes as long as rays.
 TEST_F(Auto, lightsThatMoveTakeRaysAndGoBackToMapsLater)
 {
   this->rest();
