@@ -340,6 +340,11 @@ ShadowLight readLight(vtkLight* light, const ShadowSettings& settings, LitArea l
   result.area = lit.area;
   result.texture = std::move(lit.texture);
   result.strength = glm::clamp(static_cast<double>(light->GetShadowAttenuation()), 0.0, 1.0);
+  const double* const colour = light->GetDiffuseColor();
+  const double* const highlight = light->GetSpecularColor();
+  result.intensity = std::abs(light->GetIntensity()) *
+    std::max(*std::max_element(colour, colour + 3), *std::max_element(highlight, highlight + 3));
+  result.attenuation = glm::make_vec3(light->GetAttenuationValues());
   result.isHeadlight = light->LightTypeIsHeadlight() != 0;
   return result;
 }

@@ -61,6 +61,11 @@ struct ShadowLight : ShadowSettings
   /// mix(lit, v, strength), where lit is 1 or the texture's mean.
   double strength = 1.0;
 
+  /// The largest part of its colour times its intensity: what it gives where nothing attenuates it.
+  double intensity = 1.0;
+  /// Of a light with a position: the light at a distance d is divided by x + y d + z d^2.
+  glm::dvec3 attenuation{ 1.0, 0.0, 0.0 };
+
   /// Whether it is a headlight: it stands at the camera, and lights what the camera sees.
   bool isHeadlight = false;
 

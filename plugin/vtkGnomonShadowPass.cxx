@@ -1,6 +1,7 @@
 #include "vtkGnomonShadowPass.h"
 
 #include "plugin/VisibilityImages.h"
+#include "plugin/frame/FrameWishes.h"
 #include "plugin/frame/Motion.h"
 #include "plugin/frame/Progress.h"
 #include "plugin/frame/ReceiverDrawing.h"
@@ -194,18 +195,19 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
   }
 
   gnomon::RenderManager& manager = this->Internal->managerOf(renderer);
-  const bool moves = this->Moves(renderer->GetRenderWindow());
+  vtkRenderWindow* const window = renderer->GetRenderWindow();
+  const bool moves = this->Moves(window);
   bool marked = false;
   bool drawn = false;
   bool failed = false;
   bool outOfTextureMemory = false;
   try
   {
-    manager.beginFrame(
-      { static_cast<gnomon::RouteWish>(this->Route), static_cast<gnomon::TracerWish>(this->Tracer),
-        static_cast<gnomon::RasterizerWish>(this->Rasterizer), this->KeepVisibility,
-        this->MeasureStages, this->SmoothTerminators, moves, this->MaximumError,
-        this->MaximumSoftError, this->TimeBudget, this->Internal->factors });
+    gnomon::FrameWishes wishes = this->Wishes();
+    wishes.moves = moves;
+    wishes.mayRefine =
+      this->Interactive == INTERACTIVE_AUTO && this->Internal->restingFrame.mayRefine(window);
+    manager.beginFrame(wishes);
 
     // lights
     this->BeginView(s);
@@ -220,9 +222,6 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
 
       // choice
       manager.chooseTechniques();
-      const bool mayFollow =
-        this->Interactive == INTERACTIVE_AUTO && !manager.report().choice.empty();
-      this->Internal->restingFrame.drawn(renderer->GetRenderWindow(), moves && mayFollow);
 
       // From here on, mappers call the hook.
       const vtkRenderPass* delegate = this->FindDelegate(s);
@@ -261,6 +260,12 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
     manager.endFrame();
     this->Internal->shadowed = true;
     this->Internal->progress = leastProgress(manager.report());
+    if (goesOn)
+    {
+      const bool mayFollow =
+        this->Interactive == INTERACTIVE_AUTO && !manager.report().choice.empty();
+      this->Internal->restingFrame.drawn(window, moves && mayFollow, this->Internal->progress);
+    }
   }
   catch (const std::exception& error)
   {
@@ -407,6 +412,25 @@ void vtkGnomonShadowPass::BeginView(const vtkRenderState* s)
 }
 
 //------------------------------------------------------------------------------
+/// What the pass is set to, but for what the window says.
+gnomon::FrameWishes vtkGnomonShadowPass::Wishes() const
+{
+  gnomon::FrameWishes wishes;
+  wishes.route = static_cast<gnomon::RouteWish>(this->Route);
+  wishes.tracer = static_cast<gnomon::TracerWish>(this->Tracer);
+  wishes.rasterizer = static_cast<gnomon::RasterizerWish>(this->Rasterizer);
+  wishes.keepVisibility = this->KeepVisibility;
+  wishes.measureStages = this->MeasureStages;
+  wishes.smoothTerminators = this->SmoothTerminators;
+  wishes.maximumError = this->MaximumError;
+  wishes.maximumSoftError = this->MaximumSoftError;
+  wishes.timeBudget = this->TimeBudget;
+  wishes.memoryBudget = this->MemoryBudget * 1024.0 * 1024.0;
+  wishes.factors = this->Internal->factors;
+  return wishes;
+}
+
+//------------------------------------------------------------------------------
 bool vtkGnomonShadowPass::Moves(vtkRenderWindow* window)
 {
   return this->Interactive == INTERACTIVE_AUTO ? gnomon::isDragged(window)
@@ -490,6 +514,12 @@ void vtkGnomonShadowPass::SetMaximumSoftError(double rootMeanSquare)
 void vtkGnomonShadowPass::SetTimeBudget(double milliseconds)
 {
   this->SetNumber("TimeBudget", milliseconds, VTK_DOUBLE_MAX, this->TimeBudget);
+}
+
+//------------------------------------------------------------------------------
+void vtkGnomonShadowPass::SetMemoryBudget(double mebibytes)
+{
+  this->SetNumber("MemoryBudget", mebibytes, 1e9, this->MemoryBudget);
 }
 
 //------------------------------------------------------------------------------
@@ -690,6 +720,7 @@ void vtkGnomonShadowPass::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "MaximumError: " << this->MaximumError << "\n";
   os << indent << "MaximumSoftError: " << this->MaximumSoftError << "\n";
   os << indent << "TimeBudget: " << this->TimeBudget << " ms\n";
+  os << indent << "MemoryBudget: " << this->MemoryBudget << " MiB\n";
   os << indent << "CostFactors: " << (this->Internal->factors ? "read" : "default") << "\n";
   os << indent << "MeasureStages: " << (this->MeasureStages ? "on" : "off") << "\n";
   os << indent << "KeepVisibility: " << (this->KeepVisibility ? "on" : "off") << "\n";

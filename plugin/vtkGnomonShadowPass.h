@@ -41,6 +41,7 @@ class vtkRenderWindow;
 namespace gnomon
 {
 struct FrameReport;
+struct FrameWishes;
 struct VisibilityImages;
 }
 
@@ -207,7 +208,9 @@ public:
   ///@{
   /**
    * For lights whose technique is "auto". Where no picture at rest follows a moving one within half
-   * a second, the interactor's timer draws one. Default INTERACTIVE_AUTO.
+   * a second, the interactor's timer draws one. On screen, that picture shows some of the samples
+   * of area lights at first, and the timer draws more until all are shown (GetProgress()). Default
+   * INTERACTIVE_AUTO.
    */
   vtkSetClampMacro(Interactive, int, INTERACTIVE_AUTO, INTERACTIVE_ON);
   vtkGetMacro(Interactive, int);
@@ -236,6 +239,20 @@ public:
    */
   virtual void SetTimeBudget(double milliseconds);
   vtkGetMacro(TimeBudget, double);
+  ///@}
+
+  ///@{
+  /**
+   * The most memory for lights' maps and images of visibility, in MiB. Lights get their share in the
+   * order of the light that they can give to what is visible. A map that does not fit is halved,
+   * down to 256 texels a side. A light whose map still does not fit, or whose map's size nobody
+   * knows beforehand (`selective`, `coherence`, `crsm`, `crsma`, `silhouette`), takes rays. A light
+   * whose image does not fit shows no shadow. GetReport() says so. Not counted is what lights share:
+   * the snapshot, the rays' structure and the receivers. Negative numbers are an error and change
+   * nothing. 0, the default, is no budget.
+   */
+  virtual void SetMemoryBudget(double mebibytes);
+  vtkGetMacro(MemoryBudget, double);
   ///@}
 
   /**
@@ -352,6 +369,7 @@ protected:
   double MaximumError = 0.005;
   double MaximumSoftError = 0.03;
   double TimeBudget = 0.0;
+  double MemoryBudget = 0.0;
   bool MeasureStages = false;
   bool KeepVisibility = false;
   vtkRenderPass* DelegatePass = nullptr;
@@ -361,6 +379,7 @@ private:
   vtkRenderPass* FindDelegate(const vtkRenderState* s);
   void SetNumber(const char* name, double value, double most, double& number);
   bool Moves(vtkRenderWindow* window);
+  gnomon::FrameWishes Wishes() const;
   void BeginView(const vtkRenderState* s);
   void DrawScene(const vtkRenderState* s);
   void ComputeShadows(const vtkRenderState* s);

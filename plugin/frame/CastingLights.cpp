@@ -1,10 +1,14 @@
 #include "plugin/frame/CastingLights.h"
 
 #include "lights/SettingsTable.h"
-
+#include "plugin/frame/FrameWishes.h"
+#include "plugin/frame/MemoryBudget.h"
 #include "shadowtech/base/TextureMemory.h"
 #include "shadowtech/tracing/EdgeSettings.h"
 
+#include <vtkRenderer.h>
+
+#include <cmath>
 #include <iterator>
 #include <utility>
 
@@ -122,6 +126,69 @@ std::vector<std::string> findMisfits(
   return misfits;
 }
 
+/// A light, and what it is to be shaded by.
+struct ComposedLight
+{
+  ShadowLight light;
+  const EstimatorEntry* estimator = nullptr;
+  std::optional<ShadowLight> asked; ///< CastingLight's, as is what follows
+  int mostMapTexels = std::numeric_limits<int>::max();
+  std::string budgetReason; ///< LightReport's
+};
+
+Bounds visibleBounds(vtkRenderer* renderer)
+{
+  double bounds[6];
+  renderer->ComputeVisiblePropBounds(bounds);
+  return { { bounds[0], bounds[2], bounds[4] }, { bounds[1], bounds[3], bounds[5] } };
+}
+
+/// Has lights keep to the memory budget.
+/// @param skipped gets those without room for a shadow
+void keepBudget(std::vector<ComposedLight>& lights, vtkRenderer* renderer,
+  const FrameWishes& wishes, std::vector<SkippedLight>& skipped, FrameReport& report)
+{
+  const Bounds seen = visibleBounds(renderer);
+  const int* const size = renderer->GetSize();
+  const std::size_t pixels = static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]);
+  std::vector<LightNeed> needs;
+  for (const ComposedLight& of : lights)
+  {
+    needs.push_back(needOf(of.light, of.estimator->info, seen));
+  }
+  const bool mayBeInline = (wishes.route == RouteWish::Auto || wishes.route == RouteWish::Inline) &&
+    !wishes.keepVisibility;
+  const std::vector<LightShare> shares =
+    shareMemory(needs, wishes.memoryBudget, pixels, mayBeInline);
+
+  std::vector<ComposedLight> casting;
+  for (std::size_t i = 0; i < lights.size(); ++i)
+  {
+    ComposedLight& of = lights[i];
+    if (shares[i].way == LightShare::Way::None)
+    {
+      skipped.push_back(
+        { of.light.sceneIndex, "the memory budget has no room for an image of its visibility" });
+      continue;
+    }
+    of.mostMapTexels = mostTexelsOfEach(wishes.memoryBudget, pixels, lights.size(), of.light);
+    if (shares[i].way == LightShare::Way::Rays)
+    {
+      of.light.technique = "raytraced";
+      of.light.estimator.clear();
+      of.estimator = &composeIn(of.light, report.misfits);
+      of.budgetReason = of.asked ? "" : "the memory budget has no room for its map, so it has rays";
+    }
+    else if (shares[i].mapSizeTexels < of.light.mapSizeTexels)
+    {
+      of.light.mapSizeTexels = shares[i].mapSizeTexels;
+      of.budgetReason = "the memory budget leaves it a coarser map";
+    }
+    casting.push_back(std::move(of));
+  }
+  lights = std::move(casting);
+}
+
 /// Has a light that a map shades what it has at rest.
 void putBack(CastingLight& casting)
 {
@@ -196,20 +263,29 @@ const PointwiseTechnique* CastingLight::pointwiseOn(Route route, bool translucen
 
 //------------------------------------------------------------------------------
 void CastingLights::collect(vtkRenderer* renderer, const ShadowSettings& defaults,
-  TechniquesOfLights& ofView, FrameReport& report)
+  const FrameWishes& wishes, TechniquesOfLights& ofView, FrameReport& report)
 {
   LightSet set = this->manager_.collect(renderer, defaults);
   report.headlightIsAlone = set.headlightIsAlone;
   report.misfits = findMisfits(set.lights, defaults);
 
-  std::vector<const EstimatorEntry*> estimators;
-  std::vector<std::optional<ShadowLight>> asked;
+  std::vector<ComposedLight> composed;
   for (ShadowLight& light : set.lights)
   {
-    asked.push_back(isAutomatic(light) ? std::optional(light) : std::nullopt);
-    estimators.push_back(&composeIn(light, report.misfits));
-    settle(light, estimators.back()->info, report.notes);
-    report.lights.push_back(reportOfCasting(light, estimators.back()->info));
+    ComposedLight& of = composed.emplace_back();
+    of.asked = isAutomatic(light) ? std::optional(light) : std::nullopt;
+    of.estimator = &composeIn(light, report.misfits);
+    of.light = std::move(light);
+    settle(of.light, of.estimator->info, report.notes);
+  }
+  if (wishes.memoryBudget > 0.0)
+  {
+    keepBudget(composed, renderer, wishes, set.skipped, report);
+  }
+  for (const ComposedLight& of : composed)
+  {
+    report.lights.push_back(reportOfCasting(of.light, of.estimator->info));
+    report.lights.back().budgetReason = of.budgetReason;
   }
   std::transform(
     set.skipped.begin(), set.skipped.end(), std::back_inserter(report.lights), reportOfSkipped);
@@ -218,10 +294,11 @@ void CastingLights::collect(vtkRenderer* renderer, const ShadowSettings& default
 
   // Nothing below fails half way: what a light has kept goes on with it.
   std::vector<CastingLight> lights;
-  for (std::size_t i = 0; i < set.lights.size(); ++i)
+  for (ComposedLight& of : composed)
   {
-    lights.push_back(this->take(std::move(set.lights[i]), *estimators[i], ofView));
-    lights.back().asked = std::move(asked[i]);
+    lights.push_back(this->take(std::move(of.light), *of.estimator, ofView));
+    lights.back().asked = std::move(of.asked);
+    lights.back().mostMapTexels = of.mostMapTexels;
   }
   this->lights_ = std::move(lights);
   this->placeVisibility();

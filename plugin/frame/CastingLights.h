@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -16,6 +17,8 @@ class vtkRenderer;
 
 namespace gnomon
 {
+
+struct FrameWishes;
 
 /// What a light keeps from frame to frame.
 struct KeptTechniques
@@ -39,6 +42,10 @@ struct CastingLight : KeptTechniques
   bool shadesAtPoints = false; ///< whether shaders call a technique for it
   bool isStale = true;         ///< image route: whether its visibility is computed in this frame
   bool mayKeepTiles = false;   ///< and whether nothing changed but what may leave some tiles
+  /// Of an area light in a picture at rest that may refine, the samples of its first frame; 0: all.
+  int firstSamples = 0;
+  /// Of a light that leaves its technique to the pass, the largest map that a memory budget allows.
+  int mostMapTexels = std::numeric_limits<int>::max();
   /// Of a light that leaves its technique to the pass, what it asks for; none of others.
   std::optional<ShadowLight> asked = std::nullopt;
   /// What such a light has at rest, while a map shades it.
@@ -70,8 +77,8 @@ class CastingLights
 public:
   /// Reads the lights as they are now, and says of each in the report what becomes of it.
   /// @param ofView what lights whose maps are fitted to a camera keep for this view
-  void collect(vtkRenderer* renderer, const ShadowSettings& defaults, TechniquesOfLights& ofView,
-    FrameReport& report);
+  void collect(vtkRenderer* renderer, const ShadowSettings& defaults, const FrameWishes& wishes,
+    TechniquesOfLights& ofView, FrameReport& report);
 
   ///@{
   /// For this frame, has a light that leaves its technique to the pass shaded by a plain map, or

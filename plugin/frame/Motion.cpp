@@ -31,22 +31,31 @@ RestingFrame::~RestingFrame()
 }
 
 //------------------------------------------------------------------------------
-void RestingFrame::drawn(vtkRenderWindow* window, bool moves)
+bool RestingFrame::mayRefine(vtkRenderWindow* window) const
+{
+  return window && window == this->window_ && this->follows_ && !window->GetOffScreenRendering();
+}
+
+//------------------------------------------------------------------------------
+void RestingFrame::drawn(vtkRenderWindow* window, bool moves, double shown)
 {
   if (!moves && window != this->window_)
   {
     return; // the timer belongs to another window
   }
   this->stop();
+  const bool isMissing = moves || (this->follows_ && shown < 1.0);
+  this->follows_ = false;
   vtkRenderWindowInteractor* const interactor = window ? window->GetInteractor() : nullptr;
-  if (!moves || !interactor || !interactor->GetInitialized())
+  if (!isMissing || !interactor || !interactor->GetInitialized())
   {
     return; // timers need an initialized interactor
   }
-  constexpr unsigned long patience = 500; // milliseconds
+  const unsigned long patience = moves ? 500 : 1; // milliseconds
   this->timer_ = interactor->CreateOneShotTimer(patience);
   if (this->timer_ != 0)
   {
+    this->follows_ = true;
     this->window_ = window;
     this->interactor_ = interactor;
     interactor->AddObserver(vtkCommand::TimerEvent, this->command_);

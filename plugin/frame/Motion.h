@@ -14,8 +14,9 @@ namespace gnomon
 /// its interactor. Windows without an interactor are always at rest.
 bool isDragged(vtkRenderWindow* window);
 
-/// Draws a picture at rest after frames that move. Interactor styles draw one when the user lets go;
-/// programs that animate by themselves may not.
+/// Draws pictures at rest after frames that move. Interactor styles draw one when the user lets go;
+/// programs that animate by themselves may not. If area lights show some of their samples at first,
+/// further pictures follow until all are shown.
 class RestingFrame
 {
 public:
@@ -24,9 +25,14 @@ public:
   RestingFrame(const RestingFrame&) = delete;
   RestingFrame& operator=(const RestingFrame&) = delete;
 
-  /// Restart the timer in each frame of a window. Half a second after a moving frame, the window's
-  /// interactor renders once at its StillUpdateRate.
-  void drawn(vtkRenderWindow* window, bool moves);
+  /// Return true if a picture at rest may refine: the window is on screen, frames that moved came
+  /// before, and a timer of the interactor draws what is missing.
+  bool mayRefine(vtkRenderWindow* window) const;
+
+  /// Restart the timer after each frame of a window. The window's interactor renders at its
+  /// StillUpdateRate half a second after a moving frame, and at once after one that is incomplete.
+  /// @param shown the share of the samples that a frame at rest shows, in [0, 1]
+  void drawn(vtkRenderWindow* window, bool moves, double shown);
 
 private:
   static void onTimer(vtkObject*, unsigned long, void* self, void* timerId);
@@ -36,6 +42,7 @@ private:
   vtkWeakPointer<vtkRenderWindowInteractor> interactor_;
   vtkWeakPointer<vtkRenderWindow> window_; ///< whose frame the timer follows
   int timer_ = 0;                          ///< by the interactor's numbers; 0: none runs
+  bool follows_ = false; ///< whether pictures at rest are to follow the last frame
 };
 
 } // namespace gnomon

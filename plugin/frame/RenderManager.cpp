@@ -58,7 +58,7 @@ bool RenderManager::collectLights(
   this->frame_.view = &this->views_.of(renderer);
   this->frame_.severalViews = severalViews;
   this->frame_.lights.collect(
-    renderer, defaults, this->frame_.view->techniques, this->frame_.report);
+    renderer, defaults, this->frame_.wishes, this->frame_.view->techniques, this->frame_.report);
   this->frame_.endStage("lights");
   if (this->frame_.lights.empty())
   {

@@ -31,8 +31,12 @@ constexpr int mostLooks = 4;
 /// The largest map that is taken for an error's sake.
 constexpr int mostTexels = 4096;
 
-/// The fewest samples of an area light.
-constexpr int fewestSamples = 4;
+/// The samples of an area light at a step of its choice: square numbers. One is enough where
+/// penumbrae are narrower than a pixel.
+int samplesOf(int step)
+{
+  return 1 << (2 * step);
+}
 
 std::string percent(double share)
 {
@@ -87,6 +91,10 @@ void TechniqueChoice::choose(const std::function<void(CastingLight&)>& bake)
   std::string& choice = this->frame_.report.choice;
   if (!this->frame_.wishes.moves)
   {
+    for (CastingLight* const casting : soft)
+    {
+      this->refine(*casting);
+    }
     this->rest();
     choice = "the picture rests: exact";
     return;
@@ -292,8 +300,12 @@ std::string TechniqueChoice::tryMap(
   const double limit = this->frame_.wishes.maximumError;
   LightChoice& choice = this->lights_[casting.light.sceneIndex];
   const int asked = casting.asked->mapSizeTexels;
+  if (asked > casting.mostMapTexels)
+  {
+    return "the memory budget has no room for maps";
+  }
   int mostSteps = 0;
-  while (asked << (mostSteps + 1) <= mostTexels)
+  while (asked << (mostSteps + 1) <= std::min(mostTexels, casting.mostMapTexels))
   {
     ++mostSteps;
   }
@@ -381,7 +393,6 @@ void TechniqueChoice::takeSamples(CastingLight& casting)
     return;
   }
   LightChoice& choice = this->lights_[casting.light.sceneIndex];
-  const auto samplesOf = [](int step) { return fewestSamples << (2 * step); }; // square numbers
   const int all = casting.light.lightSamples;
   while (samplesOf(choice.step) < all && !(choice.isProbed && choice.sinceProbed < framesPerProbe))
   {
@@ -398,6 +409,14 @@ void TechniqueChoice::takeSamples(CastingLight& casting)
     choice.step += choice.isProbed ? 0 : 1;
   }
   casting.light.lightSamples = std::min(samplesOf(choice.step), all);
+}
+
+//------------------------------------------------------------------------------
+/// Has an area light show as many samples at first as it had while it moved.
+void TechniqueChoice::refine(CastingLight& casting)
+{
+  const int samples = samplesOf(this->lights_[casting.light.sceneIndex].step);
+  casting.firstSamples = this->frame_.wishes.mayRefine ? samples : 0;
 }
 
 //------------------------------------------------------------------------------

@@ -70,6 +70,7 @@ private:
   std::string tryMap(CastingLight& casting, const std::function<void(CastingLight&)>& bake);
   std::optional<WrongProbes> probe(const CastingLight& casting, double limit);
   void takeSamples(CastingLight& casting);
+  void refine(CastingLight& casting);
   bool look();
 
   Frame& frame_;

@@ -43,9 +43,11 @@ auto placeOf(const ShadowLight& light)
 /// @param before in the frame before; 0 where that showed something else
 int samplesOf(const CastingLight& casting, int before, bool severalViews)
 {
-  const bool refines =
-    !severalViews && casting.own.info().has(refinementSettings()) && casting.light.area;
-  return refines ? samplesOfStep(casting.light, before) : casting.light.lightSamples;
+  const ShadowLight& light = casting.light;
+  const bool refines = !severalViews && casting.own.info().has(refinementSettings()) && light.area;
+  const int named = light.of<RefinementSettings>().movingSamples;
+  const int first = named > 0 ? named : casting.firstSamples;
+  return samplesOfStep(refines ? first : 0, before, light.lightSamples);
 }
 
 /// True if no other part changed than the props and the snapshot.

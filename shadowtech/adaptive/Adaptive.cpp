@@ -38,6 +38,7 @@ TechniqueInfo Adaptive::info()
 {
   TechniqueInfo info;
   info.name = "adaptive";
+  info.bytesPerTexel = bytesPerTexelWithBounds;
   info.settings = { &viewSettings(), &kernelSettings(), &adaptiveSettings(), &earlyOutSettings(),
     &depthMapSettings() };
   info.kernel = "disc";

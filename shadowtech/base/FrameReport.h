@@ -33,6 +33,9 @@ struct LightReport
   std::string estimator;  ///< what it decides points by
   std::string projection; ///< how its map is laid out; empty when it needs none
   int mapSizeTexels = 0;  ///< side of its map; 0 when it needs none
+  /// What the memory budget leaves it in place of what it asks for, as a clause; empty where it has
+  /// that.
+  std::string budgetReason;
   /// What its views are fitted to: "off" (all casters), "frustum" (what the camera can see at most)
   /// or "receivers" (those that are drawn); empty when it needs no map.
   std::string fit;

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -66,6 +67,9 @@ struct TechniqueInfo
   /// Whether visibility has three channels in a light with a texture (channelsOf()). Of others the
   /// light is an even one of the texture's mean colour.
   bool seesTextures = false;
+
+  /// The most memory of a light's maps, in bytes for each texel of one; none: casters decide it.
+  std::function<double(const ShadowLight&)> bytesPerTexel = {};
 
   /// Why it cannot do what a light's settings say, whose projection is resolved; empty if it can.
   /// Null: it always can.

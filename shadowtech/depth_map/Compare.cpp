@@ -10,6 +10,7 @@ TechniqueInfo Compare::info()
 {
   TechniqueInfo info;
   info.name = "compare";
+  info.bytesPerTexel = bytesPerTexel;
   info.settings = { &viewSettings(), &depthMapSettings() };
   return info;
 }

@@ -254,6 +254,19 @@ std::size_t DepthMapTechnique::bytesOfMaps() const
 }
 
 //------------------------------------------------------------------------------
+double DepthMapTechnique::bytesPerTexel(const ShadowLight& light)
+{
+  return static_cast<double>(sizeof(float)) * mostViews(light);
+}
+
+//------------------------------------------------------------------------------
+double DepthMapTechnique::bytesPerTexelWithBounds(const ShadowLight& light)
+{
+  constexpr double levels = 4.0 / 3.0; // a quarter as many texels each
+  return bytesPerTexel(light) + levels * sizeof(glm::vec2) * mostViews(light);
+}
+
+//------------------------------------------------------------------------------
 std::string DepthMapTechnique::visibilityGlsl(const ShadowLight& light) const
 {
   return lightViewsDefines(light) + glslDefine("MAP_EUCLIDEAN_LIGHT", measuresAlongRay(light)) +

@@ -77,6 +77,11 @@ class DepthMapTechnique : public PointwiseTechnique
 public:
   void bake(const MapInput& input) override;
   std::size_t bytesOfMaps() const override;
+  ///@{
+  /// For TechniqueInfo::bytesPerTexel: of depths, alone and with their bounds (DepthBounds.h).
+  static double bytesPerTexel(const ShadowLight& light);
+  static double bytesPerTexelWithBounds(const ShadowLight& light);
+  ///@}
   std::string visibilityGlsl(const ShadowLight& light) const override;
   std::vector<Uniform> uniforms(const ReceiverSpace& space) const override;
 

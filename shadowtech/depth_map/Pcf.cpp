@@ -58,6 +58,7 @@ TechniqueInfo Pcf::info()
 {
   TechniqueInfo info;
   info.name = "pcf";
+  info.bytesPerTexel = bytesPerTexel;
   info.settings = { &viewSettings(), &kernelSettings(), &pcfSettings(), &depthMapSettings() };
   return info;
 }

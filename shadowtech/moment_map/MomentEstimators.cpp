@@ -1,5 +1,6 @@
 #include "shadowtech/moment_map/MomentEstimators.h"
 
+#include "lights/LightViews.h"
 #include "lights/SettingsTable.h"
 #include "shadowtech/base/Kernel.h"
 
@@ -20,11 +21,26 @@ std::string refusedSums(const ShadowLight& light)
                                                             : "";
 }
 
+/// Of all layers with their levels, the depths they are drawn with, the samples of a layer, and
+/// the table of sums or what blurs a layer.
+double bytesPerTexelOf(int moments, const ShadowLight& light)
+{
+  const auto& settings = light.of<MomentMapSettings>();
+  const bool summed = settings.blur == MapBlur::Sat;
+  const double views = mostViews(light);
+  const double layers = (summed ? 1.0 : views) * (settings.mipMaps ? 4.0 / 3.0 : 1.0);
+  const double samples = settings.samples > 1 ? settings.samples : 0.0;
+  const double images = moments * (layers + samples + (summed ? views : 1.0)) + 1.0;
+  return images * sizeof(float);
+}
+
 /// What an estimator over moments is, like all others.
-TechniqueInfo infoOfMoments(const char* name)
+TechniqueInfo infoOfMoments(const char* name, int moments)
 {
   TechniqueInfo info;
   info.name = name;
+  info.bytesPerTexel = [moments](const ShadowLight& light)
+  { return bytesPerTexelOf(moments, light); };
   info.settings = { &viewSettings(), &kernelSettings(), &momentMapSettings() };
   info.kernel = "square";
   return info;
@@ -44,7 +60,7 @@ const SettingsTable& varianceSettings()
 //------------------------------------------------------------------------------
 MomentEstimator singleExponential()
 {
-  TechniqueInfo info = infoOfMoments("single_exponential");
+  TechniqueInfo info = infoOfMoments("single_exponential", 1);
   info.refused = refusedSums;
   return { std::move(info), 1, "shadowtech/moment_map/single_exponential_moments.glsl",
     "shadowtech/moment_map/single_exponential_estimator.glsl",
@@ -54,7 +70,7 @@ MomentEstimator singleExponential()
 //------------------------------------------------------------------------------
 MomentEstimator variance()
 {
-  TechniqueInfo info = infoOfMoments("variance");
+  TechniqueInfo info = infoOfMoments("variance", 2);
   info.settings.push_back(&varianceSettings());
   return { std::move(info), 2, "shadowtech/moment_map/variance_moments.glsl",
     "shadowtech/moment_map/variance_estimator.glsl", glm::vec4(1.0f), { 1.0f, 2.0f, 1.0f, 1.0f } };
@@ -63,7 +79,7 @@ MomentEstimator variance()
 //------------------------------------------------------------------------------
 MomentEstimator exponential()
 {
-  TechniqueInfo info = infoOfMoments("exponential");
+  TechniqueInfo info = infoOfMoments("exponential", 4);
   info.settings.push_back(&varianceSettings());
   info.refused = refusedSums;
   const double positive = std::exp(exponentPositive);
@@ -76,7 +92,7 @@ MomentEstimator exponential()
 //------------------------------------------------------------------------------
 MomentEstimator fourMoments()
 {
-  return { infoOfMoments("moments"), 4, "shadowtech/moment_map/four_moments.glsl",
+  return { infoOfMoments("moments", 4), 4, "shadowtech/moment_map/four_moments.glsl",
     "shadowtech/moment_map/moments_estimator.glsl", glm::vec4(1.0f), { 1.0f, 2.0f, 4.0f, 8.0f } };
 }
 

@@ -30,12 +30,24 @@ bool isPeeled(const ShadowLight& light)
   return light.of<MonteCarloSettings>().layers == RayLayers::Peeled;
 }
 
+int pagesOf(const ShadowLight& light)
+{
+  return isPeeled(light) ? 2 : 1;
+}
+
+/// Of all views' slabs, and of what one view's are made from.
+std::size_t bytesOfTexel(int views, int pages)
+{
+  const int layers = pages > 1 ? 2 * peeledSurfaces : 1;
+  return static_cast<std::size_t>(4 * views * pages + 2 * layers + 1) * sizeof(float);
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
 void DepthLayers::allocate(const ShadowLight& light, int views)
 {
-  const int pages = isPeeled(light) ? 2 : 1;
+  const int pages = pagesOf(light);
   if (this->sizeTexels_ == light.mapSizeTexels && this->views_ == views && this->pages_ == pages)
   {
     return;
@@ -129,9 +141,13 @@ void DepthLayers::makeSlabs(const MapInput& input, std::size_t view)
 std::size_t DepthLayers::bytes() const
 {
   const auto side = static_cast<std::size_t>(this->sizeTexels_);
-  const int layers = this->pages_ > 1 ? 2 * peeledSurfaces : 1;
-  const auto channels = static_cast<std::size_t>(4 * this->views_ * this->pages_ + 2 * layers + 1);
-  return side * side * channels * sizeof(float);
+  return side * side * bytesOfTexel(this->views_, this->pages_);
+}
+
+//------------------------------------------------------------------------------
+double DepthLayers::bytesPerTexel(const ShadowLight& light)
+{
+  return static_cast<double>(bytesOfTexel(mostViews(light), pagesOf(light)));
 }
 
 } // namespace gnomon

@@ -26,6 +26,7 @@ public:
   GLuint slabs() const { return this->slabs_.name(); }
   int pages() const { return this->pages_; }
   std::size_t bytes() const;
+  static double bytesPerTexel(const ShadowLight& light); ///< of the map's, for all of that
 
 private:
   void allocate(const ShadowLight& light, int views);

@@ -103,6 +103,8 @@ TechniqueInfo MonteCarlo::info()
   info.name = "montecarlo";
   info.settings = { &viewSettings(), &lightSeedSettings(), &monteCarloSettings() };
   info.seesTextures = true;
+  info.bytesPerTexel = [](const ShadowLight& light)
+  { return DepthLayers::bytesPerTexel(light) + SlabBounds::bytesPerTexel(light); };
   info.refused = refusedByMonteCarlo;
   info.classes = { { "no receiver", { 0, 0, 0 } }, { "turned away from the light", { 0, 140, 60 } },
     { "lit by the map's bounds", { 230, 230, 230 } },

@@ -1,9 +1,11 @@
 #include "shadowtech/montecarlo/SlabBounds.h"
 
+#include "lights/LightViews.h"
 #include "shadowtech/base/ShaderLibrary.h"
 #include "shadowtech/base/TextureMemory.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace gnomon
 {
@@ -106,6 +108,15 @@ std::size_t SlabBounds::bytes() const
     }
   }
   return texels * static_cast<std::size_t>(this->views_) * 4 * sizeof(float);
+}
+
+//------------------------------------------------------------------------------
+double SlabBounds::bytesPerTexel(const ShadowLight& light)
+{
+  const bool mips = light.of<MonteCarloSettings>().pyramid == SlabHierarchy::Mips;
+  const double levels = mips ? 4.0 / 3.0 : 2.0 + std::log2(light.mapSizeTexels);
+  constexpr double rounded = 4.0; // texels for one
+  return rounded * levels * mostViews(light) * 4 * sizeof(float);
 }
 
 } // namespace gnomon

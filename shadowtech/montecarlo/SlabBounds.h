@@ -32,6 +32,8 @@ public:
   GLuint texture() const { return this->texture_.name(); }
   int topLevel() const { return this->topLevel_; }
   std::size_t bytes() const;
+  /// The most for a texel of a light's map: its side may be rounded up to twice as many texels.
+  static double bytesPerTexel(const ShadowLight& light);
 
 private:
   void allocate(int sizeTexels, int views, SlabHierarchy kind);

@@ -25,6 +25,7 @@ TechniqueInfo Pcss::info()
 {
   TechniqueInfo info;
   info.name = "pcss";
+  info.bytesPerTexel = bytesPerTexelWithBounds;
   info.settings = { &viewSettings(), &pcssSettings(), &earlyOutSettings(), &depthMapSettings(),
     &publishedSettings() };
   info.refused = refusedByPcss;

@@ -35,6 +35,7 @@ TechniqueInfo PublishedPcss::info()
 {
   TechniqueInfo info;
   info.name = "pcss_as_published";
+  info.bytesPerTexel = bytesPerTexel;
   info.asPublished = info.name;
   info.settings = { &viewSettings(), &pcssSettings(), &depthMapSettings(), &publishedSettings() };
   info.refused = refusedByPublishedPcss;

@@ -85,6 +85,8 @@ TechniqueInfo Sampled::info()
   info.settings = { &viewSettings(), &lightSampleSettings(), &lightSeedSettings(),
     &sampledSettings(), &depthMapSettings() };
   info.seesTextures = true;
+  info.bytesPerTexel = [](const ShadowLight& light)
+  { return (1.0 + light.of<SampledSettings>().batch) * Compare::bytesPerTexel(light); };
   info.refused = refusedBySampled;
   return info;
 }

@@ -17,12 +17,13 @@ struct RefinementSettings
 };
 
 /// How many of an area light's samples a frame takes.
+/// @param first samples of the first frame after a change; 0: all
 /// @param before samples of the frame before; 0 where that showed something else
-inline int samplesOfStep(const ShadowLight& light, int before)
+/// @param all the light's samples
+inline int samplesOfStep(int first, int before, int all)
 {
   constexpr int growth = 4; // keeps square numbers square
-  const int wanted = before > 0 ? growth * before : light.of<RefinementSettings>().movingSamples;
-  return wanted > 0 ? std::min(wanted, light.lightSamples) : light.lightSamples;
+  return first > 0 ? std::min(before > 0 ? growth * before : first, all) : all;
 }
 
 /// Of techniques that take any number of samples.

@@ -536,6 +536,63 @@ TEST_F(Auto, framesMoveWhileTheInteractorAsksForMoreThanAtRest)
 }
 
 //------------------------------------------------------------------------------
+// On screen, what follows a motion shows some samples at first, and a timer draws the rest.
+TEST_F(Auto, areaLightsRefineOnceTheyRest)
+{
+  this->pass->SetSetting("light_radius", "3");
+  const Picture expected = this->rest();
+  vtkNew<PatientInteractor> interactor;
+  interactor->SetRenderWindow(this->window);
+  interactor->Initialize();
+  const auto samples = [&] { return this->report().lights[0].lightSamples; };
+  const auto drag = [&](double degrees)
+  {
+    this->window->SetDesiredUpdateRate(interactor->GetDesiredUpdateRate());
+    this->renderer->GetActiveCamera()->Azimuth(degrees);
+    this->render();
+    this->window->SetDesiredUpdateRate(interactor->GetStillUpdateRate());
+  };
+  drag(1.0);
+  drag(-1.0);
+  EXPECT_TRUE(expected == this->render()) << "an off-screen picture is complete";
+  EXPECT_EQ(this->pass->GetProgress(), 1.0);
+  EXPECT_EQ(interactor->timer, 0);
+
+  this->window->SetOffScreenRendering(0);
+  drag(1.0);
+  drag(-1.0);
+  const int whileMoving = samples();
+  EXPECT_LT(whileMoving, 64);
+  this->render();
+  EXPECT_LE(samples(), whileMoving);
+  EXPECT_LT(this->pass->GetProgress(), 1.0);
+  EXPECT_EQ(interactor->patience, 1u);
+  for (int before = samples(); interactor->timer != 0; before = samples())
+  {
+    interactor->run();
+    ASSERT_EQ(samples(), 4 * before);
+  }
+  EXPECT_EQ(this->pass->GetProgress(), 1.0);
+  EXPECT_TRUE(expected == this->render());
+  EXPECT_EQ(this->report().visibilityComputed, 0);
+  this->window->SetInteractor(nullptr);
+}
+
+//------------------------------------------------------------------------------
+// The report says what was chosen. Lights that name it show the same.
+TEST_F(Auto, whatATimeBudgetChoseCanBeNamed)
+{
+  this->pass->SetTimeBudget(1e-6);
+  this->rest();
+  const Picture chosen = this->move();
+  const gnomon::LightReport light = this->report().lights[0];
+  ASSERT_EQ(light.technique, "nsm") << this->report().choice;
+  this->pass->SetSetting("technique", light.technique.c_str());
+  this->pass->SetMapSize(light.mapSizeTexels);
+  EXPECT_TRUE(chosen == this->rest());
+}
+
+//------------------------------------------------------------------------------
 // Lights that name a technique have it, whatever the pass leaves open.
 TEST_F(Auto, lightsThatNameATechniqueKeepIt)
 {

@@ -1,0 +1,238 @@
+// SetMemoryBudget: which lights keep their maps.
+
+#include "PassScene.h"
+
+#include "lights/vtkGnomonLightKeys.h"
+#include "plugin/frame/MemoryBudget.h"
+#include "shadowtech/Registry.h"
+
+#include <gmock/gmock.h>
+
+#include <limits>
+#include <string>
+#include <vector>
+
+using namespace gnomon;
+using namespace gnomon::test;
+using testing::HasSubstr;
+using testing::Not;
+using LightWay = LightShare::Way;
+
+namespace
+{
+
+constexpr double mebibyte = 1024.0 * 1024.0;
+
+/// A light whose map of 1024 texels a side takes 4 MiB, and shaders may ask it.
+LightNeed lamp(double mostLight)
+{
+  LightNeed need;
+  need.mostLight = mostLight;
+  need.mapSizeTexels = 1024;
+  need.bytesPerTexel = 4.0;
+  need.isPointwise = true;
+  return need;
+}
+
+std::vector<int> sidesOf(const std::vector<LightShare>& shares)
+{
+  std::vector<int> sides;
+  for (const LightShare& share : shares)
+  {
+    sides.push_back(share.way == LightWay::Map ? share.mapSizeTexels
+        : share.way == LightWay::Rays          ? 0
+                                               : -1);
+  }
+  return sides;
+}
+
+constexpr std::size_t megapixel = 1024 * 1024; // an image of numbers takes 4 MiB
+
+} // namespace
+
+//------------------------------------------------------------------------------
+TEST(MemoryBudget, brightLightsKeepTheirMaps)
+{
+  const std::vector<LightNeed> lights = { lamp(1.0), lamp(3.0), lamp(2.0) };
+  EXPECT_EQ(sidesOf(shareMemory(lights, 12.0 * mebibyte, megapixel, true)),
+    (std::vector{ 1024, 1024, 1024 }));
+  EXPECT_EQ(sidesOf(shareMemory(lights, 9.5 * mebibyte, megapixel, true)),
+    (std::vector{ 512, 1024, 1024 }));
+  EXPECT_EQ(sidesOf(shareMemory(lights, 5.25 * mebibyte, megapixel, true)),
+    (std::vector{ 256, 1024, 512 }));
+}
+
+//------------------------------------------------------------------------------
+// Images come first: they show the shadows of rays, too. What they leave, maps share.
+TEST(MemoryBudget, thenTheyTakeRaysAndThenNone)
+{
+  const std::vector<LightNeed> lights = { lamp(1.0), lamp(3.0), lamp(2.0) };
+  EXPECT_EQ(sidesOf(shareMemory(lights, 24.5 * mebibyte, megapixel, false)),
+    (std::vector{ 256, 1024, 256 }));
+  EXPECT_EQ(
+    sidesOf(shareMemory(lights, 24.0 * mebibyte, megapixel, false)), (std::vector{ 0, 1024, 0 }));
+  EXPECT_EQ(
+    sidesOf(shareMemory(lights, 19.9 * mebibyte, megapixel, false)), (std::vector{ -1, 512, 512 }));
+  EXPECT_EQ(
+    sidesOf(shareMemory(lights, 7.0 * mebibyte, megapixel, false)), (std::vector{ -1, -1, -1 }));
+}
+
+//------------------------------------------------------------------------------
+TEST(MemoryBudget, mapsWhoseSizeNobodyKnowsGiveWayToRays)
+{
+  LightNeed unknown = lamp(1.0);
+  unknown.isPointwise = false;
+  unknown.isHard = true;
+  unknown.bytesPerTexel = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(sidesOf(shareMemory({ unknown }, 1e12, megapixel, true)), (std::vector{ 0 }));
+  unknown.bytesPerTexel = 0.0; // it has none
+  EXPECT_EQ(
+    sidesOf(shareMemory({ unknown }, 8.0 * mebibyte, megapixel, true)), (std::vector{ 1024 }));
+}
+
+//------------------------------------------------------------------------------
+TEST(MemoryBudget, lampsGiveMostAtTheNearestPoint)
+{
+  Bounds seen;
+  seen.add(glm::dvec3(-1.0));
+  seen.add(glm::dvec3(1.0));
+  ShadowLight light;
+  light.kind = LightKind::Point;
+  light.intensity = 6.0;
+  light.positionWorld = { 4.0, 0.0, 0.0 };
+  light.attenuation = { 1.0, 0.5, 0.0 };
+  const TechniqueInfo& info = findTechnique("nsm")->estimator->info;
+  EXPECT_DOUBLE_EQ(needOf(light, info, seen).mostLight, 6.0 / 2.5);
+  light.positionWorld = { 0.5, 0.0, 0.0 };
+  EXPECT_DOUBLE_EQ(needOf(light, info, seen).mostLight, 6.0);
+  light.attenuation = { 0.0, 0.0, 1.0 };
+  EXPECT_EQ(needOf(light, info, seen).mostLight, std::numeric_limits<double>::infinity());
+}
+
+namespace
+{
+
+/// A box over a floor under a lamp all around.
+class MemoryBudgetOfPass
+  : public PassTest
+  , public PassScene
+{
+protected:
+  MemoryBudgetOfPass()
+    : PassScene(128, 96)
+  {
+    this->addFloor(20.0);
+    this->addBox(hangingBox.lower, hangingBox.upper);
+    this->lookFrom({ 4.0, -9.0, 7.0 });
+  }
+
+  vtkLight* addLamp(double x, double intensity)
+  {
+    vtkLight* const light = this->addSpot({ x, 0.0, 6.0 }, { x, 0.0, 0.0 }, allDirections);
+    light->SetIntensity(intensity);
+    return light;
+  }
+  std::string budgetReason(std::size_t light) const
+  {
+    return this->report().lights[light].budgetReason;
+  }
+};
+
+} // namespace
+
+//------------------------------------------------------------------------------
+// What a map takes is known before it is drawn, for all techniques that say so.
+TEST_F(MemoryBudgetOfPass, mapsTakeAtMostWhatIsExpected)
+{
+  this->addLamp(0.0, 1.0);
+  constexpr int side = 512;
+  this->pass->SetMapSize(side);
+  this->pass->SetSetting("light_radius", "0.5"); // for those with soft shadows
+  for (const TechniqueEntry& entry : registry())
+  {
+    const TechniqueInfo& info = entry.estimator->info;
+    const bool lampCanHave = entry.projection == Projection::Cube ||
+      entry.projection == Projection::Uniform || !info.bytesPerTexel;
+    if (!info.bytesPerTexel || !lampCanHave)
+    {
+      continue;
+    }
+    SCOPED_TRACE(entry.name);
+    this->pass->SetTechnique(entry.name.c_str());
+    this->render();
+    ASSERT_TRUE(this->report().lights[0].casts) << this->report().lights[0].reason;
+    ShadowLight light;
+    light.kind = LightKind::Point;
+    light.mapSizeTexels = side;
+    light.projection = entry.projection;
+    const double expected = info.bytesPerTexel(light) * side * side;
+    const double images = 16.0 * 4 * 128 * 96; // what techniques keep by pixel
+    const double tables = 0.5 * mebibyte;
+    const auto bytes = static_cast<double>(this->report().bytesMaps);
+    EXPECT_LE(bytes, expected + images + tables);
+    EXPECT_GE(bytes, 0.1 * expected) << "a bound that loose says nothing";
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(MemoryBudgetOfPass, theReportSaysWhatIsLeft)
+{
+  this->addLamp(-2.0, 0.2);
+  this->addLamp(0.0, 1.0);
+  this->addLamp(2.0, 0.5);
+  this->pass->SetTechnique("nsm"); // six faces of 4 MiB a lamp
+  const Picture asked = this->render();
+  EXPECT_EQ(this->report().lights[0].mapSizeTexels, 1024);
+  this->pass->SetMemoryBudget(72.0);
+  EXPECT_TRUE(asked == this->render());
+  EXPECT_EQ(budgetReason(0), "");
+
+  this->pass->SetMemoryBudget(32.0);
+  this->render();
+  EXPECT_LE(this->report().bytesMaps, 32 * 1024 * 1024u);
+  EXPECT_EQ(this->report().lights[1].mapSizeTexels, 1024);
+  EXPECT_EQ(budgetReason(1), "");
+  EXPECT_EQ(this->report().lights[2].mapSizeTexels, 512);
+  EXPECT_THAT(budgetReason(2), HasSubstr("coarser map"));
+
+  this->pass->SetMemoryBudget(1.0);
+  this->render();
+  EXPECT_EQ(this->report().bytesMaps, 0u);
+  EXPECT_EQ(this->report().lights[0].technique, "raytraced");
+  EXPECT_THAT(budgetReason(0), HasSubstr("rays"));
+
+  this->pass->SetMemoryBudget(0.05);
+  this->render();
+  EXPECT_FALSE(this->report().lights[0].casts);
+  EXPECT_THAT(this->report().lights[0].reason, HasSubstr("memory budget"));
+  EXPECT_EQ(this->report().route, "none");
+
+  this->pass->SetMemoryBudget(0.0);
+  EXPECT_TRUE(asked == this->render());
+  this->pass->SetMemoryBudget(-1.0);
+  EXPECT_THAT(this->takeErrors(), HasSubstr("MemoryBudget was to be"));
+  EXPECT_EQ(this->pass->GetMemoryBudget(), 0.0);
+}
+
+//------------------------------------------------------------------------------
+// `auto` is exact at rest with any budget, and takes maps while it moves only where they fit.
+TEST_F(MemoryBudgetOfPass, automaticLightsKeepToIt)
+{
+  this->addSun(slantingSun);
+  this->pass->SetTechnique("auto");
+  const Picture expected = this->render();
+  this->pass->SetMemoryBudget(6.0);
+  EXPECT_TRUE(expected == this->render());
+  EXPECT_EQ(this->report().lights[0].technique, "raytraced");
+  EXPECT_EQ(budgetReason(0), "");
+  this->pass->SetInteractive(vtkGnomonShadowPass::INTERACTIVE_ON);
+  this->renderer->GetActiveCamera()->Azimuth(1.0);
+  this->render();
+  EXPECT_EQ(this->report().lights[0].technique, "nsm") << this->report().choice;
+  EXPECT_LE(this->report().bytesMaps, 6 * 1024 * 1024u);
+  this->pass->SetMemoryBudget(3.0);
+  this->renderer->GetActiveCamera()->Azimuth(1.0);
+  this->render();
+  EXPECT_EQ(this->report().lights[0].technique, "raytraced");
+  EXPECT_THAT(this->report().choice, HasSubstr("memory budget"));
+}
