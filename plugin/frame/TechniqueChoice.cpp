@@ -179,7 +179,12 @@ void TechniqueChoice::chooseMoving(const std::vector<CastingLight*>& hard,
   const double byMaps = costByMaps(counters, factorsOf(wishes));
   const double byRays = costByRays(counters, factorsOf(wishes));
   std::string whyRays = this->whyNoMaps();
-  if (whyRays.empty())
+  const bool waits = this->byRays_ > 0 && this->byRays_ < this->patience_;
+  if (whyRays.empty() && waits)
+  {
+    whyRays = this->whyRays_;
+  }
+  else if (whyRays.empty())
   {
     whyRays = this->whyRaysAreFast(byMaps, byRays);
     if (!whyRays.empty() && wishes.timeBudget == 0.0)
@@ -197,6 +202,7 @@ void TechniqueChoice::chooseMoving(const std::vector<CastingLight*>& hard,
       this->byRays_ = 0;
     }
   }
+  this->whyRays_ = whyRays;
   const bool takesMaps = whyRays.empty();
   this->byMaps_ = takesMaps ? this->byMaps_ + 1 : 0;
   this->byRays_ = takesMaps ? 0 : this->byRays_ + 1;
@@ -270,7 +276,7 @@ std::string TechniqueChoice::whyNoMaps() const
   {
     return "the GPU traces, which does not say what pixels show, so that no map can be probed";
   }
-  return this->byRays_ > 0 && this->byRays_ < this->patience_ ? "they were a few frames ago" : "";
+  return {};
 }
 
 //------------------------------------------------------------------------------

@@ -81,6 +81,7 @@ private:
   std::size_t view_ = 0;                            ///< of the frame before, as a hash
   std::pair<std::uint64_t, std::uint64_t> casters_; ///< of the frame before: their versions
   int byRays_ = 0;                                  ///< frames in a row that took rays
+  std::string whyRays_;                             ///< and why, as a clause
   int byMaps_ = 0;                                  ///< and maps
   int patience_ = 0;                                ///< how many frames of rays come before maps
   Probes probes_;

@@ -4,15 +4,29 @@
 
 #include <glm/gtc/type_ptr.hpp>
 
+#include <algorithm>
+#include <cctype>
 #include <memory>
-#include <regex>
 #include <set>
-#include <sstream>
 
 namespace gnomon
 {
 namespace
 {
+
+/// How lines begin that include a file.
+const std::string includeOf = "#include \"";
+
+/// Where the next line is that includes a file; npos if there is none.
+std::size_t nextInclude(const std::string& source, std::size_t from)
+{
+  std::size_t at = source.find(includeOf, from);
+  while (at != std::string::npos && at > 0 && source[at - 1] != '\n')
+  {
+    at = source.find(includeOf, at + 1);
+  }
+  return at;
+}
 
 void appendWithIncludes(const std::string& path, std::set<std::string>& seen, std::string& text)
 {
@@ -25,20 +39,19 @@ void appendWithIncludes(const std::string& path, std::set<std::string>& seen, st
   {
     throw ShaderError("no such shader source: " + path);
   }
-  static const std::regex include("^\\s*#include\\s+\"([^\"]+)\"\\s*$");
-  std::istringstream lines(found->second);
-  for (std::string line; std::getline(lines, line);)
+  // Frames ask for sources again and again: what is between includes is copied as a whole.
+  const std::string& source = found->second;
+  std::size_t copied = 0;
+  for (std::size_t at = nextInclude(source, 0); at != std::string::npos;
+       at = nextInclude(source, copied))
   {
-    std::smatch match;
-    if (std::regex_match(line, match, include))
-    {
-      appendWithIncludes(match[1], seen, text);
-    }
-    else
-    {
-      text += line + '\n';
-    }
+    text.append(source, copied, at - copied);
+    const std::size_t name = at + includeOf.size();
+    const std::size_t nameEnd = source.find('"', name);
+    appendWithIncludes(source.substr(name, nameEnd - name), seen, text);
+    copied = std::min(source.find('\n', nameEnd), source.size() - 1) + 1;
   }
+  text.append(source, copied);
 }
 
 std::string infoLog(GLuint object, bool isProgram)
@@ -96,8 +109,24 @@ std::string ShaderLibrary::source(const std::string& path)
 //------------------------------------------------------------------------------
 std::string numberedForLight(const std::string& text, int light)
 {
-  static const std::regex suffix("_LIGHT\\b");
-  return std::regex_replace(text, suffix, "_" + std::to_string(light));
+  const std::string suffix = "_LIGHT";
+  const std::string number = "_" + std::to_string(light);
+  const auto continues = [&](std::size_t at)
+  {
+    return at < text.size() &&
+      (std::isalnum(static_cast<unsigned char>(text[at])) || text[at] == '_');
+  };
+  std::string numbered;
+  numbered.reserve(text.size());
+  std::size_t copied = 0;
+  for (std::size_t at = text.find(suffix); at != std::string::npos; at = text.find(suffix, copied))
+  {
+    const std::size_t end = at + suffix.size();
+    numbered.append(text, copied, at - copied);
+    numbered += continues(end) ? suffix : number;
+    copied = end;
+  }
+  return numbered.append(text, copied);
 }
 
 namespace

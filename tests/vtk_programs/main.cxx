@@ -7,6 +7,10 @@
 //
 // writes PREFIX.messages, PREFIX.lights ("own" or "key") and one PREFIX.N.ppm a window: its last
 // picture. The program's own passes are not used; without PROGRAM_TECHNIQUE there is none.
+//
+// With PROGRAM_FRAMES=N, where the program starts its interactor, the camera of its first renderer
+// moves by small steps, in runs of N frames without Gnomon and with it, as of a picture that moves;
+// PREFIX.motion gets the median milliseconds of both, and what `auto` chose last.
 
 #include <vtkGnomonEGLRenderWindow.h>
 #include <vtkGnomonLightPlacement.h>
@@ -28,11 +32,16 @@
 #include <vtkVersion.h>
 #include <vtkWindowToImageFilter.h>
 
+#include "shadowtech/base/FrameReport.h"
+
+#include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <iostream>
 #include <string>
+#include <vector>
 
 VTK_MODULE_INIT(vtkRenderingOpenGL2)
 VTK_MODULE_INIT(vtkRenderingFreeType)
@@ -50,6 +59,8 @@ std::string environment(const char* name)
   return value ? value : "";
 }
 
+bool movesByPass = false;  // whether frames that are timed have the pass
+bool movesPlainly = false; // or none
 bool anyOwnLight = false;
 bool anyKeyLight = false;
 
@@ -90,7 +101,7 @@ public:
     }
     this->Light();
     const std::string technique = environment("PROGRAM_TECHNIQUE");
-    if (technique.empty())
+    if (technique.empty() || movesPlainly)
     {
       // The program's own passes and shadows would hide what Gnomon's change.
       this->SetPass(nullptr);
@@ -103,10 +114,14 @@ public:
         this->Shadows = vtkSmartPointer<vtkGnomonShadowPass>::New();
         this->Shadows->SetTechnique(technique.c_str());
       }
+      this->Shadows->SetInteractive(
+        movesByPass ? vtkGnomonShadowPass::INTERACTIVE_ON : vtkGnomonShadowPass::INTERACTIVE_AUTO);
       this->SetPass(this->Shadows);
     }
     this->Superclass::DeviceRender();
   }
+
+  std::string GetChoice() { return this->Shadows ? this->Shadows->GetReport().choice : ""; }
 
 private:
   void Light()
@@ -131,6 +146,10 @@ private:
       this->Key = vtkSmartPointer<vtkLight>::New();
       this->AddLight(this->Key);
       anyKeyLight = true;
+    }
+    if (movesByPass || movesPlainly)
+    {
+      return; // the camera moves, not the light
     }
     double bounds[6];
     this->ComputeVisiblePropBounds(bounds);
@@ -164,7 +183,50 @@ public:
     }
   }
 
+  // Moves the camera by runs of frames without Gnomon and with it in turns. VTK makes its shaders
+  // anew where a pass comes or goes, so that a run's first frames do not count.
+  void Move(int frames)
+  {
+    const int runs = 4;
+    const int firstFrames = 4;
+    this->Writing = true;
+    auto* renderer = static_cast<Renderer*>(this->Renderers->GetFirstRenderer());
+    std::vector<double> milliseconds[2];
+    for (int run = 0; run < 2 * runs; ++run)
+    {
+      const bool withPass = run % 2 != 0;
+      movesPlainly = !withPass;
+      movesByPass = withPass;
+      for (int i = 0; i < firstFrames + frames; ++i)
+      {
+        renderer->GetActiveCamera()->Azimuth(0.2);
+        const double time = this->MillisecondsOfFrame();
+        if (i >= firstFrames)
+        {
+          milliseconds[withPass].push_back(time);
+        }
+      }
+    }
+    std::ofstream file(environment("PROGRAM_OUT") + ".motion");
+    for (std::vector<double>& times : milliseconds)
+    {
+      std::sort(times.begin(), times.end());
+      file << times[times.size() / 2] << '\t';
+    }
+    file << renderer->GetChoice() << '\n';
+    movesPlainly = movesByPass = this->Writing = false;
+  }
+
 private:
+  double MillisecondsOfFrame()
+  {
+    const auto start = std::chrono::steady_clock::now();
+    this->Superclass::Render();
+    this->WaitForCompletion();
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
+      .count();
+  }
+
   Window()
   {
     static int windows = 0;
@@ -218,6 +280,10 @@ public:
       this->Initialize();
     }
     this->Render();
+    if (const std::string frames = environment("PROGRAM_FRAMES"); !frames.empty())
+    {
+      static_cast<Window*>(this->RenderWindow)->Move(std::stoi(frames));
+    }
   }
 };
 vtkStandardNewMacro(Interactor);
