@@ -33,13 +33,21 @@ find_package(VTK 9.1 REQUIRED COMPONENTS
   RenderingVolumeOpenGL2
   ViewsContext2D
   glew)
+if(GNOMON_WRAP_PYTHON)
+  # Another Python on the path has no wrappers of the system's VTK.
+  if(VTK_DIR MATCHES "^/usr/lib" AND NOT DEFINED Python3_EXECUTABLE)
+    set(Python3_EXECUTABLE /usr/bin/python3)
+  endif()
+  find_package(Python3 REQUIRED COMPONENTS Interpreter Development.Module)
+  find_package(VTK 9.1 REQUIRED COMPONENTS Python WrappingPythonCore)
+endif()
 find_package(glm REQUIRED)
 find_package(embree 3 REQUIRED)
+find_package(nlohmann_json REQUIRED)
 find_package(TBB REQUIRED)
 find_package(OpenGL REQUIRED COMPONENTS OpenGL EGL)
 if(GNOMON_BUILD_EXAMPLES)
   find_package(CLI11 REQUIRED)
-  find_package(nlohmann_json REQUIRED)
   find_package(OpenEXR 3 REQUIRED)
   find_package(PNG REQUIRED)
   find_package(ZLIB REQUIRED)

@@ -6,6 +6,8 @@
 #include "plugin/frame/Progress.h"
 #include "plugin/frame/ReceiverDrawing.h"
 #include "plugin/frame/RenderManager.h"
+#include "plugin/frame/ReportText.h"
+#include "plugin/frame/VisibilityData.h"
 #include "plugin/scene/ShownView.h"
 #include "plugin/window/AroundOpaque.h"
 #include "plugin/window/PassContext.h"
@@ -660,6 +662,24 @@ const gnomon::VisibilityImages& vtkGnomonShadowPass::GetVisibility() const
 {
   return this->Internal->shadowed ? this->Internal->manager().visibility()
                                   : this->Internal->noVisibility;
+}
+
+//------------------------------------------------------------------------------
+std::string vtkGnomonShadowPass::GetReportText() const
+{
+  return gnomon::textOf(this->GetReport());
+}
+
+//------------------------------------------------------------------------------
+void vtkGnomonShadowPass::GetReportTable(vtkTable* lights) const
+{
+  gnomon::fillTable(this->GetReport(), lights);
+}
+
+//------------------------------------------------------------------------------
+void vtkGnomonShadowPass::GetVisibilityImage(vtkImageData* image) const
+{
+  gnomon::fillImage(this->GetVisibility(), image);
 }
 
 //------------------------------------------------------------------------------

@@ -36,7 +36,9 @@
 
 #include <memory> // For std::unique_ptr
 
+class vtkImageData;
 class vtkRenderWindow;
+class vtkTable;
 
 namespace gnomon
 {
@@ -323,6 +325,15 @@ public:
    */
   const gnomon::FrameReport& GetReport() const;
 
+  ///@{
+  /**
+   * The same as text, in JSON, and its lights as rows of a table, of numbers and strings. Both are
+   * the caller's own. `lights[i].map_size_texels` of the text is the column `map_size_texels`.
+   */
+  std::string GetReportText() const;
+  void GetReportTable(vtkTable* lights) const;
+  ///@}
+
   /**
    * How much of what lights' techniques are to show the last frame showed, in [0, 1]: below 1 where
    * they take several frames (the setting `progressive` of `sampled`), and further frames of the
@@ -341,6 +352,15 @@ public:
    * light casts. Empty unless KeepVisibility was on while it was drawn.
    */
   const gnomon::VisibilityImages& GetVisibility() const;
+
+  /**
+   * The same as an image of a point a pixel, row 0 at the bottom, which is the caller's own. Its
+   * point data: "light N" for each light that casts, by its number in the renderer's collection, 1
+   * lit, 0 in shadow (three components of a light with a texture); "position", in world
+   * coordinates; "normal", geometric, of unit length, on the camera's side; "coverage", 1 where a
+   * surface was drawn, else 0, and the other numbers mean nothing.
+   */
+  void GetVisibilityImage(vtkImageData* image) const;
 
   void ReleaseGraphicsResources(vtkWindow* window) override;
 

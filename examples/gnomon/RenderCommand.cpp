@@ -13,6 +13,7 @@
 
 #include "lights/LightManager.h"
 #include "plugin/VisibilityImages.h"
+#include "plugin/frame/ReportText.h"
 #include "plugin/vtkGnomonEGLRenderWindow.h"
 #include "plugin/vtkGnomonLightSamplingPass.h"
 #include "plugin/vtkGnomonShadowPass.h"
@@ -217,66 +218,6 @@ void requireDrawable(const PictureSize& size, vtkOpenGLRenderWindow* window)
   requireDrawable(size, side, viewport[0], viewport[1]);
 }
 
-nlohmann::ordered_json classesToJson(const std::vector<ClassCount>& classes)
-{
-  nlohmann::ordered_json json = nlohmann::ordered_json::object();
-  for (const ClassCount& of : classes)
-  {
-    json[of.name] = of.pixels;
-  }
-  return json;
-}
-
-nlohmann::ordered_json toJson(const FrameReport& report)
-{
-  nlohmann::ordered_json json;
-  json["route"] = report.route;
-  json["route_reason"] = report.routeReason;
-  json["choice"] = report.choice;
-  json["probes"] = report.probes;
-  json["tracer"] = report.tracer;
-  json["tracer_reason"] = report.tracerReason;
-  json["lights"] = nlohmann::ordered_json::array();
-  for (const LightReport& light : report.lights)
-  {
-    json["lights"].push_back(
-      { { "scene_index", light.sceneIndex }, { "casts", light.casts }, { "reason", light.reason },
-        { "technique", light.technique }, { "estimator", light.estimator },
-        { "projection", light.projection }, { "map_size_texels", light.mapSizeTexels },
-        { "fit", light.fit }, { "fit_reason", light.fitReason }, { "map_reason", light.mapReason },
-        { "rasterizer", light.rasterizer }, { "rasterizer_reason", light.rasterizerReason },
-        { "casters_left_out", light.castersLeftOut }, { "kernel", light.kernel },
-        { "kernel_size_texels", light.kernelTexels }, { "map_samples", light.mapSamples },
-        { "traced_pixels", light.tracedPixels }, { "rays", light.rays },
-        { "light_samples", light.lightSamples }, { "progress", light.progress },
-        { "tiles_lit", light.tilesLit }, { "tiles_dark", light.tilesDark },
-        { "tiles_traced", light.tilesTraced }, { "skip_reason", light.skipReason },
-        { "planes", light.planes }, { "pixels_off_planes", light.pixelsOffPlanes },
-        { "classes", classesToJson(light.classes) } });
-  }
-  json["notes"] = report.notes;
-  json["stages"] = nlohmann::ordered_json::array();
-  for (const StageTime& stage : report.stages)
-  {
-    json["stages"].push_back({ { "name", stage.name }, { "milliseconds", stage.milliseconds } });
-  }
-  json["wall_milliseconds"] = report.wallMilliseconds;
-  json["map_bakes"] = report.mapBakes;
-  json["program_compiles"] = report.programCompiles;
-  json["bvh_builds"] = report.bvhBuilds;
-  json["bvh_refits"] = report.bvhRefits;
-  json["surfaces_extracted"] = report.surfacesExtracted;
-  json["surfaces_retransformed"] = report.surfacesRetransformed;
-  json["triangles"] = report.triangles;
-  json["dropped_non_finite"] = report.droppedNonFinite;
-  json["dropped_zero_area"] = report.droppedZeroArea;
-  json["bytes_occluders"] = report.bytesOccluders;
-  json["bytes_bvh"] = report.bytesBvh;
-  json["bytes_maps"] = report.bytesMaps;
-  json["bytes_images"] = report.bytesImages;
-  return json;
-}
-
 /// What a picture's frames did: their times and counts together, the rest as the last one says.
 class PictureReport
 {
@@ -320,7 +261,7 @@ private:
 void writeStats(const PictureReport& report, const std::string& path)
 {
   std::ofstream file(path);
-  nlohmann::ordered_json json = toJson(report.sum());
+  auto json = nlohmann::ordered_json::parse(textOf(report.sum()));
   json["frames"] = report.frames();
   file << json.dump(2) << "\n";
   file.close();

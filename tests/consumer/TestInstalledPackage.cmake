@@ -1,7 +1,8 @@
 # Installs Gnomon into an empty prefix, looks at what lies there, and builds and runs README.md's
 # program by README.md's CMakeLists.txt.
 #
-#   cmake -D BUILD_DIR=... -D CONSUMER_DIR=... -D README=... -D WORK_DIR=... -D CXX=... -D CC=... -P
+#   cmake -D BUILD_DIR=... -D CONSUMER_DIR=... -D README=... -D WORK_DIR=... -D CXX=... -D CC=...
+#     -D PYTHON=... -D PYTHON_DESTINATION=... -P
 cmake_minimum_required(VERSION 3.25)
 
 function(run)
@@ -63,4 +64,23 @@ run("${CMAKE_COMMAND}" -E env --unset=DISPLAY "${WORK_DIR}/build/my_program" "${
 file(SIZE "${WORK_DIR}/picture.png" bytes)
 if(bytes LESS 1000)
   message(FATAL_ERROR "The consumer's picture has only ${bytes} bytes.")
+endif()
+
+# The Python package, by README.md's line.
+if(PYTHON)
+  string(REGEX MATCH "```python\n([^ `]*[^`]*\\))" block "${readme}")
+  set(line "${CMAKE_MATCH_1}")
+  file(READ "${CONSUMER_DIR}/../../examples/shadows.py" program)
+  string(FIND "${program}" "    ${line}\n" place)
+  if(line STREQUAL "" OR place EQUAL -1)
+    message(FATAL_ERROR "README.md's line of Python is not in examples/shadows.py: ${line}")
+  endif()
+  execute_process(
+    COMMAND "${CMAKE_COMMAND}" -E env --unset=DISPLAY
+      "PYTHONPATH=${WORK_DIR}/prefix/${PYTHON_DESTINATION}"
+      "${PYTHON}" "${CONSUMER_DIR}/../../examples/shadows.py" "${WORK_DIR}/python.png"
+    OUTPUT_VARIABLE output COMMAND_ERROR_IS_FATAL ANY)
+  if(NOT output MATCHES "In shadow: [0-9.]+% of the plane" OR NOT EXISTS "${WORK_DIR}/python.png")
+    message(FATAL_ERROR "examples/shadows.py said: ${output}")
+  endif()
 endif()

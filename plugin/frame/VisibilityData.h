@@ -1,0 +1,14 @@
+#pragma once
+
+class vtkImageData;
+
+namespace gnomon
+{
+
+struct VisibilityImages;
+
+/// Copies a frame's visibility into an image whose point (x, y, 0) is the pixel (x, y), counted from
+/// the bottom row. Its point data is what vtkGnomonShadowPass::GetVisibilityImage() says.
+void fillImage(const VisibilityImages& images, vtkImageData* image);
+
+} // namespace gnomon

@@ -1,0 +1,183 @@
+"""Shadows for VTK's renderers, from fast to exact.
+
+>>> import gnomon
+>>> shadows = gnomon.add_shadows(renderer)  # or a PyVista plotter
+>>> window.Render()
+>>> gnomon.report(shadows)["choice"]
+'the picture rests: exact'
+
+The classes are VTK's own wrappers of the C++ ones, whose docstrings they have:
+vtkGnomonShadowPass, vtkGnomonLightKeys, vtkGnomonPropKeys, vtkGnomonAreaLight,
+vtkGnomonLightPlacement, vtkGnomonLightSamplingPass, vtkGnomonEGLRenderWindow.
+"""
+
+import json
+import warnings
+import weakref
+
+import vtkmodules.vtkRenderingOpenGL2  # noqa: F401: the wrapped classes' superclasses
+from vtkmodules.vtkCommonDataModel import vtkImageData
+from vtkmodules.vtkRenderingCore import vtkLight, vtkRenderer
+
+from .GnomonLights import vtkGnomonAreaLight, vtkGnomonLightKeys, vtkGnomonLightPlacement
+from .GnomonPlugin import (
+    vtkGnomonEGLRenderWindow,
+    vtkGnomonLightSamplingPass,
+    vtkGnomonPropKeys,
+    vtkGnomonShadowPass,
+)
+from .images import assert_images_equal
+
+__all__ = [
+    "add_shadows",
+    "assert_images_equal",
+    "remove_shadows",
+    "report",
+    "visibility",
+    "vtkGnomonAreaLight",
+    "vtkGnomonEGLRenderWindow",
+    "vtkGnomonLightKeys",
+    "vtkGnomonLightPlacement",
+    "vtkGnomonLightSamplingPass",
+    "vtkGnomonPropKeys",
+    "vtkGnomonShadowPass",
+]
+
+# By renderer: what remove_shadows() puts back.
+_before = weakref.WeakKeyDictionary()
+
+
+def add_shadows(target, technique=None, **settings):
+    """Have a renderer show shadows.
+
+    Parameters
+    ----------
+    target : vtkRenderer or pyvista.Plotter
+        Of a plotter, the active subplot's renderer.
+    technique : str, optional
+        A name of vtkGnomonShadowPass.GetTechniqueName(), or "auto", the default.
+    **settings
+        What lights fall back on: any setting of vtkGnomonLightKeys, as `light_radius=0.5`.
+
+    Returns
+    -------
+    vtkGnomonShadowPass
+        The renderer's pass from now on.
+
+    Notes
+    -----
+    A headlight that is the only light shows no shadow. A key light beside the camera takes its
+    place, and a warning says so. `remove_shadows` takes all of that back.
+
+    Raises
+    ------
+    TypeError
+        For a target that is no renderer, and has none.
+    ValueError
+        For a setting that does not exist, or a value that it does not take. Nothing changes then.
+    """
+    renderer = _renderer_of(target)
+    shadows = vtkGnomonShadowPass()
+    if technique is not None:
+        settings["technique"] = technique
+    for name, value in settings.items():
+        _set(shadows, name, value)
+    remove_shadows(renderer)
+    _before[renderer] = (renderer.GetPass(), _place_key_light(renderer))
+    renderer.SetPass(shadows)
+    return shadows
+
+
+def remove_shadows(target):
+    """Give a renderer back the pass and the lights that it had before `add_shadows`."""
+    renderer = _renderer_of(target)
+    if renderer not in _before:
+        return
+    render_pass, lights = _before.pop(renderer)
+    renderer.SetPass(render_pass)
+    if lights is not None:
+        key, headlight, creates = lights
+        renderer.RemoveLight(key)
+        if headlight is not None:
+            renderer.AddLight(headlight)
+        renderer.SetAutomaticLightCreation(creates)
+
+
+def report(shadows):
+    """What the last frame of a pass did, as a dict (vtkGnomonShadowPass.GetReportText())."""
+    return json.loads(shadows.GetReportText())
+
+
+def visibility(shadows):
+    """The visibility of the last frame, drawn while `shadows.KeepVisibilityOn()`.
+
+    Returns
+    -------
+    dict of str to numpy.ndarray
+        Arrays of height x width (x 3), row 0 at the bottom: "light N" for each light that casts, by
+        its number in the renderer, 1 lit, 0 in shadow; "position" in world coordinates; "normal";
+        "coverage", 1 where a surface was drawn. They are the caller's own: later frames do not write
+        into them. Empty where nothing was kept.
+    """
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+
+    image = vtkImageData()
+    shadows.GetVisibilityImage(image)
+    width, height, _ = image.GetDimensions()
+    data = image.GetPointData()
+    arrays = {}
+    for i in range(data.GetNumberOfArrays()):
+        array = vtk_to_numpy(data.GetArray(i))
+        arrays[data.GetArrayName(i)] = array.reshape((height, width) + array.shape[1:])
+    return arrays
+
+
+def _renderer_of(target):
+    renderer = target if isinstance(target, vtkRenderer) else getattr(target, "renderer", None)
+    if not isinstance(renderer, vtkRenderer):
+        raise TypeError(f"expected a vtkRenderer or a plotter, found {type(target).__name__}")
+    return renderer
+
+
+def _set(shadows, name, value):
+    text = ("on" if value else "off") if isinstance(value, bool) else str(value)
+    messages = []
+
+    def take(_caller, _event, message):
+        messages.append(message)
+
+    take.CallDataType = "string0"
+    observer = shadows.AddObserver("ErrorEvent", take)
+    shadows.SetSetting(name, text)
+    shadows.RemoveObserver(observer)
+    if messages:
+        raise ValueError(messages[0].split("): ", 1)[-1].strip())
+
+
+def _place_key_light(renderer):
+    """Exchange a lone headlight for a key light.
+
+    Returns the key light, the headlight (None where there was none yet), and whether the renderer
+    creates lights; None if nothing is exchanged.
+    """
+    lights = renderer.GetLights()
+    lit = [light for light in map(lights.GetItemAsObject, range(lights.GetNumberOfItems()))]
+    creates = renderer.GetAutomaticLightCreation()
+    if len(lit) > 1 or (lit and not lit[0].LightTypeIsHeadlight()) or (not lit and not creates):
+        return None
+    warnings.warn(
+        "The only light was a headlight, which shows no shadow: a key light took its place.",
+        stacklevel=3,
+    )
+    headlight = lit[0] if lit else None
+    if headlight is not None:
+        renderer.RemoveLight(headlight)
+    if not renderer.IsActiveCameraCreated():
+        renderer.ResetCamera()
+    key = vtkLight()
+    vtkGnomonLightPlacement.MakeKeyLight(
+        key, renderer.GetActiveCamera(), renderer.ComputeVisiblePropBounds()
+    )
+    renderer.AddLight(key)
+    renderer.AutomaticLightCreationOff()
+    return key, headlight, creates

@@ -1,0 +1,94 @@
+"""Pictures compared with baselines, for tests."""
+
+import os
+
+from vtkmodules.vtkIOImage import vtkPNGReader, vtkPNGWriter
+from vtkmodules.vtkRenderingCore import vtkRenderWindow, vtkWindowToImageFilter
+
+
+def assert_images_equal(actual, baseline, max_difference=0, max_pixels=0):
+    """Fail unless a picture is its baseline: the counterpart of CMake's gnomon_add_image_test.
+
+    Parameters
+    ----------
+    actual : vtkRenderWindow, str or numpy.ndarray
+        A window, which is drawn; a PNG file; or an array of height x width x 3 bytes, top row first.
+    baseline : str
+        A PNG file. With the environment variable GNOMON_REFRESH_BASELINES set, `actual` is written
+        there, and nothing is compared.
+    max_difference : int
+        What a channel may differ by, of 255.
+    max_pixels : int
+        How many pixels may differ by more.
+
+    Raises
+    ------
+    AssertionError
+        Says how many pixels differ, by how much, and where the first one is. The picture is then
+        beside the baseline, as NAME-actual.png.
+    """
+    import numpy
+
+    picture = _pixels(actual)
+    if os.environ.get("GNOMON_REFRESH_BASELINES"):
+        _write(picture, baseline)
+        return
+    expected = _pixels(baseline)
+    kept = os.path.splitext(baseline)[0] + "-actual.png"
+    if picture.shape != expected.shape:
+        _write(picture, kept)
+        raise AssertionError(
+            f"{baseline} has {_size(expected)} pixels, the picture {_size(picture)}: {kept}"
+        )
+    difference = abs(picture.astype(int) - expected.astype(int)).max(axis=2)
+    rows, columns = numpy.nonzero(difference > max_difference)
+    if len(rows) > max_pixels:
+        _write(picture, kept)
+        raise AssertionError(
+            f"{len(rows)} pixels differ from {baseline} by more than {max_difference} "
+            f"(by {difference.max()} at most), and {max_pixels} may; the first one from above is at "
+            f"column {columns[0]}, row {rows[0]}: {kept}"
+        )
+
+
+def _size(picture):
+    return f"{picture.shape[1]} x {picture.shape[0]}"
+
+
+def _pixels(source):
+    """An array of height x width x 3 bytes, top row first."""
+    import numpy
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+
+    if isinstance(source, numpy.ndarray):
+        return source
+    if isinstance(source, vtkRenderWindow):
+        reader = vtkWindowToImageFilter()
+        reader.SetInput(source)
+        reader.SetInputBufferTypeToRGB()
+        reader.ReadFrontBufferOff()
+    else:
+        if not os.path.exists(source):
+            raise AssertionError(f"{source}: there is no such picture")
+        reader = vtkPNGReader()
+        reader.SetFileName(str(source))
+    reader.Update()
+    image = reader.GetOutput()
+    width, height, _ = image.GetDimensions()
+    array = vtk_to_numpy(image.GetPointData().GetScalars())
+    return array.reshape(height, width, -1)[::-1, :, :3].copy()
+
+
+def _write(picture, path):
+    import numpy
+    from vtkmodules.util.numpy_support import numpy_to_vtk
+    from vtkmodules.vtkCommonDataModel import vtkImageData
+
+    image = vtkImageData()
+    image.SetDimensions(picture.shape[1], picture.shape[0], 1)
+    flat = numpy.ascontiguousarray(picture[::-1]).reshape(-1, 3)
+    image.GetPointData().SetScalars(numpy_to_vtk(flat, deep=True))
+    writer = vtkPNGWriter()
+    writer.SetInputData(image)
+    writer.SetFileName(path)
+    writer.Write()

@@ -1,0 +1,213 @@
+"""The Python package: shadows by one call, data as NumPy arrays, pictures as tests."""
+
+import gc
+import os
+import tempfile
+import unittest
+import warnings
+
+import numpy
+from vtkmodules.vtkFiltersSources import vtkPlaneSource, vtkSphereSource
+from vtkmodules.util.vtkConstants import VTK_DOUBLE
+from vtkmodules.vtkRenderingCore import vtkActor, vtkLight, vtkPolyDataMapper, vtkRenderer
+
+import gnomon
+
+
+def add(renderer, source):
+    mapper = vtkPolyDataMapper()
+    mapper.SetInputConnection(source.GetOutputPort())
+    actor = vtkActor()
+    actor.SetMapper(mapper)
+    renderer.AddActor(actor)
+    return actor
+
+
+class Scene:
+    """A ball over a floor, seen from above."""
+
+    def __init__(self, has_sun=True):
+        self.renderer = vtkRenderer()
+        self.window = gnomon.vtkGnomonEGLRenderWindow()
+        self.window.SetSize(120, 90)
+        self.window.AddRenderer(self.renderer)
+        floor = vtkPlaneSource()
+        floor.SetOrigin(-3, -3, 0)
+        floor.SetPoint1(3, -3, 0)
+        floor.SetPoint2(-3, 3, 0)
+        ball = vtkSphereSource()
+        ball.SetCenter(0, 0, 1)
+        ball.SetRadius(0.5)
+        add(self.renderer, floor)
+        self.ball = add(self.renderer, ball)
+        camera = self.renderer.GetActiveCamera()
+        camera.SetPosition(0, -5, 6)
+        camera.SetFocalPoint(0, 0, 0)
+        self.renderer.ResetCameraClippingRange()
+        if has_sun:
+            sun = vtkLight()
+            sun.SetPosition(1, 0, 1.5)
+            self.renderer.AddLight(sun)
+
+
+class Shadows(unittest.TestCase):
+    def test_one_call_shows_exact_shadows(self):
+        scene = Scene()
+        shadows = gnomon.add_shadows(scene.renderer)
+        shadows.KeepVisibilityOn()
+        scene.window.Render()
+        report = gnomon.report(shadows)
+        self.assertEqual(report["lights"][0]["technique"], "silhouette")
+        self.assertIn("rests", report["choice"])
+        arrays = gnomon.visibility(shadows)
+        self.assertEqual(arrays["light 0"].shape, (90, 120))
+        self.assertEqual(arrays["position"].shape, (90, 120, 3))
+        covered = arrays["coverage"] == 1
+        # The ball's shadow lies on the side away from the sun.
+        dark = covered & (arrays["light 0"] == 0) & (arrays["position"][..., 2] < 1e-6)
+        self.assertGreater(dark.sum(), 50)
+        self.assertLess(arrays["position"][dark][:, 0].mean(), -0.4)
+
+    def test_arrays_outlive_frames_and_the_pass(self):
+        scene = Scene()
+        shadows = gnomon.add_shadows(scene.renderer, light_radius=2.0)
+        shadows.KeepVisibilityOn()
+        scene.window.Render()
+        first = gnomon.visibility(shadows)["light 0"]
+        copy = first.copy()
+        scene.ball.SetPosition(0.3, 0, 0)
+        scene.window.Render()
+        second = gnomon.visibility(shadows)["light 0"]
+        self.assertTrue((first == copy).all())
+        self.assertFalse((first == second).all())
+        gnomon.remove_shadows(scene.renderer)
+        del shadows, scene
+        gc.collect()
+        self.assertTrue((first == copy).all())
+
+    def test_nothing_is_kept_unless_asked_for(self):
+        scene = Scene()
+        shadows = gnomon.add_shadows(scene.renderer)
+        scene.window.Render()
+        self.assertEqual(gnomon.visibility(shadows), {})
+
+    def test_a_lone_headlight_gives_way_to_a_key_light(self):
+        for has_headlight in (False, True):
+            with self.subTest(has_headlight=has_headlight):
+                scene = Scene(has_sun=False)
+                if has_headlight:
+                    scene.window.Render()  # VTK creates one
+                with self.assertWarnsRegex(UserWarning, "key light"):
+                    shadows = gnomon.add_shadows(scene.renderer)
+                scene.window.Render()
+                self.assertTrue(gnomon.report(shadows)["lights"][0]["casts"])
+                gnomon.remove_shadows(scene.renderer)
+                self.assertIsNone(scene.renderer.GetPass())
+                self.assertTrue(scene.renderer.GetAutomaticLightCreation())
+                scene.window.Render()
+                lights = scene.renderer.GetLights()
+                self.assertEqual(lights.GetNumberOfItems(), 1)
+                self.assertTrue(lights.GetItemAsObject(0).LightTypeIsHeadlight())
+
+    def test_shadows_are_added_again_and_removed(self):
+        scene = Scene()
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            gnomon.add_shadows(scene.renderer, "nsm")
+            shadows = gnomon.add_shadows(scene.renderer, "raytraced")
+        scene.window.Render()
+        self.assertEqual(gnomon.report(shadows)["lights"][0]["technique"], "raytraced")
+        gnomon.remove_shadows(scene.renderer)
+        gnomon.remove_shadows(scene.renderer)
+        self.assertIsNone(scene.renderer.GetPass())
+
+    def test_a_plotter_is_its_active_renderer(self):
+        scene = Scene()
+
+        class Plotter:
+            renderer = scene.renderer
+
+        shadows = gnomon.add_shadows(Plotter())
+        self.assertIs(scene.renderer.GetPass(), shadows)
+
+    def test_mistakes_change_nothing(self):
+        scene = Scene()
+        with self.assertRaisesRegex(TypeError, "found str"):
+            gnomon.add_shadows("renderer")
+        with self.assertRaisesRegex(ValueError, "kernel_sise"):
+            gnomon.add_shadows(scene.renderer, kernel_sise=3)
+        with self.assertRaisesRegex(ValueError, "technique"):
+            gnomon.add_shadows(scene.renderer, "magic")
+        self.assertIsNone(scene.renderer.GetPass())
+
+    def test_keys_of_lights_and_props(self):
+        scene = Scene()
+        shadows = gnomon.add_shadows(scene.renderer)
+        light = scene.renderer.GetLights().GetItemAsObject(0)
+        gnomon.vtkGnomonLightKeys.SetTechnique(light, "pcf")
+        scene.window.Render()
+        self.assertEqual(gnomon.report(shadows)["lights"][0]["technique"], "pcf")
+
+    def test_progress_events_reach_python(self):
+        scene = Scene()
+        shadows = gnomon.add_shadows(scene.renderer, "penumbra", light_radius=5, moving_samples=4)
+        told = []
+
+        def note(_caller, _event, shown):
+            told.append(shown)
+
+        note.CallDataType = VTK_DOUBLE
+        shadows.AddObserver("ProgressEvent", note)
+        while shadows.GetProgress() < 1 or not told:
+            scene.window.Render()
+        self.assertEqual(told[-1], 1.0)
+        self.assertEqual(len(told), 3)
+
+    def test_reports_are_tables(self):
+        from vtkmodules.vtkCommonDataModel import vtkTable
+
+        scene = Scene()
+        shadows = gnomon.add_shadows(scene.renderer)
+        scene.window.Render()
+        table = vtkTable()
+        shadows.GetReportTable(table)
+        self.assertEqual(table.GetNumberOfRows(), 1)
+        self.assertEqual(table.GetValueByName(0, "technique").ToString(), "silhouette")
+        self.assertEqual(table.GetValueByName(0, "casts").ToDouble(), 1.0)
+
+
+class Images(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.baseline = os.path.join(self.folder.name, "ball.png")
+        os.environ["GNOMON_REFRESH_BASELINES"] = "1"
+        self.scene = Scene()
+        gnomon.add_shadows(self.scene.renderer)
+        self.scene.window.Render()
+        gnomon.assert_images_equal(self.scene.window, self.baseline)
+        del os.environ["GNOMON_REFRESH_BASELINES"]
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def test_the_same_is_equal(self):
+        gnomon.assert_images_equal(self.scene.window, self.baseline)
+        gnomon.assert_images_equal(self.baseline, self.baseline)
+
+    def test_others_are_not(self):
+        self.scene.ball.SetPosition(0.2, 0, 0)
+        with self.assertRaisesRegex(AssertionError, r"\d+ pixels differ"):
+            gnomon.assert_images_equal(self.scene.window, self.baseline, max_difference=8)
+        kept = self.baseline.replace(".png", "-actual.png")
+        gnomon.assert_images_equal(kept, kept)
+        gnomon.assert_images_equal(self.scene.window, self.baseline, 8, max_pixels=120 * 90)
+
+    def test_sizes_and_files(self):
+        with self.assertRaisesRegex(AssertionError, "120 x 90"):
+            gnomon.assert_images_equal(numpy.zeros((4, 5, 3), numpy.uint8), self.baseline)
+        with self.assertRaisesRegex(AssertionError, "no such picture"):
+            gnomon.assert_images_equal(self.scene.window, self.baseline + ".none")
+
+
+if __name__ == "__main__":
+    unittest.main()
