@@ -4,6 +4,7 @@
 #include "lights/SettingsTable.h"
 #include "vtkGnomonAreaLight.h"
 #include "vtkGnomonLightKeys.h"
+#include "vtkGnomonShadowSettings.h"
 
 #include <vtkCollection.h>
 #include <vtkImageData.h>
@@ -200,6 +201,10 @@ ShadowSettings readSettings(vtkLight* light, const ShadowSettings& defaults, std
 {
   ShadowSettings settings = defaults;
   settings.named.clear(); // by the pass: the light's own names follow
+  if (const vtkGnomonShadowSettings* const own = vtkGnomonLightKeys::GetSettings(light))
+  {
+    own->CopySetValues(settings);
+  }
   for (const Setting* setting : shadowSettings())
   {
     const char* const text = vtkGnomonLightKeys::GetSetting(light, setting->name.c_str());

@@ -1,10 +1,12 @@
 #include "vtkGnomonLightKeys.h"
 
 #include "lights/SettingsTable.h"
+#include "vtkGnomonShadowSettings.h"
 
 #include "vtkInformation.h"
 #include "vtkInformationDoubleVectorKey.h"
 #include "vtkInformationIntegerKey.h"
+#include "vtkInformationObjectBaseKey.h"
 #include "vtkInformationStringVectorKey.h"
 #include "vtkLight.h"
 #include "vtkObjectFactory.h"
@@ -18,6 +20,25 @@ vtkStandardNewMacro(vtkGnomonLightKeys);
 vtkInformationKeyMacro(vtkGnomonLightKeys, CASTS, Integer);
 vtkInformationKeyMacro(vtkGnomonLightKeys, SETTINGS, StringVector);
 vtkInformationKeyMacro(vtkGnomonLightKeys, BOX, DoubleVector);
+vtkInformationKeyRestrictedMacro(vtkGnomonLightKeys, OBJECT, ObjectBase, "vtkGnomonShadowSettings");
+
+//------------------------------------------------------------------------------
+void vtkGnomonLightKeys::SetSettings(vtkLight* light, vtkGnomonShadowSettings* settings)
+{
+  light->GetInformation()->Set(OBJECT(), settings);
+}
+
+//------------------------------------------------------------------------------
+vtkGnomonShadowSettings* vtkGnomonLightKeys::GetSettings(vtkLight* light)
+{
+  return vtkGnomonShadowSettings::SafeDownCast(light->GetInformation()->Get(OBJECT()));
+}
+
+//------------------------------------------------------------------------------
+bool vtkGnomonLightKeys::GetCasts(vtkLight* light)
+{
+  return !light->GetInformation()->Has(CASTS()) || light->GetInformation()->Get(CASTS()) != 0;
+}
 
 //------------------------------------------------------------------------------
 void vtkGnomonLightKeys::SetCasts(vtkLight* light, bool casts)

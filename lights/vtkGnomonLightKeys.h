@@ -33,7 +33,9 @@
 #include "vtkObject.h"
 
 class vtkInformationDoubleVectorKey;
+class vtkGnomonShadowSettings;
 class vtkInformationIntegerKey;
+class vtkInformationObjectBaseKey;
 class vtkInformationStringVectorKey;
 class vtkLight;
 
@@ -49,11 +51,12 @@ public:
    * SETTINGS holds what SetSetting sets, names and values in turn. BOX limits a directional light
    * to a box, see above: width, height and depth, each > 0, then the direction x, y, z that is up
    * in the near face, not along the light. The up direction is in the light's own coordinates, as
-   * its Position is. Other kinds of light ignore it.
+   * its Position is. Other kinds of light ignore it. OBJECT is what SetSettings sets.
    */
   static vtkInformationIntegerKey* CASTS();
   static vtkInformationStringVectorKey* SETTINGS();
   static vtkInformationDoubleVectorKey* BOX();
+  static vtkInformationObjectBaseKey* OBJECT();
   ///@}
 
   ///@{
@@ -67,10 +70,22 @@ public:
   static const char* GetSetting(vtkLight* light, const char* name);
   ///@}
 
+  ///@{
   /**
-   * Whether the light casts shadows at all.
+   * Settings with types, which several lights may share. Those that were set count; SetSetting()
+   * goes before them, the pass's come after. Null takes them away again.
+   */
+  static void SetSettings(vtkLight* light, vtkGnomonShadowSettings* settings);
+  static vtkGnomonShadowSettings* GetSettings(vtkLight* light);
+  ///@}
+
+  ///@{
+  /**
+   * Whether the light casts shadows at all. Default true.
    */
   static void SetCasts(vtkLight* light, bool casts);
+  static bool GetCasts(vtkLight* light);
+  ///@}
 
   ///@{
   /**

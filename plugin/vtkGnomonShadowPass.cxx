@@ -15,6 +15,7 @@
 #include "shadowtech/base/FrameReport.h"
 #include "shadowtech/base/TextureMemory.h"
 
+#include "vtkGnomonShadowSettings.h"
 #include "vtkInformation.h"
 #include "vtkInformationObjectBaseVectorKey.h"
 #include "vtkNew.h"
@@ -26,6 +27,7 @@
 #include "vtkRenderState.h"
 #include "vtkRenderStepsPass.h"
 #include "vtkRenderer.h"
+#include "vtkSmartPointer.h"
 #include "vtkWeakPointer.h"
 
 #include <algorithm>
@@ -66,7 +68,8 @@ struct vtkGnomonShadowPass::Internals
     std::unique_ptr<gnomon::RenderManager> manager;
   };
 
-  gnomon::ShadowSettings settings; ///< of lights that say nothing
+  vtkSmartPointer<vtkGnomonShadowSettings> settings =
+    vtkSmartPointer<vtkGnomonShadowSettings>::New(); ///< of lights that say nothing
   std::unique_ptr<gnomon::PassPrograms> programs = std::make_unique<gnomon::PassPrograms>();
   std::list<RendererFrames> renderers;   ///< those drawn so far, the last one first
   gnomon::VisibilityImages noVisibility; ///< of frames that were drawn without a manager
@@ -156,7 +159,6 @@ double leastProgress(const gnomon::FrameReport& report)
 vtkGnomonShadowPass::vtkGnomonShadowPass()
   : Internal(new Internals)
 {
-  this->Internal->settings.technique = gnomon::defaultTechnique;
   if (const char* const path = std::getenv("GNOMON_FACTORS"))
   {
     this->vtkGnomonShadowPass::ReadCostFactors(path);
@@ -213,8 +215,8 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
 
     // lights
     this->BeginView(s);
-    const bool goesOn = manager.collectLights(
-      renderer, this->Internal->settings, this->Internal->viewCount.areSeveral(renderer));
+    const bool goesOn = manager.collectLights(renderer, this->Internal->settings->GetValues(),
+      this->Internal->viewCount.areSeveral(renderer));
     this->TellOfLights();
     if (goesOn)
     {
@@ -556,28 +558,36 @@ void vtkGnomonShadowPass::ReadCostFactors(const char* path)
 }
 
 //------------------------------------------------------------------------------
+void vtkGnomonShadowPass::SetSettings(vtkGnomonShadowSettings* settings)
+{
+  vtkSmartPointer<vtkGnomonShadowSettings>& held = this->Internal->settings;
+  if (settings != held)
+  {
+    held = settings;
+    if (!settings)
+    {
+      held = vtkSmartPointer<vtkGnomonShadowSettings>::New();
+    }
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+vtkGnomonShadowSettings* vtkGnomonShadowPass::GetSettings()
+{
+  return this->Internal->settings;
+}
+
+//------------------------------------------------------------------------------
 void vtkGnomonShadowPass::SetSetting(const char* name, const char* value)
 {
-  const gnomon::Setting* setting = gnomon::findSetting(name ? name : "");
-  if (!setting)
+  const vtkMTimeType before = this->Internal->settings->GetMTime();
+  const std::string why = this->Internal->settings->TrySetting(name, value);
+  if (!why.empty())
   {
-    vtkErrorMacro("There is no setting '" << (name ? name : "")
-                                          << "'. There are: " << gnomon::settingNames() << ".");
-    return;
+    vtkErrorMacro(<< why << ".");
   }
-  const std::string text = value ? value : "";
-  const std::string before = setting->get(this->Internal->settings);
-  if (setting->name == "technique")
-  {
-    this->Internal->settings.named.clear(); // what was set for another technique is no mistake
-  }
-  if (!setting->set(this->Internal->settings, text))
-  {
-    vtkErrorMacro("The setting '" << name << "' was to be '" << text << "', expected "
-                                  << setting->expected() << ".");
-    return;
-  }
-  if (setting->get(this->Internal->settings) != before)
+  else if (this->Internal->settings->GetMTime() != before)
   {
     this->Modified();
   }
@@ -586,22 +596,19 @@ void vtkGnomonShadowPass::SetSetting(const char* name, const char* value)
 //------------------------------------------------------------------------------
 std::string vtkGnomonShadowPass::GetSetting(const char* name) const
 {
-  const gnomon::Setting* setting = gnomon::findSetting(name ? name : "");
-  return setting ? setting->get(this->Internal->settings) : std::string();
+  return this->Internal->settings->GetSetting(name);
 }
 
 //------------------------------------------------------------------------------
 void vtkGnomonShadowPass::SetMapSize(int mapSizeTexels)
 {
-  const auto& range = std::get<gnomon::IntegerSetting>(gnomon::findSetting("map_size")->values);
-  const int size = std::clamp(mapSizeTexels, range.smallest, range.largest);
-  this->SetSetting("map_size", std::to_string(size).c_str());
+  this->Internal->settings->SetMapSize(mapSizeTexels);
 }
 
 //------------------------------------------------------------------------------
 int vtkGnomonShadowPass::GetMapSize() const
 {
-  return this->Internal->settings.mapSizeTexels;
+  return this->Internal->settings->GetMapSize();
 }
 
 //------------------------------------------------------------------------------
@@ -613,7 +620,8 @@ void vtkGnomonShadowPass::SetTechnique(const char* name)
 //------------------------------------------------------------------------------
 const char* vtkGnomonShadowPass::GetTechnique() const
 {
-  return this->Internal->settings.technique.c_str();
+  const std::string& technique = this->Internal->settings->GetValues().technique;
+  return technique.empty() ? gnomon::defaultTechnique : technique.c_str();
 }
 
 //------------------------------------------------------------------------------
@@ -726,11 +734,8 @@ void vtkGnomonShadowPass::PrintSelf(ostream& os, vtkIndent indent)
   const char* const routes[] = { "auto", "inline", "image", "deferred" };
   const char* const tracers[] = { "auto", "embree", "gpu" };
   const char* const rasterizers[] = { "auto", "cpu", "gpu" };
-  for (const gnomon::Setting* setting : gnomon::shadowSettings())
-  {
-    os << indent << "Setting " << setting->name << ": " << setting->get(this->Internal->settings)
-       << "\n";
-  }
+  os << indent << "Settings:\n";
+  this->Internal->settings->PrintSelf(os, indent.GetNextIndent());
   os << indent << "Route: " << routes[this->Route] << "\n";
   os << indent << "Tracer: " << tracers[this->Tracer] << "\n";
   os << indent << "Rasterizer: " << rasterizers[this->Rasterizer] << "\n";

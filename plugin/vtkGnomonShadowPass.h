@@ -36,6 +36,7 @@
 
 #include <memory> // For std::unique_ptr
 
+class vtkGnomonShadowSettings;
 class vtkImageData;
 class vtkRenderWindow;
 class vtkTable;
@@ -98,7 +99,16 @@ public:
 
   ///@{
   /**
-   * What lights fall back on that do not say it themselves: any of vtkGnomonLightKeys's settings,
+   * What lights fall back on that do not say it themselves, with types. Several passes may share
+   * them. Null: new ones with all defaults.
+   */
+  virtual void SetSettings(vtkGnomonShadowSettings* settings);
+  vtkGnomonShadowSettings* GetSettings();
+  ///@}
+
+  ///@{
+  /**
+   * The same by name: any of vtkGnomonLightKeys's settings,
    * by name, technique and map size included. A setting that does not exist, and a value that it
    * does not take, are an error and change nothing. GetSetting returns an empty string for what
    * does not exist.

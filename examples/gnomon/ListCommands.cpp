@@ -5,6 +5,7 @@
 #include "Progress.h"
 #include "SceneExport.h"
 #include "SettingOptions.h"
+#include "SettingsClass.h"
 
 #include "shadowtech/Registry.h"
 
@@ -43,8 +44,9 @@ void printSettingsPage()
     << "# Settings\n\n"
        "A light sets them by `vtkGnomonLightKeys::SetSetting`, the pass by `SetSetting` for "
        "lights that do\nnot, a scene file as members of a light, the program `gnomon` as "
-       "options (`kernel_size` is\n`--kernel-size`). A technique that lacks a setting "
-       "ignores it, with an error that says which\ntechniques have it. `gnomon settings "
+       "options (`kernel_size` is\n`--kernel-size`). `vtkGnomonShadowSettings` has them with "
+       "types (`SetKernelSize()`), for passes and\nlights. A technique that lacks a setting "
+       "ignores it, with an error that says which techniques have\nit. `gnomon settings "
        "--markdown` makes this page.\n";
   for (const SettingsTable* table : settingsTables())
   {
@@ -79,9 +81,20 @@ void addTechniquesCommand(CLI::App& app)
 void addSettingsCommand(CLI::App& app)
 {
   auto asPage = std::make_shared<bool>(false);
+  auto asClass = std::make_shared<bool>(false);
   CLI::App* command = app.add_subcommand("settings", "List the settings of lights' shadows");
   command->add_flag("--markdown", *asPage, "As a page for the documentation");
-  command->callback([asPage] { *asPage ? printSettingsPage() : printSettings(); });
+  command->add_flag("--class", *asClass, "As the header of vtkGnomonShadowSettings");
+  command->callback(
+    [asPage, asClass]
+    {
+      if (*asClass)
+      {
+        std::cout << settingsClass();
+        return;
+      }
+      *asPage ? printSettingsPage() : printSettings();
+    });
 }
 
 //------------------------------------------------------------------------------

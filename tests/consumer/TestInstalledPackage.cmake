@@ -28,8 +28,10 @@ set(expected
   gnomon/vtkGnomonLightKeys.h
   gnomon/vtkGnomonLightPlacement.h
   gnomon/vtkGnomonLightSamplingPass.h
+  gnomon/vtkGnomonNamedSettings.h
   gnomon/vtkGnomonPropKeys.h
-  gnomon/vtkGnomonShadowPass.h)
+  gnomon/vtkGnomonShadowPass.h
+  gnomon/vtkGnomonShadowSettings.h)
 if(NOT headers STREQUAL expected)
   list(JOIN headers "\n  " headers)
   list(JOIN expected "\n  " expected)

@@ -5,6 +5,7 @@
 #include <vtkGnomonAreaLight.h>
 #include <vtkGnomonEGLRenderWindow.h>
 #include <vtkGnomonLightKeys.h>
+#include <vtkGnomonShadowSettings.h>
 #include <vtkGnomonLightPlacement.h>
 #include <vtkGnomonLightSamplingPass.h>
 #include <vtkGnomonPropKeys.h>

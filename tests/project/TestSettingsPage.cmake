@@ -1,11 +1,17 @@
-# docs/guide/settings.md is what `gnomon settings --markdown` says.
+# docs/guide/settings.md is what `gnomon settings --markdown` says, and the header of
+# vtkGnomonShadowSettings what `gnomon settings --class` says.
 #
-#   cmake -D GNOMON=... -D PAGE=... -P
+#   cmake -D GNOMON=... -D PAGE=... -D HEADER=... -P
 cmake_minimum_required(VERSION 3.25)
 
-execute_process(COMMAND "${GNOMON}" settings --markdown
-  OUTPUT_VARIABLE made COMMAND_ERROR_IS_FATAL ANY)
-file(READ "${PAGE}" page)
-if(NOT made STREQUAL page)
-  message(FATAL_ERROR "${PAGE} is stale: make it again by `gnomon settings --markdown`.")
-endif()
+function(expect file option)
+  execute_process(COMMAND "${GNOMON}" settings ${option}
+    OUTPUT_VARIABLE made COMMAND_ERROR_IS_FATAL ANY)
+  file(READ "${file}" found)
+  if(NOT made STREQUAL found)
+    message(FATAL_ERROR "${file} is stale: make it again by `gnomon settings ${option}`.")
+  endif()
+endfunction()
+
+expect("${PAGE}" --markdown)
+expect("${HEADER}" --class)

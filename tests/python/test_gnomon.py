@@ -148,6 +148,20 @@ class Shadows(unittest.TestCase):
         scene.window.Render()
         self.assertEqual(gnomon.report(shadows)["lights"][0]["technique"], "pcf")
 
+    def test_settings_with_types(self):
+        scene = Scene()
+        shadows = gnomon.add_shadows(scene.renderer)
+        settings = shadows.GetSettings()
+        settings.SetTechnique("pcf")
+        settings.SetKernelToBox()
+        settings.SetKernelSize(5)
+        scene.window.Render()
+        light = gnomon.report(shadows)["lights"][0]
+        self.assertEqual((light["technique"], light["kernel"]), ("pcf", "box"))
+        self.assertEqual(settings.GetKernel(), gnomon.vtkGnomonShadowSettings.KERNEL_BOX)
+        names = [settings.GetSettingName(i) for i in range(settings.GetNumberOfSettings())]
+        self.assertIn("kernel_size", names)
+
     def test_progress_events_reach_python(self):
         scene = Scene()
         shadows = gnomon.add_shadows(scene.renderer, "penumbra", light_radius=5, moving_samples=4)

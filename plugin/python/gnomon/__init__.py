@@ -7,8 +7,8 @@
 'the picture rests: exact'
 
 The classes are VTK's own wrappers of the C++ ones, whose docstrings they have:
-vtkGnomonShadowPass, vtkGnomonLightKeys, vtkGnomonPropKeys, vtkGnomonAreaLight,
-vtkGnomonLightPlacement, vtkGnomonLightSamplingPass, vtkGnomonEGLRenderWindow.
+vtkGnomonShadowPass, vtkGnomonShadowSettings, vtkGnomonLightKeys, vtkGnomonPropKeys,
+vtkGnomonAreaLight, vtkGnomonLightPlacement, vtkGnomonLightSamplingPass, vtkGnomonEGLRenderWindow.
 """
 
 import json
@@ -19,7 +19,12 @@ import vtkmodules.vtkRenderingOpenGL2  # noqa: F401: the wrapped classes' superc
 from vtkmodules.vtkCommonDataModel import vtkImageData
 from vtkmodules.vtkRenderingCore import vtkLight, vtkRenderer
 
-from .GnomonLights import vtkGnomonAreaLight, vtkGnomonLightKeys, vtkGnomonLightPlacement
+from .GnomonLights import (
+    vtkGnomonAreaLight,
+    vtkGnomonLightKeys,
+    vtkGnomonLightPlacement,
+    vtkGnomonShadowSettings,
+)
 from .GnomonPlugin import (
     vtkGnomonEGLRenderWindow,
     vtkGnomonLightSamplingPass,
@@ -41,6 +46,7 @@ __all__ = [
     "vtkGnomonLightSamplingPass",
     "vtkGnomonPropKeys",
     "vtkGnomonShadowPass",
+    "vtkGnomonShadowSettings",
 ]
 
 # By renderer: what remove_shadows() puts back.

@@ -1,0 +1,237 @@
+#include "vtkGnomonNamedSettings.h"
+
+#include "lights/SettingsTable.h"
+
+#include "vtkObjectFactory.h"
+
+#include <algorithm>
+#include <set>
+#include <string>
+#include <variant>
+
+vtkStandardNewMacro(vtkGnomonNamedSettings);
+
+//------------------------------------------------------------------------------
+struct vtkGnomonNamedSettings::Internals
+{
+  gnomon::ShadowSettings values;
+  std::set<std::string> set; ///< the names of those that were
+};
+
+namespace
+{
+
+const gnomon::Setting* settingOf(const char* name)
+{
+  return gnomon::findSetting(name ? name : "");
+}
+
+/// Text of one of all settings; empty beyond the last one.
+template <typename TextOf>
+std::string textAt(int index, const TextOf& textOf)
+{
+  const auto settings = gnomon::shadowSettings();
+  return index >= 0 && static_cast<std::size_t>(index) < settings.size()
+    ? textOf(*settings[static_cast<std::size_t>(index)])
+    : std::string();
+}
+
+/// The text of a number within a setting's range; empty where there is no such setting.
+template <typename Range, typename Number>
+std::string clamped(const gnomon::Setting* setting, Number value)
+{
+  if (!setting || value != value)
+  {
+    return setting ? "nan" : "";
+  }
+  const auto& range = std::get<Range>(setting->values);
+  gnomon::ShadowSettings scratch;
+  setting->write(scratch, std::clamp(value, range.smallest, range.largest));
+  return setting->get(scratch);
+}
+
+/// A setting's value; 0 where there is no such setting.
+template <typename Value>
+Value valueOf(const gnomon::Setting* setting, const gnomon::ShadowSettings& settings)
+{
+  return setting ? std::get<Value>(setting->read(settings)) : Value{};
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+vtkGnomonNamedSettings::vtkGnomonNamedSettings()
+  : Internal(new Internals)
+{
+}
+
+//------------------------------------------------------------------------------
+vtkGnomonNamedSettings::~vtkGnomonNamedSettings() = default;
+
+//------------------------------------------------------------------------------
+std::string vtkGnomonNamedSettings::TrySetting(const char* name, const char* value)
+{
+  const gnomon::Setting* const setting = settingOf(name);
+  if (!setting)
+  {
+    return "Lights have no setting '" + std::string(name ? name : "") +
+      "'. There are: " + gnomon::settingNames();
+  }
+  gnomon::ShadowSettings& values = this->Internal->values;
+  const std::string text = value ? value : "";
+  const std::string before = setting->get(values);
+  if (!setting->set(values, text))
+  {
+    return "The setting '" + setting->name + "' was to be '" + text + "', expected " +
+      setting->expected();
+  }
+  if (setting->name == "technique")
+  {
+    values.named = { setting->name }; // what was set for another technique is no mistake
+  }
+  const bool isNew = this->Internal->set.insert(setting->name).second;
+  if (isNew || setting->get(values) != before)
+  {
+    this->Modified();
+  }
+  return {};
+}
+
+//------------------------------------------------------------------------------
+void vtkGnomonNamedSettings::SetSetting(const char* name, const char* value)
+{
+  const std::string why = this->TrySetting(name, value);
+  if (!why.empty())
+  {
+    vtkErrorMacro(<< why << ".");
+  }
+}
+
+//------------------------------------------------------------------------------
+std::string vtkGnomonNamedSettings::GetSetting(const char* name) const
+{
+  const gnomon::Setting* const setting = settingOf(name);
+  return setting ? setting->get(this->Internal->values) : std::string();
+}
+
+//------------------------------------------------------------------------------
+void vtkGnomonNamedSettings::UnsetSetting(const char* name)
+{
+  if (this->Internal->set.erase(name ? name : "") == 0)
+  {
+    return;
+  }
+  gnomon::ShadowSettings left;
+  this->CopySetValues(left);
+  this->Internal->values = left;
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+bool vtkGnomonNamedSettings::IsSettingSet(const char* name) const
+{
+  return this->Internal->set.count(name ? name : "") > 0;
+}
+
+//------------------------------------------------------------------------------
+int vtkGnomonNamedSettings::GetNumberOfSettings()
+{
+  return static_cast<int>(gnomon::shadowSettings().size());
+}
+
+//------------------------------------------------------------------------------
+std::string vtkGnomonNamedSettings::GetSettingName(int index)
+{
+  return textAt(index, [](const gnomon::Setting& setting) { return setting.name; });
+}
+
+//------------------------------------------------------------------------------
+std::string vtkGnomonNamedSettings::GetSettingMeaning(int index)
+{
+  return textAt(index, [](const gnomon::Setting& setting) { return setting.meaning; });
+}
+
+//------------------------------------------------------------------------------
+std::string vtkGnomonNamedSettings::GetSettingUnit(int index)
+{
+  return textAt(index, [](const gnomon::Setting& setting) { return setting.unit; });
+}
+
+//------------------------------------------------------------------------------
+std::string vtkGnomonNamedSettings::GetSettingValues(int index)
+{
+  return textAt(index, [](const gnomon::Setting& setting) { return setting.expected(); });
+}
+
+//------------------------------------------------------------------------------
+const gnomon::ShadowSettings& vtkGnomonNamedSettings::GetValues() const
+{
+  return this->Internal->values;
+}
+
+//------------------------------------------------------------------------------
+void vtkGnomonNamedSettings::CopySetValues(gnomon::ShadowSettings& to) const
+{
+  for (const gnomon::Setting* setting : gnomon::shadowSettings())
+  {
+    if (this->Internal->set.count(setting->name) > 0)
+    {
+      setting->set(to, setting->get(this->Internal->values));
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkGnomonNamedSettings::SetInteger(const char* name, int value)
+{
+  this->SetSetting(name, clamped<gnomon::IntegerSetting>(settingOf(name), value).c_str());
+}
+
+//------------------------------------------------------------------------------
+int vtkGnomonNamedSettings::GetInteger(const char* name) const
+{
+  return valueOf<int>(settingOf(name), this->Internal->values);
+}
+
+//------------------------------------------------------------------------------
+void vtkGnomonNamedSettings::SetReal(const char* name, double value)
+{
+  this->SetSetting(name, clamped<gnomon::RealSetting>(settingOf(name), value).c_str());
+}
+
+//------------------------------------------------------------------------------
+double vtkGnomonNamedSettings::GetReal(const char* name) const
+{
+  return valueOf<double>(settingOf(name), this->Internal->values);
+}
+
+//------------------------------------------------------------------------------
+void vtkGnomonNamedSettings::SetChoice(const char* name, int index)
+{
+  const gnomon::Setting* const setting = settingOf(name);
+  std::string text;
+  if (setting)
+  {
+    const auto& names = std::get<gnomon::ChoiceSetting>(setting->values).names;
+    const int last = static_cast<int>(names.size()) - 1;
+    text = names[static_cast<std::size_t>(std::clamp(index, 0, last))];
+  }
+  this->SetSetting(name, text.c_str());
+}
+
+//------------------------------------------------------------------------------
+int vtkGnomonNamedSettings::GetChoice(const char* name) const
+{
+  return valueOf<int>(settingOf(name), this->Internal->values);
+}
+
+//------------------------------------------------------------------------------
+void vtkGnomonNamedSettings::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  for (const gnomon::Setting* setting : gnomon::shadowSettings())
+  {
+    os << indent << "Setting " << setting->name << ": " << setting->get(this->Internal->values)
+       << "\n";
+  }
+}

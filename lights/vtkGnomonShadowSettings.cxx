@@ -1,0 +1,5 @@
+#include "vtkGnomonShadowSettings.h"
+
+#include "vtkObjectFactory.h"
+
+vtkStandardNewMacro(vtkGnomonShadowSettings);

@@ -1,0 +1,156 @@
+// vtkGnomonShadowSettings: settings with types, of passes and of lights.
+
+#include "PassScene.h"
+
+#include "lights/SettingsTable.h"
+#include "lights/vtkGnomonLightKeys.h"
+#include "lights/vtkGnomonShadowSettings.h"
+
+#include <vtkNew.h>
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <limits>
+#include <set>
+#include <string>
+
+using namespace gnomon::test;
+using testing::HasSubstr;
+
+namespace
+{
+
+class ShadowSettingsTest
+  : public PassTest
+  , public PassScene
+{
+protected:
+  ShadowSettingsTest()
+    : PassScene(64, 48)
+  {
+    this->addFloor(10.0);
+    this->addBox(hangingBox.lower, hangingBox.upper);
+    this->lookFrom({ 4.0, -9.0, 7.0 });
+  }
+
+  vtkNew<vtkGnomonShadowSettings> settings;
+};
+
+} // namespace
+
+//------------------------------------------------------------------------------
+TEST_F(ShadowSettingsTest, gettersReadWhatSettersSet)
+{
+  this->settings->SetTechnique("pcf");
+  this->settings->SetKernelToBox();
+  this->settings->SetKernelSize(5);
+  this->settings->SetLightRadius(0.5);
+  this->settings->SnapOff();
+  EXPECT_EQ(this->settings->GetTechnique(), "pcf");
+  EXPECT_EQ(this->settings->GetKernel(), vtkGnomonShadowSettings::KERNEL_BOX);
+  EXPECT_EQ(this->settings->GetKernelAsString(), "box");
+  EXPECT_EQ(this->settings->GetKernelSize(), 5);
+  EXPECT_EQ(this->settings->GetLightRadius(), 0.5);
+  EXPECT_FALSE(this->settings->GetSnap());
+  EXPECT_EQ(this->settings->GetSetting("kernel_size"), "5");
+}
+
+//------------------------------------------------------------------------------
+TEST_F(ShadowSettingsTest, numbersAreClampedToTheirRange)
+{
+  this->settings->SetMapSize(1);
+  EXPECT_EQ(this->settings->GetMapSize(), 16);
+  this->settings->SetMapSize(1000000);
+  EXPECT_EQ(this->settings->GetMapSize(), 16384);
+  this->settings->SetSplitLambda(7.0);
+  EXPECT_EQ(this->settings->GetSplitLambda(), 1.0);
+  this->settings->SetLightRadius(std::numeric_limits<double>::infinity());
+  EXPECT_EQ(this->settings->GetLightRadius(), 1e12);
+  this->settings->SetKernel(77);
+  EXPECT_EQ(this->settings->GetKernelAsString(),
+    std::get<gnomon::ChoiceSetting>(gnomon::findSetting("kernel")->values).names.back());
+}
+
+//------------------------------------------------------------------------------
+TEST_F(ShadowSettingsTest, mistakesAreErrorsAndChangeNothing)
+{
+  const vtkMTimeType before = this->settings->GetMTime();
+  this->settings->SetSplitLambda(std::nan(""));
+  EXPECT_THAT(this->takeErrors(), HasSubstr("split_lambda"));
+  this->settings->SetTechnique("magic");
+  EXPECT_THAT(this->takeErrors(), HasSubstr("expected one of: auto, nsm"));
+  this->settings->SetSetting("kernel_sise", "3");
+  EXPECT_THAT(this->takeErrors(), HasSubstr("no setting 'kernel_sise'"));
+  this->settings->SetSetting(nullptr, nullptr);
+  EXPECT_THAT(this->takeErrors(), HasSubstr("no setting ''"));
+  EXPECT_EQ(this->settings->GetMTime(), before);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(ShadowSettingsTest, theListHasAllOfThem)
+{
+  std::set<std::string> names;
+  for (int i = 0; i < vtkGnomonShadowSettings::GetNumberOfSettings(); ++i)
+  {
+    names.insert(vtkGnomonShadowSettings::GetSettingName(i));
+    EXPECT_NE(vtkGnomonShadowSettings::GetSettingMeaning(i), "");
+    EXPECT_NE(vtkGnomonShadowSettings::GetSettingValues(i), "");
+  }
+  EXPECT_EQ(names.size(), gnomon::shadowSettings().size());
+  EXPECT_EQ(names.count("kernel_size"), 1u);
+  EXPECT_EQ(vtkGnomonShadowSettings::GetSettingName(-1), "");
+  EXPECT_EQ(vtkGnomonShadowSettings::GetSettingUnit(1000), "");
+}
+
+//------------------------------------------------------------------------------
+TEST_F(ShadowSettingsTest, passesShareThem)
+{
+  this->addSun(slantingSun);
+  vtkNew<vtkGnomonShadowPass> other;
+  this->settings->SetTechnique("pcf");
+  this->pass->SetSettings(this->settings);
+  other->SetSettings(this->settings);
+  EXPECT_STREQ(other->GetTechnique(), "pcf");
+  this->render();
+  EXPECT_EQ(this->report().lights[0].technique, "pcf");
+  this->settings->SetTechnique("raytraced");
+  this->render();
+  EXPECT_EQ(this->report().lights[0].technique, "raytraced");
+  this->pass->SetSetting("technique", "vsm");
+  EXPECT_EQ(this->settings->GetTechnique(), "vsm");
+  this->pass->SetSettings(nullptr);
+  EXPECT_STREQ(this->pass->GetTechnique(), "auto");
+  EXPECT_STREQ(other->GetTechnique(), "vsm");
+}
+
+//------------------------------------------------------------------------------
+// By name goes before by object, and that before the pass; what an object leaves unset is the pass's.
+TEST_F(ShadowSettingsTest, lightsHaveTheirOwn)
+{
+  vtkLight* const sun = this->addSun(slantingSun);
+  this->pass->SetTechnique("nsm");
+  this->pass->SetMapSize(256);
+  this->settings->SetTechnique("pcf");
+  this->settings->SetKernelSize(7);
+  vtkGnomonLightKeys::SetSettings(sun, this->settings);
+  EXPECT_EQ(vtkGnomonLightKeys::GetSettings(sun), this->settings.GetPointer());
+  this->render();
+  EXPECT_EQ(this->report().lights[0].technique, "pcf");
+  EXPECT_EQ(this->report().lights[0].mapSizeTexels, 256);
+  EXPECT_EQ(this->report().lights[0].kernelTexels, 7);
+  vtkGnomonLightKeys::SetSetting(sun, "kernel_size", "3");
+  this->render();
+  EXPECT_EQ(this->report().lights[0].kernelTexels, 3);
+  vtkGnomonLightKeys::SetSetting(sun, "kernel_size", nullptr);
+  this->settings->UnsetSetting("kernel_size");
+  EXPECT_FALSE(this->settings->IsSettingSet("kernel_size"));
+  EXPECT_TRUE(this->settings->IsSettingSet("technique"));
+  this->pass->SetSetting("kernel_size", "9");
+  this->render();
+  EXPECT_EQ(this->report().lights[0].kernelTexels, 9);
+  this->pass->GetSettings()->UnsetSetting("kernel_size");
+  vtkGnomonLightKeys::SetSettings(sun, nullptr);
+  this->render();
+  EXPECT_EQ(this->report().lights[0].technique, "nsm");
+}
