@@ -34,7 +34,10 @@ find_package(VTK 9.1 REQUIRED COMPONENTS
   ViewsContext2D
   glew)
 find_package(glm REQUIRED)
-find_package(embree 3 REQUIRED)
+find_package(embree 4 QUIET)
+if(NOT embree_FOUND)
+  find_package(embree 3 REQUIRED)
+endif()
 find_package(TBB REQUIRED)
 find_package(OpenGL REQUIRED COMPONENTS OpenGL EGL)
 if(GNOMON_BUILD_EXAMPLES)
