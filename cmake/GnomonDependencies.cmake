@@ -32,7 +32,15 @@ find_package(VTK 9.1 REQUIRED COMPONENTS
   RenderingVolume
   RenderingVolumeOpenGL2
   ViewsContext2D
-  glew)
+  OPTIONAL_COMPONENTS
+  glew
+  glad)
+# What loads OpenGL's functions, which lights/VtkVersions.h includes.
+if(VTK_VERSION VERSION_LESS 9.4)
+  set(GNOMON_VTK_GL VTK::glew)
+else()
+  set(GNOMON_VTK_GL VTK::glad)
+endif()
 find_package(glm REQUIRED)
 find_package(embree 4 QUIET)
 if(NOT embree_FOUND)

@@ -30,12 +30,15 @@
 #define vtkGnomonLightKeys_h
 
 #include "GnomonLightsModule.h" // For export macro
+#include "VtkVersions.h"        // For VTK_ABI_NAMESPACE_BEGIN
 #include "vtkObject.h"
 
+VTK_ABI_NAMESPACE_BEGIN
 class vtkInformationDoubleVectorKey;
 class vtkInformationIntegerKey;
 class vtkInformationStringVectorKey;
 class vtkLight;
+VTK_ABI_NAMESPACE_END
 
 class GNOMONLIGHTS_EXPORT vtkGnomonLightKeys : public vtkObject
 {

@@ -32,11 +32,14 @@
 #define vtkGnomonShadowPass_h
 
 #include "GnomonPluginModule.h" // For export macro
+#include "VtkVersions.h"        // For VTK_ABI_NAMESPACE_BEGIN
 #include "vtkOpenGLRenderPass.h"
 
 #include <memory> // For std::unique_ptr
 
+VTK_ABI_NAMESPACE_BEGIN
 class vtkRenderWindow;
+VTK_ABI_NAMESPACE_END
 
 namespace gnomon
 {

@@ -1,5 +1,6 @@
 #include "MatrixWindows.h"
 
+#include "plugin/vtk_versions/OpenGlLoading.h"
 #include "shadowtech/base/Gl.h"
 
 #include <vtkGenericOpenGLRenderWindow.h>
@@ -155,13 +156,12 @@ public:
   }
   void MakeCurrent() override { this->owner_->MakeCurrent(); }
   bool IsCurrent() override { return this->owner_->IsCurrent(); }
-  /// The owner has loaded OpenGL's functions. GLEW built for GLX would complain that there is no X
-  /// display.
+  /// The owner has loaded OpenGL's functions.
   void OpenGLInitContext() override
   {
     this->ContextCreationTime.Modified();
     this->Initialized = true;
-    this->GlewInitValid = true;
+    noteLoaded(this);
   }
 
 private:
