@@ -11,6 +11,7 @@
 #include "vtkRenderer.h"
 #include "vtkRendererCollection.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <stdexcept>
 #include <string>
@@ -240,9 +241,14 @@ bool vtkGnomonEGLRenderWindow::HasFrame()
 //------------------------------------------------------------------------------
 int vtkGnomonEGLRenderWindow::GetColorBufferSizes(int* rgba)
 {
-  if (!this->Initialized || !this->RenderFramebuffer->GetFBOIndex())
+  if (!rgba || !this->Initialized || !this->RenderFramebuffer->GetFBOIndex())
   {
-    return this->Superclass::GetColorBufferSizes(rgba);
+    // A context without a surface has no other buffers, and newer VTK warns when it asks for them.
+    if (rgba)
+    {
+      std::fill_n(rgba, 4, 0);
+    }
+    return 0;
   }
   this->MakeCurrent();
   this->GetState()->PushFramebufferBindings();

@@ -279,7 +279,10 @@ double vtkGnomonLightSamplingPass::GetProgress() const
 //------------------------------------------------------------------------------
 void vtkGnomonLightSamplingPass::ReleaseGraphicsResources(vtkWindow* window)
 {
-  this->Superclass::ReleaseGraphicsResources(window);
+  if (window) // null where nothing was drawn or the context is gone; VTK asserts that it is not
+  {
+    this->Superclass::ReleaseGraphicsResources(window);
+  }
   this->Internal->context.leave(
     [this](vtkOpenGLRenderWindow* drawnIn)
     {
