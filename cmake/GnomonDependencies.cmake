@@ -32,7 +32,15 @@ find_package(VTK 9.1 REQUIRED COMPONENTS
   RenderingVolume
   RenderingVolumeOpenGL2
   ViewsContext2D
-  glew)
+  OPTIONAL_COMPONENTS
+  glew
+  glad)
+# What loads OpenGL's functions, which lights/VtkVersions.h includes.
+if(VTK_VERSION VERSION_LESS 9.4)
+  set(GNOMON_VTK_GL VTK::glew)
+else()
+  set(GNOMON_VTK_GL VTK::glad)
+endif()
 if(GNOMON_WRAP_PYTHON)
   # Another Python on the path has no wrappers of the system's VTK.
   if(VTK_DIR MATCHES "^/usr/lib" AND NOT DEFINED Python3_EXECUTABLE)
@@ -42,7 +50,10 @@ if(GNOMON_WRAP_PYTHON)
   find_package(VTK 9.1 REQUIRED COMPONENTS Python WrappingPythonCore)
 endif()
 find_package(glm REQUIRED)
-find_package(embree 3 REQUIRED)
+find_package(embree 4 QUIET)
+if(NOT embree_FOUND)
+  find_package(embree 3 REQUIRED)
+endif()
 find_package(nlohmann_json REQUIRED)
 find_package(TBB REQUIRED)
 find_package(OpenGL REQUIRED COMPONENTS OpenGL EGL)

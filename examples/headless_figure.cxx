@@ -126,7 +126,7 @@ int main(int argc, char* argv[])
   vtkNew<vtkRenderer> renderer;
   renderer->SetBackground(1, 1, 1);
   renderer->AddActor(surface);
-  renderer->AddActor2D(scale);
+  renderer->AddViewProp(scale);
 
   vtkNew<vtkLight> sun; // in the west, 20 degrees above the horizon
   sun->SetFocalPoint(0, 0, 0);

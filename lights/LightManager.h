@@ -1,6 +1,7 @@
 #pragma once
 
 #include "lights/ShadowLight.h"
+#include "lights/VtkVersions.h"
 
 #include <cstdint>
 #include <functional>
@@ -10,9 +11,11 @@
 #include <string>
 #include <vector>
 
+VTK_ABI_NAMESPACE_BEGIN
 class vtkImageData;
 class vtkLight;
 class vtkRenderer;
+VTK_ABI_NAMESPACE_END
 
 namespace gnomon
 {

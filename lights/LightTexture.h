@@ -1,6 +1,7 @@
 #pragma once
 
 #include "lights/LightArea.h"
+#include "lights/VtkVersions.h"
 
 #include <glm/glm.hpp>
 
@@ -8,7 +9,9 @@
 #include <string>
 #include <vector>
 
+VTK_ABI_NAMESPACE_BEGIN
 class vtkImageData;
+VTK_ABI_NAMESPACE_END
 
 namespace gnomon
 {

@@ -1,6 +1,10 @@
 #pragma once
 
+#include "lights/VtkVersions.h"
+
+VTK_ABI_NAMESPACE_BEGIN
 class vtkInformationDoubleKey;
+VTK_ABI_NAMESPACE_END
 
 namespace gnomon
 {

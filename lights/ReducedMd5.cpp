@@ -63,7 +63,7 @@ std::uint32_t mixed(std::size_t group, const glm::uvec4& state)
 //------------------------------------------------------------------------------
 glm::uvec4 reducedMd5(glm::uvec4 seed, std::uint32_t key)
 {
-  seed ^= glm::uvec4(key);
+  seed = seed ^ glm::uvec4(key); // GLM 1.0.1 declares ^= nodiscard
   glm::uvec4 state(0x01234567u, 0x89abcdefu, 0xfedcba98u, 0x76543210u);
   glm::uvec4 sum = state;
   for (std::size_t i = 0; i < steps.size(); ++i)

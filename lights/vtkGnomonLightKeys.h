@@ -30,14 +30,17 @@
 #define vtkGnomonLightKeys_h
 
 #include "GnomonLightsModule.h" // For export macro
+#include "VtkVersions.h"        // For VTK_ABI_NAMESPACE_BEGIN
 #include "vtkObject.h"
 
-class vtkInformationDoubleVectorKey;
 class vtkGnomonShadowSettings;
+VTK_ABI_NAMESPACE_BEGIN
+class vtkInformationDoubleVectorKey;
 class vtkInformationIntegerKey;
 class vtkInformationObjectBaseKey;
 class vtkInformationStringVectorKey;
 class vtkLight;
+VTK_ABI_NAMESPACE_END
 
 class GNOMONLIGHTS_EXPORT vtkGnomonLightKeys : public vtkObject
 {

@@ -23,11 +23,14 @@
 #define vtkGnomonLightPlacement_h
 
 #include "GnomonLightsModule.h" // For export macro
+#include "VtkVersions.h"        // For VTK_ABI_NAMESPACE_BEGIN
 #include "vtkObject.h"
 
+VTK_ABI_NAMESPACE_BEGIN
 class vtkCamera;
 class vtkLight;
 class vtkPoints;
+VTK_ABI_NAMESPACE_END
 
 class GNOMONLIGHTS_EXPORT vtkGnomonLightPlacement : public vtkObject
 {

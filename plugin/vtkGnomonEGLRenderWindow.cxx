@@ -1,6 +1,9 @@
 #include "vtkGnomonEGLRenderWindow.h"
 
+#include "plugin/vtk_versions/OpenGlLoading.h"
 #include "plugin/window/EglContext.h"
+
+#include "shadowtech/base/Gl.h"
 
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLFramebufferObject.h"
@@ -8,10 +11,10 @@
 #include "vtkRenderer.h"
 #include "vtkRendererCollection.h"
 
-#include <vtk_glew.h>
-
+#include <algorithm>
 #include <cstdlib>
 #include <stdexcept>
+#include <string>
 
 vtkStandardNewMacro(vtkGnomonEGLRenderWindow);
 
@@ -175,15 +178,13 @@ void vtkGnomonEGLRenderWindow::OpenGLInitContext()
   {
     return;
   }
-  const GLenum result = glewInit();
-  this->GlewInitValid = result == GLEW_OK || result == GLEW_ERROR_NO_GLX_DISPLAY;
-  if (!this->GlewInitValid)
+  const std::string problem = gnomon::loadOpenGl(this);
+  if (!problem.empty())
   {
-    vtkErrorMacro("OpenGL's functions could not be loaded: "
-      << reinterpret_cast<const char*>(glewGetErrorString(result)) << ".");
+    vtkErrorMacro("OpenGL's functions could not be loaded: " << problem << ".");
     return;
   }
-  if (!GLEW_VERSION_3_2)
+  if (!GNOMON_HAS_GL(VERSION_3_2))
   {
     vtkErrorMacro("VTK needs OpenGL 3.2; " << this->Context->platform() << " gives "
                                            << reinterpret_cast<const char*>(glGetString(GL_VERSION))
@@ -240,9 +241,14 @@ bool vtkGnomonEGLRenderWindow::HasFrame()
 //------------------------------------------------------------------------------
 int vtkGnomonEGLRenderWindow::GetColorBufferSizes(int* rgba)
 {
-  if (!this->Initialized || !this->RenderFramebuffer->GetFBOIndex())
+  if (!rgba || !this->Initialized || !this->RenderFramebuffer->GetFBOIndex())
   {
-    return this->Superclass::GetColorBufferSizes(rgba);
+    // A context without a surface has no other buffers, and newer VTK warns when it asks for them.
+    if (rgba)
+    {
+      std::fill_n(rgba, 4, 0);
+    }
+    return 0;
   }
   this->MakeCurrent();
   this->GetState()->PushFramebufferBindings();

@@ -90,8 +90,7 @@ public:
   ///@}
 
   /**
-   * Load OpenGL's functions. GLEW built for GLX loads them too, and only then complains that there
-   * is no X display; that complaint is not an error here.
+   * Load OpenGL's functions.
    */
   void OpenGLInitContext() override;
 

@@ -9,6 +9,7 @@
 #include "plugin/scene/ShownView.h"
 #include "plugin/window/PassContext.h"
 #include "plugin/window/PictureTarget.h"
+#include "shadowtech/base/Gl.h"
 #include "shadowtech/base/PictureMean.h"
 
 #include "vtkActor.h"
@@ -22,7 +23,6 @@
 #include "vtkRenderState.h"
 #include "vtkRenderStepsPass.h"
 #include "vtkRenderer.h"
-#include "vtk_glew.h"
 
 #include <optional>
 #include <stdexcept>
@@ -279,7 +279,10 @@ double vtkGnomonLightSamplingPass::GetProgress() const
 //------------------------------------------------------------------------------
 void vtkGnomonLightSamplingPass::ReleaseGraphicsResources(vtkWindow* window)
 {
-  this->Superclass::ReleaseGraphicsResources(window);
+  if (window) // null where nothing was drawn or the context is gone; VTK asserts that it is not
+  {
+    this->Superclass::ReleaseGraphicsResources(window);
+  }
   this->Internal->context.leave(
     [this](vtkOpenGLRenderWindow* drawnIn)
     {

@@ -14,10 +14,13 @@
 #define vtkGnomonPropKeys_h
 
 #include "GnomonPluginModule.h" // For export macro
+#include "VtkVersions.h"        // For VTK_ABI_NAMESPACE_BEGIN
 #include "vtkObject.h"
 
+VTK_ABI_NAMESPACE_BEGIN
 class vtkInformationIntegerKey;
 class vtkProp;
+VTK_ABI_NAMESPACE_END
 
 class GNOMONPLUGIN_EXPORT vtkGnomonPropKeys : public vtkObject
 {

@@ -484,7 +484,10 @@ void vtkGnomonShadowPass::RenderPlain(const vtkRenderState* s, const char* reaso
 //------------------------------------------------------------------------------
 void vtkGnomonShadowPass::ReleaseGraphicsResources(vtkWindow* window)
 {
-  this->Superclass::ReleaseGraphicsResources(window);
+  if (window) // null where nothing was drawn or the context is gone; VTK asserts that it is not
+  {
+    this->Superclass::ReleaseGraphicsResources(window);
+  }
   this->Internal->context.leave(
     [this](vtkWindow* drawnIn)
     {

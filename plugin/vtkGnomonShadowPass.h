@@ -32,14 +32,17 @@
 #define vtkGnomonShadowPass_h
 
 #include "GnomonPluginModule.h" // For export macro
+#include "VtkVersions.h"        // For VTK_ABI_NAMESPACE_BEGIN
 #include "vtkOpenGLRenderPass.h"
 
 #include <memory> // For std::unique_ptr
 
 class vtkGnomonShadowSettings;
+VTK_ABI_NAMESPACE_BEGIN
 class vtkImageData;
 class vtkRenderWindow;
 class vtkTable;
+VTK_ABI_NAMESPACE_END
 
 namespace gnomon
 {

@@ -2,6 +2,7 @@
 #include "BuiltinScenes.h"
 
 #include "plugin/vtkGnomonPropKeys.h"
+#include "plugin/vtk_versions/SharedBlocksMapper.h"
 
 #include <vtkActor.h>
 #include <vtkAnnotatedCubeActor.h>
@@ -10,7 +11,6 @@
 #include <vtkCamera.h>
 #include <vtkCellArray.h>
 #include <vtkColorTransferFunction.h>
-#include <vtkCompositePolyDataMapper2.h>
 #include <vtkDataSetMapper.h>
 #include <vtkElevationFilter.h>
 #include <vtkFloatArray.h>
@@ -158,7 +158,7 @@ Pointer<vtkProp3D> compositeProp()
   vtkNew<vtkMultiBlockDataSet> blocks;
   blocks->SetBlock(0, ball(-0.3, 0.3));
   blocks->SetBlock(1, ball(0.3, 0.3));
-  vtkNew<vtkCompositePolyDataMapper2> mapper;
+  vtkNew<SharedBlocksMapper> mapper;
   mapper->SetInputDataObject(blocks);
   return actorOf(mapper);
 }

@@ -2,6 +2,8 @@
 
 #include "VtkMessages.h"
 
+#include "plugin/vtk_versions/ReadFromMemory.h"
+
 #include <vtkImageData.h>
 #include <vtkJPEGReader.h>
 #include <vtkNew.h>
@@ -95,9 +97,7 @@ bool isWholeJpeg(const std::string& bytes)
   }
   VtkMessages messages;
   vtkNew<vtkJPEGReader> reader;
-  reader->SetMemoryBufferLength(static_cast<vtkIdType>(bytes.size()));
-  reader->SetMemoryBuffer(bytes.data());
-  reader->Update();
+  readFromMemory(reader, bytes);
   return messages.errors().empty() && reader->GetOutput()->GetPointData()->GetScalars();
 }
 

@@ -2,13 +2,17 @@
 
 #include "plugin/VisibilityImages.h"
 
+#include "lights/VtkVersions.h"
+
 #include <array>
 #include <cstddef>
 #include <map>
 #include <string>
 #include <vector>
 
+VTK_ABI_NAMESPACE_BEGIN
 class vtkRenderWindow;
+VTK_ABI_NAMESPACE_END
 
 namespace gnomon::tool
 {

@@ -1,9 +1,13 @@
 #pragma once
 
+#include "lights/VtkVersions.h"
+
 #include <cstdint>
 #include <string>
 
+VTK_ABI_NAMESPACE_BEGIN
 class vtkRenderWindow;
+VTK_ABI_NAMESPACE_END
 
 namespace gnomon::tool
 {

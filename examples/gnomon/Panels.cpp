@@ -40,7 +40,7 @@ Picture drawTitles(const std::vector<Panel>& panels, int width)
     text->SetColor(titleGrey, titleGrey, titleGrey);
     text->SetJustificationToCentered();
     text->SetVerticalJustificationToCentered();
-    renderer->AddActor2D(title);
+    renderer->AddViewProp(title);
   }
   vtkNew<vtkGnomonEGLRenderWindow> window;
   window->SetSize(width, panelTitleRows);

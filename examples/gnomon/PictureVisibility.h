@@ -5,11 +5,15 @@
 
 #include "plugin/VisibilityImages.h"
 
+#include "lights/VtkVersions.h"
+
 #include <cstdint>
 #include <functional>
 #include <vector>
 
+VTK_ABI_NAMESPACE_BEGIN
 class vtkRenderer;
+VTK_ABI_NAMESPACE_END
 
 namespace gnomon::tool
 {

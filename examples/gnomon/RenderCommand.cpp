@@ -19,12 +19,12 @@
 #include "plugin/vtkGnomonShadowPass.h"
 #include "shadowtech/Registry.h"
 #include "shadowtech/base/FrameReport.h"
+#include "shadowtech/base/Gl.h"
 
 #include <nlohmann/json.hpp>
 #include <vtkMath.h>
 #include <vtkNew.h>
 #include <vtkOpenGLState.h>
-#include <vtk_glew.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,12 +1,16 @@
 #pragma once
 
+#include "lights/VtkVersions.h"
+
 #include <vtkLogger.h>
 #include <vtkSmartPointer.h>
 
 #include <string>
 #include <vector>
 
+VTK_ABI_NAMESPACE_BEGIN
 class vtkOutputWindow;
+VTK_ABI_NAMESPACE_END
 
 namespace gnomon::tool
 {

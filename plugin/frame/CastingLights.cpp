@@ -239,7 +239,7 @@ std::size_t edgeSamplesOf(const CastingLight& casting)
 //------------------------------------------------------------------------------
 bool canDrawMaps()
 {
-  return GLEW_VERSION_4_3;
+  return GNOMON_HAS_GL(VERSION_4_3);
 }
 
 //------------------------------------------------------------------------------

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "lights/LightManager.h"
+#include "lights/VtkVersions.h"
 #include "plugin/frame/LightTechnique.h"
 #include "shadowtech/base/FrameReport.h"
 #include "shadowtech/base/VisibilityLayers.h"
@@ -13,7 +14,9 @@
 #include <string>
 #include <vector>
 
+VTK_ABI_NAMESPACE_BEGIN
 class vtkRenderer;
+VTK_ABI_NAMESPACE_END
 
 namespace gnomon
 {

@@ -1,11 +1,15 @@
 #pragma once
 
+#include "lights/VtkVersions.h"
+
 #include <vtkCallbackCommand.h>
 #include <vtkNew.h>
 #include <vtkWeakPointer.h>
 
+VTK_ABI_NAMESPACE_BEGIN
 class vtkRenderWindow;
 class vtkRenderWindowInteractor;
+VTK_ABI_NAMESPACE_END
 
 namespace gnomon
 {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "lights/ShadowLight.h"
+#include "lights/VtkVersions.h"
 
 #include <glm/glm.hpp>
 
@@ -9,8 +10,10 @@
 #include <cstddef>
 #include <vector>
 
+VTK_ABI_NAMESPACE_BEGIN
 class vtkLightCollection;
 class vtkRenderer;
+VTK_ABI_NAMESPACE_END
 
 namespace gnomon
 {

@@ -216,12 +216,15 @@ void drawReceivers(const vtkRenderState* s, vtkObjectBase* pass, const glm::ivec
   state->vtkglEnable(GL_DEPTH_TEST);
 
   target.begin(size.x, size.y, withPoints);
+  state->PushFramebufferBindings();
+  state->ResetFramebufferBindings(); // VTK's record says the target, or debug builds warn
   for (int i = 0; i < s->GetPropArrayCount(); ++i)
   {
     const WithoutOtherPasses alone(s->GetPropArray()[i], pass);
     s->GetPropArray()[i]->RenderOpaqueGeometry(renderer);
   }
   target.end(state->GetEnumState(GL_BLEND));
+  state->PopFramebufferBindings();
 }
 
 } // namespace gnomon

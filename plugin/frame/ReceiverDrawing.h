@@ -1,14 +1,18 @@
 #pragma once
 
+#include "lights/VtkVersions.h"
+
 #include "shadowtech/base/ReceiverTarget.h"
 
 #include <glm/glm.hpp>
 
 #include <cstddef>
 
+VTK_ABI_NAMESPACE_BEGIN
 class vtkObjectBase;
 class vtkProp;
 class vtkRenderState;
+VTK_ABI_NAMESPACE_END
 
 namespace gnomon
 {

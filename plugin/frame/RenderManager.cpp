@@ -281,14 +281,15 @@ void RenderManager::findStaleReceivers(const vtkRenderState* s)
   ValueKey key = this->receiversKey(s);
   const std::string changes = value.key ? key.changesFrom(*value.key) : "there were none";
   this->frame_.tellReuse("receivers", changes);
-  this->receiversDue_.reset();
-  if (!changes.empty())
+  if (changes.empty())
   {
-    this->receiversDue_ = std::move(key);
-    value.key.reset(); // in case of an error
-    value.onCpu.reset();
-    value.framesTraced = 0;
+    this->receiversDue_.reset();
+    return;
   }
+  this->receiversDue_ = std::move(key);
+  value.key.reset(); // in case of an error
+  value.onCpu.reset();
+  value.framesTraced = 0;
 }
 
 //------------------------------------------------------------------------------

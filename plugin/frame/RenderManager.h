@@ -1,5 +1,6 @@
 #pragma once
 
+#include "lights/VtkVersions.h"
 #include "plugin/VisibilityImages.h"
 #include "plugin/frame/Frame.h"
 #include "plugin/frame/MapRasterizer.h"
@@ -7,6 +8,7 @@
 #include "plugin/frame/TechniqueChoice.h"
 #include "plugin/frame/VisibilityStage.h"
 #include "plugin/scene/OccluderCollector.h"
+
 #include "shadowtech/base/OccluderBuffers.h"
 #include "shadowtech/base/ShaderLibrary.h"
 
@@ -16,10 +18,12 @@
 #include <string>
 #include <vector>
 
+VTK_ABI_NAMESPACE_BEGIN
 class vtkAbstractMapper;
 class vtkObjectBase;
 class vtkRenderState;
 class vtkRenderer;
+VTK_ABI_NAMESPACE_END
 
 namespace gnomon
 {

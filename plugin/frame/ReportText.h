@@ -1,8 +1,12 @@
 #pragma once
 
+#include "lights/VtkVersions.h"
+
 #include <string>
 
+VTK_ABI_NAMESPACE_BEGIN
 class vtkTable;
+VTK_ABI_NAMESPACE_END
 
 namespace gnomon
 {

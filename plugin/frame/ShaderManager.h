@@ -1,6 +1,7 @@
 #pragma once
 
 #include "lights/ShadowLight.h"
+#include "lights/VtkVersions.h"
 #include "plugin/frame/Route.h"
 #include "plugin/scene/DrawnLookup.h"
 #include "shadowtech/base/Technique.h"
@@ -13,8 +14,10 @@
 #include <string>
 #include <vector>
 
+VTK_ABI_NAMESPACE_BEGIN
 class vtkOpenGLRenderWindow;
 class vtkShaderProgram;
+VTK_ABI_NAMESPACE_END
 
 namespace gnomon
 {

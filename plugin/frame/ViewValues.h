@@ -1,7 +1,9 @@
 #pragma once
 
+#include "lights/VtkVersions.h"
 #include "plugin/frame/CastingLights.h"
 #include "plugin/frame/ValueKey.h"
+
 #include "shadowtech/base/DeferredPicture.h"
 #include "shadowtech/base/FrameReport.h"
 #include "shadowtech/base/ReceiverBoxes.h"
@@ -18,7 +20,9 @@
 #include <string>
 #include <vector>
 
+VTK_ABI_NAMESPACE_BEGIN
 class vtkRenderer;
+VTK_ABI_NAMESPACE_END
 
 namespace gnomon
 {

@@ -1,11 +1,15 @@
 #pragma once
 
+#include "lights/VtkVersions.h"
+
+VTK_ABI_NAMESPACE_BEGIN
 class vtkActor;
 class vtkLODProp3D;
 class vtkMapper;
 class vtkMatrix4x4;
 class vtkProp3D;
 class vtkRenderer;
+VTK_ABI_NAMESPACE_END
 
 namespace gnomon
 {

@@ -2,6 +2,8 @@
 
 #include "plugin/scene/SurfaceExtraction.h"
 
+#include "lights/VtkVersions.h"
+
 #include "shadowtech/base/Receivers.h"
 
 #include <glm/glm.hpp>
@@ -12,10 +14,12 @@
 #include <unordered_set>
 #include <vector>
 
+VTK_ABI_NAMESPACE_BEGIN
 class vtkAbstractMapper;
 class vtkMapper;
 class vtkPolyData;
 class vtkProp;
+VTK_ABI_NAMESPACE_END
 
 namespace gnomon
 {

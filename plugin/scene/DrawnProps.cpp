@@ -1,7 +1,6 @@
 #include "plugin/scene/DrawnProps.h"
 
 #include "plugin/scene/ActorInternals.h"
-#include "plugin/scene/CompositeBlocks.h"
 #include "plugin/scene/GlyphInstances.h"
 #include "plugin/scene/MapperInternals.h"
 #include "plugin/scene/MapperKind.h"
@@ -14,8 +13,6 @@
 #include "vtkAssembly.h"
 #include "vtkAssemblyNode.h"
 #include "vtkAssemblyPath.h"
-#include "vtkCompositePolyDataMapper.h"
-#include "vtkCompositePolyDataMapper2.h"
 #include "vtkDataSetMapper.h"
 #include "vtkGlyph3DMapper.h"
 #include "vtkImageMapper3D.h"
@@ -450,10 +447,9 @@ void Finder::addBlocks(vtkActor* actor, vtkMapper* mapper, MapperKind kind,
   const glm::dmat4& worldFromModel, bool translucent)
 {
   std::vector<DrawnBlock>& blocks = this->drawn_.blocks;
-  if (kind == MapperKind::Composite)
+  if (kind == MapperKind::Composite || kind == MapperKind::Parts)
   {
-    auto* composite = static_cast<vtkCompositePolyDataMapper2*>(mapper);
-    for (vtkPolyData* data : drawnBlocks(actor, composite, translucent))
+    for (vtkPolyData* data : drawnBlocks(actor, mapper, translucent))
     {
       blocks.push_back({ data });
     }
@@ -477,14 +473,6 @@ void Finder::addBlocks(vtkActor* actor, vtkMapper* mapper, MapperKind kind,
     for (vtkPolyData* data : splatBlocks(static_cast<vtkPointGaussianMapper*>(mapper)))
     {
       blocks.push_back(solidsBlock(mapper, data, SurfaceCells::Spheres));
-    }
-  }
-  else if (kind == MapperKind::Parts)
-  {
-    auto* parts = static_cast<vtkCompositePolyDataMapper*>(mapper);
-    for (vtkPolyData* data : drawnParts(parts, translucent))
-    {
-      blocks.push_back({ data });
     }
   }
   else if (kind == MapperKind::Glyphs)

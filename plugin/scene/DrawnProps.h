@@ -2,6 +2,8 @@
 
 #include "plugin/scene/SurfaceExtraction.h"
 
+#include "lights/VtkVersions.h"
+
 #include <glm/glm.hpp>
 
 #include <cstddef>
@@ -9,6 +11,7 @@
 #include <string>
 #include <vector>
 
+VTK_ABI_NAMESPACE_BEGIN
 class vtkActor;
 class vtkDataArray;
 class vtkDataSet;
@@ -17,6 +20,7 @@ class vtkMatrix4x4;
 class vtkPolyData;
 class vtkProp;
 class vtkRenderer;
+VTK_ABI_NAMESPACE_END
 
 namespace gnomon
 {

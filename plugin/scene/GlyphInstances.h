@@ -1,12 +1,16 @@
 #pragma once
 
+#include "lights/VtkVersions.h"
+
 #include <glm/glm.hpp>
 
 #include <vector>
 
+VTK_ABI_NAMESPACE_BEGIN
 class vtkDataSet;
 class vtkGlyph3DMapper;
 class vtkPolyData;
+VTK_ABI_NAMESPACE_END
 
 namespace gnomon
 {

@@ -1,13 +1,17 @@
 #pragma once
 
+#include "lights/VtkVersions.h"
+
 #include <vtkSmartPointer.h>
 
 #include <cstddef>
 #include <unordered_map>
 
+VTK_ABI_NAMESPACE_BEGIN
 class vtkActor;
 class vtkImageSlice;
 class vtkPolyData;
+VTK_ABI_NAMESPACE_END
 
 namespace gnomon
 {

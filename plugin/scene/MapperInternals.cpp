@@ -1,15 +1,10 @@
 #include "plugin/scene/MapperInternals.h"
 
-// vtkCompositeMapperHelper2.h does not include these two, which it needs.
-#include "vtkColor.h"
-#include <vtk_glew.h>
-
-#include "vtkCompositeMapperHelper2.h"
 #include "vtkDataSet.h"
 #include "vtkDataSetMapper.h"
 #include "vtkDataSetSurfaceFilter.h"
 #include "vtkFloatArray.h"
-#include "vtkOpenGLCellToVTKCellMap.h"
+#include "vtkGeometryFilter.h"
 #include "vtkOpenGLHelper.h"
 #include "vtkOpenGLMoleculeMapper.h"
 #include "vtkOpenGLPolyDataMapper.h"
@@ -20,7 +15,8 @@
 
 #include <algorithm>
 #include <cstring>
-#include <map>
+#include <type_traits>
+#include <utility>
 
 namespace gnomon
 {
@@ -68,7 +64,7 @@ struct MapperAccess : vtkOpenGLPolyDataMapper
     }
     return std::nullopt;
   }
-  static int primitiveOffset(vtkOpenGLPolyDataMapper* mapper)
+  static vtkIdType primitiveOffset(vtkOpenGLPolyDataMapper* mapper)
   {
     return mapper->*(&MapperAccess::PrimitiveIDOffset);
   }
@@ -78,15 +74,6 @@ struct MapperAccess : vtkOpenGLPolyDataMapper
     const auto found = std::find_if(attributes.begin(), attributes.end(),
       [&](const auto& attribute) { return attribute.second.TextureName == texture; });
     return found != attributes.end() ? found->second.DataArrayName.c_str() : nullptr;
-  }
-};
-
-struct HelperAccess : vtkCompositeMapperHelper2
-{
-  using Blocks = std::map<vtkPolyData*, vtkCompositeMapperHelperData*>;
-  static const Blocks& blocks(vtkCompositeMapperHelper2* helper)
-  {
-    return helper->*(&HelperAccess::Data);
   }
 };
 
@@ -147,11 +134,12 @@ struct DataSetMapperAccess : vtkDataSetMapper
   static vtkPolyDataMapper* inner(vtkDataSetMapper* mapper)
   {
     vtkPolyDataMapper*& inner = mapper->*(&DataSetMapperAccess::PolyDataMapper);
-    vtkDataSetSurfaceFilter*& surface = mapper->*(&DataSetMapperAccess::GeometryExtractor);
+    auto*& surface = mapper->*(&DataSetMapperAccess::GeometryExtractor);
     if (!inner)
     {
       inner = vtkPolyDataMapper::New();
-      surface = vtkDataSetSurfaceFilter::New();
+      // vtkDataSetSurfaceFilter, in later releases vtkGeometryFilter
+      surface = std::remove_reference_t<decltype(*surface)>::New();
     }
     vtkDataSet* input = mapper->GetInput();
     if (input->GetDataObjectType() == VTK_POLY_DATA)
@@ -179,20 +167,15 @@ std::optional<SurfaceCells> cellsAboutToBeDrawn(vtkAbstractMapper* mapper)
 //------------------------------------------------------------------------------
 std::vector<DrawCall> drawCalls(vtkAbstractMapper* mapper, SurfaceCells cells)
 {
-  std::vector<DrawCall> calls;
-  if (auto* helper = vtkCompositeMapperHelper2::SafeDownCast(mapper))
+  const int primitiveType = cells == SurfaceCells::Polygons
+    ? vtkOpenGLPolyDataMapper::PrimitiveTris
+    : vtkOpenGLPolyDataMapper::PrimitiveTriStrips;
+  if (auto calls = blockDrawCalls(mapper, primitiveType))
   {
-    // A helper draws block by block, each with its own offset.
-    const int primitives = cells == SurfaceCells::Polygons
-      ? vtkOpenGLPolyDataMapper::PrimitiveTris
-      : vtkOpenGLPolyDataMapper::PrimitiveTriStrips;
-    for (const auto& [data, block] : HelperAccess::blocks(helper))
-    {
-      const vtkIdType offset = block->CellCellMap->GetPrimitiveOffsets()[primitives];
-      calls.push_back({ data, static_cast<std::uint32_t>(offset) });
-    }
+    return *std::move(calls);
   }
-  else if (auto* openGl = vtkOpenGLPolyDataMapper::SafeDownCast(mapper))
+  std::vector<DrawCall> calls;
+  if (auto* openGl = vtkOpenGLPolyDataMapper::SafeDownCast(mapper))
   {
     // The current input, since a glyph mapper's helper has no other.
     calls.push_back(
@@ -239,9 +222,9 @@ std::vector<vtkMapper*> solidMappers(vtkOpenGLMoleculeMapper* mapper)
 //------------------------------------------------------------------------------
 const char* coordinatesArray(vtkAbstractMapper* mapper, const std::string& texture)
 {
-  // The helpers of composite mappers are not told of such arrays.
+  // What draws the blocks of composite data is not told of such arrays.
   auto* openGl = vtkOpenGLPolyDataMapper::SafeDownCast(mapper);
-  return openGl && !openGl->IsA("vtkCompositePolyDataMapper2")
+  return openGl && blockDrawing(openGl) == BlockDrawing::None
     ? MapperAccess::coordinatesArray(openGl, texture)
     : nullptr;
 }

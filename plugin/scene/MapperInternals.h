@@ -1,12 +1,15 @@
 #pragma once
 
 #include "plugin/scene/SurfaceExtraction.h"
+#include "plugin/vtk_versions/CompositeMappers.h"
 
-#include <cstdint>
+#include "lights/VtkVersions.h"
+
 #include <optional>
 #include <string>
 #include <vector>
 
+VTK_ABI_NAMESPACE_BEGIN
 class vtkAbstractMapper;
 class vtkDataSetMapper;
 class vtkFloatArray;
@@ -14,19 +17,12 @@ class vtkMapper;
 class vtkOpenGLMoleculeMapper;
 class vtkPolyData;
 class vtkPolyDataMapper;
+VTK_ABI_NAMESPACE_END
 
 namespace gnomon
 {
 
-/// One draw call of a mapper that is about to draw: the first of its triangles has the primitive
-/// number `firstPrimitive`, by gl_PrimitiveID + PrimitiveIDOffset.
-struct DrawCall
-{
-  vtkPolyData* data = nullptr;
-  std::uint32_t firstPrimitive = 0;
-};
-
-/// Which cells a polydata mapper, or a helper of vtkCompositePolyDataMapper2, is about to draw as
+/// Which cells a polydata mapper, or one inside a mapper of composite data, is about to draw as
 /// triangles with the program that it has just handed to a render pass
 /// (vtkOpenGLRenderPass::SetShaderParameters), or its vertices and lines, as solids or not.
 /// Nothing for selections and mappers that do not draw polydata.

@@ -1,6 +1,7 @@
 #include "plugin/scene/MapperKind.h"
 
 #include "plugin/scene/SplatSpheres.h"
+#include "plugin/vtk_versions/CompositeMappers.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkGlyph3DMapper.h"
@@ -27,9 +28,10 @@ MapperKind kindOf(vtkMapper* mapper)
   {
     return MapperKind::PlainPolyData;
   }
-  if (mapper->IsA("vtkCompositePolyDataMapper2"))
+  const BlockDrawing blocks = blockDrawing(mapper);
+  if (blocks != BlockDrawing::None)
   {
-    return MapperKind::Composite;
+    return blocks == BlockDrawing::Shared ? MapperKind::Composite : MapperKind::Parts;
   }
   if (mapper->IsA("vtkPolyDataMapper"))
   {
@@ -38,11 +40,10 @@ MapperKind kindOf(vtkMapper* mapper)
       : mapper->IsA("vtkPointGaussianMapper") ? MapperKind::Splats
                                               : MapperKind::PolyData;
   }
-  return mapper->IsA("vtkDataSetMapper")        ? MapperKind::DataSet
-    : mapper->IsA("vtkGlyph3DMapper")           ? MapperKind::Glyphs
-    : mapper->IsA("vtkCompositePolyDataMapper") ? MapperKind::Parts
-    : mapper->IsA("vtkOpenGLMoleculeMapper")    ? MapperKind::Molecule
-                                                : MapperKind::Other;
+  return mapper->IsA("vtkDataSetMapper")     ? MapperKind::DataSet
+    : mapper->IsA("vtkGlyph3DMapper")        ? MapperKind::Glyphs
+    : mapper->IsA("vtkOpenGLMoleculeMapper") ? MapperKind::Molecule
+                                             : MapperKind::Other;
 }
 
 //------------------------------------------------------------------------------

@@ -1,11 +1,15 @@
 #pragma once
 
+#include "lights/VtkVersions.h"
+
 #include <glm/glm.hpp>
 
 #include <vector>
 
+VTK_ABI_NAMESPACE_BEGIN
 class vtkAbstractMapper;
 class vtkMapper;
+VTK_ABI_NAMESPACE_END
 
 namespace gnomon
 {
@@ -16,8 +20,8 @@ enum class MapperKind
   PlainPolyData, ///< vtkOpenGLPolyDataMapper itself: nearly every mapper
   PolyData,      ///< a class derived from it
   DataSet,       ///< by a polydata mapper inside
-  Composite,
-  Parts, ///< vtkCompositePolyDataMapper: by one polydata mapper a block
+  Composite,     ///< blocks of composite data, out of buffers that they share
+  Parts,         ///< blocks of composite data, by a polydata mapper for each
   Glyphs,
   Solids,   ///< a polydata mapper by type, which draws a solid at each point in place of the cells
   Molecule, ///< by mappers of solids

@@ -4,15 +4,19 @@
 #include "plugin/scene/PropMemory.h"
 #include "plugin/scene/SnapshotSurfaces.h"
 
+#include "lights/VtkVersions.h"
+
 #include "shadowtech/base/Receivers.h"
 
 #include <cstddef>
 #include <string>
 #include <vector>
 
+VTK_ABI_NAMESPACE_BEGIN
 class vtkAbstractMapper;
 class vtkProp;
 class vtkRenderer;
+VTK_ABI_NAMESPACE_END
 
 namespace gnomon
 {

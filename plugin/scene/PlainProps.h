@@ -2,15 +2,19 @@
 
 #include "vtkType.h"
 
+#include "lights/VtkVersions.h"
+
 #include <cstddef>
 #include <vector>
 
+VTK_ABI_NAMESPACE_BEGIN
 class vtkActor;
 class vtkAlgorithm;
 class vtkMapper;
 class vtkPolyData;
 class vtkProp;
 class vtkShaderProperty;
+VTK_ABI_NAMESPACE_END
 
 namespace gnomon
 {

@@ -2,9 +2,13 @@
 
 #include "plugin/scene/PropMemory.h"
 
+#include "lights/VtkVersions.h"
+
 #include <cstddef>
 
+VTK_ABI_NAMESPACE_BEGIN
 class vtkRenderer;
+VTK_ABI_NAMESPACE_END
 
 namespace gnomon
 {

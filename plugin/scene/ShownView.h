@@ -1,13 +1,16 @@
 #pragma once
 
 #include "lights/CameraView.h"
+#include "lights/VtkVersions.h"
 
 #include <glm/glm.hpp>
 
 #include <cstddef>
 
+VTK_ABI_NAMESPACE_BEGIN
 class vtkRenderState;
 class vtkRenderer;
+VTK_ABI_NAMESPACE_END
 
 namespace gnomon
 {

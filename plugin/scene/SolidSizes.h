@@ -2,13 +2,17 @@
 
 #include "plugin/scene/MapperInternals.h"
 
+#include "lights/VtkVersions.h"
+
 #include <glm/glm.hpp>
 
 #include <optional>
 
+VTK_ABI_NAMESPACE_BEGIN
 class vtkMapper;
 class vtkProperty;
 class vtkRenderer;
+VTK_ABI_NAMESPACE_END
 
 namespace gnomon
 {

@@ -2,11 +2,15 @@
 
 #include "vtkType.h"
 
+#include "lights/VtkVersions.h"
+
 #include <vector>
 
+VTK_ABI_NAMESPACE_BEGIN
 class vtkMapper;
 class vtkPointGaussianMapper;
 class vtkPolyData;
+VTK_ABI_NAMESPACE_END
 
 namespace gnomon
 {

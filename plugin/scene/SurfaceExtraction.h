@@ -1,6 +1,7 @@
 #pragma once
 
 #include "lights/Bounds.h"
+#include "lights/VtkVersions.h"
 #include "shadowtech/base/Solid.h"
 
 #include "vtkType.h"
@@ -12,8 +13,10 @@
 #include <utility>
 #include <vector>
 
+VTK_ABI_NAMESPACE_BEGIN
 class vtkDataArray;
 class vtkPolyData;
+VTK_ABI_NAMESPACE_END
 
 namespace gnomon
 {

@@ -6,6 +6,7 @@
 #include "plugin/scene/SurfaceExtraction.h"
 
 #include "lights/Bounds.h"
+#include "lights/VtkVersions.h"
 
 #include <glm/glm.hpp>
 
@@ -14,10 +15,12 @@
 #include <optional>
 #include <vector>
 
+VTK_ABI_NAMESPACE_BEGIN
 class vtkDataArray;
 class vtkDataSet;
 class vtkPolyData;
 class vtkProp;
+VTK_ABI_NAMESPACE_END
 
 namespace gnomon
 {

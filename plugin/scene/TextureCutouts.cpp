@@ -201,9 +201,9 @@ glm::mat4 transformOf(vtkActor* actor, vtkInformation* keys)
   {
     rows = actor->GetTexture()->GetTransform()->GetMatrix()->GetData();
   }
-  else if (keys && keys->Has(vtkProp::GeneralTextureTransform()))
+  else if (keys && keys->Has(vtkProp::GNOMON_VTK_TEXTURE_TRANSFORM()))
   {
-    rows = keys->Get(vtkProp::GeneralTextureTransform());
+    rows = keys->Get(vtkProp::GNOMON_VTK_TEXTURE_TRANSFORM());
   }
   glm::mat4 transform(1.0f);
   for (int i = 0; rows && i < 16; ++i)

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "lights/VtkVersions.h"
+
 #include "shadowtech/base/CutoutMask.h"
 
 #include "vtkType.h"
@@ -11,12 +13,14 @@
 #include <string>
 #include <unordered_map>
 
+VTK_ABI_NAMESPACE_BEGIN
 class vtkActor;
 class vtkDataArray;
 class vtkInformation;
 class vtkMapper;
 class vtkPolyData;
 class vtkTexture;
+VTK_ABI_NAMESPACE_END
 
 namespace gnomon
 {

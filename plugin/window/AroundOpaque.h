@@ -1,5 +1,7 @@
 #pragma once
 
+#include "lights/VtkVersions.h"
+
 #include <vtkRenderState.h>
 
 #include <exception>
@@ -7,8 +9,10 @@
 #include <memory>
 #include <vector>
 
+VTK_ABI_NAMESPACE_BEGIN
 class vtkProp;
 class vtkRenderer;
+VTK_ABI_NAMESPACE_END
 
 namespace gnomon
 {

@@ -1,13 +1,17 @@
 #pragma once
 
+#include "lights/VtkVersions.h"
+
 #include <vtkOpenGLRenderWindow.h>
 #include <vtkTimeStamp.h>
 #include <vtkWeakPointer.h>
 
 #include <functional>
 
+VTK_ABI_NAMESPACE_BEGIN
 class vtkRenderPass;
 class vtkRenderer;
+VTK_ABI_NAMESPACE_END
 
 namespace gnomon
 {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "lights/VtkVersions.h"
+
 #include "shadowtech/base/PictureMean.h"
 
 #include <glm/glm.hpp>
@@ -7,9 +9,11 @@
 #include <vtkOpenGLFramebufferObject.h>
 #include <vtkSmartPointer.h>
 
+VTK_ABI_NAMESPACE_BEGIN
 class vtkOpenGLRenderWindow;
 class vtkRenderPass;
 class vtkRenderState;
+VTK_ABI_NAMESPACE_END
 
 namespace gnomon
 {

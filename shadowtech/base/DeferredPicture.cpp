@@ -118,7 +118,7 @@ void DeferredPicture::copyPicture() const
 {
   const glm::ivec2& from = this->origin_;
   const glm::ivec2& to = this->extent_;
-  if (this->eightBit_ && GLEW_VERSION_4_3)
+  if (this->eightBit_ && GNOMON_HAS_GL(VERSION_4_3))
   {
     // Copies bytes, where a blit of software OpenGL would draw.
     const bool isTexture =

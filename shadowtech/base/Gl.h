@@ -1,7 +1,9 @@
 #pragma once
 
-// OpenGL as VTK loads it (vtk_glew.h is GLEW, VTK's own or the system's), and owners of GL names.
-#include <vtk_glew.h>
+// OpenGL as VTK loads it (GNOMON_HAS_GL tells what there is), and owners of GL names.
+#include "lights/VtkVersions.h"
+
+#include GNOMON_VTK_GL_HEADER
 
 #include <utility>
 

@@ -135,10 +135,10 @@ namespace
 /// What is compiled below OpenGL 4.3 asks for no more than places of attributes.
 const char* versionLine()
 {
-  return GLEW_VERSION_4_3 ? "#version 430 core\n"
-    : GLEW_VERSION_3_3    ? "#version 330 core\n"
-                          : "#version 150 core\n"
-                            "#extension GL_ARB_explicit_attrib_location : require\n";
+  return GNOMON_HAS_GL(VERSION_4_3) ? "#version 430 core\n"
+    : GNOMON_HAS_GL(VERSION_3_3)    ? "#version 330 core\n"
+                                    : "#version 150 core\n"
+                                      "#extension GL_ARB_explicit_attrib_location : require\n";
 }
 
 } // namespace

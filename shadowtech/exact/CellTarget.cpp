@@ -107,7 +107,7 @@ void bind(CellBinding binding, GlBuffer& buffer, const std::vector<Element>& ele
 //------------------------------------------------------------------------------
 std::string CellTarget::whyUnsupported()
 {
-  if (!GLEW_VERSION_4_3)
+  if (!GNOMON_HAS_GL(VERSION_4_3))
   {
     const GLubyte* version = glGetString(GL_VERSION);
     return std::string("drawing conservative maps on the GPU takes OpenGL 4.3, whose shaders have "

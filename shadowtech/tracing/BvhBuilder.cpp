@@ -1,6 +1,7 @@
 #include "shadowtech/tracing/BvhBuilder.h"
 
-#include <embree3/rtcore.h>
+#include "shadowtech/tracing/Embree.h"
+
 #include <tbb/parallel_for.h>
 
 #include <algorithm>

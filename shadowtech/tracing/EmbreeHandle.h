@@ -1,6 +1,6 @@
 #pragma once
 
-#include <embree3/rtcore.h>
+#include "shadowtech/tracing/Embree.h"
 
 #include <utility>
 

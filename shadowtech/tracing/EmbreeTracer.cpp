@@ -1,9 +1,8 @@
 #include "shadowtech/tracing/EmbreeTracer.h"
 
 #include "shadowtech/base/Bytes.h"
+#include "shadowtech/tracing/Embree.h"
 #include "shadowtech/tracing/EmbreeHandle.h"
-
-#include <embree3/rtcore.h>
 
 #include <glm/gtc/matrix_inverse.hpp>
 
@@ -182,15 +181,6 @@ struct Caster
   const glm::uvec3* triangles = nullptr;
 };
 
-void occluded(const int* valid, RTCScene scene, RTCIntersectContext* context, RTCRay16* rays)
-{
-  rtcOccluded16(valid, scene, context, rays);
-}
-void occluded(const int* valid, RTCScene scene, RTCIntersectContext* context, RTCRay8* rays)
-{
-  rtcOccluded8(valid, scene, context, rays);
-}
-
 /// Traces a tile's rays in squares of 4 x 4 pixels, whose rays stay closer together than those of a
 /// row. Of squares where few are needed, the rays of several go together.
 template <typename Packet>
@@ -201,13 +191,11 @@ public:
     : scene_(scene)
     , rayFar_(rayFar)
   {
-    rtcInitIntersectContext(&this->context_);
     // Rays have their answers by themselves, whichever of their neighbours are traced as well.
     // Coherent packets enter boxes together: whether a ray meets an edge that lies in its box's
     // side, to within a rounding, then depends on the packet. In scenes with instances Embree
     // 3.13.5 hangs on coherent packets of 16 that hit some, too: it keeps numbers in AVX-512
     // registers that the traversal of an instance overwrites.
-    this->context_.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
     for (std::size_t lane = 0; lane < lanes; ++lane)
     {
       this->packet_.tnear[lane] = shadowRayNear;
@@ -296,7 +284,7 @@ private:
       // Where a processor lacks the lanes Embree goes by the interval instead of the mask.
       this->packet_.tfar[lane] = taken ? this->rayFar_ : -std::numeric_limits<float>::infinity();
     }
-    occluded(valid.data(), this->scene_, &this->context_, &this->packet_);
+    occlude(valid.data(), this->scene_, this->context_, this->packet_);
     for (std::size_t lane = 0; lane < this->taken_; ++lane)
     {
       // Embree sets the far end of a ray that hits to minus infinity.
@@ -314,7 +302,7 @@ private:
 
   RTCScene scene_;
   Packet packet_{};
-  RTCIntersectContext context_;
+  EmbreeContext context_{ EmbreeRays::Incoherent };
   float rayFar_;
   std::size_t taken_ = 0;                     ///< rays in the packet
   std::array<std::uint16_t, lanes> pixels_{}; ///< of the tile, whose rays they are
@@ -326,9 +314,7 @@ void findFree(RTCScene scene, std::size_t count, const PointArrays& from, const 
   std::uint8_t* free)
 {
   constexpr std::size_t lanes = std::extent_v<decltype(Packet::tfar)>;
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT; // as in TileTracer
+  EmbreeContext context(EmbreeRays::Incoherent); // as in TileTracer
   for (std::size_t first = 0; first < count; first += lanes)
   {
     Packet packet{};
@@ -348,7 +334,7 @@ void findFree(RTCScene scene, std::size_t count, const PointArrays& from, const 
       packet.mask[lane] = 0xffffffffu;
       valid[lane] = taken ? -1 : 0;
     }
-    occluded(valid.data(), scene, &context, &packet);
+    occlude(valid.data(), scene, context, packet);
     for (std::size_t i = first; i < std::min(count, first + lanes); ++i)
     {
       free[i] = packet.tfar[i - first] < 0.0f ? 0 : 1;
@@ -695,9 +681,8 @@ std::optional<CasterHits::Hit> EmbreeTracer::nearest(
     until, 0xffffffffu, 0, 0 };
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  rtcIntersect1(impl.scene.get(), &context, &query);
+  EmbreeContext context;
+  intersect(impl.scene.get(), context, query);
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID)
   {
     return std::nullopt;

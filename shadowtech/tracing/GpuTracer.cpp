@@ -123,8 +123,8 @@ bool isSoftwareRenderer(const std::string& renderer)
 
 //------------------------------------------------------------------------------
 GpuTracer::GpuTracer()
-  : GpuTracer(
-      GLEW_VERSION_4_4 || GLEW_ARB_buffer_storage ? RayTransfer::Mapped : RayTransfer::Copied)
+  : GpuTracer(GNOMON_HAS_GL(VERSION_4_4) || GNOMON_HAS_GL(ARB_buffer_storage) ? RayTransfer::Mapped
+                                                                              : RayTransfer::Copied)
 {
 }
 
@@ -137,7 +137,7 @@ GpuTracer::GpuTracer(RayTransfer transfer)
 //------------------------------------------------------------------------------
 std::string GpuTracer::whyUnsupported()
 {
-  if (!GLEW_VERSION_4_3)
+  if (!GNOMON_HAS_GL(VERSION_4_3))
   {
     const GLubyte* version = glGetString(GL_VERSION);
     return std::string("tracing on the GPU takes OpenGL 4.3, and this is ") +

@@ -6,13 +6,13 @@
 
 #include "shadowtech/base/ShadowRay.h"
 #include "shadowtech/exact/ConservativeMaps.h"
+#include "shadowtech/tracing/Embree.h"
 #include "shadowtech/tracing/EmbreeTracer.h"
 #include "shadowtech/tracing/GpuShadowTracer.h"
 
 #include "vtkGnomonEGLRenderWindow.h"
 
 #include <benchmark/benchmark.h>
-#include <embree3/rtcore.h>
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <tbb/blocked_range.h>
@@ -60,15 +60,6 @@ const Subject& subject()
 {
   static const Subject instance;
   return instance;
-}
-
-void occluded(const int* valid, RTCScene scene, RTCIntersectContext* context, RTCRay16* rays)
-{
-  rtcOccluded16(valid, scene, context, rays);
-}
-void occluded(const int* valid, RTCScene scene, RTCIntersectContext* context, RTCRay8* rays)
-{
-  rtcOccluded8(valid, scene, context, rays);
 }
 
 /// Embree alone: the stage's rays, already in packets of 4 x 4 pixels without gaps, against one
@@ -136,14 +127,12 @@ public:
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, this->running_.size(), 64),
       [this](const tbb::blocked_range<std::size_t>& range)
       {
-        RTCIntersectContext context;
-        rtcInitIntersectContext(&context);
-        context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+        EmbreeContext context(EmbreeRays::Coherent);
         alignas(64) std::array<int, lanes> valid;
         valid.fill(-1);
         for (std::size_t i = range.begin(); i != range.end(); ++i)
         {
-          occluded(valid.data(), this->scene_.get(), &context, &this->running_[i]);
+          occlude(valid.data(), this->scene_.get(), context, this->running_[i]);
         }
       });
   }

@@ -1,6 +1,6 @@
 #include "Tracer.h"
 
-#include <embree3/rtcore.h>
+#include "shadowtech/tracing/Embree.h"
 
 #include <algorithm>
 #include <cmath>
@@ -34,7 +34,7 @@ struct Geometry
 /// A ray under way: what Embree hands through to the callbacks.
 struct Query
 {
-  RTCIntersectContext context; ///< first, so that a pointer to it is one to the query
+  EmbreeContext context; ///< first, so that a pointer to it is one to the query
   const Ray* ray;
   double distance; ///< to the nearest hit so far
   std::size_t surface;
@@ -291,11 +291,10 @@ Tracer::~Tracer() = default;
 //------------------------------------------------------------------------------
 std::optional<Hit> Tracer::nearest(const Ray& ray) const
 {
-  Query query{ {}, &ray, std::numeric_limits<double>::infinity(), 0, 0 };
-  rtcInitIntersectContext(&query.context);
+  Query query{ EmbreeContext(), &ray, std::numeric_limits<double>::infinity(), 0, 0 };
   RTCRayHit embreeRay{ this->impl_->toEmbree(ray), {} };
   embreeRay.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  rtcIntersect1(this->impl_->all.get(), &query.context, &embreeRay);
+  gnomon::intersect(this->impl_->all.get(), query.context, embreeRay);
   if (!std::isfinite(query.distance))
   {
     return std::nullopt;
@@ -307,10 +306,9 @@ std::optional<Hit> Tracer::nearest(const Ray& ray) const
 //------------------------------------------------------------------------------
 bool Tracer::blocked(const Ray& ray) const
 {
-  Query query{ {}, &ray, 0.0, 0, 0 };
-  rtcInitIntersectContext(&query.context);
+  Query query{ EmbreeContext(), &ray, 0.0, 0, 0 };
   RTCRay embreeRay = this->impl_->toEmbree(ray);
-  rtcOccluded1(this->impl_->casting.get(), &query.context, &embreeRay);
+  occlude(this->impl_->casting.get(), query.context, embreeRay);
   return embreeRay.tfar < 0.0f;
 }
 

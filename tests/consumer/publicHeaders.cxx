@@ -5,8 +5,8 @@
 #include <vtkGnomonAreaLight.h>
 #include <vtkGnomonEGLRenderWindow.h>
 #include <vtkGnomonLightKeys.h>
-#include <vtkGnomonShadowSettings.h>
 #include <vtkGnomonLightPlacement.h>
 #include <vtkGnomonLightSamplingPass.h>
 #include <vtkGnomonPropKeys.h>
 #include <vtkGnomonShadowPass.h>
+#include <vtkGnomonShadowSettings.h>

@@ -2,8 +2,7 @@
 
 #include "plugin/VisibilityImages.h"
 #include "shadowtech/base/FrameReport.h"
-
-#include <vtk_glew.h>
+#include "shadowtech/base/Gl.h"
 
 #include <algorithm>
 #include <cmath>

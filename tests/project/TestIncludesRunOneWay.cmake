@@ -37,13 +37,15 @@ foreach(technique IN LISTS techniques)
 endforeach()
 folder(shadowtech ${shared} ${techniques}) # the registry
 folder(plugin/window lights shadowtech/base)
-folder(plugin/scene lights shadowtech/base plugin/window)
+# What VTK's releases do differently.
+folder(plugin/vtk_versions lights shadowtech/base plugin/window)
+folder(plugin/scene lights shadowtech/base plugin/vtk_versions plugin/window)
 folder(plugin/frame ${shared} shadowtech plugin/scene plugin/window)
-folder(plugin ${shared} shadowtech plugin/frame plugin/scene plugin/window)
+folder(plugin ${shared} shadowtech plugin/frame plugin/scene plugin/vtk_versions plugin/window)
 
 # Public headers of plugin/ that its folders may include: they include nothing of it.
 set(plain_headers plugin/VisibilityImages.h plugin/vtkGnomonPropKeys.h)
-set(opengl "^(GL|EGL)/|^vtk_glew\\.h$|^vtkOpenGL|^vtkShader|^vtkTextureObject|^vtkFrameBuffer")
+set(opengl "^(GL|EGL)/|^vtk_gl(ew|ad)\\.h$|^vtkOpenGL|^vtkShader|^vtkTextureObject|^vtkFrameBuffer")
 
 # The path that an include leads to, from the project's root; empty for the system's.
 function(path_of name folder result)

@@ -7,6 +7,7 @@
 #include "TestData.h"
 
 #include "plugin/vtkGnomonEGLRenderWindow.h"
+#include "plugin/vtk_versions/SharedBlocksMapper.h"
 
 #include "vtkAssembly.h"
 #include "vtkBitArray.h"
@@ -14,7 +15,6 @@
 #include "vtkCellData.h"
 #include "vtkCompositeDataDisplayAttributes.h"
 #include "vtkCompositePolyDataMapper.h"
-#include "vtkCompositePolyDataMapper2.h"
 #include "vtkCullerCollection.h"
 #include "vtkDataSetMapper.h"
 #include "vtkFloatArray.h"
@@ -604,7 +604,7 @@ TEST_F(DrawnSurfaces, BlocksOfSeveralHelpers)
     blocks.push_back(block);
     root->SetBlock(2 * i, block); // every other one is null
   }
-  vtkNew<vtkCompositePolyDataMapper2> mapper;
+  vtkNew<SharedBlocksMapper> mapper;
   mapper->SetInputDataObject(root);
   vtkNew<vtkCompositeDataDisplayAttributes> attributes;
   mapper->SetCompositeDataDisplayAttributes(attributes);

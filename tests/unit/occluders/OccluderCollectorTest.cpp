@@ -5,11 +5,11 @@
 #include "TestData.h"
 
 #include "plugin/vtkGnomonPropKeys.h"
+#include "plugin/vtk_versions/SharedBlocksMapper.h"
 
 #include "vtkAssembly.h"
 #include "vtkCompositeDataDisplayAttributes.h"
 #include "vtkCompositePolyDataMapper.h"
-#include "vtkCompositePolyDataMapper2.h"
 #include "vtkDataArray.h"
 #include "vtkFloatArray.h"
 #include "vtkFollower.h"
@@ -105,7 +105,7 @@ void expectNothingDone(Scene& scene)
 
 vtkSmartPointer<vtkActor> makeCompositeActor(vtkDataObject* tree)
 {
-  vtkNew<vtkCompositePolyDataMapper2> mapper;
+  vtkNew<SharedBlocksMapper> mapper;
   mapper->SetInputDataObject(tree);
   vtkNew<vtkCompositeDataDisplayAttributes> attributes;
   mapper->SetCompositeDataDisplayAttributes(attributes);
@@ -315,7 +315,7 @@ TEST(OccluderProps, PointsAsSpheresOfOtherMappersAreNoted)
   vtkNew<vtkMultiBlockDataSet> blocks;
   blocks->SetBlock(0, makeSquare());
   vtkNew<vtkCompositePolyDataMapper> parts;
-  vtkNew<vtkCompositePolyDataMapper2> composite;
+  vtkNew<SharedBlocksMapper> composite;
   parts->SetInputDataObject(blocks);
   composite->SetInputDataObject(blocks);
   vtkNew<vtkGlyph3DMapper> glyphs;
@@ -623,8 +623,7 @@ TEST(OccluderBlocks, FollowVisibilityAndOpacityAsDrawn)
   root->SetBlock(3, a);
   const auto actor = makeCompositeActor(root);
   vtkCompositeDataDisplayAttributes* const attributes =
-    vtkCompositePolyDataMapper2::SafeDownCast(actor->GetMapper())
-      ->GetCompositeDataDisplayAttributes();
+    SharedBlocksMapper::SafeDownCast(actor->GetMapper())->GetCompositeDataDisplayAttributes();
   scene.renderer->AddActor(actor);
   EXPECT_EQ(scene.collectSurfaces(), 3u); // a is drawn once
 
@@ -637,9 +636,10 @@ TEST(OccluderBlocks, FollowVisibilityAndOpacityAsDrawn)
 
   attributes->RemoveBlockVisibilities();
   attributes->RemoveBlockOpacities();
-  actor->GetProperty()->SetOpacity(0.5); // not drawn in the opaque pass, whatever its blocks say
+  // Until 9.3 VTK skips a translucent actor in the opaque pass; later it draws its opaque blocks.
+  actor->GetProperty()->SetOpacity(0.5);
   attributes->SetBlockOpacity(a, 1.0);
-  EXPECT_EQ(scene.collectSurfaces(), 0u);
+  EXPECT_EQ(scene.collectSurfaces(), actor->HasOpaqueGeometry() ? 1u : 0u);
 }
 
 TEST(OccluderBlocks, AnEditedBlockIsReadAlone)

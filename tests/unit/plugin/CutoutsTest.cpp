@@ -3,10 +3,10 @@
 #include "PassScene.h"
 
 #include "plugin/vtkGnomonPropKeys.h"
+#include "plugin/vtk_versions/SharedBlocksMapper.h"
 #include "shadowtech/base/CutoutMask.h"
 
 #include <vtkCellArray.h>
-#include <vtkCompositePolyDataMapper2.h>
 #include <vtkFloatArray.h>
 #include <vtkGlyph3DMapper.h>
 #include <vtkImageData.h>
@@ -432,7 +432,7 @@ TEST_P(Cutouts, goThroughTextureTransforms)
   vtkNew<vtkInformation> keys;
   square->SetPropertyKeys(keys);
   transform->Translate(-0.5, 0.0, 0.0);
-  keys->Set(vtkProp::GeneralTextureTransform(), transform->GetMatrix()->GetData(), 16);
+  keys->Set(vtkProp::GNOMON_VTK_TEXTURE_TRANSFORM(), transform->GetMatrix()->GetData(), 16);
   this->expectPattern(letter, {}, "the actor's key", transformed);
 }
 
@@ -531,7 +531,7 @@ TEST_P(Cutouts, ofCompositeBlocksGlyphsAndStrips)
 
   vtkNew<vtkMultiBlockDataSet> tree;
   tree->SetBlock(0, data);
-  vtkNew<vtkCompositePolyDataMapper2> composite;
+  vtkNew<gnomon::SharedBlocksMapper> composite;
   composite->SetInputDataObject(tree);
   vtkNew<vtkActor> actor;
   actor->SetMapper(composite);

@@ -5,6 +5,8 @@
 
 #include "Scene.h"
 
+#include "shadowtech/base/Gl.h"
+
 #include <vtkAnnotatedCubeActor.h>
 #include <vtkAxesActor.h>
 #include <vtkAxisActor.h>
@@ -28,7 +30,6 @@
 #include <vtkTextProperty.h>
 #include <vtkTexture.h>
 #include <vtkToneMappingPass.h>
-#include <vtk_glew.h>
 
 #include <gmock/gmock.h>
 

@@ -6,10 +6,10 @@
 
 #include "plugin/vtkGnomonEGLRenderWindow.h"
 #include "plugin/vtkGnomonShadowPass.h"
+#include "shadowtech/base/Gl.h"
 #include "shadowtech/base/TextureMemory.h"
 
 #include <vtkNew.h>
-#include <vtk_glew.h>
 
 #include <gmock/gmock.h>
 

@@ -7,6 +7,7 @@
 #include "lights/vtkGnomonAreaLight.h"
 #include "lights/vtkGnomonLightKeys.h"
 #include "plugin/vtkGnomonLightSamplingPass.h"
+#include "shadowtech/base/Gl.h"
 
 #include <vtkLightCollection.h>
 #include <vtkObjectFactory.h>
@@ -14,7 +15,6 @@
 #include <vtkRenderPass.h>
 #include <vtkRenderState.h>
 #include <vtkTextureUnitManager.h>
-#include <vtk_glew.h>
 
 #include <gmock/gmock.h>
 

@@ -544,7 +544,7 @@ TEST_F(LightSampling, refinesAnewWhenSomethingChanges)
   this->sampling->SetSamplesPerFrame(4);
   vtkNew<vtkTextActor> text;
   text->SetInput("3");
-  this->scene.renderer->AddActor2D(text);
+  this->scene.renderer->AddViewProp(text);
   // A caster that the camera does not see.
   vtkNew<vtkPlaneSource> behind;
   behind->SetOrigin(-2.2, -3.0, 3.0);

@@ -1,7 +1,8 @@
 #include "LiveObjects.h"
 
+#include "shadowtech/base/Gl.h"
+
 #include <vtkRenderWindow.h>
-#include <vtk_glew.h>
 
 namespace gnomon::test
 {

@@ -1,8 +1,12 @@
 #pragma once
 
+#include "lights/VtkVersions.h"
+
 #include <ostream>
 
+VTK_ABI_NAMESPACE_BEGIN
 class vtkRenderWindow;
+VTK_ABI_NAMESPACE_END
 
 namespace gnomon::test
 {

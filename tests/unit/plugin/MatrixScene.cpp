@@ -1,9 +1,9 @@
 #include "MatrixScene.h"
 
 #include "lights/vtkGnomonLightKeys.h"
+#include "plugin/vtk_versions/SharedBlocksMapper.h"
 
 #include <vtkCellData.h>
-#include <vtkCompositePolyDataMapper2.h>
 #include <vtkFloatArray.h>
 #include <vtkFollower.h>
 #include <vtkGlyph3DMapper.h>
@@ -96,7 +96,7 @@ vtkSmartPointer<vtkActor> makeComposite(vtkRenderer*)
   vtkNew<vtkMultiBlockDataSet> blocks;
   blocks->SetBlock(0, makeBall(-1.0, 0.9));
   blocks->SetBlock(1, makeBall(1.0, 0.9));
-  vtkNew<vtkCompositePolyDataMapper2> mapper;
+  vtkNew<SharedBlocksMapper> mapper;
   mapper->SetInputDataObject(blocks);
   return actorWith(mapper);
 }

@@ -1,5 +1,6 @@
 #include "MatrixWindows.h"
 
+#include "plugin/vtk_versions/OpenGlLoading.h"
 #include "shadowtech/base/Gl.h"
 
 #include <vtkGenericOpenGLRenderWindow.h>
@@ -36,7 +37,7 @@ public:
   explicit SeveralSamples(PassScene& scene)
     : MatrixWindow(scene)
   {
-    scene.window->SetMultiSamples(8); // llvmpipe makes 4 of them
+    scene.window->SetMultiSamples(4); // as many as llvmpipe has before Mesa 26, which has 8
   }
   ~SeveralSamples() override { this->scene_.window->SetMultiSamples(0); }
   bool hasSeveralSamples() const override { return true; }
@@ -155,13 +156,12 @@ public:
   }
   void MakeCurrent() override { this->owner_->MakeCurrent(); }
   bool IsCurrent() override { return this->owner_->IsCurrent(); }
-  /// The owner has loaded OpenGL's functions. GLEW built for GLX would complain that there is no X
-  /// display.
+  /// The owner has loaded OpenGL's functions.
   void OpenGLInitContext() override
   {
     this->ContextCreationTime.Modified();
     this->Initialized = true;
-    this->GlewInitValid = true;
+    noteLoaded(this);
   }
 
 private:

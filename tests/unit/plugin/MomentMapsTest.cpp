@@ -7,13 +7,13 @@
 
 #include "plugin/VisibilityImages.h"
 #include "plugin/vtkGnomonPropKeys.h"
+#include "shadowtech/base/Gl.h"
 
 #include <vtkAppendPolyData.h>
 #include <vtkCubeSource.h>
 #include <vtkTransform.h>
 
 #include <gmock/gmock.h>
-#include <vtk_glew.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,7 @@
 #include "PassScene.h"
 
+#include "shadowtech/base/Gl.h"
+
 #include <vtkCallbackCommand.h>
 #include <vtkCameraPass.h>
 #include <vtkCubeSource.h>
@@ -11,7 +13,6 @@
 #include <vtkShadowMapPass.h>
 #include <vtkSphereSource.h>
 #include <vtkTrivialProducer.h>
-#include <vtk_glew.h>
 
 #include <algorithm>
 #include <cmath>

@@ -3,11 +3,11 @@
 #include "PassScene.h"
 
 #include "plugin/vtkGnomonPropKeys.h"
+#include "plugin/vtk_versions/SharedBlocksMapper.h"
 
 #include <vtkAssembly.h>
 #include <vtkCompositeDataDisplayAttributes.h>
 #include <vtkCompositePolyDataMapper.h>
-#include <vtkCompositePolyDataMapper2.h>
 #include <vtkCubeSource.h>
 #include <vtkDataSetMapper.h>
 #include <vtkFollower.h>
@@ -200,7 +200,7 @@ TEST_P(Props, blocksOfACompositeCastAndReceiveUnlessHidden)
   setBlock(0, -3.0);
   setBlock(1, 0.0);
   setBlock(2, 3.0);
-  vtkNew<vtkCompositePolyDataMapper2> mapper;
+  vtkNew<gnomon::SharedBlocksMapper> mapper;
   mapper->SetInputDataObject(blocks);
   vtkNew<vtkCompositeDataDisplayAttributes> attributes;
   mapper->SetCompositeDataDisplayAttributes(attributes);

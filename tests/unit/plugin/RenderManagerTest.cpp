@@ -205,7 +205,7 @@ TEST_F(RenderManager, onlyWhatDependsOnAChangeIsMadeAgain)
   this->scene.pass->SetTechnique("raytraced");
   vtkNew<vtkTextActor> text;
   text->SetInput("frame 1");
-  this->scene.renderer->AddActor2D(text);
+  this->scene.renderer->AddViewProp(text);
   this->settle();
   text->SetInput("frame 2");
   EXPECT_EQ(this->render(), Made{}) << "a text";

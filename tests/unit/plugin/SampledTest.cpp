@@ -652,7 +652,7 @@ TEST_F(Sampled, tellsOfProgress)
 TEST_F(Sampled, refinesOnAcrossSelectionsAndTexts)
 {
   vtkNew<vtkTextActor> text;
-  this->scene.renderer->AddActor2D(text);
+  this->scene.renderer->AddViewProp(text);
   set(this->scene, "progressive", 16);
   for (const double progress : { 0.0, 0.5, 1.0, 1.0 })
   {

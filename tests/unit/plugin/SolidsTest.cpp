@@ -1014,13 +1014,17 @@ TEST_F(SolidsTest, splatsWithDiscsCastAsSpheres)
   vtkNew<vtkMultiBlockDataSet> blocks;
   for (const int first : { 0, 1 })
   {
-    // Vertex cells choose points.
+    // Vertex cells choose points, each one three times: from 9.4 VTK writes a size for each point
+    // into an array that has room for one per vertex.
     vtkNew<vtkPolyData> half;
     half->ShallowCopy(scene.data);
     half->SetVerts(vtkNew<vtkCellArray>());
     for (vtkIdType i = first; i < count; i += 2)
     {
-      half->GetVerts()->InsertNextCell(1, &i);
+      for (int time = 0; time < 3; ++time)
+      {
+        half->GetVerts()->InsertNextCell(1, &i);
+      }
     }
     blocks->SetBlock(first, half);
   }

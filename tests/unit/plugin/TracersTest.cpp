@@ -6,6 +6,7 @@
 #include "Scene.h"
 
 #include "shadowtech/Registry.h"
+#include "shadowtech/base/Gl.h"
 
 #include <vtkBoundingBox.h>
 #include <vtkCollectionRange.h>
@@ -15,7 +16,6 @@
 #include <vtkPoints.h>
 #include <vtkRendererCollection.h>
 #include <vtkSphereSource.h>
-#include <vtk_glew.h>
 
 #include <gmock/gmock.h>
 

@@ -1,9 +1,9 @@
 #include "SyntheticScene.h"
 
 #include "shadowtech/base/ShadowRay.h"
+#include "shadowtech/tracing/Embree.h"
 #include "shadowtech/tracing/EmbreeTracer.h"
 
-#include <embree3/rtcore.h>
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <tbb/parallel_for.h>
@@ -340,9 +340,8 @@ public:
     query.ray = { from.x, from.y, from.z, 0.0f, along.x, along.y, along.z, 0.0f,
       std::numeric_limits<float>::infinity(), ~0u, 0, 0 };
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    rtcIntersect1(this->scene_.get(), &context, &query);
+    EmbreeContext context;
+    intersect(this->scene_.get(), context, query);
     return query.hit;
   }
 

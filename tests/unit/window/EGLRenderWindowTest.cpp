@@ -2,6 +2,8 @@
 
 #include "WindowScene.h"
 
+#include "shadowtech/base/Gl.h"
+
 #include <vtkFloatArray.h>
 #include <vtkImageData.h>
 #include <vtkLogger.h>
@@ -9,7 +11,6 @@
 #include <vtkOutputWindow.h>
 #include <vtkRendererCollection.h>
 #include <vtkWindowToImageFilter.h>
-#include <vtk_glew.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

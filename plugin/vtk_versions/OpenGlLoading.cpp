@@ -1,0 +1,61 @@
+#include "plugin/vtk_versions/OpenGlLoading.h"
+
+#include "vtkOpenGLRenderWindow.h"
+
+#include GNOMON_VTK_GL_HEADER
+
+#if GNOMON_VTK_HAS_GLAD
+#include "plugin/window/EglContext.h"
+#endif
+
+namespace gnomon
+{
+
+#if GNOMON_VTK_HAS_GLAD
+
+//------------------------------------------------------------------------------
+std::string loadOpenGl(vtkOpenGLRenderWindow* /*window*/)
+{
+  // glad's own search asks libGL, which knows no function before GLX has made a context.
+  const int version = gladLoadGLUserPtr(
+    [](void*, const char* name) -> GLADapiproc { return eglGetProcAddress(name); }, nullptr);
+  return version > 0 ? "" : "EGL names none";
+}
+
+//------------------------------------------------------------------------------
+void noteLoaded(vtkOpenGLRenderWindow* /*window*/) {}
+
+#else
+
+namespace
+{
+
+struct WindowAccess : vtkOpenGLRenderWindow
+{
+  static bool& isLoaded(vtkOpenGLRenderWindow* window)
+  {
+    return window->*(&WindowAccess::GlewInitValid);
+  }
+};
+
+} // namespace
+
+//------------------------------------------------------------------------------
+std::string loadOpenGl(vtkOpenGLRenderWindow* window)
+{
+  // GLEW built for GLX loads the functions, and only then complains that there is no X display.
+  const GLenum result = glewInit();
+  const bool loaded = result == GLEW_OK || result == GLEW_ERROR_NO_GLX_DISPLAY;
+  WindowAccess::isLoaded(window) = loaded;
+  return loaded ? "" : reinterpret_cast<const char*>(glewGetErrorString(result));
+}
+
+//------------------------------------------------------------------------------
+void noteLoaded(vtkOpenGLRenderWindow* window)
+{
+  WindowAccess::isLoaded(window) = true;
+}
+
+#endif
+
+} // namespace gnomon

@@ -1,0 +1,109 @@
+#pragma once
+
+// Embree 3 or 4, by names that fit both. No other file includes Embree's headers.
+#if __has_include(<embree4/rtcore.h>)
+#include <embree4/rtcore.h>
+#else
+#include <embree3/rtcore.h>
+#endif
+
+namespace gnomon
+{
+
+/// What Embree may optimise traversal for.
+enum class EmbreeRays
+{
+  Incoherent,
+  Coherent
+};
+
+#if RTC_VERSION_MAJOR >= 4
+
+/// What a query is told beside its rays. Callbacks receive the address of the first member.
+struct EmbreeContext
+{
+  explicit EmbreeContext(EmbreeRays rays = EmbreeRays::Incoherent)
+    : flags(
+        rays == EmbreeRays::Coherent ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT)
+  {
+    rtcInitRayQueryContext(&this->context);
+  }
+
+  RTCRayQueryContext context;
+  RTCRayQueryFlags flags;
+};
+
+inline void intersect(RTCScene scene, EmbreeContext& context, RTCRayHit& query)
+{
+  RTCIntersectArguments arguments;
+  rtcInitIntersectArguments(&arguments);
+  arguments.flags = context.flags;
+  arguments.context = &context.context;
+  rtcIntersect1(scene, &query, &arguments);
+}
+
+inline RTCOccludedArguments occludedArguments(EmbreeContext& context)
+{
+  RTCOccludedArguments arguments;
+  rtcInitOccludedArguments(&arguments);
+  arguments.flags = context.flags;
+  arguments.context = &context.context;
+  return arguments;
+}
+
+inline void occlude(RTCScene scene, EmbreeContext& context, RTCRay& ray)
+{
+  RTCOccludedArguments arguments = occludedArguments(context);
+  rtcOccluded1(scene, &ray, &arguments);
+}
+
+inline void occlude(const int* valid, RTCScene scene, EmbreeContext& context, RTCRay8& rays)
+{
+  RTCOccludedArguments arguments = occludedArguments(context);
+  rtcOccluded8(valid, scene, &rays, &arguments);
+}
+
+inline void occlude(const int* valid, RTCScene scene, EmbreeContext& context, RTCRay16& rays)
+{
+  RTCOccludedArguments arguments = occludedArguments(context);
+  rtcOccluded16(valid, scene, &rays, &arguments);
+}
+
+#else
+
+/// What a query is told beside its rays. Callbacks receive the address of the first member.
+struct EmbreeContext
+{
+  explicit EmbreeContext(EmbreeRays rays = EmbreeRays::Incoherent)
+  {
+    rtcInitIntersectContext(&this->context);
+    this->context.flags = rays == EmbreeRays::Coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT
+                                                       : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+  }
+
+  RTCIntersectContext context;
+};
+
+inline void intersect(RTCScene scene, EmbreeContext& context, RTCRayHit& query)
+{
+  rtcIntersect1(scene, &context.context, &query);
+}
+
+inline void occlude(RTCScene scene, EmbreeContext& context, RTCRay& ray)
+{
+  rtcOccluded1(scene, &context.context, &ray);
+}
+
+inline void occlude(const int* valid, RTCScene scene, EmbreeContext& context, RTCRay8& rays)
+{
+  rtcOccluded8(valid, scene, &context.context, &rays);
+}
+
+inline void occlude(const int* valid, RTCScene scene, EmbreeContext& context, RTCRay16& rays)
+{
+  rtcOccluded16(valid, scene, &context.context, &rays);
+}
+
+#endif
+
+} // namespace gnomon
