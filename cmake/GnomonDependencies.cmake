@@ -35,7 +35,7 @@ find_package(VTK 9.1 REQUIRED COMPONENTS
   OPTIONAL_COMPONENTS
   glew
   glad)
-# What loads OpenGL's functions, which lights/VtkVersions.h includes.
+# What loads OpenGL's functions, which lights/vtkGnomonVersions.h includes.
 if(VTK_VERSION VERSION_LESS 9.4)
   set(GNOMON_VTK_GL VTK::glew)
 else()

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "lights/LightArea.h"
-#include "lights/VtkVersions.h"
+#include "lights/vtkGnomonVersions.h"
 
 #include <glm/glm.hpp>
 

@@ -30,7 +30,7 @@
 #define vtkGnomonLightKeys_h
 
 #include "GnomonLightsModule.h" // For export macro
-#include "VtkVersions.h"        // For VTK_ABI_NAMESPACE_BEGIN
+#include "vtkGnomonVersions.h"  // For VTK_ABI_NAMESPACE_BEGIN
 #include "vtkObject.h"
 
 class vtkGnomonShadowSettings;

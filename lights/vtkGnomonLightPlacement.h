@@ -23,7 +23,7 @@
 #define vtkGnomonLightPlacement_h
 
 #include "GnomonLightsModule.h" // For export macro
-#include "VtkVersions.h"        // For VTK_ABI_NAMESPACE_BEGIN
+#include "vtkGnomonVersions.h"  // For VTK_ABI_NAMESPACE_BEGIN
 #include "vtkObject.h"
 
 VTK_ABI_NAMESPACE_BEGIN

@@ -123,6 +123,8 @@ void vtkGnomonNamedSettings::UnsetSetting(const char* name)
   }
   gnomon::ShadowSettings left;
   this->CopySetValues(left);
+  left.named = this->Internal->values.named;
+  left.named.erase(name);
   this->Internal->values = left;
   this->Modified();
 }

@@ -14,7 +14,7 @@
 #define vtkGnomonPropKeys_h
 
 #include "GnomonPluginModule.h" // For export macro
-#include "VtkVersions.h"        // For VTK_ABI_NAMESPACE_BEGIN
+#include "vtkGnomonVersions.h"  // For VTK_ABI_NAMESPACE_BEGIN
 #include "vtkObject.h"
 
 VTK_ABI_NAMESPACE_BEGIN

@@ -32,7 +32,7 @@
 #define vtkGnomonShadowPass_h
 
 #include "GnomonPluginModule.h" // For export macro
-#include "VtkVersions.h"        // For VTK_ABI_NAMESPACE_BEGIN
+#include "vtkGnomonVersions.h"  // For VTK_ABI_NAMESPACE_BEGIN
 #include "vtkOpenGLRenderPass.h"
 
 #include <memory> // For std::unique_ptr

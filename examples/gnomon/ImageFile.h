@@ -2,7 +2,7 @@
 
 #include "plugin/VisibilityImages.h"
 
-#include "lights/VtkVersions.h"
+#include "lights/vtkGnomonVersions.h"
 
 #include <array>
 #include <cstddef>

@@ -5,7 +5,7 @@
 
 #include "plugin/VisibilityImages.h"
 
-#include "lights/VtkVersions.h"
+#include "lights/vtkGnomonVersions.h"
 
 #include <cstdint>
 #include <functional>

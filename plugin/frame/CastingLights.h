@@ -1,7 +1,7 @@
 #pragma once
 
 #include "lights/LightManager.h"
-#include "lights/VtkVersions.h"
+#include "lights/vtkGnomonVersions.h"
 #include "plugin/frame/LightTechnique.h"
 #include "shadowtech/base/FrameReport.h"
 #include "shadowtech/base/VisibilityLayers.h"

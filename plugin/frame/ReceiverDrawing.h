@@ -1,6 +1,6 @@
 #pragma once
 
-#include "lights/VtkVersions.h"
+#include "lights/vtkGnomonVersions.h"
 
 #include "shadowtech/base/ReceiverTarget.h"
 

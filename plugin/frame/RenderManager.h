@@ -1,6 +1,6 @@
 #pragma once
 
-#include "lights/VtkVersions.h"
+#include "lights/vtkGnomonVersions.h"
 #include "plugin/VisibilityImages.h"
 #include "plugin/frame/Frame.h"
 #include "plugin/frame/MapRasterizer.h"

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "lights/ShadowLight.h"
-#include "lights/VtkVersions.h"
+#include "lights/vtkGnomonVersions.h"
 #include "plugin/frame/Route.h"
 #include "plugin/scene/DrawnLookup.h"
 #include "shadowtech/base/Technique.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "lights/VtkVersions.h"
+#include "lights/vtkGnomonVersions.h"
 #include "plugin/frame/CastingLights.h"
 #include "plugin/frame/ValueKey.h"
 

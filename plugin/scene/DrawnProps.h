@@ -2,7 +2,7 @@
 
 #include "plugin/scene/SurfaceExtraction.h"
 
-#include "lights/VtkVersions.h"
+#include "lights/vtkGnomonVersions.h"
 
 #include <glm/glm.hpp>
 

@@ -3,7 +3,7 @@
 #include "plugin/scene/SurfaceExtraction.h"
 #include "plugin/vtk_versions/CompositeMappers.h"
 
-#include "lights/VtkVersions.h"
+#include "lights/vtkGnomonVersions.h"
 
 #include <optional>
 #include <string>

@@ -4,7 +4,7 @@
 #include "plugin/scene/PropMemory.h"
 #include "plugin/scene/SnapshotSurfaces.h"
 
-#include "lights/VtkVersions.h"
+#include "lights/vtkGnomonVersions.h"
 
 #include "shadowtech/base/Receivers.h"
 

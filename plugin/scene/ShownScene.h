@@ -2,7 +2,7 @@
 
 #include "plugin/scene/PropMemory.h"
 
-#include "lights/VtkVersions.h"
+#include "lights/vtkGnomonVersions.h"
 
 #include <cstddef>
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "lights/CameraView.h"
-#include "lights/VtkVersions.h"
+#include "lights/vtkGnomonVersions.h"
 
 #include <glm/glm.hpp>
 

@@ -2,7 +2,7 @@
 
 #include "vtkType.h"
 
-#include "lights/VtkVersions.h"
+#include "lights/vtkGnomonVersions.h"
 
 #include <vector>
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "lights/Bounds.h"
-#include "lights/VtkVersions.h"
+#include "lights/vtkGnomonVersions.h"
 #include "shadowtech/base/Solid.h"
 
 #include "vtkType.h"

@@ -6,7 +6,7 @@
 #include "plugin/scene/SurfaceExtraction.h"
 
 #include "lights/Bounds.h"
-#include "lights/VtkVersions.h"
+#include "lights/vtkGnomonVersions.h"
 
 #include <glm/glm.hpp>
 

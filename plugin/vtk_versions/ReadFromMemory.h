@@ -1,6 +1,6 @@
 #pragma once
 
-#include "lights/VtkVersions.h"
+#include "lights/vtkGnomonVersions.h"
 
 #include "vtkImageReader2.h"
 #if GNOMON_VTK_HAS_STREAMS

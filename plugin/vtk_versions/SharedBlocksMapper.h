@@ -1,6 +1,6 @@
 #pragma once
 
-#include "lights/VtkVersions.h"
+#include "lights/vtkGnomonVersions.h"
 
 // The mapper whose blocks share buffers, for scenes of tests and examples.
 #if GNOMON_VTK_HAS_BLOCK_BATCHES

@@ -1,7 +1,7 @@
 #pragma once
 
 // OpenGL as VTK loads it (GNOMON_HAS_GL tells what there is), and owners of GL names.
-#include "lights/VtkVersions.h"
+#include "lights/vtkGnomonVersions.h"
 
 #include GNOMON_VTK_GL_HEADER
 

@@ -31,7 +31,8 @@ set(expected
   gnomon/vtkGnomonNamedSettings.h
   gnomon/vtkGnomonPropKeys.h
   gnomon/vtkGnomonShadowPass.h
-  gnomon/vtkGnomonShadowSettings.h)
+  gnomon/vtkGnomonShadowSettings.h
+  gnomon/vtkGnomonVersions.h)
 if(NOT headers STREQUAL expected)
   list(JOIN headers "\n  " headers)
   list(JOIN expected "\n  " expected)
