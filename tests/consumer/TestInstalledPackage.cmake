@@ -23,6 +23,7 @@ set(expected
   gnomon/GnomonShadowTechModule.h
   gnomon/PixelClass.h
   gnomon/VisibilityImages.h
+  gnomon/VtkVersions.h
   gnomon/vtkGnomonAreaLight.h
   gnomon/vtkGnomonEGLRenderWindow.h
   gnomon/vtkGnomonLightKeys.h
