@@ -38,8 +38,9 @@ endforeach()
 folder(shadowtech ${shared} ${techniques}) # the registry
 folder(plugin/window lights shadowtech/base)
 folder(plugin/scene lights shadowtech/base plugin/window)
+folder(plugin/data lights shadowtech/base shadowtech/tracing plugin/scene)
 folder(plugin/frame ${shared} shadowtech plugin/scene plugin/window)
-folder(plugin ${shared} shadowtech plugin/frame plugin/scene plugin/window)
+folder(plugin ${shared} shadowtech plugin/data plugin/frame plugin/scene plugin/window)
 
 # Public headers of plugin/ that its folders may include: they include nothing of it.
 set(plain_headers plugin/VisibilityImages.h plugin/vtkGnomonPropKeys.h)
