@@ -318,29 +318,30 @@ void vtkGnomonSun::AddDay(Path& path, double julianDay, double days, double hour
 }
 
 //------------------------------------------------------------------------------
-void vtkGnomonSun::MakeDayPath(
+bool vtkGnomonSun::MakeDayPath(
   double stepMinutes, vtkDoubleArray* directions, vtkDoubleArray* hours, vtkDoubleArray* times)
 {
   if (!this->IsStep(stepMinutes, directions))
   {
-    return;
+    return false;
   }
   Path path(stepMinutes, directions, hours, times);
   this->AddDay(path, this->Midnight(), 1.0, 0.0);
+  return true;
 }
 
 //------------------------------------------------------------------------------
-void vtkGnomonSun::MakeYearPath(int dayStep, double stepMinutes, vtkDoubleArray* directions,
+bool vtkGnomonSun::MakeYearPath(int dayStep, double stepMinutes, vtkDoubleArray* directions,
   vtkDoubleArray* hours, vtkDoubleArray* times)
 {
   if (!this->IsStep(stepMinutes, directions))
   {
-    return;
+    return false;
   }
   if (dayStep < 1 || dayStep > 366)
   {
     vtkErrorMacro("A path's step of " << dayStep << " days is not in [1, 366].");
-    return;
+    return false;
   }
   Path path(stepMinutes, directions, hours, times);
   const double first = gnomon::julianDayOf(this->Year, 1, 1);
@@ -351,6 +352,7 @@ void vtkGnomonSun::MakeYearPath(int dayStep, double stepMinutes, vtkDoubleArray*
     const double middle = day + shared / 2;
     this->AddDay(path, first + middle - this->ZoneHours / 24.0, shared, 24.0 * middle);
   }
+  return true;
 }
 
 //------------------------------------------------------------------------------

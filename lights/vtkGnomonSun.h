@@ -149,10 +149,11 @@ public:
    * @param directions becomes one unit vector a sun, towards it (3 components)
    * @param hours becomes the hours that each sun stands for; null: not wanted
    * @param times becomes hours since the first midnight; null: not wanted
+   * @return false, with an error and without a change, if a step makes no sense
    */
-  void MakeDayPath(double stepMinutes, vtkDoubleArray* directions, vtkDoubleArray* hours,
+  bool MakeDayPath(double stepMinutes, vtkDoubleArray* directions, vtkDoubleArray* hours,
     vtkDoubleArray* times = nullptr);
-  void MakeYearPath(int dayStep, double stepMinutes, vtkDoubleArray* directions,
+  bool MakeYearPath(int dayStep, double stepMinutes, vtkDoubleArray* directions,
     vtkDoubleArray* hours, vtkDoubleArray* times = nullptr);
   ///@}
 

@@ -280,10 +280,11 @@ void vtkGnomonVisibilityFilter::AddSunDay(vtkGnomonSun* sun, double stepMinutes)
   }
   vtkNew<vtkDoubleArray> directions;
   vtkNew<vtkDoubleArray> hours;
-  directions->SetNumberOfComponents(3);
-  sun->MakeDayPath(stepMinutes, directions, hours);
-  this->SetUp(sun->GetUp());
-  this->AddDirections(directions, hours);
+  if (sun->MakeDayPath(stepMinutes, directions, hours))
+  {
+    this->SetUp(sun->GetUp());
+    this->AddDirections(directions, hours);
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -296,10 +297,11 @@ void vtkGnomonVisibilityFilter::AddSunYear(vtkGnomonSun* sun, int dayStep, doubl
   }
   vtkNew<vtkDoubleArray> directions;
   vtkNew<vtkDoubleArray> hours;
-  directions->SetNumberOfComponents(3);
-  sun->MakeYearPath(dayStep, stepMinutes, directions, hours);
-  this->SetUp(sun->GetUp());
-  this->AddDirections(directions, hours);
+  if (sun->MakeYearPath(dayStep, stepMinutes, directions, hours))
+  {
+    this->SetUp(sun->GetUp());
+    this->AddDirections(directions, hours);
+  }
 }
 
 //------------------------------------------------------------------------------
