@@ -465,4 +465,11 @@ std::shared_ptr<const LightTexture> LightManager::textureOf(
   return read.texture;
 }
 
+//------------------------------------------------------------------------------
+std::optional<ShadowLight> readPlace(vtkLight* light, std::string& reason)
+{
+  reason = whyWithoutPlace(light);
+  return reason.empty() ? std::optional(readLight(light, {}, {})) : std::nullopt;
+}
+
 } // namespace gnomon

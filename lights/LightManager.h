@@ -84,4 +84,11 @@ private:
   ReadTextures textures_; ///< of the frame before
 };
 
+/// Read one light without a renderer: where it is, and what it reaches. Its area, its texture and its
+/// settings are left out.
+///
+/// @param reason filled with a clause for people where the light's numbers say not where it shines
+/// @return nothing in that case
+std::optional<ShadowLight> readPlace(vtkLight* light, std::string& reason);
+
 } // namespace gnomon

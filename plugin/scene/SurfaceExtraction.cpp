@@ -50,6 +50,7 @@ struct Triangulator
   vtkCellArray* cells;
   SurfaceCells kind;
   std::vector<glm::uvec3>& triangles;
+  std::vector<std::uint32_t>* cellOfTriangle;
 
   template <typename PointArray>
   void operator()(PointArray* array)
@@ -87,6 +88,11 @@ struct Triangulator
         {
           drawn(ids[i], ids[i + 1 + i % 2], ids[i + 1 + (i + 1) % 2]);
         }
+      }
+      if (this->cellOfTriangle)
+      {
+        this->cellOfTriangle->resize(
+          this->triangles.size(), static_cast<std::uint32_t>(iterator->GetCurrentCellId()));
       }
     }
   }
@@ -239,14 +245,14 @@ vtkMTimeType shapeTime(vtkPolyData* data, SurfaceCells cells)
 }
 
 //------------------------------------------------------------------------------
-DrawnTriangles triangulate(
-  vtkPolyData* data, SurfaceCells cells, std::vector<std::uint32_t>& vertexOfPoint)
+DrawnTriangles triangulate(vtkPolyData* data, SurfaceCells cells,
+  std::vector<std::uint32_t>& vertexOfPoint, std::vector<std::uint32_t>* cellOfTriangle)
 {
   DrawnTriangles drawn;
   vtkCellArray* array = cellArray(data, cells);
   drawn.triangles.reserve(static_cast<std::size_t>(
     std::max<vtkIdType>(0, array->GetNumberOfConnectivityIds() - 2 * array->GetNumberOfCells())));
-  Triangulator triangulator{ array, cells, drawn.triangles };
+  Triangulator triangulator{ array, cells, drawn.triangles, cellOfTriangle };
   withPoints(data->GetPoints()->GetData(), triangulator);
 
   compact(drawn, static_cast<std::size_t>(data->GetNumberOfPoints()), vertexOfPoint);

@@ -71,8 +71,9 @@ struct DrawnTriangles
 
 /// @param vertexOfPoint scratch memory, the same for many calls: blocks of one data set may share a
 /// large point array, and none of them has to pay for all of it
-DrawnTriangles triangulate(
-  vtkPolyData* data, SurfaceCells cells, std::vector<std::uint32_t>& vertexOfPoint);
+/// @param cellOfTriangle where not null, becomes each triangle's cell, counted among its kind
+DrawnTriangles triangulate(vtkPolyData* data, SurfaceCells cells,
+  std::vector<std::uint32_t>& vertexOfPoint, std::vector<std::uint32_t>* cellOfTriangle = nullptr);
 
 /// Why a drawn triangle has no place in the snapshot.
 enum class Defect : std::uint8_t

@@ -308,38 +308,80 @@ private:
   std::array<std::uint16_t, lanes> pixels_{}; ///< of the tile, whose rays they are
 };
 
-/// Says of segments whether they are free. They are packets in their order.
+/// Traces rays as packets in their order.
+/// @param load fills the origins and directions of lanes with rays: load(packet, first, count)
+/// @param ofBlocked the answer, 0 or 1, of a ray that is blocked; others have the other
+template <typename Packet, typename Load>
+void traceRays(RTCScene scene, std::size_t count, float rayFar, const Load& load,
+  std::uint8_t ofBlocked, std::uint8_t* answers)
+{
+  constexpr std::size_t lanes = std::extent_v<decltype(Packet::tfar)>;
+  EmbreeContext context(EmbreeRays::Incoherent); // as in TileTracer
+  Packet packet{};
+  std::fill_n(packet.tnear, lanes, shadowRayNear);
+  std::fill_n(packet.mask, lanes, 0xffffffffu);
+  alignas(64) std::array<int, lanes> valid;
+  for (std::size_t first = 0; first < count; first += lanes)
+  {
+    const std::size_t taken = std::min(lanes, count - first);
+    for (std::size_t lane = 0; lane < lanes; ++lane)
+    {
+      valid[lane] = lane < taken ? -1 : 0;
+      packet.tfar[lane] = lane < taken ? rayFar : -std::numeric_limits<float>::infinity();
+    }
+    load(packet, first, taken);
+    occlude(valid.data(), scene, context, packet);
+    for (std::size_t lane = 0; lane < taken; ++lane)
+    {
+      const bool blocked = packet.tfar[lane] < 0.0f;
+      answers[first + lane] = static_cast<std::uint8_t>(blocked ? ofBlocked : 1 - ofBlocked);
+    }
+  }
+}
+
+template <typename Packet>
+void loadOrigins(Packet& packet, const PointArrays& origins, std::size_t first, std::size_t count)
+{
+  std::copy_n(origins.x + first, count, packet.org_x);
+  std::copy_n(origins.y + first, count, packet.org_y);
+  std::copy_n(origins.z + first, count, packet.org_z);
+}
+
+/// Says of segments whether they are free.
 template <typename Packet>
 void findFree(RTCScene scene, std::size_t count, const PointArrays& from, const PointArrays& to,
   std::uint8_t* free)
 {
-  constexpr std::size_t lanes = std::extent_v<decltype(Packet::tfar)>;
-  EmbreeContext context(EmbreeRays::Incoherent); // as in TileTracer
-  for (std::size_t first = 0; first < count; first += lanes)
-  {
-    Packet packet{};
-    alignas(64) std::array<int, lanes> valid;
-    for (std::size_t lane = 0; lane < lanes; ++lane)
+  traceRays<Packet>(
+    scene, count, shadowRayFarAtLight,
+    [&](Packet& packet, std::size_t first, std::size_t taken)
     {
-      const bool taken = first + lane < count;
-      const std::size_t i = taken ? first + lane : first;
-      packet.org_x[lane] = from.x[i];
-      packet.org_y[lane] = from.y[i];
-      packet.org_z[lane] = from.z[i];
-      packet.dir_x[lane] = to.x[i] - from.x[i];
-      packet.dir_y[lane] = to.y[i] - from.y[i];
-      packet.dir_z[lane] = to.z[i] - from.z[i];
-      packet.tnear[lane] = shadowRayNear;
-      packet.tfar[lane] = taken ? shadowRayFarAtLight : -std::numeric_limits<float>::infinity();
-      packet.mask[lane] = 0xffffffffu;
-      valid[lane] = taken ? -1 : 0;
-    }
-    occlude(valid.data(), scene, context, packet);
-    for (std::size_t i = first; i < std::min(count, first + lanes); ++i)
+      loadOrigins(packet, from, first, taken);
+      for (std::size_t lane = 0; lane < taken; ++lane)
+      {
+        packet.dir_x[lane] = to.x[first + lane] - from.x[first + lane];
+        packet.dir_y[lane] = to.y[first + lane] - from.y[first + lane];
+        packet.dir_z[lane] = to.z[first + lane] - from.z[first + lane];
+      }
+    },
+    0, free);
+}
+
+/// Says of rays whether they are blocked.
+template <typename Packet>
+void findBlocked(RTCScene scene, std::size_t count, const PointArrays& origins,
+  const PointArrays& directions, float rayFar, std::uint8_t* blocked)
+{
+  traceRays<Packet>(
+    scene, count, rayFar,
+    [&](Packet& packet, std::size_t first, std::size_t taken)
     {
-      free[i] = packet.tfar[i - first] < 0.0f ? 0 : 1;
-    }
-  }
+      loadOrigins(packet, origins, first, taken);
+      std::copy_n(directions.x + first, taken, packet.dir_x);
+      std::copy_n(directions.y + first, taken, packet.dir_y);
+      std::copy_n(directions.z + first, taken, packet.dir_z);
+    },
+    1, blocked);
 }
 
 } // namespace
@@ -665,6 +707,15 @@ void EmbreeTracer::areFree(
 {
   this->impl_->lanes16 ? findFree<RTCRay16>(this->impl_->scene.get(), count, from, to, free)
                        : findFree<RTCRay8>(this->impl_->scene.get(), count, from, to, free);
+}
+
+//------------------------------------------------------------------------------
+void EmbreeTracer::areBlocked(std::size_t count, const PointArrays& origins,
+  const PointArrays& directions, float rayFar, std::uint8_t* blocked) const
+{
+  const RTCScene scene = this->impl_->scene.get();
+  this->impl_->lanes16 ? findBlocked<RTCRay16>(scene, count, origins, directions, rayFar, blocked)
+                       : findBlocked<RTCRay8>(scene, count, origins, directions, rayFar, blocked);
 }
 
 //------------------------------------------------------------------------------

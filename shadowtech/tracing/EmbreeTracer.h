@@ -27,6 +27,14 @@ public:
   void areFree(std::size_t count, const PointArrays& from, const PointArrays& to,
     std::uint8_t* free) const override;
 
+  /// Which rays are blocked, each as it is in a picture (trace()). Called from several threads at
+  /// once.
+  /// @param origins, directions centred; directions of any length
+  /// @param rayFar where the rays end, in lengths of their directions (ShadowRay.h)
+  /// @param blocked gets 1 for each ray that a caster blocks, else 0
+  void areBlocked(std::size_t count, const PointArrays& origins, const PointArrays& directions,
+    float rayFar, std::uint8_t* blocked) const;
+
   const CasterHits* casterHits() const override { return this; }
   std::optional<Hit> nearest(
     const glm::vec3& origin, const glm::vec3& direction, float after, float until) const override;

@@ -23,7 +23,6 @@ set(expected
   gnomon/GnomonShadowTechModule.h
   gnomon/PixelClass.h
   gnomon/VisibilityImages.h
-  gnomon/VtkVersions.h
   gnomon/vtkGnomonAreaLight.h
   gnomon/vtkGnomonEGLRenderWindow.h
   gnomon/vtkGnomonLightKeys.h
@@ -33,7 +32,9 @@ set(expected
   gnomon/vtkGnomonPropKeys.h
   gnomon/vtkGnomonShadowPass.h
   gnomon/vtkGnomonShadowSettings.h
-  gnomon/vtkGnomonVersions.h)
+  gnomon/vtkGnomonSun.h
+  gnomon/vtkGnomonVersions.h
+  gnomon/vtkGnomonVisibilityFilter.h)
 if(NOT headers STREQUAL expected)
   list(JOIN headers "\n  " headers)
   list(JOIN expected "\n  " expected)

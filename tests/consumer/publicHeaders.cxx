@@ -10,3 +10,5 @@
 #include <vtkGnomonPropKeys.h>
 #include <vtkGnomonShadowPass.h>
 #include <vtkGnomonShadowSettings.h>
+#include <vtkGnomonSun.h>
+#include <vtkGnomonVisibilityFilter.h>

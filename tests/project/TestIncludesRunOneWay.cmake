@@ -40,8 +40,9 @@ folder(plugin/window lights shadowtech/base)
 # What VTK's releases do differently.
 folder(plugin/vtk_versions lights shadowtech/base plugin/window)
 folder(plugin/scene lights shadowtech/base plugin/vtk_versions plugin/window)
+folder(plugin/data lights shadowtech/base shadowtech/tracing plugin/scene)
 folder(plugin/frame ${shared} shadowtech plugin/scene plugin/window)
-folder(plugin ${shared} shadowtech plugin/frame plugin/scene plugin/vtk_versions plugin/window)
+folder(plugin ${shared} shadowtech plugin/data plugin/frame plugin/scene plugin/vtk_versions plugin/window)
 
 # Public headers of plugin/ that its folders may include: they include nothing of it.
 set(plain_headers plugin/VisibilityImages.h plugin/vtkGnomonPropKeys.h)

@@ -8,7 +8,8 @@
 
 The classes are VTK's own wrappers of the C++ ones, whose docstrings they have:
 vtkGnomonShadowPass, vtkGnomonShadowSettings, vtkGnomonLightKeys, vtkGnomonPropKeys,
-vtkGnomonAreaLight, vtkGnomonLightPlacement, vtkGnomonLightSamplingPass, vtkGnomonEGLRenderWindow.
+vtkGnomonAreaLight, vtkGnomonLightPlacement, vtkGnomonLightSamplingPass, vtkGnomonEGLRenderWindow;
+for shadow as data vtkGnomonVisibilityFilter and vtkGnomonSun.
 """
 
 import json
@@ -24,12 +25,14 @@ from .GnomonLights import (
     vtkGnomonLightKeys,
     vtkGnomonLightPlacement,
     vtkGnomonShadowSettings,
+    vtkGnomonSun,
 )
 from .GnomonPlugin import (
     vtkGnomonEGLRenderWindow,
     vtkGnomonLightSamplingPass,
     vtkGnomonPropKeys,
     vtkGnomonShadowPass,
+    vtkGnomonVisibilityFilter,
 )
 from .images import assert_images_equal
 
@@ -47,6 +50,8 @@ __all__ = [
     "vtkGnomonPropKeys",
     "vtkGnomonShadowPass",
     "vtkGnomonShadowSettings",
+    "vtkGnomonSun",
+    "vtkGnomonVisibilityFilter",
 ]
 
 # By renderer: what remove_shadows() puts back.

@@ -1,0 +1,195 @@
+/**
+ * @class   vtkGnomonSun
+ * @brief   the sun's direction from a date, a time, a zone and a place
+ *
+ * @code
+ * vtkNew<vtkGnomonSun> sun;
+ * sun->SetDate(2026, 6, 21);
+ * sun->SetTime(9, 30, 0.0, 2.0); // 9:30, two hours east of UTC: summer time in Berlin
+ * sun->SetPlace(52.52, 13.405);
+ * double towards[3];
+ * sun->GetDirection(towards);
+ * light->SetPosition(towards);   // a directional vtkLight with its focal point in the origin
+ * @endcode
+ *
+ * Positions are those of the Solar Position Algorithm (Reda and Andreas, Solar Energy 76, 2004;
+ * revised 2008), with periodic terms below 2e-6 radians left out. They are within 0.001 degrees of
+ * the full theory (VSOP87) in the years 1583 to 3000 if DeltaT is right, and within 0.002 degrees
+ * in 1900 to 2100 whatever it is. They name the middle of the sun's disc, as an observer on the
+ * ground sees it.
+ *
+ * The scene's axes are given by North and Up. By default +y is north, +z is up and +x is east.
+ *
+ * What makes no sense (30 February, a latitude of 91 degrees, North along Up, a number that is not
+ * finite) is an error (vtkErrorMacro), and changes nothing.
+ *
+ * @sa vtkGnomonVisibilityFilter
+ */
+
+#ifndef vtkGnomonSun_h
+#define vtkGnomonSun_h
+
+#include "GnomonLightsModule.h" // For export macro
+#include "vtkGnomonVersions.h"  // For VTK_ABI_NAMESPACE_BEGIN
+#include "vtkObject.h"
+
+VTK_ABI_NAMESPACE_BEGIN
+class vtkDoubleArray;
+VTK_ABI_NAMESPACE_END
+
+class GNOMONLIGHTS_EXPORT vtkGnomonSun : public vtkObject
+{
+public:
+  static vtkGnomonSun* New();
+  vtkTypeMacro(vtkGnomonSun, vtkObject);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * The date, of the Gregorian calendar, in the time zone of SetTime. Years go from 1583 to 6000,
+   * months and days from 1. Default: 2000-03-20.
+   */
+  virtual void SetDate(int year, int month, int day);
+  vtkGetMacro(Year, int);
+  vtkGetMacro(Month, int);
+  vtkGetMacro(Day, int);
+  ///@}
+
+  ///@{
+  /**
+   * The time of the day, and the zone that it is measured in: hours east of UTC, in [-14, 14]. The
+   * clock's summer time belongs to the zone. Hours are in [0, 24], minutes and seconds in [0, 60).
+   * Default: 12:00:00 UTC.
+   */
+  virtual void SetTime(int hour, int minute, double second, double zoneHours);
+  vtkGetMacro(Hour, int);
+  vtkGetMacro(Minute, int);
+  vtkGetMacro(Second, double);
+  vtkGetMacro(ZoneHours, double);
+  ///@}
+
+  ///@{
+  /**
+   * The place, in degrees: latitude to the north in [-90, 90], longitude to the east in
+   * [-180, 360]. Default: 0, 0.
+   */
+  virtual void SetPlace(double latitude, double longitude);
+  vtkGetMacro(Latitude, double);
+  vtkGetMacro(Longitude, double);
+  ///@}
+
+  ///@{
+  /**
+   * Height above sea level in metres, in [-1000, 100000]. It moves the sun by less than 0.0001
+   * degrees on any mountain. Default: 0.
+   */
+  virtual void SetAltitude(double metres);
+  vtkGetMacro(Altitude, double);
+  ///@}
+
+  ///@{
+  /**
+   * Terrestrial time less UTC, in seconds. Ten seconds move the sun by 0.0001 degrees. Default: 69,
+   * right within 5 seconds from 2003 to 2026.
+   */
+  virtual void SetDeltaT(double seconds);
+  vtkGetMacro(DeltaT, double);
+  ///@}
+
+  ///@{
+  /**
+   * Whether the sun is where it is seen through the air, which lifts it by half a degree at the
+   * horizon. Pressure in millibar, temperature in degrees Celsius. Default: off; 1010, 10.
+   */
+  vtkSetMacro(Refraction, bool);
+  vtkGetMacro(Refraction, bool);
+  vtkBooleanMacro(Refraction, bool);
+  virtual void SetAir(double pressureMillibar, double celsius);
+  vtkGetMacro(Pressure, double);
+  vtkGetMacro(Temperature, double);
+  ///@}
+
+  ///@{
+  /**
+   * The axes of the scene: what points up, and what points to the north, of any length. The part of
+   * North along Up does not count. Default: north (0, 1, 0), up (0, 0, 1).
+   */
+  virtual void SetNorthAndUp(const double north[3], const double up[3]);
+  vtkGetVector3Macro(North, double);
+  vtkGetVector3Macro(Up, double);
+  ///@}
+
+  /**
+   * The sun's azimuth in degrees: 0 north, 90 east, in [0, 360).
+   */
+  double GetAzimuth();
+
+  /**
+   * The elevation of the middle of the sun's disc above the horizon, in degrees, with refraction if
+   * that is on.
+   */
+  double GetElevation();
+
+  /**
+   * The sun's declination in degrees, as seen from the place.
+   */
+  double GetDeclination();
+
+  /**
+   * Get the unit vector from the scene towards the sun, in world coordinates.
+   */
+  void GetDirection(double direction[3]);
+
+  ///@{
+  /**
+   * Fill arrays with the suns of a day, from midnight to midnight of the zone, or of the whole
+   * year of the date. Steps are `stepMinutes` long, and each has the sun of its middle. Steps whose
+   * sun is below the horizon are left out. Of a year, `dayStep` days share the suns of the middle
+   * one of them.
+   *
+   * @param stepMinutes in (0, 1440]
+   * @param dayStep in [1, 366]; 1: every day has its own suns
+   * @param directions becomes one unit vector a sun, towards it (3 components)
+   * @param hours becomes the hours that each sun stands for; null: not wanted
+   * @param times becomes hours since the first midnight; null: not wanted
+   * @return false, with an error and without a change, if a step makes no sense
+   */
+  bool MakeDayPath(double stepMinutes, vtkDoubleArray* directions, vtkDoubleArray* hours,
+    vtkDoubleArray* times = nullptr);
+  bool MakeYearPath(int dayStep, double stepMinutes, vtkDoubleArray* directions,
+    vtkDoubleArray* hours, vtkDoubleArray* times = nullptr);
+  ///@}
+
+protected:
+  vtkGnomonSun() = default;
+  ~vtkGnomonSun() override = default;
+
+  int Year = 2000;
+  int Month = 3;
+  int Day = 20;
+  int Hour = 12;
+  int Minute = 0;
+  double Second = 0.0;
+  double ZoneHours = 0.0;
+  double Latitude = 0.0;
+  double Longitude = 0.0;
+  double Altitude = 0.0;
+  double DeltaT = 69.0;
+  bool Refraction = false;
+  double Pressure = 1010.0;
+  double Temperature = 10.0;
+  double North[3] = { 0.0, 1.0, 0.0 };
+  double Up[3] = { 0.0, 0.0, 1.0 };
+
+private:
+  vtkGnomonSun(const vtkGnomonSun&) = delete;
+  void operator=(const vtkGnomonSun&) = delete;
+
+  struct Path;
+  double Midnight() const;
+  double Now() const;
+  bool IsStep(double stepMinutes, vtkDoubleArray* directions);
+  void AddDay(Path& path, double julianDay, double days, double hoursBefore) const;
+};
+
+#endif

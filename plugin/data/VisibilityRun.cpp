@@ -1,0 +1,569 @@
+#include "plugin/data/VisibilityRun.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <utility>
+
+namespace gnomon
+{
+namespace
+{
+
+/// Samples of a chunk, at least one element's.
+constexpr std::size_t samplesOfChunk = 16384;
+/// Rays of a part, about: a fifth of a second on two cores.
+constexpr std::size_t raysOfPart = std::size_t(1) << 22;
+/// Samples of a tile, which one thread traces: four packets, so that few are torn.
+constexpr std::size_t samplesOfTile = 64;
+/// Answers that a tile keeps at once: they stay in the processor's first cache.
+constexpr std::size_t answersOfTile = 16384;
+/// Rays that are traced at once.
+constexpr std::size_t raysOfBatch = 256;
+/// Lights side by side whose rays from a sample follow each other: as many as a packet has lanes.
+constexpr std::size_t lightsOfGroup = 16;
+
+/// Rays of one length that wait for the tracer, and where their answers go.
+class WaitingRays
+{
+public:
+  WaitingRays(const EmbreeTracer& tracer, std::uint8_t* lit)
+    : tracer_(tracer)
+    , lit_(lit)
+  {
+  }
+  void setFar(float rayFar)
+  {
+    if (rayFar != this->rayFar_)
+    {
+      this->flush();
+      this->rayFar_ = rayFar;
+    }
+  }
+  /// @param answer place in `lit`, set to 1 if the ray is free
+  void add(const ShadowRay& ray, std::size_t answer)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      this->origins_[static_cast<std::size_t>(axis)][this->count_] = ray.origin[axis];
+      this->directions_[static_cast<std::size_t>(axis)][this->count_] = ray.direction[axis];
+    }
+    this->answers_[this->count_] = static_cast<std::uint32_t>(answer);
+    if (++this->count_ == raysOfBatch)
+    {
+      this->flush();
+    }
+  }
+  void flush()
+  {
+    const auto arrays = [](const std::array<std::array<float, raysOfBatch>, 3>& of) {
+      return PointArrays{ of[0].data(), of[1].data(), of[2].data() };
+    };
+    this->tracer_.areBlocked(this->count_, arrays(this->origins_), arrays(this->directions_),
+      this->rayFar_, this->blocked_.data());
+    for (std::size_t i = 0; i < this->count_; ++i)
+    {
+      this->lit_[this->answers_[i]] |= static_cast<std::uint8_t>(1 - this->blocked_[i]);
+    }
+    this->rays_ += this->count_;
+    this->count_ = 0;
+  }
+  std::uint64_t rays() const { return this->rays_; }
+
+private:
+  const EmbreeTracer& tracer_;
+  std::uint8_t* lit_;
+  float rayFar_ = shadowRayFarDirectional;
+  std::size_t count_ = 0;
+  std::uint64_t rays_ = 0;
+  std::array<std::array<float, raysOfBatch>, 3> origins_;
+  std::array<std::array<float, raysOfBatch>, 3> directions_;
+  std::array<std::uint32_t, raysOfBatch> answers_;
+  std::array<std::uint8_t, raysOfBatch> blocked_;
+};
+
+/// The shadow ray of a start. One that receives on both sides takes the side that faces the light.
+template <typename MakeRay>
+ShadowRay rayOf(const MakeRay& makeRay, const RayStarts& starts, std::size_t i, bool bothSides)
+{
+  const ShadowRay ray = makeRay(starts.position[i], starts.normal[i], starts.offset[i]);
+  return ray.traced || !bothSides
+    ? ray
+    : makeRay(starts.position[i], -starts.normal[i], starts.offset[i]);
+}
+
+/// A place on a Z curve over all directions, which octahedral coordinates lay out on a square (Meyer
+/// et al., EGSR 2010).
+std::uint32_t placeOf(const glm::vec3& direction)
+{
+  const glm::vec3 size = glm::abs(direction);
+  glm::vec2 at = glm::vec2(direction) / (size.x + size.y + size.z); // a unit vector has a length
+  if (direction.z < 0.0f)
+  {
+    const glm::vec2 folded(1.0f - std::abs(at.y), 1.0f - std::abs(at.x));
+    at = { std::copysign(folded.x, at.x), std::copysign(folded.y, at.y) };
+  }
+  const auto spread = [](float coordinate)
+  {
+    auto bits =
+      static_cast<std::uint32_t>(glm::clamp(0.5f + 0.5f * coordinate, 0.0f, 1.0f) * 65535.0f);
+    bits = (bits | bits << 8) & 0x00ff00ffu;
+    bits = (bits | bits << 4) & 0x0f0f0f0fu;
+    bits = (bits | bits << 2) & 0x33333333u;
+    return (bits | bits << 1) & 0x55555555u;
+  };
+  return spread(at.x) | spread(at.y) << 1;
+}
+
+bool isAboveGround(const glm::vec3& up, const glm::vec3& toLight)
+{
+  return up == glm::vec3(0.0f) || glm::dot(up, toLight) > 0.0f;
+}
+
+/// Whether all rays to a light are parallel and endless.
+bool isPlain(const ShadowRayLight& light)
+{
+  return light.kind == LightKind::Directional && !light.hasBox;
+}
+
+/// Behind all directions.
+constexpr std::uint64_t placeOfLamps = std::uint64_t(1) << 32;
+
+/// Whether any of a direction's disc is above the ground.
+bool mayShine(const WeightedLight& light, const glm::vec3& up)
+{
+  const float reach = glm::length(glm::vec2(glm::dot(up, light.discX), glm::dot(up, light.discY)));
+  return isAboveGround(up, light.ray.toLight + 2.0f * reach * up);
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+VisibilityRun::VisibilityRun(const DataScene& scene, const ReceiverStarts& starts,
+  const EmbreeTracer& tracer, Plan plan, const VisibilityArrays& arrays)
+  : scene_(scene)
+  , receivers_(starts)
+  , tracer_(tracer)
+  , plan_(std::move(plan))
+  , arrays_(arrays)
+  , order_(starts.order())
+  , bytesOfBits_((plan_.lights.size() + 7) / 8)
+  , samplesOfElement_(static_cast<std::size_t>(starts.samples()))
+{
+  for (const WeightedLight& light : this->plan_.lights)
+  {
+    this->allHours_ += light.weight;
+  }
+  this->orderLights();
+}
+
+//------------------------------------------------------------------------------
+/// Puts directions side by side, and behind them the lights that have a place. Directions below the
+/// horizon are left out.
+void VisibilityRun::orderLights()
+{
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> keyed;
+  for (std::size_t i = 0; i < this->plan_.lights.size(); ++i)
+  {
+    const ShadowRayLight& light = this->plan_.lights[i].ray;
+    if (isPlain(light) && !mayShine(this->plan_.lights[i], this->plan_.up))
+    {
+      continue;
+    }
+    keyed.emplace_back(
+      isPlain(light) ? placeOf(light.toLight) : placeOfLamps, static_cast<std::uint32_t>(i));
+  }
+  std::sort(keyed.begin(), keyed.end());
+  std::vector<WeightedLight> lights;
+  for (const auto& [place, number] : keyed)
+  {
+    lights.push_back(this->plan_.lights[number]);
+    this->numberOfLight_.push_back(number);
+  }
+  this->explained_.emplace(this->plan_.lights[this->plan_.explained].ray);
+  this->plan_.lights = std::move(lights);
+}
+
+//------------------------------------------------------------------------------
+std::size_t VisibilityRun::chunkSize() const
+{
+  return std::max<std::size_t>(
+    1, samplesOfChunk / static_cast<std::size_t>(this->receivers_.samples()));
+}
+
+//------------------------------------------------------------------------------
+double VisibilityRun::shareDone() const
+{
+  // Where all lights are below the horizon there is none.
+  const auto lights = static_cast<double>(std::max<std::size_t>(1, this->plan_.lights.size()));
+  const auto inChunk = static_cast<double>(this->chunkEnd_ - this->chunkBegin_);
+  const double done = static_cast<double>(this->chunkBegin_) +
+    (this->chunkBegun_ ? inChunk * static_cast<double>(this->nextLight_) / lights : 0.0);
+  return this->order_.empty() ? 1.0 : done / static_cast<double>(this->order_.size());
+}
+
+//------------------------------------------------------------------------------
+bool VisibilityRun::go(const std::function<bool(double)>& goOn)
+{
+  while (this->chunkBegin_ < this->order_.size())
+  {
+    if (!this->chunkBegun_)
+    {
+      this->beginChunk();
+    }
+    const std::size_t block =
+      std::max(lightsOfGroup, raysOfPart / this->hours_.size() / lightsOfGroup * lightsOfGroup);
+    const std::size_t lastLight = std::min(this->nextLight_ + block, this->plan_.lights.size());
+    this->traceBlock(this->nextLight_, lastLight);
+    this->nextLight_ = lastLight;
+    if (this->nextLight_ == this->plan_.lights.size())
+    {
+      this->explain();
+      this->finishChunk();
+    }
+    if (!goOn(this->shareDone()) && this->chunkBegin_ < this->order_.size())
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+//------------------------------------------------------------------------------
+void VisibilityRun::beginChunk()
+{
+  this->chunkBegun_ = true;
+  this->nextLight_ = 0;
+  this->chunkEnd_ = std::min(this->chunkBegin_ + this->chunkSize(), this->order_.size());
+  this->hours_.assign((this->chunkEnd_ - this->chunkBegin_) * this->samplesOfElement_, 0.0);
+}
+
+//------------------------------------------------------------------------------
+void VisibilityRun::traceBlock(std::size_t firstLight, std::size_t lastLight)
+{
+  const std::size_t elements = this->chunkEnd_ - this->chunkBegin_;
+  const std::size_t ofTile = std::max<std::size_t>(1, samplesOfTile / this->samplesOfElement_);
+  const std::size_t tiles = (elements + ofTile - 1) / ofTile;
+  std::atomic<std::uint64_t> rays{ 0 };
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tiles, 1),
+    [&](const tbb::blocked_range<std::size_t>& range)
+    {
+      for (std::size_t tile = range.begin(); tile != range.end(); ++tile)
+      {
+        rays += this->traceTile(
+          tile * ofTile, std::min((tile + 1) * ofTile, elements), firstLight, lastLight);
+      }
+    });
+  this->rays_ += rays;
+}
+
+//------------------------------------------------------------------------------
+/// Traces the rays of some samples to a group of lights.
+class VisibilityRun::Tile
+{
+public:
+  /// @param starts of the samples
+  /// @param lit gets the answers of `samples` samples to each light, one light after the other
+  Tile(const VisibilityRun& run, const RayStarts& starts, std::uint8_t* lit)
+    : plan_(run.plan_)
+    , starts_(starts)
+    , samples_(starts.samples())
+    , batch_(run.tracer_, lit)
+    , lit_(lit)
+    , next_(lightsOfGroup * starts.samples())
+  {
+  }
+
+  /// @param answers place of the first light's answers in `lit`
+  void trace(std::size_t firstLight, std::size_t lastLight, std::size_t answers)
+  {
+    const bool isSimple = this->starts_.position.size() == this->samples_ &&
+      this->starts_.disc.empty() && isPlain(this->plan_.lights[lastLight - 1].ray);
+    isSimple ? this->traceSimple(firstLight, lastLight, answers)
+             : this->traceAny(firstLight, lastLight, answers);
+  }
+  void flush() { this->batch_.flush(); }
+  std::uint64_t rays() const { return this->batch_.rays(); }
+
+private:
+  /// Of samples with one start, to directions without a disc.
+  void traceSimple(std::size_t firstLight, std::size_t lastLight, std::size_t answers)
+  {
+    this->batch_.setFar(shadowRayFarDirectional);
+    for (std::size_t s = 0; s < this->samples_; ++s)
+    {
+      std::size_t answer = answers + s;
+      for (std::size_t light = firstLight; light < lastLight; ++light, answer += this->samples_)
+      {
+        const ShadowRayLight& to = this->plan_.lights[light].ray;
+        const ShadowRay ray =
+          rayOf([&to](const auto&... of) { return shadowRayDirectional(to, of...); }, this->starts_,
+            s, this->plan_.bothSides);
+        if (ray.traced)
+        {
+          this->batch_.add(ray, answer);
+        }
+      }
+    }
+  }
+
+  void traceAny(std::size_t firstLight, std::size_t lastLight, std::size_t answers)
+  {
+    for (std::size_t light = firstLight; light < lastLight; ++light)
+    {
+      const auto next =
+        this->next_.begin() + static_cast<std::ptrdiff_t>((light - firstLight) * this->samples_);
+      std::copy_n(this->starts_.first.begin(), this->samples_, next);
+    }
+    // Of a sample with several starts, those after one that is lit need no ray.
+    for (bool waits = true; waits;)
+    {
+      waits = false;
+      for (std::size_t s = 0; s < this->samples_; ++s)
+      {
+        for (std::size_t light = firstLight; light < lastLight; ++light)
+        {
+          const std::size_t place = (light - firstLight) * this->samples_ + s;
+          waits |= this->addRay(this->plan_.lights[light], s, this->next_[place], answers + place);
+        }
+      }
+      if (waits)
+      {
+        this->batch_.flush();
+      }
+    }
+  }
+  /// Adds the ray from the next start of a sample that faces a light.
+  /// @return whether the sample has starts left
+  bool addRay(
+    const WeightedLight& light, std::size_t sample, std::uint32_t& next, std::size_t answer)
+  {
+    const std::uint32_t last = this->starts_.first[sample + 1];
+    if (next == last || this->lit_[answer] != 0)
+    {
+      return false;
+    }
+    if (!isPlain(light.ray) || this->starts_.disc.empty())
+    {
+      return this->addRayTo(light.ray, last, next, answer);
+    }
+    const glm::vec2& at = this->starts_.disc[sample];
+    ShadowRayLight seen = light.ray;
+    seen.toLight += at.x * light.discX + at.y * light.discY;
+    return isAboveGround(this->plan_.up, seen.toLight) && this->addRayTo(seen, last, next, answer);
+  }
+
+  bool addRayTo(
+    const ShadowRayLight& light, std::uint32_t last, std::uint32_t& next, std::size_t answer)
+  {
+    return visitShadowRays(light,
+      [&](const auto& makeRay, float rayFar)
+      {
+        while (next < last)
+        {
+          const ShadowRay ray = rayOf(makeRay, this->starts_, next++, this->plan_.bothSides);
+          if (ray.traced)
+          {
+            this->batch_.setFar(rayFar);
+            this->batch_.add(ray, answer);
+            break;
+          }
+        }
+        return next < last;
+      });
+  }
+
+  const Plan& plan_;
+  const RayStarts& starts_;
+  std::size_t samples_;
+  WaitingRays batch_;
+  const std::uint8_t* lit_;
+  std::vector<std::uint32_t> next_; ///< start of each sample, for each light of the group
+};
+
+//------------------------------------------------------------------------------
+/// @param firstElement, lastElement counted from the chunk's first
+/// @return the number of rays
+std::uint64_t VisibilityRun::traceTile(
+  std::size_t firstElement, std::size_t lastElement, std::size_t firstLight, std::size_t lastLight)
+{
+  RayStarts starts;
+  starts.clear();
+  for (std::size_t e = firstElement; e < lastElement; ++e)
+  {
+    this->receivers_.append(this->order_[this->chunkBegin_ + e], starts);
+  }
+  const std::size_t firstSample = firstElement * this->samplesOfElement_;
+  const std::size_t samples = starts.samples();
+  const std::size_t lightsAtOnce =
+    std::max(lightsOfGroup, answersOfTile / samples / lightsOfGroup * lightsOfGroup);
+  std::vector<std::uint8_t> lit(samples * std::min(lightsAtOnce, lastLight - firstLight));
+  Tile tile(*this, starts, lit.data());
+
+  for (std::size_t begin = firstLight; begin < lastLight; begin += lightsAtOnce)
+  {
+    const std::size_t end = std::min(begin + lightsAtOnce, lastLight);
+    std::fill(lit.begin(), lit.end(), std::uint8_t(0));
+    for (std::size_t group = begin; group < end; group += lightsOfGroup)
+    {
+      tile.trace(group, std::min(group + lightsOfGroup, end), (group - begin) * samples);
+    }
+    tile.flush();
+
+    for (std::size_t light = begin; light < end; ++light)
+    {
+      const std::uint8_t* const answers = &lit[(light - begin) * samples];
+      const double weight = this->plan_.lights[light].weight;
+      for (std::size_t s = 0; s < samples; ++s)
+      {
+        this->hours_[firstSample + s] += answers[s] != 0 ? weight : 0.0;
+      }
+      const std::uint32_t number = this->numberOfLight_[light];
+      for (std::size_t e = firstElement; this->arrays_.bits && e < lastElement; ++e)
+      {
+        const std::uint8_t* const own = answers + (e - firstElement) * this->samplesOfElement_;
+        std::size_t count = 0;
+        for (std::size_t s = 0; s < this->samplesOfElement_; ++s)
+        {
+          count += own[s];
+        }
+        if (2 * count >= this->samplesOfElement_)
+        {
+          this->arrays_
+            .bits[this->order_[this->chunkBegin_ + e] * this->bytesOfBits_ + number / 8] |=
+            static_cast<std::uint8_t>(1u << number % 8);
+        }
+      }
+    }
+  }
+  return tile.rays();
+}
+
+//------------------------------------------------------------------------------
+void VisibilityRun::explain()
+{
+  if (!this->arrays_.fate && !this->arrays_.blockerCell && !this->arrays_.blockerInput)
+  {
+    return;
+  }
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(this->chunkBegin_, this->chunkEnd_, 64),
+    [this](const tbb::blocked_range<std::size_t>& range)
+    {
+      RayStarts starts; // whose memory they share
+      for (std::size_t i = range.begin(); i != range.end(); ++i)
+      {
+        this->explainOne(this->order_[i], starts);
+      }
+    });
+}
+
+//------------------------------------------------------------------------------
+/// Tells of the element's middle. A point's fate is that of the start which comes nearest to being
+/// lit: one that faces the light counts before those that do not.
+void VisibilityRun::explainOne(std::size_t element, RayStarts& starts) const
+{
+  starts.clear();
+  this->receivers_.append(element, starts, true);
+  const ShadowRayLight& light = *this->explained_;
+  Fate fate = Fate::TurnedAway;
+  std::int64_t cell = -1;
+  std::int32_t input = -1;
+  if (light.kind == LightKind::Directional && !isAboveGround(this->plan_.up, light.toLight))
+  {
+    fate = Fate::BelowHorizon;
+  }
+  for (std::size_t i = 0;
+       fate != Fate::BelowHorizon && fate != Fate::Lit && i < starts.position.size(); ++i)
+  {
+    visitShadowRays(light,
+      [&](const auto& makeRay, float rayFar)
+      {
+        const ShadowRay ray = rayOf(makeRay, starts, i, this->plan_.bothSides);
+        if (!ray.traced)
+        {
+          // Turned away, or outside of the cone or box of a light that it faces.
+          const bool faces = facesLight(starts.normal[i], ray.direction) ||
+            (this->plan_.bothSides && facesLight(-starts.normal[i], ray.direction));
+          fate = fate == Fate::TurnedAway && faces ? Fate::OutOfReach : fate;
+          return;
+        }
+        std::uint8_t blocked = 0;
+        this->tracer_.areBlocked(1, { &ray.origin.x, &ray.origin.y, &ray.origin.z },
+          { &ray.direction.x, &ray.direction.y, &ray.direction.z }, rayFar, &blocked);
+        if (blocked == 0)
+        {
+          fate = Fate::Lit;
+          cell = input = -1;
+          return;
+        }
+        if (fate == Fate::BlockedBySelf || fate == Fate::BlockedByOther)
+        {
+          return;
+        }
+        // A ray within rounding of an edge may be blocked by what a lone ray misses.
+        const std::optional<CasterHits::Hit> hit =
+          this->tracer_.nearest(ray.origin, ray.direction, shadowRayNear, rayFar);
+        input = hit ? this->scene_.inputOf(hit->surface) : -1;
+        cell =
+          hit ? static_cast<std::int64_t>(this->scene_.cellOf(hit->surface, hit->triangle)) : -1;
+        fate = input == 0 ? Fate::BlockedBySelf : Fate::BlockedByOther;
+      });
+  }
+  const auto set = [&](auto* array, auto value)
+  {
+    if (array)
+    {
+      array[element] = value;
+    }
+  };
+  set(this->arrays_.fate, static_cast<std::uint8_t>(fate));
+  set(this->arrays_.blockerCell, cell);
+  set(this->arrays_.blockerInput, input);
+}
+
+//------------------------------------------------------------------------------
+void VisibilityRun::finishChunk()
+{
+  const auto samples = static_cast<double>(this->samplesOfElement_);
+  // Lights that are on for no time at all leave nothing lit.
+  const double toFraction = this->allHours_ > 0.0 ? 1.0 / this->allHours_ : 0.0;
+  for (std::size_t i = this->chunkBegin_; i < this->chunkEnd_; ++i)
+  {
+    const double* const own = &this->hours_[(i - this->chunkBegin_) * this->samplesOfElement_];
+    double sum = 0.0;
+    for (std::size_t s = 0; s < this->samplesOfElement_; ++s)
+    {
+      sum += own[s];
+    }
+    const double mean = sum / samples;
+    double squares = 0.0;
+    for (std::size_t s = 0; s < this->samplesOfElement_; ++s)
+    {
+      squares += (own[s] - mean) * (own[s] - mean);
+    }
+    const std::uint32_t element = this->order_[i];
+    if (this->arrays_.hours)
+    {
+      this->arrays_.hours[element] = static_cast<float>(mean);
+    }
+    if (this->arrays_.fraction)
+    {
+      this->arrays_.fraction[element] = static_cast<float>(mean * toFraction);
+    }
+    if (this->arrays_.error)
+    {
+      this->arrays_.error[element] = this->samplesOfElement_ > 1
+        ? static_cast<float>(std::sqrt(squares / (samples - 1.0) / samples) * toFraction)
+        : 0.0f;
+    }
+  }
+  this->chunkBegin_ = this->chunkEnd_;
+  this->chunkBegun_ = false;
+  this->nextLight_ = 0;
+}
+
+} // namespace gnomon

@@ -1,0 +1,266 @@
+/**
+ * @class   vtkGnomonVisibilityFilter
+ * @brief   shadow as data: how much light reaches each cell or point of a polydata
+ *
+ * @code
+ * vtkNew<vtkGnomonVisibilityFilter> filter;
+ * filter->SetInputConnection(facade->GetOutputPort());    // receivers
+ * filter->AddInputConnection(1, town->GetOutputPort());   // casters, any number of them
+ * filter->AddSunDay(sun, 10.0);                           // vtkGnomonSun, every 10 minutes
+ * filter->Update();
+ * filter->GetOutput()->GetCellData()->GetArray("Hours");  // of sun
+ * @endcode
+ *
+ * The output is the receivers with arrays, one tuple for each cell, or for each point:
+ *
+ * - `LitFraction` (float): the hours lit over all hours of the lights, in [0, 1].
+ * - `LitFractionError` (float), with several samples: the fraction's standard error, from how much
+ *   the samples differ. It is 0 where they all agree: a shadow narrower than their spacing may be
+ *   missed.
+ * - `Hours` (float): the hours lit, as the lights' hours say.
+ * - `Bits` (unsigned char), if asked: bit i % 8 (1 << i % 8) of component i / 8 is 1 if light
+ *   i lights at least half of the samples.
+ * - `Why` (unsigned char), of one light (SetExplainedLight) and the middle of the cell: a WhyType.
+ * - `Blocker` (vtkIdType): the cell nearest to the receiver that blocks that light, a cell of its
+ *   own polydata; -1 if none does. `BlockerInput` (int): 0 if that is the receivers, k for
+ *   the k-th casters; -1.
+ *
+ * A shadow ray is the one of vtkGnomonShadowPass's exact techniques: it starts off the surface by a
+ * bound on rounding, and Embree traces it (docs/dev/architecture.md). There is no epsilon to
+ * choose. Casters are polygons and strips, both sides of them, in the triangles that VTK draws.
+ * The picture can differ: it shadows the side that the camera sees, from the curved surface where
+ * facets are shaded smooth, and knows props' keys, clipping planes, textures and glyphs.
+ *
+ * Receivers are polygons and strips. Their front counts: the side that shows the corners
+ * counter-clockwise (SetReceivingSide). Vertices, lines and degenerate cells get 0 and NO_SURFACE.
+ *
+ * Memory does not depend on the number of lights, but for Bits. ProgressEvent comes several times a
+ * second. An execution that is aborted (SetAbortExecute) leaves the receivers without arrays, and
+ * keeps what is done: the next Update() goes on from there if nothing else has changed. The
+ * acceleration structure stays for the next execution if only lights or settings change.
+ * Same input, same arrays: to the last bit, on any number of threads.
+ *
+ * What makes no sense is one error (vtkErrorMacro). A setting then stays as it was; an execution
+ * passes the receivers through without arrays.
+ *
+ * @sa vtkGnomonSun
+ */
+
+#ifndef vtkGnomonVisibilityFilter_h
+#define vtkGnomonVisibilityFilter_h
+
+#include "GnomonPluginModule.h" // For export macro
+#include "vtkGnomonVersions.h"  // For VTK_ABI_NAMESPACE_BEGIN
+#include "vtkPolyDataAlgorithm.h"
+
+#include <memory> // For std::unique_ptr
+
+class vtkGnomonSun;
+VTK_ABI_NAMESPACE_BEGIN
+class vtkDataArray;
+class vtkLight;
+VTK_ABI_NAMESPACE_END
+
+class GNOMONPLUGIN_EXPORT vtkGnomonVisibilityFilter : public vtkPolyDataAlgorithm
+{
+public:
+  static vtkGnomonVisibilityFilter* New();
+  vtkTypeMacro(vtkGnomonVisibilityFilter, vtkPolyDataAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * Add a light that shines from one direction: towards the light, in world coordinates, of any
+   * length. `hours` is how long it shines, 0 or more. Of arrays, `directions` has three components
+   * and `hours` one, as many of them, or is null for an hour each. The arrays are read at once.
+   */
+  void AddDirection(const double towards[3], double hours = 1.0);
+  void AddDirection(double x, double y, double z, double hours = 1.0);
+  void AddDirections(vtkDataArray* directions, vtkDataArray* hours = nullptr);
+  ///@}
+
+  ///@{
+  /**
+   * Add the suns of a day, or of a year, at a place (vtkGnomonSun::MakeDayPath, MakeYearPath). They
+   * are found at once. Up becomes the sun's.
+   */
+  void AddSunDay(vtkGnomonSun* sun, double stepMinutes);
+  void AddSunYear(vtkGnomonSun* sun, int dayStep, double stepMinutes);
+  ///@}
+
+  /**
+   * Add a light, with its position or direction, cone and box (vtkGnomonLightKeys::SetBox) at the
+   * time of the execution. Head and camera lights are taken through their transform matrix. Only
+   * the centre of an area light shines; switches, colours and attenuation do not count.
+   */
+  void AddLight(vtkLight* light, double hours = 1.0);
+
+  /**
+   * Remove all directions and lights.
+   */
+  void ClearLights();
+
+  /**
+   * The number of directions, suns and lights. They are numbered from 0 in the order of adding.
+   */
+  int GetNumberOfLights();
+
+  ///@{
+  /**
+   * The angle that the sun, or another light with a direction, is seen at, in degrees, in [0, 90).
+   * The sun's is 0.53. It takes Samples of 2 or more: each then looks at another point of an even
+   * disc. 0: a point. Default: 0.
+   */
+  vtkSetClampMacro(AngularDiameter, double, 0.0, 89.0);
+  vtkGetMacro(AngularDiameter, double);
+  ///@}
+
+  ///@{
+  /**
+   * The rays from an element to each light, in [1, 4096]. 1: from the middle of a cell. More are
+   * spread evenly over it (scrambled Sobol points): best a power of two. Points have one place, and
+   * more than one ray only with an AngularDiameter. Default: 1.
+   */
+  vtkSetClampMacro(Samples, int, 1, 4096);
+  vtkGetMacro(Samples, int);
+  ///@}
+
+  enum ElementType
+  {
+    CELLS = 0,
+    POINTS = 1
+  };
+
+  ///@{
+  /**
+   * Whether results are of the receivers' cells or points. A point is lit if one of the cells that
+   * meet in it is lit there: its rays start a thousandth of the way into each. Default: CELLS.
+   */
+  vtkSetClampMacro(Elements, int, CELLS, POINTS);
+  vtkGetMacro(Elements, int);
+  void SetElementsToCells() { this->SetElements(CELLS); }
+  void SetElementsToPoints() { this->SetElements(POINTS); }
+  ///@}
+
+  enum SideType
+  {
+    FRONT = 0,
+    BACK = 1,
+    BOTH = 2
+  };
+
+  ///@{
+  /**
+   * The side of the receivers that light falls on. BOTH: for each light the side that faces it.
+   * Default: FRONT.
+   */
+  vtkSetClampMacro(ReceivingSide, int, FRONT, BOTH);
+  vtkGetMacro(ReceivingSide, int);
+  ///@}
+
+  ///@{
+  /**
+   * Whether the receivers cast shadows, too. Default: on.
+   */
+  vtkSetMacro(ReceiversCast, bool);
+  vtkGetMacro(ReceiversCast, bool);
+  vtkBooleanMacro(ReceiversCast, bool);
+  ///@}
+
+  ///@{
+  /**
+   * What points up, of any length. A direction that is not above the horizon gives no light.
+   * (0, 0, 0): there is no horizon. Default: (0, 0, 0), until suns are added.
+   */
+  virtual void SetUp(double x, double y, double z);
+  void SetUp(const double up[3]) { this->SetUp(up[0], up[1], up[2]); }
+  vtkGetVector3Macro(Up, double);
+  ///@}
+
+  ///@{
+  /**
+   * Whether the output has `Bits`, which takes the number of lights times that of elements, over 8,
+   * in bytes. Default: off.
+   */
+  vtkSetMacro(ComputeBits, bool);
+  vtkGetMacro(ComputeBits, bool);
+  vtkBooleanMacro(ComputeBits, bool);
+  ///@}
+
+  /**
+   * The numbers in `Why`.
+   */
+  enum WhyType
+  {
+    LIT = 0,
+    SELF = 1,          ///< the receivers are in the way
+    OTHER = 2,         ///< one of the casters is
+    TURNED_AWAY = 3,   ///< the surface does not face the light
+    BELOW_HORIZON = 4, ///< the light is not above it
+    OUT_OF_REACH = 5,  ///< outside of the light's cone or box
+    NO_SURFACE = 6     ///< a vertex, a line, a cell or a point without area
+  };
+
+  ///@{
+  /**
+   * Whether the output has `Why`, `Blocker` and `BlockerInput`, and the number of the light that
+   * they are of; -1: the last one. Default: on, -1.
+   */
+  vtkSetMacro(ComputeReasons, bool);
+  vtkGetMacro(ComputeReasons, bool);
+  vtkBooleanMacro(ComputeReasons, bool);
+  vtkSetMacro(ExplainedLight, int);
+  vtkGetMacro(ExplainedLight, int);
+  ///@}
+
+  /**
+   * The shadow rays that the last execution traced, together with the aborted ones that it went on
+   * from. Lights that a surface is turned away from take none.
+   */
+  vtkTypeInt64 GetNumberOfRays();
+
+  ///@{
+  /**
+   * The names of the arrays.
+   */
+  static const char* GetLitFractionName() { return "LitFraction"; }
+  static const char* GetLitFractionErrorName() { return "LitFractionError"; }
+  static const char* GetHoursName() { return "Hours"; }
+  static const char* GetBitsName() { return "Bits"; }
+  static const char* GetWhyName() { return "Why"; }
+  static const char* GetBlockerName() { return "Blocker"; }
+  static const char* GetBlockerInputName() { return "BlockerInput"; }
+  ///@}
+
+  /**
+   * An aborted execution is never up to date, and lights' changes count.
+   */
+  vtkMTimeType GetMTime() override;
+
+protected:
+  vtkGnomonVisibilityFilter();
+  ~vtkGnomonVisibilityFilter() override;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestData(
+    vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
+
+  double AngularDiameter = 0.0;
+  int Samples = 1;
+  int Elements = CELLS;
+  int ReceivingSide = FRONT;
+  bool ReceiversCast = true;
+  double Up[3] = { 0.0, 0.0, 0.0 };
+  bool ComputeBits = false;
+  bool ComputeReasons = true;
+  int ExplainedLight = -1;
+
+private:
+  vtkGnomonVisibilityFilter(const vtkGnomonVisibilityFilter&) = delete;
+  void operator=(const vtkGnomonVisibilityFilter&) = delete;
+
+  struct Internals;
+  std::unique_ptr<Internals> Internal;
+};
+
+#endif
