@@ -122,6 +122,9 @@ public:
   vtkGetMacro(Samples, int);
   ///@}
 
+  /**
+   * What results are of.
+   */
   enum ElementType
   {
     CELLS = 0,
@@ -139,6 +142,9 @@ public:
   void SetElementsToPoints() { this->SetElements(POINTS); }
   ///@}
 
+  /**
+   * Sides of a surface.
+   */
   enum SideType
   {
     FRONT = 0,

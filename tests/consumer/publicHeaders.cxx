@@ -9,3 +9,5 @@
 #include <vtkGnomonLightSamplingPass.h>
 #include <vtkGnomonPropKeys.h>
 #include <vtkGnomonShadowPass.h>
+#include <vtkGnomonSun.h>
+#include <vtkGnomonVisibilityFilter.h>
