@@ -25,8 +25,8 @@ struct SunPosition
 /// Return the sun's position by the Solar Position Algorithm (Reda and Andreas, "Solar Position
 /// Algorithm for Solar Radiation Applications", Solar Energy 76, 2004; revised 2008), whose own
 /// uncertainty is 0.0003 degrees from the year -2000 to 6000. Periodic terms below 2e-6 radians are
-/// left out. Directions then differ from PyEphem's (full VSOP87) by 0.0002 degrees on average and by
-/// 0.0009 at most, over 20,000 random dates from 1583 to 3000 and places.
+/// left out. Directions then differ from PyEphem's (full VSOP87) by 0.0002 degrees on average and
+/// by 0.0009 at most, over 20,000 random dates from 1583 to 3000 and places.
 SunPosition sunPosition(const SunView& view);
 
 /// Return by how many degrees the air lifts the sun (the same report, equation 42); 0 where the

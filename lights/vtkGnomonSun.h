@@ -140,15 +140,12 @@ public:
    */
   void GetDirection(double direction[3]);
 
-  ///@{
   /**
-   * Fill arrays with the suns of a day, from midnight to midnight of the zone, or of the whole
-   * year of the date. Steps are `stepMinutes` long, and each has the sun of its middle. Steps whose
-   * sun is below the horizon are left out. Of a year, `dayStep` days share the suns of the middle
-   * one of them.
+   * Fill arrays with the suns of a day, from midnight to midnight of the zone. Steps are
+   * `stepMinutes` long, and each has the sun of its middle. Steps whose sun is below the horizon
+   * are left out.
    *
    * @param stepMinutes in (0, 1440]
-   * @param dayStep in [1, 366]; 1: every day has its own suns
    * @param directions becomes one unit vector a sun, towards it (3 components)
    * @param hours becomes the hours that each sun stands for; null: not wanted
    * @param times becomes hours since the first midnight; null: not wanted
@@ -156,9 +153,13 @@ public:
    */
   bool MakeDayPath(double stepMinutes, vtkDoubleArray* directions, vtkDoubleArray* hours,
     vtkDoubleArray* times = nullptr);
+
+  /**
+   * The same of the whole year of the date. Each `dayStep` days, in [1, 366], share the suns of the
+   * middle one of them; 1: every day has its own.
+   */
   bool MakeYearPath(int dayStep, double stepMinutes, vtkDoubleArray* directions,
     vtkDoubleArray* hours, vtkDoubleArray* times = nullptr);
-  ///@}
 
 protected:
   vtkGnomonSun() = default;

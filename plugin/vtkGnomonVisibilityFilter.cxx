@@ -36,9 +36,6 @@
 #include <utility>
 #include <vector>
 
-static_assert(sizeof(vtkIdType) == sizeof(std::int64_t), "Blocker holds 64-bit numbers");
-static_assert(sizeof(int) == sizeof(std::int32_t), "BlockerInput holds 32-bit numbers");
-
 namespace
 {
 
@@ -111,7 +108,7 @@ struct Results
   {
     const auto of = [](const auto& array) { return array ? array->GetPointer(0) : nullptr; };
     return { of(this->hours), of(this->fraction), of(this->error), of(this->bits), of(this->why),
-      reinterpret_cast<std::int64_t*>(of(this->blocker)), of(this->blockerInput) };
+      of(this->blocker), of(this->blockerInput) };
   }
   void addTo(vtkDataSetAttributes* data) const
   {

@@ -125,6 +125,9 @@ public:
   vtkGetMacro(Samples, int);
   ///@}
 
+  /**
+   * What results are of.
+   */
   enum ElementType
   {
     CELLS = 0,
@@ -142,6 +145,9 @@ public:
   void SetElementsToPoints() { this->SetElements(POINTS); }
   ///@}
 
+  /**
+   * Sides of a surface.
+   */
   enum SideType
   {
     FRONT = 0,

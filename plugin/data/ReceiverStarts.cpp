@@ -219,8 +219,8 @@ glm::dvec3 ReceiverStarts::middleOf(std::size_t element) const
 }
 
 //------------------------------------------------------------------------------
-/// The start of a cell is on the triangle that is closest to its middle. That may be an edge between
-/// two triangles, so that the start is off both.
+/// The start of a cell is on the triangle that is closest to its middle. That may be an edge
+/// between two triangles, so that the start is off both.
 void ReceiverStarts::appendMiddle(std::size_t element, RayStarts& starts) const
 {
   const std::uint32_t begin = this->elements_.first[element];

@@ -96,8 +96,8 @@ ShadowRay rayOf(const MakeRay& makeRay, const RayStarts& starts, std::size_t i, 
     : makeRay(starts.position[i], -starts.normal[i], starts.offset[i]);
 }
 
-/// A place on a Z curve over all directions, which octahedral coordinates lay out on a square (Meyer
-/// et al., EGSR 2010).
+/// A place on a Z curve over all directions, which octahedral coordinates lay out on a square
+/// (Meyer et al., EGSR 2010).
 std::uint32_t placeOf(const glm::vec3& direction)
 {
   const glm::vec3 size = glm::abs(direction);
@@ -470,8 +470,8 @@ void VisibilityRun::explainOne(std::size_t element, RayStarts& starts) const
   this->receivers_.append(element, starts, true);
   const ShadowRayLight& light = *this->explained_;
   Fate fate = Fate::TurnedAway;
-  std::int64_t cell = -1;
-  std::int32_t input = -1;
+  vtkIdType cell = -1;
+  int input = -1;
   if (light.kind == LightKind::Directional && !isAboveGround(this->plan_.up, light.toLight))
   {
     fate = Fate::BelowHorizon;
@@ -497,7 +497,8 @@ void VisibilityRun::explainOne(std::size_t element, RayStarts& starts) const
         if (blocked == 0)
         {
           fate = Fate::Lit;
-          cell = input = -1;
+          cell = -1;
+          input = -1;
           return;
         }
         if (fate == Fate::BlockedBySelf || fate == Fate::BlockedByOther)
@@ -508,8 +509,7 @@ void VisibilityRun::explainOne(std::size_t element, RayStarts& starts) const
         const std::optional<CasterHits::Hit> hit =
           this->tracer_.nearest(ray.origin, ray.direction, shadowRayNear, rayFar);
         input = hit ? this->scene_.inputOf(hit->surface) : -1;
-        cell =
-          hit ? static_cast<std::int64_t>(this->scene_.cellOf(hit->surface, hit->triangle)) : -1;
+        cell = hit ? this->scene_.cellOf(hit->surface, hit->triangle) : -1;
         fate = input == 0 ? Fate::BlockedBySelf : Fate::BlockedByOther;
       });
   }

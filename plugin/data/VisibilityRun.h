@@ -5,6 +5,8 @@
 #include "shadowtech/base/ShadowRay.h"
 #include "shadowtech/tracing/EmbreeTracer.h"
 
+#include "vtkType.h"
+
 #include <glm/glm.hpp>
 
 #include <cstddef>
@@ -39,8 +41,8 @@ enum class Fate : std::uint8_t
   NoSurface = 6
 };
 
-/// Where results go: one entry for each element, whatever had a surface or not; all are filled with
-/// what stands for no surface. Null: not wanted.
+/// Where results go: an entry for each element. They are filled with what stands for no surface.
+/// Null: not wanted.
 struct VisibilityArrays
 {
   float* hours;
@@ -48,12 +50,12 @@ struct VisibilityArrays
   float* error;       ///< standard error of the fraction
   std::uint8_t* bits; ///< bit d % 8 of byte d / 8 of an element: whether it is lit by light d
   std::uint8_t* fate; ///< of the explained light
-  std::int64_t* blockerCell;
-  std::int32_t* blockerInput;
+  vtkIdType* blockerCell;
+  int* blockerInput;
 };
 
-/// Traces the shadow rays from elements to lights, in parts, so that it can stop between them and go
-/// on later. Its results depend neither on the parts nor on threads.
+/// Traces the shadow rays from elements to lights, in parts, so that it can stop between them and
+/// go on later. Its results depend neither on the parts nor on threads.
 ///
 /// Elements are visited a chunk after the other, and of a chunk one block of lights after the
 /// other: so memory depends on neither. Packets hold the rays of one sample to lights side by side,

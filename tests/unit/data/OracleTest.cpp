@@ -5,6 +5,8 @@
 #include "VtkMessages.h"
 #include "plugin/PassScene.h"
 
+#include "shadowtech/base/ShadowRay.h"
+
 #include <gtest/gtest.h>
 #include <tbb/parallel_for.h>
 #include <vtkCellData.h>
@@ -60,6 +62,16 @@ double distanceToEdge(
   const double t = glm::clamp((both * s + f) / length, 0.0, 1.0);
   s = std::max(0.0, glm::dot(a + t * edge - origin, direction));
   return glm::distance(origin + s * direction, a + t * edge);
+}
+
+/// How far off a triangle its shadow rays start, at most: far, of a sliver (ShadowRay.h).
+double startOffset(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c)
+{
+  const glm::vec3 area = glm::cross(b - a, c - a);
+  const glm::vec3 largest = glm::max(glm::abs(a), glm::max(glm::abs(b), glm::abs(c)));
+  const glm::vec3 extent = glm::max(a, glm::max(b, c)) - glm::min(a, glm::min(b, c));
+  return shadowRayOffset(
+    planeNoise(glm::normalize(area), largest, extent, glm::length(area)), 0.0f);
 }
 
 /// A scene of triangles, all of which cast and receive.
@@ -131,6 +143,7 @@ TEST(VisibilityOracle, AgreesButForRaysThatTouchEdges)
   const std::vector<OracleScene> scenes = oracleScenes();
   std::size_t allRays = 0;
   std::size_t allDifferent = 0;
+  std::size_t ofSlivers = 0;
   double farthest = 0.0;
   for (const OracleScene& scene : scenes)
   {
@@ -208,16 +221,20 @@ TEST(VisibilityOracle, AgreesButForRaysThatTouchEdges)
         {
           ++allDifferent;
           farthest = std::max(farthest, distances[i]);
-          // A few units in the last place of the scene's coordinates.
-          EXPECT_LT(distances[i], 8e-6) << scene.name << ", cell " << i / 64;
+          const glm::uvec3& own = mesh.triangles[i / directions.size()];
+          const double offset =
+            startOffset(mesh.points[own.x], mesh.points[own.y], mesh.points[own.z]);
+          // And a few units in the last place of the scene's coordinates.
+          EXPECT_LT(distances[i], 8e-6 + offset) << scene.name;
+          ofSlivers += distances[i] >= 8e-6 ? 1 : 0;
         }
       }
     }
     allRays += rays;
   }
-  std::cout << allRays << " rays, " << allDifferent << " differ, by up to " << farthest
-            << " from an edge\n";
-  EXPECT_LE(static_cast<double>(allDifferent), 2e-5 * static_cast<double>(allRays));
+  std::cout << allRays << " rays, " << allDifferent << " differ, up to " << farthest
+            << " from an edge, " << ofSlivers << " of slivers\n";
+  EXPECT_LE(static_cast<double>(allDifferent), 2.0 + 5e-6 * static_cast<double>(allRays));
 }
 
 class VisibilityPicture : public PassTest

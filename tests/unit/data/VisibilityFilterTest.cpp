@@ -138,8 +138,8 @@ TEST_F(VisibilityFilter, TellsWhyAndWhoBlocks)
 
 TEST_F(VisibilityFilter, CellsKeepTheirNumbers)
 {
-  // A vertex, a line, a triangle, a cell without area and a strip of two triangles, whose second one
-  // is under a roof.
+  // A vertex, a line, a triangle, a cell without area and a strip of two triangles, the second of
+  // which is under a roof.
   vtkNew<vtkPoints> points;
   for (const glm::dvec3& point : std::initializer_list<glm::dvec3>{ { 0, 0, 0 }, { 1, 0, 0 },
          { 0, 1, 0 }, { 10, 0, 0 }, { 11, 0, 0 }, { 10, 1, 0 }, { 11, 1, 0 } })
@@ -257,6 +257,16 @@ TEST_F(VisibilityFilter, PointsAreLitThroughAnyOfTheirCells)
   this->filter->AddDirection(1.0, 0.0, 0.01);
   this->filter->Update();
   EXPECT_THAT(this->fraction(), testing::Each(1.0));
+  // At the foot of a thin wall the floor behind it is dark, and that in front is lit.
+  this->filter->SetInputData(together({ floorOf({ -1, -1 }, { 1, 1 }, 2),
+    quad({ 0, -1, 0 }, { 0, -1, 1 }, { 0, 1, 1 }, { 0, 1, 0 }) }));
+  this->filter->ClearLights();
+  for (const double x : { -0.8, 0.8 })
+  {
+    this->filter->AddDirection(x, 0.0, 1.0);
+  }
+  this->filter->Update();
+  EXPECT_EQ(this->fraction()[4], 1.0);
   // A corner of a cube is lit if one of its faces is.
   this->filter->ClearLights();
   this->filter->SetInputData(polyData(makeBox({ 0, 0, 0 }, { 1, 1, 1 })));

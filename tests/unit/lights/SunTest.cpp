@@ -125,6 +125,36 @@ TEST_F(Sun, AgreesWithAnotherEphemeris)
   }
 }
 
+/// The report's equation 42. At the horizon it is 28.98 minutes of arc (Saemundsson 1986, as Meeus
+/// has it in chapter 16), for 1010 millibar and 10 degrees Celsius.
+TEST_F(Sun, IsLiftedByTheAir)
+{
+  EXPECT_NEAR(refractionDegrees(0.0, 1010.0, 10.0), 28.98 / 60.0, 0.0005);
+  EXPECT_NEAR(refractionDegrees(0.0, 505.0, 293.0), 28.98 / 240.0, 0.0005);
+  EXPECT_NEAR(refractionDegrees(45.0, 1010.0, 10.0), 1.01 / 60.0, 0.0005);
+  EXPECT_EQ(refractionDegrees(-0.85, 1010.0, 10.0), 0.0);
+  this->sun->SetPlace(0.0, 0.0);
+  this->sun->SetTime(6, 8, 0.0, 0.0); // just after sunrise
+  const double low = this->sun->GetElevation();
+  ASSERT_LT(std::abs(low), 0.5);
+  this->sun->RefractionOn();
+  EXPECT_NEAR(this->sun->GetElevation() - low, refractionDegrees(low, 1010.0, 10.0), 1e-12);
+}
+
+TEST_F(Sun, YearsLeapByTheGregorianCalendar)
+{
+  this->sun->SetDate(2024, 2, 29);
+  this->sun->SetDate(2000, 2, 29);
+  this->sun->SetDate(2100, 2, 29);
+  this->expectError("no date 2100-2-29");
+  this->sun->SetDate(2023, 2, 29);
+  this->expectError("no date 2023-2-29");
+  EXPECT_EQ(this->sun->GetYear(), 2000);
+  EXPECT_EQ(julianDayOf(2000, 1, 1), 2451544.5);
+  EXPECT_EQ(julianDayOf(1600, 12, 31), 2305812.5); // Meeus, chapter 7
+  EXPECT_EQ(julianDayOf(1987, 6, 19), 2446965.5);
+}
+
 TEST_F(Sun, ZonesAndClocksNameTheSameMoment)
 {
   this->sun->SetPlace(47.0, 11.0);
