@@ -123,8 +123,6 @@ void vtkGnomonNamedSettings::UnsetSetting(const char* name)
   }
   gnomon::ShadowSettings left;
   this->CopySetValues(left);
-  left.named = this->Internal->values.named;
-  left.named.erase(name);
   this->Internal->values = left;
   this->Modified();
 }
@@ -179,6 +177,10 @@ void vtkGnomonNamedSettings::CopySetValues(gnomon::ShadowSettings& to) const
     if (this->Internal->set.count(setting->name) > 0)
     {
       setting->set(to, setting->get(this->Internal->values));
+      if (this->Internal->values.named.count(setting->name) == 0)
+      {
+        to.named.erase(setting->name); // it was set for another technique
+      }
     }
   }
 }

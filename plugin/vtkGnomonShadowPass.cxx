@@ -605,7 +605,9 @@ std::string vtkGnomonShadowPass::GetSetting(const char* name) const
 //------------------------------------------------------------------------------
 void vtkGnomonShadowPass::SetMapSize(int mapSizeTexels)
 {
-  this->Internal->settings->SetMapSize(mapSizeTexels);
+  vtkNew<vtkGnomonShadowSettings> clamped;
+  clamped->SetMapSize(mapSizeTexels);
+  this->SetSetting("map_size", clamped->GetSetting("map_size").c_str());
 }
 
 //------------------------------------------------------------------------------
@@ -684,13 +686,19 @@ std::string vtkGnomonShadowPass::GetReportText() const
 //------------------------------------------------------------------------------
 void vtkGnomonShadowPass::GetReportTable(vtkTable* lights) const
 {
-  gnomon::fillTable(this->GetReport(), lights);
+  if (lights)
+  {
+    gnomon::fillTable(this->GetReport(), lights);
+  }
 }
 
 //------------------------------------------------------------------------------
 void vtkGnomonShadowPass::GetVisibilityImage(vtkImageData* image) const
 {
-  gnomon::fillImage(this->GetVisibility(), image);
+  if (image)
+  {
+    gnomon::fillImage(this->GetVisibility(), image);
+  }
 }
 
 //------------------------------------------------------------------------------

@@ -262,9 +262,11 @@ public:
    * order of the light that they can give to what is visible. A map that does not fit is halved,
    * down to 256 texels a side. A light whose map still does not fit, or whose map's size nobody
    * knows beforehand (`selective`, `coherence`, `crsm`, `crsma`, `silhouette`), takes rays. A light
-   * whose image does not fit shows no shadow. GetReport() says so. Not counted is what lights share:
-   * the snapshot, the rays' structure and the receivers. Negative numbers are an error and change
-   * nothing. 0, the default, is no budget.
+   * whose image does not fit shows no shadow. GetReport() says so. The budget is each renderer's and
+   * view's. Not counted is what lights share (the snapshot, the rays' structure, the receivers), and
+   * the plain maps by which translucent surfaces show shadows of other techniques, of 256 texels
+   * where a light takes rays for the budget's sake. Negative numbers are an error and change nothing.
+   * 0, the default, is no budget.
    */
   virtual void SetMemoryBudget(double mebibytes);
   vtkGetMacro(MemoryBudget, double);

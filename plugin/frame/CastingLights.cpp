@@ -158,30 +158,37 @@ void keepBudget(std::vector<ComposedLight>& lights, vtkRenderer* renderer,
   }
   const bool mayBeInline = (wishes.route == RouteWish::Auto || wishes.route == RouteWish::Inline) &&
     !wishes.keepVisibility;
-  const std::vector<LightShare> shares =
-    shareMemory(needs, wishes.memoryBudget, pixels, mayBeInline);
+  const MemoryShares memory = shareMemory(needs, wishes.memoryBudget, pixels, mayBeInline);
+  const auto automatic = std::count_if(
+    lights.begin(), lights.end(), [](const ComposedLight& of) { return of.asked.has_value(); });
 
   std::vector<ComposedLight> casting;
   for (std::size_t i = 0; i < lights.size(); ++i)
   {
     ComposedLight& of = lights[i];
-    if (shares[i].way == LightShare::Way::None)
+    const LightShare& share = memory.lights[i];
+    if (share.way == LightShare::Way::None)
     {
       skipped.push_back(
         { of.light.sceneIndex, "the memory budget has no room for an image of its visibility" });
       continue;
     }
-    of.mostMapTexels = mostTexelsOfEach(wishes.memoryBudget, pixels, lights.size(), of.light);
-    if (shares[i].way == LightShare::Way::Rays)
+    if (of.asked)
     {
+      of.mostMapTexels = largestMapIn(memory.left / static_cast<double>(automatic), of.light);
+    }
+    if (share.way == LightShare::Way::Rays)
+    {
+      of.light.mapSizeTexels =
+        std::min(of.light.mapSizeTexels, fewestTexels); // of translucent ones
       of.light.technique = "raytraced";
       of.light.estimator.clear();
       of.estimator = &composeIn(of.light, report.misfits);
       of.budgetReason = of.asked ? "" : "the memory budget has no room for its map, so it has rays";
     }
-    else if (shares[i].mapSizeTexels < of.light.mapSizeTexels)
+    else if (share.mapSizeTexels < of.light.mapSizeTexels)
     {
-      of.light.mapSizeTexels = shares[i].mapSizeTexels;
+      of.light.mapSizeTexels = share.mapSizeTexels;
       of.budgetReason = "the memory budget leaves it a coarser map";
     }
     casting.push_back(std::move(of));
@@ -276,14 +283,14 @@ void CastingLights::collect(vtkRenderer* renderer, const ShadowSettings& default
     of.asked = isAutomatic(light) ? std::optional(light) : std::nullopt;
     of.estimator = &composeIn(light, report.misfits);
     of.light = std::move(light);
-    settle(of.light, of.estimator->info, report.notes);
   }
   if (wishes.memoryBudget > 0.0)
   {
     keepBudget(composed, renderer, wishes, set.skipped, report);
   }
-  for (const ComposedLight& of : composed)
+  for (ComposedLight& of : composed)
   {
+    settle(of.light, of.estimator->info, report.notes);
     report.lights.push_back(reportOfCasting(of.light, of.estimator->info));
     report.lights.back().budgetReason = of.budgetReason;
   }
@@ -299,6 +306,10 @@ void CastingLights::collect(vtkRenderer* renderer, const ShadowSettings& default
     lights.push_back(this->take(std::move(of.light), *of.estimator, ofView));
     lights.back().asked = std::move(of.asked);
     lights.back().mostMapTexels = of.mostMapTexels;
+    if (lights.back().asked && lights.back().asked->mapSizeTexels > of.mostMapTexels)
+    {
+      lights.back().plain.reset(); // of a larger budget
+    }
   }
   this->lights_ = std::move(lights);
   this->placeVisibility();

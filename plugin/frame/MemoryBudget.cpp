@@ -2,6 +2,7 @@
 
 #include "lights/LightViews.h"
 #include "plugin/frame/Route.h"
+#include "shadowtech/base/VisibilityLayers.h"
 #include "shadowtech/tracing/EdgeSettings.h"
 
 #include <glm/glm.hpp>
@@ -15,16 +16,12 @@ namespace gnomon
 namespace
 {
 
-/// Maps are not made coarser than that.
-constexpr int fewestTexels = 256;
 /// The setting `map_size` is at most that.
 constexpr int largestMap = 16384;
 
 double bytesOfMap(const LightNeed& light, int sizeTexels)
 {
-  return light.bytesPerTexel == 0.0
-    ? 0.0
-    : light.bytesPerTexel * static_cast<double>(sizeTexels) * static_cast<double>(sizeTexels);
+  return light.bytesPerTexel * static_cast<double>(sizeTexels) * static_cast<double>(sizeTexels);
 }
 
 /// The largest map that fits; 0: none does.
@@ -49,7 +46,8 @@ std::vector<std::size_t> brightestFirst(const std::vector<LightNeed>& lights)
 }
 
 /// Shares what is left of a budget among the maps of lights that show shadows.
-void shareAmongMaps(const std::vector<LightNeed>& lights, const std::vector<std::size_t>& order,
+/// @return what is left then
+double shareAmongMaps(const std::vector<LightNeed>& lights, const std::vector<std::size_t>& order,
   double left, std::vector<LightShare>& shares)
 {
   for (const std::size_t i : order)
@@ -63,6 +61,7 @@ void shareAmongMaps(const std::vector<LightNeed>& lights, const std::vector<std:
     shares[i].mapSizeTexels = size;
     left -= size > 0 ? bytesOfMap(lights[i], size) : 0.0;
   }
+  return left;
 }
 
 bool haveMaps(const std::vector<LightShare>& shares)
@@ -88,40 +87,43 @@ double mostOfUnit(const ShadowLight& light, const Bounds& seen)
 } // namespace
 
 //------------------------------------------------------------------------------
-std::vector<LightShare> shareMemory(
+MemoryShares shareMemory(
   const std::vector<LightNeed>& lights, double budget, std::size_t pixels, bool mayBeInline)
 {
   const std::vector<std::size_t> order = brightestFirst(lights);
-  std::vector<LightShare> shares(lights.size());
+  MemoryShares shares;
+  shares.lights.resize(lights.size());
   const bool arePointwise = lights.size() <= mostInlineLights &&
     std::all_of(lights.begin(), lights.end(), [](const LightNeed& of) { return of.isPointwise; });
   if (mayBeInline && arePointwise)
   {
-    shareAmongMaps(lights, order, budget, shares);
-    if (haveMaps(shares))
+    shares.left = shareAmongMaps(lights, order, budget, shares.lights);
+    if (haveMaps(shares.lights))
     {
       return shares;
     }
   }
-  // Bits of all hard lights take one image of two numbers, other lights an image a channel.
-  const double ofImage = static_cast<double>(pixels) * sizeof(float);
-  double left = budget - 2.0 * ofImage;
+  // Bits of hard lights take one image of two numbers, other lights an image a channel.
+  const auto ofPixels = [&](double bytes) { return bytes * static_cast<double>(pixels); };
+  double left = budget - ofPixels(2.0 * sizeof(float));
+  int bits = 0;
   for (const std::size_t i : order)
   {
-    const double bytes = lights[i].isHard ? 0.0 : lights[i].channels * ofImage;
-    shares[i].way = bytes <= left ? LightShare::Way::Map : LightShare::Way::None;
-    left -= bytes <= left ? bytes : 0.0;
+    const bool takesBit = lights[i].isHard && bits < VisibilityLayers::mostBits;
+    const double ofImages = takesBit ? 0.0 : ofPixels(lights[i].channels * sizeof(float));
+    const double bytes = ofImages + ofPixels(lights[i].bytesPerPixel);
+    const bool fits = left >= 0.0 && bytes <= left;
+    shares.lights[i].way = fits ? LightShare::Way::Map : LightShare::Way::None;
+    left -= fits ? bytes : 0.0;
+    bits += takesBit ? 1 : 0;
   }
-  shareAmongMaps(lights, order, left, shares);
+  shares.left = shareAmongMaps(lights, order, left, shares.lights);
   return shares;
 }
 
 //------------------------------------------------------------------------------
-int mostTexelsOfEach(
-  double budget, std::size_t pixels, std::size_t lights, const ShadowLight& light)
+int largestMapIn(double bytes, const ShadowLight& light)
 {
-  const double ofImage = static_cast<double>(pixels) * sizeof(float);
-  const double bytes = budget / static_cast<double>(lights) - ofImage;
   int size = 1;
   while (size < largestMap && 4.0 * size * size * mostViews(light) * sizeof(float) <= bytes)
   {
@@ -139,8 +141,9 @@ LightNeed needOf(const ShadowLight& light, const TechniqueInfo& info, const Boun
   need.bytesPerTexel = !info.bakesMap() ? 0.0
     : info.bytesPerTexel                ? info.bytesPerTexel(light)
                                         : std::numeric_limits<double>::infinity();
-  need.channels = channelsOf(info, light);
-  need.isPointwise = info.isPointwise();
+  need.bytesPerPixel = info.bytesPerPixel;
+  need.channels = light.texture ? 3 : 1;                                       // rays see textures
+  need.isPointwise = info.isPointwise() && !info.isSlow && !light.isHeadlight; // else on images
   need.isHard =
     info.exact && !light.area && !light.texture && light.of<EdgeSettings>().samples == 1;
   return need;

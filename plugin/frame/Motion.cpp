@@ -33,7 +33,8 @@ RestingFrame::~RestingFrame()
 //------------------------------------------------------------------------------
 bool RestingFrame::mayRefine(vtkRenderWindow* window) const
 {
-  return window && window == this->window_ && this->follows_ && !window->GetOffScreenRendering();
+  return window && window == this->window_ && this->follows_ && (this->moved_ || this->draws_) &&
+    !window->GetOffScreenRendering();
 }
 
 //------------------------------------------------------------------------------
@@ -46,6 +47,8 @@ void RestingFrame::drawn(vtkRenderWindow* window, bool moves, double shown)
   this->stop();
   const bool isMissing = moves || (this->follows_ && shown < 1.0);
   this->follows_ = false;
+  this->moved_ = moves;
+  this->draws_ = false;
   vtkRenderWindowInteractor* const interactor = window ? window->GetInteractor() : nullptr;
   if (!isMissing || !interactor || !interactor->GetInitialized())
   {
@@ -87,7 +90,8 @@ void RestingFrame::onTimer(vtkObject*, unsigned long, void* self, void* timerId)
   const vtkSmartPointer<vtkRenderWindowInteractor> interactor = of.interactor_.GetPointer();
   if (window && interactor)
   {
-    // Observers of this frame may delete the pass, and `of` with it.
+    // Observers of this frame may delete the pass, and `of` with it: drawn() takes that back.
+    of.draws_ = true;
     const double rate = window->GetDesiredUpdateRate();
     window->SetDesiredUpdateRate(interactor->GetStillUpdateRate());
     interactor->Render();

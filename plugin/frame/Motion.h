@@ -29,8 +29,9 @@ public:
   RestingFrame(const RestingFrame&) = delete;
   RestingFrame& operator=(const RestingFrame&) = delete;
 
-  /// Return true if a picture at rest may refine: the window is on screen, frames that moved came
-  /// before, and a timer of the interactor draws what is missing.
+  /// Return true if a picture at rest may refine: the window is on screen, the frame before moved or
+  /// the interactor's timer draws this one, and it will draw what is missing. Pictures that a program
+  /// draws by itself later are complete.
   bool mayRefine(vtkRenderWindow* window) const;
 
   /// Restart the timer after each frame of a window. The window's interactor renders at its
@@ -47,6 +48,8 @@ private:
   vtkWeakPointer<vtkRenderWindow> window_; ///< whose frame the timer follows
   int timer_ = 0;                          ///< by the interactor's numbers; 0: none runs
   bool follows_ = false; ///< whether pictures at rest are to follow the last frame
+  bool moved_ = false;   ///< whether that moved
+  bool draws_ = false;   ///< whether the timer draws a frame now
 };
 
 } // namespace gnomon

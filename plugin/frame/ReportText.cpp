@@ -9,6 +9,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <iterator>
+#include <vector>
+
 namespace gnomon
 {
 namespace
@@ -109,15 +113,18 @@ std::string textOf(const FrameReport& report)
 void fillTable(const FrameReport& report, vtkTable* lights)
 {
   lights->Initialize();
+  std::vector<Json> rows;
+  std::transform(report.lights.begin(), report.lights.end(), std::back_inserter(rows),
+    [](const LightReport& light) { return jsonOf(light); });
   const Json columns = jsonOf(LightReport());
   for (const auto& column : columns.items())
   {
     const bool isNumber = column.value().is_number() || column.value().is_boolean();
     vtkNew<vtkDoubleArray> numbers;
     vtkNew<vtkStringArray> texts;
-    for (const LightReport& light : report.lights)
+    for (const Json& row : rows)
     {
-      const Json value = jsonOf(light)[column.key()];
+      const Json& value = row[column.key()];
       isNumber
         ? numbers->InsertNextValue(numberOf(value))
         : texts->InsertNextValue(value.is_string() ? value.get<std::string>() : value.dump());

@@ -179,12 +179,13 @@ void TechniqueChoice::chooseMoving(const std::vector<CastingLight*>& hard,
   const double byMaps = costByMaps(counters, factorsOf(wishes));
   const double byRays = costByRays(counters, factorsOf(wishes));
   std::string whyRays = this->whyNoMaps();
+  const bool mayHaveMaps = whyRays.empty();
   const bool waits = this->byRays_ > 0 && this->byRays_ < this->patience_;
-  if (whyRays.empty() && waits)
+  if (mayHaveMaps && waits && !this->whyRays_.empty())
   {
     whyRays = this->whyRays_;
   }
-  else if (whyRays.empty())
+  else if (mayHaveMaps)
   {
     whyRays = this->whyRaysAreFast(byMaps, byRays);
     if (!whyRays.empty() && wishes.timeBudget == 0.0)
@@ -202,7 +203,7 @@ void TechniqueChoice::chooseMoving(const std::vector<CastingLight*>& hard,
       this->byRays_ = 0;
     }
   }
-  this->whyRays_ = whyRays;
+  this->whyRays_ = mayHaveMaps ? whyRays : "";
   const bool takesMaps = whyRays.empty();
   this->byMaps_ = takesMaps ? this->byMaps_ + 1 : 0;
   this->byRays_ = takesMaps ? 0 : this->byRays_ + 1;
@@ -308,6 +309,7 @@ std::string TechniqueChoice::tryMap(
   const int asked = casting.asked->mapSizeTexels;
   if (asked > casting.mostMapTexels)
   {
+    casting.plain.reset();
     return "the memory budget has no room for maps";
   }
   int mostSteps = 0;
@@ -394,11 +396,12 @@ std::optional<WrongProbes> TechniqueChoice::probe(const CastingLight& casting, d
 void TechniqueChoice::takeSamples(CastingLight& casting)
 {
   const double limit = this->frame_.wishes.maximumSoftError;
+  LightChoice& choice = this->lights_[casting.light.sceneIndex];
+  choice.samples = 0;
   if (!casting.light.area || limit == 0.0 || this->occluders_.castsSolids())
   {
     return;
   }
-  LightChoice& choice = this->lights_[casting.light.sceneIndex];
   const int all = casting.light.lightSamples;
   while (samplesOf(choice.step) < all && !(choice.isProbed && choice.sinceProbed < framesPerProbe))
   {
@@ -414,14 +417,15 @@ void TechniqueChoice::takeSamples(CastingLight& casting)
     choice.mayBeCoarser = choice.step > 0 && 2.0 * error <= limit;
     choice.step += choice.isProbed ? 0 : 1;
   }
-  casting.light.lightSamples = std::min(samplesOf(choice.step), all);
+  choice.samples = std::min(samplesOf(choice.step), all);
+  casting.light.lightSamples = choice.samples;
 }
 
 //------------------------------------------------------------------------------
 /// Has an area light show as many samples at first as it had while it moved.
 void TechniqueChoice::refine(CastingLight& casting)
 {
-  const int samples = samplesOf(this->lights_[casting.light.sceneIndex].step);
+  const int samples = this->lights_[casting.light.sceneIndex].samples;
   casting.firstSamples = this->frame_.wishes.mayRefine ? samples : 0;
 }
 

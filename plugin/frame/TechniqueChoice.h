@@ -54,6 +54,7 @@ private:
   struct LightChoice
   {
     int step = 0;              ///< times 2 of its map's side, or 4 of its samples
+    int samples = 0;           ///< of an area light in the last frame that moved; 0: all
     bool isProbed = false;     ///< whether that keeps the error
     bool mayBeCoarser = false; ///< whether one step less would, too
     int sinceProbed = 0;       ///< frames

@@ -70,6 +70,7 @@ struct TechniqueInfo
 
   /// The most memory of a light's maps, in bytes for each texel of one; none: casters decide it.
   std::function<double(const ShadowLight&)> bytesPerTexel = {};
+  double bytesPerPixel = 0.0; ///< and of what it keeps for each pixel of the picture, at most
 
   /// Why it cannot do what a light's settings say, whose projection is resolved; empty if it can.
   /// Null: it always can.

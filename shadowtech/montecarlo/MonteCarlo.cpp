@@ -105,6 +105,7 @@ TechniqueInfo MonteCarlo::info()
   info.seesTextures = true;
   info.bytesPerTexel = [](const ShadowLight& light)
   { return DepthLayers::bytesPerTexel(light) + SlabBounds::bytesPerTexel(light); };
+  info.bytesPerPixel = 64.0; // rays, means, weights, the filter's images
   info.refused = refusedByMonteCarlo;
   info.classes = { { "no receiver", { 0, 0, 0 } }, { "turned away from the light", { 0, 140, 60 } },
     { "lit by the map's bounds", { 230, 230, 230 } },

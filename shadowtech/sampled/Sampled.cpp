@@ -87,6 +87,7 @@ TechniqueInfo Sampled::info()
   info.seesTextures = true;
   info.bytesPerTexel = [](const ShadowLight& light)
   { return (1.0 + light.of<SampledSettings>().batch) * Compare::bytesPerTexel(light); };
+  info.bytesPerPixel = 32.0; // two sums of four channels
   info.refused = refusedBySampled;
   return info;
 }

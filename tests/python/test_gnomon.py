@@ -5,6 +5,7 @@ import os
 import tempfile
 import unittest
 import warnings
+from unittest import mock
 
 import numpy
 from vtkmodules.vtkFiltersSources import vtkPlaneSource, vtkSphereSource
@@ -121,6 +122,65 @@ class Shadows(unittest.TestCase):
         gnomon.remove_shadows(scene.renderer)
         self.assertIsNone(scene.renderer.GetPass())
 
+    def test_what_was_there_outlives_python_s_names(self):
+        window = Scene(has_sun=False).window  # keeps the renderer, whose wrapper goes
+
+        def renderer():
+            return window.GetRenderers().GetFirstRenderer()
+
+        with self.assertWarns(UserWarning):
+            gnomon.add_shadows(renderer())
+        gc.collect()
+        gnomon.remove_shadows(renderer())
+        self.assertIsNone(renderer().GetPass())
+        self.assertTrue(renderer().GetAutomaticLightCreation())
+
+    def test_an_empty_renderer_gets_its_light_when_it_shows_something(self):
+        renderer = vtkRenderer()
+        window = gnomon.vtkGnomonEGLRenderWindow()
+        window.SetSize(80, 60)
+        window.AddRenderer(renderer)
+        with self.assertWarns(UserWarning):
+            shadows = gnomon.add_shadows(renderer)
+        window.Render()
+        ball = vtkSphereSource()
+        ball.SetCenter(5, 5, 5)
+        add(renderer, ball)
+        renderer.ResetCamera()
+        window.Render()
+        key = renderer.GetLights().GetItemAsObject(0)
+        self.assertNotEqual(key.GetPosition(), (0.0, 0.0, 1.0))
+        self.assertTrue(gnomon.report(shadows)["lights"][0]["casts"])
+
+    def test_another_pass_is_left_alone(self):
+        scene = Scene()
+        gnomon.add_shadows(scene.renderer)
+        other = gnomon.vtkGnomonShadowPass()
+        scene.renderer.SetPass(other)
+        gnomon.remove_shadows(scene.renderer)
+        self.assertIs(scene.renderer.GetPass(), other)
+
+    def test_lights_that_give_none_do_not_count(self):
+        scene = Scene(has_sun=False)
+        dark = vtkLight()
+        dark.SwitchOff()
+        head = vtkLight()
+        head.SetLightTypeToHeadlight()
+        scene.renderer.AddLight(dark)
+        scene.renderer.AddLight(head)
+        with self.assertWarns(UserWarning):
+            gnomon.add_shadows(scene.renderer)
+        gnomon.remove_shadows(scene.renderer)
+        gnomon.vtkGnomonLightKeys.SetCasts(head, True)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            gnomon.add_shadows(scene.renderer)
+
+    def test_none_is_no_crash(self):
+        shadows = gnomon.vtkGnomonShadowPass()
+        shadows.GetReportTable(None)
+        shadows.GetVisibilityImage(None)
+
     def test_a_plotter_is_its_active_renderer(self):
         scene = Scene()
 
@@ -131,7 +191,7 @@ class Shadows(unittest.TestCase):
         self.assertIs(scene.renderer.GetPass(), shadows)
 
     def test_mistakes_change_nothing(self):
-        scene = Scene()
+        scene = Scene(has_sun=False)
         with self.assertRaisesRegex(TypeError, "found str"):
             gnomon.add_shadows("renderer")
         with self.assertRaisesRegex(ValueError, "kernel_sise"):
@@ -139,8 +199,15 @@ class Shadows(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "technique"):
             gnomon.add_shadows(scene.renderer, "magic")
         self.assertIsNone(scene.renderer.GetPass())
+        self.assertEqual(scene.renderer.GetLights().GetNumberOfItems(), 0)
 
-    def test_keys_of_lights_and_props(self):
+    def test_a_setting_that_a_technique_lacks_is_said(self):
+        scene = Scene()
+        shadows = gnomon.add_shadows(scene.renderer, "nsm", kernel_size=3)
+        scene.window.Render()
+        self.assertIn("kernel_size", gnomon.report(shadows)["misfits"][0])
+
+    def test_keys_of_lights(self):
         scene = Scene()
         shadows = gnomon.add_shadows(scene.renderer)
         light = scene.renderer.GetLights().GetItemAsObject(0)
@@ -194,12 +261,11 @@ class Images(unittest.TestCase):
     def setUp(self):
         self.folder = tempfile.TemporaryDirectory()
         self.baseline = os.path.join(self.folder.name, "ball.png")
-        os.environ["GNOMON_REFRESH_BASELINES"] = "1"
         self.scene = Scene()
         gnomon.add_shadows(self.scene.renderer)
         self.scene.window.Render()
-        gnomon.assert_images_equal(self.scene.window, self.baseline)
-        del os.environ["GNOMON_REFRESH_BASELINES"]
+        with mock.patch.dict(os.environ, {"GNOMON_REFRESH_BASELINES": "1"}):
+            gnomon.assert_images_equal(self.scene.window, self.baseline)
 
     def tearDown(self):
         self.folder.cleanup()
@@ -221,6 +287,9 @@ class Images(unittest.TestCase):
             gnomon.assert_images_equal(numpy.zeros((4, 5, 3), numpy.uint8), self.baseline)
         with self.assertRaisesRegex(AssertionError, "no such picture"):
             gnomon.assert_images_equal(self.scene.window, self.baseline + ".none")
+        for shape, kind in (((4, 5, 4), numpy.uint8), ((4, 5, 3), float), ((4, 5), numpy.uint8)):
+            with self.assertRaisesRegex(ValueError, "found"):
+                gnomon.assert_images_equal(numpy.zeros(shape, kind), self.baseline)
 
 
 if __name__ == "__main__":

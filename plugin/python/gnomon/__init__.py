@@ -14,7 +14,6 @@ for shadow as data vtkGnomonVisibilityFilter and vtkGnomonSun.
 
 import json
 import warnings
-import weakref
 
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401: the wrapped classes' superclasses
 from vtkmodules.vtkCommonDataModel import vtkImageData
@@ -54,8 +53,9 @@ __all__ = [
     "vtkGnomonVisibilityFilter",
 ]
 
-# By renderer: what remove_shadows() puts back.
-_before = weakref.WeakKeyDictionary()
+# What remove_shadows() puts back, by the renderer's address: Python's wrapper of a renderer goes
+# when nothing in Python names it, and the renderer stays. Entries go with the renderers.
+_before = {}
 
 
 def add_shadows(target, technique=None, **settings):
@@ -78,7 +78,9 @@ def add_shadows(target, technique=None, **settings):
     Notes
     -----
     A headlight that is the only light shows no shadow. A key light beside the camera takes its
-    place, and a warning says so. `remove_shadows` takes all of that back.
+    place, and a warning says so; it stays where it is when the camera moves. In a renderer that
+    shows nothing yet, it is placed when the first picture is drawn. `remove_shadows` takes all of
+    that back.
 
     Raises
     ------
@@ -90,11 +92,13 @@ def add_shadows(target, technique=None, **settings):
     renderer = _renderer_of(target)
     shadows = vtkGnomonShadowPass()
     if technique is not None:
-        settings["technique"] = technique
+        _set(shadows, "technique", technique)
     for name, value in settings.items():
         _set(shadows, name, value)
     remove_shadows(renderer)
-    _before[renderer] = (renderer.GetPass(), _place_key_light(renderer))
+    address = _address_of(renderer)
+    _before[address] = (shadows, renderer.GetPass(), _replace_headlight(renderer))
+    renderer.AddObserver("DeleteEvent", lambda *_: _before.pop(address, None))
     renderer.SetPass(shadows)
     return shadows
 
@@ -102,10 +106,11 @@ def add_shadows(target, technique=None, **settings):
 def remove_shadows(target):
     """Give a renderer back the pass and the lights that it had before `add_shadows`."""
     renderer = _renderer_of(target)
-    if renderer not in _before:
+    if _address_of(renderer) not in _before:
         return
-    render_pass, lights = _before.pop(renderer)
-    renderer.SetPass(render_pass)
+    shadows, render_pass, lights = _before.pop(_address_of(renderer))
+    if renderer.GetPass() is shadows:
+        renderer.SetPass(render_pass)
     if lights is not None:
         key, headlight, creates = lights
         renderer.RemoveLight(key)
@@ -151,7 +156,8 @@ def _renderer_of(target):
 
 
 def _set(shadows, name, value):
-    text = ("on" if value else "off") if isinstance(value, bool) else str(value)
+    is_switch = type(value).__name__ in ("bool", "bool_")  # NumPy's, too
+    text = ("on" if value else "off") if is_switch else str(value)
     messages = []
 
     def take(_caller, _event, message):
@@ -165,16 +171,28 @@ def _set(shadows, name, value):
         raise ValueError(messages[0].split("): ", 1)[-1].strip())
 
 
-def _place_key_light(renderer):
+def _address_of(renderer):
+    return renderer.GetAddressAsString("vtkRenderer")
+
+
+def _gives_light(light):
+    return light.GetSwitch() and light.GetIntensity() != 0 and any(light.GetDiffuseColor())
+
+
+def _replace_headlight(renderer):
     """Exchange a lone headlight for a key light.
 
     Returns the key light, the headlight (None where there was none yet), and whether the renderer
     creates lights; None if nothing is exchanged.
     """
     lights = renderer.GetLights()
-    lit = [light for light in map(lights.GetItemAsObject, range(lights.GetNumberOfItems()))]
+    all_lights = [lights.GetItemAsObject(i) for i in range(lights.GetNumberOfItems())]
+    lit = [light for light in all_lights if _gives_light(light)]
     creates = renderer.GetAutomaticLightCreation()
-    if len(lit) > 1 or (lit and not lit[0].LightTypeIsHeadlight()) or (not lit and not creates):
+    casts = vtkGnomonLightKeys.CASTS()
+    if len(lit) > 1 or (all_lights and not lit) or (not all_lights and not creates):
+        return None
+    if lit and (not lit[0].LightTypeIsHeadlight() or lit[0].GetInformation().Has(casts)):
         return None
     warnings.warn(
         "The only light was a headlight, which shows no shadow: a key light took its place.",
@@ -183,12 +201,25 @@ def _place_key_light(renderer):
     headlight = lit[0] if lit else None
     if headlight is not None:
         renderer.RemoveLight(headlight)
-    if not renderer.IsActiveCameraCreated():
-        renderer.ResetCamera()
     key = vtkLight()
-    vtkGnomonLightPlacement.MakeKeyLight(
-        key, renderer.GetActiveCamera(), renderer.ComputeVisiblePropBounds()
-    )
     renderer.AddLight(key)
     renderer.AutomaticLightCreationOff()
+    if not _place(key, renderer):
+
+        def place_later(caller, _event):
+            if _place(key, caller):
+                caller.RemoveObserver(observer)
+
+        observer = renderer.AddObserver("StartEvent", place_later)
     return key, headlight, creates
+
+
+def _place(key, renderer):
+    """Place a key light for what is visible; False if nothing is."""
+    bounds = renderer.ComputeVisiblePropBounds()
+    if bounds[0] > bounds[1]:
+        return False
+    if not renderer.IsActiveCameraCreated():
+        renderer.ResetCamera()
+    vtkGnomonLightPlacement.MakeKeyLight(key, renderer.GetActiveCamera(), bounds)
+    return True

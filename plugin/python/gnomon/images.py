@@ -12,7 +12,8 @@ def assert_images_equal(actual, baseline, max_difference=0, max_pixels=0):
     Parameters
     ----------
     actual : vtkRenderWindow, str or numpy.ndarray
-        A window, which is drawn; a PNG file; or an array of height x width x 3 bytes, top row first.
+        A window, which is drawn; a PNG file of colours, whose opacity does not count; or an array of
+        height x width x 3 bytes, top row first.
     baseline : str
         A PNG file. With the environment variable GNOMON_REFRESH_BASELINES set, `actual` is written
         there, and nothing is compared.
@@ -23,6 +24,8 @@ def assert_images_equal(actual, baseline, max_difference=0, max_pixels=0):
 
     Raises
     ------
+    ValueError
+        For an array of another shape or type, and a picture that cannot be written.
     AssertionError
         Says how many pixels differ, by how much, and where the first one is. The picture is then
         beside the baseline, as NAME-actual.png.
@@ -30,11 +33,15 @@ def assert_images_equal(actual, baseline, max_difference=0, max_pixels=0):
     import numpy
 
     picture = _pixels(actual)
-    if os.environ.get("GNOMON_REFRESH_BASELINES"):
+    if os.environ.get("GNOMON_REFRESH_BASELINES", "0") not in ("", "0"):
         _write(picture, baseline)
         return
-    expected = _pixels(baseline)
+    baseline = str(baseline)
     kept = os.path.splitext(baseline)[0] + "-actual.png"
+    if not os.path.exists(baseline):
+        _write(picture, kept)
+        raise AssertionError(f"{baseline}: there is no such picture; the present one: {kept}")
+    expected = _pixels(baseline)
     if picture.shape != expected.shape:
         _write(picture, kept)
         raise AssertionError(
@@ -61,6 +68,10 @@ def _pixels(source):
     from vtkmodules.util.numpy_support import vtk_to_numpy
 
     if isinstance(source, numpy.ndarray):
+        if source.ndim != 3 or source.shape[2] != 3 or source.dtype != numpy.uint8:
+            raise ValueError(
+                f"expected an array of height x width x 3 bytes, found {source.shape} of {source.dtype}"
+            )
         return source
     if isinstance(source, vtkRenderWindow):
         reader = vtkWindowToImageFilter()
@@ -75,8 +86,10 @@ def _pixels(source):
     reader.Update()
     image = reader.GetOutput()
     width, height, _ = image.GetDimensions()
-    array = vtk_to_numpy(image.GetPointData().GetScalars())
-    return array.reshape(height, width, -1)[::-1, :, :3].copy()
+    array = vtk_to_numpy(image.GetPointData().GetScalars()).reshape(height, width, -1)[::-1]
+    if array.shape[2] < 3:
+        array = numpy.repeat(array[..., :1], 3, axis=2)
+    return array[..., :3].astype(numpy.uint8)
 
 
 def _write(picture, path):
@@ -88,7 +101,10 @@ def _write(picture, path):
     image.SetDimensions(picture.shape[1], picture.shape[0], 1)
     flat = numpy.ascontiguousarray(picture[::-1]).reshape(-1, 3)
     image.GetPointData().SetScalars(numpy_to_vtk(flat, deep=True))
+    os.makedirs(os.path.dirname(os.path.abspath(path)), exist_ok=True)
     writer = vtkPNGWriter()
     writer.SetInputData(image)
     writer.SetFileName(path)
     writer.Write()
+    if writer.GetErrorCode() != 0 or not os.path.exists(path):
+        raise ValueError(f"{path}: cannot be written")

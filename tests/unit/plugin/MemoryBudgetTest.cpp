@@ -8,6 +8,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <limits>
 #include <string>
 #include <vector>
@@ -34,10 +35,10 @@ LightNeed lamp(double mostLight)
   return need;
 }
 
-std::vector<int> sidesOf(const std::vector<LightShare>& shares)
+std::vector<int> sidesOf(const MemoryShares& shares)
 {
   std::vector<int> sides;
-  for (const LightShare& share : shares)
+  for (const LightShare& share : shares.lights)
   {
     sides.push_back(share.way == LightWay::Map ? share.mapSizeTexels
         : share.way == LightWay::Rays          ? 0
@@ -88,6 +89,30 @@ TEST(MemoryBudget, mapsWhoseSizeNobodyKnowsGiveWayToRays)
   unknown.bytesPerTexel = 0.0; // it has none
   EXPECT_EQ(
     sidesOf(shareMemory({ unknown }, 8.0 * mebibyte, megapixel, true)), (std::vector{ 1024 }));
+}
+
+//------------------------------------------------------------------------------
+// 64 hard lights share an image of bits. Others have one each, and so have techniques' own.
+TEST(MemoryBudget, imagesAreCountedWhereThereAreAny)
+{
+  LightNeed rays;
+  rays.isHard = true;
+  const auto noneAmong = [](const MemoryShares& shares)
+  {
+    const std::vector<int> sides = sidesOf(shares);
+    return std::count(sides.begin(), sides.end(), -1);
+  };
+  EXPECT_EQ(
+    noneAmong(shareMemory(std::vector<LightNeed>(64, rays), 8.0 * mebibyte, megapixel, true)), 0);
+  EXPECT_EQ(
+    noneAmong(shareMemory(std::vector<LightNeed>(70, rays), 16.0 * mebibyte, megapixel, true)), 4);
+  LightNeed soft;
+  soft.channels = 3;
+  soft.bytesPerPixel = 8.0;
+  EXPECT_EQ(
+    noneAmong(shareMemory(std::vector<LightNeed>(2, soft), 48.0 * mebibyte, megapixel, true)), 0);
+  EXPECT_EQ(
+    noneAmong(shareMemory(std::vector<LightNeed>(2, soft), 47.0 * mebibyte, megapixel, true)), 1);
 }
 
 //------------------------------------------------------------------------------
@@ -151,9 +176,7 @@ TEST_F(MemoryBudgetOfPass, mapsTakeAtMostWhatIsExpected)
   for (const TechniqueEntry& entry : registry())
   {
     const TechniqueInfo& info = entry.estimator->info;
-    const bool lampCanHave = entry.projection == Projection::Cube ||
-      entry.projection == Projection::Uniform || !info.bytesPerTexel;
-    if (!info.bytesPerTexel || !lampCanHave)
+    if (!info.bytesPerTexel || entry.projection != Projection::Uniform) // a lamp has faces
     {
       continue;
     }
@@ -166,7 +189,7 @@ TEST_F(MemoryBudgetOfPass, mapsTakeAtMostWhatIsExpected)
     light.mapSizeTexels = side;
     light.projection = entry.projection;
     const double expected = info.bytesPerTexel(light) * side * side;
-    const double images = 16.0 * 4 * 128 * 96; // what techniques keep by pixel
+    const double images = info.bytesPerPixel * 128 * 96;
     const double tables = 0.5 * mebibyte;
     const auto bytes = static_cast<double>(this->report().bytesMaps);
     EXPECT_LE(bytes, expected + images + tables);
@@ -215,6 +238,24 @@ TEST_F(MemoryBudgetOfPass, theReportSaysWhatIsLeft)
 }
 
 //------------------------------------------------------------------------------
+// What lights with names have is not there for `auto`.
+TEST_F(MemoryBudgetOfPass, automaticLightsTakeWhatOthersLeave)
+{
+  vtkLight* const lamp = this->addLamp(0.0, 1.0);
+  vtkGnomonLightKeys::SetSetting(lamp, "technique", "nsm");
+  this->addSun(slantingSun)->SetIntensity(0.1);
+  this->pass->SetTechnique("auto");
+  this->pass->SetMemoryBudget(26.0); // the lamp's six faces may take 24
+  this->pass->SetInteractive(vtkGnomonShadowPass::INTERACTIVE_ON);
+  for (int i = 0; i < 3; ++i)
+  {
+    this->renderer->GetActiveCamera()->Azimuth(1.0);
+    this->render();
+    EXPECT_LE(this->report().bytesMaps, 26 * 1024 * 1024u);
+  }
+}
+
+//------------------------------------------------------------------------------
 // `auto` is exact at rest with any budget, and takes maps while it moves only where they fit.
 TEST_F(MemoryBudgetOfPass, automaticLightsKeepToIt)
 {
@@ -233,6 +274,7 @@ TEST_F(MemoryBudgetOfPass, automaticLightsKeepToIt)
   this->pass->SetMemoryBudget(3.0);
   this->renderer->GetActiveCamera()->Azimuth(1.0);
   this->render();
+  EXPECT_EQ(this->report().bytesMaps, 0u);
   EXPECT_EQ(this->report().lights[0].technique, "raytraced");
   EXPECT_THAT(this->report().choice, HasSubstr("memory budget"));
 }
