@@ -86,14 +86,31 @@ private:
   std::array<std::uint8_t, raysOfBatch> blocked_;
 };
 
+/// A start, copied: the compiler keeps it in registers while rays are stored.
+struct RayStart
+{
+  glm::vec3 position;
+  glm::vec3 normal;
+  float offset;
+
+  RayStart(const RayStarts& starts, std::size_t i)
+    : position(starts.position[i])
+    , normal(starts.normal[i])
+    , offset(starts.offset[i])
+  {
+  }
+};
+
 /// The shadow ray of a start. One that receives on both sides takes the side that faces the light.
 template <typename MakeRay>
-ShadowRay rayOf(const MakeRay& makeRay, const RayStarts& starts, std::size_t i, bool bothSides)
+ShadowRay rayOf(const MakeRay& makeRay, const RayStart& start, bool bothSides)
 {
-  const ShadowRay ray = makeRay(starts.position[i], starts.normal[i], starts.offset[i]);
-  return ray.traced || !bothSides
-    ? ray
-    : makeRay(starts.position[i], -starts.normal[i], starts.offset[i]);
+  if (!bothSides) // and no ray is copied
+  {
+    return makeRay(start.position, start.normal, start.offset);
+  }
+  const ShadowRay ray = makeRay(start.position, start.normal, start.offset);
+  return ray.traced ? ray : makeRay(start.position, -start.normal, start.offset);
 }
 
 /// A place on a Z curve over all directions, which octahedral coordinates lay out on a square
@@ -294,15 +311,16 @@ private:
   void traceSimple(std::size_t firstLight, std::size_t lastLight, std::size_t answers)
   {
     this->batch_.setFar(shadowRayFarDirectional);
+    const bool bothSides = this->plan_.bothSides;
     for (std::size_t s = 0; s < this->samples_; ++s)
     {
+      const RayStart start(this->starts_, s);
       std::size_t answer = answers + s;
       for (std::size_t light = firstLight; light < lastLight; ++light, answer += this->samples_)
       {
         const ShadowRayLight& to = this->plan_.lights[light].ray;
-        const ShadowRay ray =
-          rayOf([&to](const auto&... of) { return shadowRayDirectional(to, of...); }, this->starts_,
-            s, this->plan_.bothSides);
+        const ShadowRay ray = rayOf(
+          [&to](const auto&... of) { return shadowRayDirectional(to, of...); }, start, bothSides);
         if (ray.traced)
         {
           this->batch_.add(ray, answer);
@@ -365,7 +383,8 @@ private:
       {
         while (next < last)
         {
-          const ShadowRay ray = rayOf(makeRay, this->starts_, next++, this->plan_.bothSides);
+          const ShadowRay ray =
+            rayOf(makeRay, RayStart(this->starts_, next++), this->plan_.bothSides);
           if (ray.traced)
           {
             this->batch_.setFar(rayFar);
@@ -418,9 +437,10 @@ std::uint64_t VisibilityRun::traceTile(
     {
       const std::uint8_t* const answers = &lit[(light - begin) * samples];
       const double weight = this->plan_.lights[light].weight;
+      double* const hours = &this->hours_[firstSample];
       for (std::size_t s = 0; s < samples; ++s)
       {
-        this->hours_[firstSample + s] += answers[s] != 0 ? weight : 0.0;
+        hours[s] += answers[s] != 0 ? weight : 0.0;
       }
       const std::uint32_t number = this->numberOfLight_[light];
       for (std::size_t e = firstElement; this->arrays_.bits && e < lastElement; ++e)
@@ -482,7 +502,7 @@ void VisibilityRun::explainOne(std::size_t element, RayStarts& starts) const
     visitShadowRays(light,
       [&](const auto& makeRay, float rayFar)
       {
-        const ShadowRay ray = rayOf(makeRay, starts, i, this->plan_.bothSides);
+        const ShadowRay ray = rayOf(makeRay, RayStart(starts, i), this->plan_.bothSides);
         if (!ray.traced)
         {
           // Turned away, or outside of the cone or box of a light that it faces.
