@@ -349,7 +349,7 @@ bool vtkGnomonSun::MakeYearPath(int dayStep, double stepMinutes, vtkDoubleArray*
   for (int day = 0; day < daysOfYear; day += dayStep)
   {
     const int shared = std::min(dayStep, daysOfYear - day);
-    const double middle = day + shared / 2;
+    const int middle = day + shared / 2;
     this->AddDay(path, first + middle - this->ZoneHours / 24.0, shared, 24.0 * middle);
   }
   return true;

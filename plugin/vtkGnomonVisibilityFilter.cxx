@@ -85,7 +85,7 @@ std::pair<glm::dvec3, glm::dvec3> across(const glm::dvec3& n)
 template <typename Array, typename Value>
 vtkSmartPointer<Array> arrayOf(const char* name, vtkIdType count, int components, Value value)
 {
-  const auto array = vtkSmartPointer<Array>::New();
+  auto array = vtkSmartPointer<Array>::New();
   array->SetName(name);
   array->SetNumberOfComponents(components);
   array->SetNumberOfTuples(count);

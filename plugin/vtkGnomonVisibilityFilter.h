@@ -34,8 +34,8 @@
  * Receivers are polygons and strips. Their front counts: the side that shows the corners
  * counter-clockwise (SetReceivingSide). Vertices, lines and degenerate cells get 0 and NO_SURFACE.
  *
- * Memory does not depend on the number of lights, but for Bits. ProgressEvent comes several times a
- * second. An execution that is aborted (SetAbortExecute) leaves the receivers without arrays, and
+ * A light takes a few hundred bytes, whatever the number of cells, and with Bits a bit for each of
+ * them. ProgressEvent comes several times a second. An execution that is aborted (SetAbortExecute) leaves the receivers without arrays, and
  * keeps what is done: the next Update() goes on from there if nothing else has changed. The
  * acceleration structure stays for the next execution if only lights or settings change.
  * Same input, same arrays: to the last bit, on any number of threads.

@@ -225,10 +225,16 @@ void ReceiverStarts::appendMiddle(std::size_t element, RayStarts& starts) const
 {
   const std::uint32_t begin = this->elements_.first[element];
   const std::uint32_t end = this->elements_.first[element + 1];
-  const glm::dvec3 middle = this->middleOf(element);
   std::uint32_t best = this->elements_.triangles[begin];
+  if (end - begin == 1)
+  {
+    this->appendStart(best, middleOfCorners(this->scene_.corners(best)), 0.0f, starts);
+    starts.first.push_back(static_cast<std::uint32_t>(starts.position.size()));
+    return;
+  }
+  const glm::dvec3 middle = this->middleOf(element);
   glm::dvec3 at = closestPoint(this->scene_.corners(best), middle);
-  float offset = end - begin > 1 ? this->offsetOf(best) : 0.0f;
+  float offset = this->offsetOf(best);
   for (std::uint32_t i = begin + 1; i < end; ++i)
   {
     const std::uint32_t triangle = this->elements_.triangles[i];

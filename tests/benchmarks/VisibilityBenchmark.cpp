@@ -44,7 +44,8 @@ std::vector<glm::dvec3> suns(std::size_t count)
   for (std::size_t i = 0; i < count; ++i)
   {
     const double hour = glm::pi<double>() * (static_cast<double>(i % 40) + 0.5) / 40.0;
-    const double tilt = 0.3 + 0.9 * static_cast<double>(i / 40) * 40.0 / static_cast<double>(count);
+    const std::size_t day = i / 40;
+    const double tilt = 0.3 + 0.9 * static_cast<double>(day) * 40.0 / static_cast<double>(count);
     directions.emplace_back(
       std::cos(hour), -std::sin(hour) * std::cos(tilt), std::sin(hour) * std::sin(tilt));
   }

@@ -215,7 +215,8 @@ TEST_F(ClosedForms, StatedErrorsAreKept)
     constexpr int strips = 256;
     for (int i = 0; i < strips; ++i)
     {
-      const double y = (cell / cells + (i + 0.5) / strips) / cells;
+      const int row = cell / cells;
+      const double y = (row + (i + 0.5) / strips) / cells;
       const double edge = (y / 8.0 + 0.4) * cells - cell % cells;
       expected += glm::clamp(1.0 - edge, 0.0, 1.0) / strips;
     }

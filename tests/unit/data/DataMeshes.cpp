@@ -25,7 +25,7 @@ vtkSmartPointer<vtkPolyData> polyData(const Mesh& mesh, const glm::dvec3& by)
   {
     cells->InsertNextCell({ triangle.x, triangle.y, triangle.z });
   }
-  const auto data = vtkSmartPointer<vtkPolyData>::New();
+  auto data = vtkSmartPointer<vtkPolyData>::New();
   data->SetPoints(points);
   data->SetPolys(cells);
   return data;
@@ -35,7 +35,7 @@ vtkSmartPointer<vtkPolyData> polyData(const Mesh& mesh, const glm::dvec3& by)
 vtkSmartPointer<vtkPolyData> quad(
   const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d)
 {
-  const auto data = polyData({ { a, b, c, d }, {} });
+  auto data = polyData({ { a, b, c, d }, {} });
   vtkNew<vtkCellArray> cells;
   cells->InsertNextCell({ 0, 1, 2, 3 });
   data->SetPolys(cells);
@@ -60,7 +60,7 @@ vtkSmartPointer<vtkPolyData> floorOf(const glm::dvec2& lower, const glm::dvec2& 
       }
     }
   }
-  const auto data = polyData(mesh);
+  auto data = polyData(mesh);
   data->SetPolys(quads);
   return data;
 }
@@ -89,7 +89,7 @@ vtkSmartPointer<vtkPolyData> together(const std::vector<vtkSmartPointer<vtkPolyD
       cells->InsertNextCell(ids);
     }
   }
-  const auto data = vtkSmartPointer<vtkPolyData>::New();
+  auto data = vtkSmartPointer<vtkPolyData>::New();
   data->SetPoints(points);
   data->SetPolys(cells);
   return data;

@@ -58,11 +58,8 @@ Arrays allArrays(Filter* filter)
 std::vector<glm::dvec3> someDirections(int count)
 {
   Random random(3);
-  std::vector<glm::dvec3> directions;
-  for (int i = 0; i < count; ++i)
-  {
-    directions.push_back(unitVector(random));
-  }
+  std::vector<glm::dvec3> directions(static_cast<std::size_t>(count));
+  std::generate(directions.begin(), directions.end(), [&random] { return unitVector(random); });
   return directions;
 }
 
@@ -212,7 +209,8 @@ TEST_F(VisibilityFilter, ConesAndBoxesEnd)
     const Doubles why = this->why();
     for (int cell = 0; cell < 16; ++cell)
     {
-      const bool isMiddle = std::abs(cell % 4 - 1.5) < 1.0 && std::abs(cell / 4 - 1.5) < 1.0;
+      const int row = cell / 4;
+      const bool isMiddle = std::abs(cell % 4 - 1.5) < 1.0 && std::abs(row - 1.5) < 1.0;
       EXPECT_EQ(fraction[cell], isMiddle ? 1.0 : 0.0) << cell;
       EXPECT_EQ(why[cell], isMiddle ? Filter::LIT : Filter::OUT_OF_REACH) << cell;
     }
