@@ -257,6 +257,47 @@ class Shadows(unittest.TestCase):
         self.assertEqual(table.GetValueByName(0, "casts").ToDouble(), 1.0)
 
 
+class Data(unittest.TestCase):
+    """A square of two triangles under a smaller, higher one that shades one of its middles."""
+
+    floor = ([[0, 0, 0], [3, 0, 0], [3, 3, 0], [0, 3, 0]], [[0, 1, 2], [0, 2, 3]])
+    roof = ([[1.5, 0.5, 1], [2.5, 0.5, 1], [2.5, 1.5, 1], [1.5, 1.5, 1]], [[0, 1, 2], [0, 2, 3]])
+    suns = [[0, 0, 1], [0, 0, 2], [1, 0, 0.5], [0, 0, -1]]
+
+    def test_hours_of_triangles(self):
+        hours = gnomon.hours_lit(self.floor, self.suns, [1.0, 2.0, 4.0, 8.0], casters=self.roof)
+        self.assertEqual(list(hours), [4.0, 7.0])
+        self.assertEqual(list(gnomon.hours_lit(self.floor, self.suns)), [3.0, 3.0])
+
+    def test_samples_see_parts(self):
+        (hours, _) = gnomon.hours_lit(self.floor, [[0, 0, 1]], casters=self.roof, samples=4096)
+        self.assertAlmostEqual(hours, 1 - 1 / 4.5, delta=0.005)  # the roof covers 1 of 4.5
+
+    def test_a_year_of_suns(self):
+        from vtkmodules.util.numpy_support import vtk_to_numpy
+        from vtkmodules.vtkCommonCore import vtkDoubleArray
+
+        sun = gnomon.vtkGnomonSun()
+        sun.SetPlace(52.52, 13.405)
+        sun.SetDate(2026, 6, 21)
+        sun.SetTime(12, 0, 0.0, 2.0)
+        directions, hours = vtkDoubleArray(), vtkDoubleArray()
+        sun.MakeDayPath(10.0, directions, hours)
+        lit = gnomon.hours_lit(self.floor, vtk_to_numpy(directions), vtk_to_numpy(hours))
+        self.assertTrue(16.5 < lit[0] < 17.0, lit)  # the longest day in Berlin: 16.8 hours
+
+    def test_mistakes_are_said(self):
+        for call, what in (
+            (lambda: gnomon.hours_lit(self.floor, [[0, 0]]), "directions: expected"),
+            (lambda: gnomon.hours_lit(self.floor, self.suns, [1]), "hours: expected"),
+            (lambda: gnomon.hours_lit((self.floor[0], [[0, 1, 9]]), self.suns), "in .0, 3., found 0 to 9"),
+            (lambda: gnomon.hours_lit(self.floor, [[0, 0, 0]]), "."),
+            (lambda: gnomon.hours_lit(self.floor, self.suns, [1, 2, 3, -4]), "."),
+        ):
+            with self.assertRaisesRegex(ValueError, what):
+                call()
+
+
 class Images(unittest.TestCase):
     def setUp(self):
         self.folder = tempfile.TemporaryDirectory()

@@ -38,6 +38,7 @@ from .images import assert_images_equal
 __all__ = [
     "add_shadows",
     "assert_images_equal",
+    "hours_lit",
     "remove_shadows",
     "report",
     "visibility",
@@ -56,6 +57,14 @@ __all__ = [
 # What remove_shadows() puts back, by the renderer's address: Python's wrapper of a renderer goes
 # when nothing in Python names it, and the renderer stays. Entries go with the renderers.
 _before = {}
+
+
+def __getattr__(name):
+    if name == "hours_lit":  # takes NumPy, which the rest can do without
+        from .data import hours_lit
+
+        return hours_lit
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
 def add_shadows(target, technique=None, **settings):

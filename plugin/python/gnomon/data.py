@@ -1,0 +1,96 @@
+"""Shadow as data, for arrays."""
+
+import numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+
+from .GnomonPlugin import vtkGnomonVisibilityFilter
+
+
+def hours_lit(receivers, directions, hours=None, casters=None, samples=1, angular_diameter=0.0):
+    """How long each triangle is lit, by vtkGnomonVisibilityFilter.
+
+    Parameters
+    ----------
+    receivers : (points, triangles)
+        An array of n x 3 world coordinates, and one of m x 3 numbers of points, counter-clockwise
+        as seen from the side that receives. They cast, too.
+    directions : array of k x 3
+        Towards the sun, or another light, in world coordinates, of any length.
+    hours : array of k, optional
+        How long each direction shines; an hour each if there is none.
+    casters : (points, triangles), optional
+        What else casts.
+    samples : int
+        Rays from a triangle in each direction; 1: from its middle.
+    angular_diameter : float
+        At which the light is seen, in degrees; the sun's is 0.53. It takes several samples.
+
+    Returns
+    -------
+    numpy.ndarray
+        Hours of each of the m triangles.
+
+    Raises
+    ------
+    ValueError
+        For arrays of other shapes, numbers of points that do not exist, and what the filter refuses.
+    """
+    shadows = vtkGnomonVisibilityFilter()
+    shadows.SetInputData(0, _polydata("receivers", receivers))
+    if casters is not None:
+        shadows.AddInputData(1, _polydata("casters", casters))
+    directions = _array("directions", directions, (None, 3), float)
+    hours = _array("hours", numpy.ones(len(directions)) if hours is None else hours,
+                   (len(directions),), float)
+    errors = []
+
+    def take(_caller, _event, message):
+        errors.append(message)
+
+    take.CallDataType = "string0"
+    shadows.AddObserver("ErrorEvent", take)
+    shadows.AddDirections(numpy_to_vtk(directions), numpy_to_vtk(hours))
+    shadows.SetSamples(samples)
+    shadows.SetAngularDiameter(angular_diameter)
+    shadows.ComputeReasonsOff()
+    if not errors:
+        shadows.Update()
+    if errors:
+        raise ValueError(errors[0].split("): ", 1)[-1].strip())
+    data = shadows.GetOutput().GetCellData()
+    return vtk_to_numpy(data.GetArray(shadows.GetHoursName()))
+
+
+def _array(name, values, shape, kind):
+    array = numpy.ascontiguousarray(values, dtype=kind)
+    fits = array.ndim == len(shape) and all(
+        wanted in (None, found) for wanted, found in zip(shape, array.shape)
+    )
+    if not fits:
+        wanted = " x ".join("n" if side is None else str(side) for side in shape)
+        raise ValueError(f"{name}: expected an array of {wanted} numbers, found {array.shape}")
+    return array
+
+
+def _polydata(name, mesh):
+    points = _array(f"{name}' points", mesh[0], (None, 3), float)
+    triangles = _array(f"{name}' triangles", mesh[1], (None, 3), numpy.int64)
+    if triangles.size and (triangles.min() < 0 or triangles.max() >= len(points)):
+        raise ValueError(
+            f"{name}' triangles: expected numbers of points in [0, {len(points) - 1}], found "
+            f"{triangles.min()} to {triangles.max()}"
+        )
+    vtk_points = vtkPoints()
+    vtk_points.SetData(numpy_to_vtk(points, deep=True))
+    cells = vtkCellArray()
+    offsets = numpy.arange(0, triangles.size + 1, 3, dtype=numpy.int64)
+    cells.SetData(
+        numpy_to_vtkIdTypeArray(offsets, deep=True),
+        numpy_to_vtkIdTypeArray(triangles.reshape(-1), deep=True),
+    )
+    polydata = vtkPolyData()
+    polydata.SetPoints(vtk_points)
+    polydata.SetPolys(cells)
+    return polydata
