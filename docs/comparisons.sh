@@ -30,3 +30,14 @@ machine()
 {
   echo "$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1), $(nproc) processors; OpenGL by software (llvmpipe)"
 }
+
+# takePrograms FOLDER DATA : sets `programs` and `data` for scripts that run VTK's own programs
+takePrograms()
+{
+  if [ $# -ne 2 ]; then
+    echo "usage: docs/$(basename "$0") FOLDER DATA" >&2
+    exit 1
+  fi
+  programs="$(cd "$1" && pwd)"
+  data="$(cd "$2" && pwd)"
+}

@@ -9,12 +9,7 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source docs/comparisons.sh
 
-if [ $# -ne 2 ]; then
-  echo "usage: docs/vtk_motion.sh FOLDER DATA" >&2
-  exit 1
-fi
-programs="$(cd "$1" && pwd)"
-data="$(cd "$2" && pwd)"
+takePrograms "$@"
 out="$PWD/out/vtk_motion"
 mkdir -p "$out"
 
@@ -46,6 +41,7 @@ for name in Mace FrustumClip TestManyActors TestGlyph3DMapperEdges TestVDWSphere
   nsm="$(awk '{ printf "%.2f", $2 / $1 }' "$out/$name.nsm.motion")"
   IFS=$'\t' read -r plain auto choice < "$out/$name.auto.motion"
   ratio="$(awk -v a="$auto" -v b="$plain" 'BEGIN { printf "%.2f", a / b }')"
+  plain="$(printf '%.1f' "$plain")"
   rows+="| $name | $light | $rest | $plain ms | $nsm | $ratio | ${choice#the picture moves: } |"$'\n'
 done
 

@@ -10,12 +10,7 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source docs/comparisons.sh
 
-if [ $# -ne 2 ]; then
-  echo "usage: docs/vtk_programs.sh FOLDER DATA" >&2
-  exit 1
-fi
-programs="$(cd "$1" && pwd)"
-data="$(cd "$2" && pwd)"
+takePrograms "$@"
 out="$PWD/out/vtk_programs"
 mkdir -p "$out"
 

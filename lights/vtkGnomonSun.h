@@ -15,8 +15,8 @@
  * Positions are those of the Solar Position Algorithm (Reda and Andreas, Solar Energy 76, 2004;
  * revised 2008), with periodic terms below 2e-6 radians left out. They are within 0.001 degrees of
  * the full theory (VSOP87) in the years 1583 to 3000 if DeltaT is right, and within 0.002 degrees
- * in 1900 to 2100 whatever it is. They name the middle of the sun's disc, as an observer on the
- * ground sees it.
+ * in 1900 to 2100 with the default DeltaT. They are of the middle of the sun's disc, as an observer
+ * on the ground sees it.
  *
  * The scene's axes are given by North and Up. By default +y is north, +z is up and +x is east.
  *

@@ -605,9 +605,12 @@ std::string vtkGnomonShadowPass::GetSetting(const char* name) const
 //------------------------------------------------------------------------------
 void vtkGnomonShadowPass::SetMapSize(int mapSizeTexels)
 {
-  vtkNew<vtkGnomonShadowSettings> clamped;
-  clamped->SetMapSize(mapSizeTexels);
-  this->SetSetting("map_size", clamped->GetSetting("map_size").c_str());
+  const vtkMTimeType before = this->Internal->settings->GetMTime();
+  this->Internal->settings->SetMapSize(mapSizeTexels);
+  if (this->Internal->settings->GetMTime() != before)
+  {
+    this->Modified();
+  }
 }
 
 //------------------------------------------------------------------------------

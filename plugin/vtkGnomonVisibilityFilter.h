@@ -34,10 +34,11 @@
  * Receivers are polygons and strips. Their front counts: the side that shows the corners
  * counter-clockwise (SetReceivingSide). Vertices, lines and degenerate cells get 0 and NO_SURFACE.
  *
- * A light takes a few hundred bytes, whatever the number of cells, and with Bits a bit for each of
- * them. ProgressEvent comes several times a second. An execution that is aborted (SetAbortExecute) leaves the receivers without arrays, and
- * keeps what is done: the next Update() goes on from there if nothing else has changed. The
- * acceleration structure stays for the next execution if only lights or settings change.
+ * A light takes a few hundred bytes, for any number of cells. Bits take a bit more for each cell.
+ * ProgressEvent comes several times a second. An aborted execution (SetAbortExecute) leaves the
+ * receivers without arrays and keeps its results so far: if nothing else changes, the next Update()
+ * goes on from there. If only lights or settings change, the next execution reuses the acceleration
+ * structure.
  * Same input, same arrays: to the last bit, on any number of threads.
  *
  * What makes no sense is one error (vtkErrorMacro). A setting then stays as it was; an execution

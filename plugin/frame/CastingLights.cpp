@@ -8,7 +8,6 @@
 
 #include <vtkRenderer.h>
 
-#include <cmath>
 #include <iterator>
 #include <utility>
 
@@ -143,7 +142,7 @@ Bounds visibleBounds(vtkRenderer* renderer)
   return { { bounds[0], bounds[2], bounds[4] }, { bounds[1], bounds[3], bounds[5] } };
 }
 
-/// Has lights keep to the memory budget.
+/// Fits the lights to the memory budget.
 /// @param skipped gets those without room for a shadow
 void keepBudget(std::vector<ComposedLight>& lights, vtkRenderer* renderer,
   const FrameWishes& wishes, std::vector<SkippedLight>& skipped, FrameReport& report)

@@ -42,7 +42,7 @@ struct LightShare
 struct MemoryShares
 {
   std::vector<LightShare> lights;
-  double left = 0.0; ///< bytes that nobody takes
+  double left = 0.0; ///< unused bytes
 };
 
 /// Shares a budget among lights: first images of visibility where they are needed, then maps, in

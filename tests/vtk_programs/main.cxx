@@ -183,8 +183,8 @@ public:
     }
   }
 
-  // Moves the camera by runs of frames without Gnomon and with it in turns. VTK makes its shaders
-  // anew where a pass comes or goes, so that a run's first frames do not count.
+  // Moves the camera by runs of frames without Gnomon and with it in turns. A run's first frames do
+  // not count: VTK rebuilds its shaders when a pass is added or removed.
   void Move(int frames)
   {
     const int runs = 4;

@@ -70,7 +70,8 @@ def _pixels(source):
     if isinstance(source, numpy.ndarray):
         if source.ndim != 3 or source.shape[2] != 3 or source.dtype != numpy.uint8:
             raise ValueError(
-                f"expected an array of height x width x 3 bytes, found {source.shape} of {source.dtype}"
+                "expected an array of height x width x 3 bytes, "
+                f"found {source.shape} of {source.dtype}"
             )
         return source
     if isinstance(source, vtkRenderWindow):

@@ -209,7 +209,7 @@ TEST_F(Sun, DaysHaveTheirHours)
   }
   EXPECT_NEAR(times->GetValue(0), 6.1, 0.1); // 12 hours around noon, which is at 12:07
 
-  // Half of a leap year is day, whatever the place: here without air and disc.
+  // Without air and disc, half of a leap year is day in all places.
   this->sun->SetPlace(30.0, 50.0);
   this->sun->MakeYearPath(1, 20.0, directions, hours, times);
   EXPECT_NEAR(total(), 366.0 * 12.0, 15.0);
