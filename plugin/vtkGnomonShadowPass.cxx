@@ -1,6 +1,5 @@
 #include "vtkGnomonShadowPass.h"
 
-#include "plugin/VisibilityImages.h"
 #include "plugin/frame/FrameWishes.h"
 #include "plugin/frame/Motion.h"
 #include "plugin/frame/Progress.h"
@@ -9,11 +8,12 @@
 #include "plugin/frame/ReportText.h"
 #include "plugin/frame/VisibilityData.h"
 #include "plugin/scene/ShownView.h"
+#include "plugin/vtkGnomonVisibilityImages.h"
 #include "plugin/window/AroundOpaque.h"
 #include "plugin/window/PassContext.h"
 #include "shadowtech/Registry.h"
-#include "shadowtech/base/FrameReport.h"
 #include "shadowtech/base/TextureMemory.h"
+#include "shadowtech/base/vtkGnomonFrameReport.h"
 
 #include "vtkGnomonShadowSettings.h"
 #include "vtkInformation.h"

@@ -336,7 +336,7 @@ public:
 
   /**
    * What the last frame did: lights and reasons, route, tracer, counters, times, memory
-   * (FrameReport.h).
+   * (vtkGnomonFrameReport.h).
    */
   const gnomon::FrameReport& GetReport() const;
 
@@ -363,7 +363,7 @@ public:
   double GetProgress() const;
 
   /**
-   * The last frame's visibility and receivers (VisibilityImages.h); the receivers alone where no
+   * The last frame's visibility and receivers (vtkGnomonVisibilityImages.h); the receivers alone where no
    * light casts. Empty unless KeepVisibility was on while it was drawn.
    */
   const gnomon::VisibilityImages& GetVisibility() const;

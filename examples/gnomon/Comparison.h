@@ -4,7 +4,7 @@
 #include "Scene.h"
 #include "WorstPlace.h"
 
-#include "plugin/VisibilityImages.h"
+#include "plugin/vtkGnomonVisibilityImages.h"
 
 #include <algorithm>
 #include <array>

@@ -9,7 +9,7 @@
 
 #include "lights/LightManager.h"
 #include "shadowtech/Registry.h"
-#include "shadowtech/base/FrameReport.h"
+#include "shadowtech/base/vtkGnomonFrameReport.h"
 
 #include <vtkVersion.h>
 

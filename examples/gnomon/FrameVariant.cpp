@@ -4,7 +4,7 @@
 #include "SettingOptions.h"
 
 #include "shadowtech/Registry.h"
-#include "shadowtech/base/FrameReport.h"
+#include "shadowtech/base/vtkGnomonFrameReport.h"
 
 #include <vtkCameraPass.h>
 #include <vtkLight.h>

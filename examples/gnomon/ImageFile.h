@@ -1,6 +1,6 @@
 #pragma once
 
-#include "plugin/VisibilityImages.h"
+#include "plugin/vtkGnomonVisibilityImages.h"
 
 #include "lights/vtkGnomonVersions.h"
 

@@ -3,7 +3,7 @@
 #include "ImageFile.h"
 #include "Scene.h"
 
-#include "plugin/VisibilityImages.h"
+#include "plugin/vtkGnomonVisibilityImages.h"
 
 #include "lights/vtkGnomonVersions.h"
 

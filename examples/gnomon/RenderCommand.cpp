@@ -12,14 +12,14 @@
 #include "VtkMessages.h"
 
 #include "lights/LightManager.h"
-#include "plugin/VisibilityImages.h"
 #include "plugin/frame/ReportText.h"
 #include "plugin/vtkGnomonEGLRenderWindow.h"
 #include "plugin/vtkGnomonLightSamplingPass.h"
 #include "plugin/vtkGnomonShadowPass.h"
+#include "plugin/vtkGnomonVisibilityImages.h"
 #include "shadowtech/Registry.h"
-#include "shadowtech/base/FrameReport.h"
 #include "shadowtech/base/Gl.h"
+#include "shadowtech/base/vtkGnomonFrameReport.h"
 
 #include <nlohmann/json.hpp>
 #include <vtkMath.h>

@@ -3,8 +3,8 @@
 #include "lights/LightManager.h"
 #include "lights/vtkGnomonVersions.h"
 #include "plugin/frame/LightTechnique.h"
-#include "shadowtech/base/FrameReport.h"
 #include "shadowtech/base/VisibilityLayers.h"
+#include "shadowtech/base/vtkGnomonFrameReport.h"
 
 #include <algorithm>
 #include <cstddef>

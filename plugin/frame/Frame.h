@@ -6,8 +6,8 @@
 #include "plugin/frame/FrameWishes.h"
 #include "plugin/frame/Route.h"
 #include "plugin/frame/ViewValues.h"
-#include "shadowtech/base/FrameReport.h"
 #include "shadowtech/base/Technique.h"
+#include "shadowtech/base/vtkGnomonFrameReport.h"
 
 #include <glm/glm.hpp>
 

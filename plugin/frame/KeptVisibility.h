@@ -1,8 +1,8 @@
 #pragma once
 
-#include "plugin/VisibilityImages.h"
 #include "plugin/frame/CastingLights.h"
 #include "plugin/frame/ViewValues.h"
+#include "plugin/vtkGnomonVisibilityImages.h"
 #include "shadowtech/base/Receivers.h"
 #include "shadowtech/base/VisibilityLayers.h"
 

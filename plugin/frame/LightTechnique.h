@@ -9,9 +9,9 @@
 #include "plugin/frame/Route.h"
 #include "plugin/frame/ValueKey.h"
 #include "shadowtech/Registry.h"
-#include "shadowtech/base/FrameReport.h"
 #include "shadowtech/base/Technique.h"
 #include "shadowtech/base/TextureMemory.h"
+#include "shadowtech/base/vtkGnomonFrameReport.h"
 #include "shadowtech/fitting/ReceiverFit.h"
 
 #include <cstddef>

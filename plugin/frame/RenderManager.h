@@ -1,13 +1,13 @@
 #pragma once
 
 #include "lights/vtkGnomonVersions.h"
-#include "plugin/VisibilityImages.h"
 #include "plugin/frame/Frame.h"
 #include "plugin/frame/MapRasterizer.h"
 #include "plugin/frame/ShaderManager.h"
 #include "plugin/frame/TechniqueChoice.h"
 #include "plugin/frame/VisibilityStage.h"
 #include "plugin/scene/OccluderCollector.h"
+#include "plugin/vtkGnomonVisibilityImages.h"
 
 #include "shadowtech/base/OccluderBuffers.h"
 #include "shadowtech/base/ShaderLibrary.h"

@@ -1,6 +1,6 @@
 #include "plugin/frame/ReportText.h"
 
-#include "shadowtech/base/FrameReport.h"
+#include "shadowtech/base/vtkGnomonFrameReport.h"
 
 #include <vtkDoubleArray.h>
 #include <vtkNew.h>

@@ -5,11 +5,11 @@
 #include "plugin/frame/ValueKey.h"
 
 #include "shadowtech/base/DeferredPicture.h"
-#include "shadowtech/base/FrameReport.h"
 #include "shadowtech/base/ReceiverBoxes.h"
 #include "shadowtech/base/ReceiverTarget.h"
 #include "shadowtech/base/Receivers.h"
 #include "shadowtech/base/VisibilityLayers.h"
+#include "shadowtech/base/vtkGnomonFrameReport.h"
 #include "shadowtech/tracing/TracedTiles.h"
 
 #include <array>

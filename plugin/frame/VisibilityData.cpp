@@ -1,6 +1,6 @@
 #include "plugin/frame/VisibilityData.h"
 
-#include "plugin/VisibilityImages.h"
+#include "plugin/vtkGnomonVisibilityImages.h"
 
 #include <vtkDoubleArray.h>
 #include <vtkFloatArray.h>

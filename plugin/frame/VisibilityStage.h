@@ -1,9 +1,9 @@
 #pragma once
 
-#include "plugin/VisibilityImages.h"
 #include "plugin/frame/Frame.h"
 #include "plugin/frame/FrameTracer.h"
 #include "plugin/frame/ValueKey.h"
+#include "plugin/vtkGnomonVisibilityImages.h"
 #include "shadowtech/base/OccluderBuffers.h"
 #include "shadowtech/base/Occluders.h"
 #include "shadowtech/base/Receivers.h"

@@ -5,9 +5,9 @@
 #include "lights/MapReach.h"
 #include "lights/SettingsTable.h"
 #include "lights/ShadowLight.h"
-#include "shadowtech/base/FrameReport.h"
 #include "shadowtech/base/Gl.h"
-#include "shadowtech/base/PixelClass.h"
+#include "shadowtech/base/vtkGnomonFrameReport.h"
+#include "shadowtech/base/vtkGnomonPixelClass.h"
 
 #include <glm/glm.hpp>
 

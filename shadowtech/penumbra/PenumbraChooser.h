@@ -1,6 +1,6 @@
 #pragma once
 
-#include "shadowtech/base/PixelClass.h"
+#include "shadowtech/base/vtkGnomonPixelClass.h"
 #include "shadowtech/penumbra/EdgeTree.h"
 #include "shadowtech/penumbra/LightShaft.h"
 #include "shadowtech/tracing/SampleRays.h"

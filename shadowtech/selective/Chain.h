@@ -1,9 +1,9 @@
 #pragma once
 
 #include "shadowtech/base/Certainty.h"
-#include "shadowtech/base/PixelClass.h"
 #include "shadowtech/base/ShadowRay.h"
 #include "shadowtech/base/Technique.h"
+#include "shadowtech/base/vtkGnomonPixelClass.h"
 #include "shadowtech/mesh/TriangleFans.h"
 #include "shadowtech/selective/RimMaps.h"
 #include "shadowtech/selective/TriangleMaps.h"

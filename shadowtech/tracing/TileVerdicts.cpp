@@ -1,8 +1,8 @@
 #include "shadowtech/tracing/TileVerdicts.h"
 
-#include "shadowtech/base/FrameReport.h"
 #include "shadowtech/base/Occluders.h"
 #include "shadowtech/base/ShadowRay.h"
+#include "shadowtech/base/vtkGnomonFrameReport.h"
 #include "shadowtech/tracing/TracedPicture.h"
 #include "shadowtech/tracing/TracedTiles.h"
 #include "shadowtech/tracing/UmbraProof.h"

@@ -10,7 +10,7 @@
 #include "VtkMessages.h"
 
 #include "shadowtech/Registry.h"
-#include "shadowtech/base/FrameReport.h"
+#include "shadowtech/base/vtkGnomonFrameReport.h"
 
 #include <CLI/CLI.hpp>
 

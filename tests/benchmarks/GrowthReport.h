@@ -2,7 +2,7 @@
 
 #include "FrameTiming.h"
 
-#include "shadowtech/base/FrameReport.h"
+#include "shadowtech/base/vtkGnomonFrameReport.h"
 
 #include <string>
 #include <vector>

@@ -17,24 +17,24 @@ run("${WORK_DIR}/prefix/bin/gnomon" techniques)
 file(GLOB_RECURSE headers RELATIVE "${WORK_DIR}/prefix/include" "${WORK_DIR}/prefix/include/*")
 list(SORT headers)
 set(expected
-  gnomon/FrameReport.h
   gnomon/GnomonLightsModule.h
   gnomon/GnomonPluginModule.h
   gnomon/GnomonShadowTechModule.h
-  gnomon/PixelClass.h
-  gnomon/VisibilityImages.h
   gnomon/vtkGnomonAreaLight.h
   gnomon/vtkGnomonEGLRenderWindow.h
+  gnomon/vtkGnomonFrameReport.h
   gnomon/vtkGnomonLightKeys.h
   gnomon/vtkGnomonLightPlacement.h
   gnomon/vtkGnomonLightSamplingPass.h
   gnomon/vtkGnomonNamedSettings.h
+  gnomon/vtkGnomonPixelClass.h
   gnomon/vtkGnomonPropKeys.h
   gnomon/vtkGnomonShadowPass.h
   gnomon/vtkGnomonShadowSettings.h
   gnomon/vtkGnomonSun.h
   gnomon/vtkGnomonVersions.h
-  gnomon/vtkGnomonVisibilityFilter.h)
+  gnomon/vtkGnomonVisibilityFilter.h
+  gnomon/vtkGnomonVisibilityImages.h)
 if(NOT headers STREQUAL expected)
   list(JOIN headers "\n  " headers)
   list(JOIN expected "\n  " expected)

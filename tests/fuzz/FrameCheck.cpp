@@ -1,8 +1,8 @@
 #include "FrameCheck.h"
 
-#include "plugin/VisibilityImages.h"
-#include "shadowtech/base/FrameReport.h"
+#include "plugin/vtkGnomonVisibilityImages.h"
 #include "shadowtech/base/Gl.h"
+#include "shadowtech/base/vtkGnomonFrameReport.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,11 +5,11 @@
 #include "RandomProps.h"
 #include "RandomSettings.h"
 
-#include "plugin/VisibilityImages.h"
 #include "plugin/vtkGnomonEGLRenderWindow.h"
 #include "plugin/vtkGnomonShadowPass.h"
+#include "plugin/vtkGnomonVisibilityImages.h"
 #include "shadowtech/Registry.h"
-#include "shadowtech/base/FrameReport.h"
+#include "shadowtech/base/vtkGnomonFrameReport.h"
 
 #include <vtkActor.h>
 #include <vtkLight.h>

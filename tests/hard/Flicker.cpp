@@ -2,7 +2,7 @@
 
 #include "Errors.h"
 
-#include "plugin/VisibilityImages.h"
+#include "plugin/vtkGnomonVisibilityImages.h"
 #include "shadowtech/Registry.h"
 
 #include <vtkCamera.h>

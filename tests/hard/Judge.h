@@ -2,7 +2,7 @@
 
 #include "Scene.h"
 
-#include "plugin/VisibilityImages.h"
+#include "plugin/vtkGnomonVisibilityImages.h"
 #include "tests/check/Scene.h"
 #include "tests/check/Tracer.h"
 

@@ -10,7 +10,7 @@
 #include "VtkMessages.h"
 
 #include "lights/LightManager.h"
-#include "plugin/VisibilityImages.h"
+#include "plugin/vtkGnomonVisibilityImages.h"
 #include "shadowtech/Registry.h"
 #include "shadowtech/base/Gl.h"
 #include "tests/check/Check.h"

@@ -45,7 +45,7 @@ folder(plugin/frame ${shared} shadowtech plugin/scene plugin/window)
 folder(plugin ${shared} shadowtech plugin/data plugin/frame plugin/scene plugin/vtk_versions plugin/window)
 
 # Public headers of plugin/ that its folders may include: they include nothing of it.
-set(plain_headers plugin/VisibilityImages.h plugin/vtkGnomonPropKeys.h)
+set(plain_headers plugin/vtkGnomonVisibilityImages.h plugin/vtkGnomonPropKeys.h)
 set(opengl "^(GL|EGL)/|^vtk_gl(ew|ad)\\.h$|^vtkOpenGL|^vtkShader|^vtkTextureObject|^vtkFrameBuffer")
 
 # The path that an include leads to, from the project's root; empty for the system's.

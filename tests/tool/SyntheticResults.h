@@ -2,7 +2,7 @@
 
 #include "Comparison.h"
 
-#include "plugin/VisibilityImages.h"
+#include "plugin/vtkGnomonVisibilityImages.h"
 
 #include <vector>
 

@@ -32,7 +32,7 @@
 #include <vtkVersion.h>
 #include <vtkWindowToImageFilter.h>
 
-#include "shadowtech/base/FrameReport.h"
+#include "shadowtech/base/vtkGnomonFrameReport.h"
 
 #include <algorithm>
 #include <chrono>

@@ -4,9 +4,9 @@
 #include "SceneExport.h"
 #include "SceneFraming.h"
 #include "Vec3.h"
-#include "plugin/VisibilityImages.h"
 #include "plugin/vtkGnomonEGLRenderWindow.h"
 #include "plugin/vtkGnomonShadowPass.h"
+#include "plugin/vtkGnomonVisibilityImages.h"
 
 #include <gtest/gtest.h>
 #include <vtkCellArray.h>

@@ -3,7 +3,7 @@
 #include "PassScene.h"
 #include "Variant.h"
 
-#include "plugin/VisibilityImages.h"
+#include "plugin/vtkGnomonVisibilityImages.h"
 
 #include <vtkCellArray.h>
 #include <vtkPoints.h>

@@ -3,7 +3,7 @@
 
 #include "PassScene.h"
 
-#include "plugin/VisibilityImages.h"
+#include "plugin/vtkGnomonVisibilityImages.h"
 
 #include <vtkCell.h>
 #include <vtkCellArray.h>

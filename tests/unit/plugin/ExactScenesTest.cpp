@@ -7,9 +7,9 @@
 #include "BuiltinScenes.h"
 #include "Scene.h"
 
-#include "plugin/VisibilityImages.h"
 #include "plugin/vtkGnomonEGLRenderWindow.h"
 #include "plugin/vtkGnomonShadowPass.h"
+#include "plugin/vtkGnomonVisibilityImages.h"
 #include "shadowtech/Registry.h"
 
 #include <vtkBoundingBox.h>

@@ -2,7 +2,7 @@
 
 #include "PassScene.h"
 
-#include "plugin/VisibilityImages.h"
+#include "plugin/vtkGnomonVisibilityImages.h"
 
 #include <algorithm>
 #include <cmath>

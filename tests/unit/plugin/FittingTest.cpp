@@ -4,7 +4,7 @@
 #include "PassScene.h"
 
 #include "lights/vtkGnomonLightKeys.h"
-#include "plugin/VisibilityImages.h"
+#include "plugin/vtkGnomonVisibilityImages.h"
 
 #include <vtkLineSource.h>
 #include <vtkProperty.h>

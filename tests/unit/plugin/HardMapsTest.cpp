@@ -4,8 +4,8 @@
 #include "PassScene.h"
 #include "Variant.h"
 
-#include "plugin/VisibilityImages.h"
 #include "plugin/vtkGnomonPropKeys.h"
+#include "plugin/vtkGnomonVisibilityImages.h"
 
 #include <cmath>
 #include <string>

@@ -4,7 +4,7 @@
 #include "BuiltinPass.h"
 #include "PassScene.h"
 
-#include "shadowtech/base/FrameReport.h"
+#include "shadowtech/base/vtkGnomonFrameReport.h"
 
 #include <vtkActor.h>
 #include <vtkPlaneSource.h>

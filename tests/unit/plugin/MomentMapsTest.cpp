@@ -5,8 +5,8 @@
 #include "PassScene.h"
 #include "Variant.h"
 
-#include "plugin/VisibilityImages.h"
 #include "plugin/vtkGnomonPropKeys.h"
+#include "plugin/vtkGnomonVisibilityImages.h"
 #include "shadowtech/base/Gl.h"
 
 #include <vtkAppendPolyData.h>

@@ -4,10 +4,10 @@
 
 #include "VtkMessages.h"
 
-#include "plugin/VisibilityImages.h"
 #include "plugin/vtkGnomonEGLRenderWindow.h"
 #include "plugin/vtkGnomonShadowPass.h"
-#include "shadowtech/base/FrameReport.h"
+#include "plugin/vtkGnomonVisibilityImages.h"
+#include "shadowtech/base/vtkGnomonFrameReport.h"
 
 #include <vtkActor.h>
 #include <vtkAlgorithm.h>

@@ -5,8 +5,8 @@
 
 #include "lights/LightViews.h"
 #include "lights/vtkGnomonLightKeys.h"
-#include "plugin/VisibilityImages.h"
 #include "plugin/vtkGnomonPropKeys.h"
+#include "plugin/vtkGnomonVisibilityImages.h"
 #include "shadowtech/base/Kernel.h"
 #include "shadowtech/depth_map/Pcf.h"
 

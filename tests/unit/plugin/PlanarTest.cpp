@@ -3,8 +3,8 @@
 #include "PassScene.h"
 
 #include "lights/LightSamples.h"
-#include "plugin/VisibilityImages.h"
 #include "plugin/vtkGnomonPropKeys.h"
+#include "plugin/vtkGnomonVisibilityImages.h"
 
 #include <vtkDataArray.h>
 #include <vtkImageData.h>

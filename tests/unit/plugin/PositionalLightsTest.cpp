@@ -6,9 +6,9 @@
 
 #include "lights/LightSpace.h"
 #include "lights/vtkGnomonLightKeys.h"
-#include "plugin/VisibilityImages.h"
 #include "plugin/scene/OccluderCollector.h"
 #include "plugin/vtkGnomonPropKeys.h"
+#include "plugin/vtkGnomonVisibilityImages.h"
 #include "shadowtech/tracing/EmbreeTracer.h"
 
 #include <vtkLightCollection.h>

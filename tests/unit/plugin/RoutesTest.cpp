@@ -6,7 +6,7 @@
 
 #include "Scene.h"
 
-#include "plugin/VisibilityImages.h"
+#include "plugin/vtkGnomonVisibilityImages.h"
 
 #include <vtkActorCollection.h>
 #include <vtkLightCollection.h>

@@ -4,10 +4,10 @@
 #include "BuiltinScenes.h"
 #include "Scene.h"
 
-#include "plugin/VisibilityImages.h"
 #include "plugin/vtkGnomonEGLRenderWindow.h"
 #include "plugin/vtkGnomonShadowPass.h"
-#include "shadowtech/base/FrameReport.h"
+#include "plugin/vtkGnomonVisibilityImages.h"
+#include "shadowtech/base/vtkGnomonFrameReport.h"
 
 #include <vtkNew.h>
 #include <vtkRenderer.h>

@@ -3,8 +3,8 @@
 #include "PassScene.h"
 
 #include "lights/vtkGnomonLightKeys.h"
-#include "plugin/VisibilityImages.h"
 #include "plugin/vtkGnomonLightSamplingPass.h"
+#include "plugin/vtkGnomonVisibilityImages.h"
 
 #include <vtkLightCollection.h>
 #include <vtkProperty.h>

@@ -6,8 +6,8 @@
 
 #include "lights/vtkGnomonAreaLight.h"
 #include "lights/vtkGnomonLightKeys.h"
-#include "plugin/VisibilityImages.h"
 #include "plugin/vtkGnomonPropKeys.h"
+#include "plugin/vtkGnomonVisibilityImages.h"
 
 #include <vtkPlaneSource.h>
 #include <vtkSphereSource.h>

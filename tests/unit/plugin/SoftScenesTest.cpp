@@ -6,9 +6,9 @@
 #include "PassScene.h"
 #include "Scene.h"
 
-#include "plugin/VisibilityImages.h"
 #include "plugin/vtkGnomonEGLRenderWindow.h"
 #include "plugin/vtkGnomonShadowPass.h"
+#include "plugin/vtkGnomonVisibilityImages.h"
 
 #include <vtkNew.h>
 #include <vtkRenderer.h>

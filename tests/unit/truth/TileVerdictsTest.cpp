@@ -5,7 +5,7 @@
 #include "InstancedScene.h"
 #include "RandomScenes.h"
 
-#include "shadowtech/base/FrameReport.h"
+#include "shadowtech/base/vtkGnomonFrameReport.h"
 #include "shadowtech/tracing/EmbreeTracer.h"
 
 #include <glm/gtc/matrix_transform.hpp>

@@ -4,7 +4,7 @@
 
 #include "WindowScene.h"
 
-#include "shadowtech/base/FrameReport.h"
+#include "shadowtech/base/vtkGnomonFrameReport.h"
 
 #include <QVTKOpenGLNativeWidget.h>
 #include <vtkGenericOpenGLRenderWindow.h>

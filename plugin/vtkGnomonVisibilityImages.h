@@ -1,6 +1,6 @@
 #pragma once
 
-#include "PixelClass.h" // flat, as where it is installed
+#include "vtkGnomonPixelClass.h" // flat, as where it is installed
 
 #include <array>
 #include <cstdint>
