@@ -7,6 +7,7 @@
 #include "plugin/frame/RenderManager.h"
 #include "plugin/frame/ReportText.h"
 #include "plugin/frame/VisibilityData.h"
+#include "plugin/scene/DrawnLookup.h"
 #include "plugin/scene/ShownView.h"
 #include "plugin/vtkGnomonVisibilityImages.h"
 #include "plugin/window/AroundOpaque.h"
@@ -331,7 +332,7 @@ void vtkGnomonShadowPass::DrawDeferred(const vtkRenderState* s)
   const auto before = [&] { manager.beginOpaque(s); };
   const auto afterwards = [&]
   {
-    manager.endOpaque();
+    manager.endOpaque(s);
 
     // maps
     manager.bakeMaps();
@@ -715,12 +716,13 @@ bool vtkGnomonShadowPass::PreReplaceShaderValues(std::string& vertexShader,
 
 //------------------------------------------------------------------------------
 bool vtkGnomonShadowPass::PostReplaceShaderValues(std::string& vertexShader,
-  std::string& geometryShader, std::string& fragmentShader, vtkAbstractMapper* vtkNotUsed(mapper),
+  std::string& geometryShader, std::string& fragmentShader, vtkAbstractMapper* mapper,
   vtkProp* prop)
 {
   // Where other passes write outputs of their own, this is not the receivers stage.
   const bool alone = prop->GetPropertyKeys()->Length(vtkOpenGLRenderPass::RenderPasses()) == 1;
-  this->Internal->programs->shaders.fillShader(vertexShader, geometryShader, fragmentShader, alone);
+  this->Internal->programs->shaders.fillShader(
+    vertexShader, geometryShader, fragmentShader, alone, gnomon::cornersOfPrimitives(mapper, prop));
   return true;
 }
 

@@ -92,22 +92,6 @@ bool anyPart(vtkProp* prop, const Predicate& holds)
   return false;
 }
 
-/// True if a part of a prop has shaders of a user's own: they may move vertices by uniforms whose
-/// changes VTK does not time.
-bool hasOwnShaders(vtkProp* prop)
-{
-  return anyPart(prop,
-    [](vtkProp* part, vtkMapper* mapper)
-    {
-      vtkShaderProperty* shaders = PropAccess::shaderProperty(part);
-      return (shaders &&
-               (shaders->HasVertexShaderCode() || shaders->HasGeometryShaderCode() ||
-                 shaders->HasFragmentShaderCode() ||
-                 shaders->GetNumberOfShaderReplacements() > 0)) ||
-        (mapper && mapper->HasObserver(vtkCommand::UpdateShaderEvent));
-    });
-}
-
 /// True if a mapper may have shaders that differ from VTK's template: its class is not one of those
 /// listed. Derived classes write outputs of their own (vtkSurfaceLICMapper) or draw labels.
 bool mayHaveOwnShaders(vtkMapper* mapper)
@@ -118,6 +102,23 @@ bool mayHaveOwnShaders(vtkMapper* mapper)
     "vtkOpenGLPointGaussianMapper" };
   return std::none_of(usual.begin(), usual.end(),
     [mapper](const char* name) { return std::strcmp(name, mapper->GetClassName()) == 0; });
+}
+
+/// Annotations in the window's plane and volumes receive nothing, and leave no depths.
+bool isFlatOrVolume(vtkProp* prop)
+{
+  return vtkActor2D::SafeDownCast(prop) || vtkVolume::SafeDownCast(prop);
+}
+
+/// Lets what is drawn reach the target's images, or its depths alone: a shader that does not write
+/// an output leaves anything there.
+void writeReceivers(bool write)
+{
+  const GLboolean mask = write ? GL_TRUE : GL_FALSE;
+  for (const GLuint output : { 1u, 2u })
+  {
+    glColorMaski(output, mask, mask, mask, mask);
+  }
 }
 
 /// True if render passes can add to the shaders of a prop without parts.
@@ -138,15 +139,29 @@ bool isLeafDrawnByPasses(vtkProp* leaf)
 } // namespace
 
 //------------------------------------------------------------------------------
+bool hasOwnShaders(vtkProp* prop)
+{
+  return anyPart(prop,
+    [](vtkProp* part, vtkMapper* mapper)
+    {
+      vtkShaderProperty* shaders = PropAccess::shaderProperty(part);
+      return (shaders &&
+               (shaders->HasVertexShaderCode() || shaders->HasGeometryShaderCode() ||
+                 shaders->HasFragmentShaderCode() ||
+                 shaders->GetNumberOfShaderReplacements() > 0)) ||
+        (mapper && mapper->HasObserver(vtkCommand::UpdateShaderEvent));
+    });
+}
+
+//------------------------------------------------------------------------------
 std::size_t hashOfShownProps(const vtkRenderState* s)
 {
   std::size_t seed = 0;
   for (int i = 0; i < s->GetPropArrayCount(); ++i)
   {
     vtkProp* prop = s->GetPropArray()[i];
-    // Annotations and volumes receive nothing: a text that tells the frame's time is no other
-    // picture.
-    if (!vtkActor2D::SafeDownCast(prop) && !vtkVolume::SafeDownCast(prop))
+    // A text that tells the frame's time is no other picture.
+    if (!isFlatOrVolume(prop))
     {
       hashCombine(seed, prop);
       hashCombine(seed, prop->GetRedrawMTime());
@@ -194,6 +209,13 @@ ByPasses drawnByPasses(vtkProp* prop)
 }
 
 //------------------------------------------------------------------------------
+bool drawnByPassesAlone(const vtkRenderState* s)
+{
+  return std::all_of(s->GetPropArray(), s->GetPropArray() + s->GetPropArrayCount(),
+    [](vtkProp* prop) { return isFlatOrVolume(prop) || drawnByPasses(prop) == ByPasses::All; });
+}
+
+//------------------------------------------------------------------------------
 void drawReceivers(const vtkRenderState* s, vtkObjectBase* pass, const glm::ivec2& size,
   bool withPoints, ReceiverTarget& target)
 {
@@ -220,11 +242,27 @@ void drawReceivers(const vtkRenderState* s, vtkObjectBase* pass, const glm::ivec
   state->ResetFramebufferBindings(); // VTK's record says the target, or debug builds warn
   for (int i = 0; i < s->GetPropArrayCount(); ++i)
   {
-    const WithoutOtherPasses alone(s->GetPropArray()[i], pass);
-    s->GetPropArray()[i]->RenderOpaqueGeometry(renderer);
+    vtkProp* const prop = s->GetPropArray()[i];
+    const WithoutOtherPasses alone(prop, pass);
+    const bool says = drawnByPasses(prop) != ByPasses::Nothing;
+    writeReceivers(says);
+    prop->RenderOpaqueGeometry(renderer);
   }
+  writeReceivers(true);
   target.end(state->GetEnumState(GL_BLEND));
   state->PopFramebufferBindings();
+}
+
+//------------------------------------------------------------------------------
+void drawOpaque(const vtkRenderState* s)
+{
+  for (int i = 0; i < s->GetPropArrayCount(); ++i)
+  {
+    if (drawnByPasses(s->GetPropArray()[i]) == ByPasses::All)
+    {
+      s->GetPropArray()[i]->RenderOpaqueGeometry(s->GetRenderer());
+    }
+  }
 }
 
 } // namespace gnomon

@@ -25,6 +25,10 @@ std::size_t hashOfShownProps(const vtkRenderState* s);
 /// render passes add to.
 bool anyPropHasOwnShaders(const vtkRenderState* s);
 
+/// Whether a part of a prop has shaders of a user's own: they may move vertices by uniforms whose
+/// changes VTK does not time.
+bool hasOwnShaders(vtkProp* prop);
+
 /// What of a prop VTK draws by shaders that render passes add to.
 enum class ByPasses
 {
@@ -33,6 +37,8 @@ enum class ByPasses
   Some     ///< an assembly of both
 };
 ByPasses drawnByPasses(vtkProp* prop);
+/// Whether that holds for all parts of all props of a picture.
+bool drawnByPassesAlone(const vtkRenderState* s);
 
 /// Has VTK draw the opaque props into the target, whose size is set, each with the shaders of one
 /// pass alone.
@@ -41,5 +47,8 @@ ByPasses drawnByPasses(vtkProp* prop);
 /// @throws TextureMemoryError
 void drawReceivers(const vtkRenderState* s, vtkObjectBase* pass, const glm::ivec2& size,
   bool withPoints, ReceiverTarget& target);
+
+/// Has VTK draw the opaque props that shaders of render passes draw (ByPasses::All).
+void drawOpaque(const vtkRenderState* s);
 
 } // namespace gnomon

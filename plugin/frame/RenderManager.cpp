@@ -312,17 +312,82 @@ void RenderManager::takeReceivers()
 }
 
 //------------------------------------------------------------------------------
+/// Has the props' programs draw receivers, with or without the picture.
+void RenderManager::beginReceivers(const vtkRenderState* s)
+{
+  this->stageValues_.receiversStage = true;
+  this->programs_.numbers.beginStage();
+  this->programs_.shaders.beginStage(windowOf(s), this->stageValues_);
+}
+
+//------------------------------------------------------------------------------
+/// Checks the numbers of receivers that new programs have drawn.
+NumberCheck RenderManager::checkNumbers(const vtkRenderState* s)
+{
+  const ReceiversValue& receivers = this->frame_.view->receivers;
+  ReceiverImages images;
+  std::vector<float> depths;
+  if (this->frame_.route == Route::Deferred)
+  {
+    receivers.deferred.read(images);
+    receivers.deferred.readDepths(depths);
+  }
+  else
+  {
+    receivers.target.read(images);
+    if (drawnByPassesAlone(s))
+    {
+      receivers.target.readDepths(depths);
+    }
+  }
+  images.rays = pixelRays(this->frame_.camera.clipFromView, this->frame_.space.centredFromView,
+    images.width, images.height);
+  return this->programs_.numbers.check(images, depths, this->collector_.drawnSurfaces(),
+    this->collector_.occluders(), this->frame_.camera.clipFromCentred());
+}
+
+//------------------------------------------------------------------------------
+/// Makes sure that receivers which were just drawn have the right numbers. The first wrong one has
+/// all programs of the pass take theirs from geometry shaders.
+void RenderManager::ensureNumbers(const vtkRenderState* s, const std::function<void()>& drawAgain)
+{
+  FrameReport& report = this->frame_.report;
+  if (this->programs_.numbers.isDue())
+  {
+    NumberCheck check = this->checkNumbers(s);
+    report.numbersChecked = check.pixels;
+    report.numbersWrong = check.wrong;
+    if (check.wrong > 0 && !this->programs_.shaders.numbersByGeometryShaders())
+    {
+      this->programs_.shaders.numberByGeometryShaders();
+      drawAgain();
+      check = this->checkNumbers(s);
+    }
+    if (check.wrong > 0)
+    {
+      report.notes.push_back(std::to_string(check.wrong) + " of " + std::to_string(check.pixels) +
+        " pixels show other triangles than the driver's numbers say; their shadows may be wrong.");
+    }
+    this->frame_.endStage("receivers: check numbers");
+  }
+}
+
+//------------------------------------------------------------------------------
 void RenderManager::updateReceivers(const vtkRenderState* s, vtkObjectBase* pass)
 {
   this->makeRoomForLayers();
   this->findStaleReceivers(s);
   if (this->receiversDue_)
   {
-    this->stageValues_.receiversStage = true;
-    this->programs_.shaders.beginStage(windowOf(s), this->stageValues_);
-    drawReceivers(
-      s, pass, this->frame_.size, this->readsPoints(), this->frame_.view->receivers.target);
-    this->programs_.shaders.endStage();
+    const auto draw = [&]
+    {
+      this->beginReceivers(s);
+      drawReceivers(
+        s, pass, this->frame_.size, this->readsPoints(), this->frame_.view->receivers.target);
+      this->programs_.shaders.endStage();
+    };
+    draw();
+    this->ensureNumbers(s, draw);
   }
   this->takeReceivers();
   this->stageValues_.depths = { GL_TEXTURE_2D, this->frame_.view->receivers.target.depths() };
@@ -368,13 +433,12 @@ void RenderManager::bakeMaps()
 void RenderManager::beginOpaque(const vtkRenderState* s)
 {
   this->makeRoomForLayers();
-  this->stageValues_.receiversStage = true;
-  this->programs_.shaders.beginStage(windowOf(s), this->stageValues_);
+  this->beginReceivers(s);
   this->frame_.view->receivers.deferred.attach(this->receiversDue_.has_value());
 }
 
 //------------------------------------------------------------------------------
-void RenderManager::endOpaque()
+void RenderManager::finishOpaque()
 {
   this->programs_.shaders.endStage();
   this->frame_.view->receivers.deferred.detach();
@@ -382,7 +446,23 @@ void RenderManager::endOpaque()
   {
     throw std::runtime_error("it is drawn at another size than its viewport has");
   }
+}
+
+//------------------------------------------------------------------------------
+void RenderManager::endOpaque(const vtkRenderState* s)
+{
+  this->finishOpaque();
   this->frame_.endStage("shading: lit and in shadow");
+  if (this->receiversDue_)
+  {
+    this->ensureNumbers(s,
+      [&]
+      {
+        this->beginOpaque(s);
+        drawOpaque(s); // once more, into the same depths
+        this->finishOpaque();
+      });
+  }
   this->takeReceivers();
 }
 
@@ -413,6 +493,7 @@ void RenderManager::endFrame()
 {
   FrameReport& report = this->frame_.report;
   const PassPrograms& programs = this->programs_;
+  report.numbersByGeometryShaders = programs.shaders.numbersByGeometryShaders();
   report.programCompiles =
     programs.library.compiles() + programs.shaders.rebuilds() - this->compilesBefore_;
   report.newPrograms =
@@ -447,6 +528,11 @@ void RenderManager::setShaderParameters(
   vtkShaderProgram* program, vtkAbstractMapper* mapper, vtkProp* prop)
 {
   Drawn drawn = this->collector_.drawn(mapper, prop);
+  TriangleNumbers& numbers = this->programs_.numbers;
+  if (this->stageValues_.receiversStage && drawn.index >= 0 && numbers.isNew(program))
+  {
+    numbers.add(program, drawn.index, hasOwnShaders(prop));
+  }
   drawn.receives = drawn.receives && (!drawn.translucent || this->shadesTranslucent_);
   this->programs_.shaders.setParameters(program, drawn);
 }

@@ -5,6 +5,7 @@
 #include "plugin/frame/MapRasterizer.h"
 #include "plugin/frame/ShaderManager.h"
 #include "plugin/frame/TechniqueChoice.h"
+#include "plugin/frame/TriangleNumbers.h"
 #include "plugin/frame/VisibilityStage.h"
 #include "plugin/scene/OccluderCollector.h"
 #include "plugin/vtkGnomonVisibilityImages.h"
@@ -14,6 +15,7 @@
 
 #include <glm/glm.hpp>
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -33,6 +35,7 @@ struct PassPrograms
 {
   ShaderManager shaders;
   ShaderLibrary library;
+  TriangleNumbers numbers;
 };
 
 /// The stages of one renderer's frame, in the order in which the pass calls them. Each takes values
@@ -85,7 +88,7 @@ public:
   /// and in shadow. Afterwards it is known which lights' visibility is another one than the view
   /// has.
   void beginOpaque(const vtkRenderState* s);
-  void endOpaque();
+  void endOpaque(const vtkRenderState* s);
 
   /// shading (deferred route): gives what is in shadow its colour.
   void drawShadows();
@@ -116,6 +119,10 @@ private:
   void makeRoomForLayers();
   bool namesTriangles();
   void findStaleReceivers(const vtkRenderState* s);
+  void beginReceivers(const vtkRenderState* s);
+  void finishOpaque();
+  NumberCheck checkNumbers(const vtkRenderState* s);
+  void ensureNumbers(const vtkRenderState* s, const std::function<void()>& drawAgain);
   void takeReceivers();
 
   Frame frame_;

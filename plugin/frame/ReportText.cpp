@@ -57,6 +57,9 @@ Json jsonOf(const FrameReport& report)
   json["probes"] = report.probes;
   json["tracer"] = report.tracer;
   json["tracer_reason"] = report.tracerReason;
+  json["numbers_checked"] = report.numbersChecked;
+  json["numbers_wrong"] = report.numbersWrong;
+  json["numbers_by_geometry_shaders"] = report.numbersByGeometryShaders;
   json["lights"] = Json::array();
   for (const LightReport& light : report.lights)
   {

@@ -1,5 +1,7 @@
 #include "plugin/frame/ShaderManager.h"
 
+#include "plugin/frame/TriangleNumbers.h"
+
 #include "shadowtech/base/ShaderLibrary.h"
 
 #include <vtkOpenGLRenderWindow.h>
@@ -293,8 +295,15 @@ void ShaderManager::markShader(
 }
 
 //------------------------------------------------------------------------------
-void ShaderManager::fillShader(const std::string& vertexShader, const std::string& geometryShader,
-  std::string& fragmentShader, bool drawsReceivers)
+void ShaderManager::numberByGeometryShaders()
+{
+  this->numbersByGeometryShaders_ = true;
+  this->stageTime_.Modified();
+}
+
+//------------------------------------------------------------------------------
+void ShaderManager::fillShader(const std::string& vertexShader, std::string& geometryShader,
+  std::string& fragmentShader, bool drawsReceivers, int corners)
 {
   ++this->rebuilds_;
   // Unlit surfaces have no view coordinates and no lights to shadow; they only hide what is behind.
@@ -314,7 +323,17 @@ void ShaderManager::fillShader(const std::string& vertexShader, const std::strin
   if (this->variant_.route != Route::Inline && drawsReceivers)
   {
     const bool instanced = fragmentShader.find("gnomonInstanceVSOutput") != std::string::npos;
-    end = this->writeReceiver(receives, instanced);
+    std::string primitive = "gl_PrimitiveID";
+    if (this->numbersByGeometryShaders_ && corners > 0 && receives && geometryShader.empty())
+    {
+      geometryShader = numberingShader(vertexShader, corners);
+      if (!geometryShader.empty())
+      {
+        primitive = "gnomonPrimitiveVSOutput"; // VTK will have it read GSOutput
+        declarations += "flat in int " + primitive + ";\n";
+      }
+    }
+    end = this->writeReceiver(receives, instanced, primitive);
     if (this->variant_.route == Route::Image)
     {
       if (!receives)
@@ -352,12 +371,14 @@ std::string ShaderManager::lightInShadow(const std::string& fragmentShader) cons
 }
 
 //------------------------------------------------------------------------------
-std::string ShaderManager::writeReceiver(bool receives, bool instanced) const
+/// @param primitive the expression of the number that the driver counts
+std::string ShaderManager::writeReceiver(
+  bool receives, bool instanced, const std::string& primitive) const
 {
   const std::string instance =
     instanced ? " + gnomonInstanceVSOutput * gnomonPrimitivesPerInstance" : "";
   const std::string fragment =
-    "vec2(gnomonDrawnSurface(), float(gl_PrimitiveID + PrimitiveIDOffset" + instance + "))";
+    "vec2(gnomonDrawnSurface(), float(" + primitive + " + PrimitiveIDOffset" + instance + "))";
   if (!receives || !this->variant_.namesTriangles)
   {
     return "    gl_FragData[1] = vec4(0.0);\n"

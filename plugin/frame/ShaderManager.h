@@ -68,10 +68,16 @@ public:
 
   /// First and second half of the hook, around VTK's own replacements.
   /// @param drawsReceivers whether this prop's shader must be able to say what receives
+  /// @param corners of the primitives that it draws then; 0 if it draws none of the snapshot's
   void markShader(
     std::string& vertexShader, std::string& geometryShader, std::string& fragmentShader) const;
-  void fillShader(const std::string& vertexShader, const std::string& geometryShader,
-    std::string& fragmentShader, bool drawsReceivers);
+  void fillShader(const std::string& vertexShader, std::string& geometryShader,
+    std::string& fragmentShader, bool drawsReceivers, int corners);
+
+  /// From now on primitives are numbered by geometry shaders (TriangleNumbers.h); VTK's mappers
+  /// rebuild theirs.
+  void numberByGeometryShaders();
+  bool numbersByGeometryShaders() const { return this->numbersByGeometryShaders_; }
 
   /// The values that stay the same for all props of a stage.
   struct StageValues
@@ -99,7 +105,7 @@ public:
 
 private:
   std::string lightInShadow(const std::string& fragmentShader) const;
-  std::string writeReceiver(bool receives, bool instanced) const;
+  std::string writeReceiver(bool receives, bool instanced, const std::string& primitive) const;
   void separateSamplers();
   void bindVisibility(const StageValues& values);
   int bindTexture(const TextureBinding& texture);
@@ -112,6 +118,7 @@ private:
   std::string uniformFlow_;     ///< statements that must be in uniform control flow
   std::string multiplications_; ///< and those in front of VTK's light loop
   std::string darkenings_;      ///< deferred route: what stands there for the colour in shadow
+  bool numbersByGeometryShaders_ = false;
   vtkTimeStamp stageTime_;
   int rebuilds_ = 0;
   std::set<std::size_t> programs_; ///< hashes of all programs' sources

@@ -49,6 +49,17 @@ bool drawnAsSurface(vtkProp* prop, SurfaceCells cells)
 } // namespace
 
 //------------------------------------------------------------------------------
+int cornersOfPrimitives(vtkAbstractMapper* mapper, vtkProp* prop)
+{
+  const std::optional<SurfaceCells> cells = cellsAboutToBeDrawn(mapper);
+  if (!cells || !drawnAsSurface(prop, *cells))
+  {
+    return 0;
+  }
+  return *cells == SurfaceCells::PointSpheres ? 1 : *cells == SurfaceCells::LineTubes ? 2 : 3;
+}
+
+//------------------------------------------------------------------------------
 std::size_t DrawnLookup::PlaceHash::operator()(const Place& place) const
 {
   std::size_t seed = 0;

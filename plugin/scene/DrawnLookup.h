@@ -36,6 +36,10 @@ struct Drawn
   std::uint32_t primitivesPerInstance = 0; ///< for a surface that is drawn as instances
 };
 
+/// How many corners the primitives have that a mapper is about to draw as a surface; 0 if it draws
+/// something else. While VTK builds a program, or hands it to a render pass.
+int cornersOfPrimitives(vtkAbstractMapper* mapper, vtkProp* prop);
+
 /// Finds the snapshot's surfaces again when VTK draws them. VTK names a mapper (of a composite data
 /// set or of glyphs, one of the mapper's helpers) and a prop, which has its matrix at that moment:
 /// an actor that hangs in an assembly several times is drawn with another matrix each time.

@@ -171,6 +171,14 @@ void DeferredPicture::read(ReceiverImages& images) const
 }
 
 //------------------------------------------------------------------------------
+void DeferredPicture::readDepths(std::vector<float>& depths) const
+{
+  GLint picture = 0;
+  glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &picture);
+  gnomon::readDepths(static_cast<GLuint>(picture), this->origin_, this->size_, depths);
+}
+
+//------------------------------------------------------------------------------
 void DeferredPicture::keepShadows(const std::vector<float>& visibility)
 {
   const ShadowedTiles tiles = findShadowedTiles(visibility, this->size_);

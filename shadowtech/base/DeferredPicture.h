@@ -38,6 +38,8 @@ public:
 
   /// Reads the fragments back.
   void read(ReceiverImages& images) const;
+  /// Reads window depths back, one a pixel of the viewport, from the framebuffer that is bound.
+  void readDepths(std::vector<float>& depths) const;
 
   /// Keeps where the picture has shadows.
   /// @param visibility of each pixel of the viewport

@@ -116,6 +116,18 @@ GlStateGuard::~GlStateGuard()
 }
 
 //------------------------------------------------------------------------------
+void readDepths(
+  GLuint framebuffer, const glm::ivec2& origin, const glm::ivec2& size, std::vector<float>& depths)
+{
+  depths.resize(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y));
+  const GlStateGuard guard;
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
+  glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+  glPixelStorei(GL_PACK_ALIGNMENT, 4);
+  glReadPixels(origin.x, origin.y, size.x, size.y, GL_DEPTH_COMPONENT, GL_FLOAT, depths.data());
+}
+
+//------------------------------------------------------------------------------
 StorageBindingsGuard::StorageBindingsGuard(GLuint count)
   : indexed_(count)
 {

@@ -2,6 +2,8 @@
 
 #include "shadowtech/base/Gl.h"
 
+#include <glm/glm.hpp>
+
 #include <array>
 #include <vector>
 
@@ -40,6 +42,10 @@ private:
   GLboolean depthMask_, colorMask_[4];
   std::array<GLint, textureUnits> texture2D_, texture2DArray_;
 };
+
+/// Reads depths, one a pixel, of a part of a framebuffer.
+void readDepths(
+  GLuint framebuffer, const glm::ivec2& origin, const glm::ivec2& size, std::vector<float>& depths);
 
 /// Remembers the buffers that compute shaders read and write, and puts them back at the end of its
 /// scope.

@@ -104,6 +104,13 @@ void ReceiverTarget::read(ReceiverImages& images) const
 }
 
 //------------------------------------------------------------------------------
+void ReceiverTarget::readDepths(std::vector<float>& depths) const
+{
+  gnomon::readDepths(
+    this->framebuffer_.name(), glm::ivec2(0), { this->width_, this->height_ }, depths);
+}
+
+//------------------------------------------------------------------------------
 std::size_t ReceiverTarget::bytes() const
 {
   // Fragments of two floats and a depth; with points, two normal components and a point of four.

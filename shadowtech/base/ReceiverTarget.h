@@ -37,6 +37,8 @@ public:
 
   /// Reads the fragments back.
   void read(ReceiverImages& images) const;
+  /// Reads the window depths back, one a pixel.
+  void readDepths(std::vector<float>& depths) const;
 
   GLuint fragments() const { return this->fragments_.name(); }
   GLuint points() const { return this->points_.name(); }

@@ -98,6 +98,14 @@ struct FrameReport
   std::string routeReason;  ///< why this route, as a clause
   std::string tracer;       ///< "embree" or "gpu"; empty where no light's technique traces rays
   std::string tracerReason; ///< why this one, as a clause
+  ///@{
+  /// Pixels whose triangle, as the driver numbers it for fragment shaders, was compared with the
+  /// depths that were drawn, and those in which they disagree. Shaders are checked in the first
+  /// frame in which they draw. If any pixel disagrees, geometry shaders number the triangles.
+  std::int64_t numbersChecked = 0, numbersWrong = 0;
+  ///@}
+  /// Whether geometry shaders number the triangles.
+  bool numbersByGeometryShaders = false;
   /// What lights have that leave their technique to the pass, and why, as a clause; empty where
   /// none does.
   std::string choice;

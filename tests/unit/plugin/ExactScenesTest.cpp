@@ -65,6 +65,8 @@ TEST_P(ExactScenes, showWhatIsTraced)
   scene.window->Render();
   const std::vector<std::vector<float>> truth = scene.pass->GetVisibility().visibility;
   ASSERT_FALSE(truth.empty());
+  EXPECT_GT(scene.pass->GetReport().numbersChecked, 0);
+  EXPECT_EQ(scene.pass->GetReport().numbersWrong, 0);
   for (const TechniqueEntry& technique : registry())
   {
     if (!technique.estimator->info.exact || !technique.estimator->info.bakesMap())

@@ -178,6 +178,7 @@ Picture PassScene::render()
 {
   this->window->Render();
   EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
+  EXPECT_EQ(this->report().numbersWrong > 0, this->numbersAreWrong);
   return readPicture(this->window);
 }
 

@@ -101,6 +101,7 @@ public:
   vtkNew<vtkGnomonEGLRenderWindow> window;
   vtkNew<vtkRenderer> renderer;
   vtkNew<vtkGnomonShadowPass> pass;
+  bool numbersAreWrong = false; ///< whether render() expects that (FrameReport::numbersWrong)
   vtkSmartPointer<vtkObject> vtkShadows; ///< the vtkShadowMapPass of useVtkShadows()
 
 private:

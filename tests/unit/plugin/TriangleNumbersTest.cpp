@@ -1,0 +1,187 @@
+// Drivers number triangles for fragment shaders. Numbers are checked, and wrong ones replaced.
+
+#include "MatrixScene.h"
+#include "PassScene.h"
+
+#include <vtkCellArray.h>
+#include <vtkOpenGLPolyDataMapper.h>
+#include <vtkPoints.h>
+#include <vtkShader.h>
+#include <vtkShaderProgram.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <map>
+#include <ostream>
+#include <string>
+#include <vector>
+
+namespace gnomon::test
+{
+namespace
+{
+
+/// VTK's mapper on a driver that gives fragment shaders other numbers. It has the class name of
+/// VTK's own, so that Gnomon takes it for that.
+class GarblingMapper : public vtkOpenGLPolyDataMapper
+{
+public:
+  static GarblingMapper* New() { VTK_STANDARD_NEW_BODY(GarblingMapper); }
+
+  std::string number = "gl_PrimitiveID"; ///< what the driver gives
+
+protected:
+  void ReplaceShaderValues(
+    std::map<vtkShader::Type, vtkShader*> shaders, vtkRenderer* renderer, vtkActor* actor) override
+  {
+    this->vtkOpenGLPolyDataMapper::ReplaceShaderValues(shaders, renderer, actor);
+    vtkShaderProgram::Substitute(
+      shaders[vtkShader::Fragment], "gl_PrimitiveID", "(" + this->number + ")");
+  }
+};
+
+/// Two squares above each other, 0.2 apart: triangles 0 and 1, 2 and 3.
+vtkSmartPointer<vtkPolyData> makeSquares()
+{
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkCellArray> triangles;
+  for (vtkIdType square = 0; square < 2; ++square)
+  {
+    const double z = 1.5 - 0.2 * static_cast<double>(square);
+    const vtkIdType first = 4 * square;
+    points->InsertNextPoint(-1.0, -1.0, z);
+    points->InsertNextPoint(1.0, -1.0, z);
+    points->InsertNextPoint(1.0, 1.0, z);
+    points->InsertNextPoint(-1.0, 1.0, z);
+    triangles->InsertNextCell({ first, first + 1, first + 2 });
+    triangles->InsertNextCell({ first, first + 2, first + 3 });
+  }
+  const auto squares = vtkSmartPointer<vtkPolyData>::New();
+  squares->SetPoints(points);
+  squares->SetPolys(triangles);
+  return squares;
+}
+
+struct Garbling
+{
+  const char* name;
+  const char* number;
+};
+
+void PrintTo(const Garbling& garbling, std::ostream* out)
+{
+  *out << garbling.name;
+}
+
+/// The squares over a floor, from straight above.
+class TriangleNumbers
+  : public PassTest
+  , public testing::WithParamInterface<Garbling>
+{
+protected:
+  TriangleNumbers()
+  {
+    for (PassScene* scene : { &this->right, &this->garbled })
+    {
+      scene->addFloor(3.0);
+      vtkActor* const actor = scene->add(makeSquares());
+      if (scene == &this->garbled)
+      {
+        vtkNew<GarblingMapper> mapper;
+        mapper->number = GetParam().number;
+        mapper->SetInputDataObject(makeSquares());
+        mapper->ScalarVisibilityOff();
+        actor->SetMapper(mapper);
+      }
+      scene->addSun({ 1.0, 0.2, -1.0 });
+      scene->lookDown(3.0);
+    }
+    this->garbled.numbersAreWrong = true;
+  }
+
+  void expectSamePictures(int route)
+  {
+    for (PassScene* scene : { &this->right, &this->garbled })
+    {
+      scene->choose({ "raytraced", route });
+    }
+    const Picture picture = this->garbled.render();
+    EXPECT_TRUE(picture == this->right.render());
+    EXPECT_TRUE(this->garbled.report().numbersByGeometryShaders);
+    EXPECT_EQ(this->garbled.report().notes, std::vector<std::string>());
+    EXPECT_GT(this->garbled.report().numbersChecked, 0);
+    EXPECT_GT(this->garbled.report().numbersWrong, 0);
+    EXPECT_FALSE(this->right.report().numbersByGeometryShaders);
+    EXPECT_GT(this->right.report().numbersChecked, 0);
+    // The second frame knows.
+    this->garbled.numbersAreWrong = false;
+    EXPECT_TRUE(this->garbled.render() == picture);
+    EXPECT_EQ(this->garbled.report().programCompiles, 0);
+  }
+
+  PassScene right{ 120, 90 };
+  PassScene garbled{ 120, 90 };
+};
+
+INSTANTIATE_TEST_SUITE_P(Kinds, TriangleNumbers,
+  testing::Values(Garbling{ "neighbours", "gl_PrimitiveID ^ 1" },
+    Garbling{ "behind", "(gl_PrimitiveID + 2) % 4" }, Garbling{ "beyond", "gl_PrimitiveID + 1000" },
+    Garbling{ "negative", "-1 - gl_PrimitiveID" }),
+  [](const testing::TestParamInfo<Garbling>& garbling) { return garbling.param.name; });
+
+TEST_P(TriangleNumbers, areReplacedWhereReceiversAreDrawnAlone)
+{
+  this->expectSamePictures(vtkGnomonShadowPass::ROUTE_IMAGE);
+}
+
+TEST_P(TriangleNumbers, areReplacedWhereReceiversAreDrawnWithThePicture)
+{
+  this->expectSamePictures(vtkGnomonShadowPass::ROUTE_DEFERRED);
+}
+
+/// All ways to draw receivers, in turn with all looks, where one mapper's numbers are wrong.
+class NumberedKinds
+  : public PassTest
+  , public testing::WithParamInterface<std::size_t>
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(KindsAndLooks, NumberedKinds,
+  testing::Range(std::size_t(0), std::max(matrixKinds().size(), imageBasedLook())),
+  [](const testing::TestParamInfo<std::size_t>& turn)
+  {
+    return std::string(matrixKinds()[turn.param % matrixKinds().size()].name) +
+      matrixLooks()[turn.param % imageBasedLook()].name;
+  });
+
+TEST_P(NumberedKinds, areSeenTheSameByGeometryShaders)
+{
+  const MatrixKind& kind = matrixKinds()[GetParam() % matrixKinds().size()];
+  const MatrixLook& look = matrixLooks()[GetParam() % imageBasedLook()];
+  MatrixScene right(kind, look);
+  MatrixScene garbled(kind, look);
+  vtkNew<GarblingMapper> mapper;
+  mapper->number = "gl_PrimitiveID ^ 1";
+  for (MatrixScene* scene : { &right, &garbled })
+  {
+    vtkActor* const squares = scene->add(makeSquares());
+    squares->SetPosition(2.0, -2.0, 0.0);
+    if (scene == &garbled)
+    {
+      mapper->SetInputDataObject(makeSquares());
+      squares->SetMapper(mapper);
+    }
+    matrixLights().front().add(*scene);
+    scene->choose({ "raytraced", vtkGnomonShadowPass::ROUTE_IMAGE });
+  }
+  const std::vector<float> expected = drawKept(right).visibility.at(0);
+  garbled.numbersAreWrong = true;
+  EXPECT_EQ(drawKept(garbled).visibility.at(0), expected);
+  EXPECT_TRUE(garbled.report().numbersByGeometryShaders);
+  EXPECT_FALSE(right.report().numbersByGeometryShaders);
+}
+
+} // namespace
+} // namespace gnomon::test
