@@ -1,7 +1,7 @@
-# Installs Gnomon into an empty prefix, looks at what lies there, and builds and runs README.md's
-# program by README.md's CMakeLists.txt.
+# Installs Gnomon into an empty prefix, looks at what lies there, and builds and runs
+# examples/shadows.cxx by the CMakeLists.txt on a page.
 #
-#   cmake -D BUILD_DIR=... -D CONSUMER_DIR=... -D README=... -D WORK_DIR=... -D CXX=... -D CC=...
+#   cmake -D BUILD_DIR=... -D CONSUMER_DIR=... -D PAGE=... -D WORK_DIR=... -D CXX=... -D CC=...
 #     -D PYTHON=... -D PYTHON_DESTINATION=... -P
 cmake_minimum_required(VERSION 3.25)
 
@@ -45,9 +45,9 @@ endif()
 run("${CMAKE_COMMAND}" -D "SOURCE_DIR=${WORK_DIR}/prefix/share/doc/Gnomon"
   -P "${CONSUMER_DIR}/../project/TestPages.cmake")
 
-# The project is README.md's, and has every public header stand on its own.
-file(READ "${README}" readme)
-string(REGEX MATCH "```cmake\n([^`]*)```" block "${readme}")
+# The project is the page's, and has every public header stand on its own.
+file(READ "${PAGE}" page)
+string(REGEX MATCH "```cmake\n([^`]*)```" block "${page}")
 file(WRITE "${WORK_DIR}/project/CMakeLists.txt"
   "${CMAKE_MATCH_1}target_sources(my_program PRIVATE publicHeaders.cxx)\n")
 file(COPY "${CONSUMER_DIR}/publicHeaders.cxx" "${CONSUMER_DIR}/../../examples/shadows.cxx"
