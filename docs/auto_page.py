@@ -35,11 +35,11 @@ def main():
     print("# How well `auto` chooses")
     print()
     print(
-        "From random places in a scene, the camera moves by small steps. The error is the share of\n"
-        "wrong pixels, of those that face the light, in the last of these frames; 0.50 % is allowed.\n"
-        "The best single technique is known only afterwards: the fastest of `nsm`, `lispsm`, `tsm` and\n"
-        "`pssm` with maps of several sizes, `silhouette` and `raytraced` that keeps the error there,\n"
-        "with maps that are drawn already. Times are medians of ten frames, of all ways in turns."
+        "The camera moves by small steps from random places. The error is the share of wrong pixels in\n"
+        "the last frame; 0.50 % is allowed. The best single technique, known only afterwards, is the\n"
+        "fastest that keeps the error there with maps that are baked already: `nsm`, `lispsm`, `tsm` or\n"
+        "`pssm` with maps of several sizes, `silhouette` or `raytraced`. Times are medians of ten\n"
+        "frames, of all ways in turns."
     )
     print()
     print(
@@ -52,7 +52,7 @@ def main():
     print(line("all", rows))
     print()
     print(
-        "`docs/auto.sh` measures this and writes this page; [the table](auto.csv) has a line a place."
+        "`docs/auto.sh` measures this; [the table](auto.csv) has a line for each place."
     )
     print()
     print(f"Measured on: {sys.argv[2]}.")

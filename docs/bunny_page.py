@@ -22,13 +22,11 @@ CHOICES = [
 PAGE = """# Error and time of all techniques on the bunny
 
 `crsm`, `crsma` and `silhouette` show the hard shadows of ray tracing, `penumbra` its soft ones; all
-others trade error for time. `docs/figures.sh` measures everything and writes this page and
-README.md's table.
+others trade error for time. `docs/figures.sh` measures this and README.md's table.
 
-The scene is `bunny`, 1024 x 1024 pixels, with maps of 1024 x 1024 texels. Errors are against ray
-tracing, over the pixels that face the light. A pixel is wrong when its visibility is off by more
-than a half. Times are medians of whole frames, in brackets as multiples of plain VTK's: with
-nothing moving, the camera moving, and the light moving.
+The scene `bunny`, 1024 x 1024 pixels, maps of 1024 x 1024 texels. Errors are against ray tracing,
+over the pixels that face the light; a wrong pixel's visibility is off by more than a half. Times
+are medians of whole frames, in brackets as multiples of plain VTK's.
 
 ![Wrong pixels against time](../figures/chart.png)
 

@@ -13,35 +13,28 @@ from pathlib import Path
 
 PAGE = """# What the publications conclude, measured here
 
-Each row is a conclusion of a publication, its own figure, and the same measured here. It holds if
-it does in every case, or on the mean where the condition says so. `docs/conclusions.sh` measures
-this and computes the verdicts from [the table](conclusions.csv). Times are judged by their mean.
+Each row is a conclusion of a publication, its own figure, and the same measured here. A conclusion
+holds if it does in every case, or on the mean where the condition says so. `docs/conclusions.sh`
+measures this and computes the verdicts from [the table](conclusions.csv).
 
 | conclusion | source | there: mean (least to most) | here | holds if | verdict |
 |---|---|---|---|---|---|
 {rows}
 
-## Why not
-
-{reasons}
-
 ## What was measured
 
-Cases are scenes and map sizes. Variants take turns frame by frame, and times are medians. A figure
-without a unit is a ratio: of what the row names first to what it names second. The publications'
-figures come from other scenes and machines.
+Cases are scenes and map sizes. Variants take turns frame by frame. Times are medians with a moving
+light: of whole frames, of hybrids their maps and rays. A figure without a unit is a ratio: of what
+the row names first to what it names second. The publications' figures come from other scenes and
+machines.
 
-- Hybrids and the chain: `bench-with`, `trees-side`, `flowers-against`, `atrium`; 1024 x 1024
-  pixels, maps of 1024 and 2048. Times draw maps in every frame. The chain has fitted maps and a
-  contour of 4 pixels.
-- Filters: `bunny`, `posts`, `plates`, `terrain`; 1024 x 1024 pixels, maps of 1024, whole frames
-  with a moving light. The metric: `room` and `office`.
-- Soft shadows: `soft-stack`, `soft-panels`, `soft-plates`, `soft-long-cube`; 256 x 256 pixels,
-  maps of 1024, whole frames with a moving light.
-- Reduction and second depths: `gnomon_benchmark_fitting`, 2048 x 2048 pixels or texels, processor
-  time. The CPU's share leaves out the choice of receivers.
-- Rays through depth layers: `bunny` under a sun of 5 degrees, `soft-long-cube`; 384 x 288 pixels,
-  maps of 512 and 1024, whole frames with a moving light.
+| | scenes | pixels | maps | |
+|---|---|---|---|---|
+| hybrids, the chain | `bench-with`, `trees-side`, `flowers-against`, `atrium` | 1024 x 1024 | 1024, 2048 | maps baked in every frame; the chain's fitted, contour of 4 pixels |
+| filters | `bunny`, `posts`, `plates`, `terrain`; for the metric `room`, `office` | 1024 x 1024 | 1024 | |
+| soft shadows | `soft-stack`, `soft-panels`, `soft-plates`, `soft-long-cube` | 256 x 256 | 1024 | |
+| reduction, second depths | `gnomon_benchmark_fitting` | 2048 x 2048 pixels or texels | | processor time; the CPU's without the choice of receivers |
+| depth layers | `bunny` under a sun of 5 degrees, `soft-long-cube` | 384 x 288 | 512, 1024 | |
 
 Master's theses: D. L. Moderno, *Shadow Mapping and Ray-Tracing*, Universidade do Minho. F. Morais,
 *Rasterization + Ray Tracing: Rendering of Hard Shadows*, Universidade do Minho, 2016. A. Moschig,
@@ -146,7 +139,7 @@ class Conclusion:
 
     def row(self, runs):
         if not self.values:
-            return [self.text, self.source, self.there, "", "", "not measured"]
+            return [self.text, self.source, self.there, "", "", f"not measured: {self.why}"]
         values = self.values(runs[self.run])
         mean = sum(values) / len(values)
         judged = [mean] if self.on_mean else values
@@ -155,7 +148,9 @@ class Conclusion:
         bounds += [f"at most {self.number(self.most)}"] if self.most < math.inf else []
         verdict = "holds" if held == len(judged) else "holds not"
         if 0 < held < len(judged):
-            verdict += f": in {held} of {len(judged)}"
+            verdict += f" in {held} of {len(judged)}"
+        if held < len(judged) and self.why:
+            verdict += f": {self.why}"
         span = f" ({self.number(min(values))} to {self.number(max(values))})"
         return [
             self.text, self.source, self.there,
@@ -355,13 +350,10 @@ def main():
         for row in csv.DictReader(file):
             rows[row["run"]].append(row)
     runs = {run: Cases(of) for run, of in rows.items()}
-    lines = [(each, each.row(runs)) for each in CONCLUSIONS]
+    lines = [each.row(runs) for each in CONCLUSIONS]
     print(
         PAGE.format(
-            rows="\n".join(f"| {' | '.join(line)} |" for _, line in lines),
-            reasons="\n".join(
-                f"- {each.text}: {each.why or 'not looked into'}."
-                for each, line in lines if line[-1] != "holds"),
+            rows="\n".join(f"| {' | '.join(line)} |" for line in lines),
             machine=machine,
         ),
         end="",

@@ -12,11 +12,9 @@ EXACT = ("silhouette 1024", "raytraced")
 
 PAGE = """# What exact hard shadows cost
 
-`silhouette` and `raytraced` show the same shadows: each pixel is what its shadow ray says. Times
-are medians of whole frames, as multiples of plain VTK's, whose own time is in ms. Frames of all
-columns are drawn in turns. `docs/exact_price.sh` measures this and writes this page.
-
-One sun, 1024 x 1024 pixels, maps of 1024 x 1024 texels.
+`silhouette` and `raytraced` show the same shadows, without a wrong pixel. Times are medians of
+whole frames, drawn in turns, as multiples of plain VTK's. One sun, 1024 x 1024 pixels, maps of
+1024 x 1024 texels. `docs/exact_price.sh` measures this.
 
 | scene | moving | plain VTK | vtkShadowMapPass | `nsm` | `silhouette` | `raytraced` | wrong pixels of vtkShadowMapPass, `nsm`, exact |
 |---|---|---|---|---|---|---|---|

@@ -27,57 +27,49 @@ PAGE = """# What accuracy costs
 Exact hard shadows (`silhouette`) take {exact[0]:.2f} times plain VTK's frame while the picture
 rests, {exact[1]:.2f} times with the camera moving and {exact[2]:.2f} times with the light moving.
 The plain map (`nsm`) takes {fast[0]:.2f}, {fast[1]:.2f} and {fast[2]:.2f}, and {wrong:.2f} % of its
-pixels are wrong, at contacts and along edges. So take the exact ones, unless frames must follow a
-moving camera at once.
-
-`gnomon study` measures this and draws it: error over time, the ways that no other one beats, and
-the places where they are most wrong. `docs/study.sh` makes this page and
-[its table](../results/study.csv). It also measures which of the publications'
-[conclusions](../results/conclusions.md) hold here.
+pixels are wrong. So take exact shadows, unless frames must follow a moving camera at once.
 
 | you want | technique | error | nothing moving | camera moving | light moving |
 |---|---|---|---|---|---|
 {rows}
 
 Errors are means over {hard} scenes with hard shadows and {soft} with soft ones, of the pixels that
-face a light: the share that is lit in place of dark or dark in place of lit, and the root mean
-square of soft visibility. Times are geometric means of multiples of plain VTK's without shadows.
+face a light: the share of wrong pixels, or the root mean square of soft visibility. Times are
+geometric means of multiples of plain VTK's.
+
+`docs/study.sh` makes this page and [its table](../results/study.csv) by `gnomon study`. It also
+measures which [conclusions](../results/conclusions.md) of the publications hold here.
 
 ## Hard shadows
 
-- Nothing moves: exact visibility is reused, so exact frames are faster than those of maps, which
-  are looked up in every frame.
-- The camera moves: `silhouette` traces what its map leaves open. `raytraced` has no map to draw.
-- The light moves: exact techniques trace all pixels, which takes less time than drawing maps of
-  large scenes.
-- A few props of many move: exact techniques trace again only where these may have changed
-  something.
-- Large scenes under a sun: `pssm` has finer texels near the camera
-  ([hard maps](../techniques/hard_maps.md)).
-- Maps: texels decide what is wrong, not filters. `pcf` and the filtered maps (`vsm`, `evsm`, `msm`)
-  make edges smooth, and blur what is right as well.
+- Nothing moves: exact visibility is reused. Maps are looked up in every frame.
+- The camera moves: `silhouette` traces the pixels that its map leaves open. `raytraced` traces all.
+- The light moves: exact techniques trace all pixels, in less time than maps of large scenes take.
+- A few of many props move: exact techniques trace only the tiles that may have changed.
+- A large scene under a sun: `pssm` has finer texels near the camera.
+- Maps: texels decide what is wrong, not filters. `pcf`, `vsm`, `evsm` and `msm` smooth edges, and
+  blur what is right as well.
 - Several lights: shaders fetch all exact hard shadows at once
   ([growth](../results/growth.md#lights)).
 
 ## Soft shadows
 
-- `penumbra` shows what ray tracing shows, by the edges that each pixel sees of the light.
-- `raytraced` shows the same. With a moving camera it takes {few:.1f} times as long with 16 samples
-  and {many:.1f} times with 64.
-- `moving_samples` has both take few samples while something moves, and all of them at rest.
-- `pcss` is wrong by {pcss:.0f} times as much: it takes all casters for one.
-- `sampled` and `montecarlo` take longer than `penumbra` and have larger errors.
+- `penumbra` and `raytraced` show the same. With a moving camera `raytraced` takes {few:.1f} times as
+  long with 16 samples and {many:.1f} times with 64.
+- `moving_samples` has both take few samples while something moves.
+- `pcss` errs {pcss:.0f} times as much: it merges casters at different depths.
+- `sampled` and `montecarlo` take longer than `penumbra` and err more.
 
 ## How exact
 
-The visibility of exact techniques is that of `raytraced`. `ExactScenesTest` compares the pixels of
-the built-in scenes, seen from anywhere; other tests compare random scenes of 16 kinds. Set
-`GNOMON_EXACT_RUNS` for more pictures. Rays by the GPU differ in one pixel of a million.
+Exact techniques equal `raytraced` bit for bit. `ExactScenesTest` compares the pixels of the
+built-in scenes from random views; `GNOMON_EXACT_RUNS` sets how many. Rays by the GPU differ in one
+pixel of a million.
 
 ## On what machine
 
 Measured on: {machine}.
-No GPU has measured this page. Where OpenGL draws by hardware, rays go to the GPU (`TRACER_AUTO`).
+No GPU has measured this page.
 """
 
 

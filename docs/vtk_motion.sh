@@ -48,9 +48,9 @@ done
 cat > docs/results/vtk_motion.md << PAGE
 # VTK's own programs in motion
 
-Ten of [the programs](vtk_programs.md), with no setting but \`auto\`. At rest: whether each picture
-is that of \`raytraced\`, byte for byte. In motion: the camera turns around a resting light, and a
-frame's median is a multiple of plain VTK's. \`docs/vtk_motion.sh\` measures this and writes this page.
+Ten of [the programs](vtk_programs.md) by \`auto\`. At rest: whether each picture is that of
+\`raytraced\`, byte for byte. In motion: the camera turns around a resting light; a frame's median as
+a multiple of plain VTK's. \`docs/vtk_motion.sh\` measures this.
 
 | program | light | exact at rest | plain VTK | \`nsm\` | \`auto\` | what \`auto\` takes |
 |---|---|---|---|---|---|---|

@@ -16,9 +16,8 @@ PAGE = """# VTK's own programs with Gnomon
 
 {summary}
 
-Columns: pixels that `nsm` and `raytraced` change by more than {least}/255 against
-plain VTK, as darker, and lighter where there are any; messages that plain VTK does not give, where
-"left out" is the one warning of the pass.
+Columns: pixels that `nsm` and `raytraced` make darker than plain VTK's by more than {least}/255, and
+lighter if any; messages that plain VTK does not give ("left out": the warning of the pass).
 
 | program | light | what is lit and casts | `nsm` | `raytraced` | messages | remark |
 |---|---|---|---|---|---|---|
@@ -28,26 +27,19 @@ Run on: {machine}.
 
 ## How the list was made
 
-The programs are tests of VTK 9.1.0, unchanged, with Debian's VTK. The list has tests that show
-something lit, whose data was at hand, and that take less than a minute by software. TestFloor takes
-longer. An image alone lights TestPBRAnisotropy, TestPBRClearCoat and TestPBRMapping.
-TestShadowMapBakerPass reads the maps of its own pass, which does not run here. A stand-in replaces
-some data, as remarks say.
-
-`docs/vtk_programs.tsv` names what each program shows. Its column `shadows` says whether a surface
-is in the way of another's light. The pictures, with and without shadows, decided that column. So
-the share of programs with shadows is no blind test.
+The programs are unchanged tests of VTK 9.1.0 that show something lit, whose data was at hand, and
+that take less than a minute by software (TestFloor takes longer). Left out: TestPBRAnisotropy,
+TestPBRClearCoat and TestPBRMapping, which an image alone lights; TestShadowMapBakerPass, which
+reads the maps of its own pass. The column `shadows` of `docs/vtk_programs.tsv` was decided from the
+pictures, with and without shadows. So the share of programs with shadows is no blind test.
 
 ## How the table is made
 
-Each program's main function becomes `gnomonProgram`, by a definition of its name for the compiler.
-It is linked to `tests/vtk_programs/main.cxx` by hand. There, an object factory adds the two lines
-to each renderer, in place of the program's own passes and shadows. A program without a light off
-the camera's axis gets a key light from `vtkGnomonLightPlacement::MakeKeyLight`, in all pictures.
-
-`docs/vtk_programs.sh` runs each program without Gnomon, by `nsm` and by `raytraced`. Each run
-leaves its messages and the last picture of each window. `docs/vtk_programs_page.py` compares them,
-adds the columns of `docs/vtk_programs.tsv`, and writes this page.
+Each program's main function is compiled as `gnomonProgram`, and linked by hand to
+`tests/vtk_programs/main.cxx`. There, an object factory adds the two lines to each renderer, in
+place of the program's own passes and shadows. A program without a light off the camera's axis gets
+a key light, in all pictures. `docs/vtk_programs.sh` runs each program without Gnomon, by `nsm` and
+by `raytraced`, and compares messages and the last picture of each window.
 """
 
 

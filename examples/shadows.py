@@ -46,7 +46,7 @@ def main():
     window.SetSize(640, 480)
     window.AddRenderer(renderer)
 
-    shadows = gnomon.add_shadows(renderer)
+    shadows = gnomon.add_shadows(renderer)  # or a PyVista plotter
     shadows.KeepVisibilityOn()
     window.Render()
 

@@ -34,7 +34,7 @@
  *
  * <b>Other passes.</b> The delegate may be any pass that draws into the framebuffer that its render state
  * names: vtkGnomonShadowPass, vtkRenderStepsPass. As around vtkGnomonShadowPass, the renderer's own
- * depth peeling, ambient occlusion and FXAA are the delegate's business (docs/pass_chains.md).
+ * depth peeling, ambient occlusion and FXAA are the delegate's business (docs/guide/passes.md).
  *
  * With one point the delegate draws, with each light at its centre, as if this pass were not there;
  * without area lights, and while something is selected (vtkHardwareSelector), just as it would. So

@@ -18,7 +18,7 @@
  * receive, and cast only if asked. Everything else is drawn as VTK draws it; a warning names, once,
  * what is lit and left out. A headlight that is the only light casts only if asked.
  *
- * Other passes may stand around it, or inside it as its delegate (docs/pass_chains.md).
+ * Other passes may stand around it, or inside it as its delegate (docs/guide/passes.md).
  *
  * The pass steps aside for hardware selection, and draws the scene as plain VTK does, without a map
  * or a ray, when no light casts. It leaves the OpenGL state as it found it.

@@ -26,7 +26,7 @@
  *   the k-th casters; -1.
  *
  * A shadow ray is the one of vtkGnomonShadowPass's exact techniques: it starts off the surface by a
- * bound on rounding, and Embree traces it (docs/dev/architecture.md). There is no epsilon to
+ * bound on rounding, and Embree traces it (docs/dev/numerics.md). There is no epsilon to
  * choose. Casters are polygons and strips, both sides of them, in the triangles that VTK draws.
  * The picture can differ: it shadows the side that the camera sees, from the curved surface where
  * facets are shaded smooth, and knows props' keys, clipping planes, textures and glyphs.

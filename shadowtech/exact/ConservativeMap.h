@@ -115,7 +115,7 @@ private:
 using MapRule = std::function<ConservativeMap(const LightView& view, bool hasBox, int sizeTexels,
   const Occluders& occluders, const CasterEdges& edges)>;
 
-/// The rules that are never wrong about a shadow ray, rounding included. docs/techniques/exact.md
+/// The rules that are never wrong about a shadow ray, rounding included. docs/theory/exact_maps.md
 /// has them and why they hold.
 /// @param gpu draws the maps; null: the CPU does. Not for `Covering::Silhouette`, whose parts are
 /// drawn one after another

@@ -34,7 +34,7 @@ namespace gnomon
 ///    another depth, at the mean, find texels that hide the receiver. What is found at another
 ///    separation hides another point, and is looked for again at its own, a few times at most.
 ///
-/// docs/techniques/soft.md says why. A light without area has the hard shadow of `compare`.
+/// docs/techniques/pcss.md says why. A light without area has the hard shadow of `compare`.
 class Pcss : public DepthMapTechnique
 {
 public:

@@ -31,7 +31,8 @@ struct EdgeTriangle
   bool oneSided; ///< blocks rays through its back alone, which then faces away from the light
 
   /// What rounding makes of a direction's product with twice the triangle's area vector: so much of
-  /// the direction's length times the squared reach of its corners (docs/techniques/penumbra.md).
+  /// the direction's length times the squared reach of its corners
+  /// (docs/theory/exact_penumbrae.md).
   static constexpr double noiseAlong = 128.0 / 16777216.0;
 
   /// Whether rays that start on one side of its plane go away from it for certain, so that none

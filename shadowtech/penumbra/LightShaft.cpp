@@ -15,7 +15,7 @@ namespace
 constexpr double moreSlope = 1.0 / 8192.0;
 
 /// How exactly is known where on its way a ray meets a triangle that is not seen from its side:
-/// this share of it (docs/techniques/penumbra.md).
+/// this share of it (docs/theory/exact_penumbrae.md).
 constexpr double moreOfWay = 1.0 / 24.0;
 
 /// The steepest rays of a shaft.

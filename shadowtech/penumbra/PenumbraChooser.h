@@ -19,7 +19,7 @@ constexpr std::uint8_t penumbraClass = static_cast<std::uint8_t>(TracedClass::No
 std::vector<PixelClass> classesOfPenumbra();
 
 /// Chooses the rays to an area light that decide all of them, by the edges at which casters seem to
-/// end from where the rays start (docs/techniques/penumbra.md).
+/// end from where the rays start (docs/theory/exact_penumbrae.md).
 class PenumbraChooser : public SampleChooser
 {
 public:

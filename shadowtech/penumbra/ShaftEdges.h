@@ -15,7 +15,7 @@
 namespace gnomon
 {
 
-/// What rounding is to an edge (docs/techniques/penumbra.md).
+/// What rounding is to an edge (docs/theory/exact_penumbrae.md).
 namespace EdgeRounding
 {
 /// The unit roundoff of float, 2^-24.

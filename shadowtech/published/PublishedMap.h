@@ -13,7 +13,7 @@ namespace gnomon
 /// @file
 /// Conservative shadow maps by the letter of F. da Costa Morais, "Rasterization + Ray Tracing:
 /// Rendering of Hard Shadows" (MSc thesis, Universidade do Minho, 2016), for those who want to see
-/// how it differs from what is exact. docs/techniques/exact.md says what they get wrong.
+/// how it differs from what is exact. docs/techniques/published.md says what they get wrong.
 ///
 /// Only triangles that face away from the light cast. One layer holds them dilated, another one
 /// eroded, by the same offset on all sides and with the depth of the triangle's plane at the

@@ -16,9 +16,9 @@ namespace gnomon
 /// 2. Penumbra: w_p = (z_r - z_b) / z_b w, z_b the blockers' mean distance.
 /// 3. Filter within w_p (1 + 1 / K): the share of the texels that are not nearer than the receiver.
 ///
-/// docs/techniques/soft.md says what becomes of that. Of spot lights whose map is a single view,
-/// rectangles being taken for disks of their longer side. Lights without area have the hard shadow
-/// of `compare`.
+/// docs/techniques/published.md says what becomes of that. Of spot lights whose map is a single
+/// view, rectangles being taken for disks of their longer side. Lights without area have the hard
+/// shadow of `compare`.
 class PublishedPcss : public DepthMapTechnique
 {
 public:

@@ -28,7 +28,7 @@ const SettingsTable& sampledSettings();
 
 /// `sampled`: soft shadows as the mean of the hard ones that many points of the light cast, each by
 /// a depth map of its own (Heckbert and Herf 1997 from shadow maps instead of projected casters;
-/// docs/techniques/soft.md).
+/// docs/techniques/sampled.md).
 ///
 /// Maps are drawn a batch at a time, and one shader compares each receiver with all maps of the
 /// batch and adds what it sees to a running sum, in whole numbers below 2^24. (Splits that blend

@@ -1,7 +1,7 @@
-# Installs Gnomon into an empty prefix, looks at what lies there, and builds and runs README.md's
-# program by README.md's CMakeLists.txt.
+# Installs Gnomon into an empty prefix, looks at what lies there, and builds and runs
+# examples/shadows.cxx by the CMakeLists.txt on a page.
 #
-#   cmake -D BUILD_DIR=... -D CONSUMER_DIR=... -D README=... -D WORK_DIR=... -D CXX=... -D CC=...
+#   cmake -D BUILD_DIR=... -D CONSUMER_DIR=... -D PAGE=... -D WORK_DIR=... -D CXX=... -D CC=...
 #     -D PYTHON=... -D PYTHON_DESTINATION=... -P
 cmake_minimum_required(VERSION 3.25)
 
@@ -45,18 +45,9 @@ endif()
 run("${CMAKE_COMMAND}" -D "SOURCE_DIR=${WORK_DIR}/prefix/share/doc/Gnomon"
   -P "${CONSUMER_DIR}/../project/TestPages.cmake")
 
-# README.md shows the program's own lines.
-file(READ "${README}" readme)
-string(REGEX MATCH "```cpp\n([^`]*)```" block "${readme}")
-string(REGEX REPLACE "([^\n]+\n)" "  \\1" lines "${CMAKE_MATCH_1}") # indented as in main()
-file(READ "${CONSUMER_DIR}/../../examples/shadows.cxx" program)
-string(FIND "${program}" "${lines}" place)
-if(block STREQUAL "" OR place EQUAL -1)
-  message(FATAL_ERROR "README.md's first C++ block is not in examples/shadows.cxx:\n${lines}")
-endif()
-
-# The project is README.md's, and has every public header stand on its own.
-string(REGEX MATCH "```cmake\n([^`]*)```" block "${readme}")
+# The project is the page's, and has every public header stand on its own.
+file(READ "${PAGE}" page)
+string(REGEX MATCH "```cmake\n([^`]*)```" block "${page}")
 file(WRITE "${WORK_DIR}/project/CMakeLists.txt"
   "${CMAKE_MATCH_1}target_sources(my_program PRIVATE publicHeaders.cxx)\n")
 file(COPY "${CONSUMER_DIR}/publicHeaders.cxx" "${CONSUMER_DIR}/../../examples/shadows.cxx"
@@ -71,15 +62,8 @@ if(bytes LESS 1000)
   message(FATAL_ERROR "The consumer's picture has only ${bytes} bytes.")
 endif()
 
-# The Python package, by README.md's line.
+# The Python package.
 if(PYTHON)
-  string(REGEX MATCH "```python\n([^ `]*[^`]*\\))" block "${readme}")
-  set(line "${CMAKE_MATCH_1}")
-  file(READ "${CONSUMER_DIR}/../../examples/shadows.py" program)
-  string(FIND "${program}" "    ${line}\n" place)
-  if(line STREQUAL "" OR place EQUAL -1)
-    message(FATAL_ERROR "README.md's line of Python is not in examples/shadows.py: ${line}")
-  endif()
   execute_process(
     COMMAND "${CMAKE_COMMAND}" -E env --unset=DISPLAY
       "PYTHONPATH=${WORK_DIR}/prefix/${PYTHON_DESTINATION}"

@@ -1,10 +1,21 @@
-# README.md stays short, and relative links of all pages lead to files, and to headings in them.
+# Pages read as the project's style says: README.md and the guide stay short, lines end at 100
+# columns (tables, headings and links apart), and some turns of phrase are left out. Relative links
+# of all pages lead to files, and to headings in them.
 #
 #   cmake -D SOURCE_DIR=... -P
 cmake_minimum_required(VERSION 3.25)
 
-set(most_words 700)
 set(faults "")
+
+# Pages whose style is checked, and the most words that each may have beside code and tables.
+set(styled_folders docs/guide docs/dev docs/results docs/techniques docs/theory)
+set(most_words 1500)
+set(most_words_of_readme 700) # tables included
+set(most_columns 100)
+# History, and words that hide the subject. decisions.md is history.
+set(phrases "no longer" "not any more" "used to" "previously" "formerly" "so far"
+  "anew" "whoever" "nobody" "somebody" "that which" "all else" "that there may be" "who sets"
+  "comes to" "had been")
 
 # A page's text without what CMake's lists trip over.
 function(read_page path result)
@@ -29,12 +40,48 @@ function(anchors_of path result)
   set(${result} "${anchors}" PARENT_SCOPE)
 endfunction()
 
+# Appends to `faults` if a page's text has too many words.
+macro(check_words name text most)
+  string(REGEX MATCHALL "[^ \t\n]+" words "${text}")
+  list(LENGTH words count)
+  if(count GREATER ${most})
+    string(APPEND faults "${name}: ${count} words, expected at most ${most}\n")
+  endif()
+endmacro()
+
 read_page("${SOURCE_DIR}/README.md" readme)
-string(REGEX MATCHALL "[^ \t\n]+" words "${readme}")
-list(LENGTH words count)
-if(count GREATER most_words)
-  string(APPEND faults "README.md: ${count} words, expected at most ${most_words}\n")
-endif()
+check_words(README.md "${readme}" ${most_words_of_readme})
+
+set(styled "${SOURCE_DIR}/README.md")
+foreach(folder IN LISTS styled_folders)
+  file(GLOB_RECURSE more "${SOURCE_DIR}/${folder}/*.md")
+  list(APPEND styled ${more})
+endforeach()
+foreach(page IN LISTS styled)
+  file(RELATIVE_PATH name "${SOURCE_DIR}" "${page}")
+  read_page("${page}" text)
+  string(REGEX REPLACE "\n[|#][^\n]*" "\n" text "\n${text}")
+  string(REGEX MATCHALL "\n[^\n]+" lines "${text}")
+  foreach(line IN LISTS lines)
+    string(SUBSTRING "${line}" 1 -1 line)
+    string(LENGTH "${line}" length)
+    if(length GREATER most_columns AND NOT line MATCHES "LINK")
+      string(APPEND faults "${name}: more than ${most_columns} columns: ${line}\n")
+    endif()
+  endforeach()
+  string(REGEX REPLACE "```[^`]*```" "" text "${text}")
+  check_words("${name}" "${text}" ${most_words})
+  if(name STREQUAL "docs/dev/decisions.md")
+    continue()
+  endif()
+  string(TOLOWER "${text}" text)
+  string(REGEX REPLACE "[ \n]+" " " text "${text}")
+  foreach(phrase IN LISTS phrases)
+    if(text MATCHES "[^a-z]${phrase}[^a-z]")
+      string(APPEND faults "${name}: says \"${phrase}\"\n")
+    endif()
+  endforeach()
+endforeach()
 
 file(GLOB pages "${SOURCE_DIR}/*.md")
 foreach(folder cmake docs examples lights plugin shadowtech tests)

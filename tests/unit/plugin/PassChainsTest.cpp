@@ -1,5 +1,5 @@
 // Other render passes around the shadow pass and inside it: the shadow must be where it is without
-// them. docs/pass_chains.md lists these combinations.
+// them. docs/guide/passes.md lists these combinations.
 
 #include "PassScene.h"
 

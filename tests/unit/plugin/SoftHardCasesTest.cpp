@@ -1,6 +1,6 @@
 // Techniques with soft shadows under area lights and on scenes that break such: the numbers stay
 // finite, OpenGL has nothing to complain about, and the visibility differs from the ray-traced one
-// by no more than is stated here and in docs/techniques/soft.md.
+// by no more than is stated here.
 
 #include "PassScene.h"
 

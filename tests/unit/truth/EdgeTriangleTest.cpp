@@ -21,7 +21,7 @@ namespace
 /// The unit roundoff of float.
 constexpr double unit = 1.0 / 16777216.0;
 
-/// A triangle of the tree, and what docs/techniques/penumbra.md says of it.
+/// A triangle of the tree, and what docs/theory/exact_penumbrae.md says of it.
 struct Known
 {
   const EdgeTriangle& triangle;

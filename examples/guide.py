@@ -1,0 +1,81 @@
+"""The lines of Python that the pages of docs/guide show.
+
+python3 guide.py FOLDER
+"""
+
+import os
+import sys
+
+import gnomon
+import vtkmodules.vtkRenderingOpenGL2  # noqa: F401
+from vtkmodules.util.vtkConstants import VTK_DOUBLE
+from vtkmodules.vtkFiltersSources import vtkCubeSource, vtkPlaneSource
+from vtkmodules.vtkRenderingCore import vtkActor, vtkLight, vtkPolyDataMapper, vtkRenderer
+
+
+def add(renderer, source):
+    mapper = vtkPolyDataMapper()
+    mapper.SetInputConnection(source.GetOutputPort())
+    actor = vtkActor()
+    actor.SetMapper(mapper)
+    renderer.AddActor(actor)
+
+
+def make_window():
+    """A cube over a plane under a sun."""
+    renderer = vtkRenderer()
+    add(renderer, vtkCubeSource())
+    plane = vtkPlaneSource()
+    plane.SetOrigin(-2, -2, -0.5)
+    plane.SetPoint1(2, -2, -0.5)
+    plane.SetPoint2(-2, 2, -0.5)
+    add(renderer, plane)
+    sun = vtkLight()
+    sun.SetPosition(2, -1, 3)
+    renderer.AddLight(sun)
+    renderer.GetActiveCamera().SetPosition(0, -6, 4)
+    renderer.GetActiveCamera().SetViewUp(0, 0, 1)
+    renderer.ResetCamera()
+    window = gnomon.vtkGnomonEGLRenderWindow()
+    window.SetSize(160, 120)
+    window.AddRenderer(renderer)
+    return window, renderer
+
+
+def read_arrays(window, renderer):
+    """python.md"""
+    shadows = gnomon.add_shadows(renderer, light_radius=0.5)
+    shadows.KeepVisibilityOn()
+    window.Render()
+    print(gnomon.report(shadows)["choice"])
+    dark = gnomon.visibility(shadows)["light 0"] < 0.5
+    assert dark.any()
+    return shadows
+
+
+def observe(shadows):
+    """python.md"""
+
+    def note(caller, event, shown):
+        print(f"{shown:.0%}")
+
+    note.CallDataType = VTK_DOUBLE
+    shadows.AddObserver("ProgressEvent", note)
+
+
+def compare(window, baseline):
+    """test_your_pictures.md"""
+    gnomon.assert_images_equal(window, baseline, max_difference=8, max_pixels=20)
+
+
+def main():
+    window, renderer = make_window()
+    observe(read_arrays(window, renderer))
+    baseline = os.path.join(sys.argv[1], "guide.png")
+    os.environ["GNOMON_REFRESH_BASELINES"] = "1"
+    compare(window, baseline)
+    del os.environ["GNOMON_REFRESH_BASELINES"]
+    compare(window, baseline)
+
+
+main()
