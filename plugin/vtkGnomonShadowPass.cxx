@@ -57,6 +57,32 @@ bool drawsIntoOuterPass(const vtkRenderState* s)
   return static_cast<GLuint>(framebuffer) != window->GetRenderFramebuffer()->GetFBOIndex();
 }
 
+/// Does what PreRender() does, but names a pass once in property keys that props share, so that it
+/// fills their shaders once. A part of an assembly has the assembly's keys, and may be in the
+/// renderer by itself, too.
+void nameInKeys(const vtkRenderState* s, vtkObjectBase* pass)
+{
+  const auto passes = vtkOpenGLRenderPass::RenderPasses();
+  for (int i = 0; i < s->GetPropArrayCount(); ++i)
+  {
+    vtkProp* prop = s->GetPropArray()[i];
+    if (!prop->GetPropertyKeys())
+    {
+      prop->SetPropertyKeys(vtkNew<vtkInformation>());
+    }
+    vtkInformation* keys = prop->GetPropertyKeys();
+    bool isNamed = false;
+    for (int k = 0; k < keys->Length(passes); ++k)
+    {
+      isNamed = isNamed || keys->Get(passes, k) == pass;
+    }
+    if (!isNamed)
+    {
+      keys->Append(passes, pass);
+    }
+  }
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -236,7 +262,7 @@ void vtkGnomonShadowPass::Render(const vtkRenderState* s)
                              << " route was asked for, but " << manager.report().routeReason
                              << "; this frame takes the image route.");
       }
-      this->PreRender(s);
+      nameInKeys(s, this);
       marked = true;
     }
     if (goesOn && manager.route() == gnomon::Route::Deferred)

@@ -8,7 +8,8 @@ import warnings
 from unittest import mock
 
 import numpy
-from vtkmodules.vtkFiltersSources import vtkPlaneSource, vtkSphereSource
+from vtkmodules.vtkCommonCore import vtkOutputWindow, vtkStringOutputWindow
+from vtkmodules.vtkFiltersSources import vtkPlaneSource, vtkPointSource, vtkSphereSource
 from vtkmodules.util.vtkConstants import VTK_DOUBLE
 from vtkmodules.vtkRenderingCore import vtkActor, vtkLight, vtkPolyDataMapper, vtkRenderer
 
@@ -151,6 +152,19 @@ class Shadows(unittest.TestCase):
         key = renderer.GetLights().GetItemAsObject(0)
         self.assertNotEqual(key.GetPosition(), (0.0, 0.0, 1.0))
         self.assertTrue(gnomon.report(shadows)["lights"][0]["casts"])
+
+    def test_a_single_point_is_nothing_to_place_a_light_for(self):
+        renderer = vtkRenderer()
+        point = vtkPointSource()
+        point.SetNumberOfPoints(1)
+        point.SetRadius(0)
+        add(renderer, point)
+        messages, previous = vtkStringOutputWindow(), vtkOutputWindow.GetInstance()
+        vtkOutputWindow.SetInstance(messages)
+        with self.assertWarns(UserWarning):
+            gnomon.add_shadows(renderer)
+        vtkOutputWindow.SetInstance(previous)
+        self.assertEqual(messages.GetOutput(), "")
 
     def test_another_pass_is_left_alone(self):
         scene = Scene()

@@ -224,9 +224,9 @@ def _replace_headlight(renderer):
 
 
 def _place(key, renderer):
-    """Place a key light for what is visible; False if nothing is."""
+    """Place a key light for what is visible; False if nothing is, or a single point."""
     bounds = renderer.ComputeVisiblePropBounds()
-    if bounds[0] > bounds[1]:
+    if not any(bounds[axis] < bounds[axis + 1] for axis in (0, 2, 4)):
         return False
     if not renderer.IsActiveCameraCreated():
         renderer.ResetCamera()

@@ -187,6 +187,23 @@ TEST_P(Props, partsOfAssembliesCastWhereTheyStandAndAsTheAssemblySays)
 }
 
 //------------------------------------------------------------------------------
+/// An assembly hands its property keys to its parts, so that two props of the renderer share them.
+TEST_P(Props, partsOfAssembliesMayBeInTheRendererToo)
+{
+  vtkActor* square = this->addSquare(true);
+  vtkNew<vtkAssembly> assembly;
+  assembly->AddPart(square);
+  assembly->SetPosition(0.0, 3.0, 0.0);
+  this->scene.renderer->AddActor(assembly);
+  for (int frame = 0; frame < 2; ++frame)
+  {
+    EXPECT_TRUE(this->dark(2.5, 0.0));
+    EXPECT_TRUE(this->dark(2.5, 3.0));
+    EXPECT_FALSE(this->dark(3.5, 3.0));
+  }
+}
+
+//------------------------------------------------------------------------------
 TEST_P(Props, blocksOfACompositeCastAndReceiveUnlessHidden)
 {
   vtkNew<vtkMultiBlockDataSet> blocks;

@@ -1,0 +1,46 @@
+# docs/guide/wishes.md names a test in each row, which exists, and all tests of Wishes.
+#
+#   cmake -D SOURCE_DIR=... -P
+cmake_minimum_required(VERSION 3.25)
+
+set(tests "") # Suite.name of all tests written in C++
+file(GLOB_RECURSE sources "${SOURCE_DIR}/tests/*Test.cpp")
+foreach(source IN LISTS sources)
+  file(STRINGS "${source}" lines REGEX "^TEST(_F|_P)?\\(")
+  foreach(line IN LISTS lines)
+    if(line MATCHES "^TEST(_F|_P)?\\(([A-Za-z0-9_]+), *([A-Za-z0-9_]+)\\)")
+      list(APPEND tests "${CMAKE_MATCH_2}.${CMAKE_MATCH_3}")
+    endif()
+  endforeach()
+endforeach()
+
+set(faults "")
+set(named "")
+set(rows 0)
+file(STRINGS "${SOURCE_DIR}/docs/guide/wishes.md" lines REGEX "^\\| ")
+list(POP_FRONT lines) # the table's head
+foreach(line IN LISTS lines)
+  math(EXPR rows "${rows} + 1")
+  if(line MATCHES "\\| `([A-Za-z0-9_]+\\.[A-Za-z0-9_]+)` \\|$")
+    list(APPEND named "${CMAKE_MATCH_1}")
+    if(NOT CMAKE_MATCH_1 IN_LIST tests)
+      string(APPEND faults "${CMAKE_MATCH_1}: there is no such test\n")
+    endif()
+  else()
+    string(APPEND faults "no test at the end of: ${line}\n")
+  endif()
+endforeach()
+
+list(FILTER tests INCLUDE REGEX "^Wishes\\.")
+foreach(test IN LISTS tests)
+  if(NOT test IN_LIST named)
+    string(APPEND faults "${test}: no row names it\n")
+  endif()
+endforeach()
+
+if(faults)
+  message(FATAL_ERROR "docs/guide/wishes.md:\n${faults}")
+endif()
+if(rows EQUAL 0 OR NOT tests)
+  message(FATAL_ERROR "No rows or no tests of Wishes found under ${SOURCE_DIR}.")
+endif()
