@@ -25,8 +25,8 @@ struct CompareOptions
   std::string folder;
   ComparisonPlan plan;
   std::string size = "1024x1024";
-  std::string route; ///< empty: the usual one of the usual techniques, all of others
-  bool all = false;  ///< whether to compare all techniques
+  std::string route; ///< empty: the usual route for usual techniques, all routes for others
+  bool all = false;  ///< true: compare all techniques
 };
 
 std::string writeFirstPicture(const std::vector<Panel>& panels, const std::string& folder)
@@ -52,7 +52,7 @@ ComparisonResults measure(
   return results;
 }
 
-/// The plan with the options' techniques and routes.
+/// Return the plan with the options' techniques and routes.
 ComparisonPlan planOf(const CompareOptions& options, const Scene& scene)
 {
   ComparisonPlan plan = options.plan;

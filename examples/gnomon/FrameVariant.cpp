@@ -28,7 +28,7 @@ namespace gnomon::tool
 namespace
 {
 
-/// VTK's own shadows, in the chain that its documentation shows.
+/// Return VTK's own shadow passes, chained as in its documentation.
 vtkSmartPointer<vtkRenderPass> makeShadowMapPass(int mapSizeTexels)
 {
   vtkNew<vtkShadowMapPass> shadows;
@@ -205,8 +205,8 @@ void Mover::turnCamera(double degrees)
 }
 
 //------------------------------------------------------------------------------
-// Each light turns around its target, about an axis across its direction, so that the direction
-// always changes.
+// Each light turns around its target about an axis across its direction, so the direction always
+// changes.
 void Mover::turnLights(double degrees)
 {
   if (degrees == this->lightDegrees_)

@@ -10,14 +10,14 @@ namespace gnomon::tool
 namespace
 {
 
-/// What is wrong with a setting's value; empty if nothing is.
+/// Return why a setting's value is invalid; empty if it is valid.
 std::string refuse(const Setting& setting, const std::string& text)
 {
   ShadowSettings scratch;
   return setting.set(scratch, text) ? "" : "found \"" + text + "\", expected " + setting.expected();
 }
 
-/// An option that takes one of these names.
+/// Add an option whose value is one of these names.
 void addChoice(CLI::App& command, const std::string& option,
   const std::map<std::string, int>& choices, int& choice, const std::string& help)
 {

@@ -34,10 +34,10 @@ struct StudyOptions
   StudyPlan plan;
 };
 
-/// Techniques that show points of light as others do, but slower.
+/// Techniques for area lights. For point lights they equal other techniques, but are slower.
 const std::set<std::string> ofAreaLights = { "montecarlo", "pcss", "penumbra", "sampled" };
 
-/// A study that two cores make within five minutes.
+/// Limit a study to five minutes on two cores.
 void makeQuick(StudyOptions& options)
 {
   options.plan.scenes = { "bunny", "posts", "terrain", "soft-stack", "soft-panels" };
@@ -53,7 +53,7 @@ void makeQuick(StudyOptions& options)
   options.size = "512x512";
 }
 
-/// "about 3 min left".
+/// Return a text such as "about 3 min left".
 std::string timeLeft(std::chrono::steady_clock::time_point start, double share)
 {
   if (share < 0.01)
@@ -66,7 +66,7 @@ std::string timeLeft(std::chrono::steady_clock::time_point start, double share)
                         : ", about " + std::to_string(std::lround(seconds / 60.0)) + " min left";
 }
 
-/// A list's values once each.
+/// Return a list without duplicates.
 template <typename Value>
 void dropRepeated(std::vector<Value>& values)
 {
@@ -96,7 +96,7 @@ void study(StudyOptions options)
   prepareReportFolder(options.folder, "study.html");
   Progress progress("reading scenes");
   const auto start = std::chrono::steady_clock::now();
-  double shareBefore = -1.0; // of cases that were made before
+  double shareBefore = -1.0; // share of cases that were finished earlier
   const std::vector<StudyRow> rows = runStudy(options.plan, options.folder,
     [&](double share, const std::string& step)
     {
