@@ -234,7 +234,7 @@ void calibrate(const CalibrateOptions& options)
   Progress progress("setting up");
   const CostFactors factors = Calibration(options.frames, progress).factors();
   const std::string text =
-    "# What frames cost on this machine, in nanoseconds a triangle, pixel or texel.\n" +
+    "# Costs of frames on this machine, in nanoseconds per triangle, pixel or texel.\n" +
     textOf(factors);
   if (options.output.empty())
   {
@@ -251,10 +251,11 @@ void addCalibrateCommand(CLI::App& app)
 {
   auto options = std::make_shared<CalibrateOptions>();
   CLI::App* command = app.add_subcommand("calibrate",
-    "Measure what frames cost on this machine, for the technique auto; the environment variable "
+    "Measure the costs of frames on this machine, for the technique auto; the environment variable "
     "GNOMON_FACTORS names the file for programs");
-  command->add_option("-o,--output", options->output, "The file; else it is printed");
-  command->add_option("--frames", options->frames, "Frames of each kind that are timed")
+  command->add_option(
+    "-o,--output", options->output, "Output file; without it, print to standard output");
+  command->add_option("--frames", options->frames, "Timed frames of each kind")
     ->check(CLI::Range(1, 1000))
     ->capture_default_str();
   command->callback([options] { calibrate(*options); });

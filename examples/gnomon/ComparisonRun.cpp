@@ -122,7 +122,7 @@ std::vector<VariantSpec> listVariants(
     {
       if (text == truthTechnique)
       {
-        throw BadInput(text + ", the truth that all are compared with: " + error.what());
+        throw BadInput(text + ", the truth for all techniques: " + error.what());
       }
       leftOut.push_back(text + " is left out: " + error.what() + ".");
       continue;
@@ -432,12 +432,11 @@ VisibilityImages visibilityFromItsPictures(
   PictureVisibility found = measureVisibility(
     scene, truth, [&spec](vtkRenderer* renderer) { renderer->SetPass(makePass(spec)); });
   variant.result.errorSource =
-    "Read off pictures of what it drew: the scene with white surfaces, without ambient light and "
-    "gloss, under one light at a time, once with and once without shadows; the quotient of the two "
-    "is "
-    "the visibility. Four exposures keep faintly lit surfaces above the steps of 8 bits. " +
+    "Measured from its pictures of the scene with white surfaces, without ambient light and gloss, "
+    "under one light at a time. Visibility is the quotient of a picture with shadows and one "
+    "without. Four exposures keep faintly lit surfaces above the steps of 8 bits. " +
     std::to_string(found.unreadable) +
-    " pixels that graze the light are black even so; they count as right.";
+    " pixels at grazing angles are still black; they count as right.";
   return std::move(found.images);
 }
 

@@ -713,7 +713,7 @@ private:
     if (this->visited_[number] || depth > deepest)
     {
       index.refuse("node " + std::to_string(number) +
-        " stands twice in the scene or too deep in it, expected a tree of nodes");
+        " occurs twice in the scene or is nested too deeply, expected a tree of nodes");
     }
     this->visited_[number] = true;
     const JsonValue& node = this->nodes_[number];
@@ -748,7 +748,7 @@ private:
     const Vec3 forward = transformed(worldFromNode, { { 0.0, 0.0, -1.0 } }, 0.0);
     if (!(length(forward) > 0.0))
     {
-      place.refuse("the matrices of its nodes are singular, so that it has no direction");
+      place.refuse("the matrices of its nodes are singular, so it has no direction");
     }
     return normalized(forward);
   }
@@ -780,7 +780,7 @@ private:
     camera.up = normalized(transformed(worldFromNode, { { 0.0, 1.0, 0.0 } }, 0.0));
     if (!(length(cross(forward, camera.up)) > 1e-6))
     {
-      value.refuse("the matrices of its nodes are singular, so that it has no up direction");
+      value.refuse("the matrices of its nodes are singular, so it has no up direction");
     }
     this->view_.camera = camera;
   }

@@ -246,7 +246,7 @@ nlohmann::json parseJson(const std::string& text, const std::string& source)
       !keysByDepth[level].insert(parsed.get<std::string>()).second)
     {
       throw BadInput(
-        source + ": key " + describe(parsed) + " stands twice in one object, expected it once");
+        source + ": key " + describe(parsed) + " occurs twice in one object, expected once");
     }
     return true;
   };

@@ -106,7 +106,7 @@ void check(const RenderOptions& options)
     if (options.shadeSamples && !file.empty())
     {
       throw BadInput(std::string(name) +
-        ": is of one picture, and --shade-samples shows the mean of many, expected one of them");
+        ": describes one picture, and --shade-samples averages many, expected one of them");
     }
   }
   if (options.ground && findBuiltinScene(options.scene))
@@ -281,9 +281,8 @@ Picture firstClassPicture(const VisibilityImages& images)
       return classPicture(images, light);
     }
   }
-  throw BadInput(
-    "--classes: no light casts by a technique that tells its pixels' classes, expected one that "
-    "traces, such as silhouette");
+  throw BadInput("--classes: no casting light has a technique with pixel classes, "
+                 "expected one that traces, such as silhouette");
 }
 
 /// Return settings, timings and counts for the visibility file's header.
@@ -478,26 +477,25 @@ void addRenderCommand(CLI::App& app)
   addTracerOption(*command, options->tracer);
   addRasterizerOption(*command, options->rasterizer);
   command->add_flag("--shade-samples", options->shadeSamples,
-    "Shade from each of an area light's points (--light-samples, and --progressive of them per "
-    "frame), with its hard shadows, and show the mean, rather than shade from the centre and take "
-    "the share of the light that is seen");
+    "Shade from each point of an area light (--light-samples points, --progressive of them per "
+    "frame) with its hard shadows, and show the mean. By default, shade from the centre, times the "
+    "visible share of the light");
   command
     ->add_option("--light", options->lights,
-      "A light in place of the scene's own; may be given several times, for example "
+      "A light instead of the scene's own; may be repeated, for example "
       "directional:direction=-1,-2,-1;color=1,1,1;intensity=1;technique=nsm;map_size=1024 or "
       "spot:position=3,4,5;target=0,0,0;cone_angle=30 or point:position=3,4,5")
     ->allow_extra_args(false);
   command->add_option("--camera", options->camera,
-    "What differs from the scene's camera, for example "
+    "Changes to the scene's camera, for example "
     "position=0,1,5;target=0,0,0;up=0,1,0;fov=45, or parallel_scale=2 for a parallel camera whose "
     "picture is 4 high");
   command->add_flag("--parallel", options->parallel,
-    "Look along parallel rays, with what the camera looks at in the same size");
+    "Use a parallel camera, which shows the target in the same size");
   command->add_flag_function(
     "--ground,!--no-ground",
     [&ground = options->ground](std::int64_t count) { ground = count > 0; },
-    "Whether models stand on a ground; by default those of model files do, those of scene files if "
-    "the file says so");
+    "Put models on a ground, or not. By default, model files get a ground, and scene files decide");
   command
     ->add_option("--ambient", options->ambient,
       "The share of its colour, in [0, 1], that each surface shows where no light falls")
@@ -512,12 +510,11 @@ void addRenderCommand(CLI::App& app)
   command->add_option("--visibility", options->visibility,
     "Also write every light's visibility and the receivers, .exr");
   command->add_option("--stats", options->stats,
-    "Also write what the picture's frames did (several with --progressive), .json");
+    "Also write the report of the picture's frames (several with --progressive), .json");
   command->add_option("--classes", options->classes,
-    "Also write how each pixel's visibility came about, by colours, for the first light whose "
-    "technique "
-    "tells: lit for certain light grey, in shadow for certain dark grey, traced purple, "
-    "penumbras by their edges orange, turned away from the light green; .png or .exr");
+    "Also write each pixel's class as a colour, for the first light whose technique has classes: "
+    "lit for certain light grey, in shadow for certain dark grey, traced purple, penumbras by "
+    "their edges orange, turned away from the light green; .png or .exr");
   command->callback([options] { render(*options); });
 }
 

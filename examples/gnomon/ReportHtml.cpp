@@ -129,7 +129,7 @@ std::string classTable(const ComparisonResults& results)
   }
   if (rows.empty())
   {
-    return "<p>No variant tells its pixels' classes.</p>";
+    return "<p>No variant has pixel classes.</p>";
   }
   return "<table class=\"text\">\n" + heading({ "Variant", "Pixels" }) + "<tbody>\n" + rows +
     "</tbody>\n</table>";

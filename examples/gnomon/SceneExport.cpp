@@ -134,7 +134,7 @@ std::string exportScene(const Scene& scene, const std::string& folder)
   std::filesystem::create_directories(folder, error);
   if (error)
   {
-    throw BadInput("--export: " + folder + ": cannot be made: " + error.message());
+    throw BadInput("--export: " + folder + ": cannot be created: " + error.message());
   }
   const std::string path = (std::filesystem::path(folder) / (scene.name + ".json")).string();
   requireWritableFile(path, "--export", { ".json" });

@@ -49,7 +49,7 @@ nlohmann::json parseAssignments(const std::string& source, const std::string& te
     }
     if (!object.emplace(key, parsed).second)
     {
-      throw BadInput(source + ": key \"" + key + "\" stands twice, expected it once");
+      throw BadInput(source + ": key \"" + key + "\" occurs twice, expected once");
     }
   }
   return object;

@@ -118,8 +118,8 @@ void study(StudyOptions options)
 void addStudyCommand(CLI::App& app)
 {
   CLI::App* const command = app.add_subcommand("study",
-    "Measure what accuracy costs: error and time of techniques over scenes, views, map sizes and "
-    "samples, as a page and a table; goes on where it was interrupted");
+    "Measure the cost of accuracy: error and time of techniques over scenes, views, map sizes and "
+    "samples, as a page and a table; continues an interrupted study");
   const auto options = std::make_shared<StudyOptions>();
   ComparisonPlan& comparison = options->plan.comparison;
   options->plan.scenes = { "bunny", "posts", "plates", "terrain", "atrium", "bench-side", "room",
@@ -141,7 +141,7 @@ void addStudyCommand(CLI::App& app)
     "Scenes: built-in names, scene files or model files, separated by commas")
     ->excludes(quick);
   addList("--techniques", options->techniques,
-    "Techniques, as of gnomon compare. By default all, but for lights that are points " +
+    "Techniques, as for gnomon compare. By default all, except, for point lights, " +
       listOf({ ofAreaLights.begin(), ofAreaLights.end() }))
     ->excludes(quick);
   addList("--map-sizes", comparison.mapSizesTexels, "Sides of the shadow maps in texels")
@@ -152,8 +152,9 @@ void addStudyCommand(CLI::App& app)
     ->excludes(quick);
   command
     ->add_option("--views", options->plan.views,
-      "Views of each scene: its camera, turned about its target by 25 degrees to one side and the "
-      "other, by 50, and so on")
+      "Views of each scene: its camera, turned about its target by 25 degrees to one side and to "
+      "the "
+      "other side, by 50, and so on")
     ->check(CLI::Range(1, 8))
     ->capture_default_str()
     ->excludes(quick);
@@ -166,7 +167,7 @@ void addStudyCommand(CLI::App& app)
     ->excludes(quick);
   command
     ->add_option("--truth-samples", comparison.truthSamples,
-      "Samples of each area light by which the truth is traced")
+      "Samples per area light and pixel of the ray-traced truth")
     ->check(CLI::Range(1, 65536))
     ->capture_default_str()
     ->excludes(quick);

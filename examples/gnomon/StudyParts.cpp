@@ -84,7 +84,7 @@ std::string conclusionOf(const std::vector<StudySummary>& summaries, bool soft)
     " shadows, with " + errorText(best.error, soft) + ". It takes " + timesText(best) + ".</p>\n";
   if (quick.variant != best.variant)
   {
-    html += "<p>Where that is too slow while the camera moves, " + named(quick) + " shows " +
+    html += "<p>If that is too slow while the camera moves, " + named(quick) + " shows " +
       errorText(quick.error, soft) + " in " + timesText(quick) + ".</p>\n";
   }
   return html;
