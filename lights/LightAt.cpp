@@ -11,8 +11,8 @@ namespace gnomon
 namespace
 {
 
-/// Return half the angle, in degrees, of a cone around a spot's axis that holds the scene's part in
-/// the light's own cone, for an apex anywhere on the light.
+/// Return half the angle, in degrees, of a widened cone around a spot light's axis. With its apex
+/// anywhere on the light, it holds the scene's part in the light's own cone.
 double widenedConeDegrees(const ShadowLight& light, const ViewFitting& fitting)
 {
   const double tangent = std::tan(glm::radians(light.coneAngleDegrees));

@@ -16,9 +16,9 @@ namespace gnomon
 ///
 /// It has three spaces. The first is relative to a *centre* that the caller chooses: positions less
 /// the centre are small, so floats hold them.
-/// - View space: x and y lie across the view, z is the distance along its axis, growing away from
-///   the light. z = 0 lies at the light. For a directional light, it lies at the nearest bound, or
-///   at the near face of its box.
+/// - View space: x and y lie across the view. z is the distance along its axis and grows away from
+///   the light, which is at z = 0. For a directional light, it lies at the nearest bound, or at the
+///   near face of its box.
 /// - Across coordinates: the light's rays as points of a plane (LightRays.h).
 /// - The map: [-1, 1]^2, a homography of that plane. It is a scale and an offset for uniform
 ///   projections, and a perspective for warped ones.

@@ -40,9 +40,9 @@ struct WarpFrame
 std::optional<WarpFrame> warpFrame(
   const std::vector<glm::dvec3>& bodyView, const CameraView& camera, const LightRays& rays);
 
-/// Return the perspective from a point `nearWarp` before y = 0 of the frame, fitted to the points:
-/// x / y' and (f + n) / (f - n) - 2 f n / ((f - n) y'), with n = nearWarp, f = n + depth, y' = n +
-/// y (Wimmer, Scherzer, Purgathofer 2004, section 3.2).
+/// Return the perspective from a point `nearWarp` before y = 0 of the frame, fitted to the points.
+/// It is x / y' and (f + n) / (f - n) - 2 f n / ((f - n) y'), with n = nearWarp, f = n + depth, y'
+/// = n + y (Wimmer, Scherzer, Purgathofer 2004, section 3.2).
 ///
 /// Its w is positive over everything visible, and its determinant is positive.
 /// @param nearWarp > 0

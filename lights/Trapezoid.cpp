@@ -25,8 +25,8 @@ double focusOf(const WarpFrame& frame, const CameraView& camera, const LightRays
   const glm::dvec3 view(rays.viewFromCentred * glm::dvec4(centred, 1.0));
   if (rays.positional && !(view.z > 0.0))
   {
-    // The axis' image passes infinity at the light: beyond the far end of the visible range if the
-    // axis runs towards the light, before the near end if it runs away from it.
+    // The axis' image passes infinity at the light. That is beyond the far end of the visible range
+    // if the axis runs towards the light, and before the near end if it runs away.
     const double directionZ = (glm::dmat3(rays.viewFromCentred) * camera.directionCentred()).z;
     return directionZ < 0.0 ? 1.0 : 0.0;
   }

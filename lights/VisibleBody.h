@@ -53,7 +53,7 @@ std::vector<HalfSpace> boxHalfSpaces(const glm::dvec3& box);
 constexpr double nearestShare = 1e-5;
 
 /// Return the near plane of a positional light's view: nearestShare of the largest distance of the
-/// box' corners along its axis. 0 if the whole box lies behind the light, which then sees nothing.
+/// box' corners along its axis. It is 0 if the whole box lies behind the light.
 double nearestOf(const Bounds& sceneCentred, const LightRays& rays);
 
 /// Return the body that the camera may see in this light, in the light's view space. It is the

@@ -17,9 +17,9 @@
  * starts there, too.
  *
  * Techniques with hard shadows use the centre. "raytraced", "penumbra", "coherence", "sampled" and
- * "planar" use the whole area, sampled at as many points as the setting "light_samples"
- * (vtkGnomonLightKeys::SetSetting). "pcss" samples it at "pcss_samples" points, "montecarlo" by
- * "mc_rays" rays. vtkGnomonLightSamplingPass makes VTK shade from all points.
+ * "planar" sample the whole area at "light_samples" points. "pcss" samples it at "pcss_samples"
+ * points, "montecarlo" by "mc_rays" rays. These are settings (vtkGnomonLightKeys::SetSetting).
+ * vtkGnomonLightSamplingPass makes VTK shade from all points.
  *
  * By default it is positional and shines in all directions (ConeAngle 90).
  *
@@ -37,9 +37,9 @@
  * looks like a disk of that radius from all sides. The setting "light_radius", of a light or of the
  * pass, makes any light such a disk or ball.
  *
- * <b>Errors.</b> A light of size 0 is a point. These lights cast no shadow, with the reason in the
- * frame's report: a size that is not finite or above 1e12, no direction, a rectangle or textured
- * disk whose Up is along the light, an invalid Texture.
+ * <b>Errors.</b> A light of size 0 is a point. Some lights cast no shadow, and the frame's report
+ * gives the reason: a size that is not finite or above 1e12, a light without direction, a rectangle
+ * or textured disk with Up along the light, an invalid Texture.
  */
 
 #ifndef vtkGnomonAreaLight_h

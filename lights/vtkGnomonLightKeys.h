@@ -56,10 +56,10 @@ public:
    *
    * - CASTS is 0 or 1. Default: 1.
    * - SETTINGS holds SetSetting()'s names and values, alternating.
-   * - BOX limits a directional light to a box, see above: width, height and depth in world units,
-   *   each > 0, then the up direction x, y, z of the near face. The up direction must not be along
-   *   the light, and is in the light's own coordinates, as Position is. Other kinds of light ignore
-   *   BOX.
+   * - BOX limits a directional light to a box, see above. Its numbers are width, height and depth
+   *   in world units, each > 0, and the up direction x, y, z of the near face. The up direction
+   *   must not be along the light, and is in the light's own coordinates, as Position is. Other
+   *   kinds of light ignore BOX.
    * - OBJECT holds SetSettings()'s object.
    */
   static vtkInformationIntegerKey* CASTS();

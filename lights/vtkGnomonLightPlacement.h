@@ -66,10 +66,10 @@ public:
   static void ShineOnPoints(vtkLight* light, vtkPoints* points);
 
   /**
-   * Make a light the key light for a camera: a directional light on a box, as ShineOnBox() does,
+   * Make a light the key light for a camera: a directional light that shines on a box. It shines
    * from 35 degrees to the left of the camera and 40 degrees above it. It becomes a scene light,
-   * which stays in place when the camera moves. Its transform matrix is removed. A camera without a
-   * direction of view is an error of the light.
+   * which stays in place when the camera moves. Its transform matrix is removed. An empty box, or a
+   * camera without a direction of view, is an error of the light.
    *
    * @code
    * vtkNew<vtkLight> key;

@@ -26,7 +26,7 @@ bool areFinite(std::initializer_list<double> numbers)
 
 bool isWithin(double number, double low, double high)
 {
-  return number >= low && number <= high; // false of what is not a number
+  return number >= low && number <= high; // false for NaN
 }
 
 /// The sun's place in degrees, with refraction if that is on.

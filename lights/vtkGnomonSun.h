@@ -13,10 +13,10 @@
  * @endcode
  *
  * Positions follow the Solar Position Algorithm (Reda and Andreas, Solar Energy 76, 2004; revised
- * 2008), without periodic terms below 2e-6 radians. They are within 0.001 degrees of the full
- * theory (VSOP87) in the years 1583 to 3000 if DeltaT is right, and within 0.002 degrees in 1900 to
- * 2100 with the default DeltaT. They are positions of the centre of the sun's disc, for an observer
- * on the ground.
+ * 2008), without periodic terms below 2e-6 radians. With the right DeltaT, they are within 0.001
+ * degrees of the full theory (VSOP87) in the years 1583 to 3000. With the default DeltaT, they are
+ * within 0.002 degrees in 1900 to 2100. They are positions of the centre of the sun's disc, for an
+ * observer on the ground.
  *
  * The scene's axes are given by North and Up. By default +y is north, +z is up and +x is east.
  *
@@ -88,8 +88,8 @@ public:
 
   ///@{
   /**
-   * Terrestrial time less UTC, in seconds. Ten seconds move the sun by 0.0001 degrees. Default: 69,
-   * right within 5 seconds from 2003 to 2026.
+   * Terrestrial time minus UTC, in seconds, in [-100000, 100000]. Ten seconds move the sun by
+   * 0.0001 degrees. Default: 69, right within 5 seconds from 2003 to 2026.
    */
   virtual void SetDeltaT(double seconds);
   vtkGetMacro(DeltaT, double);
@@ -98,8 +98,8 @@ public:
   ///@{
   /**
    * Refraction: true to include the air's refraction, which lifts the sun by half a degree at the
-   * horizon. SetAir() sets pressure in millibar and temperature in degrees Celsius. Default: off;
-   * 1010, 10.
+   * horizon. SetAir() sets the pressure in millibar, in [0, 5000], and the temperature in degrees
+   * Celsius, in [-200, 1000]. Default: off; 1010, 10.
    */
   vtkSetMacro(Refraction, bool);
   vtkGetMacro(Refraction, bool);

@@ -216,7 +216,7 @@ private:
   }
 
   std::vector<std::unique_ptr<MeasuredWindow>> windows_;
-  std::vector<std::vector<double>> medians_; ///< milliseconds, by what moves and by window
+  std::vector<std::vector<double>> medians_; ///< milliseconds, by moving object and by window
 };
 
 struct CalibrateOptions

@@ -119,8 +119,8 @@ vtkSmartPointer<vtkLight> makeLight(const SceneLight& source)
 void setClippingRange(vtkRenderer* renderer, const Scene& scene, double aspect)
 {
   // Settings for a camera that moves later. VTK widens the range by half its length, which wastes
-  // depth precision. It puts the near plane at a hundredth of the far one if the eye is in the
-  // scene's box, which clips the ground in front of an eye that stands on it.
+  // depth precision. If the eye is in the scene's box, VTK puts the near plane at a hundredth of
+  // the far one. That clips the ground in front of an eye that stands on it.
   constexpr double smallestNearShare = 1e-4;
   renderer->SetClippingRangeExpansion(0.05);
   renderer->SetNearClippingPlaneTolerance(smallestNearShare);

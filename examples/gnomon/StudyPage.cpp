@@ -51,7 +51,7 @@ std::vector<Group> groupsOf(const std::vector<StudyRow>& rows)
   return groups;
 }
 
-/// Return the results of `tell` for the groups of all scenes.
+/// Return the texts of `tell` for the groups of all scenes.
 template <typename Tell>
 std::string ofAllScenes(const std::vector<Group>& groups, const Tell& tell)
 {
