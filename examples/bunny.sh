@@ -1,15 +1,16 @@
 #!/bin/bash
-# Shows shadows on the Stanford bunny, on a bare Debian 12 or any machine set up like one: first one
-# picture, without shadows, with VTK's own and ray traced, then a report that compares techniques.
+# Show shadows on the Stanford bunny, on a bare Debian 12 or a machine set up like one. The first
+# picture shows no shadows, VTK's own and ray-traced shadows. A report then compares techniques.
 #
 #   examples/bunny.sh [--all]
 #
-# It compares the techniques to choose among, or all. Options go to `gnomon compare`.
+# By default, it compares the recommended techniques; --all compares all. Options go to `gnomon
+# compare`.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source cmake/debian.sh
 
-# say TEXT : says what begins, and when.
+# say TEXT : print the elapsed time and what begins.
 say()
 {
   printf '[%3d s] %s\n' "$SECONDS" "$1"

@@ -203,7 +203,7 @@ int main(int argc, char* argv[])
   window->AddRenderer(renderer);
 
   addKeyLight(renderer);
-  setVtksPass(renderer); // not drawn: it reports errors when it goes
+  setVtksPass(renderer); // not rendered: it reports errors when it is released
   auto shadows = setGnomonsPass(renderer);
   window->Render();
   putAround(renderer, shadows);

@@ -1,5 +1,5 @@
-// A figure for a paper, drawn on a machine without a display: a terrain in the evening, coloured by
-// height, with a scale.
+// A figure for a paper, rendered on a machine without a display: a terrain in the evening, coloured
+// by height, with a scale.
 //
 //   headless_figure figure.png
 
@@ -36,8 +36,8 @@ namespace
 constexpr double sideMetres = 4000.0;
 constexpr double highestMetres = 900.0;
 
-/// A square of mountains around a valley: ridges of gradient noise in six octaves, x east, y north,
-/// z up, all in metres.
+/// Return a square of mountains around a valley: ridges of gradient noise in six octaves. x is
+/// east, y north, z up, in metres.
 vtkSmartPointer<vtkPolyData> makeTerrain()
 {
   vtkNew<vtkPlaneSource> square;
@@ -133,7 +133,7 @@ int main(int argc, char* argv[])
   sun->SetPosition(-0.94, 0.10, 0.34);
   sun->SetIntensity(1.0);
   renderer->AddLight(sun);
-  vtkNew<vtkLight> sky; // keeps shadows readable, and throws none itself
+  vtkNew<vtkLight> sky; // fills shadows, and casts none
   sky->SetFocalPoint(0, 0, 0);
   sky->SetPosition(0.2, -0.3, 1);
   sky->SetColor(0.85, 0.92, 1.0);

@@ -55,13 +55,13 @@ inline double largestCoordinate(const Bounds& bounds)
   return std::max(largest.x, std::max(largest.y, largest.z));
 }
 
-/// Return the box that reaches farther by as much on all sides; an empty one stays empty.
+/// Return the box grown by `by` on all sides. An empty box stays empty.
 inline Bounds inflated(const Bounds& bounds, double by)
 {
   return { bounds.lower - by, bounds.upper + by };
 }
 
-/// Return the box round an affinely transformed box.
+/// Return the axis-aligned box around an affinely transformed box.
 inline Bounds affinelyTransformed(const Bounds& bounds, const glm::dmat4& matrix)
 {
   Bounds result;
@@ -72,15 +72,15 @@ inline Bounds affinelyTransformed(const Bounds& bounds, const glm::dmat4& matrix
   return result;
 }
 
-/// Whether a projection may show something of a box: false only if it shows nothing of it. What
-/// lies before the near plane or behind the far one counts as shown.
+/// True if a projection may show part of a box; false only if it shows nothing of it. Parts in
+/// front of the near plane or behind the far plane count as shown.
 inline bool mayShow(const glm::dmat4& clipFromSpace, const Bounds& bounds)
 {
   if (bounds.empty())
   {
     return false;
   }
-  // Corners outside of each of the planes that bound clip space.
+  // The number of corners outside each plane that bounds clip space.
   std::array<int, 5> outside{};
   for (const glm::dvec3& corner : bounds.corners())
   {

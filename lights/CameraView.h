@@ -9,8 +9,8 @@
 namespace gnomon
 {
 
-/// The camera that the light's maps are fitted to, in centred coordinates (LightView.h) and
-/// OpenGL's conventions: it looks along -z of its view space, and clip space is [-1, 1]^3 after
+/// The camera that a light's maps are fitted to, in centred coordinates (LightView.h). Conventions
+/// are OpenGL's: the camera looks along -z of its view space, and clip space is [-1, 1]^3 after
 /// division.
 struct CameraView
 {
@@ -19,25 +19,26 @@ struct CameraView
 
   glm::dmat4 clipFromCentred() const { return this->clipFromView * this->viewFromCentred; }
 
-  /// The eye of a perspective; of a parallel projection the origin of its view space.
+  /// Return the eye of a perspective camera, or the view space origin of a parallel camera.
   glm::dvec3 eyeCentred() const
   {
     // The inverse of a rigid transformation.
     return -(
       glm::transpose(glm::dmat3(this->viewFromCentred)) * glm::dvec3(this->viewFromCentred[3]));
   }
-  /// Unit vector along which the camera looks.
+  /// Return the unit vector along which the camera looks.
   glm::dvec3 directionCentred() const
   {
     return -glm::dvec3(
       this->viewFromCentred[0][2], this->viewFromCentred[1][2], this->viewFromCentred[2][2]);
   }
-  /// Whether w does not depend on the distance, so that nothing looks smaller far away.
+  /// True for a parallel projection: w does not depend on distance.
   bool isParallel() const { return this->clipFromView[2][3] == 0.0; }
 
-  /// How large a pixel of a picture of this size is across the view, in world units: the side of
-  /// the square with its area is x + y * distance, the distance being that along the direction of
+  /// Return the side of a pixel in world units, as coefficients: the side is x + y * distance. It
+  /// is the side of the square with the pixel's area. Distance is measured along the direction of
   /// view.
+  /// @param sizePixels size of the picture
   glm::dvec2 pixelSide(const glm::ivec2& sizePixels) const
   {
     const double pixelsOfUnit = 0.5 *
@@ -46,8 +47,9 @@ struct CameraView
     return glm::dvec2(this->clipFromView[3][3], -this->clipFromView[2][3]) / pixelsOfUnit;
   }
 
-  /// The frustum's corners; bits 0, 1 and 2 of the index choose right, top and far. Those of a far
-  /// plane at infinity are not finite: what has to hold for all cameras uses the planes.
+  /// Return the frustum's corners. Bits 0, 1 and 2 of the index choose right, top and far. Corners
+  /// of a far plane at infinity are not finite, so code that must work for all cameras uses the
+  /// planes.
   std::array<glm::dvec3, 8> cornersCentred() const
   {
     const glm::dmat4 centredFromClip = glm::inverse(this->clipFromCentred());
@@ -60,12 +62,13 @@ struct CameraView
     }
     return result;
   }
-  /// The distances of the clipping planes; far is infinite where the projection has none.
+  /// Return a clipping plane's distance. It is infinite for a projection without a far plane.
   double nearDistance() const { return this->distanceAtDepth(-1.0); }
   double farDistance() const { return this->distanceAtDepth(1.0); }
 
 private:
-  /// Where z/w has this value on the axis: a z + b = depth (c z + e), z = -distance.
+  /// Return the distance on the axis at which z/w is `depth`. It solves a z + b = depth (c z + e)
+  /// with z = -distance.
   double distanceAtDepth(double depth) const
   {
     const double a = this->clipFromView[2][2];

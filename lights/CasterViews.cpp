@@ -37,7 +37,7 @@ SlopeInterval around(const SlopeInterval& interval, double half)
   return { middle - half, middle + half };
 }
 
-/// The slopes x/z of the points with x in `across`, z in `along` (> 0).
+/// Return the slopes x/z of points with x in `across` and z in `along` (> 0).
 SlopeInterval slopesOf(const SlopeInterval& across, const SlopeInterval& along)
 {
   return { across.lower / (across.lower < 0.0 ? along.lower : along.upper),
@@ -51,7 +51,7 @@ struct Casters
   std::array<SlopeInterval, 2> slopes; ///< x/z and y/z
 };
 
-/// @return nothing where all of them lie behind the light
+/// Return the casters' distances and slopes; nothing if all casters lie behind the light.
 std::optional<Casters> castersInFront(const Bounds& castersView)
 {
   const glm::dvec3& lower = castersView.lower;
@@ -60,14 +60,14 @@ std::optional<Casters> castersInFront(const Bounds& castersView)
   {
     return std::nullopt;
   }
-  // A caster may touch the light: near stays positive, but well below anything that can be told
-  // apart at the far end. Linear depth does not suffer from a small near plane as z/w does.
+  // A caster may touch the light. So near stays positive, but far below the depth resolution at the
+  // far end. A small near plane costs linear depth no precision, unlike z/w.
   const SlopeInterval distances{ std::max(lower.z, nearestShare * upper.z), upper.z };
   return Casters{ distances,
     { { slopesOf({ lower.x, upper.x }, distances), slopesOf({ lower.y, upper.y }, distances) } } };
 }
 
-/// The view of a positional light whose map spans these slopes.
+/// Return the view of a positional light whose map spans these slopes.
 LightView perspectiveView(const SlopeInterval& distances,
   const std::array<SlopeInterval, 2>& slopes, const glm::dmat4& viewFromCentred)
 {
@@ -81,11 +81,11 @@ LightView perspectiveView(const SlopeInterval& distances,
   return view;
 }
 
-/// What the map of a cube's face spans along an axis, less its border: the casters on the face and
-/// those that a technique reads across its edges, which are as far away as the border is wide.
-/// @param casters slopes
-/// @param least half of what the map spans at least
-/// @return nothing where no caster is read
+/// Return the slopes that a cube face's map spans along an axis, without its border. They hold the
+/// casters on the face, and those beyond its edges that a technique reads: up to a border's width.
+/// @param casters their slopes
+/// @param least lower limit of half the span
+/// @return nothing if no caster is read
 std::optional<SlopeInterval> spanOfFace(const SlopeInterval& casters, double least, double inside)
 {
   const double half = std::max(halfOf(within(casters, 1.0)), least) + 1e-6;
@@ -109,7 +109,7 @@ LightView parallelCasterView(
   const glm::dvec3 widening(smallest);
   const glm::dvec3 lower = castersView.lower - widening;
   const glm::dvec3 upper = castersView.upper + widening;
-  // Depths are compared relative to this range: flat boxes get a deeper one.
+  // Depths are compared relative to this range, so flat boxes get a deeper one.
   const double depth = std::max((1.0 + roomBehindCasters) * (upper.z - lower.z), radius);
 
   LightView view;

@@ -12,31 +12,33 @@
 namespace gnomon
 {
 
-/// The far plane lies this share of the depth range behind the last caster: what a technique writes
-/// for it, pushed back as that may be, stays apart from the depth 1 of texels without a caster.
+/// The far plane lies this share of the depth range behind the last caster. So a caster's depth,
+/// even pushed back by a technique, stays below 1, the depth of empty texels.
 constexpr double roomBehindCasters = 0.125;
 
 ///@{
-/// Views around a light's casters, uniform, without a border: what all projections start from
+/// Uniform views around a light's casters, without a border. All projections start from them
 /// (LightViews.h). Bounds without extent along an axis are widened relative to their own size.
 
-/// @param castersView what to cover; not empty
-/// @param radius of all casters: what their positions are rounded in proportion to
+/// Return the view of parallel rays.
+/// @param castersView bounds to cover, in view space; not empty
+/// @param radius of all casters; their positions round in proportion to it
 LightView parallelCasterView(
   const Bounds& castersView, double radius, const glm::dmat4& viewFromCentred);
 
-/// @param slopeLimit the largest |x/z| and |y/z| of what the light reaches
-/// @return nothing where no caster can be seen
+/// Return the view of a spot light.
+/// @param slopeLimit largest |x/z| and |y/z| that the light reaches
+/// @return nothing if the light sees no caster
 std::optional<LightView> spotCasterView(
   const Bounds& castersView, const glm::dmat4& viewFromCentred, double slopeLimit);
 
-/// The faces of a cube: nothing for those that see no casters. A face whose only casters lie beyond
-/// its edge, but no farther than the border, sees them, too.
+/// Return a view for each face of a cube; nothing for a face that sees no casters. A face also sees
+/// casters beyond its edge, up to the width of its border.
 ///
-/// A technique's kernel is as wide as the texels make it, and so should they be on both sides of a
-/// face's edge: the maps of faces with casters near an edge have texels no smaller than half of the
-/// cube's largest ones.
-/// @param inside the share of a map's side between its borders
+/// A technique's kernel scales with texels, so texels on both sides of a face's edge should have
+/// similar sizes. Faces with casters near an edge therefore have texels at least half as large as
+/// the cube's largest texels.
+/// @param inside share of a map's side between its borders
 std::array<std::optional<LightView>, cubeFaces> cubeCasterViews(
   const Bounds& castersLight, const glm::dmat4& lightFromCentred, double inside);
 ///@}

@@ -9,17 +9,18 @@
 namespace gnomon
 {
 
-/// Random points of the unit square or cube, each by itself: of the pixel and its number, by
-/// reducedMd5(), half a word for each coordinate of the square (Curtis 2009, section 3.1).
+/// Independent random points of the unit square or cube. reducedMd5() hashes the pixel and the
+/// point's number; each coordinate of the square is half a word of the hash (Curtis 2009, section
+/// 3.1).
 ///
-/// A cube's third coordinates are hashes of those hashes. Those of seeds that differ in a bit would
-/// not do: 16 steps leave them too much alike, so that the second and the third coordinate depended
-/// on each other with every other key.
+/// A cube's third coordinates are hashes of those hashes. Hashing seeds that differ in one bit
+/// would not do. After 16 steps they are still too similar: with every other key, the second and
+/// third coordinates would depend on each other.
 class HashedPoints
 {
 public:
   /// @param dimensions 2 or 3
-  /// @param side points lie one in each cell of a grid of side x side, row by row; 1: anywhere
+  /// @param side one point lies in each cell of a grid of side x side, row by row; 1: anywhere
   HashedPoints(int dimensions, int side, std::uint32_t key)
     : solid_(dimensions == 3)
     , side_(static_cast<std::uint32_t>(side))
@@ -34,7 +35,7 @@ public:
     return pixel;
   }
 
-  /// Point `i` of a pixel: fractions of 2^32; of the square, the third one is 0.
+  /// Return point `i` of a pixel, as fractions of 2^32. The third coordinate is 0 for the square.
   glm::uvec3 point(int i, const SamplePixel& pixel) const;
 
 private:

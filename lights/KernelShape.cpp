@@ -88,8 +88,8 @@ double reachOfArea(const LightArea& area, const LightViews& views, const Bounds&
     {
       farthest = std::max(farthest, (view.rays.viewFromCentred * glm::dvec4(corner, 1.0)).z);
     }
-    // A cube's face may see the casters' box from its own plane on, but nothing nearer than the box
-    // is.
+    // A cube's face may see the casters' box from the face's plane on, but nothing nearer than the
+    // box.
     const double longest = longestRay(view);
     const double nearest = view.rays.positional ? std::max(view.beginsAt, clearance / longest)
                                                 : -view.depthOffset / view.depthScale;

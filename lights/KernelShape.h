@@ -7,40 +7,42 @@
 namespace gnomon
 {
 
-/// How a map's texels lie at a point across the light: d texel / d across of a homography.
+/// Return the Jacobian d texel / d across of a homography at a point across the light.
 /// @param texelFromAcross positive w at the point, positive determinant
 glm::dmat2 texelJacobian(const glm::dmat3& texelFromAcross, const glm::dvec2& across);
 
-/// The shape of a kernel that is even across the light and keeps its area in texels: J / sqrt(det
-/// J), whose singular values are the stretch s and 1 / s. Where s is larger than the limit, the
-/// matrix that stretches by the limit along the same axes.
+/// Return the shape on the map of a kernel that is isotropic across the light and keeps its area in
+/// texels. It is J / sqrt(det J), with singular values s (the stretch) and 1 / s. If s exceeds the
+/// limit, the result stretches by the limit along the same axes.
 ///
-/// A matrix is the sum of a turn and of a mirroring, both scaled: by half the sum and half the
-/// difference of the singular values. The limit changes those two numbers alone.
+/// A 2 x 2 matrix is the sum of a scaled rotation and a scaled reflection. Their scales are half
+/// the sum and half the difference of the singular values. The limit changes these two numbers
+/// only.
 ///
-/// Degenerate case: a determinant of 0 stretches without end, and so by the limit.
+/// Degenerate case: a determinant of 0 means an infinite stretch, so the limit applies.
 /// @param jacobian not 0, determinant not negative
 /// @param largestStretch >= 1
 glm::dmat2 evenShape(const glm::dmat2& jacobian, double largestStretch);
 
-/// The limit of the stretch of a kernel that is so many texels wide: so that its narrow side is
-/// still that of the bilinear filter of one texel (n + 1 texels, of which stretching leaves 2), and
-/// 4 at most. A texel may be 16 times as long across the light as it is wide until the latter is
-/// felt, 4 times for the default kernel of 3 texels.
+/// Return the limit of a kernel's stretch, at most 4. A kernel of n texels reads n + 1 texels with
+/// its bilinear filter. The limit leaves 2 texels on the narrow side, as a bilinear filter of one
+/// texel has. Texels may be 16 times as long as wide before the limit of 4 shows; for the default
+/// kernel of 3 texels, 4 times.
 double largestStretch(int kernelTexels);
 
-/// The most texels to a unit across the light in any of the views; 0 without views.
+/// Return the most texels per unit across the light over all views; 0 without views.
 double mostTexelsAcross(const LightViews& views, int sizeTexels);
 
-/// How far from a point's place across the light the rays to an area light pass the casters, at
-/// most: of the casters that come first and the farthest point that receives. Of a caster at
-/// distance z from the light and a receiver at distance r, that is the light's radius times 1 / z -
-/// 1 / r, of a directional light times r - z; and more where a cube's face sees the light at a
-/// slant.
+/// Return a bound on how far rays to an area light stray from a receiver's place across the light
+/// where they pass casters. For a caster at distance z from the light and a receiver at distance r,
+/// it is the light's radius times 1 / z - 1 / r. For directional lights it is the radius times r -
+/// z. The bound takes the nearest caster and the farthest receiver, and is larger for cube faces,
+/// which see the light at a slant.
 double reachOfArea(const LightArea& area, const LightViews& views, const Bounds& castersCentred,
   const Bounds& receiversCentred);
 
-/// Of a positional light's view: the length of the longest ray on the map that reaches distance 1.
+/// Return the length of the longest ray on a positional light's map, up to distance 1 along the
+/// view.
 double longestRay(const LightView& view);
 
 } // namespace gnomon

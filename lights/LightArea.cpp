@@ -11,7 +11,8 @@ namespace gnomon
 namespace
 {
 
-/// The point of the border of the square of half side 1 that is this share of the way around it.
+/// Return a point on the border of the square of half side 1.
+/// @param share of the way around the border, in [0, 1)
 glm::dvec3 borderOfSquare(double share)
 {
   const double sides = 4.0 * share;
@@ -29,8 +30,8 @@ glm::dvec3 borderOfSquare(double share)
   }
 }
 
-/// One of the points of a spiral over the sphere of radius 1, each of which stands for as much of
-/// it: share is its place among them, in (0, 1).
+/// Return a point of a spiral over the unit sphere whose points represent equal areas.
+/// @param share the point's place along the spiral, in (0, 1)
 glm::dvec3 pointOfSphere(double share, std::size_t number)
 {
   const double angle =
@@ -69,7 +70,7 @@ LightArea rectangleArea(const glm::dvec3& travel, const glm::dvec3& up, const gl
 //------------------------------------------------------------------------------
 LightArea diskArea(const glm::dvec3& travel, double radius)
 {
-  // Any axes do.
+  // A disk's axes are arbitrary.
   const LightArea square = rectangleArea(travel, axisAcross(travel), glm::dvec2(radius));
   return { LightArea::Shape::Disk, square.worldFromUnit };
 }

@@ -11,8 +11,8 @@ namespace gnomon
 namespace
 {
 
-/// Half the angle, in degrees, of a cone around a spot's axis that holds what its own holds of the
-/// scene, wherever on the light its apex is.
+/// Return half the angle, in degrees, of a widened cone around a spot light's axis. With its apex
+/// anywhere on the light, it holds the scene's part in the light's own cone.
 double widenedConeDegrees(const ShadowLight& light, const ViewFitting& fitting)
 {
   const double tangent = std::tan(glm::radians(light.coneAngleDegrees));
@@ -26,7 +26,7 @@ double widenedConeDegrees(const ShadowLight& light, const ViewFitting& fitting)
                            .clipped(coneHalfSpaces(tangent, nearest));
   const double reach = light.area->radius();
   double widened = tangent;
-  // Slopes from a point are largest at the corners of a convex body. The area lies across the axis.
+  // Slopes from a point are largest at a convex body's corners. The area lies across the axis.
   for (const glm::dvec3& corner : lit.vertices())
   {
     widened = std::max(widened, tangent + reach / corner.z); // z >= nearest > 0
@@ -34,14 +34,16 @@ double widenedConeDegrees(const ShadowLight& light, const ViewFitting& fitting)
   return glm::degrees(std::atan(widened));
 }
 
-/// Gives a directional light, whose direction has been turned to a point's, a box around all of
-/// that point's rays into the centre's box.
+/// Give a directional light a box around all rays from one point of the light into the centre's
+/// box.
+/// @param at the light, with its direction already turned to the point's
+/// @param towardsPoint vector towards the point
 void standBox(ShadowLight& at, const ShadowLight& light, const glm::dvec3& towardsPoint)
 {
   const LightBox& box = *light.box;
-  const glm::dvec3 origin(0.0); // any
+  const glm::dvec3 origin(0.0); // arbitrary
   const glm::dmat4 worldFromLight = glm::inverse(lightFromCentred(light, origin));
-  // It stays across the rays of all points, if turned by less than a right angle.
+  // It is not along any point's rays, as these are turned by less than a right angle.
   at.box->upWorld = glm::dvec3(worldFromLight[1]);
   const glm::dmat4 pointFromWorld = lightFromCentred(at, origin);
   Bounds rays;

@@ -8,18 +8,19 @@
 namespace gnomon
 {
 
-/// The light that shines from one point of an area light, for maps of what that point sees.
+/// Return the light without area that shines from one point of an area light. Techniques bake a map
+/// of that point's view from it.
 ///
-/// Only the centre says what the light reaches, so that this one reaches all of it: fitLightViews()
-/// then covers every caster that may be in the way of a receiver in the centre's cone or box.
-/// - A spot's cone is wide enough to hold, from each point of the light, what the centre's cone
-///   holds of the scene. It is the same at all points, so that their views are laid out alike: as a
-///   cube where the light is large beside its distance from the receivers.
-/// - A box stands along the point's rays, around all of those that end in the centre's box. Casters
-///   count behind the centre's near face, which is not this box's (nearFaceCentred).
+/// The area light's reach is the cone or box of its centre. The returned light reaches all of it,
+/// so fitLightViews() covers every caster that may block a receiver there.
+/// - A spot's cone is wide enough to hold, from each point of the light, the scene's part in the
+///   centre's cone. It is the same at all points, so their views have the same layout. That is a
+///   cube if the light is large relative to its distance from the receivers.
+/// - A box lies along the point's rays, around all rays that end in the centre's box. Casters count
+///   only behind the near face of the centre's box (nearFaceCentred), not of this box.
 ///
 /// @param light with an area
-/// @param offset of the point from the light's centre, as LightArea measures it
+/// @param offset of the point from the light's centre, in LightArea's units
 ShadowLight lightAt(const ShadowLight& light, const glm::dvec3& offset, const ViewFitting& fitting);
 
 } // namespace gnomon

@@ -28,10 +28,11 @@ namespace gnomon
 namespace
 {
 
-/// The largest coordinate of a lamp: of those beyond, floats do not hold the squares.
+/// The largest coordinate of a lamp. Squares of larger ones overflow floats.
 constexpr double farthestPosition = 1e18;
 
-/// VTK takes the cone of a positional light for a spot's below 90 degrees only.
+/// Return the light's kind. As in VTK, a positional light is a spot light only if its cone's half
+/// angle is below 90 degrees.
 LightKind kindOf(vtkLight* light)
 {
   if (!light->GetPositional())
@@ -46,14 +47,14 @@ bool isFinite(const glm::dvec3& point)
   return std::isfinite(point.x) && std::isfinite(point.y) && std::isfinite(point.z);
 }
 
-/// Whether an up direction is not along the light. A millionth of the right angle is where rounding
-/// begins to turn what it is up for.
+/// True if an up direction is not along the light. Below a millionth of a right angle, rounding
+/// would rotate the shape.
 bool isAcross(const glm::dvec3& up, const glm::dvec3& travel)
 {
   return glm::length(glm::cross(up, travel)) > 1e-6 * glm::length(up) * glm::length(travel);
 }
 
-/// The box of a directional light, if it has one. Its up direction turns with the light.
+/// Return a directional light's box, if it has one. The light's transform rotates the up direction.
 std::optional<LightBox> readBox(vtkLight* light)
 {
   vtkInformation* keys = light->GetInformation();
@@ -69,7 +70,7 @@ std::optional<LightBox> readBox(vtkLight* light)
   return box;
 }
 
-/// The radius that a light has by OSPRay's key; 0 where it has none.
+/// Return a light's radius from OSPRay's key; 0 without the key.
 double ospRayRadius(vtkLight* light)
 {
   vtkInformationDoubleKey* key = ospRayRadiusKey();
@@ -77,7 +78,7 @@ double ospRayRadius(vtkLight* light)
   return key && keys->Has(key) ? keys->Get(key) : 0.0;
 }
 
-/// What a light says of its size, in the units of vtkGnomonAreaLight.
+/// A light's size, in the units of vtkGnomonAreaLight.
 struct AreaSize
 {
   LightArea::Shape shape = LightArea::Shape::Disk;
@@ -85,7 +86,8 @@ struct AreaSize
   glm::dvec3 up{ 0.0 };   ///< of vtkGnomonAreaLight, in the light's own coordinates
 };
 
-/// A radius as OSPRay measures it is of a directional light the whole angle already.
+/// Return the size of a round light from OSPRay's radius. A directional light's OSPRay radius is
+/// already the whole angle.
 AreaSize roundSize(vtkLight* light, double radius, LightArea::Shape shape)
 {
   return { shape, glm::dvec2(light->GetPositional() ? 2.0 * radius : radius) };
@@ -111,15 +113,16 @@ AreaSize readAreaSize(vtkLight* light, const ShadowSettings& settings)
   return size;
 }
 
-/// A light that is more than a point, and how its colour is spread.
+/// A light's area, and the distribution of its colour.
 struct LitArea
 {
   std::optional<LightArea> area;
   std::optional<PlacedTexture> texture;
 };
 
-/// @param texture null: its points shine alike
-/// @param reason to skip the light; filled where its numbers give no area
+/// Return a light's area and placed texture; no area for a point light.
+/// @param texture null: all points emit alike
+/// @param reason to skip the light; set if its numbers give no valid area
 LitArea readArea(vtkLight* light, const ShadowSettings& settings,
   const std::shared_ptr<const LightTexture>& texture, std::string& reason)
 {
@@ -194,9 +197,9 @@ LitArea readArea(vtkLight* light, const ShadowSettings& settings,
   return lit;
 }
 
-/// What is asked of a light's shadows.
-/// @param reason to skip the light; filled, if it is empty, where a setting does not take its
-/// value, which SetSetting would have refused
+/// Return a light's settings.
+/// @param reason to skip the light; set if it is empty and a setting has an invalid value, which
+/// SetSetting would have refused
 ShadowSettings readSettings(vtkLight* light, const ShadowSettings& defaults, std::string& reason)
 {
   ShadowSettings settings = defaults;
@@ -217,7 +220,7 @@ ShadowSettings readSettings(vtkLight* light, const ShadowSettings& defaults, std
   return settings;
 }
 
-/// Why nothing is lit by this light; empty when something is.
+/// Return why this light gives no light; empty if it does.
 std::string whyDark(vtkLight* light)
 {
   if (!light->GetSwitch())
@@ -235,7 +238,7 @@ std::string whyDark(vtkLight* light)
   return {};
 }
 
-/// Why no shadow is asked of this light; empty when one is.
+/// Return why this light is to cast no shadow; empty if it is to cast one.
 std::string whyWithoutShadow(vtkLight* light)
 {
   vtkInformation* keys = light->GetInformation();
@@ -254,7 +257,7 @@ std::string whyWithoutShadow(vtkLight* light)
   return {};
 }
 
-/// The only light that gives light, if it is a headlight that would cast by default
+/// Return the only light that gives light, if it is a headlight that would cast by default
 /// (vtkGnomonLightKeys::CASTS is not set); else null.
 const vtkLight* loneHeadlight(vtkRenderer* renderer)
 {
@@ -278,7 +281,7 @@ const vtkLight* loneHeadlight(vtkRenderer* renderer)
   return castsByDefault && only->LightTypeIsHeadlight() ? only : nullptr;
 }
 
-/// Why this light's numbers say not where it shines from and to; empty when they do.
+/// Return why this light has no valid place and direction; empty if it has.
 std::string whyWithoutPlace(vtkLight* light)
 {
   if (light->GetPositional() && !(light->GetConeAngle() > 0.0))
@@ -336,7 +339,7 @@ ShadowLight readLight(vtkLight* light, const ShadowSettings& settings, LitArea l
   light->GetTransformedPosition(&position.x);
   light->GetTransformedFocalPoint(&focalPoint.x);
   result.positionWorld = position;
-  if (result.kind != LightKind::Point) // which need not have one
+  if (result.kind != LightKind::Point) // which may lack one
   {
     result.directionWorld = glm::normalize(focalPoint - position);
   }
@@ -412,7 +415,7 @@ LightSet LightManager::read(
       set.skipped.push_back({ sceneIndex, reason });
     }
     ++sceneIndex;
-    // VTK numbers lightColorN over the lights that are switched on, whether or not they cast.
+    // VTK numbers lightColorN over all lights that are switched on, including those that cast none.
     shaderIndex += light->GetSwitch() ? 1 : 0;
   }
   this->textures_ = std::move(textures);
@@ -422,7 +425,7 @@ LightSet LightManager::read(
 //------------------------------------------------------------------------------
 void LightManager::makePoint(vtkLight* light)
 {
-  vtkGnomonLightKeys::SetSetting(light, "light_radius", "0"); // whatever the pass says
+  vtkGnomonLightKeys::SetSetting(light, "light_radius", "0"); // overrides the pass
   for (const SettingsTable* table : { &lightSampleSettings(), &lightSeedSettings() })
   {
     for (const Setting& setting : table->settings)
@@ -437,9 +440,9 @@ void LightManager::makePoint(vtkLight* light)
 }
 
 //------------------------------------------------------------------------------
-/// The texture of a light that has one.
-/// @param current gets what is read or kept
-/// @param reason to skip the light; filled, if it is empty, where its image is no texture
+/// Return a light's texture; null without one.
+/// @param current receives the texture, read or cached
+/// @param reason to skip the light; set if it is empty and the image is not a valid texture
 std::shared_ptr<const LightTexture> LightManager::textureOf(
   vtkLight* light, ReadTextures& current, std::string& reason)
 {

@@ -20,14 +20,14 @@ VTK_ABI_NAMESPACE_END
 namespace gnomon
 {
 
-/// A light that is left out in this frame, and why.
+/// A light that is skipped in this frame, and the reason.
 struct SkippedLight
 {
   int sceneIndex = 0; ///< place in the renderer's light collection
-  std::string reason; ///< a whole clause for people, e.g. "switched off"
+  std::string reason; ///< a clause for users, e.g. "switched off"
 };
 
-/// The frame's lights that were asked for, and those of them that are left out.
+/// The frame's lights that were asked for, and those of them that were skipped.
 struct LightSet
 {
   std::vector<ShadowLight> lights;
@@ -35,59 +35,62 @@ struct LightSet
   bool headlightIsAlone = false; ///< a headlight was skipped because it is the only light
 };
 
-/// Reads the renderer's vtkLights as they are at this moment.
+/// Reads the current state of a renderer's vtkLights.
 ///
-/// Head and camera lights are taken through their transform, which the renderer's
-/// UpdateLightsGeometryToFollowCamera() must have set for this frame. Lights that cannot show a
-/// shadow are left out with a reason: switched off, black, no intensity, marked as not casting,
-/// strength 0, and those whose numbers give no light (a cone without angle, an empty box, an
-/// endless area). A headlight that is the only light is left out unless it is marked as casting:
-/// its shadows hide behind what casts them. How large a light is follows from the setting
-/// `light_radius`, else from vtkGnomonAreaLight, else from OSPRay's key for it.
+/// Headlights and camera lights go through their transform. The renderer's
+/// UpdateLightsGeometryToFollowCamera() must have set it for this frame.
 ///
-/// Textures of lights are kept until the next frame: an image is read once, however many lights
-/// have it, and again when it has changed.
+/// Lights that cannot show a shadow are skipped with a reason: switched off, black, no intensity,
+/// marked as not casting, strength 0, or invalid numbers (a cone without angle, an empty box, an
+/// infinite area). A headlight that is the only light is skipped unless it is marked as casting,
+/// because casters hide its shadows from the camera.
+///
+/// A light's size comes from the setting `light_radius`, else from vtkGnomonAreaLight, else from
+/// OSPRay's key.
+///
+/// Lights' textures are cached until the next frame. An image is read once for all lights that
+/// share it, and again after it is modified.
 class LightManager
 {
 public:
-  /// @param defaults what lights fall back on where they say nothing themselves
-  /// (vtkGnomonLightKeys)
+  /// Return the lights that cast shadows, and the skipped ones.
+  /// @param defaults settings for lights without their own (vtkGnomonLightKeys)
   LightSet collect(vtkRenderer* renderer, const ShadowSettings& defaults);
 
-  /// The renderer's lights that shine from more than a point, whether or not they cast shadows, and
-  /// those that give light and would if their numbers said how.
+  /// Return the renderer's area lights that give light, whether or not they cast shadows. Area
+  /// lights with invalid numbers are among the skipped ones.
   LightSet collectAreas(vtkRenderer* renderer, const ShadowSettings& defaults);
 
-  /// Removes a light's area and its samples. (The area of vtkGnomonAreaLight is the
-  /// class's: such a light is exchanged.)
+  /// Remove a light's area and sample settings. The area of a vtkGnomonAreaLight belongs to its
+  /// class, so callers replace such a light.
   static void makePoint(vtkLight* light);
 
 private:
-  /// What readLightTexture() has made of an image.
+  /// The result of readLightTexture() for an image.
   struct ReadTexture
   {
     std::uint64_t modified = 0; ///< the image's MTime
     std::shared_ptr<const LightTexture> texture;
-    std::string reason; ///< why it is null
+    std::string reason; ///< why the texture is null
   };
   using ReadTextures = std::map<vtkImageData*, ReadTexture>;
 
-  /// Why a light is left out whatever its numbers say; empty if it is not, nothing if it is not
-  /// asked for.
-  /// @param isArea whether it shines from more than a point, or would if its numbers said how
+  /// Returns why a light is skipped for other reasons than its numbers. Empty: it is not skipped.
+  /// Nothing: the light was not asked for.
+  /// @param isArea true if the light has an area, valid or not
   using WhyNot = std::function<std::optional<std::string>(vtkLight* light, bool isArea)>;
 
   LightSet read(vtkRenderer* renderer, const ShadowSettings& defaults, const WhyNot& whyNot);
   std::shared_ptr<const LightTexture> textureOf(
     vtkLight* light, ReadTextures& current, std::string& reason);
 
-  ReadTextures textures_; ///< of the frame before
+  ReadTextures textures_; ///< of the previous frame
 };
 
-/// Read one light without a renderer: where it is, and what it reaches. Its area, its texture and its
-/// settings are left out.
+/// Read one light's place and reach, without a renderer. Its area, texture and settings are left
+/// out.
 ///
-/// @param reason filled with a clause for people where the light's numbers say not where it shines
+/// @param reason set to a clause for users if the light has no valid place or direction, else empty
 /// @return nothing in that case
 std::optional<ShadowLight> readPlace(vtkLight* light, std::string& reason);
 

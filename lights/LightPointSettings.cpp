@@ -12,7 +12,8 @@ namespace
 
 using S = LightPointSettings;
 
-/// Jittered samples come in the cells of a square grid.
+/// Return why the light's number of samples is refused; empty if it is not. Jittered samples fill a
+/// square grid.
 std::string refusedSamples(const ShadowLight& light)
 {
   return light.area && light.lightSampling == LightSampling::Jittered &&

@@ -5,33 +5,33 @@ namespace gnomon
 
 struct SettingsTable;
 
-/// Which points of an area light are taken, by each pixel for itself or by all alike.
+/// How points of an area light are chosen, per pixel or for all pixels alike.
 enum class LightSampling
 {
-  Sobol,    ///< evenly spread ones, whose errors cancel between neighbouring pixels
-  Jittered, ///< a random one in each cell of a square grid, as Curtis published it
-  Random    ///< random ones
+  Sobol,    ///< evenly spread points, whose errors cancel between neighbouring pixels
+  Jittered, ///< a random point in each cell of a square grid (Curtis 2009)
+  Random    ///< independent random points
 };
 
-/// What a light shines from, and the points that stand for it (LightSamples.h).
+/// A light's area, and the points that sample it (LightSamples.h).
 struct LightPointSettings
 {
   /// Above 0: replaces the light's own area (vtkGnomonAreaLight), in the units of OSPRay's key
-  /// RADIUS: world units; of a directional light the degrees of the whole angle that it fills.
+  /// RADIUS. These are world units, or for a directional light the whole angle in degrees.
   double lightRadius = 0.0;
   int lightSamples = 64;
   int lightSeed = 0;
   LightSampling lightSampling = LightSampling::Sobol;
 };
 
-/// Whether a number of samples fills a square grid, as jittered ones do.
+/// True if a number of samples is a square, as jittered samples require.
 bool isSquare(int samples);
 
-/// How large lights are: of every technique, since it says what the light is.
+/// Settings of a light's size. Every technique has them, because they define the light.
 const SettingsTable& lightAreaSettings();
-/// Which points these are: of techniques that take random ones.
+/// Settings that choose the random points, for techniques that use random points.
 const SettingsTable& lightSeedSettings();
-/// How many there are, and how they lie: of techniques that take those of LightSamples.h.
+/// Settings of the number and distribution of points, for techniques that use LightSamples.h.
 const SettingsTable& lightSampleSettings();
 
 } // namespace gnomon

@@ -11,15 +11,15 @@ namespace gnomon
 namespace
 {
 
-/// A word's fraction of 2^32 in [0, 1): as many bits as a float holds.
+/// Return a word's fraction of 2^32, in [0, 1), with as many bits as a float holds.
 inline float fractionOf(std::uint32_t word)
 {
-  // Signed numbers become floats faster.
+  // Signed integers convert to floats faster.
   return static_cast<float>(static_cast<std::int32_t>(word >> 8)) * 5.9604645e-8f; // 2^-24
 }
 
-/// Sines and cosines for |angle| <= pi / 2, to 1e-7: polynomials, which are the same on all
-/// machines.
+/// Return the sine or cosine for |angle| <= pi / 2, within 1e-7. Polynomials give the same bits on
+/// all machines.
 inline float sineOf(float angle)
 {
   const float square = angle * angle;
@@ -44,29 +44,29 @@ inline float cosineOf(float angle)
             (1.0f - square * (1.0f / 56.0f) * (1.0f - square * (1.0f / 90.0f)))));
 }
 
-/// diskPoint().
+/// Implement diskPoint().
 inline glm::vec2 concentric(const glm::vec2& square)
 {
   const bool wide = std::abs(square.x) > std::abs(square.y);
   const float radius = wide ? square.x : square.y;
   const float other = wide ? square.y : square.x;
-  // The middle of the square, where both are 0, is that of the disk.
+  // At the square's centre both are 0; it maps to the disk's centre.
   const float angle = glm::quarter_pi<float>() * (other / (radius == 0.0f ? 1.0f : radius));
   const float along = radius * cosineOf(angle);
   const float across = radius * sineOf(angle);
   return { wide ? along : across, wide ? across : along };
 }
 
-/// Coordinates of points of the unit cube, as fractions of 2^32, those of the same axis side by
-/// side.
+/// Coordinates of points of the unit cube, as fractions of 2^32, one array per axis.
 struct Points
 {
   static constexpr std::size_t most = 64;
   std::array<std::uint32_t, most> x, y, z;
 };
 
-/// The places of points on a light of some shape. `unitOf` takes the fractions in [0, 1) of a
-/// point's coordinates to the shape.
+/// Map points of the unit cube to offsets on a light.
+/// @param unitOf takes a point's first two coordinates, scaled to [-1, 1), and its third, a
+/// fraction of 2^32, to the shape of radius or half side 1
 template <typename UnitOf>
 inline void placeAll(const Points& points, std::size_t count, const glm::mat3& worldFromUnit,
   const UnitOf& unitOf, const LightSamples::Coordinates& to)
@@ -117,7 +117,7 @@ void placePoints(const Points& points, std::size_t count, LightArea::Shape shape
         [](const glm::vec2& square, std::uint32_t word)
         {
           const glm::vec2 disk = concentric(square);
-          // The middle of the ball's rim may be rounded to just outside of it.
+          // Points of the rim may round to just outside the unit disk.
           const float height =
             std::sqrt(std::max(1.0f - (disk.x * disk.x + disk.y * disk.y), 0.0f));
           return glm::vec3(
@@ -169,8 +169,8 @@ SamplePixel LightSamples::pixel(std::uint32_t column, std::uint32_t row) const
 }
 
 //------------------------------------------------------------------------------
-/// Makes the places of points of the unit cube.
-/// @param pointOf a point by its number, below `count`, of points of either kind
+/// Compute offsets on the light for points of the unit cube.
+/// @param pointOf returns a point by its number, below `count`, for either kind of points
 template <typename PointOf>
 void LightSamples::place(std::size_t count, const PointOf& pointOf, const Coordinates& to) const
 {

@@ -14,17 +14,17 @@
 namespace gnomon
 {
 
-/// Points of an area light: as many as ShadowSettings::lightSamples says, as lightSampling says, in
-/// the order that lightSeed says, the same ones at every call and on every machine.
+/// Sample points of an area light. ShadowSettings::lightSamples sets their number, lightSampling
+/// their distribution, lightSeed their order. They are the same at every call and on every machine.
 ///
-/// Points of the unit square (SobolPoints.h, HashedPoints.h) are taken to disks by the concentric
-/// map (Shirley and Chiu 1997), which keeps areas. A ball's are those of the disk, lifted: (x, y,
-/// sqrt(1 - x^2 - y^2) cos(pi w)). This is a uniform point of the sphere in four dimensions less
-/// its fourth coordinate, so that the ball looks the same from all sides: an even disk.
+/// The concentric map (Shirley and Chiu 1997), which preserves areas, takes points of the unit
+/// square (SobolPoints.h, HashedPoints.h) to disks. A ball's points are the disk's, lifted: (x, y,
+/// sqrt(1 - x^2 - y^2) cos(pi w)). This is a uniform point of the 3-sphere without its fourth
+/// coordinate. So the ball looks like a uniform disk from all sides.
 class LightSamples
 {
 public:
-  /// Where the coordinates of several offsets are put, those of the same axis side by side.
+  /// Destination of several offsets' coordinates, one array per axis.
   struct Coordinates
   {
     float* x;
@@ -37,21 +37,22 @@ public:
 
   int count() const { return this->count_; }
 
-  /// What is special about the samples of a pixel of the picture.
+  /// Return the values that make a pixel's samples differ from other pixels' samples.
   SamplePixel pixel(std::uint32_t column, std::uint32_t row) const;
 
-  /// Sample `i` of a pixel, from the light's centre, as LightArea measures it.
+  /// Return sample `i` of a pixel, as an offset from the light's centre in LightArea's units.
   glm::vec3 offset(int i, const SamplePixel& pixel) const;
 
-  /// The same of one sample for each of `count` pixels.
+  /// Compute the offset of one sample for each of `count` pixels.
   void offsets(const std::uint32_t* samples, const SamplePixel* pixels, std::size_t count,
     const Coordinates& to) const;
 
-  /// The same of all samples of a pixel.
+  /// Compute the offsets of all samples of a pixel.
   void offsets(const SamplePixel& pixel, const Coordinates& to) const;
 
-  /// Point `i` without shift, of points that are as even over one half of the light as those of
-  /// offset() are over all of it: with the points opposite, they are as even over all of it.
+  /// Return sample `i` of half the light, for all pixels alike. These samples cover half the light
+  /// as evenly as those of offset() cover all of it. Together with their opposite points they cover
+  /// all of it.
   glm::vec3 offsetInHalf(int i) const;
 
 private:
@@ -64,29 +65,30 @@ private:
   glm::mat3 worldFromUnit_;
 };
 
-/// The concentric map (Shirley and Chiu 1997) from the square of half side 1 to the unit disk,
-/// which keeps areas and, but for a factor, distances.
+/// Map a point of the square of half side 1 to the unit disk by the concentric map (Shirley and
+/// Chiu 1997). It preserves ratios of areas, and distances up to a bounded factor.
 glm::vec2 diskPoint(const glm::vec2& square);
 
-/// A light's place in centred coordinates: (position, 1), or (unit vector towards it, 0).
+/// Return a light's place in centred coordinates: (position, 1), or (unit vector towards the light,
+/// 0).
 glm::dvec4 lightPoint(const ShadowLight& light, const glm::dvec3& centreWorld);
 
-/// LightSamples of no pixel, each a place as lightPoint() has it, for techniques that see the light
-/// from the same points in all pixels; of a light without area the one of lightPoint().
+/// Return the samples that all pixels share, each in the form of lightPoint(). A light without area
+/// has one sample, lightPoint().
 std::vector<glm::dvec4> lightSamples(const ShadowLight& light, const glm::dvec3& centreWorld);
 
-/// As many points as ShadowSettings::lightSamples says for techniques that see the light from the
-/// same points in all pixels, and want each one's opposite among them, from the light's centre, as
-/// LightArea measures them.
+/// Return ShadowSettings::lightSamples points that all pixels share, each with its opposite point.
+/// They are offsets from the light's centre, in LightArea's units.
 ///
-/// From the middle outwards, so that what is seen from the first ones is what is seen from a
-/// smaller light. Every point is followed by its opposite; an odd number of points begins with the
-/// centre. Of a light without area or without extent, the centre alone.
+/// Points are sorted from the centre outwards, so the first points sample a smaller light. Each
+/// point is followed by its opposite. An odd number of points begins with the centre. A light
+/// without area or extent has the centre only.
 std::vector<glm::dvec3> pairedLightSamples(const ShadowLight& light);
 
-/// How many of `all` paired points a frame is to have that adds some to those of the frames before:
-/// whole pairs, and the centre of an odd number.
-/// @param perFrame points that each frame adds at least; 0: all are in every frame
+/// Return how many of `all` paired points a frame should have, if it adds points to those of
+/// previous frames. The result holds whole pairs, and the centre if `all` is odd.
+/// @param before points of previous frames
+/// @param perFrame least number of points that each frame adds; 0: every frame has all points
 std::size_t pairedPointsWanted(std::size_t all, std::size_t before, std::size_t perFrame);
 
 } // namespace gnomon

@@ -7,7 +7,7 @@ namespace gnomon
 namespace
 {
 
-/// The rotation whose rows are these orthogonal unit vectors.
+/// Return the rotation whose rows are these orthogonal unit vectors.
 glm::dmat4 rotationOnto(const glm::dvec3& x, const glm::dvec3& y, const glm::dvec3& z)
 {
   return glm::dmat4(glm::transpose(glm::dmat3(x, y, z)));
@@ -29,7 +29,7 @@ glm::dmat4 lightFromCentred(const ShadowLight& light, const glm::dvec3& centreWo
     const glm::dvec3 x = glm::normalize(glm::cross(light.box->upWorld, z));
     return glm::translate(rotationOnto(x, glm::cross(z, x), z), origin);
   }
-  // Chosen against the least aligned axis, so that no direction is degenerate.
+  // The least aligned axis leaves no direction degenerate.
   const glm::dvec3 x = glm::normalize(glm::cross(axisAcross(z), z));
   const glm::dmat4 rotation = rotationOnto(x, glm::cross(z, x), z);
   return light.kind == LightKind::Directional ? rotation : glm::translate(rotation, origin);
@@ -67,7 +67,7 @@ glm::dmat3 cubeFaceFromLight(int face)
 {
   const int axis = face / 2;
   const double sign = face % 2 == 0 ? 1.0 : -1.0;
-  // The other two axes in order, or, so that a mirrored axis still makes a rotation, swapped.
+  // The other two axes, swapped for a mirrored axis so that the matrix stays a rotation.
   const int first = (axis + (sign > 0.0 ? 1 : 2)) % 3;
   const int second = 3 - axis - first;
   glm::dmat3 rows(0.0);

@@ -7,30 +7,30 @@
 namespace gnomon
 {
 
-/// A light's own space, as a rigid transformation from centred world coordinates (world coordinates
-/// less `centreWorld`).
+/// Return the rigid transformation to a light's own space from centred world coordinates (world
+/// coordinates less `centreWorld`).
 ///
-/// z grows along directionWorld; of a point light, which has none, all axes are the world's. The
-/// origin is the light's position or the middle of its box's near face; of a directional light
-/// without a box, the centre. The x axis of a box lies along its width, y along its height.
+/// z grows along directionWorld. A point light has no direction, so its axes are the world's. The
+/// origin is the light's position, or the middle of its box's near face. For a directional light
+/// without a box it is the centre. The x axis lies along a box's width, y along its height.
 glm::dmat4 lightFromCentred(const ShadowLight& light, const glm::dvec3& centreWorld);
 
-/// The plane (n, d) of a box's near face, centred: what lies behind it along the light has n.p + d
-/// > 0.
+/// Return the plane (n, d) of a box's near face, in centred coordinates. Points p behind it along
+/// the light have n.p + d > 0.
 glm::dvec4 nearFaceCentred(const ShadowLight& light, const glm::dvec3& centreWorld);
 
-/// The world axis that is least aligned with this direction.
+/// Return the world axis that is least aligned with a direction.
 glm::dvec3 axisAcross(const glm::dvec3& direction);
 
-/// The faces of the cube around a light, each of which sees the directions of which one axis is the
-/// longest: +x, -x, +y, -y, +z, -z of light space.
+/// The number of faces of the cube around a light. Each face sees the directions with one longest
+/// axis: +x, -x, +y, -y, +z, -z of light space, in this order.
 constexpr int cubeFaces = 6;
 
-/// The face that sees a point of light space: x before y before z, plus before minus, where they
-/// are equally long. light_views.glsl has its twin.
+/// Return the face that sees a point of light space. Ties go to x before y before z, and to plus.
+/// light_views.glsl has its twin.
 int cubeFaceOf(const glm::dvec3& positionLight);
 
-/// From light space to a face's: the face's own axis becomes z. A rotation.
+/// Return the rotation from light space to a face's space, in which the face's axis is z.
 glm::dmat3 cubeFaceFromLight(int face);
 
 } // namespace gnomon

@@ -13,7 +13,7 @@ namespace gnomon
 namespace
 {
 
-/// The value of a scalar type that is white; 0: it is none that pictures have.
+/// Return a scalar type's value of white; 0 for types that pictures do not have.
 double whiteOf(int scalarType)
 {
   switch (scalarType)
@@ -30,9 +30,10 @@ double whiteOf(int scalarType)
   }
 }
 
-/// The mean colour over the part of the picture between the ends that `halfWidthAt` gives its
-/// lines, at heights from -1 to 1. What is white is 1 to the last bit: both of its sums have the
-/// same terms.
+/// Return the mean colour over a part of the picture. A white picture gives exactly 1, as both sums
+/// have the same terms.
+/// @param halfWidthAt returns the part's half width at a height in [-1, 1], as a share of the
+/// picture's
 template <typename HalfWidthAt>
 glm::dvec3 meanOver(const LightTexture& texture, const HalfWidthAt& halfWidthAt)
 {
@@ -134,7 +135,7 @@ glm::vec3 PlacedTexture::colourAt(const glm::vec3& offset) const
 PlacedTexture placeTexture(std::shared_ptr<const LightTexture> texture, LightArea::Shape shape,
   const glm::dvec3& travel, const glm::dvec3& up, const glm::dvec2& halfSize)
 {
-  // Who looks at the light has to the right what is to the left of the light's own way.
+  // A viewer who faces the light sees its left side on the right.
   const LightArea picture = rectangleArea(travel, up, { -halfSize.x, halfSize.y });
   glm::dmat3 worldFromPicture = picture.worldFromUnit;
   PlacedTexture placed;

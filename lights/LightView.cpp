@@ -7,7 +7,7 @@ namespace gnomon
 glm::dmat4 LightView::clipFromCentred() const
 {
   const glm::dmat3& map = this->mapFromAcross;
-  // Across coordinates are (x, y, 1), of a positional light (x, y, z).
+  // Homogeneous across coordinates are (x, y, 1), for a positional light (x, y, z).
   const glm::dvec4 x(map[0].x, map[0].y, 0.0, map[0].z);
   const glm::dvec4 y(map[1].x, map[1].y, 0.0, map[1].z);
   const glm::dvec4 unit(map[2].x, map[2].y, 0.0, map[2].z);

@@ -12,51 +12,52 @@
 namespace gnomon
 {
 
-/// One projection of what a light sees, for one layer of its map, as plain double-precision
-/// mathematics.
+/// One projection of a light's view onto one layer of its map, in double precision.
 ///
-/// Three spaces, of which the first is relative to a *centre* that the caller chooses (positions
-/// less the centre stay small, so that they survive as floats):
-/// - the view's space: x and y across the view, z the distance along its axis, growing away from
-///   the light. z = 0 lies at the light; for a directional light at the nearest bound, or at the
+/// It has three spaces. The first is relative to a *centre* that the caller chooses: positions less
+/// the centre are small, so floats hold them.
+/// - View space: x and y lie across the view. z is the distance along its axis and grows away from
+///   the light, which is at z = 0. For a directional light, it lies at the nearest bound, or at the
 ///   near face of its box.
-/// - across coordinates: the light's rays as points of a plane (LightRays.h).
-/// - the map: [-1, 1]^2, a homography of that plane. It is a scale and an offset of uniform
-///   projections, and a perspective of warped ones.
+/// - Across coordinates: the light's rays as points of a plane (LightRays.h).
+/// - The map: [-1, 1]^2, a homography of that plane. It is a scale and an offset for uniform
+///   projections, and a perspective for warped ones.
 ///
-/// The map stores linear depth z, scaled to [0, 1] by depthScale and depthOffset:
-/// depth = z * depthScale + depthOffset. Casters end well before 1, the depth of empty texels.
+/// The map stores linear depth, scaled to [0, 1]: depth = z * depthScale + depthOffset. Casters lie
+/// well below 1, the depth of empty texels.
 struct LightView
 {
   LightRays rays;
-  glm::dmat3 mapFromAcross{ 1.0 }; ///< positive w over all that is visible, positive determinant
+  glm::dmat3 mapFromAcross{ 1.0 }; ///< w > 0 over everything visible; positive determinant
   double depthScale = 1.0;
   double depthOffset = 0.0;
-  /// The z from which on casters count: where the light begins, or just before the first caster of
-  /// a positional one.
+  /// The z from which casters count: where the light begins, or just before a positional light's
+  /// first caster.
   double beginsAt = -std::numeric_limits<double>::infinity();
-  /// The part of the map that can be read. It is smaller than the map only where the last fit is
-  /// still to come (LightViews::awaitFit).
+  /// The part of the map that may be read. It is smaller than the map only if the last fit is
+  /// pending (LightViews::awaitFit).
   Rectangle readable = wholeMap;
-  /// Where the last fit chooses a warp, too: the maps in place of mapFromAcross that it chooses
-  /// from. The first one is mapFromAcross itself, which is uniform.
+  /// If the last fit also chooses a warp, its candidates for mapFromAcross. The first is
+  /// mapFromAcross itself, which is uniform.
   std::vector<glm::dmat3> warps;
 
-  /// Whether texels are, or may yet be, of different sizes, so that what is linear across the light
-  /// is not linear on the map.
+  /// True if texels have, or may get, different sizes across the light. Then linear functions
+  /// across the light are not linear on the map.
   bool warped() const
   {
     return this->mapFromAcross[0].z != 0.0 || this->mapFromAcross[1].z != 0.0 ||
       !this->warps.empty();
   }
-  /// Whether depth is linear on the map.
+  /// True if a plane's depth is affine on the map.
   bool depthIsAffine() const { return !this->rays.positional && !this->warped(); }
 
-  /// To OpenGL's clip space, as far as the map's x and y go. Where depth is affine on the map, z/w
-  /// is that depth, scaled to [-1, 1]; else z is 0, and depth is the fragment's business.
+  /// Return the transformation to OpenGL's clip space, with the map's x and y. If depth is affine
+  /// on the map, z/w is that depth scaled to [-1, 1]. Else z is 0 and the fragment shader computes
+  /// depth.
   glm::dmat4 clipFromCentred() const;
 
-  /// False only if nothing in the box can be seen in the readable part.
+  /// True if the readable part may show part of the box; false only if it shows nothing of it.
+  /// @param centred box in centred coordinates
   bool maySee(const Bounds& centred) const;
 
   bool operator==(const LightView& other) const
@@ -69,7 +70,7 @@ struct LightView
   bool operator!=(const LightView& other) const { return !(*this == other); }
 };
 
-/// From across coordinates to texels of a square map, [0, size]^2 in place of [-1, 1]^2.
+/// Return the homography from across coordinates to texels of a square map, in [0, size]^2.
 glm::dmat3 texelFromAcross(const glm::dmat3& mapFromAcross, int sizeTexels);
 glm::dmat3 texelFromAcross(const LightView& view, int sizeTexels);
 

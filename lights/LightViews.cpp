@@ -26,7 +26,7 @@ glm::dmat3 scaling(double factor)
   return fit.matrix();
 }
 
-/// The half spaces of what a view's map holds, with as much around it as its border takes.
+/// Return half spaces around a view's map and its border.
 std::vector<HalfSpace> mapHalfSpaces(const LightView& view, const MapTexels& texels)
 {
   const glm::dmat3 rows = glm::transpose(scaling(texels.inside()) * view.mapFromAcross);
@@ -43,12 +43,12 @@ std::vector<HalfSpace> mapHalfSpaces(const LightView& view, const MapTexels& tex
   return result;
 }
 
-/// The view's map, fitted to what is visible; nothing where nothing is.
+/// Return the view with its map fitted to the visible points; nothing without visible points.
 std::optional<LightView> fitted(
   LightView view, const std::vector<glm::dvec3>& visibleView, const MapTexels& texels, bool snap)
 {
   const Rectangle visible = rangeOf(view.mapFromAcross, view.rays.across(visibleView));
-  // A view is wider than its casters by as much as its border takes.
+  // A view is wider than its casters by its border.
   const Rectangle covered = texels.covered();
   const std::optional<MapFit> fit =
     snap ? fitSnappedTo(visible, texels, covered) : fitTo(visible, texels, covered);
@@ -60,10 +60,10 @@ std::optional<LightView> fitted(
   return view;
 }
 
-/// What will be read of a map that is fitted to some of what is visible: that and its border. A
-/// snapped map is larger by up to 2^(1/4) and a texel, and a fit widens what is too small.
-/// @param coarsest how many times larger than on the uniform map the texels of the border may
-/// become
+/// Return the part that may be read of a map that is fitted to part of the visible range: the range
+/// and its border. A snapped map is larger by up to 2^(1/4) and a texel, and a fit widens ranges
+/// that are too small.
+/// @param coarsest largest ratio of a border texel's side to its side on the uniform map
 Rectangle readableOf(const Rectangle& visible, const MapTexels& texels, double coarsest)
 {
   const glm::dvec2 centre = 0.5 * (visible.lower + visible.upper);
@@ -72,7 +72,7 @@ Rectangle readableOf(const Rectangle& visible, const MapTexels& texels, double c
   return { centre - half, centre + half };
 }
 
-/// The views that wait for the receivers, of what is visible at most.
+/// Return the views before their fit to receivers, around all that is visible.
 std::vector<LightView> awaitingViews(const ShadowLight& light, const LightView& view,
   const std::vector<glm::dvec3>& visibleView, const MapTexels& texels)
 {
@@ -83,9 +83,9 @@ std::vector<LightView> awaitingViews(const ShadowLight& light, const LightView& 
   return std::vector<LightView>(splits ? static_cast<std::size_t>(light.splits) : 1, waiting);
 }
 
-/// Lays out the views of casters that one view would hold, as the light's projection has it.
+/// Split or warp one view of casters by the light's projection.
 /// @param view around the casters, without a border
-/// @param reach what the light shines on through this view, as half spaces of its space
+/// @param reach half spaces, in view space, of the light's reach through this view
 std::vector<LightView> layViews(const ShadowLight& light, const ViewFitting& fitting,
   LightView view, std::vector<HalfSpace> reach)
 {
@@ -152,7 +152,7 @@ std::vector<LightView> layViews(const ShadowLight& light, const ViewFitting& fit
   return views;
 }
 
-/// Directional lights: the casters, and of a box only what lies in it.
+/// Fit a directional light's views to its casters; with a box, to the casters' part inside it.
 void fitDirectional(
   Bounds castersLight, const ShadowLight& light, const ViewFitting& fitting, LightViews& result)
 {
@@ -176,7 +176,7 @@ void fitDirectional(
   }
   else
   {
-    // Depths are told apart best where they are small.
+    // Floats are finest for small depths.
     result.lightFromCentred =
       glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, 0.0, -castersLight.lower.z)) *
       result.lightFromCentred;
@@ -204,7 +204,7 @@ void fitCube(
 {
   if (light.kind == LightKind::Spot)
   {
-    castersLight.lower.z = std::max(castersLight.lower.z, 0.0); // no cone reaches behind itself
+    castersLight.lower.z = std::max(castersLight.lower.z, 0.0); // a cone lights nothing behind it
   }
   if (castersLight.empty())
   {

@@ -10,49 +10,49 @@
 namespace gnomon
 {
 
-/// Light space perspective shadow maps: a perspective across the light's rays, whose texels grow
-/// with the distance from the camera (Wimmer, Scherzer, Purgathofer 2004, section 3). The map's y
-/// axis lies along the direction of view as the light sees it, near points at the bottom.
+/// Return the warp of light space perspective shadow maps: a perspective across the light's rays,
+/// whose texels grow with distance from the camera (Wimmer, Scherzer, Purgathofer 2004, section 3).
+/// The map's y axis lies along the direction of view as the light sees it, with near points at the
+/// bottom.
 ///
-/// The warp's near distance, for parallel rays, is the published optimum between the nearest and
-/// the farthest visible point (lispsmOptimum), and falls off to the uniform map as light and view
-/// become parallel, either way (fallOff). Rays from a position see an angle between light and view,
-/// and texels, that differ from place to place; the optimum is searched for there
-/// (leastAliasingNear).
+/// For parallel rays, the warp's near distance is the published optimum for the nearest and
+/// farthest visible distance (lispsmOptimum). It falls off to the uniform map as light and view
+/// become parallel or opposite (fallOff). For rays from a position, the angle between light and
+/// view varies with place, as do texels. There leastAliasingNear() searches for the optimum.
 ///
-/// @param bodyView the visible body's vertices in the light's view space; with z > 0 of a
+/// @param bodyView the visible body's vertices in the light's view space, with z > 0 for a
 /// positional light
-/// @return mapFromAcross, which takes the body into [-1, 1]^2 and touches all four sides, with
-/// w > 0 over the body and a positive determinant. Exactly the uniform map (uniformFromAcross) for
-/// a parallel camera, for light along the view, for a light on the camera's axis, where the body
-/// reaches the eye's plane, and wherever a warp would hardly gain (warpedOrUniform); the identity
-/// without vertices.
+/// @return mapFromAcross, with w > 0 over the body and a positive determinant; the body's image
+/// lies in [-1, 1]^2 and touches all four sides. It is exactly the uniform map (uniformFromAcross)
+/// for a parallel camera, light along the view, a light on the camera's axis, a body that reaches
+/// the eye's plane, and a warp that would gain little (warpedOrUniform). Without vertices it is the
+/// identity.
 glm::dmat3 lispsmFromAcross(
   const std::vector<glm::dvec3>& bodyView, const CameraView& camera, const LightRays& rays);
 
-/// Inputs of the choice of a warp, for a view that is fitted to receivers
-/// (shadowtech/fitting/ReceiverFit.h): the uniform map first, then the perspectives with near
+/// Return the candidate warps of a view that is fitted to receivers
+/// (shadowtech/fitting/ReceiverFit.h). The uniform map is first. Perspectives follow, with near
 /// distances that grow by equal factors from leastNearOfSeries to greatestNearOfSeries, in units of
-/// the depth that they warp. All of them take the body as lispsmFromAcross() does. Only the
-/// uniform one where lispsmFromAcross() allows no perspective.
+/// the warped depth. All fit the body as lispsmFromAcross() does. The uniform map is alone if
+/// lispsmFromAcross() allows no perspective.
 ///
-/// The published optimum is that of the worst texel, and knows the nearest and the farthest point
-/// only. Where most of what is seen lies far away, as in a view along the ground, it spends the map
-/// on the nearest points, of which there are few.
+/// The published optimum minimises the worst texel, and depends on the nearest and farthest point
+/// only. If most of the view is far away, as in a view along the ground, it spends the map on the
+/// few nearest points.
 std::vector<glm::dmat3> lispsmSeries(
   const std::vector<glm::dvec3>& bodyView, const CameraView& camera, const LightRays& rays);
 
 constexpr double leastNearOfSeries = 0.01;
 constexpr double greatestNearOfSeries = 10.0;
-constexpr int stepsOfSeries = 18; ///< of a factor 1.47: between two of them the optimum is flat
+constexpr int stepsOfSeries = 18; ///< by a factor of 1.47, within which the optimum is flat
 
-/// How many times larger than under the uniform map a texel's sides can be under the series, at
-/// most: at the far end of the strongest, (1 + n) / n.
+/// The largest ratio of a texel's side under the series to its side under the uniform map: (1 + n)
+/// / n, at the far end of the strongest perspective.
 constexpr double coarsestOfSeries = (1.0 + leastNearOfSeries) / leastNearOfSeries;
 
-/// The optimum of the warp's near distance in units of the depth that it warps, n + sqrt(f n) over
-/// f - n (Wimmer et al. 2004, section 4, for light across the view).
-/// @param alpha the ratio f / n of the farthest to the nearest distance from the eye, > 1
+/// Return the optimal near distance of the warp in units of the warped depth, (n + sqrt(f n)) / (f
+/// - n), for light across the view (Wimmer et al. 2004, section 4).
+/// @param alpha ratio f / n of the farthest to the nearest distance from the eye, > 1
 double lispsmOptimum(double alpha);
 
 } // namespace gnomon

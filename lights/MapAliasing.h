@@ -10,25 +10,27 @@
 namespace gnomon
 {
 
-/// How large a map looks from the camera where it looks largest, if it stood across the light's ray
-/// and across the line of sight. Only ratios between projections have a meaning. (Lloyd et al.,
-/// Warping and Partitioning for Low Error Shadow Maps, 2006, section 3.)
+/// The largest size at which the camera sees a map's texels, for surfaces across the light's ray
+/// and the line of sight. Only ratios between projections have a meaning (Lloyd et al., Warping and
+/// Partitioning for Low Error Shadow Maps, 2006, section 3).
 struct PerspectiveAliasing
 {
-  /// Of a step of 1 in device coordinates, as the tangent of an angle, along the worse of both
-  /// axes: what LiSPSM's parameter is the optimum of.
+  /// The size of a step of 1 in device coordinates along the worse axis, as the tangent of an
+  /// angle. LiSPSM's parameter minimises it.
   double side = 0.0;
-  /// Of a square of 1 in device coordinates, as a solid angle. How a surface lies to light and
-  /// camera scales a texel's area by a factor that is the same for all projections: the ratio of
-  /// two of them holds on every surface. (That of sides does not.)
+  /// The size of a unit square in device coordinates, as a solid angle. A surface's orientation
+  /// scales a texel's area by the same factor for all projections, so ratios of areas hold on every
+  /// surface. Ratios of sides do not.
   double area = 0.0;
 };
 
-/// The corners stand for the whole body: for parallel rays, sides and areas of a uniform map
-/// (constants over powers of the distance) and of a perspective warp (powers of a linear function
-/// over powers of the distance) are convex, and largest at one of them.
+/// Return the largest aliasing over a body's corners, which bounds the whole body for parallel
+/// rays. There, sides and areas are convex functions, largest at a corner. For a uniform map they
+/// are constants over powers of the distance, for a warp powers of a linear function over powers of
+/// the distance.
 ///
-/// @param bodyView what the camera sees, in the light's view space, before the eye of a perspective
+/// @param bodyView corners of the visible body, in the light's view space, in front of a
+/// perspective camera's eye
 /// @return 0 without points
 PerspectiveAliasing perspectiveAliasing(const std::vector<glm::dvec3>& bodyView,
   const CameraView& camera, const LightRays& rays, const glm::dmat3& mapFromAcross);

@@ -8,7 +8,7 @@ namespace gnomon
 namespace
 {
 
-/// What is visible along one axis, cut to what is to be covered and widened where it is too narrow.
+/// A range along one axis of a map.
 struct Interval
 {
   double lower;
@@ -34,8 +34,8 @@ std::optional<Interval> visibleInterval(const Interval& visible, const Interval&
   return Interval{ lower, lower + least };
 }
 
-/// Fits each axis on its own.
-/// @param axisFit from what is visible and what is covered to scale and offset
+/// Fit each axis separately.
+/// @param axisFit returns scale and offset for the visible and the covered interval
 template <typename AxisFit>
 std::optional<MapFit> fitAxes(
   const Rectangle& visible, const Rectangle& covered, const AxisFit& axisFit)

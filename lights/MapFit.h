@@ -11,7 +11,7 @@
 namespace gnomon
 {
 
-/// An axis-aligned rectangle; empty until a point is added, then lower <= upper.
+/// An axis-aligned rectangle. It is empty until a point is added; then lower <= upper.
 struct Rectangle
 {
   glm::dvec2 lower{ std::numeric_limits<double>::infinity() };
@@ -33,14 +33,15 @@ struct Rectangle
 /// A map's whole range in its normalised device coordinates.
 constexpr Rectangle wholeMap{ glm::dvec2(-1.0), glm::dvec2(1.0) };
 
-/// The images of points under a homography, all of which it must see with w > 0.
+/// Return the range of points' images under a homography. All images must have w > 0.
 Rectangle rangeOf(const glm::dmat3& mapFromAcross, const std::vector<glm::dvec2>& across);
 
-/// Takes a rectangle to [-1, 1]^2. An extent of 0 is widened, relative to its coordinates. The
-/// identity of an empty one.
+/// Return the scale and offset that take a rectangle to [-1, 1]^2. An extent of 0 is widened
+/// relative to the coordinates. For an empty rectangle, return the identity.
 glm::dmat3 uniformFromRange(const Rectangle& range);
 
-/// The uniform projection of points: that of their rectangle, by scale and offset alone.
+/// Return the uniform projection of points, by scale and offset, which takes their rectangle to
+/// [-1, 1]^2.
 glm::dmat3 uniformFromAcross(const std::vector<glm::dvec2>& across);
 
 /// F: a scale and an offset per axis of a map's normalised device coordinates.
@@ -49,7 +50,7 @@ struct MapFit
   glm::dvec2 scale{ 1.0 };
   glm::dvec2 offset{ 0.0 };
 
-  /// To be multiplied from the left: F mapFromAcross.
+  /// Return F as a matrix, to be multiplied from the left: F mapFromAcross.
   glm::dmat3 matrix() const
   {
     return { this->scale.x, 0.0, 0.0, 0.0, this->scale.y, 0.0, this->offset.x, this->offset.y,
@@ -57,43 +58,42 @@ struct MapFit
   }
 };
 
-/// The texels of a map's side and of the border that is kept free around what is visible. No more
-/// than a quarter of the side is kept on either side (fitLightViews).
+/// The sizes of a map's side and border in texels. The border surrounds the visible range and takes
+/// at most a quarter of the side at each end (fitLightViews).
 struct MapTexels
 {
   int side = 1024; ///< at least 4
   int border = 0;
 
-  /// The share of [-1, 1] that lies inside of the border.
+  /// Return the share of [-1, 1] inside the border, at least 0.5.
   double inside() const;
-  /// What a map covers whose casters fill [-1, 1]^2 and that keeps its border outside of them.
+  /// Return the range of a map whose casters fill [-1, 1]^2, border included.
   Rectangle covered() const;
 };
 
-/// The least part of what is to be covered that a map is fitted to. At a side of 1024, the texels
-/// of a smaller one would be narrower than the spacing of floats there.
+/// The least share of the covered range that a map is fitted to. With a side of 1024, a smaller
+/// share would make texels narrower than the spacing of floats.
 constexpr double leastVisibleShare = 1e-4;
 
-/// Fits what is visible into the map: [lower, upper] to [-1, 1] less the border, s = 2 / (max -
-/// min), o = -s (max + min) / 2. (Selected Real-Time Shadow Techniques, eqs 3.9 and 3.10.)
+/// Fit the visible range into the map: take [min, max] to [-1, 1] less the border, by s = 2 / (max
+/// - min), o = -s (max + min) / 2 (Selected Real-Time Shadow Techniques, equations 3.9 and 3.10).
 ///
-/// What is visible is cut to what is to be covered: the fit never looks beyond it. Less than
-/// leastVisibleShare of what is to be covered, or none at all, is widened to that.
+/// The visible range is clipped to the covered range. If its extent is below leastVisibleShare of
+/// the covered range, or 0, it is widened to that share.
 ///
-/// @param visible in the device coordinates of the projection before the fit
-/// @param covered the same: of all that can be there
-/// @return nothing where nothing is visible: the map can be left out, and everything is lit
+/// @param visible visible range, in device coordinates before the fit
+/// @param covered range that the map may show, in the same coordinates
+/// @return nothing if nothing is visible; then no map is needed, and everything is lit
 std::optional<MapFit> fitTo(
   const Rectangle& visible, const MapTexels& texels, const Rectangle& covered = wholeMap);
 
-/// As fitTo(), but steady while the camera moves: the scale is one of a fixed series, and the
-/// offset a whole number of texels, so that the texels stay where they are in the projection before
-/// the fit. This must not depend on the camera (uniformFromAcross() of the whole scene does not).
+/// Fit as fitTo() does, but steadily while the camera moves. The scale is one of a fixed series and
+/// the offset a whole number of texels, so texels stay in place in the projection before the fit.
+/// That projection must not depend on the camera (uniformFromAcross() of the whole scene does not).
 ///
-/// The series: the scale that fits `covered`, times 2^(k/4), k = 0, 1, 2, ... Steps of 2^(1/4) cost
-/// 8 % of the resolution on average and 16 % at most, and lie so far apart that what the camera
-/// sees has to change by 19 % from one to the next. Half a texel is kept free on either side for
-/// the offset's rounding.
+/// The series is the scale that fits `covered`, times 2^(k/4), k = 0, 1, 2 and so on. Its steps
+/// cost 8 % of the resolution on average and 16 % at most. The visible range must change by 19 % to
+/// reach the next step. Half a texel at each end is reserved for the offset's rounding.
 std::optional<MapFit> fitSnappedTo(
   const Rectangle& visible, const MapTexels& texels, const Rectangle& covered = wholeMap);
 

@@ -8,17 +8,16 @@
 namespace gnomon
 {
 
-/// How far around a receiver's place on the map its technique reads: texels whose centres lie
-/// within a square, a disc and a kernel, one after the other (their Minkowski sum). What a view
-/// keeps around its casters and how far a map is pushed back follow from it. The default is one
-/// look-up at the nearest texel.
+/// How far around a receiver's place on the map its technique reads. The texels' centres lie within
+/// the Minkowski sum of a square, a disc and a kernel. A view's border and a map's push back follow
+/// from it. The default is one look-up of the nearest texel.
 ///
-/// The kernel is again a square and a disc, in units that lie on the map as its projection has it
+/// The kernel is also a square and a disc, in units that the map's projection scales and stretches
 /// at the point (KernelShape.h).
 ///
-/// A technique with soft shadows also reads the casters between the point and the light's area. How
-/// far that is follows from where the casters are (reachOfArea, KernelShape.h). Maps are not pushed
-/// back for it.
+/// A technique with soft shadows also reads casters between the point and the light's area. That
+/// distance follows from the casters' places (reachOfArea, KernelShape.h). Maps are not pushed back
+/// for it.
 struct MapReach
 {
   double squareTexels = 0.5; ///< half the square's side
@@ -26,24 +25,24 @@ struct MapReach
 
   double kernelSquare = 0.0;   ///< half the side, in kernel units
   double kernelDisc = 0.0;     ///< the radius, in kernel units
-  double largestStretch = 1.0; ///< of kernel units that keep a texel's area
+  double largestStretch = 1.0; ///< limit, for kernel units that keep a texel's area
   double unitAcross = 0.0; ///< a kernel unit's length across the light; 0: it keeps a texel's area
 
   LightArea area = {}; ///< of radius 0: the light is a point to the technique
 
-  /// How much farther it reads, across the light, though maps are not pushed back for it.
+  /// An additional reach across the light, for which maps are not pushed back.
   double unbiasedAcross = 0.0;
 
-  /// Whether only views tell how many texels it is.
+  /// True if the reach in texels depends on the views.
   bool dependsOnViews() const
   {
     return this->unitAcross > 0.0 || this->area.radius() > 0.0 || this->unbiasedAcross > 0.0;
   }
   bool hasKernel() const { return this->kernelSquare > 0.0 || this->kernelDisc > 0.0; }
 
-  /// The farthest along either axis, but for the light's area.
-  /// @param texelsAcross the most texels to a unit across the light, which kernels of a width
-  /// across the light are measured by
+  /// Return the largest reach along either axis in texels, without the light's area.
+  /// @param texelsAcross most texels per unit across the light, for kernels of a width across the
+  /// light
   double largestTexels(double texelsAcross = 0.0) const
   {
     const double unitTexels =
@@ -52,8 +51,9 @@ struct MapReach
       unitTexels * (std::sqrt(2.0) * this->kernelSquare + this->kernelDisc);
   }
 
-  /// Texels to keep free around a view, so that all that is read lies on its own layer.
-  /// @param areaAcross how far the light's area reaches across the light
+  /// Return the border of a view in texels, which keeps all reads in one layer.
+  /// @param texelsAcross most texels per unit across the light
+  /// @param areaAcross reach of the light's area across the light
   int borderTexels(double texelsAcross = 0.0, double areaAcross = 0.0) const
   {
     constexpr double most = 1 << 20; // more than any map has

@@ -13,13 +13,13 @@ namespace gnomon
 namespace
 {
 
-/// Sines below this are taken as 0: light along the view, or on the camera's axis.
+/// Smaller sines count as 0: light along the view, or a light on the camera's axis.
 constexpr double leastSine = 1e-6;
-/// The same of ratios of lengths: without depth, or infinitely deep.
+/// Smaller ratios of lengths count as 0: no depth, or infinite depth.
 constexpr double leastDepth = 1e-6;
 constexpr double leastNearest = 1e-9;
 
-/// From this near distance on, in units of the depth, a perspective is taken as uniform.
+/// A perspective with this near distance or more, in units of the depth, counts as uniform.
 constexpr double largestNearWarp = 1e6;
 
 glm::dvec2 meanOf(const std::vector<glm::dvec2>& points)
@@ -36,11 +36,11 @@ glm::dvec2 meanOf(const std::vector<glm::dvec2>& points)
 struct AxisImage
 {
   glm::dvec2 along; ///< unit vector, growing with the distance from the camera
-  double offset;    ///< of the line along (along.y, -along.x)
+  double offset;    ///< the line's coordinate along (along.y, -along.x)
 };
 
+/// Return the axis' image; nothing if it is a point.
 /// @param eye, direction of the camera in the light's view space
-/// @return nothing where the image is a point
 std::optional<AxisImage> imageOfAxis(
   const glm::dvec3& eye, const glm::dvec3& direction, bool positional)
 {
@@ -54,8 +54,8 @@ std::optional<AxisImage> imageOfAxis(
     const glm::dvec2 along = glm::dvec2(direction) / length;
     return AxisImage{ along, along.y * eye.x - along.x * eye.y };
   }
-  // The plane through the light and the axis, dot(plane, (across, 1)) = 0. Along the axis the
-  // slopes change by (plane.y, -plane.x) / z^2, so that they grow that way on all of it.
+  // The plane through the light and the axis is dot(plane, (across, 1)) = 0. Along the axis, slopes
+  // change by (plane.y, -plane.x) / z^2, so they grow in one direction on the whole axis.
   const glm::dvec3 plane = glm::cross(eye, direction);
   const double length = glm::length(glm::dvec2(plane));
   if (!(length > leastSine * glm::length(eye)))
@@ -65,8 +65,8 @@ std::optional<AxisImage> imageOfAxis(
   return AxisImage{ { plane.y / length, -plane.x / length }, plane.z / length };
 }
 
-/// Half the field of view in the plane of the direction of view and `aside`, which is across it.
-/// @param asideCamera unit vector in the camera's view space
+/// Return half the field of view in the plane of the direction of view and `aside`.
+/// @param asideCamera unit vector across the direction of view, in the camera's view space
 double halfFieldOfViewDegrees(const CameraView& camera, const glm::dvec3& asideCamera)
 {
   const double tangent = std::abs(asideCamera.x / camera.clipFromView[0][0]) +
@@ -127,7 +127,7 @@ glm::dmat3 warpedFromAcross(
 {
   const double n = nearWarp;
   const double f = n + frame.depth;
-  // Columns; the offset by n is in the last one.
+  // Columns; the last one includes the offset by n.
   const glm::dmat3 perspective(1.0, 0.0, 0.0, 0.0, (f + n) / frame.depth, 1.0, 0.0,
     (f + n) / frame.depth * n - 2.0 * f * n / frame.depth, n);
   const glm::dmat3 warped = perspective * frame.frameFromAcross;
@@ -143,7 +143,7 @@ double warpEta(double gammaDegrees, double thetaDegrees)
   const double gammaC = thetaDegrees + 0.3 * (90.0 - thetaDegrees);
   constexpr double etaB = -0.2;
   constexpr double etaC = 0.0;
-  // Without a field of view, or with one of 180 degrees, an interval is empty and not entered.
+  // A field of view of 0 or 180 degrees leaves an interval empty, and its branch is not entered.
   if (gamma <= gammaA)
   {
     return -1.0;
@@ -179,8 +179,8 @@ double leastAliasingNear(const WarpFrame& frame, const std::vector<glm::dvec3>& 
     return perspectiveAliasing(bodyView, camera, rays, warpedFromAcross(frame, nearWarp, across))
       .side;
   };
-  // Golden sections: the aliasing at the near end grows with the near distance, that at the far end
-  // shrinks, so that the larger of both has one minimum.
+  // Golden section search. Aliasing grows with the near distance at the near end and shrinks at the
+  // far end, so the larger of both has one minimum.
   const double section = 0.5 * (std::sqrt(5.0) - 1.0);
   double lower = std::log(1e-4);
   double upper = std::log(1e4);

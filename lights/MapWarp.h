@@ -11,47 +11,46 @@
 namespace gnomon
 {
 
-/// What the perspective warps of a map (Lispsm.h, Trapezoid.h) have in common: they look along the
-/// direction of view as the light sees it, and differ in the near distance only.
+/// The common frame of a map's perspective warps (Lispsm.h, Trapezoid.h). They look along the
+/// direction of view as the light sees it, and differ only in the near distance.
 struct WarpFrame
 {
-  /// A rotation and an offset: the image of the camera's axis becomes x = 0, y grows with the
-  /// distance from the camera, and y = 0 lies at the nearest of what is visible. Where the axis
-  /// misses the visible body, x = 0 is the side of the body next to it.
+  /// A rotation and an offset. The image of the camera's axis becomes x = 0; y grows with distance
+  /// from the camera, and y = 0 lies at the nearest visible point. If the axis misses the visible
+  /// body, x = 0 is the body's side nearest to the axis.
   glm::dmat3 frameFromAcross{ 1.0 };
-  /// What is visible reaches from y = 0 to here, > 0.
+  /// Visible points lie between y = 0 and y = depth, > 0.
   double depth = 0.0;
 
-  /// The distances from the eye of what is visible, 0 < nearest < farthest.
+  /// The distances of visible points from the eye, 0 < nearest < farthest.
   double nearest = 0.0;
   double farthest = 0.0;
 
-  /// The angle between light and direction of view, in [0, 180]. Of a positional light: the ray
-  /// through the middle of what is visible.
+  /// The angle between light and direction of view, in [0, 180]. A positional light's direction is
+  /// the ray through the mean of the visible points.
   double gammaDegrees = 0.0;
   /// Half the camera's field of view in the plane of both, in [0, 90).
   double thetaDegrees = 0.0;
 };
 
-/// @param bodyView the visible body's vertices, in the light's view space
-/// @return nothing where no perspective across the light makes sense: a parallel camera, light
-/// along the view, a light on the camera's axis; nothing visible, or nothing that reaches into
-/// depth
+/// Return the warps' frame for a visible body.
+/// @param bodyView the body's vertices, in the light's view space
+/// @return nothing if there is no useful perspective across the light: for a parallel camera, light
+/// along the view, a light on the camera's axis, no visible points, or a body without depth
 std::optional<WarpFrame> warpFrame(
   const std::vector<glm::dvec3>& bodyView, const CameraView& camera, const LightRays& rays);
 
-/// The perspective from a point `nearWarp` before y = 0 of the frame, fitted to the points: x / y'
-/// and (f + n) / (f - n) - 2 f n / ((f - n) y'), with n = nearWarp, f = n + depth, y' = n + y.
-/// (Wimmer, Scherzer, Purgathofer 2004, section 3.2.)
+/// Return the perspective from a point `nearWarp` before y = 0 of the frame, fitted to the points.
+/// It is x / y' and (f + n) / (f - n) - 2 f n / ((f - n) y'), with n = nearWarp, f = n + depth, y'
+/// = n + y (Wimmer, Scherzer, Purgathofer 2004, section 3.2).
 ///
-/// Its w is positive over all that is visible, its determinant positive.
+/// Its w is positive over everything visible, and its determinant is positive.
 /// @param nearWarp > 0
 glm::dmat3 warpedFromAcross(
   const WarpFrame& frame, double nearWarp, const std::vector<glm::dvec2>& across);
 
-/// How much of a warp's perspective is used, in [-1, 0]: 0 all of it, -1 none. What the light sees
-/// of a frustum along its axis has its near end inside of its far end, and a warp between them
-/// harms.
+/// Return the share of a warp's perspective to use, in [-1, 0]: 0 all of it, -1 none. Along a
+/// frustum's axis, the light sees the near end inside the far end, and a warp between them harms.
 ///
 /// Lloyd, Logarithmic Perspective Shadow Maps (thesis, 2007), section 5.2: with gamma_a = theta/3,
 /// gamma_b = theta, gamma_c = theta + 0.3 (90 - theta), eta_b = -0.2, eta_c = 0:
@@ -59,31 +58,32 @@ glm::dmat3 warpedFromAcross(
 ///   -1 + (eta_b + 1) (1 - cos(90 (gamma - gamma_a) / (gamma_b - gamma_a)))  up to gamma_b
 ///   eta_b + (eta_c - eta_b) sin(90 (gamma - gamma_b) / (gamma_c - gamma_b)) up to gamma_c
 ///   eta_c                                                                   beyond
-/// (The thesis prints 0 and 1 + cos for the first two, which would jump; these join.)
+/// The thesis prints 0 and 1 + cos for the first two, which would jump.
 ///
-/// @param gammaDegrees the angle between light and view, in [0, 180]; which way does not matter
+/// @param gammaDegrees angle between light and view, in [0, 180]; the result is the same for 180 -
+/// gamma
 /// @param thetaDegrees half the field of view, in [0, 90]
 double warpEta(double gammaDegrees, double thetaDegrees);
 
-/// A near distance, in units of the frame's depth, that is moved away as far as warpEta() says:
-/// (n - eta) / (1 + eta), infinite for eta = -1. (Lloyd 2007, section 5.1.2.2, n' for eta <= 0.)
+/// Return a near distance moved away by warpEta(), in units of the frame's depth: (n - eta) / (1 +
+/// eta), infinite for eta = -1 (Lloyd 2007, section 5.1.2.2, n' for eta <= 0).
 double fallOff(const WarpFrame& frame, double nearWarp);
 
-/// The near distance, in units of the frame's depth, of the least perspective aliasing over the
-/// body (PerspectiveAliasing::side), between 1e-4 and 1e4.
+/// Return the near distance with the least perspective aliasing over the body
+/// (PerspectiveAliasing::side), in units of the frame's depth, in [1e-4, 1e4].
 double leastAliasingNear(const WarpFrame& frame, const std::vector<glm::dvec3>& bodyView,
   const CameraView& camera, const LightRays& rays);
 
-/// The area of the worst texel under a perspective, as a share of that under the uniform
-/// projection, up to which the perspective is worth it: its texels move with the camera, and some
-/// of the gain in area is lost again along the worse of a texel's sides, on surfaces askew to the
-/// map's axes. Measured on a plain under light from all directions, up to here the worst side is at
-/// most 0.84 of the uniform one's under LiSPSM, 1.23 under trapezoids; without a limit 1.8 and 2.5.
+/// A perspective is used if its worst texel's area is below this share of the uniform projection's.
+/// Smaller gains are not worth texels that move with the camera. On surfaces askew to the map's
+/// axes, part of the gain is lost along a texel's worse side. On a plain under light from all
+/// directions, this limit keeps the worst side at most 0.84 of the uniform one's under LiSPSM and
+/// 1.23 under trapezoids. Without it, they are 1.8 and 2.5.
 constexpr double largestAreaShare = 0.3;
 
-/// The perspective with this near distance, in units of the frame's depth; the uniform projection
-/// (uniformFromAcross) where that is about as good (largestAreaShare), and where the near distance
-/// is infinite.
+/// Return the perspective with this near distance, in units of the frame's depth. Return the
+/// uniform projection (uniformFromAcross) if that is about as good (largestAreaShare), or if the
+/// near distance is infinite.
 glm::dmat3 warpedOrUniform(const WarpFrame& frame, double nearWarp,
   const std::vector<glm::dvec3>& bodyView, const CameraView& camera, const LightRays& rays);
 

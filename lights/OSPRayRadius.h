@@ -9,9 +9,9 @@ VTK_ABI_NAMESPACE_END
 namespace gnomon
 {
 
-/// vtkOSPRayLightNode::RADIUS(), a light's size: of a positional light the radius, of a directional
-/// one the whole angle in degrees. It is found by its name, since the module that it belongs to is
-/// not in every VTK; null where that is not loaded.
+/// Return vtkOSPRayLightNode::RADIUS(), the key of a light's size. It is a positional light's
+/// radius in world units, or a directional light's whole angle in degrees. The key is looked up by
+/// name, as not every VTK has its module. Null if the module is not loaded.
 vtkInformationDoubleKey* ospRayRadiusKey();
 
 } // namespace gnomon

@@ -7,7 +7,8 @@ namespace gnomon
 namespace
 {
 
-/// A step: which word of the seed it adds (4: none), its constant, and by how many bits it turns.
+/// A step: the index of the seed's word that it adds (4: none), its constant, and its rotation in
+/// bits.
 struct Step
 {
   int word;
@@ -18,8 +19,8 @@ struct Step
 constexpr int noWord = 4;
 constexpr int stepsOfGroup = 4;
 
-/// As printed: most of the constants of the first two groups are MD5's rounded up, where MD5 cuts
-/// them off. What would be words 4 to 15 of a message is 0.
+/// Constants as Curtis prints them: most of the first two groups are MD5's rounded up, where MD5
+/// truncates. Words 4 to 15 of MD5's message are 0.
 constexpr std::array<Step, 16> steps{ {
   { 0, 0xd76aa478u, 7 },
   { 1, 0xe8c7b757u, 12 },
@@ -39,7 +40,7 @@ constexpr std::array<Step, 16> steps{ {
   { noWord, 0xfc93a039u, 21 },
 } };
 
-/// The group's function of three words of the state.
+/// Return the group's function of three words of the state.
 std::uint32_t mixed(std::size_t group, const glm::uvec4& state)
 {
   const std::uint32_t x = state[0];

@@ -7,8 +7,8 @@
 namespace gnomon
 {
 
-/// What makes a pixel's samples of a light differ from those of other pixels. The default gives the
-/// samples that all pixels may share.
+/// The values that make a pixel's light samples differ from other pixels' samples. The default
+/// gives samples that all pixels may share.
 struct SamplePixel
 {
   glm::uvec3 bits{ 0u };

@@ -10,7 +10,7 @@ namespace gnomon
 namespace
 {
 
-/// The whole text as a number; nothing where it is none.
+/// Return the whole text as a number; nothing if it is not a number.
 template <typename Number>
 std::optional<Number> parse(const std::string& text)
 {
@@ -21,7 +21,7 @@ std::optional<Number> parse(const std::string& text)
                                                        : std::nullopt;
 }
 
-/// The shortest text that reads as that number.
+/// Return the shortest text that parses to exactly this number.
 std::string shortest(double number)
 {
   std::array<char, 32> text{};
@@ -29,7 +29,7 @@ std::string shortest(double number)
   return { text.data(), result.ptr };
 }
 
-/// The value that a text stands for; nothing where a setting does not take it.
+/// Parses a text as a setting's value; nothing for an invalid value.
 struct ReadText
 {
   const std::string& text;

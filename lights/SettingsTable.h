@@ -15,7 +15,7 @@ namespace gnomon
 struct ShadowLight;
 
 ///@{
-/// What values a setting takes.
+/// The valid values of a setting.
 struct IntegerSetting
 {
   int smallest;
@@ -35,37 +35,37 @@ struct ChoiceSetting
 /// A setting's value: an integer or the index of a choice, a number, or a text.
 using SettingValue = std::variant<int, double, std::string>;
 
-/// One setting: what light keys, scene files and command lines know it by.
+/// One setting, as light keys, scene files and command lines see it.
 struct Setting
 {
   std::string name;    ///< as in scene files, "kernel_size"; on the command line "--kernel-size"
-  std::string meaning; ///< one line for people
-  std::string unit;    ///< "texels"; empty where there is none
+  std::string meaning; ///< one line for users
+  std::string unit;    ///< for example "texels"; empty without a unit
   std::variant<IntegerSetting, RealSetting, ChoiceSetting> values;
   std::function<SettingValue(const ShadowSettings&)> read;
   std::function<void(ShadowSettings&, const SettingValue&)> write;
-  bool isBaked = false; ///< a map that was baked with another value is stale
+  bool isBaked = false; ///< a change makes baked maps stale
 
-  /// Sets it from text.
-  /// @return false for what it does not take; nothing changes then
+  /// Set the value from text.
+  /// @return false for an invalid value; then nothing changes
   bool set(ShadowSettings& settings, const std::string& text) const;
   std::string get(const ShadowSettings& settings) const;
-  /// What it takes, for error messages: "one of: bilinear, box", "an integer in [1, 32]".
+  /// Return the valid values for error messages: "one of: bilinear, box", "an integer in [1, 32]".
   std::string expected() const;
 };
 
-/// Settings that a technique has together or not at all. Their owner has them as a struct.
+/// Settings that a technique has together or not at all. Their owner keeps them in a struct.
 struct SettingsTable
 {
-  std::string title; ///< for people: "Kernel"
+  std::string title; ///< for users, for example "Kernel"
   std::vector<Setting> settings;
-  /// Why a light's values make no sense together, as a clause; empty where they do. Null: they
-  /// always do.
+  /// Returns why a light's values contradict each other, as a clause; empty if they do not. Null:
+  /// all combinations are valid.
   std::string (*refused)(const ShadowLight&) = nullptr;
 };
 
 ///@{
-/// A line of a table, for a member of the owner's struct.
+/// Return a table's line for a member of the owner's struct.
 template <typename Struct>
 Setting integer(std::string name, std::string meaning, std::string unit, int Struct::*member,
   IntegerSetting values)
@@ -84,7 +84,7 @@ Setting real(std::string name, std::string meaning, std::string unit, double Str
     [member](ShadowSettings& settings, const SettingValue& value)
     { settings.of<Struct>().*member = std::get<double>(value); } };
 }
-/// @param names of the enumeration's values, or of false and true, in their order
+/// @param names of the enumeration's values, or of false and true, in order
 template <typename Struct, typename Choice>
 Setting choice(
   std::string name, std::string meaning, Choice Struct::*member, std::vector<std::string> names)
@@ -95,7 +95,7 @@ Setting choice(
     [member](ShadowSettings& settings, const SettingValue& value)
     { settings.of<Struct>().*member = static_cast<Choice>(std::get<int>(value)); } };
 }
-/// @param numbers by name: { "off", 0 }, { "4", 4 }
+/// @param numbers name and value of each choice: { "off", 0 }, { "4", 4 }
 template <typename Struct>
 Setting oneOf(std::string name, std::string meaning, std::string unit, int Struct::*member,
   const std::vector<std::pair<std::string, int>>& numbers)
@@ -120,29 +120,30 @@ Setting oneOf(std::string name, std::string meaning, std::string unit, int Struc
     [member, ofChoice](ShadowSettings& settings, const SettingValue& value)
     { settings.of<Struct>().*member = ofChoice[static_cast<std::size_t>(std::get<int>(value))]; } };
 }
-/// @param names that a text may have
+/// @param names valid texts
 Setting oneOfNames(std::string name, std::string meaning, std::string ShadowSettings::*member,
   std::vector<std::string> names);
-/// The same setting as one that maps are baked with.
+/// Return the setting, marked as baked into maps.
 Setting bakedInto(Setting setting);
 ///@}
 
-/// All tables, in the order in which they are listed to people: those of lights/, until the
-/// registry of techniques sets the list.
+/// Return all tables, in the order of documentation: those of lights/, until the registry of
+/// techniques sets the list.
 const std::vector<const SettingsTable*>& settingsTables();
-/// @return true, so that a library can call it while it is loaded
+/// Set the list of tables.
+/// @return true, so that a static initialiser can call it
 bool setSettingsTables(std::vector<const SettingsTable*> tables);
 
-/// The settings of all tables.
+/// Return the settings of all tables.
 std::vector<const Setting*> shadowSettings();
 
-/// The setting of that name; nullptr when there is none.
+/// Return the setting with this name; nullptr without one.
 const Setting* findSetting(const std::string& name);
 
-/// "technique, map_size, ...": for error messages.
+/// Return all names for error messages: "technique, map_size, ...".
 std::string settingNames();
 
-/// "a, b, c"
+/// Return names as a list: "a, b, c".
 std::string listOf(const std::vector<std::string>& names);
 
 } // namespace gnomon

@@ -13,28 +13,29 @@
 namespace gnomon
 {
 
-/// What a user can ask of a light's shadows. A light sets some by name (vtkGnomonLightKeys), the
-/// pass sets others, and the rest are defaults.
+/// The settings of a light's shadows. A light sets some by name (vtkGnomonLightKeys), the pass sets
+/// others, and the rest are defaults.
 ///
-/// Each folder owns a struct of its settings with their defaults, and the table of their names
-/// (SettingsTable.h). Settings of views and of light points are members here; a technique's are
-/// found by their type.
+/// Each folder owns a struct of its settings with their defaults, and a table of their names
+/// (SettingsTable.h). Settings of views and light points are members here. A technique's settings
+/// are looked up by their type.
 struct ShadowSettings
   : ViewSettings
   , LightPointSettings
 {
-  /// A name of the registry of techniques (shadowtech/Registry.h); empty: the registry's default.
+  /// A technique's name in the registry (shadowtech/Registry.h); empty: the registry's default.
   std::string technique;
-  /// A name of the registry of estimators; empty: the technique's.
+  /// An estimator's name in the registry; empty: the technique's estimator.
   std::string estimator;
-  /// Whether to follow the technique's publication to the letter, where that is not exact.
+  /// True to follow the technique's publication to the letter, even if the result is then not
+  /// exact.
   bool asPublished = false;
 
-  /// The names that Setting::set() was called for since the technique was chosen.
+  /// The names that Setting::set() set since the technique was chosen.
   std::set<std::string> named;
 
   ///@{
-  /// The settings of a struct.
+  /// Return the settings of a struct.
   template <typename Struct>
   const Struct& of() const
   {
@@ -69,7 +70,7 @@ struct ShadowSettings
   ///@}
 
 private:
-  std::map<std::type_index, std::any> ofTechniques_; ///< defaults where there is none
+  std::map<std::type_index, std::any> ofTechniques_; ///< a missing struct has its defaults
 };
 
 } // namespace gnomon

@@ -7,7 +7,7 @@ namespace gnomon
 namespace
 {
 
-/// A well mixed number of one ("lowbias32" of Wellons 2018).
+/// Hash a word ("lowbias32", Wellons 2018).
 std::uint32_t hashOf(std::uint32_t x)
 {
   x = (x ^ (x >> 16)) * 0x7feb352du;
@@ -15,14 +15,15 @@ std::uint32_t hashOf(std::uint32_t x)
   return x ^ (x >> 16);
 }
 
-/// Of the first dimension: the digits of a number behind the point, the last one first.
+/// Return a direction number of the first dimension, which reverses a number's bits behind the
+/// binary point.
 constexpr std::uint32_t direction(std::size_t bit)
 {
   return 0x80000000u >> bit;
 }
 
-/// A direction number through a triangular matrix that is its own for each seed: a bit stays, and
-/// flips others behind it.
+/// Multiply a direction number by the seed's triangular matrix: a bit stays, and flips random bits
+/// behind it.
 std::uint32_t scrambled(std::uint32_t from, std::uint32_t seed)
 {
   std::uint32_t to = 0;
@@ -37,7 +38,7 @@ std::uint32_t scrambled(std::uint32_t from, std::uint32_t seed)
   return to;
 }
 
-/// Bits of a word with a zero between any two.
+/// Return the low 16 bits of a word with a zero between any two.
 std::uint32_t spread(std::uint32_t x)
 {
   x &= 0x0000ffffu;
@@ -47,8 +48,8 @@ std::uint32_t spread(std::uint32_t x)
   return (x | (x << 1)) & 0x55555555u;
 }
 
-/// A number on a Z curve whose parts, of any size, are swapped at random: each bit is flipped by a
-/// hash of those before it.
+/// Return a number on a Z curve whose parts, of any size, are swapped at random. A hash of the bits
+/// before a bit flips it.
 #ifdef __x86_64__
 [[gnu::target_clones("avx2", "default")]]
 #endif
@@ -70,7 +71,8 @@ shuffled(std::uint32_t number, std::uint32_t seed)
 SobolPoints::SobolPoints(int count, std::uint32_t seed)
   : orderSeed_(hashOf(seed + 4u))
 {
-  // Of the second dimension the polynomial is x + 1, of the third x^2 + x + 1, begun by 1 and 3.
+  // The second dimension's polynomial is x + 1, the third's x^2 + x + 1 with initial numbers 1 and
+  // 3.
   Directions& first = this->directions_[0];
   Directions& second = this->directions_[1];
   Directions& third = this->directions_[2];
@@ -119,7 +121,7 @@ SobolPoints::sobol(std::uint32_t number) const
   std::uint32_t x = this->first_.x, y = this->first_.y, z = this->first_.z;
   for (std::uint32_t bit = 0; bit < bitsOfWord; ++bit)
   {
-    const std::uint32_t all = 0u - (number >> bit & 1u); // of a word's bits, or none
+    const std::uint32_t all = 0u - (number >> bit & 1u); // all of a word's bits, or none
     x ^= this->directions_[0][bit] & all;
     y ^= this->directions_[1][bit] & all;
     z ^= this->directions_[2][bit] & all;
@@ -142,8 +144,8 @@ SamplePixel SobolPoints::pixel(std::uint32_t column, std::uint32_t row) const
   const std::uint32_t place = shuffled(spread(column) | (spread(row) << 1), this->orderSeed_);
   SamplePixel pixel;
   pixel.bits = this->sobol(place << this->numberBits_) ^ this->first_;
-  // Flipping bits moves parts of the square as wholes: what lies in part i came from part i ^
-  // order. Without parts any order will do that chooses among the numbers.
+  // Flipping bits permutes the parts of the square: the point in part i comes from part i ^ order.
+  // Without parts, any order that permutes the numbers will do.
   const std::uint32_t numbers = static_cast<std::uint32_t>(this->points_.size());
   pixel.order =
     this->hasParts_ ? this->partOf(pixel.bits) : hashOf(place + this->orderSeed_) & (numbers - 1u);

@@ -17,7 +17,7 @@ std::vector<double> splitDistances(const DistanceInterval& visible, int count, d
   {
     const double share = static_cast<double>(i) / count;
     const double uniform = n + (f - n) * share;
-    // Without a positive distance there are no logarithms.
+    // Logarithms need a positive distance.
     const double logarithmic =
       f > 0.0 ? logarithmicNear * std::pow(f / logarithmicNear, share) : uniform;
     result.push_back(std::clamp(lambda * logarithmic + (1.0 - lambda) * uniform, n, f));

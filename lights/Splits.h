@@ -14,23 +14,23 @@ struct DistanceInterval
   double farthest;
 };
 
-/// The distances that split what is visible into `count` parts: count + 1 of them, strictly growing
-/// (unless the interval has no length), the first and last exactly the interval's ends.
+/// Return the count + 1 distances that split the visible interval into `count` parts. They grow
+/// strictly unless the interval has no length. The first and last are exactly the interval's ends.
 ///
-/// Zhang, Sun, Xu, Lun: Parallel-Split Shadow Maps for Large-scale Virtual Environments, 2006,
-/// section 4: lambda n (f/n)^(i/m) + (1 - lambda) (n + (f - n) i/m). lambda 1: logarithmic, 0:
-/// uniform, between: the practical scheme.
+/// Split i is at lambda n (f/n)^(i/m) + (1 - lambda) (n + (f - n) i/m) (Zhang, Sun, Xu, Lun:
+/// Parallel-Split Shadow Maps for Large-scale Virtual Environments, 2006, section 4). Lambda 1 is
+/// the logarithmic scheme, 0 the uniform one; between is the practical scheme.
 ///
-/// @param visible a nearest distance of 0 or less is taken as a thousandth of the farthest one by
-/// the logarithmic part, which has no split there; the first distance stays what it is
+/// @param visible distances; the logarithmic part replaces a nearest distance <= 0 by a thousandth
+/// of the farthest, and the first distance returned stays as given
 /// @param count 1 to mostSplits
 /// @param lambda in [0, 1]
 std::vector<double> splitDistances(const DistanceInterval& visible, int count, double lambda);
 
-/// What is to be split, from the receivers' own distances (Lauritzen, Salvi, Lefohn: Sample
-/// Distribution Shadow Maps, 2011, section 3.1): their least and greatest one, within what the
-/// camera and the scene leave; that alone where there are no receivers (least > greatest, or not
-/// finite).
+/// Return the interval to split: the receivers' least and greatest distance, clipped to `possible`
+/// (Lauritzen, Salvi, Lefohn: Sample Distribution Shadow Maps, 2011, section 3.1). Without
+/// receivers (least > greatest, or not finite), return `possible`.
+/// @param possible interval that camera and scene allow
 DistanceInterval splitInterval(
   const DistanceInterval& possible, double leastReceiver, double greatestReceiver);
 

@@ -12,8 +12,8 @@ namespace gnomon
 namespace
 {
 
-/// A cos(B + C t), t in Julian millennia: a term of the report's table A4.2, which takes them from
-/// VSOP87 (Bretagnon and Francou 1988).
+/// A term A cos(B + C t) of the report's table A4.2, with t in Julian millennia. The source of the
+/// table is VSOP87 (Bretagnon and Francou 1988).
 struct Term
 {
   double a;
@@ -36,7 +36,7 @@ constexpr std::array<Term, 3> longitude2{ { { 52919, 0, 0 }, { 8720, 1.0721, 628
   { 309, 0.867, 12566.152 } } };
 constexpr std::array<Term, 1> longitude3{ { { 289, 5.844, 6283.076 } } };
 constexpr std::array<Term, 1> latitude0{ { { 280, 3.199, 84334.662 } } };
-/// Parallax and aberration alone depend on the distance, and little.
+/// Only parallax and aberration depend on the distance, and only slightly.
 constexpr std::array<Term, 3> distance0{ { { 100013989, 0, 0 }, { 1670700, 3.0984635, 6283.07585 },
   { 13956, 3.05525, 12566.1517 } } };
 constexpr std::array<Term, 1> distance1{ { { 103019, 1.10749, 6283.07585 } } };
@@ -52,9 +52,9 @@ double sumOf(const std::array<Term, count>& terms, double t)
   return 1e-8 * sum;
 }
 
-/// A term of the nutation (table A4.3): multiples of the moon's elongation, the sun's and the
-/// moon's anomaly, the moon's latitude and node; then of the sine in longitude, and of the cosine
-/// in obliquity, in 0.0001 arc seconds and the same a century.
+/// A term of the nutation (table A4.3). Its angle has multiples of the moon's elongation, the sun's
+/// and the moon's anomaly, and the moon's latitude and node. Its coefficients are of the sine in
+/// longitude and the cosine in obliquity, in 0.0001 arc seconds, and their change per century.
 struct NutationTerm
 {
   std::array<double, 5> multiples;
@@ -107,8 +107,8 @@ Nutation nutationAt(double t)
   return nutation;
 }
 
-/// Equation 24, in degrees.
-/// @param u units of 10,000 Julian years since 2000
+/// Return the mean obliquity in degrees (equation 24).
+/// @param u time since 2000 in units of 10,000 Julian years
 double meanObliquity(double u)
 {
   constexpr std::array<double, 11> arcSeconds = { 2.45, 5.79, 27.87, 7.12, -39.05, -249.67, -51.38,
@@ -162,14 +162,14 @@ SunPosition sunPosition(const SunView& view)
   const double hourAngle =
     glm::radians(turned(siderealDegrees + view.longitudeDegrees)) - rightAscension;
 
-  // The observer stands on the ellipsoid, not in its middle: at most 9 arc seconds.
+  // Parallax, at most 9 arc seconds: the observer stands on the ellipsoid, not at its centre.
   const double latitude = glm::radians(view.latitudeDegrees);
   const double parallax = glm::radians(8.794 / 3600.0 / distance);
   const double reduced = std::atan2(0.99664719 * std::sin(latitude), std::cos(latitude));
   const double altitude = view.altitudeMetres / 6378140.0;
   const double across = std::cos(reduced) + altitude * std::cos(latitude);
   const double along = 0.99664719 * std::sin(reduced) + altitude * std::sin(latitude);
-  // The sun's declination is at most 24 degrees, so that the second arguments are positive.
+  // The sun's declination is at most 24 degrees, so the second arguments are positive.
   const double towards = std::cos(declination) - across * std::sin(parallax) * std::cos(hourAngle);
   const double shift = std::atan2(-across * std::sin(parallax) * std::sin(hourAngle), towards);
   const double declinationSeen =
@@ -178,7 +178,7 @@ SunPosition sunPosition(const SunView& view)
 
   const double sine = std::sin(latitude) * std::sin(declinationSeen) +
     std::cos(latitude) * std::cos(declinationSeen) * std::cos(hourAngleSeen);
-  // In the zenith both are 0, and atan2 gives some azimuth.
+  // At the zenith both are 0, and atan2 returns an arbitrary azimuth.
   const double azimuthFromSouth = std::atan2(std::sin(hourAngleSeen) * std::cos(declinationSeen),
     std::cos(hourAngleSeen) * std::sin(latitude) * std::cos(declinationSeen) -
       std::sin(declinationSeen) * std::cos(latitude));
@@ -202,7 +202,7 @@ double refractionDegrees(double elevationDegrees, double pressureMillibar, doubl
 //------------------------------------------------------------------------------
 double julianDayOf(int year, int month, int day)
 {
-  if (month <= 2) // they count to the year before
+  if (month <= 2) // counts as a month of the previous year
   {
     year -= 1;
     month += 12;

@@ -3,7 +3,7 @@
 namespace gnomon
 {
 
-/// When and where the sun is looked at.
+/// The time and place of an observation of the sun.
 struct SunView
 {
   double julianDay = 0.0;        ///< in UT1, which is UTC to within a second
@@ -13,7 +13,7 @@ struct SunView
   double altitudeMetres = 0.0;
 };
 
-/// The middle of the sun's disc as an observer on the ground sees it, without the air.
+/// The place of the centre of the sun's disc for an observer on the ground, without refraction.
 struct SunPosition
 {
   double azimuthDegrees = 0.0;     ///< from north, clockwise, in [0, 360)
@@ -23,15 +23,15 @@ struct SunPosition
 };
 
 /// Return the sun's position by the Solar Position Algorithm (Reda and Andreas, "Solar Position
-/// Algorithm for Solar Radiation Applications", Solar Energy 76, 2004; revised 2008), whose own
-/// uncertainty is 0.0003 degrees from the year -2000 to 6000. Periodic terms below 2e-6 radians are
-/// left out. Directions then differ from PyEphem's (full VSOP87) by 0.0002 degrees on average and
-/// by 0.0009 at most, over 20,000 random dates from 1583 to 3000 and places.
+/// Algorithm for Solar Radiation Applications", Solar Energy 76, 2004; revised 2008), without
+/// periodic terms below 2e-6 radians. The full algorithm's uncertainty is 0.0003 degrees in the
+/// years -2000 to 6000. Directions differ from PyEphem's (full VSOP87) by 0.0002 degrees on average
+/// and by 0.0009 at most, over 20,000 random places and dates from 1583 to 3000.
 SunPosition sunPosition(const SunView& view);
 
-/// Return by how many degrees the air lifts the sun (the same report, equation 42); 0 where the
+/// Return by how many degrees refraction lifts the sun (the same report, equation 42); 0 if the
 /// whole disc is below the horizon.
-/// @param elevationDegrees without the air
+/// @param elevationDegrees without refraction
 double refractionDegrees(double elevationDegrees, double pressureMillibar, double celsius);
 
 /// Return the Julian day at which a day of the Gregorian calendar begins (Meeus, Astronomical

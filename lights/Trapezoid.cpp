@@ -11,11 +11,12 @@ namespace gnomon
 namespace
 {
 
-/// The focus region is taken to be at least this share of the depth, and this much less than what
-/// it gets on the map: the warp stays finite where the region has no length, or all.
+/// Lower limit of the focus region's share of the depth, and of its difference from the region's
+/// share of the map. It keeps the warp finite if the region has no length, or all of the depth.
 constexpr double leastFocus = 1e-3;
 
-/// How far the focus region reaches in the frame's y, as a share of its depth: delta' / lambda.
+/// Return the focus region's extent in the frame's y, as a share of the frame's depth: delta' /
+/// lambda.
 double focusOf(const WarpFrame& frame, const CameraView& camera, const LightRays& rays)
 {
   const double distance =
@@ -24,8 +25,8 @@ double focusOf(const WarpFrame& frame, const CameraView& camera, const LightRays
   const glm::dvec3 view(rays.viewFromCentred * glm::dvec4(centred, 1.0));
   if (rays.positional && !(view.z > 0.0))
   {
-    // The axis' image runs through infinity where it passes the light: beyond the far end of what
-    // is visible if it runs towards the light, before its near end if it comes from there.
+    // The axis' image passes infinity at the light. That is beyond the far end of the visible range
+    // if the axis runs towards the light, and before the near end if it runs away.
     const double directionZ = (glm::dmat3(rays.viewFromCentred) * camera.directionCentred()).z;
     return directionZ < 0.0 ? 1.0 : 0.0;
   }
@@ -43,15 +44,15 @@ glm::dmat3 trapezoidFromAcross(
   {
     return uniformFromAcross(rays.across(bodyView));
   }
-  // The distance of the centre of projection from the near side: the focus region ends on the 80 %
-  // line where eta = lambda delta' (1 + xi) / (lambda - 2 delta' - lambda xi), xi = 1 - 2 * 80 %. A
-  // region that has 80 % anyway needs no perspective.
+  // eta is the distance of the centre of projection from the near side. The focus region ends on
+  // the 80 % line if eta = lambda delta' (1 + xi) / (lambda - 2 delta' - lambda xi), xi = 1 - 2 *
+  // 80 %. A region that has 80 % of the depth needs no perspective.
   const double focus =
     std::clamp(focusOf(*frame, camera, rays), leastFocus, trapezoidFocusLine - leastFocus);
   const double xi = 1.0 - 2.0 * trapezoidFocusLine;
   const double eta = focus * (1.0 + xi) / (1.0 - 2.0 * focus - xi);
-  // The published method has no fall-off, and is worse than uniform where one end of the frustum
-  // hides the other; that of LiSPSM serves.
+  // The published method has no fall-off, and is worse than uniform if one end of the frustum hides
+  // the other. So LiSPSM's fall-off is used.
   return warpedOrUniform(*frame, fallOff(*frame, eta), bodyView, camera, rays);
 }
 

@@ -32,7 +32,7 @@ void sortAndRemoveDuplicates(std::vector<glm::dvec3>& points)
   points.erase(std::unique(points.begin(), points.end()), points.end());
 }
 
-/// Puts coplanar corners of a convex polygon into their order around it.
+/// Sort coplanar corners of a convex polygon around their centre.
 Polygon ordered(std::vector<glm::dvec3> corners, const glm::dvec3& normal)
 {
   glm::dvec3 centre(0.0);
@@ -40,7 +40,7 @@ Polygon ordered(std::vector<glm::dvec3> corners, const glm::dvec3& normal)
   {
     centre += corner / static_cast<double>(corners.size());
   }
-  // Any two axes in the plane.
+  // Two arbitrary axes in the plane.
   const glm::dvec3 u = glm::cross(normal, axisAcross(normal));
   const glm::dvec3 v = glm::cross(normal, u) / glm::length(normal);
   std::vector<std::pair<double, glm::dvec3>> byAngle;
@@ -61,8 +61,8 @@ Polygon ordered(std::vector<glm::dvec3> corners, const glm::dvec3& normal)
   return result;
 }
 
-/// Sutherland and Hodgman's clipping of one polygon.
-/// @param cut gets the corners that lie on the plane
+/// Clip a polygon by Sutherland's and Hodgman's algorithm.
+/// @param cut receives the corners that lie on the plane
 Polygon clippedPolygon(
   const Polygon& polygon, const HalfSpace& halfSpace, std::vector<glm::dvec3>& cut)
 {
@@ -84,7 +84,7 @@ Polygon clippedPolygon(
     if ((distanceFromStart > 0.0 && distanceFromEnd < 0.0) ||
       (distanceFromStart < 0.0 && distanceFromEnd > 0.0))
     {
-      // Always from the inner end, so that both polygons at an edge get the same point.
+      // Interpolate from the inner end, so both polygons at an edge get the same point.
       const bool leaves = distanceFromStart > 0.0;
       const glm::dvec3& inner = leaves ? from : to;
       const glm::dvec3& outer = leaves ? to : from;
@@ -103,7 +103,8 @@ glm::dmat4 centredFromLight(const LightRays& rays)
   return glm::inverse(rays.viewFromCentred);
 }
 
-/// In the light's view space: points at more than this distance along the camera's direction.
+/// Return the half space, in the light's view space, beyond this distance along the camera's
+/// direction.
 HalfSpace beyond(const CameraView& camera, const LightRays& rays, double distance)
 {
   const glm::dmat4 cameraFromLight = camera.viewFromCentred * centredFromLight(rays);
@@ -129,7 +130,7 @@ ConvexBody::ConvexBody(const Bounds& box, const glm::dmat4& transformation)
       return;
     }
   }
-  // Bits 0, 1, 2 of a corner's index are x, y and z: around each face.
+  // The corners around each face. Bits 0, 1 and 2 of a corner's index are x, y and z.
   constexpr std::array<std::array<std::size_t, 4>, 6> faces{ { { 0, 2, 6, 4 }, { 1, 3, 7, 5 },
     { 0, 1, 5, 4 }, { 2, 3, 7, 6 }, { 0, 1, 3, 2 }, { 4, 5, 7, 6 } } };
   for (const auto& face : faces)
@@ -235,7 +236,7 @@ double nearestOf(const Bounds& sceneCentred, const LightRays& rays)
 ConvexBody visibleBody(const CameraView& camera, const Bounds& sceneCentred, const LightRays& rays,
   const std::vector<HalfSpace>& reach)
 {
-  // The frustum's planes are sums of the rows of its matrix: -w <= x <= w and so on.
+  // The frustum's planes are sums and differences of its matrix' rows: -w <= x <= w and so on.
   const glm::dmat4 rows = glm::transpose(camera.clipFromCentred() * centredFromLight(rays));
   std::vector<HalfSpace> frustum;
   for (int axis = 0; axis < 3; ++axis)

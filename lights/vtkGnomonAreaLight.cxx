@@ -25,7 +25,7 @@ void vtkGnomonAreaLight::SetShape(int shape)
   const int clamped = std::clamp<int>(shape, RECTANGLE, DISK);
   const bool changes = this->Shape != clamped;
   this->Shape = clamped;
-  this->TellOSPRay(); // whose module may have been loaded since
+  this->TellOSPRay(); // its module may have been loaded since the last call
   if (changes)
   {
     this->Modified();
@@ -35,11 +35,11 @@ void vtkGnomonAreaLight::SetShape(int shape)
 //------------------------------------------------------------------------------
 void vtkGnomonAreaLight::SetRadius(double radius)
 {
-  // What is no number stays, and casts nothing, for a reason that the frame's report gives.
+  // NaN stays: such a light casts no shadow, and the frame's report gives the reason.
   const double clamped = std::clamp(radius, 0.0, VTK_DOUBLE_MAX);
   const bool changes = this->Radius != clamped;
   this->Radius = clamped;
-  this->TellOSPRay(); // whose module may have been loaded since
+  this->TellOSPRay(); // its module may have been loaded since the last call
   if (changes)
   {
     this->Modified();
@@ -54,7 +54,7 @@ void vtkGnomonAreaLight::TellOSPRay()
   {
     return;
   }
-  // A radius that is no number, or too large to cast anything here, is none there.
+  // NaN, or a radius too large to cast shadows here, is no radius for OSPRay.
   if (this->Shape == DISK && this->Radius <= gnomon::largestAreaRadius)
   {
     this->GetInformation()->Set(key, this->Radius);
@@ -84,7 +84,7 @@ void vtkGnomonAreaLight::DeepCopy(vtkLight* light)
   {
     this->CopyArea(area);
   }
-  this->Superclass::DeepCopy(light); // the information as well, and OSPRay's key in it
+  this->Superclass::DeepCopy(light); // copies the information, OSPRay's key included
   if (!area)
   {
     this->TellOSPRay();

@@ -1,6 +1,6 @@
 /**
  * @class   vtkGnomonAreaLight
- * @brief   a light that is as large as lamps and windows are, and so gives soft shadows
+ * @brief   a light with an area, such as a lamp or a window, which gives soft shadows
  *
  * @code
  * vtkNew<vtkGnomonAreaLight> lamp;
@@ -11,33 +11,35 @@
  * lamp->SetHeight(0.5);
  * @endcode
  *
- * A rectangle or a disk around the light's Position, across the direction to its FocalPoint. All of
- * its points shine alike, unless it has a Texture. Which of them a surface sees is its visibility;
- * shading is VTK's own, from the centre, and so are the cone and the box (vtkGnomonLightKeys) that
- * the light may have. Techniques with hard shadows take the centre's. "raytraced", "penumbra",
- * "coherence", "sampled" and "planar" take the whole area, by as many points as the setting
- * "light_samples" says (vtkGnomonLightKeys::SetSetting), and so do "pcss", by "pcss_samples", and
- * "montecarlo", by "mc_rays". vtkGnomonLightSamplingPass has VTK shade from all of its points
- * instead.
+ * The area is a rectangle or a disk around the light's Position, across the direction to its
+ * FocalPoint. All its points emit alike unless it has a Texture. A surface's visibility is the
+ * share of points that it sees. VTK shades from the centre; a cone or box (vtkGnomonLightKeys)
+ * starts there, too.
  *
- * It is positional and shines into all directions (ConeAngle 90) until it is told otherwise.
+ * Techniques with hard shadows use the centre. "raytraced", "penumbra", "coherence", "sampled" and
+ * "planar" sample the whole area at "light_samples" points. "pcss" samples it at "pcss_samples"
+ * points, "montecarlo" by "mc_rays" rays. These are settings (vtkGnomonLightKeys::SetSetting).
+ * vtkGnomonLightSamplingPass makes VTK shade from all points.
  *
- * <b>Units.</b> Sizes are in world units, whatever the light's transform. Of a directional light
- * (PositionalOff) they are angles in degrees: the whole angles that the light fills in the sky,
- * which for the sun's disk is 0.53. A rectangle's must be below 180 then, and a disk's too.
+ * By default it is positional and shines in all directions (ConeAngle 90).
  *
- * <b>OSPRay.</b> Radius is the same number as that of vtkOSPRayLightNode::SetRadius: of a positional
- * light the radius, of a directional one the angular diameter in degrees. SetRadius and SetShape
- * give a disk OSPRay's key, too, where OSPRay's module is loaded by then, so that it is as large to
- * vtkOSPRayPass, and take it off a rectangle, which is a point there. A vtkLight that has OSPRay's
- * key (RADIUS) gives soft shadows as well, without being of this class: a disk across the direction
- * of a spot light or directional light, and of a light that shines into all directions a ball,
- * which looks like a disk of that radius from all sides. The setting "light_radius", of a light or
- * of the pass, makes any light such a disk or ball.
+ * <b>Units.</b> Sizes are in world units; the light's transform does not scale them. Sizes of a
+ * directional light (PositionalOff) are angles in degrees, below 180: the whole angles that the
+ * light fills in the sky. The sun's disk fills 0.53 degrees.
  *
- * A light of size 0 is a point. One whose size is not finite or beyond 1e12, or which has no
- * direction, or of a rectangle an up direction along it, casts no shadow, which the frame's report
- * says. So does one with a bad Texture.
+ * <b>OSPRay.</b> Radius has the meaning of vtkOSPRayLightNode::SetRadius: a positional light's
+ * radius, or a directional light's angular diameter in degrees. If OSPRay's module is loaded,
+ * SetRadius and SetShape set OSPRay's key on a disk, so vtkOSPRayPass shows the same size. They
+ * remove the key from a rectangle, which OSPRay shows as a point.
+ *
+ * Any vtkLight with OSPRay's key (RADIUS) gives soft shadows. A spot light or directional light
+ * becomes a disk across its direction. A light that shines in all directions becomes a ball, which
+ * looks like a disk of that radius from all sides. The setting "light_radius", of a light or of the
+ * pass, makes any light such a disk or ball.
+ *
+ * <b>Errors.</b> A light of size 0 is a point. Some lights cast no shadow, and the frame's report
+ * gives the reason: a size that is not finite or above 1e12, a light without direction, a rectangle
+ * or textured disk with Up along the light, an invalid Texture.
  */
 
 #ifndef vtkGnomonAreaLight_h
@@ -63,7 +65,8 @@ public:
 
   ///@{
   /**
-   * What it is: RECTANGLE, with Width, Height and Up, or DISK (the default), with Radius.
+   * The light's shape: RECTANGLE, with Width, Height and Up, or DISK, with Radius. Other values are
+   * clamped. Default: DISK.
    */
   virtual void SetShape(int shape);
   vtkGetMacro(Shape, int);
@@ -73,8 +76,8 @@ public:
 
   ///@{
   /**
-   * A disk's size, in the units of vtkOSPRayLightNode::SetRadius, see above. What is negative
-   * counts as 0. 0.5 by default.
+   * A disk's size, in the units of vtkOSPRayLightNode::SetRadius, see above. Negative values are
+   * clamped to 0. Default: 0.5.
    */
   virtual void SetRadius(double radius);
   vtkGetMacro(Radius, double);
@@ -82,8 +85,8 @@ public:
 
   ///@{
   /**
-   * A rectangle's size across Up and along it, see above. What is negative counts as 0. 1 by
-   * default.
+   * A rectangle's size across Up (Width) and along Up (Height), in the units above. Negative values
+   * are clamped to 0. Default: 1.
    */
   vtkSetClampMacro(Width, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(Width, double);
@@ -93,9 +96,9 @@ public:
 
   ///@{
   /**
-   * Which way is up in a rectangle, and in a disk with a Texture: not along the light, of any
-   * length, in the light's own coordinates as its Position is. The height lies in the plane of Up
-   * and the light's direction. (0, 1, 0) by default.
+   * The up direction of a rectangle, and of a disk with a Texture. It has any length, must not be
+   * along the light, and is in the light's own coordinates, as Position is. The height lies in the
+   * plane of Up and the light's direction. Default: (0, 1, 0).
    */
   vtkSetVector3Macro(Up, double);
   vtkGetVector3Macro(Up, double);
@@ -103,39 +106,39 @@ public:
 
   ///@{
   /**
-   * How the light's colour is spread over its area: a picture that its light comes through, as
-   * through the panes of a window. A point of the light shines with the light's colour times the
-   * colour of the texel there (the nearest one), channel by channel; null, the default, and all
-   * white: all points shine alike. What nothing hides the light from gets the light's colour times
-   * the picture's mean. Who looks at the light from where it shines to, with Up upwards, sees the
-   * picture as it is: its first row at the bottom, as images of VTK have it. A disk shows what of
-   * the picture lies inside of the circle that touches its sides.
+   * A picture that the light passes, as through a stained glass window. A point of the light emits
+   * the light's colour times the nearest texel's colour, channel by channel. An unshadowed surface
+   * gets the light's colour times the picture's mean. Null (the default) and an all-white picture
+   * make all points emit alike.
    *
-   * The image has one slice, with 1 to 4 components a point: grey or colours, and an alpha, which
-   * means nothing. Values of unsigned char and unsigned short go from 0 to the type's greatest, of
-   * float and double from 0 to 1, each in 255 steps. They are taken as they stand, as light colours
-   * are: no colour space is converted. With anything else, or with the setting "light_radius", the
-   * light casts no shadow, for the reason that the frame's report gives, and is VTK's own, without
-   * texture.
+   * A viewer who faces the light, with Up upwards, sees the picture with its first row at the
+   * bottom, as in VTK's images. A disk shows the picture's part inside the circle that touches its
+   * sides.
    *
-   * "raytraced", "penumbra", "coherence", "montecarlo" and "sampled" show it; of others visibility
-   * has one channel, and the light is an even one of the picture's mean. With
-   * vtkGnomonLightSamplingPass all of them show it.
+   * The image has one slice, with 1 to 4 components per point: grey or colour, with an alpha that
+   * is ignored. Unsigned char and unsigned short values range from 0 to the type's maximum, float
+   * and double values from 0 to 1. All are rounded to 255 steps. As with light colours, no colour
+   * space is converted. With any other image, or with the setting "light_radius", the light casts
+   * no shadow and shines without texture, as in VTK. The frame's report gives the reason.
    *
-   * The light shares the image, and sees when it is modified. A pipeline is not updated.
+   * "raytraced", "penumbra", "coherence", "montecarlo" and "sampled" show the picture. Other
+   * techniques' visibility has one channel, so they show a uniform light of the picture's mean.
+   * With vtkGnomonLightSamplingPass all techniques show the picture.
+   *
+   * The light shares the image and notices its modifications. It does not update a pipeline.
    */
   vtkSetSmartPointerMacro(Texture, vtkImageData);
   vtkGetSmartPointerMacro(Texture, vtkImageData);
   ///@}
 
   /**
-   * A light of this class with the same parameters; it shares the transform matrix and the texture,
-   * if there are any.
+   * Return a new light of this class with the same parameters. It shares the transform matrix and
+   * the texture.
    */
   vtkLight* ShallowClone() override;
 
   /**
-   * Copy all parameters; of a light that is none of this class, those that all lights have. The
+   * Copy all parameters. From a light of another class, copy the parameters of vtkLight. The
    * transform matrix and the information are copied, not shared; the texture is shared.
    */
   void DeepCopy(vtkLight* light);

@@ -62,8 +62,8 @@ void vtkGnomonLightKeys::SetSetting(vtkLight* light, const char* name, const cha
   if (!text.empty() && !setting->set(scratch, text))
   {
     vtkErrorWithObjectMacro(light,
-      "The setting '" << name << "' of a light was to be '" << text << "', expected "
-                      << setting->expected() << ".");
+      "Invalid value '" << text << "' for a light's setting '" << name << "', expected "
+                        << setting->expected() << ".");
     return;
   }
   vtkInformation* keys = light->GetInformation();
@@ -126,14 +126,14 @@ void vtkGnomonLightKeys::SetBox(
   {
     vtkErrorWithObjectMacro(light,
       "A light's box of " << width << " x " << height << " x " << depth
-                          << " was asked for; its sizes must be positive.");
+                          << " is invalid; its sizes must be positive and finite.");
     return;
   }
   if (!isSize(std::hypot(up[0], up[1], up[2])))
   {
     vtkErrorWithObjectMacro(light,
-      "A light's box was asked for with the up direction " << up[0] << ", " << up[1] << ", "
-                                                           << up[2] << ", which is none.");
+      "A light's box has an invalid up direction: " << up[0] << ", " << up[1] << ", " << up[2]
+                                                    << ".");
     return;
   }
   const double numbers[6] = { width, height, depth, up[0], up[1], up[2] };

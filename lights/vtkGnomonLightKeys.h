@@ -1,9 +1,10 @@
 /**
  * @class   vtkGnomonLightKeys
- * @brief   what one vtkLight asks of vtkGnomonShadowPass
+ * @brief   settings of one vtkLight for vtkGnomonShadowPass
  *
- * The keys live in a light's information, next to which vtkLight's own ShadowAttenuation is the
- * shadow's strength (1: full shadows, 0: none). What a light does not say, the pass decides.
+ * The keys are stored in a light's information (vtkInformation). In addition, vtkLight's own
+ * ShadowAttenuation is the shadow's strength (1: full shadows, 0: none). The pass decides all that
+ * a light leaves unset.
  *
  * @code
  * vtkGnomonLightKeys::SetTechnique(light, "raytraced");
@@ -11,19 +12,20 @@
  * vtkGnomonLightKeys::SetCasts(fillLight, false);
  * @endcode
  *
- * <b>Settings.</b> What is asked of a light's shadows is a list of names with values, the same ones
- * that scene files and the program gnomon take. docs/guide/settings.md lists them, as does `gnomon
- * settings`. A setting that the light's technique does not have is an error of the frame, which
- * names the techniques that have it and draws the shadows without it.
+ * <b>Settings.</b> A light's settings are a list of names with values, as in scene files and in the
+ * program gnomon. docs/guide/settings.md and `gnomon settings` list them. A setting that the
+ * light's technique lacks is an error of the frame, which names the techniques that have it. The
+ * shadows are rendered without it.
  *
- * <b>A directional light's box.</b> A directional light may be limited to a box, as the sun is that
- * comes in through a window: it begins at the box's near face, which stands across it with the
- * light's Position in its middle, and goes on for the box's depth. What lies outside gets nothing
- * of this light, whether or not it receives shadows from others, and what lies outside casts
- * nothing into the box; a caster that is partly inside casts with that part. The map then holds the
- * box alone, and is the finer for it. The limit is part of the visibility, so that a light without
- * shadows (CASTS 0, ShadowAttenuation 0) has none, and a ShadowAttenuation between leaves its share
- * outside. Receivers that do not receive shadows (vtkGnomonPropKeys) are lit everywhere.
+ * <b>A directional light's box.</b> A directional light may be limited to a box, like sunlight
+ * through a window. The light starts at the box's near face, which lies across the light and has
+ * Position at its centre. It ends after the box's depth. Surfaces outside get nothing of this
+ * light, and casters outside cast nothing into the box. A caster that is partly inside casts with
+ * that part. The map covers only the box, so its texels are finer.
+ *
+ * The limit is part of visibility. So a light without shadows (CASTS 0 or ShadowAttenuation 0) has
+ * no limit, and a ShadowAttenuation in between leaves its share of light outside. Props that do not
+ * receive shadows (vtkGnomonPropKeys) are lit everywhere.
  */
 
 #ifndef vtkGnomonLightKeys_h
@@ -50,11 +52,15 @@ public:
 
   ///@{
   /**
-   * The keys themselves, for code that fills information objects. CASTS is 0 or 1 (default 1).
-   * SETTINGS holds what SetSetting sets, names and values in turn. BOX limits a directional light
-   * to a box, see above: width, height and depth, each > 0, then the direction x, y, z that is up
-   * in the near face, not along the light. The up direction is in the light's own coordinates, as
-   * its Position is. Other kinds of light ignore it. OBJECT is what SetSettings sets.
+   * The keys, for code that fills information objects.
+   *
+   * - CASTS is 0 or 1. Default: 1.
+   * - SETTINGS holds SetSetting()'s names and values, alternating.
+   * - BOX limits a directional light to a box, see above. Its numbers are width, height and depth
+   *   in world units, each > 0, and the up direction x, y, z of the near face. The up direction
+   *   must not be along the light, and is in the light's own coordinates, as Position is. Other
+   *   kinds of light ignore BOX.
+   * - OBJECT holds SetSettings()'s object.
    */
   static vtkInformationIntegerKey* CASTS();
   static vtkInformationStringVectorKey* SETTINGS();
@@ -64,10 +70,9 @@ public:
 
   ///@{
   /**
-   * Set what is asked of a light's shadows, by name, see above. A null or empty value takes the
-   * setting away again, so that the pass's own counts. A setting that does not exist, and a value
-   * that it does not take, are an error and change nothing. GetSetting returns null where the light
-   * says nothing.
+   * Set one of a light's settings by name, see above. A null or empty value removes the setting, so
+   * the pass's value applies. An unknown name or an invalid value is an error and changes nothing.
+   * GetSetting() returns null for a setting that the light leaves unset.
    */
   static void SetSetting(vtkLight* light, const char* name, const char* value);
   static const char* GetSetting(vtkLight* light, const char* name);
@@ -75,8 +80,9 @@ public:
 
   ///@{
   /**
-   * Settings with types, which several lights may share. Those that were set count; SetSetting()
-   * goes before them, the pass's come after. Null takes them away again.
+   * Set an object of typed settings, which several lights may share. Only settings that were set
+   * apply. SetSetting() overrides them, and they override the pass. Null removes the object.
+   * Default: null.
    */
   static void SetSettings(vtkLight* light, vtkGnomonShadowSettings* settings);
   static vtkGnomonShadowSettings* GetSettings(vtkLight* light);
@@ -84,7 +90,7 @@ public:
 
   ///@{
   /**
-   * Whether the light casts shadows at all. Default true.
+   * True if the light casts shadows. Default: true.
    */
   static void SetCasts(vtkLight* light, bool casts);
   static bool GetCasts(vtkLight* light);
@@ -92,8 +98,8 @@ public:
 
   ///@{
   /**
-   * Set one of the settings. The size is clamped to what the setting takes; 0 or less takes it
-   * away.
+   * Set the setting "technique" or "map_size", as SetSetting() does. A map's size, in texels, is
+   * clamped to [16, 16384]; 0 or less removes the setting.
    */
   static void SetTechnique(vtkLight* light, const char* technique);
   static void SetMapSize(vtkLight* light, int mapSizeTexels);
@@ -101,9 +107,14 @@ public:
 
   ///@{
   /**
-   * Limit a directional light to a box, and lift that limit again. Sizes that are not positive and
-   * finite, and an up direction of no length, are an error and change nothing; an up direction
-   * along the light makes the light cast no shadow, which the frame's report says.
+   * Limit a directional light to a box, see above, or remove the limit. Sizes that are not positive
+   * and finite, or an up direction without length, are an error and change nothing. With an up
+   * direction along the light, the light casts no shadow, and the frame's report gives the reason.
+   *
+   * @param width size across the light and across `up`, in world units
+   * @param height size across the light and along `up`, in world units
+   * @param depth size along the light, in world units
+   * @param up the near face's up direction, of any length, in the light's own coordinates
    */
   static void SetBox(
     vtkLight* light, double width, double height, double depth, const double up[3]);

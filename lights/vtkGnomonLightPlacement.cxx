@@ -34,7 +34,8 @@ bool isFinite(const glm::dvec3& point)
   return std::isfinite(point.x) && std::isfinite(point.y) && std::isfinite(point.z);
 }
 
-/// The way that a light shines, or nothing, with an error, where it has none.
+/// Return the unit vector along which a light shines; nothing, with an error, if it has no
+/// direction.
 std::optional<glm::dvec3> travelOf(vtkLight* light)
 {
   const glm::dvec3 arm = toGlm(light->GetFocalPoint()) - toGlm(light->GetPosition());
@@ -54,7 +55,7 @@ void place(vtkLight* light, const glm::dvec3& position, const glm::dvec3& focalP
   light->SetFocalPoint(focalPoint.x, focalPoint.y, focalPoint.z);
 }
 
-/// Whether a sphere can be shone on; if not, with an error.
+/// True if a sphere is finite and has a positive radius. Else report an error.
 bool isThere(vtkLight* light, const glm::dvec3& centre, double radius)
 {
   const bool isThere = isFinite(centre) && radius > 0.0 && std::isfinite(radius);
@@ -63,7 +64,7 @@ bool isThere(vtkLight* light, const glm::dvec3& centre, double radius)
     vtkErrorWithObjectMacro(light,
       "The light cannot be placed: a sphere of radius " << radius << " around " << centre.x << ", "
                                                         << centre.y << ", " << centre.z
-                                                        << " is nothing to shine on.");
+                                                        << " is not a valid target.");
   }
   return isThere;
 }
@@ -97,7 +98,7 @@ void vtkGnomonLightPlacement::ShineOnSphere(vtkLight* light, const double center
 void vtkGnomonLightPlacement::ShineOnBox(vtkLight* light, const double bounds[6])
 {
   const gnomon::Bounds box = toBounds(bounds);
-  shineOnSphere(light, box.centre(), box.radius()); // of radius 0 where the box is empty
+  shineOnSphere(light, box.centre(), box.radius()); // an empty box has radius 0: an error
 }
 
 //------------------------------------------------------------------------------
@@ -117,7 +118,7 @@ void vtkGnomonLightPlacement::ShineOnPoints(vtkLight* light, vtkPoints* points)
     box.add(point);
   }
   const glm::dvec3 centre = box.centre();
-  double radius = 0.0; // and an error, of no points
+  double radius = 0.0; // without points it stays 0: an error
   for (vtkIdType i = 0; i < count; ++i)
   {
     radius = std::max(radius, glm::length(toGlm(points->GetPoint(i)) - centre));

@@ -1,6 +1,6 @@
 /**
  * @class   vtkGnomonLightPlacement
- * @brief   places a vtkLight by what it is to shine on, or turns it by pitch and yaw
+ * @brief   places a vtkLight by its target, or turns it by pitch and yaw
  *
  * @code
  * vtkNew<vtkLight> sun;
@@ -8,15 +8,14 @@
  * vtkGnomonLightPlacement::ShineOnBox(sun, renderer->ComputeVisiblePropBounds());
  * @endcode
  *
- * Shadows do not need it: the maps are fitted to the casters wherever a directional light's
- * position is. It gives spot lights a place from which they light all of something, and directional
- * lights a position and focal point that mean something, for light widgets and for boxes
- * (vtkGnomonLightKeys::SetBox). All numbers are in the light's own coordinates, which are the
- * world's unless it has a transform matrix or is a head or camera light.
+ * Shadows do not need it, as maps are fitted to the casters wherever a directional light's position
+ * is. It gives a spot light a position from which it lights the whole target. It gives a
+ * directional light a meaningful position and focal point, for light widgets and boxes
+ * (vtkGnomonLightKeys::SetBox). All positions and lengths are in the light's own coordinates. These
+ * are world coordinates unless the light has a transform matrix or is a headlight or camera light.
  *
- * What cannot be done (a number that is not finite, a radius that is not positive, a light whose
- * position is its focal point) is an error of the light (vtkErrorMacro), and the light stays as it
- * was.
+ * Invalid input is an error of the light (vtkErrorMacro) and leaves the light unchanged: a number
+ * that is not finite, a radius that is not positive, a light whose position is its focal point.
  */
 
 #ifndef vtkGnomonLightPlacement_h
@@ -39,30 +38,38 @@ public:
   vtkTypeMacro(vtkGnomonLightPlacement, vtkObject);
 
   /**
-   * Make a light shine on a sphere, in the direction that it has. Its focal point becomes the
-   * centre. A spot light moves to where its cone just holds the sphere, other lights to the point
-   * of the sphere that the light comes from; so a directional light's box of width, height and
+   * Make a light shine on a sphere, and keep its direction. The focal point becomes the sphere's
+   * centre. A spot light moves to where its cone just holds the sphere. Other lights move to the
+   * point of the sphere that faces the light. So a directional light's box of width, height and
    * depth 2 * radius holds the sphere.
+   *
+   * @param light its direction goes from Position to FocalPoint
+   * @param center centre of the sphere, finite
+   * @param radius radius of the sphere, finite, > 0
    */
   static void ShineOnSphere(vtkLight* light, const double center[3], double radius);
 
   /**
-   * The same for the sphere around a box, given as xmin, xmax, ymin, ymax, zmin, zmax (vtkProp's
-   * GetBounds, vtkRenderer's ComputeVisiblePropBounds).
+   * Make a light shine on the sphere around a box, as ShineOnSphere() does. An empty box is an
+   * error.
+   *
+   * @param bounds xmin, xmax, ymin, ymax, zmin, zmax (vtkProp's GetBounds, vtkRenderer's
+   * ComputeVisiblePropBounds)
    */
   static void ShineOnBox(vtkLight* light, const double bounds[6]);
 
   /**
-   * The same for points: for the sphere around them whose centre is the middle of their bounds. It
-   * is at most as large as the one around those bounds.
+   * Make a light shine on points, as ShineOnSphere() does. The sphere around them is centred on the
+   * middle of their bounds, and at most as large as the sphere around the bounds. No points, or one
+   * point only, are an error.
    */
   static void ShineOnPoints(vtkLight* light, vtkPoints* points);
 
   /**
-   * Make a light the key light of a scene that a camera looks at: a directional one that shines on
-   * the box, as above, over the camera's left shoulder, from 35 degrees to the left of the camera
-   * and 40 degrees above it. It becomes a light of the scene, which stays when the camera moves. An
-   * error of the light where the camera looks nowhere.
+   * Make a light the key light for a camera: a directional light that shines on a box. It shines
+   * from 35 degrees to the left of the camera and 40 degrees above it. It becomes a scene light,
+   * which stays in place when the camera moves. Its transform matrix is removed. An empty box, or a
+   * camera without a direction of view, is an error of the light.
    *
    * @code
    * vtkNew<vtkLight> key;
@@ -74,11 +81,13 @@ public:
   static void MakeKeyLight(vtkLight* light, vtkCamera* camera, const double bounds[6]);
 
   /**
-   * Turn a light into a direction, in degrees. Pitch and yaw 0 is the way along -z. Yaw turns to
-   * the left, around +y; pitch then raises it, so that -90 shines straight down. A positional light
-   * turns about its position, a directional one about its focal point, as far from it as before.
-   * (vtkLight's SetDirectionAngle takes -pitch and yaw, but puts the focal point into the origin
-   * and makes the light directional.)
+   * Turn a light to a direction, given in degrees. With pitch and yaw 0, it shines along -z. Yaw
+   * turns it to the left, around +y. Pitch then raises it; at -90 it shines straight down. A
+   * positional light turns about its position, a directional light about its focal point. The
+   * distance between both is kept.
+   *
+   * vtkLight's SetDirectionAngle takes -pitch and yaw, but moves the focal point to the origin and
+   * makes the light directional.
    */
   static void SetPitchAndYaw(vtkLight* light, double pitchDegrees, double yawDegrees);
 

@@ -15,7 +15,7 @@ vtkStandardNewMacro(vtkGnomonNamedSettings);
 struct vtkGnomonNamedSettings::Internals
 {
   gnomon::ShadowSettings values;
-  std::set<std::string> set; ///< the names of those that were
+  std::set<std::string> set; ///< names of the settings that were set
 };
 
 namespace
@@ -26,7 +26,7 @@ const gnomon::Setting* settingOf(const char* name)
   return gnomon::findSetting(name ? name : "");
 }
 
-/// Text of one of all settings; empty beyond the last one.
+/// Return a text of the setting with this index; empty if the index is out of range.
 template <typename TextOf>
 std::string textAt(int index, const TextOf& textOf)
 {
@@ -36,7 +36,7 @@ std::string textAt(int index, const TextOf& textOf)
     : std::string();
 }
 
-/// The text of a number within a setting's range; empty where there is no such setting.
+/// Return a number clamped to a setting's range, as text; empty without such a setting.
 template <typename Range, typename Number>
 std::string clamped(const gnomon::Setting* setting, Number value)
 {
@@ -50,7 +50,7 @@ std::string clamped(const gnomon::Setting* setting, Number value)
   return setting->get(scratch);
 }
 
-/// A setting's value; 0 where there is no such setting.
+/// Return a setting's value; 0 without such a setting.
 template <typename Value>
 Value valueOf(const gnomon::Setting* setting, const gnomon::ShadowSettings& settings)
 {
@@ -82,12 +82,12 @@ std::string vtkGnomonNamedSettings::TrySetting(const char* name, const char* val
   const std::string before = setting->get(values);
   if (!setting->set(values, text))
   {
-    return "The setting '" + setting->name + "' was to be '" + text + "', expected " +
+    return "Invalid value '" + text + "' for the setting '" + setting->name + "', expected " +
       setting->expected();
   }
   if (setting->name == "technique")
   {
-    values.named = { setting->name }; // what was set for another technique is no mistake
+    values.named = { setting->name }; // settings for another technique are no errors
   }
   const bool isNew = this->Internal->set.insert(setting->name).second;
   if (isNew || setting->get(values) != before)
@@ -179,7 +179,7 @@ void vtkGnomonNamedSettings::CopySetValues(gnomon::ShadowSettings& to) const
       setting->set(to, setting->get(this->Internal->values));
       if (this->Internal->values.named.count(setting->name) == 0)
       {
-        to.named.erase(setting->name); // it was set for another technique
+        to.named.erase(setting->name); // set for another technique
       }
     }
   }

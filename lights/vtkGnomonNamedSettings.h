@@ -1,8 +1,9 @@
 /**
  * @class   vtkGnomonNamedSettings
- * @brief   what is asked of lights' shadows, by name
+ * @brief   settings of lights' shadows, by name
  *
- * vtkGnomonShadowSettings has the same settings with types. docs/guide/settings.md lists them all.
+ * vtkGnomonShadowSettings has the same settings with types. docs/guide/settings.md lists all
+ * settings with units, ranges and defaults.
  */
 
 #ifndef vtkGnomonNamedSettings_h
@@ -28,9 +29,8 @@ public:
 
   ///@{
   /**
-   * A setting's value as text. A name that does not exist, and a value that the setting does not
-   * take, are an error and change nothing. GetSetting returns an empty string for what does not
-   * exist.
+   * A setting's value as text. An unknown name or an invalid value is an error and changes nothing.
+   * GetSetting() returns an empty string for an unknown name.
    */
   virtual void SetSetting(const char* name, const char* value);
   std::string GetSetting(const char* name) const;
@@ -38,8 +38,8 @@ public:
 
   ///@{
   /**
-   * Give a setting its default again, as if it had never been set. What a light's settings leave
-   * unset, the pass's say.
+   * Reset a setting to its default and mark it as unset. The pass's settings apply where a light's
+   * settings are unset.
    */
   virtual void UnsetSetting(const char* name);
   bool IsSettingSet(const char* name) const;
@@ -47,8 +47,8 @@ public:
 
   ///@{
   /**
-   * All settings, by number in [0, GetNumberOfSettings()): name, meaning, unit (empty where there is
-   * none), and what values it takes. Beyond, strings are empty.
+   * All settings, by index in [0, GetNumberOfSettings()): name, meaning, unit (empty without a
+   * unit) and valid values. For other indices the strings are empty.
    */
   static int GetNumberOfSettings();
   static std::string GetSettingName(int index);
@@ -58,13 +58,15 @@ public:
   ///@}
 
   /**
-   * Set a setting, or say why it is not set, as a sentence without a full stop; empty where it is.
+   * Set a setting. Return an empty string, or why the setting was not set, as a sentence without a
+   * full stop.
    */
   std::string TrySetting(const char* name, const char* value);
 
   ///@{
   /**
-   * The values for the library itself: all of them, or those that are set written over others.
+   * The values, for the library's own code. GetValues() returns all values. CopySetValues() copies
+   * the values that were set.
    */
   const gnomon::ShadowSettings& GetValues() const;
   void CopySetValues(gnomon::ShadowSettings& to) const;
@@ -76,8 +78,8 @@ protected:
 
   ///@{
   /**
-   * By type. Numbers beyond a setting's range are clamped to it, and NaN is an error. A choice is
-   * the index of a value.
+   * Access by type. Numbers are clamped to the setting's range; NaN is an error. A choice is the
+   * index of a value, clamped to the valid indices.
    */
   void SetInteger(const char* name, int value);
   int GetInteger(const char* name) const;

@@ -1,11 +1,11 @@
 /**
  * @class   vtkGnomonShadowSettings
- * @brief   what is asked of lights' shadows
+ * @brief   settings of lights' shadows
  *
- * A pass has them for all lights (vtkGnomonShadowPass::SetSettings), and a light may have its own
- * (vtkGnomonLightKeys::SetSettings), of which those count that were set. Numbers beyond a range are
- * clamped to it. A technique that lacks a setting ignores it, with an error that says which
- * techniques have it.
+ * A pass has settings for all lights (vtkGnomonShadowPass::SetSettings). A light may have its own
+ * (vtkGnomonLightKeys::SetSettings), whose set values override the pass. Numbers are clamped to
+ * their range. A technique that lacks a setting ignores it, with an error that names the techniques
+ * that have it.
  *
  * @code
  * vtkNew<vtkGnomonShadowSettings> settings;
@@ -15,7 +15,7 @@
  * pass->SetSettings(settings);
  * @endcode
  *
- * `gnomon settings --class` makes this header from the techniques' tables.
+ * `gnomon settings --class` generates this header from the techniques' tables.
  */
 
 #ifndef vtkGnomonShadowSettings_h

@@ -26,10 +26,10 @@ bool areFinite(std::initializer_list<double> numbers)
 
 bool isWithin(double number, double low, double high)
 {
-  return number >= low && number <= high; // false of what is not a number
+  return number >= low && number <= high; // false for NaN
 }
 
-/// Where the sun is, in degrees, and seen through the air if asked.
+/// The sun's place in degrees, with refraction if that is on.
 struct Seen
 {
   double azimuth;
@@ -53,13 +53,14 @@ glm::dvec3 vectorOf(const double vector[3])
   return { vector[0], vector[1], vector[2] };
 }
 
-/// North along the ground; of no length if it is along `up`.
+/// Return the part of `north` along the ground, without length if `north` is along `up`.
 glm::dvec3 levelNorth(const glm::dvec3& north, const glm::dvec3& up)
 {
   return north - glm::dot(north, up) * up;
 }
 
-/// North and Up are no parallels, and of some length: SetNorthAndUp takes no others.
+/// Return the direction towards the sun. SetNorthAndUp() ensures that North and Up have a length
+/// and are not parallel.
 glm::dvec3 directionOf(const Seen& seen, const double north[3], const double up[3])
 {
   const glm::dvec3 above = glm::normalize(vectorOf(up));
@@ -74,7 +75,7 @@ glm::dvec3 directionOf(const Seen& seen, const double north[3], const double up[
 
 } // namespace
 
-/// What is filled with suns.
+/// The arrays to fill with suns, and the steps of a day.
 struct vtkGnomonSun::Path
 {
   int stepsOfDay;
@@ -215,13 +216,13 @@ void vtkGnomonSun::SetNorthAndUp(const double north[3], const double up[3])
   const double upLength = glm::length(vectorOf(up));
   const bool haveLength =
     areFinite({ northLength, upLength }) && northLength > 0.0 && upLength > 0.0;
-  // A millionth of the right angle is where rounding begins to turn what is level.
+  // Below a millionth of a right angle, rounding would rotate the level north direction.
   if (!haveLength ||
     !(glm::length(levelNorth(vectorOf(north) / northLength, vectorOf(up) / upLength)) > 1e-6))
   {
     vtkErrorMacro("North (" << north[0] << ", " << north[1] << ", " << north[2] << ") and up ("
                             << up[0] << ", " << up[1] << ", " << up[2]
-                            << ") are no axes of a scene.");
+                            << ") must be finite, have a length, and not be parallel.");
     return;
   }
   if (!std::equal(north, north + 3, this->North) || !std::equal(up, up + 3, this->Up))
@@ -233,7 +234,7 @@ void vtkGnomonSun::SetNorthAndUp(const double north[3], const double up[3])
 }
 
 //------------------------------------------------------------------------------
-/// The Julian day, in UTC, at which the date begins in the zone.
+/// Return the Julian day, in UTC, at which the date begins in the zone.
 double vtkGnomonSun::Midnight() const
 {
   return gnomon::julianDayOf(this->Year, this->Month, this->Day) - this->ZoneHours / 24.0;
@@ -274,7 +275,7 @@ void vtkGnomonSun::GetDirection(double direction[3])
 }
 
 //------------------------------------------------------------------------------
-/// Whether a path can be made, with an error if not.
+/// True if a path can be computed. Else report an error.
 bool vtkGnomonSun::IsStep(double stepMinutes, vtkDoubleArray* directions)
 {
   if (!directions)
@@ -291,7 +292,10 @@ bool vtkGnomonSun::IsStep(double stepMinutes, vtkDoubleArray* directions)
 }
 
 //------------------------------------------------------------------------------
-/// @param days how many each sun stands for
+/// Append a day's suns to a path.
+/// @param julianDay the day's midnight in the zone, in UTC
+/// @param days number of days that each sun represents
+/// @param hoursBefore hours from the path's first midnight to this day's
 void vtkGnomonSun::AddDay(Path& path, double julianDay, double days, double hoursBefore) const
 {
   for (int step = 0; step < path.stepsOfDay; ++step)

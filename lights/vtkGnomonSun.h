@@ -12,16 +12,16 @@
  * light->SetPosition(towards);   // a directional vtkLight with its focal point in the origin
  * @endcode
  *
- * Positions are those of the Solar Position Algorithm (Reda and Andreas, Solar Energy 76, 2004;
- * revised 2008), with periodic terms below 2e-6 radians left out. They are within 0.001 degrees of
- * the full theory (VSOP87) in the years 1583 to 3000 if DeltaT is right, and within 0.002 degrees
- * in 1900 to 2100 with the default DeltaT. They are of the middle of the sun's disc, as an observer
- * on the ground sees it.
+ * Positions follow the Solar Position Algorithm (Reda and Andreas, Solar Energy 76, 2004; revised
+ * 2008), without periodic terms below 2e-6 radians. With the right DeltaT, they are within 0.001
+ * degrees of the full theory (VSOP87) in the years 1583 to 3000. With the default DeltaT, they are
+ * within 0.002 degrees in 1900 to 2100. They are positions of the centre of the sun's disc, for an
+ * observer on the ground.
  *
  * The scene's axes are given by North and Up. By default +y is north, +z is up and +x is east.
  *
- * What makes no sense (30 February, a latitude of 91 degrees, North along Up, a number that is not
- * finite) is an error (vtkErrorMacro), and changes nothing.
+ * Invalid input (30 February, a latitude of 91 degrees, North along Up, a number that is not
+ * finite) is an error (vtkErrorMacro) and changes nothing.
  *
  * @sa vtkGnomonVisibilityFilter
  */
@@ -46,8 +46,8 @@ public:
 
   ///@{
   /**
-   * The date, of the Gregorian calendar, in the time zone of SetTime. Years go from 1583 to 6000,
-   * months and days from 1. Default: 2000-03-20.
+   * The date in the Gregorian calendar, in the time zone of SetTime(). Years are in [1583, 6000];
+   * months and days count from 1. Default: 2000-03-20.
    */
   virtual void SetDate(int year, int month, int day);
   vtkGetMacro(Year, int);
@@ -57,9 +57,8 @@ public:
 
   ///@{
   /**
-   * The time of the day, and the zone that it is measured in: hours east of UTC, in [-14, 14]. The
-   * clock's summer time belongs to the zone. Hours are in [0, 24], minutes and seconds in [0, 60).
-   * Default: 12:00:00 UTC.
+   * The time of day, and its zone in hours east of UTC, in [-14, 14]. Daylight saving time is part
+   * of the zone. Hours are in [0, 24], minutes and seconds in [0, 60). Default: 12:00:00 UTC.
    */
   virtual void SetTime(int hour, int minute, double second, double zoneHours);
   vtkGetMacro(Hour, int);
@@ -89,8 +88,8 @@ public:
 
   ///@{
   /**
-   * Terrestrial time less UTC, in seconds. Ten seconds move the sun by 0.0001 degrees. Default: 69,
-   * right within 5 seconds from 2003 to 2026.
+   * Terrestrial time minus UTC, in seconds, in [-100000, 100000]. Ten seconds move the sun by
+   * 0.0001 degrees. Default: 69, right within 5 seconds from 2003 to 2026.
    */
   virtual void SetDeltaT(double seconds);
   vtkGetMacro(DeltaT, double);
@@ -98,8 +97,9 @@ public:
 
   ///@{
   /**
-   * Whether the sun is where it is seen through the air, which lifts it by half a degree at the
-   * horizon. Pressure in millibar, temperature in degrees Celsius. Default: off; 1010, 10.
+   * Refraction: true to include the air's refraction, which lifts the sun by half a degree at the
+   * horizon. SetAir() sets the pressure in millibar, in [0, 5000], and the temperature in degrees
+   * Celsius, in [-200, 1000]. Default: off; 1010, 10.
    */
   vtkSetMacro(Refraction, bool);
   vtkGetMacro(Refraction, bool);
@@ -111,8 +111,8 @@ public:
 
   ///@{
   /**
-   * The axes of the scene: what points up, and what points to the north, of any length. The part of
-   * North along Up does not count. Default: north (0, 1, 0), up (0, 0, 1).
+   * The scene's directions to the north and upwards, of any length. The part of North along Up is
+   * ignored. Parallel directions are an error. Default: north (0, 1, 0), up (0, 0, 1).
    */
   virtual void SetNorthAndUp(const double north[3], const double up[3]);
   vtkGetVector3Macro(North, double);
@@ -120,43 +120,44 @@ public:
   ///@}
 
   /**
-   * The sun's azimuth in degrees: 0 north, 90 east, in [0, 360).
+   * Return the sun's azimuth in degrees, in [0, 360): 0 is north, 90 is east.
    */
   double GetAzimuth();
 
   /**
-   * The elevation of the middle of the sun's disc above the horizon, in degrees, with refraction if
-   * that is on.
+   * Return the elevation of the sun's centre above the horizon, in degrees, with refraction if that
+   * is on.
    */
   double GetElevation();
 
   /**
-   * The sun's declination in degrees, as seen from the place.
+   * Return the sun's declination in degrees, as seen from the place.
    */
   double GetDeclination();
 
   /**
-   * Get the unit vector from the scene towards the sun, in world coordinates.
+   * Return the unit vector from the scene towards the sun, in world coordinates.
    */
   void GetDirection(double direction[3]);
 
   /**
-   * Fill arrays with the suns of a day, from midnight to midnight of the zone. Steps are
-   * `stepMinutes` long, and each has the sun of its middle. Steps whose sun is below the horizon
-   * are left out.
+   * Fill arrays with the suns of a day, from midnight to midnight in the zone. Each step of
+   * `stepMinutes` has the sun of its middle. Steps with the sun below the horizon are skipped.
    *
    * @param stepMinutes in (0, 1440]
-   * @param directions becomes one unit vector a sun, towards it (3 components)
-   * @param hours becomes the hours that each sun stands for; null: not wanted
-   * @param times becomes hours since the first midnight; null: not wanted
-   * @return false, with an error and without a change, if a step makes no sense
+   * @param directions receives a unit vector towards each sun (3 components)
+   * @param hours receives the hours that each sun represents; may be null
+   * @param times receives each sun's hours since the first midnight; may be null
+   * @return false, with an error and unchanged arrays, for an invalid step or null `directions`
    */
   bool MakeDayPath(double stepMinutes, vtkDoubleArray* directions, vtkDoubleArray* hours,
     vtkDoubleArray* times = nullptr);
 
   /**
-   * The same of the whole year of the date. Each `dayStep` days, in [1, 366], share the suns of the
-   * middle one of them; 1: every day has its own.
+   * Fill arrays with the suns of the date's whole year, as MakeDayPath() does for a day.
+   *
+   * @param dayStep in [1, 366]; so many days share the suns of their middle day, and 1 gives every
+   * day its own suns
    */
   bool MakeYearPath(int dayStep, double stepMinutes, vtkDoubleArray* directions,
     vtkDoubleArray* hours, vtkDoubleArray* times = nullptr);

@@ -10,8 +10,8 @@
 #include <algorithm>
 #include <cmath>
 
-// A court after the manner of Sponza, whose model is not packaged: about its size in centimetres,
-// with the light and the main camera that Morais' thesis (section 5.1) has for it.
+// A court in the style of Sponza, whose model is not packaged. It has about Sponza's size in
+// centimetres, with the light and main camera of Morais' thesis (section 5.1).
 
 namespace gnomon::tool
 {
@@ -27,7 +27,7 @@ constexpr double slabHeight = 30.0;
 constexpr double springHeight = 265.0; ///< where arches leave their columns
 const double half = 0.5;
 
-/// A stretch between two columns.
+/// The bay between two columns.
 struct Bay
 {
   Vec3 from;
@@ -37,7 +37,7 @@ struct Bay
   double width() const { return length(this->to - this->from); }
 };
 
-/// The arcades around the court on the ground, each seen from the court from left to right.
+/// Return the bays around the court on the ground, from left to right as seen from the court.
 std::vector<Bay> makeBays()
 {
   const Vec3 corners[] = { { { courtHalfLength, 0.0, courtHalfWidth } },
@@ -87,7 +87,7 @@ void addColumn(MeshBuilder& mesh, const Vec3& foot, double radius)
     foot + Vec3{ { -plinth, top, -plinth } }, foot + Vec3{ { plinth, springHeight, plinth } });
 }
 
-/// The wall above a bay's opening: an arch with its two faces, up to the floor above.
+/// Add the wall above a bay's opening: an arch with two faces, up to the floor above.
 void addArch(MeshBuilder& mesh, const Bay& bay, double pier, double thickness)
 {
   constexpr int segments = 24;
@@ -98,7 +98,7 @@ void addArch(MeshBuilder& mesh, const Bay& bay, double pier, double thickness)
   const Vec3 depth = (half * thickness) * bay.inward();
   const auto rise = [&](double share)
   {
-    // Flatter than a circle where the storey would not hold it.
+    // Flatter than a circle if a circle would exceed the storey.
     const double angle = vtkMath::Pi() * (1.0 - share);
     return std::pair<double, double>(
       radius * std::cos(angle), std::min(1.0, 0.85 * top / radius) * radius * std::sin(angle));
@@ -119,7 +119,7 @@ void addArch(MeshBuilder& mesh, const Bay& bay, double pier, double thickness)
     mesh.addPolygon({ a + depth, b + depth, above(b) + depth, above(a) + depth });
     mesh.addPolygon({ b - depth, a - depth, above(a) - depth, above(b) - depth });
   }
-  // The pieces from the arch's foot to the columns' axes.
+  // The wall from the arch's feet to the columns' axes.
   for (const double side : { -1.0, 1.0 })
   {
     const Vec3 inner = center + (side * radius) * along;
@@ -149,7 +149,7 @@ SceneModel makeArcades(const std::vector<Bay>& bays)
   return makeModel("arcades", mesh.build(), { { 0.76, 0.69, 0.58 } });
 }
 
-/// Rails on turned balusters between the columns of the upper storey.
+/// Return rails on turned balusters between the columns of the upper storey.
 SceneModel makeBalustrades(const std::vector<Bay>& bays)
 {
   MeshBuilder mesh;
@@ -176,7 +176,7 @@ SceneModel makeBalustrades(const std::vector<Bay>& bays)
   return makeModel("balustrades", mesh.build(), { { 0.82, 0.77, 0.68 } });
 }
 
-/// Ground, galleries, roofs over them, and the walls around all of it.
+/// Return the ground, galleries, their roofs, and the outer walls.
 SceneModel makeShell()
 {
   const double x0 = courtHalfLength + 25.0;
@@ -204,7 +204,7 @@ SceneModel makeShell()
   return makeModel("shell", mesh.build(), { { 0.68, 0.6, 0.5 } });
 }
 
-/// Pilasters and string courses that divide the outer walls, and doors between them.
+/// Return pilasters and string courses on the outer walls, and doors between them.
 SceneModel makeWallRelief()
 {
   const double z1 = courtHalfWidth + aisle;
@@ -239,7 +239,7 @@ SceneModel makeWallRelief()
   return makeModel("wall relief", mesh.build(), { { 0.73, 0.65, 0.54 } });
 }
 
-/// Paving in two colours: stones with open joints, on the ground below.
+/// Return the stones of one of two colours, with open joints, on the ground below.
 SceneModel makePaving(bool light)
 {
   constexpr double stone = 98.0;
@@ -266,7 +266,7 @@ SceneModel makePaving(bool light)
 
 constexpr int clothCells = 64;
 
-/// Hangs from the gallery's rail into the court, in folds that widen downwards.
+/// Add a banner that hangs from the gallery's rail into the court, in folds that widen downwards.
 void addBanner(MeshBuilder& mesh, const Bay& bay, int i)
 {
   const double width = 0.55 * bay.width();
@@ -284,7 +284,7 @@ void addBanner(MeshBuilder& mesh, const Bay& bay, int i)
     });
 }
 
-/// Spans the court from roof to roof and sags.
+/// Add a sagging awning across the court, from roof to roof.
 void addAwning(MeshBuilder& mesh, double x, double width, int i)
 {
   const double reach = courtHalfWidth - 55.0;
@@ -310,7 +310,7 @@ void addCloth(Scene& scene, const std::vector<Bay>& bays)
   for (int dye = 0; dye < 3; ++dye)
   {
     MeshBuilder mesh;
-    // On the long sides' odd bays, in turn.
+    // On the long sides' odd bays, alternately.
     for (int i = dye; i < 10; i += 3)
     {
       const int side = i % 2;
@@ -327,7 +327,7 @@ void addCloth(Scene& scene, const std::vector<Bay>& bays)
 }
 
 //------------------------------------------------------------------------------
-/// Pots with open rims in front of the columns, with plants of open leaves.
+/// Add pots with open rims in front of the columns, with plants of open leaves.
 void addPots(Scene& scene, const std::vector<Bay>& bays)
 {
   MeshBuilder pots;
@@ -353,7 +353,7 @@ void addPots(Scene& scene, const std::vector<Bay>& bays)
       leaves.addSheet(2, 5,
         [&](double u, double v)
         {
-          // A blade that leans further and further out, pointed at both ends.
+          // A blade that leans outwards increasingly, pointed at both ends.
           const double angle = lean * (0.4 + 0.9 * v);
           const double side = (2.0 * u - 1.0) * width * 4.0 * v * (1.0 - v);
           return foot + 46.0 * up + 6.0 * outward + side * across +

@@ -6,7 +6,7 @@
 
 #include <utility>
 
-// A storey of 8 x 8 rooms with a lamp each, seen from within one of them. Lengths are metres.
+// A storey of 8 x 8 rooms with a lamp each, seen from inside one room. Lengths are metres.
 
 namespace gnomon::tool
 {
@@ -15,13 +15,13 @@ namespace
 {
 
 constexpr int roomsAlong = 8;
-constexpr double roomSide = 5.0; ///< of a room
+constexpr double roomSide = 5.0;
 constexpr double roomHeightOfBuilding = 2.8;
-constexpr double wallThickness = 0.2; ///< of a wall
+constexpr double wallThickness = 0.2;
 
-/// A wall of one room.
-/// @param alongX whether it runs along x; else along z
-/// @param door where its door begins; negative without one
+/// Add a wall of one room.
+/// @param alongX true: the wall runs along x; false: along z
+/// @param door distance from the wall's start to its door; negative: no door
 void addRoomWall(MeshBuilder& mesh, const Vec3& start, bool alongX, double door)
 {
   constexpr double doorWidth = 0.9;
@@ -42,8 +42,8 @@ void addRoomWall(MeshBuilder& mesh, const Vec3& start, bool alongX, double door)
   addPart(door + doorWidth, roomSide, 0.0);
 }
 
-/// Rooms in rows of pairs, with doors between the two, and from row to row, so that one sees a few
-/// rooms from any.
+/// Return rooms in rows of pairs. Doors join the rooms of a pair and consecutive rows, so a few
+/// rooms are visible from each.
 SceneModel makeRooms()
 {
   constexpr double all = roomsAlong * roomSide;
@@ -63,7 +63,7 @@ SceneModel makeRooms()
   return makeModel("rooms", mesh.build(), { { 0.8, 0.78, 0.72 } });
 }
 
-/// A table in each room.
+/// Return a table in each room.
 SceneModel makeTables()
 {
   MeshBuilder mesh;

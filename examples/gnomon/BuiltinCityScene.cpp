@@ -25,8 +25,8 @@ constexpr double blockSide = 60.0;   ///< between the kerbs
 constexpr double streetWidth = 22.0;
 constexpr double pitch = blockSide + streetWidth;
 
-/// A mesh of quads for many triangles: flat, without normals, its corners shared along walls, and
-/// indices of 32 bits. A window of 30 triangles takes 700 bytes.
+/// A compact mesh of quads: flat, without normals, with corners shared along walls and 32-bit
+/// indices. A window of 30 triangles takes 700 bytes.
 class CityMesh
 {
 public:
@@ -38,14 +38,15 @@ public:
 
   vtkIdType addPoint(const Vec3& place) { return this->points_->InsertNextPoint(place.data()); }
 
-  /// Counter-clockwise.
+  /// Add a quad of counter-clockwise corners.
   void addQuad(vtkIdType a, vtkIdType b, vtkIdType c, vtkIdType d)
   {
     this->triangles_->InsertNextCell({ a, b, c });
     this->triangles_->InsertNextCell({ a, c, d });
   }
 
-  /// A box whose lower side and upper side are four corners each, counter-clockwise from above.
+  /// Add a block. Its lower and upper side have the same four corners, counter-clockwise from
+  /// above.
   void addBlock(const std::array<Vec3, 4>& lower, double height)
   {
     vtkIdType low[4];
@@ -79,14 +80,14 @@ private:
   vtkNew<vtkCellArray> triangles_;
 };
 
-/// A horizontal rectangle around a place.
+/// A horizontal rectangle around a centre.
 struct Plot
 {
   Vec3 center;
   double width; ///< along x
   double depth; ///< along z
 
-  /// Counter-clockwise from above.
+  /// Return the corners, counter-clockwise from above.
   std::array<Vec3, 4> corners() const
   {
     const double w = 0.5 * this->width;
@@ -101,8 +102,8 @@ void addPrism(CityMesh& mesh, const Plot& plot, double height)
   mesh.addBlock(plot.corners(), height);
 }
 
-/// A wall from one upright edge to another, seen with `from` on the left, as a grid of bays. Every
-/// bay has a window that lies back in the wall, with a sill that juts out.
+/// Add a wall between two upright edges as a grid of bays. Seen from its front, `from` is on the
+/// left. Each bay has a recessed window with a projecting sill.
 void addFacade(CityMesh& mesh, const Vec3& from, const Vec3& to, int bays, int floors,
   double floorHeight, double windowShare)
 {
@@ -157,9 +158,9 @@ void addFacade(CityMesh& mesh, const Vec3& from, const Vec3& to, int bays, int f
   }
 }
 
-/// Storeys of one outline: four walls with windows, a ledge below and a cornice on top, and the
+/// Add storeys of one outline: four walls with windows, a ledge below, a cornice on top, and the
 /// roof.
-/// @returns the height of its top
+/// @return the height of the top
 double addTier(CityMesh& mesh, const Plot& plot, int floors, double floorHeight, double windowShare)
 {
   const std::array<Vec3, 4> corners = plot.corners();
@@ -172,7 +173,7 @@ double addTier(CityMesh& mesh, const Plot& plot, int floors, double floorHeight,
     addFacade(mesh, from, to, bays, floors, floorHeight, windowShare);
   }
   const double height = floors * floorHeight;
-  // Every eighth storey a ledge runs around the tower.
+  // A ledge runs around the tower at every eighth storey.
   for (int floor = 8; floor < floors; floor += 8)
   {
     Plot ledge = plot;
@@ -189,7 +190,8 @@ double addTier(CityMesh& mesh, const Plot& plot, int floors, double floorHeight,
   return cornice.center[1] + 0.8;
 }
 
-/// A tower of up to three tiers, each narrower than the one below, and what stands on its roof.
+/// Add a tower of up to three tiers, each narrower than the one below, with the structures on its
+/// roof.
 void addTower(CityMesh& mesh, Plot plot, double height, Random& random)
 {
   const double floorHeight = random.between(3.2, 3.9);
@@ -203,7 +205,7 @@ void addTower(CityMesh& mesh, Plot plot, double height, Random& random)
     plot.width *= random.between(0.62, 0.85);
     plot.depth *= random.between(0.62, 0.85);
   }
-  // A machine room, and an antenna on the tallest.
+  // A machine room, and an antenna on the tallest towers.
   plot.width *= 0.5;
   plot.depth *= 0.5;
   addPrism(mesh, plot, 4.0);
@@ -213,8 +215,8 @@ void addTower(CityMesh& mesh, Plot plot, double height, Random& random)
   }
 }
 
-/// The height that buildings have around a place: high in the middle, low at the rim, with a second
-/// centre off to a side.
+/// Return the buildings' height at a place: high in the middle, low at the rim, with a second
+/// centre to one side.
 double skyline(double x, double z)
 {
   const auto bell = [&](double cx, double cz, double radius)
@@ -226,7 +228,7 @@ double skyline(double x, double z)
   return 22.0 + 97.0 * bell(0.0, -60.0, 330.0) + 44.0 * bell(-450.0, 400.0, 200.0);
 }
 
-/// Four towers on a block, some taller than others; one block in eleven is a park.
+/// Add four towers of different heights on a block. One block in eleven is a park.
 void addBlock(std::array<CityMesh, 4>& towers, CityMesh& pavement, int column, int row)
 {
   const double middle = 0.5 * (blocksPerSide - 1);

@@ -10,10 +10,10 @@
 #include <cmath>
 #include <utility>
 
-// The stand-in for the scene of Morais' thesis, "Rasterization + Ray Tracing: Rendering of Hard
+// A replacement for the scene of Morais' thesis, "Rasterization + Ray Tracing: Rendering of Hard
 // Shadows" (Minho), section 5.1, and of its sibling on selective ray tracing: two trees, a lamp, a
-// flower box and a bench on a ground plane, with the theses' light, cameras and number of
-// triangles. What the theses' models look like is not known; lengths are about quarters of a metre.
+// flower box and a bench on a ground plane. Light, cameras and number of triangles are the theses';
+// their models are not available. A unit is about a quarter of a metre.
 
 namespace gnomon::tool
 {
@@ -23,7 +23,7 @@ namespace
 
 constexpr vtkIdType trianglesOfTheThesis = 55026;
 
-/// Two directions square to a third and to each other.
+/// Two directions perpendicular to a third and to each other.
 struct Frame
 {
   explicit Frame(const Vec3& axis)
@@ -35,7 +35,8 @@ struct Frame
   Vec3 back;
 };
 
-/// A direction that leans away from `axis` by `lean`, on the side that `turn` says; in radians.
+/// Return a direction that leans away from `axis` by the angle `lean`, towards the angle `turn`
+/// around it; in radians.
 Vec3 leaning(const Vec3& axis, double lean, double turn)
 {
   const Frame frame(axis);
@@ -43,7 +44,8 @@ Vec3 leaning(const Vec3& axis, double lean, double turn)
     std::sin(lean) * (std::cos(turn) * frame.right + std::sin(turn) * frame.back);
 }
 
-/// A round limb that tapers from one point to another, open at both ends, where others go on.
+/// Add a round limb that tapers from one point to another. Its ends are open, as other limbs
+/// continue there.
 void addLimb(
   MeshBuilder& mesh, const Vec3& from, const Vec3& to, double radius, double taper, int segments)
 {
@@ -52,8 +54,8 @@ void addLimb(
     { from, normalized(to - from) }, { { radius, 0.0 }, { taper * radius, size } }, segments);
 }
 
-/// A leaf or petal of 8 triangles: an open sheet, pointed at both ends, folded along its middle and
-/// bent. `along` points from its foot to its tip, `across` to a side; both are unit vectors.
+/// Add a leaf or petal of 8 triangles: an open sheet, pointed at both ends, folded along its middle
+/// and bent. The unit vector `along` points from foot to tip, `across` to one side.
 void addLeaf(MeshBuilder& mesh, const Vec3& foot, const Vec3& along, const Vec3& across,
   double size, double width, double bend)
 {
@@ -62,7 +64,7 @@ void addLeaf(MeshBuilder& mesh, const Vec3& foot, const Vec3& along, const Vec3&
     [&](double u, double v)
     {
       const double side = 2.0 * u - 1.0;
-      // Widest at its middle; zero at the tip and at the foot, where `v * (1 - v)` is.
+      // Widest in the middle; 0 at tip and foot, as `v * (1 - v)` is.
       const double half = 2.0 * width * v * (1.0 - v);
       return foot + (size * v) * along + (side * half) * across +
         (0.3 * std::abs(side) * half - bend * size * v * v) * normal;
@@ -72,17 +74,17 @@ void addLeaf(MeshBuilder& mesh, const Vec3& foot, const Vec3& along, const Vec3&
 //------------------------------------------------------------------------------
 // Ground
 
-// As far as the views see, in pictures of 16:9 too.
+// The lawn fills all views, also in pictures of 16:9.
 constexpr double lawnWest = -74.0;
 constexpr double lawnNorth = -112.0;
 constexpr double lawnSouth = 144.0;
-constexpr double stripeWidth = 8.0; ///< as the mower goes, north and south
+constexpr double stripeWidth = 8.0; ///< of the mower's tracks, north and south
 constexpr int stripes = 27;
 
 SceneModel makeLawn(bool light)
 {
-  // In squares: a rasteriser that cuts one long triangle at the near plane, and its neighbour
-  // elsewhere, may leave a pixel between them open.
+  // The lawn consists of squares. A rasteriser that clips two long neighbours at different places
+  // may leave a pixel open between them.
   MeshBuilder mesh;
   for (int i = light ? 0 : 1; i < stripes; i += 2)
   {
@@ -99,7 +101,7 @@ SceneModel makeLawn(bool light)
                : makeModel("lawn, dark stripes", mesh.build(), { { 0.41, 0.55, 0.29 } });
 }
 
-/// What the lawn grows on.
+/// Return the earth below the lawn.
 SceneModel makeEarth()
 {
   MeshBuilder mesh;
@@ -108,7 +110,7 @@ SceneModel makeEarth()
   return makeModel("earth", mesh.build(), { { 0.4, 0.3, 0.22 } });
 }
 
-/// Stepping stones and the terrace below the bench.
+/// Return stepping stones and the terrace below the bench.
 SceneModel makeGardenPaving()
 {
   MeshBuilder mesh;
@@ -127,7 +129,7 @@ SceneModel makeGardenPaving()
 //------------------------------------------------------------------------------
 // Bench
 
-/// Seven slats for the seat, five for the back, which leans; the front looks along +z.
+/// Return seven slats for the seat and five for the leaning back. The bench faces +z.
 SceneModel makeBenchSlats()
 {
   constexpr double half = 6.0;
@@ -146,7 +148,7 @@ SceneModel makeBenchSlats()
   return makeModel("bench slats", mesh.build(), { { 0.62, 0.4, 0.24 } });
 }
 
-/// Two feet, two posts and a curled arm rest on either side, and bolts' heads on the slats.
+/// Return two feet, two posts and a curled arm rest on each side, and bolt heads on the slats.
 SceneModel makeBenchFrame()
 {
   MeshBuilder mesh;
@@ -173,7 +175,7 @@ SceneModel makeBenchFrame()
 //------------------------------------------------------------------------------
 // Lamp
 
-/// A pole that is thinner than a texel of a map over the whole garden, on a turned foot.
+/// Return a pole on a turned foot. It is thinner than a texel of a map over the whole garden.
 SceneModel makeLampPole(const Vec3& foot)
 {
   MeshBuilder mesh;
@@ -182,7 +184,7 @@ SceneModel makeLampPole(const Vec3& foot)
       { 0.3, 1.75 }, { 0.3, 1.9 }, { 0.08, 2.2 }, { 0.08, 16.6 }, { 0.2, 16.8 }, { 0.2, 17.0 },
       { 0.0, 17.0 } },
     20);
-  // The ladder bar that lamplighters leaned on, with a ball at either end.
+  // The lamplighters' ladder bar, with a ball at each end.
   addLimb(
     mesh, foot + Vec3{ { -0.9, 15.4, 0.0 } }, foot + Vec3{ { 0.9, 15.4, 0.0 } }, 0.05, 1.0, 8);
   mesh.addSphere(foot + Vec3{ { -0.95, 15.4, 0.0 } }, 0.12, 12, 8);
@@ -197,7 +199,7 @@ SceneModel makeLampHead(const Vec3& foot)
   return makeModel("lamp globe", mesh.build(), { { 0.95, 0.93, 0.84 } });
 }
 
-/// The hood above the globe: an open sheet.
+/// Return the hood above the globe, an open sheet.
 SceneModel makeLampHood(const Vec3& foot)
 {
   MeshBuilder mesh;
@@ -219,8 +221,8 @@ struct Tree
   std::uint32_t seed;
 };
 
-/// Wood and leaves of one tree. A limb carries thinner limbs along its outer part, twice; the
-/// twigs carry leaves.
+/// Builds wood and leaves of one tree. Limbs carry thinner limbs along their outer part, in two
+/// generations. Twigs carry leaves.
 class TreeMaker
 {
 public:
@@ -248,7 +250,7 @@ public:
     {
       const double share = (i + 0.5) / boughs;
       const double lean = vtkMath::RadiansFromDegrees(80.0 - 60.0 * share);
-      // Turns by the golden angle, as branches do.
+      // Branches follow each other by the golden angle.
       const Vec3 direction = leaning(up, lean, 2.4 * i + this->random_.between(-0.3, 0.3));
       const Vec3 from = tree.foot + ((0.36 + 0.4 * share) * tree.height) * up;
       const double reach = std::sin(lean) * tree.crownRadius + 0.2 * std::cos(lean) * tree.height;
@@ -259,7 +261,7 @@ public:
 private:
   void addBranch(const Vec3& from, const Vec3& direction, double size, double radius, int order)
   {
-    // Two pieces; the outer one bends upwards.
+    // A limb has two pieces; the outer one bends upwards.
     const Vec3 middle = from + (0.5 * size) * direction;
     const Vec3 bent = normalized(direction + 0.25 * up);
     const Vec3 end = middle + (0.5 * size) * bent;
@@ -314,7 +316,7 @@ constexpr double boxHalfLength = 5.0;
 constexpr double boxHalfWidth = 1.8;
 constexpr double soilHeight = 1.15;
 
-/// Boards with posts at the corners, and soil.
+/// Return boards with posts at the corners, and soil.
 SceneModel makeFlowerBox()
 {
   MeshBuilder mesh;
@@ -358,7 +360,7 @@ struct Species
   double petalLength;
   double petalWidth;
   double opening;    ///< angle between petal and stem, radians
-  double stemHeight; ///< mean
+  double stemHeight; ///< mean height
   int count;
 };
 
@@ -368,7 +370,7 @@ const Species allSpecies[] = {
   { "anemone", { { 0.5, 0.35, 0.75 } }, 8, 0.55, 0.34, 0.95, 1.4, 44 },
 };
 
-/// Where the i-th flower of all grows: rows that are jittered, so that none stands in another.
+/// Return the place of flower i in jittered rows, which keep flowers apart.
 Vec3 flowerPlace(int i, Random& random)
 {
   constexpr int columns = 18;
@@ -419,7 +421,7 @@ void addFlowers(Scene& scene)
   {
     bed.insert(bed.end(), static_cast<std::size_t>(species.count), &species);
   }
-  // Mixed with a generator of our own, as std::shuffle differs between libraries.
+  // Shuffled here, as std::shuffle differs between libraries.
   for (std::size_t i = bed.size() - 1; i > 0; --i)
   {
     std::swap(bed[i], bed[static_cast<std::size_t>(random.between(0.0, i + 1.0))]);
@@ -442,7 +444,7 @@ void addFlowers(Scene& scene)
 }
 
 //------------------------------------------------------------------------------
-/// Blades of grass, one triangle each and open, in tufts where no mower goes.
+/// Return blades of grass, open sheets of one triangle, in tufts where a mower cannot go.
 SceneModel makeGrass(vtkIdType blades, const std::vector<Tree>& trees, const Vec3& lampFoot)
 {
   Random random(30);
@@ -471,7 +473,7 @@ SceneModel makeGrass(vtkIdType blades, const std::vector<Tree>& trees, const Vec
   {
     Vec3 foot = tufts[static_cast<std::size_t>(i) % tufts.size()] +
       Vec3{ { random.between(-0.35, 0.35), 0.0, random.between(-0.35, 0.35) } };
-    foot[1] = -0.05; // rooted
+    foot[1] = -0.05; // below the ground
     const Vec3 along = leaning(up, random.between(0.05, 0.6), random.between(0.0, 6.28));
     const Vec3 across = Frame(along).right;
     const double width = random.between(0.04, 0.08);
@@ -485,7 +487,7 @@ Scene makeGarden()
 {
   Scene scene;
   const Vec3 lampFoot{ { -7.5, 0.0, -6.5 } };
-  // One tree shades the bench and a part of the flowers, the other falls on the open lawn.
+  // One tree shades the bench and part of the flowers; the other's shadow falls on the open lawn.
   const std::vector<Tree> trees = { { { { -50.0, 0.0, -42.0 } }, 46.0, 14.0, 1.7, 1 },
     { { { -2.0, 0.0, -44.0 } }, 60.0, 27.0, 3.4, 2 } };
 
@@ -517,8 +519,8 @@ Scene makeGarden()
 //------------------------------------------------------------------------------
 const std::vector<SceneView>& gardenViews()
 {
-  // Cameras of the thesis' section 5.1; "with" looks along the light, "against" towards it, "side"
-  // across.
+  // Cameras of the thesis' section 5.1. "with" looks along the light, "against" towards it, "side"
+  // across it.
   static const std::vector<SceneView> views = {
     { "bench-with", "garden of two trees, lamp, flower box and bench, seen along the light",
       { { -37.034573, 35.208973, -8.597797 } }, { { 0.605439, -0.732089, 0.312232 } } },
@@ -548,7 +550,7 @@ Scene makeGardenScene(const SceneView& view)
   Scene scene = makeGarden();
   scene.camera = makeCamera(view.position, view.position + 40.0 * view.direction, 60.0);
   scene.lights = { makeSun(
-    { { 0.744, -0.408, 0.527 } }, { { 1.0, 0.96, 0.88 } }, 2.2) }; // low as it stands
+    { { 0.744, -0.408, 0.527 } }, { { 1.0, 0.96, 0.88 } }, 2.2) }; // a low sun
   setAmbient(scene, 0.35);
   scene.background = { { 0.75, 0.85, 0.95 } };
   return scene;

@@ -47,7 +47,8 @@ Scene makeModelOnPlane(const std::string& file, const Vec3& color)
   const Vec3 foot{ { 0.5 * (bounds[0] + bounds[1]), bounds[2], 0.5 * (bounds[4] + bounds[5]) } };
   scene.models.push_back(makePlane(foot, 4.0 * extent));
 
-  // The whole model with its whole shadow, which falls to the left and back, from the front.
+  // The view from the front shows the whole model and its whole shadow, which falls to the left and
+  // back.
   const double size = std::max(extent, height);
   const Vec3 target = foot + Vec3{ { 0.0, 0.5 * height, 0.0 } };
   scene.camera = makeCamera(target + size * Vec3{ { -1.2, 1.6, 2.4 } }, target, 40.0);

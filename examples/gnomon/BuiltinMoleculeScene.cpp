@@ -8,7 +8,7 @@
 #include <array>
 #include <cmath>
 
-// A double helix that is wound around a ring, drawn as balls and sticks.
+// A double helix wound around a ring, as balls and sticks.
 
 namespace gnomon::tool
 {
@@ -24,7 +24,7 @@ constexpr double radiusOfRing = 120.0;
 constexpr double radiusOfWinding = 50.0;
 constexpr double windings = 80.0;
 
-/// Where the helix's axis is, from 0 to 1.
+/// Return the place of the helix's axis at a share, in [0, 1], of its length.
 Vec3 axisAt(double share)
 {
   const double around = 2.0 * pi * share;
@@ -34,7 +34,7 @@ Vec3 axisAt(double share)
     distance * std::sin(around) } };
 }
 
-/// The direction from the middle of the winding.
+/// Return the direction away from the middle of the winding.
 Vec3 outwardsAt(double share)
 {
   const double around = 2.0 * pi * share;
@@ -43,13 +43,14 @@ Vec3 outwardsAt(double share)
     std::cos(winding) * std::sin(around) } };
 }
 
-/// A point at an angle around the axis, across it.
+/// Return a point at an angle around the axis.
 Vec3 pointAt(double share, double angle, double distance)
 {
   const Vec3 axis = axisAt(share);
   const Vec3 outwards = outwardsAt(share);
   const double around = 2.0 * pi * share;
-  // The winding goes once around the ring in 80 turns, so that this is across it but for a degree.
+  // The axis makes 80 turns on its way around the ring, so the point lies across it within a
+  // degree.
   const Vec3 along{ { -std::sin(around), 0.0, std::cos(around) } };
   Vec3 point;
   for (std::size_t i = 0; i < 3; ++i)
@@ -62,7 +63,7 @@ Vec3 pointAt(double share, double angle, double distance)
 vtkSmartPointer<vtkMolecule> makeMolecule()
 {
   auto molecule = vtkSmartPointer<vtkMolecule>::New();
-  constexpr std::array<unsigned short, 4> elements = { 15, 7, 6, 15 }; // by turns along a pair
+  constexpr std::array<unsigned short, 4> elements = { 15, 7, 6, 15 }; // along a pair
   constexpr std::array<double, 4> places = { -1.0, -0.33, 0.33, 1.0 };
   std::array<vtkIdType, 4> before{};
   for (int pair = 0; pair < pairs; ++pair)

@@ -7,8 +7,8 @@
 
 #include <cmath>
 
-// Apelles' figure 3.18: a lamp with two spots in an office of a building. Most of the building is
-// beyond the light's reach. Lengths are metres.
+// Apelles' figure 3.18: a lamp with two spot lights in an office of a building. Most of the
+// building is out of the lights' reach. Lengths are metres.
 
 namespace gnomon::tool
 {
@@ -26,8 +26,8 @@ const Vec3 desk{ { 0.5, 0.0, -1.0 } }; ///< the middle of the desk's place on th
 constexpr double deskHeight = 0.75;
 const Vec3 bulb = desk + Vec3{ { -0.25, deskHeight + 0.55, -0.05 } };
 
-/// Floors, ceilings, partitions with doors, and a front with windows; the lit office is the middle
-/// one of the middle storey, its floor around the origin.
+/// Return floors, ceilings, partitions with doors, and a front with windows. The lit office is the
+/// middle one of the middle storey, with its floor around the origin.
 SceneModel makeBuilding()
 {
   constexpr double wall = 0.12;
@@ -75,7 +75,7 @@ SceneModel makeBuilding()
   return makeModel("building", mesh.build(), { { 0.8, 0.79, 0.75 } });
 }
 
-/// A desk with drawers on one side.
+/// Add a desk with drawers on one side.
 void addDesk(MeshBuilder& mesh, const Vec3& place)
 {
   const auto addBox = [&](const Vec3& low, const Vec3& high)
@@ -105,7 +105,7 @@ SceneModel makeDesks()
   return makeModel("desks", mesh.build(), { { 0.6, 0.42, 0.27 } });
 }
 
-/// A swivel chair: five feet, a column, a seat, and a back of open mesh bars.
+/// Return a swivel chair: five feet, a column, a seat, and a back of open mesh bars.
 SceneModel makeChair()
 {
   MeshBuilder mesh;
@@ -127,7 +127,7 @@ SceneModel makeChair()
   return makeModel("chair", mesh.build(), { { 0.3, 0.36, 0.45 } });
 }
 
-/// Shelves along the wall to the corridor, and books, some of which lean.
+/// Add shelves along the wall to the corridor, and books, some of them leaning.
 void addShelf(Scene& scene)
 {
   MeshBuilder boards;
@@ -159,7 +159,7 @@ void addShelf(Scene& scene)
   scene.models.push_back(makeModel("blue books", blue.build(), { { 0.26, 0.38, 0.52 } }));
 }
 
-/// A mug, which is open, with pencils, and a pile of paper whose sheets are turned and hang over.
+/// Add an open mug with pencils, and a pile of paper with rotated, overhanging sheets.
 void addThingsOnTheDesk(Scene& scene)
 {
   const Vec3 top = desk + deskHeight * up;
@@ -211,7 +211,7 @@ void addThingsOnTheDesk(Scene& scene)
   scene.models.push_back(makeModel("screen", screen.build(), { { 0.22, 0.23, 0.25 } }));
 }
 
-/// Foot, two arms with a joint, and a shade that is an open sheet around the bulb's place.
+/// Add a lamp: a foot, two arms with a joint, and a shade, an open sheet around the bulb's place.
 void addLamp(Scene& scene)
 {
   const Vec3 foot = desk + Vec3{ { -0.6, deskHeight, -0.2 } };
@@ -248,7 +248,7 @@ Scene makeOfficeScene()
   addLamp(scene);
   scene.camera = makeCamera({ { -1.7, 1.6, 1.5 } }, { { 0.4, 1.12, -1.1 } }, 58.0);
 
-  // Both cones are wider than the shade's openings, so that its rims bound the light.
+  // Both cones are wider than the shade's openings, so the shade's rims bound the light.
   SceneLight down;
   down.type = SceneLight::Type::Spot;
   down.position = bulb;

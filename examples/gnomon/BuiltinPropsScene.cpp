@@ -46,7 +46,7 @@
 
 #include <cmath>
 
-// One prop of each kind that VTK draws in three dimensions, side by side on a ground.
+// One prop of each kind that VTK draws in three dimensions, next to each other on a ground.
 
 namespace gnomon::tool
 {
@@ -71,7 +71,7 @@ Pointer<vtkPolyData> ball(double x = 0.0, double size = radius)
   return source->GetOutput();
 }
 
-/// Places around the middle, as points with vertices, and with radii for impostors.
+/// Return points around the middle, with vertices, and with radii for impostors.
 Pointer<vtkPolyData> places()
 {
   auto data = Pointer<vtkPolyData>::New();
@@ -100,7 +100,7 @@ Pointer<vtkPolyData> line()
   return source->GetOutput();
 }
 
-/// A cube of voxels, dense in the middle.
+/// Return a cube of voxels, dense in the middle.
 Pointer<vtkImageData> voxels()
 {
   auto image = Pointer<vtkImageData>::New();
@@ -141,7 +141,7 @@ Pointer<vtkActor> actorOf(vtkPolyData* data)
   return actorOf(mapper);
 }
 
-/// A ball after a change of how its actor shows it.
+/// Return a ball whose actor was changed.
 template <typename Change>
 Pointer<vtkActor> ballWith(const Change& change)
 {
@@ -274,7 +274,7 @@ Pointer<vtkProp3D> imageProp()
   }
   auto actor = Pointer<vtkImageActor>::New();
   actor->SetInputData(image);
-  actor->GetProperty()->SetAmbient(0.0); // images take no light by default
+  actor->GetProperty()->SetAmbient(0.0); // images are unlit by default
   actor->GetProperty()->SetDiffuse(1.0);
   vtkGnomonPropKeys::SetCasts(actor, true);
   return actor;
@@ -335,7 +335,7 @@ Pointer<vtkProp3D> textProp()
   return text;
 }
 
-/// All of them around the origin, with what they are.
+/// Return all kinds of props, around the origin, with their names.
 const std::vector<SceneProp>& kindsOfProps()
 {
   using Actor = vtkActor;
@@ -426,7 +426,8 @@ const std::vector<SceneProp>& kindsOfProps()
   return kinds;
 }
 
-/// Axes and annotated cubes draw through props of their own, and pass over their position.
+/// Place a prop. Axes and annotated cubes ignore their position, as they draw through props of
+/// their own.
 void place(vtkProp3D* prop, const Vec3& at)
 {
   if (auto* axes = vtkAxesActor::SafeDownCast(prop))

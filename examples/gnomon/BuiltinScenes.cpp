@@ -30,7 +30,7 @@ std::vector<BuiltinScene> makeScenes()
       } },
     { "cube", "a cube on a plane", makeCubeScene },
     { "posts", "thin posts and a fence", makePostsScene },
-    { "plates", "plates that rest on each other, or nearly", makePlatesScene },
+    { "plates", "plates that touch or nearly touch", makePlatesScene },
     { "half-plane", "a half plane over a plane, its shadow's edge is known", makeHalfPlaneScene },
     { "panels", "three planes above each other and three panels, open sheets", makePanelsScene },
     { "screens", "a lattice and a bent sheet, whose holes are cut out by textures",

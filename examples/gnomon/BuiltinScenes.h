@@ -12,62 +12,64 @@ namespace gnomon::tool
 struct BuiltinScene
 {
   std::string name;
-  std::string summary; ///< a line
+  std::string summary; ///< one line
   std::function<Scene()> make;
 };
-/// All of them but the hard ones (HardScenes.h), in the order in which they are listed to people.
+/// Return all built-in scenes except the hard ones (HardScenes.h), in the order of listings.
 const std::vector<BuiltinScene>& builtinScenes();
-/// Finds a hard one, too.
-/// @return null if there is none of that name
+/// Find a built-in scene by its name, hard scenes included.
+/// @return null without such a scene
 const BuiltinScene* findBuiltinScene(const std::string& name);
-/// "bunny, horse, ...": for messages.
+/// Return all names for messages: "bunny, horse, ...".
 std::string builtinSceneNames();
 
-/// A model of the package glmark2-data on a plane of four times its size, which casts too.
-/// @throws BadInput when the package is not there (the environment variable GNOMON_MODELS may name
-/// another folder)
+/// Return a model of the package glmark2-data on a plane of four times its size, which also casts.
+/// @throws BadInput without the package (the environment variable GNOMON_MODELS may name another
+/// folder)
 Scene makeModelOnPlane(const std::string& file, const Vec3& color);
 
-// Their summaries say what most of them are.
+// BuiltinScene::summary describes most of these scenes.
 
 Scene makeCubeScene();
-/// Thin posts and a fence: shadows of about a texel's width.
+/// Return thin posts and a fence, with shadows of about a texel's width.
 Scene makePostsScene();
-/// Plates that rest on each other, or nearly: contact shadows and small gaps.
+/// Return plates that touch or nearly touch: contact shadows and small gaps.
 Scene makePlatesScene();
 Scene makeRoomScene();
-/// A long cube that hovers, its length along the light: what is dark below it depends on its depth.
+/// Return a hovering long cube along the light. The dark area below it depends on its depth.
 Scene makeLongCubeScene();
 Scene makeStackScene();
 Scene makeWindowScene();
 Scene makeLetterScene();
 Scene makeCupsScene();
-/// Three planes above each other that grow downwards, and three panels that stand on the lowest;
-/// all are open sheets, and the panels' fronts look away from the light.
+/// Return three planes above each other, larger ones below, and three panels on the lowest plane.
+/// All are open sheets, and the panels' fronts face away from the light.
 Scene makePanelsScene();
 Scene makeScreensScene();
 Scene makePoleScene();
-/// Where the shadow of the half plane's edge falls on the plane y = 0: lit for x above it.
+/// The x of the half plane's shadow edge on the plane y = 0. Larger x are lit.
 constexpr double halfPlaneShadowEdge = 1.25;
-/// A half plane, x <= 0, at a height of 2.5 over a plane: the shadow's edge is a known line.
+/// Return a half plane, x <= 0, at a height of 2.5 above a plane. The shadow's edge is a known
+/// line.
 Scene makeHalfPlaneScene();
 
 Scene makeOfficeScene();
-/// A court with two storeys of arcades, with banners and awnings of open cloth, about 260,000
-/// triangles; size, light and camera are those of Sponza in Morais' thesis.
+/// Return a court with two storeys of arcades, with banners and awnings of open cloth: about
+/// 260,000 triangles. Size, light and camera are those of Sponza in Morais' thesis.
 Scene makeAtriumScene();
 Scene makeCityScene();
-/// 64 rooms with a lamp each, of which a few light what the camera sees in one of them.
+/// Return 64 rooms with a lamp each. The camera stands in one room, and only a few lamps light its
+/// view.
 Scene makeBuildingScene();
-/// The same with those few alone.
+/// Return the same rooms with only those few lamps.
 Scene makeLitBuildingScene();
 Scene makeTerrainScene();
-/// A prop of every kind that VTK has, on a ground.
+/// Return a prop of every kind that VTK has, on a ground.
 Scene makePropsScene();
-/// 100,000 atoms as balls, and their bonds as sticks.
+/// Return 100,000 atoms as balls, and their bonds as sticks.
 Scene makeMoleculeScene();
 
-/// A view of a scene that is listed once for each of its views.
+/// A view of a scene that is listed once per view.
 struct SceneView
 {
   std::string name;
@@ -75,13 +77,14 @@ struct SceneView
   Vec3 position;
   Vec3 direction;
 };
-/// The three of Moderno's thesis, section 4.1.
+/// Return the three views of Moderno's thesis, section 4.1.
 const std::vector<SceneView>& primitivesViews();
 Scene makePrimitivesScene(const SceneView& view);
 
-/// The nine of Morais' thesis, section 5.1.
+/// Return the nine views of Morais' thesis, section 5.1.
 const std::vector<SceneView>& gardenViews();
-/// Two trees, a lamp, a flower box and a bench on a lawn: 55,026 triangles as in the thesis.
+/// Return two trees, a lamp, a flower box and a bench on a lawn: 55,026 triangles, as in the
+/// thesis.
 Scene makeGardenScene(const SceneView& view);
 
 } // namespace gnomon::tool

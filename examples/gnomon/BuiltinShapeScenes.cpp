@@ -35,7 +35,7 @@ SceneModel makePyramid(const Vec3& base, double side, double height)
   return makeModel("pyramid", mesh.build(), ochre);
 }
 
-/// A torus that lies around a vertical axis.
+/// Return a torus around a vertical axis.
 SceneModel makeTorus(const Vec3& center, double ringRadius, double tubeRadius)
 {
   MeshBuilder mesh;
@@ -52,7 +52,7 @@ SceneModel makeTorus(const Vec3& center, double ringRadius, double tubeRadius)
   return makeModel("torus", mesh.build(), red);
 }
 
-/// A board on four legs, between two corners.
+/// Add a board on four legs, between two corners.
 void addTable(
   MeshBuilder& mesh, const Vec3& low, const Vec3& high, double legWidth, double boardHeight)
 {
@@ -67,7 +67,7 @@ void addTable(
   }
 }
 
-/// Six walls whose fronts look inwards.
+/// Return six walls that face inwards.
 vtkSmartPointer<vtkPolyData> makeHall(const Vec3& low, const Vec3& high)
 {
   const auto corner = [&](bool x, bool y, bool z) {
@@ -76,7 +76,8 @@ vtkSmartPointer<vtkPolyData> makeHall(const Vec3& low, const Vec3& high)
   MeshBuilder mesh;
   for (const bool end : { false, true })
   {
-    // Counter-clockwise seen along the axis: the front of the lower wall; turned, of the upper one.
+    // Corners are counter-clockwise seen along the axis, for the lower wall's front; reversed for
+    // the upper wall's.
     const auto add = [&](Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
       end ? mesh.addPolygon({ d, c, b, a }) : mesh.addPolygon({ a, b, c, d });
     };
@@ -107,7 +108,8 @@ Scene makeCubeScene()
 //------------------------------------------------------------------------------
 const std::vector<SceneView>& primitivesViews()
 {
-  // Cameras of the thesis' section 4.1, named as the garden's; across the light: the name alone.
+  // Cameras of the thesis' section 4.1, named as the garden's. The view across the light has no
+  // suffix.
   static const std::vector<SceneView> views = {
     { "primitives", "torus, cylinder, pyramid and sphere on a plane, 4,944 triangles",
       { { 35.0, 50.0, -43.0 } }, { { -1.0, -1.2, 1.0 } } },
@@ -140,7 +142,7 @@ Scene makePostsScene()
 {
   Scene scene;
 
-  // Posts from 2 cm to 12 cm across, in two rows.
+  // Posts of 2 cm to 12 cm width, in two rows.
   MeshBuilder posts;
   for (int i = 0; i < 6; ++i)
   {
@@ -180,7 +182,7 @@ Scene makePlatesScene()
   Scene scene;
   MeshBuilder plates;
 
-  // A pile that touches: every plate lies on the one below it.
+  // A pile of touching plates.
   double y = 0.0;
   for (int i = 0; i < 5; ++i)
   {
@@ -189,7 +191,7 @@ Scene makePlatesScene()
     y += 0.1;
   }
 
-  // A pile with gaps that grow tenfold from plate to plate, the last one on a post.
+  // A pile whose gaps grow tenfold from plate to plate; the last plate lies on a post.
   y = 0.0;
   for (const double gap : { 0.0, 0.001, 0.01, 0.1, 1.0 })
   {
@@ -199,7 +201,7 @@ Scene makePlatesScene()
   }
   plates.addBox({ { 3.6, y - 1.05, -0.05 } }, { { 3.7, y - 0.05, 0.05 } });
 
-  // Plates that lean: one edge on the plane, the other on a bar.
+  // Leaning plates: one edge on the plane, the other on a bar.
   plates.addBox({ { -1.5, 0.0, 3.0 } }, { { 1.5, 0.4, 3.2 } });
   plates.addPolygon({ { { -1.4, 0.0, 4.6 } }, { { 1.4, 0.0, 4.6 } }, { { 1.4, 0.4, 3.2 } },
     { { -1.4, 0.4, 3.2 } } });
@@ -219,7 +221,7 @@ Scene makeRoomScene()
 
   MeshBuilder table;
   addTable(table, { { -0.9, 0.0, -0.7 } }, { { 0.9, 0.75, 0.3 } }, 0.07, 0.04);
-  // On the table: a box, and books that lie on each other.
+  // On the table: a box and a pile of books.
   table.addBox({ { 0.35, 0.75, -0.45 } }, { { 0.65, 0.95, -0.25 } });
   table.addBox({ { -0.6, 0.75, -0.4 } }, { { -0.3, 0.78, -0.2 } });
   table.addBox({ { -0.57, 0.78, -0.38 } }, { { -0.31, 0.82, -0.19 } });
@@ -233,7 +235,7 @@ Scene makeRoomScene()
     chairs.addBox({ { back, 0.45, -0.4 } }, { { back + 0.05, 0.95, 0.1 } });
   }
 
-  // Open shelves along a wall, and a chest in the corner, a little off the walls.
+  // Open shelves along a wall, and a chest in the corner, with a gap to the walls.
   MeshBuilder cupboard;
   for (const double x : { -2.2, -1.4, -0.6 })
   {

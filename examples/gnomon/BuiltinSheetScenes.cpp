@@ -12,7 +12,7 @@
 #include <cmath>
 #include <functional>
 
-// Scenes of sheets without thickness and of things that are thin.
+// Scenes of sheets without thickness, and of thin objects.
 
 namespace gnomon::tool
 {
@@ -20,8 +20,8 @@ namespace gnomon::tool
 namespace
 {
 
-/// A bowl around an axis that leaves its origin upwards: a sphere below a fifth of its radius above
-/// its centre, which is one radius along the axis.
+/// Add a bowl around an axis, open upwards. It is the part of a sphere below a fifth of the radius
+/// above the sphere's centre. That centre lies one radius along the axis.
 void addCup(MeshBuilder& mesh, const Axis& axis, double radius)
 {
   const Vec3 helper{ { 0.0, 0.0, 1.0 } };
@@ -31,7 +31,7 @@ void addCup(MeshBuilder& mesh, const Axis& axis, double radius)
   mesh.addPatch(32, 12,
     [&](double u, double v)
     {
-      // The last step closes the circle, and the pole is one point, exactly.
+      // The last step closes the circle exactly, and the pole is exactly one point.
       const double along = u == 1.0 ? 0.0 : 2.0 * vtkMath::Pi() * u;
       const double latitude = (1.0 - v) * -0.5 * vtkMath::Pi() + v * rim;
       const double ring = v == 0.0 ? 0.0 : std::cos(latitude);
@@ -41,7 +41,7 @@ void addCup(MeshBuilder& mesh, const Axis& axis, double radius)
     });
 }
 
-/// An open sheet that stands on a horizontal edge.
+/// Return an open sheet on a horizontal edge.
 SceneModel makePanel(const Vec3& middle, const Vec3& along, double width, double height)
 {
   const Vec3 half = (0.5 * width) * along;
@@ -58,7 +58,7 @@ SceneModel withColor(SceneModel model, const std::string& name, const Vec3& colo
   return model;
 }
 
-/// A texture of texels x texels in white, without alpha where there is a hole.
+/// Return a white texture of texels x texels, with alpha 0 in its holes.
 vtkSmartPointer<vtkTexture> makeHoles(
   int texels, const std::function<bool(double u, double v)>& isHole)
 {
@@ -79,7 +79,7 @@ vtkSmartPointer<vtkTexture> makeHoles(
   return texture;
 }
 
-/// A sheet of columns x rows cells that shows a texture `across` and `upward` times.
+/// Return a sheet of columns x rows cells that repeats a texture `across` and `upward` times.
 SceneModel makeTexturedSheet(const std::string& name, int columns, int rows,
   const std::function<Vec3(double u, double v)>& place, vtkSmartPointer<vtkTexture> texture,
   double across, double upward)
@@ -108,7 +108,7 @@ SceneModel makeTexturedSheet(const std::string& name, int columns, int rows,
 Scene makeHalfPlaneScene()
 {
   constexpr double height = 2.5;
-  constexpr double reach = 40.0; // beyond what the camera sees of it and of its shadow
+  constexpr double reach = 40.0; // beyond the camera's view of the half plane and its shadow
   Scene scene;
   MeshBuilder half;
   half.addPolygon({ { { -reach, height, reach } }, { { 0.0, height, reach } },
@@ -116,7 +116,8 @@ Scene makeHalfPlaneScene()
   scene.models = { makeModel("half plane", half.build(), { { 0.5, 0.62, 0.75 } }),
     makePlane(origin, 2.0 * reach) };
   scene.camera = makeCamera({ { 6.5, 4.2, 5.5 } }, { { 0.6, 0.4, 0.0 } }, 40.0);
-  // Along x the light goes half as far as it falls; across, it leans a little, which moves nothing.
+  // Along x, the light travels half as far as it falls. Its slight lean along z does not move the
+  // shadow's edge.
   scene.lights = { makeSun({ { halfPlaneShadowEdge / height, -1.0, -0.3 } }) };
   return scene;
 }
@@ -129,7 +130,7 @@ Scene makePanelsScene()
   scene.models = { withColor(makePlane({ { 0.0, 2.6, 0.0 } }, 2.0), "top", { { 0.85, 0.5, 0.4 } }),
     withColor(makePlane({ { 0.0, 1.3, 0.0 } }, 4.0), "middle", { { 0.5, 0.68, 0.48 } }),
     withColor(makePlane(origin, 11.0), "bottom", { { 0.75, 0.75, 0.72 } }) };
-  // Their fronts look along the light, so that it falls on their backs.
+  // Their fronts face along the light, which falls on their backs.
   const Vec3 travel{ { 0.45, -1.0, 0.35 } };
   const Vec3 along = normalized(cross(up, { { travel[0], 0.0, travel[2] } }));
   for (const double offset : { -1.0, 0.0, 1.0 })
@@ -194,7 +195,7 @@ Scene makeCupsScene()
   MeshBuilder hovering;
   for (int i = 0; i < 12; ++i)
   {
-    // Four columns and three rows; every other cup is up in the air and tips over.
+    // Four columns and three rows; every other cup is in the air and tilted.
     const double radius = 0.55 + 0.1 * (i % 3);
     const Vec3 foot{ { 2.3 * (i % 4) - 3.6, 0.0, 2.4 * (i / 4) - 2.4 } };
     if ((i + i / 4) % 2 == 0)

@@ -10,8 +10,8 @@
 #include <array>
 #include <cmath>
 
-// Scenes whose casters lie above each other or reach far along the light: where one depth per texel
-// tells too little.
+// Scenes whose casters lie above each other or extend far along the light, so one depth per texel
+// is not enough.
 
 namespace gnomon::tool
 {
@@ -19,7 +19,8 @@ namespace gnomon::tool
 namespace
 {
 
-/// An upright letter C, open towards +x: three quarters of a ring around the axis z, cut square.
+/// Return an upright letter C, open towards +x: three quarters of a ring with a square section
+/// around the z axis.
 SceneModel makeLetter(const Vec3& center, double inner, double outer, double thickness)
 {
   constexpr int segments = 48;
@@ -59,11 +60,11 @@ SceneModel makeLetter(const Vec3& center, double inner, double outer, double thi
   return makeModel("letter", mesh.build(), { { 0.45, 0.52, 0.72 } });
 }
 
-/// The picture of a window: two by two panes between dark bars.
+/// Return the picture of a window: two by two panes between dark bars.
 vtkSmartPointer<vtkImageData> makePanes()
 {
-  constexpr int texels = 40; // a side
-  constexpr int bar = 2;     // half of one
+  constexpr int texels = 40; // of a side
+  constexpr int bar = 2;     // half a bar's width
   using Colour = std::array<unsigned char, 3>;
   constexpr Colour dark = { 10, 10, 10 };
   constexpr std::array<Colour, 4> panes = { { // the lower row first
@@ -110,15 +111,15 @@ Scene makeWindowScene()
   SceneLight& window = scene.lights.front();
   window.area->width = window.area->height = 3.0;
   window.area->texture = makePanes();
-  window.intensity = 2.0; // of which the panes leave about a half
+  window.intensity = 2.0; // the panes transmit about half
   return scene;
 }
 
 //------------------------------------------------------------------------------
 Scene makeLongCubeScene()
 {
-  // The elongated cube of Curtis' thesis, figure 4.2. Its length lies nearly along the light, not
-  // quite: sides that are parallel to the light are neither lit nor dark.
+  // The elongated cube of Curtis' thesis, figure 4.2. Its length is only nearly along the light, as
+  // sides parallel to the light are neither lit nor dark.
   Scene scene;
   MeshBuilder cube;
   cube.addBox({ { -0.7, 0.6, -0.7 } }, { { 0.7, 6.0, 0.7 } });

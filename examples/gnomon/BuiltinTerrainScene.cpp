@@ -15,7 +15,8 @@ namespace
 constexpr double sideMetres = 1000.0;
 constexpr int cells = 256;
 
-/// The ground's height: hills of 250 m and less, each octave half as wide and 0.4 times as high.
+/// Return the ground's height: hills of at most 250 m. Each octave is half as wide and 0.4 times as
+/// high.
 double groundHeight(double x, double z)
 {
   double height = 0.0;
@@ -41,7 +42,7 @@ SceneModel makeGround()
   mesh.addPatch(cells, cells,
     [](double u, double v)
     {
-      // v runs towards -z, so that the front looks up.
+      // v runs towards -z, so the front faces up.
       const double x = (u - 0.5) * sideMetres;
       const double z = (0.5 - v) * sideMetres;
       const double step = 0.5 * sideMetres / cells;
@@ -52,7 +53,7 @@ SceneModel makeGround()
   return makeModel("ground", mesh.build(), { { 0.6, 0.62, 0.4 } });
 }
 
-/// A place on the terrain for the i-th thing of a kind.
+/// Return a place on the terrain for object i of a kind.
 Vec3 scattered(int i, std::uint32_t kind)
 {
   const double range = 0.96 * sideMetres;
@@ -67,7 +68,7 @@ SceneModel makeTrees()
   {
     const Vec3 foot = scattered(i, kind);
     const double height = 6.0 + 8.0 * hashed(i, 2, kind);
-    // The trunk starts below the ground, which falls away on slopes.
+    // The trunk starts below the ground, as slopes fall away.
     mesh.addCone(foot - 0.5 * up, 0.3 * height + 0.5, 0.02 * height, 0.02 * height, 8);
     mesh.addCone(foot + (0.25 * height) * up, 0.45 * height, 0.22 * height, 0.0, 10);
     mesh.addCone(foot + (0.55 * height) * up, 0.45 * height, 0.16 * height, 0.0, 10);
@@ -86,7 +87,7 @@ SceneModel makeRocks()
   return makeModel("rocks", mesh.build(), { { 0.55, 0.53, 0.5 } });
 }
 
-/// Posts of 12 cm along a path from the camera into the distance.
+/// Return posts of 12 cm width along a path from the camera into the distance.
 SceneModel makePosts(const Vec3& start, const Vec3& direction)
 {
   MeshBuilder mesh;

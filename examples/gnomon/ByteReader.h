@@ -9,11 +9,11 @@
 namespace gnomon::tool
 {
 
-/// Walks through a binary file's bytes and refuses to step over their end.
+/// Reads a binary file's bytes in order, and throws at their end.
 class ByteReader
 {
 public:
-  /// The bytes must outlive the reader.
+  /// Construct a reader of bytes, which must outlive it.
   ByteReader(const std::string& path, const std::string& bytes, bool bigEndian = false)
     : path_(path)
     , bytes_(bytes)
@@ -25,7 +25,7 @@ public:
   std::size_t size() const { return this->bytes_.size(); }
   void seek(std::size_t position) { this->position_ = position; }
 
-  /// The next value; `what` names it in the error of a file that ends here.
+  /// Read the next value. `what` names it in the error of a file that ends here.
   template <class T>
   T read(const char* what)
   {
@@ -42,7 +42,7 @@ public:
 
   void skip(std::size_t bytes, const char* what) { this->take(bytes, what); }
 
-  /// Text up to a zero byte, which is read, too.
+  /// Read text up to and including a zero byte.
   std::string readName(std::size_t longest, const std::string& what)
   {
     const std::size_t end = this->bytes_.find('\0', this->position_);

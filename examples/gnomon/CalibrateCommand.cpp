@@ -28,7 +28,7 @@ namespace gnomon::tool
 namespace
 {
 
-/// What moves from frame to frame.
+/// The object that moves from frame to frame.
 enum class Moved
 {
   Nothing,
@@ -37,16 +37,16 @@ enum class Moved
   Caster
 };
 
-/// What differs between the windows that are measured.
+/// The settings of a measured window.
 struct Setup
 {
-  int sphereColumns; ///< twice their square are about its triangles
+  int sphereColumns; ///< the sphere has about twice their square of triangles
   int sidePixels;
   const char* technique; ///< null: plain VTK
   int mapSizeTexels = 0; ///< 0: the technique has no map
 };
 
-/// A ball over a floor under the sun, in a window of its own.
+/// A ball over a floor under the sun, in its own window.
 class MeasuredWindow
 {
 public:
@@ -83,13 +83,13 @@ public:
 
   double triangles() const { return this->triangles_; }
 
-  /// Draws a frame to its end.
-  /// @return milliseconds
+  /// Render a frame and wait for its end.
+  /// @return the frame's milliseconds
   double draw(Moved moved, int step)
   {
     const auto turned = [&](Moved by) { return moved == by ? 0.001 * step : 0.0; };
     vtkCamera* const camera = this->renderer_->GetActiveCamera();
-    camera->SetPosition(0.5 + turned(Moved::Camera), -3.0, 3.0); // sees nothing but the floor
+    camera->SetPosition(0.5 + turned(Moved::Camera), -3.0, 3.0); // sees only the floor
     camera->SetFocalPoint(0.0, 0.0, 0.6);
     camera->SetViewUp(0.0, 0.0, 1.0);
     this->renderer_->ResetCameraClippingRange();
@@ -116,7 +116,7 @@ private:
   double triangles_ = 0.0;
 };
 
-/// The windows, by what they are for.
+/// The windows, by their purpose.
 enum Window : std::size_t
 {
   PlainSmall,
@@ -195,7 +195,7 @@ public:
   }
 
 private:
-  /// Frames of all windows in turns.
+  /// Measure frames of all windows, interleaved.
   void measure(Moved moved, int frames)
   {
     std::vector<std::vector<double>> times(this->windows_.size());
@@ -216,7 +216,7 @@ private:
   }
 
   std::vector<std::unique_ptr<MeasuredWindow>> windows_;
-  std::vector<std::vector<double>> medians_; ///< milliseconds, by what moves and by window
+  std::vector<std::vector<double>> medians_; ///< milliseconds, by moving object and by window
 };
 
 struct CalibrateOptions
@@ -234,7 +234,7 @@ void calibrate(const CalibrateOptions& options)
   Progress progress("setting up");
   const CostFactors factors = Calibration(options.frames, progress).factors();
   const std::string text =
-    "# What frames cost on this machine, in nanoseconds a triangle, pixel or texel.\n" +
+    "# Costs of frames on this machine, in nanoseconds per triangle, pixel or texel.\n" +
     textOf(factors);
   if (options.output.empty())
   {
@@ -251,10 +251,11 @@ void addCalibrateCommand(CLI::App& app)
 {
   auto options = std::make_shared<CalibrateOptions>();
   CLI::App* command = app.add_subcommand("calibrate",
-    "Measure what frames cost on this machine, for the technique auto; the environment variable "
+    "Measure the costs of frames on this machine, for the technique auto; the environment variable "
     "GNOMON_FACTORS names the file for programs");
-  command->add_option("-o,--output", options->output, "The file; else it is printed");
-  command->add_option("--frames", options->frames, "Frames of each kind that are timed")
+  command->add_option(
+    "-o,--output", options->output, "Output file; without it, print to standard output");
+  command->add_option("--frames", options->frames, "Timed frames of each kind")
     ->check(CLI::Range(1, 1000))
     ->capture_default_str();
   command->callback([options] { calibrate(*options); });

@@ -6,8 +6,8 @@ namespace gnomon::tool
 {
 
 ///@{
-/// Each adds one subcommand. Its work runs while the command line is parsed, in the subcommand's
-/// callback, and throws BadInput or Failure.
+/// Add one subcommand. The subcommand's callback does the work while the command line is parsed,
+/// and throws BadInput or Failure.
 void addCalibrateCommand(CLI::App& app);
 void addCompareCommand(CLI::App& app);
 void addDiffCommand(CLI::App& app);
@@ -18,7 +18,7 @@ void addSettingsCommand(CLI::App& app);
 void addStudyCommand(CLI::App& app);
 ///@}
 
-/// A window's size as the command line says it: WIDTHxHEIGHT, each from 1 to 16384.
+/// A window's size in pixels, on the command line WIDTHxHEIGHT, each from 1 to 16384.
 struct PictureSize
 {
   int width = 1024;
@@ -27,10 +27,11 @@ struct PictureSize
   double aspect() const { return static_cast<double>(this->width) / this->height; }
 };
 
+/// Parse a size.
 /// @throws BadInput
 PictureSize parseSize(const std::string& text);
 
-/// Refuses pictures that are larger than an OpenGL context's limits.
+/// Refuse pictures that exceed an OpenGL context's limits.
 /// @throws BadInput
 void requireDrawable(const PictureSize& size, int mostTexels, int mostColumns, int mostRows);
 

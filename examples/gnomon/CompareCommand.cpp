@@ -25,8 +25,8 @@ struct CompareOptions
   std::string folder;
   ComparisonPlan plan;
   std::string size = "1024x1024";
-  std::string route; ///< empty: the usual one of the usual techniques, all of others
-  bool all = false;  ///< whether to compare all techniques
+  std::string route; ///< empty: the usual route for usual techniques, all routes for others
+  bool all = false;  ///< true: compare all techniques
 };
 
 std::string writeFirstPicture(const std::vector<Panel>& panels, const std::string& folder)
@@ -47,12 +47,12 @@ ComparisonResults measure(
   ComparisonResults results = runComparison(scene, plan, events);
   if (!messages.errors().empty())
   {
-    throw Failure("drawing " + scene.name + ": " + messages.errors().front());
+    throw Failure("rendering " + scene.name + ": " + messages.errors().front());
   }
   return results;
 }
 
-/// The plan with the options' techniques and routes.
+/// Return the plan with the options' techniques and routes.
 ComparisonPlan planOf(const CompareOptions& options, const Scene& scene)
 {
   ComparisonPlan plan = options.plan;
@@ -94,7 +94,7 @@ void addCompareCommand(CLI::App& app)
 {
   CLI::App* const command = app.add_subcommand("compare",
     "Compare shadow techniques on a scene with ray tracing, plain VTK and vtkShadowMapPass, and "
-    "write a report; first.png, in its folder, is there within seconds");
+    "write a report; its folder has first.png within seconds");
   const auto options = std::make_shared<CompareOptions>();
   options->plan.mapSizesTexels = { 1024 };
   command
@@ -122,19 +122,18 @@ void addCompareCommand(CLI::App& app)
     ->capture_default_str();
   command
     ->add_option("--frames", options->plan.frames,
-      "Timed frames per variant and motion; 0: none, errors alone")
+      "Timed frames per variant and motion; 0: measure errors only")
     ->check(CLI::Range(0, 10000))
     ->capture_default_str();
   command
     ->add_option("--truth-samples", options->plan.truthSamples,
-      "Samples of each area light by which the truth that errors are told by is traced")
+      "Samples per area light and pixel of the ray-traced truth")
     ->check(CLI::Range(1, 65536))
     ->capture_default_str();
   command
     ->add_option("--route", options->route,
-      "The routes of techniques that have both: inline (in VTK's shaders), image (from a prepass), "
-      "all. By default all, but of the default techniques the usual one: inline, or image of slow "
-      "ones")
+      "Routes of pointwise techniques: inline (in VTK's shaders), image (from a prepass), all. By "
+      "default all; default techniques take their usual route: inline, or image for slow ones")
     ->check(CLI::IsMember({ "all", "inline", "image" }));
   addTracerOption(*command, options->plan.tracer);
   addRasterizerOption(*command, options->plan.rasterizer);

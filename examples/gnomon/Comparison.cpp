@@ -17,7 +17,7 @@ glm::dvec3 toGlm(const Vec3& v)
   return { v[0], v[1], v[2] };
 }
 
-/// A unit vector, or zero where the input has no length.
+/// Return a unit vector; zero for a vector without length.
 glm::dvec3 unitOrZero(const glm::dvec3& v)
 {
   const double length = glm::length(v);
@@ -52,7 +52,7 @@ void requireSameImages(const VisibilityImages& technique, const VisibilityImages
   }
 }
 
-/// Adds the names of numbers that are not among them yet.
+/// Append the names of numbers that the list lacks.
 template <typename Number>
 void addNames(
   const std::vector<std::pair<std::string, Number>>& numbers, std::vector<std::string>& names)
@@ -66,8 +66,8 @@ void addNames(
   }
 }
 
-/// Whether a point lies in the box of a light, if that has one.
-/// @param fromLight the point, less the light's position
+/// True if a point lies in a light's box, or if the light has no box.
+/// @param fromLight the point minus the light's position
 bool inBox(const SceneLight& light, const glm::dvec3& axis, const glm::dvec3& fromLight)
 {
   if (!light.box)
@@ -138,7 +138,7 @@ VisibilityError measureError(const VisibilityImages& technique, const Visibility
         continue;
       }
       const float value = technique.visibility[k][i];
-      // What is not a number has failed as much as it can: it counts as a full error.
+      // NaN counts as a full error.
       const float difference = std::isnan(value) ? -1.0f : value - truth.visibility[k][i];
       PixelVerdict verdict = PixelVerdict::Right;
       ++error.facingPixels;
@@ -193,7 +193,7 @@ Picture errorPicture(const Picture& picture, const std::vector<PixelVerdict>& ve
       pixel[1] = green;
       pixel[2] = blue;
     };
-    // Dimmed to grey, so that the colours of errors are the only colours.
+    // Dimmed to grey, so only errors have colours.
     const auto grey =
       static_cast<unsigned char>((pixel[0] * 54 + pixel[1] * 183 + pixel[2] * 19) / 256 * 2 / 5);
     if (verdicts[i] == PixelVerdict::FalseLight)
@@ -206,7 +206,7 @@ Picture errorPicture(const Picture& picture, const std::vector<PixelVerdict>& ve
     }
     else if (traced && (*traced)[i])
     {
-      // The picture shines through, since whole regions may be traced.
+      // The picture stays visible, as whole regions may be traced.
       paint(static_cast<unsigned char>(grey / 2 + 78), static_cast<unsigned char>(grey / 2 + 10),
         static_cast<unsigned char>(grey / 2 + 105));
     }

@@ -23,7 +23,7 @@ namespace gnomon::tool
 namespace
 {
 
-/// The scene whose lights are what the plan says, and leave the rest to the variants.
+/// Return the scene with lights as the plan defines them. The variants decide the rest.
 Scene sceneOf(const ComparisonPlan& plan, const Scene& original)
 {
   Scene scene = withoutShadowSettings(original);
@@ -40,7 +40,8 @@ Scene sceneOf(const ComparisonPlan& plan, const Scene& original)
   return scene;
 }
 
-/// @throws CompositionError where one of the scene's lights refuses a variant's settings
+/// Compose a variant's technique for each of the scene's lights.
+/// @throws CompositionError if a light refuses the variant's settings
 void requireComposition(const VariantSpec& spec, vtkRenderer* renderer)
 {
   for (ShadowLight light : LightManager().collect(renderer, settingsOf(spec)).lights)
@@ -49,14 +50,14 @@ void requireComposition(const VariantSpec& spec, vtkRenderer* renderer)
   }
 }
 
-/// Adds the plan's settings that concern a variant, unless it says them itself.
-/// @return what draws it then
-/// @throws CompositionError where nothing does
+/// Add the plan's settings that a variant's technique has, unless the variant sets them itself.
+/// @return the resulting technique
+/// @throws CompositionError if there is none
 const TechniqueInfo& addSettings(const ComparisonPlan& plan, VariantSpec& spec)
 {
   const auto choosesEstimator = [](const Setting& setting)
   { return setting.name == "estimator" || setting.name == "as_published"; };
-  // What these make of it is what the others concern, or do not.
+  // Settings that choose the estimator come first, as it decides which other settings there are.
   for (const bool choosing : { true, false })
   {
     const TechniqueInfo& info = estimatorOf(settingsOf(spec)).info;
@@ -73,6 +74,7 @@ const TechniqueInfo& addSettings(const ComparisonPlan& plan, VariantSpec& spec)
   return estimatorOf(settingsOf(spec)).info;
 }
 
+/// Refuse unused settings.
 /// @throws BadInput for a setting of the plan that no variant has
 void requireUse(const ComparisonPlan& plan, const std::vector<VariantSpec>& specs)
 {
@@ -88,8 +90,9 @@ void requireUse(const ComparisonPlan& plan, const std::vector<VariantSpec>& spec
   }
 }
 
-/// @param leftOut filled with the reason for each technique that a light refuses
-/// @throws BadInput where that is the truth
+/// Return the plan's variants.
+/// @param leftOut receives the reason for each technique that a light refuses
+/// @throws BadInput if a light refuses the truth
 std::vector<VariantSpec> listVariants(
   const ComparisonPlan& plan, const Scene& scene, std::vector<std::string>& leftOut)
 {
@@ -119,7 +122,7 @@ std::vector<VariantSpec> listVariants(
     {
       if (text == truthTechnique)
       {
-        throw BadInput(text + ", the truth that all are compared with: " + error.what());
+        throw BadInput(text + ", the truth for all techniques: " + error.what());
       }
       leftOut.push_back(text + " is left out: " + error.what() + ".");
       continue;
@@ -149,7 +152,7 @@ std::vector<VariantSpec> listVariants(
   return specs;
 }
 
-/// A variant and what is found out about it.
+/// A variant and its measurements.
 struct Variant : FrameVariant
 {
   Variant(const VariantSpec& spec, const Scene& scene, const ComparisonPlan& plan)
@@ -166,7 +169,8 @@ struct Variant : FrameVariant
 
 using Variants = std::vector<std::unique_ptr<Variant>>;
 
-/// Sum of a frame's stages. A part ("stage: part") counts where its stage is not listed itself.
+/// Return the sum of a frame's stages. A part ("stage: part") counts if its stage is not listed
+/// itself.
 double sumOfStages(const std::vector<StageTime>& stages)
 {
   double sum = 0.0;
@@ -182,7 +186,7 @@ double sumOfStages(const std::vector<StageTime>& stages)
   return sum;
 }
 
-/// Collects the stages of measured frames.
+/// Collects the stage times of measured frames.
 class StageSamples
 {
 public:
@@ -207,7 +211,7 @@ public:
     for (const std::string& name : this->order_)
     {
       std::vector<double> times = this->samples_.at(name);
-      times.resize(this->shares_.size(), 0.0); // a frame without the stage spent no time on it
+      times.resize(this->shares_.size(), 0.0); // 0 for frames without the stage
       timing.stages.emplace_back(name, median(times));
     }
     timing.stageShare = median(this->shares_);
@@ -219,10 +223,10 @@ private:
   std::vector<double> shares_;
 };
 
-/// Side of the place that is shown of a variant, in pixels.
+/// The side of a variant's worst place, in pixels.
 constexpr int worstPlacePixels = 64;
 
-/// Counts steps of work that take about as long as each other.
+/// Counts steps of work with similar durations.
 class StepCounter
 {
 public:
@@ -231,7 +235,8 @@ public:
     , events_(events)
   {
   }
-  /// @param step the step that is done, for people
+  /// Count a finished step and report it.
+  /// @param step the step, for users
   void advance(const std::string& step)
   {
     ++this->done_;
@@ -248,25 +253,25 @@ private:
   const ComparisonEvents& events_;
 };
 
-/// "3 of 8 rows".
+/// Return a text such as "3 of 8 rows".
 std::string countOfRows(std::size_t count, std::size_t all)
 {
   return std::to_string(count) + " of " + std::to_string(all) + " rows";
 }
 
-/// "timing 8 rows, camera moving".
+/// Return a text such as "timing 8 rows, camera moving".
 std::string timingStep(const Variants& variants, Motion motion)
 {
   return "timing " + std::to_string(variants.size()) + " rows, " + motionName(motion);
 }
 
-/// Frames of each motion of which every stage is timed.
+/// Return the number of frames per motion whose stages are timed.
 int measuredFrames(const ComparisonPlan& plan)
 {
   return std::clamp(plan.frames / 3, 1, 9);
 }
 
-/// Frames of each variant and motion, with those for warming up.
+/// Return the number of frames per variant and motion, warm-up frames included.
 std::size_t framesPerMotion(const ComparisonPlan& plan)
 {
   return plan.frames > 0
@@ -312,7 +317,8 @@ void timeStages(Variants& variants, Motion motion, const ComparisonPlan& plan, S
   }
 }
 
-/// The first frames: compiles, builds, bakes all maps, and shows by how much the program grows.
+/// Render the first frames: compile shaders, build structures, bake all maps, and measure the
+/// process' growth.
 void warmUp(Variant& variant)
 {
   const std::int64_t before = residentBytes();
@@ -320,7 +326,7 @@ void warmUp(Variant& variant)
   {
     variant.drawFrame(Motion::Static, 0);
   }
-  // Maps are awaited by frames that compute visibility. Those fitted to a moving camera never come.
+  // Frames that compute visibility wait for maps. Maps fitted to a moving camera never come.
   constexpr int mostFrames = 64;
   for (int frame = 1; frame <= mostFrames && variant.awaitsMap(); ++frame)
   {
@@ -340,7 +346,7 @@ void warmUp(Variant& variant)
   }
 }
 
-/// The visibility that a variant hands out for the scene as it stands.
+/// Return the visibility that a variant exports for the scene at rest.
 VisibilityImages keptVisibility(Variant& variant)
 {
   variant.pass()->KeepVisibilityOn();
@@ -353,7 +359,7 @@ VisibilityImages keptVisibility(Variant& variant)
   return images;
 }
 
-/// Whether one of the lights that cast is more than a point, and so has soft shadows.
+/// True if one of the casting lights has an area, and so has soft shadows.
 bool hasSoftShadows(vtkRenderer* renderer, const ShadowSettings& settings)
 {
   const std::vector<ShadowLight> lights = LightManager().collect(renderer, settings).lights;
@@ -366,7 +372,7 @@ bool isSoft(const Variant& variant)
   return hasSoftShadows(variant.renderer(), settingsOf(variant.spec()));
 }
 
-/// The first seed from 1 on that no variant has.
+/// Return the first seed, from 1, that no variant uses.
 std::string unusedSeed(const Variants& variants)
 {
   const auto has = [](const std::unique_ptr<Variant>& variant, int seed)
@@ -380,8 +386,8 @@ std::string unusedSeed(const Variants& variants)
   return std::to_string(seed);
 }
 
-/// The truth that all variants are compared with. Ray-traced shadows of area lights have an error of
-/// their own, so the truth takes evenly spread samples that no variant takes.
+/// Return the truth for all variants. Ray-traced shadows of area lights have a sampling error, so
+/// the truth uses evenly spread samples that no variant uses.
 VisibilityImages truthOf(
   Variant& variant, const Variants& variants, int samples, std::vector<std::string>& notes)
 {
@@ -418,7 +424,7 @@ VisibilityImages withoutShadows(const VisibilityImages& truth)
   return images;
 }
 
-/// The visibility of a variant that shades with it but does not hand it out.
+/// Return the visibility of a variant that shades with it but does not export it.
 VisibilityImages visibilityFromItsPictures(
   Variant& variant, const Scene& scene, const VisibilityImages& truth)
 {
@@ -426,12 +432,11 @@ VisibilityImages visibilityFromItsPictures(
   PictureVisibility found = measureVisibility(
     scene, truth, [&spec](vtkRenderer* renderer) { renderer->SetPass(makePass(spec)); });
   variant.result.errorSource =
-    "Read off pictures of what it drew: the scene with white surfaces, without ambient light and "
-    "gloss, under one light at a time, once with and once without shadows; the quotient of the two "
-    "is "
-    "the visibility. Four exposures keep faintly lit surfaces above the steps of 8 bits. " +
+    "Measured from its pictures of the scene with white surfaces, without ambient light and gloss, "
+    "under one light at a time. Visibility is the quotient of a picture with shadows and one "
+    "without. Four exposures keep faintly lit surfaces above the steps of 8 bits. " +
     std::to_string(found.unreadable) +
-    " pixels that graze the light are black even so; they count as right.";
+    " pixels at grazing angles are still black; they count as right.";
   return std::move(found.images);
 }
 
@@ -453,7 +458,7 @@ VisibilityImages visibilityOf(Variant& variant, const Scene& scene, const Visibi
   return keptVisibility(variant);
 }
 
-/// 1 where a ray decided.
+/// Return a mask with 1 for each traced pixel.
 std::vector<unsigned char> tracedMask(const VisibilityImages& images)
 {
   std::vector<unsigned char> traced(images.coverage.size(), 0);
@@ -467,7 +472,7 @@ std::vector<unsigned char> tracedMask(const VisibilityImages& images)
   return traced;
 }
 
-/// What a variant says of how its pixels were decided.
+/// Store the classes of a variant's pixels in its result.
 void takeClasses(VariantResult& result, const FrameReport& report, const VisibilityImages& images)
 {
   for (const LightReport& light : report.lights)
@@ -505,7 +510,7 @@ void measureErrors(
     VariantResult& result = variant->result;
     if (variant->pass() && has(estimatorOf(settingsOf(variant->spec())).info, "bake"))
     {
-      // What is counted is what techniques do with their maps, whether or not those have paid.
+      // Counts are those of techniques with their maps, even if baking these does not pay.
       variant->pass()->SetSetting("bake", "always");
     }
     variant->drawFrame(Motion::Static, 0);
@@ -563,7 +568,8 @@ void describeScene(ComparisonResults& results, const Scene& scene, const FrameRe
   }
 }
 
-/// @param truth what the ray-traced frame says
+/// Return the settings that the numbers depend on.
+/// @param truth report of the ray-traced frame
 std::vector<std::pair<std::string, std::string>> listSettings(
   const ComparisonPlan& plan, const FrameReport& truth, vtkRenderWindow* window)
 {
@@ -601,7 +607,7 @@ std::string firstPanelTitle(const std::string& technique)
                                      : "VTK's own: " + technique;
 }
 
-/// The peers and the truth, small.
+/// Return small pictures of the peers and the truth.
 std::vector<Panel> drawFirstPanels(const ComparisonPlan& plan, const Scene& scene)
 {
   ComparisonPlan first = plan;

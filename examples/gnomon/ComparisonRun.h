@@ -11,61 +11,60 @@
 namespace gnomon::tool
 {
 
-/// What to compare.
+/// The plan of a comparison.
 struct ComparisonPlan
 {
-  /// Names of the registry, with settings if wished: "nsm", "pcf:kernel=box:projection=lispsm". The
-  /// truth is added when missing.
+  /// Names of the registry, with optional settings: "nsm", "pcf:kernel=box:projection=lispsm". A
+  /// missing truth is added.
   std::vector<std::string> techniques;
-  /// Settings of all lights and of all techniques that they concern and that do not say them
-  /// themselves; empty ones are none.
+  /// Settings of all lights, for techniques that have them and do not set them themselves. Empty
+  /// values do not count.
   std::map<std::string, std::string> settings;
-  std::vector<int> mapSizesTexels; ///< for every variant that has a map
-  /// Pointwise techniques take the one route that they usually take: inline, or image if they are
-  /// slow. Else those below.
+  std::vector<int> mapSizesTexels; ///< for each variant with a map
+  /// True: pointwise techniques take only their usual route: inline, or image if they are slow.
+  /// False: they take the routes below.
   bool usualRoute = false;
   bool inlineRoute = true; ///< for pointwise techniques
   bool imageRoute = true;  ///< for pointwise techniques
-  int tracer = 0;          ///< a vtkGnomonShadowPass::TracerType, for all that trace
+  int tracer = 0;          ///< a vtkGnomonShadowPass::TracerType, for techniques that trace
   int rasterizer = 0;      ///< a vtkGnomonShadowPass::RasterizerType, for conservative maps
   int width = 1024;
   int height = 1024;
-  int frames = 21;         ///< timed frames per variant and motion; 0: only errors are asked for
-  int truthSamples = 4096; ///< of each area light for every pixel, by which errors are told
+  int frames = 21;         ///< timed frames per variant and motion; 0: errors only
+  int truthSamples = 4096; ///< samples per area light and pixel of the truth
 };
 
-/// The technique whose visibility is the truth. The truth of area lights takes
-/// ComparisonPlan::truthSamples, while its times are of the plan's samples.
+/// The technique whose visibility is the truth. For area lights, the truth has
+/// ComparisonPlan::truthSamples; its times are those of the plan's samples.
 inline constexpr const char* truthTechnique = "raytraced";
 
-/// What a comparison tells while it runs; each function may be empty.
+/// The callbacks of a running comparison. Each may be empty.
 struct ComparisonEvents
 {
-  /// Gets the share of the work that is done, in [0, 1], and the present step, for people.
+  /// Receives the finished share of the work, in [0, 1], and the current step, for users.
   std::function<void(double share, const std::string& step)> progress;
-  /// Gets plain VTK, vtkShadowMapPass and the truth, before the rows are set up. A panel's longer
-  /// side has at most firstPanelPixels.
+  /// Receives plain VTK, vtkShadowMapPass and the truth, before the rows are set up. A panel's
+  /// longer side has at most firstPanelPixels.
   std::function<void(const std::vector<Panel>&)> firstPanels;
 };
 inline constexpr int firstPanelPixels = 640;
 
-/// All techniques of the registry.
+/// Return all techniques of the registry.
 std::vector<std::string> allTechniques();
 
-/// Whether a casting light of the scene has an area, of the size that the plan gives it.
+/// True if a casting light of the scene has an area of the plan's size.
 bool castsSoftShadows(const ComparisonPlan& plan, const Scene& scene);
 
-/// The techniques to choose among. By one route and with one map size, they and the peers are at
+/// Return the recommended techniques. With one route and one map size, they and the peers are at
 /// most ten rows.
-/// @param soft whether lights have an area
+/// @param soft true if lights have an area
 std::vector<std::string> usualTechniques(bool soft);
 
-/// Draws the scene with every variant of the plan and with the peers (plain VTK, vtkShadowMapPass)
-/// and measures errors, times and memory. Frames of all variants are interleaved. What the scene's
-/// lights ask for themselves (technique, map size) is set aside: the plan decides. What they say of
-/// their size stays, unless the plan has a `light_radius`. A technique whose settings make no sense
-/// for one of the lights is left out, which a note says.
-/// @throws BadInput when no light of the scene casts a shadow, Failure when drawing fails
+/// Render the scene with each variant of the plan and with the peers (plain VTK, vtkShadowMapPass),
+/// and measure errors, times and memory. Frames of all variants are interleaved. The plan overrides
+/// the technique and map size of the scene's lights. Their sizes stay, unless the plan has a
+/// `light_radius`. A technique is left out, with a note, if a light refuses its settings.
+/// @throws BadInput if no light of the scene casts a shadow, Failure if rendering fails
 ComparisonResults runComparison(
   const Scene& scene, const ComparisonPlan& plan, const ComparisonEvents& events);
 

@@ -28,12 +28,12 @@ void diff(const DiffOptions& options)
 {
   if (!(options.maxDifference >= 0.0)) // NaN included
   {
-    throw BadInput("--max-difference: is not a number, expected one of 0 or more");
+    throw BadInput("--max-difference: is not a number, expected a number >= 0");
   }
   if ((lowerExtension(options.fileA) == ".exr") != (lowerExtension(options.fileB) == ".exr"))
   {
     throw BadInput("the formats differ: " + options.fileA + " and " + options.fileB +
-      " do not measure in the same unit; expected two .png or two .exr files");
+      " have different units, expected two .png or two .exr files");
   }
   const ChannelImage a = readComparable(options.fileA);
   const ChannelImage b = readComparable(options.fileB);
@@ -68,13 +68,14 @@ void addDiffCommand(CLI::App& app)
       "channel's own unit for .exr; NaN always differs")
     ->check(CLI::NonNegativeNumber)
     ->capture_default_str();
-  command->add_option("--max-pixels", options->maxPixels, "So many pixels may differ")
+  command
+    ->add_option("--max-pixels", options->maxPixels, "Largest number of pixels that may differ")
     ->check(CLI::NonNegativeNumber)
     ->capture_default_str();
   command->add_option("-o,--output", options->output,
-    "Write a picture of the differences: black equal, grey within the tolerance, orange to yellow "
-    "beyond it, magenta NaN");
-  command->footer("Ends with 0 when at most --max-pixels pixels differ, with 1 when more do.");
+    "Write a picture of the differences: black for equal, grey within the tolerance, orange to "
+    "yellow beyond it, magenta for NaN");
+  command->footer("Exit code: 0 if at most --max-pixels pixels differ, 1 if more do.");
   command->callback([options] { diff(*options); });
 }
 

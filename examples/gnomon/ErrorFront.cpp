@@ -9,7 +9,7 @@ namespace gnomon::tool
 namespace
 {
 
-/// Errors that differ by a smaller share say nothing of the ways.
+/// Errors that differ by a smaller share count as equal.
 constexpr double alike = 0.02;
 
 } // namespace

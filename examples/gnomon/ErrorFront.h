@@ -6,16 +6,16 @@
 namespace gnomon::tool
 {
 
-/// How wrong and how slow one way to draw shadows is.
+/// The error and time of one way to render shadows.
 struct ErrorAndTime
 {
   double error = 0.0;
   double time = 0.0;
 };
 
-/// The ways that no other one beats, by being faster and no more wrong, or less wrong and no
-/// slower: the Pareto front. Errors count as equal up to 2 %.
-/// @return their numbers, in order of time; of equal ones the first
+/// Return the Pareto front: the ways that no other way beats. A way beats another if it is faster
+/// and no more wrong, or less wrong and no slower. Errors count as equal up to 2 %.
+/// @return their indices, in order of time; the first of equal ways
 std::vector<std::size_t> paretoFront(const std::vector<ErrorAndTime>& ways);
 
 } // namespace gnomon::tool

@@ -84,7 +84,7 @@ void requireWritableFile(
       "\", expected a name that ends in " + list);
   }
 
-  // Only opening the file tells: permissions, a full name, a read-only file system.
+  // Only opening the file reveals permissions, a name that is too long, or a read-only file system.
   int handle = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   const bool created = handle >= 0;
   if (!created && errno == EEXIST)

@@ -7,26 +7,27 @@
 namespace gnomon::tool
 {
 
-/// Refuses paths that lead to no readable regular file with at least one byte. Returns its size.
+/// Return a file's size. Refuse paths without a readable regular file of at least one byte.
 /// @throws BadInput
 std::size_t requireReadableFile(const std::string& path);
 
-/// A file's bytes.
-/// @throws BadInput when it cannot be read or is larger than `largestBytes`
+/// Return a file's bytes.
+/// @throws BadInput if it cannot be read or is larger than `largestBytes`
 std::string readWholeFile(const std::string& path, std::size_t largestBytes);
 
-/// Refuses an output path that cannot be written, before any work is done for it. Leaves an
-/// existing file as it is and creates none. `option` is the option that gave the path, `extensions`
-/// are those that it may have (".png"), in lower case.
+/// Refuse an output path that cannot be written, before any work is done. No file is created or
+/// changed.
+/// @param option command line option of the path
+/// @param extensions valid extensions in lower case, for example ".png"
 /// @throws BadInput
 void requireWritableFile(
   const std::string& path, const std::string& option, const std::vector<std::string>& extensions);
 
-/// Writes a file in place of what stood there.
+/// Write a file, replacing an existing one.
 /// @throws Failure
 void writeText(const std::string& path, const std::string& text);
 
-/// The extension of a path with its dot, in lower case.
+/// Return a path's extension with its dot, in lower case.
 std::string lowerExtension(const std::string& path);
 
 } // namespace gnomon::tool

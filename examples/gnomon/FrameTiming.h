@@ -8,16 +8,16 @@
 namespace gnomon::tool
 {
 
-/// Frames that are drawn and not counted when the motion changes.
+/// The number of frames that are rendered but not counted after a change of motion.
 inline constexpr int warmUpFrames = 3;
 
-/// The middle value, the upper one of two; 0 of nothing.
+/// Return the median: the upper of two middle values, or 0 without values.
 double median(std::vector<double> values);
 
-/// The median wall clock time of a frame of each variant, in milliseconds. Variants take turns
-/// frame by frame, so that what else the machine does touches all alike.
-/// @param frames that count; warmUpFrames more are drawn first
-/// @param roundDone is called after every round of one frame each
+/// Return each variant's median wall clock time per frame, in milliseconds. Frames of all variants
+/// are interleaved, so other load of the machine affects all alike.
+/// @param frames number of counted frames, after warmUpFrames others
+/// @param roundDone called after each round of one frame per variant
 std::vector<double> timeFrames(const std::vector<FrameVariant*>& variants, Motion motion,
   int frames, const std::function<void()>& roundDone);
 

@@ -28,7 +28,7 @@ namespace gnomon::tool
 namespace
 {
 
-/// VTK's own shadows, in the chain that its documentation shows.
+/// Return VTK's own shadow passes, chained as in its documentation.
 vtkSmartPointer<vtkRenderPass> makeShadowMapPass(int mapSizeTexels)
 {
   vtkNew<vtkShadowMapPass> shadows;
@@ -117,14 +117,14 @@ VariantSpec parseTechnique(const std::string& text)
     if (!setting || name == "technique" || name == "map_size")
     {
       throw BadInput("--techniques: " + text + ": found the setting \"" + name +
-        "\", expected one of: " + settingNames() + " (but technique, map_size and light_radius)");
+        "\", expected one of: " + settingNames() +
+        " (except technique, map_size and light_radius)");
     }
     if (isOfLight(*setting))
     {
       throw BadInput("--techniques: " + text + ": found the setting \"" + name +
-        "\", which says what the lights are, expected for all techniques alike (of a light of the "
-        "scene, or " +
-        optionOf(name) + ")");
+        "\", which defines the lights of all techniques, expected in a light of the scene, or " +
+        optionOf(name));
     }
     if (ShadowSettings scratch; !setting->set(scratch, value))
     {
@@ -205,8 +205,8 @@ void Mover::turnCamera(double degrees)
 }
 
 //------------------------------------------------------------------------------
-// Each light turns around its target, about an axis across its direction, so that the direction
-// always changes.
+// Each light turns around its target about an axis across its direction, so the direction always
+// changes.
 void Mover::turnLights(double degrees)
 {
   if (degrees == this->lightDegrees_)

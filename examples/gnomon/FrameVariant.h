@@ -19,14 +19,14 @@
 namespace gnomon::tool
 {
 
-/// One way to draw a scene.
+/// One way to render a scene.
 struct VariantSpec
 {
-  std::string technique; ///< of the registry, or one of the peers' names
+  std::string technique; ///< a name of the registry or of a peer
   int mapSizeTexels = 0; ///< 0: no map
   int route = vtkGnomonShadowPass::ROUTE_AUTO;
-  bool pointwise = false; ///< whether the technique has two routes
-  /// What else is asked of the lights' shadows, by name (lights/ShadowSettings.h).
+  bool pointwise = false; ///< true if the technique has two routes
+  /// Other settings of the lights' shadows, by name (lights/ShadowSettings.h).
   std::map<std::string, std::string> settings = {};
   int tracer = vtkGnomonShadowPass::TRACER_AUTO;
   int rasterizer = vtkGnomonShadowPass::RASTERIZER_AUTO;
@@ -35,35 +35,35 @@ struct VariantSpec
   {
     return this->technique != plainTechnique && this->technique != shadowMapPassTechnique;
   }
-  /// "inline", "image", or "" where routes mean nothing.
+  /// Return "inline", "image", or "" for variants without routes.
   std::string routeName() const;
-  /// For people: "nsm fit=frame 1024 inline".
+  /// Return a name for users: "nsm fit=frame 1024 inline".
   std::string name() const;
 };
 
-/// What it asks of lights' shadows.
+/// Return a variant's settings of lights' shadows.
 ShadowSettings settingsOf(const VariantSpec& spec);
 
-/// "pcf:kernel=box:projection=lispsm" as a variant without map size and route.
-/// @throws BadInput that names the technique or setting which there is not, or that is not a
-/// technique's
+/// Parse a text such as "pcf:kernel=box:projection=lispsm" as a variant without map size and route.
+/// @throws BadInput with the name of an unknown technique or setting, or of a setting that the
+/// technique lacks
 VariantSpec parseTechnique(const std::string& text);
 
-/// What draws this variant, for vtkRenderer::SetPass; null for plain VTK.
+/// Return a variant's pass, for vtkRenderer::SetPass(); null for plain VTK.
 vtkSmartPointer<vtkRenderPass> makePass(const VariantSpec& spec);
 
-/// The scene with lights that say how large they are, and leave to the pass, hence to the variant,
-/// how their shadows are made: technique, map size, kernel.
+/// Return the scene with lights that keep their size only. Technique, map size and kernel come from
+/// the pass, hence from the variant.
 Scene withoutShadowSettings(Scene scene);
 
-/// Turns a renderer's camera or lights a little, from the places that they had when this was made.
+/// Turns a renderer's camera or lights slightly, from their places at construction.
 class Mover
 {
 public:
-  /// How far camera and lights turn per step.
+  /// The turn of camera and lights per step, in degrees.
   static constexpr double stepDegrees = 0.05;
 
-  /// @param renderer made from the scene, which must outlive this
+  /// @param renderer created from the scene, which must outlive this object
   Mover(vtkRenderer* renderer, const Scene& scene);
   void apply(Motion motion, int step);
 
@@ -78,18 +78,18 @@ private:
   double lightDegrees_ = 0.0;
 };
 
-/// Draws a frame to its end and returns its wall clock time in milliseconds.
+/// Render a frame, wait for its end, and return its wall clock time in milliseconds.
 double drawTimed(vtkRenderWindow* window);
 
-/// A variant with a window, a renderer and a pass of its own.
+/// A variant with its own window, renderer and pass.
 class FrameVariant
 {
 public:
-  /// @param scene must outlive this
+  /// @param scene must outlive this object
   FrameVariant(const VariantSpec& spec, const Scene& scene, int width, int height);
 
   const VariantSpec& spec() const { return this->spec_; }
-  /// Null for the peers.
+  /// Return the pass; null for the peers.
   vtkGnomonShadowPass* pass() const
   {
     return vtkGnomonShadowPass::SafeDownCast(this->renderer_->GetPass());
@@ -97,10 +97,10 @@ public:
   vtkRenderer* renderer() const { return this->renderer_; }
   vtkRenderWindow* window() const { return this->window_; }
 
-  /// Whether a light's map is still to be baked, once nothing has changed for some frames.
+  /// True if a light's map will be baked after some more frames at rest.
   bool awaitsMap() const;
 
-  /// Draws one frame to its end and returns its wall clock time in milliseconds.
+  /// Render one frame, wait for its end, and return its wall clock time in milliseconds.
   double drawFrame(Motion motion, int step);
 
 private:

@@ -28,7 +28,7 @@ using Matrix = std::array<double, 16>; ///< row-major
 
 constexpr int largestInt = std::numeric_limits<int>::max();
 
-/// Values of glTF's accessor.componentType.
+/// The values of glTF's accessor.componentType.
 enum ComponentType
 {
   Byte = 5120,
@@ -67,7 +67,7 @@ struct Document
 {
   std::string path;
   nlohmann::json json;
-  std::string binaryChunk; ///< of a .glb file
+  std::string binaryChunk; ///< only in a .glb file
   bool hasBinaryChunk = false;
 };
 
@@ -133,7 +133,7 @@ Document readGltf(const std::string& path)
 }
 
 //------------------------------------------------------------------------------
-/// The type and the bytes of a "data:" URI.
+/// The type and bytes of a "data:" URI.
 struct DataUri
 {
   std::string mimeType;
@@ -164,7 +164,7 @@ std::optional<DataUri> readDataUri(const JsonValue& uri)
 }
 
 //------------------------------------------------------------------------------
-/// Refuses images that VTK's readers cannot decode. Without a type given, any of the two will do.
+/// Refuse images that VTK's readers cannot decode. Without `mimeType`, both PNG and JPEG are valid.
 void requireImage(const JsonValue& place, const std::string& bytes, const std::string& mimeType)
 {
   const std::string type = imageType(bytes);
@@ -187,7 +187,7 @@ Matrix multiplied(const Matrix& a, const Matrix& b)
   return result;
 }
 
-/// A node's matrix: "matrix", column-major, or translation, rotation and scale.
+/// Return a node's matrix, from "matrix" (column-major) or from translation, rotation and scale.
 Matrix readTransform(const JsonValue& node)
 {
   Matrix matrix{ { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1 } };
@@ -250,20 +250,20 @@ public:
   }
 
 private:
-  /// The elements of an array that may be missing.
+  /// Return the elements of an optional array.
   std::vector<JsonValue> list(const char* key) const
   {
     return this->root_.member(key).elementsOrNone();
   }
 
-  /// The number of elements of an array that may be missing.
+  /// Return the number of elements of an optional array.
   std::size_t count(const char* key) const
   {
     const JsonValue value = this->root_.member(key);
     return value.present() ? value.size() : 0;
   }
 
-  /// An index into an array of `count` elements.
+  /// Read an index into an array of `count` elements.
   static std::size_t readIndex(const JsonValue& value, std::size_t count, const std::string& what)
   {
     if (count == 0)
@@ -294,7 +294,7 @@ private:
     {
       version.fail("glTF version 2.0");
     }
-    // vtkGLTFImporter ignores the others and shows something else than the file says.
+    // vtkGLTFImporter ignores other required extensions, and would show the file wrongly.
     const std::set<std::string> supported = { "KHR_lights_punctual", "KHR_materials_unlit" };
     for (const JsonValue& extension : this->list("extensionsRequired"))
     {
@@ -339,7 +339,7 @@ private:
     }
   }
 
-  /// A file that a URI names, next to the glTF file.
+  /// Read a file that a URI names, relative to the glTF file.
   std::string readNeighbour(const JsonValue& uri) const
   {
     const std::string path = (this->folder_ / uri.text()).string();
@@ -377,7 +377,7 @@ private:
     return this->bufferViews_[readIndex(index, this->bufferViews_.size(), "bufferViews")];
   }
 
-  /// Refuses a range of elements that leaves its view.
+  /// Refuse a range of elements that exceeds its view.
   static void requireInside(const JsonValue& place, const BufferView& view, std::size_t offset,
     std::size_t count, std::size_t elementBytes)
   {
@@ -427,7 +427,7 @@ private:
     }
   }
 
-  /// VTK reads as many numbers as the type has components, whether they are there or not.
+  /// Check an accessor's bounds. VTK reads one number per component, even if numbers are missing.
   static void checkBounds(const JsonValue& bounds, const Accessor& accessor)
   {
     const std::vector<JsonValue> numbers = bounds.elementsOrNone();
@@ -463,7 +463,7 @@ private:
     this->requireIndices(indices, places, accessor.count);
   }
 
-  /// Refuses indices that are not below `end`.
+  /// Refuse indices that are not below `end`.
   void requireIndices(const JsonValue& place, const Accessor& indices, std::size_t end) const
   {
     const std::size_t size = bytesOfComponent.at(indices.componentType);
@@ -679,7 +679,7 @@ private:
     {
       this->visitNode(root, identity, 0);
     }
-    // vtkGLTFImporter looks at every node and every scene.
+    // vtkGLTFImporter visits every node and every scene.
     for (const JsonValue& other : scenes)
     {
       for (const JsonValue& node : other.member("nodes").elementsOrNone())
@@ -713,7 +713,7 @@ private:
     if (this->visited_[number] || depth > deepest)
     {
       index.refuse("node " + std::to_string(number) +
-        " stands twice in the scene or too deep in it, expected a tree of nodes");
+        " occurs twice in the scene or is nested too deeply, expected a tree of nodes");
     }
     this->visited_[number] = true;
     const JsonValue& node = this->nodes_[number];
@@ -742,13 +742,13 @@ private:
     }
   }
 
-  /// The way that a node looks: along its -z.
+  /// Return a node's direction of view, its -z axis.
   static Vec3 readForward(const JsonValue& place, const Matrix& worldFromNode)
   {
     const Vec3 forward = transformed(worldFromNode, { { 0.0, 0.0, -1.0 } }, 0.0);
     if (!(length(forward) > 0.0))
     {
-      place.refuse("the matrices of its nodes are singular, so that it has no direction");
+      place.refuse("the matrices of its nodes are singular, so it has no direction");
     }
     return normalized(forward);
   }
@@ -780,7 +780,7 @@ private:
     camera.up = normalized(transformed(worldFromNode, { { 0.0, 1.0, 0.0 } }, 0.0));
     if (!(length(cross(forward, camera.up)) > 1e-6))
     {
-      value.refuse("the matrices of its nodes are singular, so that it has no up direction");
+      value.refuse("the matrices of its nodes are singular, so it has no up direction");
     }
     this->view_.camera = camera;
   }

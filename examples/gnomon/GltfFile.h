@@ -7,19 +7,19 @@
 namespace gnomon::tool
 {
 
-/// What a glTF file holds besides surfaces.
+/// The contents of a glTF file besides surfaces.
 struct GltfView
 {
-  /// Of KHR_lights_punctual, in the order of the nodes; the intensity of those that have a position
-  /// is in candela.
+  /// The lights of KHR_lights_punctual, in the order of the nodes. Positional lights' intensities
+  /// are in candela.
   std::vector<SceneLight> lights;
   std::optional<SceneCamera> camera; ///< the first camera of the default scene
   std::vector<std::string> notes;    ///< see Scene::notes
 };
 
-/// Checks a .glb or .gltf file as far as vtkGLTFImporter trusts it (every index, every range of
-/// bytes, images included), and reads lights and camera. VTK 9.1 imports both, but puts spot lights
-/// a unit away from their nodes.
+/// Read lights and camera of a .glb or .gltf file, and check all parts that vtkGLTFImporter trusts:
+/// every index, every range of bytes, and images. VTK 9.1 imports both, too, but puts spot lights a
+/// unit away from their nodes.
 /// @throws BadInput
 GltfView readGltfView(const std::string& path);
 

@@ -27,7 +27,7 @@ Vec3 vec(double x, double y, double z)
   return { { x, y, z } };
 }
 
-/// Triangles as they are, three corners each.
+/// Return separate triangles, from three corners each.
 SceneModel makeTriangles(const std::string& name, const std::vector<Vec3>& corners)
 {
   vtkNew<vtkPoints> points;
@@ -47,7 +47,7 @@ SceneModel makeTriangles(const std::string& name, const std::vector<Vec3>& corne
   return makeModel(name, surface, casterColor);
 }
 
-/// A parallelogram.
+/// Return a parallelogram.
 SceneModel makeSheet(const Vec3& corner, const Vec3& right, const Vec3& forward)
 {
   const Vec3 far = corner + right + forward;
@@ -75,7 +75,7 @@ SceneModel makeFloor(double halfSide, double height = 0.0)
   return floor;
 }
 
-/// Casters over a floor, under a sun from the upper left.
+/// Return casters over a floor, under a sun from the upper left.
 Scene overFloor(std::vector<SceneModel> casters, const Vec3& sun = { { 1.0, -1.5, -0.4 } })
 {
   Scene scene;
@@ -115,7 +115,7 @@ Scene underLampAt(const Vec3& position)
   return scene;
 }
 
-/// The box and the ball, `unit` times as large and moved.
+/// Return the box and the ball, `unit` times as large and moved.
 Scene scaled(double unit, const Vec3& offset)
 {
   Scene scene = underSun(vec(1.0, -1.5, -0.4));
@@ -132,7 +132,7 @@ Scene scaled(double unit, const Vec3& offset)
   return scene;
 }
 
-/// Posts of about a texel, closer and closer.
+/// Return posts of about a texel's width, with decreasing gaps.
 Scene makeThinPosts()
 {
   std::vector<SceneModel> posts;
@@ -145,7 +145,7 @@ Scene makeThinPosts()
   return overFloor(std::move(posts));
 }
 
-/// Triangles thousands of times as long as high.
+/// Return triangles thousands of times as long as high.
 Scene makeSlivers()
 {
   std::vector<Vec3> corners;
@@ -158,7 +158,7 @@ Scene makeSlivers()
   return overFloor({ makeTriangles("slivers", corners) });
 }
 
-/// Three sheets that share an edge, and a fourth that cuts them.
+/// Return three sheets that share an edge, and a fourth that cuts them.
 Scene makeFan()
 {
   std::vector<SceneModel> sheets;
@@ -172,7 +172,7 @@ Scene makeFan()
   return overFloor(std::move(sheets));
 }
 
-/// The same sheet twice, one beside it at a float's distance, and triangles without an area.
+/// Return two equal sheets, one at a float's distance, and triangles without area.
 Scene makeCoplanarSheets()
 {
   const auto sheet = [](double height, double x)
@@ -185,7 +185,7 @@ Scene makeCoplanarSheets()
   return overFloor(std::move(sheets));
 }
 
-/// Sheets that hold the sun's direction, so that it sees them from their edges.
+/// Return sheets that contain the sun's direction, so it sees them edge-on.
 Scene makeEdgeOnSheets()
 {
   std::vector<SceneModel> sheets;
@@ -199,7 +199,7 @@ Scene makeEdgeOnSheets()
   return overFloor(std::move(sheets), vec(1.0, -1.0, 0.0));
 }
 
-/// A box that is open towards the sun, and one towards the floor.
+/// Return a box that is open towards the sun, and one that is open towards the floor.
 Scene makeOpenBoxes()
 {
   std::vector<SceneModel> sides;
@@ -216,7 +216,7 @@ Scene makeOpenBoxes()
   return overFloor(std::move(sides));
 }
 
-/// Plates closer and closer above each other, each smaller.
+/// Return stacked plates with decreasing gaps and sizes.
 Scene makeStackedPlates()
 {
   std::vector<SceneModel> plates;
@@ -229,7 +229,7 @@ Scene makeStackedPlates()
   return overFloor(std::move(plates));
 }
 
-/// Walls that stand in the sun's plane, parallel to it to the last bit and nearly.
+/// Return walls in the sun's plane: parallel to it to the last bit, and nearly parallel.
 Scene makeWallsAlongTheSun()
 {
   return overFloor({ makeBox(vec(-2.0, 0.0, -1.0), vec(-1.0, 2.0, 1.0)),
@@ -237,7 +237,7 @@ Scene makeWallsAlongTheSun()
     vec(0.0, -1.0, -1.0));
 }
 
-/// A mirrored ball and one that is flat along an askew axis.
+/// Return a mirrored ball, and one flattened along an oblique axis.
 Scene makeMirroredBalls()
 {
   SceneModel mirrored = makeBall(vec(1.5, 1.0, 0.0), 0.8);
@@ -248,7 +248,7 @@ Scene makeMirroredBalls()
   return overFloor({ mirrored, flat });
 }
 
-/// A lamp between the walls of a closed box, whose inside the camera sees.
+/// Return a lamp in a closed box, seen from inside.
 Scene makeLampInBox()
 {
   Scene scene;
@@ -259,7 +259,7 @@ Scene makeLampInBox()
   return scene;
 }
 
-/// The camera sees the sky and a strip of floor at its lower edge.
+/// Return a scene in which the camera sees the sky, and a strip of floor at its lower edge.
 Scene makeCameraThatLooksAway()
 {
   Scene scene = underSun(vec(1.0, -1.5, -0.4));
@@ -267,7 +267,7 @@ Scene makeCameraThatLooksAway()
   return scene;
 }
 
-/// What casts is behind the camera.
+/// Return a scene whose caster is behind the camera.
 Scene makeCasterBehindTheCamera()
 {
   Scene scene =
@@ -277,20 +277,20 @@ Scene makeCasterBehindTheCamera()
   return scene;
 }
 
-/// Nothing blocks the light.
+/// Return a scene without casters.
 Scene makeNoCasters()
 {
   Scene scene = overFloor({});
   return scene;
 }
 
-/// A ball of few facets that are shaded smooth.
+/// Return a ball of few facets with smooth shading.
 Scene makeCoarseBall()
 {
   return overFloor({ makeBall(vec(0.0, 1.2, 0.0), 1.0, 8, 4) });
 }
 
-/// A caster of a few millimetres on a floor of kilometres.
+/// Return a caster of a few millimetres on a floor of kilometres.
 Scene makeSmallOnLarge()
 {
   Scene scene = overFloor({ makeBox(vec(-0.2, 0.0, -0.2), vec(0.2, 0.4, 0.2)) });
@@ -299,8 +299,7 @@ Scene makeSmallOnLarge()
   return scene;
 }
 
-/// Two sheets that cast with one side alone, of which one shows it to the sun, and two that cast
-/// with both.
+/// Return two one-sided sheets, one of which faces the sun, and two that cast with both sides.
 Scene makeOneSidedSheets()
 {
   std::vector<SceneModel> sheets;
@@ -316,7 +315,7 @@ Scene makeOneSidedSheets()
   return overFloor(std::move(sheets));
 }
 
-/// Balls that are drawn as impostors: on the floor, above it and in each other.
+/// Return balls that VTK draws as impostors: on the floor, above it, and intersecting each other.
 Scene makeImpostors()
 {
   Scene scene = overFloor({});
@@ -350,7 +349,7 @@ Scene makeImpostors()
   return scene;
 }
 
-/// A plain from which things rise up to its end, seen along it: warps are strong here.
+/// Return a plain with objects up to its end, seen along it. Warps are strong here.
 Scene makePlain()
 {
   std::vector<SceneModel> boxes;
@@ -380,7 +379,7 @@ Scene makeOneTriangle()
   return scene;
 }
 
-/// The lamp touches the ball.
+/// Return a lamp that touches a ball.
 Scene makeLampOnBall()
 {
   return underLampAt(vec(1.5, 2.0 + 1e-4, 0.0));
@@ -402,7 +401,7 @@ std::vector<HardScene> makeHardScenes()
     { { "hard-far-away", "a million units from the origin",
         [] { return scaled(1.0, vec(1e6, -3e5, 7e5)); } },
       { "apelles N29", "apelles N16" } },
-    { { "hard-camera-looks-away", "a strip of floor is all that the camera sees",
+    { { "hard-camera-looks-away", "the camera sees only a strip of floor",
         makeCameraThatLooksAway },
       { "survey 7.12e", "apelles N22", "selective 5.2.9" } },
     { { "hard-lamp-in-box", "a lamp in a closed box", makeLampInBox },
@@ -426,40 +425,38 @@ std::vector<HardScene> makeHardScenes()
     { { "hard-wide-cone", "a spot light of 89 degrees",
         [] { return underSpot(vec(0.0, 4.0, 1.0), origin, 89.0); } },
       { "survey 16", "crsm N13" } },
-    { { "hard-behind-light", "a spot light below what it does not light",
+    { { "hard-behind-light", "a spot light below objects that it does not light",
         [] { return underSpot(vec(0.0, 1.0, 0.0), vec(3.0, 0.0, 0.0), 50.0); } },
       { "apelles N10", "montecarlo 5.11", "montecarlo 5.13" } },
     { { "hard-lamp-on-ball", "a lamp that touches a ball", makeLampOnBall },
       { "apelles N7", "montecarlo 5.12" } },
     { { "hard-slivers", "triangles 6,000 times as long as high", makeSlivers },
       { "crsm N1", "crsm N3" } },
-    { { "hard-edge-on", "sheets that the sun sees from their edges", makeEdgeOnSheets },
-      { "crsm N2" } },
+    { { "hard-edge-on", "sheets that the sun sees edge-on", makeEdgeOnSheets }, { "crsm N2" } },
     { { "hard-fan", "three sheets at one edge and one through them", makeFan },
       { "selective 5.2.10", "crsm N11" } },
     { { "hard-open-boxes", "boxes that are open towards the sun and the floor", makeOpenBoxes },
       { "apelles N13", "montecarlo 5.14", "selective 5.2.6", "apelles N26" } },
-    { { "hard-stacked-plates", "plates closer and closer above each other", makeStackedPlates },
+    { { "hard-stacked-plates", "stacked plates with decreasing gaps", makeStackedPlates },
       { "survey 8", "survey 2", "montecarlo 5.2", "apelles N27", "survey 9" } },
-    { { "hard-mirrored", "a mirrored ball, and one that is flat along an askew axis",
+    { { "hard-mirrored", "a mirrored ball, and one flattened along an oblique axis",
         makeMirroredBalls },
       { "apelles N17" } },
     { { "hard-caster-behind-camera", "a pole behind the camera", makeCasterBehindTheCamera },
       { "survey 12" } },
     { { "hard-no-casters", "nothing blocks the light", makeNoCasters }, { "apelles N6" } },
-    { { "hard-coarse-ball", "a ball of few facets that are shaded smooth", makeCoarseBall },
+    { { "hard-coarse-ball", "a ball of few facets with smooth shading", makeCoarseBall },
       { "apelles N11", "selective 5.2.3" } },
     { { "hard-small-on-large", "a box on a floor of forty kilometres", makeSmallOnLarge },
       { "crsm N8", "selective 5.2.2" } },
     { { "hard-sun-along-floor", "the sun shines along the floor",
         [] { return underSun(vec(1.0, 0.0, 0.0)); } },
       { "survey 1" } },
-    { { "hard-camera-inside", "the camera is inside of a caster", makeCameraInsideACaster },
+    { { "hard-camera-inside", "the camera is inside a caster", makeCameraInsideACaster },
       { "survey 7.12f" } },
     { { "hard-one-triangle", "one triangle and nothing else", makeOneTriangle }, { "apelles N6" } },
-    { { "hard-plain", "a plain that the camera sees along, and what rises from it", makePlain },
-      { "apelles N1" } },
-    { { "hard-one-sided", "sheets that cast with one side alone, and with both",
+    { { "hard-plain", "a plain with objects, seen along it", makePlain }, { "apelles N1" } },
+    { { "hard-one-sided", "sheets that cast with one side only, and with both",
         makeOneSidedSheets },
       { "selective 5.2.6" } },
     { { "hard-impostors", "balls that VTK draws without triangles", makeImpostors },

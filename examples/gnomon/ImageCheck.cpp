@@ -26,7 +26,7 @@ bool startsWith(const std::string& bytes, const std::string& start)
   return bytes.compare(0, start.size(), start) == 0;
 }
 
-/// Whether a PNG file is a sequence of chunks with right check sums that ends with IEND.
+/// True if a PNG file is a sequence of chunks with valid check sums that ends with IEND.
 bool hasWholeChunks(const std::string& bytes)
 {
   const auto bigEndian = [&](std::size_t position)
@@ -90,7 +90,7 @@ bool isWholePng(const std::string& bytes)
 
 bool isWholeJpeg(const std::string& bytes)
 {
-  // The library fills up what is missing at the end.
+  // libjpeg fills in missing data at the end.
   if (bytes.rfind("\xff\xd9") == std::string::npos)
   {
     return false;

@@ -5,11 +5,10 @@
 namespace gnomon::tool
 {
 
-/// "image/png" or "image/jpeg", by an image file's first bytes; empty for anything else.
+/// Return "image/png" or "image/jpeg" by an image file's first bytes; empty for other files.
 std::string imageType(const std::string& bytes);
 
-/// Whether a PNG or JPEG file's bytes can be decoded to their end. vtkPNGReader crashes where they
-/// cannot.
+/// True if a PNG or JPEG file's bytes can be decoded to their end. vtkPNGReader crashes on others.
 bool isWholeImage(const std::string& bytes);
 
 } // namespace gnomon::tool

@@ -45,13 +45,13 @@ void requireSameShape(
   }
 }
 
-/// |a - b|; 0 for equal infinities, NaN where one of them is NaN.
+/// Return |a - b|: 0 for equal infinities, NaN if a or b is NaN.
 float distance(float a, float b)
 {
   return a == b ? 0.0f : std::fabs(a - b);
 }
 
-/// NaN counts as larger than any number.
+/// True if a is larger than b. NaN counts as larger than any number.
 bool larger(double a, double b)
 {
   return a > b || (std::isnan(a) && !std::isnan(b));
@@ -135,7 +135,7 @@ std::string describe(const ImageDifference& difference, double maxDifference)
 //------------------------------------------------------------------------------
 Picture differencePicture(const ImageDifference& difference, double maxDifference)
 {
-  float brightest = 0.0f; // of the finite differences; what is as large as that shows as yellow
+  float brightest = 0.0f; // the largest finite difference, shown as yellow
   for (float d : difference.perPixel)
   {
     brightest = std::isfinite(d) ? std::max(brightest, d) : brightest;

@@ -30,7 +30,7 @@ namespace gnomon::tool
 namespace
 {
 
-/// A damaged header must not make the program ask for all of the memory there is.
+/// Refuse unreasonable sizes, so a damaged header cannot make the program allocate all memory.
 void requireReasonableSize(
   const std::string& path, std::int64_t width, std::int64_t height, std::int64_t channelCount)
 {
@@ -43,7 +43,7 @@ void requireReasonableSize(
   }
 }
 
-/// What the name of an image's channel ends in.
+/// Return the suffix of an image channel's name.
 const char* suffixOf(LightChannel channel)
 {
   return channel == LightChannel::Red ? ".R"
@@ -52,9 +52,9 @@ const char* suffixOf(LightChannel channel)
                                       : "";
 }
 
-/// libpng's description of an image, with what it holds given back at the end.
+/// libpng's description of an image; releases its resources.
 ///
-/// libpng itself and not vtkPNGReader: that one ends the whole program on a truncated file.
+/// libpng is used because vtkPNGReader ends the whole program on a truncated file.
 struct PngImage : png_image
 {
   PngImage()
@@ -105,7 +105,7 @@ Picture readPng(const std::string& path)
   return picture;
 }
 
-/// Writes planes of floats as 32-bit channels, row 0 on top as in memory.
+/// Write planes of floats as 32-bit channels, with row 0 on top as in memory.
 void writeExr(const std::string& path, int width, int height, Imf::Header& header,
   const std::map<std::string, const std::vector<float>*>& planes)
 {
@@ -118,7 +118,7 @@ void writeExr(const std::string& path, int width, int height, Imf::Header& heade
       throw std::invalid_argument("channel " + name + " does not have one value per pixel");
     }
     header.channels().insert(name, Imf::Channel(Imf::FLOAT));
-    // The library's interface is not const, but it only reads from here.
+    // OpenEXR's interface is not const, but it only reads from here.
     auto* const base = reinterpret_cast<char*>(const_cast<float*>(plane->data()));
     frame.insert(name,
       Imf::Slice(Imf::FLOAT, base, sizeof(float), sizeof(float) * static_cast<std::size_t>(width)));

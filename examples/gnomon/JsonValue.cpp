@@ -28,7 +28,7 @@ std::string formatNumber(double value)
   return stream.str();
 }
 
-/// A value as it may stand in an error message: short, and on one line.
+/// Return a value for an error message: short, and on one line.
 std::string describe(const nlohmann::json& value)
 {
   constexpr std::size_t longest = 60;
@@ -57,7 +57,7 @@ std::string describe(const NumberRange& range)
 
 bool contains(const NumberRange& range, const nlohmann::json& value)
 {
-  // Written so that NaN is outside of every range.
+  // NaN is outside every range.
   return value.is_number() && value.get<double>() >= range.low && value.get<double>() <= range.high;
 }
 
@@ -228,7 +228,7 @@ nlohmann::json readJsonFile(const std::string& path)
 //------------------------------------------------------------------------------
 nlohmann::json parseJson(const std::string& text, const std::string& source)
 {
-  // nlohmann::json keeps the last of several equal keys and sets no limit to nesting.
+  // nlohmann::json keeps the last of several equal keys and does not limit nesting.
   std::vector<std::set<std::string>> keysByDepth(deepestNesting + 2);
   const auto check = [&](int depth, nlohmann::json::parse_event_t event, nlohmann::json& parsed)
   {
@@ -246,7 +246,7 @@ nlohmann::json parseJson(const std::string& text, const std::string& source)
       !keysByDepth[level].insert(parsed.get<std::string>()).second)
     {
       throw BadInput(
-        source + ": key " + describe(parsed) + " stands twice in one object, expected it once");
+        source + ": key " + describe(parsed) + " occurs twice in one object, expected once");
     }
     return true;
   };

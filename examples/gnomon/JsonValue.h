@@ -9,42 +9,42 @@
 namespace gnomon::tool
 {
 
-/// The numbers that a place in a document accepts.
+/// A range of valid numbers.
 struct NumberRange
 {
   double low;
   double high;
 };
 
-/// No coordinate or matrix element is larger; far beyond any real scene, far below the end of
-/// float.
+/// The range of coordinates and matrix elements: far beyond any real scene, far below float's
+/// maximum.
 inline constexpr NumberRange anyCoordinate{ -1e12, 1e12 };
 inline constexpr NumberRange colorChannel{ 0.0, 1.0 };
 
-/// A place in a JSON document: it knows its source and its key path ("lights[1].cone_angle"), so
-/// that every error names them, says what stands there and what was expected. The place may be
-/// empty; reading it is then an error, too. All readers throw BadInput.
+/// A place in a JSON document. It has a source and a key path ("lights[1].cone_angle"), so every
+/// error names both, the value found and the value expected. The place may be empty; reading it is
+/// then an error. All readers throw BadInput.
 class JsonValue
 {
 public:
-  /// The root of a document that came from `source` (a file, or an option of the command line). The
-  /// document must outlive the value and all values taken from it.
+  /// Construct the root of a document from `source` (a file, or a command line option). The
+  /// document must outlive this value and all values derived from it.
   JsonValue(std::string source, const nlohmann::json& document);
 
   bool present() const { return this->value_ != nullptr; }
   const std::string& source() const { return this->source_; }
 
-  /// The place of that key in an object; empty where the object lacks it.
+  /// Return the place of a key in an object; empty if the object lacks the key.
   JsonValue member(const std::string& key) const;
-  /// The keys of an object.
+  /// Return the keys of an object.
   std::vector<std::string> keys() const;
-  /// Refuses everything but an object with no other keys than these.
+  /// Refuse everything but an object whose keys are all known.
   void requireObject(const std::vector<std::string>& known) const;
-  /// The number of elements of an array, and the elements.
+  /// Return the number of elements of an array, or the elements.
   std::size_t size() const;
   std::vector<JsonValue> elements() const;
 
-  /// The elements of an array; none where the place is empty.
+  /// Return the elements of an array; none for an empty place.
   std::vector<JsonValue> elementsOrNone() const;
   double number(const NumberRange& range) const;
   int integer(int low, int high) const;
@@ -59,7 +59,7 @@ public:
   }
 
   ///@{
-  /// The same, or what is given where the place is empty.
+  /// Return the value, or the fallback for an empty place.
   double numberOr(double fallback, const NumberRange& range) const
   {
     return this->present() ? this->number(range) : fallback;
@@ -73,9 +73,9 @@ public:
   }
   ///@}
 
-  /// Ends with "SOURCE: PATH: found THIS, expected ...".
+  /// Throw "SOURCE: PATH: found THIS, expected ...".
   [[noreturn]] void fail(const std::string& expected) const;
-  /// Ends with "SOURCE: PATH: MESSAGE".
+  /// Throw "SOURCE: PATH: MESSAGE".
   [[noreturn]] void refuse(const std::string& message) const;
 
 private:
@@ -84,15 +84,15 @@ private:
 
   std::string source_;
   std::string path_;
-  const nlohmann::json* value_; ///< null: nothing stands here
+  const nlohmann::json* value_; ///< null: the place is empty
 };
 
-/// Reads a JSON file. Syntax errors name line and column; keys that stand twice in one object, deep
-/// nesting and files of more than 16 MiB are refused.
+/// Read a JSON file. Syntax errors name line and column. Duplicate keys in an object, deep nesting,
+/// and files of more than 16 MiB are refused.
 /// @throws BadInput
 nlohmann::json readJsonFile(const std::string& path);
 
-/// Reads JSON text that came from `source`, with the same rules.
+/// Parse JSON text from `source`, by the rules of readJsonFile().
 /// @throws BadInput
 nlohmann::json parseJson(const std::string& text, const std::string& source);
 

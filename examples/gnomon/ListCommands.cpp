@@ -37,7 +37,7 @@ void printSettings()
   }
 }
 
-/// The page docs/guide/settings.md.
+/// Print the page docs/guide/settings.md.
 void printSettingsPage()
 {
   std::cout

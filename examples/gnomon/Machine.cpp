@@ -13,7 +13,8 @@ namespace gnomon::tool
 namespace
 {
 
-/// What follows the colon on the first line that begins with `key`; empty when there is none.
+/// Return the text after the colon of the first line that begins with `key`; empty without such a
+/// line.
 std::string valueOf(std::istream& text, const std::string& key)
 {
   for (std::string line; std::getline(text, line);)

@@ -12,16 +12,17 @@ VTK_ABI_NAMESPACE_END
 namespace gnomon::tool
 {
 
-/// The memory of this process that is in RAM at this moment, in bytes; 0 where it cannot be told.
+/// Return this process' resident memory in bytes; 0 if it is unknown.
 std::int64_t residentBytes();
 
-/// The processor's model and the number of its hardware threads.
+/// Return the processor's model and its number of hardware threads.
 std::string processorName();
 
-/// Renderer and version of a window's OpenGL.
+/// Return renderer and version of a window's OpenGL.
 std::string openGlName(vtkRenderWindow* window);
 
-/// What pages say they were measured on: "AMD EPYC, 2 processors; OpenGL by software (llvmpipe)".
+/// Return the machine's description for pages: "AMD EPYC, 2 processors; OpenGL by software
+/// (llvmpipe)".
 std::string machineLine(vtkRenderWindow* window);
 
 } // namespace gnomon::tool

@@ -16,8 +16,8 @@ namespace
 
 const double fullTurn = 2.0 * vtkMath::Pi();
 
-/// The direction at an angle around the vertical axis. The last of `count` steps closes the circle
-/// exactly, so that no gap is left to rounding.
+/// Return the direction at a share, in [0, 1], of the circle around the vertical axis. A share of 1
+/// closes the circle exactly, without a gap from rounding.
 Vec3 around(double share)
 {
   const double angle = share == 1.0 ? 0.0 : fullTurn * share;
@@ -129,7 +129,7 @@ void MeshBuilder::addSheet(
   this->addPatch(columns, rows,
     [&](double u, double v)
     {
-      // Slopes are taken off the edges, where a sheet that ends in a point has none.
+      // Slopes are evaluated off the edges, as a sheet that ends in a point has none there.
       constexpr double step = 1e-3;
       constexpr double margin = 0.02;
       const double s = std::clamp(u, margin, 1.0 - margin);
@@ -143,7 +143,7 @@ void MeshBuilder::addSheet(
 //------------------------------------------------------------------------------
 void MeshBuilder::addLathe(const Axis& axis, const std::vector<ProfilePoint>& profile, int segments)
 {
-  // Any two directions square to the axis do; the helper must not be parallel to it.
+  // Two arbitrary directions perpendicular to the axis. The helper must not be parallel to it.
   const Vec3& up = axis.direction;
   const Vec3 helper = std::abs(up[0]) < 0.9 ? Vec3{ { 1.0, 0.0, 0.0 } } : Vec3{ { 0.0, 0.0, 1.0 } };
   const Vec3 right = normalized(cross(helper, up));
@@ -206,7 +206,7 @@ void MeshBuilder::addSphere(const Vec3& center, double radius, int slices, int s
   this->addPatch(slices, stacks,
     [&](double u, double v)
     {
-      // The poles are written out: there the ring must collapse to one point exactly.
+      // The poles are explicit, as their ring must collapse to exactly one point.
       const double latitude = vtkMath::Pi() * (v - 0.5);
       const bool pole = v == 0.0 || v == 1.0;
       const double ring = pole ? 0.0 : std::cos(latitude);

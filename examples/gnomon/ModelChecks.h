@@ -5,12 +5,12 @@
 namespace gnomon::tool
 {
 
-// VTK's readers trust what they read: a truncated file or an index out of range makes several of
-// them write outside of their memory. These functions walk through a file first and refuse what
-// would do that, and what a reader would replace by zeros without a word.
+// VTK's readers trust their input: a truncated file or an index out of range makes several of them
+// write outside their memory. These functions check a file first and refuse such input. They also
+// refuse input that a reader would silently replace by zeros.
 
 ///@{
-/// Checks a whole file of that type.
+/// Check a whole file of this type.
 /// @throws BadInput
 void checkObjFile(const std::string& path);
 void checkPlyFile(const std::string& path);
@@ -19,7 +19,7 @@ void checkVtpFile(const std::string& path);
 void check3dsFile(const std::string& path);
 ///@}
 
-/// No model file is larger.
+/// The largest size of a model file.
 inline constexpr std::size_t largestModelBytes = std::size_t{ 4 } << 30;
 
 } // namespace gnomon::tool

@@ -49,9 +49,9 @@ std::string nameOf(const std::string& path)
 }
 
 //------------------------------------------------------------------------------
-// Checks of what a reader gave.
+// Checks of a reader's output.
 
-/// Refuses cells that name vertices which are not there.
+/// Refuse cells that refer to missing vertices.
 void checkCells(vtkCellArray* cells, vtkIdType points)
 {
   if (!cells->IsValid())
@@ -75,7 +75,7 @@ void checkCells(vtkCellArray* cells, vtkIdType points)
   }
 }
 
-/// The number of triangles that VTK draws for a surface: fans of polygons and strips.
+/// Return the number of triangles that VTK draws for a surface: fans of polygons, and strips.
 vtkIdType countTriangles(vtkPolyData* surface)
 {
   vtkIdType triangles = 0;
@@ -89,8 +89,8 @@ vtkIdType countTriangles(vtkPolyData* surface)
   return triangles;
 }
 
-/// Counts the vertices that are not finite, and refuses those beyond all reason: VTK draws in
-/// float.
+/// Count the vertices that are not finite, and refuse unreasonably large coordinates, as VTK draws
+/// in float.
 vtkIdType countNonFinite(vtkPolyData* surface)
 {
   vtkIdType count = 0;
@@ -115,7 +115,7 @@ vtkIdType countNonFinite(vtkPolyData* surface)
   return count;
 }
 
-/// Whether an array holds colours that VTK shows as they are.
+/// True if an array holds colours that VTK shows unchanged.
 bool isColor(vtkDataArray* scalars)
 {
   return scalars && scalars->GetNumberOfComponents() >= 3 &&
@@ -123,7 +123,7 @@ bool isColor(vtkDataArray* scalars)
     (scalars->GetDataType() == VTK_UNSIGNED_CHAR || scalars->GetDataType() == VTK_FLOAT);
 }
 
-/// Gives a surface smooth normals, with its sharp edges split.
+/// Return a surface with smooth normals and split sharp edges.
 vtkSmartPointer<vtkPolyData> withNormals(vtkPolyData* surface)
 {
   constexpr double sharpEdgeDegrees = 60.0;
@@ -135,8 +135,8 @@ vtkSmartPointer<vtkPolyData> withNormals(vtkPolyData* surface)
   return normals->GetOutput();
 }
 
-/// A reader's surface as the scene takes it: triangles and polygons only, with normals, and with
-/// scalars only where they are colours. Null when it has no triangle.
+/// Return a reader's surface prepared for the scene: triangles and polygons only, with normals, and
+/// with scalars only if they are colours. Null for a surface without triangles.
 vtkSmartPointer<vtkPolyData> prepared(
   vtkPolyData* source, const std::string& path, std::vector<std::string>& notes)
 {
@@ -154,7 +154,7 @@ vtkSmartPointer<vtkPolyData> prepared(
   const vtkIdType left = surface->GetNumberOfVerts() + surface->GetNumberOfLines();
   if (left > 0)
   {
-    // Cell data counts vertices and lines first, so it goes with them.
+    // Cell data counts vertices and lines first, so it is removed with them.
     surface->SetVerts(nullptr);
     surface->SetLines(nullptr);
     surface->GetCellData()->Initialize();
@@ -197,12 +197,12 @@ vtkSmartPointer<vtkPolyData> prepared(
   {
     cellData->SetActiveScalars(nullptr);
   }
-  // A vertex that is not finite would spoil the normals of its neighbours.
+  // A vertex that is not finite would make its neighbours' normals invalid.
   return pointData->GetNormals() || nonFinite > 0 ? surface : withNormals(surface);
 }
 
 //------------------------------------------------------------------------------
-// Readers give one surface.
+// Readers return one surface.
 
 void addSurface(vtkPolyData* surface, const std::string& path, Model& model)
 {
@@ -254,7 +254,7 @@ void readVtp(const std::string& path, Model& model)
 //------------------------------------------------------------------------------
 // OBJ: one surface per material.
 
-/// The polygons of one material, with the vertices that they use.
+/// Return the polygons of one material, with the vertices that they use.
 vtkSmartPointer<vtkPolyData> extractMaterial(vtkPolyData* source, vtkDataArray* materialIds, int id)
 {
   auto part = vtkSmartPointer<vtkPolyData>::New();
@@ -291,7 +291,7 @@ vtkSmartPointer<vtkPolyData> extractMaterial(vtkPolyData* source, vtkDataArray* 
   return part;
 }
 
-/// The materials of all libraries that an OBJ file names; a missing library becomes a note.
+/// Return the materials of all libraries that an OBJ file names. A missing library becomes a note.
 std::map<std::string, Material> readLibraries(
   vtkAbstractArray* libraries, const std::string& path, std::vector<std::string>& notes)
 {
@@ -336,7 +336,7 @@ void readObj(const std::string& path, Model& model)
   {
     const std::string name = names->GetValue(id);
     const vtkSmartPointer<vtkPolyData> part = extractMaterial(whole, ids, id);
-    // vtkOBJReader keeps texture coordinates per material, in an array of its name.
+    // vtkOBJReader stores texture coordinates per material, in an array of the material's name.
     part->GetPointData()->SetActiveTCoords(name.c_str());
     const std::size_t before = model.surfaces.size();
     addSurface(part, path, model);
@@ -351,11 +351,11 @@ void readObj(const std::string& path, Model& model)
 }
 
 //------------------------------------------------------------------------------
-// Importers give actors.
+// Importers return actors.
 
 void importActors(vtkImporter* importer, const std::string& path, Model& model)
 {
-  // Importers want a window. Nothing is drawn in this one, so it opens no display.
+  // Importers require a window. This one is not rendered, so it opens no display.
   vtkNew<vtkGnomonEGLRenderWindow> window;
   vtkNew<vtkRenderer> renderer;
   window->AddRenderer(renderer);
@@ -383,7 +383,7 @@ void importActors(vtkImporter* importer, const std::string& path, Model& model)
   }
 }
 
-/// Lights and cameras of .3ds files are not used.
+/// Read a .3ds file without its lights and cameras.
 void read3ds(const std::string& path, Model& model)
 {
   check3dsFile(path);
@@ -392,8 +392,8 @@ void read3ds(const std::string& path, Model& model)
   importActors(importer, path, model);
 }
 
-/// glTF counts texture rows from the top, VTK from the bottom. vtkGLTFImporter says so with a key
-/// of its actors; here the coordinates themselves are turned over.
+/// Flip texture coordinates, as glTF counts texture rows from the top and VTK from the bottom.
+/// vtkGLTFImporter marks its actors with a key instead.
 void flipTextureCoordinates(vtkPolyData* surface)
 {
   vtkDataArray* source = surface->GetPointData()->GetTCoords();
@@ -430,7 +430,7 @@ void readGltf(const std::string& path, Model& model)
   model.camera = view.camera;
   if (model.camera)
   {
-    // The target lies as far ahead as the scene's middle, so that turning around it makes sense.
+    // The target is at the distance of the scene's middle, a useful centre of rotation.
     const Vec3 forward = model.camera->target - model.camera->position;
     const double ahead = dot(middle - model.camera->position, forward);
     model.camera->target = model.camera->position + (ahead > 0.0 ? ahead : 1.0) * forward;
@@ -439,7 +439,8 @@ void readGltf(const std::string& path, Model& model)
   {
     if (light.type != SceneLight::Type::Directional)
     {
-      // VTK's lights do not fall off with distance: take what arrives in the scene's middle.
+      // VTK's lights do not fall off with distance by default, so use the intensity at the scene's
+      // middle.
       const double distance = length(middle - light.position);
       light.intensity /= distance > 0.0 ? distance * distance : 1.0;
     }
@@ -471,7 +472,7 @@ const FileType* findFileType(const std::string& path)
   return place == std::end(fileTypes) ? nullptr : place;
 }
 
-/// An error's text with the file's name in front, once.
+/// Throw an error whose text begins with the file's name, once.
 [[noreturn]] void refuseFile(const std::string& path, const std::string& message)
 {
   const bool named = message.compare(0, path.size(), path) == 0;

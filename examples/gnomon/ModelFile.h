@@ -7,7 +7,7 @@
 namespace gnomon::tool
 {
 
-/// What a model file holds.
+/// The contents of a model file.
 struct Model
 {
   std::vector<SceneModel> surfaces;  ///< at least one, with at least one triangle
@@ -16,16 +16,16 @@ struct Model
   std::vector<std::string> notes;    ///< see Scene::notes
 };
 
-/// Reads a model with VTK's reader for its file type: .obj .ply .stl .vtp .3ds .glb .gltf. Surfaces
+/// Read a model with VTK's reader for its file type: .obj .ply .stl .vtp .3ds .glb .gltf. Surfaces
 /// without normals get smooth ones, with sharp edges where the surface bends by more than 60
 /// degrees.
 /// @throws BadInput
 Model readModelFile(const std::string& path);
 
-/// Whether the path ends like a model file, in any case.
+/// True if the path has a model file's extension, in upper or lower case.
 bool isModelFile(const std::string& path);
 
-/// ".obj, .ply, ...": for messages.
+/// Return the extensions for messages: ".obj, .ply, ...".
 std::string modelFileTypes();
 
 } // namespace gnomon::tool

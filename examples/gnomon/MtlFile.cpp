@@ -15,13 +15,13 @@ namespace gnomon::tool
 namespace
 {
 
-/// One statement of the file.
+/// A statement of the file.
 struct Statement
 {
   std::string place; ///< "FILE: line 3: ", for errors
   std::vector<std::string> words;
 
-  /// The number at that place of the words, in [low, high].
+  /// Return the number at this index of the words, in [low, high].
   double number(std::size_t word, double low, double high) const
   {
     const std::optional<double> value = parseWord<double>(this->words, word);
@@ -34,7 +34,7 @@ struct Statement
     return *value;
   }
 
-  /// Red, green and blue; one number stands for all three.
+  /// Return red, green and blue. A single number applies to all three.
   Vec3 color() const
   {
     const double red = this->number(1, 0.0, 1.0);
@@ -43,7 +43,7 @@ struct Statement
       : Vec3{ { red, this->number(2, 0.0, 1.0), this->number(3, 0.0, 1.0) } };
   }
 
-  /// The file name of a map, which may hold spaces: what stands behind the options.
+  /// Return a map's file name, which follows the options and may contain spaces.
   std::string fileName() const
   {
     std::string name;

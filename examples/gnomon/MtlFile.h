@@ -14,11 +14,11 @@ namespace gnomon::tool
 struct Material
 {
   vtkSmartPointer<vtkProperty> property;
-  vtkSmartPointer<vtkTexture> texture; ///< or null
+  vtkSmartPointer<vtkTexture> texture; ///< may be null
 };
 
-/// Reads diffuse and specular colour, opacity and diffuse texture (Kd, Ks, Ns, d, Tr, map_Kd) of a
-/// material library; other statements have no counterpart and are skipped.
+/// Read diffuse and specular colour, opacity and diffuse texture (Kd, Ks, Ns, d, Tr, map_Kd) of a
+/// material library. Other statements have no counterpart and are skipped.
 /// @throws BadInput
 std::map<std::string, Material> readMaterials(const std::string& path);
 

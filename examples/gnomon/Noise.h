@@ -5,14 +5,14 @@
 namespace gnomon::tool
 {
 
-/// A number in [0, 1) that depends on nothing but three integers: the same on every machine, which
-/// the distributions of the standard library are not.
+/// Return a number in [0, 1) that depends only on three integers. It is the same on every machine,
+/// unlike the standard library's distributions.
 double hashed(int x, int y, std::uint32_t seed);
 
-/// Value noise in [0, 1): hashed numbers at whole coordinates, smooth in between.
+/// Return value noise in [0, 1): hashed numbers at integer coordinates, smooth in between.
 double noise(double x, double y, std::uint32_t seed);
 
-/// A sequence of numbers that look random, the same for the same seed.
+/// A sequence of pseudorandom numbers, the same for the same seed.
 class Random
 {
 public:
@@ -21,7 +21,7 @@ public:
   {
   }
 
-  /// The next number in [low, high).
+  /// Return the next number, in [low, high).
   double between(double low, double high);
 
 private:

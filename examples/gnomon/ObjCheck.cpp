@@ -14,7 +14,7 @@ namespace gnomon::tool
 namespace
 {
 
-/// A line of the file, joined with its continuations.
+/// A line of the file, joined with its continuation lines.
 struct Line
 {
   std::size_t number = 0;
@@ -87,14 +87,14 @@ public:
   }
 
 private:
-  /// Lines of one keyword, which corners of faces count.
+  /// Lines of one keyword, which faces' corners refer to by number.
   struct List
   {
     const char* keyword;
     std::size_t numbers; ///< in a line
     const char* name;
     long count = 0;
-    long highest = 0; ///< index that a face names
+    long highest = 0; ///< highest index of a face
     std::size_t lineOfHighest = 0;
   };
 
@@ -132,7 +132,7 @@ private:
     }
   }
 
-  /// One corner: 7, 7/2, 7//3 or 7/2/3.
+  /// Check a corner: 7, 7/2, 7//3 or 7/2/3.
   void checkIndices(const Line& line, const std::string& corner)
   {
     const std::vector<std::string> parts = split(corner, '/');
@@ -162,7 +162,7 @@ private:
   }
 
   const std::string& path_;
-  /// In the order in which a corner names them.
+  /// The lists, in the order of a corner's indices.
   std::array<List, 3> lists_ = { { { "v", 3, "vertices" }, { "vt", 2, "vt lines" },
     { "vn", 3, "vn lines" } } };
   long faces_ = 0;

@@ -24,7 +24,7 @@ int leftOf(std::size_t panel, int columns)
   return static_cast<int>(panel) * (columns + panelGapColumns);
 }
 
-/// The strip with the titles, each centred above its panel.
+/// Return the strip with the titles, each centred above its panel.
 Picture drawTitles(const std::vector<Panel>& panels, int width)
 {
   const int columns = panels.front().picture.width;
@@ -49,7 +49,7 @@ Picture drawTitles(const std::vector<Panel>& panels, int width)
   return capture(window);
 }
 
-/// Copies a picture into a larger one, its top left corner to (left, top).
+/// Copy a picture into a larger one, with its top left corner at (left, top).
 void paste(const Picture& from, Picture& to, int left, int top)
 {
   for (int y = 0; y < from.height; ++y)

@@ -24,10 +24,10 @@ namespace gnomon::tool
 namespace
 {
 
-/// Each exposure begins where the one before has 16 of its 256 steps left.
+/// Each exposure begins where the previous one has 16 of its 256 steps left.
 constexpr std::array<double, 4> exposureFactors = { 1.0, 16.0, 256.0, 4096.0 };
 
-/// A texture's holes in white; null without a texture, and where it is all white without.
+/// Return a white texture with the source's alpha; null without a texture or without alpha.
 vtkSmartPointer<vtkTexture> whiteTexture(vtkTexture* source)
 {
   vtkImageData* image = source ? source->GetInput() : nullptr;
@@ -49,7 +49,7 @@ vtkSmartPointer<vtkTexture> whiteTexture(vtkTexture* source)
   return texture;
 }
 
-/// The scene with white, flat surfaces that only reflect diffusely, and one white light.
+/// Return the scene with white, flat, diffuse surfaces and one white light.
 Scene whiteScene(const Scene& scene, std::size_t light)
 {
   Scene white = scene;
@@ -77,7 +77,7 @@ Scene whiteScene(const Scene& scene, std::size_t light)
   return white;
 }
 
-/// One picture per exposure.
+/// Return one picture per exposure.
 std::vector<Picture> expose(vtkRenderer* renderer, int width, int height)
 {
   vtkNew<vtkGnomonEGLRenderWindow> window;
@@ -141,7 +141,7 @@ PictureVisibility measureVisibility(const Scene& scene, const VisibilityImages& 
     {
       exposures.push_back({ lit[i], shadowed[i] });
     }
-    // Of an even light, which is white here, all colours say the same.
+    // A light without texture is white here, so all channels are equal.
     const LightChannel channel = truth.channels[k];
     const std::size_t colour = channel == LightChannel::Blue ? 2 : channel == LightChannel::Green;
     const std::vector<float> found = visibilityFromPictures(exposures, colour);

@@ -18,40 +18,40 @@ VTK_ABI_NAMESPACE_END
 namespace gnomon::tool
 {
 
-/// Two pictures of the same white, unspecular, flat surfaces under one light of `exposure` times
-/// the plain brightness: without and with shadows.
+/// Two pictures of the same white, diffuse, flat surfaces under one light, without and with
+/// shadows. The light's brightness is `exposure` times the plain one.
 struct ExposedPair
 {
   Picture lit;
   Picture shadowed;
 };
 
-/// Visibility as the quotient of two pictures: what the shadows leave of the light.
+/// Return visibility as the quotient of two pictures: the share of light that the shadows leave.
 ///
-/// A picture has only 8 bits and ends at white, so several exposures are taken, from dark to
-/// bright, and each pixel uses the brightest one that is not white without shadows. Where even that
-/// one is black, no light arrives and the visibility is 0. Values above 1 (some passes brighten)
-/// count as 1.
-/// @param colour which of the pictures' is looked at: 0 red, 1 green, 2 blue
+/// A picture has only 8 bits and saturates at white, so several exposures go from dark to bright.
+/// Each pixel uses the brightest exposure that is not white without shadows. If even that one is
+/// black, no light arrives and the visibility is 0. Values above 1 (some passes brighten) count as
+/// 1.
+/// @param colour channel of the pictures: 0 red, 1 green, 2 blue
 std::vector<float> visibilityFromPictures(
   const std::vector<ExposedPair>& exposures, std::size_t colour);
 
-/// What measureVisibility finds.
+/// The result of measureVisibility().
 struct PictureVisibility
 {
   VisibilityImages
-    images; ///< the truth's positions, normals and coverage with the visibility found
-  std::int64_t unreadable = 0; ///< pixels that count but could not be read
+    images; ///< the truth's positions, normals and coverage with the measured visibility
+  std::int64_t unreadable = 0; ///< pixels that count but cannot be measured
 };
 
-/// The visibility that `addShadows` gives a scene, read off pictures: for renderers that shade with
-/// visibility but do not hand it out. For each light of the truth, the scene is drawn with white
-/// surfaces and this light alone. Translucent models are left out.
+/// Measure, from pictures, the visibility that `addShadows` gives a scene. This serves renderers
+/// that shade with visibility but do not export it. For each light of the truth, the scene is
+/// rendered with white surfaces and only this light. Translucent models are left out.
 ///
-/// Pixels that facingPixels() counts although VTK shades them black (they graze the light so
-/// closely that the two disagree on the side) cannot be read; they get the truth's visibility.
+/// VTK shades some pixels black although facingPixels() counts them: the light grazes them, and
+/// both disagree on the side. Such pixels cannot be measured and get the truth's visibility.
 ///
-/// @param addShadows gives a new renderer its shadows; called once per light
+/// @param addShadows adds shadows to a new renderer; called once per light
 PictureVisibility measureVisibility(const Scene& scene, const VisibilityImages& truth,
   const std::function<void(vtkRenderer*)>& addShadows);
 

@@ -14,7 +14,7 @@ namespace gnomon::tool
 namespace
 {
 
-/// The longest line that vtkPLYReader takes, with room for what it adds.
+/// The longest line that vtkPLYReader reads, less room for its additions.
 constexpr std::size_t longestLine = 4000;
 /// vtkPLYReader counts a face's corners in a byte.
 constexpr long mostCorners = 255;
@@ -23,7 +23,7 @@ struct Property
 {
   std::string name;
   std::string type;
-  std::string countType; ///< empty unless it is a list
+  std::string countType; ///< empty unless the property is a list
   bool isList() const { return !this->countType.empty(); }
 };
 
@@ -53,7 +53,7 @@ double readAs(ByteReader& reader, const char* what)
   return static_cast<double>(reader.read<Number>(what));
 }
 
-/// How the numbers of each type are read.
+/// The reading function of each type.
 const std::map<std::string, double (*)(ByteReader& reader, const char* what)> readersByType = {
   { "char", readAs<std::int8_t> }, { "int8", readAs<std::int8_t> },
   { "uchar", readAs<std::uint8_t> }, { "uint8", readAs<std::uint8_t> },
@@ -109,7 +109,7 @@ private:
     this->fail("line " + std::to_string(this->line_) + ": " + message);
   }
 
-  /// The next line's words; without a line end it is no line to vtkPLYReader.
+  /// Return the next line's words. vtkPLYReader does not read a line without line end.
   std::vector<std::string> nextLine(const std::string& expected)
   {
     ++this->line_;
@@ -139,7 +139,7 @@ private:
     for (;;)
     {
       const std::vector<std::string> words = this->nextLine("end_header");
-      // An empty line ends the header for vtkPLYReader.
+      // vtkPLYReader ends the header at an empty line.
       const std::string keyword = words.empty() ? "" : words[0];
       if (keyword == "end_header")
       {
@@ -211,7 +211,8 @@ private:
       list ? Property{ words[4], words[3], words[2] } : Property{ words[2], words[1], "" });
   }
 
-  /// vtkPLYReader reads vertices, then faces, whatever stands in between.
+  /// Check the elements. vtkPLYReader reads vertices, then faces, regardless of other elements in
+  /// between.
   void checkElements() const
   {
     if (this->elements_.size() < 2 || this->elements_[0].name != "vertex" ||
@@ -316,7 +317,8 @@ private:
     }
   }
 
-  /// Reads one element through `next`, which takes a type and gives the value.
+  /// Read one element.
+  /// @param next returns the next value of a type
   template <class Next>
   void checkProperties(const Element& element, const Next& next) const
   {

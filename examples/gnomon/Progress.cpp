@@ -53,10 +53,10 @@ void Progress::print(const std::string& line, std::ostream& stream)
 }
 
 //------------------------------------------------------------------------------
-/// The thread's work: shows lines until all is done.
+/// Run the thread: show lines until all work is done.
 void Progress::show()
 {
-  // A terminal follows the steps, a log grows slowly.
+  // A terminal follows each step; a log grows slowly.
   const Duration period = this->isTerminal_ ? this->silence_ / 10 : this->silence_;
   Duration pause = this->silence_;
   std::unique_lock<std::mutex> lock(this->mutex_);
@@ -78,7 +78,7 @@ void Progress::show()
 }
 
 //------------------------------------------------------------------------------
-/// Clears the terminal's line.
+/// Clear the terminal's line.
 void Progress::erase()
 {
   if (this->isShown_)

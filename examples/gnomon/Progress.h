@@ -11,28 +11,28 @@
 namespace gnomon::tool
 {
 
-/// Tells how far work of more than two seconds is, from construction to destruction: by a line that
-/// is rewritten on a terminal, elsewhere by a line every two seconds. Other output goes through
-/// print() meanwhile, so that no two lines mix.
+/// Shows the progress of work of more than two seconds, from construction to destruction. On a
+/// terminal it rewrites one line; elsewhere it prints a line every two seconds. Other output must
+/// go through print(), so lines do not mix.
 class Progress
 {
 public:
   using Duration = std::chrono::milliseconds;
   static constexpr Duration silence{ 2000 }; ///< before the first line
 
-  /// @param step what is done first, such as "reading bunny.obj"
+  /// @param step the first step, such as "reading bunny.obj"
   explicit Progress(std::string step);
-  /// @param isTerminal whether lines on the stream can be written over
+  /// @param isTerminal true if lines on the stream can be overwritten
   Progress(std::string step, std::ostream& stream, bool isTerminal, Duration silence);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// What is done now.
-  /// @param share how much of all work is done, in [0, 1]; none if that is not known
+  /// Begin a step.
+  /// @param share finished share of all work, in [0, 1]; none if it is unknown
   void begin(const std::string& step, std::optional<double> share = std::nullopt);
 
-  /// Writes a line of another kind.
+  /// Write a line that is not progress.
   void print(const std::string& line, std::ostream& stream = std::cerr);
 
 private:
@@ -44,10 +44,10 @@ private:
   const Duration silence_;
   const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 
-  std::mutex mutex_; ///< of all below, and of the stream
+  std::mutex mutex_; ///< guards all members below, and the stream
   std::string step_;
   std::optional<double> share_;
-  bool isShown_ = false; ///< whether a line stands on the terminal
+  bool isShown_ = false; ///< true while a line is on the terminal
   bool isDone_ = false;
   std::condition_variable done_;
   std::thread thread_; ///< the last member: it reads the others

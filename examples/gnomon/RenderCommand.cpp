@@ -43,13 +43,13 @@ namespace
 
 constexpr int largestSidePixels = 16384;
 
-/// What the command line says.
+/// The options of the command line.
 struct RenderOptions
 {
   std::string scene;
   std::string picture;
   std::string size = "1024x1024";
-  std::map<std::string, std::string> settings; ///< of all lights, by name; empty: not given
+  std::map<std::string, std::string> settings; ///< of all lights, by name; empty values: not given
   std::string route = "auto";
   int tracer = vtkGnomonShadowPass::TRACER_AUTO;
   int rasterizer = vtkGnomonShadowPass::RASTERIZER_AUTO;
@@ -57,21 +57,21 @@ struct RenderOptions
   std::vector<std::string> lights;
   std::string camera;
   bool parallel = false;
-  std::optional<bool> ground;    ///< none: what the scene says
-  std::optional<double> ambient; ///< none: what surfaces say
+  std::optional<bool> ground;    ///< none: the scene decides
+  std::optional<double> ambient; ///< none: the surfaces decide
   std::string visibility;
   std::string stats;
   std::string classes;
 };
 
-/// One name for every way to write a path.
+/// Return a canonical path.
 std::filesystem::path fullPath(const std::string& path)
 {
-  std::error_code ignored; // then the path is as it is
+  std::error_code ignored; // on errors, the path stays unchanged
   return std::filesystem::weakly_canonical(std::filesystem::absolute(path, ignored), ignored);
 }
 
-/// Refuses what can be refused before anything is loaded.
+/// Refuse invalid options before anything is loaded.
 void check(const RenderOptions& options)
 {
   requireWritableFile(options.picture, "--output", { ".png", ".exr" });
@@ -106,7 +106,7 @@ void check(const RenderOptions& options)
     if (options.shadeSamples && !file.empty())
     {
       throw BadInput(std::string(name) +
-        ": is of one picture, and --shade-samples shows the mean of many, expected one of them");
+        ": describes one picture, and --shade-samples averages many, expected one of them");
     }
   }
   if (options.ground && findBuiltinScene(options.scene))
@@ -115,7 +115,7 @@ void check(const RenderOptions& options)
       options.scene + ", a built-in scene, whose ground is its own; expected a model or a scene " +
       "file");
   }
-  // The options have refused what there is not.
+  // The options have already refused unknown names.
   ShadowSettings settings;
   settings.technique = options.settings.at("technique");
   settings.estimator = options.settings.at("estimator");
@@ -127,7 +127,7 @@ void check(const RenderOptions& options)
   }
 }
 
-/// Makes a camera parallel that shows what it looks at in the same size.
+/// Make a camera parallel, with its target in the same size.
 void makeParallel(SceneCamera& camera)
 {
   const double halfAngle = 0.5 * vtkMath::RadiansFromDegrees(camera.fovDegrees);
@@ -171,7 +171,7 @@ Scene loadWithOptions(const RenderOptions& options)
   return scene;
 }
 
-/// The most that lights say of an integer setting; its default where none says anything.
+/// Return the largest value of an integer setting over all lights; its default if no light sets it.
 int mostOf(const char* name, const Scene& scene)
 {
   const Setting& setting = *findSetting(name);
@@ -190,7 +190,7 @@ int mostOf(const char* name, const Scene& scene)
   return most.value_or(valueOf({}));
 }
 
-/// Refuses lights whose settings make no sense together.
+/// Refuse lights with contradictory settings.
 void requireComposition(vtkRenderer* renderer)
 {
   for (ShadowLight light : LightManager().collect(renderer, {}).lights)
@@ -207,10 +207,10 @@ void requireComposition(vtkRenderer* renderer)
   }
 }
 
-/// Refuses pictures that are larger than the window's OpenGL draws.
+/// Refuse pictures that exceed the limits of the window's OpenGL.
 void requireDrawable(const PictureSize& size, vtkOpenGLRenderWindow* window)
 {
-  window->Render(); // makes the context
+  window->Render(); // creates the context
   GLint side = 0;
   GLint viewport[2] = { 0, 0 };
   window->GetState()->vtkglGetIntegerv(GL_MAX_TEXTURE_SIZE, &side);
@@ -218,7 +218,7 @@ void requireDrawable(const PictureSize& size, vtkOpenGLRenderWindow* window)
   requireDrawable(size, side, viewport[0], viewport[1]);
 }
 
-/// What a picture's frames did: their times and counts together, the rest as the last one says.
+/// The report of a picture's frames: sums of times and counts, and the rest from the last frame.
 class PictureReport
 {
 public:
@@ -271,7 +271,7 @@ void writeStats(const PictureReport& report, const std::string& path)
   }
 }
 
-/// The classes of the pixels of the first light whose technique tells them.
+/// Return the pixel classes of the first light whose technique has them.
 Picture firstClassPicture(const VisibilityImages& images)
 {
   for (std::size_t light = 0; light < images.classes.size(); ++light)
@@ -281,12 +281,11 @@ Picture firstClassPicture(const VisibilityImages& images)
       return classPicture(images, light);
     }
   }
-  throw BadInput(
-    "--classes: no light casts by a technique that tells its pixels' classes, expected one that "
-    "traces, such as silhouette");
+  throw BadInput("--classes: no casting light has a technique with pixel classes, "
+                 "expected one that traces, such as silhouette");
 }
 
-/// Settings, timings and counts, for the header of the visibility file.
+/// Return settings, timings and counts for the visibility file's header.
 std::map<std::string, std::string> makeHeader(
   const RenderOptions& options, const FrameReport& report)
 {
@@ -338,7 +337,7 @@ void render(const RenderOptions& options)
   {
     for (SceneLight& light : scene.lights)
     {
-      light.settings.erase("progressive"); // is the sampling pass's then
+      light.settings.erase("progressive"); // belongs to the sampling pass
     }
   }
   for (const std::string& note : scene.notes)
@@ -364,8 +363,8 @@ void render(const RenderOptions& options)
   shadows->SetMeasureStages(!options.stats.empty() || !options.visibility.empty());
   const bool givesVisibility = !options.visibility.empty() || !options.classes.empty();
   shadows->SetKeepVisibility(givesVisibility);
-  shadows->SetSmoothTerminators(!givesVisibility); // visibility is compared, on the triangles
-  // The only frame is to show what techniques do with their maps, if they have any.
+  shadows->SetSmoothTerminators(!givesVisibility); // visibility files compare triangles
+  // The only frame should show techniques with their maps.
   shadows->SetSetting("bake", "always");
   shadows->SetTechnique(vtkGnomonShadowPass::GetDefaultTechnique());
   vtkNew<vtkGnomonLightSamplingPass> sampling;
@@ -478,26 +477,25 @@ void addRenderCommand(CLI::App& app)
   addTracerOption(*command, options->tracer);
   addRasterizerOption(*command, options->rasterizer);
   command->add_flag("--shade-samples", options->shadeSamples,
-    "Shade from each of an area light's points (--light-samples, and --progressive of them per "
-    "frame), with its hard shadows, and show the mean, rather than shade from the centre and take "
-    "the share of the light that is seen");
+    "Shade from each point of an area light (--light-samples points, --progressive of them per "
+    "frame) with its hard shadows, and show the mean. By default, shade from the centre, times the "
+    "visible share of the light");
   command
     ->add_option("--light", options->lights,
-      "A light in place of the scene's own; may be given several times, for example "
+      "A light instead of the scene's own; may be repeated, for example "
       "directional:direction=-1,-2,-1;color=1,1,1;intensity=1;technique=nsm;map_size=1024 or "
       "spot:position=3,4,5;target=0,0,0;cone_angle=30 or point:position=3,4,5")
     ->allow_extra_args(false);
   command->add_option("--camera", options->camera,
-    "What differs from the scene's camera, for example "
+    "Changes to the scene's camera, for example "
     "position=0,1,5;target=0,0,0;up=0,1,0;fov=45, or parallel_scale=2 for a parallel camera whose "
     "picture is 4 high");
   command->add_flag("--parallel", options->parallel,
-    "Look along parallel rays, with what the camera looks at in the same size");
+    "Use a parallel camera, which shows the target in the same size");
   command->add_flag_function(
     "--ground,!--no-ground",
     [&ground = options->ground](std::int64_t count) { ground = count > 0; },
-    "Whether models stand on a ground; by default those of model files do, those of scene files if "
-    "the file says so");
+    "Put models on a ground, or not. By default, model files get a ground, and scene files decide");
   command
     ->add_option("--ambient", options->ambient,
       "The share of its colour, in [0, 1], that each surface shows where no light falls")
@@ -512,12 +510,11 @@ void addRenderCommand(CLI::App& app)
   command->add_option("--visibility", options->visibility,
     "Also write every light's visibility and the receivers, .exr");
   command->add_option("--stats", options->stats,
-    "Also write what the picture's frames did (several with --progressive), .json");
+    "Also write the report of the picture's frames (several with --progressive), .json");
   command->add_option("--classes", options->classes,
-    "Also write how each pixel's visibility came about, by colours, for the first light whose "
-    "technique "
-    "tells: lit for certain light grey, in shadow for certain dark grey, traced purple, "
-    "penumbras by their edges orange, turned away from the light green; .png or .exr");
+    "Also write each pixel's class as a colour, for the first light whose technique has classes: "
+    "lit for certain light grey, in shadow for certain dark grey, traced purple, penumbras by "
+    "their edges orange, turned away from the light green; .png or .exr");
   command->callback([options] { render(*options); });
 }
 

@@ -34,7 +34,7 @@ constexpr int chartHeight = 560;
 
 using Colour = std::array<unsigned char, 3>;
 
-/// Ten colours that differ from each other and from a white ground.
+/// Return one of ten colours that differ from each other and from white.
 Colour variantColour(std::size_t index)
 {
   static constexpr std::array<Colour, 10> palette = { { { { 31, 119, 180 } }, { { 214, 39, 40 } },
@@ -43,8 +43,8 @@ Colour variantColour(std::size_t index)
   return palette[index % palette.size()];
 }
 
-/// The largest (direction < 0) or smallest (direction > 0) of ..., 0.1, 0.2, 0.5, 1, 2, 5, 10, ...
-/// that is not inside the value.
+/// Return the step of ..., 0.1, 0.2, 0.5, 1, 2, 5, 10, ... next to a value: the largest one not
+/// above it (direction < 0), or the smallest one not below it (direction > 0).
 double roundToStep(double value, int direction)
 {
   const double decade = std::pow(10.0, std::floor(std::log10(value)));
@@ -72,7 +72,7 @@ std::string shortNumber(double value)
   return text.str();
 }
 
-/// Writes the variants' names beside their points, moved where they would cover each other.
+/// Writes the variants' names beside their points, without overlap.
 class PointLabels : public vtkContextItem
 {
 public:
@@ -83,11 +83,11 @@ public:
   {
     std::string text;
     Colour colour;
-    double x; ///< axis coordinates of the point
+    double x; ///< the point's axis coordinates
     double y;
   };
   std::vector<Label> labels;
-  /// Further points that labels keep clear of, in axis coordinates.
+  /// Other points that labels avoid, in axis coordinates.
   std::vector<std::array<double, 2>> points;
   vtkAxis* xAxis = nullptr;
   vtkAxis* yAxis = nullptr;
@@ -141,8 +141,8 @@ private:
     return first + static_cast<float>(share) * (last - first);
   }
 
-  /// The nearest free place for a text of this size: right of the point, above it or below it,
-  /// further away step by step. The last try stands when everything is taken.
+  /// Return the nearest free place for a text of this size: right of the point, above or below it,
+  /// at growing distances. If all are occupied, return the last one.
   Box place(float x, float y, float width, float height, const std::vector<Box>& taken) const
   {
     const float boxWidth = width + 4.0f;
@@ -217,7 +217,7 @@ void addLine(
 {
   if (points.size() < 2)
   {
-    return; // VTK calls a line of one point an error
+    return; // a line of one point is an error in VTK
   }
   vtkPlot* const line = chart->AddPlot(vtkChart::LINE);
   line->SetInputData(pointTable(points), 0, 1);
@@ -256,7 +256,7 @@ Picture draw(vtkChart* chart, PointLabels* labels)
 //------------------------------------------------------------------------------
 LogScale::LogScale(const std::vector<double>& values, const std::string& unit)
 {
-  double smallest = 0.0; // of the positive ones
+  double smallest = 0.0; // of the positive values
   double largest = 0.0;
   bool hasZero = false;
   for (double value : values)
@@ -268,7 +268,7 @@ LogScale::LogScale(const std::vector<double>& values, const std::string& unit)
       largest = std::max(largest, value);
     }
   }
-  if (smallest == 0.0) // only zeros: an axis is needed all the same
+  if (smallest == 0.0) // only zeros still need an axis
   {
     smallest = 0.1;
     largest = 1.0;

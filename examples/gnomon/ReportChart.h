@@ -10,23 +10,23 @@
 namespace gnomon::tool
 {
 
-/// A tick of an axis whose coordinate is the decimal logarithm of the value.
+/// A tick of a logarithmic axis. Its coordinate is the value's decimal logarithm.
 struct LogTick
 {
   double position = 0.0;
   std::string label;
 };
 
-/// The range and ticks of a logarithmic axis for values of 0 or more. Zero has no logarithm: it
-/// gets a place of its own, one decade below the smallest decade, with the label "0".
+/// The range and ticks of a logarithmic axis for values >= 0. Zero has no logarithm, so its tick
+/// "0" lies one decade below the smallest decade.
 class LogScale
 {
 public:
-  /// @param values what the axis has to show; at least one
+  /// @param values values that the axis shows; at least one
   /// @param unit appended to every label but zero's, e.g. " %"
   LogScale(const std::vector<double>& values, const std::string& unit);
 
-  /// The axis coordinate of a value.
+  /// Return a value's axis coordinate.
   double position(double value) const;
   double lower() const { return this->lower_; }
   double upper() const { return this->upper_; }
@@ -46,23 +46,23 @@ struct ChartLine
   std::vector<std::array<double, 2>> points;
 };
 
-/// Frames' milliseconds (y) over a quantity (x), both logarithmic: a line for each that has points,
-/// its name at the last one.
-/// @throws Failure when no OpenGL context can be made
+/// Draw frames' milliseconds (y) over a quantity (x), both logarithmic: one line for each entry
+/// with points, its name at the last one.
+/// @throws Failure without an OpenGL context
 Picture drawTimes(const std::vector<ChartLine>& lines);
 
-/// One way to draw shadows in a chart of error over time.
+/// One way to render shadows in a chart of error over time.
 struct ChartWay
 {
   std::string name;
   ErrorAndTime of;
 };
 
-/// Error over time, both logarithmic. The Pareto front is coloured, joined and labelled; other ways
-/// are grey points.
-/// @param timeTitle, errorTitle what the axes say
-/// @param timeUnit, errorUnit appended to their labels, e.g. " %"
-/// @throws Failure when no OpenGL context can be made
+/// Draw error over time, both logarithmic. The Pareto front is coloured, joined and labelled. Other
+/// ways are grey points.
+/// @param timeTitle, errorTitle the axes' titles
+/// @param timeUnit, errorUnit appended to the axes' labels, e.g. " %"
+/// @throws Failure without an OpenGL context
 Picture drawFront(const std::vector<ChartWay>& ways, const std::string& timeTitle,
   const std::string& timeUnit, const std::string& errorTitle, const std::string& errorUnit);
 

@@ -15,7 +15,7 @@ namespace gnomon::tool
 namespace
 {
 
-/// A share of the pixels that count, with the number of pixels below.
+/// Return a cell with a share of the pixels that count, and the number of pixels below it.
 std::string pixelCell(const VisibilityError& error, std::int64_t pixels)
 {
   return cell(percent(error.share(pixels)), std::to_string(pixels));
@@ -38,7 +38,7 @@ std::string errorTable(const ComparisonResults& results)
   return html + "</tbody>\n</table>";
 }
 
-/// Times and memory.
+/// Return the table of times and memory.
 std::string costTable(const ComparisonResults& results)
 {
   const auto plain = std::find_if(results.variants.begin(), results.variants.end(),
@@ -75,7 +75,7 @@ std::string costTable(const ComparisonResults& results)
 
 constexpr const char* notTimed = "<p>No frames were timed.</p>";
 
-/// "maps 8.25, shading 26.50".
+/// Return a text such as "maps 8.25, shading 26.50".
 template <typename Number, typename Write>
 std::string listOf(const std::vector<std::pair<std::string, Number>>& numbers, const Write& write)
 {
@@ -111,7 +111,7 @@ std::string stageTable(const ComparisonResults& results)
     "<tbody>\n" + rows + "</tbody>\n</table>";
 }
 
-/// How pixels were decided, with the classes' shares of all pixels of all lights.
+/// Return the table of pixel classes, as shares of all pixels of all lights.
 std::string classTable(const ComparisonResults& results)
 {
   const double pixelsOfAll = static_cast<double>(results.width) * results.height * results.lights;
@@ -129,7 +129,7 @@ std::string classTable(const ComparisonResults& results)
   }
   if (rows.empty())
   {
-    return "<p>No variant tells its pixels' classes.</p>";
+    return "<p>No variant has pixel classes.</p>";
   }
   return "<table class=\"text\">\n" + heading({ "Variant", "Pixels" }) + "<tbody>\n" + rows +
     "</tbody>\n</table>";
@@ -206,7 +206,7 @@ std::string pictureGrid(const ComparisonResults& results)
   return html;
 }
 
-/// What the page says first: what to use when, five rows and the worst places.
+/// Return the page's first screen: recommendations, five rows and the worst places.
 std::string firstScreen(const ComparisonResults& results)
 {
   constexpr std::size_t most = 5;

@@ -172,7 +172,7 @@ std::string toJson(const ComparisonResults& results)
   {
     json["variants"].push_back(jsonOf(results, variant));
   }
-  // File names given by users may hold bytes that are not UTF-8.
+  // File names given by users may contain invalid UTF-8.
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 

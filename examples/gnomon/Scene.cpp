@@ -28,7 +28,7 @@ namespace gnomon::tool
 namespace
 {
 
-/// A bare model as a scene.
+/// Return a scene with one model.
 Scene makeModelScene(const std::string& path, bool ground)
 {
   Model model = readModelFile(path);
@@ -54,7 +54,7 @@ vtkSmartPointer<vtkActor> makeActor(const SceneModel& model)
 {
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputData(model.surface);
-  // Readers leave scalars only where they are colours.
+  // Readers keep scalars only if they are colours.
   mapper->SetColorModeToDirectScalars();
 
   auto actor = vtkSmartPointer<vtkActor>::New();
@@ -98,7 +98,7 @@ vtkSmartPointer<vtkLight> makeLight(const SceneLight& source)
   light->SetPositional(source.type != SceneLight::Type::Directional);
   if (source.type != SceneLight::Type::Directional)
   {
-    // VTK's spots have their cone below 90 degrees.
+    // VTK's spot lights have a cone below 90 degrees.
     constexpr double allDirections = 180.0;
     light->SetConeAngle(
       source.type == SceneLight::Type::Spot ? source.coneAngleDegrees : allDirections);
@@ -115,29 +115,28 @@ vtkSmartPointer<vtkLight> makeLight(const SceneLight& source)
   return light;
 }
 
-/// Lets the camera's clipping planes enclose what the picture shows.
+/// Fit the camera's clipping planes to the picture's contents.
 void setClippingRange(vtkRenderer* renderer, const Scene& scene, double aspect)
 {
-  // For when the camera moves on. VTK's own margins: the range widened by half its length, and a
-  // near plane at a hundredth of the far one where the scene's box is not clear of the eye. The
-  // first wastes depth precision; the second cuts the ground away in front of an eye that stands on
-  // it.
+  // Settings for a camera that moves later. VTK widens the range by half its length, which wastes
+  // depth precision. If the eye is in the scene's box, VTK puts the near plane at a hundredth of
+  // the far one. That clips the ground in front of an eye that stands on it.
   constexpr double smallestNearShare = 1e-4;
   renderer->SetClippingRangeExpansion(0.05);
   renderer->SetNearClippingPlaneTolerance(smallestNearShare);
 
-  // The nearer the near plane, the coarser the depths behind it, and surfaces that meet show
-  // through each other along their edges. So it stands as far off as the scene allows.
+  // A nearer near plane makes depths behind it coarser, and touching surfaces show through each
+  // other along their edges. So the near plane is as far away as the scene allows.
   constexpr double margin = 0.01;
   if (!scene.props.empty())
   {
-    renderer->ResetCameraClippingRange(); // which asks them where they are
+    renderer->ResetCameraClippingRange(); // asks props for their bounds
     return;
   }
   const DepthRange depths = visibleDepths(scene, aspect);
   if (depths.farthest < depths.nearest || depths.farthest == 0.0)
   {
-    return; // Nothing is seen.
+    return; // nothing is visible
   }
   const double farPlane = (1.0 + margin) * depths.farthest;
   renderer->GetActiveCamera()->SetClippingRange(

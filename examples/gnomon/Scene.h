@@ -25,9 +25,9 @@ struct SceneModel
 {
   std::string name;
   vtkSmartPointer<vtkPolyData> surface;
-  /// World from model, row-major.
+  /// The matrix from model to world, row-major.
   std::array<double, 16> matrix{ { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1 } };
-  vtkSmartPointer<vtkProperty> property; ///< how it looks; never null after loading
+  vtkSmartPointer<vtkProperty> property; ///< its look; never null after loading
   vtkSmartPointer<vtkTexture> texture;   ///< its colour, or null
   bool casts = true;
   bool receives = true;
@@ -35,7 +35,7 @@ struct SceneModel
   bool translucent = false; ///< drawn as translucent although its opacity is 1 (glTF's BLEND, MASK)
 };
 
-/// A prop that is more than a surface in a matt colour, in world coordinates. No file describes it.
+/// Any other prop, in world coordinates. No file describes it.
 struct SceneProp
 {
   std::string name;
@@ -51,8 +51,8 @@ struct SceneLight
     Spot,
     Point
   };
-  /// What a directional light is limited to: see vtkGnomonLightKeys. The middle of its near face is
-  /// the light's position.
+  /// The box of a directional light, see vtkGnomonLightKeys. Its near face is centred on the
+  /// light's position.
   struct Box
   {
     double width = 0.0;
@@ -60,25 +60,25 @@ struct SceneLight
     double depth = 0.0;
     Vec3 up{ { 0, 1, 0 } };
   };
-  /// What a light is that is more than a point: see vtkGnomonAreaLight.
+  /// The area of a light, see vtkGnomonAreaLight.
   struct Area
   {
-    bool rectangle = false; ///< else a disk
+    bool rectangle = false; ///< false: a disk
     double radius = 0.0;
     double width = 0.0;
     double height = 0.0;
     Vec3 up{ { 0, 1, 0 } };
-    vtkSmartPointer<vtkImageData> texture; ///< how its colour is spread over it, or null
+    vtkSmartPointer<vtkImageData> texture; ///< the distribution of its colour; may be null
   };
   Type type = Type::Directional;
   Vec3 position{ { 0, 0, 1 } };
-  Vec3 target{ { 0, 0, 0 } }; ///< directional: target - position is the way the light travels
+  Vec3 target{ { 0, 0, 0 } }; ///< directional: the light travels along target - position
   std::optional<Box> box;     ///< directional only
-  std::optional<Area> area;   ///< around the position, across the way to the target
+  std::optional<Area> area;   ///< around the position, across the direction to the target
   Vec3 color{ { 1, 1, 1 } };
   double intensity = 1.0;
   double coneAngleDegrees = 30.0; ///< half the cone of a spot light
-  /// What is asked of its shadows, by name (lights/ShadowSettings.h); the pass decides the rest.
+  /// Settings of its shadows, by name (lights/ShadowSettings.h). The pass decides the rest.
   std::map<std::string, std::string> settings;
 };
 
@@ -88,11 +88,11 @@ struct SceneCamera
   Vec3 target{ { 0, 0, 0 } };
   Vec3 up{ { 0, 1, 0 } };
   double fovDegrees = 30.0; ///< full vertical angle, of a perspective camera
-  /// Half of the picture's height in world units, of a parallel camera.
+  /// A parallel camera's half height of the picture, in world units; none: a perspective camera.
   std::optional<double> parallelScale;
 };
 
-/// A scene as data: what a scene file, a model file or a built-in name leads to.
+/// A scene as data, from a scene file, a model file or a built-in name.
 struct Scene
 {
   std::string name;
@@ -101,18 +101,18 @@ struct Scene
   std::vector<SceneLight> lights;
   SceneCamera camera;
   Vec3 background{ { 1, 1, 1 } };
-  /// What reading left out or replaced, for people; each a sentence that names the file.
+  /// Parts that reading left out or replaced, for users; each a sentence with the file's name.
   std::vector<std::string> notes;
 };
 
-/// Reads a built-in scene's name, a scene file (.json) or a model file (.obj .ply .stl .vtp .3ds
-/// .glb .gltf). A model gets a ground, and a camera and a light where its file has none.
-/// @param ground whether models stand on a ground; without it their file decides. Built-in scenes
-/// take no ground.
+/// Load a scene from a built-in scene's name, a scene file (.json) or a model file (.obj .ply .stl
+/// .vtp .3ds .glb .gltf). A model gets a ground, and a camera and a light if its file has none.
+/// @param ground true: models stand on a ground; none: their file decides; built-in scenes ignore
+/// it
 /// @throws BadInput
 Scene loadScene(const std::string& nameOrPath, std::optional<bool> ground = std::nullopt);
 
-/// Reads the argument of --light, `type:key=value;key=value...`, with a scene file's types and
+/// Parse the argument of --light, `type:key=value;key=value...`, with a scene file's types and
 /// keys:
 ///     directional:direction=-1,-2,-1;color=1,1,1;intensity=1;technique=nsm;map_size=1024
 ///     spot:position=3,4,5;target=0,0,0;cone_angle=30;technique=pcf;kernel=box;kernel_size=5
@@ -120,16 +120,17 @@ Scene loadScene(const std::string& nameOrPath, std::optional<bool> ground = std:
 /// @throws BadInput
 SceneLight parseLight(const std::string& spec);
 
-/// Reads the argument of --camera, `key=value;key=value...`, with a scene file's keys. What it
-/// leaves out comes from `defaults`:
+/// Parse the argument of --camera, `key=value;key=value...`, with a scene file's keys. Missing keys
+/// come from `defaults`:
 ///     position=0,1,5;target=0,0,0;up=0,1,0;fov=45
 ///     parallel_scale=2
 /// @throws BadInput
 SceneCamera parseCamera(const std::string& spec, const SceneCamera& defaults);
 
-/// A renderer with the scene's actors, props, lights, camera (clipping range set) and background.
-/// Surfaces are shared with the scene and with other renderers made from it, all else is its own.
-/// @param aspect the picture's width over its height
+/// Return a renderer with the scene's actors, props, lights, camera (clipping range set) and
+/// background. It shares surfaces with the scene and the scene's other renderers, and owns the
+/// rest.
+/// @param aspect the picture's width divided by its height
 vtkSmartPointer<vtkRenderer> makeRenderer(const Scene& scene, double aspect);
 
 } // namespace gnomon::tool

@@ -23,7 +23,8 @@ namespace
 
 using Json = nlohmann::ordered_json;
 
-/// @param texture the file of its texture; empty if it has none
+/// Return a light as JSON.
+/// @param texture file of its texture; empty without one
 Json toJson(const SceneLight& light, const std::string& texture)
 {
   Json json;
@@ -81,7 +82,8 @@ Json toJson(const SceneLight& light, const std::string& texture)
   return json;
 }
 
-/// @param texture the file of its texture; empty if it has none
+/// Return a surface as JSON.
+/// @param texture file of its texture; empty without one
 Json toJson(const SceneModel& model, const std::string& file, const std::string& texture)
 {
   Vec3 color;
@@ -132,7 +134,7 @@ std::string exportScene(const Scene& scene, const std::string& folder)
   std::filesystem::create_directories(folder, error);
   if (error)
   {
-    throw BadInput("--export: " + folder + ": cannot be made: " + error.message());
+    throw BadInput("--export: " + folder + ": cannot be created: " + error.message());
   }
   const std::string path = (std::filesystem::path(folder) / (scene.name + ".json")).string();
   requireWritableFile(path, "--export", { ".json" });

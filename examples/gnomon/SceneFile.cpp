@@ -19,7 +19,7 @@ namespace gnomon::tool
 namespace
 {
 
-/// World from model: affine and invertible.
+/// Read a matrix from model to world, affine and invertible.
 std::array<double, 16> readMatrix(const JsonValue& value)
 {
   const std::array<double, 16> matrix = value.numbers<16>(anyCoordinate);
@@ -27,7 +27,7 @@ std::array<double, 16> readMatrix(const JsonValue& value)
   {
     value.fail("a row-major matrix with the last row 0, 0, 0, 1");
   }
-  // The determinant says whether the matrix is singular once the sizes of its rows are taken out.
+  // With normalised rows, the determinant shows whether the matrix is singular.
   double scale = 1.0;
   for (std::size_t row = 0; row < 3; ++row)
   {
@@ -42,7 +42,7 @@ std::array<double, 16> readMatrix(const JsonValue& value)
   return matrix;
 }
 
-/// One entry of "models": the surfaces of its file.
+/// Read an entry of "models": the surfaces of its file.
 std::vector<SceneModel> readModel(const JsonValue& value, const std::filesystem::path& folder,
   std::map<std::string, Model>& loaded, std::vector<std::string>& notes)
 {
@@ -118,7 +118,7 @@ Scene readSceneFile(const std::string& path, std::optional<bool> ground)
   scene.name = std::filesystem::path(path).stem().string();
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
 
-  // The cheap parts first: a typing error should not wait for the models.
+  // Cheap parts come first, so a typing error does not wait for the models.
   const JsonValue camera = root.member("camera");
   if (camera.present())
   {

@@ -8,8 +8,8 @@
 namespace gnomon::tool
 {
 
-/// Reads a scene file (docs/guide/scene_files.md).
-/// @param ground whether models stand on a ground; without it the file decides
+/// Read a scene file (docs/guide/scene_files.md).
+/// @param ground true: models stand on a ground; none: the file decides
 /// @throws BadInput
 Scene readSceneFile(const std::string& path, std::optional<bool> ground = std::nullopt);
 

@@ -24,7 +24,7 @@ bool isFinite(const Vec3& point)
   return std::isfinite(point[0]) && std::isfinite(point[1]) && std::isfinite(point[2]);
 }
 
-/// A border of the picture: points are in it where the sum is not negative.
+/// A border of the picture. Points with a sum >= 0 are inside.
 struct Side
 {
   Vec3 inward;
@@ -33,7 +33,7 @@ struct Side
   double operator()(const Vec3& point) const { return dot(this->inward, point) + this->offset; }
 };
 
-/// What encloses the points that a camera shows, which are counted from its eye.
+/// Return the borders of a camera's visible points, for coordinates relative to its eye.
 std::vector<Side> sidesOf(const SceneCamera& camera, double aspect)
 {
   const Vec3 forward = normalized(camera.target - camera.position);
@@ -51,7 +51,7 @@ std::vector<Side> sidesOf(const SceneCamera& camera, double aspect)
     { aspect * tangent * forward - right, 0.0 }, { aspect * tangent * forward + right, 0.0 } };
 }
 
-/// The part of a polygon on the inner side of a border.
+/// Return the part of a polygon inside a border.
 std::vector<Vec3> clipped(const std::vector<Vec3>& polygon, const Side& side)
 {
   std::vector<Vec3> result;
@@ -67,13 +67,13 @@ std::vector<Vec3> clipped(const std::vector<Vec3>& polygon, const Side& side)
     }
     if ((start < 0.0) != (end < 0.0))
     {
-      result.push_back(from + (start / (start - end)) * (to - from)); // of opposite signs
+      result.push_back(from + (start / (start - end)) * (to - from)); // start, end: opposite signs
     }
   }
   return result;
 }
 
-/// Calls `visit` with the points of every cell; of strips, of every triangle.
+/// Call `visit` with the points of each cell, and of each triangle of strips.
 template <class Visit>
 void visitCells(vtkPolyData* surface, const Visit& visit)
 {
@@ -131,7 +131,7 @@ SceneCamera framingCamera(const Scene& scene, bool withShadow)
   const std::array<double, 6> bounds = boundsWorld(scene);
   const Vec3 low{ { bounds[0], bounds[2], bounds[4] } };
   const Vec3 high{ { bounds[1], bounds[3], bounds[5] } };
-  // A scene that is one point still needs a camera that stands off it.
+  // A scene of one point also needs a camera at a distance.
   const double diagonal = length(high - low);
   const double radius = diagonal > 0.0 ? 0.5 * diagonal : 1.0;
 
@@ -150,7 +150,7 @@ void addGround(Scene& scene)
   const std::array<double, 6> bounds = boundsWorld(scene);
   const double size =
     std::max({ bounds[1] - bounds[0], bounds[3] - bounds[2], bounds[5] - bounds[4] });
-  // A hair below the models, so that a floor of their own hides it.
+  // Slightly below the models, so a model's own floor hides it.
   const Vec3 centre{ { 0.5 * (bounds[0] + bounds[1]), bounds[2] - 1e-4 * size,
     0.5 * (bounds[4] + bounds[5]) } };
   scene.models.push_back(makePlane(centre, 4.0 * size));
@@ -175,7 +175,7 @@ DepthRange visibleDepths(const Scene& scene, double aspect)
     }
   };
   std::vector<Vec3> points;
-  std::vector<unsigned> outsides; // a bit per side; NaN is outside
+  std::vector<unsigned> outsides; // one bit per side; NaN is outside
   for (const SceneModel& model : scene.models)
   {
     points.resize(static_cast<std::size_t>(model.surface->GetNumberOfPoints()));
@@ -201,7 +201,7 @@ DepthRange visibleDepths(const Scene& scene, double aspect)
         }
         if (everywhere != 0u)
         {
-          return; // Of a side, all of it is on the outer side.
+          return; // entirely outside one side
         }
         std::vector<Vec3> polygon;
         for (vtkIdType i = 0; i < size; ++i)

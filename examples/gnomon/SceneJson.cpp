@@ -31,7 +31,7 @@ Vec3 readDirection(const JsonValue& value)
   return direction;
 }
 
-/// The way from a position to the target at `value`, which must lie elsewhere.
+/// Read a target, which must differ from the position.
 Vec3 readTarget(const JsonValue& value, const Vec3& position)
 {
   const Vec3 target = readPoint(value);
@@ -42,7 +42,8 @@ Vec3 readTarget(const JsonValue& value, const Vec3& position)
   return target;
 }
 
-/// An up direction, y by default, which must not be parallel to the way from position to target.
+/// Read an up direction, which must not be parallel to the direction from position to target.
+/// Default: y.
 Vec3 readUp(const JsonValue& value, const Vec3& defaultUp, const Vec3& forward)
 {
   const Vec3 up = value.present() ? readDirection(value) : defaultUp;
@@ -59,7 +60,7 @@ Vec3 readUp(const JsonValue& value, const Vec3& defaultUp, const Vec3& forward)
   return up;
 }
 
-/// A setting of a light's shadows, as text.
+/// Read a setting of a light's shadows, as text.
 std::string readSetting(const JsonValue& value, const Setting& setting)
 {
   if (const auto* range = std::get_if<IntegerSetting>(&setting.values))
@@ -80,7 +81,7 @@ std::string readSetting(const JsonValue& value, const Setting& setting)
   return text;
 }
 
-/// Refuses keys that a light of this kind does not have.
+/// Refuse keys that a light of this kind does not have.
 void requireLight(const JsonValue& value, std::vector<std::string> known)
 {
   known.insert(known.end(), { "type", "color", "intensity" });
@@ -91,7 +92,7 @@ void requireLight(const JsonValue& value, std::vector<std::string> known)
   value.requireObject(known);
 }
 
-/// What all kinds of light share.
+/// Read the keys that all kinds of light share.
 void readCommon(const JsonValue& value, SceneLight& light)
 {
   light.color = value.member("color").numbersOr(light.color, colorChannel);
@@ -153,13 +154,13 @@ SceneLight readPointLight(const JsonValue& value)
   SceneLight light;
   light.type = SceneLight::Type::Point;
   light.position = readPoint(value.member("position"));
-  light.target = light.position + Vec3{ { 0.0, -1.0, 0.0 } }; // of no meaning
+  light.target = light.position + Vec3{ { 0.0, -1.0, 0.0 } }; // arbitrary
   readCommon(value, light);
   return light;
 }
 
-/// What an area light shines from. A rectangle lies along cross(travel, up), its width, and across
-/// that.
+/// Read the area of an area light. A rectangle's width lies along cross(travel, up), its height
+/// across that.
 SceneLight::Area readArea(
   const JsonValue& value, const Vec3& travel, const std::filesystem::path& folder)
 {
@@ -213,7 +214,8 @@ SceneLight::Area readArea(
   return area;
 }
 
-/// A light with an area around its position. It shines into all directions, or as a spot.
+/// Read a light with an area around its position, which shines in all directions or as a spot
+/// light.
 SceneLight readAreaLight(const JsonValue& value, const std::filesystem::path& folder)
 {
   requireLight(value,

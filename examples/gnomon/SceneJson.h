@@ -9,12 +9,13 @@
 namespace gnomon::tool
 {
 
-/// A light of a scene file or of --light.
-/// @param folder that paths of files are relative to
+/// Read a light of a scene file or of --light.
+/// @param folder base of relative file paths
 /// @throws BadInput
 SceneLight readLight(const JsonValue& value, const std::filesystem::path& folder);
 
-/// A camera of a scene file or of --camera. Without `defaults`, position and target must be there.
+/// Read a camera of a scene file or of --camera. Without `defaults`, position and target are
+/// required.
 /// @throws BadInput
 SceneCamera readCamera(const JsonValue& value, const std::optional<SceneCamera>& defaults);
 

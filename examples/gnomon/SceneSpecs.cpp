@@ -10,7 +10,7 @@ namespace gnomon::tool
 namespace
 {
 
-/// A whole number, a number, or text.
+/// Parse an integer, a number, or text.
 nlohmann::json parseScalar(const std::string& text)
 {
   if (const std::optional<long long> whole = parseNumber<long long>(text))
@@ -24,7 +24,7 @@ nlohmann::json parseScalar(const std::string& text)
   return text;
 }
 
-/// "key=value;key=value" as the JSON object that a scene file would hold; values with commas become
+/// Parse "key=value;key=value" as the JSON object of a scene file. Values with commas become
 /// arrays.
 nlohmann::json parseAssignments(const std::string& source, const std::string& text)
 {
@@ -49,7 +49,7 @@ nlohmann::json parseAssignments(const std::string& source, const std::string& te
     }
     if (!object.emplace(key, parsed).second)
     {
-      throw BadInput(source + ": key \"" + key + "\" stands twice, expected it once");
+      throw BadInput(source + ": key \"" + key + "\" occurs twice, expected once");
     }
   }
   return object;

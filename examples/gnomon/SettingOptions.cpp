@@ -10,14 +10,14 @@ namespace gnomon::tool
 namespace
 {
 
-/// What is wrong with a setting's value; empty if nothing is.
+/// Return why a setting's value is invalid; empty if it is valid.
 std::string refuse(const Setting& setting, const std::string& text)
 {
   ShadowSettings scratch;
   return setting.set(scratch, text) ? "" : "found \"" + text + "\", expected " + setting.expected();
 }
 
-/// An option that takes one of these names.
+/// Add an option whose value is one of these names.
 void addChoice(CLI::App& command, const std::string& option,
   const std::map<std::string, int>& choices, int& choice, const std::string& help)
 {
@@ -84,8 +84,9 @@ void addTracerOption(CLI::App& command, int& tracer)
   static const std::map<std::string, int> tracers = { { "auto", vtkGnomonShadowPass::TRACER_AUTO },
     { "embree", vtkGnomonShadowPass::TRACER_EMBREE }, { "gpu", vtkGnomonShadowPass::TRACER_GPU } };
   addChoice(command, "--tracer", tracers, tracer,
-    "Who traces shadow rays: embree (the CPU), gpu (compute shaders), auto (the GPU where OpenGL "
-    "draws by hardware)");
+    "Tracer of shadow rays: embree (the CPU), gpu (compute shaders), auto (the GPU if OpenGL runs "
+    "in "
+    "hardware)");
 }
 
 //------------------------------------------------------------------------------
@@ -96,7 +97,7 @@ void addRasterizerOption(CLI::App& command, int& rasterizer)
     { "cpu", vtkGnomonShadowPass::RASTERIZER_CPU }, { "gpu", vtkGnomonShadowPass::RASTERIZER_GPU }
   };
   addChoice(command, "--rasterizer", rasterizers, rasterizer,
-    "Who draws conservative maps: cpu, gpu (compute shaders), auto (cpu)");
+    "Rasterizer of conservative maps: cpu, gpu (compute shaders), auto (cpu)");
 }
 
 } // namespace gnomon::tool

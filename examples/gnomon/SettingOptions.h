@@ -10,32 +10,32 @@
 namespace gnomon::tool
 {
 
-/// The option of a setting: "--kernel-size" for "kernel_size".
+/// Return a setting's option: "--kernel-size" for "kernel_size".
 std::string optionOf(std::string settingName);
 
-/// Its value by default; empty where there is none.
+/// Return a setting's default value; empty without one.
 std::string defaultOf(const Setting& setting);
 
-/// "the kernel's width (texels): an integer in [1, 32]; default 3"
+/// Return a setting's help: "the kernel's width (texels): an integer in [1, 32]; default 3".
 std::string helpOf(const Setting& setting);
 
-/// A table's title with the techniques that have it: "The filter's kernel (pcf)".
+/// Return a table's title with the techniques that have it: "The filter's kernel (pcf)".
 std::string headingOf(const SettingsTable& table);
 
-/// Gives a command an option for every setting of a light's shadows, which refuses what the setting
-/// does not take.
-/// @param values by the settings' names; empty where the command line says nothing. Must outlive
+/// Add an option for every setting of a light's shadows to a command. Options refuse invalid
+/// values.
+/// @param values receives values by the settings' names, empty for missing options; must outlive
 /// the command
-/// @param without settings that the command has its own options for
+/// @param without settings for which the command has its own options
 void addSettingOptions(CLI::App& command, std::map<std::string, std::string>& values,
   const std::vector<std::string>& without = {});
 
-/// Gives a command the option "--tracer".
-/// @param tracer a vtkGnomonShadowPass::TracerType. Must outlive the command
+/// Add the option "--tracer" to a command.
+/// @param tracer receives a vtkGnomonShadowPass::TracerType; must outlive the command
 void addTracerOption(CLI::App& command, int& tracer);
 
-/// Gives a command the option "--rasterizer".
-/// @param rasterizer a vtkGnomonShadowPass::RasterizerType. Must outlive the command
+/// Add the option "--rasterizer" to a command.
+/// @param rasterizer receives a vtkGnomonShadowPass::RasterizerType; must outlive the command
 void addRasterizerOption(CLI::App& command, int& rasterizer);
 
 } // namespace gnomon::tool

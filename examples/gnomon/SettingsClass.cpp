@@ -12,12 +12,12 @@ namespace
 
 const char* const head = R"(/**
  * @class   vtkGnomonShadowSettings
- * @brief   what is asked of lights' shadows
+ * @brief   settings of lights' shadows
  *
- * A pass has them for all lights (vtkGnomonShadowPass::SetSettings), and a light may have its own
- * (vtkGnomonLightKeys::SetSettings), of which those count that were set. Numbers beyond a range are
- * clamped to it. A technique that lacks a setting ignores it, with an error that says which
- * techniques have it.
+ * A pass has settings for all lights (vtkGnomonShadowPass::SetSettings). A light may have its own
+ * (vtkGnomonLightKeys::SetSettings), whose set values override the pass. Numbers are clamped to
+ * their range. A technique that lacks a setting ignores it, with an error that names the techniques
+ * that have it.
  *
  * @code
  * vtkNew<vtkGnomonShadowSettings> settings;
@@ -27,7 +27,7 @@ const char* const head = R"(/**
  * pass->SetSettings(settings);
  * @endcode
  *
- * `gnomon settings --class` makes this header from the techniques' tables.
+ * `gnomon settings --class` generates this header from the techniques' tables.
  */
 
 #ifndef vtkGnomonShadowSettings_h
@@ -60,7 +60,7 @@ private:
 #endif
 )";
 
-/// "kernel_size" as "KernelSize"; '-' divides words, too.
+/// Return "kernel_size" as "KernelSize". '-' also separates words.
 std::string camelCase(const std::string& name)
 {
   std::string text;
@@ -77,7 +77,7 @@ std::string camelCase(const std::string& name)
   return text;
 }
 
-/// "kernel_size" as "KERNEL_SIZE".
+/// Return "kernel_size" as "KERNEL_SIZE".
 std::string upperCase(const std::string& name)
 {
   std::string text;
@@ -88,7 +88,7 @@ std::string upperCase(const std::string& name)
   return text;
 }
 
-/// Words as lines of a comment, of at most 100 columns.
+/// Return words as lines of a comment, of at most 100 columns.
 std::string wrapped(const std::string& text)
 {
   constexpr std::size_t columns = 100;
@@ -107,7 +107,7 @@ std::string wrapped(const std::string& text)
   return lines + line + "\n";
 }
 
-/// A setter, a getter, and what a call of them reads like.
+/// The setter and getter of a setting.
 struct Accessors
 {
   const Setting& setting;

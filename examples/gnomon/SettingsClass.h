@@ -5,8 +5,8 @@
 namespace gnomon::tool
 {
 
-/// The header of vtkGnomonShadowSettings, lights/vtkGnomonShadowSettings.h: a setter and a getter of
-/// each setting, with its documentation.
+/// Return the header of vtkGnomonShadowSettings, lights/vtkGnomonShadowSettings.h: a documented
+/// setter and getter for each setting.
 std::string settingsClass();
 
 } // namespace gnomon::tool

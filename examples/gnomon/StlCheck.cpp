@@ -25,7 +25,7 @@ void checkStlFile(const std::string& path)
       return;
     }
   }
-  // vtkSTLReader checks text itself; of binary files it takes what there is.
+  // vtkSTLReader checks text files itself, but reads truncated binary files without an error.
   const std::size_t first = bytes.find_first_not_of(" \t\r\n");
   if (first == std::string::npos || bytes.compare(first, 5, "solid") != 0)
   {

@@ -26,8 +26,8 @@ namespace fs = std::filesystem;
 
 constexpr const char* rowsFile = "rows.json";
 
-/// A scene's camera, turned about its target: 25 degrees to one side, to the other side, 50
-/// degrees, and so on.
+/// Return a scene's camera, turned about its target: by 25 degrees to one side, to the other side,
+/// by 50 degrees, and so on.
 SceneCamera cameraOf(const SceneCamera& camera, int view)
 {
   constexpr double stepDegrees = 25.0;
@@ -41,7 +41,7 @@ SceneCamera cameraOf(const SceneCamera& camera, int view)
   return turned;
 }
 
-/// What a case's numbers depend on.
+/// Return the settings that a case's numbers depend on.
 Json describe(const StudyCase& of, const ComparisonPlan& plan)
 {
   return { { "scene", of.scene }, { "view", of.view }, { "version", GNOMON_VERSION },
@@ -56,7 +56,7 @@ fs::path folderOf(const std::string& folder, const StudyCase& of)
   return fs::path(folder) / fileStem(of.name());
 }
 
-/// Techniques of a study take the route that they usually take.
+/// Return a variant's name without its route. Techniques of a study take their usual route.
 std::string withoutRoute(const VariantResult& variant)
 {
   const std::string ending = " " + variant.route;
@@ -69,7 +69,7 @@ std::string worstFile(const StudyRow& row)
   return fileStem(row.variant) + ".png";
 }
 
-/// Writes a case's folder. What says that it is whole comes last.
+/// Write a case's folder. The file that marks it complete is written last.
 void writeCase(const fs::path& folder, const std::vector<StudyRow>& rows, const Json& how)
 {
   fs::create_directories(folder);
@@ -89,8 +89,8 @@ void writeCase(const fs::path& folder, const std::vector<StudyRow>& rows, const 
   writeText((folder / rowsFile).string(), json.dump(2) + "\n");
 }
 
-/// The rows of a case that was made in the same way; none if it was made in another way.
-/// @throws Json::exception, BadInput where a file is missing or damaged
+/// Return the rows of a finished case with the same settings; none if its settings differ.
+/// @throws Json::exception, BadInput if a file is missing or damaged
 std::vector<StudyRow> readCase(const fs::path& folder, const StudyCase& of, const Json& how)
 {
   constexpr std::size_t largestBytes = 1 << 24;
@@ -121,7 +121,8 @@ std::vector<StudyRow> readCase(const fs::path& folder, const StudyCase& of, cons
   return rows;
 }
 
-/// The same; none where a file is missing or damaged, too, as after an interruption.
+/// Return a finished case's rows, as readCase() does; none if a file is missing or damaged, as
+/// after an interruption.
 std::vector<StudyRow> rowsMadeBefore(const fs::path& folder, const StudyCase& of, const Json& how)
 {
   try
@@ -152,7 +153,7 @@ std::vector<StudyCase> casesOf(const StudyPlan& plan)
   return cases;
 }
 
-/// What is compared in a case.
+/// Return the comparison of a case.
 ComparisonPlan comparisonOf(const StudyPlan& plan, const StudyCase& of)
 {
   ComparisonPlan comparison = plan.comparison;
@@ -203,7 +204,7 @@ std::vector<StudyRow> runCase(const StudyCase& of, const ComparisonPlan& plan,
   return rows;
 }
 
-/// runCase() whose errors name the case.
+/// Run a case as runCase() does, with errors that name the case.
 std::vector<StudyRow> runNamed(const StudyCase& of, const ComparisonPlan& plan,
   const std::function<void(double, const std::string&)>& progress)
 {

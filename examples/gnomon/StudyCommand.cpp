@@ -34,10 +34,10 @@ struct StudyOptions
   StudyPlan plan;
 };
 
-/// Techniques that show points of light as others do, but slower.
+/// Techniques for area lights. For point lights they equal other techniques, but are slower.
 const std::set<std::string> ofAreaLights = { "montecarlo", "pcss", "penumbra", "sampled" };
 
-/// A study that two cores make within five minutes.
+/// Limit a study to five minutes on two cores.
 void makeQuick(StudyOptions& options)
 {
   options.plan.scenes = { "bunny", "posts", "terrain", "soft-stack", "soft-panels" };
@@ -53,7 +53,7 @@ void makeQuick(StudyOptions& options)
   options.size = "512x512";
 }
 
-/// "about 3 min left".
+/// Return a text such as "about 3 min left".
 std::string timeLeft(std::chrono::steady_clock::time_point start, double share)
 {
   if (share < 0.01)
@@ -66,7 +66,7 @@ std::string timeLeft(std::chrono::steady_clock::time_point start, double share)
                         : ", about " + std::to_string(std::lround(seconds / 60.0)) + " min left";
 }
 
-/// A list's values once each.
+/// Return a list without duplicates.
 template <typename Value>
 void dropRepeated(std::vector<Value>& values)
 {
@@ -96,7 +96,7 @@ void study(StudyOptions options)
   prepareReportFolder(options.folder, "study.html");
   Progress progress("reading scenes");
   const auto start = std::chrono::steady_clock::now();
-  double shareBefore = -1.0; // of cases that were made before
+  double shareBefore = -1.0; // share of cases that were finished earlier
   const std::vector<StudyRow> rows = runStudy(options.plan, options.folder,
     [&](double share, const std::string& step)
     {
@@ -118,8 +118,8 @@ void study(StudyOptions options)
 void addStudyCommand(CLI::App& app)
 {
   CLI::App* const command = app.add_subcommand("study",
-    "Measure what accuracy costs: error and time of techniques over scenes, views, map sizes and "
-    "samples, as a page and a table; goes on where it was interrupted");
+    "Measure the cost of accuracy: error and time of techniques over scenes, views, map sizes and "
+    "samples, as a page and a table; continues an interrupted study");
   const auto options = std::make_shared<StudyOptions>();
   ComparisonPlan& comparison = options->plan.comparison;
   options->plan.scenes = { "bunny", "posts", "plates", "terrain", "atrium", "bench-side", "room",
@@ -141,7 +141,7 @@ void addStudyCommand(CLI::App& app)
     "Scenes: built-in names, scene files or model files, separated by commas")
     ->excludes(quick);
   addList("--techniques", options->techniques,
-    "Techniques, as of gnomon compare. By default all, but for lights that are points " +
+    "Techniques, as for gnomon compare. By default all, except, for point lights, " +
       listOf({ ofAreaLights.begin(), ofAreaLights.end() }))
     ->excludes(quick);
   addList("--map-sizes", comparison.mapSizesTexels, "Sides of the shadow maps in texels")
@@ -152,8 +152,9 @@ void addStudyCommand(CLI::App& app)
     ->excludes(quick);
   command
     ->add_option("--views", options->plan.views,
-      "Views of each scene: its camera, turned about its target by 25 degrees to one side and the "
-      "other, by 50, and so on")
+      "Views of each scene: its camera, turned about its target by 25 degrees to one side and to "
+      "the "
+      "other side, by 50, and so on")
     ->check(CLI::Range(1, 8))
     ->capture_default_str()
     ->excludes(quick);
@@ -166,7 +167,7 @@ void addStudyCommand(CLI::App& app)
     ->excludes(quick);
   command
     ->add_option("--truth-samples", comparison.truthSamples,
-      "Samples of each area light by which the truth is traced")
+      "Samples per area light and pixel of the ray-traced truth")
     ->check(CLI::Range(1, 65536))
     ->capture_default_str()
     ->excludes(quick);

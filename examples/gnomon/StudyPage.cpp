@@ -13,10 +13,10 @@ namespace gnomon::tool
 namespace
 {
 
-/// Of hard shadows, and of soft ones.
+/// The most places of hard shadows, and of soft shadows.
 constexpr std::size_t mostPlaces = 4;
 
-/// Rows that are shown together, of hard shadows alone or of soft ones.
+/// Rows that are shown together: only hard shadows or only soft shadows.
 struct Group
 {
   std::string name; ///< "all scenes with hard shadows", "bunny"
@@ -51,7 +51,7 @@ std::vector<Group> groupsOf(const std::vector<StudyRow>& rows)
   return groups;
 }
 
-/// Of the groups of all scenes, what `tell` says of each.
+/// Return the texts of `tell` for the groups of all scenes.
 template <typename Tell>
 std::string ofAllScenes(const std::vector<Group>& groups, const Tell& tell)
 {

@@ -13,7 +13,7 @@ namespace
 {
 
 ///@{
-/// What is good enough while something moves.
+/// The errors that are acceptable during motion.
 constexpr double mostWrongShare = 0.005;
 constexpr double mostRootMeanSquare = 0.03;
 ///@}
@@ -33,8 +33,8 @@ std::string errorText(double error, bool soft)
   return soft ? "an RMS error of " + threeDigits(error) : percent(error) + " wrong pixels";
 }
 
-/// What to take of a front where its end is too slow: the first that is accurate enough, or else
-/// the one before the end.
+/// Return a front's recommendation if its last technique is too slow: the first that is accurate
+/// enough, else the last but one.
 const StudySummary& quickerOf(const std::vector<StudySummary>& front, bool soft)
 {
   const double enough = soft ? mostRootMeanSquare : mostWrongShare;
@@ -84,7 +84,7 @@ std::string conclusionOf(const std::vector<StudySummary>& summaries, bool soft)
     " shadows, with " + errorText(best.error, soft) + ". It takes " + timesText(best) + ".</p>\n";
   if (quick.variant != best.variant)
   {
-    html += "<p>Where that is too slow while the camera moves, " + named(quick) + " shows " +
+    html += "<p>If that is too slow while the camera moves, " + named(quick) + " shows " +
       errorText(quick.error, soft) + " in " + timesText(quick) + ".</p>\n";
   }
   return html;

@@ -10,25 +10,25 @@ namespace gnomon::tool
 {
 
 ///@{
-/// What pages say of variants that are all of hard shadows, or all of soft ones. Text is HTML.
+/// Parts of pages about variants with only hard or only soft shadows. Text is HTML.
 
-/// The variants that no other one beats in error and time, in order of time.
+/// Return the variants that no other one beats in error and time, in order of time.
 std::vector<StudySummary> frontOf(const std::vector<StudySummary>& summaries, Motion motion);
 
-/// What to use when, in one sentence or two.
+/// Return recommendations, in one sentence or two.
 std::string conclusionOf(const std::vector<StudySummary>& summaries, bool soft);
 
-/// The front with the camera moving.
-/// @param most rows, of which the most accurate stay
+/// Return the table of the front with the camera moving.
+/// @param most largest number of rows; the most accurate ones stay
 std::string frontTable(const std::vector<StudySummary>& summaries, bool soft, std::size_t most);
 
-/// Error over time.
-/// @throws Failure when no OpenGL context can be made
+/// Return a chart of error over time.
+/// @throws Failure without an OpenGL context
 Picture frontChart(const std::vector<StudySummary>& summaries, bool soft, Motion motion);
 
-/// Where variants are most wrong, each in the case where it is: the truth beside it.
-/// @param variants of which the first come first
-/// @param most places
+/// Return the most wrong place of each variant over all cases, beside the truth.
+/// @param variants in order of priority
+/// @param most largest number of places
 std::string worstPlaces(
   const std::vector<StudyRow>& rows, const std::vector<StudySummary>& variants, std::size_t most);
 ///@}

@@ -10,10 +10,10 @@ namespace gnomon::tool
 namespace
 {
 
-/// How large a pixel is in the pictures of the worst places.
+/// The side of a pixel in the pictures of the worst places.
 constexpr int enlargement = 3;
 
-/// Two pictures of one height with a white strip between them.
+/// Return two pictures of one height side by side, with a white strip between them.
 Picture joined(const Picture& left, const Picture& right)
 {
   constexpr int gap = 6;

@@ -13,14 +13,14 @@ namespace gnomon::tool
 struct StudyCase
 {
   std::string scene;
-  int view = 0;      ///< negative where there is only one
-  bool soft = false; ///< whether its lights have an area
+  int view = 0;      ///< negative for a single view
+  bool soft = false; ///< true if its lights have an area
 
-  /// "bunny, view 2"; "bunny" where there is only one.
+  /// Return "bunny, view 2", or "bunny" for a single view.
   std::string name() const;
 };
 
-/// How one variant did in one case.
+/// The result of one variant in one case.
 struct StudyRow
 {
   StudyCase of;
@@ -30,19 +30,19 @@ struct StudyRow
   double rootMeanSquare = 0.0;
   double meanAbsolute = 0.0;
   std::array<double, 3> milliseconds{}; ///< a frame, in the order of allMotions
-  std::array<double, 3> overPlain{};    ///< the same as multiples of plain VTK's
-  /// Where it is most wrong: the truth and the variant's picture side by side; without pixels where
-  /// it is right.
+  std::array<double, 3> overPlain{};    ///< milliseconds as multiples of plain VTK's
+  /// Its most wrong place: the truth and the variant's picture side by side; without pixels if it
+  /// is right everywhere.
   Picture worst;
 
-  /// What counts: the RMS error of soft shadows, the wrong share of hard ones.
+  /// Return the error: the RMS error of soft shadows, the wrong share of hard shadows.
   double error() const { return this->of.soft ? this->rootMeanSquare : this->wrongShare; }
 };
 
-/// What a comparison says of its variants.
+/// Return a comparison's results for its variants.
 std::vector<StudyRow> rowsOf(const StudyCase& of, const ComparisonResults& results);
 
-/// A variant over several cases of a study.
+/// A variant's means over several cases of a study.
 struct StudySummary
 {
   std::string variant;
@@ -51,8 +51,8 @@ struct StudySummary
   std::array<double, 3> overPlain{}; ///< geometric means, in the order of allMotions
 };
 
-/// The variants that took part in all of the rows' cases.
-/// @param rows of hard shadows alone, or of soft ones
+/// Return summaries of the variants that have a row in every case.
+/// @param rows only of hard shadows, or only of soft shadows
 std::vector<StudySummary> summarise(const std::vector<StudyRow>& rows);
 
 } // namespace gnomon::tool

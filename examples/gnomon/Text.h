@@ -8,20 +8,20 @@
 namespace gnomon::tool
 {
 
-/// The parts of a text between separators; one part where there is none.
+/// Return the parts of a text between separators; one part without a separator.
 std::vector<std::string> split(const std::string& text, char separator);
 
-/// The words of a text between white space.
+/// Return the words of a text, separated by white space.
 std::vector<std::string> splitWords(const std::string& text);
 
-/// The word of that number in quotation marks, or what stands in its place.
+/// Return the word with this index in quotation marks, or a description of the missing word.
 std::string quotedWord(const std::vector<std::string>& words, std::size_t number);
-/// A number that is the whole text and that the type can hold; "nan" and "inf" count for floats. It
-/// does not depend on the locale.
+/// Parse the whole text as a number of this type; nothing if it is none. Floating-point numbers may
+/// be "nan" and "inf". The result does not depend on the locale.
 template <class Number>
 std::optional<Number> parseNumber(const std::string& text)
 {
-  // from_chars takes no plus sign.
+  // from_chars refuses a plus sign.
   const bool plus = text.size() > 1 && text[0] == '+' && text[1] != '-';
   const char* begin = text.data() + (plus ? 1 : 0);
   const char* end = text.data() + text.size();
@@ -31,16 +31,16 @@ std::optional<Number> parseNumber(const std::string& text)
                                                        : std::nullopt;
 }
 
-/// The same of a word, which may be missing.
+/// Parse the word with this index, as parseNumber() does; nothing for a missing word.
 template <class Number>
 std::optional<Number> parseWord(const std::vector<std::string>& words, std::size_t number)
 {
   return number < words.size() ? parseNumber<Number>(words[number]) : std::nullopt;
 }
-/// The text in quotation marks, cut short where it is long.
+/// Return the text in quotation marks, shortened if it is long.
 std::string quoted(const std::string& text);
 
-/// Text that fits on one line of a terminal: control characters become spaces.
+/// Return text for one line of a terminal: control characters become spaces.
 std::string oneLine(const std::string& text);
 
 } // namespace gnomon::tool

@@ -9,11 +9,11 @@
 namespace gnomon::tool
 {
 
-/// A PNG or JPEG image.
+/// Read a PNG or JPEG image.
 /// @throws BadInput with a message that names the file
 vtkSmartPointer<vtkImageData> readImage(const std::string& path);
 
-/// The same as a texture with VTK's settings: repeated, the nearest texel.
+/// Read a PNG or JPEG image as a texture with VTK's settings: repeated, nearest texel.
 /// @throws BadInput with a message that names the file
 vtkSmartPointer<vtkTexture> readTexture(const std::string& path);
 

@@ -15,7 +15,7 @@ namespace gnomon::tool
 namespace
 {
 
-/// Walks through the chunks of a .3ds file as vtk3DSImporter does.
+/// Visits the chunks of a .3ds file as vtk3DSImporter does.
 class ThreeDsChecker
 {
 public:
@@ -66,7 +66,7 @@ private:
     return { tag, begin + bytes };
   }
 
-  /// Calls what is given for a chunk's tag, for all chunks up to an end.
+  /// Call the handler of each chunk's tag, for all chunks up to an end.
   void visitChunks(
     std::size_t end, const std::map<unsigned, std::function<void(const Chunk&)>>& visits)
   {
@@ -156,7 +156,7 @@ private:
 
   std::string readName(const std::string& what)
   {
-    // vtk3DSImporter has 80 bytes for a name, and may put a letter in front of it.
+    // vtk3DSImporter has 80 bytes for a name, and may prepend a letter.
     constexpr std::size_t longestName = 78;
     return this->reader_.readName(longestName, what);
   }

@@ -42,14 +42,14 @@ inline double length(const Vec3& a)
   return std::hypot(a[0], a[1], a[2]);
 }
 
-/// A vector of length 1; the vector itself where it has no length.
+/// Return the vector scaled to length 1; a vector without length stays unchanged.
 inline Vec3 normalized(const Vec3& a)
 {
   const double size = length(a);
   return size > 0.0 ? (1.0 / size) * a : a;
 }
 
-/// A point (w = 1) or a direction (w = 0) by a matrix whose rows follow one another.
+/// Transform a point (w = 1) or a direction (w = 0) by a row-major matrix.
 inline Vec3 transformed(const std::array<double, 16>& matrix, const Vec3& v, double w)
 {
   Vec3 result;

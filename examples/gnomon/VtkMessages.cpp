@@ -11,7 +11,8 @@ namespace gnomon::tool
 namespace
 {
 
-/// "ERROR: In /src/vtkReader.cxx, line 12\nvtkReader (0x55d0): Text\n\n" -> "Text"
+/// Return a message's text: "Text" for "ERROR: In /src/vtkReader.cxx, line 12" and "vtkReader
+/// (0x55d0): Text" in two lines.
 std::string withoutOrigin(const std::string& message)
 {
   std::size_t begin = 0;
@@ -58,7 +59,7 @@ VtkMessages::VtkMessages()
   , previous_(vtkOutputWindow::GetInstance())
   , previousVerbosity_(vtkLogger::GetCurrentVerbosityCutoff())
 {
-  // VTK says everything twice: to its window and to its log.
+  // VTK prints all messages twice: to its window and to its log.
   vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
   vtkOutputWindow::SetInstance(this->window_);
 }

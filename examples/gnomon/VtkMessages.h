@@ -15,8 +15,8 @@ VTK_ABI_NAMESPACE_END
 namespace gnomon::tool
 {
 
-/// Catches what VTK would print, from construction to destruction: VTK reports errors as text and
-/// goes on. Nest them; the innermost one catches.
+/// Catches VTK's messages from construction to destruction, because VTK only prints errors and
+/// continues. Objects may be nested; the innermost one catches.
 class VtkMessages
 {
 public:
@@ -25,7 +25,7 @@ public:
   VtkMessages(const VtkMessages&) = delete;
   VtkMessages& operator=(const VtkMessages&) = delete;
 
-  /// The texts so far, each on one line and without the source file that VTK puts in front.
+  /// Return the texts caught, each on one line and without VTK's prefix of the source file.
   const std::vector<std::string>& errors() const;
   const std::vector<std::string>& warnings() const;
 

@@ -13,8 +13,8 @@ void checkVtpFile(const std::string& path)
   const std::string text = readWholeFile(path, largestModelBytes);
   const std::size_t header = std::min(text.find("<AppendedData"), text.size());
 
-  // vtkXMLPolyDataReader allocates what NumberOfPoints and its like announce, and goes astray where
-  // they are negative. No compression makes a file ten thousand times as small.
+  // vtkXMLPolyDataReader allocates memory for NumberOfPoints and similar counts, and fails on
+  // negative ones. No compression reduces a file ten thousandfold.
   const std::string start = "NumberOf";
   constexpr long long mostComponents = 1000;
   const long long mostValues = 10000 * static_cast<long long>(text.size());
@@ -24,7 +24,7 @@ void checkVtpFile(const std::string& path)
     const std::size_t end = quote == std::string::npos ? quote : text.find(text[quote], quote + 1);
     if (end == std::string::npos)
     {
-      return; // not XML, as the reader will say
+      return; // not XML: the reader reports it
     }
     const std::string name = text.substr(begin, text.find_first_of(" \t\r\n=", begin) - begin);
     const std::string value = text.substr(quote + 1, end - quote - 1);

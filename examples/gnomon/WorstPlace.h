@@ -21,18 +21,18 @@ struct Place
   }
 };
 
-/// Where visibility is most wrong: the square with the greatest sum of squared differences, of the
-/// ones that lie half a side apart.
-/// @param differences of each pixel, row by row
-/// @param side of the square, in pixels; a smaller picture has a smaller one
-/// @return nothing where no pixel differs
+/// Return the place with the largest error: the square with the greatest sum of squared
+/// differences, among squares half a side apart.
+/// @param differences each pixel's difference, row by row
+/// @param side the square's side in pixels; smaller in a smaller picture
+/// @return nothing if no pixel differs
 std::optional<Place> worstPlace(
   const std::vector<float>& differences, int width, int height, int side);
 
-/// A picture made smaller by a whole number, so that its sides have at most so many pixels.
+/// Return a picture reduced by an integer factor, with sides of at most `mostPixels`.
 Picture reduced(const Picture& picture, int mostPixels);
 
-/// A place of a picture, whose pixels are squares of `pixelSide`.
+/// Return a place of a picture with pixels enlarged to squares of `pixelSide`.
 Picture enlarged(const Picture& picture, const Place& place, int pixelSide);
 
 } // namespace gnomon::tool

@@ -47,7 +47,7 @@ int main(int argc, char** argv)
   }
   catch (const CLI::ParseError& error)
   {
-    const bool wasAsked = error.get_exit_code() == 0; // for help or the version
+    const bool wasAsked = error.get_exit_code() == 0; // the user asked for help or the version
     return wasAsked ? app.exit(error) : report(error.what(), badInput);
   }
   catch (const gnomon::tool::BadInput& error)

@@ -273,7 +273,7 @@ std::vector<BrokenInput> brokenInputs()
     scene("scene_zero_bytes", "scene.json", std::string(100, '\0')),
     scene("scene_deep_nesting", "scene.json", std::string(200000, '[')),
     scene("scene_huge_number", "scene.json", "{\"camera\": {\"fov\": 1e999}}"),
-    scene("scene_duplicate_key", "\"models\" stands twice", "{\"models\": 1, \"models\": 2}"),
+    scene("scene_duplicate_key", "\"models\" occurs twice", "{\"models\": 1, \"models\": 2}"),
     scene("scene_too_large", "scene.json", std::string(17 * 1024 * 1024, ' ')),
     sceneWith("scene_model_is_itself", "models[0].file", "/models/0/file", "scene.json"),
     sceneWith("scene_model_is_a_folder", "models[0].file", "/models/0/file", "."),

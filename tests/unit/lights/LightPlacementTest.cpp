@@ -152,7 +152,7 @@ TEST_F(LightPlacement, WhatCannotBeDoneIsAnErrorAndChangesNothing)
   expectError("radius 0");
   const double broken[3] = { 0.0, nan, 0.0 };
   vtkGnomonLightPlacement::ShineOnSphere(this->light, broken, 1.0);
-  expectError("nothing to shine on");
+  expectError("is not a valid target");
   const double empty[6] = { 1.0, -1.0, 1.0, -1.0, 1.0, -1.0 }; // VTK's uninitialised bounds
   vtkGnomonLightPlacement::ShineOnBox(this->light, empty);
   expectError("radius 0");
@@ -165,7 +165,7 @@ TEST_F(LightPlacement, WhatCannotBeDoneIsAnErrorAndChangesNothing)
   expectError("looks nowhere");
   vtkNew<vtkPoints> points;
   vtkGnomonLightPlacement::ShineOnPoints(this->light, points);
-  expectError("nothing to shine on");
+  expectError("is not a valid target");
   points->InsertNextPoint(0.0, nan, 0.0);
   points->InsertNextPoint(1.0, 0.0, 0.0);
   vtkGnomonLightPlacement::ShineOnPoints(this->light, points);
