@@ -10,7 +10,7 @@
 namespace gnomon
 {
 
-/// What Embree may optimise traversal for.
+/// The kind of rays that Embree may optimise traversal for.
 enum class EmbreeRays
 {
   Incoherent,
