@@ -13,8 +13,8 @@
 namespace gnomon
 {
 
-/// How many points of the light percentage closer soft shadows look for blockers with, and how many
-/// they filter with (Apelles, table 4.1).
+/// The number of points of the light for the blocker search and the filter of percentage closer
+/// soft shadows (Apelles, table 4.1).
 enum class PcssSamples
 {
   Low,    ///< 4 x 4 and 4 x 4
@@ -27,7 +27,7 @@ struct PcssSettings
 };
 const SettingsTable& pcssSettings();
 
-/// How many points the blocker search and the filter take.
+/// The numbers of points of the blocker search and the filter.
 struct PcssCounts
 {
   int search;
@@ -35,14 +35,14 @@ struct PcssCounts
 };
 PcssCounts pcssCounts(PcssSamples samples);
 
-/// The same for shaders: PCSS_SEARCH_POINTS_LIGHT and PCSS_FILTER_POINTS_LIGHT.
+/// Return these numbers for shaders: PCSS_SEARCH_POINTS_LIGHT and PCSS_FILTER_POINTS_LIGHT.
 std::string pcssCountsDefines(PcssSamples samples);
 
-/// The points of both steps, one after the other, on the shape of radius or half side 1: Poisson
-/// sets (PoissonSquare.h), on disks by the concentric map.
+/// Return the points of both steps, one after the other, on the shape of radius or half side 1:
+/// Poisson sets (PoissonSquare.h), mapped to disks by the concentric map.
 std::vector<glm::vec2> pcssPoints(PcssSamples samples, LightArea::Shape shape);
 
-/// These points on the GPU: one row of a texture, the shaders' `lightPoints_LIGHT`.
+/// The points of pcssPoints() on the GPU: one row of a texture, the shaders' `lightPoints_LIGHT`.
 class PcssPoints
 {
 public:
