@@ -395,7 +395,7 @@ const EstimatorEntry& compose(ShadowLight& light)
   {
     light.projection = findTechnique(light.technique)->projection;
   }
-  // Report first what the estimator never can, then what it cannot with these values.
+  // An estimator's own refusals come before those of single values.
   std::vector<std::string> refusals = { info.refused ? info.refused(light) : std::string() };
   for (const SettingsTable* table : info.settings)
   {

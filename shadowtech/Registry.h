@@ -69,6 +69,7 @@ enum class SettingsOf
   Estimator,
   Map
 };
+/// Return the values of an estimator's settings as text, in the order of its tables.
 std::vector<std::string> valuesOf(
   const TechniqueInfo& info, SettingsOf of, const ShadowSettings& settings);
 

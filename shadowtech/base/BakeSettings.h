@@ -11,6 +11,7 @@ enum class BakeTime
   Settled, ///< after some frames without changes to its inputs (BakeBackoff)
   Always   ///< at once
 };
+/// The settings of optional maps.
 struct BakeSettings
 {
   BakeTime time = BakeTime::Settled;

@@ -17,6 +17,7 @@ struct KernelSettings
   /// sizeTexels.
   double widthAcross = 0.0;
 };
+/// Return the settings of techniques with a filter.
 const SettingsTable& kernelSettings();
 
 /// The unit of a filter's kernel (kernel_units.glsl). The kernel is `kernel_size` units wide.
@@ -27,6 +28,7 @@ enum class KernelUnits
   Across
 };
 
+/// Return the unit of a light's kernel.
 KernelUnits kernelUnits(const ShadowLight& light);
 
 /// How far a kernel reaches: the texels read around each of its points, and its square and disc in
@@ -37,6 +39,7 @@ struct KernelExtent
   double square;       ///< half the side, in units
   double disc;         ///< the radius, in units
 };
+/// Return how far a kernel reads around a point of a light's map.
 MapReach kernelReach(const ShadowLight& light, const KernelExtent& extent);
 
 ///@{

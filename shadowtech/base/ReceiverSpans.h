@@ -28,6 +28,7 @@ struct TrianglePoint
   float offset;        ///< of the shadow ray
   bool isInside;       ///< of the triangle; false if a number is not finite
 };
+/// Return where the ray of place (x, y) meets a triangle's plane.
 inline TrianglePoint meetTriangle(
   const SeenTriangle& seen, const PixelRays& rays, double x, double y)
 {

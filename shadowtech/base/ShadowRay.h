@@ -224,6 +224,7 @@ struct ShadowRay
   bool traced;
 };
 
+/// Return the shadow ray to a directional light without a box.
 inline ShadowRay shadowRayDirectional(
   const ShadowRayLight& light, const glm::vec3& position, const glm::vec3& normal, float offset)
 {
@@ -244,6 +245,7 @@ inline ShadowRay shadowRayBox(
   return { origin, length * light.toLight, traced };
 }
 
+/// Return the shadow ray to a point light; its direction ends at the light.
 inline ShadowRay shadowRayPoint(
   const ShadowRayLight& light, const glm::vec3& position, const glm::vec3& normal, float offset)
 {
@@ -251,6 +253,7 @@ inline ShadowRay shadowRayPoint(
   return { origin, light.position - origin, facesLight(normal, light.position - position) };
 }
 
+/// Return the shadow ray to a spot light; its direction ends at the light.
 inline ShadowRay shadowRaySpot(
   const ShadowRayLight& light, const glm::vec3& position, const glm::vec3& normal, float offset)
 {

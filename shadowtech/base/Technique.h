@@ -159,7 +159,7 @@ struct LayerInput
   int layer;         ///< this light's layer, or the first of its channels
   bool severalViews; ///< the pass draws other views besides this one
   ShaderLibrary& shaders;
-  bool counting; ///< read back from the GPU what only the report needs
+  bool counting; ///< the report needs counts that must be read back from the GPU
   /// If not null, to be filled with each pixel's class, an index into TechniqueInfo::classes.
   std::vector<std::uint8_t>* classes;
   std::vector<std::string>& notes; ///< FrameReport::notes

@@ -31,7 +31,7 @@ constexpr double largestTextureShare = 0.5;
 
 /// Allocate a texture with nearest filtering; its target is bound afterwards.
 /// @param layers 0 for a GL_TEXTURE_2D, else those of a GL_TEXTURE_2D_ARRAY
-/// @param what names it in the error
+/// @param what names the texture in the error
 /// @param levels of a mip map, for arrays only; each level has half the side of the one before
 /// @throws TextureMemoryError; the texture is then without memory
 void allocateTexture(GlTexture& texture, const TexelFormat& format, int width, int height,
@@ -60,7 +60,7 @@ void allocateSamples(
   GlRenderbuffer& samples, const TexelFormat& format, int sizeTexels, int samplesPerTexel);
 
 /// Check that shaders can read so many bytes from one buffer, and that the machine has them.
-/// @param what names it in the error
+/// @param what names the buffer in the error
 /// @throws TextureMemoryError
 void requireRoomForStorage(std::size_t bytes, const char* what);
 
@@ -68,6 +68,7 @@ void requireRoomForStorage(std::size_t bytes, const char* what);
 /// afterwards.
 /// @param bytes > 0
 /// @param data null: leave the contents undefined
+/// @param what names the buffer in the error
 /// @throws TextureMemoryError; the buffer is then without memory
 void allocateStorage(GlBuffer& buffer, std::size_t bytes, const void* data, const char* what);
 

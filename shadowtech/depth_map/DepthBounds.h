@@ -16,10 +16,12 @@ enum class EarlyOut
   Ring, ///< the outermost points, trusted if they agree; may err
   Exact ///< the least and the largest depth around the point; never errs
 };
+/// The settings of tests before the whole kernel.
 struct EarlyOutSettings
 {
   EarlyOut earlyOut = EarlyOut::Exact;
 };
+/// Return the settings of techniques with an early out.
 const SettingsTable& earlyOutSettings();
 
 /// A pyramid of the least and the largest depth of a map's blocks of 2, 4, 8, ... texels, up to the
@@ -35,10 +37,13 @@ public:
   /// @param layers at least 1
   /// @throws TextureMemoryError
   void bake(GLuint map, int sizeTexels, int layers, ShaderLibrary& shaders);
+  /// Free the pyramid.
   void release();
 
+  /// True if the pyramid is built.
   explicit operator bool() const { return static_cast<bool>(this->bounds_); }
   std::size_t bytes() const { return this->bytes_; }
+  /// Return the uniform of depth_bounds.glsl.
   Uniform uniform() const;
 
 private:

@@ -30,6 +30,7 @@ struct DepthMapSettings
   double biasConstant = 0.0; ///< in world units
   double biasSlope = 0.0;    ///< in units of the caster's depth span within the reach
 };
+/// Return the settings of techniques with a depth map.
 const SettingsTable& depthMapSettings();
 
 /// True if a light's depth maps hold distances along the ray, which are not linear across the

@@ -13,12 +13,14 @@ enum class FilterKernel
   Poisson,  ///< a few texels of equal weight, on a disc turned from place to place
   Castano   ///< a square anywhere: weights fall with the distance
 };
+/// The settings of percentage closer filtering.
 struct PcfSettings
 {
   /// The default is the narrowest kernel that shows no single texels, as a box does, and also
   /// smooths the steps of an edge that runs across the texels.
   FilterKernel kernel = FilterKernel::Bilinear;
 };
+/// Return the settings of `pcf`.
 const SettingsTable& pcfSettings();
 
 /// `pcf`: the plain shadow map with percentage closer filtering (Reeves, Salesin and Cook 1987;

@@ -21,10 +21,12 @@ enum class PcssSamples
   Medium, ///< 6 x 6 and 8 x 8
   High    ///< 8 x 8 and 16 x 16
 };
+/// The settings of percentage closer soft shadows.
 struct PcssSettings
 {
   PcssSamples samples = PcssSamples::Medium;
 };
+/// Return the settings of `pcss`.
 const SettingsTable& pcssSettings();
 
 /// The numbers of points of the blocker search and the filter.
@@ -33,6 +35,7 @@ struct PcssCounts
   int search;
   int filter;
 };
+/// Return the numbers of points of a quality.
 PcssCounts pcssCounts(PcssSamples samples);
 
 /// Return these numbers for shaders: PCSS_SEARCH_POINTS_LIGHT and PCSS_FILTER_POINTS_LIGHT.
@@ -46,8 +49,12 @@ std::vector<glm::vec2> pcssPoints(PcssSamples samples, LightArea::Shape shape);
 class PcssPoints
 {
 public:
+  /// Upload the points.
+  /// @throws TextureMemoryError
   void upload(PcssSamples samples, LightArea::Shape shape);
+  /// Free the texture.
   void release();
+  /// Return the uniform of the texture.
   Uniform uniform() const;
   std::size_t bytes() const { return this->bytes_; }
 

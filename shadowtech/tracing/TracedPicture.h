@@ -30,6 +30,7 @@ enum class TracedClass : std::uint8_t
   Unreached, ///< faces away from the light, or outside its cone or box
   NoReceiver ///< no surface, or one that receives no shadows
 };
+/// Return the names and colours of the TracedClass values.
 std::vector<PixelClass> classesOfTracing();
 
 /// A tile of the picture: the pixels that need their shadow ray, and their visibility if it is not
