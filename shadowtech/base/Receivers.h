@@ -142,8 +142,8 @@ struct ReceiverTile
 /// Pixels whose triangle cannot be found count as not covered.
 ///
 /// Shadow rays of facets with smooth shading start above the curved surface, if a FreeSegments
-/// shows that nothing is in between: otherwise the start might lie beyond another surface, on the
-/// light's side of it.
+/// shows that nothing is in between. Otherwise the start might lie beyond another surface, on its
+/// lit side.
 class Receivers
 {
 public:

@@ -55,9 +55,9 @@ struct Crossing
   double enters, leaves; ///< in lengths of the direction; may be infinite
 };
 
-/// Return the part of a line inside a solid; none if the line misses it. A line that leaves the
-/// surface from a point outside it, at any distance that doubles resolve, has no part inside ahead:
-/// the quadratic is solved from its middle, so that it loses no digits there.
+/// Return the part of a line inside a solid; none if the line misses it. The quadratic is solved
+/// from its middle, so it loses no digits. Hence a line that leaves the surface, from a point
+/// outside it at any distance that doubles resolve, has no part inside ahead.
 std::optional<Crossing> crossingOf(
   const PlacedSolid& solid, const glm::dvec3& origin, const glm::dvec3& direction);
 

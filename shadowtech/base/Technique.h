@@ -195,9 +195,8 @@ public:
   virtual ~Technique() = default;
 
   /// Return the light whose views the maps have; the layout is that of the given light's views
-  /// (viewLayout()). It differs from the given light if a technique sees an area light from
-  /// elsewhere than its centre, or reads more of the map than the part under the camera's
-  /// receivers.
+  /// (viewLayout()). Techniques change the light to see an area light from elsewhere than its
+  /// centre, or to read more of the map than the part under the camera's receivers.
   virtual ShadowLight lightOfMap(const ShadowLight& light) const { return light; }
   /// Return how far around a receiver's place on the map the technique reads. Views are fitted for
   /// this reach, and the maps are stale when it changes.

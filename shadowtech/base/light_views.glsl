@@ -276,10 +276,10 @@ bool findView_LIGHT(vec3 positionLight, vec3 normalLight, out ViewPoint point)
 }
 
 #if VIEWS_CUBE_LIGHT
-// Find the face of a point that the light reaches, for techniques that look at other points of the
-// light than its centre, and so at casters on any face. The point's own face may have no casters,
-// or be cut to casters elsewhere on it. The point then lies off its map; if the face has no view,
-// texels and depths are those of the first view. Returns false if there are no casters.
+// Find the face of a point that the light reaches. This is for techniques that look at other points
+// of the light than its centre, and so at casters on any face. The point's own face may have no
+// casters, or be cut to casters elsewhere on it. The point then lies off its map. If the face has
+// no view, texels and depths are those of the first view. Returns false if there are no casters.
 bool findFace_LIGHT(vec3 positionLight, vec3 normalLight, out ViewPoint point)
 {
   point = onOwnFace_LIGHT(positionLight, normalLight);

@@ -1,6 +1,6 @@
-// Computes the size of a warp's texels on the receivers: the mean of both sides of a texel, across
-// the light and in world units, over pixels of a grid all over the picture (ReceiverFit.h gives the
-// reason). One work group per warp.
+// Computes the size of a warp's texels on the receivers, over pixels of a grid all over the
+// picture. The size is the mean of both sides of a texel, across the light and in world units
+// (ReceiverFit.h gives the reason). One work group per warp.
 //
 // The order of the sums is fixed, so that the same picture gives the same number. Pixels between
 // those of the grid change the mean by little. The bounds of the map's final fit come from all

@@ -12,14 +12,14 @@ namespace gnomon
 
 struct Drawn;
 
-/// Smooth edges of hard shadows: traces receivers between the centres of pixels near edges.
+/// Traces receivers between the centres of pixels near edges, for smooth edges of hard shadows.
 ///
 /// An *edge pixel* faces the light. It and its eight neighbours include both lit and dark pixels,
 /// or several surfaces. A sample is a place in an edge pixel. Its receiver lies on the pixel's own
-/// triangle, or on a neighbour's triangle that continues the pixel's surface: on the same drawn
-/// surface, turned by less than 45 degrees, within a pixel's side of the own triangle's plane. So
-/// surfaces behind an outline do not colour the pixel. Samples count if they face the light and, at
-/// outlines, if the camera sees them; the latter needs a FreeSegments.
+/// triangle, or on a neighbour's triangle that continues the pixel's surface. A triangle continues
+/// it on the same drawn surface, turned by less than 45 degrees, within a pixel's side of the own
+/// triangle's plane. So surfaces behind an outline do not colour the pixel. Samples count if they
+/// face the light and, at outlines, if the camera sees them; the latter needs a FreeSegments.
 ///
 /// Between surfaces most pixels are evenly lit: four samples decide which of them need all samples.
 class EdgeSamples
